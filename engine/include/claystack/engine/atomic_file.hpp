@@ -1,0 +1,43 @@
+#pragma once
+// Reading whole files and publishing new ones: after any fault the old file or the
+// new one is there, never a part.
+
+#include "claystack/engine/result.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace clay {
+
+/// The whole file; "-" is standard input. Refuses more than `max_bytes` before it allocates.
+Result<std::string> read_file(const std::filesystem::path& path,
+                              std::size_t max_bytes = std::size_t{1} << 30);
+
+/// A file under construction: unnamed in the target's folder until `commit`, which syncs it,
+/// gives it its name in one step and syncs the folder. Destroyed before that, it leaves no trace.
+/// A symbolic link stays a link; the mode of an existing file is kept; the umask is respected.
+class AtomicFile {
+ public:
+  static Result<AtomicFile> create(const std::filesystem::path& target);
+  AtomicFile(AtomicFile&& other) noexcept;
+  AtomicFile& operator=(AtomicFile&&) = delete;
+  ~AtomicFile();
+
+  Result<void> write(std::span<const std::byte> bytes);
+  Result<void> write(std::string_view text) { return write(std::as_bytes(std::span(text))); }
+  Result<void> commit();
+
+ private:
+  AtomicFile(std::filesystem::path target, int descriptor, std::filesystem::path temporary);
+  std::filesystem::path target_;
+  int descriptor_ = -1;
+  std::filesystem::path temporary_;  ///< empty while the file has no name
+};
+
+/// create, write, commit; "-" is standard output.
+Result<void> publish(const std::filesystem::path& target, std::string_view bytes);
+
+}  // namespace clay

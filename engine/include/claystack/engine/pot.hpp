@@ -1,0 +1,36 @@
+#pragma once
+// A finished (or half finished) pot as a value: what a session leaves on the wheel.
+
+#include "claystack/engine/clay_stack.hpp"
+#include "claystack/engine/ledger.hpp"
+#include "claystack/engine/scene.hpp"
+
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <optional>
+
+namespace clay {
+
+/// A collapse (paper, section 7): the rings above `failed_ring` turned as one rigid
+/// body about a horizontal axis through `pivot_mm`, the HIP when it happened.
+struct Collapse {
+  std::size_t failed_ring = 0;      ///< index of the ring that yielded; it stays below
+  glm::dvec3 pivot_mm{0.0};
+  glm::dvec3 axis{0.0, 0.0, 1.0};   ///< unit, horizontal; right-handed turn
+  double angle_rad = 0.0;
+  double stress_kpa = 0.0;          ///< at the failed ring
+  friend bool operator==(const Collapse&, const Collapse&) = default;
+};
+
+/// When collapsed, `stack` still holds all rings in their order: 0..failed_ring stand,
+/// the others (and the crown) are turned by `collapse`.
+struct Pot {
+  ClayStack stack;
+  Ledger ledger;
+  Model model = Model::conserving;
+  double density_g_cm3 = 1.9;
+  std::optional<Collapse> collapse;
+  friend bool operator==(const Pot&, const Pot&) = default;
+};
+
+}  // namespace clay

@@ -1,0 +1,20 @@
+#pragma once
+// `*.pot.json` and `*.pot.cbor`: one schema (samples/schema/pot.schema.json), exact integers.
+// JSON adds the radii in mm for people; a reader checks that they agree with the integers.
+
+#include "claystack/engine/pot.hpp"
+#include "claystack/engine/result.hpp"
+
+#include <string>
+#include <string_view>
+
+namespace clay {
+
+enum class PotEncoding { json, cbor };
+
+/// Takes JSON (first byte '{') or CBOR. Errors name line (JSON) or field (CBOR). The ledger
+/// must balance to the quantum, or the file is refused.
+Result<Pot> parse_pot(std::string_view bytes, std::string_view name);
+std::string write_pot(const Pot& pot, PotEncoding encoding);
+
+}  // namespace clay

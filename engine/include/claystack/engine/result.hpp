@@ -1,0 +1,31 @@
+#pragma once
+// Errors that a user can cause are values: what went wrong, where, and what
+// was expected instead.
+
+#include <string>
+#include <tl/expected.hpp>
+#include <utility>
+
+namespace clay {
+
+/// The kind decides the exit status of the program that meets the error.
+enum class ErrorKind {
+  unsound,    ///< exit 1: the pot or mesh fails a check
+  bad_input,  ///< exit 2: bad usage, or a file that does not say what it must
+  io,         ///< exit 3: could not read or write
+  device,     ///< exit 4: a device failed
+};
+
+struct Error {
+  ErrorKind kind = ErrorKind::bad_input;
+  std::string message;  ///< which file, where in it, what was expected, what was found
+};
+
+template <class T>
+using Result = tl::expected<T, Error>;
+
+[[nodiscard]] inline tl::unexpected<Error> failure(ErrorKind kind, std::string message) {
+  return tl::make_unexpected(Error{kind, std::move(message)});
+}
+
+}  // namespace clay

@@ -1,0 +1,106 @@
+#pragma once
+// What a scene is made of, in the units of the outer face. StepPlan::build turns
+// it into what the tick runs on.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace clay {
+
+/// How the paper is followed. `paper`: removal k(R-r) per tick, stiffness per ring, whole rings
+/// of growth with the rest kept outside the body. `conserving`: exponential removal, stiffness
+/// per mm of contact height, the rest of growth shown as the crown.
+enum class Model { conserving, paper };
+
+/// The starting lump: equal rings.
+struct LumpSpec {
+  std::size_t rings = 200;
+  double ring_height_mm = 0.75;
+  double outer_radius_mm = 45.0;
+  double inner_radius_mm = 0.0;
+  std::size_t max_rings = 0;     ///< growth stops here; 0 means 4 times `rings`
+  double density_g_cm3 = 1.9;
+  friend bool operator==(const LumpSpec&, const LumpSpec&) = default;
+};
+
+/// Half-profiles f(t) of the tool, t in mm from its centre (paper, section 3).
+struct SphereSpec {
+  double radius_mm = 10.0;
+  friend bool operator==(const SphereSpec&, const SphereSpec&) = default;
+};
+/// f(t) = b sqrt(1 - t^2/a^2)
+struct EllipseSpec {
+  double half_height_mm = 15.0;  ///< a
+  double half_width_mm = 8.0;    ///< b
+  friend bool operator==(const EllipseSpec&, const EllipseSpec&) = default;
+};
+/// An upright cylinder: a potter's rib held flat.
+struct RibSpec {
+  double height_mm = 40.0;
+  double radius_mm = 6.0;
+  friend bool operator==(const RibSpec&, const RibSpec&) = default;
+};
+/// Monotone cubic through (t, f): t strictly increasing, f >= 0, two points at least.
+struct SampledSpec {
+  std::vector<double> t_mm;
+  std::vector<double> f_mm;
+  friend bool operator==(const SampledSpec&, const SampledSpec&) = default;
+};
+using ToolShapeSpec = std::variant<SphereSpec, EllipseSpec, RibSpec, SampledSpec>;
+
+enum class ToolMode { press, trim };
+
+struct ToolSpec {
+  ToolShapeSpec shape = SphereSpec{};
+  ToolMode mode = ToolMode::press;  ///< a pose's trim button turns press into trim
+  friend bool operator==(const ToolSpec&, const ToolSpec&) = default;
+};
+
+/// Equations (3), (4): epsilon = (R - r)(1 - exp(-rate dt)), or k (R - r) a tick in `paper`.
+struct RemovalSpec {
+  double rate_per_s = 20.0;
+  double min_wall_mm = 1.0;                ///< conserving: no tool thins a wall below this
+  std::optional<double> paper_fraction;    ///< k; rate / 1000 when absent
+  friend bool operator==(const RemovalSpec&, const RemovalSpec&) = default;
+};
+
+/// Section 5.1: Rayleigh kernel of mode sigma, cut at reach; alpha of the clay goes inside.
+struct FlowSpec {
+  double sigma_mm = 8.0;
+  double reach_mm = 30.0;
+  double inside_share = 0.27;  ///< alpha, 0..1
+  friend bool operator==(const FlowSpec&, const FlowSpec&) = default;
+};
+
+/// Section 6. Friction is left out when 0, the whole stage when ForceSpec is absent.
+struct ForceSpec {
+  double stiffness_n_per_mm2 = 0.05;             ///< per mm of depth and mm of contact height
+  double limit_n = 5.0;
+  double friction = 0.0;                         ///< mu
+  bool counterclockwise = true;                  ///< turn of the wheel seen from above
+  std::optional<double> paper_stiffness_n_per_mm;  ///< K per ring; stiffness x h when absent
+  friend bool operator==(const ForceSpec&, const ForceSpec&) = default;
+};
+
+/// Section 7: the stack collapses where stress exceeds the threshold.
+struct StabilitySpec {
+  double max_stress_kpa = 10.0;
+  friend bool operator==(const StabilitySpec&, const StabilitySpec&) = default;
+};
+
+struct SceneSpec {
+  std::string name;
+  Model model = Model::conserving;
+  LumpSpec lump;
+  ToolSpec tool;
+  RemovalSpec removal;
+  FlowSpec flow;
+  std::optional<ForceSpec> force = ForceSpec{};
+  std::optional<StabilitySpec> stability;
+  friend bool operator==(const SceneSpec&, const SceneSpec&) = default;
+};
+
+}  // namespace clay

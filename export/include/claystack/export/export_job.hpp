@@ -1,0 +1,67 @@
+#pragma once
+// stack -> profile -> certificate -> solid -> independent checks -> formats, in that order;
+// a stage that fails stops the job before anything is encoded.
+
+#include "claystack/engine/pot.hpp"
+#include "claystack/engine/result.hpp"
+#include "claystack/export/certificate.hpp"
+#include "claystack/export/mesh_check.hpp"
+#include "claystack/export/mesh_formats.hpp"
+#include "claystack/export/profile.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace clay::solid {
+
+struct ExportOptions {
+  double tolerance_mm = 0.02;           ///< chordal error around; vertex error of Draco
+  std::optional<std::size_t> segments;  ///< force the number around
+  bool allow_pieces = false;            ///< several pieces that do not touch, in one file
+  std::string name = "pot";             ///< solid or object name inside the file
+};
+
+struct EncodedMesh {
+  MeshFormat format = MeshFormat::stl_binary;
+  std::string bytes;
+  double max_error_mm = 0.0;            ///< largest move of a vertex, measured on the decoded bytes
+};
+
+struct StageTime {
+  std::string name;
+  double seconds = 0.0;
+};
+
+struct LeftOut {
+  std::string what;
+  std::string why;
+};
+
+struct ExportReport {
+  PlanarCertificate certificate;
+  MeshReport mesh;                      ///< of the mesh as float32 files hold it
+  std::vector<PieceShape> shapes;
+  std::size_t segments = 0;
+  double chordal_error_mm = 0.0;
+  double counted_volume_mm3 = 0.0;      ///< of the stack
+  double volume_mm3 = 0.0;              ///< of the mesh before rounding
+  double volume_error_relative = 0.0;
+  std::vector<StageTime> stages;
+  std::vector<LeftOut> left_out;
+};
+
+struct ExportResult {
+  ExportReport report;
+  std::vector<EncodedMesh> files;       ///< one for each format asked for, in that order
+};
+
+/// `progress(stage)` is called as each stage begins. Collapsed pots are refused with the reason.
+Result<ExportResult> run_export(const Pot& pot, const std::vector<MeshFormat>& formats,
+                                const ExportOptions& options,
+                                const std::function<void(std::string_view)>& progress = {});
+
+}  // namespace clay::solid

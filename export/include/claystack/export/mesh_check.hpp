@@ -1,0 +1,39 @@
+#pragma once
+// Is a mesh a solid that prints? The tests know nothing of how the mesh was made.
+
+#include "claystack/export/triangle_mesh.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace clay::solid {
+
+/// One thing wrong with a mesh, and where.
+struct MeshProblem {
+  std::string what;          ///< "open edge", "flipped face", "self-intersection", ...
+  std::string where;         ///< triangle numbers and coordinates in mm, for people
+  std::size_t count = 1;     ///< how many of this kind; `where` shows the first
+};
+
+struct MeshReport {
+  bool closed = false;             ///< every edge has two sides
+  bool manifold = false;           ///< no edge of more than two faces, no vertex of two fans
+  bool oriented = false;           ///< neighbours agree, and normals point out of the clay
+  std::size_t self_intersections = 0;  ///< pairs of triangles that meet where they should not
+  bool bounds_volume = false;
+  std::size_t components = 0;
+  std::size_t degenerate = 0;      ///< triangles of no area
+  std::size_t triangles = 0;
+  double volume_mm3 = 0.0;
+  std::vector<MeshProblem> problems;
+
+  [[nodiscard]] bool sound() const noexcept { return problems.empty(); }
+};
+
+/// Combinatorics by our own count over the indices, geometry by CGAL's Polygon Mesh
+/// Processing (exact predicates) on an OpenMesh mesh through CGAL's graph-traits adaptor.
+/// An inward shell (a closed cavity) is sound when it lies inside an outward one.
+MeshReport check_mesh(const TriangleMesh& mesh);
+
+}  // namespace clay::solid

@@ -1,0 +1,12 @@
+#pragma once
+#include "claystack/engine/pot.hpp"
+
+#include <string>
+
+namespace clay::solid {
+
+/// A drawing of the pot cut through its axis, to scale, with height, diameter and a
+/// scale bar [mm]; a collapsed pot is drawn as it lies.
+std::string section_svg(const Pot& pot);
+
+}  // namespace clay::solid

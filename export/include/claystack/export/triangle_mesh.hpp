@@ -1,0 +1,21 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace clay::solid {
+
+/// Points [mm] and triangles by index, counterclockwise seen from outside.
+struct TriangleMesh {
+  std::vector<glm::dvec3> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+
+  friend bool operator==(const TriangleMesh&, const TriangleMesh&) = default;
+};
+
+/// Signed volume [mm^3] by the divergence theorem, summed in double about the first point
+/// with compensation; positive for a closed mesh oriented outward.
+[[nodiscard]] double signed_volume(const TriangleMesh& mesh) noexcept;
+
+}  // namespace clay::solid
