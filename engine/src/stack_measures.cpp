@@ -1,1 +1,78 @@
+#include "claystack/engine/stack_measures.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+namespace clay {
+namespace {
+
+class WallSearch {
+ public:
+  explicit WallSearch(const ClayStack& stack) : rings_(stack.rings()), h_(stack.ring_height_mm()) {
+    top_ = stack.height_mm();
+    least_ = {2.0 * rings_[0].outer_mm(), 0};
+  }
+
+  WallMinimum run() {
+    for (std::size_t i = 0; i < rings_.size(); ++i) {
+      if (rings_[i].inner2 == 0) {
+        keep(2.0 * rings_[i].outer_mm(), i);
+      } else {
+        across(i);
+      }
+    }
+    floors();
+    return least_;
+  }
+
+ private:
+  void keep(double thickness, std::size_t ring) {
+    if (thickness < least_.thickness_mm) least_ = {thickness, ring};
+  }
+
+  /// From the bore of ring i to the outside of every ring near enough to matter.
+  void across(std::size_t i) {
+    const double inner = rings_[i].inner_mm();
+    const auto try_ring = [&](std::size_t j, double gap) {
+      keep(std::hypot(std::max(0.0, rings_[j].outer_mm() - inner), gap), i);
+    };
+    try_ring(i, 0.0);
+    // Rings that touch share a level, so neighbours have no gap.
+    for (std::size_t step = 1;; ++step) {
+      const double gap = h_ * static_cast<double>(step - 1);
+      if (gap >= least_.thickness_mm) return;
+      if (step <= i) try_ring(i - step, gap);
+      if (i + step < rings_.size()) try_ring(i + step, gap);
+      if (step > i && i + step >= rings_.size()) return;
+    }
+  }
+
+  /// Runs of rings without a bore between a bore and the open air, or between two bores.
+  void floors() {
+    std::size_t first = 0;
+    while (first < rings_.size()) {
+      if (rings_[first].inner2 > 0) {
+        ++first;
+        continue;
+      }
+      std::size_t end = first;
+      while (end < rings_.size() && rings_[end].inner2 == 0) ++end;
+      const bool solid = first == 0 && end == rings_.size();
+      const double bottom = h_ * static_cast<double>(first);
+      const double top = end == rings_.size() ? top_ : h_ * static_cast<double>(end);
+      if (!solid) keep(top - bottom, first);
+      first = end;
+    }
+  }
+
+  std::span<const Ring> rings_;
+  double h_;
+  double top_ = 0.0;
+  WallMinimum least_;
+};
+
+}  // namespace
+
+WallMinimum min_wall(const ClayStack& stack) noexcept { return WallSearch(stack).run(); }
+
+}  // namespace clay

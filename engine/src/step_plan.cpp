@@ -1,1 +1,120 @@
+#include "claystack/engine/step_plan.hpp"
 
+#include "claystack/engine/clay_stack.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clay {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Range {
+  const char* setting;
+  double value, low, high;
+};
+
+Result<void> check_ranges(std::initializer_list<Range> ranges) {
+  for (const Range& r : ranges)
+    if (!(r.value >= r.low && r.value <= r.high))
+      return failure(ErrorKind::bad_input, std::string(r.setting) + ": expected a value from " +
+                                               std::to_string(r.low) + " to " +
+                                               std::to_string(r.high) + ", found " +
+                                               std::to_string(r.value));
+  return {};
+}
+
+Result<void> check(const SceneSpec& s) {
+  const ForceSpec force = s.force.value_or(ForceSpec{});
+  const StabilitySpec stability = s.stability.value_or(StabilitySpec{});
+  return check_ranges({
+      {"lump.density_g_cm3", s.lump.density_g_cm3, 0.1, 25.0},
+      {"removal.rate_per_s", s.removal.rate_per_s, 0.0, 1e6},
+      {"removal.min_wall_mm", s.removal.min_wall_mm, kMinRadiusMm, 1000.0},
+      // k = 1 removes the whole wall, k > 1 turns it inside out.
+      {"removal.paper_fraction", s.removal.paper_fraction.value_or(0.0), 0.0, 1.0 - 1e-9},
+      {"flow.sigma_mm", s.flow.sigma_mm, 0.0, kInfinity},
+      {"flow.reach_mm", s.flow.reach_mm, 0.0, kInfinity},
+      {"flow.inside_share", s.flow.inside_share, 0.0, 1.0},
+      {"force.stiffness_n_per_mm2", force.stiffness_n_per_mm2, 0.0, 1e6},
+      {"force.paper_stiffness_n_per_mm", force.paper_stiffness_n_per_mm.value_or(0.0), 0.0, 1e6},
+      {"force.limit_n", force.limit_n, 0.0, 10.0},
+      {"force.friction", force.friction, 0.0, 2.0},
+      {"stability.max_stress_kpa", stability.max_stress_kpa, std::numeric_limits<double>::min(), 1e6},
+  });
+}
+
+unsigned stages_of(const SceneSpec& s) {
+  unsigned stages = 0;
+  if (s.model == Model::paper) stages |= kPaperModel;
+  if (s.force) stages |= kForce;
+  if (s.force && s.force->friction > 0.0) stages |= kFriction;
+  if (s.stability) stages |= kStability;
+  return stages;
+}
+
+ForcePlan force_plan(const SceneSpec& s) {
+  if (!s.force) return {};
+  const double per_ring = s.force->stiffness_n_per_mm2 * s.lump.ring_height_mm;
+  const double k = s.model == Model::paper ? s.force->paper_stiffness_n_per_mm.value_or(per_ring) : per_ring;
+  return {k, s.force->limit_n, s.force->friction, s.force->counterclockwise ? 1.0 : -1.0};
+}
+
+StabilityPlan stability_plan(const SceneSpec& s) {
+  if (!s.stability) return {};
+  // rho g h: g/cm^3 = 1e-6 kg/mm^3, and kg/mm^3 m/s^2 mm = N/mm^2 = 1000 kPa.
+  const double kpa = s.lump.density_g_cm3 * 1e-6 * kStandardGravity * s.lump.ring_height_mm * 1e3;
+  return {s.stability->max_stress_kpa, kpa};
+}
+
+std::vector<PlanLine> describe(const SceneSpec& s, unsigned stages) {
+  const bool hollow = s.lump.inner_radius_mm > 0.0;
+  const bool press = s.tool.mode == ToolMode::press;
+  return {
+      {"tool state", true, "pose, time step, direction of motion"},
+      {"contact", true, "equations (1), (2), then the rings touched"},
+      {"removal", true, s.model == Model::paper ? "k (R - r) a tick" : "(R - r)(1 - exp(-rate dt))"},
+      {"outer surface", true, press ? "equations (5), (7)" : "cut"},
+      {"inner surface", hollow,
+       hollow ? "equations (6), (8)" : "the lump is solid: nothing to fill until a tool opens it"},
+      {"growth", press, press ? "clay above the top becomes height" : "a trimming tool moves no clay"},
+      {"force", (stages & kForce) != 0, (stages & kForce) ? "section 6.1" : "no force is set"},
+      {"friction", (stages & kFriction) != 0,
+       (stages & kFriction) ? "section 6.2" : "no coefficient of friction is set"},
+      {"stability", (stages & kStability) != 0,
+       (stages & kStability) ? "section 7" : "no stress threshold is set"},
+  };
+}
+
+}  // namespace
+
+std::size_t max_rings_of(const LumpSpec& lump) noexcept {
+  return lump.max_rings > 0 ? lump.max_rings : std::min(4 * lump.rings, kMaxRings);
+}
+
+Result<StepPlan> StepPlan::build(const SceneSpec& scene) {
+  if (auto checked = check(scene); !checked) return tl::make_unexpected(checked.error());
+  auto tool = Tool::build(scene.tool.shape);
+  if (!tool) return tl::make_unexpected(tool.error());
+
+  StepPlan plan;
+  plan.model = scene.model;
+  plan.stages = stages_of(scene);
+  plan.mode = scene.tool.mode;
+  plan.tool = std::move(*tool);
+  plan.kernel = RayleighKernel(scene.flow.sigma_mm, scene.flow.reach_mm, scene.lump.ring_height_mm,
+                               max_rings_of(scene.lump));
+  plan.inside_share = static_cast<std::int64_t>(scene.flow.inside_share * (1 << 30) + 0.5);
+  plan.removal = {scene.removal.rate_per_s, scene.removal.min_wall_mm,
+                  scene.removal.paper_fraction.value_or(
+                      std::fmin(scene.removal.rate_per_s / kPaperRateHz, 0.5))};
+  plan.force = force_plan(scene);
+  plan.stability = stability_plan(scene);
+  plan.density_g_cm3 = scene.lump.density_g_cm3;
+  plan.lines = describe(scene, plan.stages);
+  return plan;
+}
+
+}  // namespace clay

@@ -26,6 +26,9 @@ struct LumpSpec {
   friend bool operator==(const LumpSpec&, const LumpSpec&) = default;
 };
 
+/// Where growth stops: `max_rings`, or 4 times `rings` where it is 0.
+[[nodiscard]] std::size_t max_rings_of(const LumpSpec& lump) noexcept;
+
 /// Half-profiles f(t) of the tool, t in mm from its centre (paper, section 3).
 struct SphereSpec {
   double radius_mm = 10.0;

@@ -11,9 +11,9 @@ struct WallMinimum {
   std::size_t ring = 0;
 };
 
-/// Least distance through the clay [mm], exact for the steps as they are: from the bore to the
+/// Least thickness [mm] of a stepped stack, exact for the steps as they are: from the bore to the
 /// outside (across rings as well), through floors and lids along the axis, and across (2R) where
-/// there is no bore. O(N) for walls thinner than a few rings.
+/// there is no bore. Flanges that stick out are not looked at. O(N) for walls of a few rings.
 [[nodiscard]] WallMinimum min_wall(const ClayStack& stack) noexcept;
 
 }  // namespace clay

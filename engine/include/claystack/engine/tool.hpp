@@ -1,0 +1,55 @@
+#pragma once
+// The tool: a body of revolution about a vertical axis through the HIP (paper, section 3).
+
+#include "claystack/engine/result.hpp"
+#include "claystack/engine/scene.hpp"
+
+#include <variant>
+#include <vector>
+
+namespace clay {
+
+/// f(t) = b sqrt(1 - t^2/a^2); a sphere has a = b.
+struct EllipseProfile {
+  double a = 1.0, b = 1.0;
+  [[nodiscard]] double radius(double t) const noexcept;
+  /// f' = -b t / (a^2 sqrt(1 - t^2/a^2)), held at its value 127/128 of the way to the poles,
+  /// where the formula runs to infinity.
+  [[nodiscard]] double slope(double t) const noexcept;
+};
+
+struct RibProfile {
+  double half_height = 1.0, b = 1.0;
+  [[nodiscard]] double radius(double) const noexcept { return b; }
+  [[nodiscard]] double slope(double) const noexcept { return 0.0; }
+};
+
+/// Monotone cubic (Fritsch and Carlson, SIAM J. Numer. Anal. 17(2) 1980): no overshoot, so
+/// f stays between its samples.
+struct SampledProfile {
+  std::vector<double> t, f, slopes;
+  [[nodiscard]] double radius(double at) const noexcept;
+  [[nodiscard]] double slope(double at) const noexcept;
+};
+
+/// Half-profile f(t) [mm] over t in [low, high] [mm] from the HIP. Outside there is no tool: f = 0.
+class Tool {
+ public:
+  using Profile = std::variant<EllipseProfile, RibProfile, SampledProfile>;
+
+  /// Refuses sizes that are not finite and positive (at most 5000 mm), and samples out of order.
+  static Result<Tool> build(const ToolShapeSpec& spec);
+
+  [[nodiscard]] double low() const noexcept { return low_; }
+  [[nodiscard]] double high() const noexcept { return high_; }
+  [[nodiscard]] double radius(double t) const noexcept;  ///< f(t) [mm]
+  [[nodiscard]] double slope(double t) const noexcept;   ///< f'(t)
+  [[nodiscard]] const Profile& profile() const noexcept { return profile_; }
+
+ private:
+  Profile profile_;
+  double low_ = 0.0;
+  double high_ = 0.0;
+};
+
+}  // namespace clay

@@ -1,0 +1,57 @@
+#pragma once
+// The engine: a stack, a tool and a plan, one tick at a time.
+
+#include "claystack/engine/ledger.hpp"
+#include "claystack/engine/pose.hpp"
+#include "claystack/engine/pot.hpp"
+#include "claystack/engine/result.hpp"
+#include "claystack/engine/step_plan.hpp"
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+
+namespace clay {
+
+/// What a tick has to say beside its force. Each names its remedy.
+enum StepFlag : std::uint32_t {
+  kContact = 1u << 0,
+  kRefused = 1u << 1,      ///< pose not finite, beyond 1e6 mm, or time not advancing: nothing was done
+  kLongStep = 1u << 2,     ///< more than 50 ms since the last pose: taken as 50 ms
+  kGrew = 1u << 3,         ///< rings were added on top
+  kRingLimit = 1u << 4,    ///< clay waits above the top: raise lump.max_rings
+  kCollapsed = 1u << 5,    ///< the stack has failed; ticks do nothing any more
+};
+
+struct StepReport {
+  glm::dvec3 force_n{0.0};         ///< on the hand, at most force.limit_n
+  std::uint32_t flags = 0;
+  std::uint32_t rings_touched = 0;
+};
+
+class Wheel {
+ public:
+  /// The scene's lump on the wheel. Refuses a lump that cannot carry itself.
+  static Result<Wheel> build(const SceneSpec& scene);
+  Wheel(Wheel&&) noexcept;
+  Wheel& operator=(Wheel&&) noexcept;
+  ~Wheel();
+
+  /// One tick: pose -> tool state -> contact -> removal -> redistribution -> stability -> force.
+  /// No allocation, no lock, no work that grows with the number of rings.
+  StepReport step(const Pose& pose) noexcept;
+
+  [[nodiscard]] const StepPlan& plan() const noexcept;
+  [[nodiscard]] const ClayStack& stack() const noexcept;
+  [[nodiscard]] const Ledger& ledger() const noexcept;
+  [[nodiscard]] bool collapsed() const noexcept;
+  /// The pot as it is now; after a failure, fallen and at rest.
+  [[nodiscard]] Pot pot() const;
+
+ private:
+  struct State;
+  explicit Wheel(std::unique_ptr<State> state) noexcept;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace clay

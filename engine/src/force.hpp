@@ -1,0 +1,23 @@
+#pragma once
+#include "claystack/engine/step_plan.hpp"
+#include "contact.hpp"
+
+#include <glm/vec3.hpp>
+
+namespace clay {
+
+/// Section 6.1, the force on the hand [N]. `conserving`: K' h sum of depth (+-n_r + f' y), which is
+/// minus the gradient of the overlap energy E = sum K' h depth^2 / 2. `paper`: K sum of depth times
+/// the unit normal n_i. In both the radial part pushes the hand out of the clay; the paper's
+/// formulae, taken literally, pull it in.
+template <Model model>
+glm::dvec3 spring_force(const ForcePlan& plan, const Contact& contact) noexcept;
+
+/// Section 6.2: mu |F_d| along the tangent in the direction of the wheel's turn; zero on the axis.
+glm::dvec3 friction_force(const ForcePlan& plan, const Contact& contact,
+                          const glm::dvec3& spring) noexcept;
+
+/// At most `limit_n`, direction kept; zero where it is not finite.
+glm::dvec3 limited(const glm::dvec3& force, double limit_n) noexcept;
+
+}  // namespace clay

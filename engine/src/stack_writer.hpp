@@ -1,0 +1,55 @@
+#pragma once
+// The only hand that changes a ClayStack. Keeps its running sums true.
+
+#include "claystack/engine/clay_stack.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace clay {
+
+class StackWriter {
+ public:
+  explicit StackWriter(ClayStack& stack) noexcept : stack_(stack) {}
+
+  void take_outside(std::size_t i, Quanta amount) noexcept {
+    stack_.rings_[i].outer2 -= amount;
+    stack_.rings_volume_ -= amount;
+    assert(stack_.rings_[i].volume() > 0);
+  }
+  void take_inside(std::size_t i, Quanta amount) noexcept {
+    stack_.rings_[i].inner2 += amount;
+    stack_.rings_volume_ -= amount;
+    stack_.hollow_ = true;
+    assert(stack_.rings_[i].volume() > 0);
+  }
+  /// Each returns what found room: up to the axis inside, up to the largest radius outside.
+  Quanta put_inside(std::size_t i, WideQuanta amount) noexcept {
+    const auto placed = static_cast<Quanta>(std::min<WideQuanta>(amount, stack_.rings_[i].inner2));
+    stack_.rings_[i].inner2 -= placed;
+    stack_.rings_volume_ += placed;
+    return placed;
+  }
+  Quanta put_outside(std::size_t i, WideQuanta amount) noexcept {
+    const Quanta room = kLargestOuter2 - stack_.rings_[i].outer2;
+    const auto placed = static_cast<Quanta>(std::min<WideQuanta>(amount, room));
+    stack_.rings_[i].outer2 += placed;
+    stack_.rings_volume_ += placed;
+    return placed;
+  }
+  void put_on_crown(WideQuanta amount) noexcept { stack_.crown_ += amount; }
+
+  /// Step (b) of section 5.1: a new ring with the attributes of the top one. Capacity for
+  /// max_rings() is reserved at scene build, so nothing is allocated here.
+  void grow() noexcept {
+    stack_.rings_.push_back(stack_.rings_.back());
+    stack_.rings_volume_ += stack_.rings_.back().volume();
+  }
+  void reserve() { stack_.rings_.reserve(stack_.max_rings_); }
+
+ private:
+  static inline const Quanta kLargestOuter2 = quanta_from_radius(kMaxRadiusMm);
+  ClayStack& stack_;
+};
+
+}  // namespace clay

@@ -1,0 +1,32 @@
+#pragma once
+#include "claystack/engine/pose.hpp"
+
+#include <glm/vec3.hpp>
+
+namespace clay {
+
+/// A pose that may be believed, with what its predecessors say of it.
+struct ToolState {
+  glm::dvec3 hip_mm{0.0};
+  double dt_s = 0.0;        ///< since the last pose; 0 for the first, at most 0.05
+  bool upward = true;       ///< direction of clay flow (section 5.1)
+  bool trim = false;
+  bool valid = false;
+  bool dt_clamped = false;
+};
+
+/// Section 5.1, "inertia of motion": a hand is slow against 1 kHz, so most vertical velocities
+/// are measured as zero; the last one that was not stays in force. Before any, clay flows up.
+class ToolTracker {
+ public:
+  /// Refuses (valid = false, nothing remembered) positions that are not finite or beyond 1e6 mm,
+  /// and times that do not advance.
+  ToolState advance(const Pose& pose) noexcept;
+
+ private:
+  Pose last_;
+  bool has_last_ = false;
+  bool upward_ = true;
+};
+
+}  // namespace clay

@@ -1,0 +1,96 @@
+#include "contact.hpp"
+
+#include "stack_samples.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+namespace clay {
+namespace {
+
+Contact contact_of(const Tool& tool, const ClayStack& stack, glm::dvec3 hip) {
+  Contact contact;
+  contact.rings.reserve(most_contacts(tool, stack.ring_height_mm(), stack.size()));
+  const auto capacity = contact.rings.capacity();
+  find_contact(tool, stack, hip, contact);
+  EXPECT_EQ(contact.rings.capacity(), capacity);  // a tick must not allocate
+  return contact;
+}
+
+/// Section 4 without its first stage: every ring is asked.
+RC_GTEST_PROP(Contact, TwoStagesFindWhatAskingEveryRingFinds, ()) {
+  auto random = *samples::random_engine();
+  const auto count = *rc::gen::inRange<std::size_t>(1, 60);
+  const double h = *rc::gen::element(0.1, 1.0, 7.0);
+  const ClayStack stack = samples::stack(random, count, h);
+  const Tool tool = Tool::build(SphereSpec{1.0 + 30.0 * samples::uniform(random)}).value();
+  const double height = stack.height_mm();
+  const glm::dvec3 hip(80.0 * samples::uniform(random), height * (2.0 * samples::uniform(random) - 0.5),
+                       20.0 * samples::uniform(random));
+  const Contact contact = contact_of(tool, stack, hip);
+
+  const double d = std::hypot(hip.x, hip.z);
+  const auto at_centre = static_cast<std::size_t>(
+      std::min(std::max(std::floor(hip.y / h), 0.0), static_cast<double>(count - 1)));
+  const Ring& centre = stack.rings()[at_centre];
+  const bool outside = d > (centre.outer_mm() + centre.inner_mm()) / 2;
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double t = (static_cast<double>(i) + 0.5) * h - hip.y;
+    if (std::abs(t) > tool.high()) continue;
+    const double f = std::sqrt(tool.high() * tool.high() - t * t);
+    const Ring& ring = stack.rings()[i];
+    const double depth = outside ? ring.outer_mm() + f - d : d + f - ring.inner_mm();
+    if (depth <= 1e-9) continue;
+    RC_ASSERT(found < contact.rings.size());
+    RC_ASSERT(contact.rings[found].ring == i);
+    RC_ASSERT(std::abs(contact.rings[found].depth_mm - depth) < 1e-9);
+    RC_ASSERT(i >= contact.bottom && i <= contact.top);
+    ++found;
+  }
+  RC_ASSERT(found == contact.rings.size());
+  if (found > 0) RC_ASSERT((contact.side == Side::compressive) == outside);
+}
+
+class ContactOnCylinder : public testing::Test {
+ protected:
+  ClayStack cup = ClayStack::cylinder(100, 1.0, 50.0, 40.0, 100).value();
+  Tool sphere = Tool::build(SphereSpec{10.0}).value();
+};
+
+TEST_F(ContactOnCylinder, DemarcatingCircleDecidesTheSide) {
+  EXPECT_EQ(contact_of(sphere, cup, {45.001, 50, 0}).side, Side::compressive);
+  EXPECT_EQ(contact_of(sphere, cup, {44.999, 50, 0}).side, Side::expansive);
+  EXPECT_EQ(contact_of(sphere, cup, {0, 50, -45.001}).side, Side::compressive);
+}
+
+TEST_F(ContactOnCylinder, CandidatesAreEquationsOneAndTwo) {
+  // (1): ceil((50.2 + 10) / 1) = 61st ring, (2): floor((50.2 - 10) / 1) = 40th ring.
+  const Contact contact = contact_of(sphere, cup, {55, 50.2, 0});
+  EXPECT_EQ(contact.top, 60u);
+  EXPECT_EQ(contact.bottom, 39u);
+}
+
+TEST_F(ContactOnCylinder, NothingAboveBelowOrBeside) {
+  for (const glm::dvec3 hip : {glm::dvec3{50, 110.1, 0}, {50, -10.1, 0}, {60.001, 50, 0},
+                               {50, 1e300, 0}, {50, -1e300, 0}, {0, 50, 0}})
+    EXPECT_TRUE(contact_of(sphere, cup, hip).rings.empty()) << hip.x << " " << hip.y;
+}
+
+TEST_F(ContactOnCylinder, OnTheAxisThereIsNoDirection) {
+  const Contact contact = contact_of(Tool::build(SphereSpec{45.0}).value(), cup, {0, 50, 0});
+  ASSERT_FALSE(contact.rings.empty());
+  EXPECT_EQ(contact.side, Side::expansive);
+  EXPECT_EQ(contact.radial_x, 0.0);
+  EXPECT_EQ(contact.radial_z, 0.0);
+}
+
+TEST_F(ContactOnCylinder, AToolWiderThanThePotTouchesEveryRing) {
+  const Tool giant = Tool::build(SphereSpec{500.0}).value();
+  EXPECT_EQ(contact_of(giant, cup, {100, 50, 0}).rings.size(), 100u);
+}
+
+}  // namespace
+}  // namespace clay

@@ -1,0 +1,227 @@
+#include "claystack/engine/wheel.hpp"
+
+#include "allocation_counter.hpp"
+#include "stack_samples.hpp"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace clay {
+namespace {
+
+SceneSpec scene_of(Model model) {
+  SceneSpec scene;
+  scene.model = model;
+  scene.lump = {.rings = 40, .ring_height_mm = 1.0, .outer_radius_mm = 30.0, .inner_radius_mm = 0.0, .max_rings = 120};
+  scene.tool.shape = SphereSpec{8.0};
+  scene.removal = {.rate_per_s = 40.0, .min_wall_mm = 0.5, .paper_fraction = {}};
+  scene.flow = {.sigma_mm = 3.0, .reach_mm = 10.0, .inside_share = 0.27};
+  scene.force->friction = 0.2;
+  return scene;
+}
+
+/// A hand that wanders, and likes the places where engines fail: the base, the rim, the axis, deep
+/// in the wall, jumps, and the trim button.
+class RestlessHand {
+ public:
+  explicit RestlessHand(std::uint64_t seed) : random_(seed) {}
+
+  Pose next(const ClayStack& stack) {
+    if (samples::uniform(random_) < 0.002) choose(stack);
+    const double speed = samples::uniform(random_) < 0.01 ? 5.0 : 0.1;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double step = goal_[axis] - at_[axis];
+      at_[axis] += std::clamp(step, -speed, speed) + 0.02 * (samples::uniform(random_) - 0.5);
+    }
+    if (samples::uniform(random_) < 0.01) trim_ = samples::uniform(random_) < 0.1;
+    time_ += samples::uniform(random_) < 0.999 ? 1000 : 30'000;
+    return {time_, at_, trim_};
+  }
+
+ private:
+  void choose(const ClayStack& stack) {
+    const double height = stack.height_mm(), u = samples::uniform(random_);
+    goal_.y = u < 0.2 ? 0.0 : u < 0.5 ? height + 2.0 : height * samples::uniform(random_);
+    goal_.x = samples::uniform(random_) < 0.2 ? 0.0 : 45.0 * samples::uniform(random_);
+    goal_.z = samples::uniform(random_) < 0.7 ? 0.0 : 10.0 * samples::uniform(random_);
+  }
+  std::mt19937_64 random_;
+  glm::dvec3 at_{40.0, 20.0, 0.0}, goal_{28.0, 20.0, 0.0};
+  std::int64_t time_ = 0;
+  bool trim_ = false;
+};
+
+struct Outcome {
+  int contacts = 0, grown = 0, trims = 0, expansive = 0;
+};
+
+/// Plays a million ticks, in pots of twenty thousand, and checks the account after each.
+template <class Check>
+Outcome play_a_million(Model model, Check check) {
+  Outcome outcome;
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    SceneSpec scene = scene_of(model);
+    if (seed % 5 == 0) scene.tool.mode = ToolMode::trim;
+    if (seed % 3 == 0) scene.lump.inner_radius_mm = 20.0;
+    Wheel wheel = Wheel::build(scene).value();
+    RestlessHand hand(seed);
+    for (int k = 0; k < 20'000; ++k) {
+      const StepReport report = wheel.step(hand.next(wheel.stack()));
+      outcome.contacts += (report.flags & kContact) != 0;
+      outcome.grown += (report.flags & kGrew) != 0;
+      if (!check(wheel)) {
+        ADD_FAILURE() << "seed " << seed << ", tick " << k;
+        return outcome;
+      }
+    }
+    outcome.trims += wheel.ledger().trimmed > 0;
+    outcome.expansive += wheel.stack().hollow();
+  }
+  return outcome;
+}
+
+bool rings_are_sound(const ClayStack& stack) {
+  for (const Ring& ring : stack.rings())
+    if (!(ring.inner2 >= 0 && ring.outer2 > ring.inner2)) return false;
+  return stack.recount() == stack.volume() && stack.crown() >= 0;
+}
+
+void expect_all_was_met(const Outcome& outcome) {
+  EXPECT_GT(outcome.contacts, 300'000);
+  EXPECT_GT(outcome.grown, 100);
+  EXPECT_GT(outcome.trims, 10);
+  EXPECT_GT(outcome.expansive, 25);
+}
+
+TEST(Wheel, ConservingBalancesToTheQuantumAfterEveryTick) {
+  expect_all_was_met(play_a_million(Model::conserving, [](const Wheel& wheel) {
+    const WideQuanta counted = wheel.stack().recount();
+    return wheel.ledger().imbalance(counted) == 0 && wheel.ledger().volume_error(counted) == 0 &&
+           rings_are_sound(wheel.stack());
+  }));
+}
+
+TEST(Wheel, PaperMissesLessThanItsTopRingAfterEveryTick) {
+  expect_all_was_met(play_a_million(Model::paper, [](const Wheel& wheel) {
+    const WideQuanta counted = wheel.stack().recount(), missing = -wheel.ledger().volume_error(counted);
+    const bool room = wheel.stack().size() < wheel.stack().max_rings();
+    return wheel.ledger().imbalance(counted) == 0 && missing >= 0 &&
+           (!room || missing < wheel.stack().rings().back().volume()) && rings_are_sound(wheel.stack());
+  }));
+}
+
+TEST(Wheel, AReplayGivesTheSameBits) {
+  for (const Model model : {Model::conserving, Model::paper}) {
+    const auto play = [&] {
+      Wheel wheel = Wheel::build(scene_of(model)).value();
+      RestlessHand hand(7);
+      glm::dvec3 impulse(0.0);
+      for (int k = 0; k < 5000; ++k) impulse += wheel.step(hand.next(wheel.stack())).force_n;
+      return std::pair(wheel.pot(), impulse);
+    };
+    EXPECT_TRUE(play() == play());
+  }
+}
+
+TEST(Wheel, OptionalStagesDoNotMoveClay) {
+  const auto play = [](auto edit) {
+    SceneSpec scene = scene_of(Model::conserving);
+    edit(scene);
+    Wheel wheel = Wheel::build(scene).value();
+    RestlessHand hand(11);
+    for (int k = 0; k < 5000; ++k) wheel.step(hand.next(wheel.stack()));
+    return wheel.stack();
+  };
+  const ClayStack all = play([](SceneSpec& s) { s.stability = StabilitySpec{1e6}; });
+  EXPECT_TRUE(all == play([](SceneSpec& s) { s.force.reset(); }));
+  EXPECT_TRUE(all == play([](SceneSpec& s) { s.force->friction = 0.0; }));
+}
+
+TEST(Wheel, ATickAllocatesNothing) {
+  SceneSpec scene = scene_of(Model::conserving);
+  scene.stability = StabilitySpec{1e6};
+  Wheel wheel = Wheel::build(scene).value();
+  RestlessHand hand(3);
+  const std::size_t before = allocation_count();
+  std::uint32_t seen = 0;
+  for (int k = 0; k < 20'000; ++k) seen |= wheel.step(hand.next(wheel.stack())).flags;
+  EXPECT_EQ(allocation_count(), before);
+  EXPECT_TRUE(seen & kGrew);
+}
+
+TEST(Wheel, ARefusedPoseChangesNothing) {
+  Wheel wheel = Wheel::build(scene_of(Model::conserving)).value();
+  ASSERT_TRUE(wheel.step({0, {34, 20, 0}, false}).flags & kContact);
+  ASSERT_TRUE(wheel.step({1000, {34, 20, 0}, false}).flags & kContact);
+  const Pot before = wheel.pot();
+  const double nan = std::nan("");
+  for (const Pose& bad : {Pose{2000, {nan, 20, 0}, false}, Pose{2000, {34, HUGE_VAL, 0}, false},
+                          Pose{2000, {34, 20, 1e300}, false}, Pose{1000, {30, 20, 0}, false},
+                          Pose{-5, {30, 20, 0}, false}}) {
+    const StepReport report = wheel.step(bad);
+    EXPECT_EQ(report.flags, kRefused);
+    EXPECT_EQ(report.force_n, glm::dvec3(0.0));
+    EXPECT_TRUE(wheel.pot() == before);
+  }
+  EXPECT_TRUE(wheel.step({2000, {34, 20, 0}, false}).flags & kContact);
+}
+
+TEST(Wheel, ForceStaysWithinItsLimit) {
+  SceneSpec scene = scene_of(Model::conserving);
+  scene.force->stiffness_n_per_mm2 = 1e6;
+  Wheel wheel = Wheel::build(scene).value();
+  RestlessHand hand(5);
+  double greatest = 0.0;
+  for (int k = 0; k < 5000; ++k)
+    greatest = std::max(greatest, glm::length(wheel.step(hand.next(wheel.stack())).force_n));
+  EXPECT_LE(greatest, 5.0);
+  EXPECT_GT(greatest, 4.99);
+}
+
+TEST(Wheel, CollapsesWhereANeckIsCutAndThenHoldsStill) {
+  SceneSpec scene = scene_of(Model::conserving);
+  scene.stability = StabilitySpec{2.0};  // the lump itself reaches 0.73 kPa
+  scene.tool.shape = SphereSpec{4.0};
+  Wheel wheel = Wheel::build(scene).value();
+  std::int64_t time = 0;
+  std::uint32_t flags = 0;
+  for (double x = 36.0; x > 2.0 && !(flags & kCollapsed); x -= 0.02)
+    flags = wheel.step({time += 1000, {x, 10.2, 0}, false}).flags;
+  ASSERT_TRUE(wheel.collapsed());
+  const Pot pot = wheel.pot();
+  ASSERT_TRUE(pot.collapse);
+  EXPECT_NEAR(static_cast<double>(pot.collapse->failed_ring), 10.0, 1.0);
+  EXPECT_GT(pot.collapse->stress_kpa, 2.0);
+  EXPECT_GT(pot.collapse->angle_rad, 0.0);
+  EXPECT_EQ(wheel.step({time + 1000, {10, 20, 0}, false}).flags, kCollapsed);
+  EXPECT_TRUE(wheel.pot() == pot);
+  EXPECT_TRUE(pot.ledger.imbalance(pot.stack.recount()) == 0);
+}
+
+TEST(Wheel, RefusesSettingsOutOfRange) {
+  const auto message = [](auto edit) {
+    SceneSpec scene = scene_of(Model::conserving);
+    edit(scene);
+    const auto wheel = Wheel::build(scene);
+    return wheel ? std::string("accepted") : wheel.error().message;
+  };
+  const auto names = [&](const char* setting, auto edit) {
+    EXPECT_NE(message(edit).find(setting), std::string::npos) << message(edit);
+  };
+  names("flow.inside_share", [](SceneSpec& s) { s.flow.inside_share = 1.1; });
+  names("flow.sigma_mm", [](SceneSpec& s) { s.flow.sigma_mm = std::nan(""); });
+  names("removal.paper_fraction", [](SceneSpec& s) { s.removal.paper_fraction = 1.5; });
+  names("removal.min_wall_mm", [](SceneSpec& s) { s.removal.min_wall_mm = 0.0; });
+  names("force.limit_n", [](SceneSpec& s) { s.force->limit_n = 50.0; });
+  names("force.friction", [](SceneSpec& s) { s.force->friction = -0.1; });
+  names("lump.density_g_cm3", [](SceneSpec& s) { s.lump.density_g_cm3 = 0.0; });
+  names("lump: ", [](SceneSpec& s) { s.lump.outer_radius_mm = 1e6; });
+  names("tool: ", [](SceneSpec& s) { s.tool.shape = SphereSpec{0.0}; });
+  names("stability.max_stress_kpa", [](SceneSpec& s) { s.stability = StabilitySpec{0.01}; });
+}
+
+}  // namespace
+}  // namespace clay
