@@ -1,0 +1,29 @@
+# find_package(Claystack COMPONENTS engine export) for programs that build on the libraries.
+include(CMakePackageConfigHelpers)
+
+set(claystack_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Claystack)
+
+install(TARGETS claystack_engine EXPORT ClaystackEngine)
+install(DIRECTORY engine/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(EXPORT ClaystackEngine NAMESPACE claystack:: DESTINATION ${claystack_config_dir})
+
+if(CLAYSTACK_FILES)
+  install(TARGETS claystack_engine_files EXPORT ClaystackFiles)
+  install(EXPORT ClaystackFiles NAMESPACE claystack:: DESTINATION ${claystack_config_dir})
+endif()
+if(CLAYSTACK_EXPORT)
+  install(TARGETS claystack_export EXPORT ClaystackExport)
+  install(DIRECTORY export/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(EXPORT ClaystackExport NAMESPACE claystack:: DESTINATION ${claystack_config_dir})
+endif()
+if(CLAYSTACK_APP)
+  install(TARGETS claystack)
+endif()
+
+configure_package_config_file(cmake/ClaystackConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/ClaystackConfig.cmake INSTALL_DESTINATION ${claystack_config_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/ClaystackConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/ClaystackConfig.cmake
+              ${PROJECT_BINARY_DIR}/ClaystackConfigVersion.cmake
+        DESTINATION ${claystack_config_dir})

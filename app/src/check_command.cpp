@@ -1,0 +1,146 @@
+#include "commands.hpp"
+
+#include "claystack/engine/atomic_file.hpp"
+#include "claystack/engine/pot_file.hpp"
+#include "claystack/engine/stack_measures.hpp"
+#include "claystack/export/certificate.hpp"
+#include "claystack/export/mesh_check.hpp"
+#include "claystack/export/mesh_formats.hpp"
+#include "claystack/export/tessellate.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+namespace clay::app {
+namespace {
+
+// Enough that the facets of a pot look like the pot; soundness does not depend on it.
+constexpr std::size_t kCheckSegments = 64;
+
+struct CheckCommand {
+  std::string file;
+  std::optional<double> min_wall_mm;
+};
+
+struct Verdict {
+  solid::MeshReport mesh;
+  std::optional<WallMinimum> wall;   ///< of pots; a mesh is not measured
+};
+
+bool is_pot(std::string_view path) { return path.ends_with(".json") || path.ends_with(".cbor"); }
+
+/// A pot is sound when its section proves a solid, and the mesh that it gives passes every test.
+Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command) {
+  const auto pot = parse_pot(bytes, command.file);
+  if (!pot) return tl::make_unexpected(pot.error());
+  Verdict verdict;
+  verdict.wall = min_wall(pot->stack);
+  const auto problem = [&](std::string what, std::string where) {
+    verdict.mesh.problems.push_back({std::move(what), std::move(where), 1});
+  };
+  if (pot->collapse) {
+    problem("collapsed", fmt::format("ring {} yielded at {:.2f} kPa", pot->collapse->failed_ring, pot->collapse->stress_kpa));
+    return verdict;
+  }
+  const auto section = solid::profile_of(pot->stack);
+  if (!section) {
+    problem("no solid", section.error().message);
+    return verdict;
+  }
+  if (const auto certificate = solid::certify(section->profile); !certificate) {
+    problem("no certificate", certificate.error().message);
+    return verdict;
+  }
+  verdict.mesh = solid::check_mesh(solid::revolve(section->profile, kCheckSegments));
+  for (const solid::PieceShape& shape : section->shapes)
+    for (const solid::Cavity& cavity : shape.cavities)
+      problem("closed cavity", fmt::format("from {:.2f} to {:.2f} mm, {:.1f} mm3 trapped: it needs a drain hole",
+                                           cavity.bottom_mm, cavity.top_mm, cavity.volume_mm3));
+  if (section->shapes.size() > 1)
+    problem("pieces that do not touch", fmt::format("{} pieces; ring {} is the first of the second",
+                                                    section->shapes.size(), section->shapes[1].first_ring));
+  if (command.min_wall_mm && verdict.wall->thickness_mm < *command.min_wall_mm)
+    problem("thin wall", fmt::format("{:.3f} mm at ring {}, expected {:.3f} mm at least", verdict.wall->thickness_mm,
+                                     verdict.wall->ring, *command.min_wall_mm));
+  return verdict;
+}
+
+Result<Verdict> check_file(const CheckCommand& command) {
+  const auto bytes = read_file(command.file);
+  if (!bytes) return tl::make_unexpected(bytes.error());
+  if (is_pot(command.file)) return check_pot(*bytes, command);
+  const auto format = solid::mesh_format_of(command.file);
+  if (!format)
+    return failure(ErrorKind::bad_input, format.error().message + ", or a pot: .pot.json, .pot.cbor");
+  if (command.min_wall_mm)
+    return failure(ErrorKind::bad_input, command.file + ": --min-wall is for pots; the wall of a mesh is not measured");
+  return solid::decode_mesh(*bytes, *format, command.file).map([](const solid::TriangleMesh& mesh) {
+    return Verdict{solid::check_mesh(mesh), std::nullopt};
+  });
+}
+
+Json verdict_json(const std::string& file, const Verdict& verdict) {
+  const solid::MeshReport& mesh = verdict.mesh;
+  Json json = {{"file", file},
+               {"sound", mesh.sound()},
+               {"closed", mesh.closed},
+               {"manifold", mesh.manifold},
+               {"oriented", mesh.oriented},
+               {"self_intersections", mesh.self_intersections},
+               {"bounds_volume", mesh.bounds_volume},
+               {"components", mesh.components},
+               {"degenerate", mesh.degenerate},
+               {"triangles", mesh.triangles},
+               {"volume_mm3", mesh.volume_mm3},
+               {"problems", Json::array()}};
+  if (verdict.wall) json["min_wall_mm"] = verdict.wall->thickness_mm;
+  for (const auto& problem : mesh.problems)
+    json["problems"].push_back({{"what", problem.what}, {"where", problem.where}, {"count", problem.count}});
+  return json;
+}
+
+void tell(const Console& console, const std::string& file, const Verdict& verdict) {
+  const solid::MeshReport& mesh = verdict.mesh;
+  console.say(fmt::format("{}: {}", file, mesh.sound() ? "sound" : "NOT SOUND"));
+  const auto yes = [](bool value) { return value ? "yes" : "no"; };
+  console.say(fmt::format("  closed {}, manifold {}, oriented {}, bounds a volume {}, self-intersections {}",
+                          yes(mesh.closed), yes(mesh.manifold), yes(mesh.oriented), yes(mesh.bounds_volume),
+                          mesh.self_intersections));
+  console.say(fmt::format("  {} triangles, {} component(s), {:.3f} cm3", mesh.triangles, mesh.components,
+                          mesh.volume_mm3 / 1000.0));
+  if (verdict.wall)
+    console.say(fmt::format("  thinnest {:.3f} mm, from ring {}", verdict.wall->thickness_mm, verdict.wall->ring));
+  for (const auto& problem : mesh.problems)
+    console.say(fmt::format("  {} ({}): {}", problem.what, problem.count, problem.where));
+}
+
+int check(const CheckCommand& command, const Console& console) {
+  const auto verdict = check_file(command);
+  if (!verdict) {
+    if (console.json) {
+      Verdict unreadable;
+      unreadable.mesh.problems.push_back({"unreadable", verdict.error().message, 1});
+      console.print(verdict_json(command.file, unreadable));
+    }
+    return report(verdict.error());
+  }
+  if (console.json) console.print(verdict_json(command.file, *verdict));
+  tell(console, command.file, *verdict);
+  return verdict->mesh.sound() ? kDone : kUnsound;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, Console& console, int& exit) {
+  auto command = std::make_shared<CheckCommand>();
+  CLI::App* sub = app.add_subcommand("check", "Say what is wrong with a pot or anyone's mesh, and where");
+  sub->add_option("file", command->file, ".stl, .obj, .drc, .pot.json or .pot.cbor")->required();
+  sub->add_option("--min-wall", command->min_wall_mm, "Least wall that passes, for pots [mm]")->check(CLI::PositiveNumber);
+  sub->footer("\nExamples:\n  claystack check bowl.stl\n  claystack check bowl.pot.json --min-wall 3 --json");
+  sub->callback([command, &console, &exit] { exit = check(*command, console); });
+}
+
+}  // namespace clay::app

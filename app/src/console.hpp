@@ -1,0 +1,56 @@
+#pragma once
+// What every command says the same way: errors, progress, JSON, exit status.
+
+#include "claystack/engine/quanta.hpp"
+#include "claystack/engine/result.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace clay::app {
+
+using Json = nlohmann::ordered_json;
+
+/// Exit statuses of the outer face.
+enum Exit { kDone = 0, kUnsound = 1, kBadInput = 2, kIoFailed = 3, kDeviceFailed = 4 };
+
+struct Console {
+  bool json = false;    ///< data as JSON on stdout
+  bool quiet = false;   ///< no progress, no summary: errors and asked-for data only
+
+  void print(const Json& data) const;                ///< one JSON document, pretty
+  void say(std::string_view line) const;             ///< to stdout, for people; silent with json or quiet
+  void warn(std::string_view line) const;            ///< to stderr
+};
+
+/// "claystack: MESSAGE" on stderr; the exit status of the error's kind.
+int report(const Error& error);
+
+/// A count for JSON: a number where 64 bits hold it, decimal digits in a string where not.
+[[nodiscard]] Json json_count(WideQuanta count);
+
+/// A bar on stderr, drawn only on a terminal and only for work that takes a while.
+class Progress {
+ public:
+  Progress(const Console& console, std::string label, std::size_t total);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  void update(std::size_t done);
+  void stage(std::string_view name);   ///< for work in named stages instead of counts
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool due();
+  void draw(std::string_view text);
+  std::string label_;
+  std::size_t total_;
+  bool enabled_;
+  bool drawn_ = false;
+  Clock::time_point next_;
+};
+
+}  // namespace clay::app

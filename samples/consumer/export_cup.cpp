@@ -1,0 +1,25 @@
+// From rings to a mesh in memory: a cup of 60 mm with walls of 4 mm.
+
+#include <claystack/engine/clay_stack.hpp>
+#include <claystack/export/export_job.hpp>
+
+#include <cstdio>
+#include <vector>
+
+int main() {
+  const clay::Ring floor{clay::quanta_from_radius(30.0), 0};
+  const clay::Ring wall{clay::quanta_from_radius(30.0), clay::quanta_from_radius(26.0)};
+  std::vector<clay::Ring> rings(60, wall);
+  rings[0] = rings[1] = rings[2] = rings[3] = rings[4] = floor;
+
+  clay::Pot pot;
+  pot.stack = clay::ClayStack::from_rings(1.0, rings, 0).value();
+  const auto result = clay::solid::run_export(pot, {clay::solid::MeshFormat::stl_binary}, {});
+  if (!result) {
+    std::fprintf(stderr, "%s\n", result.error().message.c_str());
+    return 1;
+  }
+  std::printf("%zu triangles, %.3f cm3, %zu bytes of STL\n", result->report.mesh.triangles,
+              result->report.volume_mm3 / 1000.0, result->files[0].bytes.size());
+  return result->report.mesh.sound() ? 0 : 1;
+}

@@ -1,0 +1,168 @@
+#include "strokes.hpp"
+
+#include "claystack/engine/session_file.hpp"
+
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+
+namespace clay::samples {
+namespace {
+
+using Path = std::vector<glm::dvec2>;
+
+/// Uniform in [-1, 1).
+double noise(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0; }
+
+/// Band-limited noise of unit root mean square: a resonator at 9 Hz that white noise rings.
+class Tremor {
+ public:
+  explicit Tremor(double rate_hz) {
+    const double w = 2.0 * std::numbers::pi * 9.0 / rate_hz, damping = 3.0 / rate_hz;
+    const double radius = 1.0 - 2.0 * std::numbers::pi * damping;
+    const double cosine = 1.0 - w * w / 2.0 + w * w * w * w / 24.0;
+    a1_ = 2.0 * radius * cosine;
+    a2_ = -radius * radius;
+    // Variance of a second-order recursion driven by variance 1/3.
+    const double variance = (1.0 - a2_) / ((1.0 + a2_) * ((1.0 - a2_) * (1.0 - a2_) - a1_ * a1_)) / 3.0;
+    gain_ = 1.0 / std::sqrt(variance);
+  }
+  double next(std::mt19937_64& random) {
+    const double y = a1_ * y1_ + a2_ * y2_ + gain_ * noise(random);
+    y2_ = y1_;
+    return y1_ = y;
+  }
+
+ private:
+  double a1_ = 0.0, a2_ = 0.0, gain_ = 1.0, y1_ = 0.0, y2_ = 0.0;
+};
+
+/// A centripetal Catmull-Rom spline by Barry and Goldman's pyramid (SIGGRAPH 1988): unlike the
+/// uniform one it does not swing out where long and short spans meet.
+Path spline(const Path& through) {
+  constexpr int kPieces = 32;
+  const auto lerp = [](glm::dvec2 a, double ta, glm::dvec2 b, double tb, double t) {
+    return (a * (tb - t) + b * (t - ta)) / (tb - ta);
+  };
+  Path path{through.front()};
+  for (std::size_t k = 0; k + 1 < through.size(); ++k) {
+    // Beyond its ends the path runs on as it begins and ends.
+    const glm::dvec2 p1 = through[k], p2 = through[k + 1];
+    const glm::dvec2 p0 = k > 0 ? through[k - 1] : 2.0 * p1 - p2;
+    const glm::dvec2 p3 = k + 2 < through.size() ? through[k + 2] : 2.0 * p2 - p1;
+    const double t1 = std::sqrt(glm::distance(p0, p1));
+    const double t2 = t1 + std::sqrt(glm::distance(p1, p2));
+    const double t3 = t2 + std::sqrt(glm::distance(p2, p3));
+    for (int piece = 1; piece <= kPieces; ++piece) {
+      const double t = t1 + (t2 - t1) * piece / kPieces;
+      const glm::dvec2 a1 = lerp(p0, 0.0, p1, t1, t), a2 = lerp(p1, t1, p2, t2, t);
+      const glm::dvec2 a3 = lerp(p2, t2, p3, t3, t);
+      path.push_back(lerp(lerp(a1, 0.0, a2, t2, t), t1, lerp(a2, t1, a3, t3, t), t2, t));
+    }
+  }
+  return path;
+}
+
+/// The hand: where it is, and what it has played so far.
+class Hand {
+ public:
+  explicit Hand(const StrokeScript& script)
+      : script_(script), random_(script.seed), at_(script.start_mm), radial_(script.rate_hz),
+        vertical_(script.rate_hz), sideways_(script.rate_hz) {}
+
+  /// Along a path in minimum-jerk time (Flash and Hogan, J. Neurosci. 5(7) 1985), whose
+  /// greatest speed is 15/8 of the mean.
+  void move(const Path& path, double speed_mm_s, bool trim) {
+    std::vector<double> length{0.0};
+    for (std::size_t k = 1; k < path.size(); ++k)
+      length.push_back(length.back() + glm::distance(path[k - 1], path[k]));
+    const double speed = speed_mm_s * (1.0 + 0.1 * noise(random_));
+    const auto ticks = static_cast<int>(length.back() * 1.875 / speed * script_.rate_hz) + 1;
+    std::size_t k = 0;
+    for (int n = 1; n <= ticks; ++n) {
+      const double u = static_cast<double>(n) / ticks;
+      const double s = length.back() * u * u * u * (10.0 + u * (6.0 * u - 15.0));
+      while (k + 2 < path.size() && length[k + 1] < s) ++k;
+      const double piece = length[k + 1] - length[k];
+      emit(piece > 0.0 ? path[k] + (path[k + 1] - path[k]) * ((s - length[k]) / piece) : path[k], trim);
+    }
+  }
+  void hold(double seconds, bool trim) {
+    const auto ticks = static_cast<int>(seconds * script_.rate_hz);
+    for (int n = 0; n < ticks; ++n) emit(at_, trim);
+  }
+  [[nodiscard]] glm::dvec2 at() const { return at_; }
+  std::vector<Pose> take() { return std::move(poses_); }
+
+ private:
+  void emit(glm::dvec2 at, bool trim) {
+    at_ = at;
+    const double a = script_.tremor_mm;
+    const glm::dvec3 hip(at.x + a * radial_.next(random_), at.y + a * vertical_.next(random_),
+                         a * sideways_.next(random_));
+    const auto time = static_cast<std::int64_t>(static_cast<double>(poses_.size()) * 1e6 / script_.rate_hz);
+    poses_.push_back(quantized({time, hip, trim}));
+  }
+
+  const StrokeScript& script_;
+  std::mt19937_64 random_;
+  glm::dvec2 at_;
+  Tremor radial_, vertical_, sideways_;
+  std::vector<Pose> poses_;
+};
+
+glm::dvec2 point_of(const nlohmann::json& value) {
+  return {value.at(0).get<double>(), value.at(1).get<double>()};
+}
+
+Stroke stroke_of(const nlohmann::json& value) {
+  Stroke stroke;
+  for (const auto& point : value.at("through_mm")) stroke.through_mm.push_back(point_of(point));
+  if (stroke.through_mm.size() < 2) throw std::invalid_argument("through_mm: expected two points at least");
+  stroke.speed_mm_s = value.value("speed_mm_s", stroke.speed_mm_s);
+  stroke.passes = value.value("passes", stroke.passes);
+  if (value.contains("step_mm")) stroke.step_mm = point_of(value.at("step_mm"));
+  stroke.hold_s = value.value("hold_s", stroke.hold_s);
+  stroke.trim = value.value("trim", stroke.trim);
+  return stroke;
+}
+
+}  // namespace
+
+Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name) {
+  try {
+    const auto json = nlohmann::json::parse(text);
+    StrokeScript script;
+    script.seed = json.value("seed", script.seed);
+    script.rate_hz = json.value("rate_hz", script.rate_hz);
+    script.tremor_mm = json.value("tremor_mm", script.tremor_mm);
+    script.travel_mm_s = json.value("travel_mm_s", script.travel_mm_s);
+    script.start_mm = point_of(json.at("start_mm"));
+    for (const auto& value : json.at("strokes")) script.strokes.push_back(stroke_of(value));
+    return script;
+  } catch (const std::exception& error) {
+    return failure(ErrorKind::bad_input, std::string(name) + ": " + error.what());
+  }
+}
+
+std::vector<Pose> play(const StrokeScript& script) {
+  Hand hand(script);
+  for (const Stroke& stroke : script.strokes) {
+    for (int pass = 0; pass < stroke.passes; ++pass) {
+      Path through = stroke.through_mm;
+      for (glm::dvec2& point : through) point += static_cast<double>(pass) * stroke.step_mm;
+      if (hand.at() != script.start_mm) hand.move({hand.at(), script.start_mm}, script.travel_mm_s, false);
+      hand.move({script.start_mm, through.front()}, script.travel_mm_s, false);
+      hand.move(spline(through), stroke.speed_mm_s, stroke.trim);
+      hand.hold(stroke.hold_s, stroke.trim);
+    }
+  }
+  return hand.take();
+}
+
+}  // namespace clay::samples

@@ -1,0 +1,52 @@
+#include "run_program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace clay::test {
+namespace {
+
+std::set<std::string> stages(const nlohmann::json& plan, const char* part) {
+  std::set<std::string> names;
+  for (const auto& line : plan.at(part)) names.insert(line.at("stage").get<std::string>());
+  return names;
+}
+
+constexpr const char* kSolidFrictionless = R"({
+  "schema": "claystack-scene-1",
+  "lump": {"rings": 200, "ring_height_mm": 0.5, "outer_radius_mm": 40},
+  "tool": {"shape": {"sphere": {"radius_mm": 10}}},
+  "force": {"stiffness_n_per_mm2": 0.02}
+})";
+
+TEST(Plan, LeavesOutWhatASolidFrictionlessSceneDoesNotNeed) {
+  const ScratchFolder folder;
+  write_text(folder.file("s.scene.json"), kSolidFrictionless);
+  const auto run = claystack("plan --json " + folder.file("s.scene.json"));
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto plan = run.json();
+  EXPECT_EQ(stages(plan, "left_out"), (std::set<std::string>{"inner surface", "friction", "stability"}));
+  EXPECT_EQ(stages(plan, "in"), (std::set<std::string>{"tool state", "contact", "removal", "outer surface", "growth", "force"}));
+  for (const auto& line : plan.at("left_out")) {
+    EXPECT_FALSE(line.at("why").get<std::string>().empty());
+    EXPECT_TRUE(line.at("saved_ns").is_number());
+  }
+}
+
+TEST(Plan, HasAllInForASceneThatNeedsAll) {
+  const ScratchFolder folder;
+  auto scene = nlohmann::json::parse(kSolidFrictionless);
+  scene["lump"]["inner_radius_mm"] = 20;
+  scene["force"]["friction"] = 0.2;
+  scene["stability"]["max_stress_kpa"] = 10;
+  write_text(folder.file("s.scene.json"), scene.dump());
+  EXPECT_TRUE(claystack("plan --json " + folder.file("s.scene.json")).json().at("left_out").empty());
+  scene.erase("force");
+  write_text(folder.file("s.scene.json"), scene.dump());
+  EXPECT_EQ(stages(claystack("plan --json " + folder.file("s.scene.json")).json(), "left_out"),
+            (std::set<std::string>{"force", "friction"}));
+}
+
+}  // namespace
+}  // namespace clay::test

@@ -1,0 +1,36 @@
+# cmake -DSOURCE=... -DWORK=... -P determinism.cmake: one session, two compilers, two levels of
+# optimisation: the pot files must be the same to the byte.
+
+function(run)
+  execute_process(COMMAND ${ARGV} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+set(hashes)
+foreach(compiler g++ clang++)
+  foreach(level O0 O2)
+    set(build ${WORK}/${compiler}-${level})
+    run(${CMAKE_COMMAND} -S ${SOURCE} -B ${build} -G Ninja
+      -DCMAKE_CXX_COMPILER=${compiler} -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-${level}
+      -DCLAYSTACK_EXPORT=OFF -DCLAYSTACK_APP=OFF -DCLAYSTACK_TESTS=OFF)
+    run(${CMAKE_COMMAND} --build ${build} --target replay_pot)
+    set(all "")
+    foreach(sample bowl vase bottle collapse)
+      foreach(model "" paper)
+        execute_process(
+          COMMAND ${build}/samples/replay_pot ${SOURCE}/samples/${sample}.scene.json
+                  ${SOURCE}/samples/${sample}.session ${model}
+          OUTPUT_VARIABLE pot COMMAND_ERROR_IS_FATAL ANY)
+        string(SHA256 hash "${pot}")
+        string(APPEND all "${sample} ${model} ${hash}\n")
+      endforeach()
+    endforeach()
+    message(STATUS "${compiler} -${level}\n${all}")
+    list(APPEND hashes "${all}")
+  endforeach()
+endforeach()
+
+list(REMOVE_DUPLICATES hashes)
+list(LENGTH hashes different)
+if(NOT different EQUAL 1)
+  message(FATAL_ERROR "the same sessions gave ${different} different sets of pots")
+endif()
