@@ -34,9 +34,9 @@ RayleighKernel::RayleighKernel(double sigma_mm, double reach_mm, double ring_hei
   double sum = 0.0;
   for (std::size_t j = 1; j <= length; ++j) {
     sum += relative_weight(static_cast<double>(j), exponent);
-    cumulative_[j] = static_cast<std::int64_t>(std::min(sum / total, 1.0) * kOne + 0.5);
+    // Summed in the order of `total`, so the last quotient is 1 and C_L1 is exactly 2^40.
+    cumulative_[j] = static_cast<std::int64_t>(sum / total * kOne + 0.5);
   }
-  if (length > 0) cumulative_.back() = std::int64_t{1} << kFractionBits;
 }
 
 double RayleighKernel::weight(std::size_t j) const noexcept {

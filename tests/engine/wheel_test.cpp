@@ -194,6 +194,8 @@ TEST(Wheel, CollapsesWhereANeckIsCutAndThenHoldsStill) {
   const Pot pot = wheel.pot();
   ASSERT_TRUE(pot.collapse);
   EXPECT_NEAR(static_cast<double>(pot.collapse->failed_ring), 10.0, 1.0);
+  EXPECT_EQ(pot.collapse->pivot_mm.y, 10.2);  // the HIP when it happened
+  EXPECT_GT(pot.collapse->pivot_mm.x, 2.0);
   EXPECT_GT(pot.collapse->stress_kpa, 2.0);
   EXPECT_GT(pot.collapse->angle_rad, 0.0);
   EXPECT_EQ(wheel.step({time + 1000, {10, 20, 0}, false}).flags, kCollapsed);

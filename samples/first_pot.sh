@@ -1,0 +1,21 @@
+#!/bin/sh
+# From a fresh Debian 12 to a file that prints: installs what the build needs, builds, throws
+# the sample bowl from its recorded session and exports it. Falcon and screen are not needed.
+set -eu
+cd "$(dirname "$0")/.."
+
+packages="g++ cmake ninja-build ccache libglm-dev libexpected-dev nlohmann-json3-dev libcli11-dev
+  libfmt-dev libcgal-dev libopenmesh-dev libdraco-dev libgtest-dev librapidcheck-dev"
+# shellcheck disable=SC2086  # a list of words
+sh samples/install_packages.sh $packages
+
+cmake --preset release
+cmake --build --preset release --target claystack
+
+claystack=build/release/app/claystack
+mkdir -p out
+$claystack throw samples/bowl.scene.json -o out/bowl.pot.json
+$claystack export out/bowl.pot.json out/bowl.stl out/bowl.obj out/bowl.drc out/bowl.svg
+for file in out/bowl.stl out/bowl.obj out/bowl.drc; do
+  $claystack check "$file"
+done
