@@ -1,0 +1,16 @@
+// Stands in for drc.cpp where the build leaves Draco out.
+
+#include "claystack/export/mesh_formats.hpp"
+#include "mesh_limits.hpp"
+
+namespace clay::solid {
+
+Result<std::string> encode_drc(const TriangleMesh&, const DracoSettings&) {
+  return failure(ErrorKind::bad_input, "cannot write .drc: this build has no Draco");
+}
+
+Result<TriangleMesh> decode_drc(std::string_view, std::string_view name) {
+  return bad_file(name, "cannot read .drc: this build has no Draco");
+}
+
+}  // namespace clay::solid

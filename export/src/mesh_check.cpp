@@ -1,0 +1,139 @@
+#include "claystack/export/mesh_check.hpp"
+
+#include "describe.hpp"
+#include "mesh_geometry.hpp"
+#include "mesh_topology.hpp"
+
+#include <cmath>
+#include <exception>
+#include <string>
+#include <string_view>
+
+namespace clay::solid {
+namespace {
+
+std::string numbered(std::string_view noun, const std::vector<std::uint32_t>& numbers) {
+  std::string text(noun);
+  if (numbers.size() > 1) text += "s";
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    text += (i == 0 ? " " : ", ") + std::to_string(numbers[i]);
+  return text;
+}
+
+/// The middle of the vertices at fault; where none are named, of the first triangle.
+std::string coordinates(const TriangleMesh& mesh, const Fault& fault) {
+  const Triangle& triangle = mesh.triangles[fault.triangles.front()];
+  const std::vector<std::uint32_t> corners(triangle.begin(), triangle.end());
+  const std::vector<std::uint32_t>& vertices = fault.vertices.empty() ? corners : fault.vertices;
+  glm::dvec3 middle{0.0};
+  for (const std::uint32_t v : vertices)
+    middle += mesh.points[v] / static_cast<double>(vertices.size());
+  return std::string("(") + in_mm(middle.x) + ", " + in_mm(middle.y) + ", " + in_mm(middle.z) + ") mm";
+}
+
+class Inspection {
+ public:
+  explicit Inspection(const TriangleMesh& mesh) : mesh_(mesh) {
+    report_.triangles = mesh.triangles.size();
+  }
+
+  MeshReport run() {
+    if (mesh_.triangles.empty() || mesh_.triangles.size() > kMaxTriangles) {
+      problem("mesh size", "expected 1 to " + std::to_string(kMaxTriangles) + " triangles, found " +
+                               std::to_string(mesh_.triangles.size()));
+      return std::move(report_);
+    }
+    const bool finite = check_points();
+    const MeshTopology topology = topology_of(mesh_.points.size(), mesh_.triangles);
+    if (topology.out_of_range.found()) {
+      problem("index out of range", numbered("triangle", topology.out_of_range.triangles),
+              topology.out_of_range.count);
+    } else {
+      check_topology(topology);
+      if (finite) check_geometry(topology);
+    }
+    return std::move(report_);
+  }
+
+ private:
+  bool check_points() {
+    Fault fault;
+    for (std::uint32_t v = 0; v < mesh_.points.size(); ++v) {
+      const glm::dvec3& p = mesh_.points[v];
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) note(fault, {}, {v});
+    }
+    if (fault.found()) problem("non-finite point", numbered("point", fault.vertices), fault.count);
+    return !fault.found();
+  }
+
+  void check_topology(const MeshTopology& topology) {
+    report_.closed = topology.closed();
+    report_.manifold = topology.manifold();
+    report_.oriented = topology.oriented();
+    report_.components = topology.components;
+    report_.degenerate = topology.collapsed.count;
+    problem("duplicate triangle", topology.duplicates);
+    problem("open edge", topology.open_edges);
+    problem("non-manifold edge", topology.crowded_edges);
+    problem("edge between faces of opposite orientation", topology.flipped_edges);
+    problem("non-manifold vertex", topology.split_vertices);
+  }
+
+  void check_geometry(const MeshTopology& topology) {
+    report_.volume_mm3 = signed_volume(mesh_);
+    const Fault degenerate = degenerate_triangles(mesh_);
+    report_.degenerate = degenerate.count;
+    problem("degenerate triangle", degenerate);
+    const bool shells = topology.manifold() && topology.oriented() && !topology.collapsed.found();
+    ShellGeometry geometry;
+    if (shells)
+      geometry = shell_geometry(mesh_, topology.closed(), degenerate.found());
+    else
+      geometry.self_intersections = soup_self_intersections(mesh_);
+    report_.self_intersections = geometry.self_intersections.count;
+    report_.bounds_volume = geometry.bounds_volume;
+    problem("self-intersection", geometry.self_intersections);
+    problem("shell turned against its neighbours", geometry.misplaced_shells);
+    if (topology.closed() && topology.oriented())
+      check_outward(shells && !degenerate.found() && !geometry.self_intersections.found()
+                        ? geometry.outward
+                        : report_.volume_mm3 > 0.0);
+  }
+
+  void check_outward(bool outward) {
+    report_.oriented = outward;
+    if (!outward)
+      problem("inside out", "normals point into the clay, volume " + in_mm(report_.volume_mm3) +
+                                " mm^3");
+  }
+
+  void problem(std::string what, std::string where, std::size_t count = 1) {
+    report_.problems.push_back({std::move(what), std::move(where), count});
+  }
+  void problem(std::string what, const Fault& fault) {
+    if (fault.found())
+      problem(std::move(what),
+              numbered("triangle", fault.triangles) + " at " + coordinates(mesh_, fault),
+              fault.count);
+  }
+
+  const TriangleMesh& mesh_;
+  MeshReport report_;
+};
+
+}  // namespace
+
+MeshReport check_mesh(const TriangleMesh& mesh) {
+  Inspection inspection(mesh);
+  try {
+    return inspection.run();
+  } catch (const std::exception& e) {
+    // A library gave up, or memory did: what has not been checked is not sound.
+    MeshReport report;
+    report.triangles = mesh.triangles.size();
+    report.problems.push_back({"check abandoned", e.what(), 1});
+    return report;
+  }
+}
+
+}  // namespace clay::solid

@@ -7,9 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
+#include <initializer_list>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <string>
+#include <utility>
 
 namespace clay::samples {
 namespace {
@@ -17,7 +21,9 @@ namespace {
 using Path = std::vector<glm::dvec2>;
 
 /// Uniform in [-1, 1).
-double noise(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0; }
+double noise(std::mt19937_64& random) {
+  return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0;
+}
 
 /// Band-limited noise of unit root mean square: a resonator at 9 Hz that white noise rings.
 class Tremor {
@@ -29,7 +35,8 @@ class Tremor {
     a1_ = 2.0 * radius * cosine;
     a2_ = -radius * radius;
     // Variance of a second-order recursion driven by variance 1/3.
-    const double variance = (1.0 - a2_) / ((1.0 + a2_) * ((1.0 - a2_) * (1.0 - a2_) - a1_ * a1_)) / 3.0;
+    const double variance =
+        (1.0 - a2_) / ((1.0 + a2_) * ((1.0 - a2_) * (1.0 - a2_) - a1_ * a1_)) / 3.0;
     gain_ = 1.0 / std::sqrt(variance);
   }
   double next(std::mt19937_64& random) {
@@ -72,8 +79,12 @@ Path spline(const Path& through) {
 class Hand {
  public:
   explicit Hand(const StrokeScript& script)
-      : script_(script), random_(script.seed), at_(script.start_mm), radial_(script.rate_hz),
-        vertical_(script.rate_hz), sideways_(script.rate_hz) {}
+      : script_(script),
+        random_(script.seed),
+        at_(script.start_mm),
+        radial_(script.rate_hz),
+        vertical_(script.rate_hz),
+        sideways_(script.rate_hz) {}
 
   /// Along a path in minimum-jerk time (Flash and Hogan, J. Neurosci. 5(7) 1985), whose
   /// greatest speed is 15/8 of the mean.
@@ -81,15 +92,18 @@ class Hand {
     std::vector<double> length{0.0};
     for (std::size_t k = 1; k < path.size(); ++k)
       length.push_back(length.back() + glm::distance(path[k - 1], path[k]));
-    const double speed = speed_mm_s * (1.0 + 0.1 * noise(random_));
-    const auto ticks = static_cast<int>(length.back() * 1.875 / speed * script_.rate_hz) + 1;
+    // No two strokes of a hand are equally fast.
+    const double speed = speed_mm_s * (0.95 + 0.05 * noise(random_));
+    const auto ticks =
+        static_cast<std::int64_t>(length.back() * 1.875 / speed * script_.rate_hz) + 1;
     std::size_t k = 0;
-    for (int n = 1; n <= ticks; ++n) {
-      const double u = static_cast<double>(n) / ticks;
+    for (std::int64_t n = 1; n <= ticks; ++n) {
+      const double u = static_cast<double>(n) / static_cast<double>(ticks);
       const double s = length.back() * u * u * u * (10.0 + u * (6.0 * u - 15.0));
       while (k + 2 < path.size() && length[k + 1] < s) ++k;
       const double piece = length[k + 1] - length[k];
-      emit(piece > 0.0 ? path[k] + (path[k + 1] - path[k]) * ((s - length[k]) / piece) : path[k], trim);
+      emit(piece > 0.0 ? path[k] + (path[k + 1] - path[k]) * ((s - length[k]) / piece) : path[k],
+           trim);
     }
   }
   void hold(double seconds, bool trim) {
@@ -105,7 +119,8 @@ class Hand {
     const double a = script_.tremor_mm;
     const glm::dvec3 hip(at.x + a * radial_.next(random_), at.y + a * vertical_.next(random_),
                          a * sideways_.next(random_));
-    const auto time = static_cast<std::int64_t>(static_cast<double>(poses_.size()) * 1e6 / script_.rate_hz);
+    const auto time =
+        static_cast<std::int64_t>(static_cast<double>(poses_.size()) * 1e6 / script_.rate_hz);
     poses_.push_back(quantized({time, hip, trim}));
   }
 
@@ -116,37 +131,145 @@ class Hand {
   std::vector<Pose> poses_;
 };
 
-glm::dvec2 point_of(const nlohmann::json& value) {
-  return {value.at(0).get<double>(), value.at(1).get<double>()};
+using Json = nlohmann::json;
+
+/// Why a script is refused; never leaves parse_strokes.
+struct Refusal {
+  std::string message;
+};
+
+[[noreturn]] void refuse(const std::string& place, const std::string& expected, const Json& found) {
+  const std::string what = found.is_object()  ? "an object"
+                           : found.is_array() ? "an array of " + std::to_string(found.size())
+                                              : found.dump();
+  throw Refusal{(place.empty() ? "" : place + ": ") + "expected " + expected + ", found " + what};
 }
 
-Stroke stroke_of(const nlohmann::json& value) {
-  Stroke stroke;
-  for (const auto& point : value.at("through_mm")) stroke.through_mm.push_back(point_of(point));
-  if (stroke.through_mm.size() < 2) throw std::invalid_argument("through_mm: expected two points at least");
-  stroke.speed_mm_s = value.value("speed_mm_s", stroke.speed_mm_s);
-  stroke.passes = value.value("passes", stroke.passes);
-  if (value.contains("step_mm")) stroke.step_mm = point_of(value.at("step_mm"));
-  stroke.hold_s = value.value("hold_s", stroke.hold_s);
-  stroke.trim = value.value("trim", stroke.trim);
-  return stroke;
+struct Range {
+  double low, high;
+};
+constexpr Range kPositionMm{-1000.0, 1000.0}, kSpeedMmS{1.0, 10000.0}, kRateHz{200.0, 10000.0},
+    kTremorMm{0.0, 10.0}, kHoldS{0.0, 60.0};
+struct IntegerRange {
+  std::uint64_t low, high;
+};
+constexpr IntegerRange kPasses{1, 100}, kSeed{0, std::numeric_limits<std::uint64_t>::max()};
+
+void read(const Json& json, const std::string& place, double& value, Range range) {
+  if (!json.is_number() || json < range.low || json > range.high)
+    refuse(place, "a number from " + Json(range.low).dump() + " to " + Json(range.high).dump(),
+           json);
+  value = json.get<double>();
+}
+
+template <std::integral Integer>
+void read(const Json& json, const std::string& place, Integer& value, IntegerRange range) {
+  // A negative integer is the only one that is not unsigned.
+  if (!json.is_number_unsigned() || json < range.low || json > range.high)
+    refuse(place,
+           "an integer from " + std::to_string(range.low) + " to " + std::to_string(range.high),
+           json);
+  value = json.get<Integer>();
+}
+
+void read(const Json& json, const std::string& place, bool& value) {
+  if (!json.is_boolean()) refuse(place, "true or false", json);
+  value = json.get<bool>();
+}
+
+void read(const Json& json, const std::string& place, glm::dvec2& value) {
+  if (!json.is_array() || json.size() != 2) refuse(place, "an array of 2 numbers", json);
+  for (int axis = 0; axis < 2; ++axis)
+    read(json[static_cast<std::size_t>(axis)], place + "[" + std::to_string(axis) + "]",
+         value[axis], kPositionMm);
+}
+
+void read(const Json& json, const std::string& place, Stroke& stroke);
+
+/// At least `fewest` elements, each read by the overload for its type.
+template <class T>
+void read(const Json& json, const std::string& place, std::vector<T>& values, std::size_t fewest) {
+  if (!json.is_array() || json.size() < fewest)
+    refuse(place, "an array of " + std::to_string(fewest) + " at least", json);
+  values.resize(json.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    read(json[i], place + "[" + std::to_string(i) + "]", values[i]);
+}
+
+/// The members of an object: all of `required`, and none that the calls have not named.
+class Members {
+ public:
+  Members(const Json& object, std::string place, std::initializer_list<const char*> required)
+      : object_(object), place_(std::move(place)) {
+    if (!object.is_object()) refuse(place_, "an object", object);
+    for (const char* name : required)
+      if (!object.contains(name)) throw Refusal{at(name) + ": expected a field, found none"};
+  }
+
+  /// A member that is absent leaves its value as it was.
+  template <class... Arguments>
+  Members& field(const char* name, Arguments&&... arguments) {
+    known_.emplace_back(name);
+    if (const auto found = object_.find(name); found != object_.end())
+      read(*found, at(name), std::forward<Arguments>(arguments)...);
+    return *this;
+  }
+
+  void refuse_others() const {
+    for (const auto& [name, value] : object_.items())
+      if (std::ranges::find(known_, name) == known_.end())
+        throw Refusal{at(name) + ": unknown field"};
+  }
+
+ private:
+  [[nodiscard]] std::string at(const std::string& name) const {
+    return place_.empty() ? name : place_ + "." + name;
+  }
+
+  const Json& object_;
+  std::string place_;
+  std::vector<std::string> known_;
+};
+
+void read(const Json& json, const std::string& place, Stroke& stroke) {
+  Members(json, place, {"through_mm"})
+      .field("through_mm", stroke.through_mm, std::size_t{2})
+      .field("speed_mm_s", stroke.speed_mm_s, kSpeedMmS)
+      .field("passes", stroke.passes, kPasses)
+      .field("step_mm", stroke.step_mm)
+      .field("hold_s", stroke.hold_s, kHoldS)
+      .field("trim", stroke.trim)
+      .refuse_others();
+  // A spline has no direction where it stands still.
+  if (std::ranges::adjacent_find(stroke.through_mm) != stroke.through_mm.end())
+    throw Refusal{place + ".through_mm: expected neighbours apart, found two equal"};
+}
+
+void read(const Json& json, StrokeScript& script) {
+  Members(json, "", {"start_mm", "strokes"})
+      .field("seed", script.seed, kSeed)
+      .field("rate_hz", script.rate_hz, kRateHz)
+      .field("tremor_mm", script.tremor_mm, kTremorMm)
+      .field("travel_mm_s", script.travel_mm_s, kSpeedMmS)
+      .field("start_mm", script.start_mm)
+      .field("strokes", script.strokes, std::size_t{1})
+      .refuse_others();
 }
 
 }  // namespace
 
 Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name) {
+  const auto refused = [&](const std::string& message) {
+    return failure(ErrorKind::bad_input, std::string(name) + ": " + message);
+  };
   try {
-    const auto json = nlohmann::json::parse(text);
     StrokeScript script;
-    script.seed = json.value("seed", script.seed);
-    script.rate_hz = json.value("rate_hz", script.rate_hz);
-    script.tremor_mm = json.value("tremor_mm", script.tremor_mm);
-    script.travel_mm_s = json.value("travel_mm_s", script.travel_mm_s);
-    script.start_mm = point_of(json.at("start_mm"));
-    for (const auto& value : json.at("strokes")) script.strokes.push_back(stroke_of(value));
+    read(Json::parse(text), script);
     return script;
-  } catch (const std::exception& error) {
-    return failure(ErrorKind::bad_input, std::string(name) + ": " + error.what());
+  } catch (const Refusal& refusal) {
+    return refused(refusal.message);
+  } catch (const Json::exception& error) {
+    return refused(error.what());
   }
 }
 
@@ -156,7 +279,8 @@ std::vector<Pose> play(const StrokeScript& script) {
     for (int pass = 0; pass < stroke.passes; ++pass) {
       Path through = stroke.through_mm;
       for (glm::dvec2& point : through) point += static_cast<double>(pass) * stroke.step_mm;
-      if (hand.at() != script.start_mm) hand.move({hand.at(), script.start_mm}, script.travel_mm_s, false);
+      if (hand.at() != script.start_mm)
+        hand.move({hand.at(), script.start_mm}, script.travel_mm_s, false);
       hand.move({script.start_mm, through.front()}, script.travel_mm_s, false);
       hand.move(spline(through), stroke.speed_mm_s, stroke.trim);
       hand.hold(stroke.hold_s, stroke.trim);

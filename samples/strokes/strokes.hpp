@@ -11,31 +11,35 @@
 
 namespace clay::samples {
 
-/// One stroke, repeated. The path is a Catmull-Rom spline through points (distance from the axis,
-/// height) in mm; pass k is shifted by k * step. Between passes the hand goes back to where it began,
-/// in straight lines: put that point clear of the clay.
+/// One stroke, repeated. The path is a smooth curve through points (distance from the axis, height)
+/// in mm; pass k is shifted by k * step. Before each pass the hand goes in straight lines to the
+/// script's start and on to the first point: both lines must be clear of the clay.
 struct Stroke {
-  std::vector<glm::dvec2> through_mm;
-  double speed_mm_s = 40.0;    ///< greatest speed along the path
+  std::vector<glm::dvec2> through_mm;  ///< two points at least, no neighbours equal
+  double speed_mm_s = 40.0;            ///< the hand is never faster, tremor apart
   int passes = 1;
   glm::dvec2 step_mm{0.0};
-  double hold_s = 0.0;         ///< rest at the end of each pass
-  bool trim = false;           ///< button pressed along the path
+  double hold_s = 0.0;                 ///< rest at the end of each pass
+  bool trim = false;                   ///< button pressed along the path
 };
 
 struct StrokeScript {
   std::uint64_t seed = 1;
   double rate_hz = 1000.0;
-  double tremor_mm = 0.05;     ///< root mean square, at about 9 Hz as in a human hand
-  double travel_mm_s = 150.0;  ///< greatest speed between strokes
+  double tremor_mm = 0.05;             ///< root mean square along each axis, at about 9 Hz
+  double travel_mm_s = 150.0;          ///< greatest speed between strokes
   glm::dvec2 start_mm{80.0, 100.0};
   std::vector<Stroke> strokes;
 };
 
+/// `*.strokes.json`: one object with the fields of StrokeScript, of which start_mm and strokes are
+/// required; in each stroke, through_mm. Errors read "NAME: strokes[2].speed_mm_s: what was expected,
+/// what was found"; unknown fields are errors.
 Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name);
 
 /// Poses in a vertical plane through the axis, at the script's rate, counted as in a session.
-/// The same bits on every platform: no libm, no distribution of the standard library.
+/// The same bits on every platform: no libm but the square root, no distribution of the standard
+/// library.
 std::vector<Pose> play(const StrokeScript& script);
 
 }  // namespace clay::samples

@@ -1,0 +1,187 @@
+#include "claystack/export/export_job.hpp"
+
+#include "export/shapes.hpp"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+#include <string>
+
+namespace clay::solid {
+namespace {
+
+using shapes::pot_of;
+using shapes::stack_of;
+
+std::vector<MeshFormat> every_format() {
+  std::vector<MeshFormat> formats{MeshFormat::stl_binary, MeshFormat::stl_ascii, MeshFormat::obj};
+#ifdef CLAYSTACK_DRACO
+  formats.push_back(MeshFormat::drc);
+#endif
+  return formats;
+}
+
+::testing::AssertionResult refused(const Result<ExportResult>& result, ErrorKind kind,
+                                   const std::string& because) {
+  if (result) return ::testing::AssertionFailure() << "was exported";
+  if (result.error().kind != kind || result.error().message.find(because) == std::string::npos)
+    return ::testing::AssertionFailure() << result.error().message;
+  return ::testing::AssertionSuccess();
+}
+
+TEST(RunExport, VaseInEveryFormat) {
+  const Pot pot = pot_of(shapes::vase(200));
+  const auto result = run_export(pot, every_format(), {});
+  ASSERT_TRUE(result) << result.error().message;
+  const ExportReport& report = result->report;
+  EXPECT_TRUE(report.mesh.sound());
+  EXPECT_EQ(report.mesh.components, 1u);
+  EXPECT_EQ(report.certificate.polygons, 1u);
+  EXPECT_EQ(report.shapes.at(0).topology, Topology::cup);
+  EXPECT_LE(report.chordal_error_mm, 0.02);
+  EXPECT_DOUBLE_EQ(report.counted_volume_mm3, pot.stack.volume_mm3());
+  EXPECT_LT(report.volume_error_relative, 1e-9);
+  ASSERT_EQ(result->files.size(), every_format().size());
+  for (std::size_t i = 0; i < result->files.size(); ++i) {
+    const EncodedMesh& file = result->files[i];
+    EXPECT_EQ(file.format, every_format()[i]);
+    const auto decoded = decode_mesh(file.bytes, file.format, "file");
+    ASSERT_TRUE(decoded) << decoded.error().message;
+    EXPECT_TRUE(check_mesh(*decoded).sound());
+    EXPECT_LE(file.max_error_mm, file.format == MeshFormat::drc ? 0.0201 : 2e-5);
+    EXPECT_GT(file.max_error_mm, 0.0);
+  }
+}
+
+TEST(RunExport, TellsItsStagesInOrder) {
+  std::vector<std::string> told;
+  const auto result = run_export(pot_of(shapes::vase(100)), {MeshFormat::obj}, {},
+                                 [&](std::string_view stage) { told.emplace_back(stage); });
+  ASSERT_TRUE(result);
+  EXPECT_EQ(told, (std::vector<std::string>{"profile", "certificate", "tessellate", "check",
+                                            "encode_obj", "verify_obj"}));
+  ASSERT_EQ(result->report.stages.size(), told.size());
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    EXPECT_EQ(result->report.stages[i].name, told[i]);
+    EXPECT_GE(result->report.stages[i].seconds, 0.0);
+  }
+}
+
+TEST(RunExport, TellsWhatItLeftOut) {
+  const auto result = run_export(pot_of(stack_of(5.0, {{20, 0}})), {MeshFormat::stl_binary}, {});
+  ASSERT_TRUE(result);
+  std::vector<std::string> out;
+  for (const LeftOut& item : result->report.left_out) out.push_back(item.what);
+  EXPECT_EQ(out, (std::vector<std::string>{"inner shell", "smoothing", "union", "stl_ascii", "obj", "drc"}));
+  const auto hollow = run_export(pot_of(shapes::vase(100)), {}, {});
+  EXPECT_EQ(hollow->report.left_out.front().what, "smoothing");
+}
+
+TEST(RunExport, SegmentsFollowTheToleranceUnlessForced) {
+  const Pot pot = pot_of(shapes::vase(100));
+  ExportOptions options;
+  options.tolerance_mm = 0.5;
+  const auto coarse = run_export(pot, {}, options);
+  options.tolerance_mm = 0.005;
+  const auto fine = run_export(pot, {}, options);
+  EXPECT_GT(fine->report.segments, 5 * coarse->report.segments);
+  EXPECT_LE(fine->report.chordal_error_mm, 0.005);
+  options.segments = 9;
+  EXPECT_EQ(run_export(pot, {}, options)->report.segments, 9u);
+}
+
+TEST(RunExport, RefusesOptionsThatCannotBeMet) {
+  const Pot pot = pot_of(shapes::vase(100));
+  ExportOptions options;
+  for (const double tolerance : {0.0, -1.0, std::nan("")}) {
+    options.tolerance_mm = tolerance;
+    EXPECT_TRUE(refused(run_export(pot, {}, options), ErrorKind::bad_input, "tolerance"));
+  }
+  options.tolerance_mm = 1e-9;
+  EXPECT_TRUE(refused(run_export(pot, {}, options), ErrorKind::bad_input, "tolerance: expected at least"));
+  options = {};
+  for (const std::size_t segments : {std::size_t{0}, std::size_t{2}, (std::size_t{1} << 20) + 1}) {
+    options.segments = segments;
+    EXPECT_TRUE(refused(run_export(pot, {}, options), ErrorKind::bad_input, "segments: expected 3"));
+  }
+  options.segments = std::size_t{1} << 20;
+  EXPECT_TRUE(refused(run_export(pot, {}, options), ErrorKind::bad_input, "triangles"));
+}
+
+TEST(RunExport, PiecesOnlyWhenAllowed) {
+  const Pot pot = pot_of(stack_of(2.0, {{10, 0}, {10, 0}, {30, 20}}));
+  EXPECT_TRUE(refused(run_export(pot, {}, {}), ErrorKind::unsound, "rings 1 and 2"));
+  ExportOptions options;
+  options.allow_pieces = true;
+  const auto result = run_export(pot, every_format(), options);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->report.mesh.components, 2u);
+}
+
+TEST(RunExport, CollapsedPotsAreRefused) {
+  Pot pot = pot_of(shapes::vase(100));
+  pot.collapse = Collapse{3, {40, 60, 0}, {0, 0, 1}, 1.0, 12.0};
+  EXPECT_TRUE(refused(run_export(pot, {}, {}), ErrorKind::unsound, "collapsed pot is not supported yet"));
+}
+
+TEST(RunExport, WallsLostInFloat32AreRefusedWithThePlace) {
+  // Half an ulp of float32 at 73 mm is 3.8e-6 mm; the doubles still tell the radii apart.
+  const Pot pot = pot_of(stack_of(5.0, {{73.0, 73.0 - 1e-6}}));
+  ASSERT_TRUE(certify(profile_of(pot.stack)->profile));
+  EXPECT_TRUE(refused(run_export(pot, {MeshFormat::stl_binary}, {}), ErrorKind::unsound, "in float32: found"));
+}
+
+TEST(RunExport, StepsBelowFloat32AreLevelledAndKeepTheVolume) {
+  // A tool's reach fades out: neighbouring rings differ by a few quanta, as in every real session.
+  const Quanta outer2 = quanta_from_radius(60.0), inner2 = quanta_from_radius(56.0);
+  std::vector<Ring> rings;
+  for (Quanta i = 0; i < 40; ++i)
+    rings.push_back({outer2 + (Quanta{1} << i), i < 2 ? 0 : inner2 - (Quanta{1} << (i / 2))});
+  const Pot pot = pot_of(ClayStack::from_rings(1.0, rings, 0).value());
+  const auto result = run_export(pot, every_format(), {});
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_LT(result->report.volume_error_relative, 1e-9);
+}
+
+TEST(RunExport, TouchingRingsAreRefused) {
+  EXPECT_TRUE(refused(run_export(pot_of(stack_of(2.0, {{5, 0}, {9, 5}})), {}, {}), ErrorKind::unsound,
+                      "rings 0 and 1"));
+}
+
+#ifdef CLAYSTACK_DRACO
+TEST(RunExport, DracoGetsTheBitsThatThinWallsNeed) {
+  // No edge is shorter than the grid of 0.5 mm that would do for the tolerance, but the neck
+  // between the two rings is.
+  ExportOptions options;
+  options.tolerance_mm = 0.5;
+  const Pot pot = pot_of(stack_of(9.0, {{40, 30}, {50, 39.99}}));
+  int attempts = 0;
+  const auto result = run_export(pot, {MeshFormat::drc}, options, [&](std::string_view stage) {
+    attempts += stage == "encode_drc" ? 1 : 0;
+  });
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_GT(attempts, 1);
+  EXPECT_TRUE(check_mesh(*decode_mesh(result->files[0].bytes, MeshFormat::drc, "pot")).sound());
+}
+#endif
+
+RC_GTEST_PROP(RunExport, WhatIsWrittenIsSoundOrRefused, (const ClayStack& stack)) {
+  ExportOptions options;
+  options.tolerance_mm = 0.3;
+  options.allow_pieces = true;
+  const auto result = run_export(pot_of(stack), every_format(), options);
+  if (!result) {
+    RC_ASSERT(result.error().kind == ErrorKind::unsound);
+    return;
+  }
+  RC_ASSERT(result->report.volume_error_relative * stack.volume_mm3() <=
+            shapes::volume_rounding(stack, 1e-6 * 20.0));
+  for (const EncodedMesh& file : result->files) {
+    const auto decoded = decode_mesh(file.bytes, file.format, "pot");
+    RC_ASSERT(decoded.has_value());
+    RC_ASSERT(check_mesh(*decoded).sound());
+  }
+}
+
+}  // namespace
+}  // namespace clay::solid

@@ -1,0 +1,259 @@
+#include "claystack/engine/pot_file.hpp"
+
+#include "engine/files/arbitrary.hpp"
+#include "engine/files/schema_check.hpp"
+#include "engine/files/text_edits.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+namespace clay {
+namespace {
+
+using test::Json;
+
+constexpr Quanta kMm2 = Quanta{1} << 36;
+
+/// Four rings and a ledger that balances.
+Pot small_pot() {
+  Pot pot;
+  pot.stack = ClayStack::from_rings(0.75,
+                                    {{100 * kMm2, 0},
+                                     {121 * kMm2, 81 * kMm2},
+                                     {144 * kMm2 + 1, 100 * kMm2},
+                                     {2 * kMm2, kMm2}},
+                                    17, 16)
+                  .value();
+  pot.ledger.added = 3;
+  pot.ledger.trimmed = 5 * kMm2;
+  pot.ledger.outside = 1;
+  pot.ledger.initial = pot.stack.volume() + pot.ledger.trimmed + 1 - 3;
+  pot.model = Model::paper;
+  pot.density_g_cm3 = 2.1;
+  return pot;
+}
+
+Pot collapsed_pot() {
+  Pot pot = small_pot();
+  pot.collapse = Collapse{2, {11.5, 2.25, -3.0}, {0.6, 0.0, -0.8}, 1.25, 12.5};
+  return pot;
+}
+
+Pot arbitrary_pot() {
+  Pot pot;
+  std::vector<Ring> rings(*rc::gen::inRange<std::size_t>(1, 40));
+  for (Ring& ring : rings) {
+    ring.outer2 = *rc::gen::inRange<Quanta>(quanta_from_radius(1e-3), quanta_from_radius(5000) + 1);
+    ring.inner2 =
+        *rc::gen::oneOf(rc::gen::just<Quanta>(0), rc::gen::inRange<Quanta>(0, ring.outer2));
+  }
+  const std::size_t count = rings.size();
+  const auto wide = [] {
+    return WideQuanta{*rc::gen::inRange<Quanta>(0, INT64_MAX)} *
+           *rc::gen::element<Quanta>(0, 1, 1'000'000'000);
+  };
+  pot.stack = ClayStack::from_rings(*test::number_in(1e-3, 1e3), std::move(rings), wide(),
+                                    *rc::gen::inRange<std::size_t>(count, kMaxRings + 1))
+                  .value();
+  pot.ledger.trimmed = wide();
+  pot.ledger.outside = wide();
+  pot.ledger.initial = pot.stack.volume() + pot.ledger.trimmed;
+  pot.ledger.added = pot.ledger.outside;
+  pot.model = *rc::gen::element(Model::conserving, Model::paper);
+  pot.density_g_cm3 = *test::number_in(0.1, 25);
+  pot.collapse = test::maybe<Collapse>([&] {
+    const double heading = *test::number_in(-3, 3);
+    const auto place = [] { return *test::number_in(-1e6, 1e6); };
+    return Collapse{*rc::gen::inRange<std::size_t>(0, count),
+                    {place(), place(), place()},
+                    {std::sin(heading), 0.0, std::cos(heading)},
+                    *test::number_in(0, std::numbers::pi),
+                    *test::number_in(0, 1e4)};
+  });
+  return pot;
+}
+
+void expect_error(std::string_view from, std::string_view to, const std::string& message) {
+  SCOPED_TRACE(to);
+  const std::string text = write_pot(collapsed_pot(), PotEncoding::json);
+  test::expect_refused(parse_pot(test::replaced(text, from, to), "p.json"),
+                       "p.json:" + std::to_string(test::line_of(text, from)) + ": " + message);
+}
+
+TEST(PotFile, WritesForPeopleToo) {
+  const Json file = Json::parse(write_pot(collapsed_pot(), PotEncoding::json));
+  EXPECT_EQ(file["schema"], "claystack-pot-1");
+  EXPECT_EQ(file["rings"]["outer2"], Json({100 * kMm2, 121 * kMm2, 144 * kMm2 + 1, 2 * kMm2}));
+  EXPECT_EQ(file["rings"]["inner2"], Json({Quanta{0}, 81 * kMm2, 100 * kMm2, kMm2}));
+  EXPECT_EQ(file["rings"]["outer_mm"], Json({10, 11, 12, 1.414214}));
+  EXPECT_EQ(file["rings"]["inner_mm"], Json({0, 9, 10, 1}));
+  EXPECT_EQ(file["crown"], "17");
+  EXPECT_EQ(file["ledger"]["trimmed"], "343597383680");
+  EXPECT_EQ(file["collapse"]["axis"], Json({0.6, 0, -0.8}));
+}
+
+RC_GTEST_PROP(PotFile, WhatIsWrittenReadsBackTheSame, ()) {
+  const Pot pot = arbitrary_pot();
+  for (const PotEncoding encoding : {PotEncoding::json, PotEncoding::cbor}) {
+    const std::string bytes = write_pot(pot, encoding);
+    const auto read = parse_pot(bytes, "written");
+    RC_ASSERT(read.has_value());
+    RC_ASSERT(*read == pot);
+    RC_ASSERT(write_pot(*read, encoding) == bytes);
+  }
+}
+
+RC_GTEST_PROP(PotFile, CborHoldsWhatJsonHoldsButTheRadii, ()) {
+  const Pot pot = arbitrary_pot();
+  Json file = Json::parse(write_pot(pot, PotEncoding::json));
+  file["rings"].erase("outer_mm");
+  file["rings"].erase("inner_mm");
+  RC_ASSERT(Json::from_cbor(write_pot(pot, PotEncoding::cbor)) == file);
+}
+
+TEST(PotFile, TwoHundredRingsFitIntoFourKilobytes) {
+  // No two radii equal, low bits in use, and clay trimmed: nothing to gain by luck.
+  std::vector<Ring> rings;
+  for (int i = 0; i < 200; ++i)
+    rings.push_back({quanta_from_radius(45.0 + 0.0123 * i), quanta_from_radius(40.0 + 0.0071 * i)});
+  Pot pot;
+  pot.stack = ClayStack::from_rings(0.75, std::move(rings), 123'456'789'012, 800).value();
+  pot.ledger.trimmed = pot.stack.volume() / 7;
+  pot.ledger.initial = pot.stack.volume() + pot.ledger.trimmed;
+  const std::string bytes = write_pot(pot, PotEncoding::cbor);
+  RecordProperty("bytes", static_cast<int>(bytes.size()));
+  EXPECT_LE(bytes.size(), 4000u);
+  pot.collapse = Collapse{100, {0.1, 0.2, 0.3}, {std::sin(1.0), 0.0, std::cos(1.0)}, 1.1, 9.9};
+  EXPECT_LE(write_pot(pot, PotEncoding::cbor).size(), 4096u);
+}
+
+TEST(PotFile, RefusesALedgerThatIsOneQuantumOut) {
+  Pot pot = small_pot();
+  pot.ledger.added += 1;
+  const std::string text = write_pot(pot, PotEncoding::json);
+  const std::string message =
+      "ledger: expected every quantum accounted for, found -1 too many (in the stack, trimmed and "
+      "outside, less initial and added)";
+  test::expect_refused(parse_pot(text, "p"),
+                       "p:" + std::to_string(test::line_of(text, "\"ledger\"")) + ": " + message);
+  test::expect_refused(parse_pot(write_pot(pot, PotEncoding::cbor), "p"), "p: " + message);
+}
+
+TEST(PotFile, ErrorsNameTheRingAndItsLine) {
+  expect_error("1.414214", "1.414",
+               "rings.outer_mm[3]: expected the radius that the count of ring "
+               "3 gives, 1.4142135623730951 mm, found 1.414");
+  expect_error("[10, 11, 12, 1.414214]", "[10, 11, 12]",
+               "rings.outer_mm: expected one radius for each of 4 rings, found an array of 3");
+  expect_error("[0, 9, 10, 1]", "[0, 9.00002, 10, 1]",
+               "rings.inner_mm[1]: expected the radius that the count of ring 1 gives, 9 mm, found "
+               "9.00002");
+  expect_error("[0, 5566277615616,", "[0, 8315056685056,",
+               "rings.inner2[1]: expected less than the outer count of the ring, found "
+               "8315056685056");
+  expect_error("[0, 5566277615616,", "[0,",
+               "rings.inner2: expected one count for each of 4 rings, found an array of 3");
+  expect_error("[6871947673600,", "[68718,",
+               "rings.outer2[0]: expected an integer from 68719 to 1717986918400000000, found "
+               "68718");
+  expect_error("[6871947673600,", "[6871947673600.0,",
+               "rings.outer2[0]: expected an integer from 68719 to 1717986918400000000, found "
+               "6871947673600.0");
+}
+
+TEST(PotFile, AcceptsRadiiThatAPersonRounded) {
+  const std::string text = write_pot(small_pot(), PotEncoding::json);
+  EXPECT_TRUE(parse_pot(test::replaced(text, "1.414214", "1.41421"), "rounded"));
+}
+
+TEST(PotFile, ErrorsNameTheLineOfEveryOtherField) {
+  expect_error("\"17\"", "17", "crown: expected a text of 1 to 30 decimal digits, found 17");
+  expect_error("\"17\"", "\"017\"",
+               "crown: expected a text of 1 to 30 decimal digits, found \"017\"");
+  expect_error("\"17\"", "\"-1\"",
+               "crown: expected a text of 1 to 30 decimal digits, found \"-1\"");
+  expect_error("\"17\"", "\"\"", "crown: expected a text of 1 to 30 decimal digits, found \"\"");
+  expect_error("\"17\"", "\"1000000000000000000000000000000\"",
+               "crown: expected a text of 1 to 30 decimal digits, found "
+               "\"1000000000000000000000000000000\"");
+  expect_error("\"max_rings\": 16", "\"max_rings\": 3",
+               "max_rings: expected at least the number of rings, 4, found 3");
+  expect_error("[0.6, 0, -0.8]", "[0.6, 0, -0.7]",
+               "collapse.axis: expected a horizontal axis of length 1, found an array of 3");
+  expect_error("[0.6, 0, -0.8]", "[0.6, 0.8, 0]",
+               "collapse.axis: expected a horizontal axis of length 1, found an array of 3");
+  expect_error("[0.6, 0, -0.8]", "[0.6, 0]",
+               "collapse.axis: expected an array of 3 numbers, found an array of 2");
+  expect_error(
+      "\"collapse\": {\n    \"failed_ring\": 2", "\"collapse\": {\n    \"failed_ring\": 4",
+      "collapse: expected a failed_ring below the number of rings, 4, found an object with "
+      "5 fields");
+  expect_error("\"density_g_cm3\": 2.1", "\"density_g_cm3\": 2.1, \"density\": 2",
+               "unknown field \"density\"; expected one of schema, written_by, model, "
+               "density_g_cm3, ring_height_mm, max_rings, quantum_mm2, rings, crown, ledger, "
+               "collapse");
+}
+
+TEST(PotFile, ErrorsInCborNameTheField) {
+  const std::string bytes = write_pot(small_pot(), PotEncoding::cbor);
+  test::expect_refused(parse_pot(test::replaced(bytes, "paper", "papal"), "p"),
+                       "p: model: expected one of conserving, paper, found \"papal\"");
+  test::expect_refused(parse_pot(test::replaced(bytes, "added", "addad"), "p"),
+                       "p: ledger: expected a field \"added\", found none; is \"addad\" meant?");
+}
+
+TEST(PotFile, RefusesWhatIsNoPot) {
+  EXPECT_FALSE(parse_pot("", "empty"));
+  EXPECT_FALSE(parse_pot("[]", "array"));
+  EXPECT_FALSE(parse_pot("\xa0", "empty map"));
+  EXPECT_FALSE(parse_pot(std::string(1'000'000, '\xbf'), "nested"));
+  EXPECT_FALSE(parse_pot("\xa1" + std::string(1'000'000, '\x7f'), "nested key"));
+  const std::string bytes = write_pot(small_pot(), PotEncoding::cbor);
+  for (std::size_t n = 0; n < bytes.size(); ++n) EXPECT_FALSE(parse_pot(bytes.substr(0, n), "cut"));
+  EXPECT_FALSE(parse_pot(bytes + '\0', "trailing"));
+}
+
+TEST(PotFile, NoFlippedBitOfCborGivesAPotThatDoesNotBalance) {
+  const std::string bytes = write_pot(collapsed_pot(), PotEncoding::cbor);
+  for (std::size_t at = 0; at < bytes.size(); ++at)
+    for (unsigned bit = 0; bit < 8; ++bit) {
+      std::string flipped = bytes;
+      flipped[at] = static_cast<char>(static_cast<unsigned char>(bytes[at]) ^ (1u << bit));
+      if (const auto pot = parse_pot(flipped, "flipped")) {
+        EXPECT_EQ(to_string(pot->ledger.imbalance(pot->stack.recount())), "0");
+      }
+    }
+}
+
+TEST(PotSchema, NamesTheFieldsThatAreWritten) {
+  const auto written =
+      test::member_paths(Json::parse(write_pot(collapsed_pot(), PotEncoding::json)));
+  const auto described = test::property_paths(test::load_schema("pot"));
+  EXPECT_EQ(std::set(written.begin(), written.end()), std::set(described.begin(), described.end()));
+}
+
+TEST(PotSchema, RefusesNothingButWhatTheReaderRefuses) {
+  const Json schema = test::load_schema("pot");
+  for (const Pot& pot : {small_pot(), collapsed_pot()}) {
+    const Json file = Json::parse(write_pot(pot, PotEncoding::json));
+    EXPECT_EQ(test::violation(schema, file), "");
+    for (const auto& [what, edited] : test::edits(schema, file)) {
+      const auto read = parse_pot(edited.dump(), "edited");
+      const bool conforms = test::violation(schema, edited).empty();
+      if (!conforms) {
+        EXPECT_FALSE(read) << what;
+      }
+      // Edited counts no longer agree with the ledger and the radii, nor indices with the stack.
+      if (conforms && !read) {
+        EXPECT_NE(what.find("imum"), std::string::npos) << what << ": " << read.error().message;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace clay

@@ -1,0 +1,284 @@
+#include "claystack/engine/session_file.hpp"
+
+#include "claystack/engine/scene_file.hpp"
+#include "engine/files/arbitrary.hpp"
+#include "engine/files/schema_check.hpp"
+#include "engine/files/text_edits.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace clay {
+namespace {
+
+using test::Json;
+
+constexpr double kQuantumMm = 1.0 / 65536.0;
+
+Pose pose_of(std::int64_t time_us, glm::dvec3 counts, bool trim = false) {
+  return {time_us, counts * kQuantumMm, trim};
+}
+
+/// A hand that wanders, with a button pressed now and then.
+std::vector<Pose> wandering(std::size_t count) {
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto t = static_cast<double>(i);
+    poses.push_back(quantized({static_cast<std::int64_t>(i * 1000 + i % 7),
+                               {60.0 - 0.01 * t, 40.0 + 20.0 * std::sin(0.01 * t), 0.0},
+                               i % 40 > 30}));
+  }
+  return poses;
+}
+
+std::string text_of(const std::vector<Pose>& poses) {
+  return write_session({"vase", 0x0123456789abcdef, poses, false});
+}
+
+bool is_prefix(const std::vector<Pose>& part, const std::vector<Pose>& whole) {
+  return part.size() <= whole.size() && std::equal(part.begin(), part.end(), whole.begin());
+}
+
+constexpr std::string_view kHeader =
+    R"({"schema":"claystack-session-1","written_by":"claystack 0.1.0","scene":"vase",)"
+    R"("scene_hash":"0123456789abcdef","position_quantum_mm":"2^-16"})"
+    "\n";
+// The checks are from a program in another language.
+constexpr std::string_view kThreePoses =
+    R"({"n":3,"t_us":1000,"dt_us":[1000,1500],"x":[65536,1,2],"y":-3,"z":[0,10,-10],)"
+    R"("trim":[0,0,1],"check":"dafff0894e3655ed"})"
+    "\n";
+constexpr std::string_view kOnePose =
+    R"({"n":1,"t_us":0,"x":0,"y":0,"z":0,"trim":1,"check":"21dbd703e6071224"})"
+    "\n";
+
+const std::vector<Pose> kThree = {pose_of(1000, {65536, -3, 0}), pose_of(2000, {65537, -3, 10}),
+                                  pose_of(3500, {65540, -3, 10}, true)};
+
+TEST(SessionFile, WritesWhatTheFormatSays) {
+  EXPECT_EQ(session_block(kThree), kThreePoses);
+  EXPECT_EQ(session_block(std::vector{pose_of(0, {0, 0, 0}, true)}), kOnePose);
+  EXPECT_EQ(session_block({}), "");
+  const Json header = Json::parse(session_header("vase", 0x0123456789abcdef));
+  EXPECT_EQ(header["written_by"].get<std::string>().substr(0, 10), "claystack ");
+  Json expected = Json::parse(kHeader);
+  expected["written_by"] = header["written_by"];
+  EXPECT_EQ(header.dump(), expected.dump());
+}
+
+TEST(SessionFile, ReadsWhatTheFormatSays) {
+  const auto session =
+      parse_session(std::string(kHeader).append(kOnePose).append(kThreePoses), "s.session");
+  ASSERT_TRUE(session) << session.error().message;
+  EXPECT_EQ(session->scene_name, "vase");
+  EXPECT_EQ(session->scene_hash, 0x0123456789abcdef);
+  EXPECT_FALSE(session->torn);
+  ASSERT_EQ(session->poses.size(), 4u);
+  EXPECT_EQ(session->poses[0], pose_of(0, {0, 0, 0}, true));
+  EXPECT_TRUE(std::equal(kThree.begin(), kThree.end(), session->poses.begin() + 1));
+}
+
+TEST(SessionFile, IsCompact) {
+  const std::size_t poses = 20'000;
+  EXPECT_LT(text_of(wandering(poses)).size(), 20 * poses);
+}
+
+RC_GTEST_PROP(SessionFile, WhatIsWrittenReadsBackTheSame, ()) {
+  Session session;
+  session.scene_name = *test::arbitrary_text();
+  session.scene_hash = *rc::gen::arbitrary<std::uint64_t>();
+  const auto count = *rc::gen::inRange<std::size_t>(0, 350);
+  const auto reach = *rc::gen::element(0.0, 1e-4, 1.0, 1e6);
+  const auto step_us = *rc::gen::element<std::int64_t>(2, 1000, std::int64_t{1} << 40);
+  std::int64_t time_us = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto coordinate = [&] { return *test::number_in(-reach, reach); };
+    session.poses.push_back(quantized(
+        {time_us, {coordinate(), coordinate(), coordinate()}, *rc::gen::arbitrary<bool>()}));
+    time_us += *rc::gen::inRange<std::int64_t>(1, step_us);
+  }
+  const auto read = parse_session(write_session(session), "written");
+  RC_ASSERT(read.has_value());
+  RC_ASSERT(read->scene_name == session.scene_name);
+  RC_ASSERT(read->scene_hash == session.scene_hash);
+  RC_ASSERT(read->poses == session.poses);
+  RC_ASSERT(!read->torn);
+}
+
+TEST(SessionFile, CutAnywhereGivesTheBlocksBeforeTheCut) {
+  const auto poses = wandering(250);
+  const std::string text = text_of(poses);
+  const auto header_end = text.find('\n') + 1;
+  for (std::size_t n = 0; n < text.size(); ++n) {
+    const auto session = parse_session(std::string_view(text).substr(0, n), "cut");
+    ASSERT_EQ(session.has_value(), n >= header_end) << n;
+    if (!session) continue;
+    const bool at_line_end = text[n - 1] == '\n';
+    EXPECT_EQ(session->torn, !at_line_end) << n;
+    EXPECT_EQ(session->poses.size(), n < text.size() ? session->poses.size() / 100 * 100 : 250u);
+    EXPECT_TRUE(is_prefix(session->poses, poses));
+  }
+}
+
+TEST(SessionFile, CutAndEndedByAnEditorIsTornToo) {
+  const auto poses = wandering(150);
+  const std::string text = text_of(poses);
+  const auto last_line = text.rfind('\n', text.size() - 2) + 1;
+  for (std::size_t n = last_line + 1; n < text.size() - 1; ++n) {
+    const auto session = parse_session(text.substr(0, n) + "\n", "cut");
+    ASSERT_TRUE(session) << n << session.error().message;
+    EXPECT_TRUE(session->torn);
+    EXPECT_EQ(session->poses.size(), 100u);
+  }
+}
+
+TEST(SessionFile, NoFlippedBitGivesOtherPoses) {
+  const auto poses = wandering(210);
+  const std::string text = text_of(poses);
+  const auto first_block = text.find('\n') + 1;
+  const auto last_block = text.rfind('\n', text.size() - 2) + 1;
+  for (std::size_t at = first_block; at < text.size(); ++at)
+    for (unsigned bit = 0; bit < 8; ++bit) {
+      std::string flipped = text;
+      flipped[at] = static_cast<char>(static_cast<unsigned char>(text[at]) ^ (1u << bit));
+      const auto session = parse_session(flipped, "flipped");
+      if (!session) continue;
+      // Only an end that seems cut off may be forgiven, and then the whole block is dropped.
+      EXPECT_GE(at, last_block) << "bit " << bit << " of byte " << at;
+      EXPECT_TRUE(session->torn);
+      EXPECT_EQ(session->poses.size(), 200u);
+      EXPECT_TRUE(is_prefix(session->poses, poses));
+    }
+}
+
+/// `from` becomes `to` in a session of a header and two blocks.
+void expect_error(std::string_view from, std::string_view to, std::size_t line,
+                  const std::string& message) {
+  SCOPED_TRACE(to);
+  const auto text = std::string(kHeader).append(kOnePose).append(kThreePoses);
+  test::expect_refused(parse_session(test::replaced(text, from, to), "s"),
+                       "s:" + std::to_string(line) + ": " + message);
+}
+
+TEST(SessionFile, ErrorsNameTheLineOfTheHeader) {
+  test::expect_refused(parse_session("", "s"),
+                       "s:1: expected a whole header line, found 0 bytes without a newline");
+  expect_error("session-1", "session-9", 1,
+               "schema: expected \"claystack-session-1\", found \"claystack-session-9\"");
+  expect_error("0123456789abcdef", "0123456789ABCDEF", 1,
+               "scene_hash: expected 16 lower-case hexadecimal digits, found \"0123456789ABCDEF\"");
+  expect_error("\"scene\":\"vase\",", "", 1, "expected a field \"scene\", found none");
+  expect_error("2^-16", "2^-17", 1, "position_quantum_mm: expected \"2^-16\", found \"2^-17\"");
+}
+
+TEST(SessionFile, ErrorsNameTheLineOfABlock) {
+  expect_error("\"n\":1", "\"n\":0", 2, "n: expected an integer from 1 to 100, found 0");
+  expect_error("\"n\":3", "\"n\":101", 3, "n: expected an integer from 1 to 100, found 101");
+  expect_error("\"n\":3", "\"n\":4", 3,
+               "dt_us: expected one integer or an array of 3, found an array of 2");
+  expect_error("\"dt_us\":[1000,1500],", "", 3, "expected a field \"dt_us\", found none");
+  expect_error("[1000,1500]", "[1000,0]", 3,
+               "dt_us[1]: expected an integer from 1 to 9007199254740992, found 0");
+  expect_error("[1000,1500]", "9007199254740992", 3,
+               "dt_us: expected times up to 9007199254740992, found later ones");
+  expect_error("[65536,1,2]", "[65536,1]", 3,
+               "x: expected one integer or an array of 3, found an array of 2");
+  expect_error("[65536,1,2]", "[65536000001,0,0]", 3,
+               "x: expected positions within 1e6 mm of the origin, found one beyond");
+  expect_error("[65536,1,2]", "[65536000000,1,0]", 3,
+               "x: expected positions within 1e6 mm of the origin, found one beyond");
+  expect_error("[65536,1,2]", "[65536,1,2.5]", 3,
+               "x[2]: expected an integer from -262144000000 to 262144000000, found 2.5");
+  expect_error("[0,0,1]", "[0,0,2]", 3, "trim[2]: expected an integer from 0 to 1, found 2");
+  expect_error("\"y\":-3", "\"y\":-4", 3,
+               "check: expected 02eb587a9fadcabc for these poses, found dafff0894e3655ed: the line "
+               "is damaged");
+  expect_error("\"y\":-3", "\"Y\":-3", 3, "expected a field \"y\", found none");
+  expect_error("\"y\":-3", "\"y\":-3,\"w\":1", 3,
+               "unknown field \"w\"; expected one of n, t_us, dt_us, x, y, z, trim, check");
+  expect_error("\"y\":-3", "\"y\":-3}", 3,
+               "syntax error while parsing value - unexpected ','; expected end of input");
+}
+
+TEST(SessionFile, RefusesTimesThatDoNotIncreaseFromBlockToBlock) {
+  const auto text = std::string(kHeader).append(kThreePoses).append(kOnePose);
+  test::expect_refused(parse_session(text, "s"), "s:3: t_us: expected a time after 3500, found 0");
+}
+
+TEST(Quantized, TakesTheNearestCount) {
+  EXPECT_EQ(quantized({5, {1.0, -2.5, 0.0}, true}), (Pose{5, {1.0, -2.5, 0.0}, true}));
+  const Pose near = quantized({0, {1.4 * kQuantumMm, -1.4 * kQuantumMm, 0.6 * kQuantumMm}, false});
+  EXPECT_EQ(near.position_mm, glm::dvec3(1, -1, 1) * kQuantumMm);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const Pose wild = quantized({0, {kInfinity, -1e300, std::nan("")}, false});
+  EXPECT_EQ(wild.position_mm, glm::dvec3(1e6, -1e6, 0));
+}
+
+RC_GTEST_PROP(Quantized, MovesByHalfAQuantumAtMostAndOnlyOnce, ()) {
+  const Pose pose{0, {*test::number_in(-1e6, 1e6), *test::number_in(-1, 1), 0.0}, false};
+  const Pose once = quantized(pose);
+  RC_ASSERT(std::abs(once.position_mm.x - pose.position_mm.x) <= kQuantumMm / 2);
+  RC_ASSERT(std::abs(once.position_mm.y - pose.position_mm.y) <= kQuantumMm / 2);
+  RC_ASSERT(quantized(once) == once);
+}
+
+std::uint64_t fnv1a(std::string_view text) {
+  std::uint64_t hash = 14695981039346656037u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  return hash;
+}
+
+TEST(SceneHash, IsThatOfTheTextWithoutItsVersion) {
+  ASSERT_EQ(fnv1a("foobar"), 0x85944171f73967e8u);  // the authors' test vector
+  const SceneSpec scene;
+  std::string text = write_scene(scene);
+  const auto stamp = text.find("  \"written_by\"");
+  ASSERT_NE(stamp, std::string::npos);
+  text.erase(stamp, text.find('\n', stamp) + 1 - stamp);
+  EXPECT_EQ(hash_of(scene), fnv1a(text));
+}
+
+RC_GTEST_PROP(SceneHash, TellsScenesApart, ()) {
+  const SceneSpec a = test::arbitrary_scene();
+  const SceneSpec b = test::arbitrary_scene();
+  RC_ASSERT((hash_of(a) == hash_of(b)) == (a == b));
+}
+
+TEST(SessionSchema, DescribesEveryLine) {
+  const Json schema = test::load_schema("session");
+  std::string text = text_of(wandering(201));
+  std::set<std::string> written;
+  for (std::size_t start = 0; start < text.size(); start = text.find('\n', start) + 1) {
+    const Json line = Json::parse(text.substr(start, text.find('\n', start) - start));
+    EXPECT_EQ(test::violation(schema, line), "");
+    const auto paths = test::member_paths(line);
+    written.insert(paths.begin(), paths.end());
+  }
+  std::set<std::string> described;
+  for (const char* kind : {"header", "block"})
+    for (const auto& path : test::property_paths(schema["$defs"][kind])) described.insert(path);
+  EXPECT_EQ(written, described);
+}
+
+TEST(SessionSchema, RefusesNothingButWhatTheReaderRefuses) {
+  const Json schema = test::load_schema("session");
+  const std::string block(kThreePoses);
+  for (const auto& [what, line] : test::edits(schema, Json::parse(kHeader))) {
+    const auto read = parse_session(line.dump() + "\n" + block, "edited");
+    EXPECT_EQ(read.has_value(), test::violation(schema, line).empty()) << what;
+  }
+  for (const auto& [what, line] : test::edits(schema, Json::parse(block))) {
+    // The reader refuses every other edit as well, for the checksum.
+    if (test::violation(schema, line).empty()) continue;
+    const auto read = parse_session(std::string(kHeader) + line.dump() + "\n", "edited");
+    ASSERT_FALSE(read) << what;
+    EXPECT_EQ(read.error().message.find("damaged"), std::string::npos) << what;
+  }
+}
+
+}  // namespace
+}  // namespace clay

@@ -19,6 +19,11 @@ Result<std::string> read_file(const std::filesystem::path& path,
 /// A file under construction: unnamed in the target's folder until `commit`, which syncs it,
 /// gives it its name in one step and syncs the folder. Destroyed before that, it leaves no trace.
 /// A symbolic link stays a link; the mode of an existing file is kept; the umask is respected.
+/// Where the file system has no unnamed files, a temporary name stands in for one.
+///
+/// Pipes and devices, and "-" for standard output, cannot be replaced: what is written goes
+/// straight to them. Errors name the file and the system's reason; after one, the file is
+/// discarded and every further call fails.
 class AtomicFile {
  public:
   static Result<AtomicFile> create(const std::filesystem::path& target);
@@ -31,10 +36,15 @@ class AtomicFile {
   Result<void> commit();
 
  private:
-  AtomicFile(std::filesystem::path target, int descriptor, std::filesystem::path temporary);
+  AtomicFile(std::filesystem::path target, int descriptor, std::filesystem::path temporary,
+             bool in_place);
+  Result<void> give_up(const std::string& what);
+  void discard() noexcept;
+
   std::filesystem::path target_;
-  int descriptor_ = -1;
+  int descriptor_ = -1;              ///< -1 once committed or discarded
   std::filesystem::path temporary_;  ///< empty while the file has no name
+  bool in_place_ = false;            ///< a pipe or a device
 };
 
 /// create, write, commit; "-" is standard output.

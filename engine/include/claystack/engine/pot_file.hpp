@@ -12,9 +12,10 @@ namespace clay {
 
 enum class PotEncoding { json, cbor };
 
-/// Takes JSON (first byte '{') or CBOR. Errors name line (JSON) or field (CBOR). The ledger
-/// must balance to the quantum, or the file is refused.
+/// Takes CBOR (first byte that of a map) or JSON. Errors name line (JSON) or field (CBOR). The
+/// ledger must balance to the quantum, or the file is refused.
 Result<Pot> parse_pot(std::string_view bytes, std::string_view name);
+/// Equal pots give equal bytes.
 std::string write_pot(const Pot& pot, PotEncoding encoding);
 
 }  // namespace clay

@@ -18,21 +18,23 @@ namespace clay {
 
 /// Positions in a session are counted: 2^-16 mm, far below any device's step. A recorder
 /// plays the pose it writes, not the one it measured, so that a replay gives the same bits.
+/// `quantized` takes the nearest count, at most 1e6 mm from the origin, and 0 for a NaN.
 inline constexpr double kPoseQuantaPerMm = 65536.0;
 [[nodiscard]] Pose quantized(Pose pose) noexcept;
 
 struct Session {
-  std::string scene_name;           ///< of the scene it was played on
-  std::uint64_t scene_hash = 0;     ///< hash_of(scene); 0 where unknown
-  std::vector<Pose> poses;          ///< quantised, times strictly increasing
-  bool torn = false;                ///< the last line was cut off, as by a killed recorder
+  std::string scene_name;        ///< of the scene it was played on
+  std::uint64_t scene_hash = 0;  ///< hash_of(scene); 0 where unknown
+  std::vector<Pose> poses;       ///< quantised, times strictly increasing
+  bool torn = false;             ///< the last line was cut off, as by a killed recorder
 };
 
 inline constexpr std::size_t kPosesPerBlock = 100;
 
 /// The header line, with its newline.
 std::string session_header(std::string_view scene_name, std::uint64_t scene_hash);
-/// One block line, with its newline. At most kPosesPerBlock poses, already quantised.
+/// One block line, with its newline. At most kPosesPerBlock poses, times from 0 to 2^53 us
+/// and strictly increasing. Nothing for no poses.
 std::string session_block(std::span<const Pose> poses);
 /// Header and all blocks.
 std::string write_session(const Session& session);
@@ -41,8 +43,8 @@ std::string write_session(const Session& session);
 /// dropped and reported in `torn`; a damaged line anywhere is an error.
 Result<Session> parse_session(std::string_view text, std::string_view name);
 
-/// FNV-1a over the text that write_scene gives: the scene whatever its layout on disk.
-
+/// FNV-1a over the text that write_scene gives, without its `written_by`: the scene whatever its
+/// layout on disk and the version that wrote it.
 [[nodiscard]] std::uint64_t hash_of(const SceneSpec& scene);
 
 }  // namespace clay

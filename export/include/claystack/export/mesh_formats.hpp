@@ -14,32 +14,54 @@ namespace clay::solid {
 
 enum class MeshFormat { stl_binary, stl_ascii, obj, drc };
 
-/// By the name's end: .stl (binary), .obj, .drc; anything else is an error that lists them.
+/// By the name's end, in either case: .stl (binary), .obj, .drc; anything else is an error
+/// that lists them.
 Result<MeshFormat> mesh_format_of(std::string_view path);
+/// As the enumerator is spelt.
 [[nodiscard]] std::string_view name_of(MeshFormat format) noexcept;
 
 /// What Draco's encoder may do to positions.
 struct DracoSettings {
-  double max_error_mm = 0.01;  ///< largest displacement of a vertex
-  int min_bits = 8;            ///< at least this many bits per coordinate
+  double max_error_mm = 0.01;  ///< largest displacement of a vertex, above 0
+  int min_bits = 8;            ///< at least this many bits per coordinate, 1 to 30
   int speed = 3;               ///< 0 (small) .. 10 (fast)
 };
 
-/// Coordinates go out as float32 in STL and OBJ: the text formats print the shortest
-/// digits that read back as the same float32. Draco gets them as float32 too.
+/// Coordinates go out as float32 without -0: the text formats print the shortest digits that
+/// read back as the same float32, and STL's normals are those of the corners as written (zero
+/// where these lie in a line). The mesh has coordinates within 1e6 mm, indices in range and at
+/// most 2^32 - 1 triangles. Of a name only one line is written, of at most 200 bytes.
 std::string encode_stl_binary(const TriangleMesh& mesh);
 std::string encode_stl_ascii(const TriangleMesh& mesh, std::string_view solid_name);
 std::string encode_obj(const TriangleMesh& mesh, std::string_view object_name);
+
+/// Edgebreaker, positions only, on the coarsest grid of at least `min_bits` that keeps the
+/// promise for every vertex, roundings included; the same bytes every time. Triangles and
+/// vertices come in an order of Draco's own, vertices where surfaces touch are split, and
+/// points of no triangle are left out. Errors: `bad_input` for settings out of range or an
+/// error that no 30 bits can keep (the least possible is named); `unsound` for a mesh that
+/// Draco would spoil (a triangle that uses a vertex twice, a coordinate or index out of range).
 Result<std::string> encode_drc(const TriangleMesh& mesh, const DracoSettings& settings);
 
-/// A mesh as a file states it, nothing repaired. STL corners are welded where their float32
-/// coordinates are equal (-0 equals 0). Positions are finite and |x| <= 1e6 mm; indices are in range.
-/// `name` begins every message: "NAME: facet 12: ...", "NAME:34: ...".
+/// A mesh as a file states it, nothing repaired: 1 to 20 million triangles, points of float32
+/// within 1e6 mm (-0 read as 0), indices in range. A file is at most 1 GiB. Errors are of kind
+/// `bad_input`, and `name` begins each: "NAME: facet 12: ...", "NAME:34: ..."; facets, faces
+/// and lines count from 1.
 Result<TriangleMesh> decode_mesh(std::string_view bytes, MeshFormat format, std::string_view name);
 
-/// STL files are told apart by their size, never by the word "solid".
+/// A file of exactly the size that its count asks for is binary, whatever its first word;
+/// anything else must be text, whole from "solid" to "endsolid". The solids of a text file make
+/// one mesh. Corners are welded where their float32 coordinates are equal. Normals are not
+/// trusted: binary ones and attributes are passed over, and text ones need only be finite.
 Result<TriangleMesh> decode_stl(std::string_view bytes, std::string_view name);
+
+/// v, vt, vn and f are read, polygons (up to 4096 corners) as fans; o, g, s, mtllib, usemtl, l,
+/// p and comments are passed over, and no other file is opened; any other statement is an error.
+/// Indices are kept: points that coincide stay apart.
 Result<TriangleMesh> decode_obj(std::string_view bytes, std::string_view name);
+
+/// Triangle meshes of Draco 2.2; point clouds are refused. The format has no checksum: a spoilt
+/// file may well decode to another mesh.
 Result<TriangleMesh> decode_drc(std::string_view bytes, std::string_view name);
 
 /// The mesh as float32 files hold it.

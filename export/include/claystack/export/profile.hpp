@@ -49,7 +49,11 @@ struct StackProfile {
 /// The steps of the stack as they are, crown included, with no point that three rings share
 /// in line. Rings whose annuli do not overlap end a piece; rings that touch in a circle only
 /// (outer radius of one = inner of the next) are an error, since no solid has such an edge.
-Result<StackProfile> profile_of(const ClayStack& stack);
+///
+/// Steps narrower than `min_step_mm` become one vertex between the two radii, where the clay
+/// that one side loses is what the other gains: R^2 averaged by the heights on both sides. The
+/// volume changes by less than pi H step^2 for a wall of height H. Steps onto the axis are kept.
+Result<StackProfile> profile_of(const ClayStack& stack, double min_step_mm = 0.0);
 
 /// Volume of the solid of revolution [mm^3], exact up to rounding (frusta).
 [[nodiscard]] double volume_of(const Profile& profile) noexcept;

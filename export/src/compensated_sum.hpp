@@ -1,0 +1,22 @@
+#pragma once
+#include <cmath>
+
+namespace clay::solid {
+
+/// Neumaier's summation: the error stays within an ulp or two of the sum however many terms there
+/// are, so that the volume of a mesh of millions of triangles can be held against counted clay.
+class CompensatedSum {
+ public:
+  void add(double term) noexcept {
+    const double next = sum_ + term;
+    lost_ += std::abs(sum_) >= std::abs(term) ? (sum_ - next) + term : (term - next) + sum_;
+    sum_ = next;
+  }
+  [[nodiscard]] double value() const noexcept { return sum_ + lost_; }
+
+ private:
+  double sum_ = 0.0;
+  double lost_ = 0.0;
+};
+
+}  // namespace clay::solid

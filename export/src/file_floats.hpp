@@ -1,0 +1,52 @@
+#pragma once
+// Coordinates as files hold them: float32, and never -0, because readers that compare
+// bytes take -0 and 0 for two places and see an open edge.
+
+#include <charconv>
+#include <glm/vec3.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace clay::solid {
+
+[[nodiscard]] inline glm::vec3 file_point(const glm::dvec3& point) noexcept {
+  return glm::vec3(point) + 0.0F;  // -0 + 0 is 0
+}
+
+[[nodiscard]] inline std::vector<glm::vec3> file_points(const std::vector<glm::dvec3>& points) {
+  std::vector<glm::vec3> rounded;
+  rounded.reserve(points.size());
+  for (const glm::dvec3& point : points) rounded.push_back(file_point(point));
+  return rounded;
+}
+
+/// In the fewest digits that read back as the same number, whatever the locale.
+template <class Number>
+void append_number(std::string& text, Number value) {
+  char digits[32];
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+
+/// "PREFIX x y z\n"
+inline void append_point_line(std::string& text, std::string_view prefix, const glm::vec3& point) {
+  text += prefix;
+  for (int axis = 0; axis < 3; ++axis) {
+    text += ' ';
+    append_number(text, point[axis]);
+  }
+  text += '\n';
+}
+
+/// A name that cannot end its line, continue it or grow it past what readers take.
+[[nodiscard]] inline std::string one_line(std::string_view name) {
+  constexpr std::size_t kLongestName = 200;
+  std::string line(name.substr(0, kLongestName));
+  for (char& c : line) {
+    const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
+    if (control || c == '\\') c = '_';
+  }
+  return line;
+}
+
+}  // namespace clay::solid

@@ -1,0 +1,37 @@
+#pragma once
+// What a mesh file may hold at most: every reader checks before it allocates.
+
+#include "claystack/engine/result.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace clay::solid {
+
+inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
+inline constexpr std::size_t kMaxFacets = 20'000'000;
+inline constexpr std::size_t kMaxPoints = 3 * kMaxFacets;  // when no facets share a corner
+inline constexpr float kMaxCoordinateMm = 1e6F;
+inline constexpr std::string_view kCoordinateRule = "a coordinate within +-1e6 mm";
+
+/// False for NaN too.
+[[nodiscard]] inline bool is_coordinate(float mm) noexcept {
+  return std::abs(mm) <= kMaxCoordinateMm;
+}
+
+/// "expected ..., found ..." when one of the three is no coordinate.
+[[nodiscard]] std::optional<std::string> find_bad_coordinate(const glm::vec3& point);
+
+/// "NAME: what", of kind bad_input.
+[[nodiscard]] tl::unexpected<Error> bad_file(std::string_view name, std::string_view what);
+
+[[nodiscard]] Result<void> check_file_size(std::string_view bytes, std::string_view name);
+
+/// No facets at all are refused too.
+[[nodiscard]] Result<void> check_facet_count(std::size_t facets, std::string_view name);
+
+}  // namespace clay::solid

@@ -1,0 +1,43 @@
+#pragma once
+// A page of SVG: elements in px, y down, in the colours of a drawing of clay.
+
+#include <glm/vec2.hpp>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace clay::solid {
+
+/// `number` with that many digits after the point, whatever the locale.
+[[nodiscard]] std::string fixed(double number, int digits);
+
+class SvgPage {
+ public:
+  /// With its own background, so that it reads on light and on dark.
+  SvgPage(glm::dvec2 size, std::string_view title);
+
+  /// Closed outlines. Styles are named in svg_page.cpp.
+  void fill(std::string_view style, const std::vector<std::vector<glm::dvec2>>& outlines);
+  void rectangle(std::string_view style, glm::dvec2 corner, glm::dvec2 size);
+  void line(std::string_view style, glm::dvec2 from, glm::dvec2 to);
+  /// A line with an arrow at each end.
+  void dimension(glm::dvec2 from, glm::dvec2 to);
+
+  enum class Anchor { start, middle, end };
+  void text(glm::dvec2 where, std::string_view words, Anchor anchor);
+  /// Reads upward, its middle at `where`.
+  void upright_text(glm::dvec2 where, std::string_view words);
+
+  /// The whole document; the page is spent.
+  [[nodiscard]] std::string finish();
+
+ private:
+  using Attributes = std::initializer_list<std::pair<std::string_view, std::string_view>>;
+  void element(std::string_view name, Attributes attributes, std::string_view content = {});
+
+  std::string svg_;
+};
+
+}  // namespace clay::solid

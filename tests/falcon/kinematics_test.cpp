@@ -1,0 +1,295 @@
+#include "claystack/falcon/kinematics.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+namespace clay::falcon {
+namespace {
+
+constexpr double kWorkspaceRadiusM = 0.048;
+constexpr double kPi = std::numbers::pi;
+const glm::dvec3 kAxes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+const Kinematics& any_device() {
+  static const Kinematics devices[] = {Kinematics(kLibnifalconGeometry),
+                                       Kinematics(kMartinHillierGeometry)};
+  return devices[*rc::gen::inRange(0, 2)];
+}
+
+double within(double low, double high) {
+  return low + (high - low) * *rc::gen::inRange(0, 1'000'001) / 1e6;
+}
+
+glm::dvec3 any_vector(double size) {
+  return {within(-size, size), within(-size, size), within(-size, size)};
+}
+
+glm::dvec3 anywhere_within(double radius) {
+  const glm::dvec3 v = any_vector(radius);
+  return Kinematics::kCentreM + v * std::min(1.0, radius / (glm::length(v) + 1e-12));
+}
+
+glm::dvec3 anywhere() { return anywhere_within(kWorkspaceRadiusM); }
+
+/// Change of the angles for a small displacement, by central differences: error of order 3.
+glm::dvec3 angle_change(const Kinematics& device, const glm::dvec3& at, const glm::dvec3& step) {
+  return (device.inverse(at + 0.5 * step).value() - device.inverse(at - 0.5 * step).value());
+}
+
+struct Chain {
+  double thigh, shin, parallelogram;
+};
+
+/// Where a leg ends, hip to grip, link by link.
+glm::dvec3 end_of(const Geometry& g, int leg, const Chain& t) {
+  const double phi = kLegDirectionsRad[leg];
+  const glm::dvec3 along(std::cos(phi), std::sin(phi), 0.0),
+      aside(-std::sin(phi), std::cos(phi), 0);
+  const auto in_plane = [&](double angle) {
+    return std::cos(angle) * along + std::sin(angle) * glm::dvec3(0, 0, 1);
+  };
+  return g.base_radial_m * along + g.base_lateral_m * aside + g.thigh_m * in_plane(t.thigh) +
+         g.shin_ends_m * in_plane(t.shin) +
+         g.shin_m *
+             (std::sin(t.parallelogram) * in_plane(t.shin) + std::cos(t.parallelogram) * aside) -
+         g.grip_radial_m * along - g.grip_lateral_m * aside;
+}
+
+RC_GTEST_PROP(ThighAngle, UndoesTheChainOfLinks, ()) {
+  const Geometry g = *rc::gen::element(0, 1) ? kLibnifalconGeometry : kMartinHillierGeometry;
+  const int leg = *rc::gen::inRange(0, 3);
+  const double thigh = within(-0.5, 1.8), elbow = within(0.2, 2.4);
+  const glm::dvec3 end = end_of(g, leg, {thigh, thigh + elbow, within(0.3, kPi - 0.3)});
+  const auto angle = Kinematics(g).thigh_angle(leg, end);
+  RC_ASSERT(angle.has_value());
+  RC_ASSERT(std::abs(std::remainder(*angle - thigh, 2 * kPi)) < 1e-9);
+}
+
+TEST(Inverse, NamesTheLegThatCannotReach) {
+  const Kinematics device(kLibnifalconGeometry);
+  const KinematicsError errors[] = {KinematicsError::top_leg_unreachable,
+                                    KinematicsError::right_leg_unreachable,
+                                    KinematicsError::left_leg_unreachable};
+  for (int leg = 0; leg < 3; ++leg) {
+    // Out and over to the other side: further than this leg stretches, and within the others'
+    // reach.
+    const double phi = kLegDirectionsRad[leg];
+    const glm::dvec3 far(-0.06 * std::cos(phi), -0.06 * std::sin(phi), 0.165);
+    EXPECT_FALSE(device.thigh_angle(leg, far));
+    EXPECT_EQ(device.inverse(far).error(), errors[leg]) << leg;
+    EXPECT_EQ(device.jacobian(far).error(), errors[leg]);
+    EXPECT_EQ(device.torques(far, {0, 0, 1}).error(), errors[leg]);
+  }
+}
+
+TEST(Inverse, RefusesWhatIsFarOrNoPlace) {
+  const Kinematics device(kLibnifalconGeometry);
+  const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
+  for (const double bad : {0.3, -0.3, nan, inf, -inf, 1e300})
+    for (const glm::dvec3& axis : kAxes)
+      EXPECT_FALSE(device.inverse(glm::mix(Kinematics::kCentreM, glm::dvec3(bad), axis))) << bad;
+}
+
+TEST(Forward, AtCountZeroStandsWhereTheTrianglesPutIt) {
+  // On the axis all legs are alike: the height is a sin t1 plus a cathetus of the shin.
+  const auto height = [](const Geometry& g) {
+    const double v = g.grip_lateral_m - g.base_lateral_m, u = g.grip_radial_m - g.base_radial_m;
+    const double shin = g.shin_ends_m + std::sqrt(g.shin_m * g.shin_m - v * v);
+    const double base = u - g.thigh_m * std::cos(g.zero_angle_rad);
+    return g.thigh_m * std::sin(g.zero_angle_rad) + std::sqrt(shin * shin - base * base);
+  };
+  EXPECT_NEAR(height(kLibnifalconGeometry), 0.1346, 5e-5);    // published for these sizes
+  EXPECT_NEAR(height(kMartinHillierGeometry), 0.1448, 5e-5);  // by the same triangles, on paper
+  for (const Geometry& g : {kLibnifalconGeometry, kMartinHillierGeometry}) {
+    const Kinematics device(g);
+    const glm::dvec3 position = device.forward(device.angles_of({0, 0, 0})).value();
+    EXPECT_LT(glm::distance(position, {0, 0, height(g)}), 1e-14);
+  }
+}
+
+RC_GTEST_PROP(Forward, UndoesInverseFromAColdStart, ()) {
+  const Kinematics& device = any_device();
+  const glm::dvec3 position = anywhere();
+  const auto found = device.forward(device.inverse(position).value());
+  RC_ASSERT(found.has_value());
+  RC_ASSERT(glm::distance(*found, position) < 1e-14);
+}
+
+RC_GTEST_PROP(Forward, UndoesInverseFromAnyStartInTheWorkspace, ()) {
+  const Kinematics& device = any_device();
+  const glm::dvec3 position = anywhere();
+  const auto found = device.forward(device.inverse(position).value(), anywhere());
+  RC_ASSERT(found.has_value());
+  RC_ASSERT(glm::distance(*found, position) < 1e-14);
+}
+
+// Far beyond what the arms allow, as encoders read before homing: a pose of these angles, or an
+// error. (Where a leg is almost straight its angle moves much for little.)
+RC_GTEST_PROP(Forward, NeverMakesUpAPose, ()) {
+  const Kinematics& device = any_device();
+  const auto counts = *rc::gen::container<LegCounts>(rc::gen::arbitrary<std::int16_t>());
+  const glm::dvec3 angles = device.angles_of(counts);
+  const auto found = device.forward(angles, anywhere_within(0.1));
+  if (!found) {
+    RC_ASSERT(found.error() == KinematicsError::not_converged);
+    return;
+  }
+  const auto back = device.inverse(*found);
+  RC_ASSERT(back.has_value());
+  for (int leg = 0; leg < 3; ++leg)
+    RC_ASSERT(std::abs(std::remainder((*back)[leg] - angles[leg], 2 * kPi)) < 1e-6);
+}
+
+TEST(Forward, ReportsAnglesOfNoPose) {
+  const Kinematics device(kLibnifalconGeometry);
+  const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
+  // With all thighs straight down the axis is to the inner side of each: no knee is outward.
+  for (const glm::dvec3& angles :
+       {glm::dvec3(-kPi / 2), glm::dvec3(nan, 0, 0), glm::dvec3(0, inf, 0)}) {
+    const auto found = device.forward(angles);
+    ASSERT_FALSE(found) << found->x << " " << found->y << " " << found->z;
+    EXPECT_EQ(found.error(), KinematicsError::not_converged);
+  }
+  EXPECT_FALSE(device.forward(glm::dvec3(0.6), glm::dvec3(nan)));
+  EXPECT_FALSE(device.forward(glm::dvec3(0.6), glm::dvec3(1.0)));
+}
+
+RC_GTEST_PROP(Kinematics, TurnsWithItsLegs, ()) {
+  const Kinematics& device = any_device();
+  const glm::dvec3 p = anywhere(), angles = device.inverse(p).value();
+  // A third of a turn clockwise takes each leg to the next.
+  const double c = -0.5, s = -std::sqrt(0.75);
+  const glm::dvec3 turned(c * p.x - s * p.y, s * p.x + c * p.y, p.z);
+  const glm::dvec3 expected(angles[2], angles[0], angles[1]);
+  RC_ASSERT(glm::distance(device.inverse(turned).value(), expected) < 1e-13);
+}
+
+RC_GTEST_PROP(Jacobian, IsTheSlopeOfTheAngles, ()) {
+  const Kinematics& device = any_device();
+  const glm::dvec3 position = anywhere();
+  const glm::dmat3 jacobian = device.jacobian(position).value();
+  const double step = 1e-5;
+  for (const glm::dvec3& axis : kAxes) {
+    const glm::dvec3 slope = angle_change(device, position, step * axis) / step;
+    RC_ASSERT(glm::distance(jacobian * axis, slope) < 1e-5 * glm::length(slope));
+  }
+}
+
+RC_GTEST_PROP(Torques, DoTheWorkOfTheForce, ()) {
+  const Kinematics& device = any_device();
+  const glm::dvec3 position = anywhere(), force = any_vector(8.0), step = any_vector(1e-5);
+  const glm::dvec3 torques = device.torques(position, force).value();
+  const double work = glm::dot(torques, angle_change(device, position, step));
+  RC_ASSERT(std::abs(work - glm::dot(force, step)) < 1e-11);
+}
+
+TEST(Torques, ReportALegWhoseShinsLieFlat) {
+  // A device made for it: on its axis at this height all shins are horizontal, and none can push
+  // along z.
+  Geometry g = kLibnifalconGeometry;
+  const double thigh = kPi / 4;
+  g.grip_lateral_m = g.base_lateral_m;
+  g.grip_radial_m = g.base_radial_m + g.thigh_m * std::cos(thigh) - g.shin_ends_m - g.shin_m;
+  const Kinematics device(g);
+  const glm::dvec3 position(0, 0, g.thigh_m * std::sin(thigh));
+  ASSERT_TRUE(device.jacobian(position));
+  EXPECT_EQ(device.torques(position, {0, 0, 1}).error(), KinematicsError::singular);
+  EXPECT_TRUE(device.torques(position + glm::dvec3(0, 0, 1e-3), {0, 0, 1}));
+}
+
+TEST(Encoder, HasTheResolutionOfWheelAndGear) {
+  const Kinematics device(kLibnifalconGeometry);
+  const glm::dvec3 one = device.angles_of({1, 1, 1}) - device.angles_of({0, 0, 0});
+  EXPECT_NEAR(one.x, 6.359e-4, 5e-8);
+  const glm::dvec3 turn = device.angles_of({9881, -9881, 0}) - device.angles_of({0, 0, 0});
+  EXPECT_NEAR(turn.x, 2 * kPi, one.x);
+  EXPECT_NEAR(turn.y, -2 * kPi, one.x);
+  EXPECT_EQ(turn.z, 0.0);
+}
+
+RC_GTEST_PROP(Encoder, CountsWhatItReads, ()) {
+  const Kinematics& device = any_device();
+  const auto counts = *rc::gen::container<LegCounts>(rc::gen::arbitrary<std::int16_t>());
+  const glm::dvec3 angles = device.angles_of(counts);
+  RC_ASSERT(device.counts_of(angles).value() == counts);
+  const glm::dvec3 off = any_vector(0.49 * 6.359e-4);
+  RC_ASSERT(device.counts_of(angles + off).value_or(counts) == counts);
+}
+
+TEST(Encoder, RefusesAnglesBeyondInt16) {
+  const Kinematics device(kMartinHillierGeometry);
+  EXPECT_TRUE(device.counts_of(device.angles_of({32767, -32768, 0})));
+  for (const double bad : {30.0, -30.0, 1e300, std::nan("")}) {
+    for (const glm::dvec3& axis : kAxes)
+      EXPECT_EQ(device.counts_of(glm::mix(glm::dvec3(0.0), glm::dvec3(bad), axis)).error(),
+                KinematicsError::beyond_encoder);
+  }
+}
+
+RC_GTEST_PROP(Encoder, CoversTheWorkspaceWithin1600Counts, ()) {
+  const Kinematics device(kLibnifalconGeometry);
+  const auto counts = device.inverse(anywhere()).and_then([&](const glm::dvec3& angles) {
+    return device.counts_of(angles);
+  });
+  for (const std::int16_t count : counts.value()) RC_ASSERT(std::abs(count) <= 1600);
+}
+
+TEST(MotorCounts, AreTheTorquesTurnedRound) {
+  const MotorCounts motors = motor_counts({0.1, -0.2, 0.00026}, 10000.0);
+  EXPECT_EQ(motors.counts, (LegCounts{-1000, 2000, -3}));
+  EXPECT_EQ(motors.rendered, 1.0);
+  EXPECT_EQ(motor_counts({1.9835e-5 * 7.62 * 100, 0, 0}).counts, (LegCounts{-100, 0, 0}));
+}
+
+RC_GTEST_PROP(MotorCounts, KeepTheDirectionWhenAMotorSaturates, ()) {
+  const glm::dvec3 torques = any_vector(5.0);
+  const double scale = 10000.0;
+  const MotorCounts motors = motor_counts(torques, scale);
+  const double peak = std::max({std::abs(torques.x), std::abs(torques.y), std::abs(torques.z)});
+  RC_ASSERT(std::abs(motors.rendered * std::max(1.0, peak * scale / 4095) - 1.0) < 1e-12);
+  for (int leg = 0; leg < 3; ++leg) {
+    const int count = motors.counts[static_cast<std::size_t>(leg)];
+    RC_ASSERT(std::abs(count) <= kMotorLimit);
+    RC_ASSERT(std::abs(count + motors.rendered * scale * torques[leg]) <= 0.5 + 1e-9);
+  }
+}
+
+TEST(MotorCounts, AreZeroForTorquesThatAreNotFinite) {
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1e308}) {
+    for (const glm::dvec3& axis : kAxes) {
+      const MotorCounts motors = motor_counts(glm::mix(glm::dvec3(0.1), glm::dvec3(bad), axis));
+      EXPECT_EQ(motors.counts, LegCounts{});
+      EXPECT_EQ(motors.rendered, 0.0);
+    }
+  }
+  EXPECT_EQ(motor_counts({0, 0, 0}).counts, LegCounts{});
+  EXPECT_EQ(motor_counts({0, 0, 0}).rendered, 1.0);
+}
+
+// The scale of the motors is chosen because it agrees with what Novint states: above 2 lbf.
+TEST(MotorCounts, GiveTheStatedForceInEveryDirection) {
+  const Kinematics device(kLibnifalconGeometry);
+  const auto most_newtons = [&](const glm::dvec3& direction) {
+    const double probe_n = 1000.0;
+    return probe_n *
+           motor_counts(device.torques({0, 0, 0.125}, probe_n * direction).value()).rendered;
+  };
+  double weakest = std::numeric_limits<double>::infinity();
+  for (double polar = 0.0; polar <= kPi; polar += 0.05)
+    for (double turn = 0.0; turn < 2 * kPi; turn += 0.05)
+      weakest =
+          std::min(weakest, most_newtons({std::sin(polar) * std::cos(turn),
+                                          std::sin(polar) * std::sin(turn), std::cos(polar)}));
+  EXPECT_NEAR(weakest, 9.2, 0.05);
+  EXPECT_NEAR(most_newtons({0, 0, 1}), 24.5, 0.05);
+}
+
+}  // namespace
+}  // namespace clay::falcon

@@ -1,0 +1,66 @@
+#pragma once
+// What a reader owes for any bytes at all, and files to begin from.
+
+#include "claystack/export/mesh_formats.hpp"
+#include "fuzz/sample_meshes.hpp"
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace clay::solid::samples {
+
+/// Nothing when the promise is kept: an error with a message that names the file, or a mesh
+/// of finite points within 1e6 mm and indices in range.
+inline std::optional<std::string> broken_promise(std::string_view bytes, MeshFormat format) {
+  const auto mesh = decode_mesh(bytes, format, "fuzzed");
+  if (!mesh) {
+    const bool named = mesh.error().message.starts_with("fuzzed:");
+    return named ? std::nullopt : std::optional("unnamed error: " + mesh.error().message);
+  }
+  if (mesh->triangles.empty()) return "a mesh of nothing";
+  for (const glm::dvec3& point : mesh->points) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(std::abs(point[axis]) <= 1e6)) return "a point out of range";
+    }
+  }
+  for (const auto& triangle : mesh->triangles) {
+    for (const std::uint32_t index : triangle) {
+      if (index >= mesh->points.size()) return "an index out of range";
+    }
+  }
+  return std::nullopt;
+}
+
+/// Small good files of a format: what mutation makes of them goes deeper than noise would.
+inline std::vector<std::string> good_files(MeshFormat format) {
+  std::vector<std::string> files;
+  for (const TriangleMesh& mesh : {tetrahedron(), torus(4, 3)}) {
+    switch (format) {
+      case MeshFormat::stl_binary:
+        files.push_back(encode_stl_binary(mesh));
+        break;
+      case MeshFormat::stl_ascii:
+        files.push_back(encode_stl_ascii(mesh, "pot"));
+        break;
+      case MeshFormat::obj:
+        files.push_back(encode_obj(mesh, "pot"));
+        break;
+      case MeshFormat::drc:
+        for (const int speed : {0, 5, 10}) {
+          files.push_back(encode_drc(mesh, {.speed = speed}).value_or(std::string()));
+        }
+        break;
+    }
+  }
+  if (format == MeshFormat::obj) {
+    files.emplace_back(
+        "v 0 0 0 1\nv 1 0 0 1 1 1\nv 0 1 0\nv 1 1 0\nvt 0 0\nvn 0 0 1\ng a\\\nb\n"
+        "s 1\nusemtl c\nmtllib d\nf 1/1/1 2/1/1 4/1/1 3/1/1\nf -1//-1 -2 -3/1\n");
+  }
+  return files;
+}
+
+}  // namespace clay::solid::samples

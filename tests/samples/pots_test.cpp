@@ -1,0 +1,143 @@
+// What the samples promise: sessions that their scripts play, and pots worth the name.
+
+#include "claystack/engine/atomic_file.hpp"
+#include "claystack/engine/scene_file.hpp"
+#include "claystack/engine/session_file.hpp"
+#include "claystack/engine/stack_measures.hpp"
+#include "claystack/engine/wheel.hpp"
+#include "strokes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace clay::samples {
+namespace {
+
+const std::string kFolder = CLAYSTACK_SAMPLES "/";
+
+template <class Parse>
+auto parse_file(const std::string& path, Parse parse) {
+  return read_file(path)
+      .and_then([&](const std::string& text) { return parse(text, path); })
+      .value();
+}
+
+SceneSpec scene_of(const std::string& sample) {
+  return parse_file(kFolder + sample + ".scene.json", parse_scene);
+}
+
+std::vector<Pose> poses_of(const std::string& sample) {
+  return play(parse_file(kFolder + "strokes/" + sample + ".strokes.json", parse_strokes));
+}
+
+/// A session played to its end.
+struct Played {
+  Wheel wheel;
+  std::size_t poses = 0;
+  std::size_t standing = 0;  ///< poses before the pot fell
+  std::uint32_t flags = 0;   ///< all that the ticks had to say
+};
+
+Played played(const std::string& sample, Model model) {
+  SceneSpec scene = scene_of(sample);
+  scene.model = model;
+  const auto poses = poses_of(sample);
+  Played result{Wheel::build(scene).value(), poses.size()};
+  for (const Pose& pose : poses) {
+    result.flags |= result.wheel.step(pose).flags;
+    if (!result.wheel.collapsed()) ++result.standing;
+  }
+  return result;
+}
+
+double floor_mm(const ClayStack& stack) {
+  const auto bored =
+      std::ranges::find_if(stack.rings(), [](const Ring& ring) { return ring.inner2 > 0; });
+  return static_cast<double>(bored - stack.rings().begin()) * stack.ring_height_mm();
+}
+
+class Sample : public testing::TestWithParam<const char*> {};
+
+TEST_P(Sample, SessionIsWhatItsScriptPlays) {
+  const std::string sample = GetParam();
+  const SceneSpec scene = scene_of(sample);
+  const auto session = read_file(kFolder + sample + ".session");
+  ASSERT_TRUE(session) << session.error().message;
+  // Not EXPECT_EQ: nobody wants to see a megabyte.
+  EXPECT_TRUE(*session == write_session({scene.name, hash_of(scene), poses_of(sample), false}));
+}
+
+TEST_P(Sample, LastsTenToFortySeconds) {
+  const auto poses = poses_of(GetParam());
+  EXPECT_GE(poses.back().time_us, 10'000'000);
+  EXPECT_LE(poses.back().time_us, 40'000'000);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Sample, testing::Values("bowl", "vase", "bottle", "collapse"),
+                         [](const auto& sample) { return std::string(sample.param); });
+
+class StandingPot : public testing::TestWithParam<std::tuple<const char*, Model>> {};
+
+TEST_P(StandingPot, IsSound) {
+  const auto [sample, model] = GetParam();
+  const Played play = played(sample, model);
+  const ClayStack& stack = play.wheel.stack();
+  EXPECT_FALSE(play.wheel.collapsed());
+  EXPECT_EQ(play.flags & (kRefused | kLongStep | kRingLimit), 0u);
+  EXPECT_EQ(play.wheel.ledger().imbalance(stack.volume()), 0);
+  EXPECT_GE(floor_mm(stack), 5.0);
+  EXPECT_LE(floor_mm(stack), 8.0);
+  EXPECT_GE(min_wall(stack).thickness_mm, 2.5);
+  // Open at the top, and thrown: taller than its lump by half at least.
+  EXPECT_GT(stack.rings().back().inner_mm(), 8.0);
+  EXPECT_GT(stack.size(), 300u);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, StandingPot,
+                         testing::Combine(testing::Values("bowl", "vase", "bottle"),
+                                          testing::Values(Model::conserving, Model::paper)),
+                         [](const auto& pot) {
+                           return std::get<0>(pot.param) +
+                                  std::string(std::get<1>(pot.param) == Model::paper ? "_paper"
+                                                                                     : "");
+                         });
+
+TEST(Vase, ItsFootIsTrimmed) {
+  EXPECT_GT(played("vase", Model::conserving).wheel.ledger().trimmed, 0);
+}
+
+TEST(Bottle, HasANeckNarrowerThanHalfItsBelly) {
+  const Played play = played("bottle", Model::conserving);
+  const auto rings = play.wheel.stack().rings();
+  const auto widest = [](std::span<const Ring> part) {
+    return std::ranges::max(part, {}, &Ring::outer2).outer_mm();
+  };
+  const auto neck = rings.last(rings.size() / 8);
+  EXPECT_LT(widest(neck), 0.55 * widest(rings.first(rings.size() / 2)));
+}
+
+class FallingPot : public testing::TestWithParam<Model> {};
+
+TEST_P(FallingPot, FailsAtItsWaistLateInTheSession) {
+  const Played play = played("collapse", GetParam());
+  const Pot pot = play.wheel.pot();
+  ASSERT_TRUE(pot.collapse);
+  EXPECT_GT(3 * play.standing, 2 * play.poses);
+  EXPECT_GT(pot.collapse->angle_rad, 0.5);
+  EXPECT_GT(pot.collapse->stress_kpa, scene_of("collapse").stability->max_stress_kpa);
+  EXPECT_GT(3 * pot.collapse->failed_ring, pot.stack.size());
+  EXPECT_LT(3 * pot.collapse->failed_ring, 2 * pot.stack.size());
+  EXPECT_EQ(pot.ledger.imbalance(pot.stack.volume()), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, FallingPot, testing::Values(Model::conserving, Model::paper),
+                         [](const auto& model) {
+                           return model.param == Model::paper ? "paper" : "conserving";
+                         });
+
+}  // namespace
+}  // namespace clay::samples
