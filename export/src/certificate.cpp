@@ -98,8 +98,10 @@ class UpwardSweep {
       for (const Edge& other : reached_)
         if (meet(other, edge)) return crossing(other, edge);
       if (!entered_[edge.piece] && inside_another(lower_end(edge)))
-        return unsound(edge.piece, "expected pieces beside each other, found this one inside "
-                                   "another at " + place(lower_end(edge)));
+        return unsound(edge.piece,
+                       "expected pieces beside each other, found this one inside "
+                       "another at " +
+                           place(lower_end(edge)));
       entered_[edge.piece] = true;
       reached_.push_back(edge);
     }
@@ -125,16 +127,10 @@ class UpwardSweep {
            after(first.vertex, profile_.pieces[first.piece].size()) == second.vertex;
   }
 
-  /// Consecutive edges share a vertex by right; more than that only when they fold back.
-  bool folds(const Edge& first, const Edge& second) const {
-    const Point a = exact(from(first)), b = exact(to(first)), c = exact(to(second));
-    return CGAL::orientation(a, b, c) == CGAL::COLLINEAR &&
-           !CGAL::collinear_are_strictly_ordered_along_line(a, b, c);
-  }
-
+  /// Consecutive edges share a vertex by right. Where they fold back onto each other, one of them
+  /// also meets the edge beyond, or there is none and the polygon is a triangle without a turn.
   bool meet(const Edge& a, const Edge& b) const {
-    if (follows(a, b)) return folds(a, b);
-    if (follows(b, a)) return folds(b, a);
+    if (follows(a, b) || follows(b, a)) return false;
     const auto [a_near, a_far] = std::minmax({from(a).rho, to(a).rho});
     const auto [b_near, b_far] = std::minmax({from(b).rho, to(b).rho});
     return a_near <= b_far && b_near <= a_far &&
@@ -146,9 +142,8 @@ class UpwardSweep {
   /// and the axis. Edges count without their lower end, so a vertex on the ray counts once.
   bool inside_another(const ProfilePoint& p) const {
     const auto left_of_p = [&](const Edge& edge) {
-      return edge.bottom < p.y &&
-             CGAL::orientation(exact(lower_end(edge)), exact(upper_end(edge)), exact(p)) ==
-                 CGAL::RIGHT_TURN;
+      return edge.bottom < p.y && CGAL::orientation(exact(lower_end(edge)), exact(upper_end(edge)),
+                                                    exact(p)) == CGAL::RIGHT_TURN;
     };
     return std::count_if(reached_.begin(), reached_.end(), left_of_p) % 2 == 1;
   }
@@ -161,21 +156,21 @@ class UpwardSweep {
   }
 
   const Profile& profile_;
-  std::vector<Edge> reached_;   ///< begun, and not ended below the edge in hand
-  std::vector<bool> entered_;   ///< by piece
+  std::vector<Edge> reached_;  ///< begun, and not ended below the edge in hand
+  std::vector<bool> entered_;  ///< by piece
 };
 
 /// For a simple polygon the turn at its least vertex tells.
 Result<void> check_counterclockwise(const Polygon& polygon, std::size_t piece) {
-  const auto least = std::min_element(polygon.begin(), polygon.end(), [](const auto& a, const auto& b) {
-    return a.rho != b.rho ? a.rho < b.rho : a.y < b.y;
-  });
+  const auto least = std::min_element(
+      polygon.begin(), polygon.end(),
+      [](const auto& a, const auto& b) { return a.rho != b.rho ? a.rho < b.rho : a.y < b.y; });
   const auto i = static_cast<std::size_t>(least - polygon.begin());
   if (CGAL::orientation(exact(polygon[before(i, polygon.size())]), exact(*least),
                         exact(polygon[after(i, polygon.size())])) == CGAL::LEFT_TURN)
     return {};
-  return unsound(piece, "expected vertices in counterclockwise order, found clockwise at " +
-                            place(*least));
+  return unsound(
+      piece, "expected vertices in counterclockwise order, found clockwise at " + place(*least));
 }
 
 }  // namespace
@@ -186,9 +181,8 @@ Result<PlanarCertificate> certify(const Profile& profile) {
   PlanarCertificate certificate;
   for (std::size_t piece = 0; piece < profile.pieces.size(); ++piece) {
     const Polygon& polygon = profile.pieces[piece];
-    const auto axis_segments = check_points(polygon, piece).and_then([&] {
-      return check_axis(polygon, piece);
-    });
+    const auto axis_segments =
+        check_points(polygon, piece).and_then([&] { return check_axis(polygon, piece); });
     if (!axis_segments) return tl::make_unexpected(axis_segments.error());
     certificate.axis_segments += *axis_segments;
     certificate.vertices += polygon.size();

@@ -12,8 +12,8 @@ namespace clay::solid {
 /// Nine significant digits: enough to tell two neighbouring float32 apart.
 inline std::string in_mm(double mm) {
   std::array<char, 32> digits{};
-  const auto end =
-      std::to_chars(digits.data(), digits.data() + digits.size(), mm, std::chars_format::general, 9);
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), mm,
+                                 std::chars_format::general, 9);
   return {digits.data(), end.ptr};
 }
 

@@ -70,9 +70,9 @@ Result<std::size_t> choose_segments(const Profile& profile, double radius, doubl
   if (options.segments) {
     segments = *options.segments;
     if (segments < kMinSegments || segments > kMaxSegments)
-      return failure(ErrorKind::bad_input,
-                     "segments: expected " + std::to_string(kMinSegments) + " to " +
-                         std::to_string(kMaxSegments) + ", found " + std::to_string(segments));
+      return failure(ErrorKind::bad_input, "segments: expected " + std::to_string(kMinSegments) +
+                                               " to " + std::to_string(kMaxSegments) + ", found " +
+                                               std::to_string(segments));
   } else {
     // The vertices stand out a little beyond the radius; the factor 2 covers that and more.
     const double rounding = std::ldexp(2.0 * std::hypot(radius, height_mm), -24);
@@ -82,15 +82,16 @@ Result<std::size_t> choose_segments(const Profile& profile, double radius, doubl
       return failure(ErrorKind::bad_input,
                      "tolerance: expected at least " +
                          in_mm(rounding + chordal_error_mm(radius, kMaxSegments)) +
-                         " mm for a pot of this size, found " + in_mm(options.tolerance_mm) + " mm");
+                         " mm for a pot of this size, found " + in_mm(options.tolerance_mm) +
+                         " mm");
   }
   const std::size_t triangles = triangle_count(profile, segments);
   if (triangles > kMaxTriangles)
-    return failure(ErrorKind::bad_input,
-                   "expected a mesh of at most " + std::to_string(kMaxTriangles) +
-                       " triangles, found that " + std::to_string(segments) +
-                       " segments make " + std::to_string(triangles) +
-                       "; ask for a larger tolerance or fewer segments");
+    return failure(ErrorKind::bad_input, "expected a mesh of at most " +
+                                             std::to_string(kMaxTriangles) +
+                                             " triangles, found that " + std::to_string(segments) +
+                                             " segments make " + std::to_string(triangles) +
+                                             "; ask for a larger tolerance or fewer segments");
   return segments;
 }
 
@@ -135,7 +136,9 @@ class ExportJob {
  public:
   ExportJob(const ClayStack& stack, const std::vector<MeshFormat>& formats,
             const ExportOptions& options, const std::function<void(std::string_view)>& progress)
-      : stack_(stack), formats_(formats), options_(options),
+      : stack_(stack),
+        formats_(formats),
+        options_(options),
         stages_(result_.report.stages, progress) {}
 
   Result<ExportResult> run() {
@@ -200,9 +203,12 @@ class ExportJob {
   Result<EncodedMesh> write_exact(MeshFormat format) {
     return write(format, float_rounding_mm(mesh_), [&]() -> Result<std::string> {
       switch (format) {
-        case MeshFormat::stl_ascii: return encode_stl_ascii(mesh_, options_.name);
-        case MeshFormat::obj: return encode_obj(mesh_, options_.name);
-        default: return encode_stl_binary(mesh_);
+        case MeshFormat::stl_ascii:
+          return encode_stl_ascii(mesh_, options_.name);
+        case MeshFormat::obj:
+          return encode_obj(mesh_, options_.name);
+        default:
+          return encode_stl_binary(mesh_);
       }
     });
   }
@@ -217,8 +223,8 @@ class ExportJob {
     Result<EncodedMesh> file;
     for (int bits = least_draco_bits(mesh_); bits <= kMaxDracoBits; bits += kDracoBitsStep) {
       settings.min_bits = bits;
-      file = write(MeshFormat::drc, allowed + rounding,
-                   [&] { return encode_drc(mesh_, settings); });
+      file =
+          write(MeshFormat::drc, allowed + rounding, [&] { return encode_drc(mesh_, settings); });
       if (file || file.error().kind != ErrorKind::unsound) break;
     }
     return file;

@@ -28,7 +28,8 @@ std::string coordinates(const TriangleMesh& mesh, const Fault& fault) {
   glm::dvec3 middle{0.0};
   for (const std::uint32_t v : vertices)
     middle += mesh.points[v] / static_cast<double>(vertices.size());
-  return std::string("(") + in_mm(middle.x) + ", " + in_mm(middle.y) + ", " + in_mm(middle.z) + ") mm";
+  return std::string("(") + in_mm(middle.x) + ", " + in_mm(middle.y) + ", " + in_mm(middle.z) +
+         ") mm";
 }
 
 class Inspection {
@@ -103,8 +104,8 @@ class Inspection {
   void check_outward(bool outward) {
     report_.oriented = outward;
     if (!outward)
-      problem("inside out", "normals point into the clay, volume " + in_mm(report_.volume_mm3) +
-                                " mm^3");
+      problem("inside out",
+              "normals point into the clay, volume " + in_mm(report_.volume_mm3) + " mm^3");
   }
 
   void problem(std::string what, std::string where, std::size_t count = 1) {

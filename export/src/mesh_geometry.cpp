@@ -1,8 +1,8 @@
 #include "mesh_geometry.hpp"
 
-#include <CGAL/boost/graph/graph_traits_TriMesh_ArrayKernelT.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/boost/graph/graph_traits_TriMesh_ArrayKernelT.h>
 #include <OpenMesh/Core/Mesh/DefaultTriMesh.hh>
 #include <algorithm>
 #include <boost/iterator/function_output_iterator.hpp>
@@ -51,7 +51,8 @@ Fault self_intersections(const HalfEdgeMesh& mesh) {
 }
 
 Fault misplaced_shells(const HalfEdgeMesh& mesh) {
-  boost::vector_property_map<std::size_t, boost::property_map<HalfEdgeMesh, boost::face_index_t>::const_type>
+  boost::vector_property_map<std::size_t,
+                             boost::property_map<HalfEdgeMesh, boost::face_index_t>::const_type>
       volume_of_face(get(boost::face_index, mesh));
   std::vector<pmp::Volume_error_code> verdicts;
   pmp::volume_connected_components(

@@ -18,8 +18,8 @@ Fault soup_self_intersections(const TriangleMesh& mesh);
 struct ShellGeometry {
   Fault self_intersections;
   /// The rest only where the mesh is closed, crosses itself nowhere and has no degenerate triangle.
-  bool outward = false;        ///< the outermost shell's normals point away from what it encloses
-  Fault misplaced_shells;      ///< turned against the shells around or beside them
+  bool outward = false;    ///< the outermost shell's normals point away from what it encloses
+  Fault misplaced_shells;  ///< turned against the shells around or beside them
   bool bounds_volume = false;
 };
 

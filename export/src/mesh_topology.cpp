@@ -34,7 +34,7 @@ class DisjointSets {
 /// A side of a triangle, filed under the lower vertex of its edge. Sides are numbered
 /// 3 * triangle + corner, from that corner to the next.
 struct Side {
-  std::uint32_t high = 0;       ///< the other vertex of the edge
+  std::uint32_t high = 0;  ///< the other vertex of the edge
   std::uint32_t number = 0;
   friend auto operator<=>(const Side&, const Side&) = default;
 };
@@ -76,7 +76,9 @@ class SidesByVertex {
 class TopologyCount {
  public:
   TopologyCount(std::size_t points, std::span<const Triangle> triangles)
-      : points_(points), triangles_(triangles), fans_(3 * triangles.size()),
+      : points_(points),
+        triangles_(triangles),
+        fans_(3 * triangles.size()),
         shells_(triangles.size()) {}
 
   MeshTopology run() {

@@ -61,8 +61,9 @@ Body body_of(const ClayStack& stack, RingRange rings) {
 
 /// Turns a body about the pivot, in the plane through the pot's axis across the turning axis.
 void turn(Body& body, const Collapse& collapse) {
-  const glm::dvec2 pivot{collapse.pivot_mm.x * collapse.axis.z - collapse.pivot_mm.z * collapse.axis.x,
-                         collapse.pivot_mm.y};
+  const glm::dvec2 pivot{
+      collapse.pivot_mm.x * collapse.axis.z - collapse.pivot_mm.z * collapse.axis.x,
+      collapse.pivot_mm.y};
   const double c = std::cos(collapse.angle_rad), s = std::sin(collapse.angle_rad);
   const auto turn_outline = [&](Outline& outline) {
     for (glm::dvec2& p : outline) {
@@ -195,17 +196,16 @@ class Drawing {
   }
 
   Extent extent_;
-  double scale_;      ///< px per mm
-  glm::dvec2 size_;   ///< px
+  double scale_;     ///< px per mm
+  glm::dvec2 size_;  ///< px
   SvgPage page_;
 };
 
 /// Where the pot is widest: the lowest such ring.
 glm::dvec2 widest_point(const ClayStack& stack) {
   const auto rings = stack.rings();
-  const auto widest = std::max_element(rings.begin(), rings.end(), [](const Ring& a, const Ring& b) {
-    return a.outer2 < b.outer2;
-  });
+  const auto widest = std::max_element(
+      rings.begin(), rings.end(), [](const Ring& a, const Ring& b) { return a.outer2 < b.outer2; });
   const auto ring = static_cast<std::size_t>(widest - rings.begin());
   return {widest->outer_mm(), level_mm(stack, ring + 1)};
 }

@@ -40,7 +40,8 @@ Polygon wall_of(const ClayStack& stack, RingRange piece, Radius radius_of, doubl
   for (std::size_t i = 1; i < runs.size(); ++i) {
     const Run &lower = runs[i - 1], &upper = runs[i];
     // A step onto the axis stays: without it the wall would meet the axis in a point.
-    if (std::abs(upper.radius - lower.radius) < min_step_mm && std::min(lower.radius, upper.radius) > 0.0) {
+    if (std::abs(upper.radius - lower.radius) < min_step_mm &&
+        std::min(lower.radius, upper.radius) > 0.0) {
       wall.push_back({levelled_radius(lower, upper), lower.top});
     } else {
       wall.push_back({lower.radius, lower.top});

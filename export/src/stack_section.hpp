@@ -31,8 +31,7 @@ enum class Contact { annulus, circle, none };
 
 /// The whole section of a piece, counterclockwise: its outer wall up, its bore or the axis down.
 /// Steps narrower than `min_step_mm` are levelled as `profile_of` says.
-[[nodiscard]] Polygon section_of(const ClayStack& stack, RingRange piece,
-                                 double min_step_mm = 0.0);
+[[nodiscard]] Polygon section_of(const ClayStack& stack, RingRange piece, double min_step_mm = 0.0);
 
 /// A stretch of a section that sweeps one shell: from pole to pole where edges on the axis cut
 /// the polygon, all round where it never meets the axis.

@@ -18,7 +18,7 @@ double equal_area_factor(std::size_t segments) {
 }
 
 /// Direction `s` of `n`. Folded into an eighth of a turn by integers first, so that the polygon
-/// is symmetric to the last bit and the directions along the axes are exact.
+/// is symmetric to the last bit and the directions along the axes are exact, without a -0.
 glm::dvec2 direction(std::size_t s, std::size_t n) {
   std::size_t eighths = 8 * s;  // of a step: a full turn is 8 n of them
   const bool below = eighths > 4 * n;
@@ -30,8 +30,8 @@ glm::dvec2 direction(std::size_t s, std::size_t n) {
   const double angle =
       std::numbers::pi / 4.0 * (static_cast<double>(eighths) / static_cast<double>(n));
   // On the diagonal the sine and cosine of the library may differ by an ulp.
-  glm::dvec2 d = eighths == n ? glm::dvec2{std::sqrt(0.5)}
-                              : glm::dvec2{std::cos(angle), std::sin(angle)};
+  glm::dvec2 d =
+      eighths == n ? glm::dvec2{std::sqrt(0.5)} : glm::dvec2{std::cos(angle), std::sin(angle)};
   if (steep) std::swap(d.x, d.y);
   if (behind) d.x = -d.x;
   if (below) d.y = -d.y;
@@ -84,12 +84,12 @@ class Revolution {
 
   Parallel add_parallel(const ProfilePoint& p) {
     const Parallel parallel{static_cast<std::uint32_t>(mesh_.points.size()), p.rho == 0.0};
-    // Adding +0 turns -0 into +0 and leaves every other number as it is.
+    const double height = p.y + 0.0;  // turns -0 into +0
     if (parallel.pole)
-      mesh_.points.emplace_back(0.0, 0.0, p.y + 0.0);
+      mesh_.points.emplace_back(0.0, 0.0, height);
     else
       for (const glm::dvec2& d : circle_)
-        mesh_.points.emplace_back(p.rho * d.x + 0.0, p.rho * d.y + 0.0, p.y + 0.0);
+        mesh_.points.emplace_back(p.rho * d.x, p.rho * d.y, height);
     return parallel;
   }
 
@@ -125,7 +125,8 @@ TriangleMesh revolve(const Profile& profile, std::size_t segments) {
 double chordal_error_mm(double radius_mm, std::size_t segments) noexcept {
   const double factor = equal_area_factor(segments);
   const double at_vertices = factor - 1.0;
-  const double at_mid_edges = 1.0 - factor * std::cos(std::numbers::pi / static_cast<double>(segments));
+  const double at_mid_edges =
+      1.0 - factor * std::cos(std::numbers::pi / static_cast<double>(segments));
   return radius_mm * std::max(at_vertices, at_mid_edges);
 }
 

@@ -43,7 +43,8 @@ Result<double> verify_file(std::string_view bytes, MeshFormat format, const Tria
     return wrong("expected " + std::to_string(mesh.triangles.size()) + " triangles, found " +
                  std::to_string(decoded->triangles.size()));
   const bool reordered = format == MeshFormat::drc;
-  const double moved = reordered ? vertex_distance(mesh, *decoded) : corner_distance(mesh, *decoded);
+  const double moved =
+      reordered ? vertex_distance(mesh, *decoded) : corner_distance(mesh, *decoded);
   if (moved > allowed_mm)
     return wrong("expected vertices within " + in_mm(allowed_mm) + " mm of their places, found " +
                  in_mm(moved) + " mm");

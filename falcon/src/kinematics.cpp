@@ -38,18 +38,16 @@ tl::unexpected<KinematicsError> failed(KinematicsError error) { return tl::make_
 /// The grip's joint in a leg's own frame [m].
 struct LegPoint {
   double u, v, w;
-  double across;  // b sin t3: how far the parallelogram spans in the leg's plane
+  double across;  // b sin t3: what the parallelogram spans in the leg's plane; NaN out of its reach
 };
 
-std::optional<LegPoint> in_leg_frame(const Geometry& g, const glm::dvec2& direction,
-                                     const glm::dvec3& position) noexcept {
+LegPoint in_leg_frame(const Geometry& g, const glm::dvec2& direction,
+                      const glm::dvec3& position) noexcept {
   const double along = direction.x * position.x + direction.y * position.y;
   const double aside = direction.x * position.y - direction.y * position.x;
   const double u = along - g.base_radial_m + g.grip_radial_m;
   const double v = aside - g.base_lateral_m + g.grip_lateral_m;
-  const double across_squared = squared(g.shin_m) - squared(v);
-  if (!(across_squared > 0.0)) return std::nullopt;
-  return LegPoint{u, v, position.z, std::sqrt(across_squared)};
+  return {u, v, position.z, std::sqrt(squared(g.shin_m) - squared(v))};
 }
 
 /// What lies between the knees of thighs at given angles and the grip at a given place, a column
@@ -60,29 +58,28 @@ struct Shins {
   glm::dvec3 levers_m{0.0};   // a sin(t2 - t1): of a force along the shin, about the hip
 };
 
-std::optional<Shins> shins_between(const Geometry& g, const glm::dmat3x2& directions,
-                                   const glm::dvec3& angles, const glm::dvec3& position) noexcept {
+Shins shins_between(const Geometry& g, const glm::dmat3x2& directions, const glm::dvec3& angles,
+                    const glm::dvec3& position) noexcept {
   Shins shins;
   for (int leg = 0; leg < kLegs; ++leg) {
     const glm::dvec2& direction = directions[leg];
-    const auto point = in_leg_frame(g, direction, position);
-    if (!point) return std::nullopt;
+    const LegPoint point = in_leg_frame(g, direction, position);
     const glm::dvec2 thigh = g.thigh_m * glm::dvec2(std::cos(angles[leg]), std::sin(angles[leg]));
-    const glm::dvec2 way = glm::dvec2(point->u, point->w) - thigh;
+    const glm::dvec2 way = glm::dvec2(point.u, point.w) - thigh;
     const double length = glm::length(way);
-    const double du = way.x / length, dv = point->v / point->across, dw = way.y / length;
+    const double du = way.x / length, dv = point.v / point.across, dw = way.y / length;
     shins.gradients[leg] = {direction.x * du - direction.y * dv,
                             direction.y * du + direction.x * dv, dw};
-    shins.gaps_m[leg] = length - g.shin_ends_m - point->across;
+    shins.gaps_m[leg] = length - g.shin_ends_m - point.across;
     shins.levers_m[leg] = thigh.x * dw - thigh.y * du;
   }
   return shins;
 }
 
-/// Inverse of a matrix whose columns belong to the legs; nothing when they lie in one plane.
+/// Inverse of a matrix whose columns belong to the legs; nothing when they lie in one plane or
+/// are not finite.
 std::optional<glm::dmat3> inverse_of(const glm::dmat3& columns) noexcept {
   const double box = glm::length(columns[0]) * glm::length(columns[1]) * glm::length(columns[2]);
-  // Written so that NaN is refused.
   if (!(std::abs(glm::determinant(columns)) > kFlat * box)) return std::nullopt;
   return glm::inverse(columns);
 }
@@ -96,14 +93,13 @@ Kinematics::Kinematics(const Geometry& geometry) noexcept : geometry_(geometry) 
 
 std::optional<double> Kinematics::thigh_angle(int leg,
                                               const glm::dvec3& position_m) const noexcept {
-  const auto point = in_leg_frame(geometry_, directions_[leg], position_m);
-  if (!point) return std::nullopt;
+  const LegPoint point = in_leg_frame(geometry_, directions_[leg], position_m);
   // Hip, knee and grip make a triangle: the law of cosines.
-  const double thigh = geometry_.thigh_m, shin = geometry_.shin_ends_m + point->across;
-  const double reach = std::hypot(point->u, point->w);
+  const double thigh = geometry_.thigh_m, shin = geometry_.shin_ends_m + point.across;
+  const double reach = std::hypot(point.u, point.w);
   const double cosine = (squared(reach) + squared(thigh) - squared(shin)) / (2.0 * thigh * reach);
-  if (!(std::abs(cosine) < 1.0)) return std::nullopt;
-  return std::atan2(point->w, point->u) - std::acos(cosine);
+  if (!(point.across > 0.0 && std::abs(cosine) < 1.0)) return std::nullopt;
+  return std::atan2(point.w, point.u) - std::acos(cosine);
 }
 
 Solved<glm::dvec3> Kinematics::inverse(const glm::dvec3& position_m) const noexcept {
@@ -123,16 +119,15 @@ Solved<glm::dvec3> Kinematics::forward(const glm::dvec3& angles_rad,
                                        const glm::dvec3& start_m) const noexcept {
   glm::dvec3 position = start_m;
   for (int steps = 0; steps < kMaxSteps; ++steps) {
-    const auto shins = shins_between(geometry_, directions_, angles_rad, position);
-    if (!shins) break;
-    const auto inverse = inverse_of(shins->gradients);
+    const Shins shins = shins_between(geometry_, directions_, angles_rad, position);
+    const auto inverse = inverse_of(shins.gradients);
     if (!inverse) break;
     // A vector times the inverse solves the transposed system: Newton's has the gradients as rows.
-    const glm::dvec3 step = shins->gaps_m * *inverse;
+    const glm::dvec3 step = shins.gaps_m * *inverse;
     const double length = glm::length(step);
     position -= std::min(1.0, kLongestStepM / length) * step;
     if (length > kLastStepM) continue;
-    if (!glm::all(glm::greaterThan(shins->levers_m, glm::dvec3(0.0)))) break;
+    if (!glm::all(glm::greaterThan(shins.levers_m, glm::dvec3(0.0)))) break;
     return position;
   }
   return failed(KinematicsError::not_converged);
@@ -140,9 +135,9 @@ Solved<glm::dvec3> Kinematics::forward(const glm::dvec3& angles_rad,
 
 Solved<glm::dmat3> Kinematics::jacobian(const glm::dvec3& position_m) const noexcept {
   return inverse(position_m).map([&](const glm::dvec3& angles) {
-    const auto shins = shins_between(geometry_, directions_, angles, position_m);
-    glm::dmat3 rows = shins->gradients;
-    for (int leg = 0; leg < kLegs; ++leg) rows[leg] /= shins->levers_m[leg];
+    const Shins shins = shins_between(geometry_, directions_, angles, position_m);
+    glm::dmat3 rows = shins.gradients;
+    for (int leg = 0; leg < kLegs; ++leg) rows[leg] /= shins.levers_m[leg];
     return glm::transpose(rows);
   });
 }

@@ -116,9 +116,11 @@ class Hand {
  private:
   void emit(glm::dvec2 at, bool trim) {
     at_ = at;
-    const double a = script_.tremor_mm;
-    const glm::dvec3 hip(at.x + a * radial_.next(random_), at.y + a * vertical_.next(random_),
-                         a * sideways_.next(random_));
+    // One after another: compilers differ in the order in which they evaluate arguments.
+    glm::dvec3 hip(at, 0.0);
+    hip.x += script_.tremor_mm * radial_.next(random_);
+    hip.y += script_.tremor_mm * vertical_.next(random_);
+    hip.z += script_.tremor_mm * sideways_.next(random_);
     const auto time =
         static_cast<std::int64_t>(static_cast<double>(poses_.size()) * 1e6 / script_.rate_hz);
     poses_.push_back(quantized({time, hip, trim}));

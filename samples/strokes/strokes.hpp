@@ -19,22 +19,22 @@ struct Stroke {
   double speed_mm_s = 40.0;            ///< the hand is never faster, tremor apart
   int passes = 1;
   glm::dvec2 step_mm{0.0};
-  double hold_s = 0.0;                 ///< rest at the end of each pass
-  bool trim = false;                   ///< button pressed along the path
+  double hold_s = 0.0;  ///< rest at the end of each pass
+  bool trim = false;    ///< button pressed along the path
 };
 
 struct StrokeScript {
   std::uint64_t seed = 1;
   double rate_hz = 1000.0;
-  double tremor_mm = 0.05;             ///< root mean square along each axis, at about 9 Hz
-  double travel_mm_s = 150.0;          ///< greatest speed between strokes
+  double tremor_mm = 0.05;     ///< root mean square along each axis, at about 9 Hz
+  double travel_mm_s = 150.0;  ///< greatest speed between strokes
   glm::dvec2 start_mm{80.0, 100.0};
   std::vector<Stroke> strokes;
 };
 
 /// `*.strokes.json`: one object with the fields of StrokeScript, of which start_mm and strokes are
-/// required; in each stroke, through_mm. Errors read "NAME: strokes[2].speed_mm_s: what was expected,
-/// what was found"; unknown fields are errors.
+/// required; in each stroke, through_mm. Errors read "NAME: strokes[2].speed_mm_s: what was
+/// expected, what was found"; unknown fields are errors.
 Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name);
 
 /// Poses in a vertical plane through the axis, at the script's rate, counted as in a session.

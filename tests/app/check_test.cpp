@@ -27,7 +27,7 @@ class CheckMesh : public testing::Test {
   }
   nlohmann::json expect_problem(const std::string& name, const std::string& bytes, int status, const std::string& says) {
     write_text(folder.file(name), bytes);
-    const Run run = claystack("check --json " + folder.file(name));
+    const Ran run = claystack("check --json " + folder.file(name));
     EXPECT_EQ(run.status, status) << name << run.out << run.err;
     const auto json = run.json();
     EXPECT_FALSE(json.at("sound")) << name;
@@ -122,7 +122,7 @@ TEST(CheckPot, MeasuresTheWall) {
   const auto thrown = claystack("throw --json " + sample("bowl.scene.json") + " -o " + pot).json();
   const double wall = thrown.at("min_wall_mm");
   EXPECT_EQ(claystack("check " + pot + " --min-wall " + std::to_string(wall - 0.01)).status, 0);
-  const Run thin = claystack("check --json " + pot + " --min-wall " + std::to_string(wall + 0.01));
+  const Ran thin = claystack("check --json " + pot + " --min-wall " + std::to_string(wall + 0.01));
   EXPECT_EQ(thin.status, 1);
   EXPECT_EQ(thin.json().at("problems").at(0).at("what"), "thin wall");
 }
@@ -131,7 +131,7 @@ TEST(CheckPot, ACollapsedPotIsNotSound) {
   const ScratchFolder folder;
   const std::string pot = folder.file("c.pot.json");
   ASSERT_EQ(claystack("throw -q " + sample("collapse.scene.json") + " -o " + pot).status, 0);
-  const Run run = claystack("check --json " + pot);
+  const Ran run = claystack("check --json " + pot);
   EXPECT_EQ(run.status, 1);
   EXPECT_EQ(run.json().at("problems").at(0).at("what"), "collapsed");
 }
@@ -144,7 +144,7 @@ TEST(CheckPot, AnEditedQuantumIsCaughtByTheLedger) {
   auto& quanta = json["rings"]["outer2"][100];
   quanta = quanta.get<std::int64_t>() + 1;
   write_text(pot, json.dump());
-  const Run run = claystack("check " + pot);
+  const Ran run = claystack("check " + pot);
   EXPECT_EQ(run.status, 2);
   EXPECT_NE(run.err.find("ledger"), std::string::npos) << run.err;
 }
@@ -152,7 +152,7 @@ TEST(CheckPot, AnEditedQuantumIsCaughtByTheLedger) {
 TEST(Check, UnknownEndingsAreListed) {
   const ScratchFolder folder;
   write_text(folder.file("pot.blend"), "x");
-  const Run run = claystack("check " + folder.file("pot.blend"));
+  const Ran run = claystack("check " + folder.file("pot.blend"));
   EXPECT_EQ(run.status, 2);
   for (const char* ending : {".stl", ".obj", ".drc", ".pot.json"}) EXPECT_NE(run.err.find(ending), std::string::npos) << run.err;
 }

@@ -42,7 +42,7 @@ class ExportedSample : public testing::TestWithParam<const char*> {
   }
   ScratchFolder folder;
   std::string stl = folder.file("p.stl"), obj = folder.file("p.obj"), drc = folder.file("p.drc");
-  Run thrown, exported;
+  Ran thrown, exported;
   double counted = 0.0;
 };
 
@@ -67,7 +67,7 @@ TEST_P(ExportedSample, StlHoldsTheCountedClay) {
 }
 
 TEST_P(ExportedSample, AdmeshFindsNothingToMend) {
-  const Run run = shell("admesh --exact " + stl);
+  const Ran run = shell("admesh --exact " + stl);
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_NE(run.out.find("Total disconnected facets      :     0"), std::string::npos) << run.out;
   for (const char* fault : {"Degenerate facets", "Edges fixed", "Facets removed", "Facets added", "Facets reversed", "Backwards edges"})
@@ -76,7 +76,7 @@ TEST_P(ExportedSample, AdmeshFindsNothingToMend) {
 
 TEST_P(ExportedSample, PrusaSlicerFindsAManifold) {
   for (const std::string& file : {stl, obj}) {
-    const Run run = shell("prusa-slicer --info " + file);
+    const Ran run = shell("prusa-slicer --info " + file);
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_NE(run.out.find("manifold = yes"), std::string::npos) << run.out;
     for (const char* fault : {"open_edges", "edges_fixed", "facets_removed", "facets_reversed", "backwards_edges"})
@@ -97,7 +97,7 @@ TEST_P(ExportedSample, DracoDecoderGivesBackAClosedMesh) {
 
 TEST_P(ExportedSample, PassesItsOwnCheckInEveryFormat) {
   for (const std::string& file : {stl, obj, drc, folder.file("p.pot.json")}) {
-    const Run run = claystack("check --json " + file);
+    const Ran run = claystack("check --json " + file);
     EXPECT_EQ(run.status, 0) << file << run.out;
     const auto json = run.json();
     for (const char* key : {"sound", "closed", "manifold", "oriented", "bounds_volume"}) EXPECT_TRUE(json.at(key)) << file << key;
@@ -150,7 +150,7 @@ TEST_F(ExportBowl, SegmentsCanBeForced) {
 
 TEST_F(ExportBowl, RefusesAndWritesNothing) {
   const auto expect = [&](const std::string& arguments, int status, const std::string& says) {
-    const Run run = claystack("export " + arguments);
+    const Ran run = claystack("export " + arguments);
     EXPECT_EQ(run.status, status) << arguments;
     EXPECT_NE(run.err.find(says), std::string::npos) << run.err;
   };
@@ -165,7 +165,7 @@ TEST_F(ExportBowl, AFullDiskLeavesTheOldFile) {
   const std::string stl = folder.file("old.stl");
   write_text(stl, "the old file");
   // 100 blocks of 512 bytes: the file can't grow to its size.
-  const Run run = shell("trap \"\" XFSZ; ulimit -f 100; " CLAYSTACK_PROGRAM " export -q " + pot + " " + stl);
+  const Ran run = shell("trap \"\" XFSZ; ulimit -f 100; " CLAYSTACK_PROGRAM " export -q " + pot + " " + stl);
   EXPECT_EQ(run.status, 3) << run.err;
   EXPECT_EQ(read_text(stl), "the old file");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
@@ -175,7 +175,7 @@ TEST(ExportCollapsed, IsRefusedWithTheReasonAndDrawn) {
   const ScratchFolder folder;
   const std::string pot = folder.file("c.pot.json");
   ASSERT_EQ(claystack("throw -q " + sample("collapse.scene.json") + " -o " + pot).status, 0);
-  const Run run = claystack("export " + pot + " " + folder.file("c.stl"));
+  const Ran run = claystack("export " + pot + " " + folder.file("c.stl"));
   EXPECT_EQ(run.status, 1);
   EXPECT_NE(run.err.find("collapsed"), std::string::npos) << run.err;
   EXPECT_FALSE(std::filesystem::exists(folder.file("c.stl")));

@@ -8,7 +8,7 @@
 
 namespace clay::test {
 
-struct Run {
+struct Ran {
   int status = -1;      ///< exit status; 128 + signal when killed
   std::string out;
   std::string err;
@@ -16,10 +16,10 @@ struct Run {
 };
 
 /// Runs a command line through the shell, with a limit of five minutes.
-Run shell(const std::string& command);
+Ran shell(const std::string& command);
 
 /// Runs claystack with these arguments.
-Run claystack(const std::string& arguments);
+Ran claystack(const std::string& arguments);
 
 /// A folder that is gone after the test.
 class ScratchFolder {

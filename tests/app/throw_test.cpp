@@ -87,7 +87,7 @@ TEST(Throw, RefusesAndLeavesNothingBehind) {
   const ScratchFolder folder;
   const std::string pot = folder.file("x.pot.json");
   const auto expect = [&](const std::string& arguments, int status, const std::string& says) {
-    const Run run = claystack("throw " + arguments + " -o " + pot);
+    const Ran run = claystack("throw " + arguments + " -o " + pot);
     EXPECT_EQ(run.status, status) << arguments;
     EXPECT_NE(run.err.find(says), std::string::npos) << run.err;
     EXPECT_FALSE(std::filesystem::exists(pot));

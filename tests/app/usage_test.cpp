@@ -6,7 +6,7 @@ namespace clay::test {
 namespace {
 
 TEST(Usage, VersionSaysWhatIsIn) {
-  const Run run = claystack("--version");
+  const Ran run = claystack("--version");
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.out.rfind("claystack 0.", 0), 0u) << run.out;
   EXPECT_NE(run.out.find("export"), std::string::npos);
@@ -14,7 +14,7 @@ TEST(Usage, VersionSaysWhatIsIn) {
 
 TEST(Usage, HelpShowsExamplesAndExitStatuses) {
   for (const char* command : {"", "throw ", "export ", "check ", "plan "}) {
-    const Run run = claystack(std::string(command) + "--help");
+    const Ran run = claystack(std::string(command) + "--help");
     EXPECT_EQ(run.status, 0) << command;
     EXPECT_NE(run.out.find("Example"), std::string::npos) << command;
   }
@@ -29,21 +29,21 @@ TEST(Usage, BadUsageIsStatusTwo) {
 
 TEST(Usage, QuietPrintsNothing) {
   const ScratchFolder folder;
-  const Run run = claystack("throw --quiet " + sample("bowl.scene.json") + " -o " + folder.file("b.pot.json"));
+  const Ran run = claystack("throw --quiet " + sample("bowl.scene.json") + " -o " + folder.file("b.pot.json"));
   EXPECT_EQ(run.status, 0);
   EXPECT_TRUE(run.out.empty()) << run.out;
   EXPECT_TRUE(run.err.empty()) << run.err;
 }
 
 TEST(Usage, DashIsStandardInputAndOutput) {
-  const Run run = shell(std::string(CLAYSTACK_PROGRAM) + " throw -q - -s " + sample("bowl.session") + " -o - < " +
+  const Ran run = shell(std::string(CLAYSTACK_PROGRAM) + " throw -q - -s " + sample("bowl.session") + " -o - < " +
                         sample("bowl.scene.json"));
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.json().at("schema"), "claystack-pot-1");
 }
 
 TEST(Usage, AFolderThatIsNotThereIsStatusThree) {
-  const Run run = claystack("throw -q " + sample("bowl.scene.json") + " -o /no/such/folder/b.pot.json");
+  const Ran run = claystack("throw -q " + sample("bowl.scene.json") + " -o /no/such/folder/b.pot.json");
   EXPECT_EQ(run.status, 3);
   EXPECT_NE(run.err.find("/no/such/folder"), std::string::npos) << run.err;
 }

@@ -2,11 +2,11 @@
 
 #include "export/shapes.hpp"
 
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 #include <array>
 #include <cstdint>
-#include <gtest/gtest.h>
 #include <limits>
-#include <rapidcheck/gtest.h>
 
 namespace clay::solid {
 namespace {
@@ -69,6 +69,10 @@ TEST(Certify, RefusesRepeatedPointsAndSpikes) {
   EXPECT_TRUE(refused({{{{1, 0}, {2, 0}, {2, 3}, {2, 1}, {1, 1}}}}, "meets"));
 }
 
+TEST(Certify, RefusesTriangleWithoutArea) {
+  EXPECT_TRUE(refused({{{{1, 0}, {3, 0}, {2, 0}}}}, "counterclockwise"));
+}
+
 TEST(Certify, RefusesPinchAtTheAxis) {
   EXPECT_TRUE(refused({{{{2, 0}, {2, 2}, {0, 1}}}}, "single point"));
   // An hourglass on the axis: both halves have their axis segment, the waist has none.
@@ -99,7 +103,8 @@ TEST(Certify, AcceptsPiecesSideBySideOnOneLevel) {
 TEST(Certify, TellsAnUlpFromATouch) {
   const double just_above = std::nextafter(1.0, 2.0);
   const auto notched = [](double tip) {
-    return Profile{{{{1, 0}, {4, 0}, {4, 3}, {3, 3}, {2, tip}, {1.5, 3}, {1, 3}, {1, 2}, {2, 1}, {1, 0.5}}}};
+    return Profile{
+        {{{1, 0}, {4, 0}, {4, 3}, {3, 3}, {2, tip}, {1.5, 3}, {1, 3}, {1, 2}, {2, 1}, {1, 0.5}}}};
   };
   EXPECT_TRUE(certify(notched(just_above)));
   EXPECT_TRUE(refused(notched(1.0), "meets"));

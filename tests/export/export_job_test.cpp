@@ -2,9 +2,9 @@
 
 #include "export/shapes.hpp"
 
-#include <algorithm>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+#include <algorithm>
 #include <string>
 
 namespace clay::solid {
@@ -72,7 +72,8 @@ TEST(RunExport, TellsWhatItLeftOut) {
   ASSERT_TRUE(result);
   std::vector<std::string> out;
   for (const LeftOut& item : result->report.left_out) out.push_back(item.what);
-  EXPECT_EQ(out, (std::vector<std::string>{"inner shell", "smoothing", "union", "stl_ascii", "obj", "drc"}));
+  EXPECT_EQ(out, (std::vector<std::string>{"inner shell", "smoothing", "union", "stl_ascii", "obj",
+                                           "drc"}));
   const auto hollow = run_export(pot_of(shapes::vase(100)), {}, {});
   EXPECT_EQ(hollow->report.left_out.front().what, "smoothing");
 }
@@ -98,11 +99,13 @@ TEST(RunExport, RefusesOptionsThatCannotBeMet) {
     EXPECT_TRUE(refused(run_export(pot, {}, options), ErrorKind::bad_input, "tolerance"));
   }
   options.tolerance_mm = 1e-9;
-  EXPECT_TRUE(refused(run_export(pot, {}, options), ErrorKind::bad_input, "tolerance: expected at least"));
+  EXPECT_TRUE(
+      refused(run_export(pot, {}, options), ErrorKind::bad_input, "tolerance: expected at least"));
   options = {};
   for (const std::size_t segments : {std::size_t{0}, std::size_t{2}, (std::size_t{1} << 20) + 1}) {
     options.segments = segments;
-    EXPECT_TRUE(refused(run_export(pot, {}, options), ErrorKind::bad_input, "segments: expected 3"));
+    EXPECT_TRUE(
+        refused(run_export(pot, {}, options), ErrorKind::bad_input, "segments: expected 3"));
   }
   options.segments = std::size_t{1} << 20;
   EXPECT_TRUE(refused(run_export(pot, {}, options), ErrorKind::bad_input, "triangles"));
@@ -121,14 +124,16 @@ TEST(RunExport, PiecesOnlyWhenAllowed) {
 TEST(RunExport, CollapsedPotsAreRefused) {
   Pot pot = pot_of(shapes::vase(100));
   pot.collapse = Collapse{3, {40, 60, 0}, {0, 0, 1}, 1.0, 12.0};
-  EXPECT_TRUE(refused(run_export(pot, {}, {}), ErrorKind::unsound, "collapsed pot is not supported yet"));
+  EXPECT_TRUE(
+      refused(run_export(pot, {}, {}), ErrorKind::unsound, "collapsed pot is not supported yet"));
 }
 
 TEST(RunExport, WallsLostInFloat32AreRefusedWithThePlace) {
   // Half an ulp of float32 at 73 mm is 3.8e-6 mm; the doubles still tell the radii apart.
   const Pot pot = pot_of(stack_of(5.0, {{73.0, 73.0 - 1e-6}}));
   ASSERT_TRUE(certify(profile_of(pot.stack)->profile));
-  EXPECT_TRUE(refused(run_export(pot, {MeshFormat::stl_binary}, {}), ErrorKind::unsound, "in float32: found"));
+  EXPECT_TRUE(refused(run_export(pot, {MeshFormat::stl_binary}, {}), ErrorKind::unsound,
+                      "in float32: found"));
 }
 
 TEST(RunExport, StepsBelowFloat32AreLevelledAndKeepTheVolume) {
@@ -144,8 +149,8 @@ TEST(RunExport, StepsBelowFloat32AreLevelledAndKeepTheVolume) {
 }
 
 TEST(RunExport, TouchingRingsAreRefused) {
-  EXPECT_TRUE(refused(run_export(pot_of(stack_of(2.0, {{5, 0}, {9, 5}})), {}, {}), ErrorKind::unsound,
-                      "rings 0 and 1"));
+  EXPECT_TRUE(refused(run_export(pot_of(stack_of(2.0, {{5, 0}, {9, 5}})), {}, {}),
+                      ErrorKind::unsound, "rings 0 and 1"));
 }
 
 #ifdef CLAYSTACK_DRACO

@@ -2,13 +2,16 @@
 
 #include "export/shapes.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <numbers>
-#include <rapidcheck/gtest.h>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace clay::solid {
 namespace {
@@ -127,7 +130,8 @@ TEST(CheckMesh, NestedShellsOfOneOrientation) {
 }
 
 TEST(CheckMesh, CavityOutsideItsSolid) {
-  const MeshReport report = check_mesh(together(ball(10.0), moved(inverted(ball(5.0)), {40, 0, 0})));
+  const MeshReport report =
+      check_mesh(together(ball(10.0), moved(inverted(ball(5.0)), {40, 0, 0})));
   EXPECT_FALSE(report.bounds_volume);
   EXPECT_FALSE(report.sound());
 }
@@ -269,6 +273,31 @@ TEST(CheckMesh, SelfIntersectionsAreFoundInSoupsToo) {
   EXPECT_GT(check_mesh(soup).self_intersections, 0u);
 }
 
+/// A soup, because its last triangle names a vertex twice.
+std::size_t crossings_in_soup(std::vector<glm::dvec3> points,
+                              std::vector<std::array<std::uint32_t, 3>> triangles) {
+  triangles.push_back({0, 0, 1});
+  return check_mesh({std::move(points), std::move(triangles)}).self_intersections;
+}
+
+TEST(CheckMesh, TrianglesThatShareAnEdgeMayOverlap) {
+  EXPECT_EQ(crossings_in_soup({{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 0, 3}}),
+            1u);
+  EXPECT_EQ(
+      crossings_in_soup({{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, -1, 0}}, {{0, 1, 2}, {1, 0, 3}}), 0u);
+  EXPECT_EQ(
+      crossings_in_soup({{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {0, 1, 1e-9}}, {{0, 1, 2}, {1, 0, 3}}),
+      0u);
+}
+
+TEST(CheckMesh, TrianglesThatShareAVertexMayCross) {
+  const std::vector<glm::dvec3> points{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 1}, {1, 1, -1}};
+  EXPECT_EQ(crossings_in_soup(points, {{0, 1, 2}, {3, 4, 0}}), 1u);
+  EXPECT_EQ(crossings_in_soup(points, {{3, 4, 0}, {0, 1, 2}}), 1u);
+  const std::vector<glm::dvec3> apart{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 1}, {1, 1, 1e-9}};
+  EXPECT_EQ(crossings_in_soup(apart, {{0, 1, 2}, {3, 4, 0}}), 0u);
+}
+
 TEST(CheckMesh, CountingStopsInAHopelessMesh) {
   TriangleMesh mesh = ball(5.0);
   for (int i = 1; i < 60; ++i) mesh = together(mesh, moved(ball(5.0), {i * 1e-3, i * 2e-3, 0}));
@@ -280,7 +309,8 @@ RC_GTEST_PROP(CheckMesh, AnySoupGetsAReport, ()) {
   TriangleMesh mesh;
   const auto points = *rc::gen::inRange<std::uint32_t>(1, 9);
   for (std::uint32_t i = 0; i < points; ++i)
-    mesh.points.emplace_back(*rc::gen::inRange(0, 3), *rc::gen::inRange(0, 3), *rc::gen::inRange(0, 3));
+    mesh.points.emplace_back(*rc::gen::inRange(0, 3), *rc::gen::inRange(0, 3),
+                             *rc::gen::inRange(0, 3));
   const auto count = *rc::gen::inRange(0, 16);
   const auto index = rc::gen::inRange<std::uint32_t>(0, points);
   for (int i = 0; i < count; ++i) mesh.triangles.push_back({*index, *index, *index});

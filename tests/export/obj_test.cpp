@@ -79,12 +79,13 @@ TEST(Obj, FacesMayComeBeforeTheirVertices) {
 }
 
 TEST(Obj, PassesOverWhatIsNoSurface) {
-  const std::string text =
-      "# a comment that ends in a path C:\\pots\\\n#\no pot\ng a b \\\n c\ns off\nmtllib "
-      "/dev/zero\n"
-      "usemtl clay\n" +
-      kSquare + "l 1 2\np 1\n\n   \nf 1 2 3\n#end";
+  const std::string names = "#\no pot\ng a b \\\n c\ns off\nmtllib /dev/zero\nusemtl clay\n";
+  const std::string text = names + kSquare + "l 1 2\np 1\n\n   \nf 1 2 3\n#end";
   EXPECT_EQ(triangles_of(text), (Triangles{{0, 1, 2}}));
+}
+
+TEST(Obj, CommentsSwallowNoLineBelow) {
+  EXPECT_EQ(triangles_of("# C:\\pots\\\n" + kSquare + "f 1 2 3\n"), (Triangles{{0, 1, 2}}));
 }
 
 TEST(Obj, BackslashContinuesALine) {

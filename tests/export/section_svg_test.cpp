@@ -2,11 +2,11 @@
 
 #include "export/shapes.hpp"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
-#include <gtest/gtest.h>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -54,7 +54,8 @@ double area(const std::vector<glm::dvec2>& outline) {
 }
 
 TEST(SectionSvg, DimensionsAreThoseOfThePot) {
-  const std::string svg = section_svg(pot_of(stack_of(2.5, {{20, 0}, {30, 25}, {25, 20}, {22, 18}})));
+  const std::string svg =
+      section_svg(pot_of(stack_of(2.5, {{20, 0}, {30, 25}, {25, 20}, {22, 18}})));
   EXPECT_EQ(svg.rfind("<svg xmlns=", 0), 0u);
   EXPECT_EQ(svg.substr(svg.size() - 7), "</svg>\n");
   EXPECT_EQ(count(svg, ">\u2300 60.0 mm</text>"), 1u);
@@ -93,8 +94,8 @@ TEST(SectionSvg, UpperPartOfACollapsedPotIsTurned) {
   const std::string svg = section_svg(pot);
   const auto cut = outlines(svg, "cut");
   ASSERT_EQ(cut.size(), 2u);
-  const auto [low, high] = std::minmax_element(cut[0].begin(), cut[0].end(),
-                                               [](auto a, auto b) { return a.x < b.x; });
+  const auto [low, high] =
+      std::minmax_element(cut[0].begin(), cut[0].end(), [](auto a, auto b) { return a.x < b.x; });
   const double scale = (high->x - low->x) / 20.0;
   const double middle = 0.5 * (high->x + low->x), floor = std::max(cut[0][0].y, cut[0][1].y);
   glm::dvec2 least{1e9}, most{-1e9};

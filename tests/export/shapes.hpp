@@ -6,10 +6,10 @@
 #include "claystack/export/profile.hpp"
 #include "claystack/export/tessellate.hpp"
 
+#include <rapidcheck.h>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <rapidcheck.h>
 #include <utility>
 #include <vector>
 
@@ -63,16 +63,33 @@ inline TriangleMesh ball(double radius_mm, double centre_mm = 0.0) {
   for (std::size_t i = 0; i <= kSteps; ++i) {
     const double angle = std::numbers::pi * static_cast<double>(i) / kSteps;
     const bool pole = i == 0 || i == kSteps;
-    half.push_back({pole ? 0.0 : radius_mm * std::sin(angle), centre_mm - radius_mm * std::cos(angle)});
+    half.push_back(
+        {pole ? 0.0 : radius_mm * std::sin(angle), centre_mm - radius_mm * std::cos(angle)});
   }
   return revolve({{half}}, 12);
 }
 
 inline TriangleMesh cube(double side_mm) {
-  return {{{0, 0, 0}, {side_mm, 0, 0}, {side_mm, side_mm, 0}, {0, side_mm, 0},
-           {0, 0, side_mm}, {side_mm, 0, side_mm}, {side_mm, side_mm, side_mm}, {0, side_mm, side_mm}},
-          {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
-           {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}}};
+  return {{{0, 0, 0},
+           {side_mm, 0, 0},
+           {side_mm, side_mm, 0},
+           {0, side_mm, 0},
+           {0, 0, side_mm},
+           {side_mm, 0, side_mm},
+           {side_mm, side_mm, side_mm},
+           {0, side_mm, side_mm}},
+          {{0, 2, 1},
+           {0, 3, 2},
+           {4, 5, 6},
+           {4, 6, 7},
+           {0, 1, 5},
+           {0, 5, 4},
+           {1, 2, 6},
+           {1, 6, 5},
+           {2, 3, 7},
+           {2, 7, 6},
+           {3, 0, 4},
+           {3, 4, 7}}};
 }
 
 inline TriangleMesh moved(TriangleMesh mesh, const glm::dvec3& by) {

@@ -56,17 +56,17 @@ RC_GTEST_PROP(Stl, BothKindsKeepEveryBit, ()) {
 }
 
 TEST(Stl, BinaryLayout) {
-  TriangleMesh mesh{{{0, 0, -0.0}, {2, 0, 0}, {0, 3, 0}, {4, 0, 0}}, {{0, 1, 2}, {0, 1, 3}}};
+  TriangleMesh mesh{{{1, 1, -0.0}, {3, 1, 0}, {1, 4, 0}, {5, 1, 0}}, {{0, 1, 2}, {0, 1, 3}}};
   const std::string bytes = encode_stl_binary(mesh);
   ASSERT_EQ(bytes.size(), kPrologue + 2 * kFacet);
   EXPECT_EQ(bytes.substr(0, 9), "claystack");
   EXPECT_EQ(read_at<std::uint32_t>(bytes, 80), 2u);
   // The normal of a triangle in the plane z = 0, its corners, and no attribute.
-  const float first[12] = {0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 3, 0};
+  const float first[12] = {0, 0, 1, 1, 1, 0, 3, 1, 0, 1, 4, 0};
   EXPECT_EQ(std::memcmp(bytes.data() + kPrologue, first, sizeof first), 0);
   EXPECT_EQ(read_at<std::uint16_t>(bytes, kPrologue + 48), 0u);
   // Three corners in a line have no normal.
-  const float second[12] = {0, 0, 0, 0, 0, 0, 2, 0, 0, 4, 0, 0};
+  const float second[12] = {0, 0, 0, 1, 1, 0, 3, 1, 0, 5, 1, 0};
   EXPECT_EQ(std::memcmp(bytes.data() + kPrologue + kFacet, second, sizeof second), 0);
 }
 
@@ -105,8 +105,19 @@ TEST(Stl, WeldsEqualFloatsAndNoOthers) {
   const float one_up = std::nextafter(1.0F, 2.0F);
   const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {one_up, 0, 0}},
                           {{0, 1, 2}, {0, 3, 2}}};
+  EXPECT_EQ(decode_stl(encode_stl_binary(mesh), "x").value(), mesh);
+}
+
+TEST(Stl, WeldsNegativeZeroWithZero) {
+  // Many pairs, as a single one might meet in the hash table by chance.
+  TriangleMesh mesh{{{1, 0, 0}, {2, 0, 0}}, {}};
+  for (std::uint32_t i = 0; i < 50; ++i) {
+    mesh.points.push_back({0, i, 0});
+    mesh.triangles.insert(mesh.triangles.end(), 2, {0, 1, i + 2});
+  }
   std::string bytes = encode_stl_binary(mesh);
-  overwrite(bytes, kPrologue + kFacet + 12, -0.0F);
+  for (std::size_t i = 0; i < 50; ++i)
+    overwrite(bytes, kPrologue + kFacet * (2 * i + i % 2) + 36, -0.0F);
   const auto read = decode_stl(bytes, "x").value();
   EXPECT_EQ(read, mesh);
   EXPECT_FALSE(samples::has_negative_zero(read));

@@ -20,16 +20,14 @@ static_assert(std::is_trivially_copyable_v<FrameReader>, "it owns no memory");
 static_assert(noexcept(encode({})));
 
 /// A frame as the format's description has it; 'A' + 3 stands for 3.
-std::string frame_text(const LegCounts& counts, int status = 0, char unused = 'A') {
+std::string frame_text(const LegCounts& counts, int status = 0) {
   std::string text = "<";
   for (const std::int16_t count : counts) {
     unsigned rest = static_cast<std::uint16_t>(count);
     for (int digit = 0; digit < 4; ++digit, rest /= 16) text += static_cast<char>('A' + rest % 16);
   }
   text += static_cast<char>('A' + status);
-  text += unused;
-  text += '>';
-  return text;
+  return text + "A>";
 }
 
 /// What the device would send.

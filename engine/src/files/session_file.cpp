@@ -76,6 +76,7 @@ Series differenced(Series values) {
 /// The inverse; nothing where a count leaves its limits. The limits of the terms, checked when
 /// they were read, keep every sum far from an overflow.
 std::optional<Series> summed(const Series& terms, std::size_t count) {
+  if (std::abs(terms.front()) > kMaxCount) return std::nullopt;
   if (terms.size() == 1) return Series(count, terms.front());
   Series values = terms;
   std::int64_t slope = 0;
@@ -84,7 +85,6 @@ std::optional<Series> summed(const Series& terms, std::size_t count) {
     values[i] = values[i - 1] + slope;
     if (std::abs(values[i]) > kMaxCount || std::abs(slope) > 2 * kMaxCount) return std::nullopt;
   }
-  if (std::abs(values.front()) > kMaxCount) return std::nullopt;
   return values;
 }
 

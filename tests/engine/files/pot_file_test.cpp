@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -236,7 +238,16 @@ TEST(PotSchema, NamesTheFieldsThatAreWritten) {
   EXPECT_EQ(std::set(written.begin(), written.end()), std::set(described.begin(), described.end()));
 }
 
-TEST(PotSchema, RefusesNothingButWhatTheReaderRefuses) {
+/// Edited counts no longer agree with the ledger and the radii, nor indices with the stack: there
+/// alone the reader is the stricter one.
+bool is_rule_between_fields(const std::string& edit) {
+  constexpr std::array kRules = {"/rings/", "/failed_ring: ", "/axis/", "/max_rings: at minimum",
+                                 "/max_rings: above minimum"};
+  return std::ranges::any_of(
+      kRules, [&](const char* rule) { return edit.find(rule) != std::string::npos; });
+}
+
+TEST(PotSchema, AgreesWithTheReader) {
   const Json schema = test::load_schema("pot");
   for (const Pot& pot : {small_pot(), collapsed_pot()}) {
     const Json file = Json::parse(write_pot(pot, PotEncoding::json));
@@ -244,13 +255,9 @@ TEST(PotSchema, RefusesNothingButWhatTheReaderRefuses) {
     for (const auto& [what, edited] : test::edits(schema, file)) {
       const auto read = parse_pot(edited.dump(), "edited");
       const bool conforms = test::violation(schema, edited).empty();
-      if (!conforms) {
-        EXPECT_FALSE(read) << what;
-      }
-      // Edited counts no longer agree with the ledger and the radii, nor indices with the stack.
-      if (conforms && !read) {
-        EXPECT_NE(what.find("imum"), std::string::npos) << what << ": " << read.error().message;
-      }
+      if (conforms && is_rule_between_fields(what)) continue;
+      EXPECT_EQ(read.has_value(), conforms)
+          << what << ": " << (read ? "read" : read.error().message);
     }
   }
 }

@@ -191,8 +191,14 @@ TEST(SessionFile, ErrorsNameTheLineOfABlock) {
                "x: expected positions within 1e6 mm of the origin, found one beyond");
   expect_error("[65536,1,2]", "[65536000000,1,0]", 3,
                "x: expected positions within 1e6 mm of the origin, found one beyond");
+  expect_error("\"y\":-3", "\"y\":-65536000001", 3,
+               "y: expected positions within 1e6 mm of the origin, found one beyond");
   expect_error("[65536,1,2]", "[65536,1,2.5]", 3,
                "x[2]: expected an integer from -262144000000 to 262144000000, found 2.5");
+  // 2^64 - 3: as a signed integer it would be -3.
+  expect_error("\"y\":-3", "\"y\":18446744073709551613", 3,
+               "y: expected an integer from -262144000000 to 262144000000, found "
+               "18446744073709551613");
   expect_error("[0,0,1]", "[0,0,2]", 3, "trim[2]: expected an integer from 0 to 1, found 2");
   expect_error("\"y\":-3", "\"y\":-4", 3,
                "check: expected 02eb587a9fadcabc for these poses, found dafff0894e3655ed: the line "

@@ -59,7 +59,9 @@ struct ExportResult {
   std::vector<EncodedMesh> files;       ///< one for each format asked for, in that order
 };
 
-/// `progress(stage)` is called as each stage begins. Collapsed pots are refused with the reason.
+/// Steps of the stack that float32 cannot hold (below 2^-20 of the largest radius) are levelled
+/// as `profile_of` describes. Draco gets more bits than the tolerance asks for where the walls
+/// need them. `progress(stage)` is called as each stage begins. Collapsed pots are refused with the reason.
 Result<ExportResult> run_export(const Pot& pot, const std::vector<MeshFormat>& formats,
                                 const ExportOptions& options,
                                 const std::function<void(std::string_view)>& progress = {});

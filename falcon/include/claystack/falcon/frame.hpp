@@ -57,8 +57,8 @@ struct StateFrame {
 
 /// Finds the frames in a stream of bytes that may lose, repeat or spoil some (FTDI's own status
 /// bytes already taken out). '<' and '>' never stand inside a frame, so each '<' begins one
-/// anew: a fault costs the frames it touches and no other. The format has no checksum: a nibble
-/// turned into another, or a loss of exactly 16 bytes, can't be seen.
+/// anew: a fault costs the frames it touches and no other. The format has no checksum: a letter
+/// turned into another, or two halves joined by the loss of 16 bytes or a multiple, can't be seen.
 class FrameReader {
  public:
   /// The next whole frame in `bytes`, and leaves there what follows it; nothing when all bytes
