@@ -2,7 +2,6 @@
 
 #include "claystack/engine/atomic_file.hpp"
 #include "claystack/engine/pot_file.hpp"
-#include "claystack/engine/stack_measures.hpp"
 #include "claystack/export/export_job.hpp"
 #include "claystack/export/section_svg.hpp"
 
@@ -50,16 +49,16 @@ Result<std::vector<Request>> requests_of(const ExportCommand& command) {
   return requests;
 }
 
-Json report_json(const ExportReport& report, const ClayStack& stack) {
-  const WallMinimum wall = min_wall(stack);
+Json report_json(const ExportReport& report) {
   Json json = {
       {"triangles", report.mesh.triangles},
       {"segments", report.segments},
+      {"smoothing", report.smoothing == solid::Smoothing::fair ? "fair" : "none"},
       {"volume_mm3", report.volume_mm3},
       {"counted_volume_mm3", report.counted_volume_mm3},
       {"volume_error_relative", report.volume_error_relative},
       {"chordal_error_mm", report.chordal_error_mm},
-      {"min_wall_mm", wall.thickness_mm},
+      {"min_wall_mm", report.min_wall_mm},
       {"certificate",
        {{"proved", "closed and embedded: the profile is strictly simple and meets the axis in segments only"},
         {"polygons", report.certificate.polygons},
@@ -113,7 +112,7 @@ Result<Json> write_all(const Pot& pot, const std::vector<Request>& requests, con
                                         [&](std::string_view stage) { progress.stage(stage); });
   if (!result) return tl::make_unexpected(result.error());
 
-  Json json = report_json(result->report, pot.stack);
+  Json json = report_json(result->report);
   const auto begin = std::chrono::steady_clock::now();
   auto mesh = result->files.begin();
   for (const Request& request : requests) {
@@ -163,6 +162,9 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
   sub->add_option("out", command->outputs, "Files to write: .stl, .obj, .drc, or .svg for the section")->required();
   sub->add_option("--tolerance", command->options.tolerance_mm, "Largest chordal error, and vertex error in .drc [mm]")
       ->check(CLI::Range(1e-4, 10.0))->capture_default_str();
+  sub->add_option("--smooth", command->options.smoothing, "fair: walls as they were meant; none: the steps of the rings")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, solid::Smoothing>{{"fair", solid::Smoothing::fair}, {"none", solid::Smoothing::none}}))
+      ->default_str("fair");
   sub->add_option("--segments", command->segments, "Steps around the axis (default: as the tolerance asks)")
       ->check(CLI::Range(3, 1 << 20));
   sub->add_flag("--ascii", command->ascii, "Write .stl as text");

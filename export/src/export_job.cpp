@@ -1,6 +1,7 @@
 #include "claystack/export/export_job.hpp"
 
 #include "claystack/export/tessellate.hpp"
+#include "claystack/export/wall_thickness.hpp"
 #include "describe.hpp"
 #include "verify_file.hpp"
 
@@ -11,6 +12,7 @@
 #include <exception>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -95,10 +97,11 @@ Result<std::size_t> choose_segments(const Profile& profile, double radius, doubl
   return segments;
 }
 
-std::vector<LeftOut> left_out(const ClayStack& stack, const std::vector<MeshFormat>& formats) {
+std::vector<LeftOut> left_out(const ClayStack& stack, const std::vector<MeshFormat>& formats,
+                              const std::string& no_smoothing) {
   std::vector<LeftOut> list;
   if (!stack.hollow()) list.push_back({"inner shell", "no ring has a bore"});
-  list.push_back({"smoothing", "not asked for: the steps of the stack are exported as they are"});
+  if (!no_smoothing.empty()) list.push_back({"smoothing", no_smoothing});
   list.push_back({"union", "the pot has not collapsed"});
   for (const MeshFormat format : kAllFormats)
     if (std::find(formats.begin(), formats.end(), format) == formats.end())
@@ -148,7 +151,7 @@ class ExportJob {
         .and_then([&] { return check(); })
         .and_then([&] { return write_all(); })
         .map([&] {
-          result_.report.left_out = left_out(stack_, formats_);
+          result_.report.left_out = left_out(stack_, formats_, no_smoothing_);
           return std::move(result_);
         });
   }
@@ -166,9 +169,24 @@ class ExportJob {
         });
   }
 
+  /// Smooth walls where they can be proved, the steps as they are where not.
   Result<void> prove() {
+    no_smoothing_ = options_.smoothing == Smoothing::fair ? smooth() : "not asked for";
+    if (no_smoothing_.empty()) return {};
     return stages_.run("certificate", [&] { return certify(profile_); })
         .map([&](const PlanarCertificate& certificate) { report().certificate = certificate; });
+  }
+
+  /// The reason why not, or nothing when done.
+  std::string smooth() {
+    auto smoothed = stages_.run("smooth", [&] { return smooth_profile_of(stack_, options_.tolerance_mm); });
+    if (!smoothed) return smoothed.error().message;
+    const auto certificate = stages_.run("certificate", [&] { return certify(smoothed->profile); });
+    if (!certificate) return "walls too thin for it: " + certificate.error().message;
+    profile_ = std::move(smoothed->profile);
+    report().certificate = *certificate;
+    report().smoothing = Smoothing::fair;
+    return {};
   }
 
   Result<void> tessellate() {
@@ -177,6 +195,7 @@ class ExportJob {
     return chosen.map([&](std::size_t segments) {
       mesh_ = stages_.run("tessellate", [&] { return revolve(profile_, segments); });
       report().segments = segments;
+      report().min_wall_mm = min_wall_mm(profile_) * std::cos(std::numbers::pi / static_cast<double>(segments));
       report().chordal_error_mm = chordal_error_mm(radius, segments);
       report().volume_mm3 = signed_volume(mesh_);
       report().volume_error_relative =
@@ -244,6 +263,7 @@ class ExportJob {
   const std::vector<MeshFormat>& formats_;
   const ExportOptions& options_;
   Profile profile_;
+  std::string no_smoothing_;   ///< why not, where not
   TriangleMesh mesh_;
   ExportResult result_;
   Stages stages_;

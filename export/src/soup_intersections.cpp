@@ -11,9 +11,10 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
-using Box =
-    CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t,
-                                              CGAL::Box_intersection_d::ID_FROM_BOX_ADDRESS>;
+// CGAL copies the boxes and tells a box from its copy by its number: the default, its address,
+// would lose pairs.
+using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t,
+                                                      CGAL::Box_intersection_d::ID_EXPLICIT>;
 
 struct EnoughFound {};
 

@@ -70,16 +70,21 @@ class Revolution {
   TriangleMesh take() { return std::move(mesh_); }
 
  private:
+  /// Sector by sector, and poles last. Programs that add up a volume in float32 about the first
+  /// vertex (admesh, PrusaSlicer) drift where equal terms follow each other, as they would band
+  /// by band or about a pole.
   void add_shell(const Polygon& polygon, const Chain& chain) {
-    const Parallel first = add_parallel(polygon[chain.first]);
-    Parallel lower = first;
-    for (std::size_t i = 1; i <= chain.edges; ++i) {
-      const bool back = chain.round && i == chain.edges;
-      const Parallel upper =
-          back ? first : add_parallel(polygon[(chain.first + i) % polygon.size()]);
-      add_band(lower, upper);
-      lower = upper;
-    }
+    const std::size_t count = chain.edges + (chain.round ? 0 : 1);
+    const auto point = [&](std::size_t i) { return polygon[(chain.first + i) % polygon.size()]; };
+    std::vector<Parallel> parallels(count);
+    for (const bool pole : {false, true})
+      for (std::size_t i = 0; i < count; ++i)
+        if ((point(i).rho == 0.0) == pole) parallels[i] = add_parallel(point(i));
+    for (std::size_t s = 0; s < circle_.size(); ++s)
+      for (std::size_t edge = 1; edge <= chain.edges; ++edge) {
+        const std::size_t lower = edge % chain.edges;
+        add_patch(parallels[lower], parallels[(lower + 1) % count], s);
+      }
   }
 
   Parallel add_parallel(const ProfilePoint& p) {
@@ -94,12 +99,10 @@ class Revolution {
   }
 
   /// Clay lies to the left of the profile, so the way from `a` to `b`, seen from outside, is up.
-  void add_band(const Parallel& a, const Parallel& b) {
-    for (std::size_t s = 0; s < circle_.size(); ++s) {
-      const std::size_t next = s + 1 < circle_.size() ? s + 1 : 0;
-      if (!a.pole) mesh_.triangles.push_back({a.at(s), a.at(next), b.at(next)});
-      if (!b.pole) mesh_.triangles.push_back({a.at(s), b.at(next), b.at(s)});
-    }
+  void add_patch(const Parallel& a, const Parallel& b, std::size_t s) {
+    const std::size_t next = s + 1 < circle_.size() ? s + 1 : 0;
+    if (!a.pole) mesh_.triangles.push_back({a.at(s), a.at(next), b.at(next)});
+    if (!b.pole) mesh_.triangles.push_back({a.at(s), b.at(next), b.at(s)});
   }
 
   std::vector<glm::dvec2> circle_;

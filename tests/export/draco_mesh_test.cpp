@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace clay::solid {
 namespace {
 
@@ -36,6 +38,12 @@ TEST_F(DracoMesh, PointsOfOnePositionAreShared) {
   }
   mesh_->SetFace(FaceIndex(0), {PointIndex(4), PointIndex(2), PointIndex(5)});
   EXPECT_EQ(from_draco(*mesh_, "x").value(), tetrahedron_);
+}
+
+TEST_F(DracoMesh, NegativeZeroIsReadAsZero) {
+  const float corner[3] = {-0.0F, -0.0F, -0.0F};
+  positions().SetAttributeValue(AttributeValueIndex(0), corner);
+  EXPECT_FALSE(std::signbit(from_draco(*mesh_, "x").value().points[0].x));
 }
 
 TEST_F(DracoMesh, RefusesFacesOfPointsThatAreNot) {

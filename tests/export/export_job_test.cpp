@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string>
 
 namespace clay::solid {
@@ -58,7 +60,7 @@ TEST(RunExport, TellsItsStagesInOrder) {
   const auto result = run_export(pot_of(shapes::vase(100)), {MeshFormat::obj}, {},
                                  [&](std::string_view stage) { told.emplace_back(stage); });
   ASSERT_TRUE(result);
-  EXPECT_EQ(told, (std::vector<std::string>{"profile", "certificate", "tessellate", "check",
+  EXPECT_EQ(told, (std::vector<std::string>{"profile", "smooth", "certificate", "tessellate", "check",
                                             "encode_obj", "verify_obj"}));
   ASSERT_EQ(result->report.stages.size(), told.size());
   for (std::size_t i = 0; i < told.size(); ++i) {
@@ -68,14 +70,18 @@ TEST(RunExport, TellsItsStagesInOrder) {
 }
 
 TEST(RunExport, TellsWhatItLeftOut) {
-  const auto result = run_export(pot_of(stack_of(5.0, {{20, 0}})), {MeshFormat::stl_binary}, {});
+  ExportOptions options;
+  options.smoothing = Smoothing::none;
+  const auto result =
+      run_export(pot_of(stack_of(5.0, {{20, 0}})), {MeshFormat::stl_binary}, options);
   ASSERT_TRUE(result);
   std::vector<std::string> out;
   for (const LeftOut& item : result->report.left_out) out.push_back(item.what);
   EXPECT_EQ(out, (std::vector<std::string>{"inner shell", "smoothing", "union", "stl_ascii", "obj",
                                            "drc"}));
   const auto hollow = run_export(pot_of(shapes::vase(100)), {}, {});
-  EXPECT_EQ(hollow->report.left_out.front().what, "smoothing");
+  EXPECT_EQ(hollow->report.smoothing, Smoothing::fair);
+  EXPECT_EQ(hollow->report.left_out.front().what, "union");
 }
 
 TEST(RunExport, SegmentsFollowTheToleranceUnlessForced) {
@@ -109,6 +115,29 @@ TEST(RunExport, RefusesOptionsThatCannotBeMet) {
   }
   options.segments = std::size_t{1} << 20;
   EXPECT_TRUE(refused(run_export(pot, {}, options), ErrorKind::bad_input, "triangles"));
+}
+
+TEST(RunExport, WallsTooThinToSmoothKeepTheirSteps) {
+  // A bulge of 3.9 mm outside may be left out, one of 4.1 mm inside may not: they would cross.
+  std::vector<shapes::Radii> radii;
+  for (int i = 0; i <= 400; ++i) {
+    const double bulge = 1.0 - std::abs(i - 200) / 200.0;
+    radii.push_back({40.0 + 3.9 * bulge, 39.7 + 4.1 * bulge});
+  }
+  ExportOptions options;
+  options.tolerance_mm = 8.0;
+  const auto result = run_export(pot_of(stack_of(0.5, radii)), {}, options);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->report.smoothing, Smoothing::none);
+  EXPECT_EQ(result->report.left_out.front().what, "smoothing");
+  EXPECT_NE(result->report.left_out.front().why.find("too thin"), std::string::npos);
+}
+
+TEST(RunExport, WallIsThatOfTheFacets) {
+  ExportOptions options;
+  options.segments = 12;
+  const auto result = run_export(pot_of(stack_of(30.0, {{40, 0}, {40, 35}})), {}, options);
+  EXPECT_NEAR(result->report.min_wall_mm, 5.0 * std::cos(std::numbers::pi / 12), 1e-9);
 }
 
 TEST(RunExport, PiecesOnlyWhenAllowed) {
@@ -159,6 +188,7 @@ TEST(RunExport, DracoGetsTheBitsThatThinWallsNeed) {
   // between the two rings is.
   ExportOptions options;
   options.tolerance_mm = 0.5;
+  options.smoothing = Smoothing::none;
   const Pot pot = pot_of(stack_of(9.0, {{40, 30}, {50, 39.99}}));
   int attempts = 0;
   const auto result = run_export(pot, {MeshFormat::drc}, options, [&](std::string_view stage) {
@@ -172,6 +202,7 @@ TEST(RunExport, DracoGetsTheBitsThatThinWallsNeed) {
 
 RC_GTEST_PROP(RunExport, WhatIsWrittenIsSoundOrRefused, (const ClayStack& stack)) {
   ExportOptions options;
+  options.smoothing = *rc::gen::element(Smoothing::none, Smoothing::fair);
   options.tolerance_mm = 0.3;
   options.allow_pieces = true;
   const auto result = run_export(pot_of(stack), every_format(), options);

@@ -85,7 +85,7 @@ TEST(Obj, PassesOverWhatIsNoSurface) {
 }
 
 TEST(Obj, CommentsSwallowNoLineBelow) {
-  EXPECT_EQ(triangles_of("# C:\\pots\\\n" + kSquare + "f 1 2 3\n"), (Triangles{{0, 1, 2}}));
+  EXPECT_EQ(triangles_of("# C:\\pots\\\n" + kSquare + "f 2 3 4\n"), (Triangles{{1, 2, 3}}));
 }
 
 TEST(Obj, BackslashContinuesALine) {

@@ -8,6 +8,7 @@
 #include "claystack/export/mesh_check.hpp"
 #include "claystack/export/mesh_formats.hpp"
 #include "claystack/export/profile.hpp"
+#include "claystack/export/profile_smoothing.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -19,7 +20,8 @@
 namespace clay::solid {
 
 struct ExportOptions {
-  double tolerance_mm = 0.02;           ///< chordal error around; vertex error of Draco
+  double tolerance_mm = 0.02;           ///< chordal error along and around; vertex error of Draco
+  Smoothing smoothing = Smoothing::fair;
   std::optional<std::size_t> segments;  ///< force the number around
   bool allow_pieces = false;            ///< several pieces that do not touch, in one file
   std::string name = "pot";             ///< solid or object name inside the file
@@ -45,6 +47,8 @@ struct ExportReport {
   PlanarCertificate certificate;
   MeshReport mesh;                      ///< of the mesh as float32 files hold it
   std::vector<PieceShape> shapes;
+  Smoothing smoothing = Smoothing::none;  ///< as done: walls too thin for `fair` stay as they are
+  double min_wall_mm = 0.0;             ///< of the mesh before rounding: the profile's, times cos(pi/n)
   std::size_t segments = 0;
   double chordal_error_mm = 0.0;
   double counted_volume_mm3 = 0.0;      ///< of the stack
