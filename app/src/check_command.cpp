@@ -8,8 +8,8 @@
 #include "claystack/export/mesh_formats.hpp"
 #include "claystack/export/tessellate.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
 #include <optional>
@@ -27,7 +27,7 @@ struct CheckCommand {
 
 struct Verdict {
   solid::MeshReport mesh;
-  std::optional<WallMinimum> wall;   ///< of pots; a mesh is not measured
+  std::optional<WallMinimum> wall;  ///< of pots; a mesh is not measured
 };
 
 bool is_pot(std::string_view path) { return path.ends_with(".json") || path.ends_with(".cbor"); }
@@ -42,7 +42,8 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command) {
     verdict.mesh.problems.push_back({std::move(what), std::move(where), 1});
   };
   if (pot->collapse) {
-    problem("collapsed", fmt::format("ring {} yielded at {:.2f} kPa", pot->collapse->failed_ring, pot->collapse->stress_kpa));
+    problem("collapsed", fmt::format("ring {} yielded at {:.2f} kPa", pot->collapse->failed_ring,
+                                     pot->collapse->stress_kpa));
     return verdict;
   }
   const auto section = solid::profile_of(pot->stack);
@@ -57,14 +58,17 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command) {
   verdict.mesh = solid::check_mesh(solid::revolve(section->profile, kCheckSegments));
   for (const solid::PieceShape& shape : section->shapes)
     for (const solid::Cavity& cavity : shape.cavities)
-      problem("closed cavity", fmt::format("from {:.2f} to {:.2f} mm, {:.1f} mm3 trapped: it needs a drain hole",
-                                           cavity.bottom_mm, cavity.top_mm, cavity.volume_mm3));
+      problem("closed cavity",
+              fmt::format("from {:.2f} to {:.2f} mm, {:.1f} mm3 trapped: it needs a drain hole",
+                          cavity.bottom_mm, cavity.top_mm, cavity.volume_mm3));
   if (section->shapes.size() > 1)
-    problem("pieces that do not touch", fmt::format("{} pieces; ring {} is the first of the second",
-                                                    section->shapes.size(), section->shapes[1].first_ring));
+    problem("pieces that do not touch",
+            fmt::format("{} pieces; ring {} is the first of the second", section->shapes.size(),
+                        section->shapes[1].first_ring));
   if (command.min_wall_mm && verdict.wall->thickness_mm < *command.min_wall_mm)
-    problem("thin wall", fmt::format("{:.3f} mm at ring {}, expected {:.3f} mm at least", verdict.wall->thickness_mm,
-                                     verdict.wall->ring, *command.min_wall_mm));
+    problem("thin wall",
+            fmt::format("{:.3f} mm at ring {}, expected {:.3f} mm at least",
+                        verdict.wall->thickness_mm, verdict.wall->ring, *command.min_wall_mm));
   return verdict;
 }
 
@@ -74,9 +78,11 @@ Result<Verdict> check_file(const CheckCommand& command) {
   if (is_pot(command.file)) return check_pot(*bytes, command);
   const auto format = solid::mesh_format_of(command.file);
   if (!format)
-    return failure(ErrorKind::bad_input, format.error().message + ", or a pot: .pot.json, .pot.cbor");
+    return failure(ErrorKind::bad_input,
+                   format.error().message + ", or a pot: .pot.json, .pot.cbor");
   if (command.min_wall_mm)
-    return failure(ErrorKind::bad_input, command.file + ": --min-wall is for pots; the wall of a mesh is not measured");
+    return failure(ErrorKind::bad_input,
+                   command.file + ": --min-wall is for pots; the wall of a mesh is not measured");
   return solid::decode_mesh(*bytes, *format, command.file).map([](const solid::TriangleMesh& mesh) {
     return Verdict{solid::check_mesh(mesh), std::nullopt};
   });
@@ -98,7 +104,8 @@ Json verdict_json(const std::string& file, const Verdict& verdict) {
                {"problems", Json::array()}};
   if (verdict.wall) json["min_wall_mm"] = verdict.wall->thickness_mm;
   for (const auto& problem : mesh.problems)
-    json["problems"].push_back({{"what", problem.what}, {"where", problem.where}, {"count", problem.count}});
+    json["problems"].push_back(
+        {{"what", problem.what}, {"where", problem.where}, {"count", problem.count}});
   return json;
 }
 
@@ -106,13 +113,15 @@ void tell(const Console& console, const std::string& file, const Verdict& verdic
   const solid::MeshReport& mesh = verdict.mesh;
   console.say(fmt::format("{}: {}", file, mesh.sound() ? "sound" : "NOT SOUND"));
   const auto yes = [](bool value) { return value ? "yes" : "no"; };
-  console.say(fmt::format("  closed {}, manifold {}, oriented {}, bounds a volume {}, self-intersections {}",
-                          yes(mesh.closed), yes(mesh.manifold), yes(mesh.oriented), yes(mesh.bounds_volume),
-                          mesh.self_intersections));
-  console.say(fmt::format("  {} triangles, {} component(s), {:.3f} cm3", mesh.triangles, mesh.components,
-                          mesh.volume_mm3 / 1000.0));
+  console.say(fmt::format(
+      "  closed {}, manifold {}, oriented {}, bounds a volume {}, self-intersections {}",
+      yes(mesh.closed), yes(mesh.manifold), yes(mesh.oriented), yes(mesh.bounds_volume),
+      mesh.self_intersections));
+  console.say(fmt::format("  {} triangles, {} component(s), {:.3f} cm3", mesh.triangles,
+                          mesh.components, mesh.volume_mm3 / 1000.0));
   if (verdict.wall)
-    console.say(fmt::format("  thinnest {:.3f} mm, from ring {}", verdict.wall->thickness_mm, verdict.wall->ring));
+    console.say(fmt::format("  thinnest {:.3f} mm, from ring {}", verdict.wall->thickness_mm,
+                            verdict.wall->ring));
   for (const auto& problem : mesh.problems)
     console.say(fmt::format("  {} ({}): {}", problem.what, problem.count, problem.where));
 }
@@ -136,10 +145,14 @@ int check(const CheckCommand& command, const Console& console) {
 
 void add_check_command(CLI::App& app, Console& console, int& exit) {
   auto command = std::make_shared<CheckCommand>();
-  CLI::App* sub = app.add_subcommand("check", "Say what is wrong with a pot or anyone's mesh, and where");
+  CLI::App* sub =
+      app.add_subcommand("check", "Say what is wrong with a pot or anyone's mesh, and where");
   sub->add_option("file", command->file, ".stl, .obj, .drc, .pot.json or .pot.cbor")->required();
-  sub->add_option("--min-wall", command->min_wall_mm, "Least wall that passes, for pots [mm]")->check(CLI::PositiveNumber);
-  sub->footer("\nExamples:\n  claystack check bowl.stl\n  claystack check bowl.pot.json --min-wall 3 --json");
+  sub->add_option("--min-wall", command->min_wall_mm, "Least wall that passes, for pots [mm]")
+      ->check(CLI::PositiveNumber);
+  sub->footer(
+      "\nExamples:\n  claystack check bowl.stl\n  claystack check bowl.pot.json --min-wall 3 "
+      "--json");
   sub->callback([command, &console, &exit] { exit = check(*command, console); });
 }
 

@@ -27,10 +27,14 @@ void Console::warn(std::string_view line) const { fmt::print(stderr, "claystack:
 int report(const Error& error) {
   fmt::print(stderr, "claystack: {}\n", error.message);
   switch (error.kind) {
-    case ErrorKind::unsound: return kUnsound;
-    case ErrorKind::bad_input: return kBadInput;
-    case ErrorKind::io: return kIoFailed;
-    case ErrorKind::device: return kDeviceFailed;
+    case ErrorKind::unsound:
+      return kUnsound;
+    case ErrorKind::bad_input:
+      return kBadInput;
+    case ErrorKind::io:
+      return kIoFailed;
+    case ErrorKind::device:
+      return kDeviceFailed;
   }
   return kBadInput;
 }

@@ -18,12 +18,12 @@ using Json = nlohmann::ordered_json;
 enum Exit { kDone = 0, kUnsound = 1, kBadInput = 2, kIoFailed = 3, kDeviceFailed = 4 };
 
 struct Console {
-  bool json = false;    ///< data as JSON on stdout
-  bool quiet = false;   ///< no progress, no summary: errors and asked-for data only
+  bool json = false;   ///< data as JSON on stdout
+  bool quiet = false;  ///< no progress, no summary: errors and asked-for data only
 
-  void print(const Json& data) const;                ///< one JSON document, pretty
-  void say(std::string_view line) const;             ///< to stdout, for people; silent with json or quiet
-  void warn(std::string_view line) const;            ///< to stderr
+  void print(const Json& data) const;      ///< one JSON document, pretty
+  void say(std::string_view line) const;   ///< to stdout, for people; silent with json or quiet
+  void warn(std::string_view line) const;  ///< to stderr
 };
 
 /// "claystack: MESSAGE" on stderr; the exit status of the error's kind.
@@ -40,7 +40,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   void update(std::size_t done);
-  void stage(std::string_view name);   ///< for work in named stages instead of counts
+  void stage(std::string_view name);  ///< for work in named stages instead of counts
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -5,8 +5,8 @@
 #include "claystack/export/export_job.hpp"
 #include "claystack/export/section_svg.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -42,7 +42,8 @@ Result<std::vector<Request>> requests_of(const ExportCommand& command) {
     if (!path.ends_with(".svg")) {
       const auto format = solid::mesh_format_of(path);
       if (!format) return tl::make_unexpected(format.error());
-      request.mesh = *format == MeshFormat::stl_binary && command.ascii ? MeshFormat::stl_ascii : *format;
+      request.mesh =
+          *format == MeshFormat::stl_binary && command.ascii ? MeshFormat::stl_ascii : *format;
     }
     requests.push_back(std::move(request));
   }
@@ -60,7 +61,8 @@ Json report_json(const ExportReport& report) {
       {"chordal_error_mm", report.chordal_error_mm},
       {"min_wall_mm", report.min_wall_mm},
       {"certificate",
-       {{"proved", "closed and embedded: the profile is strictly simple and meets the axis in segments only"},
+       {{"proved",
+         "closed and embedded: the profile is strictly simple and meets the axis in segments only"},
         {"polygons", report.certificate.polygons},
         {"vertices", report.certificate.vertices},
         {"axis_segments", report.certificate.axis_segments}}},
@@ -73,37 +75,46 @@ Json report_json(const ExportReport& report) {
   };
   for (const auto& shape : report.shapes)
     for (const auto& cavity : shape.cavities)
-      json["cavities"].push_back({{"bottom_mm", cavity.bottom_mm}, {"top_mm", cavity.top_mm}, {"volume_mm3", cavity.volume_mm3}});
-  for (const auto& [what, why] : report.left_out) json["left_out"].push_back({{"what", what}, {"why", why}});
-  for (const auto& [name, seconds] : report.stages) json["stages"].push_back({{"name", name}, {"seconds", seconds}});
+      json["cavities"].push_back({{"bottom_mm", cavity.bottom_mm},
+                                  {"top_mm", cavity.top_mm},
+                                  {"volume_mm3", cavity.volume_mm3}});
+  for (const auto& [what, why] : report.left_out)
+    json["left_out"].push_back({{"what", what}, {"why", why}});
+  for (const auto& [name, seconds] : report.stages)
+    json["stages"].push_back({{"name", name}, {"seconds", seconds}});
   return json;
 }
 
-Json file_json(const std::string& path, std::string_view format, std::size_t bytes, double max_error_mm) {
+Json file_json(const std::string& path, std::string_view format, std::size_t bytes,
+               double max_error_mm) {
   return {{"path", path}, {"format", format}, {"bytes", bytes}, {"max_error_mm", max_error_mm}};
 }
 
 void tell(const Console& console, const Json& json) {
-  console.say(fmt::format("proved: closed and embedded, from {} profile vertices; checked on the mesh: "
-                          "{} triangles, {} component(s), {} self-intersections",
-                          json["certificate"]["vertices"].get<std::size_t>(), json["triangles"].get<std::size_t>(),
-                          json["components"].get<std::size_t>(), json["self_intersections"].get<std::size_t>()));
-  console.say(fmt::format("volume {:.3f} cm3, off the counted clay by {:.1e}; thinnest {:.2f} mm; chordal error {:.3g} mm",
-                          json["volume_mm3"].get<double>() / 1000.0, json["volume_error_relative"].get<double>(),
-                          json["min_wall_mm"].get<double>(), json["chordal_error_mm"].get<double>()));
+  console.say(fmt::format(
+      "proved: closed and embedded, from {} profile vertices; checked on the mesh: "
+      "{} triangles, {} component(s), {} self-intersections",
+      json["certificate"]["vertices"].get<std::size_t>(), json["triangles"].get<std::size_t>(),
+      json["components"].get<std::size_t>(), json["self_intersections"].get<std::size_t>()));
+  console.say(fmt::format(
+      "volume {:.3f} cm3, off the counted clay by {:.1e}; thinnest {:.2f} mm; chordal error {:.3g} "
+      "mm",
+      json["volume_mm3"].get<double>() / 1000.0, json["volume_error_relative"].get<double>(),
+      json["min_wall_mm"].get<double>(), json["chordal_error_mm"].get<double>()));
   for (const Json& cavity : json["cavities"])
-    console.warn(fmt::format("closed cavity from {:.1f} to {:.1f} mm ({:.1f} cm3): it needs a drain hole",
-                             cavity["bottom_mm"].get<double>(), cavity["top_mm"].get<double>(),
-                             cavity["volume_mm3"].get<double>() / 1000.0));
+    console.warn(
+        fmt::format("closed cavity from {:.1f} to {:.1f} mm ({:.1f} cm3): it needs a drain hole",
+                    cavity["bottom_mm"].get<double>(), cavity["top_mm"].get<double>(),
+                    cavity["volume_mm3"].get<double>() / 1000.0));
   for (const Json& file : json["files"])
-    console.say(fmt::format("{}: {}, {} bytes, vertices within {:.2g} mm", file["path"].get<std::string>(),
-                            file["format"].get<std::string>(), file["bytes"].get<std::size_t>(),
-                            file["max_error_mm"].get<double>()));
+    console.say(fmt::format("{}: {}, {} bytes, vertices within {:.2g} mm",
+                            file["path"].get<std::string>(), file["format"].get<std::string>(),
+                            file["bytes"].get<std::size_t>(), file["max_error_mm"].get<double>()));
 }
 
 /// Everything is encoded and verified before the first file is written.
-Result<Json> write_all(const Pot& pot, const std::vector<Request>& requests, const ExportCommand& command,
-                       const Console& console) {
+Result<Json> write_all(const Pot& pot, const std::vector<Request>& requests,
+                       const ExportCommand& command, const Console& console) {
   std::vector<MeshFormat> formats;
   for (const Request& request : requests)
     if (request.mesh) formats.push_back(*request.mesh);
@@ -118,8 +129,10 @@ Result<Json> write_all(const Pot& pot, const std::vector<Request>& requests, con
   for (const Request& request : requests) {
     const std::string drawing = request.mesh ? std::string() : solid::section_svg(pot);
     const std::string& bytes = request.mesh ? mesh->bytes : drawing;
-    if (auto written = publish(request.path, bytes); !written) return tl::make_unexpected(written.error());
-    json["files"].push_back(request.mesh ? file_json(request.path, solid::name_of(mesh->format), bytes.size(), mesh->max_error_mm)
+    if (auto written = publish(request.path, bytes); !written)
+      return tl::make_unexpected(written.error());
+    json["files"].push_back(request.mesh ? file_json(request.path, solid::name_of(mesh->format),
+                                                     bytes.size(), mesh->max_error_mm)
                                          : file_json(request.path, "svg", bytes.size(), 0.0));
     if (request.mesh) ++mesh;
   }
@@ -131,14 +144,16 @@ Result<Json> write_all(const Pot& pot, const std::vector<Request>& requests, con
 Result<void> export_pot(ExportCommand& command, const Console& console) {
   const auto requests = requests_of(command);
   if (!requests) return tl::make_unexpected(requests.error());
-  const auto pot = read_file(command.pot).and_then(
-      [&](const std::string& bytes) { return parse_pot(bytes, command.pot); });
+  const auto pot = read_file(command.pot).and_then([&](const std::string& bytes) {
+    return parse_pot(bytes, command.pot);
+  });
   if (!pot) return tl::make_unexpected(pot.error());
   if (command.segments > 0) command.options.segments = command.segments;
   command.options.name = std::filesystem::path(command.pot).stem().stem().string();
 
   // A section needs no solid: any pot can be drawn, a fallen one too.
-  const bool only_drawings = std::none_of(requests->begin(), requests->end(), [](const Request& r) { return r.mesh.has_value(); });
+  const bool only_drawings = std::none_of(requests->begin(), requests->end(),
+                                          [](const Request& r) { return r.mesh.has_value(); });
   if (only_drawings) {
     for (const Request& request : *requests) {
       if (auto written = publish(request.path, solid::section_svg(*pot)); !written) return written;
@@ -157,20 +172,31 @@ Result<void> export_pot(ExportCommand& command, const Console& console) {
 
 void add_export_command(CLI::App& app, Console& console, int& exit) {
   auto command = std::make_shared<ExportCommand>();
-  CLI::App* sub = app.add_subcommand("export", "Turn a pot into a solid that prints, proved and checked");
-  sub->add_option("pot", command->pot, "NAME.pot.json or .pot.cbor, or - for standard input")->required();
-  sub->add_option("out", command->outputs, "Files to write: .stl, .obj, .drc, or .svg for the section")->required();
-  sub->add_option("--tolerance", command->options.tolerance_mm, "Largest chordal error, and vertex error in .drc [mm]")
-      ->check(CLI::Range(1e-4, 10.0))->capture_default_str();
-  sub->add_option("--smooth", command->options.smoothing, "fair: walls as they were meant; none: the steps of the rings")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, solid::Smoothing>{{"fair", solid::Smoothing::fair}, {"none", solid::Smoothing::none}}))
+  CLI::App* sub =
+      app.add_subcommand("export", "Turn a pot into a solid that prints, proved and checked");
+  sub->add_option("pot", command->pot, "NAME.pot.json or .pot.cbor, or - for standard input")
+      ->required();
+  sub->add_option("out", command->outputs,
+                  "Files to write: .stl, .obj, .drc, or .svg for the section")
+      ->required();
+  sub->add_option("--tolerance", command->options.tolerance_mm,
+                  "Largest chordal error, and vertex error in .drc [mm]")
+      ->check(CLI::Range(1e-4, 10.0))
+      ->capture_default_str();
+  sub->add_option("--smooth", command->options.smoothing,
+                  "fair: walls as they were meant; none: the steps of the rings")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, solid::Smoothing>{
+          {"fair", solid::Smoothing::fair}, {"none", solid::Smoothing::none}}))
       ->default_str("fair");
-  sub->add_option("--segments", command->segments, "Steps around the axis (default: as the tolerance asks)")
+  sub->add_option("--segments", command->segments,
+                  "Steps around the axis (default: as the tolerance asks)")
       ->check(CLI::Range(3, 1 << 20));
   sub->add_flag("--ascii", command->ascii, "Write .stl as text");
-  sub->add_flag("--pieces", command->options.allow_pieces, "Allow pieces that do not touch, all in one file");
-  sub->footer("\nExamples:\n  claystack export bowl.pot.json bowl.stl bowl.obj bowl.drc bowl.svg\n"
-              "  claystack export bowl.pot.json bowl.stl --tolerance 0.005 --json");
+  sub->add_flag("--pieces", command->options.allow_pieces,
+                "Allow pieces that do not touch, all in one file");
+  sub->footer(
+      "\nExamples:\n  claystack export bowl.pot.json bowl.stl bowl.obj bowl.drc bowl.svg\n"
+      "  claystack export bowl.pot.json bowl.stl --tolerance 0.005 --json");
   sub->callback([command, &console, &exit] {
     const auto done = export_pot(*command, console);
     exit = done ? kDone : report(done.error());

@@ -2,11 +2,10 @@
 #include "replay.hpp"
 #include "stage_cost.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
-
 
 namespace clay::app {
 namespace {
@@ -20,7 +19,8 @@ Json line_json(const PlanLine& line, const StageCost* saved) {
 std::string line_text(const PlanLine& line, const StageCost* saved) {
   std::string text = fmt::format("{:<4}{:<15}{}", line.in ? "in" : "out", line.stage, line.why);
   if (saved)
-    text += fmt::format(" (with it {:.0f} ns a tick, without {:.0f})", saved->with_ns, saved->without_ns);
+    text += fmt::format(" (with it {:.0f} ns a tick, without {:.0f})", saved->with_ns,
+                        saved->without_ns);
   return text;
 }
 
@@ -45,7 +45,8 @@ Result<void> plan_scene(const std::string& path, const Console& console) {
 
 void add_plan_command(CLI::App& app, Console& console, int& exit) {
   auto scene = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("plan", "Say what a scene needs, what is left out, and what that saves");
+  CLI::App* command =
+      app.add_subcommand("plan", "Say what a scene needs, what is left out, and what that saves");
   command->add_option("scene", *scene, "NAME.scene.json, or - for standard input")->required();
   command->footer("\nExample:\n  claystack plan samples/bowl.scene.json");
   command->callback([scene, &console, &exit] {

@@ -27,7 +27,8 @@ class Auditor {
 
   void look(ReplayStats& stats) const {
     const double missing = -error();
-    stats.max_volume_error_percent = std::max(stats.max_volume_error_percent, percent(std::abs(missing)));
+    stats.max_volume_error_percent =
+        std::max(stats.max_volume_error_percent, percent(std::abs(missing)));
     stats.max_missing_over_top = std::max(stats.max_missing_over_top, missing / top());
   }
   [[nodiscard]] TraceRow row(double time_s, double force_n) const {
@@ -38,7 +39,9 @@ class Auditor {
   [[nodiscard]] double error() const {
     return static_cast<double>(wheel_.ledger().volume_error(wheel_.stack().volume()));
   }
-  [[nodiscard]] double top() const { return static_cast<double>(wheel_.stack().rings().back().volume()); }
+  [[nodiscard]] double top() const {
+    return static_cast<double>(wheel_.stack().rings().back().volume());
+  }
   [[nodiscard]] double percent(double quanta) const { return 100.0 * quanta / initial_; }
   const Wheel& wheel_;
   double initial_;
@@ -61,7 +64,8 @@ ReplayStats replay(Wheel& wheel, std::span<const Pose> poses, const ReplayOption
     stats.ring_limit = stats.ring_limit || (step.flags & kRingLimit) != 0;
     stats.max_force_n = std::max(stats.max_force_n, force);
     auditor.look(stats);
-    if (options.trace) options.trace->push_back(auditor.row(1e-6 * static_cast<double>(poses[k].time_us), force));
+    if (options.trace)
+      options.trace->push_back(auditor.row(1e-6 * static_cast<double>(poses[k].time_us), force));
     if (options.progress) options.progress(k + 1);
   }
   stats.tick_ns_median = percentile(tick_ns, 0.5);
@@ -74,7 +78,8 @@ Result<SceneSpec> load_scene(const std::string& path) {
 }
 
 Result<Session> load_session(const std::string& path) {
-  return read_file(path).and_then([&](const std::string& text) { return parse_session(text, path); });
+  return read_file(path).and_then(
+      [&](const std::string& text) { return parse_session(text, path); });
 }
 
 std::string session_beside(const std::string& scene_path) {

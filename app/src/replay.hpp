@@ -16,25 +16,26 @@ namespace clay::app {
 /// One tick of a replay, for traces and plots.
 struct TraceRow {
   double time_s = 0.0;
-  double volume_error_percent = 0.0;   ///< of the initial volume; negative: clay is missing
-  double top_ring_percent = 0.0;       ///< Delta v_N, the paper's bound, in the same measure
+  double volume_error_percent = 0.0;  ///< of the initial volume; negative: clay is missing
+  double top_ring_percent = 0.0;      ///< Delta v_N, the paper's bound, in the same measure
   double height_mm = 0.0;
   double force_n = 0.0;
 };
 
 struct ReplayStats {
-  std::size_t refused = 0;             ///< poses that could not be believed
+  std::size_t refused = 0;  ///< poses that could not be believed
   bool ring_limit = false;
   double max_volume_error_percent = 0.0;
-  double max_missing_over_top = 0.0;   ///< missing clay / Delta v_N, at worst; the paper's bound is 1
+  double max_missing_over_top =
+      0.0;  ///< missing clay / Delta v_N, at worst; the paper's bound is 1
   double max_force_n = 0.0;
   double tick_ns_median = 0.0;
   double tick_ns_p999 = 0.0;
 };
 
 struct ReplayOptions {
-  std::vector<TraceRow>* trace = nullptr;            ///< filled with one row a tick
-  std::function<void(std::size_t)> progress;         ///< called with the ticks done
+  std::vector<TraceRow>* trace = nullptr;     ///< filled with one row a tick
+  std::function<void(std::size_t)> progress;  ///< called with the ticks done
 };
 
 /// Plays every pose on the wheel, and looks at the ledger after each.

@@ -10,7 +10,7 @@
 namespace clay::app {
 namespace {
 
-constexpr int kRounds = 9;          // odd: the median is one of them
+constexpr int kRounds = 9;  // odd: the median is one of them
 constexpr int kTicks = 4000;
 constexpr double kDepthMm = 1.0;
 

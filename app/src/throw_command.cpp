@@ -6,8 +6,8 @@
 #include "claystack/engine/pot_file.hpp"
 #include "claystack/engine/stack_measures.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
 #include <numbers>
@@ -56,19 +56,22 @@ Json summary(const Wheel& wheel, const ReplayStats& stats, const Session& sessio
 }
 
 void tell(const Console& console, const Json& s) {
-  console.say(fmt::format("{} ticks, model {}: {} rings, {:.1f} mm high, {:.1f} cm3 of clay, thinnest {:.2f} mm",
-                          s["ticks"].get<std::size_t>(), s["model"].get<std::string>(),
-                          s["rings"].get<std::size_t>(), s["height_mm"].get<double>(),
-                          s["volume_mm3"].get<double>() / 1000.0, s["min_wall_mm"].get<double>()));
-  console.say(fmt::format("volume error: {} quanta (at worst {:.4g} % on the way)", s["volume_error_quanta"].dump(),
+  console.say(fmt::format(
+      "{} ticks, model {}: {} rings, {:.1f} mm high, {:.1f} cm3 of clay, thinnest {:.2f} mm",
+      s["ticks"].get<std::size_t>(), s["model"].get<std::string>(), s["rings"].get<std::size_t>(),
+      s["height_mm"].get<double>(), s["volume_mm3"].get<double>() / 1000.0,
+      s["min_wall_mm"].get<double>()));
+  console.say(fmt::format("volume error: {} quanta (at worst {:.4g} % on the way)",
+                          s["volume_error_quanta"].dump(),
                           s["max_volume_error_percent"].get<double>()));
   console.say(fmt::format("tick: median {:.0f} ns, 99.9 % within {:.0f} ns; force up to {:.2f} N",
                           s["tick_ns_median"].get<double>(), s["tick_ns_p999"].get<double>(),
                           s["max_force_n"].get<double>()));
   if (s["collapsed"].get<bool>())
-    console.say(fmt::format("collapsed: ring {} yielded at {:.2f} kPa, the part above fell by {:.0f} degrees",
-                            s["collapse"]["ring"].get<std::size_t>(), s["collapse"]["stress_kpa"].get<double>(),
-                            s["collapse"]["angle_deg"].get<double>()));
+    console.say(fmt::format(
+        "collapsed: ring {} yielded at {:.2f} kPa, the part above fell by {:.0f} degrees",
+        s["collapse"]["ring"].get<std::size_t>(), s["collapse"]["stress_kpa"].get<double>(),
+        s["collapse"]["angle_deg"].get<double>()));
 }
 
 std::string trace_csv(const std::vector<TraceRow>& rows) {
@@ -82,14 +85,17 @@ std::string trace_csv(const std::vector<TraceRow>& rows) {
 void warn_of_oddities(const Console& console, const Session& session, const SceneSpec& scene,
                       const ThrowOptions& options) {
   if (session.torn)
-    console.warn(fmt::format("{}: the last line is cut off; its poses are not played", options.session));
+    console.warn(
+        fmt::format("{}: the last line is cut off; its poses are not played", options.session));
   if (session.scene_hash != 0 && session.scene_hash != hash_of(scene))
-    console.warn(fmt::format("{}: recorded on another scene ({}); the pot will differ from the one that was felt",
-                             options.session, session.scene_name));
+    console.warn(fmt::format(
+        "{}: recorded on another scene ({}); the pot will differ from the one that was felt",
+        options.session, session.scene_name));
 }
 
 /// Plays the session with both models, for the plot that compares them.
-Result<void> write_error_plot(const SceneSpec& scene, const Session& session, const std::string& path) {
+Result<void> write_error_plot(const SceneSpec& scene, const Session& session,
+                              const std::string& path) {
   std::vector<ErrorCurve> curves;
   for (const Model model : {Model::paper, Model::conserving}) {
     SceneSpec variant = scene;
@@ -116,22 +122,27 @@ Result<void> throw_pot(const ThrowOptions& options, const Console& console) {
   ReplayStats stats;
   {
     Progress progress(console, "throwing", session->poses.size());
-    stats = replay(*wheel, session->poses,
-                   {.trace = options.trace.empty() ? nullptr : &trace,
-                    .progress = [&](std::size_t done) { if (done % 256 == 0) progress.update(done); }});
+    stats = replay(
+        *wheel, session->poses,
+        {.trace = options.trace.empty() ? nullptr : &trace, .progress = [&](std::size_t done) {
+           if (done % 256 == 0) progress.update(done);
+         }});
   }
-  if (stats.refused > 0) console.warn(fmt::format("{} poses could not be believed and were not played", stats.refused));
+  if (stats.refused > 0)
+    console.warn(fmt::format("{} poses could not be believed and were not played", stats.refused));
   if (stats.ring_limit) console.warn("clay waits above the top: raise lump.max_rings");
 
   const Pot pot = wheel->pot();
   if (!options.pot.empty()) {
-    const PotEncoding encoding = options.pot.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
+    const PotEncoding encoding =
+        options.pot.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
     if (auto written = publish(options.pot, write_pot(pot, encoding)); !written) return written;
   }
   if (!options.trace.empty())
     if (auto written = publish(options.trace, trace_csv(trace)); !written) return written;
   if (!options.error_plot.empty())
-    if (auto written = write_error_plot(*scene, *session, options.error_plot); !written) return written;
+    if (auto written = write_error_plot(*scene, *session, options.error_plot); !written)
+      return written;
 
   const Json json = summary(*wheel, stats, *session, pot);
   if (console.json) console.print(json);
@@ -145,16 +156,25 @@ Result<void> throw_pot(const ThrowOptions& options, const Console& console) {
 void add_throw_command(CLI::App& app, Console& console, int& exit) {
   auto options = std::make_shared<ThrowOptions>();
   CLI::App* command = app.add_subcommand("throw", "Play a session on a scene and keep the pot");
-  command->add_option("scene", options->scene, "NAME.scene.json, or - for standard input")->required();
-  command->add_option("-s,--session", options->session, "Poses to play (default: NAME.session beside the scene)");
-  command->add_option("-o,--output", options->pot, "Pot to write: .pot.json, or .pot.cbor (compact)");
-  command->add_option("--model", options->model, "Model to use instead of the scene's: conserving or paper")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, Model>{{"conserving", Model::conserving}, {"paper", Model::paper}}));
-  command->add_option("--trace", options->trace, "CSV with a row a tick: volume error, height, force");
-  command->add_option("--error-plot", options->error_plot, "SVG of the volume error over time, both models");
-  command->footer("\nExamples:\n  claystack throw samples/vase.scene.json -o vase.pot.json\n"
-                  "  claystack throw samples/vase.scene.json --model paper --json\n"
-                  "  claystack throw samples/vase.scene.json --error-plot vase-error.svg");
+  command->add_option("scene", options->scene, "NAME.scene.json, or - for standard input")
+      ->required();
+  command->add_option("-s,--session", options->session,
+                      "Poses to play (default: NAME.session beside the scene)");
+  command->add_option("-o,--output", options->pot,
+                      "Pot to write: .pot.json, or .pot.cbor (compact)");
+  command
+      ->add_option("--model", options->model,
+                   "Model to use instead of the scene's: conserving or paper")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, Model>{
+          {"conserving", Model::conserving}, {"paper", Model::paper}}));
+  command->add_option("--trace", options->trace,
+                      "CSV with a row a tick: volume error, height, force");
+  command->add_option("--error-plot", options->error_plot,
+                      "SVG of the volume error over time, both models");
+  command->footer(
+      "\nExamples:\n  claystack throw samples/vase.scene.json -o vase.pot.json\n"
+      "  claystack throw samples/vase.scene.json --model paper --json\n"
+      "  claystack throw samples/vase.scene.json --error-plot vase-error.svg");
   command->callback([options, &console, &exit] {
     if (options->session.empty()) options->session = session_beside(options->scene);
     const auto done = throw_pot(*options, console);

@@ -29,10 +29,10 @@ Result<void> check_ring(const Ring& ring, std::size_t index) {
   static const Quanta smallest = quanta_from_radius(kMinRadiusMm);
   static const Quanta largest = quanta_from_radius(kMaxRadiusMm);
   const auto wrong = [&](const std::string& expected) {
-    return failure(ErrorKind::bad_input,
-                   "ring " + std::to_string(index) + ": expected " + expected + ", found outer " +
-                       std::to_string(ring.outer2) + " and inner " + std::to_string(ring.inner2) +
-                       " quanta of 2^-36 mm^2");
+    return failure(ErrorKind::bad_input, "ring " + std::to_string(index) + ": expected " +
+                                             expected + ", found outer " +
+                                             std::to_string(ring.outer2) + " and inner " +
+                                             std::to_string(ring.inner2) + " quanta of 2^-36 mm^2");
   };
   if (ring.outer2 < smallest || ring.outer2 > largest)
     return wrong("an outer radius from 0.001 to 5000 mm");
@@ -64,7 +64,8 @@ Result<ClayStack> ClayStack::from_rings(double ring_height_mm, std::vector<Ring>
   if (auto shape = check_shape(rings.size(), ring_height_mm, max_rings); !shape)
     return tl::make_unexpected(shape.error());
   if (crown < 0)
-    return failure(ErrorKind::bad_input, "expected a crown of 0 quanta or more, found " + to_string(crown));
+    return failure(ErrorKind::bad_input,
+                   "expected a crown of 0 quanta or more, found " + to_string(crown));
   ClayStack stack;
   for (std::size_t i = 0; i < rings.size(); ++i) {
     if (auto ring = check_ring(rings[i], i); !ring) return tl::make_unexpected(ring.error());
@@ -80,7 +81,8 @@ Result<ClayStack> ClayStack::from_rings(double ring_height_mm, std::vector<Ring>
 
 double ClayStack::crown_height_mm() const noexcept {
   if (crown_ == 0 || rings_.empty()) return 0.0;
-  return ring_height_mm_ * static_cast<double>(crown_) / static_cast<double>(rings_.back().volume());
+  return ring_height_mm_ * static_cast<double>(crown_) /
+         static_cast<double>(rings_.back().volume());
 }
 
 double ClayStack::height_mm() const noexcept {

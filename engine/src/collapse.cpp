@@ -30,7 +30,8 @@ double centre_of_mass(const ClayStack& stack, std::size_t first) noexcept {
     moment += volume * middle;
   };
   for (std::size_t i = first; i < stack.size(); ++i)
-    add(static_cast<double>(stack.rings()[i].volume()), top_of(stack, i) - 0.5 * stack.ring_height_mm());
+    add(static_cast<double>(stack.rings()[i].volume()),
+        top_of(stack, i) - 0.5 * stack.ring_height_mm());
   add(static_cast<double>(stack.crown()), stack.height_mm() - 0.5 * stack.crown_height_mm());
   return moment / mass;
 }

@@ -21,7 +21,8 @@ Side side_at(const ClayStack& stack, double hip_y, double axis_distance) noexcep
   const double last = static_cast<double>(stack.size() - 1);
   const double level = std::clamp(std::floor(hip_y / stack.ring_height_mm()), 0.0, last);
   const Ring& ring = stack.rings()[static_cast<std::size_t>(level)];
-  return axis_distance > 0.5 * (ring.outer_mm() + ring.inner_mm()) ? Side::compressive : Side::expansive;
+  return axis_distance > 0.5 * (ring.outer_mm() + ring.inner_mm()) ? Side::compressive
+                                                                   : Side::expansive;
 }
 
 template <class Profile>

@@ -14,24 +14,25 @@ enum class Side { compressive, expansive };
 /// A ring that the tool overlaps.
 struct RingContact {
   std::uint32_t ring = 0;
-  double depth_mm = 0.0;   ///< R + f - d outside, d + f - r inside; > 0
-  double slope = 0.0;      ///< f'(t)
+  double depth_mm = 0.0;  ///< R + f - d outside, d + f - r inside; > 0
+  double slope = 0.0;     ///< f'(t)
 };
 
 /// What the tool touches (section 4). `rings` is a subset of bottom..top, ascending; empty when
 /// there is no contact. Storage is reserved once, so that a tick allocates nothing.
 struct Contact {
   Side side = Side::compressive;
-  std::size_t bottom = 0;            ///< candidate range by (1), (2), counted from 0
+  std::size_t bottom = 0;  ///< candidate range by (1), (2), counted from 0
   std::size_t top = 0;
-  double axis_distance_mm = 0.0;     ///< d
-  double radial_x = 0.0;             ///< cos psi; (0, 0) on the axis, where there is no direction
-  double radial_z = 0.0;             ///< sin psi
+  double axis_distance_mm = 0.0;  ///< d
+  double radial_x = 0.0;          ///< cos psi; (0, 0) on the axis, where there is no direction
+  double radial_z = 0.0;          ///< sin psi
   std::vector<RingContact> rings;
 };
 
 /// Rings the tool can touch at once, for reserving.
-[[nodiscard]] std::size_t most_contacts(const Tool& tool, double ring_height_mm, std::size_t max_rings);
+[[nodiscard]] std::size_t most_contacts(const Tool& tool, double ring_height_mm,
+                                        std::size_t max_rings);
 
 /// Two stages: candidates by height, equations (1) and (2); then each ring by its radii. The side
 /// is decided once, at the tool's centre, by the demarcating circle r_d = (R + r) / 2.

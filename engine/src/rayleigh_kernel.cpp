@@ -27,7 +27,8 @@ RayleighKernel::RayleighKernel(double sigma_mm, double reach_mm, double ring_hei
   const double ratio = ring_height_mm / sigma_mm;  // +inf for sigma = 0
   const double exponent = 0.5 * ratio * ratio;
   double total = 0.0;
-  for (std::size_t j = 1; j <= length; ++j) total += relative_weight(static_cast<double>(j), exponent);
+  for (std::size_t j = 1; j <= length; ++j)
+    total += relative_weight(static_cast<double>(j), exponent);
 
   constexpr double kOne = static_cast<double>(std::int64_t{1} << kFractionBits);
   cumulative_.assign(length + 1, 0);

@@ -12,7 +12,8 @@ constexpr int kShareBits = 30;
 // A tick has a bounded length; the crown holds what is left for the next one.
 constexpr std::size_t kMostGrowthPerTick = 64;
 
-WideQuanta take(const Contact& contact, const std::vector<Quanta>& removed, StackWriter& writer) noexcept {
+WideQuanta take(const Contact& contact, const std::vector<Quanta>& removed,
+                StackWriter& writer) noexcept {
   WideQuanta total = 0;
   for (std::size_t k = 0; k < removed.size(); ++k) {
     if (contact.side == Side::compressive)
@@ -99,7 +100,8 @@ Flow press_clay(const StepPlan& plan, const Contact& contact, const std::vector<
     writer.put_on_crown(rest);
 
   Flow flow;
-  flow.lowest = upward ? contact.bottom : contact.bottom - std::min(contact.bottom, plan.kernel.length());
+  flow.lowest =
+      upward ? contact.bottom : contact.bottom - std::min(contact.bottom, plan.kernel.length());
   flow.highest = contact.top + std::min(plan.kernel.length(), count - 1 - contact.top);
   grow<model>(flow, stack, ledger, writer);
   return flow;

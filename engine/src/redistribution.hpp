@@ -13,15 +13,15 @@ namespace clay {
 
 /// What a tick's flow did to the stack.
 struct Flow {
-  std::size_t lowest = 0;    ///< rings lowest..highest may have changed
+  std::size_t lowest = 0;  ///< rings lowest..highest may have changed
   std::size_t highest = 0;
-  std::size_t grown = 0;     ///< rings added on top
-  bool ring_limit = false;   ///< clay waits for a ring that max_rings does not allow
+  std::size_t grown = 0;    ///< rings added on top
+  bool ring_limit = false;  ///< clay waits for a ring that max_rings does not allow
 };
 
 /// Takes `removed` from the touched rings and spreads it by the Rayleigh kernel: upward from above
-/// the candidate range by (5), (6) when the tool moves up, downward from below it by (7), (8) when it
-/// moves down. alpha goes inside as far as each bore has room (r_j^2 >= share), the rest
+/// the candidate range by (5), (6) when the tool moves up, downward from below it by (7), (8) when
+/// it moves down. alpha goes inside as far as each bore has room (r_j^2 >= share), the rest
 /// outside. What finds no ring below goes up; what finds none above becomes height.
 template <Model model>
 Flow press_clay(const StepPlan& plan, const Contact& contact, const std::vector<Quanta>& removed,

@@ -21,8 +21,8 @@ template <Model model>
 void compute_removal(const RemovalPlan& plan, const ClayStack& stack, const Contact& contact,
                      double dt_s, std::vector<Quanta>& removed) noexcept {
   const bool outside = contact.side == Side::compressive;
-  const double fraction = model == Model::paper ? plan.paper_fraction
-                                                : one_minus_exp_neg(plan.rate_per_s * dt_s);
+  const double fraction =
+      model == Model::paper ? plan.paper_fraction : one_minus_exp_neg(plan.rate_per_s * dt_s);
   removed.clear();
   for (const RingContact& touch : contact.rings) {
     const Ring& ring = stack.rings()[touch.ring];

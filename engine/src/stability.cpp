@@ -47,7 +47,8 @@ void StabilityWatch::move_to(const ClayStack& stack, std::size_t highest) noexce
 std::optional<Failure> StabilityWatch::check(const StabilityPlan& plan, const ClayStack& stack,
                                              std::size_t lowest, std::size_t grown) noexcept {
   const auto rings = stack.rings();
-  for (std::size_t i = rings.size() - grown; i < rings.size(); ++i) above_cursor_ += rings[i].volume();
+  for (std::size_t i = rings.size() - grown; i < rings.size(); ++i)
+    above_cursor_ += rings[i].volume();
   // Growth and the crown weigh on every ring between the flow and the top.
   if (grown > 0) move_to(stack, rings.size() - 1);
   return weakest(plan, rings, above_cursor_ + stack.crown(), cursor_, lowest);

@@ -14,8 +14,8 @@ struct Failure {
   double stress_kpa = 0.0;
 };
 
-/// beta_i = g M_i / (pi (R_i^2 - r_i^2)) [kPa], M_i the mass of all above ring i, crown included. The
-/// paper leaves out g and so compares a mass per area; with g the threshold is a stress.
+/// beta_i = g M_i / (pi (R_i^2 - r_i^2)) [kPa], M_i the mass of all above ring i, crown included.
+/// The paper leaves out g and so compares a mass per area; with g the threshold is a stress.
 [[nodiscard]] double stress_kpa(const StabilityPlan& plan, WideQuanta above, Quanta ring) noexcept;
 
 /// Stress is looked at only where it can have risen. Clay moves locally, so the weight above a ring
@@ -37,7 +37,7 @@ class StabilityWatch {
 
  private:
   std::size_t cursor_ = 0;
-  WideQuanta above_cursor_ = 0;   ///< of rings above cursor_, without the crown
+  WideQuanta above_cursor_ = 0;  ///< of rings above cursor_, without the crown
   bool placed_ = false;
 };
 

@@ -19,10 +19,9 @@ struct Range {
 Result<void> check_ranges(std::initializer_list<Range> ranges) {
   for (const Range& r : ranges)
     if (!(r.value >= r.low && r.value <= r.high))
-      return failure(ErrorKind::bad_input, std::string(r.setting) + ": expected a value from " +
-                                               std::to_string(r.low) + " to " +
-                                               std::to_string(r.high) + ", found " +
-                                               std::to_string(r.value));
+      return failure(ErrorKind::bad_input,
+                     std::string(r.setting) + ": expected a value from " + std::to_string(r.low) +
+                         " to " + std::to_string(r.high) + ", found " + std::to_string(r.value));
   return {};
 }
 
@@ -42,7 +41,8 @@ Result<void> check(const SceneSpec& s) {
       {"force.paper_stiffness_n_per_mm", force.paper_stiffness_n_per_mm.value_or(0.0), 0.0, 1e6},
       {"force.limit_n", force.limit_n, 0.0, 10.0},
       {"force.friction", force.friction, 0.0, 2.0},
-      {"stability.max_stress_kpa", stability.max_stress_kpa, std::numeric_limits<double>::min(), 1e6},
+      {"stability.max_stress_kpa", stability.max_stress_kpa, std::numeric_limits<double>::min(),
+       1e6},
   });
 }
 
@@ -58,7 +58,8 @@ unsigned stages_of(const SceneSpec& s) {
 ForcePlan force_plan(const SceneSpec& s) {
   if (!s.force) return {};
   const double per_ring = s.force->stiffness_n_per_mm2 * s.lump.ring_height_mm;
-  const double k = s.model == Model::paper ? s.force->paper_stiffness_n_per_mm.value_or(per_ring) : per_ring;
+  const double k =
+      s.model == Model::paper ? s.force->paper_stiffness_n_per_mm.value_or(per_ring) : per_ring;
   return {k, s.force->limit_n, s.force->friction, s.force->counterclockwise ? 1.0 : -1.0};
 }
 
@@ -75,11 +76,13 @@ std::vector<PlanLine> describe(const SceneSpec& s, unsigned stages) {
   return {
       {"tool state", true, "pose, time step, direction of motion"},
       {"contact", true, "equations (1), (2), then the rings touched"},
-      {"removal", true, s.model == Model::paper ? "k (R - r) a tick" : "(R - r)(1 - exp(-rate dt))"},
+      {"removal", true,
+       s.model == Model::paper ? "k (R - r) a tick" : "(R - r)(1 - exp(-rate dt))"},
       {"outer surface", true, press ? "equations (5), (7)" : "cut"},
       {"inner surface", hollow,
        hollow ? "equations (6), (8)" : "the lump is solid: nothing to fill until a tool opens it"},
-      {"growth", press, press ? "clay above the top becomes height" : "a trimming tool moves no clay"},
+      {"growth", press,
+       press ? "clay above the top becomes height" : "a trimming tool moves no clay"},
       {"force", (stages & kForce) != 0, (stages & kForce) ? "section 6.1" : "no force is set"},
       {"friction", (stages & kFriction) != 0,
        (stages & kFriction) ? "section 6.2" : "no coefficient of friction is set"},

@@ -14,8 +14,9 @@ constexpr double kSlopeLimit = 127.0 / 128.0;
 bool is_size(double mm) { return mm > 0.0 && mm <= kMaxSizeMm; }
 
 tl::unexpected<Error> bad_size(const std::string& what, double found) {
-  return failure(ErrorKind::bad_input, "tool: expected " + what + " above 0 and at most 5000 mm, found " +
-                                           std::to_string(found));
+  return failure(
+      ErrorKind::bad_input,
+      "tool: expected " + what + " above 0 and at most 5000 mm, found " + std::to_string(found));
 }
 
 struct Built {
@@ -69,9 +70,9 @@ std::vector<double> monotone_slopes(const std::vector<double>& t, const std::vec
 
 Result<Built> build_profile(const SampledSpec& s) {
   if (s.t_mm.size() < 2 || s.t_mm.size() != s.f_mm.size())
-    return failure(ErrorKind::bad_input, "tool: expected as many t_mm as f_mm, two at least, found " +
-                                             std::to_string(s.t_mm.size()) + " and " +
-                                             std::to_string(s.f_mm.size()));
+    return failure(ErrorKind::bad_input,
+                   "tool: expected as many t_mm as f_mm, two at least, found " +
+                       std::to_string(s.t_mm.size()) + " and " + std::to_string(s.f_mm.size()));
   for (std::size_t k = 0; k < s.t_mm.size(); ++k) {
     if (!(std::abs(s.t_mm[k]) <= kMaxSizeMm) || (k > 0 && !(s.t_mm[k] > s.t_mm[k - 1])))
       return failure(ErrorKind::bad_input, "tool: expected t_mm to rise within 5000 mm, found " +

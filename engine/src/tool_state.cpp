@@ -21,9 +21,11 @@ ToolState ToolTracker::advance(const Pose& pose) noexcept {
   if (has_last_) {
     if (pose.time_us <= last_.time_us) return state;
     // Unsigned: the difference of two signed extremes must not overflow.
-    const auto elapsed = static_cast<std::uint64_t>(pose.time_us) - static_cast<std::uint64_t>(last_.time_us);
+    const auto elapsed =
+        static_cast<std::uint64_t>(pose.time_us) - static_cast<std::uint64_t>(last_.time_us);
     state.dt_clamped = elapsed > static_cast<std::uint64_t>(kLongestStepUs);
-    state.dt_s = 1e-6 * static_cast<double>(std::min(elapsed, static_cast<std::uint64_t>(kLongestStepUs)));
+    state.dt_s =
+        1e-6 * static_cast<double>(std::min(elapsed, static_cast<std::uint64_t>(kLongestStepUs)));
     const double rise = p.y - last_.position_mm.y;
     if (rise != 0.0) upward_ = rise > 0.0;
   }

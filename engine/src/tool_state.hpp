@@ -8,8 +8,8 @@ namespace clay {
 /// A pose that may be believed, with what its predecessors say of it.
 struct ToolState {
   glm::dvec3 hip_mm{0.0};
-  double dt_s = 0.0;        ///< since the last pose; 0 for the first, at most 0.05
-  bool upward = true;       ///< direction of clay flow (section 5.1)
+  double dt_s = 0.0;   ///< since the last pose; 0 for the first, at most 0.05
+  bool upward = true;  ///< direction of clay flow (section 5.1)
   bool trim = false;
   bool valid = false;
   bool dt_clamped = false;

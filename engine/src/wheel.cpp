@@ -24,8 +24,8 @@ struct Wheel::State {
   Ledger ledger;
   ToolTracker tracker;
   StabilityWatch watch;
-  Contact contact;               // scratch, reserved once
-  std::vector<Quanta> removed;   // scratch, reserved once
+  Contact contact;              // scratch, reserved once
+  std::vector<Quanta> removed;  // scratch, reserved once
   std::optional<Failure> failure;
   glm::dvec3 failure_hip{0.0};
   StepReport (*tick)(State&, const Pose&) noexcept = nullptr;
@@ -112,8 +112,7 @@ Result<Wheel> Wheel::build(const SceneSpec& scene) {
   }
 
   auto state = std::make_unique<State>();
-  const std::size_t touches =
-      most_contacts(plan->tool, lump.ring_height_mm, max_rings_of(lump));
+  const std::size_t touches = most_contacts(plan->tool, lump.ring_height_mm, max_rings_of(lump));
   state->plan = std::move(*plan);
   state->stack = std::move(*stack);
   StackWriter(state->stack).reserve();

@@ -171,12 +171,12 @@ Result<std::string> encode_drc(const TriangleMesh& mesh, const DracoSettings& se
   return failure(ErrorKind::unsound, std::string("cannot write .drc: ") + error.what());
 }
 
-Result<TriangleMesh> decode_drc(std::string_view bytes, std::string_view name) try {
-  return check_file_size(bytes, name)
-      .and_then([&] { return check_header(bytes, name); })
-      .and_then([&] { return decode_body(bytes, name); });
-} catch (const std::exception& error) {
-  return bad_file(name, std::string("Draco: ") + error.what());
+Result<TriangleMesh> decode_drc(std::string_view bytes, std::string_view name) {
+  return guarded(name, [&] {
+    return check_file_size(bytes, name)
+        .and_then([&] { return check_header(bytes, name); })
+        .and_then([&] { return decode_body(bytes, name); });
+  });
 }
 
 }  // namespace clay::solid

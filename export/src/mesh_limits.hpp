@@ -2,9 +2,11 @@
 // What a mesh file may hold at most: every reader checks before it allocates.
 
 #include "claystack/engine/result.hpp"
+#include "claystack/export/triangle_mesh.hpp"
 
 #include <cmath>
 #include <cstddef>
+#include <exception>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
@@ -33,5 +35,13 @@ inline constexpr std::string_view kCoordinateRule = "a coordinate within +-1e6 m
 
 /// No facets at all are refused too.
 [[nodiscard]] Result<void> check_facet_count(std::size_t facets, std::string_view name);
+
+/// What `read` returns; what it throws (memory that is not to be had, Draco's own) as an error.
+template <class Read>
+[[nodiscard]] Result<TriangleMesh> guarded(std::string_view name, const Read& read) try {
+  return read();
+} catch (const std::exception& error) {
+  return bad_file(name, std::string("cannot be read: ").append(error.what()));
+}
 
 }  // namespace clay::solid

@@ -184,7 +184,9 @@ std::string encode_obj(const TriangleMesh& mesh, std::string_view object_name) {
 }
 
 Result<TriangleMesh> decode_obj(std::string_view bytes, std::string_view name) {
-  return check_file_size(bytes, name).and_then([&] { return ObjReader(bytes, name).read(); });
+  return guarded(name, [&] {
+    return check_file_size(bytes, name).and_then([&] { return ObjReader(bytes, name).read(); });
+  });
 }
 
 }  // namespace clay::solid

@@ -71,8 +71,9 @@ Polygon fair_bore(const ClayStack& stack, RingRange piece, double tolerance_mm) 
     const bool open = stack.rings()[first].inner2 > 0;
     std::size_t last = first;
     while (last < piece.last && (stack.rings()[last + 1].inner2 > 0) == open) ++last;
-    const Polygon part = open ? fair_wall(stack, {first, last}, &Ring::inner_mm, tolerance_mm)
-                              : Polygon{{0.0, level_mm(stack, first)}, {0.0, level_mm(stack, last + 1)}};
+    const Polygon part =
+        open ? fair_wall(stack, {first, last}, &Ring::inner_mm, tolerance_mm)
+             : Polygon{{0.0, level_mm(stack, first)}, {0.0, level_mm(stack, last + 1)}};
     bore.insert(bore.end(), part.begin(), part.end());
     first = last + 1;
   }

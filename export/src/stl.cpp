@@ -149,6 +149,15 @@ tl::unexpected<Error> wrong_size(std::string_view bytes, std::string_view name) 
                             " facets it counts" + found);
 }
 
+Result<TriangleMesh> decode_either(std::string_view bytes, std::string_view name) {
+  if (bytes.size() >= kPrologueBytes) {
+    const std::size_t facets = load_u32(bytes.data() + kHeaderBytes);
+    if (bytes.size() == binary_size(facets)) return decode_binary(bytes, facets, name);
+  }
+  if (!begins_with_solid(bytes)) return wrong_size(bytes, name);
+  return StlTextReader(bytes, name).read();
+}
+
 }  // namespace
 
 std::string encode_stl_binary(const TriangleMesh& mesh) {
@@ -184,13 +193,9 @@ std::string encode_stl_ascii(const TriangleMesh& mesh, std::string_view solid_na
 }
 
 Result<TriangleMesh> decode_stl(std::string_view bytes, std::string_view name) {
-  if (auto fits = check_file_size(bytes, name); !fits) return tl::make_unexpected(fits.error());
-  if (bytes.size() >= kPrologueBytes) {
-    const std::size_t facets = load_u32(bytes.data() + kHeaderBytes);
-    if (bytes.size() == binary_size(facets)) return decode_binary(bytes, facets, name);
-  }
-  if (!begins_with_solid(bytes)) return wrong_size(bytes, name);
-  return StlTextReader(bytes, name).read();
+  return guarded(name, [&] {
+    return check_file_size(bytes, name).and_then([&] { return decode_either(bytes, name); });
+  });
 }
 
 }  // namespace clay::solid

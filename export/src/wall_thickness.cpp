@@ -9,27 +9,29 @@ namespace clay::solid {
 namespace {
 
 struct Edge {
-  ProfilePoint low, high;   ///< by height
+  ProfilePoint low, high;  ///< by height
 };
 
 double distance(const ProfilePoint& p, const Edge& edge) {
   const double rho = edge.high.rho - edge.low.rho, y = edge.high.y - edge.low.y;
-  const double along = ((p.rho - edge.low.rho) * rho + (p.y - edge.low.y) * y) / (rho * rho + y * y);
+  const double along =
+      ((p.rho - edge.low.rho) * rho + (p.y - edge.low.y) * y) / (rho * rho + y * y);
   const double t = std::clamp(along, 0.0, 1.0);
   return std::hypot(p.rho - edge.low.rho - t * rho, p.y - edge.low.y - t * y);
 }
 
 /// Of edges that do not cross: an end of one is nearest.
 double distance(const Edge& a, const Edge& b) {
-  return std::min({distance(a.low, b), distance(a.high, b), distance(b.low, a), distance(b.high, a)});
+  return std::min(
+      {distance(a.low, b), distance(a.high, b), distance(b.low, a), distance(b.high, a)});
 }
 
 /// A piece's edges by what they face. With clay to the left, edges that rise face outward and those
 /// that fall face a bore; level ones that end on the axis are floors, lids, tops and bases.
 struct Faces {
   std::vector<Edge> outer, bore;
-  std::vector<double> up, down;   ///< heights of level faces at the axis
-  std::vector<Edge> axis;         ///< where clay reaches it
+  std::vector<double> up, down;  ///< heights of level faces at the axis
+  std::vector<Edge> axis;        ///< where clay reaches it
 
   explicit Faces(const Polygon& polygon) {
     for (std::size_t i = 0; i < polygon.size(); ++i)
@@ -54,10 +56,11 @@ struct Faces {
 
 double through_walls(const Faces& faces, double least) {
   for (const Edge& inner : faces.bore) {
-    const auto begin = std::partition_point(faces.outer.begin(), faces.outer.end(), [&](const Edge& e) {
-      return e.high.y < inner.low.y - least;
-    });
-    for (auto outer = begin; outer != faces.outer.end() && outer->low.y <= inner.high.y + least; ++outer)
+    const auto begin =
+        std::partition_point(faces.outer.begin(), faces.outer.end(),
+                             [&](const Edge& e) { return e.high.y < inner.low.y - least; });
+    for (auto outer = begin; outer != faces.outer.end() && outer->low.y <= inner.high.y + least;
+         ++outer)
       least = std::min(least, distance(*outer, inner));
   }
   return least;
@@ -80,8 +83,10 @@ double radius_at(const Edge& edge, double y) {
 double across(const Faces& faces, double least) {
   for (const Edge& axis : faces.axis)
     for (const Edge& outer : faces.outer) {
-      const double low = std::max(axis.low.y, outer.low.y), high = std::min(axis.high.y, outer.high.y);
-      if (low < high) least = std::min({least, 2.0 * radius_at(outer, low), 2.0 * radius_at(outer, high)});
+      const double low = std::max(axis.low.y, outer.low.y),
+                   high = std::min(axis.high.y, outer.high.y);
+      if (low < high)
+        least = std::min({least, 2.0 * radius_at(outer, low), 2.0 * radius_at(outer, high)});
     }
   return least;
 }

@@ -15,10 +15,13 @@ namespace {
 using namespace clay;
 
 Result<void> replay(const std::string& scene_path, const std::string& session_path, bool paper) {
-  auto scene = read_file(scene_path).and_then([&](const std::string& text) { return parse_scene(text, scene_path); });
+  auto scene = read_file(scene_path).and_then([&](const std::string& text) {
+    return parse_scene(text, scene_path);
+  });
   if (!scene) return tl::make_unexpected(scene.error());
-  const auto session =
-      read_file(session_path).and_then([&](const std::string& text) { return parse_session(text, session_path); });
+  const auto session = read_file(session_path).and_then([&](const std::string& text) {
+    return parse_session(text, session_path);
+  });
   if (!session) return tl::make_unexpected(session.error());
   if (paper) scene->model = Model::paper;
   auto wheel = Wheel::build(*scene);

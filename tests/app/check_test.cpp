@@ -13,9 +13,15 @@ class CheckMesh : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     const ScratchFolder folder;
-    ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + folder.file("p.pot.json")).status, 0);
-    ASSERT_EQ(claystack("export -q --segments 16 " + folder.file("p.pot.json") + " " + folder.file("p.stl") + " " +
-                        folder.file("p.obj") + " " + folder.file("p.drc")).status, 0);
+    ASSERT_EQ(
+        claystack("throw -q " + sample("bowl.scene.json") + " -o " + folder.file("p.pot.json"))
+            .status,
+        0);
+    ASSERT_EQ(
+        claystack("export -q --segments 16 " + folder.file("p.pot.json") + " " +
+                  folder.file("p.stl") + " " + folder.file("p.obj") + " " + folder.file("p.drc"))
+            .status,
+        0);
     good_stl = read_text(folder.file("p.stl"));
     good_obj = read_text(folder.file("p.obj"));
     good_drc = read_text(folder.file("p.drc"));
@@ -25,13 +31,15 @@ class CheckMesh : public testing::Test {
     const auto count = static_cast<std::uint32_t>((stl.size() - 84) / 50);
     std::memcpy(stl.data() + 80, &count, 4);
   }
-  nlohmann::json expect_problem(const std::string& name, const std::string& bytes, int status, const std::string& says) {
+  nlohmann::json expect_problem(const std::string& name, const std::string& bytes, int status,
+                                const std::string& says) {
     write_text(folder.file(name), bytes);
     const Ran run = claystack("check --json " + folder.file(name));
     EXPECT_EQ(run.status, status) << name << run.out << run.err;
     const auto json = run.json();
     EXPECT_FALSE(json.at("sound")) << name;
-    EXPECT_NE(json.at("problems").dump().find(says), std::string::npos) << json.at("problems").dump(2);
+    EXPECT_NE(json.at("problems").dump().find(says), std::string::npos)
+        << json.at("problems").dump(2);
     return json;
   }
   inline static std::string good_stl, good_obj, good_drc;
@@ -64,7 +72,7 @@ TEST_F(CheckMesh, NotANumberIsNamedWithItsPlace) {
   std::string stl = good_stl;
   const float nan = std::numeric_limits<float>::quiet_NaN();
   std::memcpy(facet(stl, 33) + 12, &nan, 4);
-  expect_problem("nan.stl", stl, 2, "facet 33");
+  expect_problem("nan.stl", stl, 2, "facet 34");  // counted from 1
   std::string obj = good_obj;
   obj.replace(obj.find("\nv ") + 3, 1, "nan ");
   expect_problem("nan.obj", obj, 2, "nan.obj:");
@@ -154,7 +162,8 @@ TEST(Check, UnknownEndingsAreListed) {
   write_text(folder.file("pot.blend"), "x");
   const Ran run = claystack("check " + folder.file("pot.blend"));
   EXPECT_EQ(run.status, 2);
-  for (const char* ending : {".stl", ".obj", ".drc", ".pot.json"}) EXPECT_NE(run.err.find(ending), std::string::npos) << run.err;
+  for (const char* ending : {".stl", ".obj", ".drc", ".pot.json"})
+    EXPECT_NE(run.err.find(ending), std::string::npos) << run.err;
 }
 
 }  // namespace

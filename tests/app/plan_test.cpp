@@ -26,8 +26,10 @@ TEST(Plan, LeavesOutWhatASolidFrictionlessSceneDoesNotNeed) {
   const auto run = claystack("plan --json " + folder.file("s.scene.json"));
   ASSERT_EQ(run.status, 0) << run.err;
   const auto plan = run.json();
-  EXPECT_EQ(stages(plan, "left_out"), (std::set<std::string>{"inner surface", "friction", "stability"}));
-  EXPECT_EQ(stages(plan, "in"), (std::set<std::string>{"tool state", "contact", "removal", "outer surface", "growth", "force"}));
+  EXPECT_EQ(stages(plan, "left_out"),
+            (std::set<std::string>{"inner surface", "friction", "stability"}));
+  EXPECT_EQ(stages(plan, "in"), (std::set<std::string>{"tool state", "contact", "removal",
+                                                       "outer surface", "growth", "force"}));
   for (const auto& line : plan.at("left_out")) {
     EXPECT_FALSE(line.at("why").get<std::string>().empty());
     EXPECT_TRUE(line.at("saved_ns").is_number());
@@ -41,7 +43,8 @@ TEST(Plan, HasAllInForASceneThatNeedsAll) {
   scene["force"]["friction"] = 0.2;
   scene["stability"]["max_stress_kpa"] = 10;
   write_text(folder.file("s.scene.json"), scene.dump());
-  EXPECT_TRUE(claystack("plan --json " + folder.file("s.scene.json")).json().at("left_out").empty());
+  EXPECT_TRUE(
+      claystack("plan --json " + folder.file("s.scene.json")).json().at("left_out").empty());
   scene.erase("force");
   write_text(folder.file("s.scene.json"), scene.dump());
   EXPECT_EQ(stages(claystack("plan --json " + folder.file("s.scene.json")).json(), "left_out"),

@@ -12,13 +12,17 @@ namespace clay::test {
 Ran shell(const std::string& command) {
   const ScratchFolder folder;
   const std::string out = folder.file("out"), err = folder.file("err");
-  const std::string line = "timeout 300 sh -c '" + command + "' >" + out + " 2>" + err + " </dev/null";
+  const std::string line =
+      "timeout 300 sh -c '" + command + "' >" + out + " 2>" + err + " </dev/null";
   const int status = std::system(line.c_str());
-  Ran run{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_text(out), read_text(err)};
+  Ran run{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_text(out),
+          read_text(err)};
   return run;
 }
 
-Ran claystack(const std::string& arguments) { return shell(std::string(CLAYSTACK_PROGRAM) + " " + arguments); }
+Ran claystack(const std::string& arguments) {
+  return shell(std::string(CLAYSTACK_PROGRAM) + " " + arguments);
+}
 
 ScratchFolder::ScratchFolder() {
   std::string pattern = (std::filesystem::temp_directory_path() / "claystack-XXXXXX").string();

@@ -9,7 +9,7 @@
 namespace clay::test {
 
 struct Ran {
-  int status = -1;      ///< exit status; 128 + signal when killed
+  int status = -1;  ///< exit status; 128 + signal when killed
   std::string out;
   std::string err;
   [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(out); }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 namespace clay::test {
@@ -24,13 +25,15 @@ TEST_P(Samples, ConservingKeepsEveryQuantum) {
   EXPECT_EQ(lump.at("inner_radius_mm"), 0);
   const double radius = lump.at("outer_radius_mm"), h = lump.at("ring_height_mm");
   const double volume = std::numbers::pi * radius * radius * 200.0 * h;
-  EXPECT_NEAR((json.at("volume_mm3").get<double>() + json.at("trimmed_mm3").get<double>()) / volume, 1.0, 1e-12);
+  EXPECT_NEAR((json.at("volume_mm3").get<double>() + json.at("trimmed_mm3").get<double>()) / volume,
+              1.0, 1e-12);
   EXPECT_EQ(json.at("collapsed"), GetParam() == std::string("collapse"));
 }
 
 TEST_P(Samples, PaperMissesLessThanItsTopRingAtEveryTick) {
   const ScratchFolder folder;
-  const auto run = claystack("throw " + scene + " --model paper --json --trace " + folder.file("t.csv"));
+  const auto run =
+      claystack("throw " + scene + " --model paper --json --trace " + folder.file("t.csv"));
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = run.json();
   EXPECT_LE(json.at("volume_error_quanta"), 0);
@@ -68,16 +71,19 @@ TEST(Throw, TellsOfACollapse) {
 }
 
 TEST(Throw, WarnsOfASessionFromAnotherScene) {
-  const auto run = claystack("throw " + sample("vase.scene.json") + " --session " + sample("bowl.session"));
+  const auto run =
+      claystack("throw " + sample("vase.scene.json") + " --session " + sample("bowl.session"));
   EXPECT_EQ(run.status, 0);
   EXPECT_NE(run.err.find("recorded on another scene (bowl)"), std::string::npos) << run.err;
 }
 
 TEST(Throw, DrawsTheErrorOfBothModels) {
   const ScratchFolder folder;
-  const auto run = claystack("throw -q " + sample("bowl.scene.json") + " --error-plot " + folder.file("e.svg"));
+  const auto run =
+      claystack("throw -q " + sample("bowl.scene.json") + " --error-plot " + folder.file("e.svg"));
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_EQ(shell("rsvg-convert " + folder.file("e.svg") + " -o " + folder.file("e.png")).status, 0);
+  EXPECT_EQ(shell("rsvg-convert " + folder.file("e.svg") + " -o " + folder.file("e.png")).status,
+            0);
   const std::string svg = read_text(folder.file("e.svg"));
   EXPECT_NE(svg.find("model paper"), std::string::npos);
   EXPECT_NE(svg.find("model conserving"), std::string::npos);
@@ -93,18 +99,28 @@ TEST(Throw, RefusesAndLeavesNothingBehind) {
     EXPECT_FALSE(std::filesystem::exists(pot));
   };
   expect(folder.file("none.scene.json"), 3, "none.scene.json");
-  write_text(folder.file("bad.scene.json"), "{\n  \"schema\": \"claystack-scene-1\",\n  \"lumb\": {}\n}\n");
+  std::string scene = read_text(sample("bowl.scene.json"));
+  scene.insert(scene.find("\"rings\""), "\"colour\": 1,\n    ");
+  const auto line =
+      1 + std::count(scene.begin(),
+                     scene.begin() + static_cast<std::ptrdiff_t>(scene.find("colour")), '\n');
+  write_text(folder.file("bad.scene.json"), scene);
   write_text(folder.file("bad.session"), "");
-  expect(folder.file("bad.scene.json"), 2, "bad.scene.json:3:");
+  expect(folder.file("bad.scene.json"), 2, "bad.scene.json:" + std::to_string(line) + ":");
   expect(sample("bowl.scene.json") + " -s " + folder.file("bad.session"), 2, "bad.session");
   expect(sample("bowl.scene.json") + " --model clay", 2, "--model");
 
   std::string session = read_text(sample("bowl.session"));
-  const std::size_t line5 = [&] { std::size_t at = 0; for (int k = 1; k < 5; ++k) at = session.find('\n', at) + 1; return at; }();
+  const std::size_t line5 = [&] {
+    std::size_t at = 0;
+    for (int k = 1; k < 5; ++k) at = session.find('\n', at) + 1;
+    return at;
+  }();
   const std::size_t digit = session.find_first_of("123456789", line5 + 60);
   session[digit] = session[digit] == '9' ? '8' : '9';
   write_text(folder.file("flipped.session"), session);
-  expect(sample("bowl.scene.json") + " -s " + folder.file("flipped.session"), 2, "flipped.session:5:");
+  expect(sample("bowl.scene.json") + " -s " + folder.file("flipped.session"), 2,
+         "flipped.session:5:");
 }
 
 }  // namespace

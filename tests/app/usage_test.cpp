@@ -22,28 +22,31 @@ TEST(Usage, HelpShowsExamplesAndExitStatuses) {
 }
 
 TEST(Usage, BadUsageIsStatusTwo) {
-  for (const char* arguments : {"", "knead", "throw", "export x.pot.json", "check", "throw x --unknown",
-                                "export x.pot.json x.stl --tolerance -1", "export x.pot.json x.stl --segments two"})
+  for (const char* arguments :
+       {"", "knead", "throw", "export x.pot.json", "check", "throw x --unknown",
+        "export x.pot.json x.stl --tolerance -1", "export x.pot.json x.stl --segments two"})
     EXPECT_EQ(claystack(arguments).status, 2) << arguments;
 }
 
 TEST(Usage, QuietPrintsNothing) {
   const ScratchFolder folder;
-  const Ran run = claystack("throw --quiet " + sample("bowl.scene.json") + " -o " + folder.file("b.pot.json"));
+  const Ran run =
+      claystack("throw --quiet " + sample("bowl.scene.json") + " -o " + folder.file("b.pot.json"));
   EXPECT_EQ(run.status, 0);
   EXPECT_TRUE(run.out.empty()) << run.out;
   EXPECT_TRUE(run.err.empty()) << run.err;
 }
 
 TEST(Usage, DashIsStandardInputAndOutput) {
-  const Ran run = shell(std::string(CLAYSTACK_PROGRAM) + " throw -q - -s " + sample("bowl.session") + " -o - < " +
-                        sample("bowl.scene.json"));
+  const Ran run = shell(std::string(CLAYSTACK_PROGRAM) + " throw -q - -s " +
+                        sample("bowl.session") + " -o - < " + sample("bowl.scene.json"));
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.json().at("schema"), "claystack-pot-1");
 }
 
 TEST(Usage, AFolderThatIsNotThereIsStatusThree) {
-  const Ran run = claystack("throw -q " + sample("bowl.scene.json") + " -o /no/such/folder/b.pot.json");
+  const Ran run =
+      claystack("throw -q " + sample("bowl.scene.json") + " -o /no/such/folder/b.pot.json");
   EXPECT_EQ(run.status, 3);
   EXPECT_NE(run.err.find("/no/such/folder"), std::string::npos) << run.err;
 }

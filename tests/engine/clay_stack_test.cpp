@@ -30,7 +30,8 @@ TEST(ClayStack, CrownIsTheFractionOfTheTopRing) {
 TEST(ClayStack, RadiusSurvivesCounting) {
   for (const double mm : {0.001, 0.37, 1.0, 50.0, 4999.0}) {
     // Half a quantum of R^2 is half a quantum / 2R of R.
-    EXPECT_NEAR(radius_from_quanta(quanta_from_radius(mm)), mm, kMm2PerQuantum / (2.0 * mm) + 1e-15 * mm);
+    EXPECT_NEAR(radius_from_quanta(quanta_from_radius(mm)), mm,
+                kMm2PerQuantum / (2.0 * mm) + 1e-15 * mm);
   }
 }
 
@@ -57,7 +58,8 @@ TEST(ClayStack, RefusesWhatItCannotCount) {
            BadCylinder{10, 1, 10, -1, 10, "inner"},
            BadCylinder{10, 1, 10, nan, 10, "inner"},
        }) {
-    const auto stack = ClayStack::cylinder(bad.count, bad.height, bad.outer, bad.inner, bad.max_rings);
+    const auto stack =
+        ClayStack::cylinder(bad.count, bad.height, bad.outer, bad.inner, bad.max_rings);
     ASSERT_FALSE(stack) << bad.names;
     EXPECT_EQ(stack.error().kind, ErrorKind::bad_input);
     EXPECT_NE(stack.error().message.find(bad.names), std::string::npos) << stack.error().message;
@@ -65,7 +67,8 @@ TEST(ClayStack, RefusesWhatItCannotCount) {
 }
 
 TEST(ClayStack, FromRingsNamesTheRing) {
-  const Ring good{quanta_from_radius(10.0), 0}, bad{quanta_from_radius(10.0), quanta_from_radius(10.0)};
+  const Ring good{quanta_from_radius(10.0), 0},
+      bad{quanta_from_radius(10.0), quanta_from_radius(10.0)};
   const auto stack = ClayStack::from_rings(1.0, {good, good, bad}, 0);
   ASSERT_FALSE(stack);
   EXPECT_NE(stack.error().message.find("ring 2"), std::string::npos);

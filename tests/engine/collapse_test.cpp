@@ -17,7 +17,8 @@ struct Point {
 /// Right-handed turn in the plane (radial, y), about the pivot.
 Point turned(Point p, Point pivot, double angle) {
   const double x = p.x - pivot.x, y = p.y - pivot.y;
-  return {pivot.x + x * std::cos(angle) - y * std::sin(angle), pivot.y + x * std::sin(angle) + y * std::cos(angle)};
+  return {pivot.x + x * std::cos(angle) - y * std::sin(angle),
+          pivot.y + x * std::sin(angle) + y * std::cos(angle)};
 }
 
 /// Lowest point of the fallen part, by turning both ends of every ring's section.
@@ -37,7 +38,8 @@ RC_GTEST_PROP(Collapse, RestsOnTheWheelOrHangs, ()) {
   const auto count = *rc::gen::inRange<std::size_t>(2, 60);
   const ClayStack stack = samples::stack(random, count, 2.0);
   const auto failed = *rc::gen::inRange<std::size_t>(0, count - 1);
-  const Point pivot{70.0 * samples::uniform(random), 2.0 * static_cast<double>(failed) + 4.0 * samples::uniform(random)};
+  const Point pivot{70.0 * samples::uniform(random),
+                    2.0 * static_cast<double>(failed) + 4.0 * samples::uniform(random)};
   const Collapse fall = settle(stack, {failed, 1.0}, {pivot.x, pivot.y, 0.0});
   RC_ASSERT(fall.angle_rad >= 0.0 && fall.angle_rad <= std::numbers::pi);
 
@@ -54,7 +56,8 @@ RC_GTEST_PROP(Collapse, RestsOnTheWheelOrHangs, ()) {
     RC_ASSERT(com(fall.angle_rad * k / 20) >= com(fall.angle_rad * (k + 1) / 20) - 1e-9);
   // And it stops for a reason: on the wheel, or at the lowest point of its arc.
   const bool on_wheel = std::abs(rest) < 1e-6;
-  const bool hangs = com(fall.angle_rad + 1e-3) > com(fall.angle_rad) && com(fall.angle_rad - 1e-3) > com(fall.angle_rad);
+  const bool hangs = com(fall.angle_rad + 1e-3) > com(fall.angle_rad) &&
+                     com(fall.angle_rad - 1e-3) > com(fall.angle_rad);
   RC_ASSERT(on_wheel || hangs);
 }
 

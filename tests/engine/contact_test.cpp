@@ -27,7 +27,8 @@ RC_GTEST_PROP(Contact, TwoStagesFindWhatAskingEveryRingFinds, ()) {
   const ClayStack stack = samples::stack(random, count, h);
   const Tool tool = Tool::build(SphereSpec{1.0 + 30.0 * samples::uniform(random)}).value();
   const double height = stack.height_mm();
-  const glm::dvec3 hip(80.0 * samples::uniform(random), height * (2.0 * samples::uniform(random) - 0.5),
+  const glm::dvec3 hip(80.0 * samples::uniform(random),
+                       height * (2.0 * samples::uniform(random) - 0.5),
                        20.0 * samples::uniform(random));
   const Contact contact = contact_of(tool, stack, hip);
 
@@ -74,8 +75,12 @@ TEST_F(ContactOnCylinder, CandidatesAreEquationsOneAndTwo) {
 }
 
 TEST_F(ContactOnCylinder, NothingAboveBelowOrBeside) {
-  for (const glm::dvec3 hip : {glm::dvec3{50, 110.1, 0}, {50, -10.1, 0}, {60.001, 50, 0},
-                               {50, 1e300, 0}, {50, -1e300, 0}, {0, 50, 0}})
+  for (const glm::dvec3 hip : {glm::dvec3{50, 110.1, 0},
+                               {50, -10.1, 0},
+                               {60.001, 50, 0},
+                               {50, 1e300, 0},
+                               {50, -1e300, 0},
+                               {0, 50, 0}})
     EXPECT_TRUE(contact_of(sphere, cup, hip).rings.empty()) << hip.x << " " << hip.y;
 }
 

@@ -2,9 +2,9 @@
 
 #include "stack_samples.hpp"
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+#include <glm/geometric.hpp>
 
 #include <cmath>
 #include <limits>
@@ -22,7 +22,8 @@ Contact touch(const Tool& tool, const ClayStack& stack, glm::dvec3 hip) {
 
 double overlap_energy(const Tool& tool, const ClayStack& stack, glm::dvec3 hip) {
   double sum = 0.0;
-  for (const RingContact& ring : touch(tool, stack, hip).rings) sum += ring.depth_mm * ring.depth_mm;
+  for (const RingContact& ring : touch(tool, stack, hip).rings)
+    sum += ring.depth_mm * ring.depth_mm;
   return 0.5 * kPlan.stiffness_n_per_mm * sum;
 }
 
@@ -52,8 +53,10 @@ TEST_P(SpringForce, IsMinusTheGradientOfTheOverlapEnergy) {
         glm::dvec3 plus = hip, minus = hip;
         plus[axis] += step;
         minus[axis] -= step;
-        const double slope = (overlap_energy(tool, stack, plus) - overlap_energy(tool, stack, minus)) / (2 * step);
-        EXPECT_NEAR(force[axis], -slope, 1e-6 * (1 + glm::length(force))) << axis << " " << angle << outside;
+        const double slope =
+            (overlap_energy(tool, stack, plus) - overlap_energy(tool, stack, minus)) / (2 * step);
+        EXPECT_NEAR(force[axis], -slope, 1e-6 * (1 + glm::length(force)))
+            << axis << " " << angle << outside;
       }
       // It pushes the hand out of the clay: away from the axis outside, toward it inside.
       const double radial = (force.x * hip.x + force.z * hip.z) / d;
@@ -62,7 +65,8 @@ TEST_P(SpringForce, IsMinusTheGradientOfTheOverlapEnergy) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Shapes, SpringForce,
-                         testing::Values(ToolShapeSpec{SphereSpec{10}}, ToolShapeSpec{EllipseSpec{14, 6}},
+                         testing::Values(ToolShapeSpec{SphereSpec{10}},
+                                         ToolShapeSpec{EllipseSpec{14, 6}},
                                          ToolShapeSpec{SampledSpec{{-9, -3, 4, 9}, {1, 6, 7, 2}}}));
 
 TEST(PaperForce, IsKTimesDepthAlongTheUnitNormal) {
@@ -85,7 +89,8 @@ TEST(Friction, IsMuTimesTheSpringForceAlongTheTurn) {
   contact.radial_x = 1.0;
   const glm::dvec3 spring(3.0, 4.0, 0.0);
   // A wheel turning counterclockwise seen from above (y toward the eye) carries +x toward -z.
-  EXPECT_NEAR(glm::distance(friction_force(kPlan, contact, spring), glm::dvec3(0, 0, -0.3 * 5.0)), 0, 1e-15);
+  EXPECT_NEAR(glm::distance(friction_force(kPlan, contact, spring), glm::dvec3(0, 0, -0.3 * 5.0)),
+              0, 1e-15);
   ForcePlan clockwise = kPlan;
   clockwise.turn = -1.0;
   EXPECT_GT(friction_force(clockwise, contact, spring).z, 0.0);
@@ -105,7 +110,8 @@ TEST(Force, OnTheAxisIsFiniteAndHasNoRadialPart) {
 RC_GTEST_PROP(Force, LimitKeepsDirectionAndIsNeverPassed, ()) {
   auto random = *samples::random_engine();
   const auto component = [&] {
-    return std::pow(10.0, 12 * samples::uniform(random) - 4) * (samples::uniform(random) < 0.5 ? -1 : 1);
+    return std::pow(10.0, 12 * samples::uniform(random) - 4) *
+           (samples::uniform(random) < 0.5 ? -1 : 1);
   };
   const glm::dvec3 force(component(), component(), component());
   const glm::dvec3 kept = limited(force, 5.0);

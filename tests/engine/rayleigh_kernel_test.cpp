@@ -13,7 +13,9 @@ TEST(RayleighKernel, WeightsAreThePapers) {
   const double sigma = 8.0, h = 0.75;
   const RayleighKernel kernel(sigma, 30.0, h, 1000);
   ASSERT_EQ(kernel.length(), 40u);
-  const auto q = [&](double x) { return x / (sigma * sigma) * std::exp(-x * x / (2 * sigma * sigma)); };
+  const auto q = [&](double x) {
+    return x / (sigma * sigma) * std::exp(-x * x / (2 * sigma * sigma));
+  };
   double sum = 0.0;
   for (std::size_t k = 1; k <= 40; ++k) sum += q(h * static_cast<double>(k));
   for (std::size_t j = 1; j <= 40; ++j)

@@ -24,12 +24,17 @@ Contact contact_on(std::size_t bottom, std::size_t top, Side side = Side::compre
   contact.side = side;
   contact.bottom = bottom;
   contact.top = top;
-  for (std::size_t i = bottom; i <= top; ++i) contact.rings.push_back({static_cast<std::uint32_t>(i), 1.0, 0.0});
+  for (std::size_t i = bottom; i <= top; ++i)
+    contact.rings.push_back({static_cast<std::uint32_t>(i), 1.0, 0.0});
   return contact;
 }
 
-double outer2(const ClayStack& stack, std::size_t i) { return mm2_from_quanta(stack.rings()[i].outer2); }
-double inner2(const ClayStack& stack, std::size_t i) { return mm2_from_quanta(stack.rings()[i].inner2); }
+double outer2(const ClayStack& stack, std::size_t i) {
+  return mm2_from_quanta(stack.rings()[i].outer2);
+}
+double inner2(const ClayStack& stack, std::size_t i) {
+  return mm2_from_quanta(stack.rings()[i].inner2);
+}
 
 /// P_d(j) of the paper, in floating point.
 std::vector<double> weights(double sigma, double h, std::size_t length) {
@@ -53,8 +58,8 @@ TEST_P(Upward, EquationsFiveToEight) {
   ClayStack stack = ClayStack::cylinder(60, 1.0, 50.0, 40.0, 60).value();
   const StepPlan plan = plan_of(4.0, 12.0, 0.25);
   Ledger ledger;
-  const auto flow = press_clay<Model::conserving>(plan, contact_on(28, 30), {30 * kMm2, 40 * kMm2, 50 * kMm2}, up,
-                                                  stack, ledger);
+  const auto flow = press_clay<Model::conserving>(
+      plan, contact_on(28, 30), {30 * kMm2, 40 * kMm2, 50 * kMm2}, up, stack, ledger);
   const auto w = weights(4.0, 1.0, 12);
   for (std::size_t j = 1; j <= 12; ++j) {
     const std::size_t ring = up ? 30 + j : 28 - j;
@@ -72,8 +77,8 @@ INSTANTIATE_TEST_SUITE_P(Redistribution, Upward, testing::Bool());
 TEST(Redistribution, ExpansionWidensTheBore) {
   ClayStack stack = ClayStack::cylinder(10, 1.0, 50.0, 0.0, 10).value();
   Ledger ledger;
-  press_clay<Model::conserving>(plan_of(2.0, 3.0, 0.25), contact_on(5, 5, Side::expansive), {9 * kMm2}, false, stack,
-                                ledger);
+  press_clay<Model::conserving>(plan_of(2.0, 3.0, 0.25), contact_on(5, 5, Side::expansive),
+                                {9 * kMm2}, false, stack, ledger);
   EXPECT_EQ(stack.rings()[5].inner_mm(), 3.0);
   // The neighbours have no bore to fill: all of it goes outside.
   EXPECT_NEAR(outer2(stack, 4) + outer2(stack, 3) + outer2(stack, 2), 3 * 2500 + 9, 1e-9);
@@ -84,7 +89,8 @@ TEST(Redistribution, ABoreTooSmallSendsTheRestOutside) {
   ClayStack stack = ClayStack::from_rings(1.0, {wide, narrow, wide}, 0, 3).value();
   Ledger ledger;
   // One ring of reach: ring 1 is offered 30 mm^2 inside, and has 1.
-  press_clay<Model::conserving>(plan_of(4.0, 1.0, 0.3), contact_on(0, 0), {100 * kMm2}, true, stack, ledger);
+  press_clay<Model::conserving>(plan_of(4.0, 1.0, 0.3), contact_on(0, 0), {100 * kMm2}, true, stack,
+                                ledger);
   EXPECT_EQ(stack.rings()[1].inner2, 0);
   EXPECT_NEAR(outer2(stack, 1), 2500 + 99, 1e-9);
 }
@@ -92,7 +98,8 @@ TEST(Redistribution, ABoreTooSmallSendsTheRestOutside) {
 TEST(Redistribution, WhatFindsNoRoomBelowGoesUp) {
   ClayStack stack = ClayStack::cylinder(40, 1.0, 50.0, 0.0, 40).value();
   Ledger ledger;
-  press_clay<Model::conserving>(plan_of(4.0, 10.0, 0.25), contact_on(4, 6), {0, 100 * kMm2, 0}, false, stack, ledger);
+  press_clay<Model::conserving>(plan_of(4.0, 10.0, 0.25), contact_on(4, 6), {0, 100 * kMm2, 0},
+                                false, stack, ledger);
   const auto w = weights(4.0, 1.0, 10);
   double below = 0.0;
   for (std::size_t j = 1; j <= 4; ++j) {
@@ -108,7 +115,8 @@ TEST(Redistribution, WhatFindsNoRoomAboveBecomesHeight) {
   Ledger ledger;
   // Nothing above the top ring: 50 mm^2 leave it for half a ring, twice.
   const auto press = [&] {
-    return press_clay<Model::conserving>(plan_of(4.0, 5.0, 0.25), contact_on(9, 9), {40 * kMm2}, true, stack, ledger);
+    return press_clay<Model::conserving>(plan_of(4.0, 5.0, 0.25), contact_on(9, 9), {40 * kMm2},
+                                         true, stack, ledger);
   };
   EXPECT_EQ(press().grown, 0u);
   EXPECT_NEAR(stack.crown_height_mm(), 40.0 / 60.0, 1e-12);
@@ -122,7 +130,8 @@ TEST(Redistribution, PaperKeepsTheRestOutsideTheBody) {
   ClayStack stack = ClayStack::cylinder(10, 1.0, 10.0, 0.0, 40).value();
   Ledger ledger;
   ledger.initial = stack.volume();
-  press_clay<Model::paper>(plan_of(4.0, 5.0, 0.25), contact_on(9, 9), {40 * kMm2}, true, stack, ledger);
+  press_clay<Model::paper>(plan_of(4.0, 5.0, 0.25), contact_on(9, 9), {40 * kMm2}, true, stack,
+                           ledger);
   EXPECT_TRUE(ledger.outside == 40 * kMm2);
   EXPECT_TRUE(stack.crown() == 0);
   EXPECT_TRUE(ledger.volume_error(stack.recount()) == -40 * kMm2);
@@ -132,8 +141,8 @@ TEST(Redistribution, PaperKeepsTheRestOutsideTheBody) {
 TEST(Redistribution, RingLimitHoldsTheClayInTheCrown) {
   ClayStack stack = ClayStack::cylinder(10, 1.0, 10.0, 0.0, 10).value();
   Ledger ledger;
-  const Flow flow = press_clay<Model::conserving>(plan_of(4.0, 5.0, 0.25), contact_on(9, 9), {80 * kMm2}, true,
-                                                  stack, ledger);
+  const Flow flow = press_clay<Model::conserving>(plan_of(4.0, 5.0, 0.25), contact_on(9, 9),
+                                                  {80 * kMm2}, true, stack, ledger);
   EXPECT_TRUE(flow.ring_limit);
   EXPECT_EQ(stack.size(), 10u);
   EXPECT_TRUE(stack.crown() == 80 * kMm2);
@@ -154,15 +163,17 @@ RC_GTEST_PROP(Redistribution, MovesClayAndMakesNone, ()) {
   auto random = *samples::random_engine();
   const auto count = *rc::gen::inRange<std::size_t>(1, 40);
   ClayStack stack = samples::stack(random, count);
-  const StepPlan plan = plan_of(*rc::gen::element(0.0, 1.0, 6.0, 1e200), *rc::gen::element(0.0, 1.0, 9.0, 100.0),
-                                *rc::gen::element(0.0, 0.27, 1.0));
+  const StepPlan plan =
+      plan_of(*rc::gen::element(0.0, 1.0, 6.0, 1e200), *rc::gen::element(0.0, 1.0, 9.0, 100.0),
+              *rc::gen::element(0.0, 0.27, 1.0));
   const auto bottom = *rc::gen::inRange<std::size_t>(0, count);
   const auto top = *rc::gen::inRange<std::size_t>(bottom, count);
-  const Contact contact = contact_on(bottom, top, *rc::gen::element(Side::compressive, Side::expansive));
+  const Contact contact =
+      contact_on(bottom, top, *rc::gen::element(Side::compressive, Side::expansive));
   std::vector<Quanta> removed;
   for (const RingContact& touch : contact.rings)
-    removed.push_back(static_cast<Quanta>(samples::uniform(random) *
-                                          static_cast<double>(stack.rings()[touch.ring].volume() - 1)));
+    removed.push_back(static_cast<Quanta>(
+        samples::uniform(random) * static_cast<double>(stack.rings()[touch.ring].volume() - 1)));
   Ledger ledger;
   ledger.initial = stack.volume();
   press_clay<Model::conserving>(plan, contact, removed, *rc::gen::arbitrary<bool>(), stack, ledger);

@@ -21,24 +21,31 @@ Contact deep_contact(const ClayStack& stack, Side side, double depth_mm) {
 }
 
 template <Model model>
-double removed_mm2(const ClayStack& stack, Side side, double depth_mm, double dt_s, const RemovalPlan& plan = kPlan) {
+double removed_mm2(const ClayStack& stack, Side side, double depth_mm, double dt_s,
+                   const RemovalPlan& plan = kPlan) {
   std::vector<Quanta> removed;
   compute_removal<model>(plan, stack, deep_contact(stack, side, depth_mm), dt_s, removed);
   return mm2_from_quanta(removed.at(0));
 }
 
-ClayStack cup(double outer, double inner) { return ClayStack::cylinder(1, 1.0, outer, inner, 1).value(); }
+ClayStack cup(double outer, double inner) {
+  return ClayStack::cylinder(1, 1.0, outer, inner, 1).value();
+}
 
 TEST(Removal, PaperTakesAFractionOfTheWall) {
   const double eps = 0.02 * (50.0 - 40.0);  // equation (3): k (R - r)
-  EXPECT_NEAR(removed_mm2<Model::paper>(cup(50, 40), Side::compressive, 3, 0.001), eps * (2 * 50 - eps), 1e-9);
-  EXPECT_NEAR(removed_mm2<Model::paper>(cup(50, 40), Side::expansive, 3, 0.001), eps * (2 * 40 + eps), 1e-9);
+  EXPECT_NEAR(removed_mm2<Model::paper>(cup(50, 40), Side::compressive, 3, 0.001),
+              eps * (2 * 50 - eps), 1e-9);
+  EXPECT_NEAR(removed_mm2<Model::paper>(cup(50, 40), Side::expansive, 3, 0.001),
+              eps * (2 * 40 + eps), 1e-9);
 }
 
 TEST(Removal, ConservingFollowsTheExponential) {
   const double eps = 10.0 * -std::expm1(-20.0 * 0.004);
-  EXPECT_NEAR(removed_mm2<Model::conserving>(cup(50, 40), Side::compressive, 3, 0.004), eps * (100 - eps), 1e-9);
-  EXPECT_NEAR(removed_mm2<Model::conserving>(cup(50, 40), Side::expansive, 3, 0.004), eps * (80 + eps), 1e-9);
+  EXPECT_NEAR(removed_mm2<Model::conserving>(cup(50, 40), Side::compressive, 3, 0.004),
+              eps * (100 - eps), 1e-9);
+  EXPECT_NEAR(removed_mm2<Model::conserving>(cup(50, 40), Side::expansive, 3, 0.004),
+              eps * (80 + eps), 1e-9);
 }
 
 TEST(Removal, TwoHalfStepsAreOneStep) {
@@ -46,15 +53,18 @@ TEST(Removal, TwoHalfStepsAreOneStep) {
   const double first = removed_mm2<Model::conserving>(whole, Side::compressive, 30, 0.01);
   const double outer = std::sqrt(2500.0 - first);
   const double second = removed_mm2<Model::conserving>(cup(outer, 30), Side::compressive, 30, 0.01);
-  EXPECT_NEAR(first + second, removed_mm2<Model::conserving>(whole, Side::compressive, 30, 0.02), 1e-8);
+  EXPECT_NEAR(first + second, removed_mm2<Model::conserving>(whole, Side::compressive, 30, 0.02),
+              1e-8);
 }
 
 TEST(Removal, StopsAtTheToolAndAtTheMinimumWall) {
   // A fast clay: the exponential alone would take the whole wall.
   const RemovalPlan fast{.rate_per_s = 1e6, .min_wall_mm = 1.0, .paper_fraction = 0.0};
   const auto r = [&](double mm2) { return std::sqrt(2500.0 - mm2); };
-  EXPECT_NEAR(r(removed_mm2<Model::conserving>(cup(50, 40), Side::compressive, 3, 1, fast)), 47.0, 1e-9);
-  EXPECT_NEAR(r(removed_mm2<Model::conserving>(cup(50, 40), Side::compressive, 30, 1, fast)), 41.0, 1e-9);
+  EXPECT_NEAR(r(removed_mm2<Model::conserving>(cup(50, 40), Side::compressive, 3, 1, fast)), 47.0,
+              1e-9);
+  EXPECT_NEAR(r(removed_mm2<Model::conserving>(cup(50, 40), Side::compressive, 30, 1, fast)), 41.0,
+              1e-9);
   EXPECT_EQ(removed_mm2<Model::conserving>(cup(50, 49.5), Side::compressive, 30, 1, fast), 0.0);
   EXPECT_EQ(removed_mm2<Model::conserving>(cup(50, 40), Side::compressive, 3, 0.0, fast), 0.0);
 }

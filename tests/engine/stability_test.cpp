@@ -45,8 +45,10 @@ TEST(Stability, HoldsAtTheThresholdAndFailsAnUlpBeyond) {
 }
 
 TEST(Stability, NamesTheWeakestRing) {
-  const Ring wide{quanta_from_radius(50), 0}, neck{quanta_from_radius(5), 0}, thin{quanta_from_radius(4), 0};
-  const ClayStack stack = ClayStack::from_rings(1.0, {wide, neck, wide, thin, wide, wide}, 0).value();
+  const Ring wide{quanta_from_radius(50), 0}, neck{quanta_from_radius(5), 0},
+      thin{quanta_from_radius(4), 0};
+  const ClayStack stack =
+      ClayStack::from_rings(1.0, {wide, neck, wide, thin, wide, wide}, 0).value();
   const auto failure = StabilityWatch::check_all(plan_of(0.1).stability, stack);
   ASSERT_TRUE(failure);
   EXPECT_EQ(failure->ring, 3u);  // 2 * 2500 / 16 above it, against 3 * 2500 / 25 above ring 1
@@ -56,7 +58,8 @@ TEST(Stability, TheTopRingCarriesTheCrown) {
   const Ring ring{quanta_from_radius(10), 0};
   const StabilityPlan plan = plan_of(1e-9).stability;
   EXPECT_FALSE(StabilityWatch::check_all(plan, ClayStack::from_rings(1.0, {ring}, 0).value()));
-  EXPECT_TRUE(StabilityWatch::check_all(plan, ClayStack::from_rings(1.0, {ring}, ring.volume() / 2).value()));
+  EXPECT_TRUE(StabilityWatch::check_all(
+      plan, ClayStack::from_rings(1.0, {ring}, ring.volume() / 2).value()));
 }
 
 /// The literal sum of section 7 over every ring.
@@ -66,7 +69,8 @@ std::optional<Failure> literal(const StabilityPlan& plan, const ClayStack& stack
     WideQuanta above = stack.crown();
     for (std::size_t j = i + 1; j < stack.size(); ++j) above += stack.rings()[j].volume();
     const double stress = stress_kpa(plan, above, stack.rings()[i].volume());
-    if (stress > plan.max_stress_kpa && (!worst || stress > worst->stress_kpa)) worst = Failure{i, stress};
+    if (stress > plan.max_stress_kpa && (!worst || stress > worst->stress_kpa))
+      worst = Failure{i, stress};
   }
   return worst;
 }
@@ -84,18 +88,21 @@ RC_GTEST_PROP(Stability, WatchingTheFlowSeesWhatTheLiteralSumSees, ()) {
   StabilityWatch watch;
   for (int step = 0; step < 60; ++step) {
     Contact contact;
-    contact.bottom = static_cast<std::size_t>(samples::uniform(random) * static_cast<double>(stack.size()));
+    contact.bottom =
+        static_cast<std::size_t>(samples::uniform(random) * static_cast<double>(stack.size()));
     contact.top = std::min(contact.bottom + 3, stack.size() - 1);
     std::vector<Quanta> removed;
     for (std::size_t i = contact.bottom; i <= contact.top; ++i) {
       contact.rings.push_back({static_cast<std::uint32_t>(i), 1.0, 0.0});
-      removed.push_back(static_cast<Quanta>(0.4 * samples::uniform(random) * static_cast<double>(stack.rings()[i].volume())));
+      removed.push_back(static_cast<Quanta>(0.4 * samples::uniform(random) *
+                                            static_cast<double>(stack.rings()[i].volume())));
     }
     watch.move_to(stack, std::min(contact.top + plan.kernel.length(), stack.size() - 1));
     const bool trim = samples::uniform(random) < 0.1;
     const bool up = samples::uniform(random) < 0.5;
-    const Flow flow = trim ? trim_clay<Model::conserving>(contact, removed, stack, ledger)
-                           : press_clay<Model::conserving>(plan, contact, removed, up, stack, ledger);
+    const Flow flow =
+        trim ? trim_clay<Model::conserving>(contact, removed, stack, ledger)
+             : press_clay<Model::conserving>(plan, contact, removed, up, stack, ledger);
     const auto seen = watch.check(plan.stability, stack, flow.lowest, flow.grown);
     const auto expected = literal(plan.stability, stack);
     RC_ASSERT(seen.has_value() == expected.has_value());

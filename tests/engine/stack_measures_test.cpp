@@ -12,15 +12,16 @@ namespace {
 
 ClayStack stack_of(double h, std::initializer_list<std::pair<double, double>> radii) {
   std::vector<Ring> rings;
-  for (const auto& [outer, inner] : radii) rings.push_back({quanta_from_radius(outer), quanta_from_radius(inner)});
+  for (const auto& [outer, inner] : radii)
+    rings.push_back({quanta_from_radius(outer), quanta_from_radius(inner)});
   return ClayStack::from_rings(h, std::move(rings), 0).value();
 }
 
 TEST(MinWall, IsTheWallTheFloorOrTheDiameter) {
-  EXPECT_NEAR(min_wall(stack_of(5, {{40, 0}, {40, 35}})).thickness_mm, 5.0, 1e-9);    // wall = floor
-  EXPECT_NEAR(min_wall(stack_of(3, {{40, 0}, {40, 35}})).thickness_mm, 3.0, 1e-9);    // floor
-  EXPECT_NEAR(min_wall(stack_of(30, {{40, 0}, {40, 38}})).thickness_mm, 2.0, 1e-9);   // wall
-  EXPECT_NEAR(min_wall(stack_of(30, {{40, 0}, {7, 0}})).thickness_mm, 14.0, 1e-9);    // across
+  EXPECT_NEAR(min_wall(stack_of(5, {{40, 0}, {40, 35}})).thickness_mm, 5.0, 1e-9);   // wall = floor
+  EXPECT_NEAR(min_wall(stack_of(3, {{40, 0}, {40, 35}})).thickness_mm, 3.0, 1e-9);   // floor
+  EXPECT_NEAR(min_wall(stack_of(30, {{40, 0}, {40, 38}})).thickness_mm, 2.0, 1e-9);  // wall
+  EXPECT_NEAR(min_wall(stack_of(30, {{40, 0}, {7, 0}})).thickness_mm, 14.0, 1e-9);   // across
 }
 
 TEST(MinWall, SeesAcrossRings) {
@@ -39,14 +40,17 @@ RC_GTEST_PROP(MinWall, IsTheLeastOverAllPairs, ()) {
   std::vector<Ring> rings;
   for (std::size_t i = 0; i < count; ++i) {
     const double outer = 40.0 + 5.0 * samples::uniform(random);
-    rings.push_back({quanta_from_radius(outer), quanta_from_radius(outer - 1.0 - 20.0 * samples::uniform(random))});
+    rings.push_back({quanta_from_radius(outer),
+                     quanta_from_radius(outer - 1.0 - 20.0 * samples::uniform(random))});
   }
   const ClayStack stack = ClayStack::from_rings(h, rings, 0).value();
   double least = 1e300;
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = 0; j < count; ++j) {
-      const double apart = i == j ? 0.0 : h * (std::abs(static_cast<double>(i) - static_cast<double>(j)) - 1.0);
-      least = std::min(least, std::hypot(std::max(0.0, rings[j].outer_mm() - rings[i].inner_mm()), apart));
+      const double apart =
+          i == j ? 0.0 : h * (std::abs(static_cast<double>(i) - static_cast<double>(j)) - 1.0);
+      least = std::min(least,
+                       std::hypot(std::max(0.0, rings[j].outer_mm() - rings[i].inner_mm()), apart));
     }
   RC_ASSERT(std::abs(min_wall(stack).thickness_mm - least) < 1e-9);
 }

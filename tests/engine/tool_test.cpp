@@ -22,13 +22,15 @@ TEST(Tool, EllipseFollowsItsFormula) {
 
 TEST(Tool, SlopeIsTheDerivative) {
   const SampledSpec sampled{{-10, -4, 0, 1, 9}, {0, 6, 7, 7, 2}};
-  for (const ToolShapeSpec& spec : {ToolShapeSpec{SphereSpec{10}}, ToolShapeSpec{EllipseSpec{12, 5}},
-                                    ToolShapeSpec{RibSpec{20, 6}}, ToolShapeSpec{sampled}}) {
+  for (const ToolShapeSpec& spec :
+       {ToolShapeSpec{SphereSpec{10}}, ToolShapeSpec{EllipseSpec{12, 5}},
+        ToolShapeSpec{RibSpec{20, 6}}, ToolShapeSpec{sampled}}) {
     const Tool tool = Tool::build(spec).value();
     for (double t = -8.97; t < 8.9; t += 0.31) {
       const double h = 1e-6;
       const double difference = (tool.radius(t + h) - tool.radius(t - h)) / (2 * h);
-      EXPECT_NEAR(tool.slope(t), difference, 1e-7 * (1 + std::abs(difference))) << spec.index() << " " << t;
+      EXPECT_NEAR(tool.slope(t), difference, 1e-7 * (1 + std::abs(difference)))
+          << spec.index() << " " << t;
     }
   }
 }
@@ -69,8 +71,9 @@ TEST(Tool, RefusesWhatIsNoTool) {
   const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
   for (const ToolShapeSpec& spec :
        {ToolShapeSpec{SphereSpec{0}}, ToolShapeSpec{SphereSpec{-1}}, ToolShapeSpec{SphereSpec{nan}},
-        ToolShapeSpec{SphereSpec{inf}}, ToolShapeSpec{EllipseSpec{0, 1}}, ToolShapeSpec{EllipseSpec{1, nan}},
-        ToolShapeSpec{RibSpec{1, 0}}, ToolShapeSpec{RibSpec{-2, 1}}, ToolShapeSpec{SampledSpec{}},
+        ToolShapeSpec{SphereSpec{inf}}, ToolShapeSpec{EllipseSpec{0, 1}},
+        ToolShapeSpec{EllipseSpec{1, nan}}, ToolShapeSpec{RibSpec{1, 0}},
+        ToolShapeSpec{RibSpec{-2, 1}}, ToolShapeSpec{SampledSpec{}},
         ToolShapeSpec{SampledSpec{{0}, {1}}}, ToolShapeSpec{SampledSpec{{0, 1}, {1}}},
         ToolShapeSpec{SampledSpec{{0, 0}, {1, 1}}}, ToolShapeSpec{SampledSpec{{0, 1}, {1, -1}}},
         ToolShapeSpec{SampledSpec{{0, nan}, {1, 1}}}}) {

@@ -3,8 +3,8 @@
 #include "allocation_counter.hpp"
 #include "stack_samples.hpp"
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -15,7 +15,11 @@ namespace {
 SceneSpec scene_of(Model model) {
   SceneSpec scene;
   scene.model = model;
-  scene.lump = {.rings = 40, .ring_height_mm = 1.0, .outer_radius_mm = 30.0, .inner_radius_mm = 0.0, .max_rings = 120};
+  scene.lump = {.rings = 40,
+                .ring_height_mm = 1.0,
+                .outer_radius_mm = 30.0,
+                .inner_radius_mm = 0.0,
+                .max_rings = 120};
   scene.tool.shape = SphereSpec{8.0};
   scene.removal = {.rate_per_s = 40.0, .min_wall_mm = 0.5, .paper_fraction = {}};
   scene.flow = {.sigma_mm = 3.0, .reach_mm = 10.0, .inside_share = 0.27};
@@ -106,11 +110,36 @@ TEST(Wheel, ConservingBalancesToTheQuantumAfterEveryTick) {
 
 TEST(Wheel, PaperMissesLessThanItsTopRingAfterEveryTick) {
   expect_all_was_met(play_a_million(Model::paper, [](const Wheel& wheel) {
-    const WideQuanta counted = wheel.stack().recount(), missing = -wheel.ledger().volume_error(counted);
+    const WideQuanta counted = wheel.stack().recount(),
+                     missing = -wheel.ledger().volume_error(counted);
     const bool room = wheel.stack().size() < wheel.stack().max_rings();
     return wheel.ledger().imbalance(counted) == 0 && missing >= 0 &&
-           (!room || missing < wheel.stack().rings().back().volume()) && rings_are_sound(wheel.stack());
+           (!room || missing < wheel.stack().rings().back().volume()) &&
+           rings_are_sound(wheel.stack());
   }));
+}
+
+TEST(Wheel, ThePapersErrorHalvesAsTheRingsDouble) {
+  // One stroke up a lump of 60 mm, cut into N rings: the bound is one ring.
+  const auto worst_percent = [](std::size_t rings) {
+    SceneSpec scene = scene_of(Model::paper);
+    scene.lump.rings = rings;
+    scene.lump.ring_height_mm = 60.0 / static_cast<double>(rings);
+    scene.lump.max_rings = 4 * rings;
+    Wheel wheel = Wheel::build(scene).value();
+    double worst = 0.0;
+    for (int k = 0; k < 4000; ++k) {
+      wheel.step({1000 * (k + 1), {36.5, 0.015 * k, 0.0}, false});
+      const auto missing =
+          static_cast<double>(-wheel.ledger().volume_error(wheel.stack().volume()));
+      worst = std::max(worst, 100.0 * missing / static_cast<double>(wheel.ledger().initial));
+    }
+    return worst;
+  };
+  const double coarse = worst_percent(200), fine = worst_percent(400);
+  EXPECT_GT(coarse,
+            0.5);  // the clay that was pushed up has made the top ring wider than the others
+  EXPECT_NEAR(fine / coarse, 0.5, 0.1);
 }
 
 TEST(Wheel, AReplayGivesTheSameBits) {

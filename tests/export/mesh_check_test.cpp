@@ -291,11 +291,12 @@ TEST(CheckMesh, TrianglesThatShareAnEdgeMayOverlap) {
 }
 
 TEST(CheckMesh, TrianglesThatShareAVertexMayCross) {
-  const std::vector<glm::dvec3> points{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 1}, {1, 1, -1}};
-  EXPECT_EQ(crossings_in_soup(points, {{0, 1, 2}, {3, 4, 0}}), 1u);
-  EXPECT_EQ(crossings_in_soup(points, {{3, 4, 0}, {0, 1, 2}}), 1u);
-  const std::vector<glm::dvec3> apart{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 1}, {1, 1, 1e-9}};
-  EXPECT_EQ(crossings_in_soup(apart, {{0, 1, 2}, {3, 4, 0}}), 0u);
+  // The side of the second pierces the first at (1, 1, 0), and not the reverse. Which one is
+  // looked at first depends on which begins farther left.
+  const glm::dvec3 o{0, 0, 0}, x{4, 0, 0}, y{0, 4, 0};
+  EXPECT_EQ(crossings_in_soup({o, x, y, {1, 1, 1}, {1, 1, -1}}, {{0, 1, 2}, {3, 4, 0}}), 1u);
+  EXPECT_EQ(crossings_in_soup({o, x, y, {3, 1, 2}, {-1, 1, -2}}, {{0, 1, 2}, {3, 4, 1}}), 1u);
+  EXPECT_EQ(crossings_in_soup({o, x, y, {1, 1, 1}, {1, 1, 1e-9}}, {{0, 1, 2}, {3, 4, 0}}), 0u);
 }
 
 TEST(CheckMesh, CountingStopsInAHopelessMesh) {

@@ -1,11 +1,13 @@
 #include "claystack/export/mesh_formats.hpp"
 #include "export/mesh_generators.hpp"
 #include "fuzz/sample_meshes.hpp"
+#include "mesh_limits.hpp"
 
 #include <gtest/gtest.h>
 
 #include <sys/mman.h>
 #include <cstring>
+#include <stdexcept>
 
 namespace clay::solid {
 namespace {
@@ -42,6 +44,14 @@ TEST(MeshFormats, RefuseTooMuchBeforeTheyAllocate) {
     EXPECT_EQ(decode(bytes.bytes(), "big").error().message,
               "big: expected at most 1073741824 bytes, found 1073741825");
   }
+}
+
+TEST(MeshFormats, ExceptionsBecomeErrors) {
+  const auto starved = [](const std::string& what) -> Result<TriangleMesh> {
+    throw std::length_error(what);
+  };
+  EXPECT_EQ(guarded("pot.stl", [&] { return starved("too long"); }).error().message,
+            "pot.stl: cannot be read: too long");
 }
 
 TEST(MeshFormats, GoByTheEndOfTheName) {

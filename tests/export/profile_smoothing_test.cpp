@@ -12,14 +12,17 @@
 namespace clay::solid {
 namespace {
 
-ClayStack stack_of(double h, const std::vector<std::pair<double, double>>& radii, Quanta crown = 0) {
+ClayStack stack_of(double h, const std::vector<std::pair<double, double>>& radii,
+                   Quanta crown = 0) {
   std::vector<Ring> rings;
-  for (const auto& [outer, inner] : radii) rings.push_back({quanta_from_radius(outer), quanta_from_radius(inner)});
+  for (const auto& [outer, inner] : radii)
+    rings.push_back({quanta_from_radius(outer), quanta_from_radius(inner)});
   return ClayStack::from_rings(h, std::move(rings), crown).value();
 }
 
 TEST(ProfileSmoothing, AStraightPotStaysARectangle) {
-  const auto section = smooth_profile_of(ClayStack::cylinder(100, 1.0, 40, 30, 100).value(), 0.02).value();
+  const auto section =
+      smooth_profile_of(ClayStack::cylinder(100, 1.0, 40, 30, 100).value(), 0.02).value();
   ASSERT_EQ(section.profile.pieces.size(), 1u);
   ASSERT_EQ(section.profile.pieces[0].size(), 4u);
   EXPECT_NEAR(section.profile.pieces[0][0].rho, 40.0, 1e-9);
@@ -90,7 +93,8 @@ RC_GTEST_PROP(ProfileSmoothing, IsCertifiedAndThinsNoWallBeyondTheTolerance, ())
     if (ring.inner2 > 0) thinnest = std::min(thinnest, ring.outer_mm() - ring.inner_mm());
   const double floor = 6 * 0.5;
   // A slope of 45 degrees at most: the wall across is cos 45 of the wall along the radius.
-  RC_ASSERT(min_wall_mm(section.profile) > std::min(floor, thinnest * std::sqrt(0.5)) - 2.0 * tolerance);
+  RC_ASSERT(min_wall_mm(section.profile) >
+            std::min(floor, thinnest * std::sqrt(0.5)) - 2.0 * tolerance);
 }
 
 RC_GTEST_PROP(ProfileSmoothing, StaysWithinTheToleranceOfTheMiddles, ()) {
@@ -105,7 +109,8 @@ RC_GTEST_PROP(ProfileSmoothing, StaysWithinTheToleranceOfTheMiddles, ()) {
       const ProfilePoint &a = polygon[k], &b = polygon[k + 1];
       if (!(a.y <= y && y < b.y)) continue;
       const double rho = a.rho + (b.rho - a.rho) * (y - a.y) / (b.y - a.y);
-      RC_ASSERT(std::abs(rho - stack.rings()[i].outer_mm()) < tolerance);  // sqrt 2 of half of it, and the scale
+      RC_ASSERT(std::abs(rho - stack.rings()[i].outer_mm()) <
+                tolerance);  // sqrt 2 of half of it, and the scale
     }
   }
 }

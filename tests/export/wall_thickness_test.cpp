@@ -30,11 +30,13 @@ TEST(WallThickness, OfACupIsItsWallOrItsFloor) {
 TEST(WallThickness, OfALeaningWallIsMeasuredAcrossIt) {
   // A conical tube leaning by 30 degrees: 4 mm along the radius are 4 cos 30 across.
   const double lean = 60.0 * std::tan(M_PI / 6);
-  EXPECT_NEAR(wall_of({{40, 0}, {40 + lean, 60}, {36 + lean, 60}, {36, 0}}), 4.0 * std::cos(M_PI / 6), 1e-12);
+  EXPECT_NEAR(wall_of({{40, 0}, {40 + lean, 60}, {36 + lean, 60}, {36, 0}}),
+              4.0 * std::cos(M_PI / 6), 1e-12);
 }
 
 TEST(WallThickness, OfACavityCountsItsLid) {
-  EXPECT_NEAR(wall_of({{0, 0}, {40, 0}, {40, 60}, {0, 60}, {0, 58}, {30, 58}, {30, 9}, {0, 9}}), 2.0, 1e-12);
+  EXPECT_NEAR(wall_of({{0, 0}, {40, 0}, {40, 60}, {0, 60}, {0, 58}, {30, 58}, {30, 9}, {0, 9}}),
+              2.0, 1e-12);
 }
 
 RC_GTEST_PROP(WallThickness, OfStepsIsTheEnginesOwn, ()) {
@@ -51,7 +53,8 @@ RC_GTEST_PROP(WallThickness, OfStepsIsTheEnginesOwn, ()) {
   const ClayStack stack = ClayStack::from_rings(h, rings, 0).value();
   const double height = h * static_cast<double>(count);
   // The engine does not call the height of a solid a wall.
-  const double expected = floor >= count ? std::min(min_wall(stack).thickness_mm, height) : min_wall(stack).thickness_mm;
+  const double expected = floor >= count ? std::min(min_wall(stack).thickness_mm, height)
+                                         : min_wall(stack).thickness_mm;
   RC_ASSERT(std::abs(min_wall_mm(profile_of(stack).value().profile) - expected) < 1e-9);
 }
 

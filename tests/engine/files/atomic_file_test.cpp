@@ -177,6 +177,9 @@ TEST_F(AtomicFileTest, ReadFileRefusesWhatIsNotThereOrTooLarge) {
             (folder_ / "ten").string() + ": expected at most 9 bytes, found 10");
   EXPECT_EQ(read_file("/dev/zero", 1000).error().message,
             "/dev/zero: expected at most 1000 bytes, found more");
+  // Tells no size before it is read.
+  EXPECT_TRUE(read_file("/proc/self/status", 1'000'000));
+  EXPECT_FALSE(read_file("/proc/self/status", 10));
   EXPECT_EQ(read_file(folder_).error().message,
             folder_.string() + ": expected a file, found a folder");
   const auto missing = read_file(folder_ / "missing");

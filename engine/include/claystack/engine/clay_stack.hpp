@@ -15,7 +15,9 @@ struct Ring {
   Quanta outer2 = 0;  ///< squared outer radius R^2
   Quanta inner2 = 0;  ///< squared inner radius r^2; 0 where there is no bore
 
-  [[nodiscard]] Quanta volume() const noexcept { return outer2 - inner2; }  ///< normalised: V / (pi h)
+  [[nodiscard]] Quanta volume() const noexcept {
+    return outer2 - inner2;
+  }  ///< normalised: V / (pi h)
   [[nodiscard]] double outer_mm() const noexcept { return radius_from_quanta(outer2); }
   [[nodiscard]] double inner_mm() const noexcept { return radius_from_quanta(inner2); }
   friend bool operator==(const Ring&, const Ring&) = default;

@@ -6,9 +6,9 @@ namespace clay {
 
 /// One sample of the tool: the HIP at a time.
 struct Pose {
-  std::int64_t time_us = 0;         ///< since the session began
-  glm::dvec3 position_mm{0.0};      ///< y up, the wheel head at y = 0, the axis at x = z = 0
-  bool trim = false;                ///< button: cut clay off instead of pressing it aside
+  std::int64_t time_us = 0;     ///< since the session began
+  glm::dvec3 position_mm{0.0};  ///< y up, the wheel head at y = 0, the axis at x = z = 0
+  bool trim = false;            ///< button: cut clay off instead of pressing it aside
   friend bool operator==(const Pose&, const Pose&) = default;
 };
 

@@ -14,11 +14,11 @@ namespace clay {
 /// A collapse (paper, section 7): the rings above `failed_ring` turned as one rigid
 /// body about a horizontal axis through `pivot_mm`, the HIP when it happened.
 struct Collapse {
-  std::size_t failed_ring = 0;      ///< index of the ring that yielded; it stays below
+  std::size_t failed_ring = 0;  ///< index of the ring that yielded; it stays below
   glm::dvec3 pivot_mm{0.0};
-  glm::dvec3 axis{0.0, 0.0, 1.0};   ///< unit, horizontal; right-handed turn
+  glm::dvec3 axis{0.0, 0.0, 1.0};  ///< unit, horizontal; right-handed turn
   double angle_rad = 0.0;
-  double stress_kpa = 0.0;          ///< at the failed ring
+  double stress_kpa = 0.0;  ///< at the failed ring
   friend bool operator==(const Collapse&, const Collapse&) = default;
 };
 

@@ -21,7 +21,7 @@ struct LumpSpec {
   double ring_height_mm = 0.75;
   double outer_radius_mm = 45.0;
   double inner_radius_mm = 0.0;
-  std::size_t max_rings = 0;     ///< growth stops here; 0 means 4 times `rings`
+  std::size_t max_rings = 0;  ///< growth stops here; 0 means 4 times `rings`
   double density_g_cm3 = 1.9;
   friend bool operator==(const LumpSpec&, const LumpSpec&) = default;
 };
@@ -65,8 +65,8 @@ struct ToolSpec {
 /// Equations (3), (4): epsilon = (R - r)(1 - exp(-rate dt)), or k (R - r) a tick in `paper`.
 struct RemovalSpec {
   double rate_per_s = 20.0;
-  double min_wall_mm = 1.0;                ///< conserving: no tool thins a wall below this
-  std::optional<double> paper_fraction;    ///< k; rate / 1000 when absent
+  double min_wall_mm = 1.0;              ///< conserving: no tool thins a wall below this
+  std::optional<double> paper_fraction;  ///< k; rate / 1000 when absent
   friend bool operator==(const RemovalSpec&, const RemovalSpec&) = default;
 };
 
@@ -80,10 +80,10 @@ struct FlowSpec {
 
 /// Section 6. Friction is left out when 0, the whole stage when ForceSpec is absent.
 struct ForceSpec {
-  double stiffness_n_per_mm2 = 0.05;             ///< per mm of depth and mm of contact height
+  double stiffness_n_per_mm2 = 0.05;  ///< per mm of depth and mm of contact height
   double limit_n = 5.0;
-  double friction = 0.0;                         ///< mu
-  bool counterclockwise = true;                  ///< turn of the wheel seen from above
+  double friction = 0.0;                           ///< mu
+  bool counterclockwise = true;                    ///< turn of the wheel seen from above
   std::optional<double> paper_stiffness_n_per_mm;  ///< K per ring; stiffness x h when absent
   friend bool operator==(const ForceSpec&, const ForceSpec&) = default;
 };
