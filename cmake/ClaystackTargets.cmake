@@ -12,6 +12,10 @@ function(claystack_compile_options target)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wconversion -Wshadow -ffp-contract=off
     $<$<BOOL:${CLAYSTACK_WERROR}>:-Werror>)
+  # With sanitizers GCC 12 loses track of a variant's members and warns of nothing.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+    target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
+  endif()
 endfunction()
 
 # claystack_library(NAME component SOURCES ...): a static library with the

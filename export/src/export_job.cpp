@@ -179,7 +179,8 @@ class ExportJob {
 
   /// The reason why not, or nothing when done.
   std::string smooth() {
-    auto smoothed = stages_.run("smooth", [&] { return smooth_profile_of(stack_, options_.tolerance_mm); });
+    auto smoothed =
+        stages_.run("smooth", [&] { return smooth_profile_of(stack_, options_.tolerance_mm); });
     if (!smoothed) return smoothed.error().message;
     const auto certificate = stages_.run("certificate", [&] { return certify(smoothed->profile); });
     if (!certificate) return "walls too thin for it: " + certificate.error().message;
@@ -195,7 +196,8 @@ class ExportJob {
     return chosen.map([&](std::size_t segments) {
       mesh_ = stages_.run("tessellate", [&] { return revolve(profile_, segments); });
       report().segments = segments;
-      report().min_wall_mm = min_wall_mm(profile_) * std::cos(std::numbers::pi / static_cast<double>(segments));
+      report().min_wall_mm =
+          min_wall_mm(profile_) * std::cos(std::numbers::pi / static_cast<double>(segments));
       report().chordal_error_mm = chordal_error_mm(radius, segments);
       report().volume_mm3 = signed_volume(mesh_);
       report().volume_error_relative =
@@ -263,7 +265,7 @@ class ExportJob {
   const std::vector<MeshFormat>& formats_;
   const ExportOptions& options_;
   Profile profile_;
-  std::string no_smoothing_;   ///< why not, where not
+  std::string no_smoothing_;  ///< why not, where not
   TriangleMesh mesh_;
   ExportResult result_;
   Stages stages_;

@@ -25,8 +25,8 @@ Result<void> check_file_size(std::string_view bytes, std::string_view name) {
 }
 
 Result<void> check_facet_count(std::size_t facets, std::string_view name) {
-  if (facets > 0 && facets <= kMaxFacets) return {};
-  return bad_file(name, "expected 1 to " + std::to_string(kMaxFacets) + " triangles, found " +
+  if (facets > 0 && facets <= kMaxTriangles) return {};
+  return bad_file(name, "expected 1 to " + std::to_string(kMaxTriangles) + " triangles, found " +
                             std::to_string(facets));
 }
 

@@ -15,8 +15,7 @@
 namespace clay::solid {
 
 inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
-inline constexpr std::size_t kMaxFacets = 20'000'000;
-inline constexpr std::size_t kMaxPoints = 3 * kMaxFacets;  // when no facets share a corner
+inline constexpr std::size_t kMaxPoints = 3 * kMaxTriangles;  // when no facets share a corner
 inline constexpr float kMaxCoordinateMm = 1e6F;
 inline constexpr std::string_view kCoordinateRule = "a coordinate within +-1e6 mm";
 

@@ -118,7 +118,7 @@ class ObjReader {
     if (corners_.size() < 3)
       scanner_.fail("expected a face of at least 3 corners, found " +
                     std::to_string(corners_.size()));
-    if (mesh_.triangles.size() + corners_.size() > kMaxFacets + 2)
+    if (mesh_.triangles.size() + corners_.size() > kMaxTriangles + 2)
       scanner_.fail("expected at most 20000000 triangles");
     if (scanner_.fault()) return;
     for (std::size_t i = 2; i < corners_.size(); ++i) {

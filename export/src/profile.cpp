@@ -3,9 +3,9 @@
 #include "compensated_sum.hpp"
 #include "describe.hpp"
 #include "stack_section.hpp"
+#include "swept_volume.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <span>
 #include <string>
 
@@ -75,17 +75,10 @@ Result<StackProfile> profile_of(const ClayStack& stack, double min_step_mm) {
   return result;
 }
 
-// Green's theorem: V = pi * closed integral of rho^2 dy, a frustum for each edge.
 double volume_of(const Profile& profile) noexcept {
   CompensatedSum sum;
-  for (const Polygon& polygon : profile.pieces) {
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const ProfilePoint& a = polygon[i];
-      const ProfilePoint& b = polygon[i + 1 < polygon.size() ? i + 1 : 0];
-      sum.add((b.y - a.y) * (a.rho * a.rho + a.rho * b.rho + b.rho * b.rho));
-    }
-  }
-  return sum.value() * std::numbers::pi / 3.0;
+  for (const Polygon& polygon : profile.pieces) sum.add(swept_volume(polygon, true));
+  return sum.value();
 }
 
 }  // namespace clay::solid

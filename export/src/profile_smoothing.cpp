@@ -1,10 +1,10 @@
 #include "claystack/export/profile_smoothing.hpp"
 
 #include "stack_section.hpp"
+#include "swept_volume.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace clay::solid {
@@ -53,16 +53,6 @@ Polygon fair_wall(const ClayStack& stack, RingRange run, Radius radius_of, doubl
   return simplified(wall, tolerance_mm);
 }
 
-/// pi/3 sum of frusta about the axis [mm^3].
-double volume_under(const Polygon& wall) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i + 1 < wall.size(); ++i) {
-    const ProfilePoint &a = wall[i], &b = wall[i + 1];
-    sum += (b.y - a.y) * (a.rho * a.rho + a.rho * b.rho + b.rho * b.rho);
-  }
-  return sum * std::numbers::pi / 3.0;
-}
-
 /// Bore by bore, and along the axis between them.
 Polygon fair_bore(const ClayStack& stack, RingRange piece, double tolerance_mm) {
   Polygon bore;
@@ -89,8 +79,8 @@ double counted_volume(const ClayStack& stack, RingRange piece) {
 Polygon fair_section(const ClayStack& stack, RingRange piece, double tolerance_mm) {
   Polygon section = fair_wall(stack, piece, &Ring::outer_mm, tolerance_mm);
   const Polygon bore = fair_bore(stack, piece, tolerance_mm);
-  const double wanted = counted_volume(stack, piece) + volume_under(bore);
-  const double scale = std::sqrt(wanted / volume_under(section));
+  const double wanted = counted_volume(stack, piece) + swept_volume(bore, false);
+  const double scale = std::sqrt(wanted / swept_volume(section, false));
   for (ProfilePoint& p : section) p.rho *= scale;
   section.insert(section.end(), bore.rbegin(), bore.rend());
   return section;

@@ -60,8 +60,8 @@ TEST(RunExport, TellsItsStagesInOrder) {
   const auto result = run_export(pot_of(shapes::vase(100)), {MeshFormat::obj}, {},
                                  [&](std::string_view stage) { told.emplace_back(stage); });
   ASSERT_TRUE(result);
-  EXPECT_EQ(told, (std::vector<std::string>{"profile", "smooth", "certificate", "tessellate", "check",
-                                            "encode_obj", "verify_obj"}));
+  EXPECT_EQ(told, (std::vector<std::string>{"profile", "smooth", "certificate", "tessellate",
+                                            "check", "encode_obj", "verify_obj"}));
   ASSERT_EQ(result->report.stages.size(), told.size());
   for (std::size_t i = 0; i < told.size(); ++i) {
     EXPECT_EQ(result->report.stages[i].name, told[i]);

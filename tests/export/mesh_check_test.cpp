@@ -291,12 +291,17 @@ TEST(CheckMesh, TrianglesThatShareAnEdgeMayOverlap) {
 }
 
 TEST(CheckMesh, TrianglesThatShareAVertexMayCross) {
-  // The side of the second pierces the first at (1, 1, 0), and not the reverse. Which one is
-  // looked at first depends on which begins farther left.
-  const glm::dvec3 o{0, 0, 0}, x{4, 0, 0}, y{0, 4, 0};
-  EXPECT_EQ(crossings_in_soup({o, x, y, {1, 1, 1}, {1, 1, -1}}, {{0, 1, 2}, {3, 4, 0}}), 1u);
-  EXPECT_EQ(crossings_in_soup({o, x, y, {3, 1, 2}, {-1, 1, -2}}, {{0, 1, 2}, {3, 4, 1}}), 1u);
-  EXPECT_EQ(crossings_in_soup({o, x, y, {1, 1, 1}, {1, 1, 1e-9}}, {{0, 1, 2}, {3, 4, 0}}), 0u);
+  // A side of the second pierces the first above (1, 1), and not the reverse. Which of them is
+  // looked at first depends on which reaches lower: the shear turns that round.
+  for (const double shear : {0.0, -3.0}) {
+    const auto count = [&](double tip) {
+      std::vector<glm::dvec3> points{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 1}, {1, 1, tip}};
+      for (glm::dvec3& p : points) p.z += shear * p.x;
+      return crossings_in_soup(points, {{0, 1, 2}, {3, 4, 0}});
+    };
+    EXPECT_EQ(count(-1.0), 1u);
+    EXPECT_EQ(count(0.25), 0u);
+  }
 }
 
 TEST(CheckMesh, CountingStopsInAHopelessMesh) {

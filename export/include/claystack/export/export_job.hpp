@@ -20,7 +20,7 @@
 namespace clay::solid {
 
 struct ExportOptions {
-  double tolerance_mm = 0.02;           ///< chordal error along and around; vertex error of Draco
+  double tolerance_mm = 0.02;  ///< chordal error along and around; vertex error of Draco
   Smoothing smoothing = Smoothing::fair;
   std::optional<std::size_t> segments;  ///< force the number around
   bool allow_pieces = false;            ///< several pieces that do not touch, in one file
@@ -30,7 +30,7 @@ struct ExportOptions {
 struct EncodedMesh {
   MeshFormat format = MeshFormat::stl_binary;
   std::string bytes;
-  double max_error_mm = 0.0;            ///< largest move of a vertex, measured on the decoded bytes
+  double max_error_mm = 0.0;  ///< largest move of a vertex, measured on the decoded bytes
 };
 
 struct StageTime {
@@ -45,14 +45,14 @@ struct LeftOut {
 
 struct ExportReport {
   PlanarCertificate certificate;
-  MeshReport mesh;                      ///< of the mesh as float32 files hold it
+  MeshReport mesh;  ///< of the mesh as float32 files hold it
   std::vector<PieceShape> shapes;
   Smoothing smoothing = Smoothing::none;  ///< as done: walls too thin for `fair` stay as they are
-  double min_wall_mm = 0.0;             ///< of the mesh before rounding: the profile's, times cos(pi/n)
+  double min_wall_mm = 0.0;  ///< of the mesh before rounding: the profile's, times cos(pi/n)
   std::size_t segments = 0;
   double chordal_error_mm = 0.0;
-  double counted_volume_mm3 = 0.0;      ///< of the stack
-  double volume_mm3 = 0.0;              ///< of the mesh before rounding
+  double counted_volume_mm3 = 0.0;  ///< of the stack
+  double volume_mm3 = 0.0;          ///< of the mesh before rounding
   double volume_error_relative = 0.0;
   std::vector<StageTime> stages;
   std::vector<LeftOut> left_out;
@@ -60,12 +60,13 @@ struct ExportReport {
 
 struct ExportResult {
   ExportReport report;
-  std::vector<EncodedMesh> files;       ///< one for each format asked for, in that order
+  std::vector<EncodedMesh> files;  ///< one for each format asked for, in that order
 };
 
 /// Steps of the stack that float32 cannot hold (below 2^-20 of the largest radius) are levelled
 /// as `profile_of` describes. Draco gets more bits than the tolerance asks for where the walls
-/// need them. `progress(stage)` is called as each stage begins. Collapsed pots are refused with the reason.
+/// need them. `progress(stage)` is called as each stage begins. Collapsed pots are refused with the
+/// reason.
 Result<ExportResult> run_export(const Pot& pot, const std::vector<MeshFormat>& formats,
                                 const ExportOptions& options,
                                 const std::function<void(std::string_view)>& progress = {});

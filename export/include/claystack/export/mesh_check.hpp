@@ -11,22 +11,22 @@ namespace clay::solid {
 
 /// One thing wrong with a mesh, and where.
 struct MeshProblem {
-  std::string what;          ///< "open edge", "inside out", "self-intersection", ...
-  std::string where;         ///< triangle numbers and coordinates in mm, for people
-  std::size_t count = 1;     ///< how many of this kind; `where` shows the first
+  std::string what;       ///< "open edge", "inside out", "self-intersection", ...
+  std::string where;      ///< triangle numbers and coordinates in mm, for people
+  std::size_t count = 1;  ///< how many of this kind; `where` shows the first
 };
 
 struct MeshReport {
-  bool closed = false;             ///< no edge has a face on one side only
-  bool manifold = false;           ///< no edge of more than two faces, no vertex of two fans
-  bool oriented = false;           ///< neighbours agree, and (if closed) normals point out of the clay
+  bool closed = false;    ///< no edge has a face on one side only
+  bool manifold = false;  ///< no edge of more than two faces, no vertex of two fans
+  bool oriented = false;  ///< neighbours agree, and (if closed) normals point out of the clay
   /// Pairs of triangles that meet where they should not; counting stops at 100 000.
   std::size_t self_intersections = 0;
   /// Shells lie beside or inside each other in alternating turns, be it inside out. False too
   /// where that has no meaning: open, crossing itself or with degenerate triangles.
   bool bounds_volume = false;
   std::size_t components = 0;
-  std::size_t degenerate = 0;      ///< triangles of no area
+  std::size_t degenerate = 0;  ///< triangles of no area
   std::size_t triangles = 0;
   double volume_mm3 = 0.0;
   std::vector<MeshProblem> problems;
