@@ -43,24 +43,31 @@ WideQuanta place(std::size_t ring, WideQuanta inside, WideQuanta outside,
   return placed + writer.put_outside(ring, outside + inside - placed);
 }
 
-/// Equations (5), (6): rings top+1 .. min(top+L1, N). Returns what is left over.
-WideQuanta flow_up(const RayleighKernel& kernel, Split clay, std::size_t top, std::size_t count,
-                   StackWriter& writer) noexcept {
+/// Gives `count` rings their shares, the j-th of them being ring_of(j). Returns what is left over.
+template <class RingOf>
+WideQuanta spread(const RayleighKernel& kernel, Split clay, std::size_t count, RingOf ring_of,
+                  StackWriter& writer) noexcept {
   WideQuanta rest = clay.inside + clay.outside;
-  const std::size_t reach = std::min(kernel.length(), count - 1 - top);
-  for (std::size_t j = 1; j <= reach; ++j)
-    rest -= place(top + j, kernel.share(clay.inside, j), kernel.share(clay.outside, j), writer);
+  RayleighKernel::Dealer inside(kernel, clay.inside), outside(kernel, clay.outside);
+  for (std::size_t j = 1; j <= count; ++j)
+    rest -= place(ring_of(j), clay.inside > 0 ? inside.next() : 0, outside.next(), writer);
   return rest;
 }
 
-/// Equations (7), (8): rings max(1, bottom-L1) .. bottom-1. Returns what is left over.
+/// Equations (5), (6): rings top+1 .. min(top+L1, N).
+WideQuanta flow_up(const RayleighKernel& kernel, Split clay, std::size_t top, std::size_t count,
+                   StackWriter& writer) noexcept {
+  const std::size_t reach = std::min(kernel.length(), count - 1 - top);
+  return spread(
+      kernel, clay, reach, [&](std::size_t j) { return top + j; }, writer);
+}
+
+/// Equations (7), (8): rings max(1, bottom-L1) .. bottom-1.
 WideQuanta flow_down(const RayleighKernel& kernel, Split clay, std::size_t bottom,
                      StackWriter& writer) noexcept {
-  WideQuanta rest = clay.inside + clay.outside;
   const std::size_t reach = std::min(kernel.length(), bottom);
-  for (std::size_t j = 1; j <= reach; ++j)
-    rest -= place(bottom - j, kernel.share(clay.inside, j), kernel.share(clay.outside, j), writer);
-  return rest;
+  return spread(
+      kernel, clay, reach, [&](std::size_t j) { return bottom - j; }, writer);
 }
 
 /// Steps (a), (b): whole rings from the excess. `paper` keeps the remainder outside the body,

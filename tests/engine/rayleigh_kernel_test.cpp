@@ -28,9 +28,10 @@ RC_GTEST_PROP(RayleighKernel, SharesAddUpToTheAmount, ()) {
   const RayleighKernel kernel(sigma, reach, 0.5, 4000);
   const WideQuanta amount = WideQuanta{*rc::gen::inRange<Quanta>(0, Quanta{1} << 61)}
                             << *rc::gen::inRange(0, 24);  // up to 2^24 rings of 2^61
+  RayleighKernel::Dealer dealer(kernel, amount);
   WideQuanta sum = 0;
   for (std::size_t j = 1; j <= kernel.length(); ++j) {
-    const WideQuanta share = kernel.share(amount, j);
+    const WideQuanta share = dealer.next();
     RC_ASSERT(share >= 0);
     sum += share;
   }
@@ -40,7 +41,7 @@ RC_GTEST_PROP(RayleighKernel, SharesAddUpToTheAmount, ()) {
 TEST(RayleighKernel, LimitsOfSigmaAreDefined) {
   for (const double sigma : {0.0, 1e-160, 1e-3}) {
     const RayleighKernel narrow(sigma, 10.0, 1.0, 100);
-    EXPECT_TRUE(narrow.share(12345, 1) == 12345) << sigma;
+    EXPECT_TRUE(RayleighKernel::Dealer(narrow, 12345).next() == 12345) << sigma;
   }
   for (const double sigma : {1e155, 1e300, std::numeric_limits<double>::infinity()}) {
     const RayleighKernel wide(sigma, 4.0, 1.0, 100);  // weights 1:2:3:4
