@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <charconv>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 #include <utility>
 
@@ -23,6 +26,38 @@ void Console::say(std::string_view line) const {
 }
 
 void Console::warn(std::string_view line) const { fmt::print(stderr, "claystack: {}\n", line); }
+
+Result<void> check_distinct(const std::vector<std::string>& outputs,
+                            const std::vector<std::string>& inputs) {
+  std::vector<std::filesystem::path> seen;
+  const auto place = [](const std::string& name) {
+    std::error_code ignored;
+    return std::filesystem::weakly_canonical(name, ignored);
+  };
+  const auto named = [](const std::string& name) { return !name.empty() && name != "-"; };
+  for (const std::string& input : inputs)
+    if (named(input)) seen.push_back(place(input));
+  for (const std::string& output : outputs) {
+    if (!named(output)) continue;
+    if (std::find(seen.begin(), seen.end(), place(output)) != seen.end())
+      return failure(
+          ErrorKind::bad_input,
+          output + ": expected a file of its own to write, found it named twice or read from");
+    seen.push_back(place(output));
+  }
+  return {};
+}
+
+std::function<std::string(const std::string&)> in_range(double low, double high) {
+  return [=](const std::string& text) -> std::string {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    // Not (value < low): NaN must fail.
+    if (error == std::errc() && end == text.data() + text.size() && value >= low && value <= high)
+      return {};
+    return fmt::format("expected a number from {:g} to {:g}, found {}", low, high, text);
+  };
+}
 
 int report(const Error& error) {
   fmt::print(stderr, "claystack: {}\n", error.message);

@@ -6,9 +6,11 @@
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace clay::app {
 
@@ -25,6 +27,14 @@ struct Console {
   void say(std::string_view line) const;   ///< to stdout, for people; silent with json or quiet
   void warn(std::string_view line) const;  ///< to stderr
 };
+
+/// Refuses, before any work, files to write that are one and the same, or one of the inputs. "-"
+/// and empty names are let pass.
+Result<void> check_distinct(const std::vector<std::string>& outputs,
+                            const std::vector<std::string>& inputs);
+
+/// For CLI options: a finite number within the range, said in short numbers.
+[[nodiscard]] std::function<std::string(const std::string&)> in_range(double low, double high);
 
 /// "claystack: MESSAGE" on stderr; the exit status of the error's kind.
 int report(const Error& error);

@@ -24,6 +24,7 @@ struct ExportCommand {
   std::vector<std::string> outputs;
   solid::ExportOptions options;
   std::size_t segments = 0;
+  std::string smooth = "fair";
   bool ascii = false;
 };
 
@@ -36,12 +37,11 @@ struct Request {
 Result<std::vector<Request>> requests_of(const ExportCommand& command) {
   std::vector<Request> requests;
   for (const std::string& path : command.outputs) {
-    if (std::count(command.outputs.begin(), command.outputs.end(), path) > 1)
-      return failure(ErrorKind::bad_input, path + ": expected different files, found it twice");
     Request request{path, std::nullopt};
     if (!path.ends_with(".svg")) {
       const auto format = solid::mesh_format_of(path);
-      if (!format) return tl::make_unexpected(format.error());
+      if (!format)
+        return failure(ErrorKind::bad_input, format.error().message + "; or .svg for the section");
       request.mesh =
           *format == MeshFormat::stl_binary && command.ascii ? MeshFormat::stl_ascii : *format;
     }
@@ -90,6 +90,11 @@ Json file_json(const std::string& path, std::string_view format, std::size_t byt
   return {{"path", path}, {"format", format}, {"bytes", bytes}, {"max_error_mm", max_error_mm}};
 }
 
+std::string rounding_of(const Json& file) {
+  const double error = file["max_error_mm"].get<double>();
+  return error > 0.0 ? fmt::format(", vertices within {:.2g} mm", error) : "";
+}
+
 void tell(const Console& console, const Json& json) {
   console.say(fmt::format(
       "proved: closed and embedded, from {} profile vertices; checked on the mesh: "
@@ -107,9 +112,9 @@ void tell(const Console& console, const Json& json) {
                     cavity["bottom_mm"].get<double>(), cavity["top_mm"].get<double>(),
                     cavity["volume_mm3"].get<double>() / 1000.0));
   for (const Json& file : json["files"])
-    console.say(fmt::format("{}: {}, {} bytes, vertices within {:.2g} mm",
-                            file["path"].get<std::string>(), file["format"].get<std::string>(),
-                            file["bytes"].get<std::size_t>(), file["max_error_mm"].get<double>()));
+    console.say(fmt::format("{}: {}, {} bytes{}", file["path"].get<std::string>(),
+                            file["format"].get<std::string>(), file["bytes"].get<std::size_t>(),
+                            rounding_of(file)));
 }
 
 /// Everything is encoded and verified before the first file is written.
@@ -142,12 +147,15 @@ Result<Json> write_all(const Pot& pot, const std::vector<Request>& requests,
 }
 
 Result<void> export_pot(ExportCommand& command, const Console& console) {
+  if (auto names = check_distinct(command.outputs, {command.pot}); !names) return names;
   const auto requests = requests_of(command);
   if (!requests) return tl::make_unexpected(requests.error());
   const auto pot = read_file(command.pot).and_then([&](const std::string& bytes) {
     return parse_pot(bytes, command.pot);
   });
   if (!pot) return tl::make_unexpected(pot.error());
+  command.options.smoothing =
+      command.smooth == "fair" ? solid::Smoothing::fair : solid::Smoothing::none;
   if (command.segments > 0) command.options.segments = command.segments;
   command.options.name = std::filesystem::path(command.pot).stem().stem().string();
 
@@ -181,13 +189,12 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
       ->required();
   sub->add_option("--tolerance", command->options.tolerance_mm,
                   "Largest chordal error, and vertex error in .drc [mm]")
-      ->check(CLI::Range(1e-4, 10.0))
+      ->check(in_range(1e-4, 10.0))
       ->capture_default_str();
-  sub->add_option("--smooth", command->options.smoothing,
+  sub->add_option("--smooth", command->smooth,
                   "fair: walls as they were meant; none: the steps of the rings")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, solid::Smoothing>{
-          {"fair", solid::Smoothing::fair}, {"none", solid::Smoothing::none}}))
-      ->default_str("fair");
+      ->check(CLI::IsMember({"fair", "none"}))
+      ->capture_default_str();
   sub->add_option("--segments", command->segments,
                   "Steps around the axis (default: as the tolerance asks)")
       ->check(CLI::Range(3, 1 << 20));

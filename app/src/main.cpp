@@ -2,7 +2,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <cstdio>
 #include <exception>
+#include <iostream>
+#include <string>
 
 namespace {
 
@@ -22,7 +26,9 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", version_text());
   app.footer(kExamples);
   app.require_subcommand(1);
-  app.failure_message(CLI::FailureMessage::simple);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string("claystack: ") + error.what() + "\nclaystack --help tells more\n";
+  });
 
   Console console;
   int exit = kDone;
@@ -36,6 +42,15 @@ int run(int argc, char** argv) {
     command->add_flag("--json", console.json, "Data as JSON on standard output");
     command->add_flag("-q,--quiet", console.quiet, "Errors only");
   }
+  const auto commands = app.get_subcommands({});
+  const bool known = argc < 2 || argv[1][0] == '-' ||
+                     std::any_of(commands.begin(), commands.end(), [&](const CLI::App* command) {
+                       return command->check_name(argv[1]);
+                     });
+  if (!known)
+    return report(
+        {clay::ErrorKind::bad_input,
+         std::string("expected a command (claystack --help lists them), found ") + argv[1]});
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -48,7 +63,12 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    const int exit = run(argc, argv);
+    // What could not be printed was not done.
+    std::cout.flush();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      return clay::app::report({clay::ErrorKind::io, "standard output: could not write"});
+    return exit;
   } catch (const std::exception& error) {  // out of memory, or a fault of ours
     return clay::app::report({clay::ErrorKind::io, error.what()});
   }

@@ -10,6 +10,9 @@
 namespace clay::app {
 namespace {
 
+// Below 3 % the clock's noise is louder than the stage.
+constexpr double kMeasurable = 1.03;
+
 Json line_json(const PlanLine& line, const StageCost* saved) {
   Json json = {{"stage", line.stage}, {"in", line.in}, {"why", line.why}};
   if (saved) json["saved_ns"] = saved->with_ns - saved->without_ns;
@@ -18,9 +21,11 @@ Json line_json(const PlanLine& line, const StageCost* saved) {
 
 std::string line_text(const PlanLine& line, const StageCost* saved) {
   std::string text = fmt::format("{:<4}{:<15}{}", line.in ? "in" : "out", line.stage, line.why);
-  if (saved)
+  if (saved && saved->with_ns > kMeasurable * saved->without_ns)
     text += fmt::format(" (with it {:.0f} ns a tick, without {:.0f})", saved->with_ns,
                         saved->without_ns);
+  else if (saved)
+    text += " (nothing measurable saved)";
   return text;
 }
 

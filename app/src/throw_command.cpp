@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <numbers>
-#include <optional>
 
 namespace clay::app {
 namespace {
@@ -22,7 +22,7 @@ struct ThrowOptions {
   std::string pot;
   std::string trace;
   std::string error_plot;
-  std::optional<Model> model;
+  std::string model;  ///< empty: the scene's own
 };
 
 const char* name_of(Model model) { return model == Model::paper ? "paper" : "conserving"; }
@@ -67,6 +67,8 @@ void tell(const Console& console, const Json& s) {
   console.say(fmt::format("tick: median {:.0f} ns, 99.9 % within {:.0f} ns; force up to {:.2f} N",
                           s["tick_ns_median"].get<double>(), s["tick_ns_p999"].get<double>(),
                           s["max_force_n"].get<double>()));
+  if (s["trimmed_mm3"].get<double>() > 0.0)
+    console.say(fmt::format("trimmed off: {:.1f} cm3", s["trimmed_mm3"].get<double>() / 1000.0));
   if (s["collapsed"].get<bool>())
     console.say(fmt::format(
         "collapsed: ring {} yielded at {:.2f} kPa, the part above fell by {:.0f} degrees",
@@ -108,13 +110,33 @@ Result<void> write_error_plot(const SceneSpec& scene, const Session& session,
   return publish(path, error_plot_svg(scene.name, curves));
 }
 
-Result<void> throw_pot(const ThrowOptions& options, const Console& console) {
+/// Names that cannot be meant, refused before anything is read or played.
+Result<void> check_names(const ThrowOptions& options, const Console& console) {
+  if (options.session.empty())
+    return failure(ErrorKind::bad_input,
+                   "a scene from standard input: expected --session with the poses to play");
+  if (!options.pot.empty() && options.pot != "-" && !options.pot.ends_with(".pot.json") &&
+      !options.pot.ends_with(".pot.cbor"))
+    return failure(ErrorKind::bad_input,
+                   options.pot + ": expected a name that ends in .pot.json or .pot.cbor");
+  const std::vector<std::string> outputs = {options.pot, options.trace, options.error_plot};
+  if (std::count(outputs.begin(), outputs.end(), "-") > (console.json ? 0 : 1))
+    return failure(ErrorKind::bad_input, "-: expected one thing only on standard output");
+  return check_distinct(outputs, {options.scene, options.session});
+}
+
+Result<void> throw_pot(const ThrowOptions& options, Console console) {
+  if (auto names = check_names(options, console); !names) return names;
+  // What goes to standard output goes there alone.
+  for (const std::string& output : {options.pot, options.trace, options.error_plot})
+    if (output == "-") console.quiet = true;
   auto scene = load_scene(options.scene);
   if (!scene) return tl::make_unexpected(scene.error());
   const auto session = load_session(options.session);
   if (!session) return tl::make_unexpected(session.error());
   warn_of_oddities(console, *session, *scene, options);
-  if (options.model) scene->model = *options.model;
+  if (!options.model.empty())
+    scene->model = options.model == "paper" ? Model::paper : Model::conserving;
   auto wheel = Wheel::build(*scene);
   if (!wheel) return failure(wheel.error().kind, options.scene + ": " + wheel.error().message);
 
@@ -165,8 +187,7 @@ void add_throw_command(CLI::App& app, Console& console, int& exit) {
   command
       ->add_option("--model", options->model,
                    "Model to use instead of the scene's: conserving or paper")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, Model>{
-          {"conserving", Model::conserving}, {"paper", Model::paper}}));
+      ->check(CLI::IsMember({"conserving", "paper"}));
   command->add_option("--trace", options->trace,
                       "CSV with a row a tick: volume error, height, force");
   command->add_option("--error-plot", options->error_plot,
@@ -176,7 +197,8 @@ void add_throw_command(CLI::App& app, Console& console, int& exit) {
       "  claystack throw samples/vase.scene.json --model paper --json\n"
       "  claystack throw samples/vase.scene.json --error-plot vase-error.svg");
   command->callback([options, &console, &exit] {
-    if (options->session.empty()) options->session = session_beside(options->scene);
+    if (options->session.empty() && options->scene != "-")
+      options->session = session_beside(options->scene);
     const auto done = throw_pot(*options, console);
     exit = done ? kDone : report(done.error());
   });

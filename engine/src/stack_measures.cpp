@@ -37,17 +37,25 @@ class WallSearch {
       keep(std::hypot(std::max(0.0, rings_[j].outer_mm() - inner), gap), i);
     };
     try_ring(i, 0.0);
+    bool down = true, up = true;
     // Rings that touch share a level, so neighbours have no gap.
     for (std::size_t step = 1;; ++step) {
       const double gap = h_ * static_cast<double>(step - 1);
       if (gap >= least_.thickness_mm) return;
-      if (step <= i) try_ring(i - step, gap);
-      if (i + step < rings_.size()) try_ring(i + step, gap);
-      if (step > i && i + step >= rings_.size()) return;
+      // Only through clay: a ring that does not touch the last one is another piece.
+      down = down && step <= i && share_clay(rings_[i - step], rings_[i - step + 1]);
+      up = up && i + step < rings_.size() && share_clay(rings_[i + step], rings_[i + step - 1]);
+      if (down) try_ring(i - step, gap);
+      if (up) try_ring(i + step, gap);
+      if (!down && !up) return;
     }
   }
 
-  /// Runs of rings without a bore between a bore and the open air, or between two bores.
+  static bool share_clay(const Ring& a, const Ring& b) {
+    return std::max(a.inner2, b.inner2) < std::min(a.outer2, b.outer2);
+  }
+
+  /// Runs of rings without a bore, between bores and the open air: floors, lids, solid pots.
   void floors() {
     std::size_t first = 0;
     while (first < rings_.size()) {
@@ -57,10 +65,9 @@ class WallSearch {
       }
       std::size_t end = first;
       while (end < rings_.size() && rings_[end].inner2 == 0) ++end;
-      const bool solid = first == 0 && end == rings_.size();
       const double bottom = h_ * static_cast<double>(first);
       const double top = end == rings_.size() ? top_ : h_ * static_cast<double>(end);
-      if (!solid) keep(top - bottom, first);
+      keep(top - bottom, first);
       first = end;
     }
   }

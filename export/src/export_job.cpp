@@ -46,7 +46,7 @@ Result<void> check_pieces(const std::vector<PieceShape>& shapes, bool allow_piec
                  "expected a pot in one piece, found " + std::to_string(shapes.size()) +
                      " that do not touch: rings " + std::to_string(shapes[0].last_ring) + " and " +
                      std::to_string(shapes[1].first_ring) +
-                     " are the first that part; pieces must be allowed to be exported together");
+                     " are the first that part; ask for pieces to be exported together (--pieces)");
 }
 
 /// The fewest bits that keep the ends of the shortest edge in different cells of Draco's grid.

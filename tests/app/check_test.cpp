@@ -144,6 +144,25 @@ TEST(CheckPot, ACollapsedPotIsNotSound) {
   EXPECT_EQ(run.json().at("problems").at(0).at("what"), "collapsed");
 }
 
+TEST(CheckPot, AClosedCavityIsSoundAndNoted) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("p.pot.json");
+  ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
+  auto json = nlohmann::ordered_json::parse(read_text(pot));
+  const auto mm2 = [](std::int64_t value) { return value << 36; };
+  json["rings"] = {{"outer2", {mm2(400), mm2(400), mm2(400)}}, {"inner2", {0, mm2(225), 0}}};
+  json["crown"] = "0";
+  json["ledger"] = {
+      {"initial", std::to_string(mm2(975))}, {"added", "0"}, {"trimmed", "0"}, {"outside", "0"}};
+  write_text(pot, json.dump());
+  const Ran run = claystack("check --json " + pot);
+  EXPECT_EQ(run.status, 0) << run.out << run.err;
+  EXPECT_NE(run.json().at("notes").dump().find("closed cavity"), std::string::npos);
+  const Ran exported = claystack("export " + pot + " " + folder.file("p.stl"));
+  EXPECT_EQ(exported.status, 0) << exported.err;
+  EXPECT_NE(exported.err.find("drain hole"), std::string::npos);
+}
+
 TEST(CheckPot, AnEditedQuantumIsCaughtByTheLedger) {
   const ScratchFolder folder;
   const std::string pot = folder.file("p.pot.json");

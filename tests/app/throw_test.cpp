@@ -89,6 +89,32 @@ TEST(Throw, DrawsTheErrorOfBothModels) {
   EXPECT_NE(svg.find("model conserving"), std::string::npos);
 }
 
+TEST(Throw, RefusesToWriteOverItsInputsOrTwice) {
+  const ScratchFolder folder;
+  for (const char* end : {".scene.json", ".session"})
+    write_text(folder.file("b") + end, read_text(sample(std::string("bowl") + end)));
+  const std::string scene = folder.file("b.scene.json"), session = folder.file("b.session");
+  const std::string pot = folder.file("b.pot.json");
+  for (const std::string& outputs :
+       {"--trace " + scene, "--error-plot " + session, "-o " + pot + " --trace " + pot,
+        "-o " + pot + " --error-plot " + folder.file("./b.pot.json"), "-o " + folder.file("b.stl"),
+        "-o " + scene, std::string("-o - --json"), std::string("-o - --trace -")}) {
+    EXPECT_EQ(claystack("throw " + scene + " " + outputs).status, 2) << outputs;
+    EXPECT_FALSE(std::filesystem::exists(pot));
+  }
+  EXPECT_EQ(read_text(scene), read_text(sample("bowl.scene.json")));
+  EXPECT_EQ(read_text(session), read_text(sample("bowl.session")));
+}
+
+TEST(Throw, PipesIntoExport) {
+  const ScratchFolder folder;
+  const std::string program = CLAYSTACK_PROGRAM;
+  const Ran run = shell(program + " throw " + sample("bowl.scene.json") + " -o - | " + program +
+                        " export -q - " + folder.file("piped.stl"));
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(claystack("check -q " + folder.file("piped.stl")).status, 0);
+}
+
 TEST(Throw, RefusesAndLeavesNothingBehind) {
   const ScratchFolder folder;
   const std::string pot = folder.file("x.pot.json");

@@ -24,8 +24,20 @@ TEST(Usage, HelpShowsExamplesAndExitStatuses) {
 TEST(Usage, BadUsageIsStatusTwo) {
   for (const char* arguments :
        {"", "knead", "throw", "export x.pot.json", "check", "throw x --unknown",
-        "export x.pot.json x.stl --tolerance -1", "export x.pot.json x.stl --segments two"})
+        "export x.pot.json x.stl --tolerance -1", "export x.pot.json x.stl --segments two",
+        "check x.pot.json --min-wall nan", "throw -"})
     EXPECT_EQ(claystack(arguments).status, 2) << arguments;
+}
+
+TEST(Usage, AnUnknownCommandIsNamed) {
+  EXPECT_NE(claystack("knead").err.find("found knead"), std::string::npos);
+}
+
+TEST(Usage, WhatCannotBePrintedIsStatusThree) {
+  const std::string scene = sample("bowl.scene.json");
+  for (const std::string& command :
+       {"throw --json " + scene, "plan " + scene, std::string("--help")})
+    EXPECT_EQ(shell(CLAYSTACK_PROGRAM " " + command + " >/dev/full").status, 3) << command;
 }
 
 TEST(Usage, QuietPrintsNothing) {

@@ -24,6 +24,11 @@ TEST(MinWall, IsTheWallTheFloorOrTheDiameter) {
   EXPECT_NEAR(min_wall(stack_of(30, {{40, 0}, {7, 0}})).thickness_mm, 14.0, 1e-9);   // across
 }
 
+TEST(MinWall, GoesThroughClayOnly) {
+  EXPECT_NEAR(min_wall(stack_of(10, {{20, 15}, {14, 10}})).thickness_mm, 4.0, 1e-9);  // two pieces
+  EXPECT_NEAR(min_wall(stack_of(10, {{20, 0}})).thickness_mm, 10.0, 1e-9);            // a puck
+}
+
 TEST(MinWall, SeesAcrossRings) {
   // Neighbours share a level: from the bore of ring 1 (38) to the outside of ring 2 (39).
   const WallMinimum step = min_wall(stack_of(30, {{40, 0}, {44, 38}, {39, 30}}));
@@ -41,7 +46,7 @@ RC_GTEST_PROP(MinWall, IsTheLeastOverAllPairs, ()) {
   for (std::size_t i = 0; i < count; ++i) {
     const double outer = 40.0 + 5.0 * samples::uniform(random);
     rings.push_back({quanta_from_radius(outer),
-                     quanta_from_radius(outer - 1.0 - 20.0 * samples::uniform(random))});
+                     quanta_from_radius(outer - 6.0 - 20.0 * samples::uniform(random))});
   }
   const ClayStack stack = ClayStack::from_rings(h, rings, 0).value();
   double least = 1e300;
