@@ -38,11 +38,11 @@ int run(int argc, char** argv) {
   add_check_command(app, console, exit);
 #endif
   add_plan_command(app, console, exit);
-  for (CLI::App* command : app.get_subcommands({})) {
+  const auto commands = app.get_subcommands({});
+  for (CLI::App* command : commands) {
     command->add_flag("--json", console.json, "Data as JSON on standard output");
     command->add_flag("-q,--quiet", console.quiet, "Errors only");
   }
-  const auto commands = app.get_subcommands({});
   const bool known = argc < 2 || argv[1][0] == '-' ||
                      std::any_of(commands.begin(), commands.end(), [&](const CLI::App* command) {
                        return command->check_name(argv[1]);
