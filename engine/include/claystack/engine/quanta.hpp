@@ -24,7 +24,7 @@ inline constexpr std::size_t kMaxRings = std::size_t{1} << 24;
 
 /// The squared radius nearest to `mm2` [mm^2], halves up. Needs 0 <= mm2 < 1.3e8.
 [[nodiscard]] inline Quanta quanta_from_mm2(double mm2) noexcept {
-  return static_cast<Quanta>(mm2 * kQuantaPerMm2 + 0.5);
+  return static_cast<Quanta>(mm2 * kQuantaPerMm2 + 0.5);  // NOLINT(bugprone-incorrect-roundings)
 }
 [[nodiscard]] inline Quanta quanta_from_radius(double mm) noexcept {
   return quanta_from_mm2(mm * mm);
