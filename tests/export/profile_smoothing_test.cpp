@@ -92,9 +92,10 @@ RC_GTEST_PROP(ProfileSmoothing, IsCertifiedAndThinsNoWallBeyondTheTolerance, ())
   for (const Ring& ring : stack.rings())
     if (ring.inner2 > 0) thinnest = std::min(thinnest, ring.outer_mm() - ring.inner_mm());
   const double floor = 6 * 0.5;
-  // The outside leans by 1, the bore by 1.3 at most: across, a wall is at least cos atan 1.3 = 0.61
-  // of what it is along the radius.
-  RC_ASSERT(min_wall_mm(section.profile) > std::min(floor, 0.6 * thinnest) - 2.0 * tolerance);
+  // Walls lean by about 45 degrees at most: across, they are cos 45 of what they are along the
+  // radius.
+  RC_ASSERT(min_wall_mm(section.profile) >
+            std::min(floor, thinnest * std::sqrt(0.5)) - 2.0 * tolerance);
 }
 
 RC_GTEST_PROP(ProfileSmoothing, StaysWithinTheToleranceOfTheMiddles, ()) {
@@ -109,8 +110,8 @@ RC_GTEST_PROP(ProfileSmoothing, StaysWithinTheToleranceOfTheMiddles, ()) {
       const ProfilePoint &a = polygon[k], &b = polygon[k + 1];
       if (!(a.y <= y && y < b.y)) continue;
       const double rho = a.rho + (b.rho - a.rho) * (y - a.y) / (b.y - a.y);
-      RC_ASSERT(std::abs(rho - stack.rings()[i].outer_mm()) <
-                1.21 * tolerance);  // half of it across a slope of 45 degrees, half for the scale
+      // Half of the tolerance across a slope of 45 degrees, and what the scale adds.
+      RC_ASSERT(std::abs(rho - stack.rings()[i].outer_mm()) < tolerance);
     }
   }
 }

@@ -17,7 +17,7 @@ enum class Smoothing {
 /// them the wall R - r is a mean of two rings' own. Foot, lip and floors stay corners. Middles
 /// that lie within `tolerance_mm` / 2 of the line without them are left out (Douglas and Peucker,
 /// Cartographica 10(2) 1973). What chords and leaving out cost is given back by scaling the outer
-/// wall, by micrometres, so that every piece holds its counted clay to rounding.
+/// wall, so that every piece holds its counted clay to rounding.
 ///
 /// Errors as `profile_of`. The result is not proved: certify it. Walls of less than a few
 /// tolerances may be crossed by the leaving out; then the steps as they are must serve.
