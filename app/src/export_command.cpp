@@ -1,4 +1,6 @@
 #include "commands.hpp"
+#include "export_report.hpp"
+#include "file_on_disk.hpp"
 
 #include "claystack/engine/atomic_file.hpp"
 #include "claystack/engine/pot_file.hpp"
@@ -23,21 +25,23 @@ struct ExportCommand {
   std::string pot;
   std::vector<std::string> outputs;
   solid::ExportOptions options;
-  std::size_t segments = 0;
   std::string smooth = "fair";
+  std::string verify = "margins";
   bool ascii = false;
+  bool certificate = false;
 };
 
-/// What is asked for: meshes go through the job, drawings and pots straight from the pot.
+/// What is asked for: meshes go through the job, drawings straight from the pot.
 struct Request {
   std::string path;
   std::optional<MeshFormat> mesh;
+  std::unique_ptr<FileOnDisk> file;
 };
 
 Result<std::vector<Request>> requests_of(const ExportCommand& command) {
   std::vector<Request> requests;
   for (const std::string& path : command.outputs) {
-    Request request{path, std::nullopt};
+    Request request{path, std::nullopt, nullptr};
     if (!path.ends_with(".svg")) {
       const auto format = solid::mesh_format_of(path);
       if (!format)
@@ -50,105 +54,66 @@ Result<std::vector<Request>> requests_of(const ExportCommand& command) {
   return requests;
 }
 
-Json report_json(const ExportReport& report) {
-  Json json = {
-      {"triangles", report.mesh.triangles},
-      {"segments", report.segments},
-      {"smoothing", report.smoothing == solid::Smoothing::fair ? "fair" : "none"},
-      {"volume_mm3", report.volume_mm3},
-      {"counted_volume_mm3", report.counted_volume_mm3},
-      {"volume_error_relative", report.volume_error_relative},
-      {"chordal_error_mm", report.chordal_error_mm},
-      {"min_wall_mm", report.min_wall_mm},
-      {"certificate",
-       {{"proved",
-         "closed and embedded: the profile is strictly simple and meets the axis in segments only"},
-        {"polygons", report.certificate.polygons},
-        {"vertices", report.certificate.vertices},
-        {"axis_segments", report.certificate.axis_segments}}},
-      {"components", report.mesh.components},
-      {"self_intersections", report.mesh.self_intersections},
-      {"cavities", Json::array()},
-      {"files", Json::array()},
-      {"left_out", Json::array()},
-      {"stages", Json::array()},
-  };
-  for (const auto& shape : report.shapes)
-    for (const auto& cavity : shape.cavities)
-      json["cavities"].push_back({{"bottom_mm", cavity.bottom_mm},
-                                  {"top_mm", cavity.top_mm},
-                                  {"volume_mm3", cavity.volume_mm3}});
-  for (const auto& [what, why] : report.left_out)
-    json["left_out"].push_back({{"what", what}, {"why", why}});
-  for (const auto& [name, seconds] : report.stages)
-    json["stages"].push_back({{"name", name}, {"seconds", seconds}});
-  return json;
-}
+std::string certificate_path(const std::string& file) { return file + ".certificate.json"; }
 
-Json file_json(const std::string& path, std::string_view format, std::size_t bytes,
-               double max_error_mm) {
-  return {{"path", path}, {"format", format}, {"bytes", bytes}, {"max_error_mm", max_error_mm}};
-}
-
-std::string rounding_of(const Json& file) {
-  const double error = file["max_error_mm"].get<double>();
-  return error > 0.0 ? fmt::format(", vertices within {:.2g} mm", error) : "";
-}
-
-void tell(const Console& console, const Json& json) {
-  console.say(fmt::format(
-      "proved: closed and embedded, from {} profile vertices; checked on the mesh: "
-      "{} triangles, {} component(s), {} self-intersections",
-      json["certificate"]["vertices"].get<std::size_t>(), json["triangles"].get<std::size_t>(),
-      json["components"].get<std::size_t>(), json["self_intersections"].get<std::size_t>()));
-  console.say(fmt::format(
-      "volume {:.3f} cm3, off the counted clay by {:.1e}; thinnest {:.2f} mm; chordal error {:.3g} "
-      "mm",
-      json["volume_mm3"].get<double>() / 1000.0, json["volume_error_relative"].get<double>(),
-      json["min_wall_mm"].get<double>(), json["chordal_error_mm"].get<double>()));
-  for (const Json& cavity : json["cavities"])
-    console.warn(
-        fmt::format("closed cavity from {:.1f} to {:.1f} mm ({:.1f} cm3): it needs a drain hole",
-                    cavity["bottom_mm"].get<double>(), cavity["top_mm"].get<double>(),
-                    cavity["volume_mm3"].get<double>() / 1000.0));
-  for (const Json& file : json["files"])
-    console.say(fmt::format("{}: {}, {} bytes{}", file["path"].get<std::string>(),
-                            file["format"].get<std::string>(), file["bytes"].get<std::size_t>(),
-                            rounding_of(file)));
-}
-
-/// Everything is encoded and verified before the first file is written.
-Result<Json> write_all(const Pot& pot, const std::vector<Request>& requests,
-                       const ExportCommand& command, const Console& console) {
-  std::vector<MeshFormat> formats;
-  for (const Request& request : requests)
-    if (request.mesh) formats.push_back(*request.mesh);
-  Progress progress(console, "exporting", 0);
-  const auto result = solid::run_export(pot, formats, command.options,
-                                        [&](std::string_view stage) { progress.stage(stage); });
-  if (!result) return tl::make_unexpected(result.error());
-
-  Json json = report_json(result->report);
-  const auto begin = std::chrono::steady_clock::now();
-  auto mesh = result->files.begin();
-  for (const Request& request : requests) {
-    const std::string drawing = request.mesh ? std::string() : solid::section_svg(pot);
-    const std::string& bytes = request.mesh ? mesh->bytes : drawing;
-    if (auto written = publish(request.path, bytes); !written)
-      return tl::make_unexpected(written.error());
-    json["files"].push_back(request.mesh ? file_json(request.path, solid::name_of(mesh->format),
-                                                     bytes.size(), mesh->max_error_mm)
-                                         : file_json(request.path, "svg", bytes.size(), 0.0));
-    if (request.mesh) ++mesh;
+/// Opens every file before any work: what can't be written is known at once.
+Result<void> open_all(std::vector<Request>& requests) {
+  for (Request& request : requests) {
+    auto file = AtomicFile::create(request.path);
+    if (!file) return tl::make_unexpected(file.error());
+    request.file = std::make_unique<FileOnDisk>(std::move(*file));
   }
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-  json["stages"].push_back({{"name", "publish"}, {"seconds", seconds.count()}});
-  return json;
+  return {};
+}
+
+Result<void> write_drawing(const Pot& pot, Request& request) {
+  const std::string drawing = solid::section_svg(pot);
+  return request.file->write(std::as_bytes(std::span(drawing)));
+}
+
+/// All files are whole and verified before the first one gets its name.
+Result<ExportReport> export_all(const Pot& pot, std::vector<Request>& requests,
+                                const ExportCommand& command, const Console& console) {
+  std::vector<solid::Output> outputs;
+  for (const Request& request : requests)
+    if (request.mesh) outputs.push_back({*request.mesh, request.file.get()});
+  ExportReport report;
+  if (!outputs.empty()) {
+    Progress progress(console, "exporting", 0);
+    auto done = solid::run_export(pot, outputs, command.options,
+                                  [&](std::string_view stage) { progress.stage(stage); });
+    if (!done) return failure(done.error().kind, command.pot + ": " + done.error().message);
+    report = std::move(*done);
+  }
+  for (Request& request : requests)
+    if (!request.mesh)
+      if (auto drawn = write_drawing(pot, request); !drawn)
+        return tl::make_unexpected(drawn.error());
+  return report;
+}
+
+Result<void> publish_all(std::vector<Request>& requests, const ExportCommand& command,
+                         const ExportReport& report) {
+  auto file = report.files.begin();
+  for (Request& request : requests) {
+    if (auto done = request.file->commit(); !done) return done;
+    if (!request.mesh) continue;
+    if (command.certificate)
+      if (auto done =
+              publish(certificate_path(request.path), solid::write_certificate(file->certificate));
+          !done)
+        return done;
+    ++file;
+  }
+  return {};
 }
 
 Result<void> export_pot(ExportCommand& command, const Console& console) {
-  if (auto names = check_distinct(command.outputs, {command.pot}); !names) return names;
-  const auto requests = requests_of(command);
+  std::vector<std::string> outputs = command.outputs;
+  if (command.certificate)
+    for (const std::string& path : command.outputs) outputs.push_back(certificate_path(path));
+  if (auto names = check_distinct(outputs, {command.pot}); !names) return names;
+  auto requests = requests_of(command);
   if (!requests) return tl::make_unexpected(requests.error());
   const auto pot = read_file(command.pot).and_then([&](const std::string& bytes) {
     return parse_pot(bytes, command.pot);
@@ -156,23 +121,19 @@ Result<void> export_pot(ExportCommand& command, const Console& console) {
   if (!pot) return tl::make_unexpected(pot.error());
   command.options.smoothing =
       command.smooth == "fair" ? solid::Smoothing::fair : solid::Smoothing::none;
-  if (command.segments > 0) command.options.segments = command.segments;
+  command.options.full_verification = command.verify == "full";
   command.options.name = std::filesystem::path(command.pot).stem().stem().string();
+  if (auto opened = open_all(*requests); !opened) return opened;
 
-  // A section needs no solid: any pot can be drawn, a fallen one too.
-  const bool only_drawings = std::none_of(requests->begin(), requests->end(),
-                                          [](const Request& r) { return r.mesh.has_value(); });
-  if (only_drawings) {
-    for (const Request& request : *requests) {
-      if (auto written = publish(request.path, solid::section_svg(*pot)); !written) return written;
-      console.say(request.path + ": section");
-    }
-    return {};
-  }
-  const auto json = write_all(*pot, *requests, command, console);
-  if (!json) return failure(json.error().kind, command.pot + ": " + json.error().message);
-  if (console.json) console.print(*json);
-  tell(console, *json);
+  auto report = export_all(*pot, *requests, command, console);
+  if (!report) return tl::make_unexpected(report.error());
+  const auto begin = std::chrono::steady_clock::now();
+  if (auto done = publish_all(*requests, command, *report); !done) return done;
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  report->stages.push_back({"publish", seconds.count()});
+
+  if (console.json) console.print(export_json(*report, command.outputs));
+  tell_export(console, *report, command.outputs);
   return {};
 }
 
@@ -195,9 +156,19 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
                   "fair: walls as they were meant; none: the steps of the rings")
       ->check(CLI::IsMember({"fair", "none"}))
       ->capture_default_str();
-  sub->add_option("--segments", command->segments,
+  sub->add_option("--segments", command->options.segments,
                   "Steps around the axis (default: as the tolerance asks)")
       ->check(CLI::Range(3, 1 << 20));
+  sub->add_option("--max-triangles", command->options.max_triangles,
+                  "Coarser than the tolerance where that needs more triangles")
+      ->check(CLI::Range(8, 20'000'000));
+  sub->add_flag("--certificate", command->certificate,
+                "Write OUT.certificate.json beside each mesh, for claystack check --certificate");
+  sub->add_option("--verify", command->verify,
+                  "margins: prove the rounding, read the file again; full: also check the file "
+                  "as a stranger's, exact self-intersection test included")
+      ->check(CLI::IsMember({"margins", "full"}))
+      ->capture_default_str();
   sub->add_flag("--ascii", command->ascii, "Write .stl as text");
   sub->add_flag("--pieces", command->options.allow_pieces,
                 "Allow pieces that do not touch, all in one file");

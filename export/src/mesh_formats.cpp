@@ -15,6 +15,13 @@ Result<MeshFormat> mesh_format_of(std::string_view path) {
                  std::string(path).append(": expected a name that ends in .stl, .obj or .drc"));
 }
 
+Result<MeshFormat> mesh_format_named(std::string_view name) {
+  for (const MeshFormat format : kMeshFormats)
+    if (name_of(format) == name) return format;
+  return failure(ErrorKind::bad_input,
+                 std::string("expected the name of a mesh format, found ").append(name));
+}
+
 std::string_view name_of(MeshFormat format) noexcept {
   switch (format) {
     case MeshFormat::stl_binary:

@@ -1,49 +1,24 @@
 #include "claystack/export/mesh_formats.hpp"
 #include "file_floats.hpp"
-#include "little_endian.hpp"
 #include "mesh_limits.hpp"
+#include "stl_layout.hpp"
 #include "text_scanner.hpp"
 #include "vertex_welder.hpp"
 
 #include <array>
-#include <glm/geometric.hpp>
 
 namespace clay::solid {
 namespace {
 
-using Corners = std::array<glm::vec3, 3>;
-
-constexpr std::size_t kHeaderBytes = 80;
-constexpr std::size_t kPrologueBytes = kHeaderBytes + 4;
-constexpr std::size_t kFacetBytes = 50;
-constexpr std::size_t kPointBytes = 12;
-// Must not begin with "solid": careless readers would take the file for text.
-constexpr std::string_view kHeader = "claystack: binary STL, units mm";
-
-/// In double from the corners as written; zero where they span no area, as is the custom.
-glm::vec3 facet_normal(const Corners& corners) noexcept {
-  const glm::dvec3 origin(corners[0]);
-  const glm::dvec3 normal =
-      glm::cross(glm::dvec3(corners[1]) - origin, glm::dvec3(corners[2]) - origin);
-  const double length = glm::length(normal);
-  return length > 0.0 ? file_point(normal / length) : glm::vec3(0.0F);
-}
+using stl::Corners;
+using stl::kFacetBytes;
+using stl::kHeaderBytes;
+using stl::kPointBytes;
+using stl::kPrologueBytes;
 
 Corners corners_of(const std::array<std::uint32_t, 3>& triangle,
                    const std::vector<glm::vec3>& points) noexcept {
   return {points[triangle[0]], points[triangle[1]], points[triangle[2]]};
-}
-
-void store_point(char* at, const glm::vec3& point) noexcept {
-  for (int axis = 0; axis < 3; ++axis) store_f32(at + 4 * axis, point[axis]);
-}
-
-glm::vec3 load_point(const char* at) noexcept {
-  return {load_f32(at), load_f32(at + 4), load_f32(at + 8)};
-}
-
-std::size_t binary_size(std::size_t facets) noexcept {
-  return kPrologueBytes + kFacetBytes * facets;
 }
 
 /// A closed mesh has half as many points as triangles.
@@ -120,10 +95,10 @@ Result<TriangleMesh> decode_binary(std::string_view bytes, std::size_t facets,
   TriangleMesh mesh = mesh_with_room_for(facets);
   VertexWelder welder(mesh.points, facets);
   for (std::size_t facet = 0; facet < facets; ++facet) {
-    const char* const at = bytes.data() + binary_size(facet);
+    const char* const at = bytes.data() + stl::file_bytes(facet);
     auto& triangle = mesh.triangles.emplace_back();
     for (std::size_t i = 0; i < 3; ++i) {
-      const glm::vec3 corner = load_point(at + kPointBytes * (i + 1));
+      const glm::vec3 corner = stl::load_point(at + kPointBytes * (i + 1));
       if (const auto bad = find_bad_coordinate(corner)) {
         return bad_file(name, "facet " + std::to_string(facet + 1) + ": " + *bad);
       }
@@ -144,7 +119,7 @@ tl::unexpected<Error> wrong_size(std::string_view bytes, std::string_view name) 
     return bad_file(name, "expected an STL file: the word solid, or at least 84 bytes" + found);
   }
   const std::size_t facets = load_u32(bytes.data() + kHeaderBytes);
-  return bad_file(name, "expected " + std::to_string(binary_size(facets)) +
+  return bad_file(name, "expected " + std::to_string(stl::file_bytes(facets)) +
                             " bytes of binary STL for the " + std::to_string(facets) +
                             " facets it counts" + found);
 }
@@ -152,7 +127,7 @@ tl::unexpected<Error> wrong_size(std::string_view bytes, std::string_view name) 
 Result<TriangleMesh> decode_either(std::string_view bytes, std::string_view name) {
   if (bytes.size() >= kPrologueBytes) {
     const std::size_t facets = load_u32(bytes.data() + kHeaderBytes);
-    if (bytes.size() == binary_size(facets)) return decode_binary(bytes, facets, name);
+    if (bytes.size() == stl::file_bytes(facets)) return decode_binary(bytes, facets, name);
   }
   if (!begins_with_solid(bytes)) return wrong_size(bytes, name);
   return StlTextReader(bytes, name).read();
@@ -162,14 +137,11 @@ Result<TriangleMesh> decode_either(std::string_view bytes, std::string_view name
 
 std::string encode_stl_binary(const TriangleMesh& mesh) {
   const std::vector<glm::vec3> points = file_points(mesh.points);
-  std::string bytes(binary_size(mesh.triangles.size()), '\0');
-  kHeader.copy(bytes.data(), kHeaderBytes);
-  store_u32(bytes.data() + kHeaderBytes, static_cast<std::uint32_t>(mesh.triangles.size()));
+  std::string bytes(stl::file_bytes(mesh.triangles.size()), '\0');
+  stl::store_prologue(bytes.data(), mesh.triangles.size());
   char* at = bytes.data() + kPrologueBytes;
   for (const auto& triangle : mesh.triangles) {
-    const Corners corners = corners_of(triangle, points);
-    store_point(at, facet_normal(corners));
-    for (std::size_t i = 0; i < 3; ++i) store_point(at + kPointBytes * (i + 1), corners[i]);
+    stl::store_facet(at, corners_of(triangle, points));
     at += kFacetBytes;
   }
   return bytes;
@@ -184,7 +156,7 @@ std::string encode_stl_ascii(const TriangleMesh& mesh, std::string_view solid_na
   text += solid;
   for (const auto& triangle : mesh.triangles) {
     const Corners corners = corners_of(triangle, points);
-    append_point_line(text, "facet normal", facet_normal(corners));
+    append_point_line(text, "facet normal", stl::facet_normal(corners));
     text += "  outer loop\n";
     for (const glm::vec3& corner : corners) append_point_line(text, "    vertex", corner);
     text += "  endloop\nendfacet\n";

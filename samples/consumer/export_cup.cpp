@@ -14,12 +14,14 @@ int main() {
 
   clay::Pot pot;
   pot.stack = clay::ClayStack::from_rings(1.0, rings, 0).value();
-  const auto result = clay::solid::run_export(pot, {clay::solid::MeshFormat::stl_binary}, {});
-  if (!result) {
-    std::fprintf(stderr, "%s\n", result.error().message.c_str());
+  clay::solid::MemoryStore stl;
+  const auto report =
+      clay::solid::run_export(pot, {{clay::solid::MeshFormat::stl_binary, &stl}}, {});
+  if (!report) {
+    std::fprintf(stderr, "%s\n", report.error().message.c_str());
     return 1;
   }
-  std::printf("%zu triangles, %.3f cm3, %zu bytes of STL\n", result->report.mesh.triangles,
-              result->report.volume_mm3 / 1000.0, result->files[0].bytes.size());
-  return result->report.mesh.sound() ? 0 : 1;
+  std::printf("%zu triangles, %.3f cm3, %zu bytes of STL\n", report->triangles,
+              report->volume_mm3 / 1000.0, stl.bytes().size());
+  return 0;
 }

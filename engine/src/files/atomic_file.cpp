@@ -107,11 +107,11 @@ constexpr mode_t kReadWriteForAll = 0666;  // less the umask
 
 /// Without a name where the file system can do that, else with a temporary one.
 std::pair<int, fs::path> open_in(const fs::path& folder) {
-  const int unnamed = open_retrying(folder, O_TMPFILE | O_WRONLY, kReadWriteForAll);
+  const int unnamed = open_retrying(folder, O_TMPFILE | O_RDWR, kReadWriteForAll);
   // EISDIR: a kernel that does not know O_TMPFILE.
   if (unnamed != -1 || (errno != EOPNOTSUPP && errno != EISDIR)) return {unnamed, {}};
   return with_fresh_name(folder, [](const char* name) {
-    return ::open(name, O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, kReadWriteForAll);
+    return ::open(name, O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, kReadWriteForAll);
   });
 }
 
@@ -188,6 +188,21 @@ Result<void> AtomicFile::write(std::span<const std::byte> bytes) {
         uninterrupted([&] { return ::write(descriptor_, bytes.data(), bytes.size()); });
     if (count < 0) return give_up("cannot write");
     bytes = bytes.subspan(static_cast<std::size_t>(count));
+  }
+  return {};
+}
+
+Result<void> AtomicFile::read_at(std::uint64_t offset, std::span<std::byte> bytes) const {
+  if (in_place_ || descriptor_ == -1)
+    return failure(ErrorKind::io, target_.string() + ": what was written cannot be read again");
+  while (!bytes.empty()) {
+    const auto count = uninterrupted([&] {
+      return ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    });
+    if (count < 0) return io_failure(target_, "cannot read again");
+    if (count == 0) return failure(ErrorKind::io, target_.string() + ": ends early");
+    bytes = bytes.subspan(static_cast<std::size_t>(count));
+    offset += static_cast<std::uint64_t>(count);
   }
   return {};
 }

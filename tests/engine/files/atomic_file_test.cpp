@@ -64,6 +64,11 @@ void expect_io_error(const Result<void>& result, const fs::path& path, int error
       << result.error().message;
 }
 
+void expect_says(const Result<void>& result, std::string_view says) {
+  ASSERT_FALSE(result);
+  EXPECT_NE(result.error().message.find(says), std::string::npos) << result.error().message;
+}
+
 TEST_F(AtomicFileTest, PublishesAndReadsBack) {
   const fs::path path = folder_ / "pot";
   const std::string bytes = std::string(1'000'000, 'x') + '\0' + "end\n";
@@ -91,6 +96,26 @@ TEST_F(AtomicFileTest, ShowsNothingBeforeTheCommit) {
   EXPECT_EQ(bytes_in(path), "new");
   EXPECT_FALSE(moved.commit());
   EXPECT_EQ(names(), std::set<std::string>{"pot"});
+}
+
+TEST_F(AtomicFileTest, WhatIsWrittenCanBeReadAgainBeforeTheCommit) {
+  auto file = AtomicFile::create(folder_ / "pot").value();
+  ASSERT_TRUE(file.rereadable());
+  ASSERT_TRUE(file.write(std::string_view("clay and water")));
+  std::string again(5, ' ');
+  ASSERT_TRUE(file.read_at(9, std::as_writable_bytes(std::span(again))));
+  EXPECT_EQ(again, "water");
+  expect_says(file.read_at(10, std::as_writable_bytes(std::span(again))), "ends early");
+  ASSERT_TRUE(file.write(std::string_view("!")));  // reading has not moved the end
+  ASSERT_TRUE(file.commit());
+  EXPECT_EQ(bytes_in(folder_ / "pot"), "clay and water!");
+}
+
+TEST_F(AtomicFileTest, DevicesCannotBeReadAgain) {
+  auto file = AtomicFile::create("/dev/null").value();
+  EXPECT_FALSE(file.rereadable());
+  std::string again(1, ' ');
+  expect_says(file.read_at(0, std::as_writable_bytes(std::span(again))), "cannot be read again");
 }
 
 TEST_F(AtomicFileTest, LeavesNoTraceWithoutACommit) {
@@ -263,7 +288,7 @@ TEST_F(AtomicFileTest, ReportsEverySystemCallThatFails) {
   const fs::path path = folder_ / "pot";
   put(path, "old");
   for (const SystemCallFault& fault : {
-           SystemCallFault{SYS_openat, EMFILE, O_WRONLY},
+           SystemCallFault{SYS_openat, EMFILE, O_RDWR},
            {SYS_write, ENOSPC},
            {SYS_fchmod, EPERM},
            {SYS_fsync, EIO},

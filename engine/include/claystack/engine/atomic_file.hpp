@@ -5,6 +5,7 @@
 #include "claystack/engine/result.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -33,6 +34,11 @@ class AtomicFile {
 
   Result<void> write(std::span<const std::byte> bytes);
   Result<void> write(std::string_view text) { return write(std::as_bytes(std::span(text))); }
+  /// Fills `bytes` with what was written from `offset` on, before `commit`. Any number of threads
+  /// may read at once. An error where the file ends before that, and where `rereadable()` is false.
+  Result<void> read_at(std::uint64_t offset, std::span<std::byte> bytes) const;
+  /// Not so for pipes, devices and standard output.
+  [[nodiscard]] bool rereadable() const noexcept { return !in_place_; }
   Result<void> commit();
 
  private:

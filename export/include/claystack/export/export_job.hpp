@@ -1,14 +1,16 @@
 #pragma once
-// stack -> profile -> certificate -> solid -> independent checks -> formats, in that order;
-// a stage that fails stops the job before anything is encoded.
+// stack -> profile -> certificate -> files, each read again and held against the certificate; a
+// stage that fails stops the job before anything is published.
 
 #include "claystack/engine/pot.hpp"
 #include "claystack/engine/result.hpp"
 #include "claystack/export/certificate.hpp"
+#include "claystack/export/file_store.hpp"
 #include "claystack/export/mesh_check.hpp"
 #include "claystack/export/mesh_formats.hpp"
 #include "claystack/export/profile.hpp"
 #include "claystack/export/profile_smoothing.hpp"
+#include "claystack/export/solid_certificate.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -22,15 +24,24 @@ namespace clay::solid {
 struct ExportOptions {
   double tolerance_mm = 0.02;  ///< chordal error along and around; vertex error of Draco
   Smoothing smoothing = Smoothing::fair;
-  std::optional<std::size_t> segments;  ///< force the number around
-  bool allow_pieces = false;            ///< several pieces that do not touch, in one file
-  std::string name = "pot";             ///< solid or object name inside the file
+  std::optional<std::size_t> segments;       ///< force the number around
+  std::optional<std::size_t> max_triangles;  ///< a coarser tolerance where the asked one needs more
+  bool allow_pieces = false;                 ///< several pieces that do not touch, in one file
+  bool full_verification = false;  ///< every file read again whole, and checked as a stranger's is
+  std::string name = "pot";        ///< solid or object name inside the file
 };
 
-struct EncodedMesh {
+/// A file to write. The caller owns the store, and publishes it after the job has succeeded.
+struct Output {
   MeshFormat format = MeshFormat::stl_binary;
-  std::string bytes;
-  double max_error_mm = 0.0;  ///< largest move of a vertex, measured on the decoded bytes
+  FileStore* store = nullptr;
+};
+
+struct FileReport {
+  MeshFormat format = MeshFormat::stl_binary;
+  SolidCertificate certificate;
+  bool read_again = false;  ///< false for pipes only
+  std::optional<MeshReport> full_verification;
 };
 
 struct StageTime {
@@ -44,30 +55,29 @@ struct LeftOut {
 };
 
 struct ExportReport {
-  PlanarCertificate certificate;
-  MeshReport mesh;  ///< of the mesh as float32 files hold it
+  PlanarCertificate planar;
   std::vector<PieceShape> shapes;
   Smoothing smoothing = Smoothing::none;  ///< as done: walls too thin for `fair` stay as they are
-  double min_wall_mm = 0.0;  ///< of the mesh before rounding: the profile's, times cos(pi/n)
   std::size_t segments = 0;
+  std::size_t triangles = 0;
+  std::size_t shells = 0;
+  double tolerance_mm = 0.0;  ///< as used: coarser than asked for where max_triangles demands it
   double chordal_error_mm = 0.0;
+  double min_wall_mm = 0.0;         ///< of the solid before rounding
   double counted_volume_mm3 = 0.0;  ///< of the stack
-  double volume_mm3 = 0.0;          ///< of the mesh before rounding
+  double volume_mm3 = 0.0;          ///< of the solid before rounding
   double volume_error_relative = 0.0;
+  std::vector<FileReport> files;  ///< one for each output, in that order
   std::vector<StageTime> stages;
   std::vector<LeftOut> left_out;
 };
 
-struct ExportResult {
-  ExportReport report;
-  std::vector<EncodedMesh> files;  ///< one for each format asked for, in that order
-};
-
-/// Steps of the stack that float32 cannot hold (below 2^-20 of the largest radius) are levelled
-/// as `profile_of` describes. Draco gets more bits than the tolerance asks for where the walls
-/// need them. `progress(stage)` is called as each stage begins. Collapsed pots are refused with the
-/// reason.
-Result<ExportResult> run_export(const Pot& pot, const std::vector<MeshFormat>& formats,
+/// Steps of the stack that float32 cannot hold (below 2^-19 of the pot's reach) are levelled as
+/// `profile_of` describes. A binary STL is streamed: no mesh is held in memory for it. Draco gets
+/// more bits than the tolerance asks for where the margins need them. Where margins do not cover a
+/// format's rounding, CGAL's exact test of the triangles as written takes their place; where that
+/// fails, the job does, with the reason. `progress(stage)` is called as each stage begins.
+Result<ExportReport> run_export(const Pot& pot, const std::vector<Output>& outputs,
                                 const ExportOptions& options,
                                 const std::function<void(std::string_view)>& progress = {});
 

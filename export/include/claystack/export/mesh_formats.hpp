@@ -6,6 +6,7 @@
 #include "claystack/engine/result.hpp"
 #include "claystack/export/triangle_mesh.hpp"
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -13,10 +14,14 @@
 namespace clay::solid {
 
 enum class MeshFormat { stl_binary, stl_ascii, obj, drc };
+inline constexpr std::array kMeshFormats{MeshFormat::stl_binary, MeshFormat::stl_ascii,
+                                         MeshFormat::obj, MeshFormat::drc};
 
 /// By the name's end, in either case: .stl (binary), .obj, .drc; anything else is an error
 /// that lists them.
 Result<MeshFormat> mesh_format_of(std::string_view path);
+/// By `name_of`.
+Result<MeshFormat> mesh_format_named(std::string_view name);
 /// As the enumerator is spelt.
 [[nodiscard]] std::string_view name_of(MeshFormat format) noexcept;
 

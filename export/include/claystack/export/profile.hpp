@@ -22,6 +22,7 @@ using Polygon = std::vector<ProfilePoint>;
 /// solid and make no surface; every other edge sweeps one.
 struct Profile {
   std::vector<Polygon> pieces;
+  friend bool operator==(const Profile&, const Profile&) = default;
 };
 
 enum class Topology { solid, cup, tube, cavity };

@@ -1,0 +1,73 @@
+#pragma once
+// What is claimed of a file that holds a revolve, with all that it takes to prove it again from the
+// file's bytes: the profile, how far the format's rounding moved its vertices, and the margins that
+// cover this.
+
+#include "claystack/engine/result.hpp"
+#include "claystack/export/mesh_formats.hpp"
+#include "claystack/export/profile.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace clay::solid {
+
+/// How far the vertices of a revolve may move before its triangles could meet: by less than an
+/// eighth of the lesser of the two, if there are at least 8 segments. That no two disjoint parts
+/// meet within half of the distance is a lemma on simplexwise linear maps; the factor of 4 more
+/// covers triangles that share a vertex, and is confirmed by tests against CGAL's exact predicates.
+struct Margins {
+  double clearance_mm = 0.0;  ///< between a vertex of the profile and an edge not its own
+  double chord_mm = 0.0;      ///< least circle: r sin(2 pi/n)
+  std::size_t segments = 0;
+
+  [[nodiscard]] double safe_rounding_mm() const noexcept;
+  friend bool operator==(const Margins&, const Margins&) = default;
+};
+
+[[nodiscard]] Margins margins_of(const Profile& profile, std::size_t segments);
+
+enum class Proof {
+  margins,    ///< the profile is simple, and its margins cover the rounding
+  exact_test  ///< they do not; no two triangles of the file meet by CGAL's exact predicates
+};
+
+struct SolidCertificate {
+  std::string format;        ///< as `name_of` spells it
+  std::uint64_t bytes = 0;   ///< of the file
+  std::string content_hash;  ///< XXH3-128 of the file
+  std::string profile_hash;  ///< XXH3-128 of the coordinates, least byte first
+  Proof proof = Proof::margins;
+  Profile profile;
+  std::size_t segments = 0;
+  double rounding_mm = 0.0;  ///< no vertex of the file is farther from its place
+  Margins margins;
+  double wall_lower_mm = 0.0;       ///< the file's solid is nowhere thinner,
+  double wall_upper_mm = 0.0;       ///< and somewhere no thicker
+  double volume_mm3 = 0.0;          ///< of the solid before rounding
+  double volume_bound_mm3 = 0.0;    ///< the file's volume is within this of it
+  double counted_volume_mm3 = 0.0;  ///< of the stack
+
+  friend bool operator==(const SolidCertificate&, const SolidCertificate&) = default;
+};
+
+/// All claims but those on the bytes of a file. `profile` is certified; `rounding_mm` moves no
+/// vertex farther. The wall of an n-gon revolve is that of the profile with rho scaled by f
+/// cos(pi/n) in the middle of a facet and by f at its sides, f being the equal-volume factor. The
+/// volume moves by less than the area, grown by what rounding may add to it, times the rounding.
+SolidCertificate claims_of(const Profile& profile, std::size_t segments, double rounding_mm);
+
+/// Proves every claim again and holds the file against them: size and hash, profile, margins (or
+/// the exact test), walls, volume; then each triangle of the decoded file against the revolve of
+/// the profile. The error (kind `unsound`) names the first claim that fails; a file that cannot be
+/// read at all is `bad_input`.
+Result<void> verify_certificate(const SolidCertificate& certificate, std::string_view file_bytes,
+                                std::string_view file_name);
+
+/// JSON. Equal certificates give equal bytes; the reader is strict, and its errors name the field.
+std::string write_certificate(const SolidCertificate& certificate);
+Result<SolidCertificate> parse_certificate(std::string_view bytes, std::string_view name);
+
+}  // namespace clay::solid

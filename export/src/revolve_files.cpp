@@ -1,0 +1,197 @@
+#include "revolve_files.hpp"
+
+#include "claystack/export/tessellate.hpp"
+#include "describe.hpp"
+#include "draco_bits.hpp"
+#include "revolve_match.hpp"
+#include "rounded_claims.hpp"
+#include "stl_stream.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace clay::solid {
+namespace {
+
+std::string stage_name(std::string_view verb, MeshFormat format) {
+  return std::string(verb).append("_").append(name_of(format));
+}
+
+std::string as_written(MeshFormat format) { return std::string(name_of(format)) + " as written"; }
+
+std::span<const std::byte> bytes_of(const std::string& text) {
+  return std::as_bytes(std::span(text));
+}
+
+/// What the store holds; where that is gone, what was handed to it.
+Result<std::string> read_again(const FileStore& store, const std::string& written) {
+  if (!store.rereadable()) return written;
+  std::string again(written.size(), '\0');
+  return store.read_at(0, std::as_writable_bytes(std::span(again))).map([&] {
+    return std::move(again);
+  });
+}
+
+Result<void> check_sound(const TriangleMesh& mesh, const std::string& name) {
+  const MeshReport report = check_mesh(mesh);
+  if (report.sound()) return {};
+  return failure(ErrorKind::unsound, name + ": found " + describe(report.problems.front()));
+}
+
+}  // namespace
+
+double float_rounding_mm(const RevolveRule& rule) noexcept {
+  double farthest = 0.0;
+  for (const Shell& shell : rule.shells())
+    for (const ProfilePoint& p : shell.points)
+      farthest = std::max(farthest, std::hypot(equal_area_factor(rule.segments()) * p.rho, p.y));
+  // The products before the rounding are themselves rounded, to double.
+  constexpr double kDoubleRounding = 1.0 + 0x1p-20;
+  return std::ldexp(farthest * kDoubleRounding, -24);
+}
+
+Result<FileReport> RevolveFiles::write(MeshFormat format, FileStore& store) {
+  switch (format) {
+    case MeshFormat::stl_binary:
+      return stream(store);
+    case MeshFormat::drc:
+      return write_drc(store);
+    default:
+      return write_text(format, store);
+  }
+}
+
+const TriangleMesh& RevolveFiles::mesh() {
+  if (!mesh_) mesh_ = stages_.run("tessellate", [&] { return revolve(rule_); });
+  return *mesh_;
+}
+
+/// Margins where they cover the rounding; the exact test of the mesh in float32 where not.
+Result<Proof> RevolveFiles::prove_rounded(double rounding_mm) {
+  if (rounding_mm < claims_.margins.safe_rounding_mm()) return Proof::margins;
+  if (!exact_) {
+    const TriangleMesh& solid = mesh();
+    exact_ = stages_.run(
+        "exact_test", [&] { return check_sound(rounded_to_float(solid), "the pot in float32"); });
+  }
+  return exact_->map([] { return Proof::exact_test; });
+}
+
+Result<FileReport> RevolveFiles::stream(FileStore& store) {
+  constexpr auto kFormat = MeshFormat::stl_binary;
+  const double rounding = float_rounding_mm(rule_);
+  const auto proof = prove_rounded(rounding);
+  if (!proof) return tl::make_unexpected(proof.error());
+  const auto file =
+      stages_.run(stage_name("encode", kFormat), [&] { return stream_stl(rule_, store); });
+  if (!file) return tl::make_unexpected(file.error());
+  if (store.rereadable()) {
+    const auto verdict =
+        stages_.run(stage_name("verify", kFormat), [&] { return verify_stl(rule_, store); });
+    if (!verdict) return tl::make_unexpected(verdict.error());
+  }
+  SolidCertificate certificate = with_rounding(claims_, rule_, rounding);
+  certificate.proof = *proof;
+  certificate.bytes = file->bytes;
+  certificate.content_hash = file->hash;
+  return finish(kFormat, std::move(certificate), store);
+}
+
+/// The digits read back as the same float32. To readers that take them for doubles they are another
+/// half unit of the last place off, at most.
+Result<FileReport> RevolveFiles::write_text(MeshFormat format, FileStore& store) {
+  const double rounding = 2.0 * float_rounding_mm(rule_);
+  return prove_rounded(rounding).and_then([&](Proof proof) {
+    const TriangleMesh& solid = mesh();
+    const std::string bytes = stages_.run(stage_name("encode", format), [&] {
+      return format == MeshFormat::obj ? encode_obj(solid, options_.name)
+                                       : encode_stl_ascii(solid, options_.name);
+    });
+    return certify_bytes(format, rounding, proof, bytes, store);
+  });
+}
+
+/// On the coarsest grid that the tolerance allows and the margins cover. Where no grid is fine
+/// enough for the margins, ever finer ones until the mesh as decoded passes the exact test, or the
+/// last reason why not.
+Result<FileReport> RevolveFiles::write_drc(FileStore& store) {
+  constexpr auto kFormat = MeshFormat::drc;
+  const double allowed = std::max(options_.tolerance_mm, float_rounding_mm(rule_));
+  const double safe = claims_.margins.safe_rounding_mm();
+  const TriangleMesh& solid = mesh();
+  const auto encode = [&](const DracoSettings& settings) {
+    return stages_.run(stage_name("encode", kFormat), [&] { return encode_drc(solid, settings); });
+  };
+  DracoSettings settings;
+  settings.max_error_mm = std::min(allowed, safe);
+  const auto covered = encode(settings);
+  if (covered) return store_drc(*covered, settings.max_error_mm, store);
+
+  settings.max_error_mm = allowed;
+  Result<void> verdict = tl::make_unexpected(covered.error());
+  for (int bits = least_draco_bits(solid); bits <= kMaxDracoBits; bits += kDracoBitsStep) {
+    settings.min_bits = bits;
+    const auto bytes = encode(settings);
+    if (!bytes) return tl::make_unexpected(bytes.error());
+    verdict = stages_.run("exact_test", [&] {
+      return decode_drc(*bytes, as_written(kFormat)).and_then([&](const TriangleMesh& decoded) {
+        return check_sound(decoded, as_written(kFormat));
+      });
+    });
+    if (verdict) return certify_bytes(kFormat, allowed, Proof::exact_test, *bytes, store);
+  }
+  return tl::make_unexpected(verdict.error());
+}
+
+Result<FileReport> RevolveFiles::store_drc(const std::string& bytes, double reach_mm,
+                                           FileStore& store) {
+  return certify_bytes(MeshFormat::drc, reach_mm, Proof::margins, bytes, store);
+}
+
+/// `rounding_mm` bounds the move of every vertex; Draco's is measured on the file as read again.
+Result<FileReport> RevolveFiles::certify_bytes(MeshFormat format, double rounding_mm, Proof proof,
+                                               const std::string& bytes, FileStore& store) {
+  const std::string name = as_written(format);
+  if (auto written =
+          stages_.run(stage_name("store", format), [&] { return store.write(bytes_of(bytes)); });
+      !written)
+    return tl::make_unexpected(written.error());
+  const auto farthest = stages_.run(stage_name("verify", format), [&] {
+    return read_again(store, bytes)
+        .and_then([&](const std::string& again) { return decode_mesh(again, format, name); })
+        .and_then([&](const TriangleMesh& decoded) {
+          return match_revolve(decoded, rule_, rounding_mm, name);
+        });
+  });
+  if (!farthest) return tl::make_unexpected(farthest.error());
+  const bool measured = format == MeshFormat::drc;
+  SolidCertificate certificate = with_rounding(claims_, rule_, measured ? *farthest : rounding_mm);
+  certificate.proof = proof;
+  certificate.bytes = bytes.size();
+  certificate.content_hash = hash_of(bytes_of(bytes));
+  return finish(format, std::move(certificate), store);
+}
+
+Result<FileReport> RevolveFiles::finish(MeshFormat format, SolidCertificate certificate,
+                                        FileStore& store) {
+  certificate.format = name_of(format);
+  FileReport report{format, std::move(certificate), store.rereadable(), std::nullopt};
+  if (!options_.full_verification || !report.read_again) return report;
+  const auto checked = stages_.run("full_verification", [&] {
+    return read_again(store, std::string(report.certificate.bytes, '\0'))
+        .and_then([&](const std::string& again) {
+          return decode_mesh(again, format, as_written(format));
+        })
+        .map(check_mesh);
+  });
+  if (!checked) return tl::make_unexpected(checked.error());
+  if (!checked->sound())
+    return failure(ErrorKind::unsound,
+                   as_written(format) + ": found " + describe(checked->problems.front()));
+  report.full_verification = *checked;
+  return report;
+}
+
+}  // namespace clay::solid

@@ -1,0 +1,48 @@
+#pragma once
+// One certified revolve, written in any format, read again, and certified as written.
+
+#include "claystack/engine/result.hpp"
+#include "claystack/export/export_job.hpp"
+#include "revolve_rule.hpp"
+#include "stages.hpp"
+
+#include <optional>
+#include <string>
+
+namespace clay::solid {
+
+class RevolveFiles {
+ public:
+  /// `claims` are those before any rounding.
+  RevolveFiles(const RevolveRule& rule, const SolidCertificate& claims,
+               const ExportOptions& options, Stages& stages)
+      : rule_(rule), claims_(claims), options_(options), stages_(stages) {}
+
+  Result<FileReport> write(MeshFormat format, FileStore& store);
+
+  /// False as long as every file could be streamed.
+  [[nodiscard]] bool made_mesh() const noexcept { return mesh_.has_value(); }
+
+ private:
+  const TriangleMesh& mesh();
+  Result<FileReport> stream(FileStore& store);
+  Result<FileReport> write_text(MeshFormat format, FileStore& store);
+  Result<FileReport> write_drc(FileStore& store);
+  Result<FileReport> store_drc(const std::string& bytes, double reach_mm, FileStore& store);
+  Result<Proof> prove_rounded(double rounding_mm);
+  Result<FileReport> certify_bytes(MeshFormat format, double rounding_mm, Proof proof,
+                                   const std::string& bytes, FileStore& store);
+  Result<FileReport> finish(MeshFormat format, SolidCertificate certificate, FileStore& store);
+
+  const RevolveRule& rule_;
+  const SolidCertificate& claims_;
+  const ExportOptions& options_;
+  Stages& stages_;
+  std::optional<TriangleMesh> mesh_;
+  std::optional<Result<void>> exact_;  ///< verdict on the mesh in float32, once asked for
+};
+
+/// Largest move [mm] of a vertex when its coordinates are rounded to float32.
+[[nodiscard]] double float_rounding_mm(const RevolveRule& rule) noexcept;
+
+}  // namespace clay::solid

@@ -1,0 +1,163 @@
+#include "revolve_match.hpp"
+
+#include "describe.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace clay::solid {
+namespace {
+
+/// A vertex of the rule; sector 0 for poles.
+struct VertexName {
+  std::uint32_t shell = 0, point = 0, sector = 0;
+};
+
+/// The circles (and poles) of a revolve, sorted by height.
+struct Level {
+  double y = 0.0;
+  std::uint32_t shell = 0, point = 0;
+};
+
+std::string place(const glm::dvec3& p) {
+  return std::string("(") + in_mm(p.x) + ", " + in_mm(p.y) + ", " + in_mm(p.z) + ") mm";
+}
+
+class VertexFinder {
+ public:
+  VertexFinder(const RevolveRule& rule, double reach_mm) : rule_(rule), reach_(reach_mm) {
+    for (std::uint32_t shell = 0; shell < rule.shells().size(); ++shell) {
+      const auto& points = rule.shells()[shell].points;
+      for (std::uint32_t i = 0; i < points.size(); ++i) levels_.push_back({points[i].y, shell, i});
+    }
+    std::sort(levels_.begin(), levels_.end(),
+              [](const Level& a, const Level& b) { return a.y < b.y; });
+  }
+
+  /// The nearest vertex within reach; the largest of the distances is kept in `farthest`.
+  std::optional<VertexName> find(const glm::dvec3& p) {
+    const double steps =
+        std::atan2(p.y, p.x) * static_cast<double>(rule_.segments()) / (2.0 * std::numbers::pi);
+    const auto n = static_cast<long>(rule_.segments());
+    const auto sector = static_cast<std::uint32_t>((std::lround(steps) + n) % n);
+    auto level = std::lower_bound(levels_.begin(), levels_.end(), p.z - reach_,
+                                  [](const Level& a, double y) { return a.y < y; });
+    std::optional<VertexName> nearest;
+    double least = reach_;
+    for (; level != levels_.end() && level->y <= p.z + reach_; ++level) {
+      const ProfilePoint& point = rule_.shells()[level->shell].points[level->point];
+      const double away = glm::distance(p, rule_.vertex(point, sector));
+      if (away > least) continue;
+      least = away;
+      nearest = VertexName{level->shell, level->point, point.rho == 0.0 ? 0 : sector};
+    }
+    if (nearest) farthest_ = std::max(farthest_, least);
+    return nearest;
+  }
+
+  [[nodiscard]] double farthest() const noexcept { return farthest_; }
+
+ private:
+  const RevolveRule& rule_;
+  double reach_;
+  std::vector<Level> levels_;
+  double farthest_ = 0.0;
+};
+
+/// Ticks off the triangles of the rule.
+class Roll {
+ public:
+  explicit Roll(const RevolveRule& rule) : rule_(rule) {
+    std::size_t next = 0;
+    for (const Shell& shell : rule.shells()) {
+      std::vector<std::size_t>& band_of = band_from_.emplace_back(shell.points.size(), kNone);
+      for (std::size_t b = 0; b < shell.bands.size(); ++b) band_of[shell.bands[b].from] = b;
+      first_.push_back(next);
+      next += 2 * shell.bands.size() * rule.segments();
+    }
+    present_.resize(next, false);
+  }
+
+  /// Whether these corners, in this turn, are a triangle of the rule not met before.
+  bool tick(std::array<VertexName, 3> corners) {
+    for (int turn = 0; turn < 3; ++turn) {
+      if (const auto place = place_of(corners); place && !present_[*place]) {
+        present_[*place] = true;
+        return true;
+      }
+      std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+    }
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t kNone = SIZE_MAX;
+
+  /// For corners that begin as the rule has it: from_s first.
+  std::optional<std::size_t> place_of(const std::array<VertexName, 3>& c) const {
+    if (c[1].shell != c[0].shell || c[2].shell != c[0].shell) return std::nullopt;
+    const Shell& shell = rule_.shells()[c[0].shell];
+    const std::size_t b = band_from_[c[0].shell][c[0].point];
+    if (b == kNone) return std::nullopt;
+    const auto [from, to] = shell.bands[b];
+    const bool lower = c[1].point == from && c[2].point == to && !shell.pole(from);
+    const bool upper = c[1].point == to && c[2].point == to && !shell.pole(to);
+    if (!lower && !upper) return std::nullopt;
+    // A pole has no sector of its own; in either kind one corner beside it tells.
+    const std::size_t s = upper ? c[2].sector : c[0].sector;
+    const std::size_t next = s + 1 < rule_.segments() ? s + 1 : 0;
+    const auto in = [&](const VertexName& v, std::size_t sector) {
+      return shell.pole(v.point) || v.sector == sector;
+    };
+    if (!in(c[0], s) || !in(c[1], next) || !in(c[2], lower ? next : s)) return std::nullopt;
+    return first_[c[0].shell] + 2 * (b * rule_.segments() + s) + (upper ? 1 : 0);
+  }
+
+  const RevolveRule& rule_;
+  std::vector<std::vector<std::size_t>> band_from_;  ///< by shell and point
+  std::vector<std::size_t> first_;                   ///< place of a shell's first triangle
+  std::vector<bool> present_;
+};
+
+}  // namespace
+
+Result<double> match_revolve(const TriangleMesh& decoded, const RevolveRule& rule, double reach_mm,
+                             std::string_view name) {
+  const auto wrong = [&](const std::string& what) {
+    return failure(ErrorKind::unsound, std::string(name).append(": ").append(what));
+  };
+  if (decoded.triangles.size() != rule.triangles())
+    return wrong("expected " + std::to_string(rule.triangles()) + " triangles, found " +
+                 std::to_string(decoded.triangles.size()));
+  // As many points as vertices: then no vertex is there twice, for every one bears triangles.
+  if (decoded.points.size() != rule.vertices())
+    return wrong("expected " + std::to_string(rule.vertices()) + " points, found " +
+                 std::to_string(decoded.points.size()));
+  VertexFinder finder(rule, reach_mm);
+  std::vector<VertexName> names;
+  names.reserve(decoded.points.size());
+  for (std::size_t i = 0; i < decoded.points.size(); ++i) {
+    const auto found = finder.find(decoded.points[i]);
+    if (!found)
+      return wrong("point " + std::to_string(i + 1) + ": expected a vertex of the solid within " +
+                   in_mm(reach_mm) + " mm, found none of " + place(decoded.points[i]));
+    names.push_back(*found);
+  }
+  Roll roll(rule);
+  for (std::size_t t = 0; t < decoded.triangles.size(); ++t) {
+    const auto& [a, b, c] = decoded.triangles[t];
+    if (!roll.tick({names[a], names[b], names[c]}))
+      return wrong("triangle " + std::to_string(t + 1) + " at " + place(decoded.points[a]) +
+                   ": expected one of the solid, once, found one that is not, or is there twice");
+  }
+  return finder.farthest();
+}
+
+}  // namespace clay::solid

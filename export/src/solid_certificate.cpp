@@ -1,0 +1,193 @@
+#include "claystack/export/solid_certificate.hpp"
+
+#include "claystack/export/certificate.hpp"
+#include "claystack/export/clearance.hpp"
+#include "claystack/export/mesh_check.hpp"
+#include "claystack/export/tessellate.hpp"
+#include "claystack/export/wall_thickness.hpp"
+#include "compensated_sum.hpp"
+#include "content_hash.hpp"
+#include "describe.hpp"
+#include "revolve_match.hpp"
+#include "revolve_rule.hpp"
+#include "rounded_claims.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace clay::solid {
+namespace {
+
+constexpr std::size_t kFewestSegmentsWithMargins = 8;
+
+ContentHash hash_of_profile(const Profile& profile) {
+  ContentHasher hasher;
+  const auto add = [&](std::uint64_t bits) {
+    std::array<std::byte, 8> bytes;
+    for (std::size_t i = 0; i < 8; ++i) bytes[i] = static_cast<std::byte>(bits >> (8 * i));
+    hasher.add(bytes);
+  };
+  for (const Polygon& polygon : profile.pieces) {
+    add(polygon.size());
+    for (const ProfilePoint& p : polygon) {
+      add(std::bit_cast<std::uint64_t>(p.rho));
+      add(std::bit_cast<std::uint64_t>(p.y));
+    }
+  }
+  return hasher.digest();
+}
+
+/// Moving every vertex by `rounding` along straight lines, the volume changes at a rate of at most
+/// `rounding` times the area; and an area |u x v| / 2 grows by at most
+/// rounding (|u| + |v|) + 2 rounding^2, since either edge grows by at most twice the rounding.
+double volume_bound(const RevolveRule& rule, double rounding) {
+  const auto n = static_cast<double>(rule.segments());
+  const double chord_per_radius =
+      2.0 * equal_area_factor(rule.segments()) * std::sin(std::numbers::pi / n);
+  CompensatedSum area;
+  for (const Shell& shell : rule.shells())
+    for (const auto& [from, to] : shell.bands) {
+      const ProfilePoint &p = shell.points[from], &q = shell.points[to];
+      const double a = chord_per_radius * p.rho, b = chord_per_radius * q.rho;
+      const double slant = std::hypot(q.rho - p.rho, q.y - p.y) + 0.5 * std::abs(a - b);
+      const double edges = a + b + 2.0 * (slant + std::min(a, b));
+      area.add(n * (0.5 * (a + b) * slant + rounding * (edges + 4.0 * rounding)));
+    }
+  return rounding * area.value();
+}
+
+double least_radius(const Profile& profile) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Polygon& polygon : profile.pieces)
+    for (const ProfilePoint& p : polygon)
+      if (p.rho > 0.0) least = std::min(least, p.rho);
+  return least;
+}
+
+tl::unexpected<Error> wrong(std::string_view file, std::string_view claim,
+                            const std::string& stated, const std::string& found) {
+  return failure(ErrorKind::unsound, std::string(file)
+                                         .append(": ")
+                                         .append(claim)
+                                         .append(": the certificate states ")
+                                         .append(stated)
+                                         .append(", found ")
+                                         .append(found));
+}
+
+Result<void> same_number(std::string_view file, std::string_view claim, double stated,
+                         double found) {
+  // Another compiler's libm may differ in the last bits.
+  if (std::abs(stated - found) <= 1e-9 * std::abs(found)) return {};
+  return wrong(file, claim, in_mm(stated), in_mm(found));
+}
+
+Result<void> same_bytes(const SolidCertificate& stated, std::string_view bytes,
+                        std::string_view file) {
+  if (stated.bytes != bytes.size())
+    return wrong(file, "size", std::to_string(stated.bytes) + " bytes",
+                 std::to_string(bytes.size()));
+  const ContentHash hash = hash_of(std::as_bytes(std::span(bytes)));
+  if (hash != stated.content_hash) return wrong(file, "content hash", stated.content_hash, hash);
+  return {};
+}
+
+Result<void> same_claims(const SolidCertificate& stated, std::string_view file) {
+  const SolidCertificate found = claims_of(stated.profile, stated.segments, stated.rounding_mm);
+  if (found.profile_hash != stated.profile_hash)
+    return wrong(file, "profile hash", stated.profile_hash, found.profile_hash);
+  const auto same = [&](std::string_view claim, double SolidCertificate::*member) {
+    return same_number(file, claim, stated.*member, found.*member);
+  };
+  return same_number(file, "clearance", stated.margins.clearance_mm, found.margins.clearance_mm)
+      .and_then([&] {
+        return same_number(file, "chord", stated.margins.chord_mm, found.margins.chord_mm);
+      })
+      .and_then([&] { return same("least wall", &SolidCertificate::wall_lower_mm); })
+      .and_then([&] { return same("wall's upper bound", &SolidCertificate::wall_upper_mm); })
+      .and_then([&] { return same("volume", &SolidCertificate::volume_mm3); })
+      .and_then([&] { return same("volume bound", &SolidCertificate::volume_bound_mm3); })
+      .and_then([&] {
+        return same_number(file, "counted volume", stated.counted_volume_mm3, found.volume_mm3);
+      });
+}
+
+Result<void> same_solid(const SolidCertificate& stated, const TriangleMesh& decoded,
+                        std::string_view file) {
+  const RevolveRule rule(stated.profile, stated.segments);
+  if (const auto matched = match_revolve(decoded, rule, stated.rounding_mm, file); !matched)
+    return tl::make_unexpected(matched.error());
+  if (stated.proof == Proof::margins) {
+    const double safe = margins_of(stated.profile, stated.segments).safe_rounding_mm();
+    if (stated.rounding_mm < safe) return {};
+    return wrong(file, "proof", "that margins cover the rounding of " + in_mm(stated.rounding_mm),
+                 "that they cover less than " + in_mm(safe) + " mm");
+  }
+  const MeshReport report = check_mesh(decoded);
+  if (report.sound()) return {};
+  return wrong(file, "proof", "a sound mesh", describe(report.problems.front()));
+}
+
+}  // namespace
+
+double Margins::safe_rounding_mm() const noexcept {
+  return segments < kFewestSegmentsWithMargins ? 0.0 : std::min(clearance_mm, chord_mm) / 8.0;
+}
+
+Margins margins_of(const Profile& profile, std::size_t segments) {
+  const auto n = static_cast<double>(segments);
+  const double factor = equal_area_factor(segments);
+  // Sections of the revolve have rho scaled by f cos(pi/n) < 1 to f > 1.
+  return {clearance_mm(profile) * std::min(1.0, factor * std::cos(std::numbers::pi / n)),
+          factor * least_radius(profile) * std::sin(2.0 * std::numbers::pi / n), segments};
+}
+
+SolidCertificate claims_of(const Profile& profile, std::size_t segments, double rounding_mm) {
+  const double factor = equal_area_factor(segments);
+  const double at_facets =
+      std::min(1.0, factor * std::cos(std::numbers::pi / static_cast<double>(segments)));
+  const double wall = min_wall_mm(profile);
+  SolidCertificate claims;
+  claims.profile = profile;
+  claims.profile_hash = hash_of_profile(profile);
+  claims.segments = segments;
+  claims.margins = margins_of(profile, segments);
+  claims.wall_lower_mm = at_facets * wall;
+  claims.wall_upper_mm = factor * wall;
+  claims.volume_mm3 = volume_of(profile);
+  claims.counted_volume_mm3 = claims.volume_mm3;
+  return with_rounding(std::move(claims), RevolveRule(profile, segments), rounding_mm);
+}
+
+SolidCertificate with_rounding(SolidCertificate claims, const RevolveRule& rule,
+                               double rounding_mm) {
+  claims.rounding_mm = rounding_mm;
+  claims.wall_lower_mm -= 2.0 * rounding_mm;
+  claims.wall_upper_mm += 2.0 * rounding_mm;
+  claims.volume_bound_mm3 = volume_bound(rule, rounding_mm);
+  return claims;
+}
+
+Result<void> verify_certificate(const SolidCertificate& certificate, std::string_view file_bytes,
+                                std::string_view file_name) {
+  const auto format = mesh_format_named(certificate.format);
+  if (!format)
+    return failure(ErrorKind::bad_input, std::string(file_name) + ": " + format.error().message);
+  if (certificate.segments < kMinSegments || certificate.segments > kMaxSegments ||
+      !(certificate.rounding_mm >= 0.0))
+    return failure(ErrorKind::bad_input, std::string(file_name) + ": expected a certificate with " +
+                                             std::to_string(kMinSegments) + " to " +
+                                             std::to_string(kMaxSegments) +
+                                             " segments and a rounding of 0 mm or more");
+  return same_bytes(certificate, file_bytes, file_name)
+      .and_then([&] { return certify(certificate.profile); })
+      .and_then([&](const PlanarCertificate&) { return same_claims(certificate, file_name); })
+      .and_then([&] { return decode_mesh(file_bytes, *format, file_name); })
+      .and_then(
+          [&](const TriangleMesh& decoded) { return same_solid(certificate, decoded, file_name); });
+}
+
+}  // namespace clay::solid
