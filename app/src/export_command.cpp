@@ -150,7 +150,7 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
       ->required();
   sub->add_option("--tolerance", command->options.tolerance_mm,
                   "Largest chordal error, and vertex error in .drc [mm]")
-      ->check(in_range(1e-4, 10.0))
+      ->check(in_range(1e-5, 10.0))
       ->capture_default_str();
   sub->add_option("--smooth", command->smooth,
                   "fair: walls as they were meant; none: the steps of the rings")

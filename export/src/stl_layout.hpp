@@ -50,6 +50,15 @@ inline void store_prologue(char* at, std::size_t facets) noexcept {
   store_u32(at + kHeaderBytes, static_cast<std::uint32_t>(facets));
 }
 
+/// Whether a facet has these corners, to the last bit.
+[[nodiscard]] inline bool has_corners(const char* facet, const Corners& corners) noexcept {
+  if constexpr (std::endian::native == std::endian::little)
+    return std::memcmp(facet + kPointBytes, corners.data(), sizeof corners) == 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (load_point(facet + kPointBytes * (i + 1)) != corners[i]) return false;
+  return true;
+}
+
 /// With its two attribute bytes, which are zero.
 inline void store_facet(char* at, const Corners& corners) noexcept {
   store_point(at, facet_normal(corners));

@@ -50,7 +50,7 @@ class BlockWriter {
   explicit BlockWriter(FileStore& store, std::size_t facets)
       : store_(store),
         launch_(facets < kFacetsWorthAThread ? std::launch::deferred : std::launch::async) {
-    for (std::string& block : blocks_)
+    for (std::vector<char>& block : blocks_)
       block.resize(stl::file_bytes(std::min(facets, kBlockFacets)));
     stl::store_prologue(blocks_[0].data(), facets);
     used_ = stl::kPrologueBytes;
@@ -72,14 +72,12 @@ class BlockWriter {
 
  private:
   void flush() {
+    const auto bytes = std::as_bytes(std::span(blocks_[0])).first(std::exchange(used_, 0));
+    file_.bytes += bytes.size();
+    hasher_.add(bytes);
     wait();
     std::swap(blocks_[0], blocks_[1]);
-    const auto bytes = std::as_bytes(std::span(blocks_[1])).first(std::exchange(used_, 0));
-    file_.bytes += bytes.size();
-    writing_ = std::async(launch_, [this, bytes] {
-      hasher_.add(bytes);
-      return store_.write(bytes);
-    });
+    writing_ = std::async(launch_, [this, bytes] { return store_.write(bytes); });
   }
 
   void wait() {
@@ -89,7 +87,7 @@ class BlockWriter {
 
   FileStore& store_;
   std::launch launch_;
-  std::string blocks_[2];  ///< being filled, being written
+  std::vector<char> blocks_[2];  ///< being filled, being written
   std::size_t used_ = 0;
   StreamedFile file_;
   ContentHasher hasher_;
@@ -113,7 +111,7 @@ Result<void> verify_stretch(const RevolveRule& rule, const Stretch& stretch,
                             const FileStore& store) {
   const std::size_t end = stretch.first_facet + stretch.shell->triangles_per_sector() *
                                                     (stretch.last_sector - stretch.first_sector);
-  std::string block;
+  std::vector<char> block;
   std::size_t facet = stretch.first_facet, used = 0;
   Result<void> verdict;
   for_each_facet(rule, *stretch.shell, stretch.first_sector, stretch.last_sector,
@@ -126,9 +124,7 @@ Result<void> verify_stretch(const RevolveRule& rule, const Stretch& stretch,
                                              std::as_writable_bytes(std::span(block)));
                      if (!verdict) return;
                    }
-                   for (std::size_t c = 0; c < 3; ++c)
-                     if (stl::load_point(&block[used + stl::kPointBytes * (c + 1)]) != corners[c])
-                       verdict = differs(facet);
+                   if (!stl::has_corners(&block[used], corners)) verdict = differs(facet);
                    used += stl::kFacetBytes;
                    ++facet;
                  });

@@ -151,7 +151,9 @@ AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : target_(std::move(other.target_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
       temporary_(std::exchange(other.temporary_, {})),
-      in_place_(other.in_place_) {}
+      in_place_(other.in_place_),
+      written_(other.written_),
+      on_its_way_(other.on_its_way_) {}
 
 AtomicFile::~AtomicFile() { discard(); }
 
@@ -188,8 +190,20 @@ Result<void> AtomicFile::write(std::span<const std::byte> bytes) {
         uninterrupted([&] { return ::write(descriptor_, bytes.data(), bytes.size()); });
     if (count < 0) return give_up("cannot write");
     bytes = bytes.subspan(static_cast<std::size_t>(count));
+    written_ += static_cast<std::uint64_t>(count);
   }
+  begin_writeback();
   return {};
+}
+
+/// A large file is on its way to the disk while the rest of it is made, so that the sync at the end
+/// is short. What goes wrong here the sync will tell.
+void AtomicFile::begin_writeback() noexcept {
+  constexpr std::uint64_t kWorthACall = 8U << 20;
+  if (in_place_ || written_ - on_its_way_ < kWorthACall) return;
+  ::sync_file_range(descriptor_, static_cast<off64_t>(on_its_way_),
+                    static_cast<off64_t>(written_ - on_its_way_), SYNC_FILE_RANGE_WRITE);
+  on_its_way_ = written_;
 }
 
 Result<void> AtomicFile::read_at(std::uint64_t offset, std::span<std::byte> bytes) const {

@@ -46,11 +46,14 @@ class AtomicFile {
              bool in_place);
   Result<void> give_up(const std::string& what);
   void discard() noexcept;
+  void begin_writeback() noexcept;
 
   std::filesystem::path target_;
   int descriptor_ = -1;              ///< -1 once committed or discarded
   std::filesystem::path temporary_;  ///< empty while the file has no name
   bool in_place_ = false;            ///< a pipe or a device
+  std::uint64_t written_ = 0;
+  std::uint64_t on_its_way_ = 0;  ///< so much of it is being written to the disk
 };
 
 /// create, write, commit; "-" is standard output.
