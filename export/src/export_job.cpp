@@ -1,5 +1,6 @@
 #include "claystack/export/export_job.hpp"
 
+#include "claystack/export/drain.hpp"
 #include "claystack/export/tessellate.hpp"
 #include "claystack/export/wall_thickness.hpp"
 #include "describe.hpp"
@@ -147,6 +148,8 @@ class ExportJob {
     double widest = 0.0;
     for (const Shell& shell : rule.shells())
       for (const ProfilePoint& p : shell.points) widest = std::max(widest, p.rho);
+    report_.diameter_mm = 2.0 * widest * equal_area_factor(design.segments);
+    report_.height_mm = stack_.height_mm();
     report_.planar = design.planar;
     report_.shapes = design.section.shapes;
     report_.smoothing = design.smoothing;
@@ -198,7 +201,15 @@ Result<ExportReport> run_export(const Pot& pot, const std::vector<Output>& outpu
     return failure(ErrorKind::bad_input, "tolerance: expected more than 0 mm, found " +
                                              in_mm(options.tolerance_mm) + " mm");
   try {
-    return ExportJob(pot.stack, outputs, options, progress).run();
+    if (!options.drain_mm) return ExportJob(pot.stack, outputs, options, progress).run();
+    return drain(pot.stack, *options.drain_mm).and_then([&](const DrainedStack& drained) {
+      return ExportJob(drained.stack, outputs, options, progress)
+          .run()
+          .map([&](ExportReport report) {
+            report.drilled_mm3 = drained.drilled_mm3;
+            return report;
+          });
+    });
   } catch (const std::exception& e) {
     return failure(ErrorKind::io, std::string("export given up: ") + e.what());
   }

@@ -5,6 +5,7 @@
 #include "draco_bits.hpp"
 #include "revolve_match.hpp"
 #include "rounded_claims.hpp"
+#include "shaded_obj.hpp"
 #include "stl_stream.hpp"
 
 #include <algorithm>
@@ -106,8 +107,9 @@ Result<FileReport> RevolveFiles::write_text(MeshFormat format, FileStore& store)
   return prove_rounded(rounding).and_then([&](Proof proof) {
     const TriangleMesh& solid = mesh();
     const std::string bytes = stages_.run(stage_name("encode", format), [&] {
-      return format == MeshFormat::obj ? encode_obj(solid, options_.name)
-                                       : encode_stl_ascii(solid, options_.name);
+      if (format == MeshFormat::stl_ascii) return encode_stl_ascii(solid, options_.name);
+      return options_.normals ? encode_shaded_obj(rule_, solid, options_.name)
+                              : encode_obj(solid, options_.name);
     });
     return certify_bytes(format, rounding, proof, bytes, store);
   });

@@ -26,6 +26,8 @@ struct ExportOptions {
   Smoothing smoothing = Smoothing::fair;
   std::optional<std::size_t> segments;       ///< force the number around
   std::optional<std::size_t> max_triangles;  ///< a coarser tolerance where the asked one needs more
+  std::optional<double> drain_mm;  ///< diameter of a hole that opens closed cavities, see `drain`
+  bool normals = false;            ///< for shading, in formats that have them (obj)
   bool allow_pieces = false;                 ///< several pieces that do not touch, in one file
   bool full_verification = false;  ///< every file read again whole, and checked as a stranger's is
   std::string name = "pot";        ///< solid or object name inside the file
@@ -64,7 +66,9 @@ struct ExportReport {
   double tolerance_mm = 0.0;  ///< as used: coarser than asked for where max_triangles demands it
   double chordal_error_mm = 0.0;
   double min_wall_mm = 0.0;         ///< of the solid before rounding
-  double counted_volume_mm3 = 0.0;  ///< of the stack
+  double diameter_mm = 0.0, height_mm = 0.0;
+  double drilled_mm3 = 0.0;         ///< clay taken for the drain
+  double counted_volume_mm3 = 0.0;  ///< of the stack, drilled where asked
   double volume_mm3 = 0.0;          ///< of the solid before rounding
   double volume_error_relative = 0.0;
   std::vector<FileReport> files;  ///< one for each output, in that order
