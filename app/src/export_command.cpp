@@ -1,6 +1,7 @@
 #include "commands.hpp"
 #include "export_report.hpp"
 #include "file_on_disk.hpp"
+#include "wall_demand.hpp"
 
 #include "claystack/engine/atomic_file.hpp"
 #include "claystack/engine/pot_file.hpp"
@@ -27,6 +28,8 @@ struct ExportCommand {
   solid::ExportOptions options;
   std::string smooth = "fair";
   std::string verify = "margins";
+  std::string report;
+  WallDemands walls;
   bool ascii = false;
   bool certificate = false;
 };
@@ -108,11 +111,15 @@ Result<void> publish_all(std::vector<Request>& requests, const ExportCommand& co
   return {};
 }
 
-Result<void> export_pot(ExportCommand& command, const Console& console) {
+/// Exit status: done, or done with a wall below what was asked for.
+Result<int> export_pot(ExportCommand& command, const Console& console) {
   std::vector<std::string> outputs = command.outputs;
+  outputs.push_back(command.report);
   if (command.certificate)
     for (const std::string& path : command.outputs) outputs.push_back(certificate_path(path));
-  if (auto names = check_distinct(outputs, {command.pot}); !names) return names;
+  if (auto names = check_distinct(outputs, {command.pot}); !names)
+    return tl::make_unexpected(names.error());
+  if (auto loaded = command.walls.load(); !loaded) return tl::make_unexpected(loaded.error());
   auto requests = requests_of(command);
   if (!requests) return tl::make_unexpected(requests.error());
   const auto pot = read_file(command.pot).and_then([&](const std::string& bytes) {
@@ -123,18 +130,24 @@ Result<void> export_pot(ExportCommand& command, const Console& console) {
       command.smooth == "fair" ? solid::Smoothing::fair : solid::Smoothing::none;
   command.options.full_verification = command.verify == "full";
   command.options.name = std::filesystem::path(command.pot).stem().stem().string();
-  if (auto opened = open_all(*requests); !opened) return opened;
+  if (auto opened = open_all(*requests); !opened) return tl::make_unexpected(opened.error());
 
   auto report = export_all(*pot, *requests, command, console);
   if (!report) return tl::make_unexpected(report.error());
   const auto begin = std::chrono::steady_clock::now();
-  if (auto done = publish_all(*requests, command, *report); !done) return done;
+  if (auto done = publish_all(*requests, command, *report); !done)
+    return tl::make_unexpected(done.error());
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   report->stages.push_back({"publish", seconds.count()});
 
-  if (console.json) console.print(export_json(*report, command.outputs));
+  const auto demand = command.walls.for_size(2.0 * report->diameter_mm + report->height_mm);
+  const Json json = export_json(*report, command.outputs, demand);
+  if (console.json) console.print(json);
   tell_export(console, *report, command.outputs);
-  return {};
+  if (!command.report.empty())
+    if (auto done = publish(command.report, json.dump(2) + "\n"); !done)
+      return tl::make_unexpected(done.error());
+  return tell_thin_wall(console, *report, demand) ? kUnsound : kDone;
 }
 
 }  // namespace
@@ -162,6 +175,11 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
   sub->add_option("--max-triangles", command->options.max_triangles,
                   "Coarser than the tolerance where that needs more triangles")
       ->check(CLI::Range(8, 20'000'000));
+  sub->add_option("--drain", command->options.drain_mm,
+                  "Diameter of a hole along the axis that opens closed cavities [mm]")
+      ->check(in_range(1e-3, 1e4));
+  command->walls.add_to(*sub);
+  sub->add_option("--report", command->report, "Write what --json prints to this file");
   sub->add_flag("--certificate", command->certificate,
                 "Write OUT.certificate.json beside each mesh, for claystack check --certificate");
   sub->add_option("--verify", command->verify,
@@ -170,14 +188,16 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
       ->check(CLI::IsMember({"margins", "full"}))
       ->capture_default_str();
   sub->add_flag("--ascii", command->ascii, "Write .stl as text");
+  sub->add_flag("--normals", command->options.normals, "Write .obj with normals, for shading");
   sub->add_flag("--pieces", command->options.allow_pieces,
                 "Allow pieces that do not touch, all in one file");
   sub->footer(
       "\nExamples:\n  claystack export bowl.pot.json bowl.stl bowl.obj bowl.drc bowl.svg\n"
-      "  claystack export bowl.pot.json bowl.stl --tolerance 0.005 --json");
+      "  claystack export bowl.pot.json bowl.stl --tolerance 0.005 --process stoneware\n"
+      "  claystack export bowl.pot.json bowl.drc --certificate --report bowl.report.json");
   sub->callback([command, &console, &exit] {
     const auto done = export_pot(*command, console);
-    exit = done ? kDone : report(done.error());
+    exit = done ? *done : report(done.error());
   });
 }
 

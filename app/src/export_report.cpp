@@ -1,6 +1,7 @@
 #include "export_report.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 namespace clay::app {
 namespace {
@@ -51,7 +52,8 @@ void tell_file(const Console& console, const FileReport& file, const std::string
 
 }  // namespace
 
-Json export_json(const ExportReport& report, const std::vector<std::string>& paths) {
+Json export_json(const ExportReport& report, const std::vector<std::string>& paths,
+                 const std::optional<WallDemand>& demand) {
   Json json = {
       {"triangles", report.triangles},
       {"shells", report.shells},
@@ -63,6 +65,8 @@ Json export_json(const ExportReport& report, const std::vector<std::string>& pat
       {"counted_volume_mm3", report.counted_volume_mm3},
       {"volume_error_relative", report.volume_error_relative},
       {"min_wall_mm", report.min_wall_mm},
+      {"diameter_mm", report.diameter_mm},
+      {"height_mm", report.height_mm},
       {"certificate",
        {{"proved",
          "closed and embedded: the profile is strictly simple and meets the axis in segments only"},
@@ -79,6 +83,9 @@ Json export_json(const ExportReport& report, const std::vector<std::string>& pat
       json["cavities"].push_back({{"bottom_mm", cavity.bottom_mm},
                                   {"top_mm", cavity.top_mm},
                                   {"volume_mm3", cavity.volume_mm3}});
+  if (report.drilled_mm3 > 0.0) json["drilled_mm3"] = report.drilled_mm3;
+  if (demand)
+    json["wall_demand"] = {{"min_wall_mm", demand->min_wall_mm}, {"source", demand->source}};
   auto file = report.files.begin();
   for (const std::string& path : paths)
     json["files"].push_back(is_drawing(path) ? Json{{"path", path}, {"format", "svg"}}
@@ -102,6 +109,9 @@ void tell_export(const Console& console, const ExportReport& report,
         report.volume_mm3 / 1000.0, report.volume_error_relative, report.min_wall_mm,
         report.chordal_error_mm));
   }
+  if (report.drilled_mm3 > 0.0)
+    console.say(
+        fmt::format("drain drilled, {:.3f} cm3 of clay taken", report.drilled_mm3 / 1000.0));
   for (const auto& shape : report.shapes)
     for (const auto& cavity : shape.cavities)
       console.warn(
@@ -114,6 +124,18 @@ void tell_export(const Console& console, const ExportReport& report,
     else
       tell_file(console, *file++, path);
   }
+}
+
+bool tell_thin_wall(const Console& console, const ExportReport& report,
+                    const std::optional<WallDemand>& demand) {
+  if (!demand || report.files.empty()) return false;
+  double thinnest = report.min_wall_mm;
+  for (const FileReport& file : report.files)
+    thinnest = std::min(thinnest, file.certificate.wall_lower_mm);
+  if (thinnest >= demand->min_wall_mm) return false;
+  console.warn(fmt::format("thin wall: {:.3f} mm, expected {:.3f} mm at least ({})", thinnest,
+                           demand->min_wall_mm, demand->source));
+  return true;
 }
 
 }  // namespace clay::app

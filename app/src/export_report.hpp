@@ -3,7 +3,9 @@
 
 #include "claystack/export/export_job.hpp"
 #include "console.hpp"
+#include "wall_demand.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,8 +13,13 @@ namespace clay::app {
 
 /// `paths` are those of all files, drawings among them; the report has one file for each mesh.
 [[nodiscard]] Json export_json(const solid::ExportReport& report,
-                               const std::vector<std::string>& paths);
+                               const std::vector<std::string>& paths,
+                               const std::optional<WallDemand>& demand);
 void tell_export(const Console& console, const solid::ExportReport& report,
                  const std::vector<std::string>& paths);
+
+/// Whether a file may be thinner somewhere than demanded; says so, and by how much.
+bool tell_thin_wall(const Console& console, const solid::ExportReport& report,
+                    const std::optional<WallDemand>& demand);
 
 }  // namespace clay::app

@@ -1,0 +1,34 @@
+#pragma once
+// How thick a wall must be: as the user says, or as a process asks.
+
+#include "claystack/engine/result.hpp"
+#include "claystack/export/process_limits.hpp"
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+namespace clay::app {
+
+struct WallDemand {
+  double min_wall_mm = 0.0;
+  std::string source;  ///< "--min-wall", or whose figure it is
+};
+
+/// The options --min-wall and --process of a command; of both, the larger figure holds.
+class WallDemands {
+ public:
+  void add_to(CLI::App& command);
+
+  /// Reads the process where one is named. Before any work: a bad name costs nothing then.
+  Result<void> load();
+  /// For an object whose width, depth and height add up to this; nothing where nothing was asked.
+  [[nodiscard]] std::optional<WallDemand> for_size(double size_sum_mm) const;
+
+ private:
+  std::optional<double> min_wall_mm_;
+  std::string process_name_;
+  std::optional<solid::ProcessLimits> process_;
+};
+
+}  // namespace clay::app
