@@ -5,7 +5,7 @@
 namespace clay::solid {
 namespace {
 
-constexpr const char* kKind = "claystack certificate";
+constexpr const char* kSchema = "claystack-certificate-1";
 constexpr std::string_view kClaim =
     "closed and embedded, of the volume and no thinner than stated, as the file's bytes say";
 
@@ -40,11 +40,11 @@ Proof proof_from(const Json& json) {
 }
 
 SolidCertificate from_json(const Json& json) {
-  expect_only(json, {"kind", "schema", "claim", "format", "bytes", "content_hash", "profile_hash",
+  expect_schema(json, kSchema);
+  expect_only(json, {"schema", "written_by", "claim", "format", "bytes", "content_hash", "profile_hash",
                      "proof", "segments", "rounding_mm", "clearance_mm", "chord_mm",
                      "wall_lower_mm", "wall_upper_mm", "volume_mm3", "volume_bound_mm3",
                      "counted_volume_mm3", "profile_mm"});
-  expect_kind(json, kKind);
   SolidCertificate c;
   c.format = text_in(json, "format");
   c.bytes = count_in(json, "bytes");
@@ -66,8 +66,8 @@ SolidCertificate from_json(const Json& json) {
 }  // namespace
 
 std::string write_certificate(const SolidCertificate& c) {
-  const Json fields = {{"kind", kKind},
-                       {"schema", 1},
+  const Json fields = {{"schema", kSchema},
+                       {"written_by", "claystack " CLAYSTACK_VERSION},
                        {"claim", kClaim},
                        {"format", c.format},
                        {"bytes", c.bytes},

@@ -59,11 +59,10 @@ inline void expect_only(const Json& json, std::initializer_list<std::string_view
       throw BadField(name + ": unknown field");
 }
 
-/// Of this kind, in the one version of its schema that there is.
-inline void expect_kind(const Json& json, const std::string& kind) {
-  if (text_in(json, "kind") != kind) throw BadField("kind: expected " + kind);
-  if (count_in(json, "schema") != 1)
-    throw BadField("schema: expected 1, found " + field_of(json, "schema").dump());
+/// Kind and version of the file, such as "claystack-process-1".
+inline void expect_schema(const Json& json, const std::string& schema) {
+  const std::string found = text_in(json, "schema");
+  if (found != schema) throw BadField("schema: expected " + schema + ", found " + found);
 }
 
 /// read(root) of a JSON text; what goes wrong becomes an error that begins with `name`.

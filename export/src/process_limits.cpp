@@ -40,8 +40,8 @@ WallLimit wall_from(const Json& json) {
 }
 
 ProcessLimits process_from(const Json& json) {
-  expect_only(json, {"kind", "schema", "name", "walls"});
-  expect_kind(json, "claystack process");
+  expect_schema(json, "claystack-process-1");
+  expect_only(json, {"schema", "name", "walls"});
   ProcessLimits process{text_in(json, "name"), {}};
   for (const Json& wall : field_of(json, "walls")) process.walls.push_back(wall_from(wall));
   if (process.walls.empty()) throw BadField("walls: expected at least one, found none");

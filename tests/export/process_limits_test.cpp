@@ -30,7 +30,7 @@ TEST(ProcessLimits, WallsGrowWithTheObject) {
   EXPECT_EQ(sla.wall_for(1e6).min_wall_mm, 3.0);
 }
 
-constexpr const char* kWorkshop = R"({"kind": "claystack process", "schema": 1, "name": "workshop",
+constexpr const char* kWorkshop = R"({"schema": "claystack-process-1", "name": "workshop",
   "walls": [{"up_to_size_sum_mm": 300, "min_wall_mm": 2.5, "source": "our own trials"},
             {"up_to_size_sum_mm": 600, "min_wall_mm": 4, "source": "our own trials"}]})";
 
@@ -57,8 +57,7 @@ TEST(ProcessLimits, FaultsInAFileAreNamed) {
   expect("2.5", "\"thick\"", "min_wall_mm: expected a number");
   expect("600", "200", "sizes that rise");
   expect("\"source\"", "\"sauce\"", "sauce: unknown field");
-  expect("claystack process", "claystack pot", "kind: expected claystack process");
-  expect("\"schema\": 1", "\"schema\": 3", "schema: expected 1");
+  expect("process-1", "pot-1", "schema: expected claystack-process-1, found claystack-pot-1");
   expect("\"walls\": [", "\"walls\": [], \"x\": [", "x: unknown field");
   expect("}]}", "}", "parse error");
 }

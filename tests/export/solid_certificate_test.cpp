@@ -133,9 +133,8 @@ TEST(SolidCertificate, ReaderNamesTheField) {
     EXPECT_NE(parsed.error().message.find(says), std::string::npos) << parsed.error().message;
   };
   expect("\"segments\"", "\"segment\"", "segment: unknown field");
-  expect("\"schema\": 1", "\"schema\": 2", "schema: expected 1");
+  expect("certificate-1", "certificate-2", "schema: expected claystack-certificate-1");
   expect("\"margins\"", "\"hope\"", "proof: expected margins");
-  expect("claystack certificate", "letter", "kind");
   expect("\"format\": \"obj\"", "\"format\": 7", "format: expected text");
   expect("[[[", "[[[7,", "profile_mm");
   expect("{", "", "parse error");

@@ -1,0 +1,86 @@
+// Certificates as files: written by export, verified by check.
+
+#include "engine/files/schema_check.hpp"
+#include "run_program.hpp"
+
+#include <gtest/gtest.h>
+#include <filesystem>
+#include <string>
+
+namespace clay::test {
+namespace {
+
+class CertifiedVase : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(claystack("throw -q " + sample("vase.scene.json") + " -o " + pot).status, 0);
+    const Ran run = claystack(std::string("export -q --certificate ") + pot + " " + stl + " " + obj +
+                              " " + drc);
+    ASSERT_EQ(run.status, 0) << run.err;
+  }
+  static Ran check(const std::string& file, const std::string& certificate) {
+    return claystack(std::string("check ") + file + " --certificate " + certificate);
+  }
+  ScratchFolder folder;
+  std::string pot = folder.file("v.pot.json");
+  std::string stl = folder.file("v.stl"), obj = folder.file("v.obj"), drc = folder.file("v.drc");
+};
+
+TEST_F(CertifiedVase, IsVerifiedInEveryFormat) {
+  for (const std::string& file : {stl, obj, drc}) {
+    const Ran run = check(file, file + ".certificate.json");
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_NE(run.out.find("certificate holds"), std::string::npos) << run.out;
+    const auto json =
+        claystack(std::string("check --json ") + file + " --certificate " + file +
+                  ".certificate.json")
+            .json();
+    EXPECT_TRUE(json.at("certificate").at("holds"));
+  }
+}
+
+TEST_F(CertifiedVase, ConformsToItsSchema) {
+  const Json schema = load_schema("certificate");
+  for (const std::string& file : {stl, obj, drc})
+    EXPECT_EQ(violation(schema, Json::parse(read_text(file + ".certificate.json"))), "");
+  const Json process = Json::parse(read_text(sample("workshop.process.json")));
+  EXPECT_EQ(violation(load_schema("process"), process), "");
+}
+
+TEST_F(CertifiedVase, ASwappedCertificateIsNamed) {
+  const Ran run = check(stl, obj + ".certificate.json");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE((run.out + run.err).find("size: the certificate states"), std::string::npos)
+      << run.out << run.err;
+}
+
+TEST_F(CertifiedVase, AnEditedByteIsNamed) {
+  std::string bytes = read_text(stl);
+  bytes[84 + 50 * 7 + 20] ^= 1;
+  write_text(stl, bytes);
+  const Ran run = check(stl, stl + ".certificate.json");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE((run.out + run.err).find("content hash"), std::string::npos) << run.out << run.err;
+}
+
+TEST_F(CertifiedVase, ACertificateThatLiesIsNamed) {
+  std::string text = read_text(stl + ".certificate.json");
+  const std::string field = "\"wall_lower_mm\": ";
+  const std::size_t at = text.find(field);
+  ASSERT_NE(at, std::string::npos);
+  text[at + field.size()] = '9';
+  write_text(stl + ".certificate.json", text);
+  const Ran run = check(stl, stl + ".certificate.json");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE((run.out + run.err).find("least wall"), std::string::npos) << run.out << run.err;
+}
+
+TEST_F(CertifiedVase, WhatIsNoCertificateIsBadInput) {
+  EXPECT_EQ(check(stl, pot).status, 2);
+  EXPECT_EQ(check(stl, folder.file("none.json")).status, 3);
+  const Ran pots = check(pot, stl + ".certificate.json");
+  EXPECT_EQ(pots.status, 2) << pots.out;
+}
+
+}  // namespace
+}  // namespace clay::test

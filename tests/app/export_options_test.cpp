@@ -1,0 +1,120 @@
+// What the options of `claystack export` promise.
+
+#include "run_program.hpp"
+
+#include <gtest/gtest.h>
+#include <filesystem>
+#include <numbers>
+#include <string>
+
+namespace clay::test {
+namespace {
+
+class ExportOptions : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
+  }
+  Ran run(const std::string& options) const {
+    return claystack("export " + pot + " " + stl + " " + options);
+  }
+  ScratchFolder folder;
+  std::string pot = folder.file("bowl.pot.json"), stl = folder.file("bowl.stl");
+};
+
+TEST_F(ExportOptions, AThinWallExitsOneWithTheFigureAndItsSource) {
+  const Ran demand = run("--min-wall 40");
+  EXPECT_EQ(demand.status, 1);
+  EXPECT_NE(demand.err.find("expected 40.000 mm at least (--min-wall)"), std::string::npos)
+      << demand.err;
+  EXPECT_TRUE(std::filesystem::exists(stl));
+  const Ran process = run("--process " + sample("workshop.process.json"));
+  EXPECT_EQ(process.status, 1);
+  EXPECT_NE(process.err.find("two beads"), std::string::npos) << process.err;
+  EXPECT_EQ(run("--process porcelain").status, 0);
+}
+
+TEST_F(ExportOptions, UnknownProcessesAreNamedBeforeAnythingIsWritten) {
+  const Ran unknown = run("--process bronze");
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_NE(unknown.err.find("earthenware"), std::string::npos) << unknown.err;
+  EXPECT_EQ(run("--process " + folder.file("none.json")).status, 3);
+  EXPECT_EQ(run("--process " + pot).status, 2);
+  EXPECT_FALSE(std::filesystem::exists(stl));
+}
+
+TEST_F(ExportOptions, TheReportIsWhatJsonPrints) {
+  const std::string report = folder.file("report.json");
+  const Ran printed = run("--json --report " + report);
+  ASSERT_EQ(printed.status, 0) << printed.err;
+  EXPECT_EQ(printed.out, read_text(report));
+}
+
+TEST_F(ExportOptions, TrianglesStayWithinTheBudget) {
+  const auto all = run("--json").json();
+  for (const int most : {20'000, 3'000, 400}) {
+    const auto few = run("--json --max-triangles " + std::to_string(most)).json();
+    EXPECT_LE(few.at("triangles"), most);
+    EXPECT_GT(few.at("triangles"), most / 2);
+    EXPECT_GT(few.at("tolerance_mm"), all.at("tolerance_mm"));
+    EXPECT_LT(few.at("volume_error_relative"), 1e-9);
+    EXPECT_EQ(claystack("check " + stl).status, 0);
+  }
+  const Ran impossible = run("--max-triangles 8");
+  EXPECT_EQ(impossible.status, 2);
+  EXPECT_NE(impossible.err.find("max triangles: expected at least"), std::string::npos);
+}
+
+TEST_F(ExportOptions, FullVerificationChecksTheFileAsAStrangers) {
+  const auto json = run("--json --verify full").json();
+  EXPECT_TRUE(json.at("files").at(0).at("full_verification").at("sound"));
+  EXPECT_EQ(json.at("files").at(0).at("full_verification").at("self_intersections"), 0);
+}
+
+TEST_F(ExportOptions, NormalsAreForObj) {
+  const std::string obj = folder.file("n.obj");
+  ASSERT_EQ(claystack("export -q --normals " + pot + " " + obj).status, 0);
+  EXPECT_NE(read_text(obj).find("\nvn "), std::string::npos);
+  EXPECT_NE(shell("prusa-slicer --info " + obj).out.find("manifold = yes"), std::string::npos);
+  EXPECT_EQ(claystack("check " + obj).status, 0);
+}
+
+TEST_F(ExportOptions, PipesCannotBeReadAgainAndTheReportSaysSo) {
+  const std::string pipe = folder.file("pipe.stl");
+  const Ran run = shell("mkfifo " + pipe + " && cat " + pipe + " > " + stl + " & sleep 0.2; " +
+                        CLAYSTACK_PROGRAM " export --json " + pot + " " + pipe + "; wait");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_FALSE(run.json().at("files").at(0).at("read_again"));
+  EXPECT_EQ(std::filesystem::file_size(stl), run.json().at("files").at(0).at("bytes"));
+}
+
+/// A closed box: solid foot of 10 mm, cavity of 10 mm, lid of 10 mm; R = 30 mm, r = 20 mm.
+constexpr const char* kBox = R"({"schema": "claystack-pot-1", "written_by": "test",
+ "model": "conserving", "density_g_cm3": 1.9, "ring_height_mm": 10, "max_rings": 100,
+ "quantum_mm2": "2^-36",
+ "rings": {"outer2": [61847529062400, 61847529062400, 61847529062400],
+           "inner2": [0, 27487790694400, 0],
+           "outer_mm": [30, 30, 30], "inner_mm": [0, 20, 0]},
+ "crown": "0",
+ "ledger": {"initial": "158054796492800", "added": "0", "trimmed": "0", "outside": "0"},
+ "collapse": null})";
+
+TEST(ExportDrain, OpensACavityAndSaysWhatItTook) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("box.pot.json"), stl = folder.file("box.stl");
+  write_text(pot, kBox);
+  const Ran closed = claystack("export --json " + pot + " " + stl);
+  ASSERT_EQ(closed.status, 0) << closed.err;
+  EXPECT_EQ(closed.json().at("cavities").size(), 1u);
+  EXPECT_EQ(closed.json().at("shells"), 2);
+  EXPECT_NE(closed.err.find("drain hole"), std::string::npos);
+  const Ran drained = claystack("export --json --drain 6 " + pot + " " + stl);
+  ASSERT_EQ(drained.status, 0) << drained.err;
+  EXPECT_TRUE(drained.json().at("cavities").empty());
+  EXPECT_EQ(drained.json().at("shells"), 1);
+  EXPECT_NEAR(drained.json().at("drilled_mm3"), std::numbers::pi * 9.0 * 10.0, 1e-6);
+  EXPECT_EQ(claystack("check " + stl).status, 0);
+}
+
+}  // namespace
+}  // namespace clay::test
