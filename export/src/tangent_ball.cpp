@@ -1,0 +1,178 @@
+#include "tangent_ball.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+namespace clay::solid {
+namespace {
+
+const double kCos30 = std::sqrt(0.75), kTan30 = std::sqrt(1.0 / 3.0);
+
+struct Segment {
+  Vec2 from{0.0}, to{0.0};
+  [[nodiscard]] Vec2 at(double t) const { return from + std::clamp(t, 0.0, 1.0) * (to - from); }
+};
+
+Vec2 nearest(const Vec2& p, const Segment& s) {
+  const Vec2 along = s.to - s.from;
+  const double square = glm::dot(along, along);
+  return square > 0.0 ? s.at(glm::dot(p - s.from, along) / square) : s.from;
+}
+
+/// Cuts off what lies behind the line through `origin`; false if that is all.
+bool clip(Segment& s, const Vec2& origin, const Vec2& normal) {
+  const double from = glm::dot(s.from - origin, normal), to = glm::dot(s.to - origin, normal);
+  if (from <= 0.0 && to <= 0.0) return false;
+  if (from < 0.0) s.from = s.at(from / (from - to));
+  if (to < 0.0) s.to = s.at(to / (to - from));
+  return true;
+}
+
+/// Where on `s` the ball that has `normal` at `p` is least: with d = a + t b from p, |d|^2 / (d n)
+/// is convex in t and least where d n = |(b n) a - (a n) b| / |b|.
+Vec2 least_tangent(const Vec2& p, const Vec2& normal, const Segment& s) {
+  const Vec2 a = s.from - p, b = s.to - s.from;
+  const double an = glm::dot(a, normal), bn = glm::dot(b, normal), bb = glm::dot(b, b);
+  const double height = bb > 0.0 ? glm::length(bn * a - an * b) / std::sqrt(bb) : 0.0;
+  const double scale = bb * (height + an);
+  return scale > 0.0 ? s.at((bn * glm::dot(a, a) - 2.0 * an * glm::dot(a, b)) / scale) : s.from;
+}
+
+void keep(Ball& best, double diameter, const Vec2& from, const Vec2& to) {
+  if (diameter < best.diameter) best = {diameter, from, to};
+}
+
+/// Balls with `normal` on `a` through a point of `b`. Their diameter is |d|^2 / (d n) over the
+/// parallelogram b - a, without a minimum inside since it grows in proportion to d.
+void least_touching(Ball& best, const Segment& a, const Vec2& normal, const Segment& b) {
+  const auto offer = [&](const Vec2& p, const Vec2& q) {
+    const Vec2 d = q - p;
+    const double height = glm::dot(d, normal);
+    if (height > 0.0) keep(best, glm::dot(d, d) / height, p, q);
+  };
+  for (const Vec2& p : {a.from, a.to}) offer(p, least_tangent(p, normal, b));
+  for (const Vec2& q : {b.from, b.to}) offer(nearest(q, a), q);
+}
+
+void swap_ends(Ball& ball) { std::swap(ball.from, ball.to); }
+
+void least_at_corners(Ball& best, const Face& a, const Face& b) {
+  for (std::uint32_t i = 0; i < a.corner_count; ++i) {
+    const ReentrantCorner& corner = a.corners[i];
+    const auto offer = [&](const Vec2& q, auto fits) {
+      const Vec2 d = q - corner.at;
+      if (corner.faces(d) && fits(d)) keep(best, glm::length(d), corner.at, q);
+    };
+    offer(nearest(corner.at, {b.edge.from, b.edge.to}),
+          [&](const Vec2& d) { return glm::dot(d, b.edge.inward) < -0.5 * glm::length(d); });
+    for (std::uint32_t j = 0; j < b.corner_count; ++j)
+      offer(b.corners[j].at, [&](const Vec2& d) { return b.corners[j].faces(-d); });
+  }
+}
+
+/// On the axis the edge before or after is the mirror image.
+void add_corner(Face& face, const Vec2& at, const Vec2& before, const Vec2& after) {
+  if (cross(before, after) < 0.0) face.corners[face.corner_count++] = {at, before, after};
+}
+
+}  // namespace
+
+LeafFaces::LeafFaces(const EdgeTree& tree, const EdgeNode& leaf) {
+  double arc = leaf.arc_begin;
+  Edge previous = tree.edge(tree.before(leaf.first, leaf.first_piece), leaf.first_piece);
+  for (std::uint32_t i = leaf.first; i < leaf.end; ++i) {
+    const Edge edge = tree.edge(i, leaf.first_piece);
+    const double begin = arc;
+    arc += tree.arc_length(edge);
+    if (!edge.on_axis()) {
+      Face& face = faces_[count_++];
+      face.edge = edge, face.arc_begin = begin, face.arc_end = arc, face.piece = leaf.first_piece;
+      add_corner(face, edge.from, edge.from.x == 0.0 ? mirrored(edge.inward) : previous.inward,
+                 edge.inward);
+      if (edge.to.x == 0.0) add_corner(face, edge.to, edge.inward, mirrored(edge.inward));
+    }
+    previous = edge;
+  }
+}
+
+Ball least_ball(const Face& a, const Face& b) {
+  Ball best;
+  if (opposite(a.edge.inward, b.edge.inward)) {
+    if (a.edge.to == b.edge.from || b.edge.to == a.edge.from) {
+      // Two faces that meet in a sharp edge, or in a notch with only air between them.
+      const Edge &first = a.edge.to == b.edge.from ? a.edge : b.edge,
+                 &second = a.edge.to == b.edge.from ? b.edge : a.edge;
+      if (cross(first.inward, second.inward) > 0.0) return {0.0, first.to, first.to};
+    }
+    Segment on_a{a.edge.from, a.edge.to}, on_b{b.edge.from, b.edge.to};
+    if (clip(on_b, a.edge.from, a.edge.inward) && clip(on_a, b.edge.from, b.edge.inward)) {
+      least_touching(best, on_b, b.edge.inward, on_a);
+      swap_ends(best);
+      least_touching(best, on_a, a.edge.inward, on_b);
+    }
+  }
+  if (b.corner_count > 0) {
+    swap_ends(best);
+    least_at_corners(best, b, a);
+    swap_ends(best);
+  }
+  least_at_corners(best, a, b);
+  return best;
+}
+
+AxisClay::AxisClay(const EdgeTree& tree, std::uint32_t piece) {
+  for (std::uint32_t i = tree.first_edge(piece);;) {
+    const std::uint32_t next = tree.after(i, piece);
+    if (tree.point(i).x == 0.0 && tree.point(next).x == 0.0) {
+      const auto [low, high] = std::minmax(tree.point(i).y, tree.point(next).y);
+      stretches_.push_back({low, high});
+    }
+    if (next <= i) break;
+    i = next;
+  }
+  std::sort(stretches_.begin(), stretches_.end(),
+            [](const Stretch& a, const Stretch& b) { return a.low < b.low; });
+}
+
+double AxisClay::bound(const EdgeNode& node) const {
+  const Vec2 along = glm::abs(node.along);
+  const Vec2 reach = node.half_length * along + node.half_width * Vec2{along.y, along.x};
+  // Normals lean by 30 degrees at most, and so do the radii of the balls.
+  const double up = reach.y + (node.centre.x + reach.x) * kTan30;
+  const bool beyond = stretches_.empty() || node.centre.y + up < stretches_.front().low ||
+                      node.centre.y - up > stretches_.back().high;
+  return beyond ? std::numeric_limits<double>::infinity() : 2.0 * (node.centre.x - reach.x);
+}
+
+Ball AxisClay::least_ball(const Face& face) const {
+  Ball best;
+  const Vec2& normal = face.edge.inward;
+  const auto touch = [&](const Vec2& p, double slant) {
+    keep(best, 2.0 * p.x / slant, p, mirrored(p));
+  };
+  const auto above = [&](double y) {
+    return std::partition_point(stretches_.begin(), stretches_.end(),
+                                [&](const Stretch& s) { return s.high < y; });
+  };
+  for (std::uint32_t i = 0; i < face.corner_count; ++i) {
+    const Vec2& at = face.corners[i].at;
+    const auto clay = above(at.y);
+    if (face.corners[i].faces({-1.0, 0.0}) && clay != stretches_.end() && clay->low <= at.y)
+      touch(at, 1.0);
+  }
+  if (normal.x > -kCos30) return best;
+  // Heights of the centres of the balls that touch the two ends.
+  const auto centre = [&](const Vec2& p) { return p.y - p.x * normal.y / normal.x; };
+  const double from = centre(face.edge.from), to = centre(face.edge.to);
+  const auto [low, high] = std::minmax(from, to);
+  const Segment segment{face.edge.from, face.edge.to};
+  for (auto clay = above(low); clay != stretches_.end() && clay->low <= high; ++clay)
+    for (const double y : {std::max(low, clay->low), std::min(high, clay->high)})
+      touch(from == to ? (face.edge.from.x < face.edge.to.x ? segment.from : segment.to)
+                       : segment.at((y - from) / (to - from)),
+            -normal.x);
+  return best;
+}
+
+}  // namespace clay::solid

@@ -1,0 +1,75 @@
+#pragma once
+// Thickness between two edges: the least ball that touches both faces.
+
+#include "edge_tree.hpp"
+
+#include <array>
+#include <limits>
+#include <vector>
+
+namespace clay::solid {
+
+struct Ball {
+  double diameter = std::numeric_limits<double>::infinity();
+  Vec2 from{0.0}, to{0.0};  ///< where it touches
+};
+
+/// Where the clay is more than a half-plane: a ball may touch it from every direction between the
+/// normals of its two edges.
+struct ReentrantCorner {
+  Vec2 at{0.0};
+  Vec2 before{0.0}, after{0.0};  ///< inward normals
+  [[nodiscard]] bool faces(const Vec2& way) const {
+    return cross(before, way) <= 0.0 && cross(after, way) >= 0.0 &&
+           glm::dot(before + after, way) > 0.0;
+  }
+};
+
+/// An edge off the axis, its place along the polygon, and the corners that it begins with or, on
+/// the axis, ends with.
+struct Face {
+  Edge edge;
+  double arc_begin = 0.0, arc_end = 0.0;
+  std::uint32_t piece = 0;
+  std::array<ReentrantCorner, 2> corners{};
+  std::uint32_t corner_count = 0;
+};
+
+/// The faces of a leaf of the tree.
+class LeafFaces {
+ public:
+  LeafFaces(const EdgeTree& tree, const EdgeNode& leaf);
+  [[nodiscard]] const Face* begin() const { return faces_.data(); }
+  [[nodiscard]] const Face* end() const { return faces_.data() + count_; }
+
+ private:
+  std::array<Face, EdgeTree::kLeafEdges> faces_;
+  std::size_t count_ = 0;
+};
+
+/// Inward normals more than 120 degrees apart.
+[[nodiscard]] inline bool opposite(const Vec2& normal, const Vec2& other) {
+  return glm::dot(normal, other) < -0.5;
+}
+
+/// Least ball between two faces of one piece, by the definition of `min_wall`, but for its rule on
+/// ridges. Infinite where nothing of the one is opposite to anything of the other.
+[[nodiscard]] Ball least_ball(const Face& a, const Face& b);
+
+/// Where a piece reaches the axis.
+class AxisClay {
+ public:
+  AxisClay(const EdgeTree& tree, std::uint32_t piece);
+  /// The least ball about a point of the axis, in clay, that touches the face.
+  [[nodiscard]] Ball least_ball(const Face& face) const;
+  /// No more than the diameter of any such ball of a node's faces.
+  [[nodiscard]] double bound(const EdgeNode& node) const;
+
+ private:
+  struct Stretch {
+    double low = 0.0, high = 0.0;
+  };
+  std::vector<Stretch> stretches_;  ///< from the bottom up
+};
+
+}  // namespace clay::solid
