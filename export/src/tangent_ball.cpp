@@ -58,66 +58,61 @@ void least_touching(Ball& best, const Segment& a, const Vec2& normal, const Segm
 void swap_ends(Ball& ball) { std::swap(ball.from, ball.to); }
 
 void least_at_corners(Ball& best, const Face& a, const Face& b) {
-  for (std::uint32_t i = 0; i < a.corner_count; ++i) {
-    const ReentrantCorner& corner = a.corners[i];
+  a.each_corner([&](const ReentrantCorner& corner) {
     const auto offer = [&](const Vec2& q, auto fits) {
       const Vec2 d = q - corner.at;
       if (corner.faces(d) && fits(d)) keep(best, glm::length(d), corner.at, q);
     };
     offer(nearest(corner.at, {b.edge.from, b.edge.to}),
           [&](const Vec2& d) { return glm::dot(d, b.edge.inward) < -0.5 * glm::length(d); });
-    for (std::uint32_t j = 0; j < b.corner_count; ++j)
-      offer(b.corners[j].at, [&](const Vec2& d) { return b.corners[j].faces(-d); });
-  }
+    b.each_corner([&](const ReentrantCorner& other) {
+      offer(other.at, [&](const Vec2& d) { return other.faces(-d); });
+    });
+  });
 }
 
-/// On the axis the edge before or after is the mirror image.
-void add_corner(Face& face, const Vec2& at, const Vec2& before, const Vec2& after) {
-  if (cross(before, after) < 0.0) face.corners[face.corner_count++] = {at, before, after};
+/// Between opposite faces.
+void least_at_edges(Ball& best, const Edge& a, const Edge& b) {
+  // Two faces that meet do so in a sharp edge or in a notch with only air between them.
+  if (a.to == b.from && cross(a.inward, b.inward) > 0.0) return keep(best, 0.0, a.to, a.to);
+  if (b.to == a.from && cross(b.inward, a.inward) > 0.0) return keep(best, 0.0, a.from, a.from);
+  Segment on_a{a.from, a.to}, on_b{b.from, b.to};
+  if (!clip(on_b, a.from, a.inward) || !clip(on_a, b.from, b.inward)) return;
+  least_touching(best, on_b, b.inward, on_a);
+  swap_ends(best);
+  least_touching(best, on_a, a.inward, on_b);
 }
 
 }  // namespace
 
 LeafFaces::LeafFaces(const EdgeTree& tree, const EdgeNode& leaf) {
+  const std::uint32_t piece = leaf.first_piece;
   double arc = leaf.arc_begin;
-  Edge previous = tree.edge(tree.before(leaf.first, leaf.first_piece), leaf.first_piece);
+  Vec2 before = tree.edge(tree.before(leaf.first, piece), piece).inward;
   for (std::uint32_t i = leaf.first; i < leaf.end; ++i) {
-    const Edge edge = tree.edge(i, leaf.first_piece);
+    const Edge edge = tree.edge(i, piece);
     const double begin = arc;
     arc += tree.arc_length(edge);
     if (!edge.on_axis()) {
-      Face& face = faces_[count_++];
-      face.edge = edge, face.arc_begin = begin, face.arc_end = arc, face.piece = leaf.first_piece;
-      add_corner(face, edge.from, edge.from.x == 0.0 ? mirrored(edge.inward) : previous.inward,
-                 edge.inward);
-      if (edge.to.x == 0.0) add_corner(face, edge.to, edge.inward, mirrored(edge.inward));
+      if (edge.from.x == 0.0) before = mirrored(edge.inward);
+      const bool begins_reentrant = cross(before, edge.inward) < 0.0;
+      const bool ends_reentrant =
+          edge.to.x == 0.0 && cross(edge.inward, mirrored(edge.inward)) < 0.0;
+      faces_[count_++] = {edge, begin, arc, piece, begins_reentrant, ends_reentrant, before};
     }
-    previous = edge;
+    before = edge.inward;
   }
 }
 
 Ball least_ball(const Face& a, const Face& b) {
   Ball best;
-  if (opposite(a.edge.inward, b.edge.inward)) {
-    if (a.edge.to == b.edge.from || b.edge.to == a.edge.from) {
-      // Two faces that meet in a sharp edge, or in a notch with only air between them.
-      const Edge &first = a.edge.to == b.edge.from ? a.edge : b.edge,
-                 &second = a.edge.to == b.edge.from ? b.edge : a.edge;
-      if (cross(first.inward, second.inward) > 0.0) return {0.0, first.to, first.to};
-    }
-    Segment on_a{a.edge.from, a.edge.to}, on_b{b.edge.from, b.edge.to};
-    if (clip(on_b, a.edge.from, a.edge.inward) && clip(on_a, b.edge.from, b.edge.inward)) {
-      least_touching(best, on_b, b.edge.inward, on_a);
-      swap_ends(best);
-      least_touching(best, on_a, a.edge.inward, on_b);
-    }
-  }
-  if (b.corner_count > 0) {
+  if (opposite(a.edge.inward, b.edge.inward)) least_at_edges(best, a.edge, b.edge);
+  if (a.has_corners()) least_at_corners(best, a, b);
+  if (b.has_corners()) {
     swap_ends(best);
     least_at_corners(best, b, a);
     swap_ends(best);
   }
-  least_at_corners(best, a, b);
   return best;
 }
 
@@ -155,12 +150,11 @@ Ball AxisClay::least_ball(const Face& face) const {
     return std::partition_point(stretches_.begin(), stretches_.end(),
                                 [&](const Stretch& s) { return s.high < y; });
   };
-  for (std::uint32_t i = 0; i < face.corner_count; ++i) {
-    const Vec2& at = face.corners[i].at;
-    const auto clay = above(at.y);
-    if (face.corners[i].faces({-1.0, 0.0}) && clay != stretches_.end() && clay->low <= at.y)
-      touch(at, 1.0);
-  }
+  face.each_corner([&](const ReentrantCorner& corner) {
+    const auto clay = above(corner.at.y);
+    if (corner.faces({-1.0, 0.0}) && clay != stretches_.end() && clay->low <= corner.at.y)
+      touch(corner.at, 1.0);
+  });
   if (normal.x > -kCos30) return best;
   // Heights of the centres of the balls that touch the two ends.
   const auto centre = [&](const Vec2& p) { return p.y - p.x * normal.y / normal.x; };

@@ -3,7 +3,9 @@
 
 #include "edge_tree.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -25,14 +27,21 @@ struct ReentrantCorner {
   }
 };
 
-/// An edge off the axis, its place along the polygon, and the corners that it begins with or, on
-/// the axis, ends with.
+/// An edge off the axis and its place along the polygon.
 struct Face {
   Edge edge;
   double arc_begin = 0.0, arc_end = 0.0;
   std::uint32_t piece = 0;
-  std::array<ReentrantCorner, 2> corners{};
-  std::uint32_t corner_count = 0;
+  /// The edge may begin with a reentrant corner or, on the axis, end with one.
+  bool begins_reentrant = false, ends_reentrant = false;
+  Vec2 before{0.0};  ///< inward normal of the edge before; on the axis that is the mirror image
+
+  [[nodiscard]] bool has_corners() const { return begins_reentrant || ends_reentrant; }
+  template <class Visit>
+  void each_corner(Visit visit) const {
+    if (begins_reentrant) visit(ReentrantCorner{edge.from, before, edge.inward});
+    if (ends_reentrant) visit(ReentrantCorner{edge.to, edge.inward, mirrored(edge.inward)});
+  }
 };
 
 /// The faces of a leaf of the tree.
@@ -50,6 +59,16 @@ class LeafFaces {
 /// Inward normals more than 120 degrees apart.
 [[nodiscard]] inline bool opposite(const Vec2& normal, const Vec2& other) {
   return glm::dot(normal, other) < -0.5;
+}
+
+/// No more than the distance between the two.
+[[nodiscard]] inline double least_distance(const Edge& a, const Edge& b) {
+  const auto gap = [](const Edge& line, const Edge& other) {
+    const double from = glm::dot(other.from - line.from, line.inward);
+    const double to = glm::dot(other.to - line.from, line.inward);
+    return from * to > 0.0 ? std::min(std::abs(from), std::abs(to)) : 0.0;
+  };
+  return std::max(gap(a, b), gap(b, a));
 }
 
 /// Least ball between two faces of one piece, by the definition of `min_wall`, but for its rule on

@@ -96,7 +96,7 @@ class Field {
 
   void add_sample(const Face& face, const Vec2& at, const AxisClay& axis) {
     Face sample = face;
-    sample.corner_count = 0;
+    sample.begins_reentrant = sample.ends_reentrant = false;
     sample.edge.from = sample.edge.to = at;
     WallSearch search(tree_);
     search.across(axis, sample);
