@@ -18,21 +18,24 @@ using namespace clay::solid;
 
 constexpr double kHeight = 200.0, kFloor = 6.0;
 
-/// A bellied bowl of 3 mm along the radius, with a floor; its vertices stray by `noise_mm`.
+double radius(double y) { return 50.0 + 20.0 * std::sin(0.018 * y - 0.6); }
+
+/// A bellied bowl of 3 mm along the radius, with a floor. Its vertices stray by `noise_mm`, but
+/// for those within 1 mm of its corners: there, noise makes sharp edges of no thickness.
 Profile bowl(std::size_t rings, double noise_mm, bool hollow) {
   std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> stray(-noise_mm, noise_mm);
-  const auto radius = [](double y) { return 50.0 + 20.0 * std::sin(0.018 * y - 0.6); };
+  std::uniform_real_distribution<double> uniform(-noise_mm, noise_mm);
+  const auto stray = [&](double y) {
+    const bool near_corner = y < 1.0 || y > kHeight - 1.0 || std::abs(y - kFloor) < 1.0;
+    return near_corner ? 0.0 : uniform(random);
+  };
   Polygon outer, bore;
   for (std::size_t i = 0; i <= rings; ++i) {
     const double y = kHeight * static_cast<double>(i) / static_cast<double>(rings);
-    outer.push_back({radius(y) + stray(random), y});
-    if (hollow && y >= kFloor) bore.push_back({radius(y) - 3.0 + stray(random), y});
+    outer.push_back({radius(y) + stray(y), y});
+    if (hollow && y >= kFloor) bore.push_back({radius(y) - 3.0 + stray(y), y});
   }
-  if (hollow)
-    bore.insert(bore.begin(), {0.0, bore.front().y});
-  else
-    bore.push_back({0.0, kHeight});
+  bore.insert(bore.begin(), {0.0, hollow ? bore.front().y : kHeight});
   bore.insert(bore.begin(), {0.0, 0.0});
   outer.insert(outer.end(), bore.rbegin(), bore.rend());
   return {{outer}};
@@ -40,17 +43,18 @@ Profile bowl(std::size_t rings, double noise_mm, bool hollow) {
 
 /// The same bowl in steps.
 Profile steps(std::size_t rings) {
-  const Polygon smooth = bowl(rings, 0.0, true).pieces[0];
-  Polygon stepped;
-  for (std::size_t i = 0; i < smooth.size(); ++i) {
-    const ProfilePoint& p = smooth[i];
-    const ProfilePoint& next = smooth[i + 1 < smooth.size() ? i + 1 : 0];
-    stepped.push_back(p);
-    // Each ring has the radius of its lower end.
-    if (next.y > p.y) stepped.push_back({p.rho, next.y});
-    if (next.y < p.y && next.rho > 0.0) stepped.push_back({next.rho, p.y});
+  Polygon outer, bore;
+  const double h = kHeight / static_cast<double>(rings);
+  for (std::size_t i = 0; i < rings; ++i) {
+    const double low = h * static_cast<double>(i), high = h * static_cast<double>(i + 1);
+    const double r = radius(0.5 * (low + high));
+    outer.insert(outer.end(), {{r, low}, {r, high}});
+    if (low < kFloor) continue;
+    if (bore.empty()) bore = {{0.0, 0.0}, {0.0, low}};
+    bore.insert(bore.end(), {{r - 3.0, low}, {r - 3.0, high}});
   }
-  return {{stepped}};
+  outer.insert(outer.end(), bore.rbegin(), bore.rend());
+  return {{outer}};
 }
 
 template <class Work>
