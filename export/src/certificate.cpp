@@ -84,7 +84,9 @@ void merge_runs(std::vector<Edge>& edges, std::vector<std::size_t> ends) {
     std::size_t begin = 0;
     for (std::size_t i = 0; i < ends.size(); i += 2) {
       const std::size_t middle = ends[i], end = ends[std::min(i + 1, ends.size() - 1)];
-      const auto at = [&](std::size_t k) { return edges.cbegin() + static_cast<std::ptrdiff_t>(k); };
+      const auto at = [&](std::size_t k) {
+        return edges.cbegin() + static_cast<std::ptrdiff_t>(k);
+      };
       std::merge(at(begin), at(middle), at(middle), at(end), std::back_inserter(merged), lower);
       merged_ends.push_back(end);
       begin = end;

@@ -27,8 +27,8 @@ double least_distance_along(const EdgeNode& a, const EdgeNode& b) noexcept {
   const double sine = std::abs(cross(a.along, b.along));
   const double x = std::abs(glm::dot(way, a.along)) - a.half_length - b.half_length * cosine -
                    b.half_width * sine;
-  const double y = std::abs(cross(a.along, way)) - a.half_width - b.half_length * sine -
-                   b.half_width * cosine;
+  const double y =
+      std::abs(cross(a.along, way)) - a.half_width - b.half_length * sine - b.half_width * cosine;
   return std::hypot(std::max(x, 0.0), std::max(y, 0.0));
 }
 

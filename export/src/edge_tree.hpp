@@ -41,7 +41,8 @@ struct EdgeNode {
 /// No more than the distance between any edge of the one and any of the other.
 [[nodiscard]] double least_distance(const EdgeNode& a, const EdgeNode& b) noexcept;
 
-/// At least the angle between any inward normal of the one and any of the other [rad]; negative where there are no normals.
+/// At least the angle between any inward normal of the one and any of the other [rad]; negative
+/// where there are no normals.
 [[nodiscard]] double greatest_turn(const EdgeNode& a, const EdgeNode& b) noexcept;
 
 class EdgeTree {

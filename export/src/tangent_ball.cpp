@@ -39,29 +39,23 @@ Vec2 least_tangent(const Vec2& p, const Vec2& normal, const Segment& s) {
   return scale > 0.0 ? s.at((bn * glm::dot(a, a) - 2.0 * an * glm::dot(a, b)) / scale) : s.from;
 }
 
-void keep(Ball& best, double diameter, const Vec2& from, const Vec2& to) {
-  if (diameter < best.diameter) best = {diameter, from, to};
-}
-
 /// Balls with `normal` on `a` through a point of `b`. Their diameter is |d|^2 / (d n) over the
 /// parallelogram b - a, without a minimum inside since it grows in proportion to d.
-void least_touching(Ball& best, const Segment& a, const Vec2& normal, const Segment& b) {
+void keep_touching(Balls& balls, const Segment& a, const Vec2& normal, const Segment& b) {
   const auto offer = [&](const Vec2& p, const Vec2& q) {
     const Vec2 d = q - p;
     const double height = glm::dot(d, normal);
-    if (height > 0.0) keep(best, glm::dot(d, d) / height, p, q);
+    if (height > 0.0) balls.keep(glm::dot(d, d) / height, p, q);
   };
   for (const Vec2& p : {a.from, a.to}) offer(p, least_tangent(p, normal, b));
   for (const Vec2& q : {b.from, b.to}) offer(nearest(q, a), q);
 }
 
-void swap_ends(Ball& ball) { std::swap(ball.from, ball.to); }
-
-void least_at_corners(Ball& best, const Face& a, const Face& b) {
+void keep_at_corners(Balls& balls, const Face& a, const Face& b) {
   a.each_corner([&](const ReentrantCorner& corner) {
     const auto offer = [&](const Vec2& q, auto fits) {
       const Vec2 d = q - corner.at;
-      if (corner.faces(d) && fits(d)) keep(best, glm::length(d), corner.at, q);
+      if (corner.faces(d) && fits(d)) balls.keep(glm::length(d), corner.at, q);
     };
     offer(nearest(corner.at, {b.edge.from, b.edge.to}),
           [&](const Vec2& d) { return glm::dot(d, b.edge.inward) < -0.5 * glm::length(d); });
@@ -72,15 +66,24 @@ void least_at_corners(Ball& best, const Face& a, const Face& b) {
 }
 
 /// Between opposite faces.
-void least_at_edges(Ball& best, const Edge& a, const Edge& b) {
+void keep_at_edges(Balls& balls, const Edge& a, const Edge& b) {
   // Two faces that meet do so in a sharp edge or in a notch with only air between them.
-  if (a.to == b.from && cross(a.inward, b.inward) > 0.0) return keep(best, 0.0, a.to, a.to);
-  if (b.to == a.from && cross(b.inward, a.inward) > 0.0) return keep(best, 0.0, a.from, a.from);
+  if (a.to == b.from && cross(a.inward, b.inward) > 0.0) return balls.keep(0.0, a.to, a.to);
+  if (b.to == a.from && cross(b.inward, a.inward) > 0.0) return balls.keep(0.0, a.from, a.from);
   Segment on_a{a.from, a.to}, on_b{b.from, b.to};
   if (!clip(on_b, a.from, a.inward) || !clip(on_a, b.from, b.inward)) return;
-  least_touching(best, on_b, b.inward, on_a);
-  swap_ends(best);
-  least_touching(best, on_a, a.inward, on_b);
+  keep_touching(balls, on_a, a.inward, on_b);
+  balls.swap();
+  keep_touching(balls, on_b, b.inward, on_a);
+  balls.swap();
+}
+
+void keep(Ball& best, double diameter, const Vec2& from, const Vec2& to) {
+  if (diameter < best.diameter) best = {diameter, from, to};
+}
+
+double arc_at(const Face& face, const Vec2& p) {
+  return face.arc_begin + glm::length(p - face.edge.from);
 }
 
 }  // namespace
@@ -104,15 +107,44 @@ LeafFaces::LeafFaces(const EdgeTree& tree, const EdgeNode& leaf) {
   }
 }
 
-Ball least_ball(const Face& a, const Face& b) {
-  Ball best;
-  if (opposite(a.edge.inward, b.edge.inward)) least_at_edges(best, a.edge, b.edge);
-  if (a.has_corners()) least_at_corners(best, a, b);
+bool is_wall(const Face& a, const Face& b, const Ball& ball, double perimeter) {
+  if (a.arc_begin > b.arc_begin)
+    return is_wall(b, a, {ball.diameter, ball.to, ball.from}, perimeter);
+  const double from = arc_at(a, ball.from), to = arc_at(b, ball.to), most = 0.5 * ball.diameter;
+  const double beyond = std::min({from - a.arc_begin, b.arc_end - to, most});
+  const double beyond_other_way = std::min({a.arc_end - from, to - b.arc_begin, most});
+  const double around = to - from + 2.0 * beyond;
+  const double other_way = perimeter - (to - from) + 2.0 * beyond_other_way;
+  return std::min(around, other_way) >= kRidge * ball.diameter;
+}
+
+Balls balls_between(const Face& a, const Face& b, double limit) {
+  Balls balls(limit);
+  if (opposite(a.edge.inward, b.edge.inward)) keep_at_edges(balls, a.edge, b.edge);
+  if (a.has_corners()) keep_at_corners(balls, a, b);
   if (b.has_corners()) {
-    swap_ends(best);
-    least_at_corners(best, b, a);
-    swap_ends(best);
+    balls.swap();
+    keep_at_corners(balls, b, a);
   }
+  return balls;
+}
+
+Ball ball_at(const Vec2& p, const Face& a, const Face& b) {
+  Ball best;
+  const Vec2& normal = a.edge.inward;
+  const auto offer = [&](const Vec2& q) {
+    const Vec2 d = q - p;
+    const double height = glm::dot(d, normal);
+    if (height > 0.0) keep(best, glm::dot(d, d) / height, p, q);
+  };
+  Segment on_b{b.edge.from, b.edge.to};
+  const bool before_b = glm::dot(p - on_b.from, b.edge.inward) > 0.0;
+  if (before_b && opposite(normal, b.edge.inward) && clip(on_b, p, normal))
+    offer(least_tangent(p, normal, on_b));
+  b.each_corner([&](const ReentrantCorner& corner) {
+    const Vec2 d = corner.at - p;
+    if (corner.faces(-d) && glm::dot(d, normal) > 0.5 * glm::length(d)) offer(corner.at);
+  });
   return best;
 }
 
@@ -167,6 +199,13 @@ Ball AxisClay::least_ball(const Face& face) const {
                        : segment.at((y - from) / (to - from)),
             -normal.x);
   return best;
+}
+
+Ball AxisClay::ball_at(const Vec2& p, const Face& face) const {
+  Face place = face;
+  place.begins_reentrant = place.ends_reentrant = false;
+  place.edge.from = place.edge.to = p;
+  return least_ball(place);
 }
 
 }  // namespace clay::solid

@@ -27,6 +27,28 @@ struct ReentrantCorner {
   }
 };
 
+/// Balls between two faces, each least in its way.
+class Balls {
+ public:
+  /// Only those below `limit` are kept.
+  explicit Balls(double limit) : limit_(limit) {}
+  void keep(double diameter, const Vec2& from, const Vec2& to) {
+    if (diameter < limit_)
+      balls_[count_++] = swapped_ ? Ball{diameter, to, from} : Ball{diameter, from, to};
+  }
+  /// From now on the faces are named the other way round.
+  void swap() { swapped_ = !swapped_; }
+  [[nodiscard]] const Ball* begin() const { return balls_.data(); }
+  [[nodiscard]] const Ball* end() const { return balls_.data() + count_; }
+
+ private:
+  /// Eight between the edges, and for each of two corners, twice, one edge and two corners.
+  std::array<Ball, 20> balls_;
+  std::size_t count_ = 0;
+  double limit_;
+  bool swapped_ = false;
+};
+
 /// An edge off the axis and its place along the polygon.
 struct Face {
   Edge edge;
@@ -71,9 +93,21 @@ class LeafFaces {
   return std::max(gap(a, b), gap(b, a));
 }
 
-/// Least ball between two faces of one piece, by the definition of `min_wall`, but for its rule on
-/// ridges. Infinite where nothing of the one is opposite to anything of the other.
-[[nodiscard]] Ball least_ball(const Face& a, const Face& b);
+/// What the boundary on the shorter way between two places, and a little beyond, must measure:
+/// this many times the thickness between them. Half a circle is pi / 2, the chords around it a
+/// little less.
+inline constexpr double kRidge = 1.5;
+
+/// Whether the clay between `ball.from` on `a` and `ball.to` on `b` is more than a ridge. Beyond
+/// them faces count as far as both go on, and half the thickness at most, so that a lip is as thin
+/// as its very end.
+[[nodiscard]] bool is_wall(const Face& a, const Face& b, const Ball& ball, double perimeter);
+
+/// The least balls between two faces of one piece, by the definition of `min_wall`, ridges or not.
+[[nodiscard]] Balls balls_between(const Face& a, const Face& b, double limit);
+
+/// Of the least ball that touches `a` at `p` and goes through `b`; nothing where none does.
+[[nodiscard]] Ball ball_at(const Vec2& p, const Face& a, const Face& b);
 
 /// Where a piece reaches the axis.
 class AxisClay {
@@ -81,6 +115,8 @@ class AxisClay {
   AxisClay(const EdgeTree& tree, std::uint32_t piece);
   /// The least ball about a point of the axis, in clay, that touches the face.
   [[nodiscard]] Ball least_ball(const Face& face) const;
+  /// The one that touches the face at `p`.
+  [[nodiscard]] Ball ball_at(const Vec2& p, const Face& face) const;
   /// No more than the diameter of any such ball of a node's faces.
   [[nodiscard]] double bound(const EdgeNode& node) const;
 

@@ -88,23 +88,16 @@ class Field {
       const double t = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
       add_sample(face, face.edge.from + t * along, axis);
       samples_.back().arc_mm = arc_mm_ + t * glm::length(along);
-      samples_.back().face =
-          names.of(face.edge, face.edge.index - tree_.first_edge(face.piece));
+      samples_.back().face = names.of(face.edge, face.edge.index - tree_.first_edge(face.piece));
     }
     arc_mm_ += glm::length(along);
   }
 
   void add_sample(const Face& face, const Vec2& at, const AxisClay& axis) {
-    Face sample = face;
-    sample.begins_reentrant = sample.ends_reentrant = false;
-    sample.edge.from = sample.edge.to = at;
-    WallSearch search(tree_);
-    search.across(axis, sample);
-    search.from(sample);
-    const Ball& ball = search.least();
+    const Ball ball = PlaceSearch(tree_, face, at).run(axis);
     const bool found = std::isfinite(ball.diameter);
-    samples_.push_back({ball.diameter, place(at), place(found ? ball.to : at), 0.0, face.piece,
-                        WallFace::outer});
+    samples_.push_back(
+        {ball.diameter, place(at), place(found ? ball.to : at), 0.0, face.piece, WallFace::outer});
   }
 
   static constexpr double kMostParts = 1e9;  // of one edge: the count of all stays exact

@@ -7,51 +7,46 @@
 namespace clay::solid {
 namespace {
 
+constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr double kOpposite = 2.0 * std::numbers::pi / 3.0;
 
-/// What the boundary between the far ends of two faces must measure, in thicknesses. Half a
-/// circle's would be pi / 2; the chords around it are a little less.
-constexpr double kRidge = 1.5;
-
 /// The shorter way along the polygon that holds all of `a` and `b`.
-template <class A, class B>
-double arc_around(const A& a, const B& b, double perimeter) {
+double arc_around(const EdgeNode& a, const EdgeNode& b, double perimeter) {
   const double begin = std::min(a.arc_begin, b.arc_begin), end = std::max(a.arc_end, b.arc_end);
   const double between = std::max(a.arc_begin, b.arc_begin) - std::min(a.arc_end, b.arc_end);
   return std::min(end - begin, perimeter - between);
 }
 
+/// Nodes that cannot hold opposite faces of one piece with more than a ridge between them, if they
+/// are `distance` apart.
+bool no_wall_between(const EdgeTree& tree, const EdgeNode& a, const EdgeNode& b, double distance) {
+  if (a.first_piece != a.last_piece || b.first_piece != b.last_piece) return false;
+  return arc_around(a, b, tree.perimeter(a.first_piece)) < kRidge * distance;
+}
+
+bool no_opposites(const EdgeNode& a, const EdgeNode& b) {
+  return a.last_piece < b.first_piece || b.last_piece < a.first_piece ||
+         greatest_turn(a, b) < kOpposite;
+}
+
 }  // namespace
 
 double WallSearch::bound(const EdgeNode& a, const EdgeNode& b) const {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
-  if (a.last_piece < b.first_piece || b.last_piece < a.first_piece) return kNone;
-  if (greatest_turn(a, b) < kOpposite) return kNone;
+  if (no_opposites(a, b)) return kNone;
   if (&a == &b) return 0.0;
   const double distance = least_distance(a, b);
-  const bool one_piece = a.first_piece == a.last_piece && b.first_piece == b.last_piece;
-  if (one_piece && arc_around(a, b, tree_.perimeter(a.first_piece)) < kRidge * distance)
-    return kNone;
-  return distance;
+  return no_wall_between(tree_, a, b, distance) ? kNone : distance;
 }
 
 void WallSearch::compare(const Face& a, const Face& b) {
   if (!opposite(a.edge.inward, b.edge.inward) && !a.has_corners() && !b.has_corners()) return;
   if (least_distance(a.edge, b.edge) >= best()) return;
-  const Ball ball = least_ball(a, b);
-  if (ball.diameter < least_.diameter &&
-      arc_around(a, b, tree_.perimeter(a.piece)) >= kRidge * ball.diameter)
-    least_ = ball;
+  for (const Ball& ball : balls_between(a, b, best()))
+    if (ball.diameter < best() && is_wall(a, b, ball, tree_.perimeter(a.piece))) least_ = ball;
 }
 
 void WallSearch::leaves(const EdgeNode& a, const EdgeNode& b) {
-  const LeafFaces second(tree_, b);
-  if (sample_) {
-    for (const Face& face : second)
-      if (face.edge.index != sample_->edge.index) compare(*sample_, face);
-    return;
-  }
-  const LeafFaces first(tree_, a);
+  const LeafFaces first(tree_, a), second(tree_, b);
   for (const Face& face : first)
     for (const Face& other : second)
       if (&a != &b || face.edge.index < other.edge.index) compare(face, other);
@@ -65,20 +60,43 @@ void WallSearch::across(const AxisClay& axis, std::uint32_t piece, std::size_t n
     across(axis, piece, tree_.right(node));
     return;
   }
-  for (const Face& face : LeafFaces(tree_, here)) offer(axis.least_ball(face));
+  for (const Face& face : LeafFaces(tree_, here)) {
+    const Ball ball = axis.least_ball(face);
+    if (ball.diameter < best()) least_ = ball;
+  }
 }
 
-void WallSearch::from(const Face& sample) {
-  EdgeNode node;
-  node.centre = 0.5 * (sample.edge.from + sample.edge.to);
-  node.half_length = node.half_width = 0.5 * glm::length(sample.edge.to - sample.edge.from);
-  node.normal_angle = std::atan2(sample.edge.inward.y, sample.edge.inward.x);
-  node.normal_spread = 0.0;
-  node.arc_begin = sample.arc_begin, node.arc_end = sample.arc_end;
-  node.first_piece = node.last_piece = sample.piece;
-  sample_ = &sample;
-  search_from(tree_, node, *this);
-  sample_ = nullptr;
+Ball PlaceSearch::run(const AxisClay& axis) {
+  least_ = axis.ball_at(at_, face_);
+  EdgeNode place;
+  place.centre = at_;
+  place.normal_angle = std::atan2(face_.edge.inward.y, face_.edge.inward.x);
+  place.normal_spread = 0.0;
+  place.arc_begin = face_.arc_begin, place.arc_end = face_.arc_end;
+  place.first_piece = place.last_piece = face_.piece;
+  search_from(tree_, place, *this);
+  return least_;
+}
+
+double PlaceSearch::bound(const EdgeNode& place, const EdgeNode& node) const {
+  if (no_opposites(place, node)) return kNone;
+  const Vec2& normal = face_.edge.inward;
+  const double highest = glm::dot(node.centre - at_, normal) +
+                         node.half_length * std::abs(glm::dot(node.along, normal)) +
+                         node.half_width * std::abs(cross(node.along, normal));
+  if (highest <= 0.0) return kNone;
+  const double distance = least_distance(place, node);
+  if (no_wall_between(tree_, place, node, distance)) return kNone;
+  return distance * std::max(1.0, distance / highest);
+}
+
+void PlaceSearch::leaves(const EdgeNode&, const EdgeNode& leaf) {
+  for (const Face& other : LeafFaces(tree_, leaf)) {
+    if (other.edge.index == face_.edge.index) continue;
+    const Ball ball = ball_at(at_, face_, other);
+    if (ball.diameter < best() && is_wall(face_, other, ball, tree_.perimeter(face_.piece)))
+      least_ = ball;
+  }
 }
 
 }  // namespace clay::solid

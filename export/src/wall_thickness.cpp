@@ -11,7 +11,8 @@ Wall min_wall(const Profile& profile, double rho_scale) {
     search.across(AxisClay(tree, piece), piece);
   search_pairs(tree, search);
   const Ball& ball = search.least();
-  return {ball.diameter, {ball.from.x / rho_scale, ball.from.y}, {ball.to.x / rho_scale, ball.to.y}};
+  return {
+      ball.diameter, {ball.from.x / rho_scale, ball.from.y}, {ball.to.x / rho_scale, ball.to.y}};
 }
 
 double min_wall_mm(const Profile& profile) { return min_wall(profile).thickness_mm; }

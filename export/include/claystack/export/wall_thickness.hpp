@@ -21,8 +21,8 @@ struct Wall {
 /// Two points of a piece are opposite when the inward normals of their edges are more than 120
 /// degrees apart and the straight way from the one to the other leaves into clay and arrives out
 /// of clay. The thickness between them is the diameter of the least ball that touches the one and
-/// goes through the other: for a way d and a normal n, |d|^2 / (d n). At a reentrant corner the ball
-/// may touch in every direction between the two normals: there it is the distance. Where clay
+/// goes through the other: for a way d and a normal n, |d|^2 / (d n). At a reentrant corner the
+/// ball may touch in every direction between the two normals: there it is the distance. Where clay
 /// reaches the axis, balls about its points that touch the outside count too (2R).
 ///
 /// What sticks out of a wall less than a quarter of its own thickness is no flange but a ridge,
