@@ -124,9 +124,10 @@ void search_pairs(const EdgeTree& tree, Search& search, std::size_t a = 0, std::
   };
   if (a == b) {
     const std::size_t left = EdgeTree::left(a), right = tree.right(a);
+    // The half of a polygon that rises against the half that falls: nearest first.
+    search_pairs(tree, search, left, right, below(left, right));
     search_pairs(tree, search, left, left, below(left, left));
     search_pairs(tree, search, right, right, below(right, right));
-    search_pairs(tree, search, left, right, below(left, right));
     return;
   }
   const bool split_first =

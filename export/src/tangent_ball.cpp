@@ -7,7 +7,8 @@
 namespace clay::solid {
 namespace {
 
-const double kCos30 = std::sqrt(0.75), kTan30 = std::sqrt(1.0 / 3.0);
+/// Across the axis: how far the outside of a solid may lean, by cosine and tangent.
+const double kCosLean = std::sqrt(0.75), kTanLean = std::sqrt(1.0 / 3.0);
 
 struct Segment {
   Vec2 from{0.0}, to{0.0};
@@ -57,8 +58,9 @@ void keep_at_corners(Balls& balls, const Face& a, const Face& b) {
       const Vec2 d = q - corner.at;
       if (corner.faces(d) && fits(d)) balls.keep(glm::length(d), corner.at, q);
     };
-    offer(nearest(corner.at, {b.edge.from, b.edge.to}),
-          [&](const Vec2& d) { return glm::dot(d, b.edge.inward) < -0.5 * glm::length(d); });
+    offer(nearest(corner.at, {b.edge.from, b.edge.to}), [&](const Vec2& d) {
+      return glm::dot(d, b.edge.inward) < -kMinusCosOpposite * glm::length(d);
+    });
     b.each_corner([&](const ReentrantCorner& other) {
       offer(other.at, [&](const Vec2& d) { return other.faces(-d); });
     });
@@ -143,7 +145,8 @@ Ball ball_at(const Vec2& p, const Face& a, const Face& b) {
     offer(least_tangent(p, normal, on_b));
   b.each_corner([&](const ReentrantCorner& corner) {
     const Vec2 d = corner.at - p;
-    if (corner.faces(-d) && glm::dot(d, normal) > 0.5 * glm::length(d)) offer(corner.at);
+    if (corner.faces(-d) && glm::dot(d, normal) > kMinusCosOpposite * glm::length(d))
+      offer(corner.at);
   });
   return best;
 }
@@ -165,8 +168,8 @@ AxisClay::AxisClay(const EdgeTree& tree, std::uint32_t piece) {
 double AxisClay::bound(const EdgeNode& node) const {
   const Vec2 along = glm::abs(node.along);
   const Vec2 reach = node.half_length * along + node.half_width * Vec2{along.y, along.x};
-  // Normals lean by 30 degrees at most, and so do the radii of the balls.
-  const double up = reach.y + (node.centre.x + reach.x) * kTan30;
+  // The radii of the balls lean no more than the normals.
+  const double up = reach.y + (node.centre.x + reach.x) * kTanLean;
   const bool beyond = stretches_.empty() || node.centre.y + up < stretches_.front().low ||
                       node.centre.y - up > stretches_.back().high;
   return beyond ? std::numeric_limits<double>::infinity() : 2.0 * (node.centre.x - reach.x);
@@ -187,7 +190,7 @@ Ball AxisClay::least_ball(const Face& face) const {
     if (corner.faces({-1.0, 0.0}) && clay != stretches_.end() && clay->low <= corner.at.y)
       touch(corner.at, 1.0);
   });
-  if (normal.x > -kCos30) return best;
+  if (normal.x > -kCosLean) return best;
   // Heights of the centres of the balls that touch the two ends.
   const auto centre = [&](const Vec2& p) { return p.y - p.x * normal.y / normal.x; };
   const double from = centre(face.edge.from), to = centre(face.edge.to);

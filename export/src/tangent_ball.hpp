@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 namespace clay::solid {
@@ -78,9 +79,11 @@ class LeafFaces {
   std::size_t count_ = 0;
 };
 
-/// Inward normals more than 120 degrees apart.
+/// Faces are opposite when their inward normals are farther apart than this [rad].
+inline constexpr double kOpposite = 150.0 / 180.0 * std::numbers::pi;
+inline const double kMinusCosOpposite = -std::cos(kOpposite);
 [[nodiscard]] inline bool opposite(const Vec2& normal, const Vec2& other) {
-  return glm::dot(normal, other) < -0.5;
+  return glm::dot(normal, other) < -kMinusCosOpposite;
 }
 
 /// No more than the distance between the two.

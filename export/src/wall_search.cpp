@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace clay::solid {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
-constexpr double kOpposite = 2.0 * std::numbers::pi / 3.0;
 
 /// The shorter way along the polygon that holds all of `a` and `b`.
 double arc_around(const EdgeNode& a, const EdgeNode& b, double perimeter) {

@@ -18,16 +18,20 @@ struct Wall {
 
 /// Least thickness [mm] of what a certified profile sweeps, exact for its edges up to rounding.
 ///
-/// Two points of a piece are opposite when the inward normals of their edges are more than 120
+/// Two points of a piece are opposite when the inward normals of their edges are more than 150
 /// degrees apart and the straight way from the one to the other leaves into clay and arrives out
-/// of clay. The thickness between them is the diameter of the least ball that touches the one and
-/// goes through the other: for a way d and a normal n, |d|^2 / (d n). At a reentrant corner the
-/// ball may touch in every direction between the two normals: there it is the distance. Where clay
-/// reaches the axis, balls about its points that touch the outside count too (2R).
+/// of clay; faces at 30 degrees or more to each other meet in an edge and are no wall. The
+/// thickness between opposite points is the diameter of the least ball that touches the face at the
+/// one and goes through the other: for a way d and a normal n, |d|^2 / (d n). At a reentrant corner
+/// the ball may touch in every direction between the two normals: there it is the distance. Where
+/// clay reaches the axis, balls about its points that touch an outside that leans by 30 degrees at
+/// most count too (2R).
 ///
-/// What sticks out of a wall less than a quarter of its own thickness is no flange but a ridge,
-/// such as the steps of a stack are, and not a wall: faces count when the boundary around
-/// the two measures 1.5 times the thickness between them, about the half circle over it.
+/// A flange is as thick as it is high, but what sticks out less than a quarter of that, such as a
+/// step of a stack, is a ridge and no wall: the boundary around two opposite points must
+/// measure 1.5 times the thickness between them, where half a circle would be pi / 2. As far as
+/// both edges go on beyond the points, but no more than half the thickness, they count as well, so
+/// that a lip is as thin as its very end.
 ///
 /// Every rho is multiplied by `rho_scale` first: cos(pi / n) gives the wall of the n-gon revolve,
 /// whose sectors are prisms over the profile scaled so. The places are the profile's own.
