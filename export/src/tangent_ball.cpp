@@ -46,7 +46,7 @@ void keep_touching(Balls& balls, const Segment& a, const Vec2& normal, const Seg
   const auto offer = [&](const Vec2& p, const Vec2& q) {
     const Vec2 d = q - p;
     const double height = glm::dot(d, normal);
-    if (height > 0.0) balls.keep(glm::dot(d, d) / height, p, q);
+    if (height > 0.0) balls.keep({glm::dot(d, d) / height, p, q});
   };
   for (const Vec2& p : {a.from, a.to}) offer(p, least_tangent(p, normal, b));
   for (const Vec2& q : {b.from, b.to}) offer(nearest(q, a), q);
@@ -56,7 +56,7 @@ void keep_at_corners(Balls& balls, const Face& a, const Face& b) {
   a.each_corner([&](const ReentrantCorner& corner) {
     const auto offer = [&](const Vec2& q, auto fits) {
       const Vec2 d = q - corner.at;
-      if (corner.faces(d) && fits(d)) balls.keep(glm::length(d), corner.at, q);
+      if (corner.faces(d) && fits(d)) balls.keep({glm::length(d), corner.at, q, true});
     };
     offer(nearest(corner.at, {b.edge.from, b.edge.to}), [&](const Vec2& d) {
       return glm::dot(d, b.edge.inward) < -kMinusCosOpposite * glm::length(d);
@@ -70,8 +70,8 @@ void keep_at_corners(Balls& balls, const Face& a, const Face& b) {
 /// Between opposite faces.
 void keep_at_edges(Balls& balls, const Edge& a, const Edge& b) {
   // Two faces that meet do so in a sharp edge or in a notch with only air between them.
-  if (a.to == b.from && cross(a.inward, b.inward) > 0.0) return balls.keep(0.0, a.to, a.to);
-  if (b.to == a.from && cross(b.inward, a.inward) > 0.0) return balls.keep(0.0, a.from, a.from);
+  if (a.to == b.from && cross(a.inward, b.inward) > 0.0) return balls.keep({0.0, a.to, a.to});
+  if (b.to == a.from && cross(b.inward, a.inward) > 0.0) return balls.keep({0.0, a.from, a.from});
   Segment on_a{a.from, a.to}, on_b{b.from, b.to};
   if (!clip(on_b, a.from, a.inward) || !clip(on_a, b.from, b.inward)) return;
   keep_touching(balls, on_a, a.inward, on_b);
@@ -80,8 +80,8 @@ void keep_at_edges(Balls& balls, const Edge& a, const Edge& b) {
   balls.swap();
 }
 
-void keep(Ball& best, double diameter, const Vec2& from, const Vec2& to) {
-  if (diameter < best.diameter) best = {diameter, from, to};
+void keep(Ball& best, const Ball& ball) {
+  if (ball.diameter < best.diameter) best = ball;
 }
 
 double arc_at(const Face& face, const Vec2& p) {
@@ -111,8 +111,9 @@ LeafFaces::LeafFaces(const EdgeTree& tree, const EdgeNode& leaf) {
 
 bool is_wall(const Face& a, const Face& b, const Ball& ball, double perimeter) {
   if (a.arc_begin > b.arc_begin)
-    return is_wall(b, a, {ball.diameter, ball.to, ball.from}, perimeter);
-  const double from = arc_at(a, ball.from), to = arc_at(b, ball.to), most = 0.5 * ball.diameter;
+    return is_wall(b, a, {ball.diameter, ball.to, ball.from, ball.at_corner}, perimeter);
+  const double from = arc_at(a, ball.from), to = arc_at(b, ball.to);
+  const double most = ball.at_corner ? 0.0 : 0.5 * ball.diameter;
   const double beyond = std::min({from - a.arc_begin, b.arc_end - to, most});
   const double beyond_other_way = std::min({a.arc_end - from, to - b.arc_begin, most});
   const double around = to - from + 2.0 * beyond;
@@ -134,19 +135,19 @@ Balls balls_between(const Face& a, const Face& b, double limit) {
 Ball ball_at(const Vec2& p, const Face& a, const Face& b) {
   Ball best;
   const Vec2& normal = a.edge.inward;
-  const auto offer = [&](const Vec2& q) {
+  const auto offer = [&](const Vec2& q, bool at_corner) {
     const Vec2 d = q - p;
     const double height = glm::dot(d, normal);
-    if (height > 0.0) keep(best, glm::dot(d, d) / height, p, q);
+    if (height > 0.0) keep(best, {glm::dot(d, d) / height, p, q, at_corner});
   };
   Segment on_b{b.edge.from, b.edge.to};
   const bool before_b = glm::dot(p - on_b.from, b.edge.inward) > 0.0;
   if (before_b && opposite(normal, b.edge.inward) && clip(on_b, p, normal))
-    offer(least_tangent(p, normal, on_b));
+    offer(least_tangent(p, normal, on_b), false);
   b.each_corner([&](const ReentrantCorner& corner) {
     const Vec2 d = corner.at - p;
     if (corner.faces(-d) && glm::dot(d, normal) > kMinusCosOpposite * glm::length(d))
-      offer(corner.at);
+      offer(corner.at, true);
   });
   return best;
 }
@@ -179,7 +180,7 @@ Ball AxisClay::least_ball(const Face& face) const {
   Ball best;
   const Vec2& normal = face.edge.inward;
   const auto touch = [&](const Vec2& p, double slant) {
-    keep(best, 2.0 * p.x / slant, p, mirrored(p));
+    keep(best, {2.0 * p.x / slant, p, mirrored(p)});
   };
   const auto above = [&](double y) {
     return std::partition_point(stretches_.begin(), stretches_.end(),

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace clay::solid {
@@ -15,6 +16,7 @@ namespace clay::solid {
 struct Ball {
   double diameter = std::numeric_limits<double>::infinity();
   Vec2 from{0.0}, to{0.0};  ///< where it touches
+  bool at_corner = false;   ///< a reentrant one, at either end
 };
 
 /// Where the clay is more than a half-plane: a ball may touch it from every direction between the
@@ -33,9 +35,11 @@ class Balls {
  public:
   /// Only those below `limit` are kept.
   explicit Balls(double limit) : limit_(limit) {}
-  void keep(double diameter, const Vec2& from, const Vec2& to) {
-    if (diameter < limit_)
-      balls_[count_++] = swapped_ ? Ball{diameter, to, from} : Ball{diameter, from, to};
+  void keep(const Ball& ball) {
+    if (ball.diameter >= limit_) return;
+    balls_[count_] = ball;
+    if (swapped_) std::swap(balls_[count_].from, balls_[count_].to);
+    ++count_;
   }
   /// From now on the faces are named the other way round.
   void swap() { swapped_ = !swapped_; }
@@ -102,8 +106,8 @@ inline const double kMinusCosOpposite = -std::cos(kOpposite);
 inline constexpr double kRidge = 1.5;
 
 /// Whether the clay between `ball.from` on `a` and `ball.to` on `b` is more than a ridge. Beyond
-/// them faces count as far as both go on, and half the thickness at most, so that a lip is as thin
-/// as its very end.
+/// them edges count as far as both go on, and half the thickness at most, so that a lip is as thin
+/// as its very end; at a reentrant corner an edge goes on elsewhere.
 [[nodiscard]] bool is_wall(const Face& a, const Face& b, const Ball& ball, double perimeter);
 
 /// The least balls between two faces of one piece, by the definition of `min_wall`, ridges or not.
