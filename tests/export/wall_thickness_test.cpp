@@ -51,9 +51,9 @@ TEST(WallThickness, OfASolidIsItsDiameterOrItsHeight) {
 }
 
 TEST(WallThickness, AcrossTheAxisCountsOnlyWhereThereIsClay) {
-  // A narrow foot below, a wide bowl above: 20 mm across, and a bore of no consequence.
+  // A narrow foot below, 20 mm across, and a wide bowl above.
   const Wall wall =
-      min_wall({{{{0, 0}, {10, 0}, {10, 30}, {60, 50}, {60, 90}, {35, 90}, {35, 55}, {0, 55}}}});
+      min_wall({{{{0, 0}, {10, 0}, {10, 30}, {60, 50}, {60, 110}, {35, 110}, {35, 75}, {0, 75}}}});
   EXPECT_NEAR(wall.thickness_mm, 20.0, 1e-12);
   EXPECT_NEAR(wall.from.rho, 10.0, 1e-12);
   EXPECT_NEAR(wall.to.rho, -10.0, 1e-12);
@@ -101,22 +101,27 @@ TEST(WallThickness, OfASphericalShellIsTheSameAllRound) {
 TEST(WallThickness, OfARoundSectionIsItsDiameter) {
   Polygon ring = arc({30, 0}, 5, 0, 2 * M_PI, 720);
   ring.pop_back();
-  const double across = 10.0 * std::cos(M_PI / 720);  // from chord to chord
-  EXPECT_NEAR(wall_of(ring), across, 1e-9);
-  for (const WallSample& sample : wall_field({{ring}}, 1.0))
-    EXPECT_NEAR(sample.thickness_mm, across, 1e-9);
+  // A chord's normal is off that of its ends by half a step, and opposite chords are off each other
+  // by 30 degrees at most: their balls are less by as much as this.
+  const double lost = 10.0 * (M_PI / 720) * std::tan(M_PI / 12);
+  EXPECT_LT(wall_of(ring), 10.0);
+  EXPECT_GT(wall_of(ring), 10.0 - lost);
+  for (const WallSample& sample : wall_field({{ring}}, 1.0)) {
+    EXPECT_LT(sample.thickness_mm, 10.0);
+    EXPECT_GT(sample.thickness_mm, 10.0 - lost);
+  }
 }
 
 TEST(WallThickness, OfAWedgeIsThatOfItsBluntEnd) {
   // A lip that narrows from 8 mm to 1 mm, symmetric, by 4 degrees on each side.
-  const Polygon lip{{40, 0}, {43.5, 50}, {44.5, 50}, {48, 0}};
-  const Wall wall = min_wall({{{lip.rbegin(), lip.rend()}}});
+  const Polygon lip{{40, 0}, {48, 0}, {44.5, 50}, {43.5, 50}};
+  const Wall wall = min_wall({{lip}});
   // From one end of the rim, the ball that touches the other face is the least.
   const double half = std::atan2(3.5, 50.0);
   EXPECT_NEAR(wall.thickness_mm, 1.0 / std::cos(half), 1e-9);
   EXPECT_NEAR(wall.from.y, 50.0, 1e-9);
   // In small edges no ball reaches the rim, but none is farther from it than its radius.
-  const double fine = wall_of(divided({lip.rbegin(), lip.rend()}, 2000));
+  const double fine = wall_of(divided(lip, 2000));
   EXPECT_GT(fine, 1.0);
   EXPECT_LT(fine, 1.0 + 2.0 * std::tan(half));
 }
@@ -135,8 +140,7 @@ TEST(WallThickness, OfAFlangeIsItsHeightAndARidgeIsNone) {
 }
 
 TEST(WallThickness, BetweenReentrantCornersIsTheirDistance) {
-  // Two blocks joined by a neck from (10, 10) to (13, 14), aslant.
-  EXPECT_NEAR(wall_of({{13, 0}, {40, 0}, {40, 14}, {13, 14}, {13, 14}, {13, 14}}), 14.0, 1e-12);
+  // Two blocks joined by a neck from (60, 26) to (63, 30), aslant.
   EXPECT_NEAR(wall_of({{40, 0},
                        {80, 0},
                        {80, 30},
@@ -174,8 +178,9 @@ TEST(WallThickness, OfTheFacetsIsThatOfTheProfileScaled) {
   EXPECT_NEAR(min_wall({{cup(5, 3)}}, scale).thickness_mm, 3.0, 1e-12);  // floors stay
 }
 
-/// Stacks whose walls open or close upwards by less than a quarter of a ring's height at a time:
-/// the engine does not look at flanges.
+/// Stacks whose walls open or close upwards by less than a quarter of a ring's height at a time,
+/// and that are not much thicker than a ring is high. The engine does not look at flanges, such as
+/// a wider step near the rim would be, and looks at the rim's own corners as if the wall went on.
 RC_GTEST_PROP(WallThickness, OfStepsIsTheEnginesOwn, ()) {
   auto random = *samples::random_engine();
   const auto count = *rc::gen::inRange<std::size_t>(1, 25);
@@ -183,10 +188,10 @@ RC_GTEST_PROP(WallThickness, OfStepsIsTheEnginesOwn, ()) {
   const auto floor = *rc::gen::inRange<std::size_t>(1, count + 1);
   const bool closing = *rc::gen::arbitrary<bool>();
   std::vector<Ring> rings;
-  double outer = 40.0, inner = outer - 6.0 - 20.0 * samples::uniform(random);
+  double outer = 40.0, inner = outer - 0.5 - 2.0 * h * samples::uniform(random);
   for (std::size_t i = 0; i < count; ++i) {
     outer += 0.2 * h * samples::uniform(random);
-    inner = std::min(inner + 0.2 * h * samples::uniform(random), outer - 0.5);
+    inner = std::min(inner + 0.2 * h * samples::uniform(random), outer - 0.3);
     rings.push_back({quanta_from_radius(outer), i < floor ? 0 : quanta_from_radius(inner)});
   }
   if (closing) std::reverse(rings.begin(), rings.end());
@@ -266,7 +271,7 @@ RC_GTEST_PROP(WallField, ComesDownToTheLeast, ()) {
   const auto section = smooth_profile_of(shapes::stack_of(1.0, radii), 1e-6).value();
   const double least = min_wall_mm(section.profile);
   double previous = std::numeric_limits<double>::infinity();
-  for (const double spacing : {1.0, 0.1, 0.01}) {
+  for (const double spacing : {1.0, 0.2, 0.04}) {
     double thinnest = std::numeric_limits<double>::infinity();
     for (const WallSample& sample : wall_field(section.profile, spacing))
       thinnest = std::min(thinnest, sample.thickness_mm);
