@@ -6,8 +6,10 @@
 #include <CGAL/Intersections_2/Segment_2_Segment_2.h>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace clay::solid {
@@ -71,8 +73,34 @@ struct Edge {
   std::size_t vertex = 0;
 };
 
+/// Merges runs in order, two by two. Walls rise and bores fall, so there are few of them.
+void merge_runs(std::vector<Edge>& edges, std::vector<std::size_t> ends) {
+  const auto lower = [](const Edge& a, const Edge& b) { return a.bottom < b.bottom; };
+  std::vector<Edge> merged;
+  while (ends.size() > 1) {
+    merged.clear();
+    merged.reserve(edges.size());
+    std::vector<std::size_t> merged_ends;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < ends.size(); i += 2) {
+      const std::size_t middle = ends[i], end = ends[std::min(i + 1, ends.size() - 1)];
+      const auto at = [&](std::size_t k) {
+        return edges.cbegin() + static_cast<std::ptrdiff_t>(k);
+      };
+      std::merge(at(begin), at(middle), at(middle), at(end), std::back_inserter(merged), lower);
+      merged_ends.push_back(end);
+      begin = end;
+    }
+    edges.swap(merged);
+    ends.swap(merged_ends);
+  }
+}
+
 std::vector<Edge> edges_by_height(const Profile& profile) {
+  std::size_t count = 0;
+  for (const Polygon& polygon : profile.pieces) count += polygon.size();
   std::vector<Edge> edges;
+  edges.reserve(count);
   for (std::size_t piece = 0; piece < profile.pieces.size(); ++piece) {
     const Polygon& polygon = profile.pieces[piece];
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -80,8 +108,21 @@ std::vector<Edge> edges_by_height(const Profile& profile) {
       edges.push_back({bottom, top, piece, i});
     }
   }
-  std::stable_sort(edges.begin(), edges.end(),
-                   [](const Edge& a, const Edge& b) { return a.bottom < b.bottom; });
+  std::vector<std::size_t> ends;
+  for (std::size_t begin = 0; begin < edges.size(); begin = ends.back()) {
+    std::size_t end = begin + 1;
+    const auto goes_on = [&](auto ordered) {
+      while (end < edges.size() && ordered(edges[end - 1].bottom, edges[end].bottom)) ++end;
+    };
+    goes_on([](double a, double b) { return a <= b; });
+    if (edges[end - 1].bottom == edges[begin].bottom) {
+      goes_on([](double a, double b) { return a >= b; });
+      std::reverse(edges.begin() + static_cast<std::ptrdiff_t>(begin),
+                   edges.begin() + static_cast<std::ptrdiff_t>(end));
+    }
+    ends.push_back(end);
+  }
+  merge_runs(edges, std::move(ends));
   return edges;
 }
 

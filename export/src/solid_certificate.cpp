@@ -59,12 +59,11 @@ double volume_bound(const RevolveRule& rule, double rounding) {
   return rounding * area.value();
 }
 
-double least_radius(const Profile& profile) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Polygon& polygon : profile.pieces)
-    for (const ProfilePoint& p : polygon)
-      if (p.rho > 0.0) least = std::min(least, p.rho);
-  return least;
+/// The least of the factors by which the sections of an n-gon revolve scale rho, in the middle of
+/// its facets; at their sides it is the equal-volume factor.
+double scale_at_facets(std::size_t segments) {
+  return std::min(1.0, equal_area_factor(segments) *
+                           std::cos(std::numbers::pi / static_cast<double>(segments)));
 }
 
 tl::unexpected<Error> wrong(std::string_view file, std::string_view claim,
@@ -138,25 +137,22 @@ double Margins::safe_rounding_mm() const noexcept {
 }
 
 Margins margins_of(const Profile& profile, std::size_t segments) {
-  const auto n = static_cast<double>(segments);
-  const double factor = equal_area_factor(segments);
-  // Sections of the revolve have rho scaled by f cos(pi/n) < 1 to f > 1.
-  return {clearance_mm(profile) * std::min(1.0, factor * std::cos(std::numbers::pi / n)),
-          factor * least_radius(profile) * std::sin(2.0 * std::numbers::pi / n), segments};
+  const Clearance found = clearance(profile, scale_at_facets(segments));
+  return {found.distance_mm,
+          found.least_radius_mm * std::sin(2.0 * std::numbers::pi / static_cast<double>(segments)),
+          segments};
 }
 
 SolidCertificate claims_of(const Profile& profile, std::size_t segments, double rounding_mm) {
-  const double factor = equal_area_factor(segments);
-  const double at_facets =
-      std::min(1.0, factor * std::cos(std::numbers::pi / static_cast<double>(segments)));
-  const double wall = min_wall_mm(profile);
+  const double at_facets = scale_at_facets(segments);
+  const double wall = min_wall(profile, at_facets).thickness_mm;
   SolidCertificate claims;
   claims.profile = profile;
   claims.profile_hash = hash_of_profile(profile);
   claims.segments = segments;
   claims.margins = margins_of(profile, segments);
-  claims.wall_lower_mm = at_facets * wall;
-  claims.wall_upper_mm = factor * wall;
+  claims.wall_lower_mm = wall;
+  claims.wall_upper_mm = wall * equal_area_factor(segments) / at_facets;
   claims.volume_mm3 = volume_of(profile);
   claims.counted_volume_mm3 = claims.volume_mm3;
   return with_rounding(std::move(claims), RevolveRule(profile, segments), rounding_mm);

@@ -147,8 +147,9 @@ TEST(Margins, AreThoseOfTheProfileScaled) {
   const Margins margins = margins_of(cup, 100);
   const double factor =
       std::sqrt(2.0 * std::numbers::pi / 100 / std::sin(2.0 * std::numbers::pi / 100));
-  EXPECT_NEAR(margins.clearance_mm, 4.0 * factor * std::cos(std::numbers::pi / 100), 1e-9);
-  EXPECT_NEAR(margins.chord_mm, 26.0 * factor * std::sin(2.0 * std::numbers::pi / 100), 1e-9);
+  const double at_facets = factor * std::cos(std::numbers::pi / 100);
+  EXPECT_NEAR(margins.clearance_mm, 4.0 * at_facets, 1e-9);
+  EXPECT_NEAR(margins.chord_mm, 26.0 * at_facets * std::sin(2.0 * std::numbers::pi / 100), 1e-9);
   EXPECT_DOUBLE_EQ(margins.safe_rounding_mm(), margins.chord_mm / 8.0);
   EXPECT_EQ(margins_of(cup, 7).safe_rounding_mm(), 0.0);
 }
