@@ -1,11 +1,9 @@
 #include "mesh_geometry.hpp"
 
 #include <CGAL/Polygon_mesh_processing/orientation.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/boost/graph/graph_traits_TriMesh_ArrayKernelT.h>
 #include <OpenMesh/Core/Mesh/DefaultTriMesh.hh>
 #include <algorithm>
-#include <boost/iterator/function_output_iterator.hpp>
 #include <boost/property_map/vector_property_map.hpp>
 #include <functional>
 #include <stdexcept>
@@ -39,17 +37,6 @@ HalfEdgeMesh half_edge_mesh(const TriangleMesh& mesh) {
   return result;
 }
 
-Fault self_intersections(const HalfEdgeMesh& mesh) {
-  Fault fault;
-  const auto count = [&](const std::pair<Face, Face>& pair) {
-    // CGAL reports a degenerate face as meeting itself; those are counted elsewhere.
-    if (pair.first != pair.second) note(fault, {number(pair.first), number(pair.second)}, {});
-  };
-  pmp::self_intersections(mesh, boost::make_function_output_iterator(std::function(count)),
-                          CGAL::parameters::maximum_number(kMaxSelfIntersections));
-  return fault;
-}
-
 Fault misplaced_shells(const HalfEdgeMesh& mesh) {
   boost::vector_property_map<std::size_t,
                              boost::property_map<HalfEdgeMesh, boost::face_index_t>::const_type>
@@ -71,11 +58,9 @@ Fault misplaced_shells(const HalfEdgeMesh& mesh) {
 
 }  // namespace
 
-ShellGeometry shell_geometry(const TriangleMesh& mesh, bool closed, bool degenerate) {
+ShellGeometry shell_geometry(const TriangleMesh& mesh) {
   const HalfEdgeMesh shells = half_edge_mesh(mesh);
   ShellGeometry geometry;
-  geometry.self_intersections = self_intersections(shells);
-  if (!closed || degenerate || geometry.self_intersections.found()) return geometry;
   geometry.outward = pmp::is_outward_oriented(shells);
   geometry.bounds_volume = pmp::does_bound_a_volume(shells);
   if (!geometry.bounds_volume) geometry.misplaced_shells = misplaced_shells(shells);

@@ -1,7 +1,7 @@
 // How long check_mesh takes beside CGAL's soup-to-mesh and self-intersection test alone, on the
 // same mesh, interleaved so that a busy machine slows both.
 //
-//   check_bench [TRIANGLES] [ROUNDS]     default 1000000 5; at most 20 million triangles
+//   check_bench [TRIANGLES [SHELLS [ROUNDS]]]     default 1000000 1 5; at most 20 million triangles
 
 #include "claystack/export/mesh_check.hpp"
 #include "claystack/export/mesh_formats.hpp"
@@ -64,6 +64,20 @@ TriangleMesh vase(std::size_t triangles) {
   return revolve(profile, std::max<std::size_t>(triangles / triangle_count(profile, 1), 3));
 }
 
+/// Vases side by side: more shells than one raise the question how they lie.
+TriangleMesh vases(std::size_t count, std::size_t triangles) {
+  const TriangleMesh one = vase(triangles / count);
+  TriangleMesh all;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto offset = static_cast<std::uint32_t>(all.points.size());
+    for (const glm::dvec3& p : one.points)
+      all.points.push_back(p + glm::dvec3(150.0 * static_cast<double>(i), 0.0, 0.0));
+    for (const auto& [a, b, c] : one.triangles)
+      all.triangles.push_back({a + offset, b + offset, c + offset});
+  }
+  return all;
+}
+
 /// False, so that the work cannot be left out, on a mesh that this program makes.
 bool cgal_finds_fault(const TriangleMesh& mesh) {
   std::vector<Kernel::Point_3> points;
@@ -96,15 +110,8 @@ double peak_gb() {
   std::exit(1);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const std::size_t triangles = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 1'000'000;
-  const std::size_t rounds = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 5;
-  if (triangles < 1000 || triangles > kMaxTriangles || rounds == 0)
-    fail("expected 1000 to 20000000 triangles and at least one round");
-  const std::string stl = encode_stl_binary(vase(triangles));
-
+void compare(std::size_t shells, std::size_t triangles, std::size_t rounds) {
+  const std::string stl = encode_stl_binary(vases(shells, triangles));
   std::vector<Seconds> decode, check, cgal;
   double check_peak_gb = 0.0;
   std::size_t found = 0;
@@ -120,12 +127,22 @@ int main(int argc, char** argv) {
     cgal.push_back(timed([&] { fault = cgal_finds_fault(mesh); }));
     if (fault) fail("CGAL finds fault with a sound mesh");
   }
-
-  std::printf("%zu triangles, median of %zu; peak memory up to the first check %.2f GB\n", found,
-              rounds, check_peak_gb);
+  std::printf("%zu triangles, %zu shell(s), median of %zu; peak memory before CGAL %.2f GB\n",
+              found, shells, rounds, check_peak_gb);
   tell("decode_stl", median(decode));
   tell("check_mesh", median(check));
   tell("CGAL soup to mesh + does_self_intersect", median(cgal));
   std::printf("check_mesh / CGAL: %.2f wall, %.2f cpu\n", median(check).wall / median(cgal).wall,
               median(check).cpu / median(cgal).cpu);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::size_t triangles = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 1'000'000;
+  const std::size_t shells = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 1;
+  const std::size_t rounds = argc > 3 ? std::strtoul(argv[3], nullptr, 10) : 5;
+  if (shells == 0 || triangles / shells < 1000 || triangles > kMaxTriangles || rounds == 0)
+    fail("expected 1000 triangles a shell at least, 20000000 in all at most, and a round");
+  compare(shells, triangles, rounds);
 }
