@@ -38,22 +38,6 @@ void renumber(TriangleMesh& mesh, const std::vector<std::uint32_t>& number) {
     for (std::uint32_t& v : t) v = number[v];
 }
 
-/// Keeps the points that triangles use, in their order.
-void drop_unused_points(TriangleMesh& mesh) {
-  std::vector<bool> used(mesh.points.size(), false);
-  for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : t) used[v] = true;
-  std::vector<std::uint32_t> number(mesh.points.size(), 0);
-  std::size_t kept = 0;
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    if (!used[v]) continue;
-    number[v] = narrow(kept);
-    mesh.points[kept++] = mesh.points[v];
-  }
-  mesh.points.resize(kept);
-  renumber(mesh, number);
-}
-
 /// Points are finite.
 void merge_equal_points(TriangleMesh& mesh, std::vector<Repair>& repaired) {
   const auto place = [&](std::uint32_t v) {
@@ -274,6 +258,21 @@ void note_repair(std::vector<Repair>& repaired, std::string_view what, std::size
     repaired.push_back({std::string(what), count});
   else
     known->count += count;
+}
+
+void drop_unused_points(TriangleMesh& mesh) {
+  std::vector<bool> used(mesh.points.size(), false);
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t) used[v] = true;
+  std::vector<std::uint32_t> number(mesh.points.size(), 0);
+  std::size_t kept = 0;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if (!used[v]) continue;
+    number[v] = narrow(kept);
+    mesh.points[kept++] = mesh.points[v];
+  }
+  mesh.points.resize(kept);
+  renumber(mesh, number);
 }
 
 void clean_soup(TriangleMesh& mesh, std::vector<Repair>& repaired) {
