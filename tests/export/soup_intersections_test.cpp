@@ -76,12 +76,12 @@ TEST(SlabIntersections, OfTrianglesThatReachThroughManySlabsAreFoundOnce) {
   expect_same_as_cgal(together(vase(200, 140), staves), 3);
 }
 
-TEST(SlabIntersections, OfStavesAloneNeedOneSlab) {
-  const TriangleMesh staves = revolve({{{{0, 0}, {10, 0}, {10, 900}, {0, 900}}}}, 30'000);
+TEST(SlabIntersections, ListsStayShortWhereTrianglesReachFar) {
+  // A tube of staves, all of which reach as far as the tube: any slab would hold them all.
+  const TriangleMesh staves = revolve({{{{9, 0}, {10, 0}, {10, 900}, {9, 900}}}}, 20'000);
   SlabIntersections search(staves);
-  std::size_t most = 0;
-  for (std::size_t slab = 0; slab < search.slabs(); ++slab) search.search(slab), ++most;
-  EXPECT_LE(most, 2u);
+  EXPECT_LE(search.slabs(), 2u);
+  for (std::size_t slab = 0; slab < search.slabs(); ++slab) search.search(slab);
   EXPECT_EQ(search.found().count, 0u);
 }
 
