@@ -1,8 +1,11 @@
 #include "claystack/export/mesh_check.hpp"
 
+#include "bounded_volume.hpp"
 #include "describe.hpp"
 #include "mesh_geometry.hpp"
 #include "mesh_topology.hpp"
+#include "parallel_parts.hpp"
+#include "soup_intersections.hpp"
 
 #include <cmath>
 #include <exception>
@@ -45,14 +48,21 @@ class Inspection {
       return std::move(report_);
     }
     const bool finite = check_points();
-    const MeshTopology topology = topology_of(mesh_.points.size(), mesh_.triangles);
-    if (topology.out_of_range.found()) {
-      problem("index out of range", numbered("triangle", topology.out_of_range.triangles),
-              topology.out_of_range.count);
-    } else {
-      check_topology(topology);
-      if (finite) check_geometry(topology);
+    if (!check_indices()) return std::move(report_);
+    MeshTopology topology;
+    if (!finite) {
+      check_topology(topology_of(mesh_.points.size(), mesh_.triangles));
+      return std::move(report_);
     }
+    SlabIntersections intersections(mesh_);
+    for_each_part(1 + intersections.slabs(), [&](std::size_t part) {
+      if (part == 0)
+        topology = topology_of(mesh_.points.size(), mesh_.triangles);
+      else
+        intersections.search(part - 1);
+    });
+    check_topology(topology);
+    check_geometry(topology, intersections);
     return std::move(report_);
   }
 
@@ -64,6 +74,13 @@ class Inspection {
       if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) note(fault, {}, {v});
     }
     if (fault.found()) problem("non-finite point", numbered("point", fault.vertices), fault.count);
+    return !fault.found();
+  }
+
+  bool check_indices() {
+    const Fault fault = indices_out_of_range(mesh_.points.size(), mesh_.triangles);
+    if (fault.found())
+      problem("index out of range", numbered("triangle", fault.triangles), fault.count);
     return !fault.found();
   }
 
@@ -80,25 +97,32 @@ class Inspection {
     problem("non-manifold vertex", topology.split_vertices);
   }
 
-  void check_geometry(const MeshTopology& topology) {
-    report_.volume_mm3 = signed_volume(mesh_);
-    const Fault degenerate = degenerate_triangles(mesh_);
-    report_.degenerate = degenerate.count;
-    problem("degenerate triangle", degenerate);
-    const bool shells = topology.manifold() && topology.oriented() && !topology.collapsed.found();
-    ShellGeometry geometry;
-    if (shells)
-      geometry = shell_geometry(mesh_, topology.closed(), degenerate.found());
-    else
-      geometry.self_intersections = soup_self_intersections(mesh_);
-    report_.self_intersections = geometry.self_intersections.count;
+  void check_geometry(const MeshTopology& topology, const SlabIntersections& intersections) {
+    const SignedVolume volume = bounded_volume(mesh_);
+    report_.volume_mm3 = volume.mm3;
+    const Fault crossings = intersections.found();
+    report_.degenerate = intersections.degenerate().count;
+    report_.self_intersections = crossings.count;
+    problem("degenerate triangle", intersections.degenerate());
+    problem("self-intersection", crossings);
+    if (!topology.closed() || !topology.oriented()) return;
+    bool outward = volume.mm3 > 0.0;
+    if (topology.manifold() && !intersections.degenerate().found() && !crossings.found())
+      outward = check_shells(topology, volume);
+    check_outward(outward);
+  }
+
+  /// True where the outermost shell is oriented outward.
+  bool check_shells(const MeshTopology& topology, const SignedVolume& volume) {
+    // One shell that is embedded always bounds a volume, and the sign of that is its orientation.
+    if (topology.components == 1 && volume.sign_is_certain()) {
+      report_.bounds_volume = true;
+      return volume.mm3 > 0.0;
+    }
+    const ShellGeometry geometry = shell_geometry(mesh_);
     report_.bounds_volume = geometry.bounds_volume;
-    problem("self-intersection", geometry.self_intersections);
     problem("shell turned against its neighbours", geometry.misplaced_shells);
-    if (topology.closed() && topology.oriented())
-      check_outward(shells && !degenerate.found() && !geometry.self_intersections.found()
-                        ? geometry.outward
-                        : report_.volume_mm3 > 0.0);
+    return geometry.outward;
   }
 
   void check_outward(bool outward) {

@@ -185,12 +185,15 @@ void note(Fault& fault, std::initializer_list<std::uint32_t> triangles,
   fault.vertices = vertices;
 }
 
-MeshTopology topology_of(std::size_t points, std::span<const Triangle> triangles) {
-  MeshTopology found;
+Fault indices_out_of_range(std::size_t points, std::span<const Triangle> triangles) {
+  Fault fault;
   for (std::size_t t = 0; t < triangles.size(); ++t)
     if (*std::max_element(triangles[t].begin(), triangles[t].end()) >= points)
-      note(found.out_of_range, {narrow(t)}, {});
-  if (found.out_of_range.found()) return found;
+      note(fault, {narrow(t)}, {});
+  return fault;
+}
+
+MeshTopology topology_of(std::size_t points, std::span<const Triangle> triangles) {
   return TopologyCount(points, triangles).run();
 }
 

@@ -30,7 +30,6 @@ void note(Fault& fault, std::initializer_list<std::uint32_t> triangles,
 /// Triangles that name a vertex twice cover no surface: they are counted in `collapsed` and
 /// left out of all the rest, as if their two equal corners had been pulled together.
 struct MeshTopology {
-  Fault out_of_range;  ///< triangles with an index beyond the points: nothing else is known then
   Fault collapsed;
   Fault duplicates;            ///< triangles on the same three vertices as one before
   Fault open_edges;            ///< of one triangle only
@@ -46,7 +45,11 @@ struct MeshTopology {
   [[nodiscard]] bool oriented() const noexcept { return !flipped_edges.found(); }
 };
 
-/// O(n log n) time at worst, about 40 bytes a triangle. Needs at most kMaxTriangles triangles.
+/// Triangles with an index beyond the points.
+Fault indices_out_of_range(std::size_t points, std::span<const Triangle> triangles);
+
+/// O(n log n) time at worst, about 40 bytes a triangle. Needs at most kMaxTriangles triangles,
+/// all indices in range.
 MeshTopology topology_of(std::size_t points, std::span<const Triangle> triangles);
 
 }  // namespace clay::solid

@@ -1,0 +1,139 @@
+#include "check.hpp"
+
+#include "claystack/engine/atomic_file.hpp"
+#include "claystack/export/decimate.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <utility>
+
+namespace clay::app {
+namespace {
+
+using solid::MeshFormat;
+using solid::TriangleMesh;
+
+/// Repairs and decimates as asked.
+Result<TriangleMesh> mended(TriangleMesh mesh, const CheckCommand& command, Mending& mending) {
+  mending.found = solid::check_mesh(mesh).problems;
+  if (command.repair && !mending.found.empty()) {
+    auto repaired = solid::repair(mesh);
+    if (!repaired) return tl::make_unexpected(repaired.error());
+    mesh = std::move(repaired->mesh);
+    mending.repaired = std::move(repaired->repaired);
+  }
+  mending.triangles_before = mesh.triangles.size();
+  if (command.max_triangles && mesh.triangles.size() > *command.max_triangles) {
+    auto decimated = solid::decimate(mesh, *command.max_triangles);
+    if (!decimated) return tl::make_unexpected(decimated.error());
+    mending.decimation_error_mm = decimated->max_error_mm;
+    mesh = std::move(decimated->mesh);
+  }
+  return mesh;
+}
+
+Result<std::string> encoded(const TriangleMesh& mesh, MeshFormat format) {
+  switch (format) {
+    case MeshFormat::obj:
+      return solid::encode_obj(mesh, "mended");
+    case MeshFormat::drc:
+      return solid::encode_drc(mesh, {});
+    case MeshFormat::stl_binary:
+    case MeshFormat::stl_ascii:
+      break;
+  }
+  return solid::encode_stl_binary(mesh);
+}
+
+/// The verdict is on what the file will hold, so the bytes are read again before they are written.
+Result<TriangleMesh> written(const TriangleMesh& mesh, const CheckCommand& command,
+                             Mending& mending) {
+  const auto bytes = encoded(mesh, mending.format);
+  if (!bytes) return tl::make_unexpected(bytes.error());
+  auto reread = solid::decode_mesh(*bytes, mending.format, command.out);
+  if (!reread) return reread;
+  if (const auto done = publish(command.out, *bytes); !done)
+    return tl::make_unexpected(done.error());
+  mending.path = command.out;
+  mending.bytes = bytes->size();
+  return reread;
+}
+
+/// Width, depth and height together.
+double size_sum_mm(const TriangleMesh& mesh) {
+  glm::dvec3 low = mesh.points.front(), high = low;
+  for (const glm::dvec3& p : mesh.points) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  const glm::dvec3 size = high - low;
+  return size.x + size.y + size.z;
+}
+
+void measure_wall(const TriangleMesh& mesh, const WallDemand& demand, const CheckCommand& command,
+                  Verdict& verdict) {
+  const auto problem = [&](std::string what, std::string where) {
+    verdict.mesh.problems.push_back({std::move(what), std::move(where), 1});
+  };
+  const auto wall = solid::sampled_wall(mesh, command.wall_samples);
+  if (!wall) {
+    problem("wall not measured", wall.error().message);
+    return;
+  }
+  verdict.wall_sampled = *wall;
+  if (std::isinf(wall->least_mm))
+    problem("wall not measured",
+            fmt::format("none of {} rays met the other side of a wall", wall->rays));
+  else if (wall->least_mm < demand.min_wall_mm)
+    problem("thin wall (sampled)",
+            fmt::format("triangle {} at ({:.6g}, {:.6g}, {:.6g}) mm: {:.3f} mm, expected {:.3f} mm "
+                        "at least ({})",
+                        wall->triangle, wall->place.x, wall->place.y, wall->place.z, wall->least_mm,
+                        demand.min_wall_mm, demand.source));
+}
+
+Result<TriangleMesh> mend_and_write(TriangleMesh mesh, const CheckCommand& command,
+                                    Mending& mending) {
+  const auto format = solid::mesh_format_of(command.out);
+  if (!format) return tl::make_unexpected(format.error());
+  mending.format = *format;
+  return mended(std::move(mesh), command, mending).and_then([&](const TriangleMesh& result) {
+    return written(result, command, mending);
+  });
+}
+
+/// An error where there is no certificate to be read; a problem where it does not hold.
+Result<void> verify(std::string_view bytes, const CheckCommand& command, Verdict& verdict) {
+  auto certificate = read_file(command.certificate).and_then([&](const std::string& text) {
+    return solid::parse_certificate(text, command.certificate);
+  });
+  if (!certificate) return tl::make_unexpected(certificate.error());
+  const auto verified = solid::verify_certificate(*certificate, bytes, command.file);
+  verdict.certificate_holds = verified.has_value();
+  verdict.certificate = std::move(*certificate);
+  if (!verified)
+    verdict.mesh.problems.push_back({"certificate does not hold", verified.error().message, 1});
+  return {};
+}
+
+}  // namespace
+
+Result<Verdict> check_mesh_file(std::string_view bytes, MeshFormat format,
+                                const CheckCommand& command) {
+  auto mesh = solid::decode_mesh(bytes, format, command.file);
+  if (!mesh) return tl::make_unexpected(mesh.error());
+  Verdict verdict;
+  if (command.mends()) {
+    mesh = mend_and_write(std::move(*mesh), command, verdict.mending.emplace());
+    if (!mesh) return failure(mesh.error().kind, command.file + ": " + mesh.error().message);
+  }
+  verdict.mesh = solid::check_mesh(*mesh);
+  if (const auto demand = command.walls.for_size(size_sum_mm(*mesh)))
+    measure_wall(*mesh, *demand, command, verdict);
+  if (command.certificate.empty()) return verdict;
+  return verify(bytes, command, verdict).map([&] { return std::move(verdict); });
+}
+
+}  // namespace clay::app

@@ -1,0 +1,91 @@
+#include "check.hpp"
+
+#include "claystack/engine/pot_file.hpp"
+#include "claystack/engine/stack_measures.hpp"
+#include "claystack/export/certificate.hpp"
+#include "claystack/export/tessellate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace clay::app {
+namespace {
+
+// A pot is checked on a mesh of its steps: enough facets to look like the pot, few enough to be
+// quick. Whether it is sound does not depend on how many.
+constexpr std::size_t kMostSegments = 64;
+constexpr std::size_t kFewestSegments = 8;
+constexpr std::size_t kQuickTriangles = 1'000'000;
+
+std::size_t check_segments(const solid::Profile& profile) {
+  const std::size_t each = std::max<std::size_t>(solid::triangle_count(profile, 1), 1);
+  return std::clamp(kQuickTriangles / each, kFewestSegments, kMostSegments);
+}
+
+/// Width, depth and height together.
+double size_sum_mm(const solid::Profile& profile) {
+  double radius = 0.0, low = 0.0, high = 0.0;
+  for (const solid::Polygon& polygon : profile.pieces)
+    for (const solid::ProfilePoint& p : polygon) {
+      radius = std::max(radius, p.rho);
+      low = std::min(low, p.y);
+      high = std::max(high, p.y);
+    }
+  return 4.0 * radius + high - low;
+}
+
+/// A section that proves a solid, and the mesh that it gives, passing every test.
+Verdict check_section(const solid::StackProfile& section, const WallMinimum& wall,
+                      const CheckCommand& command) {
+  Verdict verdict;
+  if (solid::triangle_count(section.profile, kFewestSegments) <= solid::kMaxTriangles)
+    verdict.mesh =
+        solid::check_mesh(solid::revolve(section.profile, check_segments(section.profile)));
+  else
+    verdict.examined = false;
+  verdict.wall_mm = wall.thickness_mm;
+  for (const solid::PieceShape& shape : section.shapes)
+    for (const solid::Cavity& cavity : shape.cavities)
+      verdict.notes.push_back(fmt::format(
+          "closed cavity from {:.2f} to {:.2f} mm, {:.1f} mm3 trapped: it needs a drain hole",
+          cavity.bottom_mm, cavity.top_mm, cavity.volume_mm3));
+  if (section.shapes.size() > 1)
+    verdict.mesh.problems.push_back(
+        {"pieces that do not touch",
+         fmt::format("{} pieces; ring {} is the first of the second", section.shapes.size(),
+                     section.shapes[1].first_ring),
+         section.shapes.size()});
+  const auto demand = command.walls.for_size(size_sum_mm(section.profile));
+  if (demand && wall.thickness_mm < demand->min_wall_mm)
+    verdict.mesh.problems.push_back(
+        {"thin wall",
+         fmt::format("{:.3f} mm at ring {}, expected {:.3f} mm at least ({})", wall.thickness_mm,
+                     wall.ring, demand->min_wall_mm, demand->source),
+         1});
+  return verdict;
+}
+
+}  // namespace
+
+Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command) {
+  if (command.mends())
+    return failure(
+        ErrorKind::bad_input,
+        command.file + ": --repair and --max-triangles are for meshes; export a pot anew");
+  if (!command.certificate.empty())
+    return failure(ErrorKind::bad_input,
+                   command.file + ": expected a mesh, of which certificates speak, found a pot");
+  const auto pot = parse_pot(bytes, command.file);
+  if (!pot) return tl::make_unexpected(pot.error());
+  if (pot->collapse)
+    return unsound("collapsed", fmt::format("ring {} yielded at {:.2f} kPa",
+                                            pot->collapse->failed_ring, pot->collapse->stress_kpa));
+  const auto section = solid::profile_of(pot->stack);
+  if (!section) return unsound("no solid", section.error().message);
+  if (const auto certificate = solid::certify(section->profile); !certificate)
+    return unsound("no certificate", certificate.error().message);
+  return check_section(*section, min_wall(pot->stack), command);
+}
+
+}  // namespace clay::app

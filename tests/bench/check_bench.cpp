@@ -1,0 +1,148 @@
+// How long check_mesh takes beside CGAL's soup-to-mesh and self-intersection test alone, on the
+// same mesh, interleaved so that a busy machine slows both.
+//
+//   check_bench [TRIANGLES [SHELLS [ROUNDS]]]     default 1000000 1 5; at most 20 million triangles
+
+#include "claystack/export/mesh_check.hpp"
+#include "claystack/export/mesh_formats.hpp"
+#include "claystack/export/tessellate.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Surface_mesh.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace clay::solid;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+namespace pmp = CGAL::Polygon_mesh_processing;
+
+struct Seconds {
+  double wall = 0.0;
+  double cpu = 0.0;  ///< of all threads
+};
+
+template <class Work>
+Seconds timed(const Work& work) {
+  const auto cpu = [] {
+    timespec t{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  };
+  const double cpu_begin = cpu();
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  return {wall.count(), cpu() - cpu_begin};
+}
+
+/// A bellied vase, 200 mm high, with a floor and a 3 mm wall.
+TriangleMesh vase(std::size_t triangles) {
+  // Two walls of `rings` bands with two triangles a step, and half as many steps as bands.
+  const auto rings = static_cast<std::size_t>(std::sqrt(static_cast<double>(triangles) / 2.0));
+  const auto outer = [&](double t) { return 50.0 + 18.0 * std::sin(6.9 * t - 0.6) - 8.0 * t; };
+  const auto at = [&](std::size_t i) {
+    return static_cast<double>(i) / static_cast<double>(rings);
+  };
+  Polygon section{{0.0, 0.0}};
+  for (std::size_t i = 0; i <= rings; ++i) section.push_back({outer(at(i)), 200.0 * at(i)});
+  for (std::size_t i = rings; 200.0 * at(i) > 6.0; --i)
+    section.push_back({outer(at(i)) - 3.0, 200.0 * at(i)});
+  section.push_back({0.0, 6.0});
+  const Profile profile{{section}};
+  return revolve(profile, std::max<std::size_t>(triangles / triangle_count(profile, 1), 3));
+}
+
+/// Vases side by side: more shells than one raise the question how they lie.
+TriangleMesh vases(std::size_t count, std::size_t triangles) {
+  const TriangleMesh one = vase(triangles / count);
+  TriangleMesh all;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto offset = static_cast<std::uint32_t>(all.points.size());
+    for (const glm::dvec3& p : one.points)
+      all.points.push_back(p + glm::dvec3(150.0 * static_cast<double>(i), 0.0, 0.0));
+    for (const auto& [a, b, c] : one.triangles)
+      all.triangles.push_back({a + offset, b + offset, c + offset});
+  }
+  return all;
+}
+
+/// False, so that the work cannot be left out, on a mesh that this program makes.
+bool cgal_finds_fault(const TriangleMesh& mesh) {
+  std::vector<Kernel::Point_3> points;
+  points.reserve(mesh.points.size());
+  for (const glm::dvec3& p : mesh.points) points.emplace_back(p.x, p.y, p.z);
+  CGAL::Surface_mesh<Kernel::Point_3> surface;
+  pmp::polygon_soup_to_polygon_mesh(points, mesh.triangles, surface);
+  return pmp::does_self_intersect(surface);
+}
+
+Seconds median(std::vector<Seconds> all) {
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end(),
+                   [](const Seconds& a, const Seconds& b) { return a.wall < b.wall; });
+  return *middle;
+}
+
+void tell(const char* what, const Seconds& s) {
+  std::printf("%-44s %8.3f s wall %8.3f s cpu\n", what, s.wall, s.cpu);
+}
+
+double peak_gb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1e6;
+}
+
+[[noreturn]] void fail(const char* what) {
+  std::fprintf(stderr, "check_bench: %s\n", what);
+  std::exit(1);
+}
+
+void compare(std::size_t shells, std::size_t triangles, std::size_t rounds) {
+  const std::string stl = encode_stl_binary(vases(shells, triangles));
+  std::vector<Seconds> decode, check, cgal;
+  double check_peak_gb = 0.0;
+  std::size_t found = 0;
+  for (std::size_t round = 0; round < rounds; ++round) {
+    TriangleMesh mesh;
+    decode.push_back(timed([&] { mesh = decode_stl(stl, "vase.stl").value(); }));
+    found = mesh.triangles.size();
+    bool sound = false;
+    check.push_back(timed([&] { sound = check_mesh(mesh).sound(); }));
+    if (round == 0) check_peak_gb = peak_gb();
+    if (!sound) fail("check_mesh finds fault with a sound mesh");
+    bool fault = true;
+    cgal.push_back(timed([&] { fault = cgal_finds_fault(mesh); }));
+    if (fault) fail("CGAL finds fault with a sound mesh");
+  }
+  std::printf("%zu triangles, %zu shell(s), median of %zu; peak memory before CGAL %.2f GB\n",
+              found, shells, rounds, check_peak_gb);
+  tell("decode_stl", median(decode));
+  tell("check_mesh", median(check));
+  tell("CGAL soup to mesh + does_self_intersect", median(cgal));
+  std::printf("check_mesh / CGAL: %.2f wall, %.2f cpu\n", median(check).wall / median(cgal).wall,
+              median(check).cpu / median(cgal).cpu);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::size_t triangles = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 1'000'000;
+  const std::size_t shells = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 1;
+  const std::size_t rounds = argc > 3 ? std::strtoul(argv[3], nullptr, 10) : 5;
+  if (shells == 0 || triangles / shells < 1000 || triangles > kMaxTriangles || rounds == 0)
+    fail("expected 1000 triangles a shell at least, 20000000 in all at most, and a round");
+  compare(shells, triangles, rounds);
+}
