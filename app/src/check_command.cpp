@@ -3,6 +3,7 @@
 #include "claystack/engine/atomic_file.hpp"
 #include "claystack/engine/pot_file.hpp"
 #include "claystack/export/certificate.hpp"
+#include "claystack/export/drc_claims.hpp"
 #include "claystack/export/mesh_check.hpp"
 #include "claystack/export/mesh_formats.hpp"
 #include "claystack/export/tessellate.hpp"
@@ -91,6 +92,15 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command) {
   return check_section(*section, command);
 }
 
+/// What a Draco file of ours states of itself; its checksum has been found to hold.
+void check_claims(std::string_view bytes, const solid::TriangleMesh& mesh, Verdict& verdict) {
+  const auto claims = solid::drc_claims(bytes, {}).value_or(std::nullopt);
+  if (!claims) return;
+  verdict.notes.push_back("checksum holds");
+  for (auto& problem : solid::compare_with_claims(mesh, *claims))
+    verdict.mesh.problems.push_back(std::move(problem));
+}
+
 Result<Verdict> check_file(const CheckCommand& command) {
   const auto bytes = read_file(command.file);
   if (!bytes) return tl::make_unexpected(bytes.error());
@@ -102,11 +112,13 @@ Result<Verdict> check_file(const CheckCommand& command) {
   if (command.min_wall_mm)
     return failure(ErrorKind::bad_input,
                    command.file + ": --min-wall is for pots; the wall of a mesh is not measured");
-  return solid::decode_mesh(*bytes, *format, command.file).map([](const solid::TriangleMesh& mesh) {
-    Verdict verdict;
-    verdict.mesh = solid::check_mesh(mesh);
-    return verdict;
-  });
+  return solid::decode_mesh(*bytes, *format, command.file)
+      .map([&](const solid::TriangleMesh& mesh) {
+        Verdict verdict;
+        verdict.mesh = solid::check_mesh(mesh);
+        if (*format == solid::MeshFormat::drc) check_claims(*bytes, mesh, verdict);
+        return verdict;
+      });
 }
 
 Json verdict_json(const std::string& file, const Verdict& verdict) {

@@ -1,14 +1,19 @@
+#include "claystack/export/drc_claims.hpp"
 #include "claystack/export/mesh_formats.hpp"
 #include "draco_bits.hpp"
 #include "draco_grid.hpp"
 #include "draco_mesh.hpp"
+#include "draco_metadata.hpp"
 #include "file_floats.hpp"
 #include "mesh_limits.hpp"
 
 #include <draco/compression/decode.h>
 #include <draco/compression/expert_encode.h>
 #include <algorithm>
+#include <cmath>
 #include <exception>
+#include <optional>
+#include <utility>
 
 namespace clay::solid {
 namespace {
@@ -18,7 +23,6 @@ namespace {
 // and from speed 2 on no prediction counts them either.
 constexpr int kMaxEntropyCodedBits = 24;
 constexpr int kLeastSpeedWithoutCounters = 2;
-constexpr std::size_t kHeaderBytes = 11;
 constexpr std::string_view kMagic = "DRACO";
 
 Result<void> check_settings(const DracoSettings& settings) {
@@ -28,6 +32,18 @@ Result<void> check_settings(const DracoSettings& settings) {
   if (good) return {};
   return failure(ErrorKind::bad_input,
                  "cannot write .drc: expected an error above 0 mm, 1 to 30 bits, speed 0 to 10");
+}
+
+Result<void> check_claims(const DracoClaims* claims, const DracoSettings& settings) {
+  if (claims == nullptr) return {};
+  for (const double claim : {claims->volume_mm3, claims->volume_bound_mm3,
+                             claims->counted_volume_mm3, claims->vertex_error_mm}) {
+    if (std::isfinite(claim) && claim >= 0.0) continue;
+    return failure(ErrorKind::bad_input, "cannot write .drc: expected claims of 0 or more");
+  }
+  if (claims->vertex_error_mm >= settings.max_error_mm) return {};
+  return failure(ErrorKind::bad_input,
+                 "cannot write .drc: expected no smaller vertex error claimed than allowed");
 }
 
 /// Draco's encoder is not made for bad meshes: what would break it is refused here.
@@ -77,7 +93,7 @@ Result<std::string> encode_on_grid(const TriangleMesh& mesh, const std::vector<g
 Result<void> check_header(std::string_view bytes, std::string_view name) {
   if (!bytes.starts_with(kMagic))
     return bad_file(name, "expected a Draco file, which begins with DRACO");
-  if (bytes.size() < kHeaderBytes) return bad_file(name, "the Draco header ends early");
+  if (bytes.size() < kDracoHeaderBytes) return bad_file(name, "the Draco header ends early");
   const auto byte = [bytes](std::size_t at) { return int{static_cast<unsigned char>(bytes[at])}; };
   const int major = byte(5), minor = byte(6), type = byte(7), method = byte(8);
   if (type != draco::TRIANGULAR_MESH) {
@@ -93,7 +109,14 @@ Result<void> check_header(std::string_view bytes, std::string_view name) {
   return {};
 }
 
-Result<TriangleMesh> decode_body(std::string_view bytes, std::string_view name) {
+Result<std::optional<DracoMetadata>> read_metadata(std::string_view bytes, std::string_view name) {
+  return check_file_size(bytes, name)
+      .and_then([&] { return check_header(bytes, name); })
+      .and_then([&] { return read_draco_metadata(bytes, name); });
+}
+
+/// A file without metadata.
+Result<TriangleMesh> decode_plain(std::string_view bytes, std::string_view name) {
   draco::DecoderBuffer buffer;
   buffer.Init(bytes.data(), bytes.size());
   draco::Decoder decoder;
@@ -108,13 +131,17 @@ Result<TriangleMesh> decode_body(std::string_view bytes, std::string_view name) 
 
 }  // namespace
 
-Result<std::string> encode_drc(const TriangleMesh& mesh, const DracoSettings& settings) try {
+Result<std::string> encode_drc(const TriangleMesh& mesh, const DracoSettings& settings,
+                               const DracoClaims* claims) try {
   const std::vector<glm::vec3> points = file_points(mesh.points);
   return check_settings(settings)
+      .and_then([&] { return check_claims(claims, settings); })
       .and_then([&] { return check_mesh_for_draco(mesh, points); })
       .and_then([&] { return choose_grid(points, settings); })
-      .and_then([&](const DracoGrid& grid) {
-        return encode_on_grid(mesh, points, grid, settings.speed);
+      .and_then(
+          [&](const DracoGrid& grid) { return encode_on_grid(mesh, points, grid, settings.speed); })
+      .map([&](std::string plain) {
+        return claims == nullptr ? std::move(plain) : with_claims(plain, *claims);
       });
 } catch (const std::exception& error) {
   return failure(ErrorKind::unsound, std::string("cannot write .drc: ") + error.what());
@@ -122,9 +149,18 @@ Result<std::string> encode_drc(const TriangleMesh& mesh, const DracoSettings& se
 
 Result<TriangleMesh> decode_drc(std::string_view bytes, std::string_view name) {
   return guarded(name, [&] {
-    return check_file_size(bytes, name)
-        .and_then([&] { return check_header(bytes, name); })
-        .and_then([&] { return decode_body(bytes, name); });
+    return read_metadata(bytes, name).and_then([&](const std::optional<DracoMetadata>& metadata) {
+      return metadata ? decode_plain(without_metadata(bytes, *metadata), name)
+                      : decode_plain(bytes, name);
+    });
+  });
+}
+
+Result<std::optional<DracoClaims>> drc_claims(std::string_view bytes, std::string_view name) {
+  return guarded(name, [&] {
+    return read_metadata(bytes, name).map([](const std::optional<DracoMetadata>& metadata) {
+      return metadata ? metadata->claims : std::nullopt;
+    });
   });
 }
 
