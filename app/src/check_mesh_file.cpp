@@ -2,6 +2,7 @@
 
 #include "claystack/engine/atomic_file.hpp"
 #include "claystack/export/decimate.hpp"
+#include "claystack/export/drc_claims.hpp"
 
 #include <fmt/format.h>
 
@@ -104,6 +105,15 @@ Result<TriangleMesh> mend_and_write(TriangleMesh mesh, const CheckCommand& comma
   });
 }
 
+/// What a Draco file of ours states of itself; its checksum has been found to hold.
+void check_claims(std::string_view bytes, const TriangleMesh& mesh, Verdict& verdict) {
+  const auto claims = solid::drc_claims(bytes, {}).value_or(std::nullopt);
+  if (!claims) return;
+  verdict.notes.push_back("checksum holds");
+  for (auto& problem : solid::compare_with_claims(mesh, *claims))
+    verdict.mesh.problems.push_back(std::move(problem));
+}
+
 /// An error where there is no certificate to be read; a problem where it does not hold.
 Result<void> verify(std::string_view bytes, const CheckCommand& command, Verdict& verdict) {
   auto certificate = read_file(command.certificate).and_then([&](const std::string& text) {
@@ -130,6 +140,7 @@ Result<Verdict> check_mesh_file(std::string_view bytes, MeshFormat format,
     if (!mesh) return failure(mesh.error().kind, command.file + ": " + mesh.error().message);
   }
   verdict.mesh = solid::check_mesh(*mesh);
+  if (format == MeshFormat::drc && !command.mends()) check_claims(bytes, *mesh, verdict);
   if (const auto demand = command.walls.for_size(size_sum_mm(*mesh)))
     measure_wall(*mesh, *demand, command, verdict);
   if (command.certificate.empty()) return verdict;

@@ -129,14 +129,14 @@ class ExportJob {
 
   Result<void> write_all(const Design& design) {
     const RevolveRule rule(design.section.profile, design.segments);
-    const SolidCertificate claims = stages_.run(
+    SolidCertificate claims = stages_.run(
         "claims", [&] { return claims_of(design.section.profile, design.segments, 0.0); });
+    claims.counted_volume_mm3 = stack_.volume_mm3();
     describe_solid(design, rule, claims);
     RevolveFiles files(rule, claims, options_, stages_);
     for (const Output& output : outputs_) {
       auto file = files.write(output.format, *output.store);
       if (!file) return tl::make_unexpected(file.error());
-      file->certificate.counted_volume_mm3 = report_.counted_volume_mm3;
       report_.files.push_back(std::move(*file));
     }
     tell_left_out(design, files.made_mesh());
@@ -159,7 +159,7 @@ class ExportJob {
     report_.tolerance_mm = design.tolerance_mm;
     report_.chordal_error_mm = chordal_error_mm(widest, design.segments);
     report_.min_wall_mm = claims.wall_lower_mm;
-    report_.counted_volume_mm3 = stack_.volume_mm3();
+    report_.counted_volume_mm3 = claims.counted_volume_mm3;
     report_.volume_mm3 = claims.volume_mm3;
     report_.volume_error_relative =
         std::abs(report_.volume_mm3 - report_.counted_volume_mm3) / report_.counted_volume_mm3;

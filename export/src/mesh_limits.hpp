@@ -37,7 +37,7 @@ inline constexpr std::string_view kCoordinateRule = "a coordinate within +-1e6 m
 
 /// What `read` returns; what it throws (memory that is not to be had, Draco's own) as an error.
 template <class Read>
-[[nodiscard]] Result<TriangleMesh> guarded(std::string_view name, const Read& read) try {
+[[nodiscard]] auto guarded(std::string_view name, const Read& read) -> decltype(read()) try {
   return read();
 } catch (const std::exception& error) {
   return bad_file(name, std::string("cannot be read: ").append(error.what()));

@@ -124,7 +124,10 @@ Result<FileReport> RevolveFiles::write_drc(FileStore& store) {
   const double safe = claims_.margins.safe_rounding_mm();
   const TriangleMesh& solid = mesh();
   const auto encode = [&](const DracoSettings& settings) {
-    return stages_.run(stage_name("encode", kFormat), [&] { return encode_drc(solid, settings); });
+    return stages_.run(stage_name("encode", kFormat), [&] {
+      const DracoClaims claims = draco_claims(settings.max_error_mm);
+      return encode_drc(solid, settings, &claims);
+    });
   };
   DracoSettings settings;
   settings.max_error_mm = std::min(allowed, safe);
@@ -145,6 +148,14 @@ Result<FileReport> RevolveFiles::write_drc(FileStore& store) {
     if (verdict) return certify_bytes(kFormat, allowed, Proof::exact_test, *bytes, store);
   }
   return tl::make_unexpected(verdict.error());
+}
+
+DracoClaims RevolveFiles::draco_claims(double reach_mm) const {
+  const SolidCertificate rounded = with_rounding(claims_, rule_, reach_mm);
+  return {.volume_mm3 = rounded.volume_mm3,
+          .volume_bound_mm3 = rounded.volume_bound_mm3,
+          .counted_volume_mm3 = rounded.counted_volume_mm3,
+          .vertex_error_mm = reach_mm};
 }
 
 Result<FileReport> RevolveFiles::store_drc(const std::string& bytes, double reach_mm,

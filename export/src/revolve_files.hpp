@@ -2,6 +2,7 @@
 // One certified revolve, written in any format, read again, and certified as written.
 
 #include "claystack/engine/result.hpp"
+#include "claystack/export/drc_claims.hpp"
 #include "claystack/export/export_job.hpp"
 #include "revolve_rule.hpp"
 #include "stages.hpp"
@@ -28,6 +29,7 @@ class RevolveFiles {
   Result<FileReport> stream(FileStore& store);
   Result<FileReport> write_text(MeshFormat format, FileStore& store);
   Result<FileReport> write_drc(FileStore& store);
+  [[nodiscard]] DracoClaims draco_claims(double reach_mm) const;
   Result<FileReport> store_drc(const std::string& bytes, double reach_mm, FileStore& store);
   Result<Proof> prove_rounded(double rounding_mm);
   Result<FileReport> certify_bytes(MeshFormat format, double rounding_mm, Proof proof,

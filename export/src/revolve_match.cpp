@@ -100,7 +100,7 @@ class Roll {
  private:
   static constexpr std::size_t kNone = SIZE_MAX;
 
-  /// For corners that begin as the rule has it: from_s first.
+  /// For corners that begin as the rule has it: at `from`.
   std::optional<std::size_t> place_of(const std::array<VertexName, 3>& c) const {
     if (c[1].shell != c[0].shell || c[2].shell != c[0].shell) return std::nullopt;
     const Shell& shell = rule_.shells()[c[0].shell];
@@ -116,7 +116,7 @@ class Roll {
     const auto in = [&](const VertexName& v, std::size_t sector) {
       return shell.pole(v.point) || v.sector == sector;
     };
-    if (!in(c[0], s) || !in(c[1], next) || !in(c[2], lower ? next : s)) return std::nullopt;
+    if (!in(c[0], lower ? s : next) || !in(c[1], next) || !in(c[2], s)) return std::nullopt;
     return first_[c[0].shell] + 2 * (b * rule_.segments() + s) + (upper ? 1 : 0);
   }
 

@@ -20,8 +20,10 @@ struct Band {
 };
 
 /// A closed surface of the revolve. Its triangles come sector by sector, in a sector band by band,
-/// and in a band from_s, from_s+1, to_s+1 before from_s, to_s+1, to_s; one that a pole leaves
-/// without area is not there.
+/// and in a band from_s, from_s+1, to_s before from_s+1, to_s+1, to_s; one that a pole leaves
+/// without area is not there. The diagonals lean this way for Draco, which turns right at every
+/// new vertex: going around the pot it then comes across a diagonal, where the parallelogram that
+/// predicts the vertex is nearly flat, and not across a meridian, where the wall bends.
 struct Shell {
   std::vector<ProfilePoint> points;
   std::vector<Band> bands;

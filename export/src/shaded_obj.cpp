@@ -80,8 +80,8 @@ class ShadedObj {
       const std::size_t next = s + 1 < n ? s + 1 : 0;
       for (std::size_t b = 0; b < shell.bands.size(); ++b) {
         const auto [from, to] = normals.of_band[b];
-        if (!shell.pole(shell.bands[b].from)) append_face({at(from, s), at(from, next), at(to, next)});
-        if (!shell.pole(shell.bands[b].to)) append_face({at(from, s), at(to, next), at(to, s)});
+        if (!shell.pole(shell.bands[b].from)) append_face({at(from, s), at(from, next), at(to, s)});
+        if (!shell.pole(shell.bands[b].to)) append_face({at(from, next), at(to, next), at(to, s)});
       }
     }
   }

@@ -38,8 +38,8 @@ void for_each_facet(const RevolveRule& rule, const Shell& shell, std::size_t fir
     std::swap(here, next);
     fill_meridian(rule, shell, s + 1 < rule.segments() ? s + 1 : 0, next);
     for (const auto& [from, to] : shell.bands) {
-      if (!shell.pole(from)) visit(stl::Corners{here[from], next[from], next[to]});
-      if (!shell.pole(to)) visit(stl::Corners{here[from], next[to], here[to]});
+      if (!shell.pole(from)) visit(stl::Corners{here[from], next[from], here[to]});
+      if (!shell.pole(to)) visit(stl::Corners{next[from], next[to], here[to]});
     }
   }
 }

@@ -53,8 +53,8 @@ class Revolution {
   /// Clay lies to the left of the profile, so the way from `a` to `b`, seen from outside, is up.
   void add_patch(const Parallel& a, const Parallel& b, std::size_t s) {
     const std::size_t next = s + 1 < rule_.segments() ? s + 1 : 0;
-    if (!a.pole) mesh_.triangles.push_back({a.at(s), a.at(next), b.at(next)});
-    if (!b.pole) mesh_.triangles.push_back({a.at(s), b.at(next), b.at(s)});
+    if (!a.pole) mesh_.triangles.push_back({a.at(s), a.at(next), b.at(s)});
+    if (!b.pole) mesh_.triangles.push_back({a.at(next), b.at(next), b.at(s)});
   }
 
   const RevolveRule& rule_;

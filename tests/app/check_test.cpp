@@ -85,6 +85,19 @@ TEST_F(CheckMesh, ATruncatedFileIsRefused) {
   expect_problem("empty.stl", "", 2, "empty.stl");
 }
 
+TEST_F(CheckMesh, AChangedDracoFileIsRefused) {
+  std::string drc = good_drc;
+  drc.back() = static_cast<char>(drc.back() ^ 1);
+  expect_problem("changed.drc", drc, 2, "the file has been changed");
+}
+
+TEST_F(CheckMesh, ADracoFileOfOursSaysThatItIsWhole) {
+  write_text(folder.file("p.drc"), good_drc);
+  const Ran run = claystack("check --json " + folder.file("p.drc"));
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.json().at("notes"), nlohmann::json({"checksum holds"}));
+}
+
 TEST_F(CheckMesh, InsideOutIsNotOriented) {
   std::string stl = good_stl;
   for (std::size_t k = 0; k < (stl.size() - 84) / 50; ++k) {

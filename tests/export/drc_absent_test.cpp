@@ -1,3 +1,4 @@
+#include "claystack/export/drc_claims.hpp"
 #include "claystack/export/mesh_formats.hpp"
 #include "fuzz/sample_meshes.hpp"
 
@@ -9,6 +10,8 @@ namespace {
 TEST(DrcAbsent, SaysSo) {
   EXPECT_EQ(encode_drc(samples::tetrahedron(), {}).error().message,
             "cannot write .drc: this build has no Draco");
+  EXPECT_EQ(drc_claims("DRACO", "pot.drc").error().message,
+            "pot.drc: cannot read .drc: this build has no Draco");
   EXPECT_EQ(decode_drc("DRACO", "pot.drc").error().message,
             "pot.drc: cannot read .drc: this build has no Draco");
 }

@@ -1,6 +1,7 @@
 #pragma once
 // What a reader owes for any bytes at all, and files to begin from.
 
+#include "claystack/export/drc_claims.hpp"
 #include "claystack/export/mesh_formats.hpp"
 #include "fuzz/sample_meshes.hpp"
 
@@ -37,6 +38,7 @@ inline std::optional<std::string> broken_promise(std::string_view bytes, MeshFor
 /// Small good files of a format: what mutation makes of them goes deeper than noise would.
 inline std::vector<std::string> good_files(MeshFormat format) {
   std::vector<std::string> files;
+  const DracoClaims claims{.volume_mm3 = 1.0, .vertex_error_mm = 0.01};
   for (const TriangleMesh& mesh : {tetrahedron(), torus(4, 3)}) {
     switch (format) {
       case MeshFormat::stl_binary:
@@ -52,6 +54,7 @@ inline std::vector<std::string> good_files(MeshFormat format) {
         for (const int speed : {0, 5, 10}) {
           files.push_back(encode_drc(mesh, {.speed = speed}).value_or(std::string()));
         }
+        files.push_back(encode_drc(mesh, {}, &claims).value_or(std::string()));
         break;
     }
   }

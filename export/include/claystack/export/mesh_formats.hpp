@@ -13,6 +13,8 @@
 
 namespace clay::solid {
 
+struct DracoClaims;  // drc_claims.hpp
+
 enum class MeshFormat { stl_binary, stl_ascii, obj, drc };
 inline constexpr std::array kMeshFormats{MeshFormat::stl_binary, MeshFormat::stl_ascii,
                                          MeshFormat::obj, MeshFormat::drc};
@@ -29,7 +31,7 @@ Result<MeshFormat> mesh_format_named(std::string_view name);
 struct DracoSettings {
   double max_error_mm = 0.01;  ///< largest displacement of a vertex, above 0
   int min_bits = 8;            ///< at least this many bits per coordinate, 1 to 30
-  int speed = 3;               ///< 0 (small) .. 10 (fast)
+  int speed = 2;               ///< of Draco, 0 .. 10; on pots 2 is smallest, 10 fastest
 };
 
 /// Coordinates go out as float32 without -0: the text formats print the shortest digits that
@@ -41,12 +43,15 @@ std::string encode_stl_ascii(const TriangleMesh& mesh, std::string_view solid_na
 std::string encode_obj(const TriangleMesh& mesh, std::string_view object_name);
 
 /// Edgebreaker, positions only, on the coarsest grid of at least `min_bits` that keeps the
-/// promise for every vertex, roundings included; the same bytes every time. Triangles and
+/// promise for every vertex, roundings included; the same bytes every time. With `claims` the file
+/// carries them, and a checksum of all its bytes, as metadata. Triangles and
 /// vertices come in an order of Draco's own, vertices where surfaces touch are split, and
 /// points of no triangle are left out. Errors: `bad_input` for settings out of range or an
-/// error that no 30 bits can keep (the least possible is named); `unsound` for a mesh that
+/// error that no 30 bits can keep (the least possible is named), or claims that are not finite,
+/// below 0 or of a smaller vertex error than `settings` allow; `unsound` for a mesh that
 /// Draco would spoil (a triangle that uses a vertex twice, a coordinate or index out of range).
-Result<std::string> encode_drc(const TriangleMesh& mesh, const DracoSettings& settings);
+Result<std::string> encode_drc(const TriangleMesh& mesh, const DracoSettings& settings,
+                               const DracoClaims* claims = nullptr);
 
 /// A mesh as a file states it, nothing repaired: 1 to 20 million triangles, points of float32
 /// within 1e6 mm (-0 read as 0), indices in range. A file is at most 1 GiB. Errors are of kind
@@ -66,7 +71,8 @@ Result<TriangleMesh> decode_stl(std::string_view bytes, std::string_view name);
 Result<TriangleMesh> decode_obj(std::string_view bytes, std::string_view name);
 
 /// Triangle meshes of Draco 2.2; point clouds are refused. The format has no checksum: a spoilt
-/// file may well decode to another mesh.
+/// file may well decode to another mesh. One with claims of ours (`drc_claims`) has, and is refused
+/// unless it holds.
 Result<TriangleMesh> decode_drc(std::string_view bytes, std::string_view name);
 
 /// The mesh as float32 files hold it.
