@@ -16,7 +16,8 @@ struct Wall {
   ProfilePoint from, to;
 };
 
-/// Least thickness [mm] of what a certified profile sweeps, exact for its edges up to rounding.
+/// Least thickness [mm] of what a certified profile sweeps, exact for its edges up to rounding
+/// (and at the limit of the rule on ridges, below, up to the length of an edge).
 ///
 /// Two points of a piece are opposite when the inward normals of their edges are more than 150
 /// degrees apart and the straight way from the one to the other leaves into clay and arrives out
