@@ -289,18 +289,20 @@ TEST(WallField, KeepsToTheSpacingAndTheMost) {
 
 RC_GTEST_PROP(WallField, ComesDownToTheLeast, ()) {
   auto random = *samples::random_engine();
-  // Walls that change slowly, with no sharp edges: there the field is the least at one place.
+  // Walls that change slowly, without sharp edges.
+  constexpr double h = 0.3;
   std::vector<shapes::Radii> radii;
-  for (double outer = 40.0; radii.size() < 60; outer += 0.2 * (samples::uniform(random) - 0.5))
-    radii.push_back({outer, radii.size() < 5 ? 0.0 : outer - 3.0 - samples::uniform(random)});
-  const auto section = smooth_profile_of(shapes::stack_of(1.0, radii), 1e-6).value();
+  for (double outer = 40.0; radii.size() < 100; outer += 0.1 * (samples::uniform(random) - 0.5))
+    radii.push_back(
+        {outer, radii.size() < 12 ? 0.0 : outer - 3.0 - 0.1 * samples::uniform(random)});
+  const auto section = smooth_profile_of(shapes::stack_of(h, radii), 1e-6).value();
   const double least = min_wall_mm(section.profile);
   double previous = std::numeric_limits<double>::infinity();
   for (const double spacing : {1.0, 0.2, 0.04}) {
     double thinnest = std::numeric_limits<double>::infinity();
     for (const WallSample& sample : wall_field(section.profile, spacing))
       thinnest = std::min(thinnest, sample.thickness_mm);
-    RC_ASSERT(thinnest > least - 1e-9);
+    RC_ASSERT(thinnest > least - h);
     RC_ASSERT(thinnest < least + 2.0 * spacing);
     RC_ASSERT(thinnest < previous + 1e-9);
     previous = thinnest + spacing;
