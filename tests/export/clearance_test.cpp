@@ -56,7 +56,7 @@ TEST(Clearance, CountsEdgesOnTheAxis) {
 }
 
 /// Every vertex against every edge, in long double.
-long double least_distance(const Profile& profile) {
+long double least_distance(const Profile& profile, long double scale) {
   using Real = long double;
   Real least = std::numeric_limits<Real>::infinity();
   for (const Polygon& of_vertex : profile.pieces)
@@ -66,8 +66,8 @@ long double least_distance(const Profile& profile) {
           const std::size_t next = (e + 1) % polygon.size();
           if (&polygon == &of_vertex && (v == e || v == next)) continue;
           const ProfilePoint &p = of_vertex[v], &a = polygon[e], &b = polygon[next];
-          const Real x = Real(b.rho) - a.rho, y = Real(b.y) - a.y;
-          const Real px = Real(p.rho) - a.rho, py = Real(p.y) - a.y;
+          const Real x = scale * (Real(b.rho) - a.rho), y = Real(b.y) - a.y;
+          const Real px = scale * (Real(p.rho) - a.rho), py = Real(p.y) - a.y;
           const Real t = std::clamp((px * x + py * y) / (x * x + y * y), Real(0), Real(1));
           least = std::min(least, std::hypot(px - t * x, py - t * y));
         }
@@ -75,10 +75,12 @@ long double least_distance(const Profile& profile) {
 }
 
 void is_a_close_lower_bound(const Profile& profile) {
-  const double found = clearance_mm(profile);
-  const long double expected = least_distance(profile);
-  RC_ASSERT(static_cast<long double>(found) <= expected);
-  RC_ASSERT(found > static_cast<double>(expected) - kRounding);
+  for (const double scale : {1.0, std::cos(M_PI / 7)}) {
+    const double found = clearance_mm(profile, scale);
+    const long double expected = least_distance(profile, scale);
+    RC_ASSERT(static_cast<long double>(found) <= expected);
+    RC_ASSERT(found > static_cast<double>(expected) - kRounding);
+  }
 }
 
 RC_GTEST_PROP(Clearance, OfStepsIsALowerBound, (const ClayStack& stack)) {

@@ -30,8 +30,10 @@ class WallOracle {
     return least;
   }
 
-  /// The least over the ends of all edges and a few places on them.
-  double least_of_samples(std::mt19937_64& random) const {
+  /// The least over the ends of all edges and a few places on them. With `margin` only pairs count
+  /// that stay walls wherever on their edges they are moved.
+  double least_of_samples(std::mt19937_64& random, bool margin) {
+    margin_ = margin ? 3.0 : 0.0;
     std::uniform_real_distribution<double> uniform;
     double least = kNone;
     for (const Piece& piece : pieces_)
@@ -43,6 +45,7 @@ class WallOracle {
               if (&a != &b) least = std::min(least, between(piece, a, s, b, t));
         }
       }
+    margin_ = 0.0;
     return least;
   }
 
@@ -144,14 +147,15 @@ class WallOracle {
 
   /// The thickness, or none if the boundary around it is too short: it counts beyond the places
   /// for `beyond` thicknesses at most.
-  static double if_wall(double thickness, double beyond, const Piece& piece, const Edge& a,
-                        double s, const Edge& b, double t) {
+  double if_wall(double thickness, double beyond, const Piece& piece, const Edge& a, double s,
+                 const Edge& b, double t) const {
     if (a.begin > b.begin) return if_wall(thickness, beyond, piece, b, t, a, s);
     if (thickness == kNone) return kNone;
     const double from = a.begin + s * a.length, to = b.begin + t * b.length;
     const double inside = std::min({s * a.length, (1.0 - t) * b.length, thickness * beyond});
     const double outer = std::min({(1.0 - s) * a.length, t * b.length, thickness * beyond});
-    const double least = 1.5 * thickness - 1e-9 * (1.0 + thickness);
+    const double least =
+        1.5 * thickness - 1e-9 * (1.0 + thickness) + margin_ * (a.length + b.length);
     return to - from + 2.0 * inside > least && piece.perimeter - (to - from) + 2.0 * outer > least
                ? thickness
                : kNone;
@@ -183,6 +187,7 @@ class WallOracle {
   }
 
   std::vector<Piece> pieces_;
+  double margin_ = 0.0;  ///< of the boundary around a wall, in lengths of both edges
 };
 
 }  // namespace clay::solid

@@ -16,7 +16,8 @@ struct Wall {
   ProfilePoint from, to;
 };
 
-/// Least thickness [mm] of what a certified profile sweeps, exact for its edges up to rounding.
+/// Least thickness [mm] of what a certified profile sweeps, exact for its edges up to rounding
+/// (and at the limit of the rule on ridges, below, up to the length of an edge).
 ///
 /// Two points of a piece are opposite when the inward normals of their edges are more than 150
 /// degrees apart and the straight way from the one to the other leaves into clay and arrives out
@@ -57,7 +58,8 @@ inline constexpr std::size_t kMaxWallSamples = 100'000;
 
 /// Thickness along every face, at the middles of equal parts of its edges that are no longer than
 /// `spacing_mm` > 0. Of more than `kMaxWallSamples`, every second, third, ... is kept. No sample is
-/// thinner than `min_wall`, and as the spacing shrinks the thinnest comes down to it.
+/// thinner than `min_wall`, as exact as that is, and as the spacing shrinks the thinnest comes down
+/// to it.
 [[nodiscard]] std::vector<WallSample> wall_field(const Profile& profile, double spacing_mm);
 
 }  // namespace clay::solid
