@@ -1,0 +1,164 @@
+#include "claystack/export/collapsed_solid.hpp"
+
+#include "claystack/export/mesh_formats.hpp"
+#include "claystack/export/tessellate.hpp"
+#include "describe.hpp"
+#include "mesh_union.hpp"
+#include "pockets.hpp"
+#include "seam_cure.hpp"
+#include "verify_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace clay::solid {
+namespace {
+
+/// Turns of the upper part's facets about its own axis, in steps of a segment. In step first:
+/// faces that coincide then merge. Where the two parts mirror each other, facets in step cross in
+/// needles; out of step by the golden section and its multiples they cross in the open.
+constexpr std::array kPhases{0.0, 0.381966, 0.763932, 0.145898, 0.527864};
+
+/// Shortest edges on the seam, in units of what float32 rounds by. Longer ones leave room for the
+/// rounding, but the walls of the parts have short edges of their own, which must not be run into.
+constexpr std::array kShortestEdges{64.0, 256.0, 1024.0, 16.0};
+
+/// From the wheel's frame (y up) to the mesh's (z up).
+glm::dvec3 upright(const glm::dvec3& p) { return {p.x, -p.z, p.y}; }
+
+/// Half turns are made exact, so that faces that coincide after them do so to the last bit.
+double exact_at_zero(double x) { return std::abs(x) < 1e-15 ? 0.0 : x; }
+
+struct Turn {
+  glm::dvec3 pivot{0.0};
+  glm::dvec3 axis{0.0, 0.0, 1.0};
+  double cosine = 1.0;
+  double sine = 0.0;
+
+  Turn(const glm::dvec3& about, const glm::dvec3& direction, double angle_rad)
+      : pivot(about),
+        axis(direction),
+        cosine(exact_at_zero(std::cos(angle_rad))),
+        sine(exact_at_zero(std::sin(angle_rad))) {}
+
+  /// Rodrigues' formula.
+  glm::dvec3 operator()(const glm::dvec3& p) const {
+    if (sine == 0.0 && cosine == 1.0) return p;
+    const glm::dvec3 arm = p - pivot;
+    return pivot + cosine * arm + sine * glm::cross(axis, arm) +
+           (1.0 - cosine) * glm::dot(axis, arm) * axis;
+  }
+};
+
+TriangleMesh turned(TriangleMesh mesh, const Turn& turn) {
+  for (glm::dvec3& p : mesh.points) p = turn(p);
+  return mesh;
+}
+
+Result<void> check_part(const TriangleMesh& mesh, const std::string& name) {
+  const MeshReport report = check_mesh(rounded_to_float(mesh));
+  if (report.sound()) return {};
+  return failure(ErrorKind::unsound,
+                 "the " + name + " part in float32: found " + describe(report.problems.front()));
+}
+
+class Union {
+ public:
+  Union(const CollapsedParts& parts, const Collapse& collapse, std::size_t segments,
+        double tolerance_mm)
+      : tolerance_mm_(tolerance_mm),
+        step_rad_(2.0 * std::numbers::pi / static_cast<double>(segments)),
+        fall_(upright(collapse.pivot_mm), upright(collapse.axis), collapse.angle_rad),
+        lower_(revolve(parts.lower.profile, segments)),
+        upper_(revolve(parts.upper.profile, segments)) {}
+
+  Result<CollapsedSolid> run() {
+    const bool fallen = !upper_.triangles.empty();
+    auto sound = check_part(lower_, "lower").and_then([&]() -> Result<void> {
+      if (!fallen) return {};
+      return check_part(turned(upper_, fall_), "upper");
+    });
+    if (!sound) return tl::make_unexpected(sound.error());
+    if (!fallen) return standing();
+    Result<CollapsedSolid> solid;
+    for (const double phase : kPhases) {
+      solid = at_phase(phase);
+      if (solid) break;
+    }
+    return solid;
+  }
+
+ private:
+  Result<CollapsedSolid> standing() const {
+    CollapsedSolid solid;
+    solid.lower_mm3 = solid.union_mm3 = signed_volume(lower_);
+    return finished({lower_, 0.0}, std::move(solid));
+  }
+
+  Result<CollapsedSolid> at_phase(double phase) const try {
+    const Turn about_own_axis({0, 0, 0}, {0, 0, 1}, phase * step_rad_);
+    const TriangleMesh upper = turned(turned(upper_, about_own_axis), fall_);
+    return unite(lower_, upper).and_then([&](const MeshUnion& both) {
+      CollapsedSolid solid;
+      solid.lower_mm3 = signed_volume(lower_);
+      solid.upper_mm3 = signed_volume(upper);
+      solid.overlap_mm3 = both.overlap_mm3;
+      solid.union_mm3 = signed_volume(both.mesh);
+      return cured(both, solid);
+    });
+  } catch (const std::exception& e) {
+    return failure(ErrorKind::unsound, std::string("the union was given up: ") + e.what());
+  }
+
+  Result<CollapsedSolid> cured(const MeshUnion& both, CollapsedSolid solid) const {
+    const FilledPockets filled = fill_pockets(both.mesh, both.on_seam, tolerance_mm_);
+    solid.pockets = filled.pockets;
+    solid.pockets_mm3 = filled.volume_mm3;
+    const double rounding = float_rounding_mm(filled.mesh);
+    Result<CollapsedSolid> result;
+    for (const double shortest : kShortestEdges) {
+      result = cure_seam(filled.mesh, filled.on_seam, shortest * rounding)
+                   .and_then([&](const CuredMesh& mesh) { return finished(mesh, solid); });
+      if (result) break;
+    }
+    return result.map([&](CollapsedSolid done) {
+      done.max_move_mm = std::max(done.max_move_mm, filled.max_depth_mm);
+      return done;
+    });
+  }
+
+  static Result<CollapsedSolid> finished(const CuredMesh& cured, CollapsedSolid solid) {
+    solid.mesh = rounded_to_float(cured.mesh);
+    solid.check = check_mesh(solid.mesh);
+    if (!solid.check.sound())
+      return failure(ErrorKind::unsound, "the collapsed pot in float32: found " +
+                                             describe(solid.check.problems.front()));
+    double rounding = 0.0;
+    for (std::size_t v = 0; v < solid.mesh.points.size(); ++v)
+      rounding = std::max(rounding, glm::distance(solid.mesh.points[v], cured.mesh.points[v]));
+    solid.max_move_mm = cured.max_move_mm + rounding;
+    solid.volume_mm3 = signed_volume(solid.mesh);
+    return solid;
+  }
+
+  double tolerance_mm_;
+  double step_rad_;
+  Turn fall_;
+  TriangleMesh lower_;
+  TriangleMesh upper_;  ///< before the fall
+};
+
+}  // namespace
+
+Result<CollapsedSolid> collapsed_solid(const CollapsedParts& parts, const Collapse& collapse,
+                                       std::size_t segments, double tolerance_mm) {
+  return Union(parts, collapse, segments, tolerance_mm).run();
+}
+
+}  // namespace clay::solid
