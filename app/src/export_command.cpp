@@ -50,6 +50,22 @@ Result<std::vector<Request>> requests_of(const ExportCommand& command) {
   return requests;
 }
 
+Json collapsed_json(const solid::CollapsedSolid& collapsed) {
+  return {{"lower_mm3", collapsed.lower_mm3},     {"upper_mm3", collapsed.upper_mm3},
+          {"overlap_mm3", collapsed.overlap_mm3}, {"union_mm3", collapsed.union_mm3},
+          {"pieces", collapsed.pieces},           {"voids", collapsed.voids},
+          {"voids_mm3", collapsed.voids_mm3},     {"pockets", collapsed.pockets},
+          {"pockets_mm3", collapsed.pockets_mm3}, {"max_move_mm", collapsed.max_move_mm}};
+}
+
+/// What the planar certificate says, and where it ends.
+std::string_view proof_of(const ExportReport& report) {
+  if (report.collapsed)
+    return "each part before the fall: closed and embedded; the whole: no self-intersection by "
+           "exact predicates on the mesh as rounded to float32";
+  return "closed and embedded: the profile is strictly simple and meets the axis in segments only";
+}
+
 Json report_json(const ExportReport& report) {
   Json json = {
       {"triangles", report.mesh.triangles},
@@ -61,8 +77,7 @@ Json report_json(const ExportReport& report) {
       {"chordal_error_mm", report.chordal_error_mm},
       {"min_wall_mm", report.min_wall_mm},
       {"certificate",
-       {{"proved",
-         "closed and embedded: the profile is strictly simple and meets the axis in segments only"},
+       {{"proved", proof_of(report)},
         {"polygons", report.certificate.polygons},
         {"vertices", report.certificate.vertices},
         {"axis_segments", report.certificate.axis_segments}}},
@@ -78,6 +93,7 @@ Json report_json(const ExportReport& report) {
       json["cavities"].push_back({{"bottom_mm", cavity.bottom_mm},
                                   {"top_mm", cavity.top_mm},
                                   {"volume_mm3", cavity.volume_mm3}});
+  if (report.collapsed) json["collapsed"] = collapsed_json(*report.collapsed);
   for (const auto& [what, why] : report.left_out)
     json["left_out"].push_back({{"what", what}, {"why", why}});
   for (const auto& [name, seconds] : report.stages)
@@ -95,10 +111,25 @@ std::string rounding_of(const Json& file) {
   return error > 0.0 ? fmt::format(", vertices within {:.2g} mm", error) : "";
 }
 
+void tell_of_collapse(const Console& console, const Json& collapsed) {
+  const auto cm3 = [&](const char* key) { return collapsed[key].get<double>() / 1000.0; };
+  console.say(
+      fmt::format("collapsed: {:.3f} cm3 stand and {:.3f} cm3 fell; they overlap by {:.3f} cm3, so "
+                  "that the union holds {:.3f} cm3",
+                  cm3("lower_mm3"), cm3("upper_mm3"), cm3("overlap_mm3"), cm3("union_mm3")));
+  if (const auto pieces = collapsed["pieces"].get<std::size_t>(); pieces > 1)
+    console.warn(fmt::format("the file holds {} bodies that do not touch", pieces));
+  if (const auto voids = collapsed["voids"].get<std::size_t>(); voids > 0)
+    console.warn(fmt::format("{} closed cavities hold {:.3g} cm3: they need drain holes", voids,
+                             cm3("voids_mm3")));
+}
+
 void tell(const Console& console, const Json& json) {
+  const bool collapsed = json.contains("collapsed");
   console.say(fmt::format(
-      "proved: closed and embedded, from {} profile vertices; checked on the mesh: "
+      "proved: {}closed and embedded, from {} profile vertices; checked on the mesh: "
       "{} triangles, {} component(s), {} self-intersections",
+      collapsed ? "each part before the fall " : "",
       json["certificate"]["vertices"].get<std::size_t>(), json["triangles"].get<std::size_t>(),
       json["components"].get<std::size_t>(), json["self_intersections"].get<std::size_t>()));
   console.say(fmt::format(
@@ -106,6 +137,7 @@ void tell(const Console& console, const Json& json) {
       "mm",
       json["volume_mm3"].get<double>() / 1000.0, json["volume_error_relative"].get<double>(),
       json["min_wall_mm"].get<double>(), json["chordal_error_mm"].get<double>()));
+  if (collapsed) tell_of_collapse(console, json["collapsed"]);
   for (const Json& cavity : json["cavities"])
     console.warn(
         fmt::format("closed cavity from {:.1f} to {:.1f} mm ({:.1f} cm3): it needs a drain hole",

@@ -77,7 +77,7 @@ StackProfile in_place(StackProfile found, const Part& part) {
 StackProfile crown_profile(const ClayStack& stack) {
   const Ring& ring = stack.rings().back();
   const double outer = ring.outer_mm(), inner = ring.inner_mm();
-  const double bottom = level_mm(stack, stack.size() - 1) + stack.ring_height_mm();
+  const double bottom = static_cast<double>(stack.size()) * stack.ring_height_mm();
   const double top = bottom + stack.crown_height_mm();
   const Topology topology = inner > 0.0 ? Topology::tube : Topology::solid;
   return {{{{{outer, bottom}, {outer, top}, {inner, top}, {inner, bottom}}}},
@@ -106,7 +106,6 @@ class Parting {
   Result<CollapsedParts> parts(Smoothing smoothing) const {
     CollapsedParts result;
     result.smoothing = smoothing;
-    result.largest_radius_mm = largest_radius(stack_);
     const auto prove = [](const StackProfile& part, PlanarCertificate& certificate) {
       return certify(part.profile).map([&](const PlanarCertificate& found) {
         certificate = found;
@@ -147,6 +146,12 @@ class Parting {
 };
 
 }  // namespace
+
+Profile CollapsedParts::together() const {
+  Profile all = lower.profile;
+  all.pieces.insert(all.pieces.end(), upper.profile.pieces.begin(), upper.profile.pieces.end());
+  return all;
+}
 
 Result<CollapsedParts> collapsed_parts(const Pot& pot, Smoothing smoothing, double tolerance_mm) {
   return check_collapse(pot).and_then([&] { return Parting(pot, tolerance_mm).run(smoothing); });

@@ -20,10 +20,18 @@
 namespace clay::solid {
 namespace {
 
-/// Turns of the upper part's facets about its own axis, in steps of a segment. In step first:
-/// faces that coincide then merge. Where the two parts mirror each other, facets in step cross in
-/// needles; out of step by the golden section and its multiples they cross in the open.
-constexpr std::array kPhases{0.0, 0.381966, 0.763932, 0.145898, 0.527864};
+/// How the upper part may lie a little differently from one attempt to the next.
+struct Attempt {
+  double phase = 0.0;  ///< of its facets about its own axis, in segments
+  double nudge = 0.0;  ///< its way off its place, in units of what float32 rounds by
+};
+
+/// As it fell, first: faces that coincide then merge. Where the parts mirror each other, facets in
+/// step cross in needles, and out of step (by the golden section and its multiples) in the open.
+/// Where faces all but coincide, only a nudge tells them apart.
+constexpr std::array kAttempts{Attempt{0.0, 0.0}, Attempt{0.381966, 0.0}, Attempt{0.763932, 64.0},
+                               Attempt{0.145898, 256.0}, Attempt{0.527864, 1024.0}};
+constexpr glm::dvec3 kNudge{0.36, 0.48, -0.8};  // a unit vector that no facet is likely to hold
 
 /// Shortest edges on the seam, in units of what float32 rounds by. Longer ones leave room for the
 /// rounding, but the walls of the parts have short edges of their own, which must not be run into.
@@ -87,8 +95,8 @@ class Union {
     if (!sound) return tl::make_unexpected(sound.error());
     if (!fallen) return standing();
     Result<CollapsedSolid> solid;
-    for (const double phase : kPhases) {
-      solid = at_phase(phase);
+    for (const Attempt& attempt : kAttempts) {
+      solid = with(attempt);
       if (solid) break;
     }
     return solid;
@@ -101,15 +109,18 @@ class Union {
     return finished({lower_, 0.0}, std::move(solid));
   }
 
-  Result<CollapsedSolid> at_phase(double phase) const try {
-    const Turn about_own_axis({0, 0, 0}, {0, 0, 1}, phase * step_rad_);
-    const TriangleMesh upper = turned(turned(upper_, about_own_axis), fall_);
+  Result<CollapsedSolid> with(const Attempt& attempt) const try {
+    const Turn about_own_axis({0, 0, 0}, {0, 0, 1}, attempt.phase * step_rad_);
+    TriangleMesh upper = turned(turned(upper_, about_own_axis), fall_);
+    const double nudge = attempt.nudge * float_rounding_mm(upper);
+    for (glm::dvec3& p : upper.points) p += nudge * kNudge;
     return unite(lower_, upper).and_then([&](const MeshUnion& both) {
       CollapsedSolid solid;
       solid.lower_mm3 = signed_volume(lower_);
       solid.upper_mm3 = signed_volume(upper);
       solid.overlap_mm3 = both.overlap_mm3;
       solid.union_mm3 = signed_volume(both.mesh);
+      solid.max_move_mm = nudge;
       return cured(both, solid);
     });
   } catch (const std::exception& e) {
@@ -120,6 +131,7 @@ class Union {
     const FilledPockets filled = fill_pockets(both.mesh, both.on_seam, tolerance_mm_);
     solid.pockets = filled.pockets;
     solid.pockets_mm3 = filled.volume_mm3;
+    solid.max_move_mm += filled.max_depth_mm;
     const double rounding = float_rounding_mm(filled.mesh);
     Result<CollapsedSolid> result;
     for (const double shortest : kShortestEdges) {
@@ -127,10 +139,7 @@ class Union {
                    .and_then([&](const CuredMesh& mesh) { return finished(mesh, solid); });
       if (result) break;
     }
-    return result.map([&](CollapsedSolid done) {
-      done.max_move_mm = std::max(done.max_move_mm, filled.max_depth_mm);
-      return done;
-    });
+    return result;
   }
 
   static Result<CollapsedSolid> finished(const CuredMesh& cured, CollapsedSolid solid) {
@@ -142,8 +151,16 @@ class Union {
     double rounding = 0.0;
     for (std::size_t v = 0; v < solid.mesh.points.size(); ++v)
       rounding = std::max(rounding, glm::distance(solid.mesh.points[v], cured.mesh.points[v]));
-    solid.max_move_mm = cured.max_move_mm + rounding;
+    solid.max_move_mm += cured.max_move_mm + rounding;
     solid.volume_mm3 = signed_volume(solid.mesh);
+    for (const double volume : shell_volumes(solid.mesh)) {
+      if (volume > 0.0) {
+        ++solid.pieces;
+      } else {
+        ++solid.voids;
+        solid.voids_mm3 -= volume;
+      }
+    }
     return solid;
   }
 

@@ -98,11 +98,11 @@ Result<std::size_t> choose_segments(const Profile& profile, double radius, doubl
 }
 
 std::vector<LeftOut> left_out(const ClayStack& stack, const std::vector<MeshFormat>& formats,
-                              const std::string& no_smoothing) {
+                              const std::string& no_smoothing, bool collapsed) {
   std::vector<LeftOut> list;
   if (!stack.hollow()) list.push_back({"inner shell", "no ring has a bore"});
   if (!no_smoothing.empty()) list.push_back({"smoothing", no_smoothing});
-  list.push_back({"union", "the pot has not collapsed"});
+  if (!collapsed) list.push_back({"union", "the pot has not collapsed"});
   for (const MeshFormat format : kAllFormats)
     if (std::find(formats.begin(), formats.end(), format) == formats.end())
       list.push_back({std::string(name_of(format)), "not asked for"});
@@ -137,27 +137,86 @@ class Stages {
 
 class ExportJob {
  public:
-  ExportJob(const ClayStack& stack, const std::vector<MeshFormat>& formats,
-            const ExportOptions& options, const std::function<void(std::string_view)>& progress)
-      : stack_(stack),
+  ExportJob(const Pot& pot, const std::vector<MeshFormat>& formats, const ExportOptions& options,
+            const std::function<void(std::string_view)>& progress)
+      : pot_(pot),
+        stack_(pot.stack),
         formats_(formats),
         options_(options),
         stages_(result_.report.stages, progress) {}
 
   Result<ExportResult> run() {
-    return make_profile()
-        .and_then([&] { return prove(); })
-        .and_then([&] { return tessellate(); })
-        .and_then([&] { return check(); })
+    return (pot_.collapse ? make_collapsed() : make_standing())
         .and_then([&] { return write_all(); })
         .map([&] {
-          result_.report.left_out = left_out(stack_, formats_, no_smoothing_);
+          result_.report.left_out =
+              left_out(stack_, formats_, no_smoothing_, pot_.collapse.has_value());
           return std::move(result_);
         });
   }
 
  private:
   ExportReport& report() { return result_.report; }
+
+  Result<void> make_standing() {
+    return make_profile()
+        .and_then([&] { return prove(); })
+        .and_then([&] { return tessellate(); })
+        .and_then([&] { return check(); });
+  }
+
+  Result<void> make_collapsed() {
+    const Collapse& collapse = *pot_.collapse;
+    CollapsedParts parts;
+    return stages_
+        .run("parts",
+             [&] { return collapsed_parts(pot_, options_.smoothing, options_.tolerance_mm); })
+        .and_then([&](CollapsedParts found) {
+          parts = std::move(found);
+          return check_pieces(parts.lower.shapes, options_.allow_pieces);
+        })
+        .and_then([&] { return check_pieces(parts.upper.shapes, options_.allow_pieces); })
+        .and_then([&] {
+          const double reach = stack_.height_mm() + 2.0 * glm::length(collapse.pivot_mm);
+          return choose_segments(parts.together(), largest_radius(stack_), reach, options_);
+        })
+        .and_then([&](std::size_t segments) {
+          tell_of(parts, segments);
+          return stages_.run("union", [&] {
+            return collapsed_solid(parts, collapse, segments, options_.tolerance_mm);
+          });
+        })
+        .map([&](CollapsedSolid solid) { tell_of(std::move(solid)); });
+  }
+
+  void tell_of(const CollapsedParts& parts, std::size_t segments) {
+    no_smoothing_ =
+        options_.smoothing == Smoothing::fair ? parts.no_smoothing : std::string("not asked for");
+    report().smoothing = parts.smoothing;
+    report().shapes = parts.lower.shapes;
+    report().shapes.insert(report().shapes.end(), parts.upper.shapes.begin(),
+                           parts.upper.shapes.end());
+    report().segments = segments;
+    report().chordal_error_mm = chordal_error_mm(largest_radius(stack_), segments);
+    double wall = min_wall_mm(parts.lower.profile);
+    if (!parts.upper.shapes.empty()) wall = std::min(wall, min_wall_mm(parts.upper.profile));
+    report().min_wall_mm = wall * std::cos(std::numbers::pi / static_cast<double>(segments));
+    const PlanarCertificate &lower = parts.lower_certificate, &upper = parts.upper_certificate;
+    report().certificate = {lower.polygons + upper.polygons, lower.vertices + upper.vertices,
+                            lower.axis_segments + upper.axis_segments};
+  }
+
+  void tell_of(CollapsedSolid solid) {
+    mesh_ = std::move(solid.mesh);
+    solid.mesh = {};
+    report().mesh = solid.check;
+    report().counted_volume_mm3 = stack_.volume_mm3();
+    report().volume_mm3 = solid.volume_mm3;
+    report().volume_error_relative = std::abs(solid.volume_mm3 - solid.pockets_mm3 +
+                                              solid.overlap_mm3 - report().counted_volume_mm3) /
+                                     report().counted_volume_mm3;
+    report().collapsed = std::move(solid);
+  }
 
   Result<void> make_profile() {
     return stages_.run("profile", [&] { return profile_of(stack_, min_step_mm(stack_)); })
@@ -261,6 +320,7 @@ class ExportJob {
     return EncodedMesh{format, std::move(*bytes), *moved};
   }
 
+  const Pot& pot_;
   const ClayStack& stack_;
   const std::vector<MeshFormat>& formats_;
   const ExportOptions& options_;
@@ -276,16 +336,11 @@ class ExportJob {
 Result<ExportResult> run_export(const Pot& pot, const std::vector<MeshFormat>& formats,
                                 const ExportOptions& options,
                                 const std::function<void(std::string_view)>& progress) {
-  if (pot.collapse)
-    return failure(ErrorKind::unsound,
-                   "a collapsed pot is not supported yet: expected one body of revolution, found "
-                   "two overlapping solids, parted above ring " +
-                       std::to_string(pot.collapse->failed_ring));
   if (!(options.tolerance_mm > 0.0))
     return failure(ErrorKind::bad_input, "tolerance: expected more than 0 mm, found " +
                                              in_mm(options.tolerance_mm) + " mm");
   try {
-    return ExportJob(pot.stack, formats, options, progress).run();
+    return ExportJob(pot, formats, options, progress).run();
   } catch (const std::exception& e) {
     return failure(ErrorKind::io, std::string("export given up: ") + e.what());
   }

@@ -1,5 +1,7 @@
 #include "pockets.hpp"
 
+#include "compensated_sum.hpp"
+
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <numeric>
@@ -8,71 +10,87 @@ namespace clay::solid {
 namespace {
 
 /// Points joined by triangles, as a forest whose roots stand for shells.
-class Shells {
+class Forest {
  public:
-  explicit Shells(const TriangleMesh& mesh) : parent_(mesh.points.size()) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
+  explicit Forest(const TriangleMesh& mesh) : parent_(mesh.points.size()) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
     for (const auto& [a, b, c] : mesh.triangles) {
-      join(a, b);
-      join(a, c);
+      parent_[root(a)] = root(b);
+      parent_[root(a)] = root(c);
     }
   }
-  std::uint32_t of(std::uint32_t point) {
+  std::uint32_t root(std::uint32_t point) {
     while (parent_[point] != point) point = parent_[point] = parent_[parent_[point]];
     return point;
   }
 
  private:
-  void join(std::uint32_t a, std::uint32_t b) { parent_[of(a)] = of(b); }
   std::vector<std::uint32_t> parent_;
 };
 
 struct Shell {
-  double volume = 0.0;  ///< [mm^3], negative where it faces inward
-  double area = 0.0;    ///< [mm^2]
+  std::size_t triangles = 0;
+  glm::dvec3 origin{0.0};  // of its own: about a point far away a pocket's volume would cancel
+  CompensatedSum sextuple;
+  double area_mm2 = 0.0;
   bool on_seam = false;
-  glm::dvec3 origin{0.0};
-  bool seen = false;
+
+  [[nodiscard]] double volume_mm3() const { return sextuple.value() / 6.0; }
+  [[nodiscard]] double depth_mm() const { return -3.0 * volume_mm3() / area_mm2; }
+  void add(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    if (triangles++ == 0) origin = a;
+    sextuple.add(glm::dot(a - origin, glm::cross(b - origin, c - origin)));
+    area_mm2 += 0.5 * glm::length(glm::cross(b - a, c - a));
+  }
 };
+
+/// For each point that is a root, its shell.
+std::vector<Shell> shells_of(const TriangleMesh& mesh, Forest& forest) {
+  std::vector<Shell> shells(mesh.points.size());
+  for (const auto& [a, b, c] : mesh.triangles)
+    shells[forest.root(a)].add(mesh.points[a], mesh.points[b], mesh.points[c]);
+  return shells;
+}
 
 }  // namespace
 
+std::vector<double> shell_volumes(const TriangleMesh& mesh) {
+  Forest forest(mesh);
+  std::vector<double> volumes;
+  for (const Shell& shell : shells_of(mesh, forest))
+    if (shell.triangles > 0) volumes.push_back(shell.volume_mm3());
+  return volumes;
+}
+
 FilledPockets fill_pockets(const TriangleMesh& mesh, const std::vector<bool>& on_seam,
                            double deepest_mm) {
-  Shells shells(mesh);
-  std::vector<Shell> measured(mesh.points.size());
-  for (const auto& [a, b, c] : mesh.triangles) {
-    Shell& shell = measured[shells.of(a)];
-    // A pocket is small and far from the origin: about a point of its own nothing cancels.
-    if (!shell.seen) shell.origin = mesh.points[a], shell.seen = true;
-    const glm::dvec3 p = mesh.points[a] - shell.origin, q = mesh.points[b] - shell.origin,
-                     r = mesh.points[c] - shell.origin;
-    shell.volume += glm::dot(p, glm::cross(q, r)) / 6.0;
-    shell.area += 0.5 * glm::length(glm::cross(q - p, r - p));
-    shell.on_seam = shell.on_seam || on_seam[a] || on_seam[b] || on_seam[c];
-  }
-  FilledPockets result;
-  const auto depth = [](const Shell& shell) { return -3.0 * shell.volume / shell.area; };
+  Forest forest(mesh);
+  std::vector<Shell> shells = shells_of(mesh, forest);
+  for (std::uint32_t v = 0; v < mesh.points.size(); ++v)
+    if (on_seam[v]) shells[forest.root(v)].on_seam = true;
   const auto is_pocket = [&](const Shell& shell) {
-    return shell.on_seam && shell.volume < 0.0 && depth(shell) <= deepest_mm;
+    return shell.on_seam && shell.volume_mm3() < 0.0 && shell.depth_mm() <= deepest_mm;
   };
-  for (const Shell& shell : measured) {
-    if (!is_pocket(shell)) continue;
+
+  FilledPockets result;
+  std::vector<bool> filled(shells.size());
+  for (std::size_t i = 0; i < shells.size(); ++i) {
+    if (shells[i].triangles == 0 || !is_pocket(shells[i])) continue;
+    filled[i] = true;
     ++result.pockets;
-    result.volume_mm3 -= shell.volume;
-    result.max_depth_mm = std::max(result.max_depth_mm, depth(shell));
+    result.volume_mm3 -= shells[i].volume_mm3();
+    result.max_depth_mm = std::max(result.max_depth_mm, shells[i].depth_mm());
   }
   std::vector<std::uint32_t> kept(mesh.points.size());
   for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
-    const Shell& shell = measured[shells.of(v)];
-    if (!shell.seen || is_pocket(shell)) continue;
+    const std::uint32_t root = forest.root(v);
+    if (filled[root] || shells[root].triangles == 0) continue;
     kept[v] = static_cast<std::uint32_t>(result.mesh.points.size());
     result.mesh.points.push_back(mesh.points[v]);
     result.on_seam.push_back(on_seam[v]);
   }
   for (const auto& [a, b, c] : mesh.triangles)
-    if (!is_pocket(measured[shells.of(a)]))
-      result.mesh.triangles.push_back({kept[a], kept[b], kept[c]});
+    if (!filled[forest.root(a)]) result.mesh.triangles.push_back({kept[a], kept[b], kept[c]});
   return result;
 }
 

@@ -1,5 +1,7 @@
 #include "seam_cure.hpp"
 
+#include "mesh_topology.hpp"
+
 #include <OpenMesh/Core/Mesh/DefaultTriMesh.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <algorithm>
@@ -25,7 +27,8 @@ constexpr double kLeastCosine = 0.5;
 glm::dvec3 normal_of(const Corners& t) { return glm::cross(t[1] - t[0], t[2] - t[0]); }
 
 double longest_of(const Corners& t) {
-  return std::max({glm::distance(t[0], t[1]), glm::distance(t[1], t[2]), glm::distance(t[2], t[0])});
+  return std::max(
+      {glm::distance(t[0], t[1]), glm::distance(t[1], t[2]), glm::distance(t[2], t[0])});
 }
 
 /// Least of the three heights.
@@ -47,12 +50,8 @@ class Cure {
     mesh_.request_edge_status();
     mesh_.request_face_status();
     for (const glm::dvec3& p : mesh.points) mesh_.add_vertex({p.x, p.y, p.z});
-    for (const auto& [a, b, c] : mesh.triangles)
-      mesh_.add_face(vertex(a), vertex(b), vertex(c));
-    whole_ = mesh_.n_faces() == mesh.triangles.size();
+    for (const auto& [a, b, c] : mesh.triangles) mesh_.add_face(vertex(a), vertex(b), vertex(c));
   }
-
-  [[nodiscard]] bool is_manifold() const { return whole_; }
 
   CuredMesh run() {
     for (int pass = 0; pass < kMaxPasses; ++pass) {
@@ -120,8 +119,7 @@ class Cure {
   /// Such a shell would end as two triangles, back to back, which OpenMesh does not mind.
   bool is_tetrahedron(HalfedgeHandle h) const {
     return mesh_.valence(mesh_.from_vertex_handle(h)) == 3 &&
-           mesh_.valence(mesh_.to_vertex_handle(h)) == 3 &&
-           mesh_.valence(vertices(h)[2]) == 3;
+           mesh_.valence(mesh_.to_vertex_handle(h)) == 3 && mesh_.valence(vertices(h)[2]) == 3;
   }
 
   /// No triangle turns over when the start of `way` is pulled to its end; needles must not get
@@ -187,17 +185,18 @@ class Cure {
   std::vector<double> moved_;
   double shortest_;
   double max_move_ = 0.0;
-  bool whole_ = false;
 };
 
 }  // namespace
 
 Result<CuredMesh> cure_seam(const TriangleMesh& mesh, const std::vector<bool>& on_seam,
                             double shortest_mm) {
-  Cure cure(mesh, on_seam, shortest_mm);
-  if (!cure.is_manifold())
-    return failure(ErrorKind::unsound, "the seam of the two parts is no manifold");
-  return cure.run();
+  const MeshTopology topology = topology_of(mesh.points.size(), mesh.triangles);
+  if (!topology.closed() || !topology.manifold())
+    return failure(ErrorKind::unsound,
+                   "expected parts that share a seam of closed curves, found "
+                   "that it branches or ends");
+  return Cure(mesh, on_seam, shortest_mm).run();
 }
 
 }  // namespace clay::solid

@@ -23,7 +23,9 @@ struct CollapsedParts {
   PlanarCertificate upper_certificate;
   Smoothing smoothing = Smoothing::none;  ///< as done, for both parts alike
   std::string no_smoothing;               ///< why not, where it was asked for and not done
-  double largest_radius_mm = 0.0;
+
+  /// All pieces, lower ones first.
+  [[nodiscard]] Profile together() const;
 };
 
 /// Rings 0 to `failed_ring`, and the rest with the crown. Where one part cannot be smoothed, the
@@ -44,7 +46,10 @@ struct CollapsedSolid {
   double upper_mm3 = 0.0;
   double overlap_mm3 = 0.0;
   double union_mm3 = 0.0;
-  std::size_t pockets = 0;   ///< voids between the parts, too shallow to keep, that were filled
+  std::size_t pieces = 0;    ///< bodies that do not touch: 2 where the upper part fell clear
+  std::size_t voids = 0;     ///< closed cavities, of the parts or trapped between them
+  double voids_mm3 = 0.0;    ///< what they hold
+  std::size_t pockets = 0;   ///< trapped too, but less deep than the tolerance: filled
   double pockets_mm3 = 0.0;  ///< what they held
   double volume_mm3 = 0.0;   ///< of `mesh`: union and pockets, but for the rounding
   double max_move_mm = 0.0;  ///< of the surface from the exact union to `mesh`, at most
@@ -52,12 +57,12 @@ struct CollapsedSolid {
 
 /// Both parts revolved by `segments` (the upper one perhaps out of step with the lower), the upper
 /// one turned by `collapse`, and united (CGAL corefinement with exact constructions). Edges and
-/// heights of triangles along the seam that rounding to float32 might turn over are then removed,
-/// which moves the surface by a fraction of the tolerance, or of 2^-16 of the largest coordinate
-/// if that is more. Parts that do not touch stay shells of their own. The same mesh every time.
+/// heights of triangles along the seam that rounding to float32 might turn over are then removed.
+/// Where parts all but touch, the upper one may be nudged by up to 2^-14 of the largest
+/// coordinate. Parts that do not touch stay shells of their own. The same mesh every time.
 ///
 /// Needs kMinSegments <= segments <= kMaxSegments. `unsound` when a part is lost in float32, or
-/// when no phase of the segments gives a sound mesh; the message tells what the last one lacked.
+/// when no attempt gives a sound mesh; the message tells what the last one lacked.
 Result<CollapsedSolid> collapsed_solid(const CollapsedParts& parts, const Collapse& collapse,
                                        std::size_t segments, double tolerance_mm);
 
