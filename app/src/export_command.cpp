@@ -111,12 +111,13 @@ std::string rounding_of(const Json& file) {
   return error > 0.0 ? fmt::format(", vertices within {:.2g} mm", error) : "";
 }
 
-void tell_of_collapse(const Console& console, const Json& collapsed) {
+void tell_of_collapse(const Console& console, const Json& collapsed, double counted_mm3) {
   const auto cm3 = [&](const char* key) { return collapsed[key].get<double>() / 1000.0; };
-  console.say(
-      fmt::format("collapsed: {:.3f} cm3 stand and {:.3f} cm3 fell; they overlap by {:.3f} cm3, so "
-                  "that the union holds {:.3f} cm3",
-                  cm3("lower_mm3"), cm3("upper_mm3"), cm3("overlap_mm3"), cm3("union_mm3")));
+  console.say(fmt::format(
+      "collapsed: of {:.3f} cm3 counted, {:.3f} cm3 stand and {:.3f} cm3 fell; they overlap by "
+      "{:.3f} cm3, so that the union holds {:.3f} cm3",
+      counted_mm3 / 1000.0, cm3("lower_mm3"), cm3("upper_mm3"), cm3("overlap_mm3"),
+      cm3("union_mm3")));
   if (const auto pieces = collapsed["pieces"].get<std::size_t>(); pieces > 1)
     console.warn(fmt::format("the file holds {} bodies that do not touch", pieces));
   if (const auto voids = collapsed["voids"].get<std::size_t>(); voids > 0)
@@ -133,11 +134,13 @@ void tell(const Console& console, const Json& json) {
       json["certificate"]["vertices"].get<std::size_t>(), json["triangles"].get<std::size_t>(),
       json["components"].get<std::size_t>(), json["self_intersections"].get<std::size_t>()));
   console.say(fmt::format(
-      "volume {:.3f} cm3, off the counted clay by {:.1e}; thinnest {:.2f} mm; chordal error {:.3g} "
-      "mm",
-      json["volume_mm3"].get<double>() / 1000.0, json["volume_error_relative"].get<double>(),
-      json["min_wall_mm"].get<double>(), json["chordal_error_mm"].get<double>()));
-  if (collapsed) tell_of_collapse(console, json["collapsed"]);
+      "volume {:.3f} cm3, {}off the counted clay by {:.1e}; thinnest {:.2f} mm; chordal error "
+      "{:.3g} mm",
+      json["volume_mm3"].get<double>() / 1000.0, collapsed ? "with the overlap " : "",
+      json["volume_error_relative"].get<double>(), json["min_wall_mm"].get<double>(),
+      json["chordal_error_mm"].get<double>()));
+  if (collapsed)
+    tell_of_collapse(console, json["collapsed"], json["counted_volume_mm3"].get<double>());
   for (const Json& cavity : json["cavities"])
     console.warn(
         fmt::format("closed cavity from {:.1f} to {:.1f} mm ({:.1f} cm3): it needs a drain hole",
