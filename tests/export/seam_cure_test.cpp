@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <vector>
 
 namespace clay::solid {
@@ -76,6 +77,34 @@ TEST(SeamCure, FlatTrianglesGiveTheirLongestEdgeAway) {
     lowest = std::min(lowest, glm::length(glm::cross(q - p, r - p)) / longest);
   }
   EXPECT_GT(lowest, 1.0);
+}
+
+TEST(SeamCure, DoesNotFoldTheSurface) {
+  // The bottom, with a short edge from 8 to 9. A wedge beside it, 8 10 11, would be turned over by
+  // pulling 8 to 9, though not by pulling 9 to 8.
+  TriangleMesh mesh = shapes::cube(8);
+  for (const glm::dvec2 p : {glm::dvec2{4, 4}, {4.00095, 4}, {4.0006, 4.01}, {4.0006, 6}, {4.5, 5}})
+    mesh.points.emplace_back(p, 0.0);
+  std::erase(mesh.triangles, std::array<std::uint32_t, 3>{0, 2, 1});
+  std::erase(mesh.triangles, std::array<std::uint32_t, 3>{0, 3, 2});
+  for (const auto& [a, b, c] : std::vector<std::array<std::uint32_t, 3>>{{8, 9, 10},
+                                                                         {8, 10, 11},
+                                                                         {9, 12, 10},
+                                                                         {10, 12, 11},
+                                                                         {8, 11, 3},
+                                                                         {0, 8, 3},
+                                                                         {0, 1, 8},
+                                                                         {8, 1, 9},
+                                                                         {9, 1, 2},
+                                                                         {9, 2, 12},
+                                                                         {12, 2, 11},
+                                                                         {11, 2, 3}})
+    mesh.triangles.push_back({c, b, a});
+  ASSERT_TRUE(check_mesh(mesh).sound()) << check_mesh(mesh).problems.front().where;
+  const auto cured = cure_seam(mesh, only(13, 8), 1e-3);
+  ASSERT_TRUE(cured);
+  EXPECT_EQ(cured->mesh.points.size(), 12u);
+  EXPECT_TRUE(check_mesh(cured->mesh).sound());
 }
 
 TEST(SeamCure, ATetrahedronStaysOne) {
