@@ -13,6 +13,7 @@
 #include <cmath>
 #include <exception>
 #include <glm/geometric.hpp>
+#include <new>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -123,8 +124,10 @@ class Union {
       solid.max_move_mm = nudge;
       return cured(both, solid);
     });
+  } catch (const std::bad_alloc&) {
+    throw;  // the next attempt would fare no better
   } catch (const std::exception& e) {
-    return failure(ErrorKind::unsound, std::string("the union was given up: ") + e.what());
+    return failure(ErrorKind::unsound, std::string("the union: ") + e.what());
   }
 
   Result<CollapsedSolid> cured(const MeshUnion& both, CollapsedSolid solid) const {
@@ -174,8 +177,16 @@ class Union {
 }  // namespace
 
 Result<CollapsedSolid> collapsed_solid(const CollapsedParts& parts, const Collapse& collapse,
-                                       std::size_t segments, double tolerance_mm) {
+                                       std::size_t segments, double tolerance_mm) try {
+  const std::size_t triangles = triangle_count(parts.together(), segments);
+  if (triangles > kMaxUnitedTriangles)
+    return failure(ErrorKind::bad_input, "expected at most " + std::to_string(kMaxUnitedTriangles) +
+                                             " triangles in parts to be united, found " +
+                                             std::to_string(triangles) +
+                                             "; ask for a larger tolerance or fewer segments");
   return Union(parts, collapse, segments, tolerance_mm).run();
+} catch (const std::exception& e) {
+  return failure(ErrorKind::io, std::string("union given up: ") + e.what());
 }
 
 }  // namespace clay::solid

@@ -73,8 +73,7 @@ Result<MeshUnion> unite(const TriangleMesh& a, const TriangleMesh& b) {
   std::array<boost::optional<SurfaceMesh*>, 4> wanted;
   wanted[pmp::Corefinement::UNION] = &both;
   wanted[pmp::Corefinement::INTERSECTION] = &common;
-  const auto done = pmp::corefine_and_compute_boolean_operations(
-      first, second, wanted, CGAL::parameters::throw_on_self_intersection(true));
+  const auto done = pmp::corefine_and_compute_boolean_operations(first, second, wanted);
   if (!done[pmp::Corefinement::UNION] || !done[pmp::Corefinement::INTERSECTION])
     return failure(ErrorKind::unsound,
                    "expected two parts that share clay, a face or nothing, found that they touch "

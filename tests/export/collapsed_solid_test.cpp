@@ -193,6 +193,9 @@ TEST(CollapsedSolid, RefusesWhatIsNoCollapse) {
   Pot tilted = fallen(stack, 0, {6, 6, 0}, 1.0);
   tilted.collapse->axis = {0, 0.6, 0.8};
   EXPECT_TRUE(refused(tilted, ErrorKind::bad_input, "horizontal"));
+  const auto too_fine = united(fallen(stack, 0, {6, 6, 0}, 1.0), kMaxUnitedTriangles / 8 + 1);
+  ASSERT_FALSE(too_fine);
+  EXPECT_NE(too_fine.error().message.find("triangles"), std::string::npos);
 }
 
 TEST(CollapsedSolid, RefusesAPartThatFloat32Loses) {

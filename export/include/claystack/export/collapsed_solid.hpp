@@ -14,6 +14,9 @@
 
 namespace clay::solid {
 
+/// The most triangles of both parts together: exact numbers take ten times the memory of doubles.
+inline constexpr std::size_t kMaxUnitedTriangles = 4'000'000;
+
 /// What stands and what fell, each as a body of revolution that is proved in the plane. Heights
 /// are those of the whole stack, before the fall.
 struct CollapsedParts {
@@ -61,8 +64,9 @@ struct CollapsedSolid {
 /// Where parts all but touch, the upper one may be nudged by up to 2^-14 of the largest
 /// coordinate. Parts that do not touch stay shells of their own. The same mesh every time.
 ///
-/// Needs kMinSegments <= segments <= kMaxSegments. `unsound` when a part is lost in float32, or
-/// when no attempt gives a sound mesh; the message tells what the last one lacked.
+/// Needs kMinSegments <= segments <= kMaxSegments. `bad_input` beyond kMaxUnitedTriangles;
+/// `unsound` when a part is lost in float32, or when no attempt gives a sound mesh; the message
+/// tells what the last one lacked.
 Result<CollapsedSolid> collapsed_solid(const CollapsedParts& parts, const Collapse& collapse,
                                        std::size_t segments, double tolerance_mm);
 
