@@ -2,10 +2,12 @@
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
+#include <CGAL/Random.h>
 #include <CGAL/Surface_mesh.h>
 #include <algorithm>
 #include <array>
 #include <boost/optional.hpp>
+#include <numeric>
 #include <stdexcept>
 #include <tuple>
 
@@ -51,11 +53,34 @@ TriangleMesh nearest_mesh(SurfaceMesh& mesh) {
   return result;
 }
 
+bool before(const glm::dvec3& p, const glm::dvec3& q) {
+  return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
+}
+
+/// CGAL finds crossings in an order that hangs on addresses in memory: put points in order of
+/// their coordinates, and triangles in order of their points.
+TriangleMesh in_order(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> order(mesh.points.size()), place(mesh.points.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return before(mesh.points[a], mesh.points[b]);
+  });
+  TriangleMesh result;
+  for (const std::uint32_t v : order) {
+    place[v] = static_cast<std::uint32_t>(result.points.size());
+    result.points.push_back(mesh.points[v]);
+  }
+  for (const auto& [a, b, c] : mesh.triangles) {
+    std::array<std::uint32_t, 3> corners{place[a], place[b], place[c]};
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    result.triangles.push_back(corners);
+  }
+  std::sort(result.triangles.begin(), result.triangles.end());
+  return result;
+}
+
 std::vector<bool> new_points(const TriangleMesh& result, const TriangleMesh& a,
                              const TriangleMesh& b) {
-  const auto before = [](const glm::dvec3& p, const glm::dvec3& q) {
-    return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
-  };
   std::vector<glm::dvec3> old = a.points;
   old.insert(old.end(), b.points.begin(), b.points.end());
   std::sort(old.begin(), old.end(), before);
@@ -69,6 +94,7 @@ std::vector<bool> new_points(const TriangleMesh& result, const TriangleMesh& a,
 }  // namespace
 
 Result<MeshUnion> unite(const TriangleMesh& a, const TriangleMesh& b) {
+  CGAL::get_default_random() = CGAL::Random(0);  // its search for crossings draws from it
   SurfaceMesh first = exact_mesh(a), second = exact_mesh(b), both, common;
   std::array<boost::optional<SurfaceMesh*>, 4> wanted;
   wanted[pmp::Corefinement::UNION] = &both;
@@ -79,7 +105,7 @@ Result<MeshUnion> unite(const TriangleMesh& a, const TriangleMesh& b) {
                    "expected two parts that share clay, a face or nothing, found that they touch "
                    "in an edge or a point");
   MeshUnion result;
-  result.mesh = nearest_mesh(both);
+  result.mesh = in_order(nearest_mesh(both));
   result.on_seam = new_points(result.mesh, a, b);
   result.overlap_mm3 = signed_volume(nearest_mesh(common));
   return result;
