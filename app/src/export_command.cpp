@@ -103,7 +103,7 @@ Result<void> publish_all(std::vector<Request>& requests, const ExportCommand& co
     if (!request.mesh) continue;
     if (command.certificate)
       if (auto done =
-              publish(certificate_path(request.path), solid::write_certificate(file->certificate));
+              publish(certificate_path(request.path), solid::write_certificate(*file->certificate));
           !done)
         return done;
     ++file;
@@ -126,6 +126,9 @@ Result<int> export_pot(ExportCommand& command, const Console& console) {
     return parse_pot(bytes, command.pot);
   });
   if (!pot) return tl::make_unexpected(pot.error());
+  if (command.certificate && pot->collapse)
+    return failure(ErrorKind::bad_input,
+                   command.pot + ": --certificate: expected a pot that stands, found a collapsed one");
   command.options.smoothing =
       command.smooth == "fair" ? solid::Smoothing::fair : solid::Smoothing::none;
   command.options.full_verification = command.verify == "full";

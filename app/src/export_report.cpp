@@ -14,23 +14,31 @@ std::string_view name_of(solid::Smoothing smoothing) {
 }
 
 std::string_view proof_of(const FileReport& file) {
-  return file.certificate.proof == solid::Proof::margins
-             ? "the profile's margins cover the rounding"
-             : "no two triangles as written meet (exact test)";
+  return file.proof == solid::Proof::margins ? "the profile's margins cover the rounding"
+                                             : "no two triangles as written meet (exact test)";
+}
+
+/// What the planar certificate says, and where it ends.
+std::string_view proof_of(const ExportReport& report) {
+  if (report.collapsed)
+    return "each part before the fall: closed and embedded; the whole: no self-intersection by "
+           "exact predicates on the mesh as rounded to float32";
+  return "closed and embedded: the profile is strictly simple and meets the axis in segments only";
 }
 
 Json file_json(const FileReport& file, const std::string& path) {
-  const solid::SolidCertificate& c = file.certificate;
   Json json = {{"path", path},
-               {"format", c.format},
-               {"bytes", c.bytes},
-               {"content_hash", c.content_hash},
-               {"max_error_mm", c.rounding_mm},
-               {"proof", c.proof == solid::Proof::margins ? "margins" : "exact_test"},
-               {"safe_rounding_mm", c.margins.safe_rounding_mm()},
-               {"wall_mm", {c.wall_lower_mm, c.wall_upper_mm}},
-               {"volume_bound_mm3", c.volume_bound_mm3},
+               {"format", solid::name_of(file.format)},
+               {"bytes", file.bytes},
+               {"content_hash", file.content_hash},
+               {"max_error_mm", file.max_error_mm},
+               {"proof", file.proof == solid::Proof::margins ? "margins" : "exact_test"},
                {"read_again", file.read_again}};
+  if (const auto& c = file.certificate) {
+    json["safe_rounding_mm"] = c->margins.safe_rounding_mm();
+    json["wall_mm"] = {c->wall_lower_mm, c->wall_upper_mm};
+    json["volume_bound_mm3"] = c->volume_bound_mm3;
+  }
   if (file.full_verification)
     json["full_verification"] = {{"sound", file.full_verification->sound()},
                                  {"self_intersections", file.full_verification->self_intersections},
@@ -38,16 +46,51 @@ Json file_json(const FileReport& file, const std::string& path) {
   return json;
 }
 
+Json collapsed_json(const solid::CollapsedSolid& collapsed) {
+  return {{"lower_mm3", collapsed.lower_mm3},     {"upper_mm3", collapsed.upper_mm3},
+          {"overlap_mm3", collapsed.overlap_mm3}, {"union_mm3", collapsed.union_mm3},
+          {"pieces", collapsed.pieces},           {"voids", collapsed.voids},
+          {"voids_mm3", collapsed.voids_mm3},     {"pockets", collapsed.pockets},
+          {"pockets_mm3", collapsed.pockets_mm3}, {"max_move_mm", collapsed.max_move_mm}};
+}
+
 bool is_drawing(const std::string& path) { return path.ends_with(".svg"); }
 
 void tell_file(const Console& console, const FileReport& file, const std::string& path) {
-  const solid::SolidCertificate& c = file.certificate;
-  console.say(fmt::format("{}: {}, {} bytes; vertices within {:.2g} mm; {}{}{}", path, c.format,
-                          c.bytes, c.rounding_mm, proof_of(file),
-                          file.read_again ? "; read again" : "",
+  console.say(fmt::format("{}: {}, {} bytes; vertices within {:.2g} mm; {}{}{}", path,
+                          solid::name_of(file.format), file.bytes, file.max_error_mm,
+                          proof_of(file), file.read_again ? "; read again" : "",
                           file.full_verification ? "; checked in full" : ""));
-  console.say(fmt::format("  wall {:.4f} to {:.4f} mm at its thinnest, volume within {:.2g} mm3",
-                          c.wall_lower_mm, c.wall_upper_mm, c.volume_bound_mm3));
+  if (const auto& c = file.certificate)
+    console.say(fmt::format("  wall {:.4f} to {:.4f} mm at its thinnest, volume within {:.2g} mm3",
+                            c->wall_lower_mm, c->wall_upper_mm, c->volume_bound_mm3));
+}
+
+void tell_collapse(const Console& console, const solid::CollapsedSolid& collapsed) {
+  const auto cm3 = [](double mm3) { return mm3 / 1000.0; };
+  console.say(fmt::format(
+      "collapsed: {:.3f} cm3 stand and {:.3f} cm3 fell; they overlap by {:.3f} cm3, so that the "
+      "union holds {:.3f} cm3",
+      cm3(collapsed.lower_mm3), cm3(collapsed.upper_mm3), cm3(collapsed.overlap_mm3),
+      cm3(collapsed.union_mm3)));
+  if (collapsed.pieces > 1)
+    console.warn(fmt::format("the file holds {} bodies that do not touch", collapsed.pieces));
+  if (collapsed.voids > 0)
+    console.warn(fmt::format("{} closed cavities hold {:.3g} cm3: they need drain holes",
+                             collapsed.voids, cm3(collapsed.voids_mm3)));
+}
+
+void tell_solid(const Console& console, const ExportReport& report) {
+  console.say(fmt::format("proved: {}closed and embedded, from {} profile vertices; {} triangles in "
+                          "{} shell(s)",
+                          report.collapsed ? "each part before the fall " : "",
+                          report.planar.vertices, report.triangles, report.shells));
+  console.say(fmt::format(
+      "volume {:.3f} cm3, {}off the counted clay by {:.1e}; thinnest {:.2f} mm; chordal error "
+      "{:.3g} mm",
+      report.volume_mm3 / 1000.0, report.collapsed ? "with the overlap " : "",
+      report.volume_error_relative, report.min_wall_mm, report.chordal_error_mm));
+  if (report.collapsed) tell_collapse(console, *report.collapsed);
 }
 
 }  // namespace
@@ -68,8 +111,7 @@ Json export_json(const ExportReport& report, const std::vector<std::string>& pat
       {"diameter_mm", report.diameter_mm},
       {"height_mm", report.height_mm},
       {"certificate",
-       {{"proved",
-         "closed and embedded: the profile is strictly simple and meets the axis in segments only"},
+       {{"proved", proof_of(report)},
         {"polygons", report.planar.polygons},
         {"vertices", report.planar.vertices},
         {"axis_segments", report.planar.axis_segments}}},
@@ -83,6 +125,7 @@ Json export_json(const ExportReport& report, const std::vector<std::string>& pat
       json["cavities"].push_back({{"bottom_mm", cavity.bottom_mm},
                                   {"top_mm", cavity.top_mm},
                                   {"volume_mm3", cavity.volume_mm3}});
+  if (report.collapsed) json["collapsed"] = collapsed_json(*report.collapsed);
   if (report.drilled_mm3 > 0.0) json["drilled_mm3"] = report.drilled_mm3;
   if (demand)
     json["wall_demand"] = {{"min_wall_mm", demand->min_wall_mm}, {"source", demand->source}};
@@ -99,16 +142,7 @@ Json export_json(const ExportReport& report, const std::vector<std::string>& pat
 
 void tell_export(const Console& console, const ExportReport& report,
                  const std::vector<std::string>& paths) {
-  if (!report.files.empty()) {
-    console.say(fmt::format(
-        "proved: closed and embedded, from {} profile vertices; {} triangles in {} shell(s)",
-        report.planar.vertices, report.triangles, report.shells));
-    console.say(fmt::format(
-        "volume {:.3f} cm3, off the counted clay by {:.1e}; thinnest {:.2f} mm; chordal error "
-        "{:.3g} mm",
-        report.volume_mm3 / 1000.0, report.volume_error_relative, report.min_wall_mm,
-        report.chordal_error_mm));
-  }
+  if (!report.files.empty()) tell_solid(console, report);
   if (report.drilled_mm3 > 0.0)
     console.say(
         fmt::format("drain drilled, {:.3f} cm3 of clay taken", report.drilled_mm3 / 1000.0));
@@ -131,7 +165,7 @@ bool tell_thin_wall(const Console& console, const ExportReport& report,
   if (!demand || report.files.empty()) return false;
   double thinnest = report.min_wall_mm;
   for (const FileReport& file : report.files)
-    thinnest = std::min(thinnest, file.certificate.wall_lower_mm);
+    if (file.certificate) thinnest = std::min(thinnest, file.certificate->wall_lower_mm);
   if (thinnest >= demand->min_wall_mm) return false;
   console.warn(fmt::format("thin wall: {:.3f} mm, expected {:.3f} mm at least ({})", thinnest,
                            demand->min_wall_mm, demand->source));

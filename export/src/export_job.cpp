@@ -2,7 +2,7 @@
 
 #include "claystack/export/drain.hpp"
 #include "claystack/export/tessellate.hpp"
-#include "claystack/export/wall_thickness.hpp"
+#include "collapsed_export.hpp"
 #include "describe.hpp"
 #include "resolution.hpp"
 #include "revolve_files.hpp"
@@ -23,15 +23,6 @@ double min_step_mm(const ClayStack& stack) {
   double widest = 0.0;
   for (const Ring& ring : stack.rings()) widest = std::max(widest, ring.outer_mm());
   return std::ldexp(std::hypot(widest, stack.height_mm()), -19);
-}
-
-Result<void> check_pieces(const std::vector<PieceShape>& shapes, bool allow_pieces) {
-  if (shapes.size() < 2 || allow_pieces) return {};
-  return failure(ErrorKind::unsound,
-                 "expected a pot in one piece, found " + std::to_string(shapes.size()) +
-                     " that do not touch: rings " + std::to_string(shapes[0].last_ring) + " and " +
-                     std::to_string(shapes[1].first_ring) +
-                     " are the first that part; ask for pieces to be exported together (--pieces)");
 }
 
 /// A profile that has been proved, and the number of steps to revolve it by.
@@ -174,10 +165,7 @@ class ExportJob {
     if (!made_mesh) list.push_back({"mesh in memory", "nothing asked for needs one"});
     if (!options_.full_verification)
       list.push_back({"full verification", "the certificate covers it; not asked for"});
-    for (const MeshFormat format : kMeshFormats)
-      if (std::none_of(outputs_.begin(), outputs_.end(),
-                       [&](const Output& output) { return output.format == format; }))
-        list.push_back({std::string(name_of(format)), "not asked for"});
+    tell_formats_left_out(outputs_, list);
   }
 
   const ClayStack& stack_;
@@ -192,15 +180,11 @@ class ExportJob {
 Result<ExportReport> run_export(const Pot& pot, const std::vector<Output>& outputs,
                                 const ExportOptions& options,
                                 const std::function<void(std::string_view)>& progress) {
-  if (pot.collapse)
-    return failure(ErrorKind::unsound,
-                   "a collapsed pot is not supported yet: expected one body of revolution, found "
-                   "two overlapping solids, parted above ring " +
-                       std::to_string(pot.collapse->failed_ring));
   if (!(options.tolerance_mm > 0.0))
     return failure(ErrorKind::bad_input, "tolerance: expected more than 0 mm, found " +
                                              in_mm(options.tolerance_mm) + " mm");
   try {
+    if (pot.collapse) return export_collapsed(pot, outputs, options, progress);
     if (!options.drain_mm) return ExportJob(pot.stack, outputs, options, progress).run();
     return drain(pot.stack, *options.drain_mm).and_then([&](const DrainedStack& drained) {
       return ExportJob(drained.stack, outputs, options, progress)

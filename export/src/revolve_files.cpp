@@ -7,6 +7,7 @@
 #include "rounded_claims.hpp"
 #include "shaded_obj.hpp"
 #include "stl_stream.hpp"
+#include "stored_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,25 +16,6 @@
 
 namespace clay::solid {
 namespace {
-
-std::string stage_name(std::string_view verb, MeshFormat format) {
-  return std::string(verb).append("_").append(name_of(format));
-}
-
-std::string as_written(MeshFormat format) { return std::string(name_of(format)) + " as written"; }
-
-std::span<const std::byte> bytes_of(const std::string& text) {
-  return std::as_bytes(std::span(text));
-}
-
-/// What the store holds; where that is gone, what was handed to it.
-Result<std::string> read_again(const FileStore& store, const std::string& written) {
-  if (!store.rereadable()) return written;
-  std::string again(written.size(), '\0');
-  return store.read_at(0, std::as_writable_bytes(std::span(again))).map([&] {
-    return std::move(again);
-  });
-}
 
 Result<void> check_sound(const TriangleMesh& mesh, const std::string& name) {
   const MeshReport report = check_mesh(mesh);
@@ -190,19 +172,18 @@ Result<FileReport> RevolveFiles::certify_bytes(MeshFormat format, double roundin
 Result<FileReport> RevolveFiles::finish(MeshFormat format, SolidCertificate certificate,
                                         FileStore& store) {
   certificate.format = name_of(format);
-  FileReport report{format, std::move(certificate), store.rereadable(), std::nullopt};
+  FileReport report;
+  report.format = format;
+  report.bytes = certificate.bytes;
+  report.content_hash = certificate.content_hash;
+  report.max_error_mm = certificate.rounding_mm;
+  report.proof = certificate.proof;
+  report.read_again = store.rereadable();
+  report.certificate = std::move(certificate);
   if (!options_.full_verification || !report.read_again) return report;
-  const auto checked = stages_.run("full_verification", [&] {
-    return read_again(store, std::string(report.certificate.bytes, '\0'))
-        .and_then([&](const std::string& again) {
-          return decode_mesh(again, format, as_written(format));
-        })
-        .map(check_mesh);
-  });
+  const auto checked =
+      stages_.run("full_verification", [&] { return check_stored(store, report.bytes, format); });
   if (!checked) return tl::make_unexpected(checked.error());
-  if (!checked->sound())
-    return failure(ErrorKind::unsound,
-                   as_written(format) + ": found " + describe(checked->problems.front()));
   report.full_verification = *checked;
   return report;
 }

@@ -188,14 +188,63 @@ TEST_F(ExportBowl, AFullDiskLeavesTheOldFile) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
 }
 
-TEST(ExportCollapsed, IsRefusedWithTheReasonAndDrawn) {
-  const ScratchFolder folder;
-  const std::string pot = folder.file("c.pot.json");
-  ASSERT_EQ(claystack("throw -q " + sample("collapse.scene.json") + " -o " + pot).status, 0);
-  const Ran run = claystack("export " + pot + " " + folder.file("c.stl"));
-  EXPECT_EQ(run.status, 1);
-  EXPECT_NE(run.err.find("collapsed"), std::string::npos) << run.err;
-  EXPECT_FALSE(std::filesystem::exists(folder.file("c.stl")));
+class ExportCollapsed : public testing::Test {
+ protected:
+  void SetUp() override {
+    const Ran thrown = claystack("throw --json " + sample("collapse.scene.json") + " -o " + pot);
+    ASSERT_EQ(thrown.status, 0) << thrown.err;
+    counted = thrown.json().at("volume_mm3");
+  }
+  ScratchFolder folder;
+  std::string pot = folder.file("c.pot.json"), stl = folder.file("c.stl");
+  double counted = 0.0;
+};
+
+TEST_F(ExportCollapsed, IsOneSoundFileThatHoldsTheUnion) {
+  const std::string drc = folder.file("c.drc");
+  const Ran run = claystack("export --json " + pot + " " + stl + " " + drc);
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = run.json();
+  const auto& fall = json.at("collapsed");
+  const double both = fall.at("lower_mm3").get<double>() + fall.at("upper_mm3").get<double>();
+  const double whole = fall.at("union_mm3"), overlap = fall.at("overlap_mm3");
+  EXPECT_EQ(json.at("counted_volume_mm3"), counted);
+  EXPECT_NEAR(both / counted, 1.0, 1e-9);
+  EXPECT_NEAR((both - overlap) / whole, 1.0, 1e-9);
+  EXPECT_GT(overlap, 0.1 * counted);
+  EXPECT_EQ(fall.at("pieces"), 1);
+  EXPECT_LE(fall.at("max_move_mm"), 0.02);
+  EXPECT_EQ(json.at("self_intersections"), 0);
+
+  EXPECT_NEAR(stl_volume(read_text(stl)) / whole, 1.0, 1e-6);
+  for (const std::string& file : {stl, drc}) {
+    const auto check = claystack("check --json " + file).json();
+    for (const char* key : {"sound", "closed", "manifold", "oriented", "bounds_volume"})
+      EXPECT_TRUE(check.at(key)) << file << key;
+    EXPECT_EQ(check.at("self_intersections"), 0) << file;
+  }
+  const Ran admesh = shell("admesh --exact " + stl);
+  for (const char* fault : {"Total disconnected facets", "Degenerate facets", "Edges fixed",
+                            "Facets removed", "Facets added", "Facets reversed", "Backwards edges"})
+    EXPECT_EQ(number_after(admesh.out, fault), 0.0) << fault << "\n" << admesh.out;
+  EXPECT_NEAR(number_after(admesh.out, "Volume") / whole, 1.0, 1e-4) << admesh.out;
+  const Ran prusa = shell("prusa-slicer --info " + stl);
+  EXPECT_NE(prusa.out.find("manifold = yes"), std::string::npos) << prusa.out;
+  for (const char* fault :
+       {"open_edges", "edges_fixed", "facets_removed", "facets_reversed", "backwards_edges"})
+    EXPECT_EQ(prusa.out.find(fault), std::string::npos) << prusa.out;
+}
+
+TEST_F(ExportCollapsed, TellsTheVolumesAndIsTheSameEveryTime) {
+  const Ran run = claystack("export " + pot + " " + stl);
+  ASSERT_EQ(run.status, 0) << run.err;
+  for (const char* words : {"overlap by", "cm3 fell", "drain holes"})
+    EXPECT_NE((run.out + run.err).find(words), std::string::npos) << words << run.out << run.err;
+  ASSERT_EQ(claystack("export -q " + pot + " " + folder.file("again.stl")).status, 0);
+  EXPECT_EQ(read_text(stl), read_text(folder.file("again.stl")));
+}
+
+TEST_F(ExportCollapsed, IsDrawn) {
   EXPECT_EQ(claystack("export -q " + pot + " " + folder.file("c.svg")).status, 0);
   EXPECT_EQ(shell("rsvg-convert " + folder.file("c.svg") + " -o " + folder.file("c.png")).status,
             0);

@@ -66,16 +66,16 @@ TEST(RunExport, VaseInEveryFormat) {
     const FileReport& file = report.files[i];
     EXPECT_EQ(file.format, every_format()[i]);
     EXPECT_TRUE(file.read_again);
-    EXPECT_EQ(file.certificate.proof, Proof::margins);
-    EXPECT_EQ(file.certificate.bytes, result->files[i].size());
+    EXPECT_EQ(file.proof, Proof::margins);
+    EXPECT_EQ(file.bytes, result->files[i].size());
     const auto decoded = decode_mesh(result->files[i], file.format, "file");
     ASSERT_TRUE(decoded) << decoded.error().message;
     EXPECT_EQ(decoded->triangles.size(), report.triangles);
     const MeshReport check = check_mesh(*decoded);
     EXPECT_TRUE(check.sound());
-    EXPECT_NEAR(check.volume_mm3, report.volume_mm3, file.certificate.volume_bound_mm3);
-    EXPECT_LE(file.certificate.rounding_mm, file.format == MeshFormat::drc ? 0.0201 : 4e-5);
-    EXPECT_GT(file.certificate.rounding_mm, 0.0);
+    EXPECT_NEAR(check.volume_mm3, report.volume_mm3, file.certificate->volume_bound_mm3);
+    EXPECT_LE(file.max_error_mm, file.format == MeshFormat::drc ? 0.0201 : 4e-5);
+    EXPECT_GT(file.max_error_mm, 0.0);
   }
 }
 
@@ -176,11 +176,55 @@ TEST(RunExport, PiecesOnlyWhenAllowed) {
   EXPECT_EQ(result->report.shells, 2u);
 }
 
-TEST(RunExport, CollapsedPotsAreRefused) {
+TEST(RunExport, CollapsedPotsAreUnited) {
   Pot pot = pot_of(shapes::vase(100));
-  pot.collapse = Collapse{3, {40, 60, 0}, {0, 0, 1}, 1.0, 12.0};
-  EXPECT_TRUE(
-      refused(exported(pot, {}, {}), ErrorKind::unsound, "collapsed pot is not supported yet"));
+  pot.collapse = Collapse{30, {50, 70, 0}, {0, 0, 1}, 1.0, 12.0};
+  ExportOptions options;
+  options.tolerance_mm = 0.2;
+  std::vector<std::string> told;
+  const auto result = exported(pot, every_format(), options,
+                               [&](std::string_view stage) { told.emplace_back(stage); });
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(told.at(0), "parts");
+  EXPECT_EQ(told.at(1), "union");
+  const ExportReport& report = result->report;
+  ASSERT_TRUE(report.collapsed);
+  EXPECT_TRUE(report.collapsed->check.sound());
+  EXPECT_EQ(report.smoothing, Smoothing::fair);
+  EXPECT_EQ(report.planar.polygons, 2u);
+  EXPECT_EQ(report.shapes.at(1).first_ring, 31u);
+  EXPECT_DOUBLE_EQ(report.counted_volume_mm3, pot.stack.volume_mm3());
+  EXPECT_GT(report.collapsed->overlap_mm3, 0.01 * report.counted_volume_mm3);
+  EXPECT_NEAR((report.volume_mm3 + report.collapsed->overlap_mm3 - report.collapsed->pockets_mm3) /
+                  report.counted_volume_mm3,
+              1.0, 1e-6);
+  EXPECT_LT(report.volume_error_relative, 1e-6);
+  for (const LeftOut& item : report.left_out) EXPECT_NE(item.what, "union");
+  for (std::size_t i = 0; i < result->files.size(); ++i) {
+    EXPECT_EQ(report.files[i].proof, Proof::exact_test);
+    EXPECT_FALSE(report.files[i].certificate);
+    const auto decoded = decode_mesh(result->files[i], report.files[i].format, "file");
+    ASSERT_TRUE(decoded) << decoded.error().message;
+    EXPECT_TRUE(check_mesh(*decoded).sound());
+    EXPECT_EQ(decoded->triangles.size(), report.triangles);
+  }
+}
+
+TEST(RunExport, PiecesOfCollapsedPotsOnlyWhenAllowed) {
+  for (const std::size_t failed : {std::size_t{1}, std::size_t{3}}) {
+    Pot pot = pot_of(stack_of(2.0, {{10, 0}, {10, 0}, {10, 0}, {10, 0}, {30, 0}}));
+    std::vector<Ring> rings(pot.stack.rings().begin(), pot.stack.rings().end());
+    rings[failed == 1 ? 3 : 2] = {quanta_from_radius(30), quanta_from_radius(20)};
+    pot.stack = ClayStack::from_rings(2.0, rings, 0).value();
+    pot.collapse = Collapse{failed, {50, 4, 0}, {0, 0, 1}, 1.0, 12.0};
+    EXPECT_TRUE(refused(exported(pot, {}, {}), ErrorKind::unsound, "that do not touch"))
+        << failed;
+    ExportOptions options;
+    options.allow_pieces = true;
+    const auto result = exported(pot, {}, options);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_TRUE(result->report.collapsed->check.sound());
+  }
 }
 
 TEST(RunExport, WallsLostInFloat32AreRefusedWithThePlace) {
@@ -218,8 +262,8 @@ TEST(RunExport, DracoGetsTheBitsThatThinWallsNeed) {
   const auto result =
       exported(pot_of(stack_of(9.0, {{40, 30}, {50, 39.99}})), {MeshFormat::drc}, options);
   ASSERT_TRUE(result) << result.error().message;
-  EXPECT_EQ(result->report.files[0].certificate.proof, Proof::margins);
-  EXPECT_LT(result->report.files[0].certificate.rounding_mm, 0.01 / 8);
+  EXPECT_EQ(result->report.files[0].proof, Proof::margins);
+  EXPECT_LT(result->report.files[0].max_error_mm, 0.01 / 8);
   EXPECT_TRUE(check_mesh(*decode_mesh(result->files[0], MeshFormat::drc, "pot")).sound());
 }
 
@@ -235,7 +279,7 @@ TEST(RunExport, WithoutMarginsDracoGetsBitsUntilTheExactTestPasses) {
                [&](std::string_view stage) { attempts += stage == "encode_drc" ? 1 : 0; });
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_GT(attempts, 2);
-  EXPECT_EQ(result->report.files[0].certificate.proof, Proof::exact_test);
+  EXPECT_EQ(result->report.files[0].proof, Proof::exact_test);
   EXPECT_TRUE(check_mesh(*decode_mesh(result->files[0], MeshFormat::drc, "pot")).sound());
 }
 #endif

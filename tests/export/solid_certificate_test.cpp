@@ -22,7 +22,7 @@ Certified certified(const ClayStack& stack, MeshFormat format, const ExportOptio
   MemoryStore store;
   const auto report = run_export(shapes::pot_of(stack), {{format, &store}}, options);
   EXPECT_TRUE(report) << report.error().message;
-  return {report->files.at(0).certificate, store.bytes()};
+  return {report->files.at(0).certificate.value(), store.bytes()};
 }
 
 ::testing::AssertionResult refused(const SolidCertificate& certificate, const std::string& file,
@@ -198,7 +198,7 @@ TEST(SolidCertificate, IsNeverWrong) {
       ++refused;
       continue;
     }
-    const SolidCertificate& certificate = report->files[0].certificate;
+    const SolidCertificate& certificate = report->files[0].certificate.value();
     ++(certificate.proof == Proof::margins ? by_margins : by_test);
     const auto decoded = decode_mesh(store.bytes(), format, "pot");
     ASSERT_TRUE(decoded);

@@ -5,6 +5,7 @@
 #include "claystack/engine/pot.hpp"
 #include "claystack/engine/result.hpp"
 #include "claystack/export/certificate.hpp"
+#include "claystack/export/collapsed_solid.hpp"
 #include "claystack/export/file_store.hpp"
 #include "claystack/export/mesh_check.hpp"
 #include "claystack/export/mesh_formats.hpp"
@@ -13,6 +14,7 @@
 #include "claystack/export/solid_certificate.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -41,8 +43,12 @@ struct Output {
 
 struct FileReport {
   MeshFormat format = MeshFormat::stl_binary;
-  SolidCertificate certificate;
+  std::uint64_t bytes = 0;
+  std::string content_hash;   ///< XXH3-128
+  double max_error_mm = 0.0;  ///< no vertex of the file is farther from its place
+  Proof proof = Proof::margins;
   bool read_again = false;  ///< false for pipes only
+  std::optional<SolidCertificate> certificate;  ///< of a body of revolution: a pot that stands
   std::optional<MeshReport> full_verification;
 };
 
@@ -57,9 +63,10 @@ struct LeftOut {
 };
 
 struct ExportReport {
-  PlanarCertificate planar;
+  PlanarCertificate planar;  ///< of a collapsed pot: of its parts before the fall
   std::vector<PieceShape> shapes;
   Smoothing smoothing = Smoothing::none;  ///< as done: walls too thin for `fair` stay as they are
+  std::optional<CollapsedSolid> collapsed;  ///< without its mesh
   std::size_t segments = 0;
   std::size_t triangles = 0;
   std::size_t shells = 0;
@@ -70,7 +77,7 @@ struct ExportReport {
   double drilled_mm3 = 0.0;         ///< clay taken for the drain
   double counted_volume_mm3 = 0.0;  ///< of the stack, drilled where asked
   double volume_mm3 = 0.0;          ///< of the solid before rounding
-  double volume_error_relative = 0.0;
+  double volume_error_relative = 0.0;  ///< to the counted clay, less what overlaps in a collapse
   std::vector<FileReport> files;  ///< one for each output, in that order
   std::vector<StageTime> stages;
   std::vector<LeftOut> left_out;
@@ -81,6 +88,9 @@ struct ExportReport {
 /// more bits than the tolerance asks for where the margins need them. Where margins do not cover a
 /// format's rounding, CGAL's exact test of the triangles as written takes their place; where that
 /// fails, the job does, with the reason. `progress(stage)` is called as each stage begins.
+///
+/// Of a collapsed pot the two parts are united, whether they touch or not (see `collapsed_solid`);
+/// its proof is the exact test of the triangles, and a budget of triangles is met by decimation.
 Result<ExportReport> run_export(const Pot& pot, const std::vector<Output>& outputs,
                                 const ExportOptions& options,
                                 const std::function<void(std::string_view)>& progress = {});

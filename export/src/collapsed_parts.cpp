@@ -1,0 +1,160 @@
+#include "claystack/export/collapsed_solid.hpp"
+#include "describe.hpp"
+#include "stack_section.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace clay::solid {
+namespace {
+
+/// A stretch of the pot as a stack of its own, and the height it began at.
+struct Part {
+  ClayStack stack;
+  std::size_t first_ring = 0;
+  double bottom_mm = 0.0;
+};
+
+double largest_radius(const ClayStack& stack) {
+  double largest = 0.0;
+  for (const Ring& ring : stack.rings()) largest = std::max(largest, ring.outer_mm());
+  return largest;
+}
+
+/// No coordinate of either part is larger, wherever the fall took it.
+double reach_of(const Pot& pot) {
+  return std::hypot(largest_radius(pot.stack), pot.stack.height_mm()) +
+         2.0 * glm::length(pot.collapse->pivot_mm);
+}
+
+Result<void> check_collapse(const Pot& pot) {
+  const auto wrong = [](const std::string& what) {
+    return failure(ErrorKind::bad_input, "collapse: " + what);
+  };
+  if (!pot.collapse) return wrong("expected a pot that has collapsed, found one that stands");
+  const Collapse& collapse = *pot.collapse;
+  if (collapse.failed_ring >= pot.stack.size())
+    return wrong("expected a failed ring below " + std::to_string(pot.stack.size()) + ", found " +
+                 std::to_string(collapse.failed_ring));
+  constexpr double kRounding = 1e-6;
+  const bool horizontal = std::abs(glm::length(collapse.axis) - 1.0) < kRounding &&
+                          std::abs(collapse.axis.y) < kRounding;
+  const double farthest = std::max(glm::length(collapse.pivot_mm), std::abs(collapse.angle_rad));
+  if (!horizontal || !(farthest < 1e6))
+    return wrong("expected a horizontal axis of length 1, a pivot and an angle within 1e6");
+  return {};
+}
+
+Result<Part> part_of(const ClayStack& stack, RingRange rings, WideQuanta crown) {
+  std::vector<Ring> own(stack.rings().begin() + static_cast<std::ptrdiff_t>(rings.first),
+                        stack.rings().begin() + static_cast<std::ptrdiff_t>(rings.last) + 1);
+  return ClayStack::from_rings(stack.ring_height_mm(), std::move(own), crown)
+      .map([&](ClayStack part) {
+        return Part{std::move(part), rings.first, level_mm(stack, rings.first)};
+      });
+}
+
+/// Back to the ring numbers and heights of the whole pot.
+StackProfile in_place(StackProfile found, const Part& part) {
+  for (Polygon& polygon : found.profile.pieces)
+    for (ProfilePoint& p : polygon) p.y += part.bottom_mm;
+  for (PieceShape& shape : found.shapes) {
+    shape.first_ring += part.first_ring;
+    shape.last_ring += part.first_ring;
+    for (Cavity& cavity : shape.cavities) {
+      cavity.bottom_mm += part.bottom_mm;
+      cavity.top_mm += part.bottom_mm;
+    }
+  }
+  return found;
+}
+
+/// A crown has the radii of the ring that it stood on.
+StackProfile crown_profile(const ClayStack& stack) {
+  const Ring& ring = stack.rings().back();
+  const double outer = ring.outer_mm(), inner = ring.inner_mm();
+  const double bottom = static_cast<double>(stack.size()) * stack.ring_height_mm();
+  const double top = bottom + stack.crown_height_mm();
+  const Topology topology = inner > 0.0 ? Topology::tube : Topology::solid;
+  return {{{{{outer, bottom}, {outer, top}, {inner, top}, {inner, bottom}}}},
+          {{topology, stack.size(), stack.size(), {}}}};
+}
+
+class Parting {
+ public:
+  Parting(const Pot& pot, double tolerance_mm)
+      : stack_(pot.stack),
+        failed_(pot.collapse->failed_ring),
+        tolerance_mm_(tolerance_mm),
+        min_step_mm_(std::ldexp(reach_of(pot), -20)) {}
+
+  Result<CollapsedParts> run(Smoothing smoothing) const {
+    if (smoothing == Smoothing::none) return parts(Smoothing::none);
+    auto fair = parts(Smoothing::fair);
+    if (fair) return fair;
+    return parts(Smoothing::none).map([&](CollapsedParts steps) {
+      steps.no_smoothing = fair.error().message;
+      return steps;
+    });
+  }
+
+ private:
+  Result<CollapsedParts> parts(Smoothing smoothing) const {
+    CollapsedParts result;
+    result.smoothing = smoothing;
+    const auto prove = [](const StackProfile& part, PlanarCertificate& certificate) {
+      return certify(part.profile).map([&](const PlanarCertificate& found) {
+        certificate = found;
+      });
+    };
+    return profile({0, failed_}, 0, smoothing)
+        .and_then([&](StackProfile lower) {
+          result.lower = std::move(lower);
+          return prove(result.lower, result.lower_certificate);
+        })
+        .and_then([&] { return upper(smoothing); })
+        .and_then([&](StackProfile found) -> Result<void> {
+          result.upper = std::move(found);
+          if (result.upper.profile.pieces.empty()) return {};
+          return prove(result.upper, result.upper_certificate);
+        })
+        .map([&] { return std::move(result); });
+  }
+
+  Result<StackProfile> upper(Smoothing smoothing) const {
+    if (failed_ + 1 < stack_.size())
+      return profile({failed_ + 1, stack_.size() - 1}, stack_.crown(), smoothing);
+    return stack_.crown_height_mm() > min_step_mm_ ? crown_profile(stack_) : StackProfile{};
+  }
+
+  Result<StackProfile> profile(RingRange rings, WideQuanta crown, Smoothing smoothing) const {
+    return part_of(stack_, rings, crown).and_then([&](const Part& part) {
+      auto found = smoothing == Smoothing::fair ? smooth_profile_of(part.stack, tolerance_mm_)
+                                                : profile_of(part.stack, min_step_mm_);
+      return found.map([&](StackProfile own) { return in_place(std::move(own), part); });
+    });
+  }
+
+  const ClayStack& stack_;
+  std::size_t failed_;
+  double tolerance_mm_;
+  double min_step_mm_;
+};
+
+}  // namespace
+
+Profile CollapsedParts::together() const {
+  Profile all = lower.profile;
+  all.pieces.insert(all.pieces.end(), upper.profile.pieces.begin(), upper.profile.pieces.end());
+  return all;
+}
+
+Result<CollapsedParts> collapsed_parts(const Pot& pot, Smoothing smoothing, double tolerance_mm) {
+  return check_collapse(pot).and_then([&] { return Parting(pot, tolerance_mm).run(smoothing); });
+}
+
+}  // namespace clay::solid

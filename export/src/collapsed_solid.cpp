@@ -1,0 +1,192 @@
+#include "claystack/export/collapsed_solid.hpp"
+
+#include "claystack/export/mesh_formats.hpp"
+#include "claystack/export/tessellate.hpp"
+#include "describe.hpp"
+#include "mesh_union.hpp"
+#include "pockets.hpp"
+#include "seam_cure.hpp"
+#include "verify_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <glm/geometric.hpp>
+#include <new>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace clay::solid {
+namespace {
+
+/// How the upper part may lie a little differently from one attempt to the next.
+struct Attempt {
+  double phase = 0.0;  ///< of its facets about its own axis, in segments
+  double nudge = 0.0;  ///< its way off its place, in units of what float32 rounds by
+};
+
+/// As it fell, first: faces that coincide then merge. Where the parts mirror each other, facets in
+/// step cross in needles, and out of step (by the golden section and its multiples) in the open.
+/// Where faces all but coincide, only a nudge tells them apart.
+constexpr std::array kAttempts{Attempt{0.0, 0.0}, Attempt{0.381966, 0.0}, Attempt{0.763932, 64.0},
+                               Attempt{0.145898, 256.0}, Attempt{0.527864, 1024.0}};
+constexpr glm::dvec3 kNudge{0.36, 0.48, -0.8};  // a unit vector that no facet is likely to hold
+
+/// Shortest edges on the seam, in units of what float32 rounds by. Longer ones leave room for the
+/// rounding, but the walls of the parts have short edges of their own, which must not be run into.
+constexpr std::array kShortestEdges{64.0, 256.0, 1024.0, 16.0};
+
+/// From the wheel's frame (y up) to the mesh's (z up).
+glm::dvec3 upright(const glm::dvec3& p) { return {p.x, -p.z, p.y}; }
+
+/// Half turns are made exact, so that faces that coincide after them do so to the last bit.
+double exact_at_zero(double x) { return std::abs(x) < 1e-15 ? 0.0 : x; }
+
+struct Turn {
+  glm::dvec3 pivot{0.0};
+  glm::dvec3 axis{0.0, 0.0, 1.0};
+  double cosine = 1.0;
+  double sine = 0.0;
+
+  Turn(const glm::dvec3& about, const glm::dvec3& direction, double angle_rad)
+      : pivot(about),
+        axis(direction),
+        cosine(exact_at_zero(std::cos(angle_rad))),
+        sine(exact_at_zero(std::sin(angle_rad))) {}
+
+  /// Rodrigues' formula.
+  glm::dvec3 operator()(const glm::dvec3& p) const {
+    if (sine == 0.0 && cosine == 1.0) return p;
+    const glm::dvec3 arm = p - pivot;
+    return pivot + cosine * arm + sine * glm::cross(axis, arm) +
+           (1.0 - cosine) * glm::dot(axis, arm) * axis;
+  }
+};
+
+TriangleMesh turned(TriangleMesh mesh, const Turn& turn) {
+  for (glm::dvec3& p : mesh.points) p = turn(p);
+  return mesh;
+}
+
+Result<void> check_part(const TriangleMesh& mesh, const std::string& name) {
+  const MeshReport report = check_mesh(rounded_to_float(mesh));
+  if (report.sound()) return {};
+  return failure(ErrorKind::unsound,
+                 "the " + name + " part in float32: found " + describe(report.problems.front()));
+}
+
+class Union {
+ public:
+  Union(const CollapsedParts& parts, const Collapse& collapse, std::size_t segments,
+        double tolerance_mm)
+      : tolerance_mm_(tolerance_mm),
+        step_rad_(2.0 * std::numbers::pi / static_cast<double>(segments)),
+        fall_(upright(collapse.pivot_mm), upright(collapse.axis), collapse.angle_rad),
+        lower_(revolve(parts.lower.profile, segments)),
+        upper_(revolve(parts.upper.profile, segments)) {}
+
+  Result<CollapsedSolid> run() {
+    const bool fallen = !upper_.triangles.empty();
+    auto sound = check_part(lower_, "lower").and_then([&]() -> Result<void> {
+      if (!fallen) return {};
+      return check_part(turned(upper_, fall_), "upper");
+    });
+    if (!sound) return tl::make_unexpected(sound.error());
+    if (!fallen) return standing();
+    Result<CollapsedSolid> solid;
+    for (const Attempt& attempt : kAttempts) {
+      solid = with(attempt);
+      if (solid) break;
+    }
+    return solid;
+  }
+
+ private:
+  Result<CollapsedSolid> standing() const {
+    CollapsedSolid solid;
+    solid.lower_mm3 = solid.union_mm3 = signed_volume(lower_);
+    return finished({lower_, 0.0}, std::move(solid));
+  }
+
+  Result<CollapsedSolid> with(const Attempt& attempt) const try {
+    const Turn about_own_axis({0, 0, 0}, {0, 0, 1}, attempt.phase * step_rad_);
+    TriangleMesh upper = turned(turned(upper_, about_own_axis), fall_);
+    const double nudge = attempt.nudge * float_rounding_mm(upper);
+    for (glm::dvec3& p : upper.points) p += nudge * kNudge;
+    return unite(lower_, upper).and_then([&](const MeshUnion& both) {
+      CollapsedSolid solid;
+      solid.lower_mm3 = signed_volume(lower_);
+      solid.upper_mm3 = signed_volume(upper);
+      solid.overlap_mm3 = both.overlap_mm3;
+      solid.union_mm3 = signed_volume(both.mesh);
+      solid.max_move_mm = nudge;
+      return cured(both, solid);
+    });
+  } catch (const std::bad_alloc&) {
+    throw;  // the next attempt would fare no better
+  } catch (const std::exception& e) {
+    return failure(ErrorKind::unsound, std::string("the union: ") + e.what());
+  }
+
+  Result<CollapsedSolid> cured(const MeshUnion& both, CollapsedSolid solid) const {
+    const FilledPockets filled = fill_pockets(both.mesh, both.on_seam, tolerance_mm_);
+    solid.pockets = filled.pockets;
+    solid.pockets_mm3 = filled.volume_mm3;
+    solid.max_move_mm += filled.max_depth_mm;
+    const double rounding = float_rounding_mm(filled.mesh);
+    Result<CollapsedSolid> result;
+    for (const double shortest : kShortestEdges) {
+      result = cure_seam(filled.mesh, filled.on_seam, shortest * rounding)
+                   .and_then([&](const CuredMesh& mesh) { return finished(mesh, solid); });
+      if (result) break;
+    }
+    return result;
+  }
+
+  static Result<CollapsedSolid> finished(const CuredMesh& cured, CollapsedSolid solid) {
+    solid.mesh = rounded_to_float(cured.mesh);
+    solid.check = check_mesh(solid.mesh);
+    if (!solid.check.sound())
+      return failure(ErrorKind::unsound, "the collapsed pot in float32: found " +
+                                             describe(solid.check.problems.front()));
+    double rounding = 0.0;
+    for (std::size_t v = 0; v < solid.mesh.points.size(); ++v)
+      rounding = std::max(rounding, glm::distance(solid.mesh.points[v], cured.mesh.points[v]));
+    solid.max_move_mm += cured.max_move_mm + rounding;
+    solid.volume_mm3 = signed_volume(solid.mesh);
+    for (const double volume : shell_volumes(solid.mesh)) {
+      if (volume > 0.0) {
+        ++solid.pieces;
+      } else {
+        ++solid.voids;
+        solid.voids_mm3 -= volume;
+      }
+    }
+    return solid;
+  }
+
+  double tolerance_mm_;
+  double step_rad_;
+  Turn fall_;
+  TriangleMesh lower_;
+  TriangleMesh upper_;  ///< before the fall
+};
+
+}  // namespace
+
+Result<CollapsedSolid> collapsed_solid(const CollapsedParts& parts, const Collapse& collapse,
+                                       std::size_t segments, double tolerance_mm) try {
+  const std::size_t triangles = triangle_count(parts.together(), segments);
+  if (triangles > kMaxUnitedTriangles)
+    return failure(ErrorKind::bad_input, "expected at most " + std::to_string(kMaxUnitedTriangles) +
+                                             " triangles in parts to be united, found " +
+                                             std::to_string(triangles) +
+                                             "; ask for a larger tolerance or fewer segments");
+  return Union(parts, collapse, segments, tolerance_mm).run();
+} catch (const std::exception& e) {
+  return failure(ErrorKind::io, std::string("union given up: ") + e.what());
+}
+
+}  // namespace clay::solid
