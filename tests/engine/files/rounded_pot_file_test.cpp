@@ -134,9 +134,9 @@ TEST(RoundedPotFile, ErrorsNameTheLineOfEveryOtherField) {
                        "p:1: expected a field \"rings\", found none");
   Json both = Json::parse(text);
   both["rings"] = {{"outer2", {68719476736}}, {"inner2", {0}}};
-  EXPECT_NE(parse_pot(both.dump(), "p")
-                .error()
-                .message.find("rounded_rings: expected either these or rings"),
+  const auto read = parse_pot(both.dump(), "p");
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().message.find("rounded_rings: expected either these or rings"),
             std::string::npos);
 }
 
