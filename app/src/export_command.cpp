@@ -59,6 +59,11 @@ Result<std::vector<Request>> requests_of(const ExportCommand& command) {
     }
     requests.push_back(std::move(request));
   }
+  if (command.precision_mm && std::ranges::none_of(command.outputs, [](const std::string& path) {
+        return pot_encoding_of(path).has_value();
+      }))
+    return failure(ErrorKind::bad_input,
+                   "--precision: expected a pot among the files to write, found none");
   return requests;
 }
 
@@ -142,11 +147,6 @@ Result<int> export_pot(ExportCommand& command, const Console& console) {
   if (auto names = check_distinct(outputs, {command.pot}); !names)
     return tl::make_unexpected(names.error());
   if (auto loaded = command.walls.load(); !loaded) return tl::make_unexpected(loaded.error());
-  if (command.precision_mm && std::ranges::none_of(command.outputs, [](const std::string& path) {
-        return pot_encoding_of(path).has_value();
-      }))
-    return failure(ErrorKind::bad_input,
-                   "--precision: expected a pot among the files to write, found none");
   auto requests = requests_of(command);
   if (!requests) return tl::make_unexpected(requests.error());
   const auto pot = read_file(command.pot).and_then([&](const std::string& bytes) {
