@@ -85,7 +85,10 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command) {
   if (!section) return unsound("no solid", section.error().message);
   if (const auto certificate = solid::certify(section->profile); !certificate)
     return unsound("no certificate", certificate.error().message);
-  return check_section(*section, min_wall(pot->stack), command);
+  Verdict verdict = check_section(*section, min_wall(pot->stack), command);
+  if (pot->rounding)
+    verdict.notes.push_back(fmt::format("radii rounded to {} mm", pot->rounding->to_mm));
+  return verdict;
 }
 
 }  // namespace clay::app

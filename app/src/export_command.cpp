@@ -1,10 +1,12 @@
 #include "commands.hpp"
 #include "export_report.hpp"
 #include "file_on_disk.hpp"
+#include "pot_copy.hpp"
 #include "wall_demand.hpp"
 
 #include "claystack/engine/atomic_file.hpp"
 #include "claystack/engine/pot_file.hpp"
+#include "claystack/engine/rounded_pot.hpp"
 #include "claystack/export/export_job.hpp"
 #include "claystack/export/section_svg.hpp"
 
@@ -30,11 +32,12 @@ struct ExportCommand {
   std::string verify = "margins";
   std::string report;
   WallDemands walls;
+  std::optional<double> precision_mm;
   bool ascii = false;
   bool certificate = false;
 };
 
-/// What is asked for: meshes go through the job, drawings straight from the pot.
+/// What is asked for: meshes go through the job, drawings and pots straight from the pot.
 struct Request {
   std::string path;
   std::optional<MeshFormat> mesh;
@@ -45,15 +48,22 @@ Result<std::vector<Request>> requests_of(const ExportCommand& command) {
   std::vector<Request> requests;
   for (const std::string& path : command.outputs) {
     Request request{path, std::nullopt, nullptr};
-    if (!path.ends_with(".svg")) {
+    if (!path.ends_with(".svg") && !pot_encoding_of(path)) {
       const auto format = solid::mesh_format_of(path);
       if (!format)
-        return failure(ErrorKind::bad_input, format.error().message + "; or .svg for the section");
+        return failure(ErrorKind::bad_input,
+                       format.error().message +
+                           "; or .svg for the section, .pot.json or .pot.cbor for the pot");
       request.mesh =
           *format == MeshFormat::stl_binary && command.ascii ? MeshFormat::stl_ascii : *format;
     }
     requests.push_back(std::move(request));
   }
+  if (command.precision_mm && std::ranges::none_of(command.outputs, [](const std::string& path) {
+        return pot_encoding_of(path).has_value();
+      }))
+    return failure(ErrorKind::bad_input,
+                   "--precision: expected a pot among the files to write, found none");
   return requests;
 }
 
@@ -74,6 +84,23 @@ Result<void> write_drawing(const Pot& pot, Request& request) {
   return request.file->write(std::as_bytes(std::span(drawing)));
 }
 
+/// Copies of the pot, as exact as asked for.
+Result<std::vector<PotCopy>> write_copies(const Pot& pot, std::vector<Request>& requests,
+                                          const ExportCommand& command) {
+  const auto copied = command.precision_mm ? rounded_pot(pot, *command.precision_mm) : pot;
+  if (!copied) return failure(copied.error().kind, command.pot + ": " + copied.error().message);
+  std::vector<PotCopy> copies;
+  for (Request& request : requests) {
+    const auto encoding = pot_encoding_of(request.path);
+    if (!encoding) continue;
+    const std::string bytes = write_pot(*copied, *encoding);
+    if (auto written = request.file->write(std::as_bytes(std::span(bytes))); !written)
+      return tl::make_unexpected(written.error());
+    copies.push_back(describe_copy(*copied, *encoding, bytes.size()));
+  }
+  return copies;
+}
+
 /// All files are whole and verified before the first one gets its name.
 Result<ExportReport> export_all(const Pot& pot, std::vector<Request>& requests,
                                 const ExportCommand& command, const Console& console) {
@@ -89,7 +116,7 @@ Result<ExportReport> export_all(const Pot& pot, std::vector<Request>& requests,
     report = std::move(*done);
   }
   for (Request& request : requests)
-    if (!request.mesh)
+    if (!request.mesh && !pot_encoding_of(request.path))
       if (auto drawn = write_drawing(pot, request); !drawn)
         return tl::make_unexpected(drawn.error());
   return report;
@@ -135,6 +162,8 @@ Result<int> export_pot(ExportCommand& command, const Console& console) {
   command.options.name = std::filesystem::path(command.pot).stem().stem().string();
   if (auto opened = open_all(*requests); !opened) return tl::make_unexpected(opened.error());
 
+  const auto copies = write_copies(*pot, *requests, command);
+  if (!copies) return tl::make_unexpected(copies.error());
   auto report = export_all(*pot, *requests, command, console);
   if (!report) return tl::make_unexpected(report.error());
   const auto begin = std::chrono::steady_clock::now();
@@ -144,9 +173,9 @@ Result<int> export_pot(ExportCommand& command, const Console& console) {
   report->stages.push_back({"publish", seconds.count()});
 
   const auto demand = command.walls.for_size(2.0 * report->diameter_mm + report->height_mm);
-  const Json json = export_json(*report, command.outputs, demand);
+  const Json json = export_json(*report, *copies, command.outputs, demand);
   if (console.json) console.print(json);
-  tell_export(console, *report, command.outputs);
+  tell_export(console, *report, *copies, command.outputs);
   if (!command.report.empty())
     if (auto done = publish(command.report, json.dump(2) + "\n"); !done)
       return tl::make_unexpected(done.error());
@@ -162,7 +191,7 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
   sub->add_option("pot", command->pot, "NAME.pot.json or .pot.cbor, or - for standard input")
       ->required();
   sub->add_option("out", command->outputs,
-                  "Files to write: .stl, .obj, .drc, or .svg for the section")
+                  "Files to write: .stl, .obj, .drc, .svg for the section, .pot.json or .pot.cbor")
       ->required();
   sub->add_option("--tolerance", command->options.tolerance_mm,
                   "Largest chordal error, and vertex error in .drc [mm]")
@@ -183,6 +212,9 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
       ->check(in_range(1e-3, 1e4));
   command->walls.add_to(*sub);
   sub->add_option("--report", command->report, "Write what --json prints to this file");
+  sub->add_option("--precision", command->precision_mm,
+                  "Round the radii of pots that are written, meshes keep the exact ones [mm]")
+      ->check(in_range(1e-5, 1.0));
   sub->add_flag("--certificate", command->certificate,
                 "Write OUT.certificate.json beside each mesh, for claystack check --certificate");
   sub->add_option("--verify", command->verify,
@@ -197,7 +229,8 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
   sub->footer(
       "\nExamples:\n  claystack export bowl.pot.json bowl.stl bowl.obj bowl.drc bowl.svg\n"
       "  claystack export bowl.pot.json bowl.stl --tolerance 0.005 --process stoneware\n"
-      "  claystack export bowl.pot.json bowl.drc --certificate --report bowl.report.json");
+      "  claystack export bowl.pot.json bowl.drc --certificate --report bowl.report.json\n"
+      "  claystack export bowl.pot.json bowl.pot.cbor --precision 0.001");
   sub->callback([command, &console, &exit] {
     const auto done = export_pot(*command, console);
     exit = done ? *done : report(done.error());

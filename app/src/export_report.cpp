@@ -95,8 +95,8 @@ void tell_solid(const Console& console, const ExportReport& report) {
 
 }  // namespace
 
-Json export_json(const ExportReport& report, const std::vector<std::string>& paths,
-                 const std::optional<WallDemand>& demand) {
+Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies,
+                 const std::vector<std::string>& paths, const std::optional<WallDemand>& demand) {
   Json json = {
       {"triangles", report.triangles},
       {"shells", report.shells},
@@ -130,9 +130,11 @@ Json export_json(const ExportReport& report, const std::vector<std::string>& pat
   if (demand)
     json["wall_demand"] = {{"min_wall_mm", demand->min_wall_mm}, {"source", demand->source}};
   auto file = report.files.begin();
+  auto copy = copies.begin();
   for (const std::string& path : paths)
-    json["files"].push_back(is_drawing(path) ? Json{{"path", path}, {"format", "svg"}}
-                                             : file_json(*file++, path));
+    json["files"].push_back(is_drawing(path)        ? Json{{"path", path}, {"format", "svg"}}
+                            : pot_encoding_of(path) ? copy_json(*copy++, path)
+                                                    : file_json(*file++, path));
   for (const auto& [what, why] : report.left_out)
     json["left_out"].push_back({{"what", what}, {"why", why}});
   for (const auto& [name, seconds] : report.stages)
@@ -141,7 +143,7 @@ Json export_json(const ExportReport& report, const std::vector<std::string>& pat
 }
 
 void tell_export(const Console& console, const ExportReport& report,
-                 const std::vector<std::string>& paths) {
+                 const std::vector<PotCopy>& copies, const std::vector<std::string>& paths) {
   if (!report.files.empty()) tell_solid(console, report);
   if (report.drilled_mm3 > 0.0)
     console.say(
@@ -152,9 +154,12 @@ void tell_export(const Console& console, const ExportReport& report,
           fmt::format("closed cavity from {:.1f} to {:.1f} mm ({:.1f} cm3): it needs a drain hole",
                       cavity.bottom_mm, cavity.top_mm, cavity.volume_mm3 / 1000.0));
   auto file = report.files.begin();
+  auto copy = copies.begin();
   for (const std::string& path : paths) {
     if (is_drawing(path))
       console.say(path + ": section");
+    else if (pot_encoding_of(path))
+      console.say(copy_text(*copy++, path));
     else
       tell_file(console, *file++, path);
   }

@@ -3,6 +3,7 @@
 
 #include "claystack/export/export_job.hpp"
 #include "console.hpp"
+#include "pot_copy.hpp"
 #include "wall_demand.hpp"
 
 #include <optional>
@@ -11,12 +12,14 @@
 
 namespace clay::app {
 
-/// `paths` are those of all files, drawings among them; the report has one file for each mesh.
+/// `paths` are those of all files, drawings and pots among them; the report has one file for each
+/// mesh, and `copies` one for each pot.
 [[nodiscard]] Json export_json(const solid::ExportReport& report,
+                               const std::vector<PotCopy>& copies,
                                const std::vector<std::string>& paths,
                                const std::optional<WallDemand>& demand);
 void tell_export(const Console& console, const solid::ExportReport& report,
-                 const std::vector<std::string>& paths);
+                 const std::vector<PotCopy>& copies, const std::vector<std::string>& paths);
 
 /// Whether a file may be thinner somewhere than demanded; says so, and by how much.
 bool tell_thin_wall(const Console& console, const solid::ExportReport& report,

@@ -133,7 +133,7 @@ bool Wheel::collapsed() const noexcept { return state_->failure.has_value(); }
 
 Pot Wheel::pot() const {
   const State& s = *state_;
-  Pot pot{s.stack, s.ledger, s.plan.model, s.plan.density_g_cm3, std::nullopt};
+  Pot pot{s.stack, s.ledger, s.plan.model, s.plan.density_g_cm3, {}, {}};
   if (s.failure) pot.collapse = settle(s.stack, *s.failure, s.failure_hip);
   return pot;
 }

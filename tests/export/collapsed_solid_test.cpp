@@ -258,7 +258,9 @@ RC_GTEST_PROP(CollapsedSolid, VolumesAddUpAndTheMeshIsSound, ()) {
     return;
   }
   const double parts = solid->lower_mm3 + solid->upper_mm3;
-  RC_ASSERT(std::abs(parts - solid->overlap_mm3 - solid->union_mm3) <= 1e-9 * solid->union_mm3);
+  // Walls of 1e-6 mm hold less clay than doubles can tell of the cylinders that bound them.
+  RC_ASSERT(std::abs(parts - solid->overlap_mm3 - solid->union_mm3) <=
+            1e-9 * solid->union_mm3 + shapes::volume_rounding(pot.stack));
   const double levelled = 1e-6 * (20.0 + pot.stack.height_mm() + 2.0 * 25.0);
   RC_ASSERT(std::abs(parts - pot.stack.volume_mm3()) <=
             shapes::volume_rounding(pot.stack, levelled));

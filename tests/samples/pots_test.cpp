@@ -1,6 +1,8 @@
 // What the samples promise: sessions that their scripts play, and pots worth the name.
 
 #include "claystack/engine/atomic_file.hpp"
+#include "claystack/engine/pot_file.hpp"
+#include "claystack/engine/rounded_pot.hpp"
 #include "claystack/engine/scene_file.hpp"
 #include "claystack/engine/session_file.hpp"
 #include "claystack/engine/stack_measures.hpp"
@@ -121,6 +123,45 @@ TEST(Bottle, HasANeckNarrowerThanHalfItsBelly) {
   const auto neck = rings.last(rings.size() / 8);
   EXPECT_LT(widest(neck), 0.55 * widest(rings.first(rings.size() / 2)));
 }
+
+/// A pot of at least 200 rings, as many as the paper's: thrown from fewer and higher ones.
+Pot pot_of_200_rings(const std::string& sample) {
+  SceneSpec scene = scene_of(sample);
+  const double height_mm = scene.lump.ring_height_mm * static_cast<double>(scene.lump.rings);
+  const auto poses = poses_of(sample);
+  for (std::size_t rings = 50;; ++rings) {
+    scene.lump.rings = rings;
+    scene.lump.ring_height_mm = height_mm / static_cast<double>(rings);
+    Wheel wheel = Wheel::build(scene).value();
+    for (const Pose& pose : poses) wheel.step(pose);
+    if (wheel.stack().size() >= 200) return wheel.pot();
+  }
+}
+
+class PotSize : public testing::TestWithParam<const char*> {};
+
+TEST_P(PotSize, TwoHundredRingsFitIntoFourKilobytesAndRoundedIntoOne) {
+  const Pot pot = pot_of_200_rings(GetParam());
+  ASSERT_LT(pot.stack.size(), 210u);
+  const auto exact = write_pot(pot, PotEncoding::cbor).size();
+  const auto rounded = write_pot(rounded_pot(pot, 0.001).value(), PotEncoding::cbor).size();
+  RecordProperty("rings", static_cast<int>(pot.stack.size()));
+  RecordProperty("exact_bytes", static_cast<int>(exact));
+  RecordProperty("rounded_bytes", static_cast<int>(rounded));
+  EXPECT_LE(exact, 4000u);
+  EXPECT_LE(rounded, 1000u);
+}
+
+TEST_P(PotSize, OfThePotAsThrownKeepsTheProportion) {
+  const Pot pot = played(GetParam(), Model::conserving).wheel.pot();
+  const auto exact = write_pot(pot, PotEncoding::cbor).size();
+  const auto rounded = write_pot(rounded_pot(pot, 0.001).value(), PotEncoding::cbor).size();
+  EXPECT_LE(200 * exact, 4000 * pot.stack.size());
+  EXPECT_LE(200 * rounded, 1000 * pot.stack.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PotSize, testing::Values("bowl", "vase", "bottle"),
+                         [](const auto& sample) { return std::string(sample.param); });
 
 class FallingPot : public testing::TestWithParam<Model> {};
 

@@ -3,9 +3,12 @@
 #include "files/json_text.hpp"
 #include "files/object_reader.hpp"
 #include "files/object_writer.hpp"
+#include "files/ring_arrays.hpp"
 #include "files/scene_json.hpp"
 #include "files/text_codes.hpp"
+#include "radius_grid.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -41,12 +44,6 @@ namespace {
 
 /// Four numbers a ring, and the rest.
 constexpr std::size_t kMaxValues = 4 * kMaxRings + 1000;
-constexpr double kRadiusToleranceMm = 1e-5;
-
-struct RingArrays {
-  std::vector<Quanta> outer2, inner2;
-  std::optional<std::vector<double>> outer_mm, inner_mm;  ///< for people: JSON only
-};
 
 /// A pot as its file holds it.
 struct PotRecord {
@@ -54,51 +51,20 @@ struct PotRecord {
   double density_g_cm3 = 0.0;
   double ring_height_mm = 0.0;
   std::size_t max_rings = 0;
-  RingArrays rings;
+  std::optional<RingArrays> rings;  ///< these, or the rounded ones
+  std::optional<RoundedRingArrays> rounded_rings;
   WideQuanta crown = 0;
   Ledger ledger;
   std::optional<Collapse> collapse;
-};
 
-void expect_radii(ObjectReader& reader, std::string_view name, const std::vector<Quanta>& squares,
-                  const std::optional<std::vector<double>>& radii_mm) {
-  if (!radii_mm) return;
-  reader.expect(radii_mm->size() == squares.size(), name,
-                "one radius for each of " + std::to_string(squares.size()) + " rings");
-  for (std::size_t i = 0; i < std::min(radii_mm->size(), squares.size()); ++i) {
-    const double counted_mm = radius_from_quanta(squares[i]);
-    if (std::abs((*radii_mm)[i] - counted_mm) > kRadiusToleranceMm)
-      return reader.expect_element(false, name, i,
-                                   "the radius that the count of ring " + std::to_string(i) +
-                                       " gives, " + shortest(counted_mm) + " mm");
+  [[nodiscard]] std::size_t size() const {
+    return rings ? rings->outer2.size() : rounded_rings->outer_differences.size();
   }
-}
-
-void describe(auto& io, Is<RingArrays> auto& rings) {
-  const Quanta smallest = quanta_from_radius(kMinRadiusMm);
-  const Quanta largest = quanta_from_radius(kMaxRadiusMm);
-  io.require({"outer2", "inner2"});
-  io.integers("outer2", rings.outer2, smallest, largest);
-  io.integers("inner2", rings.inner2, 0, largest);
-  io.numbers("outer_mm", rings.outer_mm, from(0).to(kMaxRadiusMm));
-  io.numbers("inner_mm", rings.inner_mm, from(0).to(kMaxRadiusMm));
-  io.check([&](ObjectReader& reader) {
-    const std::size_t count = rings.outer2.size();
-    reader.expect(count >= 1 && count <= kMaxRings, "outer2",
-                  "1 to " + std::to_string(kMaxRings) + " rings");
-    reader.expect(rings.inner2.size() == count, "inner2",
-                  "one count for each of " + std::to_string(count) + " rings");
-    for (std::size_t i = 0; i < std::min(count, rings.inner2.size()); ++i)
-      reader.expect_element(rings.inner2[i] < rings.outer2[i], "inner2", i,
-                            "less than the outer count of the ring");
-    expect_radii(reader, "outer_mm", rings.outer2, rings.outer_mm);
-    expect_radii(reader, "inner_mm", rings.inner2, rings.inner_mm);
-  });
-}
+};
 
 void describe(auto& io, Is<PotRecord> auto& pot) {
   io.require({"schema", "written_by", "model", "density_g_cm3", "ring_height_mm", "max_rings",
-              "quantum_mm2", "rings", "crown", "ledger", "collapse"});
+              "quantum_mm2", "crown", "ledger", "collapse"});
   io.constant("schema", "claystack-pot-1");
   io.written_by();
   io.choice("model", pot.model, kModelNames);
@@ -107,11 +73,14 @@ void describe(auto& io, Is<PotRecord> auto& pot) {
   io.integer("max_rings", pot.max_rings, 1, kMaxRings);
   io.constant("quantum_mm2", "2^-36");
   io.part("rings", pot.rings);
+  io.part("rounded_rings", pot.rounded_rings);
   io.template coded<DecimalCode>("crown", pot.crown);
   io.part("ledger", pot.ledger);
   io.part_or_null("collapse", pot.collapse);
   io.check([&](ObjectReader& reader) {
-    const std::size_t count = pot.rings.outer2.size();
+    if (!pot.rings && !pot.rounded_rings) return reader.require({"rings"});
+    reader.expect(!pot.rings || !pot.rounded_rings, "rounded_rings", "either these or rings");
+    const std::size_t count = pot.size();
     reader.expect(pot.max_rings >= count, "max_rings",
                   "at least the number of rings, " + std::to_string(count));
     reader.expect(!pot.collapse || pot.collapse->failed_ring < count, "collapse",
@@ -119,35 +88,39 @@ void describe(auto& io, Is<PotRecord> auto& pot) {
   });
 }
 
-/// What people see: millionths of a mm.
-std::vector<double> radii_mm(const std::vector<Quanta>& squares) {
-  std::vector<double> radii;
-  radii.reserve(squares.size());
-  for (const Quanta square : squares)
-    radii.push_back(std::round(radius_from_quanta(square) * 1e6) / 1e6);
-  return radii;
+/// The grid that the radii lie on; none where the pot is not rounded, or not what it says.
+std::optional<RadiusGrid> grid_of(const Pot& pot) {
+  if (!pot.rounding) return std::nullopt;
+  const auto grid = RadiusGrid::of(pot.rounding->to_mm);
+  const bool on_grid = grid && std::ranges::all_of(pot.stack.rings(), [&](const Ring& ring) {
+                         return grid->holds(ring.outer2) && grid->holds(ring.inner2);
+                       });
+  return on_grid ? grid : std::nullopt;
 }
 
-PotRecord record_of(const Pot& pot) {
-  PotRecord record{pot.model,
-                   pot.density_g_cm3,
-                   pot.stack.ring_height_mm(),
-                   pot.stack.max_rings(),
-                   {},
-                   pot.stack.crown(),
-                   pot.ledger,
-                   pot.collapse};
-  for (const Ring& ring : pot.stack.rings()) {
-    record.rings.outer2.push_back(ring.outer2);
-    record.rings.inner2.push_back(ring.inner2);
+PotRecord record_of(const Pot& pot, PotEncoding encoding) {
+  PotRecord record{.model = pot.model,
+                   .density_g_cm3 = pot.density_g_cm3,
+                   .ring_height_mm = pot.stack.ring_height_mm(),
+                   .max_rings = pot.stack.max_rings(),
+                   .rings = ring_arrays(pot.stack, encoding == PotEncoding::json),
+                   .rounded_rings = {},
+                   .crown = pot.stack.crown(),
+                   .ledger = pot.ledger,
+                   .collapse = pot.collapse};
+  if (const auto grid = grid_of(pot)) {
+    record.rounded_rings = rounded_ring_arrays(*record.rings, *pot.rounding, *grid);
+    record.rings.reset();
   }
   return record;
 }
 
 Result<Pot> pot_of(const LocatedJson& document, const PotRecord& record) {
-  std::vector<Ring> rings(record.rings.outer2.size());
-  for (std::size_t i = 0; i < rings.size(); ++i)
-    rings[i] = {record.rings.outer2[i], record.rings.inner2[i]};
+  const auto& rounded = record.rounded_rings;
+  const RingArrays arrays =
+      rounded ? exact_rings(*rounded, *RadiusGrid::of(rounded->rounded_to_mm)) : *record.rings;
+  std::vector<Ring> rings(arrays.outer2.size());
+  for (std::size_t i = 0; i < rings.size(); ++i) rings[i] = {arrays.outer2[i], arrays.inner2[i]};
   auto stack = ClayStack::from_rings(record.ring_height_mm, std::move(rings), record.crown,
                                      record.max_rings);
   if (!stack) return tl::make_unexpected(document.field_error({"rings"}, stack.error().message));
@@ -155,7 +128,10 @@ Result<Pot> pot_of(const LocatedJson& document, const PotRecord& record) {
     return tl::make_unexpected(document.field_error(
         {"ledger"}, "expected every quantum accounted for, found " + to_string(imbalance) +
                         " too many (in the stack, trimmed and outside, less initial and added)"));
-  return Pot{std::move(*stack), record.ledger, record.model, record.density_g_cm3, record.collapse};
+  Pot pot{std::move(*stack),    record.ledger,   record.model,
+          record.density_g_cm3, record.collapse, std::nullopt};
+  if (rounded) pot.rounding = {rounded->rounded_to_mm, rounded->exact_volume};
+  return pot;
 }
 
 /// A CBOR map, which no JSON text can start with.
@@ -179,15 +155,11 @@ Result<Pot> parse_pot(std::string_view bytes, std::string_view name) {
 }
 
 std::string write_pot(const Pot& pot, PotEncoding encoding) {
-  PotRecord record = record_of(pot);
-  if (encoding == PotEncoding::cbor) {
-    std::string bytes;
-    Json::to_cbor(ObjectWriter::write(record), bytes);
-    return bytes;
-  }
-  record.rings.outer_mm = radii_mm(record.rings.outer2);
-  record.rings.inner_mm = radii_mm(record.rings.inner2);
-  return json_text(ObjectWriter::write(record));
+  const Json file = ObjectWriter::write(record_of(pot, encoding));
+  if (encoding == PotEncoding::json) return json_text(file);
+  std::string bytes;
+  Json::to_cbor(file, bytes);
+  return bytes;
 }
 
 }  // namespace clay

@@ -1,12 +1,14 @@
 #pragma once
 // Arbitrary values for the files' properties, the ends of every range among them.
 
+#include "claystack/engine/pot.hpp"
 #include "claystack/engine/scene.hpp"
 
 #include <rapidcheck.h>
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -84,6 +86,40 @@ inline SceneSpec arbitrary_scene() {
   });
   scene.stability = maybe<StabilitySpec>([] { return StabilitySpec{*number_in(1e-300, 1e6)}; });
   return scene;
+}
+
+inline Pot arbitrary_pot() {
+  Pot pot;
+  std::vector<Ring> rings(*rc::gen::inRange<std::size_t>(1, 40));
+  for (Ring& ring : rings) {
+    ring.outer2 = *rc::gen::inRange<Quanta>(quanta_from_radius(1e-3), quanta_from_radius(5000) + 1);
+    ring.inner2 =
+        *rc::gen::oneOf(rc::gen::just<Quanta>(0), rc::gen::inRange<Quanta>(0, ring.outer2));
+  }
+  const std::size_t count = rings.size();
+  const auto wide = [] {
+    return WideQuanta{*rc::gen::inRange<Quanta>(0, INT64_MAX)} *
+           *rc::gen::element<Quanta>(0, 1, 1'000'000'000);
+  };
+  pot.stack = ClayStack::from_rings(*number_in(1e-3, 1e3), std::move(rings), wide(),
+                                    *rc::gen::inRange<std::size_t>(count, kMaxRings + 1))
+                  .value();
+  pot.ledger.trimmed = wide();
+  pot.ledger.outside = wide();
+  pot.ledger.initial = pot.stack.volume() + pot.ledger.trimmed;
+  pot.ledger.added = pot.ledger.outside;
+  pot.model = *rc::gen::element(Model::conserving, Model::paper);
+  pot.density_g_cm3 = *number_in(0.1, 25);
+  pot.collapse = maybe<Collapse>([&] {
+    const double heading = *number_in(-3, 3);
+    const auto place = [] { return *number_in(-1e6, 1e6); };
+    return Collapse{*rc::gen::inRange<std::size_t>(0, count),
+                    {place(), place(), place()},
+                    {std::sin(heading), 0.0, std::cos(heading)},
+                    *number_in(0, std::numbers::pi),
+                    *number_in(0, 1e4)};
+  });
+  return pot;
 }
 
 }  // namespace clay::test

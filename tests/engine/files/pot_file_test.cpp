@@ -45,40 +45,6 @@ Pot collapsed_pot() {
   return pot;
 }
 
-Pot arbitrary_pot() {
-  Pot pot;
-  std::vector<Ring> rings(*rc::gen::inRange<std::size_t>(1, 40));
-  for (Ring& ring : rings) {
-    ring.outer2 = *rc::gen::inRange<Quanta>(quanta_from_radius(1e-3), quanta_from_radius(5000) + 1);
-    ring.inner2 =
-        *rc::gen::oneOf(rc::gen::just<Quanta>(0), rc::gen::inRange<Quanta>(0, ring.outer2));
-  }
-  const std::size_t count = rings.size();
-  const auto wide = [] {
-    return WideQuanta{*rc::gen::inRange<Quanta>(0, INT64_MAX)} *
-           *rc::gen::element<Quanta>(0, 1, 1'000'000'000);
-  };
-  pot.stack = ClayStack::from_rings(*test::number_in(1e-3, 1e3), std::move(rings), wide(),
-                                    *rc::gen::inRange<std::size_t>(count, kMaxRings + 1))
-                  .value();
-  pot.ledger.trimmed = wide();
-  pot.ledger.outside = wide();
-  pot.ledger.initial = pot.stack.volume() + pot.ledger.trimmed;
-  pot.ledger.added = pot.ledger.outside;
-  pot.model = *rc::gen::element(Model::conserving, Model::paper);
-  pot.density_g_cm3 = *test::number_in(0.1, 25);
-  pot.collapse = test::maybe<Collapse>([&] {
-    const double heading = *test::number_in(-3, 3);
-    const auto place = [] { return *test::number_in(-1e6, 1e6); };
-    return Collapse{*rc::gen::inRange<std::size_t>(0, count),
-                    {place(), place(), place()},
-                    {std::sin(heading), 0.0, std::cos(heading)},
-                    *test::number_in(0, std::numbers::pi),
-                    *test::number_in(0, 1e4)};
-  });
-  return pot;
-}
-
 void expect_error(std::string_view from, std::string_view to, const std::string& message) {
   SCOPED_TRACE(to);
   const std::string text = write_pot(collapsed_pot(), PotEncoding::json);
@@ -99,7 +65,7 @@ TEST(PotFile, WritesForPeopleToo) {
 }
 
 RC_GTEST_PROP(PotFile, WhatIsWrittenReadsBackTheSame, ()) {
-  const Pot pot = arbitrary_pot();
+  const Pot pot = test::arbitrary_pot();
   for (const PotEncoding encoding : {PotEncoding::json, PotEncoding::cbor}) {
     const std::string bytes = write_pot(pot, encoding);
     const auto read = parse_pot(bytes, "written");
@@ -110,7 +76,7 @@ RC_GTEST_PROP(PotFile, WhatIsWrittenReadsBackTheSame, ()) {
 }
 
 RC_GTEST_PROP(PotFile, CborHoldsWhatJsonHoldsButTheRadii, ()) {
-  const Pot pot = arbitrary_pot();
+  const Pot pot = test::arbitrary_pot();
   Json file = Json::parse(write_pot(pot, PotEncoding::json));
   file["rings"].erase("outer_mm");
   file["rings"].erase("inner_mm");
@@ -194,10 +160,11 @@ TEST(PotFile, ErrorsNameTheLineOfEveryOtherField) {
       "\"collapse\": {\n    \"failed_ring\": 2", "\"collapse\": {\n    \"failed_ring\": 4",
       "collapse: expected a failed_ring below the number of rings, 4, found an object with "
       "5 fields");
-  expect_error("\"density_g_cm3\": 2.1", "\"density_g_cm3\": 2.1, \"density\": 2",
-               "unknown field \"density\"; expected one of schema, written_by, model, "
-               "density_g_cm3, ring_height_mm, max_rings, quantum_mm2, rings, crown, ledger, "
-               "collapse");
+  expect_error(
+      "\"density_g_cm3\": 2.1", "\"density_g_cm3\": 2.1, \"density\": 2",
+      "unknown field \"density\"; expected one of schema, written_by, model, "
+      "density_g_cm3, ring_height_mm, max_rings, quantum_mm2, rings, rounded_rings, crown, "
+      "ledger, collapse");
 }
 
 TEST(PotFile, ErrorsInCborNameTheField) {
@@ -234,7 +201,9 @@ TEST(PotFile, NoFlippedBitOfCborGivesAPotThatDoesNotBalance) {
 TEST(PotSchema, NamesTheFieldsThatAreWritten) {
   const auto written =
       test::member_paths(Json::parse(write_pot(collapsed_pot(), PotEncoding::json)));
-  const auto described = test::property_paths(test::load_schema("pot"));
+  auto described = test::property_paths(test::load_schema("pot"));
+  std::erase_if(described,
+                [](const std::string& path) { return path.starts_with("/rounded_rings"); });
   EXPECT_EQ(std::set(written.begin(), written.end()), std::set(described.begin(), described.end()));
 }
 

@@ -144,7 +144,8 @@ class Editor {
   void visit(const Json& written, const Json::json_pointer& at) {
     const Json& schema = valid_.resolved(written);
     const Json& value = file_.at(at);
-    if (schema.contains("oneOf")) return visit_branch(schema["oneOf"], at);
+    if (schema.contains("oneOf") && !schema.contains("properties"))
+      return visit_branch(schema["oneOf"], at);
     put(at, "wrong type", Json::array({Json::object()}));
     if (value.is_number()) limits(schema, at);
     if (value.is_array() && !value.empty()) {

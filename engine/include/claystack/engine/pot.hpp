@@ -22,6 +22,13 @@ struct Collapse {
   friend bool operator==(const Collapse&, const Collapse&) = default;
 };
 
+/// Of a pot whose radii are whole multiples of a precision: rounded_pot.
+struct Rounding {
+  double to_mm = 0.0;           ///< the precision
+  WideQuanta exact_volume = 0;  ///< clay in the stack before it was rounded, normalised quanta
+  friend bool operator==(const Rounding&, const Rounding&) = default;
+};
+
 /// When collapsed, `stack` still holds all rings in their order: 0..failed_ring stand,
 /// the others (and the crown) are turned by `collapse`.
 struct Pot {
@@ -30,6 +37,7 @@ struct Pot {
   Model model = Model::conserving;
   double density_g_cm3 = 1.9;
   std::optional<Collapse> collapse;
+  std::optional<Rounding> rounding;
   friend bool operator==(const Pot&, const Pot&) = default;
 };
 
