@@ -171,7 +171,7 @@ class ExportJob {
 
   /// Smooth walls where they can be proved, the steps as they are where not.
   Result<void> prove() {
-    no_smoothing_ = options_.smoothing == Smoothing::fair ? smooth() : "not asked for";
+    no_smoothing_ = options_.smoothing != Smoothing::none ? smooth() : "not asked for";
     if (no_smoothing_.empty()) return {};
     return stages_.run("certificate", [&] { return certify(profile_); })
         .map([&](const PlanarCertificate& certificate) { report().certificate = certificate; });
@@ -179,14 +179,17 @@ class ExportJob {
 
   /// The reason why not, or nothing when done.
   std::string smooth() {
-    auto smoothed =
-        stages_.run("smooth", [&] { return smooth_profile_of(stack_, options_.tolerance_mm); });
+    SmoothingOptions how;
+    how.mode = options_.smoothing;
+    how.tolerance_mm = options_.tolerance_mm;
+    auto smoothed = stages_.run("smooth", [&] { return smooth_profile_of(stack_, how); });
     if (!smoothed) return smoothed.error().message;
-    const auto certificate = stages_.run("certificate", [&] { return certify(smoothed->profile); });
+    const auto certificate =
+        stages_.run("certificate", [&] { return certify(smoothed->section.profile); });
     if (!certificate) return "walls too thin for it: " + certificate.error().message;
-    profile_ = std::move(smoothed->profile);
+    profile_ = std::move(smoothed->section.profile);
     report().certificate = *certificate;
-    report().smoothing = Smoothing::fair;
+    report().smoothing = options_.smoothing;
     return {};
   }
 
