@@ -168,7 +168,7 @@ class PieceSmoother {
 
   /// Rings that can spare such a move without coming near what the guard promises.
   RingFlags thick_rings() const {
-    const double spare = allowed_move_mm();
+    const double spare = 2.0 * allowed_move_mm();  // across a solid both sides move
     const RingFlags all(piece_.size(), 1);
     const std::vector<double> own = walls_by_ring_mm(piece_, stepped_lines(piece_), limit_, all);
     const std::vector<double> now = walls_by_ring_mm(piece_, lines_, limit_ + spare, all);

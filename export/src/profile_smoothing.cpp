@@ -3,6 +3,7 @@
 #include "claystack/export/certificate.hpp"
 #include "describe.hpp"
 #include "piece_smoother.hpp"
+#include "stack_section.hpp"
 #include "swept_volume.hpp"
 
 #include <algorithm>
@@ -57,15 +58,17 @@ void smooth_pieces(const ClayStack& stack, const SmoothingOptions& options,
 
 /// Each piece is certified alone. What is left is that a scaled wall meets the next piece at the
 /// level where it begins: then both keep their steps.
-void keep_pieces_apart(const ClayStack& stack, const StackProfile& steps, SmoothedProfile& result) {
+void keep_pieces_apart(const ClayStack& stack, SmoothedProfile& result) {
   std::vector<Polygon>& pieces = result.section.profile.pieces;
   if (pieces.size() < 2 || certify(result.section.profile)) return;
+  const auto rings = [&](std::size_t k) {
+    return RingRange{result.section.shapes[k].first_ring, result.section.shapes[k].last_ring};
+  };
   for (std::size_t k = 1; k < pieces.size(); ++k) {
     if (certify({{pieces[k - 1], pieces[k]}})) continue;
-    for (const std::size_t kept : {k - 1, k}) pieces[kept] = steps.profile.pieces[kept];
-    result.guard.push_back({level_mm(stack, steps.shapes[k - 1].first_ring),
-                            level_mm(stack, steps.shapes[k].last_ring + 1), KeptFor::certificate,
-                            0.0, 0.0});
+    for (const std::size_t kept : {k - 1, k}) pieces[kept] = section_of(stack, rings(kept));
+    result.guard.push_back({level_mm(stack, rings(k - 1).first), level_mm(stack, rings(k).last + 1),
+                            KeptFor::certificate, 0.0, 0.0});
   }
 }
 
@@ -98,10 +101,11 @@ std::string_view name_of(KeptFor reason) noexcept {
 Result<SmoothedProfile> smooth_profile_of(const ClayStack& stack, const SmoothingOptions& options) {
   if (auto sound = check(options); !sound) return tl::make_unexpected(sound.error());
   return profile_of(stack).map([&](StackProfile steps) {
-    SmoothedProfile result{steps, {}, 0.0, 0.0, 0.0, 0.0, 0.0};
+    SmoothedProfile result;
+    result.section = std::move(steps);
     if (options.mode != Smoothing::none) {
       smooth_pieces(stack, options, result);
-      keep_pieces_apart(stack, steps, result);
+      keep_pieces_apart(stack, result);
     }
     const double counted = stack.volume_mm3();
     result.volume_error_relative = std::abs(volume_of(result.section.profile) - counted) / counted;

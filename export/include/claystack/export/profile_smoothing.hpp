@@ -61,7 +61,7 @@ struct SmoothedProfile {
   /// How far radii leave those of the rings about them: in `fair`, the volume correction.
   double overshoot_mm = 0.0;
   /// Above 0 where `fair` had clay to take and found no walls clear of the limit to take it from:
-  /// walls may be thinner than the guard promises by this much [mm].
+  /// walls may be thinner than the guard promises by this much, solids by twice as much [mm].
   double taken_mm = 0.0;
   double lip_fillet_mm = 0.0;            ///< as made
   double volume_error_relative = 0.0;    ///< against the counted clay
