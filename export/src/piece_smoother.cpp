@@ -32,7 +32,9 @@ class PieceSmoother {
   PieceSmoother(const PieceWalls& piece, const SmoothingOptions& options)
       : piece_(piece),
         options_(options),
-        limit_(options.min_wall_mm ? *options.min_wall_mm : least_own_wall_mm(piece)),
+        // Never 0, so that walls that would meet are seen here, and mended where they do.
+        limit_(options.min_wall_mm ? std::max(*options.min_wall_mm, piece.least_step_mm)
+                                   : least_own_wall_mm(piece)),
         plan_(piece),
         overshot_(piece) {}
 

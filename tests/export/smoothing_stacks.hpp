@@ -29,7 +29,8 @@ inline ClayStack wandering(std::mt19937_64& random, std::size_t count, double h)
   }
   const ClayStack stack = stack_of(h, radii);
   const std::vector<Ring> rings(stack.rings().begin(), stack.rings().end());
-  const WideQuanta crown = rings.back().volume() * (random() % 3) / WideQuanta{3};
+  const WideQuanta crown =
+      rings.back().volume() * static_cast<Quanta>(random() % 3) / WideQuanta{3};
   return ClayStack::from_rings(h, rings, crown).value();
 }
 
