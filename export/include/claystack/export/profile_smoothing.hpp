@@ -63,9 +63,11 @@ struct SmoothedProfile {
   /// Above 0 where `fair` had clay to take and found no walls clear of the limit to take it from:
   /// walls may be thinner than the guard promises by this much, solids by twice as much [mm].
   double taken_mm = 0.0;
-  double lip_fillet_mm = 0.0;            ///< as made
-  double volume_error_relative = 0.0;    ///< against the counted clay
-  double max_ring_error_relative = 0.0;  ///< `exact`: of any ring's R^2 h or r^2 h
+  double lip_fillet_mm = 0.0;          ///< as made
+  double volume_error_relative = 0.0;  ///< against the counted clay
+  /// `exact`: of any ring's R^2 h or r^2 h, with the levels as double holds them: of 10^6 rings the
+  /// upper ones lose digits of h to that.
+  double max_ring_error_relative = 0.0;
 };
 
 /// The profile of a stack with smooth walls. Both modes work on runs of rings between cuts, which
