@@ -138,6 +138,20 @@ Result<void> publish_all(std::vector<Request>& requests, const ExportCommand& co
   return {};
 }
 
+solid::Smoothing smoothing_of(const std::string& name) {
+  for (const auto mode : {solid::Smoothing::fair, solid::Smoothing::exact})
+    if (solid::name_of(mode) == name) return mode;
+  return solid::Smoothing::none;
+}
+
+/// What smoothing must not go below, where the user or the process says.
+std::optional<double> least_wall(const ExportCommand& command, const ClayStack& stack) {
+  double radius = 0.0;
+  for (const Ring& ring : stack.rings()) radius = std::max(radius, ring.outer_mm());
+  const auto demand = command.walls.for_size(4.0 * radius + stack.height_mm());
+  return demand ? std::optional(demand->min_wall_mm) : std::nullopt;
+}
+
 /// Exit status: done, or done with a wall below what was asked for.
 Result<int> export_pot(ExportCommand& command, const Console& console) {
   std::vector<std::string> outputs = command.outputs;
@@ -154,10 +168,11 @@ Result<int> export_pot(ExportCommand& command, const Console& console) {
   });
   if (!pot) return tl::make_unexpected(pot.error());
   if (command.certificate && pot->collapse)
-    return failure(ErrorKind::bad_input,
-                   command.pot + ": --certificate: expected a pot that stands, found a collapsed one");
-  command.options.smoothing =
-      command.smooth == "fair" ? solid::Smoothing::fair : solid::Smoothing::none;
+    return failure(
+        ErrorKind::bad_input,
+        command.pot + ": --certificate: expected a pot that stands, found a collapsed one");
+  command.options.smoothing = smoothing_of(command.smooth);
+  command.options.min_wall_mm = least_wall(command, pot->stack);
   command.options.full_verification = command.verify == "full";
   command.options.name = std::filesystem::path(command.pot).stem().stem().string();
   if (auto opened = open_all(*requests); !opened) return tl::make_unexpected(opened.error());
@@ -198,9 +213,13 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
       ->check(in_range(1e-5, 10.0))
       ->capture_default_str();
   sub->add_option("--smooth", command->smooth,
-                  "fair: walls as they were meant; none: the steps of the rings")
-      ->check(CLI::IsMember({"fair", "none"}))
+                  "fair: walls as they were meant; exact: every ring keeps its volume; none: the "
+                  "steps of the rings")
+      ->check(CLI::IsMember({"fair", "exact", "none"}))
       ->capture_default_str();
+  sub->add_option("--lip-fillet", command->options.lip_fillet_mm,
+                  "Radius that rounds both edges of the lip [mm]")
+      ->check(in_range(0.0, 1e3));
   sub->add_option("--segments", command->options.segments,
                   "Steps around the axis (default: as the tolerance asks)")
       ->check(CLI::Range(3, 1 << 20));
@@ -211,6 +230,8 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
                   "Diameter of a hole along the axis that opens closed cavities [mm]")
       ->check(in_range(1e-3, 1e4));
   command->walls.add_to(*sub);
+  sub->add_flag("--measure-left-out", command->options.measure_left_out,
+                "Do what was left out after all, and tell the time that leaving it out saved");
   sub->add_option("--report", command->report, "Write what --json prints to this file");
   sub->add_option("--precision", command->precision_mm,
                   "Round the radii of pots that are written, meshes keep the exact ones [mm]")

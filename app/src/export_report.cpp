@@ -9,10 +9,6 @@ namespace {
 using solid::ExportReport;
 using solid::FileReport;
 
-std::string_view name_of(solid::Smoothing smoothing) {
-  return smoothing == solid::Smoothing::fair ? "fair" : "none";
-}
-
 std::string_view proof_of(const FileReport& file) {
   return file.proof == solid::Proof::margins ? "the profile's margins cover the rounding"
                                              : "no two triangles as written meet (exact test)";
@@ -44,6 +40,14 @@ Json file_json(const FileReport& file, const std::string& path) {
                                  {"self_intersections", file.full_verification->self_intersections},
                                  {"volume_mm3", file.full_verification->volume_mm3}};
   return json;
+}
+
+Json kept_json(const solid::KeptSteps& kept) {
+  return {{"from_mm", kept.from_mm},
+          {"to_mm", kept.to_mm},
+          {"for", solid::name_of(kept.reason)},
+          {"smoothed_mm", kept.smoothed_mm},
+          {"kept_mm", kept.kept_mm}};
 }
 
 Json collapsed_json(const solid::CollapsedSolid& collapsed) {
@@ -80,17 +84,42 @@ void tell_collapse(const Console& console, const solid::CollapsedSolid& collapse
                              collapsed.voids, cm3(collapsed.voids_mm3)));
 }
 
+/// Where smoothing gave way: one line for each reason.
+void tell_smoothing(const Console& console, const ExportReport& report) {
+  for (const auto reason : {solid::KeptFor::wall, solid::KeptFor::overshoot, solid::KeptFor::volume,
+                            solid::KeptFor::certificate}) {
+    const auto is = [&](const solid::KeptSteps& kept) { return kept.reason == reason; };
+    const auto first = std::find_if(report.kept_steps.begin(), report.kept_steps.end(), is);
+    if (first == report.kept_steps.end()) continue;
+    console.say(fmt::format(
+        "steps kept for {}: {} stretch(es), the first from {:.2f} to {:.2f} mm ({:.3f} mm if "
+        "smoothed)",
+        solid::name_of(reason),
+        std::count_if(report.kept_steps.begin(), report.kept_steps.end(), is), first->from_mm,
+        first->to_mm, first->smoothed_mm));
+  }
+  if (report.taken_mm > 0.0)
+    console.warn(
+        fmt::format("walls may be thinner than they were by {:.2g} mm: no other clay to "
+                    "take from",
+                    report.taken_mm));
+}
+
 void tell_solid(const Console& console, const ExportReport& report) {
-  console.say(fmt::format("proved: {}closed and embedded, from {} profile vertices; {} triangles in "
-                          "{} shell(s)",
-                          report.collapsed ? "each part before the fall " : "",
-                          report.planar.vertices, report.triangles, report.shells));
+  console.say(
+      fmt::format("proved: {}closed and embedded, from {} profile vertices; {} triangles in "
+                  "{} shell(s)",
+                  report.collapsed ? "each part before the fall " : "", report.planar.vertices,
+                  report.triangles, report.shells));
   console.say(fmt::format(
       "volume {:.3f} cm3, {}off the counted clay by {:.1e}; thinnest {:.2f} mm; chordal error "
       "{:.3g} mm",
       report.volume_mm3 / 1000.0, report.collapsed ? "with the overlap " : "",
       report.volume_error_relative, report.min_wall_mm, report.chordal_error_mm));
   if (report.collapsed) tell_collapse(console, *report.collapsed);
+  tell_smoothing(console, report);
+  for (const auto& [what, why, saved] : report.left_out)
+    if (saved) console.say(fmt::format("left out: {} ({}), saved {:.2g} s", what, why, *saved));
 }
 
 }  // namespace
@@ -101,7 +130,7 @@ Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies,
       {"triangles", report.triangles},
       {"shells", report.shells},
       {"segments", report.segments},
-      {"smoothing", name_of(report.smoothing)},
+      {"smoothing", solid::name_of(report.smoothing)},
       {"tolerance_mm", report.tolerance_mm},
       {"chordal_error_mm", report.chordal_error_mm},
       {"volume_mm3", report.volume_mm3},
@@ -115,6 +144,8 @@ Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies,
         {"polygons", report.planar.polygons},
         {"vertices", report.planar.vertices},
         {"axis_segments", report.planar.axis_segments}}},
+      {"overshoot_mm", report.overshoot_mm},
+      {"kept_steps", Json::array()},
       {"cavities", Json::array()},
       {"files", Json::array()},
       {"left_out", Json::array()},
@@ -135,8 +166,15 @@ Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies,
     json["files"].push_back(is_drawing(path)        ? Json{{"path", path}, {"format", "svg"}}
                             : pot_encoding_of(path) ? copy_json(*copy++, path)
                                                     : file_json(*file++, path));
-  for (const auto& [what, why] : report.left_out)
+  for (const auto& kept : report.kept_steps) json["kept_steps"].push_back(kept_json(kept));
+  if (report.smoothing == solid::Smoothing::exact)
+    json["max_ring_error_relative"] = report.max_ring_error_relative;
+  if (report.lip_fillet_mm > 0.0) json["lip_fillet_mm"] = report.lip_fillet_mm;
+  if (report.taken_mm > 0.0) json["taken_mm"] = report.taken_mm;
+  for (const auto& [what, why, saved] : report.left_out) {
     json["left_out"].push_back({{"what", what}, {"why", why}});
+    if (saved) json["left_out"].back()["saved_s"] = *saved;
+  }
   for (const auto& [name, seconds] : report.stages)
     json["stages"].push_back({{"name", name}, {"seconds", seconds}});
   return json;

@@ -41,8 +41,8 @@ Proof proof_from(const Json& json) {
 
 SolidCertificate from_json(const Json& json) {
   expect_schema(json, kSchema);
-  expect_only(json, {"schema", "written_by", "claim", "format", "bytes", "content_hash", "profile_hash",
-                     "proof", "segments", "rounding_mm", "clearance_mm", "chord_mm",
+  expect_only(json, {"schema", "written_by", "claim", "format", "bytes", "content_hash",
+                     "profile_hash", "proof", "segments", "rounding_mm", "clearance_mm", "chord_mm",
                      "wall_lower_mm", "wall_upper_mm", "volume_mm3", "volume_bound_mm3",
                      "counted_volume_mm3", "profile_mm"});
   SolidCertificate c;

@@ -6,6 +6,7 @@
 #include "content_hash.hpp"
 #include "describe.hpp"
 #include "draco_bits.hpp"
+#include "left_out.hpp"
 #include "resolution.hpp"
 #include "stages.hpp"
 #include "stored_file.hpp"
@@ -24,11 +25,13 @@ namespace {
 
 Result<void> check_options(const ExportOptions& options) {
   const auto refuse = [](std::string_view option) {
-    return failure(ErrorKind::bad_input, std::string(option).append(
-                                             ": expected a pot that stands, found a collapsed one"));
+    return failure(
+        ErrorKind::bad_input,
+        std::string(option).append(": expected a pot that stands, found a collapsed one"));
   };
   if (options.drain_mm) return refuse("drain");
   if (options.normals) return refuse("normals");
+  if (options.lip_fillet_mm > 0.0) return refuse("lip fillet");
   return {};
 }
 
@@ -204,10 +207,10 @@ class CollapsedExport {
 
   void tell_left_out() {
     auto& list = report_.left_out;
-    if (!pot_.stack.hollow()) list.push_back({"inner shell", "no ring has a bore"});
-    if (options_.smoothing == Smoothing::none) list.push_back({"smoothing", "not asked for"});
-    if (!parts_.no_smoothing.empty()) list.push_back({"smoothing", parts_.no_smoothing});
-    tell_formats_left_out(outputs_, list);
+    if (!pot_.stack.hollow()) list.push_back({"inner shell", "no ring has a bore", {}});
+    if (options_.smoothing == Smoothing::none) list.push_back({"smoothing", "not asked for", {}});
+    if (!parts_.no_smoothing.empty()) list.push_back({"smoothing", parts_.no_smoothing, {}});
+    add_formats_left_out(outputs_, list);
   }
 
   const Pot& pot_;

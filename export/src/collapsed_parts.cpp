@@ -94,10 +94,10 @@ class Parting {
 
   Result<CollapsedParts> run(Smoothing smoothing) const {
     if (smoothing == Smoothing::none) return parts(Smoothing::none);
-    auto fair = parts(Smoothing::fair);
-    if (fair) return fair;
+    auto smooth = parts(smoothing);
+    if (smooth) return smooth;
     return parts(Smoothing::none).map([&](CollapsedParts steps) {
-      steps.no_smoothing = fair.error().message;
+      steps.no_smoothing = smooth.error().message;
       return steps;
     });
   }
@@ -133,9 +133,19 @@ class Parting {
 
   Result<StackProfile> profile(RingRange rings, WideQuanta crown, Smoothing smoothing) const {
     return part_of(stack_, rings, crown).and_then([&](const Part& part) {
-      auto found = smoothing == Smoothing::fair ? smooth_profile_of(part.stack, tolerance_mm_)
-                                                : profile_of(part.stack, min_step_mm_);
-      return found.map([&](StackProfile own) { return in_place(std::move(own), part); });
+      return profile(part.stack, smoothing).map([&](StackProfile own) {
+        return in_place(std::move(own), part);
+      });
+    });
+  }
+
+  Result<StackProfile> profile(const ClayStack& stack, Smoothing smoothing) const {
+    if (smoothing == Smoothing::none) return profile_of(stack, min_step_mm_);
+    SmoothingOptions how;
+    how.mode = smoothing;
+    how.tolerance_mm = tolerance_mm_;
+    return smooth_profile_of(stack, how).map([](SmoothedProfile smoothed) {
+      return std::move(smoothed.section);
     });
   }
 

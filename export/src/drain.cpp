@@ -31,17 +31,17 @@ Result<DrainedStack> drain(const ClayStack& stack, double diameter_mm) {
   std::vector<Ring> rings(stack.rings().begin(), stack.rings().end());
   for (std::size_t i = 0; i < depth; ++i) {
     if (rings[i].outer2 <= hole2)
-      return failure(ErrorKind::bad_input,
-                     "drain: expected a hole narrower than ring " + std::to_string(i) + " (" +
-                         in_mm(2.0 * rings[i].outer_mm()) + " mm), found " + in_mm(diameter_mm) +
-                         " mm");
+      return failure(ErrorKind::bad_input, "drain: expected a hole narrower than ring " +
+                                               std::to_string(i) + " (" +
+                                               in_mm(2.0 * rings[i].outer_mm()) + " mm), found " +
+                                               in_mm(diameter_mm) + " mm");
     rings[i].inner2 = std::max(rings[i].inner2, hole2);
   }
   return ClayStack::from_rings(stack.ring_height_mm(), std::move(rings), stack.crown(),
                                stack.max_rings())
       .map([&](ClayStack drained) {
-        const double drilled = static_cast<double>(stack.volume() - drained.volume()) *
-                               stack.mm3_per_quantum();
+        const double drilled =
+            static_cast<double>(stack.volume() - drained.volume()) * stack.mm3_per_quantum();
         return DrainedStack{std::move(drained), drilled};
       });
 }

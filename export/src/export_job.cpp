@@ -4,6 +4,7 @@
 #include "claystack/export/tessellate.hpp"
 #include "collapsed_export.hpp"
 #include "describe.hpp"
+#include "left_out.hpp"
 #include "resolution.hpp"
 #include "revolve_files.hpp"
 #include "revolve_rule.hpp"
@@ -25,9 +26,21 @@ double min_step_mm(const ClayStack& stack) {
   return std::ldexp(std::hypot(widest, stack.height_mm()), -19);
 }
 
+/// No step but floors and lids.
+bool has_straight_walls(const ClayStack& stack) {
+  const auto rings = stack.rings();
+  for (std::size_t i = 1; i < rings.size(); ++i) {
+    const Ring &below = rings[i - 1], &above = rings[i];
+    const bool floor = below.inner2 == 0 || above.inner2 == 0;
+    if (below.outer2 != above.outer2 || (!floor && below.inner2 != above.inner2)) return false;
+  }
+  return true;
+}
+
 /// A profile that has been proved, and the number of steps to revolve it by.
 struct Design {
   StackProfile section;
+  SmoothedProfile smoothed;  ///< but for its section
   Smoothing smoothing = Smoothing::none;
   std::string no_smoothing;  ///< why not, where not
   PlanarCertificate planar;
@@ -94,28 +107,29 @@ class ExportJob {
         });
   }
 
-  /// Smooth walls where they can be proved, the steps as they are where not.
   Result<void> make_profile(Design& design) {
     auto steps = stages_.run("profile", [&] { return profile_of(stack_, min_step_mm(stack_)); });
     if (!steps) return tl::make_unexpected(steps.error());
     design.section = std::move(*steps);
-    design.no_smoothing = options_.smoothing == Smoothing::fair ? smooth(design) : "not asked for";
-    if (design.no_smoothing.empty()) return {};
+    if (options_.smoothing == Smoothing::none)
+      design.no_smoothing = "not asked for";
+    else if (has_straight_walls(stack_) && options_.lip_fillet_mm == 0.0)
+      design.no_smoothing = "the walls are straight";
+    else if (auto smoothed = smooth(design); !smoothed)
+      return smoothed;
     return stages_.run("certificate", [&] { return certify(design.section.profile); })
         .map([&](const PlanarCertificate& planar) { design.planar = planar; });
   }
 
-  /// The reason why not, or nothing when done.
-  std::string smooth(Design& design) {
-    auto smoothed =
-        stages_.run("smooth", [&] { return smooth_profile_of(stack_, design.tolerance_mm); });
-    if (!smoothed) return smoothed.error().message;
-    const auto planar = stages_.run("certificate", [&] { return certify(smoothed->profile); });
-    if (!planar) return "walls too thin for it: " + planar.error().message;
-    design.section.profile = std::move(smoothed->profile);
-    design.planar = *planar;
-    design.smoothing = Smoothing::fair;
-    return {};
+  Result<void> smooth(Design& design) {
+    const SmoothingOptions how{options_.smoothing, design.tolerance_mm, options_.min_wall_mm,
+                               options_.lip_fillet_mm, std::nullopt};
+    return stages_.run("smooth", [&] { return smooth_profile_of(stack_, how); })
+        .map([&](SmoothedProfile smoothed) {
+          design.section = std::exchange(smoothed.section, {});
+          design.smoothed = std::move(smoothed);
+          design.smoothing = options_.smoothing;
+        });
   }
 
   Result<void> write_all(const Design& design) {
@@ -130,7 +144,8 @@ class ExportJob {
       if (!file) return tl::make_unexpected(file.error());
       report_.files.push_back(std::move(*file));
     }
-    tell_left_out(design, files.made_mesh());
+    report_.left_out =
+        left_out(stack_, design.no_smoothing, rule, files.made_mesh(), outputs_, options_);
     return {};
   }
 
@@ -144,6 +159,11 @@ class ExportJob {
     report_.planar = design.planar;
     report_.shapes = design.section.shapes;
     report_.smoothing = design.smoothing;
+    report_.kept_steps = design.smoothed.guard;
+    report_.overshoot_mm = design.smoothed.overshoot_mm;
+    report_.taken_mm = design.smoothed.taken_mm;
+    report_.lip_fillet_mm = design.smoothed.lip_fillet_mm;
+    report_.max_ring_error_relative = design.smoothed.max_ring_error_relative;
     report_.segments = design.segments;
     report_.triangles = design.triangles;
     report_.shells = rule.shells().size();
@@ -154,18 +174,6 @@ class ExportJob {
     report_.volume_mm3 = claims.volume_mm3;
     report_.volume_error_relative =
         std::abs(report_.volume_mm3 - report_.counted_volume_mm3) / report_.counted_volume_mm3;
-  }
-
-  void tell_left_out(const Design& design, bool made_mesh) {
-    auto& list = report_.left_out;
-    if (!stack_.hollow()) list.push_back({"inner shell", "no ring has a bore"});
-    if (!design.no_smoothing.empty()) list.push_back({"smoothing", design.no_smoothing});
-    list.push_back({"union", "the pot has not collapsed"});
-    if (!options_.max_triangles) list.push_back({"budget", "no number of triangles asked for"});
-    if (!made_mesh) list.push_back({"mesh in memory", "nothing asked for needs one"});
-    if (!options_.full_verification)
-      list.push_back({"full verification", "the certificate covers it; not asked for"});
-    tell_formats_left_out(outputs_, list);
   }
 
   const ClayStack& stack_;

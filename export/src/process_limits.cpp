@@ -20,7 +20,8 @@ const std::vector<ProcessLimits>& built_in() {
        {{200.0, 1.0, "i.materialise, resin: up to 200 mm of width + depth + height"},
         {400.0, 2.0, "i.materialise, resin: 200 to 400 mm of width + depth + height"},
         {kAnySize, 3.0, "i.materialise, resin: above 400 mm of width + depth + height"}}},
-      {"earthenware", {{kAnySize, 5.0, "CCL_Clay3DP, ClayPresets.cs: one bead, laboratory preset"}}},
+      {"earthenware",
+       {{kAnySize, 5.0, "CCL_Clay3DP, ClayPresets.cs: one bead, laboratory preset"}}},
       {"stoneware", {{kAnySize, 3.0, "CCL_Clay3DP, ClayPresets.cs: one bead, laboratory preset"}}},
       {"porcelain", {{kAnySize, 2.0, "CCL_Clay3DP, ClayPresets.cs: one bead, laboratory preset"}}},
   };
@@ -35,7 +36,8 @@ WallLimit wall_from(const Json& json) {
   limit.min_wall_mm = number_in(json, "min_wall_mm");
   limit.source = text_in(json, "source");
   if (!(limit.min_wall_mm > 0.0)) throw BadField("min_wall_mm: expected more than 0 mm");
-  if (!(limit.up_to_size_sum_mm > 0.0)) throw BadField("up_to_size_sum_mm: expected more than 0 mm");
+  if (!(limit.up_to_size_sum_mm > 0.0))
+    throw BadField("up_to_size_sum_mm: expected more than 0 mm");
   return limit;
 }
 

@@ -32,8 +32,7 @@ Result<std::size_t> forced_segments(std::size_t segments) {
                                            std::to_string(segments));
 }
 
-Result<std::size_t> segments_within(const Profile& profile, double tolerance_mm,
-                                    double reach_mm) {
+Result<std::size_t> segments_within(const Profile& profile, double tolerance_mm, double reach_mm) {
   const Extent extent = extent_of(profile);
   // The vertices stand out a little beyond the radius; the factor 2 covers that and more.
   const double rounding = std::ldexp(2.0 * std::max(extent.reach, reach_mm), -24);

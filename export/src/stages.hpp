@@ -36,12 +36,4 @@ class Stages {
   const std::function<void(std::string_view)>& progress_;
 };
 
-/// Adds the formats that no output has.
-inline void tell_formats_left_out(const std::vector<Output>& outputs, std::vector<LeftOut>& list) {
-  for (const MeshFormat format : kMeshFormats)
-    if (std::none_of(outputs.begin(), outputs.end(),
-                     [&](const Output& output) { return output.format == format; }))
-      list.push_back({std::string(name_of(format)), "not asked for"});
-}
-
 }  // namespace clay::solid

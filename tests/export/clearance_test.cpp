@@ -92,7 +92,7 @@ RC_GTEST_PROP(Clearance, OfStepsIsALowerBound, (const ClayStack& stack)) {
 RC_GTEST_PROP(Clearance, OfFairWallsIsALowerBound, ()) {
   auto random = *samples::random_engine();
   const auto count = *rc::gen::inRange<std::size_t>(1, 60);
-  const auto section = smooth_profile_of(samples::stack(random, count, 0.7), 0.02);
+  const auto section = shapes::fair_section(samples::stack(random, count, 0.7), 0.02);
   RC_PRE(section.has_value() && certify(section->profile).has_value());
   is_a_close_lower_bound(section->profile);
 }

@@ -4,6 +4,7 @@
 #include "claystack/engine/pot.hpp"
 #include "claystack/export/certificate.hpp"
 #include "claystack/export/profile.hpp"
+#include "claystack/export/profile_smoothing.hpp"
 #include "claystack/export/tessellate.hpp"
 
 #include <rapidcheck.h>
@@ -54,6 +55,15 @@ inline ClayStack vase(std::size_t rings) {
     radii.push_back({outer, t < 0.03 ? 0.0 : outer - 3.0});
   }
   return stack_of(200.0 / static_cast<double>(rings), radii);
+}
+
+/// The section with fair walls, simplified to a tolerance.
+inline Result<StackProfile> fair_section(const ClayStack& stack, double tolerance_mm) {
+  SmoothingOptions options;
+  options.tolerance_mm = tolerance_mm;
+  return smooth_profile_of(stack, options).map([](SmoothedProfile smoothed) {
+    return std::move(smoothed.section);
+  });
 }
 
 /// A ball of latitude steps about (0, 0, centre_mm), outward.

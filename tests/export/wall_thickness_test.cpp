@@ -228,7 +228,7 @@ RC_GTEST_PROP(WallThickness, IsThatOfTheDefinitionForFairWalls, ()) {
   auto random = *samples::random_engine();
   const double h = *rc::gen::element(0.5, 3.0, 20.0);
   const ClayStack stack = samples::stack(random, *rc::gen::inRange<std::size_t>(2, 14), h);
-  const auto section = smooth_profile_of(stack, 0.02);
+  const auto section = shapes::fair_section(stack, 0.02);
   RC_PRE(section.has_value() && certify(section->profile).has_value());
   agrees_with_the_definition(section->profile, random);
 }
@@ -251,7 +251,7 @@ RC_GTEST_PROP(WallThickness, IsThatOfTheDefinitionForWavyHoops, ()) {
 
 RC_GTEST_PROP(WallThickness, MovesWithThePotAndScalesWithIt, ()) {
   auto random = *samples::random_engine();
-  const auto section = smooth_profile_of(samples::stack(random, 12, 3.0), 0.02);
+  const auto section = shapes::fair_section(samples::stack(random, 12, 3.0), 0.02);
   RC_PRE(section.has_value() && certify(section->profile).has_value());
   Profile moved = section->profile, larger = section->profile;
   for (Polygon& polygon : moved.pieces)
@@ -295,7 +295,7 @@ RC_GTEST_PROP(WallField, ComesDownToTheLeast, ()) {
   for (double outer = 40.0; radii.size() < 100; outer += 0.1 * (samples::uniform(random) - 0.5))
     radii.push_back(
         {outer, radii.size() < 12 ? 0.0 : outer - 3.0 - 0.1 * samples::uniform(random)});
-  const auto section = smooth_profile_of(shapes::stack_of(h, radii), 1e-6).value();
+  const auto section = shapes::fair_section(shapes::stack_of(h, radii), 1e-6).value();
   const double least = min_wall_mm(section.profile);
   double previous = std::numeric_limits<double>::infinity();
   for (const double spacing : {1.0, 0.2, 0.04}) {

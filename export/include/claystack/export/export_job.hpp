@@ -26,11 +26,14 @@ namespace clay::solid {
 struct ExportOptions {
   double tolerance_mm = 0.02;  ///< chordal error along and around; vertex error of Draco
   Smoothing smoothing = Smoothing::fair;
+  std::optional<double> min_wall_mm;  ///< no thinner by smoothing, see `SmoothingOptions`
+  double lip_fillet_mm = 0.0;
   std::optional<std::size_t> segments;       ///< force the number around
   std::optional<std::size_t> max_triangles;  ///< a coarser tolerance where the asked one needs more
   std::optional<double> drain_mm;  ///< diameter of a hole that opens closed cavities, see `drain`
   bool normals = false;            ///< for shading, in formats that have them (obj)
   bool allow_pieces = false;                 ///< several pieces that do not touch, in one file
+  bool measure_left_out = false;   ///< do what is left out after all, to tell what that saved
   bool full_verification = false;  ///< every file read again whole, and checked as a stranger's is
   std::string name = "pot";        ///< solid or object name inside the file
 };
@@ -60,12 +63,16 @@ struct StageTime {
 struct LeftOut {
   std::string what;
   std::string why;
+  std::optional<double> saved_s;  ///< measured where asked for, and where it can be
 };
 
 struct ExportReport {
   PlanarCertificate planar;  ///< of a collapsed pot: of its parts before the fall
   std::vector<PieceShape> shapes;
-  Smoothing smoothing = Smoothing::none;  ///< as done: walls too thin for `fair` stay as they are
+  Smoothing smoothing = Smoothing::none;  ///< as done: straight walls need none
+  std::vector<KeptSteps> kept_steps;      ///< where smoothing gave way
+  double overshoot_mm = 0.0, taken_mm = 0.0, lip_fillet_mm = 0.0;  ///< as in `SmoothedProfile`
+  double max_ring_error_relative = 0.0;                            ///< `exact`
   std::optional<CollapsedSolid> collapsed;  ///< without its mesh
   std::size_t segments = 0;
   std::size_t triangles = 0;
