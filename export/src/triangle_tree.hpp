@@ -12,8 +12,7 @@
 
 namespace clay::solid {
 
-/// Triangles without area are left out. Points are finite, indices in range. About 200 bytes a
-/// triangle.
+/// Triangles without area are left out. Points are finite, indices in range.
 class TriangleTree {
  public:
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;

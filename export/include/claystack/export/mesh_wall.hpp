@@ -28,7 +28,7 @@ inline constexpr std::size_t kMostWallSamples = 10'000'000;
 /// neighbours that rounding puts in its way. Where that face is turned more than 45 degrees
 /// against the ray, as beside the edge of a rim, the distance tells of no wall and is not counted.
 ///
-/// By CGAL's AABB tree, about 200 bytes a triangle. Errors of kind `bad_input`: no triangle with
+/// By CGAL's AABB tree. Errors of kind `bad_input`: no triangle with
 /// area, a point that is no number, an index out of range, or samples not from 1 to
 /// kMostWallSamples; of kind `unsound` where the library gave up.
 Result<SampledWall> sampled_wall(const TriangleMesh& mesh, std::size_t samples);
