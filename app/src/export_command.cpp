@@ -3,6 +3,7 @@
 #include "file_on_disk.hpp"
 #include "pot_copy.hpp"
 #include "wall_demand.hpp"
+#include "wall_table.hpp"
 
 #include "claystack/engine/atomic_file.hpp"
 #include "claystack/engine/pot_file.hpp"
@@ -37,7 +38,7 @@ struct ExportCommand {
   bool certificate = false;
 };
 
-/// What is asked for: meshes go through the job, drawings and pots straight from the pot.
+/// What is asked for: meshes and walls go through the job, drawings and pots straight from the pot.
 struct Request {
   std::string path;
   std::optional<MeshFormat> mesh;
@@ -48,12 +49,14 @@ Result<std::vector<Request>> requests_of(const ExportCommand& command) {
   std::vector<Request> requests;
   for (const std::string& path : command.outputs) {
     Request request{path, std::nullopt, nullptr};
-    if (!path.ends_with(".svg") && !pot_encoding_of(path)) {
+    if (!path.ends_with(".svg") && !is_wall_table(path) && !pot_encoding_of(path)) {
       const auto format = solid::mesh_format_of(path);
       if (!format)
-        return failure(ErrorKind::bad_input,
-                       format.error().message +
-                           "; or .svg for the section, .pot.json or .pot.cbor for the pot");
+        return failure(
+            ErrorKind::bad_input,
+            format.error().message +
+                "; or .svg for the section, .csv for its walls, .pot.json or .pot.cbor for "
+                "the pot");
       request.mesh =
           *format == MeshFormat::stl_binary && command.ascii ? MeshFormat::stl_ascii : *format;
     }
@@ -79,9 +82,8 @@ Result<void> open_all(std::vector<Request>& requests) {
   return {};
 }
 
-Result<void> write_drawing(const Pot& pot, Request& request) {
-  const std::string drawing = solid::section_svg(pot);
-  return request.file->write(std::as_bytes(std::span(drawing)));
+Result<void> write_text(const std::string& text, Request& request) {
+  return request.file->write(std::as_bytes(std::span(text)));
 }
 
 /// Copies of the pot, as exact as asked for.
@@ -104,21 +106,27 @@ Result<std::vector<PotCopy>> write_copies(const Pot& pot, std::vector<Request>& 
 /// All files are whole and verified before the first one gets its name.
 Result<ExportReport> export_all(const Pot& pot, std::vector<Request>& requests,
                                 const ExportCommand& command, const Console& console) {
+  solid::ExportOptions options = command.options;
   std::vector<solid::Output> outputs;
   for (const Request& request : requests)
     if (request.mesh) outputs.push_back({*request.mesh, request.file.get()});
   ExportReport report;
-  if (!outputs.empty()) {
+  const bool walls = std::ranges::any_of(command.outputs, is_wall_table);
+  if (walls) options.wall_spacing_mm = kWallSpacingMm;
+  if (!outputs.empty() || walls) {
     Progress progress(console, "exporting", 0);
-    auto done = solid::run_export(pot, outputs, command.options,
+    auto done = solid::run_export(pot, outputs, options,
                                   [&](std::string_view stage) { progress.stage(stage); });
     if (!done) return failure(done.error().kind, command.pot + ": " + done.error().message);
     report = std::move(*done);
   }
-  for (Request& request : requests)
-    if (!request.mesh && !pot_encoding_of(request.path))
-      if (auto drawn = write_drawing(pot, request); !drawn)
-        return tl::make_unexpected(drawn.error());
+  for (Request& request : requests) {
+    if (request.mesh || pot_encoding_of(request.path)) continue;
+    const std::string text =
+        is_wall_table(request.path) ? wall_table(report.wall_field) : solid::section_svg(pot);
+    if (auto written = write_text(text, request); !written)
+      return tl::make_unexpected(written.error());
+  }
   return report;
 }
 
@@ -206,7 +214,8 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
   sub->add_option("pot", command->pot, "NAME.pot.json or .pot.cbor, or - for standard input")
       ->required();
   sub->add_option("out", command->outputs,
-                  "Files to write: .stl, .obj, .drc, .svg for the section, .pot.json or .pot.cbor")
+                  "Files to write: .stl, .obj, .drc; .svg for the section, .csv for its walls; "
+                  ".pot.json or .pot.cbor for the pot")
       ->required();
   sub->add_option("--tolerance", command->options.tolerance_mm,
                   "Largest chordal error, and vertex error in .drc [mm]")

@@ -58,7 +58,11 @@ Json collapsed_json(const solid::CollapsedSolid& collapsed) {
           {"pockets_mm3", collapsed.pockets_mm3}, {"max_move_mm", collapsed.max_move_mm}};
 }
 
-bool is_drawing(const std::string& path) { return path.ends_with(".svg"); }
+/// Of files that say nothing of themselves: the section, and the table of walls.
+std::string_view plain_format_of(std::string_view path) {
+  if (path.ends_with(".svg")) return "svg";
+  return path.ends_with(".csv") ? "csv" : "";
+}
 
 void tell_file(const Console& console, const FileReport& file, const std::string& path) {
   console.say(fmt::format("{}: {}, {} bytes; vertices within {:.2g} mm; {}{}{}", path,
@@ -111,11 +115,12 @@ void tell_solid(const Console& console, const ExportReport& report) {
                   "{} shell(s)",
                   report.collapsed ? "each part before the fall " : "", report.planar.vertices,
                   report.triangles, report.shells));
-  console.say(fmt::format(
-      "volume {:.3f} cm3, {}off the counted clay by {:.1e}; thinnest {:.2f} mm; chordal error "
-      "{:.3g} mm",
-      report.volume_mm3 / 1000.0, report.collapsed ? "with the overlap " : "",
-      report.volume_error_relative, report.min_wall_mm, report.chordal_error_mm));
+  console.say(
+      fmt::format("volume {:.3f} cm3, {}off the counted clay by {:.1e}; thinnest {:.2f} mm, at "
+                  "height {:.1f} mm; chordal error {:.3g} mm",
+                  report.volume_mm3 / 1000.0, report.collapsed ? "with the overlap " : "",
+                  report.volume_error_relative, report.min_wall_mm, report.thinnest.from.y,
+                  report.chordal_error_mm));
   if (report.collapsed) tell_collapse(console, *report.collapsed);
   tell_smoothing(console, report);
   for (const auto& [what, why, saved] : report.left_out)
@@ -137,6 +142,9 @@ Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies,
       {"counted_volume_mm3", report.counted_volume_mm3},
       {"volume_error_relative", report.volume_error_relative},
       {"min_wall_mm", report.min_wall_mm},
+      {"thinnest_at_mm",
+       {{report.thinnest.from.rho, report.thinnest.from.y},
+        {report.thinnest.to.rho, report.thinnest.to.y}}},
       {"diameter_mm", report.diameter_mm},
       {"height_mm", report.height_mm},
       {"certificate",
@@ -162,10 +170,12 @@ Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies,
     json["wall_demand"] = {{"min_wall_mm", demand->min_wall_mm}, {"source", demand->source}};
   auto file = report.files.begin();
   auto copy = copies.begin();
-  for (const std::string& path : paths)
-    json["files"].push_back(is_drawing(path)        ? Json{{"path", path}, {"format", "svg"}}
+  for (const std::string& path : paths) {
+    const std::string_view plain = plain_format_of(path);
+    json["files"].push_back(!plain.empty()          ? Json{{"path", path}, {"format", plain}}
                             : pot_encoding_of(path) ? copy_json(*copy++, path)
                                                     : file_json(*file++, path));
+  }
   for (const auto& kept : report.kept_steps) json["kept_steps"].push_back(kept_json(kept));
   if (report.smoothing == solid::Smoothing::exact)
     json["max_ring_error_relative"] = report.max_ring_error_relative;
@@ -194,8 +204,8 @@ void tell_export(const Console& console, const ExportReport& report,
   auto file = report.files.begin();
   auto copy = copies.begin();
   for (const std::string& path : paths) {
-    if (is_drawing(path))
-      console.say(path + ": section");
+    if (const std::string_view plain = plain_format_of(path); !plain.empty())
+      console.say(path + (plain == "svg" ? ": section" : ": walls along the section"));
     else if (pot_encoding_of(path))
       console.say(copy_text(*copy++, path));
     else

@@ -31,6 +31,7 @@ Result<void> check_options(const ExportOptions& options) {
   };
   if (options.drain_mm) return refuse("drain");
   if (options.normals) return refuse("normals");
+  if (options.wall_spacing_mm) return refuse("field of walls");
   if (options.lip_fillet_mm > 0.0) return refuse("lip fillet");
   return {};
 }
@@ -97,9 +98,13 @@ class CollapsedExport {
     report_.segments = segments;
     report_.tolerance_mm = options_.tolerance_mm;
     report_.chordal_error_mm = chordal_error_mm(largest_radius(pot_.stack), segments);
-    double wall = min_wall_mm(parts_.lower.profile);
-    if (!parts_.upper.shapes.empty()) wall = std::min(wall, min_wall_mm(parts_.upper.profile));
-    report_.min_wall_mm = wall * std::cos(std::numbers::pi / static_cast<double>(segments));
+    report_.thinnest = min_wall(parts_.lower.profile);
+    if (!parts_.upper.shapes.empty()) {
+      const Wall fallen = min_wall(parts_.upper.profile);
+      if (fallen.thickness_mm < report_.thinnest.thickness_mm) report_.thinnest = fallen;
+    }
+    report_.min_wall_mm =
+        report_.thinnest.thickness_mm * std::cos(std::numbers::pi / static_cast<double>(segments));
   }
 
   void describe_solid(CollapsedSolid solid) {
@@ -111,13 +116,18 @@ class CollapsedExport {
     report_.diameter_mm = std::max(high.x - low.x, high.y - low.y);
     report_.height_mm = high.z - low.z;
     report_.counted_volume_mm3 = pot_.stack.volume_mm3();
-    report_.volume_mm3 = solid.volume_mm3;
-    report_.volume_error_relative = std::abs(solid.volume_mm3 - solid.pockets_mm3 +
-                                             solid.overlap_mm3 - report_.counted_volume_mm3) /
-                                    report_.counted_volume_mm3;
     report_.triangles = mesh_.triangles.size();
     report_.shells = solid.check.components;
     report_.collapsed = std::move(solid);
+    describe_volume(report_.collapsed->volume_mm3);
+  }
+
+  void describe_volume(double volume_mm3) {
+    const CollapsedSolid& solid = *report_.collapsed;
+    report_.volume_mm3 = volume_mm3;
+    report_.volume_error_relative =
+        std::abs(volume_mm3 - solid.pockets_mm3 + solid.overlap_mm3 - report_.counted_volume_mm3) /
+        report_.counted_volume_mm3;
   }
 
   /// There is no profile of the whole to make coarser: the mesh is decimated, and checked again.
@@ -132,7 +142,7 @@ class CollapsedExport {
                            "decimated: found " + describe(check.problems.front()));
           report_.triangles = mesh_.triangles.size();
           report_.tolerance_mm += decimated.max_error_mm;
-          report_.volume_mm3 = check.volume_mm3;
+          describe_volume(check.volume_mm3);
           report_.collapsed->max_move_mm += decimated.max_error_mm;
           return {};
         });

@@ -170,6 +170,11 @@ class ExportJob {
     report_.tolerance_mm = design.tolerance_mm;
     report_.chordal_error_mm = chordal_error_mm(widest, design.segments);
     report_.min_wall_mm = claims.wall_lower_mm;
+    report_.thinnest = stages_.run("wall", [&] { return min_wall(design.section.profile); });
+    if (options_.wall_spacing_mm)
+      report_.wall_field = stages_.run("wall_field", [&] {
+        return wall_field(design.section.profile, *options_.wall_spacing_mm);
+      });
     report_.counted_volume_mm3 = claims.counted_volume_mm3;
     report_.volume_mm3 = claims.volume_mm3;
     report_.volume_error_relative =

@@ -14,8 +14,8 @@ class CertifiedVase : public testing::Test {
  protected:
   void SetUp() override {
     ASSERT_EQ(claystack("throw -q " + sample("vase.scene.json") + " -o " + pot).status, 0);
-    const Ran run = claystack(std::string("export -q --certificate ") + pot + " " + stl + " " + obj +
-                              " " + drc);
+    const Ran run = claystack(std::string("export -q --certificate ") + pot + " " + stl + " " +
+                              obj + " " + drc);
     ASSERT_EQ(run.status, 0) << run.err;
   }
   static Ran check(const std::string& file, const std::string& certificate) {
@@ -31,10 +31,9 @@ TEST_F(CertifiedVase, IsVerifiedInEveryFormat) {
     const Ran run = check(file, file + ".certificate.json");
     EXPECT_EQ(run.status, 0) << run.out << run.err;
     EXPECT_NE(run.out.find("certificate holds"), std::string::npos) << run.out;
-    const auto json =
-        claystack(std::string("check --json ") + file + " --certificate " + file +
-                  ".certificate.json")
-            .json();
+    const auto json = claystack(std::string("check --json ") + file + " --certificate " + file +
+                                ".certificate.json")
+                          .json();
     EXPECT_TRUE(json.at("certificate").at("holds"));
   }
 }

@@ -3,9 +3,12 @@
 #include "run_program.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <filesystem>
 #include <numbers>
+#include <sstream>
 #include <string>
+#include <vector>
 
 namespace clay::test {
 namespace {
@@ -77,6 +80,56 @@ TEST_F(ExportOptions, NormalsAreForObj) {
   EXPECT_NE(read_text(obj).find("\nvn "), std::string::npos);
   EXPECT_NE(shell("prusa-slicer --info " + obj).out.find("manifold = yes"), std::string::npos);
   EXPECT_EQ(claystack("check " + obj).status, 0);
+}
+
+TEST_F(ExportOptions, TheTableOfWallsHasTheLeastOfThem) {
+  const std::string csv = folder.file("walls.csv");
+  const auto json = run(csv + " --json").json();
+  std::istringstream rows(read_text(csv));
+  std::string row;
+  std::getline(rows, row);
+  EXPECT_EQ(row, "piece,face,arc_mm,rho_mm,y_mm,thickness_mm,opposite_rho_mm,opposite_y_mm");
+  double least = 1e9, arc = -1.0;
+  int bore = 0;
+  while (std::getline(rows, row)) {
+    std::vector<std::string> cells;
+    std::istringstream line(row);
+    for (std::string cell; std::getline(line, cell, ',');) cells.push_back(cell);
+    ASSERT_GE(cells.size(), 5u) << row;
+    EXPECT_GT(std::stod(cells[2]), arc);
+    EXPECT_LE(std::stod(cells[2]), arc < 0.0 ? 0.5 : arc + 0.51);
+    arc = std::stod(cells[2]);
+    bore += cells[1] == "bore" ? 1 : 0;
+    if (cells.size() > 5 && !cells[5].empty()) least = std::min(least, std::stod(cells[5]));
+  }
+  EXPECT_GT(bore, 50);
+  // The mesh's wall is that of the profile, but for the facets' part in a thousand.
+  EXPECT_NEAR(least, json.at("min_wall_mm").get<double>(), 0.05);
+  EXPECT_EQ(claystack("export -q " + pot + " " + csv).status, 0);  // needs no mesh
+}
+
+TEST_F(ExportOptions, ALipFilletAndExactWallsAreSaid) {
+  const auto filleted = run("--json --lip-fillet 1.5").json();
+  EXPECT_NEAR(filleted.at("lip_fillet_mm"), 1.5, 1e-12);
+  EXPECT_LT(filleted.at("volume_error_relative"), 1e-12);
+  const auto exact = run("--json --smooth exact").json();
+  EXPECT_EQ(exact.at("smoothing"), "exact");
+  EXPECT_LT(exact.at("max_ring_error_relative"), 1e-12);
+  const Ran both = run("--smooth exact --lip-fillet 1");
+  EXPECT_EQ(both.status, 2);
+  EXPECT_NE(both.err.find("fillet"), std::string::npos) << both.err;
+}
+
+TEST_F(ExportOptions, WhatIsLeftOutIsMeasuredOnRequest) {
+  const auto plain = run("--json").json(), measured = run("--json --measure-left-out").json();
+  for (const auto& item : plain.at("left_out")) EXPECT_FALSE(item.contains("saved_s"));
+  bool checked = false;
+  for (const auto& item : measured.at("left_out")) {
+    if (item.at("what") != "full verification") continue;
+    EXPECT_GT(item.at("saved_s"), 0.0);
+    checked = true;
+  }
+  EXPECT_TRUE(checked);
 }
 
 TEST_F(ExportOptions, PipesCannotBeReadAgainAndTheReportSaysSo) {

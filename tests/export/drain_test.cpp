@@ -13,8 +13,7 @@ using shapes::stack_of;
 
 TEST(Drain, OpensEveryCavityDownward) {
   // Solid foot, cavity, floor, cavity, lid: 2 mm rings.
-  const ClayStack stack =
-      stack_of(2.0, {{30, 0}, {30, 0}, {30, 20}, {30, 0}, {30, 20}, {30, 0}});
+  const ClayStack stack = stack_of(2.0, {{30, 0}, {30, 0}, {30, 20}, {30, 0}, {30, 20}, {30, 0}});
   const auto drained = drain(stack, 8.0);
   ASSERT_TRUE(drained) << drained.error().message;
   const StackProfile section = profile_of(drained->stack).value();

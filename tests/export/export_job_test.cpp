@@ -87,8 +87,8 @@ TEST(RunExport, TellsItsStagesInOrder) {
                                [&](std::string_view stage) { told.emplace_back(stage); });
   ASSERT_TRUE(result);
   EXPECT_EQ(told,
-            (std::vector<std::string>{"profile", "smooth", "certificate", "claims", "tessellate",
-                                      "encode_obj", "store_obj", "verify_obj"}));
+            (std::vector<std::string>{"profile", "smooth", "certificate", "claims", "wall",
+                                      "tessellate", "encode_obj", "store_obj", "verify_obj"}));
   ASSERT_EQ(result->report.stages.size(), told.size());
   for (std::size_t i = 0; i < told.size(); ++i) {
     EXPECT_EQ(result->report.stages[i].name, told[i]);
@@ -220,8 +220,7 @@ TEST(RunExport, PiecesOfCollapsedPotsOnlyWhenAllowed) {
     rings[failed == 1 ? 3 : 2] = {quanta_from_radius(30), quanta_from_radius(20)};
     pot.stack = ClayStack::from_rings(2.0, rings, 0).value();
     pot.collapse = Collapse{failed, {50, 4, 0}, {0, 0, 1}, 1.0, 12.0};
-    EXPECT_TRUE(refused(exported(pot, {}, {}), ErrorKind::unsound, "that do not touch"))
-        << failed;
+    EXPECT_TRUE(refused(exported(pot, {}, {}), ErrorKind::unsound, "that do not touch")) << failed;
     ExportOptions options;
     options.allow_pieces = true;
     const auto result = exported(pot, {}, options);

@@ -163,6 +163,58 @@ TEST(ClaimsOf, VolumeBoundIsTheAreaTimesTheRounding) {
               1e-3 * area * rounding);
 }
 
+struct KnownPot {
+  const char* name;
+  Profile profile;
+  double wall_mm;  ///< at its thinnest, by formula
+};
+
+/// A closed section from an outer and an inner curve of `n` steps, both from foot to rim.
+template <class Outer, class Inner>
+Polygon between(Outer outer, Inner inner, int n) {
+  Polygon section;
+  for (int i = 0; i <= n; ++i) section.push_back(outer(static_cast<double>(i) / n));
+  for (int i = n; i >= 0; --i) section.push_back(inner(static_cast<double>(i) / n));
+  return section;
+}
+
+std::vector<KnownPot> known_pots() {
+  constexpr double kPi = std::numbers::pi;
+  const auto arc = [](double radius, double angle) {
+    return ProfilePoint{30.0 + radius * std::cos(angle), 40.0 + radius * std::sin(angle)};
+  };
+  std::vector<KnownPot> pots;
+  pots.push_back(
+      {"cylinder cup", {{{{30, 0}, {30, 50}, {26.5, 50}, {26.5, 5}, {0, 5}, {0, 0}}}}, 3.5});
+  // A radial wall of 4 mm that leans by atan(1/2).
+  pots.push_back({"cone", {{{{30, 0}, {60, 60}, {56, 60}, {26, 0}}}}, 4.0 * 2.0 / std::sqrt(5.0)});
+  // From 30 to 150 degrees of latitude, so that the rims are cut along radii.
+  const auto shell = [&](double radius) {
+    return [=](double t) {
+      const double angle = kPi * (1.0 / 6 + t * 2.0 / 3);
+      return ProfilePoint{radius * std::sin(angle), 60.0 - radius * std::cos(angle)};
+    };
+  };
+  pots.push_back({"sphere shell", {{between(shell(50.0), shell(47.0), 4000)}}, 3.0});
+  Polygon ring;
+  for (int i = 0; i < 4000; ++i) ring.push_back(arc(6.0, 2.0 * kPi * i / 4000));
+  pots.push_back({"torus ring", {{ring}}, 12.0});
+  return pots;
+}
+
+TEST(ClaimsOf, WallBoundsHoldTheKnownWallAndAreNarrowerThanTheTolerance) {
+  constexpr double kTolerance = 0.02;
+  for (const KnownPot& pot : known_pots()) {
+    ASSERT_TRUE(certify(pot.profile)) << pot.name;
+    const std::size_t segments = segments_for(66.0, kTolerance);
+    const double rounding = std::ldexp(120.0, -24);
+    const SolidCertificate claims = claims_of(pot.profile, segments, rounding);
+    EXPECT_LE(claims.wall_lower_mm, pot.wall_mm) << pot.name;
+    EXPECT_GE(claims.wall_upper_mm, pot.wall_mm) << pot.name;
+    EXPECT_LT(claims.wall_upper_mm - claims.wall_lower_mm, kTolerance) << pot.name;
+  }
+}
+
 /// Random stacks with walls and ring heights from the rounding unit of float32 up.
 ClayStack thin_stack(std::mt19937_64& random) {
   const auto uniform = [&](double low, double high) {

@@ -12,6 +12,7 @@
 #include "claystack/export/profile.hpp"
 #include "claystack/export/profile_smoothing.hpp"
 #include "claystack/export/solid_certificate.hpp"
+#include "claystack/export/wall_thickness.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -31,8 +32,9 @@ struct ExportOptions {
   std::optional<std::size_t> segments;       ///< force the number around
   std::optional<std::size_t> max_triangles;  ///< a coarser tolerance where the asked one needs more
   std::optional<double> drain_mm;  ///< diameter of a hole that opens closed cavities, see `drain`
-  bool normals = false;            ///< for shading, in formats that have them (obj)
-  bool allow_pieces = false;                 ///< several pieces that do not touch, in one file
+  std::optional<double> wall_spacing_mm;  ///< measure the whole field of walls, see `wall_field`
+  bool normals = false;                   ///< for shading, in formats that have them (obj)
+  bool allow_pieces = false;              ///< several pieces that do not touch, in one file
   bool measure_left_out = false;   ///< do what is left out after all, to tell what that saved
   bool full_verification = false;  ///< every file read again whole, and checked as a stranger's is
   std::string name = "pot";        ///< solid or object name inside the file
@@ -50,7 +52,7 @@ struct FileReport {
   std::string content_hash;   ///< XXH3-128
   double max_error_mm = 0.0;  ///< no vertex of the file is farther from its place
   Proof proof = Proof::margins;
-  bool read_again = false;  ///< false for pipes only
+  bool read_again = false;                      ///< false for pipes only
   std::optional<SolidCertificate> certificate;  ///< of a body of revolution: a pot that stands
   std::optional<MeshReport> full_verification;
 };
@@ -73,19 +75,21 @@ struct ExportReport {
   std::vector<KeptSteps> kept_steps;      ///< where smoothing gave way
   double overshoot_mm = 0.0, taken_mm = 0.0, lip_fillet_mm = 0.0;  ///< as in `SmoothedProfile`
   double max_ring_error_relative = 0.0;                            ///< `exact`
-  std::optional<CollapsedSolid> collapsed;  ///< without its mesh
+  std::optional<CollapsedSolid> collapsed;                         ///< without its mesh
   std::size_t segments = 0;
   std::size_t triangles = 0;
   std::size_t shells = 0;
   double tolerance_mm = 0.0;  ///< as used: coarser than asked for where max_triangles demands it
   double chordal_error_mm = 0.0;
-  double min_wall_mm = 0.0;         ///< of the solid before rounding
+  double min_wall_mm = 0.0;            ///< of the solid before rounding
+  Wall thinnest;                       ///< of the profile: where that is
+  std::vector<WallSample> wall_field;  ///< of the profile, where asked for
   double diameter_mm = 0.0, height_mm = 0.0;
-  double drilled_mm3 = 0.0;         ///< clay taken for the drain
-  double counted_volume_mm3 = 0.0;  ///< of the stack, drilled where asked
-  double volume_mm3 = 0.0;          ///< of the solid before rounding
+  double drilled_mm3 = 0.0;            ///< clay taken for the drain
+  double counted_volume_mm3 = 0.0;     ///< of the stack, drilled where asked
+  double volume_mm3 = 0.0;             ///< of the solid before rounding
   double volume_error_relative = 0.0;  ///< to the counted clay, less what overlaps in a collapse
-  std::vector<FileReport> files;  ///< one for each output, in that order
+  std::vector<FileReport> files;       ///< one for each output, in that order
   std::vector<StageTime> stages;
   std::vector<LeftOut> left_out;
 };
