@@ -62,6 +62,15 @@ TEST_F(CertifiedVase, AnEditedByteIsNamed) {
   EXPECT_NE((run.out + run.err).find("content hash"), std::string::npos) << run.out << run.err;
 }
 
+TEST_F(CertifiedVase, AnEditedByteInADracoFileIsNamedWithoutACertificate) {
+  std::string bytes = read_text(drc);
+  bytes[bytes.size() / 2] ^= 1;
+  write_text(drc, bytes);
+  const Ran run = claystack("check " + drc);
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find("checksum: expected"), std::string::npos) << run.err;
+}
+
 TEST_F(CertifiedVase, ACertificateThatLiesIsNamed) {
   std::string text = read_text(stl + ".certificate.json");
   const std::string field = "\"wall_lower_mm\": ";
