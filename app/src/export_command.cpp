@@ -62,12 +62,34 @@ Result<std::vector<Request>> requests_of(const ExportCommand& command) {
     }
     requests.push_back(std::move(request));
   }
-  if (command.precision_mm && std::ranges::none_of(command.outputs, [](const std::string& path) {
-        return pot_encoding_of(path).has_value();
-      }))
-    return failure(ErrorKind::bad_input,
-                   "--precision: expected a pot among the files to write, found none");
   return requests;
+}
+
+/// Options that would do nothing for the files asked for.
+Result<void> check_usage(const ExportCommand& command, const std::vector<Request>& requests) {
+  const auto refuse_without = [&](bool option, std::string_view name, std::string_view what,
+                                  auto is) -> Result<void> {
+    if (!option || std::ranges::any_of(requests, is)) return {};
+    return failure(ErrorKind::bad_input, fmt::format("{}: expected {} among the files to write, "
+                                                     "found none",
+                                                     name, what));
+  };
+  const auto format = [](MeshFormat wanted) {
+    return [wanted](const Request& request) { return request.mesh == wanted; };
+  };
+  return refuse_without(command.precision_mm.has_value(), "--precision", "a pot",
+                        [](const Request& r) { return pot_encoding_of(r.path).has_value(); })
+      .and_then([&] {
+        return refuse_without(command.ascii, "--ascii", "an .stl", format(MeshFormat::stl_ascii));
+      })
+      .and_then([&] {
+        return refuse_without(command.options.normals, "--normals", "an .obj",
+                              format(MeshFormat::obj));
+      })
+      .and_then([&] {
+        return refuse_without(command.certificate, "--certificate", "a mesh",
+                              [](const Request& r) { return r.mesh.has_value(); });
+      });
 }
 
 std::string certificate_path(const std::string& file) { return file + ".certificate.json"; }
@@ -171,6 +193,8 @@ Result<int> export_pot(ExportCommand& command, const Console& console) {
   if (auto loaded = command.walls.load(); !loaded) return tl::make_unexpected(loaded.error());
   auto requests = requests_of(command);
   if (!requests) return tl::make_unexpected(requests.error());
+  if (auto usage = check_usage(command, *requests); !usage)
+    return tl::make_unexpected(usage.error());
   const auto pot = read_file(command.pot).and_then([&](const std::string& bytes) {
     return parse_pot(bytes, command.pot);
   });

@@ -132,6 +132,15 @@ TEST_F(ExportOptions, WhatIsLeftOutIsMeasuredOnRequest) {
   EXPECT_TRUE(checked);
 }
 
+TEST_F(ExportOptions, OptionsThatWouldDoNothingAreRefused) {
+  for (const char* option : {"--ascii", "--normals", "--certificate", "--precision 0.001"}) {
+    const Ran nothing =
+        claystack("export " + pot + " " + folder.file("section.svg") + " " + option);
+    EXPECT_EQ(nothing.status, 2) << option;
+    EXPECT_NE(nothing.err.find("among the files to write"), std::string::npos) << nothing.err;
+  }
+}
+
 TEST_F(ExportOptions, PipesCannotBeReadAgainAndTheReportSaysSo) {
   const std::string pipe = folder.file("pipe.stl");
   const Ran run = shell("mkfifo " + pipe + " && cat " + pipe + " > " + stl + " & sleep 0.2; " +
