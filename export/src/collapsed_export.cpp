@@ -1,5 +1,6 @@
 #include "collapsed_export.hpp"
 
+#include "claystack/engine/stack_measures.hpp"
 #include "claystack/export/decimate.hpp"
 #include "claystack/export/tessellate.hpp"
 #include "claystack/export/wall_thickness.hpp"
@@ -33,12 +34,6 @@ Result<void> check_options(const ExportOptions& options) {
   if (options.normals) return refuse("normals");
   if (options.lip_fillet_mm > 0.0) return refuse("lip fillet");
   return {};
-}
-
-double largest_radius(const ClayStack& stack) {
-  double largest = 0.0;
-  for (const Ring& ring : stack.rings()) largest = std::max(largest, ring.outer_mm());
-  return largest;
 }
 
 class CollapsedExport {
@@ -96,7 +91,7 @@ class CollapsedExport {
                           parts_.upper.shapes.end());
     report_.segments = segments;
     report_.tolerance_mm = options_.tolerance_mm;
-    report_.chordal_error_mm = chordal_error_mm(largest_radius(pot_.stack), segments);
+    report_.chordal_error_mm = chordal_error_mm(largest_radius_mm(pot_.stack), segments);
     double wall = min_wall_mm(parts_.lower.profile);
     if (!parts_.upper.shapes.empty()) wall = std::min(wall, min_wall_mm(parts_.upper.profile));
     report_.min_wall_mm = wall * std::cos(std::numbers::pi / static_cast<double>(segments));
