@@ -7,6 +7,7 @@
 #include "claystack/engine/atomic_file.hpp"
 #include "claystack/engine/pot_file.hpp"
 #include "claystack/engine/rounded_pot.hpp"
+#include "claystack/engine/stack_measures.hpp"
 #include "claystack/export/export_job.hpp"
 #include "claystack/export/section_svg.hpp"
 
@@ -42,12 +43,15 @@ struct Request {
   std::string path;
   std::optional<MeshFormat> mesh;
   std::unique_ptr<FileOnDisk> file;
+  std::unique_ptr<FileOnDisk> certificate;  ///< of a mesh, where asked for
+
+  [[nodiscard]] bool is_mesh() const noexcept { return mesh.has_value(); }
 };
 
 Result<std::vector<Request>> requests_of(const ExportCommand& command) {
   std::vector<Request> requests;
   for (const std::string& path : command.outputs) {
-    Request request{path, std::nullopt, nullptr};
+    Request request{path, std::nullopt, nullptr, nullptr};
     if (!path.ends_with(".svg") && !pot_encoding_of(path)) {
       const auto format = solid::mesh_format_of(path);
       if (!format)
@@ -59,29 +63,46 @@ Result<std::vector<Request>> requests_of(const ExportCommand& command) {
     }
     requests.push_back(std::move(request));
   }
-  if (command.precision_mm && std::ranges::none_of(command.outputs, [](const std::string& path) {
-        return pot_encoding_of(path).has_value();
-      }))
-    return failure(ErrorKind::bad_input,
-                   "--precision: expected a pot among the files to write, found none");
   return requests;
+}
+
+/// Options that speak of files which nobody asked for.
+Result<void> check_options(const ExportCommand& command, const std::vector<Request>& requests) {
+  const auto idle = [](std::string_view option, std::string_view kind) {
+    return failure(ErrorKind::bad_input, std::string(option)
+                                             .append(": expected a ")
+                                             .append(kind)
+                                             .append(" among the files to write, found none"));
+  };
+  if (command.precision_mm && std::ranges::none_of(requests, [](const Request& request) {
+        return pot_encoding_of(request.path).has_value();
+      }))
+    return idle("--precision", "pot");
+  if (command.certificate && std::ranges::none_of(requests, &Request::is_mesh))
+    return idle("--certificate", "mesh");
+  return {};
 }
 
 std::string certificate_path(const std::string& file) { return file + ".certificate.json"; }
 
-/// Opens every file before any work: what can't be written is known at once.
-Result<void> open_all(std::vector<Request>& requests) {
-  for (Request& request : requests) {
-    auto file = AtomicFile::create(request.path);
-    if (!file) return tl::make_unexpected(file.error());
-    request.file = std::make_unique<FileOnDisk>(std::move(*file));
-  }
-  return {};
+Result<void> open(std::unique_ptr<FileOnDisk>& file, const std::string& path) {
+  return AtomicFile::create(path).map(
+      [&](AtomicFile created) { file = std::make_unique<FileOnDisk>(std::move(created)); });
 }
 
-Result<void> write_drawing(const Pot& pot, Request& request) {
-  const std::string drawing = solid::section_svg(pot);
-  return request.file->write(std::as_bytes(std::span(drawing)));
+/// Opens every file before any work: what can't be written is known at once.
+Result<void> open_all(std::vector<Request>& requests, std::unique_ptr<FileOnDisk>& report,
+                      const ExportCommand& command) {
+  for (Request& request : requests) {
+    if (auto done = open(request.file, request.path); !done) return done;
+    if (!request.mesh || !command.certificate) continue;
+    if (auto done = open(request.certificate, certificate_path(request.path)); !done) return done;
+  }
+  return command.report.empty() ? Result<void>() : open(report, command.report);
+}
+
+Result<void> write_text(FileOnDisk& file, const std::string& text) {
+  return file.write(std::as_bytes(std::span(text)));
 }
 
 /// Copies of the pot, as exact as asked for.
@@ -94,7 +115,7 @@ Result<std::vector<PotCopy>> write_copies(const Pot& pot, std::vector<Request>& 
     const auto encoding = pot_encoding_of(request.path);
     if (!encoding) continue;
     const std::string bytes = write_pot(*copied, *encoding);
-    if (auto written = request.file->write(std::as_bytes(std::span(bytes))); !written)
+    if (auto written = write_text(*request.file, bytes); !written)
       return tl::make_unexpected(written.error());
     copies.push_back(describe_copy(*copied, *encoding, bytes.size()));
   }
@@ -117,23 +138,26 @@ Result<ExportReport> export_all(const Pot& pot, std::vector<Request>& requests,
   }
   for (Request& request : requests)
     if (!request.mesh && !pot_encoding_of(request.path))
-      if (auto drawn = write_drawing(pot, request); !drawn)
+      if (auto drawn = write_text(*request.file, solid::section_svg(pot)); !drawn)
         return tl::make_unexpected(drawn.error());
+  auto file = report.files.begin();
+  for (Request& request : requests) {
+    if (!request.mesh) continue;
+    if (request.certificate)
+      if (auto done =
+              write_text(*request.certificate, solid::write_certificate(*file->certificate));
+          !done)
+        return tl::make_unexpected(done.error());
+    ++file;
+  }
   return report;
 }
 
-Result<void> publish_all(std::vector<Request>& requests, const ExportCommand& command,
-                         const ExportReport& report) {
-  auto file = report.files.begin();
+Result<void> publish_all(std::vector<Request>& requests) {
   for (Request& request : requests) {
     if (auto done = request.file->commit(); !done) return done;
-    if (!request.mesh) continue;
-    if (command.certificate)
-      if (auto done =
-              publish(certificate_path(request.path), solid::write_certificate(*file->certificate));
-          !done)
-        return done;
-    ++file;
+    if (!request.certificate) continue;
+    if (auto done = request.certificate->commit(); !done) return done;
   }
   return {};
 }
@@ -146,10 +170,19 @@ solid::Smoothing smoothing_of(const std::string& name) {
 
 /// What smoothing must not go below, where the user or the process says.
 std::optional<double> least_wall(const ExportCommand& command, const ClayStack& stack) {
-  double radius = 0.0;
-  for (const Ring& ring : stack.rings()) radius = std::max(radius, ring.outer_mm());
-  const auto demand = command.walls.for_size(4.0 * radius + stack.height_mm());
+  const auto demand = command.walls.for_size(4.0 * largest_radius_mm(stack) + stack.height_mm());
   return demand ? std::optional(demand->min_wall_mm) : std::nullopt;
+}
+
+Result<Pot> read_pot(const ExportCommand& command) {
+  auto pot = read_file(command.pot).and_then([&](const std::string& bytes) {
+    return parse_pot(bytes, command.pot);
+  });
+  if (pot && command.certificate && pot->collapse)
+    return failure(
+        ErrorKind::bad_input,
+        command.pot + ": --certificate: expected a pot that stands, found a collapsed one");
+  return pot;
 }
 
 /// Exit status: done, or done with a wall below what was asked for.
@@ -163,27 +196,24 @@ Result<int> export_pot(ExportCommand& command, const Console& console) {
   if (auto loaded = command.walls.load(); !loaded) return tl::make_unexpected(loaded.error());
   auto requests = requests_of(command);
   if (!requests) return tl::make_unexpected(requests.error());
-  const auto pot = read_file(command.pot).and_then([&](const std::string& bytes) {
-    return parse_pot(bytes, command.pot);
-  });
+  if (auto options = check_options(command, *requests); !options)
+    return tl::make_unexpected(options.error());
+  const auto pot = read_pot(command);
   if (!pot) return tl::make_unexpected(pot.error());
-  if (command.certificate && pot->collapse)
-    return failure(
-        ErrorKind::bad_input,
-        command.pot + ": --certificate: expected a pot that stands, found a collapsed one");
   command.options.smoothing = smoothing_of(command.smooth);
   command.options.min_wall_mm = least_wall(command, pot->stack);
   command.options.full_verification = command.verify == "full";
   command.options.name = std::filesystem::path(command.pot).stem().stem().string();
-  if (auto opened = open_all(*requests); !opened) return tl::make_unexpected(opened.error());
+  std::unique_ptr<FileOnDisk> report_file;
+  if (auto done = open_all(*requests, report_file, command); !done)
+    return tl::make_unexpected(done.error());
 
   const auto copies = write_copies(*pot, *requests, command);
   if (!copies) return tl::make_unexpected(copies.error());
   auto report = export_all(*pot, *requests, command, console);
   if (!report) return tl::make_unexpected(report.error());
   const auto begin = std::chrono::steady_clock::now();
-  if (auto done = publish_all(*requests, command, *report); !done)
-    return tl::make_unexpected(done.error());
+  if (auto done = publish_all(*requests); !done) return tl::make_unexpected(done.error());
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   report->stages.push_back({"publish", seconds.count()});
 
@@ -191,8 +221,10 @@ Result<int> export_pot(ExportCommand& command, const Console& console) {
   const Json json = export_json(*report, *copies, command.outputs, demand);
   if (console.json) console.print(json);
   tell_export(console, *report, *copies, command.outputs);
-  if (!command.report.empty())
-    if (auto done = publish(command.report, json.dump(2) + "\n"); !done)
+  if (report_file)
+    if (auto done =
+            write_text(*report_file, pretty(json)).and_then([&] { return report_file->commit(); });
+        !done)
       return tl::make_unexpected(done.error());
   return tell_thin_wall(console, *report, demand) ? kUnsound : kDone;
 }
