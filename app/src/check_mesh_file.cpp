@@ -14,6 +14,7 @@ namespace clay::app {
 namespace {
 
 using solid::MeshFormat;
+using solid::SolidCertificate;
 using solid::TriangleMesh;
 
 /// Repairs and decimates as asked.
@@ -114,27 +115,48 @@ void check_claims(std::string_view bytes, const TriangleMesh& mesh, Verdict& ver
     verdict.mesh.problems.push_back(std::move(problem));
 }
 
-/// An error where there is no certificate to be read; a problem where it does not hold.
-Result<void> verify(std::string_view bytes, const CheckCommand& command, Verdict& verdict) {
-  auto certificate = read_file(command.certificate).and_then([&](const std::string& text) {
-    return solid::parse_certificate(text, command.certificate);
+/// Nothing where none is asked after.
+Result<std::optional<SolidCertificate>> read_certificate(const CheckCommand& command) {
+  if (command.certificate.empty()) return std::nullopt;
+  return read_file(command.certificate, solid::kMaxCertificateBytes)
+      .and_then([&](const std::string& text) {
+        return solid::parse_certificate(text, command.certificate);
+      })
+      .map([](SolidCertificate certificate) { return std::optional(std::move(certificate)); });
+}
+
+/// The same bytes may well be a mesh in two formats: the one that the file's name says counts.
+Result<void> same_format(const SolidCertificate& certificate, MeshFormat format,
+                         const std::string& file) {
+  const auto family = [](MeshFormat f) {
+    return f == MeshFormat::stl_ascii ? MeshFormat::stl_binary : f;
+  };
+  const auto stated = solid::mesh_format_named(certificate.format);
+  if (stated && family(*stated) == family(format)) return {};
+  return failure(ErrorKind::unsound, fmt::format("{}: format: the certificate states {}, found {}",
+                                                 file, certificate.format, name_of(format)));
+}
+
+void verify(std::string_view bytes, MeshFormat format, const CheckCommand& command,
+            Verdict& verdict) {
+  const auto verified = same_format(*verdict.certificate, format, command.file).and_then([&] {
+    return solid::verify_certificate(*verdict.certificate, bytes, command.file);
   });
-  if (!certificate) return tl::make_unexpected(certificate.error());
-  const auto verified = solid::verify_certificate(*certificate, bytes, command.file);
   verdict.certificate_holds = verified.has_value();
-  verdict.certificate = std::move(*certificate);
   if (!verified)
     verdict.mesh.problems.push_back({"certificate does not hold", verified.error().message, 1});
-  return {};
 }
 
 }  // namespace
 
 Result<Verdict> check_mesh_file(std::string_view bytes, MeshFormat format,
                                 const CheckCommand& command) {
+  auto certificate = read_certificate(command);
+  if (!certificate) return tl::make_unexpected(certificate.error());
   auto mesh = solid::decode_mesh(bytes, format, command.file);
   if (!mesh) return tl::make_unexpected(mesh.error());
   Verdict verdict;
+  verdict.certificate = std::move(*certificate);
   if (command.mends()) {
     mesh = mend_and_write(std::move(*mesh), command, verdict.mending.emplace());
     if (!mesh) return failure(mesh.error().kind, command.file + ": " + mesh.error().message);
@@ -143,8 +165,8 @@ Result<Verdict> check_mesh_file(std::string_view bytes, MeshFormat format,
   if (format == MeshFormat::drc && !command.mends()) check_claims(bytes, *mesh, verdict);
   if (const auto demand = command.walls.for_size(size_sum_mm(*mesh)))
     measure_wall(*mesh, *demand, command, verdict);
-  if (command.certificate.empty()) return verdict;
-  return verify(bytes, command, verdict).map([&] { return std::move(verdict); });
+  if (verdict.certificate) verify(bytes, format, command, verdict);
+  return verdict;
 }
 
 }  // namespace clay::app

@@ -19,7 +19,11 @@ constexpr std::size_t kBarWidth = 32;
 
 }  // namespace
 
-void Console::print(const Json& data) const { fmt::print("{}\n", data.dump(2)); }
+std::string pretty(const Json& data) {
+  return data.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void Console::print(const Json& data) const { fmt::print("{}", pretty(data)); }
 
 void Console::say(std::string_view line) const {
   if (!json && !quiet) fmt::print("{}\n", line);

@@ -19,6 +19,10 @@ using Json = nlohmann::ordered_json;
 /// Exit statuses of the outer face.
 enum Exit { kDone = 0, kUnsound = 1, kBadInput = 2, kIoFailed = 3, kDeviceFailed = 4 };
 
+/// A whole JSON document for a file or a script. Names of files may be no UTF-8: what is none is
+/// replaced, as a document cannot hold it.
+[[nodiscard]] std::string pretty(const Json& data);
+
 struct Console {
   bool json = false;   ///< data as JSON on stdout
   bool quiet = false;  ///< no progress, no summary: errors and asked-for data only

@@ -127,10 +127,8 @@ void tell_solid(const Console& console, const ExportReport& report) {
     if (saved) console.say(fmt::format("left out: {} ({}), saved {:.2g} s", what, why, *saved));
 }
 
-}  // namespace
-
-Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies,
-                 const std::vector<std::string>& paths, const std::optional<WallDemand>& demand) {
+/// What was made and proved.
+Json solid_json(const ExportReport& report) {
   Json json = {
       {"triangles", report.triangles},
       {"shells", report.shells},
@@ -155,18 +153,29 @@ Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies,
       {"overshoot_mm", report.overshoot_mm},
       {"kept_steps", Json::array()},
       {"cavities", Json::array()},
-      {"files", Json::array()},
-      {"left_out", Json::array()},
-      {"stages", Json::array()},
   };
   for (const auto& shape : report.shapes)
     for (const auto& cavity : shape.cavities)
       json["cavities"].push_back({{"bottom_mm", cavity.bottom_mm},
                                   {"top_mm", cavity.top_mm},
                                   {"volume_mm3", cavity.volume_mm3}});
+  for (const auto& kept : report.kept_steps) json["kept_steps"].push_back(kept_json(kept));
   if (report.collapsed) json["collapsed"] = collapsed_json(*report.collapsed);
   if (report.drilled_mm3 > 0.0) json["drilled_mm3"] = report.drilled_mm3;
-  if (demand)
+  if (report.smoothing == solid::Smoothing::exact)
+    json["max_ring_error_relative"] = report.max_ring_error_relative;
+  if (report.lip_fillet_mm > 0.0) json["lip_fillet_mm"] = report.lip_fillet_mm;
+  if (report.taken_mm > 0.0) json["taken_mm"] = report.taken_mm;
+  return json;
+}
+
+}  // namespace
+
+Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies,
+                 const std::vector<std::string>& paths, const std::optional<WallDemand>& demand) {
+  Json json = report.files.empty() ? Json::object() : solid_json(report);
+  for (const char* list : {"files", "left_out", "stages"}) json[list] = Json::array();
+  if (demand && !report.files.empty())
     json["wall_demand"] = {{"min_wall_mm", demand->min_wall_mm}, {"source", demand->source}};
   auto file = report.files.begin();
   auto copy = copies.begin();
@@ -176,11 +185,6 @@ Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies,
                             : pot_encoding_of(path) ? copy_json(*copy++, path)
                                                     : file_json(*file++, path));
   }
-  for (const auto& kept : report.kept_steps) json["kept_steps"].push_back(kept_json(kept));
-  if (report.smoothing == solid::Smoothing::exact)
-    json["max_ring_error_relative"] = report.max_ring_error_relative;
-  if (report.lip_fillet_mm > 0.0) json["lip_fillet_mm"] = report.lip_fillet_mm;
-  if (report.taken_mm > 0.0) json["taken_mm"] = report.taken_mm;
   for (const auto& [what, why, saved] : report.left_out) {
     json["left_out"].push_back({{"what", what}, {"why", why}});
     if (saved) json["left_out"].back()["saved_s"] = *saved;

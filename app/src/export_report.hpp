@@ -13,7 +13,7 @@
 namespace clay::app {
 
 /// `paths` are those of all files, drawings and pots among them; the report has one file for each
-/// mesh, and `copies` one for each pot.
+/// mesh, and `copies` one for each pot. Without a mesh there is no solid to speak of.
 [[nodiscard]] Json export_json(const solid::ExportReport& report,
                                const std::vector<PotCopy>& copies,
                                const std::vector<std::string>& paths,

@@ -8,10 +8,13 @@
 namespace clay::app {
 namespace {
 
+constexpr std::size_t kMaxProcessBytes = std::size_t{1} << 20;  // of a few lines for people
+
 Result<solid::ProcessLimits> process_of(const std::string& name) {
   if (!name.ends_with(".json")) return solid::process_named(name);
-  return read_file(name).and_then(
-      [&](const std::string& bytes) { return solid::parse_process(bytes, name); });
+  return read_file(name, kMaxProcessBytes).and_then([&](const std::string& bytes) {
+    return solid::parse_process(bytes, name);
+  });
 }
 
 }  // namespace

@@ -82,4 +82,10 @@ class WallSearch {
 
 WallMinimum min_wall(const ClayStack& stack) noexcept { return WallSearch(stack).run(); }
 
+double largest_radius_mm(const ClayStack& stack) noexcept {
+  Quanta largest2 = 0;
+  for (const Ring& ring : stack.rings()) largest2 = std::max(largest2, ring.outer2);
+  return radius_from_quanta(largest2);
+}
+
 }  // namespace clay

@@ -126,6 +126,9 @@ std::vector<Edge> edges_by_height(const Profile& profile) {
   return edges;
 }
 
+// Sections of stacks have a handful. More would cost the square of their number.
+constexpr std::size_t kMostAbreast = 1000;
+
 /// A sweep from the bottom up. An edge is held against those that reach its lower end, which for
 /// the section of a stack are never more than a handful: the sweep costs no more than the sort.
 class UpwardSweep {
@@ -145,6 +148,7 @@ class UpwardSweep {
                            place(lower_end(edge)));
       entered_[edge.piece] = true;
       reached_.push_back(edge);
+      if (reached_.size() > kMostAbreast) return crowd(edge);
     }
     return {};
   }
@@ -187,6 +191,11 @@ class UpwardSweep {
                                                     exact(p)) == CGAL::RIGHT_TURN;
     };
     return std::count_if(reached_.begin(), reached_.end(), left_of_p) % 2 == 1;
+  }
+
+  tl::unexpected<Error> crowd(const Edge& edge) const {
+    return unsound(edge.piece, "expected at most " + std::to_string(kMostAbreast) +
+                                   " edges at one height, found more at " + place(lower_end(edge)));
   }
 
   tl::unexpected<Error> crossing(const Edge& a, const Edge& b) const {

@@ -1,6 +1,13 @@
 #include "claystack/export/solid_certificate.hpp"
 
+#include "claystack/export/tessellate.hpp"
 #include "json_fields.hpp"
+#include "mesh_limits.hpp"
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <utility>
 
 namespace clay::solid {
 namespace {
@@ -8,6 +15,7 @@ namespace {
 constexpr const char* kSchema = "claystack-certificate-1";
 constexpr std::string_view kClaim =
     "closed and embedded, of the volume and no thinner than stated, as the file's bytes say";
+constexpr std::size_t kMaxProfilePoints = kMaxTriangles / kMinSegments;
 
 Json profile_json(const Profile& profile) {
   Json pieces = Json::array();
@@ -19,32 +27,77 @@ Json profile_json(const Profile& profile) {
   return pieces;
 }
 
-Profile profile_from(const Json& json) {
-  Profile profile;
-  for (const Json& points : field_of(json, "profile_mm")) {
-    Polygon& polygon = profile.pieces.emplace_back();
-    for (const Json& p : points) {
-      if (!p.is_array() || p.size() != 2 || !p[0].is_number() || !p[1].is_number())
-        throw BadField("profile_mm: expected points [rho, y], found " + p.dump());
-      polygon.push_back({p[0].get<double>(), p[1].get<double>()});
-    }
+/// Takes the points out of the parser's hands one by one: its own structures would hold six times
+/// the memory. What is no profile stops it, so that no file costs more than its points.
+class ProfileReader {
+ public:
+  explicit ProfileReader(Profile& profile) : profile_(profile) {}
+
+  bool operator()(int depth, Json::parse_event_t event, const Json& value) {
+    using Event = Json::parse_event_t;
+    limits_(depth, event, value);
+    if (depth > 0 && event == Event::object_start)
+      throw BadField("expected numbers, text and arrays of points, found an object");
+    if (event == Event::value) return add_number(depth, value);
+    if (event == Event::array_start && depth == kPieceDepth) profile_.pieces.emplace_back();
+    if (event != Event::array_end || depth < kPieceDepth) return true;
+    depth == kPointDepth ? end_point() : end_piece();
+    return false;
   }
-  return profile;
-}
+
+ private:
+  static constexpr int kPieceDepth = 2, kPointDepth = 3, kNumberDepth = 4;
+
+  bool add_number(int depth, const Json& value) {
+    if (depth < kPieceDepth) return true;
+    if (depth != kNumberDepth || !value.is_number() || count_ == 2)
+      throw BadField("profile_mm: expected points [rho, y], found " +
+                     (count_ == 2 ? "a third number, " : std::string()) + shown(value));
+    point_[count_] = value.get<double>();
+    if (std::abs(point_[count_++]) > kMaxCoordinateMm)
+      throw BadField(std::string("profile_mm: expected ").append(kCoordinateRule) + ", found " +
+                     shown(value));
+    return false;
+  }
+
+  void end_point() {
+    if (std::exchange(count_, 0) != 2)
+      throw BadField("profile_mm: expected points [rho, y], found one of fewer numbers");
+    if (++points_ > kMaxProfilePoints)
+      throw BadField("profile_mm: expected at most " + std::to_string(kMaxProfilePoints) +
+                     " points, found more");
+    profile_.pieces.back().push_back({point_[0], point_[1]});
+  }
+
+  void end_piece() const {
+    if (const std::size_t found = profile_.pieces.back().size(); found < 3)
+      throw BadField("profile_mm: expected pieces of 3 points or more, found one of " +
+                     std::to_string(found));
+  }
+
+  JsonLimits limits_{kNumberDepth};
+  Profile& profile_;
+  std::array<double, 2> point_{};
+  std::size_t count_ = 0;  ///< numbers of the point in hand
+  std::size_t points_ = 0;
+};
 
 Proof proof_from(const Json& json) {
   const std::string name = text_in(json, "proof");
   if (name == "margins") return Proof::margins;
   if (name == "exact_test") return Proof::exact_test;
-  throw BadField("proof: expected margins or exact_test, found " + name);
+  throw BadField("proof: expected margins or exact_test, found " + shown(name));
 }
 
+/// All but the profile.
 SolidCertificate from_json(const Json& json) {
   expect_schema(json, kSchema);
   expect_only(json, {"schema", "written_by", "claim", "format", "bytes", "content_hash",
                      "profile_hash", "proof", "segments", "rounding_mm", "clearance_mm", "chord_mm",
                      "wall_lower_mm", "wall_upper_mm", "volume_mm3", "volume_bound_mm3",
                      "counted_volume_mm3", "profile_mm"});
+  for (const char* for_people : {"written_by", "claim"}) (void)text_in(json, for_people);
+  (void)array_in(json, "profile_mm");
   SolidCertificate c;
   c.format = text_in(json, "format");
   c.bytes = count_in(json, "bytes");
@@ -59,7 +112,6 @@ SolidCertificate from_json(const Json& json) {
   c.volume_mm3 = number_in(json, "volume_mm3");
   c.volume_bound_mm3 = number_in(json, "volume_bound_mm3");
   c.counted_volume_mm3 = number_in(json, "counted_volume_mm3");
-  c.profile = profile_from(json);
   return c;
 }
 
@@ -90,7 +142,16 @@ std::string write_certificate(const SolidCertificate& c) {
 }
 
 Result<SolidCertificate> parse_certificate(std::string_view bytes, std::string_view name) {
-  return parsed_with(bytes, name, from_json);
+  if (bytes.size() > kMaxCertificateBytes)
+    return bad_json(name, "expected a certificate of at most " +
+                              std::to_string(kMaxCertificateBytes) + " bytes, found " +
+                              std::to_string(bytes.size()));
+  Profile profile;
+  return parsed_with(bytes, name, ProfileReader(profile), from_json)
+      .map([&](SolidCertificate certificate) {
+        certificate.profile = std::move(profile);
+        return certificate;
+      });
 }
 
 }  // namespace clay::solid

@@ -1,5 +1,6 @@
 #include "collapsed_export.hpp"
 
+#include "claystack/engine/stack_measures.hpp"
 #include "claystack/export/decimate.hpp"
 #include "claystack/export/tessellate.hpp"
 #include "claystack/export/wall_thickness.hpp"
@@ -34,12 +35,6 @@ Result<void> check_options(const ExportOptions& options) {
   if (options.wall_spacing_mm) return refuse("field of walls");
   if (options.lip_fillet_mm > 0.0) return refuse("lip fillet");
   return {};
-}
-
-double largest_radius(const ClayStack& stack) {
-  double largest = 0.0;
-  for (const Ring& ring : stack.rings()) largest = std::max(largest, ring.outer_mm());
-  return largest;
 }
 
 class CollapsedExport {
@@ -97,7 +92,7 @@ class CollapsedExport {
                           parts_.upper.shapes.end());
     report_.segments = segments;
     report_.tolerance_mm = options_.tolerance_mm;
-    report_.chordal_error_mm = chordal_error_mm(largest_radius(pot_.stack), segments);
+    report_.chordal_error_mm = chordal_error_mm(largest_radius_mm(pot_.stack), segments);
     report_.thinnest = min_wall(parts_.lower.profile);
     if (!parts_.upper.shapes.empty()) {
       const Wall fallen = min_wall(parts_.upper.profile);

@@ -1,3 +1,4 @@
+#include "claystack/engine/stack_measures.hpp"
 #include "claystack/export/collapsed_solid.hpp"
 #include "describe.hpp"
 #include "stack_section.hpp"
@@ -19,15 +20,9 @@ struct Part {
   double bottom_mm = 0.0;
 };
 
-double largest_radius(const ClayStack& stack) {
-  double largest = 0.0;
-  for (const Ring& ring : stack.rings()) largest = std::max(largest, ring.outer_mm());
-  return largest;
-}
-
 /// No coordinate of either part is larger, wherever the fall took it.
 double reach_of(const Pot& pot) {
-  return std::hypot(largest_radius(pot.stack), pot.stack.height_mm()) +
+  return std::hypot(largest_radius_mm(pot.stack), pot.stack.height_mm()) +
          2.0 * glm::length(pot.collapse->pivot_mm);
 }
 

@@ -1,5 +1,6 @@
 #include "claystack/export/export_job.hpp"
 
+#include "claystack/engine/stack_measures.hpp"
 #include "claystack/export/drain.hpp"
 #include "claystack/export/tessellate.hpp"
 #include "collapsed_export.hpp"
@@ -21,9 +22,7 @@ namespace {
 
 /// Steps that a file's float32 cannot hold apart with a margin.
 double min_step_mm(const ClayStack& stack) {
-  double widest = 0.0;
-  for (const Ring& ring : stack.rings()) widest = std::max(widest, ring.outer_mm());
-  return std::ldexp(std::hypot(widest, stack.height_mm()), -19);
+  return std::ldexp(std::hypot(largest_radius_mm(stack), stack.height_mm()), -19);
 }
 
 /// No step but floors and lids.
@@ -89,9 +88,7 @@ class ExportJob {
   }
 
   double coarsest_mm() const {
-    double widest = 0.0;
-    for (const Ring& ring : stack_.rings()) widest = std::max(widest, ring.outer_mm());
-    return std::max(0.1 * widest, options_.tolerance_mm);
+    return std::max(0.1 * largest_radius_mm(stack_), options_.tolerance_mm);
   }
 
   Result<Design> design_at(double tolerance_mm) {
@@ -111,7 +108,7 @@ class ExportJob {
     auto steps = stages_.run("profile", [&] { return profile_of(stack_, min_step_mm(stack_)); });
     if (!steps) return tl::make_unexpected(steps.error());
     design.section = std::move(*steps);
-    if (options_.smoothing == Smoothing::none)
+    if (options_.smoothing == Smoothing::none && options_.lip_fillet_mm == 0.0)
       design.no_smoothing = "not asked for";
     else if (has_straight_walls(stack_) && options_.lip_fillet_mm == 0.0)
       design.no_smoothing = "the walls are straight";

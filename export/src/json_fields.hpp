@@ -3,11 +3,15 @@
 
 #include "claystack/engine/result.hpp"
 
+#include <algorithm>
+#include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace clay::solid {
 
@@ -17,6 +21,17 @@ using Json = nlohmann::ordered_json;
 struct BadField : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+/// A value as messages show it: a number whole, all else by its kind. What a stranger nested or
+/// strung together is neither walked through nor repeated.
+inline std::string shown(const Json& value) {
+  return value.is_number() ? value.dump() : value.type_name();
+}
+
+/// So that messages stay short, whatever they quote.
+inline std::string shown(const std::string& text, std::size_t longest = 60) {
+  return text.size() <= longest ? text : text.substr(0, longest) + "...";
+}
 
 inline const Json& field_of(const Json& json, const char* name) {
   if (!json.is_object())
@@ -33,22 +48,34 @@ inline tl::unexpected<Error> bad_json(std::string_view name, std::string_view wh
 inline double number_in(const Json& json, const char* name) {
   const Json& value = field_of(json, name);
   if (!value.is_number())
-    throw BadField(std::string(name) + ": expected a number, found " + value.type_name());
+    throw BadField(std::string(name) + ": expected a number, found " + shown(value));
   return value.get<double>();
 }
 
 inline std::uint64_t count_in(const Json& json, const char* name) {
   const Json& value = field_of(json, name);
   if (!value.is_number_unsigned())
-    throw BadField(std::string(name) + ": expected a whole number, found " + value.dump());
+    throw BadField(std::string(name) + ": expected a whole number, found " + shown(value));
   return value.get<std::uint64_t>();
 }
 
 inline std::string text_in(const Json& json, const char* name) {
   const Json& value = field_of(json, name);
   if (!value.is_string())
-    throw BadField(std::string(name) + ": expected text, found " + value.type_name());
-  return value.get<std::string>();
+    throw BadField(std::string(name) + ": expected text, found " + shown(value));
+  constexpr std::size_t kLongest = 1000;  // it is shown to people
+  auto text = value.get<std::string>();
+  if (text.size() > kLongest)
+    throw BadField(std::string(name) + ": expected text of at most " + std::to_string(kLongest) +
+                   " bytes, found " + std::to_string(text.size()));
+  return text;
+}
+
+inline const Json& array_in(const Json& json, const char* name) {
+  const Json& value = field_of(json, name);
+  if (!value.is_array())
+    throw BadField(std::string(name) + ": expected an array, found " + shown(value));
+  return value;
 }
 
 inline void expect_only(const Json& json, std::initializer_list<std::string_view> known) {
@@ -56,22 +83,60 @@ inline void expect_only(const Json& json, std::initializer_list<std::string_view
     throw BadField(std::string("expected an object, found ") + json.type_name());
   for (const auto& [name, value] : json.items())
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw BadField(name + ": unknown field");
+      throw BadField(shown(name) + ": unknown field");
 }
 
 /// Kind and version of the file, such as "claystack-process-1".
 inline void expect_schema(const Json& json, const std::string& schema) {
   const std::string found = text_in(json, "schema");
-  if (found != schema) throw BadField("schema: expected " + schema + ", found " + found);
+  if (found != schema) throw BadField("schema: expected " + schema + ", found " + shown(found));
 }
 
-/// read(root) of a JSON text; what goes wrong becomes an error that begins with `name`.
-template <class Read>
-auto parsed_with(std::string_view bytes, std::string_view name, Read read)
+/// Follows the parser, and stops it where a file is none of ours. What the parser makes of a file
+/// takes many times the memory of the text, and for an object's keys the square of the time.
+class JsonLimits {
+ public:
+  explicit JsonLimits(int deepest) : deepest_(deepest) {}
+
+  bool operator()(int depth, Json::parse_event_t event, const Json& value) {
+    using Event = Json::parse_event_t;
+    if (depth == 0 && event == Event::array_start)
+      throw BadField("expected an object, found an array");
+    if (depth > deepest_)
+      throw BadField("expected values nested " + std::to_string(deepest_) +
+                     " deep at most, found deeper ones");
+    if (event == Event::object_start) keys_.emplace_back();
+    if (event == Event::object_end) keys_.pop_back();
+    if (event == Event::key) add_key(value.get_ref<const std::string&>());
+    return true;
+  }
+
+ private:
+  void add_key(const std::string& key) {
+    if (key.size() > kLongestKey) throw BadField(shown(key) + ": unknown field");
+    std::vector<std::string>& keys = keys_.back();
+    if (std::find(keys.begin(), keys.end(), key) != keys.end())
+      throw BadField(shown(key) + ": expected this field once, found it twice");
+    if (keys.size() == kMostKeys)
+      throw BadField("expected at most " + std::to_string(kMostKeys) +
+                     " fields in an object, found more");
+    keys.push_back(key);
+  }
+
+  static constexpr std::size_t kMostKeys = 64, kLongestKey = 64;
+  int deepest_;
+  std::vector<std::vector<std::string>> keys_;  ///< of the objects that are open
+};
+
+/// read(root) of a JSON text; what goes wrong becomes an error that begins with `name`. `follow`
+/// sees every event of the parser, as `Json::parse` describes, and may throw.
+template <class Read, class Follow>
+auto parsed_with(std::string_view bytes, std::string_view name, Follow follow, Read read)
     -> Result<decltype(read(Json()))> try {
-  return read(Json::parse(bytes));
+  return read(Json::parse(bytes, std::ref(follow)));
 } catch (const std::exception& error) {
-  return bad_json(name, error.what());
+  constexpr std::size_t kLongest = 300;  // the parser quotes what it read last
+  return bad_json(name, shown(error.what(), kLongest));
 }
 
 }  // namespace clay::solid

@@ -10,6 +10,7 @@ namespace clay::solid {
 namespace {
 
 constexpr double kAnySize = std::numeric_limits<double>::infinity();
+constexpr int kDeepest = 3;  // a field of a wall of the list
 
 const std::vector<ProcessLimits>& built_in() {
   static const std::vector<ProcessLimits> processes{
@@ -45,7 +46,7 @@ ProcessLimits process_from(const Json& json) {
   expect_schema(json, "claystack-process-1");
   expect_only(json, {"schema", "name", "walls"});
   ProcessLimits process{text_in(json, "name"), {}};
-  for (const Json& wall : field_of(json, "walls")) process.walls.push_back(wall_from(wall));
+  for (const Json& wall : array_in(json, "walls")) process.walls.push_back(wall_from(wall));
   if (process.walls.empty()) throw BadField("walls: expected at least one, found none");
   for (std::size_t i = 1; i < process.walls.size(); ++i)
     if (!(process.walls[i - 1].up_to_size_sum_mm < process.walls[i].up_to_size_sum_mm))
@@ -73,7 +74,7 @@ Result<ProcessLimits> process_named(std::string_view name) {
 }
 
 Result<ProcessLimits> parse_process(std::string_view bytes, std::string_view file_name) {
-  return parsed_with(bytes, file_name, process_from);
+  return parsed_with(bytes, file_name, JsonLimits(kDeepest), process_from);
 }
 
 }  // namespace clay::solid

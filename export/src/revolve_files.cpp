@@ -25,16 +25,6 @@ Result<void> check_sound(const TriangleMesh& mesh, const std::string& name) {
 
 }  // namespace
 
-double float_rounding_mm(const RevolveRule& rule) noexcept {
-  double farthest = 0.0;
-  for (const Shell& shell : rule.shells())
-    for (const ProfilePoint& p : shell.points)
-      farthest = std::max(farthest, std::hypot(equal_area_factor(rule.segments()) * p.rho, p.y));
-  // The products before the rounding are themselves rounded, to double.
-  constexpr double kDoubleRounding = 1.0 + 0x1p-20;
-  return std::ldexp(farthest * kDoubleRounding, -24);
-}
-
 Result<FileReport> RevolveFiles::write(MeshFormat format, FileStore& store) {
   switch (format) {
     case MeshFormat::stl_binary:

@@ -44,7 +44,4 @@ class RevolveFiles {
   std::optional<Result<void>> exact_;  ///< verdict on the mesh in float32, once asked for
 };
 
-/// Largest move [mm] of a vertex when its coordinates are rounded to float32.
-[[nodiscard]] double float_rounding_mm(const RevolveRule& rule) noexcept;
-
 }  // namespace clay::solid

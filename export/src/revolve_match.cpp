@@ -1,14 +1,17 @@
 #include "revolve_match.hpp"
 
 #include "describe.hpp"
+#include "file_floats.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,25 +23,30 @@ struct VertexName {
   std::uint32_t shell = 0, point = 0, sector = 0;
 };
 
-/// The circles (and poles) of a revolve, sorted by height.
-struct Level {
-  double y = 0.0;
-  std::uint32_t shell = 0, point = 0;
-};
-
 std::string place(const glm::dvec3& p) {
   return std::string("(") + in_mm(p.x) + ", " + in_mm(p.y) + ", " + in_mm(p.z) + ") mm";
 }
 
+/// A circle or a pole of a revolve: where it goes through the half-plane of a sector.
+struct Parallel {
+  std::array<double, 2> at{};  ///< distance from the axis, height [mm]
+  std::uint32_t shell = 0, point = 0;
+};
+
+/// The vertices of a revolve, found in logarithmic time wherever they lie: the parallels as a
+/// k-d tree, every stretch with its median in the middle. Distances are from the vertices in
+/// float32, so that files which hold just these are matched however close the vertices lie.
 class VertexFinder {
  public:
-  VertexFinder(const RevolveRule& rule, double reach_mm) : rule_(rule), reach_(reach_mm) {
+  VertexFinder(const RevolveRule& rule, double reach_mm)
+      : rule_(rule), reach_(reach_mm), rounding_(2.0 * float_rounding_mm(rule)) {
+    const double factor = equal_area_factor(rule.segments());
     for (std::uint32_t shell = 0; shell < rule.shells().size(); ++shell) {
       const auto& points = rule.shells()[shell].points;
-      for (std::uint32_t i = 0; i < points.size(); ++i) levels_.push_back({points[i].y, shell, i});
+      for (std::uint32_t i = 0; i < points.size(); ++i)
+        parallels_.push_back({{factor * points[i].rho, points[i].y}, shell, i});
     }
-    std::sort(levels_.begin(), levels_.end(),
-              [](const Level& a, const Level& b) { return a.y < b.y; });
+    sort(parallels_, 0);
   }
 
   /// The nearest vertex within reach; the largest of the distances is kept in `farthest`.
@@ -47,27 +55,60 @@ class VertexFinder {
         std::atan2(p.y, p.x) * static_cast<double>(rule_.segments()) / (2.0 * std::numbers::pi);
     const auto n = static_cast<long>(rule_.segments());
     const auto sector = static_cast<std::uint32_t>((std::lround(steps) + n) % n);
-    auto level = std::lower_bound(levels_.begin(), levels_.end(), p.z - reach_,
-                                  [](const Level& a, double y) { return a.y < y; });
-    std::optional<VertexName> nearest;
-    double least = reach_;
-    for (; level != levels_.end() && level->y <= p.z + reach_; ++level) {
-      const ProfilePoint& point = rule_.shells()[level->shell].points[level->point];
-      const double away = glm::distance(p, rule_.vertex(point, sector));
-      if (away > least) continue;
-      least = away;
-      nearest = VertexName{level->shell, level->point, point.rho == 0.0 ? 0 : sector};
-    }
-    if (nearest) farthest_ = std::max(farthest_, least);
-    return nearest;
+    const glm::dvec2 radial = glm::normalize(rule_.circle()[sector]);
+    Search search{p, {p.x * radial.x + p.y * radial.y, p.z}, sector};
+    seek(search, parallels_, 0);
+    if (!search.nearest) return std::nullopt;
+    const double away = glm::distance(p, vertex(*search.nearest, sector));
+    if (away > reach_) return std::nullopt;
+    farthest_ = std::max(farthest_, away);
+    const bool pole = search.nearest->at[0] == 0.0;
+    return VertexName{search.nearest->shell, search.nearest->point, pole ? 0 : sector};
   }
 
   [[nodiscard]] double farthest() const noexcept { return farthest_; }
 
  private:
+  struct Search {
+    glm::dvec3 p;
+    std::array<double, 2> at{};  ///< of p, as in `Parallel`
+    std::size_t sector = 0;
+    const Parallel* nearest = nullptr;
+    double away = std::numeric_limits<double>::infinity();
+  };
+
+  [[nodiscard]] glm::dvec3 vertex(const Parallel& parallel, std::size_t sector) const {
+    return rule_.vertex(rule_.shells()[parallel.shell].points[parallel.point], sector);
+  }
+
+  static void sort(std::span<Parallel> stretch, std::size_t axis) {
+    if (stretch.size() < 2) return;
+    const auto middle = stretch.size() / 2;
+    std::nth_element(
+        stretch.begin(), stretch.begin() + static_cast<std::ptrdiff_t>(middle), stretch.end(),
+        [axis](const Parallel& a, const Parallel& b) { return a.at[axis] < b.at[axis]; });
+    sort(stretch.first(middle), 1 - axis);
+    sort(stretch.subspan(middle + 1), 1 - axis);
+  }
+
+  void seek(Search& search, std::span<const Parallel> stretch, std::size_t axis) const {
+    if (stretch.empty()) return;
+    const std::size_t middle = stretch.size() / 2;
+    const Parallel& parallel = stretch[middle];
+    const double away =
+        glm::distance(search.p, glm::dvec3(file_point(vertex(parallel, search.sector))));
+    if (away < search.away) search.nearest = &parallel, search.away = away;
+    const double beyond = search.at[axis] - parallel.at[axis];
+    const auto below = stretch.first(middle), above = stretch.subspan(middle + 1);
+    seek(search, beyond < 0.0 ? below : above, 1 - axis);
+    if (std::abs(beyond) - rounding_ < search.away)
+      seek(search, beyond < 0.0 ? above : below, 1 - axis);
+  }
+
   const RevolveRule& rule_;
   double reach_;
-  std::vector<Level> levels_;
+  double rounding_;  ///< more than a vertex moves when it becomes float32
+  std::vector<Parallel> parallels_;
   double farthest_ = 0.0;
 };
 

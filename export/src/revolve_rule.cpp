@@ -2,6 +2,7 @@
 
 #include "stack_section.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -83,6 +84,16 @@ std::size_t RevolveRule::vertices() const noexcept {
 double equal_area_factor(std::size_t segments) noexcept {
   const double step = 2.0 * std::numbers::pi / static_cast<double>(segments);
   return std::sqrt(step / std::sin(step));
+}
+
+double float_rounding_mm(const RevolveRule& rule) noexcept {
+  double farthest = 0.0;
+  for (const Shell& shell : rule.shells())
+    for (const ProfilePoint& p : shell.points)
+      farthest = std::max(farthest, std::hypot(equal_area_factor(rule.segments()) * p.rho, p.y));
+  // The products before the rounding are themselves rounded, to double.
+  constexpr double kDoubleRounding = 1.0 + 0x1p-20;
+  return std::ldexp(farthest * kDoubleRounding, -24);
 }
 
 }  // namespace clay::solid

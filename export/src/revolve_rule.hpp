@@ -61,4 +61,7 @@ class RevolveRule {
 /// sqrt((2 pi/n) / sin(2 pi/n)): an n-gon of that radius has the area of the unit circle.
 [[nodiscard]] double equal_area_factor(std::size_t segments) noexcept;
 
+/// Largest move [mm] of a vertex when its coordinates are rounded to float32.
+[[nodiscard]] double float_rounding_mm(const RevolveRule& rule) noexcept;
+
 }  // namespace clay::solid

@@ -49,7 +49,7 @@ TEST_F(CertifiedVase, ConformsToItsSchema) {
 TEST_F(CertifiedVase, ASwappedCertificateIsNamed) {
   const Ran run = check(stl, obj + ".certificate.json");
   EXPECT_EQ(run.status, 1);
-  EXPECT_NE((run.out + run.err).find("size: the certificate states"), std::string::npos)
+  EXPECT_NE((run.out + run.err).find("format: the certificate states obj"), std::string::npos)
       << run.out << run.err;
 }
 
@@ -88,6 +88,30 @@ TEST_F(CertifiedVase, WhatIsNoCertificateIsBadInput) {
   EXPECT_EQ(check(stl, folder.file("none.json")).status, 3);
   const Ran pots = check(pot, stl + ".certificate.json");
   EXPECT_EQ(pots.status, 2) << pots.out;
+}
+
+TEST_F(CertifiedVase, AHostileCertificateIsRefusedInALine) {
+  const std::string good = read_text(stl + ".certificate.json"), bad = folder.file("bad.json");
+  const auto refused = [&](const std::string& text, int status, const std::string& says) {
+    write_text(bad, text);
+    const Ran run = check(stl, bad);
+    EXPECT_EQ(run.status, status) << says;
+    EXPECT_NE((run.out + run.err).find(says), std::string::npos) << run.err.substr(0, 500);
+    EXPECT_LT((run.out + run.err).size(), 1000u) << says;
+  };
+  const auto with = [&](const std::string& field, const std::string& value) {
+    std::string text = good;
+    const std::size_t begin = text.find("\"" + field + "\": ") + field.size() + 4;
+    return text.replace(begin, text.find(",\n", begin) - begin, value);
+  };
+  refused(with("segments", "1000000000"), 1, "3 to 1048576 segments");
+  refused(with("segments", "1048576"), 1, "profile and segments: the certificate states");
+  refused(with("bytes", std::string(1'000'000, '[')), 2, "nested 4 deep");
+  refused(with("rounding_mm", "1e999"), 2, "number overflow");
+  refused(with("format", "\"obj\""), 1, "format: the certificate states obj");
+  refused(good.substr(0, good.size() / 2), 2, "parse error");
+  refused("", 2, "parse error");
+  refused(with("format", "\"\xff\""), 2, "UTF-8");
 }
 
 }  // namespace

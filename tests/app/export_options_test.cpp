@@ -178,5 +178,40 @@ TEST(ExportDrain, OpensACavityAndSaysWhatItTook) {
   EXPECT_EQ(claystack("check " + stl).status, 0);
 }
 
+TEST_F(ExportOptions, NothingIsWrittenWhereOneFileCannotBe) {
+  const Ran report = run("--report " + folder.file("none/report.json"));
+  EXPECT_EQ(report.status, 3) << report.err;
+  std::filesystem::create_directory(stl + ".certificate.json");
+  const Ran certificate = run("--certificate");
+  EXPECT_EQ(certificate.status, 3) << certificate.err;
+  EXPECT_FALSE(std::filesystem::exists(stl));
+}
+
+TEST_F(ExportOptions, ADrawingAloneProvesNothing) {
+  const auto json =
+      claystack("export --json --min-wall 1 " + pot + " " + folder.file("b.svg")).json();
+  EXPECT_EQ(json.at("files").size(), 1u);
+  for (const char* claim : {"certificate", "volume_mm3", "min_wall_mm", "wall_demand"})
+    EXPECT_FALSE(json.contains(claim)) << claim;
+  const Ran none = claystack("export --certificate " + pot + " " + folder.file("b.svg"));
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("--certificate: expected a mesh"), std::string::npos) << none.err;
+}
+
+TEST_F(ExportOptions, AFilletWithoutSmoothingIsRefused) {
+  const Ran run_none = run("--lip-fillet 1 --smooth none");
+  EXPECT_EQ(run_none.status, 2);
+  EXPECT_NE(run_none.err.find("lip fillet: expected fair smoothing, found none"), std::string::npos)
+      << run_none.err;
+}
+
+TEST_F(ExportOptions, JsonHoldsNamesThatAreNoText) {
+  const std::string odd = folder.file("\xff.stl");
+  ASSERT_EQ(claystack("export -q " + pot + " " + odd).status, 0);
+  const Ran check = claystack("check --json " + odd);
+  EXPECT_EQ(check.status, 0) << check.err;
+  EXPECT_TRUE(check.json().at("sound"));
+}
+
 }  // namespace
 }  // namespace clay::test

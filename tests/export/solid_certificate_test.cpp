@@ -234,7 +234,8 @@ ClayStack thin_stack(std::mt19937_64& random) {
   return shapes::stack_of(std::exp2(uniform(-9.0, 3.0)), radii);
 }
 
-/// Whatever the certificate passes, CGAL's exact test on the decoded bytes passes.
+/// Whatever the certificate passes, CGAL's exact test on the decoded bytes passes; and so does the
+/// verification of the certificate.
 TEST(SolidCertificate, IsNeverWrong) {
   std::mt19937_64 random(20);
   int by_margins = 0, by_test = 0, refused = 0;
@@ -257,6 +258,8 @@ TEST(SolidCertificate, IsNeverWrong) {
     const MeshReport check = check_mesh(*decoded);
     ASSERT_TRUE(check.sound()) << k << check.problems.front().what;
     ASSERT_NEAR(check.volume_mm3, report->volume_mm3, certificate.volume_bound_mm3) << k;
+    const auto verdict = verify_certificate(certificate, store.bytes(), "pot");
+    ASSERT_TRUE(verdict) << k << verdict.error().message;
   }
   // The three ways out are all well trodden.
   EXPECT_GT(by_margins, 500);

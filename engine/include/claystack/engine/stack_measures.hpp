@@ -12,8 +12,12 @@ struct WallMinimum {
 };
 
 /// Least thickness [mm] of a stepped stack, exact for the steps as they are: from the bore to the
-/// outside (across rings as well), through floors, lids and solid pots along the axis, and across (2R) where
-/// there is no bore. Flanges that stick out are not looked at. O(N) for walls of a few rings.
+/// outside (across rings as well), through floors, lids and solid pots along the axis, and across
+/// (2R) where there is no bore. Flanges that stick out are not looked at. O(N) for walls of a few
+/// rings.
 [[nodiscard]] WallMinimum min_wall(const ClayStack& stack) noexcept;
+
+/// [mm]; 0 without rings.
+[[nodiscard]] double largest_radius_mm(const ClayStack& stack) noexcept;
 
 }  // namespace clay

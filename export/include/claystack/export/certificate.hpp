@@ -17,7 +17,8 @@ struct PlanarCertificate {
   std::size_t axis_segments = 0;
 };
 
-/// Exact predicates throughout. The error (kind `unsound`) names the first place that fails.
+/// Exact predicates throughout. The error (kind `unsound`) names the first place that fails. Made
+/// for sections of stacks, which have few edges at any one height: more than 1000 are an error.
 Result<PlanarCertificate> certify(const Profile& profile);
 
 }  // namespace clay::solid

@@ -59,12 +59,15 @@ struct SolidCertificate {
 /// volume moves by less than the area, grown by what rounding may add to it, times the rounding.
 SolidCertificate claims_of(const Profile& profile, std::size_t segments, double rounding_mm);
 
-/// Proves every claim again and holds the file against them: size and hash, profile, margins (or
-/// the exact test), walls, volume; then each triangle of the decoded file against the revolve of
-/// the profile. The error (kind `unsound`) names the first claim that fails; a file that cannot be
-/// read at all is `bad_input`.
+/// Proves every claim again and holds the file against them: size and hashes, number of triangles,
+/// profile, margins (or the exact test), walls, volume; then each triangle of the decoded file
+/// against the revolve of the profile. The error (kind `unsound`) names the first claim that fails;
+/// a file that cannot be read at all is `bad_input`. Certificates may come from strangers.
 Result<void> verify_certificate(const SolidCertificate& certificate, std::string_view file_bytes,
                                 std::string_view file_name);
+
+/// The largest file that `parse_certificate` reads.
+inline constexpr std::size_t kMaxCertificateBytes = std::size_t{1} << 27;
 
 /// JSON. Equal certificates give equal bytes; the reader is strict, and its errors name the field.
 std::string write_certificate(const SolidCertificate& certificate);
