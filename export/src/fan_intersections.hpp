@@ -14,8 +14,7 @@
 
 namespace clay::solid {
 
-/// Vertices with more triangles than a compact neighbourhood has, and edges with more than a
-/// vertex that is none may have.
+/// A vertex of more is a hub; an edge of more, whose ends are then hubs too, is a book of its own.
 inline constexpr std::size_t kManyTriangles = 32;
 
 /// The vertices with many triangles, and which.
