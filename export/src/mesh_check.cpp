@@ -54,8 +54,8 @@ class Inspection {
       check_topology(topology_of(mesh_.points.size(), mesh_.triangles));
       return std::move(report_);
     }
-    SlabIntersections intersections(mesh_);
-    for_each_part(1 + intersections.slabs(), [&](std::size_t part) {
+    SoupIntersections intersections(mesh_);
+    for_each_part(1 + intersections.parts(), [&](std::size_t part) {
       if (part == 0)
         topology = topology_of(mesh_.points.size(), mesh_.triangles);
       else
@@ -97,7 +97,7 @@ class Inspection {
     problem("non-manifold vertex", topology.split_vertices);
   }
 
-  void check_geometry(const MeshTopology& topology, const SlabIntersections& intersections) {
+  void check_geometry(const MeshTopology& topology, const SoupIntersections& intersections) {
     const SignedVolume volume = bounded_volume(mesh_);
     report_.volume_mm3 = volume.mm3;
     const Fault crossings = intersections.found();

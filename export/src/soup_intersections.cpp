@@ -1,8 +1,8 @@
 #include "soup_intersections.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/box_intersection_d.h>
-#include <CGAL/intersections.h>
+#include "near_pairs.hpp"
+#include "pair_test.hpp"
+
 #include <algorithm>
 #include <glm/common.hpp>
 #include <limits>
@@ -12,71 +12,9 @@
 namespace clay::solid {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
-using Box =
-    CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t,
-                                              CGAL::Box_intersection_d::ID_FROM_BOX_ADDRESS>;
-
-class PairTest {
- public:
-  explicit PairTest(const TriangleMesh& mesh) : mesh_(mesh) {}
-
-  bool degenerate(const Triangle& t) const {
-    return CGAL::collinear(point(t[0]), point(t[1]), point(t[2]));
-  }
-  CGAL::Bbox_3 bounds(const Triangle& t) const {
-    return point(t[0]).bbox() + point(t[1]).bbox() + point(t[2]).bbox();
-  }
-
-  bool meet(Triangle a, Triangle b) const {
-    switch (bring_shared_to_front(a, b)) {
-      case 0:
-        return CGAL::do_intersect(whole(a), whole(b));
-      case 1:
-        return CGAL::do_intersect(whole(a), last_side(b)) ||
-               CGAL::do_intersect(whole(b), last_side(a));
-      case 2:
-        return CGAL::coplanar(point(a[0]), point(a[1]), point(a[2]), point(b[2])) &&
-               CGAL::coplanar_orientation(point(a[0]), point(a[1]), point(a[2]), point(b[2])) ==
-                   CGAL::POSITIVE;
-      default:
-        return false;
-    }
-  }
-
- private:
-  Point point(std::uint32_t vertex) const {
-    const glm::dvec3& p = mesh_.points[vertex];
-    return {p.x, p.y, p.z};
-  }
-  Kernel::Triangle_3 whole(const Triangle& t) const {
-    return {point(t[0]), point(t[1]), point(t[2])};
-  }
-  Kernel::Segment_3 last_side(const Triangle& t) const { return {point(t[1]), point(t[2])}; }
-
-  static std::size_t bring_shared_to_front(Triangle& a, Triangle& b) {
-    std::size_t shared = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto twin = std::find(b.begin() + static_cast<std::ptrdiff_t>(shared), b.end(), a[i]);
-      if (twin == b.end()) continue;
-      std::swap(a[i], a[shared]);
-      std::swap(*twin, b[shared]);
-      ++shared;
-    }
-    return shared;
-  }
-
-  const TriangleMesh& mesh_;
-};
-
-struct EnoughFound {};
-
 /// Triangles to a slab, about: few enough to stay near the processor.
 constexpr std::size_t kSlabTriangles = 1 << 15;
 constexpr std::size_t kMostSlabs = 256;
-/// Below this CGAL compares all boxes of a set with one another (the cutoff of its own mesh test).
-constexpr std::ptrdiff_t kCutoff = 2000;
 
 /// The axis along which the points spread most.
 int longest_axis(const TriangleMesh& mesh) {
@@ -93,15 +31,17 @@ int longest_axis(const TriangleMesh& mesh) {
 
 }  // namespace
 
-SlabIntersections::SlabIntersections(const TriangleMesh& mesh)
+SoupIntersections::SoupIntersections(const TriangleMesh& mesh)
     : mesh_(mesh), axis_(longest_axis(mesh)) {
   set_degenerate_aside();
+  hubs_ = Hubs(mesh, spread_);
+  group_hubs();
   choose_begins();
   while (!distribute()) halve_slabs();
-  found_.resize(begins_.size());
+  found_.resize(groups_.size() - 1 + begins_.size());
 }
 
-void SlabIntersections::set_degenerate_aside() {
+void SoupIntersections::set_degenerate_aside() {
   const PairTest test(mesh_);
   spread_.reserve(mesh_.triangles.size());
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -112,8 +52,20 @@ void SlabIntersections::set_degenerate_aside() {
   }
 }
 
+/// So that a group has about the triangles of a slab at least.
+void SoupIntersections::group_hubs() {
+  std::size_t triangles = 0;
+  groups_.push_back(0);
+  for (std::size_t hub = 0; hub < hubs_.size(); ++hub) {
+    triangles += hubs_.triangles(hub).size();
+    if (triangles < kSlabTriangles && hub + 1 < hubs_.size()) continue;
+    groups_.push_back(hub + 1);
+    triangles = 0;
+  }
+}
+
 /// So that about as many triangles begin in each: by the lowest corners of a regular sample.
-void SlabIntersections::choose_begins() {
+void SoupIntersections::choose_begins() {
   const std::size_t slabs =
       std::clamp<std::size_t>(mesh_.triangles.size() / kSlabTriangles, 1, kMostSlabs);
   const std::size_t step = std::max<std::size_t>(mesh_.triangles.size() / (64 * slabs), 1);
@@ -129,7 +81,7 @@ void SlabIntersections::choose_begins() {
 }
 
 /// False where the lists would grow too long.
-bool SlabIntersections::distribute() {
+bool SoupIntersections::distribute() {
   const std::size_t most = 2 * spread_.size() + kSlabTriangles;
   std::size_t entries = 0;
   members_.assign(begins_.size(), {});
@@ -145,55 +97,64 @@ bool SlabIntersections::distribute() {
 }
 
 /// Where many triangles reach far, wider slabs have fewer of them twice.
-void SlabIntersections::halve_slabs() {
+void SoupIntersections::halve_slabs() {
   for (std::size_t slab = 1; 2 * slab < begins_.size(); ++slab) begins_[slab] = begins_[2 * slab];
   begins_.resize((begins_.size() + 1) / 2);
 }
 
-void SlabIntersections::search(std::size_t slab) {
-  const PairTest test(mesh_);
-  std::vector<Box> boxes;
-  boxes.reserve(members_[slab].size());
-  for (const std::uint32_t t : members_[slab])
-    boxes.emplace_back(test.bounds(mesh_.triangles[t]), t);
-  members_[slab] = {};
-  std::vector<const Box*> handles;
-  handles.reserve(boxes.size());
-  for (const Box& box : boxes) handles.push_back(&box);
-  Crossings found;
-  const auto count = [&](const Box* a, const Box* b) {
-    // Of the slabs that both reach, the pair is counted in the first.
-    if (slab_of(std::max(a->min_coord(axis_), b->min_coord(axis_))) != slab) return;
-    if (!test.meet(mesh_.triangles[a->info()], mesh_.triangles[b->info()])) return;
-    found.first = std::min(found.first, Pair(std::minmax(a->info(), b->info())));
-    if (++found.count == kMaxSelfIntersections) throw EnoughFound{};
-  };
-  try {
-    CGAL::box_self_intersection_d(handles.begin(), handles.end(), count, kCutoff);
-  } catch (const EnoughFound&) {
-    // The count says it: there is no other way out of CGAL's traversal.
-  }
-  found_[slab] = found;
+void SoupIntersections::search(std::size_t part) {
+  const std::size_t groups = groups_.size() - 1;
+  found_[part] = part < groups ? search_hubs(part) : search_slab(part - groups);
 }
 
-Fault SlabIntersections::found() const {
-  Crossings all;
-  for (const Crossings& part : found_) {
-    all.count = std::min(all.count + part.count, kMaxSelfIntersections);
-    all.first = std::min(all.first, part.first);
+Crossings SoupIntersections::search_hubs(std::size_t group) const {
+  Crossings found;
+  for (std::size_t hub = groups_[group]; hub < groups_[group + 1]; ++hub)
+    if (!found.add(crossings_about(mesh_, hubs_, hub))) break;
+  return found;
+}
+
+Crossings SoupIntersections::search_slab(std::size_t slab) {
+  const double begin = begins_[slab];
+  std::vector<Body> bodies;
+  bodies.reserve(members_[slab].size());
+  for (const std::uint32_t t : members_[slab]) {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    const auto hub = [&](std::uint32_t v) { return hubs_.is_hub(v) ? v : kNoHub; };
+    bodies.push_back({{mesh_.points[a], mesh_.points[b], mesh_.points[c], mesh_.points[c]},
+                      0.0,
+                      {hub(a), hub(b), hub(c)},
+                      t,
+                      reach(mesh_.triangles[t]).first < begin});
   }
+  members_[slab] = {};
+  const PairTest test(mesh_);
+  Crossings found;
+  NearPairs near(std::move(bodies));
+  near.for_each([&](std::uint32_t i, std::uint32_t j) {
+    // Of the slabs that both reach, the pair is counted in the first.
+    if (near[i].early && near[j].early) return true;
+    const std::uint32_t a = near[i].number, b = near[j].number;
+    return !test.meet(mesh_.triangles[a], mesh_.triangles[b]) || found.add(a, b);
+  });
+  return found;
+}
+
+Fault SoupIntersections::found() const {
+  Crossings all;
+  for (const Crossings& part : found_) all.add(part);
   Fault fault;
   if (all.count > 0) note(fault, {all.first.first, all.first.second}, {});
   fault.count = all.count;
   return fault;
 }
 
-std::pair<double, double> SlabIntersections::reach(const Triangle& t) const {
+std::pair<double, double> SoupIntersections::reach(const Triangle& t) const {
   return std::minmax(
       {mesh_.points[t[0]][axis_], mesh_.points[t[1]][axis_], mesh_.points[t[2]][axis_]});
 }
 
-std::size_t SlabIntersections::slab_of(double low) const {
+std::size_t SoupIntersections::slab_of(double low) const {
   const auto after = std::upper_bound(begins_.begin(), begins_.end(), low);
   return static_cast<std::size_t>(after - begins_.begin()) - 1;
 }

@@ -2,6 +2,10 @@
 // same mesh, interleaved so that a busy machine slows both.
 //
 //   check_bench [TRIANGLES [SHELLS [ROUNDS]]]     default 1000000 1 5; at most 20 million triangles
+//   check_bench fans [SEGMENTS]     a cylinder and a cone, whose ends are fans about one vertex,
+//   and
+//                                   a tube, whose ends are rings of long triangles; default 30000.
+//                                   CGAL takes the square of that: it has its turn up to 30000
 
 #include "claystack/export/mesh_check.hpp"
 #include "claystack/export/mesh_formats.hpp"
@@ -136,9 +140,34 @@ void compare(std::size_t shells, std::size_t triangles, std::size_t rounds) {
               median(check).cpu / median(cgal).cpu);
 }
 
+void compare_fans(const char* what, const Profile& profile, std::size_t segments) {
+  constexpr std::size_t kMostForCgal = 30'000;
+  const TriangleMesh mesh = revolve(profile, segments);
+  std::printf("%s of %zu segments, %zu triangles\n", what, segments, mesh.triangles.size());
+  bool sound = false;
+  tell("check_mesh", timed([&] { sound = check_mesh(mesh).sound(); }));
+  if (!sound) fail("check_mesh finds fault with a sound mesh");
+  if (segments > kMostForCgal) return;
+  bool fault = true;
+  tell("CGAL soup to mesh + does_self_intersect", timed([&] { fault = cgal_finds_fault(mesh); }));
+  if (fault) fail("CGAL finds fault with a sound mesh");
+}
+
+void compare_fans(std::size_t segments) {
+  compare_fans("cylinder", {{{{0, 0}, {50, 0}, {50, 80}, {0, 80}}}}, segments);
+  compare_fans("cone", {{{{0, 0}, {50, 0}, {0, 80}}}}, segments);
+  compare_fans("tube", {{{{30, 0}, {50, 0}, {40, 80}, {30, 80}}}}, segments);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "fans") {
+    const std::size_t segments = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 30'000;
+    if (segments < 3 || segments > kMaxTriangles / 8) fail("expected 3 to 2500000 segments");
+    compare_fans(segments);
+    return 0;
+  }
   const std::size_t triangles = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 1'000'000;
   const std::size_t shells = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 1;
   const std::size_t rounds = argc > 3 ? std::strtoul(argv[3], nullptr, 10) : 5;

@@ -42,11 +42,11 @@ std::vector<Pair> pairs_by_cgal(const TriangleMesh& mesh) {
   return pairs;
 }
 
-/// Slabs in reverse, since the order must not matter.
+/// Parts in reverse, since the order must not matter.
 Fault found_in_slabs(const TriangleMesh& mesh, std::size_t fewest_slabs) {
-  SlabIntersections search(mesh);
+  SoupIntersections search(mesh);
   EXPECT_GE(search.slabs(), fewest_slabs);
-  for (std::size_t slab = search.slabs(); slab > 0; --slab) search.search(slab - 1);
+  for (std::size_t part = search.parts(); part > 0; --part) search.search(part - 1);
   return search.found();
 }
 
@@ -64,19 +64,19 @@ TriangleMesh vase(std::size_t rings, std::size_t segments) {
   return revolve(profile_of(shapes::vase(rings))->profile, segments);
 }
 
-TEST(SlabIntersections, OfCrossingVasesAreThoseThatCgalFinds) {
+TEST(SoupIntersections, OfCrossingVasesAreThoseThatCgalFinds) {
   // Crossing all along the height, so that pairs lie on the borders of slabs too.
   const TriangleMesh one = vase(60, 140);
   expect_same_as_cgal(together(one, moved(one, {1.1, 0.7, 0.3})), 3);
 }
 
-TEST(SlabIntersections, OfTrianglesThatReachThroughManySlabsAreFoundOnce) {
+TEST(SoupIntersections, OfTrianglesThatReachThroughManySlabsAreFoundOnce) {
   // Staves as long as the prism beside a fine vase that makes the slabs.
   const TriangleMesh staves = revolve({{{{0, -20}, {52, -20}, {52, 230}, {0, 230}}}}, 90);
   expect_same_as_cgal(together(vase(100, 100), staves), 2);
 }
 
-TEST(SlabIntersections, ListsStayShortWhereTrianglesReachFar) {
+TEST(SoupIntersections, ListsStayShortWhereTrianglesReachFar) {
   // Staves side by side, half as long as all of them together reach: cut in six, each would be in
   // three or four of the lists.
   constexpr std::uint32_t kStaves = 200'000;
@@ -86,13 +86,13 @@ TEST(SlabIntersections, ListsStayShortWhereTrianglesReachFar) {
     staves.points.insert(staves.points.end(), {{x, 0, z}, {x + 0.002, 0, z}, {x, 0, z + 1000}});
     staves.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
-  SlabIntersections search(staves);
+  SoupIntersections search(staves);
   EXPECT_LE(search.slabs(), 3u);
-  for (std::size_t slab = 0; slab < search.slabs(); ++slab) search.search(slab);
+  for (std::size_t part = 0; part < search.parts(); ++part) search.search(part);
   EXPECT_EQ(search.found().count, 0u);
 }
 
-TEST(SlabIntersections, NoneInAFineVase) { EXPECT_EQ(found_in_slabs(vase(60, 200), 2).count, 0u); }
+TEST(SoupIntersections, NoneInAFineVase) { EXPECT_EQ(found_in_slabs(vase(60, 200), 2).count, 0u); }
 
 TEST(BoundedVolume, TheSignIsCertainOnlyBeyondTheError) {
   EXPECT_TRUE(bounded_volume(cube(2.0)).sign_is_certain());

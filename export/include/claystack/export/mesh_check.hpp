@@ -34,10 +34,11 @@ struct MeshReport {
   [[nodiscard]] bool sound() const noexcept { return problems.empty(); }
 };
 
-/// Combinatorics by our own count over the indices; crossings by CGAL's box intersection and exact
-/// predicates, in slabs that all cores share (the report does not depend on how many there are);
-/// how several shells lie by CGAL's Polygon Mesh Processing on an OpenMesh mesh. `check_bench
-/// 20000000 1 1` prints time and peak memory of the largest mesh.
+/// Combinatorics by our own count over the indices; crossings by CGAL's exact predicates on the
+/// pairs that a sieve leaves, in parts that all cores share (the report does not depend on how many
+/// there are); how several shells lie by CGAL's Polygon Mesh Processing on an OpenMesh mesh.
+/// `check_bench 20000000 1 1` prints time and peak memory of the largest mesh, `check_bench fans`
+/// the time that vertices of many triangles take.
 /// An inward shell (a closed cavity) is sound when it lies inside an outward one.
 MeshReport check_mesh(const TriangleMesh& mesh);
 
