@@ -31,6 +31,7 @@ std::string place(const glm::dvec3& p) {
 struct Parallel {
   std::array<double, 2> at{};  ///< distance from the axis, height [mm]
   std::uint32_t shell = 0, point = 0;
+  std::size_t split = 0;  ///< the coordinate that parts the stretch of which this is the middle
 };
 
 /// The vertices of a revolve, found in logarithmic time wherever they lie: the parallels as a
@@ -44,9 +45,9 @@ class VertexFinder {
     for (std::uint32_t shell = 0; shell < rule.shells().size(); ++shell) {
       const auto& points = rule.shells()[shell].points;
       for (std::uint32_t i = 0; i < points.size(); ++i)
-        parallels_.push_back({{factor * points[i].rho, points[i].y}, shell, i});
+        parallels_.push_back({{factor * points[i].rho, points[i].y}, shell, i, 0});
     }
-    sort(parallels_, 0);
+    sort(parallels_);
   }
 
   /// The nearest vertex within reach; the largest of the distances is kept in `farthest`.
@@ -57,7 +58,7 @@ class VertexFinder {
     const auto sector = static_cast<std::uint32_t>((std::lround(steps) + n) % n);
     const glm::dvec2 radial = glm::normalize(rule_.circle()[sector]);
     Search search{p, {p.x * radial.x + p.y * radial.y, p.z}, sector};
-    seek(search, parallels_, 0);
+    seek(search, parallels_);
     if (!search.nearest) return std::nullopt;
     const double away = glm::distance(p, vertex(*search.nearest, sector));
     if (away > reach_) return std::nullopt;
@@ -81,28 +82,35 @@ class VertexFinder {
     return rule_.vertex(rule_.shells()[parallel.shell].points[parallel.point], sector);
   }
 
-  static void sort(std::span<Parallel> stretch, std::size_t axis) {
+  /// Parts it where it is longer.
+  static void sort(std::span<Parallel> stretch) {
     if (stretch.size() < 2) return;
-    const auto middle = stretch.size() / 2;
+    const auto length = [&](std::size_t axis) {
+      const auto [low, high] = std::minmax_element(
+          stretch.begin(), stretch.end(),
+          [axis](const Parallel& a, const Parallel& b) { return a.at[axis] < b.at[axis]; });
+      return high->at[axis] - low->at[axis];
+    };
+    const std::size_t axis = length(0) > length(1) ? 0 : 1, middle = stretch.size() / 2;
     std::nth_element(
         stretch.begin(), stretch.begin() + static_cast<std::ptrdiff_t>(middle), stretch.end(),
         [axis](const Parallel& a, const Parallel& b) { return a.at[axis] < b.at[axis]; });
-    sort(stretch.first(middle), 1 - axis);
-    sort(stretch.subspan(middle + 1), 1 - axis);
+    stretch[middle].split = axis;
+    sort(stretch.first(middle));
+    sort(stretch.subspan(middle + 1));
   }
 
-  void seek(Search& search, std::span<const Parallel> stretch, std::size_t axis) const {
+  void seek(Search& search, std::span<const Parallel> stretch) const {
     if (stretch.empty()) return;
     const std::size_t middle = stretch.size() / 2;
     const Parallel& parallel = stretch[middle];
     const double away =
         glm::distance(search.p, glm::dvec3(file_point(vertex(parallel, search.sector))));
     if (away < search.away) search.nearest = &parallel, search.away = away;
-    const double beyond = search.at[axis] - parallel.at[axis];
+    const double beyond = search.at[parallel.split] - parallel.at[parallel.split];
     const auto below = stretch.first(middle), above = stretch.subspan(middle + 1);
-    seek(search, beyond < 0.0 ? below : above, 1 - axis);
-    if (std::abs(beyond) - rounding_ < search.away)
-      seek(search, beyond < 0.0 ? above : below, 1 - axis);
+    seek(search, beyond < 0.0 ? below : above);
+    if (std::abs(beyond) - rounding_ < search.away) seek(search, beyond < 0.0 ? above : below);
   }
 
   const RevolveRule& rule_;

@@ -66,8 +66,9 @@ SolidCertificate claims_of(const Profile& profile, std::size_t segments, double 
 Result<void> verify_certificate(const SolidCertificate& certificate, std::string_view file_bytes,
                                 std::string_view file_name);
 
-/// The largest file that `parse_certificate` reads.
-inline constexpr std::size_t kMaxCertificateBytes = std::size_t{1} << 27;
+/// The largest file that `parse_certificate` reads. A point takes some 40 bytes: enough for every
+/// mesh of at most kMaxTriangles with 8 segments or more.
+inline constexpr std::size_t kMaxCertificateBytes = std::size_t{1} << 26;
 
 /// JSON. Equal certificates give equal bytes; the reader is strict, and its errors name the field.
 std::string write_certificate(const SolidCertificate& certificate);
