@@ -1,4 +1,5 @@
 #include "check.hpp"
+#include "thin_walls.hpp"
 
 #include "claystack/engine/atomic_file.hpp"
 #include "claystack/export/decimate.hpp"
@@ -88,7 +89,9 @@ void measure_wall(const TriangleMesh& mesh, const WallDemand& demand, const Chec
   if (std::isinf(wall->least_mm))
     problem("wall not measured",
             fmt::format("none of {} rays met the other side of a wall", wall->rays));
-  else if (wall->least_mm < demand.min_wall_mm)
+  else if (wall->least_mm >= demand.min_wall_mm)
+    verdict.notes.push_back("walls seen: " + wall_text(wall->least_mm, demand));
+  else
     problem("thin wall (sampled)",
             fmt::format("triangle {} at ({:.6g}, {:.6g}, {:.6g}) mm: {:.3f} mm, expected {:.3f} mm "
                         "at least ({})",
@@ -153,10 +156,16 @@ Result<Verdict> check_mesh_file(std::string_view bytes, MeshFormat format,
                                 const CheckCommand& command) {
   auto certificate = read_certificate(command);
   if (!certificate) return tl::make_unexpected(certificate.error());
-  auto mesh = solid::decode_mesh(bytes, format, command.file);
-  if (!mesh) return tl::make_unexpected(mesh.error());
   Verdict verdict;
   verdict.certificate = std::move(*certificate);
+  auto mesh = solid::decode_mesh(bytes, format, command.file);
+  if (!mesh && verdict.certificate) {
+    // Whatever has become of the file, it is not what the certificate speaks of.
+    verify(bytes, format, command, verdict);
+    verdict.examined = false;
+    return verdict;
+  }
+  if (!mesh) return tl::make_unexpected(mesh.error());
   if (command.mends()) {
     mesh = mend_and_write(std::move(*mesh), command, verdict.mending.emplace());
     if (!mesh) return failure(mesh.error().kind, command.file + ": " + mesh.error().message);

@@ -1,9 +1,12 @@
 #include "check.hpp"
+#include "thin_walls.hpp"
 
 #include "claystack/engine/pot_file.hpp"
 #include "claystack/engine/stack_measures.hpp"
 #include "claystack/export/certificate.hpp"
+#include "claystack/export/profile_smoothing.hpp"
 #include "claystack/export/tessellate.hpp"
+#include "claystack/export/wall_thickness.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +15,7 @@
 namespace clay::app {
 namespace {
 
-// A pot is checked on a mesh of its steps: enough facets to look like the pot, few enough to be
+// A pot is checked on a mesh of its walls: enough facets to look like the pot, few enough to be
 // quick. Whether it is sound does not depend on how many.
 constexpr std::size_t kMostSegments = 64;
 constexpr std::size_t kFewestSegments = 8;
@@ -23,28 +26,15 @@ std::size_t check_segments(const solid::Profile& profile) {
   return std::clamp(kQuickTriangles / each, kFewestSegments, kMostSegments);
 }
 
-/// Width, depth and height together.
-double size_sum_mm(const solid::Profile& profile) {
-  double radius = 0.0, low = 0.0, high = 0.0;
-  for (const solid::Polygon& polygon : profile.pieces)
-    for (const solid::ProfilePoint& p : polygon) {
-      radius = std::max(radius, p.rho);
-      low = std::min(low, p.y);
-      high = std::max(high, p.y);
-    }
-  return 4.0 * radius + high - low;
-}
-
 /// A section that proves a solid, and the mesh that it gives, passing every test.
-Verdict check_section(const solid::StackProfile& section, const WallMinimum& wall,
-                      const CheckCommand& command) {
+Verdict check_section(const solid::StackProfile& section, const std::optional<WallDemand>& demand) {
   Verdict verdict;
   if (solid::triangle_count(section.profile, kFewestSegments) <= solid::kMaxTriangles)
     verdict.mesh =
         solid::check_mesh(solid::revolve(section.profile, check_segments(section.profile)));
   else
     verdict.examined = false;
-  verdict.wall_mm = wall.thickness_mm;
+  verdict.wall_mm = solid::min_wall_mm(section.profile);
   for (const solid::PieceShape& shape : section.shapes)
     for (const solid::Cavity& cavity : shape.cavities)
       verdict.notes.push_back(fmt::format(
@@ -56,13 +46,11 @@ Verdict check_section(const solid::StackProfile& section, const WallMinimum& wal
          fmt::format("{} pieces; ring {} is the first of the second", section.shapes.size(),
                      section.shapes[1].first_ring),
          section.shapes.size()});
-  const auto demand = command.walls.for_size(size_sum_mm(section.profile));
-  if (demand && wall.thickness_mm < demand->min_wall_mm)
+  if (demand && *verdict.wall_mm < demand->min_wall_mm)
     verdict.mesh.problems.push_back(
-        {"thin wall",
-         fmt::format("{:.3f} mm at ring {}, expected {:.3f} mm at least ({})", wall.thickness_mm,
-                     wall.ring, demand->min_wall_mm, demand->source),
-         1});
+        {"thin wall", thin_wall_text(section.profile, *verdict.wall_mm, *demand), 1});
+  else if (demand)
+    verdict.notes.push_back("walls: " + wall_text(*verdict.wall_mm, *demand));
   return verdict;
 }
 
@@ -81,11 +69,16 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command) {
   if (pot->collapse)
     return unsound("collapsed", fmt::format("ring {} yielded at {:.2f} kPa",
                                             pot->collapse->failed_ring, pot->collapse->stress_kpa));
-  const auto section = solid::profile_of(pot->stack);
-  if (!section) return unsound("no solid", section.error().message);
-  if (const auto certificate = solid::certify(section->profile); !certificate)
+  // As `export` makes it unless told otherwise.
+  const auto demand =
+      command.walls.for_size(4.0 * largest_radius_mm(pot->stack) + pot->stack.height_mm());
+  solid::SmoothingOptions how;
+  if (demand) how.min_wall_mm = demand->min_wall_mm;
+  const auto smoothed = solid::smooth_profile_of(pot->stack, how);
+  if (!smoothed) return unsound("no solid", smoothed.error().message);
+  if (const auto certificate = solid::certify(smoothed->section.profile); !certificate)
     return unsound("no certificate", certificate.error().message);
-  Verdict verdict = check_section(*section, min_wall(pot->stack), command);
+  Verdict verdict = check_section(smoothed->section, demand);
   if (pot->rounding)
     verdict.notes.push_back(fmt::format("radii rounded to {} mm", pot->rounding->to_mm));
   return verdict;

@@ -1,4 +1,5 @@
 #include "export_report.hpp"
+#include "thin_walls.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -127,6 +128,14 @@ void tell_solid(const Console& console, const ExportReport& report) {
     if (saved) console.say(fmt::format("left out: {} ({}), saved {:.2g} s", what, why, *saved));
 }
 
+/// Of all files.
+double thinnest_mm(const ExportReport& report) {
+  double thinnest = report.min_wall_mm;
+  for (const FileReport& file : report.files)
+    if (file.certificate) thinnest = std::min(thinnest, file.certificate->wall_lower_mm);
+  return thinnest;
+}
+
 /// What was made and proved.
 Json solid_json(const ExportReport& report) {
   Json json = {
@@ -176,7 +185,9 @@ Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies,
   Json json = report.files.empty() ? Json::object() : solid_json(report);
   for (const char* list : {"files", "left_out", "stages"}) json[list] = Json::array();
   if (demand && !report.files.empty())
-    json["wall_demand"] = {{"min_wall_mm", demand->min_wall_mm}, {"source", demand->source}};
+    json["wall_demand"] = {{"min_wall_mm", demand->min_wall_mm},
+                           {"source", demand->source},
+                           {"passes", thinnest_mm(report) >= demand->min_wall_mm}};
   auto file = report.files.begin();
   auto copy = copies.begin();
   for (const std::string& path : paths) {
@@ -220,12 +231,15 @@ void tell_export(const Console& console, const ExportReport& report,
 bool tell_thin_wall(const Console& console, const ExportReport& report,
                     const std::optional<WallDemand>& demand) {
   if (!demand || report.files.empty()) return false;
-  double thinnest = report.min_wall_mm;
-  for (const FileReport& file : report.files)
-    if (file.certificate) thinnest = std::min(thinnest, file.certificate->wall_lower_mm);
-  if (thinnest >= demand->min_wall_mm) return false;
-  console.warn(fmt::format("thin wall: {:.3f} mm, expected {:.3f} mm at least ({})", thinnest,
-                           demand->min_wall_mm, demand->source));
+  const double thinnest = thinnest_mm(report);
+  if (thinnest >= demand->min_wall_mm) {
+    console.say("walls: " + wall_text(thinnest, *demand));
+    return false;
+  }
+  const auto& certificate = report.files.front().certificate;
+  console.warn("thin wall: " + (certificate
+                                    ? thin_wall_text(certificate->profile, thinnest, *demand)
+                                    : wall_text(thinnest, *demand)));
   return true;
 }
 

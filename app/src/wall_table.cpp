@@ -7,14 +7,11 @@
 #include <iterator>
 
 namespace clay::app {
-namespace {
 
 std::string_view name_of(solid::WallFace face) {
   constexpr std::array<std::string_view, 6> kNames{"foot", "outer", "rim", "bore", "floor", "lid"};
   return kNames.at(static_cast<std::size_t>(face));
 }
-
-}  // namespace
 
 std::string wall_table(const std::vector<solid::WallSample>& field) {
   std::string text = "piece,face,arc_mm,rho_mm,y_mm,thickness_mm,opposite_rho_mm,opposite_y_mm\n";

@@ -96,7 +96,10 @@ SolidCertificate from_json(const Json& json) {
                      "profile_hash", "proof", "segments", "rounding_mm", "clearance_mm", "chord_mm",
                      "wall_lower_mm", "wall_upper_mm", "volume_mm3", "volume_bound_mm3",
                      "counted_volume_mm3", "profile_mm"});
-  for (const char* for_people : {"written_by", "claim"}) (void)text_in(json, for_people);
+  (void)text_in(json, "written_by");
+  if (text_in(json, "claim") != kClaim)
+    throw BadField(std::string("claim: expected \"").append(kClaim) +
+                   "\", which is all that is proved");
   (void)array_in(json, "profile_mm");
   SolidCertificate c;
   c.format = text_in(json, "format");

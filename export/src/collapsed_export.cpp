@@ -137,6 +137,7 @@ class CollapsedExport {
                            "decimated: found " + describe(check.problems.front()));
           report_.triangles = mesh_.triangles.size();
           report_.tolerance_mm += decimated.max_error_mm;
+          report_.chordal_error_mm += decimated.max_error_mm;
           describe_volume(check.volume_mm3);
           report_.collapsed->max_move_mm += decimated.max_error_mm;
           return {};

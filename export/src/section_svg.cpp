@@ -140,9 +140,14 @@ class Drawing {
     page_.line("bold", left, right);
   }
 
-  void body(const Body& body) {
-    page_.fill("beyond", on_page(body.beyond));
-    page_.fill("cut", on_page(body.cut));
+  /// What is cut stands before all that lies beyond, of whichever body.
+  void bodies(const std::vector<Body>& all) {
+    for (const Body& body : all) page_.fill("beyond", on_page(body.beyond));
+    for (const Body& body : all) page_.fill("cut", on_page(body.cut));
+    for (const Body& body : all) axis(body);
+  }
+
+  void axis(const Body& body) {
     const glm::dvec2 from = on_page(body.axis[0]), to = on_page(body.axis[1]);
     const glm::dvec2 overhang = 22.0 * glm::normalize(to - from);
     page_.line("axis", from - overhang, to + overhang);
@@ -217,7 +222,7 @@ std::string section_svg(const Pot& pot) {
   const Extent extent = extent_of(bodies);
   Drawing drawing(extent);
   drawing.wheel_head();
-  for (const Body& body : bodies) drawing.body(body);
+  drawing.bodies(bodies);
   if (pot.collapse) {
     drawing.height(extent.high);
     drawing.width({extent.low.x, extent.high.y}, extent.high, millimetres(extent.size().x));

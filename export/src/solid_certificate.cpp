@@ -198,7 +198,7 @@ SolidCertificate claims_of(const Profile& profile, std::size_t segments, double 
 SolidCertificate with_rounding(SolidCertificate claims, const RevolveRule& rule,
                                double rounding_mm) {
   claims.rounding_mm = rounding_mm;
-  claims.wall_lower_mm -= 2.0 * rounding_mm;
+  claims.wall_lower_mm = std::max(0.0, claims.wall_lower_mm - 2.0 * rounding_mm);
   claims.wall_upper_mm += 2.0 * rounding_mm;
   claims.volume_bound_mm3 = volume_bound(rule, rounding_mm);
   return claims;
