@@ -7,6 +7,8 @@
 namespace clay::app {
 namespace {
 
+constexpr std::size_t kCountingStops = 100'000;  // of self-intersections, see MeshReport
+
 template <class Problems>
 Json problems_json(const Problems& problems) {
   Json json = Json::array();
@@ -132,8 +134,9 @@ void tell(const Console& console, const std::string& file, const Verdict& verdic
   if (verdict.certificate_holds) tell_certificate(console, *verdict.certificate);
   for (const std::string& note : verdict.notes) console.say("  note: " + note);
   for (const auto& problem : mesh.problems)
-    console.say(fmt::format("  {}{} ({}): {}", mended ? "remaining: " : "", problem.what,
-                            problem.count, problem.where));
+    console.say(fmt::format("  {}{} ({}{}): {}", mended ? "remaining: " : "", problem.what,
+                            problem.count == kCountingStops ? "at least " : "", problem.count,
+                            problem.where));
 }
 
 }  // namespace clay::app

@@ -103,6 +103,11 @@ void tell_smoothing(const Console& console, const ExportReport& report) {
         std::count_if(report.kept_steps.begin(), report.kept_steps.end(), is), first->from_mm,
         first->to_mm, first->smoothed_mm));
   }
+  if (report.wall_as_steps_mm)
+    console.warn(
+        fmt::format("exact walls leave an edge of {:.3f} mm at height {:.1f} mm, where the "
+                    "steps are {:.3f} mm at least; --smooth fair does not",
+                    report.min_wall_mm, report.thinnest.from.y, *report.wall_as_steps_mm));
   if (report.taken_mm > 0.0)
     console.warn(
         fmt::format("walls may be thinner than they were by {:.2g} mm: no other clay to "
@@ -173,6 +178,7 @@ Json solid_json(const ExportReport& report) {
   if (report.drilled_mm3 > 0.0) json["drilled_mm3"] = report.drilled_mm3;
   if (report.smoothing == solid::Smoothing::exact)
     json["max_ring_error_relative"] = report.max_ring_error_relative;
+  if (report.wall_as_steps_mm) json["wall_as_steps_mm"] = *report.wall_as_steps_mm;
   if (report.lip_fillet_mm > 0.0) json["lip_fillet_mm"] = report.lip_fillet_mm;
   if (report.taken_mm > 0.0) json["taken_mm"] = report.taken_mm;
   return json;

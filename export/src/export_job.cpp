@@ -41,6 +41,7 @@ struct Design {
   StackProfile section;
   SmoothedProfile smoothed;  ///< but for its section
   Smoothing smoothing = Smoothing::none;
+  std::optional<double> wall_as_steps_mm;
   std::string no_smoothing;  ///< why not, where not
   PlanarCertificate planar;
   double tolerance_mm = 0.0;
@@ -121,6 +122,8 @@ class ExportJob {
   Result<void> smooth(Design& design) {
     const SmoothingOptions how{options_.smoothing, design.tolerance_mm, options_.min_wall_mm,
                                options_.lip_fillet_mm, std::nullopt};
+    if (options_.smoothing == Smoothing::exact)
+      design.wall_as_steps_mm = min_wall_mm(design.section.profile);
     return stages_.run("smooth", [&] { return smooth_profile_of(stack_, how); })
         .map([&](SmoothedProfile smoothed) {
           design.section = std::exchange(smoothed.section, {});
@@ -168,6 +171,8 @@ class ExportJob {
     report_.chordal_error_mm = chordal_error_mm(widest, design.segments);
     report_.min_wall_mm = claims.wall_lower_mm;
     report_.thinnest = stages_.run("wall", [&] { return min_wall(design.section.profile); });
+    if (design.wall_as_steps_mm > report_.thinnest.thickness_mm)
+      report_.wall_as_steps_mm = design.wall_as_steps_mm;
     if (options_.wall_spacing_mm)
       report_.wall_field = stages_.run("wall_field", [&] {
         return wall_field(design.section.profile, *options_.wall_spacing_mm);

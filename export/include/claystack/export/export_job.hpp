@@ -75,7 +75,9 @@ struct ExportReport {
   std::vector<KeptSteps> kept_steps;      ///< where smoothing gave way
   double overshoot_mm = 0.0, taken_mm = 0.0, lip_fillet_mm = 0.0;  ///< as in `SmoothedProfile`
   double max_ring_error_relative = 0.0;                            ///< `exact`
-  std::optional<CollapsedSolid> collapsed;                         ///< without its mesh
+  /// `exact`: the least wall as steps, where an edge that overshoot has made is thinner [mm].
+  std::optional<double> wall_as_steps_mm;
+  std::optional<CollapsedSolid> collapsed;  ///< without its mesh
   std::size_t segments = 0;
   std::size_t triangles = 0;
   std::size_t shells = 0;
