@@ -53,6 +53,9 @@ Result<void> check_options(const ExportCommand& command, const std::vector<Reque
   };
   return need(command.precision_mm.has_value(), "--precision", "a pot", is_pot)
       .and_then([&] { return need(command.certificate, "--certificate", "a mesh", is_mesh); })
+      .and_then([&] {
+        return need(command.walls.asked(), "--min-wall and --process", "a mesh", is_mesh);
+      })
       .and_then(
           [&] { return need(command.ascii, "--ascii", "an .stl", format(MeshFormat::stl_ascii)); })
       .and_then([&] {

@@ -20,6 +20,7 @@ class WallDemands {
  public:
   void add_to(CLI::App& command);
 
+  [[nodiscard]] bool asked() const noexcept { return min_wall_mm_ || !process_name_.empty(); }
   /// Reads the process where one is named. Before any work: a bad name costs nothing then.
   Result<void> load();
   /// For an object whose width, depth and height add up to this; nothing where nothing was asked.

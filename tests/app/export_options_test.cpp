@@ -133,7 +133,8 @@ TEST_F(ExportOptions, WhatIsLeftOutIsMeasuredOnRequest) {
 }
 
 TEST_F(ExportOptions, OptionsThatWouldDoNothingAreRefused) {
-  for (const char* option : {"--ascii", "--normals", "--certificate", "--precision 0.001"}) {
+  for (const char* option : {"--ascii", "--normals", "--certificate", "--precision 0.001",
+                             "--min-wall 3", "--process sla"}) {
     const Ran nothing =
         claystack("export " + pot + " " + folder.file("section.svg") + " " + option);
     EXPECT_EQ(nothing.status, 2) << option;

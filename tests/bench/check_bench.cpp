@@ -7,14 +7,12 @@
 //                                   a tube, whose ends are rings of long triangles; default 30000.
 //                                   CGAL takes the square of that: it has its turn up to 30000
 
+#include "cgal_peer.hpp"
+
 #include "claystack/export/mesh_check.hpp"
 #include "claystack/export/mesh_formats.hpp"
 #include "claystack/export/tessellate.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -29,8 +27,7 @@
 namespace {
 
 using namespace clay::solid;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-namespace pmp = CGAL::Polygon_mesh_processing;
+using clay::bench::cgal_finds_fault;
 
 struct Seconds {
   double wall = 0.0;
@@ -80,16 +77,6 @@ TriangleMesh vases(std::size_t count, std::size_t triangles) {
       all.triangles.push_back({a + offset, b + offset, c + offset});
   }
   return all;
-}
-
-/// False, so that the work cannot be left out, on a mesh that this program makes.
-bool cgal_finds_fault(const TriangleMesh& mesh) {
-  std::vector<Kernel::Point_3> points;
-  points.reserve(mesh.points.size());
-  for (const glm::dvec3& p : mesh.points) points.emplace_back(p.x, p.y, p.z);
-  CGAL::Surface_mesh<Kernel::Point_3> surface;
-  pmp::polygon_soup_to_polygon_mesh(points, mesh.triangles, surface);
-  return pmp::does_self_intersect(surface);
 }
 
 Seconds median(std::vector<Seconds> all) {

@@ -1,7 +1,9 @@
 // Times what is proved and measured of a profile: wall_bench [RUNS]. Medians, one process.
 
+#include "cgal_peer.hpp"
 #include "claystack/export/certificate.hpp"
 #include "claystack/export/clearance.hpp"
+#include "claystack/export/tessellate.hpp"
 #include "claystack/export/wall_thickness.hpp"
 
 #include <algorithm>
@@ -88,10 +90,26 @@ void report(const char* name, const Profile& profile, int runs) {
               clear);
 }
 
+/// The proof in the plane beside CGAL's of the mesh.
+void compare_with_cgal(const Profile& profile, std::size_t segments, int runs) {
+  const TriangleMesh mesh = revolve(profile, segments);
+  bool fault = false;
+  const double plane_ms = median_ms(200 * runs, [&] {
+    (void)certify(profile);
+    (void)min_wall_mm(profile);
+  });
+  const double cgal_ms = median_ms(runs, [&] { fault = clay::bench::cgal_finds_fault(mesh); });
+  std::printf(
+      "%zu triangles: certificate and least wall %.3f ms; CGAL soup to mesh and "
+      "self-intersection %.0f ms%s\n",
+      mesh.triangles.size(), plane_ms, cgal_ms, fault ? ", which finds fault" : "");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const int runs = argc > 1 ? std::max(1, std::atoi(argv[1])) : 5;
+  compare_with_cgal(bowl(200, 0.0, true), 256, runs);
   std::printf("%-18s %8s %10s %10s %10s %10s %9s %12s %12s\n", "profile", "vertices", "certify ms",
               "wall ms", "clear. ms", "field ms", "samples", "wall mm", "clearance mm");
   for (const std::size_t rings : {std::size_t{200}, std::size_t{20'000}, std::size_t{1'000'000}}) {
