@@ -171,6 +171,10 @@ Result<Verdict> check_mesh_file(std::string_view bytes, MeshFormat format,
     if (!mesh) return failure(mesh.error().kind, command.file + ": " + mesh.error().message);
   }
   verdict.mesh = solid::check_mesh(*mesh);
+  if (verdict.mesh.cavities > 0)
+    verdict.notes.push_back(
+        fmt::format("{} closed cavities, {:.4g} cm3 trapped: they need drain holes",
+                    verdict.mesh.cavities, verdict.mesh.trapped_mm3 / 1000.0));
   if (format == MeshFormat::drc && !command.mends()) check_claims(bytes, *mesh, verdict);
   if (const auto demand = command.walls.for_size(size_sum_mm(*mesh)))
     measure_wall(*mesh, *demand, command, verdict);

@@ -101,6 +101,8 @@ Json verdict_json(const std::string& file, const Verdict& verdict) {
                {"self_intersections", mesh.self_intersections},
                {"bounds_volume", mesh.bounds_volume},
                {"components", mesh.components},
+               {"cavities", mesh.cavities},
+               {"trapped_mm3", mesh.trapped_mm3},
                {"degenerate", mesh.degenerate},
                {"triangles", mesh.triangles},
                {"volume_mm3", mesh.volume_mm3},

@@ -1,6 +1,7 @@
 #include "claystack/export/mesh_check.hpp"
 
 #include "bounded_volume.hpp"
+#include "compensated_sum.hpp"
 #include "describe.hpp"
 #include "mesh_geometry.hpp"
 #include "mesh_topology.hpp"
@@ -9,6 +10,7 @@
 
 #include <cmath>
 #include <exception>
+#include <glm/geometric.hpp>
 #include <string>
 #include <string_view>
 
@@ -112,6 +114,22 @@ class Inspection {
     check_outward(outward);
   }
 
+  void count_cavities(const MeshTopology& topology) {
+    std::vector<CompensatedSum> six_volumes(mesh_.triangles.size());
+    const glm::dvec3 origin = mesh_.points[mesh_.triangles.front()[0]];
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto& [a, b, c] = mesh_.triangles[t];
+      six_volumes[topology.component_of[t]].add(
+          glm::dot(mesh_.points[a] - origin,
+                   glm::cross(mesh_.points[b] - origin, mesh_.points[c] - origin)));
+    }
+    for (const CompensatedSum& six : six_volumes) {
+      if (six.value() >= 0.0) continue;
+      ++report_.cavities;
+      report_.trapped_mm3 -= six.value() / 6.0;
+    }
+  }
+
   /// True where the outermost shell is oriented outward.
   bool check_shells(const MeshTopology& topology, const SignedVolume& volume) {
     // One shell that is embedded always bounds a volume, and the sign of that is its orientation.
@@ -122,6 +140,8 @@ class Inspection {
     const ShellGeometry geometry = shell_geometry(mesh_);
     report_.bounds_volume = geometry.bounds_volume;
     problem("shell turned against its neighbours", geometry.misplaced_shells);
+    if (geometry.bounds_volume && geometry.outward && topology.components > 1)
+      count_cavities(topology);
     return geometry.outward;
   }
 

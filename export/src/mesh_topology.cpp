@@ -166,6 +166,9 @@ class TopologyCount {
   void count_components() {
     for (std::uint32_t t = 0; t < triangles_.size(); ++t)
       if (!collapsed(triangles_[t]) && shells_.root(t) == t) ++found_.components;
+    if (found_.components < 2) return;
+    found_.component_of.resize(triangles_.size());
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) found_.component_of[t] = shells_.root(t);
   }
 
   std::size_t points_;

@@ -31,12 +31,13 @@ void note(Fault& fault, std::initializer_list<std::uint32_t> triangles,
 /// left out of all the rest, as if their two equal corners had been pulled together.
 struct MeshTopology {
   Fault collapsed;
-  Fault duplicates;            ///< triangles on the same three vertices as one before
-  Fault open_edges;            ///< of one triangle only
-  Fault crowded_edges;         ///< of three triangles or more
-  Fault flipped_edges;         ///< whose two triangles run along it the same way
-  Fault split_vertices;        ///< whose triangles form more than one fan
-  std::size_t components = 0;  ///< sets of triangles joined by edges
+  Fault duplicates;                         ///< triangles on the same three vertices as one before
+  Fault open_edges;                         ///< of one triangle only
+  Fault crowded_edges;                      ///< of three triangles or more
+  Fault flipped_edges;                      ///< whose two triangles run along it the same way
+  Fault split_vertices;                     ///< whose triangles form more than one fan
+  std::size_t components = 0;               ///< sets of triangles joined by edges
+  std::vector<std::uint32_t> component_of;  ///< by triangle, where there are several
 
   [[nodiscard]] bool closed() const noexcept { return !open_edges.found(); }
   [[nodiscard]] bool manifold() const noexcept {

@@ -72,6 +72,22 @@ TEST(CheckMesh, DisjointSolidsAndCavitiesAreSound) {
   EXPECT_EQ(nested.components, 3u);
 }
 
+TEST(CheckMesh, CavitiesAreCountedWithWhatTheyTrap) {
+  using shapes::cube;
+  // A cube of 10 mm with cavities of 2 and 3 mm, and a solid beside it.
+  const TriangleMesh cavities =
+      shapes::together(shapes::inverted(shapes::moved(cube(2), {1, 1, 1})),
+                       shapes::inverted(shapes::moved(cube(3), {5, 5, 5})));
+  const TriangleMesh mesh =
+      shapes::together(shapes::together(cube(10), cavities), shapes::moved(cube(4), {20, 0, 0}));
+  const MeshReport report = check_mesh(mesh);
+  EXPECT_TRUE(report.sound());
+  EXPECT_EQ(report.components, 4u);
+  EXPECT_EQ(report.cavities, 2u);
+  EXPECT_NEAR(report.trapped_mm3, 8.0 + 27.0, 1e-9);
+  EXPECT_EQ(check_mesh(cube(10)).cavities, 0u);
+}
+
 TEST(CheckMesh, EmptyMeshIsNotSound) {
   EXPECT_FALSE(check_mesh({}).sound());
   EXPECT_FALSE(check_mesh({{{1, 2, 3}}, {}}).sound());

@@ -26,6 +26,8 @@ struct MeshReport {
   /// where that has no meaning: open, crossing itself or with degenerate triangles.
   bool bounds_volume = false;
   std::size_t components = 0;
+  std::size_t cavities = 0;    ///< shells that are turned inward, of a mesh that bounds a volume
+  double trapped_mm3 = 0.0;    ///< what they enclose: resin or powder stays in
   std::size_t degenerate = 0;  ///< triangles of no area
   std::size_t triangles = 0;
   double volume_mm3 = 0.0;
