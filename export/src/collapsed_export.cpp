@@ -8,6 +8,7 @@
 #include "describe.hpp"
 #include "draco_bits.hpp"
 #include "left_out.hpp"
+#include "mesh_extent.hpp"
 #include "resolution.hpp"
 #include "stages.hpp"
 #include "stored_file.hpp"
@@ -15,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <string>
@@ -103,13 +103,9 @@ class CollapsedExport {
   }
 
   void describe_solid(CollapsedSolid solid) {
-    glm::dvec3 low = mesh_.points.front(), high = low;
-    for (const glm::dvec3& p : mesh_.points) {
-      low = glm::min(low, p);
-      high = glm::max(high, p);
-    }
-    report_.diameter_mm = std::max(high.x - low.x, high.y - low.y);
-    report_.height_mm = high.z - low.z;
+    const glm::dvec3 extent = extent_of(mesh_);
+    report_.diameter_mm = std::max(extent.x, extent.y);
+    report_.height_mm = extent.z;
     report_.counted_volume_mm3 = pot_.stack.volume_mm3();
     report_.triangles = mesh_.triangles.size();
     report_.shells = solid.check.components;

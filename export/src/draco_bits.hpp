@@ -1,9 +1,9 @@
 #pragma once
 #include "claystack/export/triangle_mesh.hpp"
+#include "mesh_extent.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace clay::solid {
@@ -14,12 +14,7 @@ inline constexpr int kMaxDracoBits = 30;  // Draco's own limit
 
 /// The fewest bits that keep the ends of the shortest edge in different cells of Draco's grid.
 [[nodiscard]] inline int least_draco_bits(const TriangleMesh& mesh) {
-  glm::dvec3 low = mesh.points.front(), high = low;
-  for (const glm::dvec3& p : mesh.points) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  const glm::dvec3 sides = high - low;
+  const glm::dvec3 sides = extent_of(mesh);
   const double range = std::max({sides.x, sides.y, sides.z});
   double shortest = range;
   for (const auto& t : mesh.triangles)
