@@ -7,8 +7,9 @@
 namespace clay::falcon {
 namespace {
 
-// One bad contact may be the encoder's; a few in a row are a rattle.
-constexpr int kBadContacts = 3;
+// One debt may be a slip; a few, with no good while between them, are a rattle.
+constexpr int kMostDebts = 3;
+constexpr double kGoodWhileS = 2.0;
 
 bool is_finite(const glm::dvec3& v) noexcept {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -68,17 +69,23 @@ PassiveForce PassivityController::tick(std::int64_t time_us, const glm::dvec3& r
 
 void PassivityController::judge(bool contact_ended, const glm::dvec3& asked_n) noexcept {
   if (state_ == PassivityState::safe) return;
-  const bool owes = observer_.injected_j() > observer_.tolerance_j();
-  if (contact_ended) {
-    const bool bad = owes && observer_.last_contact_j() > 0.0;
-    bad_contacts_ = bad ? bad_contacts_ + 1 : 0;
-  }
-  const glm::dvec3& swinging = state_ == PassivityState::yielding ? last_sent_ : asked_n;
-  const bool rattles = swings_.swings_too_often(now_s_, swinging);
-  const bool hopeless = rattles || observer_.recent_j() > spec_.energy_limit_j;
   const bool yields = state_ == PassivityState::yielding;
-  if (hopeless || (!yields && bad_contacts_ >= kBadContacts)) return escalate();
-  if (!yields) state_ = owes ? PassivityState::damping : PassivityState::watching;
+  const glm::dvec3& swinging = yields ? last_sent_ : asked_n;
+  const bool rattles = swings_.swings_too_often(now_s_, swinging);
+  if (rattles || observer_.recent_j() > spec_.energy_limit_j) return escalate();
+  if (yields) return;
+
+  const bool owes = observer_.injected_j() > observer_.tolerance_j();
+  const bool again = contact_ended && observer_.last_contact_j() > 0.0;
+  if (owes && (again || state_ == PassivityState::watching)) count_debt();
+  if (debts_ >= kMostDebts) return escalate();
+  state_ = owes ? PassivityState::damping : PassivityState::watching;
+}
+
+void PassivityController::count_debt() noexcept {
+  if (now_s_ - last_debt_s_ > kGoodWhileS) debts_ = 0;
+  last_debt_s_ = now_s_;
+  ++debts_;
 }
 
 void PassivityController::escalate() noexcept {

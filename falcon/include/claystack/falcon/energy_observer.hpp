@@ -2,7 +2,9 @@
 // The passivity observer: what the servo has given the hand beyond what it took. After B.
 // Hannaford, J.-H. Ryu, "Time-domain passivity control of haptic interfaces", IEEE Trans. Robotics
 // and Automation 18(1), 2002. Work is counted by positions: the force held over a period times the
-// way gone in it is exact, but for the encoder's steps.
+// way gone in it is exact, but for the encoder's steps. A spring that an encoder reads seems to
+// give K step^2 whenever a still hand makes it flicker, so that loops of up to two steps count
+// nothing.
 
 #include "claystack/falcon/sampled_bound.hpp"
 
@@ -27,8 +29,8 @@ class EnergyObserver {
   /// Work displayed [J] less what the arm's own damping has dissipated for sure in contact.
   /// Negative while a contact has credit. Credit ends with its contact, a debt stays.
   [[nodiscard]] double injected_j() const noexcept { return injected_; }
-  /// What `injected_j` may be off by for the encoder's steps, in one contact: the sum of force
-  /// differences, up and down, times half a step at most.
+  /// What `injected_j` may be off by for the encoder's steps: half a step times all that the force
+  /// changed by, up and down, in one contact.
   [[nodiscard]] double tolerance_j() const noexcept { return step_m_ * peak_n_ + kRounding; }
   /// Of the contact that has just ended: what it added to the debt.
   [[nodiscard]] double last_contact_j() const noexcept { return last_contact_; }
@@ -45,13 +47,16 @@ class EnergyObserver {
 
   /// A way in one direction, into the contact or out of it.
   struct Stroke {
-    glm::dvec3 way_m{0.0};
+    double sign = 0.0;        // of the way: +1 into the contact, -1 out of it
+    double depth_m = 0.0;     // where the arm is, and the furthest it was in this stroke,
+    double furthest_m = 0.0;  // from where the stroke began
+    double doubtful_j = 0.0;  // work since it was there
     double time_s = 0.0;
-    double sign = 0.0;    // of its work; 0 while it has done none
-    double credit = 0.0;  // dissipated for sure by the arm [J]
+    double credit_j = 0.0;  // dissipated for sure by the arm
   };
 
-  void follow_stroke(double dt_s, const glm::dvec3& way_m, double work_j) noexcept;
+  void follow_stroke(double dt_s, double held_n, double inward_m) noexcept;
+  void credit_stroke() noexcept;
   void end_contact() noexcept;
   void pass_time(double dt_s) noexcept;
 

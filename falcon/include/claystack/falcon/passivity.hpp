@@ -84,6 +84,7 @@ class PassivityController {
 
   explicit PassivityController(const PassivitySpec& spec) noexcept;
   void judge(bool contact_ended, const glm::dvec3& asked_n) noexcept;
+  void count_debt() noexcept;
   void escalate() noexcept;
   [[nodiscard]] glm::dvec3 answer(double dt_s, const glm::dvec3& way_m,
                                   const glm::dvec3& asked_n) noexcept;
@@ -97,7 +98,8 @@ class PassivityController {
   EnergyObserver observer_;
   SwingCounter swings_;
   PassivityState state_ = PassivityState::watching;
-  int bad_contacts_ = 0;  // in a row
+  int debts_ = 0;  // since the last good while
+  double last_debt_s_ = 0.0;
 
   struct Reading {
     std::int64_t time_us;
