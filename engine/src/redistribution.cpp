@@ -161,7 +161,8 @@ Flow trim_clay(std::span<const Bite> bites, ClayStack& stack, Ledger& ledger, Ri
   Flow flow;
   flow.lowest = bites.front().contact.bottom;
   flow.highest = bites.front().contact.top;
-  grow<model>(flow, stack, ledger, rim, writer);  // a thinner top ring may be worth less than the excess
+  grow<model>(flow, stack, ledger, rim,
+              writer);  // a thinner top ring may be worth less than the excess
   return flow;
 }
 

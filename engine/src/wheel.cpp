@@ -47,8 +47,8 @@ template <unsigned stages, class State>
 std::span<Bite> touch(State& s, const ToolState& tool) noexcept {
   if constexpr (stages & kPinch) {
     if (tool.gap_mm > 0.0) {
-      find_pinch<kModel<stages>>(s.plan.tool, s.stack, tool.hip_mm, tool.gap_mm,
-                                 s.bites[0].contact, s.bites[1].contact);
+      find_pinch<kModel<stages>>(s.plan.tool, s.stack, tool.hip_mm, tool.gap_mm, s.bites[0].contact,
+                                 s.bites[1].contact);
       return s.bites;
     }
   }
@@ -90,9 +90,9 @@ std::uint32_t deform(State& s, const ToolState& tool, std::span<const Bite> bite
     s.watch.move_to(s.stack, std::min(bites[0].contact.top + reach, s.stack.size() - 1));
 
   const bool trim = tool.trim || s.plan.mode == ToolMode::trim;
-  const Flow flow = trim ? trim_clay<kModel<stages>>(bites, s.stack, s.ledger, &s.rim)
-                         : press_clay<kModel<stages>>(s.plan, bites, tool.upward, s.stack, s.ledger,
-                                                      &s.rim);
+  const Flow flow =
+      trim ? trim_clay<kModel<stages>>(bites, s.stack, s.ledger, &s.rim)
+           : press_clay<kModel<stages>>(s.plan, bites, tool.upward, s.stack, s.ledger, &s.rim);
 
   if constexpr (stages & kStability) {
     s.failure = s.watch.check(s.plan.stability, s.stack, flow.lowest, flow.grown);
@@ -102,7 +102,8 @@ std::uint32_t deform(State& s, const ToolState& tool, std::span<const Bite> bite
          (s.failure ? kCollapsed : 0u);
 }
 
-/// Clay leaves the touched rings on the tool's way, not at its end: the flow begins from the middle.
+/// Clay leaves the touched rings on the tool's way, not at its end: the flow begins from the
+/// middle.
 template <unsigned stages, class State>
 void press(State& s, const ToolState& tool, std::span<Bite> bites, StepReport& report) noexcept {
   const std::uint32_t touched = rings_of(bites);
