@@ -48,17 +48,19 @@ double steep_end(const Tool& tool, double ring_height_mm) noexcept {
 /// from the HIP, with the mean of f'.
 template <class Profile>
 void touch_part(const Profile& profile, const ClayStack& stack, std::size_t i, double from,
-                double to, bool yields, Contact& contact) noexcept {
+                double to, bool yields, int end, Contact& contact) noexcept {
   if (!(to > from)) return;
   const double depth = depth_of(stack.rings()[i], profile.radius(0.5 * (from + to)), contact);
   if (!(depth > 0.0)) return;
   const RingContact part{static_cast<std::uint32_t>(i), depth,
                          (profile.radius(to) - profile.radius(from)) / (to - from),
                          (to - from) / stack.ring_height_mm()};
-  if (yields)
+  if (yields) {
     contact.rings.push_back(part);
-  else
+  } else {
+    contact.edge_end[contact.edge_count] = end;
     contact.edges[contact.edge_count++] = part;
+  }
 }
 
 template <Model model, class Profile>
@@ -71,8 +73,9 @@ void touch_rings(const Profile& profile, const Tool& tool, const ClayStack& stac
     if constexpr (model == Model::conserving) {
       const double from = t - 0.5 * h, to = t + 0.5 * h;
       if (from < tool.low() + steep || to > tool.high() - steep) {
+        const int end = (to > tool.high() ? 1 : 0) - (from < tool.low() ? 1 : 0);
         touch_part(profile, stack, i, std::max(from, tool.low()), std::min(to, tool.high()), yields,
-                   contact);
+                   end, contact);
         continue;
       }
     }
@@ -84,7 +87,7 @@ void touch_rings(const Profile& profile, const Tool& tool, const ClayStack& stac
   if (model == Model::conserving && contact.top + 1 == stack.size()) {
     const double top = static_cast<double>(stack.size()) * h - hip_y;
     touch_part(profile, stack, contact.top, std::max(top, tool.low()),
-               std::min(stack.height_mm() - hip_y, tool.high()), false, contact);
+               std::min(stack.height_mm() - hip_y, tool.high()), false, 0, contact);
   }
 }
 

@@ -37,6 +37,7 @@ struct Contact {
   double radial_z = 0.0;          ///< sin psi
   std::vector<RingContact> rings;
   std::array<RingContact, 3> edges;
+  std::array<int, 3> edge_end{};  ///< +1 at the tool's upper end, -1 at its lower one, 0 at neither
   std::size_t edge_count = 0;
 };
 

@@ -114,6 +114,9 @@ void press(State& s, const ToolState& tool, std::span<Bite> bites, StepReport& r
     const double half_way = 0.5 * tool.moved_mm.y / s.stack.ring_height_mm();
     bites[0].contact.up_offset += std::max(half_way, 0.0);
     bites[0].contact.down_offset += std::max(-half_way, 0.0);
+    if constexpr (stages & kForce)
+      for (Bite& bite : bites)
+        yield_edges(s.plan.removal, s.stack, tool.moved_mm.y, tool.dt_s, bite.contact);
   }
   remove<stages>(s, tool, bites);
   report.flags |= deform<stages>(s, tool, bites);

@@ -111,7 +111,8 @@ TEST(Redistribution, TheKernelLiesToTheToolsEnds) {
 
 TEST(Redistribution, ANewRingContinuesTheRim) {
   // Two rings above the tool and a kernel of three: the third share falls to the crown.
-  ClayStack stack = ClayStack::cylinder(10, 1.0, 10.0, 6.0, 40).value();
+  const Ring ring{400 * kMm2, 225 * kMm2};
+  ClayStack stack = ClayStack::from_rings(1.0, std::vector<Ring>(10, ring), 150 * kMm2, 40).value();
   Ledger ledger;
   Rim rim;
   const StepPlan plan = plan_of(4.0, 3.0, 0.25);
