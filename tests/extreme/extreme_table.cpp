@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <string>
 
 namespace {
@@ -30,6 +31,7 @@ int print(const std::string& only) {
     const Outcome engine = c.run(Who::conserving), literal = c.run(Who::literal);
     fmt::print("{:<26} {:<4}  {:<4}  {}\n{:<26} {:<4}  {:<4}  {}\n", c.name, word(engine.verdict),
                word(literal.verdict), engine.note, "", "", "", literal.note);
+    std::fflush(stdout);  // whoever waits sees how far it is
     ++count;
     failed += engine.verdict != Verdict::passed;
     literal_failed += literal.verdict == Verdict::failed;

@@ -34,6 +34,27 @@ Outcome sigma_infinite(Who who) { return with_flow(who, kInfinity, 12.0); }
 Outcome reach_0(Who who) { return with_flow(who, 4.0, 0.0); }
 Outcome reach_beyond_the_pot(Who who) { return with_flow(who, 400.0, 5'000.0); }
 
+/// Q_p(x) -> x / sigma^2: ring j gets j / (1 + 2 + .. + L1), a limit that needs no exp.
+Outcome sigma_infinite_is_linear(Who who) {
+  SceneSpec scene = small_pot();
+  scene.flow.sigma_mm = kInfinity;
+  scene.tool.shape = RibSpec{10.0, 6.0};
+  Trial trial(who, scene);
+  trial.stroke({45, 29.9, 0}, {45, 30.1, 0}, 2);
+  trial.at({34, 30.2, 0});
+  if (!trial.going_well()) return trial.done();
+  Exact gained = 0;
+  for (std::size_t j = 1; j <= 12; ++j)
+    gained += square_of(trial.subject().ring(35 + j).outer_mm) - 900;
+  for (std::size_t j = 1; j <= 12; ++j) {
+    const Exact share = (square_of(trial.subject().ring(35 + j).outer_mm) - 900) / gained;
+    // 40 bits of fraction in the table; the radius is the root of a count, to half an ulp.
+    const double off = abs(Exact(share - Exact(j, 78))).convert_to<double>();
+    trial.require(off < 0x1p-39, fmt::format("share {} is {:.2g} off", j, off));
+  }
+  return trial.done();
+}
+
 /// All to the nearest ring, as the limit of the kernel for sigma -> 0.
 Outcome sigma_0_is_the_limit(Who who) {
   SceneSpec scene = small_pot();
@@ -88,9 +109,11 @@ Outcome growth_onto_an_empty_top(Who who) {
   scene.removal.paper_fraction = 1.0 - 1e-9;
   scene.lump.max_rings = 5'000;
   Trial trial(who, scene);
-  trial.stroke({20, 60, 0}, {20, 57, 0}, 50, true);
-  trial.stroke({20, 40, 0}, {20, 45, 0}, 200);
-  trial.require(trial.touched(), "no contact");
+  trial.stroke({20, 60, 0}, {20, 59.9, 0}, 20, true);
+  trial.stroke({200, 54, 0}, {200, 54.5, 0}, 2);
+  trial.stroke({20, 54.6, 0}, {20, 54.7, 0}, 200);
+  trial.require(trial.last().ring_limit, "the limit is not said");
+  trial.require(trial.subject().rings() == 5'000, "not grown to the limit");
   return trial.done(fmt::format("{} rings", trial.subject().rings()));
 }
 
@@ -159,6 +182,8 @@ constexpr Case kCases[] = {
      sigma_1e200},
     {"sigma_infinite", "sigma = inf", "clay kept", "exact rationals", Verdict::failed,
      sigma_infinite},
+    {"sigma_infinite_is_linear", "sigma = inf, one tick", "shares as 1 : 2 : .. : L1",
+     "rationals of the limit", Verdict::failed, sigma_infinite_is_linear},
     {"reach_0", "L1 = 0", "clay kept, as height", "exact rationals", Verdict::failed, reach_0},
     {"reach_beyond_the_pot", "L1 = 5000 on 60 rings", "clay kept", "exact rationals",
      Verdict::failed, reach_beyond_the_pot},

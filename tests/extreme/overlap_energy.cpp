@@ -34,24 +34,32 @@ OverlapEnergy::OverlapEnergy(ToolShapeSpec shape, Section section, double stiffn
     : shape_(std::move(shape)),
       section_(std::move(section)),
       stiffness_(stiffness_n_per_mm),
-      outside_(outside) {}
+      tools_{{outside, 0.0}} {}
 
-Fifty OverlapEnergy::depth(std::size_t i, const Point& hip, const Fifty& d) const {
+OverlapEnergy::OverlapEnergy(ToolShapeSpec shape, Section section, double stiffness_n_per_mm,
+                             double gap_mm)
+    : OverlapEnergy(std::move(shape), std::move(section), stiffness_n_per_mm, true) {
+  const double reach = 0.5 * gap_mm + half_profile(shape_, 0).convert_to<double>();
+  tools_ = {{true, reach}, {false, -reach}};
+}
+
+Fifty OverlapEnergy::depth(std::size_t i, const Point& hip, const Standing& tool) const {
   const Fifty t = section_.centres_mm[i] - hip.y;
   if (abs(t) > half_height_mm(shape_)) return 0;
   const Fifty f = half_profile(shape_, t);
-  const Fifty depth = outside_ ? Fifty(section_.rings[i].outer_mm + f - d)
-                               : Fifty(d + f - section_.rings[i].inner_mm);
+  const Fifty d = abs(Fifty(sqrt(Fifty(hip.x * hip.x + hip.z * hip.z)) + tool.from_hip_mm));
+  const Fifty depth = tool.outside ? Fifty(section_.rings[i].outer_mm + f - d)
+                                   : Fifty(d + f - section_.rings[i].inner_mm);
   return depth > 0 ? depth : Fifty(0);
 }
 
 Fifty OverlapEnergy::at(const Point& hip) const {
-  const Fifty d = sqrt(Fifty(hip.x * hip.x + hip.z * hip.z));
   Fifty sum = 0;
-  for (std::size_t i = 0; i < section_.rings.size(); ++i) {
-    const Fifty overlap = depth(i, hip, d);
-    sum += overlap * overlap;
-  }
+  for (const Standing& tool : tools_)
+    for (std::size_t i = 0; i < section_.rings.size(); ++i) {
+      const Fifty overlap = depth(i, hip, tool);
+      sum += overlap * overlap;
+    }
   return stiffness_ / 2 * sum;
 }
 
@@ -80,9 +88,9 @@ bool OverlapEnergy::smooth_at(double hip_y_mm) const {
 
 std::size_t OverlapEnergy::touched(const glm::dvec3& hip_mm) const {
   const Point hip{hip_mm.x, hip_mm.y, hip_mm.z};
-  const Fifty d = sqrt(Fifty(hip.x * hip.x + hip.z * hip.z));
   std::size_t count = 0;
-  for (std::size_t i = 0; i < section_.rings.size(); ++i) count += depth(i, hip, d) > 0;
+  for (const Standing& tool : tools_)
+    for (std::size_t i = 0; i < section_.rings.size(); ++i) count += depth(i, hip, tool) > 0;
   return count;
 }
 

@@ -20,6 +20,8 @@ struct Section {
 class OverlapEnergy {
  public:
   OverlapEnergy(ToolShapeSpec shape, Section section, double stiffness_n_per_mm, bool outside);
+  /// Of two tools, `gap_mm` apart at their widest, t = 0; the HIP between them.
+  OverlapEnergy(ToolShapeSpec shape, Section section, double stiffness_n_per_mm, double gap_mm);
 
   /// Minus the gradient at `hip_mm`, by central differences [N].
   [[nodiscard]] glm::dvec3 force_n(const glm::dvec3& hip_mm) const;
@@ -31,13 +33,17 @@ class OverlapEnergy {
   struct Point {
     Fifty x, y, z;
   };
+  struct Standing {
+    bool outside;
+    double from_hip_mm;  ///< along the HIP's radius
+  };
   [[nodiscard]] Fifty at(const Point& hip) const;
-  [[nodiscard]] Fifty depth(std::size_t i, const Point& hip, const Fifty& d) const;
+  [[nodiscard]] Fifty depth(std::size_t i, const Point& hip, const Standing& tool) const;
 
   ToolShapeSpec shape_;
   Section section_;
   Fifty stiffness_;
-  bool outside_;
+  std::vector<Standing> tools_;
 };
 
 /// Half the height of a tool, for shapes that are even in t.

@@ -62,6 +62,9 @@ class OnTheEngine final : public Subject {
       append_bytes(bytes, q);
     return bytes;
   }
+  std::span<const std::byte> ring_bytes() const override {
+    return std::as_bytes(wheel_.stack().rings());
+  }
   const Wheel* wheel() const override { return &wheel_; }
 
  private:
@@ -91,9 +94,14 @@ class AsPrinted final : public Subject {
 
   std::optional<Exact> clay() const override {
     Exact sum = 0;
-    for (const bench::LiteralRing& ring : paper_.rings()) {
-      if (!std::isfinite(ring.outer_mm) || !std::isfinite(ring.inner_mm)) return std::nullopt;
-      sum += square_of(ring.outer_mm) - square_of(ring.inner_mm);
+    const auto& rings = paper_.rings();
+    // A run of equal rings is weighed once: rationals are slow.
+    for (std::size_t i = 0, end = 0; i < rings.size(); i = end) {
+      const double outer = rings[i].outer_mm, inner = rings[i].inner_mm;
+      if (!std::isfinite(outer) || !std::isfinite(inner)) return std::nullopt;
+      while (end < rings.size() && rings[end].outer_mm == outer && rings[end].inner_mm == inner)
+        ++end;
+      sum += (square_of(outer) - square_of(inner)) * static_cast<std::uint64_t>(end - i);
     }
     return sum;
   }
@@ -113,6 +121,9 @@ class AsPrinted final : public Subject {
     std::string bytes;
     for (const bench::LiteralRing& ring : paper_.rings()) append_bytes(bytes, ring);
     return bytes;
+  }
+  std::span<const std::byte> ring_bytes() const override {
+    return std::as_bytes(std::span(paper_.rings()));
   }
   const bench::LiteralPaper* literal() const override { return &paper_; }
 
@@ -171,9 +182,10 @@ Result<std::unique_ptr<Subject>> put_on_wheel(Who who, const SceneSpec& scene) {
 Count count_clay(const Wheel& wheel) {
   Count sum = count_of(wheel.stack().crown()) + count_of(wheel.ledger().trimmed) +
               count_of(wheel.ledger().outside) - count_of(wheel.ledger().added);
-  for (const Ring& ring : wheel.stack().rings()) {
-    sum += ring.outer2;
-    sum -= ring.inner2;
+  const auto rings = wheel.stack().rings();
+  for (std::size_t i = 0, end = 0; i < rings.size(); i = end) {
+    while (end < rings.size() && rings[end] == rings[i]) ++end;
+    sum += (Count(rings[i].outer2) - rings[i].inner2) * static_cast<std::uint64_t>(end - i);
   }
   return sum;
 }

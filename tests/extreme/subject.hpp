@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace clay {
@@ -54,6 +55,9 @@ class Subject {
   [[nodiscard]] virtual std::string fault() const = 0;
   /// Every bit of the state that the next tick may depend on and that can be seen.
   [[nodiscard]] virtual std::string bytes() const = 0;
+
+  /// The array of rings as it lies in memory, until the next growth.
+  [[nodiscard]] virtual std::span<const std::byte> ring_bytes() const = 0;
 
   [[nodiscard]] virtual const Wheel* wheel() const { return nullptr; }
   [[nodiscard]] virtual const bench::LiteralPaper* literal() const { return nullptr; }

@@ -33,6 +33,7 @@ std::span<const Case> flow_cases();       ///< kernels, shares, growth
 std::span<const Case> input_cases();      ///< poses and times that are no poses and times
 std::span<const Case> force_cases();      ///< direction, size, energy
 std::span<const Case> stability_cases();  ///< the threshold to the ulp, collapse
+std::span<const Case> pinch_cases();      ///< two tools at once
 std::span<const Case> step_cases();       ///< one step computed again; many steps; twice the same
 
 /// All of them, in the order of the table.

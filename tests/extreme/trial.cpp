@@ -37,7 +37,7 @@ Tick Trial::at(const glm::dvec3& hip_mm, bool trim, std::int64_t dt_us) {
   if (!subject_ || !going_well()) return {};
   time_us_ += dt_us;
   ++ticks_;
-  last_ = subject_->step({time_us_, hip_mm, trim});
+  last_ = subject_->step({time_us_, hip_mm, trim, gap_mm_});
   touched_ = touched_ || last_.contact;
   look();
   return last_;

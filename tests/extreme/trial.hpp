@@ -24,6 +24,8 @@ class Trial {
   Subject& subject() { return *subject_; }
   [[nodiscard]] bool going_well() const { return fault_.empty(); }
 
+  /// Of all poses from here on; 0: one tool.
+  void pinch(double gap_mm) { gap_mm_ = gap_mm; }
   /// One tick, `dt_us` after the last one.
   Tick at(const glm::dvec3& hip_mm, bool trim = false, std::int64_t dt_us = 1000);
   /// `ticks` ticks on the straight line between two places, both included.
@@ -49,7 +51,7 @@ class Trial {
   std::int64_t time_us_ = 0;
   std::size_t ticks_ = 0;
   bool touched_ = false, exact_;
-  double largest_force_n_ = 0.0;
+  double largest_force_n_ = 0.0, gap_mm_ = 0.0;
 };
 
 /// Passes if the scene is refused; otherwise plays a stroke and judges that.
