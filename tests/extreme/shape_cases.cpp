@@ -159,7 +159,7 @@ Outcome many_rings(Who who, std::size_t rings) {
   scene.tool.shape = SphereSpec{5.0};
   const double middle_mm = 0.005 * static_cast<double>(rings);
   Trial trial(who, scene);
-  trial.stroke({34.5, middle_mm, 0}, {34, middle_mm + 1, 0}, 2);
+  trial.stroke({40, middle_mm, 0}, {34, middle_mm + 1, 0}, 2);
   trial.at({34, middle_mm, 0});
   trial.require(trial.touched(), "no contact");
   return trial.done();
