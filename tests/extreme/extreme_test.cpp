@@ -2,10 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <set>
 #include <string>
 
 namespace clay::extreme {
+
+/// What googletest says when one fails.
+static void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
 namespace {
 
 class Extreme : public testing::TestWithParam<Case> {};

@@ -100,6 +100,29 @@ Outcome never_moved(Who who) {
   return trial.done("clay went up");
 }
 
+/// A hand at rest keeps the direction it had: after a way up nothing comes to lie below the tool,
+/// after a way down nothing above it.
+Outcome hand_at_rest(Who who) {
+  Trial trial(who, small_pot());
+  const auto rest = [&](const glm::dvec3& from, const glm::dvec3& to, bool above) {
+    trial.stroke(from, to, 10);
+    const double edge = to.y + (above ? 8.0 : -10.0);  // the printed range starts a ring lower
+    const auto gained = [&] {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < trial.subject().rings(); ++i)
+        if ((trial.subject().centre_mm(i) > edge) == above) sum += trial.subject().ring(i).outer_mm;
+      return sum;
+    };
+    const double before = gained();
+    for (int k = 0; k < 20; ++k) trial.at(to);
+    trial.require(gained() == before, "a hand at rest turned the clay about");
+  };
+  rest({40, 28, 0}, {36, 30, 0}, false);
+  rest({36, 31, 0}, {35, 29, 0}, true);
+  trial.require(trial.touched(), "no contact");
+  return trial.done();
+}
+
 /// The top is cut to the thinnest rings there are; then more clay comes up than they can count.
 Outcome growth_onto_an_empty_top(Who who) {
   SceneSpec scene = small_pot();
@@ -196,6 +219,8 @@ constexpr Case kCases[] = {
      one_ring_without_bore},
     {"never_moved", "velocity zero from the first sample, for ever", "clay kept: a default",
      "exact rationals", Verdict::failed, never_moved},
+    {"hand_at_rest", "velocity zero after a way up, and after one down", "the last direction stays",
+     "rings on the other side, to the bit", Verdict::passed, hand_at_rest},
     {"growth_onto_an_empty_top", "excess onto a top ring of next to nothing",
      "the tick ends; clay kept", "exact rationals, count of rings", Verdict::failed,
      growth_onto_an_empty_top},

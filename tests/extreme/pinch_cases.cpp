@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <limits>
 #include <vector>
 
@@ -61,19 +62,28 @@ Outcome pinch_of_a_quantum(Who who) {
   return pinched(who, scene, 30.1, 1e-3, 0.0);
 }
 
-Outcome gap_wider_than_the_pot(Who who) {
+/// Both tools are clear of the wall: of a bore of 24 mm and an outside of 30 mm.
+Outcome nothing_pinched(Who who, const std::vector<glm::dvec2>& distances_and_gaps) {
   if (who == Who::literal) return kOneTool;
   Trial trial(who, pinched_pot(24.0));
   const std::string before = trial.subject().bytes();
-  for (const double gap : {60.0, 1e3, 1e6}) {
-    trial.pinch(gap);
-    trial.stroke({27, 12, 0}, {27, 48, 0}, 50);
+  for (const glm::dvec2& at : distances_and_gaps) {
+    trial.pinch(at.y);
+    trial.stroke({at.x, 12, 0}, {at.x, 48, 0}, 50);
+    trial.require(!trial.touched(), fmt::format("contact at d = {}, gap {} mm", at.x, at.y));
+    trial.require(trial.largest_force_n() == 0.0, "a force from nothing");
+    trial.require(trial.subject().bytes() == before, "the clay has moved");
   }
-  // The inner tool of a wide gap reaches beyond the axis, into the far wall, when it is too near.
-  trial.require(trial.largest_force_n() <= 5.0, "too strong");
-  return trial.done(trial.subject().bytes() == before ? "nothing touched"
-                                                      : "the inner tool met the far wall");
+  return trial.done();
 }
+
+Outcome gap_wider_than_the_pot(Who who) {
+  return nothing_pinched(who, {{27, 60}, {27, 200}, {27, 1e3}, {0, 1e3}, {27, 1e6}});
+}
+Outcome pinch_beside_the_pot(Who who) {
+  return nothing_pinched(who, {{50, 1}, {100, 100}, {1e3, 1}, {9e5, 1}});
+}
+Outcome pinch_in_a_free_bore(Who who) { return nothing_pinched(who, {{0, 1}, {5, 3}, {-7, 1}}); }
 
 Outcome gaps_that_are_none(Who who) {
   if (who == Who::literal) return kOneTool;
@@ -142,8 +152,12 @@ constexpr Case kCases[] = {
      Verdict::not_in_print, pinch_on_the_axis},
     {"pinch_of_a_quantum", "a wall of one quantum between two tools", "clay kept, r < R",
      "exact rationals, invariants", Verdict::not_in_print, pinch_of_a_quantum},
-    {"gap_wider_than_the_pot", "gaps of 60 mm to 1 km", "clay kept, finite",
-     "exact rationals, interval", Verdict::not_in_print, gap_wider_than_the_pot},
+    {"gap_wider_than_the_pot", "gaps of 60 mm to 1 km", "no contact, state to the bit", "bytes",
+     Verdict::not_in_print, gap_wider_than_the_pot},
+    {"pinch_beside_the_pot", "both tools outside, to 900 m", "no contact, state to the bit",
+     "bytes", Verdict::not_in_print, pinch_beside_the_pot},
+    {"pinch_in_a_free_bore", "both tools inside, touching nothing", "no contact, state to the bit",
+     "bytes", Verdict::not_in_print, pinch_in_a_free_bore},
     {"gaps_that_are_none", "NaN, inf, negative, 1e300", "refused, state to the bit", "bytes",
      Verdict::not_in_print, gaps_that_are_none},
     {"gap_not_in_the_scene", "a gap where the scene sets none", "refused", "bytes",
