@@ -97,8 +97,8 @@ TEST(Pinch, SettingsAreChecked) {
   for (const auto& [gap, message] :
        {std::pair<std::optional<double>, std::string>{
             std::nullopt, "tool.gap_mm: expected a gap for mode pinch, found none"},
-        {0.0, "tool.gap_mm: expected a value from 0.001000 to 1000.000000, found 0.000000"},
-        {std::nan(""), "tool.gap_mm: expected a value from 0.001000 to 1000.000000, found nan"}}) {
+        {0.0, "tool.gap_mm: expected a value from 0.001 to 1000, found 0"},
+        {std::nan(""), "tool.gap_mm: expected a value from 0.001 to 1000, found nan"}}) {
     scene.tool.gap_mm = gap;
     const auto wheel = Wheel::build(scene);
     ASSERT_FALSE(wheel);
