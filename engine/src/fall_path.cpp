@@ -4,6 +4,7 @@
 #include "fallen_body.hpp"
 #include "yield_power.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
@@ -108,13 +109,21 @@ class Fall {
   }
 
   void commit(const Course& course, double time) {
-    power_.place(pose_);
-    const double before = power_.plastic(course.twist(body_.gyration_mm()));
     const Slid there = slid(course, time);
-    power_.place(there.pose);
-    const double after = power_.plastic(there.course.twist(body_.gyration_mm()));
-    pose_ = there.pose;
-    plastic_mj_ += weight_n_ * time * 0.5 * (before + after);
+    move_to(there.pose, course.twist(body_.gyration_mm()),
+            there.course.twist(body_.gyration_mm()), time);
+  }
+
+  /// The step ends where it wins no more: a face that lands there has cost nothing on the way.
+  void move_to(const PlanePose& pose, const Twist& setting_off, const Twist& arriving,
+               double time) {
+    power_.place(pose_);
+    const double before = power_.plastic(setting_off);
+    power_.place(pose);
+    const double after = power_.plastic(arriving);
+    const double fallen_mm = pose_.centre_mm.y - pose.centre_mm.y;
+    plastic_mj_ += weight_n_ * std::min(0.5 * time * (before + after), fallen_mm);
+    pose_ = pose;
     keep();
   }
 
@@ -156,7 +165,7 @@ class Fall {
 
   /// About the contact that stays: the one that a little more of the turn would make the only one.
   [[nodiscard]] Course rolling(const PlanePose& pose, double sense) const noexcept {
-    constexpr double kAhead = 1e-7;
+    constexpr double kAhead = 1e-10;
     const glm::dvec2 contact = body_.lowest(pose.angle_rad + sense * kAhead);
     return {{-sense * pose.centre_mm.y, -sense * contact.x}, sense};
   }
@@ -175,9 +184,9 @@ class Fall {
   }
 
   bool roll_step(double sense) {
-    const double scale = YieldPower::kRest * body_.gyration_mm();
-    if (!(rolling_net(pose_, sense) > scale)) return false;
-    const double before = power_.plastic(rolling(pose_, sense).twist(body_.gyration_mm()));
+    const Twist setting_off = rolling(pose_, sense).twist(body_.gyration_mm());
+    power_.place(pose_);
+    if (!(power_.net(setting_off) > YieldPower::kRest * glm::length(setting_off))) return false;
     double turn = 1.0 / kStepsPerReach;
     if (rolling_net(rolled(sense * turn), sense) < 0.0) {
       double low = 0.0, high = turn;
@@ -187,11 +196,8 @@ class Fall {
       }
       turn = high;
     }
-    pose_ = rolled(sense * turn);
-    power_.place(pose_);
-    const double after = power_.plastic(rolling(pose_, sense).twist(body_.gyration_mm()));
-    plastic_mj_ += weight_n_ * turn * 0.5 * (before + after);
-    keep();
+    const PlanePose there = rolled(sense * turn);
+    move_to(there, setting_off, rolling(there, sense).twist(body_.gyration_mm()), turn);
     return true;
   }
 

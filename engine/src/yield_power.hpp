@@ -36,7 +36,7 @@ class YieldPower {
   /// of kinetic energy m/2 has a net power above kRest times the weight.
   [[nodiscard]] Twist steepest() const noexcept;
 
-  static constexpr double kRest = 1e-3;
+  static constexpr double kRest = 1e-6;
 
  private:
   struct Touch {
