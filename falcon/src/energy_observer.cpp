@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace clay::falcon {
 namespace {
 
 constexpr double kDoubtfulSteps = 4.0;
+constexpr double kPieceSteps = 16.0;
 
 }  // namespace
 
@@ -30,18 +32,22 @@ bool EnergyObserver::observe(double dt_s, const glm::dvec3& held_n, const glm::d
 
   const bool asks = glm::length(asked_n) > 0.0;
   quiet_ticks_ = asks ? 0 : quiet_ticks_ + 1;
-  if (asks && !in_contact_) {
-    in_contact_ = true;
-    before_contact_ = injected_;
-    last_peak_n_ = peak_n_;
-    peak_n_ = 0.0;
-    stroke_ = {};
-    last_turn_.reset();
-  }
+  if (asks && !in_contact_) begin_contact(dt_s, way_m);
   // The last forces of a contact are on their way when it has ceased to ask for any.
   const bool ends = in_contact_ && quiet_ticks_ >= drain_ticks_;
   if (ends) end_contact();
   return ends;
+}
+
+void EnergyObserver::begin_contact(double dt_s, const glm::dvec3& way_m) noexcept {
+  in_contact_ = true;
+  before_contact_ = injected_;
+  last_peak_n_ = std::exchange(peak_n_, 0.0);
+  stroke_ = {};
+  last_turn_.reset();
+  // The surface was passed on the way to this reading.
+  const double sure = std::max(0.0, glm::length(way_m) - step_m_);
+  if (dt_s > 0.0) injected_ -= damping_ * sure * sure / dt_s;
 }
 
 void EnergyObserver::follow_stroke(double dt_s, double held_n, double inward_m) noexcept {
@@ -54,11 +60,12 @@ void EnergyObserver::follow_stroke(double dt_s, double held_n, double inward_m) 
     injected_ -= held_n * beyond;
     s.furthest_m = s.depth_m;
     s.force_n = held_n;
-    s.doubtful_j = 0.0;
+    s.doubtful_j = s.doubtful_s = 0.0;
     credit_stroke();
     return;
   }
   s.doubtful_j -= held_n * inward_m;
+  s.doubtful_s += dt_s;
   if (std::abs(beyond) <= kDoubtfulSteps * step_m_) return;
   if (s.sign > 0.0) close_loop();
   injected_ += s.doubtful_j;
@@ -68,8 +75,10 @@ void EnergyObserver::follow_stroke(double dt_s, double held_n, double inward_m) 
              .furthest_m = s.depth_m,
              .force_n = held_n,
              .doubtful_j = 0.0,
-             .time_s = dt_s,
+             .doubtful_s = 0.0,
+             .time_s = s.doubtful_s,
              .credit_j = 0.0};
+  credit_stroke();
 }
 
 /// The spring may have stored no less than the smaller force along the way deeper, and have given
@@ -87,12 +96,16 @@ void EnergyObserver::close_loop() noexcept {
 }
 
 /// The arm's own damping takes at least b L^2 / t out of a way L in the time t (Cauchy, Schwarz),
-/// and an encoder knows L to a step.
+/// and an encoder knows L to a step. Pieces of some steps lose little by either.
 void EnergyObserver::credit_stroke() noexcept {
-  const double way = std::max(0.0, std::abs(stroke_.furthest_m - stroke_.from_m) - step_m_);
-  const double credit = std::max(stroke_.credit_j, damping_ * way * way / stroke_.time_s);
-  injected_ -= credit - stroke_.credit_j;
-  stroke_.credit_j = credit;
+  Stroke& s = stroke_;
+  const double length = std::abs(s.furthest_m - s.from_m), sure = std::max(0.0, length - step_m_);
+  const double credit = std::max(s.credit_j, damping_ * sure * sure / s.time_s);
+  injected_ -= credit - s.credit_j;
+  s.credit_j = credit;
+  if (length < kPieceSteps * step_m_) return;
+  s.from_m = s.furthest_m;
+  s.time_s = s.credit_j = 0.0;
 }
 
 void EnergyObserver::end_contact() noexcept {

@@ -62,7 +62,8 @@ class EnergyObserver {
     double depth_m = 0.0;     // where the arm is,
     double furthest_m = 0.0;  // the furthest it was,
     double force_n = 0.0;     // the force there
-    double doubtful_j = 0.0;  // and the work since
+    double doubtful_j = 0.0;  // and the work and time since
+    double doubtful_s = 0.0;
     double time_s = 0.0;
     double credit_j = 0.0;  // dissipated for sure by the arm
   };
@@ -71,6 +72,7 @@ class EnergyObserver {
     double injected_j, depth_m, force_n;
   };
 
+  void begin_contact(double dt_s, const glm::dvec3& way_m) noexcept;
   void follow_stroke(double dt_s, double held_n, double inward_m) noexcept;
   void credit_stroke() noexcept;
   void close_loop() noexcept;
