@@ -4,7 +4,7 @@
 // bound, after J.-P. Kim, J. Ryu, "Robustly stable haptic interaction control using an
 // energy-bounding algorithm", Int. J. Robotics Research 29(6), 2010: force has to be earned by the
 // way into the contact, at accepted_stiffness at most. A contact as soft as that passes unchanged.
-// Behind it, for what no damping saves (an arm with less damping than it was said to have), the
+// Behind it, for what no damping saves (a force later than was said), the
 // bound is halved, and then there is no force.
 //
 //   watching <-> damping     earned at accepted_stiffness; damping while there is a debt
