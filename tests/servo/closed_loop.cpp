@@ -169,8 +169,8 @@ bool grows(const falcon::SampledLoop& loop, double stiffness) {
 }  // namespace
 
 double measured_stable_stiffness(const falcon::SampledLoop& loop, double tolerance) {
-  // From where a swing takes a hundred periods: any arm with damping holds that.
-  double low = 1e-6 * loop.mass_kg * loop.rate_hz * loop.rate_hz, high = low;
+  // From where a swing takes a thousand periods and more: the arms in question hold that.
+  double low = 2e-5 * loop.mass_kg * loop.rate_hz * loop.rate_hz, high = low;
   while (!grows(loop, high)) high *= 2.0;
   low = 0.5 * high;
   while (high - low > tolerance * high) {
