@@ -216,6 +216,17 @@ Experiment wall_experiment(const falcon::SampledLoop& loop, double stiffness_n_p
   return e;
 }
 
+Experiment energy_experiment(const falcon::SampledLoop& loop, double stiffness_n_per_m) {
+  Experiment e;
+  e.arm.loop = loop;
+  e.hand.push_n = {-0.5, 0.0, 0.0};
+  e.start_m = {-1.1 * 0.5 / stiffness_n_per_m, 0.0, 0.0};
+  const double swing_s = 2.0 * std::numbers::pi * std::sqrt(loop.mass_kg / stiffness_n_per_m);
+  e.seconds = 20.0 * std::max(swing_s, 8.0 / loop.rate_hz);
+  e.settled_s = 0.5 * e.seconds;
+  return e;
+}
+
 Experiment clay_experiment(const falcon::SampledLoop& loop, double step_m) {
   Experiment e;
   e.arm = {loop, 0.0, step_m};

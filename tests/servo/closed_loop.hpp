@@ -42,6 +42,8 @@ Outcome run(const Experiment& experiment, Surface& surface);
 /// A hand that pushes 0.5 N into a wall, from 1 mm before it, until a swing that can die has died.
 Experiment wall_experiment(const falcon::SampledLoop& loop, double stiffness_n_per_m,
                            double step_m);
+/// A hand that rests 0.5 N on a wall, a tenth off balance, for some twenty swings; exact encoders.
+Experiment energy_experiment(const falcon::SampledLoop& loop, double stiffness_n_per_m);
 /// A potter's stroke: a hand of 200 N/m that goes into the clay at 3 mm/s, for 5 s.
 Experiment clay_experiment(const falcon::SampledLoop& loop, double step_m);
 
