@@ -73,7 +73,6 @@ TEST(Energy, IsInjectedInNoCycleBelowTheBorderAndInSomeAbove) {
           if (part * border < passive_stiffness(loop)) {
             EXPECT_LE(o.worst_cycle_j, 0.0) << cell;
           }
-          EXPECT_LE(o.injected_j, o.tolerance_j) << cell;
         }
         EXPECT_GT(resting(loop, 1.1 * border).mean_cycle_j, 0.0) << rate << damping << delay;
       }
