@@ -177,7 +177,9 @@ bool Wheel::collapsed() const noexcept { return state_->failure.has_value(); }
 Pot Wheel::pot() const {
   const State& s = *state_;
   Pot pot{s.stack, s.ledger, s.plan.model, s.plan.density_g_cm3, {}, {}};
-  if (s.failure) pot.collapse = settle(s.stack, *s.failure, s.failure_hip);
+  if (s.failure)
+    pot.collapse = settle(s.stack, s.plan.density_g_cm3, *s.failure, s.failure_hip,
+                          s.plan.stability.max_stress_kpa);
   return pot;
 }
 
