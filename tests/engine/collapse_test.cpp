@@ -5,16 +5,19 @@
 #include "stack_samples.hpp"
 
 #include <gtest/gtest.h>
-#include <rapidcheck/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <random>
+#include <utility>
 #include <vector>
 
 namespace clay {
 namespace {
 
 using falls::kPi;
-constexpr double kCell = 0.25, kSlack = 0.02;
+constexpr double kCell = 0.3, kSlack = 0.02;
 constexpr double kSoft = 1e-7;  // kPa: clay that carries nothing
 
 Ring ring_of(double outer_mm, double inner_mm = 0.0) {
@@ -46,9 +49,9 @@ TEST(Collapse, ColumnSinksStraightDownToTheWheel) {
   const Pot pot = fallen(stack_of(2.0, rings), 9, {0, 20, 0}, 0.5 * 1.9e-3 * 9.80665 * 60.0);
   const Collapse& c = *pot.collapse;
   EXPECT_NEAR(c.angle_rad, 0.0, 1e-9);
-  EXPECT_NEAR(c.shift_mm.y, -20.0, 1e-9);
+  EXPECT_NEAR(c.shift_mm.y, -20.0, 1e-8);
   EXPECT_NEAR(lowest_mm(pot), 0.0, 1e-9);
-  EXPECT_NEAR(c.potential_lost_mj, weight_n(pot) * 20.0, 1e-9);
+  EXPECT_NEAR(c.potential_lost_mj, weight_n(pot) * 20.0, 1e-8);
   EXPECT_NEAR(c.plastic_work_mj / (0.5 * weight_n(pot) * 20.0), 1.0, 1e-9);
 }
 
@@ -56,7 +59,7 @@ TEST(Collapse, NarrowTubeFallsIntoAWideOneUnhindered) {
   std::vector<Ring> rings(10, ring_of(34, 30));
   rings.resize(40, ring_of(14, 10));
   const Pot pot = fallen(stack_of(2.0, rings), 9, {0, 20, 0}, 50.0);
-  EXPECT_NEAR(pot.collapse->shift_mm.y, -20.0, 1e-9);
+  EXPECT_NEAR(pot.collapse->shift_mm.y, -20.0, 1e-8);
   EXPECT_EQ(pot.collapse->plastic_work_mj, 0.0);
 }
 
@@ -114,27 +117,22 @@ TEST(Collapse, RollsWithoutSlipping) {
 }
 
 TEST(Collapse, ConeComesToLieOnItsFlank) {
-  // Radii from 30 to 1.5 mm; the tops of the rings lie on the flank.
+  // Wider at the top, by half a millimetre a ring of 2 mm: it falls onto the far rim's side, and
+  // lies on the line through the tops of its rings.
   std::vector<Ring> rings{ring_of(1.0)};
-  for (int i = 0; i < 58; ++i) rings.push_back(ring_of(30.0 - 0.5 * i));
-  const Pot pot = fallen(stack_of(2.0, rings), 0, {0.5, 60.0, 0.0}, kSoft);
-  (void)pot;
-  // Thrown over by a push at its side, it lies on the flank: the slope is half a millimetre in two.
-  const Pot tipped = fallen(stack_of(2.0, rings), 0, {200.0, 118.0, 0.0}, kSoft);
-  const double flank = kPi / 2 + std::atan(0.25);
-  if (tipped.collapse->angle_rad > 0.5) {
-    EXPECT_NEAR(tipped.collapse->angle_rad, flank, 1e-6);
-  }
-  EXPECT_NEAR(lowest_mm(tipped), 0.0, 1e-9);
+  for (int i = 0; i < 60; ++i) rings.push_back(ring_of(4.0 + 0.5 * i));
+  const Pot pot = fallen(stack_of(2.0, rings), 0, {2.5, 2.0, 0.0}, kSoft);
+  EXPECT_NEAR(pot.collapse->angle_rad, kPi / 2 - std::atan(0.25), 1e-6);
+  EXPECT_NEAR(lowest_mm(pot), 0.0, 1e-9);
 }
 
 TEST(Collapse, OnlyTheCrownFalls) {
   const Ring top = ring_of(20, 15);
   const ClayStack stack = stack_of(4.0, {ring_of(20), top}, top.volume() / 4);
   const Pot pot = fallen(stack, 1, {0, 8, 0}, kSoft);
-  EXPECT_NEAR(pot.collapse->shift_mm.y, -8.0, 1e-9);
-  EXPECT_NEAR(pot.collapse->potential_lost_mj, 1.9e-6 * 9.80665 * kPi * (400 - 225) * 1.0 * 8.0,
-              1e-9);
+  // Flat to the 1e-10 rad within which a foot counts as flat.
+  EXPECT_NEAR(pot.collapse->shift_mm.y, -8.0, 1e-8);
+  EXPECT_NEAR(pot.collapse->potential_lost_mj, 1.9e-6 * 9.80665 * kPi * (400 - 225) * 8.0, 1e-9);
 }
 
 TEST(Collapse, OneRingHasNothingToFall) {
@@ -177,10 +175,13 @@ TEST(Collapse, TheSameToEverySide) {
 /// A vessel of any kind, failing at any ring, pressed from anywhere.
 Pot any_fall(std::mt19937_64& random) {
   const auto uniform = [&] { return samples::uniform(random); };
-  const auto count = *rc::gen::inRange<std::size_t>(2, 60);
+  const auto pick = [&](std::size_t from, std::size_t end) {
+    return from + random() % (end - from);
+  };
+  const auto count = pick(2, 50);
   const double h = 0.5 + 3.0 * uniform(), radius = 15 + 20 * uniform(), wall = 2 + 10 * uniform();
   const double wave = 8 * uniform(), pitch = 0.3 * uniform();
-  const bool jagged = *rc::gen::inRange(0, 3) == 0;
+  const bool jagged = pick(0, 3) == 0;
   std::vector<Ring> rings;
   for (std::size_t i = 0; i < count; ++i) {
     const double outer = jagged ? radius * (1.0 + uniform())
@@ -188,38 +189,40 @@ Pot any_fall(std::mt19937_64& random) {
     rings.push_back(ring_of(outer, std::max(0.0, outer - wall)));
   }
   ClayStack stack = stack_of(h, rings);
-  const auto failed = *rc::gen::inRange<std::size_t>(0, count - 1);
+  const auto failed = pick(0, count - 1);
   const double face = kPi * mm2_from_quanta(stack.rings()[failed].volume());
   const double stress = 9.80665e3 * falls::weight_above(falls::pot_of(stack), failed).kg / face;
   const glm::dvec3 hip{80 * uniform(), h * (static_cast<double>(failed) + 6 * uniform() - 2),
                        20 * uniform()};
-  const double share = *rc::gen::element(0.999, 0.7, 0.3, 0.01);
+  const double share = std::array{0.999, 0.7, 0.3, 0.01}[pick(0, 4)];
   return fallen(std::move(stack), failed, hip, share * stress);
 }
 
-RC_GTEST_PROP(Collapse, EnergyOnlyFallsAndNothingDipsIntoTheWheel, ()) {
-  auto random = *samples::random_engine();
+class AnyFall : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(AnyFall, EnergyOnlyFallsAndNothingDipsIntoTheWheel) {
+  std::mt19937_64 random(GetParam());
   const Pot pot = any_fall(random);
   const auto frames = fall_frames(pot);
-  RC_ASSERT(frames.front().angle_rad == 0.0);
-  RC_ASSERT(glm::length(frames.front().shift_mm) < 1e-12);
+  EXPECT_EQ(frames.front().angle_rad, 0.0);
+  EXPECT_LT(glm::length(frames.front().shift_mm), 1e-12);
   double last = 1e300, spent = 0.0;
   for (const FallFrame& frame : frames) {
     Collapse then = *pot.collapse;
     then.angle_rad = frame.angle_rad;
     then.shift_mm = frame.shift_mm;
     const double energy = falls::potential_mj(pot, then);
-    RC_ASSERT(std::abs(energy - frame.potential_mj) < 1e-9 * (1.0 + energy));
-    RC_ASSERT(energy <= last + 1e-9);
-    RC_ASSERT(frame.plastic_mj >= spent);
-    RC_ASSERT(frame.plastic_mj <= frames.front().potential_mj - frame.potential_mj + 1e-9);
-    RC_ASSERT(falls::lowest_mm(pot, then) > -1e-9);
+    ASSERT_NEAR(energy, frame.potential_mj, 1e-9 * (1.0 + energy));
+    ASSERT_LE(energy, last + 1e-9);
+    ASSERT_GE(frame.plastic_mj, spent);
+    ASSERT_LE(frame.plastic_mj, frames.front().potential_mj - frame.potential_mj + 1e-9);
+    ASSERT_GT(falls::lowest_mm(pot, then), -1e-9);
     last = energy;
     spent = frame.plastic_mj;
   }
-  RC_ASSERT(frames.back().angle_rad == pot.collapse->angle_rad);
-  RC_ASSERT(frames.back().shift_mm == pot.collapse->shift_mm);
-  RC_ASSERT(pot.collapse->plastic_work_mj == spent);
+  EXPECT_EQ(frames.back().angle_rad, pot.collapse->angle_rad);
+  EXPECT_EQ(frames.back().shift_mm, pot.collapse->shift_mm);
+  EXPECT_EQ(pot.collapse->plastic_work_mj, spent);
 }
 
 /// The ends of what touches the wheel, along `outward`: left, right. NaN where nothing does.
@@ -270,21 +273,14 @@ double most_won(const Pot& pot, std::mt19937_64& random) {
   return most;
 }
 
-RC_GTEST_PROP(Collapse, AtRestNoMotionWinsPower, ()) {
-  auto random = *samples::random_engine();
+TEST_P(AnyFall, RestsWhereNoMotionWinsPower) {
+  std::mt19937_64 random(GetParam());
   const Pot pot = any_fall(random);
-  const double won = most_won(pot, random);
-  if (won > 0.03) {
-    const auto f = fall_frames(pot);
-    printf(
-        "won %g jag %d n %zu failed %zu h %g hip %g %g frames %zu angle %g shift %g lowest %g thr "
-        "%g\n",
-        won, pot.stack.rings()[0].outer_mm() > 0, pot.stack.size(), pot.collapse->failed_ring,
-        pot.stack.ring_height_mm(), std::hypot(pot.collapse->pivot_mm.x, pot.collapse->pivot_mm.z),
-        pot.collapse->pivot_mm.y, f.size(), pot.collapse->angle_rad, pot.collapse->shift_mm.y,
-        lowest_mm(pot), pot.collapse->threshold_kpa / pot.collapse->stress_kpa);
-  }
+  // Both see the surface in samples, and not the same ones.
+  EXPECT_LT(most_won(pot, random), 0.02);
 }
+
+INSTANTIATE_TEST_SUITE_P(Collapse, AnyFall, testing::Range<std::uint64_t>(0, 24));
 
 }  // namespace
 }  // namespace clay
