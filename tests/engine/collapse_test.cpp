@@ -51,7 +51,7 @@ TEST(Collapse, ColumnSinksStraightDownToTheWheel) {
   EXPECT_NEAR(c.angle_rad, 0.0, 1e-9);
   EXPECT_NEAR(c.shift_mm.y, -20.0, 1e-8);
   EXPECT_NEAR(lowest_mm(pot), 0.0, 1e-9);
-  EXPECT_NEAR(c.potential_lost_mj, weight_n(pot) * 20.0, 1e-8);
+  EXPECT_NEAR(c.energy_lost_mj, weight_n(pot) * 20.0, 1e-8);
   EXPECT_NEAR(c.plastic_work_mj / (0.5 * weight_n(pot) * 20.0), 1.0, 1e-9);
 }
 
@@ -132,7 +132,7 @@ TEST(Collapse, OnlyTheCrownFalls) {
   const Pot pot = fallen(stack, 1, {0, 8, 0}, kSoft);
   // Flat to the 1e-10 rad within which a foot counts as flat.
   EXPECT_NEAR(pot.collapse->shift_mm.y, -8.0, 1e-8);
-  EXPECT_NEAR(pot.collapse->potential_lost_mj, 1.9e-6 * 9.80665 * kPi * (400 - 225) * 8.0, 1e-9);
+  EXPECT_NEAR(pot.collapse->energy_lost_mj, 1.9e-6 * 9.80665 * kPi * (400 - 225) * 8.0, 1e-9);
 }
 
 TEST(Collapse, OneRingHasNothingToFall) {
@@ -140,7 +140,7 @@ TEST(Collapse, OneRingHasNothingToFall) {
     const Pot pot = fallen(stack_of(4.0, {ring_of(20)}), 0, {x, 2, 0}, 1.0);
     EXPECT_EQ(pot.collapse->angle_rad, 0.0);
     EXPECT_EQ(pot.collapse->shift_mm, glm::dvec3(0.0));
-    EXPECT_EQ(pot.collapse->potential_lost_mj, 0.0);
+    EXPECT_EQ(pot.collapse->energy_lost_mj, 0.0);
   }
 }
 
