@@ -60,7 +60,9 @@ void measure(bench::Report& report, const std::vector<bench::RegisteredSection>&
   Progress progress(console, "measuring", 0);
   for (const auto& section : chosen) {
     const std::string name(section.id);
-    effort.progress = [&](std::string_view stage) { progress.stage(name + ", " + std::string(stage)); };
+    effort.progress = [&](std::string_view stage) {
+      progress.stage(name + ", " + std::string(stage));
+    };
     progress.stage(name);
     report.sections.push_back(section.measure(effort));
   }

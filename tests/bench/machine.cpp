@@ -23,8 +23,11 @@ std::string cpu_model() {
 std::string system_name() {
   utsname name{};
   if (uname(&name) != 0) return "unknown";
-  return std::string(name.sysname).append(" ").append(name.release).append(" ").append(
-      name.machine);
+  return std::string(name.sysname)
+      .append(" ")
+      .append(name.release)
+      .append(" ")
+      .append(name.machine);
 }
 
 }  // namespace
@@ -35,8 +38,7 @@ Machine this_machine() {
 #else
   const std::string compiler = "GCC " __VERSION__;
 #endif
-  return {cpu_model(),     std::thread::hardware_concurrency(),
-          system_name(),   compiler,
+  return {cpu_model(),     std::thread::hardware_concurrency(),        system_name(), compiler,
           CLAYSTACK_FLAGS, CLAYSTACK_VERSION " (" CLAYSTACK_COMMIT ")"};
 }
 

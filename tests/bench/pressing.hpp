@@ -1,40 +1,61 @@
 #pragma once
-// The work that the ticks are timed by: a tool that is pressed into the middle of a lump.
+// The work that ticks are timed by: a tool pressed into the middle of a hollow lump.
 
+#include "bench/literal_paper.hpp"
 #include "claystack/engine/scene.hpp"
 #include "claystack/engine/wheel.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 namespace clay::bench {
 
 inline constexpr int kPressTicks = 1000;  ///< of 1 ms
+inline constexpr double kPressMm = 6.0;   ///< inward, and as far upward
 
-/// Hollow, with a ball that touches about 30 rings while it is pressed, every stage in.
+/// Every stage in but the pinch; a ball that touches about 30 rings.
 [[nodiscard]] SceneSpec press_scene(std::size_t rings);
-/// The same with a rib so high that it touches so many rings, on a stack to suit.
+/// The same with an upright rib that touches as many rings as are named, from 1 to 300.
 [[nodiscard]] SceneSpec rib_scene(std::size_t touched);
+/// The same scene in the paper's own terms: K, mu and the threshold of stress as well.
+[[nodiscard]] LiteralScene literal_of(const SceneSpec& scene, LiteralWriting writing);
 
-/// Where the tool is at a tick: pressed in, rising a little all the while.
-[[nodiscard]] Pose press_pose(const SceneSpec& scene, double middle_mm, int tick);
-
-/// Presses a lump again and again, each time at a place that has not been pressed yet.
+/// Presses a lump at one place after the other; when there is none left it takes a new lump.
 class Presser {
  public:
-  /// `scene` must be one that Wheel::build takes.
+  /// Of a scene that Wheel::build takes.
   explicit Presser(const SceneSpec& scene);
-  /// Seconds of the ticks of one press; making the lump and going there are not counted.
+  /// Seconds of the ticks of one press. To make the lump and to go there does not count.
   double press();
-  /// Rings touched by the median tick of the last press.
+  /// The mean tick of the last press. 0 before any.
   [[nodiscard]] double rings_touched() const { return touched_; }
+  /// Seconds of the first tick at the other end of the stack.
+  double jump();
 
  private:
+  [[nodiscard]] Pose pose(double middle_mm, int tick) const;
   void next_place();
   SceneSpec scene_;
   std::optional<Wheel> wheel_;
   std::size_t place_ = 0, places_ = 0;
   std::int64_t time_us_ = 0;
+  double first_distance_mm_ = 0.0;
+  double touched_ = 0.0;
+};
+
+/// The same of the literal paper, a new lump for each press.
+class LiteralPresser {
+ public:
+  LiteralPresser(const SceneSpec& scene, LiteralWriting writing, int ticks = kPressTicks);
+  double press();
+  [[nodiscard]] double rings_touched() const { return touched_; }
+  [[nodiscard]] int ticks() const { return ticks_; }
+
+ private:
+  LiteralScene scene_;
+  double first_distance_mm_;
+  int ticks_;
   double touched_ = 0.0;
 };
 

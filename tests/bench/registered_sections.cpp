@@ -21,9 +21,9 @@ Result<std::vector<RegisteredSection>> chosen_sections(const std::vector<std::st
       std::string known;
       for (const RegisteredSection& section : all)
         known.append(known.empty() ? "" : ", ").append(section.id);
-      return failure(ErrorKind::bad_input,
-                     std::string("--only: expected some of ").append(known).append(
-                         ", found ").append(name));
+      return failure(
+          ErrorKind::bad_input,
+          std::string("--only: expected some of ").append(known).append(", found ").append(name));
     }
   std::vector<RegisteredSection> chosen;
   std::ranges::copy_if(all, std::back_inserter(chosen), [&](const RegisteredSection& section) {

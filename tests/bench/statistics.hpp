@@ -9,7 +9,7 @@ namespace clay::bench {
 struct Spread {
   double low = 0.0;  ///< a quarter of the repetitions lies below
   double median = 0.0;
-  double high = 0.0;  ///< a quarter lies above
+  double high = 0.0;                                         ///< a quarter lies above
   [[nodiscard]] double range() const { return high - low; }  ///< interquartile range
 };
 

@@ -48,14 +48,16 @@ Timed time_once(const Work& work, benchmark::IterationCount repetitions, double 
 
 }  // namespace
 
-Rounds rounds_of(const Effort& effort) { return effort.quick ? Rounds{15, 0.01} : Rounds{41, 0.05}; }
+Rounds rounds_of(const Effort& effort) {
+  return effort.quick ? Rounds{15, 0.01} : Rounds{41, 0.05};
+}
 
 std::vector<Samples> time_rounds(const std::vector<Work>& works, const Rounds& rounds) {
   std::vector<benchmark::IterationCount> repetitions;
   // The first run finds out how often; it warms up, too, and does not count.
   for (const Work& work : works)
-    repetitions.push_back(std::max<benchmark::IterationCount>(
-        1, time_once(work, 0, rounds.least_s).repetitions));
+    repetitions.push_back(
+        std::max<benchmark::IterationCount>(1, time_once(work, 0, rounds.least_s).repetitions));
   std::vector<Samples> samples(works.size());
   std::vector<std::size_t> order(works.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -28,7 +28,8 @@ using Samples = std::vector<double>;
 
 /// In every round each work once, in an order that changes from round to round: what the machine
 /// does besides hits all alike, and ratios are to be taken round by round (`ratio_of`).
-[[nodiscard]] std::vector<Samples> time_rounds(const std::vector<Work>& works, const Rounds& rounds);
+[[nodiscard]] std::vector<Samples> time_rounds(const std::vector<Work>& works,
+                                               const Rounds& rounds);
 
 /// Seconds that a call takes.
 template <class Call>

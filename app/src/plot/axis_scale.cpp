@@ -10,7 +10,7 @@ namespace clay::plot {
 namespace {
 
 constexpr double kLinearParts = 6.0;
-constexpr int kMostDecades = 8;     // labelled one by one; of more, every second and so on
+constexpr int kMostDecades = 8;      // labelled one by one; of more, every second and so on
 constexpr double kFewDecades = 2.5;  // so few have 2 and 5 labelled as well
 constexpr double kSlack = 1e-9;      // a tick at the end of the range is within it
 
@@ -89,8 +89,8 @@ std::vector<Tick> AxisScale::decade_ticks() const {
     for (int factor = 1; factor < 10; ++factor) {
       const double value = factor * std::pow(10.0, power);
       if (value < low_ * (1.0 - kSlack) || value > high_ * (1.0 + kSlack)) continue;
-      const bool labelled = factor == 1 ? power % every == 0
-                                        : decades < kFewDecades && (factor == 2 || factor == 5);
+      const bool labelled =
+          factor == 1 ? power % every == 0 : decades < kFewDecades && (factor == 2 || factor == 5);
       if (!labelled && (factor != 1 && every > 1)) continue;
       ticks.push_back({value, labelled ? decade_label(factor, power, plain) : std::string()});
     }

@@ -11,22 +11,21 @@
 namespace clay::plot {
 namespace {
 
-constexpr double kHeight = 340.0;           // of the frame
+constexpr double kHeight = 340.0;  // of the frame
 constexpr std::size_t kColours = 7;
-constexpr std::size_t kMostMarks = 60;      // of more points a line alone is drawn
+constexpr std::size_t kMostMarks = 60;  // of more points a line alone is drawn
 constexpr std::size_t kUnthinned = 2000;
-constexpr double kPxPerLetter = 7.3;        // of 13 px, on the wide side
-constexpr double kRow = 21.0;               // of the legend
+constexpr double kPxPerLetter = 7.3;  // of 13 px, on the wide side
+constexpr double kRow = 21.0;         // of the legend
 
 /// Shapes of about one area, around (0, 0).
-constexpr const char* kMarks[] = {
-    "M-3.6 0a3.6 3.6 0 1 0 7.2 0a3.6 3.6 0 1 0 -7.2 0Z",
-    "M-3.2 -3.2H3.2V3.2H-3.2Z",
-    "M0 -4.6L4.2 3H-4.2Z",
-    "M0 -4.6L4.6 0 0 4.6 -4.6 0Z",
-    "M0 4.6L4.2 -3H-4.2Z",
-    "M-1.3 -4.2H1.3V-1.3H4.2V1.3H1.3V4.2H-1.3V1.3H-4.2V-1.3H-1.3Z",
-    "M-4.6 -3.2L0 -1 4.6 -3.2 0 4.6Z"};
+constexpr const char* kMarks[] = {"M-3.6 0a3.6 3.6 0 1 0 7.2 0a3.6 3.6 0 1 0 -7.2 0Z",
+                                  "M-3.2 -3.2H3.2V3.2H-3.2Z",
+                                  "M0 -4.6L4.2 3H-4.2Z",
+                                  "M0 -4.6L4.6 0 0 4.6 -4.6 0Z",
+                                  "M0 4.6L4.2 -3H-4.2Z",
+                                  "M-1.3 -4.2H1.3V-1.3H4.2V1.3H1.3V4.2H-1.3V1.3H-4.2V-1.3H-1.3Z",
+                                  "M-4.6 -3.2L0 -1 4.6 -3.2 0 4.6Z"};
 constexpr const char* kZeroMark = "M0 1L4.6 -7H-4.6Z";
 
 std::string mark(const char* shape, double x, double y, const std::string& classes) {
@@ -40,8 +39,9 @@ std::string text(double x, double y, const char* anchor, std::string_view words)
 }
 
 std::size_t letters(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+  }));
 }
 
 std::string colour(std::size_t number, bool on_map, const char* stroke_or_fill) {
@@ -81,7 +81,8 @@ void Chart::grid() {
   add(fmt::format("<rect class='box' x='{:.1f}' y='{:.1f}' width='{:.1f}' height='{:.1f}'/>\n",
                   left_, top_, right_ - left_, bottom_ - top_));
   add(text(0.5 * (left_ + right_), bottom_ + 42.0, "middle", x_label_));
-  add(fmt::format("<text transform='translate(18 {:.1f}) rotate(-90)' "
+  add(
+      fmt::format("<text transform='translate(18 {:.1f}) rotate(-90)' "
                   "text-anchor='middle'>{}</text>\n",
                   0.5 * (top_ + bottom_), escaped(y_label_)));
 }
@@ -103,8 +104,8 @@ std::vector<Chart::Point> Chart::points_of(const Curve& curve, const std::vector
     while (end < count && std::floor(2.0 * points[end].x) == std::floor(2.0 * points[k].x)) ++end;
     const auto first = points.begin() + static_cast<std::ptrdiff_t>(k),
                last = points.begin() + static_cast<std::ptrdiff_t>(end);
-    auto [low, high] = std::minmax_element(
-        first, last, [](const Point& a, const Point& b) { return a.y < b.y; });
+    auto [low, high] =
+        std::minmax_element(first, last, [](const Point& a, const Point& b) { return a.y < b.y; });
     if (high < low) std::swap(low, high);
     thinned.push_back(*low);
     if (high != low) thinned.push_back(*high);
@@ -154,7 +155,8 @@ void Chart::curve(const Curve& curve, std::size_t number, bool on_map) {
   const auto points = points_of(curve, curve.y);
   const std::string stroke = colour(number, on_map, "s");
   // A drawing within the drawing is cut at its frame, and needs no name for that.
-  add(fmt::format("<svg x='{0:.1f}' y='{1:.1f}' width='{2:.1f}' height='{3:.1f}' "
+  add(
+      fmt::format("<svg x='{0:.1f}' y='{1:.1f}' width='{2:.1f}' height='{3:.1f}' "
                   "viewBox='{0:.1f} {1:.1f} {2:.1f} {3:.1f}'>\n",
                   left_, top_, right_ - left_, bottom_ - top_));
   if (!on_map) spread(curve, number);
@@ -168,7 +170,8 @@ void Chart::curve(const Curve& curve, std::size_t number, bool on_map) {
   if (curve.line)
     symbol = fmt::format("<path class='line {}'{} d='M-13 0H13'/>", stroke,
                          curve.dashed ? " stroke-dasharray='6 4'" : "");
-  if (marked) symbol += mark(kMarks[number % std::size(kMarks)], 0, 0, "mark " + colour(number, on_map, "f"));
+  if (marked)
+    symbol += mark(kMarks[number % std::size(kMarks)], 0, 0, "mark " + colour(number, on_map, "f"));
   legend_entry(symbol, curve.name);
 }
 

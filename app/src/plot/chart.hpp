@@ -35,7 +35,8 @@ class Chart {
     double x, y;
     bool zero;  ///< y is 0 on a logarithmic axis: drawn at its foot
   };
-  [[nodiscard]] std::vector<Point> points_of(const Curve& curve, const std::vector<double>& y) const;
+  [[nodiscard]] std::vector<Point> points_of(const Curve& curve,
+                                             const std::vector<double>& y) const;
   void spread(const Curve& curve, std::size_t number);
   void line(const std::vector<Point>& points, const std::string& classes, bool dashed);
   void marks(const std::vector<Point>& points, std::size_t number, bool on_map);

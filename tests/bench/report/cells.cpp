@@ -30,13 +30,12 @@ std::string short_number(double value) {
 }
 
 std::string short_text(const Cell& cell) {
-  return std::visit(
-      Overloaded{[](std::monostate) { return std::string("–"); },
-                 [](bool verdict) { return std::string(verdict ? "yes" : "no"); },
-                 [](std::int64_t count) { return std::to_string(count); },
-                 [](double number) { return short_number(number); },
-                 [](const std::string& words) { return words; }},
-      cell);
+  return std::visit(Overloaded{[](std::monostate) { return std::string("–"); },
+                               [](bool verdict) { return std::string(verdict ? "yes" : "no"); },
+                               [](std::int64_t count) { return std::to_string(count); },
+                               [](double number) { return short_number(number); },
+                               [](const std::string& words) { return words; }},
+                    cell);
 }
 
 bool is_number(const Cell& cell) {

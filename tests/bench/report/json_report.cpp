@@ -46,8 +46,8 @@ Json json_of(const Plot& plot) {
 }
 
 Json json_of(const Map& map) {
-  return {{"x", json_of(map.x)},        {"y", json_of(map.y)},   {"x_values", map.x_values},
-          {"y_values", map.y_values},   {"cells", map.cells},    {"curves", json_of(map.curves)}};
+  return {{"x", json_of(map.x)},      {"y", json_of(map.y)}, {"x_values", map.x_values},
+          {"y_values", map.y_values}, {"cells", map.cells},  {"curves", json_of(map.curves)}};
 }
 
 Json json_of(const std::vector<Value>& values) {
@@ -88,8 +88,7 @@ Json description_of(const Section& section) {
 Json json_of(const Report& report) {
   const Machine& machine = report.machine;
   Json json = {
-      {"machine",
-       {{"cpu", machine.cpu}, {"cores", machine.cores}, {"system", machine.system}}},
+      {"machine", {{"cpu", machine.cpu}, {"cores", machine.cores}, {"system", machine.system}}},
       {"compiler", {{"name", machine.compiler}, {"flags", machine.flags}}},
       {"version", machine.version},
       {"command", report.command},

@@ -32,36 +32,35 @@ std::string text_of(const Table& table) {
   for (const auto& row : table.rows)
     for (std::size_t k = 0; k < std::min(row.size(), widths.size()); ++k)
       widths[k] = std::max(widths[k], std::min(letters(short_text(row[k])), kWidestCell));
-  std::string text = "\n  " + table.title + "\n ";
+  std::string text = fmt::format("\n  {}\n ", table.title);
   for (std::size_t k = 0; k < widths.size(); ++k) {
-    const bool right = !table.rows.empty() && k < table.rows[0].size() && is_number(table.rows[0][k]);
-    text += " " + padded(heading(table.columns[k]), widths[k] + 1, right);
+    const bool right =
+        !table.rows.empty() && k < table.rows[0].size() && is_number(table.rows[0][k]);
+    text.append(" ").append(padded(heading(table.columns[k]), widths[k] + 1, right));
   }
   text += "\n";
   for (const auto& row : table.rows) {
     text += " ";
     for (std::size_t k = 0; k < std::min(row.size(), widths.size()); ++k)
-      text += " " + padded(short_text(row[k]), widths[k] + 1, is_number(row[k]));
+      text.append(" ").append(padded(short_text(row[k]), widths[k] + 1, is_number(row[k])));
     text += "\n";
   }
-  return table.note.empty() ? text : text + "  " + table.note + "\n";
+  return table.note.empty() ? text : text + fmt::format("  {}\n", table.note);
 }
 
 }  // namespace
 
 std::string text_of(const Section& section) {
-  std::string text = section.title + (section.sound ? "" : "  (NOT SOUND)") + "\n" +
-                     section.summary + "\n";
-  std::size_t width = 0, about = 0;
+  std::string text = fmt::format("{}{}\n{}\n", section.title, section.sound ? "" : "  (NOT SOUND)",
+                                 section.summary);
+  std::size_t width = 0;
+  for (const Value& value : section.values) width = std::max(width, letters(value.name));
   for (const Value& value : section.values) {
-    width = std::max(width, letters(value.name));
-    about = std::max(about, letters(value.about));
-  }
-  for (const Value& value : section.values) {
-    text += "  " + padded(value.name, width, false) + padded(short_number(value.median), 12, true);
-    text += value.spread == 0.0 ? padded("", 14, false)
-                                : padded("  iqr " + short_number(value.spread), 14, false);
-    text += "  " + value.about + "\n";
+    const std::string iqr =
+        value.spread == 0.0 ? "" : fmt::format("iqr {}", short_number(value.spread));
+    text += fmt::format("  {}{}  {}  {}\n", padded(value.name, width, false),
+                        padded(short_number(value.median), 10, true), padded(iqr, 12, false),
+                        value.about);
   }
   for (const Table& table : section.tables) text += text_of(table);
   return text;
