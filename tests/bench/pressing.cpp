@@ -49,7 +49,8 @@ SceneSpec press_scene(std::size_t rings) {
   scene.lump.inner_radius_mm = 20.0;
   scene.tool.shape = SphereSpec{kBallMm};
   scene.force->friction = 0.2;
-  // The paper's clay gives way as fast as the tool comes, no faster: so it is touched all the while.
+  // The paper's clay gives way as fast as the tool comes, no faster: so it is touched all the
+  // while.
   scene.removal.paper_fraction = 2e-4;
   // So high that the tallest lump stands: looking at the stress is what costs.
   scene.stability = StabilitySpec{1e6};
@@ -58,8 +59,7 @@ SceneSpec press_scene(std::size_t rings) {
 
 SceneSpec rib_scene(std::size_t touched) {
   SceneSpec scene = press_scene(800);
-  const double rings = static_cast<double>(touched) - 0.5;
-  scene.tool.shape = RibSpec{rings * scene.lump.ring_height_mm, kRibMm};
+  scene.tool.shape = RibSpec{static_cast<double>(touched) * scene.lump.ring_height_mm, kRibMm};
   return scene;
 }
 
@@ -127,12 +127,16 @@ double Presser::press() {
 }
 
 double Presser::jump() {
-  next_place();
-  const double height_mm = wheel_->stack().height_mm();
-  const double margin_mm = scene_.lump.ring_height_mm * 100.0;
+  // Deeper each time: where there is no contact there is nothing to do.
+  if (!wheel_ || ++jumps_ == kPressTicks) {
+    wheel_.emplace(Wheel::build(scene_).value());
+    jumps_ = 0;
+  }
+  const double margin_mm = scene_.lump.ring_height_mm * 50.0;
+  wheel_->step(pose(wheel_->stack().height_mm() - margin_mm, jumps_));
   time_us_ += 1000;
-  wheel_->step(pose(height_mm - margin_mm, 0));
-  return seconds_of([&] { wheel_->step(pose(margin_mm, 1)); });
+  const Pose foot = pose(margin_mm, jumps_);
+  return seconds_of([&] { wheel_->step(foot); });
 }
 
 LiteralPresser::LiteralPresser(const SceneSpec& scene, LiteralWriting writing, int ticks)

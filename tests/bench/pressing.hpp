@@ -30,7 +30,7 @@ class Presser {
   double press();
   /// The mean tick of the last press. 0 before any.
   [[nodiscard]] double rings_touched() const { return touched_; }
-  /// Seconds of the first tick at the other end of the stack.
+  /// Seconds of a tick at the foot of the stack, after one at its top.
   double jump();
 
  private:
@@ -42,6 +42,7 @@ class Presser {
   std::int64_t time_us_ = 0;
   double first_distance_mm_ = 0.0;
   double touched_ = 0.0;
+  int jumps_ = 0;
 };
 
 /// The same of the literal paper, a new lump for each press.

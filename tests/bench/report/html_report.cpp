@@ -33,11 +33,13 @@ bool numeric(const Table& table, std::size_t column) {
   });
 }
 
-/// Names are keys: for people without their underscores.
+/// Names are keys: for people without their underscores, and without the unit that follows.
 std::string heading(const Table& table, std::size_t column) {
   std::string name = table.columns[column].name;
-  std::ranges::replace(name, '_', ' ');
   const std::string& unit = table.columns[column].unit;
+  if (!unit.empty() && name.ends_with(std::string("_").append(unit)))
+    name.resize(name.size() - unit.size() - 1);
+  std::ranges::replace(name, '_', ' ');
   return fmt::format("<th class=\"{}\">{}{}</th>", numeric(table, column) ? "number" : "",
                      escaped(name),
                      unit.empty() ? "" : fmt::format("<small>{}</small>", escaped(unit)));
