@@ -102,7 +102,7 @@ void measure(std::vector<Series>& all, const Effort& effort) {
   }
   effort.progress("run time");
   Rounds rounds = rounds_of(effort);
-  rounds.least_s = 1e-3;
+  rounds.least_s = 3e-3;
   const auto seconds = time_rounds(works, rounds);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const Spread s = spread_of(seconds[i]);

@@ -71,7 +71,8 @@ int ticks_of(int rate_hz) { return static_cast<int>(std::lround(kStrokeS * rate_
 
 glm::dvec3 stroke_mm(double t) {
   const double in = eased(t, 0.1, 0.7) - eased(t, 2.0, 2.3);
-  const double up = eased(t, 0.6, 2.0);
+  // From the start: before any motion up or down the paper has no direction for the clay.
+  const double up = eased(t, 0.0, 2.0);
   return {kOuterMm + kBallMm + 2.0 - 8.0 * in, 50.0 + 50.0 * up, 0.0};
 }
 

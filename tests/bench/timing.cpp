@@ -70,4 +70,9 @@ std::vector<Samples> time_rounds(const std::vector<Work>& works, const Rounds& r
   return samples;
 }
 
+Duel duel(const Work& a, const Work& b, const Rounds& rounds) {
+  const auto samples = time_rounds({a, b}, rounds);
+  return {spread_of(samples[0]), spread_of(samples[1]), ratio_of(samples[1], samples[0])};
+}
+
 }  // namespace clay::bench

@@ -31,6 +31,13 @@ using Samples = std::vector<double>;
 [[nodiscard]] std::vector<Samples> time_rounds(const std::vector<Work>& works,
                                                const Rounds& rounds);
 
+/// Two works and their ratio, b over a.
+struct Duel {
+  Spread a, b, ratio;
+};
+/// The two alone, in neighbouring moments: for differences near the noise.
+[[nodiscard]] Duel duel(const Work& a, const Work& b, const Rounds& rounds);
+
 /// Seconds that a call takes.
 template <class Call>
 double seconds_of(Call&& call) {

@@ -84,7 +84,7 @@ std::vector<Tick> AxisScale::decade_ticks() const {
   const int first = static_cast<int>(std::floor(std::log10(low_)));
   const int last = static_cast<int>(std::ceil(std::log10(high_)));
   const int every = 1 + (last - first) / kMostDecades;
-  const bool plain = first >= -3 && last <= 4;
+  const bool plain = first >= -3 && last <= 5;
   for (int power = first; power <= last; ++power)
     for (int factor = 1; factor < 10; ++factor) {
       const double value = factor * std::pow(10.0, power);
