@@ -3,8 +3,10 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <utility>
@@ -31,7 +33,12 @@ struct Timed {
 Timed time_once(const Work& work, benchmark::IterationCount repetitions, double least_s) {
   auto* const registered =
       benchmark::RegisterBenchmark(work.name.c_str(), [&work](benchmark::State& state) {
-        for (auto _ : state) state.SetIterationTime(work.once());
+        for (auto _ : state) {
+          const double seconds = work.once();
+          // Else it would be tried for ever.
+          if (!std::isfinite(seconds)) state.SkipWithError("failed");
+          state.SetIterationTime(seconds);
+        }
       });
   registered->UseManualTime();
   if (repetitions > 0)
@@ -41,7 +48,8 @@ Timed time_once(const Work& work, benchmark::IterationCount repetitions, double 
   Collector collector;
   benchmark::RunSpecifiedBenchmarks(&collector, ".");
   benchmark::ClearRegisteredBenchmarks();
-  if (collector.runs.empty()) return {};
+  if (collector.runs.empty() || collector.runs.back().error_occurred)
+    return {std::numeric_limits<double>::quiet_NaN(), 1};
   const auto& run = collector.runs.back();
   return {run.real_accumulated_time / static_cast<double>(run.iterations), run.iterations};
 }

@@ -11,7 +11,8 @@
 
 namespace clay::bench {
 
-/// Does the work once and returns the seconds that count: preparing it need not.
+/// Does the work once and returns the seconds that count: preparing it need not. NaN where it
+/// failed: then its samples are NaN.
 struct Work {
   std::string name;
   std::function<double()> once;
