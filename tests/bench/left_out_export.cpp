@@ -64,7 +64,7 @@ std::vector<Pair> pairs() {
   Job plain;
   plain.pot = std::make_shared<const Pot>(bellied_pot(6.0));
   plain.options.smoothing = solid::Smoothing::none;
-  plain.options.tolerance_mm = 0.1;
+  plain.options.tolerance_mm = 0.05;
   std::vector<Pair> pairs;
   const auto add = [&](std::string stage, auto change) {
     Job in = plain;
@@ -97,7 +97,7 @@ Table empty_table() {
        {"in_over_out", ""},
        {"iqr", ""}},
       {},
-      fmt::format("A bellied pot of {} rings as binary STL, into memory, unsmoothed, to 0.1 mm. "
+      fmt::format("A bellied pot of {} rings as binary STL, into memory, unsmoothed, to 0.05 mm. "
                   "A smooth wall needs fewer facets than its steps, and so may save more than "
                   "it costs.",
                   kRings)};

@@ -162,8 +162,8 @@ Deviation deviation(const Outcome& outcome, const Outcome& reference) {
   for (const auto surface : {&Outcome::outer_mm, &Outcome::inner_mm})
     for (std::size_t k = 0; k < kHeights; ++k) {
       const double off = std::abs((outcome.*surface)[k] - (reference.*surface)[k]);
-      // Not max(worst, off): a NaN must show.
-      if (!(off <= worst.profile_max_mm)) worst.profile_max_mm = off;
+      // Not max: a NaN must show, and stay.
+      if (std::isnan(off) || off > worst.profile_max_mm) worst.profile_max_mm = off;
       squares += off * off;
     }
   worst.profile_rms_mm = std::sqrt(squares / (2.0 * kHeights));
@@ -171,7 +171,7 @@ Deviation deviation(const Outcome& outcome, const Outcome& reference) {
   const std::size_t count = std::min(outcome.force_n.size(), reference.force_n.size());
   for (std::size_t k = 0; k < count; ++k) {
     const double off = glm::distance(outcome.force_n[k], reference.force_n[k]);
-    if (!(off <= worst.force_max_n)) worst.force_max_n = off;
+    if (std::isnan(off) || off > worst.force_max_n) worst.force_max_n = off;
     squares += off * off;
   }
   worst.force_rms_n = std::sqrt(squares / static_cast<double>(count));
