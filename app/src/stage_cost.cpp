@@ -32,7 +32,7 @@ std::optional<SceneSpec> with_stage(SceneSpec scene, std::string_view stage) {
   } else if (stage == "stability") {
     scene.stability = StabilitySpec{1e6};
   } else if (stage == "pinch") {
-    scene.tool.gap_mm = 5.0;  // what it costs that poses may pinch
+    scene.tool.gap_mm = kFirmMm;
   } else {
     return std::nullopt;
   }
@@ -43,12 +43,15 @@ std::vector<Pose> stroke_poses(const SceneSpec& scene, double depth_mm) {
   const auto tool = Tool::build(scene.tool.shape);
   if (!tool) return {};
   const double height = static_cast<double>(scene.lump.rings) * scene.lump.ring_height_mm;
-  const double x = scene.lump.outer_radius_mm + tool->radius(0.0) - depth_mm;
+  const double outer = scene.lump.outer_radius_mm, inner = scene.lump.inner_radius_mm;
+  const bool pinch = scene.tool.mode == ToolMode::pinch;
+  const double x = pinch ? 0.5 * (outer + inner) : outer + tool->radius(0.0) - depth_mm;
   std::vector<Pose> poses(kStrokeTicks);
   for (int k = 0; k < kStrokeTicks; ++k) {
     Pose& pose = poses[static_cast<std::size_t>(k)];
     pose.time_us = 1000 * (k + 1);
     pose.position_mm = {x, height * k / kStrokeTicks, 0.0};
+    if (pinch) pose.gap_mm = std::max(0.0, outer - inner - 2.0 * depth_mm);
   }
   return poses;
 }

@@ -32,7 +32,8 @@ struct StageCost {
 };
 
 /// Measured now, on this machine, on this scene: the stroke with the stage put in and left out by
-/// turns. Nothing for stages that can't be put in by a setting.
+/// turns. A pinch put in is not made use of: a second tool is another stroke, not another stage.
+/// Nothing for stages that can't be put in by a setting.
 std::optional<StageCost> cost_of(const SceneSpec& scene, std::string_view stage);
 
 }  // namespace clay::app

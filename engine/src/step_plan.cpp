@@ -91,7 +91,7 @@ std::vector<PlanLine> describe(const SceneSpec& s, unsigned stages) {
       {"stability", (stages & kStability) != 0,
        (stages & kStability) ? "section 7" : "no stress threshold is set"},
       {"pinch", (stages & kPinch) != 0,
-       (stages & kPinch) ? "a second tool, beyond the wall" : "no gap is set"},
+       (stages & kPinch) ? "a pose with a gap has two tools" : "no gap is set"},
   };
 }
 

@@ -42,10 +42,8 @@ Duel pinch_at_work(const Rounds& rounds) {
   wall.lump.inner_radius_mm = wall.lump.outer_radius_mm - 12.0;
   SceneSpec pinched = wall;
   pinched.tool.mode = ToolMode::pinch;
-  pinched.tool.gap_mm = 8.0;
-  // A pinch is where the middle of its gap is: in the middle of the wall.
-  const double to_the_middle = 6.0 + std::get<SphereSpec>(wall.tool.shape).radius_mm;
-  return duel(stroke(wall, 2.0), stroke(pinched, to_the_middle), rounds);
+  pinched.tool.gap_mm = 10.0;
+  return duel(stroke(wall, app::kFirmMm), stroke(pinched, app::kFirmMm), rounds);
 }
 
 std::vector<Cell> row_of(const std::string& stage, const std::string& where, const Duel& duel) {

@@ -130,6 +130,7 @@ RC_GTEST_PROP(PinchRemoval, NeverLeavesARingWithoutClayAndBalances, ()) {
   auto random = *samples::random_engine();
   ClayStack stack = samples::stack(random, 20);
   const RemovalPlan plan{.rate_per_s = 1e6, .min_wall_mm = 0.001, .paper_fraction = 1.0 - 1e-9};
+  const double gap = *rc::gen::element(1e-300, 1e-6, 1.0);
   Bite bites[2];
   bites[0].contact.side = Side::compressive;
   bites[1].contact.side = Side::expansive;
@@ -139,9 +140,9 @@ RC_GTEST_PROP(PinchRemoval, NeverLeavesARingWithoutClayAndBalances, ()) {
       if (samples::uniform(random) < 0.8) bite.contact.rings.push_back({i, 1e6, 0.0});
   }
   if (*rc::gen::arbitrary<bool>())
-    compute_pinch_removal<Model::paper>(plan, stack, 1e-6, 1.0, bites[0], bites[1]);
+    compute_pinch_removal<Model::paper>(plan, stack, gap, 1.0, bites[0], bites[1]);
   else
-    compute_pinch_removal<Model::conserving>(plan, stack, 1e-6, 1.0, bites[0], bites[1]);
+    compute_pinch_removal<Model::conserving>(plan, stack, gap, 1.0, bites[0], bites[1]);
   for (const Bite& bite : bites) {
     RC_ASSERT(bite.removed.size() == bite.contact.rings.size());
     for (const Quanta amount : bite.removed) RC_ASSERT(amount >= 0);
