@@ -17,8 +17,9 @@ std::optional<SceneSpec> with_stage(SceneSpec scene, std::string_view stage);
 inline constexpr double kFirmMm = 1.0;  ///< depth of a firm hand
 inline constexpr int kStrokeTicks = 4000;
 
-/// A stroke up the outside of the scene's lump, from the wheel to the top, within 4 s at 1 kHz;
-/// below 0 mm deep it is in the air. Nothing for a tool that cannot be built.
+/// A stroke from the wheel to the top in kStrokeTicks of 1 ms: up the outside of the scene's lump,
+/// or, in mode pinch, up the middle of its wall and so deep from both sides. Below 0 mm deep it is
+/// in the air. Nothing for a tool that cannot be built.
 std::vector<Pose> stroke_poses(const SceneSpec& scene, double depth_mm);
 
 /// Mean time [ns] of its ticks; to make the lump does not count. NaN for a scene that cannot be

@@ -163,13 +163,14 @@ void Chart::curve(const Curve& curve, std::size_t number, bool on_map) {
   if (curve.line && on_map) line(points, "under", false);
   if (curve.line) line(points, stroke, curve.dashed);
   add("</svg>\n");
-  const bool marked = !curve.line || (!curve.dashed && points.size() <= kMostMarks);
+  const bool marked = !curve.line || (!on_map && !curve.dashed && points.size() <= kMostMarks);
   if (marked) marks(points, number, on_map);
   if (curve.name.empty()) return;
-  std::string symbol;
+  // Black lies on the pale of the map here, too.
+  std::string symbol = on_map ? "<rect class='pale' x='-15' y='-8' width='30' height='16'/>" : "";
   if (curve.line)
-    symbol = fmt::format("<path class='line {}'{} d='M-13 0H13'/>", stroke,
-                         curve.dashed ? " stroke-dasharray='6 4'" : "");
+    symbol += fmt::format("<path class='line {}'{} d='M-13 0H13'/>", stroke,
+                          curve.dashed ? " stroke-dasharray='6 4'" : "");
   if (marked)
     symbol += mark(kMarks[number % std::size(kMarks)], 0, 0, "mark " + colour(number, on_map, "f"));
   legend_entry(symbol, curve.name);

@@ -23,7 +23,7 @@ std::string_view style() {
 .plot .s5 { stroke: #555555; } .plot .f5 { fill: #555555; }
 .plot .s6 { stroke: #4b3fb5; } .plot .f6 { fill: #4b3fb5; }
 .plot .on-map { stroke: #111111; stroke-width: 2.4; } .plot .under { stroke: #ffffff; stroke-width: 5; }
-.plot .fill-ink { fill: #111111; }
+.plot .fill-ink { fill: #111111; } .plot .pale { fill: #f4eedd; }
 @media screen and (prefers-color-scheme: dark) {
 .plot text { fill: #dcdcdc; } .plot .back { fill: #16191d; } .plot .box { stroke: #7d838a; }
 .plot .grid { stroke: #363c43; } .plot .minor { stroke: #24292e; }

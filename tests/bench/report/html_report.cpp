@@ -11,6 +11,8 @@ namespace {
 
 using plot::escaped;
 
+constexpr std::size_t kManyColumns = 9;
+
 std::string note_of(const std::string& note) {
   return note.empty() ? "" : fmt::format("<p class=\"note\">{}</p>\n", escaped(note));
 }
@@ -46,8 +48,9 @@ std::string heading(const Table& table, std::size_t column) {
 }
 
 std::string html_of(const Table& table) {
-  std::string html = fmt::format("<h3 id=\"{}\">{}</h3>\n<div class=\"scroll\"><table>\n<tr>",
-                                 escaped(table.id), escaped(table.title));
+  std::string html = fmt::format(
+      "<h3 id=\"{}\">{}</h3>\n<div class=\"scroll\"><table class=\"{}\">\n<tr>", escaped(table.id),
+      escaped(table.title), table.columns.size() > kManyColumns ? "wide" : "");
   for (std::size_t k = 0; k < table.columns.size(); ++k) html += heading(table, k);
   html += "</tr>\n";
   for (const auto& row : table.rows) {

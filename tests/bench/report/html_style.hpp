@@ -28,13 +28,14 @@ th, td { padding: 0.22rem 0.7rem; border-bottom: 1px solid var(--rule); text-ali
   vertical-align: top; }
 th { background: var(--head); font-weight: 600; vertical-align: bottom; }
 th small { display: block; color: var(--soft); font-weight: 400; }
+.wide { font-size: 0.78rem; } .wide th, .wide td { padding: 0.18rem 0.4rem; }
 .number { text-align: right; white-space: nowrap; } .spread { color: var(--soft); }
 .no { color: var(--bad); font-weight: 600; } .yes { color: var(--good); }
 .verdict { font-size: 0.8rem; font-weight: 600; margin-left: 0.6rem; }
 figure { margin: 1.6rem 0; } figcaption { font-weight: 600; margin-bottom: 0.3rem; }
 svg.plot { width: 100%; max-width: 760px; height: auto; display: block; }
 @media print { body { max-width: none; padding: 0; font-size: 11pt; } nav { display: none; }
-  figure, tr { break-inside: avoid; } h2, h3, figcaption { break-after: avoid; } }
+  figure, tr { break-inside: avoid; } .scroll { overflow: visible; } .wide { font-size: 7pt; } h2, h3, figcaption { break-after: avoid; } }
 )css";
 
 }  // namespace clay::bench
