@@ -107,6 +107,13 @@ void stand(double at, double radial_x, double radial_z, Contact& contact) noexce
   contact.radial_z = sense * radial_z;
 }
 
+template <class Past>
+void drop_if(Contact& contact, Past past) noexcept {
+  std::erase_if(contact.rings, past);
+  for (std::size_t k = 0; k < contact.edge_count; ++k)
+    if (past(contact.edges[k])) contact.edges[k].depth_mm = 0.0;
+}
+
 }  // namespace
 
 std::size_t most_contacts(const Tool& tool, double ring_height_mm, std::size_t max_rings) {
@@ -143,6 +150,15 @@ void find_pinch(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_
   inner.side = Side::expansive;
   touch_rings<model>(tool, stack, hip_mm.y, outer);
   touch_rings<model>(tool, stack, hip_mm.y, inner);
+  // A depth alone does not tell a tool that is through the wall from one that is past it.
+  drop_if(outer, [&](const RingContact& touch) {
+    const Ring& ring = stack.rings()[touch.ring];
+    return 2.0 * outer.axis_distance_mm + touch.depth_mm - ring.outer_mm() <= ring.inner_mm();
+  });
+  drop_if(inner, [&](const RingContact& touch) {
+    const Ring& ring = stack.rings()[touch.ring];
+    return 2.0 * inner.axis_distance_mm - touch.depth_mm - ring.inner_mm() >= ring.outer_mm();
+  });
 }
 
 template void find_contact<Model::paper>(const Tool&, const ClayStack&, const glm::dvec3&,
