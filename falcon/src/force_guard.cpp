@@ -108,9 +108,10 @@ void ForceGuard::watch_ages(const TickTime& time, std::int64_t now_us,
 }
 
 void ForceGuard::rest(double growing_s) noexcept {
-  if (!admitted_ || !mends_itself(cause_)) return;
+  if (!admitted_) return;
   rested_s_ += growing_s;
-  if (rested_s_ >= settings_.safe_rest_s || !on(kRuleLatch)) cause_ = SafeCause::none;
+  const bool rested = mends_itself(cause_) && rested_s_ >= settings_.safe_rest_s;
+  if (rested || !on(kRuleLatch)) cause_ = SafeCause::none;
 }
 
 glm::dvec3 ForceGuard::limit(const glm::dvec3& wanted_n) noexcept {
