@@ -22,6 +22,7 @@ Admission ForceGuard::admit(std::int64_t now_us, const GuardSample& sample) noex
   flags_ = 0;
   admitted_ = false;
   ready_ = sample.ready || !on(kRuleReady);
+  const bool is_new = is_new_frame(sample);
   if (!ready_) {
     flags_ |= kGuardNotReady;
     jumps_.forget();
@@ -29,8 +30,8 @@ Admission ForceGuard::admit(std::int64_t now_us, const GuardSample& sample) noex
     engagement_.restart();
   } else if (on(kRuleFinite) && !is_finite(sample.position_mm)) {
     flags_ |= kGuardNotFinite;
-  } else if (sample.fresh && !(seen_ && sample.time_us == seen_us_)) {
-    admitted_ = take_frame(sample, admission);
+  } else if (is_new) {
+    admitted_ = take_frame(now_us, sample, admission);
   }
   admission.may_deform = admitted_ && cause_ == SafeCause::none &&
                          (frame_age_.at(now_us) < settings_.stale_fade_s || !on(kRuleStaleFrames));
@@ -38,10 +39,16 @@ Admission ForceGuard::admit(std::int64_t now_us, const GuardSample& sample) noex
   return admission;
 }
 
-/// Plausible, so it is the hand.
-bool ForceGuard::take_frame(const GuardSample& sample, Admission& admission) noexcept {
+bool ForceGuard::is_new_frame(const GuardSample& sample) noexcept {
+  if (!sample.fresh || (seen_ && sample.time_us == seen_us_)) return false;
   seen_us_ = sample.time_us;
   seen_ = true;
+  return true;
+}
+
+/// Whether the frame is plausible, and so shows the hand.
+bool ForceGuard::take_frame(std::int64_t now_us, const GuardSample& sample,
+                            Admission& admission) noexcept {
   const double since =
       frame_age_.any() ? elapsed_s(frame_age_.stamp_us(), sample.time_us) : kShortestStepS;
   admission.step_s = on(kRuleStep) ? std::clamp(since, kShortestStepS, kLongestStepS) : since;
@@ -49,7 +56,7 @@ bool ForceGuard::take_frame(const GuardSample& sample, Admission& admission) noe
   const auto verdict =
       on(kRuleJump) ? jumps_.take(sample.position_mm, reach) : JumpFilter::Verdict::plausible;
   if (verdict == JumpFilter::Verdict::plausible) {
-    frame_age_.see(sample.time_us);
+    frame_age_.see(sample.time_us, now_us);
     return true;
   }
   flags_ |= kGuardJump;
@@ -97,7 +104,7 @@ void ForceGuard::watch_ages(const TickTime& time, std::int64_t now_us,
                             const WantedForce& wanted) noexcept {
   if (!admitted_) frame_age_.pass(time.fading_s);
   if (clay_age_.is_last(wanted.clay_time_us)) clay_age_.pass(time.fading_s);
-  clay_age_.see(wanted.clay_time_us);
+  clay_age_.see(wanted.clay_time_us, now_us);
   if (!on(kRulePause)) return;
   if (frame_age_.any() && frame_age_.at(now_us) > settings_.pause_s) {
     jumps_.forget();
@@ -124,7 +131,7 @@ glm::dvec3 ForceGuard::limit(const glm::dvec3& wanted_n) noexcept {
 double ForceGuard::let_go(const TickTime& time, std::int64_t now_us) noexcept {
   const double frame_s = frame_age_.at(now_us), clay_s = clay_age_.at(now_us);
   double held = 1.0;
-  if (frame_s > settings_.stale_fade_s) flags_ |= kGuardStale;
+  if (frame_age_.any() && frame_s > settings_.stale_fade_s) flags_ |= kGuardStale;
   if (clay_s > settings_.clay_fade_s) flags_ |= kGuardOldClay;
   if (on(kRuleStaleFrames)) held *= fade(frame_s, settings_.stale_fade_s, settings_.stale_zero_s);
   if (on(kRuleOldClay)) held *= fade(clay_s, settings_.clay_fade_s, settings_.clay_zero_s);

@@ -63,10 +63,10 @@ TickTime TickClock::advance(std::int64_t now_us, double period_s) noexcept {
   return time;
 }
 
-void Age::see(std::int64_t stamp_us) noexcept {
+void Age::see(std::int64_t stamp_us, std::int64_t now_us) noexcept {
   if (is_last(stamp_us)) return;
-  *this = {};
   stamp_us_ = stamp_us;
+  passed_s_ = elapsed_s(stamp_us, now_us);
   any_ = true;
 }
 

@@ -4,6 +4,7 @@
 #include "falcon/guard_trial.hpp"
 #include "guard_rule.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -76,9 +77,12 @@ glm::dvec3 any_force() {
                                             : glm::dvec3(part(), part(), part());
 }
 
-double any_wild_number() {
-  return *rc::gen::element(std::numeric_limits<double>::quiet_NaN(),
-                           std::numeric_limits<double>::infinity(), 1e308, -5e-324, 50.0);
+/// For a force any of them; for a leap those that are one.
+double any_wild_number(bool leap) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  return leap ? *rc::gen::element(nan, inf, -inf, 1e308, 50.0)
+              : *rc::gen::element(nan, inf, -inf, 1e308, -5e-324, 50.0);
 }
 
 /// A tick in which up to three things go wrong.
@@ -87,7 +91,7 @@ Tick any_tick() {
   const int faults = *rc::gen::element(0, 0, 1, 1, 2, 3);
   for (int i = 0; i < faults; ++i) switch (*rc::gen::inRange(0, 12)) {
       case 0:
-        tick.wanted_n[*rc::gen::inRange(0, 3)] = any_wild_number();
+        tick.wanted_n[*rc::gen::inRange(0, 3)] = any_wild_number(false);
         break;
       case 1:
         tick.gap_us = *rc::gen::element(0, 1, 100, 250, 2'000, 9'000, 11'000, 60'000);
@@ -112,7 +116,7 @@ Tick any_tick() {
         tick.leap_mm[*rc::gen::inRange(0, 2)] = *rc::gen::element(15.0, 30.0);
         break;
       case 9:
-        tick.leap_mm.z = any_wild_number();
+        tick.leap_mm.z = any_wild_number(true);
         break;
       case 10:
         tick.clay_new = false;
@@ -121,6 +125,15 @@ Tick any_tick() {
         tick.passive = *rc::gen::inRange(0, 4) != 0;
     }
   return tick;
+}
+
+std::string describe(const Tick& t, int times) {
+  const auto v = [](const glm::dvec3& p) { return fmt::format("({}, {}, {})", p.x, p.y, p.z); };
+  return fmt::format(
+      "{} x wanted {} gap {} leap {} stands {} frame {} age {} ready {} off {} clay {} passive "
+      "{}\n",
+      times, v(t.wanted_n), t.gap_us, t.clock_leap_us, t.clock_stands, t.frame, t.frame_age_us,
+      t.ready, v(t.leap_mm), t.clay_new, t.passive);
 }
 
 RC_GTEST_PROP(ForceGuardStorm, DoesNoHarm, ()) {
@@ -134,6 +147,7 @@ RC_GTEST_PROP(ForceGuardStorm, DoesNoHarm, ()) {
     }
     const Tick storm = any_tick();
     const int ticks = *rc::gen::element(1, 1, 2, 3, 7, 30, 80);
+    RC_LOG() << describe(storm, ticks);
     for (int i = 0; i < ticks; ++i) trial.tick(storm);
     if (*rc::gen::inRange(0, 20) == 0) trial.tick({.command = Tick::Command::pause});
   }

@@ -108,13 +108,15 @@ TEST(TickClock, CountsGrowthShortAndFadingLong) {
 TEST(Age, IsTheMoreOfStampAndTicks) {
   Age age;
   EXPECT_FALSE(age.any());
-  age.see(1'000'000);
+  age.see(1'000'000, 1'002'000);
+  EXPECT_EQ(age.at(1'002'000), 0.002);
   EXPECT_EQ(age.at(1'003'000), 0.003);
   age.pass(0.004);
-  EXPECT_EQ(age.at(1'003'000), 0.004);
-  age.see(1'000'000);  // the same again is nothing new
-  EXPECT_EQ(age.at(1'003'000), 0.004);
-  age.see(900'000);
+  EXPECT_EQ(age.at(1'003'000), 0.006);
+  EXPECT_EQ(age.at(500'000), 0.006);
+  age.see(1'000'000, 1'000'000);  // the same again is nothing new
+  EXPECT_EQ(age.at(1'003'000), 0.006);
+  age.see(900'000, 800'000);
   EXPECT_EQ(age.at(800'000), 0.0);
 }
 

@@ -59,10 +59,12 @@ void Allowance::obey(Tick::Command command) {
 }
 
 /// Whether the frame shows where the hand is; two in a row that do not are a jump that stays.
-bool Allowance::believable(const Tick& tick, bool place_finite) {
+bool Allowance::believable(const Tick& tick, const GuardSample& sample) {
+  const bool again = sample.time_us == stamp_us_;
+  stamp_us_ = sample.time_us;
   if (!tick.ready) place_known_ = suspected_ = any_frame_ = false;
-  if (!tick.ready || !tick.frame || !place_finite) return false;
-  if (place_known_ && tick.leap_mm != believed_mm_) {
+  if (!tick.ready || !tick.frame || again || !finite(sample.position_mm)) return false;
+  if (place_known_ && unsure_frames_ == 0 && tick.leap_mm != believed_mm_) {
     if (suspected_) {
       zero_ = true;
       place_known_ = false;
@@ -71,6 +73,7 @@ bool Allowance::believable(const Tick& tick, bool place_finite) {
     suspected_ = !suspected_;
     return false;
   }
+  unsure_frames_ = std::max(0, unsure_frames_ - 1);
   place_known_ = any_frame_ = true;
   believed_mm_ = tick.leap_mm;
   suspected_ = false;
@@ -82,7 +85,7 @@ void Allowance::follow_ages(const Tick& tick, double told_s, bool good) {
   frame_age_s_ = good ? static_cast<double>(tick.frame_age_us) / 1e6 : frame_age_s_ + passed;
   clay_age_s_ = tick.clay_new ? 0.0 : clay_age_s_ + passed;
   if (frame_age_s_ >= kZeroS + kRoundingS || clay_age_s_ >= kClayZeroS + kRoundingS) zero_ = true;
-  if (frame_age_s_ > 0.8 * kPauseS) place_known_ = false;  // from here on it may be forgotten
+  if (frame_age_s_ > 0.8 * kPauseS) unsure_frames_ = 3;  // the guard may have forgotten, or not
   if (frame_age_s_ > kPauseS + kRoundingS || clay_age_s_ >= kClayZeroS + kRoundingS) lose();
   if (told_s > kZeroS) zero_ = true;
   if (told_s > kPauseS) lose();
@@ -96,13 +99,13 @@ void Allowance::earn(const Tick& tick, double growing_s) {
   if (ramping_) earned_s_ += growing_s;
 }
 
-Allowance::Verdict Allowance::after(const Tick& tick, double told_s, bool place_finite) {
+Allowance::Verdict Allowance::after(const Tick& tick, double told_s, const GuardSample& sample) {
   zero_ = false;
   obey(tick.command);
-  const bool odd = !finite(tick.wanted_n) || (tick.ready && !place_finite);
+  const bool odd = !finite(tick.wanted_n) || (tick.ready && !finite(sample.position_mm));
   odd_ticks_ = odd ? odd_ticks_ + 1 : 0;
   if (odd_ticks_ >= kOddTicks || !tick.passive) latched_ = true;
-  const bool good = believable(tick, place_finite);
+  const bool good = believable(tick, sample);
   follow_ages(tick, told_s, good);
   const double growing = std::clamp(told_s, 0.0, kPeriodS);
   earn(tick, growing);
@@ -137,8 +140,7 @@ void Trial::tick(const Tick& tick) {
                                                   static_cast<std::uint64_t>(before_us)) /
                                   1e6
                             : 0.0;
-  const auto allowed =
-      allowance_.after(tick, log_.empty() ? 0.0 : told_s, finite(sample.position_mm));
+  const auto allowed = allowance_.after(tick, log_.empty() ? 0.0 : told_s, sample);
 
   LogEntry entry{};
   entry.time_s = static_cast<double>(true_us_) / 1e6;

@@ -52,12 +52,12 @@ class Allowance {
     double most_n = 0.0;  ///< what can have been earned
     double rise_n = 0.0;  ///< what it may grow by
   };
-  /// `told_s`: how much later the clock is than before; `place_finite`: of the sample given.
-  Verdict after(const Tick& tick, double told_s, bool place_finite);
+  /// `told_s`: how much later the clock is than before.
+  Verdict after(const Tick& tick, double told_s, const GuardSample& sample);
 
  private:
   void obey(Tick::Command command);
-  bool believable(const Tick& tick, bool place_finite);
+  bool believable(const Tick& tick, const GuardSample& sample);
   void follow_ages(const Tick& tick, double told_s, bool good);
   void earn(const Tick& tick, double growing_s);
   void lose() { small_ticks_ = 0, earned_s_ = 0.0, ramping_ = false; }
@@ -65,6 +65,8 @@ class Allowance {
   bool latched_ = false, stopped_ = false, zero_ = false;
   int odd_ticks_ = 0;
   bool place_known_ = false, suspected_ = false, any_frame_ = false;
+  int unsure_frames_ = 0;
+  std::int64_t stamp_us_ = 0;
   glm::dvec3 believed_mm_{0.0};
   double frame_age_s_ = 0.0, clay_age_s_ = 0.0;
   int small_ticks_ = 0;

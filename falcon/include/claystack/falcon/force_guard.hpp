@@ -21,8 +21,8 @@ namespace clay::falcon {
 struct GuardSample {
   std::int64_t time_us = 0;     ///< when the frame came, on the clock of `now_us`
   glm::dvec3 position_mm{0.0};  ///< in the device's frame
-  bool fresh = false;           ///< a frame that was not seen before
-  bool ready = false;           ///< homed, powered, plugged in, no fault
+  bool fresh = false;  ///< a new frame; with the stamp of the last one it is that one again
+  bool ready = false;  ///< homed, powered, plugged in, no fault
 };
 
 /// The force that the clay asks for.
@@ -108,7 +108,9 @@ class ForceGuard {
   explicit ForceGuard(const GuardSettings& settings) noexcept : settings_(settings) {}
   [[nodiscard]] bool on(std::uint32_t rule) const noexcept { return (rules_ & rule) != 0; }
   void latch(SafeCause cause) noexcept;
-  [[nodiscard]] bool take_frame(const GuardSample& sample, Admission& admission) noexcept;
+  [[nodiscard]] bool is_new_frame(const GuardSample& sample) noexcept;
+  [[nodiscard]] bool take_frame(std::int64_t now_us, const GuardSample& sample,
+                                Admission& admission) noexcept;
   void watch_force(const WantedForce& wanted) noexcept;
   void watch_clock(const TickTime& time) noexcept;
   void watch_ages(const TickTime& time, std::int64_t now_us, const WantedForce& wanted) noexcept;

@@ -50,7 +50,7 @@ class TickClock {
 class Age {
  public:
   /// A thing with this stamp is there, unless it is the last one again.
-  void see(std::int64_t stamp_us) noexcept;
+  void see(std::int64_t stamp_us, std::int64_t now_us) noexcept;
   void pass(double fading_s) noexcept { passed_s_ += fading_s; }
   [[nodiscard]] double at(std::int64_t now_us) const noexcept;
   [[nodiscard]] bool is_last(std::int64_t stamp_us) const noexcept;
