@@ -142,6 +142,7 @@ void Trial::tick(const Tick& tick) {
                             : 0.0;
   const auto allowed = allowance_.after(tick, log_.empty() ? 0.0 : told_s, sample);
 
+  watchdog_looks(tick.gap_us);
   LogEntry entry{};
   entry.time_s = static_cast<double>(true_us_) / 1e6;
   entry.admission = guard_.admit(told_us_, sample);
@@ -153,6 +154,17 @@ void Trial::tick(const Tick& tick) {
   sent_n_ = entry.sent_n;
   gain_ = entry.out.gain;
   log_.push_back(entry);
+}
+
+/// Between two ticks the device holds what was sent last, unless the watchdog thinks of it.
+void Trial::watchdog_looks(std::int64_t gap_us) {
+  const std::int64_t look_us = Watchdog::next_look_us(true_us_ - gap_us);
+  const std::int64_t held_us = std::min(gap_us, look_us - (true_us_ - gap_us));
+  expect(static_cast<double>(held_us) / 1e6 <= kZeroS, "watchdog looks too late");
+  if (look_us <= true_us_ && Watchdog::must_zero(true_us_ - gap_us, look_us))
+    sent_n_ = glm::dvec3(0.0);
+  else
+    expect(gap_us < 10'000, "watchdog sleeps");
 }
 
 void Trial::hold_against(const Allowance::Verdict& allowed, const LogEntry& entry) {
