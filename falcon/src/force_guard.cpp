@@ -96,7 +96,7 @@ void ForceGuard::watch_force(const WantedForce& wanted) noexcept {
 
 void ForceGuard::watch_clock(const TickTime& time) noexcept {
   if (time.real_s == 0.0) flags_ |= kGuardClock;
-  if (time.real_s > settings_.late_zero_s) flags_ |= kGuardLate;
+  if (time.real_s >= settings_.late_zero_s) flags_ |= kGuardLate;
   if (on(kRuleOverrun) && time.real_s > settings_.pause_s) latch(SafeCause::overrun);
 }
 

@@ -94,7 +94,7 @@ Tick any_tick() {
         tick.wanted_n[*rc::gen::inRange(0, 3)] = any_wild_number(false);
         break;
       case 1:
-        tick.gap_us = *rc::gen::element(0, 1, 100, 250, 2'000, 9'000, 11'000, 60'000);
+        tick.gap_us = *rc::gen::element(0, 1, 100, 250, 2'000, 9'000, 10'000, 11'000, 60'000);
         break;
       case 2:
         tick.clock_leap_us = *rc::gen::inRange(-100'000, 100'000);
@@ -230,6 +230,21 @@ TEST(ForceGuard, LetsGoWhenNobodyAdmits) {
   EXPECT_EQ(tick(true, 3.0), 3.0);
   for (int i = 0; i < 9; ++i) (void)tick(false, 3.0);
   EXPECT_EQ(tick(false, 3.0), 0.0);
+}
+
+TEST(ForceGuard, RisesFromZeroWhereTheWatchdogWas) {
+  ForceGuard guard = ForceGuard::make({}).value();
+  std::int64_t now = 0;
+  const auto tick = [&guard, &now](double wanted_n) {
+    now += 1000;
+    (void)guard.admit(now, {now, glm::dvec3(0.0), true, true});
+    return guard.force(now, {glm::dvec3(wanted_n, 0.0, 0.0), now, true}).force_n.x;
+  };
+  for (int i = 0; i < 10; ++i) (void)tick(0.0);
+  for (int i = 0; i < 2100; ++i) (void)tick(3.0);
+  EXPECT_EQ(tick(3.0), 3.0);
+  guard.was_zeroed();
+  EXPECT_EQ(tick(3.0), 0.5);
 }
 
 struct Nonsense {

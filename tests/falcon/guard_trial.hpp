@@ -94,7 +94,7 @@ class Trial {
 
  private:
   GuardSample sample_of(const Tick& tick);
-  void watchdog_looks(std::int64_t gap_us);
+  void watchdog_looks(std::int64_t beat_us);
   void hold_against(const Allowance::Verdict& allowed, const LogEntry& entry);
   void hold_heat(double sent_n, double told_s);
 

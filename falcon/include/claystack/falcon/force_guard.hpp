@@ -61,7 +61,7 @@ enum GuardFlag : std::uint32_t {
   kGuardSlewed = 1u << 3,     ///< the force rises slower than wanted
   kGuardJump = 1u << 4,       ///< a frame dropped as faster than a hand
   kGuardStale = 1u << 5,      ///< frames older than stale_fade_s
-  kGuardLate = 1u << 6,       ///< the tick came later than late_zero_s; 0 this tick
+  kGuardLate = 1u << 6,       ///< the tick came late_zero_s late or more; 0 this tick
   kGuardOldClay = 1u << 7,    ///< clay older than clay_fade_s
   kGuardHot = 1u << 8,        ///< motors hot: fading
   kGuardClock = 1u << 9,      ///< the clock went back or stood
@@ -97,6 +97,9 @@ class ForceGuard {
   void pause() noexcept { latch(SafeCause::paused); }
   /// Zero for good.
   void stop() noexcept { latch(SafeCause::stopped); }
+  /// The force last given was not sent, or not kept: the watchdog was at the device. It rises from
+  /// 0.
+  void was_zeroed() noexcept { sent_n_ = glm::dvec3(0.0); }
   /// Leaves SAFE or a pause; force is then earned anew. False when stopped.
   bool rearm() noexcept;
 

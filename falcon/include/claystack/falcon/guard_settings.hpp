@@ -31,7 +31,7 @@ struct GuardSettings {
   /// Age of the newest frame from which force fades: two periods or more. Our judgement.
   double stale_fade_s = 0.005;
   double stale_zero_s = 0.010;  ///< and from which it is 0: after the fade, to kLongestToZeroS
-  double late_zero_s = 0.010;   ///< a tick later than this sends 0: as stale_zero_s
+  double late_zero_s = 0.010;   ///< a tick so late sends 0: two periods to kLongestToZeroS
   double pause_s = 0.050;       ///< a longer gap in ticks or frames is a pause: re-engage. To 1 s
 
   /// Faster than a hand: such frames are dropped, 100 to 10 000 (2 m/s is 2 mm in a tick of 1 ms).
