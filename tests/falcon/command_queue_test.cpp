@@ -42,29 +42,34 @@ struct Command {
   std::array<std::uint32_t, 32> words{};
 };
 
-TEST(CommandQueue, LosesAndMixesNothingBetweenThreads) {
-  constexpr std::uint32_t kCommands = 50'000;
-  CommandQueue<Command, 8> queue;
+/// How many words were not those that were pushed.
+template <std::size_t Capacity>
+std::uint32_t wrong_words(std::uint32_t commands) {
+  CommandQueue<Command, Capacity> queue;
   std::thread pusher([&] {
-    for (std::uint32_t n = 1; n <= kCommands; ++n) {
+    for (std::uint32_t n = 1; n <= commands; ++n) {
       Command command;
       command.words.fill(n);
-      while (!queue.push(command)) std::this_thread::yield();
+      for (int tries = 1; !queue.push(command); ++tries)
+        if (tries % 1000 == 0) std::this_thread::yield();
     }
   });
   std::uint32_t wrong = 0;
-  for (std::uint32_t n = 1; n <= kCommands; ++n) {
+  for (std::uint32_t n = 1; n <= commands; ++n) {
     auto command = queue.pop();
-    while (!command) {
-      std::this_thread::yield();
-      command = queue.pop();
-    }
+    for (int tries = 1; !command; ++tries, command = queue.pop())
+      if (tries % 1000 == 0) std::this_thread::yield();
     for (const std::uint32_t word : command->words)
       if (word != n) ++wrong;
   }
   pusher.join();
-  EXPECT_EQ(wrong, 0u);
-  EXPECT_FALSE(queue.pop());
+  return wrong + (queue.pop() ? 1 : 0);
+}
+
+// In the shortest ring each place is written as soon as it is free.
+TEST(CommandQueue, LosesAndMixesNothingBetweenThreads) {
+  EXPECT_EQ(wrong_words<1>(20'000), 0u);
+  EXPECT_EQ(wrong_words<8>(50'000), 0u);
 }
 
 }  // namespace

@@ -82,6 +82,10 @@ void start_inside_the_clay(Trial& trial) {
     trial.run(0.004, {.wanted_n = kPush / 20.0});
     trial.run(0.5, kPushing);
     trial.expect_state(GuardState::waiting);
+    trial.run(0.004, {.wanted_n = kPush / 20.0});
+    trial.run(0.004, {.wanted_n = kPush / 20.0, .frame = false});
+    trial.run(0.5, kPushing);
+    trial.expect_state(GuardState::waiting);
     trial.engage(kPush);
     trial.tick({.wanted_n = kPush, .command = Tick::Command::pause});
     trial.run(0.3, kAtRest);
@@ -96,7 +100,13 @@ void homing_lost(Trial& trial) {
   trial.expect_state(GuardState::idle);
   trial.engage(kPush);
   trial.tick({.wanted_n = kPush, .ready = false});
-  trial.run(0.5, kPushing);
+  // The origin moves at homing: that is no jump.
+  const Tick elsewhere{.wanted_n = kPush, .leap_mm = {30.0, 0.0, 0.0}};
+  trial.tick(elsewhere);
+  trial.expect(trial.log().back().admission.may_deform, "the first frame after homing is believed");
+  trial.run(0.5, elsewhere);
+  trial.expect_state(GuardState::waiting);
+  trial.tick({.ready = false});
   expect_begun_again(trial);
 }
 

@@ -102,6 +102,7 @@ void Allowance::earn(const Tick& tick, double growing_s) {
 Allowance::Verdict Allowance::after(const Tick& tick, double told_s, const GuardSample& sample) {
   zero_ = false;
   obey(tick.command);
+  const bool was_latched = latched_;
   const bool odd = !finite(tick.wanted_n) || (tick.ready && !finite(sample.position_mm));
   odd_ticks_ = odd ? odd_ticks_ + 1 : 0;
   if (odd_ticks_ >= kOddTicks || !tick.passive) latched_ = true;
@@ -109,7 +110,8 @@ Allowance::Verdict Allowance::after(const Tick& tick, double told_s, const Guard
   follow_ages(tick, told_s, good);
   const double growing = std::clamp(told_s, 0.0, kPeriodS);
   earn(tick, growing);
-  return {zero_ || odd || latched_ || !tick.ready, good && !stopped_ && frame_age_s_ < kOldFrameS,
+  return {zero_ || odd || latched_ || !tick.ready,
+          good && !was_latched && frame_age_s_ < kOldFrameS,
           kLimitN * std::min(1.0, earned_s_ / kRampS), kSlewNPerS * growing};
 }
 
