@@ -9,6 +9,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <set>
@@ -31,11 +32,24 @@ std::string told(const Trial& trial) {
   return text;
 }
 
+/// t, |F|, how far it rose, ramp and state of every tick, where CLAYSTACK_GUARD_LOG names a folder.
+void keep_log(const Trial& trial, const GuardFault& fault) {
+  const char* folder = std::getenv("CLAYSTACK_GUARD_LOG");
+  if (folder == nullptr) return;
+  std::ofstream file(fmt::format("{}/{:02}.csv", folder, fault.number));
+  file << "time_s,force_n,rise_n,gain,state,cause,flags\n";
+  for (const LogEntry& e : trial.log())
+    file << fmt::format("{:.6f},{:.6f},{:.6f},{:.6f},{},{},{}\n", e.time_s, norm(e.sent_n),
+                        e.rise_n, e.out.gain, static_cast<int>(e.out.state),
+                        static_cast<int>(e.out.cause), e.out.flags);
+}
+
 class Fault : public testing::TestWithParam<GuardFault> {};
 
 TEST_P(Fault, DoesNoHarm) {
   Trial trial;
   GetParam().happen(trial);
+  keep_log(trial, GetParam());
   EXPECT_TRUE(trial.violations().empty()) << told(trial);
 }
 
