@@ -34,7 +34,7 @@ Json collapse_json(const Pot& pot) {
           {"threshold_kpa", fall.threshold_kpa},
           {"angle_deg", fall.angle_rad * 180.0 / std::numbers::pi},
           {"shift_mm", {fall.shift_mm.x, fall.shift_mm.y, fall.shift_mm.z}},
-          {"potential_lost_mj", fall.potential_lost_mj},
+          {"energy_lost_mj", fall.energy_lost_mj},
           {"plastic_work_mj", fall.plastic_work_mj}};
 }
 
@@ -69,7 +69,7 @@ void tell_collapse(const Console& console, const Json& fall) {
       "and lost {:.1f} mJ, {:.1f} of them to the clay below",
       fall["ring"].get<std::size_t>(), fall["stress_kpa"].get<double>(),
       fall["threshold_kpa"].get<double>(), fall["angle_deg"].get<double>(),
-      fall["potential_lost_mj"].get<double>(), fall["plastic_work_mj"].get<double>()));
+      fall["energy_lost_mj"].get<double>(), fall["plastic_work_mj"].get<double>()));
 }
 
 void tell(const Console& console, const Json& s) {

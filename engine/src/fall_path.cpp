@@ -110,8 +110,8 @@ class Fall {
 
   void commit(const Course& course, double time) {
     const Slid there = slid(course, time);
-    move_to(there.pose, course.twist(body_.gyration_mm()),
-            there.course.twist(body_.gyration_mm()), time);
+    move_to(there.pose, course.twist(body_.gyration_mm()), there.course.twist(body_.gyration_mm()),
+            time);
   }
 
   /// The step ends where it wins no more: a face that lands there has cost nothing on the way.

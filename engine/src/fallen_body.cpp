@@ -10,9 +10,9 @@ namespace clay {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr std::size_t kBands = 96;       ///< of rings that are sampled as one
-constexpr int kDirections = 32;          ///< about the axis, on the half in front of the plane
-constexpr double kCellsPerReach = 32.0;  ///< along the section
+constexpr std::size_t kBands = 96;     ///< of rings that are sampled as one
+constexpr double kWallCells = 32.0;    ///< to the reach, up a wall
+constexpr double kTreadCells = 128.0;  ///< and along a tread: a rim may rest on its edge
 
 double top_of(const ClayStack& stack, std::size_t ring) noexcept {
   return stack.ring_height_mm() * static_cast<double>(ring + 1);
@@ -128,33 +128,33 @@ void FallenBody::add_difference(const Band& below, const Band& above) {
 
 void FallenBody::add_wall(double radius_mm, const Band& band, double outward) {
   const double height = band.top_mm - band.bottom_mm;
-  const int cells = cells_in(height, reach_mm_ / kCellsPerReach);
+  const int cells = cells_in(height, reach_mm_ / kWallCells);
   const double cell = height / cells;
+  const double area = 2.0 * kPi * radius_mm * cell / kDirections;
   for (int k = 0; k < cells; ++k)
-    add_ring_of_samples(radius_mm, band.bottom_mm + (k + 0.5) * cell, {outward, 0.0},
-                        2.0 * kPi * radius_mm * cell, true);
+    surface_.push_back(
+        {radius_mm, band.bottom_mm + (k + 0.5) * cell - centre_height_mm_, outward, 0.0, area});
 }
 
 void FallenBody::add_tread(double from_mm, double to_mm, double height_mm, double upward) {
   if (!(to_mm > from_mm)) return;
-  const int cells = cells_in(to_mm - from_mm, reach_mm_ / kCellsPerReach);
+  const int cells = cells_in(to_mm - from_mm, reach_mm_ / kTreadCells);
   const double cell = (to_mm - from_mm) / cells;
   for (int k = 0; k < cells; ++k) {
     const double radius = from_mm + (k + 0.5) * cell;
-    add_ring_of_samples(radius, height_mm, {0.0, upward}, 2.0 * kPi * radius * cell, false);
+    surface_.push_back({radius, height_mm - centre_height_mm_, 0.0, upward,
+                        2.0 * kPi * radius * cell / kDirections});
   }
 }
 
-void FallenBody::add_ring_of_samples(double radius_mm, double height_mm, glm::dvec2 normal,
-                                     double area_mm2, bool wall) {
-  for (int k = 0; k < kDirections; ++k) {
-    const double direction = kPi * (k + 0.5) / kDirections;
-    const double c = std::cos(direction), s = std::sin(direction);
-    samples_.push_back({{radius_mm * c, height_mm - centre_height_mm_},
-                        radius_mm * radius_mm * s * s,
-                        wall ? normal * c : normal,
-                        area_mm2 / kDirections});
-  }
+const std::array<double, kDirections>& FallenBody::directions() noexcept {
+  static const auto cosines = [] {
+    std::array<double, kDirections> result{};
+    for (std::size_t k = 0; k < kDirections; ++k)
+      result[k] = std::cos(kPi * (static_cast<double>(k) + 0.5) / kDirections);
+    return result;
+  }();
+  return cosines;
 }
 
 glm::dvec2 FallenBody::lowest(double angle_rad) const noexcept {

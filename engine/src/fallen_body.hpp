@@ -1,6 +1,7 @@
 #pragma once
 #include "claystack/engine/clay_stack.hpp"
 
+#include <array>
 #include <cstddef>
 #include <glm/vec2.hpp>
 #include <vector>
@@ -14,20 +15,22 @@ struct PlanePose {
   double angle_rad = 0.0;
 };
 
-/// A bit of surface, seen from the centre of mass of the part as it stood. The half in front of
-/// the plane stands for both.
-struct SurfaceSample {
-  glm::dvec2 place_mm{0.0};
-  double depth2_mm2 = 0.0;  ///< squared distance from the plane of the fall
-  glm::dvec2 normal{0.0};   ///< outward; what of the unit normal lies in the plane
-  double area_mm2 = 0.0;
+/// A strip of surface all round the part's own axis, a wall's or a tread's; it is sampled in
+/// kDirections on the half in front of the plane of the fall, which stands for both.
+struct SurfaceStrip {
+  double radius_mm = 0.0;
+  double height_mm = 0.0;  ///< from the centre of mass, as it stood
+  double outward = 0.0;    ///< the unit normal: along the radius,
+  double upward = 0.0;     ///< and along the axis
+  double area_mm2 = 0.0;   ///< of one sample
 };
+inline constexpr std::size_t kDirections = 32;
 
 /// What stands above a ring, crown included, as one rigid body that moves in a plane through its
 /// axis.
 class FallenBody {
  public:
-  /// O(N) once; the number of samples is bounded, whatever N is.
+  /// O(N) once; the number of strips is bounded, whatever N is.
   FallenBody(const ClayStack& stack, std::size_t failed_ring);
 
   [[nodiscard]] bool empty() const noexcept { return volume_mm3_ <= 0.0; }
@@ -38,7 +41,10 @@ class FallenBody {
   [[nodiscard]] double gyration_mm() const noexcept { return gyration_mm_; }
   /// No point is farther from the centre of mass.
   [[nodiscard]] double reach_mm() const noexcept { return reach_mm_; }
-  [[nodiscard]] const std::vector<SurfaceSample>& samples() const noexcept { return samples_; }
+  [[nodiscard]] const std::vector<SurfaceStrip>& surface() const noexcept { return surface_; }
+
+  /// Cosines of the directions of samples, from the outward side to the other.
+  [[nodiscard]] static const std::array<double, kDirections>& directions() noexcept;
 
   /// The lowest point when turned by an angle, relative to the centre of mass.
   [[nodiscard]] glm::dvec2 lowest(double angle_rad) const noexcept;
@@ -55,15 +61,13 @@ class FallenBody {
   void add_wall(double radius_mm, const Band& band, double outward);
   void add_tread(double from_mm, double to_mm, double height_mm, double upward);
   void add_difference(const Band& below, const Band& above);
-  void add_ring_of_samples(double radius_mm, double height_mm, glm::dvec2 normal, double area_mm2,
-                           bool wall);
 
   double volume_mm3_ = 0.0;
   double centre_height_mm_ = 0.0;
   double gyration_mm_ = 0.0;
   double reach_mm_ = 0.0;
   std::vector<glm::dvec2> hull_;  ///< its right half, from the bottom up, from the centre of mass
-  std::vector<SurfaceSample> samples_;
+  std::vector<SurfaceStrip> surface_;
 };
 
 }  // namespace clay

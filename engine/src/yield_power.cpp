@@ -35,6 +35,11 @@ bool nearest_weights(const std::array<Twist, 4>& p, int count, std::array<double
   return true;
 }
 
+/// By the angle whose cosine and sine are given.
+glm::dvec2 turned(glm::dvec2 v, glm::dvec2 turn) noexcept {
+  return {turn.x * v.x - turn.y * v.y, turn.y * v.x + turn.x * v.y};
+}
+
 /// Up to four points, and the point of their convex hull that is nearest to the origin.
 struct Corral {
   std::array<Twist, 4> points{};
@@ -93,15 +98,22 @@ bool YieldPower::in_clay(glm::dvec2 place_mm, double depth2_mm2) const noexcept 
 void YieldPower::place(const PlanePose& pose) {
   touches_.clear();
   const double c = std::cos(pose.angle_rad), s = std::sin(pose.angle_rad);
+  for (const SurfaceStrip& strip : body_.surface()) {
+    const double middle = pose.centre_mm.y + c * strip.height_mm;
+    const double rise = std::abs(s) * strip.radius_mm;
+    if (middle - rise <= top_mm_ && middle + rise > 0.0) place(strip, pose.centre_mm, {c, s});
+  }
+}
+
+void YieldPower::place(const SurfaceStrip& strip, glm::dvec2 centre_mm, glm::dvec2 turn) {
   const double per_gyration = 1.0 / body_.gyration_mm();
-  for (const SurfaceSample& sample : body_.samples()) {
-    const glm::dvec2 arm{c * sample.place_mm.x - s * sample.place_mm.y,
-                         s * sample.place_mm.x + c * sample.place_mm.y};
-    if (!in_clay(pose.centre_mm + arm, sample.depth2_mm2)) continue;
-    const glm::dvec2 normal{c * sample.normal.x - s * sample.normal.y,
-                            s * sample.normal.x + c * sample.normal.y};
+  for (const double cosine : FallenBody::directions()) {
+    const glm::dvec2 arm = turned({strip.radius_mm * cosine, strip.height_mm}, turn);
+    const double depth2 = strip.radius_mm * strip.radius_mm * (1.0 - cosine * cosine);
+    if (!in_clay(centre_mm + arm, depth2)) continue;
+    const glm::dvec2 normal = turned({strip.outward * cosine, strip.upward}, turn);
     touches_.push_back({{normal.x, normal.y, (arm.x * normal.y - arm.y * normal.x) * per_gyration},
-                        share_per_mm2_ * sample.area_mm2});
+                        share_per_mm2_ * strip.area_mm2});
   }
 }
 
@@ -123,21 +135,30 @@ Twist YieldPower::support(const Twist& direction) const noexcept {
   return load;
 }
 
-/// The twist sought is the smallest of the loads (duality); Wolfe's algorithm finds it.
+/// The twist sought is the smallest of the loads (duality); Wolfe's algorithm finds it. Where it
+/// is slow to end, the best twist so far will do.
 Twist YieldPower::steepest() const noexcept {
   constexpr int kIterations = 200;
+  constexpr double kNearly = 1.0 - 1e-9;
   Corral corral;
   corral.nearest = {0.0, -1.0, 0.0};
+  Twist best{0.0};
+  double most = kRest;
   for (int k = 0; k < kIterations; ++k) {
-    const Twist& u = corral.nearest;
-    const double length2 = glm::dot(u, u);
-    if (length2 <= kRest * kRest) break;
+    const Twist u = corral.nearest;
+    const double length = glm::length(u);
+    if (length <= kRest) return Twist{0.0};
     const Twist load = support(u);
-    if (glm::dot(load, u) >= 0.5 * length2) return u;
-    corral.points[corral.count++] = load;
+    const double won = glm::dot(load, u) / length;
+    if (won > most) {
+      most = won;
+      best = u;
+    }
+    if (won >= kNearly * length || corral.count == 4) break;
+    corral.points[static_cast<std::size_t>(corral.count++)] = load;
     corral.reduce();
   }
-  return Twist{0.0};
+  return best;
 }
 
 }  // namespace clay

@@ -44,6 +44,7 @@ class YieldPower {
     double share = 0.0;  ///< largest force over the weight
   };
 
+  void place(const SurfaceStrip& strip, glm::dvec2 centre_mm, glm::dvec2 turn);
   [[nodiscard]] bool in_clay(glm::dvec2 place_mm, double depth2_mm2) const noexcept;
   [[nodiscard]] Twist support(const Twist& direction) const noexcept;
 

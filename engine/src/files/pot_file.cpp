@@ -39,7 +39,7 @@ static void describe(auto& io, Is<Collapse> auto& collapse) {
   // Files of before the fall was settled have none of these: a turn is all that there was.
   io.vector("shift_mm", collapse.shift_mm, from(-1e6).to(1e6));
   io.number("threshold_kpa", collapse.threshold_kpa, kNotNegative);
-  io.number("potential_lost_mj", collapse.potential_lost_mj, kNotNegative);
+  io.number("energy_lost_mj", collapse.energy_lost_mj, kNotNegative);
   io.number("plastic_work_mj", collapse.plastic_work_mj, kNotNegative);
   io.check([&](ObjectReader& reader) {
     const glm::dvec3& axis = collapse.axis;

@@ -21,9 +21,9 @@ struct Collapse {
   double angle_rad = 0.0;          ///< within a full turn either way
   double stress_kpa = 0.0;         ///< at the failed ring
   glm::dvec3 shift_mm{0.0};
-  double threshold_kpa = 0.0;      ///< the stress that the clay bears; 0: not known
-  double potential_lost_mj = 0.0;  ///< by the upper part
-  double plastic_work_mj = 0.0;    ///< of that, spent on the lower clay; the rest was damped
+  double threshold_kpa = 0.0;    ///< the stress that the clay bears; 0: not known
+  double energy_lost_mj = 0.0;   ///< potential energy, by the upper part
+  double plastic_work_mj = 0.0;  ///< of that, spent on the lower clay; the rest was damped
   friend bool operator==(const Collapse&, const Collapse&) = default;
 };
 
