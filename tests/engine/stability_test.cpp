@@ -85,7 +85,7 @@ RC_GTEST_PROP(Stability, WatchingTheFlowSeesWhatTheLiteralSumSees, ()) {
   const StepPlan plan = StepPlan::build(scene).value();
   RC_PRE(!literal(plan.stability, stack));
   Ledger ledger;
-  StabilityWatch watch;
+  StabilityWatch watch(stack);
   for (int step = 0; step < 60; ++step) {
     Bite bite;
     auto& [contact, removed] = bite;
@@ -102,7 +102,7 @@ RC_GTEST_PROP(Stability, WatchingTheFlowSeesWhatTheLiteralSumSees, ()) {
     const bool up = samples::uniform(random) < 0.5;
     const Flow flow = trim ? trim_clay<Model::conserving>({&bite, 1}, stack, ledger)
                            : press_clay<Model::conserving>(plan, {&bite, 1}, up, stack, ledger);
-    const auto seen = watch.check(plan.stability, stack, flow.lowest, flow.grown);
+    const auto seen = watch.check(plan.stability, stack, flow);
     const auto expected = literal(plan.stability, stack);
     RC_ASSERT(seen.has_value() == expected.has_value());
     if (!seen) continue;
