@@ -51,9 +51,9 @@ class RayleighKernel {
     std::int64_t below_;    ///< C at at_
   };
 
-  /// Deals an amount out by the parts that a Dealer names, to the quantum: what rings 1..L1 get adds
-  /// up to it. Quanta or WideQuanta, which give the same shares: what an ordinary tick moves fits
-  /// into 64 bits, which is one multiplication instead of three.
+  /// Deals an amount out by the parts that a Dealer names, to the quantum: what rings 1..L1 get
+  /// adds up to it. Quanta or WideQuanta, which give the same shares: what an ordinary tick moves
+  /// fits into 64 bits, which is one multiplication instead of three.
   template <class Amount>
   class Shares {
    public:

@@ -25,7 +25,6 @@ struct EllipseProfile {
     const double u = std::clamp(t / a, -kSlopeLimit, kSlopeLimit);
     return -(b / a) * u / std::sqrt(1.0 - u * u);
   }
-
 };
 
 struct RibProfile {
