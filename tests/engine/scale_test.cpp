@@ -36,6 +36,10 @@ class Watched {
   explicit Watched(const SceneSpec& scene)
       : memory_(allocate_together([&] { wheel_ = Wheel::build(scene).value(); })) {}
 
+  void go(double x_mm, double y_mm) {
+    time_us_ += 1000;
+    report_ = wheel_->step({time_us_, {x_mm, y_mm, 0.0}, false});
+  }
   /// The pages that a tick there opens.
   std::size_t pages(double x_mm, double y_mm) {
     time_us_ += 1000;
@@ -95,6 +99,17 @@ TEST_P(Rings, AStrokeReadsWhereItIs) {
   }
   // All the places since the sums were told last: 500 rings and the place itself, 3 pages.
   EXPECT_LE(most, 3 + kPlacePages + kOwnPages);
+}
+
+TEST(Scale, ALongStrokeLeavesNothingToTheLeapAfterIt) {
+  Watched watched(scene_of(kMillion, Model::paper));
+  for (int k = 0; k < 4000; ++k) {
+    watched.go(40.2, 1.0 + 0.25 * k);
+    EXPECT_TRUE(watched.report().flags & kContact);
+  }
+  // 20000 rings are 78 pages.
+  EXPECT_LE(watched.pages(40.2, watched.height_mm() - 1.0), 2 * kPlacePages + kOwnPages);
+  EXPECT_TRUE(watched.report().flags & kContact);
 }
 
 /// Nothing above the tool takes the clay, so that all of it weighs on every ring below the top.

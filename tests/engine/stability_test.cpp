@@ -65,6 +65,26 @@ TEST(Stability, TheTopRingCarriesTheCrown) {
       plan, ClayStack::from_rings(1.0, {ring}, ring.volume() / 2).value()));
 }
 
+TEST(Stability, APapersNewRingWeighsOnAllBelow) {
+  ClayStack stack = ClayStack::cylinder(500, 1.0, 30.0, 0.0, 600).value();
+  const Quanta ring = stack.rings()[0].volume();
+  StepPlan plan = plan_of(1.0);
+  plan.stability.max_stress_kpa = stress_kpa(plan.stability, stack.volume() - ring / 2, ring);
+  StabilityWatch watch(stack);
+  Ledger ledger;
+  ledger.outside = ring - 1;  // what the body has lacked since its foot was looked at last
+  Bite bite;
+  bite.contact.bottom = bite.contact.top = 499;
+  bite.contact.rings.push_back({499, 1.0, 0.0});
+  bite.removed.push_back(1000);
+  watch.move_to(stack, 499);
+  const Flow flow = press_clay<Model::paper>(plan, {&bite, 1}, true, stack, ledger);
+  ASSERT_EQ(flow.grown, 1u);
+  const auto failure = watch.check(plan.stability, stack, flow);
+  ASSERT_TRUE(failure);
+  EXPECT_EQ(failure->ring, 0u);
+}
+
 /// The literal sum of section 7 over every ring.
 std::optional<Failure> literal(const StabilityPlan& plan, const ClayStack& stack) {
   std::optional<Failure> worst;
