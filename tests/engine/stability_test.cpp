@@ -152,6 +152,29 @@ double largest_stress(const StabilityPlan& plan, const ClayStack& stack) {
   return running(any, stack)->stress_kpa;
 }
 
+/// The crown becomes rings while the tool is far below, and the tool then goes a little further.
+TEST(Stability, NewRingsOnTopWeighOnTheWayToo) {
+  const Ring ring{quanta_from_radius(30.0), 0};
+  ClayStack stack =
+      ClayStack::from_rings(1.0, std::vector<Ring>(100, ring), 3 * ring.volume(), 200).value();
+  StabilityPlan plan = plan_of(100.0).stability;
+  StabilityWatch watch(stack);
+  Ledger ledger;
+  std::size_t grown = 0;
+  for (const std::size_t at : {50, 40}) {
+    Bite bite;
+    bite.contact.bottom = bite.contact.top = at;
+    bite.contact.rings.push_back({static_cast<std::uint32_t>(at), 1.0, 0.0});
+    bite.removed.push_back(ring.volume() / 2);
+    watch.move_to(stack, at);
+    const Flow flow = trim_clay<Model::conserving>({&bite, 1}, stack, ledger);
+    grown += flow.grown;
+    if (at == 40) plan.max_stress_kpa = largest_stress(plan, stack) * (1.0 - 1e-6);
+    EXPECT_EQ(watch.check(plan, stack, flow).has_value(), at == 40);
+  }
+  EXPECT_EQ(grown, 3u);
+}
+
 /// Walls from a tenth of the radius to solid; at times a top ring that is next to nothing, so that
 /// the clay above it becomes many rings.
 ClayStack random_stack(std::mt19937_64& random, std::size_t count) {
