@@ -90,6 +90,15 @@ void find_pinch(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_
   inner.side = Side::expansive;
   touch_rings(tool, stack, hip_mm.y, outer);
   touch_rings(tool, stack, hip_mm.y, inner);
+  // A depth alone does not tell a tool that is through the wall from one that is past it.
+  std::erase_if(outer.rings, [&](const RingContact& touch) {
+    const Ring& ring = stack.rings()[touch.ring];
+    return 2.0 * outer.axis_distance_mm + touch.depth_mm - ring.outer_mm() <= ring.inner_mm();
+  });
+  std::erase_if(inner.rings, [&](const RingContact& touch) {
+    const Ring& ring = stack.rings()[touch.ring];
+    return 2.0 * inner.axis_distance_mm - touch.depth_mm - ring.inner_mm() >= ring.outer_mm();
+  });
 }
 
 }  // namespace clay

@@ -43,8 +43,9 @@ void find_contact(const Tool& tool, const ClayStack& stack, const glm::dvec3& hi
 /// Both tools of a pinch, at the HIP's height and along its radius: at their widest they reach
 /// d + gap/2 from outside and d - gap/2 from inside, so their centres are gap/2 + max f from the
 /// HIP. The sides are given, not found. An inner tool that is wider than the bore stands beyond
-/// the axis: its distance is counted as any other, its direction is the opposite one. Both contacts
-/// have the same candidate range.
+/// the axis: its distance is counted as any other, its direction is the opposite one. A tool that is
+/// clear of a ring, the outer one within its bore (d + f <= r), the inner one beyond its outside
+/// (d - f >= R), does not touch it. Both contacts have the same candidate range.
 void find_pinch(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_mm, double gap_mm,
                 Contact& outer, Contact& inner) noexcept;
 

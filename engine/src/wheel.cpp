@@ -3,6 +3,7 @@
 #include "collapse.hpp"
 #include "contact.hpp"
 #include "force.hpp"
+#include "number_text.hpp"
 #include "redistribution.hpp"
 #include "removal.hpp"
 #include "stability.hpp"
@@ -145,8 +146,8 @@ Result<Wheel> Wheel::build(const SceneSpec& scene) {
     if (const auto weak = StabilityWatch::check_all(plan->stability, *stack))
       return failure(ErrorKind::bad_input,
                      "stability.max_stress_kpa: expected more than the lump's own weight, found " +
-                         std::to_string(plan->stability.max_stress_kpa) + " against " +
-                         std::to_string(weak->stress_kpa) + " kPa at ring " +
+                         number_text(plan->stability.max_stress_kpa) + " against " +
+                         number_text(weak->stress_kpa) + " kPa at ring " +
                          std::to_string(weak->ring));
   }
 
@@ -176,7 +177,9 @@ bool Wheel::collapsed() const noexcept { return state_->failure.has_value(); }
 Pot Wheel::pot() const {
   const State& s = *state_;
   Pot pot{s.stack, s.ledger, s.plan.model, s.plan.density_g_cm3, {}, {}};
-  if (s.failure) pot.collapse = settle(s.stack, *s.failure, s.failure_hip);
+  if (s.failure)
+    pot.collapse = settle(s.stack, s.plan.density_g_cm3, *s.failure, s.failure_hip,
+                          s.plan.stability.max_stress_kpa);
   return pot;
 }
 

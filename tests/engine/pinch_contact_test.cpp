@@ -53,12 +53,16 @@ RC_GTEST_PROP(PinchContact, EachToolIsOnItsSideOfTheGap, ()) {
     const double surface_in = std::abs(d - gap / 2 - size) + f;
     const double from_out = stack.rings()[i].outer_mm() - surface_out;
     const double from_in = surface_in - stack.rings()[i].inner_mm();
-    if (from_out > 1e-9) {
+    // Clear of the ring: the outer tool within the bore, the inner one beyond the outside.
+    const double past_bore = d + gap / 2 + size + f - stack.rings()[i].inner_mm();
+    const double past_outside = stack.rings()[i].outer_mm() - (surface_in - 2.0 * f);
+    RC_PRE(std::abs(past_bore) > 1e-9 && std::abs(past_outside) > 1e-9);
+    if (from_out > 1e-9 && past_bore > 0.0) {
       RC_ASSERT(out < outer.rings.size());
       RC_ASSERT(outer.rings[out].ring == i);
       RC_ASSERT(std::abs(outer.rings[out++].depth_mm - from_out) < 1e-9);
     }
-    if (from_in > 1e-9) {
+    if (from_in > 1e-9 && past_outside > 0.0) {
       RC_ASSERT(in < inner.rings.size());
       RC_ASSERT(inner.rings[in].ring == i);
       RC_ASSERT(std::abs(inner.rings[in++].depth_mm - from_in) < 1e-9);
