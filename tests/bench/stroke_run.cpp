@@ -142,7 +142,7 @@ Outcome play_literal(const Fineness& fineness) {
 double time_engine(const Fineness& fineness, Model model) {
   Wheel wheel = Wheel::build(stroke_scene(fineness, model)).value();
   const auto poses = poses_at(fineness.rate_hz);
-  return seconds_of([&] {
+  return work_seconds_of([&] {
     for (const Pose& pose : poses) wheel.step(pose);
   });
 }
@@ -151,7 +151,7 @@ double time_literal(const Fineness& fineness) {
   const LiteralScene scene = literal_scene(fineness);
   LiteralPaper paper(scene);
   const auto poses = poses_at(fineness.rate_hz);
-  return seconds_of([&] {
+  return work_seconds_of([&] {
     for (const Pose& pose : poses) paper.step(literal_hip(pose.position_mm, scene));
   });
 }
