@@ -1,5 +1,7 @@
 #include "claystack/engine/tool.hpp"
 
+#include "number_text.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -16,30 +18,31 @@ bool is_size(double mm) { return mm > 0.0 && mm <= kMaxSizeMm; }
 tl::unexpected<Error> bad_size(const std::string& what, double found) {
   return failure(
       ErrorKind::bad_input,
-      "tool: expected " + what + " above 0 and at most 5000 mm, found " + std::to_string(found));
+      "tool: expected " + what + " above 0 and at most 5000 mm, found " + number_text(found));
 }
 
 struct Built {
   Tool::Profile profile;
-  double low, high;
+  double low, high, widest;
 };
 
 Result<Built> build_profile(const SphereSpec& s) {
   if (!is_size(s.radius_mm)) return bad_size("a radius", s.radius_mm);
-  return Built{EllipseProfile{s.radius_mm, s.radius_mm}, -s.radius_mm, s.radius_mm};
+  return Built{EllipseProfile{s.radius_mm, s.radius_mm}, -s.radius_mm, s.radius_mm, s.radius_mm};
 }
 
 Result<Built> build_profile(const EllipseSpec& s) {
   if (!is_size(s.half_height_mm)) return bad_size("a half height", s.half_height_mm);
   if (!is_size(s.half_width_mm)) return bad_size("a half width", s.half_width_mm);
   return Built{EllipseProfile{s.half_height_mm, s.half_width_mm}, -s.half_height_mm,
-               s.half_height_mm};
+               s.half_height_mm, s.half_width_mm};
 }
 
 Result<Built> build_profile(const RibSpec& s) {
   if (!is_size(s.height_mm)) return bad_size("a height", s.height_mm);
   if (!is_size(s.radius_mm)) return bad_size("a radius", s.radius_mm);
-  return Built{RibProfile{0.5 * s.height_mm, s.radius_mm}, -0.5 * s.height_mm, 0.5 * s.height_mm};
+  return Built{RibProfile{0.5 * s.height_mm, s.radius_mm}, -0.5 * s.height_mm, 0.5 * s.height_mm,
+               s.radius_mm};
 }
 
 /// End slope of a monotone cubic: three-point formula, limited to keep the shape.
@@ -76,15 +79,15 @@ Result<Built> build_profile(const SampledSpec& s) {
   for (std::size_t k = 0; k < s.t_mm.size(); ++k) {
     if (!(std::abs(s.t_mm[k]) <= kMaxSizeMm) || (k > 0 && !(s.t_mm[k] > s.t_mm[k - 1])))
       return failure(ErrorKind::bad_input, "tool: expected t_mm to rise within 5000 mm, found " +
-                                               std::to_string(s.t_mm[k]) + " at sample " +
+                                               number_text(s.t_mm[k]) + " at sample " +
                                                std::to_string(k));
     if (!(s.f_mm[k] >= 0.0 && s.f_mm[k] <= kMaxSizeMm))
       return failure(ErrorKind::bad_input, "tool: expected f_mm from 0 to 5000, found " +
-                                               std::to_string(s.f_mm[k]) + " at sample " +
+                                               number_text(s.f_mm[k]) + " at sample " +
                                                std::to_string(k));
   }
   return Built{SampledProfile{s.t_mm, s.f_mm, monotone_slopes(s.t_mm, s.f_mm)}, s.t_mm.front(),
-               s.t_mm.back()};
+               s.t_mm.back(), *std::ranges::max_element(s.f_mm)};
 }
 
 /// Interval of `at` in a rising table, the end ones for what lies beyond.
@@ -125,6 +128,7 @@ Result<Tool> Tool::build(const ToolShapeSpec& spec) {
     tool.profile_ = std::move(built.profile);
     tool.low_ = built.low;
     tool.high_ = built.high;
+    tool.widest_ = built.widest;
     return tool;
   });
 }

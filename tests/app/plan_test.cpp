@@ -27,7 +27,7 @@ TEST(Plan, LeavesOutWhatASolidFrictionlessSceneDoesNotNeed) {
   ASSERT_EQ(run.status, 0) << run.err;
   const auto plan = run.json();
   EXPECT_EQ(stages(plan, "left_out"),
-            (std::set<std::string>{"inner surface", "friction", "stability"}));
+            (std::set<std::string>{"inner surface", "friction", "stability", "pinch"}));
   EXPECT_EQ(stages(plan, "in"), (std::set<std::string>{"tool state", "contact", "removal",
                                                        "outer surface", "growth", "force"}));
   for (const auto& line : plan.at("left_out")) {
@@ -42,6 +42,7 @@ TEST(Plan, HasAllInForASceneThatNeedsAll) {
   scene["lump"]["inner_radius_mm"] = 20;
   scene["force"]["friction"] = 0.2;
   scene["stability"]["max_stress_kpa"] = 10;
+  scene["tool"]["gap_mm"] = 5;
   write_text(folder.file("s.scene.json"), scene.dump());
   EXPECT_TRUE(
       claystack("plan --json " + folder.file("s.scene.json")).json().at("left_out").empty());
@@ -49,6 +50,28 @@ TEST(Plan, HasAllInForASceneThatNeedsAll) {
   write_text(folder.file("s.scene.json"), scene.dump());
   EXPECT_EQ(stages(claystack("plan --json " + folder.file("s.scene.json")).json(), "left_out"),
             (std::set<std::string>{"force", "friction"}));
+}
+
+TEST(Plan, SaysWhetherAnArmCanRenderTheContact) {
+  const ScratchFolder folder;
+  write_text(folder.file("s.scene.json"), kSolidFrictionless);
+  // 41 rings of 0.5 mm under the sphere, 0.02 N/mm2: 410 N/m. Accepted: b / 3T.
+  const auto calm = claystack("plan --json --rate 1000 --damping 2 " + folder.file("s.scene.json"));
+  ASSERT_EQ(calm.status, 0) << calm.err;
+  const auto servo = calm.json().at("servo");
+  EXPECT_NEAR(servo.at("stiffness_n_per_m").get<double>(), 410.0, 1e-9);
+  EXPECT_NEAR(servo.at("contact_height_mm").get<double>(), 20.5, 1e-12);
+  EXPECT_NEAR(servo.at("accepted_n_per_m").get<double>(), 2.0 * 1000 / 3, 1e-9);
+
+  const auto stiff = claystack("plan --rate 500 " + folder.file("s.scene.json"));
+  EXPECT_EQ(stiff.status, 2);
+  // 333.3 / 410 of 0.02, and 410 / 333.3 of 500 Hz.
+  EXPECT_NE(stiff.err.find("force.stiffness_n_per_mm2: expected at most 0.0162"), std::string::npos)
+      << stiff.err;
+  EXPECT_NE(stiff.err.find("found 0.02; or a rate of at least 615 Hz"), std::string::npos)
+      << stiff.err;
+  EXPECT_EQ(claystack("plan -q --rate 615 " + folder.file("s.scene.json")).status, 0);
+  EXPECT_EQ(claystack("plan -q --rate 5 " + folder.file("s.scene.json")).status, 2);
 }
 
 }  // namespace
