@@ -107,6 +107,7 @@ TEST(Collapse, SquatCylinderRocksBackOntoItsFoot) {
   const Pot pot = tipped_cylinder(30.0, 60.0, 35.0);
   EXPECT_NEAR(pot.collapse->angle_rad, 0.0, 1e-8);
   EXPECT_NEAR(centre_mm(pot), 30.0, 1e-6);
+  EXPECT_LT(fall_frames(pot).size(), 1000u);  // and stays there
   EXPECT_NEAR(lowest_mm(pot), 0.0, 1e-9);
 }
 
