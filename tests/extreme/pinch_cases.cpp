@@ -115,14 +115,14 @@ Outcome gap_not_in_the_scene(Who who) {
 /// bound, is in the clay.
 Outcome minus_gradient_of_both(Who who) {
   if (who == Who::literal) return kOneTool;
-  constexpr double kSoftNPerMm2 = 5e-4, kRingMm = 1.0 / 16.0, kTolerance = 1e-4;
+  constexpr double kSoftNPerMm2 = 5e-4, kRingMm = 1.0 / 32.0, kTolerance = 1e-4;
   Hand hand(23);
   double worst = 0.0, largest = 0.0;
   for (int k = 0; k < 60; ++k) {
     SceneSpec scene = pinched_pot(22.0);
     if (k % 2 == 0) scene.tool.shape = EllipseSpec{10.0, 7.0};
     scene.lump.ring_height_mm = kRingMm;
-    scene.lump.rings = 960;
+    scene.lump.rings = 1920;
     scene.lump.max_rings = 0;
     scene.force->stiffness_n_per_mm2 = kSoftNPerMm2;
     Trial trial(who, scene);
