@@ -40,8 +40,9 @@ Outcome sigma_infinite_is_linear(Who who) {
   scene.flow.sigma_mm = kInfinity;
   scene.tool.shape = RibSpec{10.0, 6.0};
   Trial trial(who, scene);
-  trial.stroke({45, 29.9, 0}, {45, 30.1, 0}, 2);
-  trial.at({34, 30.2, 0});
+  // At rest, with its end in the middle of a ring: from there the kernel is counted.
+  trial.stroke({45, 30.4, 0}, {45, 30.5, 0}, 2);
+  trial.at({34, 30.5, 0});
   if (!trial.going_well()) return trial.done();
   Exact gained = 0;
   for (std::size_t j = 1; j <= 12; ++j)

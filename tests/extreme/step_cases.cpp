@@ -106,7 +106,7 @@ Outcome drift(Who who) {
   if (!first.fault.empty()) return {Verdict::failed, first.fault};
   if (first.worst != 0 && who == Who::conserving) return {Verdict::failed, "quanta lost"};
   if (first.hash != second.hash) return {Verdict::failed, "two runs differ"};
-  if (first.contacts < ticks / 4) return {Verdict::failed, "too little contact"};
+  if (first.contacts < ticks / 10) return {Verdict::failed, "too little contact"};
   return {Verdict::passed, fmt::format("{} ticks twice, {} in contact, 0 quanta, hash {:016x}",
                                        ticks, first.contacts, first.hash)};
 }
