@@ -56,20 +56,21 @@ FalconModel::FalconModel(FalconModelSettings settings, Grip grip)
 void FalconModel::set_dtr(bool high) noexcept {
   const bool rises = high && !dtr_;
   dtr_ = high;
-  if (!rises || stage_ == Stage::running) return;
-  stage_ = Stage::waiting;
-  heard_size_ = 0;
-  firmware_.clear();
+  if (rises) restart(Stage::waiting);
 }
 
-void FalconModel::replug() noexcept {
-  unplugged_ = false;
-  stage_ = settings_.loaded ? Stage::running : Stage::waiting;
+void FalconModel::restart(Stage stage) noexcept {
+  stage_ = stage;
   heard_size_ = 0;
   firmware_.clear();
   homing_ = homed_legs_ = 0;
   motors_ = {};
   force_n_ = glm::dvec3(0.0);
+}
+
+void FalconModel::replug() noexcept {
+  unplugged_ = false;
+  restart(settings_.loaded ? Stage::running : Stage::waiting);
 }
 
 bool FalconModel::happens(WireFault fault, std::uint64_t now) {

@@ -69,7 +69,7 @@ class FalconModel {
 
   // The line, as the USB-UART sets it.
   void set_baud(int baud) noexcept { baud_ = baud; }
-  void set_dtr(bool high) noexcept;  ///< a rise restarts the processor; not when a program runs
+  void set_dtr(bool high) noexcept;  ///< a rise restarts the processor: a guess
 
   /// Bytes from the host, `dt_s` since the last ones.
   [[nodiscard]] Answer receive(std::span<const std::uint8_t> bytes, double dt_s);
@@ -97,6 +97,7 @@ class FalconModel {
  private:
   enum class Stage { waiting, greeted, loading, running };
 
+  void restart(Stage stage) noexcept;
   void boot(std::uint8_t byte, Answer& answer);
   void load(std::uint8_t byte, Answer& answer);
   void run(std::uint8_t byte, double dt_s, Answer& answer);
