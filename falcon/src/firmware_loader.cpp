@@ -9,8 +9,9 @@ namespace {
 constexpr std::array<std::uint8_t, 3> kGreeting = {0x0A, 0x43, 0x0D};
 constexpr std::array<std::uint8_t, 4> kGreetingAnswer = {0x0A, 0x44, 0x2C, 0x0D};
 constexpr std::array<std::uint8_t, 1> kAutobaud = {0x41};
-// The latency timer is 16 ms, and a packet of 62 bytes takes 4 ms at 142857 baud: ample.
-constexpr std::int64_t kEchoUs = 500'000;
+// The latency timer is 16 ms, and 62 bytes take 4 ms at 142857 baud, the greeting as long at 9600:
+// ample. The greeting is what an absent power supply makes one wait for.
+constexpr std::int64_t kGreetingUs = 200'000, kEchoUs = 500'000;
 
 DeviceError lost(const Transport& line, WireStatus status) {
   if (status == WireStatus::unplugged)
@@ -22,8 +23,9 @@ DeviceError lost(const Transport& line, WireStatus status) {
 }
 
 /// Fills `bytes`, or as much of it as comes in time.
-DeviceResult<std::size_t> read_fully(Transport& line, std::span<std::uint8_t> bytes) {
-  const std::int64_t end_us = line.now_us() + kEchoUs;
+DeviceResult<std::size_t> read_fully(Transport& line, std::span<std::uint8_t> bytes,
+                                     std::int64_t wait_us) {
+  const std::int64_t end_us = line.now_us() + wait_us;
   std::size_t got = 0;
   while (got < bytes.size()) {
     const std::int64_t left_us = end_us - line.now_us();
@@ -46,11 +48,11 @@ DeviceResult<void> greet(Transport& line) {
   if (auto sent = send(line, kGreeting); !sent) return sent;
   // A byte 0 may come first, from the moment the processor restarts.
   std::array<std::uint8_t, kGreetingAnswer.size() + 1> answer{};
-  const auto first = read_fully(line, std::span(answer).first(kGreetingAnswer.size()));
+  const auto first = read_fully(line, std::span(answer).first(kGreetingAnswer.size()), kGreetingUs);
   if (!first) return tl::make_unexpected(first.error());
   std::span<const std::uint8_t> said(answer.data(), *first);
   if (*first == kGreetingAnswer.size() && answer[0] == 0) {
-    const auto rest = read_fully(line, std::span(answer).last(1));
+    const auto rest = read_fully(line, std::span(answer).last(1), kGreetingUs);
     if (!rest) return tl::make_unexpected(rest.error());
     said = std::span<const std::uint8_t>(answer).subspan(1, kGreetingAnswer.size() - 1 + *rest);
   }
@@ -69,7 +71,7 @@ DeviceResult<void> send_echoed(Transport& line, std::span<const std::uint8_t> pi
                                const std::string& at) {
   if (auto sent = send(line, piece); !sent) return sent;
   std::array<std::uint8_t, kMostWritten> echo{};
-  const auto got = read_fully(line, std::span(echo).first(piece.size()));
+  const auto got = read_fully(line, std::span(echo).first(piece.size()), kEchoUs);
   if (!got) return tl::make_unexpected(got.error());
   const auto differs =
       std::mismatch(piece.begin(), piece.begin() + static_cast<long>(*got), echo.begin()).first;
