@@ -25,22 +25,28 @@ std::optional<SceneSpec> with_stage(SceneSpec scene, std::string_view stage) {
     scene.force->friction = 0.3;
   } else if (stage == "stability") {
     scene.stability = StabilitySpec{1e6};
+  } else if (stage == "pinch") {
+    scene.tool.gap_mm = kDepthMm;
   } else {
     return std::nullopt;
   }
   return scene;
 }
 
-/// One stroke up the outside, at the depth of a firm hand.
+/// One stroke up the outside, or up the middle of the wall where the scene pinches, at the depth of
+/// a firm hand.
 double stroke_ns(const SceneSpec& scene, const Tool& tool) {
   auto wheel = Wheel::build(scene);
   if (!wheel) return 0.0;
   using Clock = std::chrono::steady_clock;
   const double height = wheel->stack().height_mm();
-  const double x = scene.lump.outer_radius_mm + tool.radius(0.0) - kDepthMm;
+  const double outer = scene.lump.outer_radius_mm, inner = scene.lump.inner_radius_mm;
+  const bool pinch = scene.tool.mode == ToolMode::pinch;
+  const double x = pinch ? 0.5 * (outer + inner) : outer + tool.radius(0.0) - kDepthMm;
+  const double gap = pinch ? std::max(0.0, outer - inner - 2.0 * kDepthMm) : 0.0;
   const auto start = Clock::now();
   for (int k = 0; k < kTicks; ++k)
-    wheel->step({1000 * (k + 1), {x, height * k / kTicks, 0.0}, false});
+    wheel->step({1000 * (k + 1), {x, height * k / kTicks, 0.0}, false, gap});
   return std::chrono::duration<double, std::nano>(Clock::now() - start).count() / kTicks;
 }
 

@@ -12,8 +12,10 @@ struct StageCost {
   double without_ns = 0.0;
 };
 
-/// Measured now, on this machine, on this scene: a stroke up the outside of the lump, with the
-/// stage put in and left out by turns. Nothing for stages that can't be put in by a setting.
+/// Measured now, on this machine, on this scene: a stroke up the outside of the lump (or
+/// up its wall, in mode pinch), with the stage put in and left out by turns. A pinch put in is not
+/// made use of: a second tool is another stroke, not another stage. Nothing for stages that can't
+/// be put in by a setting.
 std::optional<StageCost> cost_of(const SceneSpec& scene, std::string_view stage);
 
 }  // namespace clay::app

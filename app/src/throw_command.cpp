@@ -95,6 +95,20 @@ void warn_of_oddities(const Console& console, const Session& session, const Scen
         options.session, session.scene_name));
 }
 
+/// The wheel would refuse such poses one by one.
+Result<void> check_gaps(const Session& session, const SceneSpec& scene,
+                        const ThrowOptions& options) {
+  if (scene.tool.gap_mm) return {};
+  for (const Pose& pose : session.poses)
+    if (pose.gap_mm > 0.0)
+      return failure(
+          ErrorKind::bad_input,
+          fmt::format("{}: expected one tool throughout, as the scene sets no "
+                      "tool.gap_mm, found a gap of {:.6g} mm at {:.3f} s",
+                      options.session, pose.gap_mm, 1e-6 * static_cast<double>(pose.time_us)));
+  return {};
+}
+
 /// Plays the session with both models, for the plot that compares them.
 Result<void> write_error_plot(const SceneSpec& scene, const Session& session,
                               const std::string& path) {
@@ -134,6 +148,7 @@ Result<void> throw_pot(const ThrowOptions& options, Console console) {
   if (!scene) return tl::make_unexpected(scene.error());
   const auto session = load_session(options.session);
   if (!session) return tl::make_unexpected(session.error());
+  if (auto gaps = check_gaps(*session, *scene, options); !gaps) return gaps;
   warn_of_oddities(console, *session, *scene, options);
   if (!options.model.empty())
     scene->model = options.model == "paper" ? Model::paper : Model::conserving;

@@ -41,6 +41,20 @@ void touch_rings(const Profile& profile, const Tool& tool, const ClayStack& stac
   }
 }
 
+void touch_rings(const Tool& tool, const ClayStack& stack, double hip_y,
+                 Contact& contact) noexcept {
+  std::visit([&](const auto& profile) { touch_rings(profile, tool, stack, hip_y, contact); },
+             tool.profile());
+}
+
+/// The tool's centre at `at` along the HIP's radius; below 0 it is beyond the axis.
+void stand(double at, double radial_x, double radial_z, Contact& contact) noexcept {
+  const double sense = at > 0.0 ? 1.0 : at < 0.0 ? -1.0 : 0.0;
+  contact.axis_distance_mm = std::abs(at);
+  contact.radial_x = sense * radial_x;
+  contact.radial_z = sense * radial_z;
+}
+
 }  // namespace
 
 std::size_t most_contacts(const Tool& tool, double ring_height_mm, std::size_t max_rings) {
@@ -57,8 +71,25 @@ void find_contact(const Tool& tool, const ClayStack& stack, const glm::dvec3& hi
   contact.radial_x = d > 0.0 ? hip_mm.x / d : 0.0;
   contact.radial_z = d > 0.0 ? hip_mm.z / d : 0.0;
   contact.side = side_at(stack, hip_mm.y, d);
-  std::visit([&](const auto& profile) { touch_rings(profile, tool, stack, hip_mm.y, contact); },
-             tool.profile());
+  touch_rings(tool, stack, hip_mm.y, contact);
+}
+
+void find_pinch(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_mm, double gap_mm,
+                Contact& outer, Contact& inner) noexcept {
+  outer.rings.clear();
+  inner.rings.clear();
+  if (!candidates(tool, stack, hip_mm.y, outer)) return;
+  inner.bottom = outer.bottom;
+  inner.top = outer.top;
+  const double d = std::sqrt(hip_mm.x * hip_mm.x + hip_mm.z * hip_mm.z);
+  const double radial_x = d > 0.0 ? hip_mm.x / d : 0.0, radial_z = d > 0.0 ? hip_mm.z / d : 0.0;
+  const double reach = 0.5 * gap_mm + tool.widest();
+  stand(d + reach, radial_x, radial_z, outer);
+  stand(d - reach, radial_x, radial_z, inner);
+  outer.side = Side::compressive;
+  inner.side = Side::expansive;
+  touch_rings(tool, stack, hip_mm.y, outer);
+  touch_rings(tool, stack, hip_mm.y, inner);
 }
 
 }  // namespace clay

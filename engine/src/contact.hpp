@@ -40,4 +40,12 @@ struct Contact {
 void find_contact(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_mm,
                   Contact& contact) noexcept;
 
+/// Both tools of a pinch, at the HIP's height and along its radius: at their widest they reach
+/// d + gap/2 from outside and d - gap/2 from inside, so their centres are gap/2 + max f from the
+/// HIP. The sides are given, not found. An inner tool that is wider than the bore stands beyond
+/// the axis: its distance is counted as any other, its direction is the opposite one. Both contacts
+/// have the same candidate range.
+void find_pinch(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_mm, double gap_mm,
+                Contact& outer, Contact& inner) noexcept;
+
 }  // namespace clay

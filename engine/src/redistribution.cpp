@@ -12,15 +12,16 @@ constexpr int kShareBits = 30;
 // A tick has a bounded length; the crown holds what is left for the next one.
 constexpr std::size_t kMostGrowthPerTick = 64;
 
-WideQuanta take(const Contact& contact, const std::vector<Quanta>& removed,
-                StackWriter& writer) noexcept {
+WideQuanta take(std::span<const Bite> bites, StackWriter& writer) noexcept {
   WideQuanta total = 0;
-  for (std::size_t k = 0; k < removed.size(); ++k) {
-    if (contact.side == Side::compressive)
-      writer.take_outside(contact.rings[k].ring, removed[k]);
-    else
-      writer.take_inside(contact.rings[k].ring, removed[k]);
-    total += removed[k];
+  for (const auto& [contact, removed] : bites) {
+    for (std::size_t k = 0; k < removed.size(); ++k) {
+      if (contact.side == Side::compressive)
+        writer.take_outside(contact.rings[k].ring, removed[k]);
+      else
+        writer.take_inside(contact.rings[k].ring, removed[k]);
+      total += removed[k];
+    }
   }
   return total;
 }
@@ -92,13 +93,14 @@ void grow(Flow& flow, ClayStack& stack, Ledger& ledger, StackWriter& writer) noe
 }  // namespace
 
 template <Model model>
-Flow press_clay(const StepPlan& plan, const Contact& contact, const std::vector<Quanta>& removed,
-                bool upward, ClayStack& stack, Ledger& ledger) noexcept {
+Flow press_clay(const StepPlan& plan, std::span<const Bite> bites, bool upward, ClayStack& stack,
+                Ledger& ledger) noexcept {
   StackWriter writer(stack);
+  const Contact& contact = bites.front().contact;
   const std::size_t count = stack.size();
   const auto portions = [&](WideQuanta amount) { return split(amount, plan.inside_share, stack); };
 
-  WideQuanta rest = take(contact, removed, writer);
+  WideQuanta rest = take(bites, writer);
   if (!upward) rest = flow_down(plan.kernel, portions(rest), contact.bottom, writer);
   if (rest > 0) rest = flow_up(plan.kernel, portions(rest), contact.top, count, writer);
   if constexpr (model == Model::paper)
@@ -115,25 +117,21 @@ Flow press_clay(const StepPlan& plan, const Contact& contact, const std::vector<
 }
 
 template <Model model>
-Flow trim_clay(const Contact& contact, const std::vector<Quanta>& removed, ClayStack& stack,
-               Ledger& ledger) noexcept {
+Flow trim_clay(std::span<const Bite> bites, ClayStack& stack, Ledger& ledger) noexcept {
   StackWriter writer(stack);
-  ledger.trimmed += take(contact, removed, writer);
+  ledger.trimmed += take(bites, writer);
   Flow flow;
-  flow.lowest = contact.bottom;
-  flow.highest = contact.top;
+  flow.lowest = bites.front().contact.bottom;
+  flow.highest = bites.front().contact.top;
   grow<model>(flow, stack, ledger, writer);  // a thinner top ring may be worth less than the excess
   return flow;
 }
 
-template Flow press_clay<Model::paper>(const StepPlan&, const Contact&, const std::vector<Quanta>&,
-                                       bool, ClayStack&, Ledger&) noexcept;
-template Flow press_clay<Model::conserving>(const StepPlan&, const Contact&,
-                                            const std::vector<Quanta>&, bool, ClayStack&,
-                                            Ledger&) noexcept;
-template Flow trim_clay<Model::paper>(const Contact&, const std::vector<Quanta>&, ClayStack&,
-                                      Ledger&) noexcept;
-template Flow trim_clay<Model::conserving>(const Contact&, const std::vector<Quanta>&, ClayStack&,
-                                           Ledger&) noexcept;
+template Flow press_clay<Model::paper>(const StepPlan&, std::span<const Bite>, bool, ClayStack&,
+                                       Ledger&) noexcept;
+template Flow press_clay<Model::conserving>(const StepPlan&, std::span<const Bite>, bool,
+                                            ClayStack&, Ledger&) noexcept;
+template Flow trim_clay<Model::paper>(std::span<const Bite>, ClayStack&, Ledger&) noexcept;
+template Flow trim_clay<Model::conserving>(std::span<const Bite>, ClayStack&, Ledger&) noexcept;
 
 }  // namespace clay

@@ -4,10 +4,10 @@
 #include "claystack/engine/clay_stack.hpp"
 #include "claystack/engine/ledger.hpp"
 #include "claystack/engine/step_plan.hpp"
-#include "contact.hpp"
+#include "removal.hpp"
 
 #include <cstddef>
-#include <vector>
+#include <span>
 
 namespace clay {
 
@@ -19,17 +19,17 @@ struct Flow {
   bool ring_limit = false;  ///< clay waits for a ring that max_rings does not allow
 };
 
-/// Takes `removed` from the touched rings and spreads it by the Rayleigh kernel: upward from above
-/// the candidate range by (5), (6) when the tool moves up, downward from below it by (7), (8) when
-/// it moves down. alpha goes inside as far as each bore has room (r_j^2 >= share), the rest
-/// outside. What finds no ring below goes up; what finds none above becomes height.
+/// Takes what the tools bite off and spreads it, all of it at once, by the Rayleigh kernel: upward
+/// from above the candidate range by (5), (6) when the tool moves up, downward from below it by
+/// (7), (8) when it moves down. One bite, or the two of a pinch, which have one candidate range.
+/// alpha goes inside as far as each bore has room (r_j^2 >= share), the rest outside. What finds no
+/// ring below goes up; what finds none above becomes height.
 template <Model model>
-Flow press_clay(const StepPlan& plan, const Contact& contact, const std::vector<Quanta>& removed,
-                bool upward, ClayStack& stack, Ledger& ledger) noexcept;
+Flow press_clay(const StepPlan& plan, std::span<const Bite> bites, bool upward, ClayStack& stack,
+                Ledger& ledger) noexcept;
 
-/// The paper's chiselling (section 8): `removed` leaves the pot and is booked as trimmed.
+/// The paper's chiselling (section 8): what is bitten off leaves the pot and is booked as trimmed.
 template <Model model>
-Flow trim_clay(const Contact& contact, const std::vector<Quanta>& removed, ClayStack& stack,
-               Ledger& ledger) noexcept;
+Flow trim_clay(std::span<const Bite> bites, ClayStack& stack, Ledger& ledger) noexcept;
 
 }  // namespace clay

@@ -3,6 +3,8 @@
 #include "portable_math.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace clay {
 namespace {
@@ -14,6 +16,59 @@ Quanta spare_outside(const Ring& ring) noexcept {
   return ring.outer2 - std::max(ring.inner2 + 1, kSmallestOuter2);
 }
 Quanta spare_inside(const Ring& ring) noexcept { return ring.volume() - 1; }
+
+/// Delta v of a surface that moves by eps, as far as the ring has it to spare.
+Quanta take_outside(const Ring& ring, double eps) noexcept {
+  const Quanta asked = quanta_from_mm2(eps * (2.0 * ring.outer_mm() - eps));
+  return std::clamp<Quanta>(asked, 0, std::max<Quanta>(spare_outside(ring), 0));
+}
+Quanta take_inside(const Ring& ring, double eps) noexcept {
+  const Quanta asked = quanta_from_mm2(eps * (2.0 * ring.inner_mm() + eps));
+  return std::clamp<Quanta>(asked, 0, std::max<Quanta>(spare_inside(ring), 0));
+}
+
+/// How far the surfaces of a pinched wall move in a tick: both for some of it, then one alone.
+struct Pinched {
+  double together_mm = 0.0;  ///< each
+  double alone_mm = 0.0;     ///< the one whose tool is deeper in the clay
+};
+
+/// While both move the wall T shrinks at 2 kappa T, then at kappa T. When the shallower tool's
+/// surface is reached T has fallen to T', which leaves e^-kappa(dt - t') = e^-(kappa dt)
+/// sqrt(T / T') for the other: no logarithm is needed.
+template <Model model>
+Pinched pinched(double wall, double least_wall, double fraction, double shallow,
+                double deep) noexcept {
+  const double spare = wall - least_wall;
+  if (!(spare > 0.0)) return {};
+  if constexpr (model == Model::paper)
+    return shallow > 0.0 ? Pinched{std::min(wall * fraction, 0.5 * spare), 0.0}
+                         : Pinched{0.0, std::min(wall * fraction, spare)};
+  Pinched moved;
+  moved.together_mm = std::min({0.5 * wall * fraction * (2.0 - fraction), shallow, 0.5 * spare});
+  if (moved.together_mm == shallow && deep > shallow) {
+    const double left = wall - 2.0 * shallow;
+    const double rest = 1.0 - (1.0 - fraction) * std::sqrt(wall / left);
+    moved.alone_mm = std::max(0.0, std::min({left * rest, deep - shallow, spare - 2.0 * shallow}));
+  }
+  return moved;
+}
+
+/// use(ring, outer depth, inner depth) for every ring that a tool of a pinch touches; the depth is
+/// 0 where it does not.
+template <class Use>
+void each_touched(const Contact& outer, const Contact& inner, Use use) noexcept {
+  constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
+  std::size_t o = 0, i = 0;
+  while (o < outer.rings.size() || i < inner.rings.size()) {
+    const auto next_o = o < outer.rings.size() ? outer.rings[o].ring : kNone;
+    const auto next_i = i < inner.rings.size() ? inner.rings[i].ring : kNone;
+    const auto ring = std::min(next_o, next_i);
+    const double outer_depth = next_o == ring ? outer.rings[o++].depth_mm : 0.0;
+    const double inner_depth = next_i == ring ? inner.rings[i++].depth_mm : 0.0;
+    use(ring, outer_depth, inner_depth);
+  }
+}
 
 }  // namespace
 
@@ -36,10 +91,38 @@ void compute_removal(const RemovalPlan& plan, const ClayStack& stack, const Cont
   }
 }
 
+template <Model model>
+void compute_pinch_removal(const RemovalPlan& plan, const ClayStack& stack, double gap_mm,
+                           double dt_s, Bite& outer, Bite& inner) noexcept {
+  constexpr bool paper = model == Model::paper;
+  const double least_wall = paper ? gap_mm : std::max(gap_mm, plan.min_wall_mm);
+  const double fraction = paper ? plan.paper_fraction : one_minus_exp_neg(plan.rate_per_s * dt_s);
+  outer.removed.clear();
+  inner.removed.clear();
+  each_touched(outer.contact, inner.contact, [&](auto index, double from_out, double from_in) {
+    Ring ring = stack.rings()[index];
+    const Pinched moved = pinched<model>(ring.outer_mm() - ring.inner_mm(), least_wall, fraction,
+                                         std::min(from_out, from_in), std::max(from_out, from_in));
+    if (from_out > 0.0) {
+      const double alone = from_out > from_in ? moved.alone_mm : 0.0;
+      outer.removed.push_back(take_outside(ring, moved.together_mm + alone));
+      ring.outer2 -= outer.removed.back();
+    }
+    if (from_in > 0.0) {
+      const double alone = from_in > from_out ? moved.alone_mm : 0.0;
+      inner.removed.push_back(take_inside(ring, moved.together_mm + alone));
+    }
+  });
+}
+
 template void compute_removal<Model::paper>(const RemovalPlan&, const ClayStack&, const Contact&,
                                             double, std::vector<Quanta>&) noexcept;
 template void compute_removal<Model::conserving>(const RemovalPlan&, const ClayStack&,
                                                  const Contact&, double,
                                                  std::vector<Quanta>&) noexcept;
+template void compute_pinch_removal<Model::paper>(const RemovalPlan&, const ClayStack&, double,
+                                                  double, Bite&, Bite&) noexcept;
+template void compute_pinch_removal<Model::conserving>(const RemovalPlan&, const ClayStack&, double,
+                                                       double, Bite&, Bite&) noexcept;
 
 }  // namespace clay

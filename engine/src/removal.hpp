@@ -7,6 +7,13 @@
 
 namespace clay {
 
+/// One tool's contact, and what it takes from each ring of it this tick [quanta]. Storage is
+/// reserved once.
+struct Bite {
+  Contact contact;
+  std::vector<Quanta> removed;
+};
+
 /// What leaves each touched ring this tick, in quanta, parallel to `contact.rings`; equations (3)
 /// and (4) with Delta v = eps (2R - eps) outside, eps (2r + eps) inside. Writes nothing else.
 ///
@@ -16,5 +23,16 @@ namespace clay {
 template <Model model>
 void compute_removal(const RemovalPlan& plan, const ClayStack& stack, const Contact& contact,
                      double dt_s, std::vector<Quanta>& removed) noexcept;
+
+/// What two tools take from one wall, each from its own side, that it is nowhere thinner for them
+/// than the gap. Equations (3) and (4) at once:
+///
+/// `paper`: k (R - r) each.
+/// `conserving`: dR/dt = -kappa (R - r) and dr/dt = kappa (R - r), each until its tool's surface is
+/// reached, both until the minimum wall is; solved in closed form, so that here too two half steps
+/// remove what one step does. Both surfaces move alike: the middle of the wall stays.
+template <Model model>
+void compute_pinch_removal(const RemovalPlan& plan, const ClayStack& stack, double gap_mm,
+                           double dt_s, Bite& outer, Bite& inner) noexcept;
 
 }  // namespace clay

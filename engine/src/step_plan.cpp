@@ -30,6 +30,7 @@ Result<void> check(const SceneSpec& s) {
   const StabilitySpec stability = s.stability.value_or(StabilitySpec{});
   return check_ranges({
       {"lump.density_g_cm3", s.lump.density_g_cm3, 0.1, 25.0},
+      {"tool.gap_mm", s.tool.gap_mm.value_or(kMinRadiusMm), kMinRadiusMm, 1000.0},
       {"removal.rate_per_s", s.removal.rate_per_s, 0.0, 1e6},
       {"removal.min_wall_mm", s.removal.min_wall_mm, kMinRadiusMm, 1000.0},
       // k = 1 removes the whole wall, k > 1 turns it inside out.
@@ -52,6 +53,7 @@ unsigned stages_of(const SceneSpec& s) {
   if (s.force) stages |= kForce;
   if (s.force && s.force->friction > 0.0) stages |= kFriction;
   if (s.stability) stages |= kStability;
+  if (s.tool.gap_mm) stages |= kPinch;
   return stages;
 }
 
@@ -72,7 +74,7 @@ StabilityPlan stability_plan(const SceneSpec& s) {
 
 std::vector<PlanLine> describe(const SceneSpec& s, unsigned stages) {
   const bool hollow = s.lump.inner_radius_mm > 0.0;
-  const bool press = s.tool.mode == ToolMode::press;
+  const bool press = s.tool.mode != ToolMode::trim;
   return {
       {"tool state", true, "pose, time step, direction of motion"},
       {"contact", true, "equations (1), (2), then the rings touched"},
@@ -88,6 +90,8 @@ std::vector<PlanLine> describe(const SceneSpec& s, unsigned stages) {
        (stages & kFriction) ? "section 6.2" : "no coefficient of friction is set"},
       {"stability", (stages & kStability) != 0,
        (stages & kStability) ? "section 7" : "no stress threshold is set"},
+      {"pinch", (stages & kPinch) != 0,
+       (stages & kPinch) ? "a pose with a gap has two tools" : "no gap is set"},
   };
 }
 
@@ -99,6 +103,8 @@ std::size_t max_rings_of(const LumpSpec& lump) noexcept {
 
 Result<StepPlan> StepPlan::build(const SceneSpec& scene) {
   if (auto checked = check(scene); !checked) return tl::make_unexpected(checked.error());
+  if (scene.tool.mode == ToolMode::pinch && !scene.tool.gap_mm)
+    return failure(ErrorKind::bad_input, "tool.gap_mm: expected a gap for mode pinch, found none");
   auto tool = Tool::build(scene.tool.shape);
   if (!tool) return tl::make_unexpected(tool.error());
 
@@ -106,6 +112,7 @@ Result<StepPlan> StepPlan::build(const SceneSpec& scene) {
   plan.model = scene.model;
   plan.stages = stages_of(scene);
   plan.mode = scene.tool.mode;
+  plan.gap_mm = scene.tool.mode == ToolMode::pinch ? *scene.tool.gap_mm : 0.0;
   plan.tool = std::move(*tool);
   plan.kernel = RayleighKernel(scene.flow.sigma_mm, scene.flow.reach_mm, scene.lump.ring_height_mm,
                                max_rings_of(scene.lump));

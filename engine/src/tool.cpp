@@ -21,25 +21,26 @@ tl::unexpected<Error> bad_size(const std::string& what, double found) {
 
 struct Built {
   Tool::Profile profile;
-  double low, high;
+  double low, high, widest;
 };
 
 Result<Built> build_profile(const SphereSpec& s) {
   if (!is_size(s.radius_mm)) return bad_size("a radius", s.radius_mm);
-  return Built{EllipseProfile{s.radius_mm, s.radius_mm}, -s.radius_mm, s.radius_mm};
+  return Built{EllipseProfile{s.radius_mm, s.radius_mm}, -s.radius_mm, s.radius_mm, s.radius_mm};
 }
 
 Result<Built> build_profile(const EllipseSpec& s) {
   if (!is_size(s.half_height_mm)) return bad_size("a half height", s.half_height_mm);
   if (!is_size(s.half_width_mm)) return bad_size("a half width", s.half_width_mm);
   return Built{EllipseProfile{s.half_height_mm, s.half_width_mm}, -s.half_height_mm,
-               s.half_height_mm};
+               s.half_height_mm, s.half_width_mm};
 }
 
 Result<Built> build_profile(const RibSpec& s) {
   if (!is_size(s.height_mm)) return bad_size("a height", s.height_mm);
   if (!is_size(s.radius_mm)) return bad_size("a radius", s.radius_mm);
-  return Built{RibProfile{0.5 * s.height_mm, s.radius_mm}, -0.5 * s.height_mm, 0.5 * s.height_mm};
+  return Built{RibProfile{0.5 * s.height_mm, s.radius_mm}, -0.5 * s.height_mm, 0.5 * s.height_mm,
+               s.radius_mm};
 }
 
 /// End slope of a monotone cubic: three-point formula, limited to keep the shape.
@@ -84,7 +85,7 @@ Result<Built> build_profile(const SampledSpec& s) {
                                                std::to_string(k));
   }
   return Built{SampledProfile{s.t_mm, s.f_mm, monotone_slopes(s.t_mm, s.f_mm)}, s.t_mm.front(),
-               s.t_mm.back()};
+               s.t_mm.back(), *std::ranges::max_element(s.f_mm)};
 }
 
 /// Interval of `at` in a rising table, the end ones for what lies beyond.
@@ -125,6 +126,7 @@ Result<Tool> Tool::build(const ToolShapeSpec& spec) {
     tool.profile_ = std::move(built.profile);
     tool.low_ = built.low;
     tool.high_ = built.high;
+    tool.widest_ = built.widest;
     return tool;
   });
 }

@@ -6,7 +6,6 @@
 namespace clay {
 namespace {
 
-constexpr double kFarthestMm = 1e6;
 constexpr std::int64_t kLongestStepUs = 50'000;
 
 // Not (|x| > limit): NaN must fail.
@@ -14,10 +13,11 @@ bool within(double mm) noexcept { return std::abs(mm) <= kFarthestMm; }
 
 }  // namespace
 
-ToolState ToolTracker::advance(const Pose& pose) noexcept {
+ToolState ToolTracker::advance(const Pose& pose, double widest_gap_mm) noexcept {
   ToolState state;
   const glm::dvec3& p = pose.position_mm;
   if (!(within(p.x) && within(p.y) && within(p.z))) return state;
+  if (!(pose.gap_mm >= 0.0 && pose.gap_mm <= widest_gap_mm)) return state;
   if (has_last_) {
     if (pose.time_us <= last_.time_us) return state;
     // Unsigned: the difference of two signed extremes must not overflow.
@@ -34,6 +34,7 @@ ToolState ToolTracker::advance(const Pose& pose) noexcept {
   state.hip_mm = p;
   state.upward = upward_;
   state.trim = pose.trim;
+  state.gap_mm = pose.gap_mm;
   state.valid = true;
   return state;
 }

@@ -5,12 +5,15 @@
 
 namespace clay {
 
+inline constexpr double kFarthestMm = 1e6;
+
 /// A pose that may be believed, with what its predecessors say of it.
 struct ToolState {
   glm::dvec3 hip_mm{0.0};
   double dt_s = 0.0;   ///< since the last pose; 0 for the first, at most 0.05
   bool upward = true;  ///< direction of clay flow (section 5.1)
   bool trim = false;
+  double gap_mm = 0.0;
   bool valid = false;
   bool dt_clamped = false;
 };
@@ -20,8 +23,8 @@ struct ToolState {
 class ToolTracker {
  public:
   /// Refuses (valid = false, nothing remembered) positions that are not finite or beyond 1e6 mm,
-  /// and times that do not advance.
-  ToolState advance(const Pose& pose) noexcept;
+  /// times that do not advance, and gaps outside 0 .. widest_gap_mm.
+  ToolState advance(const Pose& pose, double widest_gap_mm = 0.0) noexcept;
 
  private:
   Pose last_;

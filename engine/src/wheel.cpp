@@ -12,9 +12,9 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace clay {
 
@@ -24,8 +24,7 @@ struct Wheel::State {
   Ledger ledger;
   ToolTracker tracker;
   StabilityWatch watch;
-  Contact contact;              // scratch, reserved once
-  std::vector<Quanta> removed;  // scratch, reserved once
+  std::array<Bite, 2> bites;  // scratch, reserved once; the second is for pinches alone
   std::optional<Failure> failure;
   glm::dvec3 failure_hip{0.0};
   StepReport (*tick)(State&, const Pose&) noexcept = nullptr;
@@ -33,16 +32,45 @@ struct Wheel::State {
 
 namespace {
 
-/// Moves the clay that the tool displaces, and sees whether the stack still stands.
-template <unsigned stages, Model model, class State>
-std::uint32_t deform(State& s, const ToolState& tool) noexcept {
+template <unsigned stages>
+constexpr Model kModel = (stages & kPaperModel) ? Model::paper : Model::conserving;
+
+/// What the tool touches; of a pinch the outer tool first, then the inner one.
+template <unsigned stages, class State>
+std::span<Bite> touch(State& s, const ToolState& tool) noexcept {
+  if constexpr (stages & kPinch) {
+    if (tool.gap_mm > 0.0) {
+      find_pinch(s.plan.tool, s.stack, tool.hip_mm, tool.gap_mm, s.bites[0].contact,
+                 s.bites[1].contact);
+      return s.bites;
+    }
+  }
+  find_contact(s.plan.tool, s.stack, tool.hip_mm, s.bites[0].contact);
+  return std::span(s.bites).first(1);
+}
+
+template <unsigned stages, class State>
+void remove(State& s, const ToolState& tool, std::span<Bite> bites) noexcept {
+  if constexpr (stages & kPinch) {
+    if (bites.size() == 2)
+      return compute_pinch_removal<kModel<stages>>(s.plan.removal, s.stack, tool.gap_mm, tool.dt_s,
+                                                   bites[0], bites[1]);
+  }
+  compute_removal<kModel<stages>>(s.plan.removal, s.stack, bites[0].contact, tool.dt_s,
+                                  bites[0].removed);
+}
+
+/// Moves the clay that is displaced, and sees whether the stack still stands.
+template <unsigned stages, class State>
+std::uint32_t deform(State& s, const ToolState& tool, std::span<const Bite> bites) noexcept {
   if constexpr (stages & kStability)
-    s.watch.move_to(s.stack, std::min(s.contact.top + s.plan.kernel.length(), s.stack.size() - 1));
+    s.watch.move_to(s.stack,
+                    std::min(bites[0].contact.top + s.plan.kernel.length(), s.stack.size() - 1));
 
   const bool trim = tool.trim || s.plan.mode == ToolMode::trim;
-  const Flow flow =
-      trim ? trim_clay<model>(s.contact, s.removed, s.stack, s.ledger)
-           : press_clay<model>(s.plan, s.contact, s.removed, tool.upward, s.stack, s.ledger);
+  const Flow flow = trim
+                        ? trim_clay<kModel<stages>>(bites, s.stack, s.ledger)
+                        : press_clay<kModel<stages>>(s.plan, bites, tool.upward, s.stack, s.ledger);
 
   if constexpr (stages & kStability) {
     s.failure = s.watch.check(s.plan.stability, s.stack, flow.lowest, flow.grown);
@@ -52,33 +80,44 @@ std::uint32_t deform(State& s, const ToolState& tool) noexcept {
          (s.failure ? kCollapsed : 0u);
 }
 
+template <unsigned stages>
+glm::dvec3 felt(const ForcePlan& plan, std::span<const Bite> bites) noexcept {
+  const auto felt_from = [&](const Contact& contact) {
+    glm::dvec3 force = spring_force<kModel<stages>>(plan, contact);
+    if constexpr (stages & kFriction) force += friction_force(plan, contact, force);
+    return force;
+  };
+  glm::dvec3 force = felt_from(bites[0].contact);
+  if constexpr (stages & kPinch)
+    if (bites.size() == 2) force += felt_from(bites[1].contact);
+  return limited(force, plan.limit_n);
+}
+
 /// The tick for a set of stages. A stage that the scene does not need is not in the code it runs.
 template <unsigned stages, class State>
 StepReport tick(State& s, const Pose& pose) noexcept {
-  constexpr Model model = (stages & kPaperModel) ? Model::paper : Model::conserving;
   StepReport report;
   if (s.failure) {
     report.flags = kCollapsed;
     return report;
   }
-  const ToolState tool = s.tracker.advance(pose);
+  ToolState tool = s.tracker.advance(pose, (stages & kPinch) ? kFarthestMm : 0.0);
   report.flags = (tool.valid ? 0u : kRefused) | (tool.dt_clamped ? kLongStep : 0u);
   if (!tool.valid) return report;
+  if constexpr (stages & kPinch)
+    if (tool.gap_mm == 0.0) tool.gap_mm = s.plan.gap_mm;
 
-  find_contact(s.plan.tool, s.stack, tool.hip_mm, s.contact);
-  if (s.contact.rings.empty()) return report;
+  const std::span<Bite> bites = touch<stages>(s, tool);
+  for (const Bite& bite : bites)
+    report.rings_touched += static_cast<std::uint32_t>(bite.contact.rings.size());
+  if (report.rings_touched == 0) return report;
   report.flags |= kContact;
-  report.rings_touched = static_cast<std::uint32_t>(s.contact.rings.size());
 
-  compute_removal<model>(s.plan.removal, s.stack, s.contact, tool.dt_s, s.removed);
-  report.flags |= deform<stages, model>(s, tool);
-
+  remove<stages>(s, tool, bites);
+  report.flags |= deform<stages>(s, tool, bites);
   if constexpr (stages & kForce) {
     if (s.failure) return report;  // nothing is left to push against
-    report.force_n = spring_force<model>(s.plan.force, s.contact);
-    if constexpr (stages & kFriction)
-      report.force_n += friction_force(s.plan.force, s.contact, report.force_n);
-    report.force_n = limited(report.force_n, s.plan.force.limit_n);
+    report.force_n = felt<stages>(s.plan.force, bites);
   }
   return report;
 }
@@ -117,8 +156,11 @@ Result<Wheel> Wheel::build(const SceneSpec& scene) {
   state->stack = std::move(*stack);
   StackWriter(state->stack).reserve();
   state->ledger.initial = state->stack.volume();
-  state->contact.rings.reserve(touches);
-  state->removed.reserve(touches);
+  const std::size_t tools = (state->plan.stages & kPinch) ? 2 : 1;
+  for (Bite& bite : std::span(state->bites).first(tools)) {
+    bite.contact.rings.reserve(touches);
+    bite.removed.reserve(touches);
+  }
   static constexpr auto kTicks = tick_table<State>(std::make_index_sequence<kStageSets>{});
   state->tick = kTicks[state->plan.stages];
   return Wheel(std::move(state));

@@ -91,9 +91,12 @@ DeviceResult<void> FalconDevice::start() {
     return device_failure(DeviceFault::no_answer, silent,
                           "switch on the Falcon's power supply and check that the bridge has "
                           "loaded its firmware");
-  if (settings_.firmware_path.empty())
-    return device_failure(DeviceFault::no_firmware, silent + ": it has no firmware since power-up",
-                          "switch on its power supply and name the firmware file (--firmware)");
+  if (settings_.firmware_path.empty()) {
+    if (auto powered = greet_loader(*line_); !powered) return powered;
+    return device_failure(DeviceFault::no_firmware,
+                          info_.place + ": it has power, and no firmware since it was switched on",
+                          "name the firmware file that came with its driver (--firmware)");
+  }
   const auto firmware = read_firmware(settings_.firmware_path);
   if (!firmware) return tl::make_unexpected(firmware.error());
   if (auto loaded = load_firmware(*line_, *firmware); !loaded) return loaded;

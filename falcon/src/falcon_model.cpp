@@ -73,6 +73,11 @@ void FalconModel::replug() noexcept {
   restart(settings_.loaded ? Stage::running : Stage::waiting);
 }
 
+void FalconModel::switch_power(bool on) noexcept {
+  settings_.power = on;
+  restart(Stage::waiting);
+}
+
 bool FalconModel::happens(WireFault fault, std::uint64_t now) {
   const auto due = std::find_if(
       settings_.faults.begin(), settings_.faults.end(),
@@ -159,15 +164,12 @@ std::array<std::uint8_t, kFrameBytes> FalconModel::state_frame() const {
   frame.fill('A');
   frame.front() = '<';
   frame.back() = '>';
-  const auto counts = kinematics_.inverse(position_m_).and_then([this](const glm::dvec3& angles) {
-    return kinematics_.counts_of(angles);
-  });
   unsigned status = settings_.buttons & 15u;
   for (std::size_t leg = 0; leg < 3; ++leg) {
     const bool homed = static_cast<int>(leg) < homed_legs_;
     if (homed) status += 16u << leg;
-    unsigned word = static_cast<std::uint16_t>(counts.value_or(LegCounts{})[leg] +
-                                               (homed ? 0 : settings_.unhomed_offset));
+    unsigned word =
+        static_cast<std::uint16_t>(counts_[leg] + (homed ? 0 : settings_.unhomed_offset));
     for (std::size_t n = 0; n < 4; ++n, word /= 16)
       frame[1 + 4 * leg + n] = static_cast<std::uint8_t>('A' + word % 16);
   }
@@ -179,6 +181,11 @@ void FalconModel::answer_frame(double dt_s, Answer& answer) {
   const std::uint64_t now = frames_++;
   force_n_ = force_of(motors_);
   position_m_ = grip_(force_n_, dt_s);
+  // A grip that is out of reach leaves the encoders where they were.
+  counts_ =
+      kinematics_.inverse(position_m_)
+          .and_then([this](const glm::dvec3& angles) { return kinematics_.counts_of(angles); })
+          .value_or(counts_);
   const auto whole = state_frame();
   if (happens(WireFault::unplugged, now)) {
     unplugged_ = true;

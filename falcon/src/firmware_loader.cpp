@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 
 namespace clay::falcon {
 namespace {
@@ -98,17 +99,24 @@ DeviceResult<void> load_once(Transport& line, const Firmware& firmware) {
   return line.set_mode(LineMode::running);
 }
 
+DeviceResult<void> tried(int attempts, const std::function<DeviceResult<void>()>& action) {
+  DeviceResult<void> done;
+  for (int i = 0; i < attempts; ++i) {
+    done = action();
+    if (done || done.error().fault == DeviceFault::unplugged) return done;
+  }
+  if (!done && attempts > 1) done.error().what += " (tried " + std::to_string(attempts) + " times)";
+  return done;
+}
+
 }  // namespace
 
+DeviceResult<void> greet_loader(Transport& line, int attempts) {
+  return tried(attempts, [&] { return greet(line); });
+}
+
 DeviceResult<void> load_firmware(Transport& line, const Firmware& firmware, int attempts) {
-  DeviceResult<void> loaded;
-  for (int i = 0; i < attempts; ++i) {
-    loaded = load_once(line, firmware);
-    if (loaded || loaded.error().fault == DeviceFault::unplugged) return loaded;
-  }
-  if (!loaded && attempts > 1)
-    loaded.error().what += " (tried " + std::to_string(attempts) + " times)";
-  return loaded;
+  return tried(attempts, [&] { return load_once(line, firmware); });
 }
 
 }  // namespace clay::falcon

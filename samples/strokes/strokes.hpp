@@ -21,6 +21,9 @@ struct Stroke {
   glm::dvec2 step_mm{0.0};
   double hold_s = 0.0;  ///< rest at the end of each pass
   bool trim = false;    ///< button pressed along the path
+  /// Between the two tools of a pinch: none, one tool; one, all along the path; else one for each
+  /// point. On its way from and to the script's start the hand is one tool.
+  std::vector<double> gap_mm;
 };
 
 struct StrokeScript {
@@ -33,8 +36,8 @@ struct StrokeScript {
 };
 
 /// `*.strokes.json`: one object with the fields of StrokeScript, of which start_mm and strokes are
-/// required; in each stroke, through_mm. Errors read "NAME: strokes[2].speed_mm_s: what was
-/// expected, what was found"; unknown fields are errors.
+/// required; in each stroke, through_mm; gap_mm may be a number. Errors read "NAME:
+/// strokes[2].speed_mm_s: what was expected, what was found"; unknown fields are errors.
 Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name);
 
 /// Poses in a vertical plane through the axis, at the script's rate, counted as in a session.

@@ -27,7 +27,7 @@ TEST(Plan, LeavesOutWhatASolidFrictionlessSceneDoesNotNeed) {
   ASSERT_EQ(run.status, 0) << run.err;
   const auto plan = run.json();
   EXPECT_EQ(stages(plan, "left_out"),
-            (std::set<std::string>{"inner surface", "friction", "stability"}));
+            (std::set<std::string>{"inner surface", "friction", "stability", "pinch"}));
   EXPECT_EQ(stages(plan, "in"), (std::set<std::string>{"tool state", "contact", "removal",
                                                        "outer surface", "growth", "force"}));
   for (const auto& line : plan.at("left_out")) {
@@ -42,6 +42,7 @@ TEST(Plan, HasAllInForASceneThatNeedsAll) {
   scene["lump"]["inner_radius_mm"] = 20;
   scene["force"]["friction"] = 0.2;
   scene["stability"]["max_stress_kpa"] = 10;
+  scene["tool"]["gap_mm"] = 5;
   write_text(folder.file("s.scene.json"), scene.dump());
   EXPECT_TRUE(
       claystack("plan --json " + folder.file("s.scene.json")).json().at("left_out").empty());

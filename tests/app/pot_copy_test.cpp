@@ -77,7 +77,7 @@ TEST_P(PotCopies, RoundedPotsAreSoundAndPrint) {
   EXPECT_EQ(claystack("check -q " + stl).status, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Export, PotCopies, testing::Values("bowl", "vase", "bottle"));
+INSTANTIATE_TEST_SUITE_P(Export, PotCopies, testing::Values("bowl", "vase", "bottle", "cylinder"));
 
 class PotCopy : public testing::Test {
  protected:

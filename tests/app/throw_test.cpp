@@ -62,7 +62,8 @@ TEST_P(Samples, ReplaysToTheSameBytes) {
   EXPECT_FALSE(read_text(folder.file("a.pot.json")).empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Throw, Samples, testing::Values("bowl", "vase", "bottle", "collapse"));
+INSTANTIATE_TEST_SUITE_P(Throw, Samples,
+                         testing::Values("bowl", "vase", "bottle", "cylinder", "collapse"));
 
 TEST(Throw, TellsOfACollapse) {
   const auto run = claystack("throw " + sample("collapse.scene.json"));
@@ -75,6 +76,19 @@ TEST(Throw, WarnsOfASessionFromAnotherScene) {
       claystack("throw " + sample("vase.scene.json") + " --session " + sample("bowl.session"));
   EXPECT_EQ(run.status, 0);
   EXPECT_NE(run.err.find("recorded on another scene (bowl)"), std::string::npos) << run.err;
+}
+
+TEST(Throw, RefusesASessionThatPinchesWhereTheSceneCannot) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("p.pot.json"), session = sample("cylinder.session");
+  const auto run =
+      claystack("throw " + sample("vase.scene.json") + " --session " + session + " -o " + pot);
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find(session + ": expected one tool throughout, as the scene sets no "
+                                   "tool.gap_mm, found a gap of 36 mm at "),
+            std::string::npos)
+      << run.err;
+  EXPECT_FALSE(std::filesystem::exists(pot));
 }
 
 TEST(Throw, DrawsTheErrorOfBothModels) {

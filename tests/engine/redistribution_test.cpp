@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace clay {
 namespace {
@@ -49,6 +50,14 @@ std::vector<double> weights(double sigma, double h, std::size_t length) {
   return w;
 }
 
+/// With one tool.
+template <Model model>
+Flow press_one(const StepPlan& plan, const Contact& contact, std::vector<Quanta> removed,
+               bool upward, ClayStack& stack, Ledger& ledger) {
+  const Bite bite{contact, std::move(removed)};
+  return press_clay<model>(plan, {&bite, 1}, upward, stack, ledger);
+}
+
 constexpr Quanta kMm2 = Quanta{1} << 36;
 
 class Upward : public testing::TestWithParam<bool> {};
@@ -58,7 +67,7 @@ TEST_P(Upward, EquationsFiveToEight) {
   ClayStack stack = ClayStack::cylinder(60, 1.0, 50.0, 40.0, 60).value();
   const StepPlan plan = plan_of(4.0, 12.0, 0.25);
   Ledger ledger;
-  const auto flow = press_clay<Model::conserving>(
+  const auto flow = press_one<Model::conserving>(
       plan, contact_on(28, 30), {30 * kMm2, 40 * kMm2, 50 * kMm2}, up, stack, ledger);
   const auto w = weights(4.0, 1.0, 12);
   for (std::size_t j = 1; j <= 12; ++j) {
@@ -77,8 +86,8 @@ INSTANTIATE_TEST_SUITE_P(Redistribution, Upward, testing::Bool());
 TEST(Redistribution, ExpansionWidensTheBore) {
   ClayStack stack = ClayStack::cylinder(10, 1.0, 50.0, 0.0, 10).value();
   Ledger ledger;
-  press_clay<Model::conserving>(plan_of(2.0, 3.0, 0.25), contact_on(5, 5, Side::expansive),
-                                {9 * kMm2}, false, stack, ledger);
+  press_one<Model::conserving>(plan_of(2.0, 3.0, 0.25), contact_on(5, 5, Side::expansive),
+                               {9 * kMm2}, false, stack, ledger);
   EXPECT_EQ(stack.rings()[5].inner_mm(), 3.0);
   // The neighbours have no bore to fill: all of it goes outside.
   EXPECT_NEAR(outer2(stack, 4) + outer2(stack, 3) + outer2(stack, 2), 3 * 2500 + 9, 1e-9);
@@ -89,8 +98,8 @@ TEST(Redistribution, ABoreTooSmallSendsTheRestOutside) {
   ClayStack stack = ClayStack::from_rings(1.0, {wide, narrow, wide}, 0, 3).value();
   Ledger ledger;
   // One ring of reach: ring 1 is offered 30 mm^2 inside, and has 1.
-  press_clay<Model::conserving>(plan_of(4.0, 1.0, 0.3), contact_on(0, 0), {100 * kMm2}, true, stack,
-                                ledger);
+  press_one<Model::conserving>(plan_of(4.0, 1.0, 0.3), contact_on(0, 0), {100 * kMm2}, true, stack,
+                               ledger);
   EXPECT_EQ(stack.rings()[1].inner2, 0);
   EXPECT_NEAR(outer2(stack, 1), 2500 + 99, 1e-9);
 }
@@ -98,8 +107,8 @@ TEST(Redistribution, ABoreTooSmallSendsTheRestOutside) {
 TEST(Redistribution, WhatFindsNoRoomBelowGoesUp) {
   ClayStack stack = ClayStack::cylinder(40, 1.0, 50.0, 0.0, 40).value();
   Ledger ledger;
-  press_clay<Model::conserving>(plan_of(4.0, 10.0, 0.25), contact_on(4, 6), {0, 100 * kMm2, 0},
-                                false, stack, ledger);
+  press_one<Model::conserving>(plan_of(4.0, 10.0, 0.25), contact_on(4, 6), {0, 100 * kMm2, 0},
+                               false, stack, ledger);
   const auto w = weights(4.0, 1.0, 10);
   double below = 0.0;
   for (std::size_t j = 1; j <= 4; ++j) {
@@ -115,8 +124,8 @@ TEST(Redistribution, WhatFindsNoRoomAboveBecomesHeight) {
   Ledger ledger;
   // Nothing above the top ring: 50 mm^2 leave it for half a ring, twice.
   const auto press = [&] {
-    return press_clay<Model::conserving>(plan_of(4.0, 5.0, 0.25), contact_on(9, 9), {40 * kMm2},
-                                         true, stack, ledger);
+    return press_one<Model::conserving>(plan_of(4.0, 5.0, 0.25), contact_on(9, 9), {40 * kMm2},
+                                        true, stack, ledger);
   };
   EXPECT_EQ(press().grown, 0u);
   EXPECT_NEAR(stack.crown_height_mm(), 40.0 / 60.0, 1e-12);
@@ -130,8 +139,8 @@ TEST(Redistribution, PaperKeepsTheRestOutsideTheBody) {
   ClayStack stack = ClayStack::cylinder(10, 1.0, 10.0, 0.0, 40).value();
   Ledger ledger;
   ledger.initial = stack.volume();
-  press_clay<Model::paper>(plan_of(4.0, 5.0, 0.25), contact_on(9, 9), {40 * kMm2}, true, stack,
-                           ledger);
+  press_one<Model::paper>(plan_of(4.0, 5.0, 0.25), contact_on(9, 9), {40 * kMm2}, true, stack,
+                          ledger);
   EXPECT_TRUE(ledger.outside == 40 * kMm2);
   EXPECT_TRUE(stack.crown() == 0);
   EXPECT_TRUE(ledger.volume_error(stack.recount()) == -40 * kMm2);
@@ -141,8 +150,8 @@ TEST(Redistribution, PaperKeepsTheRestOutsideTheBody) {
 TEST(Redistribution, RingLimitHoldsTheClayInTheCrown) {
   ClayStack stack = ClayStack::cylinder(10, 1.0, 10.0, 0.0, 10).value();
   Ledger ledger;
-  const Flow flow = press_clay<Model::conserving>(plan_of(4.0, 5.0, 0.25), contact_on(9, 9),
-                                                  {80 * kMm2}, true, stack, ledger);
+  const Flow flow = press_one<Model::conserving>(plan_of(4.0, 5.0, 0.25), contact_on(9, 9),
+                                                 {80 * kMm2}, true, stack, ledger);
   EXPECT_TRUE(flow.ring_limit);
   EXPECT_EQ(stack.size(), 10u);
   EXPECT_TRUE(stack.crown() == 80 * kMm2);
@@ -152,7 +161,8 @@ TEST(Redistribution, TrimmedClayIsBooked) {
   ClayStack stack = ClayStack::cylinder(10, 1.0, 10.0, 0.0, 10).value();
   Ledger ledger;
   ledger.initial = stack.volume();
-  trim_clay<Model::conserving>(contact_on(4, 5), {10 * kMm2, 20 * kMm2}, stack, ledger);
+  const Bite bite{contact_on(4, 5), {10 * kMm2, 20 * kMm2}};
+  trim_clay<Model::conserving>({&bite, 1}, stack, ledger);
   EXPECT_TRUE(ledger.trimmed == 30 * kMm2);
   EXPECT_TRUE(ledger.imbalance(stack.recount()) == 0);
   EXPECT_EQ(outer2(stack, 5), 80);
@@ -176,7 +186,7 @@ RC_GTEST_PROP(Redistribution, MovesClayAndMakesNone, ()) {
         samples::uniform(random) * static_cast<double>(stack.rings()[touch.ring].volume() - 1)));
   Ledger ledger;
   ledger.initial = stack.volume();
-  press_clay<Model::conserving>(plan, contact, removed, *rc::gen::arbitrary<bool>(), stack, ledger);
+  press_one<Model::conserving>(plan, contact, removed, *rc::gen::arbitrary<bool>(), stack, ledger);
   RC_ASSERT(ledger.imbalance(stack.recount()) == 0);
   RC_ASSERT(stack.recount() == stack.volume());
   for (const Ring& ring : stack.rings()) RC_ASSERT(ring.inner2 >= 0 && ring.outer2 > ring.inner2);

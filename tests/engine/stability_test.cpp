@@ -87,11 +87,11 @@ RC_GTEST_PROP(Stability, WatchingTheFlowSeesWhatTheLiteralSumSees, ()) {
   Ledger ledger;
   StabilityWatch watch;
   for (int step = 0; step < 60; ++step) {
-    Contact contact;
+    Bite bite;
+    auto& [contact, removed] = bite;
     contact.bottom =
         static_cast<std::size_t>(samples::uniform(random) * static_cast<double>(stack.size()));
     contact.top = std::min(contact.bottom + 3, stack.size() - 1);
-    std::vector<Quanta> removed;
     for (std::size_t i = contact.bottom; i <= contact.top; ++i) {
       contact.rings.push_back({static_cast<std::uint32_t>(i), 1.0, 0.0});
       removed.push_back(static_cast<Quanta>(0.4 * samples::uniform(random) *
@@ -100,9 +100,8 @@ RC_GTEST_PROP(Stability, WatchingTheFlowSeesWhatTheLiteralSumSees, ()) {
     watch.move_to(stack, std::min(contact.top + plan.kernel.length(), stack.size() - 1));
     const bool trim = samples::uniform(random) < 0.1;
     const bool up = samples::uniform(random) < 0.5;
-    const Flow flow =
-        trim ? trim_clay<Model::conserving>(contact, removed, stack, ledger)
-             : press_clay<Model::conserving>(plan, contact, removed, up, stack, ledger);
+    const Flow flow = trim ? trim_clay<Model::conserving>({&bite, 1}, stack, ledger)
+                           : press_clay<Model::conserving>(plan, {&bite, 1}, up, stack, ledger);
     const auto seen = watch.check(plan.stability, stack, flow.lowest, flow.grown);
     const auto expected = literal(plan.stability, stack);
     RC_ASSERT(seen.has_value() == expected.has_value());

@@ -28,10 +28,11 @@ SceneSpec scene_of(Model model) {
 }
 
 /// A hand that wanders, and likes the places where engines fail: the base, the rim, the axis, deep
-/// in the wall, jumps, and the trim button.
+/// in the wall, jumps, and the trim button. One that pinches does so now and then.
 class RestlessHand {
  public:
-  explicit RestlessHand(std::uint64_t seed) : random_(seed) {}
+  explicit RestlessHand(std::uint64_t seed, bool pinches = false)
+      : random_(seed), pinches_(pinches) {}
 
   Pose next(const ClayStack& stack) {
     if (samples::uniform(random_) < 0.002) choose(stack);
@@ -42,7 +43,9 @@ class RestlessHand {
     }
     if (samples::uniform(random_) < 0.01) trim_ = samples::uniform(random_) < 0.1;
     time_ += samples::uniform(random_) < 0.999 ? 1000 : 30'000;
-    return {time_, at_, trim_};
+    if (pinches_ && samples::uniform(random_) < 0.01)
+      gap_ = std::max(0.0, 12.0 * samples::uniform(random_) - 4.0);
+    return {time_, at_, trim_, gap_};
   }
 
  private:
@@ -56,10 +59,12 @@ class RestlessHand {
   glm::dvec3 at_{40.0, 20.0, 0.0}, goal_{28.0, 20.0, 0.0};
   std::int64_t time_ = 0;
   bool trim_ = false;
+  bool pinches_;
+  double gap_ = 0.0;
 };
 
 struct Outcome {
-  int contacts = 0, grown = 0, trims = 0, expansive = 0;
+  int contacts = 0, grown = 0, trims = 0, expansive = 0, pinches = 0;
 };
 
 /// Plays a million ticks, in pots of twenty thousand, and checks the account after each.
@@ -70,11 +75,17 @@ Outcome play_a_million(Model model, Check check) {
     SceneSpec scene = scene_of(model);
     if (seed % 5 == 0) scene.tool.mode = ToolMode::trim;
     if (seed % 3 == 0) scene.lump.inner_radius_mm = 20.0;
+    const bool pinches = seed % 2 == 0;
+    if (pinches) scene.tool.gap_mm = 4.0;
+    if (seed % 8 == 0) scene.tool.mode = ToolMode::pinch;
     Wheel wheel = Wheel::build(scene).value();
-    RestlessHand hand(seed);
+    RestlessHand hand(seed, pinches);
     for (int k = 0; k < 20'000; ++k) {
-      const StepReport report = wheel.step(hand.next(wheel.stack()));
-      outcome.contacts += (report.flags & kContact) != 0;
+      const Pose pose = hand.next(wheel.stack());
+      const StepReport report = wheel.step(pose);
+      const bool contact = (report.flags & kContact) != 0;
+      outcome.contacts += contact;
+      outcome.pinches += contact && pose.gap_mm > 0.0;
       outcome.grown += (report.flags & kGrew) != 0;
       if (!check(wheel)) {
         ADD_FAILURE() << "seed " << seed << ", tick " << k;
@@ -97,6 +108,7 @@ void expect_all_was_met(const Outcome& outcome) {
   EXPECT_GT(outcome.contacts, 300'000);
   EXPECT_GT(outcome.grown, 100);
   EXPECT_GT(outcome.trims, 10);
+  EXPECT_GT(outcome.pinches, 100'000);
   EXPECT_GT(outcome.expansive, 25);
 }
 

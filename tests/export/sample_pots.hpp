@@ -11,7 +11,7 @@
 
 namespace clay::solid::samples {
 
-inline constexpr std::array kStandingPots{"vase", "bowl", "bottle"};
+inline constexpr std::array kStandingPots{"vase", "bowl", "bottle", "cylinder"};
 
 /// CLAYSTACK_SAMPLES names the folder; what is wrong with a file is an error that names it.
 inline Result<Pot> thrown_pot(const std::string& sample) {

@@ -113,6 +113,16 @@ TEST(FalconDevice, SaysThatFirmwareIsMissing) {
   EXPECT_EQ(bench.device->problem().fault, DeviceFault::no_firmware);
 }
 
+TEST(FalconDevice, TellsAFalconWithoutPowerFromOneWithoutFirmware) {
+  FalconModelSettings dark;
+  dark.power = false;
+  Bench bench(dark);
+  const auto opened = bench.device->open();
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().fault, DeviceFault::no_answer);
+  EXPECT_NE(opened.error().remedy.find("power supply"), std::string::npos);
+}
+
 TEST(FalconDevice, RefusesAFileBeforeAByteOfItIsSent) {
   FalconSettings settings;
   settings.firmware_path = "/dev/null";

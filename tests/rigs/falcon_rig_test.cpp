@@ -216,14 +216,19 @@ TEST_F(FalconRig, TellsPowerFromFirmware) {
   FalconModelSettings model;
   model.power = false;
   plug(model);
-  const auto dark = open_device("falcon", settings_);
-  ASSERT_FALSE(dark);
-  EXPECT_EQ(dark.error().fault, DeviceFault::no_answer);
-  EXPECT_NE(dark.error().remedy.find("power supply"), std::string::npos);
-  settings_.falcon.firmware_path.clear();
+  for (const std::string& path : {firmware_path_, std::string()}) {
+    settings_.falcon.firmware_path = path;
+    const auto dark = open_device("falcon", settings_);
+    ASSERT_FALSE(dark);
+    EXPECT_EQ(dark.error().fault, DeviceFault::no_answer);
+    EXPECT_NE(dark.error().remedy.find("power supply"), std::string::npos);
+  }
+  locked([](auto& d) { d.model.switch_power(true); });
   const auto bare = open_device("falcon", settings_);
   ASSERT_FALSE(bare);
   EXPECT_EQ(bare.error().fault, DeviceFault::no_firmware);
+  settings_.falcon.firmware_path = firmware_path_;
+  EXPECT_TRUE(open_device("falcon", settings_));
 }
 
 TEST_F(FalconRig, TakesItFromAKernelDriverAndLeavesItToAnotherProgram) {

@@ -220,9 +220,7 @@ TEST_F(SpaceMouseRig, StandsStillWhenItFallsSilentAndTellsWhenItIsGone) {
   auto opened = open_device("auto");
   ASSERT_TRUE(opened) << text_of(opened.error());
   HapticDevice& device = **opened;
-  say({1, 0x5E, 0x01, 0, 0, 0, 0});
-  while (device.read(0).position_mm.x == 0.0) {
-  }
+  while (device.read(0).position_mm.x == 0.0) say({1, 0x5E, 0x01, 0, 0, 0, 0});
   const std::int64_t silent_us = monotonic_us();
   while (monotonic_us() < silent_us + 250'000) (void)device.read(0);
   const double x_mm = device.read(0).position_mm.x;

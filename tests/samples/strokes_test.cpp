@@ -69,11 +69,6 @@ double nearest(const std::vector<Pose>& poses, glm::dvec2 point) {
   return least;
 }
 
-std::string message_of(std::string_view text) {
-  const auto script = parse_strokes(text, "pot.strokes.json");
-  return script ? "accepted" : script.error().message;
-}
-
 RC_GTEST_PROP(Strokes, PosesAdvanceByOneMillisecond, (std::uint64_t seed)) {
   StrokeScript script = script_through({{10.0, 10.0}, {20.0, 40.0}, {15.0, 60.0}}, 0.05);
   script.seed = seed;
@@ -160,6 +155,35 @@ TEST(Strokes, TheButtonIsPressedAlongTheStrokeAlone) {
   }
 }
 
+TEST(Strokes, TheGapRunsStraightFromPointToPoint) {
+  // Of points at even distances on a line the spline is that line, run through evenly.
+  StrokeScript script = script_through({{10.0, 10.0}, {10.0, 30.0}, {10.0, 50.0}});
+  script.start_mm = {50.0, 20.0};
+  script.strokes[0].gap_mm = {20.0, 4.0, 5.0};
+  std::size_t along = 0;
+  for (const Pose& pose : play(script)) {
+    const double y = pose.position_mm.y;
+    if (pose.position_mm.x > 10.001) {
+      EXPECT_EQ(pose.gap_mm, 0.0);  // on its way the hand is one tool
+    } else if (y > 10.001) {
+      const double expected = y < 30.0 ? 20.0 - 0.8 * (y - 10.0) : 4.0 + 0.05 * (y - 30.0);
+      EXPECT_NEAR(pose.gap_mm, expected, 1e-4) << y;
+      ++along;
+    }
+  }
+  EXPECT_GT(along, 100u);
+}
+
+TEST(Strokes, AGapIsHeldToTheEnd) {
+  StrokeScript script = script_through({{10.0, 10.0}, {10.0, 30.0}});
+  script.strokes[0].gap_mm = {4.0};
+  script.strokes[0].hold_s = 0.5;
+  const auto poses = play(script);
+  EXPECT_EQ(std::ranges::count(poses, 4.0, &Pose::gap_mm),
+            std::ranges::count_if(poses, [](const Pose& pose) { return pose.gap_mm > 0.0; }));
+  EXPECT_EQ(poses.back().gap_mm, 4.0);
+}
+
 TEST(Strokes, TremorIsAsLargeAsStated) {
   constexpr double kTremorMm = 0.2;
   const auto poses = play(resting_script(kTremorMm, 7));
@@ -198,79 +222,6 @@ RC_GTEST_PROP(Strokes, TheSeedDecidesThePoses, (std::uint64_t seed)) {
 TEST(Strokes, PosesAreCountedAsInASession) {
   for (const Pose& pose : play(script_through({{10.0, 10.0}, {20.0, 40.0}}, 0.05)))
     ASSERT_EQ(quantized(pose), pose);
-}
-
-TEST(StrokeFile, ReadsEveryField) {
-  const auto script = parse_strokes(
-      R"({"seed": 5, "rate_hz": 500, "tremor_mm": 0.1, "travel_mm_s": 250, "start_mm": [90, 120],
-          "strokes": [{"through_mm": [[1, 2], [3, 4]], "speed_mm_s": 30, "passes": 2,
-                       "step_mm": [0, -1], "hold_s": 0.5, "trim": true},
-                      {"through_mm": [[5, 6], [7, 8]]}]})",
-      "pot.strokes.json");
-  ASSERT_TRUE(script) << script.error().message;
-  EXPECT_EQ(script->seed, 5u);
-  EXPECT_EQ(script->rate_hz, 500.0);
-  EXPECT_EQ(script->tremor_mm, 0.1);
-  EXPECT_EQ(script->travel_mm_s, 250.0);
-  EXPECT_EQ(script->start_mm, glm::dvec2(90.0, 120.0));
-  ASSERT_EQ(script->strokes.size(), 2u);
-  const Stroke& stroke = script->strokes[0];
-  EXPECT_EQ(stroke.through_mm, (std::vector<glm::dvec2>{{1.0, 2.0}, {3.0, 4.0}}));
-  EXPECT_EQ(stroke.speed_mm_s, 30.0);
-  EXPECT_EQ(stroke.passes, 2);
-  EXPECT_EQ(stroke.step_mm, glm::dvec2(0.0, -1.0));
-  EXPECT_EQ(stroke.hold_s, 0.5);
-  EXPECT_TRUE(stroke.trim);
-  EXPECT_EQ(script->strokes[1].passes, 1);
-}
-
-TEST(StrokeFile, SaysWhatIsWrongAndWhere) {
-  const auto with = [](const std::string& stroke) {
-    return message_of(R"({"start_mm": [9, 9], "strokes": [{"through_mm": [[1, 2], [3, 4]]}, )" +
-                      stroke + "]}");
-  };
-  EXPECT_EQ(with(R"({"through_mm": [[1, 2], [3, 4]], "spede_mm_s": 3})"),
-            "pot.strokes.json: strokes[1].spede_mm_s: unknown field");
-  EXPECT_EQ(
-      with(R"({"through_mm": [[1, 2], [3, 4]], "speed_mm_s": "fast"})"),
-      R"(pot.strokes.json: strokes[1].speed_mm_s: expected a number from 1.0 to 10000.0, found "fast")");
-  EXPECT_EQ(with(R"({"through_mm": [[1, 2], [3, 4]], "hold_s": 61})"),
-            "pot.strokes.json: strokes[1].hold_s: expected a number from 0.0 to 60.0, found 61");
-  EXPECT_EQ(with(R"({"through_mm": []})"),
-            "pot.strokes.json: strokes[1].through_mm: expected an array of 2 at least, found an "
-            "array of 0");
-  EXPECT_EQ(with(R"({"speed_mm_s": 3})"),
-            "pot.strokes.json: strokes[1].through_mm: expected a field, found none");
-  EXPECT_EQ(with(R"({"through_mm": [[1, 2], [3, null]]})"),
-            "pot.strokes.json: strokes[1].through_mm[1][1]: expected a number from -1000.0 to "
-            "1000.0, found null");
-  EXPECT_EQ(with(R"({"through_mm": [[1, 2], [3]]})"),
-            "pot.strokes.json: strokes[1].through_mm[1]: expected an array of 2 numbers, found an "
-            "array of 1");
-  EXPECT_EQ(with(R"({"through_mm": [[1, 2], [1, 2]]})"),
-            "pot.strokes.json: strokes[1].through_mm: expected neighbours apart, found two equal");
-  EXPECT_EQ(with(R"({"through_mm": [[1, 2], [3, 4]], "passes": 0})"),
-            "pot.strokes.json: strokes[1].passes: expected an integer from 1 to 100, found 0");
-  EXPECT_EQ(with(R"({"through_mm": [[1, 2], [3, 4]], "passes": -1})"),
-            "pot.strokes.json: strokes[1].passes: expected an integer from 1 to 100, found -1");
-  EXPECT_EQ(with(R"({"through_mm": [[1, 2], [3, 4]], "trim": 1})"),
-            "pot.strokes.json: strokes[1].trim: expected true or false, found 1");
-  EXPECT_EQ(with("7"), "pot.strokes.json: strokes[1]: expected an object, found 7");
-}
-
-TEST(StrokeFile, SaysWhatIsWrongWithTheWhole) {
-  EXPECT_EQ(message_of("[]"), "pot.strokes.json: expected an object, found an array of 0");
-  EXPECT_EQ(message_of(R"({"strokes": []})"),
-            "pot.strokes.json: start_mm: expected a field, found none");
-  EXPECT_EQ(message_of(R"({"start_mm": [9, 9], "strokes": []})"),
-            "pot.strokes.json: strokes: expected an array of 1 at least, found an array of 0");
-  EXPECT_EQ(
-      message_of(
-          R"({"start_mm": [9, 9], "tempo": 1, "strokes": [{"through_mm": [[1, 2], [3, 4]]}]})"),
-      "pot.strokes.json: tempo: unknown field");
-  const std::string torn = message_of(R"({"start_mm": [9, 9)");
-  EXPECT_TRUE(torn.starts_with("pot.strokes.json: ")) << torn;
-  EXPECT_NE(torn.find("line 1"), std::string::npos) << torn;
 }
 
 }  // namespace

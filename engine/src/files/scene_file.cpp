@@ -17,7 +17,7 @@ using namespace files;
 constexpr std::size_t kMaxValues = 100'000;
 constexpr Range kToolSizeMm = above(0).to(kMaxRadiusMm);
 constexpr std::array<std::string_view, 4> kShapeNames = {"sphere", "ellipse", "rib", "sampled"};
-constexpr std::array<std::string_view, 2> kToolModeNames = {"press", "trim"};
+constexpr std::array<std::string_view, 3> kToolModeNames = {"press", "trim", "pinch"};
 constexpr std::array<std::string_view, 2> kWheelTurnNames = {"clockwise", "counterclockwise"};
 
 }  // namespace
@@ -70,6 +70,10 @@ static void describe(auto& io, Is<SampledSpec> auto& sampled) {
 static void describe(auto& io, Is<ToolSpec> auto& tool) {
   io.one_of("shape", tool.shape, kShapeNames);
   io.choice("mode", tool.mode, kToolModeNames);
+  io.number("gap_mm", tool.gap_mm, from(1e-3).to(1e3));
+  io.check([&](ObjectReader& reader) {
+    if (tool.mode == ToolMode::pinch) reader.require({"gap_mm"});
+  });
 }
 
 static void describe(auto& io, Is<RemovalSpec> auto& removal) {

@@ -37,6 +37,7 @@ struct Block {
   Series steps_us;  ///< one for all, or one for each pose but the first; none for a single pose
   std::array<Series, 3> coordinates;
   Series trim;  ///< one for all, or one for each pose
+  Series gap;   ///< as a coordinate; none where no pose has a gap
   std::uint64_t check = 0;
 };
 
@@ -48,12 +49,18 @@ std::int64_t count_of(double mm) {
 
 double mm_of(std::int64_t count) { return static_cast<double>(count) / kPoseQuantaPerMm; }
 
+bool has_gaps(std::span<const Pose> poses) {
+  return std::ranges::any_of(poses, [](const Pose& pose) { return pose.gap_mm != 0.0; });
+}
+
 std::uint64_t checksum(std::span<const Pose> poses) {
+  const bool gaps = has_gaps(poses);  // without one a block is what it was before there were gaps
   Fnv1a hash;
   for (const Pose& pose : poses) {
     hash.add(pose.time_us);
     for (int axis = 0; axis < 3; ++axis) hash.add(count_of(pose.position_mm[axis]));
     hash.add(std::int64_t{pose.trim});
+    if (gaps) hash.add(count_of(pose.gap_mm));
   }
   return hash.value();
 }
@@ -105,6 +112,7 @@ void describe(auto& io, Is<Block> auto& block) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     io.series(kAxes[axis], block.coordinates[axis], -4 * kMaxCount, 4 * kMaxCount);
   io.series("trim", block.trim, 0, 1);
+  io.series("gap", block.gap, -4 * kMaxCount, 4 * kMaxCount);
   io.template coded<HashCode>("check", block.check);
   io.check([&](ObjectReader& reader) {
     const auto sized = [&](const Series& series, std::string_view name, std::size_t size) {
@@ -116,6 +124,7 @@ void describe(auto& io, Is<Block> auto& block) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       sized(block.coordinates[axis], kAxes[axis], block.count);
     sized(block.trim, "trim", block.count);
+    if (!block.gap.empty()) sized(block.gap, "gap", block.count);
   });
 }
 
@@ -137,6 +146,13 @@ Result<std::vector<Pose>> decode(const LocatedJson& line, const Block& block) {
           {kAxes[axis]}, "expected positions within 1e6 mm of the origin, found one beyond"));
     for (std::size_t i = 0; i < poses.size(); ++i)
       poses[i].position_mm[static_cast<glm::length_t>(axis)] = mm_of((*counts)[i]);
+  }
+  if (!block.gap.empty()) {
+    const auto counts = summed(block.gap, block.count);
+    if (!counts || std::ranges::min(*counts) < 0)
+      return tl::make_unexpected(
+          line.field_error({"gap"}, "expected gaps from 0 to 1e6 mm, found one outside"));
+    for (std::size_t i = 0; i < poses.size(); ++i) poses[i].gap_mm = mm_of((*counts)[i]);
   }
   if (const auto found = checksum(poses); found != block.check)
     return tl::make_unexpected(line.field_error(
@@ -185,6 +201,7 @@ class LineReader {
 Pose quantized(Pose pose) noexcept {
   for (int axis = 0; axis < 3; ++axis)
     pose.position_mm[axis] = mm_of(count_of(pose.position_mm[axis]));
+  pose.gap_mm = std::max(0.0, mm_of(count_of(pose.gap_mm)));
   return pose;
 }
 
@@ -198,16 +215,19 @@ std::string session_block(std::span<const Pose> poses) {
   block.count = poses.size();
   block.first_us = poses.front().time_us;
   block.check = checksum(poses);
+  const bool gaps = has_gaps(poses);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (i > 0) block.steps_us.push_back(poses[i].time_us - poses[i - 1].time_us);
     for (std::size_t axis = 0; axis < 3; ++axis)
       block.coordinates[axis].push_back(
           count_of(poses[i].position_mm[static_cast<glm::length_t>(axis)]));
     block.trim.push_back(poses[i].trim ? 1 : 0);
+    if (gaps) block.gap.push_back(count_of(poses[i].gap_mm));
   }
   block.steps_us = shortened(std::move(block.steps_us));
   for (Series& counts : block.coordinates) counts = differenced(std::move(counts));
   block.trim = shortened(std::move(block.trim));
+  block.gap = differenced(std::move(block.gap));
   return json_line(ObjectWriter::write(block)) + "\n";
 }
 

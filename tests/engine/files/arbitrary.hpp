@@ -76,7 +76,9 @@ inline SceneSpec arbitrary_scene() {
       *rc::gen::oneOf(rc::gen::just<std::size_t>(0),
                       rc::gen::inRange<std::size_t>(scene.lump.rings, (1u << 24) + 1));
   scene.lump.density_g_cm3 = *number_in(0.1, 25);
-  scene.tool = {arbitrary_shape(), *rc::gen::element(ToolMode::press, ToolMode::trim)};
+  scene.tool = {arbitrary_shape(), *rc::gen::element(ToolMode::press, ToolMode::trim),
+                maybe<double>([] { return *number_in(1e-3, 1e3); })};
+  if (scene.tool.gap_mm && *rc::gen::arbitrary<bool>()) scene.tool.mode = ToolMode::pinch;
   scene.removal = {*number_in(0, 1e6), *number_in(1e-3, 1e3),
                    maybe<double>([] { return *number_in(0, below(1)); })};
   scene.flow = {*number_in(0, 1e9), *number_in(0, 1e9), *number_in(0, 1)};

@@ -39,7 +39,8 @@ constexpr std::string_view kText = R"({
         "f_mm": [1, 2, 0]
       }
     },
-    "mode": "trim"
+    "mode": "trim",
+    "gap_mm": 4.5
   },
   "removal": {"rate_per_s": 7, "min_wall_mm": 2, "paper_fraction": 0.25},
   "flow": {"sigma_mm": 3, "reach_mm": 12, "inside_share": 0.5},
@@ -59,7 +60,7 @@ SceneSpec scene_of_text() {
   scene.name = "vase";
   scene.model = Model::paper;
   scene.lump = {300, 0.5, 40, 35.5, 900, 2.1};
-  scene.tool = {SampledSpec{{-2, 0, 2.5}, {1, 2, 0}}, ToolMode::trim};
+  scene.tool = {SampledSpec{{-2, 0, 2.5}, {1, 2, 0}}, ToolMode::trim, 4.5};
   scene.removal = {7, 2, 0.25};
   scene.flow = {3, 12, 0.5};
   scene.force = ForceSpec{0.1, 4, 0.3, false, 0.75};
@@ -122,6 +123,7 @@ TEST(SceneFile, ErrorsNameTheLineOfANumber) {
   expect_error("35.5", "\"35.5\"",
                "lump.inner_radius_mm: expected a number from 0 to below 5000, found \"35.5\"");
   expect_error("0.25", "1", "removal.paper_fraction: expected a number from 0 to below 1, found 1");
+  expect_error("4.5", "0", "tool.gap_mm: expected a number from 0.001 to 1000, found 0");
   expect_error("8}", "0}", "stability.max_stress_kpa: expected a number above 0 to 1e+06, found 0");
   expect_error("2.5]", "[]]",
                "tool.shape.sampled.t_mm[2]: expected a number from -5000 to 5000, found an array "
@@ -135,7 +137,7 @@ TEST(SceneFile, ErrorsNameTheLineOfOtherValues) {
   expect_error("\"vase\"", "null", "name: expected a text, found null");
   expect_error("\"paper\"", "\"papal\"",
                "model: expected one of conserving, paper, found \"papal\"");
-  expect_error("\"trim\"", "true", "tool.mode: expected one of press, trim, found true");
+  expect_error("\"trim\"", "true", "tool.mode: expected one of press, trim, pinch, found true");
   expect_error("{\"sigma_mm\": 3, \"reach_mm\": 12, \"inside_share\": 0.5}", "3",
                "flow: expected an object, found 3");
   expect_error("[1, 2, 0]", "1", "tool.shape.sampled.f_mm: expected an array, found 1");
@@ -158,7 +160,7 @@ TEST(SceneFile, ErrorsBetweenFieldsNameTheLineOfOne) {
 
 TEST(SceneFile, ErrorsNameFieldsThatShouldNotBeThere) {
   expect_error("\"trim\"", "\"trim\", \"colour\": 3",
-               "unknown field \"colour\" in tool; expected one of shape, mode");
+               "unknown field \"colour\" in tool; expected one of shape, mode, gap_mm");
   expect_error("\"friction\"", "\"fricton\"",
                "unknown field \"fricton\" in force; expected one of stiffness_n_per_mm2, limit_n, "
                "friction, wheel, paper_stiffness_n_per_mm; is \"friction\" meant?");
@@ -174,6 +176,10 @@ TEST(SceneFile, ErrorsNameFieldsThatShouldNotBeThere) {
 TEST(SceneFile, ErrorsNameFieldsThatAreMissing) {
   expect_error("\"sampled\": {\n        \"t_mm\"", "\"sampled\": {\n        \"tmm\"",
                "tool.shape.sampled: expected a field \"t_mm\", found none; is \"tmm\" meant?");
+  test::expect_refused(parse_scene(R"({"schema": "claystack-scene-1", "lump": {},
+                                       "tool": {"mode": "pinch"}})",
+                                   "pinch"),
+                       "pinch:2: tool: expected a field \"gap_mm\", found none");
   test::expect_refused(parse_scene("{}", "empty"),
                        "empty:1: expected a field \"schema\", found none");
 }

@@ -19,18 +19,19 @@ using test::Json;
 
 constexpr double kQuantumMm = 1.0 / 65536.0;
 
-Pose pose_of(std::int64_t time_us, glm::dvec3 counts, bool trim = false) {
-  return {time_us, counts * kQuantumMm, trim};
+Pose pose_of(std::int64_t time_us, glm::dvec3 counts, bool trim = false, double gap = 0.0) {
+  return {time_us, counts * kQuantumMm, trim, gap * kQuantumMm};
 }
 
-/// A hand that wanders, with a button pressed now and then.
+/// A hand that wanders, with a button pressed now and then, and pinches after its first block.
 std::vector<Pose> wandering(std::size_t count) {
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < count; ++i) {
     const auto t = static_cast<double>(i);
     poses.push_back(quantized({static_cast<std::int64_t>(i * 1000 + i % 7),
                                {60.0 - 0.01 * t, 40.0 + 20.0 * std::sin(0.01 * t), 0.0},
-                               i % 40 > 30}));
+                               i % 40 > 30,
+                               i < 120 ? 0.0 : 5.0 + std::sin(0.02 * t)}));
   }
   return poses;
 }
@@ -52,6 +53,10 @@ constexpr std::string_view kThreePoses =
     R"({"n":3,"t_us":1000,"dt_us":[1000,1500],"x":[65536,1,2],"y":-3,"z":[0,10,-10],)"
     R"("trim":[0,0,1],"check":"dafff0894e3655ed"})"
     "\n";
+constexpr std::string_view kThreeGaps =
+    R"({"n":3,"t_us":1000,"dt_us":[1000,1500],"x":[65536,1,2],"y":-3,"z":[0,10,-10],)"
+    R"("trim":[0,0,1],"gap":[0,327680,-327700],"check":"a4493f83007c9f49"})"
+    "\n";
 constexpr std::string_view kOnePose =
     R"({"n":1,"t_us":0,"x":0,"y":0,"z":0,"trim":1,"check":"21dbd703e6071224"})"
     "\n";
@@ -59,9 +64,14 @@ constexpr std::string_view kOnePose =
 const std::vector<Pose> kThree = {pose_of(1000, {65536, -3, 0}), pose_of(2000, {65537, -3, 10}),
                                   pose_of(3500, {65540, -3, 10}, true)};
 
+const std::vector<Pose> kThreePinched = {pose_of(1000, {65536, -3, 0}),
+                                         pose_of(2000, {65537, -3, 10}, false, 327'680),
+                                         pose_of(3500, {65540, -3, 10}, true, 327'660)};
+
 TEST(SessionFile, WritesWhatTheFormatSays) {
   EXPECT_EQ(session_block(kThree), kThreePoses);
   EXPECT_EQ(session_block(std::vector{pose_of(0, {0, 0, 0}, true)}), kOnePose);
+  EXPECT_EQ(session_block(kThreePinched), kThreeGaps);
   EXPECT_EQ(session_block({}), "");
   const Json header = Json::parse(session_header("vase", 0x0123456789abcdef));
   EXPECT_EQ(header["written_by"].get<std::string>().substr(0, 10), "claystack ");
@@ -80,6 +90,14 @@ TEST(SessionFile, ReadsWhatTheFormatSays) {
   ASSERT_EQ(session->poses.size(), 4u);
   EXPECT_EQ(session->poses[0], pose_of(0, {0, 0, 0}, true));
   EXPECT_TRUE(std::equal(kThree.begin(), kThree.end(), session->poses.begin() + 1));
+  EXPECT_EQ(parse_session(std::string(kHeader).append(kThreeGaps), "s.session").value().poses,
+            kThreePinched);
+}
+
+TEST(SessionFile, AGapThatStaysIsOneNumber) {
+  auto poses = kThreePinched;
+  for (Pose& pose : poses) pose.gap_mm = 5.0;
+  EXPECT_EQ(Json::parse(session_block(poses))["gap"], 327'680);
 }
 
 TEST(SessionFile, IsCompact) {
@@ -94,11 +112,14 @@ RC_GTEST_PROP(SessionFile, WhatIsWrittenReadsBackTheSame, ()) {
   const auto count = *rc::gen::inRange<std::size_t>(0, 350);
   const auto reach = *rc::gen::element(0.0, 1e-4, 1.0, 1e6);
   const auto step_us = *rc::gen::element<std::int64_t>(2, 1000, std::int64_t{1} << 40);
+  const bool pinches = *rc::gen::arbitrary<bool>();
   std::int64_t time_us = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const auto coordinate = [&] { return *test::number_in(-reach, reach); };
-    session.poses.push_back(quantized(
-        {time_us, {coordinate(), coordinate(), coordinate()}, *rc::gen::arbitrary<bool>()}));
+    session.poses.push_back(quantized({time_us,
+                                       {coordinate(), coordinate(), coordinate()},
+                                       *rc::gen::arbitrary<bool>(),
+                                       pinches ? *test::number_in(0, reach) : 0.0}));
     time_us += *rc::gen::inRange<std::int64_t>(1, step_us);
   }
   const auto read = parse_session(write_session(session), "written");
@@ -205,9 +226,26 @@ TEST(SessionFile, ErrorsNameTheLineOfABlock) {
                "is damaged");
   expect_error("\"y\":-3", "\"Y\":-3", 3, "expected a field \"y\", found none");
   expect_error("\"y\":-3", "\"y\":-3,\"w\":1", 3,
-               "unknown field \"w\"; expected one of n, t_us, dt_us, x, y, z, trim, check");
+               "unknown field \"w\"; expected one of n, t_us, dt_us, x, y, z, trim, gap, check");
   expect_error("\"y\":-3", "\"y\":-3}", 3,
                "syntax error while parsing value - unexpected ','; expected end of input");
+}
+
+TEST(SessionFile, ErrorsNameTheLineOfAGap) {
+  const auto refused = [](std::string_view from, std::string_view to, const std::string& message) {
+    const auto text = std::string(kHeader).append(kThreeGaps);
+    test::expect_refused(parse_session(test::replaced(text, from, to), "s"), "s:2: " + message);
+  };
+  refused("[0,327680,-327700]", "[0,327680]",
+          "gap: expected one integer or an array of 3, found an array of 2");
+  refused("[0,327680,-327700]", "-1", "gap: expected gaps from 0 to 1e6 mm, found one outside");
+  refused("[0,327680,-327700]", "[65536000000,1,0]",
+          "gap: expected gaps from 0 to 1e6 mm, found one outside");
+  refused("[0,327680,-327700]", "[0,327680,true]",
+          "gap[2]: expected an integer from -262144000000 to 262144000000, found true");
+  refused("\"gap\":[0,327680,-327700],", "",
+          "check: expected dafff0894e3655ed for these poses, found a4493f83007c9f49: the line is "
+          "damaged");
 }
 
 TEST(SessionFile, RefusesTimesThatDoNotIncreaseFromBlockToBlock) {
@@ -222,6 +260,11 @@ TEST(Quantized, TakesTheNearestCount) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const Pose wild = quantized({0, {kInfinity, -1e300, std::nan("")}, false});
   EXPECT_EQ(wild.position_mm, glm::dvec3(1e6, -1e6, 0));
+  const auto gap = [](double mm) { return quantized({0, {0, 0, 0}, false, mm}).gap_mm; };
+  EXPECT_EQ(gap(1.4 * kQuantumMm), kQuantumMm);
+  EXPECT_EQ(gap(-3.0), 0.0);
+  EXPECT_EQ(gap(std::nan("")), 0.0);
+  EXPECT_EQ(gap(kInfinity), 1e6);
 }
 
 RC_GTEST_PROP(Quantized, MovesByHalfAQuantumAtMostAndOnlyOnce, ()) {
@@ -272,7 +315,7 @@ TEST(SessionSchema, DescribesEveryLine) {
 
 TEST(SessionSchema, RefusesNothingButWhatTheReaderRefuses) {
   const Json schema = test::load_schema("session");
-  const std::string block(kThreePoses);
+  const std::string block(kThreeGaps);
   for (const auto& [what, line] : test::edits(schema, Json::parse(kHeader))) {
     const auto read = parse_session(line.dump() + "\n" + block, "edited");
     EXPECT_EQ(read.has_value(), test::violation(schema, line).empty()) << what;

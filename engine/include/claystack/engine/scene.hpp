@@ -54,11 +54,15 @@ struct SampledSpec {
 };
 using ToolShapeSpec = std::variant<SphereSpec, EllipseSpec, RibSpec, SampledSpec>;
 
-enum class ToolMode { press, trim };
+/// `pinch`: two such tools press the wall from both sides, as a potter's two hands do.
+enum class ToolMode { press, trim, pinch };
 
 struct ToolSpec {
   ToolShapeSpec shape = SphereSpec{};
-  ToolMode mode = ToolMode::press;  ///< a pose's trim button turns press into trim
+  ToolMode mode = ToolMode::press;  ///< a pose's trim button turns the others into trim
+  /// Where set, poses may pinch, in any mode: a pose's own gap decides. `pinch` needs it, and takes
+  /// it for poses without a gap of their own.
+  std::optional<double> gap_mm = std::nullopt;
   friend bool operator==(const ToolSpec&, const ToolSpec&) = default;
 };
 

@@ -2,7 +2,8 @@
 // `*.session`: one JSON value a line, described by samples/schema/session.schema.json.
 // The first line is the header (schema, version, name and hash of the scene); every further
 // line is a block of at most 100 poses, second differences of counts of 2^-16 mm, with a
-// checksum. A recorder appends whole lines, so a killed one loses at most its last block.
+// checksum; gaps are in it only where a pose has one. A recorder appends whole lines, so a killed
+// one loses at most its last block.
 
 #include "claystack/engine/pose.hpp"
 #include "claystack/engine/result.hpp"
@@ -18,7 +19,8 @@ namespace clay {
 
 /// Positions in a session are counted: 2^-16 mm, far below any device's step. A recorder
 /// plays the pose it writes, not the one it measured, so that a replay gives the same bits.
-/// `quantized` takes the nearest count, at most 1e6 mm from the origin, and 0 for a NaN.
+/// `quantized` takes the nearest count, at most 1e6 mm from the origin, and 0 for a NaN; of a gap
+/// likewise, and 0 for a negative one.
 inline constexpr double kPoseQuantaPerMm = 65536.0;
 [[nodiscard]] Pose quantized(Pose pose) noexcept;
 

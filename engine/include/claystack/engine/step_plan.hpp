@@ -22,8 +22,9 @@ enum Stage : unsigned {
   kForce = 2u,
   kFriction = 4u,
   kStability = 8u,
+  kPinch = 16u,
 };
-inline constexpr unsigned kStageSets = 16;
+inline constexpr unsigned kStageSets = 32;
 
 struct RemovalPlan {
   double rate_per_s = 0.0;  ///< conserving: kappa
@@ -54,6 +55,7 @@ struct StepPlan {
   Model model = Model::conserving;
   unsigned stages = 0;  ///< Stage bits
   ToolMode mode = ToolMode::press;
+  double gap_mm = 0.0;  ///< of poses without one of their own; 0: these have one tool
   Tool tool;
   RayleighKernel kernel{1.0, 0.0, 1.0, 1};
   std::int64_t inside_share = 0;  ///< alpha in 2^-30

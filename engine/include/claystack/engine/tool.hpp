@@ -42,14 +42,16 @@ class Tool {
 
   [[nodiscard]] double low() const noexcept { return low_; }
   [[nodiscard]] double high() const noexcept { return high_; }
-  [[nodiscard]] double radius(double t) const noexcept;  ///< f(t) [mm]
-  [[nodiscard]] double slope(double t) const noexcept;   ///< f'(t)
+  [[nodiscard]] double widest() const noexcept { return widest_; }  ///< greatest f(t) [mm]
+  [[nodiscard]] double radius(double t) const noexcept;             ///< f(t) [mm]
+  [[nodiscard]] double slope(double t) const noexcept;              ///< f'(t)
   [[nodiscard]] const Profile& profile() const noexcept { return profile_; }
 
  private:
   Profile profile_;
   double low_ = 0.0;
   double high_ = 0.0;
+  double widest_ = 0.0;
 };
 
 }  // namespace clay

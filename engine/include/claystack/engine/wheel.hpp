@@ -16,17 +16,18 @@ namespace clay {
 /// What a tick has to say beside its force. Each names its remedy.
 enum StepFlag : std::uint32_t {
   kContact = 1u << 0,
-  kRefused = 1u << 1,   ///< pose not finite, beyond 1e6 mm, or time not advancing: nothing was done
-  kLongStep = 1u << 2,  ///< more than 50 ms since the last pose: taken as 50 ms
-  kGrew = 1u << 3,      ///< rings were added on top
+  kRefused = 1u << 1,    ///< pose not finite or beyond 1e6 mm, time not advancing, or a gap where
+                         ///< the scene sets no tool.gap_mm: nothing was done
+  kLongStep = 1u << 2,   ///< more than 50 ms since the last pose: taken as 50 ms
+  kGrew = 1u << 3,       ///< rings were added on top
   kRingLimit = 1u << 4,  ///< clay waits above the top: raise lump.max_rings
   kCollapsed = 1u << 5,  ///< the stack has failed; ticks do nothing any more
 };
 
 struct StepReport {
-  glm::dvec3 force_n{0.0};  ///< on the hand, at most force.limit_n
+  glm::dvec3 force_n{0.0};  ///< on the hand, at most force.limit_n; of a pinch, from both tools
   std::uint32_t flags = 0;
-  std::uint32_t rings_touched = 0;
+  std::uint32_t rings_touched = 0;  ///< by both tools of a pinch together
 };
 
 class Wheel {

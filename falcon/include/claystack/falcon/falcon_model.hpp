@@ -82,6 +82,7 @@ class FalconModel {
   /// Plugged in again: the processor starts from nothing.
   void replug() noexcept;
 
+  void switch_power(bool on) noexcept;
   void press(std::uint8_t buttons) noexcept { settings_.buttons = buttons; }
   void plan(const PlannedFault& fault) { settings_.faults.push_back(fault); }
 
@@ -122,7 +123,7 @@ class FalconModel {
   std::uint64_t frames_ = 0;
   int homing_ = 0;
   int homed_legs_ = 0;
-  LegCounts motors_{};
+  LegCounts motors_{}, counts_{};
   glm::dvec3 force_n_{0.0}, position_m_{Kinematics::kCentreM};
 };
 

@@ -35,6 +35,10 @@ struct Firmware {
 /// The same of a file, of at most 128 kB.
 [[nodiscard]] DeviceResult<Firmware> read_firmware(const std::string& path);
 
+/// Restarts the processor and asks for its boot loader: whether it has power. `no_answer` when
+/// nothing comes. The line is left in `greeting`.
+[[nodiscard]] DeviceResult<void> greet_loader(Transport& line, int attempts = 3);
+
 /// Restarts the processor, sends the program in pieces and compares the echo of each byte. All of
 /// it again, up to `attempts` times; the error tells what went wrong the last time. The line is
 /// left in `running`.

@@ -1,0 +1,140 @@
+#include "claystack/falcon/passivity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace clay::falcon {
+namespace {
+
+// One debt may be a slip; a few, with no good while between them, are a rattle.
+constexpr int kMostDebts = 3;
+constexpr double kGoodWhileS = 2.0;
+
+bool is_finite(const glm::dvec3& v) noexcept {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+double most_damping(const PassivitySpec& spec, double stiffness) noexcept {
+  const double borne = 0.5 * stable_damping(spec.loop, stiffness);
+  if (!(spec.step_m > 0.0)) return borne;
+  return std::min(borne, 0.5 * spec.reversal_force_n / (spec.step_m * spec.loop.rate_hz));
+}
+
+}  // namespace
+
+tl::expected<PassivityController, OutOfRange> PassivityController::build(
+    const PassivitySpec& spec) noexcept {
+  if (auto checked = check(spec.loop); !checked) return tl::make_unexpected(checked.error());
+  const OutOfRange settings[] = {
+      {"step_m", 0.0, 0.01, spec.step_m},
+      {"energy_limit_j", 1e-9, 1e3, spec.energy_limit_j},
+      {"energy_window_s", 1e-3, 10.0, spec.energy_window_s},
+      {"reversal_limit", 2.0, 16.0, static_cast<double>(spec.reversal_limit)},
+      {"reversal_window_s", 1e-3, 10.0, spec.reversal_window_s},
+      {"reversal_force_n", 1e-9, 1e3, spec.reversal_force_n},
+  };
+  for (const OutOfRange& s : settings)
+    if (!(s.found >= s.low && s.found <= s.high)) return tl::make_unexpected(s);
+  return PassivityController(spec);
+}
+
+PassivityController::PassivityController(const PassivitySpec& spec) noexcept
+    : spec_(spec),
+      yielding_stiffness_(accepted_stiffness(spec.loop)),
+      most_damping_(most_damping(spec, yielding_stiffness_)),
+      observer_(spec.loop, spec.step_m, spec.energy_window_s),
+      swings_(spec.reversal_limit, spec.reversal_window_s, spec.reversal_force_n) {}
+
+PassiveForce PassivityController::tick(std::int64_t time_us, const glm::dvec3& reading_m,
+                                       const glm::dvec3& force_n) noexcept {
+  const bool advances = !last_ || time_us > last_->time_us;
+  if (!advances || !is_finite(reading_m) || !is_finite(force_n)) {
+    send(glm::dvec3(0.0));
+    return {glm::dvec3(0.0), state_};
+  }
+  const Reading before = last_.value_or(Reading{time_us, reading_m});
+  // Unsigned: the difference of two signed extremes must not overflow.
+  const double dt_s = 1e-6 * static_cast<double>(static_cast<std::uint64_t>(time_us) -
+                                                 static_cast<std::uint64_t>(before.time_us));
+  const glm::dvec3 way = reading_m - before.at_m;
+  last_ = Reading{time_us, reading_m};
+  now_s_ += dt_s;
+
+  judge(observer_.observe(dt_s, sent_[oldest_], way, force_n), force_n);
+  const glm::dvec3 force = answer(dt_s, way, force_n);
+  send(force);
+  return {force, state_};
+}
+
+void PassivityController::judge(bool contact_ended, const glm::dvec3& asked_n) noexcept {
+  if (state_ == PassivityState::safe) return;
+  const bool yields = state_ == PassivityState::yielding;
+  const glm::dvec3& swinging = yields ? last_sent_ : asked_n;
+  const bool rattles = swings_.swings_too_often(now_s_, swinging);
+  if (rattles || observer_.recent_j() > spec_.energy_limit_j) return escalate();
+  if (yields) return;
+
+  const bool owes = observer_.injected_j() > observer_.tolerance_j();
+  const bool again = contact_ended && observer_.last_contact_j() > 0.0;
+  if (owes && (again || state_ == PassivityState::watching)) count_debt();
+  if (debts_ >= kMostDebts) return escalate();
+  state_ = owes ? PassivityState::damping : PassivityState::watching;
+}
+
+void PassivityController::count_debt() noexcept {
+  if (now_s_ - last_debt_s_ > kGoodWhileS) debts_ = 0;
+  last_debt_s_ = now_s_;
+  ++debts_;
+}
+
+void PassivityController::escalate() noexcept {
+  state_ = state_ == PassivityState::yielding ? PassivityState::safe : PassivityState::yielding;
+  observer_.forgive();
+  swings_ = SwingCounter(spec_.reversal_limit, spec_.reversal_window_s, spec_.reversal_force_n);
+}
+
+glm::dvec3 PassivityController::answer(double dt_s, const glm::dvec3& way_m,
+                                       const glm::dvec3& asked_n) noexcept {
+  switch (state_) {
+    case PassivityState::watching:
+      return asked_n;
+    case PassivityState::damping:
+      return asked_n + damping(dt_s, way_m);
+    case PassivityState::yielding:
+      return yielding(way_m, asked_n);
+    case PassivityState::safe:
+      break;
+  }
+  return glm::dvec3(0.0);
+}
+
+/// Equation (10) of the paper: as much as takes the debt back within a period.
+glm::dvec3 PassivityController::damping(double dt_s, const glm::dvec3& way_m) const noexcept {
+  const double square = glm::dot(way_m, way_m);
+  if (!(square > 0.0)) return glm::dvec3(0.0);
+  const double debt = observer_.injected_j() - observer_.tolerance_j();
+  const double amount = std::min(debt * dt_s / square, most_damping_);
+  return -amount / dt_s * way_m;
+}
+
+/// A spring as stiff as is accepted, from wherever the force last was, and never more than is asked
+/// for: what is lost when the contact lets go has to be earned again by moving in.
+glm::dvec3 PassivityController::yielding(const glm::dvec3& way_m,
+                                         const glm::dvec3& asked_n) const noexcept {
+  const double asked = glm::length(asked_n);
+  if (!(asked > 0.0)) return glm::dvec3(0.0);
+  const glm::dvec3 direction = asked_n / asked;
+  const double grown =
+      glm::dot(last_sent_, direction) - yielding_stiffness_ * glm::dot(way_m, direction);
+  return std::clamp(grown, 0.0, asked) * direction;
+}
+
+void PassivityController::send(const glm::dvec3& force_n) noexcept {
+  const auto length = static_cast<std::size_t>(spec_.loop.delay_ticks) + 1;
+  last_sent_ = force_n;
+  sent_[oldest_] = force_n;
+  oldest_ = (oldest_ + 1) % length;
+}
+
+}  // namespace clay::falcon

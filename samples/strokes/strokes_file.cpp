@@ -1,0 +1,170 @@
+#include "strokes.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <concepts>
+#include <initializer_list>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace clay::samples {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Why a script is refused; never leaves parse_strokes.
+struct Refusal {
+  std::string message;
+};
+
+[[noreturn]] void refuse(const std::string& place, const std::string& expected, const Json& found) {
+  const std::string what = found.is_object()  ? "an object"
+                           : found.is_array() ? "an array of " + std::to_string(found.size())
+                                              : found.dump();
+  throw Refusal{(place.empty() ? "" : place + ": ") + "expected " + expected + ", found " + what};
+}
+
+struct Range {
+  double low, high;
+};
+constexpr Range kPositionMm{-1000.0, 1000.0}, kSpeedMmS{1.0, 10000.0}, kRateHz{200.0, 10000.0},
+    kTremorMm{0.0, 10.0}, kHoldS{0.0, 60.0}, kGapMm{0.0, 1000.0};
+struct IntegerRange {
+  std::uint64_t low, high;
+};
+constexpr IntegerRange kPasses{1, 100}, kSeed{0, std::numeric_limits<std::uint64_t>::max()};
+
+void read(const Json& json, const std::string& place, double& value, Range range) {
+  if (!json.is_number() || json < range.low || json > range.high)
+    refuse(place, "a number from " + Json(range.low).dump() + " to " + Json(range.high).dump(),
+           json);
+  value = json.get<double>();
+}
+
+template <std::integral Integer>
+void read(const Json& json, const std::string& place, Integer& value, IntegerRange range) {
+  // A negative integer is the only one that is not unsigned.
+  if (!json.is_number_unsigned() || json < range.low || json > range.high)
+    refuse(place,
+           "an integer from " + std::to_string(range.low) + " to " + std::to_string(range.high),
+           json);
+  value = json.get<Integer>();
+}
+
+void read(const Json& json, const std::string& place, bool& value) {
+  if (!json.is_boolean()) refuse(place, "true or false", json);
+  value = json.get<bool>();
+}
+
+void read(const Json& json, const std::string& place, glm::dvec2& value) {
+  if (!json.is_array() || json.size() != 2) refuse(place, "an array of 2 numbers", json);
+  for (int axis = 0; axis < 2; ++axis)
+    read(json[static_cast<std::size_t>(axis)], place + "[" + std::to_string(axis) + "]",
+         value[axis], kPositionMm);
+}
+
+/// One gap for a whole stroke, or one for each of its points.
+void read(const Json& json, const std::string& place, std::vector<double>& gap_mm) {
+  gap_mm.assign(json.is_array() ? json.size() : 1, 0.0);
+  if (!json.is_array()) return read(json, place, gap_mm[0], kGapMm);
+  for (std::size_t i = 0; i < gap_mm.size(); ++i)
+    read(json[i], place + "[" + std::to_string(i) + "]", gap_mm[i], kGapMm);
+}
+
+void read(const Json& json, const std::string& place, Stroke& stroke);
+
+/// At least `fewest` elements, each read by the overload for its type.
+template <class T>
+void read(const Json& json, const std::string& place, std::vector<T>& values, std::size_t fewest) {
+  if (!json.is_array() || json.size() < fewest)
+    refuse(place, "an array of " + std::to_string(fewest) + " at least", json);
+  values.resize(json.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    read(json[i], place + "[" + std::to_string(i) + "]", values[i]);
+}
+
+/// The members of an object: all of `required`, and none that the calls have not named.
+class Members {
+ public:
+  Members(const Json& object, std::string place, std::initializer_list<const char*> required)
+      : object_(object), place_(std::move(place)) {
+    if (!object.is_object()) refuse(place_, "an object", object);
+    for (const char* name : required)
+      if (!object.contains(name)) throw Refusal{at(name) + ": expected a field, found none"};
+  }
+
+  /// A member that is absent leaves its value as it was.
+  template <class... Arguments>
+  Members& field(const char* name, Arguments&&... arguments) {
+    known_.emplace_back(name);
+    if (const auto found = object_.find(name); found != object_.end())
+      read(*found, at(name), std::forward<Arguments>(arguments)...);
+    return *this;
+  }
+
+  void refuse_others() const {
+    for (const auto& [name, value] : object_.items())
+      if (std::ranges::find(known_, name) == known_.end())
+        throw Refusal{at(name) + ": unknown field"};
+  }
+
+ private:
+  [[nodiscard]] std::string at(const std::string& name) const {
+    return place_.empty() ? name : place_ + "." + name;
+  }
+
+  const Json& object_;
+  std::string place_;
+  std::vector<std::string> known_;
+};
+
+void read(const Json& json, const std::string& place, Stroke& stroke) {
+  Members(json, place, {"through_mm"})
+      .field("through_mm", stroke.through_mm, std::size_t{2})
+      .field("speed_mm_s", stroke.speed_mm_s, kSpeedMmS)
+      .field("passes", stroke.passes, kPasses)
+      .field("step_mm", stroke.step_mm)
+      .field("hold_s", stroke.hold_s, kHoldS)
+      .field("trim", stroke.trim)
+      .field("gap_mm", stroke.gap_mm)
+      .refuse_others();
+  // A spline has no direction where it stands still.
+  if (std::ranges::adjacent_find(stroke.through_mm) != stroke.through_mm.end())
+    throw Refusal{place + ".through_mm: expected neighbours apart, found two equal"};
+  if (const std::size_t gaps = stroke.gap_mm.size(), points = stroke.through_mm.size();
+      json.contains("gap_mm") && json["gap_mm"].is_array() && gaps != points)
+    throw Refusal{place + ".gap_mm: expected a number or an array of " + std::to_string(points) +
+                  ", as many as through_mm, found an array of " + std::to_string(gaps)};
+}
+
+void read(const Json& json, StrokeScript& script) {
+  Members(json, "", {"start_mm", "strokes"})
+      .field("seed", script.seed, kSeed)
+      .field("rate_hz", script.rate_hz, kRateHz)
+      .field("tremor_mm", script.tremor_mm, kTremorMm)
+      .field("travel_mm_s", script.travel_mm_s, kSpeedMmS)
+      .field("start_mm", script.start_mm)
+      .field("strokes", script.strokes, std::size_t{1})
+      .refuse_others();
+}
+
+}  // namespace
+
+Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name) {
+  const auto refused = [&](const std::string& message) {
+    return failure(ErrorKind::bad_input, std::string(name) + ": " + message);
+  };
+  try {
+    StrokeScript script;
+    read(Json::parse(text), script);
+    return script;
+  } catch (const Refusal& refusal) {
+    return refused(refusal.message);
+  } catch (const Json::exception& error) {
+    return refused(error.what());
+  }
+}
+
+}  // namespace clay::samples

@@ -1,0 +1,43 @@
+#pragma once
+// What the arm is pressed against in the closed-loop experiments: along x, from x > 0. Metres, as
+// the arm.
+
+#include "claystack/engine/scene.hpp"
+#include "claystack/engine/wheel.hpp"
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+
+namespace clay::servo {
+
+class Surface {
+ public:
+  virtual ~Surface() = default;
+  /// The force [N] that answers a reading.
+  virtual glm::dvec3 press(std::int64_t time_us, const glm::dvec3& reading_m) = 0;
+  /// Energy [J] stored in the spring with the arm at this place.
+  [[nodiscard]] virtual double stored_j(const glm::dvec3& position_m) const = 0;
+  [[nodiscard]] virtual double stiffness_n_per_m() const = 0;
+  /// Place of the undeformed surface as it is now [m].
+  [[nodiscard]] virtual double face_m() const = 0;
+};
+
+struct WallSpec {
+  double stiffness_n_per_m = 0.0;
+  double limit_n = 5.0;   ///< of the force; infinite for a linear wall
+  bool one_sided = true;  ///< false: a spring to x = 0, from both sides
+};
+std::unique_ptr<Surface> make_wall(const WallSpec& wall);
+
+struct ClaySpec {
+  double stiffness_n_per_m = 0.0;  ///< of the whole contact: K' times its height
+  double rate_per_s = 20.0;        ///< of removal; 0: the clay is a spring
+  double rib_height_mm = 20.0;
+};
+/// A solid cylinder of 45 mm under an upright rib. The height of contact is the rib's.
+SceneSpec clay_scene(const ClaySpec& clay);
+/// Expects a scene that Wheel::build accepts.
+std::unique_ptr<Surface> make_clay(const ClaySpec& clay);
+
+}  // namespace clay::servo
