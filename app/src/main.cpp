@@ -38,6 +38,9 @@ int run(int argc, char** argv) {
   add_check_command(app, console, exit);
 #endif
   add_plan_command(app, console, exit);
+#ifdef CLAYSTACK_USB
+  add_devices_command(app, console, exit);
+#endif
   const auto commands = app.get_subcommands({});
   for (CLI::App* command : commands) {
     command->add_flag("--json", console.json, "Data as JSON on standard output");
