@@ -316,6 +316,17 @@ TEST(FalconDevice, IsNotAtFaultWhenTheHostPauses) {
   EXPECT_TRUE(sample.fresh);
 }
 
+TEST(FalconDevice, ReadsTheNewestOfManyFrames) {
+  Bench bench(ready_model());
+  ASSERT_TRUE(bench.device->open());
+  bench.tick();
+  for (int i = 0; i < 60; ++i) bench.device->write({});  // 960 bytes come at once
+  const DeviceSample sample = bench.device->read(kTickUs);
+  const glm::dvec3 newest = 1e3 * (on_circle(bench.frame - 1) - Kinematics::kCentreM);
+  EXPECT_LT(glm::distance(sample.position_mm, newest), kEncoderMm);
+  EXPECT_FALSE(bench.device->read(0).fresh);
+}
+
 TEST(FalconDevice, DoesNotBelieveAnglesWithoutAPose) {
   auto settings = ready_model();
   settings.homed = false;
