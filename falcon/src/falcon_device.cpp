@@ -3,7 +3,6 @@
 #include "claystack/falcon/firmware.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace clay::falcon {
@@ -27,9 +26,9 @@ DeviceInfo info_of(const Transport& line, const FalconSettings& settings) {
           settings.force_limit_n, glm::dvec3(kWorkspaceMm), 1000.0};
 }
 
+/// What is not finite stays so, or is 0: `motor_counts` makes it none.
 glm::dvec3 limited(const glm::dvec3& force_n, double limit_n) {
   const double length = glm::length(force_n);
-  if (!std::isfinite(length)) return glm::dvec3(0.0);
   return length > limit_n ? limit_n / length * force_n : force_n;
 }
 
