@@ -1,11 +1,15 @@
 #include "commands.hpp"
 #include "replay.hpp"
 #include "stage_cost.hpp"
+#ifdef CLAYSTACK_FALCON
+#include "servo_check.hpp"
+#endif
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <memory>
+#include <optional>
 
 namespace clay::app {
 namespace {
@@ -29,7 +33,43 @@ std::string line_text(const PlanLine& line, const StageCost* saved) {
   return text;
 }
 
-Result<void> plan_scene(const std::string& path, const Console& console) {
+struct PlanOptions {
+  std::string scene;
+  std::optional<double> rate_hz;  ///< of a servo; absent: no arm is asked about
+  double damping_ns_per_m = 2.0;
+  int delay_ticks = 1;
+};
+
+#ifdef CLAYSTACK_FALCON
+Result<void> plan_servo(const SceneSpec& scene, const StepPlan& plan, const PlanOptions& options,
+                        const Console& console, Json& json) {
+  falcon::SampledLoop loop;
+  loop.rate_hz = *options.rate_hz;
+  loop.damping_ns_per_m = options.damping_ns_per_m;
+  loop.delay_ticks = options.delay_ticks;
+  const auto contact = check_servo(scene, plan, loop);
+  if (!contact)
+    return failure(contact.error().kind, options.scene + ": " + contact.error().message);
+  json["servo"] = {{"contact_height_mm", contact->height_mm},
+                   {"stiffness_n_per_m", contact->stiffness_n_per_m},
+                   {"accepted_n_per_m", contact->accepted_n_per_m}};
+  console.say(fmt::format("{:<19}{:.4g} N/m at most, {:.4g} are accepted at {:.6g} Hz", "contact",
+                          contact->stiffness_n_per_m, contact->accepted_n_per_m, loop.rate_hz));
+  return {};
+}
+
+void add_servo_options(CLI::App& command, PlanOptions& options) {
+  command.add_option("--rate", options.rate_hz,
+                     "Can an arm render the scene's contact at this servo rate [Hz]?");
+  command.add_option("--damping", options.damping_ns_per_m, "Of that arm [N s/m]")
+      ->capture_default_str();
+  command.add_option("--delay", options.delay_ticks, "From a reading to its force [ticks]")
+      ->capture_default_str();
+}
+#endif
+
+Result<void> plan_scene(const PlanOptions& options, const Console& console) {
+  const std::string& path = options.scene;
   const auto scene = load_scene(path);
   if (!scene) return tl::make_unexpected(scene.error());
   const auto wheel = Wheel::build(*scene);
@@ -42,6 +82,10 @@ Result<void> plan_scene(const std::string& path, const Console& console) {
     json[line.in ? "in" : "left_out"].push_back(line_json(line, saved));
     console.say(line_text(line, saved));
   }
+#ifdef CLAYSTACK_FALCON
+  if (options.rate_hz)
+    if (auto done = plan_servo(*scene, wheel->plan(), options, console, json); !done) return done;
+#endif
   if (console.json) console.print(json);
   return {};
 }
@@ -49,13 +93,19 @@ Result<void> plan_scene(const std::string& path, const Console& console) {
 }  // namespace
 
 void add_plan_command(CLI::App& app, Console& console, int& exit) {
-  auto scene = std::make_shared<std::string>();
+  auto options = std::make_shared<PlanOptions>();
   CLI::App* command =
       app.add_subcommand("plan", "Say what a scene needs, what is left out, and what that saves");
-  command->add_option("scene", *scene, "NAME.scene.json, or - for standard input")->required();
-  command->footer("\nExample:\n  claystack plan samples/bowl.scene.json");
-  command->callback([scene, &console, &exit] {
-    const auto done = plan_scene(*scene, console);
+  command->add_option("scene", options->scene, "NAME.scene.json, or - for standard input")
+      ->required();
+#ifdef CLAYSTACK_FALCON
+  add_servo_options(*command, *options);
+#endif
+  command->footer(
+      "\nExamples:\n  claystack plan samples/bowl.scene.json\n"
+      "  claystack plan samples/bowl.scene.json --rate 1000 --damping 2");
+  command->callback([options, &console, &exit] {
+    const auto done = plan_scene(*options, console);
     exit = done ? kDone : report(done.error());
   });
 }

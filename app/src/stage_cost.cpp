@@ -5,16 +5,22 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <vector>
 
 namespace clay::app {
 namespace {
 
 constexpr int kRounds = 9;  // odd: the median is one of them
-constexpr int kTicks = 4000;
-constexpr double kDepthMm = 1.0;
 
-/// The scene with the stage in; nothing where no setting puts it in.
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
 std::optional<SceneSpec> with_stage(SceneSpec scene, std::string_view stage) {
   if (stage == "inner surface") {
     scene.lump.inner_radius_mm = 0.5 * scene.lump.outer_radius_mm;
@@ -26,46 +32,47 @@ std::optional<SceneSpec> with_stage(SceneSpec scene, std::string_view stage) {
   } else if (stage == "stability") {
     scene.stability = StabilitySpec{1e6};
   } else if (stage == "pinch") {
-    scene.tool.gap_mm = kDepthMm;
+    scene.tool.gap_mm = kFirmMm;
   } else {
     return std::nullopt;
   }
   return scene;
 }
 
-/// One stroke up the outside, or up the middle of the wall where the scene pinches, at the depth of
-/// a firm hand.
-double stroke_ns(const SceneSpec& scene, const Tool& tool) {
-  auto wheel = Wheel::build(scene);
-  if (!wheel) return 0.0;
-  using Clock = std::chrono::steady_clock;
-  const double height = wheel->stack().height_mm();
+std::vector<Pose> stroke_poses(const SceneSpec& scene, double depth_mm) {
+  const auto tool = Tool::build(scene.tool.shape);
+  if (!tool) return {};
+  const double height = static_cast<double>(scene.lump.rings) * scene.lump.ring_height_mm;
   const double outer = scene.lump.outer_radius_mm, inner = scene.lump.inner_radius_mm;
   const bool pinch = scene.tool.mode == ToolMode::pinch;
-  const double x = pinch ? 0.5 * (outer + inner) : outer + tool.radius(0.0) - kDepthMm;
-  const double gap = pinch ? std::max(0.0, outer - inner - 2.0 * kDepthMm) : 0.0;
+  const double x = pinch ? 0.5 * (outer + inner) : outer + tool->radius(0.0) - depth_mm;
+  std::vector<Pose> poses(kStrokeTicks);
+  for (int k = 0; k < kStrokeTicks; ++k) {
+    Pose& pose = poses[static_cast<std::size_t>(k)];
+    pose.time_us = 1000 * (k + 1);
+    pose.position_mm = {x, height * k / kStrokeTicks, 0.0};
+    if (pinch) pose.gap_mm = std::max(0.0, outer - inner - 2.0 * depth_mm);
+  }
+  return poses;
+}
+
+double stroke_ns(const SceneSpec& scene, double depth_mm) {
+  using Clock = std::chrono::steady_clock;
+  const auto poses = stroke_poses(scene, depth_mm);
+  auto wheel = Wheel::build(scene);
+  if (poses.empty() || !wheel) return std::numeric_limits<double>::quiet_NaN();
   const auto start = Clock::now();
-  for (int k = 0; k < kTicks; ++k)
-    wheel->step({1000 * (k + 1), {x, height * k / kTicks, 0.0}, false, gap});
-  return std::chrono::duration<double, std::nano>(Clock::now() - start).count() / kTicks;
+  for (const Pose& pose : poses) wheel->step(pose);
+  return std::chrono::duration<double, std::nano>(Clock::now() - start).count() / kStrokeTicks;
 }
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-}  // namespace
 
 std::optional<StageCost> cost_of(const SceneSpec& scene, std::string_view stage) {
   const auto with = with_stage(scene, stage);
-  const auto tool = Tool::build(scene.tool.shape);
-  if (!with || !tool) return std::nullopt;
+  if (!with) return std::nullopt;
   std::vector<double> in, out;
   for (int round = 0; round < kRounds; ++round) {
-    out.push_back(stroke_ns(scene, *tool));
-    in.push_back(stroke_ns(*with, *tool));
+    out.push_back(stroke_ns(scene));
+    in.push_back(stroke_ns(*with));
   }
   return StageCost{median(in), median(out)};
 }

@@ -1,10 +1,30 @@
 #pragma once
+// What a stage of the tick costs, for `plan` and for the measurements of `bench`: one stroke, in
+// scenes that differ in that stage alone.
+
+#include "claystack/engine/pose.hpp"
 #include "claystack/engine/scene.hpp"
 
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace clay::app {
+
+/// The scene with the stage in; nothing for stages that no setting puts in.
+std::optional<SceneSpec> with_stage(SceneSpec scene, std::string_view stage);
+
+inline constexpr double kFirmMm = 1.0;  ///< depth of a firm hand
+inline constexpr int kStrokeTicks = 4000;
+
+/// A stroke from the wheel to the top in kStrokeTicks of 1 ms: up the outside of the scene's lump,
+/// or, in mode pinch, up the middle of its wall and so deep from both sides. Below 0 mm deep it is
+/// in the air. Nothing for a tool that cannot be built.
+std::vector<Pose> stroke_poses(const SceneSpec& scene, double depth_mm);
+
+/// Mean time [ns] of its ticks; to make the lump does not count. NaN for a scene that cannot be
+/// built.
+double stroke_ns(const SceneSpec& scene, double depth_mm = kFirmMm);
 
 /// Median time of a tick in contact [ns], with a stage and without it.
 struct StageCost {
@@ -12,10 +32,9 @@ struct StageCost {
   double without_ns = 0.0;
 };
 
-/// Measured now, on this machine, on this scene: a stroke up the outside of the lump (or
-/// up its wall, in mode pinch), with the stage put in and left out by turns. A pinch put in is not
-/// made use of: a second tool is another stroke, not another stage. Nothing for stages that can't
-/// be put in by a setting.
+/// Measured now, on this machine, on this scene: the stroke with the stage put in and left out by
+/// turns. A pinch put in is not made use of: a second tool is another stroke, not another stage.
+/// Nothing for stages that can't be put in by a setting.
 std::optional<StageCost> cost_of(const SceneSpec& scene, std::string_view stage);
 
 }  // namespace clay::app

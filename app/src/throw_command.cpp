@@ -27,6 +27,17 @@ struct ThrowOptions {
 
 const char* name_of(Model model) { return model == Model::paper ? "paper" : "conserving"; }
 
+Json collapse_json(const Pot& pot) {
+  const Collapse& fall = *pot.collapse;
+  return {{"ring", fall.failed_ring},
+          {"stress_kpa", fall.stress_kpa},
+          {"threshold_kpa", fall.threshold_kpa},
+          {"angle_deg", fall.angle_rad * 180.0 / std::numbers::pi},
+          {"shift_mm", {fall.shift_mm.x, fall.shift_mm.y, fall.shift_mm.z}},
+          {"energy_lost_mj", fall.energy_lost_mj},
+          {"plastic_work_mj", fall.plastic_work_mj}};
+}
+
 Json summary(const Wheel& wheel, const ReplayStats& stats, const Session& session, const Pot& pot) {
   const ClayStack& stack = wheel.stack();
   const WallMinimum wall = min_wall(stack);
@@ -48,11 +59,17 @@ Json summary(const Wheel& wheel, const ReplayStats& stats, const Session& sessio
       {"tick_ns_median", stats.tick_ns_median},
       {"tick_ns_p999", stats.tick_ns_p999},
   };
-  if (pot.collapse)
-    json["collapse"] = {{"ring", pot.collapse->failed_ring},
-                        {"stress_kpa", pot.collapse->stress_kpa},
-                        {"angle_deg", pot.collapse->angle_rad * 180.0 / std::numbers::pi}};
+  if (pot.collapse) json["collapse"] = collapse_json(pot);
   return json;
+}
+
+void tell_collapse(const Console& console, const Json& fall) {
+  console.say(fmt::format(
+      "collapsed: ring {} bore {:.2f} kPa of {:.2f}; the part above came to rest at {:.0f} degrees "
+      "and lost {:.1f} mJ, {:.1f} of them to the clay below",
+      fall["ring"].get<std::size_t>(), fall["stress_kpa"].get<double>(),
+      fall["threshold_kpa"].get<double>(), fall["angle_deg"].get<double>(),
+      fall["energy_lost_mj"].get<double>(), fall["plastic_work_mj"].get<double>()));
 }
 
 void tell(const Console& console, const Json& s) {
@@ -69,11 +86,7 @@ void tell(const Console& console, const Json& s) {
                           s["max_force_n"].get<double>()));
   if (s["trimmed_mm3"].get<double>() > 0.0)
     console.say(fmt::format("trimmed off: {:.1f} cm3", s["trimmed_mm3"].get<double>() / 1000.0));
-  if (s["collapsed"].get<bool>())
-    console.say(fmt::format(
-        "collapsed: ring {} yielded at {:.2f} kPa, the part above fell by {:.0f} degrees",
-        s["collapse"]["ring"].get<std::size_t>(), s["collapse"]["stress_kpa"].get<double>(),
-        s["collapse"]["angle_deg"].get<double>()));
+  if (s["collapsed"].get<bool>()) tell_collapse(console, s["collapse"]);
 }
 
 std::string trace_csv(const std::vector<TraceRow>& rows) {

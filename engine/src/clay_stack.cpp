@@ -1,5 +1,7 @@
 #include "claystack/engine/clay_stack.hpp"
 
+#include "number_text.hpp"
+
 #include <algorithm>
 #include <numbers>
 #include <string>
@@ -21,7 +23,7 @@ Result<void> check_shape(std::size_t count, double ring_height_mm, std::size_t m
                        std::to_string(kMaxRings) + ", found " + std::to_string(max_rings));
   if (!(ring_height_mm >= kMinRingHeightMm && ring_height_mm <= kMaxRingHeightMm))
     return failure(ErrorKind::bad_input, "expected a ring height from 0.001 to 1000 mm, found " +
-                                             std::to_string(ring_height_mm));
+                                             number_text(ring_height_mm));
   return {};
 }
 
@@ -48,11 +50,11 @@ Result<ClayStack> ClayStack::cylinder(std::size_t count, double ring_height_mm, 
   // Compared before any conversion to an integer: these are a stranger's numbers.
   if (!(outer_mm >= kMinRadiusMm && outer_mm <= kMaxRadiusMm))
     return failure(ErrorKind::bad_input, "expected an outer radius from 0.001 to 5000 mm, found " +
-                                             std::to_string(outer_mm));
+                                             number_text(outer_mm));
   if (!(inner_mm >= 0.0 && inner_mm < outer_mm))
-    return failure(ErrorKind::bad_input,
-                   "expected an inner radius from 0 to below the outer one, found " +
-                       std::to_string(inner_mm));
+    return failure(
+        ErrorKind::bad_input,
+        "expected an inner radius from 0 to below the outer one, found " + number_text(inner_mm));
   if (auto shape = check_shape(count, ring_height_mm, std::max(count, max_rings)); !shape)
     return tl::make_unexpected(shape.error());
   const Ring ring{quanta_from_radius(outer_mm), quanta_from_radius(inner_mm)};

@@ -1,6 +1,7 @@
 #include "claystack/engine/step_plan.hpp"
 
 #include "claystack/engine/clay_stack.hpp"
+#include "number_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,9 +20,9 @@ struct Range {
 Result<void> check_ranges(std::initializer_list<Range> ranges) {
   for (const Range& r : ranges)
     if (!(r.value >= r.low && r.value <= r.high))
-      return failure(ErrorKind::bad_input,
-                     std::string(r.setting) + ": expected a value from " + std::to_string(r.low) +
-                         " to " + std::to_string(r.high) + ", found " + std::to_string(r.value));
+      return failure(ErrorKind::bad_input, std::string(r.setting) + ": expected a value from " +
+                                               number_text(r.low) + " to " + number_text(r.high) +
+                                               ", found " + number_text(r.value));
   return {};
 }
 

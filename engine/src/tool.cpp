@@ -1,5 +1,7 @@
 #include "claystack/engine/tool.hpp"
 
+#include "number_text.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -16,7 +18,7 @@ bool is_size(double mm) { return mm > 0.0 && mm <= kMaxSizeMm; }
 tl::unexpected<Error> bad_size(const std::string& what, double found) {
   return failure(
       ErrorKind::bad_input,
-      "tool: expected " + what + " above 0 and at most 5000 mm, found " + std::to_string(found));
+      "tool: expected " + what + " above 0 and at most 5000 mm, found " + number_text(found));
 }
 
 struct Built {
@@ -77,11 +79,11 @@ Result<Built> build_profile(const SampledSpec& s) {
   for (std::size_t k = 0; k < s.t_mm.size(); ++k) {
     if (!(std::abs(s.t_mm[k]) <= kMaxSizeMm) || (k > 0 && !(s.t_mm[k] > s.t_mm[k - 1])))
       return failure(ErrorKind::bad_input, "tool: expected t_mm to rise within 5000 mm, found " +
-                                               std::to_string(s.t_mm[k]) + " at sample " +
+                                               number_text(s.t_mm[k]) + " at sample " +
                                                std::to_string(k));
     if (!(s.f_mm[k] >= 0.0 && s.f_mm[k] <= kMaxSizeMm))
       return failure(ErrorKind::bad_input, "tool: expected f_mm from 0 to 5000, found " +
-                                               std::to_string(s.f_mm[k]) + " at sample " +
+                                               number_text(s.f_mm[k]) + " at sample " +
                                                std::to_string(k));
   }
   return Built{SampledProfile{s.t_mm, s.f_mm, monotone_slopes(s.t_mm, s.f_mm)}, s.t_mm.front(),

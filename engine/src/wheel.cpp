@@ -3,6 +3,7 @@
 #include "collapse.hpp"
 #include "contact.hpp"
 #include "force.hpp"
+#include "number_text.hpp"
 #include "redistribution.hpp"
 #include "removal.hpp"
 #include "stability.hpp"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/common.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,6 +25,8 @@ struct Wheel::State {
   ClayStack stack;
   Ledger ledger;
   ToolTracker tracker;
+  Rim rim;
+  bool touching = false;  // at the last pose
   StabilityWatch watch;
   std::array<Bite, 2> bites;  // scratch, reserved once; the second is for pinches alone
   std::optional<Failure> failure;
@@ -32,6 +36,10 @@ struct Wheel::State {
 
 namespace {
 
+// On such a way the clay changes little; the bound keeps a tick short when a pose leaps.
+constexpr double kLongestWayMm = 0.05;
+constexpr int kMostParts = 32;
+
 template <unsigned stages>
 constexpr Model kModel = (stages & kPaperModel) ? Model::paper : Model::conserving;
 
@@ -40,13 +48,28 @@ template <unsigned stages, class State>
 std::span<Bite> touch(State& s, const ToolState& tool) noexcept {
   if constexpr (stages & kPinch) {
     if (tool.gap_mm > 0.0) {
-      find_pinch(s.plan.tool, s.stack, tool.hip_mm, tool.gap_mm, s.bites[0].contact,
-                 s.bites[1].contact);
+      find_pinch<kModel<stages>>(s.plan.tool, s.stack, tool.hip_mm, tool.gap_mm, s.bites[0].contact,
+                                 s.bites[1].contact);
       return s.bites;
     }
   }
-  find_contact(s.plan.tool, s.stack, tool.hip_mm, s.bites[0].contact);
+  find_contact<kModel<stages>>(s.plan.tool, s.stack, tool.hip_mm, s.bites[0].contact);
   return std::span(s.bites).first(1);
+}
+
+std::uint32_t rings_of(std::span<const Bite> bites) noexcept {
+  std::size_t rings = 0;
+  for (const Bite& bite : bites) rings += bite.contact.rings.size();
+  return static_cast<std::uint32_t>(rings);
+}
+
+/// Into how many parts a tick is cut, so that a fast hand leaves what a slow one does.
+template <Model model>
+int parts_of(const ToolState& tool) noexcept {
+  if constexpr (model == Model::paper) return 1;
+  const glm::dvec3 way = glm::abs(tool.moved_mm);
+  const double parts = std::max({way.x, way.y, way.z}) / kLongestWayMm;
+  return parts < kMostParts ? static_cast<int>(parts) + 1 : kMostParts;
 }
 
 template <unsigned stages, class State>
@@ -63,14 +86,14 @@ void remove(State& s, const ToolState& tool, std::span<Bite> bites) noexcept {
 /// Moves the clay that is displaced, and sees whether the stack still stands.
 template <unsigned stages, class State>
 std::uint32_t deform(State& s, const ToolState& tool, std::span<const Bite> bites) noexcept {
+  const std::size_t reach = flow_reach(s.plan.kernel);
   if constexpr (stages & kStability)
-    s.watch.move_to(s.stack,
-                    std::min(bites[0].contact.top + s.plan.kernel.length(), s.stack.size() - 1));
+    s.watch.move_to(s.stack, std::min(bites[0].contact.top + reach, s.stack.size() - 1));
 
   const bool trim = tool.trim || s.plan.mode == ToolMode::trim;
-  const Flow flow = trim
-                        ? trim_clay<kModel<stages>>(bites, s.stack, s.ledger)
-                        : press_clay<kModel<stages>>(s.plan, bites, tool.upward, s.stack, s.ledger);
+  const Flow flow =
+      trim ? trim_clay<kModel<stages>>(bites, s.stack, s.ledger, &s.rim)
+           : press_clay<kModel<stages>>(s.plan, bites, tool.upward, s.stack, s.ledger, &s.rim);
 
   if constexpr (stages & kStability) {
     s.failure = s.watch.check(s.plan.stability, s.stack, flow.lowest, flow.grown);
@@ -78,6 +101,26 @@ std::uint32_t deform(State& s, const ToolState& tool, std::span<const Bite> bite
   }
   return (flow.grown > 0 ? kGrew : 0u) | (flow.ring_limit ? kRingLimit : 0u) |
          (s.failure ? kCollapsed : 0u);
+}
+
+/// Clay leaves the touched rings on the tool's way, not at its end: the flow begins from the
+/// middle.
+template <unsigned stages, class State>
+void press(State& s, const ToolState& tool, std::span<Bite> bites, StepReport& report) noexcept {
+  const std::uint32_t touched = rings_of(bites);
+  if (touched == 0) return;
+  report.flags |= kContact;
+  report.rings_touched = touched;
+  if constexpr (kModel<stages> == Model::conserving) {
+    const double half_way = 0.5 * tool.moved_mm.y / s.stack.ring_height_mm();
+    bites[0].contact.up_offset += std::max(half_way, 0.0);
+    bites[0].contact.down_offset += std::max(-half_way, 0.0);
+    if constexpr (stages & kForce)
+      for (Bite& bite : bites)
+        yield_edges(s.plan.removal, s.stack, tool.moved_mm.y, tool.dt_s, bite.contact);
+  }
+  remove<stages>(s, tool, bites);
+  report.flags |= deform<stages>(s, tool, bites);
 }
 
 template <unsigned stages>
@@ -107,18 +150,21 @@ StepReport tick(State& s, const Pose& pose) noexcept {
   if constexpr (stages & kPinch)
     if (tool.gap_mm == 0.0) tool.gap_mm = s.plan.gap_mm;
 
-  const std::span<Bite> bites = touch<stages>(s, tool);
-  for (const Bite& bite : bites)
-    report.rings_touched += static_cast<std::uint32_t>(bite.contact.rings.size());
-  if (report.rings_touched == 0) return report;
-  report.flags |= kContact;
-
-  remove<stages>(s, tool, bites);
-  report.flags |= deform<stages>(s, tool, bites);
-  if constexpr (stages & kForce) {
-    if (s.failure) return report;  // nothing is left to push against
-    report.force_n = felt<stages>(s.plan.force, bites);
+  std::span<Bite> bites = touch<stages>(s, tool);
+  const bool touches = rings_of(bites) > 0;
+  const int parts = touches || s.touching ? parts_of<kModel<stages>>(tool) : 1;
+  s.touching = touches;
+  tool.dt_s /= parts;
+  tool.moved_mm /= parts;
+  for (int part = 1; part <= parts && !s.failure; ++part) {
+    ToolState there = tool;
+    there.hip_mm -= static_cast<double>(parts - part) * tool.moved_mm;
+    if (parts > 1) bites = touch<stages>(s, there);
+    press<stages>(s, there, bites, report);
   }
+  if constexpr (stages & kForce)
+    // After a collapse nothing is left to push against.
+    if (!s.failure && rings_of(bites) > 0) report.force_n = felt<stages>(s.plan.force, bites);
   return report;
 }
 
@@ -145,8 +191,8 @@ Result<Wheel> Wheel::build(const SceneSpec& scene) {
     if (const auto weak = StabilityWatch::check_all(plan->stability, *stack))
       return failure(ErrorKind::bad_input,
                      "stability.max_stress_kpa: expected more than the lump's own weight, found " +
-                         std::to_string(plan->stability.max_stress_kpa) + " against " +
-                         std::to_string(weak->stress_kpa) + " kPa at ring " +
+                         number_text(plan->stability.max_stress_kpa) + " against " +
+                         number_text(weak->stress_kpa) + " kPa at ring " +
                          std::to_string(weak->ring));
   }
 
@@ -176,7 +222,9 @@ bool Wheel::collapsed() const noexcept { return state_->failure.has_value(); }
 Pot Wheel::pot() const {
   const State& s = *state_;
   Pot pot{s.stack, s.ledger, s.plan.model, s.plan.density_g_cm3, {}, {}};
-  if (s.failure) pot.collapse = settle(s.stack, *s.failure, s.failure_hip);
+  if (s.failure)
+    pot.collapse = settle(s.stack, s.plan.density_g_cm3, *s.failure, s.failure_hip,
+                          s.plan.stability.max_stress_kpa);
   return pot;
 }
 

@@ -68,7 +68,8 @@ class CollapsedExport {
   }
 
   Result<void> unite() {
-    const double reach = pot_.stack.height_mm() + 2.0 * glm::length(pot_.collapse->pivot_mm);
+    const double reach = pot_.stack.height_mm() + 2.0 * glm::length(pot_.collapse->pivot_mm) +
+                         glm::length(pot_.collapse->shift_mm);
     return choose_segments(parts_.together(), options_.tolerance_mm, options_, reach)
         .and_then([&](std::size_t segments) {
           describe_parts(segments);

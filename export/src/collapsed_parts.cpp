@@ -23,7 +23,7 @@ struct Part {
 /// No coordinate of either part is larger, wherever the fall took it.
 double reach_of(const Pot& pot) {
   return std::hypot(largest_radius_mm(pot.stack), pot.stack.height_mm()) +
-         2.0 * glm::length(pot.collapse->pivot_mm);
+         2.0 * glm::length(pot.collapse->pivot_mm) + glm::length(pot.collapse->shift_mm);
 }
 
 Result<void> check_collapse(const Pot& pot) {
@@ -38,9 +38,11 @@ Result<void> check_collapse(const Pot& pot) {
   constexpr double kRounding = 1e-6;
   const bool horizontal = std::abs(glm::length(collapse.axis) - 1.0) < kRounding &&
                           std::abs(collapse.axis.y) < kRounding;
-  const double farthest = std::max(glm::length(collapse.pivot_mm), std::abs(collapse.angle_rad));
-  if (!horizontal || !(farthest < 1e6))
-    return wrong("expected a horizontal axis of length 1, a pivot and an angle within 1e6");
+  const bool near = glm::length(collapse.pivot_mm) < 1e6 && glm::length(collapse.shift_mm) < 1e6 &&
+                    std::abs(collapse.angle_rad) < 1e6;
+  if (!horizontal || !near)
+    return wrong(
+        "expected a horizontal axis of length 1, a pivot, a shift and an angle within 1e6");
   return {};
 }
 
@@ -68,15 +70,9 @@ StackProfile in_place(StackProfile found, const Part& part) {
   return found;
 }
 
-/// A crown has the radii of the ring that it stood on.
 StackProfile crown_profile(const ClayStack& stack) {
-  const Ring& ring = stack.rings().back();
-  const double outer = ring.outer_mm(), inner = ring.inner_mm();
-  const double bottom = static_cast<double>(stack.size()) * stack.ring_height_mm();
-  const double top = bottom + stack.crown_height_mm();
-  const Topology topology = inner > 0.0 ? Topology::tube : Topology::solid;
-  return {{{{{outer, bottom}, {outer, top}, {inner, top}, {inner, bottom}}}},
-          {{topology, stack.size(), stack.size(), {}}}};
+  const Topology topology = stack.rings().back().inner2 > 0 ? Topology::tube : Topology::solid;
+  return {{{crown_section_of(stack)}}, {{topology, stack.size(), stack.size(), {}}}};
 }
 
 class Parting {

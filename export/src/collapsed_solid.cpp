@@ -1,5 +1,6 @@
 #include "claystack/export/collapsed_solid.hpp"
 
+#include "claystack/engine/fall.hpp"
 #include "claystack/export/mesh_formats.hpp"
 #include "claystack/export/tessellate.hpp"
 #include "describe.hpp"
@@ -41,32 +42,18 @@ constexpr std::array kShortestEdges{64.0, 256.0, 1024.0, 16.0};
 /// From the wheel's frame (y up) to the mesh's (z up).
 glm::dvec3 upright(const glm::dvec3& p) { return {p.x, -p.z, p.y}; }
 
-/// Half turns are made exact, so that faces that coincide after them do so to the last bit.
-double exact_at_zero(double x) { return std::abs(x) < 1e-15 ? 0.0 : x; }
+/// From the mesh's frame to the wheel's.
+glm::dvec3 as_on_wheel(const glm::dvec3& p) { return {p.x, p.z, -p.y}; }
 
-struct Turn {
-  glm::dvec3 pivot{0.0};
-  glm::dvec3 axis{0.0, 0.0, 1.0};
-  double cosine = 1.0;
-  double sine = 0.0;
+TriangleMesh turned_about_own_axis(TriangleMesh mesh, double angle_rad) {
+  if (angle_rad == 0.0) return mesh;
+  const double c = std::cos(angle_rad), s = std::sin(angle_rad);
+  for (glm::dvec3& p : mesh.points) p = {c * p.x - s * p.y, s * p.x + c * p.y, p.z};
+  return mesh;
+}
 
-  Turn(const glm::dvec3& about, const glm::dvec3& direction, double angle_rad)
-      : pivot(about),
-        axis(direction),
-        cosine(exact_at_zero(std::cos(angle_rad))),
-        sine(exact_at_zero(std::sin(angle_rad))) {}
-
-  /// Rodrigues' formula.
-  glm::dvec3 operator()(const glm::dvec3& p) const {
-    if (sine == 0.0 && cosine == 1.0) return p;
-    const glm::dvec3 arm = p - pivot;
-    return pivot + cosine * arm + sine * glm::cross(axis, arm) +
-           (1.0 - cosine) * glm::dot(axis, arm) * axis;
-  }
-};
-
-TriangleMesh turned(TriangleMesh mesh, const Turn& turn) {
-  for (glm::dvec3& p : mesh.points) p = turn(p);
+TriangleMesh fallen(TriangleMesh mesh, const FallenPlace& place) {
+  for (glm::dvec3& p : mesh.points) p = upright(place(as_on_wheel(p)));
   return mesh;
 }
 
@@ -83,18 +70,18 @@ class Union {
         double tolerance_mm)
       : tolerance_mm_(tolerance_mm),
         step_rad_(2.0 * std::numbers::pi / static_cast<double>(segments)),
-        fall_(upright(collapse.pivot_mm), upright(collapse.axis), collapse.angle_rad),
+        place_(collapse),
         lower_(revolve(parts.lower.profile, segments)),
         upper_(revolve(parts.upper.profile, segments)) {}
 
   Result<CollapsedSolid> run() {
-    const bool fallen = !upper_.triangles.empty();
+    const bool any_fell = !upper_.triangles.empty();
     auto sound = check_part(lower_, "lower").and_then([&]() -> Result<void> {
-      if (!fallen) return {};
-      return check_part(turned(upper_, fall_), "upper");
+      if (!any_fell) return {};
+      return check_part(fallen(upper_, place_), "upper");
     });
     if (!sound) return tl::make_unexpected(sound.error());
-    if (!fallen) return standing();
+    if (!any_fell) return standing();
     Result<CollapsedSolid> solid;
     for (const Attempt& attempt : kAttempts) {
       solid = with(attempt);
@@ -111,8 +98,7 @@ class Union {
   }
 
   Result<CollapsedSolid> with(const Attempt& attempt) const try {
-    const Turn about_own_axis({0, 0, 0}, {0, 0, 1}, attempt.phase * step_rad_);
-    TriangleMesh upper = turned(turned(upper_, about_own_axis), fall_);
+    TriangleMesh upper = fallen(turned_about_own_axis(upper_, attempt.phase * step_rad_), place_);
     const double nudge = attempt.nudge * float_rounding_mm(upper);
     for (glm::dvec3& p : upper.points) p += nudge * kNudge;
     return unite(lower_, upper).and_then([&](const MeshUnion& both) {
@@ -169,7 +155,7 @@ class Union {
 
   double tolerance_mm_;
   double step_rad_;
-  Turn fall_;
+  FallenPlace place_;
   TriangleMesh lower_;
   TriangleMesh upper_;  ///< before the fall
 };

@@ -1,6 +1,7 @@
 #include "claystack/export/section_svg.hpp"
 
 #include "describe.hpp"
+#include "section_bodies.hpp"
 #include "stack_section.hpp"
 #include "svg_page.hpp"
 
@@ -15,84 +16,20 @@
 namespace clay::solid {
 namespace {
 
-using Outline = std::vector<glm::dvec2>;  // (right, up) in mm, seen along the cut
-
-/// One rigid body as the knife leaves it.
-struct Body {
-  std::vector<Outline> cut;     ///< the clay that the knife met: fill by the even-odd rule
-  std::vector<Outline> beyond;  ///< the half behind, whose bore shows
-  Outline axis;
-};
-
-/// A line right of the axis and its mirror image, joined into one outline.
-Outline mirrored(const Polygon& line) {
-  Outline outline;
-  for (const ProfilePoint& p : line) outline.emplace_back(p.rho, p.y);
-  for (auto p = line.rbegin(); p != line.rend(); ++p) outline.emplace_back(-p->rho, p->y);
-  return outline;
-}
-
-/// Chains that end on the axis close with their mirror images, so that no seam shows there.
-void add_cut(Body& body, const Polygon& section) {
-  for (const Chain& chain : chains_of(section)) {
-    Polygon line;
-    for (std::size_t i = 0; i <= chain.edges; ++i)
-      line.push_back(section[(chain.first + i) % section.size()]);
-    if (!chain.round) {
-      body.cut.push_back(mirrored(line));
-      continue;
-    }
-    for (const double side : {1.0, -1.0}) {
-      Outline& outline = body.cut.emplace_back();
-      for (const ProfilePoint& p : line) outline.emplace_back(side * p.rho, p.y);
-    }
-  }
-}
-
-Body body_of(const ClayStack& stack, RingRange rings) {
-  Body body;
-  for (const RingRange piece : pieces_of(stack, rings)) {
-    add_cut(body, section_of(stack, piece));
-    body.beyond.push_back(mirrored(outer_wall_of(stack, piece)));
-  }
-  body.axis = {{0.0, level_mm(stack, rings.first)}, {0.0, level_mm(stack, rings.last + 1)}};
-  return body;
-}
-
-/// Turns a body about the pivot, in the plane through the pot's axis across the turning axis.
-void turn(Body& body, const Collapse& collapse) {
-  const glm::dvec2 pivot{
-      collapse.pivot_mm.x * collapse.axis.z - collapse.pivot_mm.z * collapse.axis.x,
-      collapse.pivot_mm.y};
-  const double c = std::cos(collapse.angle_rad), s = std::sin(collapse.angle_rad);
-  const auto turn_outline = [&](Outline& outline) {
-    for (glm::dvec2& p : outline) {
-      const glm::dvec2 arm = p - pivot;
-      p = pivot + glm::dvec2{c * arm.x - s * arm.y, s * arm.x + c * arm.y};
-    }
-  };
-  std::for_each(body.cut.begin(), body.cut.end(), turn_outline);
-  std::for_each(body.beyond.begin(), body.beyond.end(), turn_outline);
-  turn_outline(body.axis);
-}
-
-std::vector<Body> bodies_of(const Pot& pot) {
-  const std::size_t rings = pot.stack.size();
-  if (rings == 0) return {};
-  if (!pot.collapse) return {body_of(pot.stack, {0, rings - 1})};
-  const std::size_t failed = std::min(pot.collapse->failed_ring, rings - 1);
-  std::vector<Body> bodies{body_of(pot.stack, {0, failed})};
-  if (failed + 1 < rings) {
-    bodies.push_back(body_of(pot.stack, {failed + 1, rings - 1}));
-    turn(bodies.back(), *pot.collapse);
-  }
-  return bodies;
-}
-
 struct Extent {
   glm::dvec2 low{-1.0, 0.0};
   glm::dvec2 high{1.0, 1.0};
   [[nodiscard]] glm::dvec2 size() const { return high - low; }
+  [[nodiscard]] Extent with(const std::vector<Outline>& outlines) const {
+    Extent all = *this;
+    for (const Outline& outline : outlines) {
+      for (const glm::dvec2& p : outline) {
+        all.low = glm::min(all.low, p);
+        all.high = glm::max(all.high, p);
+      }
+    }
+    return all;
+  }
 };
 
 /// The wheel head (up = 0) is always in the picture.
@@ -100,14 +37,7 @@ Extent extent_of(const std::vector<Body>& bodies) {
   if (bodies.empty()) return {};
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Extent extent{{kFar, 0.0}, {-kFar, 0.0}};
-  for (const Body& body : bodies) {
-    for (const Outline& outline : body.beyond) {
-      for (const glm::dvec2& p : outline) {
-        extent.low = glm::min(extent.low, p);
-        extent.high = glm::max(extent.high, p);
-      }
-    }
-  }
+  for (const Body& body : bodies) extent = extent.with(body.beyond);
   return extent;
 }
 
@@ -138,6 +68,10 @@ class Drawing {
     const glm::dvec2 right{size_.x - kRight + 30.0, left.y};
     page_.rectangle("ground", left, {right.x - left.x, 9.0});
     page_.line("bold", left, right);
+  }
+
+  void ghosts(const std::vector<Outline>& all) {
+    for (const Outline& ghost : all) page_.fill("ghost", on_page(std::vector<Outline>{ghost}));
   }
 
   /// What is cut stands before all that lies beyond, of whichever body.
@@ -219,9 +153,11 @@ glm::dvec2 widest_point(const ClayStack& stack) {
 
 std::string section_svg(const Pot& pot) {
   const std::vector<Body> bodies = bodies_of(pot);
+  const std::vector<Outline> ghosts = ghosts_of(pot);
   const Extent extent = extent_of(bodies);
-  Drawing drawing(extent);
+  Drawing drawing(extent.with(ghosts));
   drawing.wheel_head();
+  drawing.ghosts(ghosts);
   drawing.bodies(bodies);
   if (pot.collapse) {
     drawing.height(extent.high);

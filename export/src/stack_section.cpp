@@ -94,6 +94,15 @@ Polygon section_of(const ClayStack& stack, RingRange piece, double min_step_mm) 
   return section;
 }
 
+/// It has the radii of the last ring.
+Polygon crown_section_of(const ClayStack& stack) {
+  const Ring& ring = stack.rings().back();
+  const double outer = ring.outer_mm(), inner = ring.inner_mm();
+  const double bottom = static_cast<double>(stack.size()) * stack.ring_height_mm();
+  const double top = bottom + stack.crown_height_mm();
+  return {{outer, bottom}, {outer, top}, {inner, top}, {inner, bottom}};
+}
+
 std::vector<Chain> chains_of(const Polygon& polygon) {
   const std::size_t count = polygon.size();
   std::vector<Chain> chains;

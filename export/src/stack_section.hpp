@@ -33,6 +33,9 @@ enum class Contact { annulus, circle, none };
 /// Steps narrower than `min_step_mm` are levelled as `profile_of` says.
 [[nodiscard]] Polygon section_of(const ClayStack& stack, RingRange piece, double min_step_mm = 0.0);
 
+/// The section of the crown alone: foot and top of its outer wall, then of its bore or the axis.
+[[nodiscard]] Polygon crown_section_of(const ClayStack& stack);
+
 /// A stretch of a section that sweeps one shell: from pole to pole where edges on the axis cut
 /// the polygon, all round where it never meets the axis.
 struct Chain {

@@ -11,6 +11,7 @@ constexpr std::string_view kStyle = R"svg(<style>
 text { font: 14px "Helvetica Neue", Helvetica, Arial, sans-serif; fill: #3b332c; }
 .paper { fill: #faf6ef; stroke: #e2d9cb; }
 .beyond { fill: #ecd5bf; stroke: #b98d6a; stroke-width: 1; stroke-linejoin: round; }
+.ghost { fill: none; stroke: #b98d6a; stroke-width: 1; stroke-dasharray: 5 4; }
 .cut { fill: #b8683c; fill-rule: evenodd; stroke: #5d2f17; stroke-width: 1.4; stroke-linejoin: round; }
 .axis { stroke: #3b332c; stroke-width: 0.9; stroke-dasharray: 16 4 2.5 4; }
 .ground { fill: url(#hatch); }

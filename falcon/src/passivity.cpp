@@ -10,6 +10,8 @@ namespace {
 // One debt may be a slip; a few, with no good while between them, are a rattle.
 constexpr int kMostDebts = 3;
 constexpr double kGoodWhileS = 2.0;
+constexpr double kYield = 0.5;
+constexpr double kPayWithinS = 0.5;  // or it counts again
 
 bool is_finite(const glm::dvec3& v) noexcept {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -18,7 +20,7 @@ bool is_finite(const glm::dvec3& v) noexcept {
 double most_damping(const PassivitySpec& spec, double stiffness) noexcept {
   const double borne = 0.5 * stable_damping(spec.loop, stiffness);
   if (!(spec.step_m > 0.0)) return borne;
-  return std::min(borne, 0.5 * spec.reversal_force_n / (spec.step_m * spec.loop.rate_hz));
+  return std::min(borne, 0.25 * spec.reversal_force_n / (spec.step_m * spec.loop.rate_hz));
 }
 
 }  // namespace
@@ -41,8 +43,8 @@ tl::expected<PassivityController, OutOfRange> PassivityController::build(
 
 PassivityController::PassivityController(const PassivitySpec& spec) noexcept
     : spec_(spec),
-      yielding_stiffness_(accepted_stiffness(spec.loop)),
-      most_damping_(most_damping(spec, yielding_stiffness_)),
+      stiffness_(accepted_stiffness(spec.loop)),
+      most_damping_(most_damping(spec, stiffness_)),
       observer_(spec.loop, spec.step_m, spec.energy_window_s),
       swings_(spec.reversal_limit, spec.reversal_window_s, spec.reversal_force_n) {}
 
@@ -75,9 +77,10 @@ void PassivityController::judge(bool contact_ended, const glm::dvec3& asked_n) n
   if (rattles || observer_.recent_j() > spec_.energy_limit_j) return escalate();
   if (yields) return;
 
-  const bool owes = observer_.injected_j() > observer_.tolerance_j();
-  const bool again = contact_ended && observer_.last_contact_j() > 0.0;
-  if (owes && (again || state_ == PassivityState::watching)) count_debt();
+  const bool owes = observer_.debt_j() > observer_.tolerance_j();
+  const bool again = state_ == PassivityState::watching || now_s_ - last_debt_s_ > kPayWithinS ||
+                     (contact_ended && observer_.last_contact_j() > 0.0);
+  if (owes && again) count_debt();
   if (debts_ >= kMostDebts) return escalate();
   state_ = owes ? PassivityState::damping : PassivityState::watching;
 }
@@ -91,43 +94,40 @@ void PassivityController::count_debt() noexcept {
 void PassivityController::escalate() noexcept {
   state_ = state_ == PassivityState::yielding ? PassivityState::safe : PassivityState::yielding;
   observer_.forgive();
+  earned_n_ *= kYield;
   swings_ = SwingCounter(spec_.reversal_limit, spec_.reversal_window_s, spec_.reversal_force_n);
 }
 
 glm::dvec3 PassivityController::answer(double dt_s, const glm::dvec3& way_m,
                                        const glm::dvec3& asked_n) noexcept {
-  switch (state_) {
-    case PassivityState::watching:
-      return asked_n;
-    case PassivityState::damping:
-      return asked_n + damping(dt_s, way_m);
-    case PassivityState::yielding:
-      return yielding(way_m, asked_n);
-    case PassivityState::safe:
-      break;
-  }
-  return glm::dvec3(0.0);
+  if (state_ == PassivityState::safe) return glm::dvec3(0.0);
+  const glm::dvec3 force = earned(way_m, asked_n);
+  return state_ == PassivityState::damping ? force + damping(dt_s, way_m) : force;
 }
 
 /// Equation (10) of the paper: as much as takes the debt back within a period.
 glm::dvec3 PassivityController::damping(double dt_s, const glm::dvec3& way_m) const noexcept {
   const double square = glm::dot(way_m, way_m);
   if (!(square > 0.0)) return glm::dvec3(0.0);
-  const double debt = observer_.injected_j() - observer_.tolerance_j();
+  const double debt = observer_.debt_j() - observer_.tolerance_j();
   const double amount = std::min(debt * dt_s / square, most_damping_);
   return -amount / dt_s * way_m;
 }
 
-/// A spring as stiff as is accepted, from wherever the force last was, and never more than is asked
-/// for: what is lost when the contact lets go has to be earned again by moving in.
-glm::dvec3 PassivityController::yielding(const glm::dvec3& way_m,
-                                         const glm::dvec3& asked_n) const noexcept {
+/// The smaller of two springs: the one asked for, and one as stiff as may be, from where the
+/// contact began. A contact softer than that passes unchanged; what a contact that lets go has lost
+/// is to be earned again by moving in.
+glm::dvec3 PassivityController::earned(const glm::dvec3& way_m,
+                                       const glm::dvec3& asked_n) noexcept {
   const double asked = glm::length(asked_n);
-  if (!(asked > 0.0)) return glm::dvec3(0.0);
+  if (!(asked > 0.0)) {
+    earned_n_ = 0.0;
+    return glm::dvec3(0.0);
+  }
+  const double stiffness = (state_ == PassivityState::yielding ? kYield : 1.0) * stiffness_;
   const glm::dvec3 direction = asked_n / asked;
-  const double grown =
-      glm::dot(last_sent_, direction) - yielding_stiffness_ * glm::dot(way_m, direction);
-  return std::clamp(grown, 0.0, asked) * direction;
+  earned_n_ = std::max(0.0, earned_n_ - stiffness * glm::dot(way_m, direction));
+  return earned_n_ < asked ? earned_n_ * direction : asked_n;
 }
 
 void PassivityController::send(const glm::dvec3& force_n) noexcept {

@@ -52,5 +52,27 @@ TEST(Plan, HasAllInForASceneThatNeedsAll) {
             (std::set<std::string>{"force", "friction"}));
 }
 
+TEST(Plan, SaysWhetherAnArmCanRenderTheContact) {
+  const ScratchFolder folder;
+  write_text(folder.file("s.scene.json"), kSolidFrictionless);
+  // 41 rings of 0.5 mm under the sphere, 0.02 N/mm2: 410 N/m. Accepted: b / 3T.
+  const auto calm = claystack("plan --json --rate 1000 --damping 2 " + folder.file("s.scene.json"));
+  ASSERT_EQ(calm.status, 0) << calm.err;
+  const auto servo = calm.json().at("servo");
+  EXPECT_NEAR(servo.at("stiffness_n_per_m").get<double>(), 410.0, 1e-9);
+  EXPECT_NEAR(servo.at("contact_height_mm").get<double>(), 20.5, 1e-12);
+  EXPECT_NEAR(servo.at("accepted_n_per_m").get<double>(), 2.0 * 1000 / 3, 1e-9);
+
+  const auto stiff = claystack("plan --rate 500 " + folder.file("s.scene.json"));
+  EXPECT_EQ(stiff.status, 2);
+  // 333.3 / 410 of 0.02, and 410 / 333.3 of 500 Hz.
+  EXPECT_NE(stiff.err.find("force.stiffness_n_per_mm2: expected at most 0.0162"), std::string::npos)
+      << stiff.err;
+  EXPECT_NE(stiff.err.find("found 0.02; or a rate of at least 615 Hz"), std::string::npos)
+      << stiff.err;
+  EXPECT_EQ(claystack("plan -q --rate 615 " + folder.file("s.scene.json")).status, 0);
+  EXPECT_EQ(claystack("plan -q --rate 5 " + folder.file("s.scene.json")).status, 2);
+}
+
 }  // namespace
 }  // namespace clay::test

@@ -68,7 +68,18 @@ INSTANTIATE_TEST_SUITE_P(Throw, Samples,
 TEST(Throw, TellsOfACollapse) {
   const auto run = claystack("throw " + sample("collapse.scene.json"));
   EXPECT_EQ(run.status, 0);
-  EXPECT_NE(run.out.find("collapsed: ring"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("collapsed: ring 252 bore 4.20 kPa of 4.20"), std::string::npos)
+      << run.out;
+  const auto json = claystack("throw --json " + sample("collapse.scene.json")).json();
+  const auto& fall = json.at("collapse");
+  EXPECT_EQ(fall.at("threshold_kpa"),
+            nlohmann::json::parse(read_text(sample("collapse.scene.json")))
+                .at("stability")
+                .at("max_stress_kpa"));
+  EXPECT_GT(fall.at("stress_kpa"), fall.at("threshold_kpa"));
+  EXPECT_GT(fall.at("angle_deg"), 30.0);
+  EXPECT_GT(fall.at("plastic_work_mj"), 0.0);
+  EXPECT_GT(fall.at("energy_lost_mj"), fall.at("plastic_work_mj"));
 }
 
 TEST(Throw, WarnsOfASessionFromAnotherScene) {

@@ -2,6 +2,8 @@
 // What a measurement has to say, apart from how it is shown: numbers, tables and plots. One
 // writer each turns them into text, JSON, CSV and HTML.
 
+#include "plot/plot.hpp"
+
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -15,7 +17,7 @@ namespace clay::bench {
 struct Value {
   std::string name;  ///< key in JSON, with its unit: n200_ns
   double median = 0.0;
-  double spread = 0.0;  ///< interquartile range; 0 for what is counted, not timed
+  double spread = 0.0;  ///< interquartile range; 0 for what is counted, not timed: then not told
   std::string about;    ///< for people
 };
 
@@ -35,37 +37,10 @@ struct Table {
   std::string note;
 };
 
-struct Axis {
-  std::string label;  ///< with its unit
-  bool logarithmic = false;
-};
-
-struct Curve {
-  std::string name;
-  std::vector<double> x, y;
-  std::vector<double> low, high;  ///< spread of y, where measured
-  bool line = true;               ///< joined by a line, or points alone
-  bool dashed = false;            ///< for theory and bounds
-};
-
-struct Plot {
-  std::string id;  ///< unique in the report
-  std::string title;
-  Axis x, y;
-  std::vector<Curve> curves;
-  std::string note;
-};
-
-/// A map over two parameters: the servo's stable cells, for one. cells[row][column].
-struct Map {
-  std::string id;
-  std::string title;
-  Axis x, y;
-  std::vector<double> x_values, y_values;
-  std::vector<std::vector<double>> cells;  ///< 0 = good .. 1 = bad; NaN = not measured
-  std::vector<Curve> curves;               ///< drawn over it
-  std::string note;
-};
+using plot::Axis;
+using plot::Curve;
+using plot::Map;
+using plot::Plot;
 
 struct Section {
   std::string id;  ///< the word after --only

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace clay {
 namespace {
@@ -32,6 +33,17 @@ TEST(Tool, SlopeIsTheDerivative) {
       EXPECT_NEAR(tool.slope(t), difference, 1e-7 * (1 + std::abs(difference)))
           << spec.index() << " " << t;
     }
+  }
+}
+
+TEST(Tool, WidestIsTheGreatestRadius) {
+  for (const auto& [spec, at] :
+       {std::pair{ToolShapeSpec{EllipseSpec{12, 5}}, 0.0},
+        {ToolShapeSpec{RibSpec{20, 6}}, 3.0},
+        {ToolShapeSpec{SampledSpec{{-10, -4, 1, 9}, {0, 6, 7, 2}}}, 1.0}}) {
+    const Tool tool = Tool::build(spec).value();
+    EXPECT_EQ(tool.widest(), tool.radius(at));
+    for (double t = -12.0; t <= 12.0; t += 0.125) EXPECT_LE(tool.radius(t), tool.widest());
   }
 }
 

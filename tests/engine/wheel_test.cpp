@@ -264,6 +264,10 @@ TEST(Wheel, RefusesSettingsOutOfRange) {
   names("lump: ", [](SceneSpec& s) { s.lump.outer_radius_mm = 1e6; });
   names("tool: ", [](SceneSpec& s) { s.tool.shape = SphereSpec{0.0}; });
   names("stability.max_stress_kpa", [](SceneSpec& s) { s.stability = StabilitySpec{0.01}; });
+  // In digits that tell the number from the limit.
+  names("to 0.999999999, found 1", [](SceneSpec& s) { s.removal.paper_fraction = 1.0; });
+  names("found 1e-09", [](SceneSpec& s) { s.lump.ring_height_mm = 1e-9; });
+  names("found 1e+300", [](SceneSpec& s) { s.lump.outer_radius_mm = 1e300; });
 }
 
 }  // namespace

@@ -24,12 +24,12 @@ inline Pot fallen(ClayStack stack, std::size_t failed_ring, glm::dvec3 pivot_mm,
 
 /// Place of a point of the upper part after the fall; both y up.
 inline glm::dvec3 fallen_point(const Collapse& collapse, const glm::dvec3& p) {
-  return collapse.pivot_mm +
+  return collapse.pivot_mm + collapse.shift_mm +
          glm::angleAxis(collapse.angle_rad, collapse.axis) * (p - collapse.pivot_mm);
 }
 inline glm::dvec3 point_before_fall(const Collapse& collapse, const glm::dvec3& p) {
-  return collapse.pivot_mm +
-         glm::angleAxis(-collapse.angle_rad, collapse.axis) * (p - collapse.pivot_mm);
+  return collapse.pivot_mm + glm::angleAxis(-collapse.angle_rad, collapse.axis) *
+                                 (p - collapse.pivot_mm - collapse.shift_mm);
 }
 
 /// Any stack, fallen anyhow: along the axes and across, by quarter and half turns, not at all.
@@ -44,7 +44,11 @@ inline rc::Gen<Pot> any_fallen_pot() {
     const double x = *rc::gen::inRange(0, 14);
     const double cut = 1.5 * static_cast<double>(failed + 1);
     const double y = *rc::gen::element(cut, static_cast<double>(*rc::gen::inRange(0, 20)));
-    return fallen(stack, failed, {x * std::cos(toward), y, x * std::sin(toward)}, angle, toward);
+    Pot pot = fallen(stack, failed, {x * std::cos(toward), y, x * std::sin(toward)}, angle, toward);
+    const double shift = *rc::gen::inRange(0, 2) * *rc::gen::inRange(-50, 50) * 0.1;
+    pot.collapse->shift_mm = {shift * std::cos(toward), -0.7 * std::abs(shift),
+                              shift * std::sin(toward)};
+    return pot;
   });
 }
 
@@ -57,6 +61,7 @@ inline void showValue(const Pot& pot, std::ostream& out) {
   if (!pot.collapse) return;
   const Collapse& c = *pot.collapse;
   out << " failed " << c.failed_ring << " pivot " << c.pivot_mm.x << ' ' << c.pivot_mm.y << ' '
-      << c.pivot_mm.z << " axis " << c.axis.x << ' ' << c.axis.z << " angle " << c.angle_rad;
+      << c.pivot_mm.z << " axis " << c.axis.x << ' ' << c.axis.z << " angle " << c.angle_rad
+      << " shift " << c.shift_mm.x << ' ' << c.shift_mm.y << ' ' << c.shift_mm.z;
 }
 }  // namespace clay

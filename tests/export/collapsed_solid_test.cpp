@@ -98,6 +98,21 @@ TEST(CollapsedSolid, CylindersCrossInSteinmetzsSolid) {
   EXPECT_NEAR(solid->overlap_mm3 / (16.0 / 3 * 1000), 1.0, 1e-3);
 }
 
+TEST(CollapsedSolid, AShiftIsPartOfTheFall) {
+  // Shifted by its radius and down by 5 mm: the overlap is a lens of two circles of that distance.
+  Pot pot = fallen(stack_of(40, {{10, 0}, {10, 0}}), 0, {20, 40, 0}, 0.0);
+  pot.collapse->shift_mm = {-6.0, -5.0, 8.0};
+  const auto solid = united(pot, 128);
+  ASSERT_TRUE(solid) << solid.error().message;
+  const double lens = 100 * (2 * kPi / 3 - std::sqrt(3.0) / 2);
+  EXPECT_NEAR(solid->overlap_mm3 / (5 * lens), 1.0, 2e-3);
+  EXPECT_NEAR(solid->union_mm3, 2 * kPi * 100 * 40 - solid->overlap_mm3, 1e-6);
+  // A half turn, then back over the foot it came from.
+  pot = fallen(stack_of(10, {{12, 0}, {9, 5}, {9, 5}, {12, 0}}), 1, {0, 20, 0}, kPi);
+  pot.collapse->shift_mm = {0.0, 20.0, 0.0};
+  EXPECT_EQ(united(pot, 16)->overlap_mm3, 0.0);
+}
+
 TEST(CollapsedSolid, PartsThatFellClearAreTwoBodies) {
   const auto solid = united(fallen(stack_of(10, {{10, 0}, {8, 4}}), 0, {40, 10, 0}, kPi), 20);
   ASSERT_TRUE(solid) << solid.error().message;

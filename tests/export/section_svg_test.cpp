@@ -110,6 +110,47 @@ TEST(SectionSvg, UpperPartOfACollapsedPotIsTurned) {
   EXPECT_NEAR(most.y, 10.0, 0.01);
 }
 
+TEST(SectionSvg, ACrownThatFellByItselfLiesWhereItFell) {
+  // 4 mm of crown, over 10 mm of ring that stays; it comes down by 10 mm, 30 mm to the right.
+  Pot pot = pot_of(stack_of(10.0, {{10, 0}}, quanta_from_radius(10) * 4 / 10));
+  pot.collapse = Collapse{0, {12, 10, 0}, {0, 0, 1}, 0.0, 1.0, {30, -10, 0}};
+  const auto cut = outlines(section_svg(pot), "cut");
+  ASSERT_EQ(cut.size(), 2u);
+  const auto box = [&](std::size_t k) {
+    glm::dvec2 least{1e9}, most{-1e9};
+    for (const glm::dvec2& p : cut[k]) {
+      least = glm::min(least, p);
+      most = glm::max(most, p);
+    }
+    return std::pair{least, most};
+  };
+  const auto [ring_low, ring_high] = box(0);
+  const auto [crown_low, crown_high] = box(1);
+  const double scale = (ring_high.x - ring_low.x) / 20.0;
+  EXPECT_NEAR((ring_high.y - ring_low.y) / scale, 10.0, 0.01);
+  EXPECT_NEAR((crown_high.y - crown_low.y) / scale, 4.0, 0.01);
+  EXPECT_NEAR((crown_low.x - ring_low.x) / scale, 30.0, 0.01);
+  EXPECT_NEAR(crown_high.y, ring_high.y, 0.01);
+}
+
+TEST(SectionSvg, WhereAPartPassedIsDashed) {
+  Pot pot = pot_of(stack_of(10.0, {{10, 0}, {10, 0}, {10, 0}}));
+  pot.collapse = Collapse{0, {0, 10, 0}, {0, 0, 1}, 0.0, 1.0, {0, -10, 0}};
+  EXPECT_EQ(outlines(section_svg(pot), "ghost").size(), 0u);  // no telling how it fell
+  pot.collapse->threshold_kpa = 0.1;                          // half of its weight
+  const auto ghosts = outlines(section_svg(pot), "ghost");
+  ASSERT_EQ(ghosts.size(), 4u);
+  // As it stood, and after each quarter of its way down: all 20 mm high, to within a step.
+  const auto foot = [](const std::vector<glm::dvec2>& outline) {
+    return std::max_element(outline.begin(), outline.end(),
+                            [](auto a, auto b) { return a.y < b.y; })
+        ->y;
+  };
+  const double way = foot(outlines(section_svg(pot), "cut")[0]) - foot(ghosts[0]);
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_NEAR((foot(ghosts[k]) - foot(ghosts[0])) / way, 0.25 * static_cast<double>(k), 0.02);
+}
+
 TEST(SectionSvg, DrawsWhatNoSolidCanBeMadeOf) {
   const std::string svg = section_svg(pot_of(stack_of(2.0, {{5, 0}, {9, 5}})));
   EXPECT_EQ(outlines(svg, "cut").size(), 3u);

@@ -18,7 +18,7 @@ using falcon::SimulatedArm;
 struct Account {
   double injected_j = 0.0;
   double tolerance_j = 0.0;
-  double displayed_j = 0.0;
+  double rounding_j = 0.0;  // of the sums so far
 };
 
 class Bookkeeper {
@@ -38,12 +38,12 @@ class Bookkeeper {
   }
   [[nodiscard]] Account account() const {
     const double gained = total_j() - began_j_;
-    return {gained - arm_.energy().hand, tolerance_j_ + kRounding * throughput_j(),
-            arm_.energy().displayed};
+    return {gained - arm_.energy().hand, tolerance_j_, kRounding * throughput_j()};
   }
 
  private:
-  static constexpr double kRounding = 1e-12;
+  // A few additions a tick, of energies that grow with the throughput.
+  static constexpr double kRounding = 1e-13;
   [[nodiscard]] double total_j() const {
     return arm_.kinetic_energy_j() + surface_.stored_j(arm_.position_m());
   }
@@ -68,17 +68,19 @@ class CycleWatch {
     if (!deepest) return;
     if (began_) {
       const double injected = now.injected_j - began_->injected_j;
-      const double tolerance = now.tolerance_j - began_->tolerance_j;
+      const double tolerance = now.tolerance_j - began_->tolerance_j + now.rounding_j;
       outcome.worst_cycle_j = outcome.cycles == 0
                                   ? injected - tolerance
                                   : std::max(outcome.worst_cycle_j, injected - tolerance);
       ++outcome.cycles;
+      sum_j_ += injected - tolerance;
+      outcome.mean_cycle_j = sum_j_ / outcome.cycles;
     }
     began_ = now;
   }
 
  private:
-  double last_speed_ = 0.0;
+  double last_speed_ = 0.0, sum_j_ = 0.0;
   std::optional<Account> began_;
 };
 
@@ -139,10 +141,9 @@ Outcome run(const Experiment& e, Surface& surface) {
   const Account now = book.account();
   outcome.swing_m = swing_about_trend(positions);
   outcome.injected_j = now.injected_j;
-  outcome.tolerance_j = now.tolerance_j;
+  outcome.tolerance_j = now.tolerance_j + now.rounding_j;
   outcome.settled_w = (now.injected_j - then.injected_j) / e.settled_s;
-  outcome.settled_tolerance_w = (now.tolerance_j - then.tolerance_j) / e.settled_s;
-  outcome.displayed_w = (now.displayed_j - then.displayed_j) / e.settled_s;
+  outcome.settled_tolerance_w = (now.tolerance_j - then.tolerance_j + now.rounding_j) / e.settled_s;
   if (controller) outcome.state = controller->state();
   return outcome;
 }
@@ -168,8 +169,8 @@ bool grows(const falcon::SampledLoop& loop, double stiffness) {
 }  // namespace
 
 double measured_stable_stiffness(const falcon::SampledLoop& loop, double tolerance) {
-  // From where a swing takes a hundred periods: any arm with damping holds that.
-  double low = 1e-6 * loop.mass_kg * loop.rate_hz * loop.rate_hz, high = low;
+  // From where a swing takes a thousand periods and more: the arms in question hold that.
+  double low = 2e-5 * loop.mass_kg * loop.rate_hz * loop.rate_hz, high = low;
   while (!grows(loop, high)) high *= 2.0;
   low = 0.5 * high;
   while (high - low > tolerance * high) {
@@ -199,6 +200,42 @@ double measured_passive_damping(const falcon::SampledLoop& loop, const falcon::V
   way2 = 0.0;
   for (int k = samples; k < 2 * samples; ++k) tick(k);
   return (arm.energy().displayed - begun.displayed) / (way2 * loop.rate_hz);
+}
+
+Experiment wall_experiment(const falcon::SampledLoop& loop, double stiffness_n_per_m,
+                           double step_m) {
+  Experiment e;
+  e.arm = {loop, 0.0, step_m};
+  e.hand.push_n = {-0.5, 0.0, 0.0};
+  e.start_m = {1e-3, 0.0, 0.0};
+  // What the wall leaves of the damping decides how long a swing takes to die, at half of it at
+  // most under the controller; near the border for ever.
+  const double left = std::abs(1.0 - stiffness_n_per_m / falcon::stable_stiffness(loop));
+  const double decay_s = 2.0 * loop.mass_kg / loop.damping_ns_per_m / std::clamp(left, 0.02, 0.25);
+  e.seconds = 1.0 + 8.0 * decay_s;
+  return e;
+}
+
+Experiment energy_experiment(const falcon::SampledLoop& loop, double stiffness_n_per_m) {
+  Experiment e;
+  e.arm.loop = loop;
+  e.hand.push_n = {-0.5, 0.0, 0.0};
+  e.start_m = {-1.1 * 0.5 / stiffness_n_per_m, 0.0, 0.0};
+  const double swing_s = 2.0 * std::numbers::pi * std::sqrt(loop.mass_kg / stiffness_n_per_m);
+  e.seconds = 20.0 * std::max(swing_s, 8.0 / loop.rate_hz);
+  e.settled_s = 0.5 * e.seconds;
+  return e;
+}
+
+Experiment clay_experiment(const falcon::SampledLoop& loop, double step_m) {
+  Experiment e;
+  e.arm = {loop, 0.0, step_m};
+  e.hand.stiffness_n_per_m = {200.0, 0.0, 0.0};
+  e.start_m = {1e-3, 0.0, 0.0};
+  e.seconds = 5.0;
+  e.settled_s = 2.0;
+  e.intended = [](double time_s) { return glm::dvec3(1e-3 - 3e-3 * time_s, 0.0, 0.0); };
+  return e;
 }
 
 }  // namespace clay::servo

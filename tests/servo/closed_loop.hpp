@@ -29,15 +29,28 @@ struct Outcome {
   double injected_j = 0.0;     ///< over the whole run
   double tolerance_j = 0.0;    ///< of that: half an encoder step of force along the way in contact
   int cycles = 0;              ///< from one deepest point to the next
+  double mean_cycle_j = 0.0;   ///< injected in them, less its tolerance
   double worst_cycle_j = 0.0;  ///< most injected in one of them, less its tolerance
   double settled_w = 0.0;      ///< mean power injected in the settled part
   double settled_tolerance_w = 0.0;
-  double displayed_w = 0.0;  ///< the same with the arm's damping not counted
   double final_force_n = 0.0;
   falcon::PassivityState state = falcon::PassivityState::watching;
 };
 
 Outcome run(const Experiment& experiment, Surface& surface);
+
+/// A hand that pushes 0.5 N into a wall, from 1 mm before it, until a swing that can die has died.
+Experiment wall_experiment(const falcon::SampledLoop& loop, double stiffness_n_per_m,
+                           double step_m);
+/// A hand that rests 0.5 N on a wall, a tenth off balance, for some twenty swings; exact encoders.
+Experiment energy_experiment(const falcon::SampledLoop& loop, double stiffness_n_per_m);
+/// A potter's stroke: a hand of 200 N/m that goes into the clay at 3 mm/s, for 5 s.
+Experiment clay_experiment(const falcon::SampledLoop& loop, double step_m);
+
+/// What the user is promised: no limit cycle above this, peak to peak.
+inline constexpr double kMostSwingM = 2e-4;
+/// The Falcon's encoders, in the middle of its workspace.
+inline constexpr double kFalconStepM = 5e-5;
 
 /// Stiffness [N/m] where a linear wall, held from both sides, turns from decay to growth: bisected
 /// on the growth of a free swing, to `tolerance` of it.

@@ -26,13 +26,21 @@ static void describe(auto& io, Is<Ledger> auto& ledger) {
   io.template coded<DecimalCode>("outside", ledger.outside);
 }
 
+constexpr double kFullTurn = 2.0 * std::numbers::pi;
+const auto kNotNegative = from(0).to(std::numeric_limits<double>::max());
+
 static void describe(auto& io, Is<Collapse> auto& collapse) {
   io.require({"failed_ring", "pivot_mm", "axis", "angle_rad", "stress_kpa"});
   io.integer("failed_ring", collapse.failed_ring, 0, kMaxRings - 1);
   io.vector("pivot_mm", collapse.pivot_mm, from(-1e6).to(1e6));
   io.vector("axis", collapse.axis, from(-1).to(1));
-  io.number("angle_rad", collapse.angle_rad, from(0).to(std::numbers::pi));
-  io.number("stress_kpa", collapse.stress_kpa, from(0).to(std::numeric_limits<double>::max()));
+  io.number("angle_rad", collapse.angle_rad, from(-kFullTurn).to(kFullTurn));
+  io.number("stress_kpa", collapse.stress_kpa, kNotNegative);
+  // Files of before the fall was settled have none of these: a turn is all that there was.
+  io.vector("shift_mm", collapse.shift_mm, from(-1e6).to(1e6));
+  io.number("threshold_kpa", collapse.threshold_kpa, kNotNegative);
+  io.number("energy_lost_mj", collapse.energy_lost_mj, kNotNegative);
+  io.number("plastic_work_mj", collapse.plastic_work_mj, kNotNegative);
   io.check([&](ObjectReader& reader) {
     const glm::dvec3& axis = collapse.axis;
     reader.expect(axis.y == 0.0 && std::abs(axis.x * axis.x + axis.z * axis.z - 1.0) < 1e-9, "axis",

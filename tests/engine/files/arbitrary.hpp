@@ -118,8 +118,12 @@ inline Pot arbitrary_pot() {
     return Collapse{*rc::gen::inRange<std::size_t>(0, count),
                     {place(), place(), place()},
                     {std::sin(heading), 0.0, std::cos(heading)},
-                    *number_in(0, std::numbers::pi),
-                    *number_in(0, 1e4)};
+                    *number_in(-2 * std::numbers::pi, 2 * std::numbers::pi),
+                    *number_in(0, 1e4),
+                    {place(), place(), place()},
+                    *number_in(0, 1e4),
+                    *number_in(0, 1e9),
+                    *number_in(0, 1e9)};
   });
   return pot;
 }

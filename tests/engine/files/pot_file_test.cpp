@@ -41,7 +41,8 @@ Pot small_pot() {
 
 Pot collapsed_pot() {
   Pot pot = small_pot();
-  pot.collapse = Collapse{2, {11.5, 2.25, -3.0}, {0.6, 0.0, -0.8}, 1.25, 12.5};
+  pot.collapse = Collapse{
+      2, {11.5, 2.25, -3.0}, {0.6, 0.0, -0.8}, 1.25, 12.5, {0.8, -1.5, 0.6}, 12.0, 45.5, 31.75};
   return pot;
 }
 
@@ -62,6 +63,17 @@ TEST(PotFile, WritesForPeopleToo) {
   EXPECT_EQ(file["crown"], "17");
   EXPECT_EQ(file["ledger"]["trimmed"], "343597383680");
   EXPECT_EQ(file["collapse"]["axis"], Json({0.6, 0, -0.8}));
+}
+
+TEST(PotFile, ACollapseFromBeforeShiftsWereKnownReadsAsATurn) {
+  Pot pot = collapsed_pot();
+  Json file = Json::parse(write_pot(pot, PotEncoding::json));
+  for (const char* name : {"shift_mm", "threshold_kpa", "energy_lost_mj", "plastic_work_mj"})
+    ASSERT_EQ(file["collapse"].erase(name), 1u) << name;
+  pot.collapse = Collapse{2, {11.5, 2.25, -3.0}, {0.6, 0.0, -0.8}, 1.25, 12.5};
+  const auto read = parse_pot(file.dump(), "old");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(*read, pot);
 }
 
 RC_GTEST_PROP(PotFile, WhatIsWrittenReadsBackTheSame, ()) {
@@ -95,7 +107,15 @@ TEST(PotFile, TwoHundredRingsFitIntoFourKilobytes) {
   const std::string bytes = write_pot(pot, PotEncoding::cbor);
   RecordProperty("bytes", static_cast<int>(bytes.size()));
   EXPECT_LE(bytes.size(), 4000u);
-  pot.collapse = Collapse{100, {0.1, 0.2, 0.3}, {std::sin(1.0), 0.0, std::cos(1.0)}, 1.1, 9.9};
+  pot.collapse = Collapse{100,
+                          {0.1, 0.2, 0.3},
+                          {std::sin(1.0), 0.0, std::cos(1.0)},
+                          1.1,
+                          9.9,
+                          {0.4, 0.5, 0.6},
+                          9.8,
+                          7.7,
+                          6.6};
   EXPECT_LE(write_pot(pot, PotEncoding::cbor).size(), 4096u);
 }
 
@@ -159,7 +179,7 @@ TEST(PotFile, ErrorsNameTheLineOfEveryOtherField) {
   expect_error(
       "\"collapse\": {\n    \"failed_ring\": 2", "\"collapse\": {\n    \"failed_ring\": 4",
       "collapse: expected a failed_ring below the number of rings, 4, found an object with "
-      "5 fields");
+      "9 fields");
   expect_error(
       "\"density_g_cm3\": 2.1", "\"density_g_cm3\": 2.1, \"density\": 2",
       "unknown field \"density\"; expected one of schema, written_by, model, "

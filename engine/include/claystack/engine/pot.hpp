@@ -11,14 +11,19 @@
 
 namespace clay {
 
-/// A collapse (paper, section 7): the rings above `failed_ring` turned as one rigid
-/// body about a horizontal axis through `pivot_mm`, the HIP when it happened.
+/// A collapse (paper, section 7): the rings above `failed_ring` moved as one rigid body in the
+/// upright plane through the pot's axis and `pivot_mm`, the HIP when it happened: first
+/// turned about a horizontal axis through the pivot, then shifted (FallenPlace).
 struct Collapse {
   std::size_t failed_ring = 0;  ///< index of the ring that yielded; it stays below
   glm::dvec3 pivot_mm{0.0};
   glm::dvec3 axis{0.0, 0.0, 1.0};  ///< unit, horizontal; right-handed turn
-  double angle_rad = 0.0;
-  double stress_kpa = 0.0;  ///< at the failed ring
+  double angle_rad = 0.0;          ///< within a full turn either way
+  double stress_kpa = 0.0;         ///< at the failed ring
+  glm::dvec3 shift_mm{0.0};
+  double threshold_kpa = 0.0;    ///< the stress that the clay bears; 0: not known
+  double energy_lost_mj = 0.0;   ///< potential energy, by the upper part
+  double plastic_work_mj = 0.0;  ///< of that, spent on the lower clay; the rest was damped
   friend bool operator==(const Collapse&, const Collapse&) = default;
 };
 

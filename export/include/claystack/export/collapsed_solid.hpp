@@ -59,7 +59,7 @@ struct CollapsedSolid {
 };
 
 /// Both parts revolved by `segments` (the upper one perhaps out of step with the lower), the upper
-/// one turned by `collapse`, and united (CGAL corefinement with exact constructions). Edges and
+/// one moved by `collapse`, and united (CGAL corefinement with exact constructions). Edges and
 /// heights of triangles along the seam that rounding to float32 might turn over are then removed.
 /// Where parts all but touch, the upper one may be nudged by up to 2^-14 of the largest
 /// coordinate. Parts that do not touch stay shells of their own. The same mesh every time.

@@ -1,13 +1,17 @@
 #pragma once
 // Keeps a servo from feeding the hand energy: the passivity controller of Hannaford and Ryu (see
-// energy_observer.hpp) adds damping that takes back what the observer saw given. For contacts that
-// no damping saves there are two steps more: the force yields, then it ends.
+// energy_observer.hpp) adds damping that takes back what the observer saw given. Before it stands a
+// bound, after J.-P. Kim, J. Ryu, "Robustly stable haptic interaction control using an
+// energy-bounding algorithm", Int. J. Robotics Research 29(6), 2010: force has to be earned by the
+// way into the contact, at accepted_stiffness at most. A contact as soft as that passes unchanged.
+// Behind it, for what no damping saves (a force later than was said), the
+// bound is halved, and then there is no force.
 //
-//   watching <-> damping      while damping pays the debt
-//      |            |
-//      +-> yielding <+        the force grows by accepted_stiffness per metre at most, until reset
-//            |
-//            +-> safe         no force, until reset
+//   watching <-> damping     earned at accepted_stiffness; damping while there is a debt
+//       +-----+-----+
+//          yielding          earned at half of it, until reset
+//             |
+//            safe            no force, until reset
 //
 // It knows no clock: time comes with the readings. The turning wheel's friction drags the hand
 // along and does work on it by right: pass the contact's spring force, and add friction after.
@@ -73,11 +77,9 @@ class PassivityController {
   [[nodiscard]] const EnergyObserver& observer() const noexcept { return observer_; }
   [[nodiscard]] PassivityState state() const noexcept { return state_; }
   /// Most damping that the controller adds [N s/m]: half of what the loop bears on top of the
-  /// accepted stiffness, and so little that one encoder step in a period moves the force by half of
-  /// `reversal_force_n` at most.
+  /// accepted stiffness, and so little that one encoder step in a period moves the force by a
+  /// quarter of `reversal_force_n` at most.
   [[nodiscard]] double most_damping_ns_per_m() const noexcept { return most_damping_; }
-  /// How fast a yielding force may grow [N/m].
-  [[nodiscard]] double yielding_stiffness_n_per_m() const noexcept { return yielding_stiffness_; }
 
  private:
   static constexpr std::size_t kMostSent = 9;
@@ -88,17 +90,17 @@ class PassivityController {
   void escalate() noexcept;
   [[nodiscard]] glm::dvec3 answer(double dt_s, const glm::dvec3& way_m,
                                   const glm::dvec3& asked_n) noexcept;
-  [[nodiscard]] glm::dvec3 yielding(const glm::dvec3& way_m,
-                                    const glm::dvec3& asked_n) const noexcept;
+  [[nodiscard]] glm::dvec3 earned(const glm::dvec3& way_m, const glm::dvec3& asked_n) noexcept;
   [[nodiscard]] glm::dvec3 damping(double dt_s, const glm::dvec3& way_m) const noexcept;
   void send(const glm::dvec3& force_n) noexcept;
 
   PassivitySpec spec_;
-  double yielding_stiffness_, most_damping_;
+  double stiffness_, most_damping_;
   EnergyObserver observer_;
   SwingCounter swings_;
   PassivityState state_ = PassivityState::watching;
-  int debts_ = 0;  // since the last good while
+  double earned_n_ = 0.0;  // most force that the way into the contact allows
+  int debts_ = 0;          // since the last good while
   double last_debt_s_ = 0.0;
 
   struct Reading {

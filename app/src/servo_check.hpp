@@ -1,0 +1,22 @@
+#pragma once
+#include "claystack/engine/result.hpp"
+#include "claystack/engine/scene.hpp"
+#include "claystack/engine/step_plan.hpp"
+#include "claystack/falcon/sampled_bound.hpp"
+
+namespace clay::app {
+
+/// A scene's contact as an arm feels it.
+struct ServoContact {
+  double height_mm = 0.0;          ///< most that the tool can touch at once, in whole rings
+  double stiffness_n_per_m = 0.0;  ///< radial: K' times that height
+  double accepted_n_per_m = 0.0;   ///< half of what is passive at the arm's rate and damping
+};
+
+/// Can this arm render the scene? Refuses a contact stiffer than is accepted, and names the setting
+/// to change and both numbers that would do: the stiffness at this rate, the rate at this
+/// stiffness.
+Result<ServoContact> check_servo(const SceneSpec& scene, const StepPlan& plan,
+                                 const falcon::SampledLoop& loop);
+
+}  // namespace clay::app

@@ -1,0 +1,33 @@
+#pragma once
+// A tick written by hand of the engine's stages, as if force, friction, stability and pinch had
+// never been thought of: what leaving them out has to be as fast as.
+
+#include "claystack/engine/clay_stack.hpp"
+#include "claystack/engine/ledger.hpp"
+#include "claystack/engine/step_plan.hpp"
+#include "removal.hpp"
+#include "tool_state.hpp"
+
+#include <vector>
+
+namespace clay::bench {
+
+class BareWheel {
+ public:
+  /// Of a scene that Wheel::build takes; whatever it asks for beside the four is left out.
+  explicit BareWheel(const SceneSpec& scene);
+  void step(const Pose& pose) noexcept;
+  [[nodiscard]] const ClayStack& stack() const noexcept { return stack_; }
+
+ private:
+  StepPlan plan_;
+  ClayStack stack_;
+  Ledger ledger_;
+  ToolTracker tracker_;
+  std::vector<Bite> bites_;  // one
+};
+
+/// Seconds of the stroke of `app::stroke_ns`.
+[[nodiscard]] double bare_stroke_s(const SceneSpec& scene, double depth_mm);
+
+}  // namespace clay::bench
