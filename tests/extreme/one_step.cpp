@@ -220,18 +220,19 @@ Outcome one_step_again(Who who) {
     const auto subject = std::move(put_on_wheel(who, scene).value());
     Pose pose = hand.next();
     subject->step(pose);
-    double up = 1.0;
+    double up = 0.0;
     for (int k = 0; k < 200; ++k) {
       const Pose next{pose.time_us + 1000, hand.next().position_mm, false};
       if (next.position_mm.y != pose.position_mm.y) up = next.position_mm.y - pose.position_mm.y;
       const std::size_t rings = subject->rings();
       pose = next;
-      // Every tick deforms the pot; one in ten is computed again.
-      if (k % 10 != 0) {
+      // Every tick deforms the pot; one in ten is computed again. Before any motion the engine's
+      // default is up, and the paper has none.
+      if (k % 10 != 0 || (up == 0.0 && who == Who::literal)) {
         subject->step(pose);
         continue;
       }
-      const Recomputed step(who, scene, section_of(*subject), up > 0.0, pose.position_mm);
+      const Recomputed step(who, scene, section_of(*subject), up >= 0.0, pose.position_mm);
       subject->step(pose);
       if (!step.pressed() || subject->rings() != rings) continue;
       if (!subject->fault().empty()) break;  // the paper's own, in other cases of the suite
