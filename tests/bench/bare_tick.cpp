@@ -33,7 +33,7 @@ void BareWheel::step(const Pose& pose) noexcept {
 double bare_stroke_s(const SceneSpec& scene, double depth_mm) {
   const auto poses = app::stroke_poses(scene, depth_mm);
   BareWheel wheel(scene);
-  return seconds_of([&] {
+  return work_seconds_of([&] {
     for (const Pose& pose : poses) wheel.step(pose);
   });
 }

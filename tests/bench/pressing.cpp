@@ -117,7 +117,7 @@ double Presser::press() {
   time_us_ += 1000;
   wheel_->step(pose(middle_mm, 0));
   std::uint64_t touched = 0;
-  const double seconds = seconds_of([&] {
+  const double seconds = work_seconds_of([&] {
     for (int tick = 1; tick <= kPressTicks; ++tick)
       touched += wheel_->step(pose(middle_mm, tick)).rings_touched;
   });
@@ -150,7 +150,7 @@ double LiteralPresser::press() {
   const double middle_mm = scene_.ring_height_mm * (0.5 * static_cast<double>(scene_.rings) - 0.5);
   paper.step(place_of(first_distance_mm_, middle_mm, 0));
   std::uint64_t touched = 0;
-  const double seconds = seconds_of([&] {
+  const double seconds = work_seconds_of([&] {
     for (int tick = 1; tick <= ticks_; ++tick)
       touched += paper.step(place_of(first_distance_mm_, middle_mm, tick)).rings_touched;
   });

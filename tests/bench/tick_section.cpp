@@ -109,7 +109,7 @@ void measure_ribs(Section& section, const Effort& effort) {
             {},
             ""};
   std::vector<Contender> contenders;
-  for (const std::size_t rings : {1, 3, 10, 30, 100, 300}) {
+  for (const std::size_t rings : {1u, 3u, 10u, 30u, 100u, 300u}) {
     contenders.push_back(engine_at("engine", "", rib_scene(rings)));
     contenders.push_back(literal_at("literal", "", rib_scene(rings), LiteralWriting::eased, 200));
   }
