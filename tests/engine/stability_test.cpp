@@ -161,7 +161,7 @@ TEST(Stability, NewRingsOnTopWeighOnTheWayToo) {
   StabilityWatch watch(stack);
   Ledger ledger;
   std::size_t grown = 0;
-  for (const std::size_t at : {50, 40}) {
+  for (const std::size_t at : {50u, 40u}) {
     Bite bite;
     bite.contact.bottom = bite.contact.top = at;
     bite.contact.rings.push_back({static_cast<std::uint32_t>(at), 1.0, 0.0});
