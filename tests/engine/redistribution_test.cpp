@@ -111,8 +111,9 @@ TEST(Redistribution, TheKernelLiesToTheToolsEnds) {
 
 TEST(Redistribution, ANewRingContinuesTheRim) {
   // Two rings above the tool and a kernel of three: the third share falls to the crown.
-  const Ring ring{400 * kMm2, 225 * kMm2};
-  ClayStack stack = ClayStack::from_rings(1.0, std::vector<Ring>(10, ring), 150 * kMm2, 40).value();
+  std::vector<Ring> rings(10, {400 * kMm2, 225 * kMm2});
+  rings[7].outer2 = 4000 * kMm2;  // enough for all bites
+  ClayStack stack = ClayStack::from_rings(1.0, std::move(rings), 150 * kMm2, 40).value();
   Ledger ledger;
   Rim rim;
   const StepPlan plan = plan_of(4.0, 3.0, 0.25);
