@@ -1,0 +1,51 @@
+#pragma once
+// A FalconModel as a transport, within the process.
+
+#include "claystack/falcon/falcon_model.hpp"
+#include "claystack/falcon/transport.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+namespace clay::falcon {
+
+enum class Pace {
+  real,     ///< answers come a millisecond after the question, by CLOCK_MONOTONIC
+  virtual_  ///< the same on a clock that only waiting moves: a second takes microseconds
+};
+
+class LoopbackTransport final : public Transport {
+ public:
+  /// The model outlives this; its owner may look at it and plan faults between calls.
+  LoopbackTransport(std::shared_ptr<FalconModel> model, Pace pace);
+
+  [[nodiscard]] std::string describe() const override { return "simulated"; }
+  [[nodiscard]] bool loads_firmware() const noexcept override { return true; }
+  DeviceResult<void> open() override;
+  void close() noexcept override;
+  DeviceResult<void> set_mode(LineMode mode) override;
+  WireStatus write(std::span<const std::uint8_t> bytes) noexcept override;
+  Received read(std::span<std::uint8_t> bytes, std::int64_t wait_us) noexcept override;
+  void write_last(std::span<const std::uint8_t> bytes) noexcept override;
+  [[nodiscard]] std::int64_t now_us() const noexcept override;
+
+ private:
+  struct OnTheWay {
+    std::int64_t ready_us = 0;
+    Answer answer;
+    std::size_t taken = 0;
+  };
+  [[nodiscard]] OnTheWay& first() noexcept { return queue_[first_ % queue_.size()]; }
+  void wait_until(std::int64_t time_us) noexcept;
+
+  std::shared_ptr<FalconModel> model_;
+  Pace pace_;
+  bool open_ = false;
+  std::int64_t virtual_us_ = 1;
+  std::int64_t asked_us_ = 0;
+  std::array<OnTheWay, 64> queue_{};  // a ring: from first_, size_ of them
+  std::size_t first_ = 0, size_ = 0;
+};
+
+}  // namespace clay::falcon

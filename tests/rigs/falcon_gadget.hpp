@@ -1,0 +1,53 @@
+#pragma once
+// A Falcon on USB: an FTDI chip in front of a FalconModel.
+
+#include "claystack/falcon/falcon_model.hpp"
+#include "usb_gadget.hpp"
+
+#include <deque>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace clay::rig {
+
+/// Where the hand holds the grip at each frame [m], in the frame of kinematics.hpp.
+using Trajectory = std::function<glm::dvec3(std::uint64_t frame)>;
+
+/// What the device was told, frame by frame.
+struct FrameLog {
+  glm::dvec3 position_m;
+  glm::dvec3 force_n;
+  falcon::LegCounts motors;
+};
+
+/// A model whose grip follows the hand, whatever the motors do, and that keeps a log.
+class HandledModel {
+ public:
+  HandledModel(const falcon::FalconModelSettings& settings, Trajectory hand);
+  falcon::FalconModel model;
+  std::vector<FrameLog> log;
+};
+
+class FalconGadget final : public UsbGadget {
+ public:
+  FalconGadget(const falcon::FalconModelSettings& settings, Trajectory hand);
+
+  [[nodiscard]] const UsbIdentity& identity() const override { return identity_; }
+  std::optional<Bytes> control(const Setup& setup, std::span<const std::uint8_t> data) override;
+  void out(std::span<const std::uint8_t> bytes) override;
+  std::optional<Bytes> in(std::size_t room, std::chrono::microseconds waited) override;
+  bool unplugged() const override { return device.model.unplugged(); }
+
+  HandledModel device;
+  int latency_ms = 16;               ///< as the host set it
+  std::vector<int> bauds;            ///< each that the host set
+  std::uint64_t control_errors = 0;  ///< requests that no FTDI driver makes
+
+ private:
+  UsbIdentity identity_;
+  std::deque<std::uint8_t> fifo_;  // from the processor to the host
+};
+
+}  // namespace clay::rig

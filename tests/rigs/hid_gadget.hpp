@@ -1,0 +1,78 @@
+#pragma once
+// HID devices, for both backends of hidapi: as USB devices for libusb, as nodes of the kernel for
+// hidraw.
+
+#include "falcon_gadget.hpp"
+#include "usb_gadget.hpp"
+
+#include <deque>
+#include <string>
+
+namespace clay::rig {
+
+class HidGadget : public UsbGadget {
+ public:
+  [[nodiscard]] const UsbIdentity& identity() const override { return identity_; }
+  std::optional<Bytes> control(const Setup&, std::span<const std::uint8_t>) override {
+    return std::nullopt;
+  }
+  std::optional<Bytes> in(std::size_t room, std::chrono::microseconds waited) override;
+
+  std::deque<Bytes> reports;  ///< waiting to be read
+
+ protected:
+  UsbIdentity identity_;
+};
+
+/// A microcontroller between HID and the Falcon's processor, as docs/devices.md asks for it.
+class BridgeGadget final : public HidGadget {
+ public:
+  BridgeGadget(const falcon::FalconModelSettings& settings, Trajectory hand);
+  void out(std::span<const std::uint8_t> report) override;
+  bool unplugged() const override { return device.model.unplugged(); }
+
+  HandledModel device;
+  std::uint64_t bad_reports = 0;  ///< that the layout does not allow
+};
+
+/// A SpaceMouse: it says what the test puts into `reports`.
+class SpaceMouseGadget final : public HidGadget {
+ public:
+  SpaceMouseGadget();
+  void out(std::span<const std::uint8_t> report) override {
+    light = report.size() == 2 && report[0] == 4 && report[1] == 1;
+  }
+  bool unplugged() const override { return gone; }
+
+  bool light = false;
+  bool gone = false;
+};
+
+/// The gadget as /dev/hidrawN. The node is a terminal that is waited on in earnest: it holds one
+/// report at a time, so that none run together.
+class HidrawNode {
+ public:
+  HidrawNode(UMockdevTestbed* testbed, HidGadget& gadget, int number);
+  ~HidrawNode();
+  HidrawNode(const HidrawNode&) = delete;
+  HidrawNode& operator=(const HidrawNode&) = delete;
+
+  /// Hands on what the gadget has to say; call it with the lock after a change to `reports`.
+  void pump();
+  /// The node vanishes, or is there again.
+  void show(bool there);
+  [[nodiscard]] const std::string& node() const { return node_; }
+
+ private:
+  static gboolean on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self);
+  static gboolean on_read(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self);
+  static gboolean on_write(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self);
+
+  HidGadget& gadget_;
+  UMockdevIoctlBase* base_ = nullptr;
+  std::string node_, path_;
+  int terminal_ = -1;
+  bool waiting_ = false;  // a report lies in the terminal
+};
+
+}  // namespace clay::rig

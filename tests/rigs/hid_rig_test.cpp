@@ -1,0 +1,239 @@
+// A Falcon behind a bridge and a SpaceMouse: unmodified hidapi against emulated HID devices. The
+// same tests with hidapi's hidraw backend, on nodes of the kernel, and with its libusb backend, on
+// USB devices (CLAYSTACK_HIDAPI_LIBUSB).
+
+#include "claystack/falcon/usb_devices.hpp"
+#include "hid_gadget.hpp"
+#include "testbed.hpp"
+
+#include <gtest/gtest.h>
+#include <hidapi.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <memory>
+
+namespace clay::rig {
+namespace {
+
+using namespace clay::falcon;
+
+constexpr double kEncoderMm = 0.07;
+constexpr std::int64_t kPatienceUs = 20'000'000;
+
+glm::dvec3 on_circle(std::uint64_t frame) {
+  const double turn = 2e-3 * 3.14159265358979 * static_cast<double>(frame);
+  return Kinematics::kCentreM + 0.02 * glm::dvec3(std::cos(turn), std::sin(turn), 0.0);
+}
+
+/// The gadget where the backend looks for it.
+#ifdef CLAYSTACK_HIDAPI_LIBUSB
+class Plugged {
+ public:
+  Plugged(UMockdevTestbed* testbed, HidGadget& gadget) : plug_(testbed, gadget) {}
+  void pump() {}
+  void show(bool) {}
+
+ private:
+  UsbPlug plug_;
+};
+#else
+class Plugged {
+ public:
+  Plugged(UMockdevTestbed* testbed, HidGadget& gadget)
+      : node_(testbed, gadget, gadget.identity().port) {}
+  void pump() { node_.pump(); }
+  void show(bool there) { node_.show(there); }
+
+ private:
+  HidrawNode node_;
+};
+#endif
+
+/// hidapi keeps its state for good, and the next test has another /dev.
+class HidRig : public testing::Test {
+ protected:
+  ~HidRig() override { hid_exit(); }
+  Testbed testbed_;
+};
+
+FalconModelSettings loaded() {
+  FalconModelSettings settings;
+  settings.loaded = true;
+  return settings;
+}
+
+class BridgeRig : public HidRig {
+ protected:
+  BridgeRig() { settings_.falcon.silence_us = kPatienceUs; }
+
+  static DeviceSample tick(HapticDevice& device, const glm::dvec3& force_n) {
+    device.write(force_n);
+    return device.read(kPatienceUs);
+  }
+
+  template <class Action>
+  auto locked(Action action) {
+    const std::scoped_lock held(gadget_.lock);
+    return action(gadget_.device);
+  }
+
+  BridgeGadget gadget_{loaded(), on_circle};
+  Plugged plugged_{testbed_.get(), gadget_};
+  DeviceSettings settings_;
+};
+
+TEST_F(BridgeRig, HomesAndRuns5000FramesWithNoBadOne) {
+  auto opened = open_device("bridge", settings_);
+  ASSERT_TRUE(opened) << text_of(opened.error());
+  HapticDevice& device = **opened;
+  while (tick(device, {1, 0, 0}).state != DeviceState::ready)
+    ASSERT_EQ(locked([](auto& d) { return d.log.back().motors; }), LegCounts{});
+  const std::uint64_t first = locked([](auto& d) { return d.log.size(); });
+  const glm::dvec3 force(1, -2, 3);
+  for (std::uint64_t frame = first; frame < first + 5000; ++frame) {
+    const DeviceSample sample = tick(device, force);
+    ASSERT_TRUE(sample.fresh) << frame;
+    const glm::dvec3 true_mm = 1e3 * (on_circle(frame) - Kinematics::kCentreM);
+    ASSERT_LT(glm::distance(sample.position_mm, true_mm), kEncoderMm) << frame;
+    ASSERT_LT(glm::distance(locked([](auto& d) { return d.log.back().force_n; }), force), 0.05);
+  }
+  EXPECT_EQ(device.counters().bytes_discarded, 0u);
+  EXPECT_EQ(gadget_.bad_reports, 0u);
+  device.write(force);
+  device.stop();
+  tick(device, force);
+  EXPECT_EQ(locked([](auto& d) { return d.model.motors(); }), LegCounts{});
+}
+
+TEST_F(BridgeRig, LosesAtMostTwoFramesToAFaultOnTheWire) {
+  auto opened = open_device("auto", settings_);
+  ASSERT_TRUE(opened) << text_of(opened.error());
+  HapticDevice& device = **opened;
+  while (tick(device, {}).state != DeviceState::ready) {
+  }
+  for (const WireFault fault : {WireFault::lost_byte, WireFault::extra_byte, WireFault::half_frame,
+                                WireFault::bad_nibble, WireFault::no_frame}) {
+    const std::uint64_t before = device.counters().frames;
+    locked([&](auto& d) { d.model.plan({fault, d.model.frames() + 2}); });
+    for (int i = 0; i < 8; ++i) {
+      device.write({1, 0, 0});
+      const DeviceSample sample = device.read(200'000);
+      ASSERT_EQ(sample.state, DeviceState::ready);
+      if (!sample.fresh) continue;
+      const glm::dvec3 newest =
+          1e3 * (locked([](auto& d) { return d.log.back().position_m; }) - Kinematics::kCentreM);
+      ASSERT_LT(glm::distance(sample.position_mm, newest), 0.126 + kEncoderMm);
+    }
+    EXPECT_GE(device.counters().frames - before, 8u - 2u) << static_cast<int>(fault);
+  }
+}
+
+TEST_F(BridgeRig, PassesOverReportsOfAnotherMake) {
+  auto opened = open_device("bridge", settings_);
+  ASSERT_TRUE(opened) << text_of(opened.error());
+  {
+    const std::scoped_lock held(gadget_.lock);
+    gadget_.reports.push_back(Bytes(64, 0xFF));
+    gadget_.reports.push_back(Bytes(64, 0x00));
+    gadget_.reports.push_back(Bytes{0x20, '<', 'A'});
+    plugged_.pump();
+  }
+  EXPECT_TRUE(tick(**opened, {}).fresh);
+  EXPECT_EQ((*opened)->counters().bytes_discarded, 0u);
+}
+
+TEST_F(BridgeRig, UnpluggedInMidStrokeIsAnErrorAndComesBack) {
+  auto opened = open_device("bridge", settings_);
+  ASSERT_TRUE(opened) << text_of(opened.error());
+  HapticDevice& device = **opened;
+  for (int i = 0; i < 50; ++i) tick(device, {1, 0, 0});
+  locked([](auto& d) { d.model.plan({WireFault::unplugged, 0}); });
+  DeviceSample sample = tick(device, {1, 0, 0});
+  EXPECT_EQ(sample.state, DeviceState::fault);
+  EXPECT_FALSE(sample.fresh);
+  EXPECT_EQ(device.problem().fault, DeviceFault::unplugged);
+  device.write({1, 0, 0});
+  device.stop();
+  plugged_.show(false);
+  EXPECT_FALSE(device.open());
+  plugged_.show(true);
+  locked([](auto& d) { d.model.replug(); });
+  const auto again = device.open();
+  ASSERT_TRUE(again) << text_of(again.error());
+  EXPECT_EQ(tick(device, {}).state, DeviceState::needs_homing);
+}
+
+TEST_F(BridgeRig, SaysThatTheFalconBehindItIsSilent) {
+  locked([](auto& d) { d.model.set_baud(9600); });  // the bridge never set the line
+  const auto opened = open_device("bridge", settings_);
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().fault, DeviceFault::no_answer);
+  EXPECT_NE(opened.error().remedy.find("bridge"), std::string::npos);
+}
+
+class SpaceMouseRig : public HidRig {
+ protected:
+  void say(const Bytes& report) {
+    const std::scoped_lock held(gadget_.lock);
+    gadget_.reports.push_back(report);
+    plugged_.pump();
+  }
+  bool light() {
+    const std::scoped_lock held(gadget_.lock);
+    return gadget_.light;
+  }
+
+  SpaceMouseGadget gadget_;
+  Plugged plugged_{testbed_.get(), gadget_};
+};
+
+TEST_F(SpaceMouseRig, IsAPositionDeviceWithALight) {
+  DeviceSettings settings;
+  settings.space_mouse.silence_us = 1'000'000;
+  auto opened = open_device("spacemouse", settings);
+  ASSERT_TRUE(opened) << text_of(opened.error());
+  HapticDevice& device = **opened;
+  EXPECT_EQ(device.info().name, "SpaceMouse Compact");
+  EXPECT_FALSE(device.info().can_push);
+  EXPECT_EQ(device.read(0).position_mm, glm::dvec3(0.0));
+  say({1, 0x5E, 0x01, 0, 0, 0, 0});                    // x full to the right
+  say({1, 0x5E, 0x01, 0, 0, 0, 0, 9, 9, 9, 9, 9, 9});  // the same, of a wireless one
+  say({2, 1, 0, 1, 0, 1, 0});
+  say({3, 0x02, 0x00});
+  DeviceSample sample;
+  while (sample.buttons == 0 || sample.position_mm.x < 1.0) {
+    sample = device.read(0);
+    ASSERT_EQ(sample.state, DeviceState::ready);
+    ASSERT_TRUE(sample.fresh);
+    say({1, 0x5E, 0x01, 0, 0, 0, 0});
+  }
+  EXPECT_EQ(sample.buttons, 2u);
+  EXPECT_EQ(sample.position_mm.y, 0.0);
+  EXPECT_EQ(sample.position_mm.z, 0.0);
+  EXPECT_TRUE(light());
+  opened->reset();
+  EXPECT_FALSE(light());
+}
+
+TEST_F(SpaceMouseRig, StandsStillWhenItFallsSilentAndTellsWhenItIsGone) {
+  auto opened = open_device("auto");
+  ASSERT_TRUE(opened) << text_of(opened.error());
+  HapticDevice& device = **opened;
+  while (device.read(0).position_mm.x == 0.0) say({1, 0x5E, 0x01, 0, 0, 0, 0});
+  const std::int64_t silent_us = monotonic_us();
+  while (monotonic_us() < silent_us + 250'000) (void)device.read(0);
+  const double x_mm = device.read(0).position_mm.x;
+  EXPECT_EQ(device.read(0).position_mm.x, x_mm);
+  {
+    const std::scoped_lock held(gadget_.lock);
+    gadget_.gone = true;
+    plugged_.pump();
+  }
+  while (device.read(0).state == DeviceState::ready) {
+  }
+  EXPECT_EQ(device.problem().fault, DeviceFault::unplugged);
+}
+
+}  // namespace
+}  // namespace clay::rig

@@ -1,0 +1,94 @@
+#pragma once
+// A USB device that libusb finds, opens and talks to, and that is not there: umockdev hands the
+// system calls of unmodified libraries to a gadget. Runs under umockdev-wrapper.
+
+#include <umockdev.h>
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace clay::rig {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// A control transfer's first eight bytes.
+struct Setup {
+  std::uint8_t request_type = 0, request = 0;
+  std::uint16_t value = 0, index = 0, length = 0;
+};
+
+struct UsbIdentity {
+  std::uint16_t vendor = 0, product = 0;
+  std::string name;
+  std::uint8_t interface_class = 0xFF;
+  std::uint8_t in = 0x81, out = 0x02;  ///< endpoints, of 64 bytes
+  bool interrupt = false;              ///< they are; otherwise bulk
+  Bytes report_descriptor;             ///< of a HID device
+  int port = 1;                        ///< on bus 1
+};
+
+/// What the device does. Called on the testbed's thread, one call at a time, under `lock`.
+class UsbGadget {
+ public:
+  virtual ~UsbGadget() = default;
+  [[nodiscard]] virtual const UsbIdentity& identity() const = 0;
+  /// The answer; nothing for a request that it does not know.
+  virtual std::optional<Bytes> control(const Setup& setup, std::span<const std::uint8_t> data) = 0;
+  virtual void out(std::span<const std::uint8_t> bytes) = 0;
+  /// Data for a read that has waited so long; nothing: it waits on.
+  virtual std::optional<Bytes> in(std::size_t room, std::chrono::microseconds waited) = 0;
+  virtual bool unplugged() const = 0;
+
+  std::mutex lock;
+};
+
+/// How the system treats the device.
+struct UsbManners {
+  bool kernel_driver = false;  ///< bound, until it is sent away
+  bool busy = false;           ///< another program has claimed it
+};
+
+class UsbPlug {
+ public:
+  /// Plugs the gadget into the testbed, which outlives this; it stays there for good.
+  UsbPlug(UMockdevTestbed* testbed, UsbGadget& gadget);
+  ~UsbPlug();
+  UsbPlug(const UsbPlug&) = delete;
+  UsbPlug& operator=(const UsbPlug&) = delete;
+
+  /// Where the node is, for its permissions.
+  [[nodiscard]] const std::string& node() const { return node_; }
+  UsbManners manners;  ///< set between calls of the code under test
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Urb {
+    UMockdevIoctlData* data = nullptr;
+    UMockdevIoctlData* buffer = nullptr;
+    Clock::time_point since;
+  };
+
+  static gboolean on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self);
+  void handle(UMockdevIoctlClient* client);
+  void submit(UMockdevIoctlClient* client, UMockdevIoctlData* data);
+  void reap(UMockdevIoctlClient* client, UMockdevIoctlData* data);
+  void discard(UMockdevIoctlClient* client);
+  void bulk(UMockdevIoctlClient* client, UMockdevIoctlData* data);
+  std::optional<Bytes> describe(const Setup& setup) const;
+  void run_control(Urb& urb);
+  void fill_reads();
+  void finish(const Urb& urb, int status, std::size_t length);
+
+  UsbGadget& gadget_;
+  UMockdevIoctlBase* base_ = nullptr;
+  std::string node_;
+  std::deque<Urb> reads_, done_;
+};
+
+}  // namespace clay::rig
