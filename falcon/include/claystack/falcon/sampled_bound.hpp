@@ -7,6 +7,8 @@
 //
 // SI units throughout: m, s, kg, N. T = 1 / rate is the period, n the ticks of delay.
 
+#include "claystack/falcon/out_of_range.hpp"
+
 #include <tl/expected.hpp>
 
 namespace clay::falcon {
@@ -19,12 +21,6 @@ struct SampledLoop {
   int delay_ticks = 1;            ///< n: periods between a reading and the force that answers it
 
   [[nodiscard]] double period_s() const noexcept { return 1.0 / rate_hz; }
-};
-
-/// A setting out of its range, by the name it has in its struct.
-struct OutOfRange {
-  const char* setting;
-  double low, high, found;
 };
 
 /// Rates of 10 to 100 000 Hz, masses of 1 g to 100 kg, damping of 0 to 1000 N s/m, 0 to 8 ticks.
