@@ -19,6 +19,9 @@ void add_check_command(CLI::App& app, Console& console, int& exit);
 #ifdef CLAYSTACK_BENCH
 void add_bench_command(CLI::App& app, Console& console, int& exit);
 #endif
+#ifdef CLAYSTACK_USB
+void add_devices_command(CLI::App& app, Console& console, int& exit);
+#endif
 
 /// Program, version, compiler, and the parts that are built in.
 [[nodiscard]] std::string version_text();

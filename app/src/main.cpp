@@ -41,6 +41,9 @@ int run(int argc, char** argv) {
 #ifdef CLAYSTACK_BENCH
   add_bench_command(app, console, exit);
 #endif
+#ifdef CLAYSTACK_USB
+  add_devices_command(app, console, exit);
+#endif
   const auto commands = app.get_subcommands({});
   for (CLI::App* command : commands) {
     command->add_flag("--json", console.json, "Data as JSON on standard output");

@@ -13,6 +13,9 @@ std::string version_text() {
 #ifdef CLAYSTACK_BENCH
   parts += " bench";
 #endif
+#ifdef CLAYSTACK_USB
+  parts += " devices";
+#endif
 #ifdef __clang__
   const std::string compiler = "Clang " __clang_version__;
 #else

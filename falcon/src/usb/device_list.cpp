@@ -14,10 +14,15 @@ namespace {
 
 constexpr const char* kNone = "plug one in; a Falcon shows up on USB even without its power supply";
 
+tl::unexpected<DeviceError> usb_is_out(int code) {
+  return device_failure(
+      DeviceFault::transfer_failed,
+      std::string("USB: could not be asked for devices: ") + libusb_strerror(code));
+}
+
 DeviceResult<void> list_falcons(std::vector<ListedDevice>& found) {
   libusb_context* context = nullptr;
-  if (const int code = libusb_init(&context); code != 0)
-    return tl::make_unexpected(usb_error("USB", "list devices", code));
+  if (const int code = libusb_init(&context); code != 0) return usb_is_out(code);
   libusb_device** devices = nullptr;
   const auto count = libusb_get_device_list(context, &devices);
   for (auto i = count - count; i < count; ++i) {
@@ -33,8 +38,7 @@ DeviceResult<void> list_falcons(std::vector<ListedDevice>& found) {
   }
   if (count >= 0) libusb_free_device_list(devices, 1);
   libusb_exit(context);
-  if (count < 0)
-    return tl::make_unexpected(usb_error("USB", "list devices", static_cast<int>(count)));
+  if (count < 0) return usb_is_out(static_cast<int>(count));
   return {};
 }
 

@@ -1,0 +1,15 @@
+#pragma once
+// A device as it moves, for people and scripts.
+
+#include "claystack/falcon/device.hpp"
+#include "console.hpp"
+
+namespace clay::app {
+
+/// Reads the device a thousand times a second with zero force, and shows it ten times a second: on
+/// a terminal in one line, elsewhere line by line, as JSON objects when asked for. Ends after
+/// `seconds` (0: never), on SIGINT or SIGTERM, and with the device's problem when it fails.
+falcon::DeviceResult<void> watch(falcon::HapticDevice& device, double seconds,
+                                 const Console& console);
+
+}  // namespace clay::app

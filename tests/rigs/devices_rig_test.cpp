@@ -1,0 +1,142 @@
+// `claystack devices` as a user runs it, with devices that are emulated.
+
+#include "../app/run_program.hpp"
+#include "../falcon/dummy_firmware.hpp"
+#include "falcon_gadget.hpp"
+#include "hid_gadget.hpp"
+#include "testbed.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+
+namespace clay::rig {
+namespace {
+
+using namespace clay::falcon;
+using test::claystack;
+
+glm::dvec3 at_centre(std::uint64_t) { return Kinematics::kCentreM; }
+
+class DevicesRig : public testing::Test {
+ protected:
+  void plug_falcon(const FalconModelSettings& model) {
+    falcon_ = std::make_unique<FalconGadget>(model, at_centre);
+    plug_ = std::make_unique<UsbPlug>(testbed_.get(), *falcon_);
+  }
+
+  /// The one device that is plugged in, as --json has it.
+  static nlohmann::json only_one(const std::string& arguments = "") {
+    const auto run = claystack("devices --json " + arguments);
+    EXPECT_EQ(run.status, 0) << run.err;
+    const auto devices = run.json().at("devices");
+    EXPECT_EQ(devices.size(), 1u) << run.out;
+    return devices.at(0);
+  }
+
+  Testbed testbed_;
+  std::unique_ptr<FalconGadget> falcon_;
+  std::unique_ptr<UsbPlug> plug_;
+  test::ScratchFolder folder_;
+};
+
+TEST_F(DevicesRig, TellsAFalconThroughItsStart) {
+  FalconModelSettings model;
+  model.power = false;
+  plug_falcon(model);
+  EXPECT_EQ(only_one().at("problem").at("fault"), "no_answer");
+  EXPECT_EQ(claystack("devices falcon").status, 4);
+
+  falcon_->device.model.switch_power(true);
+  EXPECT_EQ(only_one().at("problem").at("fault"), "no_firmware");
+
+  const std::string file = folder_.file("firmware.bin");
+  test::write_text(file, "not a boot stream");
+  const auto refused = claystack("devices falcon --firmware " + file);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find(file + ": expected a TI C28x boot stream"), std::string::npos);
+
+  const auto firmware = dummy_firmware();
+  test::write_text(file, {firmware.begin(), firmware.end()});
+  const auto homing = only_one("--firmware " + file);
+  EXPECT_TRUE(homing.at("usable"));
+  EXPECT_EQ(homing.at("state"), "needs_homing");
+  EXPECT_EQ(homing.at("place"), "usb:1-1");
+  EXPECT_NE(claystack("devices").out.find("pull the grip"), std::string::npos);
+
+  EXPECT_EQ(claystack("devices falcon --monitor --seconds 2").status, 0);
+  EXPECT_EQ(only_one().at("state"), "ready") << "homed while it was monitored";
+  EXPECT_EQ(falcon_->device.log.back().motors, LegCounts{});
+}
+
+TEST_F(DevicesRig, TellsADriverAndAnotherProgram) {
+  FalconModelSettings model;
+  model.loaded = model.homed = true;
+  plug_falcon(model);
+  plug_->manners.busy = true;
+  EXPECT_EQ(only_one().at("problem").at("fault"), "busy");
+  EXPECT_FALSE(only_one().at("usable"));
+  plug_->manners = {};
+  plug_->manners.kernel_driver = true;
+  const auto bound = only_one();
+  EXPECT_TRUE(bound.at("usable"));
+  EXPECT_EQ(bound.at("problem").at("fault"), "driver_bound");
+}
+
+// Run as nobody where the tests run as root.
+TEST_F(DevicesRig, TellsThatPermissionIsMissing) {
+  plug_falcon({});
+  SpaceMouseGadget mouse;
+  const HidrawNode mouse_node(testbed_.get(), mouse, 3);
+  gchar* root = umockdev_testbed_get_root_dir(testbed_.get());
+  // umockdev makes sockets there, and connects to its own even where opening the node fails.
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(std::string(root) + "/ioctl"))
+    std::filesystem::permissions(entry.path(), std::filesystem::perms::all);
+  std::filesystem::permissions(root, std::filesystem::perms::all);
+  std::filesystem::permissions(root + plug_->node(), std::filesystem::perms::none);
+  std::filesystem::permissions(root + mouse_node.node(), std::filesystem::perms::none);
+  // Where nobody reaches it, wherever it was built.
+  const std::string program = std::string(root) + "/claystack";
+  std::filesystem::copy_file(CLAYSTACK_PROGRAM, program);
+  g_free(root);
+  const std::string as_nobody =
+      geteuid() == 0 ? "setpriv --reuid=65534 --regid=65534 --clear-groups " : "";
+  const auto run = test::shell(as_nobody + program + " devices --json");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto devices = run.json().at("devices");
+  ASSERT_EQ(devices.size(), 2u);
+  for (const auto& device : devices) {
+    EXPECT_FALSE(device.at("usable"));
+    EXPECT_EQ(device.at("problem").at("fault"), "no_permission");
+    EXPECT_NE(device.at("problem").at("remedy").get<std::string>().find("60-claystack.rules"),
+              std::string::npos);
+  }
+}
+
+TEST_F(DevicesRig, ListsAllThatIsPluggedInFalconsFirst) {
+  SpaceMouseGadget mouse;
+  const HidrawNode mouse_node(testbed_.get(), mouse, 3);
+  FalconModelSettings model;
+  model.loaded = model.homed = true;
+  BridgeGadget bridge(model, at_centre);
+  const HidrawNode bridge_node(testbed_.get(), bridge, 2);
+  plug_falcon(model);
+  const auto devices = claystack("devices --json").json().at("devices");
+  ASSERT_EQ(devices.size(), 3u);
+  EXPECT_EQ(devices[0].at("kind"), "falcon");
+  EXPECT_EQ(devices[1].at("kind"), "bridge");
+  EXPECT_EQ(devices[1].at("place"), "/dev/hidraw2");
+  EXPECT_EQ(devices[2].at("kind"), "spacemouse");
+  EXPECT_EQ(devices[2].at("name"), "SpaceMouse Compact");
+  for (const auto& device : devices) {
+    EXPECT_TRUE(device.at("usable"));
+    EXPECT_EQ(device.at("state"), "ready");
+  }
+  EXPECT_EQ(claystack("devices auto --json").json().at("place"), "usb:1-1");
+}
+
+}  // namespace
+}  // namespace clay::rig
