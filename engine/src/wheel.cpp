@@ -29,6 +29,7 @@ struct Wheel::State {
   std::optional<Failure> failure;
   glm::dvec3 failure_hip{0.0};
   StepReport (*tick)(State&, const Pose&) noexcept = nullptr;
+  StepReport (*feel)(State&, const Pose&) noexcept = nullptr;
 };
 
 namespace {
@@ -94,6 +95,25 @@ glm::dvec3 felt(const ForcePlan& plan, std::span<const Bite> bites) noexcept {
   return limited(force, plan.limit_n);
 }
 
+/// Where the tool is and what it touches there: nothing where the pose is refused.
+template <unsigned stages, class State>
+std::span<Bite> meet(State& s, ToolState& tool, StepReport& report) noexcept {
+  report.flags = (tool.valid ? 0u : kRefused) | (tool.dt_clamped ? kLongStep : 0u);
+  if (!tool.valid) return {};
+  if constexpr (stages & kPinch)
+    if (tool.gap_mm == 0.0) tool.gap_mm = s.plan.gap_mm;
+
+  const std::span<Bite> bites = touch<stages>(s, tool);
+  for (const Bite& bite : bites)
+    report.rings_touched += static_cast<std::uint32_t>(bite.contact.rings.size());
+  if (report.rings_touched == 0) return {};
+  report.flags |= kContact;
+  return bites;
+}
+
+template <unsigned stages>
+constexpr double kWidestGapMm = (stages & kPinch) ? kFarthestMm : 0.0;
+
 /// The tick for a set of stages. A stage that the scene does not need is not in the code it runs.
 template <unsigned stages, class State>
 StepReport tick(State& s, const Pose& pose) noexcept {
@@ -102,17 +122,9 @@ StepReport tick(State& s, const Pose& pose) noexcept {
     report.flags = kCollapsed;
     return report;
   }
-  ToolState tool = s.tracker.advance(pose, (stages & kPinch) ? kFarthestMm : 0.0);
-  report.flags = (tool.valid ? 0u : kRefused) | (tool.dt_clamped ? kLongStep : 0u);
-  if (!tool.valid) return report;
-  if constexpr (stages & kPinch)
-    if (tool.gap_mm == 0.0) tool.gap_mm = s.plan.gap_mm;
-
-  const std::span<Bite> bites = touch<stages>(s, tool);
-  for (const Bite& bite : bites)
-    report.rings_touched += static_cast<std::uint32_t>(bite.contact.rings.size());
-  if (report.rings_touched == 0) return report;
-  report.flags |= kContact;
+  ToolState tool = s.tracker.advance(pose, kWidestGapMm<stages>);
+  const std::span<Bite> bites = meet<stages>(s, tool, report);
+  if (bites.empty()) return report;
 
   remove<stages>(s, tool, bites);
   report.flags |= deform<stages>(s, tool, bites);
@@ -123,9 +135,29 @@ StepReport tick(State& s, const Pose& pose) noexcept {
   return report;
 }
 
+template <unsigned stages, class State>
+StepReport feel(State& s, const Pose& pose) noexcept {
+  StepReport report;
+  if (s.failure) {
+    report.flags = kCollapsed;
+    return report;
+  }
+  ToolTracker tracker = s.tracker;
+  ToolState tool = tracker.advance(pose, kWidestGapMm<stages>);
+  const std::span<Bite> bites = meet<stages>(s, tool, report);
+  if constexpr (stages & kForce)
+    if (!bites.empty()) report.force_n = felt<stages>(s.plan.force, bites);
+  return report;
+}
+
 template <class State, std::size_t... sets>
 constexpr auto tick_table(std::index_sequence<sets...>) {
   return std::array{&tick<static_cast<unsigned>(sets), State>...};
+}
+
+template <class State, std::size_t... sets>
+constexpr auto feel_table(std::index_sequence<sets...>) {
+  return std::array{&feel<static_cast<unsigned>(sets), State>...};
 }
 
 }  // namespace
@@ -163,11 +195,14 @@ Result<Wheel> Wheel::build(const SceneSpec& scene) {
     bite.removed.reserve(touches);
   }
   static constexpr auto kTicks = tick_table<State>(std::make_index_sequence<kStageSets>{});
+  static constexpr auto kFeels = feel_table<State>(std::make_index_sequence<kStageSets>{});
   state->tick = kTicks[state->plan.stages];
+  state->feel = kFeels[state->plan.stages];
   return Wheel(std::move(state));
 }
 
 StepReport Wheel::step(const Pose& pose) noexcept { return state_->tick(*state_, pose); }
+StepReport Wheel::feel(const Pose& pose) noexcept { return state_->feel(*state_, pose); }
 
 const StepPlan& Wheel::plan() const noexcept { return state_->plan; }
 const ClayStack& Wheel::stack() const noexcept { return state_->stack; }
