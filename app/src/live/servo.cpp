@@ -22,8 +22,6 @@ Servo::~Servo() {
 }
 
 void Servo::start() {
-  loop_.start();
-  heartbeat_us_.store(bench_.clock.now_us());
   running_.store(true);
   last_zero().arm(gate_, &stop_device, &bench_.device);
   watchdog_ = std::thread([this] { watch(); });
@@ -41,14 +39,13 @@ Ending Servo::join() {
 
 void Servo::run() noexcept {
   if (ask_realtime_) realtime_ = ask_for_realtime(kServoPriority);
-  // Asking may have taken a while, and the watchdog shut the gate.
   loop_.start();
   while (loop_.tick(gate_, commands_, view_, heartbeat_us_) == Ending::none) {
   }
   // No signal reaches for the device from here on: its last word is said.
   gate_.shut_for_good();
   bench_.device.stop();
-  last_zero().arm(gate_, nullptr, nullptr);
+  last_zero().arm(gate_, nullptr, &bench_.device);
   running_.store(false, std::memory_order_release);
 }
 
@@ -60,14 +57,16 @@ void Servo::watch() noexcept {
   while (running()) {
     const std::int64_t beat_us = heartbeat_us_.load(std::memory_order_acquire);
     const std::int64_t now_us = bench_.clock.now_us();
-    if (beat_us != ended_us && falcon::Watchdog::must_zero(beat_us, now_us) && running()) {
+    const bool ticks = beat_us != 0;  // it may still be asking for real time
+    if (ticks && beat_us != ended_us && falcon::Watchdog::must_zero(beat_us, now_us) && running()) {
       gate_.shut();
       bench_.device.zero();
       watchdog_ends_.fetch_add(1, std::memory_order_relaxed);
       ended_us = beat_us;
     }
-    const std::int64_t next_us = beat_us == ended_us ? now_us + falcon::Watchdog::kPatienceUs
-                                                     : falcon::Watchdog::next_look_us(beat_us);
+    const std::int64_t next_us = !ticks || beat_us == ended_us
+                                     ? now_us + falcon::Watchdog::kPatienceUs
+                                     : falcon::Watchdog::next_look_us(beat_us);
     bench_.clock.sleep_until_ns(1000 * next_us);
   }
 }
