@@ -87,7 +87,9 @@ Result<void> show(const DevicesOptions& options, const falcon::DeviceSettings& s
   if (!device) return tl::make_unexpected(device.error());
   falcon::HapticDevice& open = **device;
   if (options.monitor) {
-    if (auto watched = watch(open, options.seconds, console); !watched)
+    const auto mapping = live::Mapping::build({});
+    if (!mapping) return tl::make_unexpected(mapping.error());
+    if (auto watched = watch(open, options.seconds, *mapping, console); !watched)
       return tl::make_unexpected(error_of(watched.error()));
     return {};
   }

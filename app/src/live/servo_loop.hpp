@@ -77,7 +77,7 @@ class ServoLoop {
   glm::dvec3 tool_mm_{0.0};
   falcon::WantedForce wanted_;
   falcon::GuardedForce guarded_;
-  std::uint32_t flags_before_ = 0;
+  std::uint32_t flags_before_ = falcon::kGuardClock;  // the first tick has no time before it
   ServoTiming timing_;
   GuardEvents events_;
   LiveStatus status_;
