@@ -10,7 +10,7 @@ packages="g++ cmake ninja-build ccache libglm-dev libexpected-dev nlohmann-json3
 # shellcheck disable=SC2086  # a list of words
 sh samples/install_packages.sh $packages
 
-cmake --preset release
+cmake --preset release -DCLAYSTACK_BENCH=OFF   # the measurements come with tests/run.sh
 cmake --build --preset release --target claystack
 
 claystack=build/release/app/claystack

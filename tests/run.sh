@@ -2,7 +2,8 @@
 # Installs the programs that judge our files, builds everything, runs every test.
 set -eu
 cd "$(dirname "$0")/.."
-sh samples/install_packages.sh clang admesh draco prusa-slicer openscad librsvg2-bin umockdev libumockdev-dev
-cmake --preset release
+sh samples/install_packages.sh clang admesh draco prusa-slicer openscad librsvg2-bin \
+  libbenchmark-dev libxml2-utils umockdev libumockdev-dev
+cmake --preset release -DCLAYSTACK_BENCH=ON
 cmake --build --preset release
 ctest --preset release -j 2

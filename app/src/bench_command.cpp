@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace clay::app {
 namespace {
@@ -20,6 +21,7 @@ struct BenchOptions {
   std::vector<std::string> only;
   std::string report;
   std::string csv;
+  std::string svg;
 };
 
 /// As it was typed, without what it does not measure by.
@@ -32,6 +34,7 @@ std::string command_line(const BenchOptions& options, const Console& console) {
     line += fmt::format(" --only {}", fmt::join(options.only, ","));
   if (!options.report.empty()) line += " --report " + options.report;
   if (!options.csv.empty()) line += " --csv " + options.csv;
+  if (!options.svg.empty()) line += " --svg " + options.svg;
   return console.json ? line + " --json" : line;
 }
 
@@ -46,11 +49,19 @@ Result<void> open_folder(const std::string& folder) {
   return {};
 }
 
-Result<void> write_csv(const bench::Report& report, const std::string& folder) {
-  if (folder.empty()) return {};
-  for (const auto& [name, csv] : bench::csv_files(report))
-    if (auto written = publish(std::filesystem::path(folder) / name, csv); !written) return written;
+using Files = std::vector<std::pair<std::string, std::string>>;
+
+Result<void> write_into(const std::string& folder, const Files& files) {
+  for (const auto& [name, content] : files)
+    if (auto written = publish(std::filesystem::path(folder) / name, content); !written)
+      return written;
   return {};
+}
+
+Result<void> write_folders(const bench::Report& report, const BenchOptions& options) {
+  if (!options.csv.empty())
+    if (auto done = write_into(options.csv, bench::csv_files(report)); !done) return done;
+  return options.svg.empty() ? Result<void>() : write_into(options.svg, bench::svg_files(report));
 }
 
 void measure(bench::Report& report, const std::vector<bench::RegisteredSection>& chosen,
@@ -75,7 +86,8 @@ Result<int> run_bench(BenchOptions options, Console console) {
   if (options.report == "-" && console.json)
     return failure(ErrorKind::bad_input, "-: expected one thing only on standard output");
   if (options.report == "-") console.quiet = true;
-  if (auto opened = open_folder(options.csv); !opened) return tl::make_unexpected(opened.error());
+  for (const std::string& folder : {options.csv, options.svg})
+    if (auto opened = open_folder(folder); !opened) return tl::make_unexpected(opened.error());
   std::optional<AtomicFile> page;
   if (!options.report.empty()) {
     auto file = AtomicFile::create(options.report);
@@ -89,7 +101,7 @@ Result<int> run_bench(BenchOptions options, Console console) {
     if (auto done = page->write(bench::html_of(report)).and_then([&] { return page->commit(); });
         !done)
       return tl::make_unexpected(done.error());
-  if (auto written = write_csv(report, options.csv); !written)
+  if (auto written = write_folders(report, options); !written)
     return tl::make_unexpected(written.error());
   if (console.json) console.print(bench::json_of(report));
   for (const bench::Section& section : report.sections) console.say(bench::text_of(section));
@@ -116,6 +128,7 @@ void add_bench_command(CLI::App& app, Console& console, int& exit) {
   command->add_flag("--extremes", options->extremes, "The same as --only extremes")->excludes(only);
   command->add_option("--report", options->report, "HTML page with all tables and plots");
   command->add_option("--csv", options->csv, "Folder for a CSV file of each table, plot and map");
+  command->add_option("--svg", options->svg, "Folder for a drawing of each plot and map");
   command->footer(
       "\nExamples:\n  claystack bench --quick --report bench.html\n"
       "  claystack bench --only tick,left_out --json\n"

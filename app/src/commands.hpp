@@ -16,12 +16,11 @@ void add_plan_command(CLI::App& app, Console& console, int& exit);
 void add_export_command(CLI::App& app, Console& console, int& exit);
 void add_check_command(CLI::App& app, Console& console, int& exit);
 #endif
-#ifdef CLAYSTACK_BENCH
-void add_bench_command(CLI::App& app, Console& console, int& exit);
-#endif
 #ifdef CLAYSTACK_USB
 void add_devices_command(CLI::App& app, Console& console, int& exit);
 #endif
+/// Where CLAYSTACK_BENCH is on.
+void add_bench_command(CLI::App& app, Console& console, int& exit);
 
 /// Program, version, compiler, and the parts that are built in.
 [[nodiscard]] std::string version_text();

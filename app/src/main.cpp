@@ -7,6 +7,7 @@
 #include <exception>
 #include <iostream>
 #include <string>
+#include <string_view>
 
 namespace {
 
@@ -16,6 +17,7 @@ Examples:
   claystack export bowl.pot.json bowl.stl bowl.obj bowl.drc
   claystack check bowl.stl
   claystack plan samples/bowl.scene.json
+  claystack bench --quick --report bench.html
 
 Exit status: 0 done and sound; 1 done, but the pot or mesh fails a check;
 2 bad usage or bad input; 3 could not read or write; 4 a device failed.)";
@@ -38,11 +40,11 @@ int run(int argc, char** argv) {
   add_check_command(app, console, exit);
 #endif
   add_plan_command(app, console, exit);
-#ifdef CLAYSTACK_BENCH
-  add_bench_command(app, console, exit);
-#endif
 #ifdef CLAYSTACK_USB
   add_devices_command(app, console, exit);
+#endif
+#ifdef CLAYSTACK_BENCH
+  add_bench_command(app, console, exit);
 #endif
   const auto commands = app.get_subcommands({});
   for (CLI::App* command : commands) {
@@ -53,6 +55,12 @@ int run(int argc, char** argv) {
                      std::any_of(commands.begin(), commands.end(), [&](const CLI::App* command) {
                        return command->check_name(argv[1]);
                      });
+#ifndef CLAYSTACK_BENCH
+  if (argc > 1 && std::string_view(argv[1]) == "bench")
+    return report({clay::ErrorKind::bad_input,
+                   "bench: expected a program built with its measurements (cmake --preset release "
+                   "-DCLAYSTACK_BENCH=ON), found one without"});
+#endif
   if (!known)
     return report(
         {clay::ErrorKind::bad_input,

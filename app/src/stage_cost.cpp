@@ -2,9 +2,9 @@
 
 #include "claystack/engine/tool.hpp"
 #include "claystack/engine/wheel.hpp"
+#include "thread_clock.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <vector>
 
@@ -57,13 +57,12 @@ std::vector<Pose> stroke_poses(const SceneSpec& scene, double depth_mm) {
 }
 
 double stroke_ns(const SceneSpec& scene, double depth_mm) {
-  using Clock = std::chrono::steady_clock;
   const auto poses = stroke_poses(scene, depth_mm);
   auto wheel = Wheel::build(scene);
   if (poses.empty() || !wheel) return std::numeric_limits<double>::quiet_NaN();
-  const auto start = Clock::now();
+  const double start = thread_seconds();
   for (const Pose& pose : poses) wheel->step(pose);
-  return std::chrono::duration<double, std::nano>(Clock::now() - start).count() / kStrokeTicks;
+  return 1e9 * (thread_seconds() - start) / kStrokeTicks;
 }
 
 std::optional<StageCost> cost_of(const SceneSpec& scene, std::string_view stage) {

@@ -10,11 +10,11 @@ std::string version_text() {
 #ifdef CLAYSTACK_DRACO
   parts += " draco";
 #endif
-#ifdef CLAYSTACK_BENCH
-  parts += " bench";
-#endif
 #ifdef CLAYSTACK_USB
   parts += " devices";
+#endif
+#ifdef CLAYSTACK_BENCH
+  parts += " bench";
 #endif
 #ifdef __clang__
   const std::string compiler = "Clang " __clang_version__;

@@ -7,13 +7,21 @@ namespace clay {
 namespace {
 
 /// Equations (1), (2). Compared and clamped as doubles: a far pose must not overflow an index.
+template <Model model>
 bool candidates(const Tool& tool, const ClayStack& stack, double hip_y, Contact& contact) noexcept {
   const double count = static_cast<double>(stack.size());
   const double low = (hip_y + tool.low()) / stack.ring_height_mm();
   const double high = (hip_y + tool.high()) / stack.ring_height_mm();
   if (!(high > 0.0 && low < count)) return false;
   contact.top = static_cast<std::size_t>(std::min(count, std::ceil(high))) - 1;
-  contact.bottom = static_cast<std::size_t>(std::max(1.0, std::floor(low))) - 1;
+  if constexpr (model == Model::paper) {
+    contact.bottom = static_cast<std::size_t>(std::max(1.0, std::floor(low))) - 1;
+    return true;
+  }
+  contact.bottom = static_cast<std::size_t>(std::max(0.0, low));
+  // An end beyond the stack has no ring beyond it.
+  contact.down_offset = std::max(low, 0.0) - static_cast<double>(contact.bottom) - 0.5;
+  contact.up_offset = static_cast<double>(contact.top) + 0.5 - std::min(high, count);
   return true;
 }
 
@@ -25,25 +33,69 @@ Side side_at(const ClayStack& stack, double hip_y, double axis_distance) noexcep
                                                                    : Side::expansive;
 }
 
+double depth_of(const Ring& ring, double f, const Contact& contact) noexcept {
+  return contact.side == Side::compressive ? ring.outer_mm() + f - contact.axis_distance_mm
+                                           : contact.axis_distance_mm + f - ring.inner_mm();
+}
+
+/// At a pole f' has no bound: so near to an end [mm] the middle of a ring does not speak for the
+/// whole.
+double steep_end(const Tool& tool, double ring_height_mm) noexcept {
+  return std::max(2.0 * ring_height_mm, (tool.high() - tool.low()) / 16.0);
+}
+
+/// A ring near an end of the tool, or the crown, as far as the tool covers it: from..to, counted
+/// from the HIP, with the mean of f'.
 template <class Profile>
-void touch_rings(const Profile& profile, const Tool& tool, const ClayStack& stack, double hip_y,
-                 Contact& contact) noexcept {
-  const auto rings = stack.rings();
-  const double h = stack.ring_height_mm(), d = contact.axis_distance_mm;
-  for (std::size_t i = contact.bottom; i <= contact.top; ++i) {
-    const double t = (static_cast<double>(i) + 0.5) * h - hip_y;
-    if (t < tool.low() || t > tool.high()) continue;
-    const double f = profile.radius(t);
-    const double depth = contact.side == Side::compressive ? rings[i].outer_mm() + f - d
-                                                           : d + f - rings[i].inner_mm();
-    if (depth > 0.0)
-      contact.rings.push_back({static_cast<std::uint32_t>(i), depth, profile.slope(t)});
+void touch_part(const Profile& profile, const ClayStack& stack, std::size_t i, double from,
+                double to, bool yields, int end, Contact& contact) noexcept {
+  if (!(to > from)) return;
+  const double depth = depth_of(stack.rings()[i], profile.radius(0.5 * (from + to)), contact);
+  if (!(depth > 0.0)) return;
+  const RingContact part{static_cast<std::uint32_t>(i), depth,
+                         (profile.radius(to) - profile.radius(from)) / (to - from),
+                         (to - from) / stack.ring_height_mm()};
+  if (yields) {
+    contact.rings.push_back(part);
+  } else {
+    contact.edge_end[contact.edge_count] = end;
+    contact.edges[contact.edge_count++] = part;
   }
 }
 
+template <Model model, class Profile>
+void touch_rings(const Profile& profile, const Tool& tool, const ClayStack& stack, double hip_y,
+                 Contact& contact) noexcept {
+  const double h = stack.ring_height_mm(), steep = steep_end(tool, h);
+  for (std::size_t i = contact.bottom; i <= contact.top; ++i) {
+    const double t = (static_cast<double>(i) + 0.5) * h - hip_y;
+    const bool yields = t >= tool.low() && t <= tool.high();
+    if constexpr (model == Model::conserving) {
+      const double from = t - 0.5 * h, to = t + 0.5 * h;
+      if (from < tool.low() + steep || to > tool.high() - steep) {
+        const int end = (to > tool.high() ? 1 : 0) - (from < tool.low() ? 1 : 0);
+        touch_part(profile, stack, i, std::max(from, tool.low()), std::min(to, tool.high()), yields,
+                   end, contact);
+        continue;
+      }
+    }
+    if (!yields) continue;
+    const double depth = depth_of(stack.rings()[i], profile.radius(t), contact);
+    if (depth > 0.0)
+      contact.rings.push_back({static_cast<std::uint32_t>(i), depth, profile.slope(t)});
+  }
+  if (model == Model::conserving && contact.top + 1 == stack.size()) {
+    const double top = static_cast<double>(stack.size()) * h - hip_y;
+    touch_part(profile, stack, contact.top, std::max(top, tool.low()),
+               std::min(stack.height_mm() - hip_y, tool.high()), false, 0, contact);
+  }
+}
+
+template <Model model>
 void touch_rings(const Tool& tool, const ClayStack& stack, double hip_y,
                  Contact& contact) noexcept {
-  std::visit([&](const auto& profile) { touch_rings(profile, tool, stack, hip_y, contact); },
+  contact.edge_count = 0;
+  std::visit([&](const auto& profile) { touch_rings<model>(profile, tool, stack, hip_y, contact); },
              tool.profile());
 }
 
@@ -55,6 +107,13 @@ void stand(double at, double radial_x, double radial_z, Contact& contact) noexce
   contact.radial_z = sense * radial_z;
 }
 
+template <class Past>
+void drop_if(Contact& contact, Past past) noexcept {
+  std::erase_if(contact.rings, past);
+  for (std::size_t k = 0; k < contact.edge_count; ++k)
+    if (past(contact.edges[k])) contact.edges[k].depth_mm = 0.0;
+}
+
 }  // namespace
 
 std::size_t most_contacts(const Tool& tool, double ring_height_mm, std::size_t max_rings) {
@@ -62,25 +121,26 @@ std::size_t most_contacts(const Tool& tool, double ring_height_mm, std::size_t m
   return static_cast<std::size_t>(std::min(rings, static_cast<double>(max_rings)));
 }
 
+template <Model model>
 void find_contact(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_mm,
                   Contact& contact) noexcept {
   contact.rings.clear();
-  if (!candidates(tool, stack, hip_mm.y, contact)) return;
+  if (!candidates<model>(tool, stack, hip_mm.y, contact)) return;
   const double d = std::sqrt(hip_mm.x * hip_mm.x + hip_mm.z * hip_mm.z);
   contact.axis_distance_mm = d;
   contact.radial_x = d > 0.0 ? hip_mm.x / d : 0.0;
   contact.radial_z = d > 0.0 ? hip_mm.z / d : 0.0;
   contact.side = side_at(stack, hip_mm.y, d);
-  touch_rings(tool, stack, hip_mm.y, contact);
+  touch_rings<model>(tool, stack, hip_mm.y, contact);
 }
 
+template <Model model>
 void find_pinch(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_mm, double gap_mm,
                 Contact& outer, Contact& inner) noexcept {
   outer.rings.clear();
   inner.rings.clear();
-  if (!candidates(tool, stack, hip_mm.y, outer)) return;
-  inner.bottom = outer.bottom;
-  inner.top = outer.top;
+  if (!candidates<model>(tool, stack, hip_mm.y, outer)) return;
+  candidates<model>(tool, stack, hip_mm.y, inner);
   const double d = std::sqrt(hip_mm.x * hip_mm.x + hip_mm.z * hip_mm.z);
   const double radial_x = d > 0.0 ? hip_mm.x / d : 0.0, radial_z = d > 0.0 ? hip_mm.z / d : 0.0;
   const double reach = 0.5 * gap_mm + tool.widest();
@@ -88,17 +148,26 @@ void find_pinch(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_
   stand(d - reach, radial_x, radial_z, inner);
   outer.side = Side::compressive;
   inner.side = Side::expansive;
-  touch_rings(tool, stack, hip_mm.y, outer);
-  touch_rings(tool, stack, hip_mm.y, inner);
+  touch_rings<model>(tool, stack, hip_mm.y, outer);
+  touch_rings<model>(tool, stack, hip_mm.y, inner);
   // A depth alone does not tell a tool that is through the wall from one that is past it.
-  std::erase_if(outer.rings, [&](const RingContact& touch) {
+  drop_if(outer, [&](const RingContact& touch) {
     const Ring& ring = stack.rings()[touch.ring];
     return 2.0 * outer.axis_distance_mm + touch.depth_mm - ring.outer_mm() <= ring.inner_mm();
   });
-  std::erase_if(inner.rings, [&](const RingContact& touch) {
+  drop_if(inner, [&](const RingContact& touch) {
     const Ring& ring = stack.rings()[touch.ring];
     return 2.0 * inner.axis_distance_mm - touch.depth_mm - ring.inner_mm() >= ring.outer_mm();
   });
 }
+
+template void find_contact<Model::paper>(const Tool&, const ClayStack&, const glm::dvec3&,
+                                         Contact&) noexcept;
+template void find_contact<Model::conserving>(const Tool&, const ClayStack&, const glm::dvec3&,
+                                              Contact&) noexcept;
+template void find_pinch<Model::paper>(const Tool&, const ClayStack&, const glm::dvec3&, double,
+                                       Contact&, Contact&) noexcept;
+template void find_pinch<Model::conserving>(const Tool&, const ClayStack&, const glm::dvec3&,
+                                            double, Contact&, Contact&) noexcept;
 
 }  // namespace clay

@@ -2,6 +2,7 @@
 #include "claystack/engine/clay_stack.hpp"
 #include "claystack/engine/tool.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -16,18 +17,28 @@ struct RingContact {
   std::uint32_t ring = 0;
   double depth_mm = 0.0;  ///< R + f - d outside, d + f - r inside; > 0
   double slope = 0.0;     ///< f'(t)
+  double coverage = 1.0;  ///< part of the ring's height that the tool's ends leave to it
 };
 
 /// What the tool touches (section 4). `rings` is a subset of bottom..top, ascending; empty when
 /// there is no contact. Storage is reserved once, so that a tick allocates nothing.
+///
+/// `conserving` feels the tool's ends to a fraction of a ring: `edges` are parts of rings whose
+/// middles lie beyond an end, and the crown. They push back, but yield only as whole rings do.
 struct Contact {
   Side side = Side::compressive;
   std::size_t bottom = 0;  ///< candidate range by (1), (2), counted from 0
   std::size_t top = 0;
+  /// How far the rings below `bottom` and above `top` lie farther from the tool's end than the
+  /// kernel's table has them, in ring heights. There the end lies in the middle of its ring.
+  double down_offset = 0.0, up_offset = 0.0;
   double axis_distance_mm = 0.0;  ///< d
   double radial_x = 0.0;          ///< cos psi; (0, 0) on the axis, where there is no direction
   double radial_z = 0.0;          ///< sin psi
   std::vector<RingContact> rings;
+  std::array<RingContact, 3> edges;
+  std::array<int, 3> edge_end{};  ///< +1 at the tool's upper end, -1 at its lower one, 0 at neither
+  std::size_t edge_count = 0;
 };
 
 /// Rings the tool can touch at once, for reserving.
@@ -37,15 +48,19 @@ struct Contact {
 /// Two stages: candidates by height, equations (1) and (2); then each ring by its radii. The side
 /// is decided once, at the tool's centre, by the demarcating circle r_d = (R + r) / 2.
 /// The paper puts y = 0 at the centroid of the first ring, we at the wheel head h/2 below.
+/// `paper` takes (2) as printed, which is a ring more than the tool reaches; `conserving` ends the
+/// range with the rings that the tool's ends lie in.
+template <Model model = Model::conserving>
 void find_contact(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_mm,
                   Contact& contact) noexcept;
 
 /// Both tools of a pinch, at the HIP's height and along its radius: at their widest they reach
 /// d + gap/2 from outside and d - gap/2 from inside, so their centres are gap/2 + max f from the
 /// HIP. The sides are given, not found. An inner tool that is wider than the bore stands beyond
-/// the axis: its distance is counted as any other, its direction is the opposite one. A tool that is
-/// clear of a ring, the outer one within its bore (d + f <= r), the inner one beyond its outside
+/// the axis: its distance is counted as any other, its direction is the opposite one. A tool that
+/// is clear of a ring, the outer one within its bore (d + f <= r), the inner one beyond its outside
 /// (d - f >= R), does not touch it. Both contacts have the same candidate range.
+template <Model model = Model::conserving>
 void find_pinch(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_mm, double gap_mm,
                 Contact& outer, Contact& inner) noexcept;
 

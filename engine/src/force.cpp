@@ -8,13 +8,18 @@ namespace clay {
 template <Model model>
 glm::dvec3 spring_force(const ForcePlan& plan, const Contact& contact) noexcept {
   double radial = 0.0, vertical = 0.0;
-  for (const RingContact& touch : contact.rings) {
+  const auto add = [&](const RingContact& touch) {
     double depth = touch.depth_mm;
     // The unit normal is (sin theta, cos theta) with theta = phi + 90 deg, tan phi = f'.
-    if constexpr (model == Model::paper) depth /= std::sqrt(1.0 + touch.slope * touch.slope);
+    if constexpr (model == Model::paper)
+      depth /= std::sqrt(1.0 + touch.slope * touch.slope);
+    else
+      depth *= touch.coverage;
     radial += depth;
     vertical += depth * touch.slope;
-  }
+  };
+  for (const RingContact& touch : contact.rings) add(touch);
+  for (std::size_t k = 0; k < contact.edge_count; ++k) add(contact.edges[k]);
   const double out = contact.side == Side::compressive ? radial : -radial;
   return plan.stiffness_n_per_mm *
          glm::dvec3(out * contact.radial_x, vertical, out * contact.radial_z);

@@ -7,8 +7,9 @@
 namespace clay {
 
 /// Section 6.1, the force on the hand [N]. `conserving`: K' h sum of depth (+-n_r + f' y), which is
-/// minus the gradient of the overlap energy E = sum K' h depth^2 / 2. `paper`: K sum of depth times
-/// the unit normal n_i. In both the radial part pushes the hand out of the clay; the paper's
+/// minus the gradient of the overlap energy E = sum K' h depth^2 / 2. Of a ring at the tool's end
+/// only the part counts that the tool covers, with the mean of f' over it. `paper`: K sum of depth
+/// times the unit normal n_i. In both the radial part pushes the hand out of the clay; the paper's
 /// formulae, taken literally, pull it in.
 template <Model model>
 glm::dvec3 spring_force(const ForcePlan& plan, const Contact& contact) noexcept;

@@ -45,47 +45,83 @@ WideQuanta place(std::size_t ring, WideQuanta inside, WideQuanta outside,
 }
 
 /// Gives `count` rings their shares, the j-th of them being ring_of(j). Returns what is left over.
+/// With a rim the last of them is the top ring: the rim notes what one above would have got more.
 template <class RingOf>
-WideQuanta spread(const RayleighKernel& kernel, Split clay, std::size_t count, RingOf ring_of,
-                  StackWriter& writer) noexcept {
+WideQuanta spread(const RayleighKernel& kernel, double offset, Split clay, std::size_t count,
+                  RingOf ring_of, Rim* rim, StackWriter& writer) noexcept {
   WideQuanta rest = clay.inside + clay.outside;
-  RayleighKernel::Dealer inside(kernel, clay.inside), outside(kernel, clay.outside);
-  for (std::size_t j = 1; j <= count; ++j)
-    rest -= place(ring_of(j), clay.inside > 0 ? inside.next() : 0, outside.next(), writer);
+  RayleighKernel::Dealer inside(kernel, clay.inside, offset), outside(kernel, clay.outside, offset);
+  const auto next = [&] { return Split{clay.inside > 0 ? inside.next() : 0, outside.next()}; };
+  Split share{0, 0};
+  for (std::size_t j = 1; j <= count; ++j) {
+    share = next();
+    rest -= place(ring_of(j), share.inside, share.outside, writer);
+  }
+  if (rim != nullptr && count > 0) {
+    const Split above = next();
+    rim->inside += above.inside - share.inside;
+    rim->outside += above.outside - share.outside;
+  }
   return rest;
 }
 
 /// Equations (5), (6): rings top+1 .. min(top+L1, N).
-WideQuanta flow_up(const RayleighKernel& kernel, Split clay, std::size_t top, std::size_t count,
-                   StackWriter& writer) noexcept {
-  const std::size_t reach = std::min(kernel.length(), count - 1 - top);
+WideQuanta flow_up(const RayleighKernel& kernel, Split clay, const Contact& contact,
+                   std::size_t count, Rim* rim, StackWriter& writer) noexcept {
+  const std::size_t top = contact.top, above = count - 1 - top;
   return spread(
-      kernel, clay, reach, [&](std::size_t j) { return top + j; }, writer);
+      kernel, contact.up_offset, clay, std::min(flow_reach(kernel), above),
+      [&](std::size_t j) { return top + j; }, above <= flow_reach(kernel) ? rim : nullptr, writer);
 }
 
 /// Equations (7), (8): rings max(1, bottom-L1) .. bottom-1.
-WideQuanta flow_down(const RayleighKernel& kernel, Split clay, std::size_t bottom,
+WideQuanta flow_down(const RayleighKernel& kernel, Split clay, const Contact& contact,
                      StackWriter& writer) noexcept {
-  const std::size_t reach = std::min(kernel.length(), bottom);
   return spread(
-      kernel, clay, reach, [&](std::size_t j) { return bottom - j; }, writer);
+      kernel, contact.down_offset, clay, std::min(flow_reach(kernel), contact.bottom),
+      [&](std::size_t j) { return contact.bottom - j; }, nullptr, writer);
+}
+
+/// A tool presses the crown with the top ring, and so makes both alike.
+void level(Rim* rim, std::span<const Bite> bites, std::size_t count) noexcept {
+  if (rim == nullptr) return;
+  for (const auto& [contact, removed] : bites)
+    if (!contact.rings.empty() && contact.rings.back().ring + 1 == count)
+      (contact.side == Side::compressive ? rim->outside : rim->inside) = 0;
+}
+
+/// A copy of the top ring, and what the rim has had more. A quarter of the ring at most, so that
+/// it stays a ring.
+Ring next_ring(const Ring& top, const Rim* rim) noexcept {
+  static const Quanta smallest = quanta_from_radius(kMinRadiusMm);
+  static const Quanta largest = quanta_from_radius(kMaxRadiusMm);
+  if (rim == nullptr) return top;
+  const WideQuanta most = top.volume() / 4;
+  const auto more = [&](WideQuanta q) {
+    return static_cast<Quanta>(std::clamp<WideQuanta>(q, -most, most));
+  };
+  Ring ring = top;
+  ring.outer2 = std::clamp(top.outer2 + more(rim->outside), smallest, largest);
+  if (top.inner2 > 0) ring.inner2 = std::max<Quanta>(top.inner2 - more(rim->inside), 0);
+  return ring;
 }
 
 /// Steps (a), (b): whole rings from the excess. `paper` keeps the remainder outside the body,
 /// below one top ring after every tick; `conserving` shows it as the crown.
 template <Model model>
-void grow(Flow& flow, ClayStack& stack, Ledger& ledger, StackWriter& writer) noexcept {
+void grow(Flow& flow, ClayStack& stack, Ledger& ledger, Rim* rim, StackWriter& writer) noexcept {
   while (true) {
-    const Quanta top = stack.rings().back().volume();
-    if ((model == Model::paper ? ledger.outside : stack.crown()) < top) return;
+    const Ring ring = next_ring(stack.rings().back(), model == Model::paper ? nullptr : rim);
+    if ((model == Model::paper ? ledger.outside : stack.crown()) < ring.volume()) return;
     flow.ring_limit = stack.size() >= stack.max_rings();
     if (flow.ring_limit) return;
     if (model == Model::conserving && flow.grown >= kMostGrowthPerTick) return;
     if constexpr (model == Model::paper)
-      ledger.outside -= top;
+      ledger.outside -= ring.volume();
     else
-      writer.put_on_crown(-top);
-    writer.grow();
+      writer.put_on_crown(-ring.volume());
+    writer.grow(ring);
+    if (rim != nullptr) *rim = {};
     ++flow.grown;
   }
 }
@@ -94,44 +130,48 @@ void grow(Flow& flow, ClayStack& stack, Ledger& ledger, StackWriter& writer) noe
 
 template <Model model>
 Flow press_clay(const StepPlan& plan, std::span<const Bite> bites, bool upward, ClayStack& stack,
-                Ledger& ledger) noexcept {
+                Ledger& ledger, Rim* rim) noexcept {
   StackWriter writer(stack);
   const Contact& contact = bites.front().contact;
   const std::size_t count = stack.size();
   const auto portions = [&](WideQuanta amount) { return split(amount, plan.inside_share, stack); };
 
   WideQuanta rest = take(bites, writer);
-  if (!upward) rest = flow_down(plan.kernel, portions(rest), contact.bottom, writer);
-  if (rest > 0) rest = flow_up(plan.kernel, portions(rest), contact.top, count, writer);
+  level(rim, bites, count);
+  if (!upward) rest = flow_down(plan.kernel, portions(rest), contact, writer);
+  if (rest > 0) rest = flow_up(plan.kernel, portions(rest), contact, count, rim, writer);
   if constexpr (model == Model::paper)
     ledger.outside += rest;
   else
     writer.put_on_crown(rest);
 
   Flow flow;
-  flow.lowest =
-      upward ? contact.bottom : contact.bottom - std::min(contact.bottom, plan.kernel.length());
-  flow.highest = contact.top + std::min(plan.kernel.length(), count - 1 - contact.top);
-  grow<model>(flow, stack, ledger, writer);
+  const std::size_t reach = flow_reach(plan.kernel);
+  flow.lowest = upward ? contact.bottom : contact.bottom - std::min(contact.bottom, reach);
+  flow.highest = contact.top + std::min(reach, count - 1 - contact.top);
+  grow<model>(flow, stack, ledger, rim, writer);
   return flow;
 }
 
 template <Model model>
-Flow trim_clay(std::span<const Bite> bites, ClayStack& stack, Ledger& ledger) noexcept {
+Flow trim_clay(std::span<const Bite> bites, ClayStack& stack, Ledger& ledger, Rim* rim) noexcept {
   StackWriter writer(stack);
   ledger.trimmed += take(bites, writer);
+  level(rim, bites, stack.size());
   Flow flow;
   flow.lowest = bites.front().contact.bottom;
   flow.highest = bites.front().contact.top;
-  grow<model>(flow, stack, ledger, writer);  // a thinner top ring may be worth less than the excess
+  grow<model>(flow, stack, ledger, rim,
+              writer);  // a thinner top ring may be worth less than the excess
   return flow;
 }
 
 template Flow press_clay<Model::paper>(const StepPlan&, std::span<const Bite>, bool, ClayStack&,
-                                       Ledger&) noexcept;
+                                       Ledger&, Rim*) noexcept;
 template Flow press_clay<Model::conserving>(const StepPlan&, std::span<const Bite>, bool,
-                                            ClayStack&, Ledger&) noexcept;
-template Flow trim_clay<Model::paper>(std::span<const Bite>, ClayStack&, Ledger&) noexcept;
-template Flow trim_clay<Model::conserving>(std::span<const Bite>, ClayStack&, Ledger&) noexcept;
+                                            ClayStack&, Ledger&, Rim*) noexcept;
+template Flow trim_clay<Model::paper>(std::span<const Bite>, ClayStack&, Ledger&, Rim*) noexcept;
+template Flow trim_clay<Model::conserving>(std::span<const Bite>, ClayStack&, Ledger&,
+                                           Rim*) noexcept;
 
 }  // namespace clay

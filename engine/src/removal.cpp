@@ -91,6 +91,24 @@ void compute_removal(const RemovalPlan& plan, const ClayStack& stack, const Cont
   }
 }
 
+void yield_edges(const RemovalPlan& plan, const ClayStack& stack, double rise_mm, double dt_s,
+                 Contact& contact) noexcept {
+  if (!(dt_s > 0.0)) return;
+  for (std::size_t k = 0; k < contact.edge_count; ++k) {
+    RingContact& edge = contact.edges[k];
+    const Ring& ring = stack.rings()[edge.ring];
+    const double wall = ring.outer_mm() - ring.inner_mm();
+    if (contact.edge_end[k] == 0 || !(wall > plan.min_wall_mm)) continue;
+    const double ahead = std::max(rise_mm * contact.edge_end[k], 0.0);
+    const double covered = edge.coverage * stack.ring_height_mm();
+    // All is pressed away at depth / (kappa (R - r)) times the speed behind the end.
+    const double yielded = plan.rate_per_s * wall * dt_s * covered;
+    const double whole = edge.depth_mm * ahead;
+    edge.depth_mm *= yielded <= whole ? (whole > 0.0 ? 1.0 - 0.5 * yielded / whole : 1.0)
+                                      : 0.5 * whole / yielded;
+  }
+}
+
 template <Model model>
 void compute_pinch_removal(const RemovalPlan& plan, const ClayStack& stack, double gap_mm,
                            double dt_s, Bite& outer, Bite& inner) noexcept {

@@ -24,6 +24,13 @@ template <Model model>
 void compute_removal(const RemovalPlan& plan, const ClayStack& stack, const Contact& contact,
                      double dt_s, std::vector<Quanta>& removed) noexcept;
 
+/// `conserving`: the edges of a contact belong to rings that yield later, as a whole; their covered
+/// parts have yielded since the tool's end reached them. Leaves to each edge the mean depth that a
+/// tool rising by `rise_mm` in `dt_s` has not yet pressed away: at the end all of it, behind the
+/// end less by kappa (R - r) for each second.
+void yield_edges(const RemovalPlan& plan, const ClayStack& stack, double rise_mm, double dt_s,
+                 Contact& contact) noexcept;
+
 /// What two tools take from one wall, each from its own side, that it is nowhere thinner for them
 /// than the gap. Equations (3) and (4) at once:
 ///

@@ -39,11 +39,11 @@ class StackWriter {
   }
   void put_on_crown(WideQuanta amount) noexcept { stack_.crown_ += amount; }
 
-  /// Step (b) of section 5.1: a new ring with the attributes of the top one. Capacity for
-  /// max_rings() is reserved at scene build, so nothing is allocated here.
-  void grow() noexcept {
-    stack_.rings_.push_back(stack_.rings_.back());
-    stack_.rings_volume_ += stack_.rings_.back().volume();
+  /// Step (b) of section 5.1: a new ring above the top one. Capacity for max_rings() is reserved
+  /// at scene build, so nothing is allocated here.
+  void grow(const Ring& ring) noexcept {
+    stack_.rings_.push_back(ring);
+    stack_.rings_volume_ += ring.volume();
   }
   void reserve() { stack_.rings_.reserve(stack_.max_rings_); }
 

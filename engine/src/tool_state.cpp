@@ -26,8 +26,8 @@ ToolState ToolTracker::advance(const Pose& pose, double widest_gap_mm) noexcept 
     state.dt_clamped = elapsed > static_cast<std::uint64_t>(kLongestStepUs);
     state.dt_s =
         1e-6 * static_cast<double>(std::min(elapsed, static_cast<std::uint64_t>(kLongestStepUs)));
-    const double rise = p.y - last_.position_mm.y;
-    if (rise != 0.0) upward_ = rise > 0.0;
+    state.moved_mm = p - last_.position_mm;
+    if (state.moved_mm.y != 0.0) upward_ = state.moved_mm.y > 0.0;
   }
   last_ = pose;
   has_last_ = true;

@@ -10,7 +10,9 @@ inline constexpr double kFarthestMm = 1e6;
 /// A pose that may be believed, with what its predecessors say of it.
 struct ToolState {
   glm::dvec3 hip_mm{0.0};
-  double dt_s = 0.0;   ///< since the last pose; 0 for the first, at most 0.05
+  double dt_s = 0.0;  ///< since the last pose; 0 for the first, at most 0.05
+  /// Since the last pose [mm]; none for the first.
+  glm::dvec3 moved_mm{0.0};
   bool upward = true;  ///< direction of clay flow (section 5.1)
   bool trim = false;
   double gap_mm = 0.0;

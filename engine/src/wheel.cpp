@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/common.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,6 +25,8 @@ struct Wheel::State {
   ClayStack stack;
   Ledger ledger;
   ToolTracker tracker;
+  Rim rim;
+  bool touching = false;  // at the last pose
   StabilityWatch watch;
   std::array<Bite, 2> bites;  // scratch, reserved once; the second is for pinches alone
   std::optional<Failure> failure;
@@ -34,6 +37,10 @@ struct Wheel::State {
 
 namespace {
 
+// On such a way the clay changes little; the bound keeps a tick short when a pose leaps.
+constexpr double kLongestWayMm = 0.05;
+constexpr int kMostParts = 32;
+
 template <unsigned stages>
 constexpr Model kModel = (stages & kPaperModel) ? Model::paper : Model::conserving;
 
@@ -42,13 +49,28 @@ template <unsigned stages, class State>
 std::span<Bite> touch(State& s, const ToolState& tool) noexcept {
   if constexpr (stages & kPinch) {
     if (tool.gap_mm > 0.0) {
-      find_pinch(s.plan.tool, s.stack, tool.hip_mm, tool.gap_mm, s.bites[0].contact,
-                 s.bites[1].contact);
+      find_pinch<kModel<stages>>(s.plan.tool, s.stack, tool.hip_mm, tool.gap_mm, s.bites[0].contact,
+                                 s.bites[1].contact);
       return s.bites;
     }
   }
-  find_contact(s.plan.tool, s.stack, tool.hip_mm, s.bites[0].contact);
+  find_contact<kModel<stages>>(s.plan.tool, s.stack, tool.hip_mm, s.bites[0].contact);
   return std::span(s.bites).first(1);
+}
+
+std::uint32_t rings_of(std::span<const Bite> bites) noexcept {
+  std::size_t rings = 0;
+  for (const Bite& bite : bites) rings += bite.contact.rings.size();
+  return static_cast<std::uint32_t>(rings);
+}
+
+/// Into how many parts a tick is cut, so that a fast hand leaves what a slow one does.
+template <Model model>
+int parts_of(const ToolState& tool) noexcept {
+  if constexpr (model == Model::paper) return 1;
+  const glm::dvec3 way = glm::abs(tool.moved_mm);
+  const double parts = std::max({way.x, way.y, way.z}) / kLongestWayMm;
+  return parts < kMostParts ? static_cast<int>(parts) + 1 : kMostParts;
 }
 
 template <unsigned stages, class State>
@@ -65,14 +87,14 @@ void remove(State& s, const ToolState& tool, std::span<Bite> bites) noexcept {
 /// Moves the clay that is displaced, and sees whether the stack still stands.
 template <unsigned stages, class State>
 std::uint32_t deform(State& s, const ToolState& tool, std::span<const Bite> bites) noexcept {
+  const std::size_t reach = flow_reach(s.plan.kernel);
   if constexpr (stages & kStability)
-    s.watch.move_to(s.stack,
-                    std::min(bites[0].contact.top + s.plan.kernel.length(), s.stack.size() - 1));
+    s.watch.move_to(s.stack, std::min(bites[0].contact.top + reach, s.stack.size() - 1));
 
   const bool trim = tool.trim || s.plan.mode == ToolMode::trim;
-  const Flow flow = trim
-                        ? trim_clay<kModel<stages>>(bites, s.stack, s.ledger)
-                        : press_clay<kModel<stages>>(s.plan, bites, tool.upward, s.stack, s.ledger);
+  const Flow flow =
+      trim ? trim_clay<kModel<stages>>(bites, s.stack, s.ledger, &s.rim)
+           : press_clay<kModel<stages>>(s.plan, bites, tool.upward, s.stack, s.ledger, &s.rim);
 
   if constexpr (stages & kStability) {
     s.failure = s.watch.check(s.plan.stability, s.stack, flow.lowest, flow.grown);
@@ -80,6 +102,26 @@ std::uint32_t deform(State& s, const ToolState& tool, std::span<const Bite> bite
   }
   return (flow.grown > 0 ? kGrew : 0u) | (flow.ring_limit ? kRingLimit : 0u) |
          (s.failure ? kCollapsed : 0u);
+}
+
+/// Clay leaves the touched rings on the tool's way, not at its end: the flow begins from the
+/// middle.
+template <unsigned stages, class State>
+void press(State& s, const ToolState& tool, std::span<Bite> bites, StepReport& report) noexcept {
+  const std::uint32_t touched = rings_of(bites);
+  if (touched == 0) return;
+  report.flags |= kContact;
+  report.rings_touched = touched;
+  if constexpr (kModel<stages> == Model::conserving) {
+    const double half_way = 0.5 * tool.moved_mm.y / s.stack.ring_height_mm();
+    bites[0].contact.up_offset += std::max(half_way, 0.0);
+    bites[0].contact.down_offset += std::max(-half_way, 0.0);
+    if constexpr (stages & kForce)
+      for (Bite& bite : bites)
+        yield_edges(s.plan.removal, s.stack, tool.moved_mm.y, tool.dt_s, bite.contact);
+  }
+  remove<stages>(s, tool, bites);
+  report.flags |= deform<stages>(s, tool, bites);
 }
 
 template <unsigned stages>
@@ -95,24 +137,16 @@ glm::dvec3 felt(const ForcePlan& plan, std::span<const Bite> bites) noexcept {
   return limited(force, plan.limit_n);
 }
 
-/// Where the tool is and what it touches there: nothing where the pose is refused.
-template <unsigned stages, class State>
-std::span<Bite> meet(State& s, ToolState& tool, StepReport& report) noexcept {
-  report.flags = (tool.valid ? 0u : kRefused) | (tool.dt_clamped ? kLongStep : 0u);
-  if (!tool.valid) return {};
-  if constexpr (stages & kPinch)
-    if (tool.gap_mm == 0.0) tool.gap_mm = s.plan.gap_mm;
-
-  const std::span<Bite> bites = touch<stages>(s, tool);
-  for (const Bite& bite : bites)
-    report.rings_touched += static_cast<std::uint32_t>(bite.contact.rings.size());
-  if (report.rings_touched == 0) return {};
-  report.flags |= kContact;
-  return bites;
-}
-
+/// The tool at a pose, with its gap; not valid where the pose is refused.
 template <unsigned stages>
-constexpr double kWidestGapMm = (stages & kPinch) ? kFarthestMm : 0.0;
+ToolState believe(const StepPlan& plan, ToolTracker& tracker, const Pose& pose,
+                  StepReport& report) noexcept {
+  ToolState tool = tracker.advance(pose, (stages & kPinch) ? kFarthestMm : 0.0);
+  report.flags = (tool.valid ? 0u : kRefused) | (tool.dt_clamped ? kLongStep : 0u);
+  if constexpr (stages & kPinch)
+    if (tool.gap_mm == 0.0) tool.gap_mm = plan.gap_mm;
+  return tool;
+}
 
 /// The tick for a set of stages. A stage that the scene does not need is not in the code it runs.
 template <unsigned stages, class State>
@@ -122,19 +156,27 @@ StepReport tick(State& s, const Pose& pose) noexcept {
     report.flags = kCollapsed;
     return report;
   }
-  ToolState tool = s.tracker.advance(pose, kWidestGapMm<stages>);
-  const std::span<Bite> bites = meet<stages>(s, tool, report);
-  if (bites.empty()) return report;
-
-  remove<stages>(s, tool, bites);
-  report.flags |= deform<stages>(s, tool, bites);
-  if constexpr (stages & kForce) {
-    if (s.failure) return report;  // nothing is left to push against
-    report.force_n = felt<stages>(s.plan.force, bites);
+  ToolState tool = believe<stages>(s.plan, s.tracker, pose, report);
+  if (!tool.valid) return report;
+  std::span<Bite> bites = touch<stages>(s, tool);
+  const bool touches = rings_of(bites) > 0;
+  const int parts = touches || s.touching ? parts_of<kModel<stages>>(tool) : 1;
+  s.touching = touches;
+  tool.dt_s /= parts;
+  tool.moved_mm /= parts;
+  for (int part = 1; part <= parts && !s.failure; ++part) {
+    ToolState there = tool;
+    there.hip_mm -= static_cast<double>(parts - part) * tool.moved_mm;
+    if (parts > 1) bites = touch<stages>(s, there);
+    press<stages>(s, there, bites, report);
   }
+  if constexpr (stages & kForce)
+    // After a collapse nothing is left to push against.
+    if (!s.failure && rings_of(bites) > 0) report.force_n = felt<stages>(s.plan.force, bites);
   return report;
 }
 
+/// The force of a tick and no more: contact as the last part of its way would find it.
 template <unsigned stages, class State>
 StepReport feel(State& s, const Pose& pose) noexcept {
   StepReport report;
@@ -143,10 +185,20 @@ StepReport feel(State& s, const Pose& pose) noexcept {
     return report;
   }
   ToolTracker tracker = s.tracker;
-  ToolState tool = tracker.advance(pose, kWidestGapMm<stages>);
-  const std::span<Bite> bites = meet<stages>(s, tool, report);
-  if constexpr (stages & kForce)
-    if (!bites.empty()) report.force_n = felt<stages>(s.plan.force, bites);
+  ToolState tool = believe<stages>(s.plan, tracker, pose, report);
+  if (!tool.valid) return report;
+  const std::span<Bite> bites = touch<stages>(s, tool);
+  report.rings_touched = rings_of(bites);
+  if (report.rings_touched == 0) return report;
+  report.flags |= kContact;
+  if constexpr (stages & kForce) {
+    const int parts = parts_of<kModel<stages>>(tool);
+    if constexpr (kModel<stages> == Model::conserving)
+      for (Bite& bite : bites)
+        yield_edges(s.plan.removal, s.stack, tool.moved_mm.y / parts, tool.dt_s / parts,
+                    bite.contact);
+    report.force_n = felt<stages>(s.plan.force, bites);
+  }
   return report;
 }
 

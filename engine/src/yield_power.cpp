@@ -12,26 +12,27 @@ namespace {
 
 /// Weights of the point of the affine hull of p[0..count) that is nearest to the origin: Lagrange's
 /// equations by elimination with pivoting. False where the points span too little.
-bool nearest_weights(const std::array<Twist, 4>& p, int count, std::array<double, 4>& weights) {
+bool nearest_weights(const std::array<Twist, 4>& p, std::size_t count,
+                     std::array<double, 4>& weights) {
   double m[5][6] = {};
-  for (int i = 0; i < count; ++i) {
-    for (int j = 0; j < count; ++j) m[i][j] = glm::dot(p[i], p[j]);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = 0; j < count; ++j) m[i][j] = glm::dot(p[i], p[j]);
     m[i][count] = m[count][i] = 1.0;
   }
   m[count][count + 1] = 1.0;
-  for (int k = 0; k <= count; ++k) {
-    int pivot = k;
-    for (int i = k + 1; i <= count; ++i)
+  for (std::size_t k = 0; k <= count; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i <= count; ++i)
       if (std::abs(m[i][k]) > std::abs(m[pivot][k])) pivot = i;
     if (std::abs(m[pivot][k]) < 1e-13) return false;
     std::swap(m[k], m[pivot]);
-    for (int i = 0; i <= count; ++i) {
+    for (std::size_t i = 0; i <= count; ++i) {
       if (i == k) continue;
       const double factor = m[i][k] / m[k][k];
-      for (int j = k; j <= count + 1; ++j) m[i][j] -= factor * m[k][j];
+      for (std::size_t j = k; j <= count + 1; ++j) m[i][j] -= factor * m[k][j];
     }
   }
-  for (int i = 0; i < count; ++i) weights[i] = m[i][count + 1] / m[i][i];
+  for (std::size_t i = 0; i < count; ++i) weights[i] = m[i][count + 1] / m[i][i];
   return true;
 }
 
@@ -43,24 +44,24 @@ glm::dvec2 turned(glm::dvec2 v, glm::dvec2 turn) noexcept {
 /// Up to four points, and the point of their convex hull that is nearest to the origin.
 struct Corral {
   std::array<Twist, 4> points{};
-  int count = 0;
+  std::size_t count = 0;
   Twist nearest{0.0};
 
   /// Tries every subset; keeps the points that carry the nearest one.
   void reduce() {
     std::array<Twist, 4> best{};
-    int best_count = 0;
+    std::size_t best_count = 0;
     double least = std::numeric_limits<double>::infinity();
     for (unsigned subset = 1; subset < (1u << count); ++subset) {
       std::array<Twist, 4> chosen{};
-      int size = 0;
-      for (int i = 0; i < count; ++i)
+      std::size_t size = 0;
+      for (std::size_t i = 0; i < count; ++i)
         if (subset >> i & 1u) chosen[size++] = points[i];
       std::array<double, 4> weights{};
       if (!nearest_weights(chosen, size, weights)) continue;
       Twist point{0.0};
       double smallest = 1.0;
-      for (int i = 0; i < size; ++i) {
+      for (std::size_t i = 0; i < size; ++i) {
         point += weights[i] * chosen[i];
         smallest = std::min(smallest, weights[i]);
       }
@@ -155,7 +156,7 @@ Twist YieldPower::steepest() const noexcept {
       best = u;
     }
     if (won >= kNearly * length || corral.count == 4) break;
-    corral.points[static_cast<std::size_t>(corral.count++)] = load;
+    corral.points[corral.count++] = load;
     corral.reduce();
   }
   return best;

@@ -3,7 +3,6 @@
 #include "claystack/falcon/firmware.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace clay::falcon {
@@ -15,6 +14,8 @@ constexpr double kWorkspaceMm = 48.0;  // largest ball that all encoders count, 
 // Motors 0, lights off. A constant, so that a signal handler can send it.
 constexpr std::uint8_t kZeroFrame[] = {'<', 'A', 'A', 'A', 'A', 'A', 'A', 'A',
                                        'A', 'A', 'A', 'A', 'A', 'A', 'A', '>'};
+// A transport that has less room than this left may have stopped for it.
+constexpr std::size_t kMostInPiece = 64;
 constexpr int kQuestions = 10;
 constexpr std::int64_t kAnswerUs = 20'000;  // ten times what a frame and its answer take
 
@@ -25,9 +26,9 @@ DeviceInfo info_of(const Transport& line, const FalconSettings& settings) {
           settings.force_limit_n, glm::dvec3(kWorkspaceMm), 1000.0};
 }
 
+/// What is not finite stays so, or is 0: `motor_counts` makes it none.
 glm::dvec3 limited(const glm::dvec3& force_n, double limit_n) {
   const double length = glm::length(force_n);
-  if (!std::isfinite(length)) return glm::dvec3(0.0);
   return length > limit_n ? limit_n / length * force_n : force_n;
 }
 
@@ -108,10 +109,10 @@ DeviceResult<void> FalconDevice::start() {
                         "switch its power supply off and on, and try another firmware file");
 }
 
-/// Whether frames come back. Zero force; homing on changes nothing that is homed.
+/// Whether frames come back, to frames of zero force.
 DeviceResult<bool> FalconDevice::answers() {
   for (int i = 0; i < kQuestions; ++i) {
-    const WireStatus sent = line_->write(encode({.homing = true}).bytes);
+    const WireStatus sent = line_->write(kZeroFrame);
     std::array<std::uint8_t, 64> bytes{};
     const Received got = line_->read(bytes, kAnswerUs);
     if (sent == WireStatus::unplugged || got.status == WireStatus::unplugged)
@@ -164,6 +165,7 @@ DeviceSample FalconDevice::read(std::int64_t wait_us) noexcept {
   const std::int64_t end_us = line_->now_us() + wait_us;
   std::int64_t left_us = wait_us;
   std::array<std::uint8_t, 512> bytes{};
+  bool more = false;  // after a pause of the host: the newest frame is at the end
   do {
     const Received got = line_->read(bytes, std::max<std::int64_t>(left_us, 0));
     take(std::span(bytes).first(got.size), got.time_us);
@@ -172,8 +174,9 @@ DeviceSample FalconDevice::read(std::int64_t wait_us) noexcept {
                                                : DeviceFault::transfer_failed);
       return sample_;
     }
-    left_us = end_us - line_->now_us();
-  } while (!sample_.fresh && left_us > 0);
+    more = bytes.size() - got.size < kMostInPiece;
+    left_us = more ? 0 : end_us - line_->now_us();
+  } while (more || (!sample_.fresh && left_us > 0));
   if (unanswered_since_us_ != 0 && line_->now_us() - unanswered_since_us_ > settings_.silence_us)
     fail(DeviceFault::no_answer);
   return sample_;

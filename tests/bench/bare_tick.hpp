@@ -5,6 +5,7 @@
 #include "claystack/engine/clay_stack.hpp"
 #include "claystack/engine/ledger.hpp"
 #include "claystack/engine/step_plan.hpp"
+#include "redistribution.hpp"
 #include "removal.hpp"
 #include "tool_state.hpp"
 
@@ -20,10 +21,13 @@ class BareWheel {
   [[nodiscard]] const ClayStack& stack() const noexcept { return stack_; }
 
  private:
+  void press(const ToolState& tool) noexcept;
   StepPlan plan_;
   ClayStack stack_;
   Ledger ledger_;
   ToolTracker tracker_;
+  Rim rim_;
+  bool touching_ = false;    // at the last pose
   std::vector<Bite> bites_;  // one
 };
 

@@ -1,5 +1,5 @@
-#include "bench/section.hpp"
 #include "extreme/suite.hpp"
+#include "section.hpp"
 
 #include <fmt/format.h>
 

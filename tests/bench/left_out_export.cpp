@@ -1,5 +1,6 @@
 #include "left_out_export.hpp"
 
+#include "bellied_pot.hpp"
 #include "claystack/export/export_job.hpp"
 #include "timing.hpp"
 
@@ -13,25 +14,6 @@ namespace {
 
 using solid::ExportOptions;
 using solid::MeshFormat;
-
-constexpr std::size_t kRings = 200;
-constexpr double kRingMm = 0.75;
-
-/// A bellied pot with throwing marks; solid where it has no wall.
-Pot bellied_pot(double wall_mm) {
-  std::vector<Ring> rings;
-  for (std::size_t i = 0; i < kRings; ++i) {
-    const double t = (static_cast<double>(i) + 0.5) / kRings;
-    const double outer =
-        48.0 + 14.0 * std::sin(5.2 * t - 0.4) - 6.0 * t + 0.2 * std::sin(190.0 * t);
-    const bool floor = t < 0.04 || wall_mm == 0.0;
-    rings.push_back({quanta_from_radius(outer), floor ? 0 : quanta_from_radius(outer - wall_mm)});
-  }
-  Pot pot;
-  pot.stack = ClayStack::from_rings(kRingMm, std::move(rings), 0).value();
-  pot.ledger.initial = pot.stack.volume();
-  return pot;
-}
 
 /// One export into memory.
 struct Job {
@@ -100,7 +82,7 @@ Table empty_table() {
       fmt::format("A bellied pot of {} rings as binary STL, into memory, unsmoothed, to 0.05 mm. "
                   "A smooth wall needs fewer facets than its steps, and so may save more than "
                   "it costs.",
-                  kRings)};
+                  kBelliedRings)};
 }
 
 /// Of the job's time, what none of its stages accounts for.

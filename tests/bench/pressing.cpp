@@ -35,9 +35,10 @@ double first_distance(const SceneSpec& scene) {
 }
 
 /// From the middle of the first place, with the tool in the plane z = 0.
-glm::dvec3 place_of(double first_distance_mm, double middle_mm, int tick) {
+glm::dvec3 place_of(double first_distance_mm, double middle_mm, int tick,
+                    double rise_mm = kPressMm) {
   const double part = static_cast<double>(tick) / kPressTicks;
-  return {first_distance_mm - kPressMm * part, middle_mm + kPressMm * (part - 0.5), 0.0};
+  return {first_distance_mm - kPressMm * part, middle_mm + rise_mm * (part - 0.5), 0.0};
 }
 
 }  // namespace
@@ -90,8 +91,11 @@ LiteralScene literal_of(const SceneSpec& scene, LiteralWriting writing) {
   return literal;
 }
 
-Presser::Presser(const SceneSpec& scene)
-    : scene_(scene), places_(places_on(scene)), first_distance_mm_(first_distance(scene)) {
+Presser::Presser(const SceneSpec& scene, double rise_mm)
+    : scene_(scene),
+      places_(rise_mm > kPressMm ? 1 : places_on(scene)),
+      first_distance_mm_(first_distance(scene)),
+      rise_mm_(rise_mm) {
   place_ = places_;
 }
 
@@ -105,7 +109,7 @@ void Presser::next_place() {
 Pose Presser::pose(double middle_mm, int tick) const {
   Pose pose;
   pose.time_us = time_us_ + 1000 * tick;
-  pose.position_mm = place_of(first_distance_mm_, middle_mm, tick);
+  pose.position_mm = place_of(first_distance_mm_, middle_mm, tick, rise_mm_);
   return pose;
 }
 
@@ -117,7 +121,7 @@ double Presser::press() {
   time_us_ += 1000;
   wheel_->step(pose(middle_mm, 0));
   std::uint64_t touched = 0;
-  const double seconds = seconds_of([&] {
+  const double seconds = work_seconds_of([&] {
     for (int tick = 1; tick <= kPressTicks; ++tick)
       touched += wheel_->step(pose(middle_mm, tick)).rings_touched;
   });
@@ -150,7 +154,7 @@ double LiteralPresser::press() {
   const double middle_mm = scene_.ring_height_mm * (0.5 * static_cast<double>(scene_.rings) - 0.5);
   paper.step(place_of(first_distance_mm_, middle_mm, 0));
   std::uint64_t touched = 0;
-  const double seconds = seconds_of([&] {
+  const double seconds = work_seconds_of([&] {
     for (int tick = 1; tick <= ticks_; ++tick)
       touched += paper.step(place_of(first_distance_mm_, middle_mm, tick)).rings_touched;
   });

@@ -24,8 +24,9 @@ inline constexpr double kPressMm = 6.0;   ///< inward, and as far upward
 /// Presses a lump at one place after the other; when there is none left it takes a new lump.
 class Presser {
  public:
-  /// Of a scene that Wheel::build takes.
-  explicit Presser(const SceneSpec& scene);
+  /// Of a scene that Wheel::build takes. The tool rises by so much while it is pressed; one that
+  /// rises by more than it is pressed in takes a new lump each time.
+  explicit Presser(const SceneSpec& scene, double rise_mm = kPressMm);
   /// Seconds of the ticks of one press. To make the lump and to go there does not count.
   double press();
   /// The mean tick of the last press. 0 before any.
@@ -40,7 +41,7 @@ class Presser {
   std::optional<Wheel> wheel_;
   std::size_t place_ = 0, places_ = 0;
   std::int64_t time_us_ = 0;
-  double first_distance_mm_ = 0.0;
+  double first_distance_mm_ = 0.0, rise_mm_ = 0.0;
   double touched_ = 0.0;
   int jumps_ = 0;
 };

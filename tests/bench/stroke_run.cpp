@@ -142,7 +142,7 @@ Outcome play_literal(const Fineness& fineness) {
 double time_engine(const Fineness& fineness, Model model) {
   Wheel wheel = Wheel::build(stroke_scene(fineness, model)).value();
   const auto poses = poses_at(fineness.rate_hz);
-  return seconds_of([&] {
+  return work_seconds_of([&] {
     for (const Pose& pose : poses) wheel.step(pose);
   });
 }
@@ -151,23 +151,22 @@ double time_literal(const Fineness& fineness) {
   const LiteralScene scene = literal_scene(fineness);
   LiteralPaper paper(scene);
   const auto poses = poses_at(fineness.rate_hz);
-  return seconds_of([&] {
+  return work_seconds_of([&] {
     for (const Pose& pose : poses) paper.step(literal_hip(pose.position_mm, scene));
   });
 }
 
 Deviation deviation(const Outcome& outcome, const Outcome& reference) {
   Deviation worst;
-  double squares = 0.0;
+  double sum_mm = 0.0, squares = 0.0;
   for (const auto surface : {&Outcome::outer_mm, &Outcome::inner_mm})
     for (std::size_t k = 0; k < kHeights; ++k) {
       const double off = std::abs((outcome.*surface)[k] - (reference.*surface)[k]);
       // Not max: a NaN must show, and stay.
       if (std::isnan(off) || off > worst.profile_max_mm) worst.profile_max_mm = off;
-      squares += off * off;
+      sum_mm += off;
     }
-  worst.profile_rms_mm = std::sqrt(squares / (2.0 * kHeights));
-  squares = 0.0;
+  worst.profile_mean_mm = sum_mm / (2.0 * kHeights);
   const std::size_t count = std::min(outcome.force_n.size(), reference.force_n.size());
   for (std::size_t k = 0; k < count; ++k) {
     const double off = glm::distance(outcome.force_n[k], reference.force_n[k]);

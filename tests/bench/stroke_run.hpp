@@ -41,9 +41,11 @@ struct Outcome {
 [[nodiscard]] double time_engine(const Fineness& fineness, Model model);
 [[nodiscard]] double time_literal(const Fineness& fineness);
 
+/// Over both surfaces, and of the length of the force's difference. The ball leaves a ledge, a jump
+/// of the profile: there the largest error cannot fall below half the jump, the mean one can.
 struct Deviation {
-  double profile_max_mm = 0.0, profile_rms_mm = 0.0;  ///< over both surfaces
-  double force_max_n = 0.0, force_rms_n = 0.0;        ///< length of the difference
+  double profile_max_mm = 0.0, profile_mean_mm = 0.0;
+  double force_max_n = 0.0, force_rms_n = 0.0;
 };
 [[nodiscard]] Deviation deviation(const Outcome& outcome, const Outcome& reference);
 

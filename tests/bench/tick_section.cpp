@@ -22,8 +22,9 @@ struct Contender {
   double ticks = kPressTicks;
 };
 
-Contender engine_at(std::string name, std::string about, const SceneSpec& scene) {
-  const auto presser = std::make_shared<Presser>(scene);
+Contender engine_at(std::string name, std::string about, const SceneSpec& scene,
+                    double rise_mm = kPressMm) {
+  const auto presser = std::make_shared<Presser>(scene, rise_mm);
   return {std::move(name), std::move(about), [presser] { return presser->press(); },
           [presser] { return presser->rings_touched(); }};
 }
@@ -109,7 +110,7 @@ void measure_ribs(Section& section, const Effort& effort) {
             {},
             ""};
   std::vector<Contender> contenders;
-  for (const std::size_t rings : {1, 3, 10, 30, 100, 300}) {
+  for (const std::size_t rings : {1u, 3u, 10u, 30u, 100u, 300u}) {
     contenders.push_back(engine_at("engine", "", rib_scene(rings)));
     contenders.push_back(literal_at("literal", "", rib_scene(rings), LiteralWriting::eased, 200));
   }
@@ -131,6 +132,26 @@ void measure_ribs(Section& section, const Effort& effort) {
   plot.curves = {engine, literal};
   section.tables.push_back(std::move(table));
   section.plots.push_back(std::move(plot));
+}
+
+/// A fast hand's tick is cut into parts: what it costs over the speed of the hand.
+void measure_speeds(Section& section, const Effort& effort) {
+  effort.progress("speeds");
+  Table table{"tick_speed",
+              "Time of a tick over the speed of the hand",
+              {{"speed_mm_s", "mm/s"}, {"rings", ""}, {"engine_ns", "ns"}, {"iqr_ns", "ns"}},
+              {},
+              "The ball rises along 800 rings while it is pressed, at 1 kHz."};
+  constexpr std::array kSpeeds{6.0, 25.0, 50.0, 100.0, 200.0, 400.0};  // of a press of 1 s
+  std::vector<Contender> contenders;
+  for (const double speed : kSpeeds)
+    contenders.push_back(engine_at("engine", "", press_scene(800), speed));
+  const auto ns = tick_ns(contenders, rounds_of(effort));
+  for (std::size_t i = 0; i < ns.size(); ++i) {
+    const Spread s = spread_of(ns[i]);
+    table.rows.push_back({kSpeeds[i], contenders[i].touched(), s.median, s.range()});
+  }
+  section.tables.push_back(std::move(table));
 }
 
 /// From the top to the bottom between two poses: what a tick can cost at most.
@@ -163,6 +184,7 @@ Section tick_section(const Effort& effort) {
       "force and friction. ";
   measure_sizes(section, effort);
   measure_ribs(section, effort);
+  measure_speeds(section, effort);
   measure_jump(section, effort);
   return section;
 }

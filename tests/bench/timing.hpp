@@ -3,6 +3,7 @@
 
 #include "section.hpp"
 #include "statistics.hpp"
+#include "thread_clock.hpp"
 
 #include <chrono>
 #include <functional>
@@ -39,7 +40,15 @@ struct Duel {
 /// The two alone, in neighbouring moments: for differences near the noise.
 [[nodiscard]] Duel duel(const Work& a, const Work& b, const Rounds& rounds);
 
-/// Seconds that a call takes.
+/// Seconds that this thread works on a call; waiting while the machine does something else is none.
+template <class Call>
+double work_seconds_of(Call&& call) {
+  const double begin = app::thread_seconds();
+  call();
+  return app::thread_seconds() - begin;
+}
+
+/// Seconds by the clock on the wall: for calls of a few ticks, and for work on several threads.
 template <class Call>
 double seconds_of(Call&& call) {
   const auto begin = std::chrono::steady_clock::now();

@@ -71,13 +71,18 @@ TEST(Collapse, SolidNeckIsCarriedAgainWhereItIsWideEnough) {
   for (int i = 0; i <= 20; ++i) rings.push_back(ring_of(15.0 + i));
   const ClayStack stack = stack_of(2.0, rings);
   const double kg = falls::weight_above(falls::pot_of(stack), 20).kg;
-  const auto rests_at = [&](double radius) {
+  const auto fall = [&](double radius) {
     const double threshold = 1e3 * 9.80665 * kg / (kPi * radius * radius);
-    return -fallen(stack, 20, {0, 42, 0}, threshold).collapse->shift_mm.y;
+    return *fallen(stack, 20, {0, 42, 0}, threshold).collapse;
   };
+  const auto rests_at = [&](double radius) { return -fall(radius).shift_mm.y; };
   EXPECT_NEAR(rests_at(15.5), 4.0, 1e-3);
   EXPECT_NEAR(rests_at(16.5), 8.0, 1e-3);
   EXPECT_NEAR(rests_at(18.5), 16.0, 1e-3);
+  // All but carried on the way, and then stopped by a wider face: it paid for no more than it lost.
+  const Collapse slow = fall(15.0001);
+  EXPECT_LE(slow.plastic_work_mj, slow.energy_lost_mj);
+  EXPECT_NEAR(slow.plastic_work_mj / slow.energy_lost_mj, 1.0, 1e-3);
 }
 
 /// A cylinder on a small foot that carries nothing, pressed far out: it lands on its edge.
@@ -102,6 +107,7 @@ TEST(Collapse, SquatCylinderRocksBackOntoItsFoot) {
   const Pot pot = tipped_cylinder(30.0, 60.0, 35.0);
   EXPECT_NEAR(pot.collapse->angle_rad, 0.0, 1e-8);
   EXPECT_NEAR(centre_mm(pot), 30.0, 1e-6);
+  EXPECT_LT(fall_frames(pot).size(), 1000u);  // and stays there
   EXPECT_NEAR(lowest_mm(pot), 0.0, 1e-9);
 }
 

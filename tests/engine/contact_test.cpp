@@ -41,13 +41,16 @@ RC_GTEST_PROP(Contact, TwoStagesFindWhatAskingEveryRingFinds, ()) {
   for (std::size_t i = 0; i < count; ++i) {
     const double t = (static_cast<double>(i) + 0.5) * h - hip.y;
     if (std::abs(t) > tool.high()) continue;
-    const double f = std::sqrt(tool.high() * tool.high() - t * t);
+    // The middle of what the tool covers of the ring.
+    const double covered =
+        0.5 * (std::max(t - 0.5 * h, tool.low()) + std::min(t + 0.5 * h, tool.high()));
+    const double f = std::sqrt(tool.high() * tool.high() - covered * covered);
     const Ring& ring = stack.rings()[i];
     const double depth = outside ? ring.outer_mm() + f - d : d + f - ring.inner_mm();
     if (depth <= 1e-9) continue;
     RC_ASSERT(found < contact.rings.size());
     RC_ASSERT(contact.rings[found].ring == i);
-    RC_ASSERT(std::abs(contact.rings[found].depth_mm - depth) < 1e-9);
+    RC_ASSERT(std::abs(contact.rings[found].depth_mm - depth) < 1e-7);
     RC_ASSERT(i >= contact.bottom && i <= contact.top);
     ++found;
   }
@@ -69,9 +72,47 @@ TEST_F(ContactOnCylinder, DemarcatingCircleDecidesTheSide) {
 
 TEST_F(ContactOnCylinder, CandidatesAreEquationsOneAndTwo) {
   // (1): ceil((50.2 + 10) / 1) = 61st ring, (2): floor((50.2 - 10) / 1) = 40th ring.
-  const Contact contact = contact_of(sphere, cup, {55, 50.2, 0});
+  Contact contact;
+  find_contact<Model::paper>(sphere, cup, {55, 50.2, 0}, contact);
   EXPECT_EQ(contact.top, 60u);
   EXPECT_EQ(contact.bottom, 39u);
+  EXPECT_EQ(contact.edge_count, 0u);
+}
+
+TEST_F(ContactOnCylinder, TheRangeEndsWithTheRingsOfTheToolsEnds) {
+  const Contact contact = contact_of(sphere, cup, {55, 50.2, 0});
+  EXPECT_EQ(contact.top, 60u);     // 60.2
+  EXPECT_EQ(contact.bottom, 40u);  // 40.2
+  EXPECT_NEAR(contact.up_offset, 0.8 - 0.5, 1e-12);
+  EXPECT_NEAR(contact.down_offset, 0.2 - 0.5, 1e-12);
+}
+
+TEST_F(ContactOnCylinder, PartsOfRingsAreFeltButDoNotYield) {
+  const Tool rib = Tool::build(RibSpec{20.0, 6.0}).value();
+  // From 40.3 to 60.3: 0.7 of ring 40, whose middle it covers, and 0.3 of ring 60.
+  const Contact contact = contact_of(rib, cup, {54, 50.3, 0});
+  ASSERT_EQ(contact.rings.size(), 20u);
+  EXPECT_EQ(contact.rings.front().ring, 40u);
+  EXPECT_NEAR(contact.rings.front().coverage, 0.7, 1e-12);
+  ASSERT_EQ(contact.edge_count, 1u);
+  EXPECT_EQ(contact.edges[0].ring, 60u);
+  EXPECT_NEAR(contact.edges[0].coverage, 0.3, 1e-12);
+  double covered = contact.edges[0].coverage;
+  for (const RingContact& ring : contact.rings) {
+    EXPECT_NEAR(ring.depth_mm, 2.0, 1e-12);
+    covered += ring.coverage;
+  }
+  EXPECT_NEAR(covered, 20.0, 1e-12);  // the rib's height
+}
+
+TEST_F(ContactOnCylinder, TheCrownIsFelt) {
+  const Ring ring{quanta_from_radius(50), quanta_from_radius(40)};
+  const ClayStack crowned =
+      ClayStack::from_rings(1.0, std::vector<Ring>(100, ring), ring.volume() / 4).value();
+  const Contact contact = contact_of(Tool::build(RibSpec{20.0, 6.0}).value(), crowned, {54, 95, 0});
+  ASSERT_EQ(contact.rings.size(), 15u);
+  ASSERT_EQ(contact.edge_count, 1u);
+  EXPECT_NEAR(contact.edges[0].coverage, 0.25, 1e-9);
 }
 
 TEST_F(ContactOnCylinder, NothingAboveBelowOrBeside) {

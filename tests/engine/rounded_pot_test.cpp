@@ -58,8 +58,8 @@ RC_GTEST_PROP(RoundedPot, RadiiAreTheNearestMultiples, ()) {
     RC_ASSERT((after.inner2 > 0) == (before.inner2 > 0));
     RC_ASSERT(std::abs(after.inner_mm() - before.inner_mm()) <= half ||
               before.inner_mm() < 0.5 * precision);
-    RC_ASSERT(i == 0 || !touch(before, pot.stack.rings()[i - 1]) ||
-              touch(after, rounded->stack.rings()[i - 1]));
+    if (i > 0 && touch(before, pot.stack.rings()[i - 1]))
+      RC_ASSERT(touch(after, rounded->stack.rings()[i - 1]));
   }
 }
 

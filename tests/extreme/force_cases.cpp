@@ -30,35 +30,44 @@ glm::dvec3 place_near_wall(Hand& hand, const ToolShapeSpec& shape, bool outside)
   const double f = half_profile(shape, 0).convert_to<double>();
   const double depth = 3.0 * hand.uniform() - 0.5, azimuth = 6.28 * hand.uniform();
   const double d = outside ? 30.0 + f - depth : std::max(0.5, 18.0 - f + depth);
-  return {d * std::cos(azimuth), 5.0 + 50.0 * hand.uniform(), d * std::sin(azimuth)};
+  // Over both ends of the stack, where the force has a vertical part; but a rib's flat ends, which
+  // have no f', stay within it.
+  const bool rib = std::holds_alternative<RibSpec>(shape);
+  const double y = rib ? 10.0 + 40.0 * hand.uniform() : -3.0 + 66.0 * hand.uniform();
+  return {d * std::cos(azimuth), y, d * std::sin(azimuth)};
 }
 
 /// The first tick of a scene has dt = 0 and moves no clay in the engine; the force is of the rings
-/// before it in both models.
+/// before it in both models. Rings are thin, so that their sum is the integral: the difference is
+/// of second order in h.
 Outcome minus_gradient(Who who) {
-  constexpr double kTolerance = 1e-12;  // N; rounding of 16 rings' K depth f' at these sizes
+  constexpr double kRingMm = 1.0 / 16.0, kTolerance = 1e-4;  // of the largest force
   Hand hand(17);
-  double worst = 0.0;
-  int poses = 0;
+  double worst = 0.0, largest = 0.0;
   for (const ToolShapeSpec& shape :
        {ToolShapeSpec{SphereSpec{8}}, ToolShapeSpec{EllipseSpec{12, 5}},
         ToolShapeSpec{RibSpec{14, 6}}})
     for (const bool outside : {true, false})
-      for (int k = 0; k < 40; ++k) {
-        Trial trial(who, soft_pot(shape, 18.0));
+      for (int k = 0; k < 25; ++k) {
+        SceneSpec scene = soft_pot(shape, 18.0);
+        scene.lump.ring_height_mm = kRingMm;
+        scene.lump.rings = 960;
+        scene.lump.max_rings = 0;
+        scene.force->paper_stiffness_n_per_mm = kSoftNPerMm * kRingMm;
+        Trial trial(who, scene);
         const OverlapEnergy energy(shape, section_of(trial.subject()), kSoftNPerMm, outside);
-        const glm::dvec3 hip = place_near_wall(hand, shape, outside);
-        if (!energy.smooth_at(hip.y)) continue;
-        const glm::dvec3 force = trial.at(hip).force_n;
-        const double off = glm::length(force - energy.force_n(hip));
+        const glm::dvec3 hip = place_near_wall(hand, shape, outside),
+                         expected = energy.force_n(hip);
+        const double off = glm::length(trial.at(hip).force_n - expected);
         worst = std::max(worst, off);
-        poses += energy.touched(hip) > 0;
-        if (!(off <= kTolerance))
-          return {Verdict::failed, fmt::format("{:.3g} N off at {:.3g} N, {}", off,
-                                               glm::length(force), outside ? "outside" : "inside")};
+        largest = std::max(largest, glm::length(expected));
+        if (!(off <= kTolerance * 0.01))  // N; the largest is above 0.01 N, see below
+          return {Verdict::failed,
+                  fmt::format("{:.3g} N off at {:.3g} N, {}", off, glm::length(expected),
+                              outside ? "outside" : "inside")};
       }
-  if (poses < 100) return {Verdict::failed, fmt::format("only {} poses touched", poses)};
-  return {Verdict::passed, fmt::format("{} poses, at most {:.2g} N off", poses, worst)};
+  if (largest < 0.01) return {Verdict::failed, "no contact to speak of"};
+  return {Verdict::passed, fmt::format("at most {:.2g} N off, at up to {:.2g} N", worst, largest)};
 }
 
 Outcome azimuths(Who who) {
@@ -89,7 +98,7 @@ Outcome hip_on_the_axis(Who who) {
     const Tick tick = trial.at({0, 66.9 - 0.05 * k, 0});
     trial.require(tick.contact, "no contact");
     trial.require(tick.force_n.x == 0.0 && tick.force_n.z == 0.0, "aside on the axis");
-    trial.require(tick.force_n.y >= 0.0, "pulled down");
+    trial.require(tick.force_n.y > 0.0, "not pushed up");
   }
   return trial.done();
 }
@@ -150,8 +159,8 @@ Outcome tool_with_a_step(Who who) {
 
 constexpr Case kCases[] = {
     {"minus_gradient", "sphere, ellipse and rib at random poses, both sides",
-     "force = -grad of the overlap energy to 1e-12 N", "differences in 50 digits", Verdict::failed,
-     minus_gradient},
+     "force = -grad of the overlap energy to 1e-4 of it", "differences of an integral",
+     Verdict::failed, minus_gradient},
     {"azimuths", "64 azimuths, both sides", "outward outside, inward inside", "sign",
      Verdict::failed, azimuths},
     {"hip_on_the_axis", "d = 0", "finite, no part aside", "invariants", Verdict::failed,

@@ -19,8 +19,11 @@ class Hand {
   Pose next() {
     if (uniform() < 0.002) choose();
     const double speed = uniform() < 0.01 ? 5.0 : 0.1;
-    for (int axis = 0; axis < 3; ++axis)
+    const bool level = uniform() < 0.5;  // a slow hand: most heights are measured as before
+    for (int axis = 0; axis < 3; ++axis) {
+      if (axis == 1 && level) continue;
       at_[axis] += std::clamp(goal_[axis] - at_[axis], -speed, speed) + 0.02 * (uniform() - 0.5);
+    }
     time_us_ += 1000;
     return {time_us_, at_, false};
   }

@@ -31,9 +31,10 @@ Outcome dropped(Who who, const std::vector<glm::dvec3>& bad) {
     trial.require(trial.subject().bytes() == before, "the clay has moved");
     trial.require(tick.force_n == glm::dvec3(0.0), "a force from a pose that is none");
   }
-  // The steps of time before and after are the same, so the clay must be.
-  trial.at({36, 28, 0}, false, 1000);
-  undisturbed.at({36, 28, 0}, false, 1000 * (static_cast<std::int64_t>(bad.size()) + 1));
+  // Deeper at the same height: how much clay goes where now depends on the last good pose alone, on
+  // its time and on the direction before it.
+  trial.at({34, 28, 0}, false, 1000);
+  undisturbed.at({34, 28, 0}, false, 1000 * (static_cast<std::int64_t>(bad.size()) + 1));
   trial.stroke({36, 28, 0}, {36, 34, 0}, 60);
   undisturbed.stroke({36, 28, 0}, {36, 34, 0}, 60);
   trial.require(trial.touched(), "no contact");

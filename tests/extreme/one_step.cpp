@@ -27,8 +27,13 @@ struct Expected {
 /// One tick in 50 digits. All indices count from 0.
 class Recomputed {
  public:
-  Recomputed(Who who, const SceneSpec& scene, Section before, bool upward, const glm::dvec3& hip)
-      : counted_(who == Who::conserving), scene_(scene), section_(std::move(before)), hip_(hip) {
+  Recomputed(Who who, const SceneSpec& scene, Section before, bool upward, const glm::dvec3& hip,
+             double rise_mm)
+      : counted_(who == Who::conserving),
+        scene_(scene),
+        section_(std::move(before)),
+        hip_(hip),
+        rise_(Fifty(rise_mm) / scene.lump.ring_height_mm) {
     for (const Radii& ring : section_.rings)
       rings_.push_back(
           {Fifty(ring.outer_mm) * ring.outer_mm, Fifty(ring.inner_mm) * ring.inner_mm, 0.0, 0.0});
@@ -70,10 +75,16 @@ class Recomputed {
     const auto count = static_cast<double>(rings_.size());
     none_ = counted_ ? top <= 0 || (Fifty(hip_.y) - half) / h >= count : top < 1 || bottom > count;
     if (none_) return;
-    top_ = std::min(count, top.convert_to<double>()) < 1
-               ? 0
-               : static_cast<std::size_t>(std::min(count, top.convert_to<double>())) - 1;
-    bottom_ = static_cast<std::size_t>(std::max(1.0, bottom.convert_to<double>())) - 1;
+    const Fifty low = (Fifty(hip_.y) - half) / h, high = (Fifty(hip_.y) + half) / h;
+    top_ = static_cast<std::size_t>(std::min(count, top.convert_to<double>())) - 1;
+    if (!counted_) {
+      bottom_ = static_cast<std::size_t>(std::max(1.0, bottom.convert_to<double>())) - 1;
+      return;
+    }
+    bottom_ = static_cast<std::size_t>(std::max(0.0, bottom.convert_to<double>()));
+    up_offset_ = top_ + Fifty(0.5) - std::min(high, Fifty(count)) + std::max(rise_, Fifty(0)) / 2;
+    down_offset_ =
+        std::max(low, Fifty(0)) - bottom_ - Fifty(0.5) + std::max(Fifty(-rise_), Fifty(0)) / 2;
   }
 
   [[nodiscard]] std::size_t ring_at_centre() const {
@@ -92,16 +103,21 @@ class Recomputed {
     outside_ = d > (sqrt(middle.outer2) + sqrt(middle.inner2)) / 2;
     hollow_ = !outside_;
     for (const Expected& ring : rings_) hollow_ = hollow_ || ring.inner2 > 0;
-    const Fifty kappa_dt = Fifty(scene_.removal.rate_per_s) / 1000;
+    const Fifty kappa_dt = Fifty(scene_.removal.rate_per_s) / 2500;  // 0.4 ms
     const Fifty fraction =
         counted_ ? Fifty(1 - exp(Fifty(-kappa_dt))) : Fifty(scene_.removal.rate_per_s / 1000.0);
     for (std::size_t i = bottom_; i <= top_; ++i) take_from(i, d, fraction);
   }
 
   void take_from(std::size_t i, const Fifty& d, const Fifty& fraction) {
-    const Fifty t = section_.centres_mm[i] - Fifty(hip_.y);
+    Fifty t = section_.centres_mm[i] - Fifty(hip_.y);
+    const Fifty half = half_height_mm(scene_.tool.shape),
+                half_ring = scene_.lump.ring_height_mm / 2;
     const bool ellipse = !std::holds_alternative<RibSpec>(scene_.tool.shape);
-    if (abs(t) > half_height_mm(scene_.tool.shape) && (counted_ || ellipse)) return;
+    if (abs(t) > half && (counted_ || ellipse)) return;
+    // A ring that the tool covers in part is met in the middle of that part.
+    if (counted_)
+      t = (std::max(Fifty(t - half_ring), Fifty(-half)) + std::min(Fifty(t + half_ring), half)) / 2;
     Expected& ring = rings_[i];
     const Fifty outer = sqrt(ring.outer2), inner = sqrt(ring.inner2);
     const Fifty f = half_profile(scene_.tool.shape, t);
@@ -128,30 +144,44 @@ class Recomputed {
     return 2.0 * big * (16.0 * kUlp * big + pole) + kQuantum;
   }
 
-  /// Equations (5)-(8). Returns what was given.
-  Fifty give(const Fifty& amount, double slack, int direction) {
-    const std::size_t length = reach();
+  /// C(x): the sum of P_d(1) .. P_d(x), in between on straight lines.
+  [[nodiscard]] Fifty dealt(const std::vector<Fifty>& sums, const Fifty& x) const {
+    if (x <= 0) return 0;
+    if (x >= sums.size() - 1) return 1;
+    const auto below = static_cast<std::size_t>(floor(x).convert_to<double>());
+    return sums[below] + (x - below) * (sums[below + 1] - sums[below]);
+  }
+
+  [[nodiscard]] std::vector<Fifty> sums_of_weights() const {
     const double h = scene_.lump.ring_height_mm, sigma = scene_.flow.sigma_mm;
-    std::vector<Fifty> weights;
-    Fifty sum = 0;
-    for (std::size_t j = 1; j <= length; ++j) {
+    std::vector<Fifty> sums{0};
+    for (std::size_t j = 1; j <= reach(); ++j) {
       const Fifty x = Fifty(h) * static_cast<unsigned>(j);
-      weights.push_back(x * exp(Fifty(-x * x / (2 * Fifty(sigma) * sigma))));
-      sum += weights.back();
+      sums.push_back(sums.back() + x * exp(Fifty(-x * x / (2 * Fifty(sigma) * sigma))));
     }
+    const Fifty all = sums.back();
+    for (Fifty& sum : sums) sum /= all;
+    return sums;
+  }
+
+  /// Equations (5)-(8), from the tool's end. Returns what was given.
+  Fifty give(const Fifty& amount, double slack, int direction) {
+    const std::vector<Fifty> sums = sums_of_weights();
+    const Fifty offset = direction > 0 ? up_offset_ : down_offset_;
     const Fifty alpha = hollow_ ? Fifty(scene_.flow.inside_share) : Fifty(0);
     // The engine's table has 40 bits of fraction, and a share is cut to a whole quantum.
-    const double grain = counted_ ? 0x1p-39 * amount.convert_to<double>() + 4.0 * kQuantum : 0.0;
-    Fifty given = 0;
-    for (std::size_t j = 1; j <= length; ++j) {
+    const double grain = counted_ ? 0x1p-38 * amount.convert_to<double>() + 4.0 * kQuantum : 0.0;
+    Fifty given = 0, before = 0;
+    for (std::size_t j = 1; j <= reach() + (counted_ ? 1 : 0); ++j) {
       const std::size_t from = direction > 0 ? top_ : bottom_;
       if (direction > 0 ? from + j >= rings_.size() : j > from) break;
       Expected& ring = rings_[direction > 0 ? from + j : from - j];
-      const Fifty share = weights[j - 1] / sum * amount;
-      const Fifty inside = std::min(Fifty(alpha * share), ring.inner2);
+      const Fifty part = dealt(sums, j + offset) - before;
+      before += part;
+      const Fifty share = part * amount, inside = std::min(Fifty(alpha * share), ring.inner2);
       ring.inner2 -= inside;
       ring.outer2 += share - inside;
-      const double loose = grain + slack * (weights[j - 1] / sum).convert_to<double>();
+      const double loose = grain + slack * part.convert_to<double>();
       ring.inner_slack += loose;
       ring.outer_slack += loose;
       given += share;
@@ -163,6 +193,8 @@ class Recomputed {
   const SceneSpec& scene_;
   Section section_;
   glm::dvec3 hip_;
+  Fifty rise_;  ///< since the last pose, in rings
+  Fifty up_offset_ = 0, down_offset_ = 0;
   std::vector<Expected> rings_;
   bool none_ = false, outside_ = true, hollow_ = false;
   std::size_t bottom_ = 0, top_ = 0;
@@ -170,13 +202,17 @@ class Recomputed {
   double slack_ = 0.0;
 };
 
+/// On a grid of 1/256 mm, so that no offset of the kernel is rounded (it has 20 bits of fraction).
+double on_grid(double mm) { return std::round(256.0 * mm) / 256.0; }
+
 SceneSpec random_scene(Hand& hand) {
   SceneSpec scene = small_pot();
   const double shape = hand.uniform();
   if (shape < 0.3)
-    scene.tool.shape = EllipseSpec{4.0 + 8.0 * hand.uniform(), 3.0 + 6.0 * hand.uniform()};
+    scene.tool.shape = EllipseSpec{on_grid(4.0 + 8.0 * hand.uniform()), 3.0 + 6.0 * hand.uniform()};
   else if (shape < 0.6)
-    scene.tool.shape = RibSpec{4.0 + 20.0 * hand.uniform(), 3.0 + 6.0 * hand.uniform()};
+    scene.tool.shape =
+        RibSpec{2.0 * on_grid(2.0 + 10.0 * hand.uniform()), 3.0 + 6.0 * hand.uniform()};
   scene.removal.rate_per_s = 1.0 + 60.0 * hand.uniform();
   scene.flow.sigma_mm = 1.0 + 6.0 * hand.uniform();
   scene.flow.reach_mm = std::floor(1.0 + 16.0 * hand.uniform());
@@ -220,18 +256,18 @@ Outcome one_step_again(Who who) {
     const auto subject = std::move(put_on_wheel(who, scene).value());
     Pose pose = hand.next();
     subject->step(pose);
-    double up = 1.0;
-    for (int k = 0; k < 200; ++k) {
-      const Pose next{pose.time_us + 1000, hand.next().position_mm, false};
-      if (next.position_mm.y != pose.position_mm.y) up = next.position_mm.y - pose.position_mm.y;
+    for (int k = 0; k < 20; ++k) {
+      for (int wild = 0; wild < 8; ++wild) subject->step(pose = hand.next());
+      // Less than 0.05 mm from here on, which is a tick in one part; first to the grid.
+      pose = {pose.time_us + 400, pose.position_mm, false};
+      pose.position_mm.y = on_grid(pose.position_mm.y);
+      subject->step(pose);
+      const double rise = std::floor(17.0 * hand.uniform() - 8.0) / 256.0;
+      if (rise == 0.0) continue;
+      pose = {pose.time_us + 400,
+              pose.position_mm + glm::dvec3(0.04 * hand.uniform() - 0.02, rise, 0.0), false};
       const std::size_t rings = subject->rings();
-      pose = next;
-      // Every tick deforms the pot; one in ten is computed again.
-      if (k % 10 != 0) {
-        subject->step(pose);
-        continue;
-      }
-      const Recomputed step(who, scene, section_of(*subject), up > 0.0, pose.position_mm);
+      const Recomputed step(who, scene, section_of(*subject), rise > 0.0, pose.position_mm, rise);
       subject->step(pose);
       if (!step.pressed() || subject->rings() != rings) continue;
       if (!subject->fault().empty()) break;  // the paper's own, in other cases of the suite

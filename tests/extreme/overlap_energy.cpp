@@ -1,5 +1,6 @@
 #include "extreme/overlap_energy.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -29,69 +30,68 @@ Fifty half_profile(const ToolShapeSpec& shape, const Fifty& t) {
   return under > 0 ? Fifty(b * sqrt(under)) : Fifty(0);
 }
 
-OverlapEnergy::OverlapEnergy(ToolShapeSpec shape, Section section, double stiffness_n_per_mm,
+OverlapEnergy::OverlapEnergy(ToolShapeSpec shape, Section section, double stiffness_n_per_mm2,
                              bool outside)
     : shape_(std::move(shape)),
       section_(std::move(section)),
-      stiffness_(stiffness_n_per_mm),
+      stiffness_(stiffness_n_per_mm2),
+      ring_height_(section_.centres_mm[1] - section_.centres_mm[0]),
       tools_{{outside, 0.0}} {}
 
-OverlapEnergy::OverlapEnergy(ToolShapeSpec shape, Section section, double stiffness_n_per_mm,
+OverlapEnergy::OverlapEnergy(ToolShapeSpec shape, Section section, double stiffness_n_per_mm2,
                              double gap_mm)
-    : OverlapEnergy(std::move(shape), std::move(section), stiffness_n_per_mm, true) {
+    : OverlapEnergy(std::move(shape), std::move(section), stiffness_n_per_mm2, true) {
   const double reach = 0.5 * gap_mm + half_profile(shape_, 0).convert_to<double>();
   tools_ = {{true, reach}, {false, -reach}};
 }
 
-Fifty OverlapEnergy::depth(std::size_t i, const Point& hip, const Standing& tool) const {
-  const Fifty t = section_.centres_mm[i] - hip.y;
-  if (abs(t) > half_height_mm(shape_)) return 0;
-  const Fifty f = half_profile(shape_, t);
-  const Fifty d = abs(Fifty(sqrt(Fifty(hip.x * hip.x + hip.z * hip.z)) + tool.from_hip_mm));
-  const Fifty depth = tool.outside ? Fifty(section_.rings[i].outer_mm + f - d)
-                                   : Fifty(d + f - section_.rings[i].inner_mm);
-  return depth > 0 ? depth : Fifty(0);
+/// In s with t = a sin s, so that f is smooth up to its poles.
+double OverlapEnergy::of_ring(std::size_t i, double hip_y, double d, bool outside) const {
+  static constexpr double kNodes[] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
+                                      0.9602898564975363};
+  static constexpr double kWeights[] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
+                                        0.1012285362903763};
+  const double half = half_height_mm(shape_), middle = section_.centres_mm[i] - hip_y;
+  const double from = std::max(middle - 0.5 * ring_height_, -half);
+  const double to = std::min(middle + 0.5 * ring_height_, half);
+  if (!(to > from)) return 0.0;
+  const auto* rib = std::get_if<RibSpec>(&shape_);
+  const auto* ellipse = std::get_if<EllipseSpec>(&shape_);
+  const double width = rib ? rib->radius_mm : ellipse ? ellipse->half_width_mm : half;
+  const auto depth2 = [&](double s) {
+    const double f = rib ? width : width * std::cos(s);
+    const double depth =
+        outside ? section_.rings[i].outer_mm + f - d : d + f - section_.rings[i].inner_mm;
+    return depth > 0.0 ? depth * depth * half * std::cos(s) : 0.0;
+  };
+  const double low = std::asin(from / half), high = std::asin(to / half);
+  double sum = 0.0;
+  for (int k = 0; k < 4; ++k)
+    for (const double side : {-1.0, 1.0})
+      sum += kWeights[k] * depth2(0.5 * (low + high) + 0.5 * (high - low) * side * kNodes[k]);
+  return 0.5 * (high - low) * sum;
 }
 
-Fifty OverlapEnergy::at(const Point& hip) const {
-  Fifty sum = 0;
-  for (const Standing& tool : tools_)
-    for (std::size_t i = 0; i < section_.rings.size(); ++i) {
-      const Fifty overlap = depth(i, hip, tool);
-      sum += overlap * overlap;
-    }
-  return stiffness_ / 2 * sum;
+double OverlapEnergy::at(const glm::dvec3& hip_mm) const {
+  double sum = 0.0;
+  for (const Standing& tool : tools_) {
+    const double d = std::abs(std::hypot(hip_mm.x, hip_mm.z) + tool.from_hip_mm);
+    for (std::size_t i = 0; i < section_.rings.size(); ++i)
+      sum += of_ring(i, hip_mm.y, d, tool.outside);
+  }
+  return 0.5 * stiffness_ * sum;
 }
 
 glm::dvec3 OverlapEnergy::force_n(const glm::dvec3& hip_mm) const {
-  const Fifty step("1e-12");
+  constexpr double kStep = 1e-4;  // E is of third order smooth but at the rim of the contact
   glm::dvec3 force(0.0);
   for (int axis = 0; axis < 3; ++axis) {
-    Point plus{hip_mm.x, hip_mm.y, hip_mm.z}, minus = plus;
-    Fifty Point::*const coordinate = axis == 0 ? &Point::x : axis == 1 ? &Point::y : &Point::z;
-    plus.*coordinate += step;
-    minus.*coordinate -= step;
-    force[axis] = Fifty((at(minus) - at(plus)) / (2 * step)).convert_to<double>();
+    glm::dvec3 plus = hip_mm, minus = hip_mm;
+    plus[axis] += kStep;
+    minus[axis] -= kStep;
+    force[axis] = (at(minus) - at(plus)) / (2.0 * kStep);
   }
   return force;
-}
-
-bool OverlapEnergy::smooth_at(double hip_y_mm) const {
-  const double half = half_height_mm(shape_);
-  const double held = std::holds_alternative<RibSpec>(shape_) ? 1.0 - 1e-6 : 127.0 / 128.0;
-  for (const double centre : section_.centres_mm) {
-    const double u = std::abs(centre - hip_y_mm) / half;
-    if (u > held && u < 1.0 + 1e-6) return false;
-  }
-  return true;
-}
-
-std::size_t OverlapEnergy::touched(const glm::dvec3& hip_mm) const {
-  const Point hip{hip_mm.x, hip_mm.y, hip_mm.z};
-  std::size_t count = 0;
-  for (const Standing& tool : tools_)
-    for (std::size_t i = 0; i < section_.rings.size(); ++i) count += depth(i, hip, tool) > 0;
-  return count;
 }
 
 }  // namespace clay::extreme

@@ -111,30 +111,36 @@ Outcome gap_not_in_the_scene(Who who) {
   return trial.done();
 }
 
+/// As minus_gradient. The axes of both tools stay outside the wall: else a pole, where f' has no
+/// bound, is in the clay.
 Outcome minus_gradient_of_both(Who who) {
   if (who == Who::literal) return kOneTool;
-  constexpr double kSoftNPerMm = 5e-4, kTolerance = 1e-12;
+  constexpr double kSoftNPerMm2 = 5e-4, kRingMm = 1.0 / 32.0, kTolerance = 1e-4;
   Hand hand(23);
-  double worst = 0.0;
-  int poses = 0;
-  for (int k = 0; k < 80; ++k) {
+  double worst = 0.0, largest = 0.0;
+  for (int k = 0; k < 60; ++k) {
     SceneSpec scene = pinched_pot(22.0);
-    if (k % 2 == 0) scene.tool.shape = EllipseSpec{10.0, 4.0};
-    scene.force->stiffness_n_per_mm2 = kSoftNPerMm;
+    if (k % 2 == 0) scene.tool.shape = EllipseSpec{10.0, 7.0};
+    scene.lump.ring_height_mm = kRingMm;
+    scene.lump.rings = 1920;
+    scene.lump.max_rings = 0;
+    scene.force->stiffness_n_per_mm2 = kSoftNPerMm2;
     Trial trial(who, scene);
     const double gap = 0.5 + 7.0 * hand.uniform(), azimuth = 6.28 * hand.uniform();
     const double d = 24.0 + 4.0 * hand.uniform();
-    const glm::dvec3 hip(d * std::cos(azimuth), 5.0 + 50.0 * hand.uniform(), d * std::sin(azimuth));
-    const OverlapEnergy energy(scene.tool.shape, section_of(trial.subject()), kSoftNPerMm, gap);
-    if (!energy.smooth_at(hip.y)) continue;
+    const glm::dvec3 hip(d * std::cos(azimuth), -3.0 + 66.0 * hand.uniform(),
+                         d * std::sin(azimuth));
+    const OverlapEnergy energy(scene.tool.shape, section_of(trial.subject()), kSoftNPerMm2, gap);
     trial.pinch(gap);
-    const double off = glm::length(trial.at(hip).force_n - energy.force_n(hip));
+    const glm::dvec3 expected = energy.force_n(hip);
+    const double off = glm::length(trial.at(hip).force_n - expected);
     worst = std::max(worst, off);
-    poses += energy.touched(hip) > 0;
-    if (!(off <= kTolerance)) return {Verdict::failed, fmt::format("{:.3g} N off", off)};
+    largest = std::max(largest, glm::length(expected));
+    if (!(off <= kTolerance * 0.02))  // N; the largest is above 0.02 N, see below
+      return {Verdict::failed, fmt::format("{:.3g} N off at {:.3g} N", off, glm::length(expected))};
   }
-  if (poses < 50) return {Verdict::failed, fmt::format("only {} poses touched", poses)};
-  return {Verdict::passed, fmt::format("{} poses, at most {:.2g} N off", poses, worst)};
+  if (largest < 0.02) return {Verdict::failed, "no contact to speak of"};
+  return {Verdict::passed, fmt::format("at most {:.2g} N off, at up to {:.2g} N", worst, largest)};
 }
 
 constexpr Case kCases[] = {
@@ -163,7 +169,7 @@ constexpr Case kCases[] = {
     {"gap_not_in_the_scene", "a gap where the scene sets none", "refused", "bytes",
      Verdict::not_in_print, gap_not_in_the_scene},
     {"minus_gradient_of_both", "two tools at random poses",
-     "force = -grad of both overlap energies to 1e-12 N", "differences in 50 digits",
+     "force = -grad of both overlap energies to 1e-4 of it", "differences of an integral",
      Verdict::not_in_print, minus_gradient_of_both},
 };
 

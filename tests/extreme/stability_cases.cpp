@@ -155,11 +155,16 @@ Outcome collapse_at(Who who, std::size_t i) {
   trial.require(trial.last().collapsed, "stands");
   if (const Wheel* wheel = trial.subject().wheel(); wheel && trial.going_well()) {
     const Pot pot = wheel->pot();
+    const Collapse fallen = pot.collapse.value_or(Collapse{});
     trial.require(pot.collapse.has_value(), "no collapse in the pot");
-    trial.require(pot.collapse && pot.collapse->failed_ring == i, "another ring failed");
-    trial.require(pot.collapse && pot.collapse->angle_rad >= 0.0 &&
-                      pot.collapse->angle_rad <= std::numbers::pi,
-                  "an angle that is none");
+    trial.require(fallen.failed_ring == i, "another ring failed");
+    trial.require(std::abs(fallen.angle_rad) <= 2.0 * std::numbers::pi, "an angle that is none");
+    trial.require(std::isfinite(fallen.shift_mm.x + fallen.shift_mm.y + fallen.shift_mm.z),
+                  "a shift that is none");
+    trial.require(fallen.energy_lost_mj >= 0.0 && fallen.plastic_work_mj >= 0.0 &&
+                      fallen.plastic_work_mj <= fallen.energy_lost_mj,
+                  fmt::format("{:.3g} mJ lost, {:.3g} mJ spent", fallen.energy_lost_mj,
+                              fallen.plastic_work_mj));
     const std::string before = trial.subject().bytes();
     trial.stroke({36, 10, 0}, {20, 20, 0}, 20);
     trial.require(trial.subject().bytes() == before, "a fallen stack was pressed");
@@ -193,10 +198,11 @@ constexpr Case kCases[] = {
      Verdict::passed, threshold_to_the_ulp},
     {"lump_too_heavy", "a lump that cannot carry itself", "refused, or collapsed at once",
      "rho g h (N - 1)", Verdict::failed, lump_too_heavy},
-    {"collapse_at_the_base", "the lowest ring is cut until it fails", "clay kept, no NaN, at rest",
-     "exact rationals, bytes", Verdict::passed, collapse_at_the_base},
+    {"collapse_at_the_base", "the lowest ring is cut until it fails",
+     "clay kept, no energy won, at rest", "exact rationals, bytes", Verdict::passed,
+     collapse_at_the_base},
     {"collapse_below_the_top", "the last ring but one is cut until it fails",
-     "clay kept, no NaN, at rest", "exact rationals, bytes", Verdict::failed,
+     "clay kept, no energy won, at rest", "exact rationals, bytes", Verdict::failed,
      collapse_below_the_top},
     {"top_never_fails", "the top ring is cut to a thread", "stands: it bears nothing",
      "M = 0, exact rationals", Verdict::passed, top_never_fails},

@@ -208,8 +208,9 @@ TEST(FalconDevice, TheLastPacketIsZeroAfterStop) {
   ASSERT_NE(bench.model->motors(), LegCounts{});
   bench.device->stop();
   EXPECT_EQ(bench.model->motors(), LegCounts{});
+  const std::uint64_t frames = bench.model->frames();
   bench.tick({4, 0, 0});
-  EXPECT_EQ(bench.model->motors(), LegCounts{}) << "a force after stop";
+  EXPECT_EQ(bench.model->frames(), frames) << "a frame after the last one";
   ASSERT_TRUE(bench.device->open());
   bench.tick();
   bench.tick({4, 0, 0});
@@ -314,6 +315,17 @@ TEST(FalconDevice, IsNotAtFaultWhenTheHostPauses) {
   const DeviceSample sample = bench.device->read(0);
   EXPECT_EQ(sample.state, DeviceState::ready);
   EXPECT_TRUE(sample.fresh);
+}
+
+TEST(FalconDevice, ReadsTheNewestOfManyFrames) {
+  Bench bench(ready_model());
+  ASSERT_TRUE(bench.device->open());
+  bench.tick();
+  for (int i = 0; i < 60; ++i) bench.device->write({});  // 960 bytes come at once
+  const DeviceSample sample = bench.device->read(kTickUs);
+  const glm::dvec3 newest = 1e3 * (on_circle(bench.frame - 1) - Kinematics::kCentreM);
+  EXPECT_LT(glm::distance(sample.position_mm, newest), kEncoderMm);
+  EXPECT_FALSE(bench.device->read(0).fresh);
 }
 
 TEST(FalconDevice, DoesNotBelieveAnglesWithoutAPose) {

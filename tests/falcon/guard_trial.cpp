@@ -73,7 +73,8 @@ bool Allowance::believable(const Tick& tick, const GuardSample& sample) {
     suspected_ = !suspected_;
     return false;
   }
-  unsure_frames_ = std::max(0, unsure_frames_ - 1);
+  // Three frames in one place: whatever the guard knew, now it knows this.
+  if (unsure_frames_ > 0) unsure_frames_ = (tick.leap_mm != believed_mm_ ? 3 : unsure_frames_) - 1;
   place_known_ = any_frame_ = true;
   believed_mm_ = tick.leap_mm;
   suspected_ = false;

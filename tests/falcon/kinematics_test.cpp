@@ -208,16 +208,62 @@ RC_GTEST_PROP(Jacobian, IsTheSlopeOfTheAngles, ()) {
   const double step = 1e-5;
   for (const glm::dvec3& axis : kAxes) {
     const glm::dvec3 slope = angle_change(device, position, step * axis) / step;
-    RC_ASSERT(glm::distance(jacobian * axis, slope) < 1e-5 * glm::length(slope));
+    RC_ASSERT(glm::distance(jacobian * axis, slope) < 1e-6 * glm::length(slope));
   }
 }
 
+// Central differences leave an error of order 3; two of them, one twice as long, of order 5.
 RC_GTEST_PROP(Torques, DoTheWorkOfTheForce, ()) {
   const Kinematics& device = any_device();
-  const glm::dvec3 position = anywhere(), force = any_vector(8.0), step = any_vector(1e-6);
+  const glm::dvec3 position = anywhere(), force = any_vector(8.0), way = any_vector(1.0);
+  RC_PRE(glm::length(way) > 0.1);
+  const glm::dvec3 step = 2e-5 * glm::normalize(way);
+  const glm::dvec3 change =
+      (8.0 * angle_change(device, position, 0.5 * step) - angle_change(device, position, step)) /
+      3.0;
+  const double work = glm::dot(device.torques(position, force).value(), change);
+  RC_ASSERT(std::abs(work - glm::dot(force, step)) <= 1e-9 * glm::length(force) * 2e-5);
+}
+
+RC_GTEST_PROP(Torques, GiveAsMuchPowerAsTheHandTakes, ()) {
+  const Kinematics& device = any_device();
+  const glm::dvec3 position = anywhere(), force = any_vector(8.0), velocity = any_vector(1.0);
   const glm::dvec3 torques = device.torques(position, force).value();
-  const double work = glm::dot(torques, angle_change(device, position, step));
-  RC_ASSERT(std::abs(work - glm::dot(force, step)) < 1e-12);
+  const glm::dvec3 turning = device.jacobian(position).value() * velocity;
+  RC_ASSERT(std::abs(glm::dot(torques, turning) - glm::dot(force, velocity)) <=
+            1e-12 * (glm::length(torques) * glm::length(turning) + 1e-3));
+}
+
+// The force that torques make, by slopes of the angles taken numerically: F = J^T torques.
+RC_GTEST_PROP(Torques, PushInTheDirectionAskedFor, ()) {
+  const Kinematics& device = any_device();
+  const glm::dvec3 position = anywhere(), force = any_vector(8.0);
+  RC_PRE(glm::length(force) > 1e-3);
+  const glm::dvec3 torques = device.torques(position, force).value();
+  glm::dvec3 felt(0.0);
+  const double step = 1e-5;
+  for (int axis = 0; axis < 3; ++axis)
+    felt[axis] = glm::dot(torques, angle_change(device, position, step * kAxes[axis])) / step;
+  const double sine = glm::length(glm::cross(felt, force)) / glm::length(felt) / glm::length(force);
+  RC_ASSERT(glm::dot(felt, force) > 0.0);
+  RC_ASSERT(std::asin(std::min(sine, 1.0)) < 0.01 * kPi / 180);
+  RC_ASSERT(std::abs(glm::length(felt) / glm::length(force) - 1.0) < 1e-6);
+}
+
+// Whole counts turn it a little: each torque is off by half a count at most, and the three forces
+// that torques of one count make bound what that does.
+RC_GTEST_PROP(Torques, InWholeCountsKeepTheDirectionToTheCount, ()) {
+  const Kinematics& device = any_device();
+  const glm::dvec3 position = anywhere(), force = any_vector(20.0);  // often beyond the motors
+  const MotorCounts motors = motor_counts(device.torques(position, force).value());
+  const glm::dmat3 jacobian = device.jacobian(position).value();
+  const auto force_of = [&jacobian](const glm::dvec3& counts) {
+    return -1.0 / kMotorCountsPerNm * counts * jacobian;
+  };
+  const glm::dvec3 felt = force_of({motors.counts[0], motors.counts[1], motors.counts[2]});
+  double off = 1e-9;
+  for (const glm::dvec3& motor : kAxes) off += 0.5 * glm::length(force_of(motor));
+  RC_ASSERT(glm::distance(felt, motors.rendered * force) <= off);
 }
 
 TEST(Torques, ReportALegWhoseShinsLieFlat) {

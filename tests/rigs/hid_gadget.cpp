@@ -91,6 +91,7 @@ void BridgeGadget::out(std::span<const std::uint8_t> report) {
     ++bad_reports;
     return;
   }
+  bytes += report[0];
   const falcon::Answer answer = device.model.receive(report.subspan(1, report[0]), kFrameS);
   auto left = answer.span();
   while (!left.empty()) {

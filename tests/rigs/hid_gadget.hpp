@@ -33,6 +33,7 @@ class BridgeGadget final : public HidGadget {
 
   HandledModel device;
   std::uint64_t bad_reports = 0;  ///< that the layout does not allow
+  std::uint64_t bytes = 0;        ///< that reports brought, by their counts
 };
 
 /// A SpaceMouse: it says what the test puts into `reports`.

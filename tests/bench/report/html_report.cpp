@@ -63,15 +63,21 @@ std::string html_of(const Table& table) {
 
 std::string html_of(const std::vector<Value>& values) {
   if (values.empty()) return {};
-  std::string html =
-      "<div class=\"scroll\"><table>\n<tr><th>figure</th><th class=\"number\">median</th>"
-      "<th class=\"number\">spread<small>interquartile</small></th><th></th></tr>\n";
-  for (const Value& value : values)
-    html += fmt::format(
-        "<tr><td><code>{}</code></td><td class=\"number\">{}</td><td class=\"number spread\">{}"
-        "</td><td>{}</td></tr>\n",
-        escaped(value.name), short_number(value.median),
-        value.spread == 0.0 ? "" : short_number(value.spread), escaped(value.about));
+  const bool timed =
+      std::ranges::any_of(values, [](const Value& value) { return value.spread != 0.0; });
+  std::string html = fmt::format(
+      "<div class=\"scroll\"><table>\n<tr><th>figure</th><th class=\"number\">{}</th>{}"
+      "<th></th></tr>\n",
+      timed ? "median" : "value",
+      timed ? "<th class=\"number\">spread<small>interquartile</small></th>" : "");
+  for (const Value& value : values) {
+    const std::string spread = value.spread == 0.0 ? "" : short_number(value.spread);
+    html +=
+        fmt::format("<tr><td><code>{}</code></td><td class=\"number\">{}</td>{}<td>{}</td></tr>\n",
+                    escaped(value.name), short_number(value.median),
+                    timed ? fmt::format("<td class=\"number spread\">{}</td>", spread) : "",
+                    escaped(value.about));
+  }
   return html + "</table></div>\n";
 }
 
@@ -101,7 +107,8 @@ std::string header_of(const Report& report) {
       "<dt>version</dt><dd>{}</dd>\n</dl>\n"
       "<p class=\"note\">Times are medians of repetitions, run by turns in an order that changes; "
       "the spread is the interquartile range, the middle half of them. Ratios are taken round by "
-      "round. A requirement on a time is missed where three quarters of the rounds miss it.</p>\n"
+      "round. Ticks are told in time of the processor, exports by the clock on the wall. A "
+      "requirement on a time is missed where three quarters of the rounds miss it.</p>\n"
       "<nav>",
       escaped(report.command), escaped(m.cpu), m.cores, escaped(m.system), escaped(m.compiler),
       escaped(m.flags), escaped(m.version));

@@ -36,6 +36,9 @@ struct Report {
 /// column names, numbers with all their digits, nothing where there is none.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> csv_files(const Report& report);
 
+/// Name and content of a drawing for each plot and map.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> svg_files(const Report& report);
+
 /// One page that needs no other file, no network and no script; well-formed as XML, too.
 [[nodiscard]] std::string html_of(const Report& report);
 

@@ -31,7 +31,7 @@ struct FallFrame {
   friend bool operator==(const FallFrame&, const FallFrame&) = default;
 };
 
-/// The fall that led to `pot.collapse`, worked out again, so that it can be shown; a few hundred
+/// The fall that led to `pot.collapse`, worked out again, so that it can be shown; some hundreds of
 /// frames, none farther from the last than 1/400 of the fallen part's size. Empty for a pot that
 /// stands and for a collapse that does not say its threshold. Uses libm.
 [[nodiscard]] std::vector<FallFrame> fall_frames(const Pot& pot);

@@ -1,6 +1,8 @@
 #pragma once
 #include "claystack/engine/quanta.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -18,21 +20,39 @@ class RayleighKernel {
 
   [[nodiscard]] std::size_t length() const noexcept { return cumulative_.size() - 1; }  ///< L1
 
-  /// Deals an amount out to the rings 1..L1 in their order, to the quantum: what all of them get
-  /// adds up to it.
+  /// Deals an amount out to the rings 1, 2, .. in their order, to the quantum: what rings 1..L1 get
+  /// adds up to it. `offset` (in ring heights, at least -1) moves all rings away from the tool:
+  /// ring j then gets what lies between j - 1 + offset and j + offset in a distribution that is
+  /// even within each ring of the table, ring 1 also what lies before it. A negative offset leaves
+  /// something to ring L1 + 1.
   class Dealer {
    public:
-    Dealer(const RayleighKernel& kernel, WideQuanta amount) noexcept
-        : next_(kernel.cumulative_.data() + 1), amount_(amount) {}
-    /// The share of the next ring. Call it at most L1 times.
+    Dealer(const RayleighKernel& kernel, WideQuanta amount, double offset = 0.0) noexcept
+        : kernel_(&kernel),
+          at_(static_cast<std::int64_t>(std::floor(offset))),
+          between_(static_cast<std::int64_t>((offset - std::floor(offset)) * kBetweenOne)),
+          amount_(amount) {}
+    /// The share of the next ring.
     WideQuanta next() noexcept {
       const WideQuanta before = dealt_;
-      dealt_ = part(amount_, *next_++);
+      ++at_;
+      dealt_ = part(amount_, reached());
       return dealt_ - before;
     }
 
    private:
-    const std::int64_t* next_;
+    static constexpr int kBetweenBits = 20;
+    static constexpr double kBetweenOne = 1 << kBetweenBits;
+
+    [[nodiscard]] std::int64_t reached() const noexcept {
+      const std::int64_t below = kernel_->cumulative(at_);
+      if (between_ == 0) return below;
+      return below + (((kernel_->cumulative(at_ + 1) - below) * between_) >> kBetweenBits);
+    }
+
+    const RayleighKernel* kernel_;
+    std::int64_t at_;       ///< whole rings of the table ..
+    std::int64_t between_;  ///< .. and a fraction, in 2^-20
     WideQuanta amount_;
     WideQuanta dealt_ = 0;
   };
@@ -48,6 +68,10 @@ class RayleighKernel {
     if (const auto narrow = static_cast<std::int64_t>(amount); narrow == amount)
       return (WideQuanta{narrow} * fraction) >> kFractionBits;
     return (amount * fraction) >> kFractionBits;
+  }
+  [[nodiscard]] std::int64_t cumulative(std::int64_t j) const noexcept {
+    const auto last = static_cast<std::int64_t>(length());
+    return cumulative_[static_cast<std::size_t>(std::clamp<std::int64_t>(j, 0, last))];
   }
   std::vector<std::int64_t> cumulative_;  ///< C_0 = 0 .. C_L1 = 2^40
 };

@@ -68,14 +68,14 @@ std::string csv_of(const Map& map) {
 }
 
 /// No id leaves the folder.
-std::string file_name(const std::string& id) {
+std::string file_name(const std::string& id, const char* ending) {
   std::string name;
   for (const char c : id) {
     const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
                        c == '-' || c == '_';
     name += plain ? c : '_';
   }
-  return name + ".csv";
+  return name + ending;
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ std::string file_name(const std::string& id) {
 std::vector<std::pair<std::string, std::string>> csv_files(const Report& report) {
   std::vector<std::pair<std::string, std::string>> files;
   const auto add = [&](const std::string& id, std::string csv) {
-    files.emplace_back(file_name(id), std::move(csv));
+    files.emplace_back(file_name(id, ".csv"), std::move(csv));
   };
   for (const Section& section : report.sections) {
     if (!section.values.empty()) add(section.id + "_values", csv_of(section.values));
@@ -93,6 +93,17 @@ std::vector<std::pair<std::string, std::string>> csv_files(const Report& report)
       add(map.id, csv_of(map));
       if (!map.curves.empty()) add(map.id + "_curves", csv_of(map.curves));
     }
+  }
+  return files;
+}
+
+std::vector<std::pair<std::string, std::string>> svg_files(const Report& report) {
+  std::vector<std::pair<std::string, std::string>> files;
+  for (const Section& section : report.sections) {
+    for (const Plot& plot : section.plots)
+      files.emplace_back(file_name(plot.id, ".svg"), svg_of(plot, plot::Place::alone));
+    for (const Map& map : section.maps)
+      files.emplace_back(file_name(map.id, ".svg"), svg_of(map, plot::Place::alone));
   }
   return files;
 }

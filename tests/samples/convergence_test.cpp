@@ -1,0 +1,46 @@
+// The sample pots do not know how high their rings are, nor how often the hand was asked.
+
+#include "bench/convergence_experiments.hpp"
+#include "strokes.hpp"
+
+#include "claystack/engine/atomic_file.hpp"
+#include "claystack/engine/scene_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace clay::samples {
+namespace {
+
+template <class Parse>
+auto parse_file(const std::string& path, Parse parse) {
+  return read_file(path)
+      .and_then([&](const std::string& text) { return parse(text, path); })
+      .value();
+}
+
+class ThrownPot : public testing::TestWithParam<const char*> {};
+
+TEST_P(ThrownPot, DependsNeitherOnItsRingsNorOnTheRate) {
+  const std::string folder = CLAYSTACK_SAMPLES "/", name = GetParam();
+  const SceneSpec scene = parse_file(folder + name + ".scene.json", parse_scene);
+  const auto poses = play(parse_file(folder + "strokes/" + name + ".strokes.json", parse_strokes));
+  const double percent = 100.0 / scene.lump.outer_radius_mm;
+
+  const auto pot = bench::played(scene, poses);
+  const auto fine = bench::played(bench::refined(scene, 10), poses);
+  EXPECT_LT(percent * bench::profile_difference(pot.stack, fine.stack).rms_mm, 0.5);
+  EXPECT_LT(bench::force_difference(pot, fine).rms_percent, 1.0);
+
+  const auto often = bench::played(scene, bench::resampled(poses, 250));
+  const auto off = bench::profile_difference(pot.stack, often.stack);
+  EXPECT_LT(percent * off.rms_mm, 0.2);
+  EXPECT_LT(percent * off.outline_mm, 0.2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Samples, ThrownPot, testing::Values("bowl", "vase", "bottle"),
+                         [](const auto& pot) { return std::string(pot.param); });
+
+}  // namespace
+}  // namespace clay::samples
