@@ -14,7 +14,8 @@ class Pacer {
  public:
   explicit Pacer(std::int64_t period_ns) noexcept : period_ns_(period_ns) {}
 
-  void start(std::int64_t now_ns) noexcept { deadline_ns_ = now_ns; }
+  /// A device may have been asked just now.
+  void start(std::int64_t now_ns) noexcept { deadline_ns_ = now_ns + period_ns_ / 2; }
 
   /// Sleeps until the deadline; how late it woke [ns].
   [[nodiscard]] std::int64_t wait(Clock& clock) noexcept {
