@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -186,6 +187,16 @@ TEST(LiveLoop, WithoutFramesTheClayStandsAndTheForceIsGoneIn10Ms) {
   EXPECT_EQ(n, 0.0);
   live.run(3.0);
   EXPECT_NE(live.wheel.pot(), before) << "and then it goes on";
+}
+
+TEST(LiveLoop, AFrameThatLeapsIntoTheClayCutsNothing) {
+  VirtualThrow live(rib_scene(), one_to_one(), [](double t) {
+    return glm::dvec3(t > 2.0 && t < 2.0015 ? -20.0 : 2.0, 0.0, 0.0);
+  });
+  live.run(2.5);
+  EXPECT_GE(live.loop->events().flags[std::countr_zero(unsigned{falcon::kGuardJump})], 1u)
+      << "a jump";
+  EXPECT_EQ(live.wheel.pot(), Wheel::build(rib_scene())->pot());
 }
 
 TEST(LiveLoop, HomingLostIsNoForceInTheSameTickAndNoClay) {
