@@ -161,6 +161,7 @@ class LastPacket : public testing::Test {
     if (child == 0) {
       const rlimit no_core{0, 0};
       setrlimit(RLIMIT_CORE, &no_core);
+      alarm(60);  // one that does not end is no orphan
       const ForceSignals signals;
       Threads threads(*log_);
       Servo servo(threads.bench(), threads.loop, false);
