@@ -38,6 +38,8 @@ RayleighKernel::RayleighKernel(double sigma_mm, double reach_mm, double ring_hei
     // Summed in the order of `total`, so the last quotient is 1 and C_L1 is exactly 2^40.
     cumulative_[j] = static_cast<std::int64_t>(sum / total * kOne + 0.5);
   }
+  const auto all = std::lower_bound(cumulative_.begin(), cumulative_.end(), cumulative_.back());
+  effective_length_ = static_cast<std::size_t>(all - cumulative_.begin());
 }
 
 double RayleighKernel::weight(std::size_t j) const noexcept {

@@ -3,6 +3,8 @@
 #include "stack_writer.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 
 namespace clay {
 namespace {
@@ -12,7 +14,8 @@ constexpr int kShareBits = 30;
 // A tick has a bounded length; the crown holds what is left for the next one.
 constexpr std::size_t kMostGrowthPerTick = 64;
 
-WideQuanta take(std::span<const Bite> bites, StackWriter& writer) noexcept {
+WideQuanta take(std::span<const Bite> bites, ClayStack& stack) noexcept {
+  StackWriter writer(stack);
   WideQuanta total = 0;
   for (const auto& [contact, removed] : bites) {
     for (std::size_t k = 0; k < removed.size(); ++k) {
@@ -38,48 +41,61 @@ Split split(WideQuanta amount, std::int64_t inside_share, const ClayStack& stack
 }
 
 /// One ring's share, (5)-(8) in squared radii: R^2 gains, r^2 loses. Returns what found room.
-WideQuanta place(std::size_t ring, WideQuanta inside, WideQuanta outside,
-                 StackWriter& writer) noexcept {
-  const WideQuanta placed = inside > 0 ? writer.put_inside(ring, inside) : 0;
+template <class Amount>
+Amount place(std::size_t ring, Amount inside, Amount outside, StackWriter& writer) noexcept {
+  const Amount placed = inside > 0 ? writer.put_inside(ring, inside) : 0;
   return placed + writer.put_outside(ring, outside + inside - placed);
 }
 
 /// Gives `count` rings their shares, the j-th of them being ring_of(j). Returns what is left over.
 /// With a rim the last of them is the top ring: the rim notes what one above would have got more.
-template <class RingOf>
-WideQuanta spread(const RayleighKernel& kernel, double offset, Split clay, std::size_t count,
-                  RingOf ring_of, Rim* rim, StackWriter& writer) noexcept {
-  WideQuanta rest = clay.inside + clay.outside;
-  RayleighKernel::Dealer inside(kernel, clay.inside, offset), outside(kernel, clay.outside, offset);
-  const auto next = [&] { return Split{clay.inside > 0 ? inside.next() : 0, outside.next()}; };
-  Split share{0, 0};
+template <class Amount, class RingOf>
+Amount deal(const RayleighKernel& kernel, double offset, Amount clay_inside, Amount clay_outside,
+            std::size_t count, RingOf ring_of, Rim* rim, ClayStack& stack) noexcept {
+  StackWriter writer(stack);
+  Amount rest = clay_inside + clay_outside;
+  RayleighKernel::Dealer dealer(kernel, offset);
+  RayleighKernel::Shares<Amount> insides(clay_inside), outsides(clay_outside);
+  Amount inside = 0, outside = 0;
   for (std::size_t j = 1; j <= count; ++j) {
-    share = next();
-    rest -= place(ring_of(j), share.inside, share.outside, writer);
+    const std::int64_t part = dealer.next();
+    inside = clay_inside > 0 ? insides.next(part) : 0;
+    outside = outsides.next(part);
+    rest -= place(ring_of(j), inside, outside, writer);
   }
   if (rim != nullptr && count > 0) {
-    const Split above = next();
-    rim->inside += above.inside - share.inside;
-    rim->outside += above.outside - share.outside;
+    const std::int64_t part = dealer.next();
+    rim->inside += insides.next(part) - inside;
+    rim->outside += outsides.next(part) - outside;
   }
   return rest;
 }
 
+/// In 64 bits where they do.
+template <class RingOf>
+WideQuanta spread(const RayleighKernel& kernel, double offset, Split clay, std::size_t count,
+                  RingOf ring_of, Rim* rim, ClayStack& stack) noexcept {
+  if (clay.inside + clay.outside <= std::numeric_limits<Quanta>::max())
+    return deal(kernel, offset, static_cast<Quanta>(clay.inside), static_cast<Quanta>(clay.outside),
+                count, ring_of, rim, stack);
+  return deal(kernel, offset, clay.inside, clay.outside, count, ring_of, rim, stack);
+}
+
 /// Equations (5), (6): rings top+1 .. min(top+L1, N).
 WideQuanta flow_up(const RayleighKernel& kernel, Split clay, const Contact& contact,
-                   std::size_t count, Rim* rim, StackWriter& writer) noexcept {
+                   std::size_t count, Rim* rim, ClayStack& stack) noexcept {
   const std::size_t top = contact.top, above = count - 1 - top;
   return spread(
       kernel, contact.up_offset, clay, std::min(flow_reach(kernel), above),
-      [&](std::size_t j) { return top + j; }, above <= flow_reach(kernel) ? rim : nullptr, writer);
+      [&](std::size_t j) { return top + j; }, above <= flow_reach(kernel) ? rim : nullptr, stack);
 }
 
 /// Equations (7), (8): rings max(1, bottom-L1) .. bottom-1.
 WideQuanta flow_down(const RayleighKernel& kernel, Split clay, const Contact& contact,
-                     StackWriter& writer) noexcept {
+                     ClayStack& stack) noexcept {
   return spread(
       kernel, contact.down_offset, clay, std::min(flow_reach(kernel), contact.bottom),
-      [&](std::size_t j) { return contact.bottom - j; }, nullptr, writer);
+      [&](std::size_t j) { return contact.bottom - j; }, nullptr, stack);
 }
 
 /// A tool presses the crown with the top ring, and so makes both alike.
@@ -136,10 +152,10 @@ Flow press_clay(const StepPlan& plan, std::span<const Bite> bites, bool upward, 
   const std::size_t count = stack.size();
   const auto portions = [&](WideQuanta amount) { return split(amount, plan.inside_share, stack); };
 
-  WideQuanta rest = take(bites, writer);
+  WideQuanta rest = take(bites, stack);
   level(rim, bites, count);
-  if (!upward) rest = flow_down(plan.kernel, portions(rest), contact, writer);
-  if (rest > 0) rest = flow_up(plan.kernel, portions(rest), contact, count, rim, writer);
+  if (!upward) rest = flow_down(plan.kernel, portions(rest), contact, stack);
+  if (rest > 0) rest = flow_up(plan.kernel, portions(rest), contact, count, rim, stack);
   if constexpr (model == Model::paper)
     ledger.outside += rest;
   else
@@ -156,7 +172,7 @@ Flow press_clay(const StepPlan& plan, std::span<const Bite> bites, bool upward, 
 template <Model model>
 Flow trim_clay(std::span<const Bite> bites, ClayStack& stack, Ledger& ledger, Rim* rim) noexcept {
   StackWriter writer(stack);
-  ledger.trimmed += take(bites, writer);
+  ledger.trimmed += take(bites, stack);
   level(rim, bites, stack.size());
   Flow flow;
   flow.lowest = bites.front().contact.bottom;

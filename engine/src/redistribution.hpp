@@ -27,7 +27,7 @@ struct Rim {
 
 /// Rings above and below the candidate range that a flow may reach.
 [[nodiscard]] inline std::size_t flow_reach(const RayleighKernel& kernel) noexcept {
-  return kernel.length() + 1;
+  return kernel.effective_length() + 1;
 }
 
 /// Takes what the tools bite off and spreads it, all of it at once, by the Rayleigh kernel: upward

@@ -3,6 +3,8 @@
 
 #include "claystack/engine/clay_stack.hpp"
 #include "claystack/engine/step_plan.hpp"
+#include "redistribution.hpp"
+#include "ring_sums.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -19,26 +21,43 @@ struct Failure {
 [[nodiscard]] double stress_kpa(const StabilityPlan& plan, WideQuanta above, Quanta ring) noexcept;
 
 /// Stress is looked at only where it can have risen. Clay moves locally, so the weight above a ring
-/// changes only between where clay left and where it came: rings lowest..highest of the flow.
-/// The weight above `highest` is carried along as the tool moves.
+/// changes only between where clay left and where it came: rings lowest..highest of the flow. The
+/// weight above `highest` is carried along as the tool moves a little, and summed from stretches
+/// of rings when it leaps. The stretches are brought up to date when a few hundred rings have
+/// changed, not at every tick.
 class StabilityWatch {
  public:
-  /// Before the flow: makes the weight above ring `highest` known, in O(distance moved).
+  StabilityWatch() = default;
+  /// O(N), with the memory for max_rings().
+  explicit StabilityWatch(const ClayStack& stack);
+
+  /// Before the flow: makes the weight above ring `highest` known. Wherever the last flow was, it
+  /// takes no more steps than a constant and the length of that flow.
   void move_to(const ClayStack& stack, std::size_t highest) noexcept;
 
-  /// After it: the ring of greatest stress among those above the threshold, if any, in
-  /// O(highest - lowest + grown). `highest` as given to move_to.
+  /// After it, with `highest` as given to move_to: the ring of greatest stress among those above
+  /// the threshold, if any; what check_all would say, if it found none before the flow. Reads the
+  /// rings of the flow and the new ones. Where clay has come on top from far below, also of the
+  /// others those stretches that are suspect: where the weight below them, on their thinnest ring,
+  /// would be too much.
   [[nodiscard]] std::optional<Failure> check(const StabilityPlan& plan, const ClayStack& stack,
-                                             std::size_t lowest, std::size_t grown) noexcept;
+                                             const Flow& flow) noexcept;
 
   /// Over the whole stack: O(N), for scene build and for tests.
   [[nodiscard]] static std::optional<Failure> check_all(const StabilityPlan& plan,
                                                         const ClayStack& stack) noexcept;
 
  private:
+  void note_change(std::span<const Ring> rings, std::size_t first, std::size_t last) noexcept;
+  void bring_up_to_date(std::span<const Ring> rings) noexcept;
+  [[nodiscard]] std::optional<Failure> search(const StabilityPlan& plan,
+                                              const ClayStack& stack) noexcept;
+
   std::size_t cursor_ = 0;
-  WideQuanta above_cursor_ = 0;  ///< of rings above cursor_, without the crown
-  bool placed_ = false;
+  WideQuanta above_cursor_ = 0;        ///< of rings above cursor_, without the crown
+  WideQuanta volume_ = 0, crown_ = 0;  ///< of the stack, before the flow
+  RingSums sums_;
+  std::size_t stale_first_ = 0, stale_end_ = 0;  ///< rings that sums_ does not know yet
 };
 
 }  // namespace clay

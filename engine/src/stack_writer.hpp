@@ -1,5 +1,6 @@
 #pragma once
-// The only hand that changes a ClayStack. Keeps its running sums true.
+// The only hand that changes a ClayStack. Keeps its running sums true: they are so again when the
+// writer goes, which lets a loop count in a register.
 
 #include "claystack/engine/clay_stack.hpp"
 
@@ -11,30 +12,36 @@ namespace clay {
 class StackWriter {
  public:
   explicit StackWriter(ClayStack& stack) noexcept : stack_(stack) {}
+  StackWriter(const StackWriter&) = delete;
+  StackWriter& operator=(const StackWriter&) = delete;
+  ~StackWriter() { stack_.rings_volume_ += gained_; }
 
   void take_outside(std::size_t i, Quanta amount) noexcept {
     stack_.rings_[i].outer2 -= amount;
-    stack_.rings_volume_ -= amount;
+    gained_ -= amount;
     assert(stack_.rings_[i].volume() > 0);
   }
   void take_inside(std::size_t i, Quanta amount) noexcept {
     stack_.rings_[i].inner2 += amount;
-    stack_.rings_volume_ -= amount;
+    gained_ -= amount;
     stack_.hollow_ = true;
     assert(stack_.rings_[i].volume() > 0);
   }
-  /// Each returns what found room: up to the axis inside, up to the largest radius outside.
-  Quanta put_inside(std::size_t i, WideQuanta amount) noexcept {
-    const auto placed = static_cast<Quanta>(std::min<WideQuanta>(amount, stack_.rings_[i].inner2));
+  /// Each returns what found room: up to the axis inside, up to the largest radius outside. Of
+  /// Quanta or WideQuanta.
+  template <class Amount>
+  Quanta put_inside(std::size_t i, Amount amount) noexcept {
+    const auto placed = static_cast<Quanta>(std::min<Amount>(amount, stack_.rings_[i].inner2));
     stack_.rings_[i].inner2 -= placed;
-    stack_.rings_volume_ += placed;
+    gained_ += placed;
     return placed;
   }
-  Quanta put_outside(std::size_t i, WideQuanta amount) noexcept {
+  template <class Amount>
+  Quanta put_outside(std::size_t i, Amount amount) noexcept {
     const Quanta room = kLargestOuter2 - stack_.rings_[i].outer2;
-    const auto placed = static_cast<Quanta>(std::min<WideQuanta>(amount, room));
+    const auto placed = static_cast<Quanta>(std::min<Amount>(amount, room));
     stack_.rings_[i].outer2 += placed;
-    stack_.rings_volume_ += placed;
+    gained_ += placed;
     return placed;
   }
   void put_on_crown(WideQuanta amount) noexcept { stack_.crown_ += amount; }
@@ -43,13 +50,14 @@ class StackWriter {
   /// at scene build, so nothing is allocated here.
   void grow(const Ring& ring) noexcept {
     stack_.rings_.push_back(ring);
-    stack_.rings_volume_ += ring.volume();
+    gained_ += ring.volume();
   }
   void reserve() { stack_.rings_.reserve(stack_.max_rings_); }
 
  private:
   static inline const Quanta kLargestOuter2 = quanta_from_radius(kMaxRadiusMm);
   ClayStack& stack_;
+  WideQuanta gained_ = 0;  ///< by rings, not yet in the stack's sum
 };
 
 }  // namespace clay

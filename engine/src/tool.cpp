@@ -11,7 +11,6 @@ namespace clay {
 namespace {
 
 constexpr double kMaxSizeMm = 5000.0;
-constexpr double kSlopeLimit = 127.0 / 128.0;
 
 bool is_size(double mm) { return mm > 0.0 && mm <= kMaxSizeMm; }
 
@@ -97,16 +96,6 @@ std::size_t interval_of(const std::vector<double>& t, double at) {
 }
 
 }  // namespace
-
-double EllipseProfile::radius(double t) const noexcept {
-  const double s = 1.0 - (t / a) * (t / a);
-  return s > 0.0 ? b * std::sqrt(s) : 0.0;
-}
-
-double EllipseProfile::slope(double t) const noexcept {
-  const double u = std::clamp(t / a, -kSlopeLimit, kSlopeLimit);
-  return -(b / a) * u / std::sqrt(1.0 - u * u);
-}
 
 double SampledProfile::radius(double at) const noexcept {
   const std::size_t k = interval_of(t, at);

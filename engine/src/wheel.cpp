@@ -97,7 +97,7 @@ std::uint32_t deform(State& s, const ToolState& tool, std::span<const Bite> bite
            : press_clay<kModel<stages>>(s.plan, bites, tool.upward, s.stack, s.ledger, &s.rim);
 
   if constexpr (stages & kStability) {
-    s.failure = s.watch.check(s.plan.stability, s.stack, flow.lowest, flow.grown);
+    s.failure = s.watch.check(s.plan.stability, s.stack, flow);
     if (s.failure) s.failure_hip = tool.hip_mm;
   }
   return (flow.grown > 0 ? kGrew : 0u) | (flow.ring_limit ? kRingLimit : 0u) |
@@ -240,6 +240,7 @@ Result<Wheel> Wheel::build(const SceneSpec& scene) {
   state->plan = std::move(*plan);
   state->stack = std::move(*stack);
   StackWriter(state->stack).reserve();
+  if (state->plan.stages & kStability) state->watch = StabilityWatch(state->stack);
   state->ledger.initial = state->stack.volume();
   const std::size_t tools = (state->plan.stages & kPinch) ? 2 : 1;
   for (Bite& bite : std::span(state->bites).first(tools)) {

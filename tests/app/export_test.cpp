@@ -41,13 +41,11 @@ class ExportedSample : public testing::TestWithParam<const char*> {
         claystack("export --json " + folder.file("p.pot.json") + " " + stl + " " + obj + " " + drc);
     ASSERT_EQ(exported.status, 0) << exported.err;
     counted = thrown.json().at("volume_mm3");
-    collapse = thrown.json().at("collapse");
   }
   ScratchFolder folder;
   std::string stl = folder.file("p.stl"), obj = folder.file("p.obj"), drc = folder.file("p.drc");
   Ran thrown, exported;
   double counted = 0.0;
-  nlohmann::json collapse;
 };
 
 TEST_P(ExportedSample, ReportsWhatItDid) {

@@ -6,8 +6,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 namespace clay {
 namespace {
@@ -62,6 +65,26 @@ TEST(Stability, TheTopRingCarriesTheCrown) {
       plan, ClayStack::from_rings(1.0, {ring}, ring.volume() / 2).value()));
 }
 
+TEST(Stability, APapersNewRingWeighsOnAllBelow) {
+  ClayStack stack = ClayStack::cylinder(500, 1.0, 30.0, 0.0, 600).value();
+  const Quanta ring = stack.rings()[0].volume();
+  StepPlan plan = plan_of(1.0);
+  plan.stability.max_stress_kpa = stress_kpa(plan.stability, stack.volume() - ring / 2, ring);
+  StabilityWatch watch(stack);
+  Ledger ledger;
+  ledger.outside = ring - 1;  // what the body has lacked since its foot was looked at last
+  Bite bite;
+  bite.contact.bottom = bite.contact.top = 499;
+  bite.contact.rings.push_back({499, 1.0, 0.0});
+  bite.removed.push_back(1000);
+  watch.move_to(stack, 499);
+  const Flow flow = press_clay<Model::paper>(plan, {&bite, 1}, true, stack, ledger);
+  ASSERT_EQ(flow.grown, 1u);
+  const auto failure = watch.check(plan.stability, stack, flow);
+  ASSERT_TRUE(failure);
+  EXPECT_EQ(failure->ring, 0u);
+}
+
 /// The literal sum of section 7 over every ring.
 std::optional<Failure> literal(const StabilityPlan& plan, const ClayStack& stack) {
   std::optional<Failure> worst;
@@ -85,7 +108,7 @@ RC_GTEST_PROP(Stability, WatchingTheFlowSeesWhatTheLiteralSumSees, ()) {
   const StepPlan plan = StepPlan::build(scene).value();
   RC_PRE(!literal(plan.stability, stack));
   Ledger ledger;
-  StabilityWatch watch;
+  StabilityWatch watch(stack);
   for (int step = 0; step < 60; ++step) {
     Bite bite;
     auto& [contact, removed] = bite;
@@ -97,18 +120,129 @@ RC_GTEST_PROP(Stability, WatchingTheFlowSeesWhatTheLiteralSumSees, ()) {
       removed.push_back(static_cast<Quanta>(0.4 * samples::uniform(random) *
                                             static_cast<double>(stack.rings()[i].volume())));
     }
-    watch.move_to(stack, std::min(contact.top + plan.kernel.length(), stack.size() - 1));
+    watch.move_to(stack, std::min(contact.top + flow_reach(plan.kernel), stack.size() - 1));
     const bool trim = samples::uniform(random) < 0.1;
     const bool up = samples::uniform(random) < 0.5;
     const Flow flow = trim ? trim_clay<Model::conserving>({&bite, 1}, stack, ledger)
                            : press_clay<Model::conserving>(plan, {&bite, 1}, up, stack, ledger);
-    const auto seen = watch.check(plan.stability, stack, flow.lowest, flow.grown);
+    const auto seen = watch.check(plan.stability, stack, flow);
     const auto expected = literal(plan.stability, stack);
     RC_ASSERT(seen.has_value() == expected.has_value());
     if (!seen) continue;
     RC_ASSERT(seen->stress_kpa == expected->stress_kpa);
     return;
   }
+}
+
+/// The same with a running sum, for tall stacks.
+std::optional<Failure> running(const StabilityPlan& plan, const ClayStack& stack) {
+  std::optional<Failure> worst;
+  WideQuanta above = stack.crown();
+  for (std::size_t i = stack.size(); i-- > 0; above += stack.rings()[i].volume()) {
+    const double stress = stress_kpa(plan, above, stack.rings()[i].volume());
+    if (stress > plan.max_stress_kpa && (!worst || stress > worst->stress_kpa))
+      worst = Failure{i, stress};
+  }
+  return worst;
+}
+
+double largest_stress(const StabilityPlan& plan, const ClayStack& stack) {
+  StabilityPlan any = plan;
+  any.max_stress_kpa = 0.0;
+  return running(any, stack)->stress_kpa;
+}
+
+/// The crown becomes rings while the tool is far below, and the tool then goes a little further.
+TEST(Stability, NewRingsOnTopWeighOnTheWayToo) {
+  const Ring ring{quanta_from_radius(30.0), 0};
+  ClayStack stack =
+      ClayStack::from_rings(1.0, std::vector<Ring>(100, ring), 3 * ring.volume(), 200).value();
+  StabilityPlan plan = plan_of(100.0).stability;
+  StabilityWatch watch(stack);
+  Ledger ledger;
+  std::size_t grown = 0;
+  for (const std::size_t at : {50u, 40u}) {
+    Bite bite;
+    bite.contact.bottom = bite.contact.top = at;
+    bite.contact.rings.push_back({static_cast<std::uint32_t>(at), 1.0, 0.0});
+    bite.removed.push_back(ring.volume() / 2);
+    watch.move_to(stack, at);
+    const Flow flow = trim_clay<Model::conserving>({&bite, 1}, stack, ledger);
+    grown += flow.grown;
+    if (at == 40) plan.max_stress_kpa = largest_stress(plan, stack) * (1.0 - 1e-6);
+    EXPECT_EQ(watch.check(plan, stack, flow).has_value(), at == 40);
+  }
+  EXPECT_EQ(grown, 3u);
+}
+
+/// Walls from a tenth of the radius to solid; at times a top ring that is next to nothing, so that
+/// the clay above it becomes many rings.
+ClayStack random_stack(std::mt19937_64& random, std::size_t count) {
+  std::vector<Ring> rings;
+  while (rings.size() < count) {
+    const Quanta outer2 = quanta_from_radius(20.0 + 40.0 * samples::uniform(random));
+    rings.push_back({outer2, static_cast<Quanta>(0.8 * samples::uniform(random) *
+                                                 static_cast<double>(outer2))});
+  }
+  if (samples::uniform(random) < 0.3) rings.back().inner2 = rings.back().outer2 / 100 * 99;
+  return ClayStack::from_rings(1.0, std::move(rings), 0, count + 300).value();
+}
+
+Bite random_bite(std::mt19937_64& random, const ClayStack& stack) {
+  Bite bite;
+  const auto rings = static_cast<double>(stack.size());
+  bite.contact.bottom = static_cast<std::size_t>(samples::uniform(random) * rings);
+  bite.contact.top = std::min(bite.contact.bottom + 5, stack.size() - 1);
+  for (std::size_t i = bite.contact.bottom; i <= bite.contact.top; ++i) {
+    bite.contact.rings.push_back({static_cast<std::uint32_t>(i), 1.0, 0.0});
+    bite.removed.push_back(static_cast<Quanta>(0.2 * samples::uniform(random) *
+                                               static_cast<double>(stack.rings()[i].volume())));
+  }
+  return bite;
+}
+
+/// Leaps over stacks of one and of two levels of sums, clay that goes to the top from far below
+/// (reach 0), and growth that a tick leaves to the next ones (a thin ring on top).
+template <Model model>
+void leaps_see_what_the_running_sum_sees() {
+  auto random = *samples::random_engine();
+  const auto count = *rc::gen::element<std::size_t>(50, 700, 6000);
+  ClayStack stack = random_stack(random, count);
+  SceneSpec scene;
+  scene.lump.ring_height_mm = 1.0;
+  scene.flow = {4.0, *rc::gen::element(0.0, 12.0), 0.27};
+  scene.stability = StabilitySpec{1.0};
+  StepPlan plan = StepPlan::build(scene).value();
+  plan.stability.max_stress_kpa =
+      largest_stress(plan.stability, stack) * *rc::gen::element(1.0, 1.0001, 1.02, 3.0);
+  Ledger ledger;
+  StabilityWatch watch(stack);
+  bool failed = false;
+  for (int step = 0; step < 40 && !failed; ++step) {
+    const Bite bite = random_bite(random, stack);
+    const std::size_t highest =
+        std::min(bite.contact.top + flow_reach(plan.kernel), stack.size() - 1);
+    watch.move_to(stack, highest);
+    const bool trim = samples::uniform(random) < 0.1;
+    const bool up = samples::uniform(random) < 0.5;
+    const Flow flow = trim ? trim_clay<model>({&bite, 1}, stack, ledger)
+                           : press_clay<model>(plan, {&bite, 1}, up, stack, ledger);
+    const auto seen = watch.check(plan.stability, stack, flow);
+    const auto expected = running(plan.stability, stack);
+    RC_ASSERT(seen.has_value() == expected.has_value());
+    if (!seen) continue;
+    RC_ASSERT(seen->ring == expected->ring);
+    RC_ASSERT(seen->stress_kpa == expected->stress_kpa);
+    failed = true;
+  }
+  RC_CLASSIFY(failed, "failed");
+}
+
+RC_GTEST_PROP(Stability, LeapsSeeWhatTheRunningSumSees, ()) {
+  leaps_see_what_the_running_sum_sees<Model::conserving>();
+}
+RC_GTEST_PROP(Stability, LeapsSeeWhatTheRunningSumSeesOfThePaper, ()) {
+  leaps_see_what_the_running_sum_sees<Model::paper>();
 }
 
 }  // namespace

@@ -19,42 +19,54 @@ class RayleighKernel {
   RayleighKernel(double sigma_mm, double reach_mm, double ring_height_mm, std::size_t max_rings);
 
   [[nodiscard]] std::size_t length() const noexcept { return cumulative_.size() - 1; }  ///< L1
+  /// The rings that get something. The rest of L1, where sigma is much less than the reach, has
+  /// weights that are 0 as integers.
+  [[nodiscard]] std::size_t effective_length() const noexcept { return effective_length_; }
 
-  /// Deals an amount out to the rings 1, 2, .. in their order, to the quantum: what rings 1..L1 get
-  /// adds up to it. `offset` (in ring heights, at least -1) moves all rings away from the tool:
-  /// ring j then gets what lies between j - 1 + offset and j + offset in a distribution that is
-  /// even within each ring of the table, ring 1 also what lies before it. A negative offset leaves
-  /// something to ring L1 + 1.
+  /// The distribution as far as ring 1, 2, .. in their order. `offset` (in ring heights, at least
+  /// -1) moves all rings away from the tool: ring j then reaches from j - 1 + offset to j + offset
+  /// in a distribution that is even within each ring of the table, and ring 1 has what lies before
+  /// it too. A negative offset leaves something to ring L1 + 1.
   class Dealer {
    public:
-    Dealer(const RayleighKernel& kernel, WideQuanta amount, double offset = 0.0) noexcept
+    explicit Dealer(const RayleighKernel& kernel, double offset = 0.0) noexcept
         : kernel_(&kernel),
-          at_(static_cast<std::int64_t>(std::floor(offset))),
+          at_(static_cast<std::int64_t>(std::floor(offset)) + 1),
           between_(static_cast<std::int64_t>((offset - std::floor(offset)) * kBetweenOne)),
-          amount_(amount) {}
-    /// The share of the next ring.
-    WideQuanta next() noexcept {
-      const WideQuanta before = dealt_;
-      ++at_;
-      dealt_ = part(amount_, reached());
-      return dealt_ - before;
+          below_(kernel.cumulative(at_)) {}
+    /// The part of the whole that the rings get up to and with the next one, in 2^-40.
+    std::int64_t next() noexcept {
+      const std::int64_t below = below_;
+      below_ = kernel_->cumulative(++at_);
+      return below + (((below_ - below) * between_) >> kBetweenBits);
     }
 
    private:
     static constexpr int kBetweenBits = 20;
     static constexpr double kBetweenOne = 1 << kBetweenBits;
 
-    [[nodiscard]] std::int64_t reached() const noexcept {
-      const std::int64_t below = kernel_->cumulative(at_);
-      if (between_ == 0) return below;
-      return below + (((kernel_->cumulative(at_ + 1) - below) * between_) >> kBetweenBits);
-    }
-
     const RayleighKernel* kernel_;
     std::int64_t at_;       ///< whole rings of the table ..
     std::int64_t between_;  ///< .. and a fraction, in 2^-20
-    WideQuanta amount_;
-    WideQuanta dealt_ = 0;
+    std::int64_t below_;    ///< C at at_
+  };
+
+  /// Deals an amount out by the parts that a Dealer names, to the quantum: what rings 1..L1 get
+  /// adds up to it. Quanta or WideQuanta, which give the same shares: what an ordinary tick moves
+  /// fits into 64 bits, which is one multiplication instead of three.
+  template <class Amount>
+  class Shares {
+   public:
+    explicit Shares(Amount amount) noexcept : amount_(amount) {}
+    /// The share of the next ring.
+    Amount next(std::int64_t part) noexcept {
+      const Amount before = dealt_;
+      dealt_ = static_cast<Amount>((WideQuanta{amount_} * part) >> kFractionBits);
+      return dealt_ - before;
+    }
+
+   private:
+    Amount amount_, dealt_ = 0;
   };
 
   /// P_d(j), for reports and tests.
@@ -63,17 +75,12 @@ class RayleighKernel {
  private:
   // 40 bits of fraction: 2^24 rings of 2^61 quanta times 2^40 still fit 127 bits.
   static constexpr int kFractionBits = 40;
-  static WideQuanta part(WideQuanta amount, std::int64_t fraction) noexcept {
-    // One multiplication instead of three for what an ordinary tick moves.
-    if (const auto narrow = static_cast<std::int64_t>(amount); narrow == amount)
-      return (WideQuanta{narrow} * fraction) >> kFractionBits;
-    return (amount * fraction) >> kFractionBits;
-  }
   [[nodiscard]] std::int64_t cumulative(std::int64_t j) const noexcept {
     const auto last = static_cast<std::int64_t>(length());
     return cumulative_[static_cast<std::size_t>(std::clamp<std::int64_t>(j, 0, last))];
   }
   std::vector<std::int64_t> cumulative_;  ///< C_0 = 0 .. C_L1 = 2^40
+  std::size_t effective_length_ = 0;
 };
 
 }  // namespace clay

@@ -4,6 +4,8 @@
 #include "claystack/engine/result.hpp"
 #include "claystack/engine/scene.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <variant>
 #include <vector>
 
@@ -11,11 +13,18 @@ namespace clay {
 
 /// f(t) = b sqrt(1 - t^2/a^2); a sphere has a = b.
 struct EllipseProfile {
+  static constexpr double kSlopeLimit = 127.0 / 128.0;  ///< of |t| / a
   double a = 1.0, b = 1.0;
-  [[nodiscard]] double radius(double t) const noexcept;
+  [[nodiscard]] double radius(double t) const noexcept {
+    const double s = 1.0 - (t / a) * (t / a);
+    return s > 0.0 ? b * std::sqrt(s) : 0.0;
+  }
   /// f' = -b t / (a^2 sqrt(1 - t^2/a^2)), held at its value 127/128 of the way to the poles,
   /// where the formula runs to infinity.
-  [[nodiscard]] double slope(double t) const noexcept;
+  [[nodiscard]] double slope(double t) const noexcept {
+    const double u = std::clamp(t / a, -kSlopeLimit, kSlopeLimit);
+    return -(b / a) * u / std::sqrt(1.0 - u * u);
+  }
 };
 
 struct RibProfile {
