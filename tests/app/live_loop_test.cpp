@@ -70,6 +70,21 @@ TEST(LiveLoop, TheForcePushesTheHandOutAsTheClayDoes) {
   EXPECT_EQ(live.status().guard, GuardState::engaged);
 }
 
+TEST(LiveLoop, TheDeviceIsToldWhatTheGuardLetsThroughAndNoMore) {
+  // In the clay long before the force is earned.
+  const HandAt late = press_to(2.0);
+  VirtualThrow live(rib_scene(), one_to_one(), [=](double t) { return late(t + 2.0); });
+  double most_n = 0.0;
+  for (int i = 0; i < 1800; ++i) {
+    live.tick();
+    ASSERT_LT(glm::distance(live.model->force_n(), live.status().force_n), 0.05) << i;
+    most_n = std::max(most_n, glm::length(live.model->force_n()));
+    ASSERT_LE(most_n, live.status().force_gain * 0.9 + 0.05)
+        << "0.02 N/mm2, 20.5 mm, 2 mm; friction";
+  }
+  EXPECT_GT(most_n, 0.1);
+}
+
 TEST(LiveLoop, AllocatesNothing) {
   VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
   live.run(0.1);
