@@ -84,37 +84,37 @@ Json json_count(WideQuanta count) {
   return static_cast<std::int64_t>(count);
 }
 
-Progress::Progress(const Console& console, std::string label, std::size_t total)
-    : label_(std::move(label)),
-      total_(total),
-      enabled_(!console.quiet && isatty(STDERR_FILENO) == 1),
-      next_(Clock::now() + kPatience) {}
+StatusLine::StatusLine(const Console& console)
+    : enabled_(!console.quiet && isatty(STDERR_FILENO) == 1), next_(Clock::now() + kPatience) {}
 
-Progress::~Progress() {
-  if (drawn_) fmt::print(stderr, "\r\033[K");
-}
-
-bool Progress::due() {
+bool StatusLine::due() {
   if (!enabled_ || Clock::now() < next_) return false;
   next_ = Clock::now() + kRedraw;
   return true;
 }
 
-void Progress::draw(std::string_view text) {
+void StatusLine::show(std::string_view text) {
+  if (!enabled_) return;
   fmt::print(stderr, "\r\033[K{}", text);
   std::fflush(stderr);
   drawn_ = true;
 }
 
-void Progress::update(std::size_t done) {
-  if (!due() || total_ == 0) return;
-  const std::size_t filled = kBarWidth * done / total_;
-  draw(fmt::format("{} [{}{}] {:3} %", label_, std::string(filled, '#'),
-                   std::string(kBarWidth - filled, '.'), 100 * done / total_));
+void StatusLine::clear() {
+  if (drawn_) fmt::print(stderr, "\r\033[K");
+  drawn_ = false;
 }
 
-void Progress::stage(std::string_view name) {
-  if (enabled_) draw(fmt::format("{}: {} ...", label_, name));
+Progress::Progress(const Console& console, std::string label, std::size_t total)
+    : line_(console), label_(std::move(label)), total_(total) {}
+
+void Progress::update(std::size_t done) {
+  if (!line_.due() || total_ == 0) return;
+  const std::size_t filled = kBarWidth * done / total_;
+  line_.show(fmt::format("{} [{}{}] {:3} %", label_, std::string(filled, '#'),
+                         std::string(kBarWidth - filled, '.'), 100 * done / total_));
 }
+
+void Progress::stage(std::string_view name) { line_.show(fmt::format("{}: {} ...", label_, name)); }
 
 }  // namespace clay::app

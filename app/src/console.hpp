@@ -46,25 +46,37 @@ int report(const Error& error);
 /// A count for JSON: a number where 64 bits hold it, decimal digits in a string where not.
 [[nodiscard]] Json json_count(WideQuanta count);
 
+/// One line on stderr that is written over again, only on a terminal.
+class StatusLine {
+ public:
+  explicit StatusLine(const Console& console);
+  ~StatusLine() { clear(); }
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
+  [[nodiscard]] bool due();  ///< ten times a second, where there is anything to draw on
+  void show(std::string_view text);
+  void clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool enabled_;
+  bool drawn_ = false;
+  Clock::time_point next_;
+};
+
 /// A bar on stderr, drawn only on a terminal and only for work that takes a while.
 class Progress {
  public:
   Progress(const Console& console, std::string label, std::size_t total);
-  ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   void update(std::size_t done);
   void stage(std::string_view name);  ///< for work in named stages instead of counts
 
  private:
-  using Clock = std::chrono::steady_clock;
-  bool due();
-  void draw(std::string_view text);
+  StatusLine line_;
   std::string label_;
   std::size_t total_;
-  bool enabled_;
-  bool drawn_ = false;
-  Clock::time_point next_;
 };
 
 }  // namespace clay::app

@@ -44,6 +44,7 @@ struct View {
   falcon::DeviceSample sample;
   double rate_hz = 0.0;
   falcon::DeviceCounters counters;
+  glm::dvec3 tool_mm{0.0};  // on the wheel, as `throw` maps by default
 };
 
 Json view_json(const View& view) {
@@ -51,6 +52,7 @@ Json view_json(const View& view) {
   return {{"time_s", view.time_s},
           {"state", name_of(view.sample.state)},
           {"position_mm", {at.x, at.y, at.z}},
+          {"tool_mm", {view.tool_mm.x, view.tool_mm.y, view.tool_mm.z}},
           {"buttons", view.sample.buttons},
           {"rate_hz", view.rate_hz},
           {"bytes_discarded", view.counters.bytes_discarded}};
@@ -59,9 +61,10 @@ Json view_json(const View& view) {
 std::string view_text(const View& view) {
   const glm::dvec3& at = view.sample.position_mm;
   std::string text = fmt::format(
-      "{:<13} x {:7.2f}  y {:7.2f}  z {:7.2f} mm  buttons {:04b}  {:5.0f} Hz  {} bytes lost",
-      name_of(view.sample.state), at.x, at.y, at.z, view.sample.buttons, view.rate_hz,
-      view.counters.bytes_discarded);
+      "{:<13} x {:7.2f}  y {:7.2f}  z {:7.2f} mm  tool {:6.1f} {:6.1f} {:6.1f}  buttons {:04b}  "
+      "{:5.0f} Hz  {} bytes lost",
+      name_of(view.sample.state), at.x, at.y, at.z, view.tool_mm.x, view.tool_mm.y, view.tool_mm.z,
+      view.sample.buttons, view.rate_hz, view.counters.bytes_discarded);
   if (view.sample.state == falcon::DeviceState::needs_homing) text += "  (pull out, push in)";
   return text;
 }
@@ -80,7 +83,7 @@ void show(const View& view, const Console& console, bool terminal) {
 }  // namespace
 
 falcon::DeviceResult<void> watch(falcon::HapticDevice& device, double seconds,
-                                 const Console& console) {
+                                 const live::Mapping& mapping, const Console& console) {
   const Interrupts interrupts;
   const bool terminal = isatty(STDOUT_FILENO) == 1;
   const auto start = Clock::now();
@@ -98,6 +101,7 @@ falcon::DeviceResult<void> watch(falcon::HapticDevice& device, double seconds,
       view.rate_hz = static_cast<double>(fresh) /
                      std::chrono::duration<double>(now - next_view + kRedraw).count();
       view.counters = device.counters();
+      view.tool_mm = mapping.to_clay(view.sample.position_mm);
       show(view, console, terminal);
       fresh = 0;
       next_view = now + kRedraw;

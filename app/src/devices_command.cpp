@@ -1,6 +1,6 @@
-#include "claystack/falcon/simulated_falcon.hpp"
 #include "claystack/falcon/usb_devices.hpp"
 #include "commands.hpp"
+#include "device_choice.hpp"
 #include "device_monitor.hpp"
 
 #include <fmt/format.h>
@@ -18,14 +18,6 @@ struct DevicesOptions {
   bool monitor = false;
   double seconds = 0.0;  // 0: until interrupted
 };
-
-constexpr const char* kHomingAdvice = "pull the grip all the way out, then push it all the way in";
-
-Error error_of(const falcon::DeviceError& error) {
-  const bool ours = error.fault == falcon::DeviceFault::bad_firmware ||
-                    error.fault == falcon::DeviceFault::bad_setting;
-  return {ours ? ErrorKind::bad_input : ErrorKind::device, text_of(error)};
-}
 
 Json problem_json(const falcon::DeviceError& error) {
   return {{"fault", name_of(error.fault)}, {"what", error.what}, {"remedy", error.remedy}};
@@ -88,28 +80,16 @@ Result<void> list(const falcon::DeviceSettings& settings, const Console& console
   return {};
 }
 
-Result<std::unique_ptr<falcon::HapticDevice>> opened(const std::string& which,
-                                                     const falcon::DeviceSettings& settings) {
-  falcon::DeviceResult<std::unique_ptr<falcon::HapticDevice>> device;
-  if (which == "simulated") {
-    auto simulated = falcon::make_simulated_falcon(falcon::simulated_and_loaded());
-    if (!simulated) return tl::make_unexpected(error_of(simulated.error()));
-    device = std::move(simulated->device);
-    if (auto done = (*device)->open(); !done) return tl::make_unexpected(error_of(done.error()));
-  } else {
-    device = falcon::open_device(which, settings);
-  }
-  if (!device) return tl::make_unexpected(error_of(device.error()));
-  return std::move(*device);
-}
-
 Result<void> show(const DevicesOptions& options, const falcon::DeviceSettings& settings,
                   const Console& console) {
-  auto device = opened(options.which.empty() ? "auto" : options.which, settings);
+  auto device = open_chosen(options.which.empty() ? "auto" : options.which, settings.falcon,
+                            falcon::simulated_and_loaded());
   if (!device) return tl::make_unexpected(device.error());
   falcon::HapticDevice& open = **device;
   if (options.monitor) {
-    if (auto watched = watch(open, options.seconds, console); !watched)
+    const auto mapping = live::Mapping::build({});
+    if (!mapping) return tl::make_unexpected(mapping.error());
+    if (auto watched = watch(open, options.seconds, *mapping, console); !watched)
       return tl::make_unexpected(error_of(watched.error()));
     return {};
   }
@@ -129,15 +109,6 @@ Result<void> show(const DevicesOptions& options, const falcon::DeviceSettings& s
   return {};
 }
 
-std::string known_device(const std::string& which) {
-  for (const char* name : {"auto", "falcon", "bridge", "spacemouse", "simulated"})
-    if (which == name) return {};
-  if (which.starts_with("usb:") || which.starts_with("/dev/")) return {};
-  return "expected auto, falcon, bridge, spacemouse, simulated, usb:BUS-PORT or /dev/hidrawN, "
-         "found " +
-         which;
-}
-
 }  // namespace
 
 void add_devices_command(CLI::App& app, Console& console, int& exit) {
@@ -147,9 +118,8 @@ void add_devices_command(CLI::App& app, Console& console, int& exit) {
   command
       ->add_option("which", options->which,
                    "Open one: auto, falcon, bridge, spacemouse, simulated, or a place")
-      ->check(CLI::Validator(known_device, ""));
-  command->add_option("--firmware", options->firmware, "The Falcon's firmware, from its driver")
-      ->envname("CLAYSTACK_FALCON_FIRMWARE");
+      ->check(CLI::Validator(check_device_name, ""));
+  add_firmware_option(*command, options->firmware);
   command->add_flag("--monitor", options->monitor, "Show position and buttons until interrupted");
   command->add_option("--seconds", options->seconds, "Monitor for so long")
       ->check(CLI::Validator(in_range(0.0, 1e6), ""));

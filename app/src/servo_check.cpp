@@ -38,8 +38,8 @@ Error refusal(const SceneSpec& scene, const ServoContact& contact, const falcon:
 
 }  // namespace
 
-Result<ServoContact> check_servo(const SceneSpec& scene, const StepPlan& plan,
-                                 const falcon::SampledLoop& loop) {
+Result<ServoContact> servo_contact(const SceneSpec& scene, const StepPlan& plan,
+                                   const falcon::SampledLoop& loop, double stiffness_gain) {
   if (const auto checked = check(loop); !checked)
     return failure(ErrorKind::bad_input,
                    fmt::format("{}: expected a value from {:.6g} to {:.6g}, found {:.6g}",
@@ -49,10 +49,19 @@ Result<ServoContact> check_servo(const SceneSpec& scene, const StepPlan& plan,
   ServoContact contact;
   contact.height_mm = rings * scene.lump.ring_height_mm;
   contact.accepted_n_per_m = accepted_stiffness(loop);
-  if (!scene.force) return contact;
-  contact.stiffness_n_per_m = kMmPerM * plan.force.stiffness_n_per_mm * rings;
-  if (const auto soft = check_stiffness(loop, contact.stiffness_n_per_m); !soft)
-    return tl::make_unexpected(refusal(scene, contact, loop, soft.error()));
+  const double tools = (plan.stages & kPinch) ? 2.0 : 1.0;
+  if (scene.force)
+    contact.stiffness_n_per_m =
+        stiffness_gain * tools * kMmPerM * plan.force.stiffness_n_per_mm * rings;
+  return contact;
+}
+
+Result<ServoContact> check_servo(const SceneSpec& scene, const StepPlan& plan,
+                                 const falcon::SampledLoop& loop, double stiffness_gain) {
+  const auto contact = servo_contact(scene, plan, loop, stiffness_gain);
+  if (!contact || !scene.force) return contact;
+  if (const auto soft = check_stiffness(loop, contact->stiffness_n_per_m); !soft)
+    return tl::make_unexpected(refusal(scene, *contact, loop, soft.error()));
   return contact;
 }
 

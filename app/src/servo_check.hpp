@@ -13,10 +13,16 @@ struct ServoContact {
   double accepted_n_per_m = 0.0;   ///< half of what is passive at the arm's rate and damping
 };
 
+/// What an arm would have to render. `stiffness_gain`: of the mapping between tool and hand. A
+/// pinch has two tools, one on each side of the wall: where one presses deeper the other presses
+/// less, so their stiffnesses add up. Refuses what `check` of the loop refuses.
+Result<ServoContact> servo_contact(const SceneSpec& scene, const StepPlan& plan,
+                                   const falcon::SampledLoop& loop, double stiffness_gain = 1.0);
+
 /// Can this arm render the scene? Refuses a contact stiffer than is accepted, and names the setting
 /// to change and both numbers that would do: the stiffness at this rate, the rate at this
 /// stiffness.
 Result<ServoContact> check_servo(const SceneSpec& scene, const StepPlan& plan,
-                                 const falcon::SampledLoop& loop);
+                                 const falcon::SampledLoop& loop, double stiffness_gain = 1.0);
 
 }  // namespace clay::app

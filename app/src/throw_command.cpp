@@ -1,17 +1,19 @@
+#include "clay_summary.hpp"
 #include "commands.hpp"
 #include "error_plot.hpp"
+#ifdef CLAYSTACK_FALCON
+#include "live_throw.hpp"
+#endif
 #include "replay.hpp"
 
 #include "claystack/engine/atomic_file.hpp"
 #include "claystack/engine/pot_file.hpp"
-#include "claystack/engine/stack_measures.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <memory>
-#include <numbers>
 
 namespace clay::app {
 namespace {
@@ -23,53 +25,24 @@ struct ThrowOptions {
   std::string trace;
   std::string error_plot;
   std::string model;  ///< empty: the scene's own
+#ifdef CLAYSTACK_FALCON
+  LiveOptions live;
+#endif
 };
 
-const char* name_of(Model model) { return model == Model::paper ? "paper" : "conserving"; }
-
-Json collapse_json(const Pot& pot) {
-  const Collapse& fall = *pot.collapse;
-  return {{"ring", fall.failed_ring},
-          {"stress_kpa", fall.stress_kpa},
-          {"threshold_kpa", fall.threshold_kpa},
-          {"angle_deg", fall.angle_rad * 180.0 / std::numbers::pi},
-          {"shift_mm", {fall.shift_mm.x, fall.shift_mm.y, fall.shift_mm.z}},
-          {"energy_lost_mj", fall.energy_lost_mj},
-          {"plastic_work_mj", fall.plastic_work_mj}};
-}
-
 Json summary(const Wheel& wheel, const ReplayStats& stats, const Session& session, const Pot& pot) {
-  const ClayStack& stack = wheel.stack();
-  const WallMinimum wall = min_wall(stack);
   Json json = {
       {"model", name_of(pot.model)},
       {"ticks", session.poses.size()},
-      {"rings", stack.size()},
-      {"height_mm", stack.height_mm()},
-      {"volume_mm3", stack.volume_mm3()},
-      {"trimmed_mm3", static_cast<double>(wheel.ledger().trimmed) * stack.mm3_per_quantum()},
-      {"volume_error_quanta", json_count(wheel.ledger().volume_error(stack.recount()))},
       {"max_volume_error_percent", stats.max_volume_error_percent},
       {"max_missing_over_top_ring", stats.max_missing_over_top},
-      {"min_wall_mm", wall.thickness_mm},
-      {"min_wall_ring", wall.ring},
       {"max_force_n", stats.max_force_n},
-      {"collapsed", pot.collapse.has_value()},
       {"refused_ticks", stats.refused},
       {"tick_ns_median", stats.tick_ns_median},
       {"tick_ns_p999", stats.tick_ns_p999},
   };
-  if (pot.collapse) json["collapse"] = collapse_json(pot);
+  json.update(clay_json(wheel, pot));
   return json;
-}
-
-void tell_collapse(const Console& console, const Json& fall) {
-  console.say(fmt::format(
-      "collapsed: ring {} had to bear {:.3f} kPa, more than {:.3f}; the part above "
-      "came to rest at {:.0f} degrees and lost {:.1f} mJ, {:.1f} of them to the clay below",
-      fall["ring"].get<std::size_t>(), fall["stress_kpa"].get<double>(),
-      fall["threshold_kpa"].get<double>(), fall["angle_deg"].get<double>(),
-      fall["energy_lost_mj"].get<double>(), fall["plastic_work_mj"].get<double>()));
 }
 
 void tell(const Console& console, const Json& s) {
@@ -86,7 +59,7 @@ void tell(const Console& console, const Json& s) {
                           s["max_force_n"].get<double>()));
   if (s["trimmed_mm3"].get<double>() > 0.0)
     console.say(fmt::format("trimmed off: {:.1f} cm3", s["trimmed_mm3"].get<double>() / 1000.0));
-  if (s["collapsed"].get<bool>()) tell_collapse(console, s["collapse"]);
+  tell_collapse(console, s);
 }
 
 std::string trace_csv(const std::vector<TraceRow>& rows) {
@@ -137,22 +110,26 @@ Result<void> write_error_plot(const SceneSpec& scene, const Session& session,
   return publish(path, error_plot_svg(scene.name, curves));
 }
 
+Result<void> check_pot_name(const std::string& pot) {
+  if (pot.empty() || pot == "-" || pot.ends_with(".pot.json") || pot.ends_with(".pot.cbor"))
+    return {};
+  return failure(ErrorKind::bad_input,
+                 pot + ": expected a name that ends in .pot.json or .pot.cbor");
+}
+
 /// Names that cannot be meant, refused before anything is read or played.
 Result<void> check_names(const ThrowOptions& options, const Console& console) {
   if (options.session.empty())
     return failure(ErrorKind::bad_input,
                    "a scene from standard input: expected --session with the poses to play");
-  if (!options.pot.empty() && options.pot != "-" && !options.pot.ends_with(".pot.json") &&
-      !options.pot.ends_with(".pot.cbor"))
-    return failure(ErrorKind::bad_input,
-                   options.pot + ": expected a name that ends in .pot.json or .pot.cbor");
+  if (auto named = check_pot_name(options.pot); !named) return named;
   const std::vector<std::string> outputs = {options.pot, options.trace, options.error_plot};
   if (std::count(outputs.begin(), outputs.end(), "-") > (console.json ? 0 : 1))
     return failure(ErrorKind::bad_input, "-: expected one thing only on standard output");
   return check_distinct(outputs, {options.scene, options.session});
 }
 
-Result<void> throw_pot(const ThrowOptions& options, Console console) {
+Result<void> replay_pot(const ThrowOptions& options, Console console) {
   if (auto names = check_names(options, console); !names) return names;
   // What goes to standard output goes there alone.
   for (const std::string& output : {options.pot, options.trace, options.error_plot})
@@ -201,11 +178,30 @@ Result<void> throw_pot(const ThrowOptions& options, Console console) {
   return {};
 }
 
+Result<void> throw_pot(const ThrowOptions& options, const Console& console) {
+#ifdef CLAYSTACK_FALCON
+  if (!options.live.device.empty()) {
+    if (!options.trace.empty() || !options.error_plot.empty())
+      return failure(ErrorKind::bad_input,
+                     "--trace and --error-plot show a replay: record with --record, then replay");
+    if (auto named = check_pot_name(options.pot); !named) return named;
+    if (auto distinct =
+            check_distinct({options.pot, options.live.record}, {options.scene, options.session});
+        !distinct)
+      return distinct;
+    return throw_live({options.scene, options.session, options.pot, options.model}, options.live,
+                      console);
+  }
+#endif
+  return replay_pot(options, console);
+}
+
 }  // namespace
 
 void add_throw_command(CLI::App& app, Console& console, int& exit) {
   auto options = std::make_shared<ThrowOptions>();
-  CLI::App* command = app.add_subcommand("throw", "Play a session on a scene and keep the pot");
+  CLI::App* command =
+      app.add_subcommand("throw", "Play a session on a scene, or throw by hand, and keep the pot");
   command->add_option("scene", options->scene, "NAME.scene.json, or - for standard input")
       ->required();
   command->add_option("-s,--session", options->session,
@@ -220,8 +216,13 @@ void add_throw_command(CLI::App& app, Console& console, int& exit) {
                       "CSV with a row a tick: volume error, height, force");
   command->add_option("--error-plot", options->error_plot,
                       "SVG of the volume error over time, both models");
+#ifdef CLAYSTACK_FALCON
+  add_live_options(*command, options->live);
+#endif
   command->footer(
       "\nExamples:\n  claystack throw samples/vase.scene.json -o vase.pot.json\n"
+      "  claystack throw samples/vase.scene.json --device auto --record mine.session -o "
+      "mine.pot.json\n"
       "  claystack throw samples/vase.scene.json --model paper --json\n"
       "  claystack throw samples/vase.scene.json --error-plot vase-error.svg");
   command->callback([options, &console, &exit] {

@@ -32,6 +32,7 @@ struct Wheel::State {
   std::optional<Failure> failure;
   glm::dvec3 failure_hip{0.0};
   StepReport (*tick)(State&, const Pose&) noexcept = nullptr;
+  StepReport (*feel)(State&, const Pose&) noexcept = nullptr;
 };
 
 namespace {
@@ -136,6 +137,17 @@ glm::dvec3 felt(const ForcePlan& plan, std::span<const Bite> bites) noexcept {
   return limited(force, plan.limit_n);
 }
 
+/// The tool at a pose, with its gap; not valid where the pose is refused.
+template <unsigned stages>
+ToolState believe(const StepPlan& plan, ToolTracker& tracker, const Pose& pose,
+                  StepReport& report) noexcept {
+  ToolState tool = tracker.advance(pose, (stages & kPinch) ? kFarthestMm : 0.0);
+  report.flags = (tool.valid ? 0u : kRefused) | (tool.dt_clamped ? kLongStep : 0u);
+  if constexpr (stages & kPinch)
+    if (tool.gap_mm == 0.0) tool.gap_mm = plan.gap_mm;
+  return tool;
+}
+
 /// The tick for a set of stages. A stage that the scene does not need is not in the code it runs.
 template <unsigned stages, class State>
 StepReport tick(State& s, const Pose& pose) noexcept {
@@ -144,12 +156,8 @@ StepReport tick(State& s, const Pose& pose) noexcept {
     report.flags = kCollapsed;
     return report;
   }
-  ToolState tool = s.tracker.advance(pose, (stages & kPinch) ? kFarthestMm : 0.0);
-  report.flags = (tool.valid ? 0u : kRefused) | (tool.dt_clamped ? kLongStep : 0u);
+  ToolState tool = believe<stages>(s.plan, s.tracker, pose, report);
   if (!tool.valid) return report;
-  if constexpr (stages & kPinch)
-    if (tool.gap_mm == 0.0) tool.gap_mm = s.plan.gap_mm;
-
   std::span<Bite> bites = touch<stages>(s, tool);
   const bool touches = rings_of(bites) > 0;
   const int parts = touches || s.touching ? parts_of<kModel<stages>>(tool) : 1;
@@ -168,9 +176,40 @@ StepReport tick(State& s, const Pose& pose) noexcept {
   return report;
 }
 
+/// The force of a tick and no more: contact as the last part of its way would find it.
+template <unsigned stages, class State>
+StepReport feel(State& s, const Pose& pose) noexcept {
+  StepReport report;
+  if (s.failure) {
+    report.flags = kCollapsed;
+    return report;
+  }
+  ToolTracker tracker = s.tracker;
+  ToolState tool = believe<stages>(s.plan, tracker, pose, report);
+  if (!tool.valid) return report;
+  const std::span<Bite> bites = touch<stages>(s, tool);
+  report.rings_touched = rings_of(bites);
+  if (report.rings_touched == 0) return report;
+  report.flags |= kContact;
+  if constexpr (stages & kForce) {
+    const int parts = parts_of<kModel<stages>>(tool);
+    if constexpr (kModel<stages> == Model::conserving)
+      for (Bite& bite : bites)
+        yield_edges(s.plan.removal, s.stack, tool.moved_mm.y / parts, tool.dt_s / parts,
+                    bite.contact);
+    report.force_n = felt<stages>(s.plan.force, bites);
+  }
+  return report;
+}
+
 template <class State, std::size_t... sets>
 constexpr auto tick_table(std::index_sequence<sets...>) {
   return std::array{&tick<static_cast<unsigned>(sets), State>...};
+}
+
+template <class State, std::size_t... sets>
+constexpr auto feel_table(std::index_sequence<sets...>) {
+  return std::array{&feel<static_cast<unsigned>(sets), State>...};
 }
 
 }  // namespace
@@ -209,11 +248,14 @@ Result<Wheel> Wheel::build(const SceneSpec& scene) {
     bite.removed.reserve(touches);
   }
   static constexpr auto kTicks = tick_table<State>(std::make_index_sequence<kStageSets>{});
+  static constexpr auto kFeels = feel_table<State>(std::make_index_sequence<kStageSets>{});
   state->tick = kTicks[state->plan.stages];
+  state->feel = kFeels[state->plan.stages];
   return Wheel(std::move(state));
 }
 
 StepReport Wheel::step(const Pose& pose) noexcept { return state_->tick(*state_, pose); }
+StepReport Wheel::feel(const Pose& pose) noexcept { return state_->feel(*state_, pose); }
 
 const StepPlan& Wheel::plan() const noexcept { return state_->plan; }
 const ClayStack& Wheel::stack() const noexcept { return state_->stack; }

@@ -203,6 +203,8 @@ void FalconDevice::write(const glm::dvec3& force_n) noexcept {
   if (sent == WireStatus::failed) fail(DeviceFault::transfer_failed);
 }
 
+void FalconDevice::zero() noexcept { line_->write_last(kZeroFrame); }
+
 void FalconDevice::stop() noexcept {
   stopped_.store(true);
   line_->write_last(kZeroFrame);

@@ -10,6 +10,7 @@ namespace {
 
 // Latency timer and two frames at 1.5 Mbaud, rounded to what a Falcon is known to keep.
 constexpr std::int64_t kAnswerUs = 1'000;
+constexpr int kPatience = 1'000'000;  // looks: a second or less
 
 }  // namespace
 
@@ -56,7 +57,9 @@ DeviceResult<void> LoopbackTransport::set_mode(LineMode mode) {
 WireStatus LoopbackTransport::write(std::span<const std::uint8_t> bytes) noexcept {
   if (!open_) return WireStatus::failed;
   const std::int64_t now = now_us();
+  const bool held = hold_model();
   const Answer answer = model_->receive(bytes, 1e-6 * static_cast<double>(now - asked_us_));
+  let_go(held);
   asked_us_ = now;
   if (model_->unplugged()) return WireStatus::unplugged;
   if (size_ == queue_.size()) return WireStatus::busy;
@@ -82,8 +85,23 @@ Received LoopbackTransport::read(std::span<std::uint8_t> bytes, std::int64_t wai
   return received;
 }
 
+/// A real wire takes one packet after the other; so does this one. A signal that met its own
+/// thread in the model would wait for ever: it goes ahead after a while.
+bool LoopbackTransport::hold_model() noexcept {
+  for (int looks = 0; looks < kPatience; ++looks)
+    if (!model_held_.exchange(true, std::memory_order_acquire)) return true;
+  return false;
+}
+
+void LoopbackTransport::let_go(bool held) noexcept {
+  if (held) model_held_.store(false, std::memory_order_release);
+}
+
 void LoopbackTransport::write_last(std::span<const std::uint8_t> bytes) noexcept {
-  if (open_) model_->receive_last(bytes);
+  if (!open_) return;
+  const bool held = hold_model();
+  model_->receive_last(bytes);
+  let_go(held);
 }
 
 }  // namespace clay::falcon

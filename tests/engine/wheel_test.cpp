@@ -244,6 +244,32 @@ TEST(Wheel, CollapsesWhereANeckIsCutAndThenHoldsStill) {
   EXPECT_TRUE(pot.ledger.imbalance(pot.stack.recount()) == 0);
 }
 
+TEST(Wheel, FeelsWhatAStepAnswersAndMovesNothing) {
+  for (const Model model : {Model::conserving, Model::paper}) {
+    Wheel felt = Wheel::build(scene_of(model)).value(),
+          plain = Wheel::build(scene_of(model)).value();
+    RestlessHand hand(7);
+    Pose last{};
+    int compared = 0;
+    for (int i = 0; i < 20'000; ++i) {
+      const Pose pose = hand.next(plain.stack());
+      const StepReport before = felt.feel(pose);
+      (void)felt.feel({pose.time_us, {30.0, 10.0, 0.0}});
+      const StepReport after = felt.step(pose);
+      ASSERT_EQ(plain.step(pose).force_n, after.force_n) << i;
+      // A longer way is stepped in parts, and the clay gives way between them.
+      const glm::dvec3 way = glm::abs(pose.position_mm - last.position_mm);
+      last = pose;
+      if (std::max({way.x, way.y, way.z}) >= 0.05) continue;
+      ASSERT_EQ(before.force_n, after.force_n) << i;
+      ASSERT_EQ(before.rings_touched, after.rings_touched) << i;
+      compared += (before.flags & kContact) != 0;
+    }
+    EXPECT_GT(compared, 500);
+    EXPECT_EQ(felt.pot(), plain.pot());
+  }
+}
+
 TEST(Wheel, RefusesSettingsOutOfRange) {
   const auto message = [](auto edit) {
     SceneSpec scene = scene_of(Model::conserving);

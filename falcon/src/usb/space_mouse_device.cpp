@@ -59,6 +59,7 @@ class SpaceMouse final : public HapticDevice {
   }
 
   void write(const glm::dvec3&) noexcept override {}
+  void zero() noexcept override {}
   void stop() noexcept override {}
 
   [[nodiscard]] DeviceError problem() const override {

@@ -42,6 +42,10 @@ class Wheel {
   /// No allocation, no lock, no work that grows with the number of rings.
   StepReport step(const Pose& pose) noexcept;
 
+  /// What step() would answer at this pose, with the clay as it is: nothing is displaced and
+  /// nothing remembered. For a force that is wanted more often than the clay needs to move.
+  [[nodiscard]] StepReport feel(const Pose& pose) noexcept;
+
   [[nodiscard]] const StepPlan& plan() const noexcept;
   [[nodiscard]] const ClayStack& stack() const noexcept;
   [[nodiscard]] const Ledger& ledger() const noexcept;

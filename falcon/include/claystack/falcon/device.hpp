@@ -50,8 +50,9 @@ struct DeviceCounters {
   std::uint64_t writes_dropped = 0;   ///< forces not sent, since the device took none
 };
 
-/// `read`, `write` and `stop` allocate and throw nothing, and belong to one thread; `stop` may be
-/// called from any, and from a signal handler. The rest is for set-up.
+/// `read`, `write`, `zero` and `stop` allocate and throw nothing. `read` and `write` belong to one
+/// thread; `zero` and `stop` may be called from any, and from a signal handler. The rest is for
+/// set-up.
 class HapticDevice {
  public:
   HapticDevice() = default;
@@ -69,6 +70,10 @@ class HapticDevice {
 
   /// Sends a force. One that is not finite is sent as zero, and until `ready` all are.
   virtual void write(const glm::dvec3& force_n) noexcept = 0;
+
+  /// A packet of zero force after all that was written, for a watchdog: what is written next counts
+  /// again.
+  virtual void zero() noexcept = 0;
 
   /// The last packet is zero force: nothing that `write` sends comes after it, until `open`.
   virtual void stop() noexcept = 0;

@@ -36,6 +36,7 @@ class FalconDevice final : public HapticDevice {
   DeviceResult<void> open() override;
   DeviceSample read(std::int64_t wait_us) noexcept override;
   void write(const glm::dvec3& force_n) noexcept override;
+  void zero() noexcept override;
   void stop() noexcept override;
   [[nodiscard]] DeviceError problem() const override;
   [[nodiscard]] DeviceCounters counters() const noexcept override;

@@ -41,6 +41,9 @@ class ForceGate {
   [[nodiscard]] bool is_shut() const noexcept {
     return (state_.load(std::memory_order_acquire) & kShut) != 0;
   }
+  [[nodiscard]] bool is_shut_for_good() const noexcept {
+    return (state_.load(std::memory_order_acquire) & kForGood) != 0;
+  }
 
  private:
   static constexpr std::uint32_t kInside = 1, kShut = 2, kForGood = 4;

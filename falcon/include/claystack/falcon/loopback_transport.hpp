@@ -5,6 +5,7 @@
 #include "claystack/falcon/transport.hpp"
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 
@@ -38,10 +39,13 @@ class LoopbackTransport final : public Transport {
   };
   [[nodiscard]] OnTheWay& first() noexcept { return queue_[first_ % queue_.size()]; }
   void wait_until(std::int64_t time_us) noexcept;
+  [[nodiscard]] bool hold_model() noexcept;
+  void let_go(bool held) noexcept;
 
   std::shared_ptr<FalconModel> model_;
   Pace pace_;
-  bool open_ = false;
+  std::atomic<bool> model_held_{false};  // by `write` or `write_last`
+  std::atomic<bool> open_{false};
   std::int64_t virtual_us_ = 1;
   std::int64_t asked_us_ = 0;
   std::array<OnTheWay, 64> queue_{};  // a ring: from first_, size_ of them

@@ -1,0 +1,60 @@
+#include "device_choice.hpp"
+
+#ifdef CLAYSTACK_USB
+#include "claystack/falcon/usb_devices.hpp"
+#endif
+
+#include <CLI/CLI.hpp>
+
+#include <utility>
+
+namespace clay::app {
+namespace {
+
+using DevicePointer = std::unique_ptr<falcon::HapticDevice>;
+
+Result<DevicePointer> open_simulated(const falcon::SimulatedSettings& settings) {
+  auto simulated = falcon::make_simulated_falcon(settings);
+  if (!simulated) return tl::make_unexpected(error_of(simulated.error()));
+  if (auto opened = simulated->device->open(); !opened)
+    return tl::make_unexpected(error_of(opened.error()));
+  return std::move(simulated->device);
+}
+
+}  // namespace
+
+Error error_of(const falcon::DeviceError& error) {
+  const bool ours = error.fault == falcon::DeviceFault::bad_firmware ||
+                    error.fault == falcon::DeviceFault::bad_setting;
+  return {ours ? ErrorKind::bad_input : ErrorKind::device, text_of(error)};
+}
+
+std::string check_device_name(const std::string& which) {
+  for (const char* name : {"auto", "falcon", "bridge", "spacemouse", "simulated"})
+    if (which == name) return {};
+  if (which.starts_with("usb:") || which.starts_with("/dev/")) return {};
+  return "expected auto, falcon, bridge, spacemouse, simulated, usb:BUS-PORT or /dev/hidrawN, "
+         "found " +
+         which;
+}
+
+void add_firmware_option(CLI::App& command, std::string& firmware) {
+  command.add_option("--firmware", firmware, "The Falcon's firmware, from its driver")
+      ->envname("CLAYSTACK_FALCON_FIRMWARE");
+}
+
+Result<DevicePointer> open_chosen(const std::string& which, const falcon::FalconSettings& settings,
+                                  const falcon::SimulatedSettings& simulated) {
+  if (which == "simulated") return open_simulated(simulated);
+#ifdef CLAYSTACK_USB
+  auto device = falcon::open_device(which, {.falcon = settings, .space_mouse = {}});
+  if (!device) return tl::make_unexpected(error_of(device.error()));
+  return std::move(*device);
+#else
+  (void)settings;
+  return failure(ErrorKind::bad_input,
+                 which + ": expected simulated, since this program was built without USB devices");
+#endif
+}
+
+}  // namespace clay::app

@@ -1,0 +1,33 @@
+#pragma once
+// Which device a person means, and how what is wrong with it is told.
+
+#include "claystack/engine/result.hpp"
+#include "claystack/falcon/device.hpp"
+#include "claystack/falcon/simulated_falcon.hpp"
+
+#include <CLI/App.hpp>
+
+#include <memory>
+#include <string>
+
+namespace clay::app {
+
+inline constexpr const char* kHomingAdvice =
+    "pull the grip all the way out, then push it all the way in";
+
+/// A fault of the user's files and settings is bad input, any other the device's.
+[[nodiscard]] Error error_of(const falcon::DeviceError& error);
+
+/// For CLI options: auto, falcon, bridge, spacemouse, simulated or a place; otherwise what was
+/// expected.
+[[nodiscard]] std::string check_device_name(const std::string& which);
+
+/// --firmware, or CLAYSTACK_FALCON_FIRMWARE.
+void add_firmware_option(CLI::App& command, std::string& firmware);
+
+/// The device, open. `simulated` is made as it says; the others need the USB parts built in.
+Result<std::unique_ptr<falcon::HapticDevice>> open_chosen(
+    const std::string& which, const falcon::FalconSettings& falcon,
+    const falcon::SimulatedSettings& simulated);
+
+}  // namespace clay::app

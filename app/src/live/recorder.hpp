@@ -1,0 +1,61 @@
+#pragma once
+// Writes a session while it is played. The servo hands over poses and never waits; a thread of its
+// own appends them to the file a few hundredths of a second later, whole lines at a time: a process
+// that is killed loses at most the last 100 ms. (The machine's own end is not guarded against
+// until `finish` has synced the file.)
+
+#include "claystack/engine/pose.hpp"
+#include "claystack/engine/result.hpp"
+#include "claystack/falcon/command_queue.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+namespace clay::live {
+
+class Recorder {
+ public:
+  /// Begins the file, in place of what was there. `scene_hash`: hash_of the scene as it is on disk.
+  static Result<std::unique_ptr<Recorder>> create(const std::string& path,
+                                                  std::string_view scene_name,
+                                                  std::uint64_t scene_hash);
+  /// Ends the recording; who wants to know how it went calls finish() first.
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  /// From the servo: a quantised pose, later than the last. No waiting, no allocation. False: it is
+  /// not recorded, nor is any after it, since a session with a hole would replay to another pot.
+  bool take(const Pose& pose) noexcept;
+
+  /// After the last take: waits until all is on the disk. The error is of the first write that
+  /// failed.
+  Result<void> finish();
+
+  /// Poses not recorded, since the disk was too slow or refused.
+  [[nodiscard]] std::uint64_t lost() const noexcept { return lost_.load(); }
+  [[nodiscard]] std::uint64_t taken() const noexcept { return taken_.load(); }
+
+ private:
+  Recorder(std::string path, int descriptor);
+  void run();
+  void write_waiting();
+  void append(std::string_view line);
+
+  static constexpr std::size_t kWaiting = 8192;  // poses: 8 s at 1 kHz
+  std::string path_;
+  int descriptor_;
+  falcon::CommandQueue<Pose, kWaiting> queue_;
+  std::atomic<std::uint64_t> lost_{0}, taken_{0};
+  std::atomic<bool> closing_{false}, failed_{false};
+  std::vector<Pose> block_;  // the thread's
+  Error error_;              // the thread's, until it has ended
+  std::thread thread_;
+};
+
+}  // namespace clay::live

@@ -1,0 +1,28 @@
+#pragma once
+// A hand for the simulated arm: it means to do what a recorded session did. Where the clay pushes
+// back it gets a little less far, as a hand does.
+
+#include "claystack/engine/pose.hpp"
+#include "claystack/falcon/simulated_falcon.hpp"
+#include "live/mapping.hpp"
+
+#include <vector>
+
+namespace clay::live {
+
+/// Time before the stroke begins, for homing and for the guard to see that nothing is in the way.
+inline constexpr double kHandLeadS = 0.5;
+
+/// The poses in the device's frame, linear between them, kHandLeadS late; before and after, the
+/// first and the last. Times of the poses rise. Copies what it needs; called, it allocates nothing.
+[[nodiscard]] falcon::HandPath hand_path(const std::vector<Pose>& poses, const Mapping& mapping);
+
+/// When the stroke is over [s]; 0 without poses.
+[[nodiscard]] double seconds_of(const std::vector<Pose>& poses) noexcept;
+
+/// A Falcon that has its firmware, held by a hand that is stiff enough to keep to the path: 2 N/mm
+/// and damped so that it does not swing.
+[[nodiscard]] falcon::SimulatedSettings simulated_potter(const std::vector<Pose>& poses,
+                                                         const Mapping& mapping);
+
+}  // namespace clay::live

@@ -1,0 +1,152 @@
+#include "live_report.hpp"
+
+#include "device_choice.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <glm/geometric.hpp>
+
+namespace clay::app {
+namespace {
+
+using falcon::DeviceState;
+using falcon::GuardState;
+using falcon::SafeCause;
+
+constexpr double kUsPerNs = 1e-3;
+// In the order of GuardFlag and SafeCause.
+constexpr std::array<const char*, live::GuardEvents::kFlags> kFlagNames = {
+    "not_ready", "not_finite", "limited",  "slewed", "jump",
+    "stale",     "late",       "old_clay", "hot",    "clock"};
+constexpr std::array<const char*, live::GuardEvents::kCauses> kCauseNames = {
+    "none", "not_finite", "not_passive", "jumped", "overrun", "paused", "stopped"};
+
+std::string words_of_safe(SafeCause cause) {
+  switch (cause) {
+    case SafeCause::not_finite:
+      return "no force: a number that is none; press the clutch to go on";
+    case SafeCause::not_passive:
+      return "no force: the contact was unstable; press the clutch to go on";
+    case SafeCause::jumped:
+      return "no force: the position leapt";
+    case SafeCause::overrun:
+      return "no force: the servo was held up";
+    default:
+      return "no force";
+  }
+}
+
+std::string words_of_guard(const live::LiveStatus& status) {
+  switch (status.guard) {
+    case GuardState::idle:
+      return "waiting for the device";
+    case GuardState::waiting:
+      return status.contact ? "take the tool off the clay: force comes after that" : "ready";
+    case GuardState::ramping:
+      return fmt::format("force grows, {:.0f} %", 100.0 * status.force_gain);
+    case GuardState::engaged:
+      return status.contact ? "throwing" : "ready";
+    case GuardState::fading:
+      return "force let go: no samples, or warm motors";
+    case GuardState::safe:
+      return words_of_safe(status.cause);
+  }
+  return {};
+}
+
+Json times_json(const falcon::TimingHistogram& times) {
+  const auto us = [](std::int64_t ns) { return kUsPerNs * static_cast<double>(ns); };
+  return {{"p50", us(times.quantile_ns(0.5))},
+          {"p99", us(times.quantile_ns(0.99))},
+          {"max", us(times.most_ns())}};
+}
+
+Json events_json(const live::GuardEvents& events) {
+  Json json = Json::object();
+  for (std::size_t bit = 0; bit < events.flags.size(); ++bit)
+    if (events.flags[bit] > 0) json[kFlagNames[bit]] = events.flags[bit];
+  Json safe = Json::object();
+  for (std::size_t cause = 1; cause < events.safe.size(); ++cause)
+    if (events.safe[cause] > 0) safe[kCauseNames[cause]] = events.safe[cause];
+  json["safe"] = safe;
+  json["damped_ticks"] = events.damped;
+  json["watchdog"] = events.watchdog;
+  return json;
+}
+
+std::string spread(const Json& times) {
+  return fmt::format("median {:.4g} us, 99 % within {:.4g}, at most {:.4g}",
+                     times["p50"].get<double>(), times["p99"].get<double>(),
+                     times["max"].get<double>());
+}
+
+}  // namespace
+
+const char* name_of(live::Ending ending) {
+  switch (ending) {
+    case live::Ending::none:
+      return "running";
+    case live::Ending::stopped:
+      return "stopped";
+    case live::Ending::time_up:
+      return "time_up";
+    case live::Ending::device_lost:
+      return "device_lost";
+    case live::Ending::collapsed:
+      return "collapsed";
+  }
+  return "";
+}
+
+std::string words_of(const live::LiveStatus& status) {
+  if (status.device == DeviceState::needs_homing) return std::string("home it: ") + kHomingAdvice;
+  if (status.device != DeviceState::ready) return std::string(name_of(status.device));
+  if (status.paused) return "paused";
+  if (status.clutched) return "clutch: the tool stays where it is";
+  if (status.ring_limit) return "clay waits above the top: raise lump.max_rings";
+  return words_of_guard(status);
+}
+
+std::string status_line(const live::LiveStatus& status, double rate_hz) {
+  return fmt::format("{:6.1f} s  {:4.0f} Hz  {:4.2f} N  {:.0f} quanta  {:5.1f} mm  {}",
+                     status.time_s, rate_hz, glm::length(status.force_n), status.volume_error,
+                     status.height_mm, words_of(status));
+}
+
+Json servo_json(const live::ServoLoop& loop, const live::Realtime& realtime) {
+  const live::ServoTiming& timing = loop.timing();
+  const double mean_ns = timing.period.mean_ns();
+  return {{"ticks", timing.ticks},
+          {"rate_hz", mean_ns > 0.0 ? 1e9 / mean_ns : 0.0},
+          {"lateness_us", times_json(timing.lateness)},
+          {"period_us", times_json(timing.period)},
+          {"work_us", times_json(timing.work)},
+          {"sample_age_us", times_json(timing.age)},
+          {"work_share_percent", 100.0 * timing.work_share()},
+          {"missed_ticks", timing.missed},
+          {"stale_ticks", timing.stale},
+          {"realtime",
+           {{"fifo", realtime.fifo},
+            {"memory_locked", realtime.memory_locked},
+            {"exact_sleep", realtime.exact_sleep},
+            {"missing", realtime.missing}}},
+          {"guard", events_json(loop.events())}};
+}
+
+void tell_servo(const Console& console, const Json& servo) {
+  console.say(fmt::format(
+      "servo: {} ticks at {:.1f} Hz, {:.2g} % of the time at work, {} missed, "
+      "{} without a fresh sample",
+      servo["ticks"].get<std::uint64_t>(), servo["rate_hz"].get<double>(),
+      servo["work_share_percent"].get<double>(), servo["missed_ticks"].get<std::uint64_t>(),
+      servo["stale_ticks"].get<std::uint64_t>()));
+  console.say("lateness: " + spread(servo["lateness_us"]));
+  console.say("work: " + spread(servo["work_us"]));
+  console.say("age of samples: " + spread(servo["sample_age_us"]));
+  console.say("guard: " + servo["guard"].dump());
+  const auto missing = servo["realtime"]["missing"].get<std::string>();
+  if (!missing.empty()) console.say("real time: " + missing);
+}
+
+}  // namespace clay::app

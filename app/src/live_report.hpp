@@ -1,0 +1,26 @@
+#pragma once
+// What a live throw says of itself: in a line while it runs, in full when it is over.
+
+#include "console.hpp"
+#include "live/servo.hpp"
+
+#include <string>
+
+namespace clay::app {
+
+/// For scripts: "time_up".
+[[nodiscard]] const char* name_of(live::Ending ending);
+
+/// What the potter should know or do now: "home it: ...", "throwing".
+[[nodiscard]] std::string words_of(const live::LiveStatus& status);
+
+/// One line: rate, force, volume error, words.
+[[nodiscard]] std::string status_line(const live::LiveStatus& status, double rate_hz);
+
+/// Times in us, events by name.
+[[nodiscard]] Json servo_json(const live::ServoLoop& loop, const live::Realtime& realtime);
+
+/// The same for people.
+void tell_servo(const Console& console, const Json& servo);
+
+}  // namespace clay::app

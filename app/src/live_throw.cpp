@@ -1,0 +1,256 @@
+#include "live_throw.hpp"
+
+#include "clay_summary.hpp"
+#include "device_choice.hpp"
+#include "live/scene_hand.hpp"
+#include "live/signals.hpp"
+#include "live_report.hpp"
+#include "replay.hpp"
+#include "servo_check.hpp"
+
+#include "claystack/engine/atomic_file.hpp"
+#include "claystack/engine/pot_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <thread>
+
+namespace clay::app {
+namespace {
+
+using namespace std::chrono_literals;
+using live::Ending;
+
+constexpr auto kLook = 20ms;  // at the servo, for its end
+constexpr auto kReopen = 500ms;
+
+void set_mapping(LiveOptions& options) {
+  live::MappingSettings& mapping = options.settings.mapping;
+  mapping.side = options.side == "left"    ? live::Side::left
+                 : options.side == "front" ? live::Side::front
+                                           : live::Side::right;
+  mapping.flip_x = options.flip.find('x') != std::string::npos;
+  mapping.flip_y = options.flip.find('y') != std::string::npos;
+  mapping.flip_z = options.flip.find('z') != std::string::npos;
+  falcon::GuardSettings& guard = options.settings.guard;
+  guard.hot_force_n = std::min(guard.hot_force_n, 0.8 * guard.force_limit_n);
+}
+
+/// Refuses a scene that is too stiff for the arm, or softens it. Its stiffness has no part in what
+/// becomes of the clay, so a softened scene replays to the same pot.
+Result<void> fit_stiffness(SceneSpec& scene, const StepPlan& plan, const LiveOptions& options,
+                           double gain, const Console& console) {
+  falcon::SampledLoop arm = options.settings.arm;
+  arm.rate_hz = options.settings.rate_hz;
+  const auto contact = servo_contact(scene, plan, arm, gain);
+  if (!contact) return tl::make_unexpected(contact.error());
+  if (!options.soften) {
+    const auto checked = check_servo(scene, plan, arm, gain);
+    if (checked) return {};
+    return failure(checked.error().kind, checked.error().message + "; or --soften");
+  }
+  if (contact->stiffness_n_per_m <= contact->accepted_n_per_m) return {};
+  const double part = contact->accepted_n_per_m / contact->stiffness_n_per_m;
+  scene.force->stiffness_n_per_mm2 *= part;
+  if (scene.force->paper_stiffness_n_per_mm) *scene.force->paper_stiffness_n_per_mm *= part;
+  console.say(fmt::format("stiffness lowered to {:.3g} of the scene's", part));
+  return {};
+}
+
+/// All that a live throw is made of, in the order in which it is made.
+struct Stage {
+  SceneSpec scene;
+  std::uint64_t scene_hash = 0;
+  std::optional<Wheel> wheel;
+  std::unique_ptr<falcon::HapticDevice> device;
+  std::unique_ptr<live::Recorder> recorder;
+  live::MonotonicClock clock;
+  std::optional<live::ServoLoop> loop;
+};
+
+Result<std::vector<Pose>> stroke_of(const LiveJob& job) {
+  std::error_code ignored;
+  if (job.stroke_path.empty() || !std::filesystem::exists(job.stroke_path, ignored))
+    return std::vector<Pose>();
+  return load_session(job.stroke_path).map([](Session&& session) {
+    return std::move(session.poses);
+  });
+}
+
+Result<void> open_device(const LiveJob& job, LiveOptions& options, const live::Mapping& mapping,
+                         Stage& stage) {
+  std::vector<Pose> stroke;
+  if (options.device == "simulated") {
+    auto poses = stroke_of(job);
+    if (!poses) return tl::make_unexpected(poses.error());
+    stroke = std::move(*poses);
+    if (options.settings.seconds == 0.0) options.settings.seconds = live::seconds_of(stroke);
+  }
+  falcon::FalconSettings falcon;
+  falcon.firmware_path = options.firmware;
+  auto device = open_chosen(options.device, falcon, live::simulated_potter(stroke, mapping));
+  if (!device) return tl::make_unexpected(device.error());
+  stage.device = std::move(*device);
+  options.settings.buttons =
+      stage.device->info().can_push ? live::kFalconButtons : live::kTwoButtons;
+  return {};
+}
+
+Result<void> build(const LiveJob& job, LiveOptions& options, const Console& console, Stage& stage) {
+  set_mapping(options);
+  if (auto checked = check(options.settings); !checked) return checked;
+  const auto mapping = live::Mapping::build(options.settings.mapping);
+  if (!mapping) return tl::make_unexpected(mapping.error());
+  auto scene = load_scene(job.scene_path);
+  if (!scene) return tl::make_unexpected(scene.error());
+  stage.scene = std::move(*scene);
+  if (!job.model.empty())
+    stage.scene.model = job.model == "paper" ? Model::paper : Model::conserving;
+  stage.scene_hash = hash_of(stage.scene);
+  const auto named = [&](const Error& error) {
+    return failure(error.kind, job.scene_path + ": " + error.message);
+  };
+  const auto plan = StepPlan::build(stage.scene);
+  if (!plan) return named(plan.error());
+  if (auto fits = fit_stiffness(stage.scene, *plan, options, mapping->stiffness_gain(), console);
+      !fits)
+    return named(fits.error());
+  auto wheel = Wheel::build(stage.scene);
+  if (!wheel) return named(wheel.error());
+  stage.wheel.emplace(std::move(*wheel));
+
+  if (auto opened = open_device(job, options, *mapping, stage); !opened) return opened;
+  if (!options.record.empty()) {
+    auto recorder = live::Recorder::create(options.record, stage.scene.name, stage.scene_hash);
+    if (!recorder) return tl::make_unexpected(recorder.error());
+    stage.recorder = std::move(*recorder);
+  }
+  auto loop = live::ServoLoop::build(
+      {*stage.wheel, *stage.device, stage.clock, stage.recorder.get()}, options.settings);
+  if (!loop) return tl::make_unexpected(loop.error());
+  stage.loop.emplace(std::move(*loop));
+  return {};
+}
+
+/// Shows the servo until it ends.
+void watch(live::Servo& servo, StatusLine& line) {
+  std::uint64_t ticks = 0;
+  auto since = std::chrono::steady_clock::now();
+  double rate_hz = 0.0;
+  while (servo.running()) {
+    std::this_thread::sleep_for(kLook);
+    if (!line.due()) continue;
+    const live::LiveStatus& status = servo.view().status.newest();
+    const auto now = std::chrono::steady_clock::now();
+    rate_hz = static_cast<double>(status.ticks - ticks) /
+              std::chrono::duration<double>(now - since).count();
+    ticks = status.ticks;
+    since = now;
+    line.show(status_line(status, rate_hz));
+  }
+}
+
+/// Tries to open the device again until it can be, or a signal comes.
+bool comes_back(falcon::HapticDevice& device) {
+  while (live::ForceSignals::asked_to_stop() == 0) {
+    if (device.open()) return true;
+    std::this_thread::sleep_for(kReopen);
+  }
+  return false;
+}
+
+/// Ends with the hand free of force.
+Ending run(Stage& stage, const LiveOptions& options, const Console& console,
+           live::Realtime& realtime) {
+  const live::ForceSignals signals;
+  StatusLine line(console);
+  for (;;) {
+    live::Servo servo({*stage.wheel, *stage.device, stage.clock, stage.recorder.get()}, *stage.loop,
+                      true);
+    servo.start();
+    // A signal before this found nothing to stop.
+    if (live::ForceSignals::asked_to_stop() != 0) servo.command({live::CommandKind::stop, 0.0});
+    watch(servo, line);
+    const Ending ending = servo.join();
+    realtime = servo.realtime();
+    if (ending != Ending::device_lost || !options.wait) return ending;
+    line.clear();
+    console.warn(text_of(stage.device->problem()) + "; waiting for it");
+    if (!comes_back(*stage.device)) return Ending::stopped;
+  }
+}
+
+Json recording_json(const LiveOptions& options, const Stage& stage) {
+  if (!stage.recorder) return nullptr;
+  return {{"path", options.record},
+          {"poses", stage.recorder->taken()},
+          {"lost", stage.recorder->lost()}};
+}
+
+/// Keeps what there is, whatever went wrong; the first thing that did is the error.
+Result<void> keep(const LiveJob& job, const LiveOptions& options, const Console& console,
+                  Stage& stage, const Pot& pot) {
+  Result<void> kept;
+  if (stage.recorder) {
+    kept = stage.recorder->finish();
+    if (kept && stage.recorder->lost() > 0)
+      console.warn(
+          fmt::format("{}: the disk was too slow: the last {} poses are not in it, and it "
+                      "replays to the pot as it was before them",
+                      options.record, stage.recorder->lost()));
+  }
+  if (job.pot_path.empty()) return kept;
+  const PotEncoding encoding =
+      job.pot_path.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
+  auto published = publish(job.pot_path, write_pot(pot, encoding));
+  return kept ? published : kept;
+}
+
+void tell(const LiveJob& job, const LiveOptions& options, const Console& console,
+          const Json& json) {
+  console.say(fmt::format("{:.1f} s on the wheel, {} poses, ended: {}",
+                          json["seconds"].get<double>(), json["poses"].get<std::uint64_t>(),
+                          json["ended"].get<std::string>()));
+  console.say(fmt::format("{} rings, {:.1f} mm high, {:.1f} cm3 of clay; volume error: {} quanta",
+                          json["rings"].get<std::size_t>(), json["height_mm"].get<double>(),
+                          json["volume_mm3"].get<double>() / 1000.0,
+                          json["volume_error_quanta"].dump()));
+  tell_collapse(console, json);
+  tell_servo(console, json["servo"]);
+  if (!job.pot_path.empty()) console.say("pot: " + job.pot_path);
+  if (!options.record.empty()) console.say("session: " + options.record);
+}
+
+}  // namespace
+
+Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console) {
+  if (job.pot_path == "-") console.quiet = true;
+  Stage stage;
+  if (auto built = build(job, options, console, stage); !built) return built;
+  live::Realtime realtime;
+  const Ending ending = run(stage, options, console, realtime);
+
+  const Pot pot = stage.wheel->pot();
+  const auto kept = keep(job, options, console, stage, pot);
+  const live::LiveStatus& status = stage.loop->status();
+  Json json = {{"scene", stage.scene.name},
+               {"device", stage.device->info().name},
+               {"ended", name_of(ending)},
+               {"seconds", status.time_s},
+               {"poses", status.poses},
+               {"recording", recording_json(options, stage)},
+               {"servo", servo_json(*stage.loop, realtime)}};
+  json.update(clay_json(*stage.wheel, pot));
+  if (console.json) console.print(json);
+  tell(job, options, console, json);
+  if (!kept) return kept;
+  if (ending == Ending::device_lost) return tl::make_unexpected(error_of(stage.device->problem()));
+  return {};
+}
+
+}  // namespace clay::app

@@ -1,0 +1,126 @@
+#include "claystack/engine/session_file.hpp"
+#include "claystack/falcon/transport.hpp"
+#include "live/recorder.hpp"
+#include "run_program.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <new>
+#include <thread>
+
+namespace clay::live {
+namespace {
+
+/// A tool on its way: what a hand does in a millisecond.
+Pose pose_at(std::int64_t time_us) {
+  const double t = 1e-6 * static_cast<double>(time_us);
+  return quantized({time_us, {50.0 + 10.0 * std::sin(3.0 * t), 20.0 * t, 0.0}, false, 0.0});
+}
+
+Session session_of(const std::string& path) {
+  auto session = parse_session(test::read_text(path), path);
+  EXPECT_TRUE(session) << session.error().message;
+  return session.value_or(Session());
+}
+
+TEST(Recorder, WritesAllThatItTook) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("s.session");
+  auto recorder = Recorder::create(path, "a scene", 42).value();
+  for (std::int64_t i = 0; i < 5000; ++i) ASSERT_TRUE(recorder->take(pose_at(1000 * i)));
+  ASSERT_TRUE(recorder->finish());
+  const Session session = session_of(path);
+  EXPECT_EQ(session.scene_name, "a scene");
+  EXPECT_EQ(session.scene_hash, 42u);
+  EXPECT_FALSE(session.torn);
+  ASSERT_EQ(session.poses.size(), 5000u);
+  for (std::int64_t i = 0; i < 5000; ++i)
+    ASSERT_EQ(session.poses[static_cast<std::size_t>(i)], pose_at(1000 * i));
+}
+
+TEST(Recorder, OverflowIsToldAndLeavesABeginningWithoutHoles) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("s.session");
+  auto recorder = Recorder::create(path, "a scene", 0).value();
+  std::int64_t i = 0;
+  while (recorder->take(pose_at(1000 * i))) ++i;  // faster than any disk
+  EXPECT_EQ(recorder->lost(), 1u);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  EXPECT_FALSE(recorder->take(pose_at(1000 * (i + 1)))) << "there is room again, but a hole before";
+  ASSERT_TRUE(recorder->finish());
+  EXPECT_EQ(recorder->lost(), 2u);
+  const Session session = session_of(path);
+  ASSERT_EQ(session.poses.size(), static_cast<std::size_t>(i));
+  EXPECT_EQ(session.poses.back(), pose_at(1000 * (i - 1)));
+}
+
+TEST(Recorder, ADiskThatRefusesIsAnErrorAtTheEndAndTheBeginningIsGood) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("s.session");
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{20'000, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  auto recorder = Recorder::create(path, "a scene", 0).value();
+  for (std::int64_t i = 0; i < 5000; ++i) (void)recorder->take(pose_at(1000 * i));
+  const auto finished = recorder->finish();
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, SIG_DFL);
+  ASSERT_FALSE(finished);
+  EXPECT_EQ(finished.error().kind, ErrorKind::io);
+  EXPECT_NE(finished.error().message.find(path + ": could not write"), std::string::npos);
+  const Session session = session_of(path);
+  EXPECT_TRUE(session.torn);
+  EXPECT_GT(session.poses.size(), 100u);
+}
+
+TEST(Recorder, RefusesAFileThatCannotBeWritten) {
+  for (const char* path : {"/no/such/folder/s.session", "/dev/full"}) {
+    const auto recorder = Recorder::create(path, "a scene", 0);
+    ASSERT_FALSE(recorder);
+    EXPECT_EQ(recorder.error().kind, ErrorKind::io);
+    EXPECT_NE(recorder.error().message.find(path), std::string::npos);
+  }
+}
+
+TEST(Recorder, KilledItHasLostNoMoreThanTheLast100Ms) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("s.session");
+  using Time = std::atomic<std::int64_t>;
+  void* shared =
+      mmap(nullptr, sizeof(Time), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  Time* taken_us = new (shared) Time(0);
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(60);  // no orphan, whatever befalls the parent
+    auto recorder = Recorder::create(path, "a scene", 0).value();
+    const std::int64_t start_us = falcon::monotonic_us();
+    for (std::int64_t last_us = 0;;) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      const std::int64_t now_us = falcon::monotonic_us() - start_us;
+      if (now_us <= last_us) continue;
+      last_us = now_us;
+      if (recorder->take(pose_at(now_us))) taken_us->store(now_us);
+    }
+  }
+  while (taken_us->load() < 700'000) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  const Session session = session_of(path);
+  ASSERT_FALSE(session.poses.empty());
+  EXPECT_GE(session.poses.back().time_us, taken_us->load() - 100'000);
+  EXPECT_EQ(session.poses.back(), pose_at(session.poses.back().time_us));
+  munmap(shared, sizeof(Time));
+}
+
+}  // namespace
+}  // namespace clay::live

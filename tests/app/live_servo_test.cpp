@@ -1,0 +1,215 @@
+// Servo, watchdog and readers as threads. No limits in time: a machine may be busy.
+
+#include "live/servo.hpp"
+#include "live/signals.hpp"
+#include "live_bench.hpp"
+#include "scripted_device.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <stdexcept>
+#include <thread>
+
+namespace clay::live {
+namespace {
+
+template <class Condition>
+void wait_for(Condition condition) {
+  while (!condition()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+/// Force comes soon: after a ramp of a tenth of a second.
+LiveSettings quick() {
+  LiveSettings settings = one_to_one();
+  settings.guard.ramp_s = 0.1;
+  // A busy machine's late ticks are not what is tested here.
+  settings.guard.safe_rest_s = 0.01;
+  return settings;
+}
+
+/// A servo on a scripted device.
+struct Threads {
+  explicit Threads(WireLog& wire, LiveSettings settings = quick())
+      : log(wire), device(wire), loop(ServoLoop::build(bench(), settings).value()) {}
+  Bench bench() { return {wheel, device, clock, nullptr}; }
+
+  WireLog& log;
+  ScriptedDevice device;
+  Wheel wheel = Wheel::build(rib_scene()).value();
+  MonotonicClock clock;
+  ServoLoop loop;
+};
+
+TEST(Servo, EndsByCommandWithAStopAsTheLastWord) {
+  WireLog log;
+  Threads threads(log);
+  Servo servo(threads.bench(), threads.loop, false);
+  servo.start();
+  wait_for([&] { return log.writes > 50; });
+  ASSERT_TRUE(servo.command({CommandKind::stop, 0.0}));
+  EXPECT_EQ(servo.join(), Ending::stopped);
+  EXPECT_FALSE(servo.running());
+  EXPECT_EQ(log.stops, 1u);
+  EXPECT_EQ(log.last_n, 0.0);
+  EXPECT_EQ(threads.loop.timing().ticks, log.writes);
+  EXPECT_EQ(threads.loop.timing().lateness.count(), threads.loop.timing().ticks);
+}
+
+TEST(Servo, ItsDestructorEndsTheForceToo) {
+  WireLog log;
+  Threads threads(log);
+  {
+    Servo servo(threads.bench(), threads.loop, false);
+    servo.start();
+    wait_for([&] { return log.most_n > 0.0; });
+  }
+  EXPECT_EQ(log.stops, 1u);
+  EXPECT_EQ(log.last_n, 0.0);
+}
+
+TEST(Servo, AHangEndsTheForceFromOutsideAndItComesBackByTheRamp) {
+  WireLog log;
+  Threads threads(log);
+  Servo servo(threads.bench(), threads.loop, false);
+  servo.start();
+  wait_for([&] { return log.last_n > 0.0; });
+  const std::uint64_t zeros = log.zeros;
+  log.hang = true;
+  wait_for([&] { return log.zeros > zeros; });
+  EXPECT_EQ(log.last_n, 0.0) << "nobody writes a force meanwhile";
+  const std::uint64_t writes = log.writes;
+  log.hang = false;
+  wait_for([&] { return log.writes > writes + 20; });
+  ASSERT_TRUE(servo.command({CommandKind::stop, 0.0}));
+  EXPECT_EQ(servo.join(), Ending::stopped);
+  EXPECT_GE(threads.loop.events().watchdog, 1u);
+}
+
+TEST(Servo, ReadersSeeWholeValuesThatGoForward) {
+  WireLog log;
+  Threads threads(log);
+  Servo servo(threads.bench(), threads.loop, false);
+  servo.start();
+  std::uint64_t ticks = 0;
+  double time_s = 0.0;
+  while (ticks < 300) {
+    const LiveStatus& status = servo.view().status.newest();
+    ASSERT_GE(status.ticks, ticks);
+    ASSERT_GE(status.time_s, time_s);
+    ASSERT_EQ(status.volume_error, 0.0);
+    ticks = status.ticks;
+    time_s = status.time_s;
+    const LiveProfile& profile = servo.view().profile.newest();
+    for (std::size_t row = 0; row < profile.size; ++row)
+      ASSERT_GT(profile.rows[row].outer_mm, profile.rows[row].inner_mm);
+    std::this_thread::yield();
+  }
+  ASSERT_TRUE(servo.command({CommandKind::stop, 0.0}));
+  servo.join();
+}
+
+TEST(Servo, AnUnpluggedDeviceEndsIt) {
+  WireLog log;
+  Threads threads(log);
+  Servo servo(threads.bench(), threads.loop, false);
+  servo.start();
+  wait_for([&] { return log.most_n > 0.0; });
+  log.gone = true;
+  EXPECT_EQ(servo.join(), Ending::device_lost);
+  EXPECT_EQ(log.last_n, 0.0);
+  // As after a reconnection: another servo, the same loop and wheel.
+  log.gone = false;
+  const std::uint64_t poses = threads.loop.status().poses;
+  Servo again(threads.bench(), threads.loop, false);
+  again.start();
+  wait_for([&] { return again.view().status.newest().poses > poses + 20; });
+  ASSERT_TRUE(again.command({CommandKind::stop, 0.0}));
+  EXPECT_EQ(again.join(), Ending::stopped);
+}
+
+TEST(Servo, RealTimeIsGivenOrSaidToBeMissing) {
+  Realtime realtime;
+  std::thread([&] { realtime = ask_for_realtime(kServoPriority); }).join();
+  EXPECT_TRUE(realtime.asked);
+  EXPECT_EQ(realtime.missing.empty(),
+            realtime.fifo && realtime.memory_locked && realtime.exact_sleep)
+      << realtime.missing;
+  EXPECT_EQ(realtime.missing.find("SCHED_FIFO") == std::string::npos, realtime.fifo);
+  munlockall();
+}
+
+/// A process of its own that throws until this befalls it; how it ended.
+class LastPacket : public testing::Test {
+ protected:
+  LastPacket() {
+    void* shared =
+        mmap(nullptr, sizeof(WireLog), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    log_ = new (shared) WireLog;
+  }
+  ~LastPacket() override { munmap(log_, sizeof(WireLog)); }
+
+  template <class Action>
+  int end_by(Action action) {
+    const pid_t child = fork();
+    if (child == 0) {
+      const rlimit no_core{0, 0};
+      setrlimit(RLIMIT_CORE, &no_core);
+      alarm(60);  // one that does not end is no orphan
+      const ForceSignals signals;
+      Threads threads(*log_);
+      Servo servo(threads.bench(), threads.loop, false);
+      servo.start();
+      wait_for([&] { return log_->last_n > 0.0; });
+      action();
+      servo.join();
+      _exit(ForceSignals::asked_to_stop());
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  }
+
+  /// Force there was, and the last word is none.
+  void expect_no_force() {
+    EXPECT_GT(log_->most_n, 0.0);
+    EXPECT_EQ(log_->last_n, 0.0);
+    EXPECT_GE(log_->stops, 1u);
+  }
+
+  WireLog* log_ = nullptr;
+};
+
+TEST_F(LastPacket, IsZeroAfterASignalThatAsksToStop) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+    EXPECT_EQ(end_by([=] { kill(getpid(), signal); }), signal);
+    expect_no_force();
+    new (log_) WireLog;
+  }
+}
+
+TEST_F(LastPacket, IsZeroAfterASignalThatKills) {
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
+    EXPECT_EQ(end_by([=] { kill(getpid(), signal); }), 128 + signal);
+    expect_no_force();
+    new (log_) WireLog;
+  }
+}
+
+TEST_F(LastPacket, IsZeroAfterAnExceptionThatNobodyCatches) {
+  const int status = end_by([] {
+    std::set_terminate([] { std::abort(); });  // without its message
+    std::thread([] { throw std::runtime_error("uncaught"); }).join();
+  });
+  EXPECT_EQ(status, 128 + SIGABRT);
+  expect_no_force();
+}
+
+}  // namespace
+}  // namespace clay::live

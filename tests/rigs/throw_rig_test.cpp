@@ -1,0 +1,202 @@
+// `claystack throw --device` as a user runs it: unmodified libftdi1, libusb and hidapi, and a hand
+// that plays the sample's stroke on the emulated device.
+
+#include "../app/run_program.hpp"
+#include "claystack/engine/atomic_file.hpp"
+#include "claystack/engine/scene_file.hpp"
+#include "claystack/engine/session_file.hpp"
+#include "claystack/engine/wheel.hpp"
+#include "falcon_gadget.hpp"
+#include "hid_gadget.hpp"
+#include "live/mapping.hpp"
+#include "testbed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace clay::rig {
+namespace {
+
+using namespace clay::falcon;
+using test::claystack;
+using test::Ran;
+
+// Frames that the hand stands off the clay: by the end of them most of the force is earned.
+constexpr std::uint64_t kLeadFrames = 800;
+
+/// The bowl's stroke, in the frame of kinematics.hpp. Two poses a frame: emulated frames are slow.
+Trajectory bowl_stroke() {
+  const std::string path = test::sample("bowl.session");
+  const Session session = parse_session(read_file(path).value(), path).value();
+  const auto mapping = live::Mapping::build({}).value();
+  std::vector<glm::dvec3> places;
+  for (const Pose& pose : session.poses)
+    places.push_back(Kinematics::kCentreM + 1e-3 * mapping.to_device(pose.position_mm));
+  return [places](std::uint64_t frame) {
+    const std::uint64_t at = frame > kLeadFrames ? 2 * (frame - kLeadFrames) : 0;
+    return places[std::min<std::uint64_t>(at, places.size() - 1)];
+  };
+}
+
+FalconModelSettings ready() {
+  FalconModelSettings model;
+  model.loaded = model.homed = true;
+  return model;
+}
+
+class ThrowRig : public testing::Test {
+ protected:
+  Ran throw_bowl(const std::string& device, const std::string& more) {
+    return claystack("throw " + test::sample("bowl.scene.json") + " --device " + device +
+                     " --json --record " + folder_.file("s.session") + " -o " +
+                     folder_.file("live.pot.json") + " " + more);
+  }
+
+  /// The pot as the recorded session leaves it: without any device.
+  std::string replayed() {
+    const auto run =
+        claystack("throw -q " + test::sample("bowl.scene.json") + " -s " +
+                  folder_.file("s.session") + " -o " + folder_.file("replay.pot.json"));
+    EXPECT_EQ(run.status, 0) << run.err;
+    return test::read_text(folder_.file("replay.pot.json"));
+  }
+  std::string thrown() { return test::read_text(folder_.file("live.pot.json")); }
+
+  /// Position went in, torque came out: each pose recorded is a place where the hand was, and what
+  /// the motors pushed in the frame after it points where the clay of the replay pushes the tool.
+  void expect_felt(const std::vector<FrameLog>& log) {
+    const std::string scene_path = test::sample("bowl.scene.json");
+    Wheel wheel =
+        Wheel::build(parse_scene(test::read_text(scene_path), scene_path).value()).value();
+    const std::string path = folder_.file("s.session");
+    const Session session = parse_session(test::read_text(path), path).value();
+    ASSERT_GT(session.poses.size(), 1000u);
+    const auto mapping = live::Mapping::build({}).value();
+    double farthest_mm = 0.0, along = 0.0, lengths = 0.0, felt_ns = 0.0, clay_ns = 0.0;
+    for (const Pose& pose : session.poses) {
+      const glm::dvec3 place_m = Kinematics::kCentreM + 1e-3 * mapping.to_device(pose.position_mm);
+      const auto at = std::ranges::min_element(
+          log, {}, [&](const FrameLog& frame) { return glm::distance(frame.position_m, place_m); });
+      farthest_mm = std::max(farthest_mm, 1e3 * glm::distance(at->position_m, place_m));
+      const glm::dvec3 clay_n = wheel.step(pose).force_n;
+      if (at + 1 == log.end()) continue;
+      const glm::dvec3& felt_n = (at + 1)->force_n;
+      along += glm::dot(felt_n, clay_n);
+      lengths += glm::length(felt_n) * glm::length(clay_n);
+      felt_ns += 1e-3 * glm::length(felt_n);
+      clay_ns += 1e-3 * glm::length(mapping.force_to_device(clay_n));
+    }
+    EXPECT_LT(farthest_mm, 0.07) << "half an encoder's step on each leg";
+    // All of it, but for what was not earned yet, or again after a hold-up.
+    EXPECT_GT(felt_ns, 0.2 * clay_ns);
+    EXPECT_GT(clay_ns, 0.0);
+    EXPECT_GT(along, 0.95 * lengths) << "of " << lengths;
+    double most_n = 0.0;
+    for (const FrameLog& frame : log) most_n = std::max(most_n, glm::length(frame.force_n));
+    EXPECT_GT(most_n, 0.1);
+    EXPECT_LT(most_n, 5.1) << "the limit, and the motors' steps";
+    EXPECT_EQ(log.back().motors, LegCounts{}) << "the last word";
+  }
+
+  test::ScratchFolder folder_;
+  Testbed testbed_;
+};
+
+TEST_F(ThrowRig, AStockFalconThrowsTheSample) {
+  FalconGadget gadget(ready(), bowl_stroke());
+  const UsbPlug plug(testbed_.get(), gadget);
+  const auto run = throw_bowl("falcon", "--seconds 6");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = run.json();
+  EXPECT_EQ(json.at("ended"), "time_up");
+  EXPECT_EQ(json.at("volume_error_quanta"), 0);
+  EXPECT_EQ(thrown(), replayed());
+  const std::scoped_lock held(gadget.lock);
+  SCOPED_TRACE(run.json().at("servo").dump());
+  expect_felt(gadget.device.log);
+}
+
+TEST_F(ThrowRig, AFalconBehindABridgeThrowsTheSame) {
+  BridgeGadget gadget(ready(), bowl_stroke());
+  const HidrawNode node(testbed_.get(), gadget, 2);
+  const auto run = throw_bowl("bridge", "--seconds 6");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(thrown(), replayed());
+  const std::scoped_lock held(gadget.lock);
+  SCOPED_TRACE(run.json().at("servo").dump());
+  expect_felt(gadget.device.log);
+  EXPECT_EQ(gadget.bad_reports, 0u);
+}
+
+TEST_F(ThrowRig, UnpluggedInMidStrokeKeepsPotAndSession) {
+  FalconModelSettings model = ready();
+  model.faults = {{WireFault::unplugged, 1300}};
+  FalconGadget gadget(model, bowl_stroke());
+  const UsbPlug plug(testbed_.get(), gadget);
+  const auto run = throw_bowl("falcon", "--seconds 60");
+  EXPECT_EQ(run.status, 4);
+  EXPECT_NE(run.err.find("usb:1-1: unplugged; plug it in again"), std::string::npos) << run.err;
+  const auto json = run.json();
+  EXPECT_EQ(json.at("ended"), "device_lost");
+  EXPECT_GT(json.at("poses"), 1000);
+  EXPECT_EQ(thrown(), replayed());
+}
+
+TEST_F(ThrowRig, WaitsForTheDeviceToComeBackWhenAsked) {
+  FalconModelSettings model = ready();
+  model.faults = {{WireFault::unplugged, 500}};
+  FalconGadget gadget(model, bowl_stroke());
+  const UsbPlug plug(testbed_.get(), gadget);
+  // Plugged in again as soon as it is gone; its firmware is still there, as with a supply of its
+  // own.
+  std::thread hand([&] {
+    for (bool gone = false; !gone; std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
+      const std::scoped_lock held(gadget.lock);
+      gone = gadget.device.model.unplugged();
+      if (gone) gadget.device.model.replug();
+    }
+  });
+  const auto run = throw_bowl("falcon", "--wait --seconds 3");
+  hand.join();
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.err.find("unplugged; plug it in again; waiting for it"), std::string::npos);
+  EXPECT_EQ(run.json().at("ended"), "time_up");
+  EXPECT_EQ(thrown(), replayed());
+}
+
+TEST_F(ThrowRig, ASpaceMouseMovesTheToolAndFeelsNothing) {
+  SpaceMouseGadget gadget;
+  HidrawNode node(testbed_.get(), gadget, 3);
+  // A cap held to the left, as long as the program runs.
+  std::atomic<bool> held{true};
+  std::thread hand([&] {
+    for (; held; std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
+      const std::scoped_lock lock(gadget.lock);
+      if (gadget.reports.empty()) gadget.reports.push_back({1, 0xA2, 0xFE, 0, 0, 0, 0});
+      node.pump();
+    }
+  });
+  const auto run = throw_bowl("spacemouse", "--seconds 2 --height 15");
+  held = false;
+  hand.join();
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.json().at("volume_error_quanta"), 0);
+  EXPECT_EQ(thrown(), replayed());
+  const std::string path = folder_.file("s.session");
+  const Session session = parse_session(test::read_text(path), path).value();
+  ASSERT_FALSE(session.poses.empty());
+  // Into the lump of 49 mm, until it is pushed over or the time is up.
+  EXPECT_LT(session.poses.back().position_mm.x, 45.0);
+}
+
+}  // namespace
+}  // namespace clay::rig
