@@ -75,6 +75,22 @@ Json events_json(const live::GuardEvents& events) {
   return json;
 }
 
+/// "not_ready 12, safe after position_leaps 1", or "nothing to tell".
+std::string events_in_words(const Json& events) {
+  std::string words;
+  const auto add = [&](const std::string& what, const Json& count) {
+    if (count.get<std::uint64_t>() > 0)
+      words += fmt::format("{}{} {}", words.empty() ? "" : ", ", what, count.get<std::uint64_t>());
+  };
+  for (const auto& [name, value] : events.items()) {
+    if (value.is_number()) add(name, value);
+    if (value.is_object())
+      for (const auto& [cause, count] : value.items())
+        add(std::string("safe after ").append(cause), count);
+  }
+  return words.empty() ? "nothing to tell" : words;
+}
+
 std::string spread(const Json& times) {
   return fmt::format("median {:.4g} us, 99 % within {:.4g}, at most {:.4g}",
                      times["p50"].get<double>(), times["p99"].get<double>(),
@@ -144,7 +160,7 @@ void tell_servo(const Console& console, const Json& servo) {
   console.say("lateness: " + spread(servo["lateness_us"]));
   console.say("work: " + spread(servo["work_us"]));
   console.say("age of samples: " + spread(servo["sample_age_us"]));
-  console.say("guard: " + servo["guard"].dump());
+  console.say("guard: " + events_in_words(servo["guard"]));
   const auto missing = servo["realtime"]["missing"].get<std::string>();
   if (!missing.empty()) console.say("real time: " + missing);
 }
