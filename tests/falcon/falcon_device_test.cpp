@@ -9,9 +9,11 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace clay::falcon {
@@ -63,18 +65,19 @@ FalconModelSettings ready_model() {
 class FirmwareFile {
  public:
   FirmwareFile() {
-    close(mkstemp(path_));
+    close(mkstemp(path_.data()));
     const auto bytes = dummy_firmware();
     std::ofstream(path_, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<long>(bytes.size()));
   }
-  ~FirmwareFile() { unlink(path_); }
+  ~FirmwareFile() { unlink(path_.c_str()); }
   FirmwareFile(const FirmwareFile&) = delete;
   FirmwareFile& operator=(const FirmwareFile&) = delete;
-  [[nodiscard]] const char* path() const { return path_; }
+  [[nodiscard]] const std::string& path() const { return path_; }
 
  private:
-  char path_[32] = "/tmp/firmware-XXXXXX";
+  /// A pattern until mkstemp has put a name in its place.
+  std::string path_ = std::filesystem::temp_directory_path() / "firmware-XXXXXX";
 };
 
 TEST(FalconDevice, GoesFromPowerUpToReady) {

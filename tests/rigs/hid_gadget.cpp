@@ -28,16 +28,6 @@ const Bytes kSpaceMouseDescriptor = {
     0x10, 0x95, 0x03, 0x09, 0x30, 0x09, 0x31, 0x09, 0x32, 0x81, 0x02, 0x85, 0x04, 0x05, 0x08,
     0x09, 0x4B, 0x15, 0x00, 0x25, 0x01, 0x75, 0x08, 0x95, 0x01, 0x91, 0x02, 0xC0};
 
-std::string hexadecimal(const Bytes& bytes) {
-  std::string text;
-  char digits[3];
-  for (const std::uint8_t byte : bytes) {
-    std::snprintf(digits, sizeof digits, "%02X", byte);
-    text += digits;
-  }
-  return text;
-}
-
 std::string four_digits(std::uint16_t number) {
   char digits[5];
   std::snprintf(digits, sizeof digits, "%04X", number);
@@ -63,6 +53,11 @@ std::string sysfs_of(const UsbIdentity& id, const Bytes& descriptor, int number)
          hid.substr(hid.rfind('/') + 1) + "\n\n";
 }
 
+UsbIdentity hid_identity(std::uint16_t vendor, std::uint16_t product, std::string name,
+                         const Bytes& report_descriptor, int port) {
+  return {vendor, product, std::move(name), 3, 0x81, 0x01, true, report_descriptor, port};
+}
+
 }  // namespace
 
 std::optional<Bytes> HidGadget::in(std::size_t, std::chrono::microseconds) {
@@ -74,15 +69,7 @@ std::optional<Bytes> HidGadget::in(std::size_t, std::chrono::microseconds) {
 
 BridgeGadget::BridgeGadget(const falcon::FalconModelSettings& settings, Trajectory hand)
     : device(settings, std::move(hand)) {
-  identity_.vendor = 0x1209;
-  identity_.product = 0x0001;
-  identity_.name = "Falcon HID bridge (rig)";
-  identity_.interface_class = 3;
-  identity_.in = 0x81;
-  identity_.out = 0x01;
-  identity_.interrupt = true;
-  identity_.port = 2;
-  identity_.report_descriptor = kBridgeDescriptor;
+  identity_ = hid_identity(0x1209, 0x0001, "Falcon HID bridge (rig)", kBridgeDescriptor, 2);
   device.model.set_baud(1'500'000);
 }
 
@@ -105,15 +92,7 @@ void BridgeGadget::out(std::span<const std::uint8_t> report) {
 }
 
 SpaceMouseGadget::SpaceMouseGadget() {
-  identity_.vendor = 0x256f;
-  identity_.product = 0xc635;
-  identity_.name = "SpaceMouse Compact";
-  identity_.interface_class = 3;
-  identity_.in = 0x81;
-  identity_.out = 0x01;
-  identity_.interrupt = true;
-  identity_.port = 3;
-  identity_.report_descriptor = kSpaceMouseDescriptor;
+  identity_ = hid_identity(0x256f, 0xc635, "SpaceMouse Compact", kSpaceMouseDescriptor, 3);
 }
 
 HidrawNode::HidrawNode(UMockdevTestbed* testbed, HidGadget& gadget, int number)

@@ -45,17 +45,9 @@ Bytes descriptors_of(const UsbIdentity& id) {
   return bytes;
 }
 
-std::string hexadecimal(const Bytes& bytes) {
-  std::string text;
-  char digits[3];
-  for (const std::uint8_t byte : bytes) {
-    std::snprintf(digits, sizeof digits, "%02X", byte);
-    text += digits;
-  }
-  return text;
+std::string hexadecimal(std::uint16_t word) {
+  return rig::hexadecimal(Bytes{high(word), low(word)});
 }
-
-std::string hexadecimal(std::uint16_t word) { return hexadecimal(Bytes{high(word), low(word)}); }
 
 UMockdevIoctlData* resolve(UMockdevIoctlData* data, std::size_t offset, std::size_t size) {
   return umockdev_ioctl_data_resolve(data, offset, size, nullptr);
@@ -66,6 +58,16 @@ usbdevfs_urb& urb_in(UMockdevIoctlData* data) {
 }
 
 }  // namespace
+
+std::string hexadecimal(const Bytes& bytes) {
+  std::string text;
+  char digits[3];
+  for (const std::uint8_t byte : bytes) {
+    std::snprintf(digits, sizeof digits, "%02X", byte);
+    text += digits;
+  }
+  return text;
+}
 
 UsbPlug::UsbPlug(UMockdevTestbed* testbed, UsbGadget& gadget) : gadget_(gadget) {
   const UsbIdentity& id = gadget.identity();

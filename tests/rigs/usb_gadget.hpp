@@ -33,6 +33,9 @@ struct UsbIdentity {
   int port = 1;                        ///< on bus 1
 };
 
+/// Two digits a byte, as umockdev's descriptions have them.
+std::string hexadecimal(const Bytes& bytes);
+
 /// What the device does. Called on the testbed's thread, one call at a time, under `lock`.
 class UsbGadget {
  public:
