@@ -11,10 +11,14 @@ namespace {
 
 constexpr float kLeanTolerance = 0.09f;  // [rad]: less is not seen in the shading
 constexpr float kWallTolerance = 0.05f;  // [mm]: half a colour of 256
+constexpr float kThickest = 1e4f;        // [mm]
 constexpr float kLeanSpan = 4.0f;        // tolerances that a lean is measured over, at least
 
+/// Finite, so that what lies between two rows is a number too.
 RowWall wall_of(const PotView& pot, std::size_t row) {
-  return row < pot.wall_mm.size() ? pot.wall_mm[row] : RowWall{};
+  if (row >= pot.wall_mm.size()) return {};
+  const RowWall& wall = pot.wall_mm[row];
+  return {std::min(wall.outer_mm, kThickest), std::min(wall.inner_mm, kThickest)};
 }
 
 bool bore_ends(const Level& a, const Level& b) { return (a.inner > 0.0f) != (b.inner > 0.0f); }
@@ -72,13 +76,8 @@ void measure_leans(std::vector<Level>& levels, float span_mm) {
 using Channels = std::array<float, 6>;
 
 Channels channels_of(const Level& level) {
-  const auto known = [](float wall) { return std::min(wall, 1e4f); };
-  return {level.outer,
-          level.inner,
-          level.outer_lean,
-          level.inner_lean,
-          known(level.wall.outer_mm),
-          known(level.wall.inner_mm)};
+  return {level.outer,      level.inner,         level.outer_lean,
+          level.inner_lean, level.wall.outer_mm, level.wall.inner_mm};
 }
 
 /// The slopes of lines from a level that pass all since within the tolerances.

@@ -157,8 +157,8 @@ out vec4 colour;
 void main() {
   vec3 n = normalize(normal), v = normalize(frame.eye.xyz - world);
   vec3 c = lit_surface(base.rgb, n, v, 1.0, 1.0, base.a, 0.35);
-  float side = touch.w * smoothstep(0.45, 0.95, dot(n, touch.xyz));
-  colour = shown(mix(exposed(c), vec3(1.0, 0.42, 0.05), 0.85 * side));
+  float side = touch.w * smoothstep(0.40, 0.80, dot(n, touch.xyz));
+  colour = shown(mix(exposed(c), vec3(1.0, 0.42, 0.05), side));
 }
 )";
 
