@@ -50,6 +50,8 @@ Result<EglContext> EglContext::create() {
   void* library = dlopen("libEGL.so.1", RTLD_LAZY);
   if (library == nullptr) return no_context("the library libEGL.so.1");
   dlclose(library);
+  for (const char* extension : {"EGL_EXT_platform_base", "EGL_MESA_platform_surfaceless"})
+    if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, extension)) return no_context(extension);
   const EGLDisplay display =
       eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) != EGL_TRUE)
