@@ -19,6 +19,9 @@ void add_check_command(CLI::App& app, Console& console, int& exit);
 #ifdef CLAYSTACK_DRAWINGS
 void add_import_command(CLI::App& app, Console& console, int& exit);
 #endif
+#ifdef CLAYSTACK_WINDOW
+void add_render_command(CLI::App& app, Console& console, int& exit);
+#endif
 #ifdef CLAYSTACK_USB
 void add_devices_command(CLI::App& app, Console& console, int& exit);
 #endif

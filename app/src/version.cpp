@@ -13,6 +13,9 @@ std::string version_text() {
 #ifdef CLAYSTACK_DRAWINGS
   parts += " drawings";
 #endif
+#ifdef CLAYSTACK_WINDOW
+  parts += " window";
+#endif
 #ifdef CLAYSTACK_USB
   parts += " devices";
 #endif
