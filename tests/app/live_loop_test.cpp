@@ -156,6 +156,65 @@ TEST(LiveLoop, PausesAndEndsByCommand) {
   EXPECT_EQ(live.tick(), Ending::stopped);
 }
 
+TEST(LiveLoop, TakesTheForceAwayByCommandAndGivesItBack) {
+  VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
+  live.run(3.2);
+  ASSERT_GT(glm::length(live.status().force_n), 0.1);
+  ASSERT_TRUE(live.commands.push({CommandKind::zero, 0.0}));
+  live.tick();
+  EXPECT_EQ(glm::length(live.status().force_n), 0.0) << "in the very tick";
+  const Pot before = live.wheel.pot();
+  live.run(3.0);
+  EXPECT_EQ(glm::length(live.status().force_n), 0.0) << "and for good";
+  EXPECT_EQ(live.status().cause, falcon::SafeCause::paused);
+  EXPECT_EQ(live.wheel.pot(), before);
+  ASSERT_TRUE(live.commands.push({CommandKind::rearm, 0.0}));
+  live.tick();
+  EXPECT_NE(live.status().guard, GuardState::safe);
+  // Off the clay, and then in again.
+  live.hand = [from_s = live.time_s](double t) { return press_to(4.0)(t - from_s); };
+  live.run(3.2);
+  EXPECT_GT(glm::length(live.status().force_n), 0.1);
+  // The last of the two counts.
+  ASSERT_TRUE(live.commands.push({CommandKind::rearm, 0.0}));
+  ASSERT_TRUE(live.commands.push({CommandKind::zero, 0.0}));
+  live.tick();
+  EXPECT_EQ(live.status().guard, GuardState::safe);
+}
+
+TEST(LiveLoop, WhereSecondsAreSetADeviceThatNobodyHomesIsNotWaitedForForEver) {
+  falcon::FalconModelSettings never = VirtualThrow::homed();
+  never.homed = false;
+  never.homing_frames = 1 << 30;
+  LiveSettings settings = one_to_one();
+  settings.seconds = 2.0;
+  VirtualThrow live(rib_scene(), settings, press_to(2.0), nullptr, never);
+  EXPECT_EQ(live.run(59.9), Ending::none) << "a hand takes its time";
+  EXPECT_EQ(live.run(1.0), Ending::time_up);
+  EXPECT_EQ(live.status().poses, 0u);
+  EXPECT_EQ(live.status().device, falcon::DeviceState::needs_homing);
+
+  settings.seconds = 0.0;
+  VirtualThrow patient(rib_scene(), settings, press_to(2.0), nullptr, never);
+  EXPECT_EQ(patient.run(200.0), Ending::none);
+
+  settings.seconds = 90.0;
+  VirtualThrow longer(rib_scene(), settings, press_to(2.0), nullptr, never);
+  EXPECT_EQ(longer.run(89.9), Ending::none) << "never sooner than asked for";
+  EXPECT_EQ(longer.run(1.0), Ending::time_up);
+}
+
+TEST(LiveLoop, APauseIsNoWantOfAHand) {
+  LiveSettings settings = one_to_one();
+  settings.seconds = 2.0;
+  VirtualThrow live(rib_scene(), settings, press_to(2.0));
+  live.run(0.5);
+  ASSERT_TRUE(live.commands.push({CommandKind::pause, 1.0}));
+  EXPECT_EQ(live.run(100.0), Ending::none);
+  ASSERT_TRUE(live.commands.push({CommandKind::pause, 0.0}));
+  EXPECT_EQ(live.run(0.5), Ending::none);
+}
+
 TEST(LiveLoop, AClayRateDeformsLessOftenAndIsFeltInBetween) {
   LiveSettings settings = one_to_one();
   settings.clay_rate_hz = 50.0;

@@ -13,7 +13,10 @@ struct LiveSettings {
   double clay_rate_hz =
       0.0;               ///< 20, as the engine counts no step for longer, to the rate; 0: the rate
   double seconds = 0.0;  ///< of throwing, then it ends; 0: until asked to
-  double gap_mm = 0.0;   ///< of poses, where the scene lets them pinch, to kWidestGapMm
+  /// Where `seconds` are set it ends too when no hand was believed for so long, as of a device that
+  /// nobody homes; never sooner than after `seconds`.
+  double patience_s = 60.0;
+  double gap_mm = 0.0;  ///< of poses, where the scene lets them pinch, to kWidestGapMm
   MappingSettings mapping;
   ButtonMap buttons = kFalconButtons;
   falcon::GuardSettings guard;  ///< its period follows from the rate

@@ -11,6 +11,7 @@ namespace clay::live {
 
 struct ServoTiming {
   falcon::TimingHistogram lateness;  ///< woken after the deadline
+  falcon::TimingHistogram oversleep; ///< sleeps within, ended later than asked
   falcon::TimingHistogram period;    ///< from one sample, or want of one, to the next
   falcon::TimingHistogram work;      ///< from there until the force is handed to the device
   falcon::TimingHistogram age;       ///< of the sample when the force is handed over; fresh ones
