@@ -230,9 +230,9 @@ TEST_F(LastPacket, IsZeroAfterASignalThatAsksToStop) {
 
 TEST_F(LastPacket, IsZeroAfterASignalThatKills) {
   // Every signal of the system that would end it, but for SIGKILL and those that ask.
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT, SIGTRAP, SIGSYS,
-                           SIGXCPU, SIGALRM, SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2, SIGSTKFLT,
-                           SIGPOLL, SIGPWR}) {
+  for (const int signal :
+       {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT, SIGTRAP, SIGSYS, SIGXCPU, SIGALRM,
+        SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2, SIGSTKFLT, SIGPOLL, SIGPWR}) {
     EXPECT_EQ(end_by([=] { kill(getpid(), signal); }), 128 + signal);
     expect_no_force();
     new (log_) WireLog;

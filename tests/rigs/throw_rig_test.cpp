@@ -1,7 +1,7 @@
 // `claystack throw --device` as a user runs it: unmodified libftdi1, libusb and hidapi, and a hand
-// that plays the sample's stroke on the emulated device. The same tests with hidapi's hidraw backend,
-// as the program is linked, and with its libusb backend put before that (CLAYSTACK_HIDAPI_LIBUSB is
-// the library).
+// that plays the sample's stroke on the emulated device. The same tests with hidapi's hidraw
+// backend, as the program is linked, and with its libusb backend put before that
+// (CLAYSTACK_HIDAPI_LIBUSB is the library).
 
 #include "../app/run_program.hpp"
 #include "../falcon/dummy_firmware.hpp"
@@ -215,9 +215,9 @@ TEST_F(ThrowRig, AStockFalconThrowsTheSampleFromABareStart) {
 TEST_F(ThrowRig, NoFaultOnTheWireIsBelieved) {
   FalconModelSettings model = ready();
   constexpr std::uint64_t kLost = 1900;
-  model.faults = {{WireFault::lost_byte, 1300},  {WireFault::extra_byte, 1400},
-                  {WireFault::half_frame, 1500}, {WireFault::bad_nibble, 1600},
-                  {WireFault::no_frame, 1700},   {WireFault::stale_frame, 1800},
+  model.faults = {{WireFault::lost_byte, 1300},   {WireFault::extra_byte, 1400},
+                  {WireFault::half_frame, 1500},  {WireFault::bad_nibble, 1600},
+                  {WireFault::no_frame, 1700},    {WireFault::stale_frame, 1800},
                   {WireFault::homing_lost, kLost}};
   FalconGadget gadget(model, bowl_stroke());
   const UsbPlug plug(testbed_.get(), gadget);

@@ -4,8 +4,8 @@
 
 namespace clay::live {
 
-void Controls::update(unsigned buttons, std::optional<double> grip_mm,
-                      Commands& commands) noexcept {
+void Controls::update(unsigned buttons, Commands& commands,
+                      std::optional<double> grip_mm) noexcept {
   zero_ = rearm_ = false;
   while (const auto command = commands.pop()) obey(*command);
   clutch_held_ = (buttons & map_.clutch) != 0;

@@ -42,7 +42,8 @@ class Controls {
       : map_(buttons), pinches_(pinches), gap_mm_(pinches ? gap_mm : 0.0) {}
 
   /// Once a tick. Where the device measures a grip, that is the gap.
-  void update(unsigned buttons, std::optional<double> grip_mm, Commands& commands) noexcept;
+  void update(unsigned buttons, Commands& commands,
+              std::optional<double> grip_mm = std::nullopt) noexcept;
 
   [[nodiscard]] bool clutched() const noexcept { return clutch_held_ || clutch_asked_; }
   [[nodiscard]] bool paused() const noexcept { return paused_; }

@@ -12,7 +12,7 @@ namespace clay::live {
 namespace {
 
 constexpr double kSPerUs = 1e-6;
-constexpr double kHandStiffness = 20'000.0, kHandDamping = 100.0;  // N/m, N s/m
+constexpr double kHandStiffness = 200'000.0, kHandDamping = 300.0;  // N/m, N s/m
 
 struct Place {
   double time_s;

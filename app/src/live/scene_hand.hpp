@@ -29,8 +29,8 @@ inline constexpr double kHandLeadS = 0.5;
 /// When the stroke is over [s]; 0 without poses.
 [[nodiscard]] double seconds_of(const std::vector<Pose>& poses) noexcept;
 
-/// A Falcon that has its firmware, held by a hand that is stiff enough to keep to the path: 20 N/mm
-/// and damped so that it does not swing.
+/// A Falcon that has its firmware, held by a hand that is stiff enough to keep to the path: 200
+/// N/mm and damped so that it does not swing.
 [[nodiscard]] falcon::SimulatedSettings simulated_potter(const std::vector<Pose>& poses,
                                                          const Mapping& mapping);
 

@@ -55,7 +55,7 @@ ServoLoop::ServoLoop(const Bench& bench, const LiveSettings& settings, const Map
       pacer_(period_ns(settings.rate_hz)) {}
 
 void ServoLoop::start() noexcept {
-  hand_ns_ = last_begun_ns_ = bench_.clock.now_ns();
+  started_ns_ = last_begun_ns_ = bench_.clock.now_ns();
   pacer_.start(last_begun_ns_);
   guard_.rearm();
   hand_.reset();
@@ -87,7 +87,7 @@ Ending ServoLoop::tick(falcon::ForceGate& gate, Commands& commands, LiveView& vi
 /// Buttons and commands. With the clutch in, the hand moves and the tool stays.
 void ServoLoop::obey(const falcon::DeviceSample& sample, Commands& commands) noexcept {
   const bool ready = sample.state == DeviceState::ready;
-  controls_.update(ready ? sample.buttons : 0u, ready ? sample.grip_mm : std::nullopt, commands);
+  controls_.update(ready ? sample.buttons : 0u, commands, ready ? sample.grip_mm : std::nullopt);
   const bool was_held = held_, was_clutched = status_.clutched;
   held_ = controls_.clutched() || controls_.paused();
   if (was_clutched && !controls_.clutched()) mapping_.recentre(sample.position_mm, tool_mm_);
@@ -107,7 +107,7 @@ void ServoLoop::follow(const falcon::DeviceSample& sample, std::int64_t now_us) 
       now_us,
       {sample.time_us, sample.position_mm, sample.fresh, sample.state == DeviceState::ready});
   wanted_.clay_time_us = now_us;
-  if (held_ || admission.may_deform) hand_ns_ = kNsPerUs * now_us;
+  if (thrown_) status_.time_s = 1e-6 * static_cast<double>(now_us - first_us_);
   if (held_) {
     wanted_ = {{}, now_us, true};
     status_.contact = false;
@@ -117,7 +117,6 @@ void ServoLoop::follow(const falcon::DeviceSample& sample, std::int64_t now_us) 
   if (!thrown_) first_us_ = sample.time_us;
   thrown_ = true;
   tool_mm_ = mapping_.to_clay(sample.position_mm);
-  status_.time_s = 1e-6 * static_cast<double>(sample.time_us - first_us_);
   const StepReport report =
       clay_.meet({sample.time_us - first_us_, tool_mm_, controls_.trim(), controls_.gap_mm()});
   status_.contact = (report.flags & kContact) != 0;
@@ -176,14 +175,14 @@ Ending ServoLoop::ending(const falcon::ForceGate& gate) const noexcept {
   if (status_.device == DeviceState::fault || status_.device == DeviceState::closed)
     return Ending::device_lost;
   if (clay_.wheel().collapsed()) return Ending::collapsed;
-  if (seconds_ > 0.0 && (status_.time_s >= seconds_ || alone_s() > patience_s_))
-    return Ending::time_up;
+  if (time_is_up()) return Ending::time_up;
   return Ending::none;
 }
 
-/// Since a hand was there.
-double ServoLoop::alone_s() const noexcept {
-  return 1e-9 * static_cast<double>(last_begun_ns_ - hand_ns_);
+bool ServoLoop::time_is_up() const noexcept {
+  if (seconds_ == 0.0) return false;
+  if (thrown_) return status_.time_s >= seconds_;
+  return 1e-9 * static_cast<double>(last_begun_ns_ - started_ns_) >= patience_s_;
 }
 
 void ServoLoop::publish(LiveView& view, std::int64_t late_ns) noexcept {
