@@ -31,18 +31,6 @@ constexpr auto kLook = 20ms;  // at the servo, for its end
 constexpr auto kReopen = 500ms;
 constexpr double kSimulatedReachMm = 46.0;  // of a Falcon's 48
 
-void set_mapping(LiveOptions& options) {
-  live::MappingSettings& mapping = options.settings.mapping;
-  mapping.side = options.side == "left"    ? live::Side::left
-                 : options.side == "front" ? live::Side::front
-                                           : live::Side::right;
-  mapping.flip_x = options.flip.find('x') != std::string::npos;
-  mapping.flip_y = options.flip.find('y') != std::string::npos;
-  mapping.flip_z = options.flip.find('z') != std::string::npos;
-  falcon::GuardSettings& guard = options.settings.guard;
-  guard.hot_force_n = std::min(guard.hot_force_n, 0.8 * guard.force_limit_n);
-}
-
 /// Refuses a scene that is too stiff for the arm, or softens it. Its stiffness has no part in what
 /// becomes of the clay, so a softened scene replays to the same pot.
 Result<void> fit_stiffness(SceneSpec& scene, const StepPlan& plan, const LiveOptions& options,
@@ -104,7 +92,8 @@ Result<void> open_device(LiveOptions& options, const live::Mapping& mapping, Sta
 }
 
 Result<void> build(const LiveJob& job, LiveOptions& options, const Console& console, Stage& stage) {
-  set_mapping(options);
+  falcon::GuardSettings& guard = options.settings.guard;
+  guard.hot_force_n = std::min(guard.hot_force_n, 0.8 * guard.force_limit_n);
   if (auto taken = take_up_stroke(job, options, stage); !taken) return taken;
   if (auto checked = check(options.settings); !checked) return checked;
   const auto mapping = live::Mapping::build(options.settings.mapping);

@@ -85,6 +85,27 @@ TEST(LiveLoop, TheDeviceIsToldWhatTheGuardLetsThroughAndNoMore) {
   EXPECT_GT(most_n, 0.1);
 }
 
+// In at a fifth of the force, out at all of it: that is more than the hand put in, and the
+// controller, which damps what it sees given, has to know of the ramp.
+TEST(LiveLoop, ARampInMidContactIsSeenByThePassivityController) {
+  SceneSpec scene = rib_scene();
+  scene.removal.rate_per_s = 1e-9;
+  scene.force->friction = 0.0;
+  const auto damped_when_in_at = [&](double in_s) {
+    const HandAt in_and_out = [=](double t) {
+      const double way = std::clamp(std::min(t - in_s, in_s + 3.0 - t) / 0.4, 0.0, 1.0);
+      return glm::dvec3(2.0 - 7.0 * way, 0.0, 0.0);
+    };
+    VirtualThrow live(scene, one_to_one(), in_and_out);
+    live.run(in_s + 4.0);
+    EXPECT_EQ(live.loop->events().safe[static_cast<std::size_t>(falcon::SafeCause::not_passive)],
+              0u);
+    return live.loop->events().damped;
+  };
+  EXPECT_GT(damped_when_in_at(0.3), 0u);
+  EXPECT_EQ(damped_when_in_at(2.5), 0u) << "with the ramp behind it the spring gives what it took";
+}
+
 TEST(LiveLoop, AllocatesNothing) {
   VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
   live.run(0.1);
