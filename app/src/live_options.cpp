@@ -52,6 +52,10 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
   command.add_option("--record", options.record, "Session to write while throwing");
   command.add_option("--seconds", settings.seconds,
                      "End after so long on the wheel (simulated: with its stroke)");
+  command
+      .add_option("--patience", settings.patience_s,
+                  "With --seconds: how long to wait for the device to be homed [s]")
+      ->capture_default_str();
   command.add_option("--rate", settings.rate_hz, "Of the servo [Hz]")->capture_default_str();
   command.add_option("--clay-rate", settings.clay_rate_hz,
                      "Deform the clay less often than the force is computed [Hz]");

@@ -212,6 +212,21 @@ TEST_F(ThrowRig, AStockFalconThrowsTheSampleFromABareStart) {
   expect_felt(gadget.device.log);
 }
 
+TEST_F(ThrowRig, AFalconThatNobodyHomesIsNotWaitedForForEver) {
+  FalconModelSettings model;
+  model.loaded = true;
+  model.homing_frames = 1 << 30;
+  FalconGadget gadget(model, bowl_stroke());
+  const UsbPlug plug(testbed_.get(), gadget);
+  const auto run = throw_bowl("falcon", "--seconds 0.2 --patience 1");
+  EXPECT_EQ(run.status, 4);
+  EXPECT_NE(run.err.find("usb:1-1: nothing was thrown; home it: pull the grip"), std::string::npos)
+      << run.err;
+  EXPECT_EQ(run.json().at("poses"), 0);
+  const std::scoped_lock held(gadget.lock);
+  for (const FrameLog& frame : gadget.device.log) ASSERT_EQ(frame.motors, LegCounts{});
+}
+
 TEST_F(ThrowRig, NoFaultOnTheWireIsBelieved) {
   FalconModelSettings model = ready();
   constexpr std::uint64_t kLost = 1900;
