@@ -15,7 +15,7 @@ namespace {
 
 struct DevicesOptions {
   std::string which;
-  std::string firmware;
+  falcon::FalconSettings falcon;
   bool monitor = false;
   live::MappingSettings mapping;
   double seconds = 0.0;  // 0: until interrupted
@@ -121,7 +121,7 @@ void add_devices_command(CLI::App& app, Console& console, int& exit) {
       ->add_option("which", options->which,
                    "Open one: auto, falcon, bridge, spacemouse, simulated, or a place")
       ->check(CLI::Validator(check_device_name, ""));
-  add_firmware_option(*command, options->firmware);
+  add_falcon_options(*command, options->falcon);
   command->add_flag("--monitor", options->monitor, "Show position and buttons until interrupted");
   command->add_option("--seconds", options->seconds, "Monitor for so long")
       ->check(CLI::Validator(in_range(0.0, 1e6), ""));
@@ -132,7 +132,7 @@ void add_devices_command(CLI::App& app, Console& console, int& exit) {
       "Exit status: 0, or 4 when the device asked for can't be opened or fails.");
   command->callback([options, &console, &exit] {
     falcon::DeviceSettings settings;
-    settings.falcon.firmware_path = options->firmware;
+    settings.falcon = options->falcon;
     const bool one = options->monitor || !options->which.empty();
     const auto done = one ? show(*options, settings, console) : list(settings, console);
     exit = done ? kDone : report(done.error());

@@ -68,7 +68,7 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
   command.add_flag("--soften", options.soften,
                    "Lower force.stiffness_n_per_mm2 to what the arm can render");
   command.add_flag("--wait", options.wait, "When unplugged wait for it to come back");
-  add_firmware_option(command, options.firmware);
+  add_falcon_options(command, options.falcon);
   add_place_options(command, settings.mapping);
   command.add_option("--force-gain", settings.mapping.force_gain,
                      "N at the hand to a N at the tool (default: 1 / scale, so that the clay feels "

@@ -81,9 +81,8 @@ Result<void> take_up_stroke(const LiveJob& job, LiveOptions& options, Stage& sta
 }
 
 Result<void> open_device(LiveOptions& options, const live::Mapping& mapping, Stage& stage) {
-  falcon::FalconSettings falcon;
-  falcon.firmware_path = options.firmware;
-  auto device = open_chosen(options.device, falcon, live::simulated_potter(stage.stroke, mapping));
+  auto device =
+      open_chosen(options.device, options.falcon, live::simulated_potter(stage.stroke, mapping));
   if (!device) return tl::make_unexpected(device.error());
   stage.device = std::move(*device);
   options.settings.buttons =

@@ -1,6 +1,7 @@
 #pragma once
 // Throwing by hand: `claystack throw SCENE --device ...`.
 
+#include "claystack/falcon/falcon_device.hpp"
 #include "console.hpp"
 #include "live/live_settings.hpp"
 
@@ -13,7 +14,7 @@ namespace clay::app {
 struct LiveOptions {
   std::string device;  ///< empty: nothing is live
   std::string record;  ///< session to write; empty: none
-  std::string firmware;
+  falcon::FalconSettings falcon;
   bool wait = false;    ///< for a device that was unplugged to come back
   bool soften = false;  ///< lower the scene's stiffness to what is accepted
   live::LiveSettings settings;
