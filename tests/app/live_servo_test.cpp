@@ -155,7 +155,10 @@ TEST(Servo, TheHandlerItselfWritesZeroWhileTheServoHangs) {
     wait_for([&] { return log.last_n > 0.0; });
     log.hang = true;
     EXPECT_EQ(log.stops, 0u);
-    raise(signal);  // handled before it returns
+    raise(signal);
+    // Handled before it returns, but for the thread sanitizer, which waits for a sleep.
+    for (int i = 0; log.stops == 0 && i < 2000; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     EXPECT_EQ(log.stops, 1u) << "nobody else tells a device to stop while the servo hangs";
     EXPECT_EQ(ForceSignals::asked_to_stop(), signal);
     log.hang = false;
