@@ -69,6 +69,10 @@ PassiveForce PassivityController::tick(std::int64_t time_us, const glm::dvec3& r
   return {force, state_};
 }
 
+void PassivityController::displayed(const glm::dvec3& force_n) noexcept {
+  if (is_finite(force_n)) sent_[newest_] = force_n;
+}
+
 void PassivityController::judge(bool contact_ended, const glm::dvec3& asked_n) noexcept {
   if (state_ == PassivityState::safe) return;
   const bool yields = state_ == PassivityState::yielding;
@@ -134,6 +138,7 @@ void PassivityController::send(const glm::dvec3& force_n) noexcept {
   const auto length = static_cast<std::size_t>(spec_.loop.delay_ticks) + 1;
   last_sent_ = force_n;
   sent_[oldest_] = force_n;
+  newest_ = oldest_;
   oldest_ = (oldest_ + 1) % length;
 }
 

@@ -4,8 +4,9 @@
 
 namespace clay::live {
 
-void Controls::update(unsigned buttons, Commands& commands) noexcept {
-  rearm_ = false;
+void Controls::update(unsigned buttons, Commands& commands,
+                      std::optional<double> grip_mm) noexcept {
+  zero_ = rearm_ = false;
   while (const auto command = commands.pop()) obey(*command);
   clutch_held_ = (buttons & map_.clutch) != 0;
   trim_held_ = (buttons & map_.trim) != 0;
@@ -13,6 +14,7 @@ void Controls::update(unsigned buttons, Commands& commands) noexcept {
   if ((pressed & map_.wider) != 0) set_gap(gap_mm_ + kGapStepMm);
   if ((pressed & map_.narrower) != 0) set_gap(gap_mm_ - kGapStepMm);
   before_ = buttons;
+  if (grip_mm) set_gap(*grip_mm);
 }
 
 void Controls::obey(const Command& command) noexcept {
@@ -30,8 +32,13 @@ void Controls::obey(const Command& command) noexcept {
     case CommandKind::gap:
       set_gap(command.value);
       break;
+    case CommandKind::zero:
+      zero_ = true;
+      rearm_ = false;
+      break;
     case CommandKind::rearm:
       rearm_ = true;
+      zero_ = false;
       break;
     case CommandKind::stop:
       stopped_ = true;

@@ -4,6 +4,8 @@
 
 #include "claystack/falcon/command_queue.hpp"
 
+#include <optional>
+
 namespace clay::live {
 
 enum class CommandKind {
@@ -11,7 +13,8 @@ enum class CommandKind {
   trim,
   pause,
   gap,    ///< value: mm, 0 to kWidestGapMm; 0: one tool
-  rearm,  ///< force again after the guard went safe, once the cause is gone
+  zero,   ///< no force, and the clay is left alone, until `rearm`
+  rearm,  ///< force again after `zero` or when the guard went safe, once the cause is gone
   stop,
 };
 
@@ -38,15 +41,17 @@ class Controls {
   Controls(const ButtonMap& buttons, bool pinches, double gap_mm) noexcept
       : map_(buttons), pinches_(pinches), gap_mm_(pinches ? gap_mm : 0.0) {}
 
-  /// Once a tick.
-  void update(unsigned buttons, Commands& commands) noexcept;
+  /// Once a tick. Where the device measures a grip, that is the gap.
+  void update(unsigned buttons, Commands& commands,
+              std::optional<double> grip_mm = std::nullopt) noexcept;
 
   [[nodiscard]] bool clutched() const noexcept { return clutch_held_ || clutch_asked_; }
   [[nodiscard]] bool paused() const noexcept { return paused_; }
   [[nodiscard]] bool trim() const noexcept { return trim_held_ || trim_asked_; }
   [[nodiscard]] double gap_mm() const noexcept { return gap_mm_; }
   [[nodiscard]] bool stopped() const noexcept { return stopped_; }
-  /// In this tick.
+  /// In this tick, whichever was asked for last.
+  [[nodiscard]] bool zero() const noexcept { return zero_; }
   [[nodiscard]] bool rearm() const noexcept { return rearm_; }
 
  private:
@@ -59,7 +64,7 @@ class Controls {
   unsigned before_ = 0;  // buttons of the last tick
   bool clutch_held_ = false, clutch_asked_ = false;
   bool trim_held_ = false, trim_asked_ = false;
-  bool paused_ = false, stopped_ = false, rearm_ = false;
+  bool paused_ = false, stopped_ = false, zero_ = false, rearm_ = false;
 };
 
 }  // namespace clay::live
