@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <string>
 
 namespace clay {
 
@@ -34,6 +35,12 @@ class Wheel {
  public:
   /// The scene's lump on the wheel. Refuses a lump that cannot carry itself.
   static Result<Wheel> build(const SceneSpec& scene);
+  /// That pot on the wheel instead of the scene's lump, to throw on: what the tool does in free air
+  /// apart, the same bits as if it had never been taken off. Height and number of the rings are the
+  /// pot's; growth stops at lump.max_rings, or where the pot's own does when that is 0. Refuses a
+  /// model or a density other than the scene's, a pot that has collapsed, that is rounded (its clay
+  /// is not the clay that was counted), or that cannot carry itself.
+  static Result<Wheel> build(const SceneSpec& scene, const Pot& start);
   Wheel(Wheel&&) noexcept;
   Wheel& operator=(Wheel&&) noexcept;
   ~Wheel();
@@ -55,6 +62,9 @@ class Wheel {
 
  private:
   struct State;
+  /// `clay`: what it is called in an error.
+  static Result<Wheel> assemble(StepPlan plan, ClayStack stack, const Ledger& ledger,
+                                const Rim& rim, const std::string& clay);
   explicit Wheel(std::unique_ptr<State> state) noexcept;
   std::unique_ptr<State> state_;
 };
