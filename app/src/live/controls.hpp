@@ -4,6 +4,7 @@
 
 #include "claystack/falcon/command_queue.hpp"
 
+#include <cstdint>
 #include <optional>
 
 namespace clay::live {
@@ -28,12 +29,15 @@ using Commands = falcon::CommandQueue<Command, 64>;
 
 /// Bits of DeviceSample::buttons; 0 where there is no such button.
 struct ButtonMap {
-  unsigned clutch = 0, trim = 0;     ///< for as long as they are held
-  unsigned wider = 0, narrower = 0;  ///< the gap, by kGapStepMm at each press
+  unsigned clutch = 0, trim = 0;  ///< for as long as they are held
+  unsigned wider = 0,
+           narrower = 0;  ///< the gap, by kGapStepMm at each press, and on while it is held
 };
 inline constexpr ButtonMap kFalconButtons{4, 2, 1, 8};  ///< centre, forward, plus, minus
 inline constexpr ButtonMap kTwoButtons{2, 1, 0, 0};     ///< of a controller with two
 inline constexpr double kGapStepMm = 0.5, kWidestGapMm = 100.0;
+/// A button that is held steps on after a while: 36 mm in four seconds.
+inline constexpr std::int64_t kGapWaitUs = 400'000, kGapEveryUs = 50'000;
 
 class Controls {
  public:
@@ -42,7 +46,7 @@ class Controls {
       : map_(buttons), pinches_(pinches), gap_mm_(pinches ? gap_mm : 0.0) {}
 
   /// Once a tick. Where the device measures a grip, that is the gap.
-  void update(unsigned buttons, Commands& commands,
+  void update(std::int64_t now_us, unsigned buttons, Commands& commands,
               std::optional<double> grip_mm = std::nullopt) noexcept;
 
   [[nodiscard]] bool clutched() const noexcept { return clutch_held_ || clutch_asked_; }
@@ -56,12 +60,14 @@ class Controls {
 
  private:
   void obey(const Command& command) noexcept;
+  void step_gap(std::int64_t now_us, unsigned buttons) noexcept;
   void set_gap(double mm) noexcept;
 
   ButtonMap map_;
   bool pinches_;
   double gap_mm_;
-  unsigned before_ = 0;  // buttons of the last tick
+  unsigned before_ = 0;          // buttons of the last tick
+  std::int64_t gap_due_us_ = 0;  // when a held button steps again
   bool clutch_held_ = false, clutch_asked_ = false;
   bool trim_held_ = false, trim_asked_ = false;
   bool paused_ = false, stopped_ = false, zero_ = false, rearm_ = false;

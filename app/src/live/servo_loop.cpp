@@ -71,7 +71,7 @@ Ending ServoLoop::tick(falcon::ForceGate& gate, Commands& commands, LiveView& vi
   pacer_.sampled(begun_ns);
   heartbeat_us.store(now_us, std::memory_order_release);
 
-  obey(sample, commands);
+  obey(sample, now_us, commands);
   follow(sample, now_us);
   send(gate);
   hand_.displayed(guarded_.force_n);
@@ -85,9 +85,11 @@ Ending ServoLoop::tick(falcon::ForceGate& gate, Commands& commands, LiveView& vi
 }
 
 /// Buttons and commands. With the clutch in, the hand moves and the tool stays.
-void ServoLoop::obey(const falcon::DeviceSample& sample, Commands& commands) noexcept {
+void ServoLoop::obey(const falcon::DeviceSample& sample, std::int64_t now_us,
+                     Commands& commands) noexcept {
   const bool ready = sample.state == DeviceState::ready;
-  controls_.update(ready ? sample.buttons : 0u, commands, ready ? sample.grip_mm : std::nullopt);
+  controls_.update(now_us, ready ? sample.buttons : 0u, commands,
+                   ready ? sample.grip_mm : std::nullopt);
   const bool was_held = held_, was_clutched = status_.clutched;
   held_ = controls_.clutched() || controls_.paused();
   if (was_clutched && !controls_.clutched()) mapping_.recentre(sample.position_mm, tool_mm_);
