@@ -16,6 +16,7 @@ Examples:
   claystack throw samples/bowl.scene.json -o bowl.pot.json
   claystack export bowl.pot.json bowl.stl bowl.obj bowl.drc
   claystack check bowl.stl
+  claystack render bowl.pot.json -o bowl.png
   claystack plan samples/bowl.scene.json
   claystack bench --quick --report bench.html
 
@@ -40,6 +41,9 @@ int run(int argc, char** argv) {
   add_check_command(app, console, exit);
 #endif
   add_plan_command(app, console, exit);
+#ifdef CLAYSTACK_WINDOW
+  add_render_command(app, console, exit);
+#endif
 #ifdef CLAYSTACK_USB
   add_devices_command(app, console, exit);
 #endif

@@ -10,6 +10,9 @@ std::string version_text() {
 #ifdef CLAYSTACK_DRACO
   parts += " draco";
 #endif
+#ifdef CLAYSTACK_WINDOW
+  parts += " window";
+#endif
 #ifdef CLAYSTACK_USB
   parts += " devices";
 #endif

@@ -1,0 +1,41 @@
+#pragma once
+// The stages of a frame: background, clay, section, tool, wheel, floor.
+
+#include "draw/gl_objects.hpp"
+#include "draw/look.hpp"
+#include "draw/picture.hpp"
+#include "draw/revolver.hpp"
+#include "draw/shadow.hpp"
+
+#include <vector>
+
+namespace clay::draw {
+
+class ScenePainter {
+ public:
+  static Result<ScenePainter> create();
+  /// Into the framebuffer that is bound for drawing.
+  void paint(const Picture& picture, Viewport viewport);
+
+ private:
+  struct Frame;  ///< what the stages of one frame share
+  void paint_background();
+  void paint_clay(const Frame& frame);
+  void paint_section(const Frame& frame);
+  void paint_tool(const Frame& frame);
+  void paint_arrow(const Frame& frame);
+  void paint_wheel(const Frame& frame);
+  void send(const FrameBlock& block);
+  void send(const ShadowMap& map);
+  void revolve(const Program& program, const std::vector<Stretch>& meridian,
+               const glm::mat4& place, const Frame& frame);
+
+  Program background_, clay_, plain_, wheel_, ground_, slice_;
+  Buffer block_;
+  VertexArray nothing_;  ///< for the background, whose vertices come from their numbers
+  Texture shadow_;
+  Revolver revolver_;
+  SliceFan slices_;
+};
+
+}  // namespace clay::draw

@@ -1,0 +1,41 @@
+#pragma once
+// What `claystack render` does in turn: read the clay, measure its walls, draw, write.
+
+#include "console.hpp"
+#include "draw/picture.hpp"
+#ifdef CLAYSTACK_EXPORT
+#include "wall_demand.hpp"
+#endif
+
+#include "claystack/engine/pot.hpp"
+
+#include <optional>
+#include <string>
+
+namespace clay::app {
+
+struct RenderCommand {
+  std::string pot;        ///< or a scene, whose lump is drawn
+  std::string out;        ///< .png; empty: none
+  std::string turntable;  ///< .gif; empty: none
+  int frames = 36;
+  draw::Viewport size;
+  bool section = false, wall_map = false, dark = false, time = false;
+  std::optional<double> azimuth_deg, elevation_deg;
+#ifdef CLAYSTACK_EXPORT
+  WallDemands walls;
+#endif
+};
+
+/// What was drawn, for people and scripts.
+struct Rendered {
+  std::size_t png_bytes = 0, gif_bytes = 0;
+  std::string renderer;
+  std::optional<double> frame_ms;  ///< median
+  std::optional<draw::WallMap> map;
+  std::optional<double> thinnest_mm;
+};
+
+Result<Rendered> render(const RenderCommand& command, const Console& console);
+
+}  // namespace clay::app
