@@ -34,6 +34,12 @@ class Wheel {
  public:
   /// The scene's lump on the wheel. Refuses a lump that cannot carry itself.
   static Result<Wheel> build(const SceneSpec& scene);
+  /// That pot on the wheel instead of the scene's lump, to throw on: what the tool does in free air
+  /// apart, the same bits as if it had never been taken off. Height and number of the rings are the
+  /// pot's; growth stops at lump.max_rings, or where the pot's own does when that is 0. Refuses a
+  /// model or a density other than the scene's, a pot that has collapsed, that is rounded (its clay
+  /// is not the clay that was counted), or that cannot carry itself.
+  static Result<Wheel> build(const SceneSpec& scene, const Pot& start);
   Wheel(Wheel&&) noexcept;
   Wheel& operator=(Wheel&&) noexcept;
   ~Wheel();
