@@ -24,6 +24,7 @@ class GlfwHost final : public Host {
   [[nodiscard]] float content_scale() const override;
   [[nodiscard]] live::Clock& clock() override { return clock_; }
   [[nodiscard]] bool real_time() const override { return true; }
+  [[nodiscard]] std::int64_t frame_ns() override { return clock_.now_ns(); }
   void set_title(const std::string& title) override;
   void set_clipboard(const std::string& text) override;
   [[nodiscard]] std::string clipboard() override;

@@ -37,6 +37,9 @@ class OffscreenHost final : public Host {
   [[nodiscard]] float content_scale() const override { return scale_; }
   [[nodiscard]] live::Clock& clock() override { return clock_; }
   [[nodiscard]] bool real_time() const override { return false; }
+  [[nodiscard]] std::int64_t frame_ns() override { return frame_ns_; }
+  /// The next frame is so much later.
+  void let_pass(std::int64_t ns) noexcept { frame_ns_ += ns; }
   void set_title(const std::string&) override {}
   void set_clipboard(const std::string& text) override { clipboard_ = text; }
   [[nodiscard]] std::string clipboard() override { return clipboard_; }
@@ -50,6 +53,7 @@ class OffscreenHost final : public Host {
   float scale_;
   std::optional<GlCanvas> canvas_;
   VirtualClock clock_;
+  std::int64_t frame_ns_ = clock_.now_ns();
   std::string clipboard_;
 };
 

@@ -14,6 +14,7 @@
 namespace clay::studio {
 namespace {
 
+constexpr double kRoomForTool = 1.35;  // around the pot, in the picture of it all
 constexpr double kSizingPerPx = 0.006;                // of a drag: the logarithm of the size
 constexpr double kWeakest = 1e-4, kStrongest = 10.0;  // N/mm^2
 
@@ -42,7 +43,9 @@ void SceneView::look(const Workshop& shop, Seen from) {
   draw::Camera camera = camera_;
   switch (from) {
     case Seen::home:
+      wheel_radius_mm_ = 0.0;
       camera_ = draw::framed(pot, viewport().aspect());
+      camera_.distance_mm *= kRoomForTool;
       return;
     case Seen::front:
       camera.azimuth_rad = camera.elevation_rad = 0.0;
@@ -57,9 +60,13 @@ void SceneView::look(const Workshop& shop, Seen from) {
       break;
   }
   camera_ = draw::framed(pot, viewport().aspect(), camera);
+  camera_.distance_mm *= kRoomForTool;
 }
 
-void SceneView::turn_wheel(double rad) noexcept {
+/// The head does not change under a pot that grows and shrinks: it is as large as it ever had to
+/// be, until a pot is looked at as a whole.
+void SceneView::turn_wheel(const Workshop& shop, double rad) {
+  wheel_radius_mm_ = std::max(wheel_radius_mm_, draw::wheel_radius_mm(shop.potter.view()));
   turn_rad_ = std::fmod(turn_rad_ + rad, 2.0 * std::numbers::pi);
 }
 
@@ -230,6 +237,7 @@ draw::Picture SceneView::picture(const Workshop& shop) const {
   picture.theme = shop.settings.theme;
   picture.cut = cut;
   picture.wheel_turn_rad = turn_rad_;
+  if (wheel_radius_mm_ > 0.0) picture.wheel_radius_mm = wheel_radius_mm_;
   return picture;
 }
 

@@ -47,7 +47,8 @@ class SceneView {
   /// Where a place on the profile's plane (rho, y) [mm] is in the window [px].
   [[nodiscard]] std::optional<glm::vec2> pixel_of(glm::dvec2 place_mm) const noexcept;
 
-  void turn_wheel(double rad) noexcept;
+  /// Once a frame.
+  void turn_wheel(const Workshop& shop, double rad);
   [[nodiscard]] draw::Picture picture(const Workshop& shop) const;
 
   draw::Cut cut = draw::Cut::none;
@@ -67,7 +68,7 @@ class SceneView {
   glm::dvec2 offset_mm_{0.0};  // from the pointer to the tool, since the press
   ToolChoice saved_tool_;      // before a size is set
   double before_ = 0.0;        // stiffness, before it is set
-  double turn_rad_ = 0.0;
+  double turn_rad_ = 0.0, wheel_radius_mm_ = 0.0;
 };
 
 }  // namespace clay::studio

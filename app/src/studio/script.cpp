@@ -17,7 +17,7 @@ namespace clay::studio {
 namespace {
 
 constexpr double kFrameS = 1.0 / 60.0;
-constexpr std::int64_t kNsPerS = 1'000'000'000;
+constexpr std::int64_t kFrameNs = 1'000'000'000 / 60;
 constexpr double kLongestWaitS = 3600.0;
 
 struct Command {
@@ -125,9 +125,8 @@ Result<void> ScriptRunner::run(const std::vector<ScriptLine>& lines, std::string
 
 void ScriptRunner::frames(int count) {
   for (int i = 0; i < count && !studio_.done(); ++i) {
+    host_.let_pass(kFrameNs);
     studio_.frame(false);
-    live::Clock& clock = host_.clock();
-    clock.sleep_until_ns(clock.now_ns() + static_cast<std::int64_t>(kFrameS * 1e9));
   }
 }
 
@@ -138,9 +137,7 @@ void ScriptRunner::settle() {
 }
 
 void ScriptRunner::wait(double seconds) {
-  const std::int64_t end_ns =
-      host_.clock().now_ns() + static_cast<std::int64_t>(seconds * static_cast<double>(kNsPerS));
-  while (host_.clock().now_ns() < end_ns && !studio_.done()) frames(1);
+  frames(static_cast<int>(std::lround(seconds / kFrameS)));
 }
 
 Result<glm::vec2> ScriptRunner::place_of(const std::vector<std::string>& words) const {

@@ -57,7 +57,7 @@ void connect_clipboard(ImGuiIO& io, Host& host) {
   };
 }
 
-double seconds(live::Clock& clock) { return 1e-9 * static_cast<double>(clock.now_ns()); }
+double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
 }  // namespace
 
@@ -79,7 +79,7 @@ Result<std::unique_ptr<Studio>> Studio::create(Host& host, Settings settings,
   connect_clipboard(io, host);
   if (!ImGui_ImplOpenGL3_Init("#version 330 core"))
     return failure(ErrorKind::device, "the window's controls: expected OpenGL 3.3");
-  studio->last_s_ = seconds(host.clock());
+  studio->last_s_ = seconds(host.frame_ns());
   return studio;
 }
 
@@ -95,7 +95,8 @@ bool Studio::moving() const noexcept {
 }
 
 void Studio::frame(bool paint_it) {
-  const double now_s = seconds(shop_.host.clock());
+  const std::int64_t now_ns = shop_.host.frame_ns();
+  const double now_s = seconds(now_ns);
   const double elapsed_s = std::clamp(now_s - last_s_, 1e-4, kLongestFrameS);
   last_s_ = now_s;
   if (shop_.restyle) {
@@ -107,7 +108,8 @@ void Studio::frame(bool paint_it) {
   }
   if (awake_frames_ > 0) --awake_frames_;
   take_waiting();
-  shop_.potter.advance(shop_.host.clock().now_ns());
+  shop_.potter.advance(now_ns);
+  shop_.host.clock().sleep_until_ns(now_ns);  // with no servo to move it
   tell_news();
   turn_wheel(elapsed_s);
 
@@ -214,7 +216,7 @@ void Studio::turn_wheel(double elapsed_s) {
   const bool turns = shop_.potter.throwing() && !shop_.paused;
   const double change = elapsed_s / kSpinUpS;
   spin_ = turns ? std::min(1.0, spin_ + change) : std::max(0.0, spin_ - change);
-  shop_.view.turn_wheel(spin_ * elapsed_s * shop_.settings.wheel_rpm * 2.0 * std::numbers::pi /
+  shop_.view.turn_wheel(shop_, spin_ * elapsed_s * shop_.settings.wheel_rpm * 2.0 * std::numbers::pi /
                         60.0);
 }
 

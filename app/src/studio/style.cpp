@@ -57,7 +57,9 @@ void set_colours(const Greys& g, const Palette& p) {
   c[ImGuiCol_ScrollbarBg] = rgb(g.window, 0.0f);
   c[ImGuiCol_ScrollbarGrab] = rgb(g.hovered);
   c[ImGuiCol_ScrollbarGrabHovered] = c[ImGuiCol_ScrollbarGrabActive] = rgb(g.active);
-  c[ImGuiCol_CheckMark] = c[ImGuiCol_SliderGrab] = c[ImGuiCol_SliderGrabActive] = p.accent;
+  c[ImGuiCol_CheckMark] = p.accent;
+  c[ImGuiCol_SliderGrab] = accent(0.55f);  // the value is written over it
+  c[ImGuiCol_SliderGrabActive] = accent(0.75f);
   c[ImGuiCol_PlotLines] = c[ImGuiCol_PlotHistogram] = p.accent;
   c[ImGuiCol_Header] = accent(0.24f);
   c[ImGuiCol_HeaderHovered] = c[ImGuiCol_TabHovered] = accent(0.34f);

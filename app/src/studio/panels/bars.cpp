@@ -62,7 +62,7 @@ void draw_status_bar(Workshop& shop, glm::vec2 corner_px, glm::vec2 size_px) {
 }
 
 void draw_banner(Workshop& shop, const ViewRect& view) {
-  shop.notices.forget_old(1e-9 * static_cast<double>(shop.host.clock().now_ns()));
+  shop.notices.forget_old(1e-9 * static_cast<double>(shop.host.frame_ns()));
   const auto& notice = shop.notices.shown();
   if (!notice) return;
   const float pad = ImGui::GetFontSize();

@@ -7,6 +7,8 @@
 #include <imgui_stdlib.h>
 
 #include <array>
+#include <string>
+#include <vector>
 
 namespace clay::studio {
 namespace {
@@ -17,9 +19,9 @@ struct MouseHelp {
 };
 constexpr std::array kMouseHelp = {
     MouseHelp{"Left", "shape the clay"},
-    MouseHelp{"Ctrl+Left", "trim (or press, when trimming)"},
-    MouseHelp{"Middle, Right", "turn the view"},
-    MouseHelp{"Shift+Middle, Shift+Right", "shift the view"},
+    MouseHelp{"Ctrl+Left", "trim, or press when trimming"},
+    MouseHelp{"Middle or Right", "turn the view"},
+    MouseHelp{"Shift+the same", "shift the view"},
     MouseHelp{"Wheel", "nearer, farther"},
 };
 
@@ -30,33 +32,46 @@ void title(Workshop& shop, const char* text) {
   ImGui::Spacing();
 }
 
-void help_row(const Palette& colours, const std::string& how, const char* what) {
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::TextColored(colours.accent, "%s", how.c_str());
-  ImGui::TableNextColumn();
-  ImGui::TextUnformatted(what);
+struct HelpRow {
+  std::string how;
+  const char* what;
+};
+
+std::vector<HelpRow> help_rows() {
+  std::vector<HelpRow> rows;
+  for (const MouseHelp& help : kMouseHelp) rows.push_back({help.how, help.what});
+  for (const Action& action : actions())
+    if (action.chord.key != 0) rows.push_back({text_of(action.chord), action.title});
+  return rows;
 }
 
 }  // namespace
 
 void draw_shortcuts(Workshop& shop, const ViewRect& view) {
-  const float em = ImGui::GetFontSize();
-  begin_card("##shortcuts", view, {46.0f * em, 36.0f * em});
+  const std::vector<HelpRow> rows = help_rows();
+  const std::size_t half = (rows.size() + 1) / 2;
+  begin_card("##shortcuts", view, 50.0f);
   title(shop, "Keys and mouse");
-  if (ImGui::BeginTable("##keys", 4, ImGuiTableFlags_SizingFixedFit, {0.0f, -2.4f * em})) {
-    for (const MouseHelp& help : kMouseHelp) help_row(shop.colours(), help.how, help.what);
-    for (const Action& action : actions())
-      if (action.chord.key != 0) help_row(shop.colours(), text_of(action.chord), action.title);
+  // Down the left half, then down the right one.
+  if (ImGui::BeginTable("##keys", 4, ImGuiTableFlags_SizingStretchProp)) {
+    for (std::size_t i = 0; i < half; ++i) {
+      ImGui::TableNextRow();
+      for (std::size_t at = i; at < rows.size(); at += half) {
+        ImGui::TableNextColumn();
+        ImGui::TextColored(shop.colours().accent, "%s", rows[at].how.c_str());
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(rows[at].what);
+      }
+    }
     ImGui::EndTable();
   }
-  if (ImGui::Button("Close")) shop.overlay = Overlay::none;
+  ImGui::Spacing();
+  if (ImGui::Button("Close")) close_overlay(shop);
   ImGui::End();
 }
 
 void draw_quit_prompt(Workshop& shop, const ViewRect& view) {
-  const float em = ImGui::GetFontSize();
-  begin_card("##quit", view, {30.0f * em, 10.5f * em});
+  begin_card("##quit", view, 30.0f);
   title(shop, "Keep this pot?");
   ImGui::TextWrapped("It has changed since it was last saved.");
   ImGui::Spacing();
@@ -70,9 +85,8 @@ void draw_quit_prompt(Workshop& shop, const ViewRect& view) {
 }
 
 void draw_file_box(Workshop& shop, const ViewRect& view) {
-  const float em = ImGui::GetFontSize();
   const bool saves = shop.overlay == Overlay::save_file;
-  begin_card("##file", view, {40.0f * em, 11.5f * em});
+  begin_card("##file", view, 40.0f);
   title(shop, saves ? "Save as" : "Open");
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1.0f);

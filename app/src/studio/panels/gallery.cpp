@@ -13,7 +13,7 @@
 namespace clay::studio {
 namespace {
 
-constexpr float kCardEm = 10.0f, kPictureEm = 8.5f;
+constexpr float kCardEm = 10.6f, kPictureEm = 9.0f;
 
 /// Sections of the finished samples, made when they are first seen.
 const draw::PotView& section_of(const Sample& sample) {
@@ -93,7 +93,7 @@ void own_lump(Workshop& shop) {
 
 void draw_gallery(Workshop& shop, const ViewRect& view) {
   const float em = ImGui::GetFontSize();
-  begin_card("##gallery", view, {48.0f * em, 29.0f * em});
+  begin_card("##gallery", view, 47.2f);
   ImGui::PushFont(shop.fonts.title);
   ImGui::TextUnformatted("What will you throw?");
   ImGui::PopFont();

@@ -82,18 +82,18 @@ void value_row(const Palette& colours, const char* name, const std::string& valu
   ImGui::TextUnformatted(value.c_str());
 }
 
-void begin_card(const char* id, const ViewRect& view, glm::vec2 size_px) {
-  const glm::vec2 size = glm::min(size_px, view.size_px);
-  const glm::vec2 corner = glm::floor(view.corner_px + 0.5f * (view.size_px - size));
-  ImGui::GetBackgroundDrawList()->AddRectFilled(
-      {view.corner_px.x, view.corner_px.y},
-      {view.corner_px.x + view.size_px.x, view.corner_px.y + view.size_px.y},
-      IM_COL32(0, 0, 0, 110));
-  ImGui::SetNextWindowPos({corner.x, corner.y});
-  ImGui::SetNextWindowSize({size.x, size.y});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.6f * ImGui::GetFontSize());
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding,
-                      ImVec2(1.3f * ImGui::GetFontSize(), 1.1f * ImGui::GetFontSize()));
+void begin_card(const char* id, const ViewRect& view, float width_em) {
+  const float em = ImGui::GetFontSize();
+  const ImVec2 low(view.corner_px.x, view.corner_px.y);
+  const ImVec2 high(low.x + view.size_px.x, low.y + view.size_px.y);
+  ImGui::GetBackgroundDrawList()->AddRectFilled(low, high, IM_COL32(0, 0, 0, 110));
+  const float width = std::min(width_em * em, view.size_px.x);
+  ImGui::SetNextWindowPos({0.5f * (low.x + high.x), 0.5f * (low.y + high.y)}, ImGuiCond_Always,
+                          {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({width, 0.0f});  // as high as what is in it, up to the view
+  ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, view.size_px.y});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.6f * em);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(1.3f * em, 1.1f * em));
   ImGui::Begin(id, nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);

@@ -23,7 +23,8 @@ void faint_text(const Palette& colours, const std::string& text);
 /// Name on the left, value at the right edge of the column.
 void value_row(const Palette& colours, const char* name, const std::string& value);
 
-/// Begins a window in the middle of the view, over a dimmed one; ImGui::End() ends it.
-void begin_card(const char* id, const ViewRect& view, glm::vec2 size_px);
+/// Begins a window in the middle of the view, over a dimmed one, as high as it needs to be;
+/// ImGui::End() ends it.
+void begin_card(const char* id, const ViewRect& view, float width_em);
 
 }  // namespace clay::studio
