@@ -99,7 +99,7 @@ void GlfwHost::run(Studio& studio) {
   connect();
   std::int64_t next_ns = clock_.now_ns();
   while (!studio.done()) {
-    if (studio.moving())
+    if (studio.wakeful())
       glfwPollEvents();
     else
       glfwWaitEventsTimeout(kIdleS);

@@ -10,19 +10,23 @@ Result<std::unique_ptr<OffscreenHost>> OffscreenHost::create(glm::ivec2 size_px,
                                                              float content_scale) {
   auto gl = draw::Offscreen::create();
   if (!gl) return tl::make_unexpected(gl.error());
-  return std::unique_ptr<OffscreenHost>(new OffscreenHost(std::move(*gl), size_px, content_scale));
+  auto canvas = draw::Canvas::create(size_px.x, size_px.y, 0);
+  if (!canvas) return tl::make_unexpected(canvas.error());
+  return std::unique_ptr<OffscreenHost>(
+      new OffscreenHost(std::move(*gl), std::move(*canvas), content_scale));
 }
 
-void OffscreenHost::bind() { canvas_->bind(size_px_); }
+void OffscreenHost::bind() { glBindFramebuffer(GL_FRAMEBUFFER, canvas_.framebuffer()); }
 
 draw::Image OffscreenHost::read() const {
-  draw::Image image{size_px_.x, size_px_.y, {}};
-  const std::size_t row = 4 * static_cast<std::size_t>(size_px_.x);
-  image.rgba.resize(row * static_cast<std::size_t>(size_px_.y));
-  glReadPixels(0, 0, size_px_.x, size_px_.y, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
-  for (int y = 0; y < size_px_.y / 2; ++y) {  // OpenGL begins below
+  const glm::ivec2 size = size_px();
+  draw::Image image{size.x, size.y, {}};
+  const std::size_t row = 4 * static_cast<std::size_t>(size.x);
+  image.rgba.resize(row * static_cast<std::size_t>(size.y));
+  glReadPixels(0, 0, size.x, size.y, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+  for (int y = 0; y < size.y / 2; ++y) {  // OpenGL begins below
     const auto upper = image.rgba.begin() + static_cast<std::ptrdiff_t>(row) * y;
-    const auto lower = image.rgba.begin() + static_cast<std::ptrdiff_t>(row) * (size_px_.y - 1 - y);
+    const auto lower = image.rgba.begin() + static_cast<std::ptrdiff_t>(row) * (size.y - 1 - y);
     std::swap_ranges(upper, upper + static_cast<std::ptrdiff_t>(row), lower);
   }
   // A window's own alpha is of no use in a picture of it.

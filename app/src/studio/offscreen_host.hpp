@@ -2,13 +2,12 @@
 // No window: a picture of one in memory, and a clock that only moves when it is told to.
 
 #include "claystack/engine/result.hpp"
+#include "draw/gl_objects.hpp"
 #include "draw/image.hpp"
 #include "draw/offscreen.hpp"
-#include "studio/gl_canvas.hpp"
 #include "studio/host.hpp"
 
 #include <memory>
-#include <optional>
 
 namespace clay::studio {
 
@@ -33,7 +32,9 @@ class OffscreenHost final : public Host {
   void bind();
   [[nodiscard]] draw::Image read() const;
 
-  [[nodiscard]] glm::ivec2 size_px() const override { return size_px_; }
+  [[nodiscard]] glm::ivec2 size_px() const override {
+    return {canvas_.width_px(), canvas_.height_px()};
+  }
   [[nodiscard]] float content_scale() const override { return scale_; }
   [[nodiscard]] live::Clock& clock() override { return clock_; }
   [[nodiscard]] bool real_time() const override { return false; }
@@ -45,13 +46,12 @@ class OffscreenHost final : public Host {
   [[nodiscard]] std::string clipboard() override { return clipboard_; }
 
  private:
-  OffscreenHost(draw::Offscreen gl, glm::ivec2 size_px, float scale)
-      : gl_(std::move(gl)), size_px_(size_px), scale_(scale), canvas_(std::in_place) {}
+  OffscreenHost(draw::Offscreen gl, draw::Canvas canvas, float scale)
+      : gl_(std::move(gl)), canvas_(std::move(canvas)), scale_(scale) {}
 
   draw::Offscreen gl_;  // its context is the one that we draw in
-  glm::ivec2 size_px_;
+  draw::Canvas canvas_;
   float scale_;
-  std::optional<GlCanvas> canvas_;
   VirtualClock clock_;
   std::int64_t frame_ns_ = clock_.now_ns();
   std::string clipboard_;

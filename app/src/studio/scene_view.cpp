@@ -14,7 +14,7 @@
 namespace clay::studio {
 namespace {
 
-constexpr double kRoomForTool = 1.35;  // around the pot, in the picture of it all
+constexpr double kRoomForTool = 1.35;                 // around the pot, in the picture of it all
 constexpr double kSizingPerPx = 0.006;                // of a drag: the logarithm of the size
 constexpr double kWeakest = 1e-4, kStrongest = 10.0;  // N/mm^2
 

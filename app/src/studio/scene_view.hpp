@@ -38,6 +38,8 @@ class SceneView {
     return drag_ == Drag::size || drag_ == Drag::strength;
   }
 
+  [[nodiscard]] bool turning() const noexcept { return drag_ == Drag::orbit || drag_ == Drag::pan; }
+
   void look(const Workshop& shop, Seen from);
   void zoom(double notches) { camera_ = draw::zoomed(camera_, notches); }
   void place(const ViewRect& rect) noexcept { rect_ = rect; }

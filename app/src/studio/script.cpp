@@ -130,12 +130,6 @@ void ScriptRunner::frames(int count) {
   }
 }
 
-/// Until all input is taken, and one frame more that shows it.
-void ScriptRunner::settle() {
-  do frames(1);
-  while (!studio_.settled() && !studio_.done());
-}
-
 void ScriptRunner::wait(double seconds) {
   frames(static_cast<int>(std::lround(seconds / kFrameS)));
 }
@@ -156,7 +150,7 @@ Result<void> ScriptRunner::move(glm::vec2 to_px, double seconds) {
   for (int i = 1; i <= steps; ++i) {
     pointer_px_ = glm::mix(from, to_px, static_cast<float>(i) / static_cast<float>(steps));
     studio_.take(PointerMoved{pointer_px_});
-    settle();
+    frames(1);
   }
   return {};
 }
@@ -184,7 +178,7 @@ Result<void> ScriptRunner::act(const std::vector<std::string>& words) {
     const auto button = button_of(words[1]);
     if (!button) return bad(fmt::format("expected left, right or middle, found {}", words[1]));
     studio_.take(ButtonChanged{*button, name == "press", mods_});
-    settle();
+    frames(1);
     return {};
   }
   if (name == "hold") {
@@ -206,13 +200,13 @@ Result<void> ScriptRunner::act(const std::vector<std::string>& words) {
     if (!chord) return bad(fmt::format("expected a key, found {}", words[1]));
     studio_.take(KeyChanged{chord->key, true, false, chord->mods});
     studio_.take(KeyChanged{chord->key, false, false, chord->mods});
-    settle();
+    frames(1);
     return {};
   }
   if (name == "type") {
     for (const char c : words[1])
       studio_.take(TextTyped{static_cast<char32_t>(static_cast<unsigned char>(c))});
-    settle();
+    frames(1);
     return {};
   }
   if (name == "scroll" || name == "wait") {
@@ -223,7 +217,7 @@ Result<void> ScriptRunner::act(const std::vector<std::string>& words) {
       wait(*value);
     } else {
       studio_.take(Scrolled{static_cast<float>(*value)});
-      settle();
+      frames(1);
     }
     return {};
   }
@@ -233,12 +227,12 @@ Result<void> ScriptRunner::act(const std::vector<std::string>& words) {
     const bool done = clay::studio::run(*action, studio_.shop());
     if (!done)
       return failure(ErrorKind::unsound, fmt::format("expected {} to be possible now", words[1]));
-    settle();
+    frames(1);
     return {};
   }
   if (name == "open") {
     studio_.take(FilesDropped{{words[1]}});
-    settle();
+    frames(1);
     return {};
   }
   if (name == "save") {
@@ -249,7 +243,7 @@ Result<void> ScriptRunner::act(const std::vector<std::string>& words) {
   }
   if (name == "close") {
     studio_.take(CloseAsked{});
-    settle();
+    frames(1);
     return {};
   }
   if (name == "screenshot") return screenshot(words[1]);

@@ -35,7 +35,6 @@ class ScriptRunner {
   Result<void> expect(const std::vector<std::string>& words);
   void frames(int count);
   void wait(double seconds);
-  void settle();
   [[nodiscard]] Result<glm::vec2> place_of(const std::vector<std::string>& words) const;
   Result<void> move(glm::vec2 to_px, double seconds);
 

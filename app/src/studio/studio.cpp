@@ -11,13 +11,13 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 
 namespace clay::studio {
 namespace {
 
-constexpr int kSamples = 4;
 constexpr float kColumnEm = 16.0f, kNarrowestViewEm = 20.0f;
 constexpr double kSpinUpS = 0.6;  // of the wheel, to and from its speed
 constexpr double kLongestFrameS = 0.1;
@@ -57,6 +57,10 @@ void connect_clipboard(ImGuiIO& io, Host& host) {
   };
 }
 
+std::int64_t steady_ns() {
+  return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
+}
+
 double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
 }  // namespace
@@ -70,7 +74,6 @@ Result<std::unique_ptr<Studio>> Studio::create(Host& host, Settings settings,
   auto painter = draw::Painter::create();
   if (!painter) return tl::make_unexpected(painter.error());
   studio->painter_.emplace(std::move(*painter));
-  studio->canvas_.emplace();
   studio->context_ = ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;  // the layout is fixed
@@ -90,8 +93,10 @@ Studio::~Studio() {
   ImGui::DestroyContext(context_);
 }
 
+bool Studio::wakeful() const noexcept { return moving() || coarse_ || awake_frames_ > 0; }
+
 bool Studio::moving() const noexcept {
-  return shop_.potter.throwing() || spin_ > 0.0 || awake_frames_ > 0 || !waiting_.empty();
+  return shop_.potter.throwing() || spin_ > 0.0 || shop_.view.turning();
 }
 
 void Studio::frame(bool paint_it) {
@@ -107,12 +112,19 @@ void Studio::frame(bool paint_it) {
     awake_frames_ = kFramesAfterInput;
   }
   if (awake_frames_ > 0) --awake_frames_;
-  take_waiting();
+  // One by one where ImGui has to see each; drawing, which may be slow, once for all.
+  do {
+    take_waiting();
+    shape_frame(elapsed_s);
+  } while (!waiting_.empty() && !shop_.done);
   shop_.potter.advance(now_ns);
   shop_.host.clock().sleep_until_ns(now_ns);  // with no servo to move it
   tell_news();
   turn_wheel(elapsed_s);
+  if (paint_it) paint();
+}
 
+void Studio::shape_frame(double elapsed_s) {
   ImGuiIO& io = ImGui::GetIO();
   const glm::ivec2 size = shop_.host.size_px();
   io.DisplaySize = {static_cast<float>(size.x), static_cast<float>(size.y)};
@@ -121,7 +133,6 @@ void Studio::frame(bool paint_it) {
   ImGui::NewFrame();
   lay_out();
   ImGui::Render();
-  if (paint_it) paint();
 }
 
 /// A button or key changes at most once in a frame, and a button only where the pointer has been
@@ -216,8 +227,8 @@ void Studio::turn_wheel(double elapsed_s) {
   const bool turns = shop_.potter.throwing() && !shop_.paused;
   const double change = elapsed_s / kSpinUpS;
   spin_ = turns ? std::min(1.0, spin_ + change) : std::max(0.0, spin_ - change);
-  shop_.view.turn_wheel(shop_, spin_ * elapsed_s * shop_.settings.wheel_rpm * 2.0 * std::numbers::pi /
-                        60.0);
+  shop_.view.turn_wheel(
+      shop_, spin_ * elapsed_s * shop_.settings.wheel_rpm * 2.0 * std::numbers::pi / 60.0);
 }
 
 void Studio::lay_out() {
@@ -245,14 +256,42 @@ void Studio::lay_out() {
 void Studio::paint() {
   GLint target = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
+  const std::int64_t begun_ns = steady_ns();
+  draw_view(static_cast<unsigned>(target));
+  const glm::ivec2 size = shop_.host.size_px();
+  glViewport(0, 0, size.x, size.y);
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  if (!shop_.host.real_time() || !moving()) return;
+  glFinish();  // what is only asked for has cost nothing yet
+  quality_.took(seconds(steady_ns() - begun_ns));
+}
+
+/// Into a canvas of its own, as the painter fills all that it is given, and from there to its
+/// place.
+void Studio::draw_view(unsigned target) {
   const glm::ivec2 size = shop_.host.size_px();
   const ViewRect& rect = shop_.view.rect();
   const draw::Viewport view = shop_.view.viewport();
-  canvas_->bind({view.width_px, view.height_px});
-  painter_->paint(shop_.view.picture(shop_), view.width_px, view.height_px, kSamples);
-  canvas_->copy_to(static_cast<unsigned>(target), size.y, glm::ivec2(rect.corner_px));
-  glViewport(0, 0, size.x, size.y);
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  const Fineness fine = quality_.fineness(shop_.host.real_time() && moving());
+  coarse_ = fine.divisor > 1 || fine.samples < kFineness[0].samples;
+  const int width = std::max(1, view.width_px / fine.divisor);
+  const int height = std::max(1, view.height_px / fine.divisor);
+  if (!canvas_ || !canvas_->is(width, height, 0)) {
+    canvas_.reset();
+    auto made = draw::Canvas::create(width, height, 0);
+    if (!made) return tell(shop_, made.error());
+    canvas_.emplace(std::move(*made));
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, canvas_->framebuffer());
+  painter_->paint(shop_.view.picture(shop_), width, height, fine.samples);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, canvas_->framebuffer());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target);
+  // OpenGL counts rows from below.
+  const int left = static_cast<int>(rect.corner_px.x);
+  const int top = size.y - static_cast<int>(rect.corner_px.y);
+  glBlitFramebuffer(0, 0, width, height, left, top - view.height_px, left + view.width_px, top,
+                    GL_COLOR_BUFFER_BIT, fine.divisor > 1 ? GL_LINEAR : GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, target);
 }
 
 }  // namespace clay::studio
