@@ -29,6 +29,10 @@ const std::array kFacts = {
     Fact{"unsaved", [](const Workshop& s) { return yes_or_no(s.potter.unsaved()); }},
     Fact{"can_undo", [](const Workshop& s) { return yes_or_no(s.potter.can_undo()); }},
     Fact{"can_redo", [](const Workshop& s) { return yes_or_no(s.potter.can_redo()); }},
+    Fact{"strokes",
+         [](const Workshop& s) {
+           return fmt::format("{}", s.potter.has_work() ? s.potter.work().size() - 1 : 0);
+         }},
     Fact{"closed", [](const Workshop& s) { return yes_or_no(s.done); }},
     Fact{"device", [](const Workshop& s) { return s.potter.device_name(); }},
     Fact{"banner",

@@ -21,34 +21,71 @@ draw::PotView view_of(const live::LiveProfile& profile) {
 }  // namespace
 
 Result<void> Potter::begin(const SceneSpec& scene) {
-  release();
-  auto wheel = Wheel::build(scene);
-  if (!wheel) return tl::make_unexpected(wheel.error());
-  scene_ = scene;
-  pot_ = wheel->pot();
-  status_ = {};
-  show_pot();
-  return {};
+  return work::Work::begin(scene).map([&](work::Work&& work) { begin(scene, std::move(work)); });
 }
 
-void Potter::show_pot() { view_ = draw::view_of(*pot_); }
+Result<void> Potter::begin(const SceneSpec& scene, const Pot& pot) {
+  return work::Work::begin(scene, pot).map([&](work::Work&& work) {
+    begin(scene, std::move(work));
+  });
+}
+
+Result<void> Potter::begin(WorkRecord record) {
+  const SceneSpec scene = record.scenes.at(record.nodes.at(record.at).scene);
+  return work::Work::open(std::move(record)).map([&](work::Work&& work) {
+    begin(scene, std::move(work));
+  });
+}
+
+void Potter::begin(const SceneSpec& scene, work::Work work) {
+  release();
+  scene_ = scene;
+  work_.emplace(std::move(work));
+  status_ = {};
+  news_ = {};
+  show_pot();
+}
+
+void Potter::show_pot() {
+  auto pot = work_->pot();
+  if (pot) {
+    pot_ = std::move(*pot);
+    view_ = draw::view_of(*pot_);
+  } else {
+    news_.error = pot.error();
+  }
+}
 
 Result<void> Potter::press(const Press& press) {
   release();
-  SceneSpec scene = *scene_;
+  SceneSpec scene = scene_;
   scene.tool = press.tool;
   scene.removal.rate_per_s = press.rate_per_s;
-  auto wheel = Wheel::build(scene);
-  if (!wheel) return tl::make_unexpected(wheel.error());
   live::LiveSettings settings = MouseDevice::servo_settings();
   closed_gap_mm_ = press.tool.mode == ToolMode::pinch ? press.tool.gap_mm.value_or(0.0) : 0.0;
   gap_mm_ = std::max(closed_gap_mm_, press.gap_mm);
   settings.gap_mm = gap_mm_;
   mouse_.begin_at(press.place_mm);
-  auto sitting = Sitting::begin(std::move(*wheel), mouse_, clock_, nullptr, settings,
+  return sit_down(scene, settings);
+}
+
+Result<void> Potter::sit_down(const SceneSpec& scene, const live::LiveSettings& settings) {
+  if (pot_->collapse)
+    return failure(ErrorKind::bad_input, "The clay has fallen: undo takes the last stroke back");
+  auto wheel = Wheel::build(scene, *pot_);
+  if (!wheel) return tl::make_unexpected(wheel.error());
+  auto sink = work_->begin_stroke(scene);
+  if (!sink) return tl::make_unexpected(sink.error());
+  auto recorder = live::Recorder::create(**sink);
+  auto sitting = Sitting::begin(std::move(*wheel), mouse_, clock_, recorder.get(), settings,
                                 threads_ ? Pace::thread : Pace::stepped);
-  if (!sitting) return tl::make_unexpected(sitting.error());
+  if (!sitting) {
+    (void)recorder->finish();
+    (void)work_->end_stroke();  // without a pose it is none
+    return tl::make_unexpected(sitting.error());
+  }
   scene_ = scene;
+  recorder_ = std::move(recorder);
   sitting_ = std::move(*sitting);
   status_ = {};
   last_ns_ = counted_ns_ = clock_.now_ns();
@@ -62,7 +99,7 @@ void Potter::command(const live::Command& command) noexcept {
 }
 
 void Potter::set_stiffness(double n_per_mm2) {
-  if (scene_ && scene_->force) scene_->force->stiffness_n_per_mm2 = n_per_mm2;
+  if (scene_.force) scene_.force->stiffness_n_per_mm2 = n_per_mm2;
 }
 
 void Potter::release() {
@@ -71,9 +108,29 @@ void Potter::release() {
   news_.ending = sitting_->end();
   status_ = sitting_->status();
   news_.poses = status_.poses;
-  pot_ = sitting_->wheel().pot();
+  news_.ring_limit = status_.ring_limit;
+  const Pot felt = sitting_->wheel().pot();
+  if (auto kept = recorder_->finish(); !kept) news_.error = kept.error();
+  auto added = work_->end_stroke(&felt);
+  if (!added) news_.error = added.error();
   sitting_.reset();
+  recorder_.reset();
   show_pot();
+}
+
+void Potter::undo() {
+  release();
+  if (work_->undo()) show_pot();
+}
+
+void Potter::redo() {
+  release();
+  if (work_->redo()) show_pot();
+}
+
+Result<void> Potter::save(const std::string& path) {
+  release();
+  return work_->save(path);
 }
 
 void Potter::advance(std::int64_t now_ns) {
@@ -90,6 +147,11 @@ void Potter::advance(std::int64_t now_ns) {
   if (!sitting_->running()) release();
 }
 
+void Potter::look() {
+  status_ = sitting_->status();
+  if (const live::LiveProfile* profile = sitting_->new_profile()) view_ = view_of(*profile);
+}
+
 /// Four times a second: a rate that can be read.
 void Potter::count_ticks(std::int64_t now_ns) {
   constexpr std::int64_t kEveryNs = 250'000'000;
@@ -99,17 +161,5 @@ void Potter::count_ticks(std::int64_t now_ns) {
   counted_ns_ = now_ns;
   counted_ticks_ = status_.ticks;
 }
-
-void Potter::look() {
-  status_ = sitting_->status();
-  if (const live::LiveProfile* profile = sitting_->new_profile()) view_ = view_of(*profile);
-}
-
-// Until the work is kept by strokes there is nothing to go back to.
-bool Potter::can_undo() const noexcept { return false; }
-bool Potter::can_redo() const noexcept { return false; }
-void Potter::undo() {}
-void Potter::redo() {}
-bool Potter::unsaved() const noexcept { return news_.poses > 0 || status_.poses > 0; }
 
 }  // namespace clay::studio

@@ -4,12 +4,15 @@
 #include "claystack/engine/pot.hpp"
 #include "claystack/engine/scene.hpp"
 #include "draw/picture.hpp"
+#include "live/recorder.hpp"
 #include "studio/mouse_hand.hpp"
 #include "studio/sitting.hpp"
+#include "work/work.hpp"
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace clay::studio {
 
@@ -17,7 +20,8 @@ namespace clay::studio {
 struct PotterNews {
   bool stroke_ended = false;
   live::Ending ending = live::Ending::none;
-  std::size_t poses = 0;  ///< of that stroke
+  std::size_t poses = 0;    ///< of that stroke
+  bool ring_limit = false;  ///< clay waits above the rim
   std::optional<Error> error;
 };
 
@@ -33,17 +37,24 @@ class Potter {
  public:
   /// `clock` outlives it. Without `threads` the servo ticks within `advance`.
   Potter(live::Clock& clock, bool threads) : clock_(clock), threads_(threads), mouse_(clock) {}
+  ~Potter() { release(); }
+  Potter(const Potter&) = delete;
+  Potter& operator=(const Potter&) = delete;
 
-  /// A fresh lump in place of what there was.
+  /// In place of what there was: a scene's lump, a pot, a whole work.
   Result<void> begin(const SceneSpec& scene);
-  [[nodiscard]] bool has_work() const noexcept { return scene_.has_value(); }
-  [[nodiscard]] const SceneSpec& scene() const noexcept { return *scene_; }
+  Result<void> begin(const SceneSpec& scene, const Pot& pot);
+  Result<void> begin(WorkRecord record);
+  [[nodiscard]] bool has_work() const noexcept { return work_.has_value(); }
+  /// Of the next stroke.
+  [[nodiscard]] const SceneSpec& scene() const noexcept { return scene_; }
+  /// The contact's [N/mm^2], from the next stroke on.
+  void set_stiffness(double n_per_mm2);
   [[nodiscard]] const Pot& pot() const noexcept { return *pot_; }
+  [[nodiscard]] const work::Work& work() const noexcept { return *work_; }
 
   /// The mouse takes the tool to the clay. The scene is that of the work, with this tool and rate.
   Result<void> press(const Press& press);
-  /// Of the contact [N/mm^2], from the next stroke on.
-  void set_stiffness(double n_per_mm2);
   void aim(const MouseAim& aim) noexcept { mouse_.aim(aim); }
   void command(const live::Command& command) noexcept;
   /// Lets go; the stroke is part of the work.
@@ -58,27 +69,32 @@ class Potter {
   [[nodiscard]] const draw::PotView& view() const noexcept { return view_; }
   /// Of the stroke under way, or the last one.
   [[nodiscard]] const live::LiveStatus& status() const noexcept { return status_; }
-
   /// Of the servo, as measured; 0 at rest.
   [[nodiscard]] double tick_rate_hz() const noexcept { return tick_rate_hz_; }
   [[nodiscard]] std::string device_name() const { return mouse_.info().name; }
 
-  [[nodiscard]] bool can_undo() const noexcept;
-  [[nodiscard]] bool can_redo() const noexcept;
+  // Not while throwing.
+  [[nodiscard]] bool can_undo() const noexcept { return work_ && work_->can_undo(); }
+  [[nodiscard]] bool can_redo() const noexcept { return work_ && work_->can_redo(); }
   void undo();
   void redo();
-  [[nodiscard]] bool unsaved() const noexcept;
+  [[nodiscard]] bool unsaved() const noexcept { return work_ && work_->unsaved(); }
+  Result<void> save(const std::string& path);
 
  private:
+  void begin(const SceneSpec& scene, work::Work work);
+  Result<void> sit_down(const SceneSpec& scene, const live::LiveSettings& settings);
   void look();
-  void count_ticks(std::int64_t now_ns);
   void show_pot();
+  void count_ticks(std::int64_t now_ns);
 
   live::Clock& clock_;
   bool threads_;
   MouseDevice mouse_;
-  std::optional<SceneSpec> scene_;
-  std::optional<Pot> pot_;
+  SceneSpec scene_;
+  std::optional<work::Work> work_;
+  work::SharedPot pot_;
+  std::unique_ptr<live::Recorder> recorder_;
   std::unique_ptr<Sitting> sitting_;
   live::LiveStatus status_;
   draw::PotView view_;

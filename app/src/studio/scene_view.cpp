@@ -167,6 +167,7 @@ void SceneView::press(Workshop& shop, bool inverted) {
     shop.notices.say(Grade::warning, begun.error().message);
     return;
   }
+  shop.log("stroke begun");
   offset_mm_ = start - *pointed;
   drag_ = Drag::shape;
 }

@@ -197,7 +197,7 @@ void Studio::key(const KeyChanged& change) {
   // Behind what is open over the view nothing changes.
   if (shop_.overlay != Overlay::none && change.key != GLFW_KEY_ESCAPE &&
       !action->id.starts_with("file.") && !action->id.starts_with("view.") &&
-      !action->id.starts_with("help."))
+      !action->id.starts_with("help.") && !action->id.starts_with("quit."))
     return;
   run(*action, shop_);
 }
@@ -216,7 +216,7 @@ void Studio::tell_news() {
     shop_.notices.say(Grade::warning,
                       "The clay has fallen: it could no longer carry itself. Undo takes the stroke "
                       "back.");
-  if (shop_.potter.status().ring_limit)
+  if (news.ring_limit)
     shop_.notices.say(Grade::warning,
                       "The clay stands as high as this lump allows: what more rises waits above "
                       "the rim.");

@@ -54,6 +54,9 @@ void tell(Workshop& shop, const Error& error);
 /// Back to the view, or to the gallery where there is no work yet.
 void close_overlay(Workshop& shop);
 
+/// The work that the potter has now: its tool is chosen, the view is on it.
+void show_work(Workshop& shop);
+
 /// A new work from a scene; the tool that is chosen becomes the scene's.
 void begin_work(Workshop& shop, const SceneSpec& scene);
 /// Any file that the studio knows: a scene, a pot, a work.

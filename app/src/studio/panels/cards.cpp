@@ -71,16 +71,16 @@ void draw_shortcuts(Workshop& shop, const ViewRect& view) {
 }
 
 void draw_quit_prompt(Workshop& shop, const ViewRect& view) {
-  begin_card("##quit", view, 30.0f);
+  begin_card("##quit", view, 36.0f);
   title(shop, "Keep this pot?");
   ImGui::TextWrapped("It has changed since it was last saved.");
   ImGui::Spacing();
   const auto act = [&](const char* id) { run(*find_action(id), shop); };
-  if (ImGui::Button("Save")) act("quit.save");
+  if (ImGui::Button("Save (Enter)")) act("quit.save");
   ImGui::SameLine();
-  if (ImGui::Button("Quit without saving")) act("quit.discard");
+  if (ImGui::Button("Quit without saving (Ctrl+D)")) act("quit.discard");
   ImGui::SameLine();
-  if (ImGui::Button("Go on throwing")) act("quit.cancel");
+  if (ImGui::Button("Go on (Esc)")) act("quit.cancel");
   ImGui::End();
 }
 
