@@ -120,8 +120,8 @@ Result<void> build(const LiveJob& job, LiveOptions& options, const Console& cons
   if (auto fits = fit_stiffness(stage.scene, *plan, options, mapping->stiffness_gain(), console);
       !fits)
     return named(fits.error());
-  auto wheel = Wheel::build(stage.scene);
-  if (!wheel) return named(wheel.error());
+  auto wheel = build_wheel(stage.scene, job.scene_path, job.from_path);
+  if (!wheel) return tl::make_unexpected(wheel.error());
   stage.wheel.emplace(std::move(*wheel));
 
   if (auto opened = open_device(job, options, *mapping, stage); !opened) return opened;

@@ -29,6 +29,7 @@ struct LiveJob {
   std::string stroke_path;  ///< session that the simulated hand plays
   std::string pot_path;     ///< empty: not kept
   std::string model;        ///< empty: the scene's own
+  std::string from_path;    ///< pot to throw on; empty: the scene's lump
 };
 
 /// Until it is over: the stroke's end, --seconds, SIGINT or SIGTERM, the device's failure, a

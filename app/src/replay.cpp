@@ -1,6 +1,7 @@
 #include "replay.hpp"
 
 #include "claystack/engine/atomic_file.hpp"
+#include "claystack/engine/pot_file.hpp"
 #include "claystack/engine/scene_file.hpp"
 
 #include <glm/geometric.hpp>
@@ -75,6 +76,26 @@ ReplayStats replay(Wheel& wheel, std::span<const Pose> poses, const ReplayOption
 
 Result<SceneSpec> load_scene(const std::string& path) {
   return read_file(path).and_then([&](const std::string& text) { return parse_scene(text, path); });
+}
+
+Result<Wheel> build_wheel(const SceneSpec& scene, const std::string& scene_path,
+                          const std::string& pot_path) {
+  const auto named = [&](const Error& error) {
+    std::string files = scene_path;
+    if (!pot_path.empty()) files.append(" on ").append(pot_path);
+    return failure(error.kind, files + ": " + error.message);
+  };
+  if (pot_path.empty()) {
+    auto wheel = Wheel::build(scene);
+    if (!wheel) return named(wheel.error());
+    return wheel;
+  }
+  const auto pot = read_file(pot_path).and_then(
+      [&](const std::string& bytes) { return parse_pot(bytes, pot_path); });
+  if (!pot) return tl::make_unexpected(pot.error());
+  auto wheel = Wheel::build(scene, *pot);
+  if (!wheel) return named(wheel.error());
+  return wheel;
 }
 
 Result<Session> load_session(const std::string& path) {

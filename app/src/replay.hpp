@@ -43,6 +43,10 @@ ReplayStats replay(Wheel& wheel, std::span<const Pose> poses, const ReplayOption
 
 /// Reads a scene; "-" is standard input.
 Result<SceneSpec> load_scene(const std::string& path);
+/// The scene's wheel, with the pot of that file on it instead of its lump; "" : none. Errors name
+/// the files.
+Result<Wheel> build_wheel(const SceneSpec& scene, const std::string& scene_path,
+                          const std::string& pot_path);
 /// Reads a session, by default the one beside the scene: NAME.scene.json -> NAME.session.
 Result<Session> load_session(const std::string& path);
 [[nodiscard]] std::string session_beside(const std::string& scene_path);

@@ -5,6 +5,7 @@
 #include "live_throw.hpp"
 #endif
 #include "replay.hpp"
+#include "throw_work.hpp"
 
 #include "claystack/engine/atomic_file.hpp"
 #include "claystack/engine/pot_file.hpp"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 namespace clay::app {
 namespace {
@@ -25,6 +27,9 @@ struct ThrowOptions {
   std::string trace;
   std::string error_plot;
   std::string model;  ///< empty: the scene's own
+  std::string from;   ///< pot to throw on; empty: the scene's lump
+  std::optional<std::size_t> at;
+  bool list = false;
 #ifdef CLAYSTACK_FALCON
   LiveOptions live;
 #endif
@@ -126,7 +131,7 @@ Result<void> check_names(const ThrowOptions& options, const Console& console) {
   const std::vector<std::string> outputs = {options.pot, options.trace, options.error_plot};
   if (std::count(outputs.begin(), outputs.end(), "-") > (console.json ? 0 : 1))
     return failure(ErrorKind::bad_input, "-: expected one thing only on standard output");
-  return check_distinct(outputs, {options.scene, options.session});
+  return check_distinct(outputs, {options.scene, options.session, options.from});
 }
 
 Result<void> replay_pot(const ThrowOptions& options, Console console) {
@@ -142,8 +147,8 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
   warn_of_oddities(console, *session, *scene, options);
   if (!options.model.empty())
     scene->model = options.model == "paper" ? Model::paper : Model::conserving;
-  auto wheel = Wheel::build(*scene);
-  if (!wheel) return failure(wheel.error().kind, options.scene + ": " + wheel.error().message);
+  auto wheel = build_wheel(*scene, options.scene, options.from);
+  if (!wheel) return tl::make_unexpected(wheel.error());
 
   std::vector<TraceRow> trace;
   ReplayStats stats;
@@ -178,19 +183,42 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
   return {};
 }
 
+Result<void> throw_work_file(const ThrowOptions& options, const Console& console) {
+  bool other = !options.session.empty() || !options.from.empty() || !options.model.empty() ||
+               !options.trace.empty() || !options.error_plot.empty();
+#ifdef CLAYSTACK_FALCON
+  other = other || !options.live.device.empty();
+#endif
+  if (other)
+    return failure(ErrorKind::bad_input,
+                   options.scene +
+                       ": a work holds scenes, poses and its first pot: expected "
+                       "nothing but --at, --list and -o");
+  if (auto named = check_pot_name(options.pot); !named) return named;
+  if (auto distinct = check_distinct({options.pot}, {options.scene}); !distinct) return distinct;
+  return throw_work({options.scene, options.pot, options.at, options.list}, console);
+}
+
 Result<void> throw_pot(const ThrowOptions& options, const Console& console) {
+  if (options.scene.ends_with(".work")) return throw_work_file(options, console);
+  if (options.at || options.list)
+    return failure(ErrorKind::bad_input,
+                   "--at and --list are of works: expected NAME.work, found " + options.scene);
+  if (!options.from.empty() && !options.error_plot.empty())
+    return failure(ErrorKind::bad_input,
+                   "--error-plot throws with both models: expected no --from, as a pot has one");
 #ifdef CLAYSTACK_FALCON
   if (!options.live.device.empty()) {
     if (!options.trace.empty() || !options.error_plot.empty())
       return failure(ErrorKind::bad_input,
                      "--trace and --error-plot show a replay: record with --record, then replay");
     if (auto named = check_pot_name(options.pot); !named) return named;
-    if (auto distinct =
-            check_distinct({options.pot, options.live.record}, {options.scene, options.session});
+    if (auto distinct = check_distinct({options.pot, options.live.record},
+                                       {options.scene, options.session, options.from});
         !distinct)
       return distinct;
-    return throw_live({options.scene, options.session, options.pot, options.model}, options.live,
-                      console);
+    return throw_live({options.scene, options.session, options.pot, options.model, options.from},
+                      options.live, console);
   }
 #endif
   return replay_pot(options, console);
@@ -202,12 +230,17 @@ void add_throw_command(CLI::App& app, Console& console, int& exit) {
   auto options = std::make_shared<ThrowOptions>();
   CLI::App* command =
       app.add_subcommand("throw", "Play a session on a scene, or throw by hand, and keep the pot");
-  command->add_option("scene", options->scene, "NAME.scene.json, or - for standard input")
+  command
+      ->add_option("scene", options->scene,
+                   "NAME.scene.json, or - for standard input; or a work, NAME.work")
       ->required();
   command->add_option("-s,--session", options->session,
                       "Poses to play (default: NAME.session beside the scene)");
   command->add_option("-o,--output", options->pot,
                       "Pot to write: .pot.json, or .pot.cbor (compact)");
+  command->add_option("--from", options->from, "Pot to throw on, instead of the scene's lump");
+  command->add_option("--at", options->at, "Node of a work (default: where it was left)");
+  command->add_flag("--list", options->list, "The strokes of a work, undone ones too");
   command
       ->add_option("--model", options->model,
                    "Model to use instead of the scene's: conserving or paper")
@@ -224,9 +257,12 @@ void add_throw_command(CLI::App& app, Console& console, int& exit) {
       "  claystack throw samples/vase.scene.json --device auto --record mine.session -o "
       "mine.pot.json\n"
       "  claystack throw samples/vase.scene.json --model paper --json\n"
+      "  claystack throw rim.scene.json -s rim.session --from vase.pot.json -o higher.pot.json\n"
+      "  claystack throw mine.work --list\n"
+      "  claystack throw mine.work --at 3 -o early.pot.json\n"
       "  claystack throw samples/vase.scene.json --error-plot vase-error.svg");
   command->callback([options, &console, &exit] {
-    if (options->session.empty() && options->scene != "-")
+    if (options->session.empty() && options->scene != "-" && !options->scene.ends_with(".work"))
       options->session = session_beside(options->scene);
     const auto done = throw_pot(*options, console);
     exit = done ? kDone : report(done.error());

@@ -72,7 +72,7 @@ Result<ClayStack> ClayStack::from_rings(double ring_height_mm, std::vector<Ring>
   for (std::size_t i = 0; i < rings.size(); ++i) {
     if (auto ring = check_ring(rings[i], i); !ring) return tl::make_unexpected(ring.error());
     stack.rings_volume_ += rings[i].volume();
-    stack.hollow_ = stack.hollow_ || rings[i].inner2 > 0;
+    stack.bores_ += rings[i].inner2 > 0 ? 1 : 0;
   }
   stack.rings_ = std::move(rings);
   stack.ring_height_mm_ = ring_height_mm;

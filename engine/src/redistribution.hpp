@@ -3,6 +3,7 @@
 
 #include "claystack/engine/clay_stack.hpp"
 #include "claystack/engine/ledger.hpp"
+#include "claystack/engine/pot.hpp"
 #include "claystack/engine/step_plan.hpp"
 #include "removal.hpp"
 
@@ -17,12 +18,6 @@ struct Flow {
   std::size_t highest = 0;
   std::size_t grown = 0;    ///< rings added on top
   bool ring_limit = false;  ///< clay waits for a ring that max_rings does not allow
-};
-
-/// What clay at the crown's height has received more than the top ring did since it grew, outside
-/// and inside [quanta]. A copy of the top ring would be what the rim was a ring lower.
-struct Rim {
-  WideQuanta outside = 0, inside = 0;
 };
 
 /// Rings above and below the candidate range that a flow may reach.

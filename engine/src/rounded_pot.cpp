@@ -67,6 +67,7 @@ Result<Pot> rounded_pot(const Pot& pot, double precision_mm) {
       .map([&](ClayStack stack) {
         Pot result = pot;
         result.stack = std::move(stack);
+        result.rim = {};
         result.ledger = {.initial = result.stack.volume()};
         result.rounding = {precision_mm,
                            pot.rounding ? pot.rounding->exact_volume : pot.stack.volume()};

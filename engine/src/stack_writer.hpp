@@ -14,7 +14,10 @@ class StackWriter {
   explicit StackWriter(ClayStack& stack) noexcept : stack_(stack) {}
   StackWriter(const StackWriter&) = delete;
   StackWriter& operator=(const StackWriter&) = delete;
-  ~StackWriter() { stack_.rings_volume_ += gained_; }
+  ~StackWriter() {
+    stack_.rings_volume_ += gained_;
+    stack_.bores_ += opened_;
+  }
 
   void take_outside(std::size_t i, Quanta amount) noexcept {
     stack_.rings_[i].outer2 -= amount;
@@ -22,9 +25,9 @@ class StackWriter {
     assert(stack_.rings_[i].volume() > 0);
   }
   void take_inside(std::size_t i, Quanta amount) noexcept {
+    opened_ += stack_.rings_[i].inner2 == 0 && amount > 0 ? 1u : 0u;
     stack_.rings_[i].inner2 += amount;
     gained_ -= amount;
-    stack_.hollow_ = true;
     assert(stack_.rings_[i].volume() > 0);
   }
   /// Each returns what found room: up to the axis inside, up to the largest radius outside. Of
@@ -33,6 +36,7 @@ class StackWriter {
   Quanta put_inside(std::size_t i, Amount amount) noexcept {
     const auto placed = static_cast<Quanta>(std::min<Amount>(amount, stack_.rings_[i].inner2));
     stack_.rings_[i].inner2 -= placed;
+    opened_ -= placed > 0 && stack_.rings_[i].inner2 == 0 ? 1u : 0u;
     gained_ += placed;
     return placed;
   }
@@ -50,6 +54,7 @@ class StackWriter {
   /// at scene build, so nothing is allocated here.
   void grow(const Ring& ring) noexcept {
     stack_.rings_.push_back(ring);
+    opened_ += ring.inner2 > 0 ? 1u : 0u;
     gained_ += ring.volume();
   }
   void reserve() { stack_.rings_.reserve(stack_.max_rings_); }
@@ -57,7 +62,8 @@ class StackWriter {
  private:
   static inline const Quanta kLargestOuter2 = quanta_from_radius(kMaxRadiusMm);
   ClayStack& stack_;
-  WideQuanta gained_ = 0;  ///< by rings, not yet in the stack's sum
+  WideQuanta gained_ = 0;   ///< by rings, not yet in the stack's sum
+  std::size_t opened_ = 0;  ///< bores, less those that closed; modulo 2^64
 };
 
 }  // namespace clay

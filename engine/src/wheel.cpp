@@ -202,6 +202,30 @@ StepReport feel(State& s, const Pose& pose) noexcept {
   return report;
 }
 
+/// Whether a scene can go on with a pot.
+Result<void> check_start(const SceneSpec& scene, const Pot& start) {
+  const auto refused = [](const std::string& setting, const std::string& expected,
+                          const std::string& found) {
+    return failure(ErrorKind::bad_input, setting + ": expected " + expected + ", found " + found);
+  };
+  const auto name = [](Model model) { return model == Model::paper ? "paper" : "conserving"; };
+  if (start.collapse) return refused("pot", "one that stands", "one that has collapsed");
+  if (start.rounding)
+    return refused("pot", "an exact one",
+                   "one rounded to " + number_text(start.rounding->to_mm) +
+                       " mm: its clay is not the clay that was counted");
+  if (start.model != scene.model)
+    return refused("model", std::string("the pot's, ") + name(start.model), name(scene.model));
+  if (start.density_g_cm3 != scene.lump.density_g_cm3)
+    return refused("lump.density_g_cm3", "the pot's, " + number_text(start.density_g_cm3),
+                   number_text(scene.lump.density_g_cm3));
+  const std::size_t most = scene.lump.max_rings, rings = start.stack.size();
+  if (most != 0 && most < rings)
+    return refused("lump.max_rings", "0 or at least the pot's rings, " + std::to_string(rings),
+                   std::to_string(most));
+  return {};
+}
+
 template <class State, std::size_t... sets>
 constexpr auto tick_table(std::index_sequence<sets...>) {
   return std::array{&tick<static_cast<unsigned>(sets), State>...};
@@ -226,22 +250,45 @@ Result<Wheel> Wheel::build(const SceneSpec& scene) {
   auto stack = ClayStack::cylinder(lump.rings, lump.ring_height_mm, lump.outer_radius_mm,
                                    lump.inner_radius_mm, max_rings_of(lump));
   if (!stack) return failure(stack.error().kind, "lump: " + stack.error().message);
-  if (plan->stages & kStability) {
-    if (const auto weak = StabilityWatch::check_all(plan->stability, *stack))
-      return failure(ErrorKind::bad_input,
-                     "stability.max_stress_kpa: expected more than the lump's own weight, found " +
-                         number_text(plan->stability.max_stress_kpa) + " against " +
-                         number_text(weak->stress_kpa) + " kPa at ring " +
-                         std::to_string(weak->ring));
+  const Ledger ledger{.initial = stack->volume(), .added = 0, .trimmed = 0, .outside = 0};
+  return assemble(std::move(*plan), std::move(*stack), ledger, Rim{}, "lump");
+}
+
+Result<Wheel> Wheel::build(const SceneSpec& scene, const Pot& start) {
+  if (auto fits = check_start(scene, start); !fits) return tl::make_unexpected(fits.error());
+  SceneSpec own = scene;
+  LumpSpec& lump = own.lump;
+  lump.rings = start.stack.size();
+  lump.ring_height_mm = start.stack.ring_height_mm();
+  if (lump.max_rings == 0) lump.max_rings = start.stack.max_rings();
+  auto plan = StepPlan::build(own);
+  if (!plan) return tl::make_unexpected(plan.error());
+  const auto rings = start.stack.rings();
+  auto stack = ClayStack::from_rings(lump.ring_height_mm, {rings.begin(), rings.end()},
+                                     start.stack.crown(), lump.max_rings);
+  if (!stack) return failure(stack.error().kind, "pot: " + stack.error().message);
+  return assemble(std::move(*plan), std::move(*stack), start.ledger, start.rim, "pot");
+}
+
+Result<Wheel> Wheel::assemble(StepPlan plan, ClayStack stack, const Ledger& ledger, const Rim& rim,
+                              const std::string& clay) {
+  if (plan.stages & kStability) {
+    if (const auto weak = StabilityWatch::check_all(plan.stability, stack))
+      return failure(ErrorKind::bad_input, "stability.max_stress_kpa: expected more than the " +
+                                               clay + "'s own weight, found " +
+                                               number_text(plan.stability.max_stress_kpa) +
+                                               " against " + number_text(weak->stress_kpa) +
+                                               " kPa at ring " + std::to_string(weak->ring));
   }
 
   auto state = std::make_unique<State>();
-  const std::size_t touches = most_contacts(plan->tool, lump.ring_height_mm, max_rings_of(lump));
-  state->plan = std::move(*plan);
-  state->stack = std::move(*stack);
+  const std::size_t touches = most_contacts(plan.tool, stack.ring_height_mm(), stack.max_rings());
+  state->plan = std::move(plan);
+  state->stack = std::move(stack);
   StackWriter(state->stack).reserve();
   if (state->plan.stages & kStability) state->watch = StabilityWatch(state->stack);
-  state->ledger.initial = state->stack.volume();
+  state->ledger = ledger;
+  state->rim = rim;
   const std::size_t tools = (state->plan.stages & kPinch) ? 2 : 1;
   for (Bite& bite : std::span(state->bites).first(tools)) {
     bite.contact.rings.reserve(touches);
@@ -264,7 +311,8 @@ bool Wheel::collapsed() const noexcept { return state_->failure.has_value(); }
 
 Pot Wheel::pot() const {
   const State& s = *state_;
-  Pot pot{s.stack, s.ledger, s.plan.model, s.plan.density_g_cm3, {}, {}};
+  Pot pot{s.stack, s.ledger, s.plan.model, s.plan.density_g_cm3, {}, {}, {}};
+  if (pot.model == Model::conserving) pot.rim = s.rim;
   if (s.failure)
     pot.collapse = settle(s.stack, s.plan.density_g_cm3, *s.failure, s.failure_hip,
                           s.plan.stability.max_stress_kpa);

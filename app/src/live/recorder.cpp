@@ -16,10 +16,44 @@ namespace {
 // A third of what may be lost, for a thread that has to wait for its turn.
 constexpr auto kPause = std::chrono::milliseconds(30);
 
-Error system_error(const std::string& path, const char* action) {
-  return {ErrorKind::io,
-          path + ": could not " + action + ": " + std::generic_category().message(errno)};
-}
+/// A session file that is written from its beginning.
+class SessionSink final : public work::PoseSink {
+ public:
+  SessionSink(std::string path, int descriptor) : path_(std::move(path)), descriptor_(descriptor) {}
+  ~SessionSink() override {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  SessionSink(const SessionSink&) = delete;
+  SessionSink& operator=(const SessionSink&) = delete;
+
+  Result<void> append(std::span<const Pose> poses) override { return write(session_block(poses)); }
+
+  Result<void> write(std::string_view line) {
+    while (!line.empty()) {
+      const auto written = ::write(descriptor_, line.data(), line.size());
+      if (written > 0)
+        line.remove_prefix(static_cast<std::size_t>(written));
+      else if (written == 0 || errno != EINTR)
+        return failed("write");
+    }
+    return {};
+  }
+
+  Result<void> finish() override {
+    if (fsync(descriptor_) != 0 && errno != EINVAL) return failed("sync");
+    if (close(std::exchange(descriptor_, -1)) != 0) return failed("close");
+    return {};
+  }
+
+  tl::unexpected<Error> failed(const char* action) const {
+    return failure(ErrorKind::io,
+                   path_ + ": could not " + action + ": " + std::generic_category().message(errno));
+  }
+
+ private:
+  std::string path_;
+  int descriptor_;
+};
 
 }  // namespace
 
@@ -28,23 +62,26 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path,
                                                    std::uint64_t scene_hash) {
   const int descriptor =
       open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
-  if (descriptor < 0) return tl::make_unexpected(system_error(path, "open"));
-  std::unique_ptr<Recorder> recorder(new Recorder(path, descriptor));
-  recorder->append(session_header(scene_name, scene_hash));
-  if (recorder->failed_) return tl::make_unexpected(recorder->error_);
+  auto sink = std::make_unique<SessionSink>(path, descriptor);
+  if (descriptor < 0) return sink->failed("open");
+  if (auto begun = sink->write(session_header(scene_name, scene_hash)); !begun)
+    return tl::make_unexpected(begun.error());
+  auto recorder = create(*sink);
+  recorder->own_sink_ = std::move(sink);
+  return recorder;
+}
+
+std::unique_ptr<Recorder> Recorder::create(work::PoseSink& sink) {
+  std::unique_ptr<Recorder> recorder(new Recorder(sink));
   recorder->thread_ = std::thread([&self = *recorder] { self.run(); });
   return recorder;
 }
 
-Recorder::Recorder(std::string path, int descriptor)
-    : path_(std::move(path)), descriptor_(descriptor) {
-  block_.reserve(kPosesPerBlock);
-}
+Recorder::Recorder(work::PoseSink& sink) : sink_(sink) { block_.reserve(kPosesPerBlock); }
 
 Recorder::~Recorder() {
   closing_.store(true);
   if (thread_.joinable()) thread_.join();
-  if (descriptor_ >= 0) close(descriptor_);
 }
 
 bool Recorder::take(const Pose& pose) noexcept {
@@ -60,27 +97,19 @@ bool Recorder::take(const Pose& pose) noexcept {
 Result<void> Recorder::finish() {
   closing_.store(true);
   if (thread_.joinable()) thread_.join();
-  if (!failed_ && fsync(descriptor_) != 0 && errno != EINVAL) {
-    failed_ = true;
-    error_ = system_error(path_, "sync");
-  }
-  if (descriptor_ >= 0 && close(std::exchange(descriptor_, -1)) != 0 && !failed_) {
-    failed_ = true;
-    error_ = system_error(path_, "close");
-  }
   if (failed_) return tl::make_unexpected(error_);
-  return {};
+  return sink_.finish();
 }
 
 void Recorder::run() {
   while (!closing_.load()) {
-    write_waiting();
+    hand_on();
     std::this_thread::sleep_for(kPause);
   }
-  write_waiting();
+  hand_on();
 }
 
-void Recorder::write_waiting() {
+void Recorder::hand_on() {
   for (;;) {
     while (block_.size() < kPosesPerBlock) {
       const auto pose = queue_.pop();
@@ -88,20 +117,11 @@ void Recorder::write_waiting() {
       block_.push_back(*pose);
     }
     if (block_.empty()) return;
-    append(session_block(block_));
-    block_.clear();
-  }
-}
-
-void Recorder::append(std::string_view line) {
-  while (!line.empty() && !failed_) {
-    const auto written = write(descriptor_, line.data(), line.size());
-    if (written > 0) {
-      line.remove_prefix(static_cast<std::size_t>(written));
-    } else if (written == 0 || errno != EINTR) {
-      error_ = system_error(path_, "write");
+    if (auto appended = failed_ ? Result<void>() : sink_.append(block_); !appended) {
+      error_ = appended.error();
       failed_ = true;
     }
+    block_.clear();
   }
 }
 

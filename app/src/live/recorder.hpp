@@ -1,12 +1,13 @@
 #pragma once
-// Writes a session while it is played. The servo hands over poses and never waits; a thread of its
-// own appends them to the file a few hundredths of a second later, whole lines at a time: a process
-// that is killed loses at most the last 100 ms. (The machine's own end is not guarded against
-// until `finish` has synced the file.)
+// Keeps what is played: a session, or a stroke of a journal. The servo hands over poses and never
+// waits; a thread of its own brings them to a sink a few hundredths of a second later, whole blocks
+// at a time: a process that is killed loses at most the last 100 ms. (The machine's own end is not
+// guarded against until `finish` has synced the file.)
 
 #include "claystack/engine/pose.hpp"
 #include "claystack/engine/result.hpp"
 #include "claystack/falcon/command_queue.hpp"
+#include "work/pose_sink.hpp"
 
 #include <atomic>
 #include <cstdint>
@@ -24,6 +25,8 @@ class Recorder {
   static Result<std::unique_ptr<Recorder>> create(const std::string& path,
                                                   std::string_view scene_name,
                                                   std::uint64_t scene_hash);
+  /// For any sink, which outlives it.
+  static std::unique_ptr<Recorder> create(work::PoseSink& sink);
   /// Ends the recording; who wants to know how it went calls finish() first.
   ~Recorder();
   Recorder(const Recorder&) = delete;
@@ -33,8 +36,8 @@ class Recorder {
   /// not recorded, nor is any after it, since a session with a hole would replay to another pot.
   bool take(const Pose& pose) noexcept;
 
-  /// After the last take: waits until all is on the disk. The error is of the first write that
-  /// failed.
+  /// After the last take: waits until all is in the sink, and the sink has finished. The error is
+  /// of the first write that failed.
   Result<void> finish();
 
   /// Poses not recorded, since the disk was too slow or refused.
@@ -42,14 +45,13 @@ class Recorder {
   [[nodiscard]] std::uint64_t taken() const noexcept { return taken_.load(); }
 
  private:
-  Recorder(std::string path, int descriptor);
+  explicit Recorder(work::PoseSink& sink);
   void run();
-  void write_waiting();
-  void append(std::string_view line);
+  void hand_on();
 
   static constexpr std::size_t kWaiting = 8192;  // poses: 8 s at 1 kHz
-  std::string path_;
-  int descriptor_;
+  std::unique_ptr<work::PoseSink> own_sink_;
+  work::PoseSink& sink_;
   falcon::CommandQueue<Pose, kWaiting> queue_;
   std::atomic<std::uint64_t> lost_{0}, taken_{0};
   std::atomic<bool> closing_{false}, failed_{false};

@@ -50,7 +50,6 @@ class Journal {
 
  private:
   Journal(std::filesystem::path path, int descriptor);
-  void write(std::string_view lines);
   void run();
 
   std::filesystem::path path_;

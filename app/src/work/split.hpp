@@ -24,10 +24,8 @@ inline constexpr double kFreeAirS = 0.3;
 /// Cut where the tool was in free air for kFreeAirS at least, at a pose after which it moves up or
 /// down before it touches: a stroke remembers of its past only whether the tool last moved up. Kept
 /// only if the strokes, each on the pot before, give the very pot that the whole gives; else one.
-/// `poses`: quantised. Errors are those of Wheel::build.
-Result<Split> split(const SceneSpec& scene, const Pot& before, std::span<const Pose> poses);
-
-/// Those poses with the first at time 0.
-[[nodiscard]] std::vector<Pose> from_zero(std::span<const Pose> poses);
+/// `poses`: quantised; not `may_split`: thrown as one. Errors are those of Wheel::build.
+Result<Split> split(const SceneSpec& scene, const Pot& before, std::span<const Pose> poses,
+                    bool may_split = true);
 
 }  // namespace clay::work

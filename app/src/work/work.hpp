@@ -54,8 +54,9 @@ class Work {
 
   // --- Strokes -------------------------------------------------------------------------------
   /// A stroke begins on the current pot. The sink is the recorder's; it keeps the poses, and the
-  /// journal gets them at once. Valid until end_stroke. A full disk is told by trouble(), not here.
-  PoseSink& begin_stroke(const SceneSpec& scene);
+  /// journal gets them at once. It lasts until end_stroke and never fails: a full disk is told by
+  /// the journal's trouble(). Errors are those of Wheel::build.
+  Result<PoseSink*> begin_stroke(const SceneSpec& scene);
   /// The recorder has finished. Throws the stroke again, splits it where the tool was in the air
   /// long enough (split.hpp), and makes it current. `shown`: the pot that the servo left, compared
   /// with what the poses give; the tree keeps the latter. Errors are those of Wheel::build.
@@ -99,12 +100,13 @@ class Work {
  private:
   struct Running;
   struct Scrubbing;
-  explicit Work(WorkRecord record);
+  Work(WorkRecord record, SharedPot root);
 
   std::size_t index_of(const SceneSpec& scene);
-  NodeId append(std::size_t scene, std::vector<Pose> poses, Pot pot);
-  Result<Pot> thrown(NodeId node, const Pot& before) const;
-  void keep_pot(NodeId node, SharedPot pot);
+  Result<Added> finish_stroke(bool may_split, const Pot* shown);
+  void append(std::size_t scene, std::vector<Pose> poses, Pot pot);
+  void learn(NodeId node, const Pot& before, SharedPot pot);
+  [[nodiscard]] Error named(NodeId node, const Error& error) const;
 
   WorkRecord record_;
   struct Known {
@@ -113,10 +115,18 @@ class Work {
   };
   std::vector<std::optional<Known>> known_;
   std::vector<std::vector<NodeId>> children_;
+  SharedPot root_;
   PotCache pots_;
   std::unique_ptr<Running> running_;
   std::unique_ptr<Scrubbing> scrubbing_;
   std::unique_ptr<Journal> journal_;
 };
+
+/// A work file, and whether its end was cut off.
+struct Loaded {
+  Work work;
+  bool torn = false;
+};
+Result<Loaded> load(const std::string& path);
 
 }  // namespace clay::work

@@ -3,6 +3,7 @@
 #include "files/json_text.hpp"
 #include "files/object_reader.hpp"
 #include "files/object_writer.hpp"
+#include "files/pot_json.hpp"
 #include "files/ring_arrays.hpp"
 #include "files/scene_json.hpp"
 #include "files/text_codes.hpp"
@@ -24,6 +25,12 @@ static void describe(auto& io, Is<Ledger> auto& ledger) {
   io.template coded<DecimalCode>("added", ledger.added);
   io.template coded<DecimalCode>("trimmed", ledger.trimmed);
   io.template coded<DecimalCode>("outside", ledger.outside);
+}
+
+static void describe(auto& io, Is<Rim> auto& rim) {
+  io.require({"outside", "inside"});
+  io.template coded<SignedDecimalCode>("outside", rim.outside);
+  io.template coded<SignedDecimalCode>("inside", rim.inside);
 }
 
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
@@ -50,9 +57,6 @@ static void describe(auto& io, Is<Collapse> auto& collapse) {
 
 namespace {
 
-/// Four numbers a ring, and the rest.
-constexpr std::size_t kMaxValues = 4 * kMaxRings + 1000;
-
 /// A pot as its file holds it.
 struct PotRecord {
   Model model = Model::conserving;
@@ -63,6 +67,7 @@ struct PotRecord {
   std::optional<RoundedRingArrays> rounded_rings;
   WideQuanta crown = 0;
   Ledger ledger;
+  std::optional<Rim> rim;
   std::optional<Collapse> collapse;
 
   [[nodiscard]] std::size_t size() const {
@@ -84,6 +89,7 @@ void describe(auto& io, Is<PotRecord> auto& pot) {
   io.part("rounded_rings", pot.rounded_rings);
   io.template coded<DecimalCode>("crown", pot.crown);
   io.part("ledger", pot.ledger);
+  io.part("rim", pot.rim);
   io.part_or_null("collapse", pot.collapse);
   io.check([&](ObjectReader& reader) {
     if (!pot.rings && !pot.rounded_rings) return reader.require({"rings"});
@@ -106,15 +112,16 @@ std::optional<RadiusGrid> grid_of(const Pot& pot) {
   return on_grid ? grid : std::nullopt;
 }
 
-PotRecord record_of(const Pot& pot, PotEncoding encoding) {
+PotRecord record_of(const Pot& pot, bool for_people) {
   PotRecord record{.model = pot.model,
                    .density_g_cm3 = pot.density_g_cm3,
                    .ring_height_mm = pot.stack.ring_height_mm(),
                    .max_rings = pot.stack.max_rings(),
-                   .rings = ring_arrays(pot.stack, encoding == PotEncoding::json),
+                   .rings = ring_arrays(pot.stack, for_people),
                    .rounded_rings = {},
                    .crown = pot.stack.crown(),
                    .ledger = pot.ledger,
+                   .rim = pot.rim == Rim{} ? std::nullopt : std::optional(pot.rim),
                    .collapse = pot.collapse};
   if (const auto grid = grid_of(pot)) {
     record.rounded_rings = rounded_ring_arrays(*record.rings, *pot.rounding, *grid);
@@ -136,8 +143,9 @@ Result<Pot> pot_of(const LocatedJson& document, const PotRecord& record) {
     return tl::make_unexpected(document.field_error(
         {"ledger"}, "expected every quantum accounted for, found " + to_string(imbalance) +
                         " too many (in the stack, trimmed and outside, less initial and added)"));
-  Pot pot{std::move(*stack),    record.ledger,   record.model,
-          record.density_g_cm3, record.collapse, std::nullopt};
+  Pot pot{std::move(*stack),         record.ledger,   record.model,
+          record.density_g_cm3,      record.collapse, std::nullopt,
+          record.rim.value_or(Rim{})};
   if (rounded) pot.rounding = {rounded->rounded_to_mm, rounded->exact_volume};
   return pot;
 }
@@ -149,21 +157,29 @@ bool is_cbor(std::string_view bytes) {
 
 }  // namespace
 
+Json files::pot_json(const Pot& pot, bool for_people) {
+  return ObjectWriter::write(record_of(pot, for_people));
+}
+
+Result<Pot> files::pot_of(const LocatedJson& document) {
+  return ObjectReader::read(document, PotRecord{}).and_then([&](const PotRecord& record) {
+    return clay::pot_of(document, record);
+  });
+}
+
 Result<Pot> parse_pot(std::string_view bytes, std::string_view name) {
   const auto parse =
       is_cbor(bytes) ? LocatedJson::from_cbor
                      : [](std::string_view text, std::string_view file, std::size_t max_values) {
                          return LocatedJson::from_json(text, file, max_values);
                        };
-  return parse(bytes, name, kMaxValues).and_then([](const LocatedJson& document) {
-    return ObjectReader::read(document, PotRecord{}).and_then([&](const PotRecord& record) {
-      return pot_of(document, record);
-    });
+  return parse(bytes, name, kMaxPotValues).and_then([](const LocatedJson& document) {
+    return files::pot_of(document);
   });
 }
 
 std::string write_pot(const Pot& pot, PotEncoding encoding) {
-  const Json file = ObjectWriter::write(record_of(pot, encoding));
+  const Json file = pot_json(pot, encoding == PotEncoding::json);
   if (encoding == PotEncoding::json) return json_text(file);
   std::string bytes;
   Json::to_cbor(file, bytes);

@@ -116,12 +116,14 @@ static void describe(auto& io, Is<SceneSpec> auto& scene) {
 
 Json files::scene_json(const SceneSpec& scene) { return ObjectWriter::write(scene); }
 
-Result<SceneSpec> parse_scene(std::string_view text, std::string_view name) {
+Result<SceneSpec> files::scene_of(const LocatedJson& document) {
   SceneSpec defaults;
   defaults.force.reset();
-  return LocatedJson::from_json(text, name, kMaxValues).and_then([&](const LocatedJson& document) {
-    return ObjectReader::read(document, std::move(defaults));
-  });
+  return ObjectReader::read(document, std::move(defaults));
+}
+
+Result<SceneSpec> parse_scene(std::string_view text, std::string_view name) {
+  return LocatedJson::from_json(text, name, kMaxValues).and_then(scene_of);
 }
 
 std::string write_scene(const SceneSpec& scene) { return json_text(scene_json(scene)); }

@@ -1,6 +1,7 @@
 #pragma once
 #include "claystack/engine/scene.hpp"
 #include "files/json_builder.hpp"
+#include "files/located_json.hpp"
 #include "files/range.hpp"
 
 #include <array>
@@ -10,6 +11,7 @@ namespace clay::files {
 
 /// The scene as its file holds it.
 Json scene_json(const SceneSpec& scene);
+Result<SceneSpec> scene_of(const LocatedJson& document);
 
 // A pot repeats what it must from its scene.
 inline constexpr std::array<std::string_view, 2> kModelNames = {"conserving", "paper"};

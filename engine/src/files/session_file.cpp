@@ -2,9 +2,11 @@
 
 #include "files/fnv1a.hpp"
 #include "files/json_text.hpp"
+#include "files/line_reader.hpp"
 #include "files/object_reader.hpp"
 #include "files/object_writer.hpp"
 #include "files/scene_json.hpp"
+#include "files/session_json.hpp"
 #include "files/text_codes.hpp"
 
 #include <algorithm>
@@ -16,7 +18,6 @@ namespace {
 
 using namespace files;
 
-constexpr std::size_t kMaxValuesPerLine = 1000;
 constexpr std::int64_t kMaxCount = 1'000'000 * std::int64_t{65'536};  ///< 1e6 mm
 constexpr std::int64_t kMaxTimeUs = std::int64_t{1} << 53;  ///< exact in every JSON reader
 
@@ -161,7 +162,9 @@ Result<std::vector<Pose>> decode(const LocatedJson& line, const Block& block) {
   return poses;
 }
 
-Result<void> append_block(const LocatedJson& line, std::vector<Pose>& poses) {
+}  // namespace
+
+Result<void> files::append_block(const LocatedJson& line, std::vector<Pose>& poses) {
   return ObjectReader::read(line, Block{})
       .and_then([&](const Block& block) { return decode(line, block); })
       .and_then([&](const std::vector<Pose>& more) -> Result<void> {
@@ -173,30 +176,6 @@ Result<void> append_block(const LocatedJson& line, std::vector<Pose>& poses) {
         return {};
       });
 }
-
-/// Takes complete lines off a text and counts them.
-class LineReader {
- public:
-  explicit LineReader(std::string_view text) : rest_(text) {}
-
-  /// Nothing at the end, and for a last line without its newline.
-  std::optional<std::string_view> next() {
-    const auto newline = rest_.find('\n');
-    if (newline == std::string_view::npos) return std::nullopt;
-    const auto line = rest_.substr(0, newline);
-    rest_.remove_prefix(newline + 1);
-    ++number_;
-    return line;
-  }
-  [[nodiscard]] std::string_view rest() const noexcept { return rest_; }
-  [[nodiscard]] std::size_t number() const noexcept { return number_; }
-
- private:
-  std::string_view rest_;
-  std::size_t number_ = 0;
-};
-
-}  // namespace
 
 Pose quantized(Pose pose) noexcept {
   for (int axis = 0; axis < 3; ++axis)
@@ -245,7 +224,7 @@ std::string write_session(const Session& session) {
 Result<Session> parse_session(std::string_view text, std::string_view name) {
   LineReader lines(text);
   const auto document = [&](std::string_view line) {
-    return LocatedJson::from_json(line, name, kMaxValuesPerLine, lines.number());
+    return LocatedJson::from_json(line, name, kMaxBlockValues, lines.number());
   };
   const auto first = lines.next();
   if (!first)

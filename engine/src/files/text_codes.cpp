@@ -31,4 +31,10 @@ std::optional<WideQuanta> DecimalCode::decode(std::string_view text) {
   return count;
 }
 
+std::optional<WideQuanta> SignedDecimalCode::decode(std::string_view text) {
+  if (!text.starts_with('-')) return DecimalCode::decode(text);
+  const auto count = DecimalCode::decode(text.substr(1));
+  return count && *count != 0 ? std::optional(-*count) : std::nullopt;
+}
+
 }  // namespace clay::files

@@ -24,4 +24,11 @@ struct DecimalCode {
   static std::optional<WideQuanta> decode(std::string_view text);
 };
 
+/// The same for a count that may be negative.
+struct SignedDecimalCode {
+  static constexpr std::string_view kExpected = "a text of 1 to 30 decimal digits, or - and those";
+  static std::string encode(WideQuanta count) { return clay::to_string(count); }
+  static std::optional<WideQuanta> decode(std::string_view text);
+};
+
 }  // namespace clay::files

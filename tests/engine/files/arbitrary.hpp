@@ -111,6 +111,7 @@ inline Pot arbitrary_pot() {
   pot.ledger.initial = pot.stack.volume() + pot.ledger.trimmed;
   pot.ledger.added = pot.ledger.outside;
   pot.model = *rc::gen::element(Model::conserving, Model::paper);
+  pot.rim = {wide() - wide(), wide() - wide()};
   pot.density_g_cm3 = *number_in(0.1, 25);
   pot.collapse = maybe<Collapse>([&] {
     const double heading = *number_in(-3, 3);

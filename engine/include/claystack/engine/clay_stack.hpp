@@ -58,7 +58,7 @@ class ClayStack {
   [[nodiscard]] double volume_mm3() const noexcept;
 
   /// Some ring has a bore (r > 0). While false, no clay can flow inward.
-  [[nodiscard]] bool hollow() const noexcept { return hollow_; }
+  [[nodiscard]] bool hollow() const noexcept { return bores_ > 0; }
 
   friend bool operator==(const ClayStack&, const ClayStack&) = default;
 
@@ -70,7 +70,7 @@ class ClayStack {
   std::size_t max_rings_ = kMaxRings;
   WideQuanta crown_ = 0;
   WideQuanta rings_volume_ = 0;
-  bool hollow_ = false;
+  std::size_t bores_ = 0;  ///< rings with r > 0
 };
 
 }  // namespace clay

@@ -34,6 +34,13 @@ struct Rounding {
   friend bool operator==(const Rounding&, const Rounding&) = default;
 };
 
+/// What clay at the crown's height has received more than the top ring did since it grew, outside
+/// and inside [quanta]. A copy of the top ring would be what the rim was a ring lower.
+struct Rim {
+  WideQuanta outside = 0, inside = 0;
+  friend bool operator==(const Rim&, const Rim&) = default;
+};
+
 /// When collapsed, `stack` still holds all rings in their order: 0..failed_ring stand,
 /// the others (and the crown) are turned by `collapse`.
 struct Pot {
@@ -43,6 +50,7 @@ struct Pot {
   double density_g_cm3 = 1.9;
   std::optional<Collapse> collapse;
   std::optional<Rounding> rounding;
+  Rim rim{};  ///< for who throws on; of the paper's model none
   friend bool operator==(const Pot&, const Pot&) = default;
 };
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <string>
 
 namespace clay {
 
@@ -61,6 +62,9 @@ class Wheel {
 
  private:
   struct State;
+  /// `clay`: what it is called in an error.
+  static Result<Wheel> assemble(StepPlan plan, ClayStack stack, const Ledger& ledger,
+                                const Rim& rim, const std::string& clay);
   explicit Wheel(std::unique_ptr<State> state) noexcept;
   std::unique_ptr<State> state_;
 };

@@ -42,6 +42,8 @@ struct WorkRecord {
 [[nodiscard]] std::vector<std::size_t> way_to(std::span<const WorkNode> nodes, std::size_t node);
 /// `node` becomes the current one, and redo leads to it from all before it.
 void go_to(WorkRecord& work, std::size_t node);
+/// The same poses with the first at time 0.
+[[nodiscard]] std::vector<Pose> from_zero(std::span<const Pose> poses);
 
 /// What was read, and how it ended.
 struct WorkReading {
@@ -63,16 +65,15 @@ std::string write_work(const WorkRecord& work);
 
 // Lines, each with its newline, for who appends as things happen. A stroke's line is followed by
 // the session_block lines of its poses and by its end.
-std::string work_header();
 std::string work_scene_line(const SceneSpec& scene);  ///< its index is the count of those before
-std::string work_start_line(const Pot& pot);          ///< before the root
-/// Node `node` begins; 0 is the root, its own parent.
+/// Stroke `node` begins, with the scene of that index.
 std::string work_stroke_line(std::size_t node, std::size_t parent, std::size_t scene,
                              const SceneSpec& spec);
 /// The stroke has so many poses. At each of `splits`, increasing indices of poses, a stroke of its
 /// own begins, below the one before: one holding of an arm, several strokes.
 std::string work_end_line(std::size_t poses, std::span<const std::size_t> splits);
-std::string work_at_line(std::size_t node);     ///< undo, redo, or another branch
-std::string work_saved_line(std::size_t node);  ///< the work as it is now is in a file
+std::string work_at_line(std::size_t node);  ///< undo, redo, or another branch
+/// The first `nodes` nodes are in a file, which has `node` for its current one.
+std::string work_saved_line(std::size_t node, std::size_t nodes);
 
 }  // namespace clay
