@@ -3,8 +3,8 @@
 
 #include "draw/offscreen.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <charconv>
 #include <memory>
@@ -45,14 +45,14 @@ void tell(const Console& console, const RenderCommand& command, const Rendered& 
     console.say(fmt::format("{}: {} frames of {}, {} bytes", command.turntable, command.frames,
                             size, done.gif_bytes));
   if (done.map)
-    console.say(fmt::format("walls: dark blue 0 mm to yellow {:g} mm{}; thinnest {:.3f} mm",
-                            done.map->top_mm,
-                            done.map->limit_mm > 0.0
-                                ? fmt::format(", hatched red below {:.3f} mm", done.map->limit_mm)
-                                : std::string(),
-                            *done.thinnest_mm));
-  if (done.frame_ms)
-    console.say(fmt::format("{:.1f} ms a frame of {} on {}", *done.frame_ms, size, done.renderer));
+    console.say(fmt::format(
+        "walls: dark blue 0 mm to yellow {:g} mm{}; thinnest {:.3f} mm", done.map->top_mm,
+        done.map->limit_mm > 0.0 ? fmt::format(", hatched red below {:.3f} mm", done.map->limit_mm)
+                                 : std::string(),
+        *done.thinnest_mm));
+  if (done.frame)
+    console.say(fmt::format("{:.1f} ms a frame of {}, {:.1f} ms anti-aliased, on {}",
+                            done.frame->ms, size, done.frame->anti_aliased_ms, done.renderer));
 }
 
 Json rendered_json(const RenderCommand& command, const Rendered& done) {
@@ -62,14 +62,14 @@ Json rendered_json(const RenderCommand& command, const Rendered& done) {
                {"renderer", done.renderer}};
   if (!command.out.empty()) json["png"] = {{"path", command.out}, {"bytes", done.png_bytes}};
   if (!command.turntable.empty())
-    json["gif"] = {{"path", command.turntable},
-                   {"bytes", done.gif_bytes},
-                   {"frames", command.frames}};
+    json["gif"] = {
+        {"path", command.turntable}, {"bytes", done.gif_bytes}, {"frames", command.frames}};
   if (done.map)
     json["wall_map"] = {{"limit_mm", done.map->limit_mm},
                         {"top_mm", done.map->top_mm},
                         {"thinnest_mm", *done.thinnest_mm}};
-  if (done.frame_ms) json["frame_ms"] = *done.frame_ms;
+  if (done.frame)
+    json["frame"] = {{"ms", done.frame->ms}, {"anti_aliased_ms", done.frame->anti_aliased_ms}};
   return json;
 }
 
@@ -90,7 +90,8 @@ int run(RenderCommand& command, Console console) {
 
 void add_render_command(CLI::App& app, Console& console, int& exit) {
   auto command = std::make_shared<RenderCommand>();
-  CLI::App* sub = app.add_subcommand("render", "Draw a pot, without a screen: picture or turntable");
+  CLI::App* sub =
+      app.add_subcommand("render", "Draw a pot, without a screen: picture or turntable");
   sub->add_option("pot", command->pot,
                   ".pot.json or .pot.cbor; of a NAME.scene.json the lump is drawn")
       ->required();
@@ -102,8 +103,9 @@ void add_render_command(CLI::App& app, Console& console, int& exit) {
   add_size(*sub, *command);
   sub->add_flag("--section", command->section, "Cut open, to show the walls");
 #ifdef CLAYSTACK_EXPORT
-  sub->add_flag("--wall-map", command->wall_map,
-                "Colours for the thickness of walls; --min-wall or --process hatch what is thinner");
+  sub->add_flag(
+      "--wall-map", command->wall_map,
+      "Colours for the thickness of walls; --min-wall or --process hatch what is thinner");
   command->walls.add_to(*sub);
 #endif
   sub->add_option_function<std::string>(

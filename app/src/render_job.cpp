@@ -5,11 +5,12 @@
 #include "claystack/engine/scene_file.hpp"
 #include "claystack/engine/stack_measures.hpp"
 #include "draw/image_file.hpp"
+#include "draw/legend.hpp"
 #include "draw/offscreen.hpp"
 #include "draw/pot_view.hpp"
 #ifdef CLAYSTACK_EXPORT
-#include "draw/wall_rows.hpp"
 #include "claystack/export/wall_thickness.hpp"
+#include "draw/wall_rows.hpp"
 #endif
 
 #include <algorithm>
@@ -67,8 +68,7 @@ Result<void> map_walls(const RenderCommand& command, const Pot& pot, draw::Pictu
   const auto profile =
       draw::wall_profile(pot, demand ? std::optional(limit) : std::optional<double>());
   if (!profile) return tl::make_unexpected(profile.error());
-  picture.pot.wall_mm =
-      draw::row_walls(*profile, picture.pot.rows.size(), picture.pot.height_mm);
+  picture.pot.wall_mm = draw::row_walls(*profile, picture.pot.rows.size(), picture.pot.height_mm);
   picture.wall_map = done.map = draw::WallMap{limit, kMapTopMm};
   done.thinnest_mm = solid::min_wall_mm(*profile);
   return {};
@@ -96,6 +96,14 @@ Result<draw::Picture> picture_of(const RenderCommand& command, Rendered& done) {
   return picture;
 }
 
+Result<draw::Image> drawn(draw::Offscreen& screen, const draw::Picture& picture,
+                          draw::Viewport size) {
+  return screen.draw(picture, size).map([&](draw::Image image) {
+    if (picture.wall_map) draw::draw_legend(*picture.wall_map, picture.theme, image);
+    return image;
+  });
+}
+
 Result<std::string> turntable_of(draw::Offscreen& screen, draw::Picture picture,
                                  const RenderCommand& command, const Console& console) {
   Progress progress(console, "turning", static_cast<std::size_t>(command.frames));
@@ -105,7 +113,7 @@ Result<std::string> turntable_of(draw::Offscreen& screen, draw::Picture picture,
   std::vector<draw::Image> frames;
   for (int k = 0; k < command.frames; ++k) {
     picture.camera.azimuth_rad = first - step * k;
-    auto image = screen.draw(picture, command.size);
+    auto image = drawn(screen, picture, command.size);
     if (!image) return tl::make_unexpected(image.error());
     frames.push_back(std::move(*image));
     progress.update(frames.size());
@@ -113,12 +121,12 @@ Result<std::string> turntable_of(draw::Offscreen& screen, draw::Picture picture,
   return draw::gif_of(frames, std::max(20, kTurnMs / command.frames));
 }
 
-Result<double> median_ms(draw::Offscreen& screen, const draw::Picture& picture,
-                         draw::Viewport size) {
+Result<double> median_ms(draw::Offscreen& screen, const draw::Picture& picture, draw::Viewport size,
+                         int samples) {
   std::array<double, kTimedFrames> times{};
-  if (auto warm = screen.time_ms(picture, size); !warm) return warm;
+  if (auto warm = screen.time_ms(picture, size, samples); !warm) return warm;
   for (double& time : times) {
-    const auto took = screen.time_ms(picture, size);
+    const auto took = screen.time_ms(picture, size, samples);
     if (!took) return took;
     time = *took;
   }
@@ -138,7 +146,7 @@ Result<Rendered> render(const RenderCommand& command, const Console& console) {
   done.renderer = screen->renderer();
   std::string png, gif;  // both are made before one is published
   if (!command.out.empty()) {
-    const auto image = screen->draw(*picture, command.size);
+    const auto image = drawn(*screen, *picture, command.size);
     if (!image) return tl::make_unexpected(image.error());
     png = draw::png_of(*image);
   }
@@ -148,9 +156,10 @@ Result<Rendered> render(const RenderCommand& command, const Console& console) {
     gif = std::move(*turned);
   }
   if (command.time) {
-    const auto took = median_ms(*screen, *picture, command.size);
-    if (!took) return tl::make_unexpected(took.error());
-    done.frame_ms = *took;
+    const auto plain = median_ms(*screen, *picture, command.size, 0);
+    const auto smooth = median_ms(*screen, *picture, command.size, draw::kSamples);
+    if (!plain || !smooth) return tl::make_unexpected((plain ? smooth : plain).error());
+    done.frame = FrameTime{*plain, *smooth};
   }
   done.png_bytes = png.size();
   done.gif_bytes = gif.size();

@@ -27,11 +27,16 @@ struct RenderCommand {
 #endif
 };
 
+/// Medians of some frames.
+struct FrameTime {
+  double ms = 0.0, anti_aliased_ms = 0.0;
+};
+
 /// What was drawn, for people and scripts.
 struct Rendered {
   std::size_t png_bytes = 0, gif_bytes = 0;
   std::string renderer;
-  std::optional<double> frame_ms;  ///< median
+  std::optional<FrameTime> frame;
   std::optional<draw::WallMap> map;
   std::optional<double> thinnest_mm;
 };

@@ -58,8 +58,8 @@ glm::dmat4 projection_matrix(const Camera& camera, double aspect) noexcept {
 
 Camera orbited(Camera camera, glm::dvec2 drag_px, Viewport viewport) noexcept {
   const double rad_per_px = std::numbers::pi / viewport.height_px;
-  camera.azimuth_rad = std::remainder(camera.azimuth_rad - rad_per_px * drag_px.x,
-                                      2.0 * std::numbers::pi);
+  camera.azimuth_rad =
+      std::remainder(camera.azimuth_rad - rad_per_px * drag_px.x, 2.0 * std::numbers::pi);
   camera.elevation_rad =
       std::clamp(camera.elevation_rad + rad_per_px * drag_px.y, -kSteepest, kSteepest);
   return camera;

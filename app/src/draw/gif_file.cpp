@@ -44,8 +44,8 @@ class Nearest {
  public:
   explicit Nearest(const Palette& palette) : index_(std::size_t{1} << (3 * kCell)) {
     for (std::size_t cell = 0; cell < index_.size(); ++cell)
-      index_[cell] = nearest(palette, middle(cell >> (2 * kCell)), middle(cell >> kCell),
-                             middle(cell));
+      index_[cell] =
+          nearest(palette, middle(cell >> (2 * kCell)), middle(cell >> kCell), middle(cell));
   }
   [[nodiscard]] GifByteType operator()(int red, int green, int blue) const {
     return index_[part(red) << (2 * kCell) | part(green) << kCell | part(blue)];

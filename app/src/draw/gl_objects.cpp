@@ -60,8 +60,8 @@ Result<Program> make_program(std::string_view name, const std::string& vertex,
   const Shader first(GL_VERTEX_SHADER, vertex), second(GL_FRAGMENT_SHADER, fragment);
   for (const Shader* shader : {&first, &second})
     if (const std::string complaint = shader->complaint(); !complaint.empty())
-      return failure(ErrorKind::device, fmt::format("OpenGL refuses the shader {}: {}", name,
-                                                    complaint));
+      return failure(ErrorKind::device,
+                     fmt::format("OpenGL refuses the shader {}: {}", name, complaint));
   Program program(glCreateProgram());
   glAttachShader(program.get(), first.get());
   glAttachShader(program.get(), second.get());

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace clay::draw {
@@ -12,6 +13,9 @@ struct Image {
   [[nodiscard]] const std::uint8_t* at(int x, int y) const noexcept {
     return &rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) +
                       static_cast<std::size_t>(x))];
+  }
+  [[nodiscard]] std::uint8_t* at(int x, int y) noexcept {
+    return const_cast<std::uint8_t*>(std::as_const(*this).at(x, y));
   }
   friend bool operator==(const Image&, const Image&) = default;
 };

@@ -15,8 +15,6 @@
 namespace clay::draw {
 namespace {
 
-constexpr int kSamples = 4;
-
 /// A display and a context without a surface; both end with the object.
 class EglContext {
  public:
@@ -52,6 +50,8 @@ Result<EglContext> EglContext::create() {
   void* library = dlopen("libEGL.so.1", RTLD_LAZY);
   if (library == nullptr) return no_context("the library libEGL.so.1");
   dlclose(library);
+  for (const char* extension : {"EGL_EXT_platform_base", "EGL_MESA_platform_surfaceless"})
+    if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, extension)) return no_context(extension);
   const EGLDisplay display =
       eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) != EGL_TRUE)
@@ -101,7 +101,7 @@ struct Offscreen::State {
 
   ~State() { context.make_current(); }  // for the names that are given back now
 
-  Result<void> paint(const Picture& picture, Viewport viewport) {
+  Result<void> paint(const Picture& picture, Viewport viewport, int samples) {
     if (!context.make_current()) return no_context("the context to be there still");
     if (!(target && target->is(viewport.width_px, viewport.height_px, 0))) {
       target.reset();
@@ -110,7 +110,7 @@ struct Offscreen::State {
       target.emplace(std::move(*made));
     }
     glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer());
-    painter->paint(picture, viewport.width_px, viewport.height_px, kSamples);
+    painter->paint(picture, viewport.width_px, viewport.height_px, samples);
     return {};
   }
 };
@@ -132,18 +132,17 @@ Result<Offscreen> Offscreen::create() {
 }
 
 Result<Image> Offscreen::draw(const Picture& picture, Viewport viewport) {
-  return state_->paint(picture, viewport).map([&] {
+  return state_->paint(picture, viewport, kSamples).map([&] {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, state_->target->framebuffer());
     return read_pixels(viewport.width_px, viewport.height_px);
   });
 }
 
-Result<double> Offscreen::time_ms(const Picture& picture, Viewport viewport) {
+Result<double> Offscreen::time_ms(const Picture& picture, Viewport viewport, int samples) {
   const auto begin = std::chrono::steady_clock::now();
-  return state_->paint(picture, viewport).map([&] {
+  return state_->paint(picture, viewport, samples).map([&] {
     glFinish();
-    const std::chrono::duration<double, std::milli> took =
-        std::chrono::steady_clock::now() - begin;
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
     return took.count();
   });
 }

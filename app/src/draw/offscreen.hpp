@@ -11,6 +11,7 @@ namespace clay::draw {
 
 /// Largest side of a picture [px].
 inline constexpr int kMaxSidePx = 8192;
+inline constexpr int kSamples = 4;
 
 /// A context of its own, which each call makes current. One thread at a time.
 class Offscreen {
@@ -22,10 +23,10 @@ class Offscreen {
   Offscreen& operator=(Offscreen&&) noexcept;
   ~Offscreen();
 
-  /// Anti-aliased. Needs sides from 1 to kMaxSidePx.
+  /// Of kSamples a pixel. Needs sides from 1 to kMaxSidePx.
   Result<Image> draw(const Picture& picture, Viewport viewport);
   /// Draws without reading back, and waits for it to end: the time [ms] that a frame takes.
-  Result<double> time_ms(const Picture& picture, Viewport viewport);
+  Result<double> time_ms(const Picture& picture, Viewport viewport, int samples);
   /// What draws: "llvmpipe (LLVM 15.0.6, 256 bits)".
   [[nodiscard]] const std::string& renderer() const noexcept;
 

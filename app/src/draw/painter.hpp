@@ -21,7 +21,8 @@ class Painter {
   /// The whole picture, background and all, into the framebuffer that is bound for drawing, from
   /// its lower left corner on. Colours are written as sRGB values: leave GL_FRAMEBUFFER_SRGB off.
   /// `samples` above 1: into a multisampled buffer of its own first, for a framebuffer without
-  /// samples; 0 or 1: straight into it.
+  /// samples; 0 or 1: straight into it. Where the processor itself draws (llvmpipe), four samples
+  /// take more than twice the time: use none while things move.
   void paint(const Picture& picture, int width_px, int height_px, int samples) noexcept;
 
  private:

@@ -29,8 +29,7 @@ std::vector<glm::dvec3> outline_points(const PotView& pot) {
       points.push_back(fell ? glm::dvec3(pot.fallen->place * glm::dvec4(point, 1.0)) : point);
     }
   };
-  for (std::size_t row = 0; row < count; row += stride)
-    add(row, height * static_cast<double>(row));
+  for (std::size_t row = 0; row < count; row += stride) add(row, height * static_cast<double>(row));
   if (count > 0) add(count - 1, pot.height_mm);
   return points;
 }

@@ -34,8 +34,7 @@ struct FallenView {
 };
 
 /// The clay, bottom to top in rows of equal height. Walls are drawn from the middle of a row to the
-/// middle of the next; floors and lids lie between two rows. More than some 500 rows are
-/// drawn as so many.
+/// middle of the next; floors and lids lie between two rows.
 struct PotView {
   std::vector<Row> rows;
   double height_mm = 0.0;        ///< of all rows together

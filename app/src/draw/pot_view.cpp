@@ -7,14 +7,15 @@
 namespace clay::draw {
 namespace {
 
-constexpr int kArcs = 48;            // of a half-profile, evenly in angle
-constexpr int kPerSampleStep = 6;    // between the samples of a sampled one
+constexpr int kArcs = 48;          // of a half-profile, evenly in angle
+constexpr int kPerSampleStep = 6;  // between the samples of a sampled one
 
 Row row_of(const Ring& ring) {
   return {static_cast<float>(ring.outer_mm()), static_cast<float>(ring.inner_mm())};
 }
 
-/// Radii at a height, on chords from the middle of a ring to the next; a bore ends at its ring's end.
+/// Radii at a height, on chords from the middle of a ring to the next; a bore ends at its ring's
+/// end.
 Row row_at(const ClayStack& stack, double y) {
   const auto rings = stack.rings();
   const auto last = static_cast<double>(rings.size() - 1);
@@ -29,8 +30,7 @@ Row row_at(const ClayStack& stack, double y) {
           std::lerp(low.inner_mm, high.inner_mm, static_cast<float>(part))};
 }
 
-void add_arc(const Tool& tool, double from, double to, int steps,
-             std::vector<glm::vec2>& profile) {
+void add_arc(const Tool& tool, double from, double to, int steps, std::vector<glm::vec2>& profile) {
   for (int k = profile.empty() ? 0 : 1; k <= steps; ++k) {
     const double t = std::lerp(from, to, static_cast<double>(k) / steps);
     profile.emplace_back(static_cast<float>(tool.radius(t)), static_cast<float>(t));

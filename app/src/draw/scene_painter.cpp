@@ -12,10 +12,11 @@ namespace clay::draw {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kThickness = 0.07;     // of the wheel head, in radii
-constexpr double kFloor = 3.0;          // radius of the floor, in those of the wheel head
-constexpr double kChordPx = 0.12;       // between a sector's chord and its arc
-constexpr double kLeastForceN = 0.02;   // below it there is no arrow
+constexpr double kThickness = 0.07;    // of the wheel head, in radii
+constexpr double kFloor = 3.0;         // radius of the floor, in those of the wheel head
+constexpr double kStraightPx = 0.2;    // levels that chords miss by less are left out
+constexpr double kChordPx = 0.2;       // between a sector's chord and its arc
+constexpr double kLeastForceN = 0.02;  // below it there is no arrow
 constexpr GLuint kBlockBinding = 0;
 
 GLint location(const Program& program, const char* name) {
@@ -62,17 +63,19 @@ glm::mat4 along(const glm::dvec3& from, const glm::dvec3& direction) {
   const glm::dvec3 y = glm::normalize(direction);
   const glm::dvec3 aside = std::abs(y.x) < 0.7 ? glm::dvec3{1, 0, 0} : glm::dvec3{0, 0, 1};
   const glm::dvec3 z = glm::normalize(glm::cross(aside, y)), x = glm::cross(y, z);
-  return glm::mat4(glm::dmat4{glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0),
-                              glm::dvec4(from, 1)});
+  return glm::mat4(
+      glm::dmat4{glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), glm::dvec4(from, 1)});
 }
 
-std::vector<Body> bodies_of(const PotView& pot) {
+std::vector<Body> bodies_of(const PotView& pot, double tolerance_mm) {
+  const auto tolerance = static_cast<float>(tolerance_mm);
   const std::size_t split =
       pot.fallen ? std::min(pot.fallen->first_row, pot.rows.size()) : pot.rows.size();
   std::vector<Body> bodies;
-  if (split > 0) bodies.push_back({levels_of(pot, 0, split), glm::mat4(1.0f)});
+  if (split > 0) bodies.push_back({levels_of(pot, 0, split, tolerance), glm::mat4(1.0f)});
   if (split < pot.rows.size())
-    bodies.push_back({levels_of(pot, split, pot.rows.size()), glm::mat4(pot.fallen->place)});
+    bodies.push_back(
+        {levels_of(pot, split, pot.rows.size(), tolerance), glm::mat4(pot.fallen->place)});
   return bodies;
 }
 
@@ -96,13 +99,13 @@ struct ScenePainter::Frame {
   Frame(const Picture& shown, Viewport viewport)
       : picture(shown),
         look(look_of(shown.theme)),
-        bodies(bodies_of(shown.pot)),
         wheel_radius(shown.wheel_radius_mm.value_or(wheel_radius_mm(shown.pot))) {
     const Camera& camera = picture.camera;
     const double opening = opening_of(picture.cut);
     const double middle = picture.cut_azimuth_rad.value_or(camera.azimuth_rad);
     sweep = {middle + 0.5 * opening, middle + 2.0 * kPi - 0.5 * opening};
     px_per_mm = 0.5 * viewport.height_px / (std::tan(0.5 * camera.fov_rad) * camera.distance_mm);
+    bodies = bodies_of(picture.pot, kStraightPx / px_per_mm);
     fill_block(viewport);
   }
 
@@ -111,8 +114,9 @@ struct ScenePainter::Frame {
     block.view_projection =
         glm::mat4(projection_matrix(camera, viewport.aspect()) * view_matrix(camera));
     block.eye = glm::vec4(glm::vec3(eye_mm(camera)), 1.0f);
-    block.to_lamp = glm::vec4(beside_camera(camera, lamp_direction()), 0.0f);
-    block.to_rim_lamp = glm::vec4(beside_camera(camera, rim_lamp_direction()), 0.0f);
+    const auto turn = static_cast<float>(picture.wheel_turn_rad);
+    block.to_lamp = glm::vec4(beside_camera(camera, lamp_direction()), std::cos(turn));
+    block.to_rim_lamp = glm::vec4(beside_camera(camera, rim_lamp_direction()), std::sin(turn));
     block.lamp = glm::vec4(look.lamp, 0.0f);
     block.sky = glm::vec4(look.sky, 0.0f);
     block.bounce = glm::vec4(look.bounce, 0.0f);
@@ -174,9 +178,8 @@ void ScenePainter::paint(const Picture& picture, Viewport viewport) {
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);
   glClear(GL_DEPTH_BUFFER_BIT);
-  paint_background();
   glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LESS);
+  glDepthFunc(GL_LEQUAL);
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
   glFrontFace(GL_CCW);
@@ -187,6 +190,7 @@ void ScenePainter::paint(const Picture& picture, Viewport viewport) {
     paint_arrow(frame);
   }
   if (frame.from_above()) paint_wheel(frame);
+  paint_background();
   glBindVertexArray(0);
   glUseProgram(0);
 }
@@ -210,9 +214,8 @@ void ScenePainter::send(const ShadowMap& map) {
     glTexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
 }
 
+/// At the far plane, so only where nothing else is.
 void ScenePainter::paint_background() {
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_CULL_FACE);
   glUseProgram(background_.get());
   glBindVertexArray(nothing_.get());
   glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -302,7 +305,7 @@ void ScenePainter::paint_wheel(const Frame& frame) {
   set(wheel_, "sweep", whole);
   set(wheel_, "metal", frame.look.metal);
   const std::vector<glm::vec2> line{
-      {radius, -thick}, {radius, -bevel}, {radius - bevel, 0.0f}};
+      {radius, -thick}, {radius, -bevel}, {radius - bevel, 0.0f}, {radius - 2.0f * bevel, 0.0f}};
   revolve(wheel_, meridian_of(line), glm::mat4(1.0f), frame);
   glUseProgram(ground_.get());
   set(ground_, "sweep", whole);

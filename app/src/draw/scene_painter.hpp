@@ -1,5 +1,6 @@
 #pragma once
-// The stages of a frame: background, clay, section, tool, wheel, floor.
+// The stages of a frame: clay, section, tool, wheel, floor, background; the nearest first, so that
+// what is hidden costs nothing.
 
 #include "draw/gl_objects.hpp"
 #include "draw/look.hpp"
@@ -27,8 +28,8 @@ class ScenePainter {
   void paint_wheel(const Frame& frame);
   void send(const FrameBlock& block);
   void send(const ShadowMap& map);
-  void revolve(const Program& program, const std::vector<Stretch>& meridian,
-               const glm::mat4& place, const Frame& frame);
+  void revolve(const Program& program, const std::vector<Stretch>& meridian, const glm::mat4& place,
+               const Frame& frame);
 
   Program background_, clay_, plain_, wheel_, ground_, slice_;
   Buffer block_;

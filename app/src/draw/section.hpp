@@ -15,13 +15,14 @@ namespace clay::draw {
 struct Level {
   float y = 0.0f;
   float outer = 0.0f, inner = 0.0f;
+  float outer_lean = 0.0f, inner_lean = 0.0f;  ///< of the walls, outwards from upright [rad]
   RowWall wall;
 };
 
-/// Rows `first` up to, not including, `last`: at most kDrawnRows of them, and those about floors
-/// and lids.
-[[nodiscard]] std::vector<Level> levels_of(const PotView& pot, std::size_t first, std::size_t last);
-inline constexpr std::size_t kDrawnRows = 512;
+/// Rows `first` up to, not including, `last`. Levels that lie on straight walls between others to
+/// within `tolerance_mm` are left out: triangles below the size of a pixel cost the most.
+[[nodiscard]] std::vector<Level> levels_of(const PotView& pot, std::size_t first, std::size_t last,
+                                           float tolerance_mm);
 
 /// A stretch of a meridian, left of which there is matter: what the vertex shader revolves. All
 /// pairs: at its beginning, at its end.
@@ -30,7 +31,8 @@ struct Stretch {
   glm::vec2 from_normal{0.0f}, to_normal{0.0f};  ///< outward, unit
   glm::vec2 open{1.0f};                          ///< part of the sky that reaches it
   glm::vec2 wall{0.0f};                          ///< thickness [mm]
-  glm::vec2 neck{0.0f};  ///< radius and height of the ring that light must pass [mm]; radius 0: none
+  glm::vec2 neck{
+      0.0f};  ///< radius and height of the ring that light must pass [mm]; radius 0: none
 };
 
 /// The closed surface of what lies between the levels.

@@ -14,13 +14,15 @@ layout(std140) uniform Frame {
 )";
 
 constexpr const char* kColour = R"(
-float random(vec2 at) { return fract(sin(dot(at, vec2(12.9898, 78.233))) * 43758.5453); }
-
-// Half a step of noise, so that calm gradients show no bands.
+// sRGB by three square roots in place of a power (least squares; within 0.3/255 above 0.0031), and
+// half a step of noise, so that calm gradients show no bands.
 vec4 shown(vec3 linear) {
   vec3 c = clamp(linear, 0.0, 1.0);
-  vec3 srgb = mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
-  return vec4(srgb + (random(gl_FragCoord.xy) - 0.5) / 255.0, 1.0);
+  vec3 s1 = sqrt(c), s2 = sqrt(s1), s3 = sqrt(s2);
+  vec3 srgb = 0.662002687 * s1 + 0.684122060 * s2 - 0.323583601 * s3 - 0.0225411470 * c;
+  srgb = mix(12.92 * c, srgb, step(0.0031308, c));
+  float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  return vec4(srgb + (noise - 0.5) / 255.0, 1.0);
 }
 
 vec3 background() {
@@ -40,7 +42,9 @@ vec3 lit_surface(vec3 base, vec3 n, vec3 v, float open, float lit, float gloss, 
   // What is hidden from the sky sees clay, which sends a little light on.
   vec3 diffuse = base * (ambient * mix(0.16 * base + 0.10, vec3(1.0), open) +
                          frame.lamp.rgb * facing * lit);
-  float grazing = pow(1.0 - clamp(dot(n, v), 0.0, 1.0), 4.0);
+  float grazing = 1.0 - clamp(dot(n, v), 0.0, 1.0);
+  grazing *= grazing;
+  grazing *= grazing;
   float edge = clamp(dot(n, frame.to_rim_lamp.xyz), 0.0, 1.0) * open;
   vec3 sheen = frame.lamp.rgb * (shine * pow(clamp(dot(n, h), 0.0, 1.0), gloss) * lit * facing) +
                frame.rim.rgb * edge * (0.10 + 0.9 * grazing) * (0.5 + 0.5 * base);
@@ -75,7 +79,7 @@ layout(location = 4) in vec2 neck_;
 uniform mat4 place;
 uniform vec2 sweep;  // azimuths from, to
 out vec3 world, normal, own;
-out vec2 shade;
+out vec3 shade;  // open; wall [mm]; azimuth
 flat out vec2 neck;
 void main() {
   float azimuth = mix(sweep.x, sweep.y, step_.x);
@@ -85,7 +89,7 @@ void main() {
   vec4 at = place * vec4(own, 1.0);
   world = at.xyz;
   normal = mat3(place) * vec3(n.x * around.x, n.y, n.x * around.y);
-  shade = mix(shade_.xz, shade_.yw, step_.y);
+  shade = vec3(mix(shade_.xz, shade_.yw, step_.y), azimuth);
   neck = neck_;
   gl_Position = frame.view_projection * at;
 }
@@ -93,7 +97,7 @@ void main() {
 
 constexpr const char* kClayFragment = R"(
 in vec3 world, normal, own;
-in vec2 shade;
+in vec3 shade;
 flat in vec2 neck;
 uniform mat4 place;
 uniform vec2 rim;    // radius and height of the opening
@@ -121,7 +125,7 @@ void main() {
   vec3 n = normalize(normal), v = normalize(frame.eye.xyz - world);
   vec3 axis = place[1].xyz;
   vec3 l = transpose(mat3(place)) * frame.to_lamp.xyz;
-  float azimuth = atan(own.x, own.z) - turn;
+  float azimuth = shade.z - turn;
   float upright = length(n - axis * dot(n, axis));  // grooves run along walls, not along rims
   float size = frame.wheel.w;
   float groove = grooves(own.y, azimuth, size, fwidth(own.y)) * upright;
@@ -145,7 +149,7 @@ void main() {
 
 constexpr const char* kPlainFragment = R"(
 in vec3 world, normal, own;
-in vec2 shade;
+in vec3 shade;
 flat in vec2 neck;
 uniform vec4 base;         // colour; gloss
 uniform vec4 touch;        // unit, to the clay; 1 where it touches
@@ -153,8 +157,8 @@ out vec4 colour;
 void main() {
   vec3 n = normalize(normal), v = normalize(frame.eye.xyz - world);
   vec3 c = lit_surface(base.rgb, n, v, 1.0, 1.0, base.a, 0.35);
-  float side = touch.w * smoothstep(0.45, 0.95, dot(n, touch.xyz));
-  colour = shown(mix(exposed(c), vec3(1.0, 0.42, 0.05), 0.85 * side));
+  float side = touch.w * smoothstep(0.40, 0.80, dot(n, touch.xyz));
+  colour = shown(mix(exposed(c), vec3(1.0, 0.42, 0.05), side));
 }
 )";
 
@@ -169,7 +173,7 @@ vec2 shadow_at(vec2 at) {
 
 constexpr const char* kWheelFragment = R"(
 in vec3 world, normal, own;
-in vec2 shade;
+in vec3 shade;
 flat in vec2 neck;
 uniform vec3 metal;
 out vec4 colour;
@@ -184,7 +188,7 @@ void main() {
   float line = (1.0 - smoothstep(0.0, 0.0035 * radius + width, groove)) *
                (1.0 - smoothstep(0.05, 0.4, width / pitch));
   // The mark that shows the turn: a dot near the edge and a short line.
-  float s = sin(frame.wheel.x), c = cos(frame.wheel.x);
+  float s = frame.to_rim_lamp.w, c = frame.to_lamp.w;
   vec2 turned = vec2(own.x * c - own.z * s, own.x * s + own.z * c);
   vec2 soft = vec2(-1.0, 1.0) * max(width, 1e-6);
   float dot_ = 1.0 - smoothstep(soft.x, soft.y, length(turned - vec2(0.0, 0.93 * radius)) - 0.016 * radius);
@@ -201,7 +205,7 @@ void main() {
 // The floor is the background itself, darker where the wheel keeps light away.
 constexpr const char* kGroundFragment = R"(
 in vec3 world, normal, own;
-in vec2 shade;
+in vec3 shade;
 flat in vec2 neck;
 out vec4 colour;
 void main() {

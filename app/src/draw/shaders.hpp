@@ -11,14 +11,14 @@ namespace clay::draw {
 /// What all programs know of a frame: block `Frame`, std140, field by field.
 struct FrameBlock {
   glm::mat4 view_projection{1.0f};
-  glm::vec4 eye{0.0f};         ///< [mm]
-  glm::vec4 to_lamp{0.0f};     ///< unit
-  glm::vec4 to_rim_lamp{0.0f};
+  glm::vec4 eye{0.0f};                                       ///< [mm]
+  glm::vec4 to_lamp{0.0f};                                   ///< unit
+  glm::vec4 to_rim_lamp{0.0f};                               ///< unit; sine of that turn
   glm::vec4 lamp{0.0f}, sky{0.0f}, bounce{0.0f}, rim{0.0f};  ///< linear colours
-  glm::vec4 low{0.0f}, high{0.0f};  ///< of the background, at its edges
-  glm::vec4 viewport{0.0f};         ///< width, height [px]; half side of the shadow map [mm]
-  glm::vec4 wall_map{0.0f};         ///< limit, top [mm]; above 0: drawn
-  glm::vec4 wheel{0.0f};            ///< turn [rad], radius, thickness [mm]; ring height of clay
+  glm::vec4 low{0.0f}, high{0.0f};                           ///< of the background, at its edges
+  glm::vec4 viewport{0.0f};  ///< width, height [px]; half side of the shadow map [mm]
+  glm::vec4 wall_map{0.0f};  ///< limit, top [mm]; above 0: drawn
+  glm::vec4 wheel{0.0f};     ///< turn [rad], radius, thickness; size of the clay [mm]
 };
 
 /// std140 arrays of the wall map's colours.

@@ -8,9 +8,8 @@
 namespace clay::draw {
 namespace {
 
-constexpr std::size_t kDiscs = 28;     // that stand for a body
-constexpr float kLampWidth = 0.16f;    // tangent of the angle that the lamp is seen at
-constexpr float kSharpest = 0.02f;     // penumbra at the foot, in radii
+constexpr std::size_t kDiscs = 28;   // that stand for a body
+constexpr float kLampWidth = 0.16f;  // tangent of the angle that the lamp is seen at
 constexpr float kAmbientDepth = 0.62f;
 
 /// A disc of clay in a body's own coordinates, and its lowest point in the wheel's.
@@ -44,7 +43,8 @@ float smooth(float t) {
 }
 
 /// Part of the lamp that is hidden from a point of the ground.
-float lamp_hidden(const Caster& caster, const glm::vec3& point, const glm::vec3& to_lamp) {
+float lamp_hidden(const Caster& caster, const glm::vec3& point, const glm::vec3& to_lamp,
+                  float texel) {
   const glm::vec3 from(caster.back * glm::vec4(point, 1.0f));
   const glm::vec3 way(caster.back * glm::vec4(to_lamp, 0.0f));
   if (std::abs(way.y) < 1e-4f) return 0.0f;
@@ -53,8 +53,8 @@ float lamp_hidden(const Caster& caster, const glm::vec3& point, const glm::vec3&
     const float along = (disc.y - from.y) / way.y;
     if (along < 0.0f) continue;
     const float off = std::hypot(from.x + along * way.x, from.z + along * way.z) - disc.radius;
-    const float width = kSharpest * disc.radius + kLampWidth * along;
-    if (off < width) hidden = std::max(hidden, smooth(0.5f - 0.5f * off / std::max(width, 1e-6f)));
+    const float width = 1.5f * texel + kLampWidth * along;
+    if (off < width) hidden = std::max(hidden, smooth(0.5f - 0.5f * off / width));
   }
   return hidden;
 }
@@ -62,8 +62,7 @@ float lamp_hidden(const Caster& caster, const glm::vec3& point, const glm::vec3&
 float sky_hidden(const Caster& caster, const glm::vec3& point) {
   float hidden = 0.0f;
   for (const Disc& disc : caster.discs) {
-    const float off =
-        std::hypot(point.x - disc.centre.x, point.z - disc.centre.z) - disc.radius;
+    const float off = std::hypot(point.x - disc.centre.x, point.z - disc.centre.z) - disc.radius;
     const float low = std::max(0.0f, disc.low);
     const float reach = 0.30f * disc.radius + low;
     const float strength = kAmbientDepth / (1.0f + 2.0f * low / (disc.radius + 1e-6f));
@@ -95,7 +94,7 @@ ShadowMap shadow_of(std::span<const Body> bodies, const glm::vec3& to_lamp) {
         (static_cast<float>(i / ShadowMap::kSide) + 0.5f) * texel - map.half_side_mm};
     float lamp = 1.0f, sky = 1.0f;
     for (const Caster& caster : casters) {
-      lamp = std::min(lamp, 1.0f - lamp_hidden(caster, point, to_lamp));
+      lamp = std::min(lamp, 1.0f - lamp_hidden(caster, point, to_lamp, texel));
       sky *= 1.0f - sky_hidden(caster, point);
     }
     map.light[i] = {byte_of(lamp), byte_of(sky)};

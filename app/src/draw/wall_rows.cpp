@@ -14,10 +14,6 @@ namespace {
 constexpr double kTolerance = 0.02;  // [mm], as `claystack export` has it
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
-bool is_outside(solid::WallFace face) {
-  return face == solid::WallFace::outer || face == solid::WallFace::foot;
-}
-
 /// Rows between samples take the thickness of the nearest row that has one.
 void fill_gaps(std::vector<RowWall>& walls, float RowWall::*face, std::vector<bool>& known) {
   const std::size_t count = walls.size();
@@ -53,13 +49,13 @@ std::vector<RowWall> row_walls(const solid::Profile& profile, std::size_t rows, 
   const double row_height = height_mm / static_cast<double>(rows);
   std::vector<bool> outside(rows, false), inside(rows, false);
   for (const solid::WallSample& s : solid::wall_field(profile, 0.5 * row_height)) {
-    if (s.face == solid::WallFace::rim) continue;
+    // Feet are seen from below only; what they carry is told by the floor.
+    if (s.face == solid::WallFace::rim || s.face == solid::WallFace::foot) continue;
     // A floor is the face of the row below it.
     const double y = s.at.y - (s.face == solid::WallFace::floor ? 1e-3 * row_height : 0.0);
     const auto row = static_cast<std::size_t>(
         std::clamp(std::floor(y / row_height), 0.0, static_cast<double>(rows - 1)));
-    const bool out = is_outside(s.face);
-    if (s.face == solid::WallFace::foot) continue;  // seen from below only; floors tell it
+    const bool out = s.face == solid::WallFace::outer;
     float& least = out ? walls[row].outer_mm : walls[row].inner_mm;
     least = std::min(least, static_cast<float>(s.thickness_mm));
     (out ? outside : inside)[row] = true;
