@@ -68,7 +68,7 @@ TEST_F(Window, AScriptGivesTheSameBytesEveryTime) {
 TEST_F(Window, AClickNeverBites) {
   const Ran ran =
       run("save FOLDER/before.pot.json\nkey 1\n"
-          "point 40 15\npress left\nwait 1\nexpect contact no\nrelease left\n"
+          "point 40 15\npress left\npoint 40.5 15\nwait 1\nexpect contact no\nrelease left\n"
           "point 0 15\npress left\nwait 1\nexpect contact no\nrelease left\n"
           "save FOLDER/after.pot.json\n");
   ASSERT_EQ(ran.status, 0) << ran.err;
