@@ -96,10 +96,10 @@ void left_works(Workshop& shop) {
     const work::Recoverable& left = shop.left[i];
     ImGui::PushID(static_cast<int>(i));
     ImGui::AlignTextToFramePadding();
-    ImGui::TextColored(
-        shop.colours().warning, "%s",
-        fmt::format("Not saved: {}, {} strokes, {:.0f} s", left.scene, left.strokes, left.seconds)
-            .c_str());
+    ImGui::TextColored(shop.colours().warning, "%s",
+                       fmt::format("Not saved: {}, {} stroke{}, {:.0f} s", left.scene, left.strokes,
+                                   left.strokes == 1 ? "" : "s", left.seconds)
+                           .c_str());
     ImGui::SameLine();
     const bool wanted = ImGui::Button("Go on with it");
     ImGui::SameLine();
