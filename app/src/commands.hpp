@@ -25,6 +25,9 @@ void add_render_command(CLI::App& app, Console& console, int& exit);
 #ifdef CLAYSTACK_USB
 void add_devices_command(CLI::App& app, Console& console, int& exit);
 #endif
+#ifdef CLAYSTACK_STUDIO
+void add_studio_command(CLI::App& app, int& exit);
+#endif
 /// Where CLAYSTACK_BENCH is on.
 void add_bench_command(CLI::App& app, Console& console, int& exit);
 

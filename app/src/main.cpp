@@ -18,6 +18,7 @@ Examples:
   claystack check bowl.stl
   claystack render bowl.pot.json -o bowl.png
   claystack plan samples/bowl.scene.json
+  claystack studio
   claystack bench --quick --report bench.html
 
 Exit status: 0 done and sound; 1 done, but the pot or mesh fails a check;
@@ -53,8 +54,12 @@ int run(int argc, char** argv) {
 #ifdef CLAYSTACK_BENCH
   add_bench_command(app, console, exit);
 #endif
+#ifdef CLAYSTACK_STUDIO
+  add_studio_command(app, exit);
+#endif
   const auto commands = app.get_subcommands({});
   for (CLI::App* command : commands) {
+    if (command->get_name() == "studio") continue;  // hands all it is given to another program
     command->add_flag("--json", console.json, "Data as JSON on standard output");
     command->add_flag("-q,--quiet", console.quiet, "Errors only");
   }

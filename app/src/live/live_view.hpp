@@ -35,6 +35,7 @@ struct LiveStatus {
   bool ring_limit = false;    ///< clay waits above the top: raise lump.max_rings
   glm::dvec3 tool_mm{0.0};    ///< on the wheel
   double gap_mm = 0.0;        ///< of a pinch; 0: one tool, or the scene's own gap
+  glm::dvec3 clay_n{0.0};     ///< of the clay on the tool, whatever the device can show of it
   glm::dvec3 force_n{0.0};    ///< sent, in the device's frame
   double force_gain = 0.0;    ///< part of it that is earned
   double volume_error = 0.0;  ///< clay unaccounted for [quanta]; exact below 2^53

@@ -113,6 +113,7 @@ void ServoLoop::follow(const falcon::DeviceSample& sample, std::int64_t now_us) 
   if (held_) {
     wanted_ = {{}, now_us, true};
     status_.contact = false;
+    status_.clay_n = {};
     return;
   }
   if (!admission.may_deform) return;  // the last force stays wanted; the guard lets it fade
@@ -122,6 +123,7 @@ void ServoLoop::follow(const falcon::DeviceSample& sample, std::int64_t now_us) 
   const StepReport report =
       clay_.meet({sample.time_us - first_us_, tool_mm_, controls_.trim(), controls_.gap_mm()});
   status_.contact = (report.flags & kContact) != 0;
+  status_.clay_n = report.force_n;
   status_.ring_limit = status_.ring_limit || (report.flags & kRingLimit) != 0;
   if (!bench_.device.info().can_push) return;
   const HandForce::Wanted hand =

@@ -1,0 +1,61 @@
+#include "studio/facts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+
+namespace clay::studio {
+namespace {
+
+std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
+
+const char* name_of(Overlay overlay) {
+  constexpr std::array kNames = {"none", "gallery", "shortcuts", "quit", "open", "save"};
+  return kNames[static_cast<std::size_t>(overlay)];
+}
+
+struct Fact {
+  std::string_view name;
+  std::string (*tell)(const Workshop&);
+};
+
+const std::array kFacts = {
+    Fact{"overlay", [](const Workshop& s) { return std::string(name_of(s.overlay)); }},
+    Fact{"throwing", [](const Workshop& s) { return yes_or_no(s.potter.throwing()); }},
+    Fact{"contact", [](const Workshop& s) { return yes_or_no(s.potter.status().contact); }},
+    Fact{"paused", [](const Workshop& s) { return yes_or_no(s.paused); }},
+    Fact{"unsaved", [](const Workshop& s) { return yes_or_no(s.potter.unsaved()); }},
+    Fact{"can_undo", [](const Workshop& s) { return yes_or_no(s.potter.can_undo()); }},
+    Fact{"can_redo", [](const Workshop& s) { return yes_or_no(s.potter.can_redo()); }},
+    Fact{"strokes",
+         [](const Workshop& s) {
+           return fmt::format("{}", s.potter.has_work() ? s.potter.work().size() - 1 : 0);
+         }},
+    Fact{"closed", [](const Workshop& s) { return yes_or_no(s.done); }},
+    Fact{"device", [](const Workshop& s) { return s.potter.device_name(); }},
+    Fact{"banner",
+         [](const Workshop& s) {
+           return s.notices.shown() ? s.notices.shown()->text : std::string();
+         }},
+    Fact{"height_mm",
+         [](const Workshop& s) { return fmt::format("{}", s.potter.view().height_mm); }},
+    Fact{
+        "force_n",
+        [](const Workshop& s) { return fmt::format("{}", glm::length(s.potter.status().clay_n)); }},
+    Fact{"volume_error",
+         [](const Workshop& s) { return fmt::format("{}", s.potter.status().volume_error); }},
+    Fact{"poses", [](const Workshop& s) { return fmt::format("{}", s.potter.status().poses); }},
+    Fact{"missed", [](const Workshop& s) { return fmt::format("{}", s.potter.status().missed); }},
+};
+
+}  // namespace
+
+std::optional<std::string> fact(const Workshop& shop, std::string_view name) {
+  const auto* found = std::ranges::find(kFacts, name, &Fact::name);
+  if (found == kFacts.end()) return std::nullopt;
+  return found->tell(shop);
+}
+
+}  // namespace clay::studio

@@ -1,0 +1,41 @@
+#pragma once
+// A window on a screen.
+
+#include "claystack/engine/result.hpp"
+#include "studio/host.hpp"
+#include "studio/studio.hpp"
+
+#include <memory>
+
+struct GLFWwindow;
+
+namespace clay::studio {
+
+class GlfwHost final : public Host {
+ public:
+  /// The context of OpenGL is current after it. `device`: no display, or no OpenGL 3.3 on it.
+  static Result<std::unique_ptr<GlfwHost>> create(glm::ivec2 size);
+  ~GlfwHost() override;
+
+  /// Frames until the studio is done, or a signal asks to stop (live::ForceSignals); at most sixty a second, and none while nothing moves.
+  void run(Studio& studio);
+
+  [[nodiscard]] glm::ivec2 size_px() const override;
+  [[nodiscard]] float content_scale() const override;
+  [[nodiscard]] live::Clock& clock() override { return clock_; }
+  [[nodiscard]] bool real_time() const override { return true; }
+  [[nodiscard]] std::int64_t frame_ns() override { return clock_.now_ns(); }
+  void set_title(const std::string& title) override;
+  void set_clipboard(const std::string& text) override;
+  [[nodiscard]] std::string clipboard() override;
+
+ private:
+  explicit GlfwHost(GLFWwindow* window) : window_(window) {}
+  void connect();
+
+  GLFWwindow* window_;
+  live::MonotonicClock clock_;
+  Studio* studio_ = nullptr;
+};
+
+}  // namespace clay::studio

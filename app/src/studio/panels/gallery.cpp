@@ -1,0 +1,142 @@
+// The first screen: a sample to throw, or a lump of one's own.
+
+#include "studio/panels/panels.hpp"
+#include "studio/panels/widgets.hpp"
+#include "studio/samples.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace clay::studio {
+namespace {
+
+constexpr float kCardEm = 10.6f, kPictureEm = 9.0f;
+
+/// Sections of the finished samples, made when they are first seen.
+const draw::PotView& section_of(const Sample& sample) {
+  static std::array<std::optional<draw::PotView>, 4> made;
+  const auto index = static_cast<std::size_t>(&sample - samples().data());
+  if (!made[index]) {
+    auto pot = finished(sample);
+    made[index] = pot ? std::move(*pot) : draw::PotView();
+  }
+  return *made[index];
+}
+
+/// The pot as seen from the side, and its wall in section on the right half.
+void draw_section(const draw::PotView& pot, ImVec2 corner, float side, const Palette& colours) {
+  if (pot.rows.empty()) return;
+  float widest = 1.0f;
+  for (const draw::Row& row : pot.rows) widest = std::max(widest, row.outer_mm);
+  const float height = static_cast<float>(pot.height_mm);
+  const float scale = 0.9f * side / std::max(2.0f * widest, height);
+  const float middle = corner.x + 0.5f * side,
+              foot = corner.y + 0.5f * side + 0.5f * scale * height;
+  const float step = scale * height / static_cast<float>(pot.rows.size());
+  ImVec4 shade = colours.clay;
+  shade.w = 0.35f;
+  const ImU32 face = ImGui::GetColorU32(colours.clay), body = ImGui::GetColorU32(shade);
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  for (std::size_t i = 0; i < pot.rows.size(); ++i) {
+    const float top = foot - step * static_cast<float>(i + 1),
+                bottom = foot - step * static_cast<float>(i);
+    const float outer = scale * pot.rows[i].outer_mm, inner = scale * pot.rows[i].inner_mm;
+    draw->AddRectFilled({middle - outer, top}, {middle, bottom}, face);
+    draw->AddRectFilled({middle, top}, {middle + inner, bottom}, body);
+    draw->AddRectFilled({middle + inner, top}, {middle + outer, bottom}, face);
+  }
+}
+
+bool card(const Sample& sample, const Palette& colours, ImFont* title) {
+  const float em = ImGui::GetFontSize();
+  ImGui::BeginGroup();
+  ImGui::PushID(sample.title);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const bool clicked = ImGui::Button("##card", {kCardEm * em, (kPictureEm + 5.2f) * em});
+  const float inset = 0.5f * (kCardEm - kPictureEm) * em;
+  draw_section(section_of(sample), {at.x + inset, at.y + 0.5f * em}, kPictureEm * em, colours);
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const float x = at.x + inset;
+  draw->AddText(title, title->FontSize, {x, at.y + (kPictureEm + 0.7f) * em},
+                ImGui::GetColorU32(ImGuiCol_Text), sample.title);
+  draw->AddText(ImGui::GetFont(), em, {x, at.y + (kPictureEm + 2.4f) * em},
+                ImGui::GetColorU32(colours.faint), sample.words, nullptr, kPictureEm * em);
+  ImGui::PopID();
+  ImGui::EndGroup();
+  return clicked;
+}
+
+void own_lump(Workshop& shop) {
+  static double clay_kg = 1.0, radius_mm = 50.0;
+  float kg = static_cast<float>(clay_kg);
+  ImGui::Columns(3, "lump", false);
+  ImGui::TextUnformatted("Clay");
+  ImGui::SetNextItemWidth(-1.0f);
+  if (ImGui::SliderFloat("##clay", &kg, static_cast<float>(kLeastClayKg),
+                         static_cast<float>(kMostClayKg), "%.2f kg",
+                         ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+    clay_kg = static_cast<double>(kg);
+  ImGui::NextColumn();
+  length_slider("Radius", radius_mm, 20.0, 200.0, shop.settings.unit);
+  ImGui::NextColumn();
+  faint_text(shop.colours(), fmt::format("{} high", length_text(lump_height_mm(clay_kg, radius_mm),
+                                                                shop.settings.unit)));
+  if (ImGui::Button("Throw this lump", {-1.0f, 0.0f}))
+    begin_work(shop, lump_of(clay_kg, radius_mm));
+  ImGui::Columns(1);
+}
+
+/// What a program that died has left.
+void left_works(Workshop& shop) {
+  const std::size_t shown = std::min<std::size_t>(shop.left.size(), 3);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const work::Recoverable& left = shop.left[i];
+    ImGui::PushID(static_cast<int>(i));
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(shop.colours().warning, "%s",
+                       fmt::format("Not saved: {}, {} stroke{}, {:.0f} s", left.scene, left.strokes,
+                                   left.strokes == 1 ? "" : "s", left.seconds)
+                           .c_str());
+    ImGui::SameLine();
+    const bool wanted = ImGui::Button("Go on with it");
+    ImGui::SameLine();
+    const bool unwanted = ImGui::Button("Discard");
+    ImGui::PopID();
+    if (wanted) return recover_work(shop, i);
+    if (unwanted) return discard_work(shop, i);
+  }
+}
+
+}  // namespace
+
+void draw_gallery(Workshop& shop, const ViewRect& view) {
+  const float em = ImGui::GetFontSize();
+  begin_card("##gallery", view, 47.2f);
+  ImGui::PushFont(shop.fonts.title);
+  ImGui::TextUnformatted("What will you throw?");
+  ImGui::PopFont();
+  faint_text(shop.colours(),
+             "Each is a lump of clay on the wheel; the picture is what it can become.");
+  ImGui::Spacing();
+  left_works(shop);
+  const float room = ImGui::GetContentRegionAvail().x;
+  float used = 0.0f;
+  for (const Sample& sample : samples()) {
+    used += kCardEm * em;
+    if (used > kCardEm * em && used <= room) ImGui::SameLine();
+    if (used > room) used = kCardEm * em;
+    used += ImGui::GetStyle().ItemSpacing.x;
+    if (!card(sample, shop.colours(), shop.fonts.title)) continue;
+    if (auto scene = scene_of(sample)) begin_work(shop, *scene);
+  }
+  ImGui::Spacing();
+  ImGui::Separator();
+  ImGui::Spacing();
+  own_lump(shop);
+  ImGui::End();
+}
+
+}  // namespace clay::studio

@@ -1,0 +1,79 @@
+#include "studio/panels/panels.hpp"
+
+#include "studio/actions.hpp"
+
+#include <array>
+
+namespace clay::studio {
+namespace {
+
+constexpr std::array kPanels = {
+    Panel{"tool", "Tool", Column::left, true, &draw_tool},
+    Panel{"wheel", "Wheel and clay", Column::left, true, &draw_wheel},
+    Panel{"force", "Force", Column::right, true, &draw_force},
+    Panel{"pot", "Pot", Column::right, true, &draw_pot},
+};
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                                    ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+}  // namespace
+
+std::span<const Panel> panels() { return kPanels; }
+
+void draw_column(Workshop& shop, Column column, glm::vec2 corner_px, glm::vec2 size_px) {
+  ImGui::SetNextWindowPos({corner_px.x, corner_px.y});
+  ImGui::SetNextWindowSize({size_px.x, size_px.y});
+  ImGui::Begin(column == Column::left ? "##left" : "##right", nullptr, kFixed);
+  for (const Panel& panel : kPanels) {
+    if (panel.column != column) continue;
+    const auto remembered = shop.settings.open.find(panel.id);
+    const bool open = remembered == shop.settings.open.end() ? panel.open : remembered->second;
+    ImGui::SetNextItemOpen(open);
+    const bool shown = ImGui::CollapsingHeader(panel.title);
+    if (shown != open) shop.settings.open[panel.id] = shown;
+    if (!shown) continue;
+    ImGui::PushID(panel.id);
+    panel.draw(shop);
+    ImGui::Spacing();
+    ImGui::PopID();
+  }
+  ImGui::End();
+}
+
+float draw_menu(Workshop& shop) {
+  if (!ImGui::BeginMainMenuBar()) return 0.0f;
+  for (const MenuTitle& menu : menus()) {
+    if (!ImGui::BeginMenu(menu.title)) continue;
+    for (const Action& action : actions()) {
+      if (!action.id.starts_with(menu.prefix)) continue;
+      const bool on = action.checked != nullptr && action.checked(shop);
+      if (ImGui::MenuItem(action.title, text_of(action.chord).c_str(), on, action.enabled(shop)))
+        run(action, shop);
+    }
+    ImGui::EndMenu();
+  }
+  const float height = ImGui::GetWindowSize().y;
+  ImGui::EndMainMenuBar();
+  return height;
+}
+
+void draw_overlay(Workshop& shop, const ViewRect& view) {
+  switch (shop.overlay) {
+    case Overlay::none:
+      return;
+    case Overlay::gallery:
+      return draw_gallery(shop, view);
+    case Overlay::shortcuts:
+      return draw_shortcuts(shop, view);
+    case Overlay::quit_prompt:
+      return draw_quit_prompt(shop, view);
+    case Overlay::open_file:
+    case Overlay::save_file:
+      return draw_file_box(shop, view);
+  }
+}
+
+}  // namespace clay::studio

@@ -1,0 +1,45 @@
+#pragma once
+// The parts of the window around the view. A panel is a function that draws itself into a column
+// from what the workshop holds; to add one, write it and name it in the table of panels.cpp.
+
+#include "studio/workshop.hpp"
+
+#include <span>
+
+namespace clay::studio {
+
+enum class Column { left, right };
+
+struct Panel {
+  const char* id;     ///< in the settings
+  const char* title;  ///< of its header, by which it is folded
+  Column column;
+  bool open;  ///< as it comes
+  void (*draw)(Workshop& shop);
+};
+[[nodiscard]] std::span<const Panel> panels();
+
+/// All of a column, in a window of its own.
+void draw_column(Workshop& shop, Column column, glm::vec2 corner_px, glm::vec2 size_px);
+
+/// Heights [px]: the menu's own, and that of the status bar.
+float draw_menu(Workshop& shop);
+void draw_status_bar(Workshop& shop, glm::vec2 corner_px, glm::vec2 size_px);
+/// Over the view.
+void draw_banner(Workshop& shop, const ViewRect& view);
+void draw_hint(Workshop& shop, const ViewRect& view);
+void draw_overlay(Workshop& shop, const ViewRect& view);
+
+// The panels.
+void draw_tool(Workshop& shop);
+void draw_wheel(Workshop& shop);
+void draw_force(Workshop& shop);
+void draw_pot(Workshop& shop);
+
+// The overlays.
+void draw_gallery(Workshop& shop, const ViewRect& view);
+void draw_shortcuts(Workshop& shop, const ViewRect& view);
+void draw_quit_prompt(Workshop& shop, const ViewRect& view);
+void draw_file_box(Workshop& shop, const ViewRect& view);
+
+}  // namespace clay::studio

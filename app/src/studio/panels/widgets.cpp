@@ -1,0 +1,125 @@
+#include "studio/panels/widgets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace clay::studio {
+namespace {
+
+struct UnitText {
+  double mm;  // of one unit
+  const char* name;
+  int digits;
+};
+
+UnitText text_of(LengthUnit unit) {
+  switch (unit) {
+    case LengthUnit::cm:
+      return {10.0, "cm", 2};
+    case LengthUnit::in:
+      return {25.4, "in", 2};
+    case LengthUnit::mm:
+      break;
+  }
+  return {1.0, "mm", 1};
+}
+
+}  // namespace
+
+int choice_row(const char* id, std::span<const char* const> titles, int chosen,
+               const Palette& colours) {
+  ImGui::PushID(id);
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  const float count = static_cast<float>(titles.size());
+  const float width = (ImGui::GetContentRegionAvail().x - gap * (count - 1.0f)) / count;
+  int clicked = -1;
+  for (int i = 0; i < static_cast<int>(titles.size()); ++i) {
+    if (i > 0) ImGui::SameLine(0.0f, gap);
+    const bool on = i == chosen;
+    if (on) {
+      ImGui::PushStyleColor(ImGuiCol_Button, colours.accent);
+      ImGui::PushStyleColor(ImGuiCol_ButtonHovered, colours.accent);
+      ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 1.0f, 1.0f, 1.0f));
+    }
+    if (ImGui::Button(titles[static_cast<std::size_t>(i)], ImVec2(width, 0.0f))) clicked = i;
+    if (on) ImGui::PopStyleColor(3);
+  }
+  ImGui::PopID();
+  return clicked;
+}
+
+bool length_slider(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit) {
+  const UnitText text = text_of(unit);
+  ImGui::TextUnformatted(label);
+  ImGui::SetNextItemWidth(-1.0f);
+  float shown = static_cast<float>(mm / text.mm);
+  const std::string id = fmt::format("##{}", label);
+  const std::string format = fmt::format("%.{}f {}", text.digits, text.name);
+  if (!ImGui::SliderFloat(id.c_str(), &shown, static_cast<float>(low_mm / text.mm),
+                          static_cast<float>(high_mm / text.mm), format.c_str(),
+                          ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+    return false;
+  mm = std::clamp(static_cast<double>(shown) * text.mm, low_mm, high_mm);
+  return true;
+}
+
+std::string length_text(double mm, LengthUnit unit) {
+  const UnitText text = text_of(unit);
+  return fmt::format("{:.{}f} {}", mm / text.mm, text.digits, text.name);
+}
+
+void faint_text(const Palette& colours, const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colours.faint);
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
+}
+
+void value_row(const Palette& colours, const char* name, const std::string& value) {
+  ImGui::TextColored(colours.faint, "%s", name);
+  const float right = ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x;
+  ImGui::SameLine(right);
+  ImGui::TextUnformatted(value.c_str());
+}
+
+namespace {
+
+/// All beside the card, between two heights of the whole window. Drawn by the card itself: then it
+/// lies over the columns, too.
+void dim_around(float top, float bottom) {
+  const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  const float right = corner.x + size.x, foot = corner.y + size.y;
+  const float room = ImGui::GetIO().DisplaySize.x;
+  const ImU32 shade = IM_COL32(0, 0, 0, 120);
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->PushClipRectFullScreen();
+  draw->AddRectFilled({0.0f, top}, {room, corner.y}, shade);
+  draw->AddRectFilled({0.0f, corner.y}, {corner.x, foot}, shade);
+  draw->AddRectFilled({right, corner.y}, {room, foot}, shade);
+  draw->AddRectFilled({0.0f, foot}, {room, bottom}, shade);
+  draw->PopClipRect();
+}
+
+}  // namespace
+
+void begin_card(const char* id, const ViewRect& view, float width_em) {
+  const float em = ImGui::GetFontSize();
+  const ImVec2 low(view.corner_px.x, view.corner_px.y);
+  const ImVec2 high(low.x + view.size_px.x, low.y + view.size_px.y);
+  // Where the view is narrow a card lies over the columns too: better that than words cut off.
+  const float room = ImGui::GetIO().DisplaySize.x;
+  const float width = std::min(width_em * em, room);
+  const float middle = width > view.size_px.x ? 0.5f * room : 0.5f * (low.x + high.x);
+  ImGui::SetNextWindowPos({middle, 0.5f * (low.y + high.y)}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({width, 0.0f});  // as high as what is in it, up to the view
+  ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, view.size_px.y});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(1.3f * em, 1.1f * em));
+  ImGui::Begin(id, nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::PopStyleVar(2);
+  dim_around(low.y, high.y);
+}
+
+}  // namespace clay::studio

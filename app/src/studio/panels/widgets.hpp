@@ -1,0 +1,30 @@
+#pragma once
+// Small things that more than one panel draws.
+
+#include "studio/settings.hpp"
+#include "studio/workshop.hpp"
+
+#include <span>
+#include <string>
+
+namespace clay::studio {
+
+/// A row of buttons of equal width, one of which is chosen. The one that was clicked, or -1.
+int choice_row(const char* id, std::span<const char* const> titles, int chosen,
+               const Palette& colours);
+
+/// A labelled slider for a length that is kept in mm and shown in `unit`.
+bool length_slider(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit);
+
+/// "12.5 mm", "1.25 cm", "0.49 in".
+[[nodiscard]] std::string length_text(double mm, LengthUnit unit);
+
+void faint_text(const Palette& colours, const std::string& text);
+/// Name on the left, value at the right edge of the column.
+void value_row(const Palette& colours, const char* name, const std::string& value);
+
+/// Begins a window in the middle of the view, over a dimmed one, as high as it needs to be;
+/// ImGui::End() ends it.
+void begin_card(const char* id, const ViewRect& view, float width_em);
+
+}  // namespace clay::studio

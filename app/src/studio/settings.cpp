@@ -1,0 +1,214 @@
+#include "studio/settings.hpp"
+
+#include "claystack/engine/atomic_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace clay::studio {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kSchema = "claystack-studio-1";
+
+template <class E>
+struct Named {
+  const char* name;
+  E value;
+};
+template <class E>
+Named(const char*, E) -> Named<E>;  // Clang 14 deduces none for aggregates
+constexpr std::array kThemes = {Named{"dark", Theme::dark}, Named{"light", Theme::light}};
+constexpr std::array kUnits = {Named{"mm", LengthUnit::mm}, Named{"cm", LengthUnit::cm},
+                               Named{"in", LengthUnit::in}};
+constexpr std::array kShapes = {Named{"sphere", Shape::sphere}, Named{"ellipse", Shape::ellipse},
+                                Named{"rib", Shape::rib}};
+constexpr std::array kModes = {Named{"press", ToolMode::press}, Named{"trim", ToolMode::trim},
+                               Named{"pinch", ToolMode::pinch}};
+
+/// One field, both ways: reads it into its target, or says what was expected.
+class Fields {
+ public:
+  explicit Fields(const Json& json) : json_(json) {}
+
+  void number(const char* name, double low, double high, double& target) {
+    const Json* field = take(name);
+    if (field == nullptr) return;
+    if (field->is_number() && field->get<double>() >= low && field->get<double>() <= high)
+      target = field->get<double>();
+    else
+      refuse(name, fmt::format("a number from {:g} to {:g}", low, high), *field);
+  }
+  void flag(const char* name, bool& target) {
+    const Json* field = take(name);
+    if (field == nullptr) return;
+    if (field->is_boolean())
+      target = field->get<bool>();
+    else
+      refuse(name, "true or false", *field);
+  }
+  void text(const char* name, std::string& target) {
+    const Json* field = take(name);
+    if (field == nullptr) return;
+    if (field->is_string())
+      target = field->get<std::string>();
+    else
+      refuse(name, "a text", *field);
+  }
+  template <class E, std::size_t N>
+  void one_of(const char* name, const std::array<Named<E>, N>& names, E& target) {
+    const Json* field = take(name);
+    if (field == nullptr) return;
+    std::string expected = "one of";
+    for (const auto& [word, value] : names) {
+      if (field->is_string() && field->get<std::string>() == word) {
+        target = value;
+        return;
+      }
+      expected += fmt::format(" {}", word);
+    }
+    refuse(name, expected, *field);
+  }
+  void flags(const char* name, std::map<std::string, bool>& target) {
+    const Json* field = take(name);
+    if (field == nullptr) return;
+    if (!field->is_object()) return refuse(name, "an object", *field);
+    for (const auto& [key, value] : field->items()) {
+      if (!value.is_boolean())
+        return refuse(fmt::format("{}.{}", name, key), "true or false", value);
+      target[key] = value.get<bool>();
+    }
+  }
+
+  /// What was wrong first; a field that no one took is wrong too.
+  [[nodiscard]] std::optional<std::string> problem() const {
+    if (!problem_.empty()) return problem_;
+    for (const auto& [key, value] : json_.items())
+      if (std::ranges::find(taken_, key) == taken_.end())
+        return fmt::format("{}: expected no such field", key);
+    return std::nullopt;
+  }
+
+ private:
+  const Json* take(const char* name) {
+    taken_.emplace_back(name);
+    const auto found = json_.find(name);
+    return found == json_.end() ? nullptr : &*found;
+  }
+  void refuse(std::string_view name, std::string_view expected, const Json& found) {
+    if (problem_.empty())
+      problem_ = fmt::format("{}: expected {}, found {}", name, expected,
+                             found.dump(-1, ' ', false, Json::error_handler_t::replace));
+  }
+
+  const Json& json_;
+  std::vector<std::string> taken_;
+  std::string problem_;
+};
+
+template <class E, std::size_t N>
+const char* name_of(const std::array<Named<E>, N>& names, E value) {
+  for (const auto& [name, named] : names)
+    if (named == value) return name;
+  return names.front().name;
+}
+
+void read_tool(Fields& fields, ToolChoice& tool) {
+  fields.one_of("shape", kShapes, tool.shape);
+  fields.one_of("mode", kModes, tool.mode);
+  const auto size = [&](const char* name, double& mm) {
+    fields.number(name, kSmallestToolMm, kLargestToolMm, mm);
+  };
+  size("sphere_radius_mm", tool.sphere.radius_mm);
+  size("ellipse_half_height_mm", tool.ellipse.half_height_mm);
+  size("ellipse_half_width_mm", tool.ellipse.half_width_mm);
+  size("rib_height_mm", tool.rib.height_mm);
+  size("rib_radius_mm", tool.rib.radius_mm);
+  fields.number("gap_mm", kNarrowestGapMm, kWidestPinchMm, tool.gap_mm);
+}
+
+}  // namespace
+
+std::filesystem::path settings_path() {
+  const char* config = std::getenv("XDG_CONFIG_HOME");
+  const char* home = std::getenv("HOME");
+  const std::filesystem::path base = config != nullptr && *config == '/'
+                                         ? std::filesystem::path(config)
+                                         : std::filesystem::path(home ? home : ".") / ".config";
+  return base / "claystack" / "studio.json";
+}
+
+Result<Settings> parse_settings(std::string_view text, std::string_view name) {
+  const Json json = Json::parse(text, nullptr, false);
+  const auto wrong = [&](std::string_view what) {
+    return failure(ErrorKind::bad_input, fmt::format("{}: {}", name, what));
+  };
+  if (!json.is_object()) return wrong("expected a JSON object");
+  if (json.value("schema", Json()) != kSchema)
+    return wrong(fmt::format("schema: expected {}", kSchema));
+  Settings settings;
+  Fields fields(json);
+  std::string schema;
+  fields.text("schema", schema);
+  fields.one_of("theme", kThemes, settings.theme);
+  double scale = 1.0;
+  fields.number("scale", kSmallestScale, kLargestScale, scale);
+  settings.scale = static_cast<float>(scale);
+  fields.one_of("unit", kUnits, settings.unit);
+  fields.number("wheel_rpm", kSlowestRpm, kFastestRpm, settings.wheel_rpm);
+  read_tool(fields, settings.tool);
+  fields.flag("hints", settings.hints);
+  fields.flags("open", settings.open);
+  fields.text("folder", settings.folder);
+  if (const auto problem = fields.problem()) return wrong(*problem);
+  return settings;
+}
+
+std::string write_settings(const Settings& s) {
+  const Json json = {{"schema", kSchema},
+                     {"theme", name_of(kThemes, s.theme)},
+                     {"scale", s.scale},
+                     {"unit", name_of(kUnits, s.unit)},
+                     {"wheel_rpm", s.wheel_rpm},
+                     {"shape", name_of(kShapes, s.tool.shape)},
+                     {"mode", name_of(kModes, s.tool.mode)},
+                     {"sphere_radius_mm", s.tool.sphere.radius_mm},
+                     {"ellipse_half_height_mm", s.tool.ellipse.half_height_mm},
+                     {"ellipse_half_width_mm", s.tool.ellipse.half_width_mm},
+                     {"rib_height_mm", s.tool.rib.height_mm},
+                     {"rib_radius_mm", s.tool.rib.radius_mm},
+                     {"gap_mm", s.tool.gap_mm},
+                     {"hints", s.hints},
+                     {"open", s.open},
+                     {"folder", s.folder}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+LoadedSettings load_settings(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) return {};
+  const auto text = read_file(path, 1 << 20);
+  if (!text) return {{}, text.error().message};
+  auto settings = parse_settings(*text, path.string());
+  if (settings) return {std::move(*settings), {}};
+  const auto aside = std::filesystem::path(path.string() + ".broken");
+  std::filesystem::rename(path, aside, ignored);
+  return {{}, fmt::format("{}; it is kept as {}", settings.error().message, aside.string())};
+}
+
+Result<void> save_settings(const Settings& settings, const std::filesystem::path& path) {
+  std::error_code failed;
+  std::filesystem::create_directories(path.parent_path(), failed);
+  if (failed)
+    return failure(ErrorKind::io, fmt::format("{}: could not create: {}",
+                                              path.parent_path().string(), failed.message()));
+  return publish(path, write_settings(settings));
+}
+
+}  // namespace clay::studio

@@ -1,0 +1,45 @@
+#pragma once
+// What the window remembers from one time to the next.
+
+#include "claystack/engine/result.hpp"
+#include "studio/style.hpp"
+#include "studio/tool_choice.hpp"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace clay::studio {
+
+enum class LengthUnit { mm, cm, in };
+
+inline constexpr double kSlowestRpm = 20.0, kFastestRpm = 240.0;
+
+struct Settings {
+  Theme theme = Theme::dark;
+  float scale = 1.0f;  ///< beside the screen's own, kSmallestScale to kLargestScale
+  LengthUnit unit = LengthUnit::mm;
+  double wheel_rpm = 120.0;  ///< kSlowestRpm to kFastestRpm
+  ToolChoice tool;
+  bool hints = true;                 ///< the first-run hint has not been closed yet
+  std::map<std::string, bool> open;  ///< panels by id; one that is not named is as it comes
+  std::string folder;                ///< of the last file; empty: none yet
+};
+
+/// $XDG_CONFIG_HOME/claystack/studio.json, by default below ~/.config.
+[[nodiscard]] std::filesystem::path settings_path();
+
+/// Errors name file, field, what was expected and what was found.
+Result<Settings> parse_settings(std::string_view text, std::string_view name);
+[[nodiscard]] std::string write_settings(const Settings& settings);
+
+struct LoadedSettings {
+  Settings settings;
+  std::string note;  ///< what to tell the user; empty: nothing
+};
+/// A file that is broken is moved aside, never overwritten; without one all is as it comes.
+[[nodiscard]] LoadedSettings load_settings(const std::filesystem::path& path);
+Result<void> save_settings(const Settings& settings, const std::filesystem::path& path);
+
+}  // namespace clay::studio

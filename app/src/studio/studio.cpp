@@ -1,0 +1,302 @@
+#include "studio/studio.hpp"
+
+#include "studio/actions.hpp"
+#include "studio/panels/panels.hpp"
+
+#include <backends/imgui_impl_opengl3.h>
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+namespace clay::studio {
+namespace {
+
+constexpr float kColumnEm = 16.0f, kNarrowestViewEm = 20.0f;
+constexpr double kSpinUpS = 0.6;  // of the wheel, to and from its speed
+constexpr double kLongestFrameS = 0.1;
+constexpr int kFramesAfterInput = 3;  // an ImGui window settles in that many
+
+/// GLFW's codes are ImGui's own indices here.
+void map_keys(ImGuiIO& io) {
+  constexpr std::array kKeys = {std::pair{ImGuiKey_Tab, GLFW_KEY_TAB},
+                                std::pair{ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
+                                std::pair{ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
+                                std::pair{ImGuiKey_UpArrow, GLFW_KEY_UP},
+                                std::pair{ImGuiKey_DownArrow, GLFW_KEY_DOWN},
+                                std::pair{ImGuiKey_Home, GLFW_KEY_HOME},
+                                std::pair{ImGuiKey_End, GLFW_KEY_END},
+                                std::pair{ImGuiKey_Delete, GLFW_KEY_DELETE},
+                                std::pair{ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
+                                std::pair{ImGuiKey_Enter, GLFW_KEY_ENTER},
+                                std::pair{ImGuiKey_Escape, GLFW_KEY_ESCAPE},
+                                std::pair{ImGuiKey_A, GLFW_KEY_A},
+                                std::pair{ImGuiKey_C, GLFW_KEY_C},
+                                std::pair{ImGuiKey_V, GLFW_KEY_V},
+                                std::pair{ImGuiKey_X, GLFW_KEY_X},
+                                std::pair{ImGuiKey_Y, GLFW_KEY_Y},
+                                std::pair{ImGuiKey_Z, GLFW_KEY_Z}};
+  for (const auto& [ours, theirs] : kKeys) io.KeyMap[ours] = theirs;
+}
+
+void connect_clipboard(ImGuiIO& io, Host& host) {
+  io.ClipboardUserData = &host;
+  io.SetClipboardTextFn = [](void* user, const char* text) {
+    static_cast<Host*>(user)->set_clipboard(text);
+  };
+  io.GetClipboardTextFn = [](void* user) -> const char* {
+    static std::string held;  // until ImGui has copied it
+    held = static_cast<Host*>(user)->clipboard();
+    return held.c_str();
+  };
+}
+
+std::int64_t steady_ns() {
+  return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
+}
+
+double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
+
+}  // namespace
+
+Studio::Studio(Host& host, Settings settings, std::function<void(std::string_view)> log_line)
+    : shop_(host, std::move(settings), std::move(log_line)) {}
+
+Result<std::unique_ptr<Studio>> Studio::create(Host& host, Settings settings,
+                                               std::function<void(std::string_view)> log_line) {
+  std::unique_ptr<Studio> studio(new Studio(host, std::move(settings), std::move(log_line)));
+  auto painter = draw::Painter::create();
+  if (!painter) return tl::make_unexpected(painter.error());
+  studio->painter_.emplace(std::move(*painter));
+  studio->context_ = ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;  // the layout is fixed
+  io.LogFilename = nullptr;
+  map_keys(io);
+  connect_clipboard(io, host);
+  if (!ImGui_ImplOpenGL3_Init("#version 330 core"))
+    return failure(ErrorKind::device, "the window's controls: expected OpenGL 3.3");
+  studio->last_s_ = seconds(host.frame_ns());
+  return studio;
+}
+
+Studio::~Studio() {
+  shop_.potter.release();
+  if (context_ == nullptr) return;
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui::DestroyContext(context_);
+}
+
+bool Studio::wakeful() const noexcept { return moving() || coarse_ || awake_frames_ > 0; }
+
+bool Studio::moving() const noexcept {
+  return shop_.potter.throwing() || spin_ > 0.0 || shop_.view.turning();
+}
+
+void Studio::frame(bool paint_it) {
+  const std::int64_t now_ns = shop_.host.frame_ns();
+  const double now_s = seconds(now_ns);
+  const double elapsed_s = std::clamp(now_s - last_s_, 1e-4, kLongestFrameS);
+  last_s_ = now_s;
+  if (shop_.restyle) {
+    shop_.fonts = apply_style(shop_.settings.theme, shop_.scale());
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+    shop_.restyle = false;
+    awake_frames_ = kFramesAfterInput;
+  }
+  if (awake_frames_ > 0) --awake_frames_;
+  // One by one where ImGui has to see each; drawing, which may be slow, once for all.
+  // What a click has closed is under the mouse for two more of ImGui's frames.
+  do {
+    const int passes = waiting_.empty() ? 1 : kFramesAfterInput;
+    take_waiting();
+    for (int pass = 0; pass < passes && !shop_.done; ++pass)
+      shape_frame(elapsed_s / static_cast<double>(passes));
+  } while (!waiting_.empty() && !shop_.done);
+  look_at_devices(shop_);
+  shop_.potter.advance(now_ns);
+  shop_.host.clock().sleep_until_ns(now_ns);  // with no servo to move it
+  tell_news();
+  turn_wheel(elapsed_s);
+  if (paint_it) paint();
+}
+
+void Studio::shape_frame(double elapsed_s) {
+  ImGuiIO& io = ImGui::GetIO();
+  const glm::ivec2 size = shop_.host.size_px();
+  io.DisplaySize = {static_cast<float>(size.x), static_cast<float>(size.y)};
+  io.DeltaTime = static_cast<float>(elapsed_s);
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui::NewFrame();
+  lay_out();
+  ImGui::Render();
+}
+
+/// A button or key changes at most once in a frame, and a button only where the pointer has been
+/// for a frame: ImGui sees every click, however short.
+void Studio::take_waiting() {
+  bool moved = false, pressed = false;
+  while (!waiting_.empty()) {
+    const Input& next = waiting_.front();
+    const bool is_move = std::holds_alternative<PointerMoved>(next);
+    const bool is_press =
+        std::holds_alternative<ButtonChanged>(next) || std::holds_alternative<KeyChanged>(next);
+    if ((is_press && (pressed || moved)) || (is_move && pressed)) return;
+    moved = moved || is_move;
+    pressed = pressed || is_press;
+    apply(next);
+    waiting_.pop_front();
+    awake_frames_ = kFramesAfterInput;
+  }
+}
+
+void Studio::apply(const Input& input) {
+  ImGuiIO& io = ImGui::GetIO();
+  // What lies over the view has the mouse for itself.
+  const bool view = shop_.overlay == Overlay::none && !io.WantCaptureMouse;
+  if (const auto* moved = std::get_if<PointerMoved>(&input)) {
+    io.MousePos = {moved->place_px.x, moved->place_px.y};
+    shop_.view.pointer_moved(shop_, moved->place_px);
+  } else if (const auto* change = std::get_if<ButtonChanged>(&input)) {
+    const bool taken = (view || !change->down) && shop_.view.button(shop_, *change);
+    if (!taken || !change->down) io.MouseDown[static_cast<int>(change->button)] = change->down;
+    io.KeyCtrl = (change->mods & kControl) != 0;
+    io.KeyShift = (change->mods & kShift) != 0;
+  } else if (const auto* scrolled = std::get_if<Scrolled>(&input)) {
+    if (!view || !shop_.view.scrolled(scrolled->steps)) io.MouseWheel += scrolled->steps;
+  } else if (const auto* pressed = std::get_if<KeyChanged>(&input)) {
+    key(*pressed);
+  } else if (const auto* typed = std::get_if<TextTyped>(&input)) {
+    io.AddInputCharacter(typed->character);
+  } else if (const auto* files = std::get_if<FilesDropped>(&input)) {
+    drop(*files);
+  } else if (std::holds_alternative<CloseAsked>(input)) {
+    run(*find_action("file.quit"), shop_);
+  }
+}
+
+void Studio::key(const KeyChanged& change) {
+  ImGuiIO& io = ImGui::GetIO();
+  if (change.key >= 0 && change.key < 512) io.KeysDown[change.key] = change.down;
+  io.KeyCtrl = (change.mods & kControl) != 0;
+  io.KeyShift = (change.mods & kShift) != 0;
+  io.KeyAlt = (change.mods & kAlt) != 0;
+  if (!change.down) return;
+  const Action* action = action_of({change.key, change.mods});
+  if (action == nullptr) return;
+  // In a box for text only what no text has in it is a shortcut.
+  const bool edits = io.WantTextInput;
+  if (edits && change.key != GLFW_KEY_ESCAPE &&
+      ((change.mods & kControl) == 0 || change.key == GLFW_KEY_Z || change.key == GLFW_KEY_Y))
+    return;
+  if (change.repeated && !action->id.starts_with("tool.") && !action->id.starts_with("edit."))
+    return;
+  // Behind what is open over the view nothing changes.
+  if (shop_.overlay != Overlay::none && change.key != GLFW_KEY_ESCAPE &&
+      !action->id.starts_with("file.") && !action->id.starts_with("view.") &&
+      !action->id.starts_with("help.") && !action->id.starts_with("quit."))
+    return;
+  run(*action, shop_);
+}
+
+void Studio::drop(const FilesDropped& files) {
+  if (!files.paths.empty()) open_file(shop_, files.paths.front());
+}
+
+void Studio::tell_news() {
+  const PotterNews news = shop_.potter.take_news();
+  if (news.error) tell(shop_, *news.error);
+  if (news.ending == live::Ending::device_lost && shop_.devices) shop_.devices->look_again();
+  if (!news.stroke_ended) return;
+  shop_.log(
+      fmt::format("stroke ended: {} poses, {} ticks", news.poses, shop_.potter.status().ticks));
+  if (news.ending == live::Ending::collapsed)
+    shop_.notices.say(Grade::warning,
+                      "The clay has fallen: it could no longer carry itself. Undo takes the stroke "
+                      "back.");
+  if (news.ring_limit)
+    shop_.notices.say(Grade::warning,
+                      "The clay stands as high as this lump allows: what more rises waits above "
+                      "the rim.");
+}
+
+/// The wheel turns while there is a tool in the clay.
+void Studio::turn_wheel(double elapsed_s) {
+  const bool turns = shop_.potter.throwing() && !shop_.paused;
+  const double change = elapsed_s / kSpinUpS;
+  spin_ = turns ? std::min(1.0, spin_ + change) : std::max(0.0, spin_ - change);
+  shop_.view.turn_wheel(
+      shop_, spin_ * elapsed_s * shop_.settings.wheel_rpm * 2.0 * std::numbers::pi / 60.0);
+}
+
+void Studio::lay_out() {
+  const float em = ImGui::GetFontSize();
+  const glm::vec2 size(shop_.host.size_px());
+  const float top = draw_menu(shop_);
+  const float status = std::round(1.75f * em);
+  const float height = std::max(1.0f, size.y - top - status);
+  // Where there is little room the view has it, and then the tool.
+  const float column = std::round(kColumnEm * em);
+  const float left = size.x - column >= kNarrowestViewEm * em ? column : 0.0f;
+  const float right = size.x - 2.0f * column >= kNarrowestViewEm * em ? column : 0.0f;
+  if (left > 0.0f) draw_column(shop_, Column::left, {0.0f, top}, {left, height});
+  if (right > 0.0f) draw_column(shop_, Column::right, {size.x - right, top}, {right, height});
+  draw_status_bar(shop_, {0.0f, size.y - status}, {size.x, status});
+  const ViewRect view{{left, top}, {std::max(1.0f, size.x - left - right), height}};
+  const bool first = shop_.view.rect().size_px.x <= 1.0f;
+  shop_.view.place(view);
+  if (first && shop_.potter.has_work()) shop_.view.look(shop_, Seen::home);
+  draw_hint(shop_, view);
+  draw_overlay(shop_, view);
+  draw_banner(shop_, view);
+}
+
+void Studio::paint() {
+  GLint target = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
+  const std::int64_t begun_ns = steady_ns();
+  draw_view(static_cast<unsigned>(target));
+  const glm::ivec2 size = shop_.host.size_px();
+  glViewport(0, 0, size.x, size.y);
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  if (!shop_.host.real_time() || !moving()) return;
+  glFinish();  // what is only asked for has cost nothing yet
+  quality_.took(seconds(steady_ns() - begun_ns));
+}
+
+/// Into a canvas of its own, as the painter fills all that it is given, and from there to its
+/// place.
+void Studio::draw_view(unsigned target) {
+  const glm::ivec2 size = shop_.host.size_px();
+  const ViewRect& rect = shop_.view.rect();
+  const draw::Viewport view = shop_.view.viewport();
+  const Fineness fine = quality_.fineness(shop_.host.real_time() && moving());
+  coarse_ = fine.divisor > 1 || fine.samples < kFineness[0].samples;
+  const int width = std::max(1, view.width_px / fine.divisor);
+  const int height = std::max(1, view.height_px / fine.divisor);
+  if (!canvas_ || !canvas_->is(width, height, 0)) {
+    canvas_.reset();
+    auto made = draw::Canvas::create(width, height, 0);
+    if (!made) return tell(shop_, made.error());
+    canvas_.emplace(std::move(*made));
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, canvas_->framebuffer());
+  painter_->paint(shop_.view.picture(shop_), width, height, fine.samples);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, canvas_->framebuffer());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target);
+  // OpenGL counts rows from below.
+  const int left = static_cast<int>(rect.corner_px.x);
+  const int top = size.y - static_cast<int>(rect.corner_px.y);
+  glBlitFramebuffer(0, 0, width, height, left, top - view.height_px, left + view.width_px, top,
+                    GL_COLOR_BUFFER_BIT, fine.divisor > 1 ? GL_LINEAR : GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, target);
+}
+
+}  // namespace clay::studio

@@ -1,0 +1,68 @@
+#include "studio/workshop.hpp"
+
+namespace clay::studio {
+double clay_rate_per_s(const Workshop& shop) {
+  return shop.rate_per_s * shop.settings.wheel_rpm / kNominalRpm;
+}
+
+void tell(Workshop& shop, const Error& error) {
+  shop.log("error: " + error.message);
+  shop.notices.say(error.kind == ErrorKind::bad_input ? Grade::warning : Grade::fault,
+                   error.message);
+}
+
+void close_overlay(Workshop& shop) {
+  shop.overlay = shop.potter.has_work() ? Overlay::none : Overlay::gallery;
+  shop.quit_after_saving = false;
+}
+
+void show_work(Workshop& shop) {
+  choose(shop.potter.scene().tool, shop.settings.tool);
+  shop.rate_per_s = shop.potter.scene().removal.rate_per_s;
+  shop.overlay = Overlay::none;
+  shop.view.look(shop, Seen::home);
+  shop.log("work begun: " + shop.potter.scene().name);
+}
+
+void begin_work(Workshop& shop, const SceneSpec& scene) {
+  if (auto begun = shop.potter.begin(scene); !begun) return tell(shop, begun.error());
+  shop.file.clear();
+  shop.notices.close();
+  show_work(shop);
+}
+
+void recover_work(Workshop& shop, std::size_t left) {
+  const std::filesystem::path path = shop.left.at(left).path;
+  shop.left.erase(shop.left.begin() + static_cast<std::ptrdiff_t>(left));
+  auto begun = work::recover(path).and_then(
+      [&](work::Work&& work) { return shop.potter.begin(std::move(work)); });
+  if (!begun) return tell(shop, begun.error());
+  shop.file.clear();
+  show_work(shop);
+  shop.log("recovered: " + path.string());
+}
+
+void discard_work(Workshop& shop, std::size_t left) {
+  if (auto gone = work::discard(shop.left.at(left).path); !gone) tell(shop, gone.error());
+  shop.left.erase(shop.left.begin() + static_cast<std::ptrdiff_t>(left));
+}
+
+void look_at_devices(Workshop& shop) {
+  if (!shop.devices) return;
+  if (const std::string problem = shop.devices->take_problem(); !problem.empty())
+    tell(shop, {ErrorKind::bad_input, problem + "; the mouse throws meanwhile"});
+  auto device = shop.devices->take();
+  if (!device) {
+    if (!ImGui::IsMouseDown(ImGuiMouseButton_Left))  // a slider is let go first
+      shop.potter.hold(tool_of(shop.settings.tool), clay_rate_per_s(shop));
+    return;
+  }
+  live::LiveSettings settings;
+  settings.buttons = device->info().can_push ? live::kFalconButtons : live::kTwoButtons;
+  shop.log("device: " + device->info().name);
+  shop.notices.say(Grade::note, device->info().name + " is here and throws now",
+                   1e-9 * static_cast<double>(shop.host.frame_ns()) + 6.0);
+  shop.potter.take(std::move(device), settings);
+}
+
+}  // namespace clay::studio

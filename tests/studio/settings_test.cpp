@@ -1,0 +1,72 @@
+#include "studio/settings.hpp"
+
+#include "app/run_program.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+
+namespace clay::studio {
+namespace {
+
+Settings changed() {
+  Settings settings;
+  settings.theme = Theme::light;
+  settings.scale = 1.5f;
+  settings.unit = LengthUnit::in;
+  settings.wheel_rpm = 90.0;
+  settings.tool.shape = Shape::rib;
+  settings.tool.mode = ToolMode::pinch;
+  settings.tool.rib = {25.0, 4.0};
+  settings.hints = false;
+  settings.open["force"] = false;
+  settings.folder = "/pots";
+  return settings;
+}
+
+TEST(Settings, ComeBackAsTheyWere) {
+  const std::string text = write_settings(changed());
+  const auto back = parse_settings(text, "studio.json");
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(write_settings(*back), text);
+  EXPECT_EQ(back->tool.rib, changed().tool.rib);
+  EXPECT_EQ(back->theme, Theme::light);
+}
+
+TEST(Settings, WhatIsWrongIsNamed) {
+  const auto error_of = [](const std::string& field) {
+    const auto read = parse_settings("{\"schema\": \"claystack-studio-1\", " + field + "}", "s");
+    return read ? std::string("none") : read.error().message;
+  };
+  EXPECT_EQ(error_of("\"scale\": 9"), "s: scale: expected a number from 0.5 to 3, found 9");
+  EXPECT_EQ(error_of("\"theme\": \"pink\""),
+            "s: theme: expected one of dark light, found \"pink\"");
+  EXPECT_EQ(error_of("\"hints\": 1"), "s: hints: expected true or false, found 1");
+  EXPECT_EQ(error_of("\"colour\": 1"), "s: colour: expected no such field");
+  EXPECT_EQ(error_of("\"open\": {\"tool\": 3}"), "s: open.tool: expected true or false, found 3");
+  EXPECT_EQ(parse_settings("[]", "s").error().message, "s: expected a JSON object");
+  EXPECT_EQ(parse_settings("{}", "s").error().message, "s: schema: expected claystack-studio-1");
+}
+
+TEST(Settings, ABrokenFileIsKeptAside) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("studio.json");
+  test::write_text(path, "{ not json");
+  const LoadedSettings loaded = load_settings(path);
+  EXPECT_NE(loaded.note.find(".broken"), std::string::npos) << loaded.note;
+  EXPECT_FALSE(std::filesystem::exists(path));
+  EXPECT_EQ(test::read_text(path + ".broken"), "{ not json");
+  EXPECT_EQ(write_settings(loaded.settings), write_settings(Settings()));
+}
+
+TEST(Settings, NoFileIsNoFault) {
+  const test::ScratchFolder folder;
+  EXPECT_EQ(load_settings(folder.file("none.json")).note, "");
+  ASSERT_TRUE(save_settings(changed(), folder.file("deep/er/studio.json")));
+  EXPECT_EQ(write_settings(load_settings(folder.file("deep/er/studio.json")).settings),
+            write_settings(changed()));
+}
+
+}  // namespace
+}  // namespace clay::studio

@@ -1,0 +1,154 @@
+// The window as its users meet it: driven by scripts, and with real events on a screen of its own.
+
+#include "app/run_program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace clay::studio {
+namespace {
+
+using test::claystack;
+using test::Ran;
+using test::read_text;
+using test::ScratchFolder;
+using test::shell;
+using test::write_text;
+
+class Window : public ::testing::Test {
+ protected:
+  /// Runs a script on the sample bowl; FOLDER in it is this test's own.
+  Ran run(std::string script, const std::string& options = "--size 960x640") {
+    for (auto at = script.find("FOLDER"); at != std::string::npos; at = script.find("FOLDER"))
+      script.replace(at, 6, folder.path().string());
+    write_text(folder.file("s"), script);
+    return claystack("studio " + test::sample("bowl.scene.json") + " --script " + folder.file("s") +
+                     " " + options);
+  }
+  /// Colour of a pixel of a picture, as an independent program reads it: "r g b".
+  std::string pixel(const std::string& picture, int x, int y) {
+    const std::string at = "p{" + std::to_string(x) + "," + std::to_string(y) + "}";
+    return shell("convert " + folder.file(picture) + " -format \"%[fx:round(255*" + at +
+                 ".r)] %[fx:round(255*" + at + ".g)] %[fx:round(255*" + at + ".b)]\" info:")
+        .out;
+  }
+  ScratchFolder folder;
+};
+
+constexpr const char* kPress =
+    "key 1\n"
+    "point 65 18\npress left\nexpect throwing yes\n"
+    "point 56 18 over 0.4\nwait 0.2\nexpect contact yes\n"
+    "point 65 18 over 0.3\nwait 0.2\nrelease left\nexpect throwing no\n";
+
+TEST_F(Window, AStrokeUndoneAndRedoneIsThePotThatThrowMakes) {
+  const Ran ran = run(std::string(kPress) +
+                      "expect strokes 1\nexpect volume_error 0\nsave FOLDER/one.pot.json\n"
+                      "key Ctrl+Z\nexpect can_undo no\nsave FOLDER/none.pot.json\n"
+                      "key Ctrl+Shift+Z\nexpect can_redo no\nsave FOLDER/again.pot.json\n"
+                      "expect unsaved yes\nsave FOLDER/bowl.work\nexpect unsaved no\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const std::string one = read_text(folder.file("one.pot.json"));
+  EXPECT_EQ(one, read_text(folder.file("again.pot.json")));
+  EXPECT_NE(one, read_text(folder.file("none.pot.json")));
+  const Ran thrown =
+      claystack("throw " + folder.file("bowl.work") + " -o " + folder.file("thrown.pot.json"));
+  ASSERT_EQ(thrown.status, 0) << thrown.err;
+  EXPECT_EQ(one, read_text(folder.file("thrown.pot.json")));
+}
+
+TEST_F(Window, AScriptGivesTheSameBytesEveryTime) {
+  ASSERT_EQ(run(std::string(kPress) + "save FOLDER/a.pot.json\nsave FOLDER/a.work\n").status, 0);
+  ASSERT_EQ(run(std::string(kPress) + "save FOLDER/b.pot.json\nsave FOLDER/b.work\n").status, 0);
+  EXPECT_EQ(read_text(folder.file("a.pot.json")), read_text(folder.file("b.pot.json")));
+  EXPECT_EQ(read_text(folder.file("a.work")), read_text(folder.file("b.work")));
+}
+
+TEST_F(Window, AClickNeverBites) {
+  const Ran ran =
+      run("save FOLDER/before.pot.json\nkey 1\n"
+          "point 40 15\npress left\npoint 40.5 15\nwait 1\nexpect contact no\nrelease left\n"
+          "point 0 15\npress left\nwait 1\nexpect contact no\nrelease left\n"
+          "save FOLDER/after.pot.json\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(read_text(folder.file("before.pot.json")), read_text(folder.file("after.pot.json")));
+}
+
+TEST_F(Window, CtrlTrimsAndPressKeepsTheClay) {
+  const Ran ran = run(std::string(kPress) +
+                      "save FOLDER/press.pot.json\nhold Ctrl\n"
+                      "point 65 18\npress left\npoint 50 18 over 0.4\nwait 0.2\n"
+                      "expect contact yes\nrelease left\n"
+                      "save FOLDER/trim.pot.json\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const auto ledger = [&](const char* pot) {
+    return nlohmann::json::parse(read_text(folder.file(pot)))["ledger"];
+  };
+  EXPECT_EQ(ledger("press.pot.json")["trimmed"], "0") << ledger("press.pot.json");
+  EXPECT_NE(ledger("trim.pot.json")["trimmed"], "0") << ledger("trim.pot.json");
+}
+
+TEST_F(Window, QuittingAsksOnceThereIsSomethingToLose) {
+  Ran ran = run("close\nexpect closed yes\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  ran = run(std::string(kPress) +
+            "close\nexpect overlay quit\nexpect closed no\nkey Esc\nexpect overlay none\n"
+            "close\ndo quit.discard\nexpect closed yes\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
+TEST_F(Window, TheClayIsWhereGeometryHasIt) {
+  // From the front the lump's edge is a straight line: clay on one side, background on the other.
+  const Ran ran =
+      run("key 1\npoint 47 15\nscreenshot FOLDER/in.png\npoint 80 60\nscreenshot FOLDER/out.png\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  // The middle of the view, between two columns of 240 px: on the axis, in the lump.
+  int red = 0, green = 0, blue = 0;
+  ASSERT_EQ(std::sscanf(pixel("out.png", 480, 330).c_str(), "%d %d %d", &red, &green, &blue), 3);
+  EXPECT_GT(red, blue + 30) << "clay is brown";
+  ASSERT_EQ(std::sscanf(pixel("out.png", 480, 60).c_str(), "%d %d %d", &red, &green, &blue), 3);
+  EXPECT_LT(red, blue + 10) << "above it is nothing";
+}
+
+TEST_F(Window, BothThemesAndScalesAreDrawn) {
+  for (const char* theme : {"dark", "light"}) {
+    const Ran ran = run("", std::string("--theme ") + theme +
+                                " --scale 2 --size 1920x1280 --screenshot " + folder.file("t.png"));
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    int red = 0, green = 0, blue = 0;
+    ASSERT_EQ(std::sscanf(pixel("t.png", 4, 640).c_str(), "%d %d %d", &red, &green, &blue), 3);
+    if (std::string(theme) == "dark") {
+      EXPECT_LT(red, 80);
+    } else {
+      EXPECT_GT(red, 200);
+    }
+  }
+}
+
+TEST_F(Window, WhatIsWrongIsSaidWithItsLine) {
+  Ran ran = run("wait 0.1\nexpect contact yes\n");
+  EXPECT_EQ(ran.status, 1);
+  EXPECT_NE(ran.err.find("s:2: contact: expected yes, found no"), std::string::npos) << ran.err;
+  ran = run("do edit.undo\n");
+  EXPECT_EQ(ran.status, 1) << ran.err;
+  ran = run("fly away\n");
+  EXPECT_EQ(ran.status, 2) << ran.err;
+  ran = run("save FOLDER/pot.txt\n");
+  EXPECT_EQ(ran.status, 3) << ran.err;
+  EXPECT_EQ(claystack("studio --script /nonexistent").status, 3);
+  EXPECT_EQ(claystack("studio nothing.scene.json --screenshot x.png").status, 2);
+  EXPECT_EQ(claystack("studio --size 3x3 --screenshot x.png").status, 2);
+}
+
+TEST_F(Window, OnAScreenWithRealEvents) {
+  if (shell("command -v Xvfb xdotool").status != 0)
+    GTEST_SKIP() << "needs Xvfb and xdotool (tests/run.sh installs them)";
+  const Ran ran =
+      shell(std::string(CLAYSTACK_XVFB_RUN) + " " CLAYSTACK_PROGRAM " " + folder.path().string());
+  EXPECT_EQ(ran.status, 0) << ran.err << ran.out;
+  EXPECT_NE(read_text(folder.file("config/claystack/studio.json")), "");
+}
+
+}  // namespace
+}  // namespace clay::studio
