@@ -21,15 +21,8 @@ struct Bite {
 /// `conserving`: eps = (R - r)(1 - exp(-kappa dt)), never past the tool's surface and never
 /// through the minimum wall; two half steps remove what one step does.
 template <Model model>
-void compute_removal(const RemovalPlan& plan, const ClayStack& stack, const Contact& contact,
-                     double dt_s, std::vector<Quanta>& removed) noexcept;
-
-/// `conserving`: the edges of a contact belong to rings that yield later, as a whole; their covered
-/// parts have yielded since the tool's end reached them. Leaves to each edge the mean depth that a
-/// tool rising by `rise_mm` in `dt_s` has not yet pressed away: at the end all of it, behind the
-/// end less by kappa (R - r) for each second.
-void yield_edges(const RemovalPlan& plan, const ClayStack& stack, double rise_mm, double dt_s,
-                 Contact& contact) noexcept;
+void compute_removal(const RemovalPlan& plan, const ClayStack& stack, double dt_s, Contact& contact,
+                     std::vector<Quanta>& removed) noexcept;
 
 /// What two tools take from one wall, each from its own side, that it is nowhere thinner for them
 /// than the gap. Equations (3) and (4) at once:
