@@ -123,10 +123,11 @@ void touch_rings(const Tool& tool, const ClayStack& stack, double hip_y,
       tool.profile());
 }
 
-/// The tool's centre at `at` along the HIP's radius; below 0 it is beyond the axis.
-void stand(double at, double radial_x, double radial_z, Contact& contact) noexcept {
+/// The tool's centre at `at` along the HIP's radius, and `before`; below 0 it is beyond the axis.
+void stand(double at, double before, double radial_x, double radial_z, Contact& contact) noexcept {
   const double sense = at > 0.0 ? 1.0 : at < 0.0 ? -1.0 : 0.0;
   contact.axis_distance_mm = std::abs(at);
+  contact.approach_mm = std::abs(before) - std::abs(at);
   contact.radial_x = sense * radial_x;
   contact.radial_z = sense * radial_z;
 }
@@ -164,7 +165,7 @@ void find_contact(const Tool& tool, const ClayStack& stack, const glm::dvec3& hi
 
 template <Model model>
 void find_pinch(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_mm, double gap_mm,
-                Contact& outer, Contact& inner) noexcept {
+                Contact& outer, Contact& inner, const glm::dvec3& moved_mm) noexcept {
   outer.rings.clear();
   inner.rings.clear();
   if (!candidates<model>(tool, stack, hip_mm.y, outer)) return;
@@ -172,10 +173,14 @@ void find_pinch(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_
   const double d = std::sqrt(hip_mm.x * hip_mm.x + hip_mm.z * hip_mm.z);
   const double radial_x = d > 0.0 ? hip_mm.x / d : 0.0, radial_z = d > 0.0 ? hip_mm.z / d : 0.0;
   const double reach = 0.5 * gap_mm + tool.widest();
-  stand(d + reach, radial_x, radial_z, outer);
-  stand(d - reach, radial_x, radial_z, inner);
+  const double x = hip_mm.x - moved_mm.x, z = hip_mm.z - moved_mm.z,
+               before = std::sqrt(x * x + z * z);
+  stand(d + reach, before + reach, radial_x, radial_z, outer);
+  stand(d - reach, before - reach, radial_x, radial_z, inner);
   outer.side = Side::compressive;
   inner.side = Side::expansive;
+  inner.approach_mm = -inner.approach_mm;
+  outer.rise_mm = inner.rise_mm = moved_mm.y;
   touch_rings<model>(tool, stack, hip_mm.y, outer);
   touch_rings<model>(tool, stack, hip_mm.y, inner);
   // A depth alone does not tell a tool that is through the wall from one that is past it.
@@ -194,8 +199,8 @@ template void find_contact<Model::paper>(const Tool&, const ClayStack&, const gl
 template void find_contact<Model::conserving>(const Tool&, const ClayStack&, const glm::dvec3&,
                                               Contact&, const glm::dvec3&) noexcept;
 template void find_pinch<Model::paper>(const Tool&, const ClayStack&, const glm::dvec3&, double,
-                                       Contact&, Contact&) noexcept;
+                                       Contact&, Contact&, const glm::dvec3&) noexcept;
 template void find_pinch<Model::conserving>(const Tool&, const ClayStack&, const glm::dvec3&,
-                                            double, Contact&, Contact&) noexcept;
+                                            double, Contact&, Contact&, const glm::dvec3&) noexcept;
 
 }  // namespace clay

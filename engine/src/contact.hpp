@@ -15,10 +15,10 @@ enum class Side { compressive, expansive };
 /// A ring that the tool overlaps.
 struct RingContact {
   std::uint32_t ring = 0;
-  double depth_mm = 0.0;  ///< R + f - d outside, d + f - r inside; > 0
-  double slope = 0.0;     ///< f'(t); `paper` alone
-  double coverage = 1.0;  ///< part of the ring's height that the tool's ends leave to it
-  Facing facing = {};     ///< `conserving` alone, as what follows
+  double depth_mm = 0.0;    ///< R + f - d outside, d + f - r inside; > 0
+  double slope = 0.0;       ///< f'(t); `paper` alone
+  double coverage = 1.0;    ///< part of the ring's height that the tool's ends leave to it
+  Facing facing = {};       ///< `conserving` alone, as what follows
   double advance_mm = 0.0;  ///< of the depth, what the tool has gone since the last pose
   double since = 1.0;       ///< part of the time since then in which the tool was at the ring
 };
@@ -62,6 +62,7 @@ struct Contact {
 /// Two stages: candidates by height, equations (1) and (2); then each ring by its radii. The side
 /// is decided once, at the tool's centre, by the demarcating circle r_d = (R + r) / 2.
 /// The paper puts y = 0 at the centroid of the first ring, we at the wheel head h/2 below.
+/// `moved_mm`: of the HIP since the last pose, for `conserving`.
 /// `paper` takes (2) as printed, which is a ring more than the tool reaches; `conserving` ends the
 /// range with the rings that the tool's ends lie in.
 template <Model model = Model::conserving>
@@ -76,6 +77,7 @@ void find_contact(const Tool& tool, const ClayStack& stack, const glm::dvec3& hi
 /// (d - f >= R), does not touch it. Both contacts have the same candidate range.
 template <Model model = Model::conserving>
 void find_pinch(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_mm, double gap_mm,
-                Contact& outer, Contact& inner) noexcept;
+                Contact& outer, Contact& inner,
+                const glm::dvec3& moved_mm = glm::dvec3(0.0)) noexcept;
 
 }  // namespace clay

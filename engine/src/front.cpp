@@ -29,11 +29,11 @@ void level_edges(Contact& contact) noexcept {
 
 /// The end that leads, and the clay ahead of it.
 struct Lead {
-  std::size_t ring = 0;   ///< that the end is in
+  std::size_t ring = 0;     ///< that the end is in
   double covered_mm = 0.0;  ///< of it
-  double ahead_mm = 0.0;  ///< depth of the end in the clay ahead
-  double wall_mm = 0.0;   ///< R - r there
-  double decay = 0.0;     ///< kappa over the speed of the end [1/mm]
+  double ahead_mm = 0.0;    ///< depth of the end in the clay ahead
+  double wall_mm = 0.0;     ///< R - r there
+  double decay = 0.0;       ///< kappa over the speed of the end [1/mm]
 };
 
 bool find_lead(const StepPlan& plan, const ClayStack& stack, double hip_y, double dt_s,
@@ -100,9 +100,9 @@ void feel_lead(const Profile& profile, const StepPlan& plan, const ClayStack& st
     const double behind = (static_cast<double>(k) + 0.5) * piece;
     const RingContact* ring = rings[behind < lead.covered_mm ? 0 : 1];
     RingContact& part = contact.front[k];
-    part.depth_mm = std::max(
-        front(behind),
-        ring != nullptr ? std::min(ring->depth_mm, plan.removal.yield_depth_mm) : 0.0);
+    part.depth_mm =
+        std::max(front(behind),
+                 ring != nullptr ? std::min(ring->depth_mm, plan.removal.yield_depth_mm) : 0.0);
     part.coverage = piece / h;
     part.facing = profile.facing(t_of(behind + 0.5 * piece), t_of(behind - 0.5 * piece));
   }

@@ -57,25 +57,58 @@ Pinched pinched(double wall, double least_wall, double fraction, double shallow,
   return moved;
 }
 
-/// use(ring, outer depth, inner depth) for every ring that a tool of a pinch touches; the depth is
-/// 0 where it does not.
+/// use(ring, outer touch, inner touch) for every ring that a tool of a pinch touches; none where it
+/// does not.
 template <class Use>
-void each_touched(const Contact& outer, const Contact& inner, Use use) noexcept {
+void each_touched(Contact& outer, Contact& inner, Use use) noexcept {
   constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
   std::size_t o = 0, i = 0;
   while (o < outer.rings.size() || i < inner.rings.size()) {
     const auto next_o = o < outer.rings.size() ? outer.rings[o].ring : kNone;
     const auto next_i = i < inner.rings.size() ? inner.rings[i].ring : kNone;
     const auto ring = std::min(next_o, next_i);
-    const double outer_depth = next_o == ring ? outer.rings[o++].depth_mm : 0.0;
-    const double inner_depth = next_i == ring ? inner.rings[i++].depth_mm : 0.0;
-    use(ring, outer_depth, inner_depth);
+    RingContact* outer_touch = next_o == ring ? &outer.rings[o++] : nullptr;
+    RingContact* inner_touch = next_i == ring ? &inner.rings[i++] : nullptr;
+    use(ring, outer_touch, inner_touch);
   }
 }
 
-}  // namespace
+double depth_in(const RingContact* touch) noexcept {
+  return touch != nullptr ? touch->depth_mm : 0.0;
+}
 
-static void yield_to_tool(const RemovalPlan& plan, const ClayStack& stack, double dt_s, Contact& contact,
+/// How far each surface of a pinched wall moves: outer, inner.
+template <Model model>
+std::array<double, 2> pinch_ring(const RemovalPlan& plan, double wall, double least_wall,
+                                 double fraction, double dt_s,
+                                 const std::array<const RingContact*, 2>& touches) noexcept {
+  const double from_out = depth_in(touches[0]), from_in = depth_in(touches[1]);
+  const Pinched moved = pinched<model>(wall, least_wall, fraction, std::min(from_out, from_in),
+                                       std::max(from_out, from_in));
+  std::array<double, 2> eps{moved.together_mm + (from_out > from_in ? moved.alone_mm : 0.0),
+                            moved.together_mm + (from_in > from_out ? moved.alone_mm : 0.0)};
+  if constexpr (model == Model::paper) return eps;
+  Yielding both;
+  std::size_t count = 0;
+  for (const RingContact* touch : touches) {
+    if (touch == nullptr) continue;
+    both.wall[count] = wall;
+    both.depth[count] = touch->depth_mm;
+    both.advance[count] = touch->advance_mm;
+    both.since[count] = touch->since;
+    both.target[count++] = std::max(wall - from_out - from_in, least_wall);
+  }
+  yield(plan, dt_s, both, count);
+  std::size_t k = 0;
+  for (std::size_t side = 0; side < 2; ++side)
+    if (touches[side] != nullptr) {
+      eps[side] = std::min(eps[side], both.depth[k] - both.left[k]);
+      ++k;
+    }
+  return eps;
+}
+
+void yield_to_tool(const RemovalPlan& plan, const ClayStack& stack, double dt_s, Contact& contact,
                    std::vector<Quanta>& removed) noexcept {
   const bool outside = contact.side == Side::compressive;
   Yielding block;
@@ -106,6 +139,8 @@ static void yield_to_tool(const RemovalPlan& plan, const ClayStack& stack, doubl
   }
 }
 
+}  // namespace
+
 template <Model model>
 void compute_removal(const RemovalPlan& plan, const ClayStack& stack, double dt_s, Contact& contact,
                      std::vector<Quanta>& removed) noexcept {
@@ -129,18 +164,18 @@ void compute_pinch_removal(const RemovalPlan& plan, const ClayStack& stack, doub
   const double fraction = paper ? plan.paper_fraction : one_minus_exp_neg(plan.rate_per_s * dt_s);
   outer.removed.clear();
   inner.removed.clear();
-  each_touched(outer.contact, inner.contact, [&](auto index, double from_out, double from_in) {
+  each_touched(outer.contact, inner.contact, [&](auto index, auto* outer_touch, auto* inner_touch) {
     Ring ring = stack.rings()[index];
-    const Pinched moved = pinched<model>(ring.outer_mm() - ring.inner_mm(), least_wall, fraction,
-                                         std::min(from_out, from_in), std::max(from_out, from_in));
-    if (from_out > 0.0) {
-      const double alone = from_out > from_in ? moved.alone_mm : 0.0;
-      outer.removed.push_back(take_outside(ring, ring.outer_mm(), moved.together_mm + alone));
+    const auto eps = pinch_ring<model>(plan, ring.outer_mm() - ring.inner_mm(), least_wall,
+                                       fraction, dt_s, {outer_touch, inner_touch});
+    if (outer_touch != nullptr) {
+      outer.removed.push_back(take_outside(ring, ring.outer_mm(), eps[0]));
       ring.outer2 -= outer.removed.back();
+      if constexpr (!paper) outer_touch->depth_mm -= eps[0];
     }
-    if (from_in > 0.0) {
-      const double alone = from_in > from_out ? moved.alone_mm : 0.0;
-      inner.removed.push_back(take_inside(ring, ring.inner_mm(), moved.together_mm + alone));
+    if (inner_touch != nullptr) {
+      inner.removed.push_back(take_inside(ring, ring.inner_mm(), eps[1]));
+      if constexpr (!paper) inner_touch->depth_mm -= eps[1];
     }
   });
 }

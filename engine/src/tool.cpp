@@ -115,8 +115,8 @@ Facing SampledProfile::facing(double from, double to) const noexcept {
   // 1 / (1 + f'^2) and f' / (1 + f'^2), also where f' overflows.
   const auto normal2 = [](double rise) { return 1.0 / (1.0 + rise * rise); };
   const double rise = slope(0.5 * (from + to)), steep = std::abs(rise);
-  const double lean = steep > 1.0 ? (rise > 0.0 ? 1.0 : -1.0) / (steep + 1.0 / steep)
-                                  : rise * normal2(rise);
+  const double lean =
+      steep > 1.0 ? (rise > 0.0 ? 1.0 : -1.0) / (steep + 1.0 / steep) : rise * normal2(rise);
   return {normal2(rise), lean, (normal2(slope(to)) - normal2(slope(from))) / (to - from)};
 }
 

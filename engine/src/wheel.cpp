@@ -39,7 +39,7 @@ struct Wheel::State {
 namespace {
 
 // On such a way the clay changes little; the bound keeps a tick short when a pose leaps.
-constexpr double kLongestWayMm = 0.05;
+constexpr double kLongestWayMm = 0.2;
 constexpr int kMostParts = 32;
 
 template <unsigned stages>
@@ -51,7 +51,7 @@ std::span<Bite> touch(State& s, const ToolState& tool) noexcept {
   if constexpr (stages & kPinch) {
     if (tool.gap_mm > 0.0) {
       find_pinch<kModel<stages>>(s.plan.tool, s.stack, tool.hip_mm, tool.gap_mm, s.bites[0].contact,
-                                 s.bites[1].contact);
+                                 s.bites[1].contact, tool.moved_mm);
       return s.bites;
     }
   }

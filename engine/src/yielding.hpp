@@ -15,10 +15,9 @@ namespace clay {
   const double z = x * (1.0 / 32.0);
   const double series =
       1.0 +
-      z * (1.0 +
-           z * (1.0 / 2 +
-                z * (1.0 / 6 +
-                     z * (1.0 / 24 + z * (1.0 / 120 + z * (1.0 / 720 + z * (1.0 / 5040)))))));
+      z * (1.0 + z * (1.0 / 2 +
+                      z * (1.0 / 6 +
+                           z * (1.0 / 24 + z * (1.0 / 120 + z * (1.0 / 720 + z * (1.0 / 5040)))))));
   const double e = 1.0 / series;
   const double e2 = e * e, e4 = e2 * e2, e8 = e4 * e4, e16 = e8 * e8;
   return e16 * e16;
@@ -39,8 +38,8 @@ struct Yielding {
 ///
 /// Deeper than the yield depth the wall falls as exp(-kappa t); nearer to the surface depth
 /// and wall fall together, a logistic curve about the depth at which the clay gives way as fast as
-/// the tool comes. Of a tool that stands both are exact, so that two half steps are one step; of one
-/// that moves the wall on its way is its mean.
+/// the tool comes. Of a tool that stands both are exact, so that two half steps are one step; of
+/// one that moves the wall on its way is its mean.
 void yield(const RemovalPlan& plan, double dt_s, Yielding& rings, std::size_t count) noexcept;
 
 }  // namespace clay

@@ -71,7 +71,7 @@ struct ToolSpec {
 struct RemovalSpec {
   double rate_per_s = 20.0;
   double yield_depth_mm = 0.25;  ///< conserving: of the tool in the clay, for all of the rate
-  double min_wall_mm = 1.0;              ///< conserving: no tool thins a wall below this
+  double min_wall_mm = 1.0;      ///< conserving: no tool thins a wall below this
   std::optional<double> paper_fraction;  ///< k; rate / 1000 when absent
   friend bool operator==(const RemovalSpec&, const RemovalSpec&) = default;
 };
