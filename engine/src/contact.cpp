@@ -42,6 +42,8 @@ bool meet(const Profile& profile, const Tool& tool, const Ring& ring, double mid
   touch.depth_mm = depth_of(ring, f, contact);
   if (!(touch.depth_mm > 0.0)) return false;
   touch.facing = profile.facing(from, to);
+  touch.advance_mm = contact.approach_mm;
+  if (rise == 0.0) return true;
   const double before = std::clamp(middle + rise, tool.low(), tool.high());
   if (before != middle + rise) touch.since = std::max((before - middle) / rise, 0.0);
   const double then = std::clamp(t + touch.since * rise, tool.low(), tool.high());

@@ -27,14 +27,15 @@ struct Built {
 
 Result<Built> build_profile(const SphereSpec& s) {
   if (!is_size(s.radius_mm)) return bad_size("a radius", s.radius_mm);
-  return Built{EllipseProfile{s.radius_mm, s.radius_mm}, -s.radius_mm, s.radius_mm, s.radius_mm};
+  return Built{EllipseProfile{s.radius_mm, s.radius_mm, 1.0 / s.radius_mm}, -s.radius_mm,
+               s.radius_mm, s.radius_mm};
 }
 
 Result<Built> build_profile(const EllipseSpec& s) {
   if (!is_size(s.half_height_mm)) return bad_size("a half height", s.half_height_mm);
   if (!is_size(s.half_width_mm)) return bad_size("a half width", s.half_width_mm);
-  return Built{EllipseProfile{s.half_height_mm, s.half_width_mm}, -s.half_height_mm,
-               s.half_height_mm, s.half_width_mm};
+  return Built{EllipseProfile{s.half_height_mm, s.half_width_mm, 1.0 / s.half_height_mm},
+               -s.half_height_mm, s.half_height_mm, s.half_width_mm};
 }
 
 Result<Built> build_profile(const RibSpec& s) {

@@ -134,9 +134,8 @@ class Recomputed {
       rest = closing > over ? Fifty(1 - over / closing) : Fifty(0);
     }
     const Fifty behind = std::max(Fifty(wall - depth + advance / 2), thinnest);
-    const Fifty pace = advance * knee / kappa_dt;
-    const Fifty first = std::max(Fifty(pace / behind), Fifty(-behind / 4));
-    const Fifty steady = std::max(Fifty(pace / (behind + first)), Fifty(-behind / 4));
+    const Fifty pace = std::max(Fifty(advance * knee / kappa_dt), Fifty(-behind * behind / 4));
+    const Fifty steady = pace / (behind + pace / behind);
     const Fifty spread = behind + 2 * steady;
     const Fifty off = std::min(start, knee) - steady;
     const Fifty left = exp(Fifty(-kappa_dt * rest * spread / knee));

@@ -23,8 +23,9 @@ struct Facing {
 struct EllipseProfile {
   static constexpr double kSlopeLimit = 127.0 / 128.0;  ///< of |t| / a
   double a = 1.0, b = 1.0;
+  double per_a = 1.0 / a;
   [[nodiscard]] double radius(double t) const noexcept {
-    const double s = 1.0 - (t / a) * (t / a);
+    const double u = t * per_a, s = 1.0 - u * u;
     return s > 0.0 ? b * std::sqrt(s) : 0.0;
   }
   /// f' = -b t / (a^2 sqrt(1 - t^2/a^2)), held at its value 127/128 of the way to the poles,
@@ -35,10 +36,11 @@ struct EllipseProfile {
   }
   /// In the middle of from..to, where it has bounds up to the poles.
   [[nodiscard]] Facing facing(double from, double to) const noexcept {
-    const double u = 0.5 * (from + to) / a, ratio = b / a;
-    const double flat = std::max(1.0 - u * u, 0.0);
-    const double g = 1.0 / (flat + ratio * ratio * u * u);
-    return {flat * g, -ratio * u * std::sqrt(flat) * g, -2.0 * u / a * (ratio * g) * (ratio * g)};
+    const double u = 0.5 * (from + to) * per_a, flat = std::max(1.0 - u * u, 0.0);
+    if (a == b) return {flat, -u * std::sqrt(flat), -2.0 * u * per_a};
+    const double ratio = b * per_a, g = 1.0 / (flat + ratio * ratio * u * u);
+    return {flat * g, -ratio * u * std::sqrt(flat) * g,
+            -2.0 * u * per_a * (ratio * g) * (ratio * g)};
   }
 };
 
