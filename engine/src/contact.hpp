@@ -27,7 +27,8 @@ struct RingContact {
 /// there is no contact. Storage is reserved once, so that a tick allocates nothing.
 ///
 /// `conserving` feels the tool's ends to a fraction of a ring: `edges` are parts of rings whose
-/// middles lie beyond an end, and the crown. They push back, but yield only as whole rings do.
+/// middles lie beyond an end, and the crown. They push back, but yield only as whole rings do; see
+/// front.hpp.
 struct Contact {
   Side side = Side::compressive;
   std::size_t bottom = 0;  ///< candidate range by (1), (2), counted from 0
