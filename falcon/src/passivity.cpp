@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace clay::falcon {
 namespace {
@@ -124,13 +125,17 @@ glm::dvec3 PassivityController::damping(double dt_s, const glm::dvec3& way_m) co
 glm::dvec3 PassivityController::earned(const glm::dvec3& way_m,
                                        const glm::dvec3& asked_n) noexcept {
   const double asked = glm::length(asked_n);
+  const double before = std::exchange(last_asked_n_, asked);
   if (!(asked > 0.0)) {
     earned_n_ = 0.0;
     return glm::dvec3(0.0);
   }
   const double stiffness = (state_ == PassivityState::yielding ? kYield : 1.0) * stiffness_;
   const glm::dvec3 direction = asked_n / asked;
-  earned_n_ = std::max(0.0, earned_n_ - stiffness * glm::dot(way_m, direction));
+  const double out_m = glm::dot(way_m, direction);
+  // A spring does not fall while it is pressed: that much has given way, and is gone.
+  const double yielded = out_m <= 0.0 ? std::max(0.0, before - asked) : 0.0;
+  earned_n_ = std::max(0.0, earned_n_ - stiffness * out_m - yielded);
   return earned_n_ < asked ? earned_n_ * direction : asked_n;
 }
 

@@ -103,8 +103,9 @@ class PassivityController {
   EnergyObserver observer_;
   SwingCounter swings_;
   PassivityState state_ = PassivityState::watching;
-  double earned_n_ = 0.0;  // most force that the way into the contact allows
-  int debts_ = 0;          // since the last good while
+  double earned_n_ = 0.0;      // most force that the way into the contact allows
+  double last_asked_n_ = 0.0;  // in this contact
+  int debts_ = 0;              // since the last good while
   double last_debt_s_ = 0.0;
 
   struct Reading {
