@@ -73,6 +73,8 @@ RC_GTEST_PROP(RoundedPot, IsAPotOfItsOwn, ()) {
   Pot back = *rounded;
   back.stack = pot.stack;
   back.ledger = pot.ledger;
+  RC_ASSERT(rounded->rim == Rim{});
+  back.rim = pot.rim;
   back.rounding.reset();
   RC_ASSERT(back == pot);
   RC_ASSERT(rounded->stack.crown() == pot.stack.crown());
