@@ -77,7 +77,7 @@ Result<void> Potter::sit_down(const SceneSpec& scene, const live::LiveSettings& 
   auto sink = work_->begin_stroke(scene);
   if (!sink) return tl::make_unexpected(sink.error());
   auto recorder = live::Recorder::create(**sink);
-  auto sitting = Sitting::begin(std::move(*wheel), mouse_, clock_, recorder.get(), settings,
+  auto sitting = Sitting::begin(std::move(*wheel), mouse_, clock_, recorder.get(), &trace_, settings,
                                 threads_ ? Pace::thread : Pace::stepped);
   if (!sitting) {
     (void)recorder->finish();
