@@ -147,7 +147,8 @@ bool SceneView::button(Workshop& shop, const ButtonChanged& change) {
 void SceneView::press(Workshop& shop, bool inverted) {
   const auto pointed = pointed_mm();
   const auto tool = chosen_tool(shop);
-  if (!pointed || !tool || !shop.potter.has_work() || shop.paused) return;
+  if (!pointed || !tool || !shop.potter.has_work() || shop.potter.has_device() || shop.paused)
+    return;
   const ToolSpec spec = tool_of(shop.settings.tool, inverted);
   glm::dvec2 start = free_place(shop.potter.view(), *tool, *pointed);
   double gap_mm = 0.0;
@@ -164,7 +165,7 @@ void SceneView::press(Workshop& shop, bool inverted) {
   }
   if (auto begun = shop.potter.press({spec, clay_rate_per_s(shop), on_wheel(start), gap_mm});
       !begun) {
-    shop.notices.say(Grade::warning, begun.error().message);
+    tell(shop, begun.error());
     return;
   }
   shop.log("stroke begun");

@@ -113,10 +113,14 @@ void Studio::frame(bool paint_it) {
   }
   if (awake_frames_ > 0) --awake_frames_;
   // One by one where ImGui has to see each; drawing, which may be slow, once for all.
+  // What a click has closed is under the mouse for two more of ImGui's frames.
   do {
+    const int passes = waiting_.empty() ? 1 : kFramesAfterInput;
     take_waiting();
-    shape_frame(elapsed_s);
+    for (int pass = 0; pass < passes && !shop_.done; ++pass)
+      shape_frame(elapsed_s / static_cast<double>(passes));
   } while (!waiting_.empty() && !shop_.done);
+  look_at_devices(shop_);
   shop_.potter.advance(now_ns);
   shop_.host.clock().sleep_until_ns(now_ns);  // with no servo to move it
   tell_news();
@@ -209,6 +213,7 @@ void Studio::drop(const FilesDropped& files) {
 void Studio::tell_news() {
   const PotterNews news = shop_.potter.take_news();
   if (news.error) tell(shop_, *news.error);
+  if (news.ending == live::Ending::device_lost && shop_.devices) shop_.devices->look_again();
   if (!news.stroke_ended) return;
   shop_.log(
       fmt::format("stroke ended: {} poses, {} ticks", news.poses, shop_.potter.status().ticks));
