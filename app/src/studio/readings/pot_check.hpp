@@ -26,6 +26,11 @@ struct PotQuestion {
   double tolerance_mm = 0.02;
 };
 
+struct Stretch {
+  double from_mm = 0.0, to_mm = 0.0;
+  friend bool operator==(const Stretch&, const Stretch&) = default;
+};
+
 /// A place that is worth a look, from a height to another [mm].
 struct PotRemark {
   double from_mm = 0.0, to_mm = 0.0;
@@ -60,6 +65,12 @@ struct PotCheck {
 /// The walls for an outline of `rows` rows that is `height_mm` high now: each from the same height.
 [[nodiscard]] std::vector<draw::RowWall> walls_for(const PotCheck& check, std::size_t rows,
                                                    double height_mm);
+
+/// Colours from 0 to 10 mm, whatever the pot; what the process does not bear is hatched.
+[[nodiscard]] draw::WallMap wall_map_of(const PotCheck& check);
+
+/// Where walls are thinner than the process asks [mm of height], bottom to top.
+[[nodiscard]] std::vector<Stretch> thin_stretches(const PotCheck& check);
 
 /// "Thinnest 2.1 mm at 34.0 mm; porcelain asks 3.0 mm: too thin".
 [[nodiscard]] std::string wall_words(const PotCheck& check, LengthUnit unit);

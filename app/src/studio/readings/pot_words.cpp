@@ -20,6 +20,27 @@ std::vector<draw::RowWall> walls_for(const PotCheck& check, std::size_t rows, do
   return walls;
 }
 
+draw::WallMap wall_map_of(const PotCheck& check) {
+  return {check.limit ? check.limit->min_wall_mm : 0.0, 10.0};
+}
+
+std::vector<Stretch> thin_stretches(const PotCheck& check) {
+  std::vector<Stretch> stretches;
+  if (!check.limit || check.walls.empty()) return stretches;
+  const double row_mm = check.height_mm / static_cast<double>(check.walls.size());
+  bool open = false;
+  for (std::size_t row = 0; row < check.walls.size(); ++row) {
+    const draw::RowWall& wall = check.walls[row];
+    const bool thin =
+        static_cast<double>(std::min(wall.outer_mm, wall.inner_mm)) < check.limit->min_wall_mm;
+    const double low_mm = row_mm * static_cast<double>(row);
+    if (thin && !open) stretches.push_back({low_mm, low_mm});
+    if (thin) stretches.back().to_mm = low_mm + row_mm;
+    open = thin;
+  }
+  return stretches;
+}
+
 std::string wall_words(const PotCheck& check, LengthUnit unit) {
   if (!check.proved) return "No walls to measure: the section is not that of one solid";
   std::string words = fmt::format("Thinnest {} at {}", length_text(check.thinnest_mm, unit),

@@ -1,5 +1,7 @@
 #include "studio/readings/readings.hpp"
 
+#include "claystack/engine/stack_measures.hpp"
+
 #include <fmt/format.h>
 
 namespace clay::studio {
@@ -42,8 +44,10 @@ void Readings::look_at(const Potter& potter) {
     outline_stack_ = live ? stack_of(subject_.outline) : std::nullopt;
     section_size_ = 0;
     changed_ = true;
-    if (const ClayStack* clay = stack())
+    if (const ClayStack* clay = stack()) {
+      widest_mm_ = largest_radius_mm(*clay);
       stress_ = stress_of(*clay, subject_.density_g_cm3, limit_kpa);
+    }
     if (!live) account_ = resting_account_ = account_of(*subject_.pot);
   }
   if (live && outline_stack_ && potter.status().ticks > 0)

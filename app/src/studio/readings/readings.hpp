@@ -36,6 +36,7 @@ class Readings {
 
   /// Nothing: no clay on the wheel.
   [[nodiscard]] const ClayStack* stack() const noexcept;
+  [[nodiscard]] double widest_mm() const noexcept { return widest_mm_; }  ///< radius
   [[nodiscard]] bool live() const noexcept { return subject_.live(); }
   [[nodiscard]] bool fallen() const noexcept { return subject_.pot && subject_.pot->collapse; }
   [[nodiscard]] const ClayAccount& account() const noexcept { return account_; }
@@ -54,6 +55,7 @@ class Readings {
 
   Subject subject_;
   std::optional<ClayStack> outline_stack_;  // in mid-stroke
+  double widest_mm_ = 0.0;
   ClayAccount account_, resting_account_;
   StressCurve stress_;
   TickHistory ticks_;
