@@ -52,7 +52,7 @@ void draw_certificate(Workshop& shop) {
   const auto& check = shop.readings.check();
   if (shop.readings.stack() == nullptr || !check)
     return faint_text(colours, "No clay on the wheel");
-  headline(*check, shop.readings.checking(), colours);
+  headline(*check, shop.readings.checking() && !shop.readings.live(), colours);
   if (check->proved) {
     figures(*check, colours, shop.settings.unit);
   } else {

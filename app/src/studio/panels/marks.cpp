@@ -61,7 +61,8 @@ void mark_thinnest(const Workshop& shop, const PotCheck& check, ImDrawList* draw
   const glm::dvec2 middle = 0.5 * (glm::abs(check.thinnest_from) + glm::abs(check.thinnest_to));
   const auto at = shop.view.pixel_of(middle);
   if (!at || !shop.view.rect().holds(*at)) return;
-  const ImVec4 colour = check.thin() ? shop.colours().warning : shop.colours().good;
+  const ImVec4 colour =
+      check.thin() ? shop.colours().warning : ImGui::GetStyleColorVec4(ImGuiCol_Text);
   draw->AddCircle({at->x, at->y}, 0.6f * em, ImGui::GetColorU32(colour), 0, 0.15f * em);
   shaded_text(draw, {at->x + em, at->y - 0.5f * em},
               length_text(check.thinnest_mm, shop.settings.unit), colour);

@@ -47,7 +47,7 @@ void plot_rows(const PlotArea& area, std::span<const std::optional<MinMax>> rows
                const ImVec4& colour) {
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const float step = area.height() / static_cast<float>(rows.size());
-  const float thick = 0.1f * ImGui::GetFontSize();
+  const float thick = 0.15f * ImGui::GetFontSize();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!rows[i]) continue;
     const MinMax part = joined(*rows[i], i > 0 ? rows[i - 1] : std::nullopt);

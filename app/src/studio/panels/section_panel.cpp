@@ -186,7 +186,7 @@ void draw_section(Workshop& shop) {
   const Sheet sheet = sheet_for(area, widest, height, full);
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->PushClipRect(area.low, area.high, true);
-  draw_clay(shop, sheet, height, full, check);
+  draw_clay(shop, sheet, height, full, shop.settings.wall_map ? check : nullptr);
   draw_measures(area, sheet, widest, height, full, colours, shop.settings.unit);
   if (check != nullptr) draw_faults(area, sheet, *check, colours);
   if (const auto tool = shop.view.tool_view(shop)) draw_tool_at(*tool, sheet, colours);

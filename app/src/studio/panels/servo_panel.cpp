@@ -25,8 +25,6 @@ void draw_history(const TickHistory& ticks, float live::TickSample::*value, doub
   plot_columns(area, min_max_of(ticks.curve(value), -kHistoryS, 0.0, whole_px(area.width())), top,
                colour);
   plot_text(area, Corner::upper_left, top_text, colours.faint);
-  plot_text(area, Corner::lower_left, fmt::format("-{:g} s", kHistoryS), colours.faint);
-  plot_text(area, Corner::lower_right, "now", colours.faint);
 }
 
 }  // namespace
@@ -37,11 +35,11 @@ void draw_servo(Workshop& shop) {
   if (ticks.empty())
     return faint_text(colours, "No tick seen yet: the servo runs while a tool is in the clay.");
   const TickFigures figures = ticks.figures();
-  ImGui::TextUnformatted("Force of the clay");
+  value_row(colours, "Force of the clay", fmt::format("last {:g} s", kHistoryS));
   const double force_top = round_up(std::max(kLeastForceN, figures.force_most_n));
   draw_history(ticks, &live::TickSample::clay_n, force_top, fmt::format("{:g} N", force_top),
                colours.accent, colours);
-  ImGui::TextUnformatted("Woken late by");
+  value_row(colours, "Woken late by", fmt::format("last {:g} s", kHistoryS));
   const double late_top = round_up(std::max(kLeastLateUs, figures.late_most_us));
   draw_history(ticks, &live::TickSample::late_us, late_top, time_text(late_top), colours.warning,
                colours);

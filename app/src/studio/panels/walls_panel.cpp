@@ -36,7 +36,7 @@ void say_where(const PotCheck& check, const Palette& colours, LengthUnit unit) {
 
 void draw_walls(Workshop& shop) {
   const Palette& colours = shop.colours();
-  ImGui::Checkbox("Colours on the pot", &shop.settings.wall_map);
+  ImGui::Checkbox("Thickness as colours", &shop.settings.wall_map);
   choose_process(shop);
   const auto& check = shop.readings.check();
   if (shop.readings.stack() == nullptr || !check)
