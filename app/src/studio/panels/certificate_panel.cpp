@@ -29,7 +29,7 @@ void figures(const PotCheck& check, const Palette& colours, LengthUnit unit) {
   value_row(colours, "Nowhere thinner", length_text(check.least_wall_mm, unit));
   value_row(colours, "Clay counted", volume_text(check.counted_mm3));
   value_row(colours, "Clay in the solid", volume_text(check.proved_mm3));
-  value_row(colours, "Difference", fmt::format("{:.1e}", check.volume_error_relative));
+  value_row(colours, "Difference", fmt::format("{:.1g}", check.volume_error_relative));
 }
 
 void remarks(const PotCheck& check, const Palette& colours, LengthUnit unit) {

@@ -46,7 +46,6 @@ Sheet sheet_for(const PlotArea& area, double widest, double height, bool full) {
 ImU32 colour_at(const PotCheck* check, double y_mm, const ImVec4& clay) {
   if (check == nullptr || !check->proved) return ImGui::GetColorU32(clay);
   const double wall = wall_at_height(check->walls, check->height_mm, y_mm);
-  if (!std::isfinite(wall)) return ImGui::GetColorU32(clay);
   const draw::Swatch swatch = draw::wall_swatch(wall_map_of(*check), wall);
   return IM_COL32(swatch.red, swatch.green, swatch.blue, 255);
 }
@@ -142,10 +141,10 @@ void draw_faults(const PlotArea& area, const Sheet& sheet, const PotCheck& check
                         ImGui::GetColorU32(colours.warning));
   const ImVec2 from = sheet.at(std::abs(check.thinnest_from.x), check.thinnest_from.y);
   const ImVec2 to = sheet.at(std::abs(check.thinnest_to.x), check.thinnest_to.y);
-  const ImVec4 ink = check.thin() ? colours.warning : ImGui::GetStyleColorVec4(ImGuiCol_Text);
-  draw->AddCircle({0.5f * (from.x + to.x), 0.5f * (from.y + to.y)},
-                  std::max(0.45f * em, 0.7f * std::hypot(to.x - from.x, to.y - from.y)),
-                  ImGui::GetColorU32(ink), 0, 0.12f * em);
+  const ImU32 ink =
+      ImGui::GetColorU32(check.thin() ? colours.warning : ImGui::GetStyleColorVec4(ImGuiCol_Text));
+  draw->AddLine(from, to, ink, 0.12f * em);
+  for (const ImVec2& end : {from, to}) draw->AddCircleFilled(end, 0.18f * em, ink);
 }
 
 /// What is under the pointer, in words.
@@ -160,12 +159,15 @@ std::string read_out(const PlotArea& area, const Sheet& sheet, double height, bo
   const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text, 0.5f);
   draw->AddLine({area.low.x, mouse.y}, {area.high.x, mouse.y}, ink);
   draw->AddLine({mouse.x, area.low.y}, {mouse.x, area.high.y}, ink);
-  std::string text =
-      fmt::format("r {}, y {}", length_text(std::abs(rho), unit), length_text(y, unit));
-  if (check == nullptr || !check->proved) return text;
-  if (const double wall = wall_at_height(check->walls, height, y); std::isfinite(wall))
-    text += fmt::format(", wall {}", length_text(wall, unit));
-  return text;
+  const UnitText u = unit_text(unit);
+  const auto figure = [&](const char* name, double mm) {
+    return fmt::format("{} {:.{}f}  ", name, mm / u.mm, u.digits);
+  };
+  std::string text = figure("r", std::abs(rho)) + figure("y", y);
+  if (check != nullptr && check->proved)
+    if (const double wall = wall_at_height(check->walls, height, y); std::isfinite(wall))
+      text += figure("wall", wall);
+  return text + u.name;
 }
 
 }  // namespace
