@@ -130,6 +130,23 @@ TEST(TickHistory, RemembersTenSecondsAndTheirPercentiles) {
   EXPECT_NEAR(curve.front().at, -kHistoryS, 1e-9);
 }
 
+TEST(Subject, OfAnOutlineKeepsTheCrown) {
+  const Ring ring{quanta_from_radius(40.0), quanta_from_radius(30.0)};
+  const auto stack =
+      ClayStack::from_rings(0.5, std::vector<Ring>(10, ring), ring.volume() / 3).value();
+  live::LiveProfile profile;
+  live::show(stack, 0.0, profile);
+  draw::PotView outline;
+  outline.height_mm = profile.height_mm;
+  for (std::size_t row = 0; row < profile.size; ++row)
+    outline.rows.push_back({profile.rows[row].outer_mm, profile.rows[row].inner_mm});
+  const auto shown = stack_of(outline, profile.crown_mm);
+  ASSERT_TRUE(shown);
+  EXPECT_NEAR(shown->height_mm(), stack.height_mm(), 1e-9);
+  EXPECT_NEAR(shown->volume_mm3() / stack.volume_mm3(), 1.0, 1e-6);
+  EXPECT_FALSE(stack_of({}, 0.0));
+}
+
 #if CLAYSTACK_EXPORT
 TEST(PotCheck, HasTheFiguresOfTheCup) {
   const PotCheck check = check_pot(question_of(pot_of(cup_rings())));

@@ -56,6 +56,7 @@ struct LiveProfile {
   std::array<Row, kRows> rows{};
   std::size_t size = 0;    ///< rows in use
   double height_mm = 0.0;  ///< of the whole stack, crown and all
+  double crown_mm = 0.0;   ///< of that, the height of the crown
   double time_s = 0.0;     ///< of the tick that it was seen in
 };
 

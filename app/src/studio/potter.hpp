@@ -82,6 +82,9 @@ class Potter {
 
   /// As it is now, also in mid-stroke.
   [[nodiscard]] const draw::PotView& view() const noexcept { return view_; }
+  /// Of the view's height what is the crown's and in no row; 0 at rest, where it is in the rows
+  /// [mm].
+  [[nodiscard]] double crown_mm() const noexcept { return crown_mm_; }
   /// Of the stroke under way, or the last one.
   [[nodiscard]] const live::LiveStatus& status() const noexcept { return status_; }
   /// Every tick of all strokes, for the window to take.
@@ -125,6 +128,7 @@ class Potter {
   std::unique_ptr<Sitting> sitting_;
   live::LiveStatus status_;
   draw::PotView view_;
+  double crown_mm_ = 0.0;
   PotterNews news_;
   double gap_mm_ = 0.0, closed_gap_mm_ = 0.0;  // of a pinch that closes
   std::int64_t last_ns_ = 0;                   // of the frame before

@@ -108,7 +108,7 @@ PotCheck check_pot(const PotQuestion& question) {
   check.live = question.subject.live();
   if (!check.live)
     run(question, *question.subject.pot, check);
-  else if (auto stack = stack_of(question.subject.outline))
+  else if (auto stack = stack_of(question.subject.outline, question.subject.crown_mm))
     run(question, provisional(std::move(*stack), question.subject.density_g_cm3), check);
   else
     check.why_not = "expected clay, found none";

@@ -12,8 +12,7 @@ constexpr std::int64_t kLiveCheckNs = 100'000'000;  // in mid-stroke, one at mos
 std::string line_of(const PotCheck& check) {
   const std::string verdict =
       check.proved ? fmt::format("proved, {} triangles", check.triangles) : check.why_not;
-  return fmt::format("checked{}: {}, {:.1f} ms", check.live ? " in mid-stroke" : "", verdict,
-                     1e3 * check.seconds);
+  return fmt::format("checked: {}, {:.1f} ms", verdict, 1e3 * check.seconds);
 }
 
 }  // namespace
@@ -27,7 +26,7 @@ void Readings::update(Potter& potter, const Wanted& wanted, std::int64_t now_ns,
   if (wanted.check) ask(wanted, now_ns);
   if (auto answer = checker_.take()) {
     check_ = std::move(answer);
-    log(line_of(*check_));
+    if (!check_->live) log(line_of(*check_));
   }
 }
 
@@ -40,8 +39,9 @@ void Readings::look_at(const Potter& potter) {
   const auto limit_kpa =
       scene.stability ? std::optional(scene.stability->max_stress_kpa) : std::nullopt;
   if (!same) {
-    subject_ = {live ? nullptr : potter.shared_pot(), potter.view(), scene.lump.density_g_cm3};
-    outline_stack_ = live ? stack_of(subject_.outline) : std::nullopt;
+    subject_ = {live ? nullptr : potter.shared_pot(), potter.view(), scene.lump.density_g_cm3,
+                potter.crown_mm()};
+    outline_stack_ = live ? stack_of(subject_.outline, subject_.crown_mm) : std::nullopt;
     section_size_ = 0;
     changed_ = true;
     if (const ClayStack* clay = stack()) {

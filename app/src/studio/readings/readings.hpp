@@ -30,7 +30,8 @@ class Readings {
   /// Without `threads` the check is done within `update`, so that scripts see the same every time.
   explicit Readings(bool threads) : checker_(&check_pot, threads) {}
 
-  /// Once a frame, `now_ns` of the servo's clock. `log` is told of checks.
+  /// Once a frame, `now_ns` of the servo's clock. `log` is told of checks of
+  /// pots at rest.
   void update(Potter& potter, const Wanted& wanted, std::int64_t now_ns,
               const std::function<void(std::string_view)>& log);
 

@@ -13,11 +13,12 @@ struct Subject {
   work::SharedPot pot;    ///< at rest; nothing in mid-stroke
   draw::PotView outline;  ///< as it is on the screen, either way
   double density_g_cm3 = 1.9;
+  double crown_mm = 0.0;  ///< of the outline's height, above its rows
   [[nodiscard]] bool live() const noexcept { return pot == nullptr; }
 };
 
-/// The stack behind an outline: its rows for rings, their radii as near as float holds them. What
-/// crown there is makes all rows higher by as much. Nothing where the rows are no clay.
-[[nodiscard]] std::optional<ClayStack> stack_of(const draw::PotView& outline);
+/// The stack behind an outline: its rows for rings, their radii as near as float holds them, and
+/// the crown. Nothing where the rows are no clay.
+[[nodiscard]] std::optional<ClayStack> stack_of(const draw::PotView& outline, double crown_mm);
 
 }  // namespace clay::studio
