@@ -16,6 +16,12 @@ struct Failure {
   double stress_kpa = 0.0;
 };
 
+/// StabilityPlan::kpa_per_ratio. rho g h: g/cm^3 = 1e-6 kg/mm^3, and kg/mm^3 m/s^2 mm = N/mm^2 =
+/// 1000 kPa.
+[[nodiscard]] inline double kpa_per_ratio(double density_g_cm3, double ring_height_mm) noexcept {
+  return density_g_cm3 * 1e-6 * kStandardGravity * ring_height_mm * 1e3;
+}
+
 /// beta_i = g M_i / (pi (R_i^2 - r_i^2)) [kPa], M_i the mass of all above ring i, crown included.
 /// The paper leaves out g and so compares a mass per area; with g the threshold is a stress.
 [[nodiscard]] double stress_kpa(const StabilityPlan& plan, WideQuanta above, Quanta ring) noexcept;

@@ -2,6 +2,7 @@
 
 #include "claystack/engine/clay_stack.hpp"
 #include "number_text.hpp"
+#include "stability.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -69,9 +70,7 @@ ForcePlan force_plan(const SceneSpec& s) {
 
 StabilityPlan stability_plan(const SceneSpec& s) {
   if (!s.stability) return {};
-  // rho g h: g/cm^3 = 1e-6 kg/mm^3, and kg/mm^3 m/s^2 mm = N/mm^2 = 1000 kPa.
-  const double kpa = s.lump.density_g_cm3 * 1e-6 * kStandardGravity * s.lump.ring_height_mm * 1e3;
-  return {s.stability->max_stress_kpa, kpa};
+  return {s.stability->max_stress_kpa, kpa_per_ratio(s.lump.density_g_cm3, s.lump.ring_height_mm)};
 }
 
 std::vector<PlanLine> describe(const SceneSpec& s, unsigned stages) {

@@ -66,7 +66,7 @@ struct VirtualThrow {
         device(make_line(), falcon::FalconSettings{}),
         clock(*line) {
     EXPECT_TRUE(device.open());
-    auto built = ServoLoop::build({wheel, device, clock, recorder}, settings);
+    auto built = ServoLoop::build({wheel, device, clock, recorder, &trace}, settings);
     EXPECT_TRUE(built) << built.error().message;
     loop = std::make_unique<ServoLoop>(std::move(*built));
     loop->start();
@@ -97,6 +97,7 @@ struct VirtualThrow {
   falcon::ForceGate gate;
   Commands commands;
   LiveView view;
+  TickTrace trace;
   std::atomic<std::int64_t> heartbeat_us{0};
 
  private:

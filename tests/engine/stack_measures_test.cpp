@@ -1,11 +1,13 @@
 #include "claystack/engine/stack_measures.hpp"
 
+#include "stability.hpp"
 #include "stack_samples.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace clay {
 namespace {
@@ -58,6 +60,42 @@ RC_GTEST_PROP(MinWall, IsTheLeastOverAllPairs, ()) {
                        std::hypot(std::max(0.0, rings[j].outer_mm() - rings[i].inner_mm()), apart));
     }
   RC_ASSERT(std::abs(min_wall(stack).thickness_mm - least) < 1e-9);
+}
+
+TEST(Stresses, AreWeightOverArea) {
+  // SI: a column of 2000 kg/m^3 on rings of 20 and 10 mm; the top one bears nothing.
+  const auto stresses = stresses_kpa(stack_of(5, {{20, 0}, {10, 0}, {20, 0}}), 2.0);
+  ASSERT_EQ(stresses.size(), 3u);
+  const double of_one = 2000.0 * 9.80665 * 0.005 * 1e-3;  // kPa under 5 mm of its own width
+  EXPECT_NEAR(stresses[0], of_one * (400.0 + 100.0) / 400.0, 1e-9);
+  EXPECT_NEAR(stresses[1], of_one * 400.0 / 100.0, 1e-9);
+  EXPECT_EQ(stresses[2], 0.0);
+}
+
+RC_GTEST_PROP(Stresses, AreThoseThatTheStabilityLooksAt, ()) {
+  auto random = *samples::random_engine();
+  const ClayStack stack = samples::stack(random, *rc::gen::inRange<std::size_t>(1, 300), 0.5);
+  SceneSpec scene;
+  scene.lump.ring_height_mm = stack.ring_height_mm();
+  scene.stability = StabilitySpec{1e-9};
+  const auto worst = StabilityWatch::check_all(StepPlan::build(scene).value().stability, stack);
+  const auto stresses = stresses_kpa(stack, scene.lump.density_g_cm3);
+  const double most = *std::max_element(stresses.begin(), stresses.end());
+  RC_ASSERT(worst.has_value() == (most > 1e-9));
+  if (!worst) return;
+  RC_ASSERT(worst->stress_kpa == most);
+  RC_ASSERT(stresses[worst->ring] == most);
+}
+
+TEST(Capacity, IsTheBoreThatOpensAtTheTop) {
+  const double pi = std::numbers::pi;
+  EXPECT_NEAR(capacity_mm3(stack_of(5, {{40, 0}, {40, 30}, {40, 20}})), pi * 5 * (900 + 400), 1e-6);
+  EXPECT_EQ(capacity_mm3(stack_of(5, {{40, 30}, {40, 30}})), 0.0);          // right through
+  EXPECT_EQ(capacity_mm3(stack_of(5, {{40, 0}, {40, 30}, {40, 0}})), 0.0);  // closed
+  const Ring wall{quanta_from_radius(40), quanta_from_radius(30)};
+  const auto crowned =
+      ClayStack::from_rings(5.0, {{quanta_from_radius(40), 0}, wall}, wall.volume() / 5).value();
+  EXPECT_NEAR(capacity_mm3(crowned), pi * 6 * 900, 1e-6);
 }
 
 }  // namespace

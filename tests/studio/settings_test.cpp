@@ -20,6 +20,8 @@ Settings changed() {
   settings.tool.mode = ToolMode::pinch;
   settings.tool.rib = {25.0, 4.0};
   settings.hints = false;
+  settings.wall_map = settings.full_section = true;
+  settings.process = "porcelain";
   settings.open["force"] = false;
   settings.folder = "/pots";
   return settings;

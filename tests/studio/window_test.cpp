@@ -111,6 +111,33 @@ TEST_F(Window, TheClayIsWhereGeometryHasIt) {
   EXPECT_LT(red, blue + 10) << "above it is nothing";
 }
 
+TEST_F(Window, ChecksTheClayAsItIsAndPlotsEveryTick) {
+  const Ran ran = run(std::string("wait 0.1\nexpect proved yes\nexpect thinnest_mm above 29.79\n"
+                                  "expect thinnest_mm below 29.81\nexpect plotted_ticks 0\n") +
+                      kPress +
+                      "wait 0.1\nexpect proved yes\nexpect thin no\nexpect stress_part above 0.01\n"
+                      "expect stress_part below 1\nexpect thinnest_mm below 29\n"
+                      "expect plotted_ticks 0\nkey Ctrl+Z\ndo view.servo\n" +
+                      kPress + "wait 0.1\nexpect plotted_ticks above 800\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
+TEST_F(Window, TheWallMapPaintsThickClayYellow) {
+  // Nothing of a lump is thinner than the top of the range.
+  const Ran ran =
+      run("key 1\nkey W\nmove 480 30\nwait 0.2\nscreenshot FOLDER/map.png\nkey W\nwait 0.2\n"
+          "screenshot FOLDER/clay.png\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const auto green_of_red = [&](const char* picture) {
+    int red = 0, green = 0, blue = 0;
+    EXPECT_EQ(std::sscanf(pixel(picture, 480, 330).c_str(), "%d %d %d", &red, &green, &blue), 3);
+    EXPECT_GT(red, 60);
+    return static_cast<double>(green) / red;
+  };
+  EXPECT_GT(green_of_red("map.png"), 0.8) << "yellow: as much green as red";
+  EXPECT_LT(green_of_red("clay.png"), 0.75) << "clay";
+}
+
 TEST_F(Window, BothThemesAndScalesAreDrawn) {
   for (const char* theme : {"dark", "light"}) {
     const Ran ran = run("", std::string("--theme ") + theme +

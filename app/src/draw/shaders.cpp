@@ -79,7 +79,7 @@ layout(location = 4) in vec2 neck_;
 uniform mat4 place;
 uniform vec2 sweep;  // azimuths from, to
 out vec3 world, normal, own;
-out vec3 shade;  // open; wall [mm]; azimuth
+centroid out vec3 shade;  // open; wall [mm]; azimuth
 flat out vec2 neck;
 void main() {
   float azimuth = mix(sweep.x, sweep.y, step_.x);
@@ -97,7 +97,7 @@ void main() {
 
 constexpr const char* kClayFragment = R"(
 in vec3 world, normal, own;
-in vec3 shade;
+centroid in vec3 shade;
 flat in vec2 neck;
 uniform mat4 place;
 uniform vec2 rim;    // radius and height of the opening
@@ -149,7 +149,7 @@ void main() {
 
 constexpr const char* kPlainFragment = R"(
 in vec3 world, normal, own;
-in vec3 shade;
+centroid in vec3 shade;
 flat in vec2 neck;
 uniform vec4 base;         // colour; gloss
 uniform vec4 touch;        // unit, to the clay; 1 where it touches
@@ -173,7 +173,7 @@ vec2 shadow_at(vec2 at) {
 
 constexpr const char* kWheelFragment = R"(
 in vec3 world, normal, own;
-in vec3 shade;
+centroid in vec3 shade;
 flat in vec2 neck;
 uniform vec3 metal;
 out vec4 colour;
@@ -205,7 +205,7 @@ void main() {
 // The floor is the background itself, darker where the wheel keeps light away.
 constexpr const char* kGroundFragment = R"(
 in vec3 world, normal, own;
-in vec3 shade;
+centroid in vec3 shade;
 flat in vec2 neck;
 out vec4 colour;
 void main() {
@@ -226,7 +226,7 @@ layout(location = 2) in vec4 rest;    // y low, high; wall low, high
 uniform mat4 place;
 uniform float azimuth;
 out vec3 face;
-out float wall;
+centroid out float wall;
 out float rho;
 void main() {
   vec2 ends = mix(radii.xy, radii.zw, corner.y);
@@ -240,7 +240,7 @@ void main() {
 
 constexpr const char* kSliceFragment = R"(
 in vec3 face;
-in float wall;
+centroid in float wall;
 in float rho;
 uniform vec4 section;  // colour
 out vec4 colour;

@@ -2,7 +2,6 @@
 
 #include "claystack/export/collapsed_solid.hpp"
 #include "claystack/export/profile_smoothing.hpp"
-#include "claystack/export/wall_thickness.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,11 +43,18 @@ Result<solid::Profile> wall_profile(const Pot& pot, std::optional<double> min_wa
 }
 
 std::vector<RowWall> row_walls(const solid::Profile& profile, std::size_t rows, double height_mm) {
+  if (rows == 0) return {};
+  const double spacing_mm = 0.5 * height_mm / static_cast<double>(rows);
+  return row_walls(solid::wall_field(profile, spacing_mm), rows, height_mm);
+}
+
+std::vector<RowWall> row_walls(std::span<const solid::WallSample> field, std::size_t rows,
+                               double height_mm) {
   std::vector<RowWall> walls(rows, {kUnknown, kUnknown});
   if (rows == 0) return walls;
   const double row_height = height_mm / static_cast<double>(rows);
   std::vector<bool> outside(rows, false), inside(rows, false);
-  for (const solid::WallSample& s : solid::wall_field(profile, 0.5 * row_height)) {
+  for (const solid::WallSample& s : field) {
     // Feet are seen from below only; what they carry is told by the floor.
     if (s.face == solid::WallFace::rim || s.face == solid::WallFace::foot) continue;
     // A floor is the face of the row below it.

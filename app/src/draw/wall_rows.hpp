@@ -4,7 +4,12 @@
 #include "claystack/engine/pot.hpp"
 #include "claystack/engine/result.hpp"
 #include "claystack/export/profile.hpp"
+#include "claystack/export/wall_thickness.hpp"
 #include "draw/picture.hpp"
+
+#include <cstddef>
+#include <span>
+#include <vector>
 
 namespace clay::draw {
 
@@ -17,5 +22,8 @@ Result<solid::Profile> wall_profile(const Pot& pot, std::optional<double> min_wa
 /// on the outside and on the bore there.
 [[nodiscard]] std::vector<RowWall> row_walls(const solid::Profile& profile, std::size_t rows,
                                              double height_mm);
+/// The same of a field that has been measured.
+[[nodiscard]] std::vector<RowWall> row_walls(std::span<const solid::WallSample> field,
+                                             std::size_t rows, double height_mm);
 
 }  // namespace clay::draw

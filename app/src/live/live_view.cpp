@@ -12,6 +12,7 @@ void show(const ClayStack& stack, double time_s, LiveProfile& profile) noexcept 
     profile.rows[row] = {static_cast<float>(ring.outer_mm()), static_cast<float>(ring.inner_mm())};
   }
   profile.height_mm = stack.height_mm();
+  profile.crown_mm = stack.crown_height_mm();
   profile.time_s = time_s;
 }
 

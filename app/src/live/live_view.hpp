@@ -39,7 +39,9 @@ struct LiveStatus {
   glm::dvec3 force_n{0.0};    ///< sent, in the device's frame
   double force_gain = 0.0;    ///< part of it that is earned
   double volume_error = 0.0;  ///< clay unaccounted for [quanta]; exact below 2^53
-  double height_mm = 0.0;     ///< of the clay
+  double imbalance = 0.0;     ///< the same with what is outside: Ledger::imbalance
+  double stack_mm3 = 0.0, trimmed_mm3 = 0.0, outside_mm3 = 0.0;  ///< of the clay, as in Ledger
+  double height_mm = 0.0;                                        ///< of the clay
   std::uint64_t ticks = 0, poses = 0, missed = 0;
   std::int64_t late_ns = 0;  ///< of this tick
 };
@@ -54,6 +56,7 @@ struct LiveProfile {
   std::array<Row, kRows> rows{};
   std::size_t size = 0;    ///< rows in use
   double height_mm = 0.0;  ///< of the whole stack, crown and all
+  double crown_mm = 0.0;   ///< of that, the height of the crown
   double time_s = 0.0;     ///< of the tick that it was seen in
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace clay::live {
 namespace {
@@ -172,6 +173,11 @@ void ServoLoop::keep_time(std::int64_t late_ns, std::int64_t begun_ns,
   timing_.missed += late_ns >= pacer_.period_ns() ? 1u : 0u;
   ++timing_.ticks;
   last_begun_ns_ = begun_ns;
+  if (bench_.trace == nullptr) return;
+  const auto us = [](std::int64_t ns) { return 1e-3f * static_cast<float>(ns); };
+  bench_.trace->add({begun_ns, static_cast<float>(glm::length(status_.clay_n)),
+                     static_cast<float>(glm::length(guarded_.force_n)), us(late_ns),
+                     us(sent_ns - begun_ns), late_ns >= pacer_.period_ns()});
 }
 
 Ending ServoLoop::ending(const falcon::ForceGate& gate) const noexcept {
@@ -199,6 +205,11 @@ void ServoLoop::publish(LiveView& view, std::int64_t late_ns) noexcept {
   status_.force_n = guarded_.force_n;
   status_.force_gain = guarded_.gain;
   status_.volume_error = static_cast<double>(wheel.ledger().volume_error(wheel.stack().volume()));
+  status_.imbalance = static_cast<double>(wheel.ledger().imbalance(wheel.stack().volume()));
+  const double mm3 = wheel.stack().mm3_per_quantum();
+  status_.stack_mm3 = wheel.stack().volume_mm3();
+  status_.trimmed_mm3 = mm3 * static_cast<double>(wheel.ledger().trimmed);
+  status_.outside_mm3 = mm3 * static_cast<double>(wheel.ledger().outside);
   status_.height_mm = wheel.stack().height_mm();
   status_.ticks = timing_.ticks;
   status_.poses = clay_.poses();

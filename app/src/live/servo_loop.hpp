@@ -14,6 +14,7 @@
 #include "live/live_view.hpp"
 #include "live/pacer.hpp"
 #include "live/servo_timing.hpp"
+#include "live/tick_trace.hpp"
 
 #include <atomic>
 #include <cstdint>
@@ -26,6 +27,7 @@ struct Bench {
   falcon::HapticDevice& device;
   Clock& clock;
   Recorder* recorder = nullptr;  ///< none: nothing is recorded
+  TickTrace* trace = nullptr;    ///< none: nobody plots the ticks
 };
 
 class ServoLoop {

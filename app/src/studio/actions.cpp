@@ -1,6 +1,7 @@
 #include "studio/actions.hpp"
 
 #include "studio/input.hpp"
+#include "studio/panels/panels.hpp"
 #include "studio/samples.hpp"
 #include "studio/workshop.hpp"
 
@@ -25,6 +26,8 @@ bool between(const Workshop& shop) { return at_rest(shop) || shop.potter.has_dev
 bool can_undo(const Workshop& shop) { return between(shop) && shop.potter.can_undo(); }
 bool can_redo(const Workshop& shop) { return between(shop) && shop.potter.can_redo(); }
 bool asks(const Workshop& shop) { return shop.overlay == Overlay::quit_prompt; }
+/// The export is in: there are figures to show.
+bool can_check(const Workshop&) { return !process_names().empty(); }
 bool pinching(const Workshop& shop) { return shop.settings.tool.mode == ToolMode::pinch; }
 
 template <ToolMode mode>
@@ -295,6 +298,35 @@ const std::
                        has_work,
                        set_cut<draw::Cut::quarter>,
                        is_cut<draw::Cut::quarter>},
+                Action{"view.wall_map",
+                       "Wall thickness on the pot",
+                       {GLFW_KEY_W, 0},
+                       kNone,
+                       can_check,
+                       [](Workshop& s) { s.settings.wall_map = !s.settings.wall_map; },
+                       [](const Workshop& s) { return s.settings.wall_map; }},
+                Action{"view.section",
+                       "Section",
+                       {GLFW_KEY_X, 0},
+                       kNone,
+                       always,
+                       [](Workshop& s) { toggle_panel(s, "section"); },
+                       [](const Workshop& s) { return panel_open(s, "section"); }},
+                Action{"view.walls", "Walls", kNone, kNone, can_check,
+                       [](Workshop& s) { toggle_panel(s, "walls"); },
+                       [](const Workshop& s) { return panel_open(s, "walls"); }},
+                Action{"view.certificate", "Certificate", kNone, kNone, can_check,
+                       [](Workshop& s) { toggle_panel(s, "certificate"); },
+                       [](const Workshop& s) { return panel_open(s, "certificate"); }},
+                Action{"view.ledger", "Ledger",
+                       kNone, kNone, always, [](Workshop& s) { toggle_panel(s, "ledger"); },
+                       [](const Workshop& s) { return panel_open(s, "ledger"); }},
+                Action{"view.stress", "Stress",
+                       kNone, kNone, always, [](Workshop& s) { toggle_panel(s, "stress"); },
+                       [](const Workshop& s) { return panel_open(s, "stress"); }},
+                Action{"view.servo", "Servo",
+                       kNone, kNone, always, [](Workshop& s) { toggle_panel(s, "servo"); },
+                       [](const Workshop& s) { return panel_open(s, "servo"); }},
                 Action{"view.theme",
                        "Light theme",
                        {GLFW_KEY_L, kControl},
@@ -312,12 +344,13 @@ const std::
                        is_unit<LengthUnit::cm>},
                 Action{"view.in", "Inches", kNone, kNone, always, set_unit<LengthUnit::in>,
                        is_unit<LengthUnit::in>},
-                Action{"view.larger",
-                       "Larger text",
-                       {GLFW_KEY_EQUAL, kControl},
-                       {GLFW_KEY_EQUAL, kControlShift},
-                       always,
-                       [](Workshop& s) { set_scale(s, s.settings.scale * kScaleStep); }},
+                Action{
+                    "view.larger",
+                    "Larger text",
+                    {GLFW_KEY_EQUAL, kControl},
+                    {GLFW_KEY_EQUAL, kControlShift},
+                    always,
+                    [](Workshop& s) { set_scale(s, s.settings.scale * kScaleStep); }},
                 Action{"view.smaller",
                        "Smaller text",
                        {GLFW_KEY_MINUS, kControl},

@@ -47,6 +47,25 @@ const std::array kFacts = {
     Fact{"volume_error",
          [](const Workshop& s) { return fmt::format("{}", s.potter.status().volume_error); }},
     Fact{"poses", [](const Workshop& s) { return fmt::format("{}", s.potter.status().poses); }},
+    Fact{"proved",
+         [](const Workshop& s) {
+           return yes_or_no(s.readings.check() && s.readings.check()->proved);
+         }},
+    Fact{"thin",
+         [](const Workshop& s) {
+           return yes_or_no(s.readings.check() && s.readings.check()->thin());
+         }},
+    Fact{"thinnest_mm",
+         [](const Workshop& s) {
+           return s.readings.check() ? fmt::format("{}", s.readings.check()->thinnest_mm)
+                                     : std::string();
+         }},
+    Fact{"stress_part",
+         [](const Workshop& s) {
+           return fmt::format("{}", s.readings.stress().part().value_or(0.0));
+         }},
+    Fact{"plotted_ticks",
+         [](const Workshop& s) { return fmt::format("{}", s.readings.ticks().samples().size()); }},
     Fact{"missed", [](const Workshop& s) { return fmt::format("{}", s.potter.status().missed); }},
 };
 

@@ -91,6 +91,7 @@ void Potter::show_pot() {
   if (pot) {
     pot_ = std::move(*pot);
     view_ = draw::view_of(*pot_);
+    crown_mm_ = 0.0;
   } else {
     news_.error = pot.error();
   }
@@ -123,7 +124,8 @@ Result<void> Potter::sit_down(const SceneSpec& scene, falcon::HapticDevice& devi
   const Pace pace = !threads_                ? Pace::stepped
                     : device.info().can_push ? Pace::real_time
                                              : Pace::thread;
-  auto sitting = Sitting::begin(std::move(*wheel), device, clock_, recorder.get(), settings, pace);
+  auto sitting =
+      Sitting::begin(std::move(*wheel), device, clock_, recorder.get(), &trace_, settings, pace);
   if (!sitting) {
     (void)recorder->finish();
     (void)work_->end_stroke();  // without a pose it is none
@@ -238,7 +240,10 @@ void Potter::advance(std::int64_t now_ns) {
 
 void Potter::look() {
   status_ = sitting_->status();
-  if (const live::LiveProfile* profile = sitting_->new_profile()) view_ = view_of(*profile);
+  const live::LiveProfile* profile = sitting_->new_profile();
+  if (profile == nullptr) return;
+  view_ = view_of(*profile);
+  crown_mm_ = profile->crown_mm;
 }
 
 /// Four times a second: a rate that can be read.

@@ -57,6 +57,8 @@ class Potter {
   /// The contact's [N/mm^2], from the next stroke on.
   void set_stiffness(double n_per_mm2);
   [[nodiscard]] const Pot& pot() const noexcept { return *pot_; }
+  /// The same for who keeps it; nothing before there is a work. As the stroke under way found it.
+  [[nodiscard]] const work::SharedPot& shared_pot() const noexcept { return pot_; }
   [[nodiscard]] const work::Work& work() const noexcept { return *work_; }
 
   /// The mouse takes the tool to the clay. The scene is that of the work, with this tool and rate.
@@ -80,8 +82,13 @@ class Potter {
 
   /// As it is now, also in mid-stroke.
   [[nodiscard]] const draw::PotView& view() const noexcept { return view_; }
+  /// Of the view's height what is the crown's and in no row; 0 at rest, where it is in the rows
+  /// [mm].
+  [[nodiscard]] double crown_mm() const noexcept { return crown_mm_; }
   /// Of the stroke under way, or the last one.
   [[nodiscard]] const live::LiveStatus& status() const noexcept { return status_; }
+  /// Every tick of all strokes, for the window to take.
+  [[nodiscard]] live::TickTrace& trace() noexcept { return trace_; }
   /// Of the servo, as measured; 0 at rest.
   [[nodiscard]] double tick_rate_hz() const noexcept { return tick_rate_hz_; }
   [[nodiscard]] std::string device_name() const {
@@ -116,10 +123,12 @@ class Potter {
   SceneSpec scene_;
   std::optional<work::Work> work_;
   work::SharedPot pot_;
+  live::TickTrace trace_;
   std::unique_ptr<live::Recorder> recorder_;
   std::unique_ptr<Sitting> sitting_;
   live::LiveStatus status_;
   draw::PotView view_;
+  double crown_mm_ = 0.0;
   PotterNews news_;
   double gap_mm_ = 0.0, closed_gap_mm_ = 0.0;  // of a pinch that closes
   std::int64_t last_ns_ = 0;                   // of the frame before

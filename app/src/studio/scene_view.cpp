@@ -235,6 +235,10 @@ draw::Picture SceneView::picture(const Workshop& shop) const {
   draw::Picture picture;
   picture.pot = shop.potter.view();
   picture.tool = tool_view(shop);
+  if (const auto& check = shop.readings.check(); check && shop.settings.wall_map) {
+    picture.pot.wall_mm = walls_for(*check, picture.pot.rows.size(), picture.pot.height_mm);
+    picture.wall_map = wall_map_of(*check);
+  }
   picture.camera = camera_;
   picture.theme = shop.settings.theme;
   picture.cut = cut;

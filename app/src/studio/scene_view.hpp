@@ -52,6 +52,8 @@ class SceneView {
   /// Once a frame.
   void turn_wheel(const Workshop& shop, double rad);
   [[nodiscard]] draw::Picture picture(const Workshop& shop) const;
+  /// At work, or as it would begin where the mouse points; nothing else.
+  [[nodiscard]] std::optional<draw::ToolView> tool_view(const Workshop& shop) const;
 
   draw::Cut cut = draw::Cut::none;
 
@@ -61,7 +63,6 @@ class SceneView {
   void drag(Workshop& shop, glm::vec2 by_px);
   [[nodiscard]] glm::dvec3 on_wheel(glm::dvec2 place_mm) const;
   [[nodiscard]] std::optional<glm::dvec2> pointed_mm() const;
-  [[nodiscard]] std::optional<draw::ToolView> tool_view(const Workshop& shop) const;
 
   ViewRect rect_;
   draw::Camera camera_;

@@ -163,6 +163,9 @@ Result<Settings> parse_settings(std::string_view text, std::string_view name) {
   fields.one_of("unit", kUnits, settings.unit);
   fields.number("wheel_rpm", kSlowestRpm, kFastestRpm, settings.wheel_rpm);
   read_tool(fields, settings.tool);
+  fields.flag("wall_map", settings.wall_map);
+  fields.flag("full_section", settings.full_section);
+  fields.text("process", settings.process);
   fields.flag("hints", settings.hints);
   fields.flags("open", settings.open);
   fields.text("folder", settings.folder);
@@ -184,6 +187,9 @@ std::string write_settings(const Settings& s) {
                      {"rib_height_mm", s.tool.rib.height_mm},
                      {"rib_radius_mm", s.tool.rib.radius_mm},
                      {"gap_mm", s.tool.gap_mm},
+                     {"wall_map", s.wall_map},
+                     {"full_section", s.full_section},
+                     {"process", s.process},
                      {"hints", s.hints},
                      {"open", s.open},
                      {"folder", s.folder}};

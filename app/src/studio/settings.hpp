@@ -22,6 +22,9 @@ struct Settings {
   LengthUnit unit = LengthUnit::mm;
   double wheel_rpm = 120.0;  ///< kSlowestRpm to kFastestRpm
   ToolChoice tool;
+  bool wall_map = false;             ///< thickness of walls as colours on the pot
+  bool full_section = false;         ///< both halves
+  std::string process;               ///< whose walls are asked for; empty: none
   bool hints = true;                 ///< the first-run hint has not been closed yet
   std::map<std::string, bool> open;  ///< panels by id; one that is not named is as it comes
   std::string folder;                ///< of the last file; empty: none yet

@@ -6,9 +6,10 @@ namespace clay::studio {
 
 Result<std::unique_ptr<Sitting>> Sitting::begin(Wheel wheel, falcon::HapticDevice& device,
                                                 live::Clock& clock, live::Recorder* recorder,
+                                                live::TickTrace* trace,
                                                 const live::LiveSettings& settings, Pace pace) {
   std::unique_ptr<Sitting> sitting(new Sitting(std::move(wheel), pace));
-  const live::Bench bench{sitting->wheel_, device, clock, recorder};
+  const live::Bench bench{sitting->wheel_, device, clock, recorder, trace};
   auto loop = live::ServoLoop::build(bench, settings);
   if (!loop) return tl::make_unexpected(loop.error());
   sitting->clock_ = &clock;

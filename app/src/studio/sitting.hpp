@@ -21,9 +21,11 @@ enum class Pace {
 
 class Sitting {
  public:
-  /// Device, clock and recorder outlive it; the device is open. Errors as live::ServoLoop::build.
+  /// Device, clock, recorder and trace outlive it; the device is open. Errors as
+  /// live::ServoLoop::build.
   static Result<std::unique_ptr<Sitting>> begin(Wheel wheel, falcon::HapticDevice& device,
                                                 live::Clock& clock, live::Recorder* recorder,
+                                                live::TickTrace* trace,
                                                 const live::LiveSettings& settings, Pace pace);
   ~Sitting();
   Sitting(const Sitting&) = delete;

@@ -93,7 +93,9 @@ Studio::~Studio() {
   ImGui::DestroyContext(context_);
 }
 
-bool Studio::wakeful() const noexcept { return moving() || coarse_ || awake_frames_ > 0; }
+bool Studio::wakeful() const noexcept {
+  return moving() || coarse_ || awake_frames_ > 0 || shop_.readings.checking();
+}
 
 bool Studio::moving() const noexcept {
   return shop_.potter.throwing() || spin_ > 0.0 || shop_.view.turning();
@@ -112,6 +114,7 @@ void Studio::frame(bool paint_it) {
     awake_frames_ = kFramesAfterInput;
   }
   if (awake_frames_ > 0) --awake_frames_;
+  shop_.readings.update(shop_.potter, wanted_of(shop_), now_ns, shop_.log);
   // One by one where ImGui has to see each; drawing, which may be slow, once for all.
   // What a click has closed is under the mouse for two more of ImGui's frames.
   do {
@@ -253,6 +256,7 @@ void Studio::lay_out() {
   const bool first = shop_.view.rect().size_px.x <= 1.0f;
   shop_.view.place(view);
   if (first && shop_.potter.has_work()) shop_.view.look(shop_, Seen::home);
+  draw_marks(shop_, view);
   draw_hint(shop_, view);
   draw_overlay(shop_, view);
   draw_banner(shop_, view);

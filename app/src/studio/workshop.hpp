@@ -6,6 +6,7 @@
 #include "studio/host.hpp"
 #include "studio/notices.hpp"
 #include "studio/potter.hpp"
+#include "studio/readings/readings.hpp"
 #include "studio/scene_view.hpp"
 #include "studio/settings.hpp"
 #include "work/recovery.hpp"
@@ -27,11 +28,13 @@ struct Workshop {
       : host(given),
         settings(std::move(remembered)),
         potter(given.clock(), given.real_time()),
+        readings(given.real_time()),
         log(std::move(log_line)) {}
 
   Host& host;
   Settings settings;
   Potter potter;
+  Readings readings;
   SceneView view;
   Notices notices;
   std::function<void(std::string_view)> log;  ///< events, a line each
@@ -43,6 +46,7 @@ struct Workshop {
   bool paused = false;  ///< nothing that the hand does reaches the clay
   bool done = false;    ///< the window may close
   bool quit_after_saving = false;
+  std::string reveal;  ///< id of a panel that has just been opened: its column scrolls to it
   std::filesystem::path file;  ///< of the work; empty: it has none yet
   std::string path_box;        ///< what is typed in the box for names of files
   double rate_per_s = 20.0;    ///< of the scene, at kNominalRpm

@@ -2,16 +2,26 @@
 
 #include "studio/actions.hpp"
 
+#include <algorithm>
 #include <array>
+#include <string>
 
 namespace clay::studio {
 namespace {
 
-constexpr std::array kPanels = {
+const std::array kPanels = {
     Panel{"tool", "Tool", Column::left, true, &draw_tool},
     Panel{"wheel", "Wheel and clay", Column::left, true, &draw_wheel},
+    Panel{"section", "Section", Column::left, true, &draw_section},
     Panel{"force", "Force", Column::right, true, &draw_force},
     Panel{"pot", "Pot", Column::right, true, &draw_pot},
+#if CLAYSTACK_EXPORT
+    Panel{"walls", "Walls", Column::right, true, &draw_walls},
+    Panel{"certificate", "Certificate", Column::right, true, &draw_certificate},
+#endif
+    Panel{"ledger", "Ledger", Column::right, false, &draw_ledger},
+    Panel{"stress", "Stress", Column::right, false, &draw_stress},
+    Panel{"servo", "Servo", Column::right, false, &draw_servo},
 };
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
@@ -19,9 +29,31 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFla
                                     ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
 
+bool is_open(const Workshop& shop, const Panel& panel) {
+  const auto remembered = shop.settings.open.find(panel.id);
+  return remembered == shop.settings.open.end() ? panel.open : remembered->second;
+}
+
 }  // namespace
 
 std::span<const Panel> panels() { return kPanels; }
+
+bool panel_open(const Workshop& shop, std::string_view id) {
+  const auto panel = std::ranges::find(kPanels, id, &Panel::id);
+  return panel != kPanels.end() && is_open(shop, *panel);
+}
+
+void toggle_panel(Workshop& shop, std::string_view id) {
+  const std::string name(id);
+  const bool open = !panel_open(shop, id);
+  shop.settings.open[name] = open;
+  shop.reveal = open ? name : std::string();
+}
+
+Wanted wanted_of(const Workshop& shop) {
+  return {shop.settings.wall_map || panel_open(shop, "walls") || panel_open(shop, "certificate"),
+          panel_open(shop, "servo"), shop.settings.process};
+}
 
 void draw_column(Workshop& shop, Column column, glm::vec2 corner_px, glm::vec2 size_px) {
   ImGui::SetNextWindowPos({corner_px.x, corner_px.y});
@@ -29,8 +61,7 @@ void draw_column(Workshop& shop, Column column, glm::vec2 corner_px, glm::vec2 s
   ImGui::Begin(column == Column::left ? "##left" : "##right", nullptr, kFixed);
   for (const Panel& panel : kPanels) {
     if (panel.column != column) continue;
-    const auto remembered = shop.settings.open.find(panel.id);
-    const bool open = remembered == shop.settings.open.end() ? panel.open : remembered->second;
+    const bool open = is_open(shop, panel);
     ImGui::SetNextItemOpen(open);
     const bool shown = ImGui::CollapsingHeader(panel.title);
     if (shown != open) shop.settings.open[panel.id] = shown;
@@ -39,6 +70,9 @@ void draw_column(Workshop& shop, Column column, glm::vec2 corner_px, glm::vec2 s
     panel.draw(shop);
     ImGui::Spacing();
     ImGui::PopID();
+    if (shop.reveal != panel.id) continue;
+    ImGui::SetScrollHereY(1.0f);
+    shop.reveal.clear();
   }
   ImGui::End();
 }

@@ -5,6 +5,7 @@
 #include "studio/workshop.hpp"
 
 #include <span>
+#include <string_view>
 
 namespace clay::studio {
 
@@ -18,6 +19,12 @@ struct Panel {
   void (*draw)(Workshop& shop);
 };
 [[nodiscard]] std::span<const Panel> panels();
+/// Unfolded or not; of one that is not there: no.
+[[nodiscard]] bool panel_open(const Workshop& shop, std::string_view id);
+/// Unfolds it and brings it into view, or folds it.
+void toggle_panel(Workshop& shop, std::string_view id);
+/// What the panels that are unfolded need.
+[[nodiscard]] Wanted wanted_of(const Workshop& shop);
 
 /// All of a column, in a window of its own.
 void draw_column(Workshop& shop, Column column, glm::vec2 corner_px, glm::vec2 size_px);
@@ -26,6 +33,7 @@ void draw_column(Workshop& shop, Column column, glm::vec2 corner_px, glm::vec2 s
 float draw_menu(Workshop& shop);
 void draw_status_bar(Workshop& shop, glm::vec2 corner_px, glm::vec2 size_px);
 /// Over the view.
+void draw_marks(Workshop& shop, const ViewRect& view);
 void draw_banner(Workshop& shop, const ViewRect& view);
 void draw_hint(Workshop& shop, const ViewRect& view);
 void draw_overlay(Workshop& shop, const ViewRect& view);
@@ -35,6 +43,12 @@ void draw_tool(Workshop& shop);
 void draw_wheel(Workshop& shop);
 void draw_force(Workshop& shop);
 void draw_pot(Workshop& shop);
+void draw_section(Workshop& shop);
+void draw_walls(Workshop& shop);
+void draw_certificate(Workshop& shop);
+void draw_ledger(Workshop& shop);
+void draw_stress(Workshop& shop);
+void draw_servo(Workshop& shop);
 
 // The overlays.
 void draw_gallery(Workshop& shop, const ViewRect& view);

@@ -5,28 +5,6 @@
 #include <algorithm>
 
 namespace clay::studio {
-namespace {
-
-struct UnitText {
-  double mm;  // of one unit
-  const char* name;
-  int digits;
-};
-
-UnitText text_of(LengthUnit unit) {
-  switch (unit) {
-    case LengthUnit::cm:
-      return {10.0, "cm", 2};
-    case LengthUnit::in:
-      return {25.4, "in", 2};
-    case LengthUnit::mm:
-      break;
-  }
-  return {1.0, "mm", 1};
-}
-
-}  // namespace
-
 int choice_row(const char* id, std::span<const char* const> titles, int chosen,
                const Palette& colours) {
   ImGui::PushID(id);
@@ -50,7 +28,7 @@ int choice_row(const char* id, std::span<const char* const> titles, int chosen,
 }
 
 bool length_slider(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit) {
-  const UnitText text = text_of(unit);
+  const UnitText text = unit_text(unit);
   ImGui::TextUnformatted(label);
   ImGui::SetNextItemWidth(-1.0f);
   float shown = static_cast<float>(mm / text.mm);
@@ -62,11 +40,6 @@ bool length_slider(const char* label, double& mm, double low_mm, double high_mm,
     return false;
   mm = std::clamp(static_cast<double>(shown) * text.mm, low_mm, high_mm);
   return true;
-}
-
-std::string length_text(double mm, LengthUnit unit) {
-  const UnitText text = text_of(unit);
-  return fmt::format("{:.{}f} {}", mm / text.mm, text.digits, text.name);
 }
 
 void faint_text(const Palette& colours, const std::string& text) {

@@ -1,6 +1,7 @@
 #pragma once
 // Small things that more than one panel draws.
 
+#include "studio/length_text.hpp"
 #include "studio/settings.hpp"
 #include "studio/workshop.hpp"
 
@@ -15,9 +16,6 @@ int choice_row(const char* id, std::span<const char* const> titles, int chosen,
 
 /// A labelled slider for a length that is kept in mm and shown in `unit`.
 bool length_slider(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit);
-
-/// "12.5 mm", "1.25 cm", "0.49 in".
-[[nodiscard]] std::string length_text(double mm, LengthUnit unit);
 
 void faint_text(const Palette& colours, const std::string& text);
 /// Name on the left, value at the right edge of the column.

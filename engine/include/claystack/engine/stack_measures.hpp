@@ -2,6 +2,7 @@
 #include "claystack/engine/clay_stack.hpp"
 
 #include <cstddef>
+#include <vector>
 
 namespace clay {
 
@@ -19,5 +20,14 @@ struct WallMinimum {
 
 /// [mm]; 0 without rings.
 [[nodiscard]] double largest_radius_mm(const ClayStack& stack) noexcept;
+
+/// What every ring bears [kPa], bottom to top: beta_i = g M_i / (pi (R_i^2 - r_i^2)), M_i the mass
+/// of all above it, crown included (paper, section 7). To the last bit what the stability of a scene
+/// compares with its StabilitySpec::max_stress_kpa.
+[[nodiscard]] std::vector<double> stresses_kpa(const ClayStack& stack, double density_g_cm3);
+
+/// What the bore that opens at the top holds when it is filled to the brim [mm^3], exact for the
+/// steps as they are, of a pot in one piece; 0 where there is none, or where it goes right through.
+[[nodiscard]] double capacity_mm3(const ClayStack& stack) noexcept;
 
 }  // namespace clay

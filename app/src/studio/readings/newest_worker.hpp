@@ -1,0 +1,92 @@
+#pragma once
+// A thread that works on the newest question only: one that comes while it works replaces the one
+// that waits.
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+namespace clay::studio {
+
+/// For one thread that asks and takes. Questions and answers are values; no one but the two
+/// threads knows the lock.
+template <class Question, class Answer>
+class NewestWorker {
+ public:
+  using Work = std::function<Answer(const Question&)>;
+
+  /// Without `thread` an answer is there as soon as it is asked for.
+  NewestWorker(Work work, bool thread) : work_(std::move(work)) {
+    if (thread) thread_ = std::thread([this] { run(); });
+  }
+  /// Waits for the work that is under way.
+  ~NewestWorker() {
+    {
+      const std::lock_guard lock(mutex_);
+      over_ = true;
+    }
+    wake_.notify_one();
+    if (thread_.joinable()) thread_.join();
+  }
+  NewestWorker(const NewestWorker&) = delete;
+  NewestWorker& operator=(const NewestWorker&) = delete;
+
+  void ask(Question question) {
+    if (!thread_.joinable()) {
+      answer_ = work_(question);
+      return;
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      if (question_) ++dropped_;
+      question_ = std::move(question);
+    }
+    wake_.notify_one();
+  }
+  /// The newest answer, once.
+  [[nodiscard]] std::optional<Answer> take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(answer_, std::nullopt);
+  }
+  /// A question waits, is worked on, or its answer has not been taken.
+  [[nodiscard]] bool busy() const {
+    const std::lock_guard lock(mutex_);
+    return question_ || working_ || answer_;
+  }
+  /// Questions that a newer one replaced.
+  [[nodiscard]] std::uint64_t dropped() const {
+    const std::lock_guard lock(mutex_);
+    return dropped_;
+  }
+
+ private:
+  void run() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      wake_.wait(lock, [&] { return over_ || question_; });
+      if (over_) return;
+      const Question question = *std::exchange(question_, std::nullopt);
+      working_ = true;
+      lock.unlock();
+      Answer answer = work_(question);
+      lock.lock();
+      working_ = false;
+      answer_ = std::move(answer);
+    }
+  }
+
+  Work work_;
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  std::optional<Question> question_;
+  std::optional<Answer> answer_;
+  bool working_ = false, over_ = false;
+  std::uint64_t dropped_ = 0;
+  std::thread thread_;  // last: it uses all of the above
+};
+
+}  // namespace clay::studio
