@@ -16,6 +16,9 @@ void add_plan_command(CLI::App& app, Console& console, int& exit);
 void add_export_command(CLI::App& app, Console& console, int& exit);
 void add_check_command(CLI::App& app, Console& console, int& exit);
 #endif
+#ifdef CLAYSTACK_DRAWINGS
+void add_import_command(CLI::App& app, Console& console, int& exit);
+#endif
 #ifdef CLAYSTACK_WINDOW
 void add_render_command(CLI::App& app, Console& console, int& exit);
 #endif

@@ -41,6 +41,9 @@ int run(int argc, char** argv) {
   add_check_command(app, console, exit);
 #endif
   add_plan_command(app, console, exit);
+#ifdef CLAYSTACK_DRAWINGS
+  add_import_command(app, console, exit);
+#endif
 #ifdef CLAYSTACK_WINDOW
   add_render_command(app, console, exit);
 #endif

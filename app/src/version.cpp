@@ -10,6 +10,9 @@ std::string version_text() {
 #ifdef CLAYSTACK_DRACO
   parts += " draco";
 #endif
+#ifdef CLAYSTACK_DRAWINGS
+  parts += " drawings";
+#endif
 #ifdef CLAYSTACK_WINDOW
   parts += " window";
 #endif

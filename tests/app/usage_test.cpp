@@ -13,7 +13,7 @@ TEST(Usage, VersionSaysWhatIsIn) {
 }
 
 TEST(Usage, HelpShowsExamplesAndExitStatuses) {
-  for (const char* command : {"", "throw ", "export ", "check ", "plan "}) {
+  for (const char* command : {"", "throw ", "export ", "check ", "plan ", "render "}) {
     const Ran run = claystack(std::string(command) + "--help");
     EXPECT_EQ(run.status, 0) << command;
     EXPECT_NE(run.out.find("Example"), std::string::npos) << command;

@@ -58,6 +58,7 @@ double ball(double part) {
 TEST(Silhouette, OfASolidCylinder) { expect_silhouette(cylinder, 0.0, 0.4); }
 TEST(Silhouette, OfACylinderWithABore) { expect_silhouette(cylinder, 6.0, 0.7); }
 TEST(Silhouette, OfAConeThatOpensUpwards) { expect_silhouette(cone, 5.0, 0.9); }
+TEST(Silhouette, FromAboveTheFloorIsClosed) { expect_silhouette(cylinder, 5.0, 1.5); }
 TEST(Silhouette, OfABall) { expect_silhouette(ball, 0.0, 0.3); }
 TEST(Silhouette, FromBelowTheFootIsClosed) { expect_silhouette(cylinder, 6.0, -0.6); }
 

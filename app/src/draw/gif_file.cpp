@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kColours = 256;
 constexpr std::size_t kSampled = std::size_t{1} << 20;  // pixels that the palette is chosen from
-constexpr std::size_t kCell = 5;                        // bits of a channel in the look-up table
+constexpr std::size_t kCell = 6;                        // bits of a channel in the look-up table
 
 using Palette = std::array<GifColorType, kColours>;
 
@@ -53,9 +53,11 @@ class Nearest {
 
  private:
   static constexpr std::size_t kMask = (std::size_t{1} << kCell) - 1;
-  static int middle(std::size_t cell) { return static_cast<int>((cell & kMask) << 3 | 4u); }
+  static int middle(std::size_t cell) {
+    return static_cast<int>((cell & kMask) << (8 - kCell) | 2u);
+  }
   static std::size_t part(int value) {
-    return static_cast<std::size_t>(std::clamp(value, 0, 255)) >> 3;
+    return static_cast<std::size_t>(std::clamp(value, 0, 255)) >> (8 - kCell);
   }
   static GifByteType nearest(const Palette& palette, int red, int green, int blue) {
     const auto far = [&](const GifColorType& c) {
@@ -109,7 +111,7 @@ bool put_frame(GifFileType* gif, const Image& image, const Nearest& nearest, int
   for (int y = 0; y < image.height_px; ++y) {
     for (int x = 0; x < image.width_px; ++x) {
       const std::uint8_t* p = image.at(x, y);
-      const int noise = dither(x, y) / 2;
+      const int noise = dither(x, y) * 3 / 4;
       line[static_cast<std::size_t>(x)] = nearest(p[0] + noise, p[1] + noise, p[2] + noise);
     }
     if (EGifPutLine(gif, line.data(), image.width_px) != GIF_OK) return false;
