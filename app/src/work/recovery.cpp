@@ -43,8 +43,8 @@ class Lock {
   bool held_ = false;
 };
 
-/// What one offers; nothing where that is nothing.
-std::optional<Recoverable> look_at(const fs::path& path) {
+/// What one offers; nothing where that is nothing. `needless`: a dead one's, with nothing to lose.
+std::optional<Recoverable> look_at(const fs::path& path, bool& needless) {
   const Lock lock(path, LOCK_SH);
   if (!lock.held()) return std::nullopt;
   Recoverable found;
@@ -64,7 +64,8 @@ std::optional<Recoverable> look_at(const fs::path& path) {
   found.running = reading->running;
   found.damage = reading->damage;
   const bool saved = work.saved_at == work.at && work.saved_nodes == work.nodes.size();
-  return saved && !found.damage ? std::nullopt : std::optional(std::move(found));
+  needless = saved && !found.damage;
+  return needless ? std::nullopt : std::optional(std::move(found));
 }
 
 }  // namespace
@@ -72,9 +73,12 @@ std::optional<Recoverable> look_at(const fs::path& path) {
 std::vector<Recoverable> recoverable(const fs::path& folder) {
   std::vector<Recoverable> all;
   std::error_code none;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
-    if (entry.path().extension() == ".work")
-      if (auto found = look_at(entry.path())) all.push_back(std::move(*found));
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+    if (entry.path().extension() != ".work") continue;
+    bool needless = false;
+    if (auto found = look_at(entry.path(), needless)) all.push_back(std::move(*found));
+    if (needless) (void)discard(entry.path());
+  }
   std::ranges::sort(all, [](const Recoverable& a, const Recoverable& b) {
     return std::pair(a.when, a.path) > std::pair(b.when, b.path);
   });

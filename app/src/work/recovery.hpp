@@ -23,8 +23,8 @@ struct Recoverable {
   std::optional<Error> damage;  ///< what cannot be read of it, and where
 };
 
-/// Newest first; without those of living programs, those with no strokes, and those whose work was
-/// saved as it is. No folder: none.
+/// Newest first; without those of living programs. Those with no strokes, and those whose work was
+/// saved as it is, are removed. No folder: none.
 std::vector<Recoverable> recoverable(const std::filesystem::path& folder = recovery_folder());
 
 /// The work, with the same journal going on. A stroke that was being recorded is there, but for its
