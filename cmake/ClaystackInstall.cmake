@@ -32,6 +32,9 @@ if(CLAYSTACK_FALCON AND CLAYSTACK_USB)
 endif()
 if(CLAYSTACK_APP)
   install(TARGETS claystack)
+  if(TARGET claystack-studio)
+    install(TARGETS claystack-studio)
+  endif()
 endif()
 
 configure_package_config_file(cmake/ClaystackConfig.cmake.in

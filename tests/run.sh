@@ -3,7 +3,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 sh samples/install_packages.sh clang admesh draco prusa-slicer openscad librsvg2-bin \
-  libbenchmark-dev libxml2-utils imagemagick umockdev libumockdev-dev
+  libbenchmark-dev libxml2-utils imagemagick umockdev libumockdev-dev xvfb xdotool
 cmake --preset release -DCLAYSTACK_BENCH=ON
 cmake --build --preset release
 ctest --preset release -j 2

@@ -16,16 +16,18 @@ TEST(Actions, EachIdAndEachChordIsGivenOnce) {
   std::set<std::string> chords;
   for (const Action& action : actions()) {
     EXPECT_TRUE(ids.insert(action.id).second) << action.id;
-    for (const KeyChord& chord : {action.chord, action.also})
-      if (chord.key != 0)
-        EXPECT_TRUE(chords.insert(text_of(chord)).second) << text_of(chord) << " " << action.id;
+    for (const KeyChord& chord : {action.chord, action.also}) {
+      if (chord.key == 0) continue;
+      EXPECT_TRUE(chords.insert(text_of(chord)).second) << text_of(chord) << " " << action.id;
+    }
   }
 }
 
 TEST(Actions, EachIsFoundByItsIdAndItsChord) {
   for (const Action& action : actions()) {
     EXPECT_EQ(find_action(action.id), &action);
-    if (action.chord.key != 0) EXPECT_EQ(action_of(action.chord), &action);
+    if (action.chord.key == 0) continue;
+    EXPECT_EQ(action_of(action.chord), &action);
   }
   EXPECT_EQ(find_action("edit.nothing"), nullptr);
   EXPECT_EQ(action_of({}), nullptr);

@@ -115,10 +115,11 @@ TEST_F(Window, BothThemesAndScalesAreDrawn) {
     ASSERT_EQ(ran.status, 0) << ran.err;
     int red = 0, green = 0, blue = 0;
     ASSERT_EQ(std::sscanf(pixel("t.png", 4, 640).c_str(), "%d %d %d", &red, &green, &blue), 3);
-    if (std::string(theme) == "dark")
+    if (std::string(theme) == "dark") {
       EXPECT_LT(red, 80);
-    else
+    } else {
       EXPECT_GT(red, 200);
+    }
   }
 }
 

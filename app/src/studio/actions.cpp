@@ -20,8 +20,10 @@ constexpr float kScaleStep = 1.1f;
 bool always(const Workshop&) { return true; }
 bool has_work(const Workshop& shop) { return shop.potter.has_work(); }
 bool at_rest(const Workshop& shop) { return has_work(shop) && !shop.potter.throwing(); }
-bool can_undo(const Workshop& shop) { return at_rest(shop) && shop.potter.can_undo(); }
-bool can_redo(const Workshop& shop) { return at_rest(shop) && shop.potter.can_redo(); }
+/// An arm throws all the time: there the stroke that lasts is ended first.
+bool between(const Workshop& shop) { return at_rest(shop) || shop.potter.has_device(); }
+bool can_undo(const Workshop& shop) { return between(shop) && shop.potter.can_undo(); }
+bool can_redo(const Workshop& shop) { return between(shop) && shop.potter.can_redo(); }
 bool asks(const Workshop& shop) { return shop.overlay == Overlay::quit_prompt; }
 bool pinching(const Workshop& shop) { return shop.settings.tool.mode == ToolMode::pinch; }
 
@@ -112,7 +114,8 @@ void pause(Workshop& shop) {
 void back(Workshop& shop) {
   if (shop.view.sizing()) return shop.view.cancel(shop);
   if (shop.overlay != Overlay::none) return close_overlay(shop);
-  if (shop.potter.throwing()) return shop.potter.release();
+  if (shop.potter.throwing() && !shop.potter.has_device()) return shop.potter.release();
+  if (shop.potter.throwing()) return pause(shop);
   shop.notices.close();
 }
 
@@ -130,19 +133,19 @@ const std::
                        "New...",
                        {GLFW_KEY_N, kControl},
                        kNone,
-                       at_rest,
+                       between,
                        [](Workshop& s) { s.overlay = Overlay::gallery; }},
                 Action{"file.new_bowl", "New bowl", kNone, kNone, always, new_sample<0>},
                 Action{"file.new_vase", "New vase", kNone, kNone, always, new_sample<1>},
                 Action{"file.new_bottle", "New bottle", kNone, kNone, always, new_sample<2>},
                 Action{"file.new_cylinder", "New cylinder", kNone, kNone, always, new_sample<3>},
                 Action{"file.open", "Open...", {GLFW_KEY_O, kControl}, kNone, always, open},
-                Action{"file.save", "Save", {GLFW_KEY_S, kControl}, kNone, at_rest, save},
+                Action{"file.save", "Save", {GLFW_KEY_S, kControl}, kNone, between, save},
                 Action{"file.save_as",
                        "Save as...",
                        {GLFW_KEY_S, kControlShift},
                        kNone,
-                       at_rest,
+                       between,
                        save_as},
                 Action{"file.quit", "Quit", {GLFW_KEY_Q, kControl}, kNone, always, quit},
                 Action{"edit.undo",

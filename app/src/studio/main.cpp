@@ -1,6 +1,7 @@
 // `claystack studio`: a program of its own, so that no other command loads a window's libraries.
 
 #include "console.hpp"
+#include "device_choice.hpp"
 #include "studio/glfw_host.hpp"
 #include "studio/script.hpp"
 
@@ -17,6 +18,8 @@ namespace {
 
 struct Options {
   std::string file, script, screenshot, theme;
+  std::string device = "auto";
+  std::string firmware;
   std::string size = "1280x800";
   double scale = 0.0;  ///< 0: the screen's, or 1 without one
   bool log = false;
@@ -78,35 +81,46 @@ Result<void> run_window(const Options& options, glm::ivec2 size,
   auto studio = Studio::create(**host, loaded.settings, log);
   if (!studio) return tl::make_unexpected(studio.error());
   Workshop& shop = (*studio)->shop();
+  shop.potter.keep_journals();
+  shop.left = work::recoverable();
+  shop.devices = std::make_unique<DeviceWatch>(options.device, options.firmware);
   if (!loaded.note.empty()) shop.notices.say(Grade::warning, loaded.note);
   if (!options.file.empty()) open_file(shop, options.file);
   log("window open");
   (*host)->run(**studio);
+  shop.potter.close();
   log("window closed");
   return save_settings(shop.settings, settings_path());
 }
 
 int run(int argc, char** argv) {
   Options options;
-  CLI::App app("The window: throw by mouse or by hand, see and keep what becomes of it.",
-               "claystack studio");
-  app.add_option("file", options.file, "NAME.scene.json, a pot, or NAME.work");
-  app.add_option("--script", options.script, "Drive the window from a file, without a screen");
-  app.add_option("--screenshot", options.screenshot,
-                 "Without a screen: the window at the end, as PNG");
-  app.add_option("--size", options.size, "Of the window [px] (default 1280x800)");
-  app.add_option("--scale", options.scale, "Of text and controls")
+  CLI::App parser("The window: throw by mouse or by hand, see and keep what becomes of it.",
+                  "claystack studio");
+  parser.add_option("file", options.file, "NAME.scene.json, a pot, or NAME.work");
+  parser
+      .add_option("--device", options.device,
+                  "auto, none, or as `claystack throw` has it (default auto)")
+      ->check([](const std::string& which) {
+        return which == "none" ? std::string() : app::check_device_name(which);
+      });
+  app::add_firmware_option(parser, options.firmware);
+  parser.add_option("--script", options.script, "Drive the window from a file, without a screen");
+  parser.add_option("--screenshot", options.screenshot,
+                    "Without a screen: the window at the end, as PNG");
+  parser.add_option("--size", options.size, "Of the window [px] (default 1280x800)");
+  parser.add_option("--scale", options.scale, "Of text and controls")
       ->check(app::in_range(kSmallestScale, kLargestScale));
-  app.add_option("--theme", options.theme, "dark or light")
+  parser.add_option("--theme", options.theme, "dark or light")
       ->check(CLI::IsMember({"dark", "light"}));
-  app.add_flag("--log", options.log, "Events on standard output, a line each");
-  app.footer(
+  parser.add_flag("--log", options.log, "Events on standard output, a line each");
+  parser.footer(
       "\nExamples:\n  claystack studio\n  claystack studio samples/bowl.scene.json\n"
       "  claystack studio --script samples/replay/window.script --screenshot window.png");
   try {
-    app.parse(argc, argv);
+    parser.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? app::kDone : app::kBadInput;
+    return parser.exit(error) == 0 ? app::kDone : app::kBadInput;
   }
   const auto size = size_of(options.size);
   if (!size) return app::report(size.error());

@@ -1,6 +1,8 @@
 #include "studio/potter.hpp"
 
 #include "draw/pot_view.hpp"
+#include "live/mapping.hpp"
+#include "servo_check.hpp"
 
 #include <algorithm>
 
@@ -16,6 +18,25 @@ draw::PotView view_of(const live::LiveProfile& profile) {
   for (std::size_t row = 0; row < profile.size; ++row)
     view.rows.push_back({profile.rows[row].outer_mm, profile.rows[row].inner_mm});
   return view;
+}
+
+/// As stiff as the device can render at this rate, and no stiffer than the scene. What becomes of
+/// the clay does not depend on it.
+Result<SceneSpec> softened(SceneSpec scene, const live::LiveSettings& settings) {
+  if (!scene.force) return scene;
+  const auto mapping = live::Mapping::build(settings.mapping);
+  if (!mapping) return tl::make_unexpected(mapping.error());
+  const auto plan = StepPlan::build(scene);
+  if (!plan) return tl::make_unexpected(plan.error());
+  falcon::SampledLoop arm = settings.arm;
+  arm.rate_hz = settings.rate_hz;
+  const auto contact = app::servo_contact(scene, *plan, arm, mapping->stiffness_gain());
+  if (!contact) return tl::make_unexpected(contact.error());
+  if (contact->stiffness_n_per_m <= contact->accepted_n_per_m) return scene;
+  const double part = contact->accepted_n_per_m / contact->stiffness_n_per_m;
+  scene.force->stiffness_n_per_mm2 *= part;
+  if (scene.force->paper_stiffness_n_per_mm) *scene.force->paper_stiffness_n_per_mm *= part;
+  return scene;
 }
 
 }  // namespace
@@ -40,10 +61,29 @@ Result<void> Potter::begin(WorkRecord record) {
 void Potter::begin(const SceneSpec& scene, work::Work work) {
   release();
   scene_ = scene;
+  if (work_ && !work_->unsaved() && work_->journal() != nullptr) work_->journal()->discard();
   work_.emplace(std::move(work));
   status_ = {};
   news_ = {};
+  device_waits_ = device_ != nullptr;
   show_pot();
+  if (!journals_ || work_->journal() != nullptr) return;
+  if (auto journal = work::Journal::begin(work_->record()))
+    work_->keep(std::move(*journal));
+  else
+    news_.error = journal.error();
+}
+
+Result<void> Potter::begin(work::Work work) {
+  const WorkRecord& record = work.record();
+  const SceneSpec scene = record.scenes.at(record.nodes.at(record.at).scene);
+  begin(scene, std::move(work));
+  return {};
+}
+
+void Potter::close() {
+  release();
+  if (work_ && work_->journal() != nullptr) work_->journal()->discard();
 }
 
 void Potter::show_pot() {
@@ -57,7 +97,9 @@ void Potter::show_pot() {
 }
 
 Result<void> Potter::press(const Press& press) {
+  if (device_) return {};  // the hand at the arm has the clay
   release();
+  device_waits_ = false;
   SceneSpec scene = scene_;
   scene.tool = press.tool;
   scene.removal.rate_per_s = press.rate_per_s;
@@ -66,10 +108,11 @@ Result<void> Potter::press(const Press& press) {
   gap_mm_ = std::max(closed_gap_mm_, press.gap_mm);
   settings.gap_mm = gap_mm_;
   mouse_.begin_at(press.place_mm);
-  return sit_down(scene, settings);
+  return sit_down(scene, mouse_, settings);
 }
 
-Result<void> Potter::sit_down(const SceneSpec& scene, const live::LiveSettings& settings) {
+Result<void> Potter::sit_down(const SceneSpec& scene, falcon::HapticDevice& device,
+                              const live::LiveSettings& settings) {
   if (pot_->collapse)
     return failure(ErrorKind::bad_input, "The clay has fallen: undo takes the last stroke back");
   auto wheel = Wheel::build(scene, *pot_);
@@ -77,8 +120,10 @@ Result<void> Potter::sit_down(const SceneSpec& scene, const live::LiveSettings& 
   auto sink = work_->begin_stroke(scene);
   if (!sink) return tl::make_unexpected(sink.error());
   auto recorder = live::Recorder::create(**sink);
-  auto sitting = Sitting::begin(std::move(*wheel), mouse_, clock_, recorder.get(), settings,
-                                threads_ ? Pace::thread : Pace::stepped);
+  const Pace pace = !threads_                ? Pace::stepped
+                    : device.info().can_push ? Pace::real_time
+                                             : Pace::thread;
+  auto sitting = Sitting::begin(std::move(*wheel), device, clock_, recorder.get(), settings, pace);
   if (!sitting) {
     (void)recorder->finish();
     (void)work_->end_stroke();  // without a pose it is none
@@ -111,21 +156,64 @@ void Potter::release() {
   news_.ring_limit = status_.ring_limit;
   const Pot felt = sitting_->wheel().pot();
   if (auto kept = recorder_->finish(); !kept) news_.error = kept.error();
+  if (recorder_->lost() > 0)
+    news_.error = Error{ErrorKind::io,
+                        "The stroke was kept up to where the machine was too slow to "
+                        "record it; what came after is gone"};
   auto added = work_->end_stroke(&felt);
   if (!added) news_.error = added.error();
   sitting_.reset();
   recorder_.reset();
   show_pot();
+  if (news_.ending == live::Ending::device_lost) lose_device();
+  device_waits_ = device_ != nullptr && news_.ending != live::Ending::collapsed;
+}
+
+void Potter::take(std::unique_ptr<falcon::HapticDevice> device, live::LiveSettings settings) {
+  release();
+  device_ = std::move(device);
+  device_settings_ = settings;
+  device_waits_ = true;
+}
+
+/// The force went with it; the mouse takes over.
+void Potter::lose_device() {
+  news_.error = Error{ErrorKind::device, falcon::text_of(device_->problem())};
+  device_.reset();
+}
+
+void Potter::hold(const ToolSpec& tool, double rate_per_s) {
+  if (!device_ || !work_ || (tool == scene_.tool && rate_per_s == scene_.removal.rate_per_s))
+    return;
+  release();
+  scene_.tool = tool;
+  scene_.removal.rate_per_s = rate_per_s;
+}
+
+/// A servo that has ended has told the device to give no force until it is opened again.
+void Potter::sit_with_device() {
+  device_waits_ = false;
+  auto opened = device_->open();
+  if (!opened) return lose_device();
+  const SceneSpec wanted = scene_;
+  auto begun =
+      (device_->info().can_push ? softened(scene_, device_settings_) : Result<SceneSpec>(scene_))
+          .and_then(
+              [&](const SceneSpec& scene) { return sit_down(scene, *device_, device_settings_); });
+  scene_ = wanted;
+  if (!begun) news_.error = begun.error();
 }
 
 void Potter::undo() {
   release();
   if (work_->undo()) show_pot();
+  device_waits_ = device_ != nullptr;
 }
 
 void Potter::redo() {
   release();
   if (work_->redo()) show_pot();
+  device_waits_ = device_ != nullptr;
 }
 
 Result<void> Potter::save(const std::string& path) {
@@ -134,6 +222,7 @@ Result<void> Potter::save(const std::string& path) {
 }
 
 void Potter::advance(std::int64_t now_ns) {
+  if (!sitting_ && device_waits_ && work_ && !pot_->collapse) sit_with_device();
   if (!sitting_) return;
   if (gap_mm_ > closed_gap_mm_) {
     const double elapsed_s = 1e-9 * static_cast<double>(now_ns - last_ns_);

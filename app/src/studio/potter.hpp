@@ -37,6 +37,8 @@ class Potter {
  public:
   /// `clock` outlives it. Without `threads` the servo ticks within `advance`.
   Potter(live::Clock& clock, bool threads) : clock_(clock), threads_(threads), mouse_(clock) {}
+  /// From now on every work has a journal, so that a program that dies loses none of it.
+  void keep_journals() noexcept { journals_ = true; }
   ~Potter() { release(); }
   Potter(const Potter&) = delete;
   Potter& operator=(const Potter&) = delete;
@@ -45,6 +47,10 @@ class Potter {
   Result<void> begin(const SceneSpec& scene);
   Result<void> begin(const SceneSpec& scene, const Pot& pot);
   Result<void> begin(WorkRecord record);
+  /// With the journal that it was recovered from.
+  Result<void> begin(work::Work work);
+  /// A clean end: what was not saved is not wanted.
+  void close();
   [[nodiscard]] bool has_work() const noexcept { return work_.has_value(); }
   /// Of the next stroke.
   [[nodiscard]] const SceneSpec& scene() const noexcept { return scene_; }
@@ -59,6 +65,13 @@ class Potter {
   void command(const live::Command& command) noexcept;
   /// Lets go; the stroke is part of the work.
   void release();
+
+  /// An arm or a controller in place of the mouse; it is open. Its strokes last from here until it
+  /// is given back, undo and a change of tool aside.
+  void take(std::unique_ptr<falcon::HapticDevice> device, live::LiveSettings settings);
+  [[nodiscard]] bool has_device() const noexcept { return device_ != nullptr; }
+  /// What the device holds in the clay: with the next frame.
+  void hold(const ToolSpec& tool, double rate_per_s);
   [[nodiscard]] bool throwing() const noexcept { return sitting_ != nullptr; }
 
   /// Once a frame.
@@ -71,7 +84,9 @@ class Potter {
   [[nodiscard]] const live::LiveStatus& status() const noexcept { return status_; }
   /// Of the servo, as measured; 0 at rest.
   [[nodiscard]] double tick_rate_hz() const noexcept { return tick_rate_hz_; }
-  [[nodiscard]] std::string device_name() const { return mouse_.info().name; }
+  [[nodiscard]] std::string device_name() const {
+    return device_ ? device_->info().name : mouse_.info().name;
+  }
 
   // Not while throwing.
   [[nodiscard]] bool can_undo() const noexcept { return work_ && work_->can_undo(); }
@@ -83,14 +98,21 @@ class Potter {
 
  private:
   void begin(const SceneSpec& scene, work::Work work);
-  Result<void> sit_down(const SceneSpec& scene, const live::LiveSettings& settings);
+  Result<void> sit_down(const SceneSpec& scene, falcon::HapticDevice& device,
+                        const live::LiveSettings& settings);
+  void sit_with_device();
+  void lose_device();
   void look();
   void show_pot();
   void count_ticks(std::int64_t now_ns);
 
   live::Clock& clock_;
   bool threads_;
+  bool journals_ = false;
   MouseDevice mouse_;
+  std::unique_ptr<falcon::HapticDevice> device_;
+  live::LiveSettings device_settings_;
+  bool device_waits_ = false;  // it is to sit down as soon as it can
   SceneSpec scene_;
   std::optional<work::Work> work_;
   work::SharedPot pot_;

@@ -117,6 +117,7 @@ void Studio::frame(bool paint_it) {
     take_waiting();
     shape_frame(elapsed_s);
   } while (!waiting_.empty() && !shop_.done);
+  look_at_devices(shop_);
   shop_.potter.advance(now_ns);
   shop_.host.clock().sleep_until_ns(now_ns);  // with no servo to move it
   tell_news();
@@ -209,6 +210,7 @@ void Studio::drop(const FilesDropped& files) {
 void Studio::tell_news() {
   const PotterNews news = shop_.potter.take_news();
   if (news.error) tell(shop_, *news.error);
+  if (news.ending == live::Ending::device_lost && shop_.devices) shop_.devices->look_again();
   if (!news.stroke_ended) return;
   shop_.log(
       fmt::format("stroke ended: {} poses, {} ticks", news.poses, shop_.potter.status().ticks));

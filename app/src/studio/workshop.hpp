@@ -2,16 +2,20 @@
 // What panels, actions and the view work on. Plain on purpose: a panel draws from it and changes
 // it, and knows no other panel.
 
+#include "studio/device_watch.hpp"
 #include "studio/host.hpp"
 #include "studio/notices.hpp"
 #include "studio/potter.hpp"
 #include "studio/scene_view.hpp"
 #include "studio/settings.hpp"
+#include "work/recovery.hpp"
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace clay::studio {
 
@@ -32,6 +36,8 @@ struct Workshop {
   Notices notices;
   std::function<void(std::string_view)> log;  ///< events, a line each
   Fonts fonts;
+  std::unique_ptr<DeviceWatch> devices;  ///< null: nobody looks for any
+  std::vector<work::Recoverable> left;   ///< by programs that died, newest first
   Overlay overlay = Overlay::gallery;
   bool restyle = true;  ///< theme or scale have changed
   bool paused = false;  ///< nothing that the hand does reaches the clay
@@ -59,6 +65,14 @@ void show_work(Workshop& shop);
 
 /// A new work from a scene; the tool that is chosen becomes the scene's.
 void begin_work(Workshop& shop, const SceneSpec& scene);
+/// Goes on with the work of a program that died, or drops it for good.
+void recover_work(Workshop& shop, std::size_t left);
+void discard_work(Workshop& shop, std::size_t left);
+
+/// An arm that has appeared takes the clay, with its stiffness within what it can render; what is
+/// wrong with one is told.
+void look_at_devices(Workshop& shop);
+
 /// Any file that the studio knows: a scene, a pot, a work.
 void open_file(Workshop& shop, const std::filesystem::path& path);
 /// By the ending of the name; whether it was written. A window that waits for this to close does.

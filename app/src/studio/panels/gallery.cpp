@@ -89,6 +89,27 @@ void own_lump(Workshop& shop) {
   ImGui::Columns(1);
 }
 
+/// What a program that died has left.
+void left_works(Workshop& shop) {
+  const std::size_t shown = std::min<std::size_t>(shop.left.size(), 3);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const work::Recoverable& left = shop.left[i];
+    ImGui::PushID(static_cast<int>(i));
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(
+        shop.colours().warning, "%s",
+        fmt::format("Not saved: {}, {} strokes, {:.0f} s", left.scene, left.strokes, left.seconds)
+            .c_str());
+    ImGui::SameLine();
+    const bool wanted = ImGui::Button("Go on with it");
+    ImGui::SameLine();
+    const bool unwanted = ImGui::Button("Discard");
+    ImGui::PopID();
+    if (wanted) return recover_work(shop, i);
+    if (unwanted) return discard_work(shop, i);
+  }
+}
+
 }  // namespace
 
 void draw_gallery(Workshop& shop, const ViewRect& view) {
@@ -100,6 +121,7 @@ void draw_gallery(Workshop& shop, const ViewRect& view) {
   faint_text(shop.colours(),
              "Each is a lump of clay on the wheel; the picture is what it can become.");
   ImGui::Spacing();
+  left_works(shop);
   const float room = ImGui::GetContentRegionAvail().x;
   float used = 0.0f;
   for (const Sample& sample : samples()) {

@@ -1,0 +1,43 @@
+#pragma once
+// Looks for an arm or a controller while the window runs, and opens one that appears. Opening may
+// take seconds, so a thread of its own does it.
+
+#include "claystack/falcon/device.hpp"
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace clay::studio {
+
+class DeviceWatch {
+ public:
+  /// `which` as device_choice has it: "auto" waits for whatever is plugged in; "none" never looks;
+  /// any other is tried until it opens.
+  explicit DeviceWatch(std::string which, std::string firmware = {});
+  ~DeviceWatch();
+  DeviceWatch(const DeviceWatch&) = delete;
+  DeviceWatch& operator=(const DeviceWatch&) = delete;
+
+  /// An open device that has appeared since, or null. It then stops looking, until `look_again`.
+  [[nodiscard]] std::unique_ptr<falcon::HapticDevice> take();
+  void look_again();
+  /// Why what is there cannot be used, each reason once; empty: nothing new.
+  [[nodiscard]] std::string take_problem();
+
+ private:
+  void run();
+  void look();
+
+  std::string which_, firmware_;
+  std::mutex mutex_;  // of what follows
+  std::condition_variable wake_;
+  std::unique_ptr<falcon::HapticDevice> found_;
+  std::string problem_, told_;
+  bool looking_ = true, closing_ = false;
+  std::thread thread_;
+};
+
+}  // namespace clay::studio
