@@ -93,10 +93,13 @@ Studio::~Studio() {
   ImGui::DestroyContext(context_);
 }
 
-bool Studio::wakeful() const noexcept { return moving() || coarse_ || awake_frames_ > 0; }
+bool Studio::wakeful() const noexcept {
+  return moving() || coarse_ || awake_frames_ > 0 || shop_.exporter.busy() || shop_.dialog.open();
+}
 
 bool Studio::moving() const noexcept {
-  return shop_.potter.throwing() || spin_ > 0.0 || shop_.view.turning();
+  return shop_.potter.throwing() || spin_ > 0.0 || shop_.view.turning() || shop_.fall.running() ||
+         shop_.potter.scrubbing();
 }
 
 void Studio::frame(bool paint_it) {
@@ -118,9 +121,13 @@ void Studio::frame(bool paint_it) {
     shape_frame(elapsed_s);
   } while (!waiting_.empty() && !shop_.done);
   look_at_devices(shop_);
+  look_at_dialog(shop_);
+  look_at_export(shop_);
   shop_.potter.advance(now_ns);
   shop_.host.clock().sleep_until_ns(now_ns);  // with no servo to move it
   tell_news();
+  show_fall(now_s);
+  name_window();
   turn_wheel(elapsed_s);
   if (paint_it) paint();
 }
@@ -198,7 +205,8 @@ void Studio::key(const KeyChanged& change) {
   // Behind what is open over the view nothing changes.
   if (shop_.overlay != Overlay::none && change.key != GLFW_KEY_ESCAPE &&
       !action->id.starts_with("file.") && !action->id.starts_with("view.") &&
-      !action->id.starts_with("help.") && !action->id.starts_with("quit."))
+      !action->id.starts_with("help.") && !action->id.starts_with("quit.") &&
+      !action->id.starts_with("export.") && !action->id.starts_with("import."))
     return;
   run(*action, shop_);
 }
@@ -214,14 +222,41 @@ void Studio::tell_news() {
   if (!news.stroke_ended) return;
   shop_.log(
       fmt::format("stroke ended: {} poses, {} ticks", news.poses, shop_.potter.status().ticks));
-  if (news.ending == live::Ending::collapsed)
+  shop_.marks.clear();
+  if (news.ending == live::Ending::collapsed) {
+    shop_.fall.begin(shop_.potter.shared_pot(), last_s_);
     shop_.notices.say(Grade::warning,
                       "The clay has fallen: it could no longer carry itself. Undo takes the stroke "
                       "back.");
+  }
   if (news.ring_limit)
     shop_.notices.say(Grade::warning,
                       "The clay stands as high as this lump allows: what more rises waits above "
                       "the rim.");
+}
+
+/// Whatever else is on the wheel meanwhile ends it.
+void Studio::show_fall(double now_s) {
+  if (!shop_.fall.running()) return;
+  const bool fallen = shop_.potter.has_work() && shop_.potter.pot().collapse &&
+                      !shop_.potter.scrubbing() && !shop_.potter.throwing();
+  if (!fallen) return shop_.fall.end();
+  if (const auto place = shop_.fall.at(now_s, shop_.potter.view()))
+    shop_.potter.show_fall(*place);
+  else
+    shop_.potter.go_to(shop_.potter.work().at());
+}
+
+/// As the desktop shows it; a star where the work is not saved.
+void Studio::name_window() {
+  std::string title = "Claystack";
+  if (shop_.potter.has_work())
+    title = fmt::format(
+        "{}{} - Claystack", shop_.potter.unsaved() ? "*" : "",
+        shop_.file.empty() ? shop_.potter.scene().name : shop_.file.filename().string());
+  if (title == title_) return;
+  shop_.host.set_title(title);
+  title_ = std::move(title);
 }
 
 /// The wheel turns while there is a tool in the clay.
@@ -246,10 +281,14 @@ void Studio::lay_out() {
   if (left > 0.0f) draw_column(shop_, Column::left, {0.0f, top}, {left, height});
   if (right > 0.0f) draw_column(shop_, Column::right, {size.x - right, top}, {right, height});
   draw_status_bar(shop_, {0.0f, size.y - status}, {size.x, status});
-  const ViewRect view{{left, top}, {std::max(1.0f, size.x - left - right), height}};
+  const float wide = std::max(1.0f, size.x - left - right);
+  const float strip = timeline_height(shop_, height);
+  const ViewRect view{{left, top}, {wide, height - strip}};
+  if (strip > 0.0f) draw_timeline(shop_, {left, top + height - strip}, {wide, strip});
   const bool first = shop_.view.rect().size_px.x <= 1.0f;
   shop_.view.place(view);
   if (first && shop_.potter.has_work()) shop_.view.look(shop_, Seen::home);
+  draw_marks(shop_, view);
   draw_hint(shop_, view);
   draw_overlay(shop_, view);
   draw_banner(shop_, view);

@@ -26,30 +26,6 @@ const draw::PotView& section_of(const Sample& sample) {
   return *made[index];
 }
 
-/// The pot as seen from the side, and its wall in section on the right half.
-void draw_section(const draw::PotView& pot, ImVec2 corner, float side, const Palette& colours) {
-  if (pot.rows.empty()) return;
-  float widest = 1.0f;
-  for (const draw::Row& row : pot.rows) widest = std::max(widest, row.outer_mm);
-  const float height = static_cast<float>(pot.height_mm);
-  const float scale = 0.9f * side / std::max(2.0f * widest, height);
-  const float middle = corner.x + 0.5f * side,
-              foot = corner.y + 0.5f * side + 0.5f * scale * height;
-  const float step = scale * height / static_cast<float>(pot.rows.size());
-  ImVec4 shade = colours.clay;
-  shade.w = 0.35f;
-  const ImU32 face = ImGui::GetColorU32(colours.clay), body = ImGui::GetColorU32(shade);
-  ImDrawList* draw = ImGui::GetWindowDrawList();
-  for (std::size_t i = 0; i < pot.rows.size(); ++i) {
-    const float top = foot - step * static_cast<float>(i + 1),
-                bottom = foot - step * static_cast<float>(i);
-    const float outer = scale * pot.rows[i].outer_mm, inner = scale * pot.rows[i].inner_mm;
-    draw->AddRectFilled({middle - outer, top}, {middle, bottom}, face);
-    draw->AddRectFilled({middle, top}, {middle + inner, bottom}, body);
-    draw->AddRectFilled({middle + inner, top}, {middle + outer, bottom}, face);
-  }
-}
-
 bool card(const Sample& sample, const Palette& colours, ImFont* title) {
   const float em = ImGui::GetFontSize();
   ImGui::BeginGroup();

@@ -29,6 +29,11 @@ void draw_status_bar(Workshop& shop, glm::vec2 corner_px, glm::vec2 size_px);
 void draw_banner(Workshop& shop, const ViewRect& view);
 void draw_hint(Workshop& shop, const ViewRect& view);
 void draw_overlay(Workshop& shop, const ViewRect& view);
+/// What is wrong with the pot, where it is.
+void draw_marks(Workshop& shop, const ViewRect& view);
+/// Below the view; 0 where there is nothing to show or no room.
+[[nodiscard]] float timeline_height(const Workshop& shop, float room_px);
+void draw_timeline(Workshop& shop, glm::vec2 corner_px, glm::vec2 size_px);
 
 // The panels.
 void draw_tool(Workshop& shop);
@@ -41,5 +46,8 @@ void draw_gallery(Workshop& shop, const ViewRect& view);
 void draw_shortcuts(Workshop& shop, const ViewRect& view);
 void draw_quit_prompt(Workshop& shop, const ViewRect& view);
 void draw_file_box(Workshop& shop, const ViewRect& view);
+void draw_export_card(Workshop& shop, const ViewRect& view);
+void draw_import_card(Workshop& shop, const ViewRect& view);
+void draw_settings_card(Workshop& shop, const ViewRect& view);
 
 }  // namespace clay::studio
