@@ -73,7 +73,8 @@ bool FileDialog::begin(Kind kind, const std::filesystem::path& start_at) {
   if (open()) return false;
   const std::vector<std::string> words = words_of(kind, start_at.string());
   std::array<int, 2> ends{};
-  if (words.empty() || pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK) != 0) return false;
+  if (words.empty() || pipe2(ends.data(), O_CLOEXEC) != 0) return false;
+  fcntl(ends[0], F_SETFL, O_NONBLOCK);
   child_ = start(words, ends[1]);
   close(ends[1]);
   kind_ = kind;

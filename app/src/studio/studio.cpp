@@ -1,6 +1,7 @@
 #include "studio/studio.hpp"
 
 #include "studio/actions.hpp"
+#include "studio/imgui_setup.hpp"
 #include "studio/panels/panels.hpp"
 
 #include <backends/imgui_impl_opengl3.h>
@@ -23,40 +24,6 @@ constexpr double kSpinUpS = 0.6;  // of the wheel, to and from its speed
 constexpr double kLongestFrameS = 0.1;
 constexpr int kFramesAfterInput = 3;  // an ImGui window settles in that many
 
-/// GLFW's codes are ImGui's own indices here.
-void map_keys(ImGuiIO& io) {
-  constexpr std::array kKeys = {std::pair{ImGuiKey_Tab, GLFW_KEY_TAB},
-                                std::pair{ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
-                                std::pair{ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
-                                std::pair{ImGuiKey_UpArrow, GLFW_KEY_UP},
-                                std::pair{ImGuiKey_DownArrow, GLFW_KEY_DOWN},
-                                std::pair{ImGuiKey_Home, GLFW_KEY_HOME},
-                                std::pair{ImGuiKey_End, GLFW_KEY_END},
-                                std::pair{ImGuiKey_Delete, GLFW_KEY_DELETE},
-                                std::pair{ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
-                                std::pair{ImGuiKey_Enter, GLFW_KEY_ENTER},
-                                std::pair{ImGuiKey_Escape, GLFW_KEY_ESCAPE},
-                                std::pair{ImGuiKey_A, GLFW_KEY_A},
-                                std::pair{ImGuiKey_C, GLFW_KEY_C},
-                                std::pair{ImGuiKey_V, GLFW_KEY_V},
-                                std::pair{ImGuiKey_X, GLFW_KEY_X},
-                                std::pair{ImGuiKey_Y, GLFW_KEY_Y},
-                                std::pair{ImGuiKey_Z, GLFW_KEY_Z}};
-  for (const auto& [ours, theirs] : kKeys) io.KeyMap[ours] = theirs;
-}
-
-void connect_clipboard(ImGuiIO& io, Host& host) {
-  io.ClipboardUserData = &host;
-  io.SetClipboardTextFn = [](void* user, const char* text) {
-    static_cast<Host*>(user)->set_clipboard(text);
-  };
-  io.GetClipboardTextFn = [](void* user) -> const char* {
-    static std::string held;  // until ImGui has copied it
-    held = static_cast<Host*>(user)->clipboard();
-    return held.c_str();
-  };
-}
-
 std::int64_t steady_ns() {
   return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
 }
@@ -75,11 +42,7 @@ Result<std::unique_ptr<Studio>> Studio::create(Host& host, Settings settings,
   if (!painter) return tl::make_unexpected(painter.error());
   studio->painter_.emplace(std::move(*painter));
   studio->context_ = ImGui::CreateContext();
-  ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;  // the layout is fixed
-  io.LogFilename = nullptr;
-  map_keys(io);
-  connect_clipboard(io, host);
+  connect_imgui(host);
   if (!ImGui_ImplOpenGL3_Init("#version 330 core"))
     return failure(ErrorKind::device, "the window's controls: expected OpenGL 3.3");
   studio->last_s_ = seconds(host.frame_ns());
@@ -206,7 +169,8 @@ void Studio::key(const KeyChanged& change) {
   if (shop_.overlay != Overlay::none && change.key != GLFW_KEY_ESCAPE &&
       !action->id.starts_with("file.") && !action->id.starts_with("view.") &&
       !action->id.starts_with("help.") && !action->id.starts_with("quit.") &&
-      !action->id.starts_with("export.") && !action->id.starts_with("import."))
+      !action->id.starts_with("export.") && !action->id.starts_with("recover.") &&
+      !action->id.starts_with("import."))
     return;
   run(*action, shop_);
 }
@@ -282,7 +246,7 @@ void Studio::lay_out() {
   if (right > 0.0f) draw_column(shop_, Column::right, {size.x - right, top}, {right, height});
   draw_status_bar(shop_, {0.0f, size.y - status}, {size.x, status});
   const float wide = std::max(1.0f, size.x - left - right);
-  const float strip = timeline_height(shop_, height);
+  const float strip = timeline_height(shop_, {wide, height});
   const ViewRect view{{left, top}, {wide, height - strip}};
   if (strip > 0.0f) draw_timeline(shop_, {left, top + height - strip}, {wide, strip});
   const bool first = shop_.view.rect().size_px.x <= 1.0f;

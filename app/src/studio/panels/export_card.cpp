@@ -75,6 +75,17 @@ void draw_choices(Workshop& shop, ExportWish& wish) {
     wish.shrinkage_percent = std::round(10.0 * static_cast<double>(percent)) / 10.0;
 }
 
+const char* title_of(solid::MeshFormat format) {
+  switch (format) {
+    case solid::MeshFormat::obj:
+      return "OBJ";
+    case solid::MeshFormat::drc:
+      return "Draco";
+    default:
+      return "STL";
+  }
+}
+
 std::string size_text(const solid::ExportReport& report, double factor, LengthUnit unit) {
   return fmt::format("{} wide, {} high", length_text(factor * report.diameter_mm, unit),
                      length_text(factor * report.height_mm, unit));
@@ -86,7 +97,7 @@ void draw_shown(Workshop& shop, const app::ExportDone& done) {
   const solid::ExportReport& report = done.report;
   value_row(colours, "Triangles", fmt::format("{}", report.triangles));
   for (const solid::FileReport& file : report.files)
-    value_row(colours, std::string(solid::name_of(file.format)).c_str(),
+    value_row(colours, title_of(file.format),
               fmt::format("{:.3f} MB", 1e-6 * static_cast<double>(file.bytes)));
   value_row(colours, "Size as written", size_text(report, 1.0, unit));
   if (report.shrinkage > 0.0)
@@ -140,7 +151,7 @@ void draw_answers(Workshop& shop) {
                                      : fmt::format("{} files", standing.size())));
   }
   if (writes) {
-    if (ImGui::Button("Cancel (export goes on with its stage)")) act(shop, "export.cancel");
+    if (ImGui::Button("Cancel")) act(shop, "export.cancel");
   } else {
     if (ImGui::Button("Export (Ctrl+Enter)")) act(shop, "export.write");
     ImGui::SameLine();

@@ -4,15 +4,18 @@
 #include "studio/panels/widgets.hpp"
 #include "studio/samples.hpp"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <optional>
 
 namespace clay::studio {
 namespace {
 
+constexpr std::size_t kMostLeftShown = 3;
 constexpr float kCardEm = 10.6f, kPictureEm = 9.0f;
 
 /// Sections of the finished samples, made when they are first seen.
@@ -65,25 +68,38 @@ void own_lump(Workshop& shop) {
   ImGui::Columns(1);
 }
 
+/// "22 Nov 14:05", where the user is.
+std::string time_text(std::chrono::system_clock::time_point when) {
+  return fmt::format("{:%d %b %H:%M}", fmt::localtime(std::chrono::system_clock::to_time_t(when)));
+}
+
 /// What a program that died has left.
 void left_works(Workshop& shop) {
-  const std::size_t shown = std::min<std::size_t>(shop.left.size(), 3);
+  if (shop.left.empty()) return;
+  const std::size_t shown = std::min(shop.left.size(), kMostLeftShown);
+  const float em = ImGui::GetFontSize();
+  ImGui::PushStyleColor(ImGuiCol_Border, shop.colours().warning);
+  ImGui::BeginChild("##left", {0.0f, (2.6f + 2.2f * static_cast<float>(shown)) * em}, true);
+  ImGui::PopStyleColor();
+  ImGui::TextColored(shop.colours().warning, "Not saved when the program ended:");
   for (std::size_t i = 0; i < shown; ++i) {
     const work::Recoverable& left = shop.left[i];
     ImGui::PushID(static_cast<int>(i));
     ImGui::AlignTextToFramePadding();
-    ImGui::TextColored(
-        shop.colours().warning, "%s",
-        fmt::format("Not saved: {}, {} strokes, {:.0f} s", left.scene, left.strokes, left.seconds)
-            .c_str());
-    ImGui::SameLine();
-    const bool wanted = ImGui::Button("Go on with it");
+    ImGui::TextUnformatted(fmt::format("{}, {}: {} stroke{}, {:.0f} s{}", time_text(left.when),
+                                       left.scene, left.strokes, left.strokes == 1 ? "" : "s",
+                                       left.seconds, left.running ? ", the last one cut short" : "")
+                               .c_str());
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - 14.0f * em);
+    const bool wanted = ImGui::Button(i == 0 ? "Recover (Ctrl+R)" : "Recover");
     ImGui::SameLine();
     const bool unwanted = ImGui::Button("Discard");
     ImGui::PopID();
-    if (wanted) return recover_work(shop, i);
-    if (unwanted) return discard_work(shop, i);
+    if (wanted) recover_work(shop, i);
+    if (unwanted) discard_work(shop, i);
+    if (wanted || unwanted) break;
   }
+  ImGui::EndChild();
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ void draw_made(Workshop& shop) {
   const ImportCard& card = shop.importing;
   const Palette& colours = shop.colours();
   const float side = 14.0f * ImGui::GetFontSize();
-  ImGui::BeginChild("##made", {0.0f, side + 1.2f * ImGui::GetFontSize()}, true);
+  ImGui::BeginChild("##made", {0.0f, side + 2.2f * ImGui::GetFontSize()}, true);
   if (!card.made) {
     ImGui::PushStyleColor(ImGuiCol_Text, colours.warning);
     ImGui::TextWrapped("%s", card.problem.c_str());

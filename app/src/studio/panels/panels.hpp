@@ -32,7 +32,7 @@ void draw_overlay(Workshop& shop, const ViewRect& view);
 /// What is wrong with the pot, where it is.
 void draw_marks(Workshop& shop, const ViewRect& view);
 /// Below the view; 0 where there is nothing to show or no room.
-[[nodiscard]] float timeline_height(const Workshop& shop, float room_px);
+[[nodiscard]] float timeline_height(const Workshop& shop, glm::vec2 room_px);
 void draw_timeline(Workshop& shop, glm::vec2 corner_px, glm::vec2 size_px);
 
 // The panels.

@@ -15,6 +15,7 @@ namespace clay::studio {
 namespace {
 
 constexpr float kRowEm = 1.6f, kStartEm = 3.6f, kNarrowestEm = 1.0f;
+constexpr float kAroundEm = kStartEm + 1.2f;  // of the width, beside the blocks
 constexpr std::size_t kMostRowsShown = 3;
 constexpr float kLeastRoomEm = 26.0f;  // of the view: below it the strip goes
 constexpr float kDragPx = 4.0f;        // a shake of a click is none
@@ -99,6 +100,13 @@ bool draw_start(const Workshop& shop, const Scale& scale) {
   return clicked;
 }
 
+/// A long work scrolls: every stroke stays wide enough to be hit.
+float scale_px_per_s(const Timeline& timeline, float width_px) {
+  const float em = ImGui::GetFontSize();
+  const float fitting = (width_px - kAroundEm * em) / static_cast<float>(timeline.seconds);
+  return std::clamp(fitting, kNarrowestEm * em / static_cast<float>(kShortestBlockS), 8.0f * em);
+}
+
 /// The stroke that the mouse has hold of.
 struct Held {
   work::NodeId node = 0;
@@ -148,12 +156,15 @@ void handle_mouse(Workshop& shop, const Timeline& timeline, const Scale& scale) 
 
 }  // namespace
 
-float timeline_height(const Workshop& shop, float room_px) {
+float timeline_height(const Workshop& shop, glm::vec2 room_px) {
   const float em = ImGui::GetFontSize();
-  if (!shop.potter.has_work() || shop.potter.work().size() < 2 || room_px < kLeastRoomEm * em)
+  if (!shop.potter.has_work() || shop.potter.work().size() < 2 || room_px.y < kLeastRoomEm * em)
     return 0.0f;
-  const std::size_t rows = std::min(timeline_of(shop.potter.work()).rows, kMostRowsShown);
-  return (kRowEm * static_cast<float>(rows) + 1.7f) * em;
+  const Timeline timeline = timeline_of(shop.potter.work());
+  const float rows = static_cast<float>(std::min(timeline.rows, kMostRowsShown));
+  const bool scrolls = scale_px_per_s(timeline, room_px.x) >
+                       (room_px.x - kAroundEm * em) / static_cast<float>(timeline.seconds);
+  return (kRowEm * rows + 0.9f) * em + (scrolls ? ImGui::GetStyle().ScrollbarSize : 0.0f);
 }
 
 void draw_timeline(Workshop& shop, glm::vec2 corner_px, glm::vec2 size_px) {
@@ -167,15 +178,13 @@ void draw_timeline(Workshop& shop, glm::vec2 corner_px, glm::vec2 size_px) {
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_HorizontalScrollbar);
   const float start_px = kStartEm * em;
-  const float room = size_px.x - 1.2f * em - start_px;
-  const float fitting = room / static_cast<float>(timeline.seconds);
-  // A long work scrolls: every stroke stays wide enough to be hit.
-  const float px_per_s =
-      std::clamp(fitting, kNarrowestEm * em / static_cast<float>(kShortestBlockS), 8.0f * em);
+  const float px_per_s = scale_px_per_s(timeline, size_px.x);
   const Scale scale{ImGui::GetCursorScreenPos(), px_per_s, kRowEm * em, start_px};
-  if (draw_start(shop, scale)) shop.potter.go_to(0);
+  // Behind a card nothing changes.
+  const bool live = shop.overlay == Overlay::none;
+  if (draw_start(shop, scale) && live) shop.potter.go_to(0);
   for (const TimelineBlock& block : timeline.blocks) draw_block(shop, block, scale);
-  handle_mouse(shop, timeline, scale);
+  if (live) handle_mouse(shop, timeline, scale);
   ImGui::SetCursorScreenPos(
       {scale.origin.x, scale.origin.y + scale.row_px * static_cast<float>(timeline.rows) - 1.0f});
   ImGui::Dummy({start_px + px_per_s * static_cast<float>(timeline.seconds), 1.0f});
