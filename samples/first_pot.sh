@@ -13,12 +13,13 @@ packages="g++ cmake ninja-build ccache libglm-dev libexpected-dev nlohmann-json3
 sh samples/install_packages.sh $packages
 
 cmake --preset release -DCLAYSTACK_BENCH=OFF   # the measurements come with tests/run.sh
-cmake --build --preset release --target claystack
+cmake --build --preset release --target claystack claystack-studio
 
 claystack=build/release/app/claystack
 mkdir -p out
 $claystack throw samples/bowl.scene.json -o out/bowl.pot.json
 $claystack export out/bowl.pot.json out/bowl.stl out/bowl.obj out/bowl.drc out/bowl.svg
+$claystack render out/bowl.pot.json -o out/bowl.png
 for file in out/bowl.stl out/bowl.obj out/bowl.drc; do
   $claystack check "$file"
 done

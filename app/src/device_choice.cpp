@@ -1,5 +1,7 @@
 #include "device_choice.hpp"
 
+#include "console.hpp"
+
 #ifdef CLAYSTACK_USB
 #include "claystack/falcon/usb_devices.hpp"
 #endif
@@ -38,9 +40,25 @@ std::string check_device_name(const std::string& which) {
          which;
 }
 
-void add_firmware_option(CLI::App& command, std::string& firmware) {
-  command.add_option("--firmware", firmware, "The Falcon's firmware, from its driver")
+void add_falcon_options(CLI::App& command, falcon::FalconSettings& settings) {
+  command
+      .add_option("--firmware", settings.firmware_path, "The Falcon's firmware, from its driver")
       ->envname("CLAYSTACK_FALCON_FIRMWARE");
+  command
+      .add_option_function<std::string>(
+          "--geometry",
+          [&settings](const std::string& name) {
+            settings.geometry = name == "libnifalcon" ? falcon::kLibnifalconGeometry
+                                                      : falcon::kMartinHillierGeometry;
+          },
+          "Sizes of the Falcon's arms: libnifalcon or martin-hillier")
+      ->check(CLI::IsMember({"libnifalcon", "martin-hillier"}))
+      ->default_str("libnifalcon");
+  command
+      .add_option("--motor-counts", settings.motor_counts_per_nm,
+                  "Of the Falcon's motors, for 1 N m at an arm; more pushes harder")
+      ->check(CLI::Validator(in_range(1.0, 1e6), ""))
+      ->capture_default_str();
 }
 
 Result<DevicePointer> open_chosen(const std::string& which, const falcon::FalconSettings& settings,

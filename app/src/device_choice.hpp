@@ -22,8 +22,9 @@ inline constexpr const char* kHomingAdvice =
 /// expected.
 [[nodiscard]] std::string check_device_name(const std::string& which);
 
-/// --firmware, or CLAYSTACK_FALCON_FIRMWARE.
-void add_firmware_option(CLI::App& command, std::string& firmware);
+/// Of a Falcon, also behind a bridge: --firmware, or CLAYSTACK_FALCON_FIRMWARE; --geometry and
+/// --motor-counts, since published figures differ. `settings` outlives the command.
+void add_falcon_options(CLI::App& command, falcon::FalconSettings& settings);
 
 /// The device, open. `simulated` is made as it says; the others need the USB parts built in.
 Result<std::unique_ptr<falcon::HapticDevice>> open_chosen(

@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "device_choice.hpp"
 #include "device_monitor.hpp"
+#include "live_throw.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -14,8 +15,9 @@ namespace {
 
 struct DevicesOptions {
   std::string which;
-  std::string firmware;
+  falcon::FalconSettings falcon;
   bool monitor = false;
+  live::MappingSettings mapping;
   double seconds = 0.0;  // 0: until interrupted
 };
 
@@ -87,7 +89,7 @@ Result<void> show(const DevicesOptions& options, const falcon::DeviceSettings& s
   if (!device) return tl::make_unexpected(device.error());
   falcon::HapticDevice& open = **device;
   if (options.monitor) {
-    const auto mapping = live::Mapping::build({});
+    const auto mapping = live::Mapping::build(options.mapping);
     if (!mapping) return tl::make_unexpected(mapping.error());
     if (auto watched = watch(open, options.seconds, *mapping, console); !watched)
       return tl::make_unexpected(error_of(watched.error()));
@@ -119,17 +121,18 @@ void add_devices_command(CLI::App& app, Console& console, int& exit) {
       ->add_option("which", options->which,
                    "Open one: auto, falcon, bridge, spacemouse, simulated, or a place")
       ->check(CLI::Validator(check_device_name, ""));
-  add_firmware_option(*command, options->firmware);
+  add_falcon_options(*command, options->falcon);
   command->add_flag("--monitor", options->monitor, "Show position and buttons until interrupted");
   command->add_option("--seconds", options->seconds, "Monitor for so long")
       ->check(CLI::Validator(in_range(0.0, 1e6), ""));
+  add_place_options(*command, options->mapping);
   command->footer(
       "\nExamples:\n  claystack devices\n  claystack devices falcon --firmware FILE --monitor\n"
       "  claystack devices simulated --monitor --seconds 5\n\n"
       "Exit status: 0, or 4 when the device asked for can't be opened or fails.");
   command->callback([options, &console, &exit] {
     falcon::DeviceSettings settings;
-    settings.falcon.firmware_path = options->firmware;
+    settings.falcon = options->falcon;
     const bool one = options->monitor || !options->which.empty();
     const auto done = one ? show(*options, settings, console) : list(settings, console);
     exit = done ? kDone : report(done.error());

@@ -11,25 +11,37 @@ std::string check_flip(const std::string& axes) {
   return "expected axes out of x, y and z, as in xz, found " + axes;
 }
 
-void add_mapping_options(CLI::App& command, LiveOptions& options) {
-  live::MappingSettings& mapping = options.settings.mapping;
+}  // namespace
+
+void add_place_options(CLI::App& command, live::MappingSettings& mapping) {
   command.add_option("--scale", mapping.scale, "mm on the wheel to a mm of the hand")
       ->capture_default_str();
-  command.add_option("--force-gain", mapping.force_gain,
-                     "N at the hand to a N at the tool (default: 1 / scale, so that the clay feels "
-                     "as stiff as it is; = scale: the hand does the tool's work)");
-  command.add_option("--side", options.side, "Where the hand works: right, left or front")
+  command
+      .add_option_function<std::string>(
+          "--side",
+          [&mapping](const std::string& side) {
+            mapping.side = side == "left"    ? live::Side::left
+                           : side == "front" ? live::Side::front
+                                             : live::Side::right;
+          },
+          "Where the hand works: right, left or front")
       ->check(CLI::IsMember({"right", "left", "front"}))
-      ->capture_default_str();
+      ->default_str("right");
   command.add_option("--reach", mapping.reach_mm, "Of the workspace's middle from the axis [mm]")
       ->capture_default_str();
   command.add_option("--height", mapping.height_mm, "And above the wheel head [mm]")
       ->capture_default_str();
-  command.add_option("--flip", options.flip, "Axes to turn over, as in xz")
+  command
+      .add_option_function<std::string>(
+          "--flip",
+          [&mapping](const std::string& axes) {
+            mapping.flip_x = axes.find('x') != std::string::npos;
+            mapping.flip_y = axes.find('y') != std::string::npos;
+            mapping.flip_z = axes.find('z') != std::string::npos;
+          },
+          "Axes to turn over, as in xz")
       ->check(CLI::Validator(check_flip, ""));
 }
-
-}  // namespace
 
 void add_live_options(CLI::App& command, LiveOptions& options) {
   live::LiveSettings& settings = options.settings;
@@ -40,6 +52,10 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
   command.add_option("--record", options.record, "Session to write while throwing");
   command.add_option("--seconds", settings.seconds,
                      "End after so long on the wheel (simulated: with its stroke)");
+  command
+      .add_option("--patience", settings.patience_s,
+                  "With --seconds: how long to wait for the device to be homed [s]")
+      ->capture_default_str();
   command.add_option("--rate", settings.rate_hz, "Of the servo [Hz]")->capture_default_str();
   command.add_option("--clay-rate", settings.clay_rate_hz,
                      "Deform the clay less often than the force is computed [Hz]");
@@ -52,8 +68,11 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
   command.add_flag("--soften", options.soften,
                    "Lower force.stiffness_n_per_mm2 to what the arm can render");
   command.add_flag("--wait", options.wait, "When unplugged wait for it to come back");
-  add_firmware_option(command, options.firmware);
-  add_mapping_options(command, options);
+  add_falcon_options(command, options.falcon);
+  add_place_options(command, settings.mapping);
+  command.add_option("--force-gain", settings.mapping.force_gain,
+                     "N at the hand to a N at the tool (default: 1 / scale, so that the clay feels "
+                     "as stiff as it is; = scale: the hand does the tool's work)");
 }
 
 }  // namespace clay::app

@@ -25,13 +25,15 @@ constexpr std::array<const char*, live::GuardEvents::kCauses> kCauseNames = {
 std::string words_of_safe(SafeCause cause) {
   switch (cause) {
     case SafeCause::not_finite:
-      return "no force: a number that is none; press the clutch to go on";
+      return "no force: a number that is none; r or the clutch to go on";
     case SafeCause::not_passive:
-      return "no force: the contact was unstable; press the clutch to go on";
+      return "no force: the contact was unstable; r or the clutch to go on";
     case SafeCause::jumped:
       return "no force: the position leapt";
     case SafeCause::overrun:
       return "no force: the servo was held up";
+    case SafeCause::paused:
+      return "no force: as asked; r or the clutch to go on";
     default:
       return "no force";
   }
@@ -136,6 +138,7 @@ Json servo_json(const live::ServoLoop& loop, const live::Realtime& realtime) {
   return {{"ticks", timing.ticks},
           {"rate_hz", mean_ns > 0.0 ? 1e9 / mean_ns : 0.0},
           {"lateness_us", times_json(timing.lateness)},
+          {"oversleep_us", times_json(timing.oversleep)},
           {"period_us", times_json(timing.period)},
           {"work_us", times_json(timing.work)},
           {"sample_age_us", times_json(timing.age)},
@@ -158,6 +161,7 @@ void tell_servo(const Console& console, const Json& servo) {
       servo["work_share_percent"].get<double>(), servo["missed_ticks"].get<std::uint64_t>(),
       servo["stale_ticks"].get<std::uint64_t>()));
   console.say("lateness: " + spread(servo["lateness_us"]));
+  console.say("sleeps alone end late by: " + spread(servo["oversleep_us"]));
   console.say("work: " + spread(servo["work_us"]));
   console.say("age of samples: " + spread(servo["sample_age_us"]));
   console.say("guard: " + events_in_words(servo["guard"]));

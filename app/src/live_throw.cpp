@@ -4,6 +4,7 @@
 #include "device_choice.hpp"
 #include "live/scene_hand.hpp"
 #include "live/signals.hpp"
+#include "live_keys.hpp"
 #include "live_report.hpp"
 #include "replay.hpp"
 #include "servo_check.hpp"
@@ -28,18 +29,7 @@ using live::Ending;
 
 constexpr auto kLook = 20ms;  // at the servo, for its end
 constexpr auto kReopen = 500ms;
-
-void set_mapping(LiveOptions& options) {
-  live::MappingSettings& mapping = options.settings.mapping;
-  mapping.side = options.side == "left"    ? live::Side::left
-                 : options.side == "front" ? live::Side::front
-                                           : live::Side::right;
-  mapping.flip_x = options.flip.find('x') != std::string::npos;
-  mapping.flip_y = options.flip.find('y') != std::string::npos;
-  mapping.flip_z = options.flip.find('z') != std::string::npos;
-  falcon::GuardSettings& guard = options.settings.guard;
-  guard.hot_force_n = std::min(guard.hot_force_n, 0.8 * guard.force_limit_n);
-}
+constexpr double kSimulatedReachMm = 46.0;  // of a Falcon's 48
 
 /// Refuses a scene that is too stiff for the arm, or softens it. Its stiffness has no part in what
 /// becomes of the clay, so a softened scene replays to the same pot.
@@ -64,6 +54,7 @@ Result<void> fit_stiffness(SceneSpec& scene, const StepPlan& plan, const LiveOpt
 
 /// All that a live throw is made of, in the order in which it is made.
 struct Stage {
+  std::vector<Pose> stroke;  // of the simulated hand
   SceneSpec scene;
   std::uint64_t scene_hash = 0;
   std::optional<Wheel> wheel;
@@ -73,27 +64,25 @@ struct Stage {
   std::optional<live::ServoLoop> loop;
 };
 
-Result<std::vector<Pose>> stroke_of(const LiveJob& job) {
+/// The simulated hand's stroke: how long it takes, and where the hand works unless that is said.
+Result<void> take_up_stroke(const LiveJob& job, LiveOptions& options, Stage& stage) {
   std::error_code ignored;
-  if (job.stroke_path.empty() || !std::filesystem::exists(job.stroke_path, ignored))
-    return std::vector<Pose>();
-  return load_session(job.stroke_path).map([](Session&& session) {
-    return std::move(session.poses);
-  });
+  if (options.device != "simulated" || job.stroke_path.empty() ||
+      !std::filesystem::exists(job.stroke_path, ignored))
+    return {};
+  auto session = load_session(job.stroke_path);
+  if (!session) return tl::make_unexpected(session.error());
+  stage.stroke = std::move(session->poses);
+  live::LiveSettings& settings = options.settings;
+  if (settings.seconds == 0.0) settings.seconds = live::seconds_of(stage.stroke);
+  if (settings.mapping == live::MappingSettings{})
+    settings.mapping = live::fitted(settings.mapping, stage.stroke, kSimulatedReachMm);
+  return {};
 }
 
-Result<void> open_device(const LiveJob& job, LiveOptions& options, const live::Mapping& mapping,
-                         Stage& stage) {
-  std::vector<Pose> stroke;
-  if (options.device == "simulated") {
-    auto poses = stroke_of(job);
-    if (!poses) return tl::make_unexpected(poses.error());
-    stroke = std::move(*poses);
-    if (options.settings.seconds == 0.0) options.settings.seconds = live::seconds_of(stroke);
-  }
-  falcon::FalconSettings falcon;
-  falcon.firmware_path = options.firmware;
-  auto device = open_chosen(options.device, falcon, live::simulated_potter(stroke, mapping));
+Result<void> open_device(LiveOptions& options, const live::Mapping& mapping, Stage& stage) {
+  auto device =
+      open_chosen(options.device, options.falcon, live::simulated_potter(stage.stroke, mapping));
   if (!device) return tl::make_unexpected(device.error());
   stage.device = std::move(*device);
   options.settings.buttons =
@@ -102,7 +91,9 @@ Result<void> open_device(const LiveJob& job, LiveOptions& options, const live::M
 }
 
 Result<void> build(const LiveJob& job, LiveOptions& options, const Console& console, Stage& stage) {
-  set_mapping(options);
+  falcon::GuardSettings& guard = options.settings.guard;
+  guard.hot_force_n = std::min(guard.hot_force_n, 0.8 * guard.force_limit_n);
+  if (auto taken = take_up_stroke(job, options, stage); !taken) return taken;
   if (auto checked = check(options.settings); !checked) return checked;
   const auto mapping = live::Mapping::build(options.settings.mapping);
   if (!mapping) return tl::make_unexpected(mapping.error());
@@ -124,7 +115,7 @@ Result<void> build(const LiveJob& job, LiveOptions& options, const Console& cons
   if (!wheel) return tl::make_unexpected(wheel.error());
   stage.wheel.emplace(std::move(*wheel));
 
-  if (auto opened = open_device(job, options, *mapping, stage); !opened) return opened;
+  if (auto opened = open_device(options, *mapping, stage); !opened) return opened;
   if (!options.record.empty()) {
     auto recorder = live::Recorder::create(options.record, stage.scene.name, stage.scene_hash);
     if (!recorder) return tl::make_unexpected(recorder.error());
@@ -138,12 +129,12 @@ Result<void> build(const LiveJob& job, LiveOptions& options, const Console& cons
 }
 
 /// Shows the servo until it ends.
-void watch(live::Servo& servo, StatusLine& line) {
+void watch(live::Servo& servo, LiveKeys& keys, StatusLine& line) {
   std::uint64_t ticks = 0;
   auto since = std::chrono::steady_clock::now();
   double rate_hz = 0.0;
   while (servo.running()) {
-    std::this_thread::sleep_for(kLook);
+    keys.serve(servo, kLook);
     if (!line.due()) continue;
     const live::LiveStatus& status = servo.view().status.newest();
     const auto now = std::chrono::steady_clock::now();
@@ -168,6 +159,8 @@ bool comes_back(falcon::HapticDevice& device) {
 Ending run(Stage& stage, const LiveOptions& options, const Console& console,
            live::Realtime& realtime) {
   const live::ForceSignals signals;
+  LiveKeys keys;
+  if (keys.on()) console.say(kKeysInWords);
   StatusLine line(console);
   for (;;) {
     live::Servo servo({*stage.wheel, *stage.device, stage.clock, stage.recorder.get()}, *stage.loop,
@@ -175,7 +168,7 @@ Ending run(Stage& stage, const LiveOptions& options, const Console& console,
     servo.start();
     // A signal before this found nothing to stop.
     if (live::ForceSignals::asked_to_stop() != 0) servo.command({live::CommandKind::stop, 0.0});
-    watch(servo, line);
+    watch(servo, keys, line);
     const Ending ending = servo.join();
     realtime = servo.realtime();
     if (ending != Ending::device_lost || !options.wait) return ending;
@@ -183,6 +176,13 @@ Ending run(Stage& stage, const LiveOptions& options, const Console& console,
     console.warn(text_of(stage.device->problem()) + "; waiting for it");
     if (!comes_back(*stage.device)) return Ending::stopped;
   }
+}
+
+Json frames_json(const falcon::DeviceCounters& counters) {
+  return {{"taken", counters.frames},
+          {"bytes_discarded", counters.bytes_discarded},
+          {"without_pose", counters.without_pose},
+          {"writes_dropped", counters.writes_dropped}};
 }
 
 Json recording_json(const LiveOptions& options, const Stage& stage) {
@@ -243,6 +243,7 @@ Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console
                {"ended", name_of(ending)},
                {"seconds", status.time_s},
                {"poses", status.poses},
+               {"frames", frames_json(stage.device->counters())},
                {"recording", recording_json(options, stage)},
                {"servo", servo_json(*stage.loop, realtime)}};
   json.update(clay_json(*stage.wheel, pot));
@@ -250,6 +251,9 @@ Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console
   tell(job, options, console, json);
   if (!kept) return kept;
   if (ending == Ending::device_lost) return tl::make_unexpected(error_of(stage.device->problem()));
+  if (ending == Ending::time_up && status.poses == 0)
+    return failure(ErrorKind::device,
+                   stage.device->info().place + ": nothing was thrown; " + words_of(status));
   return {};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Throwing by hand: `claystack throw SCENE --device ...`.
 
+#include "claystack/falcon/falcon_device.hpp"
 #include "console.hpp"
 #include "live/live_settings.hpp"
 
@@ -13,15 +14,16 @@ namespace clay::app {
 struct LiveOptions {
   std::string device;  ///< empty: nothing is live
   std::string record;  ///< session to write; empty: none
-  std::string firmware;
-  std::string side = "right";
-  std::string flip;     ///< of "xyz" those that are turned over
+  falcon::FalconSettings falcon;
   bool wait = false;    ///< for a device that was unplugged to come back
   bool soften = false;  ///< lower the scene's stiffness to what is accepted
   live::LiveSettings settings;
 };
 
 void add_live_options(CLI::App& command, LiveOptions& options);
+
+/// Where the hand works, of the mapping: --scale, --side, --reach, --height, --flip.
+void add_place_options(CLI::App& command, live::MappingSettings& mapping);
 
 /// What is thrown, and where it goes.
 struct LiveJob {

@@ -18,6 +18,7 @@ Examples:
   claystack check bowl.stl
   claystack render bowl.pot.json -o bowl.png
   claystack plan samples/bowl.scene.json
+  claystack studio
   claystack bench --quick --report bench.html
 
 Exit status: 0 done and sound; 1 done, but the pot or mesh fails a check;

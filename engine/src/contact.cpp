@@ -33,28 +33,34 @@ Side side_at(const ClayStack& stack, double hip_y, double axis_distance) noexcep
                                                                    : Side::expansive;
 }
 
-double depth_of(const Ring& ring, double f, const Contact& contact) noexcept {
-  return contact.side == Side::compressive ? ring.outer_mm() + f - contact.axis_distance_mm
-                                           : contact.axis_distance_mm + f - ring.inner_mm();
-}
-
-/// At a pole f' has no bound: so near to an end [mm] the middle of a ring does not speak for the
-/// whole.
-double steep_end(const Tool& tool, double ring_height_mm) noexcept {
-  return std::max(2.0 * ring_height_mm, (tool.high() - tool.low()) / 16.0);
-}
-
-/// A ring near an end of the tool, or the crown, as far as the tool covers it: from..to, counted
-/// from the HIP, with the mean of f'.
+/// The ring, met over from..to, counted from the HIP. It yields from when an end of the tool has
+/// passed its middle; what the tool has gone is the rise of its surface since.
 template <class Profile>
-void touch_part(const Profile& profile, const ClayStack& stack, std::size_t i, double from,
-                double to, bool yields, int end, Contact& contact) noexcept {
+bool meet(const Profile& profile, const Tool& tool, const Ring& ring, double middle, double from,
+          double to, const Contact& contact, RingContact& touch) noexcept {
+  const double t = 0.5 * (from + to), f = profile.radius(t), rise = contact.rise_mm;
+  touch.depth_mm = depth_of(ring, f, contact);
+  if (!(touch.depth_mm > 0.0)) return false;
+  touch.facing = profile.facing(from, to);
+  touch.advance_mm = contact.approach_mm;
+  if (rise == 0.0) return true;
+  const double before = std::clamp(middle + rise, tool.low(), tool.high());
+  if (before != middle + rise) touch.since = std::max((before - middle) / rise, 0.0);
+  const double then = std::clamp(t + touch.since * rise, tool.low(), tool.high());
+  touch.advance_mm = touch.since * contact.approach_mm + f - profile.radius(then);
+  return true;
+}
+
+/// A ring at an end of the tool, or the crown, as far as the tool covers it.
+template <class Profile>
+void touch_part(const Profile& profile, const Tool& tool, const ClayStack& stack, std::size_t i,
+                double middle, double from, double to, bool yields, int end,
+                Contact& contact) noexcept {
   if (!(to > from)) return;
-  const double depth = depth_of(stack.rings()[i], profile.radius(0.5 * (from + to)), contact);
-  if (!(depth > 0.0)) return;
-  const RingContact part{static_cast<std::uint32_t>(i), depth,
-                         (profile.radius(to) - profile.radius(from)) / (to - from),
-                         (to - from) / stack.ring_height_mm()};
+  RingContact part;
+  part.ring = static_cast<std::uint32_t>(i);
+  part.coverage = (to - from) / stack.ring_height_mm();
+  if (!meet(profile, tool, stack.rings()[i], middle, from, to, contact, part)) return;
   if (yields) {
     contact.rings.push_back(part);
   } else {
@@ -63,31 +69,44 @@ void touch_part(const Profile& profile, const ClayStack& stack, std::size_t i, d
   }
 }
 
-template <Model model, class Profile>
+template <class Profile>
 void touch_rings(const Profile& profile, const Tool& tool, const ClayStack& stack, double hip_y,
                  Contact& contact) noexcept {
-  const double h = stack.ring_height_mm(), steep = steep_end(tool, h);
+  const double h = stack.ring_height_mm();
   for (std::size_t i = contact.bottom; i <= contact.top; ++i) {
     const double t = (static_cast<double>(i) + 0.5) * h - hip_y;
-    const bool yields = t >= tool.low() && t <= tool.high();
-    if constexpr (model == Model::conserving) {
-      const double from = t - 0.5 * h, to = t + 0.5 * h;
-      if (from < tool.low() + steep || to > tool.high() - steep) {
-        const int end = (to > tool.high() ? 1 : 0) - (from < tool.low() ? 1 : 0);
-        touch_part(profile, stack, i, std::max(from, tool.low()), std::min(to, tool.high()), yields,
-                   end, contact);
-        continue;
-      }
+    const double from = t - 0.5 * h, to = t + 0.5 * h;
+    if (from < tool.low() || to > tool.high()) {
+      const int end = (to > tool.high() ? 1 : 0) - (from < tool.low() ? 1 : 0);
+      const bool yields = t >= tool.low() && t <= tool.high();
+      touch_part(profile, tool, stack, i, t, std::max(from, tool.low()), std::min(to, tool.high()),
+                 yields, end, contact);
+      continue;
     }
-    if (!yields) continue;
-    const double depth = depth_of(stack.rings()[i], profile.radius(t), contact);
-    if (depth > 0.0)
-      contact.rings.push_back({static_cast<std::uint32_t>(i), depth, profile.slope(t)});
+    RingContact touch;
+    touch.ring = static_cast<std::uint32_t>(i);
+    if (meet(profile, tool, stack.rings()[i], t, from, to, contact, touch))
+      contact.rings.push_back(touch);
   }
-  if (model == Model::conserving && contact.top + 1 == stack.size()) {
+  if (contact.top + 1 == stack.size()) {
     const double top = static_cast<double>(stack.size()) * h - hip_y;
-    touch_part(profile, stack, contact.top, std::max(top, tool.low()),
+    touch_part(profile, tool, stack, contact.top, top, std::max(top, tool.low()),
                std::min(stack.height_mm() - hip_y, tool.high()), false, 0, contact);
+  }
+}
+
+/// As printed: each ring by its middle.
+template <class Profile>
+void touch_middles(const Profile& profile, const Tool& tool, const ClayStack& stack, double hip_y,
+                   Contact& contact) noexcept {
+  for (std::size_t i = contact.bottom; i <= contact.top; ++i) {
+    const double t = (static_cast<double>(i) + 0.5) * stack.ring_height_mm() - hip_y;
+    if (t < tool.low() || t > tool.high()) continue;
+    RingContact touch;
+    touch.ring = static_cast<std::uint32_t>(i);
+    touch.depth_mm = depth_of(stack.rings()[i], profile.radius(t), contact);
+    touch.slope = profile.slope(t);
+    if (touch.depth_mm > 0.0) contact.rings.push_back(touch);
   }
 }
 
@@ -95,14 +114,22 @@ template <Model model>
 void touch_rings(const Tool& tool, const ClayStack& stack, double hip_y,
                  Contact& contact) noexcept {
   contact.edge_count = 0;
-  std::visit([&](const auto& profile) { touch_rings<model>(profile, tool, stack, hip_y, contact); },
-             tool.profile());
+  contact.has_front = false;
+  std::visit(
+      [&](const auto& profile) {
+        if constexpr (model == Model::paper)
+          touch_middles(profile, tool, stack, hip_y, contact);
+        else
+          touch_rings(profile, tool, stack, hip_y, contact);
+      },
+      tool.profile());
 }
 
-/// The tool's centre at `at` along the HIP's radius; below 0 it is beyond the axis.
-void stand(double at, double radial_x, double radial_z, Contact& contact) noexcept {
+/// The tool's centre at `at` along the HIP's radius, and `before`; below 0 it is beyond the axis.
+void stand(double at, double before, double radial_x, double radial_z, Contact& contact) noexcept {
   const double sense = at > 0.0 ? 1.0 : at < 0.0 ? -1.0 : 0.0;
   contact.axis_distance_mm = std::abs(at);
+  contact.approach_mm = std::abs(before) - std::abs(at);
   contact.radial_x = sense * radial_x;
   contact.radial_z = sense * radial_z;
 }
@@ -123,7 +150,7 @@ std::size_t most_contacts(const Tool& tool, double ring_height_mm, std::size_t m
 
 template <Model model>
 void find_contact(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_mm,
-                  Contact& contact) noexcept {
+                  Contact& contact, const glm::dvec3& moved_mm) noexcept {
   contact.rings.clear();
   if (!candidates<model>(tool, stack, hip_mm.y, contact)) return;
   const double d = std::sqrt(hip_mm.x * hip_mm.x + hip_mm.z * hip_mm.z);
@@ -131,12 +158,16 @@ void find_contact(const Tool& tool, const ClayStack& stack, const glm::dvec3& hi
   contact.radial_x = d > 0.0 ? hip_mm.x / d : 0.0;
   contact.radial_z = d > 0.0 ? hip_mm.z / d : 0.0;
   contact.side = side_at(stack, hip_mm.y, d);
+  const double x = hip_mm.x - moved_mm.x, z = hip_mm.z - moved_mm.z;
+  const double way = std::sqrt(x * x + z * z) - d;
+  contact.approach_mm = contact.side == Side::compressive ? way : -way;
+  contact.rise_mm = moved_mm.y;
   touch_rings<model>(tool, stack, hip_mm.y, contact);
 }
 
 template <Model model>
 void find_pinch(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_mm, double gap_mm,
-                Contact& outer, Contact& inner) noexcept {
+                Contact& outer, Contact& inner, const glm::dvec3& moved_mm) noexcept {
   outer.rings.clear();
   inner.rings.clear();
   if (!candidates<model>(tool, stack, hip_mm.y, outer)) return;
@@ -144,10 +175,14 @@ void find_pinch(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_
   const double d = std::sqrt(hip_mm.x * hip_mm.x + hip_mm.z * hip_mm.z);
   const double radial_x = d > 0.0 ? hip_mm.x / d : 0.0, radial_z = d > 0.0 ? hip_mm.z / d : 0.0;
   const double reach = 0.5 * gap_mm + tool.widest();
-  stand(d + reach, radial_x, radial_z, outer);
-  stand(d - reach, radial_x, radial_z, inner);
+  const double x = hip_mm.x - moved_mm.x, z = hip_mm.z - moved_mm.z,
+               before = std::sqrt(x * x + z * z);
+  stand(d + reach, before + reach, radial_x, radial_z, outer);
+  stand(d - reach, before - reach, radial_x, radial_z, inner);
   outer.side = Side::compressive;
   inner.side = Side::expansive;
+  inner.approach_mm = -inner.approach_mm;
+  outer.rise_mm = inner.rise_mm = moved_mm.y;
   touch_rings<model>(tool, stack, hip_mm.y, outer);
   touch_rings<model>(tool, stack, hip_mm.y, inner);
   // A depth alone does not tell a tool that is through the wall from one that is past it.
@@ -161,13 +196,13 @@ void find_pinch(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_
   });
 }
 
-template void find_contact<Model::paper>(const Tool&, const ClayStack&, const glm::dvec3&,
-                                         Contact&) noexcept;
+template void find_contact<Model::paper>(const Tool&, const ClayStack&, const glm::dvec3&, Contact&,
+                                         const glm::dvec3&) noexcept;
 template void find_contact<Model::conserving>(const Tool&, const ClayStack&, const glm::dvec3&,
-                                              Contact&) noexcept;
+                                              Contact&, const glm::dvec3&) noexcept;
 template void find_pinch<Model::paper>(const Tool&, const ClayStack&, const glm::dvec3&, double,
-                                       Contact&, Contact&) noexcept;
+                                       Contact&, Contact&, const glm::dvec3&) noexcept;
 template void find_pinch<Model::conserving>(const Tool&, const ClayStack&, const glm::dvec3&,
-                                            double, Contact&, Contact&) noexcept;
+                                            double, Contact&, Contact&, const glm::dvec3&) noexcept;
 
 }  // namespace clay

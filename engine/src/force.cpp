@@ -9,17 +9,21 @@ template <Model model>
 glm::dvec3 spring_force(const ForcePlan& plan, const Contact& contact) noexcept {
   double radial = 0.0, vertical = 0.0;
   const auto add = [&](const RingContact& touch) {
-    double depth = touch.depth_mm;
-    // The unit normal is (sin theta, cos theta) with theta = phi + 90 deg, tan phi = f'.
-    if constexpr (model == Model::paper)
-      depth /= std::sqrt(1.0 + touch.slope * touch.slope);
-    else
-      depth *= touch.coverage;
-    radial += depth;
-    vertical += depth * touch.slope;
+    if constexpr (model == Model::paper) {
+      // The unit normal is (sin theta, cos theta) with theta = phi + 90 deg, tan phi = f'.
+      const double depth = touch.depth_mm / std::sqrt(1.0 + touch.slope * touch.slope);
+      radial += depth;
+      vertical += depth * touch.slope;
+    } else {
+      const double depth = touch.depth_mm * touch.coverage;
+      radial += depth * touch.facing.normal2;
+      vertical += depth * (touch.facing.lean + 0.5 * touch.depth_mm * touch.facing.turn);
+    }
   };
   for (const RingContact& touch : contact.rings) add(touch);
   for (std::size_t k = 0; k < contact.edge_count; ++k) add(contact.edges[k]);
+  if (contact.has_front)
+    for (const RingContact& piece : contact.front) add(piece);
   const double out = contact.side == Side::compressive ? radial : -radial;
   return plan.stiffness_n_per_mm *
          glm::dvec3(out * contact.radial_x, vertical, out * contact.radial_z);

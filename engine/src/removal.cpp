@@ -1,10 +1,13 @@
 #include "removal.hpp"
 
 #include "portable_math.hpp"
+#include "yielding.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace clay {
 namespace {
@@ -18,12 +21,12 @@ Quanta spare_outside(const Ring& ring) noexcept {
 Quanta spare_inside(const Ring& ring) noexcept { return ring.volume() - 1; }
 
 /// Delta v of a surface that moves by eps, as far as the ring has it to spare.
-Quanta take_outside(const Ring& ring, double eps) noexcept {
-  const Quanta asked = quanta_from_mm2(eps * (2.0 * ring.outer_mm() - eps));
+Quanta take_outside(const Ring& ring, double outer_mm, double eps) noexcept {
+  const Quanta asked = quanta_from_mm2(eps * (2.0 * outer_mm - eps));
   return std::clamp<Quanta>(asked, 0, std::max<Quanta>(spare_outside(ring), 0));
 }
-Quanta take_inside(const Ring& ring, double eps) noexcept {
-  const Quanta asked = quanta_from_mm2(eps * (2.0 * ring.inner_mm() + eps));
+Quanta take_inside(const Ring& ring, double inner_mm, double eps) noexcept {
+  const Quanta asked = quanta_from_mm2(eps * (2.0 * inner_mm + eps));
   return std::clamp<Quanta>(asked, 0, std::max<Quanta>(spare_inside(ring), 0));
 }
 
@@ -54,58 +57,102 @@ Pinched pinched(double wall, double least_wall, double fraction, double shallow,
   return moved;
 }
 
-/// use(ring, outer depth, inner depth) for every ring that a tool of a pinch touches; the depth is
-/// 0 where it does not.
+/// use(ring, outer touch, inner touch) for every ring that a tool of a pinch touches; none where it
+/// does not.
 template <class Use>
-void each_touched(const Contact& outer, const Contact& inner, Use use) noexcept {
+void each_touched(Contact& outer, Contact& inner, Use use) noexcept {
   constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
   std::size_t o = 0, i = 0;
   while (o < outer.rings.size() || i < inner.rings.size()) {
     const auto next_o = o < outer.rings.size() ? outer.rings[o].ring : kNone;
     const auto next_i = i < inner.rings.size() ? inner.rings[i].ring : kNone;
     const auto ring = std::min(next_o, next_i);
-    const double outer_depth = next_o == ring ? outer.rings[o++].depth_mm : 0.0;
-    const double inner_depth = next_i == ring ? inner.rings[i++].depth_mm : 0.0;
-    use(ring, outer_depth, inner_depth);
+    RingContact* outer_touch = next_o == ring ? &outer.rings[o++] : nullptr;
+    RingContact* inner_touch = next_i == ring ? &inner.rings[i++] : nullptr;
+    use(ring, outer_touch, inner_touch);
+  }
+}
+
+double depth_in(const RingContact* touch) noexcept {
+  return touch != nullptr ? touch->depth_mm : 0.0;
+}
+
+/// How far each surface of a pinched wall moves: outer, inner.
+template <Model model>
+std::array<double, 2> pinch_ring(const RemovalPlan& plan, double wall, double least_wall,
+                                 double fraction, double dt_s,
+                                 const std::array<const RingContact*, 2>& touches) noexcept {
+  const double from_out = depth_in(touches[0]), from_in = depth_in(touches[1]);
+  const Pinched moved = pinched<model>(wall, least_wall, fraction, std::min(from_out, from_in),
+                                       std::max(from_out, from_in));
+  std::array<double, 2> eps{moved.together_mm + (from_out > from_in ? moved.alone_mm : 0.0),
+                            moved.together_mm + (from_in > from_out ? moved.alone_mm : 0.0)};
+  if constexpr (model == Model::paper) return eps;
+  Yielding both;
+  std::size_t count = 0;
+  for (const RingContact* touch : touches) {
+    if (touch == nullptr) continue;
+    both.wall[count] = wall;
+    both.depth[count] = touch->depth_mm;
+    both.advance[count] = touch->advance_mm;
+    both.since[count] = touch->since;
+    both.target[count++] = std::max(wall - from_out - from_in, least_wall);
+  }
+  yield(plan, dt_s, both, count);
+  std::size_t k = 0;
+  for (std::size_t side = 0; side < 2; ++side)
+    if (touches[side] != nullptr) {
+      eps[side] = std::min(eps[side], both.depth[k] - both.left[k]);
+      ++k;
+    }
+  return eps;
+}
+
+void yield_to_tool(const RemovalPlan& plan, const ClayStack& stack, double dt_s, Contact& contact,
+                   std::vector<Quanta>& removed) noexcept {
+  const bool outside = contact.side == Side::compressive;
+  Yielding block;
+  std::array<Ring, Yielding::kMost> rings;
+  std::array<double, Yielding::kMost> outer, inner;
+  for (std::size_t from = 0; from < contact.rings.size(); from += Yielding::kMost) {
+    const std::size_t count = std::min(Yielding::kMost, contact.rings.size() - from);
+    const std::span touched(contact.rings.data() + from, count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const RingContact& touch = touched[k];
+      rings[k] = stack.rings()[touch.ring];
+      outer[k] = rings[k].outer_mm();
+      inner[k] = rings[k].inner_mm();
+      block.wall[k] = outer[k] - inner[k];
+      block.depth[k] = touch.depth_mm;
+      block.advance[k] = touch.advance_mm;
+      block.since[k] = touch.since;
+      block.target[k] = block.wall[k] - touch.depth_mm;
+    }
+    yield(plan, dt_s, block, count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const double spare = std::max(block.wall[k] - plan.min_wall_mm, 0.0);
+      const double eps = std::min(touched[k].depth_mm - block.left[k], spare);
+      removed.push_back(outside ? take_outside(rings[k], outer[k], eps)
+                                : take_inside(rings[k], inner[k], eps));
+      touched[k].depth_mm -= eps;
+    }
   }
 }
 
 }  // namespace
 
 template <Model model>
-void compute_removal(const RemovalPlan& plan, const ClayStack& stack, const Contact& contact,
-                     double dt_s, std::vector<Quanta>& removed) noexcept {
-  const bool outside = contact.side == Side::compressive;
-  const double fraction =
-      model == Model::paper ? plan.paper_fraction : one_minus_exp_neg(plan.rate_per_s * dt_s);
+void compute_removal(const RemovalPlan& plan, const ClayStack& stack, double dt_s, Contact& contact,
+                     std::vector<Quanta>& removed) noexcept {
   removed.clear();
+  if constexpr (model == Model::conserving)
+    return yield_to_tool(plan, stack, dt_s, contact, removed);
+  const bool outside = contact.side == Side::compressive;
   for (const RingContact& touch : contact.rings) {
     const Ring& ring = stack.rings()[touch.ring];
     const double outer = ring.outer_mm(), inner = ring.inner_mm();
-    double eps = (outer - inner) * fraction;
-    if constexpr (model == Model::conserving)
-      eps = std::max(0.0, std::min({eps, touch.depth_mm, outer - inner - plan.min_wall_mm}));
-    const double mm2 = outside ? eps * (2.0 * outer - eps) : eps * (2.0 * inner + eps);
-    const Quanta spare = outside ? spare_outside(ring) : spare_inside(ring);
-    removed.push_back(std::clamp<Quanta>(quanta_from_mm2(mm2), 0, std::max<Quanta>(spare, 0)));
-  }
-}
-
-void yield_edges(const RemovalPlan& plan, const ClayStack& stack, double rise_mm, double dt_s,
-                 Contact& contact) noexcept {
-  if (!(dt_s > 0.0)) return;
-  for (std::size_t k = 0; k < contact.edge_count; ++k) {
-    RingContact& edge = contact.edges[k];
-    const Ring& ring = stack.rings()[edge.ring];
-    const double wall = ring.outer_mm() - ring.inner_mm();
-    if (contact.edge_end[k] == 0 || !(wall > plan.min_wall_mm)) continue;
-    const double ahead = std::max(rise_mm * contact.edge_end[k], 0.0);
-    const double covered = edge.coverage * stack.ring_height_mm();
-    // All is pressed away at depth / (kappa (R - r)) times the speed behind the end.
-    const double yielded = plan.rate_per_s * wall * dt_s * covered;
-    const double whole = edge.depth_mm * ahead;
-    edge.depth_mm *= yielded <= whole ? (whole > 0.0 ? 1.0 - 0.5 * yielded / whole : 1.0)
-                                      : 0.5 * whole / yielded;
+    const double eps = (outer - inner) * plan.paper_fraction;
+    removed.push_back(outside ? take_outside(ring, outer, eps) : take_inside(ring, inner, eps));
   }
 }
 
@@ -117,27 +164,26 @@ void compute_pinch_removal(const RemovalPlan& plan, const ClayStack& stack, doub
   const double fraction = paper ? plan.paper_fraction : one_minus_exp_neg(plan.rate_per_s * dt_s);
   outer.removed.clear();
   inner.removed.clear();
-  each_touched(outer.contact, inner.contact, [&](auto index, double from_out, double from_in) {
+  each_touched(outer.contact, inner.contact, [&](auto index, auto* outer_touch, auto* inner_touch) {
     Ring ring = stack.rings()[index];
-    const Pinched moved = pinched<model>(ring.outer_mm() - ring.inner_mm(), least_wall, fraction,
-                                         std::min(from_out, from_in), std::max(from_out, from_in));
-    if (from_out > 0.0) {
-      const double alone = from_out > from_in ? moved.alone_mm : 0.0;
-      outer.removed.push_back(take_outside(ring, moved.together_mm + alone));
+    const auto eps = pinch_ring<model>(plan, ring.outer_mm() - ring.inner_mm(), least_wall,
+                                       fraction, dt_s, {outer_touch, inner_touch});
+    if (outer_touch != nullptr) {
+      outer.removed.push_back(take_outside(ring, ring.outer_mm(), eps[0]));
       ring.outer2 -= outer.removed.back();
+      if constexpr (!paper) outer_touch->depth_mm -= eps[0];
     }
-    if (from_in > 0.0) {
-      const double alone = from_in > from_out ? moved.alone_mm : 0.0;
-      inner.removed.push_back(take_inside(ring, moved.together_mm + alone));
+    if (inner_touch != nullptr) {
+      inner.removed.push_back(take_inside(ring, ring.inner_mm(), eps[1]));
+      if constexpr (!paper) inner_touch->depth_mm -= eps[1];
     }
   });
 }
 
-template void compute_removal<Model::paper>(const RemovalPlan&, const ClayStack&, const Contact&,
-                                            double, std::vector<Quanta>&) noexcept;
-template void compute_removal<Model::conserving>(const RemovalPlan&, const ClayStack&,
-                                                 const Contact&, double,
-                                                 std::vector<Quanta>&) noexcept;
+template void compute_removal<Model::paper>(const RemovalPlan&, const ClayStack&, double, Contact&,
+                                            std::vector<Quanta>&) noexcept;
+template void compute_removal<Model::conserving>(const RemovalPlan&, const ClayStack&, double,
+                                                 Contact&, std::vector<Quanta>&) noexcept;
 template void compute_pinch_removal<Model::paper>(const RemovalPlan&, const ClayStack&, double,
                                                   double, Bite&, Bite&) noexcept;
 template void compute_pinch_removal<Model::conserving>(const RemovalPlan&, const ClayStack&, double,

@@ -18,26 +18,19 @@ struct Bite {
 /// and (4) with Delta v = eps (2R - eps) outside, eps (2r + eps) inside. Writes nothing else.
 ///
 /// `paper`: eps = k (R - r).
-/// `conserving`: eps = (R - r)(1 - exp(-kappa dt)), never past the tool's surface and never
-/// through the minimum wall; two half steps remove what one step does.
+/// `conserving`: as yielding.hpp says, never past the tool's surface and never through the minimum
+/// wall; leaves to the contact the depths that are left. Two half steps remove what one step does.
 template <Model model>
-void compute_removal(const RemovalPlan& plan, const ClayStack& stack, const Contact& contact,
-                     double dt_s, std::vector<Quanta>& removed) noexcept;
-
-/// `conserving`: the edges of a contact belong to rings that yield later, as a whole; their covered
-/// parts have yielded since the tool's end reached them. Leaves to each edge the mean depth that a
-/// tool rising by `rise_mm` in `dt_s` has not yet pressed away: at the end all of it, behind the
-/// end less by kappa (R - r) for each second.
-void yield_edges(const RemovalPlan& plan, const ClayStack& stack, double rise_mm, double dt_s,
-                 Contact& contact) noexcept;
+void compute_removal(const RemovalPlan& plan, const ClayStack& stack, double dt_s, Contact& contact,
+                     std::vector<Quanta>& removed) noexcept;
 
 /// What two tools take from one wall, each from its own side, that it is nowhere thinner for them
 /// than the gap. Equations (3) and (4) at once:
 ///
 /// `paper`: k (R - r) each.
 /// `conserving`: dR/dt = -kappa (R - r) and dr/dt = kappa (R - r), each until its tool's surface is
-/// reached, both until the minimum wall is; solved in closed form, so that here too two half steps
-/// remove what one step does. Both surfaces move alike: the middle of the wall stays.
+/// reached, both until the minimum wall is; solved in closed form, and no faster than a surface
+/// yields to one tool near it. Both surfaces move alike: the middle of the wall stays.
 template <Model model>
 void compute_pinch_removal(const RemovalPlan& plan, const ClayStack& stack, double gap_mm,
                            double dt_s, Bite& outer, Bite& inner) noexcept;

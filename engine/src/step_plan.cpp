@@ -33,6 +33,7 @@ Result<void> check(const SceneSpec& s) {
       {"lump.density_g_cm3", s.lump.density_g_cm3, 0.1, 25.0},
       {"tool.gap_mm", s.tool.gap_mm.value_or(kMinRadiusMm), kMinRadiusMm, 1000.0},
       {"removal.rate_per_s", s.removal.rate_per_s, 0.0, 1e6},
+      {"removal.yield_depth_mm", s.removal.yield_depth_mm, 1e-3, 1e3},
       {"removal.min_wall_mm", s.removal.min_wall_mm, kMinRadiusMm, 1000.0},
       // k = 1 removes the whole wall, k > 1 turns it inside out.
       {"removal.paper_fraction", s.removal.paper_fraction.value_or(0.0), 0.0, 1.0 - 1e-9},
@@ -80,7 +81,8 @@ std::vector<PlanLine> describe(const SceneSpec& s, unsigned stages) {
       {"tool state", true, "pose, time step, direction of motion"},
       {"contact", true, "equations (1), (2), then the rings touched"},
       {"removal", true,
-       s.model == Model::paper ? "k (R - r) a tick" : "(R - r)(1 - exp(-rate dt))"},
+       s.model == Model::paper ? "k (R - r) a tick"
+                               : "at rate (R - r), less above the yield depth"},
       {"outer surface", true, press ? "equations (5), (7)" : "cut"},
       {"inner surface", hollow,
        hollow ? "equations (6), (8)" : "the lump is solid: nothing to fill until a tool opens it"},
@@ -118,7 +120,7 @@ Result<StepPlan> StepPlan::build(const SceneSpec& scene) {
   plan.kernel = RayleighKernel(scene.flow.sigma_mm, scene.flow.reach_mm, scene.lump.ring_height_mm,
                                max_rings_of(scene.lump));
   plan.inside_share = static_cast<std::int64_t>(scene.flow.inside_share * (1 << 30) + 0.5);
-  plan.removal = {scene.removal.rate_per_s, scene.removal.min_wall_mm,
+  plan.removal = {scene.removal.rate_per_s, scene.removal.yield_depth_mm, scene.removal.min_wall_mm,
                   scene.removal.paper_fraction.value_or(
                       std::fmin(scene.removal.rate_per_s / kPaperRateHz, 0.5))};
   plan.force = force_plan(scene);

@@ -27,14 +27,15 @@ struct Built {
 
 Result<Built> build_profile(const SphereSpec& s) {
   if (!is_size(s.radius_mm)) return bad_size("a radius", s.radius_mm);
-  return Built{EllipseProfile{s.radius_mm, s.radius_mm}, -s.radius_mm, s.radius_mm, s.radius_mm};
+  return Built{EllipseProfile{s.radius_mm, s.radius_mm, 1.0 / s.radius_mm}, -s.radius_mm,
+               s.radius_mm, s.radius_mm};
 }
 
 Result<Built> build_profile(const EllipseSpec& s) {
   if (!is_size(s.half_height_mm)) return bad_size("a half height", s.half_height_mm);
   if (!is_size(s.half_width_mm)) return bad_size("a half width", s.half_width_mm);
-  return Built{EllipseProfile{s.half_height_mm, s.half_width_mm}, -s.half_height_mm,
-               s.half_height_mm, s.half_width_mm};
+  return Built{EllipseProfile{s.half_height_mm, s.half_width_mm, 1.0 / s.half_height_mm},
+               -s.half_height_mm, s.half_height_mm, s.half_width_mm};
 }
 
 Result<Built> build_profile(const RibSpec& s) {
@@ -109,6 +110,15 @@ double SampledProfile::slope(double at) const noexcept {
   const double h = t[k + 1] - t[k], s = (at - t[k]) / h, r = 1.0 - s;
   return 6.0 * s * r * (f[k + 1] - f[k]) / h + slopes[k] * r * (r - 2.0 * s) +
          slopes[k + 1] * s * (s - 2.0 * r);
+}
+
+Facing SampledProfile::facing(double from, double to) const noexcept {
+  // 1 / (1 + f'^2) and f' / (1 + f'^2), also where f' overflows.
+  const auto normal2 = [](double rise) { return 1.0 / (1.0 + rise * rise); };
+  const double rise = slope(0.5 * (from + to)), steep = std::abs(rise);
+  const double lean =
+      steep > 1.0 ? (rise > 0.0 ? 1.0 : -1.0) / (steep + 1.0 / steep) : rise * normal2(rise);
+  return {normal2(rise), lean, (normal2(slope(to)) - normal2(slope(from))) / (to - from)};
 }
 
 Result<Tool> Tool::build(const ToolShapeSpec& spec) {

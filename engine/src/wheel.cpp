@@ -3,6 +3,7 @@
 #include "collapse.hpp"
 #include "contact.hpp"
 #include "force.hpp"
+#include "front.hpp"
 #include "number_text.hpp"
 #include "redistribution.hpp"
 #include "removal.hpp"
@@ -38,7 +39,7 @@ struct Wheel::State {
 namespace {
 
 // On such a way the clay changes little; the bound keeps a tick short when a pose leaps.
-constexpr double kLongestWayMm = 0.05;
+constexpr double kLongestWayMm = 0.2;
 constexpr int kMostParts = 32;
 
 template <unsigned stages>
@@ -50,11 +51,12 @@ std::span<Bite> touch(State& s, const ToolState& tool) noexcept {
   if constexpr (stages & kPinch) {
     if (tool.gap_mm > 0.0) {
       find_pinch<kModel<stages>>(s.plan.tool, s.stack, tool.hip_mm, tool.gap_mm, s.bites[0].contact,
-                                 s.bites[1].contact);
+                                 s.bites[1].contact, tool.moved_mm);
       return s.bites;
     }
   }
-  find_contact<kModel<stages>>(s.plan.tool, s.stack, tool.hip_mm, s.bites[0].contact);
+  find_contact<kModel<stages>>(s.plan.tool, s.stack, tool.hip_mm, s.bites[0].contact,
+                               tool.moved_mm);
   return std::span(s.bites).first(1);
 }
 
@@ -80,8 +82,16 @@ void remove(State& s, const ToolState& tool, std::span<Bite> bites) noexcept {
       return compute_pinch_removal<kModel<stages>>(s.plan.removal, s.stack, tool.gap_mm, tool.dt_s,
                                                    bites[0], bites[1]);
   }
-  compute_removal<kModel<stages>>(s.plan.removal, s.stack, bites[0].contact, tool.dt_s,
+  compute_removal<kModel<stages>>(s.plan.removal, s.stack, tool.dt_s, bites[0].contact,
                                   bites[0].removed);
+}
+
+/// How far the clay gives way, for the stack and for the force.
+template <unsigned stages, class State>
+void yield(State& s, const ToolState& tool, std::span<Bite> bites) noexcept {
+  remove<stages>(s, tool, bites);
+  if constexpr ((stages & kForce) && kModel<stages> == Model::conserving)
+    for (Bite& bite : bites) feel_front(s.plan, s.stack, tool.hip_mm.y, tool.dt_s, bite.contact);
 }
 
 /// Moves the clay that is displaced, and sees whether the stack still stands.
@@ -116,11 +126,8 @@ void press(State& s, const ToolState& tool, std::span<Bite> bites, StepReport& r
     const double half_way = 0.5 * tool.moved_mm.y / s.stack.ring_height_mm();
     bites[0].contact.up_offset += std::max(half_way, 0.0);
     bites[0].contact.down_offset += std::max(-half_way, 0.0);
-    if constexpr (stages & kForce)
-      for (Bite& bite : bites)
-        yield_edges(s.plan.removal, s.stack, tool.moved_mm.y, tool.dt_s, bite.contact);
   }
-  remove<stages>(s, tool, bites);
+  yield<stages>(s, tool, bites);
   report.flags |= deform<stages>(s, tool, bites);
 }
 
@@ -187,16 +194,15 @@ StepReport feel(State& s, const Pose& pose) noexcept {
   ToolTracker tracker = s.tracker;
   ToolState tool = believe<stages>(s.plan, tracker, pose, report);
   if (!tool.valid) return report;
+  const int parts = parts_of<kModel<stages>>(tool);
+  tool.dt_s /= parts;
+  tool.moved_mm /= parts;
   const std::span<Bite> bites = touch<stages>(s, tool);
   report.rings_touched = rings_of(bites);
   if (report.rings_touched == 0) return report;
   report.flags |= kContact;
   if constexpr (stages & kForce) {
-    const int parts = parts_of<kModel<stages>>(tool);
-    if constexpr (kModel<stages> == Model::conserving)
-      for (Bite& bite : bites)
-        yield_edges(s.plan.removal, s.stack, tool.moved_mm.y / parts, tool.dt_s / parts,
-                    bite.contact);
+    if constexpr (kModel<stages> == Model::conserving) yield<stages>(s, tool, bites);
     report.force_n = felt<stages>(s.plan.force, bites);
   }
   return report;

@@ -181,6 +181,7 @@ void FalconModel::answer_frame(double dt_s, Answer& answer) {
   const std::uint64_t now = frames_++;
   force_n_ = force_of(motors_);
   position_m_ = grip_(force_n_, dt_s);
+  if (thumb_) press(thumb_());
   // A grip that is out of reach leaves the encoders where they were.
   counts_ =
       kinematics_.inverse(position_m_)

@@ -72,7 +72,10 @@ Received LoopbackTransport::read(std::span<std::uint8_t> bytes, std::int64_t wai
   if (!open_) return {0, now_us(), WireStatus::failed};
   if (!model_->unplugged()) wait_until(size_ == 0 ? end_us : std::min(end_us, first().ready_us));
   Received received{0, now_us(), model_->unplugged() ? WireStatus::unplugged : WireStatus::ok};
-  while (size_ > 0 && first().ready_us <= received.time_us) {
+  const std::int64_t now = received.time_us;
+  while (size_ > 0 && first().ready_us <= now) {
+    // When it came, however late it is asked for.
+    received.time_us = first().ready_us;
     const auto next = first().answer.span().subspan(first().taken);
     const std::size_t taken = std::min(next.size(), bytes.size() - received.size);
     std::copy_n(next.begin(), taken, bytes.begin() + static_cast<long>(received.size));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace clay::falcon {
 namespace {
@@ -69,6 +70,10 @@ PassiveForce PassivityController::tick(std::int64_t time_us, const glm::dvec3& r
   return {force, state_};
 }
 
+void PassivityController::displayed(const glm::dvec3& force_n) noexcept {
+  if (is_finite(force_n)) sent_[newest_] = force_n;
+}
+
 void PassivityController::judge(bool contact_ended, const glm::dvec3& asked_n) noexcept {
   if (state_ == PassivityState::safe) return;
   const bool yields = state_ == PassivityState::yielding;
@@ -120,13 +125,17 @@ glm::dvec3 PassivityController::damping(double dt_s, const glm::dvec3& way_m) co
 glm::dvec3 PassivityController::earned(const glm::dvec3& way_m,
                                        const glm::dvec3& asked_n) noexcept {
   const double asked = glm::length(asked_n);
+  const double before = std::exchange(last_asked_n_, asked);
   if (!(asked > 0.0)) {
     earned_n_ = 0.0;
     return glm::dvec3(0.0);
   }
   const double stiffness = (state_ == PassivityState::yielding ? kYield : 1.0) * stiffness_;
   const glm::dvec3 direction = asked_n / asked;
-  earned_n_ = std::max(0.0, earned_n_ - stiffness * glm::dot(way_m, direction));
+  const double out_m = glm::dot(way_m, direction);
+  // A spring does not fall while it is pressed: that much has given way, and is gone.
+  const double yielded = out_m <= 0.0 ? std::max(0.0, before - asked) : 0.0;
+  earned_n_ = std::max(0.0, earned_n_ - stiffness * out_m - yielded);
   return earned_n_ < asked ? earned_n_ * direction : asked_n;
 }
 
@@ -134,6 +143,7 @@ void PassivityController::send(const glm::dvec3& force_n) noexcept {
   const auto length = static_cast<std::size_t>(spec_.loop.delay_ticks) + 1;
   last_sent_ = force_n;
   sent_[oldest_] = force_n;
+  newest_ = oldest_;
   oldest_ = (oldest_ + 1) % length;
 }
 

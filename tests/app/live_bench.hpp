@@ -22,12 +22,12 @@ namespace clay::live {
 /// The clock of a LoopbackTransport that runs in virtual time. Nobody sleeps on it: reading waits.
 class LineClock final : public Clock {
  public:
-  explicit LineClock(const falcon::LoopbackTransport& line) : line_(line) {}
+  explicit LineClock(const falcon::Transport& line) : line_(line) {}
   std::int64_t now_ns() noexcept override { return 1000 * line_.now_us(); }
   void sleep_until_ns(std::int64_t) noexcept override {}
 
  private:
-  const falcon::LoopbackTransport& line_;
+  const falcon::Transport& line_;
 };
 
 inline SceneSpec sample_scene(const std::string& name) {
@@ -44,13 +44,20 @@ inline std::vector<Pose> sample_stroke(const std::string& name) {
 using HandAt = std::function<glm::dvec3(double)>;
 
 struct VirtualThrow {
+  static falcon::FalconModelSettings homed() {
+    falcon::FalconModelSettings settings;
+    settings.loaded = settings.homed = true;
+    return settings;
+  }
+
   /// A hand that can't be resisted, so that a test knows where it is.
   VirtualThrow(const SceneSpec& scene, LiveSettings live_settings, HandAt hand_at,
-               Recorder* recorder = nullptr)
+               Recorder* recorder = nullptr,
+               const falcon::FalconModelSettings& model_settings = homed())
       : settings(std::move(live_settings)),
         hand(std::move(hand_at)),
         wheel(Wheel::build(scene).value()),
-        model(std::make_shared<falcon::FalconModel>(homed(),
+        model(std::make_shared<falcon::FalconModel>(model_settings,
                                                     [this](const glm::dvec3&, double dt_s) {
                                                       time_s += dt_s;
                                                       return falcon::Kinematics::kCentreM +
@@ -93,11 +100,6 @@ struct VirtualThrow {
   std::atomic<std::int64_t> heartbeat_us{0};
 
  private:
-  static falcon::FalconModelSettings homed() {
-    falcon::FalconModelSettings settings;
-    settings.loaded = settings.homed = true;
-    return settings;
-  }
   std::unique_ptr<falcon::Transport> make_line() {
     auto made = std::make_unique<falcon::LoopbackTransport>(model, falcon::Pace::virtual_);
     line = made.get();

@@ -85,6 +85,27 @@ TEST(LiveLoop, TheDeviceIsToldWhatTheGuardLetsThroughAndNoMore) {
   EXPECT_GT(most_n, 0.1);
 }
 
+// In at a fifth of the force, out at all of it: that is more than the hand put in, and the
+// controller, which damps what it sees given, has to know of the ramp.
+TEST(LiveLoop, ARampInMidContactIsSeenByThePassivityController) {
+  SceneSpec scene = rib_scene();
+  scene.removal.rate_per_s = 1e-9;
+  scene.force->friction = 0.0;
+  const auto damped_when_in_at = [&](double in_s) {
+    const HandAt in_and_out = [=](double t) {
+      const double way = std::clamp(std::min(t - in_s, in_s + 3.0 - t) / 0.4, 0.0, 1.0);
+      return glm::dvec3(2.0 - 7.0 * way, 0.0, 0.0);
+    };
+    VirtualThrow live(scene, one_to_one(), in_and_out);
+    live.run(in_s + 4.0);
+    EXPECT_EQ(live.loop->events().safe[static_cast<std::size_t>(falcon::SafeCause::not_passive)],
+              0u);
+    return live.loop->events().damped;
+  };
+  EXPECT_GT(damped_when_in_at(0.3), 0u);
+  EXPECT_EQ(damped_when_in_at(2.5), 0u) << "with the ramp behind it the spring gives what it took";
+}
+
 TEST(LiveLoop, AllocatesNothing) {
   VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
   live.run(0.1);
@@ -154,6 +175,64 @@ TEST(LiveLoop, PausesAndEndsByCommand) {
   EXPECT_NE(live.wheel.pot(), paused);
   ASSERT_TRUE(live.commands.push({CommandKind::stop, 0.0}));
   EXPECT_EQ(live.tick(), Ending::stopped);
+}
+
+TEST(LiveLoop, TakesTheForceAwayByCommandAndGivesItBack) {
+  VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
+  live.run(3.2);
+  ASSERT_GT(glm::length(live.status().force_n), 0.1);
+  ASSERT_TRUE(live.commands.push({CommandKind::zero, 0.0}));
+  live.tick();
+  EXPECT_EQ(glm::length(live.status().force_n), 0.0) << "in the very tick";
+  const Pot before = live.wheel.pot();
+  live.run(3.0);
+  EXPECT_EQ(glm::length(live.status().force_n), 0.0) << "and for good";
+  EXPECT_EQ(live.status().cause, falcon::SafeCause::paused);
+  EXPECT_EQ(live.wheel.pot(), before);
+  ASSERT_TRUE(live.commands.push({CommandKind::rearm, 0.0}));
+  live.tick();
+  EXPECT_NE(live.status().guard, GuardState::safe);
+  // Off the clay, and then in again.
+  live.hand = [from_s = live.time_s](double t) { return press_to(4.0)(t - from_s); };
+  live.run(3.2);
+  EXPECT_GT(glm::length(live.status().force_n), 0.1);
+  // The last of the two counts.
+  ASSERT_TRUE(live.commands.push({CommandKind::rearm, 0.0}));
+  ASSERT_TRUE(live.commands.push({CommandKind::zero, 0.0}));
+  live.tick();
+  EXPECT_EQ(live.status().guard, GuardState::safe);
+}
+
+TEST(LiveLoop, WhereSecondsAreSetADeviceThatNobodyHomesIsNotWaitedForForEver) {
+  falcon::FalconModelSettings never = VirtualThrow::homed();
+  never.homed = false;
+  never.homing_frames = 1 << 30;
+  LiveSettings settings = one_to_one();
+  settings.seconds = 2.0;
+  VirtualThrow live(rib_scene(), settings, press_to(2.0), nullptr, never);
+  EXPECT_EQ(live.run(59.9), Ending::none) << "a hand takes its time";
+  EXPECT_EQ(live.run(1.0), Ending::time_up);
+  EXPECT_EQ(live.status().poses, 0u);
+  EXPECT_EQ(live.status().device, falcon::DeviceState::needs_homing);
+
+  settings.seconds = 0.0;
+  VirtualThrow patient(rib_scene(), settings, press_to(2.0), nullptr, never);
+  EXPECT_EQ(patient.run(200.0), Ending::none);
+
+  settings.seconds = 90.0;
+  VirtualThrow longer(rib_scene(), settings, press_to(2.0), nullptr, never);
+  EXPECT_EQ(longer.run(89.9), Ending::none) << "never sooner than asked for";
+  EXPECT_EQ(longer.run(1.0), Ending::time_up);
+}
+
+TEST(LiveLoop, SecondsGoOnWhileItIsPaused) {
+  LiveSettings settings = one_to_one();
+  settings.seconds = 2.0;
+  VirtualThrow live(rib_scene(), settings, press_to(2.0));
+  live.run(0.5);
+  ASSERT_TRUE(live.commands.push({CommandKind::pause, 1.0}));
+  EXPECT_EQ(live.run(1.4), Ending::none);
+  EXPECT_EQ(live.run(0.2), Ending::time_up);
 }
 
 TEST(LiveLoop, AClayRateDeformsLessOftenAndIsFeltInBetween) {

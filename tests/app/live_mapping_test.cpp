@@ -103,20 +103,31 @@ TEST(SplitForce, OnTheAxisThereIsNoTurn) {
 TEST(Controls, ButtonsHoldAndStep) {
   Commands commands;
   Controls controls(kFalconButtons, true, 5.0);
-  controls.update(4, commands);
+  controls.update(0, 4, commands);
   EXPECT_TRUE(controls.clutched());
-  controls.update(2 | 1, commands);
+  controls.update(0, 2 | 1, commands);
   EXPECT_FALSE(controls.clutched());
   EXPECT_TRUE(controls.trim());
   EXPECT_EQ(controls.gap_mm(), 5.5);
-  controls.update(1, commands);
+  controls.update(0, 1, commands);
   EXPECT_EQ(controls.gap_mm(), 5.5) << "once a press";
-  controls.update(0, commands);
+  controls.update(0, 0, commands);
   for (int i = 0; i < 20; ++i) {
-    controls.update(8, commands);
-    controls.update(0, commands);
+    controls.update(0, 8, commands);
+    controls.update(0, 0, commands);
   }
   EXPECT_EQ(controls.gap_mm(), 0.0);
+}
+
+TEST(Controls, AButtonThatIsHeldStepsOn) {
+  Commands commands;
+  Controls controls(kFalconButtons, true, 5.0);
+  // Pressed at 1 s and held for 1 s: the press, one step at 0.4 s and twelve of 50 ms after that.
+  for (std::int64_t us = 1'000'000; us <= 2'000'000; us += 1000) controls.update(us, 1, commands);
+  EXPECT_DOUBLE_EQ(controls.gap_mm(), 5.0 + kGapStepMm * (1 + 1 + 12));
+  controls.update(2'001'000, 0, commands);
+  for (std::int64_t us = 2'002'000; us <= 2'300'000; us += 1000) controls.update(us, 8, commands);
+  EXPECT_DOUBLE_EQ(controls.gap_mm(), 5.0 + kGapStepMm * (1 + 1 + 12 - 1));
 }
 
 TEST(Controls, CommandsHoldUntilTheyLetGo) {
@@ -127,15 +138,15 @@ TEST(Controls, CommandsHoldUntilTheyLetGo) {
   ASSERT_TRUE(commands.push({CommandKind::trim, 1.0}));
   ASSERT_TRUE(commands.push({CommandKind::gap, 3.0}));
   ASSERT_TRUE(commands.push({CommandKind::rearm, 0.0}));
-  controls.update(0, commands);
+  controls.update(0, 0, commands);
   EXPECT_TRUE(controls.clutched() && controls.trim() && controls.rearm());
   EXPECT_EQ(controls.gap_mm(), 0.0);
-  controls.update(0, commands);
+  controls.update(0, 0, commands);
   EXPECT_TRUE(controls.clutched());
   EXPECT_FALSE(controls.rearm()) << "for one tick";
   ASSERT_TRUE(commands.push({CommandKind::clutch, 0.0}));
   ASSERT_TRUE(commands.push({CommandKind::stop, 0.0}));
-  controls.update(0, commands);
+  controls.update(0, 0, commands);
   EXPECT_FALSE(controls.clutched());
   EXPECT_TRUE(controls.stopped());
 }
@@ -145,11 +156,11 @@ TEST(Controls, ANumberThatIsNoneChangesNoGap) {
   Controls controls(kFalconButtons, true, 5.0);
   for (const double mm : {std::numeric_limits<double>::quiet_NaN(), -3.0}) {
     ASSERT_TRUE(commands.push({CommandKind::gap, mm}));
-    controls.update(0, commands);
+    controls.update(0, 0, commands);
     EXPECT_EQ(controls.gap_mm(), 5.0);
   }
   ASSERT_TRUE(commands.push({CommandKind::gap, 1e300}));
-  controls.update(0, commands);
+  controls.update(0, 0, commands);
   EXPECT_EQ(controls.gap_mm(), kWidestGapMm);
 }
 

@@ -50,6 +50,21 @@ TEST(Pacer, AfterAHoldUpNoTickIsMadeUpFor) {
   }
 }
 
+TEST(MonotonicClock, WakesNeverEarlyAndSaysWhatTheSleepWasLateBy) {
+  MonotonicClock clock;
+  for (int i = 0; i < 200; ++i) {
+    const std::int64_t due_ns = clock.now_ns() + 300'000;
+    const std::int64_t overslept_ns = clock.wake_at_ns(due_ns);
+    const std::int64_t woke_ns = clock.now_ns();
+    ASSERT_GE(woke_ns, due_ns);
+    ASSERT_GE(overslept_ns, 0);
+    // It slept until at most so long before, and was late by no more than what there is now.
+    ASSERT_LE(overslept_ns, woke_ns - due_ns + MonotonicClock::kLongestLookNs);
+  }
+  const std::int64_t past_ns = clock.now_ns() - 1;
+  EXPECT_EQ(clock.wake_at_ns(past_ns), 0);
+}
+
 TEST(Pacer, ADeviceThatIsSlowerSetsThePace) {
   SleepyClock clock;
   Pacer pacer(kPeriodNs);

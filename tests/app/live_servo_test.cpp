@@ -145,6 +145,43 @@ TEST(Servo, RealTimeIsGivenOrSaidToBeMissing) {
   munlockall();
 }
 
+TEST(Servo, TheHandlerItselfWritesZeroWhileTheServoHangs) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+    WireLog log;
+    const ForceSignals signals;
+    Threads threads(log);
+    Servo servo(threads.bench(), threads.loop, false);
+    servo.start();
+    wait_for([&] { return log.last_n > 0.0; });
+    log.hang = true;
+    EXPECT_EQ(log.stops, 0u);
+    raise(signal);
+    // Handled before it returns, but for the thread sanitizer, which waits for a sleep.
+    for (int i = 0; log.stops == 0 && i < 2000; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_EQ(log.stops, 1u) << "nobody else tells a device to stop while the servo hangs";
+    EXPECT_EQ(ForceSignals::asked_to_stop(), signal);
+    log.hang = false;
+    (void)servo.command({CommandKind::stop, 0.0});
+    EXPECT_EQ(servo.join(), Ending::stopped);
+    EXPECT_EQ(log.last_n, 0.0);
+  }
+}
+
+TEST(Servo, NoSignalOfJobControlStopsTheProcessUnderForce) {
+  WireLog log;
+  const ForceSignals signals;
+  Threads threads(log);
+  Servo servo(threads.bench(), threads.loop, false);
+  servo.start();
+  wait_for([&] { return log.last_n > 0.0; });
+  for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU}) kill(getpid(), signal);
+  const std::uint64_t writes = log.writes;
+  wait_for([&] { return log.writes > writes + 5; });
+  ASSERT_TRUE(servo.command({CommandKind::stop, 0.0}));
+  servo.join();
+}
+
 /// A process of its own that throws until this befalls it; how it ended.
 class LastPacket : public testing::Test {
  protected:
@@ -195,7 +232,10 @@ TEST_F(LastPacket, IsZeroAfterASignalThatAsksToStop) {
 }
 
 TEST_F(LastPacket, IsZeroAfterASignalThatKills) {
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
+  // Every signal of the system that would end it, but for SIGKILL and those that ask.
+  for (const int signal :
+       {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT, SIGTRAP, SIGSYS, SIGXCPU, SIGALRM,
+        SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2, SIGSTKFLT, SIGPOLL, SIGPWR}) {
     EXPECT_EQ(end_by([=] { kill(getpid(), signal); }), 128 + signal);
     expect_no_force();
     new (log_) WireLog;

@@ -40,7 +40,8 @@ TEST(LiveThrow, RunsWithoutHardwareAndReplaysToTheSameBytes) {
   EXPECT_EQ(json.at("recording").at("lost"), 0);
   EXPECT_EQ(json.at("recording").at("poses"), json.at("poses"));
   EXPECT_GE(json.at("servo").at("ticks"), json.at("poses"));
-  for (const char* times : {"lateness_us", "period_us", "work_us", "sample_age_us"}) {
+  for (const char* times :
+       {"lateness_us", "oversleep_us", "period_us", "work_us", "sample_age_us"}) {
     const auto& spread = json.at("servo").at(times);
     EXPECT_LE(spread.at("p50"), spread.at("p99"));
     EXPECT_LE(spread.at("p99"), spread.at("max"));

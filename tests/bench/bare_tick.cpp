@@ -15,7 +15,7 @@ namespace {
 /// As the engine cuts a tick, so that a fast hand leaves what a slow one does.
 int parts_of(const ToolState& tool) noexcept {
   const glm::dvec3 way = glm::abs(tool.moved_mm);
-  const double parts = std::max({way.x, way.y, way.z}) / 0.05;
+  const double parts = std::max({way.x, way.y, way.z}) / 0.2;
   return parts < 32 ? static_cast<int>(parts) + 1 : 32;
 }
 
@@ -37,7 +37,7 @@ void BareWheel::step(const Pose& pose) noexcept {
   ToolState tool = tracker_.advance(pose);
   if (!tool.valid) return;
   Bite& bite = bites_[0];
-  find_contact<Model::conserving>(plan_.tool, stack_, tool.hip_mm, bite.contact);
+  find_contact<Model::conserving>(plan_.tool, stack_, tool.hip_mm, bite.contact, tool.moved_mm);
   const bool touches = !bite.contact.rings.empty();
   const int parts = touches || touching_ ? parts_of(tool) : 1;
   touching_ = touches;
@@ -45,7 +45,8 @@ void BareWheel::step(const Pose& pose) noexcept {
   tool.moved_mm /= parts;
   for (int part = 1; part <= parts; ++part) {
     const glm::dvec3 hip = tool.hip_mm - static_cast<double>(parts - part) * tool.moved_mm;
-    if (parts > 1) find_contact<Model::conserving>(plan_.tool, stack_, hip, bite.contact);
+    if (parts > 1)
+      find_contact<Model::conserving>(plan_.tool, stack_, hip, bite.contact, tool.moved_mm);
     if (!bite.contact.rings.empty()) press(tool);
   }
 }
@@ -55,7 +56,7 @@ void BareWheel::press(const ToolState& tool) noexcept {
   const double half_way = 0.5 * tool.moved_mm.y / stack_.ring_height_mm();
   bite.contact.up_offset += std::max(half_way, 0.0);
   bite.contact.down_offset += std::max(-half_way, 0.0);
-  compute_removal<Model::conserving>(plan_.removal, stack_, bite.contact, tool.dt_s, bite.removed);
+  compute_removal<Model::conserving>(plan_.removal, stack_, tool.dt_s, bite.contact, bite.removed);
   press_clay<Model::conserving>(plan_, bites_, tool.upward, stack_, ledger_, &rim_);
 }
 

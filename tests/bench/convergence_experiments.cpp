@@ -185,12 +185,17 @@ StandingRib standing_rib(double ring_height_mm, double rate_hz) {
 
 double StandingRib::wall_mm(double t_s) const {
   const double wall = scene.lump.outer_radius_mm - scene.lump.inner_radius_mm;
-  return std::max(wall * std::exp(-scene.removal.rate_per_s * t_s), wall - leap_mm);
+  const double knee = scene.removal.yield_depth_mm, behind = wall - leap_mm;
+  const double rate = scene.removal.rate_per_s,
+               since = t_s - std::log(wall / (behind + knee)) / rate;
+  if (since < 0.0) return wall * std::exp(-rate * t_s);
+  const double left = std::exp(-rate * behind * since / knee);
+  return behind + behind * knee * left / (behind + knee * (1.0 - left));
 }
 
 double StandingRib::force_n(double t_s) const {
   const double wall = scene.lump.outer_radius_mm - scene.lump.inner_radius_mm;
-  const double depth = std::max(0.0, leap_mm - (wall - wall_mm(t_s)));
+  const double depth = leap_mm - (wall - wall_mm(t_s));
   return scene.force->stiffness_n_per_mm2 * std::get<RibSpec>(scene.tool.shape).height_mm * depth;
 }
 

@@ -49,14 +49,15 @@ struct ForceDifference {
 };
 ForceDifference force_difference(const Played& run, const Played& reference);
 
-/// A rib leaps `leap_mm` deep into a cylinder and stands: until its surface is reached the wall
-/// w decays as w e^(-kappa t) and the force is K' L times what is left of the depth.
+/// A rib leaps `leap_mm` deep into a cylinder and stands: until it is the yield depth from its
+/// surface the wall w decays as w e^(-kappa t), from there as the logistic curve that ends there.
+/// The force is K' L times what is left of the depth.
 struct StandingRib {
   SceneSpec scene;
   std::vector<Pose> poses;
   double leap_mm = 0.0;
   [[nodiscard]] double wall_mm(double t_s) const;
-  [[nodiscard]] double force_n(double t_s) const;  ///< at the end of the tick, before its removal
+  [[nodiscard]] double force_n(double t_s) const;  ///< at the end of the tick
 };
 StandingRib standing_rib(double ring_height_mm, double rate_hz);
 

@@ -25,10 +25,17 @@ constexpr double kRingMm = 0.005;
 constexpr ForcePlan kThinPlan{
     .stiffness_n_per_mm = 0.04 * kRingMm, .limit_n = 5.0, .friction = 0.3, .turn = 1.0};
 
+/// f'^2 in the middle of a ring.
+double ring_slope2(const Tool& tool, const ClayStack& stack, glm::dvec3 hip,
+                   const RingContact& ring) {
+  const double slope = tool.slope((ring.ring + 0.5) * stack.ring_height_mm() - hip.y);
+  return slope * slope;
+}
+
 double overlap_energy(const Tool& tool, const ClayStack& stack, glm::dvec3 hip) {
   double sum = 0.0;
   for (const RingContact& ring : touch(tool, stack, hip).rings)
-    sum += ring.depth_mm * ring.depth_mm;
+    sum += ring.depth_mm * ring.depth_mm / (1.0 + ring_slope2(tool, stack, hip, ring));
   return 0.5 * kThinPlan.stiffness_n_per_mm * sum;
 }
 

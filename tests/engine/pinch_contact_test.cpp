@@ -101,8 +101,8 @@ TEST(PinchContact, OnTheAxisThereIsNoDirection) {
   }
 }
 
-/// E_out + E_in of a tube, from its geometry: the integral over the height, by the middles of
-/// slices far thinner than a ring.
+/// E_out + E_in of a tube, from its geometry: the integral of the square of the depth along the
+/// ball's normal over the height, by the middles of slices far thinner than a ring.
 double energy(const SceneSpec& scene, glm::dvec3 hip, double gap_mm) {
   const LumpSpec& lump = scene.lump;
   const double d = std::hypot(hip.x, hip.z), reach = gap_mm / 2 + kToolMm;
@@ -115,7 +115,8 @@ double energy(const SceneSpec& scene, glm::dvec3 hip, double gap_mm) {
     const double f = std::sqrt(kToolMm * kToolMm - t * t);
     const double from_out = std::max(0.0, lump.outer_radius_mm + f - (d + reach));
     const double from_in = std::max(0.0, std::abs(d - reach) + f - lump.inner_radius_mm);
-    sum += from_out * from_out + from_in * from_in;
+    const double cosine = f / kToolMm;
+    sum += (from_out * from_out + from_in * from_in) * cosine * cosine;
   }
   return 0.5 * scene.force->stiffness_n_per_mm2 * slice * sum;
 }
@@ -165,7 +166,7 @@ TEST(PinchForce, CentredInTheWallTheRadialPartsCancel) {
 
 TEST(PinchForce, FrictionOfBothToolsAddsUp) {
   SceneSpec scene = tube_scene(50.0, 40.0);
-  scene.force->stiffness_n_per_mm2 = 0.002;
+  scene.force->stiffness_n_per_mm2 = 0.004;
   const auto alone = [&](double outer_mm, double inner_mm) {
     SceneSpec tube = scene;
     tube.lump.outer_radius_mm = outer_mm;

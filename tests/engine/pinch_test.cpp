@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -22,6 +23,24 @@ Wheel held(const SceneSpec& scene, glm::dvec3 hip, double gap_mm) {
   Wheel wheel = Wheel::build(scene).value();
   for (int k = 0; k <= 1000; ++k) wheel.step(pinch_at(1000 * k, hip, gap_mm));
   return wheel;
+}
+
+/// A wall pulled up at 20 mm/s: what is felt half a second on.
+glm::dvec3 pulled(std::int64_t period_us) {
+  SceneSpec scene = tube_scene(40.0, 30.0);
+  scene.force->friction = 0.3;
+  Wheel wheel = Wheel::build(scene).value();
+  glm::dvec3 force(0.0);
+  for (std::int64_t t = 0; t <= 500'000; t += period_us)
+    force = wheel.step(pinch_at(t, {35.0, 15.0 + 2e-5 * static_cast<double>(t), 0.0}, 4.0)).force_n;
+  return force;
+}
+
+TEST(Pinch, FeelsTheSameAtEveryRate) {
+  const glm::dvec3 fast = pulled(125);
+  EXPECT_GT(glm::length(fast), 1e-3);
+  for (const std::int64_t period_us : {250, 1000})
+    EXPECT_LT(glm::distance(pulled(period_us), fast), 0.05 * glm::length(fast)) << period_us;
 }
 
 TEST(Pinch, LeavesTheGapAroundTheMiddleThatTheHandHolds) {

@@ -10,7 +10,8 @@
 namespace clay {
 namespace {
 
-constexpr RemovalPlan kPlan{.rate_per_s = 20.0, .min_wall_mm = 1.0, .paper_fraction = 0.02};
+constexpr RemovalPlan kPlan{
+    .rate_per_s = 20.0, .yield_depth_mm = 0.25, .min_wall_mm = 1.0, .paper_fraction = 0.02};
 
 Contact deep_contact(const ClayStack& stack, Side side, double depth_mm) {
   Contact contact;
@@ -24,7 +25,8 @@ template <Model model>
 double removed_mm2(const ClayStack& stack, Side side, double depth_mm, double dt_s,
                    const RemovalPlan& plan = kPlan) {
   std::vector<Quanta> removed;
-  compute_removal<model>(plan, stack, deep_contact(stack, side, depth_mm), dt_s, removed);
+  Contact contact = deep_contact(stack, side, depth_mm);
+  compute_removal<model>(plan, stack, dt_s, contact, removed);
   return mm2_from_quanta(removed.at(0));
 }
 
@@ -57,9 +59,20 @@ TEST(Removal, TwoHalfStepsAreOneStep) {
               1e-8);
 }
 
+TEST(Removal, LeavesToTheForceTheDepthThatIsLeft) {
+  const ClayStack stack = cup(50, 40);
+  for (const Side side : {Side::compressive, Side::expansive}) {
+    Contact contact = deep_contact(stack, side, 3.0);
+    std::vector<Quanta> removed;
+    compute_removal<Model::conserving>(kPlan, stack, 0.004, contact, removed);
+    EXPECT_NEAR(contact.rings[0].depth_mm, 3.0 + 10.0 * std::expm1(-20.0 * 0.004), 1e-12);
+  }
+}
+
 TEST(Removal, StopsAtTheToolAndAtTheMinimumWall) {
   // A fast clay: the exponential alone would take the whole wall.
-  const RemovalPlan fast{.rate_per_s = 1e6, .min_wall_mm = 1.0, .paper_fraction = 0.0};
+  const RemovalPlan fast{
+      .rate_per_s = 1e6, .yield_depth_mm = 0.25, .min_wall_mm = 1.0, .paper_fraction = 0.0};
   const auto r = [&](double mm2) { return std::sqrt(2500.0 - mm2); };
   EXPECT_NEAR(r(removed_mm2<Model::conserving>(cup(50, 40), Side::compressive, 3, 1, fast)), 47.0,
               1e-9);
@@ -72,9 +85,12 @@ TEST(Removal, StopsAtTheToolAndAtTheMinimumWall) {
 RC_GTEST_PROP(Removal, NeverLeavesARingWithoutClay, ()) {
   auto random = *samples::random_engine();
   const ClayStack stack = samples::stack(random, 20);
-  const RemovalPlan plan{.rate_per_s = 1e6, .min_wall_mm = 0.001, .paper_fraction = 1.0 - 1e-9};
+  const RemovalPlan plan{.rate_per_s = 1e6,
+                         .yield_depth_mm = *rc::gen::element(1e-3, 0.25, 1e3),
+                         .min_wall_mm = 0.001,
+                         .paper_fraction = 1.0 - 1e-9};
   for (const Side side : {Side::compressive, Side::expansive}) {
-    const Contact contact = deep_contact(stack, side, 1e6);
+    Contact contact = deep_contact(stack, side, 1e6);
     std::vector<Quanta> removed;
     const auto check = [&] {
       for (std::size_t i = 0; i < removed.size(); ++i) {
@@ -82,9 +98,9 @@ RC_GTEST_PROP(Removal, NeverLeavesARingWithoutClay, ()) {
         RC_ASSERT(removed[i] < stack.rings()[i].volume());
       }
     };
-    compute_removal<Model::paper>(plan, stack, contact, 1.0, removed);
+    compute_removal<Model::paper>(plan, stack, 1.0, contact, removed);
     check();
-    compute_removal<Model::conserving>(plan, stack, contact, 1.0, removed);
+    compute_removal<Model::conserving>(plan, stack, 1.0, contact, removed);
     check();
   }
 }

@@ -98,7 +98,7 @@ TEST(ThrowingOn, ARimThatLeansIsKept) {
   const auto poses = [](double x) {
     std::vector<Pose> stroke = {{0, {90.0, 38.0, 0.0}, false, 0.0}};
     for (int i = 1; i <= 500; ++i)
-      stroke.push_back({1000 * i, {x, 20.0 + 0.004 * i, 0.0}, false, 0.0});
+      stroke.push_back({1000 * i, {x, 27.0 + 0.007 * i, 0.0}, false, 0.0});
     stroke.push_back({600'000, {90.0, 38.0, 0.0}, false, 0.0});
     return stroke;
   };

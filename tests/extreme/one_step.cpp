@@ -27,13 +27,15 @@ struct Expected {
 /// One tick in 50 digits. All indices count from 0.
 class Recomputed {
  public:
-  Recomputed(Who who, const SceneSpec& scene, Section before, bool upward, const glm::dvec3& hip,
-             double rise_mm)
+  Recomputed(Who who, const SceneSpec& scene, Section before, const glm::dvec3& hip,
+             const glm::dvec3& moved)
       : counted_(who == Who::conserving),
         scene_(scene),
         section_(std::move(before)),
         hip_(hip),
-        rise_(Fifty(rise_mm) / scene.lump.ring_height_mm) {
+        moved_(moved),
+        rise_(Fifty(moved.y) / scene.lump.ring_height_mm) {
+    const bool upward = moved.y > 0.0;
     for (const Radii& ring : section_.rings)
       rings_.push_back(
           {Fifty(ring.outer_mm) * ring.outer_mm, Fifty(ring.inner_mm) * ring.inner_mm, 0.0, 0.0});
@@ -103,14 +105,49 @@ class Recomputed {
     outside_ = d > (sqrt(middle.outer2) + sqrt(middle.inner2)) / 2;
     hollow_ = !outside_;
     for (const Expected& ring : rings_) hollow_ = hollow_ || ring.inner2 > 0;
-    const Fifty kappa_dt = Fifty(scene_.removal.rate_per_s) / 2500;  // 0.4 ms
-    const Fifty fraction =
-        counted_ ? Fifty(1 - exp(Fifty(-kappa_dt))) : Fifty(scene_.removal.rate_per_s / 1000.0);
-    for (std::size_t i = bottom_; i <= top_; ++i) take_from(i, d, fraction);
+    const Fifty x = Fifty(hip_.x) - moved_.x, z = Fifty(hip_.z) - moved_.z;
+    const Fifty way = sqrt(Fifty(x * x + z * z)) - d;
+    for (std::size_t i = bottom_; i <= top_; ++i) take_from(i, d, outside_ ? way : Fifty(-way));
   }
 
-  void take_from(std::size_t i, const Fifty& d, const Fifty& fraction) {
+  /// f at a height, or at the tool's end where that is nearer.
+  [[nodiscard]] Fifty profile_at(const Fifty& t) const {
+    const Fifty half = half_height_mm(scene_.tool.shape);
+    return half_profile(scene_.tool.shape, std::clamp(t, Fifty(-half), half));
+  }
+
+  /// docs/model.md, "How clay gives way", for a tool that is now `depth` in a wall, after it has
+  /// come `advance` nearer in a part of the time `whole`, times kappa.
+  Fifty depth_left(const Fifty& wall, const Fifty& depth, Fifty advance, Fifty part,
+                   const Fifty& whole) {
+    const Fifty knee = scene_.removal.yield_depth_mm, thinnest = scene_.removal.min_wall_mm;
+    if (advance > depth) {
+      part *= depth / advance;
+      advance = depth;
+    }
+    const Fifty kappa_dt = whole * part, start = depth - advance;
+    const Fifty at_most = wall * (1 - exp(Fifty(-whole))) * part * (1 + whole * (1 - part) / 2);
+    Fifty rest = 1;
+    if (start > knee) {
+      const Fifty over = start - knee, middle = wall - over / 2;
+      const Fifty closing = kappa_dt * (middle - over * over / (12 * middle)) - advance;
+      rest = closing > over ? Fifty(1 - over / closing) : Fifty(0);
+    }
+    const Fifty behind = std::max(Fifty(wall - depth + advance / 2), thinnest);
+    const Fifty pace = std::max(Fifty(advance * knee / kappa_dt), Fifty(-behind * behind / 4));
+    const Fifty steady = pace / (behind + pace / behind);
+    const Fifty spread = behind + 2 * steady;
+    const Fifty off = std::min(start, knee) - steady;
+    const Fifty left = exp(Fifty(-kappa_dt * rest * spread / knee));
+    const Fifty relaxed = steady + off * left / (1 + off / spread * (1 - left));
+    // The engine's exponential is good to 1e-11.
+    exp_slack_ = 1e-11 * abs(off).convert_to<double>();
+    return std::clamp(std::max(relaxed, Fifty(depth - at_most)), Fifty(0), depth);
+  }
+
+  void take_from(std::size_t i, const Fifty& d, const Fifty& way) {
     Fifty t = section_.centres_mm[i] - Fifty(hip_.y);
+    const Fifty middle = t, moved = moved_.y;
     const Fifty half = half_height_mm(scene_.tool.shape),
                 half_ring = scene_.lump.ring_height_mm / 2;
     const bool ellipse = !std::holds_alternative<RibSpec>(scene_.tool.shape);
@@ -123,14 +160,21 @@ class Recomputed {
     const Fifty f = half_profile(scene_.tool.shape, t);
     const Fifty depth = outside_ ? Fifty(outer + f - d) : Fifty(d + f - inner);
     if (depth <= 0) return;
-    Fifty eps = (outer - inner) * fraction;
-    if (counted_)
-      eps = std::max(Fifty(0),
-                     std::min({eps, depth, Fifty(outer - inner - scene_.removal.min_wall_mm)}));
+    Fifty eps = (outer - inner) * Fifty(scene_.removal.rate_per_s / 1000.0);
+    if (counted_) {
+      const Fifty before = std::clamp(Fifty(middle + moved), Fifty(-half), half);
+      const Fifty since = before != middle + moved ? Fifty((before - middle) / moved) : Fifty(1);
+      const Fifty advance = since * way + f - profile_at(t + since * moved);
+      const Fifty kappa_dt = Fifty(scene_.removal.rate_per_s) / 2500;  // 0.4 ms
+      const Fifty spare = outer - inner - scene_.removal.min_wall_mm;
+      eps = std::min(Fifty(depth - depth_left(outer - inner, depth, advance, since, kappa_dt)),
+                     std::max(spare, Fifty(0)));
+    }
     const Fifty amount = outside_ ? Fifty(eps * (2 * outer - eps)) : Fifty(eps * (2 * inner + eps));
     removed_ += amount;
     (outside_ ? ring.outer2 : ring.inner2) += outside_ ? Fifty(-amount) : amount;
-    const double slack = slack_of(outer, f, d);
+    double slack = slack_of(outer, f, d);
+    if (counted_) slack += 2.0 * outer.convert_to<double>() * exp_slack_;
     (outside_ ? ring.outer_slack : ring.inner_slack) += slack;
     slack_ += slack;
   }
@@ -192,7 +236,7 @@ class Recomputed {
   bool counted_;
   const SceneSpec& scene_;
   Section section_;
-  glm::dvec3 hip_;
+  glm::dvec3 hip_, moved_;
   Fifty rise_;  ///< since the last pose, in rings
   Fifty up_offset_ = 0, down_offset_ = 0;
   std::vector<Expected> rings_;
@@ -200,6 +244,7 @@ class Recomputed {
   std::size_t bottom_ = 0, top_ = 0;
   Fifty removed_ = 0, to_height_ = 0;
   double slack_ = 0.0;
+  double exp_slack_ = 0.0;  ///< of the last depth_left [mm]
 };
 
 /// On a grid of 1/256 mm, so that no offset of the kernel is rounded (it has 20 bits of fraction).
@@ -258,16 +303,18 @@ Outcome one_step_again(Who who) {
     subject->step(pose);
     for (int k = 0; k < 20; ++k) {
       for (int wild = 0; wild < 8; ++wild) subject->step(pose = hand.next());
-      // Less than 0.05 mm from here on, which is a tick in one part; first to the grid.
+      // Less than 0.2 mm from here on, which is a tick in one part; first to the grid.
       pose = {pose.time_us + 400, pose.position_mm, false};
       pose.position_mm.y = on_grid(pose.position_mm.y);
       subject->step(pose);
       const double rise = std::floor(17.0 * hand.uniform() - 8.0) / 256.0;
       if (rise == 0.0) continue;
-      pose = {pose.time_us + 400,
-              pose.position_mm + glm::dvec3(0.04 * hand.uniform() - 0.02, rise, 0.0), false};
+      const glm::dvec3 from = pose.position_mm;
+      pose = {pose.time_us + 400, from + glm::dvec3(0.04 * hand.uniform() - 0.02, rise, 0.0),
+              false};
+      const glm::dvec3 moved = pose.position_mm - from;
       const std::size_t rings = subject->rings();
-      const Recomputed step(who, scene, section_of(*subject), rise > 0.0, pose.position_mm, rise);
+      const Recomputed step(who, scene, section_of(*subject), pose.position_mm, moved);
       subject->step(pose);
       if (!step.pressed() || subject->rings() != rings) continue;
       if (!subject->fault().empty()) break;  // the paper's own, in other cases of the suite

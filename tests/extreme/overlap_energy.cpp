@@ -62,7 +62,10 @@ double OverlapEnergy::of_ring(std::size_t i, double hip_y, double d, bool outsid
     const double f = rib ? width : width * std::cos(s);
     const double depth =
         outside ? section_.rings[i].outer_mm + f - d : d + f - section_.rings[i].inner_mm;
-    return depth > 0.0 ? depth * depth * half * std::cos(s) : 0.0;
+    // f' = -(width / half) tan s; a rib has none.
+    const double across = rib ? 1.0 : half * std::cos(s), along = rib ? 0.0 : width * std::sin(s);
+    const double cos2 = across * across / (across * across + along * along);
+    return depth > 0.0 ? cos2 * depth * depth * half * std::cos(s) : 0.0;
   };
   const double low = std::asin(from / half), high = std::asin(to / half);
   double sum = 0.0;

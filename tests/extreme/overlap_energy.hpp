@@ -15,9 +15,9 @@ struct Section {
 };
 [[nodiscard]] Section section_of(const Subject& subject);
 
-/// E = K'/2 times the integral of depth^2 over the height that tool and clay share; depth = max(0,
-/// R + f - d) outside, max(0, d + f - r) inside; K' in N/mm^2. An integral, by Gauss and Legendre,
-/// where the engine adds up rings.
+/// E = K'/2 times the integral of (depth cos theta)^2 over the height that tool and clay share;
+/// depth = max(0, R + f - d) outside, max(0, d + f - r) inside, tan theta = f'; K' in N/mm^2. An
+/// integral, by Gauss and Legendre, where the engine adds up rings.
 class OverlapEnergy {
  public:
   OverlapEnergy(ToolShapeSpec shape, Section section, double stiffness_n_per_mm2, bool outside);

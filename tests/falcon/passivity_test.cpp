@@ -105,6 +105,65 @@ void play(PassivityController& controller, double stiffness, int ticks,
   }
 }
 
+/// In by 5 mm at a part of the force, out at another: what the hand was given, by forces times
+/// ways, and what the controller came to.
+struct PressAndLeave {
+  double given_j = 0.0, debt_j = 0.0;
+  PassivityState worst = PassivityState::watching;
+};
+PressAndLeave press_and_leave(double part_in, double part_out, bool told) {
+  constexpr double kStiffness = 400.0, kDepthM = 5e-3;
+  PassivityController controller = controller_of({1000, 0.1, 0.5, 0});
+  PressAndLeave run;
+  double before_m = 0.0, held_n = 0.0;
+  for (int k = 0; k <= 1000; ++k) {
+    const bool in = k <= 500;
+    const double x_m = 1e-6 - kDepthM * (in ? k : 1000 - k) / 500.0;
+    run.given_j += held_n * (x_m - before_m);
+    before_m = x_m;
+    const glm::dvec3 asked = along(kStiffness * std::max(0.0, -x_m));
+    const PassiveForce answer = controller.tick(1000 * k, along(x_m), asked);
+    const glm::dvec3 shown = (in ? part_in : part_out) * answer.force_n;
+    if (told) controller.displayed(shown);
+    held_n = shown.x;
+    run.debt_j = std::max(run.debt_j, controller.observer().debt_j());
+    run.worst = std::max(run.worst, answer.state);
+  }
+  return run;
+}
+
+// A guard's ramp that grows in the middle of a contact gives the hand more on its way out than it
+// took on its way in: at most F^2 / 2K, and the controller sees it when it is told what was shown.
+TEST(Passivity, CountsTheForceThatIsDisplayed) {
+  const double stored_j = 0.5 * 400.0 * 25e-6;
+  const PressAndLeave steady = press_and_leave(1.0, 1.0, true);
+  EXPECT_NEAR(steady.given_j, 0.0, 0.01 * stored_j);
+  EXPECT_EQ(steady.worst, PassivityState::watching);
+
+  const PressAndLeave untold = press_and_leave(0.1, 1.0, false);
+  EXPECT_NEAR(untold.given_j, 0.9 * stored_j, 0.01 * stored_j);
+  EXPECT_EQ(untold.worst, PassivityState::watching) << "it believes in credit that there is not";
+
+  const PressAndLeave told = press_and_leave(0.1, 1.0, true);
+  EXPECT_EQ(told.worst, PassivityState::damping);
+  EXPECT_LT(told.given_j, 0.95 * untold.given_j);
+  EXPECT_GT(told.debt_j, 0.0);
+
+  const PressAndLeave less = press_and_leave(1.0, 0.1, true);
+  EXPECT_LT(less.given_j, 0.0) << "a force that fades takes energy";
+  EXPECT_EQ(less.worst, PassivityState::watching);
+}
+
+TEST(Passivity, WhatIsDisplayedMustBeANumber) {
+  PassivityController told = controller_of(kLoop), untold = controller_of(kLoop);
+  for (int k = 0; k < 100; ++k) {
+    const glm::dvec3 at = along(-1e-5 * k), asked = along(4e-3 * k);
+    EXPECT_EQ(told.tick(1000 * k, at, asked).force_n, untold.tick(1000 * k, at, asked).force_n);
+    told.displayed(along(std::nan("")));
+  }
+  EXPECT_EQ(told.observer().injected_j(), untold.observer().injected_j());
+}
+
 RC_GTEST_PROP(Passivity, AnAcceptedSpringPassesUnchanged, ()) {
   SampledLoop loop = kLoop;
   loop.delay_ticks = *rc::gen::inRange(0, 4);

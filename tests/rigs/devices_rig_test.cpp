@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -69,6 +70,29 @@ TEST_F(DevicesRig, TellsAFalconThroughItsStart) {
   EXPECT_EQ(claystack("devices falcon --monitor --seconds 2").status, 0);
   EXPECT_EQ(only_one().at("state"), "ready") << "homed while it was monitored";
   EXPECT_EQ(falcon_->device.log.back().motors, LegCounts{});
+}
+
+/// Where the grip is, as --monitor says in the end, in the plane that the user faces and along z.
+TEST_F(DevicesRig, MeasuresByTheGeometryAndMapsAsAsked) {
+  FalconModelSettings model;
+  model.loaded = model.homed = true;
+  model.geometry = kMartinHillierGeometry;
+  falcon_ = std::make_unique<FalconGadget>(
+      model, [](std::uint64_t) { return Kinematics::kCentreM + glm::dvec3(0.01, -0.02, 0.0); });
+  plug_ = std::make_unique<UsbPlug>(testbed_.get(), *falcon_);
+  const auto last = [](const std::string& more) {
+    const auto run = claystack("devices falcon --monitor --seconds 1 --json " + more);
+    EXPECT_EQ(run.status, 0) << run.err;
+    const std::string& lines = run.out;
+    return nlohmann::json::parse(lines.substr(lines.rfind('\n', lines.size() - 2) + 1));
+  };
+  const auto right = last("--geometry martin-hillier --scale 2 --side left --reach 50 --flip x");
+  EXPECT_NEAR(right.at("position_mm")[0], 10.0, 0.07);
+  EXPECT_NEAR(right.at("position_mm")[1], -20.0, 0.07);
+  EXPECT_NEAR(right.at("position_mm")[2], 0.0, 0.07);
+  EXPECT_NEAR(right.at("tool_mm")[0], -50.0 - 2.0 * 10.0, 0.15);
+  EXPECT_NEAR(right.at("tool_mm")[1], 75.0 - 2.0 * 20.0, 0.15);
+  EXPECT_GT(std::abs(last("").at("position_mm")[2].get<double>()), 1.0) << "the other set";
 }
 
 TEST_F(DevicesRig, TellsADriverAndAnotherProgram) {

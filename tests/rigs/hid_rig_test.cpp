@@ -4,6 +4,7 @@
 
 #include "claystack/falcon/usb_devices.hpp"
 #include "hid_gadget.hpp"
+#include "plugged.hpp"
 #include "testbed.hpp"
 
 #include <gtest/gtest.h>
@@ -25,30 +26,6 @@ glm::dvec3 on_circle(std::uint64_t frame) {
   const double turn = 2e-3 * 3.14159265358979 * static_cast<double>(frame);
   return Kinematics::kCentreM + 0.02 * glm::dvec3(std::cos(turn), std::sin(turn), 0.0);
 }
-
-/// The gadget where the backend looks for it.
-#ifdef CLAYSTACK_HIDAPI_LIBUSB
-class Plugged {
- public:
-  Plugged(UMockdevTestbed* testbed, HidGadget& gadget) : plug_(testbed, gadget) {}
-  void pump() {}
-  void show(bool) {}
-
- private:
-  UsbPlug plug_;
-};
-#else
-class Plugged {
- public:
-  Plugged(UMockdevTestbed* testbed, HidGadget& gadget)
-      : node_(testbed, gadget, gadget.identity().port) {}
-  void pump() { node_.pump(); }
-  void show(bool there) { node_.show(there); }
-
- private:
-  HidrawNode node_;
-};
-#endif
 
 /// hidapi keeps its state for good, and the next test has another /dev.
 class HidRig : public testing::Test {

@@ -1,7 +1,10 @@
 // `claystack throw --device` as a user runs it: unmodified libftdi1, libusb and hidapi, and a hand
-// that plays the sample's stroke on the emulated device.
+// that plays the sample's stroke on the emulated device. The same tests with hidapi's hidraw
+// backend, as the program is linked, and with its libusb backend put before that
+// (CLAYSTACK_HIDAPI_LIBUSB is the library).
 
 #include "../app/run_program.hpp"
+#include "../falcon/dummy_firmware.hpp"
 #include "claystack/engine/atomic_file.hpp"
 #include "claystack/engine/scene_file.hpp"
 #include "claystack/engine/session_file.hpp"
@@ -9,6 +12,7 @@
 #include "falcon_gadget.hpp"
 #include "hid_gadget.hpp"
 #include "live/mapping.hpp"
+#include "plugged.hpp"
 #include "testbed.hpp"
 
 #include <gtest/gtest.h>
@@ -17,6 +21,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <mutex>
@@ -53,12 +58,73 @@ FalconModelSettings ready() {
   return model;
 }
 
+/// While it lives, programs find this backend of hidapi before the one that they are linked with.
+class Backend {
+ public:
+#ifdef CLAYSTACK_HIDAPI_LIBUSB
+  Backend() { setenv("LD_PRELOAD", (before_ + ":" CLAYSTACK_HIDAPI_LIBUSB).c_str(), 1); }
+#else
+  Backend() = default;
+#endif
+  ~Backend() { setenv("LD_PRELOAD", before_.c_str(), 1); }
+  Backend(const Backend&) = delete;
+  Backend& operator=(const Backend&) = delete;
+
+ private:
+  std::string before_ = std::getenv("LD_PRELOAD");  // umockdev's own
+};
+
 class ThrowRig : public testing::Test {
  protected:
+  std::string bowl_on(const std::string& device, const std::string& more) {
+    return "throw " + test::sample("bowl.scene.json") + " --device " + device +
+           " --json --record " + folder_.file("s.session") + " -o " +
+           folder_.file("live.pot.json") + " " + more;
+  }
   Ran throw_bowl(const std::string& device, const std::string& more) {
-    return claystack("throw " + test::sample("bowl.scene.json") + " --device " + device +
-                     " --json --record " + folder_.file("s.session") + " -o " +
-                     folder_.file("live.pot.json") + " " + more);
+    const Backend backend;
+    return claystack(bowl_on(device, more));
+  }
+
+  /// Throws until the device has had so many frames, however slow they are, and then asks it to
+  /// stop.
+  template <class Gadget>
+  Ran throw_frames(Gadget& gadget, std::size_t frames, const std::string& device,
+                   const std::string& more) {
+    const Backend backend;
+    const std::string enough = folder_.file("enough");
+    std::atomic<bool> ended{false};
+    std::thread counter([&] {
+      for (bool full = false; !full && !ended;
+           std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
+        const std::scoped_lock held(gadget.lock);
+        full = gadget.device.log.size() >= frames;
+      }
+      test::write_text(enough, "");
+    });
+    const auto run = test::shell(std::string(CLAYSTACK_PROGRAM) + " " + bowl_on(device, more) +
+                                 " & program=$!; while [ ! -e " + enough +
+                                 " ] && kill -0 $program; do sleep 0.05; done; "
+                                 "kill -s INT $program; wait $program");
+    ended = true;
+    counter.join();
+    return run;
+  }
+
+  /// From nothing: the firmware is loaded and echoed, the grip homed.
+  std::string firmware() {
+    const std::string path = folder_.file("firmware.bin");
+    const auto bytes = dummy_firmware();
+    test::write_text(path, {bytes.begin(), bytes.end()});
+    return "--firmware " + path;
+  }
+
+  /// 5000 frames and more, homing left out, and none of them bad.
+  static void expect_no_bad_frame(const Ran& run, std::size_t frames) {
+    const auto device = run.json().at("frames");
+    EXPECT_GE(device.at("taken"), frames);
+    EXPECT_EQ(device.at("bytes_discarded"), 0);
+    EXPECT_EQ(device.at("without_pose"), 0);
   }
 
   /// The pot as the recorded session leaves it: without any device.
@@ -70,6 +136,20 @@ class ThrowRig : public testing::Test {
     return test::read_text(folder_.file("replay.pot.json"));
   }
   std::string thrown() { return test::read_text(folder_.file("live.pot.json")); }
+
+  /// Each pose recorded is a place where the hand was: half an encoder's step on each leg.
+  void expect_true_places(const std::vector<FrameLog>& log) {
+    const std::string path = folder_.file("s.session");
+    const Session session = parse_session(test::read_text(path), path).value();
+    ASSERT_GT(session.poses.size(), 500u);
+    const auto mapping = live::Mapping::build({}).value();
+    for (const Pose& pose : session.poses) {
+      const glm::dvec3 place_m = Kinematics::kCentreM + 1e-3 * mapping.to_device(pose.position_mm);
+      const auto at = std::ranges::min_element(
+          log, {}, [&](const FrameLog& frame) { return glm::distance(frame.position_m, place_m); });
+      ASSERT_LT(1e3 * glm::distance(at->position_m, place_m), 0.07) << pose.time_us;
+    }
+  }
 
   /// Position went in, torque came out: each pose recorded is a place where the hand was, and what
   /// the motors pushed in the frame after it points where the clay of the replay pushes the tool.
@@ -111,31 +191,95 @@ class ThrowRig : public testing::Test {
   Testbed testbed_;
 };
 
-TEST_F(ThrowRig, AStockFalconThrowsTheSample) {
-  FalconGadget gadget(ready(), bowl_stroke());
+constexpr std::size_t kFrames = 5000;
+constexpr std::size_t kHomingFrames = 3 * 20 + kLeadFrames;
+
+#ifndef CLAYSTACK_HIDAPI_LIBUSB  // no hidapi in these
+
+TEST_F(ThrowRig, AStockFalconThrowsTheSampleFromABareStart) {
+  FalconGadget gadget({}, bowl_stroke());
   const UsbPlug plug(testbed_.get(), gadget);
-  const auto run = throw_bowl("falcon", "--seconds 6");
+  const auto run = throw_frames(gadget, kFrames + kHomingFrames, "falcon", firmware());
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = run.json();
-  EXPECT_EQ(json.at("ended"), "time_up");
+  EXPECT_EQ(json.at("ended"), "stopped");
   EXPECT_EQ(json.at("volume_error_quanta"), 0);
   EXPECT_EQ(thrown(), replayed());
   const std::scoped_lock held(gadget.lock);
-  SCOPED_TRACE(run.json().at("servo").dump());
+  SCOPED_TRACE(run.json().dump());
+  expect_no_bad_frame(run, kFrames);
+  EXPECT_EQ(gadget.device.model.firmware(), dummy_firmware());
   expect_felt(gadget.device.log);
 }
 
-TEST_F(ThrowRig, AFalconBehindABridgeThrowsTheSame) {
-  BridgeGadget gadget(ready(), bowl_stroke());
-  const HidrawNode node(testbed_.get(), gadget, 2);
-  const auto run = throw_bowl("bridge", "--seconds 6");
+TEST_F(ThrowRig, AFalconThatNobodyHomesIsNotWaitedForForEver) {
+  FalconModelSettings model;
+  model.loaded = true;
+  model.homing_frames = 1 << 30;
+  FalconGadget gadget(model, bowl_stroke());
+  const UsbPlug plug(testbed_.get(), gadget);
+  const auto run = throw_bowl("falcon", "--seconds 0.2 --patience 1");
+  EXPECT_EQ(run.status, 4);
+  EXPECT_NE(run.err.find("usb:1-1: nothing was thrown; home it: pull the grip"), std::string::npos)
+      << run.err;
+  EXPECT_EQ(run.json().at("poses"), 0);
+  const std::scoped_lock held(gadget.lock);
+  for (const FrameLog& frame : gadget.device.log) ASSERT_EQ(frame.motors, LegCounts{});
+}
+
+TEST_F(ThrowRig, NoFaultOnTheWireIsBelieved) {
+  FalconModelSettings model = ready();
+  constexpr std::uint64_t kLost = 1900;
+  model.faults = {{WireFault::lost_byte, 1300},   {WireFault::extra_byte, 1400},
+                  {WireFault::half_frame, 1500},  {WireFault::bad_nibble, 1600},
+                  {WireFault::no_frame, 1700},    {WireFault::stale_frame, 1800},
+                  {WireFault::homing_lost, kLost}};
+  FalconGadget gadget(model, bowl_stroke());
+  const UsbPlug plug(testbed_.get(), gadget);
+  const auto run = throw_frames(gadget, 2500, "falcon", "");
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(thrown(), replayed());
   const std::scoped_lock held(gadget.lock);
-  SCOPED_TRACE(run.json().at("servo").dump());
+  const auto& log = gadget.device.log;
+  EXPECT_GE(run.json().at("frames").at("taken").get<std::size_t>() + 2 * model.faults.size(),
+            log.size());
+  EXPECT_GT(run.json().at("frames").at("bytes_discarded"), 0);
+  expect_true_places(log);
+  // Ten ticks are 10 ms; it is homed after sixty frames.
+  for (std::uint64_t frame = kLost + 10; frame < kLost + 50; ++frame)
+    ASSERT_EQ(log.at(frame).motors, LegCounts{}) << frame;
+}
+
+#endif
+
+TEST_F(ThrowRig, AFalconBehindABridgeThrowsTheSame) {
+  FalconModelSettings model;
+  model.loaded = true;  // as the bridge does it
+  BridgeGadget gadget(model, bowl_stroke());
+  const Plugged plugged(testbed_.get(), gadget);
+  const auto run = throw_frames(gadget, kFrames + kHomingFrames, "bridge", "");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(thrown(), replayed());
+  const std::scoped_lock held(gadget.lock);
+  SCOPED_TRACE(run.json().dump());
+  expect_no_bad_frame(run, kFrames);
   expect_felt(gadget.device.log);
   EXPECT_EQ(gadget.bad_reports, 0u);
 }
+
+TEST_F(ThrowRig, ABridgeUnpluggedInMidStrokeKeepsPotAndSession) {
+  FalconModelSettings model = ready();
+  model.faults = {{WireFault::unplugged, 1300}};
+  BridgeGadget gadget(model, bowl_stroke());
+  const Plugged plugged(testbed_.get(), gadget);
+  const auto run = throw_bowl("bridge", "--seconds 60");
+  EXPECT_EQ(run.status, 4);
+  EXPECT_NE(run.err.find("unplugged; plug it in again"), std::string::npos) << run.err;
+  EXPECT_EQ(run.json().at("ended"), "device_lost");
+  EXPECT_EQ(thrown(), replayed());
+}
+
+#ifndef CLAYSTACK_HIDAPI_LIBUSB
 
 TEST_F(ThrowRig, UnpluggedInMidStrokeKeepsPotAndSession) {
   FalconModelSettings model = ready();
@@ -173,16 +317,18 @@ TEST_F(ThrowRig, WaitsForTheDeviceToComeBackWhenAsked) {
   EXPECT_EQ(thrown(), replayed());
 }
 
+#endif
+
 TEST_F(ThrowRig, ASpaceMouseMovesTheToolAndFeelsNothing) {
   SpaceMouseGadget gadget;
-  HidrawNode node(testbed_.get(), gadget, 3);
+  Plugged plugged(testbed_.get(), gadget);
   // A cap held to the left, as long as the program runs.
   std::atomic<bool> held{true};
   std::thread hand([&] {
     for (; held; std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
       const std::scoped_lock lock(gadget.lock);
       if (gadget.reports.empty()) gadget.reports.push_back({1, 0xA2, 0xFE, 0, 0, 0, 0});
-      node.pump();
+      plugged.pump();
     }
   });
   const auto run = throw_bowl("spacemouse", "--seconds 2 --height 15");

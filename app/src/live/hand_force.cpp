@@ -24,8 +24,16 @@ HandForce::Wanted HandForce::answer(std::int64_t now_us, const glm::dvec3& devic
   const SplitForce parts = split(tool_mm, clay_n);
   const falcon::PassiveForce passive =
       controller_.tick(now_us, kMPerMm * device_mm, mapping.force_to_device(parts.spring_n));
+  spring_n_ = whole_n_ = {};
   if (passive.state == falcon::PassivityState::safe) return {{}, false};
-  return {passive.force_n + mapping.force_to_device(parts.friction_n), true};
+  spring_n_ = passive.force_n;
+  whole_n_ = spring_n_ + mapping.force_to_device(parts.friction_n);
+  return {whole_n_, true};
+}
+
+void HandForce::displayed(const glm::dvec3& sent_n) noexcept {
+  const double whole = glm::length(whole_n_);
+  controller_.displayed(whole > 0.0 ? glm::length(sent_n) / whole * spring_n_ : glm::dvec3(0.0));
 }
 
 }  // namespace clay::live

@@ -35,12 +35,17 @@ class HandForce {
                               const Mapping& mapping, const glm::dvec3& tool_mm,
                               const glm::dvec3& clay_n) noexcept;
 
+  /// What the guard let through of the last answer: energy is counted with this. Of the spring's
+  /// part, which is let through as the whole is.
+  void displayed(const glm::dvec3& sent_n) noexcept;
+
   /// After a pause: what was given before is no debt of what comes now.
   void reset() noexcept { controller_.reset(); }
   [[nodiscard]] falcon::PassivityState state() const noexcept { return controller_.state(); }
 
  private:
   falcon::PassivityController controller_;
+  glm::dvec3 spring_n_{0.0}, whole_n_{0.0};  // the last answer, in the device's frame
 };
 
 }  // namespace clay::live

@@ -25,6 +25,8 @@ Result<void> check(const LiveSettings& settings) {
       !within(settings.clay_rate_hz, kLowestClayRateHz, settings.rate_hz))
     return refuse("--clay-rate", kLowestClayRateHz, settings.rate_hz, settings.clay_rate_hz);
   if (!within(settings.seconds, 0.0, 1e6)) return refuse("--seconds", 0.0, 1e6, settings.seconds);
+  if (!within(settings.patience_s, 0.0, 1e6))
+    return refuse("--patience", 0.0, 1e6, settings.patience_s);
   if (!within(settings.gap_mm, 0.0, kWidestGapMm))
     return refuse("--gap", 0.0, kWidestGapMm, settings.gap_mm);
   return {};

@@ -12,8 +12,11 @@ struct LiveSettings {
   double rate_hz = 1000.0;  ///< of device and force: 400, where frames grow stale, to 4000
   double clay_rate_hz =
       0.0;               ///< 20, as the engine counts no step for longer, to the rate; 0: the rate
-  double seconds = 0.0;  ///< of throwing, then it ends; 0: until asked to
-  double gap_mm = 0.0;   ///< of poses, where the scene lets them pinch, to kWidestGapMm
+  double seconds = 0.0;  ///< from the first sample believed, pauses and all; 0: until asked to end
+  /// Where `seconds` are set: how long that sample is waited for, as of a device that nobody homes;
+  /// or `seconds`, where that is longer.
+  double patience_s = 60.0;
+  double gap_mm = 0.0;  ///< of poses, where the scene lets them pinch, to kWidestGapMm
   MappingSettings mapping;
   ButtonMap buttons = kFalconButtons;
   falcon::GuardSettings guard;  ///< its period follows from the rate

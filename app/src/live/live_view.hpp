@@ -18,7 +18,7 @@ namespace clay::live {
 enum class Ending {
   none,         ///< it does
   stopped,      ///< asked to, by command or signal
-  time_up,      ///< the seconds asked for are over
+  time_up,      ///< the seconds asked for are over, or no sample came to begin them
   device_lost,  ///< HapticDevice::problem tells
   collapsed,    ///< nothing is left to throw
 };

@@ -27,6 +27,7 @@ struct MappingSettings {
   double reach_mm = 60.0;   ///< of the workspace's middle from the axis, 0 to 1000
   double height_mm = 75.0;  ///< and above the wheel head, -1000 to 1000
   bool flip_x = false, flip_y = false, flip_z = false;
+  friend bool operator==(const MappingSettings&, const MappingSettings&) = default;
 };
 
 class Mapping {

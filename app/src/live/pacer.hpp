@@ -19,7 +19,7 @@ class Pacer {
 
   /// Sleeps until the deadline; how late it woke [ns].
   [[nodiscard]] std::int64_t wait(Clock& clock) noexcept {
-    clock.sleep_until_ns(deadline_ns_);
+    overslept_ns_ = clock.wake_at_ns(deadline_ns_);
     return std::max<std::int64_t>(0, clock.now_ns() - deadline_ns_);
   }
 
@@ -33,10 +33,12 @@ class Pacer {
     deadline_ns_ = std::max(deadline_ns_ + period_ns_, now_ns + period_ns_ / 2);
   }
 
+  /// What wait() would have been late by without looking at the clock.
+  [[nodiscard]] std::int64_t overslept_ns() const noexcept { return overslept_ns_; }
   [[nodiscard]] std::int64_t period_ns() const noexcept { return period_ns_; }
 
  private:
-  std::int64_t period_ns_, deadline_ns_ = 0;
+  std::int64_t period_ns_, deadline_ns_ = 0, overslept_ns_ = 0;
 };
 
 }  // namespace clay::live

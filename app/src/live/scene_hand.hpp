@@ -17,11 +17,20 @@ inline constexpr double kHandLeadS = 0.5;
 /// first and the last. Times of the poses rise. Copies what it needs; called, it allocates nothing.
 [[nodiscard]] falcon::HandPath hand_path(const std::vector<Pose>& poses, const Mapping& mapping);
 
+/// What the hand does beside: the trim button held down, the gap of a pinch between its fingers, as
+/// of the last pose. No function without poses.
+[[nodiscard]] falcon::HandFingers hand_fingers(const std::vector<Pose>& poses);
+
+/// A mapping by which the whole stroke lies within `reach_mm` of the middle of the workspace: the
+/// usual scale, or as much more as it takes; `settings` otherwise. Themselves without poses.
+[[nodiscard]] MappingSettings fitted(MappingSettings settings, const std::vector<Pose>& poses,
+                                     double reach_mm);
+
 /// When the stroke is over [s]; 0 without poses.
 [[nodiscard]] double seconds_of(const std::vector<Pose>& poses) noexcept;
 
-/// A Falcon that has its firmware, held by a hand that is stiff enough to keep to the path: 2 N/mm
-/// and damped so that it does not swing.
+/// A Falcon that has its firmware, held by a hand that is stiff enough to keep to the path: 200
+/// N/mm and damped so that it does not swing.
 [[nodiscard]] falcon::SimulatedSettings simulated_potter(const std::vector<Pose>& poses,
                                                          const Mapping& mapping);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace clay::live {
@@ -45,6 +46,7 @@ ServoLoop::ServoLoop(const Bench& bench, const LiveSettings& settings, const Map
                      const falcon::ForceGuard& guard, const falcon::PassivityController& controller)
     : bench_(bench),
       seconds_(settings.seconds),
+      patience_s_(std::max(settings.patience_s, settings.seconds)),
       mapping_(mapping),
       controls_(settings.buttons, (bench.wheel.plan().stages & kPinch) != 0, settings.gap_mm),
       guard_(guard),
@@ -53,7 +55,7 @@ ServoLoop::ServoLoop(const Bench& bench, const LiveSettings& settings, const Map
       pacer_(period_ns(settings.rate_hz)) {}
 
 void ServoLoop::start() noexcept {
-  last_begun_ns_ = bench_.clock.now_ns();
+  started_ns_ = last_begun_ns_ = bench_.clock.now_ns();
   pacer_.start(last_begun_ns_);
   guard_.rearm();
   hand_.reset();
@@ -69,9 +71,10 @@ Ending ServoLoop::tick(falcon::ForceGate& gate, Commands& commands, LiveView& vi
   pacer_.sampled(begun_ns);
   heartbeat_us.store(now_us, std::memory_order_release);
 
-  obey(sample, commands);
+  obey(sample, now_us, commands);
   follow(sample, now_us);
   send(gate);
+  hand_.displayed(guarded_.force_n);
 
   keep_time(late_ns, begun_ns, sample);
   heartbeat_us.store(bench_.clock.now_us(), std::memory_order_release);
@@ -82,8 +85,11 @@ Ending ServoLoop::tick(falcon::ForceGate& gate, Commands& commands, LiveView& vi
 }
 
 /// Buttons and commands. With the clutch in, the hand moves and the tool stays.
-void ServoLoop::obey(const falcon::DeviceSample& sample, Commands& commands) noexcept {
-  controls_.update(sample.state == DeviceState::ready ? sample.buttons : 0u, commands);
+void ServoLoop::obey(const falcon::DeviceSample& sample, std::int64_t now_us,
+                     Commands& commands) noexcept {
+  const bool ready = sample.state == DeviceState::ready;
+  controls_.update(now_us, ready ? sample.buttons : 0u, commands,
+                   ready ? sample.grip_mm : std::nullopt);
   const bool was_held = held_, was_clutched = status_.clutched;
   held_ = controls_.clutched() || controls_.paused();
   if (was_clutched && !controls_.clutched()) mapping_.recentre(sample.position_mm, tool_mm_);
@@ -92,6 +98,7 @@ void ServoLoop::obey(const falcon::DeviceSample& sample, Commands& commands) noe
     guard_.rearm();
     hand_.reset();
   }
+  if (controls_.zero()) guard_.pause();
   status_.clutched = controls_.clutched();
   status_.paused = controls_.paused();
 }
@@ -102,6 +109,7 @@ void ServoLoop::follow(const falcon::DeviceSample& sample, std::int64_t now_us) 
       now_us,
       {sample.time_us, sample.position_mm, sample.fresh, sample.state == DeviceState::ready});
   wanted_.clay_time_us = now_us;
+  if (thrown_) status_.time_s = 1e-6 * static_cast<double>(now_us - first_us_);
   if (held_) {
     wanted_ = {{}, now_us, true};
     status_.contact = false;
@@ -112,7 +120,6 @@ void ServoLoop::follow(const falcon::DeviceSample& sample, std::int64_t now_us) 
   if (!thrown_) first_us_ = sample.time_us;
   thrown_ = true;
   tool_mm_ = mapping_.to_clay(sample.position_mm);
-  status_.time_s = 1e-6 * static_cast<double>(sample.time_us - first_us_);
   const StepReport report =
       clay_.meet({sample.time_us - first_us_, tool_mm_, controls_.trim(), controls_.gap_mm()});
   status_.contact = (report.flags & kContact) != 0;
@@ -157,6 +164,7 @@ void ServoLoop::keep_time(std::int64_t late_ns, std::int64_t begun_ns,
                           const falcon::DeviceSample& sample) noexcept {
   const std::int64_t sent_ns = bench_.clock.now_ns();
   timing_.lateness.add(late_ns);
+  timing_.oversleep.add(pacer_.overslept_ns());
   if (timing_.ticks > 0) timing_.period.add(begun_ns - last_begun_ns_);
   timing_.work.add(sent_ns - begun_ns);
   if (sample.fresh) timing_.age.add(sent_ns - kNsPerUs * sample.time_us);
@@ -171,8 +179,14 @@ Ending ServoLoop::ending(const falcon::ForceGate& gate) const noexcept {
   if (status_.device == DeviceState::fault || status_.device == DeviceState::closed)
     return Ending::device_lost;
   if (clay_.wheel().collapsed()) return Ending::collapsed;
-  if (seconds_ > 0.0 && status_.time_s >= seconds_) return Ending::time_up;
+  if (time_is_up()) return Ending::time_up;
   return Ending::none;
+}
+
+bool ServoLoop::time_is_up() const noexcept {
+  if (seconds_ == 0.0) return false;
+  if (thrown_) return status_.time_s >= seconds_;
+  return 1e-9 * static_cast<double>(last_begun_ns_ - started_ns_) >= patience_s_;
 }
 
 void ServoLoop::publish(LiveView& view, std::int64_t late_ns) noexcept {

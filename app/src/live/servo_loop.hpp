@@ -52,17 +52,18 @@ class ServoLoop {
   ServoLoop(const Bench& bench, const LiveSettings& settings, const Mapping& mapping,
             const falcon::ForceGuard& guard, const falcon::PassivityController& controller);
 
-  void obey(const falcon::DeviceSample& sample, Commands& commands) noexcept;
+  void obey(const falcon::DeviceSample& sample, std::int64_t now_us, Commands& commands) noexcept;
   void follow(const falcon::DeviceSample& sample, std::int64_t now_us) noexcept;
   void send(falcon::ForceGate& gate) noexcept;
   void count_events() noexcept;
   void keep_time(std::int64_t late_ns, std::int64_t begun_ns,
                  const falcon::DeviceSample& sample) noexcept;
   [[nodiscard]] Ending ending(const falcon::ForceGate& gate) const noexcept;
+  [[nodiscard]] bool time_is_up() const noexcept;
   void publish(LiveView& view, std::int64_t late_ns) noexcept;
 
   Bench bench_;
-  double seconds_;
+  double seconds_, patience_s_;
   Mapping mapping_;
   Controls controls_;
   falcon::ForceGuard guard_;
@@ -70,9 +71,10 @@ class ServoLoop {
   LiveClay clay_;
   Pacer pacer_;
 
-  bool held_ = false;    // clutched or paused: the clay is left alone
-  bool thrown_ = false;  // a sample was believed
-  std::int64_t first_us_ = 0;
+  bool held_ = false;          // clutched or paused: the clay is left alone
+  bool thrown_ = false;        // a sample was believed
+  std::int64_t first_us_ = 0;  // its time
+  std::int64_t started_ns_ = 0;
   std::int64_t last_begun_ns_ = 0;
   glm::dvec3 tool_mm_{0.0};
   falcon::WantedForce wanted_;

@@ -1,5 +1,7 @@
 #include "studio/glfw_host.hpp"
 
+#include "live/signals.hpp"
+
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -98,7 +100,7 @@ void GlfwHost::run(Studio& studio) {
   studio_ = &studio;
   connect();
   std::int64_t next_ns = clock_.now_ns();
-  while (!studio.done()) {
+  while (!studio.done() && live::ForceSignals::asked_to_stop() == 0) {
     if (studio.wakeful())
       glfwPollEvents();
     else

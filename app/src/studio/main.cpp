@@ -2,6 +2,7 @@
 
 #include "console.hpp"
 #include "device_choice.hpp"
+#include "live/signals.hpp"
 #include "studio/glfw_host.hpp"
 #include "studio/script.hpp"
 
@@ -93,8 +94,10 @@ Result<void> run_window(const Options& options, glm::ivec2 size,
                        "A work that was not saved is still there: File, New offers to recover it");
   }
   log("window open");
+  const live::ForceSignals signals;
   (*host)->run(**studio);
-  shop.potter.close();
+  // After a signal nobody was asked: what was not saved can be recovered.
+  if (shop.done) shop.potter.close();
   log("window closed");
   return save_settings(shop.settings, settings_path());
 }

@@ -165,7 +165,7 @@ void SceneView::press(Workshop& shop, bool inverted) {
   }
   if (auto begun = shop.potter.press({spec, clay_rate_per_s(shop), on_wheel(start), gap_mm});
       !begun) {
-    shop.notices.say(Grade::warning, begun.error().message);
+    tell(shop, begun.error());
     return;
   }
   shop.log("stroke begun");

@@ -22,6 +22,8 @@ struct Named {
   const char* name;
   E value;
 };
+template <class E>
+Named(const char*, E) -> Named<E>;  // Clang 14 deduces none for aggregates
 constexpr std::array kThemes = {Named{"dark", Theme::dark}, Named{"light", Theme::light}};
 constexpr std::array kUnits = {Named{"mm", LengthUnit::mm}, Named{"cm", LengthUnit::cm},
                                Named{"in", LengthUnit::in}};

@@ -79,9 +79,12 @@ void Studio::frame(bool paint_it) {
   }
   if (awake_frames_ > 0) --awake_frames_;
   // One by one where ImGui has to see each; drawing, which may be slow, once for all.
+  // What a click has closed is under the mouse for two more of ImGui's frames.
   do {
+    const int passes = waiting_.empty() ? 1 : kFramesAfterInput;
     take_waiting();
-    shape_frame(elapsed_s);
+    for (int pass = 0; pass < passes && !shop_.done; ++pass)
+      shape_frame(elapsed_s / static_cast<double>(passes));
   } while (!waiting_.empty() && !shop_.done);
   look_at_devices(shop_);
   look_at_dialog(shop_);

@@ -78,6 +78,7 @@ static void describe(auto& io, Is<ToolSpec> auto& tool) {
 
 static void describe(auto& io, Is<RemovalSpec> auto& removal) {
   io.number("rate_per_s", removal.rate_per_s, from(0).to(1e6));
+  io.number("yield_depth_mm", removal.yield_depth_mm, from(1e-3).to(1e3));
   io.number("min_wall_mm", removal.min_wall_mm, from(1e-3).to(1e3));
   io.number("paper_fraction", removal.paper_fraction, from(0).below(1));
 }

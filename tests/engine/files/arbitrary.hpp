@@ -79,7 +79,7 @@ inline SceneSpec arbitrary_scene() {
   scene.tool = {arbitrary_shape(), *rc::gen::element(ToolMode::press, ToolMode::trim),
                 maybe<double>([] { return *number_in(1e-3, 1e3); })};
   if (scene.tool.gap_mm && *rc::gen::arbitrary<bool>()) scene.tool.mode = ToolMode::pinch;
-  scene.removal = {*number_in(0, 1e6), *number_in(1e-3, 1e3),
+  scene.removal = {*number_in(0, 1e6), *number_in(1e-3, 1e3), *number_in(1e-3, 1e3),
                    maybe<double>([] { return *number_in(0, below(1)); })};
   scene.flow = {*number_in(0, 1e9), *number_in(0, 1e9), *number_in(0, 1)};
   scene.force = maybe<ForceSpec>([] {

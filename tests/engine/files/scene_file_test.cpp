@@ -42,7 +42,7 @@ constexpr std::string_view kText = R"({
     "mode": "trim",
     "gap_mm": 4.5
   },
-  "removal": {"rate_per_s": 7, "min_wall_mm": 2, "paper_fraction": 0.25},
+  "removal": {"rate_per_s": 7, "yield_depth_mm": 0.5, "min_wall_mm": 2, "paper_fraction": 0.25},
   "flow": {"sigma_mm": 3, "reach_mm": 12, "inside_share": 0.5},
   "force": {
     "stiffness_n_per_mm2": 0.1,
@@ -61,7 +61,7 @@ SceneSpec scene_of_text() {
   scene.model = Model::paper;
   scene.lump = {300, 0.5, 40, 35.5, 900, 2.1};
   scene.tool = {SampledSpec{{-2, 0, 2.5}, {1, 2, 0}}, ToolMode::trim, 4.5};
-  scene.removal = {7, 2, 0.25};
+  scene.removal = {7, 0.5, 2, 0.25};
   scene.flow = {3, 12, 0.5};
   scene.force = ForceSpec{0.1, 4, 0.3, false, 0.75};
   scene.stability = StabilitySpec{8};
@@ -92,6 +92,7 @@ TEST(SceneFile, TakesDefaultsForWhatIsAbsent) {
   EXPECT_EQ(scene->tool, ToolSpec{});
   EXPECT_EQ(scene->flow, FlowSpec{});
   EXPECT_EQ(scene->removal.rate_per_s, RemovalSpec{}.rate_per_s);
+  EXPECT_EQ(scene->removal.yield_depth_mm, RemovalSpec{}.yield_depth_mm);
   EXPECT_EQ(scene->removal.min_wall_mm, RemovalSpec{}.min_wall_mm);
   EXPECT_FALSE(scene->removal.paper_fraction);
   EXPECT_FALSE(scene->force);

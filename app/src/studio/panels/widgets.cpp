@@ -116,22 +116,44 @@ void value_row(const Palette& colours, const char* name, const std::string& valu
   ImGui::TextUnformatted(value.c_str());
 }
 
+namespace {
+
+/// All beside the card, between two heights of the whole window. Drawn by the card itself: then it
+/// lies over the columns, too.
+void dim_around(float top, float bottom) {
+  const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  const float right = corner.x + size.x, foot = corner.y + size.y;
+  const float room = ImGui::GetIO().DisplaySize.x;
+  const ImU32 shade = IM_COL32(0, 0, 0, 120);
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->PushClipRectFullScreen();
+  draw->AddRectFilled({0.0f, top}, {room, corner.y}, shade);
+  draw->AddRectFilled({0.0f, corner.y}, {corner.x, foot}, shade);
+  draw->AddRectFilled({right, corner.y}, {room, foot}, shade);
+  draw->AddRectFilled({0.0f, foot}, {room, bottom}, shade);
+  draw->PopClipRect();
+}
+
+}  // namespace
+
 void begin_card(const char* id, const ViewRect& view, float width_em) {
   const float em = ImGui::GetFontSize();
   const ImVec2 low(view.corner_px.x, view.corner_px.y);
   const ImVec2 high(low.x + view.size_px.x, low.y + view.size_px.y);
-  ImGui::GetBackgroundDrawList()->AddRectFilled(low, high, IM_COL32(0, 0, 0, 110));
-  const float width = std::min(width_em * em, view.size_px.x);
-  ImGui::SetNextWindowPos({0.5f * (low.x + high.x), 0.5f * (low.y + high.y)}, ImGuiCond_Always,
-                          {0.5f, 0.5f});
+  // Where the view is narrow a card lies over the columns too: better that than words cut off.
+  const float room = ImGui::GetIO().DisplaySize.x;
+  const float width = std::min(width_em * em, room);
+  const float middle = width > view.size_px.x ? 0.5f * room : 0.5f * (low.x + high.x);
+  ImGui::SetNextWindowPos({middle, 0.5f * (low.y + high.y)}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({width, 0.0f});  // as high as what is in it, up to the view
   ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, view.size_px.y});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.6f * em);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(1.3f * em, 1.1f * em));
   ImGui::Begin(id, nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
   ImGui::PopStyleVar(2);
+  dim_around(low.y, high.y);
 }
 
 void draw_section(const draw::PotView& pot, ImVec2 corner, float side, const Palette& colours) {

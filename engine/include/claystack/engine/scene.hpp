@@ -66,10 +66,12 @@ struct ToolSpec {
   friend bool operator==(const ToolSpec&, const ToolSpec&) = default;
 };
 
-/// Equations (3), (4): epsilon = (R - r)(1 - exp(-rate dt)), or k (R - r) a tick in `paper`.
+/// Equations (3), (4): clay gives way at rate (R - r), less where a tool is nearer to its surface
+/// than `yield_depth_mm`; in `paper` by k (R - r) a tick.
 struct RemovalSpec {
   double rate_per_s = 20.0;
-  double min_wall_mm = 1.0;              ///< conserving: no tool thins a wall below this
+  double yield_depth_mm = 0.25;  ///< conserving: of the tool in the clay, for all of the rate
+  double min_wall_mm = 1.0;      ///< conserving: no tool thins a wall below this
   std::optional<double> paper_fraction;  ///< k; rate / 1000 when absent
   friend bool operator==(const RemovalSpec&, const RemovalSpec&) = default;
 };

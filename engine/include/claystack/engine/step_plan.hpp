@@ -28,6 +28,7 @@ inline constexpr unsigned kStageSets = 32;
 
 struct RemovalPlan {
   double rate_per_s = 0.0;  ///< conserving: kappa
+  double yield_depth_mm = 0.0;
   double min_wall_mm = 0.0;
   double paper_fraction = 0.0;  ///< paper: k
 };

@@ -11,12 +11,21 @@
 
 namespace clay {
 
+/// How a stretch of the tool's surface faces the clay. With theta its slope against the axis,
+/// tan theta = f', a radial depth is cos theta times as deep along the normal.
+struct Facing {
+  double normal2 = 1.0;  ///< cos^2 theta, 1 / (1 + f'^2)
+  double lean = 0.0;     ///< cos^2 theta f'; at most 1/2
+  double turn = 0.0;     ///< derivative of cos^2 theta by t [1/mm]
+};
+
 /// f(t) = b sqrt(1 - t^2/a^2); a sphere has a = b.
 struct EllipseProfile {
   static constexpr double kSlopeLimit = 127.0 / 128.0;  ///< of |t| / a
   double a = 1.0, b = 1.0;
+  double per_a = 1.0 / a;
   [[nodiscard]] double radius(double t) const noexcept {
-    const double s = 1.0 - (t / a) * (t / a);
+    const double u = t * per_a, s = 1.0 - u * u;
     return s > 0.0 ? b * std::sqrt(s) : 0.0;
   }
   /// f' = -b t / (a^2 sqrt(1 - t^2/a^2)), held at its value 127/128 of the way to the poles,
@@ -25,12 +34,21 @@ struct EllipseProfile {
     const double u = std::clamp(t / a, -kSlopeLimit, kSlopeLimit);
     return -(b / a) * u / std::sqrt(1.0 - u * u);
   }
+  /// In the middle of from..to, where it has bounds up to the poles.
+  [[nodiscard]] Facing facing(double from, double to) const noexcept {
+    const double u = 0.5 * (from + to) * per_a, flat = std::max(1.0 - u * u, 0.0);
+    if (a == b) return {flat, -u * std::sqrt(flat), -2.0 * u * per_a};
+    const double ratio = b * per_a, g = 1.0 / (flat + ratio * ratio * u * u);
+    return {flat * g, -ratio * u * std::sqrt(flat) * g,
+            -2.0 * u * per_a * (ratio * g) * (ratio * g)};
+  }
 };
 
 struct RibProfile {
   double half_height = 1.0, b = 1.0;
   [[nodiscard]] double radius(double) const noexcept { return b; }
   [[nodiscard]] double slope(double) const noexcept { return 0.0; }
+  [[nodiscard]] Facing facing(double, double) const noexcept { return {}; }
 };
 
 /// Monotone cubic (Fritsch and Carlson, SIAM J. Numer. Anal. 17(2) 1980): no overshoot, so
@@ -39,6 +57,8 @@ struct SampledProfile {
   std::vector<double> t, f, slopes;
   [[nodiscard]] double radius(double at) const noexcept;
   [[nodiscard]] double slope(double at) const noexcept;
+  /// In the middle of from..to; the turn is the mean, for f'' jumps at each sample.
+  [[nodiscard]] Facing facing(double from, double to) const noexcept;
 };
 
 /// Half-profile f(t) [mm] over t in [low, high] [mm] from the HIP. Outside there is no tool: f = 0.

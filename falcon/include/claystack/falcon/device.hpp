@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -31,6 +32,8 @@ struct DeviceSample {
   unsigned buttons = 0;         ///< a bit for each that is down
   DeviceState state = DeviceState::closed;
   bool fresh = false;  ///< arrived since the last read; otherwise the last one again
+  std::optional<double> grip_mm =
+      std::nullopt;  ///< how far fingers are apart, of a device that measures it
 };
 
 struct DeviceInfo {

@@ -12,6 +12,7 @@
 #include <functional>
 #include <glm/vec3.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace clay::falcon {
@@ -19,6 +20,8 @@ namespace clay::falcon {
 /// What moves the modelled grip. Called once a frame with the force [N] that the motors were told
 /// and the time [s] since the last frame; returns the position [m] in the frame of kinematics.hpp.
 using Grip = std::function<glm::dvec3(const glm::dvec3& force_n, double dt_s)>;
+/// What presses its buttons: called once a frame, after Grip; returns their bits.
+using Thumb = std::function<std::uint8_t()>;
 
 enum class WireFault {
   lost_byte,    ///< of the frame it sends
@@ -84,6 +87,7 @@ class FalconModel {
 
   void switch_power(bool on) noexcept;
   void press(std::uint8_t buttons) noexcept { settings_.buttons = buttons; }
+  void hold(Thumb thumb) { thumb_ = std::move(thumb); }
   void plan(const PlannedFault& fault) { settings_.faults.push_back(fault); }
 
   [[nodiscard]] bool runs() const noexcept { return stage_ == Stage::running; }
@@ -111,6 +115,7 @@ class FalconModel {
 
   FalconModelSettings settings_;
   Grip grip_;
+  Thumb thumb_;  // none: `press`
   Kinematics kinematics_;
   Stage stage_ = Stage::waiting;
   int baud_ = 9600;

@@ -71,6 +71,10 @@ class PassivityController {
   [[nodiscard]] PassiveForce tick(std::int64_t time_us, const glm::dvec3& reading_m,
                                   const glm::dvec3& force_n) noexcept;
 
+  /// What is displayed [N] in place of the force that the last tick returned, where a guard behind
+  /// it lets through less: the account is of this one. Not counted when it is not finite.
+  void displayed(const glm::dvec3& force_n) noexcept;
+
   /// As new: the next reading is the first.
   void reset() noexcept { *this = PassivityController(spec_); }
 
@@ -99,8 +103,9 @@ class PassivityController {
   EnergyObserver observer_;
   SwingCounter swings_;
   PassivityState state_ = PassivityState::watching;
-  double earned_n_ = 0.0;  // most force that the way into the contact allows
-  int debts_ = 0;          // since the last good while
+  double earned_n_ = 0.0;      // most force that the way into the contact allows
+  double last_asked_n_ = 0.0;  // in this contact
+  int debts_ = 0;              // since the last good while
   double last_debt_s_ = 0.0;
 
   struct Reading {
@@ -110,7 +115,7 @@ class PassivityController {
   std::optional<Reading> last_;
   double now_s_ = 0.0;                        // since the first reading
   std::array<glm::dvec3, kMostSent> sent_{};  // a ring of delay + 1: the oldest is held now
-  std::size_t oldest_ = 0;
+  std::size_t oldest_ = 0, newest_ = 0;
   glm::dvec3 last_sent_{0.0};
 };
 

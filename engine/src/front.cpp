@@ -1,0 +1,126 @@
+#include "front.hpp"
+
+#include "yielding.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+namespace clay {
+namespace {
+
+/// The ring, if it yields.
+RingContact* touch_of(Contact& contact, std::size_t ring) noexcept {
+  // Front and back: the rings at the ends are asked for.
+  const auto at = std::ranges::lower_bound(contact.rings, ring, {}, &RingContact::ring);
+  return at != contact.rings.end() && at->ring == ring ? &*at : nullptr;
+}
+
+void level_edges(Contact& contact) noexcept {
+  for (std::size_t k = 0; k < contact.edge_count; ++k) {
+    const int end = contact.edge_end[k];
+    const auto ring = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(contact.edges[k].ring) -
+                                               (end == 0 ? 0 : end));
+    const RingContact* next = touch_of(contact, ring);
+    double& depth = contact.edges[k].depth_mm;
+    depth = next != nullptr ? std::min(depth, next->depth_mm) : end == 0 ? depth : 0.0;
+  }
+}
+
+/// The end that leads, and the clay ahead of it.
+struct Lead {
+  std::size_t ring = 0;     ///< that the end is in
+  double covered_mm = 0.0;  ///< of it
+  double ahead_mm = 0.0;    ///< depth of the end in the clay ahead
+  double wall_mm = 0.0;     ///< R - r there
+  double decay = 0.0;       ///< kappa over the speed of the end [1/mm]
+};
+
+bool find_lead(const StepPlan& plan, const ClayStack& stack, double hip_y, double dt_s,
+               const Contact& contact, Lead& lead) noexcept {
+  const bool up = contact.rise_mm > 0.0;
+  const double h = stack.ring_height_mm();
+  const double end_t = up ? plan.tool.high() : plan.tool.low(), level = (hip_y + end_t) / h;
+  if (!(level > 0.0 && level < static_cast<double>(stack.size()))) return false;
+  lead.ring = static_cast<std::size_t>(level);
+  const double part = level - static_cast<double>(lead.ring);
+  const double covered = up ? part : 1.0 - part;
+  lead.covered_mm = covered * h;
+  std::size_t ahead = lead.ring;
+  if (covered >= 0.5) {
+    if (up ? ahead + 1 >= stack.size() : ahead == 0) return false;
+    ahead = up ? ahead + 1 : ahead - 1;
+  }
+  const Ring& ring = stack.rings()[ahead];
+  lead.ahead_mm = depth_of(ring, plan.tool.radius(end_t), contact);
+  lead.wall_mm = ring.outer_mm() - ring.inner_mm();
+  lead.decay = plan.removal.rate_per_s * dt_s / std::abs(contact.rise_mm);
+  return lead.ahead_mm > 0.0 && lead.wall_mm > plan.removal.min_wall_mm;
+}
+
+template <class Profile>
+void feel_lead(const Profile& profile, const StepPlan& plan, const ClayStack& stack,
+               const Lead& lead, Contact& contact) noexcept {
+  const bool up = contact.rise_mm > 0.0;
+  const double h = stack.ring_height_mm(), end = up ? plan.tool.high() : plan.tool.low();
+  const double at_end = profile.radius(end), all = lead.covered_mm + h;
+  const auto t_of = [&](double behind) { return up ? end - behind : end + behind; };
+  const auto front = [&](double behind) {
+    return lead.ahead_mm + profile.radius(t_of(behind)) - at_end -
+           lead.wall_mm * (1.0 - exp_neg(lead.decay * behind));
+  };
+  const auto way_to_yield = [&](double depth) {
+    // By the logarithmic mean of the wall.
+    const double middle = std::max(lead.wall_mm - 0.5 * depth, plan.removal.min_wall_mm);
+    const double mean = std::max(middle - depth * depth / (12.0 * middle), 0.5 * middle);
+    return std::min(depth / (lead.decay * mean), all);
+  };
+  const double at_first = way_to_yield(lead.ahead_mm);
+  const double reach =
+      std::min(way_to_yield(lead.ahead_mm + profile.radius(t_of(at_first)) - at_end),
+               plan.tool.high() - plan.tool.low());
+  if (!(reach > 0.0)) return;
+  const auto behind_lead = [&](std::size_t by) {
+    return touch_of(contact, up ? lead.ring - by : lead.ring + by);
+  };
+  RingContact* rings[2] = {behind_lead(0), behind_lead(1)};
+  for (std::size_t k = 0; rings[0] == nullptr && k < contact.edge_count; ++k)
+    if (contact.edge_end[k] == (up ? 1 : -1)) rings[0] = &contact.edges[k];
+
+  // A ring that yields late, as a whole, has done so in truth, as the one behind has.
+  const RingContact* yielded_ring = behind_lead(2);
+  const double yielded =
+      std::max(plan.removal.yield_depth_mm, yielded_ring != nullptr ? yielded_ring->depth_mm : 0.0);
+  if (reach < all)
+    for (RingContact* ring : rings)
+      if (ring != nullptr) ring->depth_mm = std::min(ring->depth_mm, yielded);
+
+  const double piece = reach / static_cast<double>(contact.front.size());
+  for (std::size_t k = 0; k < contact.front.size(); ++k) {
+    const double behind = (static_cast<double>(k) + 0.5) * piece;
+    const RingContact* ring = rings[behind < lead.covered_mm ? 0 : 1];
+    RingContact& part = contact.front[k];
+    part.depth_mm =
+        std::max(front(behind),
+                 ring != nullptr ? std::min(ring->depth_mm, plan.removal.yield_depth_mm) : 0.0);
+    part.coverage = piece / h;
+    part.facing = profile.facing(t_of(behind + 0.5 * piece), t_of(behind - 0.5 * piece));
+  }
+  contact.has_front = true;
+  // What the pieces have taken over.
+  if (rings[0] != nullptr) rings[0]->coverage = std::max(lead.covered_mm - reach, 0.0) / h;
+  if (rings[1] != nullptr) rings[1]->coverage = std::min(all - reach, h) / h;
+}
+
+}  // namespace
+
+void feel_front(const StepPlan& plan, const ClayStack& stack, double hip_y, double dt_s,
+                Contact& contact) noexcept {
+  if (!(dt_s > 0.0)) return;
+  level_edges(contact);
+  Lead lead;
+  if (contact.rise_mm == 0.0 || !find_lead(plan, stack, hip_y, dt_s, contact, lead)) return;
+  std::visit([&](const auto& p) { feel_lead(p, plan, stack, lead, contact); }, plan.tool.profile());
+}
+
+}  // namespace clay

@@ -1,0 +1,64 @@
+#include "yielding.hpp"
+
+#include "portable_math.hpp"
+
+#include <algorithm>
+
+namespace clay {
+namespace {
+
+// No std::min, whose references keep a loop from being done two at a time.
+double lesser(double a, double b) noexcept { return a < b ? a : b; }
+double greater(double a, double b) noexcept { return a > b ? a : b; }
+
+/// `plain`: every tool has been in its ring all the time, and no deeper than the knee when it came.
+/// So are most ticks, and they need half of the divisions.
+template <bool plain>
+void yield_all(const RemovalPlan& plan, double turn, Yielding& rings, std::size_t count) noexcept {
+  const double knee = plan.yield_depth_mm, per_knee = 1.0 / knee;
+  const double fraction = one_minus_exp_neg(turn), pace_of = knee / greater(turn, 1e-300);
+  for (std::size_t k = 0; k < count; ++k) {
+    const double wall = rings.wall[k], depth = rings.depth[k], target = rings.target[k];
+    double advance = rings.advance[k], pace = advance * pace_of, q = turn, rest = 1.0;
+    double at_most = wall * fraction;
+    if constexpr (!plain) {
+      // A tool that was not in the clay before came to it on the way.
+      const double part = lesser(1.0, depth / greater(advance, depth)) * rings.since[k];
+      advance = lesser(advance, depth);
+      pace = advance * knee / greater(turn * part, 1e-300);
+      q = turn * part;
+      at_most *= part * (1.0 + 0.5 * turn * (1.0 - part));
+
+      // Above the knee: how much of the time passes until it is reached, by the logarithmic mean
+      // of the wall.
+      const double over = greater(depth - advance - knee, 0.0), middle = wall - 0.5 * over;
+      const double closing = q * (middle - over * over / (12.0 * middle)) - advance;
+      rest = closing > over ? 1.0 - over / closing : over > 0.0 ? 0.0 : 1.0;
+    }
+
+    // Below it: about the depth that stays.
+    const double behind = greater(target + 0.5 * advance, plan.min_wall_mm);
+    const double square = behind * behind, coming = greater(pace, -0.25 * square);
+    const double steady = coming * behind / (square + coming);
+    const double spread = behind + 2.0 * steady;
+    const double left = exp_neg(q * rest * spread * per_knee);
+    const double off = lesser(depth - advance, knee) - steady;
+    const double relaxed = steady + off * left * spread / (spread + off * (1.0 - left));
+
+    rings.left[k] = lesser(greater(greater(relaxed, depth - at_most), 0.0), depth);
+  }
+}
+
+}  // namespace
+
+void yield(const RemovalPlan& plan, double dt_s, Yielding& rings, std::size_t count) noexcept {
+  bool plain = true;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double start = rings.depth[k] - rings.advance[k];
+    plain = plain && start >= 0.0 && start <= plan.yield_depth_mm && rings.since[k] == 1.0;
+  }
+  const double turn = plan.rate_per_s * dt_s;
+  plain ? yield_all<true>(plan, turn, rings, count) : yield_all<false>(plan, turn, rings, count);
+}
+
+}  // namespace clay

@@ -1,0 +1,156 @@
+// Keys of a terminal while throwing, with the program in a terminal of its own.
+
+#include "claystack/engine/session_file.hpp"
+#include "run_program.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <pty.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <termios.h>
+#include <unistd.h>
+#include <utmp.h>
+
+#include <chrono>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace clay::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto kPatience = std::chrono::seconds(60);
+
+/// `claystack throw` with the simulated arm, in a terminal.
+class InATerminal {
+ public:
+  explicit InATerminal(const ScratchFolder& folder) : folder_(folder) {
+    EXPECT_EQ(openpty(&ours_, &theirs_, nullptr, nullptr, nullptr), 0);
+    EXPECT_EQ(tcgetattr(theirs_, &before_), 0);
+    const std::string scene = sample("bowl.scene.json"), session = folder.file("s.session"),
+                      pot = folder.file("a.pot.json");
+    program_ = fork();
+    if (program_ == 0) {
+      alarm(120);  // no orphan
+      login_tty(theirs_);
+      execl(CLAYSTACK_PROGRAM, CLAYSTACK_PROGRAM, "throw", scene.c_str(), "--device", "simulated",
+            "--record", session.c_str(), "-o", pot.c_str(), nullptr);
+      _exit(127);
+    }
+  }
+  ~InATerminal() {
+    if (program_ > 0) kill(program_, SIGKILL), wait();
+    close(ours_);
+    close(theirs_);
+  }
+  InATerminal(const InATerminal&) = delete;
+  InATerminal& operator=(const InATerminal&) = delete;
+
+  void type(std::string_view keys) {
+    ASSERT_EQ(write(ours_, keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
+  }
+  void send(int signal) { kill(program_, signal); }
+
+  /// Whether the terminal shows this from here on, before the program ends.
+  bool shows(const std::string& text) {
+    const auto end = Clock::now() + kPatience;
+    while (Clock::now() < end) {
+      const std::size_t at = shown_.find(text);
+      if (at != std::string::npos) return shown_.erase(0, at + text.size()), true;
+      pollfd output{ours_, POLLIN, 0};
+      char some[4096];
+      if (poll(&output, 1, 100) <= 0) continue;
+      const ssize_t size = read(ours_, some, sizeof some);
+      if (size <= 0) return false;
+      shown_.append(some, static_cast<std::size_t>(size));
+    }
+    return false;
+  }
+
+  /// How it ended.
+  int wait() {
+    int status = 0;
+    waitpid(std::exchange(program_, -1), &status, 0);
+    return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  }
+
+  [[nodiscard]] tcflag_t modes() const {
+    termios now{};
+    tcgetattr(theirs_, &now);
+    return now.c_lflag;
+  }
+  [[nodiscard]] tcflag_t modes_before() const { return before_.c_lflag; }
+
+  [[nodiscard]] std::vector<Pose> poses() const {
+    const std::string path = folder_.file("s.session");
+    return parse_session(read_text(path), path).value().poses;
+  }
+
+ private:
+  const ScratchFolder& folder_;
+  int ours_ = -1, theirs_ = -1;
+  pid_t program_ = -1;
+  termios before_{};
+  std::string shown_;
+};
+
+TEST(LiveKeys, PauseTakeAwayGiveBackAndEnd) {
+  const ScratchFolder folder;
+  InATerminal terminal(folder);
+  ASSERT_TRUE(terminal.shows("keys: space pauses"));
+  ASSERT_TRUE(terminal.shows("force grows"));
+  EXPECT_EQ(terminal.modes() & (ICANON | ECHO), 0u);
+  EXPECT_NE(terminal.modes() & ISIG, 0u);
+  terminal.type(" ");
+  ASSERT_TRUE(terminal.shows("paused"));
+  const std::size_t paused = terminal.poses().size();
+  terminal.type(" ");
+  ASSERT_TRUE(terminal.shows("force grows"));
+  terminal.type("z");
+  ASSERT_TRUE(terminal.shows("no force: as asked; r"));
+  terminal.type("xr");  // a key that means nothing, and one that does
+  ASSERT_TRUE(terminal.shows("force grows"));
+  terminal.type("q");
+  ASSERT_TRUE(terminal.shows("ended: stopped"));
+  EXPECT_EQ(terminal.wait(), 0);
+  EXPECT_EQ(terminal.modes(), terminal.modes_before());
+  // The clay stood still while it was paused: a hole in time, and none in the record.
+  EXPECT_GT(terminal.poses().size(), paused);
+  EXPECT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -s " + folder.file("s.session") +
+                      " -o " + folder.file("b.pot.json"))
+                .status,
+            0);
+  EXPECT_EQ(read_text(folder.file("b.pot.json")), read_text(folder.file("a.pot.json")));
+}
+
+TEST(LiveKeys, CtrlCEndsItAndCtrlZDoesNotStopItUnderForce) {
+  const ScratchFolder folder;
+  InATerminal terminal(folder);
+  ASSERT_TRUE(terminal.shows("force grows"));
+  terminal.type("\x1A");  // Ctrl-Z
+  ASSERT_TRUE(terminal.shows("force grows"));
+  terminal.type("\x03");  // Ctrl-C
+  ASSERT_TRUE(terminal.shows("ended: stopped"));
+  EXPECT_EQ(terminal.wait(), 0);
+  EXPECT_EQ(terminal.modes(), terminal.modes_before());
+}
+
+TEST(LiveKeys, TheTerminalIsAsBeforeAfterEverySignalThatCanBeCaught) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT, SIGSEGV, SIGABRT}) {
+    const ScratchFolder folder;
+    InATerminal terminal(folder);
+    ASSERT_TRUE(terminal.shows("force grows"));
+    EXPECT_NE(terminal.modes(), terminal.modes_before());
+    terminal.send(signal);
+    const int ended = terminal.wait();
+    EXPECT_TRUE(ended == 0 || ended == 128 + signal) << ended;
+    EXPECT_EQ(terminal.modes(), terminal.modes_before()) << signal;
+  }
+}
+
+}  // namespace
+}  // namespace clay::test

@@ -1,0 +1,33 @@
+#pragma once
+// A HID gadget where the backend of hidapi under test looks for it: a node of the kernel for
+// hidraw, a USB device for libusb (CLAYSTACK_HIDAPI_LIBUSB).
+
+#include "hid_gadget.hpp"
+
+namespace clay::rig {
+
+#ifdef CLAYSTACK_HIDAPI_LIBUSB
+class Plugged {
+ public:
+  Plugged(UMockdevTestbed* testbed, HidGadget& gadget) : plug_(testbed, gadget) {}
+  void pump() {}
+  void show(bool) {}
+
+ private:
+  UsbPlug plug_;
+};
+#else
+class Plugged {
+ public:
+  Plugged(UMockdevTestbed* testbed, HidGadget& gadget)
+      : node_(testbed, gadget, gadget.identity().port) {}
+  /// See HidrawNode.
+  void pump() { node_.pump(); }
+  void show(bool there) { node_.show(there); }
+
+ private:
+  HidrawNode node_;
+};
+#endif
+
+}  // namespace clay::rig
