@@ -141,7 +141,7 @@ Exporter::Outcome Exporter::done(const Job& job) {
   auto result = job.kind == Kind::files ? app::export_files(*job.pot, command, tell)
                                         : app::rehearse_export(*job.pot, command, tell);
   const bool cancelled = !result && job.stop.stop_requested();
-  return {job.kind, job.wish, std::move(result), cancelled, std::move(command.outputs)};
+  return {job.kind, job.pot, job.wish, std::move(result), cancelled, std::move(command.outputs)};
 }
 
 }  // namespace clay::studio

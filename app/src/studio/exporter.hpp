@@ -41,6 +41,7 @@ class Exporter {
   enum class Kind { rehearsal, files };
   struct Outcome {
     Kind kind = Kind::rehearsal;
+    work::SharedPot pot;
     ExportWish wish;
     Result<app::ExportDone> done;
     bool cancelled = false;

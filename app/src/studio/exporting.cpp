@@ -16,8 +16,10 @@ glm::dvec2 on_pot(const solid::ProfilePoint& place, double shrinkage) {
   return glm::dvec2(place.rho, place.y) / solid::enlargement(shrinkage);
 }
 
-void mark(Workshop& shop, const app::ExportDone& done) {
+void mark(Workshop& shop, const Exporter::Outcome& outcome) {
+  const app::ExportDone& done = *outcome.done;
   shop.marks.clear();
+  shop.marked = outcome.pot;
   for (const app::Problem& problem : app::problems_of(done))
     if (problem.at)
       shop.marks.push_back({on_pot(*problem.at, done.report.shrinkage), problem.text});
@@ -51,7 +53,7 @@ void take_files(Workshop& shop, Exporter::Outcome outcome) {
   card.written = outcome.paths;
   card.said = text_of(*outcome.done, outcome.paths);
   if (!outcome.done->report.files.empty()) {
-    mark(shop, *outcome.done);
+    mark(shop, outcome);
     card.shown = std::move(*outcome.done);
   }
   for (const std::string& path : outcome.paths) shop.log("exported: " + path);
@@ -67,7 +69,7 @@ void take_rehearsal(Workshop& shop, Exporter::Outcome outcome) {
   card.shown.reset();
   card.problem.clear();
   if (outcome.done) {
-    mark(shop, *outcome.done);
+    mark(shop, outcome);
     card.shown = std::move(*outcome.done);
     shop.log(fmt::format("export rehearsed: {} triangles", card.shown->report.triangles));
   } else {

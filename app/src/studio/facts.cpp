@@ -44,7 +44,11 @@ const std::array kFacts = {
          [](const Workshop& s) {
            return yes_or_no(s.potter.has_work() && s.potter.pot().collapse.has_value());
          }},
-    Fact{"marks", [](const Workshop& s) { return fmt::format("{}", s.marks.size()); }},
+    Fact{"marks",
+         [](const Workshop& s) {
+           return fmt::format(
+               "{}", s.potter.has_work() && s.marked == s.potter.shared_pot() ? s.marks.size() : 0);
+         }},
     Fact{"triangles",
          [](const Workshop& s) {
            return fmt::format("{}", s.exporting.shown ? s.exporting.shown->report.triangles : 0);

@@ -20,6 +20,8 @@ bool can_undo(const Workshop& shop) { return between(shop) && shop.potter.can_un
 bool can_redo(const Workshop& shop) { return between(shop) && shop.potter.can_redo(); }
 bool asks(const Workshop& shop) { return shop.overlay == Overlay::quit_prompt; }
 bool exports(const Workshop& shop) {
+  const std::string& name = shop.exporting.wish.name;
+  if (name.empty() || name.find('/') != std::string::npos) return false;
   return shop.overlay == Overlay::export_files &&
          shop.exporter.running() != Exporter::Kind::files &&
          !command_of(shop.exporting.wish).outputs.empty();

@@ -189,7 +189,6 @@ void Studio::tell_news() {
   if (!news.stroke_ended) return;
   shop_.log(
       fmt::format("stroke ended: {} poses, {} ticks", news.poses, shop_.potter.status().ticks));
-  shop_.marks.clear();
   if (news.ending == live::Ending::collapsed) {
     shop_.fall.begin(shop_.potter.shared_pot(), last_s_);
     shop_.notices.say(Grade::warning,

@@ -37,7 +37,6 @@ void show_work(Workshop& shop) {
   shop.rate_per_s = shop.potter.scene().removal.rate_per_s;
   shop.overlay = Overlay::none;
   shop.view.look(shop, Seen::home);
-  shop.marks.clear();
   shop.exporting.written.clear();
   shop.log("work begun: " + shop.potter.scene().name);
 }

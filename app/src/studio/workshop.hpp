@@ -80,7 +80,8 @@ struct Workshop {
   ExportCard exporting;
   ImportCard importing;
   FallShow fall;
-  std::vector<Mark> marks;   ///< of the pot as it is
+  std::vector<Mark> marks;  ///< of the pot `marked`
+  work::SharedPot marked;
   double rate_per_s = 20.0;  ///< of the scene, at kNominalRpm
 
   [[nodiscard]] float scale() const { return settings.scale * host.content_scale(); }

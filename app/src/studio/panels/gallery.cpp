@@ -1,5 +1,6 @@
 // The first screen: a sample to throw, or a lump of one's own.
 
+#include "studio/actions.hpp"
 #include "studio/panels/panels.hpp"
 #include "studio/panels/widgets.hpp"
 #include "studio/samples.hpp"
@@ -68,6 +69,24 @@ void own_lump(Workshop& shop) {
   ImGui::Columns(1);
 }
 
+/// What was thrown before: any file, and the last ones by name.
+void files(Workshop& shop) {
+  if (ImGui::Button("Open...")) run(*find_action("file.open"), shop);
+  std::string chosen;
+  for (const std::string& path : shop.settings.recent) {
+    const std::string name = std::filesystem::path(path).filename().string();
+    const float width =
+        ImGui::CalcTextSize(name.c_str()).x + 2.0f * ImGui::GetStyle().FramePadding.x;
+    ImGui::SameLine();
+    if (ImGui::GetContentRegionAvail().x < width) break;
+    ImGui::PushID(path.c_str());
+    if (ImGui::Button(name.c_str())) chosen = path;
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", path.c_str());
+    ImGui::PopID();
+  }
+  if (!chosen.empty()) open_file(shop, chosen);
+}
+
 /// "22 Nov 14:05", where the user is.
 std::string time_text(std::chrono::system_clock::time_point when) {
   return fmt::format("{:%d %b %H:%M}", fmt::localtime(std::chrono::system_clock::to_time_t(when)));
@@ -128,6 +147,10 @@ void draw_gallery(Workshop& shop, const ViewRect& view) {
   ImGui::Separator();
   ImGui::Spacing();
   own_lump(shop);
+  ImGui::Spacing();
+  ImGui::Separator();
+  ImGui::Spacing();
+  files(shop);
   ImGui::End();
 }
 

@@ -32,7 +32,9 @@ void draw_mark(const Workshop& shop, const ViewRect& view, const Mark& mark, glm
 }  // namespace
 
 void draw_marks(Workshop& shop, const ViewRect& view) {
-  if (shop.overlay != Overlay::none || shop.potter.throwing() || shop.potter.scrubbing()) return;
+  if (shop.overlay != Overlay::none || shop.potter.throwing() || shop.potter.scrubbing() ||
+      shop.marked != shop.potter.shared_pot())
+    return;
   const float em = ImGui::GetFontSize();
   float top = view.corner_px.y + 1.2f * em;
   for (const Mark& mark : shop.marks) {

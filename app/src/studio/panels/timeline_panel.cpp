@@ -150,7 +150,6 @@ void handle_mouse(Workshop& shop, const Timeline& timeline, const Scale& scale) 
   }
   shop.log(fmt::format("timeline: {}", held->node));
   shop.potter.go_to(held->node);
-  shop.marks.clear();
   held.reset();
 }
 
