@@ -44,7 +44,8 @@ void draw_places(Workshop& shop, ExportWish& wish) {
   if (ImGui::Button("Choose...") &&
       !(shop.host.real_time() &&
         shop.dialog.begin(FileDialog::Kind::folder, std::filesystem::path(wish.folder) / "")))
-    shop.notices.say(Grade::note, "No file dialog is installed (zenity, kdialog): type the folder",
+    shop.notices.say(Grade::warning,
+                     "No file dialog is installed (zenity, kdialog): type the folder",
                      1e-9 * static_cast<double>(shop.host.frame_ns()) + 5.0);
 }
 
