@@ -33,7 +33,8 @@ TEST(Timeline, StrokesInARowAreOneRow) {
   double end_s = 0.0;
   for (const TimelineBlock& block : timeline.blocks) {
     EXPECT_EQ(block.from_s, end_s);
-    EXPECT_EQ(block.to_s - block.from_s, std::max(kShortestBlockS, work.view(block.node).seconds));
+    EXPECT_DOUBLE_EQ(block.to_s - block.from_s,
+                     std::max(kShortestBlockS, work.view(block.node).seconds));
     EXPECT_TRUE(block.done);
     end_s = block.to_s;
   }

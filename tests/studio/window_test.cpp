@@ -44,6 +44,11 @@ constexpr const char* kPress =
     "point 56 18 over 0.4\nwait 0.2\nexpect contact yes\n"
     "point 65 18 over 0.3\nwait 0.2\nrelease left\nexpect throwing no\n";
 
+/// Farther in than the groove that kPress leaves.
+constexpr const char* kDeeper =
+    "point 65 18\npress left\npoint 48 18 over 0.4\nwait 0.2\nexpect contact yes\n"
+    "point 65 18 over 0.3\nwait 0.2\nrelease left\n";
+
 TEST_F(Window, AStrokeUndoneAndRedoneIsThePotThatThrowMakes) {
   const Ran ran = run(std::string(kPress) +
                       "expect strokes 1\nexpect volume_error 0\nsave FOLDER/one.pot.json\n"
@@ -101,10 +106,10 @@ TEST_F(Window, QuittingAsksOnceThereIsSomethingToLose) {
 }
 
 TEST_F(Window, AStrokeFromAnEarlierPotIsABranch) {
-  const Ran ran = run(std::string(kPress) + kPress +
+  const Ran ran = run(std::string(kPress) + kDeeper +
                       "expect node 2\nsave FOLDER/two.pot.json\n"
                       "do edit.undo\n" +
-                      kPress +
+                      kDeeper +
                       "expect node 3\nexpect strokes 3\n"
                       "do edit.other_branch\nexpect node 2\nsave FOLDER/again.pot.json\n"
                       "do edit.to_start\nexpect node 0\n");
@@ -114,7 +119,7 @@ TEST_F(Window, AStrokeFromAnEarlierPotIsABranch) {
 
 TEST_F(Window, TheTimelineIsClickedAndDragged) {
   // The strip is the last thing above the status bar; its blocks begin beside "Start".
-  const Ran ran = run(std::string(kPress) + kPress +
+  const Ran ran = run(std::string(kPress) + kDeeper +
                       "save FOLDER/two.pot.json\n"
                       "move 270 597\npress left\nrelease left\nexpect node 0\n"
                       "move 400 597\npress left\nexpect scrubbing no\n"
@@ -174,7 +179,7 @@ TEST_F(Window, AnUnsavedWorkIsAskedForBeforeAnotherOpens) {
                       "\nexpect overlay quit\nkey Esc\nexpect strokes 1\n"
                       "do file.new_vase\nexpect overlay quit\nkey Esc\nexpect strokes 1\n"
                       "save FOLDER/kept.work\n" +
-                      kPress + "open " + vase +
+                      kDeeper + "open " + vase +
                       "\nexpect overlay quit\nkey Enter\nexpect strokes 0\nexpect unsaved no\n"
                       "open FOLDER/kept.work\nexpect strokes 2\nexpect unsaved no\n");
   EXPECT_EQ(ran.status, 0) << ran.err;
