@@ -136,8 +136,7 @@ Result<double> shrinkage_of(const std::string& text) {
   double percent = 0.0;
   const char* end = text.data() + text.size();
   const auto [stop, problem] = std::from_chars(text.data(), end, percent);
-  std::string_view rest(stop, static_cast<std::size_t>(end - stop));
-  if (rest.starts_with(' ')) rest.remove_prefix(1);
+  const std::string_view rest(stop, static_cast<std::size_t>(end - stop));
   if (problem != std::errc() || rest != "%" ||
       !(percent >= 0.0 && percent <= 100.0 * solid::kMostShrinkage))
     return failure(ErrorKind::bad_input, fmt::format("expected 0% to {:g}%, found {}",

@@ -48,7 +48,7 @@ struct Problem {
 
 /// As --smooth names them; `none` for any other.
 [[nodiscard]] solid::Smoothing smoothing_of(std::string_view name);
-/// "12%", "7.5 %": a part, 0.12. Errors say what was expected.
+/// "12%": a part, 0.12. Errors say what was expected.
 Result<double> shrinkage_of(const std::string& text);
 
 }  // namespace clay::app

@@ -29,7 +29,6 @@ xdotool mouseup 1
 
 start_window
 grep -q "recovery offered: 1" "$log" || fail "expected an offer to recover"
-[ -z "${PICTURE:-}" ] || import -window root "$PICTURE"
 xdotool key --window "$window" ctrl+r
 until_line "recovered: "
 cat "$log" >"$folder/log_of_recovery"
