@@ -1,53 +1,17 @@
 #include "commands.hpp"
-#include "export_files.hpp"
 #include "export_report.hpp"
-#include "wall_table.hpp"
+#include "export_run.hpp"
 
 #include "claystack/engine/atomic_file.hpp"
 #include "claystack/engine/pot_file.hpp"
-#include "claystack/engine/stack_measures.hpp"
-#include "claystack/export/export_job.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <memory>
 
 namespace clay::app {
 namespace {
-
-using solid::ExportReport;
-
-/// Through the job, where a mesh or the walls are asked for.
-Result<ExportReport> run_job(const Pot& pot, std::vector<Request>& requests,
-                             const ExportCommand& command, const Console& console) {
-  solid::ExportOptions options = command.options;
-  std::vector<solid::Output> outputs;
-  for (const Request& request : requests)
-    if (request.mesh) outputs.push_back({*request.mesh, request.file.get()});
-  const bool walls = std::ranges::any_of(command.outputs, is_wall_table);
-  if (walls) options.wall_spacing_mm = kWallSpacingMm;
-  if (outputs.empty() && !walls) return ExportReport{};
-  Progress progress(console, "exporting", 0);
-  auto report = solid::run_export(pot, outputs, options,
-                                  [&](std::string_view stage) { progress.stage(stage); });
-  if (!report) return failure(report.error().kind, command.pot + ": " + report.error().message);
-  return report;
-}
-
-solid::Smoothing smoothing_of(const std::string& name) {
-  for (const auto mode : {solid::Smoothing::fair, solid::Smoothing::exact})
-    if (solid::name_of(mode) == name) return mode;
-  return solid::Smoothing::none;
-}
-
-/// What smoothing must not go below, where the user or the process says.
-std::optional<double> least_wall(const ExportCommand& command, const ClayStack& stack) {
-  const auto demand = command.walls.for_size(4.0 * largest_radius_mm(stack) + stack.height_mm());
-  return demand ? std::optional(demand->min_wall_mm) : std::nullopt;
-}
 
 Result<Pot> read_pot(const ExportCommand& command) {
   auto pot = read_file(command.pot).and_then([&](const std::string& bytes) {
@@ -60,48 +24,29 @@ Result<Pot> read_pot(const ExportCommand& command) {
   return pot;
 }
 
-/// All files are whole and verified before the first one gets its name.
-Result<ExportReport> write_and_publish(const Pot& pot, std::vector<Request>& requests,
-                                       const ExportCommand& command, const Console& console) {
-  auto report = run_job(pot, requests, command, console);
-  if (!report) return report;
-  if (auto done = write_companions(pot, *report, requests); !done)
-    return tl::make_unexpected(done.error());
-  const auto begin = std::chrono::steady_clock::now();
-  if (auto done = publish_all(requests); !done) return tl::make_unexpected(done.error());
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-  report->stages.push_back({"publish", seconds.count()});
-  return report;
-}
-
 /// Exit status: done, or done with a wall below what was asked for.
 Result<int> export_pot(ExportCommand& command, const Console& console) {
-  if (auto loaded = command.walls.load(); !loaded) return tl::make_unexpected(loaded.error());
-  auto requests = requests_of(command);
-  if (!requests) return tl::make_unexpected(requests.error());
   const auto pot = read_pot(command);
   if (!pot) return tl::make_unexpected(pot.error());
   command.options.smoothing = smoothing_of(command.smooth);
-  command.options.min_wall_mm = least_wall(command, pot->stack);
   command.options.full_verification = command.verify == "full";
   command.options.name = std::filesystem::path(command.pot).stem().stem().string();
-  if (auto done = open_all(*requests, command); !done) return tl::make_unexpected(done.error());
   auto report_file = open_file(command.report);
   if (!report_file) return tl::make_unexpected(report_file.error());
+  const auto done = [&] {
+    Progress progress(console, "exporting", 0);
+    return export_files(*pot, command, [&](std::string_view stage) { progress.stage(stage); });
+  }();
+  if (!done) return tl::make_unexpected(done.error());
 
-  const auto copies = write_copies(*pot, *requests, command);
-  if (!copies) return tl::make_unexpected(copies.error());
-  const auto report = write_and_publish(*pot, *requests, command, console);
-  if (!report) return tl::make_unexpected(report.error());
-
-  const auto demand = command.walls.for_size(2.0 * report->diameter_mm + report->height_mm);
-  const Json json = export_json(*report, *copies, command.outputs, demand);
+  const auto& [report, copies, demand] = *done;
+  const Json json = export_json(report, copies, command.outputs, demand);
   if (console.json) console.print(json);
-  tell_export(console, *report, *copies, command.outputs);
+  tell_export(console, report, copies, command.outputs);
   if (FileOnDisk* const file = report_file->get())
-    if (auto done = write_text(*file, pretty(json)).and_then([&] { return file->commit(); }); !done)
-      return tl::make_unexpected(done.error());
-  return tell_thin_wall(console, *report, demand) ? kUnsound : kDone;
+    if (auto kept = write_text(*file, pretty(json)).and_then([&] { return file->commit(); }); !kept)
+      return tl::make_unexpected(kept.error());
+  return tell_thin_wall(console, report, demand) ? kUnsound : kDone;
 }
 
 }  // namespace
@@ -137,6 +82,17 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
   sub->add_option("--drain", command->options.drain_mm,
                   "Diameter of a hole along the axis that opens closed cavities [mm]")
       ->check(in_range(1e-3, 1e4));
+  sub->add_option_function<std::string>(
+         "--shrinkage",
+         [command](const std::string& text) {
+           command->options.shrinkage = shrinkage_of(text).value_or(0.0);
+         },
+         "Part of each length lost in drying and firing, as 12%: files are so much larger that the "
+         "piece comes out in the pot's own size")
+      ->check([](const std::string& text) {
+        const auto parsed = shrinkage_of(text);
+        return parsed ? std::string() : parsed.error().message;
+      });
   command->walls.add_to(*sub);
   sub->add_flag("--measure-left-out", command->options.measure_left_out,
                 "Do what was left out after all, and tell the time that leaving it out saved");
@@ -158,6 +114,7 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
   sub->footer(
       "\nExamples:\n  claystack export bowl.pot.json bowl.stl bowl.obj bowl.drc bowl.svg\n"
       "  claystack export bowl.pot.json bowl.stl --tolerance 0.005 --process stoneware\n"
+      "  claystack export bowl.pot.json bowl.stl --process porcelain --shrinkage 12%\n"
       "  claystack export bowl.pot.json bowl.drc --certificate --report bowl.report.json\n"
       "  claystack export bowl.pot.json bowl.pot.cbor --precision 0.001");
   sub->callback([command, &console, &exit] {

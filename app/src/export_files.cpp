@@ -3,6 +3,7 @@
 #include "claystack/engine/atomic_file.hpp"
 #include "claystack/engine/rounded_pot.hpp"
 #include "claystack/export/section_svg.hpp"
+#include "claystack/export/shrinkage.hpp"
 #include "console.hpp"
 #include "wall_table.hpp"
 
@@ -53,6 +54,10 @@ Result<void> check_options(const ExportCommand& command, const std::vector<Reque
   };
   return need(command.precision_mm.has_value(), "--precision", "a pot", is_pot)
       .and_then([&] { return need(command.certificate, "--certificate", "a mesh", is_mesh); })
+      .and_then([&] {
+        return need(command.options.shrinkage > 0.0, "--shrinkage", "a mesh or its section",
+                    [](const Request& request) { return !is_pot(request); });
+      })
       .and_then([&] {
         return need(command.walls.asked(), "--min-wall and --process", "a mesh", is_mesh);
       })
@@ -116,7 +121,9 @@ Result<std::vector<PotCopy>> write_copies(const Pot& pot, std::vector<Request>& 
 }
 
 Result<void> write_companions(const Pot& pot, const solid::ExportReport& report,
-                              std::vector<Request>& requests) {
+                              std::vector<Request>& requests, double shrinkage) {
+  const auto larger = solid::enlarged(pot, shrinkage);
+  if (!larger) return tl::make_unexpected(larger.error());
   auto mesh = report.files.begin();
   for (Request& request : requests) {
     Result<void> written;
@@ -125,7 +132,7 @@ Result<void> write_companions(const Pot& pot, const solid::ExportReport& report,
     else if (is_wall_table(request.path))
       written = write_text(*request.file, wall_table(report.wall_field));
     else if (!is_mesh(request) && !is_pot(request))
-      written = write_text(*request.file, solid::section_svg(pot));
+      written = write_text(*request.file, solid::section_svg(*larger));
     if (!written) return written;
     if (is_mesh(request)) ++mesh;
   }

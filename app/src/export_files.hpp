@@ -49,9 +49,9 @@ Result<void> write_text(FileOnDisk& file, const std::string& text);
 /// Copies of the pot, as exact as asked for.
 Result<std::vector<PotCopy>> write_copies(const Pot& pot, std::vector<Request>& requests,
                                           const ExportCommand& command);
-/// Drawings, tables of walls and certificates.
+/// Drawings, tables of walls and certificates; drawings in the size of the meshes.
 Result<void> write_companions(const Pot& pot, const solid::ExportReport& report,
-                              std::vector<Request>& requests);
+                              std::vector<Request>& requests, double shrinkage);
 
 Result<void> publish_all(std::vector<Request>& requests);
 

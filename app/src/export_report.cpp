@@ -1,4 +1,5 @@
 #include "export_report.hpp"
+#include "export_run.hpp"
 #include "thin_walls.hpp"
 
 #include <fmt/format.h>
@@ -115,6 +116,16 @@ void tell_smoothing(const Console& console, const ExportReport& report) {
                     report.taken_mm));
 }
 
+void tell_shrinkage(const Console& console, const ExportReport& report) {
+  if (report.shrinkage == 0.0) return;
+  const double fired = 1.0 - report.shrinkage;
+  console.say(fmt::format(
+      "for a shrinkage of {:g} % the files are larger: {:.2f} mm wide and {:.2f} mm high, to come "
+      "out {:.2f} mm wide and {:.2f} mm high",
+      100.0 * report.shrinkage, report.diameter_mm, report.height_mm, fired * report.diameter_mm,
+      fired * report.height_mm));
+}
+
 void tell_solid(const Console& console, const ExportReport& report) {
   console.say(
       fmt::format("proved: {}closed and embedded, from {} profile vertices; {} triangles in "
@@ -127,18 +138,11 @@ void tell_solid(const Console& console, const ExportReport& report) {
                   report.volume_mm3 / 1000.0, report.collapsed ? "with the overlap " : "",
                   report.volume_error_relative, report.min_wall_mm, report.thinnest.from.y,
                   report.chordal_error_mm));
+  tell_shrinkage(console, report);
   if (report.collapsed) tell_collapse(console, *report.collapsed);
   tell_smoothing(console, report);
   for (const auto& [what, why, saved] : report.left_out)
     if (saved) console.say(fmt::format("left out: {} ({}), saved {:.2g} s", what, why, *saved));
-}
-
-/// Of all files.
-double thinnest_mm(const ExportReport& report) {
-  double thinnest = report.min_wall_mm;
-  for (const FileReport& file : report.files)
-    if (file.certificate) thinnest = std::min(thinnest, file.certificate->wall_lower_mm);
-  return thinnest;
 }
 
 /// What was made and proved.
@@ -174,6 +178,13 @@ Json solid_json(const ExportReport& report) {
                                   {"top_mm", cavity.top_mm},
                                   {"volume_mm3", cavity.volume_mm3}});
   for (const auto& kept : report.kept_steps) json["kept_steps"].push_back(kept_json(kept));
+  if (report.shrinkage > 0.0) {
+    const double fired = 1.0 - report.shrinkage;
+    json["shrinkage"] = {{"part", report.shrinkage},
+                         {"fired_diameter_mm", fired * report.diameter_mm},
+                         {"fired_height_mm", fired * report.height_mm},
+                         {"fired_volume_mm3", fired * fired * fired * report.volume_mm3}};
+  }
   if (report.collapsed) json["collapsed"] = collapsed_json(*report.collapsed);
   if (report.drilled_mm3 > 0.0) json["drilled_mm3"] = report.drilled_mm3;
   if (report.smoothing == solid::Smoothing::exact)
@@ -218,10 +229,7 @@ void tell_export(const Console& console, const ExportReport& report,
     console.say(
         fmt::format("drain drilled, {:.3f} cm3 of clay taken", report.drilled_mm3 / 1000.0));
   for (const auto& shape : report.shapes)
-    for (const auto& cavity : shape.cavities)
-      console.warn(
-          fmt::format("closed cavity from {:.1f} to {:.1f} mm ({:.1f} cm3): it needs a drain hole",
-                      cavity.bottom_mm, cavity.top_mm, cavity.volume_mm3 / 1000.0));
+    for (const auto& cavity : shape.cavities) console.warn(text_of(cavity));
   auto file = report.files.begin();
   auto copy = copies.begin();
   for (const std::string& path : paths) {
@@ -237,16 +245,12 @@ void tell_export(const Console& console, const ExportReport& report,
 bool tell_thin_wall(const Console& console, const ExportReport& report,
                     const std::optional<WallDemand>& demand) {
   if (!demand || report.files.empty()) return false;
-  const double thinnest = thinnest_mm(report);
-  if (thinnest >= demand->min_wall_mm) {
-    console.say("walls: " + wall_text(thinnest, *demand));
-    return false;
+  if (const auto thin = thin_wall_of(report, demand)) {
+    console.warn(*thin);
+    return true;
   }
-  const auto& certificate = report.files.front().certificate;
-  console.warn("thin wall: " + (certificate
-                                    ? thin_wall_text(certificate->profile, thinnest, *demand)
-                                    : wall_text(thinnest, *demand)));
-  return true;
+  console.say("walls: " + wall_text(thinnest_mm(report), *demand));
+  return false;
 }
 
 }  // namespace clay::app

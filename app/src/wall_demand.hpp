@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace clay::app {
 
@@ -19,6 +20,11 @@ struct WallDemand {
 class WallDemands {
  public:
   void add_to(CLI::App& command);
+  /// The same without a command line; an empty name: no process.
+  void ask(std::optional<double> min_wall_mm, std::string process) {
+    min_wall_mm_ = min_wall_mm;
+    process_name_ = std::move(process);
+  }
 
   [[nodiscard]] bool asked() const noexcept { return min_wall_mm_ || !process_name_.empty(); }
   /// Reads the process where one is named. Before any work: a bad name costs nothing then.

@@ -41,7 +41,10 @@ class CollapsedExport {
  public:
   CollapsedExport(const Pot& pot, const std::vector<Output>& outputs, const ExportOptions& options,
                   const std::function<void(std::string_view)>& progress)
-      : pot_(pot), outputs_(outputs), options_(options), stages_(report_.stages, progress) {}
+      : pot_(pot),
+        outputs_(outputs),
+        options_(options),
+        stages_(report_.stages, progress, options.cancel) {}
 
   Result<ExportReport> run() {
     return check_options(options_)

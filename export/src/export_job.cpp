@@ -2,6 +2,7 @@
 
 #include "claystack/engine/stack_measures.hpp"
 #include "claystack/export/drain.hpp"
+#include "claystack/export/shrinkage.hpp"
 #include "claystack/export/tessellate.hpp"
 #include "collapsed_export.hpp"
 #include "describe.hpp"
@@ -53,7 +54,10 @@ class ExportJob {
  public:
   ExportJob(const ClayStack& stack, const std::vector<Output>& outputs,
             const ExportOptions& options, const std::function<void(std::string_view)>& progress)
-      : stack_(stack), outputs_(outputs), options_(options), stages_(report_.stages, progress) {}
+      : stack_(stack),
+        outputs_(outputs),
+        options_(options),
+        stages_(report_.stages, progress, options.cancel) {}
 
   Result<ExportReport> run() {
     return design().and_then([&](const Design& design) { return write_all(design); }).map([&] {
@@ -192,6 +196,23 @@ class ExportJob {
 
 }  // namespace
 
+namespace {
+
+Result<ExportReport> export_as_it_is(const Pot& pot, const std::vector<Output>& outputs,
+                                     const ExportOptions& options,
+                                     const std::function<void(std::string_view)>& progress) {
+  if (pot.collapse) return export_collapsed(pot, outputs, options, progress);
+  if (!options.drain_mm) return ExportJob(pot.stack, outputs, options, progress).run();
+  return drain(pot.stack, *options.drain_mm).and_then([&](const DrainedStack& drained) {
+    return ExportJob(drained.stack, outputs, options, progress).run().map([&](ExportReport report) {
+      report.drilled_mm3 = drained.drilled_mm3;
+      return report;
+    });
+  });
+}
+
+}  // namespace
+
 Result<ExportReport> run_export(const Pot& pot, const std::vector<Output>& outputs,
                                 const ExportOptions& options,
                                 const std::function<void(std::string_view)>& progress) {
@@ -199,15 +220,12 @@ Result<ExportReport> run_export(const Pot& pot, const std::vector<Output>& outpu
     return failure(ErrorKind::bad_input, "tolerance: expected more than 0 mm, found " +
                                              in_mm(options.tolerance_mm) + " mm");
   try {
-    if (pot.collapse) return export_collapsed(pot, outputs, options, progress);
-    if (!options.drain_mm) return ExportJob(pot.stack, outputs, options, progress).run();
-    return drain(pot.stack, *options.drain_mm).and_then([&](const DrainedStack& drained) {
-      return ExportJob(drained.stack, outputs, options, progress)
-          .run()
-          .map([&](ExportReport report) {
-            report.drilled_mm3 = drained.drilled_mm3;
-            return report;
-          });
+    if (options.shrinkage == 0.0) return export_as_it_is(pot, outputs, options, progress);
+    return enlarged(pot, options.shrinkage).and_then([&](const Pot& larger) {
+      return export_as_it_is(larger, outputs, options, progress).map([&](ExportReport report) {
+        report.shrinkage = options.shrinkage;
+        return report;
+      });
     });
   } catch (const std::exception& e) {
     return failure(ErrorKind::io, std::string("export given up: ") + e.what());

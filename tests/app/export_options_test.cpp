@@ -74,6 +74,39 @@ TEST_F(ExportOptions, FullVerificationChecksTheFileAsAStrangers) {
   EXPECT_EQ(json.at("files").at(0).at("full_verification").at("self_intersections"), 0);
 }
 
+TEST_F(ExportOptions, AShrinkageMakesTheFilesLarger) {
+  const auto plain = run("--json").json();
+  const std::string svg = folder.file("larger.svg");
+  const auto larger = run(svg + " --shrinkage 12% --json").json();
+  const double factor = 1.0 / 0.88;
+  EXPECT_NEAR(larger.at("height_mm").get<double>(), factor * plain.at("height_mm").get<double>(),
+              1e-9);
+  EXPECT_NEAR(larger.at("volume_mm3").get<double>() / plain.at("volume_mm3").get<double>(),
+              factor * factor * factor, 1e-8);
+  const auto& fired = larger.at("shrinkage");
+  EXPECT_NEAR(fired.at("fired_height_mm").get<double>(), plain.at("height_mm").get<double>(), 1e-9);
+  EXPECT_NEAR(fired.at("fired_volume_mm3").get<double>(), plain.at("volume_mm3").get<double>(),
+              1e-2);
+  // The file itself, by a program of another house.
+  const std::string info = shell("prusa-slicer --info " + stl).out;
+  const auto size_z = info.find("size_z = ");
+  ASSERT_NE(size_z, std::string::npos) << info;
+  EXPECT_NEAR(std::stod(info.substr(size_z + 9)), larger.at("height_mm").get<double>(), 1e-3);
+  EXPECT_EQ(claystack("check " + stl).status, 0);
+  EXPECT_NE(claystack("export " + pot + " " + stl + " --shrinkage 12%").out.find("to come out"),
+            std::string::npos);
+}
+
+TEST_F(ExportOptions, AShrinkageIsAPercentage) {
+  for (const char* bad : {"0.12", "12", "60%", "-1%", "x%", "%"})
+    EXPECT_EQ(run(std::string("--shrinkage ") + bad).status, 2) << bad;
+  EXPECT_EQ(run("--shrinkage 7.5%").status, 0);
+  const Ran alone =
+      claystack("export " + pot + " " + folder.file("copy.pot.json") + " --shrinkage 12%");
+  EXPECT_EQ(alone.status, 2);
+  EXPECT_NE(alone.err.find("--shrinkage: expected a mesh"), std::string::npos) << alone.err;
+}
+
 TEST_F(ExportOptions, NormalsAreForObj) {
   const std::string obj = folder.file("n.obj");
   ASSERT_EQ(claystack("export -q --normals " + pot + " " + obj).status, 0);

@@ -1,47 +1,11 @@
 #!/bin/sh
-# under_xvfb.sh PROGRAM FOLDER: the window on a screen of its own, with real events. Waits on the
-# program's log, never on time alone. Prints the log.
+# under_xvfb.sh PROGRAM FOLDER: the window on a screen of its own, with real events: from the gallery
+# to files that print. Prints the log.
 set -u
-program=$1
-folder=$2
-export XDG_CONFIG_HOME="$folder/config" XDG_STATE_HOME="$folder/state"
-unset WAYLAND_DISPLAY
-log=$folder/log
-: >"$log"
+. "$(dirname "$0")/under_xvfb_start.sh"
 
-fail() {
-  echo "under_xvfb: $1" >&2
-  cat "$log" >&2
-  exit 1
-}
-# until_line TEXT [COUNT]: so many lines of the log have it.
-until_line() {
-  for _ in $(seq 600); do
-    [ "$(grep -c -- "$1" "$log")" -ge "${2:-1}" ] && return 0
-    kill -0 "$studio" 2>/dev/null || break
-    sleep 0.1
-  done
-  [ "$(grep -c -- "$1" "$log")" -ge "${2:-1}" ] || fail "expected a line with: $1"
-}
-
-# The server picks a number that is free, and tells it when it is ready.
-Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp -noreset 3>"$folder/display" 2>/dev/null &
-server=$!
-studio=
-trap 'kill $studio $server 2>/dev/null' EXIT
-for _ in $(seq 300); do
-  [ -s "$folder/display" ] && break
-  sleep 0.1
-done
-[ -s "$folder/display" ] || fail "Xvfb did not start"
-DISPLAY=:$(cat "$folder/display")
-export DISPLAY
-
-"$program" studio --log --size 1280x800 >"$log" 2>&1 &
-studio=$!
-until_line "window open"
-window=$(xdotool search --sync --onlyvisible --name Claystack | head -1)
-xdotool windowfocus --sync "$window"
+cd "$folder" || exit 1
+start_window
 # The first card of the gallery is the bowl.
 xdotool mousemove --window "$window" 370 360 click 1
 until_line "work begun: bowl"
@@ -58,10 +22,30 @@ for i in 1 2 3 4 5; do
 done
 until_line "action: edit.redo" 5
 [ "$(grep -c "action: edit.undo" "$log")" -eq 5 ] || fail "expected 5 undos"
+# An export by its shortcut: the name is the sample's, the folder that of the last file, here the
+# one that the window was started in.
+xdotool key --window "$window" ctrl+e
+until_line "export rehearsed"
+xdotool key --window "$window" ctrl+Return
+until_line "exported: .*bowl.stl"
+[ -s bowl.stl ] || fail "expected bowl.stl"
+mv bowl.stl by_key.stl
+xdotool key --window "$window" Escape
+until_line "action: wheel.zero_force"
+# The same by the menu: File, then Export.
+xdotool mousemove --window "$window" 27 13 click 1
+xdotool mousemove --window "$window" 60 218 sleep 0.2 click 1
+until_line "action: file.export" 2
+until_line "export rehearsed" 2
+xdotool key --window "$window" ctrl+Return
+until_line "exported: .*bowl.stl" 2
+cmp bowl.stl by_key.stl || fail "expected the same bytes by menu and by key"
+xdotool key --window "$window" Escape
+until_line "action: wheel.zero_force" 2
 xdotool key --window "$window" ctrl+q
 until_line "prompt: quit"
 xdotool key --window "$window" Escape
-until_line "action: wheel.zero_force"
+until_line "action: wheel.zero_force" 3
 # The window's own way out asks again.
 xdotool key --window "$window" ctrl+q
 until_line "prompt: quit" 2

@@ -12,7 +12,8 @@ namespace {
 std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
 
 const char* name_of(Overlay overlay) {
-  constexpr std::array kNames = {"none", "gallery", "shortcuts", "quit", "open", "save"};
+  constexpr std::array kNames = {"none", "gallery", "shortcuts", "quit",    "open",
+                                 "save", "export",  "import",    "settings"};
   return kNames[static_cast<std::size_t>(overlay)];
 }
 
@@ -32,6 +33,31 @@ const std::array kFacts = {
     Fact{"strokes",
          [](const Workshop& s) {
            return fmt::format("{}", s.potter.has_work() ? s.potter.work().size() - 1 : 0);
+         }},
+    Fact{"node",
+         [](const Workshop& s) {
+           return fmt::format("{}", s.potter.has_work() ? s.potter.work().at() : 0);
+         }},
+    Fact{"scrubbing", [](const Workshop& s) { return yes_or_no(s.potter.scrubbing()); }},
+    Fact{"falling", [](const Workshop& s) { return yes_or_no(s.fall.running()); }},
+    Fact{"fallen",
+         [](const Workshop& s) {
+           return yes_or_no(s.potter.has_work() && s.potter.pot().collapse.has_value());
+         }},
+    Fact{"marks",
+         [](const Workshop& s) {
+           return fmt::format(
+               "{}", s.potter.has_work() && s.marked == s.potter.shared_pot() ? s.marks.size() : 0);
+         }},
+    Fact{"triangles",
+         [](const Workshop& s) {
+           return fmt::format("{}", s.exporting.shown ? s.exporting.shown->report.triangles : 0);
+         }},
+    Fact{"exported",
+         [](const Workshop& s) { return fmt::format("{}", s.exporting.written.size()); }},
+    Fact{"problem",
+         [](const Workshop& s) {
+           return s.overlay == Overlay::import_drawing ? s.importing.problem : s.exporting.problem;
          }},
     Fact{"closed", [](const Workshop& s) { return yes_or_no(s.done); }},
     Fact{"device", [](const Workshop& s) { return s.potter.device_name(); }},

@@ -17,7 +17,8 @@ class GlfwHost final : public Host {
   static Result<std::unique_ptr<GlfwHost>> create(glm::ivec2 size);
   ~GlfwHost() override;
 
-  /// Frames until the studio is done, or a signal asks to stop (live::ForceSignals); at most sixty a second, and none while nothing moves.
+  /// Frames until the studio is done, or a signal asks to stop (live::ForceSignals); at most sixty
+  /// a second, and none while nothing moves.
   void run(Studio& studio);
 
   [[nodiscard]] glm::ivec2 size_px() const override;

@@ -87,6 +87,12 @@ Result<void> run_window(const Options& options, glm::ivec2 size,
   shop.devices = std::make_unique<DeviceWatch>(options.device, options.falcon);
   if (!loaded.note.empty()) shop.notices.say(Grade::warning, loaded.note);
   if (!options.file.empty()) open_file(shop, options.file);
+  if (!shop.left.empty()) {
+    log(fmt::format("recovery offered: {}", shop.left.size()));
+    if (shop.overlay != Overlay::gallery)
+      shop.notices.say(Grade::note,
+                       "A work that was not saved is still there: File, New offers to recover it");
+  }
   log("window open");
   const live::ForceSignals signals;
   (*host)->run(**studio);

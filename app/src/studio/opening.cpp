@@ -3,8 +3,8 @@
 #include "claystack/engine/atomic_file.hpp"
 #include "claystack/engine/pot_file.hpp"
 #include "claystack/engine/scene_file.hpp"
-#include "claystack/engine/work_file.hpp"
 #include "studio/workshop.hpp"
+#include "work/work.hpp"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,59 @@ bool is_pot(const std::string& name) {
   return name.ends_with(".pot.json") || name.ends_with(".pot.cbor");
 }
 
-/// A pot tells its clay, and not how it was thrown: the rest is in proportion to it.
+Result<void> open_work(Workshop& shop, const std::string& name) {
+  return work::load(name).and_then([&](work::Loaded&& loaded) {
+    if (loaded.torn)
+      shop.notices.say(Grade::warning,
+                       fmt::format("{}: the last line was cut off; all before it is here", name));
+    return shop.potter.begin(std::move(loaded.work));
+  });
+}
+
+Result<void> open_text(Workshop& shop, const std::string& text, const std::filesystem::path& path) {
+  const std::string name = path.string();
+  if (is_pot(name))
+    return parse_pot(text, name).and_then([&](Pot&& pot) {
+      return shop.potter.begin(scene_for(pot, path.stem().stem().string()), pot);
+    });
+  return parse_scene(text, name).and_then([&](SceneSpec&& scene) {
+    return shop.potter.begin(scene);
+  });
+}
+
+void open_drawing(Workshop& shop, const std::filesystem::path& path) {
+  auto bytes = read_file(path);
+  if (!bytes) return tell(shop, bytes.error());
+  shop.importing = {};
+  shop.importing.path = path;
+  shop.importing.bytes = std::move(*bytes);
+  read_again(shop.importing);
+  shop.overlay = Overlay::import_drawing;
+  shop.log("drawing: " + path.string());
+}
+
+void open_now(Workshop& shop, const std::filesystem::path& path) {
+  shop.notices.close();
+  const std::string name = path.string();
+  const bool is_work = name.ends_with(".work");
+  auto opened = is_work ? open_work(shop, name) : read_file(path).and_then([&](std::string&& text) {
+    return open_text(shop, text, path);
+  });
+  if (!opened) return tell(shop, opened.error());
+  shop.file = is_work ? path : std::filesystem::path();
+  remember(shop.settings, path);
+  show_work(shop);
+  shop.log("opened: " + name);
+}
+
+/// Names in the box for files begin here.
+std::filesystem::path start_of(const Workshop& shop) {
+  const std::string& folder = shop.settings.folder;
+  return folder.empty() ? std::filesystem::path() : std::filesystem::path(folder) / "";
+}
+
+}  // namespace
+
 SceneSpec scene_for(const Pot& pot, const std::string& name) {
   const double height_mm = std::max(1.0, pot.stack.height_mm());
   double widest_mm = 1.0;
@@ -38,37 +90,23 @@ SceneSpec scene_for(const Pot& pot, const std::string& name) {
   return scene;
 }
 
-Result<void> open_text(Workshop& shop, const std::string& text, const std::filesystem::path& path) {
-  const std::string name = path.string();
-  if (name.ends_with(".work"))
-    return parse_work(text, name).and_then([&](WorkReading&& read) {
-      if (read.torn)
-        shop.notices.say(Grade::warning, fmt::format("{}: the last line was cut off; all before "
-                                                     "it is here",
-                                                     name));
-      return shop.potter.begin(std::move(read.work));
-    });
-  if (is_pot(name))
-    return parse_pot(text, name).and_then([&](Pot&& pot) {
-      return shop.potter.begin(scene_for(pot, path.stem().stem().string()), pot);
-    });
-  return parse_scene(text, name).and_then([&](SceneSpec&& scene) {
-    return shop.potter.begin(scene);
-  });
+void open_file(Workshop& shop, const std::filesystem::path& path) {
+  if (is_drawing(path)) return open_drawing(shop, path);
+  ask_first(shop, "open", [path](Workshop& s) { open_now(s, path); });
 }
 
-}  // namespace
-
-void open_file(Workshop& shop, const std::filesystem::path& path) {
-  shop.potter.release();
-  shop.notices.close();
-  auto opened =
-      read_file(path).and_then([&](std::string&& text) { return open_text(shop, text, path); });
-  if (!opened) return tell(shop, opened.error());
-  shop.file = path.string().ends_with(".work") ? path : std::filesystem::path();
-  shop.settings.folder = path.parent_path().string();
-  show_work(shop);
-  shop.log("opened: " + path.string());
+void take_import(Workshop& shop) {
+  ask_first(shop, "import", [](Workshop& s) {
+    if (!s.importing.made) return;
+    const std::string name = s.importing.path.stem().string();
+    const Pot& pot = s.importing.made->pot;
+    if (auto begun = s.potter.begin(scene_for(pot, name), pot); !begun)
+      return tell(s, begun.error());
+    s.file.clear();
+    remember(s.settings, s.importing.path);
+    show_work(s);
+    s.log("imported: " + s.importing.path.string());
+  });
 }
 
 bool save_to(Workshop& shop, const std::filesystem::path& path) {
@@ -90,13 +128,37 @@ bool save_to(Workshop& shop, const std::filesystem::path& path) {
     tell(shop, saved.error());
     return false;
   }
-  shop.settings.folder = path.parent_path().string();
+  remember(shop.settings, path);
   shop.log("saved: " + name);
   shop.notices.say(Grade::note, "Saved " + name,
                    1e-9 * static_cast<double>(shop.host.frame_ns()) + 4.0);
-  if (shop.quit_after_saving) shop.done = true;
+  const auto then = shop.save_first && !shop.potter.unsaved() ? std::move(shop.waiting) : nullptr;
   close_overlay(shop);
+  if (then) then(shop);
   return true;
+}
+
+void ask_for_open(Workshop& shop) {
+  const std::filesystem::path start = start_of(shop);
+  if (shop.host.real_time() && shop.dialog.begin(FileDialog::Kind::open, start)) return;
+  shop.path_box = start.string();
+  shop.overlay = Overlay::open_file;
+}
+
+void ask_for_save(Workshop& shop) {
+  const std::filesystem::path path = start_of(shop) / (shop.potter.scene().name + ".work");
+  if (shop.host.real_time() && shop.dialog.begin(FileDialog::Kind::save, path)) return;
+  shop.path_box = path.string();
+  shop.overlay = Overlay::save_file;
+}
+
+void look_at_dialog(Workshop& shop) {
+  const FileDialog::Kind kind = shop.dialog.kind();
+  const auto chosen = shop.dialog.take();
+  if (!chosen || chosen->empty()) return;
+  if (kind == FileDialog::Kind::open) open_file(shop, *chosen);
+  if (kind == FileDialog::Kind::save) save_to(shop, *chosen);
+  if (kind == FileDialog::Kind::folder) shop.exporting.wish.folder = *chosen;
 }
 
 }  // namespace clay::studio

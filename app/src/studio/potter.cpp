@@ -61,7 +61,9 @@ Result<void> Potter::begin(WorkRecord record) {
 void Potter::begin(const SceneSpec& scene, work::Work work) {
   release();
   scene_ = scene;
-  if (work_ && !work_->unsaved() && work_->journal() != nullptr) work_->journal()->discard();
+  if (work_ && (given_up_ || !work_->unsaved()) && work_->journal() != nullptr)
+    work_->journal()->discard();
+  given_up_ = false;
   work_.emplace(std::move(work));
   status_ = {};
   news_ = {};
@@ -87,6 +89,7 @@ void Potter::close() {
 }
 
 void Potter::show_pot() {
+  scrubbing_ = false;
   auto pot = work_->pot();
   if (pot) {
     pot_ = std::move(*pot);
@@ -131,6 +134,7 @@ Result<void> Potter::sit_down(const SceneSpec& scene, falcon::HapticDevice& devi
     (void)work_->end_stroke();  // without a pose it is none
     return tl::make_unexpected(sitting.error());
   }
+  given_up_ = scrubbing_ = false;
   scene_ = scene;
   recorder_ = std::move(recorder);
   sitting_ = std::move(*sitting);
@@ -215,6 +219,31 @@ void Potter::undo() {
 void Potter::redo() {
   release();
   if (work_->redo()) show_pot();
+  device_waits_ = device_ != nullptr;
+}
+
+void Potter::go_to(work::NodeId node) {
+  release();
+  if (node != work_->at()) work_->go_to(node);
+  show_pot();
+  device_waits_ = device_ != nullptr;
+}
+
+void Potter::scrub(work::NodeId node, double seconds) {
+  release();
+  auto pot = work_->scrub(node, seconds);
+  if (!pot) {
+    news_.error = pot.error();
+    return;
+  }
+  view_ = draw::view_of(*pot);
+  scrubbing_ = true;
+  device_waits_ = false;
+}
+
+void Potter::show_present() {
+  if (!scrubbing_) return;
+  show_pot();
   device_waits_ = device_ != nullptr;
 }
 

@@ -100,6 +100,16 @@ class Potter {
   [[nodiscard]] bool can_redo() const noexcept { return work_ && work_->can_redo(); }
   void undo();
   void redo();
+  void go_to(work::NodeId node);
+  /// Shows the pot in mid-stroke, until `show_present` or anything else that shows a pot. The work
+  /// stays where it is.
+  void scrub(work::NodeId node, double seconds);
+  void show_present();
+  [[nodiscard]] bool scrubbing() const noexcept { return scrubbing_; }
+  /// The part that fell is seen here.
+  void show_fall(const draw::FallenView& fallen) { view_.fallen = fallen; }
+  /// What is not saved is not wanted: its journal goes with the next work.
+  void give_up() noexcept { given_up_ = true; }
   [[nodiscard]] bool unsaved() const noexcept { return work_ && work_->unsaved(); }
   Result<void> save(const std::string& path);
 
@@ -116,6 +126,8 @@ class Potter {
   live::Clock& clock_;
   bool threads_;
   bool journals_ = false;
+  bool given_up_ = false;   // the work, by an answer to a question
+  bool scrubbing_ = false;  // the view is not that of the present pot
   MouseDevice mouse_;
   std::unique_ptr<falcon::HapticDevice> device_;
   live::LiveSettings device_settings_;

@@ -113,8 +113,8 @@ void SceneView::drag(Workshop& shop, glm::vec2 by_px) {
       if (const auto place = pointed_mm()) {
         glm::dvec2 aim = *place + offset_mm_;
         aim.y = std::max(0.0, aim.y);
-        shop.potter.aim(
-            {on_wheel(aim), shop.potter.status().contact ? kPressingMmPerS : kReachingMmPerS});
+        shop.potter.aim({on_wheel(aim), shop.potter.status().contact ? shop.settings.pressing_mm_s
+                                                                     : kReachingMmPerS});
       }
       break;
     case Drag::none:

@@ -61,6 +61,14 @@ class Fields {
     else
       refuse(name, "a text", *field);
   }
+  void texts(const char* name, std::size_t most, std::vector<std::string>& target) {
+    const Json* field = take(name);
+    if (field == nullptr) return;
+    if (!field->is_array() || field->size() > most ||
+        !std::ranges::all_of(*field, [](const Json& text) { return text.is_string(); }))
+      return refuse(name, fmt::format("at most {} texts", most), *field);
+    target = field->get<std::vector<std::string>>();
+  }
   template <class E, std::size_t N>
   void one_of(const char* name, const std::array<Named<E>, N>& names, E& target) {
     const Json* field = take(name);
@@ -135,6 +143,16 @@ void read_tool(Fields& fields, ToolChoice& tool) {
 
 }  // namespace
 
+void remember(Settings& settings, const std::filesystem::path& path) {
+  std::error_code ignored;
+  const std::filesystem::path whole = std::filesystem::absolute(path, ignored);
+  const std::string name = whole.empty() ? path.string() : whole.lexically_normal().string();
+  settings.folder = std::filesystem::path(name).parent_path().string();
+  std::erase(settings.recent, name);
+  settings.recent.insert(settings.recent.begin(), name);
+  if (settings.recent.size() > kMostRecent) settings.recent.resize(kMostRecent);
+}
+
 std::filesystem::path settings_path() {
   const char* config = std::getenv("XDG_CONFIG_HOME");
   const char* home = std::getenv("HOME");
@@ -169,6 +187,8 @@ Result<Settings> parse_settings(std::string_view text, std::string_view name) {
   fields.flag("hints", settings.hints);
   fields.flags("open", settings.open);
   fields.text("folder", settings.folder);
+  fields.texts("recent", kMostRecent, settings.recent);
+  fields.number("pressing_mm_s", kSlowestHandMmPerS, kFastestHandMmPerS, settings.pressing_mm_s);
   if (const auto problem = fields.problem()) return wrong(*problem);
   return settings;
 }
@@ -192,7 +212,9 @@ std::string write_settings(const Settings& s) {
                      {"process", s.process},
                      {"hints", s.hints},
                      {"open", s.open},
-                     {"folder", s.folder}};
+                     {"folder", s.folder},
+                     {"recent", s.recent},
+                     {"pressing_mm_s", s.pressing_mm_s}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

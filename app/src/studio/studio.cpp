@@ -1,6 +1,7 @@
 #include "studio/studio.hpp"
 
 #include "studio/actions.hpp"
+#include "studio/imgui_setup.hpp"
 #include "studio/panels/panels.hpp"
 
 #include <backends/imgui_impl_opengl3.h>
@@ -23,40 +24,6 @@ constexpr double kSpinUpS = 0.6;  // of the wheel, to and from its speed
 constexpr double kLongestFrameS = 0.1;
 constexpr int kFramesAfterInput = 3;  // an ImGui window settles in that many
 
-/// GLFW's codes are ImGui's own indices here.
-void map_keys(ImGuiIO& io) {
-  constexpr std::array kKeys = {std::pair{ImGuiKey_Tab, GLFW_KEY_TAB},
-                                std::pair{ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
-                                std::pair{ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
-                                std::pair{ImGuiKey_UpArrow, GLFW_KEY_UP},
-                                std::pair{ImGuiKey_DownArrow, GLFW_KEY_DOWN},
-                                std::pair{ImGuiKey_Home, GLFW_KEY_HOME},
-                                std::pair{ImGuiKey_End, GLFW_KEY_END},
-                                std::pair{ImGuiKey_Delete, GLFW_KEY_DELETE},
-                                std::pair{ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
-                                std::pair{ImGuiKey_Enter, GLFW_KEY_ENTER},
-                                std::pair{ImGuiKey_Escape, GLFW_KEY_ESCAPE},
-                                std::pair{ImGuiKey_A, GLFW_KEY_A},
-                                std::pair{ImGuiKey_C, GLFW_KEY_C},
-                                std::pair{ImGuiKey_V, GLFW_KEY_V},
-                                std::pair{ImGuiKey_X, GLFW_KEY_X},
-                                std::pair{ImGuiKey_Y, GLFW_KEY_Y},
-                                std::pair{ImGuiKey_Z, GLFW_KEY_Z}};
-  for (const auto& [ours, theirs] : kKeys) io.KeyMap[ours] = theirs;
-}
-
-void connect_clipboard(ImGuiIO& io, Host& host) {
-  io.ClipboardUserData = &host;
-  io.SetClipboardTextFn = [](void* user, const char* text) {
-    static_cast<Host*>(user)->set_clipboard(text);
-  };
-  io.GetClipboardTextFn = [](void* user) -> const char* {
-    static std::string held;  // until ImGui has copied it
-    held = static_cast<Host*>(user)->clipboard();
-    return held.c_str();
-  };
-}
-
 std::int64_t steady_ns() {
   return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
 }
@@ -75,11 +42,7 @@ Result<std::unique_ptr<Studio>> Studio::create(Host& host, Settings settings,
   if (!painter) return tl::make_unexpected(painter.error());
   studio->painter_.emplace(std::move(*painter));
   studio->context_ = ImGui::CreateContext();
-  ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;  // the layout is fixed
-  io.LogFilename = nullptr;
-  map_keys(io);
-  connect_clipboard(io, host);
+  connect_imgui(host);
   if (!ImGui_ImplOpenGL3_Init("#version 330 core"))
     return failure(ErrorKind::device, "the window's controls: expected OpenGL 3.3");
   studio->last_s_ = seconds(host.frame_ns());
@@ -94,11 +57,13 @@ Studio::~Studio() {
 }
 
 bool Studio::wakeful() const noexcept {
-  return moving() || coarse_ || awake_frames_ > 0 || shop_.readings.checking();
+  return moving() || coarse_ || awake_frames_ > 0 || shop_.readings.checking() ||
+         shop_.exporter.busy() || shop_.dialog.open();
 }
 
 bool Studio::moving() const noexcept {
-  return shop_.potter.throwing() || spin_ > 0.0 || shop_.view.turning();
+  return shop_.potter.throwing() || spin_ > 0.0 || shop_.view.turning() || shop_.fall.running() ||
+         shop_.potter.scrubbing();
 }
 
 void Studio::frame(bool paint_it) {
@@ -124,9 +89,13 @@ void Studio::frame(bool paint_it) {
       shape_frame(elapsed_s / static_cast<double>(passes));
   } while (!waiting_.empty() && !shop_.done);
   look_at_devices(shop_);
+  look_at_dialog(shop_);
+  look_at_export(shop_);
   shop_.potter.advance(now_ns);
   shop_.host.clock().sleep_until_ns(now_ns);  // with no servo to move it
   tell_news();
+  show_fall(now_s);
+  name_window();
   turn_wheel(elapsed_s);
   if (paint_it) paint();
 }
@@ -204,7 +173,9 @@ void Studio::key(const KeyChanged& change) {
   // Behind what is open over the view nothing changes.
   if (shop_.overlay != Overlay::none && change.key != GLFW_KEY_ESCAPE &&
       !action->id.starts_with("file.") && !action->id.starts_with("view.") &&
-      !action->id.starts_with("help.") && !action->id.starts_with("quit."))
+      !action->id.starts_with("help.") && !action->id.starts_with("quit.") &&
+      !action->id.starts_with("export.") && !action->id.starts_with("recover.") &&
+      !action->id.starts_with("import."))
     return;
   run(*action, shop_);
 }
@@ -220,14 +191,40 @@ void Studio::tell_news() {
   if (!news.stroke_ended) return;
   shop_.log(
       fmt::format("stroke ended: {} poses, {} ticks", news.poses, shop_.potter.status().ticks));
-  if (news.ending == live::Ending::collapsed)
+  if (news.ending == live::Ending::collapsed) {
+    shop_.fall.begin(shop_.potter.shared_pot(), last_s_);
     shop_.notices.say(Grade::warning,
                       "The clay has fallen: it could no longer carry itself. Undo takes the stroke "
                       "back.");
+  }
   if (news.ring_limit)
     shop_.notices.say(Grade::warning,
                       "The clay stands as high as this lump allows: what more rises waits above "
                       "the rim.");
+}
+
+/// Whatever else is on the wheel meanwhile ends it.
+void Studio::show_fall(double now_s) {
+  if (!shop_.fall.running()) return;
+  const bool fallen = shop_.potter.has_work() && shop_.potter.pot().collapse &&
+                      !shop_.potter.scrubbing() && !shop_.potter.throwing();
+  if (!fallen) return shop_.fall.end();
+  if (const auto place = shop_.fall.at(now_s, shop_.potter.view()))
+    shop_.potter.show_fall(*place);
+  else
+    shop_.potter.go_to(shop_.potter.work().at());
+}
+
+/// As the desktop shows it; a star where the work is not saved.
+void Studio::name_window() {
+  std::string title = "Claystack";
+  if (shop_.potter.has_work())
+    title = fmt::format(
+        "{}{} - Claystack", shop_.potter.unsaved() ? "*" : "",
+        shop_.file.empty() ? shop_.potter.scene().name : shop_.file.filename().string());
+  if (title == title_) return;
+  shop_.host.set_title(title);
+  title_ = std::move(title);
 }
 
 /// The wheel turns while there is a tool in the clay.
@@ -252,11 +249,15 @@ void Studio::lay_out() {
   if (left > 0.0f) draw_column(shop_, Column::left, {0.0f, top}, {left, height});
   if (right > 0.0f) draw_column(shop_, Column::right, {size.x - right, top}, {right, height});
   draw_status_bar(shop_, {0.0f, size.y - status}, {size.x, status});
-  const ViewRect view{{left, top}, {std::max(1.0f, size.x - left - right), height}};
+  const float wide = std::max(1.0f, size.x - left - right);
+  const float strip = timeline_height(shop_, {wide, height});
+  const ViewRect view{{left, top}, {wide, height - strip}};
+  if (strip > 0.0f) draw_timeline(shop_, {left, top + height - strip}, {wide, strip});
   const bool first = shop_.view.rect().size_px.x <= 1.0f;
   shop_.view.place(view);
   if (first && shop_.potter.has_work()) shop_.view.look(shop_, Seen::home);
   draw_marks(shop_, view);
+  draw_export_marks(shop_, view);
   draw_hint(shop_, view);
   draw_overlay(shop_, view);
   draw_banner(shop_, view);

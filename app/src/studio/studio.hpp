@@ -44,6 +44,8 @@ class Studio {
   void key(const KeyChanged& change);
   void drop(const FilesDropped& files);
   void tell_news();
+  void show_fall(double now_s);
+  void name_window();
   void turn_wheel(double elapsed_s);
   void lay_out();
   void paint();
@@ -55,6 +57,7 @@ class Studio {
   std::optional<draw::Painter> painter_;
   std::optional<draw::Canvas> canvas_;
   std::deque<Input> waiting_;
+  std::string title_;
   double last_s_ = 0.0;
   double spin_ = 0.0;  // of the wheel: 0 stands, 1 turns at its speed
   Quality quality_;

@@ -1,6 +1,21 @@
 #include "studio/workshop.hpp"
 
+#include <utility>
+
 namespace clay::studio {
+
+namespace {
+
+/// Free of what was there before.
+void begin_anew(Workshop& shop, const SceneSpec& scene) {
+  if (auto begun = shop.potter.begin(scene); !begun) return tell(shop, begun.error());
+  shop.file.clear();
+  shop.notices.close();
+  show_work(shop);
+}
+
+}  // namespace
+
 double clay_rate_per_s(const Workshop& shop) {
   return shop.rate_per_s * shop.settings.wheel_rpm / kNominalRpm;
 }
@@ -13,7 +28,8 @@ void tell(Workshop& shop, const Error& error) {
 
 void close_overlay(Workshop& shop) {
   shop.overlay = shop.potter.has_work() ? Overlay::none : Overlay::gallery;
-  shop.quit_after_saving = false;
+  shop.waiting = nullptr;
+  shop.save_first = false;
 }
 
 void show_work(Workshop& shop) {
@@ -21,18 +37,42 @@ void show_work(Workshop& shop) {
   shop.rate_per_s = shop.potter.scene().removal.rate_per_s;
   shop.overlay = Overlay::none;
   shop.view.look(shop, Seen::home);
+  shop.exporting.written.clear();
   shop.log("work begun: " + shop.potter.scene().name);
 }
 
+void ask_first(Workshop& shop, const char* prompt, std::function<void(Workshop&)> then) {
+  shop.potter.release();
+  if (!shop.potter.unsaved()) return then(shop);
+  shop.waiting = std::move(then);
+  shop.save_first = false;
+  shop.overlay = Overlay::quit_prompt;
+  shop.log(std::string("prompt: ").append(prompt));
+}
+
+void keep_it(Workshop& shop) {
+  shop.save_first = true;
+  if (shop.file.empty())
+    ask_for_save(shop);
+  else
+    save_to(shop, shop.file);
+}
+
+void let_it_go(Workshop& shop) {
+  const auto then = std::exchange(shop.waiting, nullptr);
+  shop.potter.give_up();
+  close_overlay(shop);
+  if (then) then(shop);
+}
+
 void begin_work(Workshop& shop, const SceneSpec& scene) {
-  if (auto begun = shop.potter.begin(scene); !begun) return tell(shop, begun.error());
-  shop.file.clear();
-  shop.notices.close();
-  show_work(shop);
+  ask_first(shop, "new", [scene](Workshop& s) { begin_anew(s, scene); });
 }
 
 void recover_work(Workshop& shop, std::size_t left) {
   const std::filesystem::path path = shop.left.at(left).path;
+  if (shop.potter.unsaved())
+    return ask_first(shop, "recover", [left](Workshop& s) { recover_work(s, left); });
   shop.left.erase(shop.left.begin() + static_cast<std::ptrdiff_t>(left));
   auto begun = work::recover(path).and_then(
       [&](work::Work&& work) { return shop.potter.begin(std::move(work)); });

@@ -3,7 +3,11 @@
 // it, and knows no other panel.
 
 #include "studio/device_watch.hpp"
+#include "studio/exporter.hpp"
+#include "studio/fall_show.hpp"
+#include "studio/file_dialog.hpp"
 #include "studio/host.hpp"
+#include "studio/importing.hpp"
 #include "studio/notices.hpp"
 #include "studio/potter.hpp"
 #include "studio/readings/readings.hpp"
@@ -21,7 +25,32 @@
 namespace clay::studio {
 
 /// What lies over the view; one at a time.
-enum class Overlay { none, gallery, shortcuts, quit_prompt, open_file, save_file };
+enum class Overlay {
+  none,
+  gallery,
+  shortcuts,
+  quit_prompt,  ///< before anything that would end a work that is not saved
+  open_file,
+  save_file,
+  export_files,
+  import_drawing,
+  settings,
+};
+
+/// Something to know about a place of the pot.
+struct Mark {
+  glm::dvec2 place_mm{0.0};  ///< (rho, y)
+  std::string text;
+};
+
+/// The card of an export, and what came of it.
+struct ExportCard {
+  ExportWish wish, rehearsed;  ///< `rehearsed`: what `shown` is of
+  std::optional<app::ExportDone> shown;
+  std::string problem;               ///< why there is nothing to show
+  std::vector<std::string> written;  ///< files of the last export; empty: none yet
+  std::string said;                  ///< how it ended
+};
 
 struct Workshop {
   Workshop(Host& given, Settings remembered, std::function<void(std::string_view)> log_line)
@@ -42,14 +71,22 @@ struct Workshop {
   std::unique_ptr<DeviceWatch> devices;  ///< null: nobody looks for any
   std::vector<work::Recoverable> left;   ///< by programs that died, newest first
   Overlay overlay = Overlay::gallery;
-  bool restyle = true;  ///< theme or scale have changed
-  bool paused = false;  ///< nothing that the hand does reaches the clay
-  bool done = false;    ///< the window may close
-  bool quit_after_saving = false;
+  bool restyle = true;                     ///< theme or scale have changed
+  bool paused = false;                     ///< nothing that the hand does reaches the clay
+  bool done = false;                       ///< the window may close
+  std::function<void(Workshop&)> waiting;  ///< what an unsaved work holds up, until it is answered
+  bool save_first = false;                 ///< the answer was to save: then it goes on
   std::string reveal;  ///< id of a panel that has just been opened: its column scrolls to it
   std::filesystem::path file;  ///< of the work; empty: it has none yet
   std::string path_box;        ///< what is typed in the box for names of files
-  double rate_per_s = 20.0;    ///< of the scene, at kNominalRpm
+  FileDialog dialog;           ///< of the desktop, in place of the box where there is one
+  Exporter exporter;
+  ExportCard exporting;
+  ImportCard importing;
+  FallShow fall;
+  std::vector<Mark> marks;  ///< of the pot `marked`
+  work::SharedPot marked;
+  double rate_per_s = 20.0;  ///< of the scene, at kNominalRpm
 
   [[nodiscard]] float scale() const { return settings.scale * host.content_scale(); }
   [[nodiscard]] const Palette& colours() const { return palette(settings.theme); }
@@ -67,6 +104,13 @@ void close_overlay(Workshop& shop);
 /// The work that the potter has now: its tool is chosen, the view is on it.
 void show_work(Workshop& shop);
 
+/// Does it at once, or where the work has changed since it was saved, after the question whether to
+/// keep it. `prompt`: a word for the log.
+void ask_first(Workshop& shop, const char* prompt, std::function<void(Workshop&)> then);
+/// The answers. `keep_it` saves before it goes on, and asks for a name where there is none.
+void keep_it(Workshop& shop);
+void let_it_go(Workshop& shop);
+
 /// A new work from a scene; the tool that is chosen becomes the scene's.
 void begin_work(Workshop& shop, const SceneSpec& scene);
 /// Goes on with the work of a program that died, or drops it for good.
@@ -77,9 +121,25 @@ void discard_work(Workshop& shop, std::size_t left);
 /// wrong with one is told.
 void look_at_devices(Workshop& shop);
 
-/// Any file that the studio knows: a scene, a pot, a work.
+/// For a pot that comes without one: its proportions.
+[[nodiscard]] SceneSpec scene_for(const Pot& pot, const std::string& name);
+/// Any file that the studio knows: a scene, a pot, a work; of a drawing the card that imports it.
 void open_file(Workshop& shop, const std::filesystem::path& path);
-/// By the ending of the name; whether it was written. A window that waits for this to close does.
+/// By the ending of the name; whether it was written. What waits for it goes on.
 bool save_to(Workshop& shop, const std::filesystem::path& path);
+/// Where the box for names begins: the folder of the last file.
+void ask_for_open(Workshop& shop);
+void ask_for_save(Workshop& shop);
+/// What the desktop's dialog was answered.
+void look_at_dialog(Workshop& shop);
+
+/// The drawing of the card becomes the work.
+void take_import(Workshop& shop);
+
+/// The card of an export, with what was chosen last.
+void ask_for_export(Workshop& shop);
+void write_export(Workshop& shop);
+/// Once a frame: the rehearsal of what is chosen, what has ended, and marks on the pot.
+void look_at_export(Workshop& shop);
 
 }  // namespace clay::studio

@@ -65,6 +65,8 @@ void draw_banner(Workshop& shop, const ViewRect& view) {
   shop.notices.forget_old(1e-9 * static_cast<double>(shop.host.frame_ns()));
   const auto& notice = shop.notices.shown();
   if (!notice) return;
+  // What is only good to know does not lie over a card.
+  if (notice->grade == Grade::note && shop.overlay != Overlay::none) return;
   const float pad = ImGui::GetFontSize();
   const float width = std::min(view.size_px.x - 2.0f * pad, 40.0f * ImGui::GetFontSize());
   ImGui::SetNextWindowPos(

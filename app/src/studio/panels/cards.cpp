@@ -25,13 +25,6 @@ constexpr std::array kMouseHelp = {
     MouseHelp{"Wheel", "nearer, farther"},
 };
 
-void title(Workshop& shop, const char* text) {
-  ImGui::PushFont(shop.fonts.title);
-  ImGui::TextUnformatted(text);
-  ImGui::PopFont();
-  ImGui::Spacing();
-}
-
 struct HelpRow {
   std::string how;
   const char* what;
@@ -51,7 +44,7 @@ void draw_shortcuts(Workshop& shop, const ViewRect& view) {
   const std::vector<HelpRow> rows = help_rows();
   const std::size_t half = (rows.size() + 1) / 2;
   begin_card("##shortcuts", view, 50.0f);
-  title(shop, "Keys and mouse");
+  card_title(shop, "Keys and mouse");
   // Down the left half, then down the right one.
   if (ImGui::BeginTable("##keys", 4, ImGuiTableFlags_SizingStretchProp)) {
     for (std::size_t i = 0; i < half; ++i) {
@@ -71,14 +64,14 @@ void draw_shortcuts(Workshop& shop, const ViewRect& view) {
 }
 
 void draw_quit_prompt(Workshop& shop, const ViewRect& view) {
-  begin_card("##quit", view, 36.0f);
-  title(shop, "Keep this pot?");
+  begin_card("##quit", view, 30.0f);
+  card_title(shop, "Keep this pot?");
   ImGui::TextWrapped("It has changed since it was last saved.");
   ImGui::Spacing();
   const auto act = [&](const char* id) { run(*find_action(id), shop); };
   if (ImGui::Button("Save (Enter)")) act("quit.save");
   ImGui::SameLine();
-  if (ImGui::Button("Quit without saving (Ctrl+D)")) act("quit.discard");
+  if (ImGui::Button("Do not save (Ctrl+D)")) act("quit.discard");
   ImGui::SameLine();
   if (ImGui::Button("Go on (Esc)")) act("quit.cancel");
   ImGui::End();
@@ -87,14 +80,14 @@ void draw_quit_prompt(Workshop& shop, const ViewRect& view) {
 void draw_file_box(Workshop& shop, const ViewRect& view) {
   const bool saves = shop.overlay == Overlay::save_file;
   begin_card("##file", view, 40.0f);
-  title(shop, saves ? "Save as" : "Open");
+  card_title(shop, saves ? "Save as" : "Open");
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1.0f);
   const bool entered =
       ImGui::InputText("##path", &shop.path_box, ImGuiInputTextFlags_EnterReturnsTrue);
   faint_text(shop.colours(),
              saves ? "NAME.work keeps every stroke; NAME.pot.json or NAME.pot.cbor the pot alone"
-                   : "A scene, a pot or a work");
+                   : "A scene, a pot, a work, or a drawing of a section (SVG, DXF, CSV)");
   if (ImGui::Button(saves ? "Save" : "Open") || entered) {
     if (!shop.path_box.empty()) {
       if (saves)

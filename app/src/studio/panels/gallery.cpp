@@ -1,18 +1,22 @@
 // The first screen: a sample to throw, or a lump of one's own.
 
+#include "studio/actions.hpp"
 #include "studio/panels/panels.hpp"
 #include "studio/panels/widgets.hpp"
 #include "studio/samples.hpp"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <optional>
 
 namespace clay::studio {
 namespace {
 
+constexpr std::size_t kMostLeftShown = 3;
 constexpr float kCardEm = 10.6f, kPictureEm = 9.0f;
 
 /// Sections of the finished samples, made when they are first seen.
@@ -24,30 +28,6 @@ const draw::PotView& section_of(const Sample& sample) {
     made[index] = pot ? std::move(*pot) : draw::PotView();
   }
   return *made[index];
-}
-
-/// The pot as seen from the side, and its wall in section on the right half.
-void draw_section(const draw::PotView& pot, ImVec2 corner, float side, const Palette& colours) {
-  if (pot.rows.empty()) return;
-  float widest = 1.0f;
-  for (const draw::Row& row : pot.rows) widest = std::max(widest, row.outer_mm);
-  const float height = static_cast<float>(pot.height_mm);
-  const float scale = 0.9f * side / std::max(2.0f * widest, height);
-  const float middle = corner.x + 0.5f * side,
-              foot = corner.y + 0.5f * side + 0.5f * scale * height;
-  const float step = scale * height / static_cast<float>(pot.rows.size());
-  ImVec4 shade = colours.clay;
-  shade.w = 0.35f;
-  const ImU32 face = ImGui::GetColorU32(colours.clay), body = ImGui::GetColorU32(shade);
-  ImDrawList* draw = ImGui::GetWindowDrawList();
-  for (std::size_t i = 0; i < pot.rows.size(); ++i) {
-    const float top = foot - step * static_cast<float>(i + 1),
-                bottom = foot - step * static_cast<float>(i);
-    const float outer = scale * pot.rows[i].outer_mm, inner = scale * pot.rows[i].inner_mm;
-    draw->AddRectFilled({middle - outer, top}, {middle, bottom}, face);
-    draw->AddRectFilled({middle, top}, {middle + inner, bottom}, body);
-    draw->AddRectFilled({middle + inner, top}, {middle + outer, bottom}, face);
-  }
 }
 
 bool card(const Sample& sample, const Palette& colours, ImFont* title) {
@@ -89,25 +69,56 @@ void own_lump(Workshop& shop) {
   ImGui::Columns(1);
 }
 
+/// What was thrown before: any file, and the last ones by name.
+void files(Workshop& shop) {
+  if (ImGui::Button("Open...")) run(*find_action("file.open"), shop);
+  std::string chosen;
+  for (const std::string& path : shop.settings.recent) {
+    const std::string name = std::filesystem::path(path).filename().string();
+    const float width =
+        ImGui::CalcTextSize(name.c_str()).x + 2.0f * ImGui::GetStyle().FramePadding.x;
+    ImGui::SameLine();
+    if (ImGui::GetContentRegionAvail().x < width) break;
+    ImGui::PushID(path.c_str());
+    if (ImGui::Button(name.c_str())) chosen = path;
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", path.c_str());
+    ImGui::PopID();
+  }
+  if (!chosen.empty()) open_file(shop, chosen);
+}
+
+/// "22 Nov 14:05", where the user is.
+std::string time_text(std::chrono::system_clock::time_point when) {
+  return fmt::format("{:%d %b %H:%M}", fmt::localtime(std::chrono::system_clock::to_time_t(when)));
+}
+
 /// What a program that died has left.
 void left_works(Workshop& shop) {
-  const std::size_t shown = std::min<std::size_t>(shop.left.size(), 3);
+  if (shop.left.empty()) return;
+  const std::size_t shown = std::min(shop.left.size(), kMostLeftShown);
+  const float em = ImGui::GetFontSize();
+  ImGui::PushStyleColor(ImGuiCol_Border, shop.colours().warning);
+  ImGui::BeginChild("##left", {0.0f, (2.6f + 2.2f * static_cast<float>(shown)) * em}, true);
+  ImGui::PopStyleColor();
+  ImGui::TextColored(shop.colours().warning, "Not saved when the program ended:");
   for (std::size_t i = 0; i < shown; ++i) {
     const work::Recoverable& left = shop.left[i];
     ImGui::PushID(static_cast<int>(i));
     ImGui::AlignTextToFramePadding();
-    ImGui::TextColored(shop.colours().warning, "%s",
-                       fmt::format("Not saved: {}, {} stroke{}, {:.0f} s", left.scene, left.strokes,
-                                   left.strokes == 1 ? "" : "s", left.seconds)
-                           .c_str());
-    ImGui::SameLine();
-    const bool wanted = ImGui::Button("Go on with it");
+    ImGui::TextUnformatted(fmt::format("{}, {}: {} stroke{}, {:.0f} s{}", time_text(left.when),
+                                       left.scene, left.strokes, left.strokes == 1 ? "" : "s",
+                                       left.seconds, left.running ? ", the last one cut short" : "")
+                               .c_str());
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - 14.0f * em);
+    const bool wanted = ImGui::Button(i == 0 ? "Recover (Ctrl+R)" : "Recover");
     ImGui::SameLine();
     const bool unwanted = ImGui::Button("Discard");
     ImGui::PopID();
-    if (wanted) return recover_work(shop, i);
-    if (unwanted) return discard_work(shop, i);
+    if (wanted) recover_work(shop, i);
+    if (unwanted) discard_work(shop, i);
+    if (wanted || unwanted) break;
   }
+  ImGui::EndChild();
 }
 
 }  // namespace
@@ -136,6 +147,10 @@ void draw_gallery(Workshop& shop, const ViewRect& view) {
   ImGui::Separator();
   ImGui::Spacing();
   own_lump(shop);
+  ImGui::Spacing();
+  ImGui::Separator();
+  ImGui::Spacing();
+  files(shop);
   ImGui::End();
 }
 

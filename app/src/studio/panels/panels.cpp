@@ -34,6 +34,15 @@ bool is_open(const Workshop& shop, const Panel& panel) {
   return remembered == shop.settings.open.end() ? panel.open : remembered->second;
 }
 
+void draw_recent(Workshop& shop) {
+  if (!ImGui::BeginMenu("Recent", !shop.settings.recent.empty())) return;
+  std::string chosen;
+  for (const std::string& path : shop.settings.recent)
+    if (ImGui::MenuItem(path.c_str())) chosen = path;
+  ImGui::EndMenu();
+  if (!chosen.empty()) open_file(shop, chosen);
+}
+
 }  // namespace
 
 std::span<const Panel> panels() { return kPanels; }
@@ -87,6 +96,7 @@ float draw_menu(Workshop& shop) {
       if (ImGui::MenuItem(action.title, text_of(action.chord).c_str(), on, action.enabled(shop)))
         run(action, shop);
     }
+    if (menu.prefix == "file.") draw_recent(shop);
     ImGui::EndMenu();
   }
   const float height = ImGui::GetWindowSize().y;
@@ -107,6 +117,12 @@ void draw_overlay(Workshop& shop, const ViewRect& view) {
     case Overlay::open_file:
     case Overlay::save_file:
       return draw_file_box(shop, view);
+    case Overlay::export_files:
+      return draw_export_card(shop, view);
+    case Overlay::import_drawing:
+      return draw_import_card(shop, view);
+    case Overlay::settings:
+      return draw_settings_card(shop, view);
   }
 }
 

@@ -32,11 +32,16 @@ void draw_column(Workshop& shop, Column column, glm::vec2 corner_px, glm::vec2 s
 /// Heights [px]: the menu's own, and that of the status bar.
 float draw_menu(Workshop& shop);
 void draw_status_bar(Workshop& shop, glm::vec2 corner_px, glm::vec2 size_px);
-/// Over the view.
+/// Over the view: what the checks say of the pot, where it is, and what its colours mean.
 void draw_marks(Workshop& shop, const ViewRect& view);
+/// What the last export found wrong, where it is.
+void draw_export_marks(Workshop& shop, const ViewRect& view);
 void draw_banner(Workshop& shop, const ViewRect& view);
 void draw_hint(Workshop& shop, const ViewRect& view);
 void draw_overlay(Workshop& shop, const ViewRect& view);
+/// Below the view; 0 where there is nothing to show or no room.
+[[nodiscard]] float timeline_height(const Workshop& shop, glm::vec2 room_px);
+void draw_timeline(Workshop& shop, glm::vec2 corner_px, glm::vec2 size_px);
 
 // The panels.
 void draw_tool(Workshop& shop);
@@ -55,5 +60,8 @@ void draw_gallery(Workshop& shop, const ViewRect& view);
 void draw_shortcuts(Workshop& shop, const ViewRect& view);
 void draw_quit_prompt(Workshop& shop, const ViewRect& view);
 void draw_file_box(Workshop& shop, const ViewRect& view);
+void draw_export_card(Workshop& shop, const ViewRect& view);
+void draw_import_card(Workshop& shop, const ViewRect& view);
+void draw_settings_card(Workshop& shop, const ViewRect& view);
 
 }  // namespace clay::studio

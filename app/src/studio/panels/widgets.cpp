@@ -27,6 +27,40 @@ int choice_row(const char* id, std::span<const char* const> titles, int chosen,
   return clicked;
 }
 
+void card_title(const Workshop& shop, const char* text) {
+  ImGui::PushFont(shop.fonts.title);
+  ImGui::TextUnformatted(text);
+  ImGui::PopFont();
+  ImGui::Spacing();
+}
+
+void form_row(const char* label) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(label);
+  ImGui::SameLine(kFormEm * ImGui::GetFontSize());
+  ImGui::SetNextItemWidth(-1.0f);
+}
+
+bool form_length(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit,
+                 const char* none) {
+  form_row(label);
+  const UnitText text = unit_text(unit);
+  float shown = static_cast<float>(mm / text.mm);
+  const std::string id = fmt::format("##{}", label);
+  const std::string format =
+      none != nullptr && mm <= 0.0
+          ? std::string(none)
+          : fmt::format("%.{}f {}", text.digits + (high_mm <= 1.0 ? 2 : 0), text.name);
+  const bool logarithmic = low_mm > 0.0;
+  if (!ImGui::SliderFloat(
+          id.c_str(), &shown, static_cast<float>(low_mm / text.mm),
+          static_cast<float>(high_mm / text.mm), format.c_str(),
+          ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0)))
+    return false;
+  mm = std::clamp(static_cast<double>(shown) * text.mm, low_mm, high_mm);
+  return true;
+}
+
 bool length_slider(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit) {
   const UnitText text = unit_text(unit);
   ImGui::TextUnformatted(label);
@@ -93,6 +127,29 @@ void begin_card(const char* id, const ViewRect& view, float width_em) {
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
   ImGui::PopStyleVar(2);
   dim_around(low.y, high.y);
+}
+
+void draw_section(const draw::PotView& pot, ImVec2 corner, float side, const Palette& colours) {
+  if (pot.rows.empty()) return;
+  float widest = 1.0f;
+  for (const draw::Row& row : pot.rows) widest = std::max(widest, row.outer_mm);
+  const float height = static_cast<float>(pot.height_mm);
+  const float scale = 0.9f * side / std::max(2.0f * widest, height);
+  const float middle = corner.x + 0.5f * side,
+              foot = corner.y + 0.5f * side + 0.5f * scale * height;
+  const float step = scale * height / static_cast<float>(pot.rows.size());
+  ImVec4 shade = colours.clay;
+  shade.w = 0.35f;
+  const ImU32 face = ImGui::GetColorU32(colours.clay), body = ImGui::GetColorU32(shade);
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  for (std::size_t i = 0; i < pot.rows.size(); ++i) {
+    const float top = foot - step * static_cast<float>(i + 1),
+                bottom = foot - step * static_cast<float>(i);
+    const float outer = scale * pot.rows[i].outer_mm, inner = scale * pot.rows[i].inner_mm;
+    draw->AddRectFilled({middle - outer, top}, {middle, bottom}, face);
+    draw->AddRectFilled({middle, top}, {middle + inner, bottom}, body);
+    draw->AddRectFilled({middle + inner, top}, {middle + outer, bottom}, face);
+  }
 }
 
 }  // namespace clay::studio

@@ -17,6 +17,19 @@ int choice_row(const char* id, std::span<const char* const> titles, int chosen,
 /// A labelled slider for a length that is kept in mm and shown in `unit`.
 bool length_slider(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit);
 
+/// The head of a card.
+void card_title(const Workshop& shop, const char* text);
+
+/// Label on the left; the next control takes the rest of the line.
+inline constexpr float kFormEm = 9.0f;
+void form_row(const char* label);
+/// A slider in such a line; `none`: what is shown for 0.
+bool form_length(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit,
+                 const char* none = nullptr);
+
+/// The pot as seen from the side, and its wall in section on the right half; in a square.
+void draw_section(const draw::PotView& pot, ImVec2 corner, float side, const Palette& colours);
+
 void faint_text(const Palette& colours, const std::string& text);
 /// Name on the left, value at the right edge of the column.
 void value_row(const Palette& colours, const char* name, const std::string& value);

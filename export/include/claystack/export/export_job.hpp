@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,11 +34,15 @@ struct ExportOptions {
   std::optional<std::size_t> max_triangles;  ///< a coarser tolerance where the asked one needs more
   std::optional<double> drain_mm;  ///< diameter of a hole that opens closed cavities, see `drain`
   std::optional<double> wall_spacing_mm;  ///< measure the whole field of walls, see `wall_field`
-  bool normals = false;                   ///< for shading, in formats that have them (obj)
-  bool allow_pieces = false;              ///< several pieces that do not touch, in one file
+  /// Part of each length that drying and firing take, see `enlarged`: the files are so much larger,
+  /// and so are all lengths and volumes of the report.
+  double shrinkage = 0.0;
+  bool normals = false;            ///< for shading, in formats that have them (obj)
+  bool allow_pieces = false;       ///< several pieces that do not touch, in one file
   bool measure_left_out = false;   ///< do what is left out after all, to tell what that saved
   bool full_verification = false;  ///< every file read again whole, and checked as a stranger's is
   std::string name = "pot";        ///< solid or object name inside the file
+  std::stop_token cancel;          ///< looked at before each stage; then the job is an error (io)
 };
 
 /// A file to write. The caller owns the store, and publishes it after the job has succeeded.
@@ -69,6 +74,7 @@ struct LeftOut {
 };
 
 struct ExportReport {
+  double shrinkage = 0.0;    ///< as asked for: all that follows is of the larger solid
   PlanarCertificate planar;  ///< of a collapsed pot: of its parts before the fall
   std::vector<PieceShape> shapes;
   Smoothing smoothing = Smoothing::none;  ///< as done: straight walls need none

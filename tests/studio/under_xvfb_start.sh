@@ -1,0 +1,46 @@
+# Sourced by the scripts beside it: a screen of its own, and the window on it. Sets folder, log,
+# program; waits on the program's log, never on time alone.
+program=$1
+folder=$2
+export XDG_CONFIG_HOME="$folder/config" XDG_STATE_HOME="$folder/state"
+unset WAYLAND_DISPLAY
+log=$folder/log
+: >"$log"
+
+fail() {
+  echo "under_xvfb: $1" >&2
+  cat "$log" >&2
+  exit 1
+}
+# until_line TEXT [COUNT]: so many lines of the log have it.
+until_line() {
+  for _ in $(seq 600); do
+    [ "$(grep -c -- "$1" "$log")" -ge "${2:-1}" ] && return 0
+    kill -0 "$studio" 2>/dev/null || break
+    sleep 0.1
+  done
+  [ "$(grep -c -- "$1" "$log")" -ge "${2:-1}" ] || fail "expected a line with: $1"
+}
+
+# start_window [ARGUMENT...]: in $window, its process in $studio.
+start_window() {
+  : >"$log"
+  "$program" studio --log --device none --size 1280x800 "$@" >"$log" 2>&1 &
+  studio=$!
+  until_line "window open"
+  window=$(xdotool search --sync --onlyvisible --name Claystack | head -1)
+  xdotool windowfocus --sync "$window"
+}
+
+# The server picks a number that is free, and tells it when it is ready.
+Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp -noreset 3>"$folder/display" 2>/dev/null &
+server=$!
+studio=
+trap 'kill $studio $server 2>/dev/null' EXIT
+for _ in $(seq 300); do
+  [ -s "$folder/display" ] && break
+  sleep 0.1
+done
+[ -s "$folder/display" ] || fail "Xvfb did not start"
+DISPLAY=:$(cat "$folder/display")
+export DISPLAY
