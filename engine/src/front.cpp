@@ -73,8 +73,9 @@ void feel_lead(const Profile& profile, const StepPlan& plan, const ClayStack& st
   const auto way_to_yield = [&](double depth) {
     // By the logarithmic mean of the wall.
     const double middle = std::max(lead.wall_mm - 0.5 * depth, plan.removal.min_wall_mm);
-    const double mean = std::max(middle - depth * depth / (12.0 * middle), 0.5 * middle);
-    return std::min(depth / (lead.decay * mean), all);
+    const double square = middle * middle;
+    const double mean = std::max(square - depth * depth * (1.0 / 12.0), 0.5 * square);  // * middle
+    return std::min(depth * middle / (lead.decay * mean), all);
   };
   const double at_first = way_to_yield(lead.ahead_mm);
   const double reach =

@@ -1,7 +1,5 @@
 #include "yielding.hpp"
 
-#include "portable_math.hpp"
-
 #include <array>
 #include <cstdint>
 
@@ -17,7 +15,7 @@ double greater(double a, double b) noexcept { return a > b ? a : b; }
 template <bool plain>
 void yield_all(const RemovalPlan& plan, double turn, Yielding& rings, std::size_t count) noexcept {
   const double knee = plan.yield_depth_mm, min_wall = plan.min_wall_mm, per_knee = 1.0 / knee;
-  const double fraction = one_minus_exp_neg(turn), pace_of = knee / greater(turn, 1e-300);
+  const double fraction = 1.0 - exp_neg(turn), pace_of = knee / greater(turn, 1e-300);
   for (std::size_t k = 0; k < count; ++k) {
     const double wall = rings.wall[k], depth = rings.depth[k], target = rings.target[k];
     double advance = rings.advance[k], pace = advance * pace_of, q = turn, rest = 1.0;
