@@ -39,7 +39,7 @@ struct Wheel::State {
 namespace {
 
 // On such a way the clay changes little; the bound keeps a tick short when a pose leaps.
-constexpr double kLongestWayMm = 0.2;
+constexpr double kLongestWayMm = 0.05;
 constexpr int kMostParts = 32;
 
 template <unsigned stages>

@@ -74,6 +74,8 @@ RC_GTEST_PROP(RoundedPot, IsAPotOfItsOwn, ()) {
   Pot back = *rounded;
   back.stack = pot.stack;
   back.ledger = pot.ledger;
+  RC_ASSERT(rounded->rim == Rim{});
+  back.rim = pot.rim;
   back.rounding.reset();
   back.rim = pot.rim;
   RC_ASSERT(back == pot);

@@ -26,8 +26,8 @@ bool anything_plugged_in() {
 
 }  // namespace
 
-DeviceWatch::DeviceWatch(std::string which, std::string firmware)
-    : which_(std::move(which)), firmware_(std::move(firmware)) {
+DeviceWatch::DeviceWatch(std::string which, falcon::FalconSettings settings)
+    : which_(std::move(which)), settings_(std::move(settings)) {
   if (which_ != "none") thread_ = std::thread([this] { run(); });
 }
 
@@ -70,9 +70,7 @@ void DeviceWatch::run() {
 
 void DeviceWatch::look() {
   if (which_ == "auto" && !anything_plugged_in()) return;
-  falcon::FalconSettings falcon;
-  falcon.firmware_path = firmware_;
-  auto device = app::open_chosen(which_, falcon, falcon::simulated_and_loaded());
+  auto device = app::open_chosen(which_, settings_, falcon::simulated_and_loaded());
   const std::lock_guard lock(mutex_);
   if (device) {
     found_ = std::move(*device);

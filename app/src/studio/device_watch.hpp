@@ -3,6 +3,7 @@
 // take seconds, so a thread of its own does it.
 
 #include "claystack/falcon/device.hpp"
+#include "claystack/falcon/falcon_device.hpp"
 
 #include <condition_variable>
 #include <memory>
@@ -16,7 +17,7 @@ class DeviceWatch {
  public:
   /// `which` as device_choice has it: "auto" waits for whatever is plugged in; "none" never looks;
   /// any other is tried until it opens.
-  explicit DeviceWatch(std::string which, std::string firmware = {});
+  explicit DeviceWatch(std::string which, falcon::FalconSettings settings = {});
   ~DeviceWatch();
   DeviceWatch(const DeviceWatch&) = delete;
   DeviceWatch& operator=(const DeviceWatch&) = delete;
@@ -31,7 +32,8 @@ class DeviceWatch {
   void run();
   void look();
 
-  std::string which_, firmware_;
+  std::string which_;
+  falcon::FalconSettings settings_;
   std::mutex mutex_;  // of what follows
   std::condition_variable wake_;
   std::unique_ptr<falcon::HapticDevice> found_;

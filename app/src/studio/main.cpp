@@ -20,7 +20,7 @@ namespace {
 struct Options {
   std::string file, script, screenshot, theme;
   std::string device = "auto";
-  std::string firmware;
+  falcon::FalconSettings falcon;
   std::string size = "1280x800";
   double scale = 0.0;  ///< 0: the screen's, or 1 without one
   bool log = false;
@@ -84,7 +84,7 @@ Result<void> run_window(const Options& options, glm::ivec2 size,
   Workshop& shop = (*studio)->shop();
   shop.potter.keep_journals();
   shop.left = work::recoverable();
-  shop.devices = std::make_unique<DeviceWatch>(options.device, options.firmware);
+  shop.devices = std::make_unique<DeviceWatch>(options.device, options.falcon);
   if (!loaded.note.empty()) shop.notices.say(Grade::warning, loaded.note);
   if (!options.file.empty()) open_file(shop, options.file);
   log("window open");
@@ -107,7 +107,7 @@ int run(int argc, char** argv) {
       ->check([](const std::string& which) {
         return which == "none" ? std::string() : app::check_device_name(which);
       });
-  app::add_firmware_option(parser, options.firmware);
+  app::add_falcon_options(parser, options.falcon);
   parser.add_option("--script", options.script, "Drive the window from a file, without a screen");
   parser.add_option("--screenshot", options.screenshot,
                     "Without a screen: the window at the end, as PNG");

@@ -11,7 +11,7 @@ namespace clay {
 ///
 /// The result is a pot of its own: its ledger begins with the clay that it holds, nothing added,
 /// trimmed or outside, and `Pot::rounding` keeps what it held before. Crown, collapse and model
-/// stay as they are. Rounded pots round again to the same precision or a coarser one.
+/// stay as they are; the rim, which tells how to throw on, is gone. Rounded pots round again to the same precision or a coarser one.
 ///
 /// Refuses, naming the ring, what would change the topology: a wall that would vanish, rings that
 /// would no longer touch each other, an outer radius beyond the limits of ClayStack.
