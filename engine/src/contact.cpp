@@ -38,10 +38,11 @@ Side side_at(const ClayStack& stack, double hip_y, double axis_distance) noexcep
 template <class Profile>
 bool meet(const Profile& profile, const Tool& tool, const Ring& ring, double middle, double from,
           double to, const Contact& contact, RingContact& touch) noexcept {
-  const double t = 0.5 * (from + to), f = profile.radius(t), rise = contact.rise_mm;
+  const double t = 0.5 * (from + to), rise = contact.rise_mm;
+  const auto [f, facing] = profile.surface(t, to - from);
   touch.depth_mm = depth_of(ring, f, contact);
   if (!(touch.depth_mm > 0.0)) return false;
-  touch.facing = profile.facing(from, to);
+  touch.facing = facing;
   touch.advance_mm = contact.approach_mm;
   if (rise == 0.0) return true;
   const double before = std::clamp(middle + rise, tool.low(), tool.high());
@@ -69,25 +70,100 @@ void touch_part(const Profile& profile, const Tool& tool, const ClayStack& stack
   }
 }
 
+/// Some rings that the tool covers whole, side by side as in yielding.hpp.
+struct Covered {
+  static constexpr std::size_t kMost = 32;
+  std::array<double, kMost> surface2, depth, normal2, lean, turn, advance, since;
+};
+
+/// What `meet` does, of `count` rings whose first has its middle at t0.
+template <class Profile>
+void meet_all(const Profile& profile, const Tool& tool, double t0, double h, const Contact& contact,
+              Covered& rings, std::size_t count) noexcept {
+  const double low = tool.low(), high = tool.high(), d = contact.axis_distance_mm;
+  const double rise = contact.rise_mm, approach = contact.approach_mm;
+  const double outward = contact.side == Side::compressive ? 1.0 : -1.0;
+  const double per_rise = std::abs(rise) > 1e-300 ? 1.0 / rise : 0.0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double t = t0 + static_cast<double>(static_cast<int>(k)) * h, then = t + rise;
+    const auto [f, facing] = profile.surface(t, h);
+    rings.depth[k] = f + outward * (std::sqrt(rings.surface2[k] * kMm2PerQuantum) - d);
+    rings.normal2[k] = facing.normal2;
+    rings.lean[k] = facing.lean;
+    rings.turn[k] = facing.turn;
+    const double above = then > low ? then : low, kept = above < high ? above : high;
+    const double since = 1.0 - (then - kept) * per_rise;
+    rings.since[k] = since;
+    rings.advance[k] = since * approach + f - profile.radius(kept);
+  }
+}
+
+/// Sphere or not: decided once, not for each ring.
+template <bool sphere>
+struct Round {
+  const EllipseProfile& ellipse;
+  [[nodiscard]] double radius(double t) const noexcept { return ellipse.radius(t); }
+  [[nodiscard]] Surface surface(double t, double) const noexcept {
+    return ellipse.surface_as<sphere>(t);
+  }
+};
+
+void meet_all(const EllipseProfile& ellipse, const Tool& tool, double t0, double h,
+              const Contact& contact, Covered& rings, std::size_t count) noexcept {
+  if (ellipse.a == ellipse.b)
+    meet_all(Round<true>{ellipse}, tool, t0, h, contact, rings, count);
+  else
+    meet_all(Round<false>{ellipse}, tool, t0, h, contact, rings, count);
+}
+
+/// Rings first..end-1, each covered whole.
+template <class Profile>
+void touch_whole(const Profile& profile, const Tool& tool, const ClayStack& stack, double hip_y,
+                 std::size_t first, std::size_t end, Contact& contact) noexcept {
+  const double h = stack.ring_height_mm();
+  Covered covered;
+  for (; first < end; first += Covered::kMost) {
+    const std::size_t count = std::min(Covered::kMost, end - first);
+    const Ring* const rings = &stack.rings()[first];
+    for (std::size_t k = 0; k < count; ++k)
+      covered.surface2[k] = static_cast<double>(
+          contact.side == Side::compressive ? rings[k].outer2 : rings[k].inner2);
+    meet_all(profile, tool, (static_cast<double>(first) + 0.5) * h - hip_y, h, contact, covered,
+             count);
+    for (std::size_t k = 0; k < count; ++k)
+      if (covered.depth[k] > 0.0)
+        contact.rings.push_back({static_cast<std::uint32_t>(first + k),
+                                 covered.depth[k],
+                                 0.0,
+                                 1.0,
+                                 {covered.normal2[k], covered.lean[k], covered.turn[k]},
+                                 covered.advance[k],
+                                 covered.since[k]});
+  }
+}
+
+/// A ring that an end of the tool may be in.
+template <class Profile>
+void touch_end(const Profile& profile, const Tool& tool, const ClayStack& stack, double hip_y,
+               std::size_t i, Contact& contact) noexcept {
+  const double h = stack.ring_height_mm();
+  const double t = (static_cast<double>(i) + 0.5) * h - hip_y;
+  const double from = t - 0.5 * h, to = t + 0.5 * h;
+  if (from >= tool.low() && to <= tool.high())
+    return touch_whole(profile, tool, stack, hip_y, i, i + 1, contact);
+  const int end = (to > tool.high() ? 1 : 0) - (from < tool.low() ? 1 : 0);
+  const bool yields = t >= tool.low() && t <= tool.high();
+  touch_part(profile, tool, stack, i, t, std::max(from, tool.low()), std::min(to, tool.high()),
+             yields, end, contact);
+}
+
 template <class Profile>
 void touch_rings(const Profile& profile, const Tool& tool, const ClayStack& stack, double hip_y,
                  Contact& contact) noexcept {
   const double h = stack.ring_height_mm();
-  for (std::size_t i = contact.bottom; i <= contact.top; ++i) {
-    const double t = (static_cast<double>(i) + 0.5) * h - hip_y;
-    const double from = t - 0.5 * h, to = t + 0.5 * h;
-    if (from < tool.low() || to > tool.high()) {
-      const int end = (to > tool.high() ? 1 : 0) - (from < tool.low() ? 1 : 0);
-      const bool yields = t >= tool.low() && t <= tool.high();
-      touch_part(profile, tool, stack, i, t, std::max(from, tool.low()), std::min(to, tool.high()),
-                 yields, end, contact);
-      continue;
-    }
-    RingContact touch;
-    touch.ring = static_cast<std::uint32_t>(i);
-    if (meet(profile, tool, stack.rings()[i], t, from, to, contact, touch))
-      contact.rings.push_back(touch);
-  }
+  touch_end(profile, tool, stack, hip_y, contact.bottom, contact);
+  touch_whole(profile, tool, stack, hip_y, contact.bottom + 1, contact.top, contact);
+  if (contact.top > contact.bottom) touch_end(profile, tool, stack, hip_y, contact.top, contact);
   if (contact.top + 1 == stack.size()) {
     const double top = static_cast<double>(stack.size()) * h - hip_y;
     touch_part(profile, tool, stack, contact.top, top, std::max(top, tool.low()),

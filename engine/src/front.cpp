@@ -11,7 +11,11 @@ namespace {
 
 /// The ring, if it yields.
 RingContact* touch_of(Contact& contact, std::size_t ring) noexcept {
-  // Front and back: the rings at the ends are asked for.
+  if (contact.rings.empty()) return nullptr;
+  // Few tools leave a ring out between two that they touch.
+  const std::size_t likely = ring - contact.rings.front().ring;
+  if (likely < contact.rings.size() && contact.rings[likely].ring == ring)
+    return &contact.rings[likely];
   const auto at = std::ranges::lower_bound(contact.rings, ring, {}, &RingContact::ring);
   return at != contact.rings.end() && at->ring == ring ? &*at : nullptr;
 }
@@ -53,9 +57,10 @@ bool find_lead(const StepPlan& plan, const ClayStack& stack, double hip_y, doubl
   }
   const Ring& ring = stack.rings()[ahead];
   lead.ahead_mm = depth_of(ring, plan.tool.radius(end_t), contact);
+  if (!(lead.ahead_mm > 0.0)) return false;
   lead.wall_mm = ring.outer_mm() - ring.inner_mm();
   lead.decay = plan.removal.rate_per_s * dt_s / std::abs(contact.rise_mm);
-  return lead.ahead_mm > 0.0 && lead.wall_mm > plan.removal.min_wall_mm;
+  return lead.wall_mm > plan.removal.min_wall_mm;
 }
 
 template <class Profile>
@@ -65,15 +70,12 @@ void feel_lead(const Profile& profile, const StepPlan& plan, const ClayStack& st
   const double h = stack.ring_height_mm(), end = up ? plan.tool.high() : plan.tool.low();
   const double at_end = profile.radius(end), all = lead.covered_mm + h;
   const auto t_of = [&](double behind) { return up ? end - behind : end + behind; };
-  const auto front = [&](double behind) {
-    return lead.ahead_mm + profile.radius(t_of(behind)) - at_end -
-           lead.wall_mm * (1.0 - exp_neg(lead.decay * behind));
-  };
   const auto way_to_yield = [&](double depth) {
     // By the logarithmic mean of the wall.
     const double middle = std::max(lead.wall_mm - 0.5 * depth, plan.removal.min_wall_mm);
-    const double mean = std::max(middle - depth * depth / (12.0 * middle), 0.5 * middle);
-    return std::min(depth / (lead.decay * mean), all);
+    const double square = middle * middle;
+    const double mean = std::max(square - depth * depth * (1.0 / 12.0), 0.5 * square);  // * middle
+    return std::min(depth * middle / (lead.decay * mean), all);
   };
   const double at_first = way_to_yield(lead.ahead_mm);
   const double reach =
@@ -96,15 +98,19 @@ void feel_lead(const Profile& profile, const StepPlan& plan, const ClayStack& st
       if (ring != nullptr) ring->depth_mm = std::min(ring->depth_mm, yielded);
 
   const double piece = reach / static_cast<double>(contact.front.size());
+  double left = exp_neg(lead.decay * 0.5 * piece);  // of the wall
+  const double left_by_piece = left * left;
   for (std::size_t k = 0; k < contact.front.size(); ++k) {
     const double behind = (static_cast<double>(k) + 0.5) * piece;
     const RingContact* ring = rings[behind < lead.covered_mm ? 0 : 1];
+    const Surface surface = profile.surface(t_of(behind), piece);
     RingContact& part = contact.front[k];
-    part.depth_mm =
-        std::max(front(behind),
-                 ring != nullptr ? std::min(ring->depth_mm, plan.removal.yield_depth_mm) : 0.0);
+    const double depth = lead.ahead_mm + surface.radius - at_end - lead.wall_mm * (1.0 - left);
+    left *= left_by_piece;
+    part.depth_mm = std::max(
+        depth, ring != nullptr ? std::min(ring->depth_mm, plan.removal.yield_depth_mm) : 0.0);
     part.coverage = piece / h;
-    part.facing = profile.facing(t_of(behind + 0.5 * piece), t_of(behind - 0.5 * piece));
+    part.facing = surface.facing;
   }
   contact.has_front = true;
   // What the pieces have taken over.

@@ -16,7 +16,7 @@ namespace clay {
     ++halvings;
   }
   double series = 0.0;  // x - x^2/2! + x^3/3! - ..., by Horner
-  for (int n = 14; n >= 1; --n) series = x / n * (1.0 - series);
+  for (int n = 14; n >= 1; --n) series = x * (1.0 / n) * (1.0 - series);
   for (; halvings > 0; --halvings) series *= 2.0 - series;  // 1-e^-2x = u (2 - u)
   return series;
 }

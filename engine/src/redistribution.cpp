@@ -63,6 +63,7 @@ Amount deal(const RayleighKernel& kernel, double offset, Amount clay_inside, Amo
     outside = outsides.next(part);
     rest -= place(ring_of(j), inside, outside, writer);
   }
+  writer.gain(clay_inside + clay_outside - rest);
   if (rim != nullptr && count > 0) {
     const std::int64_t part = dealer.next();
     rim->inside += insides.next(part) - inside;

@@ -111,30 +111,39 @@ std::array<double, 2> pinch_ring(const RemovalPlan& plan, double wall, double le
 void yield_to_tool(const RemovalPlan& plan, const ClayStack& stack, double dt_s, Contact& contact,
                    std::vector<Quanta>& removed) noexcept {
   const bool outside = contact.side == Side::compressive;
+  const double min_wall = plan.min_wall_mm;
   Yielding block;
-  std::array<Ring, Yielding::kMost> rings;
-  std::array<double, Yielding::kMost> outer, inner;
+  std::array<double, Yielding::kMost> outer, inner, eps;
   for (std::size_t from = 0; from < contact.rings.size(); from += Yielding::kMost) {
     const std::size_t count = std::min(Yielding::kMost, contact.rings.size() - from);
     const std::span touched(contact.rings.data() + from, count);
     for (std::size_t k = 0; k < count; ++k) {
       const RingContact& touch = touched[k];
-      rings[k] = stack.rings()[touch.ring];
-      outer[k] = rings[k].outer_mm();
-      inner[k] = rings[k].inner_mm();
-      block.wall[k] = outer[k] - inner[k];
+      const Ring& ring = stack.rings()[touch.ring];
+      outer[k] = static_cast<double>(ring.outer2);
+      inner[k] = static_cast<double>(ring.inner2);
       block.depth[k] = touch.depth_mm;
       block.advance[k] = touch.advance_mm;
       block.since[k] = touch.since;
-      block.target[k] = block.wall[k] - touch.depth_mm;
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      outer[k] = std::sqrt(outer[k] * kMm2PerQuantum);
+      inner[k] = std::sqrt(inner[k] * kMm2PerQuantum);
+      block.wall[k] = outer[k] - inner[k];
+      block.target[k] = block.wall[k] - block.depth[k];
     }
     yield(plan, dt_s, block, count);
     for (std::size_t k = 0; k < count; ++k) {
-      const double spare = std::max(block.wall[k] - plan.min_wall_mm, 0.0);
-      const double eps = std::min(touched[k].depth_mm - block.left[k], spare);
-      removed.push_back(outside ? take_outside(rings[k], outer[k], eps)
-                                : take_inside(rings[k], inner[k], eps));
-      touched[k].depth_mm -= eps;
+      const double gone = block.depth[k] - block.left[k], spare = block.wall[k] - min_wall;
+      const double most = spare > 0.0 ? spare : 0.0;
+      eps[k] = gone < most ? gone : most;
+      block.left[k] = block.depth[k] - eps[k];
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      const Ring& ring = stack.rings()[touched[k].ring];
+      removed.push_back(outside ? take_outside(ring, outer[k], eps[k])
+                                : take_inside(ring, inner[k], eps[k]));
+      touched[k].depth_mm = block.left[k];
     }
   }
 }

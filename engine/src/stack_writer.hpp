@@ -31,13 +31,12 @@ class StackWriter {
     assert(stack_.rings_[i].volume() > 0);
   }
   /// Each returns what found room: up to the axis inside, up to the largest radius outside. Of
-  /// Quanta or WideQuanta.
+  /// Quanta or WideQuanta. The caller counts: `gain` what all of them have placed.
   template <class Amount>
   Quanta put_inside(std::size_t i, Amount amount) noexcept {
     const auto placed = static_cast<Quanta>(std::min<Amount>(amount, stack_.rings_[i].inner2));
     stack_.rings_[i].inner2 -= placed;
     opened_ -= placed > 0 && stack_.rings_[i].inner2 == 0 ? 1u : 0u;
-    gained_ += placed;
     return placed;
   }
   template <class Amount>
@@ -45,9 +44,9 @@ class StackWriter {
     const Quanta room = kLargestOuter2 - stack_.rings_[i].outer2;
     const auto placed = static_cast<Quanta>(std::min<Amount>(amount, room));
     stack_.rings_[i].outer2 += placed;
-    gained_ += placed;
     return placed;
   }
+  void gain(WideQuanta amount) noexcept { gained_ += amount; }
   void put_on_crown(WideQuanta amount) noexcept { stack_.crown_ += amount; }
 
   /// Step (b) of section 5.1: a new ring above the top one. Capacity for max_rings() is reserved

@@ -112,13 +112,14 @@ double SampledProfile::slope(double at) const noexcept {
          slopes[k + 1] * s * (s - 2.0 * r);
 }
 
-Facing SampledProfile::facing(double from, double to) const noexcept {
+Surface SampledProfile::surface(double at, double height) const noexcept {
   // 1 / (1 + f'^2) and f' / (1 + f'^2), also where f' overflows.
   const auto normal2 = [](double rise) { return 1.0 / (1.0 + rise * rise); };
-  const double rise = slope(0.5 * (from + to)), steep = std::abs(rise);
+  const double rise = slope(at), steep = std::abs(rise);
   const double lean =
       steep > 1.0 ? (rise > 0.0 ? 1.0 : -1.0) / (steep + 1.0 / steep) : rise * normal2(rise);
-  return {normal2(rise), lean, (normal2(slope(to)) - normal2(slope(from))) / (to - from)};
+  const double above = normal2(slope(at + 0.5 * height)), below = normal2(slope(at - 0.5 * height));
+  return {radius(at), {normal2(rise), lean, (above - below) / height}};
 }
 
 Result<Tool> Tool::build(const ToolShapeSpec& spec) {

@@ -1,8 +1,7 @@
 #include "yielding.hpp"
 
-#include "portable_math.hpp"
-
-#include <algorithm>
+#include <array>
+#include <cstdint>
 
 namespace clay {
 namespace {
@@ -11,12 +10,12 @@ namespace {
 double lesser(double a, double b) noexcept { return a < b ? a : b; }
 double greater(double a, double b) noexcept { return a > b ? a : b; }
 
-/// `plain`: every tool has been in its ring all the time, and no deeper than the knee when it came.
-/// So are most ticks, and they need half of the divisions.
+/// `plain`: the tool has been in each ring all the time, and no deeper than the knee when it came.
+/// So are most rings, and they need half of the divisions.
 template <bool plain>
 void yield_all(const RemovalPlan& plan, double turn, Yielding& rings, std::size_t count) noexcept {
-  const double knee = plan.yield_depth_mm, per_knee = 1.0 / knee;
-  const double fraction = one_minus_exp_neg(turn), pace_of = knee / greater(turn, 1e-300);
+  const double knee = plan.yield_depth_mm, min_wall = plan.min_wall_mm, per_knee = 1.0 / knee;
+  const double fraction = 1.0 - exp_neg(turn), pace_of = knee / greater(turn, 1e-300);
   for (std::size_t k = 0; k < count; ++k) {
     const double wall = rings.wall[k], depth = rings.depth[k], target = rings.target[k];
     double advance = rings.advance[k], pace = advance * pace_of, q = turn, rest = 1.0;
@@ -37,13 +36,13 @@ void yield_all(const RemovalPlan& plan, double turn, Yielding& rings, std::size_
     }
 
     // Below it: about the depth that stays.
-    const double behind = greater(target + 0.5 * advance, plan.min_wall_mm);
+    const double behind = greater(target + 0.5 * advance, min_wall);
     const double square = behind * behind, coming = greater(pace, -0.25 * square);
     const double steady = coming * behind / (square + coming);
     const double spread = behind + 2.0 * steady;
-    const double left = exp_neg(q * rest * spread * per_knee);
+    const double fall = exp_of(q * rest * per_knee * spread);
     const double off = lesser(depth - advance, knee) - steady;
-    const double relaxed = steady + off * left * spread / (spread + off * (1.0 - left));
+    const double relaxed = steady + off * spread / ((spread + off) * fall - off);
 
     rings.left[k] = lesser(greater(greater(relaxed, depth - at_most), 0.0), depth);
   }
@@ -52,13 +51,25 @@ void yield_all(const RemovalPlan& plan, double turn, Yielding& rings, std::size_
 }  // namespace
 
 void yield(const RemovalPlan& plan, double dt_s, Yielding& rings, std::size_t count) noexcept {
-  bool plain = true;
+  const double turn = plan.rate_per_s * dt_s, knee = plan.yield_depth_mm;
+  std::array<std::int64_t, Yielding::kMost> other;
+  std::int64_t any = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const double start = rings.depth[k] - rings.advance[k];
-    plain = plain && start >= 0.0 && start <= plan.yield_depth_mm && rings.since[k] == 1.0;
+    other[k] = (start >= 0.0) & (start <= knee) & (rings.since[k] == 1.0) ? 0 : 1;
+    any |= other[k];
   }
-  const double turn = plan.rate_per_s * dt_s;
-  plain ? yield_all<true>(plan, turn, rings, count) : yield_all<false>(plan, turn, rings, count);
+  if (any == 0) return yield_all<true>(plan, turn, rings, count);
+  std::array<std::size_t, Yielding::kMost> others;
+  std::size_t few = 0;
+  for (std::size_t k = 0; k < count; ++k)
+    if (other[k] != 0) others[few++] = k;
+  if (2 * few > count) return yield_all<false>(plan, turn, rings, count);
+  yield_all<true>(plan, turn, rings, count);
+  Yielding block;
+  for (std::size_t k = 0; k < few; ++k) block.copy(k, rings, others[k]);
+  yield_all<false>(plan, turn, block, few);
+  for (std::size_t k = 0; k < few; ++k) rings.left[others[k]] = block.left[k];
 }
 
 }  // namespace clay

@@ -15,7 +15,7 @@ namespace {
 /// As the engine cuts a tick, so that a fast hand leaves what a slow one does.
 int parts_of(const ToolState& tool) noexcept {
   const glm::dvec3 way = glm::abs(tool.moved_mm);
-  const double parts = std::max({way.x, way.y, way.z}) / 0.2;
+  const double parts = std::max({way.x, way.y, way.z}) / 0.05;
   return parts < 32 ? static_cast<int>(parts) + 1 : 32;
 }
 

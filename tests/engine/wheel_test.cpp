@@ -260,7 +260,7 @@ TEST(Wheel, FeelsWhatAStepAnswersAndMovesNothing) {
       // A longer way is stepped in parts, and the clay gives way between them.
       const glm::dvec3 way = glm::abs(pose.position_mm - last.position_mm);
       last = pose;
-      if (std::max({way.x, way.y, way.z}) >= 0.2) continue;
+      if (std::max({way.x, way.y, way.z}) >= 0.05) continue;
       ASSERT_EQ(before.force_n, after.force_n) << i;
       ASSERT_EQ(before.rings_touched, after.rings_touched) << i;
       compared += (before.flags & kContact) != 0;

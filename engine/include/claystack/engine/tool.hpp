@@ -19,6 +19,12 @@ struct Facing {
   double turn = 0.0;     ///< derivative of cos^2 theta by t [1/mm]
 };
 
+/// A stretch of the surface, in its middle.
+struct Surface {
+  double radius = 0.0;  ///< f [mm]
+  Facing facing = {};
+};
+
 /// f(t) = b sqrt(1 - t^2/a^2); a sphere has a = b.
 struct EllipseProfile {
   static constexpr double kSlopeLimit = 127.0 / 128.0;  ///< of |t| / a
@@ -26,7 +32,7 @@ struct EllipseProfile {
   double per_a = 1.0 / a;
   [[nodiscard]] double radius(double t) const noexcept {
     const double u = t * per_a, s = 1.0 - u * u;
-    return s > 0.0 ? b * std::sqrt(s) : 0.0;
+    return b * std::sqrt(s > 0.0 ? s : 0.0);
   }
   /// f' = -b t / (a^2 sqrt(1 - t^2/a^2)), held at its value 127/128 of the way to the poles,
   /// where the formula runs to infinity.
@@ -34,13 +40,18 @@ struct EllipseProfile {
     const double u = std::clamp(t / a, -kSlopeLimit, kSlopeLimit);
     return -(b / a) * u / std::sqrt(1.0 - u * u);
   }
-  /// In the middle of from..to, where it has bounds up to the poles.
-  [[nodiscard]] Facing facing(double from, double to) const noexcept {
-    const double u = 0.5 * (from + to) * per_a, flat = std::max(1.0 - u * u, 0.0);
-    if (a == b) return {flat, -u * std::sqrt(flat), -2.0 * u * per_a};
+  /// Around t; of no height, for it has bounds up to the poles.
+  [[nodiscard]] Surface surface(double t, double /*height*/) const noexcept {
+    return a == b ? surface_as<true>(t) : surface_as<false>(t);
+  }
+  /// The same of one that is known to be a sphere, or not to be.
+  template <bool sphere>
+  [[nodiscard]] Surface surface_as(double t) const noexcept {
+    const double u = t * per_a, s = 1.0 - u * u, flat = s > 0.0 ? s : 0.0, root = std::sqrt(flat);
+    if constexpr (sphere) return {b * root, {flat, -u * root, -2.0 * u * per_a}};
     const double ratio = b * per_a, g = 1.0 / (flat + ratio * ratio * u * u);
-    return {flat * g, -ratio * u * std::sqrt(flat) * g,
-            -2.0 * u * per_a * (ratio * g) * (ratio * g)};
+    return {b * root,
+            {flat * g, -ratio * u * root * g, -2.0 * u * per_a * (ratio * g) * (ratio * g)}};
   }
 };
 
@@ -48,7 +59,7 @@ struct RibProfile {
   double half_height = 1.0, b = 1.0;
   [[nodiscard]] double radius(double) const noexcept { return b; }
   [[nodiscard]] double slope(double) const noexcept { return 0.0; }
-  [[nodiscard]] Facing facing(double, double) const noexcept { return {}; }
+  [[nodiscard]] Surface surface(double, double) const noexcept { return {b, {}}; }
 };
 
 /// Monotone cubic (Fritsch and Carlson, SIAM J. Numer. Anal. 17(2) 1980): no overshoot, so
@@ -57,8 +68,8 @@ struct SampledProfile {
   std::vector<double> t, f, slopes;
   [[nodiscard]] double radius(double at) const noexcept;
   [[nodiscard]] double slope(double at) const noexcept;
-  /// In the middle of from..to; the turn is the mean, for f'' jumps at each sample.
-  [[nodiscard]] Facing facing(double from, double to) const noexcept;
+  /// Around t; the turn is the mean over the height, for f'' jumps at each sample.
+  [[nodiscard]] Surface surface(double at, double height) const noexcept;
 };
 
 /// Half-profile f(t) [mm] over t in [low, high] [mm] from the HIP. Outside there is no tool: f = 0.
