@@ -125,7 +125,7 @@ int run(int argc, char** argv) {
   parser.add_flag("--log", options.log, "Events on standard output, a line each");
   parser.footer(
       "\nExamples:\n  claystack studio\n  claystack studio samples/bowl.scene.json\n"
-      "  claystack studio --script samples/replay/window.script --screenshot window.png");
+      "  claystack studio vase.pot.json --script samples/window/throw.script");
   try {
     parser.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
