@@ -56,7 +56,7 @@ void yield(const RemovalPlan& plan, double dt_s, Yielding& rings, std::size_t co
   std::int64_t any = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const double start = rings.depth[k] - rings.advance[k];
-    other[k] = (start >= 0.0) & (start <= knee) & (rings.since[k] == 1.0) ? 0 : 1;
+    other[k] = ((start >= 0.0) & (start <= knee) & (rings.since[k] == 1.0)) ? 0 : 1;
     any |= other[k];
   }
   if (any == 0) return yield_all<true>(plan, turn, rings, count);
