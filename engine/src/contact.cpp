@@ -1,5 +1,7 @@
 #include "contact.hpp"
 
+#include "lanes.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -40,6 +42,7 @@ bool meet(const Profile& profile, const Tool& tool, const Ring& ring, double mid
           double to, const Contact& contact, RingContact& touch) noexcept {
   const double t = 0.5 * (from + to), rise = contact.rise_mm;
   const auto [f, facing] = profile.surface(t, to - from);
+  touch.surface_mm = contact.side == Side::compressive ? ring.outer_mm() : ring.inner_mm();
   touch.depth_mm = depth_of(ring, f, contact);
   if (!(touch.depth_mm > 0.0)) return false;
   touch.facing = facing;
@@ -52,50 +55,54 @@ bool meet(const Profile& profile, const Tool& tool, const Ring& ring, double mid
   return true;
 }
 
-/// A ring at an end of the tool, or the crown, as far as the tool covers it.
+/// A ring at an end of the tool, or the crown, as far as the tool covers it. Says whether it
+/// touches.
 template <class Profile>
-void touch_part(const Profile& profile, const Tool& tool, const ClayStack& stack, std::size_t i,
-                double middle, double from, double to, bool yields, int end,
-                Contact& contact) noexcept {
-  if (!(to > from)) return;
-  RingContact part;
-  part.ring = static_cast<std::uint32_t>(i);
+bool meet_part(const Profile& profile, const Tool& tool, const ClayStack& stack, double middle,
+               double from, double to, const Contact& contact, RingContact& part) noexcept {
+  if (!(to > from)) return false;
   part.coverage = (to - from) / stack.ring_height_mm();
-  if (!meet(profile, tool, stack.rings()[i], middle, from, to, contact, part)) return;
-  if (yields) {
-    contact.rings.push_back(part);
-  } else {
-    contact.edge_end[contact.edge_count] = end;
-    contact.edges[contact.edge_count++] = part;
-  }
+  return meet(profile, tool, stack.rings()[part.ring], middle, from, to, contact, part);
 }
 
-/// Some rings that the tool covers whole, side by side as in yielding.hpp.
-struct Covered {
-  static constexpr std::size_t kMost = 32;
-  std::array<double, kMost> surface2, depth, normal2, lean, turn, advance, since;
-};
+void add_edge(const RingContact& part, int end, Contact& contact) noexcept {
+  contact.edge_end[contact.edge_count] = end;
+  contact.edges[contact.edge_count++] = part;
+}
 
-/// What `meet` does, of `count` rings whose first has its middle at t0.
+/// What `meet` does, of rings that the tool covers whole, and whose surface is in quanta yet.
 template <class Profile>
-void meet_all(const Profile& profile, const Tool& tool, double t0, double h, const Contact& contact,
-              Covered& rings, std::size_t count) noexcept {
+CLAYSTACK_INLINE inline void meet_rows(const Profile& profile, const Tool& tool, double hip_y,
+                                       double h, const Contact& contact,
+                                       const TouchedRings::Slice& slice) noexcept {
   const double low = tool.low(), high = tool.high(), d = contact.axis_distance_mm;
   const double rise = contact.rise_mm, approach = contact.approach_mm;
   const double outward = contact.side == Side::compressive ? 1.0 : -1.0;
   const double per_rise = std::abs(rise) > 1e-300 ? 1.0 / rise : 0.0;
-  for (std::size_t k = 0; k < count; ++k) {
-    const double t = t0 + static_cast<double>(static_cast<int>(k)) * h, then = t + rise;
+  const double first = static_cast<double>(slice.ring) + 0.5;
+  TouchedRings::Block& rows = slice.rows;
+  for (std::size_t k = slice.begin; k < slice.end; ++k) {
+    const double t = (first + static_cast<double>(static_cast<int>(k - slice.begin))) * h - hip_y;
     const auto [f, facing] = profile.surface(t, h);
-    rings.depth[k] = f + outward * (std::sqrt(rings.surface2[k] * kMm2PerQuantum) - d);
-    rings.normal2[k] = facing.normal2;
-    rings.lean[k] = facing.lean;
-    rings.turn[k] = facing.turn;
+    rows.surface[k] = std::sqrt(rows.surface[k] * kMm2PerQuantum);
+    const double depth = f + outward * (rows.surface[k] - d);
+    rows.depth[k] = depth > 0.0 ? depth : 0.0;
+    rows.coverage[k] = 1.0;
+    rows.normal2[k] = facing.normal2;
+    rows.lean[k] = facing.lean;
+    rows.turn[k] = facing.turn;
+    const double then = t + rise;
     const double above = then > low ? then : low, kept = above < high ? above : high;
     const double since = 1.0 - (then - kept) * per_rise;
-    rings.since[k] = since;
-    rings.advance[k] = since * approach + f - profile.radius(kept);
+    rows.since[k] = since;
+    rows.advance[k] = since * approach + f - profile.radius(kept);
   }
+}
+
+template <class Profile>
+void meet_slice(const Profile& profile, const Tool& tool, double hip_y, double h,
+                const Contact& contact, const TouchedRings::Slice& slice) noexcept {
+  in_lanes([&]() CLAYSTACK_INLINE { meet_rows(profile, tool, hip_y, h, contact, slice); });
 }
 
 /// Sphere or not: decided once, not for each ring.
@@ -108,38 +115,26 @@ struct Round {
   }
 };
 
-void meet_all(const EllipseProfile& ellipse, const Tool& tool, double t0, double h,
-              const Contact& contact, Covered& rings, std::size_t count) noexcept {
+void meet_slice(const EllipseProfile& ellipse, const Tool& tool, double hip_y, double h,
+                const Contact& contact, const TouchedRings::Slice& slice) noexcept {
   if (ellipse.a == ellipse.b)
-    meet_all(Round<true>{ellipse}, tool, t0, h, contact, rings, count);
+    meet_slice(Round<true>{ellipse}, tool, hip_y, h, contact, slice);
   else
-    meet_all(Round<false>{ellipse}, tool, t0, h, contact, rings, count);
+    meet_slice(Round<false>{ellipse}, tool, hip_y, h, contact, slice);
 }
 
 /// Rings first..end-1, each covered whole.
 template <class Profile>
 void touch_whole(const Profile& profile, const Tool& tool, const ClayStack& stack, double hip_y,
                  std::size_t first, std::size_t end, Contact& contact) noexcept {
-  const double h = stack.ring_height_mm();
-  Covered covered;
-  for (; first < end; first += Covered::kMost) {
-    const std::size_t count = std::min(Covered::kMost, end - first);
-    const Ring* const rings = &stack.rings()[first];
-    for (std::size_t k = 0; k < count; ++k)
-      covered.surface2[k] = static_cast<double>(
-          contact.side == Side::compressive ? rings[k].outer2 : rings[k].inner2);
-    meet_all(profile, tool, (static_cast<double>(first) + 0.5) * h - hip_y, h, contact, covered,
-             count);
-    for (std::size_t k = 0; k < count; ++k)
-      if (covered.depth[k] > 0.0)
-        contact.rings.push_back({static_cast<std::uint32_t>(first + k),
-                                 covered.depth[k],
-                                 0.0,
-                                 1.0,
-                                 {covered.normal2[k], covered.lean[k], covered.turn[k]},
-                                 covered.advance[k],
-                                 covered.since[k]});
-  }
+  const bool outside = contact.side == Side::compressive;
+  contact.rings.each_slice(first, end, [&](const TouchedRings::Slice& slice) {
+    const Ring* const rings = &stack.rings()[slice.ring];
+    for (std::size_t k = 0; k < slice.size(); ++k)
+      slice.rows.surface[slice.begin + k] =
+          static_cast<double>(outside ? rings[k].outer2 : rings[k].inner2);
+    meet_slice(profile, tool, hip_y, stack.ring_height_mm(), contact, slice);
+  });
 }
 
 /// A ring that an end of the tool may be in.
@@ -151,24 +146,27 @@ void touch_end(const Profile& profile, const Tool& tool, const ClayStack& stack,
   const double from = t - 0.5 * h, to = t + 0.5 * h;
   if (from >= tool.low() && to <= tool.high())
     return touch_whole(profile, tool, stack, hip_y, i, i + 1, contact);
-  const int end = (to > tool.high() ? 1 : 0) - (from < tool.low() ? 1 : 0);
+  RingContact part{.ring = i};
+  const bool touches = meet_part(profile, tool, stack, t, std::max(from, tool.low()),
+                                 std::min(to, tool.high()), contact, part);
   const bool yields = t >= tool.low() && t <= tool.high();
-  touch_part(profile, tool, stack, i, t, std::max(from, tool.low()), std::min(to, tool.high()),
-             yields, end, contact);
+  contact.rings.put(touches && yields ? part : RingContact{.ring = i});
+  if (touches && !yields)
+    add_edge(part, (to > tool.high() ? 1 : 0) - (from < tool.low() ? 1 : 0), contact);
 }
 
 template <class Profile>
 void touch_rings(const Profile& profile, const Tool& tool, const ClayStack& stack, double hip_y,
                  Contact& contact) noexcept {
-  const double h = stack.ring_height_mm();
   touch_end(profile, tool, stack, hip_y, contact.bottom, contact);
   touch_whole(profile, tool, stack, hip_y, contact.bottom + 1, contact.top, contact);
   if (contact.top > contact.bottom) touch_end(profile, tool, stack, hip_y, contact.top, contact);
-  if (contact.top + 1 == stack.size()) {
-    const double top = static_cast<double>(stack.size()) * h - hip_y;
-    touch_part(profile, tool, stack, contact.top, top, std::max(top, tool.low()),
-               std::min(stack.height_mm() - hip_y, tool.high()), false, 0, contact);
-  }
+  if (contact.top + 1 < stack.size()) return;
+  const double top = static_cast<double>(stack.size()) * stack.ring_height_mm() - hip_y;
+  RingContact crown{.ring = contact.top};
+  if (meet_part(profile, tool, stack, top, std::max(top, tool.low()),
+                std::min(stack.height_mm() - hip_y, tool.high()), contact, crown))
+    add_edge(crown, 0, contact);
 }
 
 /// As printed: each ring by its middle.
@@ -176,13 +174,13 @@ template <class Profile>
 void touch_middles(const Profile& profile, const Tool& tool, const ClayStack& stack, double hip_y,
                    Contact& contact) noexcept {
   for (std::size_t i = contact.bottom; i <= contact.top; ++i) {
+    RingContact touch{.ring = i};
     const double t = (static_cast<double>(i) + 0.5) * stack.ring_height_mm() - hip_y;
-    if (t < tool.low() || t > tool.high()) continue;
-    RingContact touch;
-    touch.ring = static_cast<std::uint32_t>(i);
-    touch.depth_mm = depth_of(stack.rings()[i], profile.radius(t), contact);
-    touch.slope = profile.slope(t);
-    if (touch.depth_mm > 0.0) contact.rings.push_back(touch);
+    if (t >= tool.low() && t <= tool.high()) {
+      touch.depth_mm = std::max(depth_of(stack.rings()[i], profile.radius(t), contact), 0.0);
+      touch.slope = profile.slope(t);
+    }
+    contact.rings.put(touch);
   }
 }
 
@@ -191,6 +189,7 @@ void touch_rings(const Tool& tool, const ClayStack& stack, double hip_y,
                  Contact& contact) noexcept {
   contact.edge_count = 0;
   contact.has_front = false;
+  contact.rings.lay_out(contact.bottom, contact.top + 1);
   std::visit(
       [&](const auto& profile) {
         if constexpr (model == Model::paper)
@@ -199,6 +198,7 @@ void touch_rings(const Tool& tool, const ClayStack& stack, double hip_y,
           touch_rings(profile, tool, stack, hip_y, contact);
       },
       tool.profile());
+  contact.rings.trim();
 }
 
 /// The tool's centre at `at` along the HIP's radius, and `before`; below 0 it is beyond the axis.
@@ -212,7 +212,9 @@ void stand(double at, double before, double radial_x, double radial_z, Contact& 
 
 template <class Past>
 void drop_if(Contact& contact, Past past) noexcept {
-  std::erase_if(contact.rings, past);
+  for (std::size_t i = contact.rings.from(); i < contact.rings.to(); ++i)
+    if (past(contact.rings.get(i))) contact.rings.depth(i) = 0.0;
+  contact.rings.trim();
   for (std::size_t k = 0; k < contact.edge_count; ++k)
     if (past(contact.edges[k])) contact.edges[k].depth_mm = 0.0;
 }

@@ -1,30 +1,18 @@
 #pragma once
 #include "claystack/engine/clay_stack.hpp"
 #include "claystack/engine/tool.hpp"
+#include "touched_rings.hpp"
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <glm/vec3.hpp>
-#include <vector>
 
 namespace clay {
 
 enum class Side { compressive, expansive };
 
-/// A ring that the tool overlaps.
-struct RingContact {
-  std::uint32_t ring = 0;
-  double depth_mm = 0.0;    ///< R + f - d outside, d + f - r inside; > 0
-  double slope = 0.0;       ///< f'(t); `paper` alone
-  double coverage = 1.0;    ///< part of the ring's height that the tool's ends leave to it
-  Facing facing = {};       ///< `conserving` alone, as what follows
-  double advance_mm = 0.0;  ///< of the depth, what the tool has gone since the last pose
-  double since = 1.0;       ///< part of the time since then in which the tool was at the ring
-};
-
-/// What the tool touches (section 4). `rings` is a subset of bottom..top, ascending; empty when
-/// there is no contact. Storage is reserved once, so that a tick allocates nothing.
+/// What the tool touches (section 4). `rings` are some of bottom..top; none when there is no
+/// contact. Storage is reserved once, so that a tick allocates nothing.
 ///
 /// `conserving` feels the tool's ends to a fraction of a ring: `edges` are parts of rings whose
 /// middles lie beyond an end, and the crown. They push back, but yield only as whole rings do; see
@@ -41,7 +29,7 @@ struct Contact {
   double rise_mm = 0.0;           ///< of the tool since then
   double radial_x = 0.0;          ///< cos psi; (0, 0) on the axis, where there is no direction
   double radial_z = 0.0;          ///< sin psi
-  std::vector<RingContact> rings;
+  TouchedRings rings;
   std::array<RingContact, 3> edges;
   std::array<int, 3> edge_end{};  ///< +1 at the tool's upper end, -1 at its lower one, 0 at neither
   std::size_t edge_count = 0;

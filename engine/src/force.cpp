@@ -8,22 +8,31 @@ namespace clay {
 template <Model model>
 glm::dvec3 spring_force(const ForcePlan& plan, const Contact& contact) noexcept {
   double radial = 0.0, vertical = 0.0;
-  const auto add = [&](const RingContact& touch) {
-    if constexpr (model == Model::paper) {
-      // The unit normal is (sin theta, cos theta) with theta = phi + 90 deg, tan phi = f'.
-      const double depth = touch.depth_mm / std::sqrt(1.0 + touch.slope * touch.slope);
-      radial += depth;
-      vertical += depth * touch.slope;
-    } else {
-      const double depth = touch.depth_mm * touch.coverage;
-      radial += depth * touch.facing.normal2;
-      vertical += depth * (touch.facing.lean + 0.5 * touch.depth_mm * touch.facing.turn);
-    }
+  const auto add = [&](double depth, double coverage, double normal2, double lean, double turn) {
+    const double covered = depth * coverage;
+    radial += covered * normal2;
+    vertical += covered * (lean + 0.5 * depth * turn);
   };
-  for (const RingContact& touch : contact.rings) add(touch);
-  for (std::size_t k = 0; k < contact.edge_count; ++k) add(contact.edges[k]);
+  const auto add_part = [&](const RingContact& part) {
+    const Facing& facing = part.facing;
+    add(part.depth_mm, part.coverage, facing.normal2, facing.lean, facing.turn);
+  };
+  contact.rings.each_slice([&](const auto& slice) {
+    const auto& rows = slice.rows;
+    for (std::size_t k = slice.begin; k < slice.end; ++k) {
+      if constexpr (model == Model::paper) {
+        // The unit normal is (sin theta, cos theta) with theta = phi + 90 deg, tan phi = f'.
+        const double slope = rows.slope[k], depth = rows.depth[k] / std::sqrt(1.0 + slope * slope);
+        radial += depth;
+        vertical += depth * slope;
+      } else {
+        add(rows.depth[k], rows.coverage[k], rows.normal2[k], rows.lean[k], rows.turn[k]);
+      }
+    }
+  });
+  for (std::size_t k = 0; k < contact.edge_count; ++k) add_part(contact.edges[k]);
   if (contact.has_front)
-    for (const RingContact& piece : contact.front) add(piece);
+    for (const RingContact& piece : contact.front) add_part(piece);
   const double out = contact.side == Side::compressive ? radial : -radial;
   return plan.stiffness_n_per_mm *
          glm::dvec3(out * contact.radial_x, vertical, out * contact.radial_z);

@@ -9,25 +9,25 @@
 namespace clay {
 namespace {
 
+/// What of a ring the front may change; nothing where the tool does not touch it.
+struct Felt {
+  double* depth_mm = nullptr;
+  double* coverage = nullptr;
+};
+
 /// The ring, if it yields.
-RingContact* touch_of(Contact& contact, std::size_t ring) noexcept {
-  if (contact.rings.empty()) return nullptr;
-  // Few tools leave a ring out between two that they touch.
-  const std::size_t likely = ring - contact.rings.front().ring;
-  if (likely < contact.rings.size() && contact.rings[likely].ring == ring)
-    return &contact.rings[likely];
-  const auto at = std::ranges::lower_bound(contact.rings, ring, {}, &RingContact::ring);
-  return at != contact.rings.end() && at->ring == ring ? &*at : nullptr;
+Felt felt_of(Contact& contact, std::size_t ring) noexcept {
+  if (!contact.rings.has(ring)) return {};
+  return {&contact.rings.depth(ring), &contact.rings.coverage(ring)};
 }
 
 void level_edges(Contact& contact) noexcept {
   for (std::size_t k = 0; k < contact.edge_count; ++k) {
     const int end = contact.edge_end[k];
-    const auto ring = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(contact.edges[k].ring) -
-                                               (end == 0 ? 0 : end));
-    const RingContact* next = touch_of(contact, ring);
+    const std::size_t ring = contact.edges[k].ring - static_cast<std::size_t>(end);  // modulo 2^64
+    const Felt next = felt_of(contact, ring);
     double& depth = contact.edges[k].depth_mm;
-    depth = next != nullptr ? std::min(depth, next->depth_mm) : end == 0 ? depth : 0.0;
+    depth = next.depth_mm != nullptr ? std::min(depth, *next.depth_mm) : end == 0 ? depth : 0.0;
   }
 }
 
@@ -83,39 +83,40 @@ void feel_lead(const Profile& profile, const StepPlan& plan, const ClayStack& st
                plan.tool.high() - plan.tool.low());
   if (!(reach > 0.0)) return;
   const auto behind_lead = [&](std::size_t by) {
-    return touch_of(contact, up ? lead.ring - by : lead.ring + by);
+    return felt_of(contact, up ? lead.ring - by : lead.ring + by);
   };
-  RingContact* rings[2] = {behind_lead(0), behind_lead(1)};
-  for (std::size_t k = 0; rings[0] == nullptr && k < contact.edge_count; ++k)
-    if (contact.edge_end[k] == (up ? 1 : -1)) rings[0] = &contact.edges[k];
+  Felt rings[2] = {behind_lead(0), behind_lead(1)};
+  for (std::size_t k = 0; rings[0].depth_mm == nullptr && k < contact.edge_count; ++k)
+    if (contact.edge_end[k] == (up ? 1 : -1))
+      rings[0] = {&contact.edges[k].depth_mm, &contact.edges[k].coverage};
 
   // A ring that yields late, as a whole, has done so in truth, as the one behind has.
-  const RingContact* yielded_ring = behind_lead(2);
+  const double* const behind_depth = behind_lead(2).depth_mm;
   const double yielded =
-      std::max(plan.removal.yield_depth_mm, yielded_ring != nullptr ? yielded_ring->depth_mm : 0.0);
+      std::max(plan.removal.yield_depth_mm, behind_depth != nullptr ? *behind_depth : 0.0);
   if (reach < all)
-    for (RingContact* ring : rings)
-      if (ring != nullptr) ring->depth_mm = std::min(ring->depth_mm, yielded);
+    for (const Felt& ring : rings)
+      if (ring.depth_mm != nullptr) *ring.depth_mm = std::min(*ring.depth_mm, yielded);
 
   const double piece = reach / static_cast<double>(contact.front.size());
   double left = exp_neg(lead.decay * 0.5 * piece);  // of the wall
   const double left_by_piece = left * left;
   for (std::size_t k = 0; k < contact.front.size(); ++k) {
     const double behind = (static_cast<double>(k) + 0.5) * piece;
-    const RingContact* ring = rings[behind < lead.covered_mm ? 0 : 1];
+    const double* const ring = rings[behind < lead.covered_mm ? 0 : 1].depth_mm;
     const Surface surface = profile.surface(t_of(behind), piece);
     RingContact& part = contact.front[k];
     const double depth = lead.ahead_mm + surface.radius - at_end - lead.wall_mm * (1.0 - left);
     left *= left_by_piece;
-    part.depth_mm = std::max(
-        depth, ring != nullptr ? std::min(ring->depth_mm, plan.removal.yield_depth_mm) : 0.0);
+    part.depth_mm =
+        std::max(depth, ring != nullptr ? std::min(*ring, plan.removal.yield_depth_mm) : 0.0);
     part.coverage = piece / h;
     part.facing = surface.facing;
   }
   contact.has_front = true;
   // What the pieces have taken over.
-  if (rings[0] != nullptr) rings[0]->coverage = std::max(lead.covered_mm - reach, 0.0) / h;
-  if (rings[1] != nullptr) rings[1]->coverage = std::min(all - reach, h) / h;
+  if (rings[0].depth_mm != nullptr) *rings[0].coverage = std::max(lead.covered_mm - reach, 0.0) / h;
+  if (rings[1].depth_mm != nullptr) *rings[1].coverage = std::min(all - reach, h) / h;
 }
 
 }  // namespace

@@ -20,9 +20,9 @@ WideQuanta take(std::span<const Bite> bites, ClayStack& stack) noexcept {
   for (const auto& [contact, removed] : bites) {
     for (std::size_t k = 0; k < removed.size(); ++k) {
       if (contact.side == Side::compressive)
-        writer.take_outside(contact.rings[k].ring, removed[k]);
+        writer.take_outside(contact.rings.from() + k, removed[k]);
       else
-        writer.take_inside(contact.rings[k].ring, removed[k]);
+        writer.take_inside(contact.rings.from() + k, removed[k]);
       total += removed[k];
     }
   }
@@ -103,7 +103,7 @@ WideQuanta flow_down(const RayleighKernel& kernel, Split clay, const Contact& co
 void level(Rim* rim, std::span<const Bite> bites, std::size_t count) noexcept {
   if (rim == nullptr) return;
   for (const auto& [contact, removed] : bites)
-    if (!contact.rings.empty() && contact.rings.back().ring + 1 == count)
+    if (!contact.rings.empty() && contact.rings.to() == count)
       (contact.side == Side::compressive ? rim->outside : rim->inside) = 0;
 }
 
@@ -127,9 +127,11 @@ Ring next_ring(const Ring& top, const Rim* rim) noexcept {
 /// below one top ring after every tick; `conserving` shows it as the crown.
 template <Model model>
 void grow(Flow& flow, ClayStack& stack, Ledger& ledger, Rim* rim, StackWriter& writer) noexcept {
-  while (true) {
+  const auto excess = [&] { return model == Model::paper ? ledger.outside : stack.crown(); };
+  // Less than half of the top ring is not worth a look: no ring above it is smaller.
+  while (2 * excess() >= stack.rings().back().volume()) {
     const Ring ring = next_ring(stack.rings().back(), model == Model::paper ? nullptr : rim);
-    if ((model == Model::paper ? ledger.outside : stack.crown()) < ring.volume()) return;
+    if (excess() < ring.volume()) return;
     flow.ring_limit = stack.size() >= stack.max_rings();
     if (flow.ring_limit) return;
     if (model == Model::conserving && flow.grown >= kMostGrowthPerTick) return;

@@ -1,12 +1,12 @@
 #include "removal.hpp"
 
+#include "lanes.hpp"
 #include "portable_math.hpp"
 #include "yielding.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <span>
 
 namespace clay {
@@ -57,32 +57,12 @@ Pinched pinched(double wall, double least_wall, double fraction, double shallow,
   return moved;
 }
 
-/// use(ring, outer touch, inner touch) for every ring that a tool of a pinch touches; none where it
-/// does not.
-template <class Use>
-void each_touched(Contact& outer, Contact& inner, Use use) noexcept {
-  constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
-  std::size_t o = 0, i = 0;
-  while (o < outer.rings.size() || i < inner.rings.size()) {
-    const auto next_o = o < outer.rings.size() ? outer.rings[o].ring : kNone;
-    const auto next_i = i < inner.rings.size() ? inner.rings[i].ring : kNone;
-    const auto ring = std::min(next_o, next_i);
-    RingContact* outer_touch = next_o == ring ? &outer.rings[o++] : nullptr;
-    RingContact* inner_touch = next_i == ring ? &inner.rings[i++] : nullptr;
-    use(ring, outer_touch, inner_touch);
-  }
-}
-
-double depth_in(const RingContact* touch) noexcept {
-  return touch != nullptr ? touch->depth_mm : 0.0;
-}
-
 /// How far each surface of a pinched wall moves: outer, inner.
 template <Model model>
 std::array<double, 2> pinch_ring(const RemovalPlan& plan, double wall, double least_wall,
                                  double fraction, double dt_s,
-                                 const std::array<const RingContact*, 2>& touches) noexcept {
-  const double from_out = depth_in(touches[0]), from_in = depth_in(touches[1]);
+                                 const std::array<RingContact, 2>& touches) noexcept {
+  const double from_out = touches[0].depth_mm, from_in = touches[1].depth_mm;
   const Pinched moved = pinched<model>(wall, least_wall, fraction, std::min(from_out, from_in),
                                        std::max(from_out, from_in));
   std::array<double, 2> eps{moved.together_mm + (from_out > from_in ? moved.alone_mm : 0.0),
@@ -90,61 +70,56 @@ std::array<double, 2> pinch_ring(const RemovalPlan& plan, double wall, double le
   if constexpr (model == Model::paper) return eps;
   Yielding both;
   std::size_t count = 0;
-  for (const RingContact* touch : touches) {
-    if (touch == nullptr) continue;
+  for (const RingContact& touch : touches) {
+    if (!(touch.depth_mm > 0.0)) continue;
     both.wall[count] = wall;
-    both.depth[count] = touch->depth_mm;
-    both.advance[count] = touch->advance_mm;
-    both.since[count] = touch->since;
+    both.depth[count] = touch.depth_mm;
+    both.advance[count] = touch.advance_mm;
+    both.since[count] = touch.since;
     both.target[count++] = std::max(wall - from_out - from_in, least_wall);
   }
   yield(plan, dt_s, both, count);
   std::size_t k = 0;
   for (std::size_t side = 0; side < 2; ++side)
-    if (touches[side] != nullptr) {
+    if (touches[side].depth_mm > 0.0) {
       eps[side] = std::min(eps[side], both.depth[k] - both.left[k]);
       ++k;
     }
   return eps;
 }
 
-void yield_to_tool(const RemovalPlan& plan, const ClayStack& stack, double dt_s, Contact& contact,
-                   std::vector<Quanta>& removed) noexcept {
-  const bool outside = contact.side == Side::compressive;
-  const double min_wall = plan.min_wall_mm;
+/// Of a slice of what one tool touches.
+void yield_to_tool(const RemovalPlan& plan, std::span<const Ring> rings, double dt_s, bool outside,
+                   const TouchedRings::Slice& slice, Quanta* removed) noexcept {
+  const double min_wall = plan.min_wall_mm, outward = outside ? 1.0 : -1.0;
+  const std::size_t count = slice.size(), first = slice.begin;
+  TouchedRings::Block& rows = slice.rows;
   Yielding block;
-  std::array<double, Yielding::kMost> outer, inner, eps;
-  for (std::size_t from = 0; from < contact.rings.size(); from += Yielding::kMost) {
-    const std::size_t count = std::min(Yielding::kMost, contact.rings.size() - from);
-    const std::span touched(contact.rings.data() + from, count);
+  TouchedRings::Row opposite, eps;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Ring& ring = rings[slice.ring + k];
+    opposite[k] = static_cast<double>(outside ? ring.inner2 : ring.outer2);
+  }
+  in_lanes([&]() CLAYSTACK_INLINE {
     for (std::size_t k = 0; k < count; ++k) {
-      const RingContact& touch = touched[k];
-      const Ring& ring = stack.rings()[touch.ring];
-      outer[k] = static_cast<double>(ring.outer2);
-      inner[k] = static_cast<double>(ring.inner2);
-      block.depth[k] = touch.depth_mm;
-      block.advance[k] = touch.advance_mm;
-      block.since[k] = touch.since;
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-      outer[k] = std::sqrt(outer[k] * kMm2PerQuantum);
-      inner[k] = std::sqrt(inner[k] * kMm2PerQuantum);
-      block.wall[k] = outer[k] - inner[k];
+      block.depth[k] = rows.depth[first + k];
+      block.advance[k] = rows.advance[first + k];
+      block.since[k] = rows.since[first + k];
+      block.wall[k] = outward * (rows.surface[first + k] - std::sqrt(opposite[k] * kMm2PerQuantum));
       block.target[k] = block.wall[k] - block.depth[k];
     }
-    yield(plan, dt_s, block, count);
-    for (std::size_t k = 0; k < count; ++k) {
-      const double gone = block.depth[k] - block.left[k], spare = block.wall[k] - min_wall;
-      const double most = spare > 0.0 ? spare : 0.0;
-      eps[k] = gone < most ? gone : most;
-      block.left[k] = block.depth[k] - eps[k];
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-      const Ring& ring = stack.rings()[touched[k].ring];
-      removed.push_back(outside ? take_outside(ring, outer[k], eps[k])
-                                : take_inside(ring, inner[k], eps[k]));
-      touched[k].depth_mm = block.left[k];
-    }
+  });
+  yield(plan, dt_s, block, count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const double gone = block.depth[k] - block.left[k], spare = block.wall[k] - min_wall;
+    const double most = spare > 0.0 ? spare : 0.0;
+    eps[k] = gone < most ? gone : most;
+    rows.depth[first + k] = block.depth[k] - eps[k];
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const Ring& ring = rings[slice.ring + k];
+    const double surface = rows.surface[first + k];
+    removed[k] = outside ? take_outside(ring, surface, eps[k]) : take_inside(ring, surface, eps[k]);
   }
 }
 
@@ -153,15 +128,24 @@ void yield_to_tool(const RemovalPlan& plan, const ClayStack& stack, double dt_s,
 template <Model model>
 void compute_removal(const RemovalPlan& plan, const ClayStack& stack, double dt_s, Contact& contact,
                      std::vector<Quanta>& removed) noexcept {
-  removed.clear();
-  if constexpr (model == Model::conserving)
-    return yield_to_tool(plan, stack, dt_s, contact, removed);
   const bool outside = contact.side == Side::compressive;
-  for (const RingContact& touch : contact.rings) {
-    const Ring& ring = stack.rings()[touch.ring];
+  TouchedRings& touched = contact.rings;
+  removed.resize(touched.size());
+  if constexpr (model == Model::conserving)
+    return touched.each_slice([&](const TouchedRings::Slice& slice) {
+      yield_to_tool(plan, stack.rings(), dt_s, outside, slice,
+                    &removed[slice.ring - touched.from()]);
+    });
+  for (std::size_t k = 0; k < touched.size(); ++k) {
+    const std::size_t i = touched.from() + k;
+    if (!(touched.depth(i) > 0.0)) {
+      removed[k] = 0;
+      continue;
+    }
+    const Ring& ring = stack.rings()[i];
     const double outer = ring.outer_mm(), inner = ring.inner_mm();
     const double eps = (outer - inner) * plan.paper_fraction;
-    removed.push_back(outside ? take_outside(ring, outer, eps) : take_inside(ring, inner, eps));
+    removed[k] = outside ? take_outside(ring, outer, eps) : take_inside(ring, inner, eps);
   }
 }
 
@@ -171,22 +155,28 @@ void compute_pinch_removal(const RemovalPlan& plan, const ClayStack& stack, doub
   constexpr bool paper = model == Model::paper;
   const double least_wall = paper ? gap_mm : std::max(gap_mm, plan.min_wall_mm);
   const double fraction = paper ? plan.paper_fraction : one_minus_exp_neg(plan.rate_per_s * dt_s);
-  outer.removed.clear();
-  inner.removed.clear();
-  each_touched(outer.contact, inner.contact, [&](auto index, auto* outer_touch, auto* inner_touch) {
-    Ring ring = stack.rings()[index];
+  TouchedRings &out = outer.contact.rings, &in = inner.contact.rings;
+  outer.removed.assign(out.size(), 0);
+  inner.removed.assign(in.size(), 0);
+  const std::size_t first = out.empty()  ? in.from()
+                            : in.empty() ? out.from()
+                                         : std::min(out.from(), in.from());
+  const std::size_t end = std::max(out.to(), in.to());
+  for (std::size_t i = first; i < end; ++i) {
+    Ring ring = stack.rings()[i];
     const auto eps = pinch_ring<model>(plan, ring.outer_mm() - ring.inner_mm(), least_wall,
-                                       fraction, dt_s, {outer_touch, inner_touch});
-    if (outer_touch != nullptr) {
-      outer.removed.push_back(take_outside(ring, ring.outer_mm(), eps[0]));
-      ring.outer2 -= outer.removed.back();
-      if constexpr (!paper) outer_touch->depth_mm -= eps[0];
+                                       fraction, dt_s, {out.get(i), in.get(i)});
+    if (out.has(i)) {
+      Quanta& removed = outer.removed[i - out.from()];
+      removed = take_outside(ring, ring.outer_mm(), eps[0]);
+      ring.outer2 -= removed;
+      if constexpr (!paper) out.depth(i) -= eps[0];
     }
-    if (inner_touch != nullptr) {
-      inner.removed.push_back(take_inside(ring, ring.inner_mm(), eps[1]));
-      if constexpr (!paper) inner_touch->depth_mm -= eps[1];
+    if (in.has(i)) {
+      inner.removed[i - in.from()] = take_inside(ring, ring.inner_mm(), eps[1]);
+      if constexpr (!paper) in.depth(i) -= eps[1];
     }
-  });
+  }
 }
 
 template void compute_removal<Model::paper>(const RemovalPlan&, const ClayStack&, double, Contact&,

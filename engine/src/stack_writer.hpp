@@ -36,7 +36,8 @@ class StackWriter {
   Quanta put_inside(std::size_t i, Amount amount) noexcept {
     const auto placed = static_cast<Quanta>(std::min<Amount>(amount, stack_.rings_[i].inner2));
     stack_.rings_[i].inner2 -= placed;
-    opened_ -= placed > 0 && stack_.rings_[i].inner2 == 0 ? 1u : 0u;
+    if (placed > 0 && stack_.rings_[i].inner2 == 0) [[unlikely]]
+      --opened_;
     return placed;
   }
   template <class Amount>

@@ -62,7 +62,7 @@ std::span<Bite> touch(State& s, const ToolState& tool) noexcept {
 
 std::uint32_t rings_of(std::span<const Bite> bites) noexcept {
   std::size_t rings = 0;
-  for (const Bite& bite : bites) rings += bite.contact.rings.size();
+  for (const Bite& bite : bites) rings += bite.contact.rings.touched();
   return static_cast<std::uint32_t>(rings);
 }
 

@@ -1,5 +1,7 @@
 #include "yielding.hpp"
 
+#include "lanes.hpp"
+
 #include <array>
 #include <cstdint>
 
@@ -13,7 +15,8 @@ double greater(double a, double b) noexcept { return a > b ? a : b; }
 /// `plain`: the tool has been in each ring all the time, and no deeper than the knee when it came.
 /// So are most rings, and they need half of the divisions.
 template <bool plain>
-void yield_all(const RemovalPlan& plan, double turn, Yielding& rings, std::size_t count) noexcept {
+CLAYSTACK_INLINE inline void yield_rings(const RemovalPlan& plan, double turn, Yielding& rings,
+                                         std::size_t count) noexcept {
   const double knee = plan.yield_depth_mm, min_wall = plan.min_wall_mm, per_knee = 1.0 / knee;
   const double fraction = 1.0 - exp_neg(turn), pace_of = knee / greater(turn, 1e-300);
   for (std::size_t k = 0; k < count; ++k) {
@@ -46,6 +49,11 @@ void yield_all(const RemovalPlan& plan, double turn, Yielding& rings, std::size_
 
     rings.left[k] = lesser(greater(greater(relaxed, depth - at_most), 0.0), depth);
   }
+}
+
+template <bool plain>
+void yield_all(const RemovalPlan& plan, double turn, Yielding& rings, std::size_t count) noexcept {
+  in_lanes([&]() CLAYSTACK_INLINE { yield_rings<plain>(plan, turn, rings, count); });
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include "lanes.hpp"
 #include "pressing.hpp"
 #include "timing.hpp"
 
@@ -5,6 +6,7 @@
 
 #include <array>
 #include <memory>
+#include <utility>
 
 namespace clay::bench {
 namespace {
@@ -27,6 +29,17 @@ Contender engine_at(std::string name, std::string about, const SceneSpec& scene,
   const auto presser = std::make_shared<Presser>(scene, rise_mm);
   return {std::move(name), std::move(about), [presser] { return presser->press(); },
           [presser] { return presser->rings_touched(); }};
+}
+
+/// With rings taken two at a time, as on a machine without AVX2.
+Contender in_two_lanes(Contender contender) {
+  contender.press = [press = std::move(contender.press)] {
+    const bool machine = std::exchange(four_lanes, false);
+    const double seconds = press();
+    four_lanes = machine;
+    return seconds;
+  };
+  return contender;
 }
 
 Contender literal_at(std::string name, std::string about, const SceneSpec& scene,
@@ -58,6 +71,8 @@ std::vector<Contender> sizes() {
                  press_scene(200), eased),
       literal_at("literal_eased_n10000_ns", "the same of 10 000 rings", press_scene(10'000), eased,
                  kFewTicks),
+      in_two_lanes(engine_at("two_lanes_n200_ns", "of 200 rings, two at a time where four could be",
+                             press_scene(200))),
   };
 }
 
@@ -81,6 +96,8 @@ void measure_sizes(Section& section, const Effort& effort) {
                                     "ratio; the paper's equations, written with care"));
   section.values.push_back(
       value_of("n1000000_over_n200", growth, "ratio; at most 1.5 is asked for"));
+  section.values.push_back(value_of("two_lanes_over_four", ratio_of(ns[6], ns[0]),
+                                    "ratio; 1 where the machine has no AVX2"));
   section.sound = !exceeds(least, kMostNs) && !falls_short(speed_up, kLeastSpeedUp) &&
                   !exceeds(growth, kMostGrowth);
   section.summary += fmt::format(

@@ -1,5 +1,6 @@
 #include "force.hpp"
 
+#include "contact_samples.hpp"
 #include "stack_samples.hpp"
 
 #include <gtest/gtest.h>
@@ -28,13 +29,14 @@ constexpr ForcePlan kThinPlan{
 /// f'^2 in the middle of a ring.
 double ring_slope2(const Tool& tool, const ClayStack& stack, glm::dvec3 hip,
                    const RingContact& ring) {
-  const double slope = tool.slope((ring.ring + 0.5) * stack.ring_height_mm() - hip.y);
+  const double slope =
+      tool.slope((static_cast<double>(ring.ring) + 0.5) * stack.ring_height_mm() - hip.y);
   return slope * slope;
 }
 
 double overlap_energy(const Tool& tool, const ClayStack& stack, glm::dvec3 hip) {
   double sum = 0.0;
-  for (const RingContact& ring : touch(tool, stack, hip).rings)
+  for (const RingContact& ring : samples::touched(touch(tool, stack, hip)))
     sum += ring.depth_mm * ring.depth_mm / (1.0 + ring_slope2(tool, stack, hip, ring));
   return 0.5 * kThinPlan.stiffness_n_per_mm * sum;
 }
@@ -85,7 +87,9 @@ TEST(PaperForce, IsKTimesDepthAlongTheUnitNormal) {
   Contact contact;
   contact.radial_x = 0.6;
   contact.radial_z = 0.8;
-  contact.rings = {{0, 2.0, 0.75}};  // tan phi = 3/4: cos phi = 0.8, sin phi = 0.6
+  contact.rings.lay_out(0, 1);
+  contact.rings.put(
+      {.ring = 0, .depth_mm = 2.0, .slope = 0.75});  // tan phi = 3/4: cos phi = 0.8, sin phi = 0.6
   const auto outside = spring_force<Model::paper>(kPlan, contact);
   EXPECT_NEAR(outside.x, 0.04 * 2.0 * 0.8 * 0.6, 1e-15);
   EXPECT_NEAR(outside.y, 0.04 * 2.0 * 0.6, 1e-15);

@@ -2,6 +2,7 @@
 
 #include "claystack/engine/wheel.hpp"
 #include "contact.hpp"
+#include "contact_samples.hpp"
 #include "pinch_samples.hpp"
 #include "stack_samples.hpp"
 
@@ -40,6 +41,7 @@ RC_GTEST_PROP(PinchContact, EachToolIsOnItsSideOfTheGap, ()) {
                        stack.height_mm() * (2.0 * samples::uniform(random) - 0.5),
                        20.0 * samples::uniform(random));
   const auto [outer, inner] = pinch_of(Tool::build(SphereSpec{size}).value(), stack, hip, gap);
+  const auto outer_rings = samples::touched(outer), inner_rings = samples::touched(inner);
 
   const double d = std::hypot(hip.x, hip.z);
   std::size_t out = 0, in = 0;
@@ -60,17 +62,17 @@ RC_GTEST_PROP(PinchContact, EachToolIsOnItsSideOfTheGap, ()) {
     const double past_outside = stack.rings()[i].outer_mm() - (surface_in - 2.0 * f);
     RC_PRE(std::abs(past_bore) > 1e-9 && std::abs(past_outside) > 1e-9);
     if (from_out > 1e-9 && past_bore > 0.0) {
-      RC_ASSERT(out < outer.rings.size());
-      RC_ASSERT(outer.rings[out].ring == i);
-      RC_ASSERT(std::abs(outer.rings[out++].depth_mm - from_out) < 1e-7);
+      RC_ASSERT(out < outer_rings.size());
+      RC_ASSERT(outer_rings[out].ring == i);
+      RC_ASSERT(std::abs(outer_rings[out++].depth_mm - from_out) < 1e-7);
     }
     if (from_in > 1e-9 && past_outside > 0.0) {
-      RC_ASSERT(in < inner.rings.size());
-      RC_ASSERT(inner.rings[in].ring == i);
-      RC_ASSERT(std::abs(inner.rings[in++].depth_mm - from_in) < 1e-7);
+      RC_ASSERT(in < inner_rings.size());
+      RC_ASSERT(inner_rings[in].ring == i);
+      RC_ASSERT(std::abs(inner_rings[in++].depth_mm - from_in) < 1e-7);
     }
   }
-  RC_ASSERT(out == outer.rings.size() && in == inner.rings.size());
+  RC_ASSERT(out == outer_rings.size() && in == inner_rings.size());
   if (out + in == 0) return;
   RC_ASSERT(outer.side == Side::compressive && inner.side == Side::expansive);
   RC_ASSERT(outer.bottom == inner.bottom && outer.top == inner.top);
@@ -85,7 +87,7 @@ TEST(PinchContact, AToolWiderThanTheBoreStandsBeyondTheAxis) {
   EXPECT_DOUBLE_EQ(inner.radial_x, -0.6);
   EXPECT_DOUBLE_EQ(inner.radial_z, 0.8);
   EXPECT_DOUBLE_EQ(outer.radial_x, 0.6);
-  const auto deepest = std::ranges::max(inner.rings, {}, &RingContact::depth_mm);
+  const auto deepest = std::ranges::max(samples::touched(inner), {}, &RingContact::depth_mm);
   EXPECT_DOUBLE_EQ(deepest.depth_mm, 10.0);
 }
 

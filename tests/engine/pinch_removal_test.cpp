@@ -1,5 +1,6 @@
 #include "removal.hpp"
 
+#include "contact_samples.hpp"
 #include "redistribution.hpp"
 #include "stack_samples.hpp"
 
@@ -21,11 +22,8 @@ struct Wall {
   [[nodiscard]] double thickness() const { return outer - inner; }
 };
 
-Bite bite_of(Side side, double depth_mm) {
-  Bite bite;
-  bite.contact.side = side;
-  if (depth_mm > 0.0) bite.contact.rings.push_back({0, depth_mm, 0.0});
-  return bite;
+Bite bite_of(Side side, double depth_mm, std::size_t ring = 0) {
+  return {samples::contact_on(ring, ring, side, depth_mm), {}};
 }
 
 /// The wall after one tick.
@@ -131,13 +129,12 @@ RC_GTEST_PROP(PinchRemoval, NeverLeavesARingWithoutClayAndBalances, ()) {
   ClayStack stack = samples::stack(random, 20);
   const RemovalPlan plan{.rate_per_s = 1e6, .min_wall_mm = 0.001, .paper_fraction = 1.0 - 1e-9};
   const double gap = *rc::gen::element(1e-300, 1e-6, 1.0);
-  Bite bites[2];
-  bites[0].contact.side = Side::compressive;
-  bites[1].contact.side = Side::expansive;
+  Bite bites[2] = {{samples::contact_on(0, 19, Side::compressive, 1e6), {}},
+                   {samples::contact_on(0, 19, Side::expansive, 1e6), {}}};
   for (Bite& bite : bites) {
-    bite.contact.top = 19;
-    for (std::uint32_t i = 0; i < 20; ++i)
-      if (samples::uniform(random) < 0.8) bite.contact.rings.push_back({i, 1e6, 0.0});
+    for (std::size_t i = 0; i < 20; ++i)
+      if (samples::uniform(random) > 0.8) bite.contact.rings.depth(i) = 0.0;
+    bite.contact.rings.trim();
   }
   if (*rc::gen::arbitrary<bool>())
     compute_pinch_removal<Model::paper>(plan, stack, gap, 1.0, bites[0], bites[1]);
@@ -165,9 +162,8 @@ TEST(PinchRemoval, WhatBothToolsTakeFlowsAsOneAmount) {
     ClayStack stack = ClayStack::cylinder(60, 1.0, 50.0, 40.0, 60).value();
     std::vector<Bite> bites;
     for (const auto& [side, amount] : takes) {
-      Bite& bite = bites.emplace_back(bite_of(side, 1.0));
-      bite.contact.bottom = bite.contact.top = bite.contact.rings[0].ring = 30;
-      bite.removed = {amount * kMm2};
+      bites.push_back(bite_of(side, 1.0, 30));
+      bites.back().removed = {amount * kMm2};
     }
     Ledger ledger;
     press_clay<Model::conserving>(StepPlan::build({}).value(), bites, true, stack, ledger);

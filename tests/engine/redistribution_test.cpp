@@ -1,5 +1,6 @@
 #include "redistribution.hpp"
 
+#include "contact_samples.hpp"
 #include "stack_samples.hpp"
 #include "stack_writer.hpp"
 
@@ -13,21 +14,13 @@
 namespace clay {
 namespace {
 
+using samples::contact_on;
+
 StepPlan plan_of(double sigma, double reach, double alpha, double h = 1.0) {
   SceneSpec scene;
   scene.lump.ring_height_mm = h;
   scene.flow = {sigma, reach, alpha};
   return StepPlan::build(scene).value();
-}
-
-Contact contact_on(std::size_t bottom, std::size_t top, Side side = Side::compressive) {
-  Contact contact;
-  contact.side = side;
-  contact.bottom = bottom;
-  contact.top = top;
-  for (std::size_t i = bottom; i <= top; ++i)
-    contact.rings.push_back({static_cast<std::uint32_t>(i), 1.0, 0.0});
-  return contact;
 }
 
 double outer2(const ClayStack& stack, std::size_t i) {
@@ -239,7 +232,7 @@ RC_GTEST_PROP(Redistribution, MovesClayAndMakesNone, ()) {
   const Contact contact =
       contact_on(bottom, top, *rc::gen::element(Side::compressive, Side::expansive));
   std::vector<Quanta> removed;
-  for (const RingContact& touch : contact.rings)
+  for (const RingContact& touch : samples::touched(contact))
     removed.push_back(static_cast<Quanta>(
         samples::uniform(random) * static_cast<double>(stack.rings()[touch.ring].volume() - 1)));
   Ledger ledger;

@@ -17,7 +17,13 @@ Contact deep_contact(const ClayStack& stack, Side side, double depth_mm) {
   Contact contact;
   contact.side = side;
   contact.top = stack.size() - 1;
-  for (std::uint32_t i = 0; i < stack.size(); ++i) contact.rings.push_back({i, depth_mm, 0.0});
+  contact.rings.lay_out(0, stack.size());
+  for (std::size_t i = 0; i < stack.size(); ++i) {
+    const Ring& ring = stack.rings()[i];
+    const double surface = side == Side::compressive ? ring.outer_mm() : ring.inner_mm();
+    contact.rings.put({.ring = i, .depth_mm = depth_mm, .surface_mm = surface});
+  }
+  contact.rings.trim();
   return contact;
 }
 
@@ -65,7 +71,7 @@ TEST(Removal, LeavesToTheForceTheDepthThatIsLeft) {
     Contact contact = deep_contact(stack, side, 3.0);
     std::vector<Quanta> removed;
     compute_removal<Model::conserving>(kPlan, stack, 0.004, contact, removed);
-    EXPECT_NEAR(contact.rings[0].depth_mm, 3.0 + 10.0 * std::expm1(-20.0 * 0.004), 1e-12);
+    EXPECT_NEAR(contact.rings.get(0).depth_mm, 3.0 + 10.0 * std::expm1(-20.0 * 0.004), 1e-12);
   }
 }
 

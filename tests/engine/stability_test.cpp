@@ -1,5 +1,6 @@
 #include "stability.hpp"
 
+#include "contact_samples.hpp"
 #include "redistribution.hpp"
 #include "stack_samples.hpp"
 
@@ -73,10 +74,7 @@ TEST(Stability, APapersNewRingWeighsOnAllBelow) {
   StabilityWatch watch(stack);
   Ledger ledger;
   ledger.outside = ring - 1;  // what the body has lacked since its foot was looked at last
-  Bite bite;
-  bite.contact.bottom = bite.contact.top = 499;
-  bite.contact.rings.push_back({499, 1.0, 0.0});
-  bite.removed.push_back(1000);
+  const Bite bite{samples::contact_on(499, 499), {1000}};
   watch.move_to(stack, 499);
   const Flow flow = press_clay<Model::paper>(plan, {&bite, 1}, true, stack, ledger);
   ASSERT_EQ(flow.grown, 1u);
@@ -110,13 +108,11 @@ RC_GTEST_PROP(Stability, WatchingTheFlowSeesWhatTheLiteralSumSees, ()) {
   Ledger ledger;
   StabilityWatch watch(stack);
   for (int step = 0; step < 60; ++step) {
-    Bite bite;
-    auto& [contact, removed] = bite;
-    contact.bottom =
+    const auto bottom =
         static_cast<std::size_t>(samples::uniform(random) * static_cast<double>(stack.size()));
-    contact.top = std::min(contact.bottom + 3, stack.size() - 1);
+    Bite bite{samples::contact_on(bottom, std::min(bottom + 3, stack.size() - 1)), {}};
+    auto& [contact, removed] = bite;
     for (std::size_t i = contact.bottom; i <= contact.top; ++i) {
-      contact.rings.push_back({static_cast<std::uint32_t>(i), 1.0, 0.0});
       removed.push_back(static_cast<Quanta>(0.4 * samples::uniform(random) *
                                             static_cast<double>(stack.rings()[i].volume())));
     }
@@ -162,10 +158,7 @@ TEST(Stability, NewRingsOnTopWeighOnTheWayToo) {
   Ledger ledger;
   std::size_t grown = 0;
   for (const std::size_t at : {50u, 40u}) {
-    Bite bite;
-    bite.contact.bottom = bite.contact.top = at;
-    bite.contact.rings.push_back({static_cast<std::uint32_t>(at), 1.0, 0.0});
-    bite.removed.push_back(ring.volume() / 2);
+    const Bite bite{samples::contact_on(at, at), {ring.volume() / 2}};
     watch.move_to(stack, at);
     const Flow flow = trim_clay<Model::conserving>({&bite, 1}, stack, ledger);
     grown += flow.grown;
@@ -189,12 +182,10 @@ ClayStack random_stack(std::mt19937_64& random, std::size_t count) {
 }
 
 Bite random_bite(std::mt19937_64& random, const ClayStack& stack) {
-  Bite bite;
-  const auto rings = static_cast<double>(stack.size());
-  bite.contact.bottom = static_cast<std::size_t>(samples::uniform(random) * rings);
-  bite.contact.top = std::min(bite.contact.bottom + 5, stack.size() - 1);
-  for (std::size_t i = bite.contact.bottom; i <= bite.contact.top; ++i) {
-    bite.contact.rings.push_back({static_cast<std::uint32_t>(i), 1.0, 0.0});
+  const auto bottom =
+      static_cast<std::size_t>(samples::uniform(random) * static_cast<double>(stack.size()));
+  Bite bite{samples::contact_on(bottom, std::min(bottom + 5, stack.size() - 1)), {}};
+  for (std::size_t i = bottom; i <= bite.contact.top; ++i) {
     bite.removed.push_back(static_cast<Quanta>(0.2 * samples::uniform(random) *
                                                static_cast<double>(stack.rings()[i].volume())));
   }

@@ -77,7 +77,7 @@ class RayleighKernel {
   static constexpr int kFractionBits = 40;
   [[nodiscard]] std::int64_t cumulative(std::int64_t j) const noexcept {
     const auto last = static_cast<std::int64_t>(length());
-    return cumulative_[static_cast<std::size_t>(std::clamp<std::int64_t>(j, 0, last))];
+    return cumulative_[static_cast<std::size_t>(std::min(j, last))];
   }
   std::vector<std::int64_t> cumulative_;  ///< C_0 = 0 .. C_L1 = 2^40
   std::size_t effective_length_ = 0;
