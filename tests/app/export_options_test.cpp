@@ -1,6 +1,6 @@
 // What the options of `claystack export` promise.
 
-#include "run_program.hpp"
+#include "thrown_bowl.hpp"
 
 #include <gtest/gtest.h>
 #include <algorithm>
@@ -13,16 +13,12 @@
 namespace clay::test {
 namespace {
 
-class ExportOptions : public testing::Test {
+class ExportOptions : public ThrownBowl {
  protected:
-  void SetUp() override {
-    ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
-  }
   Ran run(const std::string& options) const {
     return claystack("export " + pot + " " + stl + " " + options);
   }
-  ScratchFolder folder;
-  std::string pot = folder.file("bowl.pot.json"), stl = folder.file("bowl.stl");
+  std::string stl = folder.file("bowl.stl");
 };
 
 TEST_F(ExportOptions, AThinWallExitsOneWithTheFigureAndItsSource) {

@@ -1,4 +1,4 @@
-#include "run_program.hpp"
+#include "thrown_bowl.hpp"
 
 #include <gtest/gtest.h>
 
@@ -128,14 +128,7 @@ TEST(ExportCylinder, IsCertifiedAndNowhereMuchThinnerThanItsGap) {
 INSTANTIATE_TEST_SUITE_P(Export, ExportedSample,
                          testing::Values("bowl", "vase", "bottle", "cylinder"));
 
-class ExportBowl : public testing::Test {
- protected:
-  void SetUp() override {
-    ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
-  }
-  ScratchFolder folder;
-  std::string pot = folder.file("bowl.pot.json");
-};
+class ExportBowl : public ThrownBowl {};
 
 TEST_F(ExportBowl, AsciiStlHoldsTheSameTriangles) {
   ASSERT_EQ(claystack("export -q " + pot + " " + folder.file("b.stl")).status, 0);

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -15,7 +14,6 @@ namespace clay::live {
 namespace {
 
 using falcon::GuardState;
-using falcon::WireFault;
 
 constexpr double kLimitN = 5.0;
 constexpr double kRisePerTickN = 0.5 * 1.05;  // 500 N/s for a tick; frames come within 5 % of 1 ms
@@ -262,61 +260,6 @@ TEST(LiveLoop, AClayRateDeformsLessOftenAndIsFeltInBetween) {
   EXPECT_EQ(live.wheel.pot(), replayed(rib_scene(), folder.file("s.session")));
 }
 
-TEST(LiveLoop, WithoutFramesTheClayStandsAndTheForceIsGoneIn10Ms) {
-  VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
-  live.run(3.2);
-  ASSERT_GT(glm::length(live.status().force_n), 0.1);
-  live.fault(WireFault::no_frame, 40);
-  live.tick();  // the answer that was on its way
-  const Pot before = live.wheel.pot();
-  const std::int64_t last_us = live.clock.now_us();
-  double n = glm::length(live.status().force_n);
-  for (int i = 0; i < 20; ++i) {
-    live.tick();
-    ASSERT_EQ(live.wheel.pot(), before);
-    ASSERT_LE(glm::length(live.status().force_n), n);
-    n = glm::length(live.status().force_n);
-    ASSERT_TRUE(n == 0.0 || live.clock.now_us() - last_us < 10'000) << n;
-  }
-  EXPECT_EQ(n, 0.0);
-  live.run(3.0);
-  EXPECT_NE(live.wheel.pot(), before) << "and then it goes on";
-}
-
-TEST(LiveLoop, AFrameThatLeapsIntoTheClayCutsNothing) {
-  VirtualThrow live(rib_scene(), one_to_one(), [](double t) {
-    return glm::dvec3(t > 2.0 && t < 2.0015 ? -20.0 : 2.0, 0.0, 0.0);
-  });
-  live.run(2.5);
-  EXPECT_GE(live.loop->events().flags[std::countr_zero(unsigned{falcon::kGuardJump})], 1u)
-      << "a jump";
-  EXPECT_EQ(live.wheel.pot(), Wheel::build(rib_scene())->pot());
-}
-
-TEST(LiveLoop, HomingLostIsNoForceInTheSameTickAndNoClay) {
-  VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
-  live.run(3.2);
-  live.fault(WireFault::homing_lost);
-  while (live.status().device == falcon::DeviceState::ready) live.tick();
-  const Pot before = live.wheel.pot();
-  for (; live.status().device != falcon::DeviceState::ready; live.tick()) {
-    ASSERT_EQ(glm::length(live.status().force_n), 0.0);
-    ASSERT_EQ(live.model->motors(), falcon::LegCounts{});
-    ASSERT_EQ(live.wheel.pot(), before);
-  }
-  EXPECT_NE(live.status().guard, GuardState::engaged);
-}
-
-TEST(LiveLoop, UnpluggedIsTheEnd) {
-  VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
-  live.run(3.0);
-  live.fault(WireFault::unplugged);
-  EXPECT_EQ(live.run(1.0), Ending::device_lost);
-  EXPECT_EQ(live.device.problem().fault, falcon::DeviceFault::unplugged);
-  EXPECT_NEAR(live.status().time_s, 3.0, 0.01);
-  EXPECT_EQ(live.wheel.ledger().volume_error(live.wheel.stack().recount()), 0);
-}
-
 TEST(LiveLoop, EndsAfterTheSecondsAskedForAndWithACollapse) {
   LiveSettings settings = one_to_one();
   settings.seconds = 1.0;
@@ -343,22 +286,6 @@ TEST(LiveLoop, ShowsTheClayInOutline) {
   for (std::size_t i = 0; i < rings.size(); ++i)
     EXPECT_FLOAT_EQ(profile.rows[i].outer_mm, static_cast<float>(rings[i].outer_mm()));
   EXPECT_LT(profile.rows[60].outer_mm, 40.0f) << "pressed in the middle";
-}
-
-TEST(LiveSettings, NamesTheOptionThatIsOutOfItsRange) {
-  const auto refused = [](auto change) {
-    LiveSettings settings;
-    change(settings);
-    const auto checked = check(settings);
-    return checked ? std::string() : checked.error().message;
-  };
-  EXPECT_EQ(refused([](LiveSettings& s) { s.rate_hz = 100; }),
-            "--rate: expected a value from 400 to 4000, found 100");
-  EXPECT_EQ(refused([](LiveSettings& s) { s.clay_rate_hz = 2000; }),
-            "--clay-rate: expected a value from 20 to 1000, found 2000");
-  EXPECT_NE(refused([](LiveSettings& s) { s.seconds = std::nan(""); }), "");
-  EXPECT_NE(refused([](LiveSettings& s) { s.gap_mm = -1; }), "");
-  EXPECT_EQ(refused([](LiveSettings&) {}), "");
 }
 
 }  // namespace

@@ -34,28 +34,32 @@ LiveSettings quick() {
   return settings;
 }
 
-/// A servo on a scripted device.
+/// A servo that runs on a scripted device.
 struct Threads {
-  explicit Threads(WireLog& wire, LiveSettings settings = quick())
-      : log(wire), device(wire), loop(ServoLoop::build(bench(), settings).value()) {}
+  explicit Threads(WireLog& wire)
+      : log(wire), device(wire), loop(ServoLoop::build(bench(), quick()).value()) {
+    servo.start();
+  }
   Bench bench() { return {wheel, device, clock, nullptr}; }
+  void wait_for_force() {
+    wait_for([&] { return log.last_n > 0.0; });
+  }
+  Ending stop() { return servo.command({CommandKind::stop, 0.0}) ? servo.join() : Ending::none; }
 
   WireLog& log;
   ScriptedDevice device;
   Wheel wheel = Wheel::build(rib_scene()).value();
   MonotonicClock clock;
   ServoLoop loop;
+  Servo servo{bench(), loop, false};
 };
 
 TEST(Servo, EndsByCommandWithAStopAsTheLastWord) {
   WireLog log;
   Threads threads(log);
-  Servo servo(threads.bench(), threads.loop, false);
-  servo.start();
   wait_for([&] { return log.writes > 50; });
-  ASSERT_TRUE(servo.command({CommandKind::stop, 0.0}));
-  EXPECT_EQ(servo.join(), Ending::stopped);
-  EXPECT_FALSE(servo.running());
+  EXPECT_EQ(threads.stop(), Ending::stopped);
+  EXPECT_FALSE(threads.servo.running());
   EXPECT_EQ(log.stops, 1u);
   EXPECT_EQ(log.last_n, 0.0);
   EXPECT_EQ(threads.loop.timing().ticks, log.writes);
@@ -64,10 +68,8 @@ TEST(Servo, EndsByCommandWithAStopAsTheLastWord) {
 
 TEST(Servo, ItsDestructorEndsTheForceToo) {
   WireLog log;
-  Threads threads(log);
   {
-    Servo servo(threads.bench(), threads.loop, false);
-    servo.start();
+    const Threads threads(log);
     wait_for([&] { return log.most_n > 0.0; });
   }
   EXPECT_EQ(log.stops, 1u);
@@ -77,9 +79,7 @@ TEST(Servo, ItsDestructorEndsTheForceToo) {
 TEST(Servo, AHangEndsTheForceFromOutsideAndItComesBackByTheRamp) {
   WireLog log;
   Threads threads(log);
-  Servo servo(threads.bench(), threads.loop, false);
-  servo.start();
-  wait_for([&] { return log.last_n > 0.0; });
+  threads.wait_for_force();
   const std::uint64_t zeros = log.zeros;
   log.hang = true;
   wait_for([&] { return log.zeros > zeros; });
@@ -87,42 +87,36 @@ TEST(Servo, AHangEndsTheForceFromOutsideAndItComesBackByTheRamp) {
   const std::uint64_t writes = log.writes;
   log.hang = false;
   wait_for([&] { return log.writes > writes + 20; });
-  ASSERT_TRUE(servo.command({CommandKind::stop, 0.0}));
-  EXPECT_EQ(servo.join(), Ending::stopped);
+  EXPECT_EQ(threads.stop(), Ending::stopped);
   EXPECT_GE(threads.loop.events().watchdog, 1u);
 }
 
 TEST(Servo, ReadersSeeWholeValuesThatGoForward) {
   WireLog log;
   Threads threads(log);
-  Servo servo(threads.bench(), threads.loop, false);
-  servo.start();
   std::uint64_t ticks = 0;
   double time_s = 0.0;
   while (ticks < 300) {
-    const LiveStatus& status = servo.view().status.newest();
+    const LiveStatus& status = threads.servo.view().status.newest();
     ASSERT_GE(status.ticks, ticks);
     ASSERT_GE(status.time_s, time_s);
     ASSERT_EQ(status.volume_error, 0.0);
     ticks = status.ticks;
     time_s = status.time_s;
-    const LiveProfile& profile = servo.view().profile.newest();
+    const LiveProfile& profile = threads.servo.view().profile.newest();
     for (std::size_t row = 0; row < profile.size; ++row)
       ASSERT_GT(profile.rows[row].outer_mm, profile.rows[row].inner_mm);
     std::this_thread::yield();
   }
-  ASSERT_TRUE(servo.command({CommandKind::stop, 0.0}));
-  servo.join();
+  EXPECT_EQ(threads.stop(), Ending::stopped);
 }
 
 TEST(Servo, AnUnpluggedDeviceEndsIt) {
   WireLog log;
   Threads threads(log);
-  Servo servo(threads.bench(), threads.loop, false);
-  servo.start();
   wait_for([&] { return log.most_n > 0.0; });
   log.gone = true;
-  EXPECT_EQ(servo.join(), Ending::device_lost);
+  EXPECT_EQ(threads.servo.join(), Ending::device_lost);
   EXPECT_EQ(log.last_n, 0.0);
   // As after a reconnection: another servo, the same loop and wheel.
   log.gone = false;
@@ -150,9 +144,7 @@ TEST(Servo, TheHandlerItselfWritesZeroWhileTheServoHangs) {
     WireLog log;
     const ForceSignals signals;
     Threads threads(log);
-    Servo servo(threads.bench(), threads.loop, false);
-    servo.start();
-    wait_for([&] { return log.last_n > 0.0; });
+    threads.wait_for_force();
     log.hang = true;
     EXPECT_EQ(log.stops, 0u);
     raise(signal);
@@ -162,8 +154,8 @@ TEST(Servo, TheHandlerItselfWritesZeroWhileTheServoHangs) {
     EXPECT_EQ(log.stops, 1u) << "nobody else tells a device to stop while the servo hangs";
     EXPECT_EQ(ForceSignals::asked_to_stop(), signal);
     log.hang = false;
-    (void)servo.command({CommandKind::stop, 0.0});
-    EXPECT_EQ(servo.join(), Ending::stopped);
+    (void)threads.servo.command({CommandKind::stop, 0.0});
+    EXPECT_EQ(threads.servo.join(), Ending::stopped);
     EXPECT_EQ(log.last_n, 0.0);
   }
 }
@@ -172,14 +164,11 @@ TEST(Servo, NoSignalOfJobControlStopsTheProcessUnderForce) {
   WireLog log;
   const ForceSignals signals;
   Threads threads(log);
-  Servo servo(threads.bench(), threads.loop, false);
-  servo.start();
-  wait_for([&] { return log.last_n > 0.0; });
+  threads.wait_for_force();
   for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU}) kill(getpid(), signal);
   const std::uint64_t writes = log.writes;
   wait_for([&] { return log.writes > writes + 5; });
-  ASSERT_TRUE(servo.command({CommandKind::stop, 0.0}));
-  servo.join();
+  EXPECT_EQ(threads.stop(), Ending::stopped);
 }
 
 /// A process of its own that throws until this befalls it; how it ended.
@@ -201,11 +190,9 @@ class LastPacket : public testing::Test {
       alarm(60);  // one that does not end is no orphan
       const ForceSignals signals;
       Threads threads(*log_);
-      Servo servo(threads.bench(), threads.loop, false);
-      servo.start();
-      wait_for([&] { return log_->last_n > 0.0; });
+      threads.wait_for_force();
       action();
-      servo.join();
+      threads.servo.join();
       _exit(ForceSignals::asked_to_stop());
     }
     int status = 0;

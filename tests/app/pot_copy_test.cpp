@@ -1,4 +1,4 @@
-#include "run_program.hpp"
+#include "thrown_bowl.hpp"
 
 #include <gtest/gtest.h>
 
@@ -79,14 +79,7 @@ TEST_P(PotCopies, RoundedPotsAreSoundAndPrint) {
 
 INSTANTIATE_TEST_SUITE_P(Export, PotCopies, testing::Values("bowl", "vase", "bottle", "cylinder"));
 
-class PotCopy : public testing::Test {
- protected:
-  void SetUp() override {
-    ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
-  }
-  ScratchFolder folder;
-  std::string pot = folder.file("bowl.pot.json");
-};
+class PotCopy : public ThrownBowl {};
 
 TEST_F(PotCopy, MeshesBesideARoundedCopyKeepTheExactRadii) {
   const std::string alone = folder.file("a.stl"), beside = folder.file("b.stl");

@@ -1,5 +1,5 @@
 #pragma once
-// Random stacks and poses for properties.
+// Random stacks for properties, and a scene to throw on.
 
 #include "claystack/engine/clay_stack.hpp"
 #include "claystack/engine/pose.hpp"
@@ -31,6 +31,22 @@ inline ClayStack stack(std::mt19937_64& random, std::size_t count, double ring_h
     rings.push_back({outer2, inner2});
   }
   return ClayStack::from_rings(ring_height_mm, std::move(rings), 0).value();
+}
+
+/// A solid lump of 40 rings under a ball of 8 mm, with all but stability on.
+inline SceneSpec scene_of(Model model) {
+  SceneSpec scene;
+  scene.model = model;
+  scene.lump = {.rings = 40,
+                .ring_height_mm = 1.0,
+                .outer_radius_mm = 30.0,
+                .inner_radius_mm = 0.0,
+                .max_rings = 120};
+  scene.tool.shape = SphereSpec{8.0};
+  scene.removal = {.rate_per_s = 40.0, .min_wall_mm = 0.5, .paper_fraction = {}};
+  scene.flow = {.sigma_mm = 3.0, .reach_mm = 10.0, .inside_share = 0.27};
+  scene.force->friction = 0.2;
+  return scene;
 }
 
 inline rc::Gen<std::mt19937_64> random_engine() {

@@ -12,20 +12,7 @@
 namespace clay {
 namespace {
 
-SceneSpec scene_of(Model model) {
-  SceneSpec scene;
-  scene.model = model;
-  scene.lump = {.rings = 40,
-                .ring_height_mm = 1.0,
-                .outer_radius_mm = 30.0,
-                .inner_radius_mm = 0.0,
-                .max_rings = 120};
-  scene.tool.shape = SphereSpec{8.0};
-  scene.removal = {.rate_per_s = 40.0, .min_wall_mm = 0.5, .paper_fraction = {}};
-  scene.flow = {.sigma_mm = 3.0, .reach_mm = 10.0, .inside_share = 0.27};
-  scene.force->friction = 0.2;
-  return scene;
-}
+using samples::scene_of;
 
 /// A hand that wanders, and likes the places where engines fail: the base, the rim, the axis, deep
 /// in the wall, jumps, and the trim button. One that pinches does so now and then.

@@ -1,5 +1,6 @@
 #include "claystack/export/certificate.hpp"
 
+#include "export/refused.hpp"
 #include "export/shapes.hpp"
 
 #include <gtest/gtest.h>
@@ -14,12 +15,7 @@ namespace {
 const Polygon kSquare{{1, 0}, {2, 0}, {2, 1}, {1, 1}};
 
 ::testing::AssertionResult refused(const Profile& profile, const std::string& because) {
-  const auto certificate = certify(profile);
-  if (certificate) return ::testing::AssertionFailure() << "was certified";
-  if (certificate.error().kind != ErrorKind::unsound ||
-      certificate.error().message.find(because) == std::string::npos)
-    return ::testing::AssertionFailure() << certificate.error().message;
-  return ::testing::AssertionSuccess();
+  return samples::refused(certify(profile), ErrorKind::unsound, because);
 }
 
 TEST(Certify, CountsWhatItProved) {

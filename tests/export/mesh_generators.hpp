@@ -5,9 +5,12 @@
 
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
 #include <vector>
 
 namespace clay::solid::samples {
@@ -43,6 +46,33 @@ inline std::vector<Corners> corners_of(const TriangleMesh& mesh) {
     all.push_back({mesh.points[a], mesh.points[b], mesh.points[c]});
   }
   return all;
+}
+
+/// The farthest that a corner moves when a triangle becomes another, whichever it begins with.
+inline double distance(const Corners& from, const Corners& to) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t turn = 0; turn < 3; ++turn) {
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      farthest = std::max(farthest, glm::distance(from[i], to[(i + turn) % 3]));
+    }
+    least = std::min(least, farthest);
+  }
+  return least;
+}
+
+/// The largest distance from a triangle to its nearest in the other mesh.
+inline double largest_move(const TriangleMesh& mesh, const TriangleMesh& other) {
+  const std::vector<Corners> candidates = corners_of(other);
+  double largest = 0.0;
+  for (const Corners& triangle : corners_of(mesh)) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Corners& candidate : candidates) {
+      least = std::min(least, distance(triangle, candidate));
+    }
+    largest = std::max(largest, least);
+  }
+  return largest;
 }
 
 inline bool has_negative_zero(const TriangleMesh& mesh) {

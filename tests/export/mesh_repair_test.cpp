@@ -1,6 +1,7 @@
 #include "claystack/export/mesh_repair.hpp"
 
 #include "claystack/export/mesh_check.hpp"
+#include "export/mesh_surface.hpp"
 #include "export/shapes.hpp"
 
 #include <gtest/gtest.h>
@@ -20,6 +21,7 @@ using shapes::ball;
 using shapes::cube;
 using shapes::inverted;
 using shapes::moved;
+using shapes::surface_mm2;
 using shapes::together;
 
 std::size_t times(const RepairedMesh& result, const std::string& what) {
@@ -58,14 +60,6 @@ double reach_of(const TriangleMesh& mesh) {
   for (const glm::dvec3& p : mesh.points)
     reach = std::max({reach, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   return reach;
-}
-
-double surface_of(const TriangleMesh& mesh) {
-  double twice = 0.0;
-  for (const auto& [a, b, c] : mesh.triangles)
-    twice +=
-        glm::length(glm::cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]));
-  return 0.5 * twice;
 }
 
 TEST(Repair, LeavesASoundMeshAsItIs) {
@@ -237,7 +231,7 @@ RC_GTEST_PROP(Repair, OneTriangleLessOrTurnedIsAlwaysMended, (const ClayStack& s
   RC_ASSERT(check_mesh(result->mesh).sound());
   // A hole beside a wall as thin as a crack may close the wall.
   RC_ASSERT(std::abs(signed_volume(result->mesh) - signed_volume(mesh)) <=
-            1e-9 * signed_volume(mesh) + kCrack * reach_of(mesh) * surface_of(mesh));
+            1e-9 * signed_volume(mesh) + kCrack * reach_of(mesh) * surface_mm2(mesh));
 }
 
 RC_GTEST_PROP(Repair, AnySoupIsRepairedOrRefusedAndAlwaysTheSame, ()) {

@@ -1,5 +1,8 @@
 #include "claystack/falcon/passivity.hpp"
 
+#include "passivity_samples.hpp"
+#include "random_values.hpp"
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -14,83 +17,11 @@
 namespace clay::falcon {
 namespace {
 
-constexpr double kTick = 1e-3;
-const SampledLoop kLoop{1000, 0.1, 2.0, 0};
-
-glm::dvec3 along(double x) { return {x, 0, 0}; }
-
-double within(double low, double high) {
-  const auto step = *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, 1'000'001));
-  return low + (high - low) * step / 1e6;
-}
-
 PassivityController controller_of(const SampledLoop& loop, double step_m = 0.0) {
   PassivitySpec spec;
   spec.loop = loop;
   spec.step_m = step_m;
   return PassivityController::build(spec).value();
-}
-
-TEST(EnergyObserver, SumsForceTimesWayLessWhatTheArmHasDissipated) {
-  EnergyObserver observer(kLoop, 0.0, 0.1);
-  observer.observe(kTick, along(0), along(0), along(1));
-  double work = 0.0, damped = 0.0;
-  for (const double way : {-1e-4, -2e-4, -2e-4, 1e-4, 3e-4}) {
-    observer.observe(kTick, along(1.5), along(way), along(1));
-    work += 1.5 * way;
-    damped += 2.0 * way * way / kTick;  // at constant speed in each tick
-  }
-  EXPECT_NEAR(observer.injected_j(), work - damped, 1e-18);
-}
-
-TEST(EnergyObserver, CreditEndsWithTheContactAndADebtStays) {
-  EnergyObserver observer({1000, 0.1, 0.0, 0}, 0.0, 0.1);
-  const auto contact = [&observer](double way_in, double force_in, double force_out) {
-    observer.observe(kTick, along(0), along(0), along(force_in));
-    observer.observe(kTick, along(force_in), along(-way_in), along(force_out));
-    const bool ended = observer.observe(kTick, along(force_out), along(way_in), along(0));
-    EXPECT_TRUE(ended);
-    EXPECT_FALSE(observer.in_contact());
-  };
-  contact(1e-3, 3.0, 1.0);  // took 2 mJ
-  EXPECT_EQ(observer.injected_j(), 0.0);
-  EXPECT_NEAR(observer.last_contact_j(), -2e-3, 1e-18);
-  contact(1e-3, 1.0, 3.0);  // gave 2 mJ
-  EXPECT_NEAR(observer.injected_j(), 2e-3, 1e-18);
-  contact(1e-3, 1.0, 2.5);
-  EXPECT_NEAR(observer.injected_j(), 3.5e-3, 1e-18);
-  EXPECT_NEAR(observer.recent_j(), 3.5e-3, 1e-18);
-  for (int k = 0; k < 107; ++k) observer.observe(kTick, along(0), along(0), along(0));
-  EXPECT_NEAR(observer.recent_j(), 0.0, 1e-18);
-  EXPECT_NEAR(observer.injected_j(), 3.5e-3, 1e-18);
-}
-
-TEST(EnergyObserver, SeesLoopsBehindTheCreditOfALongPress) {
-  // 5 mm at 4 N are 20 mJ of credit; then loops of 1 mm that give 1 N mm each.
-  EnergyObserver observer({1000, 0.1, 0.0, 0}, 0.0, 0.1);
-  observer.observe(kTick, along(0), along(0), along(4));
-  for (int k = 0; k < 5; ++k) observer.observe(kTick, along(4), along(-1e-3), along(4));
-  for (int loop = 0; loop < 4; ++loop) {
-    observer.observe(kTick, along(4), along(1e-3), along(4));
-    observer.observe(kTick, along(3), along(-1e-3), along(4));
-  }
-  EXPECT_LT(observer.injected_j(), -15e-3);
-  EXPECT_NEAR(observer.looped_j(), 3e-3, 1e-15);  // the fourth is not closed
-  EXPECT_EQ(observer.debt_j(), observer.looped_j());
-}
-
-TEST(EnergyObserver, AFlickerOfTheEncoderIsNoEnergy) {
-  const double step = 5e-5, k = 1000.0;
-  EnergyObserver observer(kLoop, step, 0.1);
-  observer.observe(kTick, along(0), along(0), along(1));
-  observer.observe(kTick, along(1), along(-20 * step), along(1));
-  const double before = observer.injected_j();
-  for (int n = 0; n < 100; ++n) {  // each flicker seems to give k step^2
-    observer.observe(kTick, along(1), along(-step), along(1));
-    observer.observe(kTick, along(1 + k * step), along(step), along(1));
-  }
-  EXPECT_LE(observer.debt_j(), observer.tolerance_j());
-  EXPECT_LE(observer.injected_j(), before);
 }
 
 /// A hand moved along a path against a spring beyond x = 0; `each` sees the answer, the force
@@ -99,7 +30,7 @@ template <class Each>
 void play(PassivityController& controller, double stiffness, int ticks,
           const std::function<double(double)>& path, Each each) {
   for (int k = 0; k < ticks; ++k) {
-    const glm::dvec3 at = along(path(k * kTick));
+    const glm::dvec3 at = along(path(k * kTickS));
     const glm::dvec3 asked = along(stiffness * std::max(0.0, -at.x));
     each(controller.tick(k * 1000, at, asked), asked);
   }
@@ -195,7 +126,7 @@ TEST(Passivity, AStiffContactIsDisplayedAsStiffAsIsAccepted) {
   const auto path = [](double t) { return 1e-4 - 0.01 * t; };
   double at = 0.0;
   play(controller, 1e6, 200, path, [&](const PassiveForce& sent, const glm::dvec3& asked) {
-    const double x = path(kTick * at++);
+    const double x = path(kTickS * at++);
     const double earned = asked.x > 0.0 ? -2000.0 * x : 0.0;
     // From the last reading outside, at most one tick's way before the surface.
     EXPECT_GE(sent.force_n.x, earned - 1e-12);
@@ -241,7 +172,7 @@ TEST(Passivity, DampingTakesBackWhatWasGivenToTheLastDigit) {
   for (int k = 0; k < 1000 && controller.state() == PassivityState::damping; ++k) {
     x += way;
     const PassiveForce sent = controller.tick(time_us += 1000, along(x), along(0));
-    EXPECT_LE(-sent.force_n.x, most * way / kTick * (1 + 1e-12));
+    EXPECT_LE(-sent.force_n.x, most * way / kTickS * (1 + 1e-12));
     EXPECT_LE(sent.force_n.x, 0.0);
     EXPECT_LE(controller.observer().injected_j(), owed);
     owed = controller.observer().injected_j();
@@ -256,7 +187,7 @@ TEST(Passivity, BoundOfTheDampingFollowsFromTheSampleTime) {
   EXPECT_NEAR(controller_of(slow).most_damping_ns_per_m(), (std::sqrt(8.0) - 2.0) * 5.0, 0.02);
   EXPECT_NEAR(controller_of(fast).most_damping_ns_per_m(), (std::sqrt(8.0) - 2.0) * 50.0, 0.2);
   // And where the encoder is coarse, a step in a tick is a quarter of 1 N.
-  EXPECT_NEAR(controller_of(fast, 5e-5).most_damping_ns_per_m(), 0.25 * kTick / 5e-5, 1e-12);
+  EXPECT_NEAR(controller_of(fast, 5e-5).most_damping_ns_per_m(), 0.25 * kTickS / 5e-5, 1e-12);
 }
 
 TEST(Passivity, TooMuchInAWhileYieldsThenEnds) {

@@ -1,5 +1,7 @@
 #include "claystack/falcon/sampled_bound.hpp"
 
+#include "random_values.hpp"
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -9,11 +11,6 @@
 
 namespace clay::falcon {
 namespace {
-
-double within(double low, double high) {
-  const auto step = *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, 1'000'001));
-  return low + (high - low) * step / 1e6;
-}
 
 SampledLoop any_loop(int delay) {
   return {std::pow(10.0, within(2.0, 3.9)), within(0.1, 0.5), within(0.2, 20.0), delay};

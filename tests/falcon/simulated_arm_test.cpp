@@ -1,5 +1,7 @@
 #include "claystack/falcon/simulated_arm.hpp"
 
+#include "random_values.hpp"
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -10,11 +12,6 @@
 
 namespace clay::falcon {
 namespace {
-
-double within(double low, double high) {
-  const auto step = *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, 1'000'001));
-  return low + (high - low) * step / 1e6;
-}
 
 ArmSpec undelayed(double rate_hz, double mass_kg, double damping) {
   ArmSpec arm;

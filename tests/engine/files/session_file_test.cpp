@@ -9,7 +9,6 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <set>
 
 namespace clay {
@@ -251,50 +250,6 @@ TEST(SessionFile, ErrorsNameTheLineOfAGap) {
 TEST(SessionFile, RefusesTimesThatDoNotIncreaseFromBlockToBlock) {
   const auto text = std::string(kHeader).append(kThreePoses).append(kOnePose);
   test::expect_refused(parse_session(text, "s"), "s:3: t_us: expected a time after 3500, found 0");
-}
-
-TEST(Quantized, TakesTheNearestCount) {
-  EXPECT_EQ(quantized({5, {1.0, -2.5, 0.0}, true}), (Pose{5, {1.0, -2.5, 0.0}, true}));
-  const Pose near = quantized({0, {1.4 * kQuantumMm, -1.4 * kQuantumMm, 0.6 * kQuantumMm}, false});
-  EXPECT_EQ(near.position_mm, glm::dvec3(1, -1, 1) * kQuantumMm);
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const Pose wild = quantized({0, {kInfinity, -1e300, std::nan("")}, false});
-  EXPECT_EQ(wild.position_mm, glm::dvec3(1e6, -1e6, 0));
-  const auto gap = [](double mm) { return quantized({0, {0, 0, 0}, false, mm}).gap_mm; };
-  EXPECT_EQ(gap(1.4 * kQuantumMm), kQuantumMm);
-  EXPECT_EQ(gap(-3.0), 0.0);
-  EXPECT_EQ(gap(std::nan("")), 0.0);
-  EXPECT_EQ(gap(kInfinity), 1e6);
-}
-
-RC_GTEST_PROP(Quantized, MovesByHalfAQuantumAtMostAndOnlyOnce, ()) {
-  const Pose pose{0, {*test::number_in(-1e6, 1e6), *test::number_in(-1, 1), 0.0}, false};
-  const Pose once = quantized(pose);
-  RC_ASSERT(std::abs(once.position_mm.x - pose.position_mm.x) <= kQuantumMm / 2);
-  RC_ASSERT(std::abs(once.position_mm.y - pose.position_mm.y) <= kQuantumMm / 2);
-  RC_ASSERT(quantized(once) == once);
-}
-
-std::uint64_t fnv1a(std::string_view text) {
-  std::uint64_t hash = 14695981039346656037u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-  return hash;
-}
-
-TEST(SceneHash, IsThatOfTheTextWithoutItsVersion) {
-  ASSERT_EQ(fnv1a("foobar"), 0x85944171f73967e8u);  // the authors' test vector
-  const SceneSpec scene;
-  std::string text = write_scene(scene);
-  const auto stamp = text.find("  \"written_by\"");
-  ASSERT_NE(stamp, std::string::npos);
-  text.erase(stamp, text.find('\n', stamp) + 1 - stamp);
-  EXPECT_EQ(hash_of(scene), fnv1a(text));
-}
-
-RC_GTEST_PROP(SceneHash, TellsScenesApart, ()) {
-  const SceneSpec a = test::arbitrary_scene();
-  const SceneSpec b = test::arbitrary_scene();
-  RC_ASSERT((hash_of(a) == hash_of(b)) == (a == b));
 }
 
 TEST(SessionSchema, DescribesEveryLine) {

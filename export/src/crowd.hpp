@@ -1,0 +1,86 @@
+#pragma once
+// Bodies, with what a search for those that meet asks of them again and again.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace clay::solid {
+
+inline constexpr std::uint32_t kNoHub = UINT32_MAX;
+
+/// The convex hull of its corners, thickened by the slack.
+struct Body {
+  std::array<glm::dvec3, 4> corners;                          ///< finite, any unit
+  double slack = 0.0;                                         ///< at least 0, unit of the corners
+  std::array<std::uint32_t, 3> hubs{kNoHub, kNoHub, kNoHub};  ///< crowded places it hangs from
+  std::uint32_t number = 0;                                   ///< the caller's
+  bool early = false;                                         ///< the caller's
+};
+
+/// The side of its triangle, the first three corners, that is longest.
+[[nodiscard]] glm::dvec3 longest_side(const Body& body);
+
+/// The bodies stand in the order of halves of halves, so that neighbours in space are so in memory:
+/// where more than kFew are left, the lower half of them comes first.
+class Crowd {
+ public:
+  /// Few enough to compare each with each.
+  static constexpr std::size_t kFew = 12;
+
+  struct Box {
+    glm::dvec3 low, high;
+  };
+
+  explicit Crowd(std::vector<Body> bodies);
+
+  [[nodiscard]] std::size_t size() const { return bodies_.size(); }
+  [[nodiscard]] const Body& operator[](std::uint32_t i) const { return bodies_[i]; }
+  [[nodiscard]] const Box& box(std::uint32_t i) const { return boxes_[i]; }
+
+  [[nodiscard]] Box box_of(std::span<const std::uint32_t> all) const;
+  [[nodiscard]] glm::dvec3 middle_of(std::span<const std::uint32_t> all) const;
+  /// The sum of their longest sides, each turned to the same end.
+  [[nodiscard]] glm::dvec3 grain_of(std::span<const std::uint32_t> all,
+                                    const glm::dvec3& like) const;
+  /// Brings the lower half before the upper, along the axis that fewest bodies reach across.
+  /// Returns how many are lower.
+  [[nodiscard]] std::size_t halve(std::span<std::uint32_t> all) const;
+  /// Beyond that of any corner's distance along a direction.
+  [[nodiscard]] double rounding() const { return rounding_; }
+
+  [[nodiscard]] bool any_hub() const { return any_hub_; }
+  /// Of many bodies on both sides, or kNoHub.
+  [[nodiscard]] std::uint32_t common_hub(std::span<const std::uint32_t> a,
+                                         std::span<const std::uint32_t> b) const;
+  [[nodiscard]] bool share_hub(std::uint32_t a, std::uint32_t b) const {
+    const std::array<std::uint32_t, 3>& hubs = bodies_[a].hubs;
+    return std::any_of(hubs.begin(), hubs.end(),
+                       [&](std::uint32_t hub) { return hub != kNoHub && hangs_from(b, hub); });
+  }
+  [[nodiscard]] bool hangs_from(std::uint32_t body, std::uint32_t hub) const {
+    const std::array<std::uint32_t, 3>& hubs = bodies_[body].hubs;
+    return std::find(hubs.begin(), hubs.end(), hub) != hubs.end();
+  }
+
+ private:
+  void arrange();
+
+  std::vector<Body> bodies_;  ///< corners from the middle of all
+  std::vector<Box> boxes_;    ///< of the bodies
+  std::vector<glm::dvec3> middles_;
+  double rounding_ = 0.0;
+  bool any_hub_ = false;
+};
+
+/// Along some axis one ends before the other begins.
+[[nodiscard]] inline bool apart(const Crowd::Box& a, const Crowd::Box& b) {
+  return a.low.x > b.high.x || b.low.x > a.high.x || a.low.y > b.high.y || b.low.y > a.high.y ||
+         a.low.z > b.high.z || b.low.z > a.high.z;
+}
+
+}  // namespace clay::solid

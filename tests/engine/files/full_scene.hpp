@@ -1,0 +1,20 @@
+#pragma once
+#include "claystack/engine/scene.hpp"
+
+namespace clay::test {
+
+/// Every field of its own, none left at its default.
+inline SceneSpec full_scene() {
+  SceneSpec scene;
+  scene.name = "vase";
+  scene.model = Model::paper;
+  scene.lump = {300, 0.5, 40, 35.5, 900, 2.1};
+  scene.tool = {SampledSpec{{-2, 0, 2.5}, {1, 2, 0}}, ToolMode::trim, 4.5};
+  scene.removal = {7, 0.5, 2, 0.25};
+  scene.flow = {3, 12, 0.5};
+  scene.force = ForceSpec{0.1, 4, 0.3, false, 0.75};
+  scene.stability = StabilitySpec{8};
+  return scene;
+}
+
+}  // namespace clay::test

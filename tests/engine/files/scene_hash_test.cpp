@@ -1,0 +1,37 @@
+#include "claystack/engine/scene_file.hpp"
+#include "claystack/engine/session_file.hpp"
+#include "engine/files/arbitrary.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <string>
+#include <string_view>
+
+namespace clay {
+namespace {
+
+std::uint64_t fnv1a(std::string_view text) {
+  std::uint64_t hash = 14695981039346656037u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  return hash;
+}
+
+TEST(SceneHash, IsThatOfTheTextWithoutItsVersion) {
+  ASSERT_EQ(fnv1a("foobar"), 0x85944171f73967e8u);  // the authors' test vector
+  const SceneSpec scene;
+  std::string text = write_scene(scene);
+  const auto stamp = text.find("  \"written_by\"");
+  ASSERT_NE(stamp, std::string::npos);
+  text.erase(stamp, text.find('\n', stamp) + 1 - stamp);
+  EXPECT_EQ(hash_of(scene), fnv1a(text));
+}
+
+RC_GTEST_PROP(SceneHash, TellsScenesApart, ()) {
+  const SceneSpec a = test::arbitrary_scene();
+  const SceneSpec b = test::arbitrary_scene();
+  RC_ASSERT((hash_of(a) == hash_of(b)) == (a == b));
+}
+
+}  // namespace
+}  // namespace clay
