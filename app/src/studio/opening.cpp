@@ -83,9 +83,10 @@ SceneSpec scene_for(const Pot& pot, const std::string& name) {
                 .inner_radius_mm = 0.0,
                 .max_rings = 0,
                 .density_g_cm3 = pot.density_g_cm3};
+  scene.removal.yield_depth_mm = 2.0;
   scene.removal.min_wall_mm = 3.0;
   scene.flow = {.sigma_mm = 0.12 * height_mm, .reach_mm = 0.5 * height_mm, .inside_share = 0.25};
-  scene.force->stiffness_n_per_mm2 = 0.02;
+  scene.force->stiffness_n_per_mm2 = 0.03;
   scene.force->friction = 0.2;
   return scene;
 }

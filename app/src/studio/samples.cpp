@@ -88,9 +88,10 @@ SceneSpec lump_of(double clay_kg, double radius_mm) {
   scene.lump.outer_radius_mm = radius_mm;
   scene.lump.density_g_cm3 = kDensity;
   scene.lump.max_rings = 8 * kRings;
+  scene.removal.yield_depth_mm = 2.0;
   scene.removal.min_wall_mm = 3.0;
   scene.flow = {.sigma_mm = 0.12 * height_mm, .reach_mm = 0.5 * height_mm, .inside_share = 0.25};
-  scene.force->stiffness_n_per_mm2 = 0.02;
+  scene.force->stiffness_n_per_mm2 = 0.03;
   scene.force->friction = 0.2;
   scene.stability = StabilitySpec{15.0};
   return scene;
