@@ -84,7 +84,8 @@ Result<void> run_window(const Options& options, glm::ivec2 size,
   Workshop& shop = (*studio)->shop();
   shop.potter.keep_journals();
   shop.left = work::recoverable();
-  shop.devices = std::make_unique<DeviceWatch>(options.device, options.falcon);
+  if (options.device != "none")
+    shop.devices = std::make_unique<DeviceWatch>(look_for(options.device, options.falcon));
   if (!loaded.note.empty()) shop.notices.say(Grade::warning, loaded.note);
   if (!options.file.empty()) open_file(shop, options.file);
   if (!shop.left.empty()) {

@@ -94,6 +94,7 @@ void Studio::frame(bool paint_it) {
   shop_.potter.advance(now_ns);
   shop_.host.clock().sleep_until_ns(now_ns);  // with no servo to move it
   tell_news();
+  look_at_hand(shop_);
   show_fall(now_s);
   name_window();
   turn_wheel(elapsed_s);
@@ -186,8 +187,10 @@ void Studio::drop(const FilesDropped& files) {
 
 void Studio::tell_news() {
   const PotterNews news = shop_.potter.take_news();
-  if (news.error) tell(shop_, *news.error);
-  if (news.ending == live::Ending::device_lost && shop_.devices) shop_.devices->look_again();
+  if (news.device_lost)
+    lose_arm(shop_, *news.error);
+  else if (news.error)
+    tell(shop_, *news.error);
   if (!news.stroke_ended) return;
   shop_.log(
       fmt::format("stroke ended: {} poses, {} ticks", news.poses, shop_.potter.status().ticks));
