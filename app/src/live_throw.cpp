@@ -30,7 +30,6 @@ using live::Ending;
 
 constexpr auto kLook = 20ms;  // at the servo, for its end
 constexpr auto kReopen = 500ms;
-constexpr double kSimulatedReachMm = 46.0;  // of a Falcon's 48
 
 /// Refuses a scene that is too stiff for the arm, or softens it. Its stiffness has no part in what
 /// becomes of the clay, so a softened scene replays to the same pot.
@@ -77,7 +76,7 @@ Result<void> take_up_stroke(const LiveJob& job, LiveOptions& options, Stage& sta
   live::LiveSettings& settings = options.settings;
   if (settings.seconds == 0.0) settings.seconds = live::seconds_of(stage.stroke);
   if (settings.mapping == live::MappingSettings{})
-    settings.mapping = live::fitted(settings.mapping, stage.stroke, kSimulatedReachMm);
+    settings.mapping = live::fitted(settings.mapping, stage.stroke, live::kSimulatedReachMm);
   return {};
 }
 

@@ -159,6 +159,7 @@ void Potter::release() {
   news_.ending = sitting_->end();
   status_ = sitting_->status();
   news_.poses = status_.poses;
+  news_.ticks = status_.ticks;
   news_.ring_limit = status_.ring_limit;
   servo_ = {sitting_->loop().timing(), sitting_->loop().events(), sitting_->realtime()};
   const Pot felt = sitting_->wheel().pot();

@@ -21,6 +21,7 @@ struct PotterNews {
   bool stroke_ended = false;
   live::Ending ending = live::Ending::none;
   std::size_t poses = 0;    ///< of that stroke
+  std::uint64_t ticks = 0;  ///< the same
   bool ring_limit = false;  ///< clay waits above the rim
   bool device_lost = false;
   std::optional<Error> error;
