@@ -12,9 +12,6 @@
 
 namespace clay::app {
 
-inline constexpr const char* kHomingAdvice =
-    "pull the grip all the way out, then push it all the way in";
-
 /// A fault of the user's files and settings is bad input, any other the device's.
 [[nodiscard]] Error error_of(const falcon::DeviceError& error);
 

@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "device_choice.hpp"
 #include "device_monitor.hpp"
+#include "live/words.hpp"
 #include "live_throw.hpp"
 
 #include <fmt/format.h>
@@ -64,7 +65,7 @@ void say_entry(const Entry& entry, const Console& console) {
       fmt::format("{:<11}{:<16}{}: {}", name_of(device.kind), device.place, device.name, state));
   if (device.problem) console.say("  " + text_of(*device.problem));
   if (entry.state == falcon::DeviceState::needs_homing)
-    console.say(std::string("  ") + kHomingAdvice);
+    console.say(std::string("  ") + live::kHomingAdvice);
 }
 
 Result<void> list(const falcon::DeviceSettings& settings, const Console& console) {
@@ -99,7 +100,7 @@ Result<void> show(const DevicesOptions& options, const falcon::DeviceSettings& s
   const falcon::DeviceState state = open.read(100'000).state;
   const falcon::DeviceInfo& info = open.info();
   console.say(fmt::format("{} at {}: {}", info.name, info.place, name_of(state)));
-  if (state == falcon::DeviceState::needs_homing) console.say(kHomingAdvice);
+  if (state == falcon::DeviceState::needs_homing) console.say(live::kHomingAdvice);
   if (console.json)
     console.print({{"name", info.name},
                    {"place", info.place},

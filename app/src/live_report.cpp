@@ -1,6 +1,6 @@
 #include "live_report.hpp"
 
-#include "device_choice.hpp"
+#include "live/words.hpp"
 
 #include <fmt/format.h>
 
@@ -10,10 +10,6 @@
 namespace clay::app {
 namespace {
 
-using falcon::DeviceState;
-using falcon::GuardState;
-using falcon::SafeCause;
-
 constexpr double kUsPerNs = 1e-3;
 // In the order of GuardFlag and SafeCause.
 constexpr std::array<const char*, live::GuardEvents::kFlags> kFlagNames = {
@@ -21,41 +17,6 @@ constexpr std::array<const char*, live::GuardEvents::kFlags> kFlagNames = {
     "stale",     "late",       "old_clay", "hot",    "clock"};
 constexpr std::array<const char*, live::GuardEvents::kCauses> kCauseNames = {
     "none", "not_finite", "not_passive", "jumped", "overrun", "paused", "stopped"};
-
-std::string words_of_safe(SafeCause cause) {
-  switch (cause) {
-    case SafeCause::not_finite:
-      return "no force: a number that is none; r or the clutch to go on";
-    case SafeCause::not_passive:
-      return "no force: the contact was unstable; r or the clutch to go on";
-    case SafeCause::jumped:
-      return "no force: the position leapt";
-    case SafeCause::overrun:
-      return "no force: the servo was held up";
-    case SafeCause::paused:
-      return "no force: as asked; r or the clutch to go on";
-    default:
-      return "no force";
-  }
-}
-
-std::string words_of_guard(const live::LiveStatus& status) {
-  switch (status.guard) {
-    case GuardState::idle:
-      return "waiting for the device";
-    case GuardState::waiting:
-      return status.contact ? "take the tool off the clay: force comes after that" : "ready";
-    case GuardState::ramping:
-      return fmt::format("force grows, {:.0f} %", 100.0 * status.force_gain);
-    case GuardState::engaged:
-      return status.contact ? "throwing" : "ready";
-    case GuardState::fading:
-      return "force let go: no samples, or warm motors";
-    case GuardState::safe:
-      return words_of_safe(status.cause);
-  }
-  return {};
-}
 
 Json times_json(const falcon::TimingHistogram& times) {
   const auto us = [](std::int64_t ns) { return kUsPerNs * static_cast<double>(ns); };
@@ -117,23 +78,14 @@ const char* name_of(live::Ending ending) {
   return "";
 }
 
-std::string words_of(const live::LiveStatus& status) {
-  if (status.device == DeviceState::needs_homing) return std::string("home it: ") + kHomingAdvice;
-  if (status.device != DeviceState::ready) return std::string(name_of(status.device));
-  if (status.paused) return "paused";
-  if (status.clutched) return "clutch: the tool stays where it is";
-  if (status.ring_limit) return "clay waits above the top: raise lump.max_rings";
-  return words_of_guard(status);
-}
-
 std::string status_line(const live::LiveStatus& status, double rate_hz) {
   return fmt::format("{:6.1f} s  {:4.0f} Hz  {:4.2f} N  {:.0f} quanta  {:5.1f} mm  {}",
                      status.time_s, rate_hz, glm::length(status.force_n), status.volume_error,
-                     status.height_mm, words_of(status));
+                     status.height_mm, live::words_of(status, kRearmKey));
 }
 
-Json servo_json(const live::ServoLoop& loop, const live::Realtime& realtime) {
-  const live::ServoTiming& timing = loop.timing();
+Json servo_json(const live::ServoTiming& timing, const live::GuardEvents& events,
+                const live::Realtime& realtime) {
   const double mean_ns = timing.period.mean_ns();
   return {{"ticks", timing.ticks},
           {"rate_hz", mean_ns > 0.0 ? 1e9 / mean_ns : 0.0},
@@ -150,7 +102,7 @@ Json servo_json(const live::ServoLoop& loop, const live::Realtime& realtime) {
             {"memory_locked", realtime.memory_locked},
             {"exact_sleep", realtime.exact_sleep},
             {"missing", realtime.missing}}},
-          {"guard", events_json(loop.events())}};
+          {"guard", events_json(events)}};
 }
 
 void tell_servo(const Console& console, const Json& servo) {

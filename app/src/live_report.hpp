@@ -11,14 +11,15 @@ namespace clay::app {
 /// For scripts: "time_up".
 [[nodiscard]] const char* name_of(live::Ending ending);
 
-/// What the potter should know or do now: "home it: ...", "throwing".
-[[nodiscard]] std::string words_of(const live::LiveStatus& status);
+/// In the terminal: lets force be earned again.
+inline constexpr const char* kRearmKey = "r";
 
 /// One line: rate, force, volume error, words.
 [[nodiscard]] std::string status_line(const live::LiveStatus& status, double rate_hz);
 
 /// Times in us, events by name.
-[[nodiscard]] Json servo_json(const live::ServoLoop& loop, const live::Realtime& realtime);
+[[nodiscard]] Json servo_json(const live::ServoTiming& timing, const live::GuardEvents& events,
+                              const live::Realtime& realtime);
 
 /// The same for people.
 void tell_servo(const Console& console, const Json& servo);

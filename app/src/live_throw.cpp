@@ -4,6 +4,7 @@
 #include "device_choice.hpp"
 #include "live/scene_hand.hpp"
 #include "live/signals.hpp"
+#include "live/words.hpp"
 #include "live_keys.hpp"
 #include "live_report.hpp"
 #include "replay.hpp"
@@ -29,7 +30,6 @@ using live::Ending;
 
 constexpr auto kLook = 20ms;  // at the servo, for its end
 constexpr auto kReopen = 500ms;
-constexpr double kSimulatedReachMm = 46.0;  // of a Falcon's 48
 
 /// Refuses a scene that is too stiff for the arm, or softens it. Its stiffness has no part in what
 /// becomes of the clay, so a softened scene replays to the same pot.
@@ -76,7 +76,7 @@ Result<void> take_up_stroke(const LiveJob& job, LiveOptions& options, Stage& sta
   live::LiveSettings& settings = options.settings;
   if (settings.seconds == 0.0) settings.seconds = live::seconds_of(stage.stroke);
   if (settings.mapping == live::MappingSettings{})
-    settings.mapping = live::fitted(settings.mapping, stage.stroke, kSimulatedReachMm);
+    settings.mapping = live::fitted(settings.mapping, stage.stroke, live::kSimulatedReachMm);
   return {};
 }
 
@@ -245,15 +245,15 @@ Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console
                {"poses", status.poses},
                {"frames", frames_json(stage.device->counters())},
                {"recording", recording_json(options, stage)},
-               {"servo", servo_json(*stage.loop, realtime)}};
+               {"servo", servo_json(stage.loop->timing(), stage.loop->events(), realtime)}};
   json.update(clay_json(*stage.wheel, pot));
   if (console.json) console.print(json);
   tell(job, options, console, json);
   if (!kept) return kept;
   if (ending == Ending::device_lost) return tl::make_unexpected(error_of(stage.device->problem()));
   if (ending == Ending::time_up && status.poses == 0)
-    return failure(ErrorKind::device,
-                   stage.device->info().place + ": nothing was thrown; " + words_of(status));
+    return failure(ErrorKind::device, stage.device->info().place + ": nothing was thrown; " +
+                                          live::words_of(status, kRearmKey));
   return {};
 }
 

@@ -69,11 +69,12 @@ std::string hexadecimal(const Bytes& bytes) {
   return text;
 }
 
-UsbPlug::UsbPlug(UMockdevTestbed* testbed, UsbGadget& gadget) : gadget_(gadget) {
+UsbPlug::UsbPlug(UMockdevTestbed* testbed, UsbGadget& gadget) : testbed_(testbed), gadget_(gadget) {
   const UsbIdentity& id = gadget.identity();
   const std::string port = std::to_string(id.port), number = std::to_string(id.port + 1);
   node_ = "/dev/bus/usb/001/00" + number;
   const std::string path = "/devices/pci0000:00/0000:00:14.0/usb1/1-" + port;
+  path_ = "/sys" + path;
   const std::string text =
       "P: " + path + "\nN: bus/usb/001/00" + number +
       "\nE: DEVTYPE=usb_device\nE: DEVNAME=" + node_ + "\nE: BUSNUM=001\nE: DEVNUM=00" + number +
@@ -96,6 +97,11 @@ UsbPlug::UsbPlug(UMockdevTestbed* testbed, UsbGadget& gadget) : gadget_(gadget) 
 UsbPlug::~UsbPlug() {
   g_signal_handlers_disconnect_by_data(base_, this);
   g_object_unref(base_);
+}
+
+void UsbPlug::pull() {
+  (void)umockdev_testbed_detach_ioctl(testbed_, node_.c_str(), nullptr);
+  umockdev_testbed_remove_device(testbed_, path_.c_str());
 }
 
 gboolean UsbPlug::on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
@@ -198,9 +204,13 @@ void UsbPlug::run_control(Urb& urb) {
 }
 
 void UsbPlug::submit(UMockdevIoctlClient* client, UMockdevIoctlData* data) {
-  if (gadget_.unplugged()) return umockdev_ioctl_client_complete(client, -1, ENODEV);
   const usbdevfs_urb& urb = urb_in(data);
   const auto size = static_cast<std::size_t>(urb.buffer_length);
+  if (gadget_.unplugged()) {
+    if ((urb.endpoint & 0x80) == 0 && urb.type != USBDEVFS_URB_TYPE_CONTROL)
+      refuse(resolve(data, offsetof(usbdevfs_urb, buffer), size), size);
+    return umockdev_ioctl_client_complete(client, -1, ENODEV);
+  }
   Urb taken{data, resolve(data, offsetof(usbdevfs_urb, buffer), size), Clock::now()};
   g_object_ref(data);
   if (urb.type == USBDEVFS_URB_TYPE_CONTROL) {
@@ -212,6 +222,11 @@ void UsbPlug::submit(UMockdevIoctlClient* client, UMockdevIoctlData* data) {
     finish(taken, 0, size);
   }
   umockdev_ioctl_client_complete(client, 0, 0);
+}
+
+void UsbPlug::refuse(UMockdevIoctlData* bytes, std::size_t size) {
+  gadget_.refused.emplace_back(bytes->data, bytes->data + size);
+  g_object_unref(bytes);
 }
 
 /// Reads are answered in their order.
@@ -259,9 +274,12 @@ void UsbPlug::discard(UMockdevIoctlClient* client) {
 
 /// The call that waits for its end; written to only.
 void UsbPlug::bulk(UMockdevIoctlClient* client, UMockdevIoctlData* data) {
-  if (gadget_.unplugged()) return umockdev_ioctl_client_complete(client, -1, ENODEV);
   const auto& transfer = *reinterpret_cast<usbdevfs_bulktransfer*>(data->data);
   UMockdevIoctlData* bytes = resolve(data, offsetof(usbdevfs_bulktransfer, data), transfer.len);
+  if (gadget_.unplugged()) {
+    refuse(bytes, transfer.len);
+    return umockdev_ioctl_client_complete(client, -1, ENODEV);
+  }
   gadget_.out({bytes->data, transfer.len});
   umockdev_ioctl_client_complete(client, static_cast<long>(transfer.len), 0);
   g_object_unref(bytes);

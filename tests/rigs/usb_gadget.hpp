@@ -49,6 +49,7 @@ class UsbGadget {
   virtual bool unplugged() const = 0;
 
   std::mutex lock;
+  std::vector<Bytes> refused;  ///< what the host meant to send to a device that is gone
 };
 
 /// How the system treats the device.
@@ -59,7 +60,8 @@ struct UsbManners {
 
 class UsbPlug {
  public:
-  /// Plugs the gadget into the testbed, which outlives this; it stays there for good.
+  /// Plugs the gadget into the testbed, which outlives this; it stays there for good, or until
+  /// `pull`.
   UsbPlug(UMockdevTestbed* testbed, UsbGadget& gadget);
   ~UsbPlug();
   UsbPlug(const UsbPlug&) = delete;
@@ -67,6 +69,8 @@ class UsbPlug {
 
   /// Where the node is, for its permissions.
   [[nodiscard]] const std::string& node() const { return node_; }
+  /// The system knows of no such device from here on.
+  void pull();
   UsbManners manners;  ///< set between calls of the code under test
 
  private:
@@ -82,13 +86,16 @@ class UsbPlug {
   void submit(UMockdevIoctlClient* client, UMockdevIoctlData* data);
   void reap(UMockdevIoctlClient* client, UMockdevIoctlData* data);
   void discard(UMockdevIoctlClient* client);
+  void refuse(UMockdevIoctlData* bytes, std::size_t size);
   void bulk(UMockdevIoctlClient* client, UMockdevIoctlData* data);
   std::optional<Bytes> describe(const Setup& setup) const;
   void run_control(Urb& urb);
   void fill_reads();
   void finish(const Urb& urb, int status, std::size_t length);
 
+  UMockdevTestbed* testbed_;
   UsbGadget& gadget_;
+  std::string path_;  // of its folder in /sys
   UMockdevIoctlBase* base_ = nullptr;
   std::string node_;
   std::deque<Urb> reads_, done_;

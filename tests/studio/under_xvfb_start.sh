@@ -1,9 +1,12 @@
-# Sourced by the scripts beside it: a screen of its own, and the window on it. Sets folder, log,
-# program; waits on the program's log, never on time alone.
+# Sourced by scripts: a screen of its own, and the window on it. Sets folder, log, program; waits on
+# the program's log, never on time alone.
 program=$1
 folder=$2
 export XDG_CONFIG_HOME="$folder/config" XDG_STATE_HOME="$folder/state"
 unset WAYLAND_DISPLAY
+# Where devices are emulated, they are for the program: not for the screen, nor for the hand.
+emulation=${LD_PRELOAD:-}
+unset LD_PRELOAD
 log=$folder/log
 : >"$log"
 
@@ -22,10 +25,11 @@ until_line() {
   [ "$(grep -c -- "$1" "$log")" -ge "${2:-1}" ] || fail "expected a line with: $1"
 }
 
-# start_window [ARGUMENT...]: in $window, its process in $studio.
+# start_window [ARGUMENT...]: in $window, its process in $studio. Looks for no device, but for
+# $device.
 start_window() {
   : >"$log"
-  "$program" studio --log --device none --size 1280x800 "$@" >"$log" 2>&1 &
+  LD_PRELOAD=$emulation "$program" studio --log --device "${device:-none}" --size 1280x800 "$@" >"$log" 2>&1 &
   studio=$!
   until_line "window open"
   window=$(xdotool search --sync --onlyvisible --name Claystack | head -1)

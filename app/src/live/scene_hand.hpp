@@ -12,6 +12,8 @@ namespace clay::live {
 
 /// Time before the stroke begins, for homing and for the guard to see that nothing is in the way.
 inline constexpr double kHandLeadS = 0.5;
+/// How far from the middle of its workspace it goes: a Falcon's hand could go 48 mm.
+inline constexpr double kSimulatedReachMm = 46.0;
 
 /// The poses in the device's frame, linear between them, kHandLeadS late; before and after, the
 /// first and the last. Times of the poses rise. Copies what it needs; called, it allocates nothing.

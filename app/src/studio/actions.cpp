@@ -174,6 +174,14 @@ const std::array kActions = {
       has_work,
       pause,
       [](const Workshop& s) { return s.paused; }},
+    A{"wheel.rearm",
+      "Force again",
+      {GLFW_KEY_R, kShift},
+      kNone,
+      waits_for_rearm,
+      [](Workshop& s) {
+        s.potter.command({live::CommandKind::rearm, 0.0});
+      }},
     A{"wheel.zero_force", "Zero force, or back", {GLFW_KEY_ESCAPE, 0}, kNone, always, back},
     A{"view.home", "Whole pot", {GLFW_KEY_HOME, 0}, kNone, has_work, look<Seen::home>},
     A{"view.front",

@@ -6,13 +6,10 @@
 #include "claystack/falcon/usb_devices.hpp"
 #endif
 
-#include <chrono>
 #include <utility>
 
 namespace clay::studio {
 namespace {
-
-constexpr auto kBetweenLooks = std::chrono::seconds(1);
 
 /// Asking costs little; opening a device that nobody plugged in would say so every second.
 bool anything_plugged_in() {
@@ -26,10 +23,16 @@ bool anything_plugged_in() {
 
 }  // namespace
 
-DeviceWatch::DeviceWatch(std::string which, falcon::FalconSettings settings)
-    : which_(std::move(which)), settings_(std::move(settings)) {
-  if (which_ != "none") thread_ = std::thread([this] { run(); });
+LookForDevice look_for(std::string which, falcon::FalconSettings settings) {
+  return [which = std::move(which),
+          settings = std::move(settings)]() -> Result<std::unique_ptr<falcon::HapticDevice>> {
+    if (which == "auto" && !anything_plugged_in()) return nullptr;
+    return app::open_chosen(which, settings, falcon::simulated_and_loaded());
+  };
 }
+
+DeviceWatch::DeviceWatch(LookForDevice look, std::chrono::milliseconds between)
+    : look_for_(std::move(look)), between_(between), thread_([this] { run(); }) {}
 
 DeviceWatch::~DeviceWatch() {
   {
@@ -37,7 +40,7 @@ DeviceWatch::~DeviceWatch() {
     closing_ = true;
   }
   wake_.notify_one();
-  if (thread_.joinable()) thread_.join();
+  thread_.join();
 }
 
 std::unique_ptr<falcon::HapticDevice> DeviceWatch::take() {
@@ -64,19 +67,20 @@ void DeviceWatch::run() {
       look();
       lock.lock();
     }
-    wake_.wait_for(lock, kBetweenLooks, [this] { return closing_; });
+    wake_.wait_for(lock, between_, [this] { return closing_; });
   }
 }
 
 void DeviceWatch::look() {
-  if (which_ == "auto" && !anything_plugged_in()) return;
-  auto device = app::open_chosen(which_, settings_, falcon::simulated_and_loaded());
+  auto device = look_for_();
   const std::lock_guard lock(mutex_);
-  if (device) {
+  if (!device) {
+    if (device.error().message != told_) problem_ = told_ = device.error().message;
+  } else if (*device) {
     found_ = std::move(*device);
     looking_ = false;
-  } else if (device.error().message != told_) {
-    problem_ = told_ = device.error().message;
+  } else {
+    told_.clear();  // what is plugged in next is another story
   }
 }
 

@@ -2,10 +2,13 @@
 // Looks for an arm or a controller while the window runs, and opens one that appears. Opening may
 // take seconds, so a thread of its own does it.
 
+#include "claystack/engine/result.hpp"
 #include "claystack/falcon/device.hpp"
 #include "claystack/falcon/falcon_device.hpp"
 
+#include <chrono>
 #include <condition_variable>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -13,11 +16,17 @@
 
 namespace clay::studio {
 
+/// One look: a device, open; null where none is plugged in; or why the one that is cannot be used.
+using LookForDevice = std::function<Result<std::unique_ptr<falcon::HapticDevice>>()>;
+
+/// `which` as device_choice has it: "auto" waits for whatever is plugged in, any other is tried
+/// until it opens.
+[[nodiscard]] LookForDevice look_for(std::string which, falcon::FalconSettings settings);
+
 class DeviceWatch {
  public:
-  /// `which` as device_choice has it: "auto" waits for whatever is plugged in; "none" never looks;
-  /// any other is tried until it opens.
-  explicit DeviceWatch(std::string which, falcon::FalconSettings settings = {});
+  explicit DeviceWatch(LookForDevice look,
+                       std::chrono::milliseconds between = std::chrono::seconds(1));
   ~DeviceWatch();
   DeviceWatch(const DeviceWatch&) = delete;
   DeviceWatch& operator=(const DeviceWatch&) = delete;
@@ -32,8 +41,8 @@ class DeviceWatch {
   void run();
   void look();
 
-  std::string which_;
-  falcon::FalconSettings settings_;
+  LookForDevice look_for_;
+  std::chrono::milliseconds between_;
   std::mutex mutex_;  // of what follows
   std::condition_variable wake_;
   std::unique_ptr<falcon::HapticDevice> found_;

@@ -16,7 +16,11 @@ namespace {
 constexpr unsigned kControlShift = kControl | kShift;
 constexpr KeyChord kNone{};
 
-bool can_undo(const Workshop& shop) { return between(shop) && shop.potter.can_undo(); }
+/// An arm's stroke under way too: it is ended first.
+bool can_undo(const Workshop& shop) {
+  const bool under_way = shop.potter.throwing() && shop.potter.status().poses > 0;
+  return between(shop) && (shop.potter.can_undo() || under_way);
+}
 bool can_redo(const Workshop& shop) { return between(shop) && shop.potter.can_redo(); }
 bool asks(const Workshop& shop) { return shop.overlay == Overlay::quit_prompt; }
 bool exports(const Workshop& shop) {

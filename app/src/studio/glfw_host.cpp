@@ -96,11 +96,13 @@ void GlfwHost::connect() {
   });
 }
 
-void GlfwHost::run(Studio& studio) {
+void GlfwHost::run(Studio& studio, double seconds) {
   studio_ = &studio;
   connect();
   std::int64_t next_ns = clock_.now_ns();
-  while (!studio.done() && live::ForceSignals::asked_to_stop() == 0) {
+  const std::int64_t end_ns =
+      seconds > 0.0 ? next_ns + static_cast<std::int64_t>(1e9 * seconds) : INT64_MAX;
+  while (!studio.done() && live::ForceSignals::asked_to_stop() == 0 && clock_.now_ns() < end_ns) {
     if (studio.wakeful())
       glfwPollEvents();
     else

@@ -18,8 +18,9 @@ class GlfwHost final : public Host {
   ~GlfwHost() override;
 
   /// Frames until the studio is done, or a signal asks to stop (live::ForceSignals); at most sixty
-  /// a second, and none while nothing moves.
-  void run(Studio& studio);
+  /// a second, and none while nothing moves. `seconds`: no longer than that; 0: as long as it
+  /// takes.
+  void run(Studio& studio, double seconds = 0.0);
 
   [[nodiscard]] glm::ivec2 size_px() const override;
   [[nodiscard]] float content_scale() const override;

@@ -5,6 +5,7 @@
 #include "live/signals.hpp"
 #include "studio/glfw_host.hpp"
 #include "studio/script.hpp"
+#include "studio/servo_report.hpp"
 
 #include "claystack/engine/atomic_file.hpp"
 
@@ -24,6 +25,8 @@ struct Options {
   std::string size = "1280x800";
   double scale = 0.0;  ///< 0: the screen's, or 1 without one
   bool log = false;
+  double servo_report_s = 0.0;  ///< 0: none
+  bool json = false;
 };
 
 Result<glm::ivec2> size_of(const std::string& text) {
@@ -84,7 +87,8 @@ Result<void> run_window(const Options& options, glm::ivec2 size,
   Workshop& shop = (*studio)->shop();
   shop.potter.keep_journals();
   shop.left = work::recoverable();
-  shop.devices = std::make_unique<DeviceWatch>(options.device, options.falcon);
+  if (options.device != "none")
+    shop.devices = std::make_unique<DeviceWatch>(look_for(options.device, options.falcon));
   if (!loaded.note.empty()) shop.notices.say(Grade::warning, loaded.note);
   if (!options.file.empty()) open_file(shop, options.file);
   if (!shop.left.empty()) {
@@ -100,6 +104,31 @@ Result<void> run_window(const Options& options, glm::ivec2 size,
   if (shop.done) shop.potter.close();
   log("window closed");
   return save_settings(shop.settings, settings_path());
+}
+
+/// With the settings of no user, and leaving nothing behind.
+Result<void> run_servo_report(const Options& options, glm::ivec2 size,
+                              const std::function<void(std::string_view)>& log) {
+  if (options.file.empty())
+    return failure(ErrorKind::bad_input, "--servo-report: expected a scene to throw, found none");
+  auto host = GlfwHost::create(size);
+  if (!host) return tl::make_unexpected(host.error());
+  Settings settings;
+  apply(options, settings);
+  if (options.scale > 0.0) settings.scale = static_cast<float>(options.scale);
+  auto studio = Studio::create(**host, settings, log);
+  if (!studio) return tl::make_unexpected(studio.error());
+  Workshop& shop = (*studio)->shop();
+  open_file(shop, options.file);
+  if (shop.notices.shown()) return failure(ErrorKind::bad_input, shop.notices.shown()->text);
+  if (options.device == "auto") {
+    if (auto seated = seat_simulated_hand(shop, options.file); !seated) return seated;
+  } else if (options.device != "none") {
+    shop.devices = std::make_unique<DeviceWatch>(look_for(options.device, options.falcon));
+  }
+  const live::ForceSignals signals;
+  (*host)->run(**studio, options.servo_report_s);
+  return report_servo(**studio, options.json);
 }
 
 int run(int argc, char** argv) {
@@ -123,6 +152,15 @@ int run(int argc, char** argv) {
   parser.add_option("--theme", options.theme, "dark or light")
       ->check(CLI::IsMember({"dark", "light"}));
   parser.add_flag("--log", options.log, "Events on standard output, a line each");
+  auto* report =
+      parser
+          .add_option("--servo-report", options.servo_report_s,
+                      "For so many seconds a simulated hand (or --device) throws in the window; "
+                      "then tells how servo and window kept their time")
+          ->check(app::in_range(1.0, 3600.0))
+          ->excludes("--script")
+          ->excludes("--screenshot");
+  parser.add_flag("--json", options.json, "That as JSON")->needs(report);
   parser.footer(
       "\nExamples:\n  claystack studio\n  claystack studio samples/bowl.scene.json\n"
       "  claystack studio vase.pot.json --script samples/window/throw.script");
@@ -139,8 +177,9 @@ int run(int argc, char** argv) {
     std::fflush(stdout);
   };
   const bool without_screen = !options.script.empty() || !options.screenshot.empty();
-  const auto done =
-      without_screen ? run_script(options, *size, log) : run_window(options, *size, log);
+  const auto done = without_screen                 ? run_script(options, *size, log)
+                    : options.servo_report_s > 0.0 ? run_servo_report(options, *size, log)
+                                                   : run_window(options, *size, log);
   return done ? app::kDone : app::report(done.error());
 }
 

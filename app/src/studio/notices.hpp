@@ -21,6 +21,10 @@ class Notices {
     if (!notice_ || grade >= notice_->grade) notice_ = Notice{grade, std::move(text), until_s};
   }
   void close() { notice_.reset(); }
+  /// What is no longer so.
+  void take_back(const std::string& text) {
+    if (notice_ && notice_->text == text) notice_.reset();
+  }
   void forget_old(double now_s) {
     if (notice_ && notice_->until_s > 0.0 && now_s > notice_->until_s) notice_.reset();
   }

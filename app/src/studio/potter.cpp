@@ -159,7 +159,9 @@ void Potter::release() {
   news_.ending = sitting_->end();
   status_ = sitting_->status();
   news_.poses = status_.poses;
+  news_.ticks = status_.ticks;
   news_.ring_limit = status_.ring_limit;
+  servo_ = {sitting_->loop().timing(), sitting_->loop().events(), sitting_->realtime()};
   const Pot felt = sitting_->wheel().pot();
   if (auto kept = recorder_->finish(); !kept) news_.error = kept.error();
   if (recorder_->lost() > 0)
@@ -185,6 +187,7 @@ void Potter::take(std::unique_ptr<falcon::HapticDevice> device, live::LiveSettin
 /// The force went with it; the mouse takes over.
 void Potter::lose_device() {
   news_.error = Error{ErrorKind::device, falcon::text_of(device_->problem())};
+  news_.device_lost = true;
   device_.reset();
 }
 

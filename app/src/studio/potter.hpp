@@ -21,8 +21,17 @@ struct PotterNews {
   bool stroke_ended = false;
   live::Ending ending = live::Ending::none;
   std::size_t poses = 0;    ///< of that stroke
+  std::uint64_t ticks = 0;  ///< the same
   bool ring_limit = false;  ///< clay waits above the rim
+  bool device_lost = false;
   std::optional<Error> error;
+};
+
+/// How the servo of a stroke did.
+struct ServoRecord {
+  live::ServoTiming timing;
+  live::GuardEvents events;
+  live::Realtime realtime;
 };
 
 /// Of a stroke, as it begins.
@@ -72,6 +81,8 @@ class Potter {
   /// is given back, undo and a change of tool aside.
   void take(std::unique_ptr<falcon::HapticDevice> device, live::LiveSettings settings);
   [[nodiscard]] bool has_device() const noexcept { return device_ != nullptr; }
+  /// A hand may be pushed.
+  [[nodiscard]] bool has_motors() const noexcept { return device_ && device_->info().can_push; }
   /// What the device holds in the clay: with the next frame.
   void hold(const ToolSpec& tool, double rate_per_s);
   [[nodiscard]] bool throwing() const noexcept { return sitting_ != nullptr; }
@@ -87,6 +98,8 @@ class Potter {
   [[nodiscard]] double crown_mm() const noexcept { return crown_mm_; }
   /// Of the stroke under way, or the last one.
   [[nodiscard]] const live::LiveStatus& status() const noexcept { return status_; }
+  /// Of the stroke that ended last.
+  [[nodiscard]] const ServoRecord& servo() const noexcept { return servo_; }
   /// Every tick of all strokes, for the window to take.
   [[nodiscard]] live::TickTrace& trace() noexcept { return trace_; }
   /// Of the servo, as measured; 0 at rest.
@@ -139,6 +152,7 @@ class Potter {
   std::unique_ptr<live::Recorder> recorder_;
   std::unique_ptr<Sitting> sitting_;
   live::LiveStatus status_;
+  ServoRecord servo_;
   draw::PotView view_;
   double crown_mm_ = 0.0;
   PotterNews news_;

@@ -46,6 +46,10 @@ class Sitting {
   live::Ending end();
   [[nodiscard]] const Wheel& wheel() const noexcept { return wheel_; }
   [[nodiscard]] const live::ServoLoop& loop() const noexcept { return *loop_; }
+  /// What the system gave the servo, once it has ended.
+  [[nodiscard]] live::Realtime realtime() const {
+    return servo_ ? servo_->realtime() : live::Realtime{};
+  }
 
  private:
   Sitting(Wheel wheel, Pace pace) : wheel_(std::move(wheel)), pace_(pace) {}

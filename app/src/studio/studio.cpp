@@ -94,6 +94,7 @@ void Studio::frame(bool paint_it) {
   shop_.potter.advance(now_ns);
   shop_.host.clock().sleep_until_ns(now_ns);  // with no servo to move it
   tell_news();
+  look_at_hand(shop_);
   show_fall(now_s);
   name_window();
   turn_wheel(elapsed_s);
@@ -186,11 +187,12 @@ void Studio::drop(const FilesDropped& files) {
 
 void Studio::tell_news() {
   const PotterNews news = shop_.potter.take_news();
-  if (news.error) tell(shop_, *news.error);
-  if (news.ending == live::Ending::device_lost && shop_.devices) shop_.devices->look_again();
+  if (news.device_lost)
+    lose_arm(shop_, *news.error);
+  else if (news.error)
+    tell(shop_, *news.error);
   if (!news.stroke_ended) return;
-  shop_.log(
-      fmt::format("stroke ended: {} poses, {} ticks", news.poses, shop_.potter.status().ticks));
+  shop_.log(fmt::format("stroke ended: {} poses, {} ticks", news.poses, news.ticks));
   if (news.ending == live::Ending::collapsed) {
     shop_.fall.begin(shop_.potter.shared_pot(), last_s_);
     shop_.notices.say(Grade::warning,
@@ -273,7 +275,10 @@ void Studio::paint() {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   if (!shop_.host.real_time() || !moving()) return;
   glFinish();  // what is only asked for has cost nothing yet
-  quality_.took(seconds(steady_ns() - begun_ns));
+  drawn_.last_ns = steady_ns();
+  if (drawn_.took.count() == 0) drawn_.first_ns = drawn_.last_ns;
+  drawn_.took.add(drawn_.last_ns - begun_ns);
+  quality_.took(seconds(drawn_.last_ns - begun_ns));
 }
 
 /// Into a canvas of its own, as the painter fills all that it is given, and from there to its

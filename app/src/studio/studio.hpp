@@ -15,6 +15,17 @@ struct ImGuiContext;
 
 namespace clay::studio {
 
+/// Frames of a pot in motion.
+struct Drawn {
+  falcon::TimingHistogram took;  ///< drawing, until the last pixel
+  std::int64_t first_ns = 0, last_ns = 0;
+  [[nodiscard]] double fps() const noexcept {
+    return last_ns > first_ns ? 1e9 * static_cast<double>(took.count() - 1) /
+                                    static_cast<double>(last_ns - first_ns)
+                              : 0.0;
+  }
+};
+
 class Studio {
  public:
   /// The host's context of OpenGL is current, here and in every call. `log_line` gets events.
@@ -31,6 +42,7 @@ class Studio {
 
   [[nodiscard]] Workshop& shop() noexcept { return shop_; }
   [[nodiscard]] const Workshop& shop() const noexcept { return shop_; }
+  [[nodiscard]] const Drawn& drawn() const noexcept { return drawn_; }
   [[nodiscard]] bool done() const noexcept { return shop_.done; }
   /// Whether the next frame shows something else even if nothing comes from outside.
   [[nodiscard]] bool wakeful() const noexcept;
@@ -61,6 +73,7 @@ class Studio {
   double last_s_ = 0.0;
   double spin_ = 0.0;  // of the wheel: 0 stands, 1 turns at its speed
   Quality quality_;
+  Drawn drawn_;
   bool coarse_ = false;   // the last frame was not drawn in full
   int awake_frames_ = 0;  // ImGui needs some after an input
 };

@@ -87,22 +87,4 @@ void discard_work(Workshop& shop, std::size_t left) {
   shop.left.erase(shop.left.begin() + static_cast<std::ptrdiff_t>(left));
 }
 
-void look_at_devices(Workshop& shop) {
-  if (!shop.devices) return;
-  if (const std::string problem = shop.devices->take_problem(); !problem.empty())
-    tell(shop, {ErrorKind::bad_input, problem + "; the mouse throws meanwhile"});
-  auto device = shop.devices->take();
-  if (!device) {
-    if (!ImGui::IsMouseDown(ImGuiMouseButton_Left))  // a slider is let go first
-      shop.potter.hold(tool_of(shop.settings.tool), clay_rate_per_s(shop));
-    return;
-  }
-  live::LiveSettings settings;
-  settings.buttons = device->info().can_push ? live::kFalconButtons : live::kTwoButtons;
-  shop.log("device: " + device->info().name);
-  shop.notices.say(Grade::note, device->info().name + " is here and throws now",
-                   1e-9 * static_cast<double>(shop.host.frame_ns()) + 6.0);
-  shop.potter.take(std::move(device), settings);
-}
-
 }  // namespace clay::studio

@@ -66,6 +66,9 @@ struct Workshop {
   Readings readings;
   SceneView view;
   Notices notices;
+  std::string hand_told;                      ///< of the arm that is there, or was
+  bool hand_asks = false;                     ///< that is a request
+  std::string hand_is;                        ///< in the log: the guard's state
   std::function<void(std::string_view)> log;  ///< events, a line each
   Fonts fonts;
   std::unique_ptr<DeviceWatch> devices;  ///< null: nobody looks for any
@@ -117,9 +120,17 @@ void begin_work(Workshop& shop, const SceneSpec& scene);
 void recover_work(Workshop& shop, std::size_t left);
 void discard_work(Workshop& shop, std::size_t left);
 
-/// An arm that has appeared takes the clay, with its stiffness within what it can render; what is
-/// wrong with one is told.
+/// An arm that has appeared takes the clay, with its stiffness within what it can render, once the
+/// mouse has let go; what is wrong with one is told.
 void look_at_devices(Workshop& shop);
+/// The arm has gone: why is told, and one that comes is looked for.
+void lose_arm(Workshop& shop, const Error& why);
+/// What only the hand at the arm can do stands in a banner for as long as it is to be done.
+void look_at_hand(Workshop& shop);
+/// Of an arm that throws: what it does, or needs. Empty with anything that can't push.
+[[nodiscard]] std::string words_of_hand(const Workshop& shop);
+/// The guard keeps the force at zero until somebody asks for it.
+[[nodiscard]] bool waits_for_rearm(const Workshop& shop);
 
 /// For a pot that comes without one: its proportions.
 [[nodiscard]] SceneSpec scene_for(const Pot& pot, const std::string& name);

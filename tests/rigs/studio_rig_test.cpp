@@ -1,0 +1,206 @@
+// The window as a user has it, on a screen, with an arm that is plugged in while it runs and pulled
+// out in mid-stroke: unmodified libftdi1 and libusb against an emulated Falcon, real events of the
+// mouse. arm_under_xvfb.sh is the user; here is the hand at the arm.
+
+#include "../app/run_program.hpp"
+#include "falcon_gadget.hpp"
+#include "live/mapping.hpp"
+#include "testbed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <future>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <mutex>
+#include <sstream>
+#include <thread>
+#include <vector>
+
+namespace clay::rig {
+namespace {
+
+using namespace clay::falcon;
+
+// On the wheel [mm]. The lump is 49.1 mm wide, the tool a ball of 10 mm.
+constexpr double kOffClayMm = 70.0, kInClayMm = 54.0, kDeepMm = 35.0, kHeightMm = 15.0;
+constexpr double kPressingMm = 0.05, kMovingMm = 0.4;  // a frame
+constexpr double kFeltN = 0.05;
+constexpr std::size_t kEnoughFrames = 100;
+
+/// Goes straight to where it is told to be, no faster than a hand. Under the gadget's lock.
+class Hand {
+ public:
+  void go(double x_mm, double step_mm) {
+    goal_mm_ = x_mm;
+    step_mm_ = step_mm;
+  }
+  void stand(double x_mm) { x_mm_ = goal_mm_ = x_mm; }
+  [[nodiscard]] bool there() const { return x_mm_ == goal_mm_; }
+  glm::dvec3 next() {
+    x_mm_ += std::clamp(goal_mm_ - x_mm_, -step_mm_, step_mm_);
+    return Kinematics::kCentreM + 1e-3 * mapping_.to_device({x_mm_, kHeightMm, 0.0});
+  }
+
+ private:
+  live::Mapping mapping_ = live::Mapping::build({}).value();
+  double x_mm_ = kOffClayMm, goal_mm_ = kOffClayMm, step_mm_ = kMovingMm;
+};
+
+FalconModelSettings ready() {
+  FalconModelSettings model;
+  model.loaded = model.homed = true;
+  return model;
+}
+
+/// A frame whose motors are all told 0, whatever its lights: '<' and four letters for each motor.
+bool is_no_force(const Bytes& frame) {
+  constexpr std::size_t kMotorBytes = 13;
+  const auto zero = encode({}).bytes;
+  return frame.size() == kFrameBytes &&
+         std::equal(zero.begin(), zero.begin() + kMotorBytes, frame.begin());
+}
+
+class StudioRig : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (test::shell("command -v Xvfb && command -v xdotool").status != 0)
+      GTEST_SKIP() << "needs Xvfb and xdotool (tests/run.sh installs them)";
+    auto scene = nlohmann::json::parse(test::read_text(test::sample("bowl.scene.json")));
+    // So stiff a clay gives way by little while it is pressed: the hand feels it for long.
+    scene["removal"]["rate_per_s"] = 0.1;
+    test::write_text(folder_.file("bowl.scene.json"), scene.dump());
+  }
+
+  void plug() { plugs_.push_back(std::make_unique<UsbPlug>(testbed_.get(), gadget_)); }
+  template <class Action>
+  auto locked(Action action) {
+    const std::scoped_lock held(gadget_.lock);
+    return action();
+  }
+  [[nodiscard]] bool asked(const char* what) const {
+    return std::filesystem::exists(folder_.file(what));
+  }
+  void answer(const char* what) { test::write_text(folder_.file(what), ""); }
+  [[nodiscard]] bool ended() const {
+    return user_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  }
+  template <class Condition>
+  void until(Condition condition, bool presses = false) {
+    while (!ended() && !condition()) {
+      if (presses) press();
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  }
+
+  /// The last of the guard's states that the window has told.
+  [[nodiscard]] std::string force() const {
+    std::istringstream log(test::read_text(folder_.file("log")));
+    std::string line, last;
+    while (std::getline(log, line))
+      if (line.starts_with("force: ")) last = line.substr(7);
+    return last;
+  }
+  /// As a potter would: into the clay while force is given, and off it to earn it again.
+  void press() {
+    const bool given = force() == "engaged";
+    locked([&] {
+      if (given && hand_.there()) hand_.go(press_to_mm_, kPressingMm);
+      if (!given) hand_.go(kOffClayMm, kMovingMm);
+    });
+  }
+  [[nodiscard]] std::size_t frames() {
+    return locked([&] { return gadget_.device.log.size(); });
+  }
+  /// Frames from there on that pushed.
+  [[nodiscard]] std::size_t felt(std::size_t from) {
+    return locked([&] {
+      const auto& log = gadget_.device.log;
+      return static_cast<std::size_t>(
+          std::count_if(log.begin() + static_cast<std::ptrdiff_t>(from), log.end(),
+                        [](const FrameLog& f) { return glm::length(f.force_n) > kFeltN; }));
+    });
+  }
+
+  void comes_and_throws() {
+    until([&] { return asked("plug"); });
+    plug();
+    until([&] { return asked("press"); });
+    EXPECT_EQ(felt(0), 0u) << "off the clay";
+    until([&] { return felt(0) > kEnoughFrames; }, true);
+    answer("felt");
+  }
+  /// While the motors push.
+  void is_pulled_out() {
+    const auto pushed = [&] {
+      return locked([&] {
+        if (glm::length(gadget_.device.log.back().force_n) < kFeltN) return false;
+        gadget_.device.model.unplug();
+        return true;
+      });
+    };
+    until([&] { return asked("pull"); }, true);
+    until(pushed, true);
+    plugs_.back()->pull();
+  }
+  /// With its grip where the clay is: no force, however long. Then off it, and in again.
+  void comes_back() {
+    until([&] { return asked("again"); });
+    const std::size_t before = frames();
+    EXPECT_EQ(before, lost_at_) << "nothing reaches an arm that is gone";
+    locked([&] {
+      hand_.stand(kDeepMm);
+      gadget_.device.model.replug();
+    });
+    plug();
+    until([&] { return frames() > before; });
+    answer("opened");
+    until([&] { return frames() > before + 10 * kEnoughFrames; });
+    EXPECT_EQ(felt(before), 0u);
+    answer("held");
+    until([&] { return asked("away"); });
+    press_to_mm_ = kDeepMm - 5.0;  // past what it made way for
+    until([&] { return felt(before) > kEnoughFrames; }, true);
+    answer("felt_again");
+  }
+
+  test::ScratchFolder folder_;
+  Testbed testbed_;
+  Hand hand_;
+  FalconGadget gadget_{ready(), [this](std::uint64_t) { return hand_.next(); }};
+  std::vector<std::unique_ptr<UsbPlug>> plugs_;
+  std::size_t lost_at_ = 0;
+  double press_to_mm_ = kInClayMm;
+  std::future<test::Ran> user_;
+};
+
+TEST_F(StudioRig, AnArmComesThrowsIsLostAndComesBackAndTheMouseHasTheClayMeanwhile) {
+  user_ = std::async(std::launch::async, [&] {
+    return test::shell("sh " CLAYSTACK_RIGS "/arm_under_xvfb.sh " CLAYSTACK_PROGRAM " " +
+                       folder_.path().string());
+  });
+  comes_and_throws();
+  is_pulled_out();
+  lost_at_ = frames();
+  comes_back();
+  const auto ran = user_.get();
+  ASSERT_EQ(ran.status, 0) << ran.err << ran.out;
+  EXPECT_EQ(locked([&] { return gadget_.device.model.motors(); }), LegCounts{}) << "the last word";
+  // The packet by which the loss is found out was made before; all that follow it are no force.
+  for (std::size_t i = 1; i < gadget_.refused.size(); ++i)
+    EXPECT_TRUE(is_no_force(gadget_.refused[i])) << i << ": " << hexadecimal(gadget_.refused[i]);
+
+  const auto listed = test::claystack("throw " + folder_.file("journal.work") + " --list --json");
+  ASSERT_EQ(listed.status, 0) << listed.err;
+  const auto nodes = listed.json().at("nodes");
+  // Arm, mouse, mouse, arm; what an arm throws may be more strokes than one.
+  ASSERT_GE(nodes.size(), 5u) << nodes << ran.out;
+  for (std::size_t i = 1; i < 5; ++i) EXPECT_TRUE(nodes[i].at("changed")) << nodes;
+}
+
+}  // namespace
+}  // namespace clay::rig
