@@ -157,10 +157,21 @@ std::vector<Pose> recording(int presses, double air_s, bool level = false) {
   return poses;
 }
 
+/// As while it lasted, a few poses at a time.
+Split cut(const Pot& before, const std::vector<Pose>& poses) {
+  Rethrow again(Wheel::build(small_scene(), before).value());
+  for (std::span<const Pose> rest = poses; !rest.empty();) {
+    const auto block = rest.first(std::min<std::size_t>(rest.size(), 37));
+    again.append(block);
+    rest = rest.subspan(block.size());
+  }
+  return split(small_scene(), before, poses, again.finish());
+}
+
 TEST(Split, CutsARecordingInTheAir) {
   const Pot lump = Wheel::build(small_scene()).value().pot();
   const auto poses = recording(4, 0.4);
-  const Split parts = split(small_scene(), lump, poses).value();
+  const Split parts = cut(lump, poses);
   ASSERT_EQ(parts.begins.size(), 3u);
   EXPECT_EQ(parts.pots.back(), plainly_thrown(small_scene(), lump, poses));
   for (std::size_t i = 0; i < 3; ++i) {
@@ -173,17 +184,18 @@ TEST(Split, CutsARecordingInTheAir) {
 TEST(Split, LeavesWholeWhatCannotBeCut) {
   const Pot lump = Wheel::build(small_scene()).value().pot();
   // The strokes' own ways in the air take less than 0.1 s.
-  EXPECT_TRUE(split(small_scene(), lump, recording(3, 0.1)).value().begins.empty());
-  EXPECT_TRUE(split(small_scene(), lump, recording(3, 0.4, true)).value().begins.empty())
+  EXPECT_TRUE(cut(lump, recording(3, 0.1)).begins.empty());
+  EXPECT_TRUE(cut(lump, recording(3, 0.4, true)).begins.empty())
       << "nothing tells a stroke which way the tool last went";
-  EXPECT_TRUE(split(small_scene(), lump, recording(3, 0.4), false).value().begins.empty());
+  Work work = Work::begin(small_scene()).value();
+  EXPECT_EQ(work.add(small_scene(), recording(3, 0.4)).value().strokes, 1u) << "poses from a file";
 }
 
 RC_GTEST_PROP(Split, NeverChangesThePot, ()) {
   const Pot lump = Wheel::build(small_scene()).value().pot();
   const auto poses = recording(*rc::gen::inRange(1, 5), *rc::gen::element(0.2, 0.3, 0.5),
                                *rc::gen::arbitrary<bool>());
-  const Split parts = split(small_scene(), lump, poses).value();
+  const Split parts = cut(lump, poses);
   RC_ASSERT(parts.pots.size() == parts.begins.size() + 1);
   RC_ASSERT(parts.pots.back() == plainly_thrown(small_scene(), lump, poses));
 }

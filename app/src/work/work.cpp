@@ -2,6 +2,7 @@
 
 #include "claystack/engine/atomic_file.hpp"
 #include "claystack/engine/session_file.hpp"
+#include "work/rethrow.hpp"
 #include "work/split.hpp"
 
 #include <fmt/format.h>
@@ -20,11 +21,14 @@ constexpr std::size_t kBudgetBytes = std::size_t{256} << 20;
 
 /// The stroke that lasts. Poses come on the recorder's thread, until it has finished.
 struct Work::Running final : PoseSink {
+  explicit Running(Wheel wheel) : again(std::move(wheel)) {}
+
   NodeId node = 0;
   std::size_t scene = 0;
   std::string begin_line;
   std::vector<Pose> poses;
   Journal* journal = nullptr;
+  Rethrow again;
 
   /// The stroke's own line comes with its first poses: one without any leaves no trace.
   Result<void> append(std::span<const Pose> more) override {
@@ -33,6 +37,7 @@ struct Work::Running final : PoseSink {
       journal->append(session_block(more));
     }
     poses.insert(poses.end(), more.begin(), more.end());
+    again.append(more);
     return {};
   }
   Result<void> finish() override { return {}; }
@@ -96,9 +101,9 @@ Result<PoseSink*> Work::begin_stroke(const SceneSpec& scene) {
   assert(!running_);
   const auto before = pot();
   if (!before) return tl::make_unexpected(before.error());
-  if (const auto wheel = Wheel::build(scene, **before); !wheel)
-    return tl::make_unexpected(wheel.error());
-  running_ = std::make_unique<Running>();
+  auto wheel = Wheel::build(scene, **before);
+  if (!wheel) return tl::make_unexpected(wheel.error());
+  running_ = std::make_unique<Running>(std::move(*wheel));
   running_->node = record_.nodes.size();
   running_->scene = index_of(scene);
   running_->begin_line = work_stroke_line(running_->node, at(), running_->scene, scene);
@@ -128,21 +133,21 @@ Result<Added> Work::finish_stroke(bool may_split, const Pot* shown) {
   const auto before = pot();
   if (!before) return tl::make_unexpected(before.error());
   const SceneSpec scene = record_.scenes[stroke->scene];
-  auto parts = split(scene, **before, stroke->poses, may_split);
-  if (!parts) return tl::make_unexpected(parts.error());
+  Thrown whole = stroke->again.finish();
+  Split parts = may_split ? split(scene, **before, stroke->poses, std::move(whole))
+                          : as_one(std::move(whole));
   if (stroke->journal != nullptr) {
-    stroke->journal->append(work_end_line(stroke->poses.size(), parts->begins));
+    stroke->journal->append(work_end_line(stroke->poses.size(), parts.begins));
     stroke->journal->sync_soon();
   }
   std::size_t begin = 0;
-  for (std::size_t part = 0; part < parts->pots.size(); ++part) {
-    const std::size_t end =
-        part < parts->begins.size() ? parts->begins[part] : stroke->poses.size();
+  for (std::size_t part = 0; part < parts.pots.size(); ++part) {
+    const std::size_t end = part < parts.begins.size() ? parts.begins[part] : stroke->poses.size();
     append(stroke->scene, from_zero(std::span(stroke->poses).subspan(begin, end - begin)),
-           std::move(parts->pots[part]));
+           std::move(parts.pots[part]));
     begin = end;
   }
-  return Added{at(), parts->pots.size(), shown == nullptr || *shown == **pot()};
+  return Added{at(), parts.pots.size(), shown == nullptr || *shown == **pot()};
 }
 
 void Work::append(std::size_t scene, std::vector<Pose> poses, Pot pot_after) {
