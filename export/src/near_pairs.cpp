@@ -1,5 +1,7 @@
 #include "near_pairs.hpp"
 
+#include "cancel.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -72,6 +74,7 @@ NearPairs::NearPairs(std::vector<Body> bodies) : bodies_(std::move(bodies)) {
 }
 
 void NearPairs::search(const Visitor& visitor) {
+  stop_if_cancelled();
   visitor_ = &visitor;
   ended_ = false;
   within(0, bodies_.size());
@@ -83,6 +86,7 @@ void NearPairs::arrange() {
   std::iota(order.begin(), order.end(), std::uint32_t{0});
   const auto split = [&](const auto& self, std::span<std::uint32_t> all) -> void {
     if (all.size() <= kFew) return;
+    step_of_loop();
     const std::size_t half = halve(all);
     self(self, all.first(half));
     self(self, all.subspan(half));
@@ -120,6 +124,7 @@ void NearPairs::within(std::size_t begin, std::size_t end) {
 void NearPairs::between(std::span<const std::uint32_t> first,
                         std::span<const std::uint32_t> second) {
   if (ended_) return;
+  step_of_loop();
   Positions a(first.begin(), first.end()), b(second.begin(), second.end());
   sieve_by_boxes(a, b);
   const auto few = [&] { return a.size() * b.size() <= kFew * kFew; };
@@ -217,6 +222,7 @@ void NearPairs::sieve_along(const glm::dvec3& direction, Positions& a, Positions
 }
 
 void NearPairs::offer(std::uint32_t a, std::uint32_t b) {
+  step_of_loop();
   if (ended_ || apart(boxes_[a], boxes_[b])) return;
   if (any_hub_ && share_hub(a, b)) return;
   ended_ = !visitor_->call(visitor_->visit, a, b);

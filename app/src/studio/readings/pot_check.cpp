@@ -80,13 +80,15 @@ Pot provisional(ClayStack stack, double density_g_cm3) {
   return pot;
 }
 
-void run(const PotQuestion& question, const Pot& pot, PotCheck& check) {
+void run(const PotQuestion& question, const Pot& pot, const std::function<bool()>& given_up,
+         PotCheck& check) {
   check.height_mm = pot.stack.height_mm();
   check.fallen = pot.collapse.has_value();
   check.limit = limit_of(question.process, pot.stack);
   const std::size_t rows = std::max<std::size_t>(1, question.subject.outline.rows.size());
   solid::ExportOptions options;
   options.tolerance_mm = question.tolerance_mm;
+  options.cancelled = given_up;
   if (check.limit) options.min_wall_mm = check.limit->min_wall_mm;
   options.wall_spacing_mm =
       std::max(kFinestSpacingMm, 0.5 * check.height_mm / static_cast<double>(rows));
@@ -102,14 +104,14 @@ std::vector<std::string> process_names() {
   return {solid::kProcessNames.begin(), solid::kProcessNames.end()};
 }
 
-PotCheck check_pot(const PotQuestion& question) {
+PotCheck check_pot(const PotQuestion& question, const std::function<bool()>& given_up) {
   const auto begin = std::chrono::steady_clock::now();
   PotCheck check;
   check.live = question.subject.live();
   if (!check.live)
-    run(question, *question.subject.pot, check);
+    run(question, *question.subject.pot, given_up, check);
   else if (auto stack = stack_of(question.subject.outline, question.subject.crown_mm))
-    run(question, provisional(std::move(*stack), question.subject.density_g_cm3), check);
+    run(question, provisional(std::move(*stack), question.subject.density_g_cm3), given_up, check);
   else
     check.why_not = "expected clay, found none";
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
