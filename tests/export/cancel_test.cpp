@@ -119,6 +119,28 @@ TEST(Cancel, LongStagesAskAllTheTime) {
     EXPECT_GE(asked[each], report->triangles / (2 * 1024)) << each;
 }
 
+TEST(Cancel, NoStageBeginsAfterIt) {
+  const Pot pot = pot_of(shapes::vase(200));
+  std::atomic<bool> given_up{false};
+  ExportOptions options;
+  options.cancelled = [&] { return given_up.load(); };
+  MemoryStore store;
+  std::size_t stages = 0;
+  const auto cancelled =
+      run_export(pot, {{MeshFormat::stl_binary, &store}}, options, [&](std::string_view stage) {
+        ++stages;
+        if (stage == "certificate") given_up = true;
+        EXPECT_NE(stage, "encode_stl_binary");
+      });
+  ASSERT_FALSE(cancelled);
+  EXPECT_EQ(cancelled.error().kind, ErrorKind::io);
+  EXPECT_GT(stages, 1u);
+  EXPECT_TRUE(store.bytes().empty());
+  const auto never =
+      run_export(pot, {}, options, [](std::string_view) { FAIL() << "nothing begins"; });
+  EXPECT_FALSE(never);
+}
+
 TEST(Cancel, ThreadsThatHelpAreAskedToo) {
   std::atomic<bool> given_up{false};
   const CancelScope::Question question = [&] { return given_up.load(); };

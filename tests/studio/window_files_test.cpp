@@ -99,6 +99,46 @@ TEST_F(Window, AThrownUndoneRedoneAndTrimmedPotIsThatOfTheCommands) {
   EXPECT_NE(ledger["trimmed"], "0") << ledger;
 }
 
+TEST_F(Window, AFallenPotIsShownAndExportedAndNotThrown) {
+  const std::string fallen = folder.file("fallen.pot.json");
+  const Ran thrown = claystack("throw -q " + test::sample("collapse.scene.json") + " -s " +
+                               test::sample("collapse.session") + " -o " + fallen);
+  ASSERT_LE(thrown.status, 1) << thrown.err;
+  const Ran ran =
+      run("open FOLDER/fallen.pot.json\nexpect fallen yes\nexpect can_undo no\nkey 1\n"
+          "screenshot FOLDER/fallen.png\npoint 70 10\npress left\nexpect throwing no\n"
+          "expect banner \"The clay has fallen: it can be exported as it lies\"\nrelease left\n"
+          "save FOLDER/fallen.work\ndo file.export\nwait 0.1\nexpect triangles above 100\n"
+          "do export.write\nwait 0.1\nexpect exported 1\nkey Esc\n"
+          "open FOLDER/fallen.work\nexpect fallen yes\nsave FOLDER/again.pot.json\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(read_text(fallen), read_text(folder.file("again.pot.json")));
+  ASSERT_LE(claystack("export -q " + fallen + " " + folder.file("cli.stl")).status, 1);
+  EXPECT_EQ(read_text(folder.file("fallen.stl")), read_text(folder.file("cli.stl")));
+}
+
+TEST_F(Window, AProcessOfOnesOwnIsDropped) {
+  const std::string process = test::sample("workshop.process.json");
+  Ran ran =
+      run("open " + process + "\nexpect process " + process +
+          "\nwait 0.1\nexpect thin no\ndo file.export\nwait 0.1\nexpect process " + process + "\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  // Into the card; then a wall that the process does not bear is written and told, as by the
+  // command.
+  ran = run("save FOLDER/mine.work\nsave FOLDER/lump.pot.json\ndo file.export\nopen " + process +
+            "\nwait 0.1\nexpect process " + process +
+            "\ndo export.write\nwait 0.1\nexpect exported 1\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const Ran command = claystack("export -q " + folder.file("lump.pot.json") + " " +
+                                folder.file("cli.stl") + " --process " + process);
+  ASSERT_EQ(command.status, 0) << command.err;
+  EXPECT_EQ(read_text(folder.file("mine.stl")), read_text(folder.file("cli.stl")));
+  test::write_text(folder.file("bad.process.json"), "{}");
+  ran = run("open FOLDER/bad.process.json\nexpect process \"\"\n", "--log --size 960x640");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NE(ran.out.find("error: "), std::string::npos) << ran.out;
+}
+
 TEST_F(Window, ADrawingIsPutOnTheWheelAndTheWorkBeforeIsAskedFor) {
   const std::string jug = test::sample("drawings/jug.svg");
   const Ran ran =

@@ -3,6 +3,7 @@
 #include "studio/window.hpp"
 
 #include <string>
+#include <utility>
 
 namespace clay::studio {
 namespace {
@@ -56,10 +57,36 @@ TEST_F(Window, TheTimelineIsClickedAndDragged) {
                       "move 270 597\npress left\nrelease left\nexpect node 0\n"
                       "move 400 597\npress left\nexpect scrubbing no\n"
                       "move 340 597 over 0.3\nexpect scrubbing yes\nexpect node 0\n"
-                      "release left\nexpect scrubbing no\nexpect node 1\n"
+                      "release left\nexpect scrubbing yes\nkey Esc\nexpect scrubbing no\n"
+                      "expect node 0\nmove 400 597\npress left\nrelease left\nexpect node 1\n"
                       "do edit.redo\nexpect node 2\nsave FOLDER/again.pot.json\n");
   ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_EQ(read_text(folder.file("two.pot.json")), read_text(folder.file("again.pot.json")));
+}
+
+/// The marks of the drag are pixels of the strip; what is at them the work itself tells.
+TEST_F(Window, AMomentOfAStrokeBecomesABranchThatThrowGivesToo) {
+  const std::string drag = "move 400 597\npress left\nmove 340 597 over 0.3\nrelease left\n";
+  const Ran ran = run(std::string(kPress) + drag +
+                      "expect scrubbing yes\nexpect node 1\ndo edit.branch\n"
+                      "expect scrubbing no\nexpect strokes 2\nexpect node 2\n"
+                      "save FOLDER/mine.pot.json\nsave FOLDER/mine.work\n"
+                      "do edit.other_branch\nexpect node 1\nsave FOLDER/whole.pot.json\n" +
+                      // A press on what is shown goes on from it too.
+                      drag + "expect scrubbing yes\n" + kDeeper +
+                      "expect strokes 4\nexpect node 4\ndo edit.undo\nexpect node 3\n"
+                      "save FOLDER/again.pot.json\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  for (const auto& [node, name] : {std::pair{1, "whole"}, std::pair{2, "mine"}}) {
+    const std::string thrown = folder.file("thrown.pot.json");
+    ASSERT_EQ(test::claystack("throw -q " + folder.file("mine.work") + " --at " +
+                              std::to_string(node) + " -o " + thrown)
+                  .status,
+              0);
+    EXPECT_EQ(read_text(thrown), read_text(folder.file(std::string(name) + ".pot.json"))) << name;
+  }
+  EXPECT_NE(read_text(folder.file("whole.pot.json")), read_text(folder.file("mine.pot.json")));
+  EXPECT_NE(read_text(folder.file("whole.pot.json")), read_text(folder.file("again.pot.json")));
 }
 
 TEST_F(Window, SixtyFourStrokesAreTakenBackOneByOne) {

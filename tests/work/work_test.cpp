@@ -57,6 +57,46 @@ RC_GTEST_PROP(Work, AnyMomentOfAStrokeComesBack, ()) {
   }
 }
 
+RC_GTEST_PROP(Work, AMomentBecomesABranchAndTheStrokeStays, ()) {
+  Work work = Work::begin(small_scene()).value();
+  (void)work.add(small_scene(), press_stroke(1)).value();
+  const auto poses = press_stroke(2);
+  (void)work.add(small_scene(5.0), poses).value();
+  const Pot whole = **work.pot(2);
+  const auto count = *rc::gen::inRange<std::size_t>(0, poses.size() + 1);
+  const double seconds = count == 0 ? -1.0 : 1e-6 * static_cast<double>(poses[count - 1].time_us);
+  const Pot shown = work.scrub(2, seconds + 1e-7).value();
+  const Added added = work.branch(2, seconds + 1e-7).value();
+  RC_ASSERT(**work.pot() == shown);
+  RC_ASSERT(**work.pot(2) == whole);
+  if (count == 0 || count == poses.size()) {
+    RC_ASSERT(added.strokes == 0u);
+    RC_ASSERT(work.at() == (count == 0 ? 1u : 2u));
+  } else {
+    RC_ASSERT(added.node == 3u && work.at() == 3u && work.view(3).parent == 1u);
+    RC_ASSERT(plainly_thrown(work.record(), 3) == shown);
+    RC_ASSERT(work.undo() && work.at() == 1u && work.redo() && work.at() == 3u);
+  }
+}
+
+TEST(Work, AFallenPotIsARootThatNothingIsThrownOn) {
+  Pot fallen = Wheel::build(small_scene()).value().pot();
+  fallen.collapse = Collapse{10, {30.0, 10.0, 0.0}, {0.0, 0.0, 1.0}, 1.0, 12.0};
+  Work work = Work::begin(small_scene(), fallen).value();
+  EXPECT_EQ(**work.pot(), fallen);
+  const auto added = work.add(small_scene(), press_stroke(1));
+  ASSERT_FALSE(added);
+  EXPECT_EQ(added.error().message, "pot: expected one that stands, found one that has collapsed");
+  const test::ScratchFolder folder;
+  ASSERT_TRUE(work.save(folder.file("fallen.work")));
+  auto again = load(folder.file("fallen.work"));
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(**again->work.pot(), fallen);
+  SceneSpec bad = small_scene();
+  bad.flow.inside_share = 2.0;
+  EXPECT_FALSE(Work::begin(bad, fallen));
+}
+
 TEST(Work, KnowsItsStrokes) {
   Work work = Work::begin(small_scene()).value();
   EXPECT_FALSE(work.can_undo());

@@ -1,6 +1,5 @@
 #include "work/work.hpp"
 
-#include "claystack/engine/atomic_file.hpp"
 #include "claystack/engine/session_file.hpp"
 #include "work/rethrow.hpp"
 #include "work/split.hpp"
@@ -16,6 +15,20 @@ namespace clay::work {
 namespace {
 
 constexpr std::size_t kBudgetBytes = std::size_t{256} << 20;
+
+std::size_t poses_until(const WorkNode& stroke, double seconds) {
+  const auto until_us = static_cast<std::int64_t>(1e6 * std::clamp(seconds, 0.0, 9e9));
+  return static_cast<std::size_t>(std::distance(
+      stroke.poses.begin(), std::ranges::upper_bound(stroke.poses, until_us, {}, &Pose::time_us)));
+}
+
+/// A pot that has fallen is thrown no more, but it can be looked at and exported.
+Result<Pot> root_of(const SceneSpec& scene, const std::optional<Pot>& start) {
+  if (start && start->collapse)
+    return StepPlan::build(scene).map([&](const StepPlan&) { return *start; });
+  const auto wheel = start ? Wheel::build(scene, *start) : Wheel::build(scene);
+  return wheel.map([](const Wheel& built) { return built.pot(); });
+}
 
 }  // namespace
 
@@ -81,10 +94,9 @@ Result<Work> Work::begin(const SceneSpec& scene, const Pot& start) {
 
 Result<Work> Work::open(WorkRecord record) {
   const SceneSpec& scene = record.scenes[record.nodes[0].scene];
-  const auto wheel = record.start ? Wheel::build(scene, *record.start) : Wheel::build(scene);
-  if (!wheel) return tl::make_unexpected(wheel.error());
-  auto root = std::make_shared<const Pot>(wheel->pot());
-  return Work(std::move(record), std::move(root));
+  auto root = root_of(scene, record.start);
+  if (!root) return tl::make_unexpected(root.error());
+  return Work(std::move(record), std::make_shared<const Pot>(std::move(*root)));
 }
 
 std::size_t Work::index_of(const SceneSpec& scene) {
@@ -215,9 +227,7 @@ Result<SharedPot> Work::pot(NodeId node) {
 Result<Pot> Work::scrub(NodeId node, double seconds) {
   if (node == 0) return *root_;
   const WorkNode& stroke = record_.nodes[node];
-  const auto until_us = static_cast<std::int64_t>(1e6 * std::clamp(seconds, 0.0, 9e9));
-  const auto until = static_cast<std::size_t>(std::distance(
-      stroke.poses.begin(), std::ranges::upper_bound(stroke.poses, until_us, {}, &Pose::time_us)));
+  const std::size_t until = poses_until(stroke, seconds);
   if (!scrubbing_ || scrubbing_->node != node || scrubbing_->played > until) {
     const auto before = pot(stroke.parent);
     if (!before) return tl::make_unexpected(before.error());
@@ -228,6 +238,21 @@ Result<Pot> Work::scrub(NodeId node, double seconds) {
   for (; scrubbing_->played < until; ++scrubbing_->played)
     scrubbing_->wheel.step(stroke.poses[scrubbing_->played]);
   return scrubbing_->wheel.pot();
+}
+
+Result<Added> Work::branch(NodeId node, double seconds) {
+  assert(!running_);
+  const WorkNode& stroke = record_.nodes[node];
+  const std::size_t until = poses_until(stroke, seconds);
+  const NodeId from = until == stroke.poses.size() ? node : stroke.parent, left = at();
+  const SceneSpec scene = record_.scenes[stroke.scene];
+  const std::vector<Pose> poses(stroke.poses.begin(),
+                                stroke.poses.begin() + static_cast<std::ptrdiff_t>(until));
+  go_to(from);
+  if (from == node || poses.empty()) return Added{at(), 0, true};
+  auto added = add(scene, poses);
+  if (!added) go_to(left);
+  return added;
 }
 
 Result<void> Work::throw_all() {
@@ -252,38 +277,6 @@ NodeView Work::view(NodeId node) const {
     view.changed = known_[node]->changed;
   }
   return view;
-}
-
-Result<void> Work::save(const std::string& path) {
-  assert(!running_);
-  if (auto published = publish(path, write_work(record_)); !published) return published;
-  record_.saved_at = at();
-  record_.saved_nodes = size();
-  if (journal_) journal_->append(work_saved_line(at(), size()));
-  return {};
-}
-
-bool Work::unsaved() const noexcept {
-  return record_.saved_at != at() || record_.saved_nodes != size();
-}
-
-void Work::keep(std::unique_ptr<Journal> journal) {
-  assert(!running_);
-  journal_ = std::move(journal);
-}
-
-Result<Loaded> load(const std::string& path) {
-  auto reading =
-      read_file(path).and_then([&](const std::string& text) { return parse_work(text, path); });
-  if (!reading) return tl::make_unexpected(reading.error());
-  const bool torn = reading->torn || reading->running;
-  if (!torn) {
-    reading->work.saved_at = reading->work.at;
-    reading->work.saved_nodes = reading->work.nodes.size();
-  }
-  auto work = Work::open(std::move(reading->work));
-  if (!work) return failure(work.error().kind, path + ": " + work.error().message);
-  return Loaded{std::move(*work), torn};
 }
 
 }  // namespace clay::work

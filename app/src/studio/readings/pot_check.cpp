@@ -4,6 +4,7 @@
 #include "claystack/export/export_job.hpp"
 #include "claystack/export/process_limits.hpp"
 #include "draw/wall_rows.hpp"
+#include "wall_demand.hpp"
 
 #include <fmt/format.h>
 
@@ -16,10 +17,14 @@ namespace {
 
 constexpr double kFinestSpacingMm = 0.05;
 
-std::optional<WallLimit> limit_of(const std::string& process, const ClayStack& stack) {
+std::optional<WallLimit> limit_of(const std::string& process, const ClayStack& stack,
+                                  std::vector<PotRemark>& remarks) {
   if (process.empty()) return std::nullopt;
-  const auto limits = solid::process_named(process);
-  if (!limits) return std::nullopt;
+  const auto limits = app::process_of(process);
+  if (!limits) {
+    remarks.push_back({0.0, stack.height_mm(), limits.error().message});
+    return std::nullopt;
+  }
   const auto& wall = limits->wall_for(4.0 * largest_radius_mm(stack) + stack.height_mm());
   return WallLimit{wall.min_wall_mm, limits->name, wall.source};
 }
@@ -84,7 +89,7 @@ void run(const PotQuestion& question, const Pot& pot, const std::function<bool()
          PotCheck& check) {
   check.height_mm = pot.stack.height_mm();
   check.fallen = pot.collapse.has_value();
-  check.limit = limit_of(question.process, pot.stack);
+  check.limit = limit_of(question.process, pot.stack, check.remarks);
   const std::size_t rows = std::max<std::size_t>(1, question.subject.outline.rows.size());
   solid::ExportOptions options;
   options.tolerance_mm = question.tolerance_mm;

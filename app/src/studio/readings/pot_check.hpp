@@ -23,7 +23,7 @@ struct WallLimit {
 
 struct PotQuestion {
   Subject subject;
-  std::string process;  ///< one of process_names(); empty: none
+  std::string process;  ///< as app::process_of has it; empty: none
   double tolerance_mm = 0.02;
 };
 
