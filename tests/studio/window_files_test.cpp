@@ -106,7 +106,8 @@ TEST_F(Window, AFallenPotIsShownAndExportedAndNotThrown) {
   ASSERT_LE(thrown.status, 1) << thrown.err;
   const Ran ran =
       run("open FOLDER/fallen.pot.json\nexpect fallen yes\nexpect can_undo no\nkey 1\n"
-          "screenshot FOLDER/fallen.png\npoint 70 10\npress left\nexpect throwing no\n"
+          "wait 0.1\nexpect proved yes\n"
+          "screenshot FOLDER/fallen.png\npoint 50 10\npress left\nexpect throwing no\n"
           "expect banner \"The clay has fallen: it can be exported as it lies\"\nrelease left\n"
           "save FOLDER/fallen.work\ndo file.export\nwait 0.1\nexpect triangles above 100\n"
           "do export.write\nwait 0.1\nexpect exported 1\nkey Esc\n"

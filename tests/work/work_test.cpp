@@ -63,15 +63,14 @@ RC_GTEST_PROP(Work, AMomentBecomesABranchAndTheStrokeStays, ()) {
   const auto poses = press_stroke(2);
   (void)work.add(small_scene(5.0), poses).value();
   const Pot whole = **work.pot(2);
-  const auto count = *rc::gen::inRange<std::size_t>(0, poses.size() + 1);
-  const double seconds = count == 0 ? -1.0 : 1e-6 * static_cast<double>(poses[count - 1].time_us);
-  const Pot shown = work.scrub(2, seconds + 1e-7).value();
-  const Added added = work.branch(2, seconds + 1e-7).value();
+  const auto count = *rc::gen::inRange<std::size_t>(1, poses.size() + 1);
+  const double seconds = 1e-6 * static_cast<double>(poses[count - 1].time_us) + 1e-7;
+  const Pot shown = work.scrub(2, seconds).value();
+  const Added added = work.branch(2, seconds).value();
   RC_ASSERT(**work.pot() == shown);
   RC_ASSERT(**work.pot(2) == whole);
-  if (count == 0 || count == poses.size()) {
-    RC_ASSERT(added.strokes == 0u);
-    RC_ASSERT(work.at() == (count == 0 ? 1u : 2u));
+  if (count == poses.size()) {
+    RC_ASSERT(added.strokes == 0u && work.at() == 2u);
   } else {
     RC_ASSERT(added.node == 3u && work.at() == 3u && work.view(3).parent == 1u);
     RC_ASSERT(plainly_thrown(work.record(), 3) == shown);

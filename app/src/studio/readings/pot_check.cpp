@@ -95,8 +95,9 @@ void run(const PotQuestion& question, const Pot& pot, const std::function<bool()
   options.tolerance_mm = question.tolerance_mm;
   options.cancelled = given_up;
   if (check.limit) options.min_wall_mm = check.limit->min_wall_mm;
-  options.wall_spacing_mm =
-      std::max(kFinestSpacingMm, 0.5 * check.height_mm / static_cast<double>(rows));
+  if (!check.fallen)  // one that has fallen has no one section
+    options.wall_spacing_mm =
+        std::max(kFinestSpacingMm, 0.5 * check.height_mm / static_cast<double>(rows));
   const auto report = solid::run_export(pot, {}, options);
   if (report) return take_report(*report, rows, check);
   check.why_not = report.error().message;
