@@ -40,6 +40,13 @@ Result<ExportReport> run_job(const Pot& pot, std::vector<Request>& requests,
   return report;
 }
 
+/// Beside the job, which looks to it itself.
+Result<void> still_wanted(const ExportCommand& command) {
+  const auto& cancelled = command.options.cancelled;
+  if (!cancelled || !cancelled()) return {};
+  return failure(ErrorKind::io, command.pot + ": export given up: cancelled");
+}
+
 }  // namespace
 
 Result<ExportDone> export_files(const Pot& pot, ExportCommand& command,
@@ -51,10 +58,12 @@ Result<ExportDone> export_files(const Pot& pot, ExportCommand& command,
   if (auto done = open_all(*requests, command); !done) return tl::make_unexpected(done.error());
   auto copies = write_copies(pot, *requests, command);
   if (!copies) return tl::make_unexpected(copies.error());
+  if (auto wanted = still_wanted(command); !wanted) return tl::make_unexpected(wanted.error());
   auto report = run_job(pot, *requests, command, progress);
   if (!report) return tl::make_unexpected(report.error());
   if (auto done = write_companions(pot, *report, *requests, command.options.shrinkage); !done)
     return tl::make_unexpected(done.error());
+  if (auto wanted = still_wanted(command); !wanted) return tl::make_unexpected(wanted.error());
   const auto begin = std::chrono::steady_clock::now();
   if (auto done = publish_all(*requests); !done) return tl::make_unexpected(done.error());
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;

@@ -18,7 +18,7 @@ struct ExportDone {
 };
 
 /// All files are whole and verified before the first one gets its name; one that fails, or is
-/// cancelled (ExportOptions::cancel), leaves none. `command.pot` names the pot in errors;
+/// cancelled (ExportOptions::cancelled), leaves none. `command.pot` names the pot in errors;
 /// `command.walls` is loaded here. `progress` as in solid::run_export.
 Result<ExportDone> export_files(const Pot& pot, ExportCommand& command,
                                 const std::function<void(std::string_view)>& progress);

@@ -10,14 +10,14 @@ namespace {
 
 constexpr std::size_t kMaxProcessBytes = std::size_t{1} << 20;  // of a few lines for people
 
+}  // namespace
+
 Result<solid::ProcessLimits> process_of(const std::string& name) {
   if (!name.ends_with(".json")) return solid::process_named(name);
   return read_file(name, kMaxProcessBytes).and_then([&](const std::string& bytes) {
     return solid::parse_process(bytes, name);
   });
 }
-
-}  // namespace
 
 void WallDemands::add_to(CLI::App& command) {
   command.add_option("--min-wall", min_wall_mm_, "Least wall that passes [mm]")

@@ -16,6 +16,9 @@ struct WallDemand {
   std::string source;  ///< "--min-wall", or whose figure it is
 };
 
+/// One of solid::kProcessNames, or a file of the user's own, .json.
+Result<solid::ProcessLimits> process_of(const std::string& name);
+
 /// The options --min-wall and --process of a command; of both, the larger figure holds.
 class WallDemands {
  public:

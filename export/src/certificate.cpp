@@ -1,5 +1,6 @@
 #include "claystack/export/certificate.hpp"
 
+#include "cancel.hpp"
 #include "describe.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -83,6 +84,7 @@ void merge_runs(std::vector<Edge>& edges, std::vector<std::size_t> ends) {
     std::vector<std::size_t> merged_ends;
     std::size_t begin = 0;
     for (std::size_t i = 0; i < ends.size(); i += 2) {
+      step_of_loop();
       const std::size_t middle = ends[i], end = ends[std::min(i + 1, ends.size() - 1)];
       const auto at = [&](std::size_t k) {
         return edges.cbegin() + static_cast<std::ptrdiff_t>(k);
@@ -104,6 +106,7 @@ std::vector<Edge> edges_by_height(const Profile& profile) {
   for (std::size_t piece = 0; piece < profile.pieces.size(); ++piece) {
     const Polygon& polygon = profile.pieces[piece];
     for (std::size_t i = 0; i < polygon.size(); ++i) {
+      step_of_loop();
       const auto [bottom, top] = std::minmax({polygon[i].y, polygon[after(i, polygon.size())].y});
       edges.push_back({bottom, top, piece, i});
     }
@@ -138,6 +141,7 @@ class UpwardSweep {
 
   Result<void> run() {
     for (const Edge& edge : edges_by_height(profile_)) {
+      step_of_loop();
       std::erase_if(reached_, [&](const Edge& other) { return other.top < edge.bottom; });
       for (const Edge& other : reached_)
         if (meet(other, edge)) return crossing(other, edge);

@@ -41,10 +41,7 @@ class CollapsedExport {
  public:
   CollapsedExport(const Pot& pot, const std::vector<Output>& outputs, const ExportOptions& options,
                   const std::function<void(std::string_view)>& progress)
-      : pot_(pot),
-        outputs_(outputs),
-        options_(options),
-        stages_(report_.stages, progress, options.cancel) {}
+      : pot_(pot), outputs_(outputs), options_(options), stages_(report_.stages, progress) {}
 
   Result<ExportReport> run() {
     return check_options(options_)
@@ -190,7 +187,7 @@ class CollapsedExport {
   Result<FileReport> written(const std::string& bytes, MeshFormat format, double moved,
                              FileStore& store) {
     const auto again =
-        stages_.run(stage_name("store", format), [&] { return store.write(bytes_of(bytes)); })
+        stages_.run(stage_name("store", format), [&] { return write_in_parts(store, bytes); })
             .and_then([&] { return read_again(store, bytes); });
     if (!again) return tl::make_unexpected(again.error());
     if (*again != bytes)

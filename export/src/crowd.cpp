@@ -1,5 +1,7 @@
 #include "crowd.hpp"
 
+#include "cancel.hpp"
+
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -62,6 +64,7 @@ void Crowd::arrange() {
   std::iota(order.begin(), order.end(), std::uint32_t{0});
   const auto split = [&](const auto& self, std::span<std::uint32_t> all) -> void {
     if (all.size() <= kFew) return;
+    step_of_loop();
     const std::size_t half = halve(all);
     self(self, all.first(half));
     self(self, all.subspan(half));

@@ -1,5 +1,6 @@
 #include "claystack/export/decimate.hpp"
 
+#include "cancel.hpp"
 #include "half_edge_mesh.hpp"
 #include "mesh_topology.hpp"
 #include "soup_repair.hpp"
@@ -25,6 +26,7 @@ class Quadric : public om::ModQuadricT<HalfEdgeMesh> {
   explicit Quadric(HalfEdgeMesh& mesh) : om::ModQuadricT<HalfEdgeMesh>(mesh) {}
 
   float collapse_priority(const CollapseInfo& collapse) override {
+    step_of_loop();
     return std::max(om::ModQuadricT<HalfEdgeMesh>::collapse_priority(collapse), 0.0F);
   }
 };

@@ -1,5 +1,6 @@
 #include "draco_mesh.hpp"
 
+#include "cancel.hpp"
 #include "mesh_limits.hpp"
 
 #include <array>
@@ -51,6 +52,7 @@ Result<void> append_triangles(const draco::Mesh& mesh, const draco::PointAttribu
                               std::vector<std::array<std::uint32_t, 3>>& triangles) {
   triangles.reserve(mesh.num_faces());
   for (std::uint32_t face = 0; face < mesh.num_faces(); ++face) {
+    step_of_loop();
     auto& triangle = triangles.emplace_back();
     for (std::size_t i = 0; i < 3; ++i) {
       const draco::PointIndex point = mesh.face(draco::FaceIndex(face))[i];
@@ -78,10 +80,12 @@ std::unique_ptr<draco::Mesh> to_draco(const TriangleMesh& mesh,
   result->set_num_points(count);
   const int id = result->AddAttribute(layout, true, count);
   for (std::uint32_t i = 0; i < count; ++i) {
+    step_of_loop();
     result->attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), &points[i]);
   }
   result->SetNumFaces(mesh.triangles.size());
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    step_of_loop();
     const auto& [a, b, c] = mesh.triangles[i];
     result->SetFace(draco::FaceIndex(i),
                     {draco::PointIndex(a), draco::PointIndex(b), draco::PointIndex(c)});

@@ -139,6 +139,7 @@ void EdgeTree::make_leaves(std::vector<EdgeNode>& leaves) {
   for (std::uint32_t piece = 0; piece < piece_count(); ++piece) {
     double arc = 0.0;
     for (std::uint32_t first = begins_[piece]; first < begins_[piece + 1];) {
+      step_of_loop();
       const std::uint32_t end =
           std::min(first + static_cast<std::uint32_t>(kLeafEdges), begins_[piece + 1]);
       leaves.push_back(leaf(first, end, piece, arc));
@@ -176,6 +177,7 @@ EdgeNode EdgeTree::leaf(std::uint32_t first, std::uint32_t end, std::uint32_t pi
 }
 
 void EdgeTree::add_node(const std::vector<EdgeNode>& leaves, std::size_t first, std::size_t end) {
+  step_of_loop();
   if (end - first == 1) {
     nodes_.push_back(leaves[first]);
     return;

@@ -4,6 +4,8 @@
 
 #include "claystack/export/profile.hpp"
 
+#include "cancel.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <glm/geometric.hpp>
@@ -101,6 +103,7 @@ class EdgeTree {
 template <class Search>
 void search_from(const EdgeTree& tree, const EdgeNode& node, Search& search, std::size_t at = 0,
                  double bound = 0.0) {
+  step_of_loop();
   if (bound >= search.best()) return;
   const EdgeNode& here = tree.nodes()[at];
   if (here.leaves == 1) return search.leaves(node, here);
@@ -116,6 +119,7 @@ void search_from(const EdgeTree& tree, const EdgeNode& node, Search& search, std
 template <class Search>
 void search_pairs(const EdgeTree& tree, Search& search, std::size_t a = 0, std::size_t b = 0,
                   double bound = 0.0) {
+  step_of_loop();
   if (bound >= search.best()) return;
   const EdgeNode &first = tree.nodes()[a], &second = tree.nodes()[b];
   if (first.leaves == 1 && second.leaves == 1) return search.leaves(first, second);

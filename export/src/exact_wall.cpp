@@ -1,5 +1,6 @@
 #include "exact_wall.hpp"
 
+#include "cancel.hpp"
 #include "simplify_line.hpp"
 
 #include <algorithm>
@@ -52,6 +53,7 @@ class ExactWallMaker {
   ExactWall run(double overshoot_limit_mm) {
     cut_overshoots(overshoot_limit_mm);
     for (std::size_t i = 0; i < piece_.size(); ++i) {
+      step_of_loop();
       const RingLine line = ring_line(i);
       result_.line.insert(result_.line.end(), line.begin(), line.end());
       result_.overshoot_mm = std::max(result_.overshoot_mm, overshoot(i, line));
@@ -67,6 +69,7 @@ class ExactWallMaker {
  private:
   void cut_overshoots(double limit_mm) {
     for (std::size_t i = 0; i < piece_.size();) {
+      step_of_loop();
       const double found = overshoot(i, ring_line(i));
       const std::optional<std::size_t> widest = found > limit_mm ? widest_open(i) : std::nullopt;
       if (!widest) {

@@ -1,5 +1,6 @@
 #include "claystack/export/export_job.hpp"
 
+#include "cancel.hpp"
 #include "claystack/engine/stack_measures.hpp"
 #include "claystack/export/drain.hpp"
 #include "claystack/export/shrinkage.hpp"
@@ -54,10 +55,7 @@ class ExportJob {
  public:
   ExportJob(const ClayStack& stack, const std::vector<Output>& outputs,
             const ExportOptions& options, const std::function<void(std::string_view)>& progress)
-      : stack_(stack),
-        outputs_(outputs),
-        options_(options),
-        stages_(report_.stages, progress, options.cancel) {}
+      : stack_(stack), outputs_(outputs), options_(options), stages_(report_.stages, progress) {}
 
   Result<ExportReport> run() {
     return design().and_then([&](const Design& design) { return write_all(design); }).map([&] {
@@ -219,6 +217,7 @@ Result<ExportReport> run_export(const Pot& pot, const std::vector<Output>& outpu
   if (!(options.tolerance_mm > 0.0))
     return failure(ErrorKind::bad_input, "tolerance: expected more than 0 mm, found " +
                                              in_mm(options.tolerance_mm) + " mm");
+  const CancelScope scope(options.cancelled ? &options.cancelled : nullptr);
   try {
     if (options.shrinkage == 0.0) return export_as_it_is(pot, outputs, options, progress);
     return enlarged(pot, options.shrinkage).and_then([&](const Pot& larger) {
@@ -227,6 +226,8 @@ Result<ExportReport> run_export(const Pot& pot, const std::vector<Output>& outpu
         return report;
       });
     });
+  } catch (const Cancelled&) {
+    return failure(ErrorKind::io, "export given up: cancelled");
   } catch (const std::exception& e) {
     return failure(ErrorKind::io, std::string("export given up: ") + e.what());
   }

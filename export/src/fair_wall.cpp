@@ -1,5 +1,6 @@
 #include "fair_wall.hpp"
 
+#include "cancel.hpp"
 #include "simplify_line.hpp"
 
 namespace clay::solid {
@@ -25,6 +26,7 @@ Polygon fair_wall(const PieceWalls& piece, const WallRings& wall, const CutFlags
 Polygon stepped_wall(const PieceWalls& piece, const WallRings& wall) {
   Polygon line;
   for (std::size_t i = 0; i < piece.size(); ++i) {
+    step_of_loop();
     line.push_back({wall.radius[i], piece.level[i]});
     line.push_back({wall.radius[i], piece.level[i + 1]});
   }

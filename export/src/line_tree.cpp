@@ -1,5 +1,7 @@
 #include "line_tree.hpp"
 
+#include "cancel.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -40,6 +42,7 @@ LineTree::LineTree(const Polygon& line) {
     if (line[i].rho > 0.0 || line[i + 1].rho > 0.0) edges_.push_back({line[i], line[i + 1]});
   std::vector<Box> boxes;
   for (std::size_t i = 0; i < edges_.size(); ++i) {
+    step_of_loop();
     const Box box = box_of(edges_[i]);
     if (i % kLeafEdges == 0)
       boxes.push_back(box);
@@ -88,6 +91,7 @@ void LineTree::for_each_child(Node node, Visit visit) const {
 }
 
 void LineTree::descend(Node node, const Box& near, const LineEdge& edge, double& bound2) const {
+  step_of_loop();
   if (distance2(box(node), near) >= bound2) return;
   if (node.level == 0)
     for_each_edge(node, [&](const LineEdge& mine) {
@@ -98,6 +102,7 @@ void LineTree::descend(Node node, const Box& near, const LineEdge& edge, double&
 }
 
 void LineTree::descend(Node node, const LineTree& other, Node across, double& bound2) const {
+  step_of_loop();
   if (distance2(box(node), other.box(across)) >= bound2) return;
   if (node.level == 0 && across.level == 0)
     for_each_edge(node, [&](const LineEdge& mine) {

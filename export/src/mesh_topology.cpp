@@ -1,5 +1,7 @@
 #include "mesh_topology.hpp"
 
+#include "cancel.hpp"
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -61,6 +63,7 @@ class SidesByVertex {
   template <class Visit>
   static void for_each_side(std::span<const Triangle> triangles, Visit visit) {
     for (std::size_t t = 0; t < triangles.size(); ++t) {
+      step_of_loop();
       if (collapsed(triangles[t])) continue;
       for (std::size_t c = 0; c < 3; ++c) {
         const auto [low, high] = std::minmax(triangles[t][c], triangles[t][(c + 1) % 3]);
@@ -103,6 +106,7 @@ class TopologyCount {
   void count_edges() {
     SidesByVertex sides(points_, triangles_);
     for (std::size_t low = 0; low < points_; ++low) {
+      step_of_loop();
       const std::span<Side> bucket = sides.of(low);
       std::sort(bucket.begin(), bucket.end());
       for (auto begin = bucket.begin(); begin != bucket.end();) {
@@ -152,6 +156,7 @@ class TopologyCount {
     std::vector<std::uint32_t> fan_of(points_, kNone);
     std::vector<bool> counted(points_, false);
     for (std::uint32_t corner = 0; corner < 3 * triangles_.size(); ++corner) {
+      step_of_loop();
       if (collapsed(triangles_[corner / 3]) || fans_.root(corner) != corner) continue;
       const std::uint32_t v = vertex(corner);
       if (fan_of[v] == kNone) {

@@ -1,5 +1,7 @@
 #include "mesh_union.hpp"
 
+#include "cancel.hpp"
+
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Random.h>
@@ -25,9 +27,11 @@ SurfaceMesh exact_mesh(const TriangleMesh& mesh) {
                  static_cast<SurfaceMesh::size_type>(mesh.triangles.size()));
   for (const glm::dvec3& p : mesh.points) result.add_vertex({p.x, p.y, p.z});
   using Vertex = SurfaceMesh::Vertex_index;
-  for (const auto& [a, b, c] : mesh.triangles)
+  for (const auto& [a, b, c] : mesh.triangles) {
+    step_of_loop();
     if (!result.add_face(Vertex(a), Vertex(b), Vertex(c)).is_valid())
       throw std::logic_error("a solid that is no manifold");
+  }
   return result;
 }
 
@@ -42,7 +46,10 @@ TriangleMesh nearest_mesh(SurfaceMesh& mesh) {
   TriangleMesh result;
   result.points.reserve(mesh.number_of_vertices());
   result.triangles.reserve(mesh.number_of_faces());
-  for (const auto vertex : mesh.vertices()) result.points.push_back(nearest(mesh.point(vertex)));
+  for (const auto vertex : mesh.vertices()) {
+    step_of_loop();
+    result.points.push_back(nearest(mesh.point(vertex)));
+  }
   for (const auto face : mesh.faces()) {
     std::array<std::uint32_t, 3> corners{};
     std::size_t corner = 0;
@@ -56,6 +63,16 @@ TriangleMesh nearest_mesh(SurfaceMesh& mesh) {
 bool before(const glm::dvec3& p, const glm::dvec3& q) {
   return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
 }
+
+/// CGAL calls it at every step.
+struct Watch : pmp::Corefinement::Default_visitor<SurfaceMesh> {
+  using Face = SurfaceMesh::Face_index;
+  void progress_filtering_intersections(double) const { step_of_loop(); }
+  void edge_face_intersections_step() const { step_of_loop(); }
+  void intersection_of_coplanar_faces_step() const { step_of_loop(); }
+  void triangulating_faces_step() const { step_of_loop(); }
+  void after_face_copy(Face, const SurfaceMesh&, Face, SurfaceMesh&) { step_of_loop(); }
+};
 
 /// CGAL finds crossings in an order that hangs on addresses in memory: put points in order of
 /// their coordinates, and triangles in order of their points.
@@ -99,7 +116,8 @@ Result<MeshUnion> unite(const TriangleMesh& a, const TriangleMesh& b) {
   std::array<boost::optional<SurfaceMesh*>, 4> wanted;
   wanted[pmp::Corefinement::UNION] = &both;
   wanted[pmp::Corefinement::INTERSECTION] = &common;
-  const auto done = pmp::corefine_and_compute_boolean_operations(first, second, wanted);
+  const auto done = pmp::corefine_and_compute_boolean_operations(
+      first, second, wanted, CGAL::parameters::visitor(Watch()));
   if (!done[pmp::Corefinement::UNION] || !done[pmp::Corefinement::INTERSECTION])
     return failure(ErrorKind::unsound,
                    "expected two parts that share clay, a face or nothing, found that they touch "

@@ -1,5 +1,7 @@
 #include "near_pairs.hpp"
 
+#include "cancel.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -18,6 +20,7 @@ struct Interval {
 }  // namespace
 
 void NearPairs::search(const Visitor& visitor) {
+  stop_if_cancelled();
   visitor_ = &visitor;
   ended_ = false;
   within(0, crowd_.size());
@@ -44,6 +47,7 @@ void NearPairs::within(std::size_t begin, std::size_t end) {
 void NearPairs::between(std::span<const std::uint32_t> first,
                         std::span<const std::uint32_t> second) {
   if (ended_) return;
+  step_of_loop();
   Positions a(first.begin(), first.end()), b(second.begin(), second.end());
   sieve_by_boxes(a, b);
   const auto few = [&] { return a.size() * b.size() <= Crowd::kFew * Crowd::kFew; };
@@ -141,6 +145,7 @@ void NearPairs::sieve_along(const glm::dvec3& direction, Positions& a, Positions
 }
 
 void NearPairs::offer(std::uint32_t a, std::uint32_t b) {
+  step_of_loop();
   if (ended_ || apart(crowd_.box(a), crowd_.box(b))) return;
   if (crowd_.any_hub() && crowd_.share_hub(a, b)) return;
   ended_ = !visitor_->call(visitor_->visit, a, b);

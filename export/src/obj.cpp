@@ -1,3 +1,4 @@
+#include "cancel.hpp"
 #include "claystack/export/mesh_formats.hpp"
 #include "file_floats.hpp"
 #include "mesh_limits.hpp"
@@ -171,8 +172,12 @@ std::string encode_obj(const TriangleMesh& mesh, std::string_view object_name) {
   text.reserve(kUsualPointBytes * mesh.points.size() + kUsualTriangleBytes * mesh.triangles.size() +
                512);
   text.append("# claystack: units mm\no ").append(one_line(object_name)).append("\n");
-  for (const glm::dvec3& point : mesh.points) append_point_line(text, "v", file_point(point));
+  for (const glm::dvec3& point : mesh.points) {
+    step_of_loop();
+    append_point_line(text, "v", file_point(point));
+  }
   for (const auto& triangle : mesh.triangles) {
+    step_of_loop();
     text += 'f';
     for (const std::uint32_t index : triangle) {
       text += ' ';

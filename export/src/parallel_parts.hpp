@@ -1,4 +1,6 @@
 #pragma once
+#include "cancel.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -10,12 +12,15 @@ namespace clay::solid {
 
 /// work(0) .. work(parts - 1), on all cores. Which thread takes which part is left open: each part
 /// writes to a place of its own, so that the result never depends on it. Parts are begun in
-/// order, the longest had best come first. Of several exceptions the lowest part's is thrown.
+/// order, the longest had best come first. The caller may be cancelled in any of them. Of several
+/// exceptions the lowest part's is thrown.
 template <class Work>
 void for_each_part(std::size_t parts, const Work& work) {
   std::vector<std::exception_ptr> failures(parts);
   std::atomic<std::size_t> next{0};
+  const CancelScope::Question* const question = CancelScope::current();
   const auto take_parts = [&] {
+    const CancelScope scope(question);
     for (std::size_t part = next++; part < parts; part = next++) {
       try {
         work(part);

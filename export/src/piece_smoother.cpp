@@ -1,5 +1,6 @@
 #include "piece_smoother.hpp"
 
+#include "cancel.hpp"
 #include "claystack/export/certificate.hpp"
 #include "exact_wall.hpp"
 #include "fair_wall.hpp"
@@ -51,6 +52,7 @@ class PieceSmoother {
 
  private:
   void build() {
+    stop_if_cancelled();
     if (options_.mode == Smoothing::fair) {
       const std::vector<double> tolerances = plan_.tolerances(0.5 * options_.tolerance_mm);
       lines_ = {fair_wall(piece_, piece_.outer, plan_.outer_cuts(), tolerances),
@@ -155,6 +157,7 @@ class PieceSmoother {
     std::vector<double> weights(line.size(), 1.0);
     std::size_t first = 0;
     for (std::size_t e = 0; e + 1 < line.size(); ++e) {
+      step_of_loop();
       while (first + 1 < piece_.size() && piece_.level[first + 1] < line[e].y) ++first;
       for (std::size_t i = first; i < piece_.size() && piece_.level[i] <= line[e + 1].y; ++i)
         if (rings[i] == 0) weights[e] = weights[e + 1] = 0.0;

@@ -1,5 +1,7 @@
 #include "piece_walls.hpp"
 
+#include "cancel.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -69,6 +71,7 @@ PieceWalls walls_of(const ClayStack& stack, RingRange range) {
   PieceWalls piece;
   WideQuanta clay = 0;
   for (std::size_t i = range.first; i <= range.last; ++i) {
+    step_of_loop();
     const Ring& ring = stack.rings()[i];
     piece.level.push_back(level_mm(stack, i));
     add_ring(piece.outer, ring.outer2);

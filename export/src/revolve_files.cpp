@@ -140,7 +140,7 @@ Result<FileReport> RevolveFiles::certify_bytes(MeshFormat format, double roundin
                                                const std::string& bytes, FileStore& store) {
   const std::string name = as_written(format);
   if (auto written =
-          stages_.run(stage_name("store", format), [&] { return store.write(bytes_of(bytes)); });
+          stages_.run(stage_name("store", format), [&] { return write_in_parts(store, bytes); });
       !written)
     return tl::make_unexpected(written.error());
   const auto farthest = stages_.run(stage_name("verify", format), [&] {

@@ -1,5 +1,6 @@
 #include "revolve_match.hpp"
 
+#include "cancel.hpp"
 #include "describe.hpp"
 #include "file_floats.hpp"
 
@@ -85,6 +86,7 @@ class VertexFinder {
   /// Parts it where it is longer.
   static void sort(std::span<Parallel> stretch) {
     if (stretch.size() < 2) return;
+    step_of_loop();
     const auto length = [&](std::size_t axis) {
       const auto [low, high] = std::minmax_element(
           stretch.begin(), stretch.end(),
@@ -193,6 +195,7 @@ Result<double> match_revolve(const TriangleMesh& decoded, const RevolveRule& rul
   std::vector<VertexName> names;
   names.reserve(decoded.points.size());
   for (std::size_t i = 0; i < decoded.points.size(); ++i) {
+    step_of_loop();
     const auto found = finder.find(decoded.points[i]);
     if (!found)
       return wrong("point " + std::to_string(i + 1) + ": expected a vertex of the solid within " +
@@ -201,6 +204,7 @@ Result<double> match_revolve(const TriangleMesh& decoded, const RevolveRule& rul
   }
   Roll roll(rule);
   for (std::size_t t = 0; t < decoded.triangles.size(); ++t) {
+    step_of_loop();
     const auto& [a, b, c] = decoded.triangles[t];
     if (!roll.tick({names[a], names[b], names[c]}))
       return wrong("triangle " + std::to_string(t + 1) + " at " + place(decoded.points[a]) +

@@ -1,5 +1,7 @@
 #include "simplify_line.hpp"
 
+#include "cancel.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -67,6 +69,7 @@ std::size_t next_point(const Polygon& line, const std::vector<double>& tolerance
   Cone cone(line[apex]);
   std::size_t next = apex + 1;
   for (std::size_t i = next; i < line.size(); ++i) {
+    step_of_loop();
     if (cone.allows(line[i])) next = i;
     if (tolerances_mm[i] <= 0.0 || i - next > next - apex + kLookAhead ||
         !cone.add(line[i], tolerances_mm[i]))
@@ -80,6 +83,7 @@ std::size_t next_point(const Polygon& line, const std::vector<double>& tolerance
 Polygon simplified(const Polygon& line, const std::vector<double>& tolerances_mm) {
   Polygon result{line.front()};
   for (std::size_t i = 0; i + 1 < line.size();) {
+    step_of_loop();
     i = next_point(line, tolerances_mm, i);
     result.push_back(line[i]);
   }
@@ -89,6 +93,7 @@ Polygon simplified(const Polygon& line, const std::vector<double>& tolerances_mm
 Polygon without_straight_points(const Polygon& line) {
   Polygon result;
   for (std::size_t i = 0; i < line.size(); ++i) {
+    step_of_loop();
     if (!result.empty() && line[i] == result.back()) continue;
     if (!result.empty() && i + 1 < line.size() && result.back().rho == line[i].rho &&
         line[i + 1].rho == line[i].rho)

@@ -1,5 +1,7 @@
 #include "smoothing_plan.hpp"
 
+#include "cancel.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -87,6 +89,7 @@ void SmoothingPlan::cut(std::size_t k) {
 }
 
 bool SmoothingPlan::keep_steps(const ThinRing& thin) {
+  step_of_loop();
   const std::size_t largest = reach_of(thin.wall_mm);
   for (std::size_t reach = 0;; reach = std::min(2 * reach + 1, largest)) {
     const std::size_t first = std::max<std::size_t>(1, thin.ring - std::min(thin.ring, reach));

@@ -1,5 +1,6 @@
 #include "soup_intersections.hpp"
 
+#include "cancel.hpp"
 #include "near_pairs.hpp"
 #include "pair_test.hpp"
 
@@ -45,6 +46,7 @@ void SoupIntersections::set_degenerate_aside() {
   const PairTest test(mesh_);
   spread_.reserve(mesh_.triangles.size());
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    step_of_loop();
     if (test.degenerate(mesh_.triangles[t]))
       note(degenerate_, {t}, {});
     else
@@ -86,6 +88,7 @@ bool SoupIntersections::distribute() {
   std::size_t entries = 0;
   members_.assign(begins_.size(), {});
   for (const std::uint32_t t : spread_) {
+    step_of_loop();
     const auto [low, high] = reach(mesh_.triangles[t]);
     for (std::size_t slab = slab_of(low); slab < begins_.size() && begins_[slab] <= high; ++slab) {
       if (++entries > most) return false;

@@ -1,5 +1,7 @@
 #include "stack_section.hpp"
 
+#include "cancel.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -18,6 +20,7 @@ struct Run {
 std::vector<Run> runs_of(const ClayStack& stack, RingRange piece, Radius radius_of) {
   std::vector<Run> runs;
   for (std::size_t i = piece.first; i <= piece.last; ++i) {
+    step_of_loop();
     const double radius = (stack.rings()[i].*radius_of)(), top = level_mm(stack, i + 1);
     if (!runs.empty() && runs.back().radius == radius)
       runs.back().top = top;

@@ -1,35 +1,27 @@
 #pragma once
 #include "claystack/export/export_job.hpp"
 
+#include "cancel.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <functional>
-#include <stdexcept>
-#include <stop_token>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace clay::solid {
 
-/// A job that is no longer wanted; no fault of its own.
-class Cancelled : public std::runtime_error {
- public:
-  Cancelled() : std::runtime_error("cancelled") {}
-};
-
 /// Runs stages, tells of each as it begins and adds up its time under its name. A stage does not
-/// begin once the job is no longer wanted: Cancelled.
+/// begin once the job is no longer wanted.
 class Stages {
  public:
-  Stages(std::vector<StageTime>& times, const std::function<void(std::string_view)>& progress,
-         std::stop_token cancel)
-      : times_(times), progress_(progress), cancel_(std::move(cancel)) {}
+  Stages(std::vector<StageTime>& times, const std::function<void(std::string_view)>& progress)
+      : times_(times), progress_(progress) {}
 
   template <class Work>
   auto run(const std::string& name, Work work) {
-    if (cancel_.stop_requested()) throw Cancelled();
+    stop_if_cancelled();
     if (progress_) progress_(name);
     const auto begin = std::chrono::steady_clock::now();
     auto result = work();
@@ -46,7 +38,6 @@ class Stages {
  private:
   std::vector<StageTime>& times_;
   const std::function<void(std::string_view)>& progress_;
-  std::stop_token cancel_;
 };
 
 }  // namespace clay::solid

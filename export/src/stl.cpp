@@ -1,3 +1,4 @@
+#include "cancel.hpp"
 #include "claystack/export/mesh_formats.hpp"
 #include "file_floats.hpp"
 #include "mesh_limits.hpp"
@@ -95,6 +96,7 @@ Result<TriangleMesh> decode_binary(std::string_view bytes, std::size_t facets,
   TriangleMesh mesh = mesh_with_room_for(facets);
   VertexWelder welder(mesh.points, facets);
   for (std::size_t facet = 0; facet < facets; ++facet) {
+    step_of_loop();
     const char* const at = bytes.data() + stl::file_bytes(facet);
     auto& triangle = mesh.triangles.emplace_back();
     for (std::size_t i = 0; i < 3; ++i) {

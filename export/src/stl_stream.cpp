@@ -1,5 +1,6 @@
 #include "stl_stream.hpp"
 
+#include "cancel.hpp"
 #include "stl_layout.hpp"
 
 #include <algorithm>
@@ -38,6 +39,7 @@ void for_each_facet(const RevolveRule& rule, const Shell& shell, std::size_t fir
     std::swap(here, next);
     fill_meridian(rule, shell, s + 1 < rule.segments() ? s + 1 : 0, next);
     for (const auto& [from, to] : shell.bands) {
+      step_of_loop();
       if (!shell.pole(from)) visit(stl::Corners{here[from], next[from], here[to]});
       if (!shell.pole(to)) visit(stl::Corners{next[from], next[to], here[to]});
     }
@@ -164,8 +166,10 @@ Result<void> verify_stl(const RevolveRule& rule, const FileStore& store) {
     facet += each * rule.segments();
     const auto policy =
         each * rule.segments() < kFacetsWorthAThread ? std::launch::deferred : std::launch::async;
-    auto second =
-        std::async(policy, [&rule, &store, upper] { return verify_stretch(rule, upper, store); });
+    auto second = std::async(policy, [&rule, &store, upper, question = CancelScope::current()] {
+      const CancelScope scope(question);
+      return verify_stretch(rule, upper, store);
+    });
     const auto first = verify_stretch(rule, lower, store);
     const auto rest = second.get();
     if (!first) return first;

@@ -26,6 +26,9 @@ namespace clay::solid {
   return std::string(name_of(format)) + " as written";
 }
 
+/// Part by part, so that a job that is given up need not wait for the disk.
+Result<void> write_in_parts(FileStore& store, const std::string& bytes);
+
 /// What the store holds; where that is gone, what was handed to it.
 Result<std::string> read_again(const FileStore& store, const std::string& written);
 

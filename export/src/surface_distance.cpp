@@ -1,5 +1,6 @@
 #include "surface_distance.hpp"
 
+#include "cancel.hpp"
 #include "parallel_parts.hpp"
 #include "triangle_tree.hpp"
 
@@ -16,9 +17,11 @@ double farthest_squared(const std::vector<glm::dvec3>& points, const TriangleMes
   std::vector<double> farthest((points.size() + kPartPoints - 1) / kPartPoints, 0.0);
   for_each_part(farthest.size(), [&](std::size_t part) {
     const std::size_t end = std::min(points.size(), (part + 1) * kPartPoints);
-    for (std::size_t i = part * kPartPoints; i < end; ++i)
+    for (std::size_t i = part * kPartPoints; i < end; ++i) {
+      step_of_loop();
       farthest[part] =
           std::max(farthest[part], tree.boxes().squared_distance(TriangleTree::point(points[i])));
+    }
   });
   return farthest.empty() ? 0.0 : *std::max_element(farthest.begin(), farthest.end());
 }

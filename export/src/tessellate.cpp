@@ -1,5 +1,6 @@
 #include "claystack/export/tessellate.hpp"
 
+#include "cancel.hpp"
 #include "revolve_rule.hpp"
 
 #include <algorithm>
@@ -40,10 +41,14 @@ class Revolution {
       for (std::size_t i = 0; i < shell.points.size(); ++i)
         if (shell.pole(i) == pole) parallels[i] = add_parallel(shell.points[i]);
     for (std::size_t s = 0; s < rule_.segments(); ++s)
-      for (const Band& band : shell.bands) add_patch(parallels[band.from], parallels[band.to], s);
+      for (const Band& band : shell.bands) {
+        step_of_loop();
+        add_patch(parallels[band.from], parallels[band.to], s);
+      }
   }
 
   Parallel add_parallel(const ProfilePoint& p) {
+    step_of_loop();
     const Parallel parallel{static_cast<std::uint32_t>(mesh_.points.size()), p.rho == 0.0};
     const std::size_t count = parallel.pole ? 1 : rule_.segments();
     for (std::size_t s = 0; s < count; ++s) mesh_.points.push_back(rule_.vertex(p, s));

@@ -1,5 +1,6 @@
 #include "text_scanner.hpp"
 
+#include "cancel.hpp"
 #include "mesh_limits.hpp"
 
 #include <algorithm>
@@ -64,6 +65,7 @@ void TextScanner::check_lines() {
   const std::size_t nul = text_.find('\0');
   std::size_t line = 1;
   for (std::size_t begin = 0; begin < text_.size(); ++line) {
+    step_of_loop();
     const std::size_t end = std::min(text_.find('\n', begin), text_.size());
     if (nul < end) return fail_at(line, "expected text, found a NUL byte");
     if (end - begin > kMaxLineBytes) return fail_at(line, "expected a line of at most 64 KiB");
@@ -80,6 +82,7 @@ std::string_view TextScanner::word() {
 }
 
 std::string_view TextScanner::word_in_line() {
+  step_of_loop();
   skip_blanks();
   const std::size_t begin = at_;
   while (at_ < text_.size() && !is_blank(text_[at_]) && text_[at_] != '\n' &&

@@ -1,5 +1,7 @@
 #include "vertex_distance.hpp"
 
+#include "cancel.hpp"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Orthogonal_k_neighbor_search.h>
 #include <CGAL/Search_traits_3.h>
@@ -24,8 +26,10 @@ double farthest_squared(const std::vector<Kernel::Point_3>& from,
                         const std::vector<Kernel::Point_3>& to) {
   const Search::Tree tree(to.begin(), to.end());
   double farthest = 0.0;
-  for (const Kernel::Point_3& p : from)
+  for (const Kernel::Point_3& p : from) {
+    step_of_loop();
     farthest = std::max(farthest, Search(tree, p, 1).begin()->second);
+  }
   return farthest;
 }
 

@@ -1,5 +1,6 @@
 #include "wall_guard.hpp"
 
+#include "cancel.hpp"
 #include "fair_wall.hpp"
 #include "line_tree.hpp"
 
@@ -48,6 +49,7 @@ template <class Visit>
 void for_each_edge(const PieceWalls& piece, const Polygon& line, Visit visit) {
   std::size_t first = 0;
   for (std::size_t e = 0; e + 1 < line.size(); ++e) {
+    step_of_loop();
     const LineEdge edge{line[e], line[e + 1]};
     while (first < piece.size() && piece.level[first + 1] < edge.from.y) ++first;
     std::size_t end = first;

@@ -86,28 +86,5 @@ TEST(Shrinkage, WhatIsBeyondTheLimitsIsRefused) {
   EXPECT_NE(refused.error().message.find("enlarged"), std::string::npos);
 }
 
-TEST(CancelledExport, NoStageBeginsAfterIt) {
-  const Pot pot = pot_of(shapes::vase(200));
-  std::stop_source stop;
-  ExportOptions options;
-  options.cancel = stop.get_token();
-  MemoryStore store;
-  std::size_t stages = 0;
-  const auto cancelled =
-      run_export(pot, {{MeshFormat::stl_binary, &store}}, options, [&](std::string_view stage) {
-        ++stages;
-        if (stage == "certificate") stop.request_stop();
-        EXPECT_NE(stage, "encode stl_binary");
-      });
-  ASSERT_FALSE(cancelled);
-  EXPECT_EQ(cancelled.error().kind, ErrorKind::io);
-  EXPECT_NE(cancelled.error().message.find("cancelled"), std::string::npos);
-  EXPECT_GT(stages, 1u);
-  EXPECT_TRUE(store.bytes().empty());
-  const auto never =
-      run_export(pot, {}, options, [](std::string_view) { FAIL() << "nothing begins"; });
-  EXPECT_FALSE(never);
-}
-
 }  // namespace
 }  // namespace clay::solid

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <mutex>
 
 namespace clay::studio {
 namespace {
@@ -111,6 +112,23 @@ TEST_F(Exporting, OneThatIsCancelledLeavesNoFile) {
   EXPECT_TRUE(cancelled.cancelled);
   EXPECT_FALSE(cancelled.done);
   EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(Exporting, CancelledAtAnyQuestionItLeavesAllFilesOrNone) {
+  app::ExportCommand command = command_of(wish);
+  std::size_t asked = 0, all = 0;
+  std::mutex mutex;
+  for (std::size_t until = 0; all == 0; ++until) {
+    asked = 0;
+    command.options.cancelled = [&] {
+      const std::lock_guard lock(mutex);
+      return ++asked > until;
+    };
+    const auto done = app::export_files(*pot, command, {});
+    EXPECT_EQ(files(), done ? 4u : 0u) << until;
+    if (done) all = asked;
+  }
+  EXPECT_GT(all, 10u);
 }
 
 TEST_F(Exporting, WhatCannotBeWrittenIsSaid) {

@@ -6,16 +6,8 @@ set -u
 . "$(dirname "$0")/under_xvfb_start.sh"
 now_ms() { echo $(($(date +%s%N) / 1000000)); }
 
-cd "$folder" || exit 1
-start_window
-xdotool mousemove --window "$window" 370 360 click 1
-until_line "work begun: bowl"
-# A whole stroke, and one that does not end.
-xdotool mousemove --window "$window" 930 420 mousedown 1
-until_line "stroke begun"
-for x in 900 880 860 850 845 840; do xdotool mousemove --window "$window" $x 420; done
-xdotool mouseup 1
-until_line "stroke ended"
+throw_the_bowl
+# One that does not end.
 xdotool mousemove --window "$window" 930 420 mousedown 1
 until_line "stroke begun" 2
 begun=$(now_ms)

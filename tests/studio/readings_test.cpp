@@ -183,6 +183,19 @@ TEST(PotCheck, SaysAThinWallWithItsHeight) {
   EXPECT_TRUE(thin_stretches(check_pot(question_of(pot_of(cup_rings()), "porcelain"))).empty());
 }
 
+TEST(PotCheck, HoldsWallsAgainstAProcessOfOnesOwn) {
+  const std::string file = std::string(CLAYSTACK_SAMPLES) + "/workshop.process.json";
+  const PotCheck check = check_pot(question_of(pot_of(cup_rings()), file));
+  ASSERT_TRUE(check.limit);
+  EXPECT_EQ(check.limit->min_wall_mm, 4.0) << "up to 400 mm of size";
+  EXPECT_EQ(check.limit->process, "workshop printer, 4 mm nozzle");
+  const PotCheck gone = check_pot(question_of(pot_of(cup_rings()), "/none.process.json"));
+  EXPECT_TRUE(gone.proved);
+  EXPECT_FALSE(gone.limit);
+  ASSERT_EQ(gone.remarks.size(), 1u);
+  EXPECT_NE(gone.remarks[0].text.find("/none.process.json"), std::string::npos);
+}
+
 TEST(PotCheck, SaysWhyNotAndWhere) {
   auto rings = cup_rings();
   for (std::size_t i = 80; i < rings.size(); ++i)  // a ring that stands apart, from 40 mm up

@@ -36,6 +36,18 @@ TEST(Settings, ComeBackAsTheyWere) {
   EXPECT_EQ(back->theme, Theme::light);
 }
 
+TEST(Settings, AProcessOfOnesOwnIsRemembered) {
+  Settings settings;
+  for (const char* name : {"/a", "/b", "/c", "/d", "/e", "/b"})
+    remember_process(settings, std::string(name) + ".process.json");
+  EXPECT_EQ(settings.process, "/b.process.json");
+  EXPECT_EQ(settings.processes, (std::vector<std::string>{"/b.process.json", "/e.process.json",
+                                                          "/d.process.json", "/c.process.json"}));
+  const auto back = parse_settings(write_settings(settings), "s");
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->processes, settings.processes);
+}
+
 TEST(Settings, WhatIsWrongIsNamed) {
   const auto error_of = [](const std::string& field) {
     const auto read = parse_settings("{\"schema\": \"claystack-studio-1\", " + field + "}", "s");

@@ -4,17 +4,7 @@
 set -u
 . "$(dirname "$0")/under_xvfb_start.sh"
 
-cd "$folder" || exit 1
-start_window
-# The first card of the gallery is the bowl.
-xdotool mousemove --window "$window" 370 360 click 1
-until_line "work begun: bowl"
-# From beside the lump into it.
-xdotool mousemove --window "$window" 930 420 mousedown 1
-until_line "stroke begun"
-for x in 900 880 860 850 845 840; do xdotool mousemove --window "$window" $x 420; done
-xdotool mouseup 1
-until_line "stroke ended"
+throw_the_bowl
 # Ten short taps are ten undos and redos: none is lost.
 for i in 1 2 3 4 5; do
   xdotool key --window "$window" --delay 0 ctrl+z

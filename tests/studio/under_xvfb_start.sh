@@ -36,6 +36,24 @@ start_window() {
   xdotool windowfocus --sync "$window"
 }
 
+# throw_a_stroke: from beside the lump into it.
+throw_a_stroke() {
+  strokes=$(grep -c "stroke begun" "$log")
+  xdotool mousemove --window "$window" 930 420 mousedown 1
+  until_line "stroke begun" $((strokes + 1))
+  for x in 900 880 860 850 845 840; do xdotool mousemove --window "$window" $x 420; done
+  xdotool mouseup 1
+  until_line "stroke ended" $((strokes + 1))
+}
+
+# throw_the_bowl: the window on the first card of the gallery, and a stroke.
+throw_the_bowl() {
+  start_window
+  xdotool mousemove --window "$window" 370 360 click 1
+  until_line "work begun: bowl"
+  throw_a_stroke
+}
+
 # The server picks a number that is free, and tells it when it is ready.
 Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp -noreset 3>"$folder/display" 2>/dev/null &
 server=$!
@@ -48,3 +66,4 @@ done
 [ -s "$folder/display" ] || fail "Xvfb did not start"
 DISPLAY=:$(cat "$folder/display")
 export DISPLAY
+cd "$folder" || exit 1

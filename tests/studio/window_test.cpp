@@ -1,76 +1,18 @@
-// The window as its users meet it: driven by scripts, and with real events on a screen of its own.
+// Strokes, the timeline and the picture.
 
-#include "app/run_program.hpp"
+#include "studio/window.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
 #include <string>
+#include <utility>
 
 namespace clay::studio {
 namespace {
 
-using test::claystack;
+using test::kDeeper;
+using test::kPress;
 using test::Ran;
 using test::read_text;
-using test::ScratchFolder;
-using test::shell;
-using test::write_text;
-
-class Window : public ::testing::Test {
- protected:
-  /// Runs a script on the sample bowl; FOLDER in it is this test's own.
-  Ran run(std::string script, const std::string& options = "--size 960x640") {
-    for (auto at = script.find("FOLDER"); at != std::string::npos; at = script.find("FOLDER"))
-      script.replace(at, 6, folder.path().string());
-    write_text(folder.file("s"), script);
-    return claystack("studio " + test::sample("bowl.scene.json") + " --script " + folder.file("s") +
-                     " " + options);
-  }
-  /// Colour of a pixel of a picture, as an independent program reads it: "r g b".
-  std::string pixel(const std::string& picture, int x, int y) {
-    const std::string at = "p{" + std::to_string(x) + "," + std::to_string(y) + "}";
-    return shell("convert " + folder.file(picture) + " -format \"%[fx:round(255*" + at +
-                 ".r)] %[fx:round(255*" + at + ".g)] %[fx:round(255*" + at + ".b)]\" info:")
-        .out;
-  }
-  ScratchFolder folder;
-};
-
-constexpr const char* kPress =
-    "key 1\n"
-    "point 65 18\npress left\nexpect throwing yes\n"
-    "point 56 18 over 0.4\nwait 0.2\nexpect contact yes\n"
-    "point 65 18 over 0.3\nwait 0.2\nrelease left\nexpect throwing no\n";
-
-/// Farther in than the groove that kPress leaves.
-constexpr const char* kDeeper =
-    "point 65 18\npress left\npoint 48 18 over 0.4\nwait 0.2\nexpect contact yes\n"
-    "point 65 18 over 0.3\nwait 0.2\nrelease left\n";
-
-TEST_F(Window, AStrokeUndoneAndRedoneIsThePotThatThrowMakes) {
-  const Ran ran = run(std::string(kPress) +
-                      "expect strokes 1\nexpect volume_error 0\nsave FOLDER/one.pot.json\n"
-                      "key Ctrl+Z\nexpect can_undo no\nsave FOLDER/none.pot.json\n"
-                      "key Ctrl+Shift+Z\nexpect can_redo no\nsave FOLDER/again.pot.json\n"
-                      "expect unsaved yes\nsave FOLDER/bowl.work\nexpect unsaved no\n");
-  ASSERT_EQ(ran.status, 0) << ran.err;
-  const std::string one = read_text(folder.file("one.pot.json"));
-  EXPECT_EQ(one, read_text(folder.file("again.pot.json")));
-  EXPECT_NE(one, read_text(folder.file("none.pot.json")));
-  const Ran thrown =
-      claystack("throw " + folder.file("bowl.work") + " -o " + folder.file("thrown.pot.json"));
-  ASSERT_EQ(thrown.status, 0) << thrown.err;
-  EXPECT_EQ(one, read_text(folder.file("thrown.pot.json")));
-}
-
-TEST_F(Window, AScriptGivesTheSameBytesEveryTime) {
-  ASSERT_EQ(run(std::string(kPress) + "save FOLDER/a.pot.json\nsave FOLDER/a.work\n").status, 0);
-  ASSERT_EQ(run(std::string(kPress) + "save FOLDER/b.pot.json\nsave FOLDER/b.work\n").status, 0);
-  EXPECT_EQ(read_text(folder.file("a.pot.json")), read_text(folder.file("b.pot.json")));
-  EXPECT_EQ(read_text(folder.file("a.work")), read_text(folder.file("b.work")));
-}
+using test::Window;
 
 TEST_F(Window, AClickNeverBites) {
   const Ran ran =
@@ -96,15 +38,6 @@ TEST_F(Window, CtrlTrimsAndPressKeepsTheClay) {
   EXPECT_NE(ledger("trim.pot.json")["trimmed"], "0") << ledger("trim.pot.json");
 }
 
-TEST_F(Window, QuittingAsksOnceThereIsSomethingToLose) {
-  Ran ran = run("close\nexpect closed yes\n");
-  EXPECT_EQ(ran.status, 0) << ran.err;
-  ran = run(std::string(kPress) +
-            "close\nexpect overlay quit\nexpect closed no\nkey Esc\nexpect overlay none\n"
-            "close\ndo quit.discard\nexpect closed yes\n");
-  EXPECT_EQ(ran.status, 0) << ran.err;
-}
-
 TEST_F(Window, AStrokeFromAnEarlierPotIsABranch) {
   const Ran ran = run(std::string(kPress) + kDeeper +
                       "expect node 2\nsave FOLDER/two.pot.json\n"
@@ -124,10 +57,37 @@ TEST_F(Window, TheTimelineIsClickedAndDragged) {
                       "move 270 597\npress left\nrelease left\nexpect node 0\n"
                       "move 400 597\npress left\nexpect scrubbing no\n"
                       "move 340 597 over 0.3\nexpect scrubbing yes\nexpect node 0\n"
-                      "release left\nexpect scrubbing no\nexpect node 1\n"
+                      "release left\nexpect scrubbing yes\nkey Esc\nexpect scrubbing no\n"
+                      "expect node 0\nmove 400 597\npress left\nrelease left\nexpect node 1\n"
                       "do edit.redo\nexpect node 2\nsave FOLDER/again.pot.json\n");
   ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_EQ(read_text(folder.file("two.pot.json")), read_text(folder.file("again.pot.json")));
+}
+
+/// The marks of the drag are pixels of the strip; what is at them the work itself tells.
+TEST_F(Window, AMomentOfAStrokeBecomesABranchThatThrowGivesToo) {
+  const std::string drag = "move 400 597\npress left\nmove 340 597 over 0.3\nrelease left\n";
+  const Ran ran = run(std::string(kPress) + drag +
+                      "expect scrubbing yes\nexpect node 1\ndo edit.branch\n"
+                      "expect scrubbing no\nexpect strokes 2\nexpect node 2\n"
+                      "save FOLDER/mine.pot.json\nsave FOLDER/mine.work\n"
+                      "do edit.other_branch\nexpect node 1\nsave FOLDER/whole.pot.json\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  for (const auto& [node, name] : {std::pair{1, "whole"}, std::pair{2, "mine"}}) {
+    const std::string thrown = folder.file("thrown.pot.json");
+    ASSERT_EQ(test::claystack("throw -q " + folder.file("mine.work") + " --at " +
+                              std::to_string(node) + " -o " + thrown)
+                  .status,
+              0);
+    EXPECT_EQ(read_text(thrown), read_text(folder.file(std::string(name) + ".pot.json"))) << name;
+  }
+  EXPECT_NE(read_text(folder.file("whole.pot.json")), read_text(folder.file("mine.pot.json")));
+  // A press on what is shown goes on from it too.
+  const Ran pressed = run(std::string(kPress) + drag + "expect scrubbing yes\n" + kDeeper +
+                          "expect strokes 3\nexpect node 3\ndo edit.undo\nexpect node 2\n"
+                          "save FOLDER/again.pot.json\n");
+  ASSERT_EQ(pressed.status, 0) << pressed.err;
+  EXPECT_EQ(read_text(folder.file("again.pot.json")), read_text(folder.file("mine.pot.json")));
 }
 
 TEST_F(Window, SixtyFourStrokesAreTakenBackOneByOne) {
@@ -140,49 +100,6 @@ TEST_F(Window, SixtyFourStrokesAreTakenBackOneByOne) {
                       "expect can_undo no\nsave FOLDER/after.pot.json\n");
   ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_EQ(read_text(folder.file("before.pot.json")), read_text(folder.file("after.pot.json")));
-}
-
-TEST_F(Window, TheExportIsThatOfTheCommandLineOnTheSameStrokes) {
-  // The name and the folder of the work are those of its files.
-  const Ran ran = run(std::string(kPress) +
-                      "save FOLDER/mine.work\n"
-                      "key Ctrl+E\nwait 0.1\nexpect overlay export\nexpect triangles above 100\n"
-                      "key Ctrl+Enter\nwait 0.1\nexpect exported 1\n");
-  ASSERT_EQ(ran.status, 0) << ran.err;
-  std::filesystem::create_directory(folder.path() / "cli");
-  const std::string pot = folder.file("cli/mine.pot.json"), stl = folder.file("cli/mine.stl");
-  ASSERT_EQ(claystack("throw -q " + folder.file("mine.work") + " -o " + pot).status, 0);
-  ASSERT_EQ(claystack("export -q " + pot + " " + stl).status, 0);
-  EXPECT_EQ(read_text(folder.file("mine.stl")), read_text(stl));
-  EXPECT_EQ(claystack("check " + folder.file("mine.stl")).status, 0);
-}
-
-TEST_F(Window, ADrawingIsPutOnTheWheelAndTheWorkBeforeIsAskedFor) {
-  const std::string jug = test::sample("drawings/jug.svg");
-  const Ran ran =
-      run(std::string(kPress) + "open " + jug +
-          "\nexpect overlay import\nexpect problem \"\"\ndo import.take\n"
-          "expect overlay quit\nkey Esc\nexpect strokes 1\n"
-          "open " +
-          jug +
-          "\ndo import.take\nkey Ctrl+D\n"
-          "expect strokes 0\nexpect height_mm above 171.9\nexpect height_mm below 172.1\n"
-          "save FOLDER/jug.pot.json\n");
-  ASSERT_EQ(ran.status, 0) << ran.err;
-  ASSERT_EQ(claystack("import " + jug + " -o " + folder.file("cli.pot.json")).status, 0);
-  EXPECT_EQ(read_text(folder.file("jug.pot.json")), read_text(folder.file("cli.pot.json")));
-}
-
-TEST_F(Window, AnUnsavedWorkIsAskedForBeforeAnotherOpens) {
-  const std::string vase = test::sample("vase.scene.json");
-  const Ran ran = run(std::string(kPress) + "open " + vase +
-                      "\nexpect overlay quit\nkey Esc\nexpect strokes 1\n"
-                      "do file.new_vase\nexpect overlay quit\nkey Esc\nexpect strokes 1\n"
-                      "save FOLDER/kept.work\n" +
-                      kDeeper + "open " + vase +
-                      "\nexpect overlay quit\nkey Enter\nexpect strokes 0\nexpect unsaved no\n"
-                      "open FOLDER/kept.work\nexpect strokes 2\nexpect unsaved no\n");
-  EXPECT_EQ(ran.status, 0) << ran.err;
 }
 
 TEST_F(Window, AFallIsShownAndUndone) {
@@ -255,63 +172,6 @@ TEST_F(Window, BothThemesAndScalesAreDrawn) {
       EXPECT_GT(red, 200);
     }
   }
-}
-
-TEST_F(Window, WhatIsWrongIsSaidWithItsLine) {
-  Ran ran = run("wait 0.1\nexpect contact yes\n");
-  EXPECT_EQ(ran.status, 1);
-  EXPECT_NE(ran.err.find("s:2: contact: expected yes, found no"), std::string::npos) << ran.err;
-  ran = run("do edit.undo\n");
-  EXPECT_EQ(ran.status, 1) << ran.err;
-  ran = run("fly away\n");
-  EXPECT_EQ(ran.status, 2) << ran.err;
-  ran = run("save FOLDER/pot.txt\n");
-  EXPECT_EQ(ran.status, 3) << ran.err;
-  EXPECT_EQ(claystack("studio --script /nonexistent").status, 3);
-  EXPECT_EQ(claystack("studio nothing.scene.json --screenshot x.png").status, 2);
-  EXPECT_EQ(claystack("studio --size 3x3 --screenshot x.png").status, 2);
-}
-
-class OnAScreen : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (shell("command -v Xvfb && command -v xdotool").status != 0)
-      GTEST_SKIP() << "needs Xvfb and xdotool (tests/run.sh installs them)";
-  }
-  Ran run(const char* script, const ScratchFolder& folder) {
-    return shell(std::string("sh ") + CLAYSTACK_STUDIO_TESTS + "/" + script +
-                 " " CLAYSTACK_PROGRAM " " + folder.path().string());
-  }
-};
-
-TEST_F(OnAScreen, FromTheGalleryToAFileThatPrints) {
-  const ScratchFolder folder;
-  const Ran ran = run("under_xvfb.sh", folder);
-  ASSERT_EQ(ran.status, 0) << ran.err << ran.out;
-  EXPECT_NE(read_text(folder.file("config/claystack/studio.json")), "");
-  EXPECT_EQ(claystack("check " + folder.file("bowl.stl")).status, 0);
-  const std::string info = shell("prusa-slicer --info " + folder.file("bowl.stl")).out;
-  EXPECT_NE(info.find("manifold = yes"), std::string::npos) << info;
-}
-
-/// What is lost is bounded by how often the recorder looks, not by this machine: one of three times
-/// it must be seen to hold.
-TEST_F(OnAScreen, KilledInMidStrokeLosesATenthOfASecondAtMost) {
-  double least_lost_ms = 1e9;
-  for (int i = 0; i < 3 && least_lost_ms > 100.0; ++i) {
-    const ScratchFolder folder;
-    const Ran ran = run("killed_under_xvfb.sh", folder);
-    ASSERT_EQ(ran.status, 0) << ran.err << ran.out;
-    const auto nodes = nlohmann::json::parse(read_text(folder.file("tree.json"))).at("nodes");
-    ASSERT_EQ(nodes.size(), 3u) << nodes;
-    EXPECT_EQ(nodes[2].at("parent"), 1);
-    const double kept_ms = 1e3 * nodes[2].at("seconds").get<double>();
-    EXPECT_GT(kept_ms, 0.0);
-    const double lasted_ms = std::stod(ran.out.substr(ran.out.rfind("lasted_ms ") + 10));
-    EXPECT_GT(lasted_ms, 500.0);
-    least_lost_ms = std::min(least_lost_ms, lasted_ms - kept_ms);
-  }
-  EXPECT_LE(least_lost_ms, 100.0);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "work/journal.hpp"
 
 #include "app/run_program.hpp"
+#include "engine/files/system_call_fault.hpp"
 #include "live/recorder.hpp"
 #include "work/recovery.hpp"
 #include "work/strokes.hpp"
@@ -213,10 +214,24 @@ TEST(Journal, StandsWhereTheStateIsKept) {
   setenv("XDG_STATE_HOME", "/var/state", 1);
   EXPECT_EQ(recovery_folder(), "/var/state/claystack/recovery");
   setenv("XDG_STATE_HOME", "relative", 1);
-  setenv("HOME", "/home/potter", 1);
-  EXPECT_EQ(recovery_folder(), "/home/potter/.local/state/claystack/recovery");
+  setenv("HOME", "/potter", 1);
+  EXPECT_EQ(recovery_folder(), "/potter/.local/state/claystack/recovery");
   unsetenv("XDG_STATE_HOME");
-  EXPECT_EQ(recovery_folder(), "/home/potter/.local/state/claystack/recovery");
+  EXPECT_EQ(recovery_folder(), "/potter/.local/state/claystack/recovery");
+}
+
+TEST(Journal, AFolderThatCannotBeSyncedIsAnErrorAndLeavesNothing) {
+  const Folder folder;
+  const Work work = Work::begin(small_scene()).value();
+  EXPECT_EQ(test::status_of_child([&] {
+              // The journal's own file is opened; its folder, to sync it, is not.
+              if (!test::inject({SYS_openat, EIO, O_DIRECTORY})) return false;
+              const auto journal = Journal::begin(work.record(), folder.path);
+              return !journal && journal.error().kind == ErrorKind::io &&
+                     journal.error().message.find("folder") != std::string::npos;
+            }),
+            0);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path));
 }
 
 TEST(Journal, AFolderThatCannotBeIsAnError) {

@@ -57,6 +57,45 @@ RC_GTEST_PROP(Work, AnyMomentOfAStrokeComesBack, ()) {
   }
 }
 
+RC_GTEST_PROP(Work, AMomentBecomesABranchAndTheStrokeStays, ()) {
+  Work work = Work::begin(small_scene()).value();
+  (void)work.add(small_scene(), press_stroke(1)).value();
+  const auto poses = press_stroke(2);
+  (void)work.add(small_scene(5.0), poses).value();
+  const Pot whole = **work.pot(2);
+  const auto count = *rc::gen::inRange<std::size_t>(1, poses.size() + 1);
+  const double seconds = 1e-6 * static_cast<double>(poses[count - 1].time_us) + 1e-7;
+  const Pot shown = work.scrub(2, seconds).value();
+  const Added added = work.branch(2, seconds).value();
+  RC_ASSERT(**work.pot() == shown);
+  RC_ASSERT(**work.pot(2) == whole);
+  if (count == poses.size()) {
+    RC_ASSERT(added.strokes == 0u && work.at() == 2u);
+  } else {
+    RC_ASSERT(added.node == 3u && work.at() == 3u && work.view(3).parent == 1u);
+    RC_ASSERT(plainly_thrown(work.record(), 3) == shown);
+    RC_ASSERT(work.undo() && work.at() == 1u && work.redo() && work.at() == 3u);
+  }
+}
+
+TEST(Work, AFallenPotIsARootThatNothingIsThrownOn) {
+  Pot fallen = Wheel::build(small_scene()).value().pot();
+  fallen.collapse = Collapse{10, {30.0, 10.0, 0.0}, {0.0, 0.0, 1.0}, 1.0, 12.0};
+  Work work = Work::begin(small_scene(), fallen).value();
+  EXPECT_EQ(**work.pot(), fallen);
+  const auto added = work.add(small_scene(), press_stroke(1));
+  ASSERT_FALSE(added);
+  EXPECT_EQ(added.error().message, "pot: expected one that stands, found one that has collapsed");
+  const test::ScratchFolder folder;
+  ASSERT_TRUE(work.save(folder.file("fallen.work")));
+  auto again = load(folder.file("fallen.work"));
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(**again->work.pot(), fallen);
+  SceneSpec bad = small_scene();
+  bad.flow.inside_share = 2.0;
+  EXPECT_FALSE(Work::begin(bad, fallen));
+}
+
 TEST(Work, KnowsItsStrokes) {
   Work work = Work::begin(small_scene()).value();
   EXPECT_FALSE(work.can_undo());
@@ -157,10 +196,21 @@ std::vector<Pose> recording(int presses, double air_s, bool level = false) {
   return poses;
 }
 
+/// As while it lasted, a few poses at a time.
+Split cut(const Pot& before, const std::vector<Pose>& poses) {
+  Rethrow again(Wheel::build(small_scene(), before).value());
+  for (std::span<const Pose> rest = poses; !rest.empty();) {
+    const auto block = rest.first(std::min<std::size_t>(rest.size(), 37));
+    again.append(block);
+    rest = rest.subspan(block.size());
+  }
+  return split(small_scene(), before, poses, again.finish());
+}
+
 TEST(Split, CutsARecordingInTheAir) {
   const Pot lump = Wheel::build(small_scene()).value().pot();
   const auto poses = recording(4, 0.4);
-  const Split parts = split(small_scene(), lump, poses).value();
+  const Split parts = cut(lump, poses);
   ASSERT_EQ(parts.begins.size(), 3u);
   EXPECT_EQ(parts.pots.back(), plainly_thrown(small_scene(), lump, poses));
   for (std::size_t i = 0; i < 3; ++i) {
@@ -173,17 +223,18 @@ TEST(Split, CutsARecordingInTheAir) {
 TEST(Split, LeavesWholeWhatCannotBeCut) {
   const Pot lump = Wheel::build(small_scene()).value().pot();
   // The strokes' own ways in the air take less than 0.1 s.
-  EXPECT_TRUE(split(small_scene(), lump, recording(3, 0.1)).value().begins.empty());
-  EXPECT_TRUE(split(small_scene(), lump, recording(3, 0.4, true)).value().begins.empty())
+  EXPECT_TRUE(cut(lump, recording(3, 0.1)).begins.empty());
+  EXPECT_TRUE(cut(lump, recording(3, 0.4, true)).begins.empty())
       << "nothing tells a stroke which way the tool last went";
-  EXPECT_TRUE(split(small_scene(), lump, recording(3, 0.4), false).value().begins.empty());
+  Work work = Work::begin(small_scene()).value();
+  EXPECT_EQ(work.add(small_scene(), recording(3, 0.4)).value().strokes, 1u) << "poses from a file";
 }
 
 RC_GTEST_PROP(Split, NeverChangesThePot, ()) {
   const Pot lump = Wheel::build(small_scene()).value().pot();
   const auto poses = recording(*rc::gen::inRange(1, 5), *rc::gen::element(0.2, 0.3, 0.5),
                                *rc::gen::arbitrary<bool>());
-  const Split parts = split(small_scene(), lump, poses).value();
+  const Split parts = cut(lump, poses);
   RC_ASSERT(parts.pots.size() == parts.begins.size() + 1);
   RC_ASSERT(parts.pots.back() == plainly_thrown(small_scene(), lump, poses));
 }

@@ -72,6 +72,7 @@ void pause(Workshop& shop) {
 void back(Workshop& shop) {
   if (shop.view.sizing()) return shop.view.cancel(shop);
   if (shop.overlay != Overlay::none) return close_overlay(shop);
+  if (shop.potter.scrubbing()) return shop.potter.show_present();
   if (shop.potter.throwing() && !shop.potter.has_device()) return shop.potter.release();
   if (shop.potter.throwing()) return pause(shop);
   shop.notices.close();

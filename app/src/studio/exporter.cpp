@@ -133,7 +133,7 @@ void Exporter::run() {
 
 Exporter::Outcome Exporter::done(const Job& job) {
   app::ExportCommand command = command_of(job.wish);
-  command.options.cancel = job.stop.get_token();
+  command.options.cancelled = [token = job.stop.get_token()] { return token.stop_requested(); };
   const auto tell = [this](std::string_view stage) {
     const std::lock_guard lock(mutex_);
     stage_ = stage;

@@ -56,7 +56,7 @@ class Exporter {
   /// The newest wins: a rehearsal that runs or waits is given up for it.
   void rehearse(work::SharedPot pot, const ExportWish& wish);
   void write(work::SharedPot pot, const ExportWish& wish);
-  /// After the stage that runs; no file is left.
+  /// In a moment; no file is left.
   void cancel();
 
   [[nodiscard]] bool busy() const;

@@ -62,6 +62,11 @@ const std::array kFacts = {
     Fact{"closed", [](const Workshop& s) { return yes_or_no(s.done); }},
     Fact{"device", [](const Workshop& s) { return s.potter.device_name(); }},
     Fact{"force", [](const Workshop& s) { return s.hand_is.empty() ? "none" : s.hand_is; }},
+    Fact{"process",
+         [](const Workshop& s) {
+           return s.overlay == Overlay::export_files ? s.exporting.wish.process
+                                                     : s.settings.process;
+         }},
     Fact{"banner",
          [](const Workshop& s) {
            return s.notices.shown() ? s.notices.shown()->text : std::string();

@@ -117,6 +117,12 @@ const std::array kFileActions = {
       kNone,
       [](const Workshop& s) { return other_branch(s).has_value(); },
       [](Workshop& s) { s.potter.go_to(*other_branch(s)); }},
+    A{"edit.branch",
+      "Go on from this moment",
+      {GLFW_KEY_B, kControlShift},
+      kNone,
+      [](const Workshop& s) { return s.potter.scrubbing(); },
+      [](Workshop& s) { s.potter.branch_here(); }},
     // Of cards; in no menu.
     A{"quit.save", "Save first", {GLFW_KEY_ENTER, 0}, kNone, asks, keep_it},
     A{"quit.discard", "Do not save", {GLFW_KEY_D, kControl}, kNone, asks, let_it_go},

@@ -54,7 +54,7 @@ std::vector<std::string> words_of(FileDialog::Kind kind, const std::string& star
   }
   if (auto kdialog = program("kdialog")) {
     constexpr std::array kWhat = {"--getopenfilename", "--getsavefilename",
-                                  "--getexistingdirectory"};
+                                  "--getexistingdirectory", "--getopenfilename"};
     return {*kdialog, kWhat[static_cast<std::size_t>(kind)], start_at};
   }
   return {};

@@ -11,7 +11,7 @@ namespace clay::studio {
 
 class FileDialog {
  public:
-  enum class Kind : std::uint8_t { open, save, folder };
+  enum class Kind : std::uint8_t { open, save, folder, process };
 
   FileDialog() = default;
   ~FileDialog();

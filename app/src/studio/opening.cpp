@@ -91,7 +91,15 @@ SceneSpec scene_for(const Pot& pot, const std::string& name) {
   return scene;
 }
 
+void take_process(Workshop& shop, const std::filesystem::path& path) {
+  if (auto process = app::process_of(path.string()); !process) return tell(shop, process.error());
+  remember_process(shop.settings, path);
+  if (shop.overlay == Overlay::export_files) shop.exporting.wish.process = shop.settings.process;
+  shop.log("process: " + path.string());
+}
+
 void open_file(Workshop& shop, const std::filesystem::path& path) {
+  if (path.string().ends_with(".process.json")) return take_process(shop, path);
   if (is_drawing(path)) return open_drawing(shop, path);
   ask_first(shop, "open", [path](Workshop& s) { open_now(s, path); });
 }
@@ -153,12 +161,22 @@ void ask_for_save(Workshop& shop) {
   shop.overlay = Overlay::save_file;
 }
 
+void ask_for_process(Workshop& shop) {
+  if (shop.host.real_time() && shop.dialog.begin(FileDialog::Kind::process, start_of(shop))) return;
+  shop.notices.say(
+      Grade::warning,
+      "No file dialog is installed (zenity, kdialog): drop a .process.json file on the "
+      "window, or open it by its name (Ctrl+O)",
+      1e-9 * static_cast<double>(shop.host.frame_ns()) + 5.0);
+}
+
 void look_at_dialog(Workshop& shop) {
   const FileDialog::Kind kind = shop.dialog.kind();
   const auto chosen = shop.dialog.take();
   if (!chosen || chosen->empty()) return;
   if (kind == FileDialog::Kind::open) open_file(shop, *chosen);
   if (kind == FileDialog::Kind::save) save_to(shop, *chosen);
+  if (kind == FileDialog::Kind::process) take_process(shop, *chosen);
   if (kind == FileDialog::Kind::folder) shop.exporting.wish.folder = *chosen;
 }
 

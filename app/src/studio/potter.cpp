@@ -89,7 +89,7 @@ void Potter::close() {
 }
 
 void Potter::show_pot() {
-  scrubbing_ = false;
+  moment_.reset();
   auto pot = work_->pot();
   if (pot) {
     pot_ = std::move(*pot);
@@ -103,6 +103,7 @@ void Potter::show_pot() {
 Result<void> Potter::press(const Press& press) {
   if (device_) return {};  // the hand at the arm has the clay
   release();
+  branch_here();
   device_waits_ = false;
   SceneSpec scene = scene_;
   scene.tool = press.tool;
@@ -118,7 +119,9 @@ Result<void> Potter::press(const Press& press) {
 Result<void> Potter::sit_down(const SceneSpec& scene, falcon::HapticDevice& device,
                               const live::LiveSettings& settings) {
   if (pot_->collapse)
-    return failure(ErrorKind::bad_input, "The clay has fallen: undo takes the last stroke back");
+    return failure(ErrorKind::bad_input,
+                   can_undo() ? "The clay has fallen: undo takes the last stroke back"
+                              : "The clay has fallen: it can be exported as it lies");
   auto wheel = Wheel::build(scene, *pot_);
   if (!wheel) return tl::make_unexpected(wheel.error());
   auto sink = work_->begin_stroke(scene);
@@ -134,7 +137,8 @@ Result<void> Potter::sit_down(const SceneSpec& scene, falcon::HapticDevice& devi
     (void)work_->end_stroke();  // without a pose it is none
     return tl::make_unexpected(sitting.error());
   }
-  given_up_ = scrubbing_ = false;
+  given_up_ = false;
+  moment_.reset();
   scene_ = scene;
   recorder_ = std::move(recorder);
   sitting_ = std::move(*sitting);
@@ -240,14 +244,21 @@ void Potter::scrub(work::NodeId node, double seconds) {
     return;
   }
   view_ = draw::view_of(*pot);
-  scrubbing_ = true;
+  moment_ = Moment{node, seconds};
   device_waits_ = false;
 }
 
 void Potter::show_present() {
-  if (!scrubbing_) return;
+  if (!moment_) return;
   show_pot();
   device_waits_ = device_ != nullptr;
+}
+
+void Potter::branch_here() {
+  if (!moment_) return;
+  if (auto added = work_->branch(moment_->node, moment_->seconds); !added)
+    news_.error = added.error();
+  show_present();
 }
 
 Result<void> Potter::save(const std::string& path) {

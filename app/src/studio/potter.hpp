@@ -42,6 +42,12 @@ struct Press {
   double gap_mm = 0.0;       ///< of a pinch: wide enough for the wall; it closes to the tool's own
 };
 
+/// In the middle of a stroke.
+struct Moment {
+  work::NodeId node = 0;
+  double seconds = 0.0;
+};
+
 class Potter {
  public:
   /// `clock` outlives it. Without `threads` the servo ticks within `advance`.
@@ -115,10 +121,13 @@ class Potter {
   void redo();
   void go_to(work::NodeId node);
   /// Shows the pot in mid-stroke, until `show_present` or anything else that shows a pot. The work
-  /// stays where it is.
+  /// stays where it is, until the pot that is shown is pressed.
   void scrub(work::NodeId node, double seconds);
   void show_present();
-  [[nodiscard]] bool scrubbing() const noexcept { return scrubbing_; }
+  /// That moment becomes the present, as a branch (work::Work::branch).
+  void branch_here();
+  [[nodiscard]] bool scrubbing() const noexcept { return moment_.has_value(); }
+  [[nodiscard]] const std::optional<Moment>& moment() const noexcept { return moment_; }
   /// The part that fell is seen here.
   void show_fall(const draw::FallenView& fallen) { view_.fallen = fallen; }
   /// What is not saved is not wanted: its journal goes with the next work.
@@ -139,8 +148,8 @@ class Potter {
   live::Clock& clock_;
   bool threads_;
   bool journals_ = false;
-  bool given_up_ = false;   // the work, by an answer to a question
-  bool scrubbing_ = false;  // the view is not that of the present pot
+  bool given_up_ = false;         // the work, by an answer to a question
+  std::optional<Moment> moment_;  // the view is of it, not of the present pot
   MouseDevice mouse_;
   std::unique_ptr<falcon::HapticDevice> device_;
   live::LiveSettings device_settings_;

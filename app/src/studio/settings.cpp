@@ -141,16 +141,29 @@ void read_tool(Fields& fields, ToolChoice& tool) {
   fields.number("gap_mm", kNarrowestGapMm, kWidestPinchMm, tool.gap_mm);
 }
 
+std::string whole_name(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const std::filesystem::path whole = std::filesystem::absolute(path, ignored);
+  return whole.empty() ? path.string() : whole.lexically_normal().string();
+}
+
+void put_first(std::vector<std::string>& names, const std::string& name, std::size_t most) {
+  std::erase(names, name);
+  names.insert(names.begin(), name);
+  if (names.size() > most) names.resize(most);
+}
+
 }  // namespace
 
 void remember(Settings& settings, const std::filesystem::path& path) {
-  std::error_code ignored;
-  const std::filesystem::path whole = std::filesystem::absolute(path, ignored);
-  const std::string name = whole.empty() ? path.string() : whole.lexically_normal().string();
+  const std::string name = whole_name(path);
   settings.folder = std::filesystem::path(name).parent_path().string();
-  std::erase(settings.recent, name);
-  settings.recent.insert(settings.recent.begin(), name);
-  if (settings.recent.size() > kMostRecent) settings.recent.resize(kMostRecent);
+  put_first(settings.recent, name, kMostRecent);
+}
+
+void remember_process(Settings& settings, const std::filesystem::path& path) {
+  settings.process = whole_name(path);
+  put_first(settings.processes, settings.process, kMostProcesses);
 }
 
 std::filesystem::path settings_path() {
@@ -184,6 +197,7 @@ Result<Settings> parse_settings(std::string_view text, std::string_view name) {
   fields.flag("wall_map", settings.wall_map);
   fields.flag("full_section", settings.full_section);
   fields.text("process", settings.process);
+  fields.texts("processes", kMostProcesses, settings.processes);
   fields.flag("hints", settings.hints);
   fields.flags("open", settings.open);
   fields.text("folder", settings.folder);
@@ -210,6 +224,7 @@ std::string write_settings(const Settings& s) {
                      {"wall_map", s.wall_map},
                      {"full_section", s.full_section},
                      {"process", s.process},
+                     {"processes", s.processes},
                      {"hints", s.hints},
                      {"open", s.open},
                      {"folder", s.folder},

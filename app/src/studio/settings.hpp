@@ -16,7 +16,7 @@ namespace clay::studio {
 enum class LengthUnit { mm, cm, in };
 
 inline constexpr double kSlowestHandMmPerS = 10.0, kFastestHandMmPerS = 200.0;
-inline constexpr std::size_t kMostRecent = 8;
+inline constexpr std::size_t kMostRecent = 8, kMostProcesses = 4;
 inline constexpr double kSlowestRpm = 20.0, kFastestRpm = 240.0;
 
 struct Settings {
@@ -25,18 +25,22 @@ struct Settings {
   LengthUnit unit = LengthUnit::mm;
   double wheel_rpm = 120.0;  ///< kSlowestRpm to kFastestRpm
   ToolChoice tool;
-  bool wall_map = false;             ///< thickness of walls as colours on the pot
-  bool full_section = false;         ///< both halves
-  std::string process;               ///< whose walls are asked for, also in an export; empty: none
-  bool hints = true;                 ///< the first-run hint has not been closed yet
-  std::map<std::string, bool> open;  ///< panels by id; one that is not named is as it comes
-  std::string folder;                ///< of the last file; empty: none yet
-  std::vector<std::string> recent;   ///< files, newest first, kMostRecent at most
-  double pressing_mm_s = 80.0;       ///< of the tool in the clay, kSlowestHand to kFastestHand
+  bool wall_map = false;      ///< thickness of walls as colours on the pot
+  bool full_section = false;  ///< both halves
+  std::string
+      process;  ///< whose walls are asked for, also in an export: a name or a file; empty: none
+  std::vector<std::string> processes;  ///< files of the user's own, newest first
+  bool hints = true;                   ///< the first-run hint has not been closed yet
+  std::map<std::string, bool> open;    ///< panels by id; one that is not named is as it comes
+  std::string folder;                  ///< of the last file; empty: none yet
+  std::vector<std::string> recent;     ///< files, newest first, kMostRecent at most
+  double pressing_mm_s = 80.0;         ///< of the tool in the clay, kSlowestHand to kFastestHand
 };
 
 /// A file that was opened or saved: its folder, and the first of the recent ones.
 void remember(Settings& settings, const std::filesystem::path& path);
+/// A file of the user's own becomes the process, and the first of those to choose from.
+void remember_process(Settings& settings, const std::filesystem::path& path);
 
 /// $XDG_CONFIG_HOME/claystack/studio.json, by default below ~/.config.
 [[nodiscard]] std::filesystem::path settings_path();

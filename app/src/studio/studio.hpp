@@ -64,6 +64,8 @@ class Studio {
 
   void draw_view(unsigned target);
 
+  static constexpr int kFramesAfterInput = 3;  // an ImGui window settles in that many
+
   Workshop shop_;
   ImGuiContext* context_ = nullptr;
   std::optional<draw::Painter> painter_;

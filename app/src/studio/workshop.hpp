@@ -134,13 +134,18 @@ void look_at_hand(Workshop& shop);
 
 /// For a pot that comes without one: its proportions.
 [[nodiscard]] SceneSpec scene_for(const Pot& pot, const std::string& name);
-/// Any file that the studio knows: a scene, a pot, a work; of a drawing the card that imports it.
+/// Any file that the studio knows: a scene, a pot, a work, a process; of a drawing the card that
+/// imports it.
 void open_file(Workshop& shop, const std::filesystem::path& path);
+/// Limits of a process of the user's own, a .json file: for the walls, and for the export where its
+/// card is open.
+void take_process(Workshop& shop, const std::filesystem::path& path);
 /// By the ending of the name; whether it was written. What waits for it goes on.
 bool save_to(Workshop& shop, const std::filesystem::path& path);
 /// Where the box for names begins: the folder of the last file.
 void ask_for_open(Workshop& shop);
 void ask_for_save(Workshop& shop);
+void ask_for_process(Workshop& shop);
 /// What the desktop's dialog was answered.
 void look_at_dialog(Workshop& shop);
 

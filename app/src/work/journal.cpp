@@ -27,14 +27,6 @@ Error system_error(const fs::path& path, const char* action) {
                                      std::generic_category().message(errno))};
 }
 
-/// Its name is on the disk too.
-void sync_folder(const fs::path& folder) {
-  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  (void)fsync(descriptor);
-  (void)close(descriptor);
-}
-
 /// "20261121T230307-4711": when it began, by which process.
 std::string stem_of_now() {
   const std::time_t now = std::time(nullptr);
@@ -53,9 +45,13 @@ Result<fs::path> give_name(int descriptor, const fs::path& temporary, const fs::
         folder / (twin == 0 ? fmt::format("{}.work", stem) : fmt::format("{}-{}.work", stem, twin));
     if (link(temporary.c_str(), path.c_str()) == 0) {
       (void)unlink(temporary.c_str());
-      if (fsync(descriptor) != 0) return tl::make_unexpected(system_error(path, "sync"));
-      sync_folder(folder);
-      return path;
+      Result<void> synced;
+      if (fsync(descriptor) == 0)
+        synced = sync_folder(folder);
+      else
+        synced = tl::make_unexpected(system_error(path, "sync"));
+      if (!synced) (void)unlink(path.c_str());
+      return synced.map([&] { return path; });
     }
     if (errno != EEXIST) break;
   }

@@ -55,22 +55,18 @@ Result<std::vector<Pot>> throw_parts(const SceneSpec& scene, const Pot& before,
 
 }  // namespace
 
-Result<Split> split(const SceneSpec& scene, const Pot& before, std::span<const Pose> poses,
-                    bool may_split) {
-  auto wheel = Wheel::build(scene, before);
-  if (!wheel) return tl::make_unexpected(wheel.error());
-  std::vector<bool> touching;
-  touching.reserve(poses.size());
-  for (const Pose& pose : poses) touching.push_back((wheel->step(pose).flags & kContact) != 0);
-  Pot whole = wheel->pot();
-  auto begins = may_split ? places(poses, touching) : std::vector<std::size_t>();
-  if (!begins.empty()) {
-    auto pots = throw_parts(scene, before, poses, begins);
-    if (pots && pots->back() == whole) return Split{std::move(begins), std::move(*pots)};
-  }
+Split as_one(Thrown whole) {
   Split one;
-  one.pots.push_back(std::move(whole));
+  one.pots.push_back(std::move(whole.pot));
   return one;
+}
+
+Split split(const SceneSpec& scene, const Pot& before, std::span<const Pose> poses, Thrown whole) {
+  if (auto begins = places(poses, whole.touching); !begins.empty()) {
+    auto pots = throw_parts(scene, before, poses, begins);
+    if (pots && pots->back() == whole.pot) return {std::move(begins), std::move(*pots)};
+  }
+  return as_one(std::move(whole));
 }
 
 }  // namespace clay::work

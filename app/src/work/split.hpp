@@ -4,8 +4,8 @@
 
 #include "claystack/engine/pose.hpp"
 #include "claystack/engine/pot.hpp"
-#include "claystack/engine/result.hpp"
 #include "claystack/engine/scene.hpp"
+#include "work/rethrow.hpp"
 
 #include <cstddef>
 #include <span>
@@ -18,14 +18,15 @@ struct Split {
   std::vector<std::size_t> begins;  ///< pose at which each stroke but the first begins
   std::vector<Pot> pots;            ///< after each stroke
 };
+[[nodiscard]] Split as_one(Thrown whole);
 
 inline constexpr double kFreeAirS = 0.3;
 
 /// Cut where the tool was in free air for kFreeAirS at least, at a pose after which it moves up or
 /// down before it touches: a stroke remembers of its past only whether the tool last moved up. Kept
 /// only if the strokes, each on the pot before, give the very pot that the whole gives; else one.
-/// `poses`: quantised; not `may_split`: thrown as one. Errors are those of Wheel::build.
-Result<Split> split(const SceneSpec& scene, const Pot& before, std::span<const Pose> poses,
-                    bool may_split = true);
+/// `poses`: quantised; `whole`: what they make of `before`.
+[[nodiscard]] Split split(const SceneSpec& scene, const Pot& before, std::span<const Pose> poses,
+                          Thrown whole);
 
 }  // namespace clay::work

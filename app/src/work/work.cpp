@@ -1,7 +1,7 @@
 #include "work/work.hpp"
 
-#include "claystack/engine/atomic_file.hpp"
 #include "claystack/engine/session_file.hpp"
+#include "work/rethrow.hpp"
 #include "work/split.hpp"
 
 #include <fmt/format.h>
@@ -16,15 +16,32 @@ namespace {
 
 constexpr std::size_t kBudgetBytes = std::size_t{256} << 20;
 
+std::size_t poses_until(const WorkNode& stroke, double seconds) {
+  const auto until_us = static_cast<std::int64_t>(1e6 * std::clamp(seconds, 0.0, 9e9));
+  return static_cast<std::size_t>(std::distance(
+      stroke.poses.begin(), std::ranges::upper_bound(stroke.poses, until_us, {}, &Pose::time_us)));
+}
+
+/// A pot that has fallen is thrown no more, but it can be looked at and exported.
+Result<Pot> root_of(const SceneSpec& scene, const std::optional<Pot>& start) {
+  if (start && start->collapse)
+    return StepPlan::build(scene).map([&](const StepPlan&) { return *start; });
+  const auto wheel = start ? Wheel::build(scene, *start) : Wheel::build(scene);
+  return wheel.map([](const Wheel& built) { return built.pot(); });
+}
+
 }  // namespace
 
 /// The stroke that lasts. Poses come on the recorder's thread, until it has finished.
 struct Work::Running final : PoseSink {
+  explicit Running(Wheel wheel) : again(std::move(wheel)) {}
+
   NodeId node = 0;
   std::size_t scene = 0;
   std::string begin_line;
   std::vector<Pose> poses;
   Journal* journal = nullptr;
+  Rethrow again;
 
   /// The stroke's own line comes with its first poses: one without any leaves no trace.
   Result<void> append(std::span<const Pose> more) override {
@@ -33,6 +50,7 @@ struct Work::Running final : PoseSink {
       journal->append(session_block(more));
     }
     poses.insert(poses.end(), more.begin(), more.end());
+    again.append(more);
     return {};
   }
   Result<void> finish() override { return {}; }
@@ -76,10 +94,9 @@ Result<Work> Work::begin(const SceneSpec& scene, const Pot& start) {
 
 Result<Work> Work::open(WorkRecord record) {
   const SceneSpec& scene = record.scenes[record.nodes[0].scene];
-  const auto wheel = record.start ? Wheel::build(scene, *record.start) : Wheel::build(scene);
-  if (!wheel) return tl::make_unexpected(wheel.error());
-  auto root = std::make_shared<const Pot>(wheel->pot());
-  return Work(std::move(record), std::move(root));
+  auto root = root_of(scene, record.start);
+  if (!root) return tl::make_unexpected(root.error());
+  return Work(std::move(record), std::make_shared<const Pot>(std::move(*root)));
 }
 
 std::size_t Work::index_of(const SceneSpec& scene) {
@@ -96,9 +113,9 @@ Result<PoseSink*> Work::begin_stroke(const SceneSpec& scene) {
   assert(!running_);
   const auto before = pot();
   if (!before) return tl::make_unexpected(before.error());
-  if (const auto wheel = Wheel::build(scene, **before); !wheel)
-    return tl::make_unexpected(wheel.error());
-  running_ = std::make_unique<Running>();
+  auto wheel = Wheel::build(scene, **before);
+  if (!wheel) return tl::make_unexpected(wheel.error());
+  running_ = std::make_unique<Running>(std::move(*wheel));
   running_->node = record_.nodes.size();
   running_->scene = index_of(scene);
   running_->begin_line = work_stroke_line(running_->node, at(), running_->scene, scene);
@@ -128,21 +145,21 @@ Result<Added> Work::finish_stroke(bool may_split, const Pot* shown) {
   const auto before = pot();
   if (!before) return tl::make_unexpected(before.error());
   const SceneSpec scene = record_.scenes[stroke->scene];
-  auto parts = split(scene, **before, stroke->poses, may_split);
-  if (!parts) return tl::make_unexpected(parts.error());
+  Thrown whole = stroke->again.finish();
+  Split parts = may_split ? split(scene, **before, stroke->poses, std::move(whole))
+                          : as_one(std::move(whole));
   if (stroke->journal != nullptr) {
-    stroke->journal->append(work_end_line(stroke->poses.size(), parts->begins));
+    stroke->journal->append(work_end_line(stroke->poses.size(), parts.begins));
     stroke->journal->sync_soon();
   }
   std::size_t begin = 0;
-  for (std::size_t part = 0; part < parts->pots.size(); ++part) {
-    const std::size_t end =
-        part < parts->begins.size() ? parts->begins[part] : stroke->poses.size();
+  for (std::size_t part = 0; part < parts.pots.size(); ++part) {
+    const std::size_t end = part < parts.begins.size() ? parts.begins[part] : stroke->poses.size();
     append(stroke->scene, from_zero(std::span(stroke->poses).subspan(begin, end - begin)),
-           std::move(parts->pots[part]));
+           std::move(parts.pots[part]));
     begin = end;
   }
-  return Added{at(), parts->pots.size(), shown == nullptr || *shown == **pot()};
+  return Added{at(), parts.pots.size(), shown == nullptr || *shown == **pot()};
 }
 
 void Work::append(std::size_t scene, std::vector<Pose> poses, Pot pot_after) {
@@ -210,9 +227,7 @@ Result<SharedPot> Work::pot(NodeId node) {
 Result<Pot> Work::scrub(NodeId node, double seconds) {
   if (node == 0) return *root_;
   const WorkNode& stroke = record_.nodes[node];
-  const auto until_us = static_cast<std::int64_t>(1e6 * std::clamp(seconds, 0.0, 9e9));
-  const auto until = static_cast<std::size_t>(std::distance(
-      stroke.poses.begin(), std::ranges::upper_bound(stroke.poses, until_us, {}, &Pose::time_us)));
+  const std::size_t until = poses_until(stroke, seconds);
   if (!scrubbing_ || scrubbing_->node != node || scrubbing_->played > until) {
     const auto before = pot(stroke.parent);
     if (!before) return tl::make_unexpected(before.error());
@@ -223,6 +238,21 @@ Result<Pot> Work::scrub(NodeId node, double seconds) {
   for (; scrubbing_->played < until; ++scrubbing_->played)
     scrubbing_->wheel.step(stroke.poses[scrubbing_->played]);
   return scrubbing_->wheel.pot();
+}
+
+Result<Added> Work::branch(NodeId node, double seconds) {
+  assert(!running_);
+  const WorkNode& stroke = record_.nodes[node];
+  const std::size_t until = poses_until(stroke, seconds);
+  const NodeId from = until == stroke.poses.size() ? node : stroke.parent, left = at();
+  const SceneSpec scene = record_.scenes[stroke.scene];
+  const std::vector<Pose> poses(stroke.poses.begin(),
+                                stroke.poses.begin() + static_cast<std::ptrdiff_t>(until));
+  go_to(from);
+  if (from == node || poses.empty()) return Added{at(), 0, true};
+  auto added = add(scene, poses);
+  if (!added) go_to(left);
+  return added;
 }
 
 Result<void> Work::throw_all() {
@@ -247,38 +277,6 @@ NodeView Work::view(NodeId node) const {
     view.changed = known_[node]->changed;
   }
   return view;
-}
-
-Result<void> Work::save(const std::string& path) {
-  assert(!running_);
-  if (auto published = publish(path, write_work(record_)); !published) return published;
-  record_.saved_at = at();
-  record_.saved_nodes = size();
-  if (journal_) journal_->append(work_saved_line(at(), size()));
-  return {};
-}
-
-bool Work::unsaved() const noexcept {
-  return record_.saved_at != at() || record_.saved_nodes != size();
-}
-
-void Work::keep(std::unique_ptr<Journal> journal) {
-  assert(!running_);
-  journal_ = std::move(journal);
-}
-
-Result<Loaded> load(const std::string& path) {
-  auto reading =
-      read_file(path).and_then([&](const std::string& text) { return parse_work(text, path); });
-  if (!reading) return tl::make_unexpected(reading.error());
-  const bool torn = reading->torn || reading->running;
-  if (!torn) {
-    reading->work.saved_at = reading->work.at;
-    reading->work.saved_nodes = reading->work.nodes.size();
-  }
-  auto work = Work::open(std::move(reading->work));
-  if (!work) return failure(work.error().kind, path + ": " + work.error().message);
-  return Loaded{std::move(*work), torn};
 }
 
 }  // namespace clay::work

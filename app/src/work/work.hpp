@@ -42,7 +42,8 @@ struct Added {
 
 class Work {
  public:
-  /// With the scene's lump, or with a pot. Errors are those of Wheel::build.
+  /// With the scene's lump, or with a pot. Errors are those of Wheel::build; but a pot that has
+  /// fallen may be the root, and then has no strokes.
   static Result<Work> begin(const SceneSpec& scene);
   static Result<Work> begin(const SceneSpec& scene, const Pot& start);
   /// Of a file. Checks that the root can be on the wheel; strokes are thrown when they are asked
@@ -79,6 +80,10 @@ class Work {
   Result<SharedPot> pot() { return pot(at()); }
   /// In mid-stroke, after the poses up to `seconds`. Going forward costs the ticks between.
   Result<Pot> scrub(NodeId node, double seconds);
+  /// What `scrub` shows becomes the present pot: a stroke of the poses up to there, beside the one
+  /// that they are of, which stays. At a stroke's end it is that stroke, before all poses the pot
+  /// before it: then nothing is added.
+  Result<Added> branch(NodeId node, double seconds);
   /// Throws what has not been thrown yet, so that every view is complete.
   Result<void> throw_all();
   void set_memory_budget(std::size_t bytes);  ///< of kept pots; 256 MiB at first

@@ -115,14 +115,6 @@ std::pair<int, fs::path> open_in(const fs::path& folder) {
   });
 }
 
-Result<void> sync_folder(const fs::path& folder) {
-  const Descriptor opened(open_retrying(folder, O_RDONLY | O_DIRECTORY));
-  if (opened.get() == -1) return io_failure(folder, "cannot open the folder");
-  if (uninterrupted([&] { return ::fsync(opened.get()); }) == -1)
-    return io_failure(folder, "cannot sync the folder");
-  return {};
-}
-
 }  // namespace
 
 Result<std::string> read_file(const fs::path& path, std::size_t max_bytes) {
@@ -252,6 +244,14 @@ void AtomicFile::discard() noexcept {
   if (descriptor_ != -1) ::close(std::exchange(descriptor_, -1));
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
   temporary_.clear();
+}
+
+Result<void> sync_folder(const fs::path& folder) {
+  const Descriptor opened(open_retrying(folder, O_RDONLY | O_DIRECTORY));
+  if (opened.get() == -1) return io_failure(folder, "cannot open the folder");
+  if (uninterrupted([&] { return ::fsync(opened.get()); }) == -1)
+    return io_failure(folder, "cannot sync the folder");
+  return {};
 }
 
 Result<void> publish(const fs::path& target, std::string_view bytes) {

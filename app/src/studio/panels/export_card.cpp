@@ -4,8 +4,6 @@
 #include "studio/panels/panels.hpp"
 #include "studio/panels/widgets.hpp"
 
-#include "claystack/export/process_limits.hpp"
-
 #include <fmt/format.h>
 #include <imgui_stdlib.h>
 
@@ -60,12 +58,7 @@ void draw_choices(Workshop& shop, ExportWish& wish) {
   if (const int chosen = choice_row("##smooth", kSmoothTitles, smooth, colours); chosen >= 0)
     wish.smooth = kSmooth[static_cast<std::size_t>(chosen)];
   form_row("Made by");
-  if (ImGui::BeginCombo("##process", wish.process.empty() ? "Not said" : wish.process.c_str())) {
-    if (ImGui::Selectable("Not said", wish.process.empty())) wish.process.clear();
-    for (const std::string_view name : solid::kProcessNames)
-      if (ImGui::Selectable(std::string(name).c_str(), wish.process == name)) wish.process = name;
-    ImGui::EndCombo();
-  }
+  choose_process(shop, "Not said", wish.process);
   form_length("Least wall", wish.min_wall_mm, 0.0, kThickestDemandMm, shop.settings.unit,
               wish.process.empty() ? "not asked" : "as the process asks");
   form_row("Shrinkage");

@@ -26,6 +26,9 @@ void toggle_panel(Workshop& shop, std::string_view id);
 /// What the panels that are unfolded need.
 [[nodiscard]] Wanted wanted_of(const Workshop& shop);
 
+/// A list to choose `process` from; `none`: what no process is called.
+void choose_process(Workshop& shop, const char* none, std::string& process);
+
 /// All of a column, in a window of its own.
 void draw_column(Workshop& shop, Column column, glm::vec2 corner_px, glm::vec2 size_px);
 

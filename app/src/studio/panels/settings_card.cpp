@@ -3,8 +3,6 @@
 #include "studio/panels/panels.hpp"
 #include "studio/panels/widgets.hpp"
 
-#include "claystack/export/process_limits.hpp"
-
 #include <imgui_stdlib.h>
 
 #include <array>
@@ -50,14 +48,7 @@ void draw_work(Workshop& shop) {
                          ImGuiSliderFlags_AlwaysClamp))
     settings.pressing_mm_s = static_cast<double>(speed);
   form_row("Made by");
-  if (ImGui::BeginCombo("##process",
-                        settings.process.empty() ? "Not said" : settings.process.c_str())) {
-    if (ImGui::Selectable("Not said", settings.process.empty())) settings.process.clear();
-    for (const std::string_view name : solid::kProcessNames)
-      if (ImGui::Selectable(std::string(name).c_str(), settings.process == name))
-        settings.process = name;
-    ImGui::EndCombo();
-  }
+  choose_process(shop, "Not said", settings.process);
   form_row("Folder");
   ImGui::InputText("##folder", &settings.folder);
   form_row("First steps");

@@ -1,5 +1,5 @@
 // The strokes so far as blocks along a line: a click goes to the end of one, a drag shows what was
-// in the middle of it.
+// in the middle of it, from where one can go on.
 
 #include "studio/panels/panels.hpp"
 #include "studio/panels/widgets.hpp"
@@ -120,10 +120,30 @@ void scrub_to(Workshop& shop, const TimelineBlock& block, const Scale& scale) {
   const double part =
       std::clamp(static_cast<double>((ImGui::GetIO().MousePos.x - low) / (high - low)), 0.0, 1.0);
   shop.potter.scrub(block.node, part * shop.potter.work().view(block.node).seconds);
-  ImGui::GetWindowDrawList()->AddLine(
-      {low + static_cast<float>(part) * (high - low), scale.low(block).y},
-      {low + static_cast<float>(part) * (high - low), scale.high(block).y},
-      ImGui::GetColorU32(ImGuiCol_Text), 2.0f);
+}
+
+/// Where along its block the moment is that the view shows.
+void draw_moment(const Workshop& shop, const Timeline& timeline, const Scale& scale) {
+  const auto& moment = shop.potter.moment();
+  if (!moment) return;
+  const auto block = std::ranges::find(timeline.blocks, moment->node, &TimelineBlock::node);
+  const double whole = shop.potter.work().view(moment->node).seconds;
+  if (block == timeline.blocks.end() || whole <= 0.0) return;
+  const ImVec2 low = scale.low(*block), high = scale.high(*block);
+  const float x = low.x + static_cast<float>(moment->seconds / whole) * (high.x - low.x);
+  ImGui::GetWindowDrawList()->AddLine({x, low.y}, {x, high.y}, ImGui::GetColorU32(ImGuiCol_Text),
+                                      2.0f);
+}
+
+void tell_moment(Workshop& shop) {
+  const Moment& moment = *shop.potter.moment();
+  shop.log(fmt::format("timeline: {} at {:.3f} s", moment.node, moment.seconds));
+  shop.notices.say(
+      Grade::note,
+      fmt::format("{:.1f} s into stroke {}: Ctrl+Shift+B, or a press on the clay, goes "
+                  "on from here as a branch; Esc goes back",
+                  moment.seconds, moment.node),
+      1e-9 * static_cast<double>(shop.host.frame_ns()) + 8.0);
 }
 
 void handle_mouse(Workshop& shop, const Timeline& timeline, const Scale& scale) {
@@ -148,8 +168,12 @@ void handle_mouse(Workshop& shop, const Timeline& timeline, const Scale& scale) 
     if (held->dragged) scrub_to(shop, *block, scale);
     return;
   }
-  shop.log(fmt::format("timeline: {}", held->node));
-  shop.potter.go_to(held->node);
+  if (held->dragged && shop.potter.scrubbing()) {
+    tell_moment(shop);
+  } else {
+    shop.log(fmt::format("timeline: {}", held->node));
+    shop.potter.go_to(held->node);
+  }
   held.reset();
 }
 
@@ -184,6 +208,7 @@ void draw_timeline(Workshop& shop, glm::vec2 corner_px, glm::vec2 size_px) {
   if (draw_start(shop, scale) && live) shop.potter.go_to(0);
   for (const TimelineBlock& block : timeline.blocks) draw_block(shop, block, scale);
   if (live) handle_mouse(shop, timeline, scale);
+  draw_moment(shop, timeline, scale);
   ImGui::SetCursorScreenPos(
       {scale.origin.x, scale.origin.y + scale.row_px * static_cast<float>(timeline.rows) - 1.0f});
   ImGui::Dummy({start_px + px_per_s * static_cast<float>(timeline.seconds), 1.0f});

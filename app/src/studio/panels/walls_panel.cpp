@@ -11,17 +11,6 @@ namespace {
 
 constexpr std::size_t kMostStretches = 3;
 
-void choose_process(Workshop& shop) {
-  constexpr const char* kNone = "No process";
-  std::string& process = shop.settings.process;
-  ImGui::SetNextItemWidth(-1.0f);
-  if (!ImGui::BeginCombo("##process", process.empty() ? kNone : process.c_str())) return;
-  if (ImGui::Selectable(kNone, process.empty())) process.clear();
-  for (const std::string& name : process_names())
-    if (ImGui::Selectable(name.c_str(), name == process)) process = name;
-  ImGui::EndCombo();
-}
-
 void say_where(const PotCheck& check, const Palette& colours, LengthUnit unit) {
   const std::vector<Stretch> stretches = thin_stretches(check);
   for (std::size_t i = 0; i < std::min(stretches.size(), kMostStretches); ++i)
@@ -37,7 +26,8 @@ void say_where(const PotCheck& check, const Palette& colours, LengthUnit unit) {
 void draw_walls(Workshop& shop) {
   const Palette& colours = shop.colours();
   ImGui::Checkbox("Thickness as colours", &shop.settings.wall_map);
-  choose_process(shop);
+  ImGui::SetNextItemWidth(-1.0f);
+  choose_process(shop, "No process", shop.settings.process);
   const auto& check = shop.readings.check();
   if (shop.readings.stack() == nullptr || !check)
     return faint_text(colours, "No clay on the wheel");

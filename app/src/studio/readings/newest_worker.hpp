@@ -1,6 +1,6 @@
 #pragma once
 // A thread that works on the newest question only: one that comes while it works replaces the one
-// that waits.
+// that waits, and what is worked on is given up.
 
 #include <condition_variable>
 #include <cstdint>
@@ -17,13 +17,14 @@ namespace clay::studio {
 template <class Question, class Answer>
 class NewestWorker {
  public:
-  using Work = std::function<Answer(const Question&)>;
+  using GivenUp = std::function<bool()>;  ///< from any thread: nobody will see the answer
+  using Work = std::function<Answer(const Question&, const GivenUp&)>;
 
   /// Without `thread` an answer is there as soon as it is asked for.
   NewestWorker(Work work, bool thread) : work_(std::move(work)) {
     if (thread) thread_ = std::thread([this] { run(); });
   }
-  /// Waits for the work that is under way.
+  /// Waits for the work that is under way to be given up.
   ~NewestWorker() {
     {
       const std::lock_guard lock(mutex_);
@@ -37,7 +38,7 @@ class NewestWorker {
 
   void ask(Question question) {
     if (!thread_.joinable()) {
-      answer_ = work_(question);
+      answer_ = work_(question, [] { return false; });
       return;
     }
     {
@@ -65,6 +66,10 @@ class NewestWorker {
 
  private:
   void run() {
+    const GivenUp given_up = [this] {
+      const std::lock_guard lock(mutex_);
+      return over_ || question_;
+    };
     std::unique_lock lock(mutex_);
     for (;;) {
       wake_.wait(lock, [&] { return over_ || question_; });
@@ -72,10 +77,10 @@ class NewestWorker {
       const Question question = *std::exchange(question_, std::nullopt);
       working_ = true;
       lock.unlock();
-      Answer answer = work_(question);
+      Answer answer = work_(question, given_up);
       lock.lock();
       working_ = false;
-      answer_ = std::move(answer);
+      if (!question_) answer_ = std::move(answer);
     }
   }
 

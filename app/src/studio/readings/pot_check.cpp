@@ -4,6 +4,7 @@
 #include "claystack/export/export_job.hpp"
 #include "claystack/export/process_limits.hpp"
 #include "draw/wall_rows.hpp"
+#include "wall_demand.hpp"
 
 #include <fmt/format.h>
 
@@ -16,10 +17,14 @@ namespace {
 
 constexpr double kFinestSpacingMm = 0.05;
 
-std::optional<WallLimit> limit_of(const std::string& process, const ClayStack& stack) {
+std::optional<WallLimit> limit_of(const std::string& process, const ClayStack& stack,
+                                  std::vector<PotRemark>& remarks) {
   if (process.empty()) return std::nullopt;
-  const auto limits = solid::process_named(process);
-  if (!limits) return std::nullopt;
+  const auto limits = app::process_of(process);
+  if (!limits) {
+    remarks.push_back({0.0, stack.height_mm(), limits.error().message});
+    return std::nullopt;
+  }
   const auto& wall = limits->wall_for(4.0 * largest_radius_mm(stack) + stack.height_mm());
   return WallLimit{wall.min_wall_mm, limits->name, wall.source};
 }
@@ -80,16 +85,19 @@ Pot provisional(ClayStack stack, double density_g_cm3) {
   return pot;
 }
 
-void run(const PotQuestion& question, const Pot& pot, PotCheck& check) {
+void run(const PotQuestion& question, const Pot& pot, const std::function<bool()>& given_up,
+         PotCheck& check) {
   check.height_mm = pot.stack.height_mm();
   check.fallen = pot.collapse.has_value();
-  check.limit = limit_of(question.process, pot.stack);
+  check.limit = limit_of(question.process, pot.stack, check.remarks);
   const std::size_t rows = std::max<std::size_t>(1, question.subject.outline.rows.size());
   solid::ExportOptions options;
   options.tolerance_mm = question.tolerance_mm;
+  options.cancelled = given_up;
   if (check.limit) options.min_wall_mm = check.limit->min_wall_mm;
-  options.wall_spacing_mm =
-      std::max(kFinestSpacingMm, 0.5 * check.height_mm / static_cast<double>(rows));
+  if (!check.fallen)  // one that has fallen has no one section
+    options.wall_spacing_mm =
+        std::max(kFinestSpacingMm, 0.5 * check.height_mm / static_cast<double>(rows));
   const auto report = solid::run_export(pot, {}, options);
   if (report) return take_report(*report, rows, check);
   check.why_not = report.error().message;
@@ -102,14 +110,14 @@ std::vector<std::string> process_names() {
   return {solid::kProcessNames.begin(), solid::kProcessNames.end()};
 }
 
-PotCheck check_pot(const PotQuestion& question) {
+PotCheck check_pot(const PotQuestion& question, const std::function<bool()>& given_up) {
   const auto begin = std::chrono::steady_clock::now();
   PotCheck check;
   check.live = question.subject.live();
   if (!check.live)
-    run(question, *question.subject.pot, check);
+    run(question, *question.subject.pot, given_up, check);
   else if (auto stack = stack_of(question.subject.outline, question.subject.crown_mm))
-    run(question, provisional(std::move(*stack), question.subject.density_g_cm3), check);
+    run(question, provisional(std::move(*stack), question.subject.density_g_cm3), given_up, check);
   else
     check.why_not = "expected clay, found none";
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;

@@ -6,6 +6,7 @@
 #include "studio/settings.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
@@ -22,7 +23,7 @@ struct WallLimit {
 
 struct PotQuestion {
   Subject subject;
-  std::string process;  ///< one of process_names(); empty: none
+  std::string process;  ///< as app::process_of has it; empty: none
   double tolerance_mm = 0.02;
 };
 
@@ -60,7 +61,9 @@ struct PotCheck {
 
 [[nodiscard]] std::vector<std::string> process_names();
 
-[[nodiscard]] PotCheck check_pot(const PotQuestion& question);
+/// `given_up` as ExportOptions::cancelled: what then comes of it says nothing.
+[[nodiscard]] PotCheck check_pot(const PotQuestion& question,
+                                 const std::function<bool()>& given_up = {});
 
 /// The walls for an outline of `rows` rows that is `height_mm` high now: each from the same height.
 [[nodiscard]] std::vector<draw::RowWall> walls_for(const PotCheck& check, std::size_t rows,

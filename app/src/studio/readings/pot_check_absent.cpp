@@ -6,7 +6,7 @@ namespace clay::studio {
 
 std::vector<std::string> process_names() { return {}; }
 
-PotCheck check_pot(const PotQuestion&) {
+PotCheck check_pot(const PotQuestion&, const std::function<bool()>&) {
   PotCheck check;
   check.why_not = "built without the export";
   return check;

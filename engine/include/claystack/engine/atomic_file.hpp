@@ -56,6 +56,9 @@ class AtomicFile {
   std::uint64_t on_its_way_ = 0;  ///< so much of it is being written to the disk
 };
 
+/// So that the names in it are on the disk too.
+Result<void> sync_folder(const std::filesystem::path& folder);
+
 /// create, write, commit; "-" is standard output.
 Result<void> publish(const std::filesystem::path& target, std::string_view bytes);
 

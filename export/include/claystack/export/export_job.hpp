@@ -18,7 +18,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,7 +41,9 @@ struct ExportOptions {
   bool measure_left_out = false;   ///< do what is left out after all, to tell what that saved
   bool full_verification = false;  ///< every file read again whole, and checked as a stranger's is
   std::string name = "pot";        ///< solid or object name inside the file
-  std::stop_token cancel;          ///< looked at before each stage; then the job is an error (io)
+  /// Asked before each stage and every few milliseconds, also by several threads at once. True: the
+  /// job is an error (io). Only an encoder of Draco ends what it has begun.
+  std::function<bool()> cancelled;
 };
 
 /// A file to write. The caller owns the store, and publishes it after the job has succeeded.
