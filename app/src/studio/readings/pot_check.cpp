@@ -65,6 +65,7 @@ void take_report(const solid::ExportReport& report, std::size_t rows, PotCheck& 
   check.counted_mm3 = report.counted_volume_mm3;
   check.proved_mm3 = report.volume_mm3;
   check.volume_error_relative = report.volume_error_relative;
+  if (check.fallen) return take_remarks(report, check);
   check.least_wall_mm = report.min_wall_mm;
   check.thinnest_mm = report.thinnest.thickness_mm;
   check.thinnest_from = {report.thinnest.from.rho, report.thinnest.from.y};
@@ -88,8 +89,9 @@ void run(const PotQuestion& question, const Pot& pot, PotCheck& check) {
   solid::ExportOptions options;
   options.tolerance_mm = question.tolerance_mm;
   if (check.limit) options.min_wall_mm = check.limit->min_wall_mm;
-  options.wall_spacing_mm =
-      std::max(kFinestSpacingMm, 0.5 * check.height_mm / static_cast<double>(rows));
+  if (!check.fallen)
+    options.wall_spacing_mm =
+        std::max(kFinestSpacingMm, 0.5 * check.height_mm / static_cast<double>(rows));
   const auto report = solid::run_export(pot, {}, options);
   if (report) return take_report(*report, rows, check);
   check.why_not = report.error().message;
