@@ -139,7 +139,7 @@ TEST_F(Look, IsAsInThePicturesThatWereLookedAt) {
               name + ".png " + folder.file(std::string(name) + ".png") + " null:");
     ASSERT_LE(differ.status, 1) << name << ": " << differ.err;
     EXPECT_LT(std::stod(differ.err), 150.0) << name
-                                            << ": of 132 000 pixels; references.sh makes "
+                                            << ": of 126 720 pixels; references.sh makes "
                                                "the pictures anew";
   }
 }

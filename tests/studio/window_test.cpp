@@ -99,7 +99,8 @@ TEST_F(Window, AFallIsShownAndUndone) {
   // Until the neck gives way.
   for (int i = 0; i < 40; ++i) script += "wait 0.05\n";
   script +=
-      "release left\nhold\nexpect fallen yes\nkey 1\nscreenshot FOLDER/fell.png\n"
+      "release left\nhold\nexpect fallen yes\nwait 0.1\nexpect proved yes\nexpect thin no\nkey "
+      "1\nscreenshot FOLDER/fell.png\n"
       "do file.export\nwait 0.1\nexpect triangles above 100\nkey Esc\n"
       "key Ctrl+Z\nexpect fallen no\nsave FOLDER/again.pot.json\n";
   const Ran ran = run(script);
