@@ -54,6 +54,20 @@ TEST_F(Window, CtrlTrimsAndPressKeepsTheClay) {
   EXPECT_NE(ledger("trim.pot.json")["trimmed"], "0") << ledger("trim.pot.json");
 }
 
+TEST_F(Window, APinchByTheMouseThinsTheWallAndKeepsTheClay) {
+  const std::string pot = folder.file("cylinder.pot.json");
+  ASSERT_EQ(claystack("throw -q " + test::sample("cylinder.scene.json") + " -o " + pot).status, 0);
+  const Ran ran = run("open " + pot +
+                      "\nwait 0.1\nexpect thinnest_mm above 3.9\ndo tool.pinch\n"
+                      // From a gap of 6 mm to one of 3.
+                      "key ,\nkey ,\nkey ,\nkey ,\nkey ,\nkey ,\nkey 1\n"
+                      "point 40 40\npress left\nwait 0.5\npoint 40 75 over 1.5\n"
+                      "expect contact yes\nrelease left\nwait 0.1\n"
+                      "expect thinnest_mm below 3.2\nexpect thinnest_mm above 2.8\n"
+                      "expect volume_error 0\nexpect strokes 1\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
 TEST_F(Window, AStrokeFromAnEarlierPotIsABranch) {
   const Ran ran = run(std::string(kPress) + kDeeper +
                       "expect node 2\nsave FOLDER/two.pot.json\n"
