@@ -95,6 +95,24 @@ TEST(Painter, TheToolIsWhereItIs) {
 
 bool is_lit(const std::uint8_t* rgba) { return is_near(rgba, 255, 173, 63, 12); }
 
+TEST(Painter, AToolThatClayHidesIsSeenThrough) {
+  draw::Picture picture = with_tool({0, 30, 0});  // in the middle of a solid lump
+  const draw::Image with = drawn(picture);
+  picture.tool.reset();
+  const draw::Image without = drawn(picture);
+  const auto differs = [&](double rho) {
+    const auto px =
+        draw::pixel_of(picture.camera, kView,
+                       rho * draw::profile_direction(picture.camera) + glm::dvec3{0, 30, 0})
+            .value();
+    const int x = static_cast<int>(px.x), y = static_cast<int>(px.y);
+    const std::uint8_t* clay = without.at(x, y);
+    return !is_near(with.at(x, y), clay[0], clay[1], clay[2], 4);
+  };
+  for (const double rho : {-8.0, -4.0, 0.0, 4.0, 8.0}) EXPECT_TRUE(differs(rho)) << rho;
+  for (const double rho : {-14.0, 14.0, 20.0}) EXPECT_FALSE(differs(rho)) << rho;
+}
+
 TEST(Painter, ContactLightsTheSideThatTouches) {
   const draw::Camera camera = with_tool({}).camera;
   const glm::dvec3 right = draw::profile_direction(camera);

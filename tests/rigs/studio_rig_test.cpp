@@ -68,8 +68,8 @@ bool is_no_force(const Bytes& frame) {
 class StudioRig : public testing::Test {
  protected:
   void SetUp() override {
-    if (test::shell("command -v Xvfb && command -v xdotool").status != 0)
-      GTEST_SKIP() << "needs Xvfb and xdotool (tests/run.sh installs them)";
+    ASSERT_EQ(test::shell("command -v Xvfb && command -v xdotool").status, 0)
+        << "needs Xvfb and xdotool (tests/run.sh installs them)";
     auto scene = nlohmann::json::parse(test::read_text(test::sample("bowl.scene.json")));
     // So stiff a clay gives way by little while it is pressed: the hand feels it for long.
     scene["removal"]["rate_per_s"] = 0.1;

@@ -173,7 +173,7 @@ TEST(PotCheck, SaysAThinWallWithItsHeight) {
             solid::process_named("porcelain").value().wall_for(80 + 80 + 60).min_wall_mm);
   EXPECT_TRUE(check.thin());
   const std::string words = wall_words(check, LengthUnit::mm);
-  EXPECT_EQ(words.find("Thinnest 1.6 mm at 3"), 0u) << words;
+  EXPECT_EQ(words.find("Thinnest 1.6 mm, 3"), 0u) << words;
   EXPECT_NE(words.find("porcelain asks"), std::string::npos) << words;
   EXPECT_NE(words.find("too thin"), std::string::npos) << words;
   const auto thin = thin_stretches(check);

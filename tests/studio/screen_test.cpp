@@ -19,8 +19,8 @@ using test::shell;
 class OnAScreen : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (shell("command -v Xvfb && command -v xdotool").status != 0)
-      GTEST_SKIP() << "needs Xvfb and xdotool (tests/run.sh installs them)";
+    ASSERT_EQ(shell("command -v Xvfb && command -v xdotool").status, 0)
+        << "needs Xvfb and xdotool (tests/run.sh installs them)";
   }
   Ran run(const char* script, const ScratchFolder& folder) {
     return shell(std::string("sh ") + CLAYSTACK_STUDIO_TESTS + "/" + script +

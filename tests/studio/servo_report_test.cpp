@@ -14,8 +14,7 @@ using test::claystack;
 using test::Ran;
 
 TEST(ServoReport, TellsHowServoAndWindowKeptTheirTimeAndEndsByIt) {
-  if (test::shell("command -v Xvfb").status != 0)
-    GTEST_SKIP() << "needs Xvfb (tests/run.sh installs it)";
+  ASSERT_EQ(test::shell("command -v Xvfb").status, 0) << "needs Xvfb (tests/run.sh installs it)";
   const test::ScratchFolder folder;
   const Ran ran = test::shell("sh " CLAYSTACK_STUDIO_TESTS
                               "/servo_report_under_xvfb.sh " CLAYSTACK_PROGRAM " " +

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <glm/gtc/type_ptr.hpp>
 
 namespace clay::draw {
 namespace {
@@ -71,6 +72,25 @@ Result<Program> make_program(std::string_view name, const std::string& vertex,
   if (fine != GL_TRUE)
     return failure(ErrorKind::device, fmt::format("OpenGL cannot link the shader {}", name));
   return program;
+}
+
+GLint location(const Program& program, const char* name) {
+  return glGetUniformLocation(program.get(), name);
+}
+void set(const Program& program, const char* name, const glm::mat4& value) {
+  glUniformMatrix4fv(location(program, name), 1, GL_FALSE, glm::value_ptr(value));
+}
+void set(const Program& program, const char* name, const glm::vec4& value) {
+  glUniform4fv(location(program, name), 1, glm::value_ptr(value));
+}
+void set(const Program& program, const char* name, const glm::vec3& value) {
+  glUniform3fv(location(program, name), 1, glm::value_ptr(value));
+}
+void set(const Program& program, const char* name, const glm::vec2& value) {
+  glUniform2fv(location(program, name), 1, glm::value_ptr(value));
+}
+void set(const Program& program, const char* name, float value) {
+  glUniform1f(location(program, name), value);
 }
 
 Result<Canvas> Canvas::create(int width_px, int height_px, int samples) {

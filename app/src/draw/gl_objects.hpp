@@ -5,6 +5,10 @@
 
 #include <epoxy/gl.h>
 
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -54,6 +58,14 @@ Texture make_texture();
 /// Compiles and links. `device`, with the driver's own words, where it refuses; `name` says which.
 Result<Program> make_program(std::string_view name, const std::string& vertex,
                              const std::string& fragment);
+
+/// Uniforms of the program in use, by name.
+[[nodiscard]] GLint location(const Program& program, const char* name);
+void set(const Program& program, const char* name, const glm::mat4& value);
+void set(const Program& program, const char* name, const glm::vec4& value);
+void set(const Program& program, const char* name, const glm::vec3& value);
+void set(const Program& program, const char* name, const glm::vec2& value);
+void set(const Program& program, const char* name, float value);
 
 /// Colour and depth, multisampled where `samples` is above 1.
 class Canvas {

@@ -1,42 +1,19 @@
 #include "draw/scene_painter.hpp"
 
+#include "draw/scene_frame.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <numbers>
-#include <optional>
 
 namespace clay::draw {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kThickness = 0.07;    // of the wheel head, in radii
-constexpr double kFloor = 3.0;         // radius of the floor, in those of the wheel head
-constexpr double kStraightPx = 0.2;    // levels that chords miss by less are left out
-constexpr double kChordPx = 0.2;       // between a sector's chord and its arc
-constexpr double kLeastForceN = 0.02;  // below it there is no arrow
+constexpr double kFloor = 3.0;  // radius of the floor, in those of the wheel head
 constexpr GLuint kBlockBinding = 0;
-
-GLint location(const Program& program, const char* name) {
-  return glGetUniformLocation(program.get(), name);
-}
-void set(const Program& program, const char* name, const glm::mat4& value) {
-  glUniformMatrix4fv(location(program, name), 1, GL_FALSE, glm::value_ptr(value));
-}
-void set(const Program& program, const char* name, const glm::vec4& value) {
-  glUniform4fv(location(program, name), 1, glm::value_ptr(value));
-}
-void set(const Program& program, const char* name, const glm::vec3& value) {
-  glUniform3fv(location(program, name), 1, glm::value_ptr(value));
-}
-void set(const Program& program, const char* name, const glm::vec2& value) {
-  glUniform2fv(location(program, name), 1, glm::value_ptr(value));
-}
-void set(const Program& program, const char* name, float value) {
-  glUniform1f(location(program, name), value);
-}
 
 Result<Program> frame_program(std::string_view name, const std::string& vertex,
                               const std::string& fragment) {
@@ -50,93 +27,7 @@ Result<Program> frame_program(std::string_view name, const std::string& vertex,
   });
 }
 
-/// A turn about y that takes the eye's right, up and horizontal backwards to the wheel's x, y, z.
-glm::vec3 beside_camera(const Camera& camera, const glm::dvec3& direction) {
-  const double s = std::sin(camera.azimuth_rad), c = std::cos(camera.azimuth_rad);
-  return {direction.x * c + direction.z * s, direction.y, direction.z * c - direction.x * s};
-}
-
-double opening_of(Cut cut) { return cut == Cut::half ? kPi : cut == Cut::quarter ? kPi / 2 : 0.0; }
-
-/// Takes y to `direction`, the origin to `from`.
-glm::mat4 along(const glm::dvec3& from, const glm::dvec3& direction) {
-  const glm::dvec3 y = glm::normalize(direction);
-  const glm::dvec3 aside = std::abs(y.x) < 0.7 ? glm::dvec3{1, 0, 0} : glm::dvec3{0, 0, 1};
-  const glm::dvec3 z = glm::normalize(glm::cross(aside, y)), x = glm::cross(y, z);
-  return glm::mat4(
-      glm::dmat4{glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), glm::dvec4(from, 1)});
-}
-
-std::vector<Body> bodies_of(const PotView& pot, double tolerance_mm) {
-  const auto tolerance = static_cast<float>(tolerance_mm);
-  const std::size_t split =
-      pot.fallen ? std::min(pot.fallen->first_row, pot.rows.size()) : pot.rows.size();
-  std::vector<Body> bodies;
-  if (split > 0) bodies.push_back({levels_of(pot, 0, split, tolerance), glm::mat4(1.0f)});
-  if (split < pot.rows.size())
-    bodies.push_back(
-        {levels_of(pot, split, pot.rows.size(), tolerance), glm::mat4(pot.fallen->place)});
-  return bodies;
-}
-
-float size_of(const PotView& pot) {
-  float radius = 0.0f;
-  for (const Row& row : pot.rows) radius = std::max(radius, row.outer_mm);
-  return std::max(radius, static_cast<float>(pot.height_mm));
-}
-
 }  // namespace
-
-struct ScenePainter::Frame {
-  const Picture& picture;
-  const Look& look;
-  FrameBlock block;
-  std::vector<Body> bodies;
-  double wheel_radius;
-  glm::vec2 sweep;  ///< azimuths that the cut leaves
-  double px_per_mm;
-
-  Frame(const Picture& shown, Viewport viewport)
-      : picture(shown),
-        look(look_of(shown.theme)),
-        wheel_radius(shown.wheel_radius_mm.value_or(wheel_radius_mm(shown.pot))) {
-    const Camera& camera = picture.camera;
-    const double opening = opening_of(picture.cut);
-    const double middle = picture.cut_azimuth_rad.value_or(camera.azimuth_rad);
-    sweep = {middle + 0.5 * opening, middle + 2.0 * kPi - 0.5 * opening};
-    px_per_mm = 0.5 * viewport.height_px / (std::tan(0.5 * camera.fov_rad) * camera.distance_mm);
-    bodies = bodies_of(picture.pot, kStraightPx / px_per_mm);
-    fill_block(viewport);
-  }
-
-  void fill_block(Viewport viewport) {
-    const Camera& camera = picture.camera;
-    block.view_projection =
-        glm::mat4(projection_matrix(camera, viewport.aspect()) * view_matrix(camera));
-    block.eye = glm::vec4(glm::vec3(eye_mm(camera)), 1.0f);
-    const auto turn = static_cast<float>(picture.wheel_turn_rad);
-    block.to_lamp = glm::vec4(beside_camera(camera, lamp_direction()), std::cos(turn));
-    block.to_rim_lamp = glm::vec4(beside_camera(camera, rim_lamp_direction()), std::sin(turn));
-    block.lamp = glm::vec4(look.lamp, 0.0f);
-    block.sky = glm::vec4(look.sky, 0.0f);
-    block.bounce = glm::vec4(look.bounce, 0.0f);
-    block.rim = glm::vec4(look.rim, 0.0f);
-    block.low = glm::vec4(look.low, 0.0f);
-    block.high = glm::vec4(look.high, 0.0f);
-    block.viewport = {viewport.width_px, viewport.height_px, 1.0f, 0.0f};
-    if (picture.wall_map && !picture.pot.wall_mm.empty())
-      block.wall_map = {picture.wall_map->limit_mm, picture.wall_map->top_mm, 1.0f, 0.0f};
-    block.wheel = {picture.wheel_turn_rad, wheel_radius, kThickness * wheel_radius,
-                   size_of(picture.pot)};
-  }
-
-  [[nodiscard]] int sectors_for(double radius_mm) const {
-    const double radius_px = std::max(1.0, radius_mm * px_per_mm);
-    const double wanted = kPi / std::acos(1.0 - std::min(1.0, kChordPx / radius_px));
-    return std::clamp(16 * static_cast<int>(std::ceil(wanted / 16.0)), 48, 320);
-  }
-  [[nodiscard]] bool from_above() const { return block.eye.y > 0.0f; }
-};
 
 Result<ScenePainter> ScenePainter::create() {
   ScenePainter made;
@@ -166,11 +57,12 @@ Result<ScenePainter> ScenePainter::create() {
 }
 
 void ScenePainter::paint(const Picture& picture, Viewport viewport) {
-  Frame frame(picture, viewport);
+  const SceneFrame frame(picture, viewport);
+  FrameBlock block = frame.block;
   const ShadowMap shadow = shadow_of(frame.bodies, glm::vec3(frame.block.to_lamp));
-  frame.block.viewport.z = shadow.half_side_mm;
+  block.viewport.z = shadow.half_side_mm;
   send(shadow);
-  send(frame.block);
+  send(block);
   glViewport(0, 0, viewport.width_px, viewport.height_px);
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
@@ -186,6 +78,7 @@ void ScenePainter::paint(const Picture& picture, Viewport viewport) {
   paint_clay(frame);
   if (picture.cut != Cut::none) paint_section(frame);
   if (picture.tool) {
+    paint_hidden_tool(frame);
     paint_tool(frame);
     paint_arrow(frame);
   }
@@ -222,14 +115,14 @@ void ScenePainter::paint_background() {
 }
 
 void ScenePainter::revolve(const Program& program, const std::vector<Stretch>& meridian,
-                           const glm::mat4& place, const Frame& frame) {
+                           const glm::mat4& place, const SceneFrame& frame) {
   float radius = 0.0f;
   for (const Stretch& stretch : meridian) radius = std::max(radius, stretch.to.x);
   set(program, "place", place);
   revolver_.draw(meridian, frame.sectors_for(static_cast<double>(radius)));
 }
 
-void ScenePainter::paint_clay(const Frame& frame) {
+void ScenePainter::paint_clay(const SceneFrame& frame) {
   glUseProgram(clay_.get());
   set(clay_, "sweep", frame.sweep);
   set(clay_, "turn", static_cast<float>(frame.picture.wheel_turn_rad));
@@ -240,7 +133,7 @@ void ScenePainter::paint_clay(const Frame& frame) {
   }
 }
 
-void ScenePainter::paint_section(const Frame& frame) {
+void ScenePainter::paint_section(const SceneFrame& frame) {
   glUseProgram(slice_.get());
   glDisable(GL_CULL_FACE);
   set(slice_, "section", glm::vec4(frame.look.section, 1.0f));
@@ -255,49 +148,7 @@ void ScenePainter::paint_section(const Frame& frame) {
   glEnable(GL_CULL_FACE);
 }
 
-void ScenePainter::paint_tool(const Frame& frame) {
-  const ToolView& tool = *frame.picture.tool;
-  const std::vector<Stretch> meridian = meridian_of(tool.half_profile_mm);
-  float widest = 0.0f;
-  for (const glm::vec2& p : tool.half_profile_mm) widest = std::max(widest, p.x);
-  const double from_axis = std::hypot(tool.place_mm.x, tool.place_mm.z);
-  const glm::dvec3 radial = from_axis > 0.0
-                                ? glm::dvec3{tool.place_mm.x, 0.0, tool.place_mm.z} / from_axis
-                                : glm::dvec3{1.0, 0.0, 0.0};
-  glUseProgram(plain_.get());
-  set(plain_, "sweep", glm::vec2{0.0f, static_cast<float>(2.0 * kPi)});
-  set(plain_, "base", glm::vec4(frame.look.tool, 48.0f));
-  const auto paint_at = [&](double shift, double touching) {
-    set(plain_, "touch", glm::vec4(glm::vec3(touching * radial), tool.contact ? 1.0f : 0.0f));
-    const glm::dvec3 place = tool.place_mm + shift * radial;
-    revolve(plain_, meridian, glm::mat4(glm::translate(glm::dmat4(1.0), place)), frame);
-  };
-  if (!tool.gap_mm) return paint_at(0.0, tool.inside ? 1.0 : -1.0);
-  const double reach = 0.5 * *tool.gap_mm + static_cast<double>(widest);
-  paint_at(reach, -1.0);
-  paint_at(-reach, 1.0);
-}
-
-void ScenePainter::paint_arrow(const Frame& frame) {
-  const ToolView& tool = *frame.picture.tool;
-  const double force = glm::length(tool.force_n);
-  if (!(force > kLeastForceN)) return;
-  const glm::dvec3 way = tool.force_n / force;
-  double beyond = 0.0;  // of the tool's surface, along the force
-  const double flat = std::hypot(way.x, way.z);
-  for (const glm::vec2& p : tool.half_profile_mm)
-    beyond = std::max(beyond, static_cast<double>(p.x) * flat + static_cast<double>(p.y) * way.y);
-  const auto length = static_cast<float>(kArrowMmPerN * std::min(force, kArrowLimitN));
-  const float head = std::min(8.0f, 0.6f * length), thick = 0.16f * head, wide = 0.42f * head;
-  const std::vector<glm::vec2> line{
-      {thick, 0.0f}, {thick, length - head}, {wide, length - head}, {0.0f, length}};
-  glUseProgram(plain_.get());
-  set(plain_, "base", glm::vec4(frame.look.arrow, 30.0f));
-  set(plain_, "touch", glm::vec4(0.0f));
-  revolve(plain_, meridian_of(line), along(tool.place_mm + beyond * way, way), frame);
-}
-
-void ScenePainter::paint_wheel(const Frame& frame) {
+void ScenePainter::paint_wheel(const SceneFrame& frame) {
   const auto radius = static_cast<float>(frame.wheel_radius);
   const float thick = frame.block.wheel.z, bevel = 0.12f * thick;
   const glm::vec2 whole{0.0f, static_cast<float>(2.0 * kPi)};

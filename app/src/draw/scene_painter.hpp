@@ -12,6 +12,8 @@
 
 namespace clay::draw {
 
+struct SceneFrame;
+
 class ScenePainter {
  public:
   static Result<ScenePainter> create();
@@ -19,17 +21,17 @@ class ScenePainter {
   void paint(const Picture& picture, Viewport viewport);
 
  private:
-  struct Frame;  ///< what the stages of one frame share
   void paint_background();
-  void paint_clay(const Frame& frame);
-  void paint_section(const Frame& frame);
-  void paint_tool(const Frame& frame);
-  void paint_arrow(const Frame& frame);
-  void paint_wheel(const Frame& frame);
+  void paint_clay(const SceneFrame& frame);
+  void paint_section(const SceneFrame& frame);
+  void paint_tool(const SceneFrame& frame);
+  void paint_hidden_tool(const SceneFrame& frame);
+  void paint_arrow(const SceneFrame& frame);
+  void paint_wheel(const SceneFrame& frame);
   void send(const FrameBlock& block);
   void send(const ShadowMap& map);
   void revolve(const Program& program, const std::vector<Stretch>& meridian, const glm::mat4& place,
-               const Frame& frame);
+               const SceneFrame& frame);
 
   Program background_, clay_, plain_, wheel_, ground_, slice_;
   Buffer block_;

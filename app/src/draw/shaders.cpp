@@ -187,16 +187,15 @@ void main() {
   float groove = abs(fract(rho / pitch) - 0.5) * pitch;
   float line = (1.0 - smoothstep(0.0, 0.0035 * radius + width, groove)) *
                (1.0 - smoothstep(0.05, 0.4, width / pitch));
-  // The mark that shows the turn: a dot near the edge and a short line.
+  // The mark that shows the turn: a short line near the edge.
   float s = frame.to_rim_lamp.w, c = frame.to_lamp.w;
   vec2 turned = vec2(own.x * c - own.z * s, own.x * s + own.z * c);
   vec2 soft = vec2(-1.0, 1.0) * max(width, 1e-6);
-  float dot_ = 1.0 - smoothstep(soft.x, soft.y, length(turned - vec2(0.0, 0.93 * radius)) - 0.016 * radius);
-  float bar = (1.0 - smoothstep(soft.x, soft.y, abs(turned.x) - 0.006 * radius)) *
+  float bar = (1.0 - smoothstep(soft.x, soft.y, abs(turned.x) - 0.008 * radius)) *
               smoothstep(soft.x, soft.y, turned.y - 0.80 * radius) *
-              (1.0 - smoothstep(soft.x, soft.y, turned.y - 0.89 * radius));
+              (1.0 - smoothstep(soft.x, soft.y, turned.y - 0.95 * radius));
   vec3 base = metal * (1.0 - 0.22 * line * top);
-  base = mix(base, metal * 0.18, max(dot_, bar) * top);
+  base = mix(base, metal * 0.18, bar * top);
   vec3 lit = lit_surface(base, n, v, light.y, light.x, 60.0, 0.10);
   colour = shown(exposed(lit));
 }

@@ -166,7 +166,7 @@ void Studio::lay_out() {
   const float em = ImGui::GetFontSize();
   const glm::vec2 size(shop_.host.size_px());
   const float top = draw_menu(shop_);
-  const float status = std::round(1.75f * em);
+  const float status = status_height();
   const float height = std::max(1.0f, size.y - top - status);
   // Where there is little room the view has it, and then the tool.
   const float column = std::round(kColumnEm * em);

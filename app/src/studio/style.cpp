@@ -106,6 +106,18 @@ ImFont* load(const char* file, float size_px, float scale) {
 
 }  // namespace
 
+ImVec4 ink_on(const ImVec4& face) {
+  const ImVec4 ground = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
+  const auto light = [&](float over, float under) {
+    return std::pow(face.w * over + (1.0f - face.w) * under, 2.2f);
+  };
+  const float luminance = 0.2126f * light(face.x, ground.x) + 0.7152f * light(face.y, ground.y) +
+                          0.0722f * light(face.z, ground.z);
+  // Where the contrasts to black and to white are equal, as WCAG reckons them.
+  constexpr float kEven = 0.179f;
+  return luminance > kEven ? rgb(0x141414) : rgb(0xffffff);
+}
+
 const Palette& palette(Theme theme) { return theme == Theme::dark ? kDark : kLight; }
 
 Fonts apply_style(Theme theme, float scale) {

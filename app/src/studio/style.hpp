@@ -19,6 +19,9 @@ struct Palette {
   ImVec4 clay;     ///< a section's face
 };
 [[nodiscard]] const Palette& palette(Theme theme);
+/// Black or white, whichever is easier to read on `face`; where that is not opaque, on the theme's
+/// own ground below it.
+[[nodiscard]] ImVec4 ink_on(const ImVec4& face);
 
 inline constexpr float kSmallestScale = 0.5f, kLargestScale = 3.0f;
 

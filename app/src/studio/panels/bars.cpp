@@ -34,6 +34,8 @@ ImVec4 colour_of(Grade grade, const Palette& colours) {
 
 }  // namespace
 
+float status_height() { return std::round(1.75f * ImGui::GetFontSize()); }
+
 void draw_status_bar(Workshop& shop, glm::vec2 corner_px, glm::vec2 size_px) {
   ImGui::SetNextWindowPos({corner_px.x, corner_px.y});
   ImGui::SetNextWindowSize({size_px.x, size_px.y});
@@ -87,7 +89,7 @@ void draw_banner(Workshop& shop, const ViewRect& view) {
   ImGui::TextColored(colour, "%s", grade);
   ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("Close").x -
                   2.0f * ImGui::GetStyle().FramePadding.x);
-  const bool closed = ImGui::SmallButton("Close");
+  const bool closed = ImGui::Button("Close");
   ImGui::TextWrapped("%s", notice->text.c_str());
   ImGui::End();
   ImGui::PopStyleColor(2);
@@ -111,7 +113,7 @@ void draw_hint(Workshop& shop, const ViewRect& view) {
   ImGui::Begin("##hint", nullptr,
                kBar | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
   ImGui::TextWrapped("%s", text);
-  if (ImGui::SmallButton("Do not show this again")) shop.settings.hints = false;
+  if (ImGui::Button("Do not show this again")) shop.settings.hints = false;
   ImGui::End();
   ImGui::PopStyleColor();
   ImGui::PopStyleVar();

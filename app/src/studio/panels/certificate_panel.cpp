@@ -26,10 +26,13 @@ void headline(const PotCheck& check, bool again, const Palette& colours) {
 void figures(const PotCheck& check, const Palette& colours, LengthUnit unit) {
   value_row(colours, "Triangles", fmt::format("{}", check.triangles));
   value_row(colours, "Tolerance", fmt::format("{:g} mm", check.tolerance_mm));
-  value_row(colours, "Nowhere thinner", length_text(check.least_wall_mm, unit));
+  if (!check.fallen) value_row(colours, "Nowhere thinner", length_text(check.least_wall_mm, unit));
   value_row(colours, "Clay counted", volume_text(check.counted_mm3));
   value_row(colours, "Clay in the solid", volume_text(check.proved_mm3));
-  value_row(colours, "Difference", fmt::format("{:.1g}", check.volume_error_relative));
+  // Where the fallen part lies in the standing one the union has the clay once.
+  if (check.fallen)
+    value_row(colours, "Lies within", volume_text(check.counted_mm3 - check.proved_mm3));
+  value_row(colours, "Relative error", fmt::format("{:.1g}", check.volume_error_relative));
 }
 
 void remarks(const PotCheck& check, const Palette& colours, LengthUnit unit) {

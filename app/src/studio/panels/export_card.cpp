@@ -110,7 +110,7 @@ void draw_shown(Workshop& shop, const app::ExportDone& done) {
 /// height while figures come and go.
 void draw_preview(Workshop& shop) {
   const ExportCard& card = shop.exporting;
-  const ImVec2 size(0.0f, 9.2f * ImGui::GetFontSize());
+  const ImVec2 size(0.0f, 12.5f * ImGui::GetFontSize());
   ImGui::BeginChild("##preview", size, true);
   const std::string stage = shop.exporter.stage();
   const auto running = shop.exporter.running();
@@ -147,7 +147,7 @@ void draw_answers(Workshop& shop) {
   if (writes) {
     if (ImGui::Button("Cancel")) act(shop, "export.cancel");
   } else {
-    if (ImGui::Button("Export (Ctrl+Enter)")) act(shop, "export.write");
+    if (main_button("Export (Ctrl+Enter)", shop.colours())) act(shop, "export.write");
     ImGui::SameLine();
     if (!card.written.empty()) {
       if (ImGui::Button("Open folder")) act(shop, "export.folder");

@@ -13,7 +13,9 @@ void draw_mark(const Workshop& shop, const ViewRect& view, const Mark& mark, glm
                float top) {
   const float em = ImGui::GetFontSize();
   const float wrap = std::min(16.0f * em, 0.45f * view.size_px.x);
-  const std::string words = mark.text.substr(0, mark.text.find(';'));
+  // What is wrong; whose figure it is, and where else, the card says.
+  const std::string words =
+      mark.text.substr(0, std::min(mark.text.find(';'), mark.text.find(" (")));
   const ImVec2 size = ImGui::CalcTextSize(words.c_str(), nullptr, false, wrap);
   const float right = view.corner_px.x + view.size_px.x;
   const ImVec2 corner(std::max(view.corner_px.x + em, right - size.x - 1.5f * em), top);
@@ -31,10 +33,13 @@ void draw_mark(const Workshop& shop, const ViewRect& view, const Mark& mark, glm
 
 }  // namespace
 
+bool has_export_marks(const Workshop& shop) {
+  return !shop.potter.throwing() && !shop.potter.scrubbing() && !shop.marks.empty() &&
+         shop.marked == shop.potter.shared_pot();
+}
+
 void draw_export_marks(Workshop& shop, const ViewRect& view) {
-  if (shop.overlay != Overlay::none || shop.potter.throwing() || shop.potter.scrubbing() ||
-      shop.marked != shop.potter.shared_pot())
-    return;
+  if (shop.overlay != Overlay::none || !has_export_marks(shop)) return;
   const float em = ImGui::GetFontSize();
   float top = view.corner_px.y + 1.2f * em;
   for (const Mark& mark : shop.marks) {

@@ -17,7 +17,7 @@ namespace clay::studio {
 namespace {
 
 constexpr std::size_t kMostLeftShown = 3;
-constexpr float kCardEm = 10.6f, kPictureEm = 9.0f;
+constexpr float kLeastCardEm = 10.6f, kPictureEm = 9.0f;
 
 /// Sections of the finished samples, made when they are first seen.
 const draw::PotView& section_of(const Sample& sample) {
@@ -30,13 +30,13 @@ const draw::PotView& section_of(const Sample& sample) {
   return *made[index];
 }
 
-bool card(const Sample& sample, const Palette& colours, ImFont* title) {
+bool card(const Sample& sample, float width, const Palette& colours, ImFont* title) {
   const float em = ImGui::GetFontSize();
   ImGui::BeginGroup();
   ImGui::PushID(sample.title);
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const bool clicked = ImGui::Button("##card", {kCardEm * em, (kPictureEm + 5.2f) * em});
-  const float inset = 0.5f * (kCardEm - kPictureEm) * em;
+  const bool clicked = ImGui::Button("##card", {width, (kPictureEm + 5.2f) * em});
+  const float inset = 0.5f * (width - kPictureEm * em);
   draw_section(section_of(sample), {at.x + inset, at.y + 0.5f * em}, kPictureEm * em, colours);
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const float x = at.x + inset;
@@ -134,13 +134,14 @@ void draw_gallery(Workshop& shop, const ViewRect& view) {
   ImGui::Spacing();
   left_works(shop);
   const float room = ImGui::GetContentRegionAvail().x;
-  float used = 0.0f;
-  for (const Sample& sample : samples()) {
-    used += kCardEm * em;
-    if (used > kCardEm * em && used <= room) ImGui::SameLine();
-    if (used > room) used = kCardEm * em;
-    used += ImGui::GetStyle().ItemSpacing.x;
-    if (!card(sample, shop.colours(), shop.fonts.title)) continue;
+  const float gap = ImGui::GetStyle().ItemSpacing.x, least = kLeastCardEm * em;
+  const auto fitting = static_cast<std::size_t>(std::max(1.0f, (room + gap) / (least + gap)));
+  const std::size_t in_row = std::min(fitting, samples().size());
+  const float width = (room + gap) / static_cast<float>(in_row) - gap;
+  for (std::size_t i = 0; i < samples().size(); ++i) {
+    const Sample& sample = samples()[i];
+    if (i % in_row != 0) ImGui::SameLine();
+    if (!card(sample, width, shop.colours(), shop.fonts.title)) continue;
     if (auto scene = scene_of(sample)) begin_work(shop, *scene);
   }
   ImGui::Spacing();

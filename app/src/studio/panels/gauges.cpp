@@ -55,8 +55,15 @@ void draw_force(Workshop& shop) {
                         round);
   const std::string text = fmt::format("{:.2f} N of {:g} N", newtons, limit);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  draw->AddText({at.x + 0.5f * (width - size.x), at.y + 0.5f * (height - size.y)},
-                ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+  const ImVec2 corner(at.x + 0.5f * (width - size.x), at.y + 0.5f * (height - size.y));
+  const float end = at.x + part * width;  // of the bar: beyond it the ground is another
+  const auto text_between = [&](float left, float right, const ImVec4& ink) {
+    draw->PushClipRect({left, at.y}, {right, at.y + height}, true);
+    draw->AddText(corner, ImGui::GetColorU32(ink), text.c_str());
+    draw->PopClipRect();
+  };
+  text_between(at.x, end, ink_on(colour));
+  text_between(end, at.x + width, ImGui::GetStyleColorVec4(ImGuiCol_Text));
   ImGui::Dummy({width, height});
   faint_text(shop.colours(), part >= 1.0f              ? "As much as the hand is ever given"
                              : !shop.potter.throwing() ? "No tool in the clay"

@@ -60,8 +60,8 @@ void draw_made(Workshop& shop) {
   const auto line = [&](const std::string& text) { ImGui::TextUnformatted(text.c_str()); };
   line(fmt::format("{} high", length_text(pot.stack.height_mm(), shop.settings.unit)));
   line(fmt::format("{} rings", pot.stack.size()));
-  line(fmt::format("{:.1f} cm3 of clay", 1e-3 * pot.stack.volume_mm3()));
-  faint_text(colours, fmt::format("{:.1f} cm3 drawn", 1e-3 * card.made->drawn_mm3));
+  line(fmt::format("{:.1f} ml of clay", 1e-3 * pot.stack.volume_mm3()));
+  faint_text(colours, fmt::format("{:.1f} ml drawn", 1e-3 * card.made->drawn_mm3));
   faint_text(colours, fmt::format("Axis at {:.2f} mm of the drawing", card.made->axis_mm));
   ImGui::EndGroup();
   ImGui::EndChild();
@@ -79,7 +79,7 @@ void draw_import_card(Workshop& shop, const ViewRect& view) {
   draw_made(shop);
   const auto act = [&](const char* id) { run(*find_action(id), shop); };
   if (card.made) {
-    if (ImGui::Button("Put it on the wheel (Ctrl+Shift+Enter)")) act("import.take");
+    if (main_button("Put it on the wheel (Ctrl+Shift+Enter)", shop.colours())) act("import.take");
     ImGui::SameLine();
   }
   if (ImGui::Button("Close (Esc)")) close_overlay(shop);

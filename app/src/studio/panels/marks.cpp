@@ -93,7 +93,8 @@ void draw_marks(Workshop& shop, const ViewRect& view) {
                      {view.corner_px.x + view.size_px.x, view.corner_px.y + view.size_px.y});
   if (check->fault_mm && panel_open(shop, "certificate")) mark_fault(shop, *check->fault_mm, draw);
   const bool open = shop.settings.wall_map && shop.view.cut != draw::Cut::none;
-  if (check->proved && (open || check->thin())) mark_thinnest(shop, *check, draw);
+  if (check->proved && (open || check->thin()) && !has_export_marks(shop))
+    mark_thinnest(shop, *check, draw);
   if (check->proved && shop.settings.wall_map) draw_scale(*check, view, shop.settings.unit);
   draw->PopClipRect();
 }

@@ -90,13 +90,17 @@ float draw_menu(Workshop& shop) {
   if (!ImGui::BeginMainMenuBar()) return 0.0f;
   for (const MenuTitle& menu : menus()) {
     if (!ImGui::BeginMenu(menu.title)) continue;
+    // Room between what an action is called and its keys.
+    const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(2.5f * spacing.x, spacing.y));
     for (const Action& action : actions()) {
       if (!action.id.starts_with(menu.prefix)) continue;
       const bool on = action.checked != nullptr && action.checked(shop);
       if (ImGui::MenuItem(action.title, text_of(action.chord).c_str(), on, action.enabled(shop)))
         run(action, shop);
+      if (action.id == "file.open") draw_recent(shop);
     }
-    if (menu.prefix == "file.") draw_recent(shop);
+    ImGui::PopStyleVar();
     ImGui::EndMenu();
   }
   const float height = ImGui::GetWindowSize().y;

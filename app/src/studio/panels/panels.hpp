@@ -34,10 +34,12 @@ void draw_column(Workshop& shop, Column column, glm::vec2 corner_px, glm::vec2 s
 
 /// Heights [px]: the menu's own, and that of the status bar.
 float draw_menu(Workshop& shop);
+[[nodiscard]] float status_height();
 void draw_status_bar(Workshop& shop, glm::vec2 corner_px, glm::vec2 size_px);
 /// Over the view: what the checks say of the pot, where it is, and what its colours mean.
 void draw_marks(Workshop& shop, const ViewRect& view);
 /// What the last export found wrong, where it is.
+[[nodiscard]] bool has_export_marks(const Workshop& shop);
 void draw_export_marks(Workshop& shop, const ViewRect& view);
 void draw_banner(Workshop& shop, const ViewRect& view);
 void draw_hint(Workshop& shop, const ViewRect& view);

@@ -15,7 +15,7 @@
 namespace clay::studio {
 namespace {
 
-constexpr float kMostHeightEm = 14.0f;
+constexpr float kLeastHeightEm = 8.0f, kMostHeightEm = 14.0f;
 constexpr std::array kParts = {"Half", "Full"};
 
 /// From the profile's plane (rho, y) [mm] to pixels.
@@ -170,6 +170,15 @@ std::string read_out(const PlotArea& area, const Sheet& sheet, double height, bo
   return text + u.name;
 }
 
+/// As high as wide, or what is left of the column: nothing scrolls that need not.
+float plot_height_em(bool fallen) {
+  const float em = ImGui::GetFontSize(), below = ImGui::GetTextLineHeightWithSpacing();
+  const float room = ImGui::GetContentRegionAvail().y - (fallen ? 2.0f : 1.0f) * below -
+                     3.0f * ImGui::GetStyle().ItemSpacing.y;
+  return std::clamp(room / em, kLeastHeightEm,
+                    std::min(kMostHeightEm, ImGui::GetContentRegionAvail().x / em));
+}
+
 }  // namespace
 
 void draw_section(Workshop& shop) {
@@ -177,8 +186,7 @@ void draw_section(Workshop& shop) {
   bool& full = shop.settings.full_section;
   if (const int part = choice_row("part", kParts, full ? 1 : 0, colours); part >= 0)
     full = part == 1;
-  const PlotArea area =
-      begin_plot(std::min(kMostHeightEm, ImGui::GetContentRegionAvail().x / ImGui::GetFontSize()));
+  const PlotArea area = begin_plot(plot_height_em(shop.readings.fallen()));
   const ClayStack* stack = shop.readings.stack();
   if (stack == nullptr || stack->size() == 0)
     return plot_text(area, Corner::upper_left, "No clay on the wheel", colours.faint);

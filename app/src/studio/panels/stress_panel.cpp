@@ -30,12 +30,18 @@ void fill_gaps(std::vector<std::optional<MinMax>>& rows) {
     if (!rows[i - 1]) rows[i - 1] = rows[i];
 }
 
+double right_edge_kpa(const StressCurve& curve) {
+  return 1.08 * std::max(curve.most_kpa, curve.limit_kpa.value_or(0.0));
+}
+double height_mm(const StressCurve& curve) {
+  return curve.ring_height_mm * static_cast<double>(curve.kpa.size());
+}
+
 void draw_curve(const StressCurve& curve, const Palette& colours) {
   const PlotArea area = begin_plot(kHeightEm);
-  const double height = curve.ring_height_mm * static_cast<double>(curve.kpa.size());
-  const double most = std::max(curve.most_kpa, curve.limit_kpa.value_or(0.0));
-  if (!(most > 0.0)) return;
-  const double top = 1.08 * most;
+  const double height = height_mm(curve);
+  const double top = right_edge_kpa(curve);
+  if (!(top > 0.0)) return;
   auto rows = min_max_of(points_of(curve), 0.0, height, whole_px(area.height()));
   fill_gaps(rows);
   plot_rows(area, rows, top, colours.accent);
@@ -65,8 +71,10 @@ void draw_stress(Workshop& shop) {
   ImGui::TextWrapped("%s", stress_words(curve, shop.settings.unit).c_str());
   ImGui::PopStyleColor();
   draw_curve(curve, colours);
-  faint_text(colours, curve.limit_kpa ? "Stress from the foot up; at the line the clay falls."
-                                      : "Stress from the foot up, in what stands on it.");
+  faint_text(colours,
+             fmt::format("Upwards {}, to the right {:.3g} kPa{}",
+                         length_text(height_mm(curve), shop.settings.unit), right_edge_kpa(curve),
+                         curve.limit_kpa ? "; at the line the clay falls" : ""));
 }
 
 }  // namespace clay::studio

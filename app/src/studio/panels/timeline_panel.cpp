@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 namespace clay::studio {
@@ -27,7 +28,7 @@ std::string words_of(const work::NodeView& stroke, const TimelineBlock& block) {
   return fmt::format(
       "Stroke {}: {}, {}, {:.1f} s{}{}{}", block.node, kModes[static_cast<std::size_t>(tool.mode)],
       kShapes[tool.shape.index()], stroke.seconds,
-      stroke.volume_mm3 ? fmt::format(", {:.1f} cm3", 1e-3 * *stroke.volume_mm3) : std::string(),
+      stroke.volume_mm3 ? fmt::format(", {:.1f} ml", 1e-3 * *stroke.volume_mm3) : std::string(),
       stroke.changed == false ? ", in the air" : "",
       stroke.children.size() > 1 ? fmt::format("; {} ways go on", stroke.children.size())
                                  : std::string());
@@ -85,7 +86,7 @@ void draw_block(const Workshop& shop, const TimelineBlock& block, const Scale& s
   const ImVec2 size = ImGui::CalcTextSize(number.c_str());
   if (size.x + 0.3f * em > high.x - low.x) return;
   draw->AddText({0.5f * (low.x + high.x - size.x), 0.5f * (low.y + high.y - size.y)},
-                ImGui::GetColorU32(ImGuiCol_Text), number.c_str());
+                ImGui::GetColorU32(ink_on(face)), number.c_str());
 }
 
 /// The pot that all began with.
@@ -93,10 +94,12 @@ bool draw_start(const Workshop& shop, const Scale& scale) {
   const float em = ImGui::GetFontSize();
   const bool here = shop.potter.work().at() == 0;
   ImGui::SetCursorScreenPos({scale.origin.x, scale.origin.y + 0.12f * em});
-  if (here) ImGui::PushStyleColor(ImGuiCol_Button, shop.colours().accent);
+  const ImVec4 accent = shop.colours().accent;
+  if (here) ImGui::PushStyleColor(ImGuiCol_Button, accent);
+  if (here) ImGui::PushStyleColor(ImGuiCol_Text, ink_on(accent));
   const bool clicked =
       ImGui::Button("Start", {scale.start_px - 0.3f * em, scale.row_px - 0.24f * em});
-  if (here) ImGui::PopStyleColor();
+  if (here) ImGui::PopStyleColor(2);
   return clicked;
 }
 
@@ -187,7 +190,8 @@ float timeline_height(const Workshop& shop, glm::vec2 room_px) {
   const float rows = static_cast<float>(std::min(timeline.rows, kMostRowsShown));
   const bool scrolls = scale_px_per_s(timeline, room_px.x) >
                        (room_px.x - kAroundEm * em) / static_cast<float>(timeline.seconds);
-  return (kRowEm * rows + 0.9f) * em + (scrolls ? ImGui::GetStyle().ScrollbarSize : 0.0f);
+  return std::ceil((kRowEm * rows + 0.9f) * em +
+                   (scrolls ? ImGui::GetStyle().ScrollbarSize : 0.0f));
 }
 
 void draw_timeline(Workshop& shop, glm::vec2 corner_px, glm::vec2 size_px) {

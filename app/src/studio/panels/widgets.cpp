@@ -1,5 +1,7 @@
 #include "studio/panels/widgets.hpp"
 
+#include "studio/panels/panels.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,12 +20,21 @@ int choice_row(const char* id, std::span<const char* const> titles, int chosen,
     if (on) {
       ImGui::PushStyleColor(ImGuiCol_Button, colours.accent);
       ImGui::PushStyleColor(ImGuiCol_ButtonHovered, colours.accent);
-      ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 1.0f, 1.0f, 1.0f));
+      ImGui::PushStyleColor(ImGuiCol_Text, ink_on(colours.accent));
     }
     if (ImGui::Button(titles[static_cast<std::size_t>(i)], ImVec2(width, 0.0f))) clicked = i;
     if (on) ImGui::PopStyleColor(3);
   }
   ImGui::PopID();
+  return clicked;
+}
+
+bool main_button(const char* text, const Palette& colours) {
+  ImGui::PushStyleColor(ImGuiCol_Button, colours.accent);
+  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, colours.accent);
+  ImGui::PushStyleColor(ImGuiCol_Text, ink_on(colours.accent));
+  const bool clicked = ImGui::Button(text);
+  ImGui::PopStyleColor(3);
   return clicked;
 }
 
@@ -91,7 +102,7 @@ void value_row(const Palette& colours, const char* name, const std::string& valu
 
 namespace {
 
-/// All beside the card, between two heights of the whole window. Drawn by the card itself: then it
+/// All beside the card but menu and status. Drawn by the card itself: then it
 /// lies over the columns, too.
 void dim_around(float top, float bottom) {
   const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
@@ -126,7 +137,7 @@ void begin_card(const char* id, const ViewRect& view, float width_em) {
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
   ImGui::PopStyleVar(2);
-  dim_around(low.y, high.y);
+  dim_around(low.y, ImGui::GetIO().DisplaySize.y - status_height());
 }
 
 void draw_section(const draw::PotView& pot, ImVec2 corner, float side, const Palette& colours) {

@@ -17,6 +17,9 @@ int choice_row(const char* id, std::span<const char* const> titles, int chosen,
 /// A labelled slider for a length that is kept in mm and shown in `unit`.
 bool length_slider(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit);
 
+/// What Enter, or its like, does in a card.
+bool main_button(const char* text, const Palette& colours);
+
 /// The head of a card.
 void card_title(const Workshop& shop, const char* text);
 

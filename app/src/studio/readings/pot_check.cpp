@@ -70,6 +70,7 @@ void take_report(const solid::ExportReport& report, std::size_t rows, PotCheck& 
   check.counted_mm3 = report.counted_volume_mm3;
   check.proved_mm3 = report.volume_mm3;
   check.volume_error_relative = report.volume_error_relative;
+  if (check.fallen) return take_remarks(report, check);
   check.least_wall_mm = report.min_wall_mm;
   check.thinnest_mm = report.thinnest.thickness_mm;
   check.thinnest_from = {report.thinnest.from.rho, report.thinnest.from.y};

@@ -44,7 +44,7 @@ struct PotCheck {
   std::string why_not;
   std::optional<double> fault_mm;  ///< the height that is at fault, where it is one
   std::vector<PotRemark> remarks;  ///< steps that were kept, closed cavities
-  bool fallen = false;             ///< proved by the exact test of its triangles
+  bool fallen = false;             ///< proved by the exact test of its triangles; no walls
   std::size_t triangles = 0;
   double tolerance_mm = 0.0;
   double counted_mm3 = 0.0, proved_mm3 = 0.0, volume_error_relative = 0.0;
@@ -56,7 +56,7 @@ struct PotCheck {
   double height_mm = 0.0;
   double seconds = 0.0;  ///< it took
 
-  [[nodiscard]] bool thin() const { return limit && thinnest_mm < limit->min_wall_mm; }
+  [[nodiscard]] bool thin() const { return limit && !fallen && thinnest_mm < limit->min_wall_mm; }
 };
 
 [[nodiscard]] std::vector<std::string> process_names();
@@ -75,7 +75,7 @@ struct PotCheck {
 /// Where walls are thinner than the process asks [mm of height], bottom to top.
 [[nodiscard]] std::vector<Stretch> thin_stretches(const PotCheck& check);
 
-/// "Thinnest 2.1 mm at 34.0 mm; porcelain asks 3.0 mm: too thin".
+/// "Thinnest 2.1 mm, 34.0 mm up; porcelain asks 3.0 mm: too thin".
 [[nodiscard]] std::string wall_words(const PotCheck& check, LengthUnit unit);
 
 }  // namespace clay::studio

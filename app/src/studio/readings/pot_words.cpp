@@ -42,8 +42,9 @@ std::vector<Stretch> thin_stretches(const PotCheck& check) {
 }
 
 std::string wall_words(const PotCheck& check, LengthUnit unit) {
+  if (check.fallen) return "Fallen: its walls are not measured";
   if (!check.proved) return "No walls to measure: the section is not that of one solid";
-  std::string words = fmt::format("Thinnest {} at {}", length_text(check.thinnest_mm, unit),
+  std::string words = fmt::format("Thinnest {}, {} up", length_text(check.thinnest_mm, unit),
                                   length_text(check.thinnest_from.y, unit));
   if (check.limit)
     words += fmt::format("; {} asks {}: {}", check.limit->process,

@@ -1,0 +1,70 @@
+#!/bin/sh
+# sh samples/window/pictures.sh PROGRAM FOLDER [NAME...]: every panel and card of the window in both
+# themes, small, usual and at twice the scale, as FOLDER/NAME-THEME-SIZE.png; all of them, or those
+# named. To be looked at: a picture that nobody has looked at has tested nothing.
+set -eu
+[ $# -ge 2 ] || { sed -n '2,4s/^# //p' "$0" >&2; exit 2; }
+program=$(realpath "$1")
+mkdir -p "$2"
+out=$(realpath "$2")
+shift 2
+wanted=" $* "
+cd "$(dirname "$0")/../.."
+pots=$out/pots
+mkdir -p "$pots"
+
+for sample in bowl vase bottle cylinder collapse; do
+  [ -e "$pots/$sample.pot.json" ] ||
+    "$program" throw -q "samples/$sample.scene.json" -o "$pots/$sample.pot.json"
+done
+# As fine as rings come: a lump of 100 000.
+sed -e 's/"rings": [0-9]*/"rings": 100000/' -e 's/"ring_height_mm": [0-9.]*/"ring_height_mm": 0.001/' \
+  -e 's/"max_rings": [0-9]*/"max_rings": 0/' samples/vase.scene.json >"$pots/fine.scene.json"
+# One ring, as flat as a plate.
+sed -e 's/"rings": [0-9]*/"rings": 1/' -e 's/"ring_height_mm": [0-9.]*/"ring_height_mm": 4/' \
+  -e 's/"outer_radius_mm": [0-9.]*/"outer_radius_mm": 120/' samples/vase.scene.json >"$pots/plate.scene.json"
+
+# picture NAME SCRIPT [FILE]
+picture() {
+  [ "$wanted" = "  " ] || case $wanted in *" $1 "*) ;; *) return 0 ;; esac
+  for theme in dark light; do
+    for look in "1280x720 1" "1280x800 1" "2560x1440 2"; do
+      size=${look% *} scale=${look#* }
+      # Places in the window are those of scale 1.
+      awk -v s="$scale" '$1 == "move" { $2 *= s; $3 *= s } 1' "samples/window/$2.script" >"$out/script"
+      "$program" studio ${3:+"$3"} --script "$out/script" --screenshot "$out/$1-$theme-$size.png" \
+        --theme "$theme" --size "$size" --scale "$scale" || echo "$1-$theme-$size: failed" >&2
+    done
+  done
+  rm -f "$out/script"
+}
+
+picture gallery gallery
+picture hint hint samples/bowl.scene.json
+picture throw throw "$pots/vase.pot.json"
+picture pinch pinch "$pots/cylinder.pot.json"
+picture trim trim "$pots/bowl.pot.json"
+picture walls walls "$pots/vase.pot.json"
+picture limit limit "$pots/vase.pot.json"
+picture account account "$pots/vase.pot.json"
+picture branches branches "$pots/vase.pot.json"
+picture export export "$pots/bowl.pot.json"
+picture exported exported "$pots/vase.pot.json"
+picture marks marks "$pots/vase.pot.json"
+picture import import
+picture settings settings "$pots/bowl.pot.json"
+picture quit quit "$pots/vase.pot.json"
+picture shortcuts shortcuts "$pots/bowl.pot.json"
+picture open open "$pots/bowl.pot.json"
+picture menu_file menu_file "$pots/bowl.pot.json"
+picture menu_view menu_view "$pots/bowl.pot.json"
+picture fault fault "$pots/bowl.pot.json"
+picture falling falling samples/collapse.scene.json
+picture fallen fallen samples/collapse.scene.json
+picture quarter quarter "$pots/bottle.pot.json"
+picture top top "$pots/bowl.pot.json"
+picture front front "$pots/cylinder.pot.json"
+picture sizing sizing "$pots/vase.pot.json"
+picture fine throw "$pots/fine.scene.json"
+picture plate plain "$pots/plate.scene.json"
+picture lump plain samples/bottle.scene.json
