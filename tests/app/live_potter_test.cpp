@@ -18,9 +18,16 @@ constexpr double kEncoderStepMm = 0.05;  // in the middle of the workspace
 
 double scale_of(const std::string& name) { return fitted({}, sample_stroke(name), kReachMm).scale; }
 
+/// A sample of clay that gives way at once: it holds no hand back from the session's way.
+SceneSpec soft_scene(const std::string& name) {
+  SceneSpec scene = sample_scene(name);
+  scene.removal.yield_depth_mm = 0.25;
+  return scene;
+}
+
 /// A whole session thrown by the simulated hand.
 Wheel thrown(const std::string& name) {
-  const SceneSpec scene = sample_scene(name);
+  const SceneSpec scene = soft_scene(name);
   const std::vector<Pose> stroke = sample_stroke(name);
   LiveSettings settings;
   settings.mapping = fitted({}, stroke, kReachMm);
@@ -45,7 +52,7 @@ Wheel thrown(const std::string& name) {
 }
 
 Wheel replayed(const std::string& name) {
-  Wheel wheel = Wheel::build(sample_scene(name)).value();
+  Wheel wheel = Wheel::build(soft_scene(name)).value();
   for (const Pose& pose : sample_stroke(name)) wheel.step(pose);
   return wheel;
 }
