@@ -1,0 +1,191 @@
+#pragma once
+// The sample's stroke on an emulated device, and what a throw of it must leave behind.
+
+#include "../app/run_program.hpp"
+#include "../falcon/dummy_firmware.hpp"
+#include "claystack/engine/atomic_file.hpp"
+#include "claystack/engine/scene_file.hpp"
+#include "claystack/engine/session_file.hpp"
+#include "claystack/engine/wheel.hpp"
+#include "falcon_gadget.hpp"
+#include "hid_gadget.hpp"
+#include "live/mapping.hpp"
+#include "testbed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace clay::rig {
+
+using namespace clay::falcon;
+using test::claystack;
+using test::Ran;
+
+// Frames that the hand stands off the clay: by the end of them most of the force is earned.
+inline constexpr std::uint64_t kLeadFrames = 800;
+
+/// The bowl's stroke, in the frame of kinematics.hpp. Two poses a frame: emulated frames are slow.
+inline Trajectory bowl_stroke() {
+  const std::string path = test::sample("bowl.session");
+  const Session session = parse_session(read_file(path).value(), path).value();
+  const auto mapping = live::Mapping::build({}).value();
+  std::vector<glm::dvec3> places;
+  for (const Pose& pose : session.poses)
+    places.push_back(Kinematics::kCentreM + 1e-3 * mapping.to_device(pose.position_mm));
+  return [places](std::uint64_t frame) {
+    const std::uint64_t at = frame > kLeadFrames ? 2 * (frame - kLeadFrames) : 0;
+    return places[std::min<std::uint64_t>(at, places.size() - 1)];
+  };
+}
+
+inline FalconModelSettings ready() {
+  FalconModelSettings model;
+  model.loaded = model.homed = true;
+  return model;
+}
+
+/// While it lives, programs find this backend of hidapi before the one that they are linked with.
+class Backend {
+ public:
+#ifdef CLAYSTACK_HIDAPI_LIBUSB
+  Backend() { setenv("LD_PRELOAD", (before_ + ":" CLAYSTACK_HIDAPI_LIBUSB).c_str(), 1); }
+#else
+  Backend() = default;
+#endif
+  ~Backend() { setenv("LD_PRELOAD", before_.c_str(), 1); }
+  Backend(const Backend&) = delete;
+  Backend& operator=(const Backend&) = delete;
+
+ private:
+  std::string before_ = std::getenv("LD_PRELOAD");  // umockdev's own
+};
+
+class ThrowRig : public testing::Test {
+ protected:
+  std::string bowl_on(const std::string& device, const std::string& more) {
+    return "throw " + test::sample("bowl.scene.json") + " --device " + device +
+           " --json --record " + folder_.file("s.session") + " -o " +
+           folder_.file("live.pot.json") + " " + more;
+  }
+  Ran throw_bowl(const std::string& device, const std::string& more) {
+    const Backend backend;
+    return claystack(bowl_on(device, more));
+  }
+
+  /// Throws until the device has had so many frames, however slow they are, and then asks it to
+  /// stop.
+  template <class Gadget>
+  Ran throw_frames(Gadget& gadget, std::size_t frames, const std::string& device,
+                   const std::string& more) {
+    const Backend backend;
+    const std::string enough = folder_.file("enough");
+    std::atomic<bool> ended{false};
+    std::thread counter([&] {
+      for (bool full = false; !full && !ended;
+           std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
+        const std::scoped_lock held(gadget.lock);
+        full = gadget.device.log.size() >= frames;
+      }
+      test::write_text(enough, "");
+    });
+    const auto run = test::shell(std::string(CLAYSTACK_PROGRAM) + " " + bowl_on(device, more) +
+                                 " & program=$!; while [ ! -e " + enough +
+                                 " ] && kill -0 $program; do sleep 0.05; done; "
+                                 "kill -s INT $program; wait $program");
+    ended = true;
+    counter.join();
+    return run;
+  }
+
+  /// From nothing: the firmware is loaded and echoed, the grip homed.
+  std::string firmware() {
+    const std::string path = folder_.file("firmware.bin");
+    const auto bytes = dummy_firmware();
+    test::write_text(path, {bytes.begin(), bytes.end()});
+    return "--firmware " + path;
+  }
+
+  /// 5000 frames and more, homing left out, and none of them bad.
+  static void expect_no_bad_frame(const Ran& run, std::size_t frames) {
+    const auto device = run.json().at("frames");
+    EXPECT_GE(device.at("taken"), frames);
+    EXPECT_EQ(device.at("bytes_discarded"), 0);
+    EXPECT_EQ(device.at("without_pose"), 0);
+  }
+
+  /// The pot as the recorded session leaves it: without any device.
+  std::string replayed() {
+    const auto run =
+        claystack("throw -q " + test::sample("bowl.scene.json") + " -s " +
+                  folder_.file("s.session") + " -o " + folder_.file("replay.pot.json"));
+    EXPECT_EQ(run.status, 0) << run.err;
+    return test::read_text(folder_.file("replay.pot.json"));
+  }
+  std::string thrown() { return test::read_text(folder_.file("live.pot.json")); }
+
+  /// Each pose recorded is a place where the hand was: half an encoder's step on each leg.
+  void expect_true_places(const std::vector<FrameLog>& log) {
+    const std::string path = folder_.file("s.session");
+    const Session session = parse_session(test::read_text(path), path).value();
+    ASSERT_GT(session.poses.size(), 500u);
+    const auto mapping = live::Mapping::build({}).value();
+    for (const Pose& pose : session.poses) {
+      const glm::dvec3 place_m = Kinematics::kCentreM + 1e-3 * mapping.to_device(pose.position_mm);
+      const auto at = std::ranges::min_element(
+          log, {}, [&](const FrameLog& frame) { return glm::distance(frame.position_m, place_m); });
+      ASSERT_LT(1e3 * glm::distance(at->position_m, place_m), 0.07) << pose.time_us;
+    }
+  }
+
+  /// Position went in, torque came out: each pose recorded is a place where the hand was, and what
+  /// the motors pushed in the frame after it points where the clay of the replay pushes the tool.
+  void expect_felt(const std::vector<FrameLog>& log) {
+    const std::string scene_path = test::sample("bowl.scene.json");
+    Wheel wheel =
+        Wheel::build(parse_scene(test::read_text(scene_path), scene_path).value()).value();
+    const std::string path = folder_.file("s.session");
+    const Session session = parse_session(test::read_text(path), path).value();
+    ASSERT_GT(session.poses.size(), 1000u);
+    const auto mapping = live::Mapping::build({}).value();
+    double farthest_mm = 0.0, along = 0.0, lengths = 0.0, felt_ns = 0.0, clay_ns = 0.0;
+    for (const Pose& pose : session.poses) {
+      const glm::dvec3 place_m = Kinematics::kCentreM + 1e-3 * mapping.to_device(pose.position_mm);
+      const auto at = std::ranges::min_element(
+          log, {}, [&](const FrameLog& frame) { return glm::distance(frame.position_m, place_m); });
+      farthest_mm = std::max(farthest_mm, 1e3 * glm::distance(at->position_m, place_m));
+      const glm::dvec3 clay_n = wheel.step(pose).force_n;
+      if (at + 1 == log.end()) continue;
+      const glm::dvec3& felt_n = (at + 1)->force_n;
+      along += glm::dot(felt_n, clay_n);
+      lengths += glm::length(felt_n) * glm::length(clay_n);
+      felt_ns += 1e-3 * glm::length(felt_n);
+      clay_ns += 1e-3 * glm::length(mapping.force_to_device(clay_n));
+    }
+    EXPECT_LT(farthest_mm, 0.07) << "half an encoder's step on each leg";
+    // All of it, but for what was not earned yet, or again after a hold-up.
+    EXPECT_GT(felt_ns, 0.2 * clay_ns);
+    EXPECT_GT(clay_ns, 0.0);
+    EXPECT_GT(along, 0.95 * lengths) << "of " << lengths;
+    double most_n = 0.0;
+    for (const FrameLog& frame : log) most_n = std::max(most_n, glm::length(frame.force_n));
+    EXPECT_GT(most_n, 0.1);
+    EXPECT_LT(most_n, 5.1) << "the limit, and the motors' steps";
+    EXPECT_EQ(log.back().motors, LegCounts{}) << "the last word";
+  }
+
+  test::ScratchFolder folder_;
+  Testbed testbed_;
+};
+
+inline constexpr std::size_t kFrames = 5000;
+inline constexpr std::size_t kHomingFrames = 3 * 20 + kLeadFrames;
+
+}  // namespace clay::rig
