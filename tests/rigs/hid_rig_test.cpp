@@ -10,9 +10,19 @@
 #include <gtest/gtest.h>
 #include <hidapi.h>
 
+#include <pthread.h>
+
+#include <atomic>
+#include <chrono>
 #include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <set>
+#include <string>
+#include <thread>
 
 namespace clay::rig {
 namespace {
@@ -140,6 +150,60 @@ TEST_F(BridgeRig, UnpluggedInMidStrokeIsAnErrorAndComesBack) {
   const auto again = device.open();
   ASSERT_TRUE(again) << text_of(again.error());
   EXPECT_EQ(tick(device, {}).state, DeviceState::needs_homing);
+}
+
+std::set<std::string> threads() {
+  std::set<std::string> all;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task"))
+    all.insert(task.path());
+  return all;
+}
+
+TEST_F(BridgeRig, TheThreadsOfALibraryTakeNoSignal) {
+  const auto before = threads();
+  auto opened = open_device("bridge", settings_);
+  ASSERT_TRUE(opened) << text_of(opened.error());
+  for (const std::string& task : threads()) {
+    if (before.contains(task)) continue;
+    std::ifstream status(task + "/status");
+    std::string word;
+    while (status >> word && word != "SigBlk:") {
+    }
+    std::uint64_t blocked = 0;
+    status >> std::hex >> blocked;
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE})
+      EXPECT_NE(blocked >> (signal - 1) & 1, 0u) << task << " " << signal;
+  }
+}
+
+HapticDevice* met = nullptr;
+
+/// A hand that stops the device again and again, wherever it meets the thread that writes. One that
+/// waits for itself does not end, and the rig's time runs out.
+TEST_F(BridgeRig, ALastWordNeverWaitsForTheThreadThatItMet) {
+  auto opened = open_device("bridge", settings_);
+  ASSERT_TRUE(opened) << text_of(opened.error());
+  met = opened->get();
+  while (tick(*met, {}).state != DeviceState::ready) {
+  }
+  const auto before = std::signal(SIGUSR1, [](int) { met->zero(); });
+  std::atomic<bool> done{false};
+  std::thread hand([&, writer = pthread_self()] {
+    while (!done) {
+      pthread_kill(writer, SIGUSR1);
+      std::this_thread::sleep_for(std::chrono::microseconds(300));
+    }
+  });
+  for (int i = 0; i < 300; ++i) {
+    met->write({1, 0, 0});
+    met->read(200'000);
+  }
+  done = true;
+  hand.join();
+  std::signal(SIGUSR1, before);
+  met->stop();
+  tick(*met, {1, 0, 0});
+  EXPECT_EQ(locked([](auto& d) { return d.model.motors(); }), LegCounts{});
 }
 
 TEST_F(BridgeRig, SaysThatTheFalconBehindItIsSilent) {

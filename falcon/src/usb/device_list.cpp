@@ -1,4 +1,5 @@
 #include "claystack/falcon/usb_devices.hpp"
+#include "held_signals.hpp"
 #include "hid_node.hpp"
 #include "usb_error.hpp"
 
@@ -65,6 +66,7 @@ std::optional<ListedDevice> recognise(const hid_device_info& info) {
 }
 
 void list_hid(std::vector<ListedDevice>& found) {
+  const HeldSignals held;
   const std::unique_ptr<hid_device_info, decltype(&hid_free_enumeration)> all(
       hid_enumerate(0, 0), &hid_free_enumeration);
   for (const hid_device_info* info = all.get(); info; info = info->next) {

@@ -26,7 +26,9 @@ class HidNode {
   int read(std::span<std::uint8_t> report, std::int64_t wait_us) noexcept;
   /// `report` begins with its number, 0 where reports have none. False when the device is gone.
   bool write(std::span<const std::uint8_t> report) noexcept;
-  /// The same from a signal handler: past hidapi where the device is a node of /dev.
+  /// The same from a signal handler: past hidapi where the device is a node of /dev. With its
+  /// libusb backend a handler that met its own thread inside hidapi writes nothing: the locks are
+  /// taken. What that thread writes next is what the device is told last.
   void write_last(std::span<const std::uint8_t> report) noexcept;
 
  private:
