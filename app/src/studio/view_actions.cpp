@@ -17,9 +17,6 @@ constexpr unsigned kControlShift = kControl | kShift;
 constexpr float kScaleStep = 1.1f;
 constexpr KeyChord kNone{};
 
-/// The export is in: there are figures to show.
-bool can_check(const Workshop&) { return !process_names().empty(); }
-
 template <Seen from>
 void look(Workshop& shop) {
   shop.view.look(shop, from);
@@ -79,7 +76,7 @@ const std::array kViewActions = {
       "Wall thickness on the pot",
       {GLFW_KEY_W, 0},
       kNone,
-      can_check,
+      always,
       [](Workshop& s) { s.settings.wall_map = !s.settings.wall_map; },
       [](const Workshop& s) { return s.settings.wall_map; }},
     A{"view.section",
@@ -89,9 +86,9 @@ const std::array kViewActions = {
       always,
       [](Workshop& s) { toggle_panel(s, "section"); },
       [](const Workshop& s) { return panel_open(s, "section"); }},
-    A{"view.walls", "Walls", kNone, kNone, can_check, [](Workshop& s) { toggle_panel(s, "walls"); },
+    A{"view.walls", "Walls", kNone, kNone, always, [](Workshop& s) { toggle_panel(s, "walls"); },
       [](const Workshop& s) { return panel_open(s, "walls"); }},
-    A{"view.certificate", "Certificate", kNone, kNone, can_check,
+    A{"view.certificate", "Certificate", kNone, kNone, always,
       [](Workshop& s) { toggle_panel(s, "certificate"); },
       [](const Workshop& s) { return panel_open(s, "certificate"); }},
     A{"view.ledger", "Ledger", kNone, kNone, always, [](Workshop& s) { toggle_panel(s, "ledger"); },
