@@ -34,19 +34,16 @@ bool is_shape(const Workshop& shop) {
   return shop.settings.tool.shape == shape;
 }
 
-void pause(Workshop& shop) {
-  shop.paused = !shop.paused;
-  shop.potter.command({live::CommandKind::pause, shop.paused ? 1.0 : 0.0});
-}
-
-/// Esc: out of what is open, else no force in this very moment.
+/// Esc: no force in this very moment, whatever is open, and out of that too. However often it is
+/// pressed, it gives no force back.
 void back(Workshop& shop) {
+  const bool felt = shop.potter.has_device() && has_work(shop) && !shop.potter.paused();
+  if (felt) shop.potter.pause(true);
   if (shop.view.sizing()) return shop.view.cancel(shop);
   if (shop.overlay != Overlay::none) return close_overlay(shop);
   if (shop.potter.scrubbing()) return shop.potter.show_present();
   if (shop.potter.throwing() && !shop.potter.has_device()) return shop.potter.release();
-  if (shop.potter.throwing()) return pause(shop);
-  shop.notices.close();
+  if (!felt) shop.notices.close();
 }
 
 constexpr std::array kMenus = {MenuTitle{"file.", "File"}, MenuTitle{"edit.", "Edit"},
@@ -144,8 +141,8 @@ const std::array kThrowingActions = {
       {GLFW_KEY_SPACE, 0},
       kNone,
       has_work,
-      pause,
-      [](const Workshop& s) { return s.paused; }},
+      [](Workshop& s) { s.potter.pause(!s.potter.paused()); },
+      [](const Workshop& s) { return s.potter.paused(); }},
     A{"wheel.rearm",
       "Force again",
       {GLFW_KEY_R, kShift},

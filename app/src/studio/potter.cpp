@@ -121,6 +121,7 @@ Result<void> Potter::sit_down(const SceneSpec& scene, falcon::HapticDevice& devi
   scene_ = scene;
   recorder_ = std::move(recorder);
   sitting_ = std::move(*sitting);
+  if (paused_) pause(true);
   status_ = {};
   last_ns_ = counted_ns_ = clock_.now_ns();
   counted_ticks_ = 0;
@@ -130,6 +131,11 @@ Result<void> Potter::sit_down(const SceneSpec& scene, falcon::HapticDevice& devi
 
 void Potter::command(const live::Command& command) noexcept {
   if (sitting_) (void)sitting_->command(command);
+}
+
+void Potter::pause(bool on) noexcept {
+  paused_ = on;
+  command({live::CommandKind::pause, on ? 1.0 : 0.0});
 }
 
 void Potter::set_stiffness(double n_per_mm2) {
