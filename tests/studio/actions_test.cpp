@@ -50,10 +50,19 @@ TEST(Actions, WhatUsersExpectIsWhereTheyExpectIt) {
   EXPECT_EQ(id_of("Ctrl+S"), "file.save");
   EXPECT_EQ(id_of("Ctrl+O"), "file.open");
   EXPECT_EQ(id_of("Ctrl+N"), "file.new");
+  EXPECT_EQ(id_of("Ctrl+Y"), "edit.redo");
+  EXPECT_EQ(id_of("Ctrl+E"), "file.export");
+  EXPECT_EQ(id_of("Ctrl+Q"), "file.quit");
   EXPECT_EQ(id_of("Home"), "view.home");
+  EXPECT_EQ(id_of("1"), "view.front");
+  EXPECT_EQ(id_of("3"), "view.right");
+  EXPECT_EQ(id_of("7"), "view.top");
   EXPECT_EQ(id_of("["), "tool.smaller");
+  EXPECT_EQ(id_of("]"), "tool.larger");
+  EXPECT_EQ(id_of("F"), "tool.size");
   EXPECT_EQ(id_of("Shift+F"), "tool.strength");
   EXPECT_EQ(id_of("Space"), "wheel.pause");
+  EXPECT_EQ(id_of("Esc"), "wheel.zero_force");
   EXPECT_EQ(id_of("?"), "help.keys");
 }
 

@@ -158,6 +158,44 @@ TEST_F(Arms, ForceComesBackFromSafeOnlyWhenAskedForAndOnlyOffTheClay) {
   EXPECT_GT(arm.told_n, 0.1);
 }
 
+TEST_F(Arms, EscIsZeroForceWhateverIsOpenAndNeverBringsItBack) {
+  ArmScript& arm = arms_.emplace_back();
+  plug_and_earn(arm);
+  arm.goal_mm = 52.0;
+  play("wait 0.5\nexpect contact yes\n");
+  ASSERT_GT(arm.told_n, 0.1);
+  play("do help.keys\nexpect overlay shortcuts\n");
+  ASSERT_GT(arm.told_n, 0.1);
+  play("key Esc\nexpect overlay none\nexpect paused yes\n");
+  EXPECT_EQ(arm.told_n, 0.0);
+  arm.most_n = 0.0;
+  play("key Esc\nwait 0.5\nkey Esc\nwait 0.5\nexpect paused yes\n");
+  EXPECT_EQ(arm.most_n, 0.0);
+  arm.goal_mm = 80.0;
+  play("key Space\nexpect paused no\nwait 3\nexpect force engaged\n");
+}
+
+TEST_F(Arms, APauseOutlastsTheStroke) {
+  ArmScript& arm = arms_.emplace_back();
+  plug_and_earn(arm);
+  arm.goal_mm = 52.0;
+  play("wait 0.5\nexpect contact yes\n");
+  ASSERT_GT(arm.told_n, 0.1);
+  play("key Space\nexpect paused yes\n");
+  arm.most_n = 0.0;
+  // Each begins a stroke anew, with all that force needs: off the clay for a while, and then in.
+  for (const char* what : {"key ]", "key T", "key Ctrl+Z", "do file.new_vase\nkey Ctrl+D"}) {
+    arm.goal_mm = 80.0;
+    play(std::string(what) + "\nwait 3\n");
+    arm.goal_mm = 40.0;
+    play("wait 1\nexpect paused yes\nexpect throwing yes\nexpect contact no\n");
+    EXPECT_EQ(arm.most_n, 0.0) << what;
+  }
+  play("expect strokes 0\n");
+  arm.goal_mm = 80.0;
+  play("wait 0.3\nkey Space\nwait 3\nexpect force engaged\n");
+}
+
 TEST_F(Arms, OneThatIsNotHomedSaysWhatToDoUntilItIs) {
   ArmScript& arm = arms_.emplace_back();
   arm.state = falcon::DeviceState::needs_homing;

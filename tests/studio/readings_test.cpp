@@ -3,9 +3,7 @@
 #include "studio/readings/readings.hpp"
 
 #include "claystack/engine/stack_measures.hpp"
-#if CLAYSTACK_EXPORT
 #include "claystack/export/process_limits.hpp"
-#endif
 #include "draw/pot_view.hpp"
 
 #include <gtest/gtest.h>
@@ -147,7 +145,6 @@ TEST(Subject, OfAnOutlineKeepsTheCrown) {
   EXPECT_FALSE(stack_of({}, 0.0));
 }
 
-#if CLAYSTACK_EXPORT
 TEST(PotCheck, HasTheFiguresOfTheCup) {
   const PotCheck check = check_pot(question_of(pot_of(cup_rings())));
   ASSERT_TRUE(check.proved) << check.why_not;
@@ -228,7 +225,6 @@ TEST(PotCheck, NamesAClosedCavity) {
   EXPECT_NEAR(check.remarks[0].from_mm, 10.0, 1e-9);
   EXPECT_NEAR(check.remarks[0].to_mm, 55.0, 1e-9);
 }
-#endif
 
 }  // namespace
 }  // namespace clay::studio

@@ -32,10 +32,18 @@ TEST_F(OnAScreen, FromTheGalleryToAFileThatPrints) {
   const ScratchFolder folder;
   const Ran ran = run("under_xvfb.sh", folder);
   ASSERT_EQ(ran.status, 0) << ran.err << ran.out;
-  EXPECT_NE(read_text(folder.file("config/claystack/studio.json")), "");
+  const auto kept = nlohmann::json::parse(read_text(folder.file("config/claystack/studio.json")));
+  EXPECT_NEAR(kept.at("scale"), 1.1, 1e-6) << "one step larger";
   EXPECT_EQ(claystack("check " + folder.file("bowl.stl")).status, 0);
   const std::string info = shell("prusa-slicer --info " + folder.file("bowl.stl")).out;
   EXPECT_NE(info.find("manifold = yes"), std::string::npos) << info;
+}
+
+TEST_F(OnAScreen, WhatIsNotRecoveredIsOfferedAgainUntilItIsDiscarded) {
+  const ScratchFolder folder;
+  test::write_text(folder.file("lump.scene.json"), read_text(test::sample("vase.scene.json")));
+  const Ran ran = run("declined_under_xvfb.sh", folder);
+  EXPECT_EQ(ran.status, 0) << ran.err << ran.out;
 }
 
 /// What is lost is bounded by how often the recorder looks, not by this machine: one of three times

@@ -1,6 +1,7 @@
 #include "studio/settings.hpp"
 
 #include "app/run_program.hpp"
+#include "studio/length_text.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -34,6 +35,30 @@ TEST(Settings, ComeBackAsTheyWere) {
   EXPECT_EQ(write_settings(*back), text);
   EXPECT_EQ(back->tool.rib, changed().tool.rib);
   EXPECT_EQ(back->theme, Theme::light);
+}
+
+TEST(Settings, HaveEveryScaleAndUnitThatIsOffered) {
+  for (const float scale : {0.5f, 1.1f, 3.0f})
+    for (const LengthUnit unit : {LengthUnit::mm, LengthUnit::cm, LengthUnit::in}) {
+      Settings settings;
+      settings.scale = scale;
+      settings.unit = unit;
+      const auto back = parse_settings(write_settings(settings), "s");
+      ASSERT_TRUE(back) << back.error().message;
+      EXPECT_EQ(back->scale, scale);
+      EXPECT_EQ(back->unit, unit);
+    }
+  for (const float scale : {0.49f, 3.01f}) {
+    Settings settings;
+    settings.scale = scale;
+    EXPECT_FALSE(parse_settings(write_settings(settings), "s"));
+  }
+}
+
+TEST(LengthText, IsInTheUnitThatIsChosen) {
+  EXPECT_EQ(length_text(50.8, LengthUnit::mm), "50.8 mm");
+  EXPECT_EQ(length_text(50.8, LengthUnit::cm), "5.08 cm");
+  EXPECT_EQ(length_text(50.8, LengthUnit::in), "2.00 in");
 }
 
 TEST(Settings, AProcessOfOnesOwnIsRemembered) {

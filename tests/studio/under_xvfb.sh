@@ -4,7 +4,17 @@
 set -u
 . "$(dirname "$0")/under_xvfb_start.sh"
 
+# What the title says: the name, and a star while it is not saved.
+until_title() {
+  for _ in $(seq 100); do
+    [ "$(xdotool getwindowname "$window")" = "$1" ] && return 0
+    sleep 0.1
+  done
+  fail "expected the title $1, found $(xdotool getwindowname "$window")"
+}
+
 throw_the_bowl
+until_title "*bowl - Claystack"
 # Ten short taps are ten undos and redos: none is lost.
 for i in 1 2 3 4 5; do
   xdotool key --window "$window" --delay 0 ctrl+z
@@ -32,6 +42,9 @@ until_line "exported: .*bowl.stl" 2
 cmp bowl.stl by_key.stl || fail "expected the same bytes by menu and by key"
 xdotool key --window "$window" Escape
 until_line "action: wheel.zero_force" 2
+# Larger text is kept: the test looks at the file.
+xdotool key --window "$window" ctrl+equal
+until_line "action: view.larger"
 xdotool key --window "$window" ctrl+q
 until_line "prompt: quit"
 xdotool key --window "$window" Escape

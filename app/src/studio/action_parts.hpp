@@ -14,5 +14,7 @@ inline bool between(const Workshop& shop) { return at_rest(shop) || shop.potter.
 
 /// Of the menus File and Edit, and of cards.
 [[nodiscard]] std::span<const Action> file_actions();
+/// Of the menus View and Help.
+[[nodiscard]] std::span<const Action> view_actions();
 
 }  // namespace clay::studio

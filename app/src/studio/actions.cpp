@@ -2,7 +2,6 @@
 
 #include "studio/action_parts.hpp"
 #include "studio/input.hpp"
-#include "studio/panels/panels.hpp"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -14,12 +13,8 @@
 namespace clay::studio {
 namespace {
 
-constexpr unsigned kControlShift = kControl | kShift;
 constexpr double kSizeStep = 1.1;
-constexpr float kScaleStep = 1.1f;
 
-/// The export is in: there are figures to show.
-bool can_check(const Workshop&) { return !process_names().empty(); }
 bool pinching(const Workshop& shop) { return shop.settings.tool.mode == ToolMode::pinch; }
 
 template <ToolMode mode>
@@ -38,44 +33,17 @@ template <Shape shape>
 bool is_shape(const Workshop& shop) {
   return shop.settings.tool.shape == shape;
 }
-template <Seen from>
-void look(Workshop& shop) {
-  shop.view.look(shop, from);
-}
-template <draw::Cut cut>
-void set_cut(Workshop& shop) {
-  shop.view.cut = shop.view.cut == cut ? draw::Cut::none : cut;
-}
-template <draw::Cut cut>
-bool is_cut(const Workshop& shop) {
-  return shop.view.cut == cut;
-}
-template <LengthUnit unit>
-void set_unit(Workshop& shop) {
-  shop.settings.unit = unit;
-}
-template <LengthUnit unit>
-bool is_unit(const Workshop& shop) {
-  return shop.settings.unit == unit;
-}
-void set_scale(Workshop& shop, float scale) {
-  shop.settings.scale = std::clamp(scale, kSmallestScale, kLargestScale);
-  shop.restyle = true;
-}
 
-void pause(Workshop& shop) {
-  shop.paused = !shop.paused;
-  shop.potter.command({live::CommandKind::pause, shop.paused ? 1.0 : 0.0});
-}
-
-/// Esc: out of what is open, else no force in this very moment.
+/// Esc: no force in this very moment, whatever is open, and out of that too. However often it is
+/// pressed, it gives no force back.
 void back(Workshop& shop) {
+  const bool felt = shop.potter.has_device() && has_work(shop) && !shop.potter.paused();
+  if (felt) shop.potter.pause(true);
   if (shop.view.sizing()) return shop.view.cancel(shop);
   if (shop.overlay != Overlay::none) return close_overlay(shop);
   if (shop.potter.scrubbing()) return shop.potter.show_present();
   if (shop.potter.throwing() && !shop.potter.has_device()) return shop.potter.release();
-  if (shop.potter.throwing()) return pause(shop);
-  shop.notices.close();
+  if (!felt) shop.notices.close();
 }
 
 constexpr std::array kMenus = {MenuTitle{"file.", "File"}, MenuTitle{"edit.", "Edit"},
@@ -85,7 +53,7 @@ constexpr std::array kMenus = {MenuTitle{"file.", "File"}, MenuTitle{"edit.", "E
 constexpr KeyChord kNone{};
 
 using A = Action;
-const std::array kActions = {
+const std::array kThrowingActions = {
     A{"tool.press",
       "Press",
       {GLFW_KEY_P, 0},
@@ -173,8 +141,8 @@ const std::array kActions = {
       {GLFW_KEY_SPACE, 0},
       kNone,
       has_work,
-      pause,
-      [](const Workshop& s) { return s.paused; }},
+      [](Workshop& s) { s.potter.pause(!s.potter.paused()); },
+      [](const Workshop& s) { return s.potter.paused(); }},
     A{"wheel.rearm",
       "Force again",
       {GLFW_KEY_R, kShift},
@@ -184,95 +152,6 @@ const std::array kActions = {
         s.potter.command({live::CommandKind::rearm, 0.0});
       }},
     A{"wheel.zero_force", "Zero force, or back", {GLFW_KEY_ESCAPE, 0}, kNone, always, back},
-    A{"view.home", "Whole pot", {GLFW_KEY_HOME, 0}, kNone, has_work, look<Seen::home>},
-    A{"view.front",
-      "From the front",
-      {GLFW_KEY_1, 0},
-      {GLFW_KEY_KP_1, 0},
-      has_work,
-      look<Seen::front>},
-    A{"view.right",
-      "From the right",
-      {GLFW_KEY_3, 0},
-      {GLFW_KEY_KP_3, 0},
-      has_work,
-      look<Seen::right>},
-    A{"view.top", "From above", {GLFW_KEY_7, 0}, {GLFW_KEY_KP_7, 0}, has_work, look<Seen::top>},
-    A{"view.cut_half",
-      "Cut in half",
-      {GLFW_KEY_C, 0},
-      kNone,
-      has_work,
-      set_cut<draw::Cut::half>,
-      is_cut<draw::Cut::half>},
-    A{"view.cut_quarter",
-      "Cut a quarter",
-      {GLFW_KEY_C, kShift},
-      kNone,
-      has_work,
-      set_cut<draw::Cut::quarter>,
-      is_cut<draw::Cut::quarter>},
-    A{"view.wall_map",
-      "Wall thickness on the pot",
-      {GLFW_KEY_W, 0},
-      kNone,
-      can_check,
-      [](Workshop& s) { s.settings.wall_map = !s.settings.wall_map; },
-      [](const Workshop& s) { return s.settings.wall_map; }},
-    A{"view.section",
-      "Section",
-      {GLFW_KEY_X, 0},
-      kNone,
-      always,
-      [](Workshop& s) { toggle_panel(s, "section"); },
-      [](const Workshop& s) { return panel_open(s, "section"); }},
-    A{"view.walls", "Walls", kNone, kNone, can_check, [](Workshop& s) { toggle_panel(s, "walls"); },
-      [](const Workshop& s) { return panel_open(s, "walls"); }},
-    A{"view.certificate", "Certificate", kNone, kNone, can_check,
-      [](Workshop& s) { toggle_panel(s, "certificate"); },
-      [](const Workshop& s) { return panel_open(s, "certificate"); }},
-    A{"view.ledger", "Ledger", kNone, kNone, always, [](Workshop& s) { toggle_panel(s, "ledger"); },
-      [](const Workshop& s) { return panel_open(s, "ledger"); }},
-    A{"view.stress", "Stress", kNone, kNone, always, [](Workshop& s) { toggle_panel(s, "stress"); },
-      [](const Workshop& s) { return panel_open(s, "stress"); }},
-    A{"view.servo", "Servo", kNone, kNone, always, [](Workshop& s) { toggle_panel(s, "servo"); },
-      [](const Workshop& s) { return panel_open(s, "servo"); }},
-    A{"view.theme",
-      "Light theme",
-      {GLFW_KEY_L, kControl},
-      kNone,
-      always,
-      [](Workshop& s) {
-        s.settings.theme = s.settings.theme == Theme::dark ? Theme::light : Theme::dark;
-        s.restyle = true;
-      },
-      [](const Workshop& s) { return s.settings.theme == Theme::light; }},
-    A{"view.mm", "Millimetres", kNone, kNone, always, set_unit<LengthUnit::mm>,
-      is_unit<LengthUnit::mm>},
-    A{"view.cm", "Centimetres", kNone, kNone, always, set_unit<LengthUnit::cm>,
-      is_unit<LengthUnit::cm>},
-    A{"view.in", "Inches", kNone, kNone, always, set_unit<LengthUnit::in>, is_unit<LengthUnit::in>},
-    A{"view.larger",
-      "Larger text",
-      {GLFW_KEY_EQUAL, kControl},
-      {GLFW_KEY_EQUAL, kControlShift},
-      always,
-      [](Workshop& s) { set_scale(s, s.settings.scale * kScaleStep); }},
-    A{"view.smaller",
-      "Smaller text",
-      {GLFW_KEY_MINUS, kControl},
-      kNone,
-      always,
-      [](Workshop& s) { set_scale(s, s.settings.scale / kScaleStep); }},
-    A{"help.hint", "First steps below the pot", kNone, kNone, always,
-      [](Workshop& s) { s.settings.hints = !s.settings.hints; },
-      [](const Workshop& s) { return s.settings.hints; }},
-    A{"help.keys",
-      "Keys and mouse",
-      {GLFW_KEY_SLASH, kShift},
-      {GLFW_KEY_F1, 0},
-      always,
-      [](Workshop& s) { s.overlay = Overlay::shortcuts; }},
 };
 
 }  // namespace
@@ -280,7 +159,8 @@ const std::array kActions = {
 std::span<const Action> actions() {
   static const std::vector<Action> all = [] {
     std::vector<Action> joined(file_actions().begin(), file_actions().end());
-    joined.insert(joined.end(), kActions.begin(), kActions.end());
+    joined.insert(joined.end(), kThrowingActions.begin(), kThrowingActions.end());
+    joined.insert(joined.end(), view_actions().begin(), view_actions().end());
     return joined;
   }();
   return all;

@@ -26,10 +26,21 @@ const std::array kFacts = {
     Fact{"overlay", [](const Workshop& s) { return std::string(name_of(s.overlay)); }},
     Fact{"throwing", [](const Workshop& s) { return yes_or_no(s.potter.throwing()); }},
     Fact{"contact", [](const Workshop& s) { return yes_or_no(s.potter.status().contact); }},
-    Fact{"paused", [](const Workshop& s) { return yes_or_no(s.paused); }},
+    Fact{"paused", [](const Workshop& s) { return yes_or_no(s.potter.paused()); }},
     Fact{"unsaved", [](const Workshop& s) { return yes_or_no(s.potter.unsaved()); }},
     Fact{"can_undo", [](const Workshop& s) { return yes_or_no(s.potter.can_undo()); }},
     Fact{"can_redo", [](const Workshop& s) { return yes_or_no(s.potter.can_redo()); }},
+    Fact{"tool_mm",
+         [](const Workshop& s) {
+           const auto size = size_mm(s.settings.tool);
+           return size ? fmt::format("{}", *size) : std::string();
+         }},
+    Fact{"stiffness",
+         [](const Workshop& s) {
+           return s.potter.has_work() && s.potter.scene().force
+                      ? fmt::format("{}", s.potter.scene().force->stiffness_n_per_mm2)
+                      : std::string();
+         }},
     Fact{"strokes",
          [](const Workshop& s) {
            return fmt::format("{}", s.potter.has_work() ? s.potter.work().size() - 1 : 0);

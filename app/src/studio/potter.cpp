@@ -1,8 +1,6 @@
 #include "studio/potter.hpp"
 
 #include "draw/pot_view.hpp"
-#include "live/mapping.hpp"
-#include "servo_check.hpp"
 
 #include <algorithm>
 
@@ -18,25 +16,6 @@ draw::PotView view_of(const live::LiveProfile& profile) {
   for (std::size_t row = 0; row < profile.size; ++row)
     view.rows.push_back({profile.rows[row].outer_mm, profile.rows[row].inner_mm});
   return view;
-}
-
-/// As stiff as the device can render at this rate, and no stiffer than the scene. What becomes of
-/// the clay does not depend on it.
-Result<SceneSpec> softened(SceneSpec scene, const live::LiveSettings& settings) {
-  if (!scene.force) return scene;
-  const auto mapping = live::Mapping::build(settings.mapping);
-  if (!mapping) return tl::make_unexpected(mapping.error());
-  const auto plan = StepPlan::build(scene);
-  if (!plan) return tl::make_unexpected(plan.error());
-  falcon::SampledLoop arm = settings.arm;
-  arm.rate_hz = settings.rate_hz;
-  const auto contact = app::servo_contact(scene, *plan, arm, mapping->stiffness_gain());
-  if (!contact) return tl::make_unexpected(contact.error());
-  if (contact->stiffness_n_per_m <= contact->accepted_n_per_m) return scene;
-  const double part = contact->accepted_n_per_m / contact->stiffness_n_per_m;
-  scene.force->stiffness_n_per_mm2 *= part;
-  if (scene.force->paper_stiffness_n_per_mm) *scene.force->paper_stiffness_n_per_mm *= part;
-  return scene;
 }
 
 }  // namespace
@@ -142,6 +121,7 @@ Result<void> Potter::sit_down(const SceneSpec& scene, falcon::HapticDevice& devi
   scene_ = scene;
   recorder_ = std::move(recorder);
   sitting_ = std::move(*sitting);
+  if (paused_) pause(true);
   status_ = {};
   last_ns_ = counted_ns_ = clock_.now_ns();
   counted_ticks_ = 0;
@@ -151,6 +131,11 @@ Result<void> Potter::sit_down(const SceneSpec& scene, falcon::HapticDevice& devi
 
 void Potter::command(const live::Command& command) noexcept {
   if (sitting_) (void)sitting_->command(command);
+}
+
+void Potter::pause(bool on) noexcept {
+  paused_ = on;
+  command({live::CommandKind::pause, on ? 1.0 : 0.0});
 }
 
 void Potter::set_stiffness(double n_per_mm2) {
@@ -179,42 +164,6 @@ void Potter::release() {
   show_pot();
   if (news_.ending == live::Ending::device_lost) lose_device();
   device_waits_ = device_ != nullptr && news_.ending != live::Ending::collapsed;
-}
-
-void Potter::take(std::unique_ptr<falcon::HapticDevice> device, live::LiveSettings settings) {
-  release();
-  device_ = std::move(device);
-  device_settings_ = settings;
-  device_waits_ = true;
-}
-
-/// The force went with it; the mouse takes over.
-void Potter::lose_device() {
-  news_.error = Error{ErrorKind::device, falcon::text_of(device_->problem())};
-  news_.device_lost = true;
-  device_.reset();
-}
-
-void Potter::hold(const ToolSpec& tool, double rate_per_s) {
-  if (!device_ || !work_ || (tool == scene_.tool && rate_per_s == scene_.removal.rate_per_s))
-    return;
-  release();
-  scene_.tool = tool;
-  scene_.removal.rate_per_s = rate_per_s;
-}
-
-/// A servo that has ended has told the device to give no force until it is opened again.
-void Potter::sit_with_device() {
-  device_waits_ = false;
-  auto opened = device_->open();
-  if (!opened) return lose_device();
-  const SceneSpec wanted = scene_;
-  auto begun =
-      (device_->info().can_push ? softened(scene_, device_settings_) : Result<SceneSpec>(scene_))
-          .and_then(
-              [&](const SceneSpec& scene) { return sit_down(scene, *device_, device_settings_); });
-  scene_ = wanted;
-  if (!begun) news_.error = begun.error();
 }
 
 void Potter::undo() {

@@ -80,6 +80,10 @@ class Potter {
   Result<void> press(const Press& press);
   void aim(const MouseAim& aim) noexcept { mouse_.aim(aim); }
   void command(const live::Command& command) noexcept;
+  /// Nothing that the hand does reaches the clay, and none of it the hand: in this stroke and in
+  /// those that follow, until it is taken back.
+  void pause(bool on) noexcept;
+  [[nodiscard]] bool paused() const noexcept { return paused_; }
   /// Lets go; the stroke is part of the work.
   void release();
 
@@ -148,6 +152,7 @@ class Potter {
   live::Clock& clock_;
   bool threads_;
   bool journals_ = false;
+  bool paused_ = false;
   bool given_up_ = false;         // the work, by an answer to a question
   std::optional<Moment> moment_;  // the view is of it, not of the present pot
   MouseDevice mouse_;

@@ -147,7 +147,8 @@ bool SceneView::button(Workshop& shop, const ButtonChanged& change) {
 void SceneView::press(Workshop& shop, bool inverted) {
   const auto pointed = pointed_mm();
   const auto tool = chosen_tool(shop);
-  if (!pointed || !tool || !shop.potter.has_work() || shop.potter.has_device() || shop.paused)
+  if (!pointed || !tool || !shop.potter.has_work() || shop.potter.has_device() ||
+      shop.potter.paused())
     return;
   const ToolSpec spec = tool_of(shop.settings.tool, inverted);
   glm::dvec2 start = free_place(shop.potter.view(), *tool, *pointed);

@@ -155,7 +155,7 @@ void Studio::name_window() {
 
 /// The wheel turns while there is a tool in the clay.
 void Studio::turn_wheel(double elapsed_s) {
-  const bool turns = shop_.potter.throwing() && !shop_.paused;
+  const bool turns = shop_.potter.throwing() && !shop_.potter.paused();
   const double change = elapsed_s / kSpinUpS;
   spin_ = turns ? std::min(1.0, spin_ + change) : std::max(0.0, spin_ - change);
   shop_.view.turn_wheel(

@@ -61,6 +61,20 @@ void choose(const ToolSpec& tool, ToolChoice& choice) {
   if (tool.gap_mm) choice.gap_mm = std::clamp(*tool.gap_mm, kNarrowestGapMm, kWidestPinchMm);
 }
 
+std::optional<double> size_mm(const ToolChoice& choice) {
+  switch (choice.shape) {
+    case Shape::ellipse:
+      return choice.ellipse.half_height_mm;
+    case Shape::rib:
+      return choice.rib.height_mm;
+    case Shape::own:
+      return std::nullopt;
+    case Shape::sphere:
+      break;
+  }
+  return choice.sphere.radius_mm;
+}
+
 void resize(ToolChoice& choice, double factor) {
   switch (choice.shape) {
     case Shape::ellipse:

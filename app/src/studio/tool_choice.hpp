@@ -4,6 +4,8 @@
 
 #include "claystack/engine/scene.hpp"
 
+#include <optional>
+
 namespace clay::studio {
 
 enum class Shape { sphere, ellipse, rib, own };
@@ -27,6 +29,10 @@ inline constexpr double kNarrowestGapMm = 0.5, kWidestPinchMm = 40.0;
 
 /// From a scene, keeping the sizes of the shapes that it has not.
 void choose(const ToolSpec& tool, ToolChoice& choice);
+
+/// What names the present shape's size [mm]: a sphere's radius, an ellipse's half height, a rib's
+/// height. None for points of a scene's own.
+[[nodiscard]] std::optional<double> size_mm(const ToolChoice& choice);
 
 /// Multiplies the present shape's size, within its limits.
 void resize(ToolChoice& choice, double factor);

@@ -83,7 +83,11 @@ void recover_work(Workshop& shop, std::size_t left) {
 }
 
 void discard_work(Workshop& shop, std::size_t left) {
-  if (auto gone = work::discard(shop.left.at(left).path); !gone) tell(shop, gone.error());
+  const std::filesystem::path path = shop.left.at(left).path;
+  if (auto gone = work::discard(path); gone)
+    shop.log("discarded: " + path.string());
+  else
+    tell(shop, gone.error());
   shop.left.erase(shop.left.begin() + static_cast<std::ptrdiff_t>(left));
 }
 

@@ -75,7 +75,6 @@ struct Workshop {
   std::vector<work::Recoverable> left;   ///< by programs that died, newest first
   Overlay overlay = Overlay::gallery;
   bool restyle = true;                     ///< theme or scale have changed
-  bool paused = false;                     ///< nothing that the hand does reaches the clay
   bool done = false;                       ///< the window may close
   std::function<void(Workshop&)> waiting;  ///< what an unsaved work holds up, until it is answered
   bool save_first = false;                 ///< the answer was to save: then it goes on

@@ -58,8 +58,8 @@ void draw_status_bar(Workshop& shop, glm::vec2 corner_px, glm::vec2 size_px) {
   part(fmt::format("volume error {:.0f} quanta", std::abs(status.volume_error)),
        status.volume_error != 0.0 ? colours.fault : colours.good);
   const std::string hand = words_of_hand(shop);
-  part(hand.empty() && shop.paused ? "paused" : hand,
-       shop.paused || waits_for_rearm(shop) ? colours.warning : text, true);
+  part(hand.empty() && shop.potter.paused() ? "paused" : hand,
+       shop.potter.paused() || waits_for_rearm(shop) ? colours.warning : text, true);
   ImGui::End();
   ImGui::PopStyleColor();
   ImGui::PopStyleVar(2);

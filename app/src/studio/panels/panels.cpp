@@ -15,10 +15,8 @@ const std::array kPanels = {
     Panel{"section", "Section", Column::left, true, &draw_section},
     Panel{"force", "Force", Column::right, true, &draw_force},
     Panel{"pot", "Pot", Column::right, true, &draw_pot},
-#if CLAYSTACK_EXPORT
     Panel{"walls", "Walls", Column::right, true, &draw_walls},
     Panel{"certificate", "Certificate", Column::right, true, &draw_certificate},
-#endif
     Panel{"ledger", "Ledger", Column::right, false, &draw_ledger},
     Panel{"stress", "Stress", Column::right, false, &draw_stress},
     Panel{"servo", "Servo", Column::right, false, &draw_servo},

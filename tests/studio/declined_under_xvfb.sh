@@ -1,0 +1,37 @@
+#!/bin/sh
+# declined_under_xvfb.sh PROGRAM FOLDER: what a window that was killed has left is not taken. Left
+# alone it stays and is offered again; discarded by its button it is gone for good.
+set -u
+. "$(dirname "$0")/under_xvfb_start.sh"
+journals() { ls "$folder/state/claystack/recovery"; }
+close_window() {
+  xdotool key --window "$window" ctrl+q
+  until_line "window closed"
+  wait "$studio" || fail "expected exit status 0"
+}
+
+throw_the_bowl
+kill -9 "$studio"
+wait "$studio" 2>/dev/null
+left=$(journals)
+[ "$(echo "$left" | wc -l)" -eq 1 ] || fail "expected one journal, found: $left"
+cp "$folder/state/claystack/recovery/$left" "$folder/before"
+
+# With another work: the one that was left is neither taken nor touched.
+start_window "$folder/lump.scene.json"
+grep -q "recovery offered: 1" "$log" || fail "expected an offer to recover"
+close_window
+[ "$(journals)" = "$left" ] || fail "expected $left alone, found: $(journals)"
+cmp "$folder/state/claystack/recovery/$left" "$folder/before" || fail "expected it as it was"
+
+start_window
+grep -q "recovery offered: 1" "$log" || fail "expected the offer again"
+xdotool mousemove --window "$window" 918 262 sleep 0.2 click 1
+until_line "discarded: .*$left"
+[ -z "$(journals)" ] || fail "expected no journal, found: $(journals)"
+close_window
+
+start_window
+close_window
+grep -q "recovery offered" "$log" && fail "expected no offer of what was discarded"
+exit 0
