@@ -31,8 +31,7 @@ using live::Ending;
 constexpr auto kLook = 20ms;  // at the servo, for its end
 constexpr auto kReopen = 500ms;
 
-/// Refuses a scene that is too stiff for the arm, or softens it. Its stiffness has no part in what
-/// becomes of the clay, so a softened scene replays to the same pot.
+/// Refuses a scene that is too stiff for the arm, or softens it.
 Result<void> fit_stiffness(SceneSpec& scene, const StepPlan& plan, const LiveOptions& options,
                            double gain, const Console& console) {
   falcon::SampledLoop arm = options.settings.arm;
@@ -44,11 +43,8 @@ Result<void> fit_stiffness(SceneSpec& scene, const StepPlan& plan, const LiveOpt
     if (checked) return {};
     return failure(checked.error().kind, checked.error().message + "; or --soften");
   }
-  if (contact->stiffness_n_per_m <= contact->accepted_n_per_m) return {};
-  const double part = contact->accepted_n_per_m / contact->stiffness_n_per_m;
-  scene.force->stiffness_n_per_mm2 *= part;
-  if (scene.force->paper_stiffness_n_per_mm) *scene.force->paper_stiffness_n_per_mm *= part;
-  console.say(fmt::format("stiffness lowered to {:.3g} of the scene's", part));
+  if (const double part = soften(scene, *contact); part < 1.0)
+    console.say(fmt::format("stiffness lowered to {:.3g} of the scene's", part));
   return {};
 }
 

@@ -65,4 +65,12 @@ Result<ServoContact> check_servo(const SceneSpec& scene, const StepPlan& plan,
   return contact;
 }
 
+double soften(SceneSpec& scene, const ServoContact& contact) {
+  if (!scene.force || contact.stiffness_n_per_m <= contact.accepted_n_per_m) return 1.0;
+  const double part = contact.accepted_n_per_m / contact.stiffness_n_per_m;
+  scene.force->stiffness_n_per_mm2 *= part;
+  if (scene.force->paper_stiffness_n_per_mm) *scene.force->paper_stiffness_n_per_mm *= part;
+  return part;
+}
+
 }  // namespace clay::app

@@ -25,4 +25,8 @@ Result<ServoContact> servo_contact(const SceneSpec& scene, const StepPlan& plan,
 Result<ServoContact> check_servo(const SceneSpec& scene, const StepPlan& plan,
                                  const falcon::SampledLoop& loop, double stiffness_gain = 1.0);
 
+/// Lowers the scene's stiffness to what is accepted; what part of it is left, 1 where it was soft
+/// enough. It has no part in what becomes of the clay: a softened scene replays to the same pot.
+double soften(SceneSpec& scene, const ServoContact& contact);
+
 }  // namespace clay::app

@@ -19,10 +19,7 @@ Result<SceneSpec> softened(SceneSpec scene, const live::LiveSettings& settings) 
   arm.rate_hz = settings.rate_hz;
   const auto contact = app::servo_contact(scene, *plan, arm, mapping->stiffness_gain());
   if (!contact) return tl::make_unexpected(contact.error());
-  if (contact->stiffness_n_per_m <= contact->accepted_n_per_m) return scene;
-  const double part = contact->accepted_n_per_m / contact->stiffness_n_per_m;
-  scene.force->stiffness_n_per_mm2 *= part;
-  if (scene.force->paper_stiffness_n_per_mm) *scene.force->paper_stiffness_n_per_mm *= part;
+  app::soften(scene, *contact);
   return scene;
 }
 
