@@ -55,8 +55,9 @@ void draw_status_bar(Workshop& shop, glm::vec2 corner_px, glm::vec2 size_px) {
     part("at rest", colours.faint);
   part(fmt::format("{} missed", status.missed),
        status.missed > 0 ? colours.warning : colours.faint);
-  part(fmt::format("volume error {:.0f} quanta", std::abs(status.volume_error)),
-       status.volume_error != 0.0 ? colours.fault : colours.good);
+  if (shop.potter.has_work())
+    part(fmt::format("volume error {:.0f} quanta", std::abs(status.volume_error)),
+         status.volume_error != 0.0 ? colours.fault : colours.good);
   const std::string hand = words_of_hand(shop);
   part(hand.empty() && shop.potter.paused() ? "paused" : hand,
        shop.potter.paused() || waits_for_rearm(shop) ? colours.warning : text, true);

@@ -72,7 +72,7 @@ void draw_force(Workshop& shop) {
 }
 
 void draw_pot(Workshop& shop) {
-  if (!shop.potter.has_work()) return;
+  if (!shop.potter.has_work()) return faint_text(shop.colours(), "No clay on the wheel");
   const Measures m = measures_of(shop);
   const LengthUnit unit = shop.settings.unit;
   const Palette& colours = shop.colours();
