@@ -116,19 +116,23 @@ TEST_F(ThrowRig, WaitsForTheDeviceToComeBackWhenAsked) {
   model.faults = {{WireFault::unplugged, 500}};
   FalconGadget gadget(model, bowl_stroke());
   const UsbPlug plug(testbed_.get(), gadget);
-  // Plugged in again as soon as it is gone; its firmware is still there, as with a supply of its
-  // own.
+  // Plugged in again half a second after it is gone: a hand that is faster may not be missed. Its
+  // firmware is still there, as with a supply of its own.
   std::thread hand([&] {
-    for (bool gone = false; !gone; std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
+    const auto gone = [&] {
       const std::scoped_lock held(gadget.lock);
-      gone = gadget.device.model.unplugged();
-      if (gone) gadget.device.model.replug();
-    }
+      return gadget.device.model.unplugged();
+    };
+    while (!gone()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    const std::scoped_lock held(gadget.lock);
+    gadget.device.model.replug();
   });
   const auto run = throw_bowl("falcon", "--wait --seconds 3");
   hand.join();
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_NE(run.err.find("unplugged; plug it in again; waiting for it"), std::string::npos);
+  EXPECT_NE(run.err.find("unplugged; plug it in again; waiting for it"), std::string::npos)
+      << run.err;
   EXPECT_EQ(run.json().at("ended"), "time_up");
   EXPECT_EQ(thrown(), replayed());
 }
