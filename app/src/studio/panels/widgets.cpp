@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace clay::studio {
 int choice_row(const char* id, std::span<const char* const> titles, int chosen,
@@ -118,6 +119,21 @@ void dim_around(float top, float bottom) {
   draw->PopClipRect();
 }
 
+/// A row of pixels from y down; those at its ends as far as they are covered.
+void fill_row(float y, float from, float to, ImVec4 colour) {
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const auto fill = [&](float begin, float end, float part) {
+    ImVec4 shade = colour;
+    shade.w *= part;
+    if (end > begin) draw->AddRectFilled({begin, y}, {end, y + 1.0f}, ImGui::GetColorU32(shade));
+  };
+  const float first = std::ceil(from), last = std::floor(to);
+  if (last < first) return fill(last, first, to - from);
+  fill(first - 1.0f, first, first - from);
+  fill(first, last, 1.0f);
+  fill(last, last + 1.0f, to - last);
+}
+
 }  // namespace
 
 void begin_card(const char* id, const ViewRect& view, float width_em) {
@@ -146,20 +162,18 @@ void draw_section(const draw::PotView& pot, ImVec2 corner, float side, const Pal
   for (const draw::Row& row : pot.rows) widest = std::max(widest, row.outer_mm);
   const float height = static_cast<float>(pot.height_mm);
   const float scale = 0.9f * side / std::max(2.0f * widest, height);
-  const float middle = corner.x + 0.5f * side,
-              foot = corner.y + 0.5f * side + 0.5f * scale * height;
+  const float middle = std::floor(corner.x + 0.5f * side);
+  const float foot = std::floor(corner.y + 0.5f * side + 0.5f * scale * height);
   const float step = scale * height / static_cast<float>(pot.rows.size());
   ImVec4 shade = colours.clay;
   shade.w = 0.35f;
-  const ImU32 face = ImGui::GetColorU32(colours.clay), body = ImGui::GetColorU32(shade);
-  ImDrawList* draw = ImGui::GetWindowDrawList();
-  for (std::size_t i = 0; i < pot.rows.size(); ++i) {
-    const float top = foot - step * static_cast<float>(i + 1),
-                bottom = foot - step * static_cast<float>(i);
+  for (float up = 0.5f; up < scale * height; up += 1.0f) {
+    const auto i = std::min(static_cast<std::size_t>(up / step), pot.rows.size() - 1);
     const float outer = scale * pot.rows[i].outer_mm, inner = scale * pot.rows[i].inner_mm;
-    draw->AddRectFilled({middle - outer, top}, {middle, bottom}, face);
-    draw->AddRectFilled({middle, top}, {middle + inner, bottom}, body);
-    draw->AddRectFilled({middle + inner, top}, {middle + outer, bottom}, face);
+    const float y = foot - up - 0.5f;
+    fill_row(y, middle - outer, middle, colours.clay);
+    fill_row(y, middle, middle + outer, shade);
+    fill_row(y, middle + inner, middle + outer, colours.clay);
   }
 }
 
