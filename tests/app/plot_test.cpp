@@ -76,6 +76,11 @@ RC_GTEST_PROP(PlotAxis, TicksAscendWithinTheRangeAndAreAFew, (bool logarithmic))
   RC_ASSERT(labels(axis).size() <= 14u);
 }
 
+TEST(PlotAxis, ARangeWithOneRoundNumberIsLabelledAllTheSame) {
+  EXPECT_GE(labels(AxisScale(true, 1.1e-11, 3.48e-11)).size(), 2u);
+  EXPECT_GE(labels(AxisScale(true, 2.1, 9.9)).size(), 2u);
+}
+
 TEST(PlotAxis, ARangeOfNothingOrOfOneValueHasLength) {
   for (const bool logarithmic : {false, true}) {
     Extent extent{logarithmic};

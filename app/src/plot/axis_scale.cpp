@@ -94,7 +94,9 @@ std::vector<Tick> AxisScale::decade_ticks() const {
       if (!labelled && (factor != 1 && every > 1)) continue;
       ticks.push_back({value, labelled ? decade_label(factor, power, plain) : std::string()});
     }
-  return ticks;
+  const auto labelled =
+      std::ranges::count_if(ticks, [](const Tick& t) { return !t.label.empty(); });
+  return labelled < 2 ? linear_ticks() : ticks;  // as between 2 and 5, or 5 and 10
 }
 
 void Extent::add(double value) {
