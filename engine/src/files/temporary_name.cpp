@@ -145,7 +145,7 @@ TemporaryName copy_beside(const fs::path& path) {
   const Descriptor copy(descriptor);
   const bool whole = descriptor != -1 && copy_bytes(original.get(), descriptor) &&
                      ::fchmod(descriptor, status.st_mode & 07777) == 0 &&
-                     uninterrupted([&] { return ::fsync(descriptor); }) == 0;
+                     uninterrupted([&] { return ::fsync(copy.get()); }) == 0;
   if (whole) return std::move(name);
   const int error = errno;
   name.remove();
