@@ -31,8 +31,6 @@ Result<int> export_pot(ExportCommand& command, const Console& console) {
   command.options.smoothing = smoothing_of(command.smooth);
   command.options.full_verification = command.verify == "full";
   command.options.name = std::filesystem::path(command.pot).stem().stem().string();
-  auto report_file = open_file(command.report);
-  if (!report_file) return tl::make_unexpected(report_file.error());
   const auto done = [&] {
     Progress progress(console, "exporting", 0);
     return export_files(*pot, command, [&](std::string_view stage) { progress.stage(stage); });
@@ -40,12 +38,8 @@ Result<int> export_pot(ExportCommand& command, const Console& console) {
   if (!done) return tl::make_unexpected(done.error());
 
   const auto& [report, copies, demand] = *done;
-  const Json json = export_json(report, copies, command.outputs, demand);
-  if (console.json) console.print(json);
+  if (console.json) console.print(export_json(report, copies, command.outputs, demand));
   tell_export(console, report, copies, command.outputs);
-  if (FileOnDisk* const file = report_file->get())
-    if (auto kept = write_text(*file, pretty(json)).and_then([&] { return file->commit(); }); !kept)
-      return tl::make_unexpected(kept.error());
   return tell_thin_wall(console, report, demand) ? kUnsound : kDone;
 }
 

@@ -139,13 +139,13 @@ Result<void> write_companions(const Pot& pot, const solid::ExportReport& report,
   return {};
 }
 
-Result<void> publish_all(std::vector<Request>& requests) {
-  for (Request& request : requests) {
-    if (auto done = request.file->commit(); !done) return done;
-    if (!request.certificate) continue;
-    if (auto done = request.certificate->commit(); !done) return done;
+std::vector<AtomicFile*> files_of(const std::vector<Request>& requests) {
+  std::vector<AtomicFile*> files;
+  for (const Request& request : requests) {
+    files.push_back(&request.file->file());
+    if (request.certificate) files.push_back(&request.certificate->file());
   }
-  return {};
+  return files;
 }
 
 }  // namespace clay::app

@@ -53,6 +53,7 @@ Result<std::vector<PotCopy>> write_copies(const Pot& pot, std::vector<Request>& 
 Result<void> write_companions(const Pot& pot, const solid::ExportReport& report,
                               std::vector<Request>& requests, double shrinkage);
 
-Result<void> publish_all(std::vector<Request>& requests);
+/// For `commit_all`.
+[[nodiscard]] std::vector<AtomicFile*> files_of(const std::vector<Request>& requests);
 
 }  // namespace clay::app

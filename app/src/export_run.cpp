@@ -1,7 +1,9 @@
 #include "export_run.hpp"
 
+#include "claystack/engine/atomic_file.hpp"
 #include "claystack/engine/stack_measures.hpp"
 #include "claystack/export/shrinkage.hpp"
+#include "export_report.hpp"
 #include "thin_walls.hpp"
 #include "wall_table.hpp"
 
@@ -47,6 +49,23 @@ Result<void> still_wanted(const ExportCommand& command) {
   return failure(ErrorKind::io, command.pot + ": export given up: cancelled");
 }
 
+/// The report is a file of the export like the others, and told of them before they have names.
+Result<void> publish(std::vector<Request>& requests, FileOnDisk* report_file, ExportDone& done,
+                     const ExportCommand& command) {
+  const auto begin = std::chrono::steady_clock::now();
+  std::vector<AtomicFile*> files = files_of(requests);
+  for (AtomicFile* file : files)
+    if (auto prepared = file->prepare(); !prepared) return prepared;
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  done.report.stages.push_back({"publish", seconds.count()});
+  if (report_file != nullptr) {
+    const Json json = export_json(done.report, done.copies, command.outputs, done.demand);
+    if (auto written = write_text(*report_file, pretty(json)); !written) return written;
+    files.push_back(&report_file->file());
+  }
+  return commit_all(files);
+}
+
 }  // namespace
 
 Result<ExportDone> export_files(const Pot& pot, ExportCommand& command,
@@ -56,6 +75,8 @@ Result<ExportDone> export_files(const Pot& pot, ExportCommand& command,
   if (!requests) return tl::make_unexpected(requests.error());
   command.options.min_wall_mm = least_wall(command, pot.stack);
   if (auto done = open_all(*requests, command); !done) return tl::make_unexpected(done.error());
+  auto report_file = open_file(command.report);
+  if (!report_file) return tl::make_unexpected(report_file.error());
   auto copies = write_copies(pot, *requests, command);
   if (!copies) return tl::make_unexpected(copies.error());
   if (auto wanted = still_wanted(command); !wanted) return tl::make_unexpected(wanted.error());
@@ -64,12 +85,9 @@ Result<ExportDone> export_files(const Pot& pot, ExportCommand& command,
   if (auto done = write_companions(pot, *report, *requests, command.options.shrinkage); !done)
     return tl::make_unexpected(done.error());
   if (auto wanted = still_wanted(command); !wanted) return tl::make_unexpected(wanted.error());
-  const auto begin = std::chrono::steady_clock::now();
-  if (auto done = publish_all(*requests); !done) return tl::make_unexpected(done.error());
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-  report->stages.push_back({"publish", seconds.count()});
   const auto demand = demand_for(command.walls, *report);
-  return ExportDone{std::move(*report), std::move(*copies), demand};
+  ExportDone done{std::move(*report), std::move(*copies), demand};
+  return publish(*requests, report_file->get(), done, command).map([&] { return std::move(done); });
 }
 
 Result<ExportDone> rehearse_export(const Pot& pot, ExportCommand& command,

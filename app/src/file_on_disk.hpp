@@ -16,7 +16,7 @@ class FileOnDisk final : public solid::FileStore {
   Result<void> read_at(std::uint64_t offset, std::span<std::byte> bytes) const override {
     return file_.read_at(offset, bytes);
   }
-  Result<void> commit() { return file_.commit(); }
+  [[nodiscard]] AtomicFile& file() noexcept { return file_; }
 
  private:
   AtomicFile file_;

@@ -1,8 +1,11 @@
 #include "commands.hpp"
 
+#include "claystack/engine/atomic_file.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -23,6 +26,21 @@ Examples:
 
 Exit status: 0 done and sound; 1 done, but the pot or mesh fails a check;
 2 bad usage or bad input; 3 could not read or write; 4 a device failed.)";
+
+/// A signal that ends the program leaves no temporary file.
+void on_end(int signal) {
+  clay::remove_temporary_files();
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+/// A signal that is ignored stays ignored, as nohup wants it. live::ForceSignals takes the place of
+/// these for as long as it lives.
+void handle_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE})
+    if (std::signal(signal, on_end) == SIG_IGN) std::signal(signal, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of its size is an error like others
+}
 
 int run(int argc, char** argv) {
   using namespace clay::app;
@@ -88,6 +106,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  handle_signals();
   try {
     const int exit = run(argc, argv);
     // What could not be printed was not done.

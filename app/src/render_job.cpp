@@ -163,12 +163,9 @@ Result<Rendered> render(const RenderCommand& command, const Console& console) {
   }
   done.png_bytes = png.size();
   done.gif_bytes = gif.size();
-  const auto write = [](const std::string& path, const std::string& bytes) -> Result<void> {
-    return path.empty() ? Result<void>() : publish(path, bytes);
-  };
-  return write(command.out, png).and_then([&] { return write(command.turntable, gif); }).map([&] {
-    return done;
-  });
+  const std::array files{NamedBytes{command.out, std::move(png)},
+                         NamedBytes{command.turntable, std::move(gif)}};
+  return publish_all(files).map([&] { return done; });
 }
 
 }  // namespace clay::app

@@ -101,8 +101,7 @@ Result<void> check_gaps(const Session& session, const SceneSpec& scene,
 }
 
 /// Plays the session with both models, for the plot that compares them.
-Result<void> write_error_plot(const SceneSpec& scene, const Session& session,
-                              const std::string& path) {
+Result<std::string> error_plot_of(const SceneSpec& scene, const Session& session) {
   std::vector<ErrorCurve> curves;
   for (const Model model : {Model::paper, Model::conserving}) {
     SceneSpec variant = scene;
@@ -112,7 +111,7 @@ Result<void> write_error_plot(const SceneSpec& scene, const Session& session,
     ErrorCurve& curve = curves.emplace_back(ErrorCurve{name_of(model), {}});
     replay(*wheel, session.poses, {.trace = &curve.rows, .progress = {}});
   }
-  return publish(path, error_plot_svg(scene.name, curves));
+  return error_plot_svg(scene.name, curves);
 }
 
 Result<void> check_pot_name(const std::string& pot) {
@@ -132,6 +131,24 @@ Result<void> check_names(const ThrowOptions& options, const Console& console) {
   if (std::count(outputs.begin(), outputs.end(), "-") > (console.json ? 0 : 1))
     return failure(ErrorKind::bad_input, "-: expected one thing only on standard output");
   return check_distinct(outputs, {options.scene, options.session, options.from});
+}
+
+/// All that was asked for, or nothing.
+Result<void> write_outputs(const ThrowOptions& options, const SceneSpec& scene,
+                           const Session& session, const Pot& pot,
+                           const std::vector<TraceRow>& trace) {
+  std::vector<NamedBytes> files;
+  if (!options.pot.empty()) {
+    const bool cbor = options.pot.ends_with(".cbor");
+    files.push_back({options.pot, write_pot(pot, cbor ? PotEncoding::cbor : PotEncoding::json)});
+  }
+  if (!options.trace.empty()) files.push_back({options.trace, trace_csv(trace)});
+  if (!options.error_plot.empty()) {
+    auto plot = error_plot_of(scene, session);
+    if (!plot) return tl::make_unexpected(plot.error());
+    files.push_back({options.error_plot, std::move(*plot)});
+  }
+  return publish_all(files);
 }
 
 Result<void> replay_pot(const ThrowOptions& options, Console console) {
@@ -165,17 +182,7 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
   if (stats.ring_limit) console.warn("clay waits above the top: raise lump.max_rings");
 
   const Pot pot = wheel->pot();
-  if (!options.pot.empty()) {
-    const PotEncoding encoding =
-        options.pot.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
-    if (auto written = publish(options.pot, write_pot(pot, encoding)); !written) return written;
-  }
-  if (!options.trace.empty())
-    if (auto written = publish(options.trace, trace_csv(trace)); !written) return written;
-  if (!options.error_plot.empty())
-    if (auto written = write_error_plot(*scene, *session, options.error_plot); !written)
-      return written;
-
+  if (auto written = write_outputs(options, *scene, *session, pot, trace); !written) return written;
   const Json json = summary(*wheel, stats, *session, pot);
   if (console.json) console.print(json);
   tell(console, json);

@@ -45,13 +45,13 @@ Result<fs::path> give_name(int descriptor, const fs::path& temporary, const fs::
         folder / (twin == 0 ? fmt::format("{}.work", stem) : fmt::format("{}-{}.work", stem, twin));
     if (link(temporary.c_str(), path.c_str()) == 0) {
       (void)unlink(temporary.c_str());
-      Result<void> synced;
-      if (fsync(descriptor) == 0)
-        synced = sync_folder(folder);
-      else
-        synced = tl::make_unexpected(system_error(path, "sync"));
-      if (!synced) (void)unlink(path.c_str());
-      return synced.map([&] { return path; });
+      if (fsync(descriptor) != 0) {
+        const Error error = system_error(path, "sync");
+        (void)unlink(path.c_str());
+        return tl::make_unexpected(error);
+      }
+      sync_folder(folder);
+      return path;
     }
     if (errno != EEXIST) break;
   }

@@ -1,16 +1,19 @@
 #include "claystack/engine/atomic_file.hpp"
 
-#include <fcntl.h>
+#include "system_calls.hpp"
+#include "temporary_name.hpp"
+
+#include <sys/file.h>
 #include <sys/stat.h>
-#include <unistd.h>
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <cerrno>
+#include <cassert>
 #include <cstdio>
 #include <new>
+#include <set>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace clay {
 namespace fs = std::filesystem;
@@ -22,33 +25,6 @@ std::string cause() { return std::error_code(errno, std::system_category()).mess
 tl::unexpected<Error> io_failure(const fs::path& path, const std::string& what) {
   return failure(ErrorKind::io, path.string() + ": " + what + ": " + cause());
 }
-
-/// A call until no signal interrupts it.
-template <class Call>
-auto uninterrupted(Call call) {
-  auto result = call();
-  while (result == -1 && errno == EINTR) result = call();
-  return result;
-}
-
-int open_retrying(const fs::path& path, int flags, mode_t mode = 0) {
-  return uninterrupted([&] { return ::open(path.c_str(), flags | O_CLOEXEC, mode); });
-}
-
-/// Closes what it holds at the end of its scope.
-class Descriptor {
- public:
-  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (descriptor_ != -1) ::close(descriptor_);
-  }
-  [[nodiscard]] int get() const noexcept { return descriptor_; }
-
- private:
-  int descriptor_;
-};
 
 tl::unexpected<Error> too_large(const fs::path& path, const std::string& found,
                                 std::size_t max_bytes) {
@@ -82,37 +58,22 @@ fs::path behind_links(fs::path path) {
   return path;
 }
 
-fs::path folder_of(const fs::path& target) {
-  return target.has_parent_path() ? target.parent_path() : fs::path(".");
-}
+/// What the kernel calls a file that has no name. Nothing where /proc is not mounted.
+fs::path name_in_proc(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
 
-/// No other process uses its names, and no other call of this one.
-fs::path temporary_name(const fs::path& folder) {
-  static std::atomic<unsigned> calls = 0;
-  return folder / (".claystack-" + std::to_string(::getpid()) + "-" + std::to_string(++calls));
-}
-
-/// make(name) with a fresh name in the folder; passes over what a killed process left there.
-template <class Make>
-std::pair<int, fs::path> with_fresh_name(const fs::path& folder, Make make) {
-  constexpr int kAttempts = 100;
-  for (int i = 0;; ++i) {
-    fs::path name = temporary_name(folder);
-    const int result = uninterrupted([&] { return make(name.c_str()); });
-    if (result != -1 || errno != EEXIST || i == kAttempts) return {result, std::move(name)};
+/// Without a name where the file system can do that and the file can get one later, else with a
+/// temporary one.
+std::pair<int, TemporaryName> open_beside(const fs::path& target) {
+  constexpr mode_t kReadWriteForAll = 0666;  // less the umask
+  const int unnamed = open_retrying(folder_of(target), O_TMPFILE | O_RDWR, kReadWriteForAll);
+  if (unnamed == -1) return open_temporary(target);
+  if (::access(name_in_proc(unnamed).c_str(), F_OK) == 0) {
+    // For the time when it has a temporary name. Where there are no locks it has none.
+    (void)::flock(unnamed, LOCK_EX | LOCK_NB);
+    return {unnamed, TemporaryName()};
   }
-}
-
-constexpr mode_t kReadWriteForAll = 0666;  // less the umask
-
-/// Without a name where the file system can do that, else with a temporary one.
-std::pair<int, fs::path> open_in(const fs::path& folder) {
-  const int unnamed = open_retrying(folder, O_TMPFILE | O_RDWR, kReadWriteForAll);
-  // EISDIR: a kernel that does not know O_TMPFILE.
-  if (unnamed != -1 || (errno != EOPNOTSUPP && errno != EISDIR)) return {unnamed, {}};
-  return with_fresh_name(folder, [](const char* name) {
-    return ::open(name, O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, kReadWriteForAll);
-  });
+  ::close(unnamed);
+  return open_temporary(target);
 }
 
 }  // namespace
@@ -133,17 +94,16 @@ Result<std::string> read_file(const fs::path& path, std::size_t max_bytes) {
   }
 }
 
-AtomicFile::AtomicFile(fs::path target, int descriptor, fs::path temporary, bool in_place)
-    : target_(std::move(target)),
-      descriptor_(descriptor),
-      temporary_(std::move(temporary)),
-      in_place_(in_place) {}
+AtomicFile::AtomicFile(fs::path target, int descriptor, bool in_place)
+    : target_(std::move(target)), descriptor_(descriptor), in_place_(in_place) {}
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : target_(std::move(other.target_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
-      temporary_(std::exchange(other.temporary_, {})),
+      temporary_(std::move(other.temporary_)),
+      old_(std::move(other.old_)),
       in_place_(other.in_place_),
+      prepared_(other.prepared_),
       written_(other.written_),
       on_its_way_(other.on_its_way_) {}
 
@@ -152,7 +112,7 @@ AtomicFile::~AtomicFile() { discard(); }
 Result<AtomicFile> AtomicFile::create(const fs::path& target) {
   const auto in_place = [&](int descriptor) -> Result<AtomicFile> {
     if (descriptor == -1) return io_failure(target, "cannot open");
-    return AtomicFile(target, descriptor, {}, true);
+    return AtomicFile(target, descriptor, true);
   };
   if (target == "-") return in_place(::dup(STDOUT_FILENO));
 
@@ -168,15 +128,18 @@ Result<AtomicFile> AtomicFile::create(const fs::path& target) {
   if (exists && ::access(target.c_str(), W_OK) == -1) return io_failure(target, "cannot write");
 
   const fs::path resolved = behind_links(target);
-  auto [descriptor, temporary] = open_in(folder_of(resolved));
+  remove_litter(resolved);
+  auto [descriptor, temporary] = open_beside(resolved);
   if (descriptor == -1) return io_failure(target, "cannot create a file in its folder");
-  AtomicFile file(resolved, descriptor, std::move(temporary), false);
+  AtomicFile file(resolved, descriptor, false);
+  if (!temporary.empty()) file.temporary_ = std::make_unique<TemporaryName>(std::move(temporary));
   if (exists && ::fchmod(descriptor, status.st_mode & 07777) == -1)
     return io_failure(target, "cannot keep the mode");
   return file;
 }
 
 Result<void> AtomicFile::write(std::span<const std::byte> bytes) {
+  assert(!prepared_);
   while (!bytes.empty()) {
     const auto count =
         uninterrupted([&] { return ::write(descriptor_, bytes.data(), bytes.size()); });
@@ -213,26 +176,81 @@ Result<void> AtomicFile::read_at(std::uint64_t offset, std::span<std::byte> byte
   return {};
 }
 
-Result<void> AtomicFile::commit() {
+Result<void> AtomicFile::prepare() {
+  if (prepared_) return {};
+  if (descriptor_ == -1) {
+    errno = EBADF;
+    return give_up("cannot write");
+  }
   // Terminals and pipes have nothing to sync.
   if (!in_place_ && uninterrupted([&] { return ::fsync(descriptor_); }) == -1)
     return give_up("cannot sync");
-  if (!in_place_ && temporary_.empty()) {
-    const std::string unnamed = "/proc/self/fd/" + std::to_string(descriptor_);
-    auto [result, name] = with_fresh_name(folder_of(target_), [&](const char* fresh) {
-      return ::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, fresh, AT_SYMLINK_FOLLOW);
-    });
-    if (result == -1) return give_up("cannot name");
-    temporary_ = std::move(name);
-  }
-  // Closed by Linux whatever the result, and an interrupted close has lost nothing after a sync.
-  if (::close(std::exchange(descriptor_, -1)) == -1 && errno != EINTR)
-    return give_up("cannot close");
-  if (in_place_) return {};
-  if (::rename(temporary_.c_str(), target_.c_str()) == -1) return give_up("cannot replace");
-  temporary_.clear();
-  return sync_folder(folder_of(target_));
+  // Some file systems report at a close what has gone wrong, at that of a duplicate too: the file
+  // itself stays open for its lock. Where too many files are open for a duplicate, the sync has to
+  // do. An interrupted close has lost nothing after it.
+  const int closing =
+      in_place_ ? std::exchange(descriptor_, -1) : ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
+  if (closing != -1 && ::close(closing) == -1 && errno != EINTR) return give_up("cannot close");
+  prepared_ = true;
+  return {};
 }
+
+Result<void> AtomicFile::name() {
+  if (in_place_ || temporary_) return {};
+  const fs::path unnamed = name_in_proc(descriptor_);
+  auto [result, name] = TemporaryName::take(target_, [&](const char* fresh) {
+    return ::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, fresh, AT_SYMLINK_FOLLOW);
+  });
+  if (result == -1) return give_up("cannot name");
+  temporary_ = std::make_unique<TemporaryName>(std::move(name));
+  return {};
+}
+
+Result<void> AtomicFile::keep_old() {
+  struct stat status {};
+  if (in_place_ || ::lstat(target_.c_str(), &status) == -1) return {};
+  auto [result, old] = TemporaryName::take(
+      target_, [&](const char* fresh) { return ::link(target_.c_str(), fresh); });
+  if (result == -1) old = copy_beside(target_);  // a file system without links, as of USB sticks
+  if (old.empty()) return give_up("cannot keep the old file");
+  old_ = std::make_unique<TemporaryName>(std::move(old));
+  return {};
+}
+
+Result<void> AtomicFile::replace() {
+  if (in_place_) return {};
+  if (::rename(temporary_->path().c_str(), target_.c_str()) == -1) return give_up("cannot replace");
+  temporary_->release();
+  return {};
+}
+
+std::string AtomicFile::put_back() {
+  if (in_place_) return {};
+  if (!old_) {
+    if (::unlink(target_.c_str()) == 0) return {};
+    return "; " + target_.string() + ": new, and cannot be removed: " + cause();
+  }
+  const bool back = ::rename(old_->path().c_str(), target_.c_str()) == 0;
+  std::string trouble;
+  if (!back)
+    trouble = "; " + target_.string() + ": new, and the old file, " + old_->path().string() +
+              ", cannot be put back: " + cause();
+  old_->release();
+  return trouble;
+}
+
+Result<void> AtomicFile::replace_all(std::span<AtomicFile* const> files) {
+  const SignalsHeld held;
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    auto replaced = files[k]->replace();
+    if (replaced) continue;
+    while (k-- > 0) replaced.error().message += files[k]->put_back();
+    return replaced;
+  }
+  return {};
+}
+
+Result<void> AtomicFile::commit() { return commit_all(std::array{this}); }
 
 Result<void> AtomicFile::give_up(const std::string& what) {
   auto error = io_failure(target_, what);
@@ -242,21 +260,57 @@ Result<void> AtomicFile::give_up(const std::string& what) {
 
 void AtomicFile::discard() noexcept {
   if (descriptor_ != -1) ::close(std::exchange(descriptor_, -1));
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
-  temporary_.clear();
+  temporary_.reset();
+  old_.reset();
+  prepared_ = false;
 }
 
-Result<void> sync_folder(const fs::path& folder) {
+Result<void> commit_all(std::span<AtomicFile* const> files) {
+  const auto each = [&](Result<void> (AtomicFile::*step)(), std::size_t count) -> Result<void> {
+    for (AtomicFile* file : files.first(count))
+      if (auto done = (file->*step)(); !done) return done;
+    return {};
+  };
+  const std::size_t all = files.size();
+  auto done = each(&AtomicFile::prepare, all)
+                  .and_then([&] { return each(&AtomicFile::name, all); })
+                  // When the last is in its place, nothing is left that can fail.
+                  .and_then([&] { return each(&AtomicFile::keep_old, all == 0 ? 0 : all - 1); })
+                  .and_then([&] { return AtomicFile::replace_all(files); });
+  for (AtomicFile* file : files) file->discard();
+  if (!done) return done;
+  std::set<fs::path> folders;
+  for (const AtomicFile* file : files)
+    if (!file->in_place_) folders.insert(folder_of(file->target_));
+  for (const fs::path& folder : folders) sync_folder(folder);
+  return done;
+}
+
+void sync_folder(const fs::path& folder) noexcept {
   const Descriptor opened(open_retrying(folder, O_RDONLY | O_DIRECTORY));
-  if (opened.get() == -1) return io_failure(folder, "cannot open the folder");
-  if (uninterrupted([&] { return ::fsync(opened.get()); }) == -1)
-    return io_failure(folder, "cannot sync the folder");
-  return {};
+  if (opened.get() != -1) (void)uninterrupted([&] { return ::fsync(opened.get()); });
 }
 
 Result<void> publish(const fs::path& target, std::string_view bytes) {
   return AtomicFile::create(target).and_then(
       [&](AtomicFile file) { return file.write(bytes).and_then([&] { return file.commit(); }); });
+}
+
+Result<void> publish_all(std::span<const NamedBytes> files) {
+  std::vector<AtomicFile> created;
+  for (const NamedBytes& file : files) {
+    if (file.path.empty()) continue;
+    auto made = AtomicFile::create(file.path);
+    if (!made) return tl::make_unexpected(made.error());
+    created.push_back(std::move(*made));
+  }
+  std::vector<AtomicFile*> all;
+  for (const NamedBytes& file : files) {
+    if (file.path.empty()) continue;
+    all.push_back(&created[all.size()]);
+    if (auto written = all.back()->write(file.bytes); !written) return written;
+  }
+  return commit_all(all);
 }
 
 }  // namespace clay
