@@ -3,9 +3,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cstdio>
-#include <exception>
-#include <iostream>
 #include <string>
 #include <string_view>
 
@@ -80,22 +77,11 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kBadInput;
+    return report(app, error);
   }
   return exit;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    const int exit = run(argc, argv);
-    // What could not be printed was not done.
-    std::cout.flush();
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-      return clay::app::report({clay::ErrorKind::io, "standard output: could not write"});
-    return exit;
-  } catch (const std::exception& error) {  // out of memory, or a fault of ours
-    return clay::app::report({clay::ErrorKind::io, error.what()});
-  }
-}
+int main(int argc, char** argv) { return clay::app::run_program(run, argc, argv); }
