@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace clay::app {
 namespace {
@@ -101,8 +102,7 @@ Result<void> check_gaps(const Session& session, const SceneSpec& scene,
 }
 
 /// Plays the session with both models, for the plot that compares them.
-Result<void> write_error_plot(const SceneSpec& scene, const Session& session,
-                              const std::string& path) {
+Result<std::string> error_plot(const SceneSpec& scene, const Session& session) {
   std::vector<ErrorCurve> curves;
   for (const Model model : {Model::paper, Model::conserving}) {
     SceneSpec variant = scene;
@@ -112,7 +112,45 @@ Result<void> write_error_plot(const SceneSpec& scene, const Session& session,
     ErrorCurve& curve = curves.emplace_back(ErrorCurve{name_of(model), {}});
     replay(*wheel, session.poses, {.trace = &curve.rows, .progress = {}});
   }
-  return publish(path, error_plot_svg(scene.name, curves));
+  return error_plot_svg(scene.name, curves);
+}
+
+/// The files of a replay; those that are not asked for stay closed.
+struct Outputs {
+  std::optional<AtomicFile> pot, trace, error_plot;
+};
+
+/// Before anything is played: what cannot be written is known at once.
+Result<Outputs> open_outputs(const ThrowOptions& options) {
+  Outputs outputs;
+  for (const auto& [path, file] :
+       {std::pair(&options.pot, &outputs.pot), std::pair(&options.trace, &outputs.trace),
+        std::pair(&options.error_plot, &outputs.error_plot)}) {
+    if (path->empty()) continue;
+    auto opened = AtomicFile::create(*path);
+    if (!opened) return tl::make_unexpected(opened.error());
+    file->emplace(std::move(*opened));
+  }
+  return outputs;
+}
+
+/// All are complete before the first gets its name.
+Result<void> write_outputs(Outputs& outputs, const Pot& pot, PotEncoding encoding,
+                           const std::vector<TraceRow>& trace, const SceneSpec& scene,
+                           const Session& session) {
+  if (outputs.pot)
+    if (auto written = outputs.pot->write(write_pot(pot, encoding)); !written) return written;
+  if (outputs.trace)
+    if (auto written = outputs.trace->write(trace_csv(trace)); !written) return written;
+  if (outputs.error_plot) {
+    auto plot = error_plot(scene, session);
+    if (!plot) return tl::make_unexpected(plot.error());
+    if (auto written = outputs.error_plot->write(*plot); !written) return written;
+  }
+  for (auto* file : {&outputs.pot, &outputs.trace, &outputs.error_plot})
+    if (*file)
+      if (auto named = (*file)->commit(); !named) return named;
+  return {};
 }
 
 Result<void> check_pot_name(const std::string& pot) {
@@ -149,6 +187,8 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
     scene->model = options.model == "paper" ? Model::paper : Model::conserving;
   auto wheel = build_wheel(*scene, options.scene, options.from);
   if (!wheel) return tl::make_unexpected(wheel.error());
+  auto outputs = open_outputs(options);
+  if (!outputs) return tl::make_unexpected(outputs.error());
 
   std::vector<TraceRow> trace;
   ReplayStats stats;
@@ -165,16 +205,10 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
   if (stats.ring_limit) console.warn("clay waits above the top: raise lump.max_rings");
 
   const Pot pot = wheel->pot();
-  if (!options.pot.empty()) {
-    const PotEncoding encoding =
-        options.pot.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
-    if (auto written = publish(options.pot, write_pot(pot, encoding)); !written) return written;
-  }
-  if (!options.trace.empty())
-    if (auto written = publish(options.trace, trace_csv(trace)); !written) return written;
-  if (!options.error_plot.empty())
-    if (auto written = write_error_plot(*scene, *session, options.error_plot); !written)
-      return written;
+  const PotEncoding encoding =
+      options.pot.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
+  if (auto written = write_outputs(*outputs, pot, encoding, trace, *scene, *session); !written)
+    return written;
 
   const Json json = summary(*wheel, stats, *session, pot);
   if (console.json) console.print(json);
