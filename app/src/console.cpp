@@ -1,13 +1,19 @@
 #include "console.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <charconv>
+#include <csignal>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <limits>
+#include <new>
+#include <sstream>
 #include <utility>
 
 namespace clay::app {
@@ -17,19 +23,49 @@ constexpr auto kPatience = std::chrono::milliseconds(300);
 constexpr auto kRedraw = std::chrono::milliseconds(100);
 constexpr std::size_t kBarWidth = 32;
 
+/// Opens those of standard input, output and error that are closed, so that no file gets their
+/// numbers. The wrong way round: using them still fails.
+void reserve_standard_streams() noexcept {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) == -1)
+      (void)open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+int out_of_memory() noexcept {
+  put_err("claystack: out of memory; close other programs, or ask for less at once\n");
+  return kIoFailed;
+}
+
+int unexpected(const char* what) noexcept {
+  put_err("claystack: unexpected failure: ");
+  put_err(what);
+  put_err("\n");
+  return kIoFailed;
+}
+
 }  // namespace
+
+void put_out(std::string_view text) noexcept {
+  (void)std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
+bool flush_out() noexcept { return std::fflush(stdout) == 0 && std::ferror(stdout) == 0; }
+
+void put_err(std::string_view text) noexcept {
+  (void)std::fwrite(text.data(), 1, text.size(), stderr);
+}
 
 std::string pretty(const Json& data) {
   return data.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-void Console::print(const Json& data) const { fmt::print("{}", pretty(data)); }
+void Console::print(const Json& data) const { put_out(pretty(data)); }
 
 void Console::say(std::string_view line) const {
-  if (!json && !quiet) fmt::print("{}\n", line);
+  if (!json && !quiet) put_out(std::string(line) + "\n");
 }
 
-void Console::warn(std::string_view line) const { fmt::print(stderr, "claystack: {}\n", line); }
+void Console::warn(std::string_view line) const { put_err(fmt::format("claystack: {}\n", line)); }
 
 Result<void> check_distinct(const std::vector<std::string>& outputs,
                             const std::vector<std::string>& inputs) {
@@ -64,7 +100,7 @@ std::function<std::string(const std::string&)> in_range(double low, double high)
 }
 
 int report(const Error& error) {
-  fmt::print(stderr, "claystack: {}\n", error.message);
+  put_err(fmt::format("claystack: {}\n", error.message));
   switch (error.kind) {
     case ErrorKind::unsound:
       return kUnsound;
@@ -76,6 +112,30 @@ int report(const Error& error) {
       return kDeviceFailed;
   }
   return kBadInput;
+}
+
+int report(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream out, err;
+  const int status = app.exit(error, out, err);
+  put_out(out.str());
+  put_err(err.str());
+  return status == 0 ? kDone : kBadInput;
+}
+
+int run_program(int (*run)(int argc, char** argv), int argc, char** argv) noexcept {
+  reserve_standard_streams();
+  std::signal(SIGXFSZ, SIG_IGN);
+  try {
+    const int exit = run(argc, argv);
+    // What could not be printed was not done.
+    return flush_out() ? exit : report({ErrorKind::io, "standard output: could not write"});
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  } catch (const std::exception& error) {
+    return unexpected(error.what());
+  } catch (...) {
+    return unexpected("an unknown exception");
+  }
 }
 
 Json json_count(WideQuanta count) {
@@ -95,13 +155,12 @@ bool StatusLine::due() {
 
 void StatusLine::show(std::string_view text) {
   if (!enabled_) return;
-  fmt::print(stderr, "\r\033[K{}", text);
-  std::fflush(stderr);
+  put_err(fmt::format("\r\033[K{}", text));
   drawn_ = true;
 }
 
 void StatusLine::clear() {
-  if (drawn_) fmt::print(stderr, "\r\033[K");
+  if (drawn_) put_err("\r\033[K");
   drawn_ = false;
 }
 

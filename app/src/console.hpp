@@ -12,6 +12,11 @@
 #include <string_view>
 #include <vector>
 
+namespace CLI {
+class App;
+class ParseError;
+}  // namespace CLI
+
 namespace clay::app {
 
 using Json = nlohmann::ordered_json;
@@ -22,6 +27,14 @@ enum Exit { kDone = 0, kUnsound = 1, kBadInput = 2, kIoFailed = 3, kDeviceFailed
 /// A whole JSON document for a file or a script. Names of files may be no UTF-8: what is none is
 /// replaced, as a document cannot hold it.
 [[nodiscard]] std::string pretty(const Json& data);
+
+/// Text to standard output, in the order of the calls. Never throws; a failure is remembered until
+/// the end, where it makes the exit status 3. Nothing else in the programs writes there.
+void put_out(std::string_view text) noexcept;
+/// Sends on what put_out holds back. False: some of it could not be written, now or before.
+bool flush_out() noexcept;
+/// Text to standard error, at once. Never throws: what nobody can read is lost.
+void put_err(std::string_view text) noexcept;
 
 struct Console {
   bool json = false;   ///< data as JSON on stdout
@@ -42,6 +55,15 @@ Result<void> check_distinct(const std::vector<std::string>& outputs,
 
 /// "claystack: MESSAGE" on stderr; the exit status of the error's kind.
 int report(const Error& error);
+
+/// Prints what the parser has to say: help, the version or what is wrong with the command line.
+int report(const CLI::App& app, const CLI::ParseError& error);
+
+/// The whole of a program: what `run` returns is the exit status, unless standard output could not
+/// be written or an exception came out of it. Standard streams that are closed become ones that
+/// fail, so that no file takes their number. A file that grows past its limit is an error, no
+/// signal.
+int run_program(int (*run)(int argc, char** argv), int argc, char** argv) noexcept;
 
 /// A count for JSON: a number where 64 bits hold it, decimal digits in a string where not.
 [[nodiscard]] Json json_count(WideQuanta count);

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdio>
 #include <thread>
 
 namespace clay::app {
@@ -69,15 +68,16 @@ std::string view_text(const View& view) {
   return text;
 }
 
-void show(const View& view, const Console& console, bool terminal) {
+/// False: it cannot be shown, now or ever again.
+bool show(const View& view, const Console& console, bool terminal) {
   if (console.json) {
-    fmt::print("{}\n", view_json(view).dump());
+    put_out(view_json(view).dump() + "\n");
   } else if (!console.quiet && terminal) {
-    fmt::print("\r\033[K{}", view_text(view));
+    put_out("\r\033[K" + view_text(view));
   } else {
     console.say(view_text(view));
   }
-  std::fflush(stdout);
+  return flush_out();
 }
 
 }  // namespace
@@ -102,7 +102,7 @@ falcon::DeviceResult<void> watch(falcon::HapticDevice& device, double seconds,
                      std::chrono::duration<double>(now - next_view + kRedraw).count();
       view.counters = device.counters();
       view.tool_mm = mapping.to_clay(view.sample.position_mm);
-      show(view, console, terminal);
+      if (!show(view, console, terminal)) break;
       fresh = 0;
       next_view = now + kRedraw;
     }
@@ -111,7 +111,7 @@ falcon::DeviceResult<void> watch(falcon::HapticDevice& device, double seconds,
     std::this_thread::sleep_until(next);
   }
   device.stop();
-  if (terminal && !console.json && !console.quiet) fmt::print("\n");
+  if (terminal && !console.json && !console.quiet) put_out("\n");
   if (view.sample.state == falcon::DeviceState::fault) return tl::make_unexpected(device.problem());
   return {};
 }

@@ -8,6 +8,7 @@
 #include "live_keys.hpp"
 #include "live_report.hpp"
 #include "replay.hpp"
+#include "rescue.hpp"
 #include "servo_check.hpp"
 
 #include "claystack/engine/atomic_file.hpp"
@@ -54,8 +55,9 @@ struct Stage {
   SceneSpec scene;
   std::uint64_t scene_hash = 0;
   std::optional<Wheel> wheel;
-  std::unique_ptr<falcon::HapticDevice> device;
+  std::optional<AtomicFile> pot_file;
   std::unique_ptr<live::Recorder> recorder;
+  std::unique_ptr<falcon::HapticDevice> device;
   live::MonotonicClock clock;
   std::optional<live::ServoLoop> loop;
 };
@@ -73,6 +75,37 @@ Result<void> take_up_stroke(const LiveJob& job, LiveOptions& options, Stage& sta
   if (settings.seconds == 0.0) settings.seconds = live::seconds_of(stage.stroke);
   if (settings.mapping == live::MappingSettings{})
     settings.mapping = live::fitted(settings.mapping, stage.stroke, live::kSimulatedReachMm);
+  return {};
+}
+
+std::string written_pot(const LiveJob& job, const Pot& pot) {
+  const bool cbor = job.pot_path.ends_with(".cbor");
+  return write_pot(pot, cbor ? PotEncoding::cbor : PotEncoding::json);
+}
+
+/// Only writing shows that a disk is full: the pot as it is now is tried, where that leaves
+/// nothing.
+Result<AtomicFile> open_pot_file(const LiveJob& job, const Pot& pot) {
+  {
+    auto trial = AtomicFile::create(job.pot_path);
+    if (!trial || !trial->rereadable()) return trial;
+    if (auto fits = trial->write(written_pot(job, pot)); !fits)
+      return tl::make_unexpected(fits.error());
+  }
+  return AtomicFile::create(job.pot_path);
+}
+
+/// Before anything is thrown: what cannot be written then would cost the pot.
+Result<void> open_outputs(const LiveJob& job, const LiveOptions& options, Stage& stage) {
+  if (!job.pot_path.empty()) {
+    auto file = open_pot_file(job, stage.wheel->pot());
+    if (!file) return tl::make_unexpected(file.error());
+    stage.pot_file.emplace(std::move(*file));
+  }
+  if (options.record.empty()) return {};
+  auto recorder = live::Recorder::create(options.record, stage.scene.name, stage.scene_hash);
+  if (!recorder) return tl::make_unexpected(recorder.error());
+  stage.recorder = std::move(*recorder);
   return {};
 }
 
@@ -111,12 +144,8 @@ Result<void> build(const LiveJob& job, LiveOptions& options, const Console& cons
   if (!wheel) return tl::make_unexpected(wheel.error());
   stage.wheel.emplace(std::move(*wheel));
 
+  if (auto opened = open_outputs(job, options, stage); !opened) return opened;
   if (auto opened = open_device(options, *mapping, stage); !opened) return opened;
-  if (!options.record.empty()) {
-    auto recorder = live::Recorder::create(options.record, stage.scene.name, stage.scene_hash);
-    if (!recorder) return tl::make_unexpected(recorder.error());
-    stage.recorder = std::move(*recorder);
-  }
   auto loop = live::ServoLoop::build(
       {*stage.wheel, *stage.device, stage.clock, stage.recorder.get()}, options.settings);
   if (!loop) return tl::make_unexpected(loop.error());
@@ -151,10 +180,9 @@ bool comes_back(falcon::HapticDevice& device) {
   return false;
 }
 
-/// Ends with the hand free of force.
+/// Ends with the hand free of force. Within the life of a live::ForceSignals.
 Ending run(Stage& stage, const LiveOptions& options, const Console& console,
            live::Realtime& realtime) {
-  const live::ForceSignals signals;
   LiveKeys keys;
   if (keys.on()) console.say(kKeysInWords);
   StatusLine line(console);
@@ -188,27 +216,42 @@ Json recording_json(const LiveOptions& options, const Stage& stage) {
           {"lost", stage.recorder->lost()}};
 }
 
-/// Keeps what there is, whatever went wrong; the first thing that did is the error.
-Result<void> keep(const LiveJob& job, const LiveOptions& options, const Console& console,
-                  Stage& stage, const Pot& pot) {
-  Result<void> kept;
-  if (stage.recorder) {
-    kept = stage.recorder->finish();
-    if (kept && stage.recorder->lost() > 0)
-      console.warn(
-          fmt::format("{}: the disk was too slow: the last {} poses are not in it, and it "
-                      "replays to the pot as it was before them",
-                      options.record, stage.recorder->lost()));
-  }
-  if (job.pot_path.empty()) return kept;
-  const PotEncoding encoding =
-      job.pot_path.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
-  auto published = publish(job.pot_path, write_pot(pot, encoding));
-  return kept ? published : kept;
+struct Kept {
+  Result<void> session, pot;
+};
+
+Result<void> keep_session(const LiveOptions& options, const Console& console, Stage& stage) {
+  if (!stage.recorder) return {};
+  auto kept = stage.recorder->finish();
+  if (kept && stage.recorder->lost() > 0)
+    console.warn(
+        fmt::format("{}: the disk was too slow: the last {} poses are not in it, and it "
+                    "replays to the pot as it was before them",
+                    options.record, stage.recorder->lost()));
+  return kept;
 }
 
-void tell(const LiveJob& job, const LiveOptions& options, const Console& console,
-          const Json& json) {
+Result<void> keep_pot(const LiveJob& job, Stage& stage, const Pot& pot) {
+  if (!stage.pot_file) return {};
+  const std::string bytes = written_pot(job, pot);
+  const auto written =
+      stage.pot_file->write(bytes).and_then([&] { return stage.pot_file->commit(); });
+  if (written) return written;
+  const auto rescued = rescue(job.pot_path, stage.pot_file->rereadable(), bytes);
+  return failure(written.error().kind,
+                 written.error().message + (rescued ? "; the pot is in " + rescued->string()
+                                                    : "; nor could the pot be kept elsewhere: " +
+                                                          rescued.error().message));
+}
+
+/// Whatever went wrong, all else is kept; the error is the first.
+Result<void> first_error(const Kept& kept, const Console& console) {
+  if (!kept.session && !kept.pot) console.warn(kept.pot.error().message);
+  return kept.session ? kept.pot : kept.session;
+}
+
+void tell(const LiveJob& job, const LiveOptions& options, const Console& console, const Json& json,
+          const Kept& kept) {
   console.say(fmt::format("{:.1f} s on the wheel, {} poses, ended: {}",
                           json["seconds"].get<double>(), json["poses"].get<std::uint64_t>(),
                           json["ended"].get<std::string>()));
@@ -218,8 +261,10 @@ void tell(const LiveJob& job, const LiveOptions& options, const Console& console
                           json["volume_error_quanta"].dump()));
   tell_collapse(console, json);
   tell_servo(console, json["servo"]);
-  if (!job.pot_path.empty()) console.say("pot: " + job.pot_path);
-  if (!options.record.empty()) console.say("session: " + options.record);
+  if (!job.pot_path.empty() && kept.pot) console.say("pot: " + job.pot_path);
+  if (options.record.empty() || !kept.session) return;
+  const bool empty = json["recording"]["poses"].get<std::uint64_t>() == 0;
+  console.say("session: " + (empty ? "not written, since no pose was recorded" : options.record));
 }
 
 }  // namespace
@@ -229,10 +274,13 @@ Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console
   Stage stage;
   if (auto built = build(job, options, console, stage); !built) return built;
   live::Realtime realtime;
+  // Until pot and session are kept: a terminal that closes may send its signal twice.
+  std::optional<live::ForceSignals> signals(std::in_place);
   const Ending ending = run(stage, options, console, realtime);
-
   const Pot pot = stage.wheel->pot();
-  const auto kept = keep(job, options, console, stage, pot);
+  const Kept kept = {keep_session(options, console, stage), keep_pot(job, stage, pot)};
+  signals.reset();
+
   const live::LiveStatus& status = stage.loop->status();
   Json json = {{"scene", stage.scene.name},
                {"device", stage.device->info().name},
@@ -244,8 +292,8 @@ Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console
                {"servo", servo_json(stage.loop->timing(), stage.loop->events(), realtime)}};
   json.update(clay_json(*stage.wheel, pot));
   if (console.json) console.print(json);
-  tell(job, options, console, json);
-  if (!kept) return kept;
+  tell(job, options, console, json, kept);
+  if (auto all = first_error(kept, console); !all) return all;
   if (ending == Ending::device_lost) return tl::make_unexpected(error_of(stage.device->problem()));
   if (ending == Ending::time_up && status.poses == 0)
     return failure(ErrorKind::device, stage.device->info().place + ": nothing was thrown; " +

@@ -6,9 +6,6 @@
 
 #include <algorithm>
 #include <csignal>
-#include <cstdio>
-#include <exception>
-#include <iostream>
 #include <string>
 #include <string_view>
 
@@ -39,7 +36,6 @@ void on_end(int signal) {
 void handle_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE})
     if (std::signal(signal, on_end) == SIG_IGN) std::signal(signal, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of its size is an error like others
 }
 
 int run(int argc, char** argv) {
@@ -98,7 +94,7 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kBadInput;
+    return report(app, error);
   }
   return exit;
 }
@@ -107,14 +103,5 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   handle_signals();
-  try {
-    const int exit = run(argc, argv);
-    // What could not be printed was not done.
-    std::cout.flush();
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-      return clay::app::report({clay::ErrorKind::io, "standard output: could not write"});
-    return exit;
-  } catch (const std::exception& error) {  // out of memory, or a fault of ours
-    return clay::app::report({clay::ErrorKind::io, error.what()});
-  }
+  return clay::app::run_program(run, argc, argv);
 }

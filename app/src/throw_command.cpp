@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace clay::app {
 namespace {
@@ -101,7 +102,7 @@ Result<void> check_gaps(const Session& session, const SceneSpec& scene,
 }
 
 /// Plays the session with both models, for the plot that compares them.
-Result<std::string> error_plot_of(const SceneSpec& scene, const Session& session) {
+Result<std::string> error_plot(const SceneSpec& scene, const Session& session) {
   std::vector<ErrorCurve> curves;
   for (const Model model : {Model::paper, Model::conserving}) {
     SceneSpec variant = scene;
@@ -112,6 +113,44 @@ Result<std::string> error_plot_of(const SceneSpec& scene, const Session& session
     replay(*wheel, session.poses, {.trace = &curve.rows, .progress = {}});
   }
   return error_plot_svg(scene.name, curves);
+}
+
+/// The files of a replay; those that are not asked for stay closed.
+struct Outputs {
+  std::optional<AtomicFile> pot, trace, error_plot;
+};
+
+/// Before anything is played: what cannot be written is known at once.
+Result<Outputs> open_outputs(const ThrowOptions& options) {
+  Outputs outputs;
+  for (const auto& [path, file] :
+       {std::pair(&options.pot, &outputs.pot), std::pair(&options.trace, &outputs.trace),
+        std::pair(&options.error_plot, &outputs.error_plot)}) {
+    if (path->empty()) continue;
+    auto opened = AtomicFile::create(*path);
+    if (!opened) return tl::make_unexpected(opened.error());
+    file->emplace(std::move(*opened));
+  }
+  return outputs;
+}
+
+/// All files that were asked for, or none.
+Result<void> write_outputs(Outputs& outputs, const Pot& pot, PotEncoding encoding,
+                           const std::vector<TraceRow>& trace, const SceneSpec& scene,
+                           const Session& session) {
+  if (outputs.pot)
+    if (auto written = outputs.pot->write(write_pot(pot, encoding)); !written) return written;
+  if (outputs.trace)
+    if (auto written = outputs.trace->write(trace_csv(trace)); !written) return written;
+  if (outputs.error_plot) {
+    auto plot = error_plot(scene, session);
+    if (!plot) return tl::make_unexpected(plot.error());
+    if (auto written = outputs.error_plot->write(*plot); !written) return written;
+  }
+  std::vector<AtomicFile*> files;
+  for (auto* file : {&outputs.pot, &outputs.trace, &outputs.error_plot})
+    if (*file) files.push_back(&**file);
+  return commit_all(files);
 }
 
 Result<void> check_pot_name(const std::string& pot) {
@@ -133,24 +172,6 @@ Result<void> check_names(const ThrowOptions& options, const Console& console) {
   return check_distinct(outputs, {options.scene, options.session, options.from});
 }
 
-/// All that was asked for, or nothing.
-Result<void> write_outputs(const ThrowOptions& options, const SceneSpec& scene,
-                           const Session& session, const Pot& pot,
-                           const std::vector<TraceRow>& trace) {
-  std::vector<NamedBytes> files;
-  if (!options.pot.empty()) {
-    const bool cbor = options.pot.ends_with(".cbor");
-    files.push_back({options.pot, write_pot(pot, cbor ? PotEncoding::cbor : PotEncoding::json)});
-  }
-  if (!options.trace.empty()) files.push_back({options.trace, trace_csv(trace)});
-  if (!options.error_plot.empty()) {
-    auto plot = error_plot_of(scene, session);
-    if (!plot) return tl::make_unexpected(plot.error());
-    files.push_back({options.error_plot, std::move(*plot)});
-  }
-  return publish_all(files);
-}
-
 Result<void> replay_pot(const ThrowOptions& options, Console console) {
   if (auto names = check_names(options, console); !names) return names;
   // What goes to standard output goes there alone.
@@ -166,6 +187,8 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
     scene->model = options.model == "paper" ? Model::paper : Model::conserving;
   auto wheel = build_wheel(*scene, options.scene, options.from);
   if (!wheel) return tl::make_unexpected(wheel.error());
+  auto outputs = open_outputs(options);
+  if (!outputs) return tl::make_unexpected(outputs.error());
 
   std::vector<TraceRow> trace;
   ReplayStats stats;
@@ -182,7 +205,11 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
   if (stats.ring_limit) console.warn("clay waits above the top: raise lump.max_rings");
 
   const Pot pot = wheel->pot();
-  if (auto written = write_outputs(options, *scene, *session, pot, trace); !written) return written;
+  const PotEncoding encoding =
+      options.pot.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
+  if (auto written = write_outputs(*outputs, pot, encoding, trace, *scene, *session); !written)
+    return written;
+
   const Json json = summary(*wheel, stats, *session, pot);
   if (console.json) console.print(json);
   tell(console, json);

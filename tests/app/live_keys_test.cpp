@@ -36,6 +36,7 @@ class InATerminal {
     program_ = fork();
     if (program_ == 0) {
       alarm(120);  // no orphan
+      close(ours_);
       login_tty(theirs_);
       execl(CLAYSTACK_PROGRAM, CLAYSTACK_PROGRAM, "throw", scene.c_str(), "--device", "simulated",
             "--record", session.c_str(), "-o", pot.c_str(), nullptr);
@@ -54,6 +55,8 @@ class InATerminal {
     ASSERT_EQ(write(ours_, keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
   }
   void send(int signal) { kill(program_, signal); }
+  /// As when its window is closed: reading and writing fail from here on, and SIGHUP comes.
+  void hang_up() { close(std::exchange(ours_, -1)); }
 
   /// Whether the terminal shows this from here on, before the program ends.
   bool shows(const std::string& text) {
@@ -86,7 +89,8 @@ class InATerminal {
   [[nodiscard]] tcflag_t modes_before() const { return before_.c_lflag; }
 
   [[nodiscard]] std::vector<Pose> poses() const {
-    const std::string path = folder_.file("s.session");
+    std::string path = folder_.file("s.session.recording");
+    if (!std::filesystem::exists(path)) path = folder_.file("s.session");
     return parse_session(read_text(path), path).value().poses;
   }
 
@@ -137,6 +141,20 @@ TEST(LiveKeys, CtrlCEndsItAndCtrlZDoesNotStopItUnderForce) {
   ASSERT_TRUE(terminal.shows("ended: stopped"));
   EXPECT_EQ(terminal.wait(), 0);
   EXPECT_EQ(terminal.modes(), terminal.modes_before());
+}
+
+TEST(LiveKeys, AClosedTerminalKeepsPotAndSession) {
+  const ScratchFolder folder;
+  InATerminal terminal(folder);
+  ASSERT_TRUE(terminal.shows("force grows"));
+  terminal.hang_up();
+  EXPECT_EQ(terminal.wait(), 3) << "its summary could not be printed";
+  EXPECT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -s " + folder.file("s.session") +
+                      " -o " + folder.file("b.pot.json"))
+                .status,
+            0);
+  EXPECT_FALSE(read_text(folder.file("a.pot.json")).empty());
+  EXPECT_EQ(read_text(folder.file("b.pot.json")), read_text(folder.file("a.pot.json")));
 }
 
 TEST(LiveKeys, TheTerminalIsAsBeforeAfterEverySignalThatCanBeCaught) {

@@ -13,8 +13,10 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <new>
 #include <thread>
+#include <vector>
 
 namespace clay::live {
 namespace {
@@ -44,6 +46,68 @@ TEST(Recorder, WritesAllThatItTook) {
   ASSERT_EQ(session.poses.size(), 5000u);
   for (std::int64_t i = 0; i < 5000; ++i)
     ASSERT_EQ(session.poses[static_cast<std::size_t>(i)], pose_at(1000 * i));
+}
+
+TEST(Recorder, TheOldSessionStaysUntilTheNewOneIsComplete) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("s.session"), aside = path + ".recording";
+  test::write_text(path, "the old one");
+  std::filesystem::permissions(path, std::filesystem::perms(0640));
+  auto recorder = Recorder::create(path, "a scene", 0).value();
+  ASSERT_TRUE(recorder->take(pose_at(0)));
+  EXPECT_EQ(test::read_text(path), "the old one");
+  ASSERT_TRUE(recorder->finish());
+  EXPECT_EQ(session_of(path).poses.size(), 1u);
+  EXPECT_EQ(std::filesystem::status(path).permissions(), std::filesystem::perms(0640));
+  EXPECT_FALSE(std::filesystem::exists(aside));
+}
+
+TEST(Recorder, WithoutAPoseItReplacesNothingAndLeavesNothing) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("s.session");
+  test::write_text(path, "the old one");
+  ASSERT_TRUE(Recorder::create(path, "a scene", 0).value()->finish());
+  Recorder::create(path, "a scene", 0).value().reset();  // given up
+  EXPECT_EQ(test::read_text(path), "the old one");
+  EXPECT_FALSE(std::filesystem::exists(path + ".recording"));
+}
+
+TEST(Recorder, OneAtATime) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("s.session"), link = folder.file("link.session");
+  test::write_text(path, "the old one");
+  std::filesystem::create_symlink(path, link);
+  auto first = Recorder::create(path, "a scene", 0).value();
+  ASSERT_TRUE(first->take(pose_at(0)));
+  for (const std::string& name : {path, link}) {
+    const auto second = Recorder::create(name, "a scene", 0);
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().kind, ErrorKind::io);
+    EXPECT_EQ(second.error().message, name + ": another program is recording to it");
+  }
+  ASSERT_TRUE(first->finish());
+  auto second = Recorder::create(link, "a scene", 0).value();
+  ASSERT_TRUE(second->take(pose_at(0)) && second->take(pose_at(1000)));
+  ASSERT_TRUE(second->finish());
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(session_of(path).poses.size(), 2u);
+}
+
+TEST(Recorder, WhatADeadOneLeftIsNotOverwritten) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("s.session"), aside = path + ".recording";
+  const std::string left =
+      session_header("a scene", 0) + session_block(std::vector<Pose>{pose_at(0)});
+  test::write_text(aside, left);
+  const auto refused = Recorder::create(path, "a scene", 0);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find(aside + ": holds a recording that was never finished"),
+            std::string::npos)
+      << refused.error().message;
+  EXPECT_EQ(test::read_text(aside), left);
+  // Without a pose there is nothing to lose.
+  test::write_text(aside, session_header("a scene", 0));
+  EXPECT_TRUE(Recorder::create(path, "a scene", 0));
 }
 
 TEST(Recorder, OverflowIsToldAndLeavesABeginningWithoutHoles) {
@@ -78,7 +142,8 @@ TEST(Recorder, ADiskThatRefusesIsAnErrorAtTheEndAndTheBeginningIsGood) {
   ASSERT_FALSE(finished);
   EXPECT_EQ(finished.error().kind, ErrorKind::io);
   EXPECT_NE(finished.error().message.find(path + ": could not write"), std::string::npos);
-  const Session session = session_of(path);
+  EXPECT_NE(finished.error().message.find("is in " + path + ".recording"), std::string::npos);
+  const Session session = session_of(path + ".recording");
   EXPECT_TRUE(session.torn);
   EXPECT_GT(session.poses.size(), 100u);
 }
@@ -115,7 +180,7 @@ TEST(Recorder, KilledItHasLostNoMoreThanTheLast100Ms) {
   while (taken_us->load() < 700'000) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   kill(child, SIGKILL);
   waitpid(child, nullptr, 0);
-  const Session session = session_of(path);
+  const Session session = session_of(path + ".recording");
   ASSERT_FALSE(session.poses.empty());
   EXPECT_GE(session.poses.back().time_us, taken_us->load() - 100'000);
   EXPECT_EQ(session.poses.back(), pose_at(session.poses.back().time_us));

@@ -4,27 +4,45 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
 namespace clay::test {
 namespace {
 
-/// Runs `throw --device simulated` until its session holds some blocks, then sends a signal. The
-/// exit status is the program's.
-Ran interrupted(const ScratchFolder& folder, const std::string& signal) {
+const std::string kBowl = "throw " + sample("bowl.scene.json");
+
+/// Starts `throw --device simulated` with these options more, does `then` once its recording in
+/// `folder` holds some blocks, and waits for its end. The exit status is the program's, or 124
+/// where the recording never came.
+Ran interrupted(const ScratchFolder& folder, const std::string& more, const std::string& then,
+                const std::string& environment = "") {
   const std::string session = folder.file("s.session");
-  return shell(std::string(CLAYSTACK_PROGRAM) + " throw " + sample("bowl.scene.json") +
-               " --device simulated --json --record " + session + " -o " +
-               folder.file("a.pot.json") + " & program=$!; while [ $(cat " + session +
-               " 2>/dev/null | wc -l) -lt 15 ]; do sleep 0.01; done; kill -s " + signal +
-               " $program; wait $program");
+  return shell(environment + " " CLAYSTACK_PROGRAM " " + kBowl +
+               " --device simulated --seconds 100 --record " + session + " " + more +
+               " & program=$!; for i in $(seq 3000); do [ $(cat " + session +
+               ".recording 2>/dev/null | wc -l) -ge 15 ] && break; kill -0 $program || exit 124; "
+               "sleep 0.01; done; " +
+               then + "; wait $program");
 }
 
-std::string replayed(const ScratchFolder& folder) {
-  const auto run = claystack("throw -q " + sample("bowl.scene.json") + " -s " +
-                             folder.file("s.session") + " -o " + folder.file("b.pot.json"));
+/// What the session, or what there is of it, replays to.
+std::string replayed(const ScratchFolder& folder, const std::string& session = "s.session") {
+  const auto run =
+      claystack(kBowl + " -q -s " + folder.file(session) + " -o " + folder.file("replay.pot.json"));
   EXPECT_EQ(run.status, 0) << run.err;
-  return read_text(folder.file("b.pot.json"));
+  return read_text(folder.file("replay.pot.json"));
+}
+
+/// The one file of this folder and those below it.
+std::string only_file_in(const std::string& folder) {
+  std::string found;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) {
+      EXPECT_EQ(found, "") << entry.path();
+      found = entry.path().string();
+    }
+  return found;
 }
 
 TEST(LiveThrow, RunsWithoutHardwareAndReplaysToTheSameBytes) {
@@ -50,20 +68,98 @@ TEST(LiveThrow, RunsWithoutHardwareAndReplaysToTheSameBytes) {
 }
 
 TEST(LiveThrow, ASignalKeepsPotAndSession) {
-  for (const char* signal : {"INT", "TERM"}) {
+  for (const std::string signal : {"INT", "TERM", "HUP", "PIPE"}) {
     const ScratchFolder folder;
-    const auto run = interrupted(folder, signal);
+    const auto run = interrupted(folder, "--json -o " + folder.file("a.pot.json"),
+                                 "kill -s " + signal + " $program");
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(run.json().at("ended"), "stopped");
     EXPECT_EQ(replayed(folder), read_text(folder.file("a.pot.json"))) << signal;
+    EXPECT_FALSE(std::filesystem::exists(folder.file("s.session.recording")));
   }
 }
 
-TEST(LiveThrow, KilledItLeavesASessionThatReplays) {
+TEST(LiveThrow, KilledItLeavesARecordingThatReplaysAndTheOldSession) {
   const ScratchFolder folder;
-  EXPECT_EQ(interrupted(folder, "KILL").status, 128 + 9);
-  EXPECT_FALSE(replayed(folder).empty());
+  write_text(folder.file("s.session"), "the old one");
+  const auto run = interrupted(folder, "-o " + folder.file("a.pot.json"), "kill -s KILL $program");
+  EXPECT_EQ(run.status, 128 + 9);
+  EXPECT_EQ(read_text(folder.file("s.session")), "the old one");
+  EXPECT_FALSE(replayed(folder, "s.session.recording").empty());
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.pot.json")));
+}
+
+TEST(LiveThrow, ASecondOneOnTheSameSessionIsRefusedAtOnce) {
+  const ScratchFolder folder;
+  const auto run = interrupted(folder, "-o " + folder.file("a.pot.json"),
+                               CLAYSTACK_PROGRAM " " + kBowl + " --device simulated --record " +
+                                   folder.file("s.session") + " -o " + folder.file("b.pot.json") +
+                                   "; echo second $?; kill -s INT $program");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find("second 3"), std::string::npos) << run.out;
+  EXPECT_NE(run.err.find("s.session: another program is recording to it"), std::string::npos)
+      << run.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("b.pot.json")));
+  EXPECT_EQ(replayed(folder), read_text(folder.file("a.pot.json")));
+}
+
+TEST(LiveThrow, WhatCannotBeWrittenIsRefusedBeforeAnythingIsThrown) {
+  const ScratchFolder folder;
+  write_text(folder.file("folder"), "");
+  const std::string live = kBowl + " --device simulated --seconds 100 ";
+  for (const std::string& output :
+       {"-o " + folder.file("none/a.pot.json"), "-o " + folder.file("folder/a.pot.json"),
+        "--record " + folder.file("none/s.session") + " -o " + folder.file("a.pot.json")}) {
+    const auto run = claystack(live + output);
+    EXPECT_EQ(run.status, 3) << output;
+    EXPECT_EQ(run.out, "") << output;
+    EXPECT_NE(run.err.find(folder.path().string()), std::string::npos) << run.err;
+  }
+  // A limit on the size of files stands for a full disk.
+  const auto full = shell("(ulimit -f 0; " CLAYSTACK_PROGRAM " " + live + " -o " +
+                          folder.file("a.pot.json") + "; echo status $?) 2>&1 | cat");
+  EXPECT_NE(full.out.find("a.pot.json: cannot write: File too large\nstatus 3"), std::string::npos)
+      << full.out;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.pot.json")));
+}
+
+TEST(LiveThrow, APotWhoseFolderIsGoneIsKeptInTheStateFolder) {
+  const ScratchFolder folder;
+  const std::string pots = folder.file("pots"), state = folder.file("state");
+  std::filesystem::create_directory(pots);
+  const auto run =
+      interrupted(folder, "-o " + pots + "/a.pot.json", "rm -r " + pots + "; kill -s INT $program",
+                  "XDG_STATE_HOME=" + state);
+  EXPECT_EQ(run.status, 3);
+  EXPECT_EQ(run.out.find("pot: "), std::string::npos) << run.out;
+  const std::string kept = only_file_in(state);
+  EXPECT_NE(run.err.find("; the pot is in " + kept), std::string::npos) << run.err;
+  EXPECT_TRUE(kept.ends_with(".pot.json")) << kept;
+  EXPECT_EQ(read_text(kept), replayed(folder));
+}
+
+TEST(LiveThrow, APotThatIsNoFileIsKeptInTheTemporaryFolderAsALastResort) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("a.pot.json"), temporary = folder.file("tmp");
+  std::filesystem::create_directory(temporary);
+  std::filesystem::create_symlink("/dev/full", pot);
+  const auto run = interrupted(folder, "-o " + pot, "kill -s INT $program",
+                               "XDG_STATE_HOME=/dev/null TMPDIR=" + temporary);
+  EXPECT_EQ(run.status, 3);
+  const std::string kept = only_file_in(temporary);
+  EXPECT_NE(run.err.find(pot + ": cannot write: No space left on device; the pot is in " + kept),
+            std::string::npos)
+      << run.err;
+  EXPECT_EQ(read_text(kept), replayed(folder));
+}
+
+TEST(LiveThrow, AReaderThatIsGoneCostsNoPot) {
+  const ScratchFolder folder;
+  const auto run =
+      shell(CLAYSTACK_PROGRAM " " + kBowl + " --device simulated --seconds 0.5 --record " +
+            folder.file("s.session") + " -o " + folder.file("a.pot.json") + " | true");
+  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(replayed(folder), read_text(folder.file("a.pot.json")));
 }
 
 TEST(LiveThrow, RefusesASceneThatIsTooStiffAndSoftensItWhenAsked) {

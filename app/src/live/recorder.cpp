@@ -1,13 +1,9 @@
 #include "live/recorder.hpp"
 
 #include "claystack/engine/session_file.hpp"
+#include "live/session_recording.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <chrono>
-#include <system_error>
 #include <utility>
 
 namespace clay::live {
@@ -16,58 +12,15 @@ namespace {
 // A third of what may be lost, for a thread that has to wait for its turn.
 constexpr auto kPause = std::chrono::milliseconds(30);
 
-/// A session file that is written from its beginning.
-class SessionSink final : public work::PoseSink {
- public:
-  SessionSink(std::string path, int descriptor) : path_(std::move(path)), descriptor_(descriptor) {}
-  ~SessionSink() override {
-    if (descriptor_ >= 0) close(descriptor_);
-  }
-  SessionSink(const SessionSink&) = delete;
-  SessionSink& operator=(const SessionSink&) = delete;
-
-  Result<void> append(std::span<const Pose> poses) override { return write(session_block(poses)); }
-
-  Result<void> write(std::string_view line) {
-    while (!line.empty()) {
-      const auto written = ::write(descriptor_, line.data(), line.size());
-      if (written > 0)
-        line.remove_prefix(static_cast<std::size_t>(written));
-      else if (written == 0 || errno != EINTR)
-        return failed("write");
-    }
-    return {};
-  }
-
-  Result<void> finish() override {
-    if (fsync(descriptor_) != 0 && errno != EINVAL) return failed("sync");
-    if (close(std::exchange(descriptor_, -1)) != 0) return failed("close");
-    return {};
-  }
-
-  tl::unexpected<Error> failed(const char* action) const {
-    return failure(ErrorKind::io,
-                   path_ + ": could not " + action + ": " + std::generic_category().message(errno));
-  }
-
- private:
-  std::string path_;
-  int descriptor_;
-};
-
 }  // namespace
 
 Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path,
                                                    std::string_view scene_name,
                                                    std::uint64_t scene_hash) {
-  const int descriptor =
-      open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
-  auto sink = std::make_unique<SessionSink>(path, descriptor);
-  if (descriptor < 0) return sink->failed("open");
-  if (auto begun = sink->write(session_header(scene_name, scene_hash)); !begun)
-    return tl::make_unexpected(begun.error());
-  auto recorder = create(*sink);
-  recorder->own_sink_ = std::move(sink);
+  auto sink = SessionRecording::begin(path, scene_name, scene_hash);
+  if (!sink) return tl::make_unexpected(sink.error());
+  auto recorder = create(**sink);
+  recorder->own_sink_ = std::move(*sink);
   return recorder;
 }
 

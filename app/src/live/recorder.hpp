@@ -21,7 +21,7 @@ namespace clay::live {
 
 class Recorder {
  public:
-  /// Begins the file, in place of what was there. `scene_hash`: hash_of the scene as it is on disk.
+  /// To a session file: session_recording.hpp has its errors and what is where meanwhile.
   static Result<std::unique_ptr<Recorder>> create(const std::string& path,
                                                   std::string_view scene_name,
                                                   std::uint64_t scene_hash);

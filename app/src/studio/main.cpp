@@ -13,7 +13,6 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
-#include <exception>
 
 namespace clay::studio {
 namespace {
@@ -167,14 +166,14 @@ int run(int argc, char** argv) {
   try {
     parser.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return parser.exit(error) == 0 ? app::kDone : app::kBadInput;
+    return app::report(parser, error);
   }
   const auto size = size_of(options.size);
   if (!size) return app::report(size.error());
   const auto log = [&](std::string_view line) {
     if (!options.log) return;
-    fmt::print("{}\n", line);
-    std::fflush(stdout);
+    app::put_out(std::string(line) + "\n");
+    (void)app::flush_out();
   };
   const bool without_screen = !options.script.empty() || !options.screenshot.empty();
   const auto done = without_screen                 ? run_script(options, *size, log)
@@ -186,10 +185,4 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace clay::studio
 
-int main(int argc, char** argv) {
-  try {
-    return clay::studio::run(argc, argv);
-  } catch (const std::exception& error) {  // out of memory, or a fault of ours
-    return clay::app::report({clay::ErrorKind::io, error.what()});
-  }
-}
+int main(int argc, char** argv) { return clay::app::run_program(clay::studio::run, argc, argv); }

@@ -1,12 +1,12 @@
 #include "studio/settings.hpp"
 
 #include "claystack/engine/atomic_file.hpp"
+#include "user_folders.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -166,14 +166,7 @@ void remember_process(Settings& settings, const std::filesystem::path& path) {
   put_first(settings.processes, settings.process, kMostProcesses);
 }
 
-std::filesystem::path settings_path() {
-  const char* config = std::getenv("XDG_CONFIG_HOME");
-  const char* home = std::getenv("HOME");
-  const std::filesystem::path base = config != nullptr && *config == '/'
-                                         ? std::filesystem::path(config)
-                                         : std::filesystem::path(home ? home : ".") / ".config";
-  return base / "claystack" / "studio.json";
-}
+std::filesystem::path settings_path() { return app::config_folder() / "studio.json"; }
 
 Result<Settings> parse_settings(std::string_view text, std::string_view name) {
   const Json json = Json::parse(text, nullptr, false);

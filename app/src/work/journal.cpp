@@ -1,6 +1,7 @@
 #include "work/journal.hpp"
 
 #include "claystack/engine/atomic_file.hpp"
+#include "user_folders.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,7 +11,6 @@
 
 #include <cerrno>
 #include <chrono>
-#include <cstdlib>
 #include <ctime>
 #include <system_error>
 #include <utility>
@@ -60,15 +60,7 @@ Result<fs::path> give_name(int descriptor, const fs::path& temporary, const fs::
 
 }  // namespace
 
-fs::path recovery_folder() {
-  const char* state = std::getenv("XDG_STATE_HOME");
-  const char* home = std::getenv("HOME");
-  // By the XDG base directory specification a relative path is to be ignored.
-  const fs::path base = state != nullptr && state[0] == '/'
-                            ? fs::path(state)
-                            : fs::path(home != nullptr ? home : "/") / ".local" / "state";
-  return base / "claystack" / "recovery";
-}
+fs::path recovery_folder() { return app::state_folder() / "recovery"; }
 
 Result<std::unique_ptr<Journal>> Journal::begin(const WorkRecord& work, const fs::path& folder) {
   std::error_code made;
