@@ -1,6 +1,7 @@
 #include "device_monitor.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <signal.h>
 #include <unistd.h>
 

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
 
 namespace clay::app {
 namespace {

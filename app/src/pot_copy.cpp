@@ -3,6 +3,7 @@
 #include "claystack/engine/rounded_pot.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace clay::app {
 

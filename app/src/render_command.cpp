@@ -8,6 +8,7 @@
 
 #include <charconv>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 namespace clay::app {
 namespace {

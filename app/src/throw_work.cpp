@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <nlohmann/json.hpp>
 
 namespace clay::app {
 namespace {

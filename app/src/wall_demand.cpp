@@ -3,6 +3,7 @@
 #include "claystack/engine/atomic_file.hpp"
 #include "console.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 
 namespace clay::app {

@@ -4,10 +4,13 @@
 #include "claystack/engine/result.hpp"
 #include "claystack/export/process_limits.hpp"
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <utility>
+
+namespace CLI {
+class App;
+}
 
 namespace clay::app {
 

@@ -7,6 +7,7 @@
 #include "replay.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace clay::studio {
 namespace {
