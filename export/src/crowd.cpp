@@ -18,7 +18,7 @@ constexpr std::size_t kSample = 32;
 
 }  // namespace
 
-glm::dvec3 longest_side(const Body& body) {
+glm::dvec3 longest_side(const BoundingHull& body) {
   glm::dvec3 longest{0.0};
   for (std::size_t i = 0; i < 3; ++i) {
     const glm::dvec3 side = body.corners[(i + 1) % 3] - body.corners[i];
@@ -27,10 +27,10 @@ glm::dvec3 longest_side(const Body& body) {
   return longest;
 }
 
-Crowd::Crowd(std::vector<Body> bodies) : bodies_(std::move(bodies)) {
+Crowd::Crowd(std::vector<BoundingHull> bodies) : bodies_(std::move(bodies)) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   glm::dvec3 low{kInfinity}, high{-kInfinity};
-  for (const Body& body : bodies_) {
+  for (const BoundingHull& body : bodies_) {
     for (const glm::dvec3& corner : body.corners) {
       low = glm::min(low, corner);
       high = glm::max(high, corner);
@@ -40,7 +40,7 @@ Crowd::Crowd(std::vector<Body> bodies) : bodies_(std::move(bodies)) {
   boxes_.reserve(bodies_.size());
   middles_.reserve(bodies_.size());
   double reach = 0.0;
-  for (Body& body : bodies_) {
+  for (BoundingHull& body : bodies_) {
     Box box{glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
     for (glm::dvec3& corner : body.corners) {
       // Rounding keeps the order of coordinates, so that boxes stay apart only if they were.

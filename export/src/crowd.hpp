@@ -13,8 +13,8 @@ namespace clay::solid {
 
 inline constexpr std::uint32_t kNoHub = UINT32_MAX;
 
-/// The convex hull of its corners, thickened by the slack.
-struct Body {
+/// Encloses a triangle or an arc: the convex hull of its corners, thickened by the slack.
+struct BoundingHull {
   std::array<glm::dvec3, 4> corners;                          ///< finite, any unit
   double slack = 0.0;                                         ///< at least 0, unit of the corners
   std::array<std::uint32_t, 3> hubs{kNoHub, kNoHub, kNoHub};  ///< crowded places it hangs from
@@ -23,7 +23,7 @@ struct Body {
 };
 
 /// The side of its triangle, the first three corners, that is longest.
-[[nodiscard]] glm::dvec3 longest_side(const Body& body);
+[[nodiscard]] glm::dvec3 longest_side(const BoundingHull& body);
 
 /// The bodies stand in the order of halves of halves, so that neighbours in space are so in memory:
 /// where more than kFew are left, the lower half of them comes first.
@@ -36,10 +36,10 @@ class Crowd {
     glm::dvec3 low, high;
   };
 
-  explicit Crowd(std::vector<Body> bodies);
+  explicit Crowd(std::vector<BoundingHull> bodies);
 
   [[nodiscard]] std::size_t size() const { return bodies_.size(); }
-  [[nodiscard]] const Body& operator[](std::uint32_t i) const { return bodies_[i]; }
+  [[nodiscard]] const BoundingHull& operator[](std::uint32_t i) const { return bodies_[i]; }
   [[nodiscard]] const Box& box(std::uint32_t i) const { return boxes_[i]; }
 
   [[nodiscard]] Box box_of(std::span<const std::uint32_t> all) const;
@@ -70,8 +70,8 @@ class Crowd {
  private:
   void arrange();
 
-  std::vector<Body> bodies_;  ///< corners from the middle of all
-  std::vector<Box> boxes_;    ///< of the bodies
+  std::vector<BoundingHull> bodies_;  ///< corners from the middle of all
+  std::vector<Box> boxes_;            ///< of the bodies
   std::vector<glm::dvec3> middles_;
   double rounding_ = 0.0;
   bool any_hub_ = false;

@@ -22,7 +22,7 @@ glm::dvec3 direction(const glm::dvec3& from, const glm::dvec3& to) {
 
 /// The arc from one direction to another, on the unit sphere. It bends away from its chord, but
 /// not past the tangents at its ends and its middle.
-void set_arc(Body& body, const glm::dvec3& from, const glm::dvec3& to) {
+void set_arc(BoundingHull& body, const glm::dvec3& from, const glm::dvec3& to) {
   const double both = glm::length(from + to);
   if (!(both > std::ldexp(1.0, -20))) {
     // Almost a half turn (or no number): it may pass anywhere.
@@ -142,11 +142,11 @@ class Fan {
   }
 
   void count_between_arcs() {
-    std::vector<Body> bodies;
+    std::vector<BoundingHull> bodies;
     bodies.reserve(triangles_.size());
     for (const std::uint32_t t : triangles_) {
       const auto [a, b] = rim(t);
-      Body& body = bodies.emplace_back();
+      BoundingHull& body = bodies.emplace_back();
       const glm::dvec3& centre = mesh_.points[centre_];
       set_arc(body, direction(centre, mesh_.points[a]), direction(centre, mesh_.points[b]));
       body.hubs = {is_spoke(a) ? a : kNoHub, is_spoke(b) ? b : kNoHub, kNoHub};

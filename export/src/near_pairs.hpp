@@ -21,7 +21,7 @@ namespace clay::solid {
 /// Bodies about one hub cannot be told apart like that, so such pairs are the caller's.
 class NearPairs {
  public:
-  explicit NearPairs(std::vector<Body> bodies) : crowd_(std::move(bodies)) {}
+  explicit NearPairs(std::vector<BoundingHull> bodies) : crowd_(std::move(bodies)) {}
 
   /// visit(a, b): positions of two bodies; false ends the search.
   template <class Visit>
@@ -31,7 +31,7 @@ class NearPairs {
             }});
   }
 
-  [[nodiscard]] const Body& operator[](std::uint32_t i) const { return crowd_[i]; }
+  [[nodiscard]] const BoundingHull& operator[](std::uint32_t i) const { return crowd_[i]; }
 
  private:
   using Positions = std::vector<std::uint32_t>;

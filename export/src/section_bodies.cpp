@@ -18,7 +18,7 @@ Outline mirrored(const Polygon& line) {
 }
 
 /// Chains that end on the axis close with their mirror images, so that no seam shows there.
-void add_cut(Body& body, const Polygon& section) {
+void add_cut(SectionBody& body, const Polygon& section) {
   for (const Chain& chain : chains_of(section)) {
     Polygon line;
     for (std::size_t i = 0; i <= chain.edges; ++i)
@@ -34,8 +34,8 @@ void add_cut(Body& body, const Polygon& section) {
   }
 }
 
-Body body_of(const ClayStack& stack, RingRange rings) {
-  Body body;
+SectionBody body_of(const ClayStack& stack, RingRange rings) {
+  SectionBody body;
   for (const RingRange piece : pieces_of(stack, rings)) {
     add_cut(body, section_of(stack, piece));
     body.beyond.push_back(mirrored(outer_wall_of(stack, piece)));
@@ -44,9 +44,9 @@ Body body_of(const ClayStack& stack, RingRange rings) {
   return body;
 }
 
-Body crown_of(const ClayStack& stack) {
+SectionBody crown_of(const ClayStack& stack) {
   const Polygon section = crown_section_of(stack);
-  Body body;
+  SectionBody body;
   add_cut(body, section);
   body.beyond.push_back(mirrored({section[0], section[1]}));
   body.axis = {{0.0, section[0].y}, {0.0, section[1].y}};
@@ -54,13 +54,13 @@ Body crown_of(const ClayStack& stack) {
 }
 
 /// What stands: the crown is not on it any more.
-Body standing(const ClayStack& stack, std::size_t failed) {
+SectionBody standing(const ClayStack& stack, std::size_t failed) {
   const auto end = stack.rings().begin() + static_cast<std::ptrdiff_t>(failed) + 1;
   return ClayStack::from_rings(stack.ring_height_mm(), {stack.rings().begin(), end}, 0)
       .map([&](const ClayStack& lower) {
         return body_of(lower, {0, failed});
       })
-      .value_or(Body{});
+      .value_or(SectionBody{});
 }
 
 /// Of the plane through the pot's axis across the axis of the fall, the HIP to the right.
@@ -82,7 +82,7 @@ class FallView {
 };
 
 /// As it stood; none where no clay was above the failed ring.
-std::vector<Body> upper_part(const Pot& pot) {
+std::vector<SectionBody> upper_part(const Pot& pot) {
   const std::size_t first = pot.collapse->failed_ring + 1;
   if (first < pot.stack.size()) return {body_of(pot.stack, {first, pot.stack.size() - 1})};
   if (pot.stack.crown() > 0) return {crown_of(pot.stack)};
@@ -91,14 +91,14 @@ std::vector<Body> upper_part(const Pot& pot) {
 
 }  // namespace
 
-std::vector<Body> bodies_of(const Pot& pot) {
+std::vector<SectionBody> bodies_of(const Pot& pot) {
   const std::size_t rings = pot.stack.size();
   if (rings == 0) return {};
   if (!pot.collapse || pot.collapse->failed_ring >= rings)
     return {body_of(pot.stack, {0, rings - 1})};
-  std::vector<Body> bodies{standing(pot.stack, pot.collapse->failed_ring)};
+  std::vector<SectionBody> bodies{standing(pot.stack, pot.collapse->failed_ring)};
   const FallView view(*pot.collapse);
-  for (Body& body : upper_part(pot)) {
+  for (SectionBody& body : upper_part(pot)) {
     for (Outline& outline : body.cut) view.move(outline);
     for (Outline& outline : body.beyond) view.move(outline);
     view.move(body.axis);
@@ -119,7 +119,7 @@ std::vector<Outline> ghosts_of(const Pot& pot) {
     then.angle_rad = frame->angle_rad;
     then.shift_mm = frame->shift_mm;
     const FallView view(then);
-    for (const Body& body : upper_part(pot))
+    for (const SectionBody& body : upper_part(pot))
       for (Outline outline : body.beyond) {
         view.move(outline);
         ghosts.push_back(std::move(outline));

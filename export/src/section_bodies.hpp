@@ -10,15 +10,15 @@ namespace clay::solid {
 
 using Outline = std::vector<glm::dvec2>;  // (right, up) in mm, seen along the cut
 
-/// One rigid body as the knife leaves it.
-struct Body {
+/// One rigid body as the section view shows it.
+struct SectionBody {
   std::vector<Outline> cut;     ///< the clay that the knife met: fill by the even-odd rule
   std::vector<Outline> beyond;  ///< the half behind, whose bore shows
   Outline axis;
 };
 
 /// The pot, or what stands and what fell. A fall is cut in its own plane, the HIP to the right.
-[[nodiscard]] std::vector<Body> bodies_of(const Pot& pot);
+[[nodiscard]] std::vector<SectionBody> bodies_of(const Pot& pot);
 
 /// Where the fallen part was as the pot failed, and when the first, the second and the third
 /// quarter of the energy was lost: outlines. None where the fall is not known.

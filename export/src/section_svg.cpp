@@ -33,11 +33,11 @@ struct Extent {
 };
 
 /// The wheel head (up = 0) is always in the picture.
-Extent extent_of(const std::vector<Body>& bodies) {
+Extent extent_of(const std::vector<SectionBody>& bodies) {
   if (bodies.empty()) return {};
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Extent extent{{kFar, 0.0}, {-kFar, 0.0}};
-  for (const Body& body : bodies) extent = extent.with(body.beyond);
+  for (const SectionBody& body : bodies) extent = extent.with(body.beyond);
   return extent;
 }
 
@@ -75,13 +75,13 @@ class Drawing {
   }
 
   /// What is cut stands before all that lies beyond, of whichever body.
-  void bodies(const std::vector<Body>& all) {
-    for (const Body& body : all) page_.fill("beyond", on_page(body.beyond));
-    for (const Body& body : all) page_.fill("cut", on_page(body.cut));
-    for (const Body& body : all) axis(body);
+  void bodies(const std::vector<SectionBody>& all) {
+    for (const SectionBody& body : all) page_.fill("beyond", on_page(body.beyond));
+    for (const SectionBody& body : all) page_.fill("cut", on_page(body.cut));
+    for (const SectionBody& body : all) axis(body);
   }
 
-  void axis(const Body& body) {
+  void axis(const SectionBody& body) {
     const glm::dvec2 from = on_page(body.axis[0]), to = on_page(body.axis[1]);
     const glm::dvec2 overhang = 22.0 * glm::normalize(to - from);
     page_.line("axis", from - overhang, to + overhang);
@@ -152,7 +152,7 @@ glm::dvec2 widest_point(const ClayStack& stack) {
 }  // namespace
 
 std::string section_svg(const Pot& pot) {
-  const std::vector<Body> bodies = bodies_of(pot);
+  const std::vector<SectionBody> bodies = bodies_of(pot);
   const std::vector<Outline> ghosts = ghosts_of(pot);
   const Extent extent = extent_of(bodies);
   Drawing drawing(extent.with(ghosts));

@@ -119,7 +119,7 @@ Crossings SoupIntersections::search_hubs(std::size_t group) const {
 
 Crossings SoupIntersections::search_slab(std::size_t slab) {
   const double begin = begins_[slab];
-  std::vector<Body> bodies;
+  std::vector<BoundingHull> bodies;
   bodies.reserve(members_[slab].size());
   for (const std::uint32_t t : members_[slab]) {
     const auto& [a, b, c] = mesh_.triangles[t];

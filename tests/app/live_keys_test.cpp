@@ -2,6 +2,7 @@
 
 #include "claystack/engine/session_file.hpp"
 #include "run_program.hpp"
+#include "wait_until.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -13,7 +14,6 @@
 #include <unistd.h>
 #include <utmp.h>
 
-#include <chrono>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -21,9 +21,6 @@
 
 namespace clay::test {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-constexpr auto kPatience = std::chrono::seconds(60);
 
 /// `claystack throw` with the simulated arm, in a terminal.
 class InATerminal {
@@ -35,7 +32,7 @@ class InATerminal {
                       pot = folder.file("a.pot.json");
     program_ = fork();
     if (program_ == 0) {
-      alarm(120);  // no orphan
+      alarm(static_cast<unsigned>(kProgramDeadline.count()));  // no orphan
       close(ours_);
       login_tty(theirs_);
       execl(CLAYSTACK_PROGRAM, CLAYSTACK_PROGRAM, "throw", scene.c_str(), "--device", "simulated",
@@ -60,18 +57,12 @@ class InATerminal {
 
   /// Whether the terminal shows this from here on, before the program ends.
   bool shows(const std::string& text) {
-    const auto end = Clock::now() + kPatience;
-    while (Clock::now() < end) {
-      const std::size_t at = shown_.find(text);
-      if (at != std::string::npos) return shown_.erase(0, at + text.size()), true;
-      pollfd output{ours_, POLLIN, 0};
-      char some[4096];
-      if (poll(&output, 1, 100) <= 0) continue;
-      const ssize_t size = read(ours_, some, sizeof some);
-      if (size <= 0) return false;
-      shown_.append(some, static_cast<std::size_t>(size));
-    }
-    return false;
+    bool open = true;
+    wait_until([&] { return shown_.find(text) != std::string::npos || !(open = read_on()); },
+               kDeadline, "the terminal to show: " + text);
+    if (!open) return false;
+    shown_.erase(0, shown_.find(text) + text.size());
+    return true;
   }
 
   /// How it ended.
@@ -95,6 +86,16 @@ class InATerminal {
   }
 
  private:
+  /// False: the program has left the terminal.
+  bool read_on() {
+    pollfd output{ours_, POLLIN, 0};
+    if (poll(&output, 1, 100) <= 0) return true;
+    char some[4096];
+    const ssize_t size = read(ours_, some, sizeof some);
+    if (size > 0) shown_.append(some, static_cast<std::size_t>(size));
+    return size > 0;
+  }
+
   const ScratchFolder& folder_;
   int ours_ = -1, theirs_ = -1;
   pid_t program_ = -1;

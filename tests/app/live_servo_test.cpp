@@ -1,9 +1,10 @@
-// Servo, watchdog and readers as threads. No limits in time: a machine may be busy.
+// Servo, watchdog and readers as threads. No limits in time but deadlines: a machine may be busy.
 
 #include "live/servo.hpp"
 #include "live/signals.hpp"
 #include "live_bench.hpp"
 #include "scripted_device.hpp"
+#include "wait_until.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>
@@ -21,8 +22,8 @@ namespace clay::live {
 namespace {
 
 template <class Condition>
-void wait_for(Condition condition) {
-  while (!condition()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+void wait_for(Condition condition, const std::string& what) {
+  test::wait_until(condition, test::kDeadline, what);
 }
 
 /// Force comes soon: after a ramp of a tenth of a second.
@@ -40,11 +41,23 @@ struct Threads {
       : log(wire), device(wire), loop(ServoLoop::build(bench(), quick()).value()) {
     servo.start();
   }
+  /// A servo that hangs does not end.
+  ~Threads() { log.hang = false; }
+  Threads(const Threads&) = delete;
+  Threads& operator=(const Threads&) = delete;
+
   Bench bench() { return {wheel, device, clock, nullptr}; }
   void wait_for_force() {
-    wait_for([&] { return log.last_n > 0.0; });
+    wait_for([&] { return log.last_n > 0.0; }, "a force");
   }
-  Ending stop() { return servo.command({CommandKind::stop, 0.0}) ? servo.join() : Ending::none; }
+  void wait_for_writes(std::uint64_t more) {
+    wait_for([&, end = log.writes + more] { return log.writes > end; }, "forces to be written");
+  }
+  Ending end() {
+    wait_for([&] { return !servo.running(); }, "the servo's end");
+    return servo.join();
+  }
+  Ending stop() { return servo.command({CommandKind::stop, 0.0}) ? end() : Ending::none; }
 
   WireLog& log;
   ScriptedDevice device;
@@ -57,7 +70,7 @@ struct Threads {
 TEST(Servo, EndsByCommandWithAStopAsTheLastWord) {
   WireLog log;
   Threads threads(log);
-  wait_for([&] { return log.writes > 50; });
+  threads.wait_for_writes(50);
   EXPECT_EQ(threads.stop(), Ending::stopped);
   EXPECT_FALSE(threads.servo.running());
   EXPECT_EQ(log.stops, 1u);
@@ -69,8 +82,8 @@ TEST(Servo, EndsByCommandWithAStopAsTheLastWord) {
 TEST(Servo, ItsDestructorEndsTheForceToo) {
   WireLog log;
   {
-    const Threads threads(log);
-    wait_for([&] { return log.most_n > 0.0; });
+    Threads threads(log);
+    threads.wait_for_force();
   }
   EXPECT_EQ(log.stops, 1u);
   EXPECT_EQ(log.last_n, 0.0);
@@ -82,11 +95,10 @@ TEST(Servo, AHangEndsTheForceFromOutsideAndItComesBackByTheRamp) {
   threads.wait_for_force();
   const std::uint64_t zeros = log.zeros;
   log.hang = true;
-  wait_for([&] { return log.zeros > zeros; });
+  wait_for([&] { return log.zeros > zeros; }, "the watchdog to end the force");
   EXPECT_EQ(log.last_n, 0.0) << "nobody writes a force meanwhile";
-  const std::uint64_t writes = log.writes;
   log.hang = false;
-  wait_for([&] { return log.writes > writes + 20; });
+  threads.wait_for_writes(20);
   EXPECT_EQ(threads.stop(), Ending::stopped);
   EXPECT_GE(threads.loop.events().watchdog, 1u);
 }
@@ -96,7 +108,7 @@ TEST(Servo, ReadersSeeWholeValuesThatGoForward) {
   Threads threads(log);
   std::uint64_t ticks = 0;
   double time_s = 0.0;
-  while (ticks < 300) {
+  const auto read = [&] {
     const LiveStatus& status = threads.servo.view().status.newest();
     ASSERT_GE(status.ticks, ticks);
     ASSERT_GE(status.time_s, time_s);
@@ -106,25 +118,30 @@ TEST(Servo, ReadersSeeWholeValuesThatGoForward) {
     const LiveProfile& profile = threads.servo.view().profile.newest();
     for (std::size_t row = 0; row < profile.size; ++row)
       ASSERT_GT(profile.rows[row].outer_mm, profile.rows[row].inner_mm);
-    std::this_thread::yield();
-  }
+  };
+  const auto read_often = [&] {
+    for (int i = 0; i < 1000; ++i) read();
+    return ticks >= 300 || testing::Test::HasFailure();
+  };
+  wait_for(read_often, "300 ticks");
   EXPECT_EQ(threads.stop(), Ending::stopped);
 }
 
 TEST(Servo, AnUnpluggedDeviceEndsIt) {
   WireLog log;
   Threads threads(log);
-  wait_for([&] { return log.most_n > 0.0; });
+  threads.wait_for_force();
   log.gone = true;
-  EXPECT_EQ(threads.servo.join(), Ending::device_lost);
+  EXPECT_EQ(threads.end(), Ending::device_lost);
   EXPECT_EQ(log.last_n, 0.0);
   // As after a reconnection: another servo, the same loop and wheel.
   log.gone = false;
   const std::uint64_t poses = threads.loop.status().poses;
   Servo again(threads.bench(), threads.loop, false);
   again.start();
-  wait_for([&] { return again.view().status.newest().poses > poses + 20; });
+  wait_for([&] { return again.view().status.newest().poses > poses + 20; }, "poses");
   ASSERT_TRUE(again.command({CommandKind::stop, 0.0}));
+  wait_for([&] { return !again.running(); }, "the other servo's end");
   EXPECT_EQ(again.join(), Ending::stopped);
 }
 
@@ -149,13 +166,12 @@ TEST(Servo, TheHandlerItselfWritesZeroWhileTheServoHangs) {
     EXPECT_EQ(log.stops, 0u);
     raise(signal);
     // Handled before it returns, but for the thread sanitizer, which waits for a sleep.
-    for (int i = 0; log.stops == 0 && i < 2000; ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    wait_for([&] { return log.stops > 0; }, "the handler to tell the device to stop");
     EXPECT_EQ(log.stops, 1u) << "nobody else tells a device to stop while the servo hangs";
     EXPECT_EQ(ForceSignals::asked_to_stop(), signal);
     log.hang = false;
     (void)threads.servo.command({CommandKind::stop, 0.0});
-    EXPECT_EQ(threads.servo.join(), Ending::stopped);
+    EXPECT_EQ(threads.end(), Ending::stopped);
     EXPECT_EQ(log.last_n, 0.0);
   }
 }
@@ -166,8 +182,7 @@ TEST(Servo, NoSignalOfJobControlStopsTheProcessUnderForce) {
   Threads threads(log);
   threads.wait_for_force();
   for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU}) kill(getpid(), signal);
-  const std::uint64_t writes = log.writes;
-  wait_for([&] { return log.writes > writes + 5; });
+  threads.wait_for_writes(5);
   EXPECT_EQ(threads.stop(), Ending::stopped);
 }
 
@@ -187,7 +202,8 @@ class LastPacket : public testing::Test {
     if (child == 0) {
       const rlimit no_core{0, 0};
       setrlimit(RLIMIT_CORE, &no_core);
-      alarm(60);  // one that does not end is no orphan
+      alarm(static_cast<unsigned>(test::kDeadline.count()));  // one that does not end is no orphan,
+                                                              // and SIGALRM is its status
       const ForceSignals signals;
       Threads threads(*log_);
       threads.wait_for_force();

@@ -59,9 +59,12 @@ class ScriptedDevice final : public falcon::HapticDevice {
   [[nodiscard]] falcon::DeviceCounters counters() const noexcept override { return {}; }
 
  private:
-  /// Off the clay for a moment, then slowly further and further in: 1 mm/s.
+  /// Off the clay for a moment, then further and further in: 10 mm/s. Every three seconds off it
+  /// again: where a busy machine held the servo up, its guard waits for that.
   static glm::dvec3 position_mm(double time_s) {
-    return {time_s < 0.1 ? 2.0 : std::fmax(-20.0, 1.0 - 10.0 * (time_s - 0.1)), 0.0, 0.0};
+    const double t = std::fmod(time_s, 3.0);
+    if (t > 2.5) return {std::fmin(2.0, -20.0 + 100.0 * (t - 2.5)), 0.0, 0.0};
+    return {t < 0.1 ? 2.0 : std::fmax(-20.0, 1.0 - 10.0 * (t - 0.1)), 0.0, 0.0};
   }
 
   WireLog& log_;

@@ -7,13 +7,10 @@ set -u
 device=auto
 
 # until_file NAME
+has_file_or_ended() { [ -e "$folder/$1" ] || ended; }
 until_file() {
-  for _ in $(seq 1200); do
-    [ -e "$folder/$1" ] && return 0
-    kill -0 "$studio" 2>/dev/null || break
-    sleep 0.05
-  done
-  [ -e "$folder/$1" ] || fail "expected the arm to say: $1"
+  wait_until "the arm to say: $1" has_file_or_ended "$1"
+  [ -e "$folder/$1" ] || fail "the window ended before the arm said: $1"
 }
 ask() { : >"$folder/$1"; }
 # press_by_mouse: from beside the lump into it, and holds there.
@@ -56,6 +53,6 @@ until_file felt_again
 
 # A signal that asks to stop leaves the journal.
 kill -TERM "$studio"
-wait "$studio" || fail "expected exit status 0"
+until_ended
 cp "$folder"/state/claystack/recovery/* "$folder/journal.work" || fail "expected one journal"
 cat "$log"

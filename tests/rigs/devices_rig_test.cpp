@@ -2,6 +2,7 @@
 
 #include "../app/run_program.hpp"
 #include "../falcon/dummy_firmware.hpp"
+#include "../wait_until.hpp"
 #include "falcon_gadget.hpp"
 #include "hid_gadget.hpp"
 #include "testbed.hpp"
@@ -10,6 +11,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <memory>
 
@@ -35,6 +37,19 @@ class DevicesRig : public testing::Test {
     const auto devices = run.json().at("devices");
     EXPECT_EQ(devices.size(), 1u) << run.out;
     return devices.at(0);
+  }
+
+  /// Monitors until the condition holds, and asks it to stop. What it printed.
+  template <class Condition>
+  static std::string monitored(const std::string& more, Condition condition,
+                               const std::string& what) {
+    test::Program program("exec " CLAYSTACK_PROGRAM " devices falcon --monitor --json " + more);
+    test::wait_until([&] { return !program.running() || condition(program.out()); },
+                     test::kDeadline, what);
+    program.send(SIGINT);
+    const auto run = program.wait();
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run.out;
   }
 
   Testbed testbed_;
@@ -67,7 +82,11 @@ TEST_F(DevicesRig, TellsAFalconThroughItsStart) {
   EXPECT_EQ(homing.at("place"), "usb:1-1");
   EXPECT_NE(claystack("devices").out.find("pull the grip"), std::string::npos);
 
-  EXPECT_EQ(claystack("devices falcon --monitor --seconds 2").status, 0);
+  const auto homed = [&](const std::string&) {
+    const std::scoped_lock held(falcon_->lock);
+    return falcon_->device.model.homed();
+  };
+  monitored("", homed, "the grip to be homed");
   EXPECT_EQ(only_one().at("state"), "ready") << "homed while it was monitored";
   EXPECT_EQ(falcon_->device.log.back().motors, LegCounts{});
 }
@@ -81,9 +100,8 @@ TEST_F(DevicesRig, MeasuresByTheGeometryAndMapsAsAsked) {
       model, [](std::uint64_t) { return Kinematics::kCentreM + glm::dvec3(0.01, -0.02, 0.0); });
   plug_ = std::make_unique<UsbPlug>(testbed_.get(), *falcon_);
   const auto last = [](const std::string& more) {
-    const auto run = claystack("devices falcon --monitor --seconds 1 --json " + more);
-    EXPECT_EQ(run.status, 0) << run.err;
-    const std::string& lines = run.out;
+    const auto told = [](const std::string& lines) { return lines.ends_with("}\n"); };
+    const std::string lines = monitored(more, told, "a position");
     return nlohmann::json::parse(lines.substr(lines.rfind('\n', lines.size() - 2) + 1));
   };
   const auto right = last("--geometry martin-hillier --scale 2 --side left --reach 50 --flip x");

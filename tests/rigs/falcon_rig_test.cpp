@@ -1,6 +1,7 @@
 // A stock Falcon: unmodified libftdi1 and libusb against an emulated 0403:cb48.
 
 #include "../falcon/dummy_firmware.hpp"
+#include "../wait_until.hpp"
 #include "claystack/falcon/usb_devices.hpp"
 #include "falcon_gadget.hpp"
 #include "testbed.hpp"
@@ -87,11 +88,13 @@ TEST_F(FalconRig, LoadsFirmwareHomesAndRuns5000FramesWithNoBadOne) {
   EXPECT_EQ(gadget_->control_errors, 0u);
 
   DeviceSample sample;
-  while (sample.state != DeviceState::ready) {
+  const auto homed = [&] {
     sample = tick(device, {1, 1, 1});
-    ASSERT_TRUE(sample.fresh);
-    ASSERT_EQ(locked([](auto& d) { return d.log.back().motors; }), LegCounts{});
-  }
+    EXPECT_TRUE(sample.fresh);
+    EXPECT_EQ(locked([](auto& d) { return d.log.back().motors; }), LegCounts{});
+    return sample.state == DeviceState::ready;
+  };
+  test::wait_until(homed, test::kDeadline, "the device to be homed");
   const std::uint64_t first = locked([](auto& d) { return d.log.size(); });
   for (std::uint64_t frame = first; frame < first + 5000; ++frame) {
     sample = tick(device, force_at(frame));
@@ -162,10 +165,12 @@ TEST_F(FalconRig, TellsThatHomingIsLostAndSendsNoForceUntilItIsBack) {
   locked([](auto& d) { d.model.plan({WireFault::homing_lost, 0}); });
   DeviceSample sample = tick(**opened, {2, 0, 0});
   EXPECT_EQ(sample.state, DeviceState::needs_homing);
-  while (sample.state == DeviceState::needs_homing) {
+  const auto back = [&] {
     sample = tick(**opened, {2, 0, 0});
-    ASSERT_EQ(locked([](auto& d) { return d.model.motors(); }), LegCounts{});
-  }
+    EXPECT_EQ(locked([](auto& d) { return d.model.motors(); }), LegCounts{});
+    return sample.state != DeviceState::needs_homing;
+  };
+  test::wait_until(back, test::kDeadline, "the homing to be back");
   EXPECT_EQ(sample.state, DeviceState::ready);
 }
 
@@ -189,8 +194,8 @@ TEST_F(FalconRig, UnpluggedInMidStrokeIsAnErrorAndComesBack) {
     locked([](auto& d) { d.model.replug(); });
     const auto again = device.open();
     ASSERT_TRUE(again) << text_of(again.error());
-    while (tick(device, {}).state != DeviceState::ready) {
-    }
+    test::wait_until([&] { return tick(device, {}).state == DeviceState::ready; }, test::kDeadline,
+                     "the device to be ready again");
   }
 }
 

@@ -2,6 +2,7 @@
 // same tests with hidapi's hidraw backend, on nodes of the kernel, and with its libusb backend, on
 // USB devices (CLAYSTACK_HIDAPI_LIBUSB).
 
+#include "../wait_until.hpp"
 #include "claystack/falcon/usb_devices.hpp"
 #include "hid_gadget.hpp"
 #include "plugged.hpp"
@@ -59,6 +60,11 @@ class BridgeRig : public HidRig {
     return device.read(kPatienceUs);
   }
 
+  static void home(HapticDevice& device) {
+    test::wait_until([&] { return tick(device, {}).state == DeviceState::ready; }, test::kDeadline,
+                     "the device to be homed");
+  }
+
   template <class Action>
   auto locked(Action action) {
     const std::scoped_lock held(gadget_.lock);
@@ -74,8 +80,12 @@ TEST_F(BridgeRig, HomesAndRuns5000FramesWithNoBadOne) {
   auto opened = open_device("bridge", settings_);
   ASSERT_TRUE(opened) << text_of(opened.error());
   HapticDevice& device = **opened;
-  while (tick(device, {1, 0, 0}).state != DeviceState::ready)
-    ASSERT_EQ(locked([](auto& d) { return d.log.back().motors; }), LegCounts{});
+  const auto homed = [&] {
+    const bool ready = tick(device, {1, 0, 0}).state == DeviceState::ready;
+    EXPECT_EQ(locked([](auto& d) { return d.log.back().motors; }), LegCounts{});
+    return ready;
+  };
+  test::wait_until(homed, test::kDeadline, "the device to be homed");
   const std::uint64_t first = locked([](auto& d) { return d.log.size(); });
   const glm::dvec3 force(1, -2, 3);
   for (std::uint64_t frame = first; frame < first + 5000; ++frame) {
@@ -98,8 +108,7 @@ TEST_F(BridgeRig, LosesAtMostTwoFramesToAFaultOnTheWire) {
   auto opened = open_device("auto", settings_);
   ASSERT_TRUE(opened) << text_of(opened.error());
   HapticDevice& device = **opened;
-  while (tick(device, {}).state != DeviceState::ready) {
-  }
+  home(device);
   for (const WireFault fault : {WireFault::lost_byte, WireFault::extra_byte, WireFault::half_frame,
                                 WireFault::bad_nibble, WireFault::no_frame}) {
     const std::uint64_t before = device.counters().frames;
@@ -177,24 +186,41 @@ TEST_F(BridgeRig, TheThreadsOfALibraryTakeNoSignal) {
 }
 
 HapticDevice* met = nullptr;
+std::atomic<int> stops{0};
 
-/// A hand that stops the device again and again, wherever it meets the thread that writes. One that
-/// waits for itself does not end, and the rig's time runs out.
+/// A hand that stops the device again and again, wherever it meets the thread that writes. A writer
+/// that waits for itself does not end: then the deadline in the hand's thread ends the program.
 TEST_F(BridgeRig, ALastWordNeverWaitsForTheThreadThatItMet) {
   auto opened = open_device("bridge", settings_);
   ASSERT_TRUE(opened) << text_of(opened.error());
   met = opened->get();
-  while (tick(*met, {}).state != DeviceState::ready) {
-  }
-  const auto before = std::signal(SIGUSR1, [](int) { met->zero(); });
+  home(*met);
+  const auto before = std::signal(SIGUSR1, [](int) {
+    met->zero();
+    ++stops;
+  });
   std::atomic<bool> done{false};
   std::thread hand([&, writer = pthread_self()] {
-    while (!done) {
-      pthread_kill(writer, SIGUSR1);
-      std::this_thread::sleep_for(std::chrono::microseconds(300));
-    }
+    using Clock = std::chrono::steady_clock;
+    auto sent = Clock::now(), next = sent;
+    int seen = stops;
+    // After a stop the writer has as long to itself, however slow the machine makes both.
+    const auto ended = [&] {
+      const auto now = Clock::now();
+      if (stops != seen) {
+        seen = stops;
+        next = now + (now - sent);
+      }
+      if (now >= next && !done) {
+        sent = now;
+        next = Clock::time_point::max();
+        pthread_kill(writer, SIGUSR1);
+      }
+      return done.load();
+    };
+    test::wait_until(ended, test::kDeadline, "300 frames, and 300 stops between them");
   });
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 300 || stops < 300; ++i) {
     met->write({1, 0, 0});
     met->read(200'000);
   }
@@ -250,12 +276,14 @@ TEST_F(SpaceMouseRig, IsAPositionDeviceWithALight) {
   say({2, 1, 0, 1, 0, 1, 0});
   say({3, 0x02, 0x00});
   DeviceSample sample;
-  while (sample.buttons == 0 || sample.position_mm.x < 1.0) {
+  const auto moved = [&] {
     sample = device.read(0);
-    ASSERT_EQ(sample.state, DeviceState::ready);
-    ASSERT_TRUE(sample.fresh);
+    EXPECT_EQ(sample.state, DeviceState::ready);
+    EXPECT_TRUE(sample.fresh);
     go_on_saying({1, 0x5E, 0x01, 0, 0, 0, 0});
-  }
+    return sample.buttons != 0 && sample.position_mm.x >= 1.0;
+  };
+  test::wait_until(moved, test::kDeadline, "a button, and 1 mm to the right");
   EXPECT_EQ(sample.buttons, 2u);
   EXPECT_EQ(sample.position_mm.y, 0.0);
   EXPECT_EQ(sample.position_mm.z, 0.0);
@@ -268,19 +296,27 @@ TEST_F(SpaceMouseRig, StandsStillWhenItFallsSilentAndTellsWhenItIsGone) {
   auto opened = open_device("auto");
   ASSERT_TRUE(opened) << text_of(opened.error());
   HapticDevice& device = **opened;
-  while (device.read(0).position_mm.x == 0.0) go_on_saying({1, 0x5E, 0x01, 0, 0, 0, 0});
-  const std::int64_t silent_us = monotonic_us();
-  while (monotonic_us() < silent_us + 250'000) (void)device.read(0);
+  const auto moved = [&] {
+    go_on_saying({1, 0x5E, 0x01, 0, 0, 0, 0});
+    return device.read(0).position_mm.x > 0.0;
+  };
+  test::wait_until(moved, test::kDeadline, "the cap to move the tool");
+  const auto stands = [&] {
+    const double x_mm = device.read(0).position_mm.x;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    return device.read(0).position_mm.x == x_mm;
+  };
+  test::wait_until(stands, test::kDeadline, "the tool to stand still");
   const double x_mm = device.read(0).position_mm.x;
-  const std::int64_t later_us = monotonic_us() + 20'000;
-  while (monotonic_us() < later_us) EXPECT_EQ(device.read(0).position_mm.x, x_mm);
+  EXPECT_LT(x_mm, device.info().half_workspace_mm.x) << "not held up by the end of its way";
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(device.read(0).position_mm.x, x_mm);
   {
     const std::scoped_lock held(gadget_.lock);
     gadget_.gone = true;
     plugged_.pump();
   }
-  while (device.read(0).state == DeviceState::ready) {
-  }
+  test::wait_until([&] { return device.read(0).state != DeviceState::ready; }, test::kDeadline,
+                   "the loss of the device");
   EXPECT_EQ(device.problem().fault, DeviceFault::unplugged);
 }
 

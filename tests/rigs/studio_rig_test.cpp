@@ -3,6 +3,7 @@
 // mouse. arm_under_xvfb.sh is the user; here is the hand at the arm.
 
 #include "../app/run_program.hpp"
+#include "../wait_until.hpp"
 #include "falcon_gadget.hpp"
 #include "live/mapping.hpp"
 #include "testbed.hpp"
@@ -10,15 +11,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <filesystem>
-#include <future>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <sstream>
-#include <thread>
+#include <string>
 #include <vector>
 
 namespace clay::rig {
@@ -86,15 +85,18 @@ class StudioRig : public testing::Test {
     return std::filesystem::exists(folder_.file(what));
   }
   void answer(const char* what) { test::write_text(folder_.file(what), ""); }
-  [[nodiscard]] bool ended() const {
-    return user_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-  }
+  /// The end of the user's script ends the wait too: it says why.
   template <class Condition>
-  void until(Condition condition, bool presses = false) {
-    while (!ended() && !condition()) {
+  void until(Condition condition, const std::string& what, bool presses = false) {
+    const auto done = [&] {
+      if (!user_->running() || condition()) return true;
       if (presses) press();
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
+      return false;
+    };
+    test::wait_until(done, test::kProgramDeadline, what);
+  }
+  void until_asked(const char* what, bool presses = false) {
+    until([&] { return asked(what); }, std::string("the script to ask: ") + what, presses);
   }
 
   /// The last of the guard's states that the window has told.
@@ -127,11 +129,11 @@ class StudioRig : public testing::Test {
   }
 
   void comes_and_throws() {
-    until([&] { return asked("plug"); });
+    until_asked("plug");
     plug();
-    until([&] { return asked("press"); });
+    until_asked("press");
     EXPECT_EQ(felt(0), 0u) << "off the clay";
-    until([&] { return felt(0) > kEnoughFrames; }, true);
+    until([&] { return felt(0) > kEnoughFrames; }, "the hand to feel the clay", true);
     answer("felt");
   }
   /// While the motors push.
@@ -143,13 +145,13 @@ class StudioRig : public testing::Test {
         return true;
       });
     };
-    until([&] { return asked("pull"); }, true);
-    until(pushed, true);
+    until_asked("pull", true);
+    until(pushed, "a frame that pushes", true);
     plugs_.back()->pull();
   }
   /// With its grip where the clay is: no force, however long. Then off it, and in again.
   void comes_back() {
-    until([&] { return asked("again"); });
+    until_asked("again");
     const std::size_t before = frames();
     EXPECT_EQ(before, lost_at_) << "nothing reaches an arm that is gone";
     locked([&] {
@@ -157,14 +159,14 @@ class StudioRig : public testing::Test {
       gadget_.device.model.replug();
     });
     plug();
-    until([&] { return frames() > before; });
+    until([&] { return frames() > before; }, "a frame of the arm that is back");
     answer("opened");
-    until([&] { return frames() > before + 10 * kEnoughFrames; });
+    until([&] { return frames() > before + 10 * kEnoughFrames; }, "frames without force");
     EXPECT_EQ(felt(before), 0u);
     answer("held");
-    until([&] { return asked("away"); });
+    until_asked("away");
     press_to_mm_ = kDeepMm - 5.0;  // past what it made way for
-    until([&] { return felt(before) > kEnoughFrames; }, true);
+    until([&] { return felt(before) > kEnoughFrames; }, "the hand to feel the clay again", true);
     answer("felt_again");
   }
 
@@ -175,19 +177,17 @@ class StudioRig : public testing::Test {
   std::vector<std::unique_ptr<UsbPlug>> plugs_;
   std::size_t lost_at_ = 0;
   double press_to_mm_ = kInClayMm;
-  std::future<test::Ran> user_;
+  std::optional<test::Program> user_;
 };
 
 TEST_F(StudioRig, AnArmComesThrowsIsLostAndComesBackAndTheMouseHasTheClayMeanwhile) {
-  user_ = std::async(std::launch::async, [&] {
-    return test::shell("sh " CLAYSTACK_RIGS "/arm_under_xvfb.sh " CLAYSTACK_PROGRAM " " +
-                       folder_.path().string());
-  });
+  user_.emplace("sh " CLAYSTACK_RIGS "/arm_under_xvfb.sh " CLAYSTACK_PROGRAM " " +
+                folder_.path().string());
   comes_and_throws();
   is_pulled_out();
   lost_at_ = frames();
   comes_back();
-  const auto ran = user_.get();
+  const auto ran = user_->wait();
   ASSERT_EQ(ran.status, 0) << ran.err << ran.out;
   EXPECT_EQ(locked([&] { return gadget_.device.model.motors(); }), LegCounts{}) << "the last word";
   // The packet by which the loss is found out was made before; all that follow it are no force.

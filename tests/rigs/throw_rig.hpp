@@ -3,6 +3,7 @@
 
 #include "../app/run_program.hpp"
 #include "../falcon/dummy_firmware.hpp"
+#include "../wait_until.hpp"
 #include "claystack/engine/atomic_file.hpp"
 #include "claystack/engine/scene_file.hpp"
 #include "claystack/engine/session_file.hpp"
@@ -15,18 +16,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
+#include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace clay::rig {
 
 using namespace clay::falcon;
 using test::claystack;
+using test::Program;
 using test::Ran;
 
 // Frames that the hand stands off the clay: by the end of them most of the force is earned.
@@ -75,34 +77,41 @@ class ThrowRig : public testing::Test {
            " --json --record " + folder_.file("s.session") + " -o " +
            folder_.file("live.pot.json") + " " + more;
   }
-  Ran throw_bowl(const std::string& device, const std::string& more) {
+  Program begin(const std::string& device, const std::string& more) {
     const Backend backend;
-    return claystack(bowl_on(device, more));
+    return Program("exec " CLAYSTACK_PROGRAM " " + bowl_on(device, more));
+  }
+  Ran throw_bowl(const std::string& device, const std::string& more) {
+    return begin(device, more).wait();
   }
 
-  /// Throws until the device has had so many frames, however slow they are, and then asks it to
-  /// stop.
+  /// Waits for what comes of a throw; its end ends the wait too.
+  template <class Condition>
+  static void until(Program& program, Condition condition, const std::string& what) {
+    test::wait_until([&] { return !program.running() || condition(); }, test::kProgramDeadline,
+                     what);
+  }
+  template <class Gadget>
+  static void wait_for_frames(Program& program, Gadget& gadget, std::size_t frames) {
+    const auto full = [&] {
+      const std::scoped_lock held(gadget.lock);
+      return gadget.device.log.size() >= frames;
+    };
+    until(program, full, "frame " + std::to_string(frames) + " of the device");
+  }
+  /// Asks it to stop.
+  static Ran stop(Program& program) {
+    program.send(SIGINT);
+    return program.wait();
+  }
+
+  /// Throws until the device has had so many frames, however slow they are.
   template <class Gadget>
   Ran throw_frames(Gadget& gadget, std::size_t frames, const std::string& device,
                    const std::string& more) {
-    const Backend backend;
-    const std::string enough = folder_.file("enough");
-    std::atomic<bool> ended{false};
-    std::thread counter([&] {
-      for (bool full = false; !full && !ended;
-           std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
-        const std::scoped_lock held(gadget.lock);
-        full = gadget.device.log.size() >= frames;
-      }
-      test::write_text(enough, "");
-    });
-    const auto run = test::shell(std::string(CLAYSTACK_PROGRAM) + " " + bowl_on(device, more) +
-                                 " & program=$!; while [ ! -e " + enough +
-                                 " ] && kill -0 $program; do sleep 0.05; done; "
-                                 "kill -s INT $program; wait $program");
-    ended = true;
-    counter.join();
-    return run;
+    Program program = begin(device, more);
+    wait_for_frames(program, gadget, frames);
+    return stop(program);
   }
 
   /// From nothing: the firmware is loaded and echoed, the grip homed.
@@ -130,6 +139,15 @@ class ThrowRig : public testing::Test {
     return test::read_text(folder_.file("replay.pot.json"));
   }
   std::string thrown() { return test::read_text(folder_.file("live.pot.json")); }
+
+  /// How far from the axis the session has the tool last [mm], as far as it is written.
+  double tool_mm() {
+    std::string path = folder_.file("s.session.recording");  // until it is complete
+    if (!std::filesystem::exists(path)) path = folder_.file("s.session");
+    const auto session = parse_session(test::read_text(path), path);
+    if (!session || session->poses.empty()) return std::numeric_limits<double>::infinity();
+    return session->poses.back().position_mm.x;
+  }
 
   /// Each pose recorded is a place where the hand was: half an encoder's step on each leg.
   void expect_true_places(const std::vector<FrameLog>& log) {

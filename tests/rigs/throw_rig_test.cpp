@@ -88,7 +88,7 @@ TEST_F(ThrowRig, ABridgeUnpluggedInMidStrokeKeepsPotAndSession) {
   model.faults = {{WireFault::unplugged, 1300}};
   BridgeGadget gadget(model, bowl_stroke());
   const Plugged plugged(testbed_.get(), gadget);
-  const auto run = throw_bowl("bridge", "--seconds 60");
+  const auto run = throw_bowl("bridge", "");
   EXPECT_EQ(run.status, 4);
   EXPECT_NE(run.err.find("unplugged; plug it in again"), std::string::npos) << run.err;
   EXPECT_EQ(run.json().at("ended"), "device_lost");
@@ -102,7 +102,7 @@ TEST_F(ThrowRig, UnpluggedInMidStrokeKeepsPotAndSession) {
   model.faults = {{WireFault::unplugged, 1300}};
   FalconGadget gadget(model, bowl_stroke());
   const UsbPlug plug(testbed_.get(), gadget);
-  const auto run = throw_bowl("falcon", "--seconds 60");
+  const auto run = throw_bowl("falcon", "");
   EXPECT_EQ(run.status, 4);
   EXPECT_NE(run.err.find("usb:1-1: unplugged; plug it in again"), std::string::npos) << run.err;
   const auto json = run.json();
@@ -116,24 +116,22 @@ TEST_F(ThrowRig, WaitsForTheDeviceToComeBackWhenAsked) {
   model.faults = {{WireFault::unplugged, 500}};
   FalconGadget gadget(model, bowl_stroke());
   const UsbPlug plug(testbed_.get(), gadget);
-  // Plugged in again half a second after it is gone: a hand that is faster may not be missed. Its
-  // firmware is still there, as with a supply of its own.
-  std::thread hand([&] {
-    const auto gone = [&] {
-      const std::scoped_lock held(gadget.lock);
-      return gadget.device.model.unplugged();
-    };
-    while (!gone()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  Program program = begin("falcon", "--wait");
+  // A hand that is faster may not be missed.
+  until(
+      program, [&] { return program.err().find("waiting for it") != std::string::npos; },
+      "the throw to miss the device");
+  const std::size_t before = [&] {
     const std::scoped_lock held(gadget.lock);
-    gadget.device.model.replug();
-  });
-  const auto run = throw_bowl("falcon", "--wait --seconds 3");
-  hand.join();
+    gadget.device.model.replug();  // its firmware is still there, as with a supply of its own
+    return gadget.device.log.size();
+  }();
+  wait_for_frames(program, gadget, before + 500);
+  const auto run = stop(program);
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_NE(run.err.find("unplugged; plug it in again; waiting for it"), std::string::npos)
       << run.err;
-  EXPECT_EQ(run.json().at("ended"), "time_up");
+  EXPECT_EQ(run.json().at("ended"), "stopped");
   EXPECT_EQ(thrown(), replayed());
 }
 
@@ -142,26 +140,22 @@ TEST_F(ThrowRig, WaitsForTheDeviceToComeBackWhenAsked) {
 TEST_F(ThrowRig, ASpaceMouseMovesTheToolAndFeelsNothing) {
   SpaceMouseGadget gadget;
   Plugged plugged(testbed_.get(), gadget);
-  // A cap held to the left, as long as the program runs.
-  std::atomic<bool> held{true};
-  std::thread hand([&] {
-    for (; held; std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
-      const std::scoped_lock lock(gadget.lock);
+  // A cap held to the left until the tool is in the lump of 49 mm, or has pushed it over.
+  const auto pressed = [&] {
+    {
+      const std::scoped_lock held(gadget.lock);
       if (gadget.reports.empty()) gadget.reports.push_back({1, 0xA2, 0xFE, 0, 0, 0, 0});
       plugged.pump();
     }
-  });
-  const auto run = throw_bowl("spacemouse", "--seconds 2 --height 15");
-  held = false;
-  hand.join();
+    return tool_mm() < 45.0;
+  };
+  Program program = begin("spacemouse", "--height 15");
+  until(program, pressed, "the tool to be in the clay");
+  const auto run = stop(program);
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.json().at("volume_error_quanta"), 0);
   EXPECT_EQ(thrown(), replayed());
-  const std::string path = folder_.file("s.session");
-  const Session session = parse_session(test::read_text(path), path).value();
-  ASSERT_FALSE(session.poses.empty());
-  // Into the lump of 49 mm, until it is pushed over or the time is up.
-  EXPECT_LT(session.poses.back().position_mm.x, 45.0);
+  EXPECT_LT(tool_mm(), 45.0);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
 #include <thread>
 
 namespace clay::studio {
@@ -15,10 +16,13 @@ namespace {
 using namespace std::chrono_literals;
 
 DevicePointer wait_for_device(DeviceWatch& watch) {
-  for (;;) {
-    if (auto device = watch.take()) return device;
-    std::this_thread::sleep_for(1ms);
-  }
+  DevicePointer device;
+  const auto taken = [&] {
+    device = watch.take();
+    return device != nullptr;
+  };
+  test::wait_until(taken, test::kDeadline, "a device that is open");
+  return device;
 }
 
 TEST(DeviceWatch, OpensWhatIsPluggedInLaterAndThenLooksNoMore) {
@@ -65,15 +69,16 @@ TEST(Potter, AnArmOfThreadsThatIsLostLeavesAStrokeAndNoForce) {
   settings.guard.ramp_s = 0.1;
   settings.guard.safe_rest_s = 0.01;  // a busy machine's late ticks are not what is tested here
   potter.take(std::make_unique<live::ScriptedDevice>(wire), settings);
-  const auto frames_until = [&](auto condition) {
-    while (!condition()) {
+  const auto frames_until = [&](auto condition, const std::string& what) {
+    const auto frame = [&] {
       potter.advance(clock.now_ns());
-      std::this_thread::sleep_for(1ms);
-    }
+      return condition();
+    };
+    test::wait_until(frame, test::kDeadline, what);
   };
-  frames_until([&] { return wire.last_n > 0.0 && potter.status().contact; });
+  frames_until([&] { return wire.last_n > 0.0 && potter.status().contact; }, "a force");
   wire.gone = true;
-  frames_until([&] { return !potter.has_device(); });
+  frames_until([&] { return !potter.has_device(); }, "the loss of the device");
   const PotterNews news = potter.take_news();
   EXPECT_TRUE(news.device_lost && news.stroke_ended);
   EXPECT_EQ(news.ending, live::Ending::device_lost);
@@ -87,7 +92,7 @@ TEST(Potter, AnArmOfThreadsThatIsLostLeavesAStrokeAndNoForce) {
   const std::size_t strokes = potter.work().size();
   ASSERT_TRUE(potter.press({potter.scene().tool, 20.0, {60.0, 30.0, 0.0}}));
   potter.aim({{40.0, 30.0, 0.0}});
-  frames_until([&] { return potter.status().contact; });
+  frames_until([&] { return potter.status().contact; }, "the mouse to touch the clay");
   potter.release();
   EXPECT_GT(potter.work().size(), strokes);
   EXPECT_EQ(wire.writes, writes);

@@ -7,7 +7,7 @@ journals() { ls "$folder/state/claystack/recovery"; }
 close_window() {
   xdotool key --window "$window" ctrl+q
   until_line "window closed"
-  wait "$studio" || fail "expected exit status 0"
+  until_ended
 }
 
 throw_the_bowl

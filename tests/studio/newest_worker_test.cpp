@@ -1,5 +1,7 @@
 #include "studio/readings/newest_worker.hpp"
 
+#include "wait_until.hpp"
+
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -8,6 +10,10 @@
 
 namespace clay::studio {
 namespace {
+
+void wait_for(std::binary_semaphore& begun) {
+  test::wait_until([&] { return begun.try_acquire(); }, test::kDeadline, "the work to begin");
+}
 
 TEST(NewestWorker, DropsQuestionsThatANewerOneReplaced) {
   std::binary_semaphore begun(0), go(0);
@@ -23,14 +29,17 @@ TEST(NewestWorker, DropsQuestionsThatANewerOneReplaced) {
       },
       true);
   worker.ask(1);
-  begun.acquire();  // it works on the first; the others come meanwhile
+  wait_for(begun);  // it works on the first; the others come meanwhile
   for (int question = 2; question <= 5; ++question) worker.ask(question);
   EXPECT_TRUE(worker.busy());
   EXPECT_EQ(worker.dropped(), 3u);
   go.release();
   std::optional<int> newest;
-  while (!newest || *newest != 50)
+  const auto answered = [&] {
     if (const auto answer = worker.take()) newest = answer;
+    return newest == 50;
+  };
+  test::wait_until(answered, test::kDeadline, "the answer to the newest question");
   EXPECT_FALSE(worker.busy());
   EXPECT_FALSE(worker.take()) << "each answer once";
   EXPECT_EQ(worked, (std::vector<int>{1, 5}));
@@ -60,13 +69,14 @@ TEST(NewestWorker, WhatIsWorkedOnIsGivenUpForANewerQuestionAndAtTheEnd) {
         },
         true);
     worker.ask(1);
-    begun.acquire();
+    wait_for(begun);
     worker.ask(2);
     std::optional<int> answer;
-    while (!answer) answer = worker.take();
+    const auto answered = [&] { return (answer = worker.take()).has_value(); };
+    test::wait_until(answered, test::kDeadline, "the answer to the newer question");
     EXPECT_EQ(*answer, 2) << "of the first there is none";
     worker.ask(3);
-    begun.acquire();
+    wait_for(begun);
   }
   EXPECT_EQ(worked, 3);
 }
@@ -85,7 +95,7 @@ TEST(NewestWorker, EndsWithoutWorkingOnWhatWaits) {
         },
         true);
     worker.ask(1);
-    begun.acquire();
+    wait_for(begun);
     worker.ask(2);
   }
   EXPECT_LE(worked, 2);

@@ -2,13 +2,12 @@
 // What is plugged in, for the thread of a DeviceWatch.
 
 #include "studio/device_watch.hpp"
+#include "wait_until.hpp"
 
 #include <atomic>
-#include <chrono>
 #include <memory>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <utility>
 
 namespace clay::studio {
@@ -34,10 +33,11 @@ struct Socket {
     device = std::move(arm);
   }
   void wait_until_opened() {
-    for (;; std::this_thread::sleep_for(std::chrono::milliseconds(1))) {
+    const auto opened = [this] {
       const std::lock_guard lock(mutex);
-      if (!device) return;
-    }
+      return !device;
+    };
+    test::wait_until(opened, test::kDeadline, "the watch to open the device");
   }
   void say(const std::string& what) {
     const std::lock_guard lock(mutex);
@@ -45,7 +45,8 @@ struct Socket {
   }
   void wait_for_looks(int more) {
     const int before = looks;
-    while (looks < before + more) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    test::wait_until([&] { return looks >= before + more; }, test::kDeadline,
+                     "the watch to look for a device");
   }
 };
 

@@ -5,13 +5,8 @@ set -u
 . "$(dirname "$0")/under_xvfb_start.sh"
 
 # What the title says: the name, and a star while it is not saved.
-until_title() {
-  for _ in $(seq 100); do
-    [ "$(xdotool getwindowname "$window")" = "$1" ] && return 0
-    sleep 0.1
-  done
-  fail "expected the title $1, found $(xdotool getwindowname "$window")"
-}
+has_title() { [ "$(xdotool getwindowname "$window")" = "$1" ]; }
+until_title() { wait_until "the title $1" has_title "$1"; }
 
 throw_the_bowl
 until_title "*bowl - Claystack"
@@ -54,5 +49,5 @@ xdotool key --window "$window" ctrl+q
 until_line "prompt: quit" 2
 xdotool key --window "$window" ctrl+d
 until_line "window closed"
-wait "$studio" || fail "expected exit status 0"
+until_ended
 cat "$log"

@@ -1,5 +1,5 @@
 # Sourced by scripts: a screen of its own, and the window on it. Sets folder, log, program; waits on
-# the program's log, never on time alone.
+# the program's log, never on time alone, and never without a deadline.
 program=$1
 folder=$2
 export XDG_CONFIG_HOME="$folder/config" XDG_STATE_HOME="$folder/state"
@@ -15,14 +15,29 @@ fail() {
   cat "$log" >&2
   exit 1
 }
-# until_line TEXT [COUNT]: so many lines of the log have it.
-until_line() {
-  for _ in $(seq 600); do
-    [ "$(grep -c -- "$1" "$log")" -ge "${2:-1}" ] && return 0
-    kill -0 "$studio" 2>/dev/null || break
-    sleep 0.1
+# wait_until WHAT COMMAND...: until the command succeeds; after the deadline WHAT is the error.
+deadline_s=120
+wait_until() {
+  what=$1
+  shift
+  end=$(($(date +%s) + deadline_s))
+  until "$@"; do
+    [ "$(date +%s)" -le $end ] || fail "waited $deadline_s s for $what"
+    sleep 0.05
   done
-  [ "$(grep -c -- "$1" "$log")" -ge "${2:-1}" ] || fail "expected a line with: $1"
+}
+has_line() { [ "$(grep -c -- "$1" "$log")" -ge "$2" ]; }
+ended() { ! kill -0 "$studio" 2>/dev/null; }
+# until_line TEXT [COUNT]: so many lines of the log have it.
+has_line_or_ended() { has_line "$@" || ended; }
+until_line() {
+  wait_until "a line with: $1" has_line_or_ended "$1" "${2:-1}"
+  has_line "$1" "${2:-1}" || fail "the window ended without a line with: $1"
+}
+# until_ended: with exit status 0.
+until_ended() {
+  wait_until "the window's end" ended
+  wait "$studio" || fail "expected exit status 0"
 }
 
 # start_window [ARGUMENT...]: in $window, its process in $studio. Looks for no device, but for
@@ -32,8 +47,10 @@ start_window() {
   LD_PRELOAD=$emulation "$program" studio --log --device "${device:-none}" --size 1280x800 "$@" >"$log" 2>&1 &
   studio=$!
   until_line "window open"
-  window=$(xdotool search --sync --onlyvisible --name Claystack | head -1)
-  xdotool windowfocus --sync "$window"
+  window=$(timeout $deadline_s xdotool search --sync --onlyvisible --name Claystack | head -1)
+  [ -n "$window" ] || fail "waited $deadline_s s for the window to be visible"
+  timeout $deadline_s xdotool windowfocus --sync "$window" ||
+    fail "waited $deadline_s s for the window to have the keys"
 }
 
 # throw_a_stroke: from beside the lump into it.
@@ -59,11 +76,8 @@ Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp -noreset 3>"$folder/displa
 server=$!
 studio=
 trap 'kill $studio $server 2>/dev/null' EXIT
-for _ in $(seq 300); do
-  [ -s "$folder/display" ] && break
-  sleep 0.1
-done
-[ -s "$folder/display" ] || fail "Xvfb did not start"
+trap 'exit 1' TERM
+wait_until "the screen of Xvfb" test -s "$folder/display"
 DISPLAY=:$(cat "$folder/display")
 export DISPLAY
 cd "$folder" || exit 1
