@@ -55,9 +55,10 @@ struct Verdict {
 Verdict unsound(std::string what, std::string where);
 
 Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command);
-/// Writes `command.out` where it is named.
-Result<Verdict> check_mesh_file(std::string_view bytes, solid::MeshFormat format,
-                                const CheckCommand& command);
+/// Writes `command.out` where it is named. An error of kind `io`, in advance, for a mesh that takes
+/// more memory than there is.
+Result<Verdict> check_mesh_file(solid::MeshFormat format, const CheckCommand& command,
+                                const Console& console);
 
 Json verdict_json(const std::string& file, const Verdict& verdict);
 void tell(const Console& console, const std::string& file, const Verdict& verdict);

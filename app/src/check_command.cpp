@@ -30,16 +30,17 @@ Result<void> check_usage(const CheckCommand& command) {
   return check_distinct({command.out}, {command.file, command.certificate});
 }
 
-Result<Verdict> check_file(const CheckCommand& command) {
+Result<Verdict> check_file(const CheckCommand& command, const Console& console) {
   if (auto usage = check_usage(command); !usage) return tl::make_unexpected(usage.error());
-  const auto bytes = read_file(command.file);
-  if (!bytes) return tl::make_unexpected(bytes.error());
-  if (is_pot(command.file)) return check_pot(*bytes, command);
+  if (is_pot(command.file))
+    return read_file(command.file).and_then([&](const std::string& bytes) {
+      return check_pot(bytes, command);
+    });
   const auto format = solid::mesh_format_of(command.file);
   if (!format)
     return failure(ErrorKind::bad_input,
                    format.error().message + ", or a pot: .pot.json, .pot.cbor");
-  return check_mesh_file(*bytes, *format, command);
+  return check_mesh_file(*format, command, console);
 }
 
 std::string what_failed(ErrorKind kind) {
@@ -57,7 +58,7 @@ std::string what_failed(ErrorKind kind) {
 
 int check(CheckCommand& command, const Console& console) {
   if (auto loaded = command.walls.load(); !loaded) return report(loaded.error());
-  const auto verdict = check_file(command);
+  const auto verdict = check_file(command, console);
   if (!verdict) {
     const Error& error = verdict.error();
     if (console.json)

@@ -1,7 +1,9 @@
 #include "check.hpp"
+#include "memory_room.hpp"
 #include "thin_walls.hpp"
 
 #include "claystack/engine/atomic_file.hpp"
+#include "claystack/engine/file_reader.hpp"
 #include "claystack/export/decimate.hpp"
 #include "claystack/export/drc_claims.hpp"
 
@@ -18,9 +20,47 @@ using solid::MeshFormat;
 using solid::SolidCertificate;
 using solid::TriangleMesh;
 
+/// Nothing where there is room for what check_mesh takes.
+Result<void> expect_memory(std::string_view triangles, std::uint64_t bytes,
+                           const MemoryRoom& room) {
+  if (bytes <= room.bytes) return {};
+  return failure(ErrorKind::io,
+                 fmt::format("checking {} triangles {}", triangles, needs_text(bytes, room)));
+}
+
+/// The mesh of a file, of which a little at a time is in memory.
+Result<TriangleMesh> read_mesh(FileReader& file, MeshFormat format, const std::string& name) {
+  const solid::ByteSource source{
+      [&](std::span<char> part) { return file.read(part); }, *file.size(),
+      [&](std::uint64_t triangles) {
+        return expect_memory(fmt::format("about {}", triangles), solid::check_memory(triangles),
+                             memory_room())
+            .map_error([&](const Error& e) {
+              return Error{e.kind, name + ": " + e.message};
+            });
+      }};
+  return format == MeshFormat::obj ? solid::read_obj(source, name) : solid::read_stl(source, name);
+}
+
+Result<solid::MeshReport> checked(const TriangleMesh& mesh) {
+  const std::string triangles = std::to_string(mesh.triangles.size());
+  const std::uint64_t bytes = solid::check_memory(mesh.triangles.size());
+  const MemoryRoom room = memory_room();
+  if (auto fits = expect_memory(triangles, bytes, room); !fits)
+    return tl::make_unexpected(fits.error());
+  solid::MeshReport report = solid::check_mesh(mesh);
+  // The estimate was too low for this mesh.
+  if (report.out_of_memory)
+    return failure(ErrorKind::io, fmt::format("not enough memory: checking {} triangles {}",
+                                              triangles, needs_text(bytes, room)));
+  return report;
+}
+
 /// Repairs and decimates as asked.
 Result<TriangleMesh> mended(TriangleMesh mesh, const CheckCommand& command, Mending& mending) {
-  mending.found = solid::check_mesh(mesh).problems;
+  auto found = checked(mesh);
+  if (!found) return tl::make_unexpected(found.error());
+  mending.found = std::move(found->problems);
   if (command.repair && !mending.found.empty()) {
     auto repaired = solid::repair(mesh);
     if (!repaired) return tl::make_unexpected(repaired.error());
@@ -75,17 +115,26 @@ double size_sum_mm(const TriangleMesh& mesh) {
   return size.x + size.y + size.z;
 }
 
-void measure_wall(const TriangleMesh& mesh, const WallDemand& demand, const CheckCommand& command,
-                  Verdict& verdict) {
+Result<void> measure_wall(const TriangleMesh& mesh, const WallDemand& demand,
+                          const CheckCommand& command, const Console& console, Verdict& verdict) {
   const auto problem = [&](std::string what, std::string where) {
     verdict.mesh.problems.push_back({std::move(what), std::move(where), 1});
   };
-  const auto wall = solid::sampled_wall(mesh, command.wall_samples);
+  Progress progress(console, "walls", command.wall_samples);
+  const auto wall =
+      solid::sampled_wall(mesh, command.wall_samples, solid::most_wall_steps(command.wall_samples),
+                          [&](std::size_t rays) { progress.update(rays); });
+  if (!wall && wall.error().kind == ErrorKind::io)
+    return failure(ErrorKind::io, command.file + ": " + wall.error().message);
   if (!wall) {
     problem("wall not measured", wall.error().message);
-    return;
+    return {};
   }
   verdict.wall_sampled = *wall;
+  if (wall->rays < command.wall_samples)
+    verdict.notes.push_back(fmt::format(
+        "walls sampled by {} rays only, {} were asked for: too many triangles lie about each ray",
+        wall->rays, command.wall_samples));
   if (std::isinf(wall->least_mm))
     problem("wall not measured",
             fmt::format("none of {} rays met the other side of a wall", wall->rays));
@@ -97,6 +146,7 @@ void measure_wall(const TriangleMesh& mesh, const WallDemand& demand, const Chec
                         "at least ({})",
                         wall->triangle, wall->place.x, wall->place.y, wall->place.z, wall->least_mm,
                         demand.min_wall_mm, demand.source));
+  return {};
 }
 
 Result<TriangleMesh> mend_and_write(TriangleMesh mesh, const CheckCommand& command,
@@ -152,16 +202,23 @@ void verify(std::string_view bytes, MeshFormat format, const CheckCommand& comma
 
 }  // namespace
 
-Result<Verdict> check_mesh_file(std::string_view bytes, MeshFormat format,
-                                const CheckCommand& command) {
+Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
+                                const Console& console) {
+  auto file = FileReader::open(command.file);
+  if (!file) return tl::make_unexpected(file.error());
   auto certificate = read_certificate(command);
   if (!certificate) return tl::make_unexpected(certificate.error());
   Verdict verdict;
   verdict.certificate = std::move(*certificate);
-  auto mesh = solid::decode_mesh(bytes, format, command.file);
+  // Certificates and Draco files speak of all bytes, and a pipe does not tell how many come.
+  const bool whole = verdict.certificate || format == MeshFormat::drc || !file->size();
+  const auto bytes = whole ? read_file(command.file) : std::string();
+  if (!bytes) return tl::make_unexpected(bytes.error());
+  auto mesh = whole ? solid::decode_mesh(*bytes, format, command.file)
+                    : read_mesh(*file, format, command.file);
   if (!mesh && verdict.certificate) {
     // Whatever has become of the file, it is not what the certificate speaks of.
-    verify(bytes, format, command, verdict);
+    verify(*bytes, format, command, verdict);
     verdict.examined = false;
     return verdict;
   }
@@ -170,15 +227,18 @@ Result<Verdict> check_mesh_file(std::string_view bytes, MeshFormat format,
     mesh = mend_and_write(std::move(*mesh), command, verdict.mending.emplace());
     if (!mesh) return failure(mesh.error().kind, command.file + ": " + mesh.error().message);
   }
-  verdict.mesh = solid::check_mesh(*mesh);
+  auto report = checked(*mesh);
+  if (!report) return failure(report.error().kind, command.file + ": " + report.error().message);
+  verdict.mesh = std::move(*report);
   if (verdict.mesh.cavities > 0)
     verdict.notes.push_back(
         fmt::format("{} closed cavities, {:.4g} cm3 trapped: they need drain holes",
                     verdict.mesh.cavities, verdict.mesh.trapped_mm3 / 1000.0));
-  if (format == MeshFormat::drc && !command.mends()) check_claims(bytes, *mesh, verdict);
+  if (format == MeshFormat::drc && !command.mends()) check_claims(*bytes, *mesh, verdict);
   if (const auto demand = command.walls.for_size(size_sum_mm(*mesh)))
-    measure_wall(*mesh, *demand, command, verdict);
-  if (verdict.certificate) verify(bytes, format, command, verdict);
+    if (auto done = measure_wall(*mesh, *demand, command, console, verdict); !done)
+      return tl::make_unexpected(done.error());
+  if (verdict.certificate) verify(*bytes, format, command, verdict);
   return verdict;
 }
 

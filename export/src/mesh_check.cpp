@@ -11,6 +11,7 @@
 #include <cmath>
 #include <exception>
 #include <glm/geometric.hpp>
+#include <new>
 #include <string>
 #include <string_view>
 
@@ -137,7 +138,7 @@ class Inspection {
       report_.bounds_volume = true;
       return volume.mm3 > 0.0;
     }
-    const ShellGeometry geometry = shell_geometry(mesh_);
+    const ShellGeometry geometry = shell_geometry(mesh_, topology);
     report_.bounds_volume = geometry.bounds_volume;
     problem("shell turned against its neighbours", geometry.misplaced_shells);
     if (geometry.bounds_volume && geometry.outward && topology.components > 1)
@@ -176,6 +177,7 @@ MeshReport check_mesh(const TriangleMesh& mesh) {
     // A library gave up, or memory did: what has not been checked is not sound.
     MeshReport report;
     report.triangles = mesh.triangles.size();
+    report.out_of_memory = dynamic_cast<const std::bad_alloc*>(&e) != nullptr;
     report.problems.push_back({"check abandoned", e.what(), 1});
     return report;
   }

@@ -24,6 +24,27 @@ Result<void> check_file_size(std::string_view bytes, std::string_view name) {
                             std::to_string(bytes.size()));
 }
 
+Result<void> check_text_size(const ByteSource& source, std::size_t usual_bytes,
+                             std::string_view name) {
+  const std::uint64_t triangles = source.size / usual_bytes;
+  if (source.size > kMaxTextBytes)
+    return bad_file(name, "expected at most " + std::to_string(kMaxTriangles) +
+                              " triangles, found about " + std::to_string(triangles / 1'000'000) +
+                              " million, by the file's size of " + std::to_string(source.size) +
+                              " bytes");
+  return source.announce ? source.announce(triangles) : Result<void>();
+}
+
+ByteSource source_of(std::string_view bytes) {
+  return {[left = bytes](std::span<char> part) mutable -> Result<std::size_t> {
+            const std::size_t count = left.copy(part.data(), part.size());
+            left.remove_prefix(count);
+            return count;
+          },
+          bytes.size(),
+          {}};
+}
+
 Result<void> check_facet_count(std::size_t facets, std::string_view name) {
   if (facets > 0 && facets <= kMaxTriangles) return {};
   return bad_file(name, "expected 1 to " + std::to_string(kMaxTriangles) + " triangles, found " +

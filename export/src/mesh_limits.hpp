@@ -2,12 +2,14 @@
 // What a mesh file may hold at most: every reader checks before it allocates.
 
 #include "claystack/engine/result.hpp"
+#include "claystack/export/mesh_formats.hpp"
 #include "claystack/export/triangle_mesh.hpp"
 
 #include <cmath>
 #include <cstddef>
 #include <exception>
 #include <glm/vec3.hpp>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,10 +37,19 @@ inline constexpr std::string_view kCoordinateRule = "a coordinate within +-1e6 m
 /// No facets at all are refused too.
 [[nodiscard]] Result<void> check_facet_count(std::size_t facets, std::string_view name);
 
+/// A text file that is too large to be read, told by how many triangles it has at a guess.
+[[nodiscard]] Result<void> check_text_size(const ByteSource& source, std::size_t usual_bytes,
+                                           std::string_view name);
+
+/// The bytes of a file that is in memory. They outlive the source.
+[[nodiscard]] ByteSource source_of(std::string_view bytes);
+
 /// What `read` returns; what it throws (memory that is not to be had, Draco's own) as an error.
 template <class Read>
 [[nodiscard]] auto guarded(std::string_view name, const Read& read) -> decltype(read()) try {
   return read();
+} catch (const std::bad_alloc&) {
+  return failure(ErrorKind::io, std::string(name).append(": not enough memory to read it"));
 } catch (const std::exception& error) {
   return bad_file(name, std::string("cannot be read: ").append(error.what()));
 }

@@ -1,3 +1,4 @@
+#include "byte_stream.hpp"
 #include "cancel.hpp"
 #include "claystack/export/mesh_formats.hpp"
 #include "file_floats.hpp"
@@ -13,6 +14,8 @@ namespace clay::solid {
 namespace {
 
 constexpr std::size_t kMaxFaceCorners = 4096;
+constexpr std::size_t kUsualPointBytes = 36;
+constexpr std::size_t kUsualTriangleBytes = 26;
 
 /// The vertices of one kind (v, vt or vn). A face may name one that a later line defines,
 /// so the highest number used is judged at the end of the file.
@@ -43,7 +46,7 @@ CornerWords split_corner(std::string_view word) {
 
 class ObjReader {
  public:
-  ObjReader(std::string_view text, std::string_view name)
+  ObjReader(ByteStream& text, std::string_view name)
       : scanner_(text, name, LineRule::backslash_continues), name_(name) {}
 
   Result<TriangleMesh> read() {
@@ -166,8 +169,6 @@ class ObjReader {
 }  // namespace
 
 std::string encode_obj(const TriangleMesh& mesh, std::string_view object_name) {
-  constexpr std::size_t kUsualPointBytes = 36;
-  constexpr std::size_t kUsualTriangleBytes = 26;
   std::string text;
   text.reserve(kUsualPointBytes * mesh.points.size() + kUsualTriangleBytes * mesh.triangles.size() +
                512);
@@ -188,10 +189,19 @@ std::string encode_obj(const TriangleMesh& mesh, std::string_view object_name) {
   return text;
 }
 
-Result<TriangleMesh> decode_obj(std::string_view bytes, std::string_view name) {
+Result<TriangleMesh> read_obj(const ByteSource& source, std::string_view name) {
+  // A closed mesh has half as many points as triangles.
+  constexpr std::size_t kUsualBytes = kUsualTriangleBytes + kUsualPointBytes / 2;
   return guarded(name, [&] {
-    return check_file_size(bytes, name).and_then([&] { return ObjReader(bytes, name).read(); });
+    return check_text_size(source, kUsualBytes, name).and_then([&] {
+      ByteStream stream(source);
+      return ObjReader(stream, name).read();
+    });
   });
+}
+
+Result<TriangleMesh> decode_obj(std::string_view bytes, std::string_view name) {
+  return check_file_size(bytes, name).and_then([&] { return read_obj(source_of(bytes), name); });
 }
 
 }  // namespace clay::solid

@@ -1,3 +1,4 @@
+#include "byte_stream.hpp"
 #include "cancel.hpp"
 #include "claystack/export/mesh_formats.hpp"
 #include "file_floats.hpp"
@@ -10,6 +11,8 @@
 
 namespace clay::solid {
 namespace {
+
+constexpr std::size_t kUsualTextFacetBytes = 260;
 
 using stl::Corners;
 using stl::kFacetBytes;
@@ -32,7 +35,7 @@ TriangleMesh mesh_with_room_for(std::size_t facets) {
 
 class StlTextReader {
  public:
-  StlTextReader(std::string_view text, std::string_view name)
+  StlTextReader(ByteStream& text, std::string_view name)
       : scanner_(text, name, LineRule::plain), name_(name) {}
 
   Result<TriangleMesh> read() {
@@ -90,14 +93,23 @@ class StlTextReader {
   VertexWelder welder_{mesh_.points, 0};
 };
 
-Result<TriangleMesh> decode_binary(std::string_view bytes, std::size_t facets,
-                                   std::string_view name) {
-  if (auto fits = check_facet_count(facets, name); !fits) return tl::make_unexpected(fits.error());
+tl::unexpected<Error> wrong_size(std::uint64_t bytes, std::uint64_t facets, std::string_view name) {
+  return bad_file(name, "expected " + std::to_string(stl::file_bytes(facets)) +
+                            " bytes of binary STL for the " + std::to_string(facets) +
+                            " facets it counts, found " + std::to_string(bytes) + " bytes");
+}
+
+/// From behind the prologue.
+Result<TriangleMesh> read_facets(ByteStream& stream, std::size_t facets, std::string_view name) {
   TriangleMesh mesh = mesh_with_room_for(facets);
   VertexWelder welder(mesh.points, facets);
   for (std::size_t facet = 0; facet < facets; ++facet) {
     step_of_loop();
-    const char* const at = bytes.data() + stl::file_bytes(facet);
+    if (!stream.fill(kFacetBytes)) {
+      if (stream.fault()) return tl::make_unexpected(*stream.fault());
+      return wrong_size(stl::file_bytes(facet) + stream.ahead().size(), facets, name);
+    }
+    const char* const at = stream.ahead().data();
     auto& triangle = mesh.triangles.emplace_back();
     for (std::size_t i = 0; i < 3; ++i) {
       const glm::vec3 corner = stl::load_point(at + kPointBytes * (i + 1));
@@ -106,8 +118,17 @@ Result<TriangleMesh> decode_binary(std::string_view bytes, std::size_t facets,
       }
       triangle[i] = welder.index_of(corner);
     }
+    stream.take(kFacetBytes);
   }
   return mesh;
+}
+
+Result<TriangleMesh> read_binary(const ByteSource& source, ByteStream& stream, std::size_t facets,
+                                 std::string_view name) {
+  stream.take(kPrologueBytes);
+  return check_facet_count(facets, name)
+      .and_then([&] { return source.announce ? source.announce(facets) : Result<void>(); })
+      .and_then([&] { return read_facets(stream, facets, name); });
 }
 
 bool begins_with_solid(std::string_view bytes) {
@@ -115,24 +136,22 @@ bool begins_with_solid(std::string_view bytes) {
   return equal_ignoring_case(bytes.substr(begin, 5), "solid");
 }
 
-tl::unexpected<Error> wrong_size(std::string_view bytes, std::string_view name) {
-  const std::string found = ", found " + std::to_string(bytes.size()) + " bytes";
-  if (bytes.size() < kPrologueBytes) {
-    return bad_file(name, "expected an STL file: the word solid, or at least 84 bytes" + found);
-  }
-  const std::size_t facets = load_u32(bytes.data() + kHeaderBytes);
-  return bad_file(name, "expected " + std::to_string(stl::file_bytes(facets)) +
-                            " bytes of binary STL for the " + std::to_string(facets) +
-                            " facets it counts" + found);
-}
-
-Result<TriangleMesh> decode_either(std::string_view bytes, std::string_view name) {
-  if (bytes.size() >= kPrologueBytes) {
-    const std::size_t facets = load_u32(bytes.data() + kHeaderBytes);
-    if (bytes.size() == stl::file_bytes(facets)) return decode_binary(bytes, facets, name);
-  }
-  if (!begins_with_solid(bytes)) return wrong_size(bytes, name);
-  return StlTextReader(bytes, name).read();
+Result<TriangleMesh> read_either(const ByteSource& source, std::string_view name) {
+  ByteStream stream(source);
+  stream.fill(ByteStream::kStretch);
+  if (stream.fault()) return tl::make_unexpected(*stream.fault());
+  const std::string_view head = stream.ahead();
+  if (head.size() < kPrologueBytes && !begins_with_solid(head))
+    return bad_file(name, "expected an STL file: the word solid, or at least 84 bytes, found " +
+                              std::to_string(head.size()) + " bytes");
+  const std::size_t facets =
+      head.size() < kPrologueBytes ? 0 : load_u32(head.data() + kHeaderBytes);
+  if (head.size() >= kPrologueBytes && source.size == stl::file_bytes(facets))
+    return read_binary(source, stream, facets, name);
+  if (!begins_with_solid(head)) return wrong_size(source.size, facets, name);
+  return check_text_size(source, kUsualTextFacetBytes, name).and_then([&] {
+    return StlTextReader(stream, name).read();
+  });
 }
 
 }  // namespace
@@ -150,11 +169,10 @@ std::string encode_stl_binary(const TriangleMesh& mesh) {
 }
 
 std::string encode_stl_ascii(const TriangleMesh& mesh, std::string_view solid_name) {
-  constexpr std::size_t kUsualFacetBytes = 260;
   const std::vector<glm::vec3> points = file_points(mesh.points);
   const std::string solid = "solid " + one_line(solid_name) + '\n';
   std::string text;
-  text.reserve(2 * solid.size() + kUsualFacetBytes * mesh.triangles.size());
+  text.reserve(2 * solid.size() + kUsualTextFacetBytes * mesh.triangles.size());
   text += solid;
   for (const auto& triangle : mesh.triangles) {
     const Corners corners = corners_of(triangle, points);
@@ -166,10 +184,12 @@ std::string encode_stl_ascii(const TriangleMesh& mesh, std::string_view solid_na
   return text.append("end").append(solid);
 }
 
+Result<TriangleMesh> read_stl(const ByteSource& source, std::string_view name) {
+  return guarded(name, [&] { return read_either(source, name); });
+}
+
 Result<TriangleMesh> decode_stl(std::string_view bytes, std::string_view name) {
-  return guarded(name, [&] {
-    return check_file_size(bytes, name).and_then([&] { return decode_either(bytes, name); });
-  });
+  return check_file_size(bytes, name).and_then([&] { return read_stl(source_of(bytes), name); });
 }
 
 }  // namespace clay::solid

@@ -56,14 +56,30 @@ bool equal_ignoring_case(std::string_view word, std::string_view lower) noexcept
                     [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
 }
 
-TextScanner::TextScanner(std::string_view text, std::string_view name, LineRule rule)
-    : text_(text), name_(name), rule_(rule) {
-  check_lines();
+TextScanner::TextScanner(ByteStream& text, std::string_view name, LineRule rule)
+    : stream_(text), name_(name), rule_(rule) {
+  if (next_lines()) check_lines(line_);
 }
 
-void TextScanner::check_lines() {
+/// False where there are none, and `text_` is empty then.
+bool TextScanner::next_lines() {
+  if (fault_) return false;
+  stream_.take(text_.size());
+  const bool more = stream_.fill(ByteStream::kStretch);
+  text_ = stream_.ahead();
+  at_ = 0;
+  if (stream_.fault()) {
+    fault_ = stream_.fault();
+    text_ = {};
+  }
+  // What begins too long a line is kept: it will be found to be one.
+  if (const std::size_t end = text_.rfind('\n'); more && end != text_.npos)
+    text_ = text_.substr(0, end + 1);
+  return !text_.empty();
+}
+
+void TextScanner::check_lines(std::size_t line) {
   const std::size_t nul = text_.find('\0');
-  std::size_t line = 1;
   for (std::size_t begin = 0; begin < text_.size(); ++line) {
     step_of_loop();
     const std::size_t end = std::min(text_.find('\n', begin), text_.size());
@@ -107,6 +123,7 @@ void TextScanner::skip_blanks() {
     } else if (const std::size_t joint = continuation_length(); joint > 0) {
       at_ += joint;
       ++line_;
+      if (at_ == text_.size() && next_lines()) check_lines(line_);
     } else {
       return;
     }
@@ -116,7 +133,11 @@ void TextScanner::skip_blanks() {
 /// To the line below, if there is one: the last line keeps its number for messages.
 void TextScanner::leave_line(std::size_t newline) {
   at_ = std::min(newline + 1, text_.size());
-  if (at_ < text_.size()) ++line_;
+  if (at_ < text_.size()) {
+    ++line_;
+  } else if (next_lines()) {
+    check_lines(++line_);
+  }
 }
 
 std::size_t TextScanner::continuation_length() const noexcept {

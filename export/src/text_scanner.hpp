@@ -3,6 +3,8 @@
 // input stream: after it every read is empty, so that a grammar can be written down straight
 // and asked once at its end whether it held.
 
+#include "byte_stream.hpp"
+
 #include "claystack/engine/result.hpp"
 
 #include <cstddef>
@@ -16,10 +18,12 @@ enum class LineRule { plain, backslash_continues };
 
 class TextScanner {
  public:
-  /// Faults at once on a NUL byte or a line of more than 64 KiB. Keeps views of both texts.
-  TextScanner(std::string_view text, std::string_view name, LineRule rule);
+  /// Faults on a NUL byte or a line of more than 64 KiB, up to a megabyte before it is there.
+  /// The stream and the name outlive this.
+  TextScanner(ByteStream& text, std::string_view name, LineRule rule);
 
-  /// The next word on this line or a later one; empty at the end of the text.
+  /// The next word on this line or a later one; empty at the end of the text. A word is gone when
+  /// the next is asked for.
   std::string_view word();
   /// The next word on this line; empty at its end.
   std::string_view word_in_line();
@@ -42,12 +46,14 @@ class TextScanner {
   [[nodiscard]] std::size_t line() const noexcept { return line_; }
 
  private:
-  void check_lines();
+  bool next_lines();
+  void check_lines(std::size_t line);
   void skip_blanks();
   void leave_line(std::size_t newline);
   [[nodiscard]] std::size_t continuation_length() const noexcept;
 
-  std::string_view text_;
+  ByteStream& stream_;
+  std::string_view text_;  ///< whole lines, as many as are in memory
   std::string_view name_;
   LineRule rule_;
   std::size_t at_ = 0;

@@ -141,6 +141,39 @@ TEST(SampledWall, PassesItsOwnCoplanarNeighbours) {
   EXPECT_EQ(wall.escaped, 0u);
 }
 
+TEST(SampledWall, FollowsFewerRaysWhereTheyTakeTooLong) {
+  const TriangleMesh mesh = cup(40.0, 2.5, 60.0, 6.0);
+  std::size_t told = 0;
+  const auto half = sampled_wall(mesh, 10'000, 400'000, [&](std::size_t rays) {
+                      EXPECT_GT(rays, told);
+                      told = rays;
+                    }).value();
+  EXPECT_GT(half.rays, 1'000u);
+  EXPECT_LT(half.rays, 9'000u);
+  EXPECT_EQ(told, 10'000u);
+  // Those that are left lie on all of the surface, and see as thin a wall.
+  EXPECT_NEAR(half.least_mm, 2.5 * facet_scale(kSegments), 1e-9);
+  const SampledWall all = wall_of(mesh);
+  EXPECT_EQ(all.rays, 10'000u);
+  EXPECT_NEAR(static_cast<double>(half.oblique) / static_cast<double>(half.rays),
+              static_cast<double>(all.oblique) / 10'000.0, 0.05);
+}
+
+TEST(SampledWall, OfASoupTakesNoMoreStepsThanAreAllowed) {
+  // Every ray comes past nearly all of these.
+  TriangleMesh soup;
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    const auto at = [&](double k) {
+      const double t = k + 0.001 * i;
+      return glm::dvec3(50.0 * std::sin(7.0 * t), 50.0 * std::sin(11.0 * t), 50.0 * std::cos(t));
+    };
+    soup.points.insert(soup.points.end(), {at(0.0), at(1.0), at(2.0)});
+    soup.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const auto wall = sampled_wall(soup, 1'000, 100'000).value();
+  EXPECT_LT(wall.rays, 100u);
+}
+
 TEST(SampledWall, IsTheSameEveryTime) {
   const TriangleMesh mesh = cup(40.0, 2.5, 60.0, 6.0);
   const SampledWall once = wall_of(mesh), again = wall_of(mesh);

@@ -4,6 +4,7 @@
 #include "claystack/export/triangle_mesh.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct MeshReport {
   std::size_t degenerate = 0;  ///< triangles of no area
   std::size_t triangles = 0;
   double volume_mm3 = 0.0;
+  bool out_of_memory = false;  ///< the check was abandoned for that, which is no fault of the mesh
   std::vector<MeshProblem> problems;
 
   [[nodiscard]] bool sound() const noexcept { return problems.empty(); }
@@ -38,10 +40,15 @@ struct MeshReport {
 
 /// Combinatorics by our own count over the indices; crossings by CGAL's exact predicates on the
 /// pairs that a sieve leaves, in parts that all cores share (the report does not depend on how many
-/// there are); how several shells lie by CGAL's Polygon Mesh Processing on an OpenMesh mesh.
+/// there are); how several shells lie by one ray from the top of each, with exact predicates too.
 /// `check_bench 20000000 1 1` prints time and peak memory of the largest mesh, `check_bench fans`
 /// the time that vertices of many triangles take.
 /// An inward shell (a closed cavity) is sound when it lies inside an outward one.
 MeshReport check_mesh(const TriangleMesh& mesh);
+
+/// About how much memory [bytes] check_mesh takes beside the mesh of so many triangles.
+[[nodiscard]] constexpr std::uint64_t check_memory(std::size_t triangles) noexcept {
+  return std::uint64_t{100} * triangles;
+}
 
 }  // namespace clay::solid

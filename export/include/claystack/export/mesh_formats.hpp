@@ -7,7 +7,10 @@
 #include "claystack/export/triangle_mesh.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -58,6 +61,24 @@ Result<std::string> encode_drc(const TriangleMesh& mesh, const DracoSettings& se
 /// `bad_input`, and `name` begins each: "NAME: facet 12: ...", "NAME:34: ..."; facets, faces
 /// and lines count from 1.
 Result<TriangleMesh> decode_mesh(std::string_view bytes, MeshFormat format, std::string_view name);
+
+/// A file that is read from front to back.
+struct ByteSource {
+  /// Fills the span from its begin with the bytes that follow; returns how many, 0 at the end.
+  std::function<Result<std::size_t>(std::span<char>)> read;
+  std::uint64_t size = 0;  ///< of the whole file
+  /// May be empty. Told about how many triangles there are, by the file's size, before memory is
+  /// taken for them; an error of its ends the reading.
+  std::function<Result<void>(std::uint64_t triangles)> announce;
+};
+
+/// More than 20 million triangles take as text, but for odd ones.
+inline constexpr std::uint64_t kMaxTextBytes = std::uint64_t{8} << 30;
+
+/// An STL or OBJ file as `decode_stl` and `decode_obj` read it, but only a megabyte or two of it
+/// are in memory at a time, and text may take kMaxTextBytes. What the source reports is passed on.
+Result<TriangleMesh> read_stl(const ByteSource& source, std::string_view name);
+Result<TriangleMesh> read_obj(const ByteSource& source, std::string_view name);
 
 /// A file of exactly the size that its count asks for is binary, whatever its first word;
 /// anything else must be text, whole from "solid" to "endsolid". The solids of a text file make

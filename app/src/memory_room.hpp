@@ -1,0 +1,21 @@
+#pragma once
+// How much memory this process may still take, asked before large work is begun.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace clay::app {
+
+struct MemoryRoom {
+  std::uint64_t bytes = UINT64_MAX;
+  std::string_view limit = "any limit";  ///< what sets it
+};
+
+/// The least of what `ulimit -v` leaves and what the machine has to give.
+[[nodiscard]] MemoryRoom memory_room();
+
+/// "takes about 2.4 GB of memory; 1.1 GB are left under LIMIT".
+[[nodiscard]] std::string needs_text(std::uint64_t bytes, const MemoryRoom& room);
+
+}  // namespace clay::app
