@@ -67,7 +67,8 @@ class StandardStreams : public testing::Test {
 #endif
 #ifdef CLAYSTACK_USB
         {"devices --help", 0, true},
-        {"devices --device /dev/hidraw99", 4, false},
+        {"devices simulated --monitor --seconds 0.3", 0, true},
+        {"devices /dev/hidraw99", 4, false},
 #endif
         {"export " + pot_ + " " + out + ".stl", 0, true},
         {"export -q " + pot_ + " " + out + ".stl", 0, false},
@@ -118,6 +119,14 @@ TEST_F(StandardStreams, AClosedOneNeverEndsUpInAFile) {
   EXPECT_EQ(read_text(pot), read_text(pot_));
   EXPECT_EQ(read_text(trace).find("claystack"), std::string::npos);
 }
+
+#ifdef CLAYSTACK_USB
+TEST_F(StandardStreams, NobodyMonitorsWhatCannotBeShown) {
+  const auto run =
+      shell("timeout -s KILL 60 " CLAYSTACK_PROGRAM " devices simulated --monitor >/dev/full");
+  EXPECT_EQ(run.status, 3) << run.err;
+}
+#endif
 
 /// Runs claystack under a limit of the shell's. What it says goes through a pipe, as the limit may
 /// be one on files.
