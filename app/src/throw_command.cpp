@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
 
@@ -67,13 +68,36 @@ void tell(const Console& console, const Json& s) {
   tell_collapse(console, s);
 }
 
-std::string trace_csv(const std::vector<TraceRow>& rows) {
-  std::string csv = "time_s,volume_error_percent,top_ring_percent,height_mm,force_n\n";
-  for (const TraceRow& r : rows)
-    csv += fmt::format("{:.6f},{:.6g},{:.6g},{:.6g},{:.6g}\n", r.time_s, r.volume_error_percent,
-                       r.top_ring_percent, r.height_mm, r.force_n);
-  return csv;
-}
+/// CSV that is written while the rows come.
+class TraceFile {
+ public:
+  static Result<TraceFile> create(const std::string& path) {
+    return AtomicFile::create(path).map(
+        [](AtomicFile&& file) { return TraceFile(std::move(file)); });
+  }
+  void add(const TraceRow& r) {
+    fmt::format_to(std::back_inserter(text_), "{:.6f},{:.6g},{:.6g},{:.6g},{:.6g}\n", r.time_s,
+                   r.volume_error_percent, r.top_ring_percent, r.height_mm, r.force_n);
+    if (text_.size() >= kBuffered) hand_on();
+  }
+  Result<void> commit() {
+    hand_on();
+    return written_.and_then([&] { return file_.commit(); });
+  }
+
+ private:
+  static constexpr std::size_t kBuffered = std::size_t{1} << 16;
+  explicit TraceFile(AtomicFile file) : file_(std::move(file)) {}
+  /// The first error is told by commit.
+  void hand_on() {
+    if (written_) written_ = file_.write(text_);
+    text_.clear();
+  }
+
+  AtomicFile file_;
+  Result<void> written_;
+  std::string text_ = "time_s,volume_error_percent,top_ring_percent,height_mm,force_n\n";
+};
 
 void warn_of_oddities(const Console& console, const Session& session, const SceneSpec& scene,
                       const ThrowOptions& options) {
@@ -100,6 +124,16 @@ Result<void> check_gaps(const Session& session, const SceneSpec& scene,
   return {};
 }
 
+ReplayStats play(Wheel& wheel, const Session& session, TraceFile* trace, const Console& console) {
+  Progress progress(console, "throwing", session.poses.size());
+  ReplayOptions options;
+  if (trace != nullptr) options.trace = [trace](const TraceRow& row) { trace->add(row); };
+  options.progress = [&progress](std::size_t done) {
+    if (done % 256 == 0) progress.update(done);
+  };
+  return replay(wheel, session.poses, options);
+}
+
 /// Plays the session with both models, for the plot that compares them.
 Result<void> write_error_plot(const SceneSpec& scene, const Session& session,
                               const std::string& path) {
@@ -109,8 +143,10 @@ Result<void> write_error_plot(const SceneSpec& scene, const Session& session,
     variant.model = model;
     auto wheel = Wheel::build(variant);
     if (!wheel) return tl::make_unexpected(wheel.error());
-    ErrorCurve& curve = curves.emplace_back(ErrorCurve{name_of(model), {}});
-    replay(*wheel, session.poses, {.trace = &curve.rows, .progress = {}});
+    ErrorRows rows(session.poses.size());
+    replay(*wheel, session.poses,
+           {.trace = [&](const TraceRow& row) { rows.add(row); }, .progress = {}});
+    curves.push_back({name_of(model), rows.take()});
   }
   return publish(path, error_plot_svg(scene.name, curves));
 }
@@ -150,16 +186,13 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
   auto wheel = build_wheel(*scene, options.scene, options.from);
   if (!wheel) return tl::make_unexpected(wheel.error());
 
-  std::vector<TraceRow> trace;
-  ReplayStats stats;
-  {
-    Progress progress(console, "throwing", session->poses.size());
-    stats = replay(
-        *wheel, session->poses,
-        {.trace = options.trace.empty() ? nullptr : &trace, .progress = [&](std::size_t done) {
-           if (done % 256 == 0) progress.update(done);
-         }});
+  std::optional<TraceFile> trace;
+  if (!options.trace.empty()) {
+    auto created = TraceFile::create(options.trace);
+    if (!created) return tl::make_unexpected(created.error());
+    trace.emplace(std::move(*created));
   }
+  const ReplayStats stats = play(*wheel, *session, trace ? &*trace : nullptr, console);
   if (stats.refused > 0)
     console.warn(fmt::format("{} poses could not be believed and were not played", stats.refused));
   if (stats.ring_limit) console.warn("clay waits above the top: raise lump.max_rings");
@@ -170,8 +203,8 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
         options.pot.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
     if (auto written = publish(options.pot, write_pot(pot, encoding)); !written) return written;
   }
-  if (!options.trace.empty())
-    if (auto written = publish(options.trace, trace_csv(trace)); !written) return written;
+  if (trace)
+    if (auto written = trace->commit(); !written) return written;
   if (!options.error_plot.empty())
     if (auto written = write_error_plot(*scene, *session, options.error_plot); !written)
       return written;
