@@ -2,7 +2,34 @@
 
 #include "plot/plot.hpp"
 
+#include <utility>
+
 namespace clay::app {
+
+void ErrorRows::add(const TraceRow& row) {
+  if (in_run_ == 0) {
+    low_ = high_ = row;
+  } else if (row.volume_error_percent < low_.volume_error_percent) {
+    low_ = row;
+    low_first_ = false;
+  } else if (row.volume_error_percent > high_.volume_error_percent) {
+    high_ = row;
+    low_first_ = true;
+  }
+  if (++in_run_ == run_) close();
+}
+
+void ErrorRows::close() {
+  if (in_run_ == 0) return;
+  rows_.push_back(low_first_ ? low_ : high_);
+  if (low_.time_s != high_.time_s) rows_.push_back(low_first_ ? high_ : low_);
+  in_run_ = 0;
+}
+
+std::vector<TraceRow> ErrorRows::take() {
+  close();
+  return std::move(rows_);
+}
 
 std::string error_plot_svg(const std::string& title, const std::vector<ErrorCurve>& curves) {
   plot::Plot plot;

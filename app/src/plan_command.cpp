@@ -83,6 +83,9 @@ Result<void> plan_scene(const PlanOptions& options, const Console& console) {
     json[line.in ? "in" : "left_out"].push_back(line_json(line, saved));
     console.say(line_text(line, saved));
   }
+  if (!timed_stroke(*scene, kFirmMm))
+    console.say(fmt::format("no times: a tick may reach {:.0f} rings, expected at most {}",
+                            rings_in_reach(*scene), kMostRingsInReach));
 #ifdef CLAYSTACK_FALCON
   if (options.rate_hz)
     if (auto done = plan_servo(*scene, wheel->plan(), options, console, json); !done) return done;

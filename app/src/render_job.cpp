@@ -18,6 +18,7 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace clay::app {
@@ -104,21 +105,22 @@ Result<draw::Image> drawn(draw::Offscreen& screen, const draw::Picture& picture,
   });
 }
 
-Result<std::string> turntable_of(draw::Offscreen& screen, draw::Picture picture,
-                                 const RenderCommand& command, const Console& console) {
-  Progress progress(console, "turning", static_cast<std::size_t>(command.frames));
+/// Streams the frames into `file`, which the caller commits. Returns its bytes.
+Result<std::uint64_t> turn(draw::Offscreen& screen, draw::Picture picture,
+                           const RenderCommand& command, const Console& console, AtomicFile& file) {
+  const auto frames = static_cast<std::size_t>(command.frames);
+  Progress progress(console, "turning", 2 * frames);  // each frame is drawn twice
+  std::size_t done = 0;
   picture.cut_azimuth_rad = picture.camera.azimuth_rad;  // turns with the pot
   const double step = 2.0 * std::numbers::pi / command.frames;
   const double first = picture.camera.azimuth_rad;
-  std::vector<draw::Image> frames;
-  for (int k = 0; k < command.frames; ++k) {
-    picture.camera.azimuth_rad = first - step * k;
-    auto image = drawn(screen, picture, command.size);
-    if (!image) return tl::make_unexpected(image.error());
-    frames.push_back(std::move(*image));
-    progress.update(frames.size());
-  }
-  return draw::gif_of(frames, std::max(20, kTurnMs / command.frames));
+  const auto frame_at = [&](std::size_t k) {
+    progress.update(done++);
+    picture.camera.azimuth_rad = first - step * static_cast<double>(k);
+    return drawn(screen, picture, command.size);
+  };
+  return draw::write_gif(frames, std::max(20, kTurnMs / command.frames), frame_at,
+                         [&](std::string_view bytes) { return file.write(bytes); });
 }
 
 Result<double> median_ms(draw::Offscreen& screen, const draw::Picture& picture, draw::Viewport size,
@@ -144,16 +146,20 @@ Result<Rendered> render(const RenderCommand& command, const Console& console) {
   auto screen = draw::Offscreen::create();
   if (!screen) return tl::make_unexpected(screen.error());
   done.renderer = screen->renderer();
-  std::string png, gif;  // both are made before one is published
+  std::string png;  // the picture and the animation are both made before one is published
   if (!command.out.empty()) {
     const auto image = drawn(*screen, *picture, command.size);
     if (!image) return tl::make_unexpected(image.error());
     png = draw::png_of(*image);
   }
+  std::optional<AtomicFile> gif;
   if (!command.turntable.empty()) {
-    auto turned = turntable_of(*screen, *picture, command, console);
+    auto created = AtomicFile::create(command.turntable);
+    if (!created) return tl::make_unexpected(created.error());
+    gif.emplace(std::move(*created));
+    const auto turned = turn(*screen, *picture, command, console, *gif);
     if (!turned) return tl::make_unexpected(turned.error());
-    gif = std::move(*turned);
+    done.gif_bytes = *turned;
   }
   if (command.time) {
     const auto plain = median_ms(*screen, *picture, command.size, 0);
@@ -162,10 +168,17 @@ Result<Rendered> render(const RenderCommand& command, const Console& console) {
     done.frame = FrameTime{*plain, *smooth};
   }
   done.png_bytes = png.size();
-  done.gif_bytes = gif.size();
-  const std::array files{NamedBytes{command.out, std::move(png)},
-                         NamedBytes{command.turntable, std::move(gif)}};
-  return publish_all(files).map([&] { return done; });
+  std::optional<AtomicFile> out;
+  if (!command.out.empty()) {
+    auto created = AtomicFile::create(command.out);
+    if (!created) return tl::make_unexpected(created.error());
+    if (auto written = created->write(png); !written) return tl::make_unexpected(written.error());
+    out.emplace(std::move(*created));
+  }
+  std::vector<AtomicFile*> files;
+  for (std::optional<AtomicFile>* file : {&out, &gif})
+    if (*file) files.push_back(&**file);
+  return commit_all(files).map([&] { return done; });
 }
 
 }  // namespace clay::app

@@ -9,6 +9,7 @@
 
 #include "claystack/engine/pot.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -34,7 +35,7 @@ struct FrameTime {
 
 /// What was drawn, for people and scripts.
 struct Rendered {
-  std::size_t png_bytes = 0, gif_bytes = 0;
+  std::uint64_t png_bytes = 0, gif_bytes = 0;
   std::string renderer;
   std::optional<FrameTime> frame;
   std::optional<draw::WallMap> map;

@@ -66,7 +66,7 @@ ReplayStats replay(Wheel& wheel, std::span<const Pose> poses, const ReplayOption
     stats.max_force_n = std::max(stats.max_force_n, force);
     auditor.look(stats);
     if (options.trace)
-      options.trace->push_back(auditor.row(1e-6 * static_cast<double>(poses[k].time_us), force));
+      options.trace(auditor.row(1e-6 * static_cast<double>(poses[k].time_us), force));
     if (options.progress) options.progress(k + 1);
   }
   stats.tick_ns_median = percentile(tick_ns, 0.5);

@@ -34,8 +34,8 @@ struct ReplayStats {
 };
 
 struct ReplayOptions {
-  std::vector<TraceRow>* trace = nullptr;     ///< filled with one row a tick
-  std::function<void(std::size_t)> progress;  ///< called with the ticks done
+  std::function<void(const TraceRow&)> trace;  ///< called with one row a tick
+  std::function<void(std::size_t)> progress;   ///< called with the ticks done
 };
 
 /// Plays every pose on the wheel, and looks at the ledger after each.

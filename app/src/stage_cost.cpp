@@ -56,18 +56,46 @@ std::vector<Pose> stroke_poses(const SceneSpec& scene, double depth_mm) {
   return poses;
 }
 
+double rings_in_reach(const SceneSpec& scene) {
+  const auto tool = Tool::build(scene.tool.shape);
+  const double touched_mm = tool ? tool->high() - tool->low() : 0.0;
+  const double rings = (touched_mm + scene.flow.reach_mm) / scene.lump.ring_height_mm + 1.0;
+  return std::min(rings, static_cast<double>(max_rings_of(scene.lump)));
+}
+
+std::optional<TimedStroke> timed_stroke(const SceneSpec& scene, double depth_mm) {
+  const double reach = rings_in_reach(scene);
+  if (reach > kMostRingsInReach) return std::nullopt;
+  TimedStroke timed{scene, {}};
+  LumpSpec& lump = timed.scene.lump;
+  const std::size_t enough = std::max(kEnoughRings, static_cast<std::size_t>(2.0 * reach));
+  if (lump.rings > enough) {
+    lump.rings = enough;
+    lump.max_rings = 0;
+  }
+  timed.poses = stroke_poses(timed.scene, depth_mm);
+  if (timed.poses.empty()) return std::nullopt;
+  const auto ticks = static_cast<std::ptrdiff_t>(static_cast<double>(kMostRingVisits) / reach);
+  if (ticks < kStrokeTicks) {
+    const auto first = timed.poses.begin() + (kStrokeTicks - ticks) / 2;
+    timed.poses = std::vector<Pose>(first, first + ticks);
+  }
+  return timed;
+}
+
 double stroke_ns(const SceneSpec& scene, double depth_mm) {
-  const auto poses = stroke_poses(scene, depth_mm);
-  auto wheel = Wheel::build(scene);
-  if (poses.empty() || !wheel) return std::numeric_limits<double>::quiet_NaN();
+  const auto timed = timed_stroke(scene, depth_mm);
+  if (!timed) return std::numeric_limits<double>::quiet_NaN();
+  auto wheel = Wheel::build(timed->scene);
+  if (!wheel) return std::numeric_limits<double>::quiet_NaN();
   const double start = thread_seconds();
-  for (const Pose& pose : poses) wheel->step(pose);
-  return 1e9 * (thread_seconds() - start) / kStrokeTicks;
+  for (const Pose& pose : timed->poses) wheel->step(pose);
+  return 1e9 * (thread_seconds() - start) / static_cast<double>(timed->poses.size());
 }
 
 std::optional<StageCost> cost_of(const SceneSpec& scene, std::string_view stage) {
   const auto with = with_stage(scene, stage);
-  if (!with) return std::nullopt;
+  if (!with || !timed_stroke(scene, kFirmMm)) return std::nullopt;
   std::vector<double> in, out;
   for (int round = 0; round < kRounds; ++round) {
     out.push_back(stroke_ns(scene));

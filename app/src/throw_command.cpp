@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -69,13 +70,32 @@ void tell(const Console& console, const Json& s) {
   tell_collapse(console, s);
 }
 
-std::string trace_csv(const std::vector<TraceRow>& rows) {
-  std::string csv = "time_s,volume_error_percent,top_ring_percent,height_mm,force_n\n";
-  for (const TraceRow& r : rows)
-    csv += fmt::format("{:.6f},{:.6g},{:.6g},{:.6g},{:.6g}\n", r.time_s, r.volume_error_percent,
-                       r.top_ring_percent, r.height_mm, r.force_n);
-  return csv;
-}
+/// CSV that is written while the rows come.
+class TraceWriter {
+ public:
+  explicit TraceWriter(AtomicFile& file) : file_(file) {}
+  void add(const TraceRow& r) {
+    fmt::format_to(std::back_inserter(text_), "{:.6f},{:.6g},{:.6g},{:.6g},{:.6g}\n", r.time_s,
+                   r.volume_error_percent, r.top_ring_percent, r.height_mm, r.force_n);
+    if (text_.size() >= kBuffered) hand_on();
+  }
+  /// The first error of all writes.
+  Result<void> finish() {
+    hand_on();
+    return written_;
+  }
+
+ private:
+  static constexpr std::size_t kBuffered = std::size_t{1} << 16;
+  void hand_on() {
+    if (written_) written_ = file_.write(text_);
+    text_.clear();
+  }
+
+  AtomicFile& file_;
+  Result<void> written_;
+  std::string text_ = "time_s,volume_error_percent,top_ring_percent,height_mm,force_n\n";
+};
 
 void warn_of_oddities(const Console& console, const Session& session, const SceneSpec& scene,
                       const ThrowOptions& options) {
@@ -102,6 +122,16 @@ Result<void> check_gaps(const Session& session, const SceneSpec& scene,
   return {};
 }
 
+ReplayStats play(Wheel& wheel, const Session& session, TraceWriter* trace, const Console& console) {
+  Progress progress(console, "throwing", session.poses.size());
+  ReplayOptions options;
+  if (trace != nullptr) options.trace = [trace](const TraceRow& row) { trace->add(row); };
+  options.progress = [&progress](std::size_t done) {
+    if (done % 256 == 0) progress.update(done);
+  };
+  return replay(wheel, session.poses, options);
+}
+
 /// Plays the session with both models, for the plot that compares them.
 Result<std::string> error_plot(const SceneSpec& scene, const Session& session) {
   std::vector<ErrorCurve> curves;
@@ -110,8 +140,10 @@ Result<std::string> error_plot(const SceneSpec& scene, const Session& session) {
     variant.model = model;
     auto wheel = Wheel::build(variant);
     if (!wheel) return tl::make_unexpected(wheel.error());
-    ErrorCurve& curve = curves.emplace_back(ErrorCurve{name_of(model), {}});
-    replay(*wheel, session.poses, {.trace = &curve.rows, .progress = {}});
+    ErrorRows rows(session.poses.size());
+    replay(*wheel, session.poses,
+           {.trace = [&](const TraceRow& row) { rows.add(row); }, .progress = {}});
+    curves.push_back({name_of(model), rows.take()});
   }
   return error_plot_svg(scene.name, curves);
 }
@@ -137,12 +169,12 @@ Result<Outputs> open_outputs(const ThrowOptions& options) {
 
 /// All files that were asked for, or none.
 Result<void> write_outputs(Outputs& outputs, const Pot& pot, PotEncoding encoding,
-                           const std::vector<TraceRow>& trace, const SceneSpec& scene,
+                           std::optional<TraceWriter>& trace, const SceneSpec& scene,
                            const Session& session) {
   if (outputs.pot)
     if (auto written = outputs.pot->write(write_pot(pot, encoding)); !written) return written;
-  if (outputs.trace)
-    if (auto written = outputs.trace->write(trace_csv(trace)); !written) return written;
+  if (trace)
+    if (auto written = trace->finish(); !written) return written;
   if (outputs.error_plot) {
     auto plot = error_plot(scene, session);
     if (!plot) return tl::make_unexpected(plot.error());
@@ -191,16 +223,9 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
   auto outputs = open_outputs(options);
   if (!outputs) return tl::make_unexpected(outputs.error());
 
-  std::vector<TraceRow> trace;
-  ReplayStats stats;
-  {
-    Progress progress(console, "throwing", session->poses.size());
-    stats = replay(
-        *wheel, session->poses,
-        {.trace = options.trace.empty() ? nullptr : &trace, .progress = [&](std::size_t done) {
-           if (done % 256 == 0) progress.update(done);
-         }});
-  }
+  std::optional<TraceWriter> trace;
+  if (outputs->trace) trace.emplace(*outputs->trace);
+  const ReplayStats stats = play(*wheel, *session, trace ? &*trace : nullptr, console);
   if (stats.refused > 0)
     console.warn(fmt::format("{} poses could not be believed and were not played", stats.refused));
   if (stats.ring_limit) console.warn("clay waits above the top: raise lump.max_rings");

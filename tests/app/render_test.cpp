@@ -1,6 +1,9 @@
 #include "run_program.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace clay::test {
 namespace {
@@ -32,6 +35,28 @@ TEST(Render, TurntableHasItsFrames) {
                             "dark --turntable " + folder.file("v.gif"));
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(shell("identify -format \"%m \" " + folder.file("v.gif")).out, "GIF GIF GIF GIF GIF ");
+}
+
+/// The most memory that a turntable takes [KiB].
+long peak_kib_of(int frames) {
+  const ScratchFolder folder;
+  const std::string gif = folder.file("v.gif"), count = std::to_string(frames), pot = vase();
+  const pid_t child = fork();
+  if (child == 0) {
+    execl(CLAYSTACK_PROGRAM, CLAYSTACK_PROGRAM, "render", "-q", pot.c_str(), "--size", "640x480",
+          "--frames", count.c_str(), "--turntable", gif.c_str(), nullptr);
+    _exit(127);
+  }
+  int status = -1;
+  rusage usage{};
+  EXPECT_EQ(wait4(child, &status, 0, &usage), child);
+  EXPECT_EQ(status, 0);
+  return usage.ru_maxrss;
+}
+
+/// 64 frames more, of 1200 KiB each.
+TEST(Render, TurntableTakesNoMoreMemoryForMoreFrames) {
+  EXPECT_LT(peak_kib_of(72) - peak_kib_of(8), 16 * 1200);
 }
 
 TEST(Render, ShowsTheLumpOfAScene) {

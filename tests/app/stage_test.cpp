@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 namespace clay::test {
 namespace {
@@ -44,6 +46,43 @@ TEST(StageCost, PutsInWhatItSays) {
   EXPECT_EQ(stages("pinch"), kPinch);
   EXPECT_GT(app::with_stage(bare, "inner surface")->lump.inner_radius_mm, 0.0);
   EXPECT_FALSE(app::with_stage(bare, "contact"));
+}
+
+/// Counts rings, not seconds: what a stroke costs is the rings that its ticks reach.
+TEST(StageCost, TimesAStrokeThatStaysShortHoweverFineTheRings) {
+  for (const auto& [rings, ring_height_mm] :
+       {std::pair(std::size_t{200}, 0.5), std::pair(std::size_t{1} << 20, 0.001),
+        std::pair(std::size_t{1} << 24, 0.02), std::pair(std::size_t{1} << 24, 1.0)}) {
+    SceneSpec scene;
+    scene.lump.rings = rings;
+    scene.lump.ring_height_mm = ring_height_mm;
+    const auto timed = app::timed_stroke(scene, app::kFirmMm);
+    ASSERT_TRUE(timed) << rings;
+    EXPECT_LE(timed->scene.lump.rings, 2 * app::kMostRingsInReach);
+    if (rings == 200) {
+      EXPECT_EQ(timed->poses, app::stroke_poses(scene, app::kFirmMm));
+      EXPECT_EQ(timed->scene, scene);
+    }
+    Wheel wheel = Wheel::build(timed->scene).value();
+    std::size_t touched = 0, in_contact = 0;
+    for (const Pose& pose : timed->poses) {
+      const StepReport report = wheel.step(pose);
+      touched += report.rings_touched;
+      in_contact += report.rings_touched > 0;
+      EXPECT_LE(report.rings_touched, app::rings_in_reach(scene));
+    }
+    EXPECT_LE(touched, app::kMostRingVisits) << rings;
+    EXPECT_GE(in_contact, timed->poses.size() * 9 / 10) << rings;
+  }
+}
+
+TEST(StageCost, TimesNoStrokeWhoseTicksReachTooManyRings) {
+  SceneSpec scene;
+  scene.lump.rings = std::size_t{1} << 20;
+  scene.lump.ring_height_mm = 0.001;
+  scene.flow.reach_mm = 100.0;
+  EXPECT_FALSE(app::timed_stroke(scene, app::kFirmMm));
+  EXPECT_FALSE(app::cost_of(scene, "stability"));
 }
 
 TEST(Presser, TouchesAsManyRingsAsItIsTimedBy) {

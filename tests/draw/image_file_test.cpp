@@ -25,6 +25,17 @@ std::vector<std::uint8_t> decoded(const std::string& path, const std::string& fo
   return {text.begin(), text.end()};
 }
 
+draw::FrameSource shown(const std::vector<draw::Image>& frames) {
+  return [&frames](std::size_t index) -> Result<draw::Image> { return frames.at(index); };
+}
+
+draw::ByteSink into(std::string& bytes) {
+  return [&bytes](std::string_view more) -> Result<void> {
+    bytes += more;
+    return {};
+  };
+}
+
 TEST(ImageFile, PngHoldsEveryPixel) {
   const ScratchFolder folder;
   const draw::Image image = turned(0.7);
@@ -35,10 +46,12 @@ TEST(ImageFile, PngHoldsEveryPixel) {
 TEST(ImageFile, GifPlaysItsFramesForEver) {
   const ScratchFolder folder;
   const std::vector<draw::Image> frames{turned(0.7), turned(1.7), turned(2.7)};
-  const auto bytes = draw::gif_of(frames, 80);
-  ASSERT_TRUE(bytes) << bytes.error().message;
-  EXPECT_NE(bytes->find("NETSCAPE2.0"), std::string::npos);
-  write_text(folder.file("a.gif"), *bytes);
+  std::string bytes;
+  const auto written = draw::write_gif(frames.size(), 80, shown(frames), into(bytes));
+  ASSERT_TRUE(written) << written.error().message;
+  EXPECT_EQ(*written, bytes.size());
+  EXPECT_NE(bytes.find("NETSCAPE2.0"), std::string::npos);
+  write_text(folder.file("a.gif"), bytes);
   const Ran told = shell("identify -format \"%w %h %T,\" " + folder.file("a.gif"));
   EXPECT_EQ(told.out, "480 360 8,480 360 8,480 360 8,") << told.err;
   const auto pixels = decoded(folder.file("a.gif"), folder.file("raw"));
@@ -53,6 +66,29 @@ TEST(ImageFile, GifPlaysItsFramesForEver) {
     EXPECT_LT(off / static_cast<double>(each), 3.0) << k;  // of 255: the palette's steps
     EXPECT_GT(other, 1.5 * off) << k;
   }
+}
+
+TEST(ImageFile, GifStopsAtTheFirstErrorOfItsFramesOrItsSink) {
+  const std::vector<draw::Image> frames{turned(0.7)};
+  std::string bytes;
+  const auto unread = draw::write_gif(
+      2, 80,
+      [&](std::size_t index) -> Result<draw::Image> {
+        if (index == 1) return failure(ErrorKind::device, "the driver is gone");
+        return frames[index];
+      },
+      into(bytes));
+  ASSERT_FALSE(unread);
+  EXPECT_EQ(unread.error().message, "the driver is gone");
+  int writes = 0;
+  const auto unwritten =
+      draw::write_gif(1, 80, shown(frames), [&](std::string_view) -> Result<void> {
+        ++writes;
+        return failure(ErrorKind::io, "the disk is full");
+      });
+  ASSERT_FALSE(unwritten);
+  EXPECT_EQ(unwritten.error().message, "the disk is full");
+  EXPECT_EQ(writes, 1);
 }
 
 }  // namespace

@@ -42,8 +42,8 @@ TEST(MinWall, SeesAcrossRings) {
 
 RC_GTEST_PROP(MinWall, IsTheLeastOverAllPairs, ()) {
   auto random = *samples::random_engine();
-  const auto count = *rc::gen::inRange<std::size_t>(1, 30);
-  const double h = *rc::gen::element(0.2, 1.0, 20.0);
+  const auto count = *rc::gen::element<std::size_t>(1, 2, 15, 16, 17, 30, 256, 300);
+  const double h = *rc::gen::element(0.01, 0.2, 1.0, 20.0);
   std::vector<Ring> rings;
   for (std::size_t i = 0; i < count; ++i) {
     const double outer = 40.0 + 5.0 * samples::uniform(random);
@@ -60,6 +60,19 @@ RC_GTEST_PROP(MinWall, IsTheLeastOverAllPairs, ()) {
                        std::hypot(std::max(0.0, rings[j].outer_mm() - rings[i].inner_mm()), apart));
     }
   RC_ASSERT(std::abs(min_wall(stack).thickness_mm - least) < 1e-9);
+}
+
+/// A flared wall: 3 mm in the direction of the radius, at 45 degrees. Looking from each ring at all
+/// within reach of the wall would take 2^20 times 2 * 3000 looks.
+TEST(MinWall, OfManyFineRingsIsFoundWithoutLookingAtAllPairs) {
+  constexpr double kRingMm = 0.001, kWallMm = 3.0;
+  std::vector<Ring> rings(std::size_t{1} << 20);
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    const double inner = 20.0 + kRingMm * static_cast<double>(i);
+    rings[i] = {quanta_from_radius(inner + kWallMm), quanta_from_radius(inner)};
+  }
+  const WallMinimum wall = min_wall(ClayStack::from_rings(kRingMm, rings, 0).value());
+  EXPECT_NEAR(wall.thickness_mm, kWallMm / std::numbers::sqrt2, kRingMm);
 }
 
 TEST(Stresses, AreWeightOverArea) {

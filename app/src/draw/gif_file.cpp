@@ -7,6 +7,8 @@
 #include <array>
 #include <cassert>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace clay::draw {
 namespace {
@@ -17,18 +19,21 @@ constexpr std::size_t kCell = 6;                        // bits of a channel in 
 
 using Palette = std::array<GifColorType, kColours>;
 
-Result<Palette> palette_of(const std::vector<Image>& frames) {
+Result<Palette> palette_of(std::size_t frames, const FrameSource& frame_at) {
   std::vector<GifByteType> red, green, blue;
-  const std::size_t all = frames.size() * frames.front().rgba.size() / 4;
-  const std::size_t stride = all / kSampled + 1;
-  std::size_t at = 0;
-  for (const Image& frame : frames)
-    for (std::size_t pixel = 0; pixel < frame.rgba.size() / 4; ++pixel)
+  std::size_t stride = 1, at = 0;
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    const auto image = frame_at(frame);
+    if (!image) return tl::make_unexpected(image.error());
+    const std::size_t pixels = image->rgba.size() / 4;
+    if (frame == 0) stride = frames * pixels / kSampled + 1;
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel)
       if (at++ % stride == 0) {
-        red.push_back(frame.rgba[4 * pixel]);
-        green.push_back(frame.rgba[4 * pixel + 1]);
-        blue.push_back(frame.rgba[4 * pixel + 2]);
+        red.push_back(image->rgba[4 * pixel]);
+        green.push_back(image->rgba[4 * pixel + 1]);
+        blue.push_back(image->rgba[4 * pixel + 2]);
       }
+  }
   Palette palette{};
   int size = kColours;
   std::vector<GifByteType> indices(red.size());
@@ -77,6 +82,33 @@ int dither(int x, int y) {
   return kBayer[static_cast<std::size_t>((y & 3) << 2 | (x & 3))] - 8;
 }
 
+/// Collects the few bytes that giflib writes at a time, and keeps the sink's first error.
+class Output {
+ public:
+  explicit Output(const ByteSink& sink) : sink_(sink) { buffer_.reserve(kBuffered); }
+  Result<void> flush() {
+    if (state_ && !buffer_.empty()) state_ = sink_(buffer_);
+    written_ += buffer_.size();
+    buffer_.clear();
+    return state_;
+  }
+  /// For giflib: fewer than `size` means that the write failed.
+  static int append(GifFileType* gif, const GifByteType* data, int size) {
+    auto& self = *static_cast<Output*>(gif->UserData);
+    self.buffer_.append(reinterpret_cast<const char*>(data), static_cast<std::size_t>(size));
+    return self.buffer_.size() < kBuffered || self.flush() ? size : 0;
+  }
+  [[nodiscard]] const Result<void>& state() const noexcept { return state_; }
+  [[nodiscard]] std::uint64_t written() const noexcept { return written_; }
+
+ private:
+  static constexpr std::size_t kBuffered = std::size_t{1} << 16;
+  const ByteSink& sink_;
+  std::string buffer_;
+  Result<void> state_;
+  std::uint64_t written_ = 0;
+};
+
 struct Closer {
   void operator()(GifFileType* gif) const {
     int ignored = 0;
@@ -84,12 +116,6 @@ struct Closer {
   }
 };
 using Writer = std::unique_ptr<GifFileType, Closer>;
-
-int append(GifFileType* gif, const GifByteType* data, int size) {
-  static_cast<std::string*>(gif->UserData)
-      ->append(reinterpret_cast<const char*>(data), static_cast<std::size_t>(size));
-  return size;
-}
 
 bool put_loop(GifFileType* gif) {
   constexpr std::array<GifByteType, 3> kForEver{1, 0, 0};
@@ -121,31 +147,34 @@ bool put_frame(GifFileType* gif, const Image& image, const Nearest& nearest, int
 
 }  // namespace
 
-Result<std::string> gif_of(const std::vector<Image>& frames, int delay_ms) {
-  assert(!frames.empty());
-  const auto palette = palette_of(frames);
+Result<std::uint64_t> write_gif(std::size_t frames, int delay_ms, const FrameSource& frame_at,
+                                const ByteSink& sink) {
+  assert(frames > 0);
+  const auto palette = palette_of(frames, frame_at);
   if (!palette) return tl::make_unexpected(palette.error());
   const std::unique_ptr<ColorMapObject, decltype(&GifFreeMapObject)> colours(
       GifMakeMapObject(kColours, palette->data()), &GifFreeMapObject);
-  std::string bytes;
+  Output output(sink);
   int why = 0;
-  Writer gif(EGifOpen(&bytes, append, &why));
-  const auto failed = [&] {
+  Writer gif(EGifOpen(&output, Output::append, &why));
+  const auto failed = [&]() -> tl::unexpected<Error> {
+    if (!output.state()) return tl::make_unexpected(output.state().error());
     return failure(ErrorKind::io, fmt::format("giflib could not write the animation (error {})",
                                               gif ? gif->Error : why));
   };
   if (!gif || !colours) return failed();
   EGifSetGifVersion(gif.get(), true);
   const Nearest nearest(*palette);
-  const Image& first = frames.front();
-  if (EGifPutScreenDesc(gif.get(), first.width_px, first.height_px, 8, 0, colours.get()) !=
-          GIF_OK ||
-      !put_loop(gif.get()))
-    return failed();
-  for (const Image& frame : frames)
-    if (!put_frame(gif.get(), frame, nearest, delay_ms)) return failed();
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    const auto image = frame_at(frame);
+    if (!image) return tl::make_unexpected(image.error());
+    const bool begun = frame > 0 || (EGifPutScreenDesc(gif.get(), image->width_px, image->height_px,
+                                                       8, 0, colours.get()) == GIF_OK &&
+                                     put_loop(gif.get()));
+    if (!begun || !put_frame(gif.get(), *image, nearest, delay_ms)) return failed();
+  }
   gif.reset();  // writes the last bytes
-  return bytes;
+  return output.flush().map([&] { return output.written(); });
 }
 
 }  // namespace clay::draw

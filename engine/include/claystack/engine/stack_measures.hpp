@@ -16,14 +16,14 @@ struct WallMinimum {
 /// outside (across rings as well), through floors, lids and solid pots along the axis, and across
 /// (2R) where there is no bore. Flanges that stick out are not looked at. O(N) for walls of a few
 /// rings.
-[[nodiscard]] WallMinimum min_wall(const ClayStack& stack) noexcept;
+[[nodiscard]] WallMinimum min_wall(const ClayStack& stack);
 
 /// [mm]; 0 without rings.
 [[nodiscard]] double largest_radius_mm(const ClayStack& stack) noexcept;
 
 /// What every ring bears [kPa], bottom to top: beta_i = g M_i / (pi (R_i^2 - r_i^2)), M_i the mass
-/// of all above it, crown included (paper, section 7). To the last bit what the stability of a scene
-/// compares with its StabilitySpec::max_stress_kpa.
+/// of all above it, crown included (paper, section 7). To the last bit what the stability of a
+/// scene compares with its StabilitySpec::max_stress_kpa.
 [[nodiscard]] std::vector<double> stresses_kpa(const ClayStack& stack, double density_g_cm3);
 
 /// What the bore that opens at the top holds when it is filled to the brim [mm^3], exact for the
