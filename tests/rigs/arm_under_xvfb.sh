@@ -27,7 +27,7 @@ cd "$folder" || exit 1
 start_window bowl.scene.json
 ask plug
 until_line "device: Novint Falcon"
-until_line "force: engaged"
+until_line "force: ramping"
 ask press
 until_file felt
 
