@@ -26,7 +26,14 @@ class SessionSink final : public work::PoseSink {
   SessionSink(const SessionSink&) = delete;
   SessionSink& operator=(const SessionSink&) = delete;
 
-  Result<void> append(std::span<const Pose> poses) override { return write(session_block(poses)); }
+  Result<void> append(std::span<const Pose> poses) override {
+    if (poses.size() > kMaxPoses - poses_)
+      return failure(ErrorKind::bad_input,
+                     path_ + ": expected at most " + std::to_string(kMaxPoses) +
+                         " poses in one session, found more; it ends with the last that fits");
+    poses_ += poses.size();
+    return write(session_block(poses));
+  }
 
   Result<void> write(std::string_view line) {
     while (!line.empty()) {
@@ -53,6 +60,7 @@ class SessionSink final : public work::PoseSink {
  private:
   std::string path_;
   int descriptor_;
+  std::size_t poses_ = 0;
 };
 
 }  // namespace
