@@ -99,8 +99,9 @@ Result<Wheel> build_wheel(const SceneSpec& scene, const std::string& scene_path,
 }
 
 Result<Session> load_session(const std::string& path) {
-  return read_file(path).and_then(
-      [&](const std::string& text) { return parse_session(text, path); });
+  return read_file(path, kMaxSessionBytes).and_then([&](const std::string& text) {
+    return parse_session(text, path);
+  });
 }
 
 std::string session_beside(const std::string& scene_path) {

@@ -12,15 +12,18 @@ namespace {
 
 using namespace clay;
 
+constexpr std::size_t kMaxScriptBytes = std::size_t{1} << 24;
+
 Result<void> make_session(const std::string& scene_path, const std::string& strokes_path,
                           const std::string& out_path) {
   const auto scene = read_file(scene_path).and_then([&](const std::string& text) {
     return parse_scene(text, scene_path);
   });
   if (!scene) return tl::make_unexpected(scene.error());
-  const auto script = read_file(strokes_path).and_then([&](const std::string& text) {
-    return samples::parse_strokes(text, strokes_path);
-  });
+  const auto script =
+      read_file(strokes_path, kMaxScriptBytes).and_then([&](const std::string& text) {
+        return samples::parse_strokes(text, strokes_path);
+      });
   if (!script) return tl::make_unexpected(script.error());
   return publish(out_path,
                  write_session({scene->name, hash_of(*scene), samples::play(*script), false}));

@@ -37,7 +37,8 @@ struct StrokeScript {
 
 /// `*.strokes.json`: one object with the fields of StrokeScript, of which start_mm and strokes are
 /// required; in each stroke, through_mm; gap_mm may be a number. Errors read "NAME:
-/// strokes[2].speed_mm_s: what was expected, what was found"; unknown fields are errors.
+/// strokes[2].speed_mm_s: what was expected, what was found"; unknown fields are errors, and
+/// so are strokes of more poses than a session holds (kMaxPoses).
 Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name);
 
 /// Poses in a vertical plane through the axis, at the script's rate, counted as in a session.

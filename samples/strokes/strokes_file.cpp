@@ -1,8 +1,12 @@
 #include "strokes.hpp"
 
+#include "claystack/engine/session_file.hpp"
+
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <initializer_list>
 #include <limits>
@@ -150,6 +154,35 @@ void read(const Json& json, StrokeScript& script) {
       .refuse_others();
 }
 
+/// About the most poses that a stroke plays, by the distances between its points; a hand's mean
+/// speed is 8/15 of its greatest, and varies by a tenth.
+double poses_of(const StrokeScript& script, const Stroke& stroke) {
+  constexpr double kSlowest = 1.875 / 0.9;
+  const auto shift = [&](int pass) { return static_cast<double>(pass) * stroke.step_mm; };
+  double path_mm = 0.0, poses = 0.0;
+  for (std::size_t k = 1; k < stroke.through_mm.size(); ++k)
+    path_mm += glm::distance(stroke.through_mm[k - 1], stroke.through_mm[k]);
+  for (int pass = 0; pass < stroke.passes; ++pass) {
+    const double travel_mm =
+        glm::distance(script.start_mm, stroke.through_mm.front() + shift(pass)) +
+        glm::distance(script.start_mm, stroke.through_mm.back() + shift(pass));
+    const double moving_s =
+        kSlowest * (path_mm / stroke.speed_mm_s + travel_mm / script.travel_mm_s);
+    poses += script.rate_hz * (moving_s + stroke.hold_s);
+  }
+  return poses;
+}
+
+void refuse_endless(const StrokeScript& script) {
+  double poses = 0.0;
+  for (const Stroke& stroke : script.strokes) poses += poses_of(script, stroke);
+  if (poses > static_cast<double>(kMaxPoses))
+    throw Refusal{"strokes: expected at most " + std::to_string(kMaxPoses) +
+                  " poses in a session, found about " + std::to_string(std::llround(poses)) +
+                  ", which would take " +
+                  std::to_string(std::llround(poses * sizeof(Pose) / 0x1p20)) + " MiB of memory"};
+}
+
 }  // namespace
 
 Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name) {
@@ -159,6 +192,7 @@ Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name)
   try {
     StrokeScript script;
     read(Json::parse(text), script);
+    refuse_endless(script);
     return script;
   } catch (const Refusal& refusal) {
     return refused(refusal.message);

@@ -97,5 +97,20 @@ TEST(StrokeFile, SaysWhatIsWrongWithTheWhole) {
   EXPECT_NE(torn.find("line 1"), std::string::npos) << torn;
 }
 
+/// 20 passes of 60 s at 10 kHz are 12 million poses, and some for the ways between.
+TEST(StrokeFile, RefusesMorePosesThanASessionHolds) {
+  const auto held = [](int passes) {
+    return message_of(R"({"start_mm": [9, 9], "rate_hz": 10000, "strokes": [{"hold_s": 60,
+                          "through_mm": [[1, 2], [3, 4]], "passes": )" +
+                      std::to_string(passes) + "}]}");
+  };
+  EXPECT_EQ(held(16), "accepted");
+  EXPECT_EQ(held(20).rfind("pot.strokes.json: strokes: expected at most 10000000 poses in a "
+                           "session, found about 120",
+                           0),
+            0u)
+      << held(20);
+}
+
 }  // namespace
 }  // namespace clay::samples

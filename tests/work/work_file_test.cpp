@@ -1,5 +1,7 @@
 #include "claystack/engine/work_file.hpp"
 
+#include "claystack/engine/session_file.hpp"
+#include "engine/allocation_counter.hpp"
 #include "engine/files/schema_check.hpp"
 #include "engine/files/text_edits.hpp"
 #include "work/strokes.hpp"
@@ -39,6 +41,47 @@ std::string second_file() {
 
 bool same(const WorkRecord& a, const WorkRecord& b) {
   return a.scenes == b.scenes && a.start == b.start && a.nodes == b.nodes && a.at == b.at;
+}
+
+/// A stroke that stands still in the air.
+std::vector<Pose> still(std::size_t count) {
+  std::vector<Pose> poses(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    poses[i].time_us = static_cast<std::int64_t>(1000 * i);
+    poses[i].position_mm.x = 90.0;
+  }
+  return poses;
+}
+
+TEST(WorkFile, TakesTheMemoryOfItsPosesAndOfOneLine) {
+  constexpr std::size_t kStroke = 100'000, kOneLine = std::size_t{1} << 18;
+  WorkRecord record;
+  record.scenes = {small_scene()};
+  record.nodes.resize(1);
+  for (std::size_t parent = 0; parent < 3; ++parent)
+    record.nodes.push_back({parent, 0, still(kStroke), 0});
+  const std::string text = write_work(record);
+  Result<WorkReading> read;
+  const std::size_t bytes = peak_bytes_of([&] { read = parse_work(text, "w"); });
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->work.nodes.back().poses, record.nodes.back().poses);
+  EXPECT_LE(bytes, 3 * kStroke * sizeof(Pose) + kOneLine);
+}
+
+TEST(WorkFile, TooManyPosesAreRefusedBeforeOneIsRead) {
+  std::string text = write_work(sample_record());
+  const std::size_t blocks = kMaxPoses / kPosesPerBlock;
+  for (std::size_t block = 0; block < blocks; ++block)
+    text += R"({"n":100,"t_us":0})"
+            "\n";
+  const auto read = parse_work(text, "w");
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().message.substr(0, 51),
+            "w: expected at most 10000000 poses, found 10000543,")
+      << read.error().message;
+  const auto salvaged = salvage_work(text, "w");  // what stands before is not lost
+  ASSERT_TRUE(salvaged) << salvaged.error().message;
+  EXPECT_EQ(salvaged->work.nodes, sample_record().nodes);
 }
 
 RC_GTEST_PROP(WorkFile, WhatIsWrittenReadsBackTheSame, ()) {

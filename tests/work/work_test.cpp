@@ -27,6 +27,36 @@ RC_GTEST_PROP(Work, EveryPotIsThePlainReplayOfItsStrokes, ()) {
   RC_ASSERT(**work.pot(node) == plainly_thrown(work.record(), node));
 }
 
+TEST(Work, HoldsNoMorePosesThanAFileOfItMay) {
+  WorkRecord record;
+  record.scenes = {small_scene()};
+  record.nodes.resize(1);
+  record.nodes.push_back({0, 0, std::vector<Pose>(kMaxPoses - 50), 0});
+  Work work = Work::open(std::move(record)).value();
+  const auto refused = [](const Error& error) {
+    EXPECT_EQ(error.message,
+              "expected at most 10000000 poses in one work, found more: begin a new work with its "
+              "pot");
+  };
+  const auto poses = press_stroke(1);
+  const auto added = work.add(small_scene(), poses);
+  ASSERT_FALSE(added);
+  refused(added.error());
+  EXPECT_EQ(work.size(), 2u);
+
+  PoseSink& sink = **work.begin_stroke(small_scene());
+  EXPECT_TRUE(sink.append(std::span(poses).first(50)));
+  const auto more = sink.append(std::span(poses).subspan(50, 1));
+  ASSERT_FALSE(more);
+  refused(more.error());
+  EXPECT_EQ(work.end_stroke().value().strokes, 1u);
+  EXPECT_EQ(work.record().nodes.back().poses.size(), 50u);
+
+  const auto full = work.begin_stroke(small_scene());
+  ASSERT_FALSE(full);
+  refused(full.error());
+}
+
 RC_GTEST_PROP(Work, RedoFollowsTheBranchLastTaken, ()) {
   Work work = arbitrary_work(*rc::gen::inRange(1, 20));
   const NodeId left = work.at();

@@ -44,7 +44,7 @@ Result<std::unique_ptr<SessionRecording>> SessionRecording::begin(const std::str
 }
 
 SessionRecording::~SessionRecording() {
-  if (empty_) discard();
+  if (poses_ == 0) discard();
   if (descriptor_ >= 0) (void)close(descriptor_);
 }
 
@@ -102,7 +102,11 @@ Result<void> SessionRecording::clear_aside() {
 }
 
 Result<void> SessionRecording::append(std::span<const Pose> poses) {
-  empty_ = empty_ && poses.empty();
+  if (poses.size() > kMaxPoses - poses_)
+    return failure(ErrorKind::bad_input,
+                   path_ + ": expected at most " + std::to_string(kMaxPoses) +
+                       " poses in one session, found more; it ends with the last that fits");
+  poses_ += poses.size();
   return write(session_block(poses));
 }
 
@@ -118,7 +122,7 @@ Result<void> SessionRecording::write(std::string_view text) {
 }
 
 Result<void> SessionRecording::finish() {
-  if (empty_) {
+  if (poses_ == 0) {
     discard();
     return {};
   }
@@ -130,7 +134,8 @@ Result<void> SessionRecording::finish() {
   if (rename(aside_.c_str(), target_.c_str()) != 0) return failed("replace");
   aside_.clear();
   const fs::path folder = target_.parent_path();
-  return sync_folder(folder.empty() ? fs::path(".") : folder);
+  sync_folder(folder.empty() ? fs::path(".") : folder);
+  return {};
 }
 
 void SessionRecording::discard() noexcept {
@@ -142,7 +147,7 @@ void SessionRecording::discard() noexcept {
 tl::unexpected<Error> SessionRecording::failed(const char* action) const {
   std::string message =
       path_ + ": could not " + action + ": " + std::generic_category().message(errno);
-  if (!empty_ && !aside_.empty()) message += "; what was recorded is in " + aside_.string();
+  if (poses_ > 0 && !aside_.empty()) message += "; what was recorded is in " + aside_.string();
   return failure(ErrorKind::io, std::move(message));
 }
 

@@ -4,6 +4,7 @@
 
 #include <sys/types.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -44,7 +45,7 @@ class SessionRecording final : public work::PoseSink {
   std::filesystem::path target_;  ///< the same behind symbolic links
   std::filesystem::path aside_;   ///< empty: written in place
   int descriptor_ = -1;
-  bool empty_ = true;  ///< no pose yet
+  std::size_t poses_ = 0;  ///< so many are in it
 };
 
 }  // namespace clay::live

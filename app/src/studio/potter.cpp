@@ -152,8 +152,9 @@ void Potter::release() {
   news_.ring_limit = status_.ring_limit;
   servo_ = {sitting_->loop().timing(), sitting_->loop().events(), sitting_->realtime()};
   const Pot felt = sitting_->wheel().pot();
-  if (auto kept = recorder_->finish(); !kept) news_.error = kept.error();
-  if (recorder_->lost() > 0)
+  if (auto kept = recorder_->finish(); !kept)
+    news_.error = kept.error();
+  else if (recorder_->lost() > 0)
     news_.error = Error{ErrorKind::io,
                         "The stroke was kept up to where the machine was too slow to "
                         "record it; what came after is gone"};

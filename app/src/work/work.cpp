@@ -22,6 +22,13 @@ std::size_t poses_until(const WorkNode& stroke, double seconds) {
       stroke.poses.begin(), std::ranges::upper_bound(stroke.poses, until_us, {}, &Pose::time_us)));
 }
 
+Error full() {
+  return {ErrorKind::bad_input,
+          fmt::format("expected at most {} poses in one work, found more: begin a new work with "
+                      "its pot",
+                      kMaxPoses)};
+}
+
 /// A pot that has fallen is thrown no more, but it can be looked at and exported.
 Result<Pot> root_of(const SceneSpec& scene, const std::optional<Pot>& start) {
   if (start && start->collapse)
@@ -38,6 +45,7 @@ struct Work::Running final : PoseSink {
 
   NodeId node = 0;
   std::size_t scene = 0;
+  std::size_t room = 0;  // poses that the work can still hold
   std::string begin_line;
   std::vector<Pose> poses;
   Journal* journal = nullptr;
@@ -45,6 +53,7 @@ struct Work::Running final : PoseSink {
 
   /// The stroke's own line comes with its first poses: one without any leaves no trace.
   Result<void> append(std::span<const Pose> more) override {
+    if (more.size() > room - poses.size()) return tl::make_unexpected(full());
     if (journal != nullptr) {
       if (poses.empty()) journal->append(begin_line);
       journal->append(session_block(more));
@@ -109,8 +118,15 @@ std::size_t Work::index_of(const SceneSpec& scene) {
   return index;
 }
 
+std::size_t Work::room() const noexcept {
+  std::size_t held = 0;
+  for (const WorkNode& stroke : record_.nodes) held += stroke.poses.size();
+  return kMaxPoses - std::min(held, kMaxPoses);
+}
+
 Result<PoseSink*> Work::begin_stroke(const SceneSpec& scene) {
   assert(!running_);
+  if (room() == 0) return tl::make_unexpected(full());
   const auto before = pot();
   if (!before) return tl::make_unexpected(before.error());
   auto wheel = Wheel::build(scene, **before);
@@ -118,6 +134,7 @@ Result<PoseSink*> Work::begin_stroke(const SceneSpec& scene) {
   running_ = std::make_unique<Running>(std::move(*wheel));
   running_->node = record_.nodes.size();
   running_->scene = index_of(scene);
+  running_->room = room();
   running_->begin_line = work_stroke_line(running_->node, at(), running_->scene, scene);
   running_->journal = journal_.get();
   return running_.get();
@@ -128,6 +145,7 @@ bool Work::in_stroke() const noexcept { return running_ != nullptr; }
 Result<Added> Work::end_stroke(const Pot* shown) { return finish_stroke(true, shown); }
 
 Result<Added> Work::add(const SceneSpec& scene, std::vector<Pose> poses, const Pot* shown) {
+  if (poses.size() > room()) return tl::make_unexpected(full());
   auto begun = begin_stroke(scene);
   if (!begun) return tl::make_unexpected(begun.error());
   for (std::span<const Pose> rest = poses; !rest.empty();) {

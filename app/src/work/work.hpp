@@ -55,8 +55,9 @@ class Work {
 
   // --- Strokes -------------------------------------------------------------------------------
   /// A stroke begins on the current pot. The sink is the recorder's; it keeps the poses, and the
-  /// journal gets them at once. It lasts until end_stroke and never fails: a full disk is told by
-  /// the journal's trouble(). Errors are those of Wheel::build.
+  /// journal gets them at once. It lasts until end_stroke; a full disk is told by the journal's
+  /// trouble(), and the sink fails only where the work would hold more than kMaxPoses. Errors are
+  /// those of Wheel::build, and a work that is full.
   Result<PoseSink*> begin_stroke(const SceneSpec& scene);
   /// The recorder has finished. Throws the stroke again, splits it where the tool was in the air
   /// long enough (split.hpp), and makes it current. `shown`: the pot that the servo left, compared
@@ -107,6 +108,7 @@ class Work {
   struct Scrubbing;
   Work(WorkRecord record, SharedPot root);
 
+  [[nodiscard]] std::size_t room() const noexcept;  ///< poses that it can still hold
   std::size_t index_of(const SceneSpec& scene);
   Result<Added> finish_stroke(bool may_split, const Pot* shown);
   void append(std::size_t scene, std::vector<Pose> poses, Pot pot);

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 
 namespace clay {
@@ -164,9 +165,33 @@ Result<std::vector<Pose>> decode(const LocatedJson& line, const Block& block) {
 
 }  // namespace
 
-Result<void> files::append_block(const LocatedJson& line, std::vector<Pose>& poses) {
+std::size_t files::announced_poses(std::string_view line) {
+  constexpr std::string_view kBegin = R"({"n":)";
+  if (!line.starts_with(kBegin)) return 0;
+  std::size_t count = 0;
+  std::from_chars(line.data() + kBegin.size(), line.data() + line.size(), count);
+  return std::min(count, kPosesPerBlock);
+}
+
+Result<std::size_t> files::count_announced(std::string_view text, std::string_view name) {
+  std::size_t count = 0;
+  LineReader lines(text);
+  while (const auto line = lines.next()) count += announced_poses(*line);
+  if (count <= kMaxPoses) return count;
+  return failure(ErrorKind::bad_input,
+                 std::string(name) + ": expected at most " + std::to_string(kMaxPoses) +
+                     " poses, found " + std::to_string(count) + ", which would take " +
+                     std::to_string((count * sizeof(Pose)) >> 20) + " MiB of memory");
+}
+
+Result<void> files::append_block(const LocatedJson& line, std::vector<Pose>& poses,
+                                 std::size_t room) {
   return ObjectReader::read(line, Block{})
-      .and_then([&](const Block& block) { return decode(line, block); })
+      .and_then([&](const Block& block) -> Result<std::vector<Pose>> {
+        if (block.count <= room) return decode(line, block);
+        return tl::make_unexpected(line.field_error(
+            {"n"}, "expected at most " + std::to_string(kMaxPoses) + " poses in all, found more"));
+      })
       .and_then([&](const std::vector<Pose>& more) -> Result<void> {
         if (!poses.empty() && more.front().time_us <= poses.back().time_us)
           return tl::make_unexpected(line.field_error(
@@ -235,15 +260,19 @@ Result<Session> parse_session(std::string_view text, std::string_view name) {
       [](const LocatedJson& line) { return ObjectReader::read(line, Header{}); });
   if (!header) return tl::make_unexpected(header.error());
 
+  const auto announced = count_announced(lines.rest(), name);
+  if (!announced) return tl::make_unexpected(announced.error());
   Session session{std::move(header->scene_name), header->scene_hash, {}, false};
+  session.poses.reserve(*announced);
   while (const auto line = lines.next()) {
     // An editor may have ended a torn line with a newline; nothing can stand behind it.
     if (lines.rest().empty() && is_unfinished_json(*line)) {
       session.torn = true;
       return session;
     }
-    const auto appended = document(*line).and_then(
-        [&](const LocatedJson& block) { return append_block(block, session.poses); });
+    const auto appended = document(*line).and_then([&](const LocatedJson& block) {
+      return append_block(block, session.poses, kMaxPoses - session.poses.size());
+    });
     if (!appended) return tl::make_unexpected(appended.error());
   }
   session.torn = !lines.rest().empty();

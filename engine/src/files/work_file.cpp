@@ -64,7 +64,7 @@ void go_to(WorkRecord& work, std::size_t node) {
 
 std::vector<Pose> from_zero(std::span<const Pose> poses) {
   std::vector<Pose> shifted(poses.begin(), poses.end());
-  for (Pose& pose : shifted) pose.time_us -= poses.front().time_us;
+  to_zero(shifted);
   return shifted;
 }
 

@@ -38,6 +38,12 @@ inline std::uint64_t hash_of(const std::optional<Pot>& start) {
   return hash.value();
 }
 
+/// Shifts the times, so that the first pose is at time 0.
+inline void to_zero(std::span<Pose> poses) {
+  const std::int64_t first_us = poses.empty() ? 0 : poses.front().time_us;
+  for (Pose& pose : poses) pose.time_us -= first_us;
+}
+
 struct WorkHeader {};
 
 struct NodeLine {

@@ -17,15 +17,17 @@ constexpr std::size_t kMaxLineValues = 100'000;  // as of a scene; a pot has mor
 /// Reads line after line into a record. After an error it holds what stood before that line.
 class WorkBuilder {
  public:
-  Result<void> take(const LocatedJson& line) {
+  /// `rest`: the lines behind it.
+  Result<void> take(LocatedJson line, LineReader rest) {
     const Json& root = line.root();
     if (root.contains("n")) return take_block(line);
     if (root.contains("end")) return take_end(line);
     if (running_) return wrong(line, "the poses or the end of node " + last_number());
-    if (root.contains("node")) return take_node(line);
+    if (root.contains("node"))
+      return take_node(line).map([&] { make_room(work_.nodes.back().poses, rest); });
     if (root.contains("at")) return take_at(line);
     if (root.contains("saved")) return take_saved(line);
-    if (root.contains("rings")) return take_start(line);
+    if (root.contains("rings")) return take_start(std::move(line));
     if (root.contains("lump")) return take_scene(line);
     return wrong(line, "a scene, a pot, a node, poses, an end, a place (at, saved)");
   }
@@ -75,10 +77,10 @@ class WorkBuilder {
     });
   }
 
-  Result<void> take_start(const LocatedJson& line) {
+  Result<void> take_start(LocatedJson line) {
     if (has_root() || work_.start)
       return wrong(line, "one pot at most, before node 0; a scene, a node or a place");
-    return pot_of(line).map([&](Pot pot) { work_.start = std::move(pot); });
+    return pot_of(std::move(line)).map([&](Pot pot) { work_.start = std::move(pot); });
   }
 
   Result<void> take_node(const LocatedJson& line) {
@@ -102,7 +104,22 @@ class WorkBuilder {
 
   Result<void> take_block(const LocatedJson& line) {
     if (!running_) return wrong(line, "a node before its poses");
-    return append_block(line, work_.nodes.back().poses);
+    std::vector<Pose>& poses = work_.nodes.back().poses;
+    const std::size_t before = poses.size();
+    return append_block(line, poses, kMaxPoses - poses_).map([&] {
+      poses_ += poses.size() - before;
+    });
+  }
+
+  /// For the blocks that come next.
+  static void make_room(std::vector<Pose>& poses, LineReader lines) {
+    std::size_t announced = 0;
+    while (const auto line = lines.next()) {
+      const std::size_t more = announced_poses(*line);
+      if (more == 0 || announced + more > kMaxPoses) break;
+      announced += more;
+    }
+    poses.reserve(announced);
   }
 
   Result<void> take_end(const LocatedJson& line) {
@@ -147,7 +164,13 @@ class WorkBuilder {
 
   /// The stroke that runs becomes one node, or several.
   void close(std::span<const std::int64_t> splits) {
-    const WorkNode whole = std::move(work_.nodes.back());
+    running_ = false;
+    WorkNode& only = work_.nodes.back();
+    if (splits.empty()) {
+      to_zero(only.poses);
+      return move_to(work_.nodes.size() - 1);
+    }
+    const WorkNode whole = std::move(only);
     work_.nodes.pop_back();
     std::size_t parent = whole.parent, begin = 0;
     for (std::size_t part = 0; part <= splits.size(); ++part) {
@@ -159,7 +182,6 @@ class WorkBuilder {
       begin = end;
     }
     move_to(parent);
-    running_ = false;
   }
 
   void move_to(std::size_t node) {
@@ -170,6 +192,7 @@ class WorkBuilder {
   WorkRecord work_;
   std::vector<std::uint64_t> scene_hashes_;
   Visits visits_;
+  std::size_t poses_ = 0;  ///< in all nodes
   bool running_ = false;
 };
 
@@ -191,6 +214,9 @@ Result<WorkReading> read_work(std::string_view text, std::string_view name, bool
       [](const LocatedJson& line) { return ObjectReader::read(line, WorkHeader{}); });
   if (!header) return tl::make_unexpected(header.error());
 
+  // For what a crash left, all that can be kept is read.
+  if (const auto announced = count_announced(lines.rest(), name); !announced && !lenient)
+    return tl::make_unexpected(announced.error());
   WorkReading reading;
   WorkBuilder builder;
   reading.sound_bytes = text.size() - lines.rest().size();
@@ -198,8 +224,8 @@ Result<WorkReading> read_work(std::string_view text, std::string_view name, bool
     // An editor may have ended a torn line with a newline; nothing can stand behind it.
     reading.torn = lines.rest().empty() && is_unfinished_json(*line);
     if (reading.torn) break;
-    const auto taken =
-        document(*line).and_then([&](const LocatedJson& read) { return builder.take(read); });
+    const auto taken = document(*line).and_then(
+        [&](LocatedJson&& read) { return builder.take(std::move(read), lines); });
     if (!taken) {
       if (!lenient || !builder.has_root()) return tl::make_unexpected(taken.error());
       reading.damage = taken.error();

@@ -1,9 +1,11 @@
 #include "claystack/engine/session_file.hpp"
 
 #include "claystack/engine/scene_file.hpp"
+#include "engine/allocation_counter.hpp"
 #include "engine/files/arbitrary.hpp"
 #include "engine/files/schema_check.hpp"
 #include "engine/files/text_edits.hpp"
+#include "files/session_json.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -250,6 +252,60 @@ TEST(SessionFile, ErrorsNameTheLineOfAGap) {
 TEST(SessionFile, RefusesTimesThatDoNotIncreaseFromBlockToBlock) {
   const auto text = std::string(kHeader).append(kThreePoses).append(kOnePose);
   test::expect_refused(parse_session(text, "s"), "s:3: t_us: expected a time after 3500, found 0");
+}
+
+/// A header, and blocks of poses that stand still: as many poses a byte as there can be.
+std::string still_session(std::size_t blocks) {
+  std::string text(kHeader);
+  std::vector<Pose> poses(kPosesPerBlock);
+  for (std::size_t block = 0; block < blocks; ++block) {
+    for (std::size_t i = 0; i < poses.size(); ++i)
+      poses[i].time_us = static_cast<std::int64_t>(1000 * (block * kPosesPerBlock + i));
+    text += session_block(poses);
+  }
+  return text;
+}
+
+TEST(SessionFile, TakesTheMemoryOfItsPosesAndOfOneBlock) {
+  constexpr std::size_t kBlocks = 5001, kOneBlock = std::size_t{1} << 18;
+  const std::string text = still_session(kBlocks);
+  Result<Session> session;
+  const std::size_t bytes = peak_bytes_of([&] { session = parse_session(text, "s"); });
+  ASSERT_TRUE(session) << session.error().message;
+  ASSERT_EQ(session->poses.size(), kBlocks * kPosesPerBlock);
+  EXPECT_LE(bytes, session->poses.size() * sizeof(Pose) + kOneBlock);
+}
+
+TEST(SessionFile, TheLargestTakesLessThanOneGibibyteToRead) {
+  static_assert(kMaxPoses * sizeof(Pose) + kMaxSessionBytes < std::size_t{1} << 30);
+  EXPECT_GT(kMaxSessionBytes, 2 * (text_of(wandering(10'000)).size() / 10'000) * kMaxPoses);
+}
+
+TEST(SessionFile, TooManyPosesAreRefusedBeforeOneIsRead) {
+  std::string text(kHeader);
+  for (std::size_t block = 0; block <= kMaxPoses / kPosesPerBlock; ++block)
+    text += R"({"n":100,"t_us":0})"
+            "\n";
+  Result<Session> session;
+  const std::size_t bytes = peak_bytes_of([&] { session = parse_session(text, "s"); });
+  test::expect_refused(session,
+                       "s: expected at most 10000000 poses, found 10000100, which would take 457 "
+                       "MiB of memory");
+  EXPECT_LT(bytes, std::size_t{1} << 18);
+}
+
+TEST(SessionFile, ABlockThatFindsNoRoomIsRefusedWhereItStands) {
+  const auto line = files::LocatedJson::from_json(kThreePoses, "s", files::kMaxBlockValues, 7);
+  std::vector<Pose> poses;
+  test::expect_refused(files::append_block(line.value(), poses, 2),
+                       "s:7: n: expected at most 10000000 poses in all, found more");
+  EXPECT_TRUE(poses.empty());
+  EXPECT_TRUE(files::append_block(line.value(), poses, 3));
+  // Laid out so that no announcement is found in it, a block is read all the same.
+  EXPECT_EQ(files::announced_poses(kThreePoses), 3u);
+  EXPECT_EQ(files::announced_poses(" " + std::string(kThreePoses)), 0u);
+  EXPECT_EQ(parse_session(std::string(kHeader) + " " + std::string(kThreePoses), "s").value().poses,
+            kThree);
 }
 
 TEST(SessionSchema, DescribesEveryLine) {

@@ -33,6 +33,13 @@ struct Session {
 
 inline constexpr std::size_t kPosesPerBlock = 100;
 
+/// The most poses of a session, and of all strokes of a work together: 2.7 hours at 1 kHz, 460 MiB
+/// in memory.
+inline constexpr std::size_t kMaxPoses = 10'000'000;
+/// The largest session file that is read [bytes]: more than 50 for each of kMaxPoses, of which a
+/// hand needs 20. With it, a session takes less than 1 GiB to read.
+inline constexpr std::size_t kMaxSessionBytes = std::size_t{512} << 20;
+
 /// The header line, with its newline.
 std::string session_header(std::string_view scene_name, std::uint64_t scene_hash);
 /// One block line, with its newline. At most kPosesPerBlock poses, times from 0 to 2^53 us
@@ -42,7 +49,8 @@ std::string session_block(std::span<const Pose> poses);
 std::string write_session(const Session& session);
 
 /// Errors read "NAME:LINE: what was expected, what was found". An unfinished last line is
-/// dropped and reported in `torn`; a damaged line anywhere is an error.
+/// dropped and reported in `torn`; a damaged line anywhere is an error. More than kMaxPoses are
+/// refused before the first of them is read. Takes the memory of the poses, and of one block.
 Result<Session> parse_session(std::string_view text, std::string_view name);
 
 /// FNV-1a over the text that write_scene gives, without its `written_by`: the scene whatever its

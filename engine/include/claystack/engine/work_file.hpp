@@ -55,10 +55,12 @@ struct WorkReading {
 };
 
 /// Strict: errors read "NAME:LINE: what was expected, what was found". An unfinished last line is
-/// dropped and reported; a damaged line anywhere is an error.
+/// dropped and reported; a damaged line anywhere is an error. More than kMaxPoses
+/// (session_file.hpp) are refused before the first of them is read. Takes the memory of the poses,
+/// and of one line.
 Result<WorkReading> parse_work(std::string_view text, std::string_view name);
-/// For what a crash left: reads up to the first damaged line. An error only when the root is not
-/// before it.
+/// For what a crash left: reads up to the first damaged line, or to kMaxPoses. An error only when
+/// the root is not before it.
 Result<WorkReading> salvage_work(std::string_view text, std::string_view name);
 /// The whole file, compact: one line of going for each choice that redo remembers.
 std::string write_work(const WorkRecord& work);
