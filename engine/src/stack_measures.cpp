@@ -1,5 +1,6 @@
 #include "claystack/engine/stack_measures.hpp"
 
+#include "portable_trig.hpp"
 #include "stability.hpp"
 
 #include <algorithm>
@@ -37,7 +38,7 @@ class WallSearch {
   void across(std::size_t i) {
     const double inner = rings_[i].inner_mm();
     const auto try_ring = [&](std::size_t j, double gap) {
-      keep(std::hypot(std::max(0.0, rings_[j].outer_mm() - inner), gap), i);
+      keep(length_of(std::max(0.0, rings_[j].outer_mm() - inner), gap), i);
     };
     try_ring(i, 0.0);
     bool down = true, up = true;
