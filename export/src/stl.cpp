@@ -1,5 +1,6 @@
 #include "cancel.hpp"
 #include "claystack/export/mesh_formats.hpp"
+#include "describe.hpp"
 #include "file_floats.hpp"
 #include "mesh_limits.hpp"
 #include "stl_layout.hpp"
@@ -111,11 +112,14 @@ Result<TriangleMesh> decode_binary(std::string_view bytes, std::size_t facets,
 }
 
 bool begins_with_solid(std::string_view bytes) {
+  bytes = without_byte_order_mark(bytes);
   const std::size_t begin = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
   return equal_ignoring_case(bytes.substr(begin, 5), "solid");
 }
 
 tl::unexpected<Error> wrong_size(std::string_view bytes, std::string_view name) {
+  if (const auto kind = known_kind(bytes); !kind.empty())
+    return bad_file(name, std::string("expected an STL file, found ").append(kind));
   const std::string found = ", found " + std::to_string(bytes.size()) + " bytes";
   if (bytes.size() < kPrologueBytes) {
     return bad_file(name, "expected an STL file: the word solid, or at least 84 bytes" + found);

@@ -51,13 +51,18 @@ std::optional<float> parse_float(std::string_view word) noexcept {
 
 }  // namespace
 
+std::string_view without_byte_order_mark(std::string_view text) noexcept {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  return text;
+}
+
 bool equal_ignoring_case(std::string_view word, std::string_view lower) noexcept {
   return std::equal(word.begin(), word.end(), lower.begin(), lower.end(),
                     [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
 }
 
 TextScanner::TextScanner(std::string_view text, std::string_view name, LineRule rule)
-    : text_(text), name_(name), rule_(rule) {
+    : text_(without_byte_order_mark(text)), name_(name), rule_(rule) {
   check_lines();
 }
 

@@ -16,7 +16,8 @@ enum class LineRule { plain, backslash_continues };
 
 class TextScanner {
  public:
-  /// Faults at once on a NUL byte or a line of more than 64 KiB. Keeps views of both texts.
+  /// Passes over a byte order mark. Faults at once on a NUL byte or a line of more than 64 KiB.
+  /// Keeps views of both texts.
   TextScanner(std::string_view text, std::string_view name, LineRule rule);
 
   /// The next word on this line or a later one; empty at the end of the text.
@@ -54,6 +55,9 @@ class TextScanner {
   std::size_t line_ = 1;
   std::optional<Error> fault_;
 };
+
+/// Text without the mark (EF BB BF) that some editors put before UTF-8.
+[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text) noexcept;
 
 /// ASCII only, so that no locale plays a part.
 [[nodiscard]] bool equal_ignoring_case(std::string_view word, std::string_view lower) noexcept;

@@ -1,18 +1,21 @@
+#include "files/located_json.hpp"
 #include "strokes.hpp"
 
-#include <nlohmann/json.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <initializer_list>
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace clay::samples {
 namespace {
 
-using Json = nlohmann::json;
+using files::Json;
 
 /// Why a script is refused; never leaves parse_strokes.
 struct Refusal {
@@ -22,7 +25,7 @@ struct Refusal {
 [[noreturn]] void refuse(const std::string& place, const std::string& expected, const Json& found) {
   const std::string what = found.is_object()  ? "an object"
                            : found.is_array() ? "an array of " + std::to_string(found.size())
-                                              : found.dump();
+                                              : files::printable(found.dump());
   throw Refusal{(place.empty() ? "" : place + ": ") + "expected " + expected + ", found " + what};
 }
 
@@ -34,6 +37,7 @@ constexpr Range kPositionMm{-1000.0, 1000.0}, kSpeedMmS{1.0, 10000.0}, kRateHz{2
 struct IntegerRange {
   std::uint64_t low, high;
 };
+constexpr double kMostPoses = 5e6;  // 83 minutes of a hand at 1 kHz
 constexpr IntegerRange kPasses{1, 100}, kSeed{0, std::numeric_limits<std::uint64_t>::max()};
 
 void read(const Json& json, const std::string& place, double& value, Range range) {
@@ -150,20 +154,42 @@ void read(const Json& json, StrokeScript& script) {
       .refuse_others();
 }
 
+/// About how many poses a script makes: a few numbers can ask for years at the wheel.
+double poses_of(const StrokeScript& script) {
+  constexpr double kGreatestToMean = 1.875;  // speeds of a movement of minimum jerk
+  double seconds = 0.0;
+  for (const Stroke& stroke : script.strokes) {
+    const auto& points = stroke.through_mm;
+    double path_mm = 0.0;
+    for (std::size_t k = 1; k < points.size(); ++k)
+      path_mm += glm::distance(points[k - 1], points[k]);
+    const double travel_mm = glm::distance(script.start_mm, points.front()) +
+                             glm::distance(points.back(), script.start_mm) +
+                             glm::length(stroke.step_mm) * stroke.passes;
+    seconds += stroke.passes * (stroke.hold_s + kGreatestToMean * (path_mm / stroke.speed_mm_s +
+                                                                   travel_mm / script.travel_mm_s));
+  }
+  return seconds * script.rate_hz;
+}
+
 }  // namespace
 
 Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name) {
   const auto refused = [&](const std::string& message) {
     return failure(ErrorKind::bad_input, std::string(name) + ": " + message);
   };
+  constexpr std::size_t kMostValues = 1'000'000;
+  const auto document = files::LocatedJson::from_json(text, name, kMostValues);
+  if (!document) return tl::make_unexpected(document.error());
   try {
     StrokeScript script;
-    read(Json::parse(text), script);
+    read(document->root(), script);
+    if (const double poses = poses_of(script); !(poses <= kMostPoses))
+      throw Refusal{"expected a script of at most " + Json(kMostPoses).dump() +
+                    " poses, found one of about " + Json(std::round(poses)).dump()};
     return script;
   } catch (const Refusal& refusal) {
     return refused(refusal.message);
-  } catch (const Json::exception& error) {
-    return refused(error.what());
   }
 }
 

@@ -53,7 +53,7 @@ TEST(PortableTrig, EndsAreDefined) {
   EXPECT_TRUE(std::isnan(cos_sin(std::nan("")).cosine));
   EXPECT_TRUE(std::isnan(cos_sin(1.01 * kMostRad).sine));
   EXPECT_EQ(length_of(0.0, -0.0), 0.0);
-  EXPECT_EQ(length_of(-3e-300, 4e-300), 5e-300);
+  EXPECT_EQ(length_of(-3.0 * 0x1p-1000, 4.0 * 0x1p-1000), 5.0 * 0x1p-1000);
   EXPECT_EQ(length_of(3.0 * 0x1p1000, 4.0 * 0x1p1000), 5.0 * 0x1p1000);
   EXPECT_EQ(length_of(5e-324, 0.0), 5e-324);
 }
