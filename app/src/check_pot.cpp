@@ -67,7 +67,7 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command) {
   const auto pot = parse_pot(bytes, command.file);
   if (!pot) return tl::make_unexpected(pot.error());
   if (pot->collapse)
-    return unsound("collapsed", fmt::format("ring {} yielded at {:.2f} kPa",
+    return unsound("collapsed", fmt::format("ring {} yielded at {:g} kPa",
                                             pot->collapse->failed_ring, pot->collapse->stress_kpa));
   // As `export` makes it unless told otherwise.
   const auto demand =

@@ -1,7 +1,7 @@
 #include "rescue.hpp"
 
 #include "claystack/engine/atomic_file.hpp"
-#include "user_folders.hpp"
+#include "user_folder.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -35,9 +35,10 @@ Result<fs::path> rescue(const fs::path& wanted, bool beside, std::string_view by
   if (beside)
     if (auto kept = keep_in(wanted.has_parent_path() ? wanted.parent_path() : ".")) return kept;
   std::error_code ignored;
-  const fs::path state = state_folder() / "rescued";
-  fs::create_directories(state, ignored);
-  if (auto kept = keep_in(state)) return kept;
+  if (const fs::path state = user_folder(UserFolder::state); !state.empty()) {
+    fs::create_directories(state / "rescued", ignored);
+    if (auto kept = keep_in(state / "rescued")) return kept;
+  }
   return keep_in(fs::temp_directory_path(ignored));
 }
 

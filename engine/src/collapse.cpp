@@ -2,6 +2,7 @@
 
 #include "claystack/engine/fall.hpp"
 #include "fall_path.hpp"
+#include "portable_trig.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -15,11 +16,11 @@ double exact_at_zero(double x) noexcept { return std::abs(x) < 1e-15 ? 0.0 : x; 
 }  // namespace
 
 FallenPlace::FallenPlace(const Collapse& collapse) noexcept
-    : pivot_mm_(collapse.pivot_mm),
-      axis_(collapse.axis),
-      shift_mm_(collapse.shift_mm),
-      cosine_(exact_at_zero(std::cos(collapse.angle_rad))),
-      sine_(exact_at_zero(std::sin(collapse.angle_rad))) {}
+    : pivot_mm_(collapse.pivot_mm), axis_(collapse.axis), shift_mm_(collapse.shift_mm) {
+  const CosSin turn = cos_sin(collapse.angle_rad);
+  cosine_ = exact_at_zero(turn.cosine);
+  sine_ = exact_at_zero(turn.sine);
+}
 
 /// Rodrigues' formula.
 glm::dvec3 FallenPlace::operator()(const glm::dvec3& point_mm) const noexcept {

@@ -11,7 +11,7 @@ namespace clay {
 /// turns about the HIP, toward the side where its weight hangs, as long as the moment of the
 /// weight exceeds that of the clay it presses into. Then the hand lets go, and it settles by
 /// whatever motion wins most power, until none wins any. O(N) plus a bounded
-/// number of steps, once in the life of a pot; uses libm.
+/// number of steps, once in the life of a pot.
 [[nodiscard]] Collapse settle(const ClayStack& stack, double density_g_cm3, const Failure& failure,
                               const glm::dvec3& hip_mm, double threshold_kpa);
 

@@ -2,6 +2,7 @@
 
 #include "claystack/engine/step_plan.hpp"
 #include "fallen_body.hpp"
+#include "portable_trig.hpp"
 #include "yield_power.hpp"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ struct Course {
 };
 
 glm::dvec2 turned(glm::dvec2 v, double angle) noexcept {
-  const double c = std::cos(angle), s = std::sin(angle);
+  const auto [c, s] = cos_sin(angle);
   return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
@@ -65,7 +66,8 @@ class Fall {
     const double turn = course.omega * time;
     // Along the chord: sin(turn)/turn and (1 - cos(turn))/turn.
     const double half = 0.5 * turn;
-    const double chord = std::abs(half) > 1e-4 ? std::sin(half) / half : 1.0 - half * half / 6.0;
+    const double chord =
+        std::abs(half) > 1e-4 ? cos_sin(half).sine / half : 1.0 - half * half / 6.0;
     Slid result{pose_, {turned(course.velocity, turn), course.omega}};
     result.pose.centre_mm += chord * time * turned(course.velocity, half);
     result.pose.angle_rad += turn;
@@ -226,7 +228,7 @@ class Fall {
 }  // namespace
 
 FallPlane::FallPlane(const glm::dvec3& hip_mm) noexcept
-    : pivot_mm(std::hypot(hip_mm.x, hip_mm.z), hip_mm.y) {
+    : pivot_mm(length_of(hip_mm.x, hip_mm.z), hip_mm.y) {
   if (pivot_mm.x > 0.0) outward = {hip_mm.x / pivot_mm.x, 0.0, hip_mm.z / pivot_mm.x};
 }
 

@@ -1,5 +1,7 @@
 #include "fallen_body.hpp"
 
+#include "portable_trig.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -151,14 +153,15 @@ const std::array<double, kDirections>& FallenBody::directions() noexcept {
   static const auto cosines = [] {
     std::array<double, kDirections> result{};
     for (std::size_t k = 0; k < kDirections; ++k)
-      result[k] = std::cos(kPi * (static_cast<double>(k) + 0.5) / kDirections);
+      result[k] = cos_sin(kPi * (static_cast<double>(k) + 0.5) / kDirections).cosine;
     return result;
   }();
   return cosines;
 }
 
 glm::dvec2 FallenBody::lowest(double angle_rad) const noexcept {
-  const double c = std::cos(angle_rad), s = std::sin(angle_rad);
+  const auto [cosine, sine] = cos_sin(angle_rad);
+  const double c = cosine, s = sine;  // a lambda of C++20 holds no structured binding in Clang 14
   // The left half is the right one turned the other way.
   const auto lowest_of_half = [&](double side) {
     const auto falls = [&](const glm::dvec2& edge) { return side * s * edge.x + c * edge.y < 0.0; };

@@ -1,5 +1,6 @@
 #include "claystack/engine/stack_measures.hpp"
 
+#include "portable_trig.hpp"
 #include "stability.hpp"
 
 #include <algorithm>
@@ -102,7 +103,7 @@ class WallSearch {
       const double least = least_.thickness_mm;
       // Most are far: the exact length costs ten times as much.
       if (across * across + gap * gap > kRoundedUp * least * least) return false;
-      const double wall = std::hypot(across, gap);
+      const double wall = length_of(across, gap);
       if (from == to) keep(wall, i);
       return wall < least;
     });

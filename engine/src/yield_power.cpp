@@ -1,5 +1,7 @@
 #include "yield_power.hpp"
 
+#include "portable_trig.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -98,7 +100,7 @@ bool YieldPower::in_clay(glm::dvec2 place_mm, double depth2_mm2) const noexcept 
 
 void YieldPower::place(const PlanePose& pose) {
   touches_.clear();
-  const double c = std::cos(pose.angle_rad), s = std::sin(pose.angle_rad);
+  const auto [c, s] = cos_sin(pose.angle_rad);
   for (const SurfaceStrip& strip : body_.surface()) {
     const double middle = pose.centre_mm.y + c * strip.height_mm;
     const double rise = std::abs(s) * strip.radius_mm;

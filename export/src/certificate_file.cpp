@@ -15,6 +15,8 @@ namespace {
 constexpr const char* kSchema = "claystack-certificate-1";
 constexpr std::string_view kClaim =
     "closed and embedded, of the volume and no thinner than stated, as the file's bytes say";
+// Coordinates are within 1e6 mm, so no length between them is as long, no volume as large.
+constexpr Interval kLengthMm{0.0, 1e7}, kWallMm{-1e7, 1e7}, kVolumeMm3{0.0, 1e20};
 constexpr std::size_t kMaxProfilePoints = kMaxTriangles / kMinSegments;
 
 Json profile_json(const Profile& profile) {
@@ -75,7 +77,7 @@ class ProfileReader {
                      std::to_string(found));
   }
 
-  JsonLimits limits_{kNumberDepth};
+  JsonLimits limits_{kNumberDepth, kSchema};
   Profile& profile_;
   std::array<double, 2> point_{};
   std::size_t count_ = 0;  ///< numbers of the point in hand
@@ -108,13 +110,14 @@ SolidCertificate from_json(const Json& json) {
   c.profile_hash = text_in(json, "profile_hash");
   c.proof = proof_from(json);
   c.segments = count_in(json, "segments");
-  c.rounding_mm = number_in(json, "rounding_mm");
-  c.margins = {number_in(json, "clearance_mm"), number_in(json, "chord_mm"), c.segments};
-  c.wall_lower_mm = number_in(json, "wall_lower_mm");
-  c.wall_upper_mm = number_in(json, "wall_upper_mm");
-  c.volume_mm3 = number_in(json, "volume_mm3");
-  c.volume_bound_mm3 = number_in(json, "volume_bound_mm3");
-  c.counted_volume_mm3 = number_in(json, "counted_volume_mm3");
+  c.rounding_mm = number_in(json, "rounding_mm", kLengthMm);
+  c.margins = {number_in(json, "clearance_mm", kLengthMm), number_in(json, "chord_mm", kLengthMm),
+               c.segments};
+  c.wall_lower_mm = number_in(json, "wall_lower_mm", kWallMm);
+  c.wall_upper_mm = number_in(json, "wall_upper_mm", kWallMm);
+  c.volume_mm3 = number_in(json, "volume_mm3", kVolumeMm3);
+  c.volume_bound_mm3 = number_in(json, "volume_bound_mm3", kVolumeMm3);
+  c.counted_volume_mm3 = number_in(json, "counted_volume_mm3", kVolumeMm3);
   return c;
 }
 

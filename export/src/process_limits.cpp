@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kAnySize = std::numeric_limits<double>::infinity();
 constexpr int kDeepest = 3;  // a field of a wall of the list
+constexpr const char* kSchema = "claystack-process-1";
+constexpr Interval kWallMm{0.0, 1e4, true}, kSizeSumMm{0.0, 1e7, true};
 
 const std::vector<ProcessLimits>& built_in() {
   static const std::vector<ProcessLimits> processes{
@@ -32,18 +34,16 @@ const std::vector<ProcessLimits>& built_in() {
 WallLimit wall_from(const Json& json) {
   expect_only(json, {"up_to_size_sum_mm", "min_wall_mm", "source"});
   WallLimit limit;
-  limit.up_to_size_sum_mm =
-      json.contains("up_to_size_sum_mm") ? number_in(json, "up_to_size_sum_mm") : kAnySize;
-  limit.min_wall_mm = number_in(json, "min_wall_mm");
+  limit.up_to_size_sum_mm = json.contains("up_to_size_sum_mm")
+                                ? number_in(json, "up_to_size_sum_mm", kSizeSumMm)
+                                : kAnySize;
+  limit.min_wall_mm = number_in(json, "min_wall_mm", kWallMm);
   limit.source = text_in(json, "source");
-  if (!(limit.min_wall_mm > 0.0)) throw BadField("min_wall_mm: expected more than 0 mm");
-  if (!(limit.up_to_size_sum_mm > 0.0))
-    throw BadField("up_to_size_sum_mm: expected more than 0 mm");
   return limit;
 }
 
 ProcessLimits process_from(const Json& json) {
-  expect_schema(json, "claystack-process-1");
+  expect_schema(json, kSchema);
   expect_only(json, {"schema", "name", "walls"});
   ProcessLimits process{text_in(json, "name"), {}};
   for (const Json& wall : array_in(json, "walls")) process.walls.push_back(wall_from(wall));
@@ -74,7 +74,7 @@ Result<ProcessLimits> process_named(std::string_view name) {
 }
 
 Result<ProcessLimits> parse_process(std::string_view bytes, std::string_view file_name) {
-  return parsed_with(bytes, file_name, JsonLimits(kDeepest), process_from);
+  return parsed_with(bytes, file_name, JsonLimits(kDeepest, kSchema), process_from);
 }
 
 }  // namespace clay::solid

@@ -1,6 +1,7 @@
 #include "byte_stream.hpp"
 #include "cancel.hpp"
 #include "claystack/export/mesh_formats.hpp"
+#include "describe.hpp"
 #include "file_floats.hpp"
 #include "mesh_limits.hpp"
 #include "stl_layout.hpp"
@@ -132,8 +133,18 @@ Result<TriangleMesh> read_binary(const ByteSource& source, ByteStream& stream, s
 }
 
 bool begins_with_solid(std::string_view bytes) {
+  bytes = without_byte_order_mark(bytes);
   const std::size_t begin = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
   return equal_ignoring_case(bytes.substr(begin, 5), "solid");
+}
+
+tl::unexpected<Error> no_stl(std::string_view head, std::uint64_t bytes, std::string_view name) {
+  if (const auto kind = known_kind(head); !kind.empty())
+    return bad_file(name, std::string("expected an STL file, found ").append(kind));
+  if (head.size() < kPrologueBytes)
+    return bad_file(name, "expected an STL file: the word solid, or at least 84 bytes, found " +
+                              std::to_string(head.size()) + " bytes");
+  return wrong_size(bytes, load_u32(head.data() + kHeaderBytes), name);
 }
 
 Result<TriangleMesh> read_either(const ByteSource& source, std::string_view name) {
@@ -141,14 +152,11 @@ Result<TriangleMesh> read_either(const ByteSource& source, std::string_view name
   stream.fill(ByteStream::kStretch);
   if (stream.fault()) return tl::make_unexpected(*stream.fault());
   const std::string_view head = stream.ahead();
-  if (head.size() < kPrologueBytes && !begins_with_solid(head))
-    return bad_file(name, "expected an STL file: the word solid, or at least 84 bytes, found " +
-                              std::to_string(head.size()) + " bytes");
   const std::size_t facets =
       head.size() < kPrologueBytes ? 0 : load_u32(head.data() + kHeaderBytes);
   if (head.size() >= kPrologueBytes && source.size == stl::file_bytes(facets))
     return read_binary(source, stream, facets, name);
-  if (!begins_with_solid(head)) return wrong_size(source.size, facets, name);
+  if (!begins_with_solid(head)) return no_stl(head, source.size, name);
   return check_text_size(source, kUsualTextFacetBytes, name).and_then([&] {
     return StlTextReader(stream, name).read();
   });

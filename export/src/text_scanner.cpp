@@ -51,6 +51,11 @@ std::optional<float> parse_float(std::string_view word) noexcept {
 
 }  // namespace
 
+std::string_view without_byte_order_mark(std::string_view text) noexcept {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  return text;
+}
+
 bool equal_ignoring_case(std::string_view word, std::string_view lower) noexcept {
   return std::equal(word.begin(), word.end(), lower.begin(), lower.end(),
                     [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
@@ -58,7 +63,9 @@ bool equal_ignoring_case(std::string_view word, std::string_view lower) noexcept
 
 TextScanner::TextScanner(ByteStream& text, std::string_view name, LineRule rule)
     : stream_(text), name_(name), rule_(rule) {
-  if (next_lines()) check_lines(line_);
+  if (!next_lines()) return;
+  at_ = text_.size() - without_byte_order_mark(text_).size();
+  check_lines(line_);
 }
 
 /// False where there are none, and `text_` is empty then.

@@ -18,7 +18,7 @@ enum class LineRule { plain, backslash_continues };
 
 class TextScanner {
  public:
-  /// Faults on a NUL byte or a line of more than 64 KiB, up to a megabyte before it is there.
+  /// Passes over a byte order mark. Faults on a NUL byte or a line of more than 64 KiB, up to a megabyte before it is there.
   /// The stream and the name outlive this.
   TextScanner(ByteStream& text, std::string_view name, LineRule rule);
 
@@ -60,6 +60,9 @@ class TextScanner {
   std::size_t line_ = 1;
   std::optional<Error> fault_;
 };
+
+/// Text without the mark (EF BB BF) that some editors put before UTF-8.
+[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text) noexcept;
 
 /// ASCII only, so that no locale plays a part.
 [[nodiscard]] bool equal_ignoring_case(std::string_view word, std::string_view lower) noexcept;

@@ -3,6 +3,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -46,27 +48,66 @@ class WordReader {
   std::size_t at_ = 0;
 };
 
-/// What a stream lacks; empty when it is whole.
+/// Addresses that blocks have filled.
+class Filled {
+ public:
+  /// The start of a block that overlaps the `size` words from `start`, or nothing.
+  std::optional<std::uint32_t> add(std::uint32_t start, std::uint32_t size) {
+    const auto after = starts_.upper_bound(start);
+    if (after != starts_.end() && after->first - start < size) return after->first;
+    if (after != starts_.begin()) {
+      const auto& [before, words] = *std::prev(after);
+      if (start - before < words) return before;
+    }
+    starts_.emplace(start, size);
+    return std::nullopt;
+  }
+
+ private:
+  std::map<std::uint32_t, std::uint32_t> starts_;  ///< and sizes; none overlap
+};
+
+std::string hex(std::uint32_t address) {
+  char text[16];
+  return {text, static_cast<std::size_t>(std::snprintf(text, sizeof text, "%06X", address))};
+}
+
+/// Reads one block of `size` words; empty, or "expected ..., found ...".
+std::string parse_block(WordReader& words, std::uint32_t size, Filled& filled, bool& holds,
+                        std::uint32_t address) {
+  const auto start = words.address();
+  if (!start) return "expected a block's address";
+  const std::string found = std::to_string(size) + " words from " + hex(*start);
+  if (*start >= kAddresses || size > kAddresses - *start)
+    return "expected a block within the addresses 000000 to 3FFFFF, found " + found;
+  if (const auto other = filled.add(*start, size))
+    return "expected blocks that do not overlap, found " + found + " over the block at " +
+           hex(*other);
+  if (!words.skip_words(size)) return "expected " + found + ", found the end of the file";
+  holds |= address >= *start && address - *start < size;
+  return {};
+}
+
+/// Empty where the stream is whole, or "expected ...".
 std::string parse(WordReader& words, Firmware& firmware) {
-  if (words.word() != kKeyOfBytes) return "the key AA 08";
+  if (words.word() != kKeyOfBytes) return "expected the key AA 08";
   for (int i = 0; i < kReservedWords; ++i)
-    if (words.word() != 0u) return "eight reserved words of 0";
+    if (words.word() != 0u) return "expected eight reserved words of 0";
   const auto entry = words.address();
-  if (!entry || *entry >= kAddresses) return "an entry point below 400000";
+  if (!entry || *entry >= kAddresses) return "expected an entry point below 400000";
   firmware.entry_point = *entry;
   bool holds_entry = false;
+  Filled filled;
   while (true) {
     const auto size = words.word();
-    if (!size) return "a block's size, or 0 for the end";
+    if (!size) return "expected a block's size, or 0 for the end";
     if (*size == 0) break;
-    const auto start = words.address();
-    if (!start || *start + *size > kAddresses) return "a block's address below 400000";
-    if (!words.skip_words(*size)) return std::to_string(*size).append(" words of a block");
-    holds_entry |= *entry >= *start && *entry < *start + *size;
+    if (auto problem = parse_block(words, *size, filled, holds_entry, *entry); !problem.empty())
+      return problem;
     ++firmware.blocks;
   }
-  if (!holds_entry) return "a block that holds the entry point";
-  if (words.at() != firmware.bytes.size()) return "the end of the file";
+  if (!holds_entry) return "expected a block that holds the entry point " + hex(*entry);
+  if (words.at() != firmware.bytes.size()) return "expected the end of the file";
   return {};
 }
 
@@ -76,12 +117,12 @@ DeviceResult<Firmware> parse_firmware(std::vector<std::uint8_t> bytes, const std
   Firmware firmware;
   firmware.bytes = std::move(bytes);
   WordReader words(firmware.bytes);
-  const std::string lacking = parse(words, firmware);
-  if (lacking.empty()) return firmware;
+  const std::string problem = parse(words, firmware);
+  if (problem.empty()) return firmware;
   return device_failure(DeviceFault::bad_firmware,
                         name + ": expected a TI C28x boot stream; at byte " +
                             std::to_string(words.at()) + " of " +
-                            std::to_string(firmware.bytes.size()) + " it lacks " + lacking,
+                            std::to_string(firmware.bytes.size()) + ": " + problem,
                         "name the firmware file that came with the Falcon's driver");
 }
 

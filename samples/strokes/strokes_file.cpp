@@ -1,9 +1,9 @@
+#include "files/located_json.hpp"
 #include "strokes.hpp"
 
 #include "claystack/engine/session_file.hpp"
 
 #include <glm/geometric.hpp>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +12,12 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace clay::samples {
 namespace {
 
-using Json = nlohmann::json;
+using files::Json;
 
 /// Why a script is refused; never leaves parse_strokes.
 struct Refusal {
@@ -26,7 +27,7 @@ struct Refusal {
 [[noreturn]] void refuse(const std::string& place, const std::string& expected, const Json& found) {
   const std::string what = found.is_object()  ? "an object"
                            : found.is_array() ? "an array of " + std::to_string(found.size())
-                                              : found.dump();
+                                              : files::printable(found.dump());
   throw Refusal{(place.empty() ? "" : place + ": ") + "expected " + expected + ", found " + what};
 }
 
@@ -189,15 +190,16 @@ Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name)
   const auto refused = [&](const std::string& message) {
     return failure(ErrorKind::bad_input, std::string(name) + ": " + message);
   };
+  constexpr std::size_t kMostValues = 1'000'000;
+  const auto document = files::LocatedJson::from_json(text, name, kMostValues);
+  if (!document) return tl::make_unexpected(document.error());
   try {
     StrokeScript script;
-    read(Json::parse(text), script);
+    read(document->root(), script);
     refuse_endless(script);
     return script;
   } catch (const Refusal& refusal) {
     return refused(refusal.message);
-  } catch (const Json::exception& error) {
-    return refused(error.what());
   }
 }
 

@@ -27,7 +27,23 @@ TEST(CsvDrawing, NamesTheLineThatItCannotRead) {
   EXPECT_THAT(refusal_of(read_drawing("10,0,1\n", "cup.csv")), HasSubstr("cup.csv:1: "));
   EXPECT_THAT(refusal_of(read_drawing("10,0\n-1,5\n", "cup.csv")), HasSubstr("found -1"));
   EXPECT_THAT(refusal_of(read_drawing("10,0\nnan,5\n", "cup.csv")), HasSubstr("cup.csv"));
-  EXPECT_THAT(refusal_of(read_drawing("10,0\n1e300,5\n", "cup.csv")), HasSubstr("within 1e6 mm"));
+  EXPECT_THAT(refusal_of(read_drawing("10,0\n1e300,5\n", "cup.csv")),
+              HasSubstr("cup.csv:2: expected points within 1e+06 mm, found (1e+300, 5)"));
+}
+
+TEST(CsvDrawing, PassesOverAByteOrderMark) {
+  for (const char* title : {"", "radius,height\n"}) {
+    const auto drawing =
+        read_drawing(std::string("\xEF\xBB\xBF") + title + "10,0\n5,20\n", "cup.csv");
+    ASSERT_TRUE(drawing) << refusal_of(drawing);
+    EXPECT_EQ(drawing->lines.at(0).points_mm, (std::vector<glm::dvec2>{{10, 0}, {5, 20}}));
+  }
+}
+
+TEST(CsvDrawing, RefusesMoreLinesThanCanBeJoined) {
+  std::string rows;
+  for (std::size_t i = 0; i <= kMostLines; ++i) rows += "10,0\n10,1\n\n";
+  EXPECT_THAT(refusal_of(read_drawing(rows, "cup.csv")), HasSubstr("expected at most 10000 lines"));
 }
 
 TEST(CsvDrawing, RefusesADrawingOfNothing) {

@@ -104,11 +104,46 @@ TEST(SvgDrawing, RefusesWhatIsNoDrawing) {
   };
   EXPECT_THAT(refused("<svg"), HasSubstr("pot.svg:1: "));
   EXPECT_THAT(refused("\n\n<svg><g></svg>"), HasSubstr("pot.svg:3: "));
-  EXPECT_THAT(refused("<html/>"), HasSubstr("pot.svg: expected"));
+  EXPECT_THAT(refused("<html/>"), HasSubstr("pot.svg:1: expected"));
   EXPECT_THAT(refused(page("")), HasSubstr("no line in it"));
   EXPECT_THAT(refused(page("<path d='M 0 0 L 1'/>")), HasSubstr("expected an SVG drawing"));
-  EXPECT_THAT(refused(page("<path d='M 0 0 L 1e300 1e300'/>")), HasSubstr("within 1e6 mm"));
+  EXPECT_THAT(refused(page("<path d='M 0 0 L 1e300 1e300'/>")), HasSubstr("within 1e+06 mm"));
   EXPECT_THAT(refused(std::string(3, '\0')), HasSubstr("pot.svg"));
+}
+
+// An arc of such numbers has no angle, and the number of its chords was that angle, as an int.
+TEST(SvgDrawing, HugeNumbersAreRefusedWithTheirLine) {
+  const auto refused = [](const std::string& shape) {
+    return refusal_of(read_drawing(page("\n<g>\n" + shape + "</g>"), "pot.svg"));
+  };
+  EXPECT_THAT(refused("<path d='M 0 0 L 1e300 1e300'/>"),
+              HasSubstr("pot.svg:3: expected points within 1e+06 mm"));
+  for (const char* shape :
+       {"<path d='M 0 0 A 1e200 1e200 0 0 1 10 1e200'/>", "<path d='M 0 0 A 1e308 1 0 1 1 9 9'/>",
+        "<circle cx='0' cy='0' r='1e308'/>", "<ellipse cx='1e308' cy='0' rx='1e308' ry='3'/>",
+        "<path d='M 0 0 C 1e308 -1e308 1e308 1e308 9 9'/>",
+        "<path transform='scale(1e308)' d='M 1 1 A 5 5 0 0 1 1e9 9'/>"})
+    EXPECT_THAT(refused(shape), HasSubstr("pot.svg:3: expected points within 1e+06 mm")) << shape;
+  EXPECT_THAT(refused("<path d='M 0 0 L 1'/>"), HasSubstr("pot.svg:3: expected an SVG drawing"));
+}
+
+// Each arc is 4096 chords: without a limit on the way, 4 GB of them.
+TEST(SvgDrawing, ASmallFileThatDrawsTooMuchIsRefused) {
+  std::string arcs = "<path d='M 0 0";
+  for (int i = 0; i < 60'000; ++i)
+    arcs += i % 2 == 0 ? " A 4e5 4e5 0 1 1 1 1" : " A 4e5 4e5 0 1 1 0 0";
+  EXPECT_THAT(refusal_of(read_drawing(page(arcs + "'/>"), "pot.svg")),
+              HasSubstr("expected at most 1000000 points"));
+}
+
+// Every corner was held against all on its level.
+TEST(SvgDrawing, ManyPointsOnOneLevelAreQuicklyMirrored) {
+  std::string points;
+  for (int i = -100'000; i <= 100'000; ++i) points += std::to_string(1e-3 * i) + ",0 ";
+  const auto section =
+      section_of(page("<polygon points='" + points + "100,50 -100,50'/>"), "pot.svg");
+  ASSERT_TRUE(section) << refusal_of(section);
+  EXPECT_EQ(section->axis, AxisRule::middle);
 }
 
 }  // namespace

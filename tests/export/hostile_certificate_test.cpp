@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace clay::solid {
@@ -75,7 +76,8 @@ TEST(HostileCertificate, NumbersThatAreNone) {
     EXPECT_TRUE(refused(with(field, "1e999"), "number overflow")) << field;
     EXPECT_TRUE(refused(with(field, "null"), std::string(field) + ": expected a")) << field;
     EXPECT_TRUE(refused(with(field, "\"7\""), std::string(field) + ": expected a")) << field;
-    EXPECT_FALSE(checked(with(field, "1e308"))) << field;
+    const bool counts = field == std::string_view("bytes") || field == std::string_view("segments");
+    EXPECT_TRUE(refused(with(field, "1e308"), counts ? "whole number" : "found 1e+308")) << field;
     EXPECT_FALSE(checked(with(field, "-1"))) << field;
     EXPECT_FALSE(checked(with(field, "18446744073709551615"))) << field;
   }
@@ -119,7 +121,7 @@ TEST(HostileCertificate, FieldsTwiceUnknownOrMissing) {
   }
   EXPECT_TRUE(
       refused(std::string("[").append(text).append("]"), "expected an object, found an array"));
-  EXPECT_TRUE(refused("7", "expected an object, found number"));
+  EXPECT_TRUE(refused("7", "expected a JSON object, found text that begins with '7'"));
 }
 
 // Each of these took the parser's stack, gigabytes, or hours.

@@ -152,8 +152,6 @@ TEST(Obj, NamesTheLineOfEveryDefect) {
            {"vn 0 0\n", "pot.obj:1: expected a number, found the end of the line or file"},
            {"curv 0 1\n", "pot.obj:1: expected a statement of a polygon mesh, found 'curv'"},
            {"V 0 0 0\n", "pot.obj:1: expected a statement of a polygon mesh, found 'V'"},
-           {"\xEF\xBB\xBFv 0 0 0\n",
-            "pot.obj:1: expected a statement of a polygon mesh, found '???v'"},
            {kSquare + "f 1 2 3\\", "pot.obj:5: expected a whole number"},
            {kSquare + std::string("f 1 2\0 3\n", 9), "pot.obj:5: expected text, found a NUL byte"},
            {std::string("#\n#").append(70'000, 'x'),
@@ -162,6 +160,11 @@ TEST(Obj, NamesTheLineOfEveryDefect) {
     EXPECT_EQ(message_of(bad.text).rfind(bad.says, 0), 0u)
         << "wanted: " << bad.says << "\nfound:  " << message_of(bad.text);
   }
+}
+
+TEST(Obj, PassesOverAByteOrderMark) {
+  EXPECT_EQ(triangles_of("\xEF\xBB\xBF" + kSquare + "f 1 2 3\n"),
+            triangles_of(kSquare + "f 1 2 3\n"));
 }
 
 TEST(Obj, TakesAFaceOf4096Corners) {

@@ -53,13 +53,34 @@ TEST(ProcessLimits, FaultsInAFileAreNamed) {
     EXPECT_EQ(process.error().message.find("w.json: "), 0u) << process.error().message;
     EXPECT_NE(process.error().message.find(says), std::string::npos) << process.error().message;
   };
-  expect("2.5", "-2.5", "min_wall_mm: expected more than 0");
+  expect("2.5", "-2.5", "min_wall_mm: expected a number above 0 to 10000, found -2.5");
+  expect("2.5", "0", "min_wall_mm: expected a number above 0 to 10000, found 0");
+  expect("2.5", "1e308", "min_wall_mm: expected a number above 0 to 10000, found 1e+308");
+  expect("600", "1e308", "up_to_size_sum_mm: expected a number above 0 to 1e+07, found 1e+308");
   expect("2.5", "\"thick\"", "min_wall_mm: expected a number");
   expect("600", "200", "sizes that rise");
   expect("\"source\"", "\"sauce\"", "sauce: unknown field");
   expect("process-1", "pot-1", "schema: expected claystack-process-1, found claystack-pot-1");
   expect("\"walls\": [", "\"walls\": [], \"x\": [", "x: unknown field");
   expect("}]}", "}", "parse error");
+}
+
+TEST(ProcessLimits, AFileOfAnotherKindIsNamedByItsKind) {
+  const auto expect = [](const std::string& bytes, const std::string& says) {
+    const auto process = parse_process(bytes, "w.json");
+    ASSERT_FALSE(process);
+    EXPECT_EQ(process.error().message, "w.json: " + says);
+  };
+  // Deeper than any process, and of more fields.
+  expect("{\"schema\": \"claystack-pot-1\", \"a\": {\"b\": {\"c\": [[[1]]]}}}",
+         "schema: expected claystack-process-1, found claystack-pot-1");
+  expect("", "expected a JSON object, found an empty file");
+  expect("solid vase\nfacet", "expected a JSON object, found an STL mesh in text");
+  expect("DRACO\x02\x02", "expected a JSON object, found a Draco mesh");
+  expect("radius, height\n10, 0",
+         "expected a JSON object, found text that begins with 'radius, height'");
+  expect(std::string(84, '\0'), "expected a JSON object, found data that is no text");
+  EXPECT_TRUE(parse_process(std::string("\xEF\xBB\xBF") + kWorkshop, "w.json"));
 }
 
 }  // namespace

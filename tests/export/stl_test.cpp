@@ -152,6 +152,7 @@ TEST(Stl, TextOfOtherWriters) {
   for (const std::string& other :
        {windows, shouting,
         one_facet("vertex +0 -0. .0e+9\nvertex +1.0E0 1e-50 -1e-46\nvertex 0 1 0\n"),
+        std::string("\xEF\xBB\xBF").append(one_facet(kThreeVertices)),
         std::string("\n  ").append(one_facet("\tvertex 0\n0 0 vertex 1 0 0 vertex 0 1 0 "))}) {
     EXPECT_EQ(decode_stl(other, "x").value(), plain) << other;
   }
@@ -176,6 +177,10 @@ TEST(Stl, NamesTheLineOfEveryDefectInText) {
            {"",
             "pot.stl: expected an STL file: the word solid, or at least 84 bytes, found 0 bytes"},
            {"sol", "pot.stl: expected an STL file"},
+           {"{\"schema\": \"claystack-pot-1\"" + std::string(100, ' '),
+            "pot.stl: expected an STL file, found a JSON file"},
+           {std::string("PK\x03\x04") + std::string(200, 'x'),
+            "pot.stl: expected an STL file, found a zip archive, as 3MF is"},
            {"solid", "pot.stl:1: expected facet or endsolid, found the end of the line or file"},
            {"solid\nendsolid\n", "pot.stl: expected 1 to 20000000 triangles, found 0"},
            {"solids\n", "pot.stl:1: expected solid, found 'solids'"},

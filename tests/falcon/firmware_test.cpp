@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <fstream>
 #include <string>
+#include <utility>
 
 namespace clay::falcon {
 namespace {
@@ -57,6 +58,40 @@ TEST(Firmware, IsRefusedWithAnotherHeader) {
   EXPECT_EQ(fault_of(outside), DeviceFault::bad_firmware);
   outside[20] = 0x09;
   EXPECT_TRUE(parse_firmware(outside, "f"));
+}
+
+/// The dummy with the address of its block `block` replaced; blocks of 20 words.
+std::string refusal_at(std::size_t block, std::uint32_t address) {
+  auto bytes = dummy_firmware(20, 3);
+  const std::size_t at = 2 * (1 + 8 + 2) + block * 2 * (3 + 20) + 2;
+  for (const std::size_t byte : {0u, 1u, 2u, 3u})  // high word first, low bytes first
+    bytes[at + byte] =
+        static_cast<std::uint8_t>(address >> (byte < 2 ? 16 + 8 * byte : 8 * byte - 16));
+  const auto parsed = parse_firmware(bytes, "f");
+  return parsed ? "" : parsed.error().what;
+}
+
+TEST(Firmware, BlocksOutsideTheMemoryAreRefusedWithTheirPlace) {
+  EXPECT_EQ(refusal_at(2, 0x3FFFECu), "");  // its last word is the last there is
+  const std::string place = "f: expected a TI C28x boot stream; at byte 120 of 162: ";
+  for (const auto& [address, text] :
+       {std::pair{0x3FFFEDu, "3FFFED"}, {0x400000u, "400000"}, {0xFFFFFFF0u, "FFFFFFF0"}})
+    EXPECT_EQ(refusal_at(2, address),
+              place +
+                  "expected a block within the addresses 000000 to 3FFFFF, found 20 words from " +
+                  text);
+}
+
+TEST(Firmware, BlocksThatOverlapAreRefusedWithTheirPlace) {
+  // The first block fills 3F8000 to 3F8013, the second 3F8014 to 3F8027.
+  for (const auto& [address, other] : {std::pair{0x3F8014u, "3F8014"},
+                                       {0x3F8027u, "3F8014"},
+                                       {0x3F7FEDu, "3F8000"},
+                                       {0x3F8013u, "3F8000"}})
+    EXPECT_TRUE(refusal_at(2, address).ends_with(std::string("over the block at ") + other))
+        << refusal_at(2, address);
+  EXPECT_EQ(refusal_at(2, 0x3F8028u), "");
+  EXPECT_EQ(refusal_at(2, 0x3F7FECu), "");
 }
 
 RC_GTEST_PROP(Firmware, OfAnyBytesIsReadOrRefused, (std::vector<std::uint8_t> bytes)) {

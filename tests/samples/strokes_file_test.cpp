@@ -93,8 +93,17 @@ TEST(StrokeFile, SaysWhatIsWrongWithTheWhole) {
           R"({"start_mm": [9, 9], "tempo": 1, "strokes": [{"through_mm": [[1, 2], [3, 4]]}]})"),
       "pot.strokes.json: tempo: unknown field");
   const std::string torn = message_of(R"({"start_mm": [9, 9)");
-  EXPECT_TRUE(torn.starts_with("pot.strokes.json: ")) << torn;
-  EXPECT_NE(torn.find("line 1"), std::string::npos) << torn;
+  EXPECT_TRUE(torn.starts_with("pot.strokes.json:1: ")) << torn;
+}
+
+TEST(StrokeFile, IsReadStrictly) {
+  EXPECT_EQ(message_of("{\"seed\": 1,\n\"seed\": 2}"),
+            "pot.strokes.json:2: duplicate field \"seed\"");
+  EXPECT_EQ(message_of(std::string(100'000, '[')),
+            "pot.strokes.json:1: expected at most 64 levels, found more");
+  EXPECT_LT(
+      message_of("{\"start_mm\": \"" + std::string(500'000, 'x') + "\", \"strokes\": []}").size(),
+      300u);
 }
 
 /// 20 passes of 60 s at 10 kHz are 12 million poses, and some for the ways between.

@@ -4,8 +4,11 @@
 #include "studio/length_text.hpp"
 
 #include <gtest/gtest.h>
+#include <pwd.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 
 namespace clay::studio {
@@ -86,6 +89,43 @@ TEST(Settings, WhatIsWrongIsNamed) {
   EXPECT_EQ(error_of("\"open\": {\"tool\": 3}"), "s: open.tool: expected true or false, found 3");
   EXPECT_EQ(parse_settings("[]", "s").error().message, "s: expected a JSON object");
   EXPECT_EQ(parse_settings("{}", "s").error().message, "s: schema: expected claystack-studio-1");
+}
+
+// The message repeated what it had found, level by level, until the stack was full.
+TEST(Settings, AFileNestedDeepIsRefused) {
+  std::string deep = "{\"schema\": \"claystack-studio-1\", \"scale\": ";
+  deep.append(100'000, '[').append(100'000, ']').append("}");
+  const auto read = parse_settings(deep, "s");
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().message, "s:1: expected at most 64 levels, found more");
+  const std::string long_text(500'000, 'x');
+  EXPECT_LT(
+      parse_settings("{\"schema\": \"claystack-studio-1\", \"scale\": \"" + long_text + "\"}", "s")
+          .error()
+          .message.size(),
+      300u);
+}
+
+TEST(Settings, APipeIsNeitherReadNorWritten) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("studio.json");
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  EXPECT_NE(load_settings(path).note.find("expected a regular file"), std::string::npos);
+  const auto saved = save_settings(Settings(), path);
+  ASSERT_FALSE(saved);
+  EXPECT_EQ(saved.error().kind, ErrorKind::io);
+}
+
+TEST(Settings, WithoutHomeTheyAreInTheHomeOfThePasswordFile) {
+  setenv("XDG_CONFIG_HOME", "relative", 1);
+  unsetenv("HOME");
+  EXPECT_EQ(settings_path(),
+            std::string(getpwuid(getuid())->pw_dir) + "/.config/claystack/studio.json");
+  setenv("HOME", "relative", 1);
+  EXPECT_EQ(settings_path(),
+            std::string(getpwuid(getuid())->pw_dir) + "/.config/claystack/studio.json");
+  setenv("XDG_CONFIG_HOME", "/etc/xdg", 1);
+  EXPECT_EQ(settings_path(), "/etc/xdg/claystack/studio.json");
 }
 
 TEST(Settings, ABrokenFileIsKeptAside) {

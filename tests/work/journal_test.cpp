@@ -8,8 +8,10 @@
 #include "work/strokes.hpp"
 
 #include <gtest/gtest.h>
+#include <pwd.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -230,6 +232,40 @@ TEST(Journal, StandsWhereTheStateIsKept) {
   EXPECT_EQ(recovery_folder(), "/potter/.local/state/claystack/recovery");
   unsetenv("XDG_STATE_HOME");
   EXPECT_EQ(recovery_folder(), "/potter/.local/state/claystack/recovery");
+  const std::string home = getpwuid(getuid())->pw_dir;
+  for (const char* none : {"", "relative"}) {
+    setenv("HOME", none, 1);
+    EXPECT_EQ(recovery_folder(), home + "/.local/state/claystack/recovery");
+  }
+  unsetenv("HOME");
+  EXPECT_EQ(recovery_folder(), home + "/.local/state/claystack/recovery");
+}
+
+TEST(Journal, WithoutAFolderIsAnError) {
+  const Work work = Work::begin(small_scene()).value();
+  const auto journal = Journal::begin(work.record(), "");
+  ASSERT_FALSE(journal);
+  EXPECT_NE(journal.error().message.find("home folder"), std::string::npos);
+}
+
+// To open a pipe that nobody writes to takes for ever.
+TEST(Journal, APipeInTheFolderIsPassedOver) {
+  const Folder folder;
+  std::filesystem::path journal;
+  {
+    Work work = kept_work(folder);
+    journal = work.journal()->path();
+    (void)work.add(small_scene(), press_stroke(1)).value();
+  }
+  const std::filesystem::path pipe = folder.path / "pipe.work";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(test::status_of_child([&] {
+              alarm(10);
+              const auto all = recoverable(folder.path);
+              return all.size() == 1 && all[0].path == journal && !discard(pipe) && !recover(pipe);
+            }),
+            0);
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
 TEST(Journal, AFolderThatCannotBeSyncedIsAnErrorAndLeavesNothing) {

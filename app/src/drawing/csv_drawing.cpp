@@ -42,7 +42,10 @@ std::optional<glm::dvec2> point_of(std::string_view row) {
 }  // namespace
 
 Result<Drawing> read_csv(std::string_view text, const std::string& name) {
+  // Spreadsheets begin a table in UTF-8 with a byte order mark.
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   Drawing drawing{{}, true};
+  PointLimits limits;
   bool open = false;    // the last line may go on
   bool titled = false;  // a row before the first point was taken for the names of the columns
   std::size_t number = 0;
@@ -68,6 +71,8 @@ Result<Drawing> read_csv(std::string_view text, const std::string& name) {
       return failure(ErrorKind::bad_input,
                      fmt::format("{}:{}: expected a radius of 0 mm or more, found {:g}", name,
                                  number, point->x));
+    if (const std::string problem = limits.problem_with({&*point, 1}); !problem.empty())
+      return failure(ErrorKind::bad_input, fmt::format("{}:{}: {}", name, number, problem));
     if (!open) drawing.lines.emplace_back();
     open = true;
     drawing.lines.back().points_mm.push_back(*point);

@@ -11,13 +11,14 @@ namespace {
 // More than a curve that fits on a page needs.
 constexpr double kMostChords = 4096.0;
 
+/// So many parts, rounded up, from 1 to kMostChords; 1 for NaN.
+int chords_in(double parts) {
+  return parts > 1.0 ? static_cast<int>(std::ceil(std::min(parts, kMostChords))) : 1;
+}
+
 /// Chords of equal steps, when half the second derivative over a step is at most `bend_mm`: the
 /// error of a chord is an eighth of |f''| times the step squared.
-int chords_for(double bend_mm) {
-  if (!std::isfinite(bend_mm)) return 1;
-  return static_cast<int>(
-      std::clamp(std::ceil(std::sqrt(bend_mm / (8.0 * kFlatMm))), 1.0, kMostChords));
-}
+int chords_for(double bend_mm) { return chords_in(std::sqrt(bend_mm / (8.0 * kFlatMm))); }
 
 glm::dvec2 projected(const glm::dvec3& p) { return glm::dvec2(p) / p.z; }
 
@@ -55,9 +56,8 @@ void append_cubic(std::vector<glm::dvec2>& points, glm::dvec2 a, glm::dvec2 b, g
 void append_arc(std::vector<glm::dvec2>& points, glm::dvec2 centre, glm::dvec2 u, glm::dvec2 v,
                 double from, double to) {
   const double turn = to - from;
-  const int chords =
-      std::max(chords_for(std::max(glm::length(u), glm::length(v)) * turn * turn),
-               static_cast<int>(std::ceil(std::abs(turn) / (0.5 * std::numbers::pi))));
+  const int chords = std::max(chords_for(std::max(glm::length(u), glm::length(v)) * turn * turn),
+                              chords_in(std::abs(turn) / (0.5 * std::numbers::pi)));
   for (int i = 1; i <= chords; ++i) {
     const double t = from + turn * static_cast<double>(i) / chords;
     points.push_back(centre + std::cos(t) * u + std::sin(t) * v);
@@ -84,7 +84,9 @@ std::vector<glm::dvec2> spline_points(std::size_t degree, std::span<const glm::d
         std::max(bend, glm::length(glm::dvec2(control[i - 2] - 2.0 * control[i - 1] + control[i])));
   // The control polygon bends at least as much as the curve does, and weights may draw it together.
   const auto n = static_cast<double>(degree);
-  const int chords = chords_for(4.0 * n * n * bend);
+  // So many control points that this makes chords fewer are more points than a drawing may have.
+  const int chords =
+      std::min(chords_for(4.0 * n * n * bend), static_cast<int>(kMostPoints / control.size()) + 1);
   std::vector<glm::dvec2> points;
   for (std::size_t k = degree; k < control.size(); ++k) {
     if (!(knots[k + 1] > knots[k])) continue;

@@ -28,6 +28,8 @@ struct Drawing {
 inline constexpr double kFlatMm = 1e-3;
 /// No drawing of a pot needs more; what does is refused.
 inline constexpr std::size_t kMostPoints = 1'000'000;
+/// Lines that do not touch in the file: each is held against all others.
+inline constexpr std::size_t kMostLines = 10'000;
 inline constexpr std::size_t kMostBytes = 32u << 20;
 
 /// Takes the format from the end of `name`:

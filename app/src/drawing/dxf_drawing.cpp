@@ -5,11 +5,14 @@
 #include <dxflib/dl_dxf.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <sstream>
+#include <stdexcept>
 
 namespace clay::drawing {
 namespace {
@@ -78,6 +81,7 @@ class Collector final : public DL_CreationAdapter {
   void addPolyline(const DL_PolylineData& polyline) override {
     finish();
     polyline_ = {{}, (polyline.flags & kClosed) != 0};
+    checked_ = 0;
   }
   void addVertex(const DL_VertexData& vertex) override {
     if (!polyline_) return;
@@ -87,6 +91,8 @@ class Collector final : public DL_CreationAdapter {
     else
       append_bulge(polyline_->points_mm, last_, point, bulge_);
     if (polyline_->points_mm.empty()) polyline_->points_mm.push_back(point);
+    check(polyline_->points_mm, checked_);
+    checked_ = polyline_->points_mm.size();
     last_ = point;
     bulge_ = vertex.bulge;
   }
@@ -112,7 +118,7 @@ class Collector final : public DL_CreationAdapter {
         append_bulge(polyline_->points_mm, last_, first_, bulge_);
         polyline_->points_mm.pop_back();
       }
-      add(std::move(*polyline_));
+      add(std::move(*polyline_), checked_);
     }
     polyline_.reset();
     if (spline_) add_spline(*spline_);
@@ -128,8 +134,20 @@ class Collector final : public DL_CreationAdapter {
 
   [[nodiscard]] glm::dvec2 at(double x, double y) const { return unit_mm_ * glm::dvec2{x, y}; }
 
-  void add(Line line) {
+  /// `checked`: points that have been checked before.
+  void add(Line line, std::size_t checked = 0) {
+    check(line.points_mm, checked);
     if (!in_block_) lines.push_back(std::move(line));
+  }
+
+  /// Only an exception stops the library.
+  void check(const std::vector<glm::dvec2>& points, std::size_t from) {
+    refuse(limits_.problem_with(std::span(points).subspan(std::min(from, points.size()))));
+  }
+  void refuse(const std::string& found) {
+    if (found.empty()) return;
+    problem = found;
+    throw std::runtime_error(found);
   }
 
   void add_arc(glm::dvec2 centre, glm::dvec2 u, glm::dvec2 v, double from, double turn) {
@@ -160,7 +178,9 @@ class Collector final : public DL_CreationAdapter {
 
   double unit_mm_ = 1.0;
   bool in_block_ = false;
+  PointLimits limits_;
   std::optional<Line> polyline_;
+  std::size_t checked_ = 0;  ///< points of the polyline
   glm::dvec2 first_{0.0}, last_{0.0};
   double bulge_ = 0.0;
   std::optional<Spline> spline_;
@@ -174,11 +194,12 @@ Result<Drawing> read_dxf(std::string_view bytes, const std::string& name) {
     std::istringstream stream{std::string(bytes)};
     DL_Dxf reader;
     reader.in(stream, &collector);
+    collector.finish();
   } catch (const std::exception& error) {
-    return failure(ErrorKind::bad_input,
-                   fmt::format("{}: expected a DXF drawing, found: {}", name, error.what()));
+    if (collector.problem.empty())
+      return failure(ErrorKind::bad_input,
+                     fmt::format("{}: expected a DXF drawing, found: {}", name, error.what()));
   }
-  collector.finish();
   if (!collector.problem.empty())
     return failure(ErrorKind::bad_input, name + ": " + collector.problem);
   return Drawing{std::move(collector.lines), false};

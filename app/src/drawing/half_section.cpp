@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <glm/common.hpp>
 #include <numbers>
+#include <utility>
 
 namespace clay::drawing {
 namespace {
@@ -35,19 +37,31 @@ Bounds bounds_of(const std::vector<Line>& lines) {
   return bounds;
 }
 
-/// Every corner has its mirror image among the corners: a drawing of both halves.
+/// A square of side kSamePointMm: its column and its row.
+using Cell = std::pair<std::int64_t, std::int64_t>;
+
+Cell cell_of(glm::dvec2 p) {
+  return {std::llround(p.x / kSamePointMm), std::llround(p.y / kSamePointMm)};
+}
+
+/// Every corner has its mirror image among the corners, in its cell or in one that touches it: a
+/// drawing of both halves.
 bool mirrored(const std::vector<Line>& lines, double middle) {
-  std::vector<glm::dvec2> points;
-  for (const Line& line : lines)
-    points.insert(points.end(), line.points_mm.begin(), line.points_mm.end());
-  const auto by_height = [](glm::dvec2 a, glm::dvec2 b) { return a.y < b.y; };
-  std::sort(points.begin(), points.end(), by_height);
-  return std::all_of(points.begin(), points.end(), [&](glm::dvec2 p) {
-    const glm::dvec2 image{2.0 * middle - p.x, p.y};
-    auto near = std::lower_bound(points.begin(), points.end(), glm::dvec2{0.0, p.y - kSamePointMm},
-                                 by_height);
-    for (; near != points.end() && near->y <= p.y + kSamePointMm; ++near)
-      if (std::abs(near->x - image.x) <= kSamePointMm) return true;
+  std::vector<Cell> cells, images;
+  for (const Line& line : lines) {
+    for (const glm::dvec2& p : line.points_mm) {
+      cells.push_back(cell_of(p));
+      images.push_back(cell_of({2.0 * middle - p.x, p.y}));
+    }
+  }
+  std::sort(cells.begin(), cells.end());
+  return std::all_of(images.begin(), images.end(), [&](const Cell& image) {
+    for (const std::int64_t beside : {0, -1, 1}) {
+      const Cell lowest{image.first + beside, image.second - 1};
+      const auto near = std::lower_bound(cells.begin(), cells.end(), lowest);
+      if (near != cells.end() && near->first == lowest.first && near->second <= image.second + 1)
+        return true;
+    }
     return false;
   });
 }

@@ -5,12 +5,14 @@
 #include <libxml/parser.h>
 #include <libxml/tree.h>
 
+#include <boost/exception/all.hpp>
 #include <boost/mpl/insert.hpp>
 #include <boost/mpl/set.hpp>
 #include <svgpp/policy/xml/libxml2.hpp>
 #include <svgpp/svgpp.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <glm/common.hpp>
@@ -18,11 +20,18 @@
 #include <glm/mat3x3.hpp>
 #include <memory>
 #include <numbers>
+#include <span>
+#include <stdexcept>
 
 namespace clay::drawing {
 namespace {
 
 constexpr double kMmPerPx = 25.4 / 96.0;
+
+/// What the library's own errors are too: it adds the element to them.
+struct Refusal : boost::exception, std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 struct Minimal : svgpp::policy::path::minimal {
   static const bool arc_as_cubic_bezier = false;  // a cubic is 3e-4 of the radius beside it
@@ -80,17 +89,23 @@ class Collector {
   void path_move_to(double x, double y, svgpp::tag::coordinate::absolute) {
     end_line();
     line_.points_mm.push_back(at(x, y));
+    check(1);
     pen_ = restart_ = {x, y};
   }
   void path_line_to(double x, double y, svgpp::tag::coordinate::absolute) {
     begin_again();
     line_.points_mm.push_back(at(x, y));
+    check(1);
     pen_ = {x, y};
   }
   void path_cubic_bezier_to(double x1, double y1, double x2, double y2, double x, double y,
                             svgpp::tag::coordinate::absolute) {
     begin_again();
-    append_cubic(line_.points_mm, line_.points_mm.back(), at(x1, y1), at(x2, y2), at(x, y));
+    const std::size_t before = line_.points_mm.size();
+    const std::array steering{at(x1, y1), at(x2, y2)};
+    refuse(PointLimits::out_of_bounds(steering));
+    append_cubic(line_.points_mm, line_.points_mm.back(), steering[0], steering[1], at(x, y));
+    check(line_.points_mm.size() - before);
     pen_ = {x, y};
   }
   void path_elliptical_arc_to(double rx, double ry, double turned_degrees, bool large, bool sweep,
@@ -102,9 +117,11 @@ class Collector {
     const Arc arc = arc_between(pen_, end, glm::abs(glm::dvec2{rx, ry}),
                                 turned_degrees * std::numbers::pi / 180.0, large, sweep);
     const glm::dvec2 origin = at(0.0, 0.0);
+    const std::size_t before = line_.points_mm.size();
     append_arc(line_.points_mm, at(arc.centre.x, arc.centre.y), at(arc.u.x, arc.u.y) - origin,
                at(arc.v.x, arc.v.y) - origin, arc.from, arc.to);
     line_.points_mm.back() = at(x, y);
+    check(line_.points_mm.size() - before);
     pen_ = end;
   }
   void path_close_subpath() {
@@ -134,7 +151,17 @@ class Collector {
 
   /// After a closed subpath the next one may begin without a move, where that one began.
   void begin_again() {
-    if (line_.points_mm.empty()) line_.points_mm.push_back(at(pen_.x, pen_.y));
+    if (!line_.points_mm.empty()) return;
+    line_.points_mm.push_back(at(pen_.x, pen_.y));
+    check(1);
+  }
+
+  /// The points that came last.
+  void check(std::size_t count) {
+    refuse(limits_.problem_with(std::span(line_.points_mm).last(count)));
+  }
+  static void refuse(const std::string& problem) {
+    if (!problem.empty()) throw Refusal(problem);
   }
 
   void end_line() {
@@ -144,6 +171,7 @@ class Collector {
 
   std::vector<State> states_{State{}};
   Line line_;
+  PointLimits limits_;
   glm::dvec2 pen_{0.0}, restart_{0.0};  // in the shape's own units
 };
 
@@ -171,6 +199,13 @@ std::string libxml_problem(const std::string& name) {
   return fmt::format("{}:{}: expected an SVG drawing, found: {}", name, error->line, message);
 }
 
+/// ":LINE" of the element that an error is about, where the library knows it.
+std::string line_of(const boost::exception& error) {
+  using Element = boost::error_info<svgpp::tag::error_info::xml_element, xmlNode*>;
+  xmlNode* const* element = boost::get_error_info<Element>(error);
+  return element == nullptr ? "" : fmt::format(":{}", xmlGetLineNo(*element));
+}
+
 }  // namespace
 
 Result<Drawing> read_svg(std::string_view bytes, const std::string& name) {
@@ -184,6 +219,12 @@ Result<Drawing> read_svg(std::string_view bytes, const std::string& name) {
   Collector collector;
   try {
     Traversal::load_document(root, collector);
+  } catch (const Refusal& refusal) {
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}{}: {}", name, line_of(refusal), refusal.what()));
+  } catch (const svgpp::exception_base& error) {
+    return failure(ErrorKind::bad_input, fmt::format("{}{}: expected an SVG drawing, found: {}",
+                                                     name, line_of(error), error.what()));
   } catch (const std::exception& error) {
     return failure(ErrorKind::bad_input,
                    fmt::format("{}: expected an SVG drawing, found: {}", name, error.what()));

@@ -1,21 +1,22 @@
 #include "studio/settings.hpp"
 
 #include "claystack/engine/atomic_file.hpp"
-#include "user_folders.hpp"
+#include "files/located_json.hpp"
+#include "user_folder.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 namespace clay::studio {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using files::Json;
 
 constexpr const char* kSchema = "claystack-studio-1";
+constexpr std::size_t kMostBytes = 1 << 20, kMostValues = 1000;
 
 template <class E>
 struct Named {
@@ -89,7 +90,7 @@ class Fields {
     if (!field->is_object()) return refuse(name, "an object", *field);
     for (const auto& [key, value] : field->items()) {
       if (!value.is_boolean())
-        return refuse(fmt::format("{}.{}", name, key), "true or false", value);
+        return refuse(fmt::format("{}.{}", name, files::printable(key)), "true or false", value);
       target[key] = value.get<bool>();
     }
   }
@@ -99,7 +100,7 @@ class Fields {
     if (!problem_.empty()) return problem_;
     for (const auto& [key, value] : json_.items())
       if (std::ranges::find(taken_, key) == taken_.end())
-        return fmt::format("{}: expected no such field", key);
+        return fmt::format("{}: expected no such field", files::printable(key));
     return std::nullopt;
   }
 
@@ -111,8 +112,8 @@ class Fields {
   }
   void refuse(std::string_view name, std::string_view expected, const Json& found) {
     if (problem_.empty())
-      problem_ = fmt::format("{}: expected {}, found {}", name, expected,
-                             found.dump(-1, ' ', false, Json::error_handler_t::replace));
+      problem_ =
+          fmt::format("{}: expected {}, found {}", name, expected, files::printable(found.dump()));
   }
 
   const Json& json_;
@@ -147,6 +148,12 @@ std::string whole_name(const std::filesystem::path& path) {
   return whole.empty() ? path.string() : whole.lexically_normal().string();
 }
 
+/// A pipe would be waited for.
+tl::unexpected<Error> not_regular(const std::filesystem::path& path) {
+  return failure(ErrorKind::io,
+                 fmt::format("{}: expected a regular file for the settings", path.string()));
+}
+
 void put_first(std::vector<std::string>& names, const std::string& name, std::size_t most) {
   std::erase(names, name);
   names.insert(names.begin(), name);
@@ -166,10 +173,15 @@ void remember_process(Settings& settings, const std::filesystem::path& path) {
   put_first(settings.processes, settings.process, kMostProcesses);
 }
 
-std::filesystem::path settings_path() { return app::config_folder() / "studio.json"; }
+std::filesystem::path settings_path() {
+  const std::filesystem::path folder = app::user_folder(app::UserFolder::config);
+  return folder.empty() ? folder : folder / "studio.json";
+}
 
 Result<Settings> parse_settings(std::string_view text, std::string_view name) {
-  const Json json = Json::parse(text, nullptr, false);
+  const auto document = files::LocatedJson::from_json(text, name, kMostValues);
+  if (!document) return tl::make_unexpected(document.error());
+  const Json& json = document->root();
   const auto wrong = [&](std::string_view what) {
     return failure(ErrorKind::bad_input, fmt::format("{}: {}", name, what));
   };
@@ -229,7 +241,9 @@ std::string write_settings(const Settings& s) {
 LoadedSettings load_settings(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return {};
-  const auto text = read_file(path, 1 << 20);
+  if (!std::filesystem::is_regular_file(path, ignored))
+    return {{}, not_regular(path).value().message};
+  const auto text = read_file(path, kMostBytes);
   if (!text) return {{}, text.error().message};
   auto settings = parse_settings(*text, path.string());
   if (settings) return {std::move(*settings), {}};
@@ -239,7 +253,10 @@ LoadedSettings load_settings(const std::filesystem::path& path) {
 }
 
 Result<void> save_settings(const Settings& settings, const std::filesystem::path& path) {
+  if (path.empty()) return failure(ErrorKind::io, std::string("settings: ") + app::kNoHome);
   std::error_code failed;
+  if (std::filesystem::exists(path, failed) && !std::filesystem::is_regular_file(path, failed))
+    return not_regular(path);
   std::filesystem::create_directories(path.parent_path(), failed);
   if (failed)
     return failure(ErrorKind::io, fmt::format("{}: could not create: {}",

@@ -1,7 +1,7 @@
 #include "work/journal.hpp"
 
 #include "claystack/engine/atomic_file.hpp"
-#include "user_folders.hpp"
+#include "user_folder.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -60,9 +60,13 @@ Result<fs::path> give_name(int descriptor, const fs::path& temporary, const fs::
 
 }  // namespace
 
-fs::path recovery_folder() { return app::state_folder() / "recovery"; }
+fs::path recovery_folder() {
+  const fs::path folder = app::user_folder(app::UserFolder::state);
+  return folder.empty() ? folder : folder / "recovery";
+}
 
 Result<std::unique_ptr<Journal>> Journal::begin(const WorkRecord& work, const fs::path& folder) {
+  if (folder.empty()) return failure(ErrorKind::io, std::string("journal: ") + app::kNoHome);
   std::error_code made;
   fs::create_directories(folder, made);
   if (made)
@@ -87,9 +91,13 @@ Result<std::unique_ptr<Journal>> Journal::begin(const WorkRecord& work, const fs
 }
 
 Result<std::unique_ptr<Journal>> Journal::take_over(const fs::path& path, WorkReading& found) {
-  const int descriptor = open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC);
+  // Whatever has the name of a journal, nothing waits for it.
+  const int descriptor = open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   if (descriptor < 0) return tl::make_unexpected(system_error(path, "open"));
   std::unique_ptr<Journal> journal(new Journal(path, descriptor));
+  struct stat status {};
+  if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode))
+    return failure(ErrorKind::io, fmt::format("{}: expected a regular file", path.string()));
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0)
     return failure(ErrorKind::io,
                    fmt::format("{}: in use by a program that is running", path.string()));

@@ -19,7 +19,7 @@
 
 namespace clay::work {
 
-/// In the state folder.
+/// The folder `recovery` in the user's folder for state: app::user_folder. Empty without one.
 [[nodiscard]] std::filesystem::path recovery_folder();
 
 /// Lines are written at once, by whichever thread brings them; a thread of its own syncs them to

@@ -18,12 +18,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whose journal it is: a living program holds its lock.
+/// Whose journal it is: a living program holds its lock. A pipe or a device of that name is none,
+/// and is not waited for.
 class Lock {
  public:
   /// `kind`: LOCK_SH to look, LOCK_EX to remove.
-  Lock(const fs::path& path, int kind) : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-    held_ = descriptor_ >= 0 && flock(descriptor_, kind | LOCK_NB) == 0;
+  Lock(const fs::path& path, int kind)
+      : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
+    struct stat status {};
+    const bool regular =
+        descriptor_ >= 0 && fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
+    held_ = regular && flock(descriptor_, kind | LOCK_NB) == 0;
   }
   ~Lock() {
     if (descriptor_ >= 0) (void)close(descriptor_);

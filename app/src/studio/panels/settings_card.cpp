@@ -63,7 +63,9 @@ void draw_settings_card(Workshop& shop, const ViewRect& view) {
   draw_look(shop);
   draw_work(shop);
   ImGui::Spacing();
-  faint_text(shop.colours(), "Kept in " + settings_path().string());
+  const std::string path = settings_path().string();
+  faint_text(shop.colours(),
+             path.empty() ? "Not kept: there is no home folder" : "Kept in " + path);
   if (ImGui::Button("Close (Esc)")) close_overlay(shop);
   ImGui::End();
 }

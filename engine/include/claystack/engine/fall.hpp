@@ -19,7 +19,7 @@ class FallenPlace {
 
  private:
   glm::dvec3 pivot_mm_, axis_, shift_mm_;
-  double cosine_, sine_;
+  double cosine_ = 1.0, sine_ = 0.0;
 };
 
 /// A moment of a fall; the first is the pot as it failed, the last is at rest.
@@ -33,7 +33,7 @@ struct FallFrame {
 
 /// The fall that led to `pot.collapse`, worked out again, so that it can be shown; some hundreds of
 /// frames, none farther from the last than 1/400 of the fallen part's size. Empty for a pot that
-/// stands and for a collapse that does not say its threshold. Uses libm.
+/// stands and for a collapse that does not say its threshold.
 [[nodiscard]] std::vector<FallFrame> fall_frames(const Pot& pot);
 
 }  // namespace clay
