@@ -18,17 +18,34 @@ function(claystack_compile_options target)
   endif()
 endfunction()
 
-# claystack_library(NAME component SOURCES ...): a static library with the
-# alias claystack::NAME, public headers in include/, private ones in src/.
-function(claystack_library name)
-  cmake_parse_arguments(arg "" "" "SOURCES" ${ARGN})
-  add_library(claystack_${name} STATIC ${arg_SOURCES})
+# claystack_component(NAME USES targets ...): claystack::NAME, a static library made of the rooms
+# that claystack_room adds. Public headers are in include/; every other header is private and is
+# included by its path from the top, "export/walls/edge_tree.hpp", which names its room.
+# tests/layering.cmake checks which room may include which.
+function(claystack_component name)
+  cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE" ${ARGN})
+  add_library(claystack_${name} STATIC)
   add_library(claystack::${name} ALIAS claystack_${name})
-  set_target_properties(claystack_${name} PROPERTIES
-    EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
-  target_include_directories(claystack_${name}
-    PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
-           $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
-    PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+  set_target_properties(claystack_${name} PROPERTIES EXPORT_NAME ${name} LINKER_LANGUAGE CXX)
+  target_include_directories(claystack_${name} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(claystack_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   claystack_compile_options(claystack_${name})
+endfunction()
+
+# claystack_room(COMPONENT ROOM SOURCES ... [LIBRARIES ...]): the objects of one room, as the
+# target claystack_COMPONENT_ROOM; LIBRARIES are what this room alone compiles against.
+function(claystack_room component room)
+  cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
+  string(REPLACE / _ target claystack_${component}_${room})
+  list(TRANSFORM arg_SOURCES PREPEND ${room}/)
+  add_library(${target} OBJECT ${arg_SOURCES})
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  claystack_compile_options(${target})
+  target_include_directories(${target} PRIVATE
+    ${PROJECT_SOURCE_DIR}
+    $<TARGET_PROPERTY:claystack_${component},INTERFACE_INCLUDE_DIRECTORIES>)
+  target_link_libraries(${target} PRIVATE ${arg_LIBRARIES})
+  target_sources(claystack_${component} PRIVATE $<TARGET_OBJECTS:${target}>)
 endfunction()

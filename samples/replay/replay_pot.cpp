@@ -1,10 +1,8 @@
 // replay_pot SCENE SESSION [paper]: the shortest way from a scene and its session to a pot file
 // on standard output. Also what the determinism test builds with every compiler.
 
-#include "claystack/engine/atomic_file.hpp"
-#include "claystack/engine/pot_file.hpp"
-#include "claystack/engine/scene_file.hpp"
-#include "claystack/engine/session_file.hpp"
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
 #include "claystack/engine/wheel.hpp"
 
 #include <cstdio>

@@ -1,9 +1,8 @@
 // make_session SCENE STROKES OUT: plays a stroke script on a scene and writes the session.
 
-#include "claystack/engine/atomic_file.hpp"
-#include "claystack/engine/scene_file.hpp"
-#include "claystack/engine/session_file.hpp"
-#include "strokes.hpp"
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
+#include "samples/strokes/strokes.hpp"
 
 #include <cstdio>
 #include <string>

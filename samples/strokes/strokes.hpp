@@ -1,8 +1,8 @@
 #pragma once
 // A potter's hand from a script: strokes along smooth paths, at human speeds, with tremor.
 
-#include "claystack/engine/pose.hpp"
-#include "claystack/engine/result.hpp"
+#include "claystack/core/result.hpp"
+#include "claystack/engine/tool.hpp"
 
 #include <cstdint>
 #include <glm/vec2.hpp>

@@ -1,7 +1,7 @@
-#include "files/located_json.hpp"
-#include "strokes.hpp"
+#include "core/json/located_json.hpp"
+#include "samples/strokes/strokes.hpp"
 
-#include "claystack/engine/session_file.hpp"
+#include "claystack/engine/files.hpp"
 
 #include <glm/geometric.hpp>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "claystack/export/triangle_mesh.hpp"
+#include "claystack/export/solid.hpp"
 
 namespace clay::bench {
 

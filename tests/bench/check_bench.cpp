@@ -7,11 +7,11 @@
 //                                   a tube, whose ends are rings of long triangles; default 30000.
 //                                   CGAL takes the square of that: it has its turn up to 30000
 
-#include "cgal_peer.hpp"
+#include "tests/bench/cgal_peer.hpp"
 
-#include "claystack/export/mesh_check.hpp"
-#include "claystack/export/mesh_formats.hpp"
-#include "claystack/export/tessellate.hpp"
+#include "claystack/export/check.hpp"
+#include "claystack/export/formats.hpp"
+#include "claystack/export/solid.hpp"
 
 #include <sys/resource.h>
 

@@ -1,8 +1,8 @@
 // What Draco's speeds cost and give on the sample pots: bytes, and the time to write and to read.
 // The default of DracoSettings::speed is the smallest of this table.
 
-#include "claystack/export/export_job.hpp"
-#include "export/sample_pots.hpp"
+#include "claystack/export/job.hpp"
+#include "tests/export/job/sample_pots.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 // Pot to binary STL, whole process, against a program that only writes as many bytes, and against
 // peers where they are installed. Usage: export_bench [ROUNDS] [FOLDER]
 
-#include "claystack/engine/atomic_file.hpp"
-#include "claystack/engine/pot_file.hpp"
-#include "process.hpp"
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
+#include "tests/bench/process.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,10 +1,10 @@
 // Times what is proved and measured of a profile: wall_bench [RUNS]. Medians, one process.
 
-#include "cgal_peer.hpp"
-#include "claystack/export/certificate.hpp"
-#include "claystack/export/clearance.hpp"
-#include "claystack/export/tessellate.hpp"
-#include "claystack/export/wall_thickness.hpp"
+#include "claystack/export/proof.hpp"
+#include "claystack/export/solid.hpp"
+#include "claystack/export/walls.hpp"
+#include "export/walls/clearance.hpp"
+#include "tests/bench/cgal_peer.hpp"
 
 #include <algorithm>
 #include <chrono>

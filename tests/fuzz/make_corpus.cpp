@@ -1,6 +1,6 @@
 // make_corpus FOLDER: writes good files of every format to FOLDER/FORMAT for the fuzzers.
 
-#include "fuzz/mesh_promise.hpp"
+#include "tests/fuzz/mesh_promise.hpp"
 
 #include <filesystem>
 #include <fstream>

@@ -1,9 +1,8 @@
 #pragma once
 // What a reader owes for any bytes at all, and files to begin from.
 
-#include "claystack/export/drc_claims.hpp"
-#include "claystack/export/mesh_formats.hpp"
-#include "fuzz/sample_meshes.hpp"
+#include "claystack/export/formats.hpp"
+#include "tests/fuzz/sample_meshes.hpp"
 
 #include <cmath>
 #include <optional>

@@ -1,5 +1,5 @@
 // Any bytes are a drawing or an error: the reader, and what is made of the lines.
-#include "drawing/drawn_pot.hpp"
+#include "app/import/drawn_pot.hpp"
 
 #include <cstddef>
 #include <cstdint>

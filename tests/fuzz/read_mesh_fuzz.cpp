@@ -1,6 +1,6 @@
 // libFuzzer over one reader; CMake names which.
 
-#include "fuzz/mesh_promise.hpp"
+#include "tests/fuzz/mesh_promise.hpp"
 
 #include <cstddef>
 #include <cstdint>

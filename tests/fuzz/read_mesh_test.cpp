@@ -1,6 +1,6 @@
 // The fuzzers' promise on a fixed run of mutated files, short enough for every build.
 
-#include "fuzz/mesh_promise.hpp"
+#include "tests/fuzz/mesh_promise.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,7 +1,7 @@
 #pragma once
 // Meshes that the tests of the formats and the fuzzers' first corpus share.
 
-#include "claystack/export/triangle_mesh.hpp"
+#include "claystack/export/solid.hpp"
 
 #include <cmath>
 #include <cstdint>

@@ -1,11 +1,11 @@
 // `claystack devices` as a user runs it, with devices that are emulated.
 
-#include "../app/run_program.hpp"
-#include "../falcon/dummy_firmware.hpp"
-#include "../wait_until.hpp"
-#include "falcon_gadget.hpp"
-#include "hid_gadget.hpp"
-#include "testbed.hpp"
+#include "tests/falcon/device/dummy_firmware.hpp"
+#include "tests/rigs/falcon_gadget.hpp"
+#include "tests/rigs/hid_gadget.hpp"
+#include "tests/rigs/testbed.hpp"
+#include "tests/support/run_program.hpp"
+#include "tests/support/wait_until.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

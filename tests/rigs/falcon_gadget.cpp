@@ -1,4 +1,4 @@
-#include "falcon_gadget.hpp"
+#include "tests/rigs/falcon_gadget.hpp"
 
 #include <algorithm>
 

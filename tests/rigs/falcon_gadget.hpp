@@ -1,8 +1,8 @@
 #pragma once
 // A Falcon on USB: an FTDI chip in front of a FalconModel.
 
-#include "claystack/falcon/falcon_model.hpp"
-#include "usb_gadget.hpp"
+#include "claystack/falcon/falcon_device.hpp"
+#include "tests/rigs/usb_gadget.hpp"
 
 #include <deque>
 #include <functional>

@@ -1,10 +1,10 @@
 // A stock Falcon: unmodified libftdi1 and libusb against an emulated 0403:cb48.
 
-#include "../falcon/dummy_firmware.hpp"
-#include "../wait_until.hpp"
-#include "claystack/falcon/usb_devices.hpp"
-#include "falcon_gadget.hpp"
-#include "testbed.hpp"
+#include "claystack/falcon/usb.hpp"
+#include "tests/falcon/device/dummy_firmware.hpp"
+#include "tests/rigs/falcon_gadget.hpp"
+#include "tests/rigs/testbed.hpp"
+#include "tests/support/wait_until.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

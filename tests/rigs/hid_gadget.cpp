@@ -1,4 +1,4 @@
-#include "hid_gadget.hpp"
+#include "tests/rigs/hid_gadget.hpp"
 
 #include <linux/hidraw.h>
 #include <sys/ioctl.h>

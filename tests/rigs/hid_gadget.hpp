@@ -2,8 +2,8 @@
 // HID devices, for both backends of hidapi: as USB devices for libusb, as nodes of the kernel for
 // hidraw.
 
-#include "falcon_gadget.hpp"
-#include "usb_gadget.hpp"
+#include "tests/rigs/falcon_gadget.hpp"
+#include "tests/rigs/usb_gadget.hpp"
 
 #include <deque>
 #include <string>

@@ -2,11 +2,11 @@
 // same tests with hidapi's hidraw backend, on nodes of the kernel, and with its libusb backend, on
 // USB devices (CLAYSTACK_HIDAPI_LIBUSB).
 
-#include "../wait_until.hpp"
-#include "claystack/falcon/usb_devices.hpp"
-#include "hid_gadget.hpp"
-#include "plugged.hpp"
-#include "testbed.hpp"
+#include "claystack/falcon/usb.hpp"
+#include "tests/rigs/hid_gadget.hpp"
+#include "tests/rigs/plugged.hpp"
+#include "tests/rigs/testbed.hpp"
+#include "tests/support/wait_until.hpp"
 
 #include <gtest/gtest.h>
 #include <hidapi.h>

@@ -2,7 +2,7 @@
 // A HID gadget where the backend of hidapi under test looks for it: a node of the kernel for
 // hidraw, a USB device for libusb (CLAYSTACK_HIDAPI_LIBUSB).
 
-#include "hid_gadget.hpp"
+#include "tests/rigs/hid_gadget.hpp"
 
 namespace clay::rig {
 

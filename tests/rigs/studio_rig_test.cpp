@@ -2,11 +2,11 @@
 // out in mid-stroke: unmodified libftdi1 and libusb against an emulated Falcon, real events of the
 // mouse. arm_under_xvfb.sh is the user; here is the hand at the arm.
 
-#include "../app/run_program.hpp"
-#include "../wait_until.hpp"
-#include "falcon_gadget.hpp"
-#include "live/mapping.hpp"
-#include "testbed.hpp"
+#include "app/servo/mapping.hpp"
+#include "tests/rigs/falcon_gadget.hpp"
+#include "tests/rigs/testbed.hpp"
+#include "tests/support/run_program.hpp"
+#include "tests/support/wait_until.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,17 +1,16 @@
 #pragma once
 // The sample's stroke on an emulated device, and what a throw of it must leave behind.
 
-#include "../app/run_program.hpp"
-#include "../falcon/dummy_firmware.hpp"
-#include "../wait_until.hpp"
-#include "claystack/engine/atomic_file.hpp"
-#include "claystack/engine/scene_file.hpp"
-#include "claystack/engine/session_file.hpp"
+#include "app/servo/mapping.hpp"
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
 #include "claystack/engine/wheel.hpp"
-#include "falcon_gadget.hpp"
-#include "hid_gadget.hpp"
-#include "live/mapping.hpp"
-#include "testbed.hpp"
+#include "tests/falcon/device/dummy_firmware.hpp"
+#include "tests/rigs/falcon_gadget.hpp"
+#include "tests/rigs/hid_gadget.hpp"
+#include "tests/rigs/testbed.hpp"
+#include "tests/support/run_program.hpp"
+#include "tests/support/wait_until.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,9 +3,9 @@
 // backend, as the program is linked, and with its libusb backend put before that
 // (CLAYSTACK_HIDAPI_LIBUSB is the library).
 
-#include "throw_rig.hpp"
+#include "tests/rigs/throw_rig.hpp"
 
-#include "plugged.hpp"
+#include "tests/rigs/plugged.hpp"
 
 namespace clay::rig {
 namespace {

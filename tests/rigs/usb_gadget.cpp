@@ -1,4 +1,4 @@
-#include "usb_gadget.hpp"
+#include "tests/rigs/usb_gadget.hpp"
 
 #include <linux/usbdevice_fs.h>
 #include <sys/ioctl.h>

@@ -1,10 +1,10 @@
 // The sample pots do not know how high their rings are, nor how often the hand was asked.
 
-#include "bench/convergence_experiments.hpp"
-#include "strokes.hpp"
+#include "app/bench/convergence_experiments.hpp"
+#include "samples/strokes/strokes.hpp"
 
-#include "claystack/engine/atomic_file.hpp"
-#include "claystack/engine/scene_file.hpp"
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
 
 #include <gtest/gtest.h>
 

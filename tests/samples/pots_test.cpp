@@ -1,13 +1,11 @@
 // What the samples promise: sessions that their scripts play, and pots worth the name.
 
-#include "claystack/engine/atomic_file.hpp"
-#include "claystack/engine/pot_file.hpp"
-#include "claystack/engine/rounded_pot.hpp"
-#include "claystack/engine/scene_file.hpp"
-#include "claystack/engine/session_file.hpp"
-#include "claystack/engine/stack_measures.hpp"
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/clay.hpp"
+#include "claystack/engine/files.hpp"
+#include "claystack/engine/tick.hpp"
 #include "claystack/engine/wheel.hpp"
-#include "strokes.hpp"
+#include "samples/strokes/strokes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "strokes.hpp"
+#include "samples/strokes/strokes.hpp"
 
 #include <gtest/gtest.h>
 

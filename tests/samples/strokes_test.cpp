@@ -1,6 +1,6 @@
-#include "strokes.hpp"
+#include "samples/strokes/strokes.hpp"
 
-#include "claystack/engine/session_file.hpp"
+#include "claystack/engine/files.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,7 +1,7 @@
 #pragma once
 // Arbitrary values for the files' properties, the ends of every range among them.
 
-#include "claystack/engine/pot.hpp"
+#include "claystack/engine/clay.hpp"
 #include "claystack/engine/scene.hpp"
 
 #include <rapidcheck.h>

@@ -1,7 +1,7 @@
 #pragma once
 // A folder to publish files in, and what is seen there from outside.
 
-#include "claystack/engine/atomic_file.hpp"
+#include "claystack/core/atomic_file.hpp"
 
 #include <gtest/gtest.h>
 

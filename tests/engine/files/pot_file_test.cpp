@@ -1,8 +1,8 @@
-#include "claystack/engine/pot_file.hpp"
+#include "claystack/engine/files.hpp"
 
-#include "engine/files/arbitrary.hpp"
-#include "engine/files/schema_check.hpp"
-#include "engine/files/text_edits.hpp"
+#include "tests/engine/files/arbitrary.hpp"
+#include "tests/engine/files/text_edits.hpp"
+#include "tests/support/schema_check.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,5 +1,5 @@
-#include "claystack/engine/session_file.hpp"
-#include "engine/files/arbitrary.hpp"
+#include "claystack/engine/files.hpp"
+#include "tests/engine/files/arbitrary.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

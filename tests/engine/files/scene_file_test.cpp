@@ -1,8 +1,8 @@
-#include "claystack/engine/scene_file.hpp"
+#include "claystack/engine/files.hpp"
 
-#include "engine/files/arbitrary.hpp"
-#include "engine/files/full_scene.hpp"
-#include "engine/files/text_edits.hpp"
+#include "tests/engine/files/arbitrary.hpp"
+#include "tests/engine/files/full_scene.hpp"
+#include "tests/engine/files/text_edits.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,8 +1,8 @@
-#include "claystack/engine/atomic_file.hpp"
-#include "claystack/engine/scene_file.hpp"
-#include "engine/files/arbitrary.hpp"
-#include "engine/files/full_scene.hpp"
-#include "engine/files/schema_check.hpp"
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
+#include "tests/engine/files/arbitrary.hpp"
+#include "tests/engine/files/full_scene.hpp"
+#include "tests/support/schema_check.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

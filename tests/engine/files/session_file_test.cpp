@@ -1,11 +1,10 @@
-#include "claystack/engine/session_file.hpp"
+#include "claystack/engine/files.hpp"
 
-#include "claystack/engine/scene_file.hpp"
-#include "engine/allocation_counter.hpp"
-#include "engine/files/arbitrary.hpp"
-#include "engine/files/schema_check.hpp"
-#include "engine/files/text_edits.hpp"
-#include "files/session_json.hpp"
+#include "engine/files/session_json.hpp"
+#include "tests/engine/files/arbitrary.hpp"
+#include "tests/engine/files/text_edits.hpp"
+#include "tests/support/allocation_counter.hpp"
+#include "tests/support/schema_check.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

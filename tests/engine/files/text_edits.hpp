@@ -1,5 +1,5 @@
 #pragma once
-#include "claystack/engine/result.hpp"
+#include "claystack/core/result.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,10 @@
 #pragma once
 // The engine: a stack, a tool and a plan, one tick at a time.
 
-#include "claystack/engine/ledger.hpp"
-#include "claystack/engine/pose.hpp"
-#include "claystack/engine/pot.hpp"
-#include "claystack/engine/result.hpp"
-#include "claystack/engine/step_plan.hpp"
+#include "claystack/core/result.hpp"
+#include "claystack/engine/clay.hpp"
+#include "claystack/engine/tick.hpp"
+#include "claystack/engine/tool.hpp"
 
 #include <cstdint>
 #include <glm/vec3.hpp>

@@ -1,22 +1,359 @@
 #pragma once
+#include "claystack/falcon/device.hpp"
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <glm/mat3x2.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <string>
+#include <tl/expected.hpp>
+#include <utility>
+#include <vector>
+
+namespace clay::falcon {
+
+// ---- geometry ------------------------------------------------------------------------
+// Sizes of the Novint Falcon in SI units. Nobody measured one well: the two published sets put
+// the grip up to 10 mm apart along z, so absolute position is uncertain by that much. Motion
+// relative to a start is not.
+
+/// Directions of the top, right and left leg about the z axis, from x [rad]: 105, -15, -135 deg.
+inline constexpr double kLegDirectionsRad[] = {std::numbers::pi * 7 / 12, -std::numbers::pi / 12,
+                                               -std::numbers::pi * 3 / 4};
+
+/// One leg, the same three times; letters as in Stamper's thesis (see kinematics.hpp).
+struct Geometry {
+  double thigh_m;         ///< a: hip to knee
+  double shin_m;          ///< b: side of the shin's parallelogram
+  double shin_ends_m;     ///< d + e: from knee and grip to the parallelogram's corners
+  double base_radial_m;   ///< r: centre to hip, along the leg
+  double base_lateral_m;  ///< s: the same, across
+  double grip_radial_m;   ///< c: grip's centre to its joint, along the leg
+  double grip_lateral_m;  ///< f: the same, across
+  double gear_ratio;      ///< motor turns in a turn of the thigh
+  double zero_angle_rad;  ///< thigh angle at encoder count 0
+};
+
+/// libnifalcon, FalconGeometry.h.
+inline constexpr Geometry kLibnifalconGeometry = {
+    .thigh_m = 0.060,
+    .shin_m = 0.1025,
+    .shin_ends_m = 2 * 0.01125,
+    .base_radial_m = 0.0400,
+    .base_lateral_m = -0.02309,
+    .grip_radial_m = 0.01443,
+    .grip_lateral_m = -0.025,
+    .gear_ratio = 0.110 / 0.01425,
+    .zero_angle_rad = std::numbers::pi * 35 / 180,
+};
+
+/// Martin and Hillier, "Characterisation of the Novint Falcon haptic device for application as
+/// a robot manipulator", ACRA 2009. The zero angle is what users of this set report.
+inline constexpr Geometry kMartinHillierGeometry = {
+    .thigh_m = 0.060,
+    .shin_m = 0.1025,
+    .shin_ends_m = 2 * 0.0115,
+    .base_radial_m = 0.0366,
+    .base_lateral_m = 0.0272,
+    .grip_radial_m = 0.0157,
+    .grip_lateral_m = 0.0262,
+    .gear_ratio = 7.62,
+    .zero_angle_rad = std::numbers::pi * 40 / 180,
+};
+
+/// 320 slots of the encoder wheel, each seen four times in quadrature.
+inline constexpr double kCountsPerMotorTurn = 320 * 4;
+
+/// Motor counts for 1 N m at the thigh: Martin and Hillier measured 1.9835e-5 N m a count at the
+/// motor, which agrees with the force Novint states. libnifalcon's 10000 renders half as much
+/// again.
+inline constexpr double kMotorCountsPerNm = 1.0 / (1.9835e-5 * 7.62);
+
+// ---- frame ---------------------------------------------------------------------------
+// The Falcon's run-time frame, 16 bytes out and 16 back:
+//
+//   0    1..4   5..8   9..12   13      14      15
+//   '<'  top    right  left    status  unused  '>'
+//
+// Every payload byte is its value + 'A'. A leg's number is an int16, a nibble to the byte, the
+// least significant first: -1447 = 0xFA59 is "JFKP".
+
+inline constexpr std::size_t kFrameBytes = 16;
+inline constexpr std::int16_t kMotorLimit = 4095;  ///< where the vendor's own driver saturates
+
+/// One number for each leg: top, right, left, as the user sees them.
+using LegCounts = std::array<std::int16_t, 3>;
+
+/// What the host sends.
+struct MotorFrame {
+  LegCounts motors{};   ///< within +-kMotorLimit
+  bool homing = false;  ///< on in every frame until all legs are homed
+  bool green = false;
+  bool blue = false;
+  bool red = false;
+};
+
+struct EncodedFrame {
+  std::array<std::uint8_t, kFrameBytes> bytes{};
+  bool saturated = false;  ///< a motor was beyond the limit: the force sent is not the one asked
+};
+
+[[nodiscard]] EncodedFrame encode(const MotorFrame& frame) noexcept;
+
+/// Bits of StateFrame::buttons, from far right to far left as the user sees them.
+enum Button : std::uint8_t {
+  kButtonPlus = 1,
+  kButtonForward = 2,
+  kButtonCentre = 4,
+  kButtonMinus = 8,
+};
+
+/// What the device answers.
+struct StateFrame {
+  LegCounts encoders{};         ///< relative until homed: the origin jumps at homing
+  std::uint8_t buttons = 0;     ///< of Button
+  std::array<bool, 3> homed{};  ///< each leg has passed its index
+
+  [[nodiscard]] bool all_homed() const noexcept { return homed[0] && homed[1] && homed[2]; }
+  friend bool operator==(const StateFrame&, const StateFrame&) = default;
+};
+
+/// Finds the frames in a stream of bytes that may lose, repeat or spoil some (FTDI's own status
+/// bytes already taken out). '<' and '>' never stand inside a frame, so each '<' begins one
+/// anew: a fault costs the frames it touches and no other. The format has no checksum: a letter
+/// turned into another, or two halves joined by the loss of 16 bytes or a multiple, can't be seen.
+class FrameReader {
+ public:
+  /// The next whole frame in `bytes`, and leaves there what follows it; nothing when all bytes
+  /// are used up. A frame may begin in one call and end in another.
+  [[nodiscard]] std::optional<StateFrame> next(std::span<const std::uint8_t>& bytes) noexcept;
+
+  /// Bytes so far that belonged to no whole frame.
+  [[nodiscard]] std::uint64_t discarded() const noexcept { return discarded_; }
+  /// Bytes of a frame that is not whole yet, below kFrameBytes.
+  [[nodiscard]] std::size_t pending() const noexcept { return size_; }
+
+ private:
+  void take(std::uint8_t byte) noexcept;
+
+  std::array<std::uint8_t, kFrameBytes> frame_{};
+  std::size_t size_ = 0;
+  std::uint64_t discarded_ = 0;
+};
+
+// ---- kinematics ----------------------------------------------------------------------
+// Where the grip is and what the motors must do: a translational delta of three equal legs,
+// after R. E. Stamper, "A three degree of freedom parallel manipulator with only translational
+// degrees of freedom", thesis, University of Maryland, 1997.
+//
+// The device's frame has x to the right, y up and z out of the device towards the user. A leg
+// has a frame of its own from its hip: u along the leg's direction phi, v across, w = z. There,
+// with the letters of geometry.hpp and t1, t2, t3 the angles of thigh, shin and parallelogram,
+//
+//   u =  x cos phi + y sin phi - r + c  =  a cos t1 + L cos t2
+//   w =  z                              =  a sin t1 + L sin t2,    L = d + e + b sin t3
+//   v = -x sin phi + y cos phi - s + f  =  b cos t3
+//
+// The Falcon is built with its knees outward: 0 < t2 - t1 < pi. Encoders measure t1.
+
+enum class KinematicsError {
+  top_leg_unreachable,  ///< the leg would have to stretch or fold further than straight
+  right_leg_unreachable,
+  left_leg_unreachable,
+  singular,        ///< the legs can't push in the direction asked
+  not_converged,   ///< no pose found for these angles
+  beyond_encoder,  ///< an angle that no int16 counts
+};
+
+template <class T>
+using Solved = tl::expected<T, KinematicsError>;
+
+/// Vectors of angles and torques hold one number for each leg: top, right, left.
+class Kinematics {
+ public:
+  /// Middle of the workspace, a ball of 48 mm about it.
+  static constexpr glm::dvec3 kCentreM{0.0, 0.0, 0.13};
+
+  explicit Kinematics(const Geometry& geometry) noexcept;
+
+  /// Thigh angle t1 [rad] of one leg, 0 to 2, in closed form; nothing when out of its reach.
+  [[nodiscard]] std::optional<double> thigh_angle(int leg,
+                                                  const glm::dvec3& position_m) const noexcept;
+
+  /// All three. The error names the first leg that can't reach.
+  [[nodiscard]] Solved<glm::dvec3> inverse(const glm::dvec3& position_m) const noexcept;
+
+  /// Position [m] of the grip at these thigh angles [rad], to rounding. Newton's method from
+  /// `start_m`, at most 16 steps: start at the last position when following the hand, at the
+  /// centre when nothing is known. Outside the workspace some angles allow two poses, and the
+  /// start decides. `not_converged` also when the pose found has a knee turned inward.
+  [[nodiscard]] Solved<glm::dvec3> forward(const glm::dvec3& angles_rad,
+                                           const glm::dvec3& start_m = kCentreM) const noexcept;
+
+  /// J [rad/m] with d angles = J d position, by formula. Column-major as all of GLM: J[axis][leg].
+  [[nodiscard]] Solved<glm::dmat3> jacobian(const glm::dvec3& position_m) const noexcept;
+
+  /// Torques [N m] about the hips that push the hand with `force_n` [N]: the solution of
+  /// J^T torques = force (virtual work).
+  [[nodiscard]] Solved<glm::dvec3> torques(const glm::dvec3& position_m,
+                                           const glm::dvec3& force_n) const noexcept;
+
+  /// Thigh angles [rad] of encoder counts.
+  [[nodiscard]] glm::dvec3 angles_of(const LegCounts& counts) const noexcept;
+  /// Encoder counts nearest to thigh angles [rad].
+  [[nodiscard]] Solved<LegCounts> counts_of(const glm::dvec3& angles_rad) const noexcept;
+
+ private:
+  Geometry geometry_;
+  glm::dmat3x2 directions_;  // unit vectors of the legs, seen along z
+};
+
+struct MotorCounts {
+  LegCounts counts{};     ///< within +-kMotorLimit
+  double rendered = 1.0;  ///< the part of the torque that the motors can give, 0 to 1
+};
+
+/// A positive count drives a thigh to smaller angles. When one motor would pass its limit all three
+/// are scaled alike, which keeps the direction of the force; torques that are not finite give 0.
+[[nodiscard]] MotorCounts motor_counts(const glm::dvec3& torques_nm,
+                                       double counts_per_nm = kMotorCountsPerNm) noexcept;
+
+// ---- falcon model --------------------------------------------------------------------
+// A Falcon that isn't there, byte for byte: boot loader, homing, frames, a grip that moves, and
+// faults on demand. It stands behind LoopbackTransport and behind the emulated USB device of the
+// tests. What it says of the real one's manner is only as good as docs/devices.md: it was written
+// from the same notes as the driver.
+
+/// What moves the modelled grip. Called once a frame with the force [N] that the motors were told
+/// and the time [s] since the last frame; returns the position [m] in the frame of kinematics.hpp.
+using Grip = std::function<glm::dvec3(const glm::dvec3& force_n, double dt_s)>;
+/// What presses its buttons: called once a frame, after Grip; returns their bits.
+using Thumb = std::function<std::uint8_t()>;
+
+enum class WireFault {
+  lost_byte,    ///< of the frame it sends
+  extra_byte,   ///< within the frame
+  half_frame,   ///< the second half never comes
+  bad_nibble,   ///< a byte that is no letter
+  no_frame,     ///< it does not answer
+  stale_frame,  ///< it sends what it sent before
+  homing_lost,  ///< from here on, until it is homed again
+  unplugged,
+  echo_error,  ///< a byte of the firmware comes back changed
+};
+
+/// At a frame, counted from 0 since the first was received; for echo_error at a byte of firmware.
+/// Each happens once, at the first chance from there on.
+struct PlannedFault {
+  WireFault fault = WireFault::lost_byte;
+  std::uint64_t at = 0;
+};
+
+struct FalconModelSettings {
+  Geometry geometry = kLibnifalconGeometry;
+  double motor_counts_per_nm = kMotorCountsPerNm;
+  bool power = true;    ///< off: USB enumerates, and nothing answers
+  bool loaded = false;  ///< firmware is there from an earlier start
+  bool homed = false;
+  int homing_frames = 20;  ///< frames with the homing bit until a leg is homed, one by one
+  std::int16_t unhomed_offset = -300;  ///< of the encoders until then
+  std::uint8_t buttons = 0;
+  std::vector<PlannedFault> faults;
+};
+
+/// What the model says to a piece of at most kMostWritten bytes.
+struct Answer {
+  std::array<std::uint8_t, 128> bytes{};
+  std::size_t size = 0;
+
+  void add(std::span<const std::uint8_t> more) noexcept;
+  [[nodiscard]] std::span<const std::uint8_t> span() const noexcept {
+    return std::span(bytes).first(size);
+  }
+};
+
+/// Allocates while firmware is loaded, and never in `running`.
+class FalconModel {
+ public:
+  FalconModel(FalconModelSettings settings, Grip grip);
+
+  // The line, as the USB-UART sets it.
+  void set_baud(int baud) noexcept { baud_ = baud; }
+  void set_dtr(bool high) noexcept;  ///< a rise restarts the processor: a guess
+
+  /// Bytes from the host, `dt_s` since the last ones.
+  [[nodiscard]] Answer receive(std::span<const std::uint8_t> bytes, double dt_s);
+
+  /// A frame from the host's signal handler: it is obeyed and not answered.
+  void receive_last(std::span<const std::uint8_t> frame) noexcept;
+
+  [[nodiscard]] bool unplugged() const noexcept { return unplugged_; }
+  void unplug() noexcept { unplugged_ = true; }
+  /// Plugged in again: the processor starts from nothing.
+  void replug() noexcept;
+
+  void switch_power(bool on) noexcept;
+  void press(std::uint8_t buttons) noexcept { settings_.buttons = buttons; }
+  void hold(Thumb thumb) { thumb_ = std::move(thumb); }
+  void plan(const PlannedFault& fault) { settings_.faults.push_back(fault); }
+
+  [[nodiscard]] bool runs() const noexcept { return stage_ == Stage::running; }
+  [[nodiscard]] bool homed() const noexcept { return homed_legs_ == 3; }
+  [[nodiscard]] std::uint64_t frames() const noexcept { return frames_; }
+  [[nodiscard]] const std::vector<std::uint8_t>& firmware() const noexcept { return firmware_; }
+  /// What the motors were told last, and the force [N] that it makes.
+  [[nodiscard]] const LegCounts& motors() const noexcept { return motors_; }
+  [[nodiscard]] const glm::dvec3& force_n() const noexcept { return force_n_; }
+  [[nodiscard]] const glm::dvec3& position_m() const noexcept { return position_m_; }
+
+ private:
+  enum class Stage { waiting, greeted, loading, running };
+
+  void restart(Stage stage) noexcept;
+  void boot(std::uint8_t byte, Answer& answer);
+  void load(std::uint8_t byte, Answer& answer);
+  void run(std::uint8_t byte, double dt_s, Answer& answer);
+  void answer_frame(double dt_s, Answer& answer);
+  void home(bool asked) noexcept;
+  [[nodiscard]] glm::dvec3 force_of(const LegCounts& motors) const noexcept;
+  [[nodiscard]] std::array<std::uint8_t, kFrameBytes> state_frame() const;
+  [[nodiscard]] bool take(std::uint8_t byte) noexcept;
+  [[nodiscard]] bool happens(WireFault fault, std::uint64_t now);
+
+  FalconModelSettings settings_;
+  Grip grip_;
+  Thumb thumb_;  // none: `press`
+  Kinematics kinematics_;
+  Stage stage_ = Stage::waiting;
+  int baud_ = 9600;
+  bool dtr_ = true;
+  bool unplugged_ = false;
+  std::array<std::uint8_t, kFrameBytes> heard_{};  // of a greeting or a frame
+  std::size_t heard_size_ = 0;
+  std::vector<std::uint8_t> firmware_;
+  std::array<std::uint8_t, kFrameBytes> last_frame_{};
+  std::uint64_t frames_ = 0;
+  int homing_ = 0;
+  int homed_legs_ = 0;
+  LegCounts motors_{}, counts_{};
+  glm::dvec3 force_n_{0.0}, position_m_{Kinematics::kCentreM};
+};
+
+// ---- falcon device -------------------------------------------------------------------
 // A Novint Falcon on any transport: start-up, homing, frames, kinematics.
 //
 //   closed --open--> needs_firmware --load--> needs_homing --the user--> ready
 //                         ^                        ^                       |
 //                     no answer                    +----- homing lost -----+
 //   any of them --unplugged, or silent for long--> fault --open--> ...
-
-#include "claystack/falcon/device.hpp"
-#include "claystack/falcon/frame.hpp"
-#include "claystack/falcon/kinematics.hpp"
-#include "claystack/falcon/transport.hpp"
-
-#include <array>
-#include <atomic>
-#include <memory>
-#include <string>
-
-namespace clay::falcon {
 
 struct FalconSettings {
   Geometry geometry = kLibnifalconGeometry;

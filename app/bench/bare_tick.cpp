@@ -1,0 +1,71 @@
+#include "app/bench/bare_tick.hpp"
+
+#include "app/bench/stage_cost.hpp"
+#include "app/bench/timing.hpp"
+#include "engine/clay/stack_writer.hpp"
+#include "engine/tick/contact.hpp"
+#include "engine/tick/redistribution.hpp"
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+namespace clay::bench {
+namespace {
+
+/// As the engine cuts a tick, so that a fast hand leaves what a slow one does.
+int parts_of(const ToolState& tool) noexcept {
+  const glm::dvec3 way = glm::abs(tool.moved_mm);
+  const double parts = std::max({way.x, way.y, way.z}) / 0.05;
+  return parts < 32 ? static_cast<int>(parts) + 1 : 32;
+}
+
+}  // namespace
+
+BareWheel::BareWheel(const SceneSpec& scene) : plan_(StepPlan::build(scene).value()), bites_(1) {
+  const LumpSpec& lump = scene.lump;
+  stack_ = ClayStack::cylinder(lump.rings, lump.ring_height_mm, lump.outer_radius_mm,
+                               lump.inner_radius_mm, max_rings_of(lump))
+               .value();
+  StackWriter(stack_).reserve();
+  ledger_.initial = stack_.volume();
+  const auto touches = most_contacts(plan_.tool, lump.ring_height_mm, max_rings_of(lump));
+  bites_[0].contact.rings.reserve(touches);
+  bites_[0].removed.reserve(touches);
+}
+
+void BareWheel::step(const Pose& pose) noexcept {
+  ToolState tool = tracker_.advance(pose);
+  if (!tool.valid) return;
+  Bite& bite = bites_[0];
+  find_contact<Model::conserving>(plan_.tool, stack_, tool.hip_mm, bite.contact, tool.moved_mm);
+  const bool touches = !bite.contact.rings.empty();
+  const int parts = touches || touching_ ? parts_of(tool) : 1;
+  touching_ = touches;
+  tool.dt_s /= parts;
+  tool.moved_mm /= parts;
+  for (int part = 1; part <= parts; ++part) {
+    const glm::dvec3 hip = tool.hip_mm - static_cast<double>(parts - part) * tool.moved_mm;
+    if (parts > 1)
+      find_contact<Model::conserving>(plan_.tool, stack_, hip, bite.contact, tool.moved_mm);
+    if (!bite.contact.rings.empty()) press(tool);
+  }
+}
+
+void BareWheel::press(const ToolState& tool) noexcept {
+  Bite& bite = bites_[0];
+  const double half_way = 0.5 * tool.moved_mm.y / stack_.ring_height_mm();
+  bite.contact.up_offset += std::max(half_way, 0.0);
+  bite.contact.down_offset += std::max(-half_way, 0.0);
+  compute_removal<Model::conserving>(plan_.removal, stack_, tool.dt_s, bite.contact, bite.removed);
+  press_clay<Model::conserving>(plan_, bites_, tool.upward, stack_, ledger_, &rim_);
+}
+
+double bare_stroke_s(const SceneSpec& scene, double depth_mm) {
+  const auto poses = app::stroke_poses(scene, depth_mm);
+  BareWheel wheel(scene);
+  return work_seconds_of([&] {
+    for (const Pose& pose : poses) wheel.step(pose);
+  });
+}
+
+}  // namespace clay::bench

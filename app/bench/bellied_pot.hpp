@@ -1,0 +1,13 @@
+#pragma once
+#include "claystack/engine/clay.hpp"
+
+#include <cstddef>
+
+namespace clay::bench {
+
+inline constexpr std::size_t kBelliedRings = 200;
+
+/// Rings of 0.75 mm: a bellied pot with throwing marks; solid where it has no wall.
+Pot bellied_pot(double wall_mm);
+
+}  // namespace clay::bench

@@ -1,0 +1,241 @@
+#include "app/bench/closed_loop/closed_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+namespace clay::servo {
+namespace {
+
+using falcon::ArmEnergy;
+using falcon::PassivityController;
+using falcon::SimulatedArm;
+
+/// What the loop has put in, up to now, and how far that may be off.
+struct Account {
+  double injected_j = 0.0;
+  double tolerance_j = 0.0;
+  double rounding_j = 0.0;  // of the sums so far
+};
+
+class Bookkeeper {
+ public:
+  Bookkeeper(const SimulatedArm& arm, const Surface& surface)
+      : arm_(arm),
+        surface_(surface),
+        began_j_(total_j()),
+        // A reading is off by half a step; the force for it by as much, times K.
+        force_error_n_(0.5 * surface.stiffness_n_per_m() * arm.spec().step_m),
+        last_m_(arm.position_m()) {}
+
+  void look() {
+    const glm::dvec3 at = arm_.position_m();
+    if (surface_.stored_j(at) > 0.0) tolerance_j_ += force_error_n_ * std::abs(at.x - last_m_.x);
+    last_m_ = at;
+  }
+  [[nodiscard]] Account account() const {
+    const double gained = total_j() - began_j_;
+    return {gained - arm_.energy().hand, tolerance_j_, kRounding * throughput_j()};
+  }
+
+ private:
+  // A few additions a tick, of energies that grow with the throughput.
+  static constexpr double kRounding = 1e-13;
+  [[nodiscard]] double total_j() const {
+    return arm_.kinetic_energy_j() + surface_.stored_j(arm_.position_m());
+  }
+  [[nodiscard]] double throughput_j() const {
+    const ArmEnergy& e = arm_.energy();
+    return std::abs(e.displayed) + std::abs(e.hand) + e.damped + e.rubbed;
+  }
+  const SimulatedArm& arm_;
+  const Surface& surface_;
+  double began_j_, force_error_n_, tolerance_j_ = 0.0;
+  glm::dvec3 last_m_;
+};
+
+/// Deepest points: where the arm turns back outward while it is in contact.
+class CycleWatch {
+ public:
+  void look(const SimulatedArm& arm, const Surface& surface, const Account& now, Outcome& outcome) {
+    const double speed = arm.velocity_m_s().x;
+    const bool deepest =
+        last_speed_ < 0.0 && speed >= 0.0 && surface.stored_j(arm.position_m()) > 0;
+    last_speed_ = speed;
+    if (!deepest) return;
+    if (began_) {
+      const double injected = now.injected_j - began_->injected_j;
+      const double tolerance = now.tolerance_j - began_->tolerance_j + now.rounding_j;
+      outcome.worst_cycle_j = outcome.cycles == 0
+                                  ? injected - tolerance
+                                  : std::max(outcome.worst_cycle_j, injected - tolerance);
+      ++outcome.cycles;
+      sum_j_ += injected - tolerance;
+      outcome.mean_cycle_j = sum_j_ / outcome.cycles;
+    }
+    began_ = now;
+  }
+
+ private:
+  double last_speed_ = 0.0, sum_j_ = 0.0;
+  std::optional<Account> began_;
+};
+
+/// Peak to peak about the straight line through the points.
+double swing_about_trend(const std::vector<double>& x) {
+  if (x.size() < 2) return 0.0;
+  const auto n = static_cast<double>(x.size());
+  double sum = 0.0, moment = 0.0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    sum += x[k];
+    moment += x[k] * (static_cast<double>(k) - 0.5 * (n - 1.0));
+  }
+  const double slope = 12.0 * moment / (n * (n * n - 1.0));
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const double about = x[k] - sum / n - slope * (static_cast<double>(k) - 0.5 * (n - 1.0));
+    low = std::min(low, about);
+    high = std::max(high, about);
+  }
+  return high - low;
+}
+
+std::optional<PassivityController> controller_of(const Experiment& e) {
+  if (!e.controlled) return std::nullopt;
+  falcon::PassivitySpec spec;
+  spec.loop = e.arm.loop;
+  spec.step_m = e.arm.step_m;
+  return PassivityController::build(spec).value();
+}
+
+}  // namespace
+
+Outcome run(const Experiment& e, Surface& surface) {
+  SimulatedArm arm = SimulatedArm::build(e.arm, e.hand, e.start_m).value();
+  auto controller = controller_of(e);
+  Bookkeeper book(arm, surface);
+  CycleWatch cycles;
+  Outcome outcome;
+  const double rate = e.arm.loop.rate_hz;
+  const auto ticks = static_cast<std::int64_t>(e.seconds * rate);
+  const auto settled = static_cast<std::int64_t>((e.seconds - e.settled_s) * rate);
+  Account then;
+  std::vector<double> positions;
+  positions.reserve(static_cast<std::size_t>(ticks - settled));
+  for (std::int64_t k = 0; k < ticks; ++k) {
+    const double time_s = static_cast<double>(k) / rate;
+    const auto time_us = static_cast<std::int64_t>(std::llround(1e6 * time_s));
+    glm::dvec3 force = surface.press(time_us, arm.reading_m());
+    if (controller) force = controller->tick(time_us, arm.reading_m(), force).force_n;
+    arm.advance(force, e.intended ? e.intended(time_s + 1.0 / rate) : e.start_m);
+    book.look();
+    const Account now = book.account();
+    cycles.look(arm, surface, now, outcome);
+    if (k == settled) then = now;
+    if (k >= settled) positions.push_back(arm.position_m().x);
+    outcome.final_force_n = force.x;
+  }
+  const Account now = book.account();
+  outcome.swing_m = swing_about_trend(positions);
+  outcome.injected_j = now.injected_j;
+  outcome.tolerance_j = now.tolerance_j + now.rounding_j;
+  outcome.settled_w = (now.injected_j - then.injected_j) / e.settled_s;
+  outcome.settled_tolerance_w = (now.tolerance_j - then.tolerance_j + now.rounding_j) / e.settled_s;
+  if (controller) outcome.state = controller->state();
+  return outcome;
+}
+
+namespace {
+
+/// Does a free swing in a linear wall grow? Its largest |x| over a second stretch against a first.
+bool grows(const falcon::SampledLoop& loop, double stiffness) {
+  SimulatedArm arm = SimulatedArm::build({loop, 0.0, 0.0}, {}, {1e-3, 0.0, 0.0}).value();
+  const double swing_s = 2.0 * std::numbers::pi * std::sqrt(loop.mass_kg / stiffness);
+  // Some swings to forget the start; then stretches of many.
+  const auto stretch =
+      static_cast<int>(20.0 * std::max(swing_s, 4.0 / loop.rate_hz) * loop.rate_hz);
+  double largest[4] = {};
+  for (int part = 0; part < 4; ++part)
+    for (int k = 0; k < stretch; ++k) {
+      arm.advance({-stiffness * arm.reading_m().x, 0.0, 0.0});
+      largest[part] = std::max(largest[part], std::abs(arm.position_m().x));
+    }
+  return largest[3] > largest[1];
+}
+
+}  // namespace
+
+double measured_stable_stiffness(const falcon::SampledLoop& loop, double tolerance) {
+  // From where a swing takes a thousand periods and more: the arms in question hold that.
+  double low = 2e-5 * loop.mass_kg * loop.rate_hz * loop.rate_hz, high = low;
+  while (!grows(loop, high)) high *= 2.0;
+  low = 0.5 * high;
+  while (high - low > tolerance * high) {
+    const double middle = 0.5 * (low + high);
+    (grows(loop, middle) ? high : low) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+double measured_passive_damping(const falcon::SampledLoop& loop, const falcon::VirtualWall& wall,
+                                int waves, int samples) {
+  SimulatedArm arm = SimulatedArm::build({loop, 0.0, 0.0}).value();
+  const double angle = 2.0 * std::numbers::pi * waves / samples;
+  const auto place = [&](int k) { return 1e-3 * std::sin(angle * k + 0.3); };
+  double before = place(-2), way2 = 0.0;
+  const auto tick = [&](int k) {
+    const double x = arm.reading_m().x;
+    const double speed = (x - before) * loop.rate_hz;
+    before = x;
+    way2 += (place(k) - x) * (place(k) - x);
+    arm.carry({-wall.stiffness_n_per_m * x - wall.damping_ns_per_m * speed, 0.0, 0.0},
+              {place(k), 0.0, 0.0});
+  };
+  // Until the delay line holds forces of the motion.
+  for (int k = 0; k < samples; ++k) tick(k);
+  const ArmEnergy begun = arm.energy();
+  way2 = 0.0;
+  for (int k = samples; k < 2 * samples; ++k) tick(k);
+  return (arm.energy().displayed - begun.displayed) / (way2 * loop.rate_hz);
+}
+
+Experiment wall_experiment(const falcon::SampledLoop& loop, double stiffness_n_per_m,
+                           double step_m) {
+  Experiment e;
+  e.arm = {loop, 0.0, step_m};
+  e.hand.push_n = {-0.5, 0.0, 0.0};
+  e.start_m = {1e-3, 0.0, 0.0};
+  // What the wall leaves of the damping decides how long a swing takes to die, at half of it at
+  // most under the controller; near the border for ever.
+  const double left = std::abs(1.0 - stiffness_n_per_m / falcon::stable_stiffness(loop));
+  const double decay_s = 2.0 * loop.mass_kg / loop.damping_ns_per_m / std::clamp(left, 0.02, 0.25);
+  e.seconds = 1.0 + 8.0 * decay_s;
+  return e;
+}
+
+Experiment energy_experiment(const falcon::SampledLoop& loop, double stiffness_n_per_m) {
+  Experiment e;
+  e.arm.loop = loop;
+  e.hand.push_n = {-0.5, 0.0, 0.0};
+  e.start_m = {-1.1 * 0.5 / stiffness_n_per_m, 0.0, 0.0};
+  const double swing_s = 2.0 * std::numbers::pi * std::sqrt(loop.mass_kg / stiffness_n_per_m);
+  e.seconds = 20.0 * std::max(swing_s, 8.0 / loop.rate_hz);
+  e.settled_s = 0.5 * e.seconds;
+  return e;
+}
+
+Experiment clay_experiment(const falcon::SampledLoop& loop, double step_m) {
+  Experiment e;
+  e.arm = {loop, 0.0, step_m};
+  e.hand.stiffness_n_per_m = {200.0, 0.0, 0.0};
+  e.start_m = {1e-3, 0.0, 0.0};
+  e.seconds = 5.0;
+  e.settled_s = 2.0;
+  e.intended = [](double time_s) { return glm::dvec3(1e-3 - 3e-3 * time_s, 0.0, 0.0); };
+  return e;
+}
+
+}  // namespace clay::servo

@@ -1,0 +1,108 @@
+#include "app/bench/closed_loop/surfaces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace clay::servo {
+namespace {
+
+constexpr double kMmPerM = 1000.0;
+
+class Wall final : public Surface {
+ public:
+  explicit Wall(const WallSpec& spec) : spec_(spec) {}
+
+  glm::dvec3 press(std::int64_t, const glm::dvec3& reading_m) override {
+    const double force = -spec_.stiffness_n_per_m * depth(reading_m.x);
+    return {std::clamp(force, -spec_.limit_n, spec_.limit_n), 0.0, 0.0};
+  }
+  [[nodiscard]] double stored_j(const glm::dvec3& position_m) const override {
+    const double d = std::abs(depth(position_m.x));
+    // Beyond the limit the force is constant, and so the energy goes on in a straight line.
+    const double full = spec_.limit_n / spec_.stiffness_n_per_m;
+    if (d > full) return spec_.limit_n * (d - 0.5 * full);
+    return 0.5 * spec_.stiffness_n_per_m * d * d;
+  }
+  [[nodiscard]] double stiffness_n_per_m() const override { return spec_.stiffness_n_per_m; }
+  [[nodiscard]] double face_m() const override { return 0.0; }
+
+ private:
+  [[nodiscard]] double depth(double x) const { return spec_.one_sided ? std::min(x, 0.0) : x; }
+  WallSpec spec_;
+};
+
+constexpr double kRadiusMm = 45.0, kRibRadiusMm = 6.0, kRingMm = 0.5;
+constexpr std::size_t kRings = 160;
+
+class Clay final : public Surface {
+ public:
+  Clay(const ClaySpec& spec, Wheel wheel) : wheel_(std::move(wheel)), spec_(spec) {}
+
+  glm::dvec3 press(std::int64_t time_us, const glm::dvec3& reading_m) override {
+    return wheel_.step({time_us, hip_mm(reading_m), false}).force_n;
+  }
+  /// The overlap energy E = sum K' h depth^2 / 2, from the stack itself.
+  [[nodiscard]] double stored_j(const glm::dvec3& position_m) const override {
+    const double reach = hip_mm(position_m).x - kRibRadiusMm;
+    double sum = 0.0;
+    std::size_t rings = 0;
+    for_touched([&](const Ring& ring) {
+      const double depth = std::max(0.0, ring.outer_mm() - reach) / kMmPerM;
+      sum += depth * depth;
+      ++rings;
+    });
+    return 0.5 * spec_.stiffness_n_per_m * sum / static_cast<double>(rings);
+  }
+  [[nodiscard]] double stiffness_n_per_m() const override { return spec_.stiffness_n_per_m; }
+  [[nodiscard]] double face_m() const override {
+    double highest = 0.0;
+    for_touched([&](const Ring& ring) { highest = std::max(highest, ring.outer_mm()); });
+    return (highest - kRadiusMm) / kMmPerM;
+  }
+
+ private:
+  static constexpr double kMiddleMm = 0.5 * kRingMm * static_cast<double>(kRings);
+
+  static glm::dvec3 hip_mm(const glm::dvec3& at_m) {
+    return {kRadiusMm + kRibRadiusMm + kMmPerM * at_m.x, kMiddleMm, 0.0};
+  }
+  template <class Visit>
+  void for_touched(Visit visit) const {
+    const double half = 0.5 * spec_.rib_height_mm;
+    const auto rings = wheel_.stack().rings();
+    for (std::size_t i = 0; i < rings.size(); ++i) {
+      const double t = (static_cast<double>(i) + 0.5) * kRingMm - kMiddleMm;
+      if (std::abs(t) <= half) visit(rings[i]);
+    }
+  }
+
+  Wheel wheel_;
+  ClaySpec spec_;
+};
+
+}  // namespace
+
+std::unique_ptr<Surface> make_wall(const WallSpec& wall) { return std::make_unique<Wall>(wall); }
+
+SceneSpec clay_scene(const ClaySpec& clay) {
+  SceneSpec scene;
+  scene.name = "a cylinder under a rib";
+  scene.lump = {.rings = kRings,
+                .ring_height_mm = kRingMm,
+                .outer_radius_mm = kRadiusMm,
+                .inner_radius_mm = 0.0,
+                .max_rings = 4 * kRings,
+                .density_g_cm3 = 1.9};
+  scene.tool.shape = RibSpec{clay.rib_height_mm, kRibRadiusMm};
+  scene.removal = {.rate_per_s = clay.rate_per_s, .min_wall_mm = 1.0, .paper_fraction = {}};
+  // N/m over mm of height is N/mm over mm, a thousandth.
+  scene.force->stiffness_n_per_mm2 = clay.stiffness_n_per_m / kMmPerM / clay.rib_height_mm;
+  return scene;
+}
+
+std::unique_ptr<Surface> make_clay(const ClaySpec& clay) {
+  return std::make_unique<Clay>(clay, Wheel::build(clay_scene(clay)).value());
+}
+
+}  // namespace clay::servo

@@ -1,0 +1,187 @@
+// Convergence: what is left of the height of a ring and of the rate of the poses in pot and force.
+
+#include "app/bench/convergence_experiments.hpp"
+#include "app/bench/section.hpp"
+
+#include "claystack/engine/wheel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace clay::bench {
+namespace {
+
+constexpr double kMostForcePercent = 1.0, kMostProfilePercent = 0.5, kMostRatePercent = 0.2,
+                 kMostForceRatePercent = 1.0;
+
+struct Errors {
+  double step = 0.0;  ///< ring height [mm], or period of the poses [us]
+  double profile = 0.0, outline = 0.0, force = 0.0, force_most = 0.0;  ///< percent
+};
+
+Errors errors(const Experiment& e, double step, const Played& run, const Played& reference) {
+  const auto profile = profile_difference(run.stack, reference.stack);
+  const auto force = force_difference(run, reference);
+  const double percent = 100.0 / e.scene.lump.outer_radius_mm;
+  return {step, percent * profile.rms_mm, percent * profile.outline_mm, force.rms_percent,
+          force.most_percent};
+}
+
+/// Refines rings by each factor against the last one.
+std::vector<Errors> over_rings(const Experiment& e, const std::vector<std::size_t>& factors) {
+  const Played reference = played(refined(e.scene, factors.back()), e.poses);
+  std::vector<Errors> rows;
+  for (std::size_t k = 0; k + 1 < factors.size(); ++k)
+    rows.push_back(errors(e, e.scene.lump.ring_height_mm / static_cast<double>(factors[k]),
+                          played(refined(e.scene, factors[k]), e.poses), reference));
+  return rows;
+}
+
+/// The same for the period of the poses.
+std::vector<Errors> over_rate(const Experiment& e, const std::vector<std::int64_t>& periods_us) {
+  const Played reference = played(e.scene, resampled(e.poses, periods_us.back()));
+  std::vector<Errors> rows;
+  for (std::size_t k = 0; k + 1 < periods_us.size(); ++k)
+    rows.push_back(errors(e, static_cast<double>(periods_us[k]),
+                          played(e.scene, resampled(e.poses, periods_us[k])), reference));
+  return rows;
+}
+
+/// log2 of the ratio of an error to that at half the step; nothing where there is no error.
+Cell order(const std::vector<Errors>& rows, std::size_t k, double Errors::*error) {
+  if (k + 1 >= rows.size() || !(rows[k + 1].*error > 1e-9)) return {};
+  return std::log2(rows[k].*error / (rows[k + 1].*error)) /
+         std::log2(rows[k].step / rows[k + 1].step);
+}
+
+void add_rows(Table& table, Plot& profile, Plot& force, const std::string& name,
+              const std::vector<Errors>& rows) {
+  Curve in_profile, in_force;
+  in_profile.name = in_force.name = name;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Errors& row = rows[k];
+    table.rows.push_back({name, row.step, row.profile, order(rows, k, &Errors::profile),
+                          row.outline, row.force, order(rows, k, &Errors::force), row.force_most});
+    in_profile.x.push_back(row.step);
+    in_profile.y.push_back(row.profile);
+    in_force.x.push_back(row.step);
+    in_force.y.push_back(row.force);
+  }
+  profile.curves.push_back(std::move(in_profile));
+  force.curves.push_back(std::move(in_force));
+}
+
+Table table_of(std::string id, std::string title, Column step) {
+  Table table;
+  table.id = std::move(id);
+  table.title = std::move(title);
+  table.columns = {{"stroke", ""},        std::move(step),
+                   {"profile", "% of R"}, {"profile_order", ""},
+                   {"outline", "% of R"}, {"force", "% of largest"},
+                   {"force_order", ""},   {"force_most", "% of largest"}};
+  table.note =
+      "profile: root mean square of R(y) and r(y) over the height; outline: greatest distance of "
+      "the sections' outlines; force: root mean square over time, and the most at any pose; each "
+      "against the finest run. Orders: log2 of the ratio to the error at half the step.";
+  return table;
+}
+
+Plot plot_of(std::string id, std::string title, std::string step, std::string error) {
+  Plot plot;
+  plot.id = std::move(id);
+  plot.title = std::move(title);
+  plot.x = {std::move(step), true};
+  plot.y = {std::move(error), true};
+  return plot;
+}
+
+Table exact_table(bool& sound) {
+  Table table;
+  table.id = "convergence_exact";
+  table.title = "A standing rib against its exact solution";
+  table.columns = {
+      {"ring_height", "mm"}, {"rate", "Hz"}, {"wall_error", "mm"}, {"force_error", "N"}};
+  for (const auto& [h, rate_hz] :
+       {std::pair{1.0, 250.0}, {0.5, 1000.0}, {0.1, 1000.0}, {0.5, 8000.0}}) {
+    const StandingRib rib = standing_rib(h, rate_hz);
+    Wheel wheel = Wheel::build(rib.scene).value();
+    double wall = 0.0, force = 0.0;
+    for (const Pose& pose : rib.poses) {
+      const double t_s = 1e-6 * static_cast<double>(pose.time_us);
+      const double felt = wheel.step(pose).force_n.x;
+      const Ring& ring = wheel.stack().rings()[static_cast<std::size_t>(30.0 / h)];
+      force = std::max(force, std::abs(felt - rib.force_n(t_s)));
+      wall = std::max(wall, std::abs(ring.outer_mm() - ring.inner_mm() - rib.wall_mm(t_s)));
+    }
+    sound = sound && wall < 1e-6 && force < 1e-6;
+    table.rows.push_back({h, rate_hz, wall, force});
+  }
+  table.note = "w = w0 exp(-kappa t) to the yield depth, then the logistic curve; F = K' L depth.";
+  return table;
+}
+
+/// The requirements, each as the worst of all strokes.
+struct Worst {
+  double force_h10 = 0.0, profile_h10 = 0.0, profile_rate = 0.0, force_rate = 0.0;
+};
+
+void compare_tenfold(const Experiment& e, Worst& worst) {
+  const Played run = played(e.scene, e.poses);
+  const Errors h10 = errors(e, 0.0, run, played(refined(e.scene, 10), e.poses));
+  const Errors rate = errors(e, 0.0, run, played(e.scene, resampled(e.poses, 250)));
+  worst.force_h10 = std::max(worst.force_h10, h10.force);
+  worst.profile_h10 = std::max(worst.profile_h10, h10.profile);
+  worst.profile_rate = std::max(worst.profile_rate, rate.profile);
+  worst.force_rate = std::max(worst.force_rate, rate.force);
+}
+
+}  // namespace
+
+Section convergence_section(const Effort& effort) {
+  Section section;
+  section.id = "convergence";
+  section.title = "Convergence in the height of a ring and in the rate of the poses";
+  section.summary =
+      "The same strokes on finer rings and at other rates, against the finest run and, where there "
+      "is one, the exact solution. Neither is a property of clay, so neither may show.";
+
+  using Factors = std::vector<std::size_t>;
+  using Periods = std::vector<std::int64_t>;
+  const auto factors = effort.quick ? Factors{1, 2, 4, 16} : Factors{1, 2, 4, 8, 16, 64};
+  const auto periods = effort.quick ? Periods{4000, 2000, 1000, 500, 50}
+                                    : Periods{4000, 2000, 1000, 500, 250, 125, 25};
+  Table rings = table_of("convergence_rings", "Finer rings", {"ring_height", "mm"});
+  Table rates = table_of("convergence_rate", "Poses more often", {"period", "us"});
+  Plot ring_profile = plot_of("convergence_rings_profile", "Profile against ring height",
+                              "ring height [mm]", "error [% of R]");
+  Plot ring_force = plot_of("convergence_rings_force", "Force against ring height",
+                            "ring height [mm]", "error [% of the largest]");
+  Plot rate_profile = plot_of("convergence_rate_profile", "Profile against the period of the poses",
+                              "period [us]", "error [% of R]");
+  Plot rate_force = plot_of("convergence_rate_force", "Force against the period of the poses",
+                            "period [us]", "error [% of the largest]");
+  Worst worst;
+  for (const Experiment& e : convergence_experiments()) {
+    effort.progress(e.name);
+    add_rows(rings, ring_profile, ring_force, e.name, over_rings(e, factors));
+    add_rows(rates, rate_profile, rate_force, e.name, over_rate(e, periods));
+    compare_tenfold(e, worst);
+  }
+  section.values = {
+      {"force_change_percent_h10", worst.force_h10, 0.0,
+       "root mean square change of the force with 10 times finer rings, of the largest force"},
+      {"profile_change_percent_h10", worst.profile_h10, 0.0, "of the profile, of R"},
+      {"profile_change_percent_1k_4k", worst.profile_rate, 0.0,
+       "of the profile from 1 kHz to 4 kHz, of R"},
+      {"force_change_percent_1k_4k", worst.force_rate, 0.0,
+       "of the force from 1 kHz to 4 kHz, of the largest force"}};
+  section.sound = worst.force_h10 < kMostForcePercent && worst.profile_h10 < kMostProfilePercent &&
+                  worst.profile_rate < kMostRatePercent && worst.force_rate < kMostForceRatePercent;
+  section.tables = {std::move(rings), std::move(rates), exact_table(section.sound)};
+  section.plots = {std::move(ring_profile), std::move(ring_force), std::move(rate_profile),
+                   std::move(rate_force)};
+  return section;
+}
+
+}  // namespace clay::bench

@@ -1,0 +1,274 @@
+// Stacks and tools at the ends of their ranges.
+
+#include "app/bench/extreme/page_watch.hpp"
+#include "app/bench/extreme/trial.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace clay::extreme {
+namespace {
+
+Outcome reference_stroke(Who who) {
+  Trial trial(who, small_pot());
+  trial.stroke({40, 20, 0}, {36, 24, 0}, 40);
+  trial.stroke({36, 24, 0}, {36, 36, 0}, 120);
+  trial.stroke({36, 36, 0}, {36, 24, 0}, 120);
+  trial.require(trial.touched(), "no contact");
+  return trial.done();
+}
+
+Outcome wall_of(Who who, double wall_mm) {
+  SceneSpec scene = small_pot();
+  scene.lump.inner_radius_mm = 30.0 - wall_mm;
+  scene.removal.min_wall_mm = 1e-3;
+  Trial trial(who, scene);
+  trial.stroke({40, 20, 0}, {34, 40, 0}, 100);
+  trial.stroke({10, 20, 0}, {24, 40, 0}, 100);
+  return trial.done();
+}
+
+Outcome wall_1e_12(Who who) { return wall_of(who, 1e-12); }
+
+/// The thinnest wall that the engine counts: one quantum, by bisection over the radius.
+Outcome wall_of_a_quantum(Who who) {
+  const double inner_mm = std::sqrt(mm2_from_quanta(quanta_from_radius(30.0) - 1));
+  SceneSpec scene = small_pot();
+  scene.lump.inner_radius_mm = inner_mm;
+  Trial trial(who, scene);
+  trial.require(!trial.refused() && trial.subject().ring(0).inner_mm < 30.0, "no such wall");
+  if (const Wheel* wheel = trial.subject().wheel())
+    trial.require(count_clay(*wheel) == 60, "not a quantum a ring");
+  trial.stroke({40, 20, 0}, {34, 40, 0}, 100);
+  trial.stroke({10, 20, 0}, {24, 40, 0}, 100);
+  return trial.done();
+}
+
+Outcome wall_of_nothing(Who who) {
+  SceneSpec scene = small_pot();
+  scene.lump.inner_radius_mm = 30.0;
+  scene.stability = StabilitySpec{10.0};
+  Trial trial(who, scene);
+  return trial.done();
+}
+
+/// Rings whose middle is not level with the tool must not be touched; the clay goes up, so what
+/// is below has to stay as it was.
+Outcome beyond_the_tool(Who who) {
+  SceneSpec scene = small_pot();
+  scene.tool.shape = RibSpec{10.0, 6.0};
+  Trial trial(who, scene);
+  trial.stroke({45, 29.8, 0}, {45, 30.2, 0}, 3);
+  trial.stroke({34, 30.21, 0}, {34, 30.4, 0}, 20);
+  trial.require(trial.touched(), "no contact");
+  for (std::size_t i = 0; i < trial.subject().rings(); ++i)
+    if (trial.subject().centre_mm(i) < 30.21 - 5.0)
+      trial.require(trial.subject().ring(i).outer_mm == 30.0,
+                    fmt::format("ring {} is below the tool and was pressed", i));
+  return trial.done();
+}
+
+Outcome tool_wider_than_the_pot(Who who) {
+  SceneSpec scene = small_pot();
+  scene.tool.shape = SphereSpec{500.0};
+  Trial trial(who, scene);
+  trial.stroke({540, 20, 0}, {510, 40, 0}, 100);
+  trial.stroke({400, 40, 0}, {200, 20, 0}, 100);
+  trial.require(trial.touched(), "no contact");
+  trial.require(trial.largest_force_n() <= 5.0, fmt::format("{:.3g} N", trial.largest_force_n()));
+  return trial.done();
+}
+
+Outcome nothing_happens(Who who, const SceneSpec& scene, const std::vector<glm::dvec3>& places) {
+  Trial trial(who, scene);
+  const std::string before = trial.subject().bytes();
+  for (const glm::dvec3& place : places) {
+    trial.stroke(place, place + glm::dvec3(0, 0.5, 0), 3);
+    trial.require(trial.subject().bytes() == before, "the clay has moved");
+    trial.require(trial.largest_force_n() == 0.0, "a force from nothing");
+  }
+  return trial.done();
+}
+
+Outcome tool_above(Who who) {
+  return nothing_happens(who, small_pot(), {{0, 80, 0}, {25, 68.6, 0}, {10, 99'999, 0}});
+}
+Outcome tool_below(Who who) {
+  return nothing_happens(who, small_pot(), {{0, -40, 0}, {25, -9, 0}, {10, -99'999, 0}});
+}
+Outcome tool_in_a_free_bore(Who who) {
+  SceneSpec scene = small_pot();
+  scene.lump.inner_radius_mm = 20.0;
+  return nothing_happens(who, scene, {{0, 30, 0}, {8, 20, 8}, {11.5, 40, 0}});
+}
+
+Outcome index_beyond_int(Who who) {
+  SceneSpec scene = small_pot();
+  scene.lump.ring_height_mm = 1e-9;
+  scene.flow.reach_mm = 12e-9;
+  return refused_or_sound(who, scene, {36, 1e3, 0}, {36, 1e3 + 1, 0}, 3);
+}
+
+Outcome rings_of_a_micrometre(Who who) {
+  SceneSpec scene = small_pot();
+  scene.lump.rings = 20'000;  // 20 mm
+  scene.lump.ring_height_mm = 1e-3;
+  scene.tool.shape = SphereSpec{3.0};
+  scene.flow.sigma_mm = 1.0;
+  scene.flow.reach_mm = 4.0;
+  scene.lump.max_rings = 40'000;
+  Trial trial(who, scene);
+  trial.stroke({34, 8, 0}, {31, 9, 0}, 20);
+  trial.require(trial.touched(), "no contact");
+  return trial.done(fmt::format("{} rings", trial.subject().rings()));
+}
+
+Outcome rings_of_a_metre(Who who) {
+  SceneSpec scene = small_pot();
+  scene.lump.rings = 5;
+  scene.lump.ring_height_mm = 1e3;
+  scene.tool.shape = SphereSpec{600.0};
+  scene.flow.reach_mm = 3e3;
+  Trial trial(who, scene);
+  // The middles of rings are at 500, 1500 .. mm here, at 0, 1000 .. in print.
+  trial.stroke({620, 900, 0}, {620, 1600, 0}, 200);
+  trial.require(trial.touched(), "no contact");
+  return trial.done();
+}
+
+Outcome one_ring(Who who) {
+  SceneSpec scene = small_pot();
+  scene.lump.rings = 1;
+  scene.lump.max_rings = 100;
+  Trial trial(who, scene);
+  trial.stroke({45, -1, 0}, {37, 0.2, 0}, 20);
+  trial.stroke({37, 0.2, 0}, {35, 0.8, 0}, 20);
+  trial.require(trial.touched(), "no contact");
+  return trial.done();
+}
+
+/// A stroke on very many rings; three ticks, since the suite looks at every ring after each.
+Outcome many_rings(Who who, std::size_t rings) {
+  SceneSpec scene = small_pot();
+  scene.lump.rings = rings;
+  scene.lump.max_rings = rings;
+  scene.lump.ring_height_mm = 0.01;
+  scene.tool.shape = SphereSpec{5.0};
+  const double middle_mm = 0.005 * static_cast<double>(rings);
+  Trial trial(who, scene);
+  trial.stroke({40, middle_mm, 0}, {34, middle_mm + 1, 0}, 2);
+  trial.at({34, middle_mm, 0});
+  trial.require(trial.touched(), "no contact");
+  return trial.done();
+}
+
+/// Every page of the rings is protected but for the tick; each that the tick opens is counted. The
+/// engine has a million rings, the paper's N^2 / 2 additions for the stress fewer.
+Outcome work_of_a_tick(Who who) {
+  SceneSpec scene = small_pot();
+  scene.lump.rings = who == Who::conserving ? 1'000'000 : 10'000;
+  scene.lump.max_rings = scene.lump.rings;
+  scene.lump.ring_height_mm = 0.3;
+  scene.tool.shape = SphereSpec{5.0};
+  scene.stability = StabilitySpec{1e6};
+  const double y = 0.15 * static_cast<double>(scene.lump.rings);
+  Trial trial(who, scene);
+  trial.stroke({37, y, 0}, {34, y + 1, 0}, 5);
+  const std::span<const std::byte> rings = trial.subject().ring_bytes();
+  std::size_t opened = 0;
+  const std::size_t all = pages_in(rings);
+  for (int k = 0; k < 20 && trial.going_well(); ++k) {
+    const Pose pose{10'000 + 1000 * k, {33.9, y + 1 + 0.01 * k, 0}, false};
+    opened = std::max(opened, pages_opened(rings, [&] { trial.subject().step(pose); }));
+  }
+  // Contact and kernel reach 10 mm + 2 x 12 mm, 114 rings: 24 bytes each at most, and two ends.
+  trial.require(opened >= 1 && opened <= 3, fmt::format("{} of {} pages read", opened, all));
+  return trial.done(fmt::format("{} of {} pages read", opened, all));
+}
+
+Outcome million_rings(Who who) { return many_rings(who, 1'000'000); }
+Outcome most_rings(Who who) { return many_rings(who, kMaxRings); }
+Outcome too_many_rings(Who who) {
+  if (who == Who::literal) return {Verdict::not_in_print, "no limit is printed"};
+  SceneSpec scene = small_pot();
+  scene.lump.rings = kMaxRings + 1;
+  Trial trial(who, scene);
+  trial.require(trial.refused(), "accepted");
+  return trial.done();
+}
+
+Outcome radius_1e300(Who who) {
+  SceneSpec scene = small_pot();
+  scene.lump.outer_radius_mm = 1e300;
+  return refused_or_sound(who, scene, {1e300, 30, 0}, {1e300, 31, 0}, 3);
+}
+
+Outcome radius_1e_160(Who who) {
+  SceneSpec scene = small_pot();
+  scene.lump.outer_radius_mm = 1e-160;
+  return refused_or_sound(who, scene, {8, 29, 0}, {7.9, 31, 0}, 20);
+}
+
+/// Pressed at the largest radius there is: rings next to it have no room outside.
+Outcome largest_radius(Who who) {
+  SceneSpec scene = small_pot();
+  scene.lump.outer_radius_mm = 5000.0;
+  Trial trial(who, scene);
+  trial.stroke({5008, 20, 0}, {5002, 24, 0}, 30);
+  trial.stroke({5002, 24, 0}, {5002, 36, 0}, 100);
+  trial.require(trial.touched(), "no contact");
+  for (std::size_t i = 0; i < trial.subject().rings(); ++i)
+    trial.require(trial.subject().ring(i).outer_mm <= kMaxRadiusMm,
+                  fmt::format("ring {}: R = {:.8g} mm", i, trial.subject().ring(i).outer_mm));
+  return trial.done();
+}
+
+constexpr Case kCases[] = {
+    {"reference_stroke", "an ordinary stroke, up and down", "clay kept", "exact rationals",
+     Verdict::passed, reference_stroke},
+    {"wall_1e-12", "R - r = 1e-12 mm, pressed from both sides", "clay kept, no NaN",
+     "exact rationals, absolute", Verdict::passed, wall_1e_12},
+    {"wall_of_a_quantum", "R^2 - r^2 = 2^-36 mm^2 in every ring", "clay kept, r < R",
+     "exact rationals, invariants", Verdict::passed, wall_of_a_quantum},
+    {"wall_of_nothing", "r = R", "refused, or r < R and a stress that is a number", "invariants",
+     Verdict::failed, wall_of_nothing},
+    {"beyond_the_tool", "a rib of 10 mm height", "rings below it stay to the bit", "geometry",
+     Verdict::failed, beyond_the_tool},
+    {"tool_wider_than_the_pot", "a sphere of 500 mm on a pot of 30 mm", "clay kept, at most 5 N",
+     "exact rationals, interval", Verdict::failed, tool_wider_than_the_pot},
+    {"tool_above", "poses above the rim, to 100 m", "no contact, state to the bit", "bytes",
+     Verdict::passed, tool_above},
+    {"tool_below", "poses below the wheel head, to 100 m", "no contact, state to the bit", "bytes",
+     Verdict::passed, tool_below},
+    {"tool_in_a_free_bore", "a tool inside that touches nothing", "no contact, state to the bit",
+     "bytes", Verdict::passed, tool_in_a_free_bore},
+    {"index_beyond_int", "h = 1e-9 mm, y = 1 m", "refused, or no index beyond its type", "limits",
+     Verdict::failed, index_beyond_int},
+    {"rings_of_a_micrometre", "h = 1e-3 mm", "clay kept", "exact rationals", Verdict::passed,
+     rings_of_a_micrometre},
+    {"rings_of_a_metre", "h = 1e3 mm, sigma = 4 mm", "clay kept, no 0/0 of weights",
+     "exact rationals", Verdict::failed, rings_of_a_metre},
+    {"one_ring", "N = 1", "clay kept", "exact rationals", Verdict::failed, one_ring},
+    {"million_rings", "N = 10^6", "clay kept; running sum = sum", "exact rationals",
+     Verdict::passed, million_rings},
+    {"work_of_a_tick", "N = 10^6, stress looked at", "no page of rings is read but those near",
+     "pages opened, by protecting all", Verdict::failed, work_of_a_tick},
+    {"most_rings", "N = 2^24", "clay kept; running sum = sum", "exact rationals", Verdict::passed,
+     most_rings},
+    {"too_many_rings", "N = 2^24 + 1", "refused", "limits", Verdict::not_in_print, too_many_rings},
+    {"radius_1e300", "R = 1e300 mm", "refused, or finite", "invariants", Verdict::failed,
+     radius_1e300},
+    {"radius_1e-160", "R = 1e-160 mm", "refused, or clay kept", "exact rationals", Verdict::failed,
+     radius_1e_160},
+    {"largest_radius", "R = 5000 mm, the largest there is", "clay kept, R <= 5000 mm",
+     "exact rationals, invariants", Verdict::failed, largest_radius},
+};
+
+}  // namespace
+
+std::span<const Case> shape_cases() { return kCases; }
+
+}  // namespace clay::extreme

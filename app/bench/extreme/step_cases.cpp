@@ -1,0 +1,150 @@
+// One step computed again, very many steps, and the same steps twice.
+
+#include "app/bench/extreme/hand.hpp"
+#include "app/bench/extreme/one_step.hpp"
+#include "app/bench/extreme/trial.hpp"
+#include "claystack/engine/wheel.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <thread>
+#include <vector>
+
+namespace clay::extreme {
+namespace {
+
+std::atomic<std::size_t> drift_ticks{1'000'000};
+
+/// FNV-1a over bytes.
+class Hash {
+ public:
+  template <class T>
+  void add(const T& value) {
+    unsigned char bytes[sizeof(T)];
+    std::memcpy(bytes, &value, sizeof(T));
+    for (const unsigned char byte : bytes) state_ = (state_ ^ byte) * 0x100000001b3u;
+  }
+  void add(const std::string& bytes) {
+    for (const char byte : bytes) add(byte);
+  }
+  [[nodiscard]] std::uint64_t value() const { return state_; }
+
+ private:
+  std::uint64_t state_ = 0xcbf29ce484222325u;
+};
+
+struct Played {
+  std::uint64_t hash = 0;
+  std::size_t contacts = 0;
+  Exact worst = 0;  ///< clay missing or too much, mm^2, whenever it was weighed
+  std::string fault;
+};
+
+/// A pot under a restless hand. Force and contact of every tick go into the hash; the clay is
+/// weighed ten thousand times and at the end.
+class Player {
+ public:
+  Player(Who who, std::size_t ticks, std::uint64_t seed) : who_(who), ticks_(ticks), hand_(seed) {
+    SceneSpec scene = small_pot();
+    scene.force->friction = 0.2;
+    subject_ = std::move(put_on_wheel(who, scene).value());
+    before_ = subject_->clay().value();
+  }
+
+  /// False when all ticks are played, or the clay has a fault.
+  bool tick() {
+    if (tick_ == ticks_ || !played_.fault.empty()) return false;
+    ++tick_;
+    const Tick tick = subject_->step(hand_.next());
+    played_.contacts += tick.contact;
+    hash_.add(tick.force_n);
+    hash_.add(tick.contact);
+    if (tick_ % (1 + ticks_ / 10'000) == 0 || tick_ == ticks_) weigh();
+    played_.hash = hash_.value();
+    return true;
+  }
+  [[nodiscard]] const Played& played() const { return played_; }
+
+ private:
+  void weigh() {
+    hash_.add(subject_->bytes());
+    played_.fault = subject_->fault();
+    const auto clay = subject_->clay();
+    if (!clay) return;
+    played_.worst = std::max(played_.worst, Exact(abs(*clay - before_)));
+    if (who_ == Who::literal && played_.worst > before_ / 1'000'000'000)
+      played_.fault = fmt::format("clay off by {:.3g} % after {} ticks",
+                                  Exact(100 * played_.worst / before_).convert_to<double>(), tick_);
+  }
+
+  Who who_;
+  std::size_t ticks_, tick_ = 0;
+  Hand hand_;
+  std::unique_ptr<Subject> subject_;
+  Exact before_ = 0;
+  Hash hash_;
+  Played played_;
+};
+
+Played play(Who who, std::size_t ticks, std::uint64_t seed) {
+  Player player(who, ticks, seed);
+  while (player.tick()) {
+  }
+  return player.played();
+}
+
+Outcome drift(Who who) {
+  const std::size_t ticks = who == Who::conserving ? drift_ticks.load() : 100'000;
+  Played first, second;
+  std::thread other([&] { second = play(who, ticks, 7); });
+  first = play(who, ticks, 7);
+  other.join();
+  if (!first.fault.empty()) return {Verdict::failed, first.fault};
+  if (first.worst != 0 && who == Who::conserving) return {Verdict::failed, "quanta lost"};
+  if (first.hash != second.hash) return {Verdict::failed, "two runs differ"};
+  if (first.contacts < ticks / 10) return {Verdict::failed, "too little contact"};
+  return {Verdict::passed, fmt::format("{} ticks twice, {} in contact, 0 quanta, hash {:016x}",
+                                       ticks, first.contacts, first.hash)};
+}
+
+/// Pots thrown side by side, a tick of each in turn and in threads of their own, give what they
+/// give alone.
+Outcome side_by_side(Who who) {
+  constexpr std::size_t kTicks = 2'000, kPots = 4;
+  std::vector<std::uint64_t> alone, in_turn, in_threads(kPots);
+  std::vector<Player> players;
+  std::vector<std::thread> threads;
+  for (std::size_t k = 0; k < kPots; ++k) {
+    alone.push_back(play(who, kTicks, k + 1).hash);
+    players.emplace_back(who, kTicks, k + 1);
+    threads.emplace_back([&, k] { in_threads[k] = play(who, kTicks, k + 1).hash; });
+  }
+  for (std::size_t tick = 0; tick < kTicks; ++tick)
+    for (Player& player : players) player.tick();
+  for (std::thread& thread : threads) thread.join();
+  for (const Player& player : players) in_turn.push_back(player.played().hash);
+  if (in_turn != alone || in_threads != alone)
+    return {Verdict::failed, "another pot beside it changes a pot"};
+  return {Verdict::passed, fmt::format("{} pots, {} ticks each", kPots, kTicks)};
+}
+
+constexpr Case kCases[] = {
+    {"one_step_again", "random ticks, pots, tools and kernels", "each ring within the bound",
+     "removal and shares in 50 digits", Verdict::passed, one_step_again},
+    {"drift", "10^6 ticks of a restless hand (10^7 in the full run)",
+     "clay kept; the same hash twice", "exact rationals, hash", Verdict::failed, drift},
+    {"side_by_side", "four pots, in turn and in threads", "the same hashes as alone", "hash",
+     Verdict::passed, side_by_side},
+};
+
+}  // namespace
+
+void set_drift_ticks(std::size_t ticks) { drift_ticks = ticks; }
+
+std::span<const Case> step_cases() { return kCases; }
+
+}  // namespace clay::extreme

@@ -1,0 +1,128 @@
+#include "app/bench/bare_tick.hpp"
+#ifdef CLAYSTACK_EXPORT
+#include "app/bench/left_out_export.hpp"
+#endif
+#include "app/bench/stage_cost.hpp"
+#include "app/bench/timing.hpp"
+
+#include <fmt/format.h>
+
+namespace clay::bench {
+namespace {
+
+constexpr double kNoiseRatio = 1.03;  // asked of what is said to cost nothing
+constexpr double kInTheAirMm = -5.0;
+
+/// A solid lump with none of the stages that can be left out.
+SceneSpec bare_scene() {
+  SceneSpec scene;
+  scene.force.reset();
+  return scene;
+}
+
+/// What a stage is measured against: without it, but with the stage that it rests on.
+SceneSpec scene_without(const std::string& stage) {
+  SceneSpec scene = bare_scene();
+  if (stage == "friction") scene.force = ForceSpec{};
+  return scene;
+}
+
+Work stroke(const SceneSpec& scene, double depth_mm) {
+  return {"stroke",
+          [scene, depth_mm] { return 1e-9 * app::kStrokeTicks * app::stroke_ns(scene, depth_mm); }};
+}
+
+Work by_hand(double depth_mm) {
+  return {"by hand", [depth_mm] { return bare_stroke_s(bare_scene(), depth_mm); }};
+}
+
+/// One hand at a wall, and both.
+Duel pinch_at_work(const Rounds& rounds) {
+  SceneSpec wall = bare_scene();
+  wall.lump.inner_radius_mm = wall.lump.outer_radius_mm - 12.0;
+  SceneSpec pinched = wall;
+  pinched.tool.mode = ToolMode::pinch;
+  pinched.tool.gap_mm = 10.0;
+  return duel(stroke(wall, app::kFirmMm), stroke(pinched, app::kFirmMm), rounds);
+}
+
+std::vector<Cell> row_of(const std::string& stage, const std::string& where, const Duel& duel) {
+  const double ns = 1e9 / app::kStrokeTicks;
+  return {stage,
+          where,
+          ns * duel.a.median,
+          ns * duel.b.median,
+          ns * (duel.b.median - duel.a.median),
+          duel.ratio.median,
+          duel.ratio.range()};
+}
+
+Table empty_table() {
+  return {
+      "left_out",
+      "What a stage of the tick costs",
+      {{"stage", ""},
+       {"where", ""},
+       {"out_ns", "ns"},
+       {"in_ns", "ns"},
+       {"cost_ns", "ns"},
+       {"in_over_out", ""},
+       {"iqr", ""}},
+      {},
+      "A stroke up the outside of 200 rings, 1 mm deep, or 5 mm off it in the air. The first rows "
+      "compare the scene with all stages out: with itself, which is the noise, and with a tick "
+      "that was written by hand without them."};
+}
+
+void measure_tick_stages(Section& section, const Effort& effort) {
+  Rounds rounds = rounds_of(effort);
+  rounds.count = 2 * rounds.count + 1;
+  const Work out = stroke(bare_scene(), app::kFirmMm);
+  Table table = empty_table();
+  effort.progress("noise");
+  const Duel noise = duel(out, out, rounds), bare = duel(by_hand(app::kFirmMm), out, rounds);
+  table.rows = {row_of("none: the same scene twice", "in contact", noise),
+                row_of("none: by hand, then the engine", "in contact", bare),
+                row_of("none: by hand, then the engine", "in the air",
+                       duel(by_hand(kInTheAirMm), stroke(bare_scene(), kInTheAirMm), rounds))};
+  for (const std::string stage : {"inner surface", "force", "friction", "stability", "pinch"}) {
+    effort.progress(stage);
+    const SceneSpec without = scene_without(stage);
+    const SceneSpec with = app::with_stage(without, stage).value();
+    for (const double depth : {app::kFirmMm, kInTheAirMm})
+      table.rows.push_back(row_of(stage == "pinch" ? "pinch allowed, one hand" : stage,
+                                  depth > 0.0 ? "in contact" : "in the air",
+                                  duel(stroke(without, depth), stroke(with, depth), rounds)));
+  }
+  table.rows.push_back(row_of("pinch, both hands", "in contact", pinch_at_work(rounds)));
+  section.tables.push_back(std::move(table));
+  section.values.push_back({"out_over_by_hand", bare.ratio.median, bare.ratio.range(),
+                            "ratio: the engine with all out, a tick that never had them"});
+  section.values.push_back(
+      {"same_scene_twice", noise.ratio.median, noise.ratio.range(), "ratio: the noise"});
+  section.sound = section.sound && !exceeds(bare.ratio, kNoiseRatio);
+  section.summary += fmt::format(
+      "With all of them out the engine takes {:.3f} times as long as a tick written by hand "
+      "without "
+      "them; the same scene measured twice gives {:.3f}. ",
+      bare.ratio.median, noise.ratio.median);
+}
+
+}  // namespace
+
+Section left_out_section(const Effort& effort) {
+  Section section;
+  section.id = "left_out";
+  section.title = "What a scene does not need";
+  section.summary =
+      "What does a stage cost when it is in, and does it cost anything when it is out? The same "
+      "work "
+      "with and without it, by turns. ";
+  measure_tick_stages(section, effort);
+#ifdef CLAYSTACK_EXPORT
+  measure_export_stages(section, effort);
+#endif
+  return section;
+}
+
+}  // namespace clay::bench

@@ -1,0 +1,24 @@
+#pragma once
+// The sections that are built, in the order of the report.
+
+#include "app/bench/section.hpp"
+#include "claystack/core/result.hpp"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace clay::bench {
+
+struct RegisteredSection {
+  std::string_view id;
+  Section (*measure)(const Effort&);
+};
+
+[[nodiscard]] std::span<const RegisteredSection> registered_sections();
+
+/// Those named, in the order of the report; all where none is. Errors name what there is.
+Result<std::vector<RegisteredSection>> chosen_sections(const std::vector<std::string>& names);
+
+}  // namespace clay::bench

@@ -1,0 +1,55 @@
+#pragma once
+// The writers of what was measured. None of them says when: the same figures give the same bytes.
+
+#include "app/bench/machine.hpp"
+#include "app/bench/section.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace clay::bench {
+
+struct Report {
+  Machine machine;
+  std::string command;  ///< as it was typed
+  std::vector<Section> sections;
+
+  [[nodiscard]] bool sound() const;  ///< every section is
+};
+
+/// "machine", "compiler", "command", "sound" and "sections" (what each is, and of which parts with
+/// which units); then each part under its id:
+///
+/// - a section's values as {"NAME": median, "NAME_iqr": interquartile range where timed}. Where a
+///   table has the section's name, they stand under "ID_values".
+/// - a table as an array of {"COLUMN": cell};
+/// - a plot as {"x", "y", "curves": [{"name", "x", "y", "low", "high"}]};
+/// - a map as {"x", "y", "x_values", "y_values", "cells", "curves"}.
+///
+/// What is not finite is null.
+[[nodiscard]] nlohmann::ordered_json json_of(const Report& report);
+
+/// Name and content of a file for each set of values, table, plot and map: RFC 4180, first line the
+/// column names, numbers with all their digits, nothing where there is none.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> csv_files(const Report& report);
+
+/// Name and content of a drawing for each plot and map.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> svg_files(const Report& report);
+
+/// One page that needs no other file, no network and no script; well-formed as XML, too.
+[[nodiscard]] std::string html_of(const Report& report);
+
+/// For a terminal.
+[[nodiscard]] std::string text_of(const Section& section);
+
+/// A number for people: four significant digits.
+[[nodiscard]] std::string short_number(double value);
+/// A cell for people; a dash where there is nothing.
+[[nodiscard]] std::string short_text(const Cell& cell);
+/// Right-aligned, that is.
+[[nodiscard]] bool is_number(const Cell& cell);
+
+}  // namespace clay::bench

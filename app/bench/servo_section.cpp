@@ -1,0 +1,300 @@
+// Stable stiffness of the sampled arm against rate and damping, measured beside both bounds;
+// energy; the clay; and what the passivity controller makes of it. docs/haptics.md has the
+// definitions.
+
+#include "app/bench/closed_loop/closed_loop.hpp"
+#include "app/bench/section.hpp"
+#include "claystack/falcon/passivity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace clay::bench {
+namespace {
+
+using falcon::SampledLoop;
+using servo::Outcome;
+
+constexpr double kAllowedBorderErrorPercent = 15.0;
+
+/// The arm of the docs: a light handle, a force that answers a tick late.
+SampledLoop arm_at(double rate_hz, double damping_ns_per_m = 2.0) {
+  return {rate_hz, 0.1, damping_ns_per_m, 1};
+}
+
+std::vector<double> stiffnesses(bool quick) {
+  std::vector<double> k;
+  const int per_decade = quick ? 3 : 6;
+  for (int n = 0; n <= 4 * per_decade; ++n)
+    k.push_back(std::pow(10.0, 2.0 + static_cast<double>(n) / per_decade));
+  return k;
+}
+
+Outcome at_wall(const SampledLoop& loop, double stiffness, double step_m, bool controlled) {
+  servo::Experiment e = servo::wall_experiment(loop, stiffness, step_m);
+  e.controlled = controlled;
+  const auto wall = servo::make_wall({stiffness, 5.0, true});
+  return run(e, *wall);
+}
+
+Outcome at_clay(const SampledLoop& loop, double stiffness, double rate_per_s, bool controlled) {
+  servo::Experiment e = servo::clay_experiment(loop, servo::kFalconStepM);
+  e.controlled = controlled;
+  const auto clay = servo::make_clay({stiffness, rate_per_s, 20.0});
+  return run(e, *clay);
+}
+
+/// 0 for no limit cycle, then from 0.4 at the limit to 1 at a hundred times as much.
+double badness(double swing_m) {
+  if (swing_m <= servo::kMostSwingM) return 0.0;
+  return std::min(1.0, 0.4 + 0.3 * std::log10(swing_m / servo::kMostSwingM));
+}
+
+struct Verdict {
+  double border_error_percent = 0.0;
+  double passivity_error_percent = 0.0;
+  double worst_controlled_m = 0.0;
+  double worst_stable_cycle_j = -std::numeric_limits<double>::infinity();
+  int stable_cells = 0, buzzing_cells = 0;
+};
+
+/// Measured over predicted, for linear walls that hold from both sides, without encoder steps or
+/// a hand: all that the theory assumes.
+Table borders(const Effort& effort, Verdict& verdict) {
+  Table table{"servo_borders",
+              "Borders of a linear wall, predicted and measured",
+              {{"rate", "Hz"},
+               {"damping", "N s/m"},
+               {"delay", "ticks"},
+               {"passive", "N/m"},
+               {"stable", "N/m"},
+               {"measured", "N/m"},
+               {"error", "%"},
+               {"passivity_error", "%"}},
+              {},
+              "Passive: 2b/((2n+1)T). Stable: Jury's test. Measured: bisection on the growth of a "
+              "free swing. Passivity error: damping that forced swings up to Nyquist ask for, "
+              "against the theorem's."};
+  const std::vector<double> rates =
+      effort.quick ? std::vector<double>{100, 1000, 8000}
+                   : std::vector<double>{100, 250, 500, 1000, 2000, 4000, 8000};
+  for (const double rate : rates)
+    for (const double damping : {1.0, 2.0, 10.0})
+      for (const int delay : {0, 1, 2}) {
+        SampledLoop loop = arm_at(rate, damping);
+        loop.delay_ticks = delay;
+        const double predicted = stable_stiffness(loop);
+        const double measured = servo::measured_stable_stiffness(loop, 1e-3);
+        const falcon::VirtualWall wall{passive_stiffness(loop), 0.3 * damping};
+        double asked = 0.0;
+        for (int waves = 1; waves <= 100; ++waves)
+          asked = std::max(asked, servo::measured_passive_damping(loop, wall, waves, 200));
+        const double error = 100.0 * (measured / predicted - 1.0);
+        const double passivity_error = 100.0 * (asked / passive_damping(loop, wall) - 1.0);
+        verdict.border_error_percent = std::max(verdict.border_error_percent, std::abs(error));
+        verdict.passivity_error_percent =
+            std::max(verdict.passivity_error_percent, std::abs(passivity_error));
+        table.rows.push_back({rate, damping, static_cast<std::int64_t>(delay),
+                              passive_stiffness(loop), predicted, measured, error,
+                              passivity_error});
+      }
+  return table;
+}
+
+/// A map of stiffness over rate or damping, with both lines and the measured border.
+Map lined_map(std::string id, std::string title, Axis x, std::vector<double> x_values,
+              const std::vector<double>& k_values,
+              const std::function<SampledLoop(double)>& loop_at) {
+  Map map{std::move(id),
+          std::move(title),
+          std::move(x),
+          {"contact stiffness [N/m]", true},
+          {},
+          k_values,
+          {},
+          {},
+          "Cells: limit cycle of a pushed arm, none (0) to 100 times 0.2 mm (1)."};
+  Curve passive{"passive: 2b/((2n+1)T)", {}, {}, {}, {}, true, true};
+  Curve stable{"stable: Jury", {}, {}, {}, {}, true, false};
+  Curve accepted{"accepted", {}, {}, {}, {}, true, true};
+  Curve measured{"measured border", {}, {}, {}, {}, false, false};
+  for (const double at : x_values) {
+    const SampledLoop loop = loop_at(at);
+    for (Curve* curve : {&passive, &stable, &accepted, &measured}) curve->x.push_back(at);
+    passive.y.push_back(passive_stiffness(loop));
+    stable.y.push_back(stable_stiffness(loop));
+    accepted.y.push_back(accepted_stiffness(loop));
+    measured.y.push_back(servo::measured_stable_stiffness(loop, 1e-2));
+  }
+  map.x_values = std::move(x_values);
+  map.curves = {passive, stable, accepted, measured};
+  return map;
+}
+
+template <class Cell>
+void fill(Map& map, const Cell& cell) {
+  for (const double k : map.y_values) {
+    std::vector<double> row;
+    for (const double x : map.x_values) row.push_back(cell(x, k));
+    map.cells.push_back(std::move(row));
+  }
+}
+
+using LoopAt = std::function<SampledLoop(double)>;
+
+/// Without and with the controller, at a wall.
+void add_wall_maps(Section& section, const std::string& id, const Axis& x,
+                   const std::vector<double>& x_values, const std::vector<double>& k_values,
+                   const LoopAt& loop_at, Verdict& verdict) {
+  for (const bool controlled : {false, true}) {
+    const std::string suffix = controlled ? "_controlled" : "";
+    Map map = lined_map(
+        "servo_wall_by_" + id + suffix,
+        std::string("Wall, by ") + id + (controlled ? ", with the passivity controller" : ", bare"),
+        x, x_values, k_values, loop_at);
+    fill(map, [&](double at, double k) {
+      const double swing = at_wall(loop_at(at), k, servo::kFalconStepM, controlled).swing_m;
+      if (controlled) verdict.worst_controlled_m = std::max(verdict.worst_controlled_m, swing);
+      if (!controlled) verdict.buzzing_cells += swing > servo::kMostSwingM;
+      return badness(swing);
+    });
+    section.maps.push_back(std::move(map));
+  }
+}
+
+void add_clay_maps(Section& section, const std::vector<double>& rates,
+                   const std::vector<double>& k_values, Verdict& verdict) {
+  for (const bool controlled : {false, true}) {
+    Map map =
+        lined_map(std::string("servo_clay") + (controlled ? "_controlled" : ""),
+                  std::string("Clay that flows at 20/s") +
+                      (controlled ? ", with the passivity controller" : ", bare"),
+                  {"rate [Hz]", true}, rates, k_values, [](double rate) { return arm_at(rate); });
+    map.note = "The lines are those of an elastic wall. " + map.note;
+    fill(map, [&](double rate, double k) {
+      const double swing = at_clay(arm_at(rate), k, 20.0, controlled).swing_m;
+      if (controlled) verdict.worst_controlled_m = std::max(verdict.worst_controlled_m, swing);
+      return badness(swing);
+    });
+    section.maps.push_back(std::move(map));
+  }
+}
+
+/// Energy injected in a cycle over the stiffness, in parts of what the pushed wall stores at rest.
+Plot energy_plot(const std::vector<double>& rates, Verdict& verdict) {
+  Plot plot{"servo_energy",
+            "Energy that the loop injects in a cycle",
+            {"stiffness / border", true},
+            {"mean over the cycles / energy stored at rest", false},
+            {},
+            "Exact encoders; a cycle is from one deepest point to the next. Above zero the loop "
+            "feeds the hand. Tolerance: rounding, 1e-13 of the energy passed."};
+  for (const double rate : rates) {
+    Curve curve{std::to_string(static_cast<int>(rate)) + " Hz", {}, {}, {}, {}, true, false};
+    for (double part = 0.2; part < 4.0; part *= 1.1) {
+      const SampledLoop loop = arm_at(rate);
+      const double k = part * stable_stiffness(loop);
+      const auto wall = servo::make_wall({k, 5.0, true});
+      const Outcome o = run(servo::energy_experiment(loop, k), *wall);
+      if (part < 1.0) {
+        ++verdict.stable_cells;
+        verdict.worst_stable_cycle_j = std::max(verdict.worst_stable_cycle_j, o.mean_cycle_j);
+        if (k < passive_stiffness(loop))
+          verdict.worst_stable_cycle_j = std::max(verdict.worst_stable_cycle_j, o.worst_cycle_j);
+      }
+      curve.x.push_back(part);
+      curve.y.push_back(o.mean_cycle_j / (0.5 * 0.5 * 0.5 / k));
+    }
+    plot.curves.push_back(std::move(curve));
+  }
+  return plot;
+}
+
+/// The stiffest clay that comes to rest, from soft to stiff.
+double stiffest_calm_clay(double rate, double removal, const std::vector<double>& k_values) {
+  double calm = std::numeric_limits<double>::quiet_NaN();
+  for (const double k : k_values) {
+    if (at_clay(arm_at(rate), k, removal, false).swing_m > servo::kMostSwingM) break;
+    calm = k;
+  }
+  return calm;
+}
+
+Table clay_table(const std::vector<double>& k_values) {
+  Table table{"servo_clay_gain",
+              "How far beyond the elastic border clay stays calm",
+              {{"rate", "Hz"},
+               {"removal", "1/s"},
+               {"stable_elastic", "N/m"},
+               {"calm_up_to", "N/m"},
+               {"gain", ""}},
+              {},
+              "Bare loop. Calm: no swing above 0.2 mm in a stroke of 3 mm/s. The last stiffness of "
+              "the scan is 1e6 N/m: a gain that reaches it is a lower bound."};
+  for (const double rate : {100.0, 1000.0, 4000.0})
+    for (const double removal : {0.0, 1.0, 20.0, 100.0}) {
+      const double border = stable_stiffness(arm_at(rate));
+      const double calm = stiffest_calm_clay(rate, removal, k_values);
+      table.rows.push_back({rate, removal, border, calm, calm / border});
+    }
+  return table;
+}
+
+Value counted(std::string name, double value, std::string about) {
+  return {std::move(name), value, 0.0, std::move(about)};
+}
+
+void conclude(Section& section, const Verdict& v) {
+  section.values = {
+      counted("border_error_percent", v.border_error_percent, "largest, of the stable stiffness"),
+      counted("passivity_error_percent", v.passivity_error_percent,
+              "largest, of the damping asked"),
+      counted("stable_cells", v.stable_cells, "of the energy plot"),
+      counted("worst_stable_cycle_j", v.worst_stable_cycle_j,
+              "most energy injected in one of them, less its tolerance"),
+      counted("buzzing_cells_bare", v.buzzing_cells, "limit cycle above 0.2 mm without controller"),
+      counted("worst_swing_controlled_mm", 1e3 * v.worst_controlled_m,
+              "largest limit cycle with it, peak to peak"),
+  };
+  section.sound = v.border_error_percent <= kAllowedBorderErrorPercent &&
+                  v.passivity_error_percent <= kAllowedBorderErrorPercent &&
+                  v.worst_stable_cycle_j <= 0.0 && v.buzzing_cells > 0 &&
+                  v.worst_controlled_m <= servo::kMostSwingM;
+}
+
+}  // namespace
+
+Section servo_section(const Effort& effort) {
+  Section section;
+  section.id = "servo";
+  section.title = "The stiff closed loop";
+  section.summary =
+      "A simulated arm of 0.1 kg, 2 N s/m and a tick of delay against a wall and against the clay, "
+      "over stiffness, rate and damping: where it is stable, what energy it injects, and what the "
+      "passivity controller makes of the rest.";
+  Verdict verdict;
+  const std::vector<double> k_values = stiffnesses(effort.quick);
+  const std::vector<double> rates{100, 250, 500, 1000, 2000, 4000, 8000};
+  effort.progress("borders");
+  section.tables.push_back(borders(effort, verdict));
+  effort.progress("energy");
+  section.plots.push_back(energy_plot({100, 1000, 4000}, verdict));
+  effort.progress("walls");
+  add_wall_maps(
+      section, "rate", {"rate [Hz]", true}, rates, k_values,
+      [](double rate) { return arm_at(rate); }, verdict);
+  add_wall_maps(
+      section, "damping", {"damping of the arm [N s/m]", true}, {0.5, 1, 2, 5, 10, 20}, k_values,
+      [](double damping) { return arm_at(1000, damping); }, verdict);
+  effort.progress("clay");
+  add_clay_maps(section, rates, k_values, verdict);
+  section.tables.push_back(clay_table(k_values));
+  conclude(section, verdict);
+  return section;
+}
+
+}  // namespace clay::bench

@@ -1,0 +1,107 @@
+#include "app/bench/stage_cost.hpp"
+
+#include "app/bench/thread_clock.hpp"
+#include "claystack/engine/tool.hpp"
+#include "claystack/engine/wheel.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace clay::app {
+namespace {
+
+constexpr int kRounds = 9;  // odd: the median is one of them
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+std::optional<SceneSpec> with_stage(SceneSpec scene, std::string_view stage) {
+  if (stage == "inner surface") {
+    scene.lump.inner_radius_mm = 0.5 * scene.lump.outer_radius_mm;
+  } else if (stage == "force") {
+    scene.force = ForceSpec{};
+  } else if (stage == "friction") {
+    if (!scene.force) scene.force = ForceSpec{};
+    scene.force->friction = 0.3;
+  } else if (stage == "stability") {
+    scene.stability = StabilitySpec{1e6};
+  } else if (stage == "pinch") {
+    scene.tool.gap_mm = kFirmMm;
+  } else {
+    return std::nullopt;
+  }
+  return scene;
+}
+
+std::vector<Pose> stroke_poses(const SceneSpec& scene, double depth_mm) {
+  const auto tool = Tool::build(scene.tool.shape);
+  if (!tool) return {};
+  const double height = static_cast<double>(scene.lump.rings) * scene.lump.ring_height_mm;
+  const double outer = scene.lump.outer_radius_mm, inner = scene.lump.inner_radius_mm;
+  const bool pinch = scene.tool.mode == ToolMode::pinch;
+  const double x = pinch ? 0.5 * (outer + inner) : outer + tool->radius(0.0) - depth_mm;
+  std::vector<Pose> poses(kStrokeTicks);
+  for (int k = 0; k < kStrokeTicks; ++k) {
+    Pose& pose = poses[static_cast<std::size_t>(k)];
+    pose.time_us = 1000 * (k + 1);
+    pose.position_mm = {x, height * k / kStrokeTicks, 0.0};
+    if (pinch) pose.gap_mm = std::max(0.0, outer - inner - 2.0 * depth_mm);
+  }
+  return poses;
+}
+
+double rings_in_reach(const SceneSpec& scene) {
+  const auto tool = Tool::build(scene.tool.shape);
+  const double touched_mm = tool ? tool->high() - tool->low() : 0.0;
+  const double rings = (touched_mm + scene.flow.reach_mm) / scene.lump.ring_height_mm + 1.0;
+  return std::min(rings, static_cast<double>(max_rings_of(scene.lump)));
+}
+
+std::optional<TimedStroke> timed_stroke(const SceneSpec& scene, double depth_mm) {
+  const double reach = rings_in_reach(scene);
+  if (reach > kMostRingsInReach) return std::nullopt;
+  TimedStroke timed{scene, {}};
+  LumpSpec& lump = timed.scene.lump;
+  const std::size_t enough = std::max(kEnoughRings, static_cast<std::size_t>(2.0 * reach));
+  if (lump.rings > enough) {
+    lump.rings = enough;
+    lump.max_rings = 0;
+  }
+  timed.poses = stroke_poses(timed.scene, depth_mm);
+  if (timed.poses.empty()) return std::nullopt;
+  const auto ticks = static_cast<std::ptrdiff_t>(static_cast<double>(kMostRingVisits) / reach);
+  if (ticks < kStrokeTicks) {
+    const auto first = timed.poses.begin() + (kStrokeTicks - ticks) / 2;
+    timed.poses = std::vector<Pose>(first, first + ticks);
+  }
+  return timed;
+}
+
+double stroke_ns(const SceneSpec& scene, double depth_mm) {
+  const auto timed = timed_stroke(scene, depth_mm);
+  if (!timed) return std::numeric_limits<double>::quiet_NaN();
+  auto wheel = Wheel::build(timed->scene);
+  if (!wheel) return std::numeric_limits<double>::quiet_NaN();
+  const double start = thread_seconds();
+  for (const Pose& pose : timed->poses) wheel->step(pose);
+  return 1e9 * (thread_seconds() - start) / static_cast<double>(timed->poses.size());
+}
+
+std::optional<StageCost> cost_of(const SceneSpec& scene, std::string_view stage) {
+  const auto with = with_stage(scene, stage);
+  if (!with || !timed_stroke(scene, kFirmMm)) return std::nullopt;
+  std::vector<double> in, out;
+  for (int round = 0; round < kRounds; ++round) {
+    out.push_back(stroke_ns(scene));
+    in.push_back(stroke_ns(*with));
+  }
+  return StageCost{median(in), median(out)};
+}
+
+}  // namespace clay::app

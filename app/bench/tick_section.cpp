@@ -1,0 +1,209 @@
+#include "app/bench/pressing.hpp"
+#include "app/bench/timing.hpp"
+#include "engine/tick/lanes.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+#include <utility>
+
+namespace clay::bench {
+namespace {
+
+constexpr double kMostNs = 1000.0;     // of a tick of 200 rings, 30 of them touched
+constexpr double kLeastSpeedUp = 5.0;  // over the paper as printed
+constexpr double kMostGrowth = 1.5;    // from 200 rings to a million
+constexpr int kFewTicks = 20;          // enough of what takes 100 us each
+
+/// A presser and how to tell its time of a tick.
+struct Contender {
+  std::string name, about;
+  std::function<double()> press;    ///< seconds
+  std::function<double()> touched;  ///< rings, of the mean tick
+  double ticks = kPressTicks;
+};
+
+Contender engine_at(std::string name, std::string about, const SceneSpec& scene,
+                    double rise_mm = kPressMm) {
+  const auto presser = std::make_shared<Presser>(scene, rise_mm);
+  return {std::move(name), std::move(about), [presser] { return presser->press(); },
+          [presser] { return presser->rings_touched(); }};
+}
+
+/// With rings taken two at a time, as on a machine without AVX2.
+Contender in_two_lanes(Contender contender) {
+  contender.press = [press = std::move(contender.press)] {
+    const bool machine = std::exchange(four_lanes, false);
+    const double seconds = press();
+    four_lanes = machine;
+    return seconds;
+  };
+  return contender;
+}
+
+Contender literal_at(std::string name, std::string about, const SceneSpec& scene,
+                     LiteralWriting writing, int ticks = kPressTicks) {
+  const auto presser = std::make_shared<LiteralPresser>(scene, writing, ticks);
+  return {std::move(name), std::move(about), [presser] { return presser->press(); },
+          [presser] { return presser->rings_touched(); }, static_cast<double>(ticks)};
+}
+
+/// [ns] of a tick, one sample a round.
+std::vector<Samples> tick_ns(const std::vector<Contender>& contenders, const Rounds& rounds) {
+  std::vector<Work> works;
+  for (const Contender& c : contenders) works.push_back({c.name, c.press});
+  auto samples = time_rounds(works, rounds);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    for (double& sample : samples[i]) sample *= 1e9 / contenders[i].ticks;
+  return samples;
+}
+
+std::vector<Contender> sizes() {
+  using enum LiteralWriting;
+  return {
+      engine_at("n200_ns", "a tick of 200 rings, every stage in", press_scene(200)),
+      engine_at("n10000_ns", "of 10 000 rings", press_scene(10'000)),
+      engine_at("n1000000_ns", "of a million rings", press_scene(1'000'000)),
+      literal_at("literal_n200_ns", "the paper as printed: stress summed afresh for each ring",
+                 press_scene(200), as_printed),
+      literal_at("literal_eased_n200_ns", "the paper with a running sum for the stress",
+                 press_scene(200), eased),
+      literal_at("literal_eased_n10000_ns", "the same of 10 000 rings", press_scene(10'000), eased,
+                 kFewTicks),
+      in_two_lanes(engine_at("two_lanes_n200_ns", "of 200 rings, two at a time where four could be",
+                             press_scene(200))),
+  };
+}
+
+Value value_of(const std::string& name, const Spread& spread, const std::string& about) {
+  return {name, spread.median, spread.range(), about};
+}
+
+void measure_sizes(Section& section, const Effort& effort) {
+  effort.progress("number of rings");
+  const auto contenders = sizes();
+  const auto ns = tick_ns(contenders, rounds_of(effort));
+  for (std::size_t i = 0; i < contenders.size(); ++i)
+    section.values.push_back(
+        value_of(contenders[i].name, spread_of(ns[i]),
+                 fmt::format("{}; {:.0f} touched", contenders[i].about, contenders[i].touched())));
+  const Spread least = spread_of(ns[0]), speed_up = ratio_of(ns[3], ns[0]),
+               growth = ratio_of(ns[2], ns[0]);
+  section.values.push_back(
+      value_of("literal_over_engine_n200", speed_up, "ratio; at least 5 is asked for"));
+  section.values.push_back(value_of("literal_eased_over_engine_n200", ratio_of(ns[4], ns[0]),
+                                    "ratio; the paper's equations, written with care"));
+  section.values.push_back(
+      value_of("n1000000_over_n200", growth, "ratio; at most 1.5 is asked for"));
+  section.values.push_back(value_of("two_lanes_over_four", ratio_of(ns[6], ns[0]),
+                                    "ratio; 1 where the machine has no AVX2"));
+  section.sound = !exceeds(least, kMostNs) && !falls_short(speed_up, kLeastSpeedUp) &&
+                  !exceeds(growth, kMostGrowth);
+  section.summary += fmt::format(
+      "Of 200 rings a tick takes {:.0f} ns, {:.1f} times less than the paper as printed; of a "
+      "million rings {:.2f} times as long.",
+      least.median, speed_up.median, growth.median);
+}
+
+/// Ribs of all heights, and the paper beside them.
+void measure_ribs(Section& section, const Effort& effort) {
+  effort.progress("rings touched");
+  Table table{"tick_rings",
+              "Time of a tick over the rings that it touches",
+              {{"rings", ""},
+               {"engine_ns", "ns"},
+               {"engine_iqr_ns", "ns"},
+               {"per_ring_ns", "ns"},
+               {"literal_ns", "ns"},
+               {"literal_iqr_ns", "ns"},
+               {"literal_over_engine", ""}},
+              {},
+              "An upright rib against 800 rings; the paper with a running sum for the stress."};
+  Plot plot{"tick_rings_plot",
+            "Time of a tick over the rings that it touches",
+            {"rings touched", true},
+            {"time of a tick [ns]", true},
+            {},
+            ""};
+  std::vector<Contender> contenders;
+  for (const std::size_t rings : {1u, 3u, 10u, 30u, 100u, 300u}) {
+    contenders.push_back(engine_at("engine", "", rib_scene(rings)));
+    contenders.push_back(literal_at("literal", "", rib_scene(rings), LiteralWriting::eased, 200));
+  }
+  const auto ns = tick_ns(contenders, rounds_of(effort));
+  Curve engine{"engine, conserving", {}, {}, {}, {}},
+      literal{"the paper, running sum", {}, {}, {}, {}};
+  for (std::size_t i = 0; i < ns.size(); i += 2) {
+    const double touched = contenders[i].touched();
+    const Spread ours = spread_of(ns[i]), theirs = spread_of(ns[i + 1]);
+    table.rows.push_back({touched, ours.median, ours.range(), ours.median / touched, theirs.median,
+                          theirs.range(), ratio_of(ns[i + 1], ns[i]).median});
+    for (const auto& [curve, spread] : {std::pair{&engine, ours}, std::pair{&literal, theirs}}) {
+      curve->x.push_back(touched);
+      curve->y.push_back(spread.median);
+      curve->low.push_back(spread.low);
+      curve->high.push_back(spread.high);
+    }
+  }
+  plot.curves = {engine, literal};
+  section.tables.push_back(std::move(table));
+  section.plots.push_back(std::move(plot));
+}
+
+/// A fast hand's tick is cut into parts: what it costs over the speed of the hand.
+void measure_speeds(Section& section, const Effort& effort) {
+  effort.progress("speeds");
+  Table table{"tick_speed",
+              "Time of a tick over the speed of the hand",
+              {{"speed_mm_s", "mm/s"}, {"rings", ""}, {"engine_ns", "ns"}, {"iqr_ns", "ns"}},
+              {},
+              "The ball rises along 800 rings while it is pressed, at 1 kHz."};
+  constexpr std::array kSpeeds{6.0, 25.0, 50.0, 100.0, 200.0, 400.0};  // of a press of 1 s
+  std::vector<Contender> contenders;
+  for (const double speed : kSpeeds)
+    contenders.push_back(engine_at("engine", "", press_scene(800), speed));
+  const auto ns = tick_ns(contenders, rounds_of(effort));
+  for (std::size_t i = 0; i < ns.size(); ++i) {
+    const Spread s = spread_of(ns[i]);
+    table.rows.push_back({kSpeeds[i], contenders[i].touched(), s.median, s.range()});
+  }
+  section.tables.push_back(std::move(table));
+}
+
+/// From the top to the bottom between two poses: what a tick can cost at most.
+void measure_jump(Section& section, const Effort& effort) {
+  effort.progress("jumps");
+  std::vector<Work> works;
+  for (const std::size_t rings : {std::size_t{200}, std::size_t{1'000'000}}) {
+    const auto presser = std::make_shared<Presser>(press_scene(rings));
+    works.push_back({fmt::format("jump_n{}_ns", rings), [presser] { return presser->jump(); }});
+  }
+  Rounds rounds = rounds_of(effort);
+  rounds.least_s = 1e-5;
+  const auto seconds = time_rounds(works, rounds);
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    const Spread s = spread_of(seconds[i]);
+    section.values.push_back({works[i].name, 1e9 * s.median, 1e9 * s.range(),
+                              "one tick, from the top of the stack to its foot"});
+  }
+}
+
+}  // namespace
+
+Section tick_section(const Effort& effort) {
+  Section section;
+  section.id = "tick";
+  section.title = "What a tick costs";
+  section.summary =
+      "How long does a tick take, and does it grow with the pot? A ball is pressed into the middle "
+      "of a hollow lump for a thousand ticks: contact, removal, flow on both surfaces, stress, "
+      "force and friction. ";
+  measure_sizes(section, effort);
+  measure_ribs(section, effort);
+  measure_speeds(section, effort);
+  measure_jump(section, effort);
+  return section;
+}
+
+}  // namespace clay::bench

@@ -1,0 +1,211 @@
+#include "app/chart/chart.hpp"
+
+#include "app/chart/xml_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace clay::plot {
+namespace {
+
+constexpr double kHeight = 340.0;  // of the frame
+constexpr std::size_t kColours = 7;
+constexpr std::size_t kMostMarks = 60;  // of more points a line alone is drawn
+constexpr std::size_t kUnthinned = 2000;
+constexpr double kPxPerLetter = 7.3;  // of 13 px, on the wide side
+constexpr double kRow = 21.0;         // of the legend
+
+/// Shapes of about one area, around (0, 0).
+constexpr const char* kMarks[] = {"M-3.6 0a3.6 3.6 0 1 0 7.2 0a3.6 3.6 0 1 0 -7.2 0Z",
+                                  "M-3.2 -3.2H3.2V3.2H-3.2Z",
+                                  "M0 -4.6L4.2 3H-4.2Z",
+                                  "M0 -4.6L4.6 0 0 4.6 -4.6 0Z",
+                                  "M0 4.6L4.2 -3H-4.2Z",
+                                  "M-1.3 -4.2H1.3V-1.3H4.2V1.3H1.3V4.2H-1.3V1.3H-4.2V-1.3H-1.3Z",
+                                  "M-4.6 -3.2L0 -1 4.6 -3.2 0 4.6Z"};
+constexpr const char* kZeroMark = "M0 1L4.6 -7H-4.6Z";
+
+std::string mark(const char* shape, double x, double y, const std::string& classes) {
+  return fmt::format("<path class='{}' transform='translate({:.1f} {:.1f})' d='{}'/>\n", classes, x,
+                     y, shape);
+}
+
+std::string text(double x, double y, const char* anchor, std::string_view words) {
+  return fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='{}'>{}</text>\n", x, y, anchor,
+                     escaped(words));
+}
+
+std::size_t letters(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+  }));
+}
+
+std::string colour(std::size_t number, bool on_map, const char* stroke_or_fill) {
+  if (on_map) return stroke_or_fill[0] == 's' ? "on-map" : "fill-ink";
+  return stroke_or_fill + std::to_string(number % kColours);
+}
+
+}  // namespace
+
+Chart::Chart(std::string_view title, const Axis& x_axis, const Axis& y_axis, AxisScale x,
+             AxisScale y, Place place)
+    : x_(std::move(x)),
+      y_(std::move(y)),
+      x_label_(x_axis.label),
+      y_label_(y_axis.label),
+      title_(title),
+      place_(place),
+      top_(place == Place::alone ? 44.0 : 12.0),
+      bottom_(top_ + kHeight) {
+  x_.place(left_, right_);
+  y_.place(bottom_, top_);
+}
+
+void Chart::grid() {
+  for (const Tick& tick : x_.ticks()) {
+    const double at = x_.at(tick.value);
+    add(fmt::format("<path class='{}' d='M{:.1f} {:.1f}V{:.1f}'/>\n",
+                    tick.label.empty() ? "minor" : "grid", at, top_, bottom_));
+    if (!tick.label.empty()) add(text(at, bottom_ + 19.0, "middle", tick.label));
+  }
+  for (const Tick& tick : y_.ticks()) {
+    const double at = y_.at(tick.value);
+    add(fmt::format("<path class='{}' d='M{:.1f} {:.1f}H{:.1f}'/>\n",
+                    tick.label.empty() ? "minor" : "grid", left_, at, right_));
+    if (!tick.label.empty()) add(text(left_ - 8.0, at + 4.5, "end", tick.label));
+  }
+  add(fmt::format("<rect class='box' x='{:.1f}' y='{:.1f}' width='{:.1f}' height='{:.1f}'/>\n",
+                  left_, top_, right_ - left_, bottom_ - top_));
+  add(text(0.5 * (left_ + right_), bottom_ + 42.0, "middle", x_label_));
+  add(
+      fmt::format("<text transform='translate(18 {:.1f}) rotate(-90)' "
+                  "text-anchor='middle'>{}</text>\n",
+                  0.5 * (top_ + bottom_), escaped(y_label_)));
+}
+
+std::vector<Chart::Point> Chart::points_of(const Curve& curve, const std::vector<double>& y) const {
+  std::vector<Point> points;
+  const std::size_t count = std::min(curve.x.size(), y.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    const bool zero = y_.logarithmic() && y[k] == 0.0;
+    if (x_.shows(curve.x[k]) && (zero || y_.shows(y[k])))
+      points.push_back({x_.at(curve.x[k]), zero ? bottom_ : y_.at(y[k]), zero});
+    else
+      points.push_back({std::nan(""), 0.0, false});  // the line breaks here
+  }
+  if (count <= kUnthinned) return points;
+  std::vector<Point> thinned;
+  for (std::size_t k = 0; k < count;) {
+    std::size_t end = k + 1;
+    while (end < count && std::floor(2.0 * points[end].x) == std::floor(2.0 * points[k].x)) ++end;
+    const auto first = points.begin() + static_cast<std::ptrdiff_t>(k),
+               last = points.begin() + static_cast<std::ptrdiff_t>(end);
+    auto [low, high] =
+        std::minmax_element(first, last, [](const Point& a, const Point& b) { return a.y < b.y; });
+    if (high < low) std::swap(low, high);
+    thinned.push_back(*low);
+    if (high != low) thinned.push_back(*high);
+    k = end;
+  }
+  return thinned;
+}
+
+void Chart::spread(const Curve& curve, std::size_t number) {
+  const auto low = points_of(curve, curve.low), high = points_of(curve, curve.high);
+  const std::size_t count = std::min(low.size(), high.size());
+  std::string bars;
+  for (std::size_t k = 0; k < count; ++k)
+    if (std::isfinite(low[k].x) && std::isfinite(high[k].x))
+      bars += fmt::format("M{0:.1f} {1:.1f}h6m-3 0V{2:.1f}m-3 0h6", low[k].x - 3.0, low[k].y,
+                          high[k].y);
+  if (!bars.empty() && count <= kMostMarks)
+    add(fmt::format("<path class='bar s{}' d='{}'/>\n", number % kColours, bars));
+}
+
+void Chart::line(const std::vector<Point>& points, const std::string& classes, bool dashed) {
+  std::string path;
+  bool down = false;
+  for (const Point& p : points) {
+    const bool drawn = std::isfinite(p.x) && !p.zero;
+    if (drawn) path += fmt::format("{}{:.1f} {:.2f}", down ? "L" : "M", p.x, p.y);
+    down = drawn;
+  }
+  if (!path.empty())
+    add(fmt::format("<path class='line {}'{} d='{}'/>\n", classes,
+                    dashed ? " stroke-dasharray='6 4'" : "", path));
+}
+
+void Chart::marks(const std::vector<Point>& points, std::size_t number, bool on_map) {
+  for (const Point& p : points) {
+    if (!std::isfinite(p.x)) continue;
+    zeros_ = zeros_ || p.zero;
+    if (p.zero)
+      add(mark(kZeroMark, p.x, p.y, "zero " + colour(number, on_map, "s")));
+    else
+      add(mark(kMarks[number % std::size(kMarks)], p.x, p.y,
+               "mark " + colour(number, on_map, "f")));
+  }
+}
+
+void Chart::curve(const Curve& curve, std::size_t number, bool on_map) {
+  const auto points = points_of(curve, curve.y);
+  const std::string stroke = colour(number, on_map, "s");
+  // A drawing within the drawing is cut at its frame, and needs no name for that.
+  add(
+      fmt::format("<svg x='{0:.1f}' y='{1:.1f}' width='{2:.1f}' height='{3:.1f}' "
+                  "viewBox='{0:.1f} {1:.1f} {2:.1f} {3:.1f}'>\n",
+                  left_, top_, right_ - left_, bottom_ - top_));
+  if (!on_map) spread(curve, number);
+  if (curve.line && on_map) line(points, "under", false);
+  if (curve.line) line(points, stroke, curve.dashed);
+  add("</svg>\n");
+  const bool marked = !curve.line || (!on_map && !curve.dashed && points.size() <= kMostMarks);
+  if (marked) marks(points, number, on_map);
+  if (curve.name.empty()) return;
+  // Black lies on the pale of the map here, too.
+  std::string symbol = on_map ? "<rect class='pale' x='-15' y='-8' width='30' height='16'/>" : "";
+  if (curve.line)
+    symbol += fmt::format("<path class='line {}'{} d='M-13 0H13'/>", stroke,
+                          curve.dashed ? " stroke-dasharray='6 4'" : "");
+  if (marked)
+    symbol += mark(kMarks[number % std::size(kMarks)], 0, 0, "mark " + colour(number, on_map, "f"));
+  legend_entry(symbol, curve.name);
+}
+
+void Chart::legend_entry(const std::string& symbol, const std::string& words) {
+  legend_.emplace_back(symbol, words);
+}
+
+std::string Chart::finish() {
+  if (zeros_) legend_entry(mark(kZeroMark, 0, 3, "zero s5"), "on the axis: exactly 0");
+  double x = left_, y = bottom_ + 68.0;
+  for (const auto& [symbol, words] : legend_) {
+    const double width = 40.0 + kPxPerLetter * static_cast<double>(letters(words));
+    if (x > left_ && x + width > right_ + 10.0) {
+      x = left_;
+      y += kRow;
+    }
+    add(fmt::format("<g transform='translate({:.1f} {:.1f})'>{}</g>\n", x + 13.0, y - 4.5, symbol));
+    add(text(x + 32.0, y, "start", words));
+    x += width + 12.0;
+  }
+  const double height = legend_.empty() ? bottom_ + 54.0 : y + 14.0;
+  const bool alone = place_ == Place::alone;
+  std::string svg = fmt::format(
+      "<svg class='plot' xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1:.0f}' "
+      "width='{0}' height='{1:.0f}' role='img' aria-label='{2}'>\n",
+      kWidth, height, escaped(title_));
+  if (alone) svg.append("<style>").append(style()).append("</style>\n");
+  if (alone)
+    svg += fmt::format(
+        "<rect class='back' width='{}' height='{:.0f}'/>\n<text class='name' x='{:.0f}' "
+        "y='24'>{}</text>\n",
+        kWidth, height, left_, escaped(title_));
+  return svg + body_ + "</svg>\n";
+}
+
+}  // namespace clay::plot

@@ -1,0 +1,52 @@
+#pragma once
+// What plots and maps share: frame, axes, curves, legend.
+
+#include "app/chart/axis_scale.hpp"
+#include "app/chart/plot.hpp"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace clay::plot {
+
+/// One drawing under construction [px, y down].
+class Chart {
+ public:
+  static constexpr double kWidth = 760.0;
+
+  Chart(std::string_view title, const Axis& x_axis, const Axis& y_axis, AxisScale x, AxisScale y,
+        Place place);
+
+  [[nodiscard]] const AxisScale& x() const { return x_; }
+  [[nodiscard]] const AxisScale& y() const { return y_; }
+  void add(std::string_view svg) { body_ += svg; }
+
+  void grid();
+  /// In the colour and with the mark of its number; on a map in black above white.
+  void curve(const Curve& curve, std::size_t number, bool on_map);
+  /// A further line of the legend, with a symbol 26 px wide around (0, 0).
+  void legend_entry(const std::string& symbol, const std::string& text);
+  [[nodiscard]] std::string finish();
+
+ private:
+  struct Point {
+    double x, y;
+    bool zero;  ///< y is 0 on a logarithmic axis: drawn at its foot
+  };
+  [[nodiscard]] std::vector<Point> points_of(const Curve& curve,
+                                             const std::vector<double>& y) const;
+  void spread(const Curve& curve, std::size_t number);
+  void line(const std::vector<Point>& points, const std::string& classes, bool dashed);
+  void marks(const std::vector<Point>& points, std::size_t number, bool on_map);
+
+  AxisScale x_, y_;
+  std::string x_label_, y_label_, title_, body_;
+  std::vector<std::pair<std::string, std::string>> legend_;
+  Place place_;
+  double top_, left_ = 78.0, right_ = 738.0, bottom_;
+  bool zeros_ = false;
+};
+
+}  // namespace clay::plot

@@ -1,0 +1,143 @@
+#include "app/cli/commands.hpp"
+
+#include "app/bench/registered_sections.hpp"
+#include "app/bench/report/report.hpp"
+#include "claystack/core/atomic_file.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace clay::app {
+namespace {
+
+struct BenchOptions {
+  bool quick = false;
+  bool extremes = false;
+  std::vector<std::string> only;
+  std::string report;
+  std::string csv;
+  std::string svg;
+};
+
+/// As it was typed, without what it does not measure by.
+std::string command_line(const BenchOptions& options, const Console& console) {
+  std::string line = "claystack bench";
+  if (options.quick) line += " --quick";
+  if (options.extremes)
+    line += " --extremes";
+  else if (!options.only.empty())
+    line += fmt::format(" --only {}", fmt::join(options.only, ","));
+  if (!options.report.empty()) line += " --report " + options.report;
+  if (!options.csv.empty()) line += " --csv " + options.csv;
+  if (!options.svg.empty()) line += " --svg " + options.svg;
+  return console.json ? line + " --json" : line;
+}
+
+/// Before minutes are spent: a folder that can be written to.
+Result<void> open_folder(const std::string& folder) {
+  if (folder.empty()) return {};
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return failure(ErrorKind::io, folder + ": " + error.message());
+  const auto probe = AtomicFile::create(std::filesystem::path(folder) / "claystack.csv");
+  if (!probe) return tl::make_unexpected(probe.error());
+  return {};
+}
+
+using Files = std::vector<std::pair<std::string, std::string>>;
+
+Result<void> write_into(const std::string& folder, const Files& files) {
+  for (const auto& [name, content] : files)
+    if (auto written = publish(std::filesystem::path(folder) / name, content); !written)
+      return written;
+  return {};
+}
+
+Result<void> write_folders(const bench::Report& report, const BenchOptions& options) {
+  if (!options.csv.empty())
+    if (auto done = write_into(options.csv, bench::csv_files(report)); !done) return done;
+  return options.svg.empty() ? Result<void>() : write_into(options.svg, bench::svg_files(report));
+}
+
+void measure(bench::Report& report, const std::vector<bench::RegisteredSection>& chosen,
+             const BenchOptions& options, const Console& console) {
+  bench::Effort effort;
+  effort.quick = options.quick;
+  Progress progress(console, "measuring", 0);
+  for (const auto& section : chosen) {
+    const std::string name(section.id);
+    effort.progress = [&](std::string_view stage) {
+      progress.stage(name + ", " + std::string(stage));
+    };
+    progress.stage(name);
+    report.sections.push_back(section.measure(effort));
+  }
+}
+
+Result<int> run_bench(BenchOptions options, Console console) {
+  if (options.extremes) options.only = {"extremes"};
+  const auto chosen = bench::chosen_sections(options.only);
+  if (!chosen) return tl::make_unexpected(chosen.error());
+  if (options.report == "-" && console.json)
+    return failure(ErrorKind::bad_input, "-: expected one thing only on standard output");
+  if (options.report == "-") console.quiet = true;
+  for (const std::string& folder : {options.csv, options.svg})
+    if (auto opened = open_folder(folder); !opened) return tl::make_unexpected(opened.error());
+  std::optional<AtomicFile> page;
+  if (!options.report.empty()) {
+    auto file = AtomicFile::create(options.report);
+    if (!file) return tl::make_unexpected(file.error());
+    page.emplace(std::move(*file));
+  }
+
+  bench::Report report{bench::this_machine(), command_line(options, console), {}};
+  measure(report, *chosen, options, console);
+  if (page)
+    if (auto done = page->write(bench::html_of(report)).and_then([&] { return page->commit(); });
+        !done)
+      return tl::make_unexpected(done.error());
+  if (auto written = write_folders(report, options); !written)
+    return tl::make_unexpected(written.error());
+  if (console.json) console.print(bench::json_of(report));
+  for (const bench::Section& section : report.sections) console.say(bench::text_of(section));
+  return report.sound() ? kDone : kUnsound;
+}
+
+std::string section_list() {
+  std::string list;
+  for (const auto& section : bench::registered_sections())
+    list.append(list.empty() ? "" : ",").append(section.id);
+  return list;
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app, Console& console, int& exit) {
+  auto options = std::make_shared<BenchOptions>();
+  CLI::App* command = app.add_subcommand(
+      "bench", "Measure: speed, error against run time, convergence, extremes, the closed loop");
+  command->add_flag("--quick", options->quick, "Less of everything: within three minutes");
+  auto* const only =
+      command->add_option("--only", options->only, "Sections to measure, of " + section_list())
+          ->delimiter(',');
+  command->add_flag("--extremes", options->extremes, "The same as --only extremes")->excludes(only);
+  command->add_option("--report", options->report, "HTML page with all tables and plots");
+  command->add_option("--csv", options->csv, "Folder for a CSV file of each table, plot and map");
+  command->add_option("--svg", options->svg, "Folder for a drawing of each plot and map");
+  command->footer(
+      "\nExamples:\n  claystack bench --quick --report bench.html\n"
+      "  claystack bench --only tick,left_out --json\n"
+      "  claystack bench --report bench.html --csv figures\n\n"
+      "Exit status 1: something that must hold did not.");
+  command->callback([options, &console, &exit] {
+    const auto done = run_bench(*options, console);
+    exit = done ? *done : report(done.error());
+  });
+}
+
+}  // namespace clay::app

@@ -1,0 +1,103 @@
+#include "app/cli/check.hpp"
+#include "app/cli/commands.hpp"
+
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/export/repair.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace clay::app {
+namespace {
+
+bool is_pot(std::string_view path) { return path.ends_with(".json") || path.ends_with(".cbor"); }
+
+/// What no option by itself can tell.
+Result<void> check_usage(const CheckCommand& command) {
+  if (command.mends() == command.out.empty())
+    return failure(ErrorKind::bad_input,
+                   command.mends()
+                       ? "expected -o FILE for the mesh that --repair or --max-triangles makes"
+                       : "-o: expected --repair or --max-triangles with it");
+  if (command.mends() && !is_pot(command.file))
+    if (const auto format = solid::mesh_format_of(command.out); !format)
+      return tl::make_unexpected(format.error());
+  if (command.mends() && !command.certificate.empty())
+    return failure(ErrorKind::bad_input,
+                   "--certificate: expected a file as it is, found --repair or --max-triangles");
+  return check_distinct({command.out}, {command.file, command.certificate});
+}
+
+Result<Verdict> check_file(const CheckCommand& command, const Console& console) {
+  if (auto usage = check_usage(command); !usage) return tl::make_unexpected(usage.error());
+  if (is_pot(command.file))
+    return read_file(command.file).and_then([&](const std::string& bytes) {
+      return check_pot(bytes, command);
+    });
+  const auto format = solid::mesh_format_of(command.file);
+  if (!format)
+    return failure(ErrorKind::bad_input,
+                   format.error().message + ", or a pot: .pot.json, .pot.cbor");
+  return check_mesh_file(*format, command, console);
+}
+
+std::string what_failed(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::unsound:
+      return "not mended";
+    case ErrorKind::io:
+      return "not read or written";
+    case ErrorKind::bad_input:
+    case ErrorKind::device:
+      break;
+  }
+  return "unreadable";
+}
+
+int check(CheckCommand& command, const Console& console) {
+  if (auto loaded = command.walls.load(); !loaded) return report(loaded.error());
+  const auto verdict = check_file(command, console);
+  if (!verdict) {
+    const Error& error = verdict.error();
+    if (console.json)
+      console.print(verdict_json(command.file, unsound(what_failed(error.kind), error.message)));
+    return report(error);
+  }
+  if (console.json) console.print(verdict_json(command.file, *verdict));
+  tell(console, command.file, *verdict);
+  return verdict->mesh.sound() ? kDone : kUnsound;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, Console& console, int& exit) {
+  auto command = std::make_shared<CheckCommand>();
+  CLI::App* sub =
+      app.add_subcommand("check", "Say what is wrong with a pot or anyone's mesh, and where");
+  sub->add_option("file", command->file, ".stl, .obj, .drc, .pot.json or .pot.cbor")->required();
+  command->walls.add_to(*sub);
+  sub->add_option("--wall-samples", command->wall_samples,
+                  "Walls are measured on pots and sampled by so many rays on meshes: these may "
+                  "miss the thinnest place")
+      ->check(CLI::Range(std::size_t{1}, solid::kMostWallSamples))
+      ->capture_default_str();
+  sub->add_option("--certificate", command->certificate,
+                  "Prove again what this certificate states of the file");
+  sub->add_flag("--repair", command->repair, "Mend the mesh, and tell what was repaired");
+  sub->add_option("--max-triangles", command->max_triangles,
+                  "Decimate a closed mesh, after any repair, and measure the error")
+      ->check(CLI::Range(solid::kFewestTriangles, solid::kMaxTriangles));
+  sub->add_option("-o,--out", command->out,
+                  "The mended or decimated mesh: .stl, .obj or .drc. Written even where nothing "
+                  "had to be done or problems remain; the verdict and the exit status are its own");
+  sub->footer(
+      "\nExamples:\n  claystack check bowl.stl --certificate bowl.stl.certificate.json\n"
+      "  claystack check bowl.pot.json --min-wall 3 "
+      "--json\n  claystack check found.stl --repair -o mended.stl\n"
+      "  claystack check scan.obj --repair --max-triangles 100000 -o small.stl --min-wall 2");
+  sub->callback([command, &console, &exit] { exit = check(*command, console); });
+}
+
+}  // namespace clay::app

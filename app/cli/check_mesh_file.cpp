@@ -1,0 +1,245 @@
+#include "app/cli/check.hpp"
+#include "app/cli/memory_room.hpp"
+#include "app/cli/thin_walls.hpp"
+
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/export/formats.hpp"
+#include "claystack/export/repair.hpp"
+#include "core/file_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <utility>
+
+namespace clay::app {
+namespace {
+
+using solid::MeshFormat;
+using solid::SolidCertificate;
+using solid::TriangleMesh;
+
+/// Nothing where there is room for what check_mesh takes.
+Result<void> expect_memory(std::string_view triangles, std::uint64_t bytes,
+                           const MemoryRoom& room) {
+  if (bytes <= room.bytes) return {};
+  return failure(ErrorKind::io,
+                 fmt::format("checking {} triangles {}", triangles, needs_text(bytes, room)));
+}
+
+/// The mesh of a file, of which a little at a time is in memory.
+Result<TriangleMesh> read_mesh(FileReader& file, MeshFormat format, const std::string& name) {
+  const solid::ByteSource source{
+      [&](std::span<char> part) { return file.read(part); }, *file.size(),
+      [&](std::uint64_t triangles) {
+        return expect_memory(fmt::format("about {}", triangles), solid::check_memory(triangles),
+                             memory_room())
+            .map_error([&](const Error& e) {
+              return Error{e.kind, name + ": " + e.message};
+            });
+      }};
+  return format == MeshFormat::obj ? solid::read_obj(source, name) : solid::read_stl(source, name);
+}
+
+Result<solid::MeshReport> checked(const TriangleMesh& mesh) {
+  const std::string triangles = std::to_string(mesh.triangles.size());
+  const std::uint64_t bytes = solid::check_memory(mesh.triangles.size());
+  const MemoryRoom room = memory_room();
+  if (auto fits = expect_memory(triangles, bytes, room); !fits)
+    return tl::make_unexpected(fits.error());
+  solid::MeshReport report = solid::check_mesh(mesh);
+  // The estimate was too low for this mesh.
+  if (report.out_of_memory)
+    return failure(ErrorKind::io, fmt::format("not enough memory: checking {} triangles {}",
+                                              triangles, needs_text(bytes, room)));
+  return report;
+}
+
+/// Repairs and decimates as asked.
+Result<TriangleMesh> mended(TriangleMesh mesh, const CheckCommand& command, Mending& mending) {
+  auto found = checked(mesh);
+  if (!found) return tl::make_unexpected(found.error());
+  mending.found = std::move(found->problems);
+  if (command.repair && !mending.found.empty()) {
+    auto repaired = solid::repair(mesh);
+    if (!repaired) return tl::make_unexpected(repaired.error());
+    mesh = std::move(repaired->mesh);
+    mending.repaired = std::move(repaired->repaired);
+  }
+  mending.triangles_before = mesh.triangles.size();
+  if (command.max_triangles && mesh.triangles.size() > *command.max_triangles) {
+    auto decimated = solid::decimate(mesh, *command.max_triangles);
+    if (!decimated) return tl::make_unexpected(decimated.error());
+    mending.decimation_error_mm = decimated->max_error_mm;
+    mesh = std::move(decimated->mesh);
+  }
+  return mesh;
+}
+
+Result<std::string> encoded(const TriangleMesh& mesh, MeshFormat format) {
+  switch (format) {
+    case MeshFormat::obj:
+      return solid::encode_obj(mesh, "mended");
+    case MeshFormat::drc:
+      return solid::encode_drc(mesh, {});
+    case MeshFormat::stl_binary:
+    case MeshFormat::stl_ascii:
+      break;
+  }
+  return solid::encode_stl_binary(mesh);
+}
+
+/// The verdict is on what the file will hold, so the bytes are read again before they are written.
+Result<TriangleMesh> written(const TriangleMesh& mesh, const CheckCommand& command,
+                             Mending& mending) {
+  const auto bytes = encoded(mesh, mending.format);
+  if (!bytes) return tl::make_unexpected(bytes.error());
+  auto reread = solid::decode_mesh(*bytes, mending.format, command.out);
+  if (!reread) return reread;
+  if (const auto done = publish(command.out, *bytes); !done)
+    return tl::make_unexpected(done.error());
+  mending.path = command.out;
+  mending.bytes = bytes->size();
+  return reread;
+}
+
+/// Width, depth and height together.
+double size_sum_mm(const TriangleMesh& mesh) {
+  glm::dvec3 low = mesh.points.front(), high = low;
+  for (const glm::dvec3& p : mesh.points) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  const glm::dvec3 size = high - low;
+  return size.x + size.y + size.z;
+}
+
+Result<void> measure_wall(const TriangleMesh& mesh, const WallDemand& demand,
+                          const CheckCommand& command, const Console& console, Verdict& verdict) {
+  const auto problem = [&](std::string what, std::string where) {
+    verdict.mesh.problems.push_back({std::move(what), std::move(where), 1});
+  };
+  Progress progress(console, "walls", command.wall_samples);
+  const auto wall =
+      solid::sampled_wall(mesh, command.wall_samples, solid::most_wall_steps(command.wall_samples),
+                          [&](std::size_t rays) { progress.update(rays); });
+  if (!wall && wall.error().kind == ErrorKind::io)
+    return failure(ErrorKind::io, command.file + ": " + wall.error().message);
+  if (!wall) {
+    problem("wall not measured", wall.error().message);
+    return {};
+  }
+  verdict.wall_sampled = *wall;
+  if (wall->rays < command.wall_samples)
+    verdict.notes.push_back(fmt::format(
+        "walls sampled by {} rays only, {} were asked for: too many triangles lie about each ray",
+        wall->rays, command.wall_samples));
+  if (std::isinf(wall->least_mm))
+    problem("wall not measured",
+            fmt::format("none of {} rays met the other side of a wall", wall->rays));
+  else if (wall->least_mm >= demand.min_wall_mm)
+    verdict.notes.push_back("walls seen: " + wall_text(wall->least_mm, demand));
+  else
+    problem("thin wall (sampled)",
+            fmt::format("triangle {} at ({:.6g}, {:.6g}, {:.6g}) mm: {:.3f} mm, expected {:.3f} mm "
+                        "at least ({})",
+                        wall->triangle, wall->place.x, wall->place.y, wall->place.z, wall->least_mm,
+                        demand.min_wall_mm, demand.source));
+  return {};
+}
+
+Result<TriangleMesh> mend_and_write(TriangleMesh mesh, const CheckCommand& command,
+                                    Mending& mending) {
+  const auto format = solid::mesh_format_of(command.out);
+  if (!format) return tl::make_unexpected(format.error());
+  mending.format = *format;
+  return mended(std::move(mesh), command, mending).and_then([&](const TriangleMesh& result) {
+    return written(result, command, mending);
+  });
+}
+
+/// What a Draco file of ours states of itself; its checksum has been found to hold.
+void check_claims(std::string_view bytes, const TriangleMesh& mesh, Verdict& verdict) {
+  const auto claims = solid::drc_claims(bytes, {}).value_or(std::nullopt);
+  if (!claims) return;
+  verdict.notes.push_back("checksum holds");
+  for (auto& problem : solid::compare_with_claims(mesh, *claims))
+    verdict.mesh.problems.push_back(std::move(problem));
+}
+
+/// Nothing where none is asked after.
+Result<std::optional<SolidCertificate>> read_certificate(const CheckCommand& command) {
+  if (command.certificate.empty()) return std::nullopt;
+  return read_file(command.certificate, solid::kMaxCertificateBytes)
+      .and_then([&](const std::string& text) {
+        return solid::parse_certificate(text, command.certificate);
+      })
+      .map([](SolidCertificate certificate) { return std::optional(std::move(certificate)); });
+}
+
+/// The same bytes may well be a mesh in two formats: the one that the file's name says counts.
+Result<void> same_format(const SolidCertificate& certificate, MeshFormat format,
+                         const std::string& file) {
+  const auto family = [](MeshFormat f) {
+    return f == MeshFormat::stl_ascii ? MeshFormat::stl_binary : f;
+  };
+  const auto stated = solid::mesh_format_named(certificate.format);
+  if (stated && family(*stated) == family(format)) return {};
+  return failure(ErrorKind::unsound, fmt::format("{}: format: the certificate states {}, found {}",
+                                                 file, certificate.format, name_of(format)));
+}
+
+void verify(std::string_view bytes, MeshFormat format, const CheckCommand& command,
+            Verdict& verdict) {
+  const auto verified = same_format(*verdict.certificate, format, command.file).and_then([&] {
+    return solid::verify_certificate(*verdict.certificate, bytes, command.file);
+  });
+  verdict.certificate_holds = verified.has_value();
+  if (!verified)
+    verdict.mesh.problems.push_back({"certificate does not hold", verified.error().message, 1});
+}
+
+}  // namespace
+
+Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
+                                const Console& console) {
+  auto file = FileReader::open(command.file);
+  if (!file) return tl::make_unexpected(file.error());
+  auto certificate = read_certificate(command);
+  if (!certificate) return tl::make_unexpected(certificate.error());
+  Verdict verdict;
+  verdict.certificate = std::move(*certificate);
+  // Certificates and Draco files speak of all bytes, and a pipe does not tell how many come.
+  const bool whole = verdict.certificate || format == MeshFormat::drc || !file->size();
+  const auto bytes = whole ? read_file(command.file) : std::string();
+  if (!bytes) return tl::make_unexpected(bytes.error());
+  auto mesh = whole ? solid::decode_mesh(*bytes, format, command.file)
+                    : read_mesh(*file, format, command.file);
+  if (!mesh && verdict.certificate) {
+    // Whatever has become of the file, it is not what the certificate speaks of.
+    verify(*bytes, format, command, verdict);
+    verdict.examined = false;
+    return verdict;
+  }
+  if (!mesh) return tl::make_unexpected(mesh.error());
+  if (command.mends()) {
+    mesh = mend_and_write(std::move(*mesh), command, verdict.mending.emplace());
+    if (!mesh) return failure(mesh.error().kind, command.file + ": " + mesh.error().message);
+  }
+  auto report = checked(*mesh);
+  if (!report) return failure(report.error().kind, command.file + ": " + report.error().message);
+  verdict.mesh = std::move(*report);
+  if (verdict.mesh.cavities > 0)
+    verdict.notes.push_back(
+        fmt::format("{} closed cavities, {:.4g} cm3 trapped: they need drain holes",
+                    verdict.mesh.cavities, verdict.mesh.trapped_mm3 / 1000.0));
+  if (format == MeshFormat::drc && !command.mends()) check_claims(*bytes, *mesh, verdict);
+  if (const auto demand = command.walls.for_size(size_sum_mm(*mesh)))
+    if (auto done = measure_wall(*mesh, *demand, command, console, verdict); !done)
+      return tl::make_unexpected(done.error());
+  if (verdict.certificate) verify(*bytes, format, command, verdict);
+  return verdict;
+}
+
+}  // namespace clay::app

@@ -1,0 +1,87 @@
+#include "app/cli/check.hpp"
+#include "app/cli/thin_walls.hpp"
+
+#include "claystack/engine/files.hpp"
+#include "claystack/engine/tick.hpp"
+#include "claystack/export/proof.hpp"
+#include "claystack/export/smoothing.hpp"
+#include "claystack/export/solid.hpp"
+#include "claystack/export/walls.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace clay::app {
+namespace {
+
+// A pot is checked on a mesh of its walls: enough facets to look like the pot, few enough to be
+// quick. Whether it is sound does not depend on how many.
+constexpr std::size_t kMostSegments = 64;
+constexpr std::size_t kFewestSegments = 8;
+constexpr std::size_t kQuickTriangles = 1'000'000;
+
+std::size_t check_segments(const solid::Profile& profile) {
+  const std::size_t each = std::max<std::size_t>(solid::triangle_count(profile, 1), 1);
+  return std::clamp(kQuickTriangles / each, kFewestSegments, kMostSegments);
+}
+
+/// A section that proves a solid, and the mesh that it gives, passing every test.
+Verdict check_section(const solid::StackProfile& section, const std::optional<WallDemand>& demand) {
+  Verdict verdict;
+  if (solid::triangle_count(section.profile, kFewestSegments) <= solid::kMaxTriangles)
+    verdict.mesh =
+        solid::check_mesh(solid::revolve(section.profile, check_segments(section.profile)));
+  else
+    verdict.examined = false;
+  verdict.wall_mm = solid::min_wall_mm(section.profile);
+  for (const solid::PieceShape& shape : section.shapes)
+    for (const solid::Cavity& cavity : shape.cavities)
+      verdict.notes.push_back(fmt::format(
+          "closed cavity from {:.2f} to {:.2f} mm, {:.1f} mm3 trapped: it needs a drain hole",
+          cavity.bottom_mm, cavity.top_mm, cavity.volume_mm3));
+  if (section.shapes.size() > 1)
+    verdict.mesh.problems.push_back(
+        {"pieces that do not touch",
+         fmt::format("{} pieces; ring {} is the first of the second", section.shapes.size(),
+                     section.shapes[1].first_ring),
+         section.shapes.size()});
+  if (demand && *verdict.wall_mm < demand->min_wall_mm)
+    verdict.mesh.problems.push_back(
+        {"thin wall", thin_wall_text(section.profile, *verdict.wall_mm, *demand), 1});
+  else if (demand)
+    verdict.notes.push_back("walls: " + wall_text(*verdict.wall_mm, *demand));
+  return verdict;
+}
+
+}  // namespace
+
+Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command) {
+  if (command.mends())
+    return failure(
+        ErrorKind::bad_input,
+        command.file + ": --repair and --max-triangles are for meshes; export a pot anew");
+  if (!command.certificate.empty())
+    return failure(ErrorKind::bad_input,
+                   command.file + ": expected a mesh, of which certificates speak, found a pot");
+  const auto pot = parse_pot(bytes, command.file);
+  if (!pot) return tl::make_unexpected(pot.error());
+  if (pot->collapse)
+    return unsound("collapsed", fmt::format("ring {} yielded at {:g} kPa",
+                                            pot->collapse->failed_ring, pot->collapse->stress_kpa));
+  // As `export` makes it unless told otherwise.
+  const auto demand =
+      command.walls.for_size(4.0 * largest_radius_mm(pot->stack) + pot->stack.height_mm());
+  solid::SmoothingOptions how;
+  if (demand) how.min_wall_mm = demand->min_wall_mm;
+  const auto smoothed = solid::smooth_profile_of(pot->stack, how);
+  if (!smoothed) return unsound("no solid", smoothed.error().message);
+  if (const auto certificate = solid::certify(smoothed->section.profile); !certificate)
+    return unsound("no certificate", certificate.error().message);
+  Verdict verdict = check_section(smoothed->section, demand);
+  if (pot->rounding)
+    verdict.notes.push_back(fmt::format("radii rounded to {} mm", pot->rounding->to_mm));
+  return verdict;
+}
+
+}  // namespace clay::app

@@ -1,0 +1,145 @@
+#include "app/cli/check.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace clay::app {
+namespace {
+
+constexpr std::size_t kCountingStops = 100'000;  // of self-intersections, see MeshReport
+
+template <class Problems>
+Json problems_json(const Problems& problems) {
+  Json json = Json::array();
+  for (const auto& problem : problems)
+    json.push_back({{"what", problem.what}, {"where", problem.where}, {"count", problem.count}});
+  return json;
+}
+
+Json wall_json(const solid::SampledWall& wall) {
+  Json json = {{"least_mm", nullptr},
+               {"rays", wall.rays},
+               {"oblique", wall.oblique},
+               {"escaped", wall.escaped},
+               {"bound", false}};
+  if (std::isinf(wall.least_mm)) return json;
+  json["least_mm"] = wall.least_mm;
+  json["at_mm"] = {wall.place.x, wall.place.y, wall.place.z};
+  json["triangle"] = wall.triangle;
+  return json;
+}
+
+void add_mending(Json& json, const Mending& mending, const Verdict& verdict) {
+  json["found"] = problems_json(mending.found);
+  json["repaired"] = Json::array();
+  for (const auto& [what, count] : mending.repaired)
+    json["repaired"].push_back({{"what", what}, {"count", count}});
+  json["remaining"] = problems_json(verdict.mesh.problems);
+  if (mending.decimation_error_mm)
+    json["decimated"] = {{"from_triangles", mending.triangles_before},
+                         {"to_triangles", verdict.mesh.triangles},
+                         {"max_error_mm", *mending.decimation_error_mm}};
+  json["written"] = {
+      {"path", mending.path}, {"format", solid::name_of(mending.format)}, {"bytes", mending.bytes}};
+}
+
+Json certificate_json(const solid::SolidCertificate& certificate, bool holds) {
+  return {{"holds", holds},
+          {"wall_mm", {certificate.wall_lower_mm, certificate.wall_upper_mm}},
+          {"volume_mm3", certificate.volume_mm3},
+          {"volume_bound_mm3", certificate.volume_bound_mm3},
+          {"counted_volume_mm3", certificate.counted_volume_mm3}};
+}
+
+void tell_certificate(const Console& console, const solid::SolidCertificate& certificate) {
+  console.say(fmt::format(
+      "  certificate holds: closed and embedded, wall {:.4f} to {:.4f} mm at its thinnest, volume "
+      "{:.3f} cm3 within {:.2g} mm3",
+      certificate.wall_lower_mm, certificate.wall_upper_mm, certificate.volume_mm3 / 1000.0,
+      certificate.volume_bound_mm3));
+}
+
+void tell_wall(const Console& console, const solid::SampledWall& wall) {
+  if (!std::isinf(wall.least_mm))
+    console.say(fmt::format(
+        "  thinnest seen {:.2f} mm at ({:.6g}, {:.6g}, {:.6g}), {} rays; a sampling, not a bound",
+        wall.least_mm, wall.place.x, wall.place.y, wall.place.z, wall.rays));
+  if (wall.escaped > 0)
+    console.say(fmt::format("  {} of {} rays left through an opening", wall.escaped, wall.rays));
+}
+
+void tell_mending(const Console& console, const Mending& mending, const Verdict& verdict) {
+  for (const auto& problem : mending.found)
+    console.say(fmt::format("  found: {} ({}): {}", problem.what, problem.count, problem.where));
+  for (const auto& [what, count] : mending.repaired)
+    console.say(fmt::format("  repaired: {} ({})", what, count));
+  if (mending.decimation_error_mm)
+    console.say(fmt::format("  decimated: {} to {} triangles; vertices within {:.2g} mm",
+                            mending.triangles_before, verdict.mesh.triangles,
+                            *mending.decimation_error_mm));
+  console.say(fmt::format("  written: {}, {} bytes, {}", mending.path, mending.bytes,
+                          verdict.mesh.sound() ? "sound" : "NOT SOUND"));
+}
+
+}  // namespace
+
+Verdict unsound(std::string what, std::string where) {
+  Verdict verdict;
+  verdict.examined = false;
+  verdict.mesh.problems.push_back({std::move(what), std::move(where), 1});
+  return verdict;
+}
+
+Json verdict_json(const std::string& file, const Verdict& verdict) {
+  const solid::MeshReport& mesh = verdict.mesh;
+  Json json = {{"file", file},
+               {"sound", mesh.sound()},
+               {"closed", mesh.closed},
+               {"manifold", mesh.manifold},
+               {"oriented", mesh.oriented},
+               {"self_intersections", mesh.self_intersections},
+               {"bounds_volume", mesh.bounds_volume},
+               {"components", mesh.components},
+               {"cavities", mesh.cavities},
+               {"trapped_mm3", mesh.trapped_mm3},
+               {"degenerate", mesh.degenerate},
+               {"triangles", mesh.triangles},
+               {"volume_mm3", mesh.volume_mm3},
+               {"problems", problems_json(mesh.problems)}};
+  if (verdict.wall_mm) json["min_wall_mm"] = *verdict.wall_mm;
+  if (verdict.wall_sampled) json["wall_sampled"] = wall_json(*verdict.wall_sampled);
+  if (verdict.certificate)
+    json["certificate"] = certificate_json(*verdict.certificate, verdict.certificate_holds);
+  json["notes"] = verdict.notes;
+  if (verdict.mending) add_mending(json, *verdict.mending, verdict);
+  return json;
+}
+
+void tell(const Console& console, const std::string& file, const Verdict& verdict) {
+  const solid::MeshReport& mesh = verdict.mesh;
+  const bool mended = verdict.mending.has_value();
+  const bool sound = mended ? verdict.mending->found.empty() : mesh.sound();
+  console.say(fmt::format("{}: {}", file, sound ? "sound" : "NOT SOUND"));
+  if (mended) tell_mending(console, *verdict.mending, verdict);
+  const auto yes = [](bool value) { return value ? "yes" : "no"; };
+  if (verdict.examined) {
+    console.say(fmt::format(
+        "  closed {}, manifold {}, oriented {}, bounds a volume {}, self-intersections {}",
+        yes(mesh.closed), yes(mesh.manifold), yes(mesh.oriented), yes(mesh.bounds_volume),
+        mesh.self_intersections));
+    console.say(fmt::format("  {} triangles, {} component(s), {:.3f} cm3", mesh.triangles,
+                            mesh.components, mesh.volume_mm3 / 1000.0));
+  }
+  if (verdict.wall_mm) console.say(fmt::format("  thinnest {:.3f} mm", *verdict.wall_mm));
+  if (verdict.wall_sampled) tell_wall(console, *verdict.wall_sampled);
+  if (verdict.certificate_holds) tell_certificate(console, *verdict.certificate);
+  for (const std::string& note : verdict.notes) console.say("  note: " + note);
+  for (const auto& problem : mesh.problems)
+    console.say(fmt::format("  {}{} ({}{}): {}", mended ? "remaining: " : "", problem.what,
+                            problem.count == kCountingStops ? "at least " : "", problem.count,
+                            problem.where));
+}
+
+}  // namespace clay::app

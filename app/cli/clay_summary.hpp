@@ -1,0 +1,17 @@
+#pragma once
+// What is on the wheel when the throwing is over, for people and for scripts.
+
+#include "app/cli/console.hpp"
+#include "claystack/engine/wheel.hpp"
+
+namespace clay::app {
+
+[[nodiscard]] const char* name_of(Model model);
+
+/// Rings, height, volume and its error, thinnest wall, collapse.
+[[nodiscard]] Json clay_json(const Wheel& wheel, const Pot& pot);
+
+/// `summary`: with the fields of clay_json.
+void tell_collapse(const Console& console, const Json& summary);
+
+}  // namespace clay::app

@@ -1,0 +1,37 @@
+#pragma once
+// One function for each command of the outer face. Each registers itself with the
+// parser and returns, through `exit`, the status of what it did.
+
+#include "app/cli/console.hpp"
+
+#include <CLI/App.hpp>
+
+#include <string>
+
+namespace clay::app {
+
+void add_throw_command(CLI::App& app, Console& console, int& exit);
+void add_plan_command(CLI::App& app, Console& console, int& exit);
+#ifdef CLAYSTACK_EXPORT
+void add_export_command(CLI::App& app, Console& console, int& exit);
+void add_check_command(CLI::App& app, Console& console, int& exit);
+#endif
+#ifdef CLAYSTACK_DRAWINGS
+void add_import_command(CLI::App& app, Console& console, int& exit);
+#endif
+#ifdef CLAYSTACK_WINDOW
+void add_render_command(CLI::App& app, Console& console, int& exit);
+#endif
+#ifdef CLAYSTACK_USB
+void add_devices_command(CLI::App& app, Console& console, int& exit);
+#endif
+#ifdef CLAYSTACK_STUDIO
+void add_studio_command(CLI::App& app, int& exit);
+#endif
+/// Where CLAYSTACK_BENCH is on.
+void add_bench_command(CLI::App& app, Console& console, int& exit);
+
+/// Program, version, compiler, and the parts that are built in.
+[[nodiscard]] std::string version_text();
+
+}  // namespace clay::app

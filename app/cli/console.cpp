@@ -1,0 +1,180 @@
+#include "app/cli/console.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <limits>
+#include <new>
+#include <sstream>
+#include <utility>
+
+namespace clay::app {
+namespace {
+
+constexpr auto kPatience = std::chrono::milliseconds(300);
+constexpr auto kRedraw = std::chrono::milliseconds(100);
+constexpr std::size_t kBarWidth = 32;
+
+/// Opens those of standard input, output and error that are closed, so that no file gets their
+/// numbers. The wrong way round: using them still fails.
+void reserve_standard_streams() noexcept {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) == -1)
+      (void)open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+int out_of_memory() noexcept {
+  put_err("claystack: out of memory; close other programs, or ask for less at once\n");
+  return kIoFailed;
+}
+
+int unexpected(const char* what) noexcept {
+  put_err("claystack: unexpected failure: ");
+  put_err(what);
+  put_err("\n");
+  return kIoFailed;
+}
+
+}  // namespace
+
+void put_out(std::string_view text) noexcept {
+  (void)std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
+bool flush_out() noexcept { return std::fflush(stdout) == 0 && std::ferror(stdout) == 0; }
+
+void put_err(std::string_view text) noexcept {
+  (void)std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+std::string pretty(const Json& data) {
+  return data.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void Console::print(const Json& data) const { put_out(pretty(data)); }
+
+void Console::say(std::string_view line) const {
+  if (!json && !quiet) put_out(std::string(line) + "\n");
+}
+
+void Console::warn(std::string_view line) const { put_err(fmt::format("claystack: {}\n", line)); }
+
+Result<void> check_distinct(const std::vector<std::string>& outputs,
+                            const std::vector<std::string>& inputs) {
+  std::vector<std::filesystem::path> seen;
+  const auto place = [](const std::string& name) {
+    std::error_code ignored;
+    return std::filesystem::weakly_canonical(name, ignored);
+  };
+  const auto named = [](const std::string& name) { return !name.empty() && name != "-"; };
+  for (const std::string& input : inputs)
+    if (named(input)) seen.push_back(place(input));
+  for (const std::string& output : outputs) {
+    if (!named(output)) continue;
+    if (std::find(seen.begin(), seen.end(), place(output)) != seen.end())
+      return failure(
+          ErrorKind::bad_input,
+          output + ": expected a file of its own to write, found it named twice or read from");
+    seen.push_back(place(output));
+  }
+  return {};
+}
+
+std::function<std::string(const std::string&)> in_range(double low, double high) {
+  return [=](const std::string& text) -> std::string {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    // Not (value < low): NaN must fail.
+    if (error == std::errc() && end == text.data() + text.size() && value >= low && value <= high)
+      return {};
+    return fmt::format("expected a number from {:g} to {:g}, found {}", low, high, text);
+  };
+}
+
+int report(const Error& error) {
+  put_err(fmt::format("claystack: {}\n", error.message));
+  switch (error.kind) {
+    case ErrorKind::unsound:
+      return kUnsound;
+    case ErrorKind::bad_input:
+      return kBadInput;
+    case ErrorKind::io:
+      return kIoFailed;
+    case ErrorKind::device:
+      return kDeviceFailed;
+  }
+  return kBadInput;
+}
+
+int report(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream out, err;
+  const int status = app.exit(error, out, err);
+  put_out(out.str());
+  put_err(err.str());
+  return status == 0 ? kDone : kBadInput;
+}
+
+int run_program(int (*run)(int argc, char** argv), int argc, char** argv) noexcept {
+  reserve_standard_streams();
+  std::signal(SIGXFSZ, SIG_IGN);
+  try {
+    const int exit = run(argc, argv);
+    // What could not be printed was not done.
+    return flush_out() ? exit : report({ErrorKind::io, "standard output: could not write"});
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  } catch (const std::exception& error) {
+    return unexpected(error.what());
+  } catch (...) {
+    return unexpected("an unknown exception");
+  }
+}
+
+Json json_count(WideQuanta count) {
+  using Limits = std::numeric_limits<std::int64_t>;
+  if (count < Limits::min() || count > Limits::max()) return to_string(count);
+  return static_cast<std::int64_t>(count);
+}
+
+StatusLine::StatusLine(const Console& console)
+    : enabled_(!console.quiet && isatty(STDERR_FILENO) == 1), next_(Clock::now() + kPatience) {}
+
+bool StatusLine::due() {
+  if (!enabled_ || Clock::now() < next_) return false;
+  next_ = Clock::now() + kRedraw;
+  return true;
+}
+
+void StatusLine::show(std::string_view text) {
+  if (!enabled_) return;
+  put_err(fmt::format("\r\033[K{}", text));
+  drawn_ = true;
+}
+
+void StatusLine::clear() {
+  if (drawn_) put_err("\r\033[K");
+  drawn_ = false;
+}
+
+Progress::Progress(const Console& console, std::string label, std::size_t total)
+    : line_(console), label_(std::move(label)), total_(total) {}
+
+void Progress::update(std::size_t done) {
+  if (!line_.due() || total_ == 0) return;
+  const std::size_t filled = kBarWidth * done / total_;
+  line_.show(fmt::format("{} [{}{}] {:3} %", label_, std::string(filled, '#'),
+                         std::string(kBarWidth - filled, '.'), 100 * done / total_));
+}
+
+void Progress::stage(std::string_view name) { line_.show(fmt::format("{}: {} ...", label_, name)); }
+
+}  // namespace clay::app

@@ -1,0 +1,78 @@
+#include "app/cli/device_choice.hpp"
+
+#include "app/cli/console.hpp"
+
+#ifdef CLAYSTACK_USB
+#include "claystack/falcon/usb.hpp"
+#endif
+
+#include <CLI/CLI.hpp>
+
+#include <utility>
+
+namespace clay::app {
+namespace {
+
+using DevicePointer = std::unique_ptr<falcon::HapticDevice>;
+
+Result<DevicePointer> open_simulated(const falcon::SimulatedSettings& settings) {
+  auto simulated = falcon::make_simulated_falcon(settings);
+  if (!simulated) return tl::make_unexpected(error_of(simulated.error()));
+  if (auto opened = simulated->device->open(); !opened)
+    return tl::make_unexpected(error_of(opened.error()));
+  return std::move(simulated->device);
+}
+
+}  // namespace
+
+Error error_of(const falcon::DeviceError& error) {
+  const bool ours = error.fault == falcon::DeviceFault::bad_firmware ||
+                    error.fault == falcon::DeviceFault::bad_setting;
+  return {ours ? ErrorKind::bad_input : ErrorKind::device, text_of(error)};
+}
+
+std::string check_device_name(const std::string& which) {
+  for (const char* name : {"auto", "falcon", "bridge", "spacemouse", "simulated"})
+    if (which == name) return {};
+  if (which.starts_with("usb:") || which.starts_with("/dev/")) return {};
+  return "expected auto, falcon, bridge, spacemouse, simulated, usb:BUS-PORT or /dev/hidrawN, "
+         "found " +
+         which;
+}
+
+void add_falcon_options(CLI::App& command, falcon::FalconSettings& settings) {
+  command
+      .add_option("--firmware", settings.firmware_path, "The Falcon's firmware, from its driver")
+      ->envname("CLAYSTACK_FALCON_FIRMWARE");
+  command
+      .add_option_function<std::string>(
+          "--geometry",
+          [&settings](const std::string& name) {
+            settings.geometry = name == "libnifalcon" ? falcon::kLibnifalconGeometry
+                                                      : falcon::kMartinHillierGeometry;
+          },
+          "Sizes of the Falcon's arms: libnifalcon or martin-hillier")
+      ->check(CLI::IsMember({"libnifalcon", "martin-hillier"}))
+      ->default_str("libnifalcon");
+  command
+      .add_option("--motor-counts", settings.motor_counts_per_nm,
+                  "Of the Falcon's motors, for 1 N m at an arm; more pushes harder")
+      ->check(CLI::Validator(in_range(1.0, 1e6), ""))
+      ->capture_default_str();
+}
+
+Result<DevicePointer> open_chosen(const std::string& which, const falcon::FalconSettings& settings,
+                                  const falcon::SimulatedSettings& simulated) {
+  if (which == "simulated") return open_simulated(simulated);
+#ifdef CLAYSTACK_USB
+  auto device = falcon::open_device(which, {.falcon = settings, .space_mouse = {}});
+  if (!device) return tl::make_unexpected(error_of(device.error()));
+  return std::move(*device);
+#else
+  (void)settings;
+  return failure(ErrorKind::bad_input,
+                 which + ": expected simulated, since this program was built without USB devices");
+#endif
+}
+
+}  // namespace clay::app

@@ -1,0 +1,144 @@
+#include "app/cli/commands.hpp"
+#include "app/cli/device_choice.hpp"
+#include "app/cli/device_monitor.hpp"
+#include "app/cli/live_throw.hpp"
+#include "app/servo/words.hpp"
+#include "claystack/falcon/usb.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace clay::app {
+namespace {
+
+struct DevicesOptions {
+  std::string which;
+  falcon::FalconSettings falcon;
+  bool monitor = false;
+  live::MappingSettings mapping;
+  double seconds = 0.0;  // 0: until interrupted
+};
+
+Json problem_json(const falcon::DeviceError& error) {
+  return {{"fault", name_of(error.fault)}, {"what", error.what}, {"remedy", error.remedy}};
+}
+
+/// One device, as it is and as it answers when it is opened for a moment.
+struct Entry {
+  falcon::ListedDevice listed;
+  falcon::DeviceState state = falcon::DeviceState::closed;
+};
+
+Entry looked_at(falcon::ListedDevice listed, const falcon::DeviceSettings& settings) {
+  Entry entry{std::move(listed), {}};
+  if (!entry.listed.usable) return entry;
+  const auto device = falcon::open_device(entry.listed.place, settings);
+  if (device) {
+    (*device)->write({});
+    entry.state = (*device)->read(100'000).state;
+  } else {
+    entry.listed.usable = false;
+    entry.listed.problem = device.error();
+  }
+  return entry;
+}
+
+Json entry_json(const Entry& entry) {
+  const falcon::ListedDevice& device = entry.listed;
+  Json json = {{"kind", name_of(device.kind)},  {"name", device.name},
+               {"place", device.place},         {"usable", device.usable},
+               {"state", name_of(entry.state)}, {"problem", nullptr}};
+  if (device.problem) json["problem"] = problem_json(*device.problem);
+  return json;
+}
+
+void say_entry(const Entry& entry, const Console& console) {
+  const falcon::ListedDevice& device = entry.listed;
+  const char* state = !device.usable                                     ? "can't be used"
+                      : entry.state == falcon::DeviceState::ready        ? "ready"
+                      : entry.state == falcon::DeviceState::needs_homing ? "needs homing"
+                                                                         : "open";
+  console.say(
+      fmt::format("{:<11}{:<16}{}: {}", name_of(device.kind), device.place, device.name, state));
+  if (device.problem) console.say("  " + text_of(*device.problem));
+  if (entry.state == falcon::DeviceState::needs_homing)
+    console.say(std::string("  ") + live::kHomingAdvice);
+}
+
+Result<void> list(const falcon::DeviceSettings& settings, const Console& console) {
+  auto found = falcon::list_devices();
+  if (!found) return tl::make_unexpected(error_of(found.error()));
+  Json json = {{"devices", Json::array()}};
+  for (falcon::ListedDevice& device : *found) {
+    const Entry entry = looked_at(std::move(device), settings);
+    json["devices"].push_back(entry_json(entry));
+    say_entry(entry, console);
+  }
+  if (found->empty())
+    console.say("no device is plugged in; a Falcon shows up even without its power supply");
+  if (console.json) console.print(json);
+  return {};
+}
+
+Result<void> show(const DevicesOptions& options, const falcon::DeviceSettings& settings,
+                  const Console& console) {
+  auto device = open_chosen(options.which.empty() ? "auto" : options.which, settings.falcon,
+                            falcon::simulated_and_loaded());
+  if (!device) return tl::make_unexpected(device.error());
+  falcon::HapticDevice& open = **device;
+  if (options.monitor) {
+    const auto mapping = live::Mapping::build(options.mapping);
+    if (!mapping) return tl::make_unexpected(mapping.error());
+    if (auto watched = watch(open, options.seconds, *mapping, console); !watched)
+      return tl::make_unexpected(error_of(watched.error()));
+    return {};
+  }
+  open.write({});
+  const falcon::DeviceState state = open.read(100'000).state;
+  const falcon::DeviceInfo& info = open.info();
+  console.say(fmt::format("{} at {}: {}", info.name, info.place, name_of(state)));
+  if (state == falcon::DeviceState::needs_homing) console.say(live::kHomingAdvice);
+  if (console.json)
+    console.print({{"name", info.name},
+                   {"place", info.place},
+                   {"state", name_of(state)},
+                   {"can_push", info.can_push},
+                   {"force_limit_n", info.force_limit_n},
+                   {"half_workspace_mm", info.half_workspace_mm.x},
+                   {"rate_hz", info.rate_hz}});
+  return {};
+}
+
+}  // namespace
+
+void add_devices_command(CLI::App& app, Console& console, int& exit) {
+  auto options = std::make_shared<DevicesOptions>();
+  CLI::App* command = app.add_subcommand(
+      "devices", "Say what is plugged in, whether it can be used, and what to do if not");
+  command
+      ->add_option("which", options->which,
+                   "Open one: auto, falcon, bridge, spacemouse, simulated, or a place")
+      ->check(CLI::Validator(check_device_name, ""));
+  add_falcon_options(*command, options->falcon);
+  command->add_flag("--monitor", options->monitor, "Show position and buttons until interrupted");
+  command->add_option("--seconds", options->seconds, "Monitor for so long")
+      ->check(CLI::Validator(in_range(0.0, 1e6), ""));
+  add_place_options(*command, options->mapping);
+  command->footer(
+      "\nExamples:\n  claystack devices\n  claystack devices falcon --firmware FILE --monitor\n"
+      "  claystack devices simulated --monitor --seconds 5\n\n"
+      "Exit status: 0, or 4 when the device asked for can't be opened or fails.");
+  command->callback([options, &console, &exit] {
+    falcon::DeviceSettings settings;
+    settings.falcon = options->falcon;
+    const bool one = options->monitor || !options->which.empty();
+    const auto done = one ? show(*options, settings, console) : list(settings, console);
+    exit = done ? kDone : report(done.error());
+  });
+}
+
+}  // namespace clay::app

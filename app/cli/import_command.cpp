@@ -1,0 +1,121 @@
+#include "app/cli/commands.hpp"
+#include "app/cli/pot_copy.hpp"
+#include "app/import/drawn_pot.hpp"
+
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace clay::app {
+namespace {
+
+using namespace drawing;
+
+struct ImportOptions {
+  std::string drawing, pot, axis;
+  HalfSectionSettings section;
+  DrawnPotSettings pot_settings;
+};
+
+Result<void> set_axis(ImportOptions& options) {
+  HalfSectionSettings& section = options.section;
+  if (options.axis.empty()) return {};
+  if (options.axis == "left" || options.axis == "middle") {
+    section.axis = options.axis == "left" ? AxisRule::left : AxisRule::middle;
+    return {};
+  }
+  const char* end = options.axis.data() + options.axis.size();
+  const auto [stop, problem] = std::from_chars(options.axis.data(), end, section.axis_mm);
+  if (problem != std::errc() || stop != end || !(std::abs(section.axis_mm) <= 1e6))
+    return failure(
+        ErrorKind::bad_input,
+        fmt::format("--axis: expected left, middle or a place in mm, found {}", options.axis));
+  section.axis = AxisRule::at;
+  return {};
+}
+
+Json summary(const ImportOptions& options, const HalfSection& section, const Pot& pot) {
+  return {{"drawing", options.drawing},
+          {"axis_mm", section.axis_mm},
+          {"axis", section.axis == AxisRule::middle ? "middle"
+                   : section.axis == AxisRule::left ? "left"
+                                                    : "at"},
+          {"rings", pot.stack.size()},
+          {"ring_height_mm", pot.stack.ring_height_mm()},
+          {"height_mm", pot.stack.height_mm()},
+          {"drawn_mm3", section.volume_mm3()},
+          {"volume_mm3", pot.stack.volume_mm3()}};
+}
+
+void tell(const Console& console, const Json& json) {
+  console.say(fmt::format("axis at x = {:.3f} mm of the drawing ({})",
+                          json["axis_mm"].get<double>(), json["axis"].get<std::string>()));
+  console.say(fmt::format("{} rings of {:.4g} mm: {:.1f} mm high, {:.1f} cm3 of clay, {:.1f} drawn",
+                          json["rings"].get<std::size_t>(), json["ring_height_mm"].get<double>(),
+                          json["height_mm"].get<double>(), json["volume_mm3"].get<double>() / 1e3,
+                          json["drawn_mm3"].get<double>() / 1e3));
+}
+
+Result<void> import_drawing(ImportOptions options, Console console) {
+  if (options.pot == "-") console.quiet = true;
+  if (auto axis = set_axis(options); !axis) return axis;
+  if (auto distinct = check_distinct({options.pot}, {options.drawing}); !distinct) return distinct;
+  const auto bytes = read_file(options.drawing);
+  if (!bytes) return tl::make_unexpected(bytes.error());
+  auto drawing = read_drawing(*bytes, options.drawing);
+  if (!drawing) return tl::make_unexpected(drawing.error());
+  const auto section = half_section(std::move(*drawing), options.section, options.drawing);
+  if (!section) return tl::make_unexpected(section.error());
+  const auto pot = drawn_pot(*section, options.pot_settings, options.drawing);
+  if (!pot) return tl::make_unexpected(pot.error());
+  const PotEncoding encoding = pot_encoding_of(options.pot).value_or(PotEncoding::json);
+  if (auto done = publish(options.pot, write_pot(*pot, encoding)); !done) return done;
+  const Json json = summary(options, *section, *pot);
+  if (console.json) console.print(json);
+  tell(console, json);
+  console.say("pot: " + options.pot);
+  return {};
+}
+
+}  // namespace
+
+void add_import_command(CLI::App& app, Console& console, int& exit) {
+  auto options = std::make_shared<ImportOptions>();
+  CLI::App* command = app.add_subcommand(
+      "import", "Make a pot from a drawing of its section, to throw on or to print");
+  command->add_option("drawing", options->drawing, "NAME.svg, NAME.dxf or NAME.csv")->required();
+  command->add_option("-o,--output", options->pot, "NAME.pot.json or NAME.pot.cbor")->required();
+  command->add_option("--axis", options->axis,
+                      "The pot's axis in the drawing: left, middle, or its place [mm]; by itself: "
+                      "the middle of a symmetric drawing, otherwise its left end");
+  command->add_option("--height", options->section.height_mm, "Scale the drawing to this [mm]")
+      ->check(in_range(0.01, 1e5));
+  command
+      ->add_option("--wall", options->pot_settings.wall_mm,
+                   "Hollow a drawing of the outside: wall, and floor, this thick [mm]")
+      ->check(in_range(0.01, 1000.0));
+  command->add_option("--ring-height", options->pot_settings.ring_height_mm, "About [mm]")
+      ->check(in_range(1e-3, 1e3))
+      ->capture_default_str();
+  command->add_option("--density", options->pot_settings.density_g_cm3, "Of the clay [g/cm3]")
+      ->check(in_range(0.1, 20.0))
+      ->capture_default_str();
+  command->footer(
+      "\nExamples:\n  claystack import vase.svg -o vase.pot.json --height 180\n"
+      "  claystack import outline.csv --wall 6 -o lump.pot.json\n"
+      "  claystack throw samples/bowl.scene.json --from lump.pot.json --device auto -o "
+      "mine.pot.json");
+  command->callback([options, &console, &exit] {
+    const auto done = import_drawing(*options, console);
+    exit = done ? kDone : report(done.error());
+  });
+}
+
+}  // namespace clay::app

@@ -1,0 +1,73 @@
+#include "app/cli/live_keys.hpp"
+
+#include "app/servo/signals.hpp"
+
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <thread>
+
+namespace clay::app {
+namespace {
+
+// Static, and set before the signals know of it: a handler puts it back.
+termios before{};
+
+void put_back() noexcept { tcsetattr(STDIN_FILENO, TCSANOW, &before); }
+
+/// In the background a terminal belongs to somebody else.
+bool is_ours() {
+  return isatty(STDIN_FILENO) == 1 && tcgetpgrp(STDIN_FILENO) == getpgrp() &&
+         tcgetattr(STDIN_FILENO, &before) == 0;
+}
+
+}  // namespace
+
+LiveKeys::LiveKeys() : on_(is_ours()) {
+  if (!on_) return;
+  live::ForceSignals::at_the_end(put_back);
+  termios raw = before;
+  raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);  // Ctrl-C and Ctrl-\ stay signals
+  raw.c_cc[VMIN] = raw.c_cc[VTIME] = 0;
+  tcsetattr(STDIN_FILENO, TCSANOW, &raw);
+}
+
+LiveKeys::~LiveKeys() {
+  if (!on_) return;
+  // Keys that nobody took are not the shell's.
+  tcsetattr(STDIN_FILENO, TCSAFLUSH, &before);
+  live::ForceSignals::at_the_end(nullptr);
+}
+
+void LiveKeys::serve(live::Servo& servo, std::chrono::milliseconds time) {
+  if (!on_) return std::this_thread::sleep_for(time);
+  pollfd input{STDIN_FILENO, POLLIN, 0};
+  if (poll(&input, 1, static_cast<int>(time.count())) <= 0) return;
+  char key = 0;
+  if (read(STDIN_FILENO, &key, 1) == 1) return press(key, servo);
+  std::this_thread::sleep_for(time);  // hung up
+}
+
+void LiveKeys::press(char key, live::Servo& servo) {
+  using live::CommandKind;
+  switch (key) {
+    case ' ':
+      paused_ = !paused_;
+      servo.command({CommandKind::pause, paused_ ? 1.0 : 0.0});
+      break;
+    case 'z':
+      servo.command({CommandKind::zero, 0.0});
+      break;
+    case 'r':
+      servo.command({CommandKind::rearm, 0.0});
+      break;
+    case 'q':
+      servo.command({CommandKind::stop, 0.0});
+      break;
+    default:
+      break;
+  }
+}
+
+}  // namespace clay::app

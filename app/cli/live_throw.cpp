@@ -1,0 +1,305 @@
+#include "app/cli/live_throw.hpp"
+
+#include "app/cli/clay_summary.hpp"
+#include "app/cli/device_choice.hpp"
+#include "app/cli/live_keys.hpp"
+#include "app/cli/live_report.hpp"
+#include "app/cli/replay.hpp"
+#include "app/cli/rescue.hpp"
+#include "app/servo/scene_hand.hpp"
+#include "app/servo/servo_check.hpp"
+#include "app/servo/signals.hpp"
+#include "app/servo/words.hpp"
+
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+namespace clay::app {
+namespace {
+
+using namespace std::chrono_literals;
+using live::Ending;
+
+constexpr auto kLook = 20ms;  // at the servo, for its end
+constexpr auto kReopen = 500ms;
+
+/// Refuses a scene that is too stiff for the arm, or softens it.
+Result<void> fit_stiffness(SceneSpec& scene, const StepPlan& plan, const LiveOptions& options,
+                           double gain, const Console& console) {
+  falcon::SampledLoop arm = options.settings.arm;
+  arm.rate_hz = options.settings.rate_hz;
+  const auto contact = servo_contact(scene, plan, arm, gain);
+  if (!contact) return tl::make_unexpected(contact.error());
+  if (!options.soften) {
+    const auto checked = check_servo(scene, plan, arm, gain);
+    if (checked) return {};
+    return failure(checked.error().kind, checked.error().message + "; or --soften");
+  }
+  if (const double part = soften(scene, *contact); part < 1.0)
+    console.say(fmt::format("stiffness lowered to {:.3g} of the scene's", part));
+  return {};
+}
+
+/// All that a live throw is made of, in the order in which it is made.
+struct Stage {
+  std::vector<Pose> stroke;  // of the simulated hand
+  SceneSpec scene;
+  std::uint64_t scene_hash = 0;
+  std::optional<Wheel> wheel;
+  std::optional<AtomicFile> pot_file;
+  std::unique_ptr<live::Recorder> recorder;
+  std::unique_ptr<falcon::HapticDevice> device;
+  live::MonotonicClock clock;
+  std::optional<live::ServoLoop> loop;
+};
+
+/// The simulated hand's stroke: how long it takes, and where the hand works unless that is said.
+Result<void> take_up_stroke(const LiveJob& job, LiveOptions& options, Stage& stage) {
+  std::error_code ignored;
+  if (options.device != "simulated" || job.stroke_path.empty() ||
+      !std::filesystem::exists(job.stroke_path, ignored))
+    return {};
+  auto session = load_session(job.stroke_path);
+  if (!session) return tl::make_unexpected(session.error());
+  stage.stroke = std::move(session->poses);
+  live::LiveSettings& settings = options.settings;
+  if (settings.seconds == 0.0) settings.seconds = live::seconds_of(stage.stroke);
+  if (settings.mapping == live::MappingSettings{})
+    settings.mapping = live::fitted(settings.mapping, stage.stroke, live::kSimulatedReachMm);
+  return {};
+}
+
+std::string written_pot(const LiveJob& job, const Pot& pot) {
+  const bool cbor = job.pot_path.ends_with(".cbor");
+  return write_pot(pot, cbor ? PotEncoding::cbor : PotEncoding::json);
+}
+
+/// Only writing shows that a disk is full: the pot as it is now is tried, where that leaves
+/// nothing.
+Result<AtomicFile> open_pot_file(const LiveJob& job, const Pot& pot) {
+  {
+    auto trial = AtomicFile::create(job.pot_path);
+    if (!trial || !trial->rereadable()) return trial;
+    if (auto fits = trial->write(written_pot(job, pot)); !fits)
+      return tl::make_unexpected(fits.error());
+  }
+  return AtomicFile::create(job.pot_path);
+}
+
+/// Before anything is thrown: what cannot be written then would cost the pot.
+Result<void> open_outputs(const LiveJob& job, const LiveOptions& options, Stage& stage) {
+  if (!job.pot_path.empty()) {
+    auto file = open_pot_file(job, stage.wheel->pot());
+    if (!file) return tl::make_unexpected(file.error());
+    stage.pot_file.emplace(std::move(*file));
+  }
+  if (options.record.empty()) return {};
+  auto recorder = live::Recorder::create(options.record, stage.scene.name, stage.scene_hash);
+  if (!recorder) return tl::make_unexpected(recorder.error());
+  stage.recorder = std::move(*recorder);
+  return {};
+}
+
+Result<void> open_device(LiveOptions& options, const live::Mapping& mapping, Stage& stage) {
+  auto device =
+      open_chosen(options.device, options.falcon, live::simulated_potter(stage.stroke, mapping));
+  if (!device) return tl::make_unexpected(device.error());
+  stage.device = std::move(*device);
+  options.settings.buttons =
+      stage.device->info().can_push ? live::kFalconButtons : live::kTwoButtons;
+  return {};
+}
+
+Result<void> build(const LiveJob& job, LiveOptions& options, const Console& console, Stage& stage) {
+  falcon::GuardSettings& guard = options.settings.guard;
+  guard.hot_force_n = std::min(guard.hot_force_n, 0.8 * guard.force_limit_n);
+  if (auto taken = take_up_stroke(job, options, stage); !taken) return taken;
+  if (auto checked = check(options.settings); !checked) return checked;
+  const auto mapping = live::Mapping::build(options.settings.mapping);
+  if (!mapping) return tl::make_unexpected(mapping.error());
+  auto scene = load_scene(job.scene_path);
+  if (!scene) return tl::make_unexpected(scene.error());
+  stage.scene = std::move(*scene);
+  if (!job.model.empty())
+    stage.scene.model = job.model == "paper" ? Model::paper : Model::conserving;
+  stage.scene_hash = hash_of(stage.scene);
+  const auto named = [&](const Error& error) {
+    return failure(error.kind, job.scene_path + ": " + error.message);
+  };
+  const auto plan = StepPlan::build(stage.scene);
+  if (!plan) return named(plan.error());
+  if (auto fits = fit_stiffness(stage.scene, *plan, options, mapping->stiffness_gain(), console);
+      !fits)
+    return named(fits.error());
+  auto wheel = build_wheel(stage.scene, job.scene_path, job.from_path);
+  if (!wheel) return tl::make_unexpected(wheel.error());
+  stage.wheel.emplace(std::move(*wheel));
+
+  if (auto opened = open_outputs(job, options, stage); !opened) return opened;
+  if (auto opened = open_device(options, *mapping, stage); !opened) return opened;
+  auto loop = live::ServoLoop::build(
+      {*stage.wheel, *stage.device, stage.clock, stage.recorder.get()}, options.settings);
+  if (!loop) return tl::make_unexpected(loop.error());
+  stage.loop.emplace(std::move(*loop));
+  return {};
+}
+
+/// Shows the servo until it ends.
+void watch(live::Servo& servo, LiveKeys& keys, StatusLine& line) {
+  std::uint64_t ticks = 0;
+  auto since = std::chrono::steady_clock::now();
+  double rate_hz = 0.0;
+  while (servo.running()) {
+    keys.serve(servo, kLook);
+    if (!line.due()) continue;
+    const live::LiveStatus& status = servo.view().status.newest();
+    const auto now = std::chrono::steady_clock::now();
+    rate_hz = static_cast<double>(status.ticks - ticks) /
+              std::chrono::duration<double>(now - since).count();
+    ticks = status.ticks;
+    since = now;
+    line.show(status_line(status, rate_hz));
+  }
+}
+
+/// Tries to open the device again until it can be, or a signal comes.
+bool comes_back(falcon::HapticDevice& device) {
+  while (live::ForceSignals::asked_to_stop() == 0) {
+    if (device.open()) return true;
+    std::this_thread::sleep_for(kReopen);
+  }
+  return false;
+}
+
+/// Ends with the hand free of force. Within the life of a live::ForceSignals.
+Ending run(Stage& stage, const LiveOptions& options, const Console& console,
+           live::Realtime& realtime) {
+  LiveKeys keys;
+  if (keys.on()) console.say(kKeysInWords);
+  StatusLine line(console);
+  for (;;) {
+    live::Servo servo({*stage.wheel, *stage.device, stage.clock, stage.recorder.get()}, *stage.loop,
+                      true);
+    servo.start();
+    // A signal before this found nothing to stop.
+    if (live::ForceSignals::asked_to_stop() != 0) servo.command({live::CommandKind::stop, 0.0});
+    watch(servo, keys, line);
+    const Ending ending = servo.join();
+    realtime = servo.realtime();
+    if (ending != Ending::device_lost || !options.wait) return ending;
+    line.clear();
+    console.warn(text_of(stage.device->problem()) + "; waiting for it");
+    if (!comes_back(*stage.device)) return Ending::stopped;
+  }
+}
+
+Json frames_json(const falcon::DeviceCounters& counters) {
+  return {{"taken", counters.frames},
+          {"bytes_discarded", counters.bytes_discarded},
+          {"without_pose", counters.without_pose},
+          {"writes_dropped", counters.writes_dropped}};
+}
+
+Json recording_json(const LiveOptions& options, const Stage& stage) {
+  if (!stage.recorder) return nullptr;
+  return {{"path", options.record},
+          {"poses", stage.recorder->taken()},
+          {"lost", stage.recorder->lost()}};
+}
+
+struct Kept {
+  Result<void> session, pot;
+};
+
+Result<void> keep_session(const LiveOptions& options, const Console& console, Stage& stage) {
+  if (!stage.recorder) return {};
+  auto kept = stage.recorder->finish();
+  if (kept && stage.recorder->lost() > 0)
+    console.warn(
+        fmt::format("{}: the disk was too slow: the last {} poses are not in it, and it "
+                    "replays to the pot as it was before them",
+                    options.record, stage.recorder->lost()));
+  return kept;
+}
+
+Result<void> keep_pot(const LiveJob& job, Stage& stage, const Pot& pot) {
+  if (!stage.pot_file) return {};
+  const std::string bytes = written_pot(job, pot);
+  const auto written =
+      stage.pot_file->write(bytes).and_then([&] { return stage.pot_file->commit(); });
+  if (written) return written;
+  const auto rescued = rescue(job.pot_path, stage.pot_file->rereadable(), bytes);
+  return failure(written.error().kind,
+                 written.error().message + (rescued ? "; the pot is in " + rescued->string()
+                                                    : "; nor could the pot be kept elsewhere: " +
+                                                          rescued.error().message));
+}
+
+/// Whatever went wrong, all else is kept; the error is the first.
+Result<void> first_error(const Kept& kept, const Console& console) {
+  if (!kept.session && !kept.pot) console.warn(kept.pot.error().message);
+  return kept.session ? kept.pot : kept.session;
+}
+
+void tell(const LiveJob& job, const LiveOptions& options, const Console& console, const Json& json,
+          const Kept& kept) {
+  console.say(fmt::format("{:.1f} s on the wheel, {} poses, ended: {}",
+                          json["seconds"].get<double>(), json["poses"].get<std::uint64_t>(),
+                          json["ended"].get<std::string>()));
+  console.say(fmt::format("{} rings, {:.1f} mm high, {:.1f} cm3 of clay; volume error: {} quanta",
+                          json["rings"].get<std::size_t>(), json["height_mm"].get<double>(),
+                          json["volume_mm3"].get<double>() / 1000.0,
+                          json["volume_error_quanta"].dump()));
+  tell_collapse(console, json);
+  tell_servo(console, json["servo"]);
+  if (!job.pot_path.empty() && kept.pot) console.say("pot: " + job.pot_path);
+  if (options.record.empty() || !kept.session) return;
+  const bool empty = json["recording"]["poses"].get<std::uint64_t>() == 0;
+  console.say("session: " + (empty ? "not written, since no pose was recorded" : options.record));
+}
+
+}  // namespace
+
+Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console) {
+  if (job.pot_path == "-") console.quiet = true;
+  Stage stage;
+  if (auto built = build(job, options, console, stage); !built) return built;
+  live::Realtime realtime;
+  // Until pot and session are kept: a terminal that closes may send its signal twice.
+  std::optional<live::ForceSignals> signals(std::in_place);
+  const Ending ending = run(stage, options, console, realtime);
+  const Pot pot = stage.wheel->pot();
+  const Kept kept = {keep_session(options, console, stage), keep_pot(job, stage, pot)};
+  signals.reset();
+
+  const live::LiveStatus& status = stage.loop->status();
+  Json json = {{"scene", stage.scene.name},
+               {"device", stage.device->info().name},
+               {"ended", name_of(ending)},
+               {"seconds", status.time_s},
+               {"poses", status.poses},
+               {"frames", frames_json(stage.device->counters())},
+               {"recording", recording_json(options, stage)},
+               {"servo", servo_json(stage.loop->timing(), stage.loop->events(), realtime)}};
+  json.update(clay_json(*stage.wheel, pot));
+  if (console.json) console.print(json);
+  tell(job, options, console, json, kept);
+  if (auto all = first_error(kept, console); !all) return all;
+  if (ending == Ending::device_lost) return tl::make_unexpected(error_of(stage.device->problem()));
+  if (ending == Ending::time_up && status.poses == 0)
+    return failure(ErrorKind::device, stage.device->info().place + ": nothing was thrown; " +
+                                          live::words_of(status, kRearmKey));
+  return {};
+}
+
+}  // namespace clay::app

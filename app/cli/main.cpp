@@ -1,0 +1,107 @@
+#include "app/cli/commands.hpp"
+
+#include "claystack/core/atomic_file.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <csignal>
+#include <string>
+#include <string_view>
+
+namespace {
+
+constexpr const char* kExamples = R"(
+Examples:
+  claystack throw samples/bowl.scene.json -o bowl.pot.json
+  claystack export bowl.pot.json bowl.stl bowl.obj bowl.drc
+  claystack check bowl.stl
+  claystack render bowl.pot.json -o bowl.png
+  claystack plan samples/bowl.scene.json
+  claystack studio
+  claystack bench --quick --report bench.html
+
+Exit status: 0 done and sound; 1 done, but the pot or mesh fails a check;
+2 bad usage or bad input; 3 could not read or write; 4 a device failed.)";
+
+/// A signal that ends the program leaves no temporary file.
+void on_end(int signal) {
+  clay::remove_temporary_files();
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+/// A signal that is ignored stays ignored, as nohup wants it. live::ForceSignals takes the place of
+/// these for as long as it lives.
+void handle_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE})
+    if (std::signal(signal, on_end) == SIG_IGN) std::signal(signal, SIG_IGN);
+}
+
+int run(int argc, char** argv) {
+  using namespace clay::app;
+  CLI::App app("Throw a pot on a virtual wheel, and take home a file that prints.", "claystack");
+  app.set_version_flag("--version", version_text());
+  app.footer(kExamples);
+  app.require_subcommand(1);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string("claystack: ") + error.what() + "\nclaystack --help tells more\n";
+  });
+
+  Console console;
+  int exit = kDone;
+  add_throw_command(app, console, exit);
+#ifdef CLAYSTACK_EXPORT
+  add_export_command(app, console, exit);
+  add_check_command(app, console, exit);
+#endif
+  add_plan_command(app, console, exit);
+#ifdef CLAYSTACK_DRAWINGS
+  add_import_command(app, console, exit);
+#endif
+#ifdef CLAYSTACK_WINDOW
+  add_render_command(app, console, exit);
+#endif
+#ifdef CLAYSTACK_USB
+  add_devices_command(app, console, exit);
+#endif
+#ifdef CLAYSTACK_BENCH
+  add_bench_command(app, console, exit);
+#endif
+#ifdef CLAYSTACK_STUDIO
+  add_studio_command(app, exit);
+#endif
+  const auto commands = app.get_subcommands({});
+  for (CLI::App* command : commands) {
+    if (command->get_name() == "studio") continue;  // hands all it is given to another program
+    command->add_flag("--json", console.json, "Data as JSON on standard output");
+    command->add_flag("-q,--quiet", console.quiet, "Errors only");
+  }
+  const bool known = argc < 2 || argv[1][0] == '-' ||
+                     std::any_of(commands.begin(), commands.end(), [&](const CLI::App* command) {
+                       return command->check_name(argv[1]);
+                     });
+#ifndef CLAYSTACK_BENCH
+  if (argc > 1 && std::string_view(argv[1]) == "bench")
+    return report({clay::ErrorKind::bad_input,
+                   "bench: expected a program built with its measurements (cmake --preset release "
+                   "-DCLAYSTACK_BENCH=ON), found one without"});
+#endif
+  if (!known)
+    return report(
+        {clay::ErrorKind::bad_input,
+         std::string("expected a command (claystack --help lists them), found ") + argv[1]});
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return report(app, error);
+  }
+  return exit;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  handle_signals();
+  return clay::app::run_program(run, argc, argv);
+}

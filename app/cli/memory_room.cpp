@@ -1,0 +1,43 @@
+#include "app/cli/memory_room.hpp"
+
+#include <fmt/format.h>
+
+#include <sys/resource.h>
+#include <algorithm>
+#include <fstream>
+
+namespace clay::app {
+namespace {
+
+/// A figure in kB of one of the kernel's tables, in bytes; nothing where it has none.
+std::uint64_t kernel_figure(const char* table, std::string_view label) {
+  std::ifstream lines(table);
+  for (std::string word; lines >> word;) {
+    std::uint64_t kb = 0;
+    if (word == label && lines >> kb) return 1024 * kb;
+  }
+  return 0;
+}
+
+}  // namespace
+
+MemoryRoom memory_room() {
+  MemoryRoom room;
+  if (const auto free = kernel_figure("/proc/meminfo", "MemAvailable:"); free > 0)
+    room = {free + kernel_figure("/proc/meminfo", "SwapFree:"), "what this machine has free"};
+  rlimit space{};
+  if (::getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY) {
+    const std::uint64_t used = kernel_figure("/proc/self/status", "VmSize:");
+    const std::uint64_t left = space.rlim_cur - std::min<std::uint64_t>(used, space.rlim_cur);
+    if (left < room.bytes) room = {left, "the limit on address space (ulimit -v)"};
+  }
+  return room;
+}
+
+std::string needs_text(std::uint64_t bytes, const MemoryRoom& room) {
+  const auto gb = [](std::uint64_t n) { return static_cast<double>(n) / 1e9; };
+  return fmt::format("takes about {:.2g} GB of memory; {:.2g} GB are left under {}", gb(bytes),
+                     gb(room.bytes), room.limit);
+}
+
+}  // namespace clay::app

@@ -1,0 +1,117 @@
+#include "app/bench/stage_cost.hpp"
+#include "app/cli/commands.hpp"
+#include "app/cli/replay.hpp"
+#ifdef CLAYSTACK_FALCON
+#include "app/servo/servo_check.hpp"
+#endif
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace clay::app {
+namespace {
+
+// Below 3 % the clock's noise is louder than the stage.
+constexpr double kMeasurable = 1.03;
+
+Json line_json(const PlanLine& line, const StageCost* saved) {
+  Json json = {{"stage", line.stage}, {"in", line.in}, {"why", line.why}};
+  if (saved) json["saved_ns"] = saved->with_ns - saved->without_ns;
+  return json;
+}
+
+std::string line_text(const PlanLine& line, const StageCost* saved) {
+  std::string text = fmt::format("{:<4}{:<15}{}", line.in ? "in" : "out", line.stage, line.why);
+  if (saved && saved->with_ns > kMeasurable * saved->without_ns)
+    text += fmt::format(" (with it {:.0f} ns a tick, without {:.0f})", saved->with_ns,
+                        saved->without_ns);
+  else if (saved)
+    text += " (nothing measurable saved)";
+  return text;
+}
+
+struct PlanOptions {
+  std::string scene;
+  std::optional<double> rate_hz;  ///< of a servo; absent: no arm is asked about
+  double damping_ns_per_m = 2.0;
+  int delay_ticks = 1;
+};
+
+#ifdef CLAYSTACK_FALCON
+Result<void> plan_servo(const SceneSpec& scene, const StepPlan& plan, const PlanOptions& options,
+                        const Console& console, Json& json) {
+  falcon::SampledLoop loop;
+  loop.rate_hz = *options.rate_hz;
+  loop.damping_ns_per_m = options.damping_ns_per_m;
+  loop.delay_ticks = options.delay_ticks;
+  const auto contact = check_servo(scene, plan, loop);
+  if (!contact)
+    return failure(contact.error().kind, options.scene + ": " + contact.error().message);
+  json["servo"] = {{"contact_height_mm", contact->height_mm},
+                   {"stiffness_n_per_m", contact->stiffness_n_per_m},
+                   {"accepted_n_per_m", contact->accepted_n_per_m}};
+  console.say(fmt::format("{:<19}{:.4g} N/m at most, {:.4g} are accepted at {:.6g} Hz", "contact",
+                          contact->stiffness_n_per_m, contact->accepted_n_per_m, loop.rate_hz));
+  return {};
+}
+
+void add_servo_options(CLI::App& command, PlanOptions& options) {
+  command.add_option("--rate", options.rate_hz,
+                     "Can an arm render the scene's contact at this servo rate [Hz]?");
+  command.add_option("--damping", options.damping_ns_per_m, "Of that arm [N s/m]")
+      ->capture_default_str();
+  command.add_option("--delay", options.delay_ticks, "From a reading to its force [ticks]")
+      ->capture_default_str();
+}
+#endif
+
+Result<void> plan_scene(const PlanOptions& options, const Console& console) {
+  const std::string& path = options.scene;
+  const auto scene = load_scene(path);
+  if (!scene) return tl::make_unexpected(scene.error());
+  const auto wheel = Wheel::build(*scene);
+  if (!wheel) return failure(wheel.error().kind, path + ": " + wheel.error().message);
+
+  Json json = {{"scene", scene->name}, {"in", Json::array()}, {"left_out", Json::array()}};
+  for (const PlanLine& line : wheel->plan().lines) {
+    const auto cost = line.in ? std::nullopt : cost_of(*scene, line.stage);
+    const StageCost* saved = cost ? &*cost : nullptr;
+    json[line.in ? "in" : "left_out"].push_back(line_json(line, saved));
+    console.say(line_text(line, saved));
+  }
+  if (!timed_stroke(*scene, kFirmMm))
+    console.say(fmt::format("no times: a tick may reach {:.0f} rings, expected at most {}",
+                            rings_in_reach(*scene), kMostRingsInReach));
+#ifdef CLAYSTACK_FALCON
+  if (options.rate_hz)
+    if (auto done = plan_servo(*scene, wheel->plan(), options, console, json); !done) return done;
+#endif
+  if (console.json) console.print(json);
+  return {};
+}
+
+}  // namespace
+
+void add_plan_command(CLI::App& app, Console& console, int& exit) {
+  auto options = std::make_shared<PlanOptions>();
+  CLI::App* command =
+      app.add_subcommand("plan", "Say what a scene needs, what is left out, and what that saves");
+  command->add_option("scene", options->scene, "NAME.scene.json, or - for standard input")
+      ->required();
+#ifdef CLAYSTACK_FALCON
+  add_servo_options(*command, *options);
+#endif
+  command->footer(
+      "\nExamples:\n  claystack plan samples/bowl.scene.json\n"
+      "  claystack plan samples/bowl.scene.json --rate 1000 --damping 2");
+  command->callback([options, &console, &exit] {
+    const auto done = plan_scene(*options, console);
+    exit = done ? kDone : report(done.error());
+  });
+}
+
+}  // namespace clay::app

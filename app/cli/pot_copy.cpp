@@ -1,0 +1,48 @@
+#include "app/cli/pot_copy.hpp"
+
+#include "claystack/engine/clay.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace clay::app {
+
+std::optional<PotEncoding> pot_encoding_of(std::string_view path) {
+  if (path.ends_with(".pot.json")) return PotEncoding::json;
+  if (path.ends_with(".pot.cbor")) return PotEncoding::cbor;
+  return std::nullopt;
+}
+
+PotCopy describe_copy(const Pot& pot, PotEncoding encoding, std::size_t bytes) {
+  PotCopy copy{encoding, bytes, std::nullopt};
+  if (!pot.rounding) return copy;
+  const double exact_mm3 =
+      static_cast<double>(pot.rounding->exact_volume) * pot.stack.mm3_per_quantum();
+  copy.rounded_to_mm = pot.rounding->to_mm;
+  copy.change_mm3 = volume_change_mm3(pot);
+  copy.change_relative = exact_mm3 > 0.0 ? copy.change_mm3 / exact_mm3 : 0.0;
+  return copy;
+}
+
+Json copy_json(const PotCopy& copy, const std::string& path) {
+  Json json = {{"path", path},
+               {"format", copy.encoding == PotEncoding::cbor ? "pot.cbor" : "pot.json"},
+               {"bytes", copy.bytes}};
+  if (copy.rounded_to_mm) {
+    json["rounded_to_mm"] = *copy.rounded_to_mm;
+    json["volume_change_mm3"] = copy.change_mm3;
+    json["volume_change_relative"] = copy.change_relative;
+  }
+  return json;
+}
+
+std::string copy_text(const PotCopy& copy, const std::string& path) {
+  const std::string what =
+      copy.rounded_to_mm
+          ? fmt::format("rounded to {} mm; counted clay changed by {:.3g} mm3 ({:.1e} relative)",
+                        *copy.rounded_to_mm, copy.change_mm3, copy.change_relative)
+          : "exact";
+  return fmt::format("{}: the pot, {} bytes, {}", path, copy.bytes, what);
+}
+
+}  // namespace clay::app

@@ -1,0 +1,30 @@
+#pragma once
+// Pots among the files to write: from one encoding to the other, exactly or rounded.
+
+#include "app/cli/console.hpp"
+#include "claystack/engine/files.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace clay::app {
+
+/// The encoding that a name asks for; nothing for files that hold no pots.
+[[nodiscard]] std::optional<PotEncoding> pot_encoding_of(std::string_view path);
+
+/// What was written, for the report.
+struct PotCopy {
+  PotEncoding encoding = PotEncoding::json;
+  std::size_t bytes = 0;
+  std::optional<double> rounded_to_mm;
+  double change_mm3 = 0.0;  ///< of the counted clay, by rounding
+  double change_relative = 0.0;
+};
+
+[[nodiscard]] PotCopy describe_copy(const Pot& pot, PotEncoding encoding, std::size_t bytes);
+[[nodiscard]] Json copy_json(const PotCopy& copy, const std::string& path);
+[[nodiscard]] std::string copy_text(const PotCopy& copy, const std::string& path);
+
+}  // namespace clay::app

@@ -1,0 +1,129 @@
+#include "app/cli/commands.hpp"
+#include "app/cli/render_job.hpp"
+
+#include "app/render/offscreen.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <charconv>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace clay::app {
+namespace {
+
+std::optional<draw::Viewport> size_of(std::string_view text) {
+  draw::Viewport size;
+  const char* const end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.width_px);
+  if (width.ec != std::errc() || width.ptr == end || *width.ptr != 'x') return std::nullopt;
+  const auto height = std::from_chars(width.ptr + 1, end, size.height_px);
+  const auto fits = [](int side) { return side >= 1 && side <= draw::kMaxSidePx; };
+  if (height.ec != std::errc() || height.ptr != end || !fits(size.width_px) ||
+      !fits(size.height_px))
+    return std::nullopt;
+  return size;
+}
+
+void add_size(CLI::App& sub, RenderCommand& command) {
+  sub.add_option_function<std::string>(
+         "--size", [&command](const std::string& text) { command.size = *size_of(text); },
+         "Width x height [px]")
+      ->check([](const std::string& text) {
+        return size_of(text) ? std::string()
+                             : fmt::format("expected WIDTHxHEIGHT, 1x1 to {0}x{0}, found {1}",
+                                           draw::kMaxSidePx, text);
+      })
+      ->default_str("1280x720");
+}
+
+void tell(const Console& console, const RenderCommand& command, const Rendered& done) {
+  const std::string size = fmt::format("{} x {} px", command.size.width_px, command.size.height_px);
+  if (!command.out.empty() && command.out != "-")
+    console.say(fmt::format("{}: {}, {} bytes", command.out, size, done.png_bytes));
+  if (!command.turntable.empty() && command.turntable != "-")
+    console.say(fmt::format("{}: {} frames of {}, {} bytes", command.turntable, command.frames,
+                            size, done.gif_bytes));
+  if (done.map)
+    console.say(fmt::format(
+        "walls: dark blue 0 mm to yellow {:g} mm{}; thinnest {:.3f} mm", done.map->top_mm,
+        done.map->limit_mm > 0.0 ? fmt::format(", hatched red below {:.3f} mm", done.map->limit_mm)
+                                 : std::string(),
+        *done.thinnest_mm));
+  if (done.frame)
+    console.say(fmt::format("{:.1f} ms a frame of {}, {:.1f} ms anti-aliased, on {}",
+                            done.frame->ms, size, done.frame->anti_aliased_ms, done.renderer));
+}
+
+Json rendered_json(const RenderCommand& command, const Rendered& done) {
+  Json json = {{"pot", command.pot},
+               {"width_px", command.size.width_px},
+               {"height_px", command.size.height_px},
+               {"renderer", done.renderer}};
+  if (!command.out.empty()) json["png"] = {{"path", command.out}, {"bytes", done.png_bytes}};
+  if (!command.turntable.empty())
+    json["gif"] = {
+        {"path", command.turntable}, {"bytes", done.gif_bytes}, {"frames", command.frames}};
+  if (done.map)
+    json["wall_map"] = {{"limit_mm", done.map->limit_mm},
+                        {"top_mm", done.map->top_mm},
+                        {"thinnest_mm", *done.thinnest_mm}};
+  if (done.frame)
+    json["frame"] = {{"ms", done.frame->ms}, {"anti_aliased_ms", done.frame->anti_aliased_ms}};
+  return json;
+}
+
+int run(RenderCommand& command, Console console) {
+#ifdef CLAYSTACK_EXPORT
+  if (auto loaded = command.walls.load(); !loaded) return report(loaded.error());
+  if (command.walls.asked()) command.wall_map = true;
+#endif
+  const auto done = render(command, console);
+  if (!done) return report(done.error());
+  if (console.json) console.print(rendered_json(command, *done));
+  if (command.out == "-" || command.turntable == "-") console.quiet = true;
+  tell(console, command, *done);
+  return kDone;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, Console& console, int& exit) {
+  auto command = std::make_shared<RenderCommand>();
+  CLI::App* sub =
+      app.add_subcommand("render", "Draw a pot, without a screen: picture or turntable");
+  sub->add_option("pot", command->pot,
+                  ".pot.json or .pot.cbor; of a NAME.scene.json the lump is drawn")
+      ->required();
+  sub->add_option("-o,--out", command->out, "Picture: .png");
+  sub->add_option("--turntable", command->turntable, "Animation, once around: .gif");
+  sub->add_option("--frames", command->frames, "Of the turntable")
+      ->check(CLI::Range(1, 720))
+      ->capture_default_str();
+  add_size(*sub, *command);
+  sub->add_flag("--section", command->section, "Cut open, to show the walls");
+#ifdef CLAYSTACK_EXPORT
+  sub->add_flag(
+      "--wall-map", command->wall_map,
+      "Colours for the thickness of walls; --min-wall or --process hatch what is thinner");
+  command->walls.add_to(*sub);
+#endif
+  sub->add_option_function<std::string>(
+         "--theme", [command](const std::string& name) { command->dark = name == "dark"; },
+         "light or dark")
+      ->check(CLI::IsMember({"light", "dark"}))
+      ->default_str("light");
+  sub->add_option("--azimuth", command->azimuth_deg, "Of the eye around the pot [degrees]")
+      ->check(in_range(-3600.0, 3600.0));
+  sub->add_option("--elevation", command->elevation_deg, "Of the eye above the pot [degrees]")
+      ->check(in_range(-89.0, 89.0));
+  sub->add_flag("--time", command->time, "How long a frame takes: the median of some");
+  sub->footer(
+      "\nExamples:\n  claystack render bowl.pot.json -o bowl.png\n"
+      "  claystack render vase.pot.json -o walls.png --section --process porcelain\n"
+      "  claystack render vase.pot.json --turntable vase.gif --size 480x480 --theme dark");
+  sub->callback([command, &console, &exit] { exit = run(*command, console); });
+}
+
+}  // namespace clay::app

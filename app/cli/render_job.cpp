@@ -1,0 +1,183 @@
+#include "app/cli/render_job.hpp"
+
+#include "app/render/image_file.hpp"
+#include "app/render/legend.hpp"
+#include "app/render/offscreen.hpp"
+#include "app/render/pot_view.hpp"
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
+#include "claystack/engine/tick.hpp"
+#ifdef CLAYSTACK_EXPORT
+#include "app/render/wall_rows.hpp"
+#include "claystack/export/walls.hpp"
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace clay::app {
+namespace {
+
+constexpr double kMapTopMm = 10.0;
+constexpr int kTurnMs = 3000;  // of a turntable, once around
+constexpr std::size_t kTimedFrames = 15;
+
+Result<void> check_usage(const RenderCommand& command, const Console& console) {
+  if (command.out.empty() && command.turntable.empty() && !command.time)
+    return failure(ErrorKind::bad_input,
+                   "expected -o FILE.png, --turntable FILE.gif or --time, found none");
+  const auto named = [](const std::string& path, const char* ending) {
+    return path.empty() || path == "-" || path.ends_with(ending);
+  };
+  if (!named(command.out, ".png"))
+    return failure(ErrorKind::bad_input, command.out + ": expected a name that ends in .png");
+  if (!named(command.turntable, ".gif"))
+    return failure(ErrorKind::bad_input, command.turntable + ": expected a name that ends in .gif");
+  const int streams = (command.out == "-") + (command.turntable == "-") + console.json;
+  if (streams > 1)
+    return failure(ErrorKind::bad_input, "-: expected one thing only on standard output");
+  return check_distinct({command.out, command.turntable}, {command.pot});
+}
+
+/// A pot as it is; of a scene the lump.
+Result<Pot> clay_of(const std::string& path) {
+  const auto bytes = read_file(path);
+  if (!bytes) return tl::make_unexpected(bytes.error());
+  if (!path.ends_with(".scene.json")) return parse_pot(*bytes, path);
+  return parse_scene(*bytes, path).and_then([](const SceneSpec& scene) {
+    const LumpSpec& lump = scene.lump;
+    return ClayStack::cylinder(lump.rings, lump.ring_height_mm, lump.outer_radius_mm,
+                               lump.inner_radius_mm, max_rings_of(lump))
+        .map([&](ClayStack stack) {
+          return Pot{std::move(stack), {}, scene.model, lump.density_g_cm3, {}, {}};
+        });
+  });
+}
+
+#ifdef CLAYSTACK_EXPORT
+Result<void> map_walls(const RenderCommand& command, const Pot& pot, draw::Picture& picture,
+                       Rendered& done) {
+  const auto demand =
+      command.walls.for_size(4.0 * largest_radius_mm(pot.stack) + pot.stack.height_mm());
+  const double limit = demand ? demand->min_wall_mm : 0.0;
+  const auto profile =
+      draw::wall_profile(pot, demand ? std::optional(limit) : std::optional<double>());
+  if (!profile) return tl::make_unexpected(profile.error());
+  picture.pot.wall_mm = draw::row_walls(*profile, picture.pot.rows.size(), picture.pot.height_mm);
+  picture.wall_map = done.map = draw::WallMap{limit, kMapTopMm};
+  done.thinnest_mm = solid::min_wall_mm(*profile);
+  return {};
+}
+#endif
+
+Result<draw::Picture> picture_of(const RenderCommand& command, Rendered& done) {
+  const auto pot = clay_of(command.pot);
+  if (!pot) return tl::make_unexpected(pot.error());
+  draw::Picture picture;
+  picture.pot = draw::view_of(*pot);
+  picture.theme = command.dark ? draw::Theme::dark : draw::Theme::light;
+  picture.cut = command.section ? draw::Cut::half : draw::Cut::none;
+  picture.camera = draw::framed(picture.pot, command.size.aspect());
+  if (command.azimuth_deg) picture.camera.azimuth_rad = glm::radians(*command.azimuth_deg);
+  if (command.elevation_deg) picture.camera.elevation_rad = glm::radians(*command.elevation_deg);
+  picture.camera = draw::framed(picture.pot, command.size.aspect(), picture.camera);
+#ifdef CLAYSTACK_EXPORT
+  if (command.wall_map)
+    if (auto mapped = map_walls(command, *pot, picture, done); !mapped)
+      return tl::make_unexpected(mapped.error());
+#else
+  (void)done;
+#endif
+  return picture;
+}
+
+Result<draw::Image> drawn(draw::Offscreen& screen, const draw::Picture& picture,
+                          draw::Viewport size) {
+  return screen.draw(picture, size).map([&](draw::Image image) {
+    if (picture.wall_map) draw::draw_legend(*picture.wall_map, picture.theme, image);
+    return image;
+  });
+}
+
+/// Streams the frames into `file`, which the caller commits. Returns its bytes.
+Result<std::uint64_t> turn(draw::Offscreen& screen, draw::Picture picture,
+                           const RenderCommand& command, const Console& console, AtomicFile& file) {
+  const auto frames = static_cast<std::size_t>(command.frames);
+  Progress progress(console, "turning", 2 * frames);  // each frame is drawn twice
+  std::size_t done = 0;
+  picture.cut_azimuth_rad = picture.camera.azimuth_rad;  // turns with the pot
+  const double step = 2.0 * std::numbers::pi / command.frames;
+  const double first = picture.camera.azimuth_rad;
+  const auto frame_at = [&](std::size_t k) {
+    progress.update(done++);
+    picture.camera.azimuth_rad = first - step * static_cast<double>(k);
+    return drawn(screen, picture, command.size);
+  };
+  return draw::write_gif(frames, std::max(20, kTurnMs / command.frames), frame_at,
+                         [&](std::string_view bytes) { return file.write(bytes); });
+}
+
+Result<double> median_ms(draw::Offscreen& screen, const draw::Picture& picture, draw::Viewport size,
+                         int samples) {
+  std::array<double, kTimedFrames> times{};
+  if (auto warm = screen.time_ms(picture, size, samples); !warm) return warm;
+  for (double& time : times) {
+    const auto took = screen.time_ms(picture, size, samples);
+    if (!took) return took;
+    time = *took;
+  }
+  std::nth_element(times.begin(), times.begin() + kTimedFrames / 2, times.end());
+  return times[kTimedFrames / 2];
+}
+
+}  // namespace
+
+Result<Rendered> render(const RenderCommand& command, const Console& console) {
+  if (auto usage = check_usage(command, console); !usage) return tl::make_unexpected(usage.error());
+  Rendered done;
+  const auto picture = picture_of(command, done);
+  if (!picture) return tl::make_unexpected(picture.error());
+  auto screen = draw::Offscreen::create();
+  if (!screen) return tl::make_unexpected(screen.error());
+  done.renderer = screen->renderer();
+  std::string png;  // the picture and the animation are both made before one is published
+  if (!command.out.empty()) {
+    const auto image = drawn(*screen, *picture, command.size);
+    if (!image) return tl::make_unexpected(image.error());
+    png = draw::png_of(*image);
+  }
+  std::optional<AtomicFile> gif;
+  if (!command.turntable.empty()) {
+    auto created = AtomicFile::create(command.turntable);
+    if (!created) return tl::make_unexpected(created.error());
+    gif.emplace(std::move(*created));
+    const auto turned = turn(*screen, *picture, command, console, *gif);
+    if (!turned) return tl::make_unexpected(turned.error());
+    done.gif_bytes = *turned;
+  }
+  if (command.time) {
+    const auto plain = median_ms(*screen, *picture, command.size, 0);
+    const auto smooth = median_ms(*screen, *picture, command.size, draw::kSamples);
+    if (!plain || !smooth) return tl::make_unexpected((plain ? smooth : plain).error());
+    done.frame = FrameTime{*plain, *smooth};
+  }
+  done.png_bytes = png.size();
+  std::optional<AtomicFile> out;
+  if (!command.out.empty()) {
+    auto created = AtomicFile::create(command.out);
+    if (!created) return tl::make_unexpected(created.error());
+    if (auto written = created->write(png); !written) return tl::make_unexpected(written.error());
+    out.emplace(std::move(*created));
+  }
+  std::vector<AtomicFile*> files;
+  for (std::optional<AtomicFile>* file : {&out, &gif})
+    if (*file) files.push_back(&**file);
+  return commit_all(files).map([&] { return done; });
+}
+
+}  // namespace clay::app

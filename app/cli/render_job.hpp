@@ -1,0 +1,47 @@
+#pragma once
+// What `claystack render` does in turn: read the clay, measure its walls, draw, write.
+
+#include "app/cli/console.hpp"
+#include "app/render/picture.hpp"
+#ifdef CLAYSTACK_EXPORT
+#include "app/cli/wall_demand.hpp"
+#endif
+
+#include "claystack/engine/clay.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace clay::app {
+
+struct RenderCommand {
+  std::string pot;        ///< or a scene, whose lump is drawn
+  std::string out;        ///< .png; empty: none
+  std::string turntable;  ///< .gif; empty: none
+  int frames = 36;
+  draw::Viewport size;
+  bool section = false, wall_map = false, dark = false, time = false;
+  std::optional<double> azimuth_deg, elevation_deg;
+#ifdef CLAYSTACK_EXPORT
+  WallDemands walls;
+#endif
+};
+
+/// Medians of some frames.
+struct FrameTime {
+  double ms = 0.0, anti_aliased_ms = 0.0;
+};
+
+/// What was drawn, for people and scripts.
+struct Rendered {
+  std::uint64_t png_bytes = 0, gif_bytes = 0;
+  std::string renderer;
+  std::optional<FrameTime> frame;
+  std::optional<draw::WallMap> map;
+  std::optional<double> thinnest_mm;
+};
+
+Result<Rendered> render(const RenderCommand& command, const Console& console);
+
+}  // namespace clay::app

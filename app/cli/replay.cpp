@@ -1,0 +1,113 @@
+#include "app/cli/replay.hpp"
+
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace clay::app {
+namespace {
+
+double percentile(std::vector<double>& values, double fraction) {
+  if (values.empty()) return 0.0;
+  const auto at = static_cast<std::size_t>(fraction * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
+  return values[at];
+}
+
+/// Follows the ledger from tick to tick, without counting the rings again.
+class Auditor {
+ public:
+  explicit Auditor(const Wheel& wheel)
+      : wheel_(wheel), initial_(static_cast<double>(wheel.ledger().initial)) {}
+
+  void look(ReplayStats& stats) const {
+    const double missing = -error();
+    stats.max_volume_error_percent =
+        std::max(stats.max_volume_error_percent, percent(std::abs(missing)));
+    stats.max_missing_over_top = std::max(stats.max_missing_over_top, missing / top());
+  }
+  [[nodiscard]] TraceRow row(double time_s, double force_n) const {
+    return {time_s, percent(error()), percent(top()), wheel_.stack().height_mm(), force_n};
+  }
+
+ private:
+  [[nodiscard]] double error() const {
+    return static_cast<double>(wheel_.ledger().volume_error(wheel_.stack().volume()));
+  }
+  [[nodiscard]] double top() const {
+    return static_cast<double>(wheel_.stack().rings().back().volume());
+  }
+  [[nodiscard]] double percent(double quanta) const { return 100.0 * quanta / initial_; }
+  const Wheel& wheel_;
+  double initial_;
+};
+
+}  // namespace
+
+ReplayStats replay(Wheel& wheel, std::span<const Pose> poses, const ReplayOptions& options) {
+  using Clock = std::chrono::steady_clock;
+  ReplayStats stats;
+  std::vector<double> tick_ns;
+  tick_ns.reserve(poses.size());
+  const Auditor auditor(wheel);
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    const auto before = Clock::now();
+    const StepReport step = wheel.step(poses[k]);
+    tick_ns.push_back(std::chrono::duration<double, std::nano>(Clock::now() - before).count());
+    const double force = glm::length(step.force_n);
+    stats.refused += (step.flags & kRefused) != 0;
+    stats.ring_limit = stats.ring_limit || (step.flags & kRingLimit) != 0;
+    stats.max_force_n = std::max(stats.max_force_n, force);
+    auditor.look(stats);
+    if (options.trace)
+      options.trace(auditor.row(1e-6 * static_cast<double>(poses[k].time_us), force));
+    if (options.progress) options.progress(k + 1);
+  }
+  stats.tick_ns_median = percentile(tick_ns, 0.5);
+  stats.tick_ns_p999 = percentile(tick_ns, 0.999);
+  return stats;
+}
+
+Result<SceneSpec> load_scene(const std::string& path) {
+  return read_file(path).and_then([&](const std::string& text) { return parse_scene(text, path); });
+}
+
+Result<Wheel> build_wheel(const SceneSpec& scene, const std::string& scene_path,
+                          const std::string& pot_path) {
+  const auto named = [&](const Error& error) {
+    std::string files = scene_path;
+    if (!pot_path.empty()) files.append(" on ").append(pot_path);
+    return failure(error.kind, files + ": " + error.message);
+  };
+  if (pot_path.empty()) {
+    auto wheel = Wheel::build(scene);
+    if (!wheel) return named(wheel.error());
+    return wheel;
+  }
+  const auto pot = read_file(pot_path).and_then(
+      [&](const std::string& bytes) { return parse_pot(bytes, pot_path); });
+  if (!pot) return tl::make_unexpected(pot.error());
+  auto wheel = Wheel::build(scene, *pot);
+  if (!wheel) return named(wheel.error());
+  return wheel;
+}
+
+Result<Session> load_session(const std::string& path) {
+  return read_file(path, kMaxSessionBytes).and_then([&](const std::string& text) {
+    return parse_session(text, path);
+  });
+}
+
+std::string session_beside(const std::string& scene_path) {
+  const std::string_view ending = ".scene.json";
+  std::string stem = scene_path;
+  if (stem.ends_with(ending)) stem.resize(stem.size() - ending.size());
+  return stem + ".session";
+}
+
+}  // namespace clay::app

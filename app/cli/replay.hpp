@@ -1,0 +1,54 @@
+#pragma once
+#include "claystack/core/result.hpp"
+#include "claystack/engine/files.hpp"
+#include "claystack/engine/scene.hpp"
+#include "claystack/engine/tool.hpp"
+#include "claystack/engine/wheel.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace clay::app {
+
+/// One tick of a replay, for traces and plots.
+struct TraceRow {
+  double time_s = 0.0;
+  double volume_error_percent = 0.0;  ///< of the initial volume; negative: clay is missing
+  double top_ring_percent = 0.0;      ///< Delta v_N, the paper's bound, in the same measure
+  double height_mm = 0.0;
+  double force_n = 0.0;
+};
+
+struct ReplayStats {
+  std::size_t refused = 0;  ///< poses that could not be believed
+  bool ring_limit = false;
+  double max_volume_error_percent = 0.0;
+  double max_missing_over_top =
+      0.0;  ///< missing clay / Delta v_N, at worst; the paper's bound is 1
+  double max_force_n = 0.0;
+  double tick_ns_median = 0.0;
+  double tick_ns_p999 = 0.0;
+};
+
+struct ReplayOptions {
+  std::function<void(const TraceRow&)> trace;  ///< called with one row a tick
+  std::function<void(std::size_t)> progress;   ///< called with the ticks done
+};
+
+/// Plays every pose on the wheel, and looks at the ledger after each.
+ReplayStats replay(Wheel& wheel, std::span<const Pose> poses, const ReplayOptions& options);
+
+/// Reads a scene; "-" is standard input.
+Result<SceneSpec> load_scene(const std::string& path);
+/// The scene's wheel, with the pot of that file on it instead of its lump; "" : none. Errors name
+/// the files.
+Result<Wheel> build_wheel(const SceneSpec& scene, const std::string& scene_path,
+                          const std::string& pot_path);
+/// Reads a session, by default the one beside the scene: NAME.scene.json -> NAME.session.
+Result<Session> load_session(const std::string& path);
+[[nodiscard]] std::string session_beside(const std::string& scene_path);
+
+}  // namespace clay::app

@@ -1,0 +1,45 @@
+#include "app/cli/rescue.hpp"
+
+#include "claystack/core/atomic_file.hpp"
+#include "core/user_folder.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <ctime>
+#include <string>
+#include <system_error>
+
+namespace clay::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "bowl.pot.json" becomes "bowl.rescued-20261121T230307-4711.pot.json": when, by which process.
+std::string rescued_name(const fs::path& wanted) {
+  const std::string name = wanted == "-" ? "pot.pot.json" : wanted.filename().string();
+  const std::size_t stem = std::min(name.find(".pot."), name.size());
+  return fmt::format("{}.rescued-{:%Y%m%dT%H%M%S}-{}{}", name.substr(0, stem),
+                     fmt::gmtime(std::time(nullptr)), getpid(), name.substr(stem));
+}
+
+}  // namespace
+
+Result<fs::path> rescue(const fs::path& wanted, bool beside, std::string_view bytes) {
+  const std::string name = rescued_name(wanted);
+  const auto keep_in = [&](const fs::path& folder) -> Result<fs::path> {
+    return publish(folder / name, bytes).map([&] { return folder / name; });
+  };
+  if (beside)
+    if (auto kept = keep_in(wanted.has_parent_path() ? wanted.parent_path() : ".")) return kept;
+  std::error_code ignored;
+  if (const fs::path state = user_folder(UserFolder::state); !state.empty()) {
+    fs::create_directories(state / "rescued", ignored);
+    if (auto kept = keep_in(state / "rescued")) return kept;
+  }
+  return keep_in(fs::temp_directory_path(ignored));
+}
+
+}  // namespace clay::app

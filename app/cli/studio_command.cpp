@@ -1,0 +1,43 @@
+#include "app/cli/commands.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+
+#include <cerrno>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+#include <vector>
+
+namespace clay::app {
+namespace {
+
+/// In place of this program: the window's, which lies beside it. Returns only where it is not to be
+/// had.
+Error become_studio(const std::vector<std::string>& arguments) {
+  std::error_code failed;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", failed);
+  const std::string program = (self.parent_path() / "claystack-studio").string();
+  std::vector<std::string> words = {program};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  execv(program.c_str(), pointers.data());
+  return {ErrorKind::io,
+          fmt::format("{}: could not start: {}", program, std::generic_category().message(errno))};
+}
+
+}  // namespace
+
+void add_studio_command(CLI::App& app, int& exit) {
+  CLI::App* command =
+      app.add_subcommand("studio", "The window: throw by mouse or by hand, and see it");
+  command->prefix_command();
+  command->set_help_flag();  // its own program has it
+  command->callback([command, &exit] { exit = report(become_studio(command->remaining())); });
+}
+
+}  // namespace clay::app

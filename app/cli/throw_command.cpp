@@ -1,0 +1,332 @@
+#include "app/cli/clay_summary.hpp"
+#include "app/cli/commands.hpp"
+#include "app/cli/error_plot.hpp"
+#ifdef CLAYSTACK_FALCON
+#include "app/cli/live_throw.hpp"
+#endif
+#include "app/cli/replay.hpp"
+#include "app/cli/throw_work.hpp"
+
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+namespace clay::app {
+namespace {
+
+struct ThrowOptions {
+  std::string scene;
+  std::string session;
+  std::string pot;
+  std::string trace;
+  std::string error_plot;
+  std::string model;  ///< empty: the scene's own
+  std::string from;   ///< pot to throw on; empty: the scene's lump
+  std::optional<std::size_t> at;
+  bool list = false;
+#ifdef CLAYSTACK_FALCON
+  LiveOptions live;
+#endif
+};
+
+Json summary(const Wheel& wheel, const ReplayStats& stats, const Session& session, const Pot& pot) {
+  Json json = {
+      {"model", name_of(pot.model)},
+      {"ticks", session.poses.size()},
+      {"max_volume_error_percent", stats.max_volume_error_percent},
+      {"max_missing_over_top_ring", stats.max_missing_over_top},
+      {"max_force_n", stats.max_force_n},
+      {"refused_ticks", stats.refused},
+      {"tick_ns_median", stats.tick_ns_median},
+      {"tick_ns_p999", stats.tick_ns_p999},
+  };
+  json.update(clay_json(wheel, pot));
+  return json;
+}
+
+void tell(const Console& console, const Json& s) {
+  console.say(fmt::format(
+      "{} ticks, model {}: {} rings, {:.1f} mm high, {:.1f} cm3 of clay, thinnest {:.2f} mm",
+      s["ticks"].get<std::size_t>(), s["model"].get<std::string>(), s["rings"].get<std::size_t>(),
+      s["height_mm"].get<double>(), s["volume_mm3"].get<double>() / 1000.0,
+      s["min_wall_mm"].get<double>()));
+  console.say(fmt::format("volume error: {} quanta (at worst {:.4g} % on the way)",
+                          s["volume_error_quanta"].dump(),
+                          s["max_volume_error_percent"].get<double>()));
+  console.say(fmt::format("tick: median {:.0f} ns, 99.9 % within {:.0f} ns; force up to {:.2f} N",
+                          s["tick_ns_median"].get<double>(), s["tick_ns_p999"].get<double>(),
+                          s["max_force_n"].get<double>()));
+  if (s["trimmed_mm3"].get<double>() > 0.0)
+    console.say(fmt::format("trimmed off: {:.1f} cm3", s["trimmed_mm3"].get<double>() / 1000.0));
+  tell_collapse(console, s);
+}
+
+/// CSV that is written while the rows come.
+class TraceWriter {
+ public:
+  explicit TraceWriter(AtomicFile& file) : file_(file) {}
+  void add(const TraceRow& r) {
+    fmt::format_to(std::back_inserter(text_), "{:.6f},{:.6g},{:.6g},{:.6g},{:.6g}\n", r.time_s,
+                   r.volume_error_percent, r.top_ring_percent, r.height_mm, r.force_n);
+    if (text_.size() >= kBuffered) hand_on();
+  }
+  /// The first error of all writes.
+  Result<void> finish() {
+    hand_on();
+    return written_;
+  }
+
+ private:
+  static constexpr std::size_t kBuffered = std::size_t{1} << 16;
+  void hand_on() {
+    if (written_) written_ = file_.write(text_);
+    text_.clear();
+  }
+
+  AtomicFile& file_;
+  Result<void> written_;
+  std::string text_ = "time_s,volume_error_percent,top_ring_percent,height_mm,force_n\n";
+};
+
+void warn_of_oddities(const Console& console, const Session& session, const SceneSpec& scene,
+                      const ThrowOptions& options) {
+  if (session.torn)
+    console.warn(
+        fmt::format("{}: the last line is cut off; its poses are not played", options.session));
+  if (session.scene_hash != 0 && session.scene_hash != hash_of(scene))
+    console.warn(fmt::format(
+        "{}: recorded on another scene ({}); the pot will differ from the one that was felt",
+        options.session, session.scene_name));
+}
+
+/// The wheel would refuse such poses one by one.
+Result<void> check_gaps(const Session& session, const SceneSpec& scene,
+                        const ThrowOptions& options) {
+  if (scene.tool.gap_mm) return {};
+  for (const Pose& pose : session.poses)
+    if (pose.gap_mm > 0.0)
+      return failure(
+          ErrorKind::bad_input,
+          fmt::format("{}: expected one tool throughout, as the scene sets no "
+                      "tool.gap_mm, found a gap of {:.6g} mm at {:.3f} s",
+                      options.session, pose.gap_mm, 1e-6 * static_cast<double>(pose.time_us)));
+  return {};
+}
+
+ReplayStats play(Wheel& wheel, const Session& session, TraceWriter* trace, const Console& console) {
+  Progress progress(console, "throwing", session.poses.size());
+  ReplayOptions options;
+  if (trace != nullptr) options.trace = [trace](const TraceRow& row) { trace->add(row); };
+  options.progress = [&progress](std::size_t done) {
+    if (done % 256 == 0) progress.update(done);
+  };
+  return replay(wheel, session.poses, options);
+}
+
+/// Plays the session with both models, for the plot that compares them.
+Result<std::string> error_plot(const SceneSpec& scene, const Session& session) {
+  std::vector<ErrorCurve> curves;
+  for (const Model model : {Model::paper, Model::conserving}) {
+    SceneSpec variant = scene;
+    variant.model = model;
+    auto wheel = Wheel::build(variant);
+    if (!wheel) return tl::make_unexpected(wheel.error());
+    ErrorRows rows(session.poses.size());
+    replay(*wheel, session.poses,
+           {.trace = [&](const TraceRow& row) { rows.add(row); }, .progress = {}});
+    curves.push_back({name_of(model), rows.take()});
+  }
+  return error_plot_svg(scene.name, curves);
+}
+
+/// The files of a replay; those that are not asked for stay closed.
+struct Outputs {
+  std::optional<AtomicFile> pot, trace, error_plot;
+};
+
+/// Before anything is played: what cannot be written is known at once.
+Result<Outputs> open_outputs(const ThrowOptions& options) {
+  Outputs outputs;
+  for (const auto& [path, file] :
+       {std::pair(&options.pot, &outputs.pot), std::pair(&options.trace, &outputs.trace),
+        std::pair(&options.error_plot, &outputs.error_plot)}) {
+    if (path->empty()) continue;
+    auto opened = AtomicFile::create(*path);
+    if (!opened) return tl::make_unexpected(opened.error());
+    file->emplace(std::move(*opened));
+  }
+  return outputs;
+}
+
+/// All files that were asked for, or none.
+Result<void> write_outputs(Outputs& outputs, const Pot& pot, PotEncoding encoding,
+                           std::optional<TraceWriter>& trace, const SceneSpec& scene,
+                           const Session& session) {
+  if (outputs.pot)
+    if (auto written = outputs.pot->write(write_pot(pot, encoding)); !written) return written;
+  if (trace)
+    if (auto written = trace->finish(); !written) return written;
+  if (outputs.error_plot) {
+    auto plot = error_plot(scene, session);
+    if (!plot) return tl::make_unexpected(plot.error());
+    if (auto written = outputs.error_plot->write(*plot); !written) return written;
+  }
+  std::vector<AtomicFile*> files;
+  for (auto* file : {&outputs.pot, &outputs.trace, &outputs.error_plot})
+    if (*file) files.push_back(&**file);
+  return commit_all(files);
+}
+
+Result<void> check_pot_name(const std::string& pot) {
+  if (pot.empty() || pot == "-" || pot.ends_with(".pot.json") || pot.ends_with(".pot.cbor"))
+    return {};
+  return failure(ErrorKind::bad_input,
+                 pot + ": expected a name that ends in .pot.json or .pot.cbor");
+}
+
+/// Names that cannot be meant, refused before anything is read or played.
+Result<void> check_names(const ThrowOptions& options, const Console& console) {
+  if (options.session.empty())
+    return failure(ErrorKind::bad_input,
+                   "a scene from standard input: expected --session with the poses to play");
+  if (auto named = check_pot_name(options.pot); !named) return named;
+  const std::vector<std::string> outputs = {options.pot, options.trace, options.error_plot};
+  if (std::count(outputs.begin(), outputs.end(), "-") > (console.json ? 0 : 1))
+    return failure(ErrorKind::bad_input, "-: expected one thing only on standard output");
+  return check_distinct(outputs, {options.scene, options.session, options.from});
+}
+
+Result<void> replay_pot(const ThrowOptions& options, Console console) {
+  if (auto names = check_names(options, console); !names) return names;
+  // What goes to standard output goes there alone.
+  for (const std::string& output : {options.pot, options.trace, options.error_plot})
+    if (output == "-") console.quiet = true;
+  auto scene = load_scene(options.scene);
+  if (!scene) return tl::make_unexpected(scene.error());
+  const auto session = load_session(options.session);
+  if (!session) return tl::make_unexpected(session.error());
+  if (auto gaps = check_gaps(*session, *scene, options); !gaps) return gaps;
+  warn_of_oddities(console, *session, *scene, options);
+  if (!options.model.empty())
+    scene->model = options.model == "paper" ? Model::paper : Model::conserving;
+  auto wheel = build_wheel(*scene, options.scene, options.from);
+  if (!wheel) return tl::make_unexpected(wheel.error());
+  auto outputs = open_outputs(options);
+  if (!outputs) return tl::make_unexpected(outputs.error());
+
+  std::optional<TraceWriter> trace;
+  if (outputs->trace) trace.emplace(*outputs->trace);
+  const ReplayStats stats = play(*wheel, *session, trace ? &*trace : nullptr, console);
+  if (stats.refused > 0)
+    console.warn(fmt::format("{} poses could not be believed and were not played", stats.refused));
+  if (stats.ring_limit) console.warn("clay waits above the top: raise lump.max_rings");
+
+  const Pot pot = wheel->pot();
+  const PotEncoding encoding =
+      options.pot.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
+  if (auto written = write_outputs(*outputs, pot, encoding, trace, *scene, *session); !written)
+    return written;
+
+  const Json json = summary(*wheel, stats, *session, pot);
+  if (console.json) console.print(json);
+  tell(console, json);
+  if (!options.pot.empty()) console.say("pot: " + options.pot);
+  return {};
+}
+
+Result<void> throw_work_file(const ThrowOptions& options, const Console& console) {
+  bool other = !options.session.empty() || !options.from.empty() || !options.model.empty() ||
+               !options.trace.empty() || !options.error_plot.empty();
+#ifdef CLAYSTACK_FALCON
+  other = other || !options.live.device.empty();
+#endif
+  if (other)
+    return failure(ErrorKind::bad_input,
+                   options.scene +
+                       ": a work holds scenes, poses and its first pot: expected "
+                       "nothing but --at, --list and -o");
+  if (auto named = check_pot_name(options.pot); !named) return named;
+  if (auto distinct = check_distinct({options.pot}, {options.scene}); !distinct) return distinct;
+  return throw_work({options.scene, options.pot, options.at, options.list}, console);
+}
+
+Result<void> throw_pot(const ThrowOptions& options, const Console& console) {
+  if (options.scene.ends_with(".work")) return throw_work_file(options, console);
+  if (options.at || options.list)
+    return failure(ErrorKind::bad_input,
+                   "--at and --list are of works: expected NAME.work, found " + options.scene);
+  if (!options.from.empty() && !options.error_plot.empty())
+    return failure(ErrorKind::bad_input,
+                   "--error-plot throws with both models: expected no --from, as a pot has one");
+#ifdef CLAYSTACK_FALCON
+  if (!options.live.device.empty()) {
+    if (!options.trace.empty() || !options.error_plot.empty())
+      return failure(ErrorKind::bad_input,
+                     "--trace and --error-plot show a replay: record with --record, then replay");
+    if (auto named = check_pot_name(options.pot); !named) return named;
+    if (auto distinct = check_distinct({options.pot, options.live.record},
+                                       {options.scene, options.session, options.from});
+        !distinct)
+      return distinct;
+    return throw_live({options.scene, options.session, options.pot, options.model, options.from},
+                      options.live, console);
+  }
+#endif
+  return replay_pot(options, console);
+}
+
+}  // namespace
+
+void add_throw_command(CLI::App& app, Console& console, int& exit) {
+  auto options = std::make_shared<ThrowOptions>();
+  CLI::App* command =
+      app.add_subcommand("throw", "Play a session on a scene, or throw by hand, and keep the pot");
+  command
+      ->add_option("scene", options->scene,
+                   "NAME.scene.json, or - for standard input; or a work, NAME.work")
+      ->required();
+  command->add_option("-s,--session", options->session,
+                      "Poses to play (default: NAME.session beside the scene)");
+  command->add_option("-o,--output", options->pot,
+                      "Pot to write: .pot.json, or .pot.cbor (compact)");
+  command->add_option("--from", options->from, "Pot to throw on, instead of the scene's lump");
+  command->add_option("--at", options->at, "Node of a work (default: where it was left)");
+  command->add_flag("--list", options->list, "The strokes of a work, undone ones too");
+  command
+      ->add_option("--model", options->model,
+                   "Model to use instead of the scene's: conserving or paper")
+      ->check(CLI::IsMember({"conserving", "paper"}));
+  command->add_option("--trace", options->trace,
+                      "CSV with a row a tick: volume error, height, force");
+  command->add_option("--error-plot", options->error_plot,
+                      "SVG of the volume error over time, both models");
+#ifdef CLAYSTACK_FALCON
+  add_live_options(*command, options->live);
+#endif
+  command->footer(
+      "\nExamples:\n  claystack throw samples/vase.scene.json -o vase.pot.json\n"
+      "  claystack throw samples/vase.scene.json --device auto --record mine.session -o "
+      "mine.pot.json\n"
+      "  claystack throw samples/vase.scene.json --model paper --json\n"
+      "  claystack throw rim.scene.json -s rim.session --from vase.pot.json -o higher.pot.json\n"
+      "  claystack throw mine.work --list\n"
+      "  claystack throw mine.work --at 3 -o early.pot.json\n"
+      "  claystack throw samples/vase.scene.json --error-plot vase-error.svg");
+  command->callback([options, &console, &exit] {
+    if (options->session.empty() && options->scene != "-" && !options->scene.ends_with(".work"))
+      options->session = session_beside(options->scene);
+    const auto done = throw_pot(*options, console);
+    exit = done ? kDone : report(done.error());
+  });
+}
+
+}  // namespace clay::app

@@ -1,0 +1,107 @@
+#include "app/cli/throw_work.hpp"
+
+#include "app/history/work.hpp"
+
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+namespace clay::app {
+namespace {
+
+std::string tool_of(const SceneSpec& scene) {
+  constexpr std::array kShapes = {"sphere", "ellipse", "rib", "sampled"};
+  constexpr std::array kModes = {"press", "trim", "pinch"};
+  return fmt::format("{} {}", kModes[static_cast<std::size_t>(scene.tool.mode)],
+                     kShapes[scene.tool.shape.index()]);
+}
+
+Json node_json(const work::Work& work, work::NodeId node) {
+  const work::NodeView view = work.view(node);
+  Json json = {{"node", node}, {"current", node == work.at()}};
+  if (node > 0)
+    json.update({{"parent", view.parent},
+                 {"tool", tool_of(*view.scene)},
+                 {"poses", view.poses},
+                 {"seconds", view.seconds},
+                 {"changed", view.changed.value_or(false)}});
+  json["volume_mm3"] = view.volume_mm3.value_or(0.0);
+  return json;
+}
+
+/// "* 3 below 1: press sphere, 2.4 s, 451.2 cm3"; the star is where the work was left.
+std::string line_of(const Json& node) {
+  const std::string star = node["current"].get<bool>() ? "*" : " ";
+  const double cm3 = node["volume_mm3"].get<double>() / 1000.0;
+  if (!node.contains("parent"))
+    return fmt::format("{} 0: the pot that it began with, {:.1f} cm3", star, cm3);
+  return fmt::format("{} {} below {}: {}, {:.2f} s, {:.1f} cm3{}", star,
+                     node["node"].get<std::size_t>(), node["parent"].get<std::size_t>(),
+                     node["tool"].get<std::string>(), node["seconds"].get<double>(), cm3,
+                     node["changed"].get<bool>() ? "" : ", in the air");
+}
+
+Result<Json> tree_of(work::Work& work, const Console& console) {
+  if (auto thrown = work.throw_all(); !thrown) return tl::make_unexpected(thrown.error());
+  Json nodes = Json::array();
+  for (work::NodeId node = 0; node < work.size(); ++node) {
+    nodes.push_back(node_json(work, node));
+    console.say(line_of(nodes.back()));
+  }
+  return nodes;
+}
+
+Json pot_json(const Pot& pot) {
+  return {{"rings", pot.stack.size()},
+          {"height_mm", pot.stack.height_mm()},
+          {"volume_mm3", pot.stack.volume_mm3()},
+          {"volume_error_quanta", json_count(pot.ledger.volume_error(pot.stack.volume()))},
+          {"collapsed", pot.collapse.has_value()}};
+}
+
+}  // namespace
+
+Result<void> throw_work(const WorkJob& job, Console console) {
+  if (job.pot_path == "-") console.quiet = true;
+  auto loaded = work::load(job.work_path);
+  if (!loaded) return tl::make_unexpected(loaded.error());
+  work::Work& work = loaded->work;
+  if (loaded->torn)
+    console.warn(job.work_path + ": the end is cut off; what stands before it is played");
+  const work::NodeId node = job.at.value_or(work.at());
+  if (node >= work.size())
+    return failure(ErrorKind::bad_input,
+                   fmt::format("--at: expected a node of {}, from 0 to {}, found {}", job.work_path,
+                               work.size() - 1, node));
+  const auto named = [&](const Error& error) {
+    return failure(error.kind, job.work_path + ": " + error.message);
+  };
+  Json json = {{"node", node}};
+  if (job.list) {
+    auto tree = tree_of(work, console);
+    if (!tree) return named(tree.error());
+    json["nodes"] = std::move(*tree);
+  }
+  const auto pot = work.pot(node);
+  if (!pot) return named(pot.error());
+  json.update(pot_json(**pot));
+  if (!job.pot_path.empty()) {
+    const PotEncoding encoding =
+        job.pot_path.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
+    if (auto written = publish(job.pot_path, write_pot(**pot, encoding)); !written) return written;
+  }
+  if (console.json) console.print(json);
+  console.say(fmt::format(
+      "node {} of {}: {} rings, {:.1f} mm high, {:.1f} cm3 of clay; volume "
+      "error: {} quanta",
+      node, work.size() - 1, json["rings"].get<std::size_t>(), json["height_mm"].get<double>(),
+      json["volume_mm3"].get<double>() / 1000.0, json["volume_error_quanta"].dump()));
+  if (!job.pot_path.empty()) console.say("pot: " + job.pot_path);
+  return {};
+}
+
+}  // namespace clay::app

@@ -1,0 +1,189 @@
+#include "app/history/journal.hpp"
+
+#include "claystack/core/atomic_file.hpp"
+#include "core/user_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <ctime>
+#include <system_error>
+#include <utility>
+
+namespace clay::work {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr auto kSyncEvery = std::chrono::seconds(30);
+
+Error system_error(const fs::path& path, const char* action) {
+  return {ErrorKind::io, fmt::format("{}: could not {}: {}", path.string(), action,
+                                     std::generic_category().message(errno))};
+}
+
+/// "20261121T230307-4711": when it began, by which process.
+std::string stem_of_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  const std::size_t length = std::strftime(text, sizeof text, "%Y%m%dT%H%M%S", &utc);
+  return fmt::format("{}-{}", std::string_view(text, length), getpid());
+}
+
+/// The file gets its name when it is locked and begun: nobody takes it for a dead one's.
+Result<fs::path> give_name(int descriptor, const fs::path& temporary, const fs::path& folder,
+                           const std::string& stem) {
+  for (int twin = 0; twin < 100; ++twin) {
+    const fs::path path =
+        folder / (twin == 0 ? fmt::format("{}.work", stem) : fmt::format("{}-{}.work", stem, twin));
+    if (link(temporary.c_str(), path.c_str()) == 0) {
+      (void)unlink(temporary.c_str());
+      if (fsync(descriptor) != 0) {
+        const Error error = system_error(path, "sync");
+        (void)unlink(path.c_str());
+        return tl::make_unexpected(error);
+      }
+      sync_folder(folder);
+      return path;
+    }
+    if (errno != EEXIST) break;
+  }
+  return tl::make_unexpected(system_error(folder / stem, "create"));
+}
+
+}  // namespace
+
+fs::path recovery_folder() {
+  const fs::path folder = app::user_folder(app::UserFolder::state);
+  return folder.empty() ? folder : folder / "recovery";
+}
+
+Result<std::unique_ptr<Journal>> Journal::begin(const WorkRecord& work, const fs::path& folder) {
+  if (folder.empty()) return failure(ErrorKind::io, std::string("journal: ") + app::kNoHome);
+  std::error_code made;
+  fs::create_directories(folder, made);
+  if (made)
+    return failure(ErrorKind::io,
+                   fmt::format("{}: could not create: {}", folder.string(), made.message()));
+  const std::string stem = stem_of_now();
+  std::string temporary = (folder / (stem + ".XXXXXX")).string();
+  const int descriptor = mkostemp(temporary.data(), O_APPEND | O_CLOEXEC);
+  if (descriptor < 0) return tl::make_unexpected(system_error(folder / stem, "create"));
+  std::unique_ptr<Journal> journal(new Journal(temporary, descriptor));
+  const auto given_up = [&](Error error) {
+    (void)unlink(temporary.c_str());
+    return tl::make_unexpected(std::move(error));
+  };
+  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) return given_up(system_error(temporary, "lock"));
+  journal->append(write_work(work) + work_saved_line(work.saved_at, work.saved_nodes));
+  if (const auto trouble = journal->trouble()) return given_up(*trouble);
+  auto named = give_name(descriptor, temporary, folder, stem);
+  if (!named) return given_up(named.error());
+  journal->path_ = std::move(*named);
+  return journal;
+}
+
+Result<std::unique_ptr<Journal>> Journal::take_over(const fs::path& path, WorkReading& found) {
+  // Whatever has the name of a journal, nothing waits for it.
+  const int descriptor = open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+  if (descriptor < 0) return tl::make_unexpected(system_error(path, "open"));
+  std::unique_ptr<Journal> journal(new Journal(path, descriptor));
+  struct stat status {};
+  if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode))
+    return failure(ErrorKind::io, fmt::format("{}: expected a regular file", path.string()));
+  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+    return failure(ErrorKind::io,
+                   fmt::format("{}: in use by a program that is running", path.string()));
+  auto reading = read_file(path).and_then(
+      [&](const std::string& text) { return salvage_work(text, path.string()); });
+  if (!reading) return tl::make_unexpected(reading.error());
+  if (reading->damage) {
+    std::error_code copied;
+    fs::copy_file(path, path.string() + ".damaged", fs::copy_options::overwrite_existing, copied);
+    if (copied)
+      return failure(ErrorKind::io, fmt::format("{}.damaged: could not write: {}", path.string(),
+                                                copied.message()));
+  }
+  if (ftruncate(descriptor, static_cast<off_t>(reading->sound_bytes)) != 0)
+    return tl::make_unexpected(system_error(path, "shorten"));
+  if (reading->running) journal->append(work_end_line(reading->work.nodes.back().poses.size(), {}));
+  found = std::move(*reading);
+  return journal;
+}
+
+Journal::Journal(fs::path path, int descriptor)
+    : path_(std::move(path)), descriptor_(descriptor), thread_([this] { run(); }) {}
+
+Journal::~Journal() {
+  {
+    const std::lock_guard lock(mutex_);
+    closing_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+  (void)close(descriptor_);
+}
+
+void Journal::append(std::string_view lines) {
+  const std::lock_guard lock(mutex_);
+  while (!lines.empty() && !trouble_) {
+    const auto written = ::write(descriptor_, lines.data(), lines.size());
+    if (written > 0)
+      lines.remove_prefix(static_cast<std::size_t>(written));
+    else if (written == 0 || errno != EINTR)
+      trouble_ = system_error(path_, "write");
+    dirty_ = true;
+  }
+}
+
+void Journal::sync_soon() {
+  {
+    const std::lock_guard lock(mutex_);
+    asked_ = true;
+  }
+  wake_.notify_one();
+}
+
+Result<void> Journal::sync() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (trouble_) return tl::make_unexpected(*trouble_);
+  }
+  if (fsync(descriptor_) != 0) return tl::make_unexpected(system_error(path_, "sync"));
+  return {};
+}
+
+void Journal::discard() {
+  const std::lock_guard lock(mutex_);
+  (void)unlink(path_.c_str());
+  dirty_ = false;
+}
+
+std::optional<Error> Journal::trouble() const {
+  const std::lock_guard lock(mutex_);
+  return trouble_;
+}
+
+/// Syncs without the mutex: appending goes on meanwhile.
+void Journal::run() {
+  std::unique_lock lock(mutex_);
+  while (!closing_ || dirty_) {
+    wake_.wait_for(lock, kSyncEvery, [this] { return asked_ || closing_; });
+    asked_ = false;
+    if (!std::exchange(dirty_, false)) continue;
+    lock.unlock();
+    const bool synced = fsync(descriptor_) == 0;
+    const Error error = synced ? Error{} : system_error(path_, "sync");
+    lock.lock();
+    if (!synced && !trouble_) trouble_ = error;
+  }
+}
+
+}  // namespace clay::work

@@ -1,0 +1,34 @@
+#pragma once
+#include "claystack/engine/clay.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+
+namespace clay::work {
+
+/// Pots by the node that they belong to, within a budget: the one that was longest of no use goes
+/// first. At least one stays.
+class PotCache {
+ public:
+  explicit PotCache(std::size_t budget_bytes) : budget_(budget_bytes) {}
+
+  [[nodiscard]] std::shared_ptr<const Pot> find(std::size_t node);  ///< null where there is none
+  void put(std::size_t node, std::shared_ptr<const Pot> pot);
+  void set_budget(std::size_t bytes);
+  [[nodiscard]] std::size_t size() const noexcept { return kept_.size(); }
+
+ private:
+  struct Kept {
+    std::shared_ptr<const Pot> pot;
+    std::uint64_t used = 0;
+  };
+  void shrink();
+
+  std::size_t budget_, bytes_ = 0;
+  std::uint64_t clock_ = 0;
+  std::unordered_map<std::size_t, Kept> kept_;
+};
+
+}  // namespace clay::work

@@ -1,0 +1,114 @@
+#include "app/history/recovery.hpp"
+
+#include "claystack/core/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+namespace clay::work {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whose journal it is: a living program holds its lock. A pipe or a device of that name is none,
+/// and is not waited for.
+class Lock {
+ public:
+  /// `kind`: LOCK_SH to look, LOCK_EX to remove.
+  Lock(const fs::path& path, int kind)
+      : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
+    struct stat status {};
+    const bool regular =
+        descriptor_ >= 0 && fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
+    held_ = regular && flock(descriptor_, kind | LOCK_NB) == 0;
+  }
+  ~Lock() {
+    if (descriptor_ >= 0) (void)close(descriptor_);
+  }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+  [[nodiscard]] bool opened() const noexcept { return descriptor_ >= 0; }
+  [[nodiscard]] bool held() const noexcept { return held_; }
+  [[nodiscard]] std::chrono::system_clock::time_point written() const noexcept {
+    struct stat status {};
+    (void)fstat(descriptor_, &status);
+    return std::chrono::system_clock::from_time_t(status.st_mtime);
+  }
+
+ private:
+  int descriptor_;
+  bool held_ = false;
+};
+
+/// What one offers; nothing where that is nothing. `needless`: a dead one's, with nothing to lose.
+std::optional<Recoverable> look_at(const fs::path& path, bool& needless) {
+  const Lock lock(path, LOCK_SH);
+  if (!lock.held()) return std::nullopt;
+  Recoverable found;
+  found.path = path;
+  found.when = lock.written();
+  const auto reading = read_file(path).and_then(
+      [&](const std::string& text) { return salvage_work(text, path.string()); });
+  if (!reading) {
+    found.damage = reading.error();
+    return found;
+  }
+  const WorkRecord& work = reading->work;
+  found.scene = work.scenes[work.nodes[0].scene].name;
+  found.strokes = work.nodes.size() - 1;
+  for (const WorkNode& node : work.nodes)
+    if (!node.poses.empty()) found.seconds += 1e-6 * static_cast<double>(node.poses.back().time_us);
+  found.running = reading->running;
+  found.damage = reading->damage;
+  const bool saved = work.saved_at == work.at && work.saved_nodes == work.nodes.size();
+  needless = saved && !found.damage;
+  return needless ? std::nullopt : std::optional(std::move(found));
+}
+
+}  // namespace
+
+std::vector<Recoverable> recoverable(const fs::path& folder) {
+  std::vector<Recoverable> all;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+    if (entry.path().extension() != ".work") continue;
+    bool needless = false;
+    if (auto found = look_at(entry.path(), needless)) all.push_back(std::move(*found));
+    if (needless) (void)discard(entry.path());
+  }
+  std::ranges::sort(all, [](const Recoverable& a, const Recoverable& b) {
+    return std::pair(a.when, a.path) > std::pair(b.when, b.path);
+  });
+  return all;
+}
+
+Result<Work> recover(const fs::path& path) {
+  WorkReading found;
+  auto journal = Journal::take_over(path, found);
+  if (!journal) return tl::make_unexpected(journal.error());
+  auto work = Work::open(std::move(found.work));
+  if (!work) return failure(work.error().kind, path.string() + ": " + work.error().message);
+  work->keep(std::move(*journal));
+  return work;
+}
+
+Result<void> discard(const fs::path& path) {
+  const Lock lock(path, LOCK_EX);
+  if (lock.opened() && !lock.held())
+    return failure(ErrorKind::io,
+                   fmt::format("{}: in use by a program that is running", path.string()));
+  if (!lock.opened() || unlink(path.c_str()) != 0)
+    return failure(ErrorKind::io, fmt::format("{}: could not remove: {}", path.string(),
+                                              std::generic_category().message(errno)));
+  return {};
+}
+
+}  // namespace clay::work

@@ -1,0 +1,61 @@
+#include "app/import/drawing.hpp"
+
+#include "app/import/readers.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace clay::drawing {
+namespace {
+
+constexpr double kFarthestMm = 1e6;
+
+/// Whatever the reader.
+Result<Drawing> checked(Drawing drawing, const std::string& name) {
+  std::size_t count = 0;
+  for (const Line& line : drawing.lines) count += line.points_mm.size();
+  if (count < 2)
+    return failure(ErrorKind::bad_input,
+                   name + ": expected the outline of a pot, found no line in it");
+  if (drawing.lines.size() > kMostLines)
+    return failure(ErrorKind::bad_input, fmt::format("{}: expected at most {} lines, found {}",
+                                                     name, kMostLines, drawing.lines.size()));
+  return drawing;
+}
+
+}  // namespace
+
+std::string PointLimits::out_of_bounds(std::span<const glm::dvec2> points_mm) {
+  for (const glm::dvec2& p : points_mm)
+    if (!(std::abs(p.x) <= kFarthestMm && std::abs(p.y) <= kFarthestMm))
+      return fmt::format("expected points within {:g} mm, found ({:g}, {:g})", kFarthestMm, p.x,
+                         p.y);
+  return {};
+}
+
+std::string PointLimits::problem_with(std::span<const glm::dvec2> points_mm) {
+  if (std::string problem = out_of_bounds(points_mm); !problem.empty()) return problem;
+  count_ += points_mm.size();
+  if (count_ > kMostPoints)
+    return fmt::format("expected at most {} points, found more", kMostPoints);
+  return {};
+}
+
+Result<Drawing> read_drawing(std::string_view bytes, const std::string& name) {
+  const auto reader = name.ends_with(".svg")   ? read_svg
+                      : name.ends_with(".dxf") ? read_dxf
+                      : name.ends_with(".csv") ? read_csv
+                                               : nullptr;
+  if (reader == nullptr)
+    return failure(ErrorKind::bad_input,
+                   name + ": expected a drawing NAME.svg, NAME.dxf or NAME.csv");
+  if (bytes.size() > kMostBytes)
+    return failure(ErrorKind::bad_input, fmt::format("{}: expected at most {} MiB, found {}", name,
+                                                     kMostBytes >> 20, bytes.size() >> 20));
+  return reader(bytes, name).and_then([&](Drawing&& drawing) {
+    return checked(std::move(drawing), name);
+  });
+}
+
+}  // namespace clay::drawing

@@ -1,0 +1,220 @@
+#include "app/import/half_section.hpp"
+
+#include "app/import/joined_lines.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/common.hpp>
+#include <numbers>
+#include <utility>
+
+namespace clay::drawing {
+namespace {
+
+/// A straight piece of the outline that rises from `low` to `high`.
+struct Edge {
+  glm::dvec2 low, high;
+  [[nodiscard]] double radius_at(double y) const {
+    return low.x + (high.x - low.x) * ((y - low.y) / (high.y - low.y));
+  }
+};
+
+struct Bounds {
+  glm::dvec2 low{1e300}, high{-1e300};
+};
+
+Bounds bounds_of(const std::vector<Line>& lines) {
+  Bounds bounds;
+  for (const Line& line : lines) {
+    for (const glm::dvec2& p : line.points_mm) {
+      bounds.low = glm::min(bounds.low, p);
+      bounds.high = glm::max(bounds.high, p);
+    }
+  }
+  return bounds;
+}
+
+/// A square of side kSamePointMm: its column and its row.
+using Cell = std::pair<std::int64_t, std::int64_t>;
+
+Cell cell_of(glm::dvec2 p) {
+  return {std::llround(p.x / kSamePointMm), std::llround(p.y / kSamePointMm)};
+}
+
+/// Every corner has its mirror image among the corners, in its cell or in one that touches it: a
+/// drawing of both halves.
+bool mirrored(const std::vector<Line>& lines, double middle) {
+  std::vector<Cell> cells, images;
+  for (const Line& line : lines) {
+    for (const glm::dvec2& p : line.points_mm) {
+      cells.push_back(cell_of(p));
+      images.push_back(cell_of({2.0 * middle - p.x, p.y}));
+    }
+  }
+  std::sort(cells.begin(), cells.end());
+  return std::all_of(images.begin(), images.end(), [&](const Cell& image) {
+    for (const std::int64_t beside : {0, -1, 1}) {
+      const Cell lowest{image.first + beside, image.second - 1};
+      const auto near = std::lower_bound(cells.begin(), cells.end(), lowest);
+      if (near != cells.end() && near->first == lowest.first && near->second <= image.second + 1)
+        return true;
+    }
+    return false;
+  });
+}
+
+AxisRule rule_of(const Drawing& drawing, const Bounds& bounds, AxisRule asked) {
+  if (asked != AxisRule::by_itself) return asked;
+  if (drawing.axis_at_zero) return AxisRule::at;
+  return mirrored(drawing.lines, 0.5 * (bounds.low.x + bounds.high.x)) ? AxisRule::middle
+                                                                       : AxisRule::left;
+}
+
+std::string ends_of(const Line& line) {
+  const glm::dvec2 a = line.points_mm.front(), b = line.points_mm.back();
+  return fmt::format("({:.3f}, {:.3f}) and ({:.3f}, {:.3f}) mm from foot and axis", a.x, a.y, b.x,
+                     b.y);
+}
+
+/// Closes what may be; the message says what may not.
+Result<void> close(std::vector<Line>& lines, const std::string& name) {
+  for (Line& line : lines) {
+    if (line.closed) continue;
+    const bool on_axis =
+        line.points_mm.front().x <= kSamePointMm && line.points_mm.back().x <= kSamePointMm;
+    if (!on_axis && lines.size() > 1)
+      return failure(ErrorKind::bad_input,
+                     fmt::format("{}: expected closed outlines, or a single open one, found {} "
+                                 "lines of which one ends at {}",
+                                 name, lines.size(), ends_of(line)));
+    const double last = line.points_mm.back().y, first = line.points_mm.front().y;
+    line.points_mm.emplace_back(0.0, last);
+    line.points_mm.emplace_back(0.0, first);
+    line.closed = true;
+  }
+  return {};
+}
+
+/// The pieces right of the axis, but for level ones: those bound no clay sideways.
+std::vector<Edge> edges_of(const std::vector<Line>& lines) {
+  std::vector<Edge> edges;
+  for (const Line& line : lines) {
+    for (std::size_t i = 0; i < line.points_mm.size(); ++i) {
+      glm::dvec2 a = line.points_mm[i], b = line.points_mm[(i + 1) % line.points_mm.size()];
+      if (a.y > b.y) std::swap(a, b);
+      if (a.y == b.y || (a.x <= 0.0 && b.x <= 0.0)) continue;
+      const double crossing = a.y + (b.y - a.y) * (a.x / (a.x - b.x));
+      if (a.x < 0.0) a = {0.0, crossing};
+      if (b.x < 0.0) b = {0.0, crossing};
+      if (a.y < b.y) edges.push_back({a, b});
+    }
+  }
+  std::sort(edges.begin(), edges.end(),
+            [](const Edge& a, const Edge& b) { return a.low.y < b.low.y; });
+  return edges;
+}
+
+std::vector<double> levels_of(const std::vector<Edge>& edges) {
+  std::vector<double> levels;
+  for (const Edge& edge : edges) {
+    levels.push_back(edge.low.y);
+    levels.push_back(edge.high.y);
+  }
+  std::sort(levels.begin(), levels.end());
+  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+  return levels;
+}
+
+/// Between two levels no edge begins or ends. `edges`: those that span both.
+Result<Slab> slab_between(double from, double to, std::vector<const Edge*>& edges,
+                          const std::string& name) {
+  const double middle = 0.5 * (from + to);
+  std::sort(edges.begin(), edges.end(), [&](const Edge* a, const Edge* b) {
+    return a->radius_at(middle) > b->radius_at(middle);
+  });
+  const auto refuse = [&](const char* expected, std::size_t found) {
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}: {:.3f} mm above the foot: expected {}, found {} bounds", name,
+                               middle, expected, found));
+  };
+  if (edges.empty()) return refuse("clay at every height from foot to rim", 0);
+  if (edges.size() > 2)
+    return refuse("clay in one place, from a bore or the axis to one outer bound", edges.size());
+  Slab slab{from, to, edges[0]->radius_at(from), edges[0]->radius_at(to), 0.0, 0.0};
+  if (edges.size() == 1) return slab;
+  slab.inner_from_mm = edges[1]->radius_at(from);
+  slab.inner_to_mm = edges[1]->radius_at(to);
+  if (slab.inner_from_mm > slab.outer_from_mm + kSamePointMm ||
+      slab.inner_to_mm > slab.outer_to_mm + kSamePointMm)
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}: {:.3f} mm above the foot: expected an outline that does not "
+                               "cross itself, found one that does",
+                               name, middle));
+  slab.inner_from_mm = std::min(slab.inner_from_mm, slab.outer_from_mm);
+  slab.inner_to_mm = std::min(slab.inner_to_mm, slab.outer_to_mm);
+  return slab;
+}
+
+Result<std::vector<Slab>> slabs_of(const std::vector<Edge>& edges, const std::string& name) {
+  const std::vector<double> levels = levels_of(edges);
+  std::vector<Slab> slabs;
+  std::vector<const Edge*> spanning;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
+    for (; next < edges.size() && edges[next].low.y <= levels[i]; ++next)
+      spanning.push_back(&edges[next]);
+    std::erase_if(spanning, [&](const Edge* edge) { return edge->high.y <= levels[i]; });
+    const auto slab = slab_between(levels[i], levels[i + 1], spanning, name);
+    if (!slab) return tl::make_unexpected(slab.error());
+    slabs.push_back(*slab);
+  }
+  return slabs;
+}
+
+}  // namespace
+
+double HalfSection::volume_mm3() const noexcept {
+  const auto squares = [](double a, double b) { return (a * a + a * b + b * b) / 3.0; };
+  double sum = 0.0;
+  for (const Slab& slab : slabs)
+    sum += (slab.to_mm - slab.from_mm) * (squares(slab.outer_from_mm, slab.outer_to_mm) -
+                                          squares(slab.inner_from_mm, slab.inner_to_mm));
+  return std::numbers::pi * sum;
+}
+
+Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& settings,
+                                 const std::string& name) {
+  drawing.lines = joined(std::move(drawing.lines));
+  const Bounds bounds = bounds_of(drawing.lines);
+  HalfSection section;
+  section.axis = rule_of(drawing, bounds, settings.axis);
+  section.axis_mm = section.axis == AxisRule::left     ? bounds.low.x
+                    : section.axis == AxisRule::middle ? 0.5 * (bounds.low.x + bounds.high.x)
+                    : settings.axis == AxisRule::at    ? settings.axis_mm
+                                                       : 0.0;
+  const double drawn_mm = bounds.high.y - bounds.low.y;
+  if (!(drawn_mm > 0.0) || !(bounds.high.x > section.axis_mm))
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}: expected an outline right of the axis at x = {:g} mm, found "
+                               "one from x = {:g} to {:g}, {:g} mm high",
+                               name, section.axis_mm, bounds.low.x, bounds.high.x, drawn_mm));
+  const double scale = settings.height_mm.value_or(drawn_mm) / drawn_mm;
+  for (Line& line : drawing.lines)
+    for (glm::dvec2& p : line.points_mm)
+      p = scale * (p - glm::dvec2{section.axis_mm, bounds.low.y});
+  if (auto closed = close(drawing.lines, name); !closed) return tl::make_unexpected(closed.error());
+  auto slabs = slabs_of(edges_of(drawing.lines), name);
+  if (!slabs) return tl::make_unexpected(slabs.error());
+  if (slabs->empty())
+    return failure(ErrorKind::bad_input, name +
+                                             ": expected an outline with clay in it, found "
+                                             "level lines only");
+  section.slabs = std::move(*slabs);
+  section.height_mm = section.slabs.back().to_mm;
+  return section;
+}
+
+}  // namespace clay::drawing

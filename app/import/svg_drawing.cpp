@@ -1,0 +1,235 @@
+#include "app/import/curves.hpp"
+#include "app/import/readers.hpp"
+
+#include <fmt/format.h>
+#include <libxml/parser.h>
+#include <libxml/tree.h>
+
+#include <boost/exception/all.hpp>
+#include <boost/mpl/insert.hpp>
+#include <boost/mpl/set.hpp>
+#include <svgpp/policy/xml/libxml2.hpp>
+#include <svgpp/svgpp.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <memory>
+#include <numbers>
+#include <span>
+#include <stdexcept>
+
+namespace clay::drawing {
+namespace {
+
+constexpr double kMmPerPx = 25.4 / 96.0;
+
+/// What the library's own errors are too: it adds the element to them.
+struct Refusal : boost::exception, std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct Minimal : svgpp::policy::path::minimal {
+  static const bool arc_as_cubic_bezier = false;  // a cubic is 3e-4 of the radius beside it
+};
+
+/// An SVG arc, given by its ends, as centre + cos(t) u + sin(t) v (SVG 2, appendix B.2.4).
+struct Arc {
+  glm::dvec2 centre{0.0}, u{0.0}, v{0.0};
+  double from = 0.0, to = 0.0;
+};
+
+double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
+
+Arc arc_between(glm::dvec2 first, glm::dvec2 last, glm::dvec2 radii, double turned_rad, bool large,
+                bool sweep) {
+  const glm::dvec2 x{std::cos(turned_rad), std::sin(turned_rad)}, y{-x.y, x.x};
+  const glm::dvec2 half = 0.5 * (first - last);
+  // In the ellipse's own axes and in units of its radii it is a circle of radius 1.
+  glm::dvec2 start = glm::dvec2{glm::dot(x, half), glm::dot(y, half)} / radii;
+  const double grown = std::max(1.0, glm::length(start));  // radii too short for the ends
+  radii *= grown;
+  start /= grown;
+  const double square = glm::dot(start, start);
+  const double away = square > 0.0 ? std::sqrt(std::max(0.0, 1.0 / square - 1.0)) : 0.0;
+  const glm::dvec2 middle = (large == sweep ? -away : away) * glm::dvec2{start.y, -start.x};
+  const glm::dvec2 a = start - middle, b = -start - middle;
+  Arc arc{0.5 * (first + last) + x * (radii.x * middle.x) + y * (radii.y * middle.y), radii.x * x,
+          radii.y * y, std::atan2(a.y, a.x), 0.0};
+  double turn = std::atan2(cross(a, b), glm::dot(a, b));
+  if (sweep && turn < 0.0) turn += 2.0 * std::numbers::pi;
+  if (!sweep && turn > 0.0) turn -= 2.0 * std::numbers::pi;
+  arc.to = arc.from + turn;
+  return arc;
+}
+
+/// Told of shapes by the library, as moves, straight lines, cubics and arcs; keeps them in mm.
+class Collector {
+ public:
+  std::vector<Line> lines;
+
+  void on_enter_element(svgpp::tag::element::any) { states_.push_back(states_.back()); }
+  void on_exit_element() { states_.pop_back(); }
+
+  void transform_matrix(const boost::array<double, 6>& m) {
+    states_.back().to_page =
+        states_.back().to_page * glm::dmat3{m[0], m[1], 0.0, m[2], m[3], 0.0, m[4], m[5], 1.0};
+  }
+  void set_viewport(double, double, double, double) {}
+  void set_viewbox_size(double, double) {}
+  void disable_rendering() { states_.back().shown = false; }
+  void set(svgpp::tag::attribute::display, svgpp::tag::value::none) { disable_rendering(); }
+  template <class Tag>
+  void set(svgpp::tag::attribute::display, Tag) {}
+
+  void path_move_to(double x, double y, svgpp::tag::coordinate::absolute) {
+    end_line();
+    line_.points_mm.push_back(at(x, y));
+    check(1);
+    pen_ = restart_ = {x, y};
+  }
+  void path_line_to(double x, double y, svgpp::tag::coordinate::absolute) {
+    begin_again();
+    line_.points_mm.push_back(at(x, y));
+    check(1);
+    pen_ = {x, y};
+  }
+  void path_cubic_bezier_to(double x1, double y1, double x2, double y2, double x, double y,
+                            svgpp::tag::coordinate::absolute) {
+    begin_again();
+    const std::size_t before = line_.points_mm.size();
+    const std::array steering{at(x1, y1), at(x2, y2)};
+    refuse(PointLimits::out_of_bounds(steering));
+    append_cubic(line_.points_mm, line_.points_mm.back(), steering[0], steering[1], at(x, y));
+    check(line_.points_mm.size() - before);
+    pen_ = {x, y};
+  }
+  void path_elliptical_arc_to(double rx, double ry, double turned_degrees, bool large, bool sweep,
+                              double x, double y, svgpp::tag::coordinate::absolute) {
+    const glm::dvec2 end{x, y};
+    if (end == pen_) return;  // draws nothing, says SVG
+    if (rx == 0.0 || ry == 0.0) return path_line_to(x, y, {});
+    begin_again();
+    const Arc arc = arc_between(pen_, end, glm::abs(glm::dvec2{rx, ry}),
+                                turned_degrees * std::numbers::pi / 180.0, large, sweep);
+    const glm::dvec2 origin = at(0.0, 0.0);
+    const std::size_t before = line_.points_mm.size();
+    append_arc(line_.points_mm, at(arc.centre.x, arc.centre.y), at(arc.u.x, arc.u.y) - origin,
+               at(arc.v.x, arc.v.y) - origin, arc.from, arc.to);
+    line_.points_mm.back() = at(x, y);
+    check(line_.points_mm.size() - before);
+    pen_ = end;
+  }
+  void path_close_subpath() {
+    if (line_.points_mm.empty()) return;
+    pen_ = restart_;
+    if (line_.points_mm.size() > 2 && line_.points_mm.back() == line_.points_mm.front())
+      line_.points_mm.pop_back();
+    line_.closed = true;
+    end_line();
+  }
+  void path_exit() {
+    end_line();
+    line_ = {};
+  }
+
+ private:
+  struct State {
+    glm::dmat3 to_page{1.0};
+    bool shown = true;
+  };
+
+  /// y goes down on a page.
+  [[nodiscard]] glm::dvec2 at(double x, double y) const {
+    const glm::dvec3 p = states_.back().to_page * glm::dvec3{x, y, 1.0};
+    return kMmPerPx * glm::dvec2{p.x, -p.y};
+  }
+
+  /// After a closed subpath the next one may begin without a move, where that one began.
+  void begin_again() {
+    if (!line_.points_mm.empty()) return;
+    line_.points_mm.push_back(at(pen_.x, pen_.y));
+    check(1);
+  }
+
+  /// The points that came last.
+  void check(std::size_t count) {
+    refuse(limits_.problem_with(std::span(line_.points_mm).last(count)));
+  }
+  static void refuse(const std::string& problem) {
+    if (!problem.empty()) throw Refusal(problem);
+  }
+
+  void end_line() {
+    if (line_.points_mm.size() > 1 && states_.back().shown) lines.push_back(std::move(line_));
+    line_ = {};
+  }
+
+  std::vector<State> states_{State{}};
+  Line line_;
+  PointLimits limits_;
+  glm::dvec2 pen_{0.0}, restart_{0.0};  // in the shape's own units
+};
+
+using Elements =
+    boost::mpl::fold<svgpp::traits::shape_elements,
+                     boost::mpl::set<svgpp::tag::element::svg, svgpp::tag::element::g,
+                                     svgpp::tag::element::a, svgpp::tag::element::switch_>,
+                     boost::mpl::insert<boost::mpl::_1, boost::mpl::_2>>::type;
+
+using Attributes = boost::mpl::fold<
+    boost::mpl::joint_view<svgpp::traits::shapes_attributes_by_element,
+                           svgpp::traits::viewport_attributes>,
+    boost::mpl::set<svgpp::tag::attribute::transform, svgpp::tag::attribute::display>,
+    boost::mpl::insert<boost::mpl::_1, boost::mpl::_2>>::type;
+
+using Traversal = svgpp::document_traversal<
+    svgpp::processed_elements<Elements>, svgpp::processed_attributes<Attributes>,
+    svgpp::viewport_policy<svgpp::policy::viewport::as_transform>, svgpp::path_policy<Minimal>>;
+
+std::string libxml_problem(const std::string& name) {
+  const auto* error = xmlGetLastError();
+  if (error == nullptr) return name + ": expected an SVG drawing";
+  std::string message = error->message == nullptr ? "no XML" : error->message;
+  while (!message.empty() && message.back() == '\n') message.pop_back();
+  return fmt::format("{}:{}: expected an SVG drawing, found: {}", name, error->line, message);
+}
+
+/// ":LINE" of the element that an error is about, where the library knows it.
+std::string line_of(const boost::exception& error) {
+  using Element = boost::error_info<svgpp::tag::error_info::xml_element, xmlNode*>;
+  xmlNode* const* element = boost::get_error_info<Element>(error);
+  return element == nullptr ? "" : fmt::format(":{}", xmlGetLineNo(*element));
+}
+
+}  // namespace
+
+Result<Drawing> read_svg(std::string_view bytes, const std::string& name) {
+  // Nothing is fetched, no entity is put in: a drawing is what is in the file.
+  const std::unique_ptr<xmlDoc, decltype(&xmlFreeDoc)> document(
+      xmlReadMemory(bytes.data(), static_cast<int>(bytes.size()), nullptr, nullptr,
+                    XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING),
+      &xmlFreeDoc);
+  xmlNode* root = document ? xmlDocGetRootElement(document.get()) : nullptr;
+  if (root == nullptr) return failure(ErrorKind::bad_input, libxml_problem(name));
+  Collector collector;
+  try {
+    Traversal::load_document(root, collector);
+  } catch (const Refusal& refusal) {
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}{}: {}", name, line_of(refusal), refusal.what()));
+  } catch (const svgpp::exception_base& error) {
+    return failure(ErrorKind::bad_input, fmt::format("{}{}: expected an SVG drawing, found: {}",
+                                                     name, line_of(error), error.what()));
+  } catch (const std::exception& error) {
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}: expected an SVG drawing, found: {}", name, error.what()));
+  }
+  return Drawing{std::move(collector.lines), false};
+}
+
+}  // namespace clay::drawing

@@ -1,0 +1,110 @@
+#include "app/render/camera.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+#include <numbers>
+
+namespace clay::draw {
+namespace {
+
+constexpr double kNearest = 0.02, kFarthest = 60.0;  // planes, in distances to the target
+constexpr double kShortestMm = 1e-2, kLongestMm = 1e6;
+constexpr double kNotch = 8.0 / 9.0;
+constexpr double kGrazing = 1e-9;  // of a ray and the plane that it should meet
+
+/// The eye's own directions; `back` points from the target to the eye.
+struct Axes {
+  glm::dvec3 right, up, back;
+};
+
+Axes axes_of(const Camera& camera) noexcept {
+  const double lift = std::clamp(camera.elevation_rad, -kSteepest, kSteepest);
+  const double sa = std::sin(camera.azimuth_rad), ca = std::cos(camera.azimuth_rad);
+  const double se = std::sin(lift), ce = std::cos(lift);
+  return {{ca, 0.0, -sa}, {-sa * se, ce, -ca * se}, {sa * ce, se, ca * ce}};
+}
+
+/// Of a point at the target's distance.
+double mm_per_px(const Camera& camera, Viewport viewport) noexcept {
+  return 2.0 * camera.distance_mm * std::tan(0.5 * camera.fov_rad) / viewport.height_px;
+}
+
+}  // namespace
+
+glm::dvec3 eye_mm(const Camera& camera) noexcept {
+  return camera.target_mm + camera.distance_mm * axes_of(camera).back;
+}
+
+glm::dmat4 view_matrix(const Camera& camera) noexcept {
+  const Axes axes = axes_of(camera);
+  const glm::dvec3 eye = eye_mm(camera);
+  glm::dmat4 view(1.0);
+  for (int i = 0; i < 3; ++i) {
+    view[i][0] = axes.right[i];
+    view[i][1] = axes.up[i];
+    view[i][2] = axes.back[i];
+  }
+  view[3] = {-glm::dot(axes.right, eye), -glm::dot(axes.up, eye), -glm::dot(axes.back, eye), 1.0};
+  return view;
+}
+
+glm::dmat4 projection_matrix(const Camera& camera, double aspect) noexcept {
+  return glm::perspective(camera.fov_rad, aspect, kNearest * camera.distance_mm,
+                          kFarthest * camera.distance_mm);
+}
+
+Camera orbited(Camera camera, glm::dvec2 drag_px, Viewport viewport) noexcept {
+  const double rad_per_px = std::numbers::pi / viewport.height_px;
+  camera.azimuth_rad =
+      std::remainder(camera.azimuth_rad - rad_per_px * drag_px.x, 2.0 * std::numbers::pi);
+  camera.elevation_rad =
+      std::clamp(camera.elevation_rad + rad_per_px * drag_px.y, -kSteepest, kSteepest);
+  return camera;
+}
+
+Camera panned(Camera camera, glm::dvec2 drag_px, Viewport viewport) noexcept {
+  const Axes axes = axes_of(camera);
+  const double scale = mm_per_px(camera, viewport);
+  camera.target_mm += scale * (drag_px.y * axes.up - drag_px.x * axes.right);
+  return camera;
+}
+
+Camera zoomed(Camera camera, double notches) noexcept {
+  camera.distance_mm =
+      std::clamp(camera.distance_mm * std::pow(kNotch, notches), kShortestMm, kLongestMm);
+  return camera;
+}
+
+std::optional<glm::dvec2> pixel_of(const Camera& camera, Viewport viewport,
+                                   const glm::dvec3& point_mm) noexcept {
+  const Axes axes = axes_of(camera);
+  const glm::dvec3 way = point_mm - eye_mm(camera);
+  const double depth = -glm::dot(way, axes.back);
+  if (!(depth > 0.0)) return std::nullopt;
+  const double px = 0.5 * viewport.height_px / (std::tan(0.5 * camera.fov_rad) * depth);
+  return glm::dvec2{0.5 * viewport.width_px + px * glm::dot(way, axes.right),
+                    0.5 * viewport.height_px - px * glm::dot(way, axes.up)};
+}
+
+glm::dvec3 profile_direction(const Camera& camera) noexcept { return axes_of(camera).right; }
+
+std::optional<glm::dvec2> profile_point(const Camera& camera, Viewport viewport,
+                                        glm::dvec2 pixel) noexcept {
+  const Axes axes = axes_of(camera);
+  const glm::dvec3 eye = eye_mm(camera);
+  const double per_px = 2.0 * std::tan(0.5 * camera.fov_rad) / viewport.height_px;
+  const glm::dvec3 ray = (pixel.x - 0.5 * viewport.width_px) * per_px * axes.right +
+                         (0.5 * viewport.height_px - pixel.y) * per_px * axes.up - axes.back;
+  const glm::dvec3 normal = glm::normalize(glm::dvec3{axes.back.x, 0.0, axes.back.z});
+  const double closing = glm::dot(ray, normal);
+  if (std::abs(closing) < kGrazing * glm::length(ray)) return std::nullopt;
+  const double along = -glm::dot(eye, normal) / closing;
+  if (!(along > 0.0)) return std::nullopt;
+  const glm::dvec3 hit = eye + along * ray;
+  return glm::dvec2{glm::dot(hit, axes.right), hit.y};
+}
+
+}  // namespace clay::draw

@@ -1,0 +1,30 @@
+#pragma once
+// Pictures as bytes of files; publish them with the engine's atomic publisher.
+
+#include "app/render/image.hpp"
+#include "claystack/core/result.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace clay::draw {
+
+/// RGBA, 8 bits. Needs an image of at least one pixel.
+std::string png_of(const Image& image);
+
+/// Frame `index` of an animation, from 0.
+using FrameSource = std::function<Result<Image>(std::size_t index)>;
+/// Takes the bytes of a file as they come, in order.
+using ByteSink = std::function<Result<void>(std::string_view bytes)>;
+
+/// An animation that plays for ever. Alpha is left out; all frames share one palette of 256
+/// colours. Needs at least one frame, all of one size. `delay_ms` between frames, to the nearest
+/// 10. Asks for each frame twice, as the palette is chosen from all of them, and holds one at a
+/// time. Returns the bytes written. Errors are those of `frame_at` and `sink`, and of giflib.
+Result<std::uint64_t> write_gif(std::size_t frames, int delay_ms, const FrameSource& frame_at,
+                                const ByteSink& sink);
+
+}  // namespace clay::draw

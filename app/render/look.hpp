@@ -1,0 +1,32 @@
+#pragma once
+// Light, colours and materials of both themes.
+
+#include "app/render/picture.hpp"
+#include "app/render/shaders.hpp"
+
+#include <array>
+#include <glm/vec3.hpp>
+
+namespace clay::draw {
+
+/// Linear light of an sRGB colour, 0xRRGGBB.
+[[nodiscard]] glm::vec3 linear_of(unsigned rgb) noexcept;
+
+/// The colours of the wall map, linear, from no wall to the top of the range: cividis, which reads
+/// the same to people with any kind of colour vision (Nunez, Anderton and Renslow, PLoS ONE 13(7)
+/// 2018).
+[[nodiscard]] const std::array<glm::vec4, kMapColours>& map_colours() noexcept;
+
+struct Look {
+  glm::vec3 lamp, sky, bounce, rim;
+  glm::vec3 low, high;  ///< background
+  glm::vec3 metal;      ///< wheel head
+  glm::vec3 tool, arrow, section;
+};
+[[nodiscard]] const Look& look_of(Theme theme) noexcept;
+
+/// Lamps stand with the camera, so that form reads from every side: (right, up, to the eye), unit.
+[[nodiscard]] glm::dvec3 lamp_direction() noexcept;
+[[nodiscard]] glm::dvec3 rim_lamp_direction() noexcept;
+
+}  // namespace clay::draw

@@ -1,0 +1,152 @@
+#include "app/render/offscreen.hpp"
+
+#include "app/render/gl_objects.hpp"
+#include "app/render/painter.hpp"
+
+#include <dlfcn.h>
+#include <epoxy/egl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <optional>
+
+namespace clay::draw {
+namespace {
+
+/// A display and a context without a surface; both end with the object.
+class EglContext {
+ public:
+  static Result<EglContext> create();
+  EglContext(EglContext&& other) noexcept
+      : display_(std::exchange(other.display_, EGL_NO_DISPLAY)), context_(other.context_) {}
+  EglContext& operator=(EglContext&&) = delete;
+  ~EglContext() {
+    if (display_ == EGL_NO_DISPLAY) return;
+    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (context_ != EGL_NO_CONTEXT) eglDestroyContext(display_, context_);
+    eglTerminate(display_);
+  }
+  bool make_current() const {
+    return eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE;
+  }
+
+ private:
+  explicit EglContext(EGLDisplay display) : display_(display) {}
+  EGLDisplay display_;
+  EGLContext context_ = EGL_NO_CONTEXT;
+};
+
+tl::unexpected<Error> no_context(const std::string& what) {
+  return failure(ErrorKind::device,
+                 fmt::format("drawing without a screen: expected {} (Debian: libegl1, "
+                             "libgl1-mesa-dri), found none",
+                             what));
+}
+
+Result<EglContext> EglContext::create() {
+  // epoxy ends the program where the library is not there.
+  void* library = dlopen("libEGL.so.1", RTLD_LAZY);
+  if (library == nullptr) return no_context("the library libEGL.so.1");
+  dlclose(library);
+  for (const char* extension : {"EGL_EXT_platform_base", "EGL_MESA_platform_surfaceless"})
+    if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, extension)) return no_context(extension);
+  const EGLDisplay display =
+      eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+  if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) != EGL_TRUE)
+    return no_context("an EGL display without a surface");
+  EglContext made(display);
+  constexpr std::array<EGLint, 5> kConfig{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, 0,
+                                          EGL_NONE};
+  EGLConfig config = nullptr;
+  EGLint found = 0;
+  if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE ||
+      eglChooseConfig(display, kConfig.data(), &config, 1, &found) != EGL_TRUE || found < 1)
+    return no_context("an EGL configuration for OpenGL");
+  constexpr std::array<EGLint, 7> kContext{EGL_CONTEXT_MAJOR_VERSION,
+                                           3,
+                                           EGL_CONTEXT_MINOR_VERSION,
+                                           3,
+                                           EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                           EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                           EGL_NONE};
+  made.context_ = eglCreateContext(display, config, EGL_NO_CONTEXT, kContext.data());
+  if (made.context_ == EGL_NO_CONTEXT || !made.make_current())
+    return no_context("an OpenGL 3.3 core context without a surface");
+  return made;
+}
+
+Image read_pixels(int width, int height) {
+  Image image{width, height, {}};
+  const std::size_t row = 4 * static_cast<std::size_t>(width);
+  image.rgba.resize(row * static_cast<std::size_t>(height));
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+  for (int y = 0; y < height / 2; ++y) {  // OpenGL begins below
+    const auto upper = image.rgba.begin() + static_cast<std::ptrdiff_t>(row) * y;
+    const auto lower = image.rgba.begin() + static_cast<std::ptrdiff_t>(row) * (height - 1 - y);
+    std::swap_ranges(upper, upper + static_cast<std::ptrdiff_t>(row), lower);
+  }
+  return image;
+}
+
+}  // namespace
+
+struct Offscreen::State {
+  EglContext context;  ///< outlives what was made in it
+  std::string renderer;
+  std::optional<Canvas> target;
+  std::optional<Painter> painter;
+
+  ~State() { context.make_current(); }  // for the names that are given back now
+
+  Result<void> paint(const Picture& picture, Viewport viewport, int samples) {
+    if (!context.make_current()) return no_context("the context to be there still");
+    if (!(target && target->is(viewport.width_px, viewport.height_px, 0))) {
+      target.reset();
+      auto made = Canvas::create(viewport.width_px, viewport.height_px, 0);
+      if (!made) return tl::make_unexpected(made.error());
+      target.emplace(std::move(*made));
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer());
+    painter->paint(picture, viewport.width_px, viewport.height_px, samples);
+    return {};
+  }
+};
+
+Offscreen::Offscreen(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Offscreen::Offscreen(Offscreen&&) noexcept = default;
+Offscreen& Offscreen::operator=(Offscreen&&) noexcept = default;
+Offscreen::~Offscreen() = default;
+
+Result<Offscreen> Offscreen::create() {
+  auto context = EglContext::create();
+  if (!context) return tl::make_unexpected(context.error());
+  std::unique_ptr<State> state(new State{std::move(*context), {}, std::nullopt, std::nullopt});
+  auto painter = Painter::create();
+  if (!painter) return tl::make_unexpected(painter.error());
+  state->painter.emplace(std::move(*painter));
+  state->renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return Offscreen(std::move(state));
+}
+
+Result<Image> Offscreen::draw(const Picture& picture, Viewport viewport) {
+  return state_->paint(picture, viewport, kSamples).map([&] {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, state_->target->framebuffer());
+    return read_pixels(viewport.width_px, viewport.height_px);
+  });
+}
+
+Result<double> Offscreen::time_ms(const Picture& picture, Viewport viewport, int samples) {
+  const auto begin = std::chrono::steady_clock::now();
+  return state_->paint(picture, viewport, samples).map([&] {
+    glFinish();
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    return took.count();
+  });
+}
+
+const std::string& Offscreen::renderer() const noexcept { return state_->renderer; }
+
+}  // namespace clay::draw

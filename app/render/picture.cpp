@@ -1,0 +1,82 @@
+#include "app/render/picture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace clay::draw {
+namespace {
+
+constexpr double kDefaultAzimuth = 0.6, kDefaultElevation = 0.42, kDefaultFov = 0.42;
+constexpr double kFilled = 0.80;       // of the picture's width or height, by the pot
+constexpr double kWheelBeyond = 1.45;  // radii of the clay
+constexpr std::size_t kCircles = 64, kCirclePoints = 24;
+
+/// Points on circles of the outside, in the wheel's coordinates: their hull is the pot's.
+std::vector<glm::dvec3> outline_points(const PotView& pot) {
+  std::vector<glm::dvec3> points;
+  const std::size_t count = pot.rows.size();
+  const std::size_t stride = std::max<std::size_t>(1, count / kCircles);
+  const double height = count > 0 ? pot.height_mm / static_cast<double>(count) : 0.0;
+  const auto add = [&](std::size_t row, double y) {
+    for (std::size_t k = 0; k < kCirclePoints; ++k) {
+      const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / kCirclePoints;
+      const double radius = static_cast<double>(pot.rows[row].outer_mm);
+      const glm::dvec3 point{radius * std::sin(angle), y, radius * std::cos(angle)};
+      const bool fell = pot.fallen && row >= pot.fallen->first_row;
+      points.push_back(fell ? glm::dvec3(pot.fallen->place * glm::dvec4(point, 1.0)) : point);
+    }
+  };
+  for (std::size_t row = 0; row < count; row += stride) add(row, height * static_cast<double>(row));
+  if (count > 0) add(count - 1, pot.height_mm);
+  return points;
+}
+
+}  // namespace
+
+double wheel_radius_mm(const PotView& pot) noexcept {
+  double reach = 0.0;
+  for (const glm::dvec3& p : outline_points(pot)) reach = std::max(reach, std::hypot(p.x, p.z));
+  if (!(reach > 0.0)) return 150.0;
+  constexpr std::array<double, 10> kPreferred{1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0};
+  const double wanted = kWheelBeyond * reach;
+  const double decade = std::pow(10.0, std::floor(std::log10(wanted)));
+  for (const double step : kPreferred)
+    if (step * decade >= wanted) return step * decade;
+  return 10.0 * decade;
+}
+
+Camera framed(const PotView& pot, double aspect, Camera camera) noexcept {
+  const std::vector<glm::dvec3> points = outline_points(pot);
+  if (points.empty()) return camera;
+  glm::dvec3 low = points.front(), high = low;
+  for (const glm::dvec3& p : points) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  camera.target_mm = 0.5 * (low + high);
+  camera.distance_mm = 1.0;
+  const glm::dmat4 view = view_matrix(camera);
+  const double across = kFilled * std::tan(0.5 * camera.fov_rad);
+  double distance = 0.0;
+  for (const glm::dvec3& p : points) {
+    const glm::dvec4 seen = view * glm::dvec4(p, 1.0);
+    const double nearer = seen.z + 1.0;  // than the target
+    distance = std::max({distance, nearer + std::abs(seen.y) / across,
+                         nearer + std::abs(seen.x) / (across * aspect)});
+  }
+  camera.distance_mm = distance;
+  return camera;
+}
+
+Camera framed(const PotView& pot, double aspect) noexcept {
+  Camera camera;
+  camera.azimuth_rad = kDefaultAzimuth;
+  camera.elevation_rad = kDefaultElevation;
+  camera.fov_rad = kDefaultFov;
+  return framed(pot, aspect, camera);
+}
+
+}  // namespace clay::draw

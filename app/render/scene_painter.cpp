@@ -1,0 +1,167 @@
+#include "app/render/scene_painter.hpp"
+
+#include "app/render/scene_frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <numbers>
+
+namespace clay::draw {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kFloor = 3.0;  // radius of the floor, in those of the wheel head
+constexpr GLuint kBlockBinding = 0;
+
+Result<Program> frame_program(std::string_view name, const std::string& vertex,
+                              const std::string& fragment) {
+  return make_program(name, vertex, fragment).map([](Program program) {
+    const GLuint block = glGetUniformBlockIndex(program.get(), "Frame");
+    if (block != GL_INVALID_INDEX) glUniformBlockBinding(program.get(), block, kBlockBinding);
+    glUseProgram(program.get());
+    glUniform4fv(location(program, "map_colours"), kMapColours,
+                 glm::value_ptr(map_colours().front()));
+    return program;
+  });
+}
+
+}  // namespace
+
+Result<ScenePainter> ScenePainter::create() {
+  ScenePainter made;
+  struct Wanted {
+    Program ScenePainter::*program;
+    const char* name;
+    std::string vertex, fragment;
+  };
+  const Wanted all[] = {
+      {&ScenePainter::background_, "background", background_vertex(), background_fragment()},
+      {&ScenePainter::clay_, "clay", revolve_vertex(), clay_fragment()},
+      {&ScenePainter::plain_, "plain", revolve_vertex(), plain_fragment()},
+      {&ScenePainter::wheel_, "wheel", revolve_vertex(), wheel_fragment()},
+      {&ScenePainter::ground_, "ground", revolve_vertex(), ground_fragment()},
+      {&ScenePainter::slice_, "slice", slice_vertex(), slice_fragment()}};
+  for (const Wanted& wanted : all) {
+    auto program = frame_program(wanted.name, wanted.vertex, wanted.fragment);
+    if (!program) return tl::make_unexpected(program.error());
+    made.*wanted.program = std::move(*program);
+  }
+  made.block_ = make_buffer();
+  made.nothing_ = make_vertex_array();
+  made.shadow_ = make_texture();
+  made.revolver_ = Revolver::create();
+  made.slices_ = SliceFan::create();
+  return made;
+}
+
+void ScenePainter::paint(const Picture& picture, Viewport viewport) {
+  const SceneFrame frame(picture, viewport);
+  FrameBlock block = frame.block;
+  const ShadowMap shadow = shadow_of(frame.bodies, glm::vec3(frame.block.to_lamp));
+  block.viewport.z = shadow.half_side_mm;
+  send(shadow);
+  send(block);
+  glViewport(0, 0, viewport.width_px, viewport.height_px);
+  glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_STENCIL_TEST);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthMask(GL_TRUE);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_BACK);
+  glFrontFace(GL_CCW);
+  paint_clay(frame);
+  if (picture.cut != Cut::none) paint_section(frame);
+  if (picture.tool) {
+    paint_hidden_tool(frame);
+    paint_tool(frame);
+    paint_arrow(frame);
+  }
+  if (frame.from_above()) paint_wheel(frame);
+  paint_background();
+  glBindVertexArray(0);
+  glUseProgram(0);
+}
+
+void ScenePainter::send(const FrameBlock& block) {
+  glBindBuffer(GL_UNIFORM_BUFFER, block_.get());
+  glBufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
+  glBindBufferBase(GL_UNIFORM_BUFFER, kBlockBinding, block_.get());
+}
+
+void ScenePainter::send(const ShadowMap& map) {
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, shadow_.get());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  constexpr auto kSide = static_cast<GLsizei>(ShadowMap::kSide);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RG8, kSide, kSide, 0, GL_RG, GL_UNSIGNED_BYTE,
+               map.light.data());
+  for (const GLenum filter : {GLenum{GL_TEXTURE_MIN_FILTER}, GLenum{GL_TEXTURE_MAG_FILTER}})
+    glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
+  for (const GLenum wrap : {GLenum{GL_TEXTURE_WRAP_S}, GLenum{GL_TEXTURE_WRAP_T}})
+    glTexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+}
+
+/// At the far plane, so only where nothing else is.
+void ScenePainter::paint_background() {
+  glUseProgram(background_.get());
+  glBindVertexArray(nothing_.get());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void ScenePainter::revolve(const Program& program, const std::vector<Stretch>& meridian,
+                           const glm::mat4& place, const SceneFrame& frame) {
+  float radius = 0.0f;
+  for (const Stretch& stretch : meridian) radius = std::max(radius, stretch.to.x);
+  set(program, "place", place);
+  revolver_.draw(meridian, frame.sectors_for(static_cast<double>(radius)));
+}
+
+void ScenePainter::paint_clay(const SceneFrame& frame) {
+  glUseProgram(clay_.get());
+  set(clay_, "sweep", frame.sweep);
+  set(clay_, "turn", static_cast<float>(frame.picture.wheel_turn_rad));
+  set(clay_, "cut", frame.picture.cut == Cut::none ? 0.0f : 1.0f);
+  for (const Body& body : frame.bodies) {
+    set(clay_, "rim", glm::vec2{body.levels.back().inner, body.levels.back().y});
+    revolve(clay_, meridian_of(body.levels), body.place, frame);
+  }
+}
+
+void ScenePainter::paint_section(const SceneFrame& frame) {
+  glUseProgram(slice_.get());
+  glDisable(GL_CULL_FACE);
+  set(slice_, "section", glm::vec4(frame.look.section, 1.0f));
+  for (const Body& body : frame.bodies) {
+    set(slice_, "place", body.place);
+    slices_.load(slices_of(body.levels));
+    for (const float azimuth : {frame.sweep.x, frame.sweep.y}) {
+      set(slice_, "azimuth", azimuth);
+      slices_.draw();
+    }
+  }
+  glEnable(GL_CULL_FACE);
+}
+
+void ScenePainter::paint_wheel(const SceneFrame& frame) {
+  const auto radius = static_cast<float>(frame.wheel_radius);
+  const float thick = frame.block.wheel.z, bevel = 0.12f * thick;
+  const glm::vec2 whole{0.0f, static_cast<float>(2.0 * kPi)};
+  glUseProgram(wheel_.get());
+  set(wheel_, "sweep", whole);
+  set(wheel_, "metal", frame.look.metal);
+  const std::vector<glm::vec2> line{
+      {radius, -thick}, {radius, -bevel}, {radius - bevel, 0.0f}, {radius - 2.0f * bevel, 0.0f}};
+  revolve(wheel_, meridian_of(line), glm::mat4(1.0f), frame);
+  glUseProgram(ground_.get());
+  set(ground_, "sweep", whole);
+  const std::vector<glm::vec2> floor{{static_cast<float>(kFloor) * radius, -thick}};
+  revolve(ground_, meridian_of(floor), glm::mat4(1.0f), frame);
+}
+
+}  // namespace clay::draw

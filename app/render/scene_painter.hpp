@@ -1,0 +1,44 @@
+#pragma once
+// The stages of a frame: clay, section, tool, wheel, floor, background; the nearest first, so that
+// what is hidden costs nothing.
+
+#include "app/render/gl_objects.hpp"
+#include "app/render/look.hpp"
+#include "app/render/picture.hpp"
+#include "app/render/revolver.hpp"
+#include "app/render/shadow.hpp"
+
+#include <vector>
+
+namespace clay::draw {
+
+struct SceneFrame;
+
+class ScenePainter {
+ public:
+  static Result<ScenePainter> create();
+  /// Into the framebuffer that is bound for drawing.
+  void paint(const Picture& picture, Viewport viewport);
+
+ private:
+  void paint_background();
+  void paint_clay(const SceneFrame& frame);
+  void paint_section(const SceneFrame& frame);
+  void paint_tool(const SceneFrame& frame);
+  void paint_hidden_tool(const SceneFrame& frame);
+  void paint_arrow(const SceneFrame& frame);
+  void paint_wheel(const SceneFrame& frame);
+  void send(const FrameBlock& block);
+  void send(const ShadowMap& map);
+  void revolve(const Program& program, const std::vector<Stretch>& meridian, const glm::mat4& place,
+               const SceneFrame& frame);
+
+  Program background_, clay_, plain_, wheel_, ground_, slice_;
+  Buffer block_;
+  VertexArray nothing_;  ///< for the background, whose vertices come from their numbers
+  Texture shadow_;
+  Revolver revolver_;
+  SliceFan slices_;
+};
+
+}  // namespace clay::draw

@@ -1,0 +1,279 @@
+#include "app/render/shaders.hpp"
+
+namespace clay::draw {
+namespace {
+
+constexpr const char* kFrame = R"(#version 330 core
+layout(std140) uniform Frame {
+  mat4 view_projection;
+  vec4 eye, to_lamp, to_rim_lamp;
+  vec4 lamp, sky, bounce, rim;
+  vec4 low, high;
+  vec4 viewport, wall_map, wheel;
+} frame;
+)";
+
+constexpr const char* kColour = R"(
+// sRGB by three square roots in place of a power (least squares; within 0.3/255 above 0.0031), and
+// half a step of noise, so that calm gradients show no bands.
+vec4 shown(vec3 linear) {
+  vec3 c = clamp(linear, 0.0, 1.0);
+  vec3 s1 = sqrt(c), s2 = sqrt(s1), s3 = sqrt(s2);
+  vec3 srgb = 0.662002687 * s1 + 0.684122060 * s2 - 0.323583601 * s3 - 0.0225411470 * c;
+  srgb = mix(12.92 * c, srgb, step(0.0031308, c));
+  float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  return vec4(srgb + (noise - 0.5) / 255.0, 1.0);
+}
+
+vec3 background() {
+  vec2 uv = gl_FragCoord.xy / frame.viewport.xy;
+  vec2 off = (uv - vec2(0.5, 0.46)) * vec2(1.0, 0.9);
+  return mix(frame.high.rgb, frame.low.rgb, smoothstep(0.0, 0.75, length(off)));
+}
+)";
+
+constexpr const char* kLight = R"(
+// Matte, with a sheen that grows towards grazing views: a wet surface. `open`: part of the sky that
+// is seen; `lit`: part of the lamp.
+vec3 lit_surface(vec3 base, vec3 n, vec3 v, float open, float lit, float gloss, float shine) {
+  vec3 l = frame.to_lamp.xyz, h = normalize(l + v);
+  float facing = clamp(dot(n, l), 0.0, 1.0);
+  vec3 ambient = mix(frame.bounce.rgb, frame.sky.rgb, 0.5 + 0.5 * n.y);
+  // What is hidden from the sky sees clay, which sends a little light on.
+  vec3 diffuse = base * (ambient * mix(0.16 * base + 0.10, vec3(1.0), open) +
+                         frame.lamp.rgb * facing * lit);
+  float grazing = 1.0 - clamp(dot(n, v), 0.0, 1.0);
+  grazing *= grazing;
+  grazing *= grazing;
+  float edge = clamp(dot(n, frame.to_rim_lamp.xyz), 0.0, 1.0) * open;
+  vec3 sheen = frame.lamp.rgb * (shine * pow(clamp(dot(n, h), 0.0, 1.0), gloss) * lit * facing) +
+               frame.rim.rgb * edge * (0.10 + 0.9 * grazing) * (0.5 + 0.5 * base);
+  return diffuse + sheen + frame.sky.rgb * grazing * 0.10 * open;
+}
+
+// Whites roll off instead of clipping.
+vec3 exposed(vec3 c) { return c * (1.0 + c * 0.12) / (1.0 + c * 0.42); }
+)";
+
+constexpr const char* kWallColour = R"(
+uniform vec4 map_colours[17];
+
+vec3 wall_colour(float wall) {
+  float at = clamp(wall / frame.wall_map.y, 0.0, 1.0) * 16.0;
+  int below = min(int(at), 15);
+  vec3 colour = mix(map_colours[below].rgb, map_colours[below + 1].rgb, at - float(below));
+  if (wall >= frame.wall_map.x) return colour;
+  float stripe = fract((gl_FragCoord.x + gl_FragCoord.y) / 10.0);
+  vec3 thin = vec3(0.80, 0.02, 0.03);
+  return mix(thin, vec3(1.0, 0.80, 0.74), smoothstep(0.62, 0.72, stripe) *
+                                              (1.0 - smoothstep(0.88, 0.98, stripe)));
+}
+)";
+
+constexpr const char* kRevolveVertex = R"(
+layout(location = 0) in vec2 step_;     // part of the sweep, end of the stretch
+layout(location = 1) in vec4 points_;   // (rho, y) from, to
+layout(location = 2) in vec4 normals_;
+layout(location = 3) in vec4 shade_;    // open from, to; wall from, to
+layout(location = 4) in vec2 neck_;
+uniform mat4 place;
+uniform vec2 sweep;  // azimuths from, to
+out vec3 world, normal, own;
+centroid out vec3 shade;  // open; wall [mm]; azimuth
+flat out vec2 neck;
+void main() {
+  float azimuth = mix(sweep.x, sweep.y, step_.x);
+  vec2 around = vec2(sin(azimuth), cos(azimuth));
+  vec2 p = mix(points_.xy, points_.zw, step_.y), n = mix(normals_.xy, normals_.zw, step_.y);
+  own = vec3(p.x * around.x, p.y, p.x * around.y);
+  vec4 at = place * vec4(own, 1.0);
+  world = at.xyz;
+  normal = mat3(place) * vec3(n.x * around.x, n.y, n.x * around.y);
+  shade = vec3(mix(shade_.xz, shade_.yw, step_.y), azimuth);
+  neck = neck_;
+  gl_Position = frame.view_projection * at;
+}
+)";
+
+constexpr const char* kClayFragment = R"(
+in vec3 world, normal, own;
+centroid in vec3 shade;
+flat in vec2 neck;
+uniform mat4 place;
+uniform vec2 rim;    // radius and height of the opening
+uniform float turn;  // of the clay with the wheel
+uniform float cut;   // 1: light comes in where the pot is cut open
+out vec4 colour;
+
+// Spiral grooves that the fingers leave, and slower waves, as the slope of the wall.
+float grooves(float y, float azimuth, float size, float pixel) {
+  float fine = 6.2832 / (0.0115 * size), coarse = fine * 0.31;
+  float seen = 1.0 - smoothstep(0.15, 0.5, pixel * fine / 6.2832);
+  return 0.050 * seen * sin(y * fine + azimuth) +
+         0.035 * sin(y * coarse + azimuth + 1.3 * sin(y * coarse * 0.37));
+}
+
+float passes(vec2 ring, vec3 l) {
+  float rise = ring.y - own.y;
+  if (ring.x <= 0.0 || rise <= 0.0) return 1.0;
+  vec3 at = own + l * (rise / max(l.y, 1e-3));
+  float width = 0.06 * ring.x + 0.10 * rise;
+  return smoothstep(-width, width, ring.x - length(at.xz));
+}
+
+void main() {
+  vec3 n = normalize(normal), v = normalize(frame.eye.xyz - world);
+  vec3 axis = place[1].xyz;
+  vec3 l = transpose(mat3(place)) * frame.to_lamp.xyz;
+  float azimuth = shade.z - turn;
+  float upright = length(n - axis * dot(n, axis));  // grooves run along walls, not along rims
+  float size = frame.wheel.w;
+  float groove = grooves(own.y, azimuth, size, fwidth(own.y)) * upright;
+  n = normalize(n + axis * groove);
+  float lit = neck.x > 0.0 ? min(passes(neck, l), passes(rim, l)) : 1.0;
+  lit = mix(lit, 1.0, 0.6 * cut * step(1e-6, neck.x));
+  float open = mix(shade.x, 1.0, 0.35 * cut * step(1e-6, neck.x));
+  if (frame.wall_map.z > 0.5) {
+    vec3 base = wall_colour(shade.y);
+    float facing = 0.5 + 0.5 * dot(n, frame.to_lamp.xyz);
+    colour = shown(base * mix(0.50, 1.0, facing * mix(0.5, 1.0, open)));
+    return;
+  }
+  // Iron and grog: faint bands around, fainter specks.
+  float band = sin(own.y * 5.1 / (0.02 * size) + 2.0 * sin(azimuth)) * sin(own.y * 1.7 / (0.02 * size));
+  vec3 base = vec3(0.430, 0.178, 0.088) * (1.0 + 0.045 * band + 0.9 * groove);
+  vec3 c = lit_surface(base, n, v, open, lit, 26.0, 0.16);
+  colour = shown(exposed(c));
+}
+)";
+
+constexpr const char* kPlainFragment = R"(
+in vec3 world, normal, own;
+centroid in vec3 shade;
+flat in vec2 neck;
+uniform vec4 base;         // colour; gloss
+uniform vec4 touch;        // unit, to the clay; 1 where it touches
+out vec4 colour;
+void main() {
+  vec3 n = normalize(normal), v = normalize(frame.eye.xyz - world);
+  vec3 c = lit_surface(base.rgb, n, v, 1.0, 1.0, base.a, 0.35);
+  float side = touch.w * smoothstep(0.40, 0.80, dot(n, touch.xyz));
+  colour = shown(mix(exposed(c), vec3(1.0, 0.42, 0.05), side));
+}
+)";
+
+constexpr const char* kShadowMap = R"(
+uniform sampler2D shadow_map;
+vec2 shadow_at(vec2 at) {
+  vec2 uv = 0.5 + 0.5 * at / frame.viewport.z;
+  vec2 inside = smoothstep(vec2(0.0), vec2(0.08), uv) * smoothstep(vec2(0.0), vec2(0.08), 1.0 - uv);
+  return mix(vec2(1.0), texture(shadow_map, uv).rg, inside.x * inside.y);
+}
+)";
+
+constexpr const char* kWheelFragment = R"(
+in vec3 world, normal, own;
+centroid in vec3 shade;
+flat in vec2 neck;
+uniform vec3 metal;
+out vec4 colour;
+void main() {
+  vec3 n = normalize(normal), v = normalize(frame.eye.xyz - world);
+  float radius = frame.wheel.y, rho = length(own.xz), width = fwidth(rho);
+  float top = step(0.99, normal.y);
+  vec2 light = mix(vec2(1.0), shadow_at(world.xz), top);
+  // Turned grooves, a tenth of the radius apart; finer than a pixel they go.
+  float pitch = 0.1 * radius;
+  float groove = abs(fract(rho / pitch) - 0.5) * pitch;
+  float line = (1.0 - smoothstep(0.0, 0.0035 * radius + width, groove)) *
+               (1.0 - smoothstep(0.05, 0.4, width / pitch));
+  // The mark that shows the turn: a short line near the edge.
+  float s = frame.to_rim_lamp.w, c = frame.to_lamp.w;
+  vec2 turned = vec2(own.x * c - own.z * s, own.x * s + own.z * c);
+  vec2 soft = vec2(-1.0, 1.0) * max(width, 1e-6);
+  float bar = (1.0 - smoothstep(soft.x, soft.y, abs(turned.x) - 0.008 * radius)) *
+              smoothstep(soft.x, soft.y, turned.y - 0.80 * radius) *
+              (1.0 - smoothstep(soft.x, soft.y, turned.y - 0.95 * radius));
+  vec3 base = metal * (1.0 - 0.22 * line * top);
+  base = mix(base, metal * 0.18, bar * top);
+  vec3 lit = lit_surface(base, n, v, light.y, light.x, 60.0, 0.10);
+  colour = shown(exposed(lit));
+}
+)";
+
+// The floor is the background itself, darker where the wheel keeps light away.
+constexpr const char* kGroundFragment = R"(
+in vec3 world, normal, own;
+centroid in vec3 shade;
+flat in vec2 neck;
+out vec4 colour;
+void main() {
+  float radius = frame.wheel.y, down = frame.wheel.z;
+  vec2 moved = world.xz + frame.to_lamp.xz / frame.to_lamp.y * down;
+  float lamp = smoothstep(-0.10, 0.10, length(moved) / radius - 1.0) * shadow_at(moved).x;
+  float contact = exp(-max(length(world.xz) - radius, 0.0) / (0.16 * radius));
+  float fade = 1.0 - smoothstep(1.6, 2.8, length(world.xz) / radius);
+  float kept = (1.0 - 0.30 * (1.0 - lamp)) * (1.0 - 0.42 * contact);
+  colour = shown(background() * mix(1.0, kept, fade));
+}
+)";
+
+constexpr const char* kSliceVertex = R"(
+layout(location = 0) in vec2 corner;  // bore or outside, low or high
+layout(location = 1) in vec4 radii;   // low: bore, outside; high: the same
+layout(location = 2) in vec4 rest;    // y low, high; wall low, high
+uniform mat4 place;
+uniform float azimuth;
+out vec3 face;
+centroid out float wall;
+out float rho;
+void main() {
+  vec2 ends = mix(radii.xy, radii.zw, corner.y);
+  rho = mix(ends.x, ends.y, corner.x);
+  wall = mix(rest.z, rest.w, corner.y);
+  vec4 at = place * vec4(rho * sin(azimuth), mix(rest.x, rest.y, corner.y), rho * cos(azimuth), 1.0);
+  face = at.xyz;
+  gl_Position = frame.view_projection * at;
+}
+)";
+
+constexpr const char* kSliceFragment = R"(
+in vec3 face;
+centroid in float wall;
+in float rho;
+uniform vec4 section;  // colour
+out vec4 colour;
+void main() {
+  colour = shown(frame.wall_map.z > 0.5 ? wall_colour(wall) : section.rgb);
+}
+)";
+
+template <class... Parts>
+std::string joined(Parts... parts) {
+  std::string text = kFrame;
+  (text.append(parts), ...);
+  return text;
+}
+
+}  // namespace
+
+std::string background_vertex() {
+  return joined(R"(
+void main() {
+  vec2 corner = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2);
+  gl_Position = vec4(2.0 * corner - 1.0, 1.0, 1.0);
+}
+)");
+}
+std::string background_fragment() {
+  return joined(kColour, "out vec4 colour;\nvoid main() { colour = shown(background()); }\n");
+}
+std::string revolve_vertex() { return joined(kRevolveVertex); }
+std::string clay_fragment() { return joined(kColour, kLight, kWallColour, kClayFragment); }
+std::string plain_fragment() { return joined(kColour, kLight, kPlainFragment); }
+std::string wheel_fragment() { return joined(kColour, kLight, kShadowMap, kWheelFragment); }
+std::string ground_fragment() { return joined(kColour, kShadowMap, kGroundFragment); }
+std::string slice_vertex() { return joined(kSliceVertex); }
+std::string slice_fragment() { return joined(kColour, kWallColour, kSliceFragment); }
+
+}  // namespace clay::draw

@@ -1,0 +1,105 @@
+#include "app/render/shadow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace clay::draw {
+namespace {
+
+constexpr std::size_t kDiscs = 28;   // that stand for a body
+constexpr float kLampWidth = 0.16f;  // tangent of the angle that the lamp is seen at
+constexpr float kAmbientDepth = 0.62f;
+
+/// A disc of clay in a body's own coordinates, and its lowest point in the wheel's.
+struct Disc {
+  float y, radius;
+  glm::vec3 centre;  ///< in the wheel's coordinates
+  float low;
+};
+
+struct Caster {
+  std::vector<Disc> discs;
+  glm::mat4 back;  ///< from the wheel's coordinates to the body's
+};
+
+Caster caster_of(const Body& body) {
+  Caster caster{{}, glm::inverse(body.place)};
+  const auto& levels = body.levels;
+  const float tilt = std::sqrt(std::max(0.0f, 1.0f - body.place[1].y * body.place[1].y));
+  const std::size_t count = std::min(kDiscs, levels.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    const Level& level = levels[k * (levels.size() - 1) / std::max<std::size_t>(1, count - 1)];
+    const glm::vec3 centre(body.place * glm::vec4(0.0f, level.y, 0.0f, 1.0f));
+    caster.discs.push_back({level.y, level.outer, centre, centre.y - level.outer * tilt});
+  }
+  return caster;
+}
+
+float smooth(float t) {
+  t = std::clamp(t, 0.0f, 1.0f);
+  return t * t * (3.0f - 2.0f * t);
+}
+
+/// Part of the lamp that is hidden from a point of the ground.
+float lamp_hidden(const Caster& caster, const glm::vec3& point, const glm::vec3& to_lamp,
+                  float texel) {
+  const glm::vec3 from(caster.back * glm::vec4(point, 1.0f));
+  const glm::vec3 way(caster.back * glm::vec4(to_lamp, 0.0f));
+  if (std::abs(way.y) < 1e-4f) return 0.0f;
+  float hidden = 0.0f;
+  for (const Disc& disc : caster.discs) {
+    const float along = (disc.y - from.y) / way.y;
+    if (along < 0.0f) continue;
+    const float off = std::hypot(from.x + along * way.x, from.z + along * way.z) - disc.radius;
+    const float width = 1.5f * texel + kLampWidth * along;
+    if (off < width) hidden = std::max(hidden, smooth(0.5f - 0.5f * off / width));
+  }
+  return hidden;
+}
+
+float sky_hidden(const Caster& caster, const glm::vec3& point) {
+  float hidden = 0.0f;
+  for (const Disc& disc : caster.discs) {
+    const float off = std::hypot(point.x - disc.centre.x, point.z - disc.centre.z) - disc.radius;
+    const float low = std::max(0.0f, disc.low);
+    const float reach = 0.30f * disc.radius + low;
+    const float strength = kAmbientDepth / (1.0f + 2.0f * low / (disc.radius + 1e-6f));
+    hidden = std::max(hidden, strength * std::exp(-std::max(0.0f, off) / (reach + 1e-6f)));
+  }
+  return hidden;
+}
+
+std::uint8_t byte_of(float part) {
+  return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(part, 0.0f, 1.0f)));
+}
+
+}  // namespace
+
+ShadowMap shadow_of(std::span<const Body> bodies, const glm::vec3& to_lamp) {
+  ShadowMap map;
+  std::vector<Caster> casters;
+  float reach = 1e-3f;
+  for (const Body& body : bodies) {
+    casters.push_back(caster_of(body));
+    for (const Disc& disc : casters.back().discs)
+      reach = std::max(reach, glm::length(disc.centre) + disc.radius);
+  }
+  map.half_side_mm = 2.0f * reach;
+  const float texel = 2.0f * map.half_side_mm / static_cast<float>(ShadowMap::kSide);
+  for (std::size_t i = 0; i < map.light.size(); ++i) {
+    const glm::vec3 point{
+        (static_cast<float>(i % ShadowMap::kSide) + 0.5f) * texel - map.half_side_mm, 0.0f,
+        (static_cast<float>(i / ShadowMap::kSide) + 0.5f) * texel - map.half_side_mm};
+    float lamp = 1.0f, sky = 1.0f;
+    for (const Caster& caster : casters) {
+      lamp = std::min(lamp, 1.0f - lamp_hidden(caster, point, to_lamp, texel));
+      sky *= 1.0f - sky_hidden(caster, point);
+    }
+    map.light[i] = {byte_of(lamp), byte_of(sky)};
+  }
+  return map;
+}
+
+}  // namespace clay::draw

@@ -1,0 +1,32 @@
+#pragma once
+// The shadow of the clay on the wheel head, as a small map: soft, so that few texels do.
+
+#include "app/render/section.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace clay::draw {
+
+/// A body as the light sees it: its levels, and where it lies.
+struct Body {
+  std::vector<Level> levels;
+  glm::mat4 place{1.0f};
+};
+
+struct ShadowMap {
+  static constexpr std::size_t kSide = 96;
+  /// Light of the lamp and of the sky that reaches a texel, rows along z, texels along x.
+  std::array<std::array<std::uint8_t, 2>, kSide * kSide> light{};
+  float half_side_mm = 1.0f;  ///< covers the square of twice this side about the axis
+};
+
+/// `to_lamp`: unit, upwards.
+[[nodiscard]] ShadowMap shadow_of(std::span<const Body> bodies, const glm::vec3& to_lamp);
+
+}  // namespace clay::draw

@@ -1,0 +1,76 @@
+#pragma once
+// What the potter asks for beside the motion of the hand: by the device's buttons, or by commands
+// from another thread.
+
+#include "core/spsc_queue.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace clay::live {
+
+enum class CommandKind {
+  clutch,  ///< value 0 lets go, any other holds; so of trim and pause
+  trim,
+  pause,
+  gap,    ///< value: mm, 0 to kWidestGapMm; 0: one tool
+  zero,   ///< no force, and the clay is left alone, until `rearm`
+  rearm,  ///< force again after `zero` or when the guard went safe, once the cause is gone
+  stop,
+};
+
+struct Command {
+  CommandKind kind = CommandKind::stop;
+  double value = 0.0;
+};
+
+/// One thread gives the commands, the servo takes them.
+using Commands = falcon::CommandQueue<Command, 64>;
+
+/// Bits of DeviceSample::buttons; 0 where there is no such button.
+struct ButtonMap {
+  unsigned clutch = 0, trim = 0;  ///< for as long as they are held
+  unsigned wider = 0,
+           narrower = 0;  ///< the gap, by kGapStepMm at each press, and on while it is held
+};
+inline constexpr ButtonMap kFalconButtons{4, 2, 1, 8};  ///< centre, forward, plus, minus
+inline constexpr ButtonMap kTwoButtons{2, 1, 0, 0};     ///< of a controller with two
+inline constexpr double kGapStepMm = 0.5, kWidestGapMm = 100.0;
+/// A button that is held steps on after a while: 36 mm in four seconds.
+inline constexpr std::int64_t kGapWaitUs = 400'000, kGapEveryUs = 50'000;
+
+class Controls {
+ public:
+  /// `pinches`: whether the scene lets poses have a gap at all.
+  Controls(const ButtonMap& buttons, bool pinches, double gap_mm) noexcept
+      : map_(buttons), pinches_(pinches), gap_mm_(pinches ? gap_mm : 0.0) {}
+
+  /// Once a tick. Where the device measures a grip, that is the gap.
+  void update(std::int64_t now_us, unsigned buttons, Commands& commands,
+              std::optional<double> grip_mm = std::nullopt) noexcept;
+
+  [[nodiscard]] bool clutched() const noexcept { return clutch_held_ || clutch_asked_; }
+  [[nodiscard]] bool paused() const noexcept { return paused_; }
+  [[nodiscard]] bool trim() const noexcept { return trim_held_ || trim_asked_; }
+  [[nodiscard]] double gap_mm() const noexcept { return gap_mm_; }
+  [[nodiscard]] bool stopped() const noexcept { return stopped_; }
+  /// In this tick, whichever was asked for last.
+  [[nodiscard]] bool zero() const noexcept { return zero_; }
+  [[nodiscard]] bool rearm() const noexcept { return rearm_; }
+
+ private:
+  void obey(const Command& command) noexcept;
+  void step_gap(std::int64_t now_us, unsigned buttons) noexcept;
+  void set_gap(double mm) noexcept;
+
+  ButtonMap map_;
+  bool pinches_;
+  double gap_mm_;
+  unsigned before_ = 0;          // buttons of the last tick
+  std::int64_t gap_due_us_ = 0;  // when a held button steps again
+  bool clutch_held_ = false, clutch_asked_ = false;
+  bool trim_held_ = false, trim_asked_ = false;
+  bool paused_ = false, stopped_ = false, zero_ = false, rearm_ = false;
+};
+
+}  // namespace clay::live

@@ -1,0 +1,81 @@
+#include "app/servo/recorder.hpp"
+
+#include "app/servo/session_recording.hpp"
+#include "claystack/engine/files.hpp"
+
+#include <chrono>
+#include <utility>
+
+namespace clay::live {
+namespace {
+
+// A third of what may be lost, for a thread that has to wait for its turn.
+constexpr auto kPause = std::chrono::milliseconds(30);
+
+}  // namespace
+
+Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path,
+                                                   std::string_view scene_name,
+                                                   std::uint64_t scene_hash) {
+  auto sink = SessionRecording::begin(path, scene_name, scene_hash);
+  if (!sink) return tl::make_unexpected(sink.error());
+  auto recorder = create(**sink);
+  recorder->own_sink_ = std::move(*sink);
+  return recorder;
+}
+
+std::unique_ptr<Recorder> Recorder::create(work::PoseSink& sink) {
+  std::unique_ptr<Recorder> recorder(new Recorder(sink));
+  recorder->thread_ = std::thread([&self = *recorder] { self.run(); });
+  return recorder;
+}
+
+Recorder::Recorder(work::PoseSink& sink) : sink_(sink) { block_.reserve(kPosesPerBlock); }
+
+Recorder::~Recorder() {
+  closing_.store(true);
+  if (thread_.joinable()) thread_.join();
+}
+
+bool Recorder::take(const Pose& pose) noexcept {
+  const bool whole = lost_.load(std::memory_order_relaxed) == 0;
+  if (whole && !failed_.load(std::memory_order_relaxed) && queue_.push(pose)) {
+    taken_.fetch_add(1, std::memory_order_relaxed);
+    return true;
+  }
+  lost_.fetch_add(1, std::memory_order_relaxed);
+  return false;
+}
+
+Result<void> Recorder::finish() {
+  closing_.store(true);
+  if (thread_.joinable()) thread_.join();
+  if (failed_) return tl::make_unexpected(error_);
+  return sink_.finish();
+}
+
+void Recorder::run() {
+  while (!closing_.load()) {
+    hand_on();
+    std::this_thread::sleep_for(kPause);
+  }
+  hand_on();
+}
+
+void Recorder::hand_on() {
+  for (;;) {
+    while (block_.size() < kPosesPerBlock) {
+      const auto pose = queue_.pop();
+      if (!pose) break;
+      block_.push_back(*pose);
+    }
+    if (block_.empty()) return;
+    if (auto appended = failed_ ? Result<void>() : sink_.append(block_); !appended) {
+      error_ = appended.error();
+      failed_ = true;
+    }
+    block_.clear();
+  }
+}
+
+}  // namespace clay::live

@@ -1,0 +1,76 @@
+#include "app/servo/servo_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace clay::app {
+namespace {
+
+constexpr double kMmPerM = 1000.0;
+
+/// Rings whose middles lie within the tool's reach: one more than steps between them.
+double most_rings_touched(const SceneSpec& scene, const Tool& tool) {
+  const double rings = std::floor((tool.high() - tool.low()) / scene.lump.ring_height_mm) + 1.0;
+  return std::min(rings, static_cast<double>(max_rings_of(scene.lump)));
+}
+
+std::string rounded_down(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+  return fmt::format("{:.6g}", std::floor(value / unit) * unit);
+}
+
+Error refusal(const SceneSpec& scene, const ServoContact& contact, const falcon::SampledLoop& loop,
+              const falcon::StiffnessTooHigh& why) {
+  const bool per_ring = scene.model == Model::paper && scene.force->paper_stiffness_n_per_mm;
+  const double found =
+      per_ring ? *scene.force->paper_stiffness_n_per_mm : scene.force->stiffness_n_per_mm2;
+  const char* setting = per_ring ? "force.paper_stiffness_n_per_mm" : "force.stiffness_n_per_mm2";
+  const double highest = found * (why.highest_n_per_m / why.found_n_per_m);
+  return {
+      ErrorKind::bad_input,
+      fmt::format("{}: expected at most {} for a contact of {:.4g} mm and an arm of {:.4g} N s/m "
+                  "at {:.6g} Hz, found {:.6g}; or a rate of at least {:.0f} Hz",
+                  setting, rounded_down(highest), contact.height_mm, loop.damping_ns_per_m,
+                  loop.rate_hz, found, std::ceil(why.lowest_rate_hz))};
+}
+
+}  // namespace
+
+Result<ServoContact> servo_contact(const SceneSpec& scene, const StepPlan& plan,
+                                   const falcon::SampledLoop& loop, double stiffness_gain) {
+  if (const auto checked = check(loop); !checked)
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}: expected a value from {:.6g} to {:.6g}, found {:.6g}",
+                               checked.error().setting, checked.error().low, checked.error().high,
+                               checked.error().found));
+  const double rings = most_rings_touched(scene, plan.tool);
+  ServoContact contact;
+  contact.height_mm = rings * scene.lump.ring_height_mm;
+  contact.accepted_n_per_m = accepted_stiffness(loop);
+  const double tools = (plan.stages & kPinch) ? 2.0 : 1.0;
+  if (scene.force)
+    contact.stiffness_n_per_m =
+        stiffness_gain * tools * kMmPerM * plan.force.stiffness_n_per_mm * rings;
+  return contact;
+}
+
+Result<ServoContact> check_servo(const SceneSpec& scene, const StepPlan& plan,
+                                 const falcon::SampledLoop& loop, double stiffness_gain) {
+  const auto contact = servo_contact(scene, plan, loop, stiffness_gain);
+  if (!contact || !scene.force) return contact;
+  if (const auto soft = check_stiffness(loop, contact->stiffness_n_per_m); !soft)
+    return tl::make_unexpected(refusal(scene, *contact, loop, soft.error()));
+  return contact;
+}
+
+double soften(SceneSpec& scene, const ServoContact& contact) {
+  if (!scene.force || contact.stiffness_n_per_m <= contact.accepted_n_per_m) return 1.0;
+  const double part = contact.accepted_n_per_m / contact.stiffness_n_per_m;
+  scene.force->stiffness_n_per_mm2 *= part;
+  if (scene.force->paper_stiffness_n_per_mm) *scene.force->paper_stiffness_n_per_mm *= part;
+  return part;
+}
+
+}  // namespace clay::app

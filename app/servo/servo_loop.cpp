@@ -1,0 +1,224 @@
+#include "app/servo/servo_loop.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace clay::live {
+namespace {
+
+using falcon::DeviceState;
+
+constexpr std::int64_t kNsPerUs = 1000;
+// A picture of the clay for a window, some sixty times a second.
+constexpr std::uint64_t kTicksToProfile = 16;
+
+std::int64_t period_ns(double rate_hz) { return std::llround(1e9 / rate_hz); }
+
+std::int64_t clay_period_us(const LiveSettings& settings) {
+  return settings.clay_rate_hz > 0.0 ? std::llround(1e6 / settings.clay_rate_hz) : 0;
+}
+
+Error range_error(const falcon::OutOfRange& out) {
+  return {ErrorKind::bad_input, fmt::format("{}: expected a value from {:g} to {:g}, found {:g}",
+                                            out.setting, out.low, out.high, out.found)};
+}
+
+}  // namespace
+
+Result<ServoLoop> ServoLoop::build(const Bench& bench, const LiveSettings& settings) {
+  if (auto checked = check(settings); !checked) return tl::make_unexpected(checked.error());
+  const auto mapping = Mapping::build(settings.mapping);
+  if (!mapping) return tl::make_unexpected(mapping.error());
+  falcon::GuardSettings guard_settings = settings.guard;
+  guard_settings.period_s = 1.0 / settings.rate_hz;
+  const auto guard = falcon::ForceGuard::make(guard_settings);
+  if (!guard) return tl::make_unexpected(range_error(guard.error()));
+  falcon::PassivitySpec spec{.loop = settings.arm, .step_m = settings.encoder_step_m};
+  spec.loop.rate_hz = settings.rate_hz;
+  const auto controller = falcon::PassivityController::build(spec);
+  if (!controller) return tl::make_unexpected(range_error(controller.error()));
+  return ServoLoop(bench, settings, *mapping, *guard, *controller);
+}
+
+ServoLoop::ServoLoop(const Bench& bench, const LiveSettings& settings, const Mapping& mapping,
+                     const falcon::ForceGuard& guard, const falcon::PassivityController& controller)
+    : bench_(bench),
+      seconds_(settings.seconds),
+      patience_s_(std::max(settings.patience_s, settings.seconds)),
+      mapping_(mapping),
+      controls_(settings.buttons, (bench.wheel.plan().stages & kPinch) != 0, settings.gap_mm),
+      guard_(guard),
+      hand_(controller),
+      clay_(bench.wheel, bench.recorder, clay_period_us(settings)),
+      pacer_(period_ns(settings.rate_hz)) {}
+
+void ServoLoop::start() noexcept {
+  started_ns_ = last_begun_ns_ = bench_.clock.now_ns();
+  pacer_.start(last_begun_ns_);
+  guard_.rearm();
+  hand_.reset();
+  wanted_ = {};
+  status_.ending = Ending::none;
+}
+
+Ending ServoLoop::tick(falcon::ForceGate& gate, Commands& commands, LiveView& view,
+                       std::atomic<std::int64_t>& heartbeat_us) noexcept {
+  const std::int64_t late_ns = pacer_.wait(bench_.clock);
+  const falcon::DeviceSample sample = bench_.device.read(pacer_.patience_us(bench_.clock.now_ns()));
+  const std::int64_t begun_ns = bench_.clock.now_ns(), now_us = begun_ns / kNsPerUs;
+  pacer_.sampled(begun_ns);
+  heartbeat_us.store(now_us, std::memory_order_release);
+
+  obey(sample, now_us, commands);
+  follow(sample, now_us);
+  send(gate);
+  hand_.displayed(guarded_.force_n);
+
+  keep_time(late_ns, begun_ns, sample);
+  heartbeat_us.store(bench_.clock.now_us(), std::memory_order_release);
+  status_.device = sample.state;
+  status_.ending = ending(gate);
+  publish(view, late_ns);
+  return status_.ending;
+}
+
+/// Buttons and commands. With the clutch in, the hand moves and the tool stays.
+void ServoLoop::obey(const falcon::DeviceSample& sample, std::int64_t now_us,
+                     Commands& commands) noexcept {
+  const bool ready = sample.state == DeviceState::ready;
+  controls_.update(now_us, ready ? sample.buttons : 0u, commands,
+                   ready ? sample.grip_mm : std::nullopt);
+  const bool was_held = held_, was_clutched = status_.clutched;
+  held_ = controls_.clutched() || controls_.paused();
+  if (was_clutched && !controls_.clutched()) mapping_.recentre(sample.position_mm, tool_mm_);
+  if (held_ && !was_held) guard_.pause();
+  if ((was_held && !held_) || (controls_.rearm() && !held_)) {
+    guard_.rearm();
+    hand_.reset();
+  }
+  if (controls_.zero()) guard_.pause();
+  status_.clutched = controls_.clutched();
+  status_.paused = controls_.paused();
+}
+
+/// Where the hand is believed to be, there the tool goes; what it meets is the force wanted.
+void ServoLoop::follow(const falcon::DeviceSample& sample, std::int64_t now_us) noexcept {
+  const falcon::Admission admission = guard_.admit(
+      now_us,
+      {sample.time_us, sample.position_mm, sample.fresh, sample.state == DeviceState::ready});
+  wanted_.clay_time_us = now_us;
+  if (thrown_) status_.time_s = 1e-6 * static_cast<double>(now_us - first_us_);
+  if (held_) {
+    wanted_ = {{}, now_us, true};
+    status_.contact = false;
+    status_.clay_n = {};
+    return;
+  }
+  if (!admission.may_deform) return;  // the last force stays wanted; the guard lets it fade
+  if (!thrown_) first_us_ = sample.time_us;
+  thrown_ = true;
+  tool_mm_ = mapping_.to_clay(sample.position_mm);
+  const StepReport report =
+      clay_.meet({sample.time_us - first_us_, tool_mm_, controls_.trim(), controls_.gap_mm()});
+  status_.contact = (report.flags & kContact) != 0;
+  status_.clay_n = report.force_n;
+  status_.ring_limit = status_.ring_limit || (report.flags & kRingLimit) != 0;
+  if (!bench_.device.info().can_push) return;
+  const HandForce::Wanted hand =
+      hand_.answer(now_us, sample.position_mm, mapping_, tool_mm_, report.force_n);
+  wanted_.force_n = hand.force_n;
+  wanted_.passive = hand.passive;
+}
+
+/// One owner of the force: the gate. The watchdog may have shut it for a while, a signal for good.
+void ServoLoop::send(falcon::ForceGate& gate) noexcept {
+  const std::int64_t now_us = bench_.clock.now_us();
+  guarded_ = guard_.force(now_us, wanted_);
+  count_events();
+  if (gate.is_shut()) gate.open();
+  if (!gate.enter()) {
+    guard_.was_zeroed();
+    guarded_.force_n = {};
+    return;
+  }
+  bench_.device.write(guarded_.force_n);
+  if (gate.leave()) return;
+  bench_.device.zero();
+  guard_.was_zeroed();
+  guarded_.force_n = {};
+}
+
+/// What befell, when it comes and not while it lasts.
+void ServoLoop::count_events() noexcept {
+  const std::uint32_t came = guarded_.flags & ~flags_before_;
+  for (std::size_t bit = 0; bit < GuardEvents::kFlags; ++bit)
+    events_.flags[bit] += (came >> bit) & 1u;
+  flags_before_ = guarded_.flags;
+  if (guarded_.cause != status_.cause) ++events_.safe[static_cast<std::size_t>(guarded_.cause)];
+  if (hand_.state() != falcon::PassivityState::watching) ++events_.damped;
+}
+
+void ServoLoop::keep_time(std::int64_t late_ns, std::int64_t begun_ns,
+                          const falcon::DeviceSample& sample) noexcept {
+  const std::int64_t sent_ns = bench_.clock.now_ns();
+  timing_.lateness.add(late_ns);
+  timing_.oversleep.add(pacer_.overslept_ns());
+  if (timing_.ticks > 0) timing_.period.add(begun_ns - last_begun_ns_);
+  timing_.work.add(sent_ns - begun_ns);
+  if (sample.fresh) timing_.age.add(sent_ns - kNsPerUs * sample.time_us);
+  timing_.stale += sample.fresh ? 0u : 1u;
+  timing_.missed += late_ns >= pacer_.period_ns() ? 1u : 0u;
+  ++timing_.ticks;
+  last_begun_ns_ = begun_ns;
+  if (bench_.trace == nullptr) return;
+  const auto us = [](std::int64_t ns) { return 1e-3f * static_cast<float>(ns); };
+  bench_.trace->add({begun_ns, static_cast<float>(glm::length(status_.clay_n)),
+                     static_cast<float>(glm::length(guarded_.force_n)), us(late_ns),
+                     us(sent_ns - begun_ns), late_ns >= pacer_.period_ns()});
+}
+
+Ending ServoLoop::ending(const falcon::ForceGate& gate) const noexcept {
+  if (controls_.stopped() || gate.is_shut_for_good()) return Ending::stopped;
+  if (status_.device == DeviceState::fault || status_.device == DeviceState::closed)
+    return Ending::device_lost;
+  if (clay_.wheel().collapsed()) return Ending::collapsed;
+  if (time_is_up()) return Ending::time_up;
+  return Ending::none;
+}
+
+bool ServoLoop::time_is_up() const noexcept {
+  if (seconds_ == 0.0) return false;
+  if (thrown_) return status_.time_s >= seconds_;
+  return 1e-9 * static_cast<double>(last_begun_ns_ - started_ns_) >= patience_s_;
+}
+
+void ServoLoop::publish(LiveView& view, std::int64_t late_ns) noexcept {
+  const Wheel& wheel = clay_.wheel();
+  status_.guard = guarded_.state;
+  status_.cause = guarded_.cause;
+  status_.passivity = hand_.state();
+  status_.tool_mm = tool_mm_;
+  status_.gap_mm = controls_.gap_mm();
+  status_.force_n = guarded_.force_n;
+  status_.force_gain = guarded_.gain;
+  status_.volume_error = static_cast<double>(wheel.ledger().volume_error(wheel.stack().volume()));
+  status_.imbalance = static_cast<double>(wheel.ledger().imbalance(wheel.stack().volume()));
+  const double mm3 = wheel.stack().mm3_per_quantum();
+  status_.stack_mm3 = wheel.stack().volume_mm3();
+  status_.trimmed_mm3 = mm3 * static_cast<double>(wheel.ledger().trimmed);
+  status_.outside_mm3 = mm3 * static_cast<double>(wheel.ledger().outside);
+  status_.height_mm = wheel.stack().height_mm();
+  status_.ticks = timing_.ticks;
+  status_.poses = clay_.poses();
+  status_.missed = timing_.missed;
+  status_.late_ns = late_ns;
+  view.status.write(status_);
+  if (timing_.ticks % kTicksToProfile != 1 && status_.ending == Ending::none) return;
+  show(wheel.stack(), status_.time_s, view.profile.draft());
+  view.profile.publish();
+}
+
+}  // namespace clay::live

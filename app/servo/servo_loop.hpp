@@ -1,0 +1,89 @@
+#pragma once
+// One tick of throwing: device, mapping, guard, clay, force, guard, device. It runs on the thread
+// that calls it and on the clock that it is given, allocates and throws nothing; docs/servo.md has
+// the threads around it and the faults that it meets.
+
+#include "app/servo/clock.hpp"
+#include "app/servo/controls.hpp"
+#include "app/servo/hand_force.hpp"
+#include "app/servo/live_clay.hpp"
+#include "app/servo/live_settings.hpp"
+#include "app/servo/live_view.hpp"
+#include "app/servo/pacer.hpp"
+#include "app/servo/servo_timing.hpp"
+#include "app/servo/tick_trace.hpp"
+#include "claystack/falcon/device.hpp"
+#include "claystack/falcon/guard.hpp"
+
+#include <atomic>
+#include <cstdint>
+
+namespace clay::live {
+
+/// What the loop works on. All outlive it.
+struct Bench {
+  Wheel& wheel;
+  falcon::HapticDevice& device;
+  Clock& clock;
+  Recorder* recorder = nullptr;  ///< none: nothing is recorded
+  TickTrace* trace = nullptr;    ///< none: nobody plots the ticks
+};
+
+class ServoLoop {
+ public:
+  /// Errors name the setting.
+  static Result<ServoLoop> build(const Bench& bench, const LiveSettings& settings);
+
+  /// Before the first tick, and again after the device was opened anew: force is earned from
+  /// nothing, the session goes on.
+  void start() noexcept;
+
+  /// Sleeps until it is due, then ticks. Anything but `none` is the last. `heartbeat_us` is what
+  /// the watchdog looks at.
+  Ending tick(falcon::ForceGate& gate, Commands& commands, LiveView& view,
+              std::atomic<std::int64_t>& heartbeat_us) noexcept;
+
+  // Once no thread ticks.
+  [[nodiscard]] const ServoTiming& timing() const noexcept { return timing_; }
+  [[nodiscard]] const GuardEvents& events() const noexcept { return events_; }
+  [[nodiscard]] const LiveStatus& status() const noexcept { return status_; }
+  void count_watchdog(std::uint64_t times) noexcept { events_.watchdog += times; }
+
+ private:
+  ServoLoop(const Bench& bench, const LiveSettings& settings, const Mapping& mapping,
+            const falcon::ForceGuard& guard, const falcon::PassivityController& controller);
+
+  void obey(const falcon::DeviceSample& sample, std::int64_t now_us, Commands& commands) noexcept;
+  void follow(const falcon::DeviceSample& sample, std::int64_t now_us) noexcept;
+  void send(falcon::ForceGate& gate) noexcept;
+  void count_events() noexcept;
+  void keep_time(std::int64_t late_ns, std::int64_t begun_ns,
+                 const falcon::DeviceSample& sample) noexcept;
+  [[nodiscard]] Ending ending(const falcon::ForceGate& gate) const noexcept;
+  [[nodiscard]] bool time_is_up() const noexcept;
+  void publish(LiveView& view, std::int64_t late_ns) noexcept;
+
+  Bench bench_;
+  double seconds_, patience_s_;
+  Mapping mapping_;
+  Controls controls_;
+  falcon::ForceGuard guard_;
+  HandForce hand_;
+  LiveClay clay_;
+  Pacer pacer_;
+
+  bool held_ = false;          // clutched or paused: the clay is left alone
+  bool thrown_ = false;        // a sample was believed
+  std::int64_t first_us_ = 0;  // its time
+  std::int64_t started_ns_ = 0;
+  std::int64_t last_begun_ns_ = 0;
+  glm::dvec3 tool_mm_{0.0};
+  falcon::WantedForce wanted_;
+  falcon::GuardedForce guarded_;
+  std::uint32_t flags_before_ = falcon::kGuardClock;  // the first tick has no time before it
+  ServoTiming timing_;
+  GuardEvents events_;
+  LiveStatus status_;
+};
+
+}  // namespace clay::live

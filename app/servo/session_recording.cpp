@@ -1,0 +1,154 @@
+#include "app/servo/session_recording.hpp"
+
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+namespace clay::live {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool same_file(const struct stat& a, const struct stat& b) {
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SessionRecording>> SessionRecording::begin(const std::string& path,
+                                                                  std::string_view scene_name,
+                                                                  std::uint64_t scene_hash) {
+  std::unique_ptr<SessionRecording> recording(new SessionRecording(path));
+  struct stat status {};
+  const bool exists = stat(path.c_str(), &status) == 0;
+  if (!exists && errno != ENOENT) return recording->failed("open");
+  if ((exists && S_ISDIR(status.st_mode)) || !fs::path(path).has_filename())
+    return failure(ErrorKind::io, path + ": expected the name of a file, found a folder");
+  // The old session is not written to, but a rename would not ask.
+  if (exists && access(path.c_str(), W_OK) != 0) return recording->failed("open");
+  const bool replaceable = !exists || S_ISREG(status.st_mode);
+  auto begun = replaceable ? recording->open_aside() : recording->open_in_place();
+  if (begun && exists && replaceable && fchmod(recording->descriptor_, status.st_mode & 07777) != 0)
+    return recording->failed("keep the mode");
+  if (begun) begun = recording->write(session_header(scene_name, scene_hash));
+  if (!begun) return tl::make_unexpected(begun.error());
+  return recording;
+}
+
+SessionRecording::~SessionRecording() {
+  if (poses_ == 0) discard();
+  if (descriptor_ >= 0) (void)close(descriptor_);
+}
+
+Result<void> SessionRecording::open_in_place() {
+  descriptor_ = open(path_.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+  if (descriptor_ < 0) return failed("open");
+  return {};
+}
+
+Result<void> SessionRecording::open_aside() {
+  std::error_code none;
+  const fs::path real = fs::canonical(path_, none);
+  target_ = none ? fs::path(path_) : real;
+  aside_ = target_.string() + ".recording";
+  return lock_aside().and_then([&] { return clear_aside(); });
+}
+
+Result<void> SessionRecording::lock_aside() {
+  for (;;) {
+    descriptor_ = open(aside_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) return failed("open");
+    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+      const bool taken = errno == EWOULDBLOCK;
+      auto error = taken ? failure(ErrorKind::io, path_ + ": another program is recording to it")
+                         : failed("lock");
+      aside_.clear();  // not ours to remove
+      return error;
+    }
+    struct stat locked {
+    }, named{};
+    if (fstat(descriptor_, &locked) == 0 && stat(aside_.c_str(), &named) == 0 &&
+        same_file(locked, named))
+      return {};
+    // The other program finished between our open and our lock: this file is its session now.
+    (void)close(std::exchange(descriptor_, -1));
+  }
+}
+
+/// What a program that died before its first pose left is of no use; with poses it is.
+Result<void> SessionRecording::clear_aside() {
+  struct stat status {};
+  if (fstat(descriptor_, &status) != 0) return failed("read");
+  if (status.st_size == 0) return {};
+  const std::string name = aside_.string();
+  const auto left = read_file(aside_).and_then(
+      [&](const std::string& text) { return parse_session(text, name); });
+  if (!left || !left->poses.empty()) {
+    aside_.clear();
+    return failure(ErrorKind::io, name +
+                                      ": holds a recording that was never finished; play it with "
+                                      "--session, then rename or remove it");
+  }
+  if (ftruncate(descriptor_, 0) != 0) return failed("shorten");
+  return {};
+}
+
+Result<void> SessionRecording::append(std::span<const Pose> poses) {
+  if (poses.size() > kMaxPoses - poses_)
+    return failure(ErrorKind::bad_input,
+                   path_ + ": expected at most " + std::to_string(kMaxPoses) +
+                       " poses in one session, found more; it ends with the last that fits");
+  poses_ += poses.size();
+  return write(session_block(poses));
+}
+
+Result<void> SessionRecording::write(std::string_view text) {
+  while (!text.empty()) {
+    const auto written = ::write(descriptor_, text.data(), text.size());
+    if (written > 0)
+      text.remove_prefix(static_cast<std::size_t>(written));
+    else if (written == 0 || errno != EINTR)
+      return failed("write");
+  }
+  return {};
+}
+
+Result<void> SessionRecording::finish() {
+  if (poses_ == 0) {
+    discard();
+    return {};
+  }
+  int synced = 0;
+  while ((synced = fsync(descriptor_)) != 0 && errno == EINTR) continue;
+  if (synced != 0 && (!aside_.empty() || errno != EINVAL)) return failed("sync");
+  if (aside_.empty()) return {};
+  // Named while it is still locked: nobody takes it for one that was never finished.
+  if (rename(aside_.c_str(), target_.c_str()) != 0) return failed("replace");
+  aside_.clear();
+  const fs::path folder = target_.parent_path();
+  sync_folder(folder.empty() ? fs::path(".") : folder);
+  return {};
+}
+
+void SessionRecording::discard() noexcept {
+  if (!aside_.empty()) (void)unlink(aside_.c_str());
+  aside_.clear();
+}
+
+/// Speaks of `errno`.
+tl::unexpected<Error> SessionRecording::failed(const char* action) const {
+  std::string message =
+      path_ + ": could not " + action + ": " + std::generic_category().message(errno);
+  if (poses_ > 0 && !aside_.empty()) message += "; what was recorded is in " + aside_.string();
+  return failure(ErrorKind::io, std::move(message));
+}
+
+}  // namespace clay::live

@@ -1,0 +1,51 @@
+#pragma once
+#include "app/history/pose_sink.hpp"
+#include "claystack/core/result.hpp"
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace clay::live {
+
+/// A session that is being recorded. It grows in NAME.recording, locked, and becomes NAME in one
+/// step in `finish`: until then the session that had the name stays as it is. A program that dies
+/// leaves NAME.recording, which can be played like any session. A recording without a pose leaves
+/// nothing and replaces nothing. Pipes and devices have no NAME.recording: lines go straight there.
+class SessionRecording final : public work::PoseSink {
+ public:
+  /// Refused while another program records to this name, and where NAME.recording holds poses of a
+  /// recording that never finished. `scene_hash`: hash_of the scene as it is on disk.
+  static Result<std::unique_ptr<SessionRecording>> begin(const std::string& path,
+                                                         std::string_view scene_name,
+                                                         std::uint64_t scene_hash);
+  ~SessionRecording() override;
+  SessionRecording(const SessionRecording&) = delete;
+  SessionRecording& operator=(const SessionRecording&) = delete;
+
+  Result<void> append(std::span<const Pose> poses) override;
+  Result<void> finish() override;
+
+ private:
+  explicit SessionRecording(const std::string& path) : path_(path) {}
+  Result<void> open_in_place();
+  Result<void> open_aside();
+  Result<void> lock_aside();
+  Result<void> clear_aside();
+  Result<void> write(std::string_view text);
+  void discard() noexcept;
+  [[nodiscard]] tl::unexpected<Error> failed(const char* action) const;
+
+  std::string path_;              ///< as it was asked for
+  std::filesystem::path target_;  ///< the same behind symbolic links
+  std::filesystem::path aside_;   ///< empty: written in place
+  int descriptor_ = -1;
+  std::size_t poses_ = 0;  ///< so many are in it
+};
+
+}  // namespace clay::live

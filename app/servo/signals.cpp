@@ -1,0 +1,72 @@
+#include "app/servo/signals.hpp"
+
+#include "app/servo/servo.hpp"
+
+#include <atomic>
+#include <cstddef>
+
+namespace clay::live {
+namespace {
+
+constexpr int kAsks[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE};
+// All whose default is the end of the process, but for those and SIGKILL.
+constexpr int kEnds[] = {SIGSEGV, SIGBUS,  SIGFPE,    SIGILL,  SIGABRT,   SIGQUIT,
+                         SIGTRAP, SIGSYS,  SIGXCPU,   SIGALRM, SIGVTALRM, SIGPROF,
+                         SIGUSR1, SIGUSR2, SIGSTKFLT, SIGPOLL, SIGPWR};
+constexpr int kIgnored[] = {SIGTSTP, SIGTTIN, SIGTTOU, SIGXFSZ};
+
+volatile std::sig_atomic_t asked = 0;
+
+using Act = void (*)() noexcept;
+std::atomic<Act> last_act{nullptr};
+static_assert(std::atomic<Act>::is_always_lock_free);
+
+// For the thread that made ForceSignals: a stack that has run over can't hold a handler.
+constexpr std::size_t kStackBytes = 64 * 1024;
+alignas(16) char handler_stack[kStackBytes];
+
+void on_ask(int signal) {
+  last_zero().fire();
+  asked = signal;
+}
+
+/// Back from here the fault befalls again, and then does what it does by default.
+void on_end(int signal) {
+  last_zero().fire();
+  if (const Act act = last_act.load(std::memory_order_acquire); act != nullptr) act();
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+}  // namespace
+
+ForceSignals::ForceSignals() {
+  asked = 0;
+  (void)last_zero();  // made before any handler asks for it
+  stack_t stack{};
+  stack.ss_sp = handler_stack;
+  stack.ss_size = kStackBytes;
+  sigaltstack(&stack, &stack_before_);
+  const auto handle = [this](int signal, void (*handler)(int)) {
+    struct sigaction action {
+    }, before{};
+    action.sa_handler = handler;
+    action.sa_flags = SA_ONSTACK;
+    sigaction(signal, &action, &before);
+    before_.emplace_back(signal, before);
+  };
+  for (const int signal : kAsks) handle(signal, on_ask);
+  for (const int signal : kEnds) handle(signal, on_end);
+  for (const int signal : kIgnored) handle(signal, SIG_IGN);
+}
+
+ForceSignals::~ForceSignals() {
+  for (const auto& [signal, before] : before_) sigaction(signal, &before, nullptr);
+  if (stack_before_.ss_sp != handler_stack) sigaltstack(&stack_before_, nullptr);
+}
+
+int ForceSignals::asked_to_stop() noexcept { return asked; }
+
+void ForceSignals::at_the_end(Act act) noexcept { last_act.store(act, std::memory_order_release); }
+
+}  // namespace clay::live

@@ -1,0 +1,74 @@
+#include "app/servo/words.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace clay::live {
+namespace {
+
+using falcon::DeviceState;
+using falcon::GuardState;
+using falcon::SafeCause;
+
+std::string words_of_safe(SafeCause cause, std::string_view rearm_key) {
+  const auto asks = [&](const char* why) {
+    return fmt::format("no force: {}; {} or the clutch to go on", why, rearm_key);
+  };
+  switch (cause) {
+    case SafeCause::not_finite:
+      return asks("a number that is none");
+    case SafeCause::not_passive:
+      return asks("the contact was unstable");
+    case SafeCause::jumped:
+      return "no force: the position leapt";
+    case SafeCause::overrun:
+      return "no force: the servo was held up";
+    case SafeCause::paused:
+      return asks("as asked");
+    default:
+      return "no force";
+  }
+}
+
+std::string words_of_guard(const LiveStatus& status, std::string_view rearm_key) {
+  switch (status.guard) {
+    case GuardState::idle:
+      return "waiting for the device";
+    case GuardState::waiting:
+      return status.contact ? "take the tool off the clay: force comes after that" : "ready";
+    case GuardState::ramping:
+      return fmt::format("force grows, {:.0f} %", 100.0 * status.force_gain);
+    case GuardState::engaged:
+      return status.contact ? "throwing" : "ready";
+    case GuardState::fading:
+      return "force let go: no samples, or warm motors";
+    case GuardState::safe:
+      return words_of_safe(status.cause, rearm_key);
+  }
+  return {};
+}
+
+}  // namespace
+
+const char* name_of(GuardState state) noexcept {
+  constexpr std::array kNames = {"idle", "waiting", "ramping", "engaged", "fading", "safe"};
+  return kNames[static_cast<std::size_t>(state)];
+}
+
+std::string words_of(const LiveStatus& status, std::string_view rearm_key) {
+  if (status.device == DeviceState::needs_homing) return std::string("home it: ") + kHomingAdvice;
+  if (status.device != DeviceState::ready) return std::string(falcon::name_of(status.device));
+  if (status.paused) return "paused";
+  if (status.clutched) return "clutch: the tool stays where it is";
+  if (status.ring_limit) return "clay waits above the top: raise lump.max_rings";
+  return words_of_guard(status, rearm_key);
+}
+
+bool waits_for_rearm(const LiveStatus& status) noexcept {
+  if (status.guard != GuardState::safe || status.paused || status.clutched) return false;
+  return status.cause == SafeCause::not_finite || status.cause == SafeCause::not_passive ||
+         status.cause == SafeCause::paused;
+}
+
+}  // namespace clay::live

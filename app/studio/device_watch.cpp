@@ -1,0 +1,87 @@
+#include "app/studio/device_watch.hpp"
+
+#include "app/cli/device_choice.hpp"
+
+#ifdef CLAYSTACK_USB
+#include "claystack/falcon/usb.hpp"
+#endif
+
+#include <utility>
+
+namespace clay::studio {
+namespace {
+
+/// Asking costs little; opening a device that nobody plugged in would say so every second.
+bool anything_plugged_in() {
+#ifdef CLAYSTACK_USB
+  const auto listed = falcon::list_devices();
+  return listed && !listed->empty();
+#else
+  return false;
+#endif
+}
+
+}  // namespace
+
+LookForDevice look_for(std::string which, falcon::FalconSettings settings) {
+  return [which = std::move(which),
+          settings = std::move(settings)]() -> Result<std::unique_ptr<falcon::HapticDevice>> {
+    if (which == "auto" && !anything_plugged_in()) return nullptr;
+    return app::open_chosen(which, settings, falcon::simulated_and_loaded());
+  };
+}
+
+DeviceWatch::DeviceWatch(LookForDevice look, std::chrono::milliseconds between)
+    : look_for_(std::move(look)), between_(between), thread_([this] { run(); }) {}
+
+DeviceWatch::~DeviceWatch() {
+  {
+    const std::lock_guard lock(mutex_);
+    closing_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+}
+
+std::unique_ptr<falcon::HapticDevice> DeviceWatch::take() {
+  const std::lock_guard lock(mutex_);
+  return std::move(found_);
+}
+
+void DeviceWatch::look_again() {
+  const std::lock_guard lock(mutex_);
+  looking_ = true;
+  told_.clear();
+}
+
+std::string DeviceWatch::take_problem() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(problem_, {});
+}
+
+void DeviceWatch::run() {
+  std::unique_lock lock(mutex_);
+  while (!closing_) {
+    if (looking_) {
+      lock.unlock();
+      look();
+      lock.lock();
+    }
+    wake_.wait_for(lock, between_, [this] { return closing_; });
+  }
+}
+
+void DeviceWatch::look() {
+  auto device = look_for_();
+  const std::lock_guard lock(mutex_);
+  if (!device) {
+    if (device.error().message != told_) problem_ = told_ = device.error().message;
+  } else if (*device) {
+    found_ = std::move(*device);
+    looking_ = false;
+  } else {
+    told_.clear();  // what is plugged in next is another story
+  }
+}
+
+}  // namespace clay::studio

@@ -1,0 +1,51 @@
+#include "app/studio/fall_show.hpp"
+
+#include "app/render/pot_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clay::studio {
+namespace {
+
+/// Of what has been lost so far nothing is spent standing still: the first frames have some.
+constexpr double kLeastPart = 1e-3;
+
+/// Frames are equally far apart; how long each takes goes with the root of the energy that has
+/// become motion before it.
+std::vector<double> times_of(const std::vector<FallFrame>& frames) {
+  const double lost_mj = frames.front().potential_mj - frames.back().potential_mj;
+  std::vector<double> times(frames.size(), 0.0);
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    const double moving_mj =
+        frames.front().potential_mj - frames[i].potential_mj - frames[i].plastic_mj;
+    const double part = lost_mj > 0.0 ? moving_mj / lost_mj : 1.0;
+    times[i] = times[i - 1] + 1.0 / std::sqrt(std::max(part, kLeastPart));
+  }
+  for (double& time : times) time *= kFallS / times.back();
+  return times;
+}
+
+}  // namespace
+
+void FallShow::begin(work::SharedPot pot, double now_s) {
+  frames_ = fall_frames(*pot);
+  if (frames_.size() < 2) return end();
+  pot_ = std::move(pot);
+  times_s_ = times_of(frames_);
+  begun_s_ = now_s;
+}
+
+std::optional<draw::FallenView> FallShow::at(double now_s, const draw::PotView& view) {
+  if (!running()) return std::nullopt;
+  const auto next = std::ranges::upper_bound(times_s_, now_s - begun_s_);
+  if (next == times_s_.end()) {
+    end();
+    return std::nullopt;
+  }
+  const auto index = static_cast<std::size_t>(next - times_s_.begin());
+  const FallFrame& frame = frames_[index == 0 ? 0 : index - 1];
+  return draw::fallen_view(*pot_->collapse, frame, view, pot_->stack);
+}
+
+}  // namespace clay::studio

@@ -1,0 +1,109 @@
+#include "app/studio/free_place.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clay::studio {
+namespace {
+
+/// Rows that a tool at this height reaches, and how wide it is there.
+class Reach {
+ public:
+  Reach(const draw::PotView& pot, const Tool& tool, double y_mm) : tool_(tool), y_mm_(y_mm) {
+    row_mm_ = pot.rows.empty() ? 1.0 : pot.height_mm / static_cast<double>(pot.rows.size());
+    const double rows = static_cast<double>(pot.rows.size());
+    const auto row = [&](double at_mm) {
+      return static_cast<std::size_t>(std::clamp(std::floor(at_mm / row_mm_), 0.0, rows));
+    };
+    first_ = row(y_mm + tool.low());
+    last_ = std::min(row(y_mm + tool.high()) + 1, pot.rows.size());
+  }
+  [[nodiscard]] std::size_t first() const { return first_; }
+  [[nodiscard]] std::size_t last() const { return last_; }
+  /// The widest that the tool is between a row's lower and upper edge.
+  [[nodiscard]] double width_mm(std::size_t row) const {
+    const double low = std::max(static_cast<double>(row) * row_mm_ - y_mm_, tool_.low());
+    const double high = std::min(static_cast<double>(row + 1) * row_mm_ - y_mm_, tool_.high());
+    if (low > high) return 0.0;
+    const double nearest = std::clamp(0.0, low, high);  // a sphere is widest at its centre
+    return std::max({tool_.radius(low), tool_.radius(high), tool_.radius(nearest),
+                     tool_.radius(0.5 * (low + high))});
+  }
+
+ private:
+  const Tool& tool_;
+  double y_mm_, row_mm_ = 1.0;
+  std::size_t first_ = 0, last_ = 0;
+};
+
+struct Sides {
+  double outside_mm = 0.0;  ///< rho from which on the tool is clear
+  double inside_mm = std::numeric_limits<double>::infinity();  ///< and up to which; below 0: never
+};
+
+Sides sides_at(const draw::PotView& pot, const Tool& tool, double y_mm) {
+  Sides sides;
+  const Reach reach(pot, tool, y_mm);
+  for (std::size_t row = reach.first(); row < reach.last(); ++row) {
+    const double width = reach.width_mm(row);
+    if (width <= 0.0) continue;
+    sides.outside_mm = std::max(sides.outside_mm, pot.rows[row].outer_mm + width + kClearanceMm);
+    sides.inside_mm = std::min(sides.inside_mm, pot.rows[row].inner_mm - width - kClearanceMm);
+  }
+  return sides;
+}
+
+bool is_free(const Sides& sides, double rho) {
+  return rho >= sides.outside_mm || rho <= sides.inside_mm;
+}
+
+/// Straight up, in steps of a row, until the tool is clear.
+double free_height(const draw::PotView& pot, const Tool& tool, double rho, double y_mm) {
+  const double step =
+      pot.rows.empty() ? 1.0 : std::max(0.1, pot.height_mm / static_cast<double>(pot.rows.size()));
+  const double top = pot.height_mm - tool.low() + kClearanceMm;
+  while (y_mm < top && !is_free(sides_at(pot, tool, y_mm), rho)) y_mm += step;
+  return std::min(y_mm, top);
+}
+
+}  // namespace
+
+glm::dvec2 free_place(const draw::PotView& pot, const Tool& tool, glm::dvec2 place_mm) {
+  place_mm.y = std::max(place_mm.y, 0.0);
+  const double side = place_mm.x < 0.0 ? -1.0 : 1.0, rho = std::abs(place_mm.x);
+  const Sides sides = sides_at(pot, tool, place_mm.y);
+  if (is_free(sides, rho)) return place_mm;
+  glm::dvec2 nearest(side * sides.outside_mm, place_mm.y);
+  double least = sides.outside_mm - rho;
+  if (sides.inside_mm >= 0.0 && rho - sides.inside_mm < least) {
+    nearest.x = side * sides.inside_mm;
+    least = rho - sides.inside_mm;
+  }
+  const double above = free_height(pot, tool, rho, place_mm.y);
+  if (above - place_mm.y < least) nearest = {place_mm.x, above};
+  return nearest;
+}
+
+std::optional<WallPlace> wall_at(const draw::PotView& pot, const Tool& tool, double y_mm) {
+  if (pot.rows.empty() || y_mm < 0.0 || y_mm >= pot.height_mm) return std::nullopt;
+  const Sides sides = sides_at(pot, tool, y_mm);
+  const double rows = static_cast<double>(pot.rows.size());
+  const draw::Row& row =
+      pot.rows[static_cast<std::size_t>(std::min(y_mm / pot.height_mm * rows, rows - 1.0))];
+  if (row.inner_mm <= 0.0f || sides.inside_mm < 0.0) return std::nullopt;
+  // A pinch's gap is between the tools where they are widest.
+  const double outer = sides.outside_mm - tool.widest(), inner = sides.inside_mm + tool.widest();
+  return WallPlace{0.5 * (outer + inner), std::max(0.0, outer - inner)};
+}
+
+bool inside(const draw::PotView& pot, const glm::dvec3& place_mm) {
+  if (pot.rows.empty() || pot.height_mm <= 0.0) return false;
+  const double rows = static_cast<double>(pot.rows.size());
+  const draw::Row& row = pot.rows[static_cast<std::size_t>(
+      std::clamp(place_mm.y / pot.height_mm * rows, 0.0, rows - 1.0))];
+  const double middle = 0.5 * static_cast<double>(row.outer_mm + row.inner_mm);
+  return row.inner_mm > 0.0f && std::hypot(place_mm.x, place_mm.z) < middle;
+}
+
+}  // namespace clay::studio

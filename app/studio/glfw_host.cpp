@@ -1,0 +1,143 @@
+#include "app/studio/glfw_host.hpp"
+
+#include "app/servo/signals.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+
+namespace clay::studio {
+namespace {
+
+constexpr std::int64_t kFrameNs = 1'000'000'000 / 60;
+constexpr double kIdleS = 0.5;  // between looks at what may have changed by itself
+
+GlfwHost& host_of(GLFWwindow* window) {
+  return *static_cast<GlfwHost*>(glfwGetWindowUserPointer(window));
+}
+
+unsigned mods_of(int glfw) {
+  return ((glfw & GLFW_MOD_SHIFT) != 0 ? kShift : 0u) |
+         ((glfw & GLFW_MOD_CONTROL) != 0 ? kControl : 0u) |
+         ((glfw & GLFW_MOD_ALT) != 0 ? kAlt : 0u);
+}
+
+std::string problem() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text != nullptr ? text : "no reason given";
+}
+
+}  // namespace
+
+Result<std::unique_ptr<GlfwHost>> GlfwHost::create(glm::ivec2 size) {
+  if (glfwInit() == GLFW_FALSE)
+    return failure(ErrorKind::device,
+                   "the window: no display: " + problem() + "; --script draws without one");
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  glfwWindowHintString(GLFW_X11_CLASS_NAME, "claystack");
+  glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "claystack");
+  GLFWwindow* window = glfwCreateWindow(size.x, size.y, "Claystack", nullptr, nullptr);
+  if (window == nullptr) {
+    const std::string why = problem();
+    glfwTerminate();
+    return failure(ErrorKind::device, "the window: expected OpenGL 3.3: " + why);
+  }
+  glfwMakeContextCurrent(window);
+  glfwSwapInterval(1);
+  glfwSetWindowSizeLimits(window, 640, 480, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  return std::unique_ptr<GlfwHost>(new GlfwHost(window));
+}
+
+GlfwHost::~GlfwHost() {
+  glfwDestroyWindow(window_);
+  glfwTerminate();
+}
+
+/// Keys and clicks are taken as they come, so that none is too short to be seen.
+void GlfwHost::connect() {
+  glfwSetWindowUserPointer(window_, this);
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
+    GlfwHost& host = host_of(window);
+    int width = 1, height = 1;
+    glfwGetWindowSize(window, &width, &height);
+    const glm::dvec2 ratio =
+        glm::dvec2(host.size_px()) / glm::dvec2(std::max(1, width), std::max(1, height));
+    host.studio_->take(PointerMoved{glm::vec2(glm::dvec2(x, y) * ratio)});
+  });
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int mods) {
+    if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
+    host_of(window).studio_->take(
+        ButtonChanged{static_cast<MouseButton>(button), action == GLFW_PRESS, mods_of(mods)});
+  });
+  glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double y) {
+    host_of(window).studio_->take(Scrolled{static_cast<float>(y)});
+  });
+  glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int mods) {
+    host_of(window).studio_->take(
+        KeyChanged{key, action != GLFW_RELEASE, action == GLFW_REPEAT, mods_of(mods)});
+  });
+  glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
+    host_of(window).studio_->take(TextTyped{static_cast<char32_t>(character)});
+  });
+  glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
+    host_of(window).studio_->take(FilesDropped{std::vector<std::string>(paths, paths + count)});
+  });
+  glfwSetWindowCloseCallback(window_, [](GLFWwindow* window) {
+    glfwSetWindowShouldClose(window, GLFW_FALSE);
+    host_of(window).studio_->take(CloseAsked{});
+  });
+  glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* window, float, float) {
+    host_of(window).studio_->shop().restyle = true;
+  });
+}
+
+void GlfwHost::run(Studio& studio, double seconds) {
+  studio_ = &studio;
+  connect();
+  std::int64_t next_ns = clock_.now_ns();
+  const std::int64_t end_ns =
+      seconds > 0.0 ? next_ns + static_cast<std::int64_t>(1e9 * seconds) : INT64_MAX;
+  while (!studio.done() && live::ForceSignals::asked_to_stop() == 0 && clock_.now_ns() < end_ns) {
+    if (studio.wakeful())
+      glfwPollEvents();
+    else
+      glfwWaitEventsTimeout(kIdleS);
+    const glm::ivec2 size = size_px();
+    if (size.x > 0 && size.y > 0) {
+      studio.frame(true);
+      glfwSwapBuffers(window_);
+    }
+    // Without a screen's own pace the servo would share its cores with frames no one sees.
+    clock_.sleep_until_ns(next_ns);
+    next_ns = std::max(next_ns + kFrameNs, clock_.now_ns());
+  }
+  studio_ = nullptr;
+}
+
+glm::ivec2 GlfwHost::size_px() const {
+  glm::ivec2 size(0);
+  glfwGetFramebufferSize(window_, &size.x, &size.y);
+  return size;
+}
+
+float GlfwHost::content_scale() const {
+  float x = 1.0f, y = 1.0f;
+  glfwGetWindowContentScale(window_, &x, &y);
+  return std::max(x, y);
+}
+
+void GlfwHost::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
+void GlfwHost::set_clipboard(const std::string& text) {
+  glfwSetClipboardString(window_, text.c_str());
+}
+std::string GlfwHost::clipboard() {
+  const char* text = glfwGetClipboardString(window_);
+  return text != nullptr ? text : "";
+}
+
+}  // namespace clay::studio

@@ -1,0 +1,43 @@
+#pragma once
+// A window on a screen.
+
+#include "app/studio/host.hpp"
+#include "app/studio/studio.hpp"
+#include "claystack/core/result.hpp"
+
+#include <memory>
+
+struct GLFWwindow;
+
+namespace clay::studio {
+
+class GlfwHost final : public Host {
+ public:
+  /// The context of OpenGL is current after it. `device`: no display, or no OpenGL 3.3 on it.
+  static Result<std::unique_ptr<GlfwHost>> create(glm::ivec2 size);
+  ~GlfwHost() override;
+
+  /// Frames until the studio is done, or a signal asks to stop (live::ForceSignals); at most sixty
+  /// a second, and none while nothing moves. `seconds`: no longer than that; 0: as long as it
+  /// takes.
+  void run(Studio& studio, double seconds = 0.0);
+
+  [[nodiscard]] glm::ivec2 size_px() const override;
+  [[nodiscard]] float content_scale() const override;
+  [[nodiscard]] live::Clock& clock() override { return clock_; }
+  [[nodiscard]] bool real_time() const override { return true; }
+  [[nodiscard]] std::int64_t frame_ns() override { return clock_.now_ns(); }
+  void set_title(const std::string& title) override;
+  void set_clipboard(const std::string& text) override;
+  [[nodiscard]] std::string clipboard() override;
+
+ private:
+  explicit GlfwHost(GLFWwindow* window) : window_(window) {}
+  void connect();
+
+  GLFWwindow* window_;
+  live::MonotonicClock clock_;
+  Studio* studio_ = nullptr;
+};
+
+}  // namespace clay::studio

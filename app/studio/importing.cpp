@@ -1,0 +1,64 @@
+#include "app/studio/importing.hpp"
+
+#include "app/render/pot_view.hpp"
+
+#ifdef CLAYSTACK_DRAWINGS
+#include "app/import/drawn_pot.hpp"
+#endif
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace clay::studio {
+
+#ifdef CLAYSTACK_DRAWINGS
+
+bool is_drawing(const std::filesystem::path& path) {
+  constexpr std::array kEndings = {".svg", ".dxf", ".csv"};
+  return std::ranges::find(kEndings, path.extension().string()) != kEndings.end();
+}
+
+Result<Imported> import_drawing(const std::string& bytes, const std::string& name,
+                                const ImportSettings& settings) {
+  constexpr std::array kRules = {drawing::AxisRule::by_itself, drawing::AxisRule::left,
+                                 drawing::AxisRule::middle, drawing::AxisRule::at};
+  const auto asked = [](double mm) { return mm > 0.0 ? std::optional(mm) : std::nullopt; };
+  const drawing::HalfSectionSettings how{kRules[static_cast<std::size_t>(settings.axis)],
+                                         settings.axis_mm, asked(settings.height_mm)};
+  drawing::DrawnPotSettings pot_settings;
+  pot_settings.wall_mm = asked(settings.wall_mm);
+  auto section = drawing::read_drawing(bytes, name).and_then([&](drawing::Drawing&& drawing) {
+    return drawing::half_section(std::move(drawing), how, name);
+  });
+  if (!section) return tl::make_unexpected(section.error());
+  return drawing::drawn_pot(*section, pot_settings, name).map([&](Pot&& pot) {
+    return Imported{std::move(pot), section->volume_mm3(), section->axis_mm};
+  });
+}
+
+#else
+
+bool is_drawing(const std::filesystem::path&) { return false; }
+
+Result<Imported> import_drawing(const std::string&, const std::string& name,
+                                const ImportSettings&) {
+  return failure(ErrorKind::bad_input, name + ": this build reads no drawings");
+}
+
+#endif
+
+void read_again(ImportCard& card) {
+  auto made = import_drawing(card.bytes, card.path.string(), card.settings);
+  card.made.reset();
+  card.view = {};
+  card.problem.clear();
+  if (!made) {
+    card.problem = made.error().message;
+    return;
+  }
+  card.view = draw::view_of(made->pot);
+  card.made.emplace(std::move(*made));
+}
+
+}  // namespace clay::studio

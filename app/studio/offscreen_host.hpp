@@ -1,0 +1,60 @@
+#pragma once
+// No window: a picture of one in memory, and a clock that only moves when it is told to.
+
+#include "app/render/gl_objects.hpp"
+#include "app/render/image.hpp"
+#include "app/render/offscreen.hpp"
+#include "app/studio/host.hpp"
+#include "claystack/core/result.hpp"
+
+#include <memory>
+
+namespace clay::studio {
+
+/// Sleeping on it makes it the later time.
+class VirtualClock final : public live::Clock {
+ public:
+  [[nodiscard]] std::int64_t now_ns() noexcept override { return now_ns_; }
+  void sleep_until_ns(std::int64_t time_ns) noexcept override {
+    if (time_ns > now_ns_) now_ns_ = time_ns;
+  }
+
+ private:
+  std::int64_t now_ns_ = 1'000'000'000;  // a device's times are above 0
+};
+
+class OffscreenHost final : public Host {
+ public:
+  /// The context of OpenGL is current after it. Errors as draw::Offscreen::create.
+  static Result<std::unique_ptr<OffscreenHost>> create(glm::ivec2 size_px, float content_scale);
+
+  /// What is drawn from here on goes into its picture.
+  void bind();
+  [[nodiscard]] draw::Image read() const;
+
+  [[nodiscard]] glm::ivec2 size_px() const override {
+    return {canvas_.width_px(), canvas_.height_px()};
+  }
+  [[nodiscard]] float content_scale() const override { return scale_; }
+  [[nodiscard]] live::Clock& clock() override { return clock_; }
+  [[nodiscard]] bool real_time() const override { return false; }
+  [[nodiscard]] std::int64_t frame_ns() override { return frame_ns_; }
+  /// The next frame is so much later.
+  void let_pass(std::int64_t ns) noexcept { frame_ns_ += ns; }
+  void set_title(const std::string&) override {}
+  void set_clipboard(const std::string& text) override { clipboard_ = text; }
+  [[nodiscard]] std::string clipboard() override { return clipboard_; }
+
+ private:
+  OffscreenHost(draw::Offscreen gl, draw::Canvas canvas, float scale)
+      : gl_(std::move(gl)), canvas_(std::move(canvas)), scale_(scale) {}
+
+  draw::Offscreen gl_;  // its context is the one that we draw in
+  draw::Canvas canvas_;
+  float scale_;
+  VirtualClock clock_;
+  std::int64_t frame_ns_ = clock_.now_ns();
+  std::string clipboard_;
+};
+
+}  // namespace clay::studio

@@ -1,0 +1,209 @@
+// The section: what a knife would show, with its measures, as fine as there are pixels.
+
+#include "app/render/legend.hpp"
+#include "app/render/pot_view.hpp"
+#include "app/studio/panels/panels.hpp"
+#include "app/studio/panels/plot.hpp"
+#include "app/studio/panels/widgets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace clay::studio {
+namespace {
+
+constexpr float kLeastHeightEm = 8.0f, kMostHeightEm = 14.0f;
+constexpr std::array kParts = {"Half", "Full"};
+
+/// From the profile's plane (rho, y) [mm] to pixels.
+struct Sheet {
+  ImVec2 foot;  ///< of the axis
+  float px_per_mm = 1.0f;
+  [[nodiscard]] ImVec2 at(double rho_mm, double y_mm) const {
+    return {foot.x + px_per_mm * static_cast<float>(rho_mm),
+            foot.y - px_per_mm * static_cast<float>(y_mm)};
+  }
+};
+
+/// Room for the measures: above and left the height's, below the width's.
+Sheet sheet_for(const PlotArea& area, double widest, double height, bool full) {
+  const float em = ImGui::GetFontSize();
+  const ImVec2 low(area.low.x + 1.4f * em, area.low.y + 1.6f * em);
+  const ImVec2 high(area.high.x - 0.8f * em, area.high.y - 2.0f * em);
+  const double wide = full ? 2.0 * widest : widest;
+  Sheet sheet;
+  sheet.px_per_mm = static_cast<float>(std::min(static_cast<double>(high.x - low.x) / wide,
+                                                static_cast<double>(high.y - low.y) / height));
+  const float width = sheet.px_per_mm * static_cast<float>(wide);
+  const float left = 0.5f * (low.x + high.x - width);
+  sheet.foot = {full ? left + 0.5f * width : left, high.y};
+  return sheet;
+}
+
+ImU32 colour_at(const PotCheck* check, double y_mm, const ImVec4& clay) {
+  if (check == nullptr || !check->proved) return ImGui::GetColorU32(clay);
+  const double wall = wall_at_height(check->walls, check->height_mm, y_mm);
+  const draw::Swatch swatch = draw::wall_swatch(wall_map_of(*check), wall);
+  return IM_COL32(swatch.red, swatch.green, swatch.blue, 255);
+}
+
+/// Clay that all rings of a row have is solid, what only some have is faint.
+void draw_clay(const Workshop& shop, const Sheet& sheet, double height, bool full,
+               const PotCheck* check) {
+  const std::size_t rows = whole_px(sheet.px_per_mm * static_cast<float>(height));
+  const auto& section = shop.readings.section(rows);
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const double row_mm = height / static_cast<double>(rows);
+  for (std::size_t i = 0; i < section.size(); ++i) {
+    const SectionRow& row = section[i];
+    const double low = row_mm * static_cast<double>(i), high = low + row_mm;
+    const ImU32 solid = colour_at(check, low + 0.5 * row_mm, shop.colours().clay);
+    const ImU32 faint = (solid & ~IM_COL32_A_MASK) | IM_COL32(0, 0, 0, 90);
+    const auto stretch = [&](float inner, float outer, ImU32 colour) {
+      if (!(outer > inner)) return;
+      draw->AddRectFilled(sheet.at(inner, high), sheet.at(outer, low), colour);
+      if (full) draw->AddRectFilled(sheet.at(-outer, high), sheet.at(-inner, low), colour);
+    };
+    if (row.inner_least_mm < row.inner_most_mm || row.outer_least_mm < row.outer_most_mm)
+      stretch(row.inner_least_mm, row.outer_most_mm, faint);
+    stretch(row.inner_most_mm, row.outer_least_mm, solid);
+  }
+}
+
+/// Lines with ends, and what they measure.
+void draw_measures(const PlotArea& area, const Sheet& sheet, double widest, double height,
+                   bool full, const Palette& colours, LengthUnit unit) {
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const float em = ImGui::GetFontSize(), tick = 0.25f * em;
+  const ImU32 ink = ImGui::GetColorU32(colours.faint);
+  const float x = area.low.x + 0.6f * em;
+  const ImVec2 top = sheet.at(0.0, height);
+  draw->AddLine({x, sheet.foot.y}, {x, top.y}, ink);
+  for (const float y : {sheet.foot.y, top.y}) draw->AddLine({x - tick, y}, {x + tick, y}, ink);
+  draw->AddText({area.low.x + 0.3f * em, top.y - 1.3f * em}, ink,
+                length_text(height, unit).c_str());
+  const float y = sheet.foot.y + 0.5f * em;
+  const ImVec2 left = sheet.at(full ? -widest : 0.0, 0.0), right = sheet.at(widest, 0.0);
+  draw->AddLine({left.x, y}, {right.x, y}, ink);
+  for (const float end : {left.x, right.x}) draw->AddLine({end, y - tick}, {end, y + tick}, ink);
+  const std::string text =
+      full ? length_text(2.0 * widest, unit) : fmt::format("r {}", length_text(widest, unit));
+  const float text_width = ImGui::CalcTextSize(text.c_str()).x;
+  draw->AddText({std::clamp(0.5f * (left.x + right.x - text_width), area.low.x + tick,
+                            area.high.x - text_width - tick),
+                 y + 0.2f * em},
+                ink, text.c_str());
+  draw->AddLine({area.low.x, sheet.foot.y}, {area.high.x, sheet.foot.y}, ink);
+  draw->AddLine(sheet.at(0.0, 0.0), sheet.at(0.0, height), ink);
+}
+
+void draw_outline(const std::vector<glm::vec2>& half_profile, const Sheet& sheet,
+                  glm::dvec2 place_mm, const ImVec4& colour) {
+  std::vector<ImVec2> line;
+  const auto add = [&](const glm::vec2& p, double side) {
+    line.push_back(sheet.at(place_mm.x + side * static_cast<double>(p.x),
+                            place_mm.y + static_cast<double>(p.y)));
+  };
+  for (const glm::vec2& p : half_profile) add(p, 1.0);
+  for (std::size_t i = half_profile.size(); i-- > 0;) add(half_profile[i], -1.0);
+  ImGui::GetWindowDrawList()->AddPolyline(line.data(), static_cast<int>(line.size()),
+                                          ImGui::GetColorU32(colour), ImDrawFlags_Closed,
+                                          0.12f * ImGui::GetFontSize());
+}
+
+void draw_tool_at(const draw::ToolView& tool, const Sheet& sheet, const Palette& colours) {
+  const glm::dvec2 place(std::hypot(tool.place_mm.x, tool.place_mm.z), tool.place_mm.y);
+  const ImVec4 colour = tool.contact ? colours.accent : ImGui::GetStyleColorVec4(ImGuiCol_Text);
+  if (!tool.gap_mm) return draw_outline(tool.half_profile_mm, sheet, place, colour);
+  float widest = 0.0f;
+  for (const glm::vec2& p : tool.half_profile_mm) widest = std::max(widest, p.x);
+  const glm::dvec2 reach(0.5 * *tool.gap_mm + static_cast<double>(widest), 0.0);
+  draw_outline(tool.half_profile_mm, sheet, place + reach, colour);
+  draw_outline(tool.half_profile_mm, sheet, place - reach, colour);
+}
+
+/// Where it is thinnest, where it is too thin, and where nothing could be proved.
+void draw_faults(const PlotArea& area, const Sheet& sheet, const PotCheck& check,
+                 const Palette& colours) {
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const float em = ImGui::GetFontSize();
+  if (check.fault_mm) {
+    const float y = sheet.at(0.0, *check.fault_mm).y;
+    draw->AddLine({area.low.x, y}, {area.high.x, y}, ImGui::GetColorU32(colours.fault), 0.15f * em);
+  }
+  if (!check.proved) return;
+  for (const Stretch& thin : thin_stretches(check))
+    draw->AddRectFilled({area.high.x - 0.4f * em, sheet.at(0.0, thin.to_mm).y},
+                        {area.high.x - 0.15f * em, sheet.at(0.0, thin.from_mm).y},
+                        ImGui::GetColorU32(colours.warning));
+  const ImVec2 from = sheet.at(std::abs(check.thinnest_from.x), check.thinnest_from.y);
+  const ImVec2 to = sheet.at(std::abs(check.thinnest_to.x), check.thinnest_to.y);
+  const ImU32 ink =
+      ImGui::GetColorU32(check.thin() ? colours.warning : ImGui::GetStyleColorVec4(ImGuiCol_Text));
+  draw->AddLine(from, to, ink, 0.12f * em);
+  for (const ImVec2& end : {from, to}) draw->AddCircleFilled(end, 0.18f * em, ink);
+}
+
+/// What is under the pointer, in words.
+std::string read_out(const PlotArea& area, const Sheet& sheet, double height, bool full,
+                     const PotCheck* check, LengthUnit unit) {
+  if (!ImGui::IsMouseHoveringRect(area.low, area.high)) return "Point at the section to read it";
+  const ImVec2 mouse = ImGui::GetMousePos();
+  const double rho = static_cast<double>((mouse.x - sheet.foot.x) / sheet.px_per_mm);
+  const double y = static_cast<double>((sheet.foot.y - mouse.y) / sheet.px_per_mm);
+  if (y < 0.0 || (!full && rho < 0.0)) return "Point at the section to read it";
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text, 0.5f);
+  draw->AddLine({area.low.x, mouse.y}, {area.high.x, mouse.y}, ink);
+  draw->AddLine({mouse.x, area.low.y}, {mouse.x, area.high.y}, ink);
+  const UnitText u = unit_text(unit);
+  const auto figure = [&](const char* name, double mm) {
+    return fmt::format("{} {:.{}f}  ", name, mm / u.mm, u.digits);
+  };
+  std::string text = figure("r", std::abs(rho)) + figure("y", y);
+  if (check != nullptr && check->proved)
+    if (const double wall = wall_at_height(check->walls, height, y); std::isfinite(wall))
+      text += figure("wall", wall);
+  return text + u.name;
+}
+
+/// As high as wide, or what is left of the column: nothing scrolls that need not.
+float plot_height_em(bool fallen) {
+  const float em = ImGui::GetFontSize(), below = ImGui::GetTextLineHeightWithSpacing();
+  const float room = ImGui::GetContentRegionAvail().y - (fallen ? 2.0f : 1.0f) * below -
+                     3.0f * ImGui::GetStyle().ItemSpacing.y;
+  return std::clamp(room / em, kLeastHeightEm,
+                    std::min(kMostHeightEm, ImGui::GetContentRegionAvail().x / em));
+}
+
+}  // namespace
+
+void draw_section(Workshop& shop) {
+  const Palette& colours = shop.colours();
+  bool& full = shop.settings.full_section;
+  if (const int part = choice_row("part", kParts, full ? 1 : 0, colours); part >= 0)
+    full = part == 1;
+  const PlotArea area = begin_plot(plot_height_em(shop.readings.fallen()));
+  const ClayStack* stack = shop.readings.stack();
+  if (stack == nullptr || stack->size() == 0)
+    return plot_text(area, Corner::upper_left, "No clay on the wheel", colours.faint);
+  const double height = stack->height_mm(), widest = shop.readings.widest_mm();
+  const auto& known = shop.readings.check();
+  const PotCheck* check = known && !shop.readings.fallen() ? &*known : nullptr;
+  const Sheet sheet = sheet_for(area, widest, height, full);
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->PushClipRect(area.low, area.high, true);
+  draw_clay(shop, sheet, height, full, shop.settings.wall_map ? check : nullptr);
+  draw_measures(area, sheet, widest, height, full, colours, shop.settings.unit);
+  if (check != nullptr) draw_faults(area, sheet, *check, colours);
+  if (const auto tool = shop.view.tool_view(shop)) draw_tool_at(*tool, sheet, colours);
+  const std::string words = read_out(area, sheet, height, full, check, shop.settings.unit);
+  draw->PopClipRect();
+  faint_text(colours, words);
+  if (shop.readings.fallen()) faint_text(colours, "As it stood before it fell.");
+}
+
+}  // namespace clay::studio

@@ -1,0 +1,180 @@
+#include "app/studio/panels/widgets.hpp"
+
+#include "app/studio/panels/panels.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace clay::studio {
+int choice_row(const char* id, std::span<const char* const> titles, int chosen,
+               const Palette& colours) {
+  ImGui::PushID(id);
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  const float count = static_cast<float>(titles.size());
+  const float width = (ImGui::GetContentRegionAvail().x - gap * (count - 1.0f)) / count;
+  int clicked = -1;
+  for (int i = 0; i < static_cast<int>(titles.size()); ++i) {
+    if (i > 0) ImGui::SameLine(0.0f, gap);
+    const bool on = i == chosen;
+    if (on) {
+      ImGui::PushStyleColor(ImGuiCol_Button, colours.accent);
+      ImGui::PushStyleColor(ImGuiCol_ButtonHovered, colours.accent);
+      ImGui::PushStyleColor(ImGuiCol_Text, ink_on(colours.accent));
+    }
+    if (ImGui::Button(titles[static_cast<std::size_t>(i)], ImVec2(width, 0.0f))) clicked = i;
+    if (on) ImGui::PopStyleColor(3);
+  }
+  ImGui::PopID();
+  return clicked;
+}
+
+bool main_button(const char* text, const Palette& colours) {
+  ImGui::PushStyleColor(ImGuiCol_Button, colours.accent);
+  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, colours.accent);
+  ImGui::PushStyleColor(ImGuiCol_Text, ink_on(colours.accent));
+  const bool clicked = ImGui::Button(text);
+  ImGui::PopStyleColor(3);
+  return clicked;
+}
+
+void card_title(const Workshop& shop, const char* text) {
+  ImGui::PushFont(shop.fonts.title);
+  ImGui::TextUnformatted(text);
+  ImGui::PopFont();
+  ImGui::Spacing();
+}
+
+void form_row(const char* label) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(label);
+  ImGui::SameLine(kFormEm * ImGui::GetFontSize());
+  ImGui::SetNextItemWidth(-1.0f);
+}
+
+bool form_length(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit,
+                 const char* none) {
+  form_row(label);
+  const UnitText text = unit_text(unit);
+  float shown = static_cast<float>(mm / text.mm);
+  const std::string id = fmt::format("##{}", label);
+  const std::string format =
+      none != nullptr && mm <= 0.0
+          ? std::string(none)
+          : fmt::format("%.{}f {}", text.digits + (high_mm <= 1.0 ? 2 : 0), text.name);
+  const bool logarithmic = low_mm > 0.0;
+  if (!ImGui::SliderFloat(
+          id.c_str(), &shown, static_cast<float>(low_mm / text.mm),
+          static_cast<float>(high_mm / text.mm), format.c_str(),
+          ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0)))
+    return false;
+  mm = std::clamp(static_cast<double>(shown) * text.mm, low_mm, high_mm);
+  return true;
+}
+
+bool length_slider(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit) {
+  const UnitText text = unit_text(unit);
+  ImGui::TextUnformatted(label);
+  ImGui::SetNextItemWidth(-1.0f);
+  float shown = static_cast<float>(mm / text.mm);
+  const std::string id = fmt::format("##{}", label);
+  const std::string format = fmt::format("%.{}f {}", text.digits, text.name);
+  if (!ImGui::SliderFloat(id.c_str(), &shown, static_cast<float>(low_mm / text.mm),
+                          static_cast<float>(high_mm / text.mm), format.c_str(),
+                          ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+    return false;
+  mm = std::clamp(static_cast<double>(shown) * text.mm, low_mm, high_mm);
+  return true;
+}
+
+void faint_text(const Palette& colours, const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colours.faint);
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
+}
+
+void value_row(const Palette& colours, const char* name, const std::string& value) {
+  ImGui::TextColored(colours.faint, "%s", name);
+  const float right = ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x;
+  ImGui::SameLine(right);
+  ImGui::TextUnformatted(value.c_str());
+}
+
+namespace {
+
+/// All beside the card but menu and status. Drawn by the card itself: then it
+/// lies over the columns, too.
+void dim_around(float top, float bottom) {
+  const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  const float right = corner.x + size.x, foot = corner.y + size.y;
+  const float room = ImGui::GetIO().DisplaySize.x;
+  const ImU32 shade = IM_COL32(0, 0, 0, 120);
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->PushClipRectFullScreen();
+  draw->AddRectFilled({0.0f, top}, {room, corner.y}, shade);
+  draw->AddRectFilled({0.0f, corner.y}, {corner.x, foot}, shade);
+  draw->AddRectFilled({right, corner.y}, {room, foot}, shade);
+  draw->AddRectFilled({0.0f, foot}, {room, bottom}, shade);
+  draw->PopClipRect();
+}
+
+/// A row of pixels from y down; those at its ends as far as they are covered.
+void fill_row(float y, float from, float to, ImVec4 colour) {
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const auto fill = [&](float begin, float end, float part) {
+    ImVec4 shade = colour;
+    shade.w *= part;
+    if (end > begin) draw->AddRectFilled({begin, y}, {end, y + 1.0f}, ImGui::GetColorU32(shade));
+  };
+  const float first = std::ceil(from), last = std::floor(to);
+  if (last < first) return fill(last, first, to - from);
+  fill(first - 1.0f, first, first - from);
+  fill(first, last, 1.0f);
+  fill(last, last + 1.0f, to - last);
+}
+
+}  // namespace
+
+void begin_card(const char* id, const ViewRect& view, float width_em) {
+  const float em = ImGui::GetFontSize();
+  const ImVec2 low(view.corner_px.x, view.corner_px.y);
+  const ImVec2 high(low.x + view.size_px.x, low.y + view.size_px.y);
+  // Where the view is narrow a card lies over the columns too: better that than words cut off.
+  const float room = ImGui::GetIO().DisplaySize.x;
+  const float width = std::min(width_em * em, room);
+  const float middle = width > view.size_px.x ? 0.5f * room : 0.5f * (low.x + high.x);
+  ImGui::SetNextWindowPos({middle, 0.5f * (low.y + high.y)}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({width, 0.0f});  // as high as what is in it, up to the view
+  ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, view.size_px.y});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(1.3f * em, 1.1f * em));
+  ImGui::Begin(id, nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::PopStyleVar(2);
+  dim_around(low.y, ImGui::GetIO().DisplaySize.y - status_height());
+}
+
+void draw_section(const draw::PotView& pot, ImVec2 corner, float side, const Palette& colours) {
+  if (pot.rows.empty()) return;
+  float widest = 1.0f;
+  for (const draw::Row& row : pot.rows) widest = std::max(widest, row.outer_mm);
+  const float height = static_cast<float>(pot.height_mm);
+  const float scale = 0.9f * side / std::max(2.0f * widest, height);
+  const float middle = std::floor(corner.x + 0.5f * side);
+  const float foot = std::floor(corner.y + 0.5f * side + 0.5f * scale * height);
+  const float step = scale * height / static_cast<float>(pot.rows.size());
+  ImVec4 shade = colours.clay;
+  shade.w = 0.35f;
+  for (float up = 0.5f; up < scale * height; up += 1.0f) {
+    const auto i = std::min(static_cast<std::size_t>(up / step), pot.rows.size() - 1);
+    const float outer = scale * pot.rows[i].outer_mm, inner = scale * pot.rows[i].inner_mm;
+    const float y = foot - up - 0.5f;
+    fill_row(y, middle - outer, middle, colours.clay);
+    fill_row(y, middle, middle + outer, shade);
+    fill_row(y, middle + inner, middle + outer, colours.clay);
+  }
+}
+
+}  // namespace clay::studio

@@ -1,0 +1,64 @@
+// The arm or controller at the potter's: it takes the clay, and goes.
+
+#include "app/servo/mapping.hpp"
+#include "app/servo/servo_check.hpp"
+#include "app/studio/potter.hpp"
+
+namespace clay::studio {
+namespace {
+
+/// As stiff as the device can render at this rate, and no stiffer than the scene. What becomes of
+/// the clay does not depend on it.
+Result<SceneSpec> softened(SceneSpec scene, const live::LiveSettings& settings) {
+  if (!scene.force) return scene;
+  const auto mapping = live::Mapping::build(settings.mapping);
+  if (!mapping) return tl::make_unexpected(mapping.error());
+  const auto plan = StepPlan::build(scene);
+  if (!plan) return tl::make_unexpected(plan.error());
+  falcon::SampledLoop arm = settings.arm;
+  arm.rate_hz = settings.rate_hz;
+  const auto contact = app::servo_contact(scene, *plan, arm, mapping->stiffness_gain());
+  if (!contact) return tl::make_unexpected(contact.error());
+  app::soften(scene, *contact);
+  return scene;
+}
+
+}  // namespace
+
+void Potter::take(std::unique_ptr<falcon::HapticDevice> device, live::LiveSettings settings) {
+  release();
+  device_ = std::move(device);
+  device_settings_ = settings;
+  device_waits_ = true;
+}
+
+/// The force went with it; the mouse takes over.
+void Potter::lose_device() {
+  news_.error = Error{ErrorKind::device, falcon::text_of(device_->problem())};
+  news_.device_lost = true;
+  device_.reset();
+}
+
+void Potter::hold(const ToolSpec& tool, double rate_per_s) {
+  if (!device_ || !work_ || (tool == scene_.tool && rate_per_s == scene_.removal.rate_per_s))
+    return;
+  release();
+  scene_.tool = tool;
+  scene_.removal.rate_per_s = rate_per_s;
+}
+
+/// A servo that has ended has told the device to give no force until it is opened again.
+void Potter::sit_with_device() {
+  device_waits_ = false;
+  auto opened = device_->open();
+  if (!opened) return lose_device();
+  const SceneSpec wanted = scene_;
+  auto begun =
+      (device_->info().can_push ? softened(scene_, device_settings_) : Result<SceneSpec>(scene_))
+          .and_then(
+              [&](const SceneSpec& scene) { return sit_down(scene, *device_, device_settings_); });
+  scene_ = wanted;
+  if (!begun) news_.error = begun.error();
+}
+
+}  // namespace clay::studio

@@ -1,0 +1,82 @@
+#include "app/studio/readings/readings.hpp"
+
+#include "claystack/engine/tick.hpp"
+
+#include <fmt/format.h>
+
+namespace clay::studio {
+namespace {
+
+constexpr std::int64_t kLiveCheckNs = 100'000'000;  // in mid-stroke, one at most in this time
+
+std::string line_of(const PotCheck& check) {
+  const std::string verdict =
+      check.proved ? fmt::format("proved, {} triangles", check.triangles) : check.why_not;
+  return fmt::format("checked: {}, {:.1f} ms", verdict, 1e3 * check.seconds);
+}
+
+}  // namespace
+
+void Readings::update(Potter& potter, const Wanted& wanted, std::int64_t now_ns,
+                      const std::function<void(std::string_view)>& log) {
+  potter.trace().want(wanted.ticks);
+  ticks_.take(potter.trace());
+  if (!potter.has_work()) return;
+  look_at(potter);
+  if (wanted.check) ask(wanted, now_ns);
+  if (auto answer = checker_.take()) {
+    check_ = std::move(answer);
+    if (!check_->live) log(line_of(*check_));
+  }
+}
+
+/// At rest the pot itself, while it is another than before; in mid-stroke what the servo shows.
+void Readings::look_at(const Potter& potter) {
+  const bool live = potter.throwing();
+  const bool same = live ? subject_.live() && subject_.outline == potter.view()
+                         : subject_.pot == potter.shared_pot();
+  const SceneSpec& scene = potter.scene();
+  const auto limit_kpa =
+      scene.stability ? std::optional(scene.stability->max_stress_kpa) : std::nullopt;
+  if (!same) {
+    subject_ = {live ? nullptr : potter.shared_pot(), potter.view(), scene.lump.density_g_cm3,
+                potter.crown_mm()};
+    outline_stack_ = live ? stack_of(subject_.outline, subject_.crown_mm) : std::nullopt;
+    section_size_ = 0;
+    changed_ = true;
+    if (const ClayStack* clay = stack()) {
+      widest_mm_ = largest_radius_mm(*clay);
+      stress_ = stress_of(*clay, subject_.density_g_cm3, limit_kpa);
+    }
+    if (!live) account_ = resting_account_ = account_of(*subject_.pot);
+  }
+  if (live && outline_stack_ && potter.status().ticks > 0)
+    account_ =
+        account_of(potter.status(), *outline_stack_, subject_.density_g_cm3, resting_account_);
+}
+
+void Readings::ask(const Wanted& wanted, std::int64_t now_ns) {
+  if (!changed_ && asked_ == wanted.process) return;
+  const bool soon = now_ns - asked_ns_ < kLiveCheckNs || checker_.busy();
+  if (live() && soon) return;
+  checker_.ask({subject_, wanted.process});
+  asked_ = wanted.process;
+  asked_ns_ = now_ns;
+  changed_ = false;
+}
+
+const ClayStack* Readings::stack() const noexcept {
+  if (subject_.pot) return &subject_.pot->stack;
+  return outline_stack_ ? &*outline_stack_ : nullptr;
+}
+
+const std::vector<SectionRow>& Readings::section(std::size_t rows) const {
+  if (section_size_ != rows || rows == 0) {
+    const ClayStack* clay = stack();
+    section_ = clay != nullptr && rows > 0 ? section_rows(*clay, rows) : std::vector<SectionRow>();
+    section_size_ = rows;
+  }
+  return section_;
+}
+
+}  // namespace clay::studio

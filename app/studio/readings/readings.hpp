@@ -1,0 +1,72 @@
+#pragma once
+// What panels show of the clay on the wheel: made once a frame where something has changed, and
+// what takes long by a thread of its own.
+
+#include "app/studio/potter.hpp"
+#include "app/studio/readings/clay_account.hpp"
+#include "app/studio/readings/pot_check.hpp"
+#include "app/studio/readings/section_rows.hpp"
+#include "app/studio/readings/stress_curve.hpp"
+#include "app/studio/readings/subject.hpp"
+#include "app/studio/readings/tick_history.hpp"
+#include "core/newest_worker.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace clay::studio {
+
+/// What some panel shows, so that nothing else is made.
+struct Wanted {
+  bool check = false, ticks = false;
+  std::string process;  ///< as PotQuestion has it
+};
+
+class Readings {
+ public:
+  /// Without `threads` the check is done within `update`, so that scripts see the same every time.
+  explicit Readings(bool threads) : checker_(&check_pot, threads) {}
+
+  /// Once a frame, `now_ns` of the servo's clock. `log` is told of checks of
+  /// pots at rest.
+  void update(Potter& potter, const Wanted& wanted, std::int64_t now_ns,
+              const std::function<void(std::string_view)>& log);
+
+  /// Nothing: no clay on the wheel.
+  [[nodiscard]] const ClayStack* stack() const noexcept;
+  [[nodiscard]] double widest_mm() const noexcept { return widest_mm_; }  ///< radius
+  [[nodiscard]] bool live() const noexcept { return subject_.live(); }
+  [[nodiscard]] bool fallen() const noexcept { return subject_.pot && subject_.pot->collapse; }
+  [[nodiscard]] const ClayAccount& account() const noexcept { return account_; }
+  [[nodiscard]] const StressCurve& stress() const noexcept { return stress_; }
+  [[nodiscard]] const TickHistory& ticks() const noexcept { return ticks_; }
+  /// The newest, of this clay or of what it was a moment ago.
+  [[nodiscard]] const std::optional<PotCheck>& check() const noexcept { return check_; }
+  /// One is under way: another frame will show it.
+  [[nodiscard]] bool checking() const { return checker_.busy(); }
+  /// Of the clay as it is; kept until it changes.
+  [[nodiscard]] const std::vector<SectionRow>& section(std::size_t rows) const;
+
+ private:
+  void look_at(const Potter& potter);
+  void ask(const Wanted& wanted, std::int64_t now_ns);
+
+  Subject subject_;
+  std::optional<ClayStack> outline_stack_;  // in mid-stroke
+  double widest_mm_ = 0.0;
+  ClayAccount account_, resting_account_;
+  StressCurve stress_;
+  TickHistory ticks_;
+  std::optional<PotCheck> check_;
+  std::optional<std::string> asked_;  // the process of the last question
+  std::int64_t asked_ns_ = 0;
+  bool changed_ = false;  // since the last question
+  mutable std::vector<SectionRow> section_;
+  mutable std::size_t section_size_ = 0;
+  NewestWorker<PotQuestion, PotCheck> checker_;
+};
+
+}  // namespace clay::studio

@@ -1,0 +1,69 @@
+#include "core/histogram.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace clay::falcon {
+namespace {
+
+constexpr unsigned kBits = TimingHistogram::kBits;
+
+std::size_t bucket_of(std::int64_t ns) noexcept {
+  const auto value = static_cast<std::uint64_t>(std::max<std::int64_t>(ns, 0));
+  const auto width = static_cast<unsigned>(std::bit_width(value));
+  if (width <= kBits) return value;
+  const unsigned octave = width - kBits;  // 1 for 32 to 63: the leading bit goes without saying
+  const std::uint64_t mantissa = (value >> (octave - 1)) - (1u << kBits);
+  return (std::size_t{octave} << kBits) + mantissa;
+}
+
+/// The longest time of a bucket.
+std::int64_t longest_of(std::size_t bucket) noexcept {
+  const std::uint64_t octave = bucket >> kBits, mantissa = bucket & ((1u << kBits) - 1);
+  if (octave == 0) return static_cast<std::int64_t>(mantissa);
+  const std::uint64_t next = ((std::uint64_t{1} << kBits) + mantissa + 1) << (octave - 1);
+  return static_cast<std::int64_t>(next - 1);
+}
+
+}  // namespace
+
+void TimingHistogram::add(std::int64_t ns) noexcept {
+  const std::int64_t time = std::max<std::int64_t>(ns, 0);
+  ++counts_[bucket_of(time)];
+  ++count_;
+  least_ = std::min(least_, time);
+  most_ = std::max(most_, time);
+  sum_ += static_cast<double>(time);
+}
+
+void TimingHistogram::merge(const TimingHistogram& other) noexcept {
+  for (std::size_t i = 0; i < kBuckets; ++i) counts_[i] += other.counts_[i];
+  count_ += other.count_;
+  least_ = std::min(least_, other.least_);
+  most_ = std::max(most_, other.most_);
+  sum_ += other.sum_;
+}
+
+double TimingHistogram::mean_ns() const noexcept {
+  return count_ > 0 ? sum_ / static_cast<double>(count_) : 0.0;
+}
+
+std::int64_t TimingHistogram::quantile_ns(double part) const noexcept {
+  const double kept = part > 0.0 ? std::min(part, 1.0) : 0.0;
+  const double place = std::ceil(kept * static_cast<double>(count_));
+  std::uint64_t left = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(place));
+  for (std::size_t bucket = 0; bucket < kBuckets; ++bucket) {
+    if (counts_[bucket] >= left) return std::min(longest_of(bucket), most_);
+    left -= counts_[bucket];
+  }
+  return most_;
+}
+
+std::uint64_t TimingHistogram::count_from(std::int64_t ns) const noexcept {
+  std::uint64_t count = 0;
+  for (std::size_t bucket = bucket_of(ns); bucket < kBuckets; ++bucket) count += counts_[bucket];
+  return count;
+}
+
+}  // namespace clay::falcon

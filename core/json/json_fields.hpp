@@ -1,0 +1,184 @@
+#pragma once
+// Strict reading of small JSON files: every field is there, of its kind, and known.
+
+#include "claystack/core/result.hpp"
+
+#include "core/text.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace clay::solid {
+
+using Json = nlohmann::ordered_json;
+
+/// Thrown by the readers below, and turned into an error by `parsed_with`.
+struct BadField : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A value as messages show it: a number whole, all else by its kind. What a stranger nested or
+/// strung together is neither walked through nor repeated.
+inline std::string shown(const Json& value) {
+  return value.is_number() ? value.dump() : value.type_name();
+}
+
+/// So that messages stay short, whatever they quote.
+inline std::string shown(const std::string& text, std::size_t longest = 60) {
+  return text.size() <= longest ? text : text.substr(0, longest) + "...";
+}
+
+inline const Json& field_of(const Json& json, const char* name) {
+  if (!json.is_object())
+    throw BadField(std::string("expected an object, found ") + json.type_name());
+  const auto found = json.find(name);
+  if (found == json.end()) throw BadField(std::string(name) + ": expected this field, found none");
+  return *found;
+}
+
+inline tl::unexpected<Error> bad_json(std::string_view name, std::string_view what) {
+  return failure(ErrorKind::bad_input, std::string(name).append(": ").append(what));
+}
+
+/// What a number of a file may be.
+struct Interval {
+  double low = 0.0, high = 0.0;
+  bool above_low = false;  ///< `low` itself is outside
+
+  [[nodiscard]] bool holds(double value) const noexcept {
+    return (above_low ? value > low : value >= low) && value <= high;
+  }
+  /// "from 0 to 1e+07", "above 0 to 10000"
+  [[nodiscard]] std::string text() const {
+    return (above_low ? "above " : "from ") + short_number_text(low) + " to " +
+           short_number_text(high);
+  }
+};
+
+inline double number_in(const Json& json, const char* name, const Interval& limits) {
+  const Json& value = field_of(json, name);
+  if (value.is_number() && limits.holds(value.get<double>())) return value.get<double>();
+  throw BadField(std::string(name) + ": expected a number " + limits.text() + ", found " +
+                 shown(value));
+}
+
+inline std::uint64_t count_in(const Json& json, const char* name) {
+  const Json& value = field_of(json, name);
+  if (!value.is_number_unsigned())
+    throw BadField(std::string(name) + ": expected a whole number, found " + shown(value));
+  return value.get<std::uint64_t>();
+}
+
+inline std::string text_in(const Json& json, const char* name) {
+  const Json& value = field_of(json, name);
+  if (!value.is_string())
+    throw BadField(std::string(name) + ": expected text, found " + shown(value));
+  constexpr std::size_t kLongest = 1000;  // it is shown to people
+  auto text = value.get<std::string>();
+  if (text.size() > kLongest)
+    throw BadField(std::string(name) + ": expected text of at most " + std::to_string(kLongest) +
+                   " bytes, found " + std::to_string(text.size()));
+  return text;
+}
+
+inline const Json& array_in(const Json& json, const char* name) {
+  const Json& value = field_of(json, name);
+  if (!value.is_array())
+    throw BadField(std::string(name) + ": expected an array, found " + shown(value));
+  return value;
+}
+
+inline void expect_only(const Json& json, std::initializer_list<std::string_view> known) {
+  if (!json.is_object())
+    throw BadField(std::string("expected an object, found ") + json.type_name());
+  for (const auto& [name, value] : json.items())
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw BadField(shown(name) + ": unknown field");
+}
+
+/// Kind and version of the file, such as "claystack-process-1".
+inline void expect_schema(const Json& json, const std::string& schema) {
+  const std::string found = text_in(json, "schema");
+  if (found != schema) throw BadField("schema: expected " + schema + ", found " + shown(found));
+}
+
+/// Follows the parser, and stops it where a file is none of ours: its `schema`, which our files
+/// begin with, tells at once that it is of another kind. What the parser makes of a file
+/// takes many times the memory of the text, and for an object's keys the square of the time.
+class JsonLimits {
+ public:
+  JsonLimits(int deepest, std::string schema) : deepest_(deepest), schema_(std::move(schema)) {}
+
+  bool operator()(int depth, Json::parse_event_t event, const Json& value) {
+    using Event = Json::parse_event_t;
+    if (depth == 0 && event == Event::array_start)
+      throw BadField("expected an object, found an array");
+    if (depth > deepest_)
+      throw BadField("expected values nested " + std::to_string(deepest_) +
+                     " deep at most, found deeper ones");
+    if (event == Event::object_start) keys_.emplace_back();
+    if (event == Event::object_end) keys_.pop_back();
+    if (event == Event::key) add_key(value.get_ref<const std::string&>());
+    if (event == Event::value && depth == 1 && keys_.back().back() == "schema") check_schema(value);
+    return true;
+  }
+
+ private:
+  void check_schema(const Json& value) const {
+    const auto* found = value.get_ptr<const std::string*>();
+    if (found != nullptr && *found != schema_ && found->size() <= kLongestKey)
+      throw BadField("schema: expected " + schema_ + ", found " + *found);
+  }
+
+  void add_key(const std::string& key) {
+    if (key.size() > kLongestKey) throw BadField(shown(key) + ": unknown field");
+    std::vector<std::string>& keys = keys_.back();
+    if (std::find(keys.begin(), keys.end(), key) != keys.end())
+      throw BadField(shown(key) + ": expected this field once, found it twice");
+    if (keys.size() == kMostKeys)
+      throw BadField("expected at most " + std::to_string(kMostKeys) +
+                     " fields in an object, found more");
+    keys.push_back(key);
+  }
+
+  static constexpr std::size_t kMostKeys = 64, kLongestKey = 64;
+  int deepest_;
+  std::string schema_;
+  std::vector<std::vector<std::string>> keys_;  ///< of the objects that are open
+};
+
+/// The parser's message without its own number: "[json.exception.parse_error.101] parse error".
+inline std::string_view bare_message(std::string_view what) {
+  const auto tag = what.find("] ");
+  return what.starts_with('[') && tag != what.npos ? what.substr(tag + 2) : what;
+}
+
+/// What a file begins with says of what kind it is, before a parser stumbles over it.
+inline void expect_object_text(std::string_view bytes) {
+  bytes = without_byte_order_mark(bytes);
+  bytes.remove_prefix(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
+  if (bytes.starts_with('{') || bytes.starts_with('[')) return;
+  throw BadField("expected a JSON object, found " + kind_of_file(bytes));
+}
+
+/// read(root) of a JSON text; what goes wrong becomes an error that begins with `name`. `follow`
+/// sees every event of the parser, as `Json::parse` describes, and may throw.
+template <class Read, class Follow>
+auto parsed_with(std::string_view bytes, std::string_view name, Follow follow, Read read)
+    -> Result<decltype(read(Json()))> try {
+  expect_object_text(bytes);
+  return read(Json::parse(bytes, std::ref(follow)));
+} catch (const std::exception& error) {
+  constexpr std::size_t kLongest = 300;  // the parser quotes what it read last
+  return bad_json(name, shown(std::string(bare_message(error.what())), kLongest));
+}
+
+}  // namespace clay::solid

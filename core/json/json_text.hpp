@@ -1,0 +1,18 @@
+#pragma once
+#include "core/json/json_builder.hpp"
+
+#include <string>
+
+namespace clay::files {
+
+/// The shortest digits that read back as the same number.
+std::string shortest(double value);
+
+/// JSON to be read by people: one member a line, numbers ten a row. The same value gives the
+/// same bytes on every platform.
+std::string json_text(const Json& value);
+
+/// JSON on one line.
+std::string json_line(const Json& value);
+
+}  // namespace clay::files

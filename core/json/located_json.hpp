@@ -1,0 +1,51 @@
+#pragma once
+#include "claystack/core/result.hpp"
+#include "core/json/json_builder.hpp"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace clay::files {
+
+/// From the root inward: names of members and indices of elements.
+using Path = std::vector<std::variant<std::string_view, std::size_t>>;
+
+/// "tool.shape.sphere", "rings.outer2[17]"; empty for the root.
+std::string to_string(const Path& path);
+
+/// A document that knows where its values stand. Lines are not stored: an error, and nothing
+/// else, reads the text once more to find its own.
+class LocatedJson {
+ public:
+  /// `text` is kept by reference. Refuses duplicate keys, more than 64 levels, numbers beyond a
+  /// double, malformed UTF-8, and anything behind the value. `first_line` is that of its start.
+  static Result<LocatedJson> from_json(std::string_view text, std::string_view name,
+                                       std::size_t max_values, std::size_t first_line = 1);
+  static Result<LocatedJson> from_cbor(std::string_view bytes, std::string_view name,
+                                       std::size_t max_values);
+
+  [[nodiscard]] const Json& root() const noexcept { return root_; }
+  /// Frees the memory of the values; errors can still be placed.
+  void forget_values() { root_ = nullptr; }
+
+  /// "NAME:LINE: message"; in CBOR, which has no lines, "NAME: message".
+  [[nodiscard]] Error error_at(const Path& path, const std::string& message) const;
+  /// "NAME:LINE: FIELD: message"
+  [[nodiscard]] Error field_error(const Path& path, const std::string& message) const;
+
+ private:
+  LocatedJson(Json root, std::string_view text, std::string_view name, std::size_t first_line);
+
+  Json root_;
+  std::string_view text_;  ///< empty for CBOR
+  std::string name_;
+  std::size_t first_line_;
+};
+
+/// Whether `text` is the beginning of a JSON value, sound as far as it goes.
+bool is_unfinished_json(std::string_view text);
+
+}  // namespace clay::files

@@ -1,0 +1,233 @@
+#include "core/json/object_reader.hpp"
+
+#include "core/json/json_text.hpp"
+
+#include <algorithm>
+
+namespace clay::files {
+namespace {
+
+/// One edit away: a character more, less or other, or two neighbours exchanged. All short names
+/// are near each other, which says nothing.
+bool is_near(std::string_view a, std::string_view b) {
+  if (std::min(a.size(), b.size()) < 3) return false;
+  while (!a.empty() && !b.empty() && a.front() == b.front()) {
+    a.remove_prefix(1);
+    b.remove_prefix(1);
+  }
+  while (!a.empty() && !b.empty() && a.back() == b.back()) {
+    a.remove_suffix(1);
+    b.remove_suffix(1);
+  }
+  if (a.size() == 2 && b.size() == 2) return a[0] == b[1] && a[1] == b[0];
+  return a.size() <= 1 && b.size() <= 1;
+}
+
+std::string in_quotes(std::string_view name) {
+  return std::string("\"").append(printable(std::string(name))).append("\"");
+}
+
+/// "; is "mode" meant?", or nothing where no candidate is near.
+std::string suggestion(std::string_view name, const auto& candidates) {
+  const auto near = std::ranges::find_if(
+      candidates, [&](std::string_view candidate) { return is_near(name, candidate); });
+  return near == candidates.end() ? "" : "; is " + in_quotes(*near) + " meant?";
+}
+
+std::string found_text(const Json& value) {
+  if (value.is_object()) return "an object with " + std::to_string(value.size()) + " fields";
+  if (value.is_array()) return "an array of " + std::to_string(value.size());
+  return printable(json_line(value));
+}
+
+}  // namespace
+
+std::string Range::text() const {
+  return std::string(low_open ? "above " : "from ") + shortest(low) +
+         (high_open ? " to below " : " to ") + shortest(high);
+}
+
+std::string listed(Names names) {
+  std::string list;
+  for (const auto name : names) list += (list.empty() ? "" : ", ") + std::string(name);
+  return list;
+}
+
+void ObjectReader::require(std::initializer_list<std::string_view> names) {
+  for (const auto name : names) {
+    if (context_.error || object_.contains(std::string(name))) continue;
+    std::vector<std::string_view> strangers;
+    for (const auto& [key, member] : object_.items())
+      if (std::ranges::find(names, key) == names.end() && !is_known(key))
+        strangers.emplace_back(key);
+    keep(context_.document.field_error(
+        context_.path,
+        "expected a field " + in_quotes(name) + ", found none" + suggestion(name, strangers)));
+  }
+}
+
+void ObjectReader::constant(std::string_view name, std::string_view value) {
+  at(name, [&](const Json& found) {
+    if (found != value) expected(in_quotes(value), found);
+  });
+}
+
+void ObjectReader::written_by() {
+  std::string ignored;
+  text("written_by", ignored);
+}
+
+void ObjectReader::text(std::string_view name, std::string& value) {
+  at(name, [&](const Json& found) {
+    if (const auto* read = found.get_ptr<const std::string*>())
+      value = *read;
+    else
+      expected("a text", found);
+  });
+}
+
+void ObjectReader::number(std::string_view name, double& value, const Range& range) {
+  at(name, [&](const Json& found) { value = number_in(found, range).value_or(value); });
+}
+
+void ObjectReader::number(std::string_view name, std::optional<double>& value, const Range& range) {
+  at(name, [&](const Json& found) { value = number_in(found, range); });
+}
+
+void ObjectReader::numbers(std::string_view name, std::vector<double>& values, const Range& range) {
+  at(name, [&](const Json& found) { values = numbers_in(found, range); });
+}
+
+void ObjectReader::numbers(std::string_view name, std::optional<std::vector<double>>& values,
+                           const Range& range) {
+  at(name, [&](const Json& found) { values = numbers_in(found, range); });
+}
+
+void ObjectReader::vector(std::string_view name, glm::dvec3& value, const Range& range) {
+  at(name, [&](const Json& found) {
+    const auto read = numbers_in(found, range);
+    if (read.size() == 3)
+      value = {read[0], read[1], read[2]};
+    else
+      expected("an array of 3 numbers", found);
+  });
+}
+
+void ObjectReader::integers(std::string_view name, std::vector<std::int64_t>& values,
+                            std::int64_t low, std::int64_t high) {
+  at(name, [&](const Json& found) { values = integers_in(found, low, high); });
+}
+
+void ObjectReader::series(std::string_view name, std::vector<std::int64_t>& values,
+                          std::int64_t low, std::int64_t high) {
+  at(name, [&](const Json& found) {
+    if (found.is_array())
+      values = integers_in(found, low, high);
+    else if (const auto read = integer_in(found, low, high))
+      values = {*read};
+  });
+}
+
+void ObjectReader::expect(bool holds, std::string_view name, std::string_view what) {
+  if (!holds) at(name, [&](const Json& found) { expected(what, found); });
+}
+
+void ObjectReader::expect_element(bool holds, std::string_view name, std::size_t index,
+                                  std::string_view what) {
+  if (holds) return;
+  at(name, [&](const Json& found) {
+    context_.path.emplace_back(index);
+    expected(what, found.at(index));
+    context_.path.pop_back();
+  });
+}
+
+template <class ReadElement>
+void ObjectReader::each_element(const Json& array, ReadElement read_element) {
+  if (!array.is_array()) return expected("an array", array);
+  for (std::size_t i = 0; i < array.size() && !context_.error; ++i) {
+    context_.path.emplace_back(i);
+    read_element(array[i]);
+    context_.path.pop_back();
+  }
+}
+
+std::optional<double> ObjectReader::number_in(const Json& value, const Range& range) {
+  if (value.is_number() && range.holds(value.get<double>())) return value.get<double>();
+  expected("a number " + range.text(), value);
+  return std::nullopt;
+}
+
+std::optional<std::int64_t> ObjectReader::integer_in(const Json& value, std::int64_t low,
+                                                     std::int64_t high) {
+  // Above 2^63 an unsigned number would come out of the conversion as a negative one.
+  const bool fits =
+      value.is_number_integer() &&
+      (!value.is_number_unsigned() || std::in_range<std::int64_t>(value.get<std::uint64_t>()));
+  if (fits) {
+    const auto read = value.get<std::int64_t>();
+    if (read >= low && read <= high) return read;
+  }
+  expected("an integer from " + std::to_string(low) + " to " + std::to_string(high), value);
+  return std::nullopt;
+}
+
+std::vector<double> ObjectReader::numbers_in(const Json& value, const Range& range) {
+  std::vector<double> numbers;
+  numbers.reserve(value.size());
+  each_element(value, [&](const Json& element) {
+    if (const auto read = number_in(element, range)) numbers.push_back(*read);
+  });
+  return numbers;
+}
+
+std::vector<std::int64_t> ObjectReader::integers_in(const Json& value, std::int64_t low,
+                                                    std::int64_t high) {
+  std::vector<std::int64_t> integers;
+  integers.reserve(value.size());
+  each_element(value, [&](const Json& element) {
+    if (const auto read = integer_in(element, low, high)) integers.push_back(*read);
+  });
+  return integers;
+}
+
+std::optional<std::size_t> ObjectReader::choice_in(const Json& value, Names names) {
+  const auto chosen =
+      std::ranges::find_if(names, [&](std::string_view name) { return value == name; });
+  if (chosen != names.end()) return static_cast<std::size_t>(chosen - names.begin());
+  expected("one of " + listed(names), value);
+  return std::nullopt;
+}
+
+bool ObjectReader::is_object(const Json& value) {
+  if (!value.is_object()) expected("an object", value);
+  return value.is_object();
+}
+
+void ObjectReader::expected(std::string_view what, const Json& found) {
+  keep(context_.document.field_error(
+      context_.path, "expected " + std::string(what) + ", found " + found_text(found)));
+}
+
+void ObjectReader::keep(Error error) {
+  if (!context_.error) context_.error = std::move(error);
+}
+
+bool ObjectReader::is_known(std::string_view name) const {
+  return std::ranges::find(known_, name) != known_.end();
+}
+
+void ObjectReader::refuse_unknown_members() {
+  for (const auto& [name, member] : object_.items()) {
+    if (context_.error) return;
+    if (is_known(name)) continue;
+    const std::string owner = to_string(context_.path);
+    context_.path.emplace_back(name);
+    keep(context_.document.error_at(
+        context_.path, "unknown field " + in_quotes(name) + (owner.empty() ? "" : " in " + owner) +
+                           "; expected one of " + listed(known_) + suggestion(name, known_)));
+    context_.path.pop_back();
+  }
+}
+
+}  // namespace clay::files

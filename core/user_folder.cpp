@@ -1,0 +1,42 @@
+#include "core/user_folder.hpp"
+
+#include <pwd.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+
+namespace clay::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Empty where it is not set, or no absolute path.
+fs::path absolute_path(const char* value) {
+  return value != nullptr && value[0] == '/' ? fs::path(value) : fs::path();
+}
+
+fs::path home() {
+  if (fs::path named = absolute_path(std::getenv("HOME")); !named.empty()) return named;
+  std::array<char, 16384> buffer;
+  passwd entry{};
+  passwd* found = nullptr;
+  if (getpwuid_r(getuid(), &entry, buffer.data(), buffer.size(), &found) != 0 || found == nullptr)
+    return {};
+  return absolute_path(found->pw_dir);
+}
+
+}  // namespace
+
+fs::path user_folder(UserFolder kind) {
+  const bool config = kind == UserFolder::config;
+  fs::path base = absolute_path(std::getenv(config ? "XDG_CONFIG_HOME" : "XDG_STATE_HOME"));
+  if (base.empty()) {
+    base = home();
+    if (base.empty()) return {};
+    base /= config ? ".config" : ".local/state";
+  }
+  return base / "claystack";
+}
+
+}  // namespace clay::app

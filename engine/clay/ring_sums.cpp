@@ -1,0 +1,70 @@
+#include "engine/clay/ring_sums.hpp"
+
+#include <algorithm>
+
+namespace clay {
+namespace {
+
+WideQuanta volume_of(const Ring& ring) noexcept { return ring.volume(); }
+WideQuanta volume_of(const Stretch& stretch) noexcept { return stretch.volume; }
+Quanta least_of(const Ring& ring) noexcept { return ring.volume(); }
+Quanta least_of(const Stretch& stretch) noexcept { return stretch.least; }
+
+template <class Part>
+Stretch sum(std::span<const Part> parts) noexcept {
+  Stretch stretch{0, least_of(parts.front())};
+  for (const Part& part : parts) {
+    stretch.volume += volume_of(part);
+    stretch.least = std::min(stretch.least, least_of(part));
+  }
+  return stretch;
+}
+
+/// Sums again the stretches that first..last of their parts belong to.
+template <class Part>
+void sum_parts(std::span<const Part> parts, std::size_t first, std::size_t last,
+               std::span<Stretch> stretches) noexcept {
+  constexpr std::size_t fan = RingSums::kFan;
+  for (std::size_t k = first / fan; k <= last / fan; ++k)
+    stretches[k] = sum(parts.subspan(k * fan, std::min(fan, parts.size() - k * fan)));
+}
+
+/// Of the parts after the i-th that belong to the same stretch.
+template <class Part>
+WideQuanta rest_of_stretch(std::span<const Part> parts, std::size_t i) noexcept {
+  const std::size_t end = std::min(parts.size(), (i / RingSums::kFan + 1) * RingSums::kFan);
+  WideQuanta rest = 0;
+  for (std::size_t k = i + 1; k < end; ++k) rest += volume_of(parts[k]);
+  return rest;
+}
+
+}  // namespace
+
+RingSums::RingSums(const ClayStack& stack) {
+  for (std::size_t parts = stack.max_rings(); levels_.empty() || parts > kFan;)
+    levels_.emplace_back(parts = (parts + kFan - 1) / kFan);
+  refresh(stack.rings(), 0, stack.size() - 1);
+}
+
+void RingSums::refresh(std::span<const Ring> rings, std::size_t first, std::size_t last) noexcept {
+  sum_parts(rings, first, last, std::span(levels_[0]));
+  for (std::size_t level = 1; level < levels_.size(); ++level) {
+    first /= kFan;
+    last /= kFan;
+    const std::size_t parts = used(rings.size(), level - 1);
+    sum_parts(std::span<const Stretch>(levels_[level - 1]).first(parts), first, last,
+              std::span(levels_[level]));
+  }
+}
+
+WideQuanta RingSums::above(std::span<const Ring> rings, std::size_t i) const noexcept {
+  WideQuanta sum = rest_of_stretch(rings, i);
+  for (std::size_t level = 0; level < levels_.size(); ++level) {
+    i /= kFan;
+    const std::size_t parts = used(rings.size(), level);
+    sum += rest_of_stretch(std::span<const Stretch>(levels_[level]).first(parts), i);
+  }
+  return sum;
+}
+
+}  // namespace clay

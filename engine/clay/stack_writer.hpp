@@ -1,0 +1,69 @@
+#pragma once
+// The only hand that changes a ClayStack. Keeps its running sums true: they are so again when the
+// writer goes, which lets a loop count in a register.
+
+#include "claystack/engine/clay.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace clay {
+
+class StackWriter {
+ public:
+  explicit StackWriter(ClayStack& stack) noexcept : stack_(stack) {}
+  StackWriter(const StackWriter&) = delete;
+  StackWriter& operator=(const StackWriter&) = delete;
+  ~StackWriter() {
+    stack_.rings_volume_ += gained_;
+    stack_.bores_ += opened_;
+  }
+
+  void take_outside(std::size_t i, Quanta amount) noexcept {
+    stack_.rings_[i].outer2 -= amount;
+    gained_ -= amount;
+    assert(stack_.rings_[i].volume() > 0);
+  }
+  void take_inside(std::size_t i, Quanta amount) noexcept {
+    opened_ += stack_.rings_[i].inner2 == 0 && amount > 0 ? 1u : 0u;
+    stack_.rings_[i].inner2 += amount;
+    gained_ -= amount;
+    assert(stack_.rings_[i].volume() > 0);
+  }
+  /// Each returns what found room: up to the axis inside, up to the largest radius outside. Of
+  /// Quanta or WideQuanta. The caller counts: `gain` what all of them have placed.
+  template <class Amount>
+  Quanta put_inside(std::size_t i, Amount amount) noexcept {
+    const auto placed = static_cast<Quanta>(std::min<Amount>(amount, stack_.rings_[i].inner2));
+    stack_.rings_[i].inner2 -= placed;
+    if (placed > 0 && stack_.rings_[i].inner2 == 0) [[unlikely]]
+      --opened_;
+    return placed;
+  }
+  template <class Amount>
+  Quanta put_outside(std::size_t i, Amount amount) noexcept {
+    const Quanta room = kLargestOuter2 - stack_.rings_[i].outer2;
+    const auto placed = static_cast<Quanta>(std::min<Amount>(amount, room));
+    stack_.rings_[i].outer2 += placed;
+    return placed;
+  }
+  void gain(WideQuanta amount) noexcept { gained_ += amount; }
+  void put_on_crown(WideQuanta amount) noexcept { stack_.crown_ += amount; }
+
+  /// Step (b) of section 5.1: a new ring above the top one. Capacity for max_rings() is reserved
+  /// at scene build, so nothing is allocated here.
+  void grow(const Ring& ring) noexcept {
+    stack_.rings_.push_back(ring);
+    opened_ += ring.inner2 > 0 ? 1u : 0u;
+    gained_ += ring.volume();
+  }
+  void reserve() { stack_.rings_.reserve(stack_.max_rings_); }
+
+ private:
+  static inline const Quanta kLargestOuter2 = quanta_from_radius(kMaxRadiusMm);
+  ClayStack& stack_;
+  WideQuanta gained_ = 0;   ///< by rings, not yet in the stack's sum
+  std::size_t opened_ = 0;  ///< bores, less those that closed; modulo 2^64
+};
+
+}  // namespace clay

@@ -1,0 +1,21 @@
+#pragma once
+#include "claystack/engine/scene.hpp"
+#include "core/json/json_builder.hpp"
+#include "core/json/located_json.hpp"
+#include "core/json/range.hpp"
+
+#include <array>
+#include <string_view>
+
+namespace clay::files {
+
+/// The scene as its file holds it.
+Json scene_json(const SceneSpec& scene);
+Result<SceneSpec> scene_of(const LocatedJson& document);
+
+// A pot repeats what it must from its scene.
+inline constexpr std::array<std::string_view, 2> kModelNames = {"conserving", "paper"};
+inline constexpr Range kRingHeightMm = from(1e-3).to(1e3);
+inline constexpr Range kDensity = from(0.1).to(25);
+
+}  // namespace clay::files

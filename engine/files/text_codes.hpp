@@ -1,0 +1,34 @@
+#pragma once
+// Numbers that JSON cannot hold exactly in every peer, in the form of texts.
+
+#include "claystack/engine/clay.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace clay::files {
+
+/// A 64-bit hash: 16 lower-case hexadecimal digits.
+struct HashCode {
+  static constexpr std::string_view kExpected = "16 lower-case hexadecimal digits";
+  static std::string encode(std::uint64_t hash);
+  static std::optional<std::uint64_t> decode(std::string_view text);
+};
+
+/// A wide count in decimal digits, of at most 30: five such counts add up without overflow.
+struct DecimalCode {
+  static constexpr std::string_view kExpected = "a text of 1 to 30 decimal digits";
+  static std::string encode(WideQuanta count) { return clay::to_string(count); }
+  static std::optional<WideQuanta> decode(std::string_view text);
+};
+
+/// The same for a count that may be negative.
+struct SignedDecimalCode {
+  static constexpr std::string_view kExpected = "a text of 1 to 30 decimal digits, or - and those";
+  static std::string encode(WideQuanta count) { return clay::to_string(count); }
+  static std::optional<WideQuanta> decode(std::string_view text);
+};
+
+}  // namespace clay::files

@@ -1,0 +1,146 @@
+#pragma once
+// The lines of a work file that are its own, and where redo leads in it.
+
+#include "claystack/engine/files.hpp"
+#include "core/fnv1a.hpp"
+#include "core/json/json_text.hpp"
+#include "core/json/object_reader.hpp"
+#include "engine/files/pot_json.hpp"
+#include "engine/files/text_codes.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace clay::files {
+
+inline constexpr auto kMostNodes = std::int64_t{1} << 31;
+
+inline std::uint64_t check_of(std::string_view kind, std::initializer_list<std::uint64_t> values) {
+  Fnv1a hash;
+  hash.add(kind);
+  for (const std::uint64_t value : values) hash.add(static_cast<std::int64_t>(value));
+  return hash.value();
+}
+
+/// As hash_of a scene: whichever version wrote it.
+inline std::uint64_t hash_of(const std::optional<Pot>& start) {
+  if (!start) return 0;
+  Json json = pot_json(*start, false);
+  json.erase("written_by");
+  Fnv1a hash;
+  hash.add(json_line(json));
+  return hash.value();
+}
+
+/// Shifts the times, so that the first pose is at time 0.
+inline void to_zero(std::span<Pose> poses) {
+  const std::int64_t first_us = poses.empty() ? 0 : poses.front().time_us;
+  for (Pose& pose : poses) pose.time_us -= first_us;
+}
+
+struct WorkHeader {};
+
+struct NodeLine {
+  std::size_t node = 0, parent = 0, scene = 0;
+  std::uint64_t check = 0;
+  /// Over the scene too, and the pot that the root is.
+  [[nodiscard]] std::uint64_t expected(std::uint64_t scene_hash, std::uint64_t start_hash) const {
+    return check_of("node", {node, parent, scene, scene_hash, start_hash});
+  }
+};
+
+struct EndLine {
+  std::size_t poses = 0;
+  std::vector<std::int64_t> splits;
+  std::uint64_t check = 0;
+  [[nodiscard]] std::uint64_t expected() const {
+    std::uint64_t sum = check_of("end", {poses});
+    for (const std::int64_t split : splits)
+      sum = check_of("split", {sum, static_cast<std::uint64_t>(split)});
+    return sum;
+  }
+};
+
+struct AtLine {
+  std::size_t node = 0;
+  std::uint64_t check = 0;
+  [[nodiscard]] std::uint64_t expected() const { return check_of("at", {node}); }
+};
+
+struct SavedLine {
+  std::size_t node = 0, nodes = 0;
+  std::uint64_t check = 0;
+  [[nodiscard]] std::uint64_t expected() const { return check_of("saved", {node, nodes}); }
+};
+
+void describe(auto& io, Is<WorkHeader> auto&) {
+  io.require({"schema", "written_by", "position_quantum_mm"});
+  io.constant("schema", "claystack-work-1");
+  io.written_by();
+  io.constant("position_quantum_mm", "2^-16");
+}
+
+void describe(auto& io, Is<NodeLine> auto& line) {
+  io.require({"node", "parent", "scene", "check"});
+  io.integer("node", line.node, 0, kMostNodes);
+  io.integer("parent", line.parent, 0, kMostNodes);
+  io.integer("scene", line.scene, 0, kMostNodes);
+  io.template coded<HashCode>("check", line.check);
+}
+
+void describe(auto& io, Is<EndLine> auto& line) {
+  io.require({"end", "check"});
+  io.integer("end", line.poses, 0, std::numeric_limits<std::int64_t>::max());
+  io.series("splits", line.splits, 1, std::numeric_limits<std::int64_t>::max());
+  io.template coded<HashCode>("check", line.check);
+}
+
+void describe(auto& io, Is<AtLine> auto& line) {
+  io.require({"at", "check"});
+  io.integer("at", line.node, 0, kMostNodes);
+  io.template coded<HashCode>("check", line.check);
+}
+
+void describe(auto& io, Is<SavedLine> auto& line) {
+  io.require({"saved", "nodes", "check"});
+  io.integer("saved", line.node, 0, kMostNodes);
+  io.integer("nodes", line.nodes, 1, kMostNodes);
+  io.template coded<HashCode>("check", line.check);
+}
+
+/// When the nodes of a tree were last the current one, and where redo leads therefore: to the child
+/// below which it was last. Linear in the tree, however often a file goes to and fro in it.
+class Visits {
+ public:
+  explicit Visits(std::size_t nodes = 0) : last_(nodes, 0) {}
+  void visit(std::size_t node) {
+    if (node >= last_.size()) last_.resize(node + 1, 0);
+    last_[node] = ++clock_;
+  }
+  /// look(node, child to which redo leads or 0), children before parents; true: the child that was
+  /// wanted instead has been visited now.
+  template <class Look>
+  void from_leaves(std::span<const WorkNode> nodes, Look look) {
+    std::vector<std::uint64_t> below(nodes.size(), 0);
+    std::vector<std::size_t> taken(nodes.size(), 0);
+    for (std::size_t i = nodes.size(); i-- > 0;) {
+      if (look(i, taken[i])) below[i] = ++clock_;
+      const std::uint64_t latest = std::max(last_[i], below[i]);
+      if (i == 0 || latest <= below[nodes[i].parent]) continue;
+      below[nodes[i].parent] = latest;
+      taken[nodes[i].parent] = i;
+    }
+  }
+
+ private:
+  std::uint64_t clock_ = 0;
+  std::vector<std::uint64_t> last_;
+};
+
+}  // namespace clay::files

@@ -1,0 +1,206 @@
+#pragma once
+#include "claystack/core/result.hpp"
+#include "claystack/engine/scene.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace clay {
+
+// ---- quanta --------------------------------------------------------------------------
+// Clay is counted, not measured: squared radii are integers, so that volume is
+// moved without rounding and a replay gives the same bits everywhere.
+
+/// A count of 2^-36 mm^2, the unit of squared radii. A ring of height h that
+/// spans q quanta holds pi * h * q * 2^-36 mm^3.
+using Quanta = std::int64_t;
+
+/// Sums of quanta over a whole stack (up to 2^24 rings of 2^61 quanta).
+__extension__ typedef __int128 WideQuanta;
+
+inline constexpr double kQuantaPerMm2 = 68719476736.0;  // 2^36
+inline constexpr double kMm2PerQuantum = 1.0 / kQuantaPerMm2;
+
+inline constexpr double kMinRadiusMm = 1e-3;
+inline constexpr double kMaxRadiusMm = 5000.0;
+inline constexpr std::size_t kMaxRings = std::size_t{1} << 24;
+
+/// The squared radius nearest to `mm2` [mm^2], halves up. Needs 0 <= mm2 < 1.3e8.
+[[nodiscard]] inline Quanta quanta_from_mm2(double mm2) noexcept {
+  return static_cast<Quanta>(mm2 * kQuantaPerMm2 + 0.5);  // NOLINT(bugprone-incorrect-roundings)
+}
+[[nodiscard]] inline Quanta quanta_from_radius(double mm) noexcept {
+  return quanta_from_mm2(mm * mm);
+}
+[[nodiscard]] inline double mm2_from_quanta(Quanta q) noexcept {
+  return static_cast<double>(q) * kMm2PerQuantum;
+}
+[[nodiscard]] inline double mm2_from_quanta(WideQuanta q) noexcept {
+  return static_cast<double>(q) * kMm2PerQuantum;
+}
+/// Radius [mm] of a squared radius. IEEE sqrt is exact to half an ulp on every platform.
+[[nodiscard]] inline double radius_from_quanta(Quanta q) noexcept {
+  return std::sqrt(mm2_from_quanta(q));
+}
+
+/// Decimal digits of a wide count, for files and messages.
+[[nodiscard]] std::string to_string(WideQuanta q);
+
+// ---- clay stack ----------------------------------------------------------------------
+// The clay: a stack of coaxial rings of one height, and a crown on top.
+
+/// One cylindrical element (paper, section 2). 0 <= inner2 < outer2, in quanta of 2^-36 mm^2.
+struct Ring {
+  Quanta outer2 = 0;  ///< squared outer radius R^2
+  Quanta inner2 = 0;  ///< squared inner radius r^2; 0 where there is no bore
+
+  [[nodiscard]] Quanta volume() const noexcept {
+    return outer2 - inner2;
+  }  ///< normalised: V / (pi h)
+  [[nodiscard]] double outer_mm() const noexcept { return radius_from_quanta(outer2); }
+  [[nodiscard]] double inner_mm() const noexcept { return radius_from_quanta(inner2); }
+  friend bool operator==(const Ring&, const Ring&) = default;
+};
+
+/// Rings 0..N-1 from the wheel up (the paper's 1..N). Ring i spans the heights
+/// [i h, (i+1) h] in mm above the wheel head; the axis is y. The crown is a last
+/// ring of fractional height with the radii of ring N-1: clay too little for a
+/// whole ring, counted in normalised quanta like a ring's volume.
+///
+/// Reading is public; only redistribution writes (StackWriter, private to the engine).
+class ClayStack {
+ public:
+  ClayStack() = default;
+
+  /// `count` equal rings. Refuses N outside [1, 2^24], heights outside [1e-3, 1e3] mm and
+  /// radii outside 0 <= r < R, 1e-3 <= R <= 5000 mm.
+  static Result<ClayStack> cylinder(std::size_t count, double ring_height_mm, double outer_mm,
+                                    double inner_mm, std::size_t max_rings);
+
+  /// Any valid rings, as read from a file. Same limits; the message names the ring.
+  static Result<ClayStack> from_rings(double ring_height_mm, std::vector<Ring> rings,
+                                      WideQuanta crown, std::size_t max_rings = kMaxRings);
+
+  [[nodiscard]] std::span<const Ring> rings() const noexcept { return rings_; }
+  [[nodiscard]] std::size_t size() const noexcept { return rings_.size(); }
+  [[nodiscard]] std::size_t max_rings() const noexcept { return max_rings_; }
+  [[nodiscard]] double ring_height_mm() const noexcept { return ring_height_mm_; }
+  [[nodiscard]] WideQuanta crown() const noexcept { return crown_; }
+  [[nodiscard]] double crown_height_mm() const noexcept;
+  [[nodiscard]] double height_mm() const noexcept;  ///< with the crown
+
+  /// Rings and crown, kept up to date by every transfer: O(1). Normalised quanta.
+  [[nodiscard]] WideQuanta volume() const noexcept { return rings_volume_ + crown_; }
+  /// The same counted afresh: O(N). The two are equal, or the engine is broken.
+  [[nodiscard]] WideQuanta recount() const noexcept;
+  [[nodiscard]] double mm3_per_quantum() const noexcept;  ///< pi h 2^-36
+  [[nodiscard]] double volume_mm3() const noexcept;
+
+  /// Some ring has a bore (r > 0). While false, no clay can flow inward.
+  [[nodiscard]] bool hollow() const noexcept { return bores_ > 0; }
+
+  friend bool operator==(const ClayStack&, const ClayStack&) = default;
+
+ private:
+  friend class StackWriter;
+
+  std::vector<Ring> rings_;
+  double ring_height_mm_ = 1.0;
+  std::size_t max_rings_ = kMaxRings;
+  WideQuanta crown_ = 0;
+  WideQuanta rings_volume_ = 0;
+  std::size_t bores_ = 0;  ///< rings with r > 0
+};
+
+// ---- ledger --------------------------------------------------------------------------
+
+/// The account of every quantum of clay: initial + added = in the stack + trimmed + outside.
+/// Normalised quanta (V / (pi h) in units of 2^-36 mm^2).
+struct Ledger {
+  WideQuanta initial = 0;  ///< in the stack when the scene began
+  WideQuanta added = 0;    ///< put on since
+  WideQuanta trimmed = 0;  ///< cut off by a trimming tool (the paper's chiselling)
+  WideQuanta outside = 0;  ///< model `paper` only: excess not yet enough for a ring (section 5.1)
+
+  /// Clay unaccounted for, given what the stack holds; 0 in a sound engine.
+  [[nodiscard]] WideQuanta imbalance(WideQuanta in_stack) const noexcept {
+    return in_stack + trimmed + outside - initial - added;
+  }
+  /// What the body itself lacks or has too much: the paper's volume error.
+  [[nodiscard]] WideQuanta volume_error(WideQuanta in_stack) const noexcept {
+    return in_stack + trimmed - initial - added;
+  }
+  friend bool operator==(const Ledger&, const Ledger&) = default;
+};
+
+// ---- pot -----------------------------------------------------------------------------
+// A finished (or half finished) pot as a value: what a session leaves on the wheel.
+
+/// A collapse (paper, section 7): the rings above `failed_ring` moved as one rigid body in the
+/// upright plane through the pot's axis and `pivot_mm`, the HIP when it happened: first
+/// turned about a horizontal axis through the pivot, then shifted (FallenPlace).
+struct Collapse {
+  std::size_t failed_ring = 0;  ///< index of the ring that yielded; it stays below
+  glm::dvec3 pivot_mm{0.0};
+  glm::dvec3 axis{0.0, 0.0, 1.0};  ///< unit, horizontal; right-handed turn
+  double angle_rad = 0.0;          ///< within a full turn either way
+  double stress_kpa = 0.0;         ///< at the failed ring
+  glm::dvec3 shift_mm{0.0};
+  double threshold_kpa = 0.0;    ///< the stress that the clay bears; 0: not known
+  double energy_lost_mj = 0.0;   ///< potential energy, by the upper part
+  double plastic_work_mj = 0.0;  ///< of that, spent on the lower clay; the rest was damped
+  friend bool operator==(const Collapse&, const Collapse&) = default;
+};
+
+/// Of a pot whose radii are whole multiples of a precision: rounded_pot.
+struct Rounding {
+  double to_mm = 0.0;           ///< the precision
+  WideQuanta exact_volume = 0;  ///< clay in the stack before it was rounded, normalised quanta
+  friend bool operator==(const Rounding&, const Rounding&) = default;
+};
+
+/// What clay at the crown's height has received more than the top ring did since it grew, outside
+/// and inside [quanta]. A copy of the top ring would be what the rim was a ring lower.
+struct Rim {
+  WideQuanta outside = 0, inside = 0;
+  friend bool operator==(const Rim&, const Rim&) = default;
+};
+
+/// When collapsed, `stack` still holds all rings in their order: 0..failed_ring stand,
+/// the others (and the crown) are turned by `collapse`.
+struct Pot {
+  ClayStack stack;
+  Ledger ledger;
+  Model model = Model::conserving;
+  double density_g_cm3 = 1.9;
+  std::optional<Collapse> collapse;
+  std::optional<Rounding> rounding;
+  Rim rim{};  ///< for who throws on; of the paper's model none
+  friend bool operator==(const Pot&, const Pot&) = default;
+};
+
+// ---- rounded pot ---------------------------------------------------------------------
+// A pot with fewer digits: what a printer cannot show need not be stored. See pot_file.hpp.
+
+/// `pot` with every radius at the nearest multiple of `precision_mm`: whole nanometres, 1e-5 to
+/// 1 mm. A bore less than half a step wide becomes one step: a bore stays a bore.
+///
+/// The result is a pot of its own: its ledger begins with the clay that it holds, nothing added,
+/// trimmed or outside, and `Pot::rounding` keeps what it held before. Crown, collapse and model
+/// stay as they are; the rim, which tells how to throw on, is gone. Rounded pots round again to the
+/// same precision or a coarser one.
+///
+/// Refuses, naming the ring, what would change the topology: a wall that would vanish, rings that
+/// would no longer touch each other, an outer radius beyond the limits of ClayStack.
+Result<Pot> rounded_pot(const Pot& pot, double precision_mm);
+
+/// What rounding added to the clay (negative: took away) [mm^3]; 0 of a pot that is not rounded.
+[[nodiscard]] double volume_change_mm3(const Pot& pot) noexcept;
+
+}  // namespace clay

@@ -1,0 +1,179 @@
+#pragma once
+#include "claystack/core/result.hpp"
+#include "claystack/engine/clay.hpp"
+#include "claystack/engine/scene.hpp"
+#include "claystack/engine/tool.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace clay {
+
+// ---- stack measures ------------------------------------------------------------------
+
+/// The thinnest place of a stepped stack and the ring it starts from.
+struct WallMinimum {
+  double thickness_mm = 0.0;
+  std::size_t ring = 0;
+};
+
+/// Least thickness [mm] of a stepped stack, exact for the steps as they are: from the bore to the
+/// outside (across rings as well), through floors, lids and solid pots along the axis, and across
+/// (2R) where there is no bore. Flanges that stick out are not looked at. O(N) for walls of a few
+/// rings.
+[[nodiscard]] WallMinimum min_wall(const ClayStack& stack);
+
+/// [mm]; 0 without rings.
+[[nodiscard]] double largest_radius_mm(const ClayStack& stack) noexcept;
+
+/// What every ring bears [kPa], bottom to top: beta_i = g M_i / (pi (R_i^2 - r_i^2)), M_i the mass
+/// of all above it, crown included (paper, section 7). To the last bit what the stability of a
+/// scene compares with its StabilitySpec::max_stress_kpa.
+[[nodiscard]] std::vector<double> stresses_kpa(const ClayStack& stack, double density_g_cm3);
+
+/// What the bore that opens at the top holds when it is filled to the brim [mm^3], exact for the
+/// steps as they are, of a pot in one piece; 0 where there is none, or where it goes right through.
+[[nodiscard]] double capacity_mm3(const ClayStack& stack) noexcept;
+
+// ---- rayleigh kernel -----------------------------------------------------------------
+
+/// The discrete Rayleigh distribution P_d(j), j = 1..L1 (paper, section 5.1), tabled as integers
+/// so that shares of an integer amount add up to it exactly.
+class RayleighKernel {
+ public:
+  /// Q_p(x) = x / sigma^2 exp(-x^2 / 2 sigma^2) at x = h j, for L1 = round(reach / h) rings, at
+  /// most `max_rings`. sigma = 0 puts all into j = 1; sigma = inf makes the weights linear in j;
+  /// reach = 0 leaves no ring at all, so that everything goes into height.
+  RayleighKernel(double sigma_mm, double reach_mm, double ring_height_mm, std::size_t max_rings);
+
+  [[nodiscard]] std::size_t length() const noexcept { return cumulative_.size() - 1; }  ///< L1
+  /// The rings that get something. The rest of L1, where sigma is much less than the reach, has
+  /// weights that are 0 as integers.
+  [[nodiscard]] std::size_t effective_length() const noexcept { return effective_length_; }
+
+  /// The distribution as far as ring 1, 2, .. in their order. `offset` (in ring heights, at least
+  /// -1) moves all rings away from the tool: ring j then reaches from j - 1 + offset to j + offset
+  /// in a distribution that is even within each ring of the table, and ring 1 has what lies before
+  /// it too. A negative offset leaves something to ring L1 + 1.
+  class Dealer {
+   public:
+    explicit Dealer(const RayleighKernel& kernel, double offset = 0.0) noexcept
+        : kernel_(&kernel),
+          at_(static_cast<std::int64_t>(std::floor(offset)) + 1),
+          between_(static_cast<std::int64_t>((offset - std::floor(offset)) * kBetweenOne)),
+          below_(kernel.cumulative(at_)) {}
+    /// The part of the whole that the rings get up to and with the next one, in 2^-40.
+    std::int64_t next() noexcept {
+      const std::int64_t below = below_;
+      below_ = kernel_->cumulative(++at_);
+      return below + (((below_ - below) * between_) >> kBetweenBits);
+    }
+
+   private:
+    static constexpr int kBetweenBits = 20;
+    static constexpr double kBetweenOne = 1 << kBetweenBits;
+
+    const RayleighKernel* kernel_;
+    std::int64_t at_;       ///< whole rings of the table ..
+    std::int64_t between_;  ///< .. and a fraction, in 2^-20
+    std::int64_t below_;    ///< C at at_
+  };
+
+  /// Deals an amount out by the parts that a Dealer names, to the quantum: what rings 1..L1 get
+  /// adds up to it. Quanta or WideQuanta, which give the same shares: what an ordinary tick moves
+  /// fits into 64 bits, which is one multiplication instead of three.
+  template <class Amount>
+  class Shares {
+   public:
+    explicit Shares(Amount amount) noexcept : amount_(amount) {}
+    /// The share of the next ring.
+    Amount next(std::int64_t part) noexcept {
+      const Amount before = dealt_;
+      dealt_ = static_cast<Amount>((WideQuanta{amount_} * part) >> kFractionBits);
+      return dealt_ - before;
+    }
+
+   private:
+    Amount amount_, dealt_ = 0;
+  };
+
+  /// P_d(j), for reports and tests.
+  [[nodiscard]] double weight(std::size_t j) const noexcept;
+
+ private:
+  // 40 bits of fraction: 2^24 rings of 2^61 quanta times 2^40 still fit 127 bits.
+  static constexpr int kFractionBits = 40;
+  [[nodiscard]] std::int64_t cumulative(std::int64_t j) const noexcept {
+    const auto last = static_cast<std::int64_t>(length());
+    return cumulative_[static_cast<std::size_t>(std::min(j, last))];
+  }
+  std::vector<std::int64_t> cumulative_;  ///< C_0 = 0 .. C_L1 = 2^40
+  std::size_t effective_length_ = 0;
+};
+
+// ---- step plan -----------------------------------------------------------------------
+// What one tick of a scene needs, and nothing more: settings checked once and turned into
+// the numbers the stages use.
+
+inline constexpr double kStandardGravity = 9.80665;  ///< m/s^2 (ISO 80000-3)
+inline constexpr double kPaperRateHz = 1000.0;  ///< the paper's tick, for what it states per tick
+
+/// Stages that a scene may do without. A stage that is out is not compiled into the tick it runs.
+enum Stage : unsigned {
+  kPaperModel = 1u,
+  kForce = 2u,
+  kFriction = 4u,
+  kStability = 8u,
+  kPinch = 16u,
+};
+inline constexpr unsigned kStageSets = 32;
+
+struct RemovalPlan {
+  double rate_per_s = 0.0;  ///< conserving: kappa
+  double yield_depth_mm = 0.0;
+  double min_wall_mm = 0.0;
+  double paper_fraction = 0.0;  ///< paper: k
+};
+
+struct ForcePlan {
+  double stiffness_n_per_mm = 0.0;  ///< of one ring: K' h, or the paper's K
+  double limit_n = 5.0;
+  double friction = 0.0;
+  double turn = 1.0;  ///< +1 counterclockwise seen from above, -1 clockwise
+};
+
+struct StabilityPlan {
+  double max_stress_kpa = 0.0;
+  double kpa_per_ratio = 0.0;  ///< beta_i = this * (quanta above ring i) / (quanta of ring i)
+};
+
+/// One line of `claystack plan`.
+struct PlanLine {
+  std::string stage;
+  bool in = true;
+  std::string why;
+};
+
+struct StepPlan {
+  Model model = Model::conserving;
+  unsigned stages = 0;  ///< Stage bits
+  ToolMode mode = ToolMode::press;
+  double gap_mm = 0.0;  ///< of poses without one of their own; 0: these have one tool
+  Tool tool;
+  RayleighKernel kernel{1.0, 0.0, 1.0, 1};
+  std::int64_t inside_share = 0;  ///< alpha in 2^-30
+  RemovalPlan removal;
+  ForcePlan force;
+  StabilityPlan stability;
+  double density_g_cm3 = 0.0;
+  std::vector<PlanLine> lines;  ///< every stage, in or out, and why
+
+  /// Errors name the setting and its range.
+  static Result<StepPlan> build(const SceneSpec& scene);
+};
+
+}  // namespace clay

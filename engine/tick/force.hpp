@@ -1,0 +1,24 @@
+#pragma once
+#include "claystack/engine/tick.hpp"
+#include "engine/tick/contact.hpp"
+
+#include <glm/vec3.hpp>
+
+namespace clay {
+
+/// Section 6.1, the force on the hand [N]. `conserving`: minus the gradient of the overlap energy
+/// E = sum K' h (depth cos theta)^2 / 2, tan theta = f', with the depth that the clay's yielding
+/// has left; of a ring at the tool's end the part that the tool covers, and behind the leading end
+/// the pieces of `Contact::front`. `paper`: K sum of depth times the unit normal n_i. In both the
+/// radial part pushes the hand out of the clay; the paper's formulae, taken literally, pull it in.
+template <Model model>
+glm::dvec3 spring_force(const ForcePlan& plan, const Contact& contact) noexcept;
+
+/// Section 6.2: mu |F_d| along the tangent in the direction of the wheel's turn; zero on the axis.
+glm::dvec3 friction_force(const ForcePlan& plan, const Contact& contact,
+                          const glm::dvec3& spring) noexcept;
+
+/// At most `limit_n`, direction kept; zero where it is not finite.
+glm::dvec3 limited(const glm::dvec3& force, double limit_n) noexcept;
+
+}  // namespace clay

@@ -1,0 +1,133 @@
+#include "engine/tick/front.hpp"
+
+#include "engine/tick/yielding.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+namespace clay {
+namespace {
+
+/// What of a ring the front may change; nothing where the tool does not touch it.
+struct Felt {
+  double* depth_mm = nullptr;
+  double* coverage = nullptr;
+};
+
+/// The ring, if it yields.
+Felt felt_of(Contact& contact, std::size_t ring) noexcept {
+  if (!contact.rings.has(ring)) return {};
+  return {&contact.rings.depth(ring), &contact.rings.coverage(ring)};
+}
+
+void level_edges(Contact& contact) noexcept {
+  for (std::size_t k = 0; k < contact.edge_count; ++k) {
+    const int end = contact.edge_end[k];
+    const std::size_t ring = contact.edges[k].ring - static_cast<std::size_t>(end);  // modulo 2^64
+    const Felt next = felt_of(contact, ring);
+    double& depth = contact.edges[k].depth_mm;
+    depth = next.depth_mm != nullptr ? std::min(depth, *next.depth_mm) : end == 0 ? depth : 0.0;
+  }
+}
+
+/// The end that leads, and the clay ahead of it.
+struct Lead {
+  std::size_t ring = 0;     ///< that the end is in
+  double covered_mm = 0.0;  ///< of it
+  double ahead_mm = 0.0;    ///< depth of the end in the clay ahead
+  double wall_mm = 0.0;     ///< R - r there
+  double decay = 0.0;       ///< kappa over the speed of the end [1/mm]
+};
+
+bool find_lead(const StepPlan& plan, const ClayStack& stack, double hip_y, double dt_s,
+               const Contact& contact, Lead& lead) noexcept {
+  const bool up = contact.rise_mm > 0.0;
+  const double h = stack.ring_height_mm();
+  const double end_t = up ? plan.tool.high() : plan.tool.low(), level = (hip_y + end_t) / h;
+  if (!(level > 0.0 && level < static_cast<double>(stack.size()))) return false;
+  lead.ring = static_cast<std::size_t>(level);
+  const double part = level - static_cast<double>(lead.ring);
+  const double covered = up ? part : 1.0 - part;
+  lead.covered_mm = covered * h;
+  std::size_t ahead = lead.ring;
+  if (covered >= 0.5) {
+    if (up ? ahead + 1 >= stack.size() : ahead == 0) return false;
+    ahead = up ? ahead + 1 : ahead - 1;
+  }
+  const Ring& ring = stack.rings()[ahead];
+  lead.ahead_mm = depth_of(ring, plan.tool.radius(end_t), contact);
+  if (!(lead.ahead_mm > 0.0)) return false;
+  lead.wall_mm = ring.outer_mm() - ring.inner_mm();
+  lead.decay = plan.removal.rate_per_s * dt_s / std::abs(contact.rise_mm);
+  return lead.wall_mm > plan.removal.min_wall_mm;
+}
+
+template <class Profile>
+void feel_lead(const Profile& profile, const StepPlan& plan, const ClayStack& stack,
+               const Lead& lead, Contact& contact) noexcept {
+  const bool up = contact.rise_mm > 0.0;
+  const double h = stack.ring_height_mm(), end = up ? plan.tool.high() : plan.tool.low();
+  const double at_end = profile.radius(end), all = lead.covered_mm + h;
+  const auto t_of = [&](double behind) { return up ? end - behind : end + behind; };
+  const auto way_to_yield = [&](double depth) {
+    // By the logarithmic mean of the wall.
+    const double middle = std::max(lead.wall_mm - 0.5 * depth, plan.removal.min_wall_mm);
+    const double square = middle * middle;
+    const double mean = std::max(square - depth * depth * (1.0 / 12.0), 0.5 * square);  // * middle
+    return std::min(depth * middle / (lead.decay * mean), all);
+  };
+  const double at_first = way_to_yield(lead.ahead_mm);
+  const double reach =
+      std::min(way_to_yield(lead.ahead_mm + profile.radius(t_of(at_first)) - at_end),
+               plan.tool.high() - plan.tool.low());
+  if (!(reach > 0.0)) return;
+  const auto behind_lead = [&](std::size_t by) {
+    return felt_of(contact, up ? lead.ring - by : lead.ring + by);
+  };
+  Felt rings[2] = {behind_lead(0), behind_lead(1)};
+  for (std::size_t k = 0; rings[0].depth_mm == nullptr && k < contact.edge_count; ++k)
+    if (contact.edge_end[k] == (up ? 1 : -1))
+      rings[0] = {&contact.edges[k].depth_mm, &contact.edges[k].coverage};
+
+  // A ring that yields late, as a whole, has done so in truth, as the one behind has.
+  const double* const behind_depth = behind_lead(2).depth_mm;
+  const double yielded =
+      std::max(plan.removal.yield_depth_mm, behind_depth != nullptr ? *behind_depth : 0.0);
+  if (reach < all)
+    for (const Felt& ring : rings)
+      if (ring.depth_mm != nullptr) *ring.depth_mm = std::min(*ring.depth_mm, yielded);
+
+  const double piece = reach / static_cast<double>(contact.front.size());
+  double left = exp_neg(lead.decay * 0.5 * piece);  // of the wall
+  const double left_by_piece = left * left;
+  for (std::size_t k = 0; k < contact.front.size(); ++k) {
+    const double behind = (static_cast<double>(k) + 0.5) * piece;
+    const double* const ring = rings[behind < lead.covered_mm ? 0 : 1].depth_mm;
+    const Surface surface = profile.surface(t_of(behind), piece);
+    RingContact& part = contact.front[k];
+    const double depth = lead.ahead_mm + surface.radius - at_end - lead.wall_mm * (1.0 - left);
+    left *= left_by_piece;
+    part.depth_mm =
+        std::max(depth, ring != nullptr ? std::min(*ring, plan.removal.yield_depth_mm) : 0.0);
+    part.coverage = piece / h;
+    part.facing = surface.facing;
+  }
+  contact.has_front = true;
+  // What the pieces have taken over.
+  if (rings[0].depth_mm != nullptr) *rings[0].coverage = std::max(lead.covered_mm - reach, 0.0) / h;
+  if (rings[1].depth_mm != nullptr) *rings[1].coverage = std::min(all - reach, h) / h;
+}
+
+}  // namespace
+
+void feel_front(const StepPlan& plan, const ClayStack& stack, double hip_y, double dt_s,
+                Contact& contact) noexcept {
+  if (!(dt_s > 0.0)) return;
+  level_edges(contact);
+  Lead lead;
+  if (contact.rise_mm == 0.0 || !find_lead(plan, stack, hip_y, dt_s, contact, lead)) return;
+  std::visit([&](const auto& p) { feel_lead(p, plan, stack, lead, contact); }, plan.tool.profile());
+}
+
+}  // namespace clay

@@ -1,0 +1,196 @@
+#include "engine/tick/redistribution.hpp"
+
+#include "engine/clay/stack_writer.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+namespace clay {
+namespace {
+
+constexpr int kShareBits = 30;
+
+// A tick has a bounded length; the crown holds what is left for the next one.
+constexpr std::size_t kMostGrowthPerTick = 64;
+
+WideQuanta take(std::span<const Bite> bites, ClayStack& stack) noexcept {
+  StackWriter writer(stack);
+  WideQuanta total = 0;
+  for (const auto& [contact, removed] : bites) {
+    for (std::size_t k = 0; k < removed.size(); ++k) {
+      if (contact.side == Side::compressive)
+        writer.take_outside(contact.rings.from() + k, removed[k]);
+      else
+        writer.take_inside(contact.rings.from() + k, removed[k]);
+      total += removed[k];
+    }
+  }
+  return total;
+}
+
+struct Split {
+  WideQuanta inside, outside;
+};
+
+/// Delta v_int = alpha Delta v, Delta v_ext = the rest. While no ring has a bore there is no
+/// inner surface to add to.
+Split split(WideQuanta amount, std::int64_t inside_share, const ClayStack& stack) noexcept {
+  const WideQuanta inside = stack.hollow() ? (amount * inside_share) >> kShareBits : 0;
+  return {inside, amount - inside};
+}
+
+/// One ring's share, (5)-(8) in squared radii: R^2 gains, r^2 loses. Returns what found room.
+template <class Amount>
+Amount place(std::size_t ring, Amount inside, Amount outside, StackWriter& writer) noexcept {
+  const Amount placed = inside > 0 ? writer.put_inside(ring, inside) : 0;
+  return placed + writer.put_outside(ring, outside + inside - placed);
+}
+
+/// Gives `count` rings their shares, the j-th of them being ring_of(j). Returns what is left over.
+/// With a rim the last of them is the top ring: the rim notes what one above would have got more.
+template <class Amount, class RingOf>
+Amount deal(const RayleighKernel& kernel, double offset, Amount clay_inside, Amount clay_outside,
+            std::size_t count, RingOf ring_of, Rim* rim, ClayStack& stack) noexcept {
+  StackWriter writer(stack);
+  Amount rest = clay_inside + clay_outside;
+  RayleighKernel::Dealer dealer(kernel, offset);
+  RayleighKernel::Shares<Amount> insides(clay_inside), outsides(clay_outside);
+  Amount inside = 0, outside = 0;
+  for (std::size_t j = 1; j <= count; ++j) {
+    const std::int64_t part = dealer.next();
+    inside = clay_inside > 0 ? insides.next(part) : 0;
+    outside = outsides.next(part);
+    rest -= place(ring_of(j), inside, outside, writer);
+  }
+  writer.gain(clay_inside + clay_outside - rest);
+  if (rim != nullptr && count > 0) {
+    const std::int64_t part = dealer.next();
+    rim->inside += insides.next(part) - inside;
+    rim->outside += outsides.next(part) - outside;
+  }
+  return rest;
+}
+
+/// In 64 bits where they do.
+template <class RingOf>
+WideQuanta spread(const RayleighKernel& kernel, double offset, Split clay, std::size_t count,
+                  RingOf ring_of, Rim* rim, ClayStack& stack) noexcept {
+  if (clay.inside + clay.outside <= std::numeric_limits<Quanta>::max())
+    return deal(kernel, offset, static_cast<Quanta>(clay.inside), static_cast<Quanta>(clay.outside),
+                count, ring_of, rim, stack);
+  return deal(kernel, offset, clay.inside, clay.outside, count, ring_of, rim, stack);
+}
+
+/// Equations (5), (6): rings top+1 .. min(top+L1, N).
+WideQuanta flow_up(const RayleighKernel& kernel, Split clay, const Contact& contact,
+                   std::size_t count, Rim* rim, ClayStack& stack) noexcept {
+  const std::size_t top = contact.top, above = count - 1 - top;
+  return spread(
+      kernel, contact.up_offset, clay, std::min(flow_reach(kernel), above),
+      [&](std::size_t j) { return top + j; }, above <= flow_reach(kernel) ? rim : nullptr, stack);
+}
+
+/// Equations (7), (8): rings max(1, bottom-L1) .. bottom-1.
+WideQuanta flow_down(const RayleighKernel& kernel, Split clay, const Contact& contact,
+                     ClayStack& stack) noexcept {
+  return spread(
+      kernel, contact.down_offset, clay, std::min(flow_reach(kernel), contact.bottom),
+      [&](std::size_t j) { return contact.bottom - j; }, nullptr, stack);
+}
+
+/// A tool presses the crown with the top ring, and so makes both alike.
+void level(Rim* rim, std::span<const Bite> bites, std::size_t count) noexcept {
+  if (rim == nullptr) return;
+  for (const auto& [contact, removed] : bites)
+    if (!contact.rings.empty() && contact.rings.to() == count)
+      (contact.side == Side::compressive ? rim->outside : rim->inside) = 0;
+}
+
+/// A copy of the top ring, and what the rim has had more. A quarter of the ring at most, so that
+/// it stays a ring.
+Ring next_ring(const Ring& top, const Rim* rim) noexcept {
+  static const Quanta smallest = quanta_from_radius(kMinRadiusMm);
+  static const Quanta largest = quanta_from_radius(kMaxRadiusMm);
+  if (rim == nullptr) return top;
+  const WideQuanta most = top.volume() / 4;
+  const auto more = [&](WideQuanta q) {
+    return static_cast<Quanta>(std::clamp<WideQuanta>(q, -most, most));
+  };
+  Ring ring = top;
+  ring.outer2 = std::clamp(top.outer2 + more(rim->outside), smallest, largest);
+  if (top.inner2 > 0) ring.inner2 = std::max<Quanta>(top.inner2 - more(rim->inside), 0);
+  return ring;
+}
+
+/// Steps (a), (b): whole rings from the excess. `paper` keeps the remainder outside the body,
+/// below one top ring after every tick; `conserving` shows it as the crown.
+template <Model model>
+void grow(Flow& flow, ClayStack& stack, Ledger& ledger, Rim* rim, StackWriter& writer) noexcept {
+  const auto excess = [&] { return model == Model::paper ? ledger.outside : stack.crown(); };
+  // Less than half of the top ring is not worth a look: no ring above it is smaller.
+  while (2 * excess() >= stack.rings().back().volume()) {
+    const Ring ring = next_ring(stack.rings().back(), model == Model::paper ? nullptr : rim);
+    if (excess() < ring.volume()) return;
+    flow.ring_limit = stack.size() >= stack.max_rings();
+    if (flow.ring_limit) return;
+    if (model == Model::conserving && flow.grown >= kMostGrowthPerTick) return;
+    if constexpr (model == Model::paper)
+      ledger.outside -= ring.volume();
+    else
+      writer.put_on_crown(-ring.volume());
+    writer.grow(ring);
+    if (rim != nullptr) *rim = {};
+    ++flow.grown;
+  }
+}
+
+}  // namespace
+
+template <Model model>
+Flow press_clay(const StepPlan& plan, std::span<const Bite> bites, bool upward, ClayStack& stack,
+                Ledger& ledger, Rim* rim) noexcept {
+  StackWriter writer(stack);
+  const Contact& contact = bites.front().contact;
+  const std::size_t count = stack.size();
+  const auto portions = [&](WideQuanta amount) { return split(amount, plan.inside_share, stack); };
+
+  WideQuanta rest = take(bites, stack);
+  level(rim, bites, count);
+  if (!upward) rest = flow_down(plan.kernel, portions(rest), contact, stack);
+  if (rest > 0) rest = flow_up(plan.kernel, portions(rest), contact, count, rim, stack);
+  if constexpr (model == Model::paper)
+    ledger.outside += rest;
+  else
+    writer.put_on_crown(rest);
+
+  Flow flow;
+  const std::size_t reach = flow_reach(plan.kernel);
+  flow.lowest = upward ? contact.bottom : contact.bottom - std::min(contact.bottom, reach);
+  flow.highest = contact.top + std::min(reach, count - 1 - contact.top);
+  grow<model>(flow, stack, ledger, rim, writer);
+  return flow;
+}
+
+template <Model model>
+Flow trim_clay(std::span<const Bite> bites, ClayStack& stack, Ledger& ledger, Rim* rim) noexcept {
+  StackWriter writer(stack);
+  ledger.trimmed += take(bites, stack);
+  level(rim, bites, stack.size());
+  Flow flow;
+  flow.lowest = bites.front().contact.bottom;
+  flow.highest = bites.front().contact.top;
+  grow<model>(flow, stack, ledger, rim,
+              writer);  // a thinner top ring may be worth less than the excess
+  return flow;
+}
+
+template Flow press_clay<Model::paper>(const StepPlan&, std::span<const Bite>, bool, ClayStack&,
+                                       Ledger&, Rim*) noexcept;
+template Flow press_clay<Model::conserving>(const StepPlan&, std::span<const Bite>, bool,
+                                            ClayStack&, Ledger&, Rim*) noexcept;
+template Flow trim_clay<Model::paper>(std::span<const Bite>, ClayStack&, Ledger&, Rim*) noexcept;
+template Flow trim_clay<Model::conserving>(std::span<const Bite>, ClayStack&, Ledger&,
+                                           Rim*) noexcept;
+
+}  // namespace clay

@@ -1,0 +1,191 @@
+#include "engine/tick/removal.hpp"
+
+#include "engine/clay/portable_math.hpp"
+#include "engine/tick/lanes.hpp"
+#include "engine/tick/yielding.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace clay {
+namespace {
+
+const Quanta kSmallestOuter2 = quanta_from_radius(kMinRadiusMm);
+
+/// A ring keeps a quantum of clay and the smallest radius, whatever rounding does.
+Quanta spare_outside(const Ring& ring) noexcept {
+  return ring.outer2 - std::max(ring.inner2 + 1, kSmallestOuter2);
+}
+Quanta spare_inside(const Ring& ring) noexcept { return ring.volume() - 1; }
+
+/// Delta v of a surface that moves by eps, as far as the ring has it to spare.
+Quanta take_outside(const Ring& ring, double outer_mm, double eps) noexcept {
+  const Quanta asked = quanta_from_mm2(eps * (2.0 * outer_mm - eps));
+  return std::clamp<Quanta>(asked, 0, std::max<Quanta>(spare_outside(ring), 0));
+}
+Quanta take_inside(const Ring& ring, double inner_mm, double eps) noexcept {
+  const Quanta asked = quanta_from_mm2(eps * (2.0 * inner_mm + eps));
+  return std::clamp<Quanta>(asked, 0, std::max<Quanta>(spare_inside(ring), 0));
+}
+
+/// How far the surfaces of a pinched wall move in a tick: both for some of it, then one alone.
+struct Pinched {
+  double together_mm = 0.0;  ///< each
+  double alone_mm = 0.0;     ///< the one whose tool is deeper in the clay
+};
+
+/// While both move the wall T shrinks at 2 kappa T, then at kappa T. When the shallower tool's
+/// surface is reached T has fallen to T', which leaves e^-kappa(dt - t') = e^-(kappa dt)
+/// sqrt(T / T') for the other: no logarithm is needed.
+template <Model model>
+Pinched pinched(double wall, double least_wall, double fraction, double shallow,
+                double deep) noexcept {
+  const double spare = wall - least_wall;
+  if (!(spare > 0.0)) return {};
+  if constexpr (model == Model::paper)
+    return shallow > 0.0 ? Pinched{std::min(wall * fraction, 0.5 * spare), 0.0}
+                         : Pinched{0.0, std::min(wall * fraction, spare)};
+  Pinched moved;
+  moved.together_mm = std::min({0.5 * wall * fraction * (2.0 - fraction), shallow, 0.5 * spare});
+  if (moved.together_mm == shallow && deep > shallow) {
+    const double left = wall - 2.0 * shallow;
+    const double rest = 1.0 - (1.0 - fraction) * std::sqrt(wall / left);
+    moved.alone_mm = std::max(0.0, std::min({left * rest, deep - shallow, spare - 2.0 * shallow}));
+  }
+  return moved;
+}
+
+/// How far each surface of a pinched wall moves: outer, inner.
+template <Model model>
+std::array<double, 2> pinch_ring(const RemovalPlan& plan, double wall, double least_wall,
+                                 double fraction, double dt_s,
+                                 const std::array<RingContact, 2>& touches) noexcept {
+  const double from_out = touches[0].depth_mm, from_in = touches[1].depth_mm;
+  const Pinched moved = pinched<model>(wall, least_wall, fraction, std::min(from_out, from_in),
+                                       std::max(from_out, from_in));
+  std::array<double, 2> eps{moved.together_mm + (from_out > from_in ? moved.alone_mm : 0.0),
+                            moved.together_mm + (from_in > from_out ? moved.alone_mm : 0.0)};
+  if constexpr (model == Model::paper) return eps;
+  Yielding both;
+  std::size_t count = 0;
+  for (const RingContact& touch : touches) {
+    if (!(touch.depth_mm > 0.0)) continue;
+    both.wall[count] = wall;
+    both.depth[count] = touch.depth_mm;
+    both.advance[count] = touch.advance_mm;
+    both.since[count] = touch.since;
+    both.target[count++] = std::max(wall - from_out - from_in, least_wall);
+  }
+  yield(plan, dt_s, both, count);
+  std::size_t k = 0;
+  for (std::size_t side = 0; side < 2; ++side)
+    if (touches[side].depth_mm > 0.0) {
+      eps[side] = std::min(eps[side], both.depth[k] - both.left[k]);
+      ++k;
+    }
+  return eps;
+}
+
+/// Of a slice of what one tool touches.
+void yield_to_tool(const RemovalPlan& plan, std::span<const Ring> rings, double dt_s, bool outside,
+                   const TouchedRings::Slice& slice, Quanta* removed) noexcept {
+  const double min_wall = plan.min_wall_mm, outward = outside ? 1.0 : -1.0;
+  const std::size_t count = slice.size(), first = slice.begin;
+  TouchedRings::Block& rows = slice.rows;
+  Yielding block;
+  TouchedRings::Row opposite, eps;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Ring& ring = rings[slice.ring + k];
+    opposite[k] = static_cast<double>(outside ? ring.inner2 : ring.outer2);
+  }
+  in_lanes([&]() CLAYSTACK_INLINE {
+    for (std::size_t k = 0; k < count; ++k) {
+      block.depth[k] = rows.depth[first + k];
+      block.advance[k] = rows.advance[first + k];
+      block.since[k] = rows.since[first + k];
+      block.wall[k] = outward * (rows.surface[first + k] - std::sqrt(opposite[k] * kMm2PerQuantum));
+      block.target[k] = block.wall[k] - block.depth[k];
+    }
+  });
+  yield(plan, dt_s, block, count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const double gone = block.depth[k] - block.left[k], spare = block.wall[k] - min_wall;
+    const double most = spare > 0.0 ? spare : 0.0;
+    eps[k] = gone < most ? gone : most;
+    rows.depth[first + k] = block.depth[k] - eps[k];
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const Ring& ring = rings[slice.ring + k];
+    const double surface = rows.surface[first + k];
+    removed[k] = outside ? take_outside(ring, surface, eps[k]) : take_inside(ring, surface, eps[k]);
+  }
+}
+
+}  // namespace
+
+template <Model model>
+void compute_removal(const RemovalPlan& plan, const ClayStack& stack, double dt_s, Contact& contact,
+                     std::vector<Quanta>& removed) noexcept {
+  const bool outside = contact.side == Side::compressive;
+  TouchedRings& touched = contact.rings;
+  removed.resize(touched.size());
+  if constexpr (model == Model::conserving)
+    return touched.each_slice([&](const TouchedRings::Slice& slice) {
+      yield_to_tool(plan, stack.rings(), dt_s, outside, slice,
+                    &removed[slice.ring - touched.from()]);
+    });
+  for (std::size_t k = 0; k < touched.size(); ++k) {
+    const std::size_t i = touched.from() + k;
+    if (!(touched.depth(i) > 0.0)) {
+      removed[k] = 0;
+      continue;
+    }
+    const Ring& ring = stack.rings()[i];
+    const double outer = ring.outer_mm(), inner = ring.inner_mm();
+    const double eps = (outer - inner) * plan.paper_fraction;
+    removed[k] = outside ? take_outside(ring, outer, eps) : take_inside(ring, inner, eps);
+  }
+}
+
+template <Model model>
+void compute_pinch_removal(const RemovalPlan& plan, const ClayStack& stack, double gap_mm,
+                           double dt_s, Bite& outer, Bite& inner) noexcept {
+  constexpr bool paper = model == Model::paper;
+  const double least_wall = paper ? gap_mm : std::max(gap_mm, plan.min_wall_mm);
+  const double fraction = paper ? plan.paper_fraction : one_minus_exp_neg(plan.rate_per_s * dt_s);
+  TouchedRings &out = outer.contact.rings, &in = inner.contact.rings;
+  outer.removed.assign(out.size(), 0);
+  inner.removed.assign(in.size(), 0);
+  const std::size_t first = out.empty()  ? in.from()
+                            : in.empty() ? out.from()
+                                         : std::min(out.from(), in.from());
+  const std::size_t end = std::max(out.to(), in.to());
+  for (std::size_t i = first; i < end; ++i) {
+    Ring ring = stack.rings()[i];
+    const auto eps = pinch_ring<model>(plan, ring.outer_mm() - ring.inner_mm(), least_wall,
+                                       fraction, dt_s, {out.get(i), in.get(i)});
+    if (out.has(i)) {
+      Quanta& removed = outer.removed[i - out.from()];
+      removed = take_outside(ring, ring.outer_mm(), eps[0]);
+      ring.outer2 -= removed;
+      if constexpr (!paper) out.depth(i) -= eps[0];
+    }
+    if (in.has(i)) {
+      inner.removed[i - in.from()] = take_inside(ring, ring.inner_mm(), eps[1]);
+      if constexpr (!paper) in.depth(i) -= eps[1];
+    }
+  }
+}
+
+template void compute_removal<Model::paper>(const RemovalPlan&, const ClayStack&, double, Contact&,
+                                            std::vector<Quanta>&) noexcept;
+template void compute_removal<Model::conserving>(const RemovalPlan&, const ClayStack&, double,
+                                                 Contact&, std::vector<Quanta>&) noexcept;
+template void compute_pinch_removal<Model::paper>(const RemovalPlan&, const ClayStack&, double,
+                                                  double, Bite&, Bite&) noexcept;
+template void compute_pinch_removal<Model::conserving>(const RemovalPlan&, const ClayStack&, double,
+                                                       double, Bite&, Bite&) noexcept;
+
+}  // namespace clay

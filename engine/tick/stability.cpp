@@ -1,0 +1,145 @@
+#include "engine/tick/stability.hpp"
+
+#include <algorithm>
+
+namespace clay {
+namespace {
+
+// Farther than this the sums are faster than a walk.
+constexpr std::size_t kLeap = 256;
+// So many rings may have changed, besides those of the last flow, before the sums are told.
+constexpr std::size_t kMostStale = 512;
+
+/// Whether a ring is worth exact arithmetic. Sums in double are within 1e-9 of the exact ones.
+class Threshold {
+ public:
+  explicit Threshold(const StabilityPlan& plan) noexcept
+      : scale_(plan.kpa_per_ratio), limit_(plan.max_stress_kpa * (1.0 - 1e-9)) {}
+  [[nodiscard]] bool near(double above, Quanta ring) const noexcept {
+    return scale_ * above >= limit_ * static_cast<double>(ring);
+  }
+
+ private:
+  double scale_, limit_;
+};
+
+void note_worse(const StabilityPlan& plan, WideQuanta above, std::span<const Ring> rings,
+                std::size_t i, std::optional<Failure>& worst) noexcept {
+  const double stress = stress_kpa(plan, above, rings[i].volume());
+  if (stress > plan.max_stress_kpa && (!worst || stress > worst->stress_kpa))
+    worst = Failure{i, stress};
+}
+
+/// Rings from..to downward; `above` is what stands on ring `from`. Four rings are passed at a time
+/// where the thinnest of them would carry all four besides: four volumes still fit in 64 bits.
+void find_weakest(const StabilityPlan& plan, std::span<const Ring> rings, WideQuanta above,
+                  std::size_t from, std::size_t to, std::optional<Failure>& worst) noexcept {
+  const Threshold threshold(plan);
+  double about = static_cast<double>(above);
+  std::size_t end = from + 1;
+  const auto pass = [&](std::size_t count, Quanta sum, Quanta least) {
+    about += static_cast<double>(sum);
+    if (threshold.near(about, least)) {
+      WideQuanta weight = above;
+      for (std::size_t i = end; i-- > end - count; weight += rings[i].volume())
+        if (threshold.near(about, rings[i].volume())) note_worse(plan, weight, rings, i, worst);
+    }
+    above += sum;
+    end -= count;
+  };
+  while (end >= to + 4) {
+    const Ring* const four = &rings[end - 4];
+    const Quanta a = four[0].volume(), b = four[1].volume(), c = four[2].volume(),
+                 d = four[3].volume();
+    pass(4, a + b + c + d, std::min(std::min(a, b), std::min(c, d)));
+  }
+  while (end > to) pass(1, rings[end - 1].volume(), rings[end - 1].volume());
+}
+
+}  // namespace
+
+double stress_kpa(const StabilityPlan& plan, WideQuanta above, Quanta ring) noexcept {
+  return plan.kpa_per_ratio * (static_cast<double>(above) / static_cast<double>(ring));
+}
+
+StabilityWatch::StabilityWatch(const ClayStack& stack) : cursor_(stack.size() - 1), sums_(stack) {}
+
+void StabilityWatch::note_change(std::span<const Ring> rings, std::size_t first,
+                                 std::size_t last) noexcept {
+  if (stale_first_ < stale_end_) {
+    const std::size_t from = std::min(first, stale_first_), end = std::max(last + 1, stale_end_);
+    if (end - from <= last - first + kMostStale) {
+      stale_first_ = from;
+      stale_end_ = end;
+      return;
+    }
+    bring_up_to_date(rings);
+  }
+  stale_first_ = first;
+  stale_end_ = last + 1;
+}
+
+void StabilityWatch::bring_up_to_date(std::span<const Ring> rings) noexcept {
+  if (stale_first_ < stale_end_) sums_.refresh(rings, stale_first_, stale_end_ - 1);
+  stale_end_ = stale_first_;
+}
+
+void StabilityWatch::move_to(const ClayStack& stack, std::size_t highest) noexcept {
+  const auto rings = stack.rings();
+  volume_ = stack.volume();
+  crown_ = stack.crown();
+  if (std::max(cursor_, highest) - std::min(cursor_, highest) > kLeap) {
+    bring_up_to_date(rings);
+    above_cursor_ = sums_.above(rings, highest);
+    cursor_ = highest;
+    return;
+  }
+  for (; cursor_ > highest; --cursor_) above_cursor_ += rings[cursor_].volume();
+  for (; cursor_ < highest; ++cursor_) above_cursor_ -= rings[cursor_ + 1].volume();
+}
+
+std::optional<Failure> StabilityWatch::check(const StabilityPlan& plan, const ClayStack& stack,
+                                             const Flow& flow) noexcept {
+  const auto rings = stack.rings();
+  const std::size_t old_size = rings.size() - flow.grown;
+  const bool at_top = cursor_ + 1 == old_size;
+  note_change(rings, flow.lowest, cursor_);
+  if (flow.grown > 0) {
+    sums_.refresh(rings, old_size, rings.size() - 1);
+    if (at_top)
+      cursor_ = rings.size() - 1;
+    else
+      for (const Ring& ring : rings.subspan(old_size)) above_cursor_ += ring.volume();
+  }
+  // Between the flow and the top, or below the flow, the weight has risen too.
+  const bool came_on_top = !at_top && (flow.grown > 0 || stack.crown() != crown_);
+  if (came_on_top || stack.volume() > volume_) return search(plan, stack);
+  std::optional<Failure> worst;
+  find_weakest(plan, rings, above_cursor_ + stack.crown(), cursor_, flow.lowest, worst);
+  return worst;
+}
+
+std::optional<Failure> StabilityWatch::search(const StabilityPlan& plan,
+                                              const ClayStack& stack) noexcept {
+  bring_up_to_date(stack.rings());
+  const Threshold threshold(plan);
+  std::optional<Failure> worst;
+  sums_.search(
+      stack.size(), stack.crown(),
+      [&](WideQuanta below, Quanta least) {
+        return threshold.near(static_cast<double>(below), least);
+      },
+      [&](std::size_t first, std::size_t last, WideQuanta above) {
+        find_weakest(plan, stack.rings(), above, last, first, worst);
+      });
+  return worst;
+}
+
+std::optional<Failure> StabilityWatch::check_all(const StabilityPlan& plan,
+                                                 const ClayStack& stack) noexcept {
+  std::optional<Failure> worst;
+  find_weakest(plan, stack.rings(), stack.crown(), stack.size() - 1, 0, worst);
+  return worst;
+}
+
+}  // namespace clay

@@ -1,0 +1,69 @@
+#pragma once
+// Section 7: does every ring carry what stands on it?
+
+#include "claystack/engine/clay.hpp"
+#include "claystack/engine/tick.hpp"
+#include "engine/clay/ring_sums.hpp"
+#include "engine/tick/redistribution.hpp"
+
+#include <cstddef>
+#include <optional>
+
+namespace clay {
+
+struct Failure {
+  std::size_t ring = 0;
+  double stress_kpa = 0.0;
+};
+
+/// StabilityPlan::kpa_per_ratio. rho g h: g/cm^3 = 1e-6 kg/mm^3, and kg/mm^3 m/s^2 mm = N/mm^2 =
+/// 1000 kPa.
+[[nodiscard]] inline double kpa_per_ratio(double density_g_cm3, double ring_height_mm) noexcept {
+  return density_g_cm3 * 1e-6 * kStandardGravity * ring_height_mm * 1e3;
+}
+
+/// beta_i = g M_i / (pi (R_i^2 - r_i^2)) [kPa], M_i the mass of all above ring i, crown included.
+/// The paper leaves out g and so compares a mass per area; with g the threshold is a stress.
+[[nodiscard]] double stress_kpa(const StabilityPlan& plan, WideQuanta above, Quanta ring) noexcept;
+
+/// Stress is looked at only where it can have risen. Clay moves locally, so the weight above a ring
+/// changes only between where clay left and where it came: rings lowest..highest of the flow. The
+/// weight above `highest` is carried along as the tool moves a little, and summed from stretches
+/// of rings when it leaps. The stretches are brought up to date when a few hundred rings have
+/// changed, not at every tick.
+class StabilityWatch {
+ public:
+  StabilityWatch() = default;
+  /// O(N), with the memory for max_rings().
+  explicit StabilityWatch(const ClayStack& stack);
+
+  /// Before the flow: makes the weight above ring `highest` known. Wherever the last flow was, it
+  /// takes no more steps than a constant and the length of that flow.
+  void move_to(const ClayStack& stack, std::size_t highest) noexcept;
+
+  /// After it, with `highest` as given to move_to: the ring of greatest stress among those above
+  /// the threshold, if any; what check_all would say, if it found none before the flow. Reads the
+  /// rings of the flow and the new ones. Where clay has come on top from far below, also of the
+  /// others those stretches that are suspect: where the weight below them, on their thinnest ring,
+  /// would be too much.
+  [[nodiscard]] std::optional<Failure> check(const StabilityPlan& plan, const ClayStack& stack,
+                                             const Flow& flow) noexcept;
+
+  /// Over the whole stack: O(N), for scene build and for tests.
+  [[nodiscard]] static std::optional<Failure> check_all(const StabilityPlan& plan,
+                                                        const ClayStack& stack) noexcept;
+
+ private:
+  void note_change(std::span<const Ring> rings, std::size_t first, std::size_t last) noexcept;
+  void bring_up_to_date(std::span<const Ring> rings) noexcept;
+  [[nodiscard]] std::optional<Failure> search(const StabilityPlan& plan,
+                                              const ClayStack& stack) noexcept;
+
+  std::size_t cursor_ = 0;
+  WideQuanta above_cursor_ = 0;        ///< of rings above cursor_, without the crown
+  WideQuanta volume_ = 0, crown_ = 0;  ///< of the stack, before the flow
+  RingSums sums_;
+  std::size_t stale_first_ = 0, stale_end_ = 0;  ///< rings that sums_ does not know yet
+};
+
+}  // namespace clay

@@ -1,0 +1,132 @@
+#include "claystack/engine/tick.hpp"
+
+#include "claystack/engine/clay.hpp"
+#include "core/text.hpp"
+#include "engine/tick/stability.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clay {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Range {
+  const char* setting;
+  double value, low, high;
+};
+
+Result<void> check_ranges(std::initializer_list<Range> ranges) {
+  for (const Range& r : ranges)
+    if (!(r.value >= r.low && r.value <= r.high))
+      return failure(ErrorKind::bad_input, std::string(r.setting) + ": expected a value from " +
+                                               number_text(r.low) + " to " + number_text(r.high) +
+                                               ", found " + number_text(r.value));
+  return {};
+}
+
+Result<void> check(const SceneSpec& s) {
+  const ForceSpec force = s.force.value_or(ForceSpec{});
+  const StabilitySpec stability = s.stability.value_or(StabilitySpec{});
+  return check_ranges({
+      {"lump.density_g_cm3", s.lump.density_g_cm3, 0.1, 25.0},
+      {"tool.gap_mm", s.tool.gap_mm.value_or(kMinRadiusMm), kMinRadiusMm, 1000.0},
+      {"removal.rate_per_s", s.removal.rate_per_s, 0.0, 1e6},
+      {"removal.yield_depth_mm", s.removal.yield_depth_mm, 1e-3, 1e3},
+      {"removal.min_wall_mm", s.removal.min_wall_mm, kMinRadiusMm, 1000.0},
+      // k = 1 removes the whole wall, k > 1 turns it inside out.
+      {"removal.paper_fraction", s.removal.paper_fraction.value_or(0.0), 0.0, 1.0 - 1e-9},
+      {"flow.sigma_mm", s.flow.sigma_mm, 0.0, kInfinity},
+      {"flow.reach_mm", s.flow.reach_mm, 0.0, kInfinity},
+      {"flow.inside_share", s.flow.inside_share, 0.0, 1.0},
+      {"force.stiffness_n_per_mm2", force.stiffness_n_per_mm2, 0.0, 1e6},
+      {"force.paper_stiffness_n_per_mm", force.paper_stiffness_n_per_mm.value_or(0.0), 0.0, 1e6},
+      {"force.limit_n", force.limit_n, 0.0, 10.0},
+      {"force.friction", force.friction, 0.0, 2.0},
+      {"stability.max_stress_kpa", stability.max_stress_kpa, std::numeric_limits<double>::min(),
+       1e6},
+  });
+}
+
+unsigned stages_of(const SceneSpec& s) {
+  unsigned stages = 0;
+  if (s.model == Model::paper) stages |= kPaperModel;
+  if (s.force) stages |= kForce;
+  if (s.force && s.force->friction > 0.0) stages |= kFriction;
+  if (s.stability) stages |= kStability;
+  if (s.tool.gap_mm) stages |= kPinch;
+  return stages;
+}
+
+ForcePlan force_plan(const SceneSpec& s) {
+  if (!s.force) return {};
+  const double per_ring = s.force->stiffness_n_per_mm2 * s.lump.ring_height_mm;
+  const double k =
+      s.model == Model::paper ? s.force->paper_stiffness_n_per_mm.value_or(per_ring) : per_ring;
+  return {k, s.force->limit_n, s.force->friction, s.force->counterclockwise ? 1.0 : -1.0};
+}
+
+StabilityPlan stability_plan(const SceneSpec& s) {
+  if (!s.stability) return {};
+  return {s.stability->max_stress_kpa, kpa_per_ratio(s.lump.density_g_cm3, s.lump.ring_height_mm)};
+}
+
+std::vector<PlanLine> describe(const SceneSpec& s, unsigned stages) {
+  const bool hollow = s.lump.inner_radius_mm > 0.0;
+  const bool press = s.tool.mode != ToolMode::trim;
+  return {
+      {"tool state", true, "pose, time step, direction of motion"},
+      {"contact", true, "equations (1), (2), then the rings touched"},
+      {"removal", true,
+       s.model == Model::paper ? "k (R - r) a tick"
+                               : "at rate (R - r), less above the yield depth"},
+      {"outer surface", true, press ? "equations (5), (7)" : "cut"},
+      {"inner surface", hollow,
+       hollow ? "equations (6), (8)" : "the lump is solid: nothing to fill until a tool opens it"},
+      {"growth", press,
+       press ? "clay above the top becomes height" : "a trimming tool moves no clay"},
+      {"force", (stages & kForce) != 0, (stages & kForce) ? "section 6.1" : "no force is set"},
+      {"friction", (stages & kFriction) != 0,
+       (stages & kFriction) ? "section 6.2" : "no coefficient of friction is set"},
+      {"stability", (stages & kStability) != 0,
+       (stages & kStability) ? "section 7" : "no stress threshold is set"},
+      {"pinch", (stages & kPinch) != 0,
+       (stages & kPinch) ? "a pose with a gap has two tools" : "no gap is set"},
+  };
+}
+
+}  // namespace
+
+std::size_t max_rings_of(const LumpSpec& lump) noexcept {
+  return lump.max_rings > 0 ? lump.max_rings : std::min(4 * lump.rings, kMaxRings);
+}
+
+Result<StepPlan> StepPlan::build(const SceneSpec& scene) {
+  if (auto checked = check(scene); !checked) return tl::make_unexpected(checked.error());
+  if (scene.tool.mode == ToolMode::pinch && !scene.tool.gap_mm)
+    return failure(ErrorKind::bad_input, "tool.gap_mm: expected a gap for mode pinch, found none");
+  auto tool = Tool::build(scene.tool.shape);
+  if (!tool) return tl::make_unexpected(tool.error());
+
+  StepPlan plan;
+  plan.model = scene.model;
+  plan.stages = stages_of(scene);
+  plan.mode = scene.tool.mode;
+  plan.gap_mm = scene.tool.mode == ToolMode::pinch ? *scene.tool.gap_mm : 0.0;
+  plan.tool = std::move(*tool);
+  plan.kernel = RayleighKernel(scene.flow.sigma_mm, scene.flow.reach_mm, scene.lump.ring_height_mm,
+                               max_rings_of(scene.lump));
+  plan.inside_share = static_cast<std::int64_t>(scene.flow.inside_share * (1 << 30) + 0.5);
+  plan.removal = {scene.removal.rate_per_s, scene.removal.yield_depth_mm, scene.removal.min_wall_mm,
+                  scene.removal.paper_fraction.value_or(
+                      std::fmin(scene.removal.rate_per_s / kPaperRateHz, 0.5))};
+  plan.force = force_plan(scene);
+  plan.stability = stability_plan(scene);
+  plan.density_g_cm3 = scene.lump.density_g_cm3;
+  plan.lines = describe(scene, plan.stages);
+  return plan;
+}
+
+}  // namespace clay

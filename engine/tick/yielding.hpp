@@ -1,0 +1,52 @@
+#pragma once
+// How clay gives way to a tool in it, for some rings at once: plain loops over arrays, which the
+// compiler does two or four at a time, of operations that IEEE 754 fixes.
+
+#include "claystack/engine/tick.hpp"
+
+#include <array>
+#include <cstddef>
+
+namespace clay {
+
+/// exp(x) for x >= 0, 1 / exp(x) to 1e-11, and the same bits everywhere: the series of exp(x / 128)
+/// to the fifth power, squared seven times. No branch, no division; +inf where x is large.
+[[nodiscard]] inline double exp_of(double x) noexcept {
+  const double z = x * (1.0 / 128.0);
+  const double e =
+      1.0 + z * (1.0 + z * (1.0 / 2 + z * (1.0 / 6 + z * (1.0 / 24 + z * (1.0 / 120)))));
+  const double e2 = e * e, e4 = e2 * e2, e8 = e4 * e4, e16 = e8 * e8, e32 = e16 * e16;
+  const double e64 = e32 * e32;
+  return e64 * e64;
+}
+
+[[nodiscard]] inline double exp_neg(double x) noexcept { return 1.0 / exp_of(x); }
+
+/// Rings that one tool is in. [mm]
+struct Yielding {
+  static constexpr std::size_t kMost = 32;
+  std::array<double, kMost> wall;     ///< R - r before
+  std::array<double, kMost> depth;    ///< of the tool as it stands, in the clay as it was; > 0
+  std::array<double, kMost> advance;  ///< of that, gone since the last pose; below 0 on its way out
+  std::array<double, kMost> since;    ///< part of the time in which the tool was at the ring
+  std::array<double, kMost> target;   ///< wall that the tools on it leave in the end
+  std::array<double, kMost> left;     ///< depth that is left
+
+  void copy(std::size_t to, const Yielding& from, std::size_t k) noexcept {
+    wall[to] = from.wall[k];
+    depth[to] = from.depth[k];
+    advance[to] = from.advance[k];
+    since[to] = from.since[k];
+    target[to] = from.target[k];
+  }
+};
+
+/// d depth / dt = v - kappa (R - r) min(1, depth / yield depth), v the speed of the tool's surface.
+///
+/// Deeper than the yield depth the wall falls as exp(-kappa t); nearer to the surface depth
+/// and wall fall together, a logistic curve about the depth at which the clay gives way as fast as
+/// the tool comes. Of a tool that stands both are exact, so that two half steps are one step; of
+/// one that moves the wall on its way is its mean.
+void yield(const RemovalPlan& plan, double dt_s, Yielding& rings, std::size_t count) noexcept;
+
+}  // namespace clay

@@ -1,0 +1,42 @@
+#include "engine/tool/tool_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clay {
+namespace {
+
+constexpr std::int64_t kLongestStepUs = 50'000;
+
+// Not (|x| > limit): NaN must fail.
+bool within(double mm) noexcept { return std::abs(mm) <= kFarthestMm; }
+
+}  // namespace
+
+ToolState ToolTracker::advance(const Pose& pose, double widest_gap_mm) noexcept {
+  ToolState state;
+  const glm::dvec3& p = pose.position_mm;
+  if (!(within(p.x) && within(p.y) && within(p.z))) return state;
+  if (!(pose.gap_mm >= 0.0 && pose.gap_mm <= widest_gap_mm)) return state;
+  if (has_last_) {
+    if (pose.time_us <= last_.time_us) return state;
+    // Unsigned: the difference of two signed extremes must not overflow.
+    const auto elapsed =
+        static_cast<std::uint64_t>(pose.time_us) - static_cast<std::uint64_t>(last_.time_us);
+    state.dt_clamped = elapsed > static_cast<std::uint64_t>(kLongestStepUs);
+    state.dt_s =
+        1e-6 * static_cast<double>(std::min(elapsed, static_cast<std::uint64_t>(kLongestStepUs)));
+    state.moved_mm = p - last_.position_mm;
+    if (state.moved_mm.y != 0.0) upward_ = state.moved_mm.y > 0.0;
+  }
+  last_ = pose;
+  has_last_ = true;
+  state.hip_mm = p;
+  state.upward = upward_;
+  state.trim = pose.trim;
+  state.gap_mm = pose.gap_mm;
+  state.valid = true;
+  return state;
+}
+
+}  // namespace clay

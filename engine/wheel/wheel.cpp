@@ -1,0 +1,305 @@
+#include "claystack/engine/wheel.hpp"
+
+#include "core/text.hpp"
+#include "engine/clay/stack_writer.hpp"
+#include "engine/clay/start.hpp"
+#include "engine/collapse/collapse.hpp"
+#include "engine/tick/contact.hpp"
+#include "engine/tick/force.hpp"
+#include "engine/tick/front.hpp"
+#include "engine/tick/redistribution.hpp"
+#include "engine/tick/removal.hpp"
+#include "engine/tick/stability.hpp"
+#include "engine/tool/tool_state.hpp"
+
+#include <algorithm>
+#include <array>
+#include <glm/common.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace clay {
+
+struct Wheel::State {
+  StepPlan plan;
+  ClayStack stack;
+  Ledger ledger;
+  ToolTracker tracker;
+  Rim rim;
+  bool touching = false;  // at the last pose
+  StabilityWatch watch;
+  std::array<Bite, 2> bites;  // scratch, reserved once; the second is for pinches alone
+  std::optional<Failure> failure;
+  glm::dvec3 failure_hip{0.0};
+  StepReport (*tick)(State&, const Pose&) noexcept = nullptr;
+  StepReport (*feel)(State&, const Pose&) noexcept = nullptr;
+};
+
+namespace {
+
+// On such a way the clay changes little; the bound keeps a tick short when a pose leaps.
+constexpr double kLongestWayMm = 0.05;
+constexpr int kMostParts = 32;
+
+template <unsigned stages>
+constexpr Model kModel = (stages & kPaperModel) ? Model::paper : Model::conserving;
+
+/// What the tool touches; of a pinch the outer tool first, then the inner one.
+template <unsigned stages, class State>
+std::span<Bite> touch(State& s, const ToolState& tool) noexcept {
+  if constexpr (stages & kPinch) {
+    if (tool.gap_mm > 0.0) {
+      find_pinch<kModel<stages>>(s.plan.tool, s.stack, tool.hip_mm, tool.gap_mm, s.bites[0].contact,
+                                 s.bites[1].contact, tool.moved_mm);
+      return s.bites;
+    }
+  }
+  find_contact<kModel<stages>>(s.plan.tool, s.stack, tool.hip_mm, s.bites[0].contact,
+                               tool.moved_mm);
+  return std::span(s.bites).first(1);
+}
+
+std::uint32_t rings_of(std::span<const Bite> bites) noexcept {
+  std::size_t rings = 0;
+  for (const Bite& bite : bites) rings += bite.contact.rings.touched();
+  return static_cast<std::uint32_t>(rings);
+}
+
+/// Into how many parts a tick is cut, so that a fast hand leaves what a slow one does.
+template <Model model>
+int parts_of(const ToolState& tool) noexcept {
+  if constexpr (model == Model::paper) return 1;
+  const glm::dvec3 way = glm::abs(tool.moved_mm);
+  const double parts = std::max({way.x, way.y, way.z}) / kLongestWayMm;
+  return parts < kMostParts ? static_cast<int>(parts) + 1 : kMostParts;
+}
+
+template <unsigned stages, class State>
+void remove(State& s, const ToolState& tool, std::span<Bite> bites) noexcept {
+  if constexpr (stages & kPinch) {
+    if (bites.size() == 2)
+      return compute_pinch_removal<kModel<stages>>(s.plan.removal, s.stack, tool.gap_mm, tool.dt_s,
+                                                   bites[0], bites[1]);
+  }
+  compute_removal<kModel<stages>>(s.plan.removal, s.stack, tool.dt_s, bites[0].contact,
+                                  bites[0].removed);
+}
+
+/// How far the clay gives way, for the stack and for the force.
+template <unsigned stages, class State>
+void yield(State& s, const ToolState& tool, std::span<Bite> bites) noexcept {
+  remove<stages>(s, tool, bites);
+  if constexpr ((stages & kForce) && kModel<stages> == Model::conserving)
+    for (Bite& bite : bites) feel_front(s.plan, s.stack, tool.hip_mm.y, tool.dt_s, bite.contact);
+}
+
+/// Moves the clay that is displaced, and sees whether the stack still stands.
+template <unsigned stages, class State>
+std::uint32_t deform(State& s, const ToolState& tool, std::span<const Bite> bites) noexcept {
+  const std::size_t reach = flow_reach(s.plan.kernel);
+  if constexpr (stages & kStability)
+    s.watch.move_to(s.stack, std::min(bites[0].contact.top + reach, s.stack.size() - 1));
+
+  const bool trim = tool.trim || s.plan.mode == ToolMode::trim;
+  const Flow flow =
+      trim ? trim_clay<kModel<stages>>(bites, s.stack, s.ledger, &s.rim)
+           : press_clay<kModel<stages>>(s.plan, bites, tool.upward, s.stack, s.ledger, &s.rim);
+
+  if constexpr (stages & kStability) {
+    s.failure = s.watch.check(s.plan.stability, s.stack, flow);
+    if (s.failure) s.failure_hip = tool.hip_mm;
+  }
+  return (flow.grown > 0 ? kGrew : 0u) | (flow.ring_limit ? kRingLimit : 0u) |
+         (s.failure ? kCollapsed : 0u);
+}
+
+/// Clay leaves the touched rings on the tool's way, not at its end: the flow begins from the
+/// middle.
+template <unsigned stages, class State>
+void press(State& s, const ToolState& tool, std::span<Bite> bites, StepReport& report) noexcept {
+  const std::uint32_t touched = rings_of(bites);
+  if (touched == 0) return;
+  report.flags |= kContact;
+  report.rings_touched = touched;
+  if constexpr (kModel<stages> == Model::conserving) {
+    const double half_way = 0.5 * tool.moved_mm.y / s.stack.ring_height_mm();
+    bites[0].contact.up_offset += std::max(half_way, 0.0);
+    bites[0].contact.down_offset += std::max(-half_way, 0.0);
+  }
+  yield<stages>(s, tool, bites);
+  report.flags |= deform<stages>(s, tool, bites);
+}
+
+template <unsigned stages>
+glm::dvec3 felt(const ForcePlan& plan, std::span<const Bite> bites) noexcept {
+  const auto felt_from = [&](const Contact& contact) {
+    glm::dvec3 force = spring_force<kModel<stages>>(plan, contact);
+    if constexpr (stages & kFriction) force += friction_force(plan, contact, force);
+    return force;
+  };
+  glm::dvec3 force = felt_from(bites[0].contact);
+  if constexpr (stages & kPinch)
+    if (bites.size() == 2) force += felt_from(bites[1].contact);
+  return limited(force, plan.limit_n);
+}
+
+/// The tool at a pose, with its gap; not valid where the pose is refused.
+template <unsigned stages>
+ToolState believe(const StepPlan& plan, ToolTracker& tracker, const Pose& pose,
+                  StepReport& report) noexcept {
+  ToolState tool = tracker.advance(pose, (stages & kPinch) ? kFarthestMm : 0.0);
+  report.flags = (tool.valid ? 0u : kRefused) | (tool.dt_clamped ? kLongStep : 0u);
+  if constexpr (stages & kPinch)
+    if (tool.gap_mm == 0.0) tool.gap_mm = plan.gap_mm;
+  return tool;
+}
+
+/// The tick for a set of stages. A stage that the scene does not need is not in the code it runs.
+template <unsigned stages, class State>
+StepReport tick(State& s, const Pose& pose) noexcept {
+  StepReport report;
+  if (s.failure) {
+    report.flags = kCollapsed;
+    return report;
+  }
+  ToolState tool = believe<stages>(s.plan, s.tracker, pose, report);
+  if (!tool.valid) return report;
+  std::span<Bite> bites = touch<stages>(s, tool);
+  const bool touches = rings_of(bites) > 0;
+  const int parts = touches || s.touching ? parts_of<kModel<stages>>(tool) : 1;
+  s.touching = touches;
+  tool.dt_s /= parts;
+  tool.moved_mm /= parts;
+  for (int part = 1; part <= parts && !s.failure; ++part) {
+    ToolState there = tool;
+    there.hip_mm -= static_cast<double>(parts - part) * tool.moved_mm;
+    if (parts > 1) bites = touch<stages>(s, there);
+    press<stages>(s, there, bites, report);
+  }
+  if constexpr (stages & kForce)
+    // After a collapse nothing is left to push against.
+    if (!s.failure && rings_of(bites) > 0) report.force_n = felt<stages>(s.plan.force, bites);
+  return report;
+}
+
+/// The force of a tick and no more: contact as the last part of its way would find it.
+template <unsigned stages, class State>
+StepReport feel(State& s, const Pose& pose) noexcept {
+  StepReport report;
+  if (s.failure) {
+    report.flags = kCollapsed;
+    return report;
+  }
+  ToolTracker tracker = s.tracker;
+  ToolState tool = believe<stages>(s.plan, tracker, pose, report);
+  if (!tool.valid) return report;
+  const int parts = parts_of<kModel<stages>>(tool);
+  tool.dt_s /= parts;
+  tool.moved_mm /= parts;
+  const std::span<Bite> bites = touch<stages>(s, tool);
+  report.rings_touched = rings_of(bites);
+  if (report.rings_touched == 0) return report;
+  report.flags |= kContact;
+  if constexpr (stages & kForce) {
+    if constexpr (kModel<stages> == Model::conserving) yield<stages>(s, tool, bites);
+    report.force_n = felt<stages>(s.plan.force, bites);
+  }
+  return report;
+}
+
+template <class State, std::size_t... sets>
+constexpr auto tick_table(std::index_sequence<sets...>) {
+  return std::array{&tick<static_cast<unsigned>(sets), State>...};
+}
+
+template <class State, std::size_t... sets>
+constexpr auto feel_table(std::index_sequence<sets...>) {
+  return std::array{&feel<static_cast<unsigned>(sets), State>...};
+}
+
+}  // namespace
+
+Wheel::Wheel(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
+Wheel::Wheel(Wheel&&) noexcept = default;
+Wheel& Wheel::operator=(Wheel&&) noexcept = default;
+Wheel::~Wheel() = default;
+
+Result<Wheel> Wheel::build(const SceneSpec& scene) {
+  auto plan = StepPlan::build(scene);
+  if (!plan) return tl::make_unexpected(plan.error());
+  const LumpSpec& lump = scene.lump;
+  auto stack = ClayStack::cylinder(lump.rings, lump.ring_height_mm, lump.outer_radius_mm,
+                                   lump.inner_radius_mm, max_rings_of(lump));
+  if (!stack) return failure(stack.error().kind, "lump: " + stack.error().message);
+  const Ledger ledger{.initial = stack->volume(), .added = 0, .trimmed = 0, .outside = 0};
+  return assemble(std::move(*plan), std::move(*stack), ledger, Rim{}, "lump");
+}
+
+Result<Wheel> Wheel::build(const SceneSpec& scene, const Pot& start) {
+  if (auto fits = check_start(scene, start); !fits) return tl::make_unexpected(fits.error());
+  SceneSpec own = scene;
+  LumpSpec& lump = own.lump;
+  lump.rings = start.stack.size();
+  lump.ring_height_mm = start.stack.ring_height_mm();
+  if (lump.max_rings == 0) lump.max_rings = start.stack.max_rings();
+  auto plan = StepPlan::build(own);
+  if (!plan) return tl::make_unexpected(plan.error());
+  const auto rings = start.stack.rings();
+  auto stack = ClayStack::from_rings(lump.ring_height_mm, {rings.begin(), rings.end()},
+                                     start.stack.crown(), lump.max_rings);
+  if (!stack) return failure(stack.error().kind, "pot: " + stack.error().message);
+  return assemble(std::move(*plan), std::move(*stack), start.ledger, start.rim, "pot");
+}
+
+Result<Wheel> Wheel::assemble(StepPlan plan, ClayStack stack, const Ledger& ledger, const Rim& rim,
+                              const std::string& clay) {
+  if (plan.stages & kStability) {
+    if (const auto weak = StabilityWatch::check_all(plan.stability, stack))
+      return failure(ErrorKind::bad_input, "stability.max_stress_kpa: expected more than the " +
+                                               clay + "'s own weight, found " +
+                                               number_text(plan.stability.max_stress_kpa) +
+                                               " against " + number_text(weak->stress_kpa) +
+                                               " kPa at ring " + std::to_string(weak->ring));
+  }
+
+  auto state = std::make_unique<State>();
+  const std::size_t touches = most_contacts(plan.tool, stack.ring_height_mm(), stack.max_rings());
+  state->plan = std::move(plan);
+  state->stack = std::move(stack);
+  StackWriter(state->stack).reserve();
+  if (state->plan.stages & kStability) state->watch = StabilityWatch(state->stack);
+  state->ledger = ledger;
+  state->rim = rim;
+  const std::size_t tools = (state->plan.stages & kPinch) ? 2 : 1;
+  for (Bite& bite : std::span(state->bites).first(tools)) {
+    bite.contact.rings.reserve(touches);
+    bite.removed.reserve(touches);
+  }
+  static constexpr auto kTicks = tick_table<State>(std::make_index_sequence<kStageSets>{});
+  static constexpr auto kFeels = feel_table<State>(std::make_index_sequence<kStageSets>{});
+  state->tick = kTicks[state->plan.stages];
+  state->feel = kFeels[state->plan.stages];
+  return Wheel(std::move(state));
+}
+
+StepReport Wheel::step(const Pose& pose) noexcept { return state_->tick(*state_, pose); }
+StepReport Wheel::feel(const Pose& pose) noexcept { return state_->feel(*state_, pose); }
+
+const StepPlan& Wheel::plan() const noexcept { return state_->plan; }
+const ClayStack& Wheel::stack() const noexcept { return state_->stack; }
+const Ledger& Wheel::ledger() const noexcept { return state_->ledger; }
+bool Wheel::collapsed() const noexcept { return state_->failure.has_value(); }
+
+Pot Wheel::pot() const {
+  const State& s = *state_;
+  Pot pot{s.stack, s.ledger, s.plan.model, s.plan.density_g_cm3, {}, {}, {}};
+  if (pot.model == Model::conserving) pot.rim = s.rim;
+  if (s.failure)
+    pot.collapse = settle(s.stack, s.plan.density_g_cm3, *s.failure, s.failure_hip,
+                          s.plan.stability.max_stress_kpa);
+  return pot;
+}
+
+}  // namespace clay

@@ -1,0 +1,58 @@
+#pragma once
+// Which triangles of a soup meet, by exact predicates (CGAL).
+
+#include "export/check/crossings.hpp"
+#include "export/check/fan_intersections.hpp"
+#include "export/solid/mesh_topology.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace clay::solid {
+
+/// Pairs of triangles that meet elsewhere than in the vertices or the edge they share, for any
+/// soup of finite points and indices in range. Triangles with corners in line, and pairs on the
+/// same three vertices, are passed over.
+///
+/// The search goes by parts that several cores can share. Vertices of many triangles, and edges,
+/// have their own; all other pairs go by slabs across the longest side of the mesh, each with the
+/// triangles that reach into it: small sets stay near the processor. The parts depend on the mesh
+/// alone, so the result is the same on any machine. The slabs' lists hold at most two entries a
+/// triangle, about.
+class SoupIntersections {
+ public:
+  /// The mesh outlives this.
+  explicit SoupIntersections(const TriangleMesh& mesh);
+
+  [[nodiscard]] const Fault& degenerate() const noexcept { return degenerate_; }
+  [[nodiscard]] std::size_t slabs() const noexcept { return begins_.size(); }
+  [[nodiscard]] std::size_t parts() const noexcept { return found_.size(); }
+  void search(std::size_t part);  ///< each once, in any order and on any thread
+  /// Of the parts searched: how many pairs, and the one of lowest numbers.
+  [[nodiscard]] Fault found() const;
+
+ private:
+  void set_degenerate_aside();
+  void group_hubs();
+  void choose_begins();
+  bool distribute();
+  void halve_slabs();
+  [[nodiscard]] Crossings search_hubs(std::size_t group) const;
+  [[nodiscard]] Crossings search_slab(std::size_t slab);
+  [[nodiscard]] std::pair<double, double> reach(const Triangle& triangle) const;
+  [[nodiscard]] std::size_t slab_of(double low) const;
+
+  const TriangleMesh& mesh_;
+  int axis_;
+  std::vector<double> begins_;                       ///< of the slabs along the axis, rising
+  std::vector<std::uint32_t> spread_;                ///< triangles that are not degenerate
+  std::vector<std::vector<std::uint32_t>> members_;  ///< of the slabs, triangles
+  Hubs hubs_;
+  std::vector<std::size_t> groups_;  ///< of hubs, by the first; and the end of the last
+  std::vector<Crossings> found_;     ///< by part: groups of hubs, then slabs
+  Fault degenerate_;
+};
+
+}  // namespace clay::solid

@@ -1,0 +1,27 @@
+#pragma once
+#include "claystack/export/solid.hpp"
+#include "export/solid/mesh_extent.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace clay::solid {
+
+inline constexpr int kMinDracoBits = 8;
+inline constexpr int kDracoBitsStep = 2;
+inline constexpr int kMaxDracoBits = 30;  // Draco's own limit
+
+/// The fewest bits that keep the ends of the shortest edge in different cells of Draco's grid.
+[[nodiscard]] inline int least_draco_bits(const TriangleMesh& mesh) {
+  const glm::dvec3 sides = extent_of(mesh);
+  const double range = std::max({sides.x, sides.y, sides.z});
+  double shortest = range;
+  for (const auto& t : mesh.triangles)
+    for (std::size_t c = 0; c < 3; ++c)
+      shortest = std::min(shortest, glm::distance(mesh.points[t[c]], mesh.points[t[(c + 1) % 3]]));
+  const int bits = static_cast<int>(std::ceil(std::min(std::log2(range / shortest + 1.0), 30.0)));
+  return std::max(bits, kMinDracoBits);
+}
+
+}  // namespace clay::solid

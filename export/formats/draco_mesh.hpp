@@ -1,0 +1,23 @@
+#pragma once
+// Between our meshes and Draco's.
+
+#include "claystack/core/result.hpp"
+#include "claystack/export/solid.hpp"
+
+#include <draco/mesh/mesh.h>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace clay::solid {
+
+/// The triangles of `mesh` on `points`, its points as float32; indices are in range.
+[[nodiscard]] std::unique_ptr<draco::Mesh> to_draco(const TriangleMesh& mesh,
+                                                    const std::vector<glm::vec3>& points);
+
+/// Takes nothing on trust: Draco's decoder hands out sizes, maps and indices as a file
+/// states them. Corners share a point where Draco maps them to one position.
+[[nodiscard]] Result<TriangleMesh> from_draco(const draco::Mesh& mesh, std::string_view name);
+
+}  // namespace clay::solid

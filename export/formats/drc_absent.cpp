@@ -1,0 +1,20 @@
+// Stands in for drc.cpp where the build leaves Draco out.
+
+#include "claystack/export/formats.hpp"
+#include "export/formats/mesh_limits.hpp"
+
+namespace clay::solid {
+
+Result<std::string> encode_drc(const TriangleMesh&, const DracoSettings&, const DracoClaims*) {
+  return failure(ErrorKind::bad_input, "cannot write .drc: this build has no Draco");
+}
+
+Result<TriangleMesh> decode_drc(std::string_view, std::string_view name) {
+  return bad_file(name, "cannot read .drc: this build has no Draco");
+}
+
+Result<std::optional<DracoClaims>> drc_claims(std::string_view, std::string_view name) {
+  return bad_file(name, "cannot read .drc: this build has no Draco");
+}
+
+}  // namespace clay::solid

@@ -1,0 +1,57 @@
+#pragma once
+// What a mesh file may hold at most: every reader checks before it allocates.
+
+#include "claystack/core/result.hpp"
+#include "claystack/export/formats.hpp"
+#include "claystack/export/solid.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <exception>
+#include <glm/vec3.hpp>
+#include <new>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace clay::solid {
+
+inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
+inline constexpr std::size_t kMaxPoints = 3 * kMaxTriangles;  // when no facets share a corner
+inline constexpr float kMaxCoordinateMm = 1e6F;
+inline constexpr std::string_view kCoordinateRule = "a coordinate within +-1e6 mm";
+
+/// False for NaN too.
+[[nodiscard]] inline bool is_coordinate(float mm) noexcept {
+  return std::abs(mm) <= kMaxCoordinateMm;
+}
+
+/// "expected ..., found ..." when one of the three is no coordinate.
+[[nodiscard]] std::optional<std::string> find_bad_coordinate(const glm::vec3& point);
+
+/// "NAME: what", of kind bad_input.
+[[nodiscard]] tl::unexpected<Error> bad_file(std::string_view name, std::string_view what);
+
+[[nodiscard]] Result<void> check_file_size(std::string_view bytes, std::string_view name);
+
+/// No facets at all are refused too.
+[[nodiscard]] Result<void> check_facet_count(std::size_t facets, std::string_view name);
+
+/// A text file that is too large to be read, told by how many triangles it has at a guess.
+[[nodiscard]] Result<void> check_text_size(const ByteSource& source, std::size_t usual_bytes,
+                                           std::string_view name);
+
+/// The bytes of a file that is in memory. They outlive the source.
+[[nodiscard]] ByteSource source_of(std::string_view bytes);
+
+/// What `read` returns; what it throws (memory that is not to be had, Draco's own) as an error.
+template <class Read>
+[[nodiscard]] auto guarded(std::string_view name, const Read& read) -> decltype(read()) try {
+  return read();
+} catch (const std::bad_alloc&) {
+  return failure(ErrorKind::io, std::string(name).append(": not enough memory to read it"));
+} catch (const std::exception& error) {
+  return bad_file(name, std::string("cannot be read: ").append(error.what()));
+}
+
+}  // namespace clay::solid

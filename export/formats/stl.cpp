@@ -1,0 +1,203 @@
+#include "claystack/export/formats.hpp"
+#include "core/cancel.hpp"
+#include "core/text.hpp"
+#include "export/formats/byte_stream.hpp"
+#include "export/formats/file_floats.hpp"
+#include "export/formats/mesh_limits.hpp"
+#include "export/formats/stl_layout.hpp"
+#include "export/formats/text_scanner.hpp"
+#include "export/solid/vertex_welder.hpp"
+
+#include <array>
+
+namespace clay::solid {
+namespace {
+
+constexpr std::size_t kUsualTextFacetBytes = 260;
+
+using stl::Corners;
+using stl::kFacetBytes;
+using stl::kHeaderBytes;
+using stl::kPointBytes;
+using stl::kPrologueBytes;
+
+Corners corners_of(const std::array<std::uint32_t, 3>& triangle,
+                   const std::vector<glm::vec3>& points) noexcept {
+  return {points[triangle[0]], points[triangle[1]], points[triangle[2]]};
+}
+
+/// A closed mesh has half as many points as triangles.
+TriangleMesh mesh_with_room_for(std::size_t facets) {
+  TriangleMesh mesh;
+  mesh.triangles.reserve(facets);
+  mesh.points.reserve(facets / 2 + 3);
+  return mesh;
+}
+
+class StlTextReader {
+ public:
+  StlTextReader(ByteStream& text, std::string_view name)
+      : scanner_(text, name, LineRule::plain), name_(name) {}
+
+  Result<TriangleMesh> read() {
+    while (read_solid()) {
+    }
+    if (scanner_.fault()) return tl::make_unexpected(*scanner_.fault());
+    return check_facet_count(mesh_.triangles.size(), name_).map([&] { return std::move(mesh_); });
+  }
+
+ private:
+  bool read_solid() {
+    const std::string_view keyword = scanner_.word();
+    if (keyword.empty()) return false;
+    if (!equal_ignoring_case(keyword, "solid")) scanner_.fail_expected("solid", keyword);
+    scanner_.skip_line();
+    while (read_facet()) {
+    }
+    scanner_.skip_line();
+    return !scanner_.fault();
+  }
+
+  /// False after "endsolid" or a fault.
+  bool read_facet() {
+    const std::string_view keyword = scanner_.word();
+    if (equal_ignoring_case(keyword, "endsolid")) return false;
+    if (!equal_ignoring_case(keyword, "facet")) {
+      scanner_.fail_expected("facet or endsolid", keyword);
+      return false;
+    }
+    if (mesh_.triangles.size() == kMaxTriangles) scanner_.fail("expected at most 20000000 facets");
+    scanner_.expect("normal");
+    for (int axis = 0; axis < 3; ++axis) scanner_.finite_number(scanner_.word());
+    scanner_.expect("outer");
+    scanner_.expect("loop");
+    Corners corners;
+    for (glm::vec3& corner : corners) {
+      scanner_.expect("vertex");
+      for (int axis = 0; axis < 3; ++axis) corner[axis] = scanner_.coordinate(scanner_.word());
+    }
+    scanner_.expect("endloop");
+    scanner_.expect("endfacet");
+    if (scanner_.fault()) return false;
+    add(corners);
+    return true;
+  }
+
+  void add(const Corners& corners) {
+    auto& triangle = mesh_.triangles.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) triangle[i] = welder_.index_of(corners[i]);
+  }
+
+  TextScanner scanner_;
+  std::string_view name_;
+  TriangleMesh mesh_;
+  VertexWelder welder_{mesh_.points, 0};
+};
+
+tl::unexpected<Error> wrong_size(std::uint64_t bytes, std::uint64_t facets, std::string_view name) {
+  return bad_file(name, "expected " + std::to_string(stl::file_bytes(facets)) +
+                            " bytes of binary STL for the " + std::to_string(facets) +
+                            " facets it counts, found " + std::to_string(bytes) + " bytes");
+}
+
+/// From behind the prologue.
+Result<TriangleMesh> read_facets(ByteStream& stream, std::size_t facets, std::string_view name) {
+  TriangleMesh mesh = mesh_with_room_for(facets);
+  VertexWelder welder(mesh.points, facets);
+  for (std::size_t facet = 0; facet < facets; ++facet) {
+    step_of_loop();
+    if (!stream.fill(kFacetBytes)) {
+      if (stream.fault()) return tl::make_unexpected(*stream.fault());
+      return wrong_size(stl::file_bytes(facet) + stream.ahead().size(), facets, name);
+    }
+    const char* const at = stream.ahead().data();
+    auto& triangle = mesh.triangles.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::vec3 corner = stl::load_point(at + kPointBytes * (i + 1));
+      if (const auto bad = find_bad_coordinate(corner)) {
+        return bad_file(name, "facet " + std::to_string(facet + 1) + ": " + *bad);
+      }
+      triangle[i] = welder.index_of(corner);
+    }
+    stream.take(kFacetBytes);
+  }
+  return mesh;
+}
+
+Result<TriangleMesh> read_binary(const ByteSource& source, ByteStream& stream, std::size_t facets,
+                                 std::string_view name) {
+  stream.take(kPrologueBytes);
+  return check_facet_count(facets, name)
+      .and_then([&] { return source.announce ? source.announce(facets) : Result<void>(); })
+      .and_then([&] { return read_facets(stream, facets, name); });
+}
+
+bool begins_with_solid(std::string_view bytes) {
+  bytes = without_byte_order_mark(bytes);
+  const std::size_t begin = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
+  return equal_ignoring_case(bytes.substr(begin, 5), "solid");
+}
+
+tl::unexpected<Error> no_stl(std::string_view head, std::uint64_t bytes, std::string_view name) {
+  if (const auto kind = known_kind(head); !kind.empty())
+    return bad_file(name, std::string("expected an STL file, found ").append(kind));
+  if (head.size() < kPrologueBytes)
+    return bad_file(name, "expected an STL file: the word solid, or at least 84 bytes, found " +
+                              std::to_string(head.size()) + " bytes");
+  return wrong_size(bytes, load_u32(head.data() + kHeaderBytes), name);
+}
+
+Result<TriangleMesh> read_either(const ByteSource& source, std::string_view name) {
+  ByteStream stream(source);
+  stream.fill(ByteStream::kStretch);
+  if (stream.fault()) return tl::make_unexpected(*stream.fault());
+  const std::string_view head = stream.ahead();
+  const std::size_t facets =
+      head.size() < kPrologueBytes ? 0 : load_u32(head.data() + kHeaderBytes);
+  if (head.size() >= kPrologueBytes && source.size == stl::file_bytes(facets))
+    return read_binary(source, stream, facets, name);
+  if (!begins_with_solid(head)) return no_stl(head, source.size, name);
+  return check_text_size(source, kUsualTextFacetBytes, name).and_then([&] {
+    return StlTextReader(stream, name).read();
+  });
+}
+
+}  // namespace
+
+std::string encode_stl_binary(const TriangleMesh& mesh) {
+  const std::vector<glm::vec3> points = file_points(mesh.points);
+  std::string bytes(stl::file_bytes(mesh.triangles.size()), '\0');
+  stl::store_prologue(bytes.data(), mesh.triangles.size());
+  char* at = bytes.data() + kPrologueBytes;
+  for (const auto& triangle : mesh.triangles) {
+    stl::store_facet(at, corners_of(triangle, points));
+    at += kFacetBytes;
+  }
+  return bytes;
+}
+
+std::string encode_stl_ascii(const TriangleMesh& mesh, std::string_view solid_name) {
+  const std::vector<glm::vec3> points = file_points(mesh.points);
+  const std::string solid = "solid " + one_line(solid_name) + '\n';
+  std::string text;
+  text.reserve(2 * solid.size() + kUsualTextFacetBytes * mesh.triangles.size());
+  text += solid;
+  for (const auto& triangle : mesh.triangles) {
+    const Corners corners = corners_of(triangle, points);
+    append_point_line(text, "facet normal", stl::facet_normal(corners));
+    text += "  outer loop\n";
+    for (const glm::vec3& corner : corners) append_point_line(text, "    vertex", corner);
+    text += "  endloop\nendfacet\n";
+  }
+  return text.append("end").append(solid);
+}
+
+Result<TriangleMesh> read_stl(const ByteSource& source, std::string_view name) {
+  return guarded(name, [&] { return read_either(source, name); });
+}
+
+Result<TriangleMesh> decode_stl(std::string_view bytes, std::string_view name) {
+  return check_file_size(bytes, name).and_then([&] { return read_stl(source_of(bytes), name); });
+}
+
+}  // namespace clay::solid

@@ -1,0 +1,55 @@
+#include "export/formats/stored_file.hpp"
+
+#include "core/cancel.hpp"
+#include "export/check/describe.hpp"
+
+#include <algorithm>
+
+namespace clay::solid {
+
+namespace {
+
+constexpr std::size_t kPartBytes = std::size_t{4} << 20;
+
+/// part(bytes, offset) for one stretch of `whole` after the other.
+template <class Byte, class Part>
+Result<void> in_parts(std::span<Byte> whole, Part part) {
+  for (std::size_t at = 0; at < whole.size(); at += kPartBytes) {
+    stop_if_cancelled();
+    const auto bytes = whole.subspan(at, std::min(kPartBytes, whole.size() - at));
+    if (auto done = part(bytes, at); !done) return done;
+  }
+  return {};
+}
+
+Result<std::string> read_whole(const FileStore& store, std::size_t bytes) {
+  std::string file(bytes, '\0');
+  return in_parts(
+             std::as_writable_bytes(std::span(file)),
+             [&](std::span<std::byte> part, std::size_t at) { return store.read_at(at, part); })
+      .map([&] { return std::move(file); });
+}
+
+}  // namespace
+
+Result<void> write_in_parts(FileStore& store, const std::string& bytes) {
+  return in_parts(bytes_of(bytes),
+                  [&](std::span<const std::byte> part, std::size_t) { return store.write(part); });
+}
+
+Result<std::string> read_again(const FileStore& store, const std::string& written) {
+  if (!store.rereadable()) return written;
+  return read_whole(store, written.size());
+}
+
+Result<MeshReport> check_stored(const FileStore& store, std::uint64_t bytes, MeshFormat format) {
+  const std::string name = as_written(format);
+  const auto report =
+      read_whole(store, bytes)
+          .and_then([&](const std::string& file) { return decode_mesh(file, format, name); })
+          .map(check_mesh);
+  if (!report || report->sound()) return report;
+  return failure(ErrorKind::unsound, name + ": found " + describe(report->problems.front()));
+}
+
+}  // namespace clay::solid

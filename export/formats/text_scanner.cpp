@@ -1,0 +1,192 @@
+#include "export/formats/text_scanner.hpp"
+
+#include "core/cancel.hpp"
+#include "export/formats/mesh_limits.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace clay::solid {
+namespace {
+
+constexpr std::size_t kMaxLineBytes = 64 * 1024;
+
+bool is_blank(char c) noexcept {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+
+/// Fit for a message: short, and without what a terminal might obey.
+std::string shown(std::string_view word) {
+  constexpr std::size_t kLongest = 32;
+  if (word.empty()) return "the end of the line or file";
+  std::string text = "'";
+  for (const char c : word.substr(0, kLongest)) text += c > ' ' && c <= '~' ? c : '?';
+  return text + (word.size() > kLongest ? "...'" : "'");
+}
+
+/// from_chars takes no '+', text files do.
+std::string_view without_plus(std::string_view word) noexcept {
+  const bool plain_plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
+  return plain_plus ? word.substr(1) : word;
+}
+
+template <class Number>
+std::optional<Number> parse(std::string_view word) noexcept {
+  word = without_plus(word);
+  Number value{};
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+/// Straight to float32, as by way of double a decimal may be rounded twice; but what is
+/// too small for float32 is out of its range, and means 0.
+std::optional<float> parse_float(std::string_view word) noexcept {
+  if (const auto direct = parse<float>(word)) return direct;
+  const auto wide = parse<double>(word);
+  if (wide && std::abs(*wide) < 1.0) return 0.0F;
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool equal_ignoring_case(std::string_view word, std::string_view lower) noexcept {
+  return std::equal(word.begin(), word.end(), lower.begin(), lower.end(),
+                    [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
+}
+
+TextScanner::TextScanner(ByteStream& text, std::string_view name, LineRule rule)
+    : stream_(text), name_(name), rule_(rule) {
+  if (!next_lines()) return;
+  at_ = text_.size() - without_byte_order_mark(text_).size();
+  check_lines(line_);
+}
+
+/// False where there are none, and `text_` is empty then.
+bool TextScanner::next_lines() {
+  if (fault_) return false;
+  stream_.take(text_.size());
+  const bool more = stream_.fill(ByteStream::kStretch);
+  text_ = stream_.ahead();
+  at_ = 0;
+  if (stream_.fault()) {
+    fault_ = stream_.fault();
+    text_ = {};
+  }
+  // What begins too long a line is kept: it will be found to be one.
+  if (const std::size_t end = text_.rfind('\n'); more && end != text_.npos)
+    text_ = text_.substr(0, end + 1);
+  return !text_.empty();
+}
+
+void TextScanner::check_lines(std::size_t line) {
+  const std::size_t nul = text_.find('\0');
+  for (std::size_t begin = 0; begin < text_.size(); ++line) {
+    step_of_loop();
+    const std::size_t end = std::min(text_.find('\n', begin), text_.size());
+    if (nul < end) return fail_at(line, "expected text, found a NUL byte");
+    if (end - begin > kMaxLineBytes) return fail_at(line, "expected a line of at most 64 KiB");
+    begin = end + 1;
+  }
+}
+
+std::string_view TextScanner::word() {
+  for (;;) {
+    const std::string_view found = word_in_line();
+    if (!found.empty() || at_ >= text_.size()) return found;
+    leave_line(at_);
+  }
+}
+
+std::string_view TextScanner::word_in_line() {
+  step_of_loop();
+  skip_blanks();
+  const std::size_t begin = at_;
+  while (at_ < text_.size() && !is_blank(text_[at_]) && text_[at_] != '\n' &&
+         continuation_length() == 0) {
+    ++at_;
+  }
+  return text_.substr(begin, at_ - begin);
+}
+
+void TextScanner::skip_line() {
+  while (!word_in_line().empty()) {
+  }
+  leave_line(at_);
+}
+
+void TextScanner::skip_comment() { leave_line(std::min(text_.find('\n', at_), text_.size())); }
+
+void TextScanner::skip_blanks() {
+  while (at_ < text_.size()) {
+    if (is_blank(text_[at_])) {
+      ++at_;
+    } else if (const std::size_t joint = continuation_length(); joint > 0) {
+      at_ += joint;
+      ++line_;
+      if (at_ == text_.size() && next_lines()) check_lines(line_);
+    } else {
+      return;
+    }
+  }
+}
+
+/// To the line below, if there is one: the last line keeps its number for messages.
+void TextScanner::leave_line(std::size_t newline) {
+  at_ = std::min(newline + 1, text_.size());
+  if (at_ < text_.size()) {
+    ++line_;
+  } else if (next_lines()) {
+    check_lines(++line_);
+  }
+}
+
+std::size_t TextScanner::continuation_length() const noexcept {
+  if (rule_ != LineRule::backslash_continues || text_[at_] != '\\') return 0;
+  const std::string_view rest = text_.substr(at_ + 1, 2);
+  if (rest.starts_with('\n')) return 2;
+  return rest == "\r\n" ? 3 : 0;
+}
+
+void TextScanner::expect(std::string_view keyword) {
+  const std::string_view found = word();
+  if (!equal_ignoring_case(found, keyword)) fail_expected(keyword, found);
+}
+
+double TextScanner::finite_number(std::string_view word) {
+  const auto value = parse<double>(word);
+  if (value && std::isfinite(*value)) return *value;
+  fail_expected("a finite number", word);
+  return 0.0;
+}
+
+float TextScanner::coordinate(std::string_view word) {
+  const auto value = parse_float(word);
+  if (value && is_coordinate(*value)) return *value;
+  fail_expected(kCoordinateRule, word);
+  return 0.0F;
+}
+
+long long TextScanner::whole_number(std::string_view word) {
+  const auto value = parse<long long>(word);
+  if (value) return *value;
+  fail_expected("a whole number", word);
+  return 0;
+}
+
+void TextScanner::fail_expected(std::string_view what, std::string_view found) {
+  fail(std::string("expected ").append(what).append(", found ").append(shown(found)));
+}
+
+void TextScanner::fail_at(std::size_t line, std::string_view what) {
+  if (!fault_) {
+    fault_ = Error{
+        ErrorKind::bad_input,
+        std::string(name_).append(":").append(std::to_string(line)).append(": ").append(what)};
+  }
+  text_ = {};
+  at_ = 0;
+}
+
+}  // namespace clay::solid

@@ -1,0 +1,69 @@
+#pragma once
+// Words of a text mesh file, with the line each stands on. The first fault sticks, as in an
+// input stream: after it every read is empty, so that a grammar can be written down straight
+// and asked once at its end whether it held.
+
+#include "export/formats/byte_stream.hpp"
+
+#include "claystack/core/result.hpp"
+
+#include "core/text.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace clay::solid {
+
+enum class LineRule { plain, backslash_continues };
+
+class TextScanner {
+ public:
+  /// Passes over a byte order mark. Faults on a NUL byte or a line of more than 64 KiB, up to a
+  /// megabyte before it is there. The stream and the name outlive this.
+  TextScanner(ByteStream& text, std::string_view name, LineRule rule);
+
+  /// The next word on this line or a later one; empty at the end of the text. A word is gone when
+  /// the next is asked for.
+  std::string_view word();
+  /// The next word on this line; empty at its end.
+  std::string_view word_in_line();
+  void skip_line();
+  /// As `skip_line`, but a backslash at the end does not continue a comment: a path in it
+  /// may end so, and would swallow the line below.
+  void skip_comment();
+
+  /// Case does not matter, as writers differ in it.
+  void expect(std::string_view keyword);
+  double finite_number(std::string_view word);
+  float coordinate(std::string_view word);
+  long long whole_number(std::string_view word);
+
+  void fail(std::string_view what) { fail_at(line_, what); }
+  void fail_at(std::size_t line, std::string_view what);
+  /// "expected WHAT, found 'WORD'".
+  void fail_expected(std::string_view what, std::string_view found);
+  [[nodiscard]] const std::optional<Error>& fault() const noexcept { return fault_; }
+  [[nodiscard]] std::size_t line() const noexcept { return line_; }
+
+ private:
+  bool next_lines();
+  void check_lines(std::size_t line);
+  void skip_blanks();
+  void leave_line(std::size_t newline);
+  [[nodiscard]] std::size_t continuation_length() const noexcept;
+
+  ByteStream& stream_;
+  std::string_view text_;  ///< whole lines, as many as are in memory
+  std::string_view name_;
+  LineRule rule_;
+  std::size_t at_ = 0;
+  std::size_t line_ = 1;
+  std::optional<Error> fault_;
+};
+
+/// ASCII only, so that no locale plays a part.
+[[nodiscard]] bool equal_ignoring_case(std::string_view word, std::string_view lower) noexcept;
+
+}  // namespace clay::solid

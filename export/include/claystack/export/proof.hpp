@@ -1,0 +1,94 @@
+#pragma once
+#include "claystack/core/result.hpp"
+#include "claystack/export/formats.hpp"
+#include "claystack/export/section.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace clay::solid {
+
+// ---- certificate ---------------------------------------------------------------------
+// The proof in the plane. For every n >= 3 the n-gon revolve of a profile is closed and
+// embedded if each polygon is strictly simple, they are disjoint, and they meet the axis in
+// segments of positive length only (each sector is a prism over the profile with rho scaled
+// by cos(pi/n), and a homeomorphism takes the smooth revolve to the polygonal one).
+
+struct PlanarCertificate {
+  std::size_t polygons = 0;
+  std::size_t vertices = 0;
+  std::size_t axis_segments = 0;
+};
+
+/// Exact predicates throughout. The error (kind `unsound`) names the first place that fails. Made
+/// for sections of stacks, which have few edges at any one height: more than 1000 are an error.
+Result<PlanarCertificate> certify(const Profile& profile);
+
+// ---- solid certificate ---------------------------------------------------------------
+// What is claimed of a file that holds a revolve, with all that it takes to prove it again from the
+// file's bytes: the profile, how far the format's rounding moved its vertices, and the margins that
+// cover this.
+
+/// How far the vertices of a revolve may move before its triangles could meet: by less than an
+/// eighth of the lesser of the two, if there are at least 8 segments. That no two disjoint parts
+/// meet within half of the distance is a lemma on simplexwise linear maps; the factor of 4 more
+/// covers triangles that share a vertex, and is confirmed by tests against CGAL's exact predicates.
+struct Margins {
+  double clearance_mm = 0.0;  ///< between a vertex of the profile and an edge not its own
+  double chord_mm = 0.0;      ///< least circle: r sin(2 pi/n)
+  std::size_t segments = 0;
+
+  [[nodiscard]] double safe_rounding_mm() const noexcept;
+  friend bool operator==(const Margins&, const Margins&) = default;
+};
+
+[[nodiscard]] Margins margins_of(const Profile& profile, std::size_t segments);
+
+enum class Proof {
+  margins,    ///< the profile is simple, and its margins cover the rounding
+  exact_test  ///< they do not; no two triangles of the file meet by CGAL's exact predicates
+};
+
+struct SolidCertificate {
+  std::string format;        ///< as `name_of` spells it
+  std::uint64_t bytes = 0;   ///< of the file
+  std::string content_hash;  ///< XXH3-128 of the file
+  std::string profile_hash;  ///< XXH3-128 of the coordinates, least byte first
+  Proof proof = Proof::margins;
+  Profile profile;
+  std::size_t segments = 0;
+  double rounding_mm = 0.0;  ///< no vertex of the file is farther from its place
+  Margins margins;
+  double wall_lower_mm = 0.0;       ///< the file's solid is nowhere thinner,
+  double wall_upper_mm = 0.0;       ///< and somewhere no thicker
+  double volume_mm3 = 0.0;          ///< of the solid before rounding
+  double volume_bound_mm3 = 0.0;    ///< the file's volume is within this of it
+  double counted_volume_mm3 = 0.0;  ///< of the stack
+
+  friend bool operator==(const SolidCertificate&, const SolidCertificate&) = default;
+};
+
+/// All claims but those on the bytes of a file. `profile` is certified; `rounding_mm` moves no
+/// vertex farther. The wall of an n-gon revolve is that of the profile with rho scaled by f
+/// cos(pi/n) in the middle of a facet and by f at its sides, f being the equal-volume factor. The
+/// volume moves by less than the area, grown by what rounding may add to it, times the rounding.
+SolidCertificate claims_of(const Profile& profile, std::size_t segments, double rounding_mm);
+
+/// Proves every claim again and holds the file against them: size and hashes, number of triangles,
+/// profile, margins (or the exact test), walls, volume; then each triangle of the decoded file
+/// against the revolve of the profile. The error (kind `unsound`) names the first claim that fails;
+/// a file that cannot be read at all is `bad_input`. Certificates may come from strangers.
+Result<void> verify_certificate(const SolidCertificate& certificate, std::string_view file_bytes,
+                                std::string_view file_name);
+
+/// The largest file that `parse_certificate` reads. A point takes some 40 bytes: enough for every
+/// mesh of at most kMaxTriangles with 8 segments or more.
+inline constexpr std::size_t kMaxCertificateBytes = std::size_t{1} << 26;
+
+/// JSON. Equal certificates give equal bytes; the reader is strict, and its errors name the field.
+std::string write_certificate(const SolidCertificate& certificate);
+Result<SolidCertificate> parse_certificate(std::string_view bytes, std::string_view name);
+
+}  // namespace clay::solid

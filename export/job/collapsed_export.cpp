@@ -1,0 +1,236 @@
+#include "export/job/collapsed_export.hpp"
+
+#include "claystack/engine/tick.hpp"
+#include "claystack/export/repair.hpp"
+#include "claystack/export/solid.hpp"
+#include "claystack/export/walls.hpp"
+#include "core/content_hash.hpp"
+#include "export/check/describe.hpp"
+#include "export/formats/draco_bits.hpp"
+#include "export/formats/stored_file.hpp"
+#include "export/job/left_out.hpp"
+#include "export/job/resolution.hpp"
+#include "export/job/stages.hpp"
+#include "export/proof/verify_file.hpp"
+#include "export/solid/mesh_extent.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace clay::solid {
+namespace {
+
+Result<void> check_options(const ExportOptions& options) {
+  const auto refuse = [](std::string_view option) {
+    return failure(
+        ErrorKind::bad_input,
+        std::string(option).append(": expected a pot that stands, found a collapsed one"));
+  };
+  if (options.drain_mm) return refuse("drain");
+  if (options.normals) return refuse("normals");
+  if (options.wall_spacing_mm) return refuse("field of walls");
+  if (options.lip_fillet_mm > 0.0) return refuse("lip fillet");
+  return {};
+}
+
+class CollapsedExport {
+ public:
+  CollapsedExport(const Pot& pot, const std::vector<Output>& outputs, const ExportOptions& options,
+                  const std::function<void(std::string_view)>& progress)
+      : pot_(pot), outputs_(outputs), options_(options), stages_(report_.stages, progress) {}
+
+  Result<ExportReport> run() {
+    return check_options(options_)
+        .and_then([&] { return make_parts(); })
+        .and_then([&] { return unite(); })
+        .and_then([&] { return meet_budget(); })
+        .and_then([&] { return write_all(); })
+        .map([&] {
+          tell_left_out();
+          return std::move(report_);
+        });
+  }
+
+ private:
+  Result<void> make_parts() {
+    return stages_
+        .run("parts",
+             [&] { return collapsed_parts(pot_, options_.smoothing, options_.tolerance_mm); })
+        .and_then([&](CollapsedParts found) {
+          parts_ = std::move(found);
+          return check_pieces(parts_.lower.shapes, options_.allow_pieces);
+        })
+        .and_then([&] { return check_pieces(parts_.upper.shapes, options_.allow_pieces); });
+  }
+
+  Result<void> unite() {
+    const double reach = pot_.stack.height_mm() + 2.0 * glm::length(pot_.collapse->pivot_mm) +
+                         glm::length(pot_.collapse->shift_mm);
+    return choose_segments(parts_.together(), options_.tolerance_mm, options_, reach)
+        .and_then([&](std::size_t segments) {
+          describe_parts(segments);
+          return stages_.run("union", [&] {
+            return collapsed_solid(parts_, *pot_.collapse, segments, options_.tolerance_mm);
+          });
+        })
+        .map([&](CollapsedSolid solid) {
+          mesh_ = std::exchange(solid.mesh, {});
+          describe_solid(std::move(solid));
+        });
+  }
+
+  void describe_parts(std::size_t segments) {
+    const PlanarCertificate &lower = parts_.lower_certificate, &upper = parts_.upper_certificate;
+    report_.planar = {lower.polygons + upper.polygons, lower.vertices + upper.vertices,
+                      lower.axis_segments + upper.axis_segments};
+    report_.smoothing = parts_.smoothing;
+    report_.shapes = parts_.lower.shapes;
+    report_.shapes.insert(report_.shapes.end(), parts_.upper.shapes.begin(),
+                          parts_.upper.shapes.end());
+    report_.segments = segments;
+    report_.tolerance_mm = options_.tolerance_mm;
+    report_.chordal_error_mm = chordal_error_mm(largest_radius_mm(pot_.stack), segments);
+    report_.thinnest = min_wall(parts_.lower.profile);
+    if (!parts_.upper.shapes.empty()) {
+      const Wall fallen = min_wall(parts_.upper.profile);
+      if (fallen.thickness_mm < report_.thinnest.thickness_mm) report_.thinnest = fallen;
+    }
+    report_.min_wall_mm =
+        report_.thinnest.thickness_mm * std::cos(std::numbers::pi / static_cast<double>(segments));
+  }
+
+  void describe_solid(CollapsedSolid solid) {
+    const glm::dvec3 extent = extent_of(mesh_);
+    report_.diameter_mm = std::max(extent.x, extent.y);
+    report_.height_mm = extent.z;
+    report_.counted_volume_mm3 = pot_.stack.volume_mm3();
+    report_.triangles = mesh_.triangles.size();
+    report_.shells = solid.check.components;
+    report_.collapsed = std::move(solid);
+    describe_volume(report_.collapsed->volume_mm3);
+  }
+
+  void describe_volume(double volume_mm3) {
+    const CollapsedSolid& solid = *report_.collapsed;
+    report_.volume_mm3 = volume_mm3;
+    report_.volume_error_relative =
+        std::abs(volume_mm3 - solid.pockets_mm3 + solid.overlap_mm3 - report_.counted_volume_mm3) /
+        report_.counted_volume_mm3;
+  }
+
+  /// There is no profile of the whole to make coarser: the mesh is decimated, and checked again.
+  Result<void> meet_budget() {
+    if (!options_.max_triangles || mesh_.triangles.size() <= *options_.max_triangles) return {};
+    return stages_.run("decimate", [&] { return decimate(mesh_, *options_.max_triangles); })
+        .and_then([&](DecimatedMesh decimated) -> Result<void> {
+          mesh_ = rounded_to_float(decimated.mesh);
+          const MeshReport check = stages_.run("check", [&] { return check_mesh(mesh_); });
+          if (!check.sound())
+            return failure(ErrorKind::unsound,
+                           "decimated: found " + describe(check.problems.front()));
+          report_.triangles = mesh_.triangles.size();
+          report_.tolerance_mm += decimated.max_error_mm;
+          report_.chordal_error_mm += decimated.max_error_mm;
+          describe_volume(check.volume_mm3);
+          report_.collapsed->max_move_mm += decimated.max_error_mm;
+          return {};
+        });
+  }
+
+  Result<void> write_all() {
+    for (const Output& output : outputs_) {
+      auto file = output.format == MeshFormat::drc ? write_drc(*output.store)
+                                                   : write_exact(output.format, *output.store);
+      if (!file) return tl::make_unexpected(file.error());
+      report_.files.push_back(std::move(*file));
+    }
+    return {};
+  }
+
+  Result<FileReport> write_exact(MeshFormat format, FileStore& store) {
+    const std::string bytes = stages_.run(stage_name("encode", format), [&] {
+      if (format == MeshFormat::obj) return encode_obj(mesh_, options_.name);
+      return format == MeshFormat::stl_ascii ? encode_stl_ascii(mesh_, options_.name)
+                                             : encode_stl_binary(mesh_);
+    });
+    return verify(bytes, format, float_rounding_mm(mesh_)).and_then([&](double moved) {
+      return written(bytes, format, moved, store);
+    });
+  }
+
+  /// Ever finer grids until the mesh as decoded is sound, or the last reason why not.
+  Result<FileReport> write_drc(FileStore& store) {
+    const double allowed = std::max(options_.tolerance_mm, float_rounding_mm(mesh_));
+    DracoSettings settings;
+    settings.max_error_mm = allowed;
+    Result<double> moved;
+    for (int bits = least_draco_bits(mesh_); bits <= kMaxDracoBits; bits += kDracoBitsStep) {
+      settings.min_bits = bits;
+      const auto bytes = stages_.run(stage_name("encode", MeshFormat::drc),
+                                     [&] { return encode_drc(mesh_, settings); });
+      if (!bytes) return tl::make_unexpected(bytes.error());
+      moved = verify(*bytes, MeshFormat::drc, allowed + float_rounding_mm(mesh_));
+      if (moved) return written(*bytes, MeshFormat::drc, *moved, store);
+    }
+    return tl::make_unexpected(moved.error());
+  }
+
+  Result<double> verify(const std::string& bytes, MeshFormat format, double allowed_mm) {
+    return stages_.run(stage_name("verify", format),
+                       [&] { return verify_file(bytes, format, mesh_, allowed_mm); });
+  }
+
+  Result<FileReport> written(const std::string& bytes, MeshFormat format, double moved,
+                             FileStore& store) {
+    const auto again =
+        stages_.run(stage_name("store", format), [&] { return write_in_parts(store, bytes); })
+            .and_then([&] { return read_again(store, bytes); });
+    if (!again) return tl::make_unexpected(again.error());
+    if (*again != bytes)
+      return failure(ErrorKind::io, as_written(format) + ": found bytes other than those written");
+    FileReport report;
+    report.format = format;
+    report.bytes = bytes.size();
+    report.content_hash = hash_of(bytes_of(bytes));
+    report.max_error_mm = moved;
+    report.proof = Proof::exact_test;
+    report.read_again = store.rereadable();
+    if (!options_.full_verification || !report.read_again) return report;
+    return stages_
+        .run("full_verification", [&] { return check_stored(store, report.bytes, format); })
+        .map([&](MeshReport check) {
+          report.full_verification = std::move(check);
+          return report;
+        });
+  }
+
+  void tell_left_out() {
+    auto& list = report_.left_out;
+    if (!pot_.stack.hollow()) list.push_back({"inner shell", "no ring has a bore", {}});
+    if (options_.smoothing == Smoothing::none) list.push_back({"smoothing", "not asked for", {}});
+    if (!parts_.no_smoothing.empty()) list.push_back({"smoothing", parts_.no_smoothing, {}});
+    add_formats_left_out(outputs_, list);
+  }
+
+  const Pot& pot_;
+  const std::vector<Output>& outputs_;
+  const ExportOptions& options_;
+  CollapsedParts parts_;
+  TriangleMesh mesh_;
+  ExportReport report_;
+  Stages stages_;
+};
+
+}  // namespace
+
+Result<ExportReport> export_collapsed(const Pot& pot, const std::vector<Output>& outputs,
+                                      const ExportOptions& options,
+                                      const std::function<void(std::string_view)>& progress) {
+  return CollapsedExport(pot, outputs, options, progress).run();
+}
+
+}  // namespace clay::solid

@@ -1,0 +1,83 @@
+#include "export/job/left_out.hpp"
+
+#include "claystack/export/check.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace clay::solid {
+namespace {
+
+template <class Work>
+double seconds_of(Work work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// Encoding alone; nothing is written.
+double encoding_seconds(MeshFormat format, const TriangleMesh& mesh, const ExportOptions& options) {
+  return seconds_of([&] {
+    switch (format) {
+      case MeshFormat::stl_binary:
+        return void(encode_stl_binary(mesh));
+      case MeshFormat::stl_ascii:
+        return void(encode_stl_ascii(mesh, options.name));
+      case MeshFormat::obj:
+        return void(encode_obj(mesh, options.name));
+      case MeshFormat::drc: {
+        DracoSettings settings;
+        settings.max_error_mm = options.tolerance_mm;
+        return void(encode_drc(mesh, settings));
+      }
+    }
+  });
+}
+
+void measure(std::vector<LeftOut>& list, const ClayStack& stack, const RevolveRule& rule,
+             const ExportOptions& options) {
+  TriangleMesh mesh;
+  const double meshing = seconds_of([&] { mesh = revolve(rule); });
+  for (LeftOut& item : list) {
+    if (item.what == "mesh in memory") item.saved_s = meshing;
+    if (item.what == "full verification")
+      item.saved_s = seconds_of([&] { check_mesh(rounded_to_float(mesh)); });
+    if (item.what == "smoothing")
+      item.saved_s = seconds_of([&] {
+        SmoothingOptions how;
+        how.tolerance_mm = options.tolerance_mm;
+        (void)smooth_profile_of(stack, how);
+      });
+    if (const auto format = mesh_format_named(item.what))
+      item.saved_s = encoding_seconds(*format, mesh, options);
+  }
+}
+
+}  // namespace
+
+std::vector<LeftOut> left_out(const ClayStack& stack, const std::string& no_smoothing,
+                              const RevolveRule& rule, bool made_mesh,
+                              const std::vector<Output>& outputs, const ExportOptions& options) {
+  std::vector<LeftOut> list;
+  const auto add = [&](bool out, std::string what, std::string why) {
+    if (out) list.push_back({std::move(what), std::move(why), std::nullopt});
+  };
+  add(!stack.hollow(), "inner shell", "no ring has a bore");
+  add(!no_smoothing.empty(), "smoothing", no_smoothing);
+  add(true, "union", "the pot has not collapsed");
+  add(!options.max_triangles, "budget", "no number of triangles asked for");
+  add(!made_mesh, "mesh in memory", "nothing asked for needs one");
+  add(!options.full_verification, "full verification", "the certificate covers it; not asked for");
+  add_formats_left_out(outputs, list);
+  if (options.measure_left_out) measure(list, stack, rule, options);
+  return list;
+}
+
+void add_formats_left_out(const std::vector<Output>& outputs, std::vector<LeftOut>& list) {
+  for (const MeshFormat format : kMeshFormats)
+    if (std::none_of(outputs.begin(), outputs.end(),
+                     [&](const Output& output) { return output.format == format; }))
+      list.push_back({std::string(name_of(format)), "not asked for", std::nullopt});
+}
+
+}  // namespace clay::solid

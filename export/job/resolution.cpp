@@ -1,0 +1,74 @@
+#include "export/job/resolution.hpp"
+
+#include "claystack/export/solid.hpp"
+#include "core/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace clay::solid {
+namespace {
+
+struct Extent {
+  double radius = 0.0;
+  double reach = 0.0;  ///< from the origin
+};
+
+Extent extent_of(const Profile& profile) {
+  Extent extent;
+  for (const Polygon& polygon : profile.pieces)
+    for (const ProfilePoint& p : polygon) {
+      extent.radius = std::max(extent.radius, p.rho);
+      extent.reach = std::max(extent.reach, std::hypot(p.rho, p.y));
+    }
+  return extent;
+}
+
+Result<std::size_t> forced_segments(std::size_t segments) {
+  if (segments >= kMinSegments && segments <= kMaxSegments) return segments;
+  return failure(ErrorKind::bad_input, "segments: expected " + std::to_string(kMinSegments) +
+                                           " to " + std::to_string(kMaxSegments) + ", found " +
+                                           std::to_string(segments));
+}
+
+Result<std::size_t> segments_within(const Profile& profile, double tolerance_mm, double reach_mm) {
+  const Extent extent = extent_of(profile);
+  // The vertices stand out a little beyond the radius; the factor 2 covers that and more.
+  const double rounding = std::ldexp(2.0 * std::max(extent.reach, reach_mm), -24);
+  const double budget = tolerance_mm - rounding;
+  const std::size_t segments = segments_for(extent.radius, budget);
+  if (budget > 0.0 && chordal_error_mm(extent.radius, segments) <= budget) return segments;
+  return failure(ErrorKind::bad_input,
+                 "tolerance: expected at least " +
+                     in_mm(rounding + chordal_error_mm(extent.radius, kMaxSegments)) +
+                     " mm for a pot of this size, found " + in_mm(tolerance_mm) + " mm");
+}
+
+}  // namespace
+
+Result<std::size_t> choose_segments(const Profile& profile, double tolerance_mm,
+                                    const ExportOptions& options, double reach_mm) {
+  return (options.segments ? forced_segments(*options.segments)
+                           : segments_within(profile, tolerance_mm, reach_mm))
+      .and_then([&](std::size_t segments) -> Result<std::size_t> {
+        const std::size_t triangles = triangle_count(profile, segments);
+        if (triangles <= kMaxTriangles || options.max_triangles) return segments;
+        return failure(ErrorKind::bad_input,
+                       "expected a mesh of at most " + std::to_string(kMaxTriangles) +
+                           " triangles, found that " + std::to_string(segments) +
+                           " segments make " + std::to_string(triangles) +
+                           "; ask for a larger tolerance or fewer segments");
+      });
+}
+
+Result<void> check_pieces(const std::vector<PieceShape>& shapes, bool allow_pieces) {
+  if (shapes.size() < 2 || allow_pieces) return {};
+  return failure(ErrorKind::unsound,
+                 "expected a pot in one piece, found " + std::to_string(shapes.size()) +
+                     " that do not touch: rings " + std::to_string(shapes[0].last_ring) + " and " +
+                     std::to_string(shapes[1].first_ring) +
+                     " are the first that part; ask for pieces to be exported together (--pieces)");
+}
+
+}  // namespace clay::solid

@@ -1,0 +1,181 @@
+#include "export/job/revolve_files.hpp"
+
+#include "claystack/export/solid.hpp"
+#include "export/check/describe.hpp"
+#include "export/formats/draco_bits.hpp"
+#include "export/formats/shaded_obj.hpp"
+#include "export/formats/stl_stream.hpp"
+#include "export/formats/stored_file.hpp"
+#include "export/proof/revolve_match.hpp"
+#include "export/proof/rounded_claims.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace clay::solid {
+namespace {
+
+Result<void> check_sound(const TriangleMesh& mesh, const std::string& name) {
+  const MeshReport report = check_mesh(mesh);
+  if (report.sound()) return {};
+  return failure(ErrorKind::unsound, name + ": found " + describe(report.problems.front()));
+}
+
+}  // namespace
+
+Result<FileReport> RevolveFiles::write(MeshFormat format, FileStore& store) {
+  switch (format) {
+    case MeshFormat::stl_binary:
+      return stream(store);
+    case MeshFormat::drc:
+      return write_drc(store);
+    default:
+      return write_text(format, store);
+  }
+}
+
+const TriangleMesh& RevolveFiles::mesh() {
+  if (!mesh_) mesh_ = stages_.run("tessellate", [&] { return revolve(rule_); });
+  return *mesh_;
+}
+
+/// Margins where they cover the rounding; the exact test of the mesh in float32 where not.
+Result<Proof> RevolveFiles::prove_rounded(double rounding_mm) {
+  if (rounding_mm < claims_.margins.safe_rounding_mm()) return Proof::margins;
+  if (!exact_) {
+    const TriangleMesh& solid = mesh();
+    exact_ = stages_.run(
+        "exact_test", [&] { return check_sound(rounded_to_float(solid), "the pot in float32"); });
+  }
+  return exact_->map([] { return Proof::exact_test; });
+}
+
+Result<FileReport> RevolveFiles::stream(FileStore& store) {
+  constexpr auto kFormat = MeshFormat::stl_binary;
+  const double rounding = float_rounding_mm(rule_);
+  const auto proof = prove_rounded(rounding);
+  if (!proof) return tl::make_unexpected(proof.error());
+  const auto file =
+      stages_.run(stage_name("encode", kFormat), [&] { return stream_stl(rule_, store); });
+  if (!file) return tl::make_unexpected(file.error());
+  if (store.rereadable()) {
+    const auto verdict =
+        stages_.run(stage_name("verify", kFormat), [&] { return verify_stl(rule_, store); });
+    if (!verdict) return tl::make_unexpected(verdict.error());
+  }
+  SolidCertificate certificate = with_rounding(claims_, rule_, rounding);
+  certificate.proof = *proof;
+  certificate.bytes = file->bytes;
+  certificate.content_hash = file->hash;
+  return finish(kFormat, std::move(certificate), store);
+}
+
+/// The digits read back as the same float32. To readers that take them for doubles they are another
+/// half unit of the last place off, at most.
+Result<FileReport> RevolveFiles::write_text(MeshFormat format, FileStore& store) {
+  const double rounding = 2.0 * float_rounding_mm(rule_);
+  return prove_rounded(rounding).and_then([&](Proof proof) {
+    const TriangleMesh& solid = mesh();
+    const std::string bytes = stages_.run(stage_name("encode", format), [&] {
+      if (format == MeshFormat::stl_ascii) return encode_stl_ascii(solid, options_.name);
+      return options_.normals ? encode_shaded_obj(rule_, solid, options_.name)
+                              : encode_obj(solid, options_.name);
+    });
+    return certify_bytes(format, rounding, proof, bytes, store);
+  });
+}
+
+/// On the coarsest grid that the tolerance allows and the margins cover. Where no grid is fine
+/// enough for the margins, ever finer ones until the mesh as decoded passes the exact test, or the
+/// last reason why not.
+Result<FileReport> RevolveFiles::write_drc(FileStore& store) {
+  constexpr auto kFormat = MeshFormat::drc;
+  const double allowed = std::max(options_.tolerance_mm, float_rounding_mm(rule_));
+  const double safe = claims_.margins.safe_rounding_mm();
+  const TriangleMesh& solid = mesh();
+  const auto encode = [&](const DracoSettings& settings) {
+    return stages_.run(stage_name("encode", kFormat), [&] {
+      const DracoClaims claims = draco_claims(settings.max_error_mm);
+      return encode_drc(solid, settings, &claims);
+    });
+  };
+  DracoSettings settings;
+  settings.max_error_mm = std::min(allowed, safe);
+  const auto covered = encode(settings);
+  if (covered) return store_drc(*covered, settings.max_error_mm, store);
+
+  settings.max_error_mm = allowed;
+  Result<void> verdict = tl::make_unexpected(covered.error());
+  for (int bits = least_draco_bits(solid); bits <= kMaxDracoBits; bits += kDracoBitsStep) {
+    settings.min_bits = bits;
+    const auto bytes = encode(settings);
+    if (!bytes) return tl::make_unexpected(bytes.error());
+    verdict = stages_.run("exact_test", [&] {
+      return decode_drc(*bytes, as_written(kFormat)).and_then([&](const TriangleMesh& decoded) {
+        return check_sound(decoded, as_written(kFormat));
+      });
+    });
+    if (verdict) return certify_bytes(kFormat, allowed, Proof::exact_test, *bytes, store);
+  }
+  return tl::make_unexpected(verdict.error());
+}
+
+DracoClaims RevolveFiles::draco_claims(double reach_mm) const {
+  const SolidCertificate rounded = with_rounding(claims_, rule_, reach_mm);
+  return {.volume_mm3 = rounded.volume_mm3,
+          .volume_bound_mm3 = rounded.volume_bound_mm3,
+          .counted_volume_mm3 = rounded.counted_volume_mm3,
+          .vertex_error_mm = reach_mm};
+}
+
+Result<FileReport> RevolveFiles::store_drc(const std::string& bytes, double reach_mm,
+                                           FileStore& store) {
+  return certify_bytes(MeshFormat::drc, reach_mm, Proof::margins, bytes, store);
+}
+
+/// `rounding_mm` bounds the move of every vertex; Draco's is measured on the file as read again.
+Result<FileReport> RevolveFiles::certify_bytes(MeshFormat format, double rounding_mm, Proof proof,
+                                               const std::string& bytes, FileStore& store) {
+  const std::string name = as_written(format);
+  if (auto written =
+          stages_.run(stage_name("store", format), [&] { return write_in_parts(store, bytes); });
+      !written)
+    return tl::make_unexpected(written.error());
+  const auto farthest = stages_.run(stage_name("verify", format), [&] {
+    return read_again(store, bytes)
+        .and_then([&](const std::string& again) { return decode_mesh(again, format, name); })
+        .and_then([&](const TriangleMesh& decoded) {
+          return match_revolve(decoded, rule_, rounding_mm, name);
+        });
+  });
+  if (!farthest) return tl::make_unexpected(farthest.error());
+  const bool measured = format == MeshFormat::drc;
+  SolidCertificate certificate = with_rounding(claims_, rule_, measured ? *farthest : rounding_mm);
+  certificate.proof = proof;
+  certificate.bytes = bytes.size();
+  certificate.content_hash = hash_of(bytes_of(bytes));
+  return finish(format, std::move(certificate), store);
+}
+
+Result<FileReport> RevolveFiles::finish(MeshFormat format, SolidCertificate certificate,
+                                        FileStore& store) {
+  certificate.format = name_of(format);
+  FileReport report;
+  report.format = format;
+  report.bytes = certificate.bytes;
+  report.content_hash = certificate.content_hash;
+  report.max_error_mm = certificate.rounding_mm;
+  report.proof = certificate.proof;
+  report.read_again = store.rereadable();
+  report.certificate = std::move(certificate);
+  if (!options_.full_verification || !report.read_again) return report;
+  const auto checked =
+      stages_.run("full_verification", [&] { return check_stored(store, report.bytes, format); });
+  if (!checked) return tl::make_unexpected(checked.error());
+  report.full_verification = *checked;
+  return report;
+}
+
+}  // namespace clay::solid

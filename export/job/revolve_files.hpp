@@ -1,0 +1,47 @@
+#pragma once
+// One certified revolve, written in any format, read again, and certified as written.
+
+#include "claystack/core/result.hpp"
+#include "claystack/export/formats.hpp"
+#include "claystack/export/job.hpp"
+#include "export/job/stages.hpp"
+#include "export/solid/revolve_rule.hpp"
+
+#include <optional>
+#include <string>
+
+namespace clay::solid {
+
+class RevolveFiles {
+ public:
+  /// `claims` are those before any rounding.
+  RevolveFiles(const RevolveRule& rule, const SolidCertificate& claims,
+               const ExportOptions& options, Stages& stages)
+      : rule_(rule), claims_(claims), options_(options), stages_(stages) {}
+
+  Result<FileReport> write(MeshFormat format, FileStore& store);
+
+  /// False as long as every file could be streamed.
+  [[nodiscard]] bool made_mesh() const noexcept { return mesh_.has_value(); }
+
+ private:
+  const TriangleMesh& mesh();
+  Result<FileReport> stream(FileStore& store);
+  Result<FileReport> write_text(MeshFormat format, FileStore& store);
+  Result<FileReport> write_drc(FileStore& store);
+  [[nodiscard]] DracoClaims draco_claims(double reach_mm) const;
+  Result<FileReport> store_drc(const std::string& bytes, double reach_mm, FileStore& store);
+  Result<Proof> prove_rounded(double rounding_mm);
+  Result<FileReport> certify_bytes(MeshFormat format, double rounding_mm, Proof proof,
+                                   const std::string& bytes, FileStore& store);
+  Result<FileReport> finish(MeshFormat format, SolidCertificate certificate, FileStore& store);
+
+  const RevolveRule& rule_;
+  const SolidCertificate& claims_;
+  const ExportOptions& options_;
+  Stages& stages_;
+  std::optional<TriangleMesh> mesh_;
+  std::optional<Result<void>> exact_;  ///< verdict on the mesh in float32, once asked for
+};
+
+}  // namespace clay::solid

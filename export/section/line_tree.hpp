@@ -1,0 +1,50 @@
+#pragma once
+#include "claystack/export/section.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace clay::solid {
+
+struct LineEdge {
+  ProfilePoint from, to;
+};
+
+/// A line of a section in boxes of boxes, in the order of the line, to find what is near. Edges
+/// along the axis make no surface and are left out.
+class LineTree {
+ public:
+  explicit LineTree(const Polygon& line);
+
+  /// Squared distance [mm^2] of the nearest edge to `edge`, or `bound2` where none is nearer. 0
+  /// where they cross.
+  [[nodiscard]] double nearest2(const LineEdge& edge, double bound2) const;
+
+  /// The same of the nearest two edges, one of each line.
+  [[nodiscard]] double nearest2(const LineTree& other, double bound2) const;
+
+ private:
+  struct Box {
+    double rho_low, rho_high, y_low, y_high;
+  };
+  struct Node {
+    std::size_t level, index;
+  };
+
+  static double distance2(const Box& a, const Box& b);
+  static Box box_of(const LineEdge& edge);
+  static Box around(const Box& a, const Box& b);
+
+  [[nodiscard]] const Box& box(Node node) const { return levels_[node.level][node.index]; }
+  void descend(Node node, const Box& box, const LineEdge& edge, double& bound2) const;
+  void descend(Node node, const LineTree& other, Node across, double& bound2) const;
+  template <class Visit>
+  void for_each_edge(Node leaf, Visit visit) const;
+  template <class Visit>
+  void for_each_child(Node node, Visit visit) const;
+
+  std::vector<LineEdge> edges_;
+  std::vector<std::vector<Box>> levels_;  ///< [0] are the leaves, the last is the root
+};
+
+}  // namespace clay::solid

@@ -1,0 +1,48 @@
+#pragma once
+// Pieces of a stack, and the polygon that a knife along the axis leaves of each.
+
+#include "claystack/engine/clay.hpp"
+#include "claystack/export/section.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace clay::solid {
+
+/// The rings `first` to `last`, both included.
+struct RingRange {
+  std::size_t first = 0;
+  std::size_t last = 0;
+};
+
+/// What two rings, one above the other, share at their common level.
+enum class Contact { annulus, circle, none };
+[[nodiscard]] Contact contact_of(const Ring& lower, const Ring& upper) noexcept;
+
+/// Height [mm] of the bottom of ring `ring`; of the top of the stack, crown included, where there
+/// is no such ring.
+[[nodiscard]] double level_mm(const ClayStack& stack, std::size_t ring) noexcept;
+
+/// The rings parted wherever two of them share no annulus.
+[[nodiscard]] std::vector<RingRange> pieces_of(const ClayStack& stack, RingRange rings);
+
+/// The outer wall of a piece from its bottom to its top.
+[[nodiscard]] Polygon outer_wall_of(const ClayStack& stack, RingRange piece);
+
+/// The whole section of a piece, counterclockwise: its outer wall up, its bore or the axis down.
+/// Steps narrower than `min_step_mm` are levelled as `profile_of` says.
+[[nodiscard]] Polygon section_of(const ClayStack& stack, RingRange piece, double min_step_mm = 0.0);
+
+/// The section of the crown alone: foot and top of its outer wall, then of its bore or the axis.
+[[nodiscard]] Polygon crown_section_of(const ClayStack& stack);
+
+/// A stretch of a section that sweeps one shell: from pole to pole where edges on the axis cut
+/// the polygon, all round where it never meets the axis.
+struct Chain {
+  std::size_t first = 0;  ///< vertex of the polygon
+  std::size_t edges = 0;
+  bool round = false;
+};
+[[nodiscard]] std::vector<Chain> chains_of(const Polygon& polygon);
+
+}  // namespace clay::solid

@@ -1,0 +1,107 @@
+#include "export/smoothing/lip_fillet.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace clay::solid {
+namespace {
+
+constexpr double kShrink = 0.9;      ///< of the radius, until the arcs fit
+constexpr double kLeastFlat = 1e-3;  ///< between the arcs, in radii
+constexpr double kHalf = 0.499;      ///< what leaves a flat
+
+/// A circle under the top that touches the wall from within the clay.
+struct Fillet {
+  double centre_rho = std::numeric_limits<double>::max();
+  ProfilePoint touch;
+  std::size_t below = 0;  ///< points of the line from the bottom to the touch
+};
+
+/// The circle nearest to the clay's side of all those that touch an edge or a bend. Radii are
+/// measured toward the open air, so that clay always lies at the smaller ones.
+class FilletSearch {
+ public:
+  FilletSearch(const Polygon& line, double radius_mm)
+      : line_(line), radius_(radius_mm), centre_y_(line.back().y - radius_mm) {}
+
+  Fillet run() {
+    for (std::size_t i = line_.size(); i-- > 0;) {
+      try_bend(i);
+      if (i > 0) try_edge(i - 1);
+      if (line_[i].y < centre_y_ - radius_) break;
+    }
+    return best_;
+  }
+
+ private:
+  void keep(double centre_rho, const ProfilePoint& touch, std::size_t below) {
+    if (centre_rho < best_.centre_rho) best_ = {centre_rho, touch, below};
+  }
+
+  void try_bend(std::size_t i) {
+    const double up = line_[i].y - centre_y_;
+    if (std::abs(up) > radius_) return;
+    keep(line_[i].rho - std::sqrt(radius_ * radius_ - up * up), line_[i], i);
+  }
+
+  void try_edge(std::size_t i) {
+    const ProfilePoint &a = line_[i], &b = line_[i + 1];
+    const double length = std::hypot(b.rho - a.rho, b.y - a.y);
+    const double out_rho = (b.y - a.y) / length, out_y = (a.rho - b.rho) / length;
+    const double y = centre_y_ + radius_ * out_y;
+    if (!(a.y < y && y < b.y)) return;
+    const double rho = a.rho + (b.rho - a.rho) * (y - a.y) / (b.y - a.y);
+    keep(rho - radius_ * out_rho, {rho, y}, i + 1);
+  }
+
+  const Polygon& line_;
+  double radius_;
+  double centre_y_;
+  Fillet best_;
+};
+
+Polygon mirrored(Polygon line) {
+  for (ProfilePoint& p : line) p.rho = -p.rho;
+  return line;
+}
+
+Polygon filleted(const Polygon& line, double radius_mm, double tolerance_mm) {
+  const Fillet fillet = FilletSearch(line, radius_mm).run();
+  const double top = line.back().y, centre_y = top - radius_mm;
+  Polygon result(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(fillet.below));
+  result.push_back(fillet.touch);
+  const double begin = std::atan2(fillet.touch.y - centre_y, fillet.touch.rho - fillet.centre_rho);
+  const double turn = 0.5 * std::numbers::pi - begin;
+  const double step = 2.0 * std::acos(1.0 - std::min(tolerance_mm / radius_mm, 0.5));
+  const int steps = std::max(1, static_cast<int>(std::ceil(turn / step)));
+  for (int k = 1; k < steps; ++k) {
+    const double angle = begin + turn * k / steps;
+    result.push_back(
+        {fillet.centre_rho + radius_mm * std::cos(angle), centre_y + radius_mm * std::sin(angle)});
+  }
+  result.push_back({fillet.centre_rho, top});
+  return result;
+}
+
+}  // namespace
+
+FilletedLip with_lip_fillet(const WallLines& lines, double radius_mm, double tolerance_mm) {
+  const bool bored = lines.bore.back().rho > 0.0;
+  for (;; radius_mm *= kShrink) {
+    FilletedLip lip{{filleted(lines.outer, radius_mm, tolerance_mm), lines.bore}, radius_mm};
+    if (bored) lip.lines.bore = mirrored(filleted(mirrored(lines.bore), radius_mm, tolerance_mm));
+    const double flat = lip.lines.outer.back().rho - lip.lines.bore.back().rho;
+    if (flat > kLeastFlat * radius_mm) return lip;
+  }
+}
+
+double largest_fillet_mm(const PieceWalls& piece, const Cuts& cuts, const WallLines& lines) {
+  std::size_t run = piece.size() - 1;
+  while (cuts.outer[run] == 0 && cuts.bore[run] == 0) --run;
+  const double width = lines.outer.back().rho - lines.bore.back().rho;
+  return kHalf * std::min(width, piece.level.back() - piece.level[run]);
+}
+
+}  // namespace clay::solid

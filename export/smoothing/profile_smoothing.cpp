@@ -1,0 +1,116 @@
+#include "claystack/export/smoothing.hpp"
+
+#include "claystack/export/proof.hpp"
+#include "core/text.hpp"
+#include "export/section/stack_section.hpp"
+#include "export/section/swept_volume.hpp"
+#include "export/smoothing/piece_smoother.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace clay::solid {
+namespace {
+
+/// The error, or nothing.
+Result<void> check_range(const std::string& option, double value, bool zero_allowed) {
+  if (std::isfinite(value) && (value > 0.0 || (zero_allowed && value == 0.0))) return {};
+  return failure(ErrorKind::bad_input, option + ": expected " +
+                                           (zero_allowed ? "0 mm or more" : "more than 0 mm") +
+                                           ", found " + in_mm(value) + " mm");
+}
+
+Result<void> check(const SmoothingOptions& options) {
+  return check_range("tolerance", options.tolerance_mm, false)
+      .and_then([&] { return check_range("least wall", options.min_wall_mm.value_or(0.0), true); })
+      .and_then([&] { return check_range("lip fillet", options.lip_fillet_mm, true); })
+      .and_then([&] {
+        return check_range("overshoot limit", options.overshoot_limit_mm.value_or(0.0), true);
+      })
+      .and_then([&]() -> Result<void> {
+        if (options.mode == Smoothing::fair || options.lip_fillet_mm == 0.0) return {};
+        return failure(ErrorKind::bad_input,
+                       "lip fillet: expected fair smoothing, found " +
+                           std::string(name_of(options.mode)) +
+                           (options.mode == Smoothing::exact
+                                ? ", in which the top rings keep the clay that a fillet takes"
+                                : ", which keeps the steps as they are"));
+      });
+}
+
+void smooth_pieces(const ClayStack& stack, const SmoothingOptions& options,
+                   SmoothedProfile& result) {
+  for (std::size_t k = 0; k < result.section.shapes.size(); ++k) {
+    const PieceShape& shape = result.section.shapes[k];
+    SmoothedPiece piece =
+        smooth_piece(walls_of(stack, {shape.first_ring, shape.last_ring}), options);
+    result.section.profile.pieces[k] = std::move(piece.section);
+    result.guard.insert(result.guard.end(), piece.guard.begin(), piece.guard.end());
+    result.overshoot_mm = std::max(result.overshoot_mm, piece.overshoot_mm);
+    result.taken_mm = std::max(result.taken_mm, piece.taken_mm);
+    result.lip_fillet_mm = std::max(result.lip_fillet_mm, piece.lip_fillet_mm);
+    result.max_ring_error_relative =
+        std::max(result.max_ring_error_relative, piece.max_ring_error_relative);
+  }
+}
+
+/// Each piece is certified alone. What is left is that a scaled wall meets the next piece at the
+/// level where it begins: then both keep their steps.
+void keep_pieces_apart(const ClayStack& stack, SmoothedProfile& result) {
+  std::vector<Polygon>& pieces = result.section.profile.pieces;
+  if (pieces.size() < 2 || certify(result.section.profile)) return;
+  const auto rings = [&](std::size_t k) {
+    return RingRange{result.section.shapes[k].first_ring, result.section.shapes[k].last_ring};
+  };
+  for (std::size_t k = 1; k < pieces.size(); ++k) {
+    if (certify({{pieces[k - 1], pieces[k]}})) continue;
+    for (const std::size_t kept : {k - 1, k}) pieces[kept] = section_of(stack, rings(kept));
+    result.guard.push_back({level_mm(stack, rings(k - 1).first), level_mm(stack, rings(k).last + 1),
+                            KeptFor::certificate, 0.0, 0.0});
+  }
+}
+
+}  // namespace
+
+std::string_view name_of(Smoothing smoothing) noexcept {
+  switch (smoothing) {
+    case Smoothing::none:
+      return "none";
+    case Smoothing::fair:
+      return "fair";
+    default:
+      return "exact";
+  }
+}
+
+std::string_view name_of(KeptFor reason) noexcept {
+  switch (reason) {
+    case KeptFor::wall:
+      return "wall";
+    case KeptFor::overshoot:
+      return "overshoot";
+    case KeptFor::volume:
+      return "volume";
+    default:
+      return "certificate";
+  }
+}
+
+Result<SmoothedProfile> smooth_profile_of(const ClayStack& stack, const SmoothingOptions& options) {
+  if (auto sound = check(options); !sound) return tl::make_unexpected(sound.error());
+  return profile_of(stack).map([&](StackProfile steps) {
+    SmoothedProfile result;
+    result.section = std::move(steps);
+    if (options.mode != Smoothing::none) {
+      smooth_pieces(stack, options, result);
+      keep_pieces_apart(stack, result);
+    }
+    const double counted = stack.volume_mm3();
+    result.volume_error_relative = std::abs(volume_of(result.section.profile) - counted) / counted;
+    return result;
+  });
+}
+
+}  // namespace clay::solid

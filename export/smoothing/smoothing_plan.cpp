@@ -1,0 +1,141 @@
+#include "export/smoothing/smoothing_plan.hpp"
+
+#include "core/cancel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace clay::solid {
+namespace {
+constexpr char kMaxRefinement = 4;
+constexpr double kRefinementRatio = 0.125;
+}  // namespace
+
+SmoothingPlan::SmoothingPlan(const PieceWalls& piece)
+    : piece_(piece),
+      cuts_(corners_of(piece)),
+      refinement_(piece.size(), 0),
+      next_(piece.size() + 1),
+      thinned_(piece),
+      jumps_(piece) {
+  std::iota(next_.begin(), next_.end(), std::size_t{0});
+}
+
+std::vector<double> SmoothingPlan::tolerances(double share_mm) const {
+  std::vector<double> result;
+  result.reserve(refinement_.size());
+  for (const char times : refinement_)
+    result.push_back(times == 0                ? share_mm
+                     : times == kMaxRefinement ? 0.0
+                                               : share_mm * std::pow(kRefinementRatio, times));
+  return result;
+}
+
+/// What makes a wall thin is no farther away than the wall is thick: in rings.
+std::size_t SmoothingPlan::reach_of(double wall_mm) const {
+  const double rings = wall_mm / piece_.ring_height_mm + 2.0;
+  return rings < static_cast<double>(piece_.size()) ? static_cast<std::size_t>(rings)
+                                                    : piece_.size();
+}
+
+bool SmoothingPlan::refine(const std::vector<ThinRing>& thin) {
+  bool more = false;
+  std::size_t done = 0;
+  for (const auto& [ring, wall_mm] : thin) {
+    const std::size_t reach = reach_of(wall_mm);
+    const std::size_t end = std::min(piece_.size(), ring + reach + 1);
+    for (std::size_t i = std::max(done, ring - std::min(ring, reach)); i < end; ++i)
+      if (refinement_[i] < kMaxRefinement) ++refinement_[i], more = true;
+    done = std::max(done, end);
+  }
+  return more;
+}
+
+bool SmoothingPlan::refine_everywhere() {
+  bool more = false;
+  for (char& times : refinement_)
+    if (times < kMaxRefinement) ++times, more = true;
+  return more;
+}
+
+bool SmoothingPlan::open(const WallRings& wall, const CutFlags& cut, std::size_t k) const {
+  return cut[k] == 0 && std::abs(wall.radius[k] - wall.radius[k - 1]) >= piece_.least_step_mm;
+}
+
+bool SmoothingPlan::open(std::size_t k) const {
+  return open(piece_.outer, cuts_.outer, k) || open(piece_.bore, cuts_.bore, k);
+}
+
+/// The first open interface from k on, or the top. Shortens the way for the next search.
+std::size_t SmoothingPlan::next_open(std::size_t k) {
+  std::size_t end = k;
+  while (end < piece_.size() && (next_[end] != end || !open(end))) {
+    if (next_[end] == end) ++next_[end];
+    end = next_[end];
+  }
+  while (k != end) {
+    const std::size_t next = next_[k];
+    next_[k] = end;
+    k = next;
+  }
+  return end;
+}
+
+void SmoothingPlan::cut(std::size_t k) {
+  if (open(piece_.outer, cuts_.outer, k)) cuts_.outer[k] = 1;
+  if (open(piece_.bore, cuts_.bore, k)) cuts_.bore[k] = 1;
+}
+
+bool SmoothingPlan::keep_steps(const ThinRing& thin) {
+  step_of_loop();
+  const std::size_t largest = reach_of(thin.wall_mm);
+  for (std::size_t reach = 0;; reach = std::min(2 * reach + 1, largest)) {
+    const std::size_t first = std::max<std::size_t>(1, thin.ring - std::min(thin.ring, reach));
+    const std::size_t last = std::min(piece_.size() - 1, thin.ring + 1 + reach);
+    bool more = false;
+    for (std::size_t k = next_open(first); k <= last; k = next_open(k)) {
+      cut(k);
+      thinned_.add(k, thin.wall_mm);
+      more = true;
+    }
+    if (more || reach == largest) return more;
+  }
+}
+
+bool SmoothingPlan::keep_steps(const std::vector<ThinRing>& thin) {
+  bool more = false;
+  for (const ThinRing& ring : thin)
+    if (keep_steps(ring)) more = true;
+  return more;
+}
+
+/// What the chords between two middles lose against the steps, over pi: a step of R costs h/6 of
+/// its square, and one of the bore gains that.
+double SmoothingPlan::chord_loss(std::size_t k) const {
+  const auto step2 = [k](const WallRings& wall, const CutFlags& cut) {
+    const double step = cut[k] == 0 ? wall.radius[k] - wall.radius[k - 1] : 0.0;
+    return step * step;
+  };
+  return piece_.ring_height_mm / 6.0 *
+         (step2(piece_.outer, cuts_.outer) - step2(piece_.bore, cuts_.bore));
+}
+
+bool SmoothingPlan::keep_jumps(double excess_over_pi, double moved_mm) {
+  std::vector<std::pair<double, std::size_t>> jumps;
+  for (std::size_t k = next_open(1); k < piece_.size(); k = next_open(k + 1))
+    if (const double loss = std::copysign(1.0, excess_over_pi) * chord_loss(k); loss > 0.0)
+      jumps.emplace_back(loss, k);
+  std::sort(jumps.rbegin(), jumps.rend());
+  double left = std::abs(excess_over_pi);
+  for (const auto& [loss, k] : jumps) {
+    if (left <= 0.0) break;
+    cut(k);
+    jumps_.add(k, -moved_mm);
+    left -= loss;
+  }
+  return !jumps.empty();
+}
+
+}  // namespace clay::solid

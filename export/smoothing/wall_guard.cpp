@@ -1,0 +1,160 @@
+#include "export/smoothing/wall_guard.hpp"
+
+#include "core/cancel.hpp"
+#include "export/section/line_tree.hpp"
+#include "export/smoothing/fair_wall.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clay::solid {
+namespace {
+
+/// Heights where clay reaches the axis.
+struct SolidStretch {
+  double bottom = 0.0, top = 0.0;
+};
+
+std::vector<SolidStretch> solid_stretches(const PieceWalls& piece) {
+  std::vector<SolidStretch> stretches;
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    if (piece.bore.radius[i] > 0.0) continue;
+    if (i > 0 && piece.bore.radius[i - 1] == 0.0)
+      stretches.back().top = piece.level[i + 1];
+    else
+      stretches.push_back({piece.level[i], piece.level[i + 1]});
+  }
+  return stretches;
+}
+
+ProfilePoint point_at(const LineEdge& edge, double y) {
+  if (y <= edge.from.y) return edge.from;
+  if (y >= edge.to.y) return edge.to;
+  const double t = (y - edge.from.y) / (edge.to.y - edge.from.y);
+  return {edge.from.rho + t * (edge.to.rho - edge.from.rho), y};
+}
+
+/// The part of an edge between two heights. False when only an end of a rising edge touches them.
+bool clip(LineEdge& edge, double bottom, double top) {
+  if (edge.from.y == edge.to.y) return bottom <= edge.from.y && edge.from.y <= top;
+  if (edge.to.y <= bottom || top <= edge.from.y) return false;
+  edge = {point_at(edge, bottom), point_at(edge, top)};
+  return true;
+}
+
+/// Calls `visit(first, end, edge)` for every edge of a wall and the rings whose heights it meets.
+/// Edges along the axis are no wall.
+template <class Visit>
+void for_each_edge(const PieceWalls& piece, const Polygon& line, Visit visit) {
+  std::size_t first = 0;
+  for (std::size_t e = 0; e + 1 < line.size(); ++e) {
+    step_of_loop();
+    const LineEdge edge{line[e], line[e + 1]};
+    while (first < piece.size() && piece.level[first + 1] < edge.from.y) ++first;
+    std::size_t end = first;
+    while (end < piece.size() && piece.level[end] <= edge.to.y) ++end;
+    if (edge.from.rho > 0.0 || edge.to.rho > 0.0) visit(first, end, edge);
+  }
+}
+
+/// Calls `visit(ring, edge)` for every edge of a wall, clipped to the heights of each flagged ring.
+template <class Visit>
+void for_each_clipped(const PieceWalls& piece, const Polygon& line, const RingFlags& rings,
+                      Visit visit) {
+  for_each_edge(piece, line, [&](std::size_t first, std::size_t end, const LineEdge& whole) {
+    for (std::size_t i = first; i < end; ++i)
+      if (LineEdge edge = whole; rings[i] != 0 && clip(edge, piece.level[i], piece.level[i + 1]))
+        visit(i, edge);
+  });
+}
+
+void keep_least(double& least, double found) { least = std::min(least, found); }
+
+/// Twice the least radius of the outer wall where clay reaches the axis.
+double least_across(const PieceWalls& piece, const Polygon& outer, double least) {
+  const std::vector<SolidStretch> stretches = solid_stretches(piece);
+  auto begin = stretches.begin();
+  for (std::size_t e = 0; e + 1 < outer.size(); ++e) {
+    while (begin != stretches.end() && begin->top < outer[e].y) ++begin;
+    for (auto it = begin; it != stretches.end() && it->bottom <= outer[e + 1].y; ++it)
+      if (LineEdge edge{outer[e], outer[e + 1]}; clip(edge, it->bottom, it->top))
+        keep_least(least, 2.0 * std::min(edge.from.rho, edge.to.rho));
+  }
+  return least;
+}
+
+double through_clay(const LineTree& outer, const LineTree& bore, double bound) {
+  return std::sqrt(outer.nearest2(bore, bound * bound));
+}
+
+/// What the search for the least wall starts from: the walls along the radius, treads included.
+double least_radial(const PieceWalls& piece) {
+  const auto &outer = piece.outer.radius, &bore = piece.bore.radius;
+  double least = std::numeric_limits<double>::max();
+  const auto add = [&](double outside, double inside) {
+    keep_least(least, inside > 0.0 ? outside - inside : 2.0 * outside);
+  };
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    add(outer[i], bore[i]);
+    if (i > 0) add(std::min(outer[i - 1], outer[i]), std::max(bore[i - 1], bore[i]));
+  }
+  return least;
+}
+
+}  // namespace
+
+WallLines stepped_lines(const PieceWalls& piece) {
+  return {stepped_wall(piece, piece.outer), stepped_wall(piece, piece.bore)};
+}
+
+double least_own_wall_mm(const PieceWalls& piece) {
+  const WallLines lines = stepped_lines(piece);
+  double least = least_across(piece, lines.outer, least_radial(piece));
+  for (const SolidStretch& stretch : solid_stretches(piece))
+    keep_least(least, stretch.top - stretch.bottom);
+  return through_clay(LineTree(lines.outer), LineTree(lines.bore), least);
+}
+
+bool thinner_than(const PieceWalls& piece, const WallLines& lines, double limit_mm) {
+  const double bound = limit_mm * kWallRounding;
+  return least_across(piece, lines.outer, bound) < bound ||
+         LineTree(lines.outer).nearest2(LineTree(lines.bore), bound * bound) < bound * bound;
+}
+
+RingFlags rings_near_thin(const PieceWalls& piece, const WallLines& lines, double limit_mm) {
+  const LineTree outer(lines.outer), bore(lines.bore);
+  const double bound = limit_mm * kWallRounding, bound2 = bound * bound;
+  RingFlags rings(piece.size(), 0);
+  const auto flag = [&](std::size_t first, std::size_t end) {
+    std::fill(rings.begin() + static_cast<std::ptrdiff_t>(first),
+              rings.begin() + static_cast<std::ptrdiff_t>(end), char{1});
+  };
+  for_each_edge(piece, lines.bore, [&](std::size_t first, std::size_t end, const LineEdge& edge) {
+    if (outer.nearest2(edge, bound2) < bound2) flag(first, end);
+  });
+  for_each_edge(piece, lines.outer, [&](std::size_t first, std::size_t end, const LineEdge& edge) {
+    if (2.0 * std::min(edge.from.rho, edge.to.rho) < bound || bore.nearest2(edge, bound2) < bound2)
+      flag(first, end);
+  });
+  return rings;
+}
+
+std::vector<double> walls_by_ring_mm(const PieceWalls& piece, const WallLines& lines, double cap_mm,
+                                     const RingFlags& rings) {
+  const LineTree outer(lines.outer), bore(lines.bore);
+  std::vector<double> walls(piece.size(), cap_mm * cap_mm);
+  for_each_clipped(piece, lines.bore, rings, [&](std::size_t i, const LineEdge& edge) {
+    walls[i] = outer.nearest2(edge, walls[i]);
+  });
+  for_each_clipped(piece, lines.outer, rings, [&](std::size_t i, const LineEdge& edge) {
+    walls[i] = bore.nearest2(edge, walls[i]);
+    if (piece.bore.radius[i] > 0.0) return;
+    const double across = 2.0 * std::min(edge.from.rho, edge.to.rho);
+    keep_least(walls[i], across * across);
+  });
+  for (double& wall : walls) wall = std::sqrt(wall);
+  return walls;
+}
+
+}  // namespace clay::solid

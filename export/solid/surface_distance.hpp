@@ -1,0 +1,10 @@
+#pragma once
+#include "claystack/export/solid.hpp"
+
+namespace clay::solid {
+
+/// The largest distance [mm] from a vertex of either mesh to the surface of the other. Each has a
+/// triangle with area; points that no triangle uses count too.
+[[nodiscard]] double surface_distance(const TriangleMesh& a, const TriangleMesh& b);
+
+}  // namespace clay::solid

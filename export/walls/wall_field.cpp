@@ -1,0 +1,119 @@
+#include "claystack/export/walls.hpp"
+#include "export/walls/wall_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clay::solid {
+namespace {
+
+/// Which edges of a polygon are what. Counterclockwise, the outer wall runs from the outermost of
+/// the lowest vertices to the outermost of the highest.
+class FaceNames {
+ public:
+  explicit FaceNames(const Polygon& polygon) : count_(polygon.size()) {
+    const auto higher = [](const ProfilePoint& a, const ProfilePoint& b) {
+      return a.y != b.y ? a.y < b.y : a.rho < b.rho;
+    };
+    const auto lower = [](const ProfilePoint& a, const ProfilePoint& b) {
+      return a.y != b.y ? a.y > b.y : a.rho < b.rho;
+    };
+    const auto foot = std::max_element(polygon.begin(), polygon.end(), lower);
+    const auto rim = std::max_element(polygon.begin(), polygon.end(), higher);
+    foot_ = static_cast<std::size_t>(foot - polygon.begin());
+    rim_ = static_cast<std::size_t>(rim - polygon.begin());
+    low_ = foot->y, high_ = rim->y;
+  }
+
+  [[nodiscard]] WallFace of(const Edge& edge, std::size_t vertex) const {
+    if (edge.from.y == low_ && edge.to.y == low_) return WallFace::foot;
+    if (edge.from.y == high_ && edge.to.y == high_) return WallFace::rim;
+    if ((vertex + count_ - foot_) % count_ < (rim_ + count_ - foot_) % count_)
+      return WallFace::outer;
+    if (std::abs(edge.inward.y) <= std::abs(edge.inward.x)) return WallFace::bore;
+    return edge.inward.y < 0.0 ? WallFace::floor : WallFace::lid;
+  }
+
+ private:
+  std::size_t count_, foot_ = 0, rim_ = 0;
+  double low_ = 0.0, high_ = 0.0;
+};
+
+ProfilePoint place(const Vec2& v) { return {v.x, v.y}; }
+
+class Field {
+ public:
+  Field(const Profile& profile, double spacing_mm)
+      : profile_(profile), tree_(profile, 1.0), spacing_mm_(spacing_mm) {}
+
+  std::vector<WallSample> run() {
+    stride_ = (sample_count() - 1) / kMaxWallSamples + 1;
+    std::size_t node = 0;
+    for (std::uint32_t piece = 0; piece < tree_.piece_count(); ++piece) {
+      const AxisClay axis(tree_, piece);
+      const FaceNames names(profile_.pieces[piece]);
+      arc_mm_ = 0.0;
+      for (; node < tree_.nodes().size(); ++node) {
+        const EdgeNode& leaf = tree_.nodes()[node];
+        if (leaf.leaves > 1) continue;
+        if (leaf.first_piece != piece) break;
+        for (const Face& face : LeafFaces(tree_, leaf)) add_samples(face, axis, names);
+      }
+    }
+    return std::move(samples_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t parts(const Edge& edge) const {
+    const double count = std::ceil(glm::length(edge.to - edge.from) / spacing_mm_);
+    return static_cast<std::size_t>(std::clamp(count, 1.0, kMostParts));
+  }
+
+  [[nodiscard]] std::size_t sample_count() const {
+    std::size_t count = 0;
+    for (std::uint32_t piece = 0; piece < tree_.piece_count(); ++piece)
+      for (std::size_t i = 0; i < profile_.pieces[piece].size(); ++i) {
+        const Edge edge =
+            tree_.edge(tree_.first_edge(piece) + static_cast<std::uint32_t>(i), piece);
+        if (!edge.on_axis()) count += parts(edge);
+      }
+    return std::max<std::size_t>(count, 1);
+  }
+
+  void add_samples(const Face& face, const AxisClay& axis, const FaceNames& names) {
+    const Vec2 along = face.edge.to - face.edge.from;
+    const std::size_t count = parts(face.edge);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (met_++ % stride_ != 0) continue;
+      const double t = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
+      add_sample(face, face.edge.from + t * along, axis);
+      samples_.back().arc_mm = arc_mm_ + t * glm::length(along);
+      samples_.back().face = names.of(face.edge, face.edge.index - tree_.first_edge(face.piece));
+    }
+    arc_mm_ += glm::length(along);
+  }
+
+  void add_sample(const Face& face, const Vec2& at, const AxisClay& axis) {
+    const Ball ball = PlaceSearch(tree_, face, at).run(axis);
+    const bool found = std::isfinite(ball.diameter);
+    samples_.push_back(
+        {ball.diameter, place(at), place(found ? ball.to : at), 0.0, face.piece, WallFace::outer});
+  }
+
+  static constexpr double kMostParts = 1e9;  // of one edge: the count of all stays exact
+
+  const Profile& profile_;
+  EdgeTree tree_;
+  double spacing_mm_;
+  std::size_t stride_ = 1, met_ = 0;
+  double arc_mm_ = 0.0;
+  std::vector<WallSample> samples_;
+};
+
+}  // namespace
+
+std::vector<WallSample> wall_field(const Profile& profile, double spacing_mm) {
+  return Field(profile, spacing_mm).run();
+}
+
+}  // namespace clay::solid

@@ -1,0 +1,47 @@
+#pragma once
+// Searches for the least ball: of all pairs of faces, or of one place.
+
+#include "export/walls/tangent_ball.hpp"
+
+namespace clay::solid {
+
+/// Of all pairs of faces of the same piece.
+class WallSearch {
+ public:
+  explicit WallSearch(const EdgeTree& tree) : tree_(tree) {}
+
+  [[nodiscard]] double bound(const EdgeNode& a, const EdgeNode& b) const;
+  [[nodiscard]] double best() const { return least_.diameter; }
+  void leaves(const EdgeNode& a, const EdgeNode& b);
+
+  /// Looks across the axis as well.
+  void across(const AxisClay& axis, std::uint32_t piece, std::size_t node = 0);
+  [[nodiscard]] const Ball& least() const { return least_; }
+
+ private:
+  void compare(const Face& a, const Face& b);
+
+  const EdgeTree& tree_;
+  Ball least_;
+};
+
+/// Of the balls that touch a face at one point of it.
+class PlaceSearch {
+ public:
+  PlaceSearch(const EdgeTree& tree, const Face& face, const Vec2& at)
+      : tree_(tree), face_(face), at_(at) {}
+
+  [[nodiscard]] Ball run(const AxisClay& axis);
+
+  [[nodiscard]] double bound(const EdgeNode& place, const EdgeNode& node) const;
+  [[nodiscard]] double best() const { return least_.diameter; }
+  void leaves(const EdgeNode& place, const EdgeNode& leaf);
+
+ private:
+  const EdgeTree& tree_;
+  const Face& face_;
+  Vec2 at_;
+  Ball least_;
+};
+
+}  // namespace clay::solid

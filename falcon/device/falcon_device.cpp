@@ -1,0 +1,233 @@
+#include "claystack/falcon/falcon_device.hpp"
+
+#include "falcon/device/firmware.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+namespace clay::falcon {
+namespace {
+
+constexpr double kMmPerM = 1e3;
+constexpr double kStatedForceN = 8.9;  // 2 lbf, on Novint's box
+constexpr double kWorkspaceMm = 48.0;  // largest ball that all encoders count, kinematics.hpp
+// Motors 0, lights off. A constant, so that a signal handler can send it.
+constexpr std::uint8_t kZeroFrame[] = {'<', 'A', 'A', 'A', 'A', 'A', 'A', 'A',
+                                       'A', 'A', 'A', 'A', 'A', 'A', 'A', '>'};
+// A transport that has less room than this left may have stopped for it.
+constexpr std::size_t kMostInPiece = 64;
+constexpr int kQuestions = 10;
+constexpr std::int64_t kAnswerUs = 20'000;  // ten times what a frame and its answer take
+
+bool within(double value, double low, double high) { return value >= low && value <= high; }
+
+DeviceInfo info_of(const Transport& line, const FalconSettings& settings) {
+  return {"Novint Falcon",        line.describe(),          true,
+          settings.force_limit_n, glm::dvec3(kWorkspaceMm), 1000.0};
+}
+
+/// What is not finite stays so, or is 0: `motor_counts` makes it none.
+glm::dvec3 limited(const glm::dvec3& force_n, double limit_n) {
+  const double length = glm::length(force_n);
+  return length > limit_n ? limit_n / length * force_n : force_n;
+}
+
+}  // namespace
+
+FalconDevice::FalconDevice(std::unique_ptr<Transport> line, const FalconSettings& settings)
+    : line_(std::move(line)),
+      settings_(settings),
+      kinematics_(settings.geometry),
+      info_(info_of(*line_, settings)),
+      position_m_(settings.centre_m) {}
+
+FalconDevice::~FalconDevice() {
+  stop();
+  line_->close();
+}
+
+DeviceResult<void> FalconDevice::check_settings() const {
+  const auto refuse = [](const char* setting) {
+    return device_failure(DeviceFault::bad_setting, std::string("falcon: expected ") + setting);
+  };
+  if (!within(settings_.motor_counts_per_nm, 1.0, 1e6))
+    return refuse("motor_counts_per_nm from 1 to 1e6");
+  if (!within(settings_.force_limit_n, 0.0, kStatedForceN))
+    return refuse("force_limit_n from 0 to 8.9");
+  if (settings_.silence_us < 10'000) return refuse("silence_us of at least 10000");
+  if (!kinematics_.jacobian(settings_.centre_m))
+    return refuse("centre_m that the arms of this geometry reach");
+  return {};
+}
+
+DeviceResult<void> FalconDevice::open() {
+  line_->close();
+  reader_ = FrameReader();
+  counters_ = {};
+  position_m_ = settings_.centre_m;
+  unanswered_since_us_ = 0;
+  sample_ = {};
+  motors_ = {};
+  auto opened = start();
+  if (!opened) {
+    line_->close();
+    refusal_ = opened.error();
+    if (sample_.state != DeviceState::needs_firmware) sample_.state = DeviceState::closed;
+  }
+  stopped_.store(!opened);
+  return opened;
+}
+
+DeviceResult<void> FalconDevice::start() {
+  if (auto checked = check_settings(); !checked) return checked;
+  if (auto opened = line_->open(); !opened) return opened;
+  if (auto set = line_->set_mode(LineMode::running); !set) return set;
+  auto answered = answers();
+  if (!answered) return tl::make_unexpected(answered.error());
+  if (*answered) return {};
+
+  sample_.state = DeviceState::needs_firmware;
+  const std::string silent = info_.place + ": no answer to frames";
+  if (!line_->loads_firmware())
+    return device_failure(DeviceFault::no_answer, silent,
+                          "switch on the Falcon's power supply and check that the bridge has "
+                          "loaded its firmware");
+  if (settings_.firmware_path.empty()) {
+    if (auto powered = greet_loader(*line_); !powered) return powered;
+    return device_failure(DeviceFault::no_firmware,
+                          info_.place + ": it has power, and no firmware since it was switched on",
+                          "name the firmware file that came with its driver (--firmware)");
+  }
+  const auto firmware = read_firmware(settings_.firmware_path);
+  if (!firmware) return tl::make_unexpected(firmware.error());
+  if (auto loaded = load_firmware(*line_, *firmware); !loaded) return loaded;
+  answered = answers();
+  if (!answered) return tl::make_unexpected(answered.error());
+  if (*answered) return {};
+  return device_failure(DeviceFault::no_answer,
+                        silent + " with the firmware of " + settings_.firmware_path + " loaded",
+                        "switch its power supply off and on, and try another firmware file");
+}
+
+/// Whether frames come back, to frames of zero force.
+DeviceResult<bool> FalconDevice::answers() {
+  for (int i = 0; i < kQuestions; ++i) {
+    const WireStatus sent = line_->write(kZeroFrame);
+    std::array<std::uint8_t, 64> bytes{};
+    const Received got = line_->read(bytes, kAnswerUs);
+    if (sent == WireStatus::unplugged || got.status == WireStatus::unplugged)
+      return device_failure(DeviceFault::unplugged, info_.place + ": unplugged while it was opened",
+                            "plug it in again");
+    if (got.status != WireStatus::ok)
+      return device_failure(DeviceFault::transfer_failed,
+                            info_.place + ": a transfer failed while it was opened");
+    take(std::span(bytes).first(got.size), got.time_us);
+    if (counters_.frames > 0) return true;
+  }
+  return false;
+}
+
+void FalconDevice::fail(DeviceFault fault) noexcept {
+  fault_ = fault;
+  sample_.state = DeviceState::fault;
+  sample_.fresh = false;
+}
+
+void FalconDevice::take(std::span<const std::uint8_t> bytes, std::int64_t time_us) noexcept {
+  while (const auto frame = reader_.next(bytes)) accept(*frame, time_us);
+}
+
+void FalconDevice::accept(const StateFrame& frame, std::int64_t time_us) noexcept {
+  ++counters_.frames;
+  unanswered_since_us_ = 0;
+  const bool was_ready = sample_.state == DeviceState::ready;
+  sample_.state = frame.all_homed() ? DeviceState::ready : DeviceState::needs_homing;
+  // Homing moves the origin: the last position is no longer near.
+  const bool moved = was_ready != frame.all_homed();
+  const glm::dvec3 angles = kinematics_.angles_of(frame.encoders);
+  auto position = kinematics_.forward(angles, moved ? settings_.centre_m : position_m_);
+  if (!position) position = kinematics_.forward(angles, settings_.centre_m);
+  if (!position) {
+    ++counters_.without_pose;
+    return;
+  }
+  position_m_ = *position;
+  sample_.position_mm = kMmPerM * (position_m_ - settings_.centre_m);
+  sample_.buttons = frame.buttons;
+  sample_.time_us = time_us;
+  sample_.fresh = true;
+}
+
+DeviceSample FalconDevice::read(std::int64_t wait_us) noexcept {
+  sample_.fresh = false;
+  if (sample_.state < DeviceState::needs_homing || sample_.state == DeviceState::fault)
+    return sample_;
+  const std::int64_t end_us = line_->now_us() + wait_us;
+  std::int64_t left_us = wait_us;
+  std::array<std::uint8_t, 512> bytes{};
+  bool more = false;  // after a pause of the host: the newest frame is at the end
+  do {
+    const Received got = line_->read(bytes, std::max<std::int64_t>(left_us, 0));
+    take(std::span(bytes).first(got.size), got.time_us);
+    if (got.status != WireStatus::ok) {
+      fail(got.status == WireStatus::unplugged ? DeviceFault::unplugged
+                                               : DeviceFault::transfer_failed);
+      return sample_;
+    }
+    more = bytes.size() - got.size < kMostInPiece;
+    left_us = more ? 0 : end_us - line_->now_us();
+  } while (more || (!sample_.fresh && left_us > 0));
+  if (unanswered_since_us_ != 0 && line_->now_us() - unanswered_since_us_ > settings_.silence_us)
+    fail(DeviceFault::no_answer);
+  return sample_;
+}
+
+LegCounts FalconDevice::motors_for(const glm::dvec3& force_n) const noexcept {
+  if (sample_.state != DeviceState::ready) return {};
+  const auto torques = kinematics_.torques(position_m_, limited(force_n, settings_.force_limit_n));
+  return torques ? motor_counts(*torques, settings_.motor_counts_per_nm).counts : LegCounts{};
+}
+
+void FalconDevice::write(const glm::dvec3& force_n) noexcept {
+  if (sample_.state < DeviceState::needs_homing || sample_.state == DeviceState::fault) return;
+  if (stopped_.load()) return;
+  motors_ = motors_for(force_n);
+  const bool homing = sample_.state == DeviceState::needs_homing;
+  const WireStatus sent = line_->write(
+      encode({.motors = motors_, .homing = homing, .green = !homing, .red = homing}).bytes);
+  // A stop that came meanwhile must still have the last word.
+  if (stopped_.load()) line_->write_last(kZeroFrame);
+  if (unanswered_since_us_ == 0) unanswered_since_us_ = line_->now_us();
+  if (sent == WireStatus::busy) ++counters_.writes_dropped;
+  if (sent == WireStatus::unplugged) fail(DeviceFault::unplugged);
+  if (sent == WireStatus::failed) fail(DeviceFault::transfer_failed);
+}
+
+void FalconDevice::zero() noexcept { line_->write_last(kZeroFrame); }
+
+void FalconDevice::stop() noexcept {
+  stopped_.store(true);
+  line_->write_last(kZeroFrame);
+}
+
+DeviceError FalconDevice::problem() const {
+  if (sample_.state != DeviceState::fault) return refusal_;
+  switch (fault_) {
+    case DeviceFault::unplugged:
+      return {fault_, info_.place + ": unplugged", "plug it in again"};
+    case DeviceFault::no_answer:
+      return {fault_,
+              info_.place + ": no frame for " + std::to_string(settings_.silence_us / 1000) + " ms",
+              "check its power supply and its cable"};
+    default:
+      return {fault_, info_.place + ": a transfer failed", "unplug it and plug it in again"};
+  }
+}
+
+DeviceCounters FalconDevice::counters() const noexcept {
+  DeviceCounters counters = counters_;
+  counters.bytes_discarded = reader_.discarded();
+  return counters;
+}
+
+}  // namespace clay::falcon

@@ -1,0 +1,48 @@
+#pragma once
+// The Falcon's processor, a TI C2000, keeps no program: after each power-up the host sends one to
+// its serial boot loader. The program is Novint's and is not part of Claystack: the user names a
+// file.
+//
+// Such a file is a boot stream of 16-bit words, low byte first (TI, "TMS320x281x Boot ROM
+// Reference Guide", SPRU095, "Boot Loader Data Stream"):
+//
+//   08AA   key: a stream of bytes
+//   0 x 8  reserved
+//   entry point, high word and low word
+//   blocks: {number of words, address high word, low word, the words}
+//   0      the end
+
+#include "claystack/falcon/device.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace clay::falcon {
+
+/// A boot stream that is whole.
+struct Firmware {
+  std::vector<std::uint8_t> bytes;
+  std::uint32_t entry_point = 0;
+  std::size_t blocks = 0;
+};
+
+/// Reads the stream to its last byte before anything of it is sent: `bad_firmware` tells the byte
+/// where it fails, calling the stream `name`.
+[[nodiscard]] DeviceResult<Firmware> parse_firmware(std::vector<std::uint8_t> bytes,
+                                                    const std::string& name);
+
+/// The same of a file, of at most 128 kB.
+[[nodiscard]] DeviceResult<Firmware> read_firmware(const std::string& path);
+
+/// Restarts the processor and asks for its boot loader: whether it has power. `no_answer` when
+/// nothing comes. The line is left in `greeting`.
+[[nodiscard]] DeviceResult<void> greet_loader(Transport& line, int attempts = 3);
+
+/// Restarts the processor, sends the program in pieces and compares the echo of each byte. All of
+/// it again, up to `attempts` times; the error tells what went wrong the last time. The line is
+/// left in `running`.
+[[nodiscard]] DeviceResult<void> load_firmware(Transport& line, const Firmware& firmware,
+                                               int attempts = 10);
+
+}  // namespace clay::falcon

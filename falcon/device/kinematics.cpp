@@ -1,0 +1,178 @@
+#include "claystack/falcon/falcon_device.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vector_relational.hpp>
+#include <limits>
+#include <numbers>
+
+namespace clay::falcon {
+namespace {
+
+constexpr int kLegs = 3;
+constexpr int kMaxSteps = 16;
+// Full Newton steps from the centre leap over poses at the rim of the workspace.
+constexpr double kLongestStepM = 0.015;
+// Newton doubles the digits: after a step this short the next would be lost in rounding.
+constexpr double kLastStepM = 1e-9;
+// Volume of the box of three unit vectors below which they lie in one plane.
+constexpr double kFlat = 1e-9;
+
+double squared(double x) { return x * x; }
+
+double rad_per_count(const Geometry& g) {
+  return 2.0 * std::numbers::pi / (kCountsPerMotorTurn * g.gear_ratio);
+}
+
+LegCounts to_counts(const glm::dvec3& whole) {
+  return {static_cast<std::int16_t>(whole.x), static_cast<std::int16_t>(whole.y),
+          static_cast<std::int16_t>(whole.z)};
+}
+
+tl::unexpected<KinematicsError> failed(KinematicsError error) { return tl::make_unexpected(error); }
+
+/// The grip's joint in a leg's own frame [m].
+struct LegPoint {
+  double u, v, w;
+  double across;  // b sin t3: what the parallelogram spans in the leg's plane; NaN out of its reach
+};
+
+LegPoint in_leg_frame(const Geometry& g, const glm::dvec2& direction,
+                      const glm::dvec3& position) noexcept {
+  const double along = direction.x * position.x + direction.y * position.y;
+  const double aside = direction.x * position.y - direction.y * position.x;
+  const double u = along - g.base_radial_m + g.grip_radial_m;
+  const double v = aside - g.base_lateral_m + g.grip_lateral_m;
+  return {u, v, position.z, std::sqrt(squared(g.shin_m) - squared(v))};
+}
+
+/// What lies between the knees of thighs at given angles and the grip at a given place, a column
+/// or number for each leg.
+struct Shins {
+  glm::dmat3 gradients{0.0};  // of the gap, by the position: (cos t2, cot t3, sin t2) turned by phi
+  glm::dvec3 gaps_m{0.0};     // how much longer than the shin the way is; 0 in a true pose
+  glm::dvec3 levers_m{0.0};   // a sin(t2 - t1): of a force along the shin, about the hip
+};
+
+Shins shins_between(const Geometry& g, const glm::dmat3x2& directions, const glm::dvec3& angles,
+                    const glm::dvec3& position) noexcept {
+  Shins shins;
+  for (int leg = 0; leg < kLegs; ++leg) {
+    const glm::dvec2& direction = directions[leg];
+    const LegPoint point = in_leg_frame(g, direction, position);
+    const glm::dvec2 thigh = g.thigh_m * glm::dvec2(std::cos(angles[leg]), std::sin(angles[leg]));
+    const glm::dvec2 way = glm::dvec2(point.u, point.w) - thigh;
+    const double length = glm::length(way);
+    const double du = way.x / length, dv = point.v / point.across, dw = way.y / length;
+    shins.gradients[leg] = {direction.x * du - direction.y * dv,
+                            direction.y * du + direction.x * dv, dw};
+    shins.gaps_m[leg] = length - g.shin_ends_m - point.across;
+    shins.levers_m[leg] = thigh.x * dw - thigh.y * du;
+  }
+  return shins;
+}
+
+/// Inverse of a matrix whose columns belong to the legs; nothing when they lie in one plane or
+/// are not finite.
+std::optional<glm::dmat3> inverse_of(const glm::dmat3& columns) noexcept {
+  const double box = glm::length(columns[0]) * glm::length(columns[1]) * glm::length(columns[2]);
+  if (!(std::abs(glm::determinant(columns)) > kFlat * box)) return std::nullopt;
+  return glm::inverse(columns);
+}
+
+}  // namespace
+
+Kinematics::Kinematics(const Geometry& geometry) noexcept : geometry_(geometry) {
+  for (int leg = 0; leg < kLegs; ++leg)
+    directions_[leg] = {std::cos(kLegDirectionsRad[leg]), std::sin(kLegDirectionsRad[leg])};
+}
+
+std::optional<double> Kinematics::thigh_angle(int leg,
+                                              const glm::dvec3& position_m) const noexcept {
+  const LegPoint point = in_leg_frame(geometry_, directions_[leg], position_m);
+  // Hip, knee and grip make a triangle: the law of cosines.
+  const double thigh = geometry_.thigh_m, shin = geometry_.shin_ends_m + point.across;
+  const double reach = std::hypot(point.u, point.w);
+  const double cosine = (squared(reach) + squared(thigh) - squared(shin)) / (2.0 * thigh * reach);
+  if (!(point.across > 0.0 && std::abs(cosine) < 1.0)) return std::nullopt;
+  return std::atan2(point.w, point.u) - std::acos(cosine);
+}
+
+Solved<glm::dvec3> Kinematics::inverse(const glm::dvec3& position_m) const noexcept {
+  constexpr KinematicsError kUnreachable[] = {KinematicsError::top_leg_unreachable,
+                                              KinematicsError::right_leg_unreachable,
+                                              KinematicsError::left_leg_unreachable};
+  glm::dvec3 angles(0.0);
+  for (int leg = 0; leg < kLegs; ++leg) {
+    const auto angle = thigh_angle(leg, position_m);
+    if (!angle) return failed(kUnreachable[leg]);
+    angles[leg] = *angle;
+  }
+  return angles;
+}
+
+Solved<glm::dvec3> Kinematics::forward(const glm::dvec3& angles_rad,
+                                       const glm::dvec3& start_m) const noexcept {
+  glm::dvec3 position = start_m;
+  for (int steps = 0; steps < kMaxSteps; ++steps) {
+    const Shins shins = shins_between(geometry_, directions_, angles_rad, position);
+    const auto inverse = inverse_of(shins.gradients);
+    if (!inverse) break;
+    // A vector times the inverse solves the transposed system: Newton's has the gradients as rows.
+    const glm::dvec3 step = shins.gaps_m * *inverse;
+    const double length = glm::length(step);
+    position -= std::min(1.0, kLongestStepM / length) * step;
+    if (length > kLastStepM) continue;
+    if (!glm::all(glm::greaterThan(shins.levers_m, glm::dvec3(0.0)))) break;
+    return position;
+  }
+  return failed(KinematicsError::not_converged);
+}
+
+Solved<glm::dmat3> Kinematics::jacobian(const glm::dvec3& position_m) const noexcept {
+  return inverse(position_m).map([&](const glm::dvec3& angles) {
+    const Shins shins = shins_between(geometry_, directions_, angles, position_m);
+    glm::dmat3 rows = shins.gradients;
+    for (int leg = 0; leg < kLegs; ++leg) rows[leg] /= shins.levers_m[leg];
+    return glm::transpose(rows);
+  });
+}
+
+Solved<glm::dvec3> Kinematics::torques(const glm::dvec3& position_m,
+                                       const glm::dvec3& force_n) const noexcept {
+  return jacobian(position_m).and_then([&](const glm::dmat3& j) -> Solved<glm::dvec3> {
+    const auto inverse = inverse_of(glm::transpose(j));
+    if (!inverse) return failed(KinematicsError::singular);
+    return *inverse * force_n;
+  });
+}
+
+glm::dvec3 Kinematics::angles_of(const LegCounts& counts) const noexcept {
+  return geometry_.zero_angle_rad +
+         rad_per_count(geometry_) * glm::dvec3(counts[0], counts[1], counts[2]);
+}
+
+Solved<LegCounts> Kinematics::counts_of(const glm::dvec3& angles_rad) const noexcept {
+  using Limits = std::numeric_limits<LegCounts::value_type>;
+  const glm::dvec3 counts =
+      glm::round((angles_rad - geometry_.zero_angle_rad) / rad_per_count(geometry_));
+  const bool held = glm::all(glm::greaterThanEqual(counts, glm::dvec3(Limits::min()))) &&
+                    glm::all(glm::lessThanEqual(counts, glm::dvec3(Limits::max())));
+  if (!held) return failed(KinematicsError::beyond_encoder);
+  return to_counts(counts);
+}
+
+MotorCounts motor_counts(const glm::dvec3& torques_nm, double counts_per_nm) noexcept {
+  const glm::dvec3 asked = -counts_per_nm * torques_nm, size = glm::abs(asked);
+  if (!glm::all(glm::lessThan(size, glm::dvec3(std::numeric_limits<double>::infinity()))))
+    return {{}, 0.0};
+  const double peak = std::max({size.x, size.y, size.z});
+  const double rendered = peak > kMotorLimit ? kMotorLimit / peak : 1.0;
+  return {to_counts(glm::round(rendered * asked)), rendered};
+}
+
+}  // namespace clay::falcon

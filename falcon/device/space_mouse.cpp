@@ -1,0 +1,93 @@
+#include "claystack/falcon/usb.hpp"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace clay::falcon {
+namespace {
+
+constexpr std::uint16_t kLogitech = 0x046d, k3Dconnexion = 0x256f;
+constexpr SpaceMouseModel kModels[] = {
+    {kLogitech, 0xc603, "SpaceMouse Plus XT"},
+    {kLogitech, 0xc605, "CADman"},
+    {kLogitech, 0xc606, "SpaceMouse Classic"},
+    {kLogitech, 0xc621, "SpaceBall 5000"},
+    {kLogitech, 0xc623, "SpaceTraveler"},
+    {kLogitech, 0xc625, "SpacePilot"},
+    {kLogitech, 0xc626, "SpaceNavigator"},
+    {kLogitech, 0xc627, "SpaceExplorer"},
+    {kLogitech, 0xc628, "SpaceNavigator for Notebooks"},
+    {kLogitech, 0xc629, "SpacePilot Pro"},
+    {kLogitech, 0xc62b, "SpaceMouse Pro"},
+    {k3Dconnexion, 0xc62e, "SpaceMouse Wireless (cable)"},
+    {k3Dconnexion, 0xc62f, "SpaceMouse Wireless (receiver)"},
+    {k3Dconnexion, 0xc631, "SpaceMouse Pro Wireless (cable)"},
+    {k3Dconnexion, 0xc632, "SpaceMouse Pro Wireless (receiver)"},
+    {k3Dconnexion, 0xc633, "SpaceMouse Enterprise"},
+    {k3Dconnexion, 0xc635, "SpaceMouse Compact"},
+    {k3Dconnexion, 0xc636, "SpaceMouse Module"},
+    {k3Dconnexion, 0xc638, "SpaceMouse Pro Wireless BT"},
+    {k3Dconnexion, 0xc63a, "SpaceMouse Wireless BT"},
+    {k3Dconnexion, 0xc652, "Universal Receiver"},
+};
+
+constexpr std::uint8_t kTranslation = 1, kButtons = 3;
+constexpr double kFullDeflection = 350.0;
+constexpr std::size_t kTranslationBytes = 1 + 3 * 2;
+constexpr double kMostDt = 0.05;
+
+double axis(std::span<const std::uint8_t> report, std::size_t index) {
+  const unsigned word = report[1 + 2 * index] | static_cast<unsigned>(report[2 + 2 * index]) << 8;
+  return std::clamp(static_cast<std::int16_t>(word) / kFullDeflection, -1.0, 1.0);
+}
+
+}  // namespace
+
+std::span<const SpaceMouseModel> space_mouse_models() noexcept { return kModels; }
+
+DeviceResult<void> check(const SpaceMouseSettings& settings) {
+  const auto within = [](double value, double low, double high) {
+    return value >= low && value <= high;
+  };
+  const auto refuse = [](const char* setting) {
+    return device_failure(DeviceFault::bad_setting, std::string("spacemouse: expected ") + setting);
+  };
+  if (!within(settings.speed_mm_s, 1.0, 500.0)) return refuse("speed_mm_s from 1 to 500");
+  if (!within(settings.dead_zone, 0.0, 0.5)) return refuse("dead_zone from 0 to 0.5");
+  if (!within(settings.half_workspace_mm, 10.0, 1000.0))
+    return refuse("half_workspace_mm from 10 to 1000");
+  if (settings.silence_us < 20'000 || settings.silence_us > 1'000'000)
+    return refuse("silence_us from 20000 to 1000000");
+  return {};
+}
+
+bool SpaceMouseReports::take(std::span<const std::uint8_t> report) noexcept {
+  if (report.size() >= kTranslationBytes && report[0] == kTranslation) {
+    // The controller's own axes: x right, y to the user, z down.
+    deflection_ = {axis(report, 0), -axis(report, 2), axis(report, 1)};
+    return true;
+  }
+  if (report.size() >= 2 && report[0] == kButtons) {
+    buttons_ = 0;
+    const auto bits = report.subspan(1, std::min<std::size_t>(report.size() - 1, 4));
+    for (std::size_t i = 0; i < bits.size(); ++i)
+      buttons_ |= static_cast<unsigned>(bits[i]) << (8 * i);
+    return true;
+  }
+  return false;
+}
+
+void RateControl::advance(const glm::dvec3& deflection, std::int64_t now_us) noexcept {
+  const double dt = last_us_ == 0 ? 0.0 : 1e-6 * static_cast<double>(now_us - last_us_);
+  last_us_ = now_us;
+  const double way = std::min(glm::length(deflection), 1.0);
+  if (!(way > settings_.dead_zone)) return;
+  const double part = (way - settings_.dead_zone) / (1.0 - settings_.dead_zone);
+  const double speed = settings_.speed_mm_s * part * part;
+  const glm::dvec3 step = speed * std::clamp(dt, 0.0, kMostDt) * glm::normalize(deflection);
+  position_mm_ =
+      glm::clamp(position_mm_ + step, -settings_.half_workspace_mm, settings_.half_workspace_mm);
+}
+
+}  // namespace clay::falcon

@@ -1,0 +1,61 @@
+#pragma once
+// The bulk transfers of an FTDI chip: reads that are always queued, writes that nobody waits for.
+// All happens within `pump`, on the caller's thread. libusb itself allocates a little in each.
+
+#include "claystack/falcon/device.hpp"
+#include "falcon/device/usb/byte_ring.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+struct libusb_context;
+struct libusb_device_handle;
+struct libusb_transfer;
+
+namespace clay::falcon {
+
+class FtdiStream {
+ public:
+  FtdiStream() = default;
+  FtdiStream(const FtdiStream&) = delete;
+  FtdiStream& operator=(const FtdiStream&) = delete;
+  ~FtdiStream() { stop(); }
+
+  /// Queues the reads. The handle must be claimed, and outlive `stop`.
+  [[nodiscard]] bool start(libusb_context* context, libusb_device_handle* handle);
+  /// Takes back what is queued.
+  void stop() noexcept;
+
+  WireStatus write(std::span<const std::uint8_t> bytes) noexcept;
+  Received read(std::span<std::uint8_t> bytes, std::int64_t wait_us) noexcept;
+  void forget() noexcept { ring_.clear(); }
+
+ private:
+  static constexpr std::size_t kPacket = 64;  // of a full-speed chip, the Falcon's
+  struct Slot {
+    FtdiStream* owner = nullptr;
+    libusb_transfer* transfer = nullptr;
+    bool queued = false;
+    std::array<std::uint8_t, kPacket> bytes{};
+  };
+
+  static void on_read(libusb_transfer* transfer) noexcept;
+  static void on_written(libusb_transfer* transfer) noexcept;
+  void submit(Slot& slot) noexcept;
+  void note(int transfer_status) noexcept;
+  void pump(std::int64_t wait_us) noexcept;
+  [[nodiscard]] bool any_queued() const noexcept;
+
+  libusb_context* context_ = nullptr;
+  std::array<Slot, 2> reads_;
+  std::array<Slot, 8> writes_;
+  ByteRing ring_;
+  std::int64_t arrived_us_ = 0;
+  WireStatus status_ = WireStatus::ok;
+  int errors_ = 0;
+  int something_came_ = 0;
+  bool stopping_ = false;
+};
+
+}  // namespace clay::falcon

@@ -1,0 +1,156 @@
+#include "claystack/falcon/usb.hpp"
+#include "falcon/device/usb/ftdi_stream.hpp"
+#include "falcon/device/usb/usb_error.hpp"
+
+#include <ftdi.h>
+#include <libusb.h>
+#include <linux/usbdevice_fs.h>
+#include <poll.h>
+#include <sys/ioctl.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <memory>
+
+namespace clay::falcon {
+namespace {
+
+// Both are whole divisors of the chip's 3 MHz, so that every driver sets the same.
+constexpr int kGreetingBaud = 9'600, kLoadingBaud = 142'857, kRunningBaud = 1'500'000;
+// With 1 ms the greeting fails often on real devices.
+constexpr unsigned char kLoadingLatencyMs = 16, kRunningLatencyMs = 1;
+constexpr unsigned kOut = 0x02;
+constexpr unsigned kLastWordMs = 20;
+
+/// The descriptor by which libusb talks to the one device that is open in its context.
+int descriptor_of(libusb_context* context) {
+  const libusb_pollfd** all = libusb_get_pollfds(context);
+  int found = -1;
+  // Of a device libusb waits until it can be written; of its own wake-ups until they can be read.
+  for (const libusb_pollfd** one = all; one && *one; ++one)
+    if ((*one)->events & POLLOUT) found = (*one)->fd;
+  libusb_free_pollfds(all);
+  return found;
+}
+
+class FtdiTransport final : public Transport {
+ public:
+  explicit FtdiTransport(std::string place) : place_(std::move(place)) {}
+  ~FtdiTransport() override { close(); }
+
+  [[nodiscard]] std::string describe() const override { return place_; }
+  [[nodiscard]] bool loads_firmware() const noexcept override { return true; }
+
+  DeviceResult<void> open() override {
+    close();
+    ftdi_ = ftdi_new();
+    if (!ftdi_) return device_failure(DeviceFault::transfer_failed, place_ + ": no libusb");
+    auto opened = open_in_context();
+    if (!opened) close();
+    return opened;
+  }
+
+  void close() noexcept override {
+    descriptor_.store(-1);
+    stream_.stop();
+    if (!ftdi_) return;
+    if (ftdi_->usb_dev) ftdi_usb_close(ftdi_);
+    ftdi_free(ftdi_);
+    ftdi_ = nullptr;
+  }
+
+  DeviceResult<void> set_mode(LineMode mode) override {
+    const bool running = mode == LineMode::running, greeting = mode == LineMode::greeting;
+    const int baud = greeting ? kGreetingBaud : running ? kRunningBaud : kLoadingBaud;
+    const auto set = [this](int done, const char* action) -> DeviceResult<void> {
+      return done < 0 ? tl::make_unexpected(usb_error(place_, action, done)) : DeviceResult<void>();
+    };
+    auto done = set(ftdi_set_latency_timer(ftdi_, running ? kRunningLatencyMs : kLoadingLatencyMs),
+                    "set the latency timer");
+    if (done) done = set(ftdi_set_baudrate(ftdi_, baud), "set the baud rate");
+    if (done) done = set(ftdi_set_line_property(ftdi_, BITS_8, STOP_BIT_1, NONE), "set the line");
+    if (done) done = set(ftdi_setflowctrl(ftdi_, SIO_DISABLE_FLOW_CTRL), "set the flow control");
+    if (done && greeting) done = set(ftdi_setrts(ftdi_, 0), "set RTS");
+    if (done && !running) done = set(ftdi_setdtr(ftdi_, 0), "set DTR");
+    if (done && greeting) done = set(ftdi_setdtr(ftdi_, 1), "set DTR");
+    if (done) done = set(ftdi_tcioflush(ftdi_), "empty the buffers");
+    stream_.forget();
+    return done;
+  }
+
+  WireStatus write(std::span<const std::uint8_t> bytes) noexcept override {
+    return stream_.write(bytes);
+  }
+
+  Received read(std::span<std::uint8_t> bytes, std::int64_t wait_us) noexcept override {
+    return stream_.read(bytes, wait_us);
+  }
+
+  /// Past libusb, whose locks a signal may have met: one call of the kernel, which keeps the order
+  /// of what is queued.
+  void write_last(std::span<const std::uint8_t> bytes) noexcept override {
+    const int descriptor = descriptor_.load();
+    if (descriptor < 0 || bytes.size() > kMostWritten) return;
+    const int before = errno;
+    std::array<std::uint8_t, kMostWritten> copy{};
+    std::copy(bytes.begin(), bytes.end(), copy.begin());
+    usbdevfs_bulktransfer bulk{};
+    bulk.ep = kOut;
+    bulk.len = static_cast<unsigned>(bytes.size());
+    bulk.timeout = kLastWordMs;
+    bulk.data = copy.data();
+    ioctl(descriptor, USBDEVFS_BULK, &bulk);
+    errno = before;
+  }
+
+ private:
+  DeviceResult<void> open_in_context() {
+    libusb_device** devices = nullptr;
+    const auto count = libusb_get_device_list(ftdi_->usb_ctx, &devices);
+    if (count < 0)
+      return tl::make_unexpected(usb_error(place_, "list devices", static_cast<int>(count)));
+    const auto end = devices + count;
+    const auto device = std::find_if(devices, end, [this](libusb_device* d) {
+      libusb_device_descriptor descriptor{};
+      return libusb_get_device_descriptor(d, &descriptor) == 0 &&
+             descriptor.idVendor == kFalconVendor && descriptor.idProduct == kFalconProduct &&
+             place_of(d) == place_;
+    });
+    auto opened = device == end
+                      ? device_failure(DeviceFault::not_found, place_ + ": no Falcon there",
+                                       "plug it in at the same port")
+                      : open_device(*device);
+    libusb_free_device_list(devices, 1);
+    return opened;
+  }
+
+  DeviceResult<void> open_device(libusb_device* device) {
+    // libftdi says little of why it can't; a driver in the way it sends away itself.
+    auto access = check_usb_access(device);
+    if (!access && access.error().fault != DeviceFault::driver_bound) return access;
+    if (const int code = ftdi_usb_open_dev(ftdi_, device); code < 0)
+      return device_failure(DeviceFault::transfer_failed,
+                            place_ + ": could not open: " + ftdi_get_error_string(ftdi_),
+                            "unplug it and plug it in again");
+    if (!stream_.start(ftdi_->usb_ctx, ftdi_->usb_dev))
+      return device_failure(DeviceFault::transfer_failed, place_ + ": could not queue a transfer",
+                            "unplug it and plug it in again");
+    descriptor_.store(descriptor_of(ftdi_->usb_ctx));
+    return {};
+  }
+
+  std::string place_;
+  ftdi_context* ftdi_ = nullptr;
+  FtdiStream stream_;
+  std::atomic<int> descriptor_{-1};
+};
+
+}  // namespace
+
+std::unique_ptr<Transport> make_ftdi_transport(std::string place) {
+  return std::make_unique<FtdiTransport>(std::move(place));
+}
+
+}  // namespace clay::falcon

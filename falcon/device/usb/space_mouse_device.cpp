@@ -1,0 +1,95 @@
+#include "claystack/falcon/usb.hpp"
+#include "falcon/device/usb/hid_node.hpp"
+
+#include <array>
+#include <string>
+
+namespace clay::falcon {
+namespace {
+
+constexpr std::uint8_t kLight = 4;  // the report that switches the LED
+
+class SpaceMouse final : public HapticDevice {
+ public:
+  SpaceMouse(std::string name, std::string place, const SpaceMouseSettings& settings)
+      : settings_(settings), motion_(settings) {
+    info_ = {std::move(name), std::move(place), false, 0.0, glm::dvec3(settings.half_workspace_mm),
+             1000.0};
+  }
+  ~SpaceMouse() override { light(false); }
+
+  [[nodiscard]] const DeviceInfo& info() const noexcept override { return info_; }
+
+  DeviceResult<void> open() override {
+    auto opened = check(settings_).and_then([this] { return node_.open(info_.place); });
+    motion_ = RateControl(settings_);
+    reports_ = {};
+    counters_ = {};
+    sample_ = {};
+    sample_.state = opened ? DeviceState::ready : DeviceState::closed;
+    if (opened) {
+      light(true);
+    } else {
+      problem_ = opened.error();
+    }
+    return opened;
+  }
+
+  /// Does not wait: where the position is follows from the time.
+  DeviceSample read(std::int64_t) noexcept override {
+    sample_.fresh = false;
+    if (sample_.state != DeviceState::ready) return sample_;
+    std::array<std::uint8_t, 64> report{};
+    int size = 0;
+    const std::int64_t now_us = monotonic_us();
+    while ((size = node_.read(report, 0)) > 0) {
+      ++counters_.frames;
+      if (reports_.take(std::span(report).first(static_cast<std::size_t>(size))))
+        heard_us_ = now_us;
+    }
+    if (size < 0) {
+      sample_.state = DeviceState::fault;
+      return sample_;
+    }
+    // The report that says it was let go may be lost: a controller that is held keeps talking.
+    if (now_us - heard_us_ > settings_.silence_us) reports_.release();
+    motion_.advance(reports_.deflection(), now_us);
+    sample_ = {now_us, motion_.position_mm(), reports_.buttons(), DeviceState::ready, true};
+    return sample_;
+  }
+
+  void write(const glm::dvec3&) noexcept override {}
+  void zero() noexcept override {}
+  void stop() noexcept override {}
+
+  [[nodiscard]] DeviceError problem() const override {
+    if (sample_.state != DeviceState::fault) return problem_;
+    return {DeviceFault::unplugged, info_.place + ": unplugged", "plug it in again"};
+  }
+  [[nodiscard]] DeviceCounters counters() const noexcept override { return counters_; }
+
+ private:
+  void light(bool on) noexcept {
+    const std::array<std::uint8_t, 2> report = {kLight, static_cast<std::uint8_t>(on ? 1 : 0)};
+    if (node_.is_open()) node_.write(report);
+  }
+
+  SpaceMouseSettings settings_;
+  DeviceInfo info_;
+  HidNode node_;
+  SpaceMouseReports reports_;
+  RateControl motion_;
+  DeviceSample sample_;
+  DeviceCounters counters_;
+  DeviceError problem_;
+  std::int64_t heard_us_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<HapticDevice> make_space_mouse(std::string name, std::string place,
+                                               const SpaceMouseSettings& settings) {
+  return std::make_unique<SpaceMouse>(std::move(name), std::move(place), settings);
+}
+
+}  // namespace clay::falcon

@@ -1,0 +1,36 @@
+#pragma once
+#include "falcon/safety/arm_response.hpp"
+
+namespace clay::falcon {
+
+/// One axis: what moves it, and the response over its whole period.
+struct ArmAxis {
+  double mass_kg = 1.0;
+  double damping_ns_per_m = 0.0;
+  double friction_n = 0.0;
+  double hand_stiffness_n_per_m = 0.0;
+  double hand_damping_ns_per_m = 0.0;
+  double period_s = 1e-3;
+  ArmResponse response;
+
+  [[nodiscard]] bool guided() const noexcept {
+    return hand_stiffness_n_per_m > 0.0 || hand_damping_ns_per_m > 0.0;
+  }
+  [[nodiscard]] ArmResponse response_over(double time_s) const noexcept {
+    return arm_response((damping_ns_per_m + hand_damping_ns_per_m) / mass_kg,
+                        hand_stiffness_n_per_m / mass_kg, time_s);
+  }
+};
+
+struct AxisState {
+  double position_m = 0.0;
+  double velocity_m_s = 0.0;
+  double intended_m = 0.0;  ///< where the hand's point is
+  double damped_j = 0.0;
+  double rubbed_j = 0.0;
+};
+
+/// One period under a constant force, the hand's point moving at constant speed.
+void move(const ArmAxis& axis, double force_n, double intended_m_s, AxisState& state) noexcept;
+
+}  // namespace clay::falcon

@@ -1,0 +1,123 @@
+#include "claystack/falcon/sim.hpp"
+
+#include "falcon/sim/arm_axis.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <utility>
+
+namespace clay::falcon {
+
+struct SimulatedArm::Coefficients {
+  std::array<ArmAxis, 3> axes;
+};
+
+namespace {
+
+constexpr double kFarthestM = 10.0;
+
+/// The first component outside, by the name of the setting. Not (x < low): NaN must fail.
+std::optional<OutOfRange> outside(const char* setting, double low, double high,
+                                  const glm::dvec3& found) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(found[axis] >= low && found[axis] <= high))
+      return OutOfRange{setting, low, high, found[axis]};
+  return std::nullopt;
+}
+
+bool is_finite(const glm::dvec3& v) noexcept {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace
+
+tl::expected<SimulatedArm, OutOfRange> SimulatedArm::build(const ArmSpec& arm, const HandSpec& hand,
+                                                           const glm::dvec3& start_m) noexcept {
+  if (auto checked = check(arm.loop); !checked) return tl::make_unexpected(checked.error());
+  const std::optional<OutOfRange> faults[] = {
+      outside("friction_n", 0.0, 100.0, glm::dvec3(arm.friction_n)),
+      outside("step_m", 0.0, 0.01, glm::dvec3(arm.step_m)),
+      outside("push_n", -100.0, 100.0, hand.push_n),
+      outside("stiffness_n_per_m", 0.0, 1e6, hand.stiffness_n_per_m),
+      outside("damping_ns_per_m", 0.0, 1e4, hand.damping_ns_per_m),
+      outside("start_m", -kFarthestM, kFarthestM, start_m),
+  };
+  for (const auto& fault : faults)
+    if (fault) return tl::make_unexpected(*fault);
+  return SimulatedArm(arm, hand, start_m);
+}
+
+SimulatedArm::SimulatedArm(const ArmSpec& arm, const HandSpec& hand,
+                           const glm::dvec3& start_m) noexcept
+    : spec_(arm), hand_(hand), position_(start_m), intended_(start_m) {
+  Coefficients tick;
+  for (int axis = 0; axis < 3; ++axis) {
+    ArmAxis& a = tick.axes[static_cast<std::size_t>(axis)];
+    a.mass_kg = arm.loop.mass_kg;
+    a.damping_ns_per_m = arm.loop.damping_ns_per_m;
+    a.friction_n = arm.friction_n;
+    a.hand_stiffness_n_per_m = hand.stiffness_n_per_m[axis];
+    a.hand_damping_ns_per_m = hand.damping_ns_per_m[axis];
+    a.period_s = arm.loop.period_s();
+    a.response = a.response_over(a.period_s);
+  }
+  tick_ = std::make_shared<const Coefficients>(tick);
+}
+
+glm::dvec3 SimulatedArm::reading_m() const noexcept {
+  return spec_.step_m > 0.0 ? glm::round(position_ / spec_.step_m) * spec_.step_m : position_;
+}
+
+glm::dvec3 SimulatedArm::late(const glm::dvec3& force_n) noexcept {
+  const glm::dvec3 sent = is_finite(force_n) ? force_n : glm::dvec3(0.0);
+  if (spec_.loop.delay_ticks == 0) return sent;
+  const glm::dvec3 held = std::exchange(on_the_way_[next_], sent);
+  next_ = (next_ + 1) % spec_.loop.delay_ticks;
+  return held;
+}
+
+void SimulatedArm::advance(const glm::dvec3& force_n, const glm::dvec3& intended_m) noexcept {
+  const glm::dvec3 held = late(force_n), from = position_;
+  const glm::dvec3 speed = (intended_m - intended_) * spec_.loop.rate_hz;
+  const double kinetic = kinetic_energy_j();
+  double damped = 0.0, rubbed = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    AxisState state{position_[axis], velocity_[axis], intended_[axis], 0.0, 0.0};
+    move(tick_->axes[static_cast<std::size_t>(axis)], held[axis] + hand_.push_n[axis], speed[axis],
+         state);
+    position_[axis] = state.position_m;
+    velocity_[axis] = state.velocity_m_s;
+    damped += state.damped_j;
+    rubbed += state.rubbed_j;
+  }
+  intended_ = intended_m;
+  const double displayed = glm::dot(held, position_ - from);
+  energy_.displayed += displayed;
+  energy_.damped += damped;
+  energy_.rubbed += rubbed;
+  energy_.hand += kinetic_energy_j() - kinetic - displayed + damped + rubbed;
+}
+
+void SimulatedArm::carry(const glm::dvec3& force_n, const glm::dvec3& position_m) noexcept {
+  const glm::dvec3 held = late(force_n), way = position_m - position_;
+  const double kinetic = kinetic_energy_j();
+  velocity_ = way * spec_.loop.rate_hz;
+  position_ = intended_ = position_m;
+  const double displayed = glm::dot(held, way);
+  const double damped = spec_.loop.damping_ns_per_m * glm::dot(velocity_, way);
+  const double rubbed = spec_.friction_n * (std::abs(way.x) + std::abs(way.y) + std::abs(way.z));
+  energy_.displayed += displayed;
+  energy_.damped += damped;
+  energy_.rubbed += rubbed;
+  energy_.hand += kinetic_energy_j() - kinetic - displayed + damped + rubbed;
+}
+
+double SimulatedArm::kinetic_energy_j() const noexcept {
+  return 0.5 * spec_.loop.mass_kg * glm::dot(velocity_, velocity_);
+}
+
+}  // namespace clay::falcon

@@ -1,0 +1,105 @@
+#include "claystack/falcon/sim.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace clay::falcon {
+namespace {
+
+constexpr double kMPerMm = 1e-3;
+constexpr double kMostPauseS = 0.05;
+
+/// A hand that holds an arm, ticked as time passes.
+class HeldArm {
+ public:
+  HeldArm(SimulatedArm arm, const SimulatedSettings& settings)
+      : arm_(std::move(arm)),
+        path_(settings.path),
+        fingers_(settings.fingers),
+        centre_m_(settings.falcon.centre_m) {}
+
+  glm::dvec3 move(const glm::dvec3& force_n, double dt_s) {
+    const double period_s = arm_.spec().loop.period_s();
+    due_s_ += std::min(dt_s, kMostPauseS);
+    // Half a tick of tolerance: frames that come by the clock must not beat against the ticks.
+    for (; due_s_ > 0.5 * period_s; due_s_ -= period_s) {
+      time_s_ += period_s;
+      arm_.advance(force_n, centre_m_ + kMPerMm * path_(time_s_));
+    }
+    return arm_.reading_m();
+  }
+
+  [[nodiscard]] Fingers fingers() const { return fingers_ ? fingers_(time_s_) : Fingers{}; }
+
+ private:
+  SimulatedArm arm_;
+  HandPath path_;
+  HandFingers fingers_;
+  glm::dvec3 centre_m_;
+  double due_s_ = 0.0, time_s_ = 0.0;
+};
+
+/// The driver of the real one, and the grip.
+class GrippedFalcon final : public HapticDevice {
+ public:
+  GrippedFalcon(std::unique_ptr<Transport> line, const FalconSettings& settings,
+                std::shared_ptr<const HeldArm> held)
+      : falcon_(std::move(line), settings), held_(std::move(held)) {}
+
+  [[nodiscard]] const DeviceInfo& info() const noexcept override { return falcon_.info(); }
+  DeviceResult<void> open() override { return falcon_.open(); }
+  DeviceSample read(std::int64_t wait_us) noexcept override {
+    DeviceSample sample = falcon_.read(wait_us);
+    sample.grip_mm = held_->fingers().grip_mm;
+    return sample;
+  }
+  void write(const glm::dvec3& force_n) noexcept override { falcon_.write(force_n); }
+  void zero() noexcept override { falcon_.zero(); }
+  void stop() noexcept override { falcon_.stop(); }
+  [[nodiscard]] DeviceError problem() const override { return falcon_.problem(); }
+  [[nodiscard]] DeviceCounters counters() const noexcept override { return falcon_.counters(); }
+
+ private:
+  FalconDevice falcon_;
+  std::shared_ptr<const HeldArm> held_;
+};
+
+}  // namespace
+
+glm::dvec3 idle_circle_mm(double time_s) {
+  const double turn = 2.0 * std::numbers::pi * time_s / 4.0;
+  return {20.0 * std::cos(turn), 20.0 * std::sin(turn), 0.0};
+}
+
+SimulatedSettings simulated_and_loaded() {
+  SimulatedSettings settings;
+  settings.model.loaded = true;
+  return settings;
+}
+
+DeviceResult<SimulatedFalcon> make_simulated_falcon(const SimulatedSettings& settings) {
+  const glm::dvec3& centre = settings.falcon.centre_m;
+  auto arm =
+      SimulatedArm::build(settings.arm, settings.hand, centre + kMPerMm * settings.path(0.0));
+  if (!arm)
+    return device_failure(DeviceFault::bad_setting,
+                          std::string("simulated: expected ") + arm.error().setting + " from " +
+                              std::to_string(arm.error().low) + " to " +
+                              std::to_string(arm.error().high) + ", found " +
+                              std::to_string(arm.error().found));
+  const auto held = std::make_shared<HeldArm>(std::move(*arm), settings);
+  SimulatedFalcon simulated;
+  simulated.model = std::make_shared<FalconModel>(
+      settings.model,
+      [held](const glm::dvec3& force_n, double dt_s) { return held->move(force_n, dt_s); });
+  if (settings.fingers)
+    simulated.model->hold([held]() noexcept { return held->fingers().buttons; });
+  auto line = std::make_unique<LoopbackTransport>(simulated.model, settings.pace);
+  simulated.line = line.get();
+  simulated.device = std::make_unique<GrippedFalcon>(std::move(line), settings.falcon, held);
+  return simulated;
+}
+
+}  // namespace clay::falcon

@@ -1,0 +1,162 @@
+#include "app/bench/closed_loop/closed_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+
+namespace clay::servo {
+namespace {
+
+using falcon::SampledLoop;
+
+Outcome at_wall(const SampledLoop& loop, double stiffness, double step_m, bool controlled) {
+  Experiment e = wall_experiment(loop, stiffness, step_m);
+  e.controlled = controlled;
+  const auto wall = make_wall({stiffness, 5.0, true});
+  return run(e, *wall);
+}
+
+Outcome at_clay(const SampledLoop& loop, const ClaySpec& spec, bool controlled) {
+  Experiment e = clay_experiment(loop, kFalconStepM);
+  e.controlled = controlled;
+  const auto clay = make_clay(spec);
+  return run(e, *clay);
+}
+
+Outcome resting(const SampledLoop& loop, double stiffness) {
+  const auto wall = make_wall({stiffness, 5.0, true});
+  return run(energy_experiment(loop, stiffness), *wall);
+}
+
+TEST(Border, OfALinearWallIsWhereTheSwingGrows) {
+  for (const double rate : {100.0, 1000.0, 8000.0})
+    for (const double damping : {1.0, 10.0})
+      for (const int delay : {0, 1, 3}) {
+        const SampledLoop loop{rate, 0.1, damping, delay};
+        const double predicted = stable_stiffness(loop);
+        EXPECT_NEAR(measured_stable_stiffness(loop, 1e-3), predicted, 2e-3 * predicted)
+            << rate << " " << damping << " " << delay;
+      }
+}
+
+TEST(Border, OfPassivityIsMetBySwingsUpToNyquist) {
+  for (const int delay : {0, 1, 2}) {
+    const SampledLoop loop{1000, 0.1, 2.0, delay};
+    const falcon::VirtualWall wall{1000.0, 0.7};
+    double most = 0.0;
+    for (int waves = 1; waves <= 100; ++waves) {
+      const double angle = 2.0 * std::numbers::pi * waves / 200.0;
+      const double needed = measured_passive_damping(loop, wall, waves, 200);
+      EXPECT_NEAR(needed, passive_damping_at(loop, wall, angle), 1e-9) << delay << " " << waves;
+      most = std::max(most, needed);
+    }
+    EXPECT_NEAR(most, passive_damping(loop, wall), 0.01 * most) << delay;
+  }
+}
+
+/// With exact encoders the tolerance is that of rounding alone.
+TEST(Energy, IsInjectedInNoCycleBelowTheBorderAndInSomeAbove) {
+  for (const double rate : {100.0, 1000.0, 4000.0})
+    for (const double damping : {2.0, 10.0})
+      for (const int delay : {0, 1}) {
+        const SampledLoop loop{rate, 0.1, damping, delay};
+        const double border = stable_stiffness(loop);
+        for (const double part : {0.1, 0.5, 0.9, 0.98}) {
+          const Outcome o = resting(loop, part * border);
+          const std::string cell = std::to_string(rate) + " " + std::to_string(damping) + " " +
+                                   std::to_string(delay) + " " + std::to_string(part);
+          EXPECT_LE(o.mean_cycle_j, 0.0) << cell;
+          // Between the two borders a cycle of a few samples may end a little above the last.
+          if (part * border < passive_stiffness(loop)) {
+            EXPECT_LE(o.worst_cycle_j, 0.0) << cell;
+          }
+        }
+        EXPECT_GT(resting(loop, 1.1 * border).mean_cycle_j, 0.0) << rate << damping << delay;
+      }
+}
+
+TEST(Controller, LeavesNoLimitCycleAnywhere) {
+  int buzzing = 0;
+  for (const double rate : {100.0, 1000.0, 4000.0})
+    for (const double mass : {0.1, 0.25, 0.5})
+      for (const double damping : {1.0, 5.0})
+        for (const double stiffness : {1e2, 1e3, 1e4, 1e5, 1e6}) {
+          const SampledLoop loop{rate, mass, damping, 1};
+          buzzing += at_wall(loop, stiffness, kFalconStepM, false).swing_m > kMostSwingM;
+          EXPECT_LT(at_wall(loop, stiffness, kFalconStepM, true).swing_m, kMostSwingM)
+              << rate << " " << mass << " " << damping << " " << stiffness;
+        }
+  EXPECT_GT(buzzing, 50);  // of 90: the map of instability is there without it
+}
+
+TEST(Controller, LeavesAnAcceptedWallAlone) {
+  for (const double damping : {1.0, 2.0, 5.0}) {
+    const SampledLoop loop{1000, 0.1, damping, 1};
+    const double stiffness = 0.99 * accepted_stiffness(loop);
+    const Outcome alone = at_wall(loop, stiffness, kFalconStepM, false);
+    const Outcome guarded = at_wall(loop, stiffness, kFalconStepM, true);
+    EXPECT_EQ(guarded.state, falcon::PassivityState::watching);
+    EXPECT_EQ(guarded.injected_j, alone.injected_j);
+    EXPECT_EQ(guarded.final_force_n, alone.final_force_n);
+  }
+}
+
+/// A wall that is asked only now and then, as when the clay runs slower than the force.
+class StaleWall final : public Surface {
+ public:
+  StaleWall(double stiffness, int every)
+      : wall_(make_wall({stiffness, 5.0, true})), every_(every) {}
+  glm::dvec3 press(std::int64_t time_us, const glm::dvec3& reading_m) override {
+    if (ticks_++ % every_ == 0) force_ = wall_->press(time_us, reading_m);
+    return force_;
+  }
+  [[nodiscard]] double stored_j(const glm::dvec3& at) const override { return wall_->stored_j(at); }
+  [[nodiscard]] double stiffness_n_per_m() const override { return wall_->stiffness_n_per_m(); }
+  [[nodiscard]] double face_m() const override { return 0.0; }
+
+ private:
+  std::unique_ptr<Surface> wall_;
+  int every_, ticks_ = 0;
+  glm::dvec3 force_{0.0};
+};
+
+/// No bound knew of this delay, but force is earned and work counted by the readings of each tick.
+TEST(Controller, TamesAContactThatIsLaterThanWasSaid) {
+  const SampledLoop loop{1000, 0.1, 2.0, 1};
+  const double stiffness = 0.95 * accepted_stiffness(loop);
+  Experiment e = wall_experiment(loop, stiffness, kFalconStepM);
+  e.seconds = 20.0;
+  StaleWall bare(stiffness, 16), wall(stiffness, 16);
+  EXPECT_GT(run(e, bare).swing_m, 10 * kMostSwingM);
+  e.controlled = true;
+  EXPECT_LT(run(e, wall).swing_m, kMostSwingM);
+}
+
+TEST(Clay, WithoutRemovalIsTheElasticWall) {
+  const SampledLoop loop{1000, 0.1, 2.0, 1};
+  EXPECT_LT(at_clay(loop, {0.7 * stable_stiffness(loop), 0.0, 20.0}, false).swing_m, kMostSwingM);
+  EXPECT_GT(at_clay(loop, {1.5 * stable_stiffness(loop), 0.0, 20.0}, false).swing_m, kMostSwingM);
+}
+
+TEST(Clay, ThatFlowsIsStableFarBeyondTheElasticBorder) {
+  const SampledLoop loop{1000, 0.1, 2.0, 1};
+  const Outcome o = at_clay(loop, {10.0 * stable_stiffness(loop), 20.0, 20.0}, false);
+  EXPECT_LT(o.swing_m, kMostSwingM);
+  EXPECT_LE(o.injected_j, o.tolerance_j);
+}
+
+TEST(Clay, IsMadePassiveAtAnyStiffness) {
+  for (const double rate : {100.0, 1000.0, 4000.0})
+    for (const double removal : {0.0, 1.0, 20.0})
+      for (const double stiffness : {1e2, 1e4, 1e6}) {
+        const SampledLoop loop{rate, 0.1, 2.0, 1};
+        EXPECT_LT(at_clay(loop, {stiffness, removal, 20.0}, true).swing_m, kMostSwingM)
+            << rate << " " << removal << " " << stiffness;
+      }
+}
+
+}  // namespace
+}  // namespace clay::servo

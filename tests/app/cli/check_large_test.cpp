@@ -1,0 +1,134 @@
+// Meshes that are legal but large: they end in a verdict or are refused in advance, whatever the
+// limit on memory.
+
+#include "tests/support/run_program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+
+namespace clay::test {
+namespace {
+
+/// Runs the program with so much address space.
+Ran with_megabytes(std::size_t megabytes, const std::string& arguments) {
+  return shell("ulimit -v " + std::to_string(1024 * megabytes) + " && " CLAYSTACK_PROGRAM " " +
+               arguments);
+}
+
+/// The address space that the program takes with next to no work, and some more.
+constexpr std::size_t kProgram = 700;
+
+/// Octahedra within octahedra about one axis, by turns outward and inward, as binary STL.
+std::string nest(std::uint32_t shells) {
+  constexpr std::array<std::array<int, 3>, 6> kCorners{
+      {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
+  constexpr std::array<std::array<std::size_t, 3>, 8> kFaces{
+      {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
+  std::string stl(84 + 50 * 8 * std::size_t{shells}, '\0');
+  const std::uint32_t count = 8 * shells;
+  std::memcpy(stl.data() + 80, &count, 4);
+  char* at = stl.data() + 84;
+  for (std::uint32_t shell = 0; shell < shells; ++shell) {
+    for (const auto& face : kFaces) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t corner = shell % 2 == 0 ? i : 2 - i;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const auto mm =
+              static_cast<float>(kCorners[face[corner]][axis]) * static_cast<float>(shells - shell);
+          std::memcpy(at + 12 + 12 * i + 4 * axis, &mm, 4);
+        }
+      }
+      at += 50;
+    }
+  }
+  return stl;
+}
+
+TEST(CheckLarge, ManyNestedShellsTakeLittleMemory) {
+  const ScratchFolder folder;
+  write_text(folder.file("nest.stl"), nest(30'000));
+  const Ran run = with_megabytes(kProgram, "check --json " + folder.file("nest.stl"));
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.json().at("components"), 30'000);
+  EXPECT_EQ(run.json().at("notes").dump().substr(0, 24), "[\"15000 closed cavities,");
+}
+
+TEST(CheckLarge, ATextFileIsNotHeldInMemory) {
+  // A tetrahedron between lines of blanks: more bytes than there is address space.
+  const ScratchFolder folder;
+  const std::string facet_begin = "facet normal 0 0 0\nouter loop\n";
+  std::string text = "solid wide\n";
+  for (const char* corners :
+       {"vertex 0 0 0\nvertex 0 1 0\nvertex 1 0 0\n", "vertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1\n",
+        "vertex 0 0 0\nvertex 0 0 1\nvertex 0 1 0\n",
+        "vertex 1 0 0\nvertex 0 1 0\nvertex 0 0 1\n"}) {
+    text += facet_begin + corners + "endloop\nendfacet\n";
+    for (int line = 0; line < 200 * 17; ++line) text += std::string(60'000, ' ') + '\n';
+  }
+  text += "endsolid wide\n";
+  ASSERT_GT(text.size(), (kProgram + 50) << 20);
+  write_text(folder.file("wide.stl"), text);
+  const Ran stl = with_megabytes(kProgram, "check --json " + folder.file("wide.stl"));
+  EXPECT_EQ(stl.status, 0) << stl.err;
+}
+
+TEST(CheckLarge, AMeshThatTakesTooMuchMemoryIsRefusedInAdvance) {
+  // 20 million facets without a byte on the disk: they are never looked at.
+  const ScratchFolder folder;
+  const std::uint32_t count = 20'000'000;
+  std::string head(84, '\0');
+  std::memcpy(head.data() + 80, &count, 4);
+  write_text(folder.file("big.stl"), head);
+  std::filesystem::resize_file(folder.file("big.stl"), 84 + 50 * std::uintmax_t{count});
+  const Ran run = with_megabytes(1600, "check " + folder.file("big.stl"));
+  EXPECT_EQ(run.status, 3);
+  EXPECT_NE(run.err.find("big.stl: checking about 20000000 triangles takes about "),
+            std::string::npos)
+      << run.err;
+  EXPECT_NE(run.err.find(" GB are left under the limit on address space (ulimit -v)"),
+            std::string::npos)
+      << run.err;
+}
+
+TEST(CheckLarge, TooLongATextIsRefusedInAdvance) {
+  const ScratchFolder folder;
+  write_text(folder.file("long.stl"), "solid long\n");
+  std::filesystem::resize_file(folder.file("long.stl"), std::uintmax_t{9} << 30);
+  const Ran run = claystack("check " + folder.file("long.stl"));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find("expected at most 20000000 triangles, found about 37 million"),
+            std::string::npos)
+      << run.err;
+}
+
+TEST(CheckLarge, SaysWhereFewerRaysWereFollowed) {
+  // A soup of 20 000 triangles, all about the middle: each ray comes past nearly all of them.
+  const ScratchFolder folder;
+  const std::uint32_t count = 20'000;
+  std::string stl(84 + 50 * std::size_t{count}, '\0');
+  std::memcpy(stl.data() + 80, &count, 4);
+  std::uint32_t random = 1;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::size_t k = 0; k < 9; ++k) {
+      random = random * 1664525 + 1013904223;
+      const auto mm = static_cast<float>(random >> 8) * 1e-5F;
+      std::memcpy(stl.data() + 84 + 50 * std::size_t{i} + 12 + 4 * k, &mm, 4);
+    }
+  }
+  write_text(folder.file("soup.stl"), stl);
+  const Ran run =
+      claystack("check --json --min-wall 1 --wall-samples 40000 " + folder.file("soup.stl"));
+  EXPECT_EQ(run.status, 1) << run.err;
+  const auto json = run.json();
+  EXPECT_LT(json.at("wall_sampled").at("rays"), 40'000);
+  EXPECT_GT(json.at("wall_sampled").at("rays"), 4'000);
+  EXPECT_NE(json.at("notes").dump().find("rays only, 40000 were asked for"), std::string::npos)
+      << json.at("notes");
+}
+
+}  // namespace
+}  // namespace clay::test

@@ -1,0 +1,299 @@
+#include "tests/support/run_program.hpp"
+
+#include "claystack/export/formats.hpp"
+#include "tests/export/solid/shapes.hpp"
+
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace clay::test {
+namespace {
+
+using solid::TriangleMesh;
+using solid::shapes::ball;
+using solid::shapes::cube;
+using solid::shapes::inverted;
+using solid::shapes::moved;
+using solid::shapes::together;
+
+/// A fault in a mesh of cubes, where it lies by the cube's own numbers, and what repair makes of
+/// it.
+struct Planted {
+  std::string name;
+  TriangleMesh mesh;
+  std::string what, where;
+  std::vector<std::pair<std::string, std::size_t>> repaired;
+  std::string remains;  ///< empty: sound after repair
+  double volume_mm3 = 8000.0;
+};
+
+void PrintTo(const Planted& planted, std::ostream* out) { *out << planted.name; }
+
+TriangleMesh hole() {
+  TriangleMesh mesh = cube(20.0);
+  mesh.triangles.pop_back();
+  return mesh;
+}
+TriangleMesh flip() {
+  TriangleMesh mesh = cube(20.0);
+  std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
+  return mesh;
+}
+TriangleMesh duplicate() {
+  TriangleMesh mesh = cube(20.0);
+  mesh.triangles.push_back(mesh.triangles[4]);
+  return mesh;
+}
+TriangleMesh crack() {
+  TriangleMesh mesh = cube(20.0);
+  mesh.points.push_back({20.0, 20.0, std::nextafter(20.0F, 21.0F)});
+  for (const std::size_t t : {2u, 3u})
+    std::replace(mesh.triangles[t].begin(), mesh.triangles[t].end(), 6u, 8u);
+  return mesh;
+}
+TriangleMesh fin() {
+  TriangleMesh mesh = cube(20.0);
+  mesh.points.push_back({30, -30, 10});
+  mesh.triangles.push_back({0, 1, 8});
+  return mesh;
+}
+TriangleMesh sliver() {
+  TriangleMesh mesh = cube(20.0);
+  mesh.points.push_back({10, 0, 0});
+  std::erase(mesh.triangles, (std::array<std::uint32_t, 3>{0, 1, 5}));
+  mesh.triangles.insert(mesh.triangles.end(), {{0, 8, 5}, {8, 1, 5}, {0, 1, 8}});
+  return mesh;
+}
+
+std::vector<Planted> faults() {
+  const TriangleMesh good = cube(20.0);
+  return {
+      {"hole", hole(), "open edge", "triangle 10 at (0, 10, 10) mm", {{"hole filled", 1}}, ""},
+      {"flip",
+       flip(),
+       "edge between faces of opposite orientation",
+       "triangles 2, 3 at (10, 10, 20) mm",
+       {{"triangle turned", 1}},
+       ""},
+      {"duplicate",
+       duplicate(),
+       "duplicate triangle",
+       "triangles 4, 12 at (13.3333333, 0, 6.66666667) mm",
+       {{"duplicate triangle removed", 1}},
+       ""},
+      {"crack",
+       crack(),
+       "open edge",
+       "triangle 7 at (20, 10, 20) mm",
+       {{"points welded across a crack", 1}},
+       ""},
+      {"fin",
+       fin(),
+       "non-manifold edge",
+       "triangles 0, 4, 12 at (10, 0, 0) mm",
+       {{"triangle of a fin removed", 1}},
+       ""},
+      {"touching",
+       together(good, moved(good, {20, 20, 0})),
+       "self-intersection",
+       "triangles 0, 12 at (13.3333333, 6.66666667, 0) mm",
+       {{"points of one place merged", 2}, {"non-manifold edge cut apart", 1}},
+       "non-manifold edge",  // STL knows points by their place alone
+       16000.0},
+      {"inner",
+       together(good, moved(cube(10.0), {5, 5, 5})),
+       "shell turned against its neighbours",
+       "triangle 12 at (11.6666667, 8.33333333, 5) mm",
+       {{"shell turned", 1}},
+       "",
+       7000.0},
+      {"outside-in", inverted(good), "inside out", "volume -8000 mm^3", {{"shell turned", 1}}, ""},
+      {"sliver",
+       sliver(),
+       "degenerate triangle",
+       "triangle 13 at (10, 0, 0) mm",
+       {{"triangle without area removed", 1}},
+       ""},
+      {"crossing",
+       together(good, moved(good, {10, 10, 10})),
+       "self-intersection",
+       "triangles 2, 16 at (13.3333333, 6.66666667, 20) mm",
+       {},
+       "self-intersection",
+       16000.0},
+  };
+}
+
+class PlantedFault : public testing::TestWithParam<Planted> {
+ protected:
+  std::string write(const ScratchFolder& folder) const {
+    const std::string name = folder.file(GetParam().name + ".obj");
+    write_text(name, solid::encode_obj(GetParam().mesh, "fault"));
+    return name;
+  }
+};
+
+const nlohmann::json* find(const nlohmann::json& list, const std::string& what) {
+  for (const auto& entry : list)
+    if (entry.at("what") == what) return &entry;
+  return nullptr;
+}
+
+TEST_P(PlantedFault, IsNamedWithItsPlace) {
+  const ScratchFolder folder;
+  const Ran run = claystack("check --json " + write(folder));
+  EXPECT_EQ(run.status, 1) << run.out << run.err;
+  const auto problems = run.json().at("problems");
+  const auto* problem = find(problems, GetParam().what);
+  ASSERT_NE(problem, nullptr) << problems.dump(2);
+  EXPECT_NE(problem->at("where").get<std::string>().find(GetParam().where), std::string::npos)
+      << problem->dump();
+}
+
+TEST_P(PlantedFault, IsRepairedOrSaidToRemain) {
+  const ScratchFolder folder;
+  const Planted& planted = GetParam();
+  const std::string out = folder.file("mended.stl");
+  const Ran run = claystack("check --json --repair " + write(folder) + " -o " + out);
+  EXPECT_EQ(run.status, planted.remains.empty() ? 0 : 1) << run.out << run.err;
+  const auto json = run.json();
+  EXPECT_NE(find(json.at("found"), planted.what), nullptr);
+  ASSERT_EQ(json.at("repaired").size(), planted.repaired.size()) << json.at("repaired").dump(2);
+  for (const auto& [what, count] : planted.repaired) {
+    const auto* repaired = find(json.at("repaired"), what);
+    ASSERT_NE(repaired, nullptr) << json.at("repaired").dump(2);
+    EXPECT_EQ(repaired->at("count"), count);
+  }
+  EXPECT_EQ(json.at("remaining").empty(), planted.remains.empty()) << json.at("remaining").dump(2);
+  if (!planted.remains.empty()) {
+    EXPECT_NE(find(json.at("remaining"), planted.remains), nullptr) << json.at("remaining").dump(2);
+  }
+  EXPECT_NEAR(json.at("volume_mm3"), planted.volume_mm3, 1e-3);
+  // The file says the same when it is checked by itself.
+  const Ran again = claystack("check --json " + out);
+  EXPECT_EQ(again.status, run.status);
+  EXPECT_EQ(again.json().at("problems"), json.at("remaining"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Check, PlantedFault, testing::ValuesIn(faults()), [](const auto& row) {
+  std::string name = row.param.name;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+class CheckMend : public testing::Test {
+ protected:
+  std::string write(const std::string& name, const TriangleMesh& mesh) const {
+    write_text(folder.file(name), solid::encode_stl_binary(mesh));
+    return folder.file(name);
+  }
+  ScratchFolder folder;
+};
+
+TEST_F(CheckMend, NotANumberIsRefusedAndNothingWritten) {
+  std::string obj = solid::encode_obj(cube(20.0), "fault");
+  obj.replace(obj.find("\nv ") + 3, 1, "nan ");
+  write_text(folder.file("nan.obj"), obj);
+  const std::string out = folder.file("out.stl");
+  const Ran run = claystack("check --repair " + folder.file("nan.obj") + " -o " + out);
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find("nan.obj:"), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(CheckMend, ASoundMeshIsWrittenAsItIs) {
+  const std::string in = write("in.stl", ball(10.0)), out = folder.file("out.stl");
+  const Ran run = claystack("check --json --repair " + in + " -o " + out);
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(run.json().at("found").empty());
+  EXPECT_TRUE(run.json().at("repaired").empty());
+  EXPECT_EQ(read_text(out), read_text(in));
+}
+
+TEST_F(CheckMend, RepairedAndRemainingAreToldApart) {
+  // Two balls through each other, and a cube with a hole.
+  const TriangleMesh balls = together(ball(10.0), moved(ball(10.0), {3.3, 1.7, 0.9}));
+  const std::string in = write("in.stl", together(balls, moved(hole(), {50, 0, 0})));
+  const Ran run = claystack("check --repair " + in + " -o " + folder.file("out.obj"));
+  EXPECT_EQ(run.status, 1);
+  for (const char* line : {"NOT SOUND", "found: open edge (3)", "repaired: hole filled (1)",
+                           "remaining: self-intersection (", "written: "})
+    EXPECT_NE(run.out.find(line), std::string::npos) << line << " in\n" << run.out;
+  EXPECT_EQ(run.out.find("remaining: open edge"), std::string::npos) << run.out;
+}
+
+TEST_F(CheckMend, DecimatesAfterRepair) {
+  TriangleMesh mesh = ball(10.0);
+  mesh.triangles.pop_back();
+  const std::string in = write("in.stl", mesh), out = folder.file("out.stl");
+  const Ran open = claystack("check --json " + in + " --max-triangles 100 -o " + out);
+  EXPECT_EQ(open.status, 1);
+  EXPECT_NE(open.err.find("closed manifold"), std::string::npos) << open.err;
+  EXPECT_EQ(open.json().at("problems").at(0).at("what"), "not mended");
+  EXPECT_FALSE(std::filesystem::exists(out));
+
+  const Ran run = claystack("check --json --repair " + in + " --max-triangles 100 -o " + out);
+  EXPECT_EQ(run.status, 0) << run.out << run.err;
+  EXPECT_LE(run.json().at("triangles"), 100);
+  EXPECT_EQ(run.json().at("decimated").at("to_triangles"), run.json().at("triangles"));
+  EXPECT_GT(run.json().at("decimated").at("max_error_mm"), 0.0);
+  EXPECT_LT(run.json().at("decimated").at("max_error_mm"), 2.0);
+}
+
+TEST_F(CheckMend, UsageIsSaidBeforeAnyWork) {
+  const std::string in = write("in.stl", cube(20.0));
+  const auto refused = [&](const std::string& arguments, const std::string& says) {
+    const Ran run = claystack("check " + arguments);
+    EXPECT_EQ(run.status, 2) << arguments;
+    EXPECT_NE(run.err.find(says), std::string::npos) << run.err;
+  };
+  refused("--repair " + in, "-o");
+  refused(in + " -o " + folder.file("out.stl"), "--repair");
+  refused("--repair " + in + " -o " + in, "of its own");
+  refused("--repair " + in + " -o " + folder.file("out.step"), ".obj");
+  refused(in + " --max-triangles 3 -o " + folder.file("out.stl"), "max-triangles");
+  refused(in + " --min-wall 1 --wall-samples 0", "wall-samples");
+  const std::string pot = folder.file("p.pot.json");
+  ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
+  refused("--repair " + pot + " -o " + folder.file("out.stl"), "for meshes");
+}
+
+TEST_F(CheckMend, AnOutputThatCannotBeWrittenIsExitThree) {
+  const std::string in = write("in.stl", cube(20.0));
+  EXPECT_EQ(claystack("check --repair " + in + " -o /nonexistent/out.stl").status, 3);
+}
+
+TEST_F(CheckMend, TheWallOfAMeshIsSampled) {
+  const TriangleMesh box = together(cube(20.0), moved(inverted(cube(16.0)), {2, 2, 2}));
+  const std::string in = write("box.stl", box);
+  const Ran thick = claystack("check " + in + " --min-wall 1.99");
+  EXPECT_EQ(thick.status, 0) << thick.out;
+  EXPECT_NE(thick.out.find("thinnest seen 2.00 mm at ("), std::string::npos) << thick.out;
+  EXPECT_NE(thick.out.find("), 10000 rays; a sampling, not a bound"), std::string::npos);
+
+  const Ran thin = claystack("check --json " + in + " --min-wall 2.01 --wall-samples 500");
+  EXPECT_EQ(thin.status, 1);
+  const auto json = thin.json();
+  EXPECT_NE(find(json.at("problems"), "thin wall (sampled)"), nullptr) << json.dump(2);
+  const auto wall = json.at("wall_sampled");
+  EXPECT_DOUBLE_EQ(wall.at("least_mm"), 2.0);
+  EXPECT_EQ(wall.at("rays"), 500);
+  EXPECT_EQ(wall.at("bound"), false);
+  EXPECT_EQ(wall.at("at_mm").size(), 3u);
+}
+
+TEST_F(CheckMend, AWallThatNoRayMeetsDoesNotPass) {
+  const std::string in = write("sheet.stl", {{{0, 0, 0}, {9, 0, 0}, {0, 9, 0}}, {{0, 1, 2}}});
+  const Ran run = claystack("check --json " + in + " --min-wall 1");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(find(run.json().at("problems"), "wall not measured"), nullptr) << run.out;
+  EXPECT_TRUE(run.json().at("wall_sampled").at("least_mm").is_null());
+}
+
+}  // namespace
+}  // namespace clay::test

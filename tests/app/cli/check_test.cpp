@@ -1,0 +1,206 @@
+#include "tests/support/run_program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+namespace clay::test {
+namespace {
+
+/// A good binary STL of the bowl with few triangles, to plant faults in.
+class CheckMesh : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const ScratchFolder folder;
+    ASSERT_EQ(
+        claystack("throw -q " + sample("bowl.scene.json") + " -o " + folder.file("p.pot.json"))
+            .status,
+        0);
+    ASSERT_EQ(
+        claystack("export -q --segments 16 " + folder.file("p.pot.json") + " " +
+                  folder.file("p.stl") + " " + folder.file("p.obj") + " " + folder.file("p.drc"))
+            .status,
+        0);
+    good_stl = read_text(folder.file("p.stl"));
+    good_obj = read_text(folder.file("p.obj"));
+    good_drc = read_text(folder.file("p.drc"));
+  }
+  static char* facet(std::string& stl, std::size_t k) { return stl.data() + 84 + 50 * k; }
+  static void set_count(std::string& stl) {
+    const auto count = static_cast<std::uint32_t>((stl.size() - 84) / 50);
+    std::memcpy(stl.data() + 80, &count, 4);
+  }
+  nlohmann::json expect_problem(const std::string& name, const std::string& bytes, int status,
+                                const std::string& says) {
+    write_text(folder.file(name), bytes);
+    const Ran run = claystack("check --json " + folder.file(name));
+    EXPECT_EQ(run.status, status) << name << run.out << run.err;
+    const auto json = run.json();
+    EXPECT_FALSE(json.at("sound")) << name;
+    EXPECT_NE(json.at("problems").dump().find(says), std::string::npos)
+        << json.at("problems").dump(2);
+    return json;
+  }
+  inline static std::string good_stl, good_obj, good_drc;
+  ScratchFolder folder;
+};
+
+TEST_F(CheckMesh, AHoleIsNamedWithItsPlace) {
+  std::string stl = good_stl;
+  stl.erase(84 + 50 * 100, 50);
+  set_count(stl);
+  const auto json = expect_problem("hole.stl", stl, 1, "open edge");
+  EXPECT_FALSE(json.at("closed"));
+  EXPECT_TRUE(json.at("manifold"));
+  EXPECT_NE(json.at("problems").dump().find(" mm"), std::string::npos);
+}
+
+TEST_F(CheckMesh, AFlippedFaceIsNamedWithItsPlace) {
+  std::string stl = good_stl;
+  char* corners = facet(stl, 57) + 12;
+  char second[12];
+  std::memcpy(second, corners + 12, 12);
+  std::memmove(corners + 12, corners + 24, 12);
+  std::memcpy(corners + 24, second, 12);
+  const auto json = expect_problem("flipped.stl", stl, 1, "57");
+  EXPECT_FALSE(json.at("oriented"));
+  EXPECT_TRUE(json.at("closed"));
+}
+
+TEST_F(CheckMesh, NotANumberIsNamedWithItsPlace) {
+  std::string stl = good_stl;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  std::memcpy(facet(stl, 33) + 12, &nan, 4);
+  expect_problem("nan.stl", stl, 2, "facet 34");  // counted from 1
+  std::string obj = good_obj;
+  obj.replace(obj.find("\nv ") + 3, 1, "nan ");
+  expect_problem("nan.obj", obj, 2, "nan.obj:");
+}
+
+TEST_F(CheckMesh, ATruncatedFileIsRefused) {
+  expect_problem("cut.stl", good_stl.substr(0, good_stl.size() - 7), 2, "cut.stl");
+  expect_problem("cut.obj", good_obj.substr(0, good_obj.size() - 5), 2, "cut.obj:");
+  expect_problem("cut.drc", good_drc.substr(0, good_drc.size() / 2), 2, "cut.drc");
+  expect_problem("empty.stl", "", 2, "empty.stl");
+}
+
+TEST_F(CheckMesh, AChangedDracoFileIsRefused) {
+  std::string drc = good_drc;
+  drc.back() = static_cast<char>(drc.back() ^ 1);
+  expect_problem("changed.drc", drc, 2, "the file has been changed");
+}
+
+TEST_F(CheckMesh, ADracoFileOfOursSaysThatItIsWhole) {
+  write_text(folder.file("p.drc"), good_drc);
+  const Ran run = claystack("check --json " + folder.file("p.drc"));
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.json().at("notes"), nlohmann::json({"checksum holds"}));
+}
+
+TEST_F(CheckMesh, InsideOutIsNotOriented) {
+  std::string stl = good_stl;
+  for (std::size_t k = 0; k < (stl.size() - 84) / 50; ++k) {
+    char second[12];
+    char* corners = facet(stl, k) + 12;
+    std::memcpy(second, corners + 12, 12);
+    std::memmove(corners + 12, corners + 24, 12);
+    std::memcpy(corners + 24, second, 12);
+  }
+  const auto json = expect_problem("inside-out.stl", stl, 1, "");
+  EXPECT_FALSE(json.at("oriented"));
+  EXPECT_LT(json.at("volume_mm3"), 0.0);
+}
+
+TEST_F(CheckMesh, ADuplicateFaceIsNotManifold) {
+  std::string stl = good_stl;
+  stl.append(good_stl, 84 + 50 * 10, 50);
+  set_count(stl);
+  EXPECT_FALSE(expect_problem("double.stl", stl, 1, "10").at("manifold"));
+}
+
+TEST_F(CheckMesh, ATallSpikeThroughTheWallIntersects) {
+  // Every copy of one vertex is moved across the pot: closed as before, but self-crossing.
+  std::string stl = good_stl;
+  char vertex[12];
+  std::memcpy(vertex, facet(stl, 200) + 12, 12);
+  float moved[3];
+  std::memcpy(moved, vertex, 12);
+  moved[0] = -moved[0] * 1.5f;
+  moved[1] = -moved[1] * 1.5f;
+  for (std::size_t k = 0; k < (stl.size() - 84) / 50; ++k)
+    for (int corner = 0; corner < 3; ++corner)
+      if (std::memcmp(facet(stl, k) + 12 + 12 * corner, vertex, 12) == 0)
+        std::memcpy(facet(stl, k) + 12 + 12 * corner, moved, 12);
+  const auto json = expect_problem("spike.stl", stl, 1, "self-intersection");
+  EXPECT_TRUE(json.at("closed"));
+  EXPECT_GT(json.at("self_intersections"), 0);
+}
+
+TEST(CheckPot, MeasuresTheWall) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("p.pot.json");
+  ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
+  // The wall of the pot that export makes of it; that of its facets is a little thinner.
+  const auto exported = claystack("export --json " + pot + " " + folder.file("p.stl")).json();
+  const double wall = exported.at("min_wall_mm");
+  EXPECT_EQ(claystack("check " + pot + " --min-wall " + std::to_string(wall - 0.01)).status, 0);
+  const Ran thin = claystack("check --json " + pot + " --min-wall " + std::to_string(wall + 0.01));
+  EXPECT_EQ(thin.status, 1);
+  const auto problem = thin.json().at("problems").at(0);
+  EXPECT_EQ(problem.at("what"), "thin wall");
+  EXPECT_NE(problem.at("where").get<std::string>().find("mm of height"), std::string::npos);
+}
+
+TEST(CheckPot, ACollapsedPotIsNotSound) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("c.pot.json");
+  ASSERT_EQ(claystack("throw -q " + sample("collapse.scene.json") + " -o " + pot).status, 0);
+  const Ran run = claystack("check --json " + pot);
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.json().at("problems").at(0).at("what"), "collapsed");
+}
+
+TEST(CheckPot, AClosedCavityIsSoundAndNoted) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("p.pot.json");
+  ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
+  auto json = nlohmann::ordered_json::parse(read_text(pot));
+  const auto mm2 = [](std::int64_t value) { return value << 36; };
+  json["rings"] = {{"outer2", {mm2(400), mm2(400), mm2(400)}}, {"inner2", {0, mm2(225), 0}}};
+  json["crown"] = "0";
+  json["ledger"] = {
+      {"initial", std::to_string(mm2(975))}, {"added", "0"}, {"trimmed", "0"}, {"outside", "0"}};
+  write_text(pot, json.dump());
+  const Ran run = claystack("check --json " + pot);
+  EXPECT_EQ(run.status, 0) << run.out << run.err;
+  EXPECT_NE(run.json().at("notes").dump().find("closed cavity"), std::string::npos);
+  const Ran exported = claystack("export " + pot + " " + folder.file("p.stl"));
+  EXPECT_EQ(exported.status, 0) << exported.err;
+  EXPECT_NE(exported.err.find("drain hole"), std::string::npos);
+}
+
+TEST(CheckPot, AnEditedQuantumIsCaughtByTheLedger) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("p.pot.json");
+  ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
+  auto json = nlohmann::ordered_json::parse(read_text(pot));
+  auto& quanta = json["rings"]["outer2"][100];
+  quanta = quanta.get<std::int64_t>() + 1;
+  write_text(pot, json.dump());
+  const Ran run = claystack("check " + pot);
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find("ledger"), std::string::npos) << run.err;
+}
+
+TEST(Check, UnknownEndingsAreListed) {
+  const ScratchFolder folder;
+  write_text(folder.file("pot.blend"), "x");
+  const Ran run = claystack("check " + folder.file("pot.blend"));
+  EXPECT_EQ(run.status, 2);
+  for (const char* ending : {".stl", ".obj", ".drc", ".pot.json"})
+    EXPECT_NE(run.err.find(ending), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace clay::test

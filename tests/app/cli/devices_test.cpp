@@ -1,0 +1,52 @@
+#include "tests/support/run_program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace clay::test {
+namespace {
+
+// What is plugged into the machine of the test is unknown; the rigs plug devices in.
+TEST(Devices, ListsWhatIsThere) {
+  const auto run = claystack("devices --json");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(run.json().at("devices").is_array());
+}
+
+TEST(Devices, AskedForAndMissingIsStatus4) {
+  const auto run = claystack("devices usb:250-7");
+  EXPECT_EQ(run.status, 4);
+  EXPECT_NE(run.err.find("usb:250-7: no such device"), std::string::npos) << run.err;
+}
+
+TEST(Devices, UnknownKindIsBadUsage) {
+  for (const char* arguments : {"devices mouse", "devices simulated --seconds nan"})
+    EXPECT_EQ(claystack(arguments).status, 2) << arguments;
+}
+
+TEST(Devices, AutoNeverPicksTheSimulatedOne) {
+  const auto run = claystack("devices auto --json");
+  EXPECT_EQ(run.out.find("simulated"), std::string::npos);
+}
+
+TEST(Devices, SimulatedIsHomedAndMonitored) {
+  const auto run = claystack("devices simulated --monitor --seconds 2 --json");
+  ASSERT_EQ(run.status, 0) << run.err;
+  std::istringstream lines(run.out);
+  std::string line;
+  nlohmann::json last;
+  while (std::getline(lines, line)) {
+    last = nlohmann::json::parse(line);
+    if (last.at("state") != "ready") continue;
+    // Its hand goes round a circle of 20 mm.
+    const auto at = last.at("position_mm");
+    EXPECT_NEAR(std::hypot(at[0].get<double>(), at[1].get<double>()), 20.0, 1.0) << line;
+  }
+  EXPECT_EQ(last.at("state"), "ready");
+  EXPECT_EQ(last.at("bytes_discarded"), 0);
+}
+
+}  // namespace
+}  // namespace clay::test

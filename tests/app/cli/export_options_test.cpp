@@ -1,0 +1,246 @@
+// What the options of `claystack export` promise.
+
+#include "tests/app/cli/thrown_bowl.hpp"
+
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <filesystem>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace clay::test {
+namespace {
+
+class ExportOptions : public ThrownBowl {
+ protected:
+  Ran run(const std::string& options) const {
+    return claystack("export " + pot + " " + stl + " " + options);
+  }
+  std::string stl = folder.file("bowl.stl");
+};
+
+TEST_F(ExportOptions, AThinWallExitsOneWithTheFigureAndItsSource) {
+  const Ran demand = run("--min-wall 40");
+  EXPECT_EQ(demand.status, 1);
+  EXPECT_NE(demand.err.find("expected 40.000 mm at least (--min-wall)"), std::string::npos)
+      << demand.err;
+  EXPECT_TRUE(std::filesystem::exists(stl));
+  const Ran process = run("--process " + sample("workshop.process.json"));
+  EXPECT_EQ(process.status, 1);
+  EXPECT_NE(process.err.find("two beads"), std::string::npos) << process.err;
+  EXPECT_EQ(run("--process porcelain").status, 0);
+}
+
+TEST_F(ExportOptions, UnknownProcessesAreNamedBeforeAnythingIsWritten) {
+  const Ran unknown = run("--process bronze");
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_NE(unknown.err.find("earthenware"), std::string::npos) << unknown.err;
+  EXPECT_EQ(run("--process " + folder.file("none.json")).status, 3);
+  EXPECT_EQ(run("--process " + pot).status, 2);
+  EXPECT_FALSE(std::filesystem::exists(stl));
+}
+
+TEST_F(ExportOptions, TheReportIsWhatJsonPrints) {
+  const std::string report = folder.file("report.json");
+  const Ran printed = run("--json --report " + report);
+  ASSERT_EQ(printed.status, 0) << printed.err;
+  EXPECT_EQ(printed.out, read_text(report));
+}
+
+TEST_F(ExportOptions, TrianglesStayWithinTheBudget) {
+  const auto all = run("--json").json();
+  for (const int most : {20'000, 3'000, 400}) {
+    const auto few = run("--json --max-triangles " + std::to_string(most)).json();
+    EXPECT_LE(few.at("triangles"), most);
+    EXPECT_GT(few.at("triangles"), most / 2);
+    EXPECT_GT(few.at("tolerance_mm"), all.at("tolerance_mm"));
+    EXPECT_LT(few.at("volume_error_relative"), 1e-9);
+    EXPECT_EQ(claystack("check " + stl).status, 0);
+  }
+  const Ran impossible = run("--max-triangles 8");
+  EXPECT_EQ(impossible.status, 2);
+  EXPECT_NE(impossible.err.find("max triangles: expected at least"), std::string::npos);
+}
+
+TEST_F(ExportOptions, FullVerificationChecksTheFileAsAStrangers) {
+  const auto json = run("--json --verify full").json();
+  EXPECT_TRUE(json.at("files").at(0).at("full_verification").at("sound"));
+  EXPECT_EQ(json.at("files").at(0).at("full_verification").at("self_intersections"), 0);
+}
+
+TEST_F(ExportOptions, AShrinkageMakesTheFilesLarger) {
+  const auto plain = run("--json").json();
+  const std::string svg = folder.file("larger.svg");
+  const auto larger = run(svg + " --shrinkage 12% --json").json();
+  const double factor = 1.0 / 0.88;
+  EXPECT_NEAR(larger.at("height_mm").get<double>(), factor * plain.at("height_mm").get<double>(),
+              1e-9);
+  EXPECT_NEAR(larger.at("volume_mm3").get<double>() / plain.at("volume_mm3").get<double>(),
+              factor * factor * factor, 1e-8);
+  const auto& fired = larger.at("shrinkage");
+  EXPECT_NEAR(fired.at("fired_height_mm").get<double>(), plain.at("height_mm").get<double>(), 1e-9);
+  EXPECT_NEAR(fired.at("fired_volume_mm3").get<double>(), plain.at("volume_mm3").get<double>(),
+              1e-2);
+  // The file itself, by a program of another house.
+  const std::string info = shell("prusa-slicer --info " + stl).out;
+  const auto size_z = info.find("size_z = ");
+  ASSERT_NE(size_z, std::string::npos) << info;
+  EXPECT_NEAR(std::stod(info.substr(size_z + 9)), larger.at("height_mm").get<double>(), 1e-3);
+  EXPECT_EQ(claystack("check " + stl).status, 0);
+  EXPECT_NE(claystack("export " + pot + " " + stl + " --shrinkage 12%").out.find("to come out"),
+            std::string::npos);
+}
+
+TEST_F(ExportOptions, AShrinkageIsAPercentage) {
+  for (const char* bad : {"0.12", "12", "60%", "-1%", "x%", "%"})
+    EXPECT_EQ(run(std::string("--shrinkage ") + bad).status, 2) << bad;
+  EXPECT_EQ(run("--shrinkage 7.5%").status, 0);
+  const Ran alone =
+      claystack("export " + pot + " " + folder.file("copy.pot.json") + " --shrinkage 12%");
+  EXPECT_EQ(alone.status, 2);
+  EXPECT_NE(alone.err.find("--shrinkage: expected a mesh"), std::string::npos) << alone.err;
+}
+
+TEST_F(ExportOptions, NormalsAreForObj) {
+  const std::string obj = folder.file("n.obj");
+  ASSERT_EQ(claystack("export -q --normals " + pot + " " + obj).status, 0);
+  EXPECT_NE(read_text(obj).find("\nvn "), std::string::npos);
+  EXPECT_NE(shell("prusa-slicer --info " + obj).out.find("manifold = yes"), std::string::npos);
+  EXPECT_EQ(claystack("check " + obj).status, 0);
+}
+
+TEST_F(ExportOptions, TheTableOfWallsHasTheLeastOfThem) {
+  const std::string csv = folder.file("walls.csv");
+  const auto json = run(csv + " --json").json();
+  std::istringstream rows(read_text(csv));
+  std::string row;
+  std::getline(rows, row);
+  EXPECT_EQ(row, "piece,face,arc_mm,rho_mm,y_mm,thickness_mm,opposite_rho_mm,opposite_y_mm");
+  double least = 1e9, arc = -1.0;
+  int bore = 0;
+  while (std::getline(rows, row)) {
+    std::vector<std::string> cells;
+    std::istringstream line(row);
+    for (std::string cell; std::getline(line, cell, ',');) cells.push_back(cell);
+    ASSERT_GE(cells.size(), 5u) << row;
+    EXPECT_GT(std::stod(cells[2]), arc);
+    EXPECT_LE(std::stod(cells[2]), arc < 0.0 ? 0.5 : arc + 0.51);
+    arc = std::stod(cells[2]);
+    bore += cells[1] == "bore" ? 1 : 0;
+    if (cells.size() > 5 && !cells[5].empty()) least = std::min(least, std::stod(cells[5]));
+  }
+  EXPECT_GT(bore, 50);
+  // The mesh's wall is that of the profile, but for the facets' part in a thousand.
+  EXPECT_NEAR(least, json.at("min_wall_mm").get<double>(), 0.05);
+  EXPECT_EQ(claystack("export -q " + pot + " " + csv).status, 0);  // needs no mesh
+}
+
+TEST_F(ExportOptions, ALipFilletAndExactWallsAreSaid) {
+  const auto filleted = run("--json --lip-fillet 1.5").json();
+  EXPECT_NEAR(filleted.at("lip_fillet_mm"), 1.5, 1e-12);
+  EXPECT_LT(filleted.at("volume_error_relative"), 1e-12);
+  const auto exact = run("--json --smooth exact").json();
+  EXPECT_EQ(exact.at("smoothing"), "exact");
+  EXPECT_LT(exact.at("max_ring_error_relative"), 1e-12);
+  const Ran both = run("--smooth exact --lip-fillet 1");
+  EXPECT_EQ(both.status, 2);
+  EXPECT_NE(both.err.find("fillet"), std::string::npos) << both.err;
+}
+
+TEST_F(ExportOptions, WhatIsLeftOutIsMeasuredOnRequest) {
+  const auto plain = run("--json").json(), measured = run("--json --measure-left-out").json();
+  for (const auto& item : plain.at("left_out")) EXPECT_FALSE(item.contains("saved_s"));
+  bool checked = false;
+  for (const auto& item : measured.at("left_out")) {
+    if (item.at("what") != "full verification") continue;
+    EXPECT_GT(item.at("saved_s"), 0.0);
+    checked = true;
+  }
+  EXPECT_TRUE(checked);
+}
+
+TEST_F(ExportOptions, OptionsThatWouldDoNothingAreRefused) {
+  for (const char* option : {"--ascii", "--normals", "--certificate", "--precision 0.001",
+                             "--min-wall 3", "--process sla"}) {
+    const Ran nothing =
+        claystack("export " + pot + " " + folder.file("section.svg") + " " + option);
+    EXPECT_EQ(nothing.status, 2) << option;
+    EXPECT_NE(nothing.err.find("among the files to write"), std::string::npos) << nothing.err;
+  }
+}
+
+TEST_F(ExportOptions, PipesCannotBeReadAgainAndTheReportSaysSo) {
+  const std::string pipe = folder.file("pipe.stl");
+  const Ran run = shell("mkfifo " + pipe + " && cat " + pipe + " > " + stl + " & sleep 0.2; " +
+                        CLAYSTACK_PROGRAM " export --json " + pot + " " + pipe + "; wait");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_FALSE(run.json().at("files").at(0).at("read_again"));
+  EXPECT_EQ(std::filesystem::file_size(stl), run.json().at("files").at(0).at("bytes"));
+}
+
+/// A closed box: solid foot of 10 mm, cavity of 10 mm, lid of 10 mm; R = 30 mm, r = 20 mm.
+constexpr const char* kBox = R"({"schema": "claystack-pot-1", "written_by": "test",
+ "model": "conserving", "density_g_cm3": 1.9, "ring_height_mm": 10, "max_rings": 100,
+ "quantum_mm2": "2^-36",
+ "rings": {"outer2": [61847529062400, 61847529062400, 61847529062400],
+           "inner2": [0, 27487790694400, 0],
+           "outer_mm": [30, 30, 30], "inner_mm": [0, 20, 0]},
+ "crown": "0",
+ "ledger": {"initial": "158054796492800", "added": "0", "trimmed": "0", "outside": "0"},
+ "collapse": null})";
+
+TEST(ExportDrain, OpensACavityAndSaysWhatItTook) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("box.pot.json"), stl = folder.file("box.stl");
+  write_text(pot, kBox);
+  const Ran closed = claystack("export --json " + pot + " " + stl);
+  ASSERT_EQ(closed.status, 0) << closed.err;
+  EXPECT_EQ(closed.json().at("cavities").size(), 1u);
+  EXPECT_EQ(closed.json().at("shells"), 2);
+  EXPECT_NE(closed.err.find("drain hole"), std::string::npos);
+  const Ran drained = claystack("export --json --drain 6 " + pot + " " + stl);
+  ASSERT_EQ(drained.status, 0) << drained.err;
+  EXPECT_TRUE(drained.json().at("cavities").empty());
+  EXPECT_EQ(drained.json().at("shells"), 1);
+  EXPECT_NEAR(drained.json().at("drilled_mm3"), std::numbers::pi * 9.0 * 10.0, 1e-6);
+  EXPECT_EQ(claystack("check " + stl).status, 0);
+}
+
+TEST_F(ExportOptions, NothingIsWrittenWhereOneFileCannotBe) {
+  const Ran report = run("--report " + folder.file("none/report.json"));
+  EXPECT_EQ(report.status, 3) << report.err;
+  std::filesystem::create_directory(stl + ".certificate.json");
+  const Ran certificate = run("--certificate");
+  EXPECT_EQ(certificate.status, 3) << certificate.err;
+  EXPECT_FALSE(std::filesystem::exists(stl));
+}
+
+TEST_F(ExportOptions, ADrawingAloneProvesNothing) {
+  const auto json = claystack("export --json " + pot + " " + folder.file("b.svg")).json();
+  EXPECT_EQ(json.at("files").size(), 1u);
+  for (const char* claim : {"certificate", "volume_mm3", "min_wall_mm", "wall_demand"})
+    EXPECT_FALSE(json.contains(claim)) << claim;
+  const Ran none = claystack("export --certificate " + pot + " " + folder.file("b.svg"));
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("--certificate: expected a mesh"), std::string::npos) << none.err;
+}
+
+TEST_F(ExportOptions, AFilletWithoutSmoothingIsRefused) {
+  const Ran run_none = run("--lip-fillet 1 --smooth none");
+  EXPECT_EQ(run_none.status, 2);
+  EXPECT_NE(run_none.err.find("lip fillet: expected fair smoothing, found none"), std::string::npos)
+      << run_none.err;
+}
+
+TEST_F(ExportOptions, JsonHoldsNamesThatAreNoText) {
+  const std::string odd = folder.file("\xff.stl");
+  ASSERT_EQ(claystack("export -q " + pot + " " + odd).status, 0);
+  const Ran check = claystack("check --json " + odd);
+  EXPECT_EQ(check.status, 0) << check.err;
+  EXPECT_TRUE(check.json().at("sound"));
+}
+
+}  // namespace
+}  // namespace clay::test

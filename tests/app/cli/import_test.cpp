@@ -1,0 +1,56 @@
+#include "tests/support/run_program.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace clay::test {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Import, MakesAPotThatPrints) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("jug.pot.cbor"), stl = folder.file("jug.stl");
+  const auto run = claystack("import --json " + sample("drawings/jug.svg") + " -o " + pot);
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = run.json();
+  EXPECT_EQ(json.at("axis"), "left");
+  EXPECT_NEAR(json.at("axis_mm").get<double>(), 10.0, 1e-9);
+  EXPECT_NEAR(json.at("height_mm").get<double>(), 172.0, 1e-9);
+  const double drawn = json.at("drawn_mm3"), held = json.at("volume_mm3");
+  EXPECT_NEAR(held / drawn, 1.0, 1e-9);
+
+  ASSERT_EQ(claystack("export -q " + pot + " " + stl).status, 0);
+  const auto check = claystack("check --json " + stl);
+  ASSERT_EQ(check.status, 0) << check.out;
+
+  // OpenSCAD revolves the same drawing, its curves and circles in chords of its own: of 400 around
+  // it lacks 1 - sin(2 pi/n) n/(2 pi) = 4e-5, along a little more.
+  const std::string script = folder.file("jug.scad"), peer = folder.file("peer.stl");
+  write_text(script, "rotate_extrude($fn = 400) translate([-10, 0]) import(\"" +
+                         sample("drawings/jug.svg") + "\", $fn = 400);");
+  ASSERT_EQ(shell("openscad -q -o " + peer + " " + script).status, 0);
+  const double revolved = claystack("check --json " + peer).json().at("volume_mm3");
+  EXPECT_NEAR(revolved / drawn, 1.0, 1e-3);
+}
+
+TEST(Import, SaysWhatIsWrongAndLeavesNothing) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("x.pot.json"), drawing = folder.file("x.csv");
+  write_text(drawing, "10,0\n10,ten\n");
+  const auto broken = claystack("import " + drawing + " -o " + pot);
+  EXPECT_EQ(broken.status, 2);
+  EXPECT_THAT(broken.err, HasSubstr("x.csv:2: expected a radius and a height in mm"));
+  EXPECT_EQ(claystack("import " + folder.file("none.svg") + " -o " + pot).status, 3);
+  write_text(drawing, "10,0\n10,20\n");
+  EXPECT_EQ(claystack("import " + drawing + " -o " + pot + " --axis up").status, 2);
+  EXPECT_EQ(claystack("import " + drawing + " -o " + drawing).status, 2);
+  EXPECT_FALSE(std::filesystem::exists(pot));
+  EXPECT_EQ(claystack("import -q " + drawing + " -o " + pot).status, 0);
+  EXPECT_TRUE(std::filesystem::exists(pot));
+}
+
+}  // namespace
+}  // namespace clay::test

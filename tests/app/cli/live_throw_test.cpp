@@ -1,0 +1,200 @@
+// Throwing by hand, as the program does it, with the simulated arm.
+
+#include "tests/support/run_program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+namespace clay::test {
+namespace {
+
+const std::string kBowl = "throw " + sample("bowl.scene.json");
+
+/// Starts `throw --device simulated` with these options more, does `then` once its recording in
+/// `folder` holds some blocks, and waits for its end. The exit status is the program's, or 124
+/// where the recording never came.
+Ran interrupted(const ScratchFolder& folder, const std::string& more, const std::string& then,
+                const std::string& environment = "") {
+  const std::string session = folder.file("s.session");
+  return shell(environment + " " CLAYSTACK_PROGRAM " " + kBowl +
+               " --device simulated --seconds 100 --record " + session + " " + more +
+               " & program=$!; for i in $(seq 3000); do [ $(cat " + session +
+               ".recording 2>/dev/null | wc -l) -ge 15 ] && break; kill -0 $program || exit 124; "
+               "sleep 0.01; done; " +
+               then + "; wait $program");
+}
+
+/// What the session, or what there is of it, replays to.
+std::string replayed(const ScratchFolder& folder, const std::string& session = "s.session") {
+  const auto run =
+      claystack(kBowl + " -q -s " + folder.file(session) + " -o " + folder.file("replay.pot.json"));
+  EXPECT_EQ(run.status, 0) << run.err;
+  return read_text(folder.file("replay.pot.json"));
+}
+
+/// The one file of this folder and those below it.
+std::string only_file_in(const std::string& folder) {
+  std::string found;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) {
+      EXPECT_EQ(found, "") << entry.path();
+      found = entry.path().string();
+    }
+  return found;
+}
+
+TEST(LiveThrow, RunsWithoutHardwareAndReplaysToTheSameBytes) {
+  const ScratchFolder folder;
+  const auto run = claystack("throw " + sample("bowl.scene.json") +
+                             " --device simulated --seconds 1.5 --json --record " +
+                             folder.file("s.session") + " -o " + folder.file("a.pot.json"));
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = run.json();
+  EXPECT_EQ(json.at("ended"), "time_up");
+  EXPECT_GE(json.at("seconds"), 1.5);
+  EXPECT_EQ(json.at("volume_error_quanta"), 0);
+  EXPECT_EQ(json.at("recording").at("lost"), 0);
+  EXPECT_EQ(json.at("recording").at("poses"), json.at("poses"));
+  EXPECT_GE(json.at("servo").at("ticks"), json.at("poses"));
+  for (const char* times :
+       {"lateness_us", "oversleep_us", "period_us", "work_us", "sample_age_us"}) {
+    const auto& spread = json.at("servo").at(times);
+    EXPECT_LE(spread.at("p50"), spread.at("p99"));
+    EXPECT_LE(spread.at("p99"), spread.at("max"));
+  }
+  EXPECT_EQ(replayed(folder), read_text(folder.file("a.pot.json")));
+}
+
+TEST(LiveThrow, ASignalKeepsPotAndSession) {
+  for (const std::string signal : {"INT", "TERM", "HUP", "PIPE"}) {
+    const ScratchFolder folder;
+    const auto run = interrupted(folder, "--json -o " + folder.file("a.pot.json"),
+                                 "kill -s " + signal + " $program");
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.json().at("ended"), "stopped");
+    EXPECT_EQ(replayed(folder), read_text(folder.file("a.pot.json"))) << signal;
+    EXPECT_FALSE(std::filesystem::exists(folder.file("s.session.recording")));
+  }
+}
+
+TEST(LiveThrow, KilledItLeavesARecordingThatReplaysAndTheOldSession) {
+  const ScratchFolder folder;
+  write_text(folder.file("s.session"), "the old one");
+  const auto run = interrupted(folder, "-o " + folder.file("a.pot.json"), "kill -s KILL $program");
+  EXPECT_EQ(run.status, 128 + 9);
+  EXPECT_EQ(read_text(folder.file("s.session")), "the old one");
+  EXPECT_FALSE(replayed(folder, "s.session.recording").empty());
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.pot.json")));
+}
+
+TEST(LiveThrow, ASecondOneOnTheSameSessionIsRefusedAtOnce) {
+  const ScratchFolder folder;
+  const auto run = interrupted(folder, "-o " + folder.file("a.pot.json"),
+                               CLAYSTACK_PROGRAM " " + kBowl + " --device simulated --record " +
+                                   folder.file("s.session") + " -o " + folder.file("b.pot.json") +
+                                   "; echo second $?; kill -s INT $program");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find("second 3"), std::string::npos) << run.out;
+  EXPECT_NE(run.err.find("s.session: another program is recording to it"), std::string::npos)
+      << run.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("b.pot.json")));
+  EXPECT_EQ(replayed(folder), read_text(folder.file("a.pot.json")));
+}
+
+TEST(LiveThrow, WhatCannotBeWrittenIsRefusedBeforeAnythingIsThrown) {
+  const ScratchFolder folder;
+  write_text(folder.file("folder"), "");
+  const std::string live = kBowl + " --device simulated --seconds 100 ";
+  for (const std::string& output :
+       {"-o " + folder.file("none/a.pot.json"), "-o " + folder.file("folder/a.pot.json"),
+        "--record " + folder.file("none/s.session") + " -o " + folder.file("a.pot.json")}) {
+    const auto run = claystack(live + output);
+    EXPECT_EQ(run.status, 3) << output;
+    EXPECT_EQ(run.out, "") << output;
+    EXPECT_NE(run.err.find(folder.path().string()), std::string::npos) << run.err;
+  }
+  // A limit on the size of files stands for a full disk.
+  const auto full = shell("(ulimit -f 0; " CLAYSTACK_PROGRAM " " + live + " -o " +
+                          folder.file("a.pot.json") + "; echo status $?) 2>&1 | cat");
+  EXPECT_NE(full.out.find("a.pot.json: cannot write: File too large\nstatus 3"), std::string::npos)
+      << full.out;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.pot.json")));
+}
+
+TEST(LiveThrow, APotWhoseFolderIsGoneIsKeptInTheStateFolder) {
+  const ScratchFolder folder;
+  const std::string pots = folder.file("pots"), state = folder.file("state");
+  std::filesystem::create_directory(pots);
+  const auto run =
+      interrupted(folder, "-o " + pots + "/a.pot.json", "rm -r " + pots + "; kill -s INT $program",
+                  "XDG_STATE_HOME=" + state);
+  EXPECT_EQ(run.status, 3);
+  EXPECT_EQ(run.out.find("pot: "), std::string::npos) << run.out;
+  const std::string kept = only_file_in(state);
+  EXPECT_NE(run.err.find("; the pot is in " + kept), std::string::npos) << run.err;
+  EXPECT_TRUE(kept.ends_with(".pot.json")) << kept;
+  EXPECT_EQ(read_text(kept), replayed(folder));
+}
+
+TEST(LiveThrow, APotThatIsNoFileIsKeptInTheTemporaryFolderAsALastResort) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("a.pot.json"), temporary = folder.file("tmp");
+  std::filesystem::create_directory(temporary);
+  std::filesystem::create_symlink("/dev/full", pot);
+  const auto run = interrupted(folder, "-o " + pot, "kill -s INT $program",
+                               "XDG_STATE_HOME=/dev/null TMPDIR=" + temporary);
+  EXPECT_EQ(run.status, 3);
+  const std::string kept = only_file_in(temporary);
+  EXPECT_NE(run.err.find(pot + ": cannot write: No space left on device; the pot is in " + kept),
+            std::string::npos)
+      << run.err;
+  EXPECT_EQ(read_text(kept), replayed(folder));
+}
+
+TEST(LiveThrow, AReaderThatIsGoneCostsNoPot) {
+  const ScratchFolder folder;
+  const auto run =
+      shell(CLAYSTACK_PROGRAM " " + kBowl + " --device simulated --seconds 0.5 --record " +
+            folder.file("s.session") + " -o " + folder.file("a.pot.json") + " | true");
+  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(replayed(folder), read_text(folder.file("a.pot.json")));
+}
+
+TEST(LiveThrow, RefusesASceneThatIsTooStiffAndSoftensItWhenAsked) {
+  const ScratchFolder folder;
+  auto scene = nlohmann::json::parse(read_text(sample("bowl.scene.json")));
+  scene["force"]["stiffness_n_per_mm2"] = 0.2;
+  const std::string path = folder.file("stiff.scene.json");
+  write_text(path, scene.dump());
+  const std::string live = "throw " + path + " --device simulated --seconds 0.2 --json";
+  const auto refused = claystack(live);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("force.stiffness_n_per_mm2: expected at most 0.033"),
+            std::string::npos)
+      << refused.err;
+  EXPECT_NE(refused.err.find("--soften"), std::string::npos);
+  // Twice the travel of the hand at the same force: half as stiff... and at unit gain twice.
+  EXPECT_EQ(claystack(live + " --soften").status, 0);
+  scene["force"]["stiffness_n_per_mm2"] = 0.03;
+  write_text(path, scene.dump());
+  EXPECT_EQ(claystack(live).status, 0);
+  EXPECT_EQ(claystack(live + " --scale 2 --force-gain 1").status, 2);
+}
+
+TEST(LiveThrow, NamesWhatItCannotDo) {
+  const std::string live = "throw " + sample("bowl.scene.json") + " --device ";
+  EXPECT_EQ(claystack(live + "hand").status, 2);
+  EXPECT_EQ(claystack(live + "simulated --rate 50").status, 2);
+  EXPECT_EQ(claystack(live + "simulated --flip w").status, 2);
+  EXPECT_EQ(claystack(live + "simulated --trace t.csv").status, 2);
+  EXPECT_EQ(claystack(live + "simulated -o pot.stl").status, 2);
+  EXPECT_EQ(claystack(live + "simulated --seconds 0.1 --record /no/such/folder/s").status, 3);
+  // No such device here, and none is made up.
+  const auto none = claystack(live + "/dev/hidraw99");
+  EXPECT_EQ(none.status, 4);
+}
+
+}  // namespace
+}  // namespace clay::test

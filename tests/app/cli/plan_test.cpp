@@ -1,0 +1,78 @@
+#include "tests/support/run_program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace clay::test {
+namespace {
+
+std::set<std::string> stages(const nlohmann::json& plan, const char* part) {
+  std::set<std::string> names;
+  for (const auto& line : plan.at(part)) names.insert(line.at("stage").get<std::string>());
+  return names;
+}
+
+constexpr const char* kSolidFrictionless = R"({
+  "schema": "claystack-scene-1",
+  "lump": {"rings": 200, "ring_height_mm": 0.5, "outer_radius_mm": 40},
+  "tool": {"shape": {"sphere": {"radius_mm": 10}}},
+  "force": {"stiffness_n_per_mm2": 0.02}
+})";
+
+TEST(Plan, LeavesOutWhatASolidFrictionlessSceneDoesNotNeed) {
+  const ScratchFolder folder;
+  write_text(folder.file("s.scene.json"), kSolidFrictionless);
+  const auto run = claystack("plan --json " + folder.file("s.scene.json"));
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto plan = run.json();
+  EXPECT_EQ(stages(plan, "left_out"),
+            (std::set<std::string>{"inner surface", "friction", "stability", "pinch"}));
+  EXPECT_EQ(stages(plan, "in"), (std::set<std::string>{"tool state", "contact", "removal",
+                                                       "outer surface", "growth", "force"}));
+  for (const auto& line : plan.at("left_out")) {
+    EXPECT_FALSE(line.at("why").get<std::string>().empty());
+    EXPECT_TRUE(line.at("saved_ns").is_number());
+  }
+}
+
+TEST(Plan, HasAllInForASceneThatNeedsAll) {
+  const ScratchFolder folder;
+  auto scene = nlohmann::json::parse(kSolidFrictionless);
+  scene["lump"]["inner_radius_mm"] = 20;
+  scene["force"]["friction"] = 0.2;
+  scene["stability"]["max_stress_kpa"] = 10;
+  scene["tool"]["gap_mm"] = 5;
+  write_text(folder.file("s.scene.json"), scene.dump());
+  EXPECT_TRUE(
+      claystack("plan --json " + folder.file("s.scene.json")).json().at("left_out").empty());
+  scene.erase("force");
+  write_text(folder.file("s.scene.json"), scene.dump());
+  EXPECT_EQ(stages(claystack("plan --json " + folder.file("s.scene.json")).json(), "left_out"),
+            (std::set<std::string>{"force", "friction"}));
+}
+
+TEST(Plan, SaysWhetherAnArmCanRenderTheContact) {
+  const ScratchFolder folder;
+  write_text(folder.file("s.scene.json"), kSolidFrictionless);
+  // 41 rings of 0.5 mm under the sphere, 0.02 N/mm2: 410 N/m. Accepted: b / 3T.
+  const auto calm = claystack("plan --json --rate 1000 --damping 2 " + folder.file("s.scene.json"));
+  ASSERT_EQ(calm.status, 0) << calm.err;
+  const auto servo = calm.json().at("servo");
+  EXPECT_NEAR(servo.at("stiffness_n_per_m").get<double>(), 410.0, 1e-9);
+  EXPECT_NEAR(servo.at("contact_height_mm").get<double>(), 20.5, 1e-12);
+  EXPECT_NEAR(servo.at("accepted_n_per_m").get<double>(), 2.0 * 1000 / 3, 1e-9);
+
+  const auto stiff = claystack("plan --rate 500 " + folder.file("s.scene.json"));
+  EXPECT_EQ(stiff.status, 2);
+  // 333.3 / 410 of 0.02, and 410 / 333.3 of 500 Hz.
+  EXPECT_NE(stiff.err.find("force.stiffness_n_per_mm2: expected at most 0.0162"), std::string::npos)
+      << stiff.err;
+  EXPECT_NE(stiff.err.find("found 0.02; or a rate of at least 615 Hz"), std::string::npos)
+      << stiff.err;
+  EXPECT_EQ(claystack("plan -q --rate 615 " + folder.file("s.scene.json")).status, 0);
+  EXPECT_EQ(claystack("plan -q --rate 5 " + folder.file("s.scene.json")).status, 2);
+}
+
+}  // namespace
+}  // namespace clay::test

@@ -1,0 +1,179 @@
+#include "tests/support/run_program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+namespace clay::test {
+namespace {
+
+class Samples : public testing::TestWithParam<const char*> {
+ protected:
+  std::string scene = sample(std::string(GetParam()) + ".scene.json");
+};
+
+TEST_P(Samples, ConservingKeepsEveryQuantum) {
+  const auto json = claystack("throw " + scene + " --model conserving --json").json();
+  EXPECT_EQ(json.at("volume_error_quanta"), 0);
+  EXPECT_EQ(json.at("max_volume_error_percent"), 0.0);
+  EXPECT_GE(json.at("ticks"), 10'000);
+  EXPECT_LE(json.at("ticks"), 40'000);
+  // The lump of the scene, by the formula for a cylinder.
+  const auto lump = nlohmann::json::parse(read_text(scene)).at("lump");
+  EXPECT_EQ(lump.at("rings"), 200);
+  EXPECT_EQ(lump.at("inner_radius_mm"), 0);
+  const double radius = lump.at("outer_radius_mm"), h = lump.at("ring_height_mm");
+  const double volume = std::numbers::pi * radius * radius * 200.0 * h;
+  EXPECT_NEAR((json.at("volume_mm3").get<double>() + json.at("trimmed_mm3").get<double>()) / volume,
+              1.0, 1e-12);
+  EXPECT_EQ(json.at("collapsed"), GetParam() == std::string("collapse"));
+}
+
+TEST_P(Samples, PaperMissesLessThanItsTopRingAtEveryTick) {
+  const ScratchFolder folder;
+  const auto run =
+      claystack("throw " + scene + " --model paper --json --trace " + folder.file("t.csv"));
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = run.json();
+  EXPECT_LE(json.at("volume_error_quanta"), 0);
+  EXPECT_LT(json.at("max_missing_over_top_ring"), 1.0);
+  EXPECT_GT(json.at("max_volume_error_percent"), 0.0);
+  // The same from the trace, tick by tick.
+  std::istringstream lines(read_text(folder.file("t.csv")));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "time_s,volume_error_percent,top_ring_percent,height_mm,force_n");
+  std::size_t ticks = 0;
+  for (; std::getline(lines, line); ++ticks) {
+    double time = 0, error = 0, top = 0;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf", &time, &error, &top), 3);
+    EXPECT_LE(error, 0.0);
+    EXPECT_LT(-error, top);
+  }
+  EXPECT_EQ(ticks, json.at("ticks"));
+}
+
+TEST_P(Samples, ReplaysToTheSameBytes) {
+  const ScratchFolder folder;
+  for (const char* pot : {"a.pot.json", "b.pot.json"})
+    ASSERT_EQ(claystack("throw -q " + scene + " -o " + folder.file(pot)).status, 0);
+  EXPECT_EQ(read_text(folder.file("a.pot.json")), read_text(folder.file("b.pot.json")));
+  EXPECT_FALSE(read_text(folder.file("a.pot.json")).empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Throw, Samples,
+                         testing::Values("bowl", "vase", "bottle", "cylinder", "collapse"));
+
+TEST(Throw, TellsOfACollapse) {
+  const auto run = claystack("throw " + sample("collapse.scene.json"));
+  EXPECT_EQ(run.status, 0);
+  const auto json = claystack("throw --json " + sample("collapse.scene.json")).json();
+  const auto& fall = json.at("collapse");
+  const std::string words = std::string("collapsed: ring ").append(fall.at("ring").dump());
+  EXPECT_NE(run.out.find(words), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find(", more than 4.200;"), std::string::npos) << run.out;
+  EXPECT_EQ(fall.at("threshold_kpa"),
+            nlohmann::json::parse(read_text(sample("collapse.scene.json")))
+                .at("stability")
+                .at("max_stress_kpa"));
+  EXPECT_GT(fall.at("stress_kpa"), fall.at("threshold_kpa"));
+  EXPECT_GT(fall.at("angle_deg"), 30.0);
+  EXPECT_GT(fall.at("plastic_work_mj"), 0.0);
+  EXPECT_GT(fall.at("energy_lost_mj"), fall.at("plastic_work_mj"));
+}
+
+TEST(Throw, WarnsOfASessionFromAnotherScene) {
+  const auto run =
+      claystack("throw " + sample("vase.scene.json") + " --session " + sample("bowl.session"));
+  EXPECT_EQ(run.status, 0);
+  EXPECT_NE(run.err.find("recorded on another scene (bowl)"), std::string::npos) << run.err;
+}
+
+TEST(Throw, RefusesASessionThatPinchesWhereTheSceneCannot) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("p.pot.json"), session = sample("cylinder.session");
+  const auto run =
+      claystack("throw " + sample("vase.scene.json") + " --session " + session + " -o " + pot);
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find(session + ": expected one tool throughout, as the scene sets no "
+                                   "tool.gap_mm, found a gap of 36 mm at "),
+            std::string::npos)
+      << run.err;
+  EXPECT_FALSE(std::filesystem::exists(pot));
+}
+
+TEST(Throw, DrawsTheErrorOfBothModels) {
+  const ScratchFolder folder;
+  const auto run =
+      claystack("throw -q " + sample("bowl.scene.json") + " --error-plot " + folder.file("e.svg"));
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(shell("rsvg-convert " + folder.file("e.svg") + " -o " + folder.file("e.png")).status,
+            0);
+  const std::string svg = read_text(folder.file("e.svg"));
+  EXPECT_NE(svg.find("model paper"), std::string::npos);
+  EXPECT_NE(svg.find("model conserving"), std::string::npos);
+}
+
+TEST(Throw, RefusesToWriteOverItsInputsOrTwice) {
+  const ScratchFolder folder;
+  for (const char* end : {".scene.json", ".session"})
+    write_text(folder.file("b") + end, read_text(sample(std::string("bowl") + end)));
+  const std::string scene = folder.file("b.scene.json"), session = folder.file("b.session");
+  const std::string pot = folder.file("b.pot.json");
+  for (const std::string& outputs :
+       {"--trace " + scene, "--error-plot " + session, "-o " + pot + " --trace " + pot,
+        "-o " + pot + " --error-plot " + folder.file("./b.pot.json"), "-o " + folder.file("b.stl"),
+        "-o " + scene, std::string("-o - --json"), std::string("-o - --trace -")}) {
+    EXPECT_EQ(claystack("throw " + scene + " " + outputs).status, 2) << outputs;
+    EXPECT_FALSE(std::filesystem::exists(pot));
+  }
+  EXPECT_EQ(read_text(scene), read_text(sample("bowl.scene.json")));
+  EXPECT_EQ(read_text(session), read_text(sample("bowl.session")));
+}
+
+TEST(Throw, PipesIntoExport) {
+  const ScratchFolder folder;
+  const std::string program = CLAYSTACK_PROGRAM;
+  const Ran run = shell(program + " throw " + sample("bowl.scene.json") + " -o - | " + program +
+                        " export -q - " + folder.file("piped.stl"));
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(claystack("check -q " + folder.file("piped.stl")).status, 0);
+}
+
+TEST(Throw, RefusesAndLeavesNothingBehind) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("x.pot.json");
+  const auto expect = [&](const std::string& arguments, int status, const std::string& says) {
+    const Ran run = claystack("throw " + arguments + " -o " + pot);
+    EXPECT_EQ(run.status, status) << arguments;
+    EXPECT_NE(run.err.find(says), std::string::npos) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(pot));
+  };
+  expect(folder.file("none.scene.json"), 3, "none.scene.json");
+  std::string scene = read_text(sample("bowl.scene.json"));
+  scene.insert(scene.find("\"rings\""), "\"colour\": 1,\n    ");
+  const auto line =
+      1 + std::count(scene.begin(),
+                     scene.begin() + static_cast<std::ptrdiff_t>(scene.find("colour")), '\n');
+  write_text(folder.file("bad.scene.json"), scene);
+  write_text(folder.file("bad.session"), "");
+  expect(folder.file("bad.scene.json"), 2, "bad.scene.json:" + std::to_string(line) + ":");
+  expect(sample("bowl.scene.json") + " -s " + folder.file("bad.session"), 2, "bad.session");
+  expect(sample("bowl.scene.json") + " --model clay", 2, "--model");
+
+  std::string session = read_text(sample("bowl.session"));
+  const std::size_t line5 = [&] {
+    std::size_t at = 0;
+    for (int k = 1; k < 5; ++k) at = session.find('\n', at) + 1;
+    return at;
+  }();
+  const std::size_t digit = session.find_first_of("123456789", line5 + 60);
+  session[digit] = session[digit] == '9' ? '8' : '9';
+  write_text(folder.file("flipped.session"), session);
+  expect(sample("bowl.scene.json") + " -s " + folder.file("flipped.session"), 2,
+         "flipped.session:5:");
+}
+
+}  // namespace
+}  // namespace clay::test

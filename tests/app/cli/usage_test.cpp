@@ -1,0 +1,67 @@
+#include "tests/support/run_program.hpp"
+
+#include <gtest/gtest.h>
+
+namespace clay::test {
+namespace {
+
+TEST(Usage, VersionSaysWhatIsIn) {
+  const Ran run = claystack("--version");
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.out.rfind("claystack 0.", 0), 0u) << run.out;
+  EXPECT_NE(run.out.find("export"), std::string::npos);
+}
+
+TEST(Usage, HelpShowsExamplesAndExitStatuses) {
+  for (const char* command : {"", "throw ", "export ", "check ", "plan ", "render "}) {
+    const Ran run = claystack(std::string(command) + "--help");
+    EXPECT_EQ(run.status, 0) << command;
+    EXPECT_NE(run.out.find("Example"), std::string::npos) << command;
+  }
+  EXPECT_NE(claystack("--help").out.find("Exit status"), std::string::npos);
+}
+
+TEST(Usage, BadUsageIsStatusTwo) {
+  for (const char* arguments :
+       {"", "knead", "throw", "export x.pot.json", "check", "throw x --unknown",
+        "export x.pot.json x.stl --tolerance -1", "export x.pot.json x.stl --segments two",
+        "check x.pot.json --min-wall nan", "throw -"})
+    EXPECT_EQ(claystack(arguments).status, 2) << arguments;
+}
+
+TEST(Usage, AnUnknownCommandIsNamed) {
+  EXPECT_NE(claystack("knead").err.find("found knead"), std::string::npos);
+}
+
+TEST(Usage, WhatCannotBePrintedIsStatusThree) {
+  const std::string scene = sample("bowl.scene.json");
+  for (const std::string& command :
+       {"throw --json " + scene, "plan " + scene, std::string("--help")})
+    EXPECT_EQ(shell(CLAYSTACK_PROGRAM " " + command + " >/dev/full").status, 3) << command;
+}
+
+TEST(Usage, QuietPrintsNothing) {
+  const ScratchFolder folder;
+  const Ran run =
+      claystack("throw --quiet " + sample("bowl.scene.json") + " -o " + folder.file("b.pot.json"));
+  EXPECT_EQ(run.status, 0);
+  EXPECT_TRUE(run.out.empty()) << run.out;
+  EXPECT_TRUE(run.err.empty()) << run.err;
+}
+
+TEST(Usage, DashIsStandardInputAndOutput) {
+  const Ran run = shell(std::string(CLAYSTACK_PROGRAM) + " throw -q - -s " +
+                        sample("bowl.session") + " -o - < " + sample("bowl.scene.json"));
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.json().at("schema"), "claystack-pot-1");
+}
+
+TEST(Usage, AFolderThatIsNotThereIsStatusThree) {
+  const Ran run =
+      claystack("throw -q " + sample("bowl.scene.json") + " -o /no/such/folder/b.pot.json");
+  EXPECT_EQ(run.status, 3);
+  EXPECT_NE(run.err.find("/no/such/folder"), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace clay::test

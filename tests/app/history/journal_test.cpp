@@ -1,0 +1,294 @@
+#include "app/history/journal.hpp"
+
+#include "app/history/recovery.hpp"
+#include "app/servo/recorder.hpp"
+#include "tests/app/history/strokes.hpp"
+#include "tests/engine/files/system_call_fault.hpp"
+#include "tests/support/run_program.hpp"
+#include "tests/support/wait_until.hpp"
+
+#include <gtest/gtest.h>
+#include <pwd.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <new>
+#include <thread>
+
+namespace clay::work {
+namespace {
+
+using test::plainly_thrown;
+using test::press_stroke;
+using test::small_scene;
+
+/// A folder of journals of its own.
+struct Folder {
+  test::ScratchFolder scratch;
+  std::filesystem::path path = scratch.file("state/claystack/recovery");
+};
+
+Work kept_work(const Folder& folder) {
+  Work work = Work::begin(small_scene()).value();
+  work.keep(Journal::begin(work.record(), folder.path).value());
+  return work;
+}
+
+TEST(Journal, HoldsAllThatWasDone) {
+  const Folder folder;
+  std::filesystem::path path;
+  WorkRecord record;
+  {
+    Work work = kept_work(folder);
+    path = work.journal()->path();
+    (void)work.add(small_scene(), press_stroke(1)).value();
+    (void)work.add(small_scene(5.0), press_stroke(2)).value();
+    work.undo();
+    (void)work.add(small_scene(8.0, ToolMode::trim), press_stroke(3)).value();
+    work.undo();
+    EXPECT_TRUE(work.journal()->sync());
+    record = work.record();
+  }
+  const auto all = recoverable(folder.path);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].path, path);
+  EXPECT_EQ(all[0].scene, "small");
+  EXPECT_EQ(all[0].strokes, 3u);
+  EXPECT_NEAR(all[0].seconds, 0.54, 1e-9);
+  EXPECT_FALSE(all[0].running || all[0].damage);
+  Work work = recover(path).value();
+  EXPECT_EQ(work.record().nodes, record.nodes);
+  EXPECT_EQ(work.record().scenes, record.scenes);
+  EXPECT_EQ(work.at(), 1u);
+  EXPECT_TRUE(work.unsaved());
+}
+
+TEST(Journal, GoesOnAfterARecovery) {
+  const Folder folder;
+  {
+    Work work = kept_work(folder);
+    (void)work.add(small_scene(), press_stroke(1)).value();
+  }
+  const auto path = recoverable(folder.path).at(0).path;
+  {
+    Work work = recover(path).value();
+    (void)work.add(small_scene(5.0), press_stroke(2)).value();
+  }
+  Work work = recover(path).value();
+  EXPECT_EQ(work.size(), 3u);
+  EXPECT_EQ(**work.pot(), plainly_thrown(work.record(), 2));
+  work.journal()->discard();
+  EXPECT_TRUE(recoverable(folder.path).empty());
+}
+
+TEST(Journal, WhatIsSavedOrEmptyIsNotOffered) {
+  const Folder folder;
+  { const Work nothing = kept_work(folder); }
+  {
+    Work work = kept_work(folder);
+    (void)work.add(small_scene(), press_stroke(1)).value();
+    ASSERT_TRUE(work.save(folder.scratch.file("mine.work")));
+  }
+  EXPECT_TRUE(recoverable(folder.path).empty());
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path)) << "and is cleared away";
+}
+
+TEST(Journal, OfALivingProgramIsItsOwn) {
+  const Folder folder;
+  int ready[2], done[2];
+  ASSERT_EQ(pipe(ready) + pipe(done), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(60);
+    Work work = kept_work(folder);
+    (void)work.add(small_scene(), press_stroke(1)).value();
+    char byte = 0;
+    (void)!write(ready[1], &byte, 1);
+    (void)!read(done[0], &byte, 1);
+    _exit(0);
+  }
+  char byte = 0;
+  ASSERT_EQ(read(ready[0], &byte, 1), 1);
+  EXPECT_TRUE(recoverable(folder.path).empty());
+  const auto path = std::filesystem::directory_iterator(folder.path)->path();
+  Work mine = kept_work(folder);
+  for (const auto& refused : {recover(path).map([](Work&&) {}), discard(path)}) {
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().kind, ErrorKind::io);
+    EXPECT_EQ(refused.error().message, path.string() + ": in use by a program that is running");
+  }
+  (void)!write(done[1], &byte, 1);
+  waitpid(child, nullptr, 0);
+  EXPECT_EQ(recoverable(folder.path).at(0).strokes, 1u);
+  EXPECT_TRUE(discard(path));
+  EXPECT_TRUE(recoverable(folder.path).empty());
+  for (const int fd : {ready[0], ready[1], done[0], done[1]}) close(fd);
+}
+
+/// A work that is killed in mid-stroke: how much of what it took is not recovered [us].
+void kill_one(double& lost_us) {
+  const Folder folder;
+  using Time = std::atomic<std::int64_t>;
+  void* shared =
+      mmap(nullptr, sizeof(Time), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  Time* taken_us = new (shared) Time(0);
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(60);
+    Work work = kept_work(folder);
+    (void)work.add(small_scene(), press_stroke(1)).value();
+    PoseSink* sink = work.begin_stroke(small_scene(5.0)).value();
+    const auto recorder = live::Recorder::create(*sink);
+    const auto start = std::chrono::steady_clock::now();
+    for (std::int64_t last_us = -1;;) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      const auto now_us = std::chrono::duration_cast<std::chrono::microseconds>(
+                              std::chrono::steady_clock::now() - start)
+                              .count();
+      if (now_us <= last_us) continue;
+      last_us = now_us;
+      const double t = 1e-6 * static_cast<double>(now_us);
+      if (recorder->take(quantized({now_us, {40.0 - 5.0 * t, 10.0 + t, 0.0}, false, 0.0})))
+        taken_us->store(now_us);
+    }
+  }
+  test::wait_until([&] { return taken_us->load() >= 700'000; }, test::kDeadline, "poses");
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  const auto all = recoverable(folder.path);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_TRUE(all[0].running);
+  EXPECT_EQ(all[0].strokes, 2u);
+  Work work = recover(all[0].path).value();
+  ASSERT_EQ(work.at(), 2u);
+  // The stroke's time begins with its first pose.
+  lost_us = static_cast<double>(taken_us->load()) - 1e6 * work.view(2).seconds;
+  EXPECT_EQ(**work.pot(), plainly_thrown(work.record(), 2));
+  (void)work.add(small_scene(), press_stroke(3)).value();
+  munmap(shared, sizeof(Time));
+}
+
+/// See the recorder's test of the same name.
+TEST(Journal, KilledInMidStrokeItHasLostNoMoreThan100Ms) {
+  double lost_us = 0.0;
+  const auto loses_little = [&] {
+    kill_one(lost_us);
+    return lost_us <= 100'000.0 || HasFailure();
+  };
+  test::wait_until(loses_little, test::kDeadline, "a journal that loses no more than 100 ms");
+}
+
+TEST(Journal, AFullDiskDoesNotStopTheWork) {
+  const Folder folder;
+  Work work = kept_work(folder);
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{2000, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  for (std::uint64_t i = 0; i < 5; ++i) (void)work.add(small_scene(), press_stroke(i)).value();
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, SIG_DFL);
+  EXPECT_EQ(**work.pot(), plainly_thrown(work.record(), 5));
+  ASSERT_TRUE(work.journal()->trouble());
+  EXPECT_NE(work.journal()->trouble()->message.find(": could not write: "), std::string::npos);
+  EXPECT_FALSE(work.journal()->sync());
+}
+
+TEST(Journal, ADamagedOneGivesWhatStandsBeforeTheDamage) {
+  const Folder folder;
+  std::filesystem::path path;
+  {
+    Work work = kept_work(folder);
+    path = work.journal()->path();
+    (void)work.add(small_scene(), press_stroke(1)).value();
+    (void)work.add(small_scene(), press_stroke(2)).value();
+  }
+  std::string text = test::read_text(path);
+  const auto second = text.find("{\"node\":2");
+  text.replace(text.find("\"x\":[", second), 6, "\"x\":[9");
+  std::ofstream(path, std::ios::binary) << text;
+  const auto all = recoverable(folder.path);
+  ASSERT_EQ(all.size(), 1u);
+  ASSERT_TRUE(all[0].damage);
+  EXPECT_NE(all[0].damage->message.find("the line is damaged"), std::string::npos);
+  Work work = recover(path).value();
+  EXPECT_EQ(**work.pot(1), plainly_thrown(work.record(), 1));
+  EXPECT_EQ(test::read_text(path.string() + ".damaged"), text);
+}
+
+TEST(Journal, StandsWhereTheStateIsKept) {
+  setenv("XDG_STATE_HOME", "/var/state", 1);
+  EXPECT_EQ(recovery_folder(), "/var/state/claystack/recovery");
+  setenv("XDG_STATE_HOME", "relative", 1);
+  setenv("HOME", "/potter", 1);
+  EXPECT_EQ(recovery_folder(), "/potter/.local/state/claystack/recovery");
+  unsetenv("XDG_STATE_HOME");
+  EXPECT_EQ(recovery_folder(), "/potter/.local/state/claystack/recovery");
+  const std::string home = getpwuid(getuid())->pw_dir;
+  for (const char* none : {"", "relative"}) {
+    setenv("HOME", none, 1);
+    EXPECT_EQ(recovery_folder(), home + "/.local/state/claystack/recovery");
+  }
+  unsetenv("HOME");
+  EXPECT_EQ(recovery_folder(), home + "/.local/state/claystack/recovery");
+}
+
+TEST(Journal, WithoutAFolderIsAnError) {
+  const Work work = Work::begin(small_scene()).value();
+  const auto journal = Journal::begin(work.record(), "");
+  ASSERT_FALSE(journal);
+  EXPECT_NE(journal.error().message.find("home folder"), std::string::npos);
+}
+
+// To open a pipe that nobody writes to takes for ever.
+TEST(Journal, APipeInTheFolderIsPassedOver) {
+  const Folder folder;
+  std::filesystem::path journal;
+  {
+    Work work = kept_work(folder);
+    journal = work.journal()->path();
+    (void)work.add(small_scene(), press_stroke(1)).value();
+  }
+  const std::filesystem::path pipe = folder.path / "pipe.work";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(test::status_of_child([&] {
+              alarm(10);
+              const auto all = recoverable(folder.path);
+              return all.size() == 1 && all[0].path == journal && !discard(pipe) && !recover(pipe);
+            }),
+            0);
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+}
+
+TEST(Journal, AFolderThatCannotBeSyncedIsAnErrorAndLeavesNothing) {
+  const Folder folder;
+  const Work work = Work::begin(small_scene()).value();
+  EXPECT_EQ(test::status_of_child([&] {
+              // The journal's own file is opened; its folder, to sync it, is not.
+              if (!test::inject({SYS_openat, EIO, O_DIRECTORY})) return false;
+              const auto journal = Journal::begin(work.record(), folder.path);
+              return !journal && journal.error().kind == ErrorKind::io &&
+                     journal.error().message.find("folder") != std::string::npos;
+            }),
+            0);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path));
+}
+
+TEST(Journal, AFolderThatCannotBeIsAnError) {
+  const Work work = Work::begin(small_scene()).value();
+  const auto journal = Journal::begin(work.record(), "/proc/no/such");
+  ASSERT_FALSE(journal);
+  EXPECT_EQ(journal.error().kind, ErrorKind::io);
+  EXPECT_TRUE(recoverable("/no/such").empty());
+}
+
+}  // namespace
+}  // namespace clay::work

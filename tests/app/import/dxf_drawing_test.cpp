@@ -1,0 +1,138 @@
+#include "tests/app/import/solids.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+namespace clay::drawing {
+namespace {
+
+using testing::HasSubstr;
+constexpr double kPi = std::numbers::pi;
+
+/// Group codes and values, a pair of lines each.
+std::string groups(const std::vector<std::pair<int, std::string>>& pairs) {
+  std::string text;
+  for (const auto& [code, value] : pairs) text += fmt::format("{:3}\n{}\n", code, value);
+  return text;
+}
+
+std::string line(glm::dvec2 a, glm::dvec2 b) {
+  return groups({{0, "LINE"},
+                 {8, "0"},
+                 {10, fmt::format("{}", a.x)},
+                 {20, fmt::format("{}", a.y)},
+                 {11, fmt::format("{}", b.x)},
+                 {21, fmt::format("{}", b.y)}});
+}
+
+std::string file(const std::string& entities, int unit = 4) {
+  return groups({{0, "SECTION"},
+                 {2, "HEADER"},
+                 {9, "$INSUNITS"},
+                 {70, std::to_string(unit)},
+                 {0, "ENDSEC"},
+                 {0, "SECTION"},
+                 {2, "ENTITIES"}}) +
+         entities + groups({{0, "ENDSEC"}, {0, "EOF"}});
+}
+
+const HalfSectionSettings kLeft{AxisRule::left, 0.0, {}};
+
+double volume_of(const std::string& bytes) {
+  const auto section = section_of(bytes, "pot.dxf", kLeft);
+  EXPECT_TRUE(section) << refusal_of(section);
+  return section ? section->volume_mm3() : 0.0;
+}
+
+TEST(DxfDrawing, JoinsLinesWhateverTheirOrderAndDirection) {
+  const std::string cone = line({40, 0}, {0, 0}) + line({0, 90}, {20, 90}) +
+                           line({0, 90.004}, {0, 0}) + line({40, 0}, {20, 90});
+  EXPECT_NEAR(volume_of(file(cone)), kPi * 90.0 / 3.0 * (1600.0 + 800.0 + 400.0), 0.01 * 90 * 50);
+}
+
+TEST(DxfDrawing, ObeysItsUnits) {
+  const std::string box =
+      line({0, 0}, {1, 0}) + line({1, 0}, {1, 2}) + line({1, 2}, {0, 2}) + line({0, 2}, {0, 0});
+  for (const auto& [unit, mm] : {std::pair{0, 1.0}, {1, 25.4}, {4, 1.0}, {5, 10.0}, {6, 1000.0}})
+    EXPECT_NEAR(volume_of(file(box, unit)) / (mm * mm * mm), 2.0 * kPi, 1e-9) << unit;
+  EXPECT_THAT(refusal_of(read_drawing(file(box, 13), "pot.dxf")), HasSubstr("$INSUNITS"));
+}
+
+TEST(DxfDrawing, ABulgeOfOneIsAHalfCircle) {
+  const std::string polyline = groups({{0, "LWPOLYLINE"},
+                                       {100, "AcDbEntity"},
+                                       {8, "0"},
+                                       {100, "AcDbPolyline"},
+                                       {90, "2"},
+                                       {70, "1"},
+                                       {10, "0"},
+                                       {20, "0"},
+                                       {42, "1"},
+                                       {10, "0"},
+                                       {20, "60"},
+                                       {42, "0"}});
+  EXPECT_NEAR(volume_of(file(polyline)), 4.0 / 3.0 * kPi * 27000.0, kFlatMm * 4.0 * kPi * 900.0);
+}
+
+TEST(DxfDrawing, ArcsCirclesAndEllipsesAreRound) {
+  const auto arc =
+      groups({{0, "ARC"}, {8, "0"}, {10, "0"}, {20, "30"}, {40, "30"}, {50, "270"}, {51, "90"}});
+  EXPECT_NEAR(volume_of(file(arc)), 4.0 / 3.0 * kPi * 27000.0, kFlatMm * 4.0 * kPi * 900.0);
+  const auto circle = groups({{0, "CIRCLE"}, {8, "0"}, {10, "50"}, {20, "30"}, {40, "10"}});
+  // A ring by Pappus's theorem; its bore touches nothing, so the axis must be given.
+  const auto torus = section_of(file(circle), "pot.dxf", {AxisRule::at, 0.0, {}});
+  ASSERT_TRUE(torus) << refusal_of(torus);
+  EXPECT_NEAR(torus->volume_mm3(), 2.0 * kPi * 50.0 * kPi * 100.0, kFlatMm * 4 * kPi * kPi * 500);
+  const auto ellipse = groups({{0, "ELLIPSE"},
+                               {8, "0"},
+                               {10, "0"},
+                               {20, "0"},
+                               {11, "0"},
+                               {21, "60"},
+                               {40, "0.5"},
+                               {41, fmt::format("{}", kPi)},
+                               {42, fmt::format("{}", 2.0 * kPi)}});
+  EXPECT_NEAR(volume_of(file(ellipse)), 4.0 / 3.0 * kPi * 900.0 * 60.0, kFlatMm * 1e5);
+}
+
+TEST(DxfDrawing, ARationalSplineIsTheCircleThatItStandsFor) {
+  // A quarter circle of radius 30 from (30, 0) to (0, 30), exactly.
+  const auto spline = groups({{0, "SPLINE"}, {8, "0"},   {70, "4"},
+                              {71, "2"},     {72, "6"},  {73, "3"},
+                              {74, "0"},     {40, "0"},  {40, "0"},
+                              {40, "0"},     {40, "1"},  {40, "1"},
+                              {40, "1"},     {10, "30"}, {20, "0"},
+                              {30, "0"},     {41, "1"},  {10, "30"},
+                              {20, "30"},    {30, "0"},  {41, "0.7071067811865476"},
+                              {10, "0"},     {20, "30"}, {30, "0"},
+                              {41, "1"}});
+  const auto drawing = read_drawing(file(spline), "pot.dxf");
+  ASSERT_TRUE(drawing) << refusal_of(drawing);
+  ASSERT_EQ(drawing->lines.size(), 1u);
+  for (const glm::dvec2& p : drawing->lines[0].points_mm)
+    EXPECT_NEAR(std::hypot(p.x, p.y), 30.0, 1e-9);
+  EXPECT_NEAR(volume_of(file(spline)), 2.0 / 3.0 * kPi * 27000.0, kFlatMm * 2.0 * kPi * 900.0);
+}
+
+TEST(DxfDrawing, RefusesBrokenSplinesAndOtherFiles) {
+  const auto spline = groups({{0, "SPLINE"},
+                              {8, "0"},
+                              {71, "3"},
+                              {72, "1"},
+                              {73, "2"},
+                              {40, "0"},
+                              {10, "1"},
+                              {20, "2"},
+                              {10, "3"},
+                              {20, "4"}});
+  EXPECT_THAT(refusal_of(read_drawing(file(spline), "pot.dxf")), HasSubstr("expected splines"));
+  EXPECT_THAT(refusal_of(read_drawing("no drawing\n", "pot.dxf")), HasSubstr("no line in it"));
+  EXPECT_THAT(refusal_of(read_drawing("", "pot.dxf")), HasSubstr("no line in it"));
+}
+
+}  // namespace
+}  // namespace clay::drawing

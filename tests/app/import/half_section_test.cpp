@@ -1,0 +1,64 @@
+#include "tests/app/import/solids.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace clay::drawing {
+namespace {
+
+using testing::HasSubstr;
+
+std::string refused(const std::string& csv) { return refusal_of(section_of(csv, "pot.csv")); }
+
+TEST(HalfSection, AnOpenLineIsTheOutsideOfASolidPot) {
+  const auto cone = section_of("40,0\n20,90\n", "pot.csv");
+  ASSERT_TRUE(cone) << refusal_of(cone);
+  EXPECT_NEAR(cone->volume_mm3(), std::numbers::pi * 90.0 / 3.0 * (1600.0 + 800.0 + 400.0), 1e-6);
+}
+
+TEST(HalfSection, ATubeHasItsBoreFromTheFoot) {
+  const auto tube = section_of("20,0\n30,0\n30,10\n20,10\n20,0\n", "pot.csv");
+  ASSERT_TRUE(tube) << refusal_of(tube);
+  EXPECT_NEAR(tube->volume_mm3(), std::numbers::pi * 500.0 * 10.0, 1e-6);
+  EXPECT_EQ(tube->axis_mm, 0.0);
+}
+
+TEST(HalfSection, RefusesWithThePlace) {
+  // A wall that folds over: between 10 and 20 mm there are two walls.
+  EXPECT_THAT(refused("0,0\n40,0\n40,20\n30,10\n20,10\n20,30\n0,30\n"), HasSubstr("in one place"));
+  EXPECT_THAT(refused("0,0\n10,0\n10,5\n0,5\n0,0\n\n0,8\n10,8\n10,9\n0,9\n0,8\n"),
+              HasSubstr("6.500 mm above the foot: expected clay at every height"));
+  EXPECT_THAT(refused("10,0\n10,5\n\n20,7\n20,9\n"), HasSubstr("a single open one"));
+  EXPECT_THAT(refused("10,5\n20,5\n"), HasSubstr("expected an outline right of the axis"));
+  EXPECT_THAT(refused("5,0\n25,20\n5,20\n25,0\n5,0\n"), HasSubstr("cross itself"));
+}
+
+TEST(HalfSection, HeightScalesAllOfIt) {
+  const auto cone = section_of("40,10\n20,100\n", "pot.csv", {AxisRule::by_itself, 0.0, 45.0});
+  ASSERT_TRUE(cone) << refusal_of(cone);
+  EXPECT_NEAR(cone->height_mm, 45.0, 1e-12);
+  EXPECT_NEAR(cone->volume_mm3(), std::numbers::pi * 45.0 / 3.0 * (400.0 + 200.0 + 100.0), 1e-6);
+}
+
+/// A cup by its two sides: any radii outside, walls of any thickness inside, a floor.
+RC_GTEST_PROP(HalfSection, HoldsWhatPappusSays, ()) {
+  const auto count = *rc::gen::inRange<std::size_t>(2, 30);
+  std::vector<glm::dvec2> outer, inner;
+  double height = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double radius = 0.01 * *rc::gen::inRange(500, 9000);
+    outer.emplace_back(radius, height);
+    inner.emplace_back(radius * 0.01 * *rc::gen::inRange(1, 99), height);
+    height += 0.01 * *rc::gen::inRange(1, 2000);
+  }
+  Line line{outer, true};
+  line.points_mm.insert(line.points_mm.end(), inner.rbegin(), inner.rend());
+  const std::vector<glm::dvec2> polygon = line.points_mm;
+  const auto section = half_section({{line}, true}, {}, "cup");
+  RC_ASSERT(section.has_value());
+  RC_ASSERT(std::abs(section->volume_mm3() / swept_mm3(polygon) - 1.0) < 1e-12);
+}
+
+}  // namespace
+}  // namespace clay::drawing

@@ -1,0 +1,150 @@
+#include "tests/app/import/solids.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace clay::drawing {
+namespace {
+
+using testing::HasSubstr;
+
+// 1 unit is 1 mm, as drawing programs set up their pages.
+std::string page(const std::string& shapes) {
+  return "<svg xmlns='http://www.w3.org/2000/svg' width='200mm' height='200mm' "
+         "viewBox='0 0 200 200'>" +
+         shapes + "</svg>";
+}
+
+double volume_of(const std::string& shapes) {
+  const auto section = section_of(page(shapes), "pot.svg");
+  EXPECT_TRUE(section) << refusal_of(section);
+  return section ? section->volume_mm3() : 0.0;
+}
+
+constexpr double kPi = std::numbers::pi;
+
+TEST(SvgDrawing, ARectangleFromTheAxisIsACylinder) {
+  const auto section = section_of(page("<rect x='20' y='30' width='40' height='50'/>"), "pot.svg",
+                                  {AxisRule::left, 0.0, {}});
+  ASSERT_TRUE(section) << refusal_of(section);
+  EXPECT_NEAR(section->height_mm, 50.0, 1e-9);
+  EXPECT_NEAR(section->axis_mm, 20.0, 1e-9);
+  EXPECT_NEAR(section->volume_mm3(), kPi * 1600.0 * 50.0, 1e-6);
+}
+
+TEST(SvgDrawing, TheMiddleOfASymmetricDrawingIsTheAxis) {
+  EXPECT_NEAR(volume_of("<rect x='20' y='30' width='40' height='50'/>"), kPi * 400.0 * 50.0, 1e-6);
+  EXPECT_NEAR(volume_of("<circle cx='90' cy='90' r='30'/>"), 4.0 / 3.0 * kPi * 27000.0,
+              kFlatMm * 4.0 * kPi * 900.0);
+}
+
+TEST(SvgDrawing, CurvesStayWithinTheFlatteningOfTheirArea) {
+  // A half circle by one arc, then by the usual two cubics, which are off by 2.7e-4 of the radius.
+  const std::string end = " Z'/>";
+  const double ball = 4.0 / 3.0 * kPi * 27000.0, surface = 4.0 * kPi * 900.0;
+  EXPECT_NEAR(volume_of("<path d='M 10 10 A 30 30 0 0 1 10 70" + end), ball, kFlatMm * surface);
+  EXPECT_NEAR(volume_of("<path d='M 10 10 c 16.5685 0 30 13.4315 30 30 S 26.5685 70 10 70" + end),
+              ball, (2.8e-4 * 30.0 + kFlatMm) * surface);
+}
+
+TEST(SvgDrawing, ArcsGoTheWayTheirFlagsSay) {
+  // A circle of radius 30 about a point 18 to one side of the axis, cut off there at +-24: the
+  // moment of a circle's segment about its chord, in closed form.
+  const double moment = 2.0 / 3.0 * 24.0 * 24.0 * 24.0, angle = std::acos(18.0 / 30.0);
+  const double small = 900.0 * angle - 18.0 * 24.0, large = 900.0 * kPi - small;
+  EXPECT_NEAR(volume_of("<path d='M 0 1 a 30 30 0 0 1 0 48 Z'/>"),
+              2.0 * kPi * (moment - 18.0 * small), kFlatMm * 4.0 * kPi * 900.0);
+  EXPECT_NEAR(volume_of("<path d='M 0 49 a 30 30 0 1 0 0 -48 Z'/>"),
+              2.0 * kPi * (moment + 18.0 * large), kFlatMm * 4.0 * kPi * 48.0 * 48.0);
+  // An ellipse on its side, its radii too short for its ends: SVG lets them grow.
+  EXPECT_NEAR(volume_of("<path d='M 0 0 A 20 10 90 0 1 0 80 Z'/>"),
+              4.0 / 3.0 * kPi * 20.0 * 20.0 * 40.0, kFlatMm * 4.0 * kPi * 1600.0);
+}
+
+TEST(SvgDrawing, TransformsGroupsAndUnitsAreObeyed) {
+  const double wanted = kPi * 900.0 * 60.0;
+  EXPECT_NEAR(volume_of("<g transform='translate(5 7) scale(2 3)'><g transform='scale(0.5)'>"
+                        "<path d='M 10 0 H 40 V 40 H 10 Z M 0 0' transform='scale(1 1)'/></g></g>"),
+              kPi * 15.0 * 15.0 * 60.0, 1e-6);
+  const auto inches =
+      section_of("<svg xmlns='http://www.w3.org/2000/svg'><path d='M 0 0 H 96 V 192 H 0 Z'/></svg>",
+                 "pot.svg", {AxisRule::left, 0.0, {}});
+  ASSERT_TRUE(inches) << refusal_of(inches);
+  EXPECT_NEAR(inches->volume_mm3(), kPi * 25.4 * 25.4 * 50.8, 1e-6);
+  const auto high = section_of(page("<polygon points='0,0 10,0 10,20 0,20'/>"), "pot.svg",
+                               {AxisRule::left, 0.0, 60.0});
+  ASSERT_TRUE(high) << refusal_of(high);
+  EXPECT_NEAR(high->volume_mm3(), wanted, 1e-6);
+}
+
+TEST(SvgDrawing, WhatIsNotShownIsNotDrawn) {
+  const std::string pot = "<path d='M 0 0 H 30 V 60 H 0 L 0 30 Z'/>";
+  const std::string hidden = "<path d='M 0 0 H 90 V 60 H 0 Z'/>";
+  const double wanted = kPi * 900.0 * 60.0;
+  for (const std::string& wrapped :
+       {"<defs>" + hidden + "</defs>", "<g display='none'>" + hidden + "</g>",
+        "<g style='display:none'>" + hidden + "</g>", "<clipPath id='c'>" + hidden + "</clipPath>"})
+    EXPECT_NEAR(volume_of(wrapped + pot), wanted, 1e-6) << wrapped;
+}
+
+TEST(SvgDrawing, ACupByTwoOutlinesOrOneIsTheSame) {
+  // A wall of 4 around a bore of 26, floor of 6; the foot is below, as y goes down on a page.
+  const double wanted = kPi * (900.0 * 60.0 - 676.0 * 54.0);
+  EXPECT_NEAR(volume_of("<path d='M 0 60 H 30 V 0 H 26 V 54 H 0 Z'/>"), wanted, 1e-6);
+  EXPECT_NEAR(volume_of("<path d='M 0 60 H 30 V 0 H 0 Z M 0 0 H 26 V 54 H 0 V 20 Z'/>"), wanted,
+              1e-6);
+  EXPECT_NEAR(volume_of("<path d='M 0 60 H 30 V 0 H 26 V 54 H 0'/>"), wanted, 1e-6);
+}
+
+TEST(SvgDrawing, RefusesWhatIsNoDrawing) {
+  const auto refused = [](const std::string& bytes) {
+    return refusal_of(read_drawing(bytes, "pot.svg"));
+  };
+  EXPECT_THAT(refused("<svg"), HasSubstr("pot.svg:1: "));
+  EXPECT_THAT(refused("\n\n<svg><g></svg>"), HasSubstr("pot.svg:3: "));
+  EXPECT_THAT(refused("<html/>"), HasSubstr("pot.svg:1: expected"));
+  EXPECT_THAT(refused(page("")), HasSubstr("no line in it"));
+  EXPECT_THAT(refused(page("<path d='M 0 0 L 1'/>")), HasSubstr("expected an SVG drawing"));
+  EXPECT_THAT(refused(page("<path d='M 0 0 L 1e300 1e300'/>")), HasSubstr("within 1e+06 mm"));
+  EXPECT_THAT(refused(std::string(3, '\0')), HasSubstr("pot.svg"));
+}
+
+// An arc of such numbers has no angle, and the number of its chords was that angle, as an int.
+TEST(SvgDrawing, HugeNumbersAreRefusedWithTheirLine) {
+  const auto refused = [](const std::string& shape) {
+    return refusal_of(read_drawing(page("\n<g>\n" + shape + "</g>"), "pot.svg"));
+  };
+  EXPECT_THAT(refused("<path d='M 0 0 L 1e300 1e300'/>"),
+              HasSubstr("pot.svg:3: expected points within 1e+06 mm"));
+  for (const char* shape :
+       {"<path d='M 0 0 A 1e200 1e200 0 0 1 10 1e200'/>", "<path d='M 0 0 A 1e308 1 0 1 1 9 9'/>",
+        "<circle cx='0' cy='0' r='1e308'/>", "<ellipse cx='1e308' cy='0' rx='1e308' ry='3'/>",
+        "<path d='M 0 0 C 1e308 -1e308 1e308 1e308 9 9'/>",
+        "<path transform='scale(1e308)' d='M 1 1 A 5 5 0 0 1 1e9 9'/>"})
+    EXPECT_THAT(refused(shape), HasSubstr("pot.svg:3: expected points within 1e+06 mm")) << shape;
+  EXPECT_THAT(refused("<path d='M 0 0 L 1'/>"), HasSubstr("pot.svg:3: expected an SVG drawing"));
+}
+
+// Each arc is 4096 chords: without a limit on the way, 4 GB of them.
+TEST(SvgDrawing, ASmallFileThatDrawsTooMuchIsRefused) {
+  std::string arcs = "<path d='M 0 0";
+  for (int i = 0; i < 60'000; ++i)
+    arcs += i % 2 == 0 ? " A 4e5 4e5 0 1 1 1 1" : " A 4e5 4e5 0 1 1 0 0";
+  EXPECT_THAT(refusal_of(read_drawing(page(arcs + "'/>"), "pot.svg")),
+              HasSubstr("expected at most 1000000 points"));
+}
+
+// Every corner was held against all on its level.
+TEST(SvgDrawing, ManyPointsOnOneLevelAreQuicklyMirrored) {
+  std::string points;
+  for (int i = -100'000; i <= 100'000; ++i) points += std::to_string(1e-3 * i) + ",0 ";
+  const auto section =
+      section_of(page("<polygon points='" + points + "100,50 -100,50'/>"), "pot.svg");
+  ASSERT_TRUE(section) << refusal_of(section);
+  EXPECT_EQ(section->axis, AxisRule::middle);
+}
+
+}  // namespace
+}  // namespace clay::drawing

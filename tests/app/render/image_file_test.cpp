@@ -1,0 +1,95 @@
+#include "app/render/image_file.hpp"
+
+#include "tests/app/render/drawn.hpp"
+#include "tests/support/run_program.hpp"
+
+#include <cstdlib>
+
+namespace clay::test {
+namespace {
+
+draw::Image turned(double azimuth) {
+  draw::Picture picture =
+      picture_of(pot_of([](double p) { return 30.0 + 20.0 * p; }, 80.0, 5.0, 6.0));
+  picture.camera.azimuth_rad = azimuth;
+  picture.cut = draw::Cut::quarter;
+  picture.cut_azimuth_rad = 0.7;
+  return drawn(picture);
+}
+
+/// As ImageMagick reads it.
+std::vector<std::uint8_t> decoded(const std::string& path, const std::string& folder) {
+  const Ran run = shell("convert " + path + " -depth 8 rgba:" + folder);
+  EXPECT_EQ(run.status, 0) << run.err;
+  const std::string text = read_text(folder);
+  return {text.begin(), text.end()};
+}
+
+draw::FrameSource shown(const std::vector<draw::Image>& frames) {
+  return [&frames](std::size_t index) -> Result<draw::Image> { return frames.at(index); };
+}
+
+draw::ByteSink into(std::string& bytes) {
+  return [&bytes](std::string_view more) -> Result<void> {
+    bytes += more;
+    return {};
+  };
+}
+
+TEST(ImageFile, PngHoldsEveryPixel) {
+  const ScratchFolder folder;
+  const draw::Image image = turned(0.7);
+  write_text(folder.file("p.png"), draw::png_of(image));
+  EXPECT_EQ(decoded(folder.file("p.png"), folder.file("raw")), image.rgba);
+}
+
+TEST(ImageFile, GifPlaysItsFramesForEver) {
+  const ScratchFolder folder;
+  const std::vector<draw::Image> frames{turned(0.7), turned(1.7), turned(2.7)};
+  std::string bytes;
+  const auto written = draw::write_gif(frames.size(), 80, shown(frames), into(bytes));
+  ASSERT_TRUE(written) << written.error().message;
+  EXPECT_EQ(*written, bytes.size());
+  EXPECT_NE(bytes.find("NETSCAPE2.0"), std::string::npos);
+  write_text(folder.file("a.gif"), bytes);
+  const Ran told = shell("identify -format \"%w %h %T,\" " + folder.file("a.gif"));
+  EXPECT_EQ(told.out, "480 360 8,480 360 8,480 360 8,") << told.err;
+  const auto pixels = decoded(folder.file("a.gif"), folder.file("raw"));
+  const std::size_t each = frames.front().rgba.size();
+  ASSERT_EQ(pixels.size(), 3 * each);
+  for (std::size_t k = 0; k < 3; ++k) {
+    double off = 0.0, other = 0.0;
+    for (std::size_t i = 0; i < each; ++i) {
+      off += std::abs(pixels[k * each + i] - frames[k].rgba[i]);
+      other += std::abs(pixels[k * each + i] - frames[(k + 1) % 3].rgba[i]);
+    }
+    EXPECT_LT(off / static_cast<double>(each), 3.0) << k;  // of 255: the palette's steps
+    EXPECT_GT(other, 1.5 * off) << k;
+  }
+}
+
+TEST(ImageFile, GifStopsAtTheFirstErrorOfItsFramesOrItsSink) {
+  const std::vector<draw::Image> frames{turned(0.7)};
+  std::string bytes;
+  const auto unread = draw::write_gif(
+      2, 80,
+      [&](std::size_t index) -> Result<draw::Image> {
+        if (index == 1) return failure(ErrorKind::device, "the driver is gone");
+        return frames[index];
+      },
+      into(bytes));
+  ASSERT_FALSE(unread);
+  EXPECT_EQ(unread.error().message, "the driver is gone");
+  int writes = 0;
+  const auto unwritten =
+      draw::write_gif(1, 80, shown(frames), [&](std::string_view) -> Result<void> {
+        ++writes;
+        return failure(ErrorKind::io, "the disk is full");
+      });
+  ASSERT_FALSE(unwritten);
+  EXPECT_EQ(unwritten.error().message, "the disk is full");
+  EXPECT_EQ(writes, 1);
+}
+
+}  // namespace
+}  // namespace clay::test

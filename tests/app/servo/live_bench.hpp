@@ -1,0 +1,138 @@
+#pragma once
+// A whole live throw on a clock that only the device's answers move: minutes in a second.
+
+#include "app/servo/scene_hand.hpp"
+#include "app/servo/servo_loop.hpp"
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
+#include "claystack/falcon/falcon_device.hpp"
+#include "claystack/falcon/sim.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace clay::live {
+
+/// The clock of a LoopbackTransport that runs in virtual time. Nobody sleeps on it: reading waits.
+class LineClock final : public Clock {
+ public:
+  explicit LineClock(const falcon::Transport& line) : line_(line) {}
+  std::int64_t now_ns() noexcept override { return 1000 * line_.now_us(); }
+  void sleep_until_ns(std::int64_t) noexcept override {}
+
+ private:
+  const falcon::Transport& line_;
+};
+
+inline SceneSpec sample_scene(const std::string& name) {
+  const std::string path = std::string(CLAYSTACK_SAMPLES) + "/" + name + ".scene.json";
+  return parse_scene(read_file(path).value(), path).value();
+}
+
+inline std::vector<Pose> sample_stroke(const std::string& name) {
+  const std::string path = std::string(CLAYSTACK_SAMPLES) + "/" + name + ".session";
+  return parse_session(read_file(path).value(), path).value().poses;
+}
+
+/// In the device's frame [mm], at a time [s] since the first frame.
+using HandAt = std::function<glm::dvec3(double)>;
+
+struct VirtualThrow {
+  static falcon::FalconModelSettings homed() {
+    falcon::FalconModelSettings settings;
+    settings.loaded = settings.homed = true;
+    return settings;
+  }
+
+  /// A hand that can't be resisted, so that a test knows where it is.
+  VirtualThrow(const SceneSpec& scene, LiveSettings live_settings, HandAt hand_at,
+               Recorder* recorder = nullptr,
+               const falcon::FalconModelSettings& model_settings = homed())
+      : settings(std::move(live_settings)),
+        hand(std::move(hand_at)),
+        wheel(Wheel::build(scene).value()),
+        model(std::make_shared<falcon::FalconModel>(model_settings,
+                                                    [this](const glm::dvec3&, double dt_s) {
+                                                      time_s += dt_s;
+                                                      return falcon::Kinematics::kCentreM +
+                                                             1e-3 * hand(time_s);
+                                                    })),
+        device(make_line(), falcon::FalconSettings{}),
+        clock(*line) {
+    EXPECT_TRUE(device.open());
+    auto built = ServoLoop::build({wheel, device, clock, recorder, &trace}, settings);
+    EXPECT_TRUE(built) << built.error().message;
+    loop = std::make_unique<ServoLoop>(std::move(*built));
+    loop->start();
+  }
+
+  Ending tick() { return loop->tick(gate, commands, view, heartbeat_us); }
+  /// Ticks for so long, or to the end.
+  Ending run(double seconds) {
+    const std::int64_t end_us = clock.now_us() + static_cast<std::int64_t>(1e6 * seconds);
+    Ending ending = Ending::none;
+    while (ending == Ending::none && clock.now_us() < end_us) ending = tick();
+    return ending;
+  }
+  [[nodiscard]] const LiveStatus& status() const { return loop->status(); }
+  void fault(falcon::WireFault what, int times = 1) {
+    for (int i = 0; i < times; ++i) model->plan({what, 0});
+  }
+
+  LiveSettings settings;
+  HandAt hand;
+  double time_s = 0.0;
+  Wheel wheel;
+  std::shared_ptr<falcon::FalconModel> model;
+  falcon::LoopbackTransport* line = nullptr;
+  falcon::FalconDevice device;
+  LineClock clock;
+  std::unique_ptr<ServoLoop> loop;
+  falcon::ForceGate gate;
+  Commands commands;
+  LiveView view;
+  TickTrace trace;
+  std::atomic<std::int64_t> heartbeat_us{0};
+
+ private:
+  std::unique_ptr<falcon::Transport> make_line() {
+    auto made = std::make_unique<falcon::LoopbackTransport>(model, falcon::Pace::virtual_);
+    line = made.get();
+    return made;
+  }
+};
+
+/// A solid lump of 40 mm under a rib that is 20 mm high, a mapping of 1 to 1: the tool touches it
+/// at 46 mm from the axis. The clay gives way by 0.02 of its 40 mm a second, so a hand that stands
+/// is felt for seconds.
+inline SceneSpec rib_scene() {
+  SceneSpec scene;
+  scene.lump = {.rings = 120, .ring_height_mm = 0.5, .outer_radius_mm = 40.0};
+  scene.tool.shape = RibSpec{20.0, 6.0};
+  scene.removal.rate_per_s = 0.02;
+  scene.force->stiffness_n_per_mm2 = 0.02;
+  scene.force->friction = 0.2;
+  return scene;
+}
+
+inline LiveSettings one_to_one() {
+  LiveSettings settings;
+  settings.mapping.scale = 1.0;
+  settings.mapping.reach_mm = 46.0;
+  settings.mapping.height_mm = 30.0;
+  return settings;
+}
+
+/// Off the clay until the force is earned, then pressed in to a depth [mm] within half a second.
+inline HandAt press_to(double depth_mm) {
+  return [=](double t) {
+    const double way = std::clamp((t - 2.5) / 0.5, 0.0, 1.0);
+    return glm::dvec3(2.0 - way * (2.0 + depth_mm), 0.0, 0.0);
+  };
+}
+
+}  // namespace clay::live

@@ -1,0 +1,258 @@
+// Servo, watchdog and readers as threads. No limits in time but deadlines: a machine may be busy.
+
+#include "app/servo/servo.hpp"
+#include "app/servo/signals.hpp"
+#include "tests/app/servo/live_bench.hpp"
+#include "tests/app/servo/scripted_device.hpp"
+#include "tests/support/wait_until.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <stdexcept>
+#include <thread>
+
+namespace clay::live {
+namespace {
+
+template <class Condition>
+void wait_for(Condition condition, const std::string& what) {
+  test::wait_until(condition, test::kDeadline, what);
+}
+
+/// Force comes soon: after a ramp of a tenth of a second.
+LiveSettings quick() {
+  LiveSettings settings = one_to_one();
+  settings.guard.ramp_s = 0.1;
+  // A busy machine's late ticks are not what is tested here.
+  settings.guard.safe_rest_s = 0.01;
+  return settings;
+}
+
+/// A servo that runs on a scripted device.
+struct Threads {
+  explicit Threads(WireLog& wire)
+      : log(wire), device(wire), loop(ServoLoop::build(bench(), quick()).value()) {
+    servo.start();
+  }
+  /// A servo that hangs does not end.
+  ~Threads() { log.hang = false; }
+  Threads(const Threads&) = delete;
+  Threads& operator=(const Threads&) = delete;
+
+  Bench bench() { return {wheel, device, clock, nullptr}; }
+  void wait_for_force() {
+    wait_for([&] { return log.last_n > 0.0; }, "a force");
+  }
+  void wait_for_writes(std::uint64_t more) {
+    wait_for([&, end = log.writes + more] { return log.writes > end; }, "forces to be written");
+  }
+  Ending end() {
+    wait_for([&] { return !servo.running(); }, "the servo's end");
+    return servo.join();
+  }
+  Ending stop() { return servo.command({CommandKind::stop, 0.0}) ? end() : Ending::none; }
+
+  WireLog& log;
+  ScriptedDevice device;
+  Wheel wheel = Wheel::build(rib_scene()).value();
+  MonotonicClock clock;
+  ServoLoop loop;
+  Servo servo{bench(), loop, false};
+};
+
+TEST(Servo, EndsByCommandWithAStopAsTheLastWord) {
+  WireLog log;
+  Threads threads(log);
+  threads.wait_for_writes(50);
+  EXPECT_EQ(threads.stop(), Ending::stopped);
+  EXPECT_FALSE(threads.servo.running());
+  EXPECT_EQ(log.stops, 1u);
+  EXPECT_EQ(log.last_n, 0.0);
+  EXPECT_EQ(threads.loop.timing().ticks, log.writes);
+  EXPECT_EQ(threads.loop.timing().lateness.count(), threads.loop.timing().ticks);
+}
+
+TEST(Servo, ItsDestructorEndsTheForceToo) {
+  WireLog log;
+  {
+    Threads threads(log);
+    threads.wait_for_force();
+  }
+  EXPECT_EQ(log.stops, 1u);
+  EXPECT_EQ(log.last_n, 0.0);
+}
+
+TEST(Servo, AHangEndsTheForceFromOutsideAndItComesBackByTheRamp) {
+  WireLog log;
+  Threads threads(log);
+  threads.wait_for_force();
+  const std::uint64_t zeros = log.zeros;
+  log.hang = true;
+  wait_for([&] { return log.zeros > zeros; }, "the watchdog to end the force");
+  EXPECT_EQ(log.last_n, 0.0) << "nobody writes a force meanwhile";
+  log.hang = false;
+  threads.wait_for_writes(20);
+  EXPECT_EQ(threads.stop(), Ending::stopped);
+  EXPECT_GE(threads.loop.events().watchdog, 1u);
+}
+
+TEST(Servo, ReadersSeeWholeValuesThatGoForward) {
+  WireLog log;
+  Threads threads(log);
+  std::uint64_t ticks = 0;
+  double time_s = 0.0;
+  const auto read = [&] {
+    const LiveStatus& status = threads.servo.view().status.newest();
+    ASSERT_GE(status.ticks, ticks);
+    ASSERT_GE(status.time_s, time_s);
+    ASSERT_EQ(status.volume_error, 0.0);
+    ticks = status.ticks;
+    time_s = status.time_s;
+    const LiveProfile& profile = threads.servo.view().profile.newest();
+    for (std::size_t row = 0; row < profile.size; ++row)
+      ASSERT_GT(profile.rows[row].outer_mm, profile.rows[row].inner_mm);
+  };
+  const auto read_often = [&] {
+    for (int i = 0; i < 1000; ++i) read();
+    return ticks >= 300 || testing::Test::HasFailure();
+  };
+  wait_for(read_often, "300 ticks");
+  EXPECT_EQ(threads.stop(), Ending::stopped);
+}
+
+TEST(Servo, AnUnpluggedDeviceEndsIt) {
+  WireLog log;
+  Threads threads(log);
+  threads.wait_for_force();
+  log.gone = true;
+  EXPECT_EQ(threads.end(), Ending::device_lost);
+  EXPECT_EQ(log.last_n, 0.0);
+  // As after a reconnection: another servo, the same loop and wheel.
+  log.gone = false;
+  const std::uint64_t poses = threads.loop.status().poses;
+  Servo again(threads.bench(), threads.loop, false);
+  again.start();
+  wait_for([&] { return again.view().status.newest().poses > poses + 20; }, "poses");
+  ASSERT_TRUE(again.command({CommandKind::stop, 0.0}));
+  wait_for([&] { return !again.running(); }, "the other servo's end");
+  EXPECT_EQ(again.join(), Ending::stopped);
+}
+
+TEST(Servo, RealTimeIsGivenOrSaidToBeMissing) {
+  Realtime realtime;
+  std::thread([&] { realtime = ask_for_realtime(kServoPriority); }).join();
+  EXPECT_TRUE(realtime.asked);
+  EXPECT_EQ(realtime.missing.empty(),
+            realtime.fifo && realtime.memory_locked && realtime.exact_sleep)
+      << realtime.missing;
+  EXPECT_EQ(realtime.missing.find("SCHED_FIFO") == std::string::npos, realtime.fifo);
+  munlockall();
+}
+
+TEST(Servo, TheHandlerItselfWritesZeroWhileTheServoHangs) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+    WireLog log;
+    const ForceSignals signals;
+    Threads threads(log);
+    threads.wait_for_force();
+    log.hang = true;
+    EXPECT_EQ(log.stops, 0u);
+    raise(signal);
+    // Handled before it returns, but for the thread sanitizer, which waits for a sleep.
+    wait_for([&] { return log.stops > 0; }, "the handler to tell the device to stop");
+    EXPECT_EQ(log.stops, 1u) << "nobody else tells a device to stop while the servo hangs";
+    EXPECT_EQ(ForceSignals::asked_to_stop(), signal);
+    log.hang = false;
+    (void)threads.servo.command({CommandKind::stop, 0.0});
+    EXPECT_EQ(threads.end(), Ending::stopped);
+    EXPECT_EQ(log.last_n, 0.0);
+  }
+}
+
+TEST(Servo, NoSignalOfJobControlStopsTheProcessUnderForce) {
+  WireLog log;
+  const ForceSignals signals;
+  Threads threads(log);
+  threads.wait_for_force();
+  for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU}) kill(getpid(), signal);
+  threads.wait_for_writes(5);
+  EXPECT_EQ(threads.stop(), Ending::stopped);
+}
+
+/// A process of its own that throws until this befalls it; how it ended.
+class LastPacket : public testing::Test {
+ protected:
+  LastPacket() {
+    void* shared =
+        mmap(nullptr, sizeof(WireLog), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    log_ = new (shared) WireLog;
+  }
+  ~LastPacket() override { munmap(log_, sizeof(WireLog)); }
+
+  template <class Action>
+  int end_by(Action action) {
+    const pid_t child = fork();
+    if (child == 0) {
+      const rlimit no_core{0, 0};
+      setrlimit(RLIMIT_CORE, &no_core);
+      alarm(static_cast<unsigned>(test::kDeadline.count()));  // one that does not end is no orphan,
+                                                              // and SIGALRM is its status
+      const ForceSignals signals;
+      Threads threads(*log_);
+      threads.wait_for_force();
+      action();
+      threads.servo.join();
+      _exit(ForceSignals::asked_to_stop());
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  }
+
+  /// Force there was, and the last word is none.
+  void expect_no_force() {
+    EXPECT_GT(log_->most_n, 0.0);
+    EXPECT_EQ(log_->last_n, 0.0);
+    EXPECT_GE(log_->stops, 1u);
+  }
+
+  WireLog* log_ = nullptr;
+};
+
+TEST_F(LastPacket, IsZeroAfterASignalThatAsksToStop) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+    EXPECT_EQ(end_by([=] { kill(getpid(), signal); }), signal);
+    expect_no_force();
+    new (log_) WireLog;
+  }
+}
+
+TEST_F(LastPacket, IsZeroAfterASignalThatKills) {
+  // Every signal of the system that would end it, but for SIGKILL and those that ask.
+  for (const int signal :
+       {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT, SIGTRAP, SIGSYS, SIGXCPU, SIGALRM,
+        SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2, SIGSTKFLT, SIGPOLL, SIGPWR}) {
+    EXPECT_EQ(end_by([=] { kill(getpid(), signal); }), 128 + signal);
+    expect_no_force();
+    new (log_) WireLog;
+  }
+}
+
+TEST_F(LastPacket, IsZeroAfterAnExceptionThatNobodyCatches) {
+  const int status = end_by([] {
+    std::set_terminate([] { std::abort(); });  // without its message
+    std::thread([] { throw std::runtime_error("uncaught"); }).join();
+  });
+  EXPECT_EQ(status, 128 + SIGABRT);
+  expect_no_force();
+}
+
+}  // namespace
+}  // namespace clay::live

@@ -1,0 +1,72 @@
+// What a servo does when its wire fails, on a virtual clock: every fault is exact.
+
+#include "tests/app/servo/live_bench.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <glm/geometric.hpp>
+
+namespace clay::live {
+namespace {
+
+using falcon::GuardState;
+using falcon::WireFault;
+
+TEST(LiveWire, WithoutFramesTheClayStandsAndTheForceIsGoneIn10Ms) {
+  VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
+  live.run(3.2);
+  ASSERT_GT(glm::length(live.status().force_n), 0.1);
+  live.fault(WireFault::no_frame, 40);
+  live.tick();  // the answer that was on its way
+  const Pot before = live.wheel.pot();
+  const std::int64_t last_us = live.clock.now_us();
+  double n = glm::length(live.status().force_n);
+  for (int i = 0; i < 20; ++i) {
+    live.tick();
+    ASSERT_EQ(live.wheel.pot(), before);
+    ASSERT_LE(glm::length(live.status().force_n), n);
+    n = glm::length(live.status().force_n);
+    ASSERT_TRUE(n == 0.0 || live.clock.now_us() - last_us < 10'000) << n;
+  }
+  EXPECT_EQ(n, 0.0);
+  live.run(3.0);
+  EXPECT_NE(live.wheel.pot(), before) << "and then it goes on";
+}
+
+TEST(LiveWire, AFrameThatLeapsIntoTheClayCutsNothing) {
+  VirtualThrow live(rib_scene(), one_to_one(), [](double t) {
+    return glm::dvec3(t > 2.0 && t < 2.0015 ? -20.0 : 2.0, 0.0, 0.0);
+  });
+  live.run(2.5);
+  EXPECT_GE(live.loop->events().flags[std::countr_zero(unsigned{falcon::kGuardJump})], 1u)
+      << "a jump";
+  EXPECT_EQ(live.wheel.pot(), Wheel::build(rib_scene())->pot());
+}
+
+TEST(LiveWire, HomingLostIsNoForceInTheSameTickAndNoClay) {
+  VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
+  live.run(3.2);
+  live.fault(WireFault::homing_lost);
+  while (live.status().device == falcon::DeviceState::ready) live.tick();
+  const Pot before = live.wheel.pot();
+  for (; live.status().device != falcon::DeviceState::ready; live.tick()) {
+    ASSERT_EQ(glm::length(live.status().force_n), 0.0);
+    ASSERT_EQ(live.model->motors(), falcon::LegCounts{});
+    ASSERT_EQ(live.wheel.pot(), before);
+  }
+  EXPECT_NE(live.status().guard, GuardState::engaged);
+}
+
+TEST(LiveWire, UnpluggedIsTheEnd) {
+  VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
+  live.run(3.0);
+  live.fault(WireFault::unplugged);
+  EXPECT_EQ(live.run(1.0), Ending::device_lost);
+  EXPECT_EQ(live.device.problem().fault, falcon::DeviceFault::unplugged);
+  EXPECT_NEAR(live.status().time_s, 3.0, 0.01);
+  EXPECT_EQ(live.wheel.ledger().volume_error(live.wheel.stack().recount()), 0);
+}
+
+}  // namespace
+}  // namespace clay::live

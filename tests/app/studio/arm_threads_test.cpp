@@ -1,0 +1,102 @@
+// What comes and goes by itself, with the threads that a window on a screen has.
+
+#include "app/studio/potter.hpp"
+#include "tests/app/servo/live_bench.hpp"
+#include "tests/app/servo/scripted_device.hpp"
+#include "tests/app/studio/socket.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <thread>
+
+namespace clay::studio {
+namespace {
+
+using namespace std::chrono_literals;
+
+DevicePointer wait_for_device(DeviceWatch& watch) {
+  DevicePointer device;
+  const auto taken = [&] {
+    device = watch.take();
+    return device != nullptr;
+  };
+  test::wait_until(taken, test::kDeadline, "a device that is open");
+  return device;
+}
+
+TEST(DeviceWatch, OpensWhatIsPluggedInLaterAndThenLooksNoMore) {
+  Socket socket;
+  live::WireLog wire;
+  DeviceWatch watch(socket.look(), 1ms);
+  socket.wait_for_looks(3);
+  EXPECT_FALSE(watch.take());
+  socket.plug(std::make_unique<live::ScriptedDevice>(wire));
+  EXPECT_EQ(wait_for_device(watch)->info().name, "scripted");
+  const int looks = socket.looks;
+  std::this_thread::sleep_for(50ms);
+  EXPECT_EQ(socket.looks, looks);
+  socket.plug(std::make_unique<live::ScriptedDevice>(wire));
+  watch.look_again();
+  EXPECT_TRUE(wait_for_device(watch));
+}
+
+TEST(DeviceWatch, TellsEachReasonOnceForWhatIsPluggedIn) {
+  Socket socket;
+  socket.say("no power");
+  DeviceWatch watch(socket.look(), 1ms);
+  const auto told = [&] {
+    socket.wait_for_looks(2);
+    return watch.take_problem();
+  };
+  EXPECT_EQ(told(), "no power");
+  EXPECT_EQ(told(), "");
+  socket.say("no firmware");
+  EXPECT_EQ(told(), "no firmware");
+  EXPECT_EQ(told(), "");
+  socket.say("");  // pulled out
+  EXPECT_EQ(told(), "");
+  socket.say("no firmware");
+  EXPECT_EQ(told(), "no firmware");
+}
+
+TEST(Potter, AnArmOfThreadsThatIsLostLeavesAStrokeAndNoForce) {
+  live::WireLog wire;
+  live::MonotonicClock clock;
+  Potter potter(clock, true);
+  ASSERT_TRUE(potter.begin(live::rib_scene()));
+  live::LiveSettings settings = live::one_to_one();
+  settings.guard.ramp_s = 0.1;
+  settings.guard.safe_rest_s = 0.01;  // a busy machine's late ticks are not what is tested here
+  potter.take(std::make_unique<live::ScriptedDevice>(wire), settings);
+  const auto frames_until = [&](auto condition, const std::string& what) {
+    const auto frame = [&] {
+      potter.advance(clock.now_ns());
+      return condition();
+    };
+    test::wait_until(frame, test::kDeadline, what);
+  };
+  frames_until([&] { return wire.last_n > 0.0 && potter.status().contact; }, "a force");
+  wire.gone = true;
+  frames_until([&] { return !potter.has_device(); }, "the loss of the device");
+  const PotterNews news = potter.take_news();
+  EXPECT_TRUE(news.device_lost && news.stroke_ended);
+  EXPECT_EQ(news.ending, live::Ending::device_lost);
+  ASSERT_TRUE(news.error);
+  EXPECT_EQ(news.error->message, "nowhere: unplugged; plug it in again");
+  EXPECT_GT(news.poses, 0u);
+  EXPECT_EQ(wire.last_n, 0.0);
+  EXPECT_EQ(potter.servo().timing.ticks, news.ticks);
+
+  const std::uint64_t writes = wire.writes;
+  const std::size_t strokes = potter.work().size();
+  ASSERT_TRUE(potter.press({potter.scene().tool, 20.0, {60.0, 30.0, 0.0}}));
+  potter.aim({{40.0, 30.0, 0.0}});
+  frames_until([&] { return potter.status().contact; }, "the mouse to touch the clay");
+  potter.release();
+  EXPECT_GT(potter.work().size(), strokes);
+  EXPECT_EQ(wire.writes, writes);
+}
+
+}  // namespace
+}  // namespace clay::studio

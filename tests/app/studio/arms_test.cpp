@@ -1,0 +1,212 @@
+// Arms at the window: they come, throw, need something, go and come back. On the studio's own clock
+// with an arm that does as it is told.
+
+#include "app/studio/actions.hpp"
+#include "app/studio/script.hpp"
+#include "tests/app/servo/live_bench.hpp"
+#include "tests/app/studio/clocked_arm.hpp"
+#include "tests/app/studio/socket.hpp"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace clay::studio {
+namespace {
+
+/// The sample bowl's lump, of a clay that gives way so slowly that it is felt for long.
+SceneSpec slow_clay() {
+  SceneSpec scene = live::sample_scene("bowl");
+  scene.removal.rate_per_s = 0.1;
+  return scene;
+}
+
+/// A window without a screen, and a socket for an arm.
+class Arms : public testing::Test {
+ protected:
+  Arms() {
+    auto made = OffscreenHost::create({960, 640}, 1.0f);
+    if (!made) throw std::runtime_error(made.error().message);
+    host_ = std::move(*made);
+    Settings settings;
+    settings.hints = false;
+    studio_ = std::move(*Studio::create(
+        *host_, settings, [this](std::string_view line) { log_.append(line).append("\n"); }));
+    runner_.emplace(*host_, *studio_);
+    begin_work(shop(), slow_clay());
+    shop().devices = std::make_unique<DeviceWatch>(socket_.look(), std::chrono::milliseconds(1));
+  }
+  Workshop& shop() { return studio_->shop(); }
+  void play(const std::string& text) {
+    const auto done = runner_->run(parse_script(text, "s").value(), "s");
+    ASSERT_TRUE(done) << done.error().message << "\n" << log_;
+  }
+  /// An arm is plugged in and opened; whether it is taken is the window's to say.
+  void plug(ArmScript& script) {
+    socket_.plug(std::make_unique<ClockedArm>(host_->clock(), script));
+    socket_.wait_until_opened();
+  }
+  void until_taken() {
+    while (!shop().potter.has_device()) play("wait 0.02");
+  }
+  void plug_and_earn(ArmScript& script) {
+    plug(script);
+    until_taken();
+    play("wait 3\nexpect force engaged\n");
+  }
+  [[nodiscard]] std::string banner() const {
+    const auto& notice = studio_->shop().notices.shown();
+    return notice ? notice->text : "";
+  }
+
+  std::deque<ArmScript> arms_;
+  Socket socket_;
+  std::string log_;
+  std::unique_ptr<OffscreenHost> host_;
+  std::unique_ptr<Studio> studio_;
+  std::optional<ScriptRunner> runner_;
+};
+
+constexpr const char* kMousePresses =
+    "key 1\npoint 65 18\npress left\nexpect throwing yes\npoint 56 18 over 0.4\nwait 0.2\n"
+    "expect contact yes\n";
+
+TEST_F(Arms, OneThatAppearsThrowsInPlaceOfTheMouse) {
+  ArmScript& arm = arms_.emplace_back();
+  play("expect device Mouse\nexpect throwing no\n");
+  plug_and_earn(arm);
+  play("expect device \"Clocked arm\"\nexpect throwing yes\nexpect contact no\n");
+  EXPECT_NE(log_.find("device: Clocked arm"), std::string::npos);
+  EXPECT_EQ(arm.most_n, 0.0) << "off the clay";
+  arm.goal_mm = 52.0;
+  play("wait 0.5\nexpect contact yes\nexpect force engaged\n");
+  EXPECT_GT(arm.told_n, 0.1);
+  play("key Ctrl+Z\nexpect strokes 1\n");
+}
+
+TEST_F(Arms, OneThatIsLostInMidStrokeGivesTheClayToTheMouseAndIsFoundAgain) {
+  ArmScript& arm = arms_.emplace_back();
+  plug_and_earn(arm);
+  arm.goal_mm = 52.0;
+  play("wait 0.5\nexpect contact yes\n");
+  ASSERT_GT(arm.told_n, 0.1);
+  arm.state = falcon::DeviceState::fault;
+  play("wait 0.1\nexpect device Mouse\nexpect throwing no\nexpect strokes 1\nexpect force none\n");
+  EXPECT_EQ(arm.told_n, 0.0);
+  const std::string why = "nowhere: unplugged; plug it in again; the mouse throws meanwhile";
+  EXPECT_EQ(banner(), why);
+  const std::uint64_t writes = arm.writes;
+  play(std::string(kMousePresses) + "release left\nexpect strokes 2\n");
+  EXPECT_EQ(arm.writes, writes);
+  EXPECT_EQ(banner(), why) << "until it is no longer so";
+  ArmScript& another = arms_.emplace_back();
+  plug_and_earn(another);
+  EXPECT_EQ(banner().find("unplugged"), std::string::npos);
+  play("expect device \"Clocked arm\"\n");
+}
+
+TEST_F(Arms, TheMouseKeepsTheClayUntilItLetsGo) {
+  ArmScript& arm = arms_.emplace_back();
+  play(kMousePresses);
+  plug(arm);
+  play("wait 0.5\nexpect device Mouse\nexpect throwing yes\nrelease left\n");
+  until_taken();
+  play("expect device \"Clocked arm\"\nexpect strokes 1\n");
+}
+
+TEST_F(Arms, OneThatGoesBeforeItEverThrewIsToldAndLookedForAgain) {
+  ArmScript& arm = arms_.emplace_back();
+  arm.opens = false;
+  play(kMousePresses);
+  plug(arm);
+  play("release left\n");
+  while (banner().find("unplugged") == std::string::npos) play("wait 0.02");
+  play("expect device Mouse\n");
+  arm.opens = true;
+  plug_and_earn(arm);
+}
+
+TEST_F(Arms, ForceComesBackFromSafeOnlyWhenAskedForAndOnlyOffTheClay) {
+  ArmScript& arm = arms_.emplace_back();
+  plug_and_earn(arm);
+  const Action& rearm = *find_action("wheel.rearm");
+  EXPECT_FALSE(rearm.enabled(shop()));
+  arm.goal_mm = 52.0;
+  play("wait 0.5\nexpect contact yes\n");
+  ASSERT_GT(arm.told_n, 0.1);
+  arm.makes_sense = false;
+  play("wait 0.1\nexpect force safe\n");
+  EXPECT_EQ(arm.told_n, 0.0);
+  arm.makes_sense = true;
+  arm.most_n = 0.0;
+  arm.goal_mm = 40.0;  // where more than the little that may be earned in is felt
+  play(
+      "wait 2\nexpect force safe\n"
+      "expect banner \"no force: a number that is none; Shift+R or the clutch to go on\"\n");
+  // In the clay that is not enough.
+  play("key Shift+R\nwait 0.5\nexpect force waiting\nexpect banner \"\"\n");
+  EXPECT_EQ(arm.most_n, 0.0);
+  EXPECT_FALSE(rearm.enabled(shop()));
+  arm.goal_mm = 80.0;
+  play("wait 0.3\nexpect force ramping\nwait 2\nexpect force engaged\n");
+  arm.goal_mm = 38.0;
+  play("wait 0.5\nexpect contact yes\n");
+  EXPECT_GT(arm.told_n, 0.1);
+}
+
+TEST_F(Arms, EscIsZeroForceWhateverIsOpenAndNeverBringsItBack) {
+  ArmScript& arm = arms_.emplace_back();
+  plug_and_earn(arm);
+  arm.goal_mm = 52.0;
+  play("wait 0.5\nexpect contact yes\n");
+  ASSERT_GT(arm.told_n, 0.1);
+  play("do help.keys\nexpect overlay shortcuts\n");
+  ASSERT_GT(arm.told_n, 0.1);
+  play("key Esc\nexpect overlay none\nexpect paused yes\n");
+  EXPECT_EQ(arm.told_n, 0.0);
+  arm.most_n = 0.0;
+  play("key Esc\nwait 0.5\nkey Esc\nwait 0.5\nexpect paused yes\n");
+  EXPECT_EQ(arm.most_n, 0.0);
+  arm.goal_mm = 80.0;
+  play("key Space\nexpect paused no\nwait 3\nexpect force engaged\n");
+}
+
+TEST_F(Arms, APauseOutlastsTheStroke) {
+  ArmScript& arm = arms_.emplace_back();
+  plug_and_earn(arm);
+  arm.goal_mm = 52.0;
+  play("wait 0.5\nexpect contact yes\n");
+  ASSERT_GT(arm.told_n, 0.1);
+  play("key Space\nexpect paused yes\n");
+  arm.most_n = 0.0;
+  // Each begins a stroke anew, with all that force needs: off the clay for a while, and then in.
+  for (const char* what : {"key ]", "key T", "key Ctrl+Z", "do file.new_vase\nkey Ctrl+D"}) {
+    arm.goal_mm = 80.0;
+    play(std::string(what) + "\nwait 3\n");
+    arm.goal_mm = 40.0;
+    play("wait 1\nexpect paused yes\nexpect throwing yes\nexpect contact no\n");
+    EXPECT_EQ(arm.most_n, 0.0) << what;
+  }
+  play("expect strokes 0\n");
+  arm.goal_mm = 80.0;
+  play("wait 0.3\nkey Space\nwait 3\nexpect force engaged\n");
+}
+
+TEST_F(Arms, OneThatIsNotHomedSaysWhatToDoUntilItIs) {
+  ArmScript& arm = arms_.emplace_back();
+  arm.state = falcon::DeviceState::needs_homing;
+  plug(arm);
+  until_taken();
+  play("wait 0.5\nexpect throwing yes\n");
+  EXPECT_EQ(banner(), "home it: pull the grip all the way out, then push it all the way in");
+  EXPECT_EQ(arm.most_n, 0.0);
+  arm.state = falcon::DeviceState::ready;
+  play("wait 0.1\nexpect banner \"\"\n");
+}
+
+}  // namespace
+}  // namespace clay::studio

@@ -1,0 +1,165 @@
+#include "app/studio/exporter.hpp"
+
+#include "tests/app/history/strokes.hpp"
+#include "tests/support/run_program.hpp"
+
+#include "claystack/engine/files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <mutex>
+
+namespace clay::studio {
+namespace {
+
+using test::claystack;
+using test::read_text;
+using test::ScratchFolder;
+using test::write_text;
+
+/// A work of two strokes: its pot.
+work::SharedPot thrown() {
+  auto work = work::Work::begin(test::small_scene()).value();
+  for (const std::uint64_t seed : {3u, 4u})
+    EXPECT_TRUE(work.add(test::small_scene(), test::press_stroke(seed)));
+  return work.pot().value();
+}
+
+class Exporting : public ::testing::Test {
+ protected:
+  Exporter::Outcome outcome() {
+    exporter.wait();
+    auto taken = exporter.take();
+    EXPECT_TRUE(taken);
+    return std::move(*taken);
+  }
+  std::size_t files() const {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+      (void)entry;
+      ++count;
+    }
+    return count;
+  }
+  ScratchFolder folder;
+  work::SharedPot pot = thrown();
+  ExportWish wish{.stl = true,
+                  .obj = true,
+                  .drc = false,
+                  .section = true,
+                  .pot = true,
+                  .folder = folder.path().string(),
+                  .name = "two",
+                  .tolerance_mm = 0.05,
+                  .smooth = "fair",
+                  .process = "porcelain",
+                  .min_wall_mm = 0.0,
+                  .shrinkage_percent = 12.0};
+  Exporter exporter;
+};
+
+TEST_F(Exporting, TheBytesAreThoseOfTheCommand) {
+  exporter.write(pot, wish);
+  const auto done = outcome();
+  ASSERT_TRUE(done.done) << done.done.error().message;
+  EXPECT_EQ(done.paths.size(), 4u);
+  std::filesystem::create_directory(folder.path() / "command");
+  const std::string given = folder.file("command/two.pot.json");
+  write_text(given, write_pot(*pot, PotEncoding::json));
+  const std::string mine = folder.file("command/two");
+  const auto ran = claystack("export -q " + given + " " + mine + ".stl " + mine + ".obj " + mine +
+                             ".svg --tolerance 0.05 --process porcelain --shrinkage 12%");
+  // Its wall is thinner than porcelain asks: written, and said.
+  ASSERT_EQ(ran.status, 1) << ran.err;
+  ASSERT_EQ(app::problems_of(*done.done).size(), 1u);
+  EXPECT_NE(ran.err.find(app::problems_of(*done.done)[0].text), std::string::npos);
+  for (const char* ending : {".stl", ".obj", ".svg", ".pot.json"})
+    EXPECT_EQ(read_text(folder.file("two") + ending), read_text(mine + ending)) << ending;
+  EXPECT_EQ(claystack("check " + folder.file("two.stl")).status, 0);
+}
+
+TEST_F(Exporting, ARehearsalTellsWhatTheFilesWillBe) {
+  wish.section = wish.pot = false;
+  exporter.rehearse(pot, wish);
+  const auto rehearsed = outcome();
+  ASSERT_TRUE(rehearsed.done) << rehearsed.done.error().message;
+  EXPECT_EQ(files(), 0u);
+  exporter.write(pot, wish);
+  ASSERT_TRUE(outcome().done);
+  const auto& reports = rehearsed.done->report.files;
+  ASSERT_EQ(reports.size(), 2u);
+  EXPECT_EQ(reports[0].bytes, std::filesystem::file_size(folder.file("two.stl")));
+  EXPECT_EQ(reports[1].bytes, std::filesystem::file_size(folder.file("two.obj")));
+}
+
+TEST_F(Exporting, TheNewestRehearsalWins) {
+  for (int i = 1; i <= 20; ++i) {
+    wish.tolerance_mm = 0.01 * i;
+    exporter.rehearse(pot, wish);
+  }
+  EXPECT_EQ(outcome().wish.tolerance_mm, wish.tolerance_mm);
+  EXPECT_FALSE(exporter.take());
+}
+
+TEST_F(Exporting, OneThatIsCancelledLeavesNoFile) {
+  wish.tolerance_mm = 0.001;
+  exporter.write(pot, wish);
+  // Once it is at work: the files are open then, and have no names yet.
+  while (exporter.stage().empty() && exporter.busy()) std::this_thread::yield();
+  exporter.cancel();
+  const auto cancelled = outcome();
+  EXPECT_TRUE(cancelled.cancelled);
+  EXPECT_FALSE(cancelled.done);
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(Exporting, CancelledAtAnyQuestionItLeavesAllFilesOrNone) {
+  app::ExportCommand command = command_of(wish);
+  std::size_t asked = 0, all = 0;
+  std::mutex mutex;
+  for (std::size_t until = 0; all == 0; ++until) {
+    asked = 0;
+    command.options.cancelled = [&] {
+      const std::lock_guard lock(mutex);
+      return ++asked > until;
+    };
+    const auto done = app::export_files(*pot, command, {});
+    EXPECT_EQ(files(), done ? 4u : 0u) << until;
+    if (done) all = asked;
+  }
+  EXPECT_GT(all, 10u);
+}
+
+TEST_F(Exporting, WhatCannotBeWrittenIsSaid) {
+  wish.folder = folder.file("nowhere");
+  exporter.write(pot, wish);
+  const auto failed = outcome();
+  ASSERT_FALSE(failed.done);
+  EXPECT_FALSE(failed.cancelled);
+  EXPECT_EQ(failed.done.error().kind, ErrorKind::io);
+  EXPECT_NE(failed.done.error().message.find("nowhere"), std::string::npos);
+}
+
+TEST_F(Exporting, AThinWallIsAProblemWithAPlace) {
+  wish.min_wall_mm = 500.0;
+  wish.shrinkage_percent = 0.0;
+  exporter.rehearse(pot, wish);
+  const auto rehearsed = outcome();
+  ASSERT_TRUE(rehearsed.done) << rehearsed.done.error().message;
+  const auto problems = app::problems_of(*rehearsed.done);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_NE(problems[0].text.find("thin wall"), std::string::npos);
+  ASSERT_TRUE(problems[0].at);
+  EXPECT_GE(problems[0].at->y, 0.0);
+  EXPECT_LE(problems[0].at->y, pot->stack.height_mm() + 1e-9);
+}
+
+TEST_F(Exporting, FilesThatStandAlreadyAreNamed) {
+  EXPECT_TRUE(standing_files(wish).empty());
+  write_text(folder.file("two.obj"), "old");
+  EXPECT_EQ(standing_files(wish), std::vector{folder.file("two.obj")});
+}
+
+}  // namespace
+}  // namespace clay::studio

@@ -1,0 +1,72 @@
+#include "app/studio/file_dialog.hpp"
+
+#include "tests/support/run_program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <thread>
+
+namespace clay::studio {
+namespace {
+
+using test::read_text;
+using test::ScratchFolder;
+using test::write_text;
+
+/// A desktop with this program and no other.
+class Desktop : public ::testing::Test {
+ protected:
+  void SetUp() override { setenv("PATH", folder.path().c_str(), 1); }
+  void TearDown() override { setenv("PATH", before.c_str(), 1); }
+  void install(const char* name, const std::string& script) {
+    write_text(folder.file(name), "#!/bin/sh\n" + script);
+    std::filesystem::permissions(folder.file(name), std::filesystem::perms::owner_all);
+  }
+  std::string answer(FileDialog& dialog) {
+    while (true)
+      if (auto taken = dialog.take()) return *taken;
+  }
+  ScratchFolder folder;
+  std::string before = std::getenv("PATH");
+};
+
+TEST_F(Desktop, WithoutADialogTheBoxIsLeft) {
+  FileDialog dialog;
+  EXPECT_FALSE(dialog.begin(FileDialog::Kind::open, "/tmp/"));
+  EXPECT_FALSE(dialog.open());
+  EXPECT_FALSE(dialog.take());
+  EXPECT_FALSE(show_folder("/tmp"));
+}
+
+TEST_F(Desktop, ZenityTellsWhatWasChosen) {
+  install("zenity", "printf '%s\\n' \"$*\" >" + folder.file("asked") +
+                        "\nprintf '/a place/my pot.work\\n'\n");
+  FileDialog dialog;
+  ASSERT_TRUE(dialog.begin(FileDialog::Kind::save, "/here/bowl.work"));
+  EXPECT_FALSE(dialog.begin(FileDialog::Kind::open, "/"));
+  EXPECT_EQ(dialog.kind(), FileDialog::Kind::save);
+  EXPECT_EQ(answer(dialog), "/a place/my pot.work");
+  EXPECT_FALSE(dialog.open());
+  EXPECT_EQ(read_text(folder.file("asked")),
+            "--file-selection --filename=/here/bowl.work --save --confirm-overwrite\n");
+}
+
+TEST_F(Desktop, ADialogThatIsClosedChoosesNothing) {
+  install("zenity", "echo /half/a/name; exit 1\n");
+  FileDialog dialog;
+  ASSERT_TRUE(dialog.begin(FileDialog::Kind::folder, "/"));
+  EXPECT_EQ(answer(dialog), "");
+  ASSERT_TRUE(dialog.begin(FileDialog::Kind::folder, "/"));
+}
+
+TEST_F(Desktop, KdialogWhereThereIsNoZenity) {
+  install("kdialog", "echo \"$1 $2\"\n");
+  FileDialog dialog;
+  ASSERT_TRUE(dialog.begin(FileDialog::Kind::open, "/x/"));
+  EXPECT_EQ(answer(dialog), "--getopenfilename /x/");
+}
+
+}  // namespace
+}  // namespace clay::studio

@@ -1,0 +1,81 @@
+#include "app/studio/free_place.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+namespace clay::studio {
+namespace {
+
+draw::PotView tube(float outer_mm, float inner_mm, double height_mm, std::size_t rows) {
+  draw::PotView pot;
+  pot.height_mm = height_mm;
+  pot.rows.assign(rows, {outer_mm, inner_mm});
+  return pot;
+}
+
+Tool sphere(double radius_mm) { return Tool::build(SphereSpec{radius_mm}).value(); }
+
+/// By the definition of distance, and not by rows: how deep a sphere is in a tube that stands on
+/// the wheel.
+double depth_mm(const draw::PotView& pot, double radius_mm, glm::dvec2 at) {
+  const double outer = pot.rows[0].outer_mm, inner = pot.rows[0].inner_mm;
+  const double rho = std::abs(at.x);
+  const double dx = rho > outer ? rho - outer : rho < inner ? inner - rho : 0.0;
+  const double dy = at.y > pot.height_mm ? at.y - pot.height_mm : 0.0;
+  return radius_mm - std::hypot(dx, dy);
+}
+
+TEST(FreePlace, BesideTheClayItIsThePlaceItself) {
+  const auto pot = tube(40.0f, 30.0f, 60.0, 120);
+  EXPECT_EQ(free_place(pot, sphere(5.0), {60.0, 30.0}), glm::dvec2(60.0, 30.0));
+  EXPECT_EQ(free_place(pot, sphere(5.0), {-60.0, 30.0}), glm::dvec2(-60.0, 30.0));
+  EXPECT_EQ(free_place(pot, sphere(5.0), {0.0, 30.0}), glm::dvec2(0.0, 30.0));
+  EXPECT_EQ(free_place(pot, sphere(5.0), {35.0, 70.0}), glm::dvec2(35.0, 70.0));
+}
+
+TEST(FreePlace, InTheWallItIsTheNearerSide) {
+  const auto pot = tube(40.0f, 30.0f, 60.0, 120);
+  const glm::dvec2 outside = free_place(pot, sphere(5.0), {37.0, 30.0});
+  EXPECT_NEAR(outside.x, 45.0 + kClearanceMm, 1e-6);
+  EXPECT_EQ(outside.y, 30.0);
+  const glm::dvec2 inside = free_place(pot, sphere(5.0), {33.0, 30.0});
+  EXPECT_NEAR(inside.x, 25.0 - kClearanceMm, 1e-6);
+  const glm::dvec2 left = free_place(pot, sphere(5.0), {-37.0, 30.0});
+  EXPECT_NEAR(left.x, -45.0 - kClearanceMm, 1e-6);
+}
+
+TEST(FreePlace, NearTheTopOfALumpItIsAbove) {
+  const auto lump = tube(40.0f, 0.0f, 60.0, 120);
+  const glm::dvec2 above = free_place(lump, sphere(5.0), {5.0, 55.0});
+  EXPECT_EQ(above.x, 5.0);
+  EXPECT_GE(above.y, 65.0);
+  EXPECT_LE(above.y, 65.0 + 0.5 + kClearanceMm);  // a row
+}
+
+RC_GTEST_PROP(FreePlace, IsNeverInTheClayAndNeverBelowTheWheel, ()) {
+  const float outer = static_cast<float>(*rc::gen::inRange(10, 80));
+  const float inner = static_cast<float>(*rc::gen::inRange(0, static_cast<int>(outer) - 2));
+  const auto pot = tube(outer, inner, *rc::gen::inRange(5, 120), 200);
+  const double radius = *rc::gen::inRange(1, 20);
+  const glm::dvec2 at(*rc::gen::inRange(-100, 100), *rc::gen::inRange(-20, 150));
+  const glm::dvec2 place = free_place(pot, sphere(radius), at);
+  RC_ASSERT(place.y >= 0.0);
+  RC_ASSERT(place.x * at.x >= 0.0);
+  RC_ASSERT(depth_mm(pot, radius, place) <= 1e-4);  // radii of rows are floats
+}
+
+TEST(WallAt, IsWhatTwoToolsHaveToSpan) {
+  const auto pot = tube(40.0f, 30.0f, 60.0, 120);
+  const auto wall = wall_at(pot, sphere(5.0), 30.0);
+  ASSERT_TRUE(wall);
+  EXPECT_NEAR(wall->middle_mm, 35.0, 1e-6);
+  EXPECT_NEAR(wall->thickness_mm, 10.0 + 2.0 * kClearanceMm, 1e-6);
+  EXPECT_FALSE(wall_at(pot, sphere(5.0), 61.0));
+  EXPECT_FALSE(wall_at(tube(40.0f, 0.0f, 60.0, 120), sphere(5.0), 30.0));
+  EXPECT_FALSE(wall_at(tube(40.0f, 4.0f, 60.0, 120), sphere(5.0), 30.0));  // no room in the bore
+}
+
+}  // namespace
+}  // namespace clay::studio

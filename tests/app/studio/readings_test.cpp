@@ -1,0 +1,230 @@
+// What panels tell of known pots: the engine's and the export's own figures, without a window.
+
+#include "app/studio/readings/readings.hpp"
+
+#include "app/render/pot_view.hpp"
+#include "claystack/engine/tick.hpp"
+#include "claystack/export/check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace clay::studio {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// A cup of upright walls: floor 10 mm, wall 5 mm, 60 mm high, 40 mm in radius; rings of 0.5 mm.
+std::vector<Ring> cup_rings(double wall_mm = 5.0) {
+  std::vector<Ring> rings(120, Ring{quanta_from_radius(40.0), 0});
+  for (std::size_t i = 20; i < rings.size(); ++i)
+    rings[i].inner2 = quanta_from_radius(40.0 - wall_mm);
+  return rings;
+}
+
+work::SharedPot pot_of(std::vector<Ring> rings, WideQuanta trimmed = 0) {
+  Pot pot;
+  pot.stack = ClayStack::from_rings(0.5, std::move(rings), 0).value();
+  pot.density_g_cm3 = 2.0;
+  pot.ledger.initial = pot.stack.volume() + trimmed;
+  pot.ledger.trimmed = trimmed;
+  return std::make_shared<const Pot>(std::move(pot));
+}
+
+PotQuestion question_of(const work::SharedPot& pot, const std::string& process = {}) {
+  return {{pot, draw::view_of(*pot), pot->density_g_cm3}, process};
+}
+
+TEST(ClayAccount, WeighsWhatTheLedgerCounts) {
+  const Quanta trimmed = quanta_from_mm2(100.0);
+  const ClayAccount account = account_of(*pot_of(cup_rings(), trimmed));
+  // 2 g/cm^3; a disc of 10 mm and a ring of 50 mm.
+  const double cup_mm3 = kPi * (1600.0 * 10.0 + (1600.0 - 35.0 * 35.0) * 50.0);
+  EXPECT_NEAR(account.in_stack_g, 2e-3 * cup_mm3, 1e-6);
+  EXPECT_NEAR(account.trimmed_g, 2e-3 * kPi * 0.5 * 100.0, 1e-9);
+  EXPECT_NEAR(account.initial_g, account.in_stack_g + account.trimmed_g, 1e-9);
+  EXPECT_EQ(account.unaccounted, "0");
+  EXPECT_NEAR(account.capacity_mm3, kPi * 35.0 * 35.0 * 50.0, 1e-6);
+}
+
+TEST(ClayAccount, TellsAQuantumThatIsNotThere) {
+  Pot pot = *pot_of(cup_rings());
+  pot.ledger.initial += 1;
+  EXPECT_EQ(account_of(pot).unaccounted, "-1");
+}
+
+TEST(ClayAccount, InMidStrokeIsTheServosLedger) {
+  const auto pot = pot_of(cup_rings());
+  const ClayAccount before = account_of(*pot);
+  live::LiveStatus status;
+  status.stack_mm3 = 1000.0;
+  status.trimmed_mm3 = 500.0;
+  const ClayAccount account = account_of(status, pot->stack, 2.0, before);
+  EXPECT_NEAR(account.in_stack_g, 2.0, 1e-12);
+  EXPECT_NEAR(account.trimmed_g, 1.0, 1e-12);
+  EXPECT_EQ(account.initial_g, before.initial_g);
+  EXPECT_EQ(account.unaccounted, "0");
+  EXPECT_EQ(account.capacity_mm3, before.capacity_mm3);
+}
+
+TEST(StressCurve, IsTheEnginesAndSaysWhere) {
+  const auto pot = pot_of(cup_rings());
+  const StressCurve curve = stress_of(pot->stack, 2.0, 2.0);
+  EXPECT_EQ(curve.kpa, stresses_kpa(pot->stack, 2.0));
+  // The lowest ring of the wall bears the 49.5 mm above it.
+  EXPECT_NEAR(curve.most_kpa, 2000.0 * 9.80665 * 0.0495 * 1e-3, 1e-9);
+  EXPECT_EQ(stress_words(curve, LengthUnit::mm), "49 % of what it bears, at 10.2 mm");
+  EXPECT_EQ(stress_words(stress_of(pot->stack, 2.0, std::nullopt), LengthUnit::cm),
+            "At most 0.97 kPa, at 1.02 cm; no limit is set: it bears all");
+}
+
+TEST(SectionRows, LoseNothingOfTenThousandRingsAPixel) {
+  std::vector<Ring> rings(100'000, Ring{quanta_from_radius(40.0), quanta_from_radius(30.0)});
+  rings[50'123] = {quanta_from_radius(45.0), quanta_from_radius(20.0)};
+  const ClayStack stack = ClayStack::from_rings(0.001, std::move(rings), 0).value();
+  const auto rows = section_rows(stack, 100);
+  ASSERT_EQ(rows.size(), 100u);
+  EXPECT_EQ(rows[0], (SectionRow{30.0f, 30.0f, 40.0f, 40.0f}));
+  EXPECT_EQ(rows[50], (SectionRow{20.0f, 30.0f, 40.0f, 45.0f}));
+  EXPECT_EQ(rows[51], rows[0]);
+}
+
+TEST(SectionRows, GiveARingAsManyRowsAsItIsHigh) {
+  const ClayStack stack =
+      ClayStack::from_rings(1.0, {{quanta_from_radius(10), 0}, {quanta_from_radius(20), 0}}, 0)
+          .value();
+  const auto rows = section_rows(stack, 6);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(rows[i].outer_most_mm, i < 3 ? 10.0f : 20.0f) << i;
+}
+
+TEST(MinMax, KeepsWhatStandsOut) {
+  std::vector<CurvePoint> points;
+  for (int i = 0; i < 10'000; ++i) points.push_back({i * 1e-3, i == 5'432 ? 7.0 : 1.0});
+  const auto parts = min_max_of(points, 0.0, 10.0, 100);
+  for (std::size_t i = 0; i < 100; ++i)
+    EXPECT_EQ(parts[i], (MinMax{1.0, i == 54 ? 7.0 : 1.0})) << i;
+  EXPECT_EQ(min_max_of(points, 20.0, 30.0, 2)[0], std::nullopt);
+  EXPECT_EQ(round_up(0.03), 0.05);
+  EXPECT_EQ(round_up(200.0), 200.0);
+  EXPECT_EQ(round_up(201.0), 500.0);
+}
+
+TEST(TickHistory, RemembersTenSecondsAndTheirPercentiles) {
+  TickHistory ticks;
+  for (int i = 0; i < 20'000; ++i)  // 20 s at 1 kHz; 2 in 100 are late by 500 us
+    ticks.add({std::int64_t{i} * 1'000'000, 0.5f, 0.0f, i % 50 == 0 ? 500.0f : 20.0f, 3.0f,
+               i % 1000 == 0});
+  const TickFigures figures = ticks.figures();
+  EXPECT_NEAR(static_cast<double>(figures.ticks), 10'000.0, 1.0);
+  EXPECT_EQ(figures.late_p50_us, 20.0);
+  EXPECT_EQ(figures.late_p99_us, 500.0);
+  EXPECT_EQ(figures.late_most_us, 500.0);
+  EXPECT_EQ(figures.work_p50_us, 3.0);
+  EXPECT_EQ(figures.missed, 10u);
+  const auto curve = ticks.curve(&live::TickSample::late_us);
+  EXPECT_EQ(curve.back().at, 0.0);
+  EXPECT_NEAR(curve.front().at, -kHistoryS, 1e-9);
+}
+
+TEST(Subject, OfAnOutlineKeepsTheCrown) {
+  const Ring ring{quanta_from_radius(40.0), quanta_from_radius(30.0)};
+  const auto stack =
+      ClayStack::from_rings(0.5, std::vector<Ring>(10, ring), ring.volume() / 3).value();
+  live::LiveProfile profile;
+  live::show(stack, 0.0, profile);
+  draw::PotView outline;
+  outline.height_mm = profile.height_mm;
+  for (std::size_t row = 0; row < profile.size; ++row)
+    outline.rows.push_back({profile.rows[row].outer_mm, profile.rows[row].inner_mm});
+  const auto shown = stack_of(outline, profile.crown_mm);
+  ASSERT_TRUE(shown);
+  EXPECT_NEAR(shown->height_mm(), stack.height_mm(), 1e-9);
+  EXPECT_NEAR(shown->volume_mm3() / stack.volume_mm3(), 1.0, 1e-6);
+  EXPECT_FALSE(stack_of({}, 0.0));
+}
+
+TEST(PotCheck, HasTheFiguresOfTheCup) {
+  const PotCheck check = check_pot(question_of(pot_of(cup_rings())));
+  ASSERT_TRUE(check.proved) << check.why_not;
+  EXPECT_FALSE(check.live);
+  EXPECT_NEAR(check.thinnest_mm, 5.0, 1e-6);
+  EXPECT_LE(check.least_wall_mm, 5.0);
+  EXPECT_GT(check.least_wall_mm, 4.9);
+  EXPECT_NEAR(check.counted_mm3, kPi * (1600.0 * 10.0 + 375.0 * 50.0), 1e-6);
+  EXPECT_NEAR(check.proved_mm3 / check.counted_mm3, 1.0, 1e-9);
+  EXPECT_GT(check.triangles, 100u);
+  EXPECT_NEAR(wall_at_height(check.walls, check.height_mm, 40.0), 5.0, 1e-3);
+  EXPECT_EQ(wall_words(check, LengthUnit::mm).substr(0, 15), "Thinnest 5.0 mm");
+}
+
+TEST(PotCheck, SaysAThinWallWithItsHeight) {
+  auto rings = cup_rings();
+  for (std::size_t i = 66; i < 70; ++i) rings[i].inner2 = quanta_from_radius(38.4);  // 33 to 35 mm
+  const PotCheck check = check_pot(question_of(pot_of(std::move(rings)), "porcelain"));
+  ASSERT_TRUE(check.proved) << check.why_not;
+  ASSERT_TRUE(check.limit);
+  EXPECT_NEAR(check.thinnest_mm, 1.6, 0.02);
+  EXPECT_EQ(check.limit->min_wall_mm,
+            solid::process_named("porcelain").value().wall_for(80 + 80 + 60).min_wall_mm);
+  EXPECT_TRUE(check.thin());
+  const std::string words = wall_words(check, LengthUnit::mm);
+  EXPECT_EQ(words.find("Thinnest 1.6 mm, 3"), 0u) << words;
+  EXPECT_NE(words.find("porcelain asks"), std::string::npos) << words;
+  EXPECT_NE(words.find("too thin"), std::string::npos) << words;
+  const auto thin = thin_stretches(check);
+  ASSERT_EQ(thin.size(), 1u);
+  EXPECT_NEAR(thin[0].from_mm, 33.0, 1.5);
+  EXPECT_NEAR(thin[0].to_mm, 35.0, 1.5);
+  EXPECT_TRUE(thin_stretches(check_pot(question_of(pot_of(cup_rings()), "porcelain"))).empty());
+}
+
+TEST(PotCheck, HoldsWallsAgainstAProcessOfOnesOwn) {
+  const std::string file = std::string(CLAYSTACK_SAMPLES) + "/workshop.process.json";
+  const PotCheck check = check_pot(question_of(pot_of(cup_rings()), file));
+  ASSERT_TRUE(check.limit);
+  EXPECT_EQ(check.limit->min_wall_mm, 4.0) << "up to 400 mm of size";
+  EXPECT_EQ(check.limit->process, "workshop printer, 4 mm nozzle");
+  const PotCheck gone = check_pot(question_of(pot_of(cup_rings()), "/none.process.json"));
+  EXPECT_TRUE(gone.proved);
+  EXPECT_FALSE(gone.limit);
+  ASSERT_EQ(gone.remarks.size(), 1u);
+  EXPECT_NE(gone.remarks[0].text.find("/none.process.json"), std::string::npos);
+}
+
+TEST(PotCheck, SaysWhyNotAndWhere) {
+  auto rings = cup_rings();
+  for (std::size_t i = 80; i < rings.size(); ++i)  // a ring that stands apart, from 40 mm up
+    rings[i] = {quanta_from_radius(30.0), quanta_from_radius(25.0)};
+  const PotCheck check = check_pot(question_of(pot_of(std::move(rings))));
+  EXPECT_FALSE(check.proved);
+  EXPECT_NE(check.why_not.find("one piece"), std::string::npos) << check.why_not;
+  ASSERT_TRUE(check.fault_mm);
+  EXPECT_EQ(*check.fault_mm, 40.0);
+}
+
+TEST(PotCheck, OfAnOutlineIsThatOfThePotToFloats) {
+  const auto pot = pot_of(cup_rings());
+  const PotCheck exact = check_pot(question_of(pot));
+  PotQuestion question = question_of(pot);
+  question.subject.pot = nullptr;
+  const PotCheck live = check_pot(question);
+  ASSERT_TRUE(live.proved) << live.why_not;
+  EXPECT_TRUE(live.live);
+  EXPECT_NEAR(live.thinnest_mm, exact.thinnest_mm, 1e-4);
+  EXPECT_NEAR(live.counted_mm3 / exact.counted_mm3, 1.0, 1e-6);
+}
+
+TEST(PotCheck, NamesAClosedCavity) {
+  auto rings = cup_rings();
+  for (std::size_t i = 110; i < rings.size(); ++i) rings[i].inner2 = 0;
+  const PotCheck check = check_pot(question_of(pot_of(std::move(rings))));
+  ASSERT_TRUE(check.proved) << check.why_not;
+  ASSERT_FALSE(check.remarks.empty());
+  EXPECT_NEAR(check.remarks[0].from_mm, 10.0, 1e-9);
+  EXPECT_NEAR(check.remarks[0].to_mm, 55.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace clay::studio

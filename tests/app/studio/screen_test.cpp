@@ -1,0 +1,63 @@
+// The window with real events, on a screen of its own.
+
+#include "tests/support/run_program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace clay::studio {
+namespace {
+
+using test::claystack;
+using test::Ran;
+using test::read_text;
+using test::ScratchFolder;
+using test::shell;
+
+class OnAScreen : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(shell("command -v Xvfb && command -v xdotool").status, 0)
+        << "needs Xvfb and xdotool (tests/run.sh installs them)";
+  }
+  Ran run(const char* script, const ScratchFolder& folder) {
+    return shell(std::string("sh ") + CLAYSTACK_STUDIO_TESTS + "/" + script +
+                 " " CLAYSTACK_PROGRAM " " + folder.path().string());
+  }
+};
+
+TEST_F(OnAScreen, FromTheGalleryToAFileThatPrints) {
+  const ScratchFolder folder;
+  const Ran ran = run("under_xvfb.sh", folder);
+  ASSERT_EQ(ran.status, 0) << ran.err << ran.out;
+  const auto kept = nlohmann::json::parse(read_text(folder.file("config/claystack/studio.json")));
+  EXPECT_NEAR(kept.at("scale"), 1.1, 1e-6) << "one step larger";
+  EXPECT_EQ(claystack("check " + folder.file("bowl.stl")).status, 0);
+  const std::string info = shell("prusa-slicer --info " + folder.file("bowl.stl")).out;
+  EXPECT_NE(info.find("manifold = yes"), std::string::npos) << info;
+}
+
+TEST_F(OnAScreen, WhatIsNotRecoveredIsOfferedAgainUntilItIsDiscarded) {
+  const ScratchFolder folder;
+  test::write_text(folder.file("lump.scene.json"), read_text(test::sample("vase.scene.json")));
+  const Ran ran = run("declined_under_xvfb.sh", folder);
+  EXPECT_EQ(ran.status, 0) << ran.err << ran.out;
+}
+
+/// How little that is less than what was thrown is tested with the journal itself.
+TEST_F(OnAScreen, KilledInMidStrokeOffersWhatTheJournalHad) {
+  const ScratchFolder folder;
+  const Ran ran = run("killed_under_xvfb.sh", folder);
+  ASSERT_EQ(ran.status, 0) << ran.err << ran.out;
+  const Ran before = claystack("throw " + folder.file("before.work") + " --list --json");
+  ASSERT_EQ(before.status, 0) << before.err;
+  const auto nodes = nlohmann::json::parse(read_text(folder.file("tree.json"))).at("nodes");
+  ASSERT_EQ(nodes.size(), 3u) << nodes;
+  EXPECT_EQ(nodes[2].at("parent"), 1);
+  EXPECT_GT(nodes[2].at("seconds"), 0.0);
+  EXPECT_GE(nodes[2].at("seconds"), before.json().at("nodes").at(2).at("seconds"));
+}
+
+}  // namespace
+}  // namespace clay::studio

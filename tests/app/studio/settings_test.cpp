@@ -1,0 +1,151 @@
+#include "app/studio/settings.hpp"
+
+#include "app/studio/length_text.hpp"
+#include "tests/support/run_program.hpp"
+
+#include <gtest/gtest.h>
+#include <pwd.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace clay::studio {
+namespace {
+
+Settings changed() {
+  Settings settings;
+  settings.theme = Theme::light;
+  settings.scale = 1.5f;
+  settings.unit = LengthUnit::in;
+  settings.wheel_rpm = 90.0;
+  settings.tool.shape = Shape::rib;
+  settings.tool.mode = ToolMode::pinch;
+  settings.tool.rib = {25.0, 4.0};
+  settings.hints = false;
+  settings.wall_map = settings.full_section = true;
+  settings.process = "porcelain";
+  settings.open["force"] = false;
+  settings.folder = "/pots";
+  return settings;
+}
+
+TEST(Settings, ComeBackAsTheyWere) {
+  const std::string text = write_settings(changed());
+  const auto back = parse_settings(text, "studio.json");
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(write_settings(*back), text);
+  EXPECT_EQ(back->tool.rib, changed().tool.rib);
+  EXPECT_EQ(back->theme, Theme::light);
+}
+
+TEST(Settings, HaveEveryScaleAndUnitThatIsOffered) {
+  for (const float scale : {0.5f, 1.1f, 3.0f})
+    for (const LengthUnit unit : {LengthUnit::mm, LengthUnit::cm, LengthUnit::in}) {
+      Settings settings;
+      settings.scale = scale;
+      settings.unit = unit;
+      const auto back = parse_settings(write_settings(settings), "s");
+      ASSERT_TRUE(back) << back.error().message;
+      EXPECT_EQ(back->scale, scale);
+      EXPECT_EQ(back->unit, unit);
+    }
+  for (const float scale : {0.49f, 3.01f}) {
+    Settings settings;
+    settings.scale = scale;
+    EXPECT_FALSE(parse_settings(write_settings(settings), "s"));
+  }
+}
+
+TEST(LengthText, IsInTheUnitThatIsChosen) {
+  EXPECT_EQ(length_text(50.8, LengthUnit::mm), "50.8 mm");
+  EXPECT_EQ(length_text(50.8, LengthUnit::cm), "5.08 cm");
+  EXPECT_EQ(length_text(50.8, LengthUnit::in), "2.00 in");
+}
+
+TEST(Settings, AProcessOfOnesOwnIsRemembered) {
+  Settings settings;
+  for (const char* name : {"/a", "/b", "/c", "/d", "/e", "/b"})
+    remember_process(settings, std::string(name) + ".process.json");
+  EXPECT_EQ(settings.process, "/b.process.json");
+  EXPECT_EQ(settings.processes, (std::vector<std::string>{"/b.process.json", "/e.process.json",
+                                                          "/d.process.json", "/c.process.json"}));
+  const auto back = parse_settings(write_settings(settings), "s");
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->processes, settings.processes);
+}
+
+TEST(Settings, WhatIsWrongIsNamed) {
+  const auto error_of = [](const std::string& field) {
+    const auto read = parse_settings("{\"schema\": \"claystack-studio-1\", " + field + "}", "s");
+    return read ? std::string("none") : read.error().message;
+  };
+  EXPECT_EQ(error_of("\"scale\": 9"), "s: scale: expected a number from 0.5 to 3, found 9");
+  EXPECT_EQ(error_of("\"theme\": \"pink\""),
+            "s: theme: expected one of dark light, found \"pink\"");
+  EXPECT_EQ(error_of("\"hints\": 1"), "s: hints: expected true or false, found 1");
+  EXPECT_EQ(error_of("\"colour\": 1"), "s: colour: expected no such field");
+  EXPECT_EQ(error_of("\"open\": {\"tool\": 3}"), "s: open.tool: expected true or false, found 3");
+  EXPECT_EQ(parse_settings("[]", "s").error().message, "s: expected a JSON object");
+  EXPECT_EQ(parse_settings("{}", "s").error().message, "s: schema: expected claystack-studio-1");
+}
+
+// The message repeated what it had found, level by level, until the stack was full.
+TEST(Settings, AFileNestedDeepIsRefused) {
+  std::string deep = "{\"schema\": \"claystack-studio-1\", \"scale\": ";
+  deep.append(100'000, '[').append(100'000, ']').append("}");
+  const auto read = parse_settings(deep, "s");
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().message, "s:1: expected at most 64 levels, found more");
+  const std::string long_text(500'000, 'x');
+  EXPECT_LT(
+      parse_settings("{\"schema\": \"claystack-studio-1\", \"scale\": \"" + long_text + "\"}", "s")
+          .error()
+          .message.size(),
+      300u);
+}
+
+TEST(Settings, APipeIsNeitherReadNorWritten) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("studio.json");
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  EXPECT_NE(load_settings(path).note.find("expected a regular file"), std::string::npos);
+  const auto saved = save_settings(Settings(), path);
+  ASSERT_FALSE(saved);
+  EXPECT_EQ(saved.error().kind, ErrorKind::io);
+}
+
+TEST(Settings, WithoutHomeTheyAreInTheHomeOfThePasswordFile) {
+  setenv("XDG_CONFIG_HOME", "relative", 1);
+  unsetenv("HOME");
+  EXPECT_EQ(settings_path(),
+            std::string(getpwuid(getuid())->pw_dir) + "/.config/claystack/studio.json");
+  setenv("HOME", "relative", 1);
+  EXPECT_EQ(settings_path(),
+            std::string(getpwuid(getuid())->pw_dir) + "/.config/claystack/studio.json");
+  setenv("XDG_CONFIG_HOME", "/etc/xdg", 1);
+  EXPECT_EQ(settings_path(), "/etc/xdg/claystack/studio.json");
+}
+
+TEST(Settings, ABrokenFileIsKeptAside) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("studio.json");
+  test::write_text(path, "{ not json");
+  const LoadedSettings loaded = load_settings(path);
+  EXPECT_NE(loaded.note.find(".broken"), std::string::npos) << loaded.note;
+  EXPECT_FALSE(std::filesystem::exists(path));
+  EXPECT_EQ(test::read_text(path + ".broken"), "{ not json");
+  EXPECT_EQ(write_settings(loaded.settings), write_settings(Settings()));
+}
+
+TEST(Settings, NoFileIsNoFault) {
+  const test::ScratchFolder folder;
+  EXPECT_EQ(load_settings(folder.file("none.json")).note, "");
+  ASSERT_TRUE(save_settings(changed(), folder.file("deep/er/studio.json")));
+  EXPECT_EQ(write_settings(load_settings(folder.file("deep/er/studio.json")).settings),
+            write_settings(changed()));
+}
+
+}  // namespace
+}  // namespace clay::studio

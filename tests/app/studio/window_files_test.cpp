@@ -1,0 +1,187 @@
+// What comes out of the window is what the commands make.
+
+#include "tests/app/studio/window.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace clay::studio {
+namespace {
+
+using test::claystack;
+using test::kDeeper;
+using test::kPress;
+using test::Ran;
+using test::read_text;
+using test::shell;
+using test::Window;
+
+TEST_F(Window, AStrokeUndoneAndRedoneIsThePotThatThrowMakes) {
+  const Ran ran = run(std::string(kPress) +
+                      "expect strokes 1\nexpect volume_error 0\nsave FOLDER/one.pot.json\n"
+                      "key Ctrl+Z\nexpect can_undo no\nsave FOLDER/none.pot.json\n"
+                      "key Ctrl+Shift+Z\nexpect can_redo no\nsave FOLDER/again.pot.json\n"
+                      "expect unsaved yes\nsave FOLDER/bowl.work\nexpect unsaved no\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const std::string one = read_text(folder.file("one.pot.json"));
+  EXPECT_EQ(one, read_text(folder.file("again.pot.json")));
+  EXPECT_NE(one, read_text(folder.file("none.pot.json")));
+  const Ran thrown =
+      claystack("throw " + folder.file("bowl.work") + " -o " + folder.file("thrown.pot.json"));
+  ASSERT_EQ(thrown.status, 0) << thrown.err;
+  EXPECT_EQ(one, read_text(folder.file("thrown.pot.json")));
+}
+
+TEST_F(Window, AScriptGivesTheSameBytesEveryTime) {
+  ASSERT_EQ(run(std::string(kPress) + "save FOLDER/a.pot.json\nsave FOLDER/a.work\n").status, 0);
+  ASSERT_EQ(run(std::string(kPress) + "save FOLDER/b.pot.json\nsave FOLDER/b.work\n").status, 0);
+  EXPECT_EQ(read_text(folder.file("a.pot.json")), read_text(folder.file("b.pot.json")));
+  EXPECT_EQ(read_text(folder.file("a.work")), read_text(folder.file("b.work")));
+}
+
+TEST_F(Window, QuittingAsksOnceThereIsSomethingToLose) {
+  Ran ran = run("close\nexpect closed yes\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  ran = run(std::string(kPress) +
+            "close\nexpect overlay quit\nexpect closed no\nkey Esc\nexpect overlay none\n"
+            "close\ndo quit.discard\nexpect closed yes\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
+TEST_F(Window, TheExportIsThatOfTheCommandLineOnTheSameStrokes) {
+  // The name and the folder of the work are those of its files.
+  const Ran ran = run(std::string(kPress) +
+                      "save FOLDER/mine.work\n"
+                      "key Ctrl+E\nwait 0.1\nexpect overlay export\nexpect triangles above 100\n"
+                      "key Ctrl+Enter\nwait 0.1\nexpect exported 1\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  std::filesystem::create_directory(folder.path() / "cli");
+  const std::string pot = folder.file("cli/mine.pot.json"), stl = folder.file("cli/mine.stl");
+  ASSERT_EQ(claystack("throw -q " + folder.file("mine.work") + " -o " + pot).status, 0);
+  ASSERT_EQ(claystack("export -q " + pot + " " + stl).status, 0);
+  EXPECT_EQ(read_text(folder.file("mine.stl")), read_text(stl));
+  EXPECT_EQ(claystack("check " + folder.file("mine.stl")).status, 0);
+}
+
+/// The whole way of a pot: what the window leaves is what the two commands make of its strokes.
+TEST_F(Window, AThrownUndoneRedoneAndTrimmedPotIsThatOfTheCommands) {
+  const Ran ran = run(std::string(kPress) +
+                      "save FOLDER/pressed.pot.json\nkey Ctrl+Z\nexpect node 0\n"
+                      "save FOLDER/undone.pot.json\nkey Ctrl+Shift+Z\nexpect node 1\n"
+                      "hold Ctrl\npoint 65 10\npress left\npoint 50 10 over 0.4\n"
+                      "expect contact yes\npoint 65 10 over 0.2\nrelease left\nhold\n"
+                      "expect strokes 2\nexpect volume_error 0\n"
+                      "save FOLDER/mine.pot.json\nsave FOLDER/mine.work\n"
+                      "do file.export\nwait 0.1\ndo export.write\nwait 0.1\nexpect exported 1\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  std::filesystem::create_directory(folder.path() / "cli");
+  const auto thrown = [&](const std::string& options, const std::string& name) {
+    return claystack("throw -q " + folder.file("mine.work") + options + " -o " +
+                     folder.file("cli/" + name))
+        .status;
+  };
+  const auto same = [&](const std::string& name) {
+    return shell("cmp " + folder.file(name) + " " + folder.file("cli/" + name)).status == 0;
+  };
+  ASSERT_EQ(thrown(" --at 0", "undone.pot.json"), 0);
+  ASSERT_EQ(thrown(" --at 1", "pressed.pot.json"), 0);
+  ASSERT_EQ(thrown("", "mine.pot.json"), 0);
+  ASSERT_EQ(
+      claystack("export -q " + folder.file("cli/mine.pot.json") + " " + folder.file("cli/mine.stl"))
+          .status,
+      0);
+  for (const char* name : {"undone.pot.json", "pressed.pot.json", "mine.pot.json", "mine.stl"})
+    EXPECT_TRUE(same(name)) << name;
+  EXPECT_FALSE(
+      shell("cmp " + folder.file("pressed.pot.json") + " " + folder.file("mine.pot.json")).status ==
+      0);
+  const auto ledger = nlohmann::json::parse(read_text(folder.file("mine.pot.json")))["ledger"];
+  EXPECT_NE(ledger["trimmed"], "0") << ledger;
+}
+
+TEST_F(Window, AFallenPotIsShownAndExportedAndNotThrown) {
+  const std::string fallen = folder.file("fallen.pot.json");
+  const Ran thrown = claystack("throw -q " + test::sample("collapse.scene.json") + " -s " +
+                               test::sample("collapse.session") + " -o " + fallen);
+  ASSERT_LE(thrown.status, 1) << thrown.err;
+  const Ran ran =
+      run("open FOLDER/fallen.pot.json\nexpect fallen yes\nexpect can_undo no\nkey 1\n"
+          "wait 0.1\nexpect proved yes\n"
+          "screenshot FOLDER/fallen.png\npoint 50 10\npress left\nexpect throwing no\n"
+          "expect banner \"The clay has fallen: it can be exported as it lies\"\nrelease left\n"
+          "save FOLDER/fallen.work\ndo file.export\nwait 0.1\nexpect triangles above 100\n"
+          "do export.write\nwait 0.1\nexpect exported 1\nkey Esc\n"
+          "open FOLDER/fallen.work\nexpect fallen yes\nsave FOLDER/again.pot.json\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(read_text(fallen), read_text(folder.file("again.pot.json")));
+  ASSERT_LE(claystack("export -q " + fallen + " " + folder.file("cli.stl")).status, 1);
+  EXPECT_EQ(read_text(folder.file("fallen.stl")), read_text(folder.file("cli.stl")));
+}
+
+TEST_F(Window, AProcessOfOnesOwnIsDropped) {
+  const std::string process = test::sample("workshop.process.json");
+  Ran ran =
+      run("open " + process + "\nexpect process " + process +
+          "\nwait 0.1\nexpect thin no\ndo file.export\nwait 0.1\nexpect process " + process + "\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  // Into the card; then a wall that the process does not bear is written and told, as by the
+  // command.
+  ran = run("save FOLDER/mine.work\nsave FOLDER/lump.pot.json\ndo file.export\nopen " + process +
+            "\nwait 0.1\nexpect process " + process +
+            "\ndo export.write\nwait 0.1\nexpect exported 1\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const Ran command = claystack("export -q " + folder.file("lump.pot.json") + " " +
+                                folder.file("cli.stl") + " --process " + process);
+  ASSERT_EQ(command.status, 0) << command.err;
+  EXPECT_EQ(read_text(folder.file("mine.stl")), read_text(folder.file("cli.stl")));
+  test::write_text(folder.file("bad.process.json"), "{}");
+  ran = run("open FOLDER/bad.process.json\nexpect process \"\"\n", "--log --size 960x640");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NE(ran.out.find("error: "), std::string::npos) << ran.out;
+}
+
+TEST_F(Window, ADrawingIsPutOnTheWheelAndTheWorkBeforeIsAskedFor) {
+  const std::string jug = test::sample("drawings/jug.svg");
+  const Ran ran =
+      run(std::string(kPress) + "open " + jug +
+          "\nexpect overlay import\nexpect problem \"\"\ndo import.take\n"
+          "expect overlay quit\nkey Esc\nexpect strokes 1\n"
+          "open " +
+          jug +
+          "\ndo import.take\nkey Ctrl+D\n"
+          "expect strokes 0\nexpect height_mm above 171.9\nexpect height_mm below 172.1\n"
+          "save FOLDER/jug.pot.json\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  ASSERT_EQ(claystack("import " + jug + " -o " + folder.file("cli.pot.json")).status, 0);
+  EXPECT_EQ(read_text(folder.file("jug.pot.json")), read_text(folder.file("cli.pot.json")));
+}
+
+TEST_F(Window, AnUnsavedWorkIsAskedForBeforeAnotherOpens) {
+  const std::string vase = test::sample("vase.scene.json");
+  const Ran ran = run(std::string(kPress) + "open " + vase +
+                      "\nexpect overlay quit\nkey Esc\nexpect strokes 1\n"
+                      "do file.new_vase\nexpect overlay quit\nkey Esc\nexpect strokes 1\n"
+                      "save FOLDER/kept.work\n" +
+                      kDeeper + "open " + vase +
+                      "\nexpect overlay quit\nkey Enter\nexpect strokes 0\nexpect unsaved no\n"
+                      "open FOLDER/kept.work\nexpect strokes 2\nexpect unsaved no\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
+TEST_F(Window, WhatIsWrongIsSaidWithItsLine) {
+  Ran ran = run("wait 0.1\nexpect contact yes\n");
+  EXPECT_EQ(ran.status, 1);
+  EXPECT_NE(ran.err.find("s:2: contact: expected yes, found no"), std::string::npos) << ran.err;
+  ran = run("do edit.undo\n");
+  EXPECT_EQ(ran.status, 1) << ran.err;
+  ran = run("fly away\n");
+  EXPECT_EQ(ran.status, 2) << ran.err;
+  ran = run("save FOLDER/pot.txt\n");
+  EXPECT_EQ(ran.status, 3) << ran.err;
+  EXPECT_EQ(claystack("studio --script /nonexistent").status, 3);
+  EXPECT_EQ(claystack("studio nothing.scene.json --screenshot x.png").status, 2);
+  EXPECT_EQ(claystack("studio --size 3x3 --screenshot x.png").status, 2);
+}
+
+}  // namespace
+}  // namespace clay::studio

@@ -1,0 +1,116 @@
+// Keys that hands know from other windows do here what they do there.
+
+#include "tests/app/studio/window.hpp"
+
+#include <cmath>
+#include <string>
+
+namespace clay::studio {
+namespace {
+
+using test::kPress;
+using test::Ran;
+using test::Window;
+
+/// Lines of a script: the fact is the number, to a thousandth.
+std::string about(const std::string& fact, double value) {
+  return "expect " + fact + " above " + std::to_string(0.999 * value) + "\nexpect " + fact +
+         " below " + std::to_string(1.001 * value) + "\n";
+}
+
+// A drag of the mouse by 100 px makes it e^0.6 times as large.
+const double kDragged = std::exp(0.6);
+
+/// What the mouse does after it is no part of the drag.
+std::string click(const std::string& button) {
+  return "press " + button + "\nrelease " + button + "\nmove 450 300 over 0.1\n";
+}
+
+TEST_F(Window, BracketsAndFChangeTheSize) {
+  const std::string drag = "move 400 300\nkey F\nmove 500 300 over 0.2\n";
+  const std::string dragged = about("tool_mm", 10.0 * kDragged);
+  const Ran ran =
+      run(about("tool_mm", 10.0) + "key ]\n" + about("tool_mm", 11.0) + "key [\nkey [\n" +
+          about("tool_mm", 10.0 / 1.1) + "key ]\n" + about("tool_mm", 10.0) +  //
+          drag + dragged + "key Esc\n" + about("tool_mm", 10.0) +              //
+          drag + dragged + click("right") + about("tool_mm", 10.0) +           //
+          drag + dragged + click("left") + dragged + "expect throwing no\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
+TEST_F(Window, EachShapeHasASizeOfItsOwn) {
+  const Ran ran = run("key R\nexpect tool_mm above 0\nkey S\nkey ]\n" + about("tool_mm", 11.0) +
+                      "key E\nkey ]\nkey S\n" + about("tool_mm", 11.0));
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
+TEST_F(Window, ShiftFChangesTheStrengthAndNotTheClay) {
+  const std::string drag = "move 400 300\nkey Shift+F\nmove 500 300 over 0.2\n";
+  const std::string dragged = about("stiffness", 0.03 * kDragged);
+  const Ran ran =
+      run(about("stiffness", 0.03) + drag + dragged + "key Esc\n" + about("stiffness", 0.03) +
+          drag + dragged + click("left") + dragged + about("tool_mm", 10.0) + "expect strokes 0\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
+TEST_F(Window, SpacePausesAndGoesOn) {
+  const Ran ran =
+      run("key 1\nkey Space\nexpect paused yes\npoint 65 18\npress left\nexpect throwing no\n"
+          "point 50 18 over 0.3\nrelease left\nexpect strokes 0\n"
+          "key Space\nexpect paused no\n" +
+          std::string(kPress) + "expect strokes 1\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
+TEST_F(Window, SpaceInMidStrokeLeavesTheClayAsItIs) {
+  const Ran ran =
+      run("key 1\npoint 65 18\npress left\npoint 56 18 over 0.4\nwait 0.2\nkey Space\n"
+          "save FOLDER/paused.pot.json\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const Ran more =
+      run("key 1\npoint 65 18\npress left\npoint 56 18 over 0.4\nwait 0.2\nkey Space\n"
+          "point 40 18 over 0.4\nwait 0.5\nexpect throwing yes\nsave FOLDER/later.pot.json\n");
+  ASSERT_EQ(more.status, 0) << more.err;
+  EXPECT_EQ(test::read_text(folder.file("paused.pot.json")),
+            test::read_text(folder.file("later.pot.json")));
+}
+
+TEST_F(Window, EscLetsGoOfTheClay) {
+  const Ran ran =
+      run("key 1\npoint 65 18\npress left\npoint 56 18 over 0.4\nwait 0.2\nexpect contact yes\n"
+          "expect force_n above 0\nkey Esc\nexpect throwing no\nexpect strokes 1\n"
+          "point 50 18 over 0.3\nwait 0.2\nexpect throwing no\nexpect strokes 1\nrelease left\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
+TEST_F(Window, CardsOpenByTheirKeysAndCloseByEsc) {
+  std::string script;
+  const auto card = [&](const std::string& chord, const std::string& overlay) {
+    script += "key " + chord + "\nexpect overlay " + overlay + "\nkey Esc\nexpect overlay none\n";
+  };
+  card("?", "shortcuts");
+  card("F1", "shortcuts");
+  card("Ctrl+N", "gallery");
+  card("Ctrl+O", "open");
+  card("Ctrl+S", "save");
+  card("Ctrl+Shift+S", "save");
+  card("Ctrl+E", "export");
+  card("Ctrl+,", "settings");
+  const Ran ran = run(script + "expect strokes 0\nkey Ctrl+Q\nexpect closed yes\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
+TEST_F(Window, AFileThatIsDroppedOpens) {
+  const Ran ran = run(std::string(kPress) + "save FOLDER/mine.pot.json\nsave FOLDER/mine.work\n" +
+                      "do edit.to_start\nsave FOLDER/mine.work\nopen FOLDER/mine.pot.json\n"
+                      "expect strokes 0\nexpect unsaved no\nsave FOLDER/again.pot.json\n"
+                      // What is no file of ours takes nothing off the wheel.
+                      "open FOLDER/s\nsave FOLDER/still.pot.json\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const std::string mine = test::read_text(folder.file("mine.pot.json"));
+  EXPECT_EQ(test::read_text(folder.file("again.pot.json")), mine);
+  EXPECT_EQ(test::read_text(folder.file("still.pot.json")), mine);
+}
+
+}  // namespace
+}  // namespace clay::studio

@@ -1,0 +1,153 @@
+// What the window looks like: by geometry, by colour, and against pictures that were looked at.
+
+#include "tests/app/studio/window.hpp"
+
+#include <cstdio>
+#include <map>
+#include <string>
+
+namespace clay::studio {
+namespace {
+
+using test::claystack;
+using test::Ran;
+using test::read_text;
+using test::shell;
+
+/// Of a pixel, 0 to 255.
+struct Colour {
+  int red = 0, green = 0, blue = 0;
+  [[nodiscard]] bool clay() const { return red > blue + 30; }
+};
+
+class Look : public test::Window {
+ protected:
+  /// As an independent program reads it.
+  Colour at(const char* picture, int x, int y) {
+    std::string& bytes = read_[picture];
+    if (bytes.empty()) {
+      const std::string raw = folder.file(std::string(picture) + ".rgb");
+      EXPECT_EQ(shell("convert " + folder.file(picture) + " -depth 8 rgb:" + raw).status, 0);
+      bytes = read_text(raw);
+    }
+    const auto channel = [&](int which) {
+      return static_cast<unsigned char>(
+          bytes.at(static_cast<std::size_t>(3 * (y * 960 + x) + which)));
+    };
+    return {channel(0), channel(1), channel(2)};
+  }
+  /// Takes a picture with the pointer out of the view.
+  static std::string shot(const char* name) {
+    return std::string("move 480 5\nwait 0.1\nscreenshot FOLDER/") + name + "\n";
+  }
+  bool same(const char* a, const char* b) {
+    return read_text(folder.file(a)) == read_text(folder.file(b));
+  }
+
+ private:
+  std::map<std::string, std::string> read_;
+};
+
+TEST_F(Look, TheClayIsWhereGeometryHasIt) {
+  // From the front the lump's edge is a straight line: clay on one side, background on the other.
+  const Ran ran =
+      run("key 1\npoint 47 15\nscreenshot FOLDER/in.png\npoint 80 60\nscreenshot FOLDER/out.png\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  // The middle of the view, between two columns of 240 px: on the axis, in the lump.
+  EXPECT_TRUE(at("out.png", 480, 330).clay());
+  EXPECT_LT(at("out.png", 480, 60).red, at("out.png", 480, 60).blue + 10) << "above it is nothing";
+}
+
+TEST_F(Look, TheWallMapPaintsThickClayYellow) {
+  // Nothing of a lump is thinner than the top of the range.
+  const Ran ran =
+      run("key 1\nkey W\nmove 480 30\nwait 0.2\nscreenshot FOLDER/map.png\nkey W\nwait 0.2\n"
+          "screenshot FOLDER/clay.png\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const auto green_of_red = [&](const char* picture) {
+    const Colour colour = at(picture, 480, 330);
+    EXPECT_GT(colour.red, 60);
+    return static_cast<double>(colour.green) / colour.red;
+  };
+  EXPECT_GT(green_of_red("map.png"), 0.8) << "yellow: as much green as red";
+  EXPECT_LT(green_of_red("clay.png"), 0.75) << "clay";
+}
+
+TEST_F(Look, BothThemesAndScalesAreDrawn) {
+  for (const char* theme : {"dark", "light"}) {
+    const Ran ran = run("", std::string("--theme ") + theme +
+                                " --scale 2 --size 1920x1280 --screenshot " + folder.file("t.png"));
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    int red = 0, green = 0, blue = 0;
+    ASSERT_EQ(std::sscanf(pixel("t.png", 4, 640).c_str(), "%d %d %d", &red, &green, &blue), 3);
+    if (std::string(theme) == "dark") {
+      EXPECT_LT(red, 80);
+    } else {
+      EXPECT_GT(red, 200);
+    }
+  }
+}
+
+TEST_F(Look, TheViewTurnsShiftsAndNearsByTheMouse) {
+  const std::string drag = "move 480 300\npress BUTTON\nmove 520 220 over 0.2\nrelease BUTTON\n";
+  const auto by = [&](const std::string& button) {
+    std::string text = drag;
+    for (auto i = text.find("BUTTON"); i != std::string::npos; i = text.find("BUTTON"))
+      text.replace(i, 6, button);
+    return text;
+  };
+  const Ran ran =
+      run(shot("home.png") + by("middle") + shot("middle.png") + "key Home\n" + by("right") +
+          shot("right.png") + "key 1\n" + shot("front.png") + "hold Shift\n" + by("middle") +
+          "hold\n" + shot("shifted.png") + "key 1\nmove 480 300\nscroll 4\n" + shot("near.png") +
+          "key Num1\n" + shot("again.png"));
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_FALSE(same("home.png", "middle.png"));
+  EXPECT_TRUE(same("middle.png", "right.png")) << "either button turns";
+  EXPECT_TRUE(same("front.png", "again.png"));
+  // The middle of the lump goes with the mouse, 40 px to the right and 80 px up.
+  const auto left_edge = [&](const char* picture, int y) {
+    for (int x = 245; x < 715; ++x)
+      if (at(picture, x, y).clay()) return x;
+    return 715;
+  };
+  const int edge = left_edge("front.png", 330);
+  ASSERT_GT(edge, 250);
+  EXPECT_NEAR(left_edge("shifted.png", 250), edge + 40, 2);
+  EXPECT_LT(left_edge("near.png", 330), edge - 10);
+}
+
+TEST_F(Look, FromAboveARoundLumpIsAsHighAsWide) {
+  const Ran ran = run("key 1\n" + shot("front.png") + "key 7\n" + shot("top.png") + "key 3\n" +
+                      shot("side.png"));
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const auto extent = [&](const char* picture, int dx, int dy) {
+    int px = 0;
+    for (int x = 480, y = 315; x > 245 && x < 715 && y > 30 && y < 610; x += dx, y += dy, ++px)
+      if (!at(picture, x, y).clay()) break;
+    return px;
+  };
+  EXPECT_NEAR(extent("top.png", 4, 0), extent("top.png", 0, 4), 2);
+  EXPECT_GT(extent("front.png", 4, 0), 2 * extent("front.png", 0, -4)) << "98 wide, 30 high";
+  EXPECT_EQ(extent("side.png", 4, 0), extent("front.png", 4, 0));
+}
+
+TEST_F(Look, IsAsInThePicturesThatWereLookedAt) {
+  ASSERT_EQ(shell("sh " CLAYSTACK_STUDIO_TESTS "/references.sh " CLAYSTACK_PROGRAM " " +
+                  folder.path().string())
+                .status,
+            0);
+  for (const char* name : {"throw", "walls", "top", "front", "fallen"}) {
+    // Edges fall otherwise on every driver; a tool is some 300 pixels.
+    const Ran differ =
+        shell(std::string("compare -metric AE -fuzz 7% " CLAYSTACK_STUDIO_TESTS "/references/") +
+              name + ".png " + folder.file(std::string(name) + ".png") + " null:");
+    ASSERT_LE(differ.status, 1) << name << ": " << differ.err;
+    EXPECT_LT(std::stod(differ.err), 150.0) << name
+                                            << ": of 126 720 pixels; references.sh makes "
+                                               "the pictures anew";
+  }
+}
+
+}  // namespace
+}  // namespace clay::studio

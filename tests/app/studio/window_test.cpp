@@ -1,0 +1,150 @@
+// Strokes, the timeline and the picture.
+
+#include "tests/app/studio/window.hpp"
+
+#include <string>
+#include <utility>
+
+namespace clay::studio {
+namespace {
+
+using test::claystack;
+using test::kDeeper;
+using test::kPress;
+using test::Ran;
+using test::read_text;
+using test::Window;
+
+TEST_F(Window, AClickNeverBites) {
+  const Ran ran =
+      run("save FOLDER/before.pot.json\nkey 1\n"
+          "point 40 15\npress left\npoint 40.5 15\nwait 1\nexpect contact no\nrelease left\n"
+          "point 0 15\npress left\nwait 1\nexpect contact no\nrelease left\n"
+          "save FOLDER/after.pot.json\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(read_text(folder.file("before.pot.json")), read_text(folder.file("after.pot.json")));
+}
+
+TEST_F(Window, CtrlTrimsAndPressKeepsTheClay) {
+  const Ran ran = run(std::string(kPress) +
+                      "save FOLDER/press.pot.json\nhold Ctrl\n"
+                      "point 65 18\npress left\npoint 50 18 over 0.4\nwait 0.2\n"
+                      "expect contact yes\nrelease left\n"
+                      "save FOLDER/trim.pot.json\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const auto ledger = [&](const char* pot) {
+    return nlohmann::json::parse(read_text(folder.file(pot)))["ledger"];
+  };
+  EXPECT_EQ(ledger("press.pot.json")["trimmed"], "0") << ledger("press.pot.json");
+  EXPECT_NE(ledger("trim.pot.json")["trimmed"], "0") << ledger("trim.pot.json");
+}
+
+TEST_F(Window, APinchByTheMouseThinsTheWallAndKeepsTheClay) {
+  const std::string pot = folder.file("cylinder.pot.json");
+  ASSERT_EQ(claystack("throw -q " + test::sample("cylinder.scene.json") + " -o " + pot).status, 0);
+  const Ran ran = run("open " + pot +
+                      "\nwait 0.1\nexpect thinnest_mm above 3.9\ndo tool.pinch\n"
+                      // From a gap of 6 mm to one of 3.
+                      "key ,\nkey ,\nkey ,\nkey ,\nkey ,\nkey ,\nkey 1\n"
+                      "point 40 40\npress left\nwait 0.5\npoint 40 75 over 1.5\n"
+                      "expect contact yes\nrelease left\nwait 0.1\n"
+                      "expect thinnest_mm below 3.2\nexpect thinnest_mm above 2.8\n"
+                      "expect volume_error 0\nexpect strokes 1\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
+TEST_F(Window, AStrokeFromAnEarlierPotIsABranch) {
+  const Ran ran = run(std::string(kPress) + kDeeper +
+                      "expect node 2\nsave FOLDER/two.pot.json\n"
+                      "do edit.undo\n" +
+                      kDeeper +
+                      "expect node 3\nexpect strokes 3\n"
+                      "do edit.other_branch\nexpect node 2\nsave FOLDER/again.pot.json\n"
+                      "do edit.to_start\nexpect node 0\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(read_text(folder.file("two.pot.json")), read_text(folder.file("again.pot.json")));
+}
+
+TEST_F(Window, TheTimelineIsClickedAndDragged) {
+  // The strip is the last thing above the status bar; its blocks begin beside "Start".
+  const Ran ran = run(std::string(kPress) + kDeeper +
+                      "save FOLDER/two.pot.json\n"
+                      "move 270 597\npress left\nrelease left\nexpect node 0\n"
+                      "move 400 597\npress left\nexpect scrubbing no\n"
+                      "move 340 597 over 0.3\nexpect scrubbing yes\nexpect node 0\n"
+                      "release left\nexpect scrubbing yes\nkey Esc\nexpect scrubbing no\n"
+                      "expect node 0\nmove 400 597\npress left\nrelease left\nexpect node 1\n"
+                      "do edit.redo\nexpect node 2\nsave FOLDER/again.pot.json\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(read_text(folder.file("two.pot.json")), read_text(folder.file("again.pot.json")));
+}
+
+/// The marks of the drag are pixels of the strip; what is at them the work itself tells.
+TEST_F(Window, AMomentOfAStrokeBecomesABranchThatThrowGivesToo) {
+  const std::string drag = "move 400 597\npress left\nmove 340 597 over 0.3\nrelease left\n";
+  const Ran ran = run(std::string(kPress) + drag +
+                      "expect scrubbing yes\nexpect node 1\ndo edit.branch\n"
+                      "expect scrubbing no\nexpect strokes 2\nexpect node 2\n"
+                      "save FOLDER/mine.pot.json\nsave FOLDER/mine.work\n"
+                      "do edit.other_branch\nexpect node 1\nsave FOLDER/whole.pot.json\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  for (const auto& [node, name] : {std::pair{1, "whole"}, std::pair{2, "mine"}}) {
+    const std::string thrown = folder.file("thrown.pot.json");
+    ASSERT_EQ(test::claystack("throw -q " + folder.file("mine.work") + " --at " +
+                              std::to_string(node) + " -o " + thrown)
+                  .status,
+              0);
+    EXPECT_EQ(read_text(thrown), read_text(folder.file(std::string(name) + ".pot.json"))) << name;
+  }
+  EXPECT_NE(read_text(folder.file("whole.pot.json")), read_text(folder.file("mine.pot.json")));
+  // A press on what is shown goes on from it too.
+  const Ran pressed = run(std::string(kPress) + drag + "expect scrubbing yes\n" + kDeeper +
+                          "expect strokes 3\nexpect node 3\ndo edit.undo\nexpect node 2\n"
+                          "save FOLDER/again.pot.json\n");
+  ASSERT_EQ(pressed.status, 0) << pressed.err;
+  EXPECT_EQ(read_text(folder.file("again.pot.json")), read_text(folder.file("mine.pot.json")));
+}
+
+TEST_F(Window, SixtyFourStrokesAreTakenBackOneByOne) {
+  std::string script = "key 1\n";
+  for (int i = 0; i < 64; ++i)
+    script += "point 65 18\npress left\npoint 50 18 over 0.2\npoint 65 18 over 0.2\nrelease left\n";
+  script += "expect strokes 64\n";
+  for (int i = 0; i < 64; ++i) script += "key Ctrl+Z\n";
+  const Ran ran = run("save FOLDER/before.pot.json\n" + script +
+                      "expect can_undo no\nsave FOLDER/after.pot.json\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(read_text(folder.file("before.pot.json")), read_text(folder.file("after.pot.json")));
+}
+
+TEST_F(Window, AFallIsShownAndUndone) {
+  std::string script =
+      "open " + test::sample("collapse.scene.json") +
+      "\nkey 1\nsave FOLDER/stands.pot.json\nscreenshot FOLDER/stands.png\nhold Ctrl\n"
+      "point 55 22\npress left\npoint 13 22 over 2\n";
+  // Until the neck gives way.
+  for (int i = 0; i < 40; ++i) script += "wait 0.05\n";
+  script +=
+      "release left\nhold\nexpect fallen yes\nwait 0.1\nexpect proved yes\nexpect thin no\nkey "
+      "1\nscreenshot FOLDER/fell.png\n"
+      "do file.export\nwait 0.1\nexpect triangles above 100\nkey Esc\n"
+      "key Ctrl+Z\nexpect fallen no\nsave FOLDER/again.pot.json\n";
+  const Ran ran = run(script);
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(read_text(folder.file("stands.pot.json")), read_text(folder.file("again.pot.json")));
+  EXPECT_NE(read_text(folder.file("stands.png")), read_text(folder.file("fell.png")));
+}
+
+TEST_F(Window, ChecksTheClayAsItIsAndPlotsEveryTick) {
+  const Ran ran = run(std::string("wait 0.1\nexpect proved yes\nexpect thinnest_mm above 29.79\n"
+                                  "expect thinnest_mm below 29.81\nexpect plotted_ticks 0\n") +
+                      kPress +
+                      "wait 0.1\nexpect proved yes\nexpect thin no\nexpect stress_part above 0.01\n"
+                      "expect stress_part below 1\nexpect thinnest_mm below 29\n"
+                      "expect plotted_ticks 0\nkey Ctrl+Z\ndo view.servo\n" +
+                      kPress + "wait 0.1\nexpect plotted_ticks above 800\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
+}  // namespace
+}  // namespace clay::studio

@@ -1,0 +1,98 @@
+#include "core/histogram.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace clay::falcon {
+namespace {
+
+/// Of every size, from 0 to the largest.
+rc::Gen<std::int64_t> any_time() {
+  return rc::gen::exec([] {
+    const int bits = *rc::gen::inRange(0, 64);
+    const auto any = *rc::gen::resize(rc::kNominalSize, rc::gen::arbitrary<std::uint64_t>());
+    const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
+    return static_cast<std::int64_t>(any & mask);
+  });
+}
+
+TimingHistogram histogram_of(const std::vector<std::int64_t>& times) {
+  TimingHistogram histogram;
+  for (const std::int64_t time : times) histogram.add(time);
+  return histogram;
+}
+
+RC_GTEST_PROP(TimingHistogram, TellsQuantilesWithinItsError, ()) {
+  auto times = *rc::gen::nonEmpty(rc::gen::container<std::vector<std::int64_t>>(any_time()));
+  const TimingHistogram histogram = histogram_of(times);
+  std::ranges::sort(times);
+  RC_ASSERT(histogram.count() == times.size());
+  RC_ASSERT(histogram.least_ns() == times.front());
+  RC_ASSERT(histogram.most_ns() == times.back());
+  for (const double part : {0.0, 0.25, 0.5, 0.9, 0.99, 1.0}) {
+    const auto place =
+        static_cast<std::size_t>(std::ceil(part * static_cast<double>(times.size())));
+    const std::int64_t true_ns = times[std::max<std::size_t>(place, 1) - 1];
+    const std::int64_t told = histogram.quantile_ns(part);
+    RC_ASSERT(told >= true_ns);
+    RC_ASSERT(static_cast<double>(told - true_ns) <=
+              TimingHistogram::kRelativeError * static_cast<double>(true_ns));
+    if (true_ns < 32) RC_ASSERT(told == true_ns);
+  }
+}
+
+RC_GTEST_PROP(TimingHistogram, MergesAsIfAddedTogether, ()) {
+  const auto one = *rc::gen::container<std::vector<std::int64_t>>(any_time());
+  const auto other = *rc::gen::container<std::vector<std::int64_t>>(any_time());
+  std::vector<std::int64_t> both = one;
+  both.insert(both.end(), other.begin(), other.end());
+  TimingHistogram merged = histogram_of(one);
+  merged.merge(histogram_of(other));
+  const TimingHistogram together = histogram_of(both);
+  RC_ASSERT(merged.count() == both.size());
+  RC_ASSERT(merged.least_ns() == together.least_ns());
+  RC_ASSERT(merged.most_ns() == together.most_ns());
+  for (int percent = 0; percent <= 100; ++percent)
+    RC_ASSERT(merged.quantile_ns(percent / 100.0) == together.quantile_ns(percent / 100.0));
+  const double mean = together.mean_ns();
+  RC_ASSERT(std::abs(merged.mean_ns() - mean) <= 1e-12 * mean);
+}
+
+TEST(TimingHistogram, KnowsItsEnds) {
+  TimingHistogram histogram;
+  EXPECT_EQ(histogram.quantile_ns(0.5), 0);
+  EXPECT_EQ(histogram.least_ns(), 0);
+  EXPECT_EQ(histogram.most_ns(), 0);
+  EXPECT_EQ(histogram.mean_ns(), 0.0);
+  histogram.add(-5);
+  histogram.add(INT64_MAX);
+  EXPECT_EQ(histogram.least_ns(), 0);
+  EXPECT_EQ(histogram.most_ns(), INT64_MAX);
+  EXPECT_EQ(histogram.quantile_ns(0.5), 0);
+  EXPECT_EQ(histogram.quantile_ns(1.0), INT64_MAX);
+  for (const double part : {std::numeric_limits<double>::quiet_NaN(), -1.0})
+    EXPECT_EQ(histogram.quantile_ns(part), 0);
+  EXPECT_EQ(histogram.quantile_ns(2.0), INT64_MAX);
+  histogram.clear();
+  EXPECT_EQ(histogram.count(), 0u);
+}
+
+TEST(TimingHistogram, CountsFromABound) {
+  TimingHistogram histogram;
+  for (std::int64_t ns = 1; ns <= 1000; ++ns) histogram.add(ns * 1'000'000);
+  EXPECT_EQ(histogram.count_from(0), 1000u);
+  // 512 ms is no power of two in ns; its bucket begins up to a 32nd lower.
+  EXPECT_GE(histogram.count_from(512'000'000), 489u);
+  EXPECT_LE(histogram.count_from(512'000'000), 489u + 16u);
+  EXPECT_EQ(histogram.count_from(2'000'000'000), 0u);
+  EXPECT_EQ(histogram.mean_ns(), 500'500'000.0);
+}
+
+}  // namespace
+}  // namespace clay::falcon

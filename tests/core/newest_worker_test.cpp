@@ -1,0 +1,105 @@
+#include "core/newest_worker.hpp"
+
+#include "tests/support/wait_until.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <semaphore>
+#include <vector>
+
+namespace clay::studio {
+namespace {
+
+void wait_for(std::binary_semaphore& begun) {
+  test::wait_until([&] { return begun.try_acquire(); }, test::kDeadline, "the work to begin");
+}
+
+TEST(NewestWorker, DropsQuestionsThatANewerOneReplaced) {
+  std::binary_semaphore begun(0), go(0);
+  std::vector<int> worked;
+  NewestWorker<int, int> worker(
+      [&](const int& question, const auto&) {
+        worked.push_back(question);
+        if (question == 1) {
+          begun.release();
+          go.acquire();
+        }
+        return 10 * question;
+      },
+      true);
+  worker.ask(1);
+  wait_for(begun);  // it works on the first; the others come meanwhile
+  for (int question = 2; question <= 5; ++question) worker.ask(question);
+  EXPECT_TRUE(worker.busy());
+  EXPECT_EQ(worker.dropped(), 3u);
+  go.release();
+  std::optional<int> newest;
+  const auto answered = [&] {
+    if (const auto answer = worker.take()) newest = answer;
+    return newest == 50;
+  };
+  test::wait_until(answered, test::kDeadline, "the answer to the newest question");
+  EXPECT_FALSE(worker.busy());
+  EXPECT_FALSE(worker.take()) << "each answer once";
+  EXPECT_EQ(worked, (std::vector<int>{1, 5}));
+}
+
+TEST(NewestWorker, WithoutAThreadTheAnswerIsThere) {
+  NewestWorker<int, int> worker([](const int& question, const auto&) { return question + 1; },
+                                false);
+  worker.ask(1);
+  worker.ask(2);
+  EXPECT_EQ(worker.take(), 3);
+  EXPECT_FALSE(worker.busy());
+}
+
+/// Each would last for ever.
+TEST(NewestWorker, WhatIsWorkedOnIsGivenUpForANewerQuestionAndAtTheEnd) {
+  std::atomic<int> worked{0};
+  {
+    std::binary_semaphore begun(0);
+    NewestWorker<int, int> worker(
+        [&](const int& question, const auto& given_up) {
+          ++worked;
+          if (question == 2) return question;
+          begun.release();
+          while (!given_up()) std::this_thread::yield();
+          return question;
+        },
+        true);
+    worker.ask(1);
+    wait_for(begun);
+    worker.ask(2);
+    std::optional<int> answer;
+    const auto answered = [&] { return (answer = worker.take()).has_value(); };
+    test::wait_until(answered, test::kDeadline, "the answer to the newer question");
+    EXPECT_EQ(*answer, 2) << "of the first there is none";
+    worker.ask(3);
+    wait_for(begun);
+  }
+  EXPECT_EQ(worked, 3);
+}
+
+TEST(NewestWorker, EndsWithoutWorkingOnWhatWaits) {
+  std::atomic<int> worked{0};
+  {
+    std::binary_semaphore begun(0);
+    NewestWorker<int, int> worker(
+        [&](const int&, const auto& given_up) {
+          ++worked;
+          begun.release();
+          while (!given_up()) std::this_thread::yield();
+          std::this_thread::sleep_for(std::chrono::milliseconds(20));
+          return 0;
+        },
+        true);
+    worker.ask(1);
+    wait_for(begun);
+    worker.ask(2);
+  }
+  EXPECT_LE(worked, 2);
+}
+
+}  // namespace
+}  // namespace clay::studio

@@ -1,0 +1,89 @@
+#include "core/snapshot.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <thread>
+
+namespace clay::falcon {
+namespace {
+
+TEST(Snapshot, ShowsTheFirstValueUntilOneIsPublished) {
+  Snapshot<int> made;
+  EXPECT_FALSE(made.has_new());
+  EXPECT_EQ(made.newest(), 0);
+  Snapshot<int> given(7);
+  given.draft() = 8;
+  EXPECT_EQ(given.newest(), 7);
+  given.publish();
+  EXPECT_TRUE(given.has_new());
+  EXPECT_EQ(given.newest(), 8);
+  EXPECT_FALSE(given.has_new());
+  EXPECT_EQ(given.newest(), 8);
+}
+
+// All orders in which whole calls of the two sides can follow one another.
+RC_GTEST_PROP(Snapshot, IsTheLastPublishedInEveryOrderOfCalls, ()) {
+  Snapshot<int> snapshot;
+  int published = 0;
+  const int* shown = &snapshot.newest();
+  int kept = *shown;
+  for (const int call : *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 4))) {
+    if (call == 0) snapshot.write(++published);
+    if (call == 1) snapshot.draft() = -1;  // begun, never published
+    if (call == 2) RC_ASSERT(snapshot.has_new() == (kept != published));
+    if (call == 3) {
+      shown = &snapshot.newest();
+      kept = *shown;
+      RC_ASSERT(kept == published);
+    }
+    RC_ASSERT(*shown == kept);  // what the reader looks at does not move under it
+  }
+}
+
+/// Wide enough to be seen half written.
+struct Wide {
+  std::array<std::uint64_t, 64> words{};
+  bool whole() const {
+    for (const auto word : words)
+      if (word != words[0]) return false;
+    return true;
+  }
+};
+
+TEST(Snapshot, IsNeverTornAndNeverGoesBackBetweenThreads) {
+  constexpr std::uint64_t kWrites = 20'000;
+  Snapshot<Wide> snapshot;
+  std::atomic<std::uint64_t> begun{0}, done{0};
+  std::thread writer([&] {
+    for (std::uint64_t n = 1; n <= kWrites; ++n) {
+      begun.store(n);
+      snapshot.draft().words.fill(n);
+      snapshot.publish();
+      done.store(n);
+    }
+  });
+  std::uint64_t last = 0, torn = 0, backward = 0, old = 0, early = 0;
+  while (last < kWrites) {
+    const std::uint64_t done_before = done.load();
+    const Wide& value = snapshot.newest();
+    const std::uint64_t n = value.words[0];
+    if (!value.whole()) ++torn;
+    if (n < last) ++backward;
+    if (n < done_before) ++old;
+    if (n > begun.load()) ++early;
+    last = n;
+  }
+  writer.join();
+  EXPECT_EQ(torn, 0u);
+  EXPECT_EQ(backward, 0u);
+  EXPECT_EQ(old, 0u) << "a value published before the call was not seen";
+  EXPECT_EQ(early, 0u);
+}
+
+}  // namespace
+}  // namespace clay::falcon

@@ -1,0 +1,28 @@
+#include "engine/clay/portable_math.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace clay {
+namespace {
+
+TEST(PortableMath, AgreesWithLibmInLongDouble) {
+  for (double x = 1e-18; x < 50.0; x *= 1.37) {
+    const auto expected = static_cast<double>(-std::expm1(-static_cast<long double>(x)));
+    EXPECT_NEAR(one_minus_exp_neg(x) / expected, 1.0, 8e-16) << x;
+  }
+}
+
+TEST(PortableMath, EndsAreDefined) {
+  EXPECT_EQ(one_minus_exp_neg(0.0), 0.0);
+  EXPECT_EQ(one_minus_exp_neg(-0.0), 0.0);
+  EXPECT_EQ(one_minus_exp_neg(std::numeric_limits<double>::denorm_min()),
+            std::numeric_limits<double>::denorm_min());
+  EXPECT_EQ(one_minus_exp_neg(1e300), 1.0);
+  EXPECT_EQ(one_minus_exp_neg(std::numeric_limits<double>::infinity()), 1.0);
+}
+
+}  // namespace
+}  // namespace clay

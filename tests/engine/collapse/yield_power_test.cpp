@@ -1,0 +1,79 @@
+#include "engine/collapse/yield_power.hpp"
+
+#include "tests/engine/clay/stack_samples.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace clay {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Twist any_twist(std::mt19937_64& random) {
+  const auto one = [&] { return 2.0 * samples::uniform(random) - 1.0; };
+  return {one(), one(), one()};
+}
+
+/// A twist about a point, 1 rad/s counterclockwise.
+Twist about(glm::dvec2 centre, const PlanePose& pose, double gyration) {
+  const glm::dvec2 arm = pose.centre_mm - centre;
+  return {-arm.y, arm.x, gyration};
+}
+
+TEST(YieldPower, WhereItFailedItIsTheCriterionOfSectionSeven) {
+  // A neck of 12 mm with a bore of 5 under a wide part: what it bears is its own face.
+  std::vector<Ring> rings(30, Ring{quanta_from_radius(30), quanta_from_radius(3)});
+  rings[8] = {quanta_from_radius(12), quanta_from_radius(5)};
+  const ClayStack stack = ClayStack::from_rings(2.0, rings, 0).value();
+  const FallenBody body(stack, 8);
+  const PlanePose stood{{0.0, body.centre_height_mm()}, 0.0};
+  const double weight = 3.0, threshold = 2.5, borne = 1e-3 * threshold * kPi * (144 - 25);
+  YieldPower power(stack, 8, body, weight, threshold);
+  power.place(stood);
+  EXPECT_NEAR(power.net({0, -1, 0}), 1.0 - borne / weight, 1e-12);
+  EXPECT_NEAR(power.net({0, 1, 0}), -1.0, 1e-12);
+  // About a point beyond the neck, weight and clay act on the same lever.
+  EXPECT_NEAR(power.net(about({40, 18}, stood, body.gyration_mm())), 40 * (1.0 - borne / weight),
+              1e-9);
+}
+
+TEST(YieldPower, ClayOnlyPushes) {
+  const ClayStack stack = ClayStack::cylinder(20, 2.0, 20.0, 0.0, 20).value();
+  const FallenBody body(stack, 4);
+  const PlanePose stood{{0.0, body.centre_height_mm()}, 0.0};
+  YieldPower power(stack, 4, body, 1.0, 1e3);
+  power.place(stood);
+  // About a point of the face itself, the part to the right lifts off at no cost. Where the face
+  // goes down, |x| over the half disc is 2 R^3 / 3.
+  const double expected = -(2.0 / 3) * 8000;
+  EXPECT_NEAR(power.net(about({0, 10}, stood, body.gyration_mm())) / expected, 1.0, 5e-3);
+}
+
+RC_GTEST_PROP(YieldPower, SteepestWinsOrNothingDoes, ()) {
+  auto random = *samples::random_engine();
+  const auto count = *rc::gen::inRange<std::size_t>(2, 40);
+  const ClayStack stack = samples::stack(random, count, 2.0);
+  const auto failed = *rc::gen::inRange<std::size_t>(0, count - 1);
+  const FallenBody body(stack, failed);
+  const double weight = 1e-5 * body.volume_mm3();
+  YieldPower power(stack, failed, body, weight, 30.0 * samples::uniform(random));
+  const double low = *rc::gen::element(0.0, 0.5, 1.0);
+  power.place({{20 * samples::uniform(random), low * body.centre_height_mm()},
+               3.0 * samples::uniform(random)});
+  const Twist best = power.steepest();
+  const bool rests = best == Twist{0.0};
+  const double won = rests ? 0.0 : power.net(best) / glm::length(best);
+  RC_ASSERT(rests || won > 0.0);
+  for (int k = 0; k < 300; ++k) {
+    const Twist other = any_twist(random);
+    RC_ASSERT(power.net(other) / glm::length(other) <= (rests ? 1e-6 : 2.0 * won) + 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace clay

@@ -1,0 +1,146 @@
+#include "engine/tick/contact.hpp"
+
+#include "tests/engine/clay/stack_samples.hpp"
+#include "tests/engine/tick/contact_samples.hpp"
+#include "tests/support/allocation_counter.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+namespace clay {
+namespace {
+
+Contact contact_of(const Tool& tool, const ClayStack& stack, glm::dvec3 hip) {
+  Contact contact;
+  contact.rings.reserve(most_contacts(tool, stack.ring_height_mm(), stack.size()));
+  const std::size_t allocations = allocation_count();
+  find_contact(tool, stack, hip, contact);
+  EXPECT_EQ(allocation_count(), allocations);  // a tick must not allocate
+  return contact;
+}
+
+/// Section 4 without its first stage: every ring is asked.
+RC_GTEST_PROP(Contact, TwoStagesFindWhatAskingEveryRingFinds, ()) {
+  auto random = *samples::random_engine();
+  const auto count = *rc::gen::inRange<std::size_t>(1, 60);
+  const double h = *rc::gen::element(0.1, 1.0, 7.0);
+  const ClayStack stack = samples::stack(random, count, h);
+  const Tool tool = Tool::build(SphereSpec{1.0 + 30.0 * samples::uniform(random)}).value();
+  const double height = stack.height_mm();
+  const glm::dvec3 hip(80.0 * samples::uniform(random),
+                       height * (2.0 * samples::uniform(random) - 0.5),
+                       20.0 * samples::uniform(random));
+  const Contact contact = contact_of(tool, stack, hip);
+
+  const double d = std::hypot(hip.x, hip.z);
+  const auto at_centre = static_cast<std::size_t>(
+      std::min(std::max(std::floor(hip.y / h), 0.0), static_cast<double>(count - 1)));
+  const Ring& centre = stack.rings()[at_centre];
+  const bool outside = d > (centre.outer_mm() + centre.inner_mm()) / 2;
+  const auto rings = samples::touched(contact);
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double t = (static_cast<double>(i) + 0.5) * h - hip.y;
+    if (std::abs(t) > tool.high()) continue;
+    // The middle of what the tool covers of the ring.
+    const double covered =
+        0.5 * (std::max(t - 0.5 * h, tool.low()) + std::min(t + 0.5 * h, tool.high()));
+    const double f = std::sqrt(tool.high() * tool.high() - covered * covered);
+    const Ring& ring = stack.rings()[i];
+    const double depth = outside ? ring.outer_mm() + f - d : d + f - ring.inner_mm();
+    if (depth <= 1e-9) continue;
+    RC_ASSERT(found < rings.size());
+    RC_ASSERT(rings[found].ring == i);
+    RC_ASSERT(std::abs(rings[found].depth_mm - depth) < 1e-7);
+    RC_ASSERT(i >= contact.bottom && i <= contact.top);
+    ++found;
+  }
+  RC_ASSERT(found == rings.size());
+  if (found > 0) RC_ASSERT((contact.side == Side::compressive) == outside);
+}
+
+class ContactOnCylinder : public testing::Test {
+ protected:
+  ClayStack cup = ClayStack::cylinder(100, 1.0, 50.0, 40.0, 100).value();
+  Tool sphere = Tool::build(SphereSpec{10.0}).value();
+};
+
+TEST_F(ContactOnCylinder, DemarcatingCircleDecidesTheSide) {
+  EXPECT_EQ(contact_of(sphere, cup, {45.001, 50, 0}).side, Side::compressive);
+  EXPECT_EQ(contact_of(sphere, cup, {44.999, 50, 0}).side, Side::expansive);
+  EXPECT_EQ(contact_of(sphere, cup, {0, 50, -45.001}).side, Side::compressive);
+}
+
+TEST_F(ContactOnCylinder, CandidatesAreEquationsOneAndTwo) {
+  // (1): ceil((50.2 + 10) / 1) = 61st ring, (2): floor((50.2 - 10) / 1) = 40th ring.
+  Contact contact;
+  find_contact<Model::paper>(sphere, cup, {55, 50.2, 0}, contact);
+  EXPECT_EQ(contact.top, 60u);
+  EXPECT_EQ(contact.bottom, 39u);
+  EXPECT_EQ(contact.edge_count, 0u);
+}
+
+TEST_F(ContactOnCylinder, TheRangeEndsWithTheRingsOfTheToolsEnds) {
+  const Contact contact = contact_of(sphere, cup, {55, 50.2, 0});
+  EXPECT_EQ(contact.top, 60u);     // 60.2
+  EXPECT_EQ(contact.bottom, 40u);  // 40.2
+  EXPECT_NEAR(contact.up_offset, 0.8 - 0.5, 1e-12);
+  EXPECT_NEAR(contact.down_offset, 0.2 - 0.5, 1e-12);
+}
+
+TEST_F(ContactOnCylinder, PartsOfRingsAreFeltButDoNotYield) {
+  const Tool rib = Tool::build(RibSpec{20.0, 6.0}).value();
+  // From 40.3 to 60.3: 0.7 of ring 40, whose middle it covers, and 0.3 of ring 60.
+  const Contact contact = contact_of(rib, cup, {54, 50.3, 0});
+  const auto rings = samples::touched(contact);
+  ASSERT_EQ(rings.size(), 20u);
+  EXPECT_EQ(rings.front().ring, 40u);
+  EXPECT_NEAR(rings.front().coverage, 0.7, 1e-12);
+  ASSERT_EQ(contact.edge_count, 1u);
+  EXPECT_EQ(contact.edges[0].ring, 60u);
+  EXPECT_NEAR(contact.edges[0].coverage, 0.3, 1e-12);
+  double covered = contact.edges[0].coverage;
+  for (const RingContact& ring : rings) {
+    EXPECT_NEAR(ring.depth_mm, 2.0, 1e-12);
+    covered += ring.coverage;
+  }
+  EXPECT_NEAR(covered, 20.0, 1e-12);  // the rib's height
+}
+
+TEST_F(ContactOnCylinder, TheCrownIsFelt) {
+  const Ring ring{quanta_from_radius(50), quanta_from_radius(40)};
+  const ClayStack crowned =
+      ClayStack::from_rings(1.0, std::vector<Ring>(100, ring), ring.volume() / 4).value();
+  const Contact contact = contact_of(Tool::build(RibSpec{20.0, 6.0}).value(), crowned, {54, 95, 0});
+  ASSERT_EQ(contact.rings.touched(), 15u);
+  ASSERT_EQ(contact.edge_count, 1u);
+  EXPECT_NEAR(contact.edges[0].coverage, 0.25, 1e-9);
+}
+
+TEST_F(ContactOnCylinder, NothingAboveBelowOrBeside) {
+  for (const glm::dvec3 hip : {glm::dvec3{50, 110.1, 0},
+                               {50, -10.1, 0},
+                               {60.001, 50, 0},
+                               {50, 1e300, 0},
+                               {50, -1e300, 0},
+                               {0, 50, 0}})
+    EXPECT_TRUE(contact_of(sphere, cup, hip).rings.empty()) << hip.x << " " << hip.y;
+}
+
+TEST_F(ContactOnCylinder, OnTheAxisThereIsNoDirection) {
+  const Contact contact = contact_of(Tool::build(SphereSpec{45.0}).value(), cup, {0, 50, 0});
+  ASSERT_FALSE(contact.rings.empty());
+  EXPECT_EQ(contact.side, Side::expansive);
+  EXPECT_EQ(contact.radial_x, 0.0);
+  EXPECT_EQ(contact.radial_z, 0.0);
+}
+
+TEST_F(ContactOnCylinder, AToolWiderThanThePotTouchesEveryRing) {
+  const Tool giant = Tool::build(SphereSpec{500.0}).value();
+  EXPECT_EQ(contact_of(giant, cup, {100, 50, 0}).rings.touched(), 100u);
+}
+
+}  // namespace
+}  // namespace clay

@@ -1,0 +1,77 @@
+// What the force knows of clay within a ring.
+
+#include "engine/tick/front.hpp"
+
+#include "engine/tick/force.hpp"
+#include "tests/engine/clay/stack_samples.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace clay {
+namespace {
+
+/// A ball of 10 mm that rises by 0.02 mm a millisecond under clay that stands 4 mm over its axis,
+/// and has cleared all behind it.
+class Front : public testing::TestWithParam<double> {
+ protected:
+  static constexpr double kRingMm = 0.2, kRise = 0.02, kDt = 0.001, kAxis = 46.0, kOuter = 50.0;
+  StepPlan plan = [] {
+    SceneSpec scene;
+    scene.lump.ring_height_mm = kRingMm;
+    scene.tool.shape = SphereSpec{10.0};
+    return StepPlan::build(scene).value();
+  }();
+
+  Contact behind_end_at(double level_mm) {
+    std::vector<Ring> rings;
+    for (int i = 0; i < 200; ++i) {
+      // As the ball leaves it: down to its surface where it has been.
+      const double t = (i + 0.5) * kRingMm - (level_mm - 10.0);
+      const double outer = t < 10.0 && t > 0.0 ? kAxis - std::sqrt(100.0 - t * t) : kOuter;
+      rings.push_back({quanta_from_radius(outer), 0});
+    }
+    stack = ClayStack::from_rings(kRingMm, std::move(rings), 0).value();
+    Contact contact;
+    find_contact(plan.tool, stack, {kAxis, level_mm - 10.0, 0.0}, contact, {0.0, kRise, 0.0});
+    feel_front(plan, stack, level_mm - 10.0, kDt, contact);
+    return contact;
+  }
+  ClayStack stack = ClayStack::cylinder(1, 1, 1, 0, 1).value();
+};
+
+/// The integral over what the ball has behind its pole, ring or no ring: the depth there is 8 mm
+/// and what the ball has widened, less what has yielded, w (1 - exp(-kappa s / v)).
+TEST_P(Front, IsFeltAsTheClayYieldsWhereverInARingTheEndIs) {
+  const Contact contact = behind_end_at(30.0 + GetParam() * kRingMm);
+  double expected = 0.0;
+  constexpr int kParts = 100'000;
+  for (int k = 0; k < kParts; ++k) {
+    const double s = (k + 0.5) * 1.0 / kParts, t = 10.0 - s, f = std::sqrt(100.0 - t * t);
+    const double depth = 4.0 + f - kOuter * -std::expm1(-20.0 * s * kDt / kRise);
+    if (depth < 0.0) break;
+    // -dE/dy of (depth cos theta)^2 / 2, cos theta = f / 10.
+    expected += (depth * f * f / 100.0 * (-t / f) - depth * depth * t / 100.0) / kParts;
+  }
+  double felt = 0.0;
+  for (const RingContact& piece : contact.front)
+    felt += piece.coverage * kRingMm * piece.depth_mm *
+            (piece.facing.lean + 0.5 * piece.depth_mm * piece.facing.turn);
+  ASSERT_TRUE(contact.has_front);
+  EXPECT_NEAR(felt, expected, 0.03 * std::abs(expected));
+}
+INSTANTIATE_TEST_SUITE_P(Places, Front, testing::Values(0.05, 0.3, 0.45, 0.55, 0.7, 0.95));
+
+TEST_F(Front, OfAToolThatStandsThereIsNone) {
+  behind_end_at(30.05);
+  Contact contact;
+  find_contact(plan.tool, stack, {kAxis, 20.05, 0.0}, contact);
+  feel_front(plan, stack, 20.05, kDt, contact);
+  EXPECT_FALSE(contact.has_front);
+  // The part of a ring that is to yield later has, in truth: as its neighbour.
+  for (std::size_t k = 0; k < contact.edge_count; ++k) EXPECT_LT(contact.edges[k].depth_mm, 0.1);
+}
+
+}  // namespace
+}  // namespace clay

@@ -1,0 +1,58 @@
+// Rings taken four at a time, where the machine can, and two at a time: the same bits.
+
+#include "engine/tick/lanes.hpp"
+
+#include "claystack/engine/wheel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <utility>
+#include <vector>
+
+namespace clay {
+namespace {
+
+struct Thrown {
+  std::vector<Ring> rings;
+  std::vector<glm::dvec3> forces_n;
+  friend bool operator==(const Thrown&, const Thrown&) = default;
+};
+
+/// A tool that goes up and down a wall and into it, and out where it stood at first.
+Thrown throw_with(const ToolShapeSpec& shape, bool four) {
+  const bool machine = std::exchange(four_lanes, four);
+  SceneSpec scene;
+  scene.lump.ring_height_mm = 0.3;
+  scene.lump.inner_radius_mm = 15.0;
+  scene.tool.shape = shape;
+  scene.force->friction = 0.2;
+  Wheel wheel = Wheel::build(scene).value();
+  Thrown thrown;
+  const double reach = Tool::build(shape).value().radius(0.0) + scene.lump.outer_radius_mm;
+  for (int k = 0; k < 2000; ++k) {
+    const double part = k / 2000.0;
+    const glm::dvec3 hip(reach - 6.0 * std::sin(3.0 * part), 30.0 + 15.0 * std::sin(9.0 * part),
+                         2.0 * part);
+    thrown.forces_n.push_back(wheel.step({1000 * (k + 1), hip, false}).force_n);
+  }
+  four_lanes = machine;
+  thrown.rings.assign(wheel.stack().rings().begin(), wheel.stack().rings().end());
+  return thrown;
+}
+
+class Lanes : public testing::TestWithParam<ToolShapeSpec> {};
+
+TEST_P(Lanes, TwoAndFourGiveTheSameBits) {
+  if (!four_lanes) std::clog << "this machine has no AVX2: two lanes against two\n";
+  EXPECT_TRUE(throw_with(GetParam(), four_lanes) == throw_with(GetParam(), false));
+}
+INSTANTIATE_TEST_SUITE_P(Shapes, Lanes,
+                         testing::Values(ToolShapeSpec{SphereSpec{12}},
+                                         ToolShapeSpec{EllipseSpec{14, 6}},
+                                         ToolShapeSpec{RibSpec{11, 5}},
+                                         ToolShapeSpec{SampledSpec{{-9, -3, 4, 9}, {1, 6, 7, 2}}}));
+
+}  // namespace
+}  // namespace clay

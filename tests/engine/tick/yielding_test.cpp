@@ -1,0 +1,129 @@
+// The law of yielding against its equation, integrated in small steps.
+
+#include "engine/tick/yielding.hpp"
+
+#include "tests/engine/clay/stack_samples.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace clay {
+namespace {
+
+constexpr RemovalPlan kPlan{
+    .rate_per_s = 20.0, .yield_depth_mm = 0.25, .min_wall_mm = 0.5, .paper_fraction = 0.0};
+
+/// A tool in a wall, at the beginning of a tick.
+struct Press {
+  double wall = 10.0, depth = 0.0;
+};
+
+/// After a tick in which the tool comes `advance` nearer.
+Press yielded(Press at, double advance, double dt_s) {
+  Yielding one;
+  one.wall[0] = at.wall;
+  one.depth[0] = at.depth + advance;
+  one.advance[0] = advance;
+  one.since[0] = 1.0;
+  one.target[0] = at.wall - one.depth[0];
+  yield(kPlan, dt_s, one, 1);
+  return {at.wall - (one.depth[0] - one.left[0]), one.left[0]};
+}
+
+/// d depth / dt = v - kappa w min(1, depth / delta), by the midpoint rule.
+Press integrated(Press at, double advance, double dt_s) {
+  constexpr int kSteps = 4000;
+  const double step = dt_s / kSteps, speed = advance / dt_s;
+  const auto rate = [](double wall, double depth) {
+    return kPlan.rate_per_s * wall * std::clamp(depth / kPlan.yield_depth_mm, 0.0, 1.0);
+  };
+  for (int k = 0; k < kSteps; ++k) {
+    const double half = 0.5 * step * rate(at.wall, at.depth);
+    const double gone = step * rate(at.wall - half, at.depth + 0.5 * step * speed - half);
+    at = {at.wall - gone, at.depth + step * speed - gone};
+  }
+  return at;
+}
+
+TEST(ExpNeg, IsTheExponential) {
+  for (double x = 0.0; x < 60.0; x += 0.0137) EXPECT_NEAR(exp_neg(x), std::exp(-x), 1e-11) << x;
+  EXPECT_EQ(exp_neg(0.0), 1.0);
+  EXPECT_EQ(exp_neg(1e12), 0.0);
+}
+
+/// At every depth, at every rate: the exponential, the logistic curve and the change from one to
+/// the other.
+RC_GTEST_PROP(Yielding, OfAStandingToolSolvesTheEquation, ()) {
+  auto random = *samples::random_engine();
+  const Press at{2.0 + 8.0 * samples::uniform(random), 1.5 * samples::uniform(random)};
+  const double dt_s = *rc::gen::element(0.000125, 0.001, 0.004);
+  const Press found = yielded(at, 0.0, dt_s), expected = integrated(at, 0.0, dt_s);
+  RC_ASSERT(std::abs(found.depth - expected.depth) < 1e-5);
+  RC_ASSERT(std::abs(found.wall - found.depth - (at.wall - at.depth)) < 1e-12);
+}
+
+RC_GTEST_PROP(Yielding, TwoHalfStepsAreOneStep, ()) {
+  auto random = *samples::random_engine();
+  const Press at{2.0 + 8.0 * samples::uniform(random), 0.25 * samples::uniform(random)};
+  const double dt_s = 0.01 * samples::uniform(random), part = samples::uniform(random);
+  const Press once = yielded(at, 0.0, dt_s);
+  const Press twice = yielded(yielded(at, 0.0, part * dt_s), 0.0, (1.0 - part) * dt_s);
+  RC_ASSERT(std::abs(once.depth - twice.depth) < 1e-10);
+}
+
+/// A hundredth of the yield depth, in ticks of a millisecond, at a hand's speeds.
+RC_GTEST_PROP(Yielding, OfAMovingToolSolvesTheEquation, ()) {
+  auto random = *samples::random_engine();
+  const Press at{4.0 + 6.0 * samples::uniform(random), 1.0 * samples::uniform(random)};
+  const double advance = 0.05 * (2.0 * samples::uniform(random) - 1.0);
+  RC_PRE(at.depth + advance > 0.0);
+  const Press found = yielded(at, advance, 0.001), expected = integrated(at, advance, 0.001);
+  RC_ASSERT(std::abs(found.depth - std::max(expected.depth, 0.0)) < 0.01 * kPlan.yield_depth_mm);
+}
+
+/// v delta / (kappa w), to the part that the depth is of the wall: what a slow hand feels.
+TEST(Yielding, AHandOfConstantSpeedFeelsTheSameDepthAtEveryRate) {
+  for (const double rate_hz : {250.0, 1000.0, 8000.0}) {
+    Press at{10.0, 0.0};
+    const double speed = 10.0;
+    for (int k = 0; k < static_cast<int>(0.02 * rate_hz); ++k)
+      at = yielded(at, speed / rate_hz, 1.0 / rate_hz);
+    // The wall has gone from 10 to 9.8 mm.
+    EXPECT_NEAR(at.depth, speed * 0.25 / (20.0 * 9.8), 1e-4) << rate_hz;
+  }
+}
+
+TEST(Yielding, AToolThatCameInOnTheWayPressesFromThenOn) {
+  // Half of the way in front of the clay: as a tick of half the time from its surface.
+  Yielding one;
+  one.wall[0] = 10.0;
+  one.depth[0] = 0.02;
+  one.advance[0] = 0.04;
+  one.since[0] = 1.0;
+  one.target[0] = 9.98;
+  yield(kPlan, 0.001, one, 1);
+  EXPECT_NEAR(one.left[0], yielded({10.0, 0.0}, 0.02, 0.0005).depth, 1e-12);
+}
+
+TEST(Yielding, NeverPassesTheToolNorPushesClayIntoIt) {
+  for (const double advance : {-5.0, -0.1, 0.0, 0.1, 5.0})
+    for (const double depth : {1e-9, 0.1, 3.0, 20.0})
+      for (const double dt_s : {0.0, 1e-6, 0.001, 0.05}) {
+        Yielding one;
+        one.wall[0] = 10.0;
+        one.depth[0] = depth;
+        one.advance[0] = advance;
+        one.since[0] = 1.0;
+        one.target[0] = 10.0 - depth;
+        yield(kPlan, dt_s, one, 1);
+        EXPECT_GE(one.left[0], 0.0) << advance << " " << depth << " " << dt_s;
+        EXPECT_LE(one.left[0], depth) << advance << " " << depth << " " << dt_s;
+        EXPECT_TRUE(dt_s > 0.0 || one.left[0] == depth);
+      }
+}
+
+}  // namespace
+}  // namespace clay

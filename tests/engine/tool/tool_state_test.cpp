@@ -1,0 +1,57 @@
+#include "engine/tool/tool_state.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace clay {
+namespace {
+
+Pose at(std::int64_t us, double y) { return {us, {60.0, y, 0.0}, false}; }
+
+TEST(ToolTracker, KeepsTheLastDirectionThatWasNotZero) {
+  ToolTracker tracker;
+  EXPECT_TRUE(tracker.advance(at(0, 10)).upward);  // before any motion: up
+  EXPECT_TRUE(tracker.advance(at(1000, 10)).upward);
+  EXPECT_FALSE(tracker.advance(at(2000, 9)).upward);
+  for (int k = 3; k < 100; ++k) EXPECT_FALSE(tracker.advance(at(k * 1000, 9)).upward);
+  EXPECT_TRUE(tracker.advance(at(100'000, 9.0001)).upward);
+}
+
+TEST(ToolTracker, MeasuresTimeAndClampsIt) {
+  ToolTracker tracker;
+  EXPECT_EQ(tracker.advance(at(500, 0)).dt_s, 0.0);
+  EXPECT_NEAR(tracker.advance(at(1500, 0)).dt_s, 1e-3, 1e-15);
+  const ToolState late = tracker.advance(at(1'001'500, 0));
+  EXPECT_NEAR(late.dt_s, 0.05, 1e-15);
+  EXPECT_TRUE(late.dt_clamped);
+}
+
+TEST(ToolTracker, RefusesAndForgetsWhatCannotBe) {
+  ToolTracker tracker;
+  ASSERT_TRUE(tracker.advance(at(0, 5)).valid);
+  ASSERT_TRUE(tracker.advance(at(1000, 6)).valid);
+  EXPECT_FALSE(tracker.advance(at(1000, 7)).valid);  // time stands still
+  EXPECT_FALSE(tracker.advance(at(0, 7)).valid);     // time runs back
+  EXPECT_FALSE(tracker.advance(at(std::numeric_limits<std::int64_t>::min(), 7)).valid);
+  for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e300, 1.0001e6})
+    for (int axis = 0; axis < 3; ++axis) {
+      Pose pose = at(2000, 0);
+      pose.position_mm[axis] = bad;
+      EXPECT_FALSE(tracker.advance(pose).valid);
+    }
+  // None of them moved the tool down from 6 or up to 7, or took time.
+  const ToolState next = tracker.advance(at(2000, 6));
+  EXPECT_TRUE(next.valid && next.upward);
+  EXPECT_NEAR(next.dt_s, 1e-3, 1e-15);
+}
+
+TEST(ToolTracker, ExtremeTimesDoNotOverflow) {
+  ToolTracker tracker;
+  ASSERT_TRUE(tracker.advance(at(std::numeric_limits<std::int64_t>::min(), 0)).valid);
+  EXPECT_TRUE(tracker.advance(at(std::numeric_limits<std::int64_t>::max(), 0)).dt_clamped);
+}
+
+}  // namespace
+}  // namespace clay

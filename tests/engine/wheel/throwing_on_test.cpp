@@ -1,0 +1,169 @@
+#include "claystack/engine/clay.hpp"
+#include "claystack/engine/wheel.hpp"
+#include "tests/engine/clay/stack_samples.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace clay {
+namespace {
+
+using samples::scene_of;
+
+SceneSpec arbitrary_scene() {
+  SceneSpec scene = scene_of(*rc::gen::element(Model::conserving, Model::paper));
+  scene.lump.inner_radius_mm = *rc::gen::element(0.0, 0.5, 20.0);
+  scene.lump.max_rings = *rc::gen::element<std::size_t>(0, 42, 120);
+  if (*rc::gen::arbitrary<bool>()) scene.stability = StabilitySpec{*rc::gen::element(1.2, 5.0)};
+  scene.tool.mode = *rc::gen::element(ToolMode::press, ToolMode::press, ToolMode::trim);
+  return scene;
+}
+
+constexpr glm::dvec3 kFree{90.0, 10.0, 0.0};  // no tool of these reaches the clay from there
+
+/// From free air to the clay, some way about it, and back.
+std::vector<Pose> arbitrary_stroke(std::int64_t time_us) {
+  std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * samples::uniform(random);
+  };
+  std::vector<Pose> poses;
+  glm::dvec3 at = kFree;
+  const auto go = [&](glm::dvec3 goal, double seconds) {
+    const int ticks = static_cast<int>(seconds * 1000.0);
+    const glm::dvec3 step = (goal - at) / static_cast<double>(ticks);
+    for (int i = 0; i < ticks; ++i) {
+      at += step;
+      poses.push_back({time_us += 1000, at, false, 0.0});
+    }
+  };
+  poses.push_back({time_us, kFree, false, 0.0});
+  // The first way goes up or down: what a stroke must not inherit is the way of the one before.
+  go({90.0, uniform(0.0, 50.0), 0.0}, 0.05);
+  const int places = *rc::gen::inRange(1, 4);
+  go({uniform(34.0, 45.0), at.y, 0.0}, 0.05);
+  for (int i = 0; i < places; ++i) go({uniform(0.0, 40.0), uniform(0.0, 60.0), 0.0}, 0.25);
+  go({at.x, 90.0, 0.0}, 0.1);
+  go({90.0, 90.0, 0.0}, 0.05);
+  go(kFree, 0.05);
+  return poses;
+}
+
+void play(Wheel& wheel, const std::vector<Pose>& poses) {
+  for (const Pose& pose : poses) wheel.step(pose);
+}
+
+RC_GTEST_PROP(ThrowingOn, IsNeverHavingTakenThePotOffTheWheel, ()) {
+  const SceneSpec scene = arbitrary_scene();
+  auto built = Wheel::build(scene);
+  RC_PRE(built.has_value());
+  Wheel& whole = *built;
+  std::optional<Pot> before;
+  std::int64_t time_us = 0;
+  for (int stroke = 0; stroke < 3; ++stroke) {
+    const auto poses = arbitrary_stroke(time_us);
+    play(whole, poses);
+    time_us = poses.back().time_us + 1000;
+    auto part = before ? Wheel::build(scene, *before) : Wheel::build(scene);
+    RC_ASSERT(part.has_value());
+    play(*part, poses);
+    RC_ASSERT(part->pot() == whole.pot());
+    RC_ASSERT(part->ledger().imbalance(part->stack().recount()) == 0);
+    if (whole.collapsed()) return;
+    before = part->pot();
+  }
+  RC_CLASSIFY(whole.stack().size() > scene.lump.rings, "grew");
+}
+
+/// A crown that leans, and a ring that grows from it later: what the rim has had is no part of the
+/// rings.
+TEST(ThrowingOn, ARimThatLeansIsKept) {
+  const SceneSpec scene = scene_of(Model::conserving);
+  const auto poses = [](double x) {
+    std::vector<Pose> stroke = {{0, {90.0, 38.0, 0.0}, false, 0.0}};
+    for (int i = 1; i <= 500; ++i)
+      stroke.push_back({1000 * i, {x, 27.0 + 0.007 * i, 0.0}, false, 0.0});
+    stroke.push_back({600'000, {90.0, 38.0, 0.0}, false, 0.0});
+    return stroke;
+  };
+  Wheel wheel = Wheel::build(scene).value();
+  play(wheel, poses(36.5));
+  const Pot leaning = wheel.pot();
+  EXPECT_NE(leaning.rim, Rim{});
+  Pot level = leaning;
+  level.rim = {};
+  const auto thrown_on = [&](const Pot& pot) {
+    Wheel next = Wheel::build(scene, pot).value();
+    for (int i = 0; i < 10; ++i) {
+      play(next, poses(34.0 - 0.5 * i));
+      next = Wheel::build(scene, next.pot()).value();
+    }
+    return next.pot();
+  };
+  EXPECT_GT(thrown_on(leaning).stack.size(), leaning.stack.size());
+  EXPECT_NE(thrown_on(leaning).stack, thrown_on(level).stack);
+}
+
+TEST(ThrowingOn, TheLumpAsAPotIsTheLump) {
+  for (const Model model : {Model::conserving, Model::paper})
+    for (const std::size_t most : {std::size_t{0}, std::size_t{100}}) {
+      SceneSpec scene = scene_of(model);
+      scene.lump.max_rings = most;
+      const Pot lump = Wheel::build(scene).value().pot();
+      const Wheel again = Wheel::build(scene, lump).value();
+      EXPECT_EQ(again.pot(), lump);
+      EXPECT_EQ(again.stack().max_rings(), most == 0 ? 160u : most);
+    }
+}
+
+TEST(ThrowingOn, TheRingsAreThePots) {
+  Pot pot = Wheel::build(scene_of(Model::conserving)).value().pot();
+  SceneSpec other = scene_of(Model::conserving);
+  other.lump = {.rings = 7,
+                .ring_height_mm = 3.0,
+                .outer_radius_mm = 10.0,
+                .inner_radius_mm = 2.0,
+                .max_rings = 0,
+                .density_g_cm3 = 1.9};
+  const Wheel wheel = Wheel::build(other, pot).value();
+  EXPECT_EQ(wheel.pot(), pot);
+  // 0.05 N/mm of depth and mm of height, in rings of 1 mm.
+  EXPECT_DOUBLE_EQ(wheel.plan().force.stiffness_n_per_mm, 0.05);
+}
+
+TEST(ThrowingOn, RefusesAPotThatTheSceneCannotGoOnWith) {
+  const SceneSpec scene = scene_of(Model::conserving);
+  const Pot pot = Wheel::build(scene).value().pot();
+  const auto refused = [&](const SceneSpec& on, const Pot& start, const std::string& message) {
+    const auto wheel = Wheel::build(on, start);
+    ASSERT_FALSE(wheel) << message;
+    EXPECT_EQ(wheel.error().kind, ErrorKind::bad_input);
+    EXPECT_EQ(wheel.error().message, message);
+  };
+  refused(scene_of(Model::paper), pot, "model: expected the pot's, conserving, found paper");
+  SceneSpec other = scene;
+  other.lump.density_g_cm3 = 2.5;
+  refused(other, pot, "lump.density_g_cm3: expected the pot's, 1.9, found 2.5");
+  other = scene;
+  other.lump.max_rings = 39;
+  refused(other, pot, "lump.max_rings: expected 0 or at least the pot's rings, 40, found 39");
+  Pot fallen = pot;
+  fallen.collapse = Collapse{};
+  refused(scene, fallen, "pot: expected one that stands, found one that has collapsed");
+  refused(scene, rounded_pot(pot, 0.001).value(),
+          "pot: expected an exact one, found one rounded to 0.001 mm: its clay is not the clay "
+          "that was counted");
+  other = scene;
+  other.stability = StabilitySpec{0.1};
+  const auto heavy = Wheel::build(other, pot);
+  ASSERT_FALSE(heavy);
+  EXPECT_EQ(heavy.error().message.find(
+                "stability.max_stress_kpa: expected more than the pot's own weight, found 0.1"),
+            0u);
+}
+
+}  // namespace
+}  // namespace clay

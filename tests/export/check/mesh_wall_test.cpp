@@ -1,0 +1,201 @@
+#include "claystack/export/check.hpp"
+
+#include "tests/export/solid/shapes.hpp"
+
+#include <gtest/gtest.h>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+namespace clay::solid {
+namespace {
+
+using shapes::cube;
+using shapes::inverted;
+using shapes::moved;
+using shapes::together;
+
+constexpr std::size_t kSegments = 48;
+
+/// A revolve of `segments` steps is wider than its profile by the equal-volume factor, and its
+/// facets lie nearer to the axis than its corners.
+double facet_scale(std::size_t segments) {
+  const double step = 2.0 * std::numbers::pi / static_cast<double>(segments);
+  return std::sqrt(step / std::sin(step)) * std::cos(step / 2.0);
+}
+
+TriangleMesh cup(double outer_mm, double wall_mm, double height_mm, double floor_mm) {
+  const double inner_mm = outer_mm - wall_mm;
+  return revolve({{{{0, 0},
+                    {outer_mm, 0},
+                    {outer_mm, height_mm},
+                    {inner_mm, height_mm},
+                    {inner_mm, floor_mm},
+                    {0, floor_mm}}}},
+                 kSegments);
+}
+
+SampledWall wall_of(const TriangleMesh& mesh, std::size_t samples = 10'000) {
+  return sampled_wall(mesh, samples).value();
+}
+
+TEST(SampledWall, OfACubeIsItsSide) {
+  const SampledWall wall = wall_of(cube(2.0));
+  EXPECT_DOUBLE_EQ(wall.least_mm, 2.0);
+  EXPECT_EQ(wall.rays, 10'000u);
+  EXPECT_EQ(wall.escaped, 0u);
+  EXPECT_EQ(wall.oblique, 0u);
+}
+
+TEST(SampledWall, OfAnotherPlaceAndScaleIsTheSame) {
+  for (const double side : {1e-3, 1.0, 1e5}) {
+    const SampledWall wall = wall_of(moved(cube(side), glm::dvec3(-3.0, 7.0, 0.5) * side));
+    EXPECT_NEAR(wall.least_mm, side, 1e-14 * side);
+    EXPECT_EQ(wall.escaped, 0u);
+  }
+}
+
+TEST(SampledWall, OfACupIsTheThinnerOfWallAndFloor) {
+  const SampledWall by_wall = wall_of(cup(40.0, 2.5, 60.0, 6.0));
+  EXPECT_NEAR(by_wall.least_mm, 2.5 * facet_scale(kSegments), 1e-9);
+  EXPECT_EQ(by_wall.escaped, 0u);
+  const double axis_distance = std::hypot(by_wall.place.x, by_wall.place.y);
+  EXPECT_GT(axis_distance, 37.0);  // on the wall
+  const SampledWall by_floor = wall_of(cup(40.0, 5.0, 60.0, 1.75));
+  EXPECT_NEAR(by_floor.least_mm, 1.75, 1e-9);
+  EXPECT_NEAR(by_floor.place.z, by_floor.place.z > 1.0 ? 1.75 : 0.0, 1e-9);  // on the floor
+}
+
+TEST(SampledWall, OfASphericalShellLiesBetweenItsFacetsAndItsCorners) {
+  // Facets of both balls are parallel, those of the inner one nearer to the middle.
+  const auto shell = [](double outer, double inner) {
+    return together(shapes::ball(outer), inverted(shapes::ball(inner)));
+  };
+  const SampledWall wall = wall_of(shell(10.0, 8.0), 100'000);
+  // A facet's plane is at least cos(pi/16) cos(pi/12) of the radius away, at most all of it.
+  const double flat = std::cos(std::numbers::pi / 16.0) * std::cos(std::numbers::pi / 12.0);
+  EXPECT_GT(wall.least_mm, 2.0 * flat * 0.999);
+  EXPECT_LT(wall.least_mm, 2.0 * std::sqrt(1.05));
+  EXPECT_EQ(wall.escaped, 0u);
+}
+
+TEST(SampledWall, OfALeaningRimIsNotItsEdge) {
+  // A rim of 80 degrees beside a wall of 3 mm: rays from near the edge leave through the wall
+  // after next to nothing, and tell of no wall.
+  const double lean = std::tan(10.0 * std::numbers::pi / 180.0);
+  const double height = 60.0, horizontal = 3.0;
+  const auto at = [&](double y) { return 30.0 + lean * y; };
+  const TriangleMesh flaring = revolve({{{{0, 0},
+                                          {at(0), 0},
+                                          {at(height), height},
+                                          {at(height) - horizontal, height},
+                                          {at(8) - horizontal, 8},
+                                          {0, 8}}}},
+                                       kSegments);
+  const SampledWall wall = wall_of(flaring);
+  EXPECT_GT(wall.oblique, 0u);
+  // Across: the horizontal width times the cosine of the lean, on the cut through the facets.
+  EXPECT_GT(wall.least_mm, 2.8);
+  EXPECT_LT(wall.least_mm, 3.0);
+}
+
+TEST(SampledWall, IsAsThinAsItsThinnestPlace) {
+  // A slab with a dent that leaves 0.4 of 5 mm, on a twentieth of its area.
+  const TriangleMesh dented =
+      revolve({{{{0, 0}, {20, 0}, {20, 5}, {6, 5}, {6, 0.4}, {0, 0.4}}}}, kSegments);
+  const SampledWall wall = wall_of(dented, 1000);
+  EXPECT_NEAR(wall.least_mm, 0.4, 1e-12);
+  const auto& [a, b, c] = dented.triangles[wall.triangle];
+  const double z = (dented.points[a].z + dented.points[b].z + dented.points[c].z) / 3.0;
+  EXPECT_NEAR(z, wall.place.z, 1e-9);
+}
+
+TEST(SampledWall, CountsRaysThatLeaveThroughAHole) {
+  TriangleMesh mesh = cube(2.0);
+  std::erase(mesh.triangles, (std::array<std::uint32_t, 3>{4, 5, 6}));
+  std::erase(mesh.triangles, (std::array<std::uint32_t, 3>{4, 6, 7}));
+  const SampledWall wall = wall_of(mesh);
+  EXPECT_DOUBLE_EQ(wall.least_mm, 2.0);
+  EXPECT_NEAR(static_cast<double>(wall.escaped), 2000.0, 5.0);  // one side of five left
+}
+
+TEST(SampledWall, OfAnOpenSheetIsNotSeen) {
+  const SampledWall wall = wall_of({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}, 100);
+  EXPECT_EQ(wall.escaped, 100u);
+  EXPECT_TRUE(std::isinf(wall.least_mm));
+}
+
+TEST(SampledWall, PassesItsOwnCoplanarNeighbours) {
+  // A fine grid on top of a cube: every ray starts in the plane of hundreds of triangles.
+  Polygon disc{{0, 0}};
+  for (int i = 1; i <= 40; ++i) disc.push_back({0.25 * i, 0.0});
+  for (int i = 40; i >= 1; --i) disc.push_back({0.25 * i, 3.0});
+  disc.push_back({0.0, 3.0});
+  TriangleMesh mesh = revolve({{disc}}, kSegments);
+  // Tilted, so that no coordinate is exact.
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  for (glm::dvec3& p : mesh.points) p = {c * p.x - s * p.z, p.y + 0.1, s * p.x + c * p.z};
+  const SampledWall wall = wall_of(mesh);
+  EXPECT_NEAR(wall.least_mm, 3.0, 1e-12);
+  EXPECT_EQ(wall.escaped, 0u);
+}
+
+TEST(SampledWall, FollowsFewerRaysWhereTheyTakeTooLong) {
+  const TriangleMesh mesh = cup(40.0, 2.5, 60.0, 6.0);
+  std::size_t told = 0;
+  const auto half = sampled_wall(mesh, 10'000, 400'000, [&](std::size_t rays) {
+                      EXPECT_GT(rays, told);
+                      told = rays;
+                    }).value();
+  EXPECT_GT(half.rays, 1'000u);
+  EXPECT_LT(half.rays, 9'000u);
+  EXPECT_EQ(told, 10'000u);
+  // Those that are left lie on all of the surface, and see as thin a wall.
+  EXPECT_NEAR(half.least_mm, 2.5 * facet_scale(kSegments), 1e-9);
+  const SampledWall all = wall_of(mesh);
+  EXPECT_EQ(all.rays, 10'000u);
+  EXPECT_NEAR(static_cast<double>(half.oblique) / static_cast<double>(half.rays),
+              static_cast<double>(all.oblique) / 10'000.0, 0.05);
+}
+
+TEST(SampledWall, OfASoupTakesNoMoreStepsThanAreAllowed) {
+  // Every ray comes past nearly all of these.
+  TriangleMesh soup;
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    const auto at = [&](double k) {
+      const double t = k + 0.001 * i;
+      return glm::dvec3(50.0 * std::sin(7.0 * t), 50.0 * std::sin(11.0 * t), 50.0 * std::cos(t));
+    };
+    soup.points.insert(soup.points.end(), {at(0.0), at(1.0), at(2.0)});
+    soup.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const auto wall = sampled_wall(soup, 1'000, 100'000).value();
+  EXPECT_LT(wall.rays, 100u);
+}
+
+TEST(SampledWall, IsTheSameEveryTime) {
+  const TriangleMesh mesh = cup(40.0, 2.5, 60.0, 6.0);
+  const SampledWall once = wall_of(mesh), again = wall_of(mesh);
+  EXPECT_EQ(once.least_mm, again.least_mm);
+  EXPECT_EQ(once.place, again.place);
+  EXPECT_EQ(once.triangle, again.triangle);
+  EXPECT_EQ(once.oblique, again.oblique);
+}
+
+TEST(SampledWall, RefusesWhatHasNoSurface) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const TriangleMesh& mesh :
+       {TriangleMesh{}, TriangleMesh{{{0, 0, 0}}, {{0, 0, 0}}},
+        TriangleMesh{{{0, 0, 0}}, {{0, 1, 2}}},
+        TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, nan, 0}}, {{0, 1, 2}}}}) {
+    const auto wall = sampled_wall(mesh, 10);
+    ASSERT_FALSE(wall);
+    EXPECT_EQ(wall.error().kind, ErrorKind::bad_input);
+  }
+  EXPECT_FALSE(sampled_wall(cube(1.0), 0));
+  EXPECT_FALSE(sampled_wall(cube(1.0), kMostWallSamples + 1));
+}
+
+}  // namespace
+}  // namespace clay::solid

@@ -1,0 +1,72 @@
+#include "claystack/export/check.hpp"
+#include "tests/export/formats/refused.hpp"
+#include "tests/export/job/exported.hpp"
+#include "tests/export/solid/shapes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace clay::solid {
+namespace {
+
+using samples::every_format;
+using samples::exported;
+using samples::refused;
+using shapes::pot_of;
+using shapes::stack_of;
+
+TEST(ExportFallen, PotsAreUnited) {
+  Pot pot = pot_of(shapes::vase(100));
+  pot.collapse = Collapse{30, {50, 70, 0}, {0, 0, 1}, 1.0, 12.0};
+  ExportOptions options;
+  options.tolerance_mm = 0.2;
+  std::vector<std::string> told;
+  const auto result = exported(pot, every_format(), options,
+                               [&](std::string_view stage) { told.emplace_back(stage); });
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(told.at(0), "parts");
+  EXPECT_EQ(told.at(1), "union");
+  const ExportReport& report = result->report;
+  ASSERT_TRUE(report.collapsed);
+  EXPECT_TRUE(report.collapsed->check.sound());
+  EXPECT_EQ(report.smoothing, Smoothing::fair);
+  EXPECT_EQ(report.planar.polygons, 2u);
+  EXPECT_EQ(report.shapes.at(1).first_ring, 31u);
+  EXPECT_DOUBLE_EQ(report.counted_volume_mm3, pot.stack.volume_mm3());
+  EXPECT_GT(report.collapsed->overlap_mm3, 0.01 * report.counted_volume_mm3);
+  EXPECT_NEAR((report.volume_mm3 + report.collapsed->overlap_mm3 - report.collapsed->pockets_mm3) /
+                  report.counted_volume_mm3,
+              1.0, 1e-6);
+  EXPECT_LT(report.volume_error_relative, 1e-6);
+  for (const LeftOut& item : report.left_out) EXPECT_NE(item.what, "union");
+  for (std::size_t i = 0; i < result->files.size(); ++i) {
+    EXPECT_EQ(report.files[i].proof, Proof::exact_test);
+    EXPECT_FALSE(report.files[i].certificate);
+    const auto decoded = decode_mesh(result->files[i], report.files[i].format, "file");
+    ASSERT_TRUE(decoded) << decoded.error().message;
+    EXPECT_TRUE(check_mesh(*decoded).sound());
+    EXPECT_EQ(decoded->triangles.size(), report.triangles);
+  }
+}
+
+TEST(ExportFallen, PiecesOnlyWhenAllowed) {
+  for (const std::size_t failed : {std::size_t{1}, std::size_t{3}}) {
+    Pot pot = pot_of(stack_of(2.0, {{10, 0}, {10, 0}, {10, 0}, {10, 0}, {30, 0}}));
+    std::vector<Ring> rings(pot.stack.rings().begin(), pot.stack.rings().end());
+    rings[failed == 1 ? 3 : 2] = {quanta_from_radius(30), quanta_from_radius(20)};
+    pot.stack = ClayStack::from_rings(2.0, rings, 0).value();
+    pot.collapse = Collapse{failed, {50, 4, 0}, {0, 0, 1}, 1.0, 12.0};
+    EXPECT_TRUE(refused(exported(pot, {}, {}), ErrorKind::unsound, "that do not touch")) << failed;
+    ExportOptions options;
+    options.allow_pieces = true;
+    const auto result = exported(pot, {}, options);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_TRUE(result->report.collapsed->check.sound());
+  }
+}
+
+}  // namespace
+}  // namespace clay::solid

@@ -1,0 +1,142 @@
+#include "claystack/export/formats.hpp"
+#include "tests/export/solid/mesh_generators.hpp"
+#include "tests/fuzz/sample_meshes.hpp"
+
+#include <draco/compression/encode.h>
+#include <draco/compression/expert_encode.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+
+namespace clay::solid {
+namespace {
+
+using samples::largest_move;
+using samples::tetrahedron;
+using samples::torus;
+
+std::string message_of(const Result<TriangleMesh>& mesh) {
+  return mesh ? "no error" : mesh.error().message;
+}
+
+bool in_range(const TriangleMesh& mesh) {
+  return std::ranges::all_of(mesh.triangles, [&](const auto& triangle) {
+    return std::ranges::max(triangle) < mesh.points.size();
+  });
+}
+
+TEST(ReadDrc, RefusesEveryTruncation) {
+  const std::string whole = encode_drc(torus(6, 5), {}).value();
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    const std::string message =
+        message_of(decode_drc(std::string_view(whole).substr(0, size), "pot.drc"));
+    EXPECT_EQ(message.rfind("pot.drc: ", 0), 0u) << "cut at " << size << ": " << message;
+    EXPECT_GT(message.size(), std::string_view("pot.drc: Draco: ").size());
+  }
+  EXPECT_EQ(message_of(decode_drc(whole + "xy", "pot.drc")),
+            "pot.drc: expected the end of the file after the mesh, found 2 bytes more");
+}
+
+TEST(ReadDrc, NamesWhatIsWrongInTheHeader) {
+  const std::string good = encode_drc(tetrahedron(), {}).value();
+  const auto with = [&](std::size_t at, int value) {
+    std::string bytes = good;
+    bytes[at] = static_cast<char>(value);
+    return message_of(decode_drc(bytes, "pot.drc"));
+  };
+  EXPECT_EQ(with(0, 'd'), "pot.drc: expected a Draco file, which begins with DRACO");
+  EXPECT_EQ(with(5, 1), "pot.drc: expected Draco version 2.2, found 1.2");
+  EXPECT_EQ(with(6, 255), "pot.drc: expected Draco version 2.2, found 2.255");
+  EXPECT_EQ(with(7, 0), "pot.drc: expected a triangle mesh, found Draco geometry 0");
+  EXPECT_EQ(with(8, 2), "pot.drc: expected Draco mesh method 0 or 1, found 2");
+  EXPECT_EQ(message_of(decode_drc("DRACO\2\2", "pot.drc")), "pot.drc: the Draco header ends early");
+}
+
+/// A mesh such as Draco itself makes it, with what the test asks for.
+struct DracoFile {
+  int components = 3;
+  draco::DataType type = draco::DT_FLOAT32;
+  draco::GeometryAttribute::Type meaning = draco::GeometryAttribute::POSITION;
+  int method = draco::MESH_SEQUENTIAL_ENCODING;
+  float height = 10.0F;
+
+  [[nodiscard]] std::string encode() const {
+    draco::Mesh mesh;
+    mesh.set_num_points(4);
+    draco::GeometryAttribute layout;
+    layout.Init(meaning, nullptr, static_cast<std::uint8_t>(components), type, false,
+                4 * components, 0);
+    const int id = mesh.AddAttribute(layout, true, 4);
+    const float corners[4][4] = {{0, 0, 0, 0}, {10, 0, 0, 0}, {0, 10, 0, 0}, {0, 0, height, 0}};
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), corners[i]);
+    }
+    for (const auto& [a, b, c] : tetrahedron().triangles) {
+      mesh.AddFace({draco::PointIndex(a), draco::PointIndex(b), draco::PointIndex(c)});
+    }
+    draco::ExpertEncoder encoder(mesh);
+    encoder.SetEncodingMethod(method);
+    draco::EncoderBuffer buffer;
+    EXPECT_TRUE(encoder.EncodeToBuffer(&buffer).ok());
+    return {buffer.data(), buffer.size()};
+  }
+};
+
+TEST(ReadDrc, ReadsWhatOthersWrite) {
+  EXPECT_EQ(decode_drc(DracoFile{}.encode(), "x").value(), tetrahedron());
+  const auto edgebreaker = DracoFile{.method = draco::MESH_EDGEBREAKER_ENCODING}.encode();
+  EXPECT_EQ(largest_move(decode_drc(edgebreaker, "x").value(), tetrahedron()), 0.0);
+}
+
+TEST(ReadDrc, RefusesMeshesWithoutUsablePositions) {
+  const auto message = [](const DracoFile& file) {
+    return message_of(decode_drc(file.encode(), "pot.drc"));
+  };
+  EXPECT_EQ(message({.components = 4}), "pot.drc: expected positions of 3 float32");
+  EXPECT_EQ(message({.type = draco::DT_INT32}), "pot.drc: expected positions of 3 float32");
+  EXPECT_EQ(message({.meaning = draco::GeometryAttribute::NORMAL}),
+            "pot.drc: expected a position attribute, found none");
+  EXPECT_EQ(message({.height = 2e6F}),
+            "pot.drc: position 4: expected a coordinate within +-1e6 mm, found 2e+06");
+  EXPECT_EQ(message({.height = std::nanf("")}),
+            "pot.drc: position 4: expected a coordinate within +-1e6 mm, found nan");
+}
+
+/// Draco 1.5 hands out what a sequential mesh states, in range or not.
+TEST(ReadDrc, FlippedBytesNeverPassAnIndexOutOfRange) {
+  bool named = false;
+  for (const std::string& good : {DracoFile{}.encode(), encode_drc(torus(5, 4), {}).value()}) {
+    for (std::size_t at = 0; at < good.size(); ++at) {
+      for (int bit = 0; bit < 8; ++bit) {
+        std::string bytes = good;
+        bytes[at] = static_cast<char>(bytes[at] ^ (1 << bit));
+        const auto mesh = decode_drc(bytes, "pot.drc");
+        if (mesh) {
+          EXPECT_TRUE(in_range(*mesh)) << "bit " << bit << " of byte " << at;
+        } else {
+          named |= mesh.error().message.find("expected one of 4 points") != std::string::npos;
+        }
+      }
+    }
+  }
+  EXPECT_TRUE(named);
+}
+
+TEST(ReadDrc, RefusesPointClouds) {
+  draco::PointCloud cloud;
+  cloud.set_num_points(4);
+  draco::GeometryAttribute layout;
+  layout.Init(draco::GeometryAttribute::POSITION, nullptr, 3, draco::DT_FLOAT32, false, 12, 0);
+  cloud.AddAttribute(layout, true, 4);
+  draco::Encoder encoder;
+  draco::EncoderBuffer buffer;
+  ASSERT_TRUE(encoder.EncodePointCloudToBuffer(cloud, &buffer).ok());
+  EXPECT_EQ(message_of(decode_drc({buffer.data(), buffer.size()}, "pot.drc")),
+            "pot.drc: expected a triangle mesh, found Draco geometry 0");
+}
+
+}  // namespace
+}  // namespace clay::solid

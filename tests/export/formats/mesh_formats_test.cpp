@@ -1,0 +1,84 @@
+#include "claystack/export/formats.hpp"
+#include "export/formats/mesh_limits.hpp"
+#include "tests/export/solid/mesh_generators.hpp"
+#include "tests/fuzz/sample_meshes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sys/mman.h>
+#include <cstring>
+#include <stdexcept>
+
+namespace clay::solid {
+namespace {
+
+using samples::corners_of;
+using samples::torus;
+
+/// Pages of zeros that take no memory until they are written.
+class HugeFile {
+ public:
+  explicit HugeFile(std::size_t size)
+      : size_(size),
+        data_(mmap(nullptr, size, PROT_READ | PROT_WRITE,
+                   MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0)) {}
+  HugeFile(const HugeFile&) = delete;
+  HugeFile& operator=(const HugeFile&) = delete;
+  ~HugeFile() { munmap(data_, size_); }
+  [[nodiscard]] char* data() const { return static_cast<char*>(data_); }
+  [[nodiscard]] std::string_view bytes() const { return {data(), size_}; }
+
+ private:
+  std::size_t size_;
+  void* data_;
+};
+
+TEST(MeshFormats, RefuseTooMuchBeforeTheyAllocate) {
+  const HugeFile facets(84 + std::size_t{50} * 20'000'001);
+  const std::uint32_t count = 20'000'001;
+  std::memcpy(facets.data() + 80, &count, sizeof count);
+  EXPECT_EQ(decode_stl(facets.bytes(), "big").error().message,
+            "big: expected 1 to 20000000 triangles, found 20000001");
+  const HugeFile bytes((std::size_t{1} << 30) + 1);
+  for (const auto decode : {decode_stl, decode_obj}) {
+    EXPECT_EQ(decode(bytes.bytes(), "big").error().message,
+              "big: expected at most 1073741824 bytes, found 1073741825");
+  }
+}
+
+TEST(MeshFormats, ExceptionsBecomeErrors) {
+  const auto starved = [](const std::string& what) -> Result<TriangleMesh> {
+    throw std::length_error(what);
+  };
+  EXPECT_EQ(guarded("pot.stl", [&] { return starved("too long"); }).error().message,
+            "pot.stl: cannot be read: too long");
+}
+
+TEST(MeshFormats, GoByTheEndOfTheName) {
+  EXPECT_EQ(mesh_format_of("a/b.stl").value(), MeshFormat::stl_binary);
+  EXPECT_EQ(mesh_format_of("pot.v2.OBJ").value(), MeshFormat::obj);
+  EXPECT_EQ(mesh_format_of(".drc").value(), MeshFormat::drc);
+  for (const char* other : {"pot", "pot.step", "pot.stl.gz", "stl", ""}) {
+    EXPECT_EQ(mesh_format_of(other).error().message,
+              std::string(other) + ": expected a name that ends in .stl, .obj or .drc");
+  }
+}
+
+TEST(MeshFormats, DecodeMeshGoesByTheFormat) {
+  const auto as_float = rounded_to_float(torus(6, 5));
+  EXPECT_EQ(decode_mesh(encode_obj(as_float, "o"), MeshFormat::obj, "x").value(), as_float);
+  for (const auto format : {MeshFormat::stl_binary, MeshFormat::stl_ascii}) {
+    EXPECT_TRUE(name_of(format).starts_with("stl_"));
+    EXPECT_EQ(corners_of(decode_mesh(encode_stl_ascii(as_float, "s"), format, "x").value()),
+              corners_of(as_float));
+  }
+}
+
+TEST(MeshFormats, RoundedToFloatHasNoNegativeZero) {
+  const auto rounded = rounded_to_float({{{-0.0, 0.1, -1e-60}}, {}});
+  EXPECT_EQ(rounded.points[0], glm::dvec3(0.0, double{0.1F}, 0.0));
+  EXPECT_FALSE(samples::has_negative_zero(rounded));
+}
+
+}  // namespace
+}  // namespace clay::solid

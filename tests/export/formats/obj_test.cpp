@@ -1,0 +1,177 @@
+#include "claystack/export/formats.hpp"
+#include "tests/export/solid/mesh_generators.hpp"
+#include "tests/fuzz/sample_meshes.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+
+namespace clay::solid {
+namespace {
+
+using samples::tetrahedron;
+
+const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+const std::vector<glm::dvec3> kSquarePoints = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+std::string message_of(const std::string& text) {
+  const auto mesh = decode_obj(text, "pot.obj");
+  return mesh ? "no error" : mesh.error().message;
+}
+
+Triangles triangles_of(const std::string& text) {
+  const auto mesh = decode_obj(text, "pot.obj");
+  EXPECT_TRUE(mesh.has_value()) << mesh.error().message << "\n" << text;
+  return mesh ? mesh->triangles : Triangles{};
+}
+
+// ---- what we write
+
+RC_GTEST_PROP(Obj, KeepsEveryBitAndIndex, ()) {
+  const TriangleMesh mesh = *samples::any_mesh();
+  const auto read = decode_obj(encode_obj(mesh, "any"), "x").value();
+  RC_ASSERT(read == rounded_to_float(mesh));
+  RC_ASSERT(!samples::has_negative_zero(read));
+}
+
+TEST(Obj, TextIsTheShortestThatReadsBack) {
+  const TriangleMesh mesh{{{0.1, -0.0, 1e-30}, {16777216, 0, 0}, {0, 1.0 / 3.0, 0}}, {{2, 1, 0}}};
+  EXPECT_EQ(encode_obj(mesh, "my pot\nf 9 9 9\\"),
+            "# claystack: units mm\no my pot_f 9 9 9_\nv 0.1 0 1e-30\nv 16777216 0 0\n"
+            "v 0 0.33333334 0\nf 3 2 1\n");
+}
+
+TEST(Obj, OverlongNameStillReads) {
+  const std::string text = encode_obj(tetrahedron(), std::string(100'000, 'n'));
+  EXPECT_EQ(decode_obj(text, "x").value(), tetrahedron());
+}
+
+// ---- what we read
+
+TEST(Obj, EveryKindOfCorner) {
+  const std::string rest = "vt 0 0\nvt 0.5\nvt 1 1 1\nvn 0 0 1\n";
+  for (const char* face :
+       {"f 1 2 3\n", "f 1/1 2/2 3/3\n", "f 1//1 2//1 3//1\n", "f 1/1/1 2/2/1 3/3/1\n",
+        "f -4 -3 -2\n", "f -4/-3/-1 -3/-2/-1 3/-1/1\n", "f +1 2 3 \t\r\n"}) {
+    EXPECT_EQ(triangles_of(kSquare + rest + face), (Triangles{{0, 1, 2}})) << face;
+  }
+}
+
+TEST(Obj, PointsMayCarryWeightOrColour) {
+  const auto mesh =
+      decode_obj("v 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv +1 1e-50 0\nf 1 2 3\n", "x").value();
+  EXPECT_EQ(mesh.points, (std::vector<glm::dvec3>{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}}));
+}
+
+TEST(Obj, PolygonsBecomeFans) {
+  EXPECT_EQ(triangles_of(kSquare + "f 1 2 3 4\n"), (Triangles{{0, 1, 2}, {0, 2, 3}}));
+}
+
+TEST(Obj, NegativeNumbersCountFromTheLatestVertex) {
+  const std::string text = kSquare + "f -4 -3 -2\nv 0 0 1\nf -5 -1 1\n";
+  EXPECT_EQ(triangles_of(text), (Triangles{{0, 1, 2}, {0, 4, 0}}));
+}
+
+TEST(Obj, FacesMayComeBeforeTheirVertices) {
+  EXPECT_EQ(triangles_of("f 1 2 3/1\n" + kSquare + "vt 0\n"), (Triangles{{0, 1, 2}}));
+}
+
+TEST(Obj, PassesOverWhatIsNoSurface) {
+  const std::string names = "#\no pot\ng a b \\\n c\ns off\nmtllib /dev/zero\nusemtl clay\n";
+  const std::string text = names + kSquare + "l 1 2\np 1\n\n   \nf 1 2 3\n#end";
+  EXPECT_EQ(triangles_of(text), (Triangles{{0, 1, 2}}));
+}
+
+TEST(Obj, CommentsSwallowNoLineBelow) {
+  EXPECT_EQ(triangles_of("# C:\\pots\\\n" + kSquare + "f 2 3 4\n"), (Triangles{{1, 2, 3}}));
+}
+
+TEST(Obj, BackslashContinuesALine) {
+  EXPECT_EQ(triangles_of(kSquare + "f 1 2\\\n 3 \\\r\n4\n"), (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(message_of(kSquare + "f 1 \\\n2 \\\n0\n"),
+            "pot.obj:7: expected the number of one of 4 v, found 0");
+}
+
+TEST(Obj, KeepsPointsThatCoincide) {
+  const std::string text = "v 0 0 0\nv 0 0 0\nv 1 0 0\nf 1 2 3\nf 1 1 3\n";
+  EXPECT_EQ(triangles_of(text), (Triangles{{0, 1, 2}, {0, 0, 2}}));
+}
+
+struct BadText {
+  std::string text;
+  std::string says;
+};
+
+TEST(Obj, NamesTheLineOfEveryDefect) {
+  std::string corners = "f";
+  for (int i = 0; i < 4097; ++i) corners += " 1";
+  for (const BadText& bad : std::vector<BadText>{
+           {"", "pot.obj: expected 1 to 20000000 triangles, found 0"},
+           {kSquare, "pot.obj: expected 1 to 20000000 triangles, found 0"},
+           {kSquare + "f 1 2 0\n", "pot.obj:5: expected the number of one of 4 v, found 0"},
+           {kSquare + "f 1 2 5\n", "pot.obj:5: expected the number of one of 4 v, found 5"},
+           {kSquare + "f 1 2 3\nf 1 2 -5\n",
+            "pot.obj:6: expected the number of one of 4 v, found -5"},
+           {"v 0 0 0\nf -1 -2 -3\nv 0 0 0\nv 0 0 0\n",
+            "pot.obj:2: expected the number of one of 1 v, found -2"},
+           {kSquare + "f 1 2 99999999999\n",
+            "pot.obj:5: expected the number of one of 4 v, found 99999999999"},
+           {kSquare + "f 1 2 99999999999999999999\n", "pot.obj:5: expected a whole number"},
+           {kSquare + "f 1 2 -9223372036854775808\n",
+            "pot.obj:5: expected the number of one of 4 v"},
+           {kSquare + "f 1/1 2/1 3/1\n", "pot.obj:5: expected the number of one of 0 vt, found 1"},
+           {kSquare + "f 1//1 2//1 3//1\n",
+            "pot.obj:5: expected the number of one of 0 vn, found 1"},
+           {kSquare + "vt 0\nf 1/0 2/1 3/1\n",
+            "pot.obj:6: expected the number of one of 1 vt, found 0"},
+           {kSquare + "vn 0 0 1\nf 1//2 2//1 3//1\n",
+            "pot.obj:6: expected the number of one of 1 vn, found 2"},
+           {kSquare + "f 1 2\n", "pot.obj:5: expected a face of at least 3 corners, found 2"},
+           {kSquare + "f\n", "pot.obj:5: expected a face of at least 3 corners, found 0"},
+           {kSquare + "f /1 /2 /3\n", "pot.obj:5: expected a whole number"},
+           {kSquare + "f 1/ 2/ 3/\n", "pot.obj:5: expected a whole number"},
+           {kSquare + "f 1// 2// 3//\n", "pot.obj:5: expected a whole number"},
+           {kSquare + "vt 0\nf 1/1/ 2/1/ 3/1/\n", "pot.obj:6: expected a whole number"},
+           {kSquare + "vt 0\nvn 0 0 1\nf 1/1/1/1 2 3\n",
+            "pot.obj:7: expected a whole number, found '1/1'"},
+           {kSquare + "f 1.5 2 3\n", "pot.obj:5: expected a whole number, found '1.5'"},
+           {kSquare + corners + "\n", "pot.obj:5: expected a face of at most 4096 corners"},
+           {"v 0 0\n",
+            "pot.obj:1: expected a coordinate within +-1e6 mm, found the end of the line or file"},
+           {"v 0 0 x\n", "pot.obj:1: expected a coordinate within +-1e6 mm, found 'x'"},
+           {"v 0 0 nan\n", "pot.obj:1: expected a coordinate"},
+           {"v 0 0 1e7\n", "pot.obj:1: expected a coordinate"},
+           {"v 0 0 0 0 0\n", "pot.obj:1: expected v with 3, 4 or 6 numbers, found 5"},
+           {"v 0 0 0 0 0 0 0\n", "pot.obj:1: expected the end of the line, found '0'"},
+           {"v 0 0 0 inf\n", "pot.obj:1: expected a finite number, found 'inf'"},
+           {"vt\n", "pot.obj:1: expected a number, found the end of the line or file"},
+           {"vt nan\n", "pot.obj:1: expected a finite number, found 'nan'"},
+           {"vt 0 0 0 0\n", "pot.obj:1: expected the end of the line, found '0'"},
+           {"vn 0 0\n", "pot.obj:1: expected a number, found the end of the line or file"},
+           {"curv 0 1\n", "pot.obj:1: expected a statement of a polygon mesh, found 'curv'"},
+           {"V 0 0 0\n", "pot.obj:1: expected a statement of a polygon mesh, found 'V'"},
+           {kSquare + "f 1 2 3\\", "pot.obj:5: expected a whole number"},
+           {kSquare + std::string("f 1 2\0 3\n", 9), "pot.obj:5: expected text, found a NUL byte"},
+           {std::string("#\n#").append(70'000, 'x'),
+            "pot.obj:2: expected a line of at most 64 KiB"},
+       }) {
+    EXPECT_EQ(message_of(bad.text).rfind(bad.says, 0), 0u)
+        << "wanted: " << bad.says << "\nfound:  " << message_of(bad.text);
+  }
+}
+
+TEST(Obj, PassesOverAByteOrderMark) {
+  EXPECT_EQ(triangles_of("\xEF\xBB\xBF" + kSquare + "f 1 2 3\n"),
+            triangles_of(kSquare + "f 1 2 3\n"));
+}
+
+TEST(Obj, TakesAFaceOf4096Corners) {
+  std::string face = "f";
+  for (int i = 0; i < 4096; ++i) face.append(" ").append(std::to_string(1 + i % 4));
+  EXPECT_EQ(triangles_of(kSquare + face).size(), 4094u);
+}
+
+}  // namespace
+}  // namespace clay::solid

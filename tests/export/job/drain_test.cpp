@@ -1,0 +1,46 @@
+#include "export/job/drain.hpp"
+
+#include "claystack/export/section.hpp"
+#include "tests/export/solid/shapes.hpp"
+
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace clay::solid {
+namespace {
+
+using shapes::stack_of;
+
+TEST(Drain, OpensEveryCavityDownward) {
+  // Solid foot, cavity, floor, cavity, lid: 2 mm rings.
+  const ClayStack stack = stack_of(2.0, {{30, 0}, {30, 0}, {30, 20}, {30, 0}, {30, 20}, {30, 0}});
+  const auto drained = drain(stack, 8.0);
+  ASSERT_TRUE(drained) << drained.error().message;
+  const StackProfile section = profile_of(drained->stack).value();
+  EXPECT_TRUE(section.shapes[0].cavities.empty());
+  EXPECT_EQ(section.shapes[0].topology, Topology::cup);
+  // Three rings were solid below the upper cavity: three discs of 8 mm.
+  EXPECT_NEAR(drained->drilled_mm3, 3 * 2.0 * std::numbers::pi * 16.0, 1e-6);
+  EXPECT_EQ(drained->stack.rings()[5].inner2, 0);  // the lid stays
+  EXPECT_EQ(drained->stack.rings()[2], stack.rings()[2]);
+}
+
+TEST(Drain, ABoreFromBelowIsKept) {
+  const ClayStack stack = stack_of(2.0, {{30, 25}, {30, 0}, {30, 20}, {30, 0}});
+  const auto drained = drain(stack, 6.0);
+  ASSERT_TRUE(drained);
+  EXPECT_EQ(drained->stack.rings()[0], stack.rings()[0]);
+  EXPECT_NEAR(drained->stack.rings()[1].inner_mm(), 3.0, 1e-9);
+}
+
+TEST(Drain, RefusesWhatItCannotDo) {
+  const auto nothing = drain(stack_of(2.0, {{30, 0}, {30, 20}}), 5.0);
+  ASSERT_FALSE(nothing);
+  EXPECT_NE(nothing.error().message.find("closed cavity, found none"), std::string::npos);
+  const auto wide = drain(stack_of(2.0, {{30, 0}, {9, 0}, {30, 8}, {30, 0}}), 18.0);
+  ASSERT_FALSE(wide);
+  EXPECT_NE(wide.error().message.find("ring 1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace clay::solid

@@ -1,0 +1,230 @@
+#include "claystack/export/job.hpp"
+
+#include "claystack/engine/tick.hpp"
+#include "tests/export/formats/refused.hpp"
+#include "tests/export/job/exported.hpp"
+#include "tests/export/solid/shapes.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace clay::solid {
+namespace {
+
+using samples::every_format;
+using samples::exported;
+using samples::Exported;
+using samples::refused;
+using shapes::pot_of;
+using shapes::stack_of;
+
+TEST(RunExport, VaseInEveryFormat) {
+  const Pot pot = pot_of(shapes::vase(200));
+  const auto result = exported(pot, every_format(), {});
+  ASSERT_TRUE(result) << result.error().message;
+  const ExportReport& report = result->report;
+  EXPECT_EQ(report.shells, 1u);
+  EXPECT_EQ(report.planar.polygons, 1u);
+  EXPECT_EQ(report.shapes.at(0).topology, Topology::cup);
+  EXPECT_LE(report.chordal_error_mm, 0.02);
+  EXPECT_DOUBLE_EQ(report.counted_volume_mm3, pot.stack.volume_mm3());
+  EXPECT_LT(report.volume_error_relative, 1e-9);
+  ASSERT_EQ(report.files.size(), every_format().size());
+  for (std::size_t i = 0; i < report.files.size(); ++i) {
+    const FileReport& file = report.files[i];
+    EXPECT_EQ(file.format, every_format()[i]);
+    EXPECT_TRUE(file.read_again);
+    EXPECT_EQ(file.proof, Proof::margins);
+    EXPECT_EQ(file.bytes, result->files[i].size());
+    const auto decoded = decode_mesh(result->files[i], file.format, "file");
+    ASSERT_TRUE(decoded) << decoded.error().message;
+    EXPECT_EQ(decoded->triangles.size(), report.triangles);
+    const MeshReport check = check_mesh(*decoded);
+    EXPECT_TRUE(check.sound());
+    EXPECT_NEAR(check.volume_mm3, report.volume_mm3, file.certificate->volume_bound_mm3);
+    EXPECT_LE(file.max_error_mm, file.format == MeshFormat::drc ? 0.0201 : 4e-5);
+    EXPECT_GT(file.max_error_mm, 0.0);
+  }
+}
+
+TEST(RunExport, TellsItsStagesInOrder) {
+  std::vector<std::string> told;
+  const auto result = exported(pot_of(shapes::vase(100)), {MeshFormat::obj}, {},
+                               [&](std::string_view stage) { told.emplace_back(stage); });
+  ASSERT_TRUE(result);
+  EXPECT_EQ(told,
+            (std::vector<std::string>{"profile", "smooth", "certificate", "claims", "wall",
+                                      "tessellate", "encode_obj", "store_obj", "verify_obj"}));
+  ASSERT_EQ(result->report.stages.size(), told.size());
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    EXPECT_EQ(result->report.stages[i].name, told[i]);
+    EXPECT_GE(result->report.stages[i].seconds, 0.0);
+  }
+}
+
+TEST(RunExport, TellsWhatItLeftOut) {
+  ExportOptions options;
+  options.smoothing = Smoothing::none;
+  const auto result = exported(pot_of(stack_of(5.0, {{20, 0}})), {MeshFormat::stl_binary}, options);
+  ASSERT_TRUE(result);
+  std::vector<std::string> out;
+  for (const LeftOut& item : result->report.left_out) out.push_back(item.what);
+  EXPECT_EQ(out, (std::vector<std::string>{"inner shell", "smoothing", "union", "budget",
+                                           "mesh in memory", "full verification", "stl_ascii",
+                                           "obj", "drc"}));
+  const auto hollow = exported(pot_of(shapes::vase(100)), {}, {});
+  EXPECT_EQ(hollow->report.smoothing, Smoothing::fair);
+  EXPECT_EQ(hollow->report.left_out.front().what, "union");
+}
+
+TEST(RunExport, SegmentsFollowTheToleranceUnlessForced) {
+  const Pot pot = pot_of(shapes::vase(100));
+  ExportOptions options;
+  options.tolerance_mm = 0.5;
+  const auto coarse = exported(pot, {}, options);
+  options.tolerance_mm = 0.005;
+  const auto fine = exported(pot, {}, options);
+  EXPECT_GT(fine->report.segments, 5 * coarse->report.segments);
+  EXPECT_LE(fine->report.chordal_error_mm, 0.005);
+  options.segments = 9;
+  EXPECT_EQ(exported(pot, {}, options)->report.segments, 9u);
+}
+
+TEST(RunExport, RefusesOptionsThatCannotBeMet) {
+  const Pot pot = pot_of(shapes::vase(100));
+  ExportOptions options;
+  for (const double tolerance : {0.0, -1.0, std::nan("")}) {
+    options.tolerance_mm = tolerance;
+    EXPECT_TRUE(refused(exported(pot, {}, options), ErrorKind::bad_input, "tolerance"));
+  }
+  options.tolerance_mm = 1e-9;
+  EXPECT_TRUE(
+      refused(exported(pot, {}, options), ErrorKind::bad_input, "tolerance: expected at least"));
+  options = {};
+  for (const std::size_t segments : {std::size_t{0}, std::size_t{2}, (std::size_t{1} << 20) + 1}) {
+    options.segments = segments;
+    EXPECT_TRUE(refused(exported(pot, {}, options), ErrorKind::bad_input, "segments: expected 3"));
+  }
+  options.segments = std::size_t{1} << 20;
+  EXPECT_TRUE(refused(exported(pot, {}, options), ErrorKind::bad_input, "triangles"));
+}
+
+TEST(RunExport, ThinWallsAreSmoothedNoThinner) {
+  // A bulge of 3.9 mm outside may be left out, one of 4.1 mm inside may not: they would cross.
+  std::vector<shapes::Radii> radii;
+  for (int i = 0; i <= 400; ++i) {
+    const double bulge = 1.0 - std::abs(i - 200) / 200.0;
+    radii.push_back({40.0 + 3.9 * bulge, 39.7 + 4.1 * bulge});
+  }
+  const ClayStack stack = stack_of(0.5, radii);
+  ExportOptions options;
+  options.tolerance_mm = 8.0;
+  const auto result = exported(pot_of(stack), {}, options);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->report.smoothing, Smoothing::fair);
+  const double facets = std::cos(std::numbers::pi / static_cast<double>(result->report.segments));
+  EXPECT_GE(result->report.min_wall_mm, min_wall(stack).thickness_mm * facets * (1.0 - 1e-9));
+}
+
+TEST(RunExport, WallIsThatOfTheFacets) {
+  ExportOptions options;
+  options.segments = 12;
+  const auto result = exported(pot_of(stack_of(30.0, {{40, 0}, {40, 35}})), {}, options);
+  // A dodecagon of the area of the unit circle has this radius.
+  const double factor = std::sqrt(std::numbers::pi / (6.0 * std::sin(std::numbers::pi / 6)));
+  EXPECT_NEAR(result->report.min_wall_mm, 5.0 * factor * std::cos(std::numbers::pi / 12), 1e-9);
+}
+
+TEST(RunExport, PiecesOnlyWhenAllowed) {
+  const Pot pot = pot_of(stack_of(2.0, {{10, 0}, {10, 0}, {30, 20}}));
+  EXPECT_TRUE(refused(exported(pot, {}, {}), ErrorKind::unsound, "rings 1 and 2"));
+  ExportOptions options;
+  options.allow_pieces = true;
+  const auto result = exported(pot, every_format(), options);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->report.shells, 2u);
+}
+
+TEST(RunExport, WallsLostInFloat32AreRefusedWithThePlace) {
+  // Half an ulp of float32 at 73 mm is 3.8e-6 mm; the doubles still tell the radii apart.
+  const Pot pot = pot_of(stack_of(5.0, {{73.0, 73.0 - 1e-6}}));
+  ASSERT_TRUE(certify(profile_of(pot.stack)->profile));
+  EXPECT_TRUE(refused(exported(pot, {MeshFormat::stl_binary}, {}), ErrorKind::unsound,
+                      "in float32: found"));
+}
+
+TEST(RunExport, StepsBelowFloat32AreLevelledAndKeepTheVolume) {
+  // A tool's reach fades out: neighbouring rings differ by a few quanta, as in every real session.
+  const Quanta outer2 = quanta_from_radius(60.0), inner2 = quanta_from_radius(56.0);
+  std::vector<Ring> rings;
+  for (Quanta i = 0; i < 40; ++i)
+    rings.push_back({outer2 + (Quanta{1} << i), i < 2 ? 0 : inner2 - (Quanta{1} << (i / 2))});
+  const Pot pot = pot_of(ClayStack::from_rings(1.0, rings, 0).value());
+  const auto result = exported(pot, every_format(), {});
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_LT(result->report.volume_error_relative, 1e-9);
+}
+
+TEST(RunExport, TouchingRingsAreRefused) {
+  EXPECT_TRUE(refused(exported(pot_of(stack_of(2.0, {{5, 0}, {9, 5}})), {}, {}), ErrorKind::unsound,
+                      "rings 0 and 1"));
+}
+
+#ifdef CLAYSTACK_DRACO
+TEST(RunExport, DracoGetsTheBitsThatThinWallsNeed) {
+  // No edge is shorter than the grid of 0.5 mm that would do for the tolerance, but the neck
+  // between the two rings is 0.01 mm wide.
+  ExportOptions options;
+  options.tolerance_mm = 0.5;
+  options.smoothing = Smoothing::none;
+  const auto result =
+      exported(pot_of(stack_of(9.0, {{40, 30}, {50, 39.99}})), {MeshFormat::drc}, options);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->report.files[0].proof, Proof::margins);
+  EXPECT_LT(result->report.files[0].max_error_mm, 0.01 / 8);
+  EXPECT_TRUE(check_mesh(*decode_mesh(result->files[0], MeshFormat::drc, "pot")).sound());
+}
+
+TEST(RunExport, WithoutMarginsDracoGetsBitsUntilTheExactTestPasses) {
+  // Seven segments have no margins; the neck asks for more than the 10 bits of the tolerance.
+  ExportOptions options;
+  options.tolerance_mm = 0.5;
+  options.segments = 7;
+  options.smoothing = Smoothing::none;
+  int attempts = 0;
+  const auto result =
+      exported(pot_of(stack_of(9.0, {{40, 30}, {50, 39.99}})), {MeshFormat::drc}, options,
+               [&](std::string_view stage) { attempts += stage == "encode_drc" ? 1 : 0; });
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_GT(attempts, 2);
+  EXPECT_EQ(result->report.files[0].proof, Proof::exact_test);
+  EXPECT_TRUE(check_mesh(*decode_mesh(result->files[0], MeshFormat::drc, "pot")).sound());
+}
+#endif
+
+RC_GTEST_PROP(RunExport, WhatIsWrittenIsSoundOrRefused, (const ClayStack& stack)) {
+  ExportOptions options;
+  options.smoothing = *rc::gen::element(Smoothing::none, Smoothing::fair);
+  options.tolerance_mm = 0.3;
+  options.allow_pieces = true;
+  const auto result = exported(pot_of(stack), every_format(), options);
+  if (!result) {
+    RC_ASSERT(result.error().kind == ErrorKind::unsound);
+    return;
+  }
+  RC_ASSERT(result->report.volume_error_relative * stack.volume_mm3() <=
+            shapes::volume_rounding(stack, 1e-6 * 20.0));
+  for (std::size_t i = 0; i < result->files.size(); ++i) {
+    const auto decoded = decode_mesh(result->files[i], every_format()[i], "pot");
+    RC_ASSERT(decoded.has_value());
+    RC_ASSERT(check_mesh(*decoded).sound());
+  }
+}
+
+}  // namespace
+}  // namespace clay::solid

@@ -1,0 +1,260 @@
+#include "claystack/export/repair.hpp"
+
+#include "claystack/export/check.hpp"
+#include "tests/export/solid/mesh_surface.hpp"
+#include "tests/export/solid/shapes.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace clay::solid {
+namespace {
+
+using shapes::ball;
+using shapes::cube;
+using shapes::inverted;
+using shapes::moved;
+using shapes::surface_mm2;
+using shapes::together;
+
+std::size_t times(const RepairedMesh& result, const std::string& what) {
+  for (const Repair& repair : result.repaired)
+    if (repair.what == what) return repair.count;
+  return 0;
+}
+
+std::string names(const RepairedMesh& result) {
+  std::string all;
+  for (const Repair& repair : result.repaired)
+    all += repair.what + " (" + std::to_string(repair.count) + "); ";
+  for (const MeshProblem& p : check_mesh(result.mesh).problems)
+    all += "REMAINS " + p.what + " " + p.where + "; ";
+  return all;
+}
+
+/// The mesh is sound again, holds that volume, and this is all that was done.
+void expect_mended(const TriangleMesh& broken, double volume_mm3, const std::vector<Repair>& as) {
+  ASSERT_FALSE(check_mesh(broken).sound());
+  const auto result = repair(broken);
+  ASSERT_TRUE(result) << result.error().message;
+  const MeshReport report = check_mesh(result->mesh);
+  EXPECT_TRUE(report.sound()) << names(*result);
+  EXPECT_NEAR(report.volume_mm3, volume_mm3, 1e-9 * std::abs(volume_mm3)) << names(*result);
+  EXPECT_EQ(result->repaired.size(), as.size()) << names(*result);
+  for (const Repair& expected : as)
+    EXPECT_EQ(times(*result, expected.what), expected.count)
+        << expected.what << ": " << names(*result);
+}
+
+constexpr double kCrack = 4.0 * std::numeric_limits<float>::epsilon();
+
+double reach_of(const TriangleMesh& mesh) {
+  double reach = 0.0;
+  for (const glm::dvec3& p : mesh.points)
+    reach = std::max({reach, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return reach;
+}
+
+TEST(Repair, LeavesASoundMeshAsItIs) {
+  TriangleMesh mesh = together(ball(10.0), inverted(ball(5.0)));
+  mesh.points.push_back({50, 50, 50});
+  const auto result = repair(mesh);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->mesh, mesh);
+  EXPECT_TRUE(result->repaired.empty());
+}
+
+TEST(Repair, FillsAHole) {
+  TriangleMesh mesh = cube(2.0);
+  mesh.triangles.pop_back();
+  expect_mended(mesh, 8.0, {{"hole filled", 1}});
+}
+
+TEST(Repair, FillsTwoHolesOfManyEdges) {
+  // A tube of 400 sides without its two rings of ends.
+  TriangleMesh tube = revolve({{{{0, 0}, {30, 0}, {30, 50}, {0, 50}}}}, 400);
+  const double volume = signed_volume(tube);
+  std::erase_if(tube.triangles, [&](const auto& t) {
+    return tube.points[t[0]].z == tube.points[t[1]].z && tube.points[t[1]].z == tube.points[t[2]].z;
+  });
+  expect_mended(tube, volume, {{"hole filled", 2}});
+}
+
+TEST(Repair, TurnsAFlippedFace) {
+  for (const std::size_t victim : {0u, 3u}) {
+    TriangleMesh mesh = cube(2.0);
+    std::swap(mesh.triangles[victim][0], mesh.triangles[victim][1]);
+    expect_mended(mesh, 8.0, {{"triangle turned", 1}});
+  }
+}
+
+TEST(Repair, TurnsShells) {
+  expect_mended(inverted(cube(2.0)), 8.0, {{"shell turned", 1}});
+  const double outer = signed_volume(ball(10.0)), inner = signed_volume(ball(5.0));
+  expect_mended(together(ball(10.0), ball(5.0)), outer - inner, {{"shell turned", 1}});
+  expect_mended(inverted(together(ball(10.0), inverted(ball(5.0)))), outer - inner,
+                {{"shell turned", 2}});
+  expect_mended(together(cube(2.0), moved(inverted(cube(3.0)), {9, 0, 0})), 35.0,
+                {{"shell turned", 1}});
+}
+
+TEST(Repair, KeepsOneOfDuplicates) {
+  TriangleMesh mesh = cube(2.0);
+  mesh.triangles.push_back(mesh.triangles[4]);
+  expect_mended(mesh, 8.0, {{"duplicate triangle removed", 1}});
+  // Two one way, one the other: the many are right.
+  mesh.triangles.push_back({mesh.triangles[4][1], mesh.triangles[4][0], mesh.triangles[4][2]});
+  expect_mended(mesh, 8.0, {{"duplicate triangle removed", 2}});
+}
+
+TEST(Repair, FusesSolidsThatShareAFace) {
+  // Both have the square between them, back to back.
+  expect_mended(
+      together(cube(2.0), moved(cube(2.0), {0, 0, 2})), 16.0,
+      {{"points of one place merged", 4}, {"triangle back to back with another removed", 4}});
+}
+
+TEST(Repair, ClosesACrackOfOneUlp) {
+  TriangleMesh mesh = cube(2.0);
+  mesh.points.push_back(mesh.points[6]);
+  mesh.points.back().z = std::nextafter(2.0F, 3.0F);
+  for (const std::size_t t : {2u, 3u})
+    std::replace(mesh.triangles[t].begin(), mesh.triangles[t].end(), 6u, 8u);
+  expect_mended(mesh, 8.0, {{"points welded across a crack", 1}});
+}
+
+TEST(Repair, MergesPointsOfOnePlace) {
+  TriangleMesh soup;
+  for (const auto& t : cube(2.0).triangles) {
+    const auto first = static_cast<std::uint32_t>(soup.points.size());
+    for (const std::uint32_t v : t) soup.points.push_back(cube(2.0).points[v]);
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  expect_mended(soup, 8.0, {{"points of one place merged", 28}});
+}
+
+TEST(Repair, TakesFinsOff) {
+  TriangleMesh mesh = cube(2.0);
+  mesh.points.insert(mesh.points.end(), {{3, -3, 1}, {4, -4, 1}});
+  mesh.triangles.push_back({0, 1, 8});
+  expect_mended(mesh, 8.0, {{"triangle of a fin removed", 1}});
+  mesh.triangles.push_back({8, 1, 9});
+  expect_mended(mesh, 8.0, {{"triangle of a fin removed", 2}});
+  // A hole beside the fin does not make a fin of the cube.
+  mesh.triangles.erase(mesh.triangles.begin() + 9);
+  expect_mended(mesh, 8.0, {{"triangle of a fin removed", 2}, {"hole filled", 1}});
+}
+
+TEST(Repair, SplitsAVertexButLeavesTheSolidsTouching) {
+  TriangleMesh mesh = together(cube(2.0), moved(cube(2.0), {2, 2, 2}));
+  const auto result = repair(mesh);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(times(*result, "non-manifold vertex split"), 1u) << names(*result);
+  const MeshReport report = check_mesh(result->mesh);
+  EXPECT_TRUE(report.closed && report.manifold && report.oriented) << names(*result);
+  EXPECT_GT(report.self_intersections, 0u);
+  EXPECT_NEAR(report.volume_mm3, 16.0, 1e-12);
+}
+
+TEST(Repair, CutsAnEdgeWhereSolidsTouch) {
+  const auto result = repair(together(cube(2.0), moved(cube(2.0), {2, 2, 0})));
+  ASSERT_TRUE(result);
+  EXPECT_EQ(times(*result, "non-manifold edge cut apart"), 1u) << names(*result);
+  const MeshReport report = check_mesh(result->mesh);
+  EXPECT_TRUE(report.closed && report.manifold && report.oriented) << names(*result);
+  EXPECT_EQ(report.components, 2u);
+  EXPECT_NEAR(report.volume_mm3, 16.0, 1e-12);
+}
+
+TEST(Repair, RemovesASliver) {
+  TriangleMesh mesh = cube(2.0);
+  mesh.points.push_back({1, 0, 0});
+  std::erase(mesh.triangles, (std::array<std::uint32_t, 3>{0, 1, 5}));
+  mesh.triangles.insert(mesh.triangles.end(), {{0, 8, 5}, {8, 1, 5}, {0, 1, 8}});
+  expect_mended(mesh, 8.0, {{"triangle without area removed", 1}});
+}
+
+TEST(Repair, DropsWhatHasNoPlace) {
+  TriangleMesh mesh = cube(2.0);
+  mesh.points.push_back({std::numeric_limits<double>::quiet_NaN(), 0, 0});
+  mesh.triangles.push_back({0, 1, 8});
+  mesh.triangles.push_back({0, 1, 99});
+  expect_mended(mesh, 8.0, {{"triangle without a place removed", 2}});
+  mesh = cube(2.0);
+  mesh.points[6].x = std::numeric_limits<double>::infinity();
+  const auto lost_corner = repair(mesh);
+  ASSERT_TRUE(lost_corner);
+  EXPECT_TRUE(check_mesh(lost_corner->mesh).sound()) << names(*lost_corner);
+  EXPECT_EQ(times(*lost_corner, "hole filled"), 1u);
+}
+
+TEST(Repair, LeavesWhatCrosses) {
+  const TriangleMesh mesh = together(cube(2.0), moved(cube(2.0), {1, 1, 1}));
+  const auto result = repair(mesh);
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(result->repaired.empty()) << names(*result);
+  EXPECT_EQ(check_mesh(result->mesh).self_intersections, check_mesh(mesh).self_intersections);
+}
+
+TEST(Repair, SaysWhenNothingIsLeft) {
+  for (const TriangleMesh& mesh :
+       {TriangleMesh{}, TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 1}}},
+        TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}},
+        TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}}}) {
+    const auto result = repair(mesh);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().kind, ErrorKind::unsound);
+  }
+}
+
+RC_GTEST_PROP(Repair, OneTriangleLessOrTurnedIsAlwaysMended, (const ClayStack& stack)) {
+  const auto found = profile_of(stack);
+  if (!found || !certify(found->profile)) RC_DISCARD("no certificate");
+  const TriangleMesh mesh = revolve(found->profile, 5);
+  if (!check_mesh(mesh).sound()) RC_DISCARD("walls thinner than doubles tell");
+  const auto victim = *rc::gen::inRange<std::size_t>(0, mesh.triangles.size());
+  TriangleMesh broken = mesh;
+  if (*rc::gen::arbitrary<bool>())
+    broken.triangles.erase(broken.triangles.begin() + static_cast<std::ptrdiff_t>(victim));
+  else
+    std::swap(broken.triangles[victim][0], broken.triangles[victim][1]);
+  const auto result = repair(broken);
+  RC_ASSERT(result.has_value());
+  RC_LOG() << names(*result);
+  RC_ASSERT(check_mesh(result->mesh).sound());
+  // A hole beside a wall as thin as a crack may close the wall.
+  RC_ASSERT(std::abs(signed_volume(result->mesh) - signed_volume(mesh)) <=
+            1e-9 * signed_volume(mesh) + kCrack * reach_of(mesh) * surface_mm2(mesh));
+}
+
+RC_GTEST_PROP(Repair, AnySoupIsRepairedOrRefusedAndAlwaysTheSame, ()) {
+  TriangleMesh mesh;
+  const auto points = *rc::gen::inRange<std::uint32_t>(1, 14);
+  for (std::uint32_t i = 0; i < points; ++i)
+    mesh.points.emplace_back(*rc::gen::inRange(0, 3), *rc::gen::inRange(0, 3),
+                             *rc::gen::inRange(0, 3));
+  const auto count = *rc::gen::inRange(0, 40);
+  const auto index = rc::gen::inRange<std::uint32_t>(0, points + 1);
+  for (int i = 0; i < count; ++i) mesh.triangles.push_back({*index, *index, *index});
+  const auto once = repair(mesh), again = repair(mesh);
+  RC_ASSERT(once.has_value() == again.has_value());
+  if (!once) return;
+  RC_ASSERT(once->mesh == again->mesh);
+  const MeshReport report = check_mesh(once->mesh);
+  RC_LOG() << names(*once);
+  RC_ASSERT(report.manifold);
+  for (const MeshProblem& p : report.problems)
+    RC_ASSERT(p.what != "edge between faces of opposite orientation");
+  for (const auto& p : once->mesh.points)
+    RC_ASSERT(std::find(mesh.points.begin(), mesh.points.end(), p) != mesh.points.end());
+}
+
+}  // namespace
+}  // namespace clay::solid

@@ -1,0 +1,192 @@
+#include "claystack/export/smoothing.hpp"
+
+#include "claystack/export/proof.hpp"
+#include "tests/export/smoothing/smoothed_pieces.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <optional>
+
+namespace clay::solid {
+namespace {
+
+using oracles::Real;
+using shapes::options_for;
+using shapes::pieces_of_both;
+using shapes::Radii;
+using shapes::smooth;
+using shapes::stack_of;
+using shapes::swept;
+using shapes::treads;
+
+constexpr std::size_t kMostRings = 120;
+
+RC_GTEST_PROP(SmoothingPromises, KeepsTheClayOfEveryPiece, ()) {
+  const ClayStack stack = shapes::hard_stack(kMostRings);
+  RC_PRE(profile_of(stack).has_value());
+  const SmoothedProfile made = smooth(stack, shapes::any_options());
+  for (const auto& [first, last, levels, steps, walls] : pieces_of_both(stack, made)) {
+    WideQuanta clay = last + 1 == stack.size() ? stack.crown() : 0;
+    for (std::size_t i = first; i <= last; ++i) clay += stack.rings()[i].volume();
+    const Real counted = static_cast<Real>(clay) * 0x1p-36L * stack.ring_height_mm();
+    // Relative to what is turned, since a thin wall is a difference of large volumes.
+    RC_ASSERT(std::abs(swept(walls.outer) - swept(walls.bore) - counted) <
+              1e-12L * swept(steps.outer));
+  }
+}
+
+RC_GTEST_PROP(SmoothingPromises, ExactKeepsBothWallsOfEveryRing, ()) {
+  const ClayStack stack = shapes::hard_stack(kMostRings);
+  RC_PRE(profile_of(stack).has_value());
+  SmoothingOptions options = shapes::any_options();
+  options.mode = Smoothing::exact;
+  options.overshoot_limit_mm = *rc::gen::element(0.0, 0.1, 100.0);
+  const SmoothedProfile made = smooth(stack, options);
+  RC_ASSERT(made.max_ring_error_relative < 1e-12);
+  RC_ASSERT(made.overshoot_mm <= *options.overshoot_limit_mm || made.overshoot_mm < 1e-4);
+  for (const auto& [first, last, levels, steps, walls] : pieces_of_both(stack, made))
+    for (std::size_t i = first; i <= last; ++i) {
+      const Real low = levels[i - first], high = levels[i - first + 1];
+      Real height = stack.ring_height_mm();
+      if (i + 1 == stack.size()) height += stack.crown_height_mm();
+      const Ring& ring = stack.rings()[i];
+      const Real outer = static_cast<Real>(ring.outer2) * 0x1p-36L * height;
+      const Real bore = static_cast<Real>(ring.inner2) * 0x1p-36L * height;
+      RC_ASSERT(std::abs(oracles::swept_over_pi(walls.outer, low, high) - outer) <= 1e-12L * outer);
+      RC_ASSERT(std::abs(oracles::swept_over_pi(walls.bore, low, high) - bore) <= 1e-12L * bore);
+    }
+}
+
+RC_GTEST_PROP(SmoothingPromises, FairLeavesTheRadiiAboutARingByTheVolumeCorrectionOnly, ()) {
+  const ClayStack stack = shapes::hard_stack(kMostRings);
+  RC_PRE(profile_of(stack).has_value());
+  const SmoothingOptions options = options_for(Smoothing::fair, 1e-7);
+  const SmoothedProfile made = smooth(stack, options);
+  RC_ASSERT(made.overshoot_mm <= shapes::allowed_move_mm(stack, options));
+  const Real spare = made.overshoot_mm + 1e-4;  // 1e-7 across a shallow chord
+  for (const auto& [first, last, levels, steps, walls] : pieces_of_both(stack, made))
+    for (std::size_t i = 0; i <= last - first; ++i) {
+      const Real below = levels[i == 0 ? 0 : i - 1],
+                 above = levels[std::min(i + 2, last - first + 1)];
+      for (const auto& [own, smoothed] :
+           {std::pair{steps.outer, walls.outer}, std::pair{steps.bore, walls.bore}}) {
+        const auto [least, most] = oracles::radii(own, below, above);
+        const auto [found_least, found_most] = oracles::radii(smoothed, levels[i], levels[i + 1]);
+        RC_ASSERT(found_least >= least - spare);
+        RC_ASSERT(found_most <= most + spare);
+      }
+    }
+}
+
+/// Of the stretches of rings without a bore, the least height.
+Real least_floor(const ClayStack& stack, std::size_t first, std::size_t last,
+                 const std::vector<Real>& levels) {
+  Real least = 1e300L, bottom = levels.front();
+  for (std::size_t i = first; i <= last; ++i) {
+    if (stack.rings()[i].inner2 > 0)
+      bottom = levels[i - first + 1];
+    else if (i == last || stack.rings()[i + 1].inner2 > 0)
+      least = std::min(least, levels[i - first + 1] - bottom);
+  }
+  return least;
+}
+
+RC_GTEST_PROP(SmoothingPromises, ThinsNoWallBelowItsOwnAndTheLimit, ()) {
+  const ClayStack stack = shapes::hard_stack(50);
+  RC_PRE(profile_of(stack).has_value());
+  const SmoothingOptions options = shapes::any_options();
+  const SmoothedProfile made = smooth(stack, options);
+  RC_ASSERT(made.taken_mm <= shapes::allowed_move_mm(stack, options));
+  Real largest = 0;
+  for (const Ring& ring : stack.rings()) largest = std::max<Real>(largest, ring.outer_mm());
+  for (const auto& [first, last, levels, steps, walls] : pieces_of_both(stack, made)) {
+    const auto own = oracles::walls_by_ring(stack, first, last, steps);
+    const auto now = oracles::walls_by_ring(stack, first, last, walls);
+    const Real limit = options.min_wall_mm ? *options.min_wall_mm
+                                           : std::min(*std::min_element(own.begin(), own.end()),
+                                                      least_floor(stack, first, last, levels));
+    bool tiny_steps = false;
+    for (std::size_t i = first + 1; i <= last; ++i) {
+      const Ring &a = stack.rings()[i - 1], &b = stack.rings()[i];
+      for (const Real step : {Real(a.outer_mm()) - b.outer_mm(), Real(a.inner_mm()) - b.inner_mm()})
+        tiny_steps |= step != 0 && std::abs(step) < largest * 0x1p-20L;
+    }
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      const bool solid = stack.rings()[first + i].inner2 == 0;
+      const Real slack = (solid ? 2 : 1) * made.taken_mm + (tiny_steps ? largest * 0x1p-20L : 0);
+      RC_ASSERT(now[i] >= std::min(limit, own[i]) * (1 - 2e-9L) - slack - 1e-13L);
+    }
+  }
+}
+
+RC_GTEST_PROP(SmoothingPromises, IsCertifiedWhereTheStepsAre, ()) {
+  const ClayStack stack = shapes::hard_stack(2 * kMostRings);
+  const auto steps = profile_of(stack);
+  RC_PRE(steps.has_value());
+  RC_PRE(certify(steps->profile).has_value());
+  const SmoothedProfile made = smooth(stack, shapes::any_options());
+  const auto certificate = certify(made.section.profile);
+  if (!certificate) RC_FAIL(certificate.error().message);
+}
+
+/// A pot as potters make them: walls that change slowly, 2 mm at least.
+ClayStack pot(std::mt19937_64& random, std::size_t count, double h) {
+  std::vector<Radii> radii;
+  double outer = 40.0, slope = 0.0, wall = 5.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    slope = std::clamp(slope + 0.2 * (samples::uniform(random) - 0.5), -1.0, 1.0);
+    outer = std::clamp(outer + slope * h, 20.0, 80.0);
+    wall = std::clamp(wall + 0.3 * (samples::uniform(random) - 0.5), 2.0, 8.0);
+    radii.push_back({outer, i < 6 ? 0.0 : outer - wall});
+  }
+  return stack_of(h, radii);
+}
+
+/// From middle to middle the radial wall is a mean of two rings' own.
+RC_GTEST_PROP(SmoothingPromises, FairKeepsTheRadialWallAMeanOfTwoRings, ()) {
+  auto random = *samples::random_engine();
+  const ClayStack stack = pot(random, 60, 0.5);
+  const SmoothedProfile made = smooth(stack, options_for(Smoothing::fair, 1e-7));
+  const auto walls = oracles::walls_of(made.section.profile.pieces.at(0));
+  RC_PRE(made.guard.empty());
+  RC_PRE(treads(walls.outer).empty());
+  RC_PRE(treads(walls.bore).size() == 1u);
+  for (std::size_t i = 6; i + 1 < stack.size(); ++i)
+    for (const Real t : {0.0L, 0.3L, 0.5L, 0.9L}) {
+      const Real y = (static_cast<Real>(i) + 0.5L + t) * 0.5L;
+      const auto own = [&](std::size_t ring) {
+        return stack.rings()[ring].outer_mm() - stack.rings()[ring].inner_mm();
+      };
+      const Real found = oracles::radii(walls.outer, y, y + 1e-12L).first -
+                         oracles::radii(walls.bore, y, y + 1e-12L).first;
+      RC_ASSERT(std::abs(found - ((1 - t) * own(i) + t * own(i + 1))) <= made.overshoot_mm + 1e-6L);
+    }
+}
+
+RC_GTEST_PROP(SmoothingPromises, StaysWithinTheToleranceOfTheMiddles, ()) {
+  auto random = *samples::random_engine();
+  const ClayStack stack = pot(random, 200, 0.5);
+  const double tolerance = *rc::gen::element(0.01, 0.05);
+  const SmoothedProfile made = smooth(stack, options_for(Smoothing::fair, tolerance));
+  RC_ASSERT(made.guard.empty());
+  const auto walls = oracles::walls_of(made.section.profile.pieces.at(0));
+  for (std::size_t i = 0; i < stack.size(); ++i) {
+    const Real y = (static_cast<double>(i) + 0.5) * 0.5;
+    const auto [least, most] = oracles::radii(walls.outer, y, y + 1e-9L);
+    // Half of the tolerance across a slope of 45 degrees, and what the scale adds.
+    RC_ASSERT(std::abs(least - stack.rings()[i].outer_mm()) < tolerance);
+  }
+}
+
+TEST(SmoothingPromises, AMillionRingsTakeNoLongerThanTheTestDoes) {
+  std::mt19937_64 random(3);
+  const ClayStack stack = pot(random, 1'000'000, 0.001);
+  const SmoothedProfile made = smooth(stack, options_for(Smoothing::fair));
+  EXPECT_LT(made.volume_error_relative, 1e-12);
+  EXPECT_TRUE(certify(made.section.profile));
+}
+
+}  // namespace
+}  // namespace clay::solid

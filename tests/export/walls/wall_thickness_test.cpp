@@ -1,0 +1,266 @@
+#include "claystack/export/walls.hpp"
+
+#include "claystack/engine/tick.hpp"
+#include "claystack/export/smoothing.hpp"
+#include "tests/engine/clay/stack_samples.hpp"
+#include "tests/export/section/cup_section.hpp"
+#include "tests/export/solid/shapes.hpp"
+#include "tests/export/walls/wall_oracle.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace clay::solid {
+namespace {
+
+using shapes::cup;
+
+double wall_of(Polygon polygon) { return min_wall_mm({{std::move(polygon)}}); }
+
+/// Part of a circle about (rho, y), `count` chords from one angle to the other.
+Polygon arc(ProfilePoint centre, double radius, double from, double to, int count) {
+  Polygon points;
+  for (int i = 0; i <= count; ++i) {
+    const double angle = from + (to - from) * i / count;
+    points.push_back({centre.rho + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
+  }
+  return points;
+}
+
+/// Every edge in `parts`, so that no edge is long.
+Polygon divided(const Polygon& polygon, int parts) {
+  Polygon points;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const ProfilePoint &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    for (int k = 0; k < parts; ++k) {
+      const double t = static_cast<double>(k) / parts;
+      points.push_back({a.rho + t * (b.rho - a.rho), a.y + t * (b.y - a.y)});
+    }
+  }
+  return points;
+}
+
+TEST(WallThickness, OfASolidIsItsDiameterOrItsHeight) {
+  EXPECT_NEAR(wall_of({{0, 0}, {30, 0}, {30, 50}, {0, 50}}), 50.0, 1e-12);
+  EXPECT_NEAR(wall_of({{0, 0}, {20, 0}, {20, 50}, {0, 50}}), 40.0, 1e-12);
+  EXPECT_NEAR(wall_of({{0, 0}, {20, 0}, {8, 40}, {20, 80}, {0, 80}}), 16.0, 1e-12);  // waist
+}
+
+TEST(WallThickness, AcrossTheAxisCountsOnlyWhereThereIsClay) {
+  // A narrow foot below, 20 mm across, and a wide bowl above.
+  const Wall wall =
+      min_wall({{{{0, 0}, {10, 0}, {10, 30}, {60, 50}, {60, 110}, {35, 110}, {35, 75}, {0, 75}}}});
+  EXPECT_NEAR(wall.thickness_mm, 20.0, 1e-12);
+  EXPECT_NEAR(wall.from.rho, 10.0, 1e-12);
+  EXPECT_NEAR(wall.to.rho, -10.0, 1e-12);
+  // A tube of the same foot has no clay on the axis.
+  EXPECT_NEAR(wall_of({{2, 0}, {10, 0}, {10, 30}, {2, 30}}), 8.0, 1e-12);
+}
+
+TEST(WallThickness, OfACupIsItsWallOrItsFloor) {
+  for (const int parts : {1, 3, 40}) {
+    EXPECT_NEAR(wall_of(divided(cup(5, 8), parts)), 5.0, 1e-12);
+    EXPECT_NEAR(wall_of(divided(cup(5, 3), parts)), 3.0, 1e-12);
+  }
+}
+
+TEST(WallThickness, TellsThePlace) {
+  const Wall floor = min_wall({{cup(5, 3)}}), wall = min_wall({{cup(3, 5)}});
+  EXPECT_NEAR(std::abs(floor.from.y - floor.to.y), 3.0, 1e-12);
+  EXPECT_NEAR(floor.from.rho, floor.to.rho, 1e-12);
+  EXPECT_NEAR(std::abs(wall.from.rho - wall.to.rho), 3.0, 1e-12);
+}
+
+TEST(WallThickness, OfALeaningWallIsMeasuredAcrossIt) {
+  // A conical tube leaning by 25 degrees: 4 mm along the radius are 4 cos 25 across.
+  const double angle = 25.0 * M_PI / 180.0, lean = 60.0 * std::tan(angle);
+  for (const int parts : {1, 7, 100})
+    EXPECT_NEAR(wall_of(divided({{40, 0}, {40 + lean, 60}, {36 + lean, 60}, {36, 0}}, parts)),
+                4.0 * std::cos(angle), 1e-12);
+  // At 45 degrees the rim and the outside meet in an edge that is no wall.
+  EXPECT_NEAR(wall_of({{40, 0}, {100, 60}, {96, 60}, {36, 0}}), 4.0 * std::cos(M_PI / 4), 1e-12);
+}
+
+TEST(WallThickness, OfASphericalShellIsTheSameAllRound) {
+  constexpr int kChords = 720;
+  Polygon outside = arc({0, 0}, 50, -M_PI / 2, M_PI / 2, kChords);
+  Polygon inside = arc({0, 0}, 46, M_PI / 2, -M_PI / 2, kChords);
+  for (Polygon* part : {&outside, &inside}) part->front().rho = part->back().rho = 0.0;
+  outside.insert(outside.end(), inside.begin(), inside.end());
+  // A chord is up to 50 (1 - cos(half a step)) inside its arc.
+  const double sagitta = 50.0 * (1.0 - std::cos(M_PI / (2 * kChords)));
+  EXPECT_NEAR(wall_of(outside), 4.0, sagitta);
+  for (const WallSample& sample : wall_field({{outside}}, 1.0))
+    EXPECT_NEAR(sample.thickness_mm, 4.0, 2.0 * sagitta) << sample.at.rho << ' ' << sample.at.y;
+}
+
+TEST(WallThickness, OfARoundSectionIsItsDiameter) {
+  Polygon ring = arc({30, 0}, 5, 0, 2 * M_PI, 720);
+  ring.pop_back();
+  // A chord's normal is off that of its ends by half a step, and opposite chords are off each other
+  // by 30 degrees at most: their balls are less by as much as this.
+  const double lost = 10.0 * (M_PI / 720) * std::tan(M_PI / 12);
+  EXPECT_LT(wall_of(ring), 10.0);
+  EXPECT_GT(wall_of(ring), 10.0 - lost);
+  for (const WallSample& sample : wall_field({{ring}}, 1.0)) {
+    EXPECT_LT(sample.thickness_mm, 10.0);
+    EXPECT_GT(sample.thickness_mm, 10.0 - lost);
+  }
+}
+
+TEST(WallThickness, OfAWedgeIsThatOfItsBluntEnd) {
+  // A lip that narrows from 8 mm to 1 mm, symmetric, by 4 degrees on each side.
+  const Polygon lip{{40, 0}, {48, 0}, {44.5, 50}, {43.5, 50}};
+  const Wall wall = min_wall({{lip}});
+  // From one end of the rim, the ball that touches the other face is the least.
+  const double half = std::atan2(3.5, 50.0);
+  EXPECT_NEAR(wall.thickness_mm, 1.0 / std::cos(half), 1e-9);
+  EXPECT_NEAR(wall.from.y, 50.0, 1e-9);
+  // In small edges no ball reaches the rim, but none is farther from it than its radius.
+  const double fine = wall_of(divided(lip, 2000));
+  EXPECT_GT(fine, 1.0);
+  EXPECT_LT(fine, 1.0 + 2.0 * std::tan(half));
+}
+
+TEST(WallThickness, OfABevelledLipIsTheDistanceOfItsCorner) {
+  // From the lower corner of the rim straight through to the middle of the outside.
+  const Wall wall = min_wall({{{{40, 0}, {48, 0}, {48, 51}, {47, 50}}}});
+  EXPECT_NEAR(wall.thickness_mm, 1.0, 1e-12);
+  EXPECT_NEAR(wall.from.y, 50.0, 1e-9);
+  EXPECT_NEAR(wall.to.y, 50.0, 1e-9);
+}
+
+TEST(WallThickness, OfASharpEdgeIsNone) { EXPECT_EQ(wall_of({{40, 0}, {50, 0}, {45, 60}}), 0.0); }
+
+TEST(WallThickness, OfAFlangeIsItsHeightAndARidgeIsNone) {
+  const auto with_flange = [](double out) {
+    Polygon polygon = cup(5, 8);
+    polygon.insert(polygon.begin() + 2, {{40, 30}, {40 + out, 30}, {40 + out, 32}, {40, 32}});
+    return wall_of(polygon);
+  };
+  EXPECT_NEAR(with_flange(10.0), 2.0, 1e-12);
+  EXPECT_NEAR(with_flange(0.51), 2.0, 1e-12);
+  EXPECT_NEAR(with_flange(0.49), 5.0, 1e-12);
+}
+
+TEST(WallThickness, BetweenReentrantCornersIsTheirDistance) {
+  // Two blocks joined by a neck from (60, 26) to (63, 30), aslant.
+  EXPECT_NEAR(wall_of({{40, 0},
+                       {80, 0},
+                       {80, 30},
+                       {63, 30},
+                       {63, 60},
+                       {30, 60},
+                       {30, 26},
+                       {60, 26},
+                       {60, 20},
+                       {40, 20}}),
+              5.0, 1e-12);
+}
+
+TEST(WallThickness, OfACavityCountsItsLid) {
+  EXPECT_NEAR(wall_of({{0, 0}, {40, 0}, {40, 60}, {0, 60}, {0, 58}, {30, 58}, {30, 9}, {0, 9}}),
+              2.0, 1e-12);
+}
+
+TEST(WallThickness, OverACavityWithAPointIsMeasuredOnTheAxis) {
+  EXPECT_NEAR(wall_of({{0, 0}, {40, 0}, {40, 60}, {0, 60}, {0, 55}, {25, 40}, {25, 20}, {0, 9}}),
+              5.0, 1e-12);
+}
+
+TEST(WallThickness, OfPiecesIsTheThinnestPieces) {
+  const Polygon low{{20, 0}, {30, 0}, {30, 10}, {20, 10}},
+      high{{20, 11}, {27, 11}, {27, 20}, {20, 20}};
+  EXPECT_NEAR(min_wall_mm({{low, high}}), 7.0, 1e-12);
+}
+
+TEST(WallThickness, OfTheFacetsIsThatOfTheProfileScaled) {
+  const double scale = std::cos(M_PI / 12);
+  const Wall wall = min_wall({{cup(5, 8)}}, scale);
+  EXPECT_NEAR(wall.thickness_mm, 5.0 * scale, 1e-12);
+  EXPECT_NEAR(std::max(wall.from.rho, wall.to.rho), 40.0, 1e-12);
+  EXPECT_NEAR(min_wall({{cup(5, 3)}}, scale).thickness_mm, 3.0, 1e-12);  // floors stay
+}
+
+/// Stacks whose walls open or close upwards by less than a quarter of a ring's height at a time,
+/// and that are not much thicker than a ring is high. The engine does not look at flanges, such as
+/// a wider step near the rim would be, and looks at the rim's own corners as if the wall went on.
+RC_GTEST_PROP(WallThickness, OfStepsIsTheEnginesOwn, ()) {
+  auto random = *samples::random_engine();
+  const auto count = *rc::gen::inRange<std::size_t>(1, 25);
+  const double h = *rc::gen::element(0.3, 2.0, 15.0);
+  const auto floor = *rc::gen::inRange<std::size_t>(1, count + 1);
+  const bool closing = *rc::gen::arbitrary<bool>();
+  std::vector<Ring> rings;
+  double outer = 40.0, inner = outer - 0.5 - 2.0 * h * samples::uniform(random);
+  for (std::size_t i = 0; i < count; ++i) {
+    outer += 0.2 * h * samples::uniform(random);
+    inner = std::min(inner + 0.2 * h * samples::uniform(random), outer - 0.3);
+    rings.push_back({quanta_from_radius(outer), i < floor ? 0 : quanta_from_radius(inner)});
+  }
+  if (closing) std::reverse(rings.begin(), rings.end());
+  const ClayStack stack = ClayStack::from_rings(h, rings, 0).value();
+  RC_ASSERT(std::abs(min_wall_mm(profile_of(stack).value().profile) -
+                     min_wall(stack).thickness_mm) < 1e-9);
+}
+
+/// The place that is found is as thin as said, and no pair of sampled places is thinner.
+void agrees_with_the_definition(const Profile& profile, std::mt19937_64& random,
+                                bool margin = false) {
+  const Wall wall = min_wall(profile);
+  WallOracle oracle(profile);
+  RC_ASSERT(std::abs(oracle.thickness(wall) - wall.thickness_mm) < 1e-7);
+  RC_ASSERT(oracle.least_of_samples(random, margin) > wall.thickness_mm - 1e-9);
+}
+
+RC_GTEST_PROP(WallThickness, IsThatOfTheDefinitionForSteps, (const ClayStack& stack)) {
+  auto random = *samples::random_engine();
+  const auto section = profile_of(stack);
+  RC_PRE(section.has_value());
+  agrees_with_the_definition(section->profile, random);
+}
+
+RC_GTEST_PROP(WallThickness, IsThatOfTheDefinitionForFairWalls, ()) {
+  auto random = *samples::random_engine();
+  const double h = *rc::gen::element(0.5, 3.0, 20.0);
+  const ClayStack stack = samples::stack(random, *rc::gen::inRange<std::size_t>(2, 14), h);
+  const auto section = shapes::fair_section(stack, 0.02);
+  RC_PRE(section.has_value() && certify(section->profile).has_value());
+  agrees_with_the_definition(section->profile, random);
+}
+
+/// Wavy hoops: faces of every direction, many to a branch of the search.
+RC_GTEST_PROP(WallThickness, IsThatOfTheDefinitionForWavyHoops, ()) {
+  auto random = *samples::random_engine();
+  const double depth = *rc::gen::element(0.1, 0.3, 0.6);
+  const double turn = 6.28 * samples::uniform(random), waves = *rc::gen::inRange(2, 6);
+  Polygon hoop;
+  for (int i = 0; i < 60; ++i) {
+    const double angle = 2 * M_PI * i / 60;
+    const double radius = 8.0 * (1.0 + depth * std::sin(waves * angle + turn));
+    hoop.push_back({40.0 + radius * std::cos(angle), radius * std::sin(angle)});
+  }
+  const Profile profile{{hoop}};
+  RC_PRE(certify(profile).has_value());
+  agrees_with_the_definition(profile, random, true);
+}
+
+RC_GTEST_PROP(WallThickness, MovesWithThePotAndScalesWithIt, ()) {
+  auto random = *samples::random_engine();
+  const auto section = shapes::fair_section(samples::stack(random, 12, 3.0), 0.02);
+  RC_PRE(section.has_value() && certify(section->profile).has_value());
+  Profile moved = section->profile, larger = section->profile;
+  for (Polygon& polygon : moved.pieces)
+    for (ProfilePoint& p : polygon) p.y += 64.0;
+  for (Polygon& polygon : larger.pieces)
+    for (ProfilePoint& p : polygon) p = {3.0 * p.rho, 3.0 * p.y};
+  const double wall = min_wall_mm(section->profile);
+  RC_ASSERT(std::abs(min_wall_mm(moved) - wall) < 1e-9);
+  RC_ASSERT(std::abs(min_wall_mm(larger) - 3.0 * wall) < 1e-9);
+}
+
+}  // namespace
+}  // namespace clay::solid

@@ -1,0 +1,127 @@
+#include "tests/falcon/device/falcon_bench.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+namespace clay::falcon {
+namespace {
+
+static_assert(noexcept(std::declval<HapticDevice&>().read(0)));
+static_assert(noexcept(std::declval<HapticDevice&>().write({})));
+static_assert(noexcept(std::declval<HapticDevice&>().stop()));
+
+TEST(FalconDevice, SeesTheGripWhereItIs) {
+  auto settings = ready_model();
+  settings.buttons = kButtonForward | kButtonMinus;
+  FalconBench bench(settings);
+  ASSERT_TRUE(bench.device->open());
+  std::int64_t last_us = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const DeviceSample sample = bench.tick();
+    ASSERT_TRUE(sample.fresh);
+    const glm::dvec3 true_mm = 1e3 * (on_circle(bench.frame - 1) - Kinematics::kCentreM);
+    ASSERT_LT(glm::distance(sample.position_mm, true_mm), kEncoderMm) << i;
+    EXPECT_EQ(sample.buttons, unsigned{kButtonForward | kButtonMinus});
+    EXPECT_GT(sample.time_us, last_us);
+    last_us = sample.time_us;
+  }
+  EXPECT_EQ(bench.device->counters().bytes_discarded, 0u);
+  EXPECT_EQ(bench.device->counters().without_pose, 0u);
+}
+
+TEST(FalconDevice, RendersTheForceAskedFor) {
+  FalconBench bench(ready_model());
+  ASSERT_TRUE(bench.device->open());
+  for (const glm::dvec3& force :
+       {glm::dvec3(1, 0, 0), glm::dvec3(0, -2, 0), glm::dvec3(0, 0, 5), glm::dvec3(3, 3, -4)}) {
+    bench.grip = [](std::uint64_t) { return Kinematics::kCentreM; };
+    bench.tick();
+    bench.tick(force);
+    // A count of each motor is 1.5e-4 N m; of the shortest lever, 60 mm, 2.5 mN: half of three.
+    EXPECT_LT(glm::distance(bench.model->force_n(), force), 0.01);
+  }
+}
+
+TEST(FalconDevice, CutsForcesAndSendsNoneThatIsNoNumber) {
+  FalconBench bench(ready_model());
+  bench.grip = [](std::uint64_t) { return Kinematics::kCentreM; };
+  ASSERT_TRUE(bench.device->open());
+  bench.tick();
+  for (const double huge : {10.0, 1e6, 1e150}) {
+    bench.tick({huge, 0, 0});
+    EXPECT_NEAR(glm::length(bench.model->force_n()), 8.0, 0.01) << huge;
+    EXPECT_GT(bench.model->force_n().x, 7.9);
+  }
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1e200}) {
+    bench.tick({1, bad, 0});
+    EXPECT_EQ(bench.model->motors(), LegCounts{}) << bad;
+  }
+}
+
+TEST(FalconDevice, TheLastPacketIsZeroAfterStop) {
+  FalconBench bench(ready_model());
+  ASSERT_TRUE(bench.device->open());
+  bench.tick();
+  bench.tick({4, 0, 0});
+  ASSERT_NE(bench.model->motors(), LegCounts{});
+  bench.device->stop();
+  EXPECT_EQ(bench.model->motors(), LegCounts{});
+  const std::uint64_t frames = bench.model->frames();
+  bench.tick({4, 0, 0});
+  EXPECT_EQ(bench.model->frames(), frames) << "a frame after the last one";
+  ASSERT_TRUE(bench.device->open());
+  bench.tick();
+  bench.tick({4, 0, 0});
+  EXPECT_NE(bench.model->motors(), LegCounts{});
+  bench.device.reset();
+  EXPECT_EQ(bench.model->motors(), LegCounts{}) << "closed with a force on";
+}
+
+TEST(FalconDevice, HasNoForceFromTheFrameOnThatLosesItsHoming) {
+  FalconBench bench(ready_model());
+  ASSERT_TRUE(bench.device->open());
+  for (int i = 0; i < 10; ++i) bench.tick({3, 0, 0});
+  bench.model->plan({WireFault::homing_lost, 0});
+  EXPECT_EQ(bench.tick({3, 0, 0}).state, DeviceState::needs_homing);
+  DeviceSample sample;
+  for (int i = 0; i < 200; ++i) {
+    sample = bench.tick({3, 0, 0});
+    if (sample.state == DeviceState::ready) break;
+    ASSERT_EQ(bench.model->motors(), LegCounts{}) << i;
+  }
+  EXPECT_EQ(sample.state, DeviceState::ready) << "homed again";
+}
+
+TEST(FalconDevice, ReadsTheNewestOfManyFrames) {
+  FalconBench bench(ready_model());
+  ASSERT_TRUE(bench.device->open());
+  bench.tick();
+  for (int i = 0; i < 60; ++i) bench.device->write({});  // 960 bytes come at once
+  const DeviceSample sample = bench.device->read(kTickUs);
+  const glm::dvec3 newest = 1e3 * (on_circle(bench.frame - 1) - Kinematics::kCentreM);
+  EXPECT_LT(glm::distance(sample.position_mm, newest), kEncoderMm);
+  EXPECT_FALSE(bench.device->read(0).fresh);
+}
+
+TEST(FalconDevice, DoesNotBelieveAnglesWithoutAPose) {
+  auto settings = ready_model();
+  settings.homed = false;
+  settings.unhomed_offset = -5000;  // half a turn: every thigh points away from the user
+  FalconBench bench(settings);
+  ASSERT_TRUE(bench.device->open());
+  for (int i = 0; i < 10; ++i) {
+    const DeviceSample sample = bench.tick();
+    EXPECT_EQ(sample.state, DeviceState::needs_homing);
+    EXPECT_FALSE(sample.fresh);
+    EXPECT_EQ(sample.position_mm, glm::dvec3(0.0));
+  }
+  EXPECT_EQ(bench.device->counters().without_pose, 11u);
+}
+
+}  // namespace
+}  // namespace clay::falcon

@@ -1,0 +1,90 @@
+// From power-up, and from a file of firmware, to a device that is ready.
+
+#include "tests/falcon/device/falcon_bench.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace clay::falcon {
+namespace {
+
+TEST(FalconOpening, GoesFromPowerUpToReady) {
+  const FirmwareFile firmware;
+  FalconSettings settings;
+  settings.firmware_path = firmware.path();
+  FalconBench bench({}, settings);
+  EXPECT_EQ(bench.device->read(0).state, DeviceState::closed);
+  ASSERT_TRUE(bench.device->open());
+  EXPECT_EQ(bench.model->firmware(), dummy_firmware());
+  DeviceSample sample = bench.tick({1, 0, 0});
+  EXPECT_EQ(sample.state, DeviceState::needs_homing);
+  for (int i = 0; i < 200 && sample.state == DeviceState::needs_homing; ++i) {
+    sample = bench.tick({1, 0, 0});
+    EXPECT_EQ(bench.model->motors(), LegCounts{}) << "a force before the device is homed";
+  }
+  EXPECT_EQ(sample.state, DeviceState::ready);
+  bench.tick({1, 0, 0});
+  EXPECT_NE(bench.model->motors(), LegCounts{});
+}
+
+TEST(FalconOpening, KeepsThePowerOnFirmware) {
+  FalconBench bench(ready_model());
+  ASSERT_TRUE(bench.device->open());
+  EXPECT_TRUE(bench.model->firmware().empty()) << "loaded though it ran already";
+  EXPECT_EQ(bench.tick().state, DeviceState::ready);
+}
+
+TEST(FalconOpening, SaysThatFirmwareIsMissing) {
+  FalconBench bench;
+  const auto opened = bench.device->open();
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().fault, DeviceFault::no_firmware);
+  EXPECT_NE(opened.error().remedy.find("--firmware"), std::string::npos);
+  EXPECT_EQ(bench.device->read(0).state, DeviceState::needs_firmware);
+  EXPECT_EQ(bench.device->problem().fault, DeviceFault::no_firmware);
+}
+
+TEST(FalconOpening, TellsAFalconWithoutPowerFromOneWithoutFirmware) {
+  FalconModelSettings dark;
+  dark.power = false;
+  FalconBench bench(dark);
+  const auto opened = bench.device->open();
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().fault, DeviceFault::no_answer);
+  EXPECT_NE(opened.error().remedy.find("power supply"), std::string::npos);
+}
+
+TEST(FalconOpening, RefusesAFileBeforeAByteOfItIsSent) {
+  FalconSettings settings;
+  settings.firmware_path = "/dev/null";
+  FalconBench bench({}, settings);
+  const auto opened = bench.device->open();
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().fault, DeviceFault::bad_firmware);
+  EXPECT_TRUE(bench.model->firmware().empty());
+}
+
+TEST(FalconOpening, RefusesNonsenseSettings) {
+  const double nan = std::nan("");
+  std::vector<FalconSettings> nonsense(7);
+  nonsense[0].force_limit_n = 9.0;
+  nonsense[1].force_limit_n = nan;
+  nonsense[2].motor_counts_per_nm = 0.0;
+  nonsense[3].motor_counts_per_nm = nan;
+  nonsense[4].silence_us = 0;
+  nonsense[5].centre_m = {0, 0, 0.5};
+  nonsense[6].centre_m = {nan, 0, 0};
+  for (const FalconSettings& settings : nonsense) {
+    FalconBench bench(ready_model(), settings);
+    const auto opened = bench.device->open();
+    ASSERT_FALSE(opened);
+    EXPECT_EQ(opened.error().fault, DeviceFault::bad_setting);
+    EXPECT_EQ(bench.model->frames(), 0u);
+  }
+}
+
+}  // namespace
+}  // namespace clay::falcon

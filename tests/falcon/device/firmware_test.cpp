@@ -1,0 +1,194 @@
+#include "falcon/device/firmware.hpp"
+
+#include "claystack/falcon/sim.hpp"
+#include "tests/falcon/device/dummy_firmware.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <string>
+#include <utility>
+
+namespace clay::falcon {
+namespace {
+
+Grip still() {
+  return [](const glm::dvec3&, double) { return Kinematics::kCentreM; };
+}
+
+DeviceFault fault_of(const std::vector<std::uint8_t>& bytes) {
+  const auto parsed = parse_firmware(bytes, "f");
+  return parsed ? DeviceFault::not_found : parsed.error().fault;
+}
+
+TEST(Firmware, IsReadToItsLastByte) {
+  const auto parsed = parse_firmware(dummy_firmware(300, 3), "f");
+  ASSERT_TRUE(parsed);
+  EXPECT_EQ(parsed->bytes.size(), 2u * (1 + 8 + 2 + 3 * (3 + 300) + 1));
+  EXPECT_EQ(parsed->entry_point, 0x3F8002u);
+  EXPECT_EQ(parsed->blocks, 3u);
+}
+
+TEST(Firmware, IsRefusedWhenCutAnywhere) {
+  const auto whole = dummy_firmware(20, 2);
+  for (std::size_t size = 0; size < whole.size(); ++size)
+    EXPECT_EQ(fault_of({whole.begin(), whole.begin() + static_cast<long>(size)}),
+              DeviceFault::bad_firmware)
+        << size;
+  auto longer = whole;
+  longer.push_back(0);
+  EXPECT_EQ(fault_of(longer), DeviceFault::bad_firmware);
+}
+
+TEST(Firmware, IsRefusedWithAnotherHeader) {
+  for (std::size_t at = 0; at < 2 * (1 + 8); ++at) {
+    auto bytes = dummy_firmware();
+    bytes[at] ^= 1;
+    EXPECT_EQ(fault_of(bytes), DeviceFault::bad_firmware) << at;
+  }
+  for (const std::size_t at : {18u, 24u}) {  // high words: of the entry point, of the first block
+    auto bytes = dummy_firmware();
+    bytes[at] = 0x40;
+    EXPECT_EQ(fault_of(bytes), DeviceFault::bad_firmware) << at;
+  }
+  auto outside = dummy_firmware(10, 1);
+  outside[20] = 0x0A;  // entry point 003F:800A, one word behind the block
+  EXPECT_EQ(fault_of(outside), DeviceFault::bad_firmware);
+  outside[20] = 0x09;
+  EXPECT_TRUE(parse_firmware(outside, "f"));
+}
+
+/// The dummy with the address of its block `block` replaced; blocks of 20 words.
+std::string refusal_at(std::size_t block, std::uint32_t address) {
+  auto bytes = dummy_firmware(20, 3);
+  const std::size_t at = 2 * (1 + 8 + 2) + block * 2 * (3 + 20) + 2;
+  for (const std::size_t byte : {0u, 1u, 2u, 3u})  // high word first, low bytes first
+    bytes[at + byte] =
+        static_cast<std::uint8_t>(address >> (byte < 2 ? 16 + 8 * byte : 8 * byte - 16));
+  const auto parsed = parse_firmware(bytes, "f");
+  return parsed ? "" : parsed.error().what;
+}
+
+TEST(Firmware, BlocksOutsideTheMemoryAreRefusedWithTheirPlace) {
+  EXPECT_EQ(refusal_at(2, 0x3FFFECu), "");  // its last word is the last there is
+  const std::string place = "f: expected a TI C28x boot stream; at byte 120 of 162: ";
+  for (const auto& [address, text] :
+       {std::pair{0x3FFFEDu, "3FFFED"}, {0x400000u, "400000"}, {0xFFFFFFF0u, "FFFFFFF0"}})
+    EXPECT_EQ(refusal_at(2, address),
+              place +
+                  "expected a block within the addresses 000000 to 3FFFFF, found 20 words from " +
+                  text);
+}
+
+TEST(Firmware, BlocksThatOverlapAreRefusedWithTheirPlace) {
+  // The first block fills 3F8000 to 3F8013, the second 3F8014 to 3F8027.
+  for (const auto& [address, other] : {std::pair{0x3F8014u, "3F8014"},
+                                       {0x3F8027u, "3F8014"},
+                                       {0x3F7FEDu, "3F8000"},
+                                       {0x3F8013u, "3F8000"}})
+    EXPECT_TRUE(refusal_at(2, address).ends_with(std::string("over the block at ") + other))
+        << refusal_at(2, address);
+  EXPECT_EQ(refusal_at(2, 0x3F8028u), "");
+  EXPECT_EQ(refusal_at(2, 0x3F7FECu), "");
+}
+
+RC_GTEST_PROP(Firmware, OfAnyBytesIsReadOrRefused, (std::vector<std::uint8_t> bytes)) {
+  auto spoilt = dummy_firmware(4, 2);
+  const auto at = *rc::gen::inRange<std::size_t>(0, spoilt.size());
+  spoilt.insert(spoilt.begin() + static_cast<long>(at), bytes.begin(), bytes.end());
+  const auto parsed = parse_firmware(spoilt, "name of the file");
+  if (!parsed) RC_ASSERT(parsed.error().what.starts_with("name of the file: expected"));
+}
+
+TEST(Firmware, FileIsRefusedByName) {
+  for (const char* path : {"/nonexistent/firmware.bin", "/"}) {
+    const auto read = read_firmware(path);
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().fault, DeviceFault::bad_firmware);
+    EXPECT_TRUE(read.error().what.starts_with(path));
+  }
+  EXPECT_FALSE(read_firmware("/dev/zero"));  // endless
+  EXPECT_FALSE(read_firmware("/dev/null"));
+}
+
+TEST(LoadFirmware, ArrivesAsItWasSent) {
+  const auto model = std::make_shared<FalconModel>(FalconModelSettings{}, still());
+  LoopbackTransport line(model, Pace::virtual_);
+  ASSERT_TRUE(line.open());
+  const Firmware firmware = parse_firmware(dummy_firmware(), "f").value();
+  ASSERT_TRUE(load_firmware(line, firmware, 1));
+  EXPECT_TRUE(model->runs());
+  EXPECT_EQ(model->firmware(), firmware.bytes);
+}
+
+TEST(LoadFirmware, StartsAnewWhenAnEchoIsWrongAndSaysSoInTheEnd) {
+  const Firmware firmware = parse_firmware(dummy_firmware(), "f").value();
+  for (const int attempts : {2, 3}) {
+    FalconModelSettings settings;
+    // Every piece of 62 bytes is compared: one fault in the first, one in the last.
+    settings.faults = {{WireFault::echo_error, 3},
+                       {WireFault::echo_error, firmware.bytes.size() - 2}};
+    const auto model = std::make_shared<FalconModel>(settings, still());
+    LoopbackTransport line(model, Pace::virtual_);
+    ASSERT_TRUE(line.open());
+    const auto loaded = load_firmware(line, firmware, attempts);
+    EXPECT_EQ(loaded.has_value(), attempts == 3);
+    if (loaded) continue;
+    EXPECT_EQ(loaded.error().fault, DeviceFault::echo_error);
+    EXPECT_NE(loaded.error().what.find("tried 2 times"), std::string::npos);
+  }
+}
+
+TEST(LoadFirmware, NamesThePowerSupplyWhenNothingAnswers) {
+  FalconModelSettings settings;
+  settings.power = false;
+  LoopbackTransport line(std::make_shared<FalconModel>(settings, still()), Pace::virtual_);
+  ASSERT_TRUE(line.open());
+  const auto loaded = load_firmware(line, parse_firmware(dummy_firmware(), "f").value(), 2);
+  ASSERT_FALSE(loaded);
+  EXPECT_EQ(loaded.error().fault, DeviceFault::no_answer);
+  EXPECT_NE(loaded.error().remedy.find("power supply"), std::string::npos);
+}
+
+/// A line on which the greeting's answer is preceded by a byte 0, as some devices have it.
+class ZeroFirst final : public Transport {
+ public:
+  explicit ZeroFirst(std::shared_ptr<FalconModel> model)
+      : line_(std::move(model), Pace::virtual_) {}
+  [[nodiscard]] std::string describe() const override { return "zero first"; }
+  [[nodiscard]] bool loads_firmware() const noexcept override { return true; }
+  DeviceResult<void> open() override { return line_.open(); }
+  void close() noexcept override { line_.close(); }
+  DeviceResult<void> set_mode(LineMode mode) override {
+    zero_ = mode == LineMode::greeting;
+    return line_.set_mode(mode);
+  }
+  WireStatus write(std::span<const std::uint8_t> bytes) noexcept override {
+    return line_.write(bytes);
+  }
+  Received read(std::span<std::uint8_t> bytes, std::int64_t wait_us) noexcept override {
+    if (!zero_) return line_.read(bytes, wait_us);
+    zero_ = false;
+    bytes[0] = 0;
+    return {1, line_.now_us(), WireStatus::ok};
+  }
+  void write_last(std::span<const std::uint8_t> bytes) noexcept override {
+    line_.write_last(bytes);
+  }
+  [[nodiscard]] std::int64_t now_us() const noexcept override { return line_.now_us(); }
+
+ private:
+  LoopbackTransport line_;
+  bool zero_ = false;
+};
+
+TEST(LoadFirmware, PassesOverAZeroBeforeTheGreeting) {
+  ZeroFirst line(std::make_shared<FalconModel>(FalconModelSettings{}, still()));
+  ASSERT_TRUE(line.open());
+  EXPECT_TRUE(load_firmware(line, parse_firmware(dummy_firmware(), "f").value(), 1));
+}
+
+}  // namespace
+}  // namespace clay::falcon

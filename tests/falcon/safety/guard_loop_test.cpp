@@ -1,0 +1,92 @@
+// The guard where it belongs: between a wall that is far too stiff and an arm.
+
+#include "claystack/falcon/guard.hpp"
+#include "claystack/falcon/passivity.hpp"
+#include "claystack/falcon/sim.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+namespace clay::falcon {
+namespace {
+
+constexpr std::int64_t kPeriodUs = 1000;
+constexpr double kStepM = 5e-5;
+
+struct Swing {
+  double mm = 0.0;      ///< of the last second, peak to peak
+  double most_n = 0.0;  ///< ever sent
+  GuardState state = GuardState::idle;
+};
+
+/// A hand that means to be 5 mm inside a wall at z = 0, once the force is earned outside.
+class Loop {
+ public:
+  explicit Loop(bool with_controller) : with_controller_(with_controller) {}
+
+  Swing press(double stiffness_n_per_m) {
+    Swing swing;
+    double low = 1.0, high = -1.0;
+    for (int i = 0; i < 6000; ++i) {
+      const GuardedForce out = tick(stiffness_n_per_m);
+      arm_.advance(out.force_n, {0.0, 0.0, i < 2500 ? 0.01 : -0.005});
+      swing.most_n = std::max(swing.most_n, glm::length(out.force_n));
+      swing.state = out.state;
+      if (i < 5000) continue;
+      low = std::min(low, arm_.position_m().z);
+      high = std::max(high, arm_.position_m().z);
+    }
+    swing.mm = 1e3 * (high - low);
+    return swing;
+  }
+
+ private:
+  GuardedForce tick(double stiffness_n_per_m) {
+    now_us_ += kPeriodUs;
+    const glm::dvec3 at = arm_.reading_m();
+    (void)guard_.admit(now_us_, {now_us_, 1e3 * at, true, true});
+    WantedForce wanted{{0.0, 0.0, std::max(0.0, -stiffness_n_per_m * at.z)}, now_us_, true};
+    if (with_controller_) {
+      const PassiveForce passive = controller_.tick(now_us_, at, wanted.force_n);
+      wanted.force_n = passive.force_n;
+      wanted.passive = passive.state != PassivityState::safe;
+    }
+    return guard_.force(now_us_, wanted);
+  }
+
+  static constexpr SampledLoop kLoop{1000.0, 0.1, 2.0, 1};
+  bool with_controller_;
+  std::int64_t now_us_ = 0;
+  ForceGuard guard_ = ForceGuard::make({}).value();
+  SimulatedArm arm_ =
+      SimulatedArm::build({kLoop, 0.0, kStepM}, {{}, glm::dvec3(100.0), glm::dvec3(0.5)},
+                          {0.0, 0.0, 0.01})
+          .value();
+  PassivityController controller_ = PassivityController::build({kLoop, kStepM}).value();
+};
+
+TEST(GuardLoop, RendersAWallThatIsSoftEnough) {
+  const Swing swing = Loop(true).press(500.0);
+  EXPECT_LT(swing.mm, 0.2);
+  EXPECT_GT(swing.most_n, 0.3);
+  EXPECT_EQ(swing.state, GuardState::engaged);
+}
+
+TEST(GuardLoop, TheLimitAloneBoundsTheBlowAndNotTheBuzz) {
+  const Swing swing = Loop(false).press(1e6);
+  EXPECT_LE(swing.most_n, 5.0);
+  EXPECT_GT(swing.mm, 1.0);
+}
+
+TEST(GuardLoop, IsStillWithTheController) {
+  for (const double stiffness : {2e3, 1e4, 1e5, 1e6}) {
+    const Swing swing = Loop(true).press(stiffness);
+    EXPECT_LE(swing.most_n, 5.0);
+    EXPECT_LT(swing.mm, 0.2) << stiffness;
+  }
+}
+
+}  // namespace
+}  // namespace clay::falcon

@@ -1,0 +1,266 @@
+#include "claystack/falcon/passivity.hpp"
+
+#include "tests/falcon/random_values.hpp"
+#include "tests/falcon/safety/passivity_samples.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace clay::falcon {
+namespace {
+
+PassivityController controller_of(const SampledLoop& loop, double step_m = 0.0) {
+  PassivitySpec spec;
+  spec.loop = loop;
+  spec.step_m = step_m;
+  return PassivityController::build(spec).value();
+}
+
+/// A hand moved along a path against a spring beyond x = 0; `each` sees the answer, the force
+/// asked.
+template <class Each>
+void play(PassivityController& controller, double stiffness, int ticks,
+          const std::function<double(double)>& path, Each each) {
+  for (int k = 0; k < ticks; ++k) {
+    const glm::dvec3 at = along(path(k * kTickS));
+    const glm::dvec3 asked = along(stiffness * std::max(0.0, -at.x));
+    each(controller.tick(k * 1000, at, asked), asked);
+  }
+}
+
+/// In by 5 mm at a part of the force, out at another: what the hand was given, by forces times
+/// ways, and what the controller came to.
+struct PressAndLeave {
+  double given_j = 0.0, debt_j = 0.0;
+  PassivityState worst = PassivityState::watching;
+};
+PressAndLeave press_and_leave(double part_in, double part_out, bool told) {
+  constexpr double kStiffness = 400.0, kDepthM = 5e-3;
+  PassivityController controller = controller_of({1000, 0.1, 0.5, 0});
+  PressAndLeave run;
+  double before_m = 0.0, held_n = 0.0;
+  for (int k = 0; k <= 1000; ++k) {
+    const bool in = k <= 500;
+    const double x_m = 1e-6 - kDepthM * (in ? k : 1000 - k) / 500.0;
+    run.given_j += held_n * (x_m - before_m);
+    before_m = x_m;
+    const glm::dvec3 asked = along(kStiffness * std::max(0.0, -x_m));
+    const PassiveForce answer = controller.tick(1000 * k, along(x_m), asked);
+    const glm::dvec3 shown = (in ? part_in : part_out) * answer.force_n;
+    if (told) controller.displayed(shown);
+    held_n = shown.x;
+    run.debt_j = std::max(run.debt_j, controller.observer().debt_j());
+    run.worst = std::max(run.worst, answer.state);
+  }
+  return run;
+}
+
+// A guard's ramp that grows in the middle of a contact gives the hand more on its way out than it
+// took on its way in: at most F^2 / 2K, and the controller sees it when it is told what was shown.
+TEST(Passivity, CountsTheForceThatIsDisplayed) {
+  const double stored_j = 0.5 * 400.0 * 25e-6;
+  const PressAndLeave steady = press_and_leave(1.0, 1.0, true);
+  EXPECT_NEAR(steady.given_j, 0.0, 0.01 * stored_j);
+  EXPECT_EQ(steady.worst, PassivityState::watching);
+
+  const PressAndLeave untold = press_and_leave(0.1, 1.0, false);
+  EXPECT_NEAR(untold.given_j, 0.9 * stored_j, 0.01 * stored_j);
+  EXPECT_EQ(untold.worst, PassivityState::watching) << "it believes in credit that there is not";
+
+  const PressAndLeave told = press_and_leave(0.1, 1.0, true);
+  EXPECT_EQ(told.worst, PassivityState::damping);
+  EXPECT_LT(told.given_j, 0.95 * untold.given_j);
+  EXPECT_GT(told.debt_j, 0.0);
+
+  const PressAndLeave less = press_and_leave(1.0, 0.1, true);
+  EXPECT_LT(less.given_j, 0.0) << "a force that fades takes energy";
+  EXPECT_EQ(less.worst, PassivityState::watching);
+}
+
+TEST(Passivity, WhatIsDisplayedMustBeANumber) {
+  PassivityController told = controller_of(kLoop), untold = controller_of(kLoop);
+  for (int k = 0; k < 100; ++k) {
+    const glm::dvec3 at = along(-1e-5 * k), asked = along(4e-3 * k);
+    EXPECT_EQ(told.tick(1000 * k, at, asked).force_n, untold.tick(1000 * k, at, asked).force_n);
+    told.displayed(along(std::nan("")));
+  }
+  EXPECT_EQ(told.observer().injected_j(), untold.observer().injected_j());
+}
+
+RC_GTEST_PROP(Passivity, AnAcceptedSpringPassesUnchanged, ()) {
+  SampledLoop loop = kLoop;
+  loop.delay_ticks = *rc::gen::inRange(0, 4);
+  loop.damping_ns_per_m = within(0.5, 10.0);
+  PassivityController controller = controller_of(loop);
+  // Whatever passive hand: swings of any frequency up to 30 Hz, in and out of the contact.
+  std::vector<glm::dvec3> waves;
+  for (int n = 0; n < 4; ++n) waves.push_back({within(0, 4e-4), within(1, 30), within(0, 6)});
+  const double offset = within(-2e-3, 0.0);
+  const auto path = [&](double t) {
+    double x = offset * t;  // it starts outside
+    for (const auto& w : waves)
+      x +=
+          w.x * (1.0 + std::sin(2 * std::numbers::pi * w.y * t + w.z)) - 2 * w.x * std::min(t, 1.0);
+    return x;
+  };
+  const double stiffness = within(0.0, 1.0) * accepted_stiffness(loop);
+  bool touched = false;
+  play(controller, stiffness, 1000, path, [&](const PassiveForce& sent, const glm::dvec3& asked) {
+    touched = touched || asked.x > 0.0;
+    RC_ASSERT(sent.state == PassivityState::watching);
+    RC_ASSERT(sent.force_n == asked);
+  });
+  RC_CLASSIFY(touched, "in contact");
+}
+
+TEST(Passivity, AStiffContactIsDisplayedAsStiffAsIsAccepted) {
+  PassivityController controller = controller_of(kLoop);  // accepted: b / T = 2000 N/m
+  const auto path = [](double t) { return 1e-4 - 0.01 * t; };
+  double at = 0.0;
+  play(controller, 1e6, 200, path, [&](const PassiveForce& sent, const glm::dvec3& asked) {
+    const double x = path(kTickS * at++);
+    const double earned = asked.x > 0.0 ? -2000.0 * x : 0.0;
+    // From the last reading outside, at most one tick's way before the surface.
+    EXPECT_GE(sent.force_n.x, earned - 1e-12);
+    EXPECT_LE(sent.force_n.x, earned + 2000.0 * 1.1e-5);
+  });
+}
+
+TEST(Passivity, ForceIsEarnedByTheWayIn) {
+  PassivityController controller = controller_of(kLoop);
+  std::int64_t time_us = 0;
+  const auto sent = [&](double x, double asked) {
+    return controller.tick(time_us += 1000, along(x), along(asked)).force_n.x;
+  };
+  EXPECT_EQ(sent(-1.0e-3, 5), 0.0);  // begins within
+  EXPECT_NEAR(sent(-1.5e-3, 5), 1.0, 1e-12);
+  EXPECT_NEAR(sent(-2.0e-3, 5), 2.0, 1e-12);
+  EXPECT_NEAR(sent(-1.8e-3, 5), 1.6, 1e-12);
+  EXPECT_EQ(sent(-1.7e-3, 0), 0.0);  // lets go
+  EXPECT_NEAR(sent(-1.8e-3, 5), 0.2, 1e-12);
+}
+
+/// A contact that takes next to nothing on 20 mm in, and gives `gain_j` on 1 mm out.
+void give(PassivityController& controller, std::int64_t& time_us, double gain_j) {
+  const auto tick = [&](double x, double force) {
+    (void)controller.tick(time_us += 1000, along(x), along(force));
+  };
+  for (int k = 0; k <= 2000; ++k) tick(-1e-5 * k, k > 0 ? 1e-6 : 0.0);
+  for (int k = 0; k < 20; ++k) tick(-2e-2 + 5e-5 * k, gain_j / 1e-3);
+  tick(-19e-3, 0.0);
+  tick(-19e-3, 0.0);
+}
+
+TEST(Passivity, DampingTakesBackWhatWasGivenToTheLastDigit) {
+  PassivityController controller = controller_of(kLoop);
+  std::int64_t time_us = 0;
+  give(controller, time_us, 2e-3);
+  const double debt = controller.observer().injected_j();
+  ASSERT_GT(debt, 1e-5);
+  ASSERT_EQ(controller.state(), PassivityState::damping);
+  // The hand moves on at 50 mm/s, free. Each tick pays, none more than the bound.
+  double x = -19e-3, owed = debt;
+  const double way = 5e-5, most = controller.most_damping_ns_per_m();
+  for (int k = 0; k < 1000 && controller.state() == PassivityState::damping; ++k) {
+    x += way;
+    const PassiveForce sent = controller.tick(time_us += 1000, along(x), along(0));
+    EXPECT_LE(-sent.force_n.x, most * way / kTickS * (1 + 1e-12));
+    EXPECT_LE(sent.force_n.x, 0.0);
+    EXPECT_LE(controller.observer().injected_j(), owed);
+    owed = controller.observer().injected_j();
+  }
+  EXPECT_EQ(controller.state(), PassivityState::watching);
+  EXPECT_NEAR(controller.observer().injected_j(), controller.observer().tolerance_j(), 1e-12);
+}
+
+TEST(Passivity, BoundOfTheDampingFollowsFromTheSampleTime) {
+  const SampledLoop slow{100, 0.1, 1e-3, 1}, fast{1000, 0.1, 1e-3, 1};
+  // Half of what a free mass bears: (sqrt 8 - 2) m / 2T, to the little that the spring takes.
+  EXPECT_NEAR(controller_of(slow).most_damping_ns_per_m(), (std::sqrt(8.0) - 2.0) * 5.0, 0.02);
+  EXPECT_NEAR(controller_of(fast).most_damping_ns_per_m(), (std::sqrt(8.0) - 2.0) * 50.0, 0.2);
+  // And where the encoder is coarse, a step in a tick is a quarter of 1 N.
+  EXPECT_NEAR(controller_of(fast, 5e-5).most_damping_ns_per_m(), 0.25 * kTickS / 5e-5, 1e-12);
+}
+
+TEST(Passivity, TooMuchInAWhileYieldsThenEnds) {
+  PassivityController controller = controller_of(kLoop);
+  std::int64_t time_us = 0;
+  give(controller, time_us, 11e-3);
+  EXPECT_EQ(controller.state(), PassivityState::yielding);
+  // Half of b / T from now on.
+  EXPECT_NEAR(controller.tick(time_us += 1000, along(-19.5e-3), along(5)).force_n.x, 0.5, 1e-12);
+  (void)controller.tick(time_us += 1000, along(0), along(0));
+  give(controller, time_us, 11e-3);
+  EXPECT_EQ(controller.state(), PassivityState::safe);
+  EXPECT_EQ(controller.tick(time_us += 1000, along(-1e-2), along(5)).force_n, along(0));
+  EXPECT_EQ(controller.tick(time_us += 1000, along(-2e-2), along(5)).force_n, along(0));
+  controller.reset();
+  EXPECT_EQ(controller.state(), PassivityState::watching);
+  (void)controller.tick(0, along(0), along(0));
+  EXPECT_EQ(controller.tick(1000, along(-1e-3), along(1)).force_n, along(1));
+}
+
+TEST(Passivity, LittleDoesNot) {
+  PassivityController controller = controller_of(kLoop);
+  std::int64_t time_us = 0;
+  give(controller, time_us, 2e-3);
+  EXPECT_EQ(controller.state(), PassivityState::damping);
+}
+
+TEST(Passivity, AForceThatRattlesIsTakenForOne) {
+  for (const double swing : {0.9, 1.1}) {
+    for (const int half_period_ticks : {6, 8}) {  // 8 swings in 42 and in 56 ms
+      PassivityController controller = controller_of(kLoop);
+      for (int k = 0; k < 200; ++k) {
+        const double force = 2.0 + (k / half_period_ticks % 2) * swing;
+        (void)controller.tick(k * 1000, along(-1e-2), along(k < 20 ? 2.0 : force));
+      }
+      EXPECT_EQ(controller.state() != PassivityState::watching,
+                swing > 1.0 && half_period_ticks == 6)
+          << swing << " " << half_period_ticks;
+    }
+  }
+}
+
+TEST(Passivity, WhatIsNotATickIsNoForceAndChangesNothing) {
+  PassivityController controller = controller_of(kLoop);
+  const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
+  (void)controller.tick(0, along(0), along(0));
+  (void)controller.tick(1000, along(-1e-3), along(1));
+  const double before = controller.observer().injected_j();
+  EXPECT_EQ(controller.tick(2000, along(nan), along(1)).force_n, along(0));
+  EXPECT_EQ(controller.tick(2000, along(-1e-3), {0, inf, 0}).force_n, along(0));
+  EXPECT_EQ(controller.tick(1000, along(-1e-3), along(1)).force_n, along(0));  // time stands
+  EXPECT_EQ(controller.tick(-5, along(-1e-3), along(1)).force_n, along(0));    // runs back
+  EXPECT_EQ(controller.observer().injected_j(), before);
+  EXPECT_EQ(controller.tick(3000, along(-1e-3), along(1)).force_n, along(1));
+}
+
+TEST(Passivity, RefusesByTheNameOfTheSetting) {
+  const auto refused = [](auto change) {
+    PassivitySpec spec;
+    change(spec);
+    const auto built = PassivityController::build(spec);
+    return built ? std::string() : std::string(built.error().setting);
+  };
+  EXPECT_EQ(refused([](PassivitySpec&) {}), "");
+  EXPECT_EQ(refused([](PassivitySpec& s) { s.loop.rate_hz = 0; }), "rate_hz");
+  EXPECT_EQ(refused([](PassivitySpec& s) { s.step_m = -1; }), "step_m");
+  EXPECT_EQ(refused([](PassivitySpec& s) { s.energy_limit_j = 0; }), "energy_limit_j");
+  EXPECT_EQ(refused([](PassivitySpec& s) { s.energy_window_s = 11; }), "energy_window_s");
+  EXPECT_EQ(refused([](PassivitySpec& s) { s.reversal_limit = 17; }), "reversal_limit");
+  EXPECT_EQ(refused([](PassivitySpec& s) { s.reversal_window_s = std::nan(""); }),
+            "reversal_window_s");
+  EXPECT_EQ(refused([](PassivitySpec& s) { s.reversal_force_n = 0; }), "reversal_force_n");
+}
+
+}  // namespace
+}  // namespace clay::falcon

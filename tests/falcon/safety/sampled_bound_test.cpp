@@ -1,0 +1,138 @@
+#include "claystack/falcon/passivity.hpp"
+
+#include "tests/falcon/random_values.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace clay::falcon {
+namespace {
+
+SampledLoop any_loop(int delay) {
+  return {std::pow(10.0, within(2.0, 3.9)), within(0.1, 0.5), within(0.2, 20.0), delay};
+}
+
+RC_GTEST_PROP(PassiveDamping, WithoutDelayIsColgateAndSchenkels, ()) {
+  const SampledLoop loop = any_loop(0);
+  const VirtualWall wall{within(0.0, 1e4), within(-10.0, 10.0)};
+  const double expected =
+      0.5 * wall.stiffness_n_per_m / loop.rate_hz + std::abs(wall.damping_ns_per_m);
+  RC_ASSERT(std::abs(passive_damping(loop, wall) - expected) <= 1e-9 * expected);
+}
+
+RC_GTEST_PROP(PassiveDamping, AtAnAngleIsTheIntegrandOfTheTheorem, ()) {
+  // T/2 Re{(1 - e^-jwT) H(e^jwT)} / (1 - cos wT), H = (K + B (z - 1)/(T z)) z^-n.
+  const SampledLoop loop = any_loop(*rc::gen::inRange(0, 9));
+  const VirtualWall wall{within(0.0, 1e4), within(-10.0, 10.0)};
+  const double angle = within(0.01, std::numbers::pi), period = loop.period_s();
+  const std::complex<double> back = std::polar(1.0, -angle);
+  const auto h = (wall.stiffness_n_per_m + wall.damping_ns_per_m * (1.0 - back) / period) *
+                 std::pow(back, loop.delay_ticks);
+  const double expected = 0.5 * period * ((1.0 - back) * h).real() / (1.0 - std::cos(angle));
+  const double found = passive_damping_at(loop, wall, angle);
+  RC_ASSERT(std::abs(found - expected) <= 1e-7 * (1.0 + std::abs(expected)));
+  RC_ASSERT(found <= passive_damping(loop, wall) + 1e-12);
+}
+
+RC_GTEST_PROP(PassiveDamping, IsMetBySomeMotion, ()) {
+  const SampledLoop loop = any_loop(*rc::gen::inRange(0, 9));
+  const VirtualWall wall{within(0.0, 1e4), within(-10.0, 10.0)};
+  double most = -1e300;
+  for (int k = 0; k <= 20000; ++k)
+    most = std::max(most, passive_damping_at(loop, wall, std::numbers::pi * k / 20000));
+  RC_ASSERT(std::abs(passive_damping(loop, wall) - most) <= 1e-5 * (1.0 + std::abs(most)));
+}
+
+RC_GTEST_PROP(PassiveStiffness, NeedsAllTheDampingThereIs, ()) {
+  const SampledLoop loop = any_loop(*rc::gen::inRange(0, 9));
+  const double needed = passive_damping(loop, {passive_stiffness(loop), 0.0});
+  RC_ASSERT(std::abs(needed - loop.damping_ns_per_m) <= 1e-12 * needed);
+}
+
+/// From held force to position, by the textbook's exponentials.
+struct Held {
+  double p, c1, c0;
+};
+Held held(const SampledLoop& loop) {
+  const long double b = loop.damping_ns_per_m, m = loop.mass_kg, t = 1.0L / loop.rate_hz;
+  const long double p = std::exp(-b * t / m), gone = -std::expm1(-b * t / m);
+  return {static_cast<double>(p), static_cast<double>((t - m / b * gone) / b),
+          static_cast<double>((m / b * gone - t * p) / b)};
+}
+
+RC_GTEST_PROP(StableStiffness, WithoutDelayIsWhereTheProductOfTheRootsIsOne, ()) {
+  const SampledLoop loop = any_loop(0);
+  const Held arm = held(loop);  // (z - 1)(z - p) + K (c1 z + c0): p + K c0 = 1
+  const double expected = (1.0 - arm.p) / arm.c0;
+  const double other = 2.0 * (1.0 + arm.p) / (arm.c1 - arm.c0);  // a root at -1
+  const double border = arm.c1 > arm.c0 ? std::min(expected, other) : expected;
+  RC_ASSERT(std::abs(stable_stiffness(loop) - border) <= 1e-6 * border);
+}
+
+RC_GTEST_PROP(StableStiffness, WithATickOfDelaySolvesJurysQuadratic, ()) {
+  // z^3 - (1 + p) z^2 + (p + K c1) z + K c0: 1 - a0^2 = a1 - a0 a2.
+  const SampledLoop loop = any_loop(1);
+  const Held arm = held(loop);
+  const double half = 0.5 * (arm.c1 + arm.c0 * (1.0 + arm.p)) / (arm.c0 * arm.c0);
+  const double last = (1.0 - arm.p) / (arm.c0 * arm.c0);
+  const double expected = last / (half + std::sqrt(half * half + last));
+  RC_ASSERT(std::abs(stable_stiffness(loop) - expected) <= 1e-6 * expected);
+}
+
+RC_GTEST_PROP(StableStiffness, IsNotBelowWhatIsPassive, ()) {
+  const SampledLoop loop = any_loop(*rc::gen::inRange(0, 9));
+  RC_ASSERT(stable_stiffness(loop) >= passive_stiffness(loop));
+  RC_ASSERT(is_stable(loop, {within(1e-3, 0.999) * passive_stiffness(loop), 0.0}));
+  RC_ASSERT(!is_stable(loop, {1.001 * stable_stiffness(loop), 0.0}));
+}
+
+TEST(StableStiffness, OfTheArmOfTheDocs) {
+  // 0.1 kg, 2 N s/m, 1 kHz, one tick late; by hand from the quadratic.
+  EXPECT_NEAR(stable_stiffness({1000, 0.1, 2.0, 1}), 1340.7, 0.05);
+}
+
+TEST(StableStiffness, IsNoneWithoutDamping) {
+  for (int delay = 0; delay <= 3; ++delay)
+    EXPECT_LT(stable_stiffness({1000, 0.1, 0.0, delay}), 1e-6) << delay;
+}
+
+TEST(StableDamping, OfAFreeMassIsWhatItsDifferenceEquationBears) {
+  // v' = v - a (v + v_before)/2: a < 2. One tick late, z^3 - z^2 + a (z + 1)/2: a < 2 sqrt(2) - 2.
+  const double m = 0.1, rate = 1000;
+  EXPECT_NEAR(stable_damping({rate, m, 1e-4, 0}, 1e-3), 2.0 * m * rate, 0.01);
+  EXPECT_NEAR(stable_damping({rate, m, 1e-4, 1}, 1e-3), (std::sqrt(8.0) - 2.0) * m * rate, 0.01);
+}
+
+TEST(CheckStiffness, RefusesAboveHalfOfThePassiveAndSaysBothWaysOut) {
+  const SampledLoop loop{1000, 0.1, 2.0, 1};  // passive: 2 b / 3 T = 1333.3 N/m
+  EXPECT_TRUE(check_stiffness(loop, 0.0));
+  EXPECT_TRUE(check_stiffness(loop, 666.6));
+  const auto refused = check_stiffness(loop, 1000.0);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().found_n_per_m, 1000.0);
+  EXPECT_NEAR(refused.error().highest_n_per_m, 666.667, 1e-3);
+  EXPECT_NEAR(refused.error().lowest_rate_hz, 1500.0, 1e-9);
+  EXPECT_TRUE(check_stiffness(loop, refused.error().highest_n_per_m));
+  SampledLoop faster = loop;
+  faster.rate_hz = refused.error().lowest_rate_hz * (1.0 + 1e-12);
+  EXPECT_TRUE(check_stiffness(faster, 1000.0));
+  SampledLoop punctual = loop;
+  punctual.delay_ticks = 0;  // half of 2 b / T
+  EXPECT_TRUE(check_stiffness(punctual, 2000.0));
+  EXPECT_FALSE(check_stiffness(punctual, 2000.1));
+}
+
+TEST(CheckStiffness, RefusesWhatIsNoStiffness) {
+  EXPECT_FALSE(check_stiffness({}, std::nan("")));
+  EXPECT_FALSE(check_stiffness({}, -1.0));
+  const auto undamped = check_stiffness({1000, 0.1, 0.0, 1}, 1.0);
+  ASSERT_FALSE(undamped);
+  EXPECT_TRUE(std::isinf(undamped.error().lowest_rate_hz));
+}
+
+}  // namespace
+}  // namespace clay::falcon
