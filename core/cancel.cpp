@@ -1,6 +1,6 @@
 #include "core/cancel.hpp"
 
-namespace clay::solid {
+namespace clay {
 namespace {
 
 thread_local const CancelScope::Question* asked = nullptr;
@@ -20,4 +20,4 @@ void stop_if_cancelled() {
   if (asked != nullptr && (*asked)()) throw Cancelled();
 }
 
-}  // namespace clay::solid
+}  // namespace clay

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-namespace clay::solid {
+namespace clay {
 
 /// The job is no longer wanted; no fault of its own. No std::exception: who makes errors of those
 /// lets it pass.
@@ -37,4 +37,4 @@ inline void step_of_loop() {
   if (++loop_steps % 1024 == 0) stop_if_cancelled();
 }
 
-}  // namespace clay::solid
+}  // namespace clay

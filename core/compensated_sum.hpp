@@ -1,7 +1,7 @@
 #pragma once
 #include <cmath>
 
-namespace clay::solid {
+namespace clay {
 
 /// Neumaier's summation: the error stays within an ulp or two of the sum however many terms there
 /// are, so that the volume of a mesh of millions of triangles can be held against counted clay.
@@ -19,4 +19,4 @@ class CompensatedSum {
   double lost_ = 0.0;
 };
 
-}  // namespace clay::solid
+}  // namespace clay

@@ -3,7 +3,7 @@
 #define XXH_INLINE_ALL  // one header, nothing to link
 #include <xxhash.h>
 
-namespace clay::solid {
+namespace clay {
 
 struct ContentHasher::State {
   XXH3_state_t xxh3;
@@ -35,4 +35,4 @@ ContentHash hash_of(std::span<const std::byte> bytes) {
   return hasher.digest();
 }
 
-}  // namespace clay::solid
+}  // namespace clay

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-namespace clay::solid {
+namespace clay {
 
 /// 32 hexadecimal digits, as `xxh128sum` prints them.
 using ContentHash = std::string;
@@ -28,4 +28,4 @@ class ContentHasher {
 
 [[nodiscard]] ContentHash hash_of(std::span<const std::byte> bytes);
 
-}  // namespace clay::solid
+}  // namespace clay

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace clay::files {
+namespace clay {
 
 /// FNV-1a, 64 bits (Fowler, Noll, Vo): every step is a bijection of the state, so one changed
 /// byte always shows.
@@ -23,4 +23,4 @@ class Fnv1a {
   std::uint64_t value_ = 0xcbf29ce484222325;
 };
 
-}  // namespace clay::files
+}  // namespace clay

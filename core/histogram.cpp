@@ -4,10 +4,10 @@
 #include <bit>
 #include <cmath>
 
-namespace clay::falcon {
+namespace clay {
 namespace {
 
-constexpr unsigned kBits = TimingHistogram::kBits;
+constexpr unsigned kBits = Histogram::kBits;
 
 std::size_t bucket_of(std::int64_t ns) noexcept {
   const auto value = static_cast<std::uint64_t>(std::max<std::int64_t>(ns, 0));
@@ -28,7 +28,7 @@ std::int64_t longest_of(std::size_t bucket) noexcept {
 
 }  // namespace
 
-void TimingHistogram::add(std::int64_t ns) noexcept {
+void Histogram::add(std::int64_t ns) noexcept {
   const std::int64_t time = std::max<std::int64_t>(ns, 0);
   ++counts_[bucket_of(time)];
   ++count_;
@@ -37,7 +37,7 @@ void TimingHistogram::add(std::int64_t ns) noexcept {
   sum_ += static_cast<double>(time);
 }
 
-void TimingHistogram::merge(const TimingHistogram& other) noexcept {
+void Histogram::merge(const Histogram& other) noexcept {
   for (std::size_t i = 0; i < kBuckets; ++i) counts_[i] += other.counts_[i];
   count_ += other.count_;
   least_ = std::min(least_, other.least_);
@@ -45,11 +45,11 @@ void TimingHistogram::merge(const TimingHistogram& other) noexcept {
   sum_ += other.sum_;
 }
 
-double TimingHistogram::mean_ns() const noexcept {
+double Histogram::mean_ns() const noexcept {
   return count_ > 0 ? sum_ / static_cast<double>(count_) : 0.0;
 }
 
-std::int64_t TimingHistogram::quantile_ns(double part) const noexcept {
+std::int64_t Histogram::quantile_ns(double part) const noexcept {
   const double kept = part > 0.0 ? std::min(part, 1.0) : 0.0;
   const double place = std::ceil(kept * static_cast<double>(count_));
   std::uint64_t left = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(place));
@@ -60,10 +60,10 @@ std::int64_t TimingHistogram::quantile_ns(double part) const noexcept {
   return most_;
 }
 
-std::uint64_t TimingHistogram::count_from(std::int64_t ns) const noexcept {
+std::uint64_t Histogram::count_from(std::int64_t ns) const noexcept {
   std::uint64_t count = 0;
   for (std::size_t bucket = bucket_of(ns); bucket < kBuckets; ++bucket) count += counts_[bucket];
   return count;
 }
 
-}  // namespace clay::falcon
+}  // namespace clay

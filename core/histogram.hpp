@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace clay::falcon {
+namespace clay {
 
-class TimingHistogram {
+class Histogram {
  public:
   static constexpr unsigned kBits = 5;
   /// A quantile is at most this part above the time it stands for, and never below.
@@ -17,7 +17,7 @@ class TimingHistogram {
   /// A time [ns]; negative ones count as 0 (and are early, not late).
   void add(std::int64_t ns) noexcept;
   /// Adds all that `other` has counted.
-  void merge(const TimingHistogram& other) noexcept;
+  void merge(const Histogram& other) noexcept;
   void clear() noexcept { *this = {}; }
 
   [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
@@ -45,4 +45,4 @@ class TimingHistogram {
   double sum_ = 0.0;
 };
 
-}  // namespace clay::falcon
+}  // namespace clay

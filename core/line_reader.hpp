@@ -3,7 +3,7 @@
 #include <optional>
 #include <string_view>
 
-namespace clay::files {
+namespace clay {
 
 /// Takes complete lines off a text and counts them.
 class LineReader {
@@ -27,4 +27,4 @@ class LineReader {
   std::size_t number_ = 0;
 };
 
-}  // namespace clay::files
+}  // namespace clay

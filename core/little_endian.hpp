@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace clay::solid {
+namespace clay {
 
 /// The value whose bytes in memory are those of `value`, least first; its own inverse.
 [[nodiscard]] inline std::uint32_t little_endian(std::uint32_t value) noexcept {
@@ -36,4 +36,4 @@ inline void store_f32(char* at, float value) noexcept {
   return std::bit_cast<float>(load_u32(at));
 }
 
-}  // namespace clay::solid
+}  // namespace clay

@@ -10,7 +10,7 @@
 #include <thread>
 #include <utility>
 
-namespace clay::studio {
+namespace clay {
 
 /// For one thread that asks and takes. Questions and answers are values; no one but the two
 /// threads knows the lock.
@@ -94,4 +94,4 @@ class NewestWorker {
   std::thread thread_;  // last: it uses all of the above
 };
 
-}  // namespace clay::studio
+}  // namespace clay

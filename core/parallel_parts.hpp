@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace clay::solid {
+namespace clay {
 
 /// work(0) .. work(parts - 1), on all cores. Which thread takes which part is left open: each part
 /// writes to a place of its own, so that the result never depends on it. Parts are begun in
@@ -43,4 +43,4 @@ void for_each_part(std::size_t parts, const Work& work) {
     if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace clay::solid
+}  // namespace clay

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace clay::falcon {
+namespace clay {
 
 /// One thread writes, one reads; for two readers take two snapshots. Values are copied into
 /// buffers made beforehand: a vector of the same size allocates nothing.
@@ -63,4 +63,4 @@ class Snapshot {
   alignas(kCacheLine) std::uint8_t read_ = 2;
 };
 
-}  // namespace clay::falcon
+}  // namespace clay

@@ -8,19 +8,19 @@
 #include <optional>
 #include <type_traits>
 
-namespace clay::falcon {
+namespace clay {
 
 /// One thread pushes, one pops. `Capacity`: a power of two, so that the counts may run over.
 template <class T, std::size_t Capacity>
-class CommandQueue {
+class SpscQueue {
   static_assert(Capacity > 0 && (Capacity & (Capacity - 1)) == 0, "a power of two");
   static_assert(std::is_nothrow_copy_assignable_v<T> && std::is_nothrow_copy_constructible_v<T>,
                 "the servo pops: nothing may throw");
 
  public:
-  CommandQueue() = default;
-  CommandQueue(const CommandQueue&) = delete;
-  CommandQueue& operator=(const CommandQueue&) = delete;
+  SpscQueue() = default;
+  SpscQueue(const SpscQueue&) = delete;
+  SpscQueue& operator=(const SpscQueue&) = delete;
 
   /// False when full: the command was not taken.
   [[nodiscard]] bool push(const T& command) noexcept {
@@ -48,4 +48,4 @@ class CommandQueue {
   alignas(kCacheLine) std::atomic<std::size_t> popped_{0};
 };
 
-}  // namespace clay::falcon
+}  // namespace clay

@@ -36,7 +36,7 @@ BareWheel::BareWheel(const SceneSpec& scene) : plan_(StepPlan::build(scene).valu
 void BareWheel::step(const Pose& pose) noexcept {
   ToolState tool = tracker_.advance(pose);
   if (!tool.valid) return;
-  Bite& bite = bites_[0];
+  ToolRemoval& bite = bites_[0];
   find_contact<Model::conserving>(plan_.tool, stack_, tool.hip_mm, bite.contact, tool.moved_mm);
   const bool touches = !bite.contact.rings.empty();
   const int parts = touches || touching_ ? parts_of(tool) : 1;
@@ -52,7 +52,7 @@ void BareWheel::step(const Pose& pose) noexcept {
 }
 
 void BareWheel::press(const ToolState& tool) noexcept {
-  Bite& bite = bites_[0];
+  ToolRemoval& bite = bites_[0];
   const double half_way = 0.5 * tool.moved_mm.y / stack_.ring_height_mm();
   bite.contact.up_offset += std::max(half_way, 0.0);
   bite.contact.down_offset += std::max(-half_way, 0.0);
@@ -61,7 +61,7 @@ void BareWheel::press(const ToolState& tool) noexcept {
 }
 
 double bare_stroke_s(const SceneSpec& scene, double depth_mm) {
-  const auto poses = app::stroke_poses(scene, depth_mm);
+  const auto poses = cli::stroke_poses(scene, depth_mm);
   BareWheel wheel(scene);
   return work_seconds_of([&] {
     for (const Pose& pose : poses) wheel.step(pose);

@@ -26,11 +26,11 @@ class BareWheel {
   Ledger ledger_;
   ToolTracker tracker_;
   Rim rim_;
-  bool touching_ = false;    // at the last pose
-  std::vector<Bite> bites_;  // one
+  bool touching_ = false;           // at the last pose
+  std::vector<ToolRemoval> bites_;  // one
 };
 
-/// Seconds of the stroke of `app::stroke_ns`.
+/// Seconds of the stroke of `cli::stroke_ns`.
 [[nodiscard]] double bare_stroke_s(const SceneSpec& scene, double depth_mm);
 
 }  // namespace clay::bench

@@ -109,7 +109,7 @@ Table own_word(Job job) {
               "Once, as by claystack export --measure-left-out."};
   job.options.measure_left_out = true;
   if (const auto report = job.run())
-    for (const solid::LeftOut& item : report->left_out)
+    for (const solid::SkippedStage& item : report->left_out)
       table.rows.push_back(
           {item.what, item.why, item.saved_s ? Cell(1e3 * *item.saved_s) : Cell()});
   return table;

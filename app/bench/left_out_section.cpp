@@ -29,7 +29,7 @@ SceneSpec scene_without(const std::string& stage) {
 
 Work stroke(const SceneSpec& scene, double depth_mm) {
   return {"stroke",
-          [scene, depth_mm] { return 1e-9 * app::kStrokeTicks * app::stroke_ns(scene, depth_mm); }};
+          [scene, depth_mm] { return 1e-9 * cli::kStrokeTicks * cli::stroke_ns(scene, depth_mm); }};
 }
 
 Work by_hand(double depth_mm) {
@@ -43,11 +43,11 @@ Duel pinch_at_work(const Rounds& rounds) {
   SceneSpec pinched = wall;
   pinched.tool.mode = ToolMode::pinch;
   pinched.tool.gap_mm = 10.0;
-  return duel(stroke(wall, app::kFirmMm), stroke(pinched, app::kFirmMm), rounds);
+  return duel(stroke(wall, cli::kFirmMm), stroke(pinched, cli::kFirmMm), rounds);
 }
 
 std::vector<Cell> row_of(const std::string& stage, const std::string& where, const Duel& duel) {
-  const double ns = 1e9 / app::kStrokeTicks;
+  const double ns = 1e9 / cli::kStrokeTicks;
   return {stage,
           where,
           ns * duel.a.median,
@@ -77,10 +77,10 @@ Table empty_table() {
 void measure_tick_stages(Section& section, const Effort& effort) {
   Rounds rounds = rounds_of(effort);
   rounds.count = 2 * rounds.count + 1;
-  const Work out = stroke(bare_scene(), app::kFirmMm);
+  const Work out = stroke(bare_scene(), cli::kFirmMm);
   Table table = empty_table();
   effort.progress("noise");
-  const Duel noise = duel(out, out, rounds), bare = duel(by_hand(app::kFirmMm), out, rounds);
+  const Duel noise = duel(out, out, rounds), bare = duel(by_hand(cli::kFirmMm), out, rounds);
   table.rows = {row_of("none: the same scene twice", "in contact", noise),
                 row_of("none: by hand, then the engine", "in contact", bare),
                 row_of("none: by hand, then the engine", "in the air",
@@ -88,8 +88,8 @@ void measure_tick_stages(Section& section, const Effort& effort) {
   for (const std::string stage : {"inner surface", "force", "friction", "stability", "pinch"}) {
     effort.progress(stage);
     const SceneSpec without = scene_without(stage);
-    const SceneSpec with = app::with_stage(without, stage).value();
-    for (const double depth : {app::kFirmMm, kInTheAirMm})
+    const SceneSpec with = cli::with_stage(without, stage).value();
+    for (const double depth : {cli::kFirmMm, kInTheAirMm})
       table.rows.push_back(row_of(stage == "pinch" ? "pinch allowed, one hand" : stage,
                                   depth > 0.0 ? "in contact" : "in the air",
                                   duel(stroke(without, depth), stroke(with, depth), rounds)));

@@ -37,10 +37,10 @@ struct Table {
   std::string note;
 };
 
-using plot::Axis;
-using plot::Curve;
-using plot::Map;
-using plot::Plot;
+using chart::Axis;
+using chart::Curve;
+using chart::Map;
+using chart::Plot;
 
 struct Section {
   std::string id;  ///< the word after --only

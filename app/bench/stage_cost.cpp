@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 constexpr int kRounds = 9;  // odd: the median is one of them
@@ -104,4 +104,4 @@ std::optional<StageCost> cost_of(const SceneSpec& scene, std::string_view stage)
   return StageCost{median(in), median(out)};
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

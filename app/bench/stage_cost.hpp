@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clay::app {
+namespace clay::cli {
 
 /// The scene with the stage in; nothing for stages that no setting puts in.
 std::optional<SceneSpec> with_stage(SceneSpec scene, std::string_view stage);
@@ -55,4 +55,4 @@ struct StageCost {
 /// Nothing for stages that can't be put in by a setting, and where there is no timed stroke.
 std::optional<StageCost> cost_of(const SceneSpec& scene, std::string_view stage);
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -1,7 +1,7 @@
 #pragma once
 #include <ctime>
 
-namespace clay::app {
+namespace clay::cli {
 
 /// Seconds that this thread has run so far. While the machine does something else they stand still:
 /// a tick that was interrupted is no slower. To ask takes some 100 ns.
@@ -11,4 +11,4 @@ inline double thread_seconds() noexcept {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -43,9 +43,9 @@ struct Duel {
 /// Seconds that this thread works on a call; waiting while the machine does something else is none.
 template <class Call>
 double work_seconds_of(Call&& call) {
-  const double begin = app::thread_seconds();
+  const double begin = cli::thread_seconds();
   call();
-  return app::thread_seconds() - begin;
+  return cli::thread_seconds() - begin;
 }
 
 /// Seconds by the clock on the wall: for calls of a few ticks, and for work on several threads.

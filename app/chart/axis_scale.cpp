@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace clay::plot {
+namespace clay::chart {
 namespace {
 
 constexpr double kLinearParts = 6.0;
@@ -121,4 +121,4 @@ AxisScale Extent::scale(double margin) const {
   return {false, tight.low() - room, tight.high() + room};
 }
 
-}  // namespace clay::plot
+}  // namespace clay::chart

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-namespace clay::plot {
+namespace clay::chart {
 
 struct Tick {
   double value = 0.0;
@@ -50,4 +50,4 @@ struct Extent {
   [[nodiscard]] AxisScale scale(double margin) const;
 };
 
-}  // namespace clay::plot
+}  // namespace clay::chart

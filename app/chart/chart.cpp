@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-namespace clay::plot {
+namespace clay::chart {
 namespace {
 
 constexpr double kHeight = 340.0;  // of the frame
@@ -208,4 +208,4 @@ std::string Chart::finish() {
   return svg + body_ + "</svg>\n";
 }
 
-}  // namespace clay::plot
+}  // namespace clay::chart

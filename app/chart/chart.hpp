@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clay::plot {
+namespace clay::chart {
 
 /// One drawing under construction [px, y down].
 class Chart {
@@ -49,4 +49,4 @@ class Chart {
   bool zeros_ = false;
 };
 
-}  // namespace clay::plot
+}  // namespace clay::chart

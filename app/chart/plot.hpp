@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clay::plot {
+namespace clay::chart {
 
 struct Axis {
   std::string label;  ///< with its unit
@@ -52,4 +52,4 @@ enum class Place { alone, page };
 /// CSS of the drawings, for light and dark, for a page that holds some.
 [[nodiscard]] std::string_view style();
 
-}  // namespace clay::plot
+}  // namespace clay::chart

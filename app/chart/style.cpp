@@ -1,6 +1,6 @@
 #include "app/chart/chart.hpp"
 
-namespace clay::plot {
+namespace clay::chart {
 
 // Hues that stay apart for the colour-blind; shapes and dashes tell curves apart without any.
 std::string_view style() {
@@ -39,4 +39,4 @@ std::string_view style() {
 )css";
 }
 
-}  // namespace clay::plot
+}  // namespace clay::chart

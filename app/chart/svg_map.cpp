@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace clay::plot {
+namespace clay::chart {
 namespace {
 
 /// Borders of the cells around ascending centres: halfway between them, in the axis' own measure.
@@ -85,4 +85,4 @@ std::string svg_of(const Map& map, Place place) {
   return chart.finish();
 }
 
-}  // namespace clay::plot
+}  // namespace clay::chart

@@ -1,6 +1,6 @@
 #include "app/chart/chart.hpp"
 
-namespace clay::plot {
+namespace clay::chart {
 
 std::string svg_of(const Plot& plot, Place place) {
   Extent x{plot.x.logarithmic}, y{plot.y.logarithmic};
@@ -17,4 +17,4 @@ std::string svg_of(const Plot& plot, Place place) {
   return chart.finish();
 }
 
-}  // namespace clay::plot
+}  // namespace clay::chart

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace clay::plot {
+namespace clay::chart {
 namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
@@ -71,4 +71,4 @@ std::string escaped(std::string_view text) {
   return safe;
 }
 
-}  // namespace clay::plot
+}  // namespace clay::chart

@@ -12,7 +12,7 @@
 #include <optional>
 #include <utility>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 struct BenchOptions {
@@ -140,4 +140,4 @@ void add_bench_command(CLI::App& app, Console& console, int& exit) {
   });
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clay::app {
+namespace clay::cli {
 
 struct CheckCommand {
   std::string file;
@@ -62,4 +62,4 @@ Result<Verdict> check_mesh_file(solid::MeshFormat format, const CheckCommand& co
 Json verdict_json(const std::string& file, const Verdict& verdict);
 void tell(const Console& console, const std::string& file, const Verdict& verdict);
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -9,7 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 bool is_pot(std::string_view path) { return path.ends_with(".json") || path.ends_with(".cbor"); }
@@ -100,4 +100,4 @@ void add_check_command(CLI::App& app, Console& console, int& exit) {
   sub->callback([command, &console, &exit] { exit = check(*command, console); });
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

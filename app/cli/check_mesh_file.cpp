@@ -13,7 +13,7 @@
 #include <glm/common.hpp>
 #include <utility>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 using solid::MeshFormat;
@@ -62,7 +62,7 @@ Result<TriangleMesh> mended(TriangleMesh mesh, const CheckCommand& command, Mend
   if (!found) return tl::make_unexpected(found.error());
   mending.found = std::move(found->problems);
   if (command.repair && !mending.found.empty()) {
-    auto repaired = solid::repair(mesh);
+    auto repaired = solid::repair_mesh(mesh);
     if (!repaired) return tl::make_unexpected(repaired.error());
     mesh = std::move(repaired->mesh);
     mending.repaired = std::move(repaired->repaired);
@@ -242,4 +242,4 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
   return verdict;
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -12,7 +12,7 @@
 
 #include <algorithm>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 // A pot is checked on a mesh of its walls: enough facets to look like the pot, few enough to be
@@ -84,4 +84,4 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command) {
   return verdict;
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 constexpr std::size_t kCountingStops = 100'000;  // of self-intersections, see MeshReport
@@ -142,4 +142,4 @@ void tell(const Console& console, const std::string& file, const Verdict& verdic
                             problem.where));
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 Json collapse_json(const Collapse& fall) {
@@ -52,4 +52,4 @@ void tell_collapse(const Console& console, const Json& summary) {
       fall["energy_lost_mj"].get<double>(), fall["plastic_work_mj"].get<double>()));
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

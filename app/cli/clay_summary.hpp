@@ -4,7 +4,7 @@
 #include "app/cli/console.hpp"
 #include "claystack/engine/wheel.hpp"
 
-namespace clay::app {
+namespace clay::cli {
 
 [[nodiscard]] const char* name_of(Model model);
 
@@ -14,4 +14,4 @@ namespace clay::app {
 /// `summary`: with the fields of clay_json.
 void tell_collapse(const Console& console, const Json& summary);
 
-}  // namespace clay::app
+}  // namespace clay::cli

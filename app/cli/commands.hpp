@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace clay::app {
+namespace clay::cli {
 
 void add_throw_command(CLI::App& app, Console& console, int& exit);
 void add_plan_command(CLI::App& app, Console& console, int& exit);
@@ -34,4 +34,4 @@ void add_bench_command(CLI::App& app, Console& console, int& exit);
 /// Program, version, compiler, and the parts that are built in.
 [[nodiscard]] std::string version_text();
 
-}  // namespace clay::app
+}  // namespace clay::cli

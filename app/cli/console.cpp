@@ -17,7 +17,7 @@
 #include <sstream>
 #include <utility>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 constexpr auto kPatience = std::chrono::milliseconds(300);
@@ -177,4 +177,4 @@ void Progress::update(std::size_t done) {
 
 void Progress::stage(std::string_view name) { line_.show(fmt::format("{}: {} ...", label_, name)); }
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -17,7 +17,7 @@ class App;
 class ParseError;
 }  // namespace CLI
 
-namespace clay::app {
+namespace clay::cli {
 
 using Json = nlohmann::ordered_json;
 
@@ -101,4 +101,4 @@ class Progress {
   std::size_t total_;
 };
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -10,7 +10,7 @@
 
 #include <utility>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 using DevicePointer = std::unique_ptr<falcon::HapticDevice>;
@@ -75,4 +75,4 @@ Result<DevicePointer> open_chosen(const std::string& which, const falcon::Falcon
 #endif
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -10,7 +10,7 @@
 #include <memory>
 #include <string>
 
-namespace clay::app {
+namespace clay::cli {
 
 /// A fault of the user's files and settings is bad input, any other the device's.
 [[nodiscard]] Error error_of(const falcon::DeviceError& error);
@@ -28,4 +28,4 @@ Result<std::unique_ptr<falcon::HapticDevice>> open_chosen(
     const std::string& which, const falcon::FalconSettings& falcon,
     const falcon::SimulatedSettings& simulated);
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -8,7 +8,7 @@
 #include <chrono>
 #include <thread>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -84,7 +84,7 @@ bool show(const View& view, const Console& console, bool terminal) {
 }  // namespace
 
 falcon::DeviceResult<void> watch(falcon::HapticDevice& device, double seconds,
-                                 const live::Mapping& mapping, const Console& console) {
+                                 const servo::Mapping& mapping, const Console& console) {
   const Interrupts interrupts;
   const bool terminal = isatty(STDOUT_FILENO) == 1;
   const auto start = Clock::now();
@@ -117,4 +117,4 @@ falcon::DeviceResult<void> watch(falcon::HapticDevice& device, double seconds,
   return {};
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

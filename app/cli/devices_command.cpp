@@ -12,14 +12,14 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 struct DevicesOptions {
   std::string which;
   falcon::FalconSettings falcon;
   bool monitor = false;
-  live::MappingSettings mapping;
+  servo::MappingSettings mapping;
   double seconds = 0.0;  // 0: until interrupted
 };
 
@@ -66,7 +66,7 @@ void say_entry(const Entry& entry, const Console& console) {
       fmt::format("{:<11}{:<16}{}: {}", name_of(device.kind), device.place, device.name, state));
   if (device.problem) console.say("  " + text_of(*device.problem));
   if (entry.state == falcon::DeviceState::needs_homing)
-    console.say(std::string("  ") + live::kHomingAdvice);
+    console.say(std::string("  ") + servo::kHomingAdvice);
 }
 
 Result<void> list(const falcon::DeviceSettings& settings, const Console& console) {
@@ -91,7 +91,7 @@ Result<void> show(const DevicesOptions& options, const falcon::DeviceSettings& s
   if (!device) return tl::make_unexpected(device.error());
   falcon::HapticDevice& open = **device;
   if (options.monitor) {
-    const auto mapping = live::Mapping::build(options.mapping);
+    const auto mapping = servo::Mapping::build(options.mapping);
     if (!mapping) return tl::make_unexpected(mapping.error());
     if (auto watched = watch(open, options.seconds, *mapping, console); !watched)
       return tl::make_unexpected(error_of(watched.error()));
@@ -101,7 +101,7 @@ Result<void> show(const DevicesOptions& options, const falcon::DeviceSettings& s
   const falcon::DeviceState state = open.read(100'000).state;
   const falcon::DeviceInfo& info = open.info();
   console.say(fmt::format("{} at {}: {}", info.name, info.place, name_of(state)));
-  if (state == falcon::DeviceState::needs_homing) console.say(live::kHomingAdvice);
+  if (state == falcon::DeviceState::needs_homing) console.say(servo::kHomingAdvice);
   if (console.json)
     console.print({{"name", info.name},
                    {"place", info.place},
@@ -141,4 +141,4 @@ void add_devices_command(CLI::App& app, Console& console, int& exit) {
   });
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

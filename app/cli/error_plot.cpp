@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace clay::app {
+namespace clay::cli {
 
 void ErrorRows::add(const TraceRow& row) {
   if (in_run_ == 0) {
@@ -32,12 +32,12 @@ std::vector<TraceRow> ErrorRows::take() {
 }
 
 std::string error_plot_svg(const std::string& title, const std::vector<ErrorCurve>& curves) {
-  plot::Plot plot;
+  chart::Plot plot;
   plot.title = std::string("Volume error while throwing: ").append(title);
   plot.x.label = "time [s]";
   plot.y.label = "error [% of the initial volume]";
   for (const ErrorCurve& source : curves) {
-    plot::Curve curve, bound;
+    chart::Curve curve, bound;
     curve.name = std::string("model ").append(source.model);
     bound.name = "the paper's bound, one top ring";
     bound.dashed = true;
@@ -50,7 +50,7 @@ std::string error_plot_svg(const std::string& title, const std::vector<ErrorCurv
     plot.curves.push_back(std::move(curve));
     if (source.model == "paper") plot.curves.push_back(std::move(bound));
   }
-  return svg_of(plot, plot::Place::alone);
+  return svg_of(plot, chart::Place::alone);
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

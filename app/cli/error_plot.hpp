@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace clay::app {
+namespace clay::cli {
 
 struct ErrorCurve {
   std::string model;
@@ -34,4 +34,4 @@ class ErrorRows {
 /// paper's bound Delta v_N. Self-contained SVG; curves are thinned to the extremes of each column.
 std::string error_plot_svg(const std::string& title, const std::vector<ErrorCurve>& curves);
 
-}  // namespace clay::app
+}  // namespace clay::cli

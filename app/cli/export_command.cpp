@@ -11,7 +11,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 Result<Pot> read_pot(const ExportCommand& command) {
@@ -119,4 +119,4 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
   });
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

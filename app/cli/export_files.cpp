@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <span>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 using solid::MeshFormat;
@@ -148,4 +148,4 @@ std::vector<AtomicFile*> files_of(const std::vector<Request>& requests) {
   return files;
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

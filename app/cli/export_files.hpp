@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace clay::app {
+namespace clay::cli {
 
 struct ExportCommand {
   std::string pot;
@@ -56,4 +56,4 @@ Result<void> write_companions(const Pot& pot, const solid::ExportReport& report,
 /// For `commit_all`.
 [[nodiscard]] std::vector<AtomicFile*> files_of(const std::vector<Request>& requests);
 
-}  // namespace clay::app
+}  // namespace clay::cli

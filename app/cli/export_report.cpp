@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 using solid::ExportReport;
@@ -254,4 +254,4 @@ bool tell_thin_wall(const Console& console, const ExportReport& report,
   return false;
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

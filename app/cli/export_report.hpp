@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace clay::app {
+namespace clay::cli {
 
 /// `paths` are those of all files, drawings and pots among them; the report has one file for each
 /// mesh, and `copies` one for each pot. Without a mesh there is no solid to speak of.
@@ -25,4 +25,4 @@ void tell_export(const Console& console, const solid::ExportReport& report,
 bool tell_thin_wall(const Console& console, const solid::ExportReport& report,
                     const std::optional<WallDemand>& demand);
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -14,7 +14,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 using solid::ExportReport;
@@ -172,4 +172,4 @@ Result<double> shrinkage_of(const std::string& text) {
   return 0.01 * percent;
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clay::app {
+namespace clay::cli {
 
 struct ExportDone {
   solid::ExportReport report;   ///< without a mesh or a table of walls: empty
@@ -51,4 +51,4 @@ struct Problem {
 /// "12%": a part, 0.12. Errors say what was expected.
 Result<double> shrinkage_of(const std::string& text);
 
-}  // namespace clay::app
+}  // namespace clay::cli

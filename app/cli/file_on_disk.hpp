@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace clay::app {
+namespace clay::cli {
 
 /// A file under construction that the exporters write to and read again.
 class FileOnDisk final : public solid::FileStore {
@@ -22,4 +22,4 @@ class FileOnDisk final : public solid::FileStore {
   AtomicFile file_;
 };
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -13,10 +13,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
-using namespace drawing;
+using namespace importing;
 
 struct ImportOptions {
   std::string drawing, pot, axis;
@@ -118,4 +118,4 @@ void add_import_command(CLI::App& app, Console& console, int& exit) {
   });
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -8,7 +8,7 @@
 
 #include <thread>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 // Static, and set before the signals know of it: a handler puts it back.
@@ -26,7 +26,7 @@ bool is_ours() {
 
 LiveKeys::LiveKeys() : on_(is_ours()) {
   if (!on_) return;
-  live::ForceSignals::at_the_end(put_back);
+  servo::ForceSignals::at_the_end(put_back);
   termios raw = before;
   raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);  // Ctrl-C and Ctrl-\ stay signals
   raw.c_cc[VMIN] = raw.c_cc[VTIME] = 0;
@@ -37,10 +37,10 @@ LiveKeys::~LiveKeys() {
   if (!on_) return;
   // Keys that nobody took are not the shell's.
   tcsetattr(STDIN_FILENO, TCSAFLUSH, &before);
-  live::ForceSignals::at_the_end(nullptr);
+  servo::ForceSignals::at_the_end(nullptr);
 }
 
-void LiveKeys::serve(live::Servo& servo, std::chrono::milliseconds time) {
+void LiveKeys::serve(servo::Servo& servo, std::chrono::milliseconds time) {
   if (!on_) return std::this_thread::sleep_for(time);
   pollfd input{STDIN_FILENO, POLLIN, 0};
   if (poll(&input, 1, static_cast<int>(time.count())) <= 0) return;
@@ -49,8 +49,8 @@ void LiveKeys::serve(live::Servo& servo, std::chrono::milliseconds time) {
   std::this_thread::sleep_for(time);  // hung up
 }
 
-void LiveKeys::press(char key, live::Servo& servo) {
-  using live::CommandKind;
+void LiveKeys::press(char key, servo::Servo& servo) {
+  using servo::CommandKind;
   switch (key) {
     case ' ':
       paused_ = !paused_;
@@ -70,4 +70,4 @@ void LiveKeys::press(char key, live::Servo& servo) {
   }
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -6,11 +6,11 @@
 
 #include <chrono>
 
-namespace clay::app {
+namespace clay::cli {
 
 /// For as long as it lives each key of the terminal counts at once and is not shown, where standard
 /// input is a terminal and ours to read. However it ends, signals included, the terminal is as
-/// before. Within the life of a live::ForceSignals; one at a time.
+/// before. Within the life of a servo::ForceSignals; one at a time.
 class LiveKeys {
  public:
   LiveKeys();
@@ -22,10 +22,10 @@ class LiveKeys {
   [[nodiscard]] bool on() const noexcept { return on_; }
 
   /// Hands keys on to the servo, for so long or until a signal comes.
-  void serve(live::Servo& servo, std::chrono::milliseconds time);
+  void serve(servo::Servo& servo, std::chrono::milliseconds time);
 
  private:
-  void press(char key, live::Servo& servo);
+  void press(char key, servo::Servo& servo);
 
   bool on_ = false;
   bool paused_ = false;
@@ -35,4 +35,4 @@ class LiveKeys {
 inline constexpr const char* kKeysInWords =
     "keys: space pauses and goes on, z takes the force away, r gives it back, q ends";
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 std::string check_flip(const std::string& axes) {
@@ -13,16 +13,16 @@ std::string check_flip(const std::string& axes) {
 
 }  // namespace
 
-void add_place_options(CLI::App& command, live::MappingSettings& mapping) {
+void add_place_options(CLI::App& command, servo::MappingSettings& mapping) {
   command.add_option("--scale", mapping.scale, "mm on the wheel to a mm of the hand")
       ->capture_default_str();
   command
       .add_option_function<std::string>(
           "--side",
           [&mapping](const std::string& side) {
-            mapping.side = side == "left"    ? live::Side::left
-                           : side == "front" ? live::Side::front
-                                             : live::Side::right;
+            mapping.side = side == "left"    ? servo::Side::left
+                           : side == "front" ? servo::Side::front
+                                             : servo::Side::right;
           },
           "Where the hand works: right, left or front")
       ->check(CLI::IsMember({"right", "left", "front"}))
@@ -44,7 +44,7 @@ void add_place_options(CLI::App& command, live::MappingSettings& mapping) {
 }
 
 void add_live_options(CLI::App& command, LiveOptions& options) {
-  live::LiveSettings& settings = options.settings;
+  servo::LiveSettings& settings = options.settings;
   command
       .add_option("--device", options.device,
                   "Throw by hand: auto, falcon, bridge, spacemouse, simulated, or a place")
@@ -75,4 +75,4 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
                      "as stiff as it is; = scale: the hand does the tool's work)");
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

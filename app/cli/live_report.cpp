@@ -8,25 +8,25 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 constexpr double kUsPerNs = 1e-3;
 // In the order of GuardFlag and SafeCause.
-constexpr std::array<const char*, live::GuardEvents::kFlags> kFlagNames = {
+constexpr std::array<const char*, servo::GuardEvents::kFlags> kFlagNames = {
     "not_ready", "not_finite", "limited",  "slewed", "jump",
     "stale",     "late",       "old_clay", "hot",    "clock"};
-constexpr std::array<const char*, live::GuardEvents::kCauses> kCauseNames = {
+constexpr std::array<const char*, servo::GuardEvents::kCauses> kCauseNames = {
     "none", "not_finite", "not_passive", "jumped", "overrun", "paused", "stopped"};
 
-Json times_json(const falcon::TimingHistogram& times) {
+Json times_json(const Histogram& times) {
   const auto us = [](std::int64_t ns) { return kUsPerNs * static_cast<double>(ns); };
   return {{"p50", us(times.quantile_ns(0.5))},
           {"p99", us(times.quantile_ns(0.99))},
           {"max", us(times.most_ns())}};
 }
 
-Json events_json(const live::GuardEvents& events) {
+Json events_json(const servo::GuardEvents& events) {
   Json json = Json::object();
   for (std::size_t bit = 0; bit < events.flags.size(); ++bit)
     if (events.flags[bit] > 0) json[kFlagNames[bit]] = events.flags[bit];
@@ -63,30 +63,30 @@ std::string spread(const Json& times) {
 
 }  // namespace
 
-const char* name_of(live::Ending ending) {
+const char* name_of(servo::Ending ending) {
   switch (ending) {
-    case live::Ending::none:
+    case servo::Ending::none:
       return "running";
-    case live::Ending::stopped:
+    case servo::Ending::stopped:
       return "stopped";
-    case live::Ending::time_up:
+    case servo::Ending::time_up:
       return "time_up";
-    case live::Ending::device_lost:
+    case servo::Ending::device_lost:
       return "device_lost";
-    case live::Ending::collapsed:
+    case servo::Ending::collapsed:
       return "collapsed";
   }
   return "";
 }
 
-std::string status_line(const live::LiveStatus& status, double rate_hz) {
+std::string status_line(const servo::LiveStatus& status, double rate_hz) {
   return fmt::format("{:6.1f} s  {:4.0f} Hz  {:4.2f} N  {:.0f} quanta  {:5.1f} mm  {}",
                      status.time_s, rate_hz, glm::length(status.force_n), status.volume_error,
-                     status.height_mm, live::words_of(status, kRearmKey));
+                     status.height_mm, servo::words_of(status, kRearmKey));
 }
 
-Json servo_json(const live::ServoTiming& timing, const live::GuardEvents& events,
-                const live::Realtime& realtime) {
+Json servo_json(const servo::ServoTiming& timing, const servo::GuardEvents& events,
+                const servo::Realtime& realtime) {
   const double mean_ns = timing.period.mean_ns();
   return {{"ticks", timing.ticks},
           {"rate_hz", mean_ns > 0.0 ? 1e9 / mean_ns : 0.0},
@@ -122,4 +122,4 @@ void tell_servo(const Console& console, const Json& servo) {
   if (!missing.empty()) console.say("real time: " + missing);
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -6,22 +6,22 @@
 
 #include <string>
 
-namespace clay::app {
+namespace clay::cli {
 
 /// For scripts: "time_up".
-[[nodiscard]] const char* name_of(live::Ending ending);
+[[nodiscard]] const char* name_of(servo::Ending ending);
 
 /// In the terminal: lets force be earned again.
 inline constexpr const char* kRearmKey = "r";
 
 /// One line: rate, force, volume error, words.
-[[nodiscard]] std::string status_line(const live::LiveStatus& status, double rate_hz);
+[[nodiscard]] std::string status_line(const servo::LiveStatus& status, double rate_hz);
 
 /// Times in us, events by name.
-[[nodiscard]] Json servo_json(const live::ServoTiming& timing, const live::GuardEvents& events,
-                              const live::Realtime& realtime);
+[[nodiscard]] Json servo_json(const servo::ServoTiming& timing, const servo::GuardEvents& events,
+                              const servo::Realtime& realtime);
 
 /// The same for people.
 void tell_servo(const Console& console, const Json& servo);
 
-}  // namespace clay::app
+}  // namespace clay::cli

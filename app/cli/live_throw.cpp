@@ -24,11 +24,11 @@
 #include <optional>
 #include <thread>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 using namespace std::chrono_literals;
-using live::Ending;
+using servo::Ending;
 
 constexpr auto kLook = 20ms;  // at the servo, for its end
 constexpr auto kReopen = 500ms;
@@ -57,10 +57,10 @@ struct Stage {
   std::uint64_t scene_hash = 0;
   std::optional<Wheel> wheel;
   std::optional<AtomicFile> pot_file;
-  std::unique_ptr<live::Recorder> recorder;
+  std::unique_ptr<servo::Recorder> recorder;
   std::unique_ptr<falcon::HapticDevice> device;
-  live::MonotonicClock clock;
-  std::optional<live::ServoLoop> loop;
+  servo::MonotonicClock clock;
+  std::optional<servo::ServoLoop> loop;
 };
 
 /// The simulated hand's stroke: how long it takes, and where the hand works unless that is said.
@@ -72,10 +72,10 @@ Result<void> take_up_stroke(const LiveJob& job, LiveOptions& options, Stage& sta
   auto session = load_session(job.stroke_path);
   if (!session) return tl::make_unexpected(session.error());
   stage.stroke = std::move(session->poses);
-  live::LiveSettings& settings = options.settings;
-  if (settings.seconds == 0.0) settings.seconds = live::seconds_of(stage.stroke);
-  if (settings.mapping == live::MappingSettings{})
-    settings.mapping = live::fitted(settings.mapping, stage.stroke, live::kSimulatedReachMm);
+  servo::LiveSettings& settings = options.settings;
+  if (settings.seconds == 0.0) settings.seconds = servo::seconds_of(stage.stroke);
+  if (settings.mapping == servo::MappingSettings{})
+    settings.mapping = servo::fitted(settings.mapping, stage.stroke, servo::kSimulatedReachMm);
   return {};
 }
 
@@ -104,19 +104,19 @@ Result<void> open_outputs(const LiveJob& job, const LiveOptions& options, Stage&
     stage.pot_file.emplace(std::move(*file));
   }
   if (options.record.empty()) return {};
-  auto recorder = live::Recorder::create(options.record, stage.scene.name, stage.scene_hash);
+  auto recorder = servo::Recorder::create(options.record, stage.scene.name, stage.scene_hash);
   if (!recorder) return tl::make_unexpected(recorder.error());
   stage.recorder = std::move(*recorder);
   return {};
 }
 
-Result<void> open_device(LiveOptions& options, const live::Mapping& mapping, Stage& stage) {
+Result<void> open_device(LiveOptions& options, const servo::Mapping& mapping, Stage& stage) {
   auto device =
-      open_chosen(options.device, options.falcon, live::simulated_potter(stage.stroke, mapping));
+      open_chosen(options.device, options.falcon, servo::simulated_potter(stage.stroke, mapping));
   if (!device) return tl::make_unexpected(device.error());
   stage.device = std::move(*device);
   options.settings.buttons =
-      stage.device->info().can_push ? live::kFalconButtons : live::kTwoButtons;
+      stage.device->info().can_push ? servo::kFalconButtons : servo::kTwoButtons;
   return {};
 }
 
@@ -125,7 +125,7 @@ Result<void> build(const LiveJob& job, LiveOptions& options, const Console& cons
   guard.hot_force_n = std::min(guard.hot_force_n, 0.8 * guard.force_limit_n);
   if (auto taken = take_up_stroke(job, options, stage); !taken) return taken;
   if (auto checked = check(options.settings); !checked) return checked;
-  const auto mapping = live::Mapping::build(options.settings.mapping);
+  const auto mapping = servo::Mapping::build(options.settings.mapping);
   if (!mapping) return tl::make_unexpected(mapping.error());
   auto scene = load_scene(job.scene_path);
   if (!scene) return tl::make_unexpected(scene.error());
@@ -147,7 +147,7 @@ Result<void> build(const LiveJob& job, LiveOptions& options, const Console& cons
 
   if (auto opened = open_outputs(job, options, stage); !opened) return opened;
   if (auto opened = open_device(options, *mapping, stage); !opened) return opened;
-  auto loop = live::ServoLoop::build(
+  auto loop = servo::ServoLoop::build(
       {*stage.wheel, *stage.device, stage.clock, stage.recorder.get()}, options.settings);
   if (!loop) return tl::make_unexpected(loop.error());
   stage.loop.emplace(std::move(*loop));
@@ -155,14 +155,14 @@ Result<void> build(const LiveJob& job, LiveOptions& options, const Console& cons
 }
 
 /// Shows the servo until it ends.
-void watch(live::Servo& servo, LiveKeys& keys, StatusLine& line) {
+void watch(servo::Servo& servo, LiveKeys& keys, StatusLine& line) {
   std::uint64_t ticks = 0;
   auto since = std::chrono::steady_clock::now();
   double rate_hz = 0.0;
   while (servo.running()) {
     keys.serve(servo, kLook);
     if (!line.due()) continue;
-    const live::LiveStatus& status = servo.view().status.newest();
+    const servo::LiveStatus& status = servo.view().status.newest();
     const auto now = std::chrono::steady_clock::now();
     rate_hz = static_cast<double>(status.ticks - ticks) /
               std::chrono::duration<double>(now - since).count();
@@ -174,25 +174,25 @@ void watch(live::Servo& servo, LiveKeys& keys, StatusLine& line) {
 
 /// Tries to open the device again until it can be, or a signal comes.
 bool comes_back(falcon::HapticDevice& device) {
-  while (live::ForceSignals::asked_to_stop() == 0) {
+  while (servo::ForceSignals::asked_to_stop() == 0) {
     if (device.open()) return true;
     std::this_thread::sleep_for(kReopen);
   }
   return false;
 }
 
-/// Ends with the hand free of force. Within the life of a live::ForceSignals.
+/// Ends with the hand free of force. Within the life of a servo::ForceSignals.
 Ending run(Stage& stage, const LiveOptions& options, const Console& console,
-           live::Realtime& realtime) {
+           servo::Realtime& realtime) {
   LiveKeys keys;
   if (keys.on()) console.say(kKeysInWords);
   StatusLine line(console);
   for (;;) {
-    live::Servo servo({*stage.wheel, *stage.device, stage.clock, stage.recorder.get()}, *stage.loop,
-                      true);
+    servo::Servo servo({*stage.wheel, *stage.device, stage.clock, stage.recorder.get()},
+                       *stage.loop, true);
     servo.start();
     // A signal before this found nothing to stop.
-    if (live::ForceSignals::asked_to_stop() != 0) servo.command({live::CommandKind::stop, 0.0});
+    if (servo::ForceSignals::asked_to_stop() != 0) servo.command({servo::CommandKind::stop, 0.0});
     watch(servo, keys, line);
     const Ending ending = servo.join();
     realtime = servo.realtime();
@@ -274,15 +274,15 @@ Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console
   if (job.pot_path == "-") console.quiet = true;
   Stage stage;
   if (auto built = build(job, options, console, stage); !built) return built;
-  live::Realtime realtime;
+  servo::Realtime realtime;
   // Until pot and session are kept: a terminal that closes may send its signal twice.
-  std::optional<live::ForceSignals> signals(std::in_place);
+  std::optional<servo::ForceSignals> signals(std::in_place);
   const Ending ending = run(stage, options, console, realtime);
   const Pot pot = stage.wheel->pot();
   const Kept kept = {keep_session(options, console, stage), keep_pot(job, stage, pot)};
   signals.reset();
 
-  const live::LiveStatus& status = stage.loop->status();
+  const servo::LiveStatus& status = stage.loop->status();
   Json json = {{"scene", stage.scene.name},
                {"device", stage.device->info().name},
                {"ended", name_of(ending)},
@@ -298,8 +298,8 @@ Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console
   if (ending == Ending::device_lost) return tl::make_unexpected(error_of(stage.device->problem()));
   if (ending == Ending::time_up && status.poses == 0)
     return failure(ErrorKind::device, stage.device->info().place + ": nothing was thrown; " +
-                                          live::words_of(status, kRearmKey));
+                                          servo::words_of(status, kRearmKey));
   return {};
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -9,7 +9,7 @@
 
 #include <string>
 
-namespace clay::app {
+namespace clay::cli {
 
 struct LiveOptions {
   std::string device;  ///< empty: nothing is live
@@ -17,13 +17,13 @@ struct LiveOptions {
   falcon::FalconSettings falcon;
   bool wait = false;    ///< for a device that was unplugged to come back
   bool soften = false;  ///< lower the scene's stiffness to what is accepted
-  live::LiveSettings settings;
+  servo::LiveSettings settings;
 };
 
 void add_live_options(CLI::App& command, LiveOptions& options);
 
 /// Where the hand works, of the mapping: --scale, --side, --reach, --height, --flip.
-void add_place_options(CLI::App& command, live::MappingSettings& mapping);
+void add_place_options(CLI::App& command, servo::MappingSettings& mapping);
 
 /// What is thrown, and where it goes.
 struct LiveJob {
@@ -39,4 +39,4 @@ struct LiveJob {
 /// is then the error.
 Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console);
 
-}  // namespace clay::app
+}  // namespace clay::cli

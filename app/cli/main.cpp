@@ -31,15 +31,15 @@ void on_end(int signal) {
   std::raise(signal);
 }
 
-/// A signal that is ignored stays ignored, as nohup wants it. live::ForceSignals takes the place of
-/// these for as long as it lives.
+/// A signal that is ignored stays ignored, as nohup wants it. servo::ForceSignals takes the place
+/// of these for as long as it lives.
 void handle_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE})
     if (std::signal(signal, on_end) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
 int run(int argc, char** argv) {
-  using namespace clay::app;
+  using namespace clay::cli;
   CLI::App app("Throw a pot on a virtual wheel, and take home a file that prints.", "claystack");
   app.set_version_flag("--version", version_text());
   app.footer(kExamples);
@@ -103,5 +103,5 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   handle_signals();
-  return clay::app::run_program(run, argc, argv);
+  return clay::cli::run_program(run, argc, argv);
 }

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <fstream>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 /// A figure in kB of one of the kernel's tables, in bytes; nothing where it has none.
@@ -40,4 +40,4 @@ std::string needs_text(std::uint64_t bytes, const MemoryRoom& room) {
                      gb(room.bytes), room.limit);
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

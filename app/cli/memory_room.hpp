@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace clay::app {
+namespace clay::cli {
 
 struct MemoryRoom {
   std::uint64_t bytes = UINT64_MAX;
@@ -18,4 +18,4 @@ struct MemoryRoom {
 /// "takes about 2.4 GB of memory; 1.1 GB are left under LIMIT".
 [[nodiscard]] std::string needs_text(std::uint64_t bytes, const MemoryRoom& room);
 
-}  // namespace clay::app
+}  // namespace clay::cli

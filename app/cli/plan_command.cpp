@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 // Below 3 % the clock's noise is louder than the stage.
@@ -114,4 +114,4 @@ void add_plan_command(CLI::App& app, Console& console, int& exit) {
   });
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

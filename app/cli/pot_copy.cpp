@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-namespace clay::app {
+namespace clay::cli {
 
 std::optional<PotEncoding> pot_encoding_of(std::string_view path) {
   if (path.ends_with(".pot.json")) return PotEncoding::json;
@@ -45,4 +45,4 @@ std::string copy_text(const PotCopy& copy, const std::string& path) {
   return fmt::format("{}: the pot, {} bytes, {}", path, copy.bytes, what);
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace clay::app {
+namespace clay::cli {
 
 /// The encoding that a name asks for; nothing for files that hold no pots.
 [[nodiscard]] std::optional<PotEncoding> pot_encoding_of(std::string_view path);
@@ -27,4 +27,4 @@ struct PotCopy {
 [[nodiscard]] Json copy_json(const PotCopy& copy, const std::string& path);
 [[nodiscard]] std::string copy_text(const PotCopy& copy, const std::string& path);
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -10,16 +10,16 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
-std::optional<draw::Viewport> size_of(std::string_view text) {
-  draw::Viewport size;
+std::optional<render::Viewport> size_of(std::string_view text) {
+  render::Viewport size;
   const char* const end = text.data() + text.size();
   const auto width = std::from_chars(text.data(), end, size.width_px);
   if (width.ec != std::errc() || width.ptr == end || *width.ptr != 'x') return std::nullopt;
   const auto height = std::from_chars(width.ptr + 1, end, size.height_px);
-  const auto fits = [](int side) { return side >= 1 && side <= draw::kMaxSidePx; };
+  const auto fits = [](int side) { return side >= 1 && side <= render::kMaxSidePx; };
   if (height.ec != std::errc() || height.ptr != end || !fits(size.width_px) ||
       !fits(size.height_px))
     return std::nullopt;
@@ -33,7 +33,7 @@ void add_size(CLI::App& sub, RenderCommand& command) {
       ->check([](const std::string& text) {
         return size_of(text) ? std::string()
                              : fmt::format("expected WIDTHxHEIGHT, 1x1 to {0}x{0}, found {1}",
-                                           draw::kMaxSidePx, text);
+                                           render::kMaxSidePx, text);
       })
       ->default_str("1280x720");
 }
@@ -126,4 +126,4 @@ void add_render_command(CLI::App& app, Console& console, int& exit) {
   sub->callback([command, &console, &exit] { exit = run(*command, console); });
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -20,7 +20,7 @@
 #include <optional>
 #include <utility>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 constexpr double kMapTopMm = 10.0;
@@ -60,32 +60,32 @@ Result<Pot> clay_of(const std::string& path) {
 }
 
 #ifdef CLAYSTACK_EXPORT
-Result<void> map_walls(const RenderCommand& command, const Pot& pot, draw::Picture& picture,
+Result<void> map_walls(const RenderCommand& command, const Pot& pot, render::Picture& picture,
                        Rendered& done) {
   const auto demand =
       command.walls.for_size(4.0 * largest_radius_mm(pot.stack) + pot.stack.height_mm());
   const double limit = demand ? demand->min_wall_mm : 0.0;
   const auto profile =
-      draw::wall_profile(pot, demand ? std::optional(limit) : std::optional<double>());
+      render::wall_profile(pot, demand ? std::optional(limit) : std::optional<double>());
   if (!profile) return tl::make_unexpected(profile.error());
-  picture.pot.wall_mm = draw::row_walls(*profile, picture.pot.rows.size(), picture.pot.height_mm);
-  picture.wall_map = done.map = draw::WallMap{limit, kMapTopMm};
+  picture.pot.wall_mm = render::row_walls(*profile, picture.pot.rows.size(), picture.pot.height_mm);
+  picture.wall_map = done.map = render::WallMap{limit, kMapTopMm};
   done.thinnest_mm = solid::min_wall_mm(*profile);
   return {};
 }
 #endif
 
-Result<draw::Picture> picture_of(const RenderCommand& command, Rendered& done) {
+Result<render::Picture> picture_of(const RenderCommand& command, Rendered& done) {
   const auto pot = clay_of(command.pot);
   if (!pot) return tl::make_unexpected(pot.error());
-  draw::Picture picture;
-  picture.pot = draw::view_of(*pot);
-  picture.theme = command.dark ? draw::Theme::dark : draw::Theme::light;
-  picture.cut = command.section ? draw::Cut::half : draw::Cut::none;
-  picture.camera = draw::framed(picture.pot, command.size.aspect());
+  render::Picture picture;
+  picture.pot = render::view_of(*pot);
+  picture.theme = command.dark ? render::Theme::dark : render::Theme::light;
+  picture.cut = command.section ? render::Cut::half : render::Cut::none;
+  picture.camera = render::framed(picture.pot, command.size.aspect());
   if (command.azimuth_deg) picture.camera.azimuth_rad = glm::radians(*command.azimuth_deg);
   if (command.elevation_deg) picture.camera.elevation_rad = glm::radians(*command.elevation_deg);
-  picture.camera = draw::framed(picture.pot, command.size.aspect(), picture.camera);
+  picture.camera = render::framed(picture.pot, command.size.aspect(), picture.camera);
 #ifdef CLAYSTACK_EXPORT
   if (command.wall_map)
     if (auto mapped = map_walls(command, *pot, picture, done); !mapped)
@@ -96,16 +96,16 @@ Result<draw::Picture> picture_of(const RenderCommand& command, Rendered& done) {
   return picture;
 }
 
-Result<draw::Image> drawn(draw::Offscreen& screen, const draw::Picture& picture,
-                          draw::Viewport size) {
-  return screen.draw(picture, size).map([&](draw::Image image) {
-    if (picture.wall_map) draw::draw_legend(*picture.wall_map, picture.theme, image);
+Result<render::Image> drawn(render::Offscreen& screen, const render::Picture& picture,
+                            render::Viewport size) {
+  return screen.draw(picture, size).map([&](render::Image image) {
+    if (picture.wall_map) render::draw_legend(*picture.wall_map, picture.theme, image);
     return image;
   });
 }
 
 /// Streams the frames into `file`, which the caller commits. Returns its bytes.
-Result<std::uint64_t> turn(draw::Offscreen& screen, draw::Picture picture,
+Result<std::uint64_t> turn(render::Offscreen& screen, render::Picture picture,
                            const RenderCommand& command, const Console& console, AtomicFile& file) {
   const auto frames = static_cast<std::size_t>(command.frames);
   Progress progress(console, "turning", 2 * frames);  // each frame is drawn twice
@@ -118,12 +118,12 @@ Result<std::uint64_t> turn(draw::Offscreen& screen, draw::Picture picture,
     picture.camera.azimuth_rad = first - step * static_cast<double>(k);
     return drawn(screen, picture, command.size);
   };
-  return draw::write_gif(frames, std::max(20, kTurnMs / command.frames), frame_at,
-                         [&](std::string_view bytes) { return file.write(bytes); });
+  return render::write_gif(frames, std::max(20, kTurnMs / command.frames), frame_at,
+                           [&](std::string_view bytes) { return file.write(bytes); });
 }
 
-Result<double> median_ms(draw::Offscreen& screen, const draw::Picture& picture, draw::Viewport size,
-                         int samples) {
+Result<double> median_ms(render::Offscreen& screen, const render::Picture& picture,
+                         render::Viewport size, int samples) {
   std::array<double, kTimedFrames> times{};
   if (auto warm = screen.time_ms(picture, size, samples); !warm) return warm;
   for (double& time : times) {
@@ -142,14 +142,14 @@ Result<Rendered> render(const RenderCommand& command, const Console& console) {
   Rendered done;
   const auto picture = picture_of(command, done);
   if (!picture) return tl::make_unexpected(picture.error());
-  auto screen = draw::Offscreen::create();
+  auto screen = render::Offscreen::create();
   if (!screen) return tl::make_unexpected(screen.error());
   done.renderer = screen->renderer();
   std::string png;  // the picture and the animation are both made before one is published
   if (!command.out.empty()) {
     const auto image = drawn(*screen, *picture, command.size);
     if (!image) return tl::make_unexpected(image.error());
-    png = draw::png_of(*image);
+    png = render::png_of(*image);
   }
   std::optional<AtomicFile> gif;
   if (!command.turntable.empty()) {
@@ -162,7 +162,7 @@ Result<Rendered> render(const RenderCommand& command, const Console& console) {
   }
   if (command.time) {
     const auto plain = median_ms(*screen, *picture, command.size, 0);
-    const auto smooth = median_ms(*screen, *picture, command.size, draw::kSamples);
+    const auto smooth = median_ms(*screen, *picture, command.size, render::kSamples);
     if (!plain || !smooth) return tl::make_unexpected((plain ? smooth : plain).error());
     done.frame = FrameTime{*plain, *smooth};
   }
@@ -180,4 +180,4 @@ Result<Rendered> render(const RenderCommand& command, const Console& console) {
   return commit_all(files).map([&] { return done; });
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

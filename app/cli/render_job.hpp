@@ -13,14 +13,14 @@
 #include <optional>
 #include <string>
 
-namespace clay::app {
+namespace clay::cli {
 
 struct RenderCommand {
   std::string pot;        ///< or a scene, whose lump is drawn
   std::string out;        ///< .png; empty: none
   std::string turntable;  ///< .gif; empty: none
   int frames = 36;
-  draw::Viewport size;
+  render::Viewport size;
   bool section = false, wall_map = false, dark = false, time = false;
   std::optional<double> azimuth_deg, elevation_deg;
 #ifdef CLAYSTACK_EXPORT
@@ -38,10 +38,10 @@ struct Rendered {
   std::uint64_t png_bytes = 0, gif_bytes = 0;
   std::string renderer;
   std::optional<FrameTime> frame;
-  std::optional<draw::WallMap> map;
+  std::optional<render::WallMap> map;
   std::optional<double> thinnest_mm;
 };
 
 Result<Rendered> render(const RenderCommand& command, const Console& console);
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -9,7 +9,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 double percentile(std::vector<double>& values, double fraction) {
@@ -110,4 +110,4 @@ std::string session_beside(const std::string& scene_path) {
   return stem + ".session";
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

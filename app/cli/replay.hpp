@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace clay::app {
+namespace clay::cli {
 
 /// One tick of a replay, for traces and plots.
 struct TraceRow {
@@ -51,4 +51,4 @@ Result<Wheel> build_wheel(const SceneSpec& scene, const std::string& scene_path,
 Result<Session> load_session(const std::string& path);
 [[nodiscard]] std::string session_beside(const std::string& scene_path);
 
-}  // namespace clay::app
+}  // namespace clay::cli

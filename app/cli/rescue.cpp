@@ -12,7 +12,7 @@
 #include <string>
 #include <system_error>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -42,4 +42,4 @@ Result<fs::path> rescue(const fs::path& wanted, bool beside, std::string_view by
   return keep_in(fs::temp_directory_path(ignored));
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace clay::app {
+namespace clay::cli {
 
 /// Keeps a pot that could not be written to `wanted`, under a name that says so: in `wanted`'s own
 /// folder where `beside`, else in the state folder, else in the temporary one. Where it is; or the
@@ -12,4 +12,4 @@ namespace clay::app {
 Result<std::filesystem::path> rescue(const std::filesystem::path& wanted, bool beside,
                                      std::string_view bytes);
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <vector>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 /// In place of this program: the window's, which lies beside it. Returns only where it is not to be
@@ -40,4 +40,4 @@ void add_studio_command(CLI::App& app, int& exit) {
   command->callback([command, &exit] { exit = report(become_studio(command->remaining())); });
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 constexpr std::size_t kMostStretches = 4;  // of a long list, people read the first few
@@ -54,4 +54,4 @@ std::string thin_wall_text(const solid::Profile& profile, double thinnest_mm,
   return text;
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -20,7 +20,7 @@
 #include <optional>
 #include <utility>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 struct ThrowOptions {
@@ -329,4 +329,4 @@ void add_throw_command(CLI::App& app, Console& console, int& exit) {
   });
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -10,7 +10,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 std::string tool_of(const SceneSpec& scene) {
@@ -20,8 +20,8 @@ std::string tool_of(const SceneSpec& scene) {
                      kShapes[scene.tool.shape.index()]);
 }
 
-Json node_json(const work::Work& work, work::NodeId node) {
-  const work::NodeView view = work.view(node);
+Json node_json(const history::Work& work, history::NodeId node) {
+  const history::NodeView view = work.view(node);
   Json json = {{"node", node}, {"current", node == work.at()}};
   if (node > 0)
     json.update({{"parent", view.parent},
@@ -45,10 +45,10 @@ std::string line_of(const Json& node) {
                      node["changed"].get<bool>() ? "" : ", in the air");
 }
 
-Result<Json> tree_of(work::Work& work, const Console& console) {
+Result<Json> tree_of(history::Work& work, const Console& console) {
   if (auto thrown = work.throw_all(); !thrown) return tl::make_unexpected(thrown.error());
   Json nodes = Json::array();
-  for (work::NodeId node = 0; node < work.size(); ++node) {
+  for (history::NodeId node = 0; node < work.size(); ++node) {
     nodes.push_back(node_json(work, node));
     console.say(line_of(nodes.back()));
   }
@@ -67,12 +67,12 @@ Json pot_json(const Pot& pot) {
 
 Result<void> throw_work(const WorkJob& job, Console console) {
   if (job.pot_path == "-") console.quiet = true;
-  auto loaded = work::load(job.work_path);
+  auto loaded = history::load(job.work_path);
   if (!loaded) return tl::make_unexpected(loaded.error());
-  work::Work& work = loaded->work;
+  history::Work& work = loaded->work;
   if (loaded->torn)
     console.warn(job.work_path + ": the end is cut off; what stands before it is played");
-  const work::NodeId node = job.at.value_or(work.at());
+  const history::NodeId node = job.at.value_or(work.at());
   if (node >= work.size())
     return failure(ErrorKind::bad_input,
                    fmt::format("--at: expected a node of {}, from 0 to {}, found {}", job.work_path,
@@ -104,4 +104,4 @@ Result<void> throw_work(const WorkJob& job, Console console) {
   return {};
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

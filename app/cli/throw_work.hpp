@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-namespace clay::app {
+namespace clay::cli {
 
 struct WorkJob {
   std::string work_path;
@@ -18,4 +18,4 @@ struct WorkJob {
 
 Result<void> throw_work(const WorkJob& job, Console console);
 
-}  // namespace clay::app
+}  // namespace clay::cli

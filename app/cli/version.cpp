@@ -1,6 +1,6 @@
 #include "app/cli/commands.hpp"
 
-namespace clay::app {
+namespace clay::cli {
 
 std::string version_text() {
   std::string parts = "engine files";
@@ -30,4 +30,4 @@ std::string version_text() {
   return "claystack " CLAYSTACK_VERSION "\nbuilt with " + compiler + "\nbuilt in: " + parts;
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-namespace clay::app {
+namespace clay::cli {
 namespace {
 
 constexpr std::size_t kMaxProcessBytes = std::size_t{1} << 20;  // of a few lines for people
@@ -44,4 +44,4 @@ std::optional<WallDemand> WallDemands::for_size(double size_sum_mm) const {
   return WallDemand{limit.min_wall_mm, process_->name + ": " + limit.source};
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -12,7 +12,7 @@ namespace CLI {
 class App;
 }
 
-namespace clay::app {
+namespace clay::cli {
 
 struct WallDemand {
   double min_wall_mm = 0.0;
@@ -44,4 +44,4 @@ class WallDemands {
   std::optional<solid::ProcessLimits> process_;
 };
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iterator>
 
-namespace clay::app {
+namespace clay::cli {
 
 std::string_view name_of(solid::WallFace face) {
   constexpr std::array<std::string_view, 6> kNames{"foot", "outer", "rim", "bore", "floor", "lid"};
@@ -27,4 +27,4 @@ std::string wall_table(const std::vector<solid::WallSample>& field) {
   return text;
 }
 
-}  // namespace clay::app
+}  // namespace clay::cli

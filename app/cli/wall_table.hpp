@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clay::app {
+namespace clay::cli {
 
 /// No two samples of a table are farther apart along an edge.
 inline constexpr double kWallSpacingMm = 0.5;
@@ -20,4 +20,4 @@ inline constexpr double kWallSpacingMm = 0.5;
 /// CSV with a header; lengths in mm, thickness empty where nothing is opposite.
 [[nodiscard]] std::string wall_table(const std::vector<solid::WallSample>& field);
 
-}  // namespace clay::app
+}  // namespace clay::cli

@@ -15,7 +15,7 @@
 #include <system_error>
 #include <utility>
 
-namespace clay::work {
+namespace clay::history {
 namespace {
 
 namespace fs = std::filesystem;
@@ -61,12 +61,12 @@ Result<fs::path> give_name(int descriptor, const fs::path& temporary, const fs::
 }  // namespace
 
 fs::path recovery_folder() {
-  const fs::path folder = app::user_folder(app::UserFolder::state);
+  const fs::path folder = cli::user_folder(cli::UserFolder::state);
   return folder.empty() ? folder : folder / "recovery";
 }
 
 Result<std::unique_ptr<Journal>> Journal::begin(const WorkRecord& work, const fs::path& folder) {
-  if (folder.empty()) return failure(ErrorKind::io, std::string("journal: ") + app::kNoHome);
+  if (folder.empty()) return failure(ErrorKind::io, std::string("journal: ") + cli::kNoHome);
   std::error_code made;
   fs::create_directories(folder, made);
   if (made)
@@ -186,4 +186,4 @@ void Journal::run() {
   }
 }
 
-}  // namespace clay::work
+}  // namespace clay::history

@@ -17,9 +17,9 @@
 #include <string_view>
 #include <thread>
 
-namespace clay::work {
+namespace clay::history {
 
-/// The folder `recovery` in the user's folder for state: app::user_folder. Empty without one.
+/// The folder `recovery` in the user's folder for state: cli::user_folder. Empty without one.
 [[nodiscard]] std::filesystem::path recovery_folder();
 
 /// Lines are written at once, by whichever thread brings them; a thread of its own syncs them to
@@ -61,4 +61,4 @@ class Journal {
   std::thread thread_;
 };
 
-}  // namespace clay::work
+}  // namespace clay::history

@@ -4,7 +4,7 @@
 
 #include <span>
 
-namespace clay::work {
+namespace clay::history {
 
 /// Where poses go that a recorder takes off the servo's queue: a session, a journal. Called from
 /// one thread at a time.
@@ -18,4 +18,4 @@ class PoseSink {
   virtual Result<void> finish() = 0;
 };
 
-}  // namespace clay::work
+}  // namespace clay::history

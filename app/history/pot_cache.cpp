@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace clay::work {
+namespace clay::history {
 namespace {
 
 std::size_t bytes_of(const Pot& pot) { return sizeof(Pot) + pot.stack.size() * sizeof(Ring); }
@@ -39,4 +39,4 @@ void PotCache::shrink() {
   }
 }
 
-}  // namespace clay::work
+}  // namespace clay::history

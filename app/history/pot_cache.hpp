@@ -6,7 +6,7 @@
 #include <memory>
 #include <unordered_map>
 
-namespace clay::work {
+namespace clay::history {
 
 /// Pots by the node that they belong to, within a budget: the one that was longest of no use goes
 /// first. At least one stays.
@@ -31,4 +31,4 @@ class PotCache {
   std::unordered_map<std::size_t, Kept> kept_;
 };
 
-}  // namespace clay::work
+}  // namespace clay::history

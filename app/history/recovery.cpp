@@ -13,7 +13,7 @@
 #include <system_error>
 #include <utility>
 
-namespace clay::work {
+namespace clay::history {
 namespace {
 
 namespace fs = std::filesystem;
@@ -111,4 +111,4 @@ Result<void> discard(const fs::path& path) {
   return {};
 }
 
-}  // namespace clay::work
+}  // namespace clay::history

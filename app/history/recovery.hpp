@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace clay::work {
+namespace clay::history {
 
 /// A dead program's journal.
 struct Recoverable {
@@ -33,4 +33,4 @@ Result<Work> recover(const std::filesystem::path& path);
 /// Removes it. An error while it is a living program's.
 Result<void> discard(const std::filesystem::path& path);
 
-}  // namespace clay::work
+}  // namespace clay::history

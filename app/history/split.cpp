@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace clay::work {
+namespace clay::history {
 namespace {
 
 constexpr std::int64_t kFreeAirUs = 300'000;
@@ -69,4 +69,4 @@ Split split(const SceneSpec& scene, const Pot& before, std::span<const Pose> pos
   return as_one(std::move(whole));
 }
 
-}  // namespace clay::work
+}  // namespace clay::history

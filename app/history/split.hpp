@@ -2,7 +2,7 @@
 // One long recording into strokes: an arm is held on and on, and one undo should take back one
 // stroke of it.
 
-#include "app/history/rethrow.hpp"
+#include "app/history/replay.hpp"
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/scene.hpp"
 #include "claystack/engine/tool.hpp"
@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace clay::work {
+namespace clay::history {
 
 /// A recording, thrown, in one or more strokes.
 struct Split {
@@ -29,4 +29,4 @@ inline constexpr double kFreeAirS = 0.3;
 [[nodiscard]] Split split(const SceneSpec& scene, const Pot& before, std::span<const Pose> poses,
                           Thrown whole);
 
-}  // namespace clay::work
+}  // namespace clay::history

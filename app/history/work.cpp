@@ -1,6 +1,6 @@
 #include "app/history/work.hpp"
 
-#include "app/history/rethrow.hpp"
+#include "app/history/replay.hpp"
 #include "app/history/split.hpp"
 #include "claystack/engine/files.hpp"
 
@@ -11,7 +11,7 @@
 #include <iterator>
 #include <span>
 
-namespace clay::work {
+namespace clay::history {
 namespace {
 
 constexpr std::size_t kBudgetBytes = std::size_t{256} << 20;
@@ -49,7 +49,7 @@ struct Work::Running final : PoseSink {
   std::string begin_line;
   std::vector<Pose> poses;
   Journal* journal = nullptr;
-  Rethrow again;
+  Replay again;
 
   /// The stroke's own line comes with its first poses: one without any leaves no trace.
   Result<void> append(std::span<const Pose> more) override {
@@ -297,4 +297,4 @@ NodeView Work::view(NodeId node) const {
   return view;
 }
 
-}  // namespace clay::work
+}  // namespace clay::history

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::work {
+namespace clay::history {
 
 using NodeId = std::size_t;  ///< 0: the root, the pot before any stroke
 using SharedPot = std::shared_ptr<const Pot>;
@@ -136,4 +136,4 @@ struct Loaded {
 };
 Result<Loaded> load(const std::string& path);
 
-}  // namespace clay::work
+}  // namespace clay::history

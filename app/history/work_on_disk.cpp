@@ -6,7 +6,7 @@
 #include <cassert>
 #include <utility>
 
-namespace clay::work {
+namespace clay::history {
 
 Result<void> Work::save(const std::string& path) {
   assert(!running_);
@@ -40,4 +40,4 @@ Result<Loaded> load(const std::string& path) {
   return Loaded{std::move(*work), torn};
 }
 
-}  // namespace clay::work
+}  // namespace clay::history

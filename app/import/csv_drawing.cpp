@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-namespace clay::drawing {
+namespace clay::importing {
 namespace {
 
 constexpr std::string_view kBlank = " \t\r";
@@ -80,4 +80,4 @@ Result<Drawing> read_csv(std::string_view text, const std::string& name) {
   return drawing;
 }
 
-}  // namespace clay::drawing
+}  // namespace clay::importing

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-namespace clay::drawing {
+namespace clay::importing {
 namespace {
 
 // More than a curve that fits on a page needs.
@@ -98,4 +98,4 @@ std::vector<glm::dvec2> spline_points(std::size_t degree, std::span<const glm::d
   return points;
 }
 
-}  // namespace clay::drawing
+}  // namespace clay::importing

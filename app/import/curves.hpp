@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace clay::drawing {
+namespace clay::importing {
 
 /// Each appends the points after the first, which is there already.
 void append_cubic(std::vector<glm::dvec2>& points, glm::dvec2 a, glm::dvec2 b, glm::dvec2 c,
@@ -27,4 +27,4 @@ void append_bulge(std::vector<glm::dvec2>& points, glm::dvec2 from, glm::dvec2 t
                                                     std::span<const glm::dvec3> control,
                                                     std::span<const double> knots);
 
-}  // namespace clay::drawing
+}  // namespace clay::importing

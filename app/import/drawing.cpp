@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace clay::drawing {
+namespace clay::importing {
 namespace {
 
 constexpr double kFarthestMm = 1e6;
@@ -58,4 +58,4 @@ Result<Drawing> read_drawing(std::string_view bytes, const std::string& name) {
   });
 }
 
-}  // namespace clay::drawing
+}  // namespace clay::importing

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clay::drawing {
+namespace clay::importing {
 
 /// Straight pieces between points in mm, x to the right and y up. A closed one ends where it
 /// begins, without saying that point twice.
@@ -42,4 +42,4 @@ inline constexpr std::size_t kMostBytes = 32u << 20;
 /// Errors read "NAME: what was expected, what was found", with the line where there is one.
 Result<Drawing> read_drawing(std::string_view bytes, const std::string& name);
 
-}  // namespace clay::drawing
+}  // namespace clay::importing

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace clay::drawing {
+namespace clay::importing {
 namespace {
 
 /// The part of a slab between two heights.
@@ -97,4 +97,4 @@ Result<Pot> drawn_pot(const HalfSection& section, const DrawnPotSettings& settin
   return pot;
 }
 
-}  // namespace clay::drawing
+}  // namespace clay::importing

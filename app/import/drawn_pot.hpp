@@ -7,7 +7,7 @@
 
 #include <optional>
 
-namespace clay::drawing {
+namespace clay::importing {
 
 struct DrawnPotSettings {
   double ring_height_mm = 0.75;   ///< about: a whole number of rings makes the height
@@ -22,4 +22,4 @@ struct DrawnPotSettings {
 Result<Pot> drawn_pot(const HalfSection& section, const DrawnPotSettings& settings,
                       const std::string& name);
 
-}  // namespace clay::drawing
+}  // namespace clay::importing

@@ -14,7 +14,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace clay::drawing {
+namespace clay::importing {
 namespace {
 
 constexpr int kClosed = 1;  // bit of a polyline's or spline's flags
@@ -205,4 +205,4 @@ Result<Drawing> read_dxf(std::string_view bytes, const std::string& name) {
   return Drawing{std::move(collector.lines), false};
 }
 
-}  // namespace clay::drawing
+}  // namespace clay::importing

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <utility>
 
-namespace clay::drawing {
+namespace clay::importing {
 namespace {
 
 /// A straight piece of the outline that rises from `low` to `high`.
@@ -217,4 +217,4 @@ Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& set
   return section;
 }
 
-}  // namespace clay::drawing
+}  // namespace clay::importing

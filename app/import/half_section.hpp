@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace clay::drawing {
+namespace clay::importing {
 
 /// Where the pot's axis is in the drawing.
 enum class AxisRule {
@@ -48,4 +48,4 @@ struct HalfSection {
 Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& settings,
                                  const std::string& name);
 
-}  // namespace clay::drawing
+}  // namespace clay::importing

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 
-namespace clay::drawing {
+namespace clay::importing {
 namespace {
 
 bool same(glm::dvec2 a, glm::dvec2 b) { return glm::length(a - b) <= kSamePointMm; }
@@ -47,4 +47,4 @@ std::vector<Line> joined(std::vector<Line> lines) {
   return whole;
 }
 
-}  // namespace clay::drawing
+}  // namespace clay::importing

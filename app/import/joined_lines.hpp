@@ -1,7 +1,7 @@
 #pragma once
 #include "app/import/drawing.hpp"
 
-namespace clay::drawing {
+namespace clay::importing {
 
 /// Ends nearer than this are one point: nobody draws a gap of a hundredth of a millimetre.
 inline constexpr double kSamePointMm = 0.01;
@@ -9,4 +9,4 @@ inline constexpr double kSamePointMm = 0.01;
 /// Open lines joined where they meet, end to end, either way round; closed where the ends do.
 [[nodiscard]] std::vector<Line> joined(std::vector<Line> lines);
 
-}  // namespace clay::drawing
+}  // namespace clay::importing

@@ -5,7 +5,7 @@
 
 #include <span>
 
-namespace clay::drawing {
+namespace clay::importing {
 
 /// What every reader asks of the points that it finds, as soon as it has them: a small file may
 /// draw very much.
@@ -25,4 +25,4 @@ Result<Drawing> read_svg(std::string_view bytes, const std::string& name);
 Result<Drawing> read_dxf(std::string_view bytes, const std::string& name);
 Result<Drawing> read_csv(std::string_view text, const std::string& name);
 
-}  // namespace clay::drawing
+}  // namespace clay::importing

@@ -23,7 +23,7 @@
 #include <span>
 #include <stdexcept>
 
-namespace clay::drawing {
+namespace clay::importing {
 namespace {
 
 constexpr double kMmPerPx = 25.4 / 96.0;
@@ -232,4 +232,4 @@ Result<Drawing> read_svg(std::string_view bytes, const std::string& name) {
   return Drawing{std::move(collector.lines), false};
 }
 
-}  // namespace clay::drawing
+}  // namespace clay::importing

@@ -7,7 +7,7 @@
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
-namespace clay::draw {
+namespace clay::render {
 namespace {
 
 constexpr double kNearest = 0.02, kFarthest = 60.0;  // planes, in distances to the target
@@ -107,4 +107,4 @@ std::optional<glm::dvec2> profile_point(const Camera& camera, Viewport viewport,
   return glm::dvec2{glm::dot(hit, axes.right), hit.y};
 }
 
-}  // namespace clay::draw
+}  // namespace clay::render

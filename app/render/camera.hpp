@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-namespace clay::draw {
+namespace clay::render {
 
 /// Looks at `target_mm` from `distance_mm` away. Perspective.
 struct Camera {
@@ -56,4 +56,4 @@ struct Viewport {
 [[nodiscard]] std::optional<glm::dvec2> profile_point(const Camera& camera, Viewport viewport,
                                                       glm::dvec2 pixel) noexcept;
 
-}  // namespace clay::draw
+}  // namespace clay::render

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace clay::draw {
+namespace clay::render {
 namespace {
 
 constexpr int kColours = 256;
@@ -177,4 +177,4 @@ Result<std::uint64_t> write_gif(std::size_t frames, int delay_ms, const FrameSou
   return output.flush().map([&] { return output.written(); });
 }
 
-}  // namespace clay::draw
+}  // namespace clay::render

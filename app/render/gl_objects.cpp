@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 
-namespace clay::draw {
+namespace clay::render {
 namespace {
 
 template <class Generate>
@@ -121,4 +121,4 @@ Result<Canvas> Canvas::create(int width_px, int height_px, int samples) {
   return canvas;
 }
 
-}  // namespace clay::draw
+}  // namespace clay::render

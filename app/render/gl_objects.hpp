@@ -13,7 +13,7 @@
 #include <string_view>
 #include <utility>
 
-namespace clay::draw {
+namespace clay::render {
 
 /// `Delete`: what gives the name back.
 template <auto Delete>
@@ -85,4 +85,4 @@ class Canvas {
   int width_ = 0, height_ = 0, samples_ = 0;
 };
 
-}  // namespace clay::draw
+}  // namespace clay::render

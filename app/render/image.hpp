@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::draw {
+namespace clay::render {
 
 /// Pixels row by row from the upper left, four bytes each: red, green, blue (sRGB), alpha.
 struct Image {
@@ -20,4 +20,4 @@ struct Image {
   friend bool operator==(const Image&, const Image&) = default;
 };
 
-}  // namespace clay::draw
+}  // namespace clay::render

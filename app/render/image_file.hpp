@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace clay::draw {
+namespace clay::render {
 
 /// RGBA, 8 bits. Needs an image of at least one pixel.
 std::string png_of(const Image& image);
@@ -27,4 +27,4 @@ using ByteSink = std::function<Result<void>(std::string_view bytes)>;
 Result<std::uint64_t> write_gif(std::size_t frames, int delay_ms, const FrameSource& frame_at,
                                 const ByteSink& sink);
 
-}  // namespace clay::draw
+}  // namespace clay::render

@@ -18,7 +18,7 @@
 #include <stb/stb_easy_font.h>
 #pragma GCC diagnostic pop
 
-namespace clay::draw {
+namespace clay::render {
 namespace {
 
 constexpr int kLeastSide = 240;  // px: smaller pictures have no room
@@ -104,4 +104,4 @@ void draw_legend(const WallMap& map, Theme theme, Image& image) {
                scale);
 }
 
-}  // namespace clay::draw
+}  // namespace clay::render

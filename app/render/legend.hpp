@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace clay::draw {
+namespace clay::render {
 
 /// A swatch of the wall map, as an sRGB colour, that a thickness [mm] has.
 struct Swatch {
@@ -16,4 +16,4 @@ struct Swatch {
 /// of pictures that have no room for it.
 void draw_legend(const WallMap& map, Theme theme, Image& image);
 
-}  // namespace clay::draw
+}  // namespace clay::render

@@ -6,7 +6,7 @@
 #include <limits>
 #include <span>
 
-namespace clay::draw {
+namespace clay::render {
 namespace {
 
 constexpr float kLeanTolerance = 0.09f;  // [rad]: less is not seen in the shading
@@ -155,4 +155,4 @@ std::vector<Slice> slices_of(const std::vector<Level>& levels) {
   return slices;
 }
 
-}  // namespace clay::draw
+}  // namespace clay::render

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace clay::draw {
+namespace clay::render {
 namespace {
 
 float linear_channel(unsigned byte) noexcept {
@@ -53,4 +53,4 @@ const Look& look_of(Theme theme) noexcept {
 glm::dvec3 lamp_direction() noexcept { return glm::normalize(glm::dvec3{-0.62, 0.74, 0.52}); }
 glm::dvec3 rim_lamp_direction() noexcept { return glm::normalize(glm::dvec3{0.72, 0.42, -0.62}); }
 
-}  // namespace clay::draw
+}  // namespace clay::render

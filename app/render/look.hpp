@@ -7,7 +7,7 @@
 #include <array>
 #include <glm/vec3.hpp>
 
-namespace clay::draw {
+namespace clay::render {
 
 /// Linear light of an sRGB colour, 0xRRGGBB.
 [[nodiscard]] glm::vec3 linear_of(unsigned rgb) noexcept;
@@ -29,4 +29,4 @@ struct Look {
 [[nodiscard]] glm::dvec3 lamp_direction() noexcept;
 [[nodiscard]] glm::dvec3 rim_lamp_direction() noexcept;
 
-}  // namespace clay::draw
+}  // namespace clay::render

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace clay::draw {
+namespace clay::render {
 namespace {
 
 constexpr float kCreaseCosine = 0.64f;  // faces that meet at more than 50 degrees have an edge
@@ -99,4 +99,4 @@ std::vector<Stretch> meridian_of(const std::vector<glm::vec2>& line) {
   return meridian;
 }
 
-}  // namespace clay::draw
+}  // namespace clay::render

@@ -12,7 +12,7 @@
 #include <chrono>
 #include <optional>
 
-namespace clay::draw {
+namespace clay::render {
 namespace {
 
 /// A display and a context without a surface; both end with the object.
@@ -149,4 +149,4 @@ Result<double> Offscreen::time_ms(const Picture& picture, Viewport viewport, int
 
 const std::string& Offscreen::renderer() const noexcept { return state_->renderer; }
 
-}  // namespace clay::draw
+}  // namespace clay::render

@@ -7,7 +7,7 @@
 
 #include <memory>
 
-namespace clay::draw {
+namespace clay::render {
 
 /// Largest side of a picture [px].
 inline constexpr int kMaxSidePx = 8192;
@@ -36,4 +36,4 @@ class Offscreen {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace clay::draw
+}  // namespace clay::render

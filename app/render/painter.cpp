@@ -7,7 +7,7 @@
 
 #include <optional>
 
-namespace clay::draw {
+namespace clay::render {
 namespace {
 
 constexpr int kOldest = 33;  // OpenGL 3.3
@@ -63,4 +63,4 @@ void Painter::paint(const Picture& picture, int width_px, int height_px, int sam
   glBindFramebuffer(GL_READ_FRAMEBUFFER, target);
 }
 
-}  // namespace clay::draw
+}  // namespace clay::render

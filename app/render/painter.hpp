@@ -6,7 +6,7 @@
 
 #include <memory>
 
-namespace clay::draw {
+namespace clay::render {
 
 /// Bound to the context that was current in `create`: every call, and the destructor, need it
 /// current. Leaves viewport, program, buffers and tests as it likes, the framebuffer as it was.
@@ -31,4 +31,4 @@ class Painter {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace clay::draw
+}  // namespace clay::render

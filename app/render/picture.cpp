@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-namespace clay::draw {
+namespace clay::render {
 namespace {
 
 constexpr double kDefaultAzimuth = 0.6, kDefaultElevation = 0.42, kDefaultFov = 0.42;
@@ -79,4 +79,4 @@ Camera framed(const PotView& pot, double aspect) noexcept {
   return framed(pot, aspect, camera);
 }
 
-}  // namespace clay::draw
+}  // namespace clay::render

@@ -11,9 +11,9 @@
 #include <optional>
 #include <vector>
 
-namespace clay::draw {
+namespace clay::render {
 
-/// A ring or some of them: the same as live::LiveProfile::Row.
+/// A ring or some of them: the same as servo::LiveProfile::Row.
 struct Row {
   float outer_mm = 0.0f, inner_mm = 0.0f;  ///< 0 <= inner < outer; inner 0: no bore
   friend bool operator==(const Row&, const Row&) = default;
@@ -93,4 +93,4 @@ struct Picture {
 /// The same from where `camera` looks: only its target and distance change.
 [[nodiscard]] Camera framed(const PotView& pot, double aspect, Camera camera) noexcept;
 
-}  // namespace clay::draw
+}  // namespace clay::render

@@ -17,7 +17,7 @@
 #include <stb/stb_image_write.h>
 #pragma GCC diagnostic pop
 
-namespace clay::draw {
+namespace clay::render {
 
 std::string png_of(const Image& image) {
   assert(image.width_px > 0 && image.height_px > 0);
@@ -31,4 +31,4 @@ std::string png_of(const Image& image) {
   return bytes;
 }
 
-}  // namespace clay::draw
+}  // namespace clay::render

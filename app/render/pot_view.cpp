@@ -4,7 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
-namespace clay::draw {
+namespace clay::render {
 namespace {
 
 constexpr int kArcs = 48;          // of a half-profile, evenly in angle
@@ -104,4 +104,4 @@ std::vector<glm::vec2> half_profile_of(const Tool& tool) {
   return profile;
 }
 
-}  // namespace clay::draw
+}  // namespace clay::render

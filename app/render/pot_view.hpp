@@ -6,7 +6,7 @@
 #include "claystack/engine/collapse.hpp"
 #include "claystack/engine/tool.hpp"
 
-namespace clay::draw {
+namespace clay::render {
 
 inline constexpr std::size_t kMaxRows = 2048;
 
@@ -26,4 +26,4 @@ inline constexpr std::size_t kMaxRows = 2048;
 /// ToolView::half_profile_mm.
 [[nodiscard]] std::vector<glm::vec2> half_profile_of(const Tool& tool);
 
-}  // namespace clay::draw
+}  // namespace clay::render

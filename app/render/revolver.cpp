@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-namespace clay::draw {
+namespace clay::render {
 namespace {
 
 const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
@@ -84,4 +84,4 @@ void SliceFan::draw() const {
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count_);
 }
 
-}  // namespace clay::draw
+}  // namespace clay::render

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace clay::draw {
+namespace clay::render {
 
 class Revolver {
  public:
@@ -33,4 +33,4 @@ class SliceFan {
   int count_ = 0;
 };
 
-}  // namespace clay::draw
+}  // namespace clay::render

@@ -5,7 +5,7 @@
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
-namespace clay::draw {
+namespace clay::render {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -81,4 +81,4 @@ int SceneFrame::sectors_for(double radius_mm) const {
   return std::clamp(16 * static_cast<int>(std::ceil(wanted / 16.0)), 48, 320);
 }
 
-}  // namespace clay::draw
+}  // namespace clay::render

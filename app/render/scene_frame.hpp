@@ -9,7 +9,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-namespace clay::draw {
+namespace clay::render {
 
 struct SceneFrame {
   const Picture& picture;
@@ -29,4 +29,4 @@ struct SceneFrame {
   void fill_block(Viewport viewport);
 };
 
-}  // namespace clay::draw
+}  // namespace clay::render

@@ -8,7 +8,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <numbers>
 
-namespace clay::draw {
+namespace clay::render {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -164,4 +164,4 @@ void ScenePainter::paint_wheel(const SceneFrame& frame) {
   revolve(ground_, meridian_of(floor), glm::mat4(1.0f), frame);
 }
 
-}  // namespace clay::draw
+}  // namespace clay::render

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-namespace clay::draw {
+namespace clay::render {
 
 struct SceneFrame;
 
@@ -41,4 +41,4 @@ class ScenePainter {
   SliceFan slices_;
 };
 
-}  // namespace clay::draw
+}  // namespace clay::render

@@ -8,7 +8,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-namespace clay::draw {
+namespace clay::render {
 
 /// The section at a height. Between two levels walls run straight; two levels of one height are a
 /// floor, a lid or nothing at all.
@@ -51,4 +51,4 @@ struct Slice {
 
 [[nodiscard]] std::vector<Slice> slices_of(const std::vector<Level>& levels);
 
-}  // namespace clay::draw
+}  // namespace clay::render

@@ -1,6 +1,6 @@
 #include "app/render/shaders.hpp"
 
-namespace clay::draw {
+namespace clay::render {
 namespace {
 
 constexpr const char* kFrame = R"(#version 330 core
@@ -276,4 +276,4 @@ std::string ground_fragment() { return joined(kColour, kShadowMap, kGroundFragme
 std::string slice_vertex() { return joined(kSliceVertex); }
 std::string slice_fragment() { return joined(kColour, kWallColour, kSliceFragment); }
 
-}  // namespace clay::draw
+}  // namespace clay::render

@@ -6,7 +6,7 @@
 #include <glm/vec4.hpp>
 #include <string>
 
-namespace clay::draw {
+namespace clay::render {
 
 /// What all programs know of a frame: block `Frame`, std140, field by field.
 struct FrameBlock {
@@ -34,4 +34,4 @@ inline constexpr int kMapColours = 17;
 [[nodiscard]] std::string slice_vertex();  ///< Slice, turned about the axis
 [[nodiscard]] std::string slice_fragment();
 
-}  // namespace clay::draw
+}  // namespace clay::render

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-namespace clay::draw {
+namespace clay::render {
 namespace {
 
 constexpr std::size_t kDiscs = 28;   // that stand for a body
@@ -102,4 +102,4 @@ ShadowMap shadow_of(std::span<const Body> bodies, const glm::vec3& to_lamp) {
   return map;
 }
 
-}  // namespace clay::draw
+}  // namespace clay::render

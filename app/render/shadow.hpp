@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace clay::draw {
+namespace clay::render {
 
 /// A body as the light sees it: its levels, and where it lies.
 struct Body {
@@ -29,4 +29,4 @@ struct ShadowMap {
 /// `to_lamp`: unit, upwards.
 [[nodiscard]] ShadowMap shadow_of(std::span<const Body> bodies, const glm::vec3& to_lamp);
 
-}  // namespace clay::draw
+}  // namespace clay::render

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace clay::draw {
+namespace clay::render {
 namespace {
 
 constexpr std::size_t kRings = 96;
@@ -58,4 +58,4 @@ SeenSky Sky::inside(glm::vec2 at) const {
   return seen;
 }
 
-}  // namespace clay::draw
+}  // namespace clay::render

@@ -4,7 +4,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-namespace clay::draw {
+namespace clay::render {
 
 struct Level;
 
@@ -28,4 +28,4 @@ class Sky {
   std::vector<Ring> rings_;
 };
 
-}  // namespace clay::draw
+}  // namespace clay::render

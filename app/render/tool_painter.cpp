@@ -9,7 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
-namespace clay::draw {
+namespace clay::render {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -83,4 +83,4 @@ void ScenePainter::paint_arrow(const SceneFrame& frame) {
   revolve(plain_, meridian_of(line), along(tool.place_mm + beyond * way, way), frame);
 }
 
-}  // namespace clay::draw
+}  // namespace clay::render

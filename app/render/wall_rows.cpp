@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace clay::draw {
+namespace clay::render {
 namespace {
 
 constexpr double kTolerance = 0.02;  // [mm], as `claystack export` has it
@@ -71,4 +71,4 @@ std::vector<RowWall> row_walls(std::span<const solid::WallSample> field, std::si
   return walls;
 }
 
-}  // namespace clay::draw
+}  // namespace clay::render

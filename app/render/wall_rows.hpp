@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace clay::draw {
+namespace clay::render {
 
 /// The section that walls are measured on: the smoothed profile of `claystack export`, of a fallen
 /// pot both parts as they stood. `min_wall_mm`: as SmoothingOptions has it. Errors as
@@ -26,4 +26,4 @@ Result<solid::Profile> wall_profile(const Pot& pot, std::optional<double> min_wa
 [[nodiscard]] std::vector<RowWall> row_walls(std::span<const solid::WallSample> field,
                                              std::size_t rows, double height_mm);
 
-}  // namespace clay::draw
+}  // namespace clay::render

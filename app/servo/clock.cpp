@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 
-namespace clay::live {
+namespace clay::servo {
 namespace {
 
 constexpr std::int64_t kNsPerS = 1'000'000'000;
@@ -41,4 +41,4 @@ std::int64_t MonotonicClock::wake_at_ns(std::int64_t time_ns) noexcept {
   return late_ns;
 }
 
-}  // namespace clay::live
+}  // namespace clay::servo

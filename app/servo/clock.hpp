@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace clay::live {
+namespace clay::servo {
 
 class Clock {
  public:
@@ -42,4 +42,4 @@ class MonotonicClock final : public Clock {
   std::int64_t lead_ns_ = kLongestLookNs;
 };
 
-}  // namespace clay::live
+}  // namespace clay::servo

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace clay::live {
+namespace clay::servo {
 
 void Controls::update(std::int64_t now_us, unsigned buttons, Commands& commands,
                       std::optional<double> grip_mm) noexcept {
@@ -61,4 +61,4 @@ void Controls::set_gap(double mm) noexcept {
   if (pinches_ && mm >= -kGapStepMm) gap_mm_ = std::clamp(mm, 0.0, kWidestGapMm);
 }
 
-}  // namespace clay::live
+}  // namespace clay::servo

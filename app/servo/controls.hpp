@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace clay::live {
+namespace clay::servo {
 
 enum class CommandKind {
   clutch,  ///< value 0 lets go, any other holds; so of trim and pause
@@ -25,7 +25,7 @@ struct Command {
 };
 
 /// One thread gives the commands, the servo takes them.
-using Commands = falcon::CommandQueue<Command, 64>;
+using Commands = SpscQueue<Command, 64>;
 
 /// Bits of DeviceSample::buttons; 0 where there is no such button.
 struct ButtonMap {
@@ -73,4 +73,4 @@ class Controls {
   bool paused_ = false, stopped_ = false, zero_ = false, rearm_ = false;
 };
 
-}  // namespace clay::live
+}  // namespace clay::servo

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace clay::live {
+namespace clay::servo {
 namespace {
 
 constexpr double kMPerMm = 1e-3;
@@ -36,4 +36,4 @@ void HandForce::displayed(const glm::dvec3& sent_n) noexcept {
   controller_.displayed(whole > 0.0 ? glm::length(sent_n) / whole * spring_n_ : glm::dvec3(0.0));
 }
 
-}  // namespace clay::live
+}  // namespace clay::servo

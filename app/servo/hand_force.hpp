@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-namespace clay::live {
+namespace clay::servo {
 
 /// A force on the tool as its spring and the friction of the turning wheel. Friction drags the hand
 /// along the wheel's turn and works on it by right; only the spring is held to be passive.
@@ -48,4 +48,4 @@ class HandForce {
   glm::dvec3 spring_n_{0.0}, whole_n_{0.0};  // the last answer, in the device's frame
 };
 
-}  // namespace clay::live
+}  // namespace clay::servo

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace clay::live {
+namespace clay::servo {
 
 StepReport LiveClay::meet(const Pose& measured) noexcept {
   const Pose pose = quantized(measured);
@@ -18,4 +18,4 @@ StepReport LiveClay::meet(const Pose& measured) noexcept {
   return report;
 }
 
-}  // namespace clay::live
+}  // namespace clay::servo

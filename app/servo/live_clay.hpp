@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-namespace clay::live {
+namespace clay::servo {
 
 /// With a clay rate below the servo's, the clay is deformed at the first believable sample of each
 /// of its own periods, and that pose alone is recorded. In the ticks between, the force is computed
@@ -34,4 +34,4 @@ class LiveClay {
   std::uint64_t poses_ = 0;
 };
 
-}  // namespace clay::live
+}  // namespace clay::servo

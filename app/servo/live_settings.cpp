@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace clay::live {
+namespace clay::servo {
 namespace {
 
 constexpr double kLowestRateHz = 400.0, kHighestRateHz = 4000.0;
@@ -32,4 +32,4 @@ Result<void> check(const LiveSettings& settings) {
   return {};
 }
 
-}  // namespace clay::live
+}  // namespace clay::servo

@@ -5,7 +5,7 @@
 #include "claystack/falcon/guard.hpp"
 #include "claystack/falcon/passivity.hpp"
 
-namespace clay::live {
+namespace clay::servo {
 
 /// What a servo is made of beside the wheel and the device.
 struct LiveSettings {
@@ -28,4 +28,4 @@ struct LiveSettings {
 /// Errors name the option of the command line. Mapping, guard and arm are checked by their own.
 Result<void> check(const LiveSettings& settings);
 
-}  // namespace clay::live
+}  // namespace clay::servo

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace clay::live {
+namespace clay::servo {
 
 void show(const ClayStack& stack, double time_s, LiveProfile& profile) noexcept {
   const auto rings = stack.rings();
@@ -16,4 +16,4 @@ void show(const ClayStack& stack, double time_s, LiveProfile& profile) noexcept 
   profile.time_s = time_s;
 }
 
-}  // namespace clay::live
+}  // namespace clay::servo

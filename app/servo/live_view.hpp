@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-namespace clay::live {
+namespace clay::servo {
 
 /// Why the servo no longer ticks.
 enum class Ending {
@@ -65,8 +65,8 @@ void show(const ClayStack& stack, double time_s, LiveProfile& profile) noexcept;
 
 /// One reader each.
 struct LiveView {
-  falcon::Snapshot<LiveStatus> status;
-  falcon::Snapshot<LiveProfile> profile;
+  Snapshot<LiveStatus> status;
+  Snapshot<LiveProfile> profile;
 };
 
-}  // namespace clay::live
+}  // namespace clay::servo

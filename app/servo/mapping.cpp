@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace clay::live {
+namespace clay::servo {
 namespace {
 
 Result<void> check_range(const char* option, double value, double low, double high) {
@@ -61,4 +61,4 @@ void Mapping::recentre(const glm::dvec3& device_mm, const glm::dvec3& clay_mm) n
   offset_mm_ = clay_mm - scale_ * turned_ * device_mm;
 }
 
-}  // namespace clay::live
+}  // namespace clay::servo

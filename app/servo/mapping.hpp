@@ -14,7 +14,7 @@
 #include <glm/vec3.hpp>
 #include <string>
 
-namespace clay::live {
+namespace clay::servo {
 
 /// Where the hand works; the middle of the workspace lies there, at half the height.
 enum class Side { right, left, front };
@@ -52,4 +52,4 @@ class Mapping {
   glm::dvec3 offset_mm_{0.0};
 };
 
-}  // namespace clay::live
+}  // namespace clay::servo

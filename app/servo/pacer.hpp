@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace clay::live {
+namespace clay::servo {
 
 class Pacer {
  public:
@@ -41,4 +41,4 @@ class Pacer {
   std::int64_t period_ns_, deadline_ns_ = 0, overslept_ns_ = 0;
 };
 
-}  // namespace clay::live
+}  // namespace clay::servo

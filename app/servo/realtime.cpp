@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <system_error>
 
-namespace clay::live {
+namespace clay::servo {
 namespace {
 
 // More than the servo's deepest call needs: touched now, so that no tick meets a new page.
@@ -48,4 +48,4 @@ Realtime ask_for_realtime(int priority) {
   return realtime;
 }
 
-}  // namespace clay::live
+}  // namespace clay::servo

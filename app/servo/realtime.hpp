@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace clay::live {
+namespace clay::servo {
 
 struct Realtime {
   bool asked = false;
@@ -19,4 +19,4 @@ inline constexpr int kServoPriority = 70, kWatchdogPriority = 80;
 /// For the calling thread, and of memory for the process as it is then. Reported, never fatal.
 [[nodiscard]] Realtime ask_for_realtime(int priority);
 
-}  // namespace clay::live
+}  // namespace clay::servo

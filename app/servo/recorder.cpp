@@ -6,7 +6,7 @@
 #include <chrono>
 #include <utility>
 
-namespace clay::live {
+namespace clay::servo {
 namespace {
 
 // A third of what may be lost, for a thread that has to wait for its turn.
@@ -24,13 +24,13 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path,
   return recorder;
 }
 
-std::unique_ptr<Recorder> Recorder::create(work::PoseSink& sink) {
+std::unique_ptr<Recorder> Recorder::create(history::PoseSink& sink) {
   std::unique_ptr<Recorder> recorder(new Recorder(sink));
   recorder->thread_ = std::thread([&self = *recorder] { self.run(); });
   return recorder;
 }
 
-Recorder::Recorder(work::PoseSink& sink) : sink_(sink) { block_.reserve(kPosesPerBlock); }
+Recorder::Recorder(history::PoseSink& sink) : sink_(sink) { block_.reserve(kPosesPerBlock); }
 
 Recorder::~Recorder() {
   closing_.store(true);
@@ -78,4 +78,4 @@ void Recorder::hand_on() {
   }
 }
 
-}  // namespace clay::live
+}  // namespace clay::servo

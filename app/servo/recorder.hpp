@@ -17,7 +17,7 @@
 #include <thread>
 #include <vector>
 
-namespace clay::live {
+namespace clay::servo {
 
 class Recorder {
  public:
@@ -26,7 +26,7 @@ class Recorder {
                                                   std::string_view scene_name,
                                                   std::uint64_t scene_hash);
   /// For any sink, which outlives it.
-  static std::unique_ptr<Recorder> create(work::PoseSink& sink);
+  static std::unique_ptr<Recorder> create(history::PoseSink& sink);
   /// Ends the recording; who wants to know how it went calls finish() first.
   ~Recorder();
   Recorder(const Recorder&) = delete;
@@ -45,14 +45,14 @@ class Recorder {
   [[nodiscard]] std::uint64_t taken() const noexcept { return taken_.load(); }
 
  private:
-  explicit Recorder(work::PoseSink& sink);
+  explicit Recorder(history::PoseSink& sink);
   void run();
   void hand_on();
 
   static constexpr std::size_t kWaiting = 8192;  // poses: 8 s at 1 kHz
-  std::unique_ptr<work::PoseSink> own_sink_;
-  work::PoseSink& sink_;
-  falcon::CommandQueue<Pose, kWaiting> queue_;
+  std::unique_ptr<history::PoseSink> own_sink_;
+  history::PoseSink& sink_;
+  SpscQueue<Pose, kWaiting> queue_;
   std::atomic<std::uint64_t> lost_{0}, taken_{0};
   std::atomic<bool> closing_{false}, failed_{false};
   std::vector<Pose> block_;  // the thread's
@@ -60,4 +60,4 @@ class Recorder {
   std::thread thread_;
 };
 
-}  // namespace clay::live
+}  // namespace clay::servo

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
-namespace clay::live {
+namespace clay::servo {
 namespace {
 
 constexpr double kSPerUs = 1e-6;
@@ -97,4 +97,4 @@ falcon::SimulatedSettings simulated_potter(const std::vector<Pose>& poses, const
   return settings;
 }
 
-}  // namespace clay::live
+}  // namespace clay::servo

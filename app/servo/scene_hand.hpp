@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace clay::live {
+namespace clay::servo {
 
 /// Time before the stroke begins, for homing and for the guard to see that nothing is in the way.
 inline constexpr double kHandLeadS = 0.5;
@@ -36,4 +36,4 @@ inline constexpr double kSimulatedReachMm = 46.0;
 [[nodiscard]] falcon::SimulatedSettings simulated_potter(const std::vector<Pose>& poses,
                                                          const Mapping& mapping);
 
-}  // namespace clay::live
+}  // namespace clay::servo

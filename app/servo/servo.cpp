@@ -2,16 +2,16 @@
 
 #include "claystack/falcon/guard.hpp"
 
-namespace clay::live {
+namespace clay::servo {
 namespace {
 
 void stop_device(void* device) noexcept { static_cast<falcon::HapticDevice*>(device)->stop(); }
 
 }  // namespace
 
-falcon::LastZero& last_zero() noexcept {
+falcon::EmergencyStop& last_zero() noexcept {
   // In static memory: a handler may run before main, or after it.
-  static constinit falcon::LastZero last;
+  static constinit falcon::EmergencyStop last;
   return last;
 }
 
@@ -71,4 +71,4 @@ void Servo::watch() noexcept {
   }
 }
 
-}  // namespace clay::live
+}  // namespace clay::servo

@@ -10,10 +10,10 @@
 #include <cstdint>
 #include <thread>
 
-namespace clay::live {
+namespace clay::servo {
 
 /// What signal handlers fire: the force of the servo that runs ends, for good.
-[[nodiscard]] falcon::LastZero& last_zero() noexcept;
+[[nodiscard]] falcon::EmergencyStop& last_zero() noexcept;
 
 class Servo {
  public:
@@ -57,4 +57,4 @@ class Servo {
   std::thread servo_, watchdog_;
 };
 
-}  // namespace clay::live
+}  // namespace clay::servo

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace clay::live {
+namespace clay::servo {
 namespace {
 
 using falcon::DeviceState;
@@ -221,4 +221,4 @@ void ServoLoop::publish(LiveView& view, std::int64_t late_ns) noexcept {
   view.profile.publish();
 }
 
-}  // namespace clay::live
+}  // namespace clay::servo

@@ -18,7 +18,7 @@
 #include <atomic>
 #include <cstdint>
 
-namespace clay::live {
+namespace clay::servo {
 
 /// What the loop works on. All outlive it.
 struct Bench {
@@ -86,4 +86,4 @@ class ServoLoop {
   LiveStatus status_;
 };
 
-}  // namespace clay::live
+}  // namespace clay::servo

@@ -7,14 +7,14 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace clay::live {
+namespace clay::servo {
 
 struct ServoTiming {
-  falcon::TimingHistogram lateness;   ///< woken after the deadline
-  falcon::TimingHistogram oversleep;  ///< sleeps within, ended later than asked
-  falcon::TimingHistogram period;     ///< from one sample, or want of one, to the next
-  falcon::TimingHistogram work;       ///< from there until the force is handed to the device
-  falcon::TimingHistogram age;        ///< of the sample when the force is handed over; fresh ones
+  Histogram lateness;   ///< woken after the deadline
+  Histogram oversleep;  ///< sleeps within, ended later than asked
+  Histogram period;     ///< from one sample, or want of one, to the next
+  Histogram work;       ///< from there until the force is handed to the device
+  Histogram age;        ///< of the sample when the force is handed over; fresh ones
   std::uint64_t ticks = 0;
   std::uint64_t missed = 0;  ///< woken a whole period late, or more
   std::uint64_t stale = 0;   ///< no fresh sample
@@ -35,4 +35,4 @@ struct GuardEvents {
   std::uint64_t watchdog = 0;  ///< forces ended by it
 };
 
-}  // namespace clay::live
+}  // namespace clay::servo

@@ -12,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-namespace clay::live {
+namespace clay::servo {
 namespace {
 
 namespace fs = std::filesystem;
@@ -151,4 +151,4 @@ tl::unexpected<Error> SessionRecording::failed(const char* action) const {
   return failure(ErrorKind::io, std::move(message));
 }
 
-}  // namespace clay::live
+}  // namespace clay::servo

@@ -11,13 +11,13 @@
 #include <string>
 #include <string_view>
 
-namespace clay::live {
+namespace clay::servo {
 
 /// A session that is being recorded. It grows in NAME.recording, locked, and becomes NAME in one
 /// step in `finish`: until then the session that had the name stays as it is. A program that dies
 /// leaves NAME.recording, which can be played like any session. A recording without a pose leaves
 /// nothing and replaces nothing. Pipes and devices have no NAME.recording: lines go straight there.
-class SessionRecording final : public work::PoseSink {
+class SessionRecording final : public history::PoseSink {
  public:
   /// Refused while another program records to this name, and where NAME.recording holds poses of a
   /// recording that never finished. `scene_hash`: hash_of the scene as it is on disk.
@@ -48,4 +48,4 @@ class SessionRecording final : public work::PoseSink {
   std::size_t poses_ = 0;  ///< so many are in it
 };
 
-}  // namespace clay::live
+}  // namespace clay::servo

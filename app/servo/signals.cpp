@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cstddef>
 
-namespace clay::live {
+namespace clay::servo {
 namespace {
 
 constexpr int kAsks[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE};
@@ -69,4 +69,4 @@ int ForceSignals::asked_to_stop() noexcept { return asked; }
 
 void ForceSignals::at_the_end(Act act) noexcept { last_act.store(act, std::memory_order_release); }
 
-}  // namespace clay::live
+}  // namespace clay::servo

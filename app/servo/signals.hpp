@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::live {
+namespace clay::servo {
 
 /// For as long as it lives: SIGINT, SIGTERM, SIGHUP and SIGPIPE end the force at once and ask the
 /// program to stop. Every other signal that would end the process and can be caught ends the force
@@ -32,4 +32,4 @@ class ForceSignals {
   stack_t stack_before_{};
 };
 
-}  // namespace clay::live
+}  // namespace clay::servo

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace clay::live {
+namespace clay::servo {
 
 struct TickSample {
   std::int64_t time_ns = 0;  ///< when the sample was there; of the servo's clock
@@ -39,9 +39,9 @@ class TickTrace {
   }
 
  private:
-  falcon::CommandQueue<TickSample, kRoom> queue_;
+  SpscQueue<TickSample, kRoom> queue_;
   std::atomic<bool> wanted_{false};
   std::atomic<std::uint64_t> dropped_{0};
 };
 
-}  // namespace clay::live
+}  // namespace clay::servo

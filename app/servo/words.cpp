@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace clay::live {
+namespace clay::servo {
 namespace {
 
 using falcon::DeviceState;
@@ -71,4 +71,4 @@ bool waits_for_rearm(const LiveStatus& status) noexcept {
          status.cause == SafeCause::paused;
 }
 
-}  // namespace clay::live
+}  // namespace clay::servo

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace clay::live {
+namespace clay::servo {
 
 inline constexpr const char* kHomingAdvice =
     "pull the grip all the way out, then push it all the way in";
@@ -21,4 +21,4 @@ inline constexpr const char* kHomingAdvice =
 /// There is no force, and none comes back before somebody asks for it: CommandKind::rearm.
 [[nodiscard]] bool waits_for_rearm(const LiveStatus& status) noexcept;
 
-}  // namespace clay::live
+}  // namespace clay::servo

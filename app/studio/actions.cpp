@@ -15,28 +15,28 @@ namespace {
 
 constexpr double kSizeStep = 1.1;
 
-bool pinching(const Workshop& shop) { return shop.settings.tool.mode == ToolMode::pinch; }
+bool pinching(const AppState& shop) { return shop.settings.tool.mode == ToolMode::pinch; }
 
 template <ToolMode mode>
-void set_mode(Workshop& shop) {
+void set_mode(AppState& shop) {
   shop.settings.tool.mode = mode;
 }
 template <ToolMode mode>
-bool is_mode(const Workshop& shop) {
+bool is_mode(const AppState& shop) {
   return shop.settings.tool.mode == mode;
 }
 template <Shape shape>
-void set_shape(Workshop& shop) {
+void set_shape(AppState& shop) {
   shop.settings.tool.shape = shape;
 }
 template <Shape shape>
-bool is_shape(const Workshop& shop) {
+bool is_shape(const AppState& shop) {
   return shop.settings.tool.shape == shape;
 }
 
 /// Esc: no force in this very moment, whatever is open, and out of that too. However often it is
 /// pressed, it gives no force back.
-void back(Workshop& shop) {
+void back(AppState& shop) {
   const bool felt = shop.potter.has_device() && has_work(shop) && !shop.potter.paused();
   if (felt) shop.potter.pause(true);
   if (shop.view.sizing()) return shop.view.cancel(shop);
@@ -101,31 +101,31 @@ const std::array kThrowingActions = {
       {GLFW_KEY_LEFT_BRACKET, 0},
       kNone,
       always,
-      [](Workshop& s) { resize(s.settings.tool, 1.0 / kSizeStep); }},
+      [](AppState& s) { resize(s.settings.tool, 1.0 / kSizeStep); }},
     A{"tool.larger",
       "Larger",
       {GLFW_KEY_RIGHT_BRACKET, 0},
       kNone,
       always,
-      [](Workshop& s) { resize(s.settings.tool, kSizeStep); }},
+      [](AppState& s) { resize(s.settings.tool, kSizeStep); }},
     A{"tool.size",
       "Set size with the mouse",
       {GLFW_KEY_F, 0},
       kNone,
       at_rest,
-      [](Workshop& s) { s.view.begin_sizing(s); }},
+      [](AppState& s) { s.view.begin_sizing(s); }},
     A{"tool.strength",
       "Set stiffness with the mouse",
       {GLFW_KEY_F, kShift},
       kNone,
       at_rest,
-      [](Workshop& s) { s.view.begin_strength(s); }},
+      [](AppState& s) { s.view.begin_strength(s); }},
     A{"tool.narrower",
       "Narrower gap",
       {GLFW_KEY_COMMA, 0},
       kNone,
       pinching,
-      [](Workshop& s) {
+      [](AppState& s) {
         s.settings.tool.gap_mm = std::max(kNarrowestGapMm, s.settings.tool.gap_mm - 0.5);
       }},
     A{"tool.wider",
@@ -133,7 +133,7 @@ const std::array kThrowingActions = {
       {GLFW_KEY_PERIOD, 0},
       kNone,
       pinching,
-      [](Workshop& s) {
+      [](AppState& s) {
         s.settings.tool.gap_mm = std::min(kWidestPinchMm, s.settings.tool.gap_mm + 0.5);
       }},
     A{"wheel.pause",
@@ -141,15 +141,15 @@ const std::array kThrowingActions = {
       {GLFW_KEY_SPACE, 0},
       kNone,
       has_work,
-      [](Workshop& s) { s.potter.pause(!s.potter.paused()); },
-      [](const Workshop& s) { return s.potter.paused(); }},
+      [](AppState& s) { s.potter.pause(!s.potter.paused()); },
+      [](const AppState& s) { return s.potter.paused(); }},
     A{"wheel.rearm",
       "Force again",
       {GLFW_KEY_R, kShift},
       kNone,
       waits_for_rearm,
-      [](Workshop& s) {
-        s.potter.command({live::CommandKind::rearm, 0.0});
+      [](AppState& s) {
+        s.potter.command({servo::CommandKind::rearm, 0.0});
       }},
     A{"wheel.zero_force", "Zero force, or back", {GLFW_KEY_ESCAPE, 0}, kNone, always, back},
 };
@@ -179,7 +179,7 @@ const Action* action_of(const KeyChord& chord) {
   return found == actions().end() ? nullptr : &*found;
 }
 
-bool run(const Action& action, Workshop& shop) {
+bool run(const Action& action, AppState& shop) {
   if (!action.enabled(shop)) return false;
   std::string line = "action: ";
   shop.log(line.append(action.id));

@@ -9,16 +9,16 @@
 
 namespace clay::studio {
 
-struct Workshop;
+struct AppState;
 
 struct Action {
   std::string_view id;  ///< for scripts: "edit.undo"; before the point its menu
   const char* title;
   KeyChord chord;
   KeyChord also;  ///< a second one, not shown in the menu
-  bool (*enabled)(const Workshop&);
-  void (*run)(Workshop&);
-  bool (*checked)(const Workshop&) = nullptr;  ///< of those that switch something
+  bool (*enabled)(const AppState&);
+  void (*run)(AppState&);
+  bool (*checked)(const AppState&) = nullptr;  ///< of those that switch something
 };
 
 /// In the order of the menus.
@@ -27,7 +27,7 @@ struct Action {
 [[nodiscard]] const Action* find_action(std::string_view id);
 [[nodiscard]] const Action* action_of(const KeyChord& chord);
 /// Where it is enabled, and said in the log; whether it was.
-bool run(const Action& action, Workshop& shop);
+bool run(const Action& action, AppState& shop);
 
 struct MenuTitle {
   std::string_view prefix;  ///< of the ids: "edit."

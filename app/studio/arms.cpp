@@ -2,7 +2,7 @@
 
 #include "app/servo/words.hpp"
 #include "app/studio/actions.hpp"
-#include "app/studio/workshop.hpp"
+#include "app/studio/app_state.hpp"
 
 #include <utility>
 
@@ -14,21 +14,21 @@ constexpr double kGreetingS = 6.0;
 constexpr std::uint64_t kTicksToKnow = 250;
 
 /// What nobody but the potter can do; empty: nothing.
-std::string request_of(const Workshop& shop) {
+std::string request_of(const AppState& shop) {
   if (!shop.potter.throwing() || !shop.potter.has_motors()) return {};
-  const live::LiveStatus& status = shop.potter.status();
+  const servo::LiveStatus& status = shop.potter.status();
   const bool homes =
       status.device == falcon::DeviceState::needs_homing && status.ticks > kTicksToKnow;
-  return homes || live::waits_for_rearm(status) ? words_of_hand(shop) : std::string();
+  return homes || servo::waits_for_rearm(status) ? words_of_hand(shop) : std::string();
 }
 
 /// In place of what was said of the arm before, as far as that still stands.
-void say_of_hand(Workshop& shop, Grade grade, const std::string& text, double until_s = 0.0) {
+void say_of_hand(AppState& shop, Grade grade, const std::string& text, double until_s = 0.0) {
   shop.notices.take_back(std::exchange(shop.hand_told, text));
   if (!text.empty()) shop.notices.say(grade, text, until_s);
 }
 
-void greet(Workshop& shop, const falcon::DeviceInfo& info) {
+void greet(AppState& shop, const falcon::DeviceInfo& info) {
   shop.log("device: " + info.name);
   say_of_hand(shop, Grade::note, info.name + " is here and throws now",
               1e-9 * static_cast<double>(shop.host.frame_ns()) + kGreetingS);
@@ -36,7 +36,7 @@ void greet(Workshop& shop, const falcon::DeviceInfo& info) {
 
 }  // namespace
 
-void look_at_devices(Workshop& shop) {
+void look_at_devices(AppState& shop) {
   if (!shop.devices) return;
   if (const std::string problem = shop.devices->take_problem(); !problem.empty())
     tell(shop, {ErrorKind::bad_input, problem + "; the mouse throws meanwhile"});
@@ -47,13 +47,13 @@ void look_at_devices(Workshop& shop) {
       shop.potter.hold(tool_of(shop.settings.tool), clay_rate_per_s(shop));
     return;
   }
-  live::LiveSettings settings;
-  settings.buttons = device->info().can_push ? live::kFalconButtons : live::kTwoButtons;
+  servo::LiveSettings settings;
+  settings.buttons = device->info().can_push ? servo::kFalconButtons : servo::kTwoButtons;
   greet(shop, device->info());
   shop.potter.take(std::move(device), settings);
 }
 
-void lose_arm(Workshop& shop, const Error& why) {
+void lose_arm(AppState& shop, const Error& why) {
   if (shop.devices) shop.devices->look_again();
   const Error error{why.kind, why.message + "; the mouse throws meanwhile"};
   say_of_hand(shop, Grade::fault, {});
@@ -61,19 +61,19 @@ void lose_arm(Workshop& shop, const Error& why) {
   tell(shop, error);
 }
 
-std::string words_of_hand(const Workshop& shop) {
+std::string words_of_hand(const AppState& shop) {
   if (!shop.potter.throwing() || !shop.potter.has_motors()) return {};
-  return live::words_of(shop.potter.status(), text_of(find_action("wheel.rearm")->chord));
+  return servo::words_of(shop.potter.status(), text_of(find_action("wheel.rearm")->chord));
 }
 
-bool waits_for_rearm(const Workshop& shop) {
+bool waits_for_rearm(const AppState& shop) {
   return shop.potter.throwing() && shop.potter.has_motors() &&
-         live::waits_for_rearm(shop.potter.status());
+         servo::waits_for_rearm(shop.potter.status());
 }
 
-void look_at_hand(Workshop& shop) {
+void look_at_hand(AppState& shop) {
   const bool pushed = shop.potter.throwing() && shop.potter.has_motors();
-  const std::string is = pushed ? live::name_of(shop.potter.status().guard) : "";
+  const std::string is = pushed ? servo::name_of(shop.potter.status().guard) : "";
   if (is != shop.hand_is) {
     if (!is.empty()) shop.log("force: " + is);
     shop.hand_is = is;

@@ -27,7 +27,7 @@ LookForDevice look_for(std::string which, falcon::FalconSettings settings) {
   return [which = std::move(which),
           settings = std::move(settings)]() -> Result<std::unique_ptr<falcon::HapticDevice>> {
     if (which == "auto" && !anything_plugged_in()) return nullptr;
-    return app::open_chosen(which, settings, falcon::simulated_and_loaded());
+    return cli::open_chosen(which, settings, falcon::simulated_and_loaded());
   };
 }
 

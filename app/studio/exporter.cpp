@@ -19,15 +19,15 @@ constexpr std::array kEndings = {Ending{&ExportWish::stl, ".stl"}, Ending{&Expor
 
 }  // namespace
 
-app::ExportCommand command_of(const ExportWish& wish) {
-  app::ExportCommand command;
+cli::ExportCommand command_of(const ExportWish& wish) {
+  cli::ExportCommand command;
   command.pot = wish.name;
   for (const auto& [wanted, ending] : kEndings)
     if (wish.*wanted)
       command.outputs.push_back(
           (std::filesystem::path(wish.folder) / (wish.name + ending)).string());
   command.options.tolerance_mm = wish.tolerance_mm;
-  command.options.smoothing = app::smoothing_of(wish.smooth);
+  command.options.smoothing = cli::smoothing_of(wish.smooth);
   command.options.name = wish.name;
   const bool mesh = wish.stl || wish.obj || wish.drc;
   if (mesh || wish.section) command.options.shrinkage = 0.01 * wish.shrinkage_percent;
@@ -59,11 +59,11 @@ Exporter::~Exporter() {
   thread_.join();
 }
 
-void Exporter::rehearse(work::SharedPot pot, const ExportWish& wish) {
+void Exporter::rehearse(history::SharedPot pot, const ExportWish& wish) {
   put({Kind::rehearsal, std::move(pot), wish, {}});
 }
 
-void Exporter::write(work::SharedPot pot, const ExportWish& wish) {
+void Exporter::write(history::SharedPot pot, const ExportWish& wish) {
   put({Kind::files, std::move(pot), wish, {}});
 }
 
@@ -132,14 +132,14 @@ void Exporter::run() {
 }
 
 Exporter::Outcome Exporter::done(const Job& job) {
-  app::ExportCommand command = command_of(job.wish);
+  cli::ExportCommand command = command_of(job.wish);
   command.options.cancelled = [token = job.stop.get_token()] { return token.stop_requested(); };
   const auto tell = [this](std::string_view stage) {
     const std::lock_guard lock(mutex_);
     stage_ = stage;
   };
-  auto result = job.kind == Kind::files ? app::export_files(*job.pot, command, tell)
-                                        : app::rehearse_export(*job.pot, command, tell);
+  auto result = job.kind == Kind::files ? cli::export_files(*job.pot, command, tell)
+                                        : cli::rehearse_export(*job.pot, command, tell);
   const bool cancelled = !result && job.stop.stop_requested();
   return {job.kind, job.pot, job.wish, std::move(result), cancelled, std::move(command.outputs)};
 }

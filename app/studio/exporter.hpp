@@ -32,7 +32,7 @@ struct ExportWish {
 };
 
 /// As the command line would have it.
-[[nodiscard]] app::ExportCommand command_of(const ExportWish& wish);
+[[nodiscard]] cli::ExportCommand command_of(const ExportWish& wish);
 /// Files with these names that are there already.
 [[nodiscard]] std::vector<std::string> standing_files(const ExportWish& wish);
 
@@ -41,9 +41,9 @@ class Exporter {
   enum class Kind { rehearsal, files };
   struct Outcome {
     Kind kind = Kind::rehearsal;
-    work::SharedPot pot;
+    history::SharedPot pot;
     ExportWish wish;
-    Result<app::ExportDone> done;
+    Result<cli::ExportDone> done;
     bool cancelled = false;
     std::vector<std::string> paths;  ///< of the files, in the order of the command
   };
@@ -54,8 +54,8 @@ class Exporter {
   Exporter& operator=(const Exporter&) = delete;
 
   /// The newest wins: a rehearsal that runs or waits is given up for it.
-  void rehearse(work::SharedPot pot, const ExportWish& wish);
-  void write(work::SharedPot pot, const ExportWish& wish);
+  void rehearse(history::SharedPot pot, const ExportWish& wish);
+  void write(history::SharedPot pot, const ExportWish& wish);
   /// In a moment; no file is left.
   void cancel();
 
@@ -70,7 +70,7 @@ class Exporter {
  private:
   struct Job {
     Kind kind;
-    work::SharedPot pot;
+    history::SharedPot pot;
     ExportWish wish;
     std::stop_source stop;
   };

@@ -1,6 +1,6 @@
 // The card of an export and the job behind it.
 
-#include "app/studio/workshop.hpp"
+#include "app/studio/app_state.hpp"
 
 #include "claystack/export/job.hpp"
 
@@ -16,16 +16,16 @@ glm::dvec2 on_pot(const solid::ProfilePoint& place, double shrinkage) {
   return glm::dvec2(place.rho, place.y) / solid::enlargement(shrinkage);
 }
 
-void mark(Workshop& shop, const Exporter::Outcome& outcome) {
-  const app::ExportDone& done = *outcome.done;
+void mark(AppState& shop, const Exporter::Outcome& outcome) {
+  const cli::ExportDone& done = *outcome.done;
   shop.marks.clear();
   shop.marked = outcome.pot;
-  for (const app::Problem& problem : app::problems_of(done))
+  for (const cli::Problem& problem : cli::problems_of(done))
     if (problem.at)
       shop.marks.push_back({on_pot(*problem.at, done.report.shrinkage), problem.text});
 }
 
-std::string text_of(const app::ExportDone& done, const std::vector<std::string>& paths) {
+std::string text_of(const cli::ExportDone& done, const std::vector<std::string>& paths) {
   std::uint64_t bytes = 0;
   for (const solid::FileReport& file : done.report.files) bytes += file.bytes;
   return done.report.files.empty()
@@ -37,7 +37,7 @@ std::string text_of(const app::ExportDone& done, const std::vector<std::string>&
                    1e-6 * static_cast<double>(bytes));
 }
 
-void take_files(Workshop& shop, Exporter::Outcome outcome) {
+void take_files(AppState& shop, Exporter::Outcome outcome) {
   ExportCard& card = shop.exporting;
   if (outcome.cancelled) {
     card.said = "Cancelled; no file was written";
@@ -64,7 +64,7 @@ void take_files(Workshop& shop, Exporter::Outcome outcome) {
   shop.settings.process = outcome.wish.process;
 }
 
-void take_rehearsal(Workshop& shop, Exporter::Outcome outcome) {
+void take_rehearsal(AppState& shop, Exporter::Outcome outcome) {
   ExportCard& card = shop.exporting;
   card.shown.reset();
   card.problem.clear();
@@ -86,7 +86,7 @@ ExportWish solid_of(ExportWish wish) {
 
 }  // namespace
 
-void ask_for_export(Workshop& shop) {
+void ask_for_export(AppState& shop) {
   ExportCard& card = shop.exporting;
   shop.potter.release();
   if (card.wish.name.empty()) card.wish.process = shop.settings.process;
@@ -103,7 +103,7 @@ void ask_for_export(Workshop& shop) {
   shop.overlay = Overlay::export_files;
 }
 
-void write_export(Workshop& shop) {
+void write_export(AppState& shop) {
   shop.exporting.written.clear();
   shop.exporting.problem.clear();
   shop.exporting.said.clear();
@@ -111,7 +111,7 @@ void write_export(Workshop& shop) {
   shop.exporter.write(shop.potter.shared_pot(), shop.exporting.wish);
 }
 
-void look_at_export(Workshop& shop) {
+void look_at_export(AppState& shop) {
   ExportCard& card = shop.exporting;
   const bool open = shop.overlay == Overlay::export_files;
   const bool writes = shop.exporter.running() == Exporter::Kind::files;

@@ -19,102 +19,102 @@ const char* name_of(Overlay overlay) {
 
 struct Fact {
   std::string_view name;
-  std::string (*tell)(const Workshop&);
+  std::string (*tell)(const AppState&);
 };
 
 const std::array kFacts = {
-    Fact{"overlay", [](const Workshop& s) { return std::string(name_of(s.overlay)); }},
-    Fact{"throwing", [](const Workshop& s) { return yes_or_no(s.potter.throwing()); }},
-    Fact{"contact", [](const Workshop& s) { return yes_or_no(s.potter.status().contact); }},
-    Fact{"paused", [](const Workshop& s) { return yes_or_no(s.potter.paused()); }},
-    Fact{"unsaved", [](const Workshop& s) { return yes_or_no(s.potter.unsaved()); }},
-    Fact{"can_undo", [](const Workshop& s) { return yes_or_no(s.potter.can_undo()); }},
-    Fact{"can_redo", [](const Workshop& s) { return yes_or_no(s.potter.can_redo()); }},
+    Fact{"overlay", [](const AppState& s) { return std::string(name_of(s.overlay)); }},
+    Fact{"throwing", [](const AppState& s) { return yes_or_no(s.potter.throwing()); }},
+    Fact{"contact", [](const AppState& s) { return yes_or_no(s.potter.status().contact); }},
+    Fact{"paused", [](const AppState& s) { return yes_or_no(s.potter.paused()); }},
+    Fact{"unsaved", [](const AppState& s) { return yes_or_no(s.potter.unsaved()); }},
+    Fact{"can_undo", [](const AppState& s) { return yes_or_no(s.potter.can_undo()); }},
+    Fact{"can_redo", [](const AppState& s) { return yes_or_no(s.potter.can_redo()); }},
     Fact{"tool_mm",
-         [](const Workshop& s) {
+         [](const AppState& s) {
            const auto size = size_mm(s.settings.tool);
            return size ? fmt::format("{}", *size) : std::string();
          }},
     Fact{"stiffness",
-         [](const Workshop& s) {
+         [](const AppState& s) {
            return s.potter.has_work() && s.potter.scene().force
                       ? fmt::format("{}", s.potter.scene().force->stiffness_n_per_mm2)
                       : std::string();
          }},
     Fact{"strokes",
-         [](const Workshop& s) {
+         [](const AppState& s) {
            return fmt::format("{}", s.potter.has_work() ? s.potter.work().size() - 1 : 0);
          }},
     Fact{"node",
-         [](const Workshop& s) {
+         [](const AppState& s) {
            return fmt::format("{}", s.potter.has_work() ? s.potter.work().at() : 0);
          }},
-    Fact{"scrubbing", [](const Workshop& s) { return yes_or_no(s.potter.scrubbing()); }},
-    Fact{"falling", [](const Workshop& s) { return yes_or_no(s.fall.running()); }},
+    Fact{"scrubbing", [](const AppState& s) { return yes_or_no(s.potter.scrubbing()); }},
+    Fact{"falling", [](const AppState& s) { return yes_or_no(s.fall.running()); }},
     Fact{"fallen",
-         [](const Workshop& s) {
+         [](const AppState& s) {
            return yes_or_no(s.potter.has_work() && s.potter.pot().collapse.has_value());
          }},
     Fact{"marks",
-         [](const Workshop& s) {
+         [](const AppState& s) {
            return fmt::format(
                "{}", s.potter.has_work() && s.marked == s.potter.shared_pot() ? s.marks.size() : 0);
          }},
     Fact{"triangles",
-         [](const Workshop& s) {
+         [](const AppState& s) {
            return fmt::format("{}", s.exporting.shown ? s.exporting.shown->report.triangles : 0);
          }},
     Fact{"exported",
-         [](const Workshop& s) { return fmt::format("{}", s.exporting.written.size()); }},
+         [](const AppState& s) { return fmt::format("{}", s.exporting.written.size()); }},
     Fact{"problem",
-         [](const Workshop& s) {
+         [](const AppState& s) {
            return s.overlay == Overlay::import_drawing ? s.importing.problem : s.exporting.problem;
          }},
-    Fact{"closed", [](const Workshop& s) { return yes_or_no(s.done); }},
-    Fact{"device", [](const Workshop& s) { return s.potter.device_name(); }},
-    Fact{"force", [](const Workshop& s) { return s.hand_is.empty() ? "none" : s.hand_is; }},
+    Fact{"closed", [](const AppState& s) { return yes_or_no(s.done); }},
+    Fact{"device", [](const AppState& s) { return s.potter.device_name(); }},
+    Fact{"force", [](const AppState& s) { return s.hand_is.empty() ? "none" : s.hand_is; }},
     Fact{"process",
-         [](const Workshop& s) {
+         [](const AppState& s) {
            return s.overlay == Overlay::export_files ? s.exporting.wish.process
                                                      : s.settings.process;
          }},
     Fact{"banner",
-         [](const Workshop& s) {
+         [](const AppState& s) {
            return s.notices.shown() ? s.notices.shown()->text : std::string();
          }},
     Fact{"height_mm",
-         [](const Workshop& s) { return fmt::format("{}", s.potter.view().height_mm); }},
+         [](const AppState& s) { return fmt::format("{}", s.potter.view().height_mm); }},
     Fact{
         "force_n",
-        [](const Workshop& s) { return fmt::format("{}", glm::length(s.potter.status().clay_n)); }},
+        [](const AppState& s) { return fmt::format("{}", glm::length(s.potter.status().clay_n)); }},
     Fact{"volume_error",
-         [](const Workshop& s) { return fmt::format("{}", s.potter.status().volume_error); }},
-    Fact{"poses", [](const Workshop& s) { return fmt::format("{}", s.potter.status().poses); }},
+         [](const AppState& s) { return fmt::format("{}", s.potter.status().volume_error); }},
+    Fact{"poses", [](const AppState& s) { return fmt::format("{}", s.potter.status().poses); }},
     Fact{"proved",
-         [](const Workshop& s) {
+         [](const AppState& s) {
            return yes_or_no(s.readings.check() && s.readings.check()->proved);
          }},
     Fact{"thin",
-         [](const Workshop& s) {
+         [](const AppState& s) {
            return yes_or_no(s.readings.check() && s.readings.check()->thin());
          }},
     Fact{"thinnest_mm",
-         [](const Workshop& s) {
+         [](const AppState& s) {
            return s.readings.check() ? fmt::format("{}", s.readings.check()->thinnest_mm)
                                      : std::string();
          }},
     Fact{"stress_part",
-         [](const Workshop& s) {
+         [](const AppState& s) {
            return fmt::format("{}", s.readings.stress().part().value_or(0.0));
          }},
     Fact{"plotted_ticks",
-         [](const Workshop& s) { return fmt::format("{}", s.readings.ticks().samples().size()); }},
-    Fact{"missed", [](const Workshop& s) { return fmt::format("{}", s.potter.status().missed); }},
+         [](const AppState& s) { return fmt::format("{}", s.readings.ticks().samples().size()); }},
+    Fact{"missed", [](const AppState& s) { return fmt::format("{}", s.potter.status().missed); }},
 };
 
 }  // namespace
 
-std::optional<std::string> fact(const Workshop& shop, std::string_view name) {
+std::optional<std::string> fact(const AppState& shop, std::string_view name) {
   const auto* found = std::ranges::find(kFacts, name, &Fact::name);
   if (found == kFacts.end()) return std::nullopt;
   return found->tell(shop);

@@ -1,7 +1,7 @@
 #pragma once
 // What a script can ask the window.
 
-#include "app/studio/workshop.hpp"
+#include "app/studio/app_state.hpp"
 
 #include <optional>
 #include <string>
@@ -11,6 +11,6 @@ namespace clay::studio {
 
 /// As text; numbers in the shortest form that reads back. Nothing for a name that is none of
 /// docs/studio.md's.
-[[nodiscard]] std::optional<std::string> fact(const Workshop& shop, std::string_view name);
+[[nodiscard]] std::optional<std::string> fact(const AppState& shop, std::string_view name);
 
 }  // namespace clay::studio

@@ -28,7 +28,7 @@ std::vector<double> times_of(const std::vector<FallFrame>& frames) {
 
 }  // namespace
 
-void FallShow::begin(work::SharedPot pot, double now_s) {
+void FallShow::begin(history::SharedPot pot, double now_s) {
   frames_ = fall_frames(*pot);
   if (frames_.size() < 2) return end();
   pot_ = std::move(pot);
@@ -36,7 +36,7 @@ void FallShow::begin(work::SharedPot pot, double now_s) {
   begun_s_ = now_s;
 }
 
-std::optional<draw::FallenView> FallShow::at(double now_s, const draw::PotView& view) {
+std::optional<render::FallenView> FallShow::at(double now_s, const render::PotView& view) {
   if (!running()) return std::nullopt;
   const auto next = std::ranges::upper_bound(times_s_, now_s - begun_s_);
   if (next == times_s_.end()) {
@@ -45,7 +45,7 @@ std::optional<draw::FallenView> FallShow::at(double now_s, const draw::PotView& 
   }
   const auto index = static_cast<std::size_t>(next - times_s_.begin());
   const FallFrame& frame = frames_[index == 0 ? 0 : index - 1];
-  return draw::fallen_view(*pot_->collapse, frame, view, pot_->stack);
+  return render::fallen_view(*pot_->collapse, frame, view, pot_->stack);
 }
 
 }  // namespace clay::studio

@@ -16,15 +16,15 @@ inline constexpr double kFallS = 1.2;
 class FallShow {
  public:
   /// Of a pot that has collapsed. One whose fall is not known is not shown.
-  void begin(work::SharedPot pot, double now_s);
+  void begin(history::SharedPot pot, double now_s);
   void end() noexcept { frames_.clear(); }
   [[nodiscard]] bool running() const noexcept { return !frames_.empty(); }
   /// Where the part that falls is now, in proportion to its real pace: it gains speed as it loses
   /// height. Nothing once it lies.
-  [[nodiscard]] std::optional<draw::FallenView> at(double now_s, const draw::PotView& view);
+  [[nodiscard]] std::optional<render::FallenView> at(double now_s, const render::PotView& view);
 
  private:
-  work::SharedPot pot_;
+  history::SharedPot pot_;
   std::vector<FallFrame> frames_;
   std::vector<double> times_s_;  // of the frames, from the first
   double begun_s_ = 0.0;

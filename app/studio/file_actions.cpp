@@ -17,44 +17,44 @@ constexpr unsigned kControlShift = kControl | kShift;
 constexpr KeyChord kNone{};
 
 /// An arm's stroke under way too: it is ended first.
-bool can_undo(const Workshop& shop) {
+bool can_undo(const AppState& shop) {
   const bool under_way = shop.potter.throwing() && shop.potter.status().poses > 0;
   return between(shop) && (shop.potter.can_undo() || under_way);
 }
-bool can_redo(const Workshop& shop) { return between(shop) && shop.potter.can_redo(); }
-bool asks(const Workshop& shop) { return shop.overlay == Overlay::quit_prompt; }
-bool exports(const Workshop& shop) {
+bool can_redo(const AppState& shop) { return between(shop) && shop.potter.can_redo(); }
+bool asks(const AppState& shop) { return shop.overlay == Overlay::quit_prompt; }
+bool exports(const AppState& shop) {
   const std::string& name = shop.exporting.wish.name;
   if (name.empty() || name.find('/') != std::string::npos) return false;
   return shop.overlay == Overlay::export_files &&
          shop.exporter.running() != Exporter::Kind::files &&
          !command_of(shop.exporting.wish).outputs.empty();
 }
-bool writes(const Workshop& shop) { return shop.exporter.running() == Exporter::Kind::files; }
-bool has_written(const Workshop& shop) { return !shop.exporting.written.empty(); }
-bool imports(const Workshop& shop) {
+bool writes(const AppState& shop) { return shop.exporter.running() == Exporter::Kind::files; }
+bool has_written(const AppState& shop) { return !shop.exporting.written.empty(); }
+bool imports(const AppState& shop) {
   return shop.overlay == Overlay::import_drawing && shop.importing.made;
 }
 
 template <std::size_t index>
-void new_sample(Workshop& shop) {
+void new_sample(AppState& shop) {
   if (auto scene = scene_of(samples()[index])) begin_work(shop, *scene);
 }
 
-void save(Workshop& shop) {
+void save(AppState& shop) {
   if (shop.file.empty()) return ask_for_save(shop);
   save_to(shop, shop.file);
 }
 
-void quit(Workshop& shop) {
-  ask_first(shop, "quit", [](Workshop& s) { s.done = true; });
+void quit(AppState& shop) {
+  ask_first(shop, "quit", [](AppState& s) { s.done = true; });
 }
 
 /// The nearest stroke on the way back beside which there is another; nothing where there is none.
-std::optional<work::NodeId> other_branch(const Workshop& shop) {
+std::optional<history::NodeId> other_branch(const AppState& shop) {
   if (!between(shop)) return std::nullopt;
-  const work::Work& work = shop.potter.work();
-  for (work::NodeId node = work.at(); node != 0; node = work.view(node).parent) {
+  const history::Work& work = shop.potter.work();
+  for (history::NodeId node = work.at(); node != 0; node = work.view(node).parent) {
     const auto siblings = work.view(work.view(node).parent).children;
     if (siblings.size() < 2) continue;
     const auto here = std::ranges::find(siblings, node);
@@ -63,7 +63,7 @@ std::optional<work::NodeId> other_branch(const Workshop& shop) {
   return std::nullopt;
 }
 
-void export_folder(Workshop& shop) {
+void export_folder(AppState& shop) {
   const auto folder = std::filesystem::path(shop.exporting.written.front()).parent_path();
   if (!show_folder(folder))
     shop.notices.say(Grade::warning, "No file manager is installed: the files are in " +
@@ -77,7 +77,7 @@ const std::array kFileActions = {
       {GLFW_KEY_N, kControl},
       kNone,
       between,
-      [](Workshop& s) { s.overlay = Overlay::gallery; }},
+      [](AppState& s) { s.overlay = Overlay::gallery; }},
     A{"file.new_bowl", "New bowl", kNone, kNone, always, new_sample<0>},
     A{"file.new_vase", "New vase", kNone, kNone, always, new_sample<1>},
     A{"file.new_bottle", "New bottle", kNone, kNone, always, new_sample<2>},
@@ -91,38 +91,38 @@ const std::array kFileActions = {
       {GLFW_KEY_COMMA, kControl},
       kNone,
       always,
-      [](Workshop& s) { s.overlay = Overlay::settings; }},
+      [](AppState& s) { s.overlay = Overlay::settings; }},
     A{"file.quit", "Quit", {GLFW_KEY_Q, kControl}, kNone, always, quit},
     A{"edit.undo",
       "Undo stroke",
       {GLFW_KEY_Z, kControl},
       kNone,
       can_undo,
-      [](Workshop& s) { s.potter.undo(); }},
+      [](AppState& s) { s.potter.undo(); }},
     A{"edit.redo",
       "Redo stroke",
       {GLFW_KEY_Z, kControlShift},
       {GLFW_KEY_Y, kControl},
       can_redo,
-      [](Workshop& s) { s.potter.redo(); }},
+      [](AppState& s) { s.potter.redo(); }},
     A{"edit.to_start",
       "Back to the start",
       {GLFW_KEY_HOME, kControl},
       kNone,
       can_undo,
-      [](Workshop& s) { s.potter.go_to(0); }},
+      [](AppState& s) { s.potter.go_to(0); }},
     A{"edit.other_branch",
       "Other branch",
       {GLFW_KEY_B, kControl},
       kNone,
-      [](const Workshop& s) { return other_branch(s).has_value(); },
-      [](Workshop& s) { s.potter.go_to(*other_branch(s)); }},
+      [](const AppState& s) { return other_branch(s).has_value(); },
+      [](AppState& s) { s.potter.go_to(*other_branch(s)); }},
     A{"edit.branch",
       "Go on from this moment",
       {GLFW_KEY_B, kControlShift},
       kNone,
-      [](const Workshop& s) { return s.potter.scrubbing(); },
-      [](Workshop& s) { s.potter.branch_here(); }},
+      [](const AppState& s) { return s.potter.scrubbing(); },
+      [](AppState& s) { s.potter.branch_here(); }},
     // Of cards; in no menu.
     A{"quit.save", "Save first", {GLFW_KEY_ENTER, 0}, kNone, asks, keep_it},
     A{"quit.discard", "Do not save", {GLFW_KEY_D, kControl}, kNone, asks, let_it_go},
@@ -131,13 +131,13 @@ const std::array kFileActions = {
       "Recover the work that was left",
       {GLFW_KEY_R, kControl},
       kNone,
-      [](const Workshop& s) { return !s.left.empty(); },
-      [](Workshop& s) { recover_work(s, 0); }},
+      [](const AppState& s) { return !s.left.empty(); },
+      [](AppState& s) { recover_work(s, 0); }},
     A{"recover.discard", "Discard the work that was left", kNone, kNone,
-      [](const Workshop& s) { return !s.left.empty(); }, [](Workshop& s) { discard_work(s, 0); }},
+      [](const AppState& s) { return !s.left.empty(); }, [](AppState& s) { discard_work(s, 0); }},
     A{"export.write", "Write the files", {GLFW_KEY_ENTER, kControl}, kNone, exports, write_export},
     A{"export.cancel", "Cancel the export", kNone, kNone, writes,
-      [](Workshop& s) { s.exporter.cancel(); }},
+      [](AppState& s) { s.exporter.cancel(); }},
     A{"export.folder", "Open the folder", kNone, kNone, has_written, export_folder},
     A{"import.take",
       "Put it on the wheel",

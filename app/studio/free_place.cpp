@@ -10,7 +10,7 @@ namespace {
 /// Rows that a tool at this height reaches, and how wide it is there.
 class Reach {
  public:
-  Reach(const draw::PotView& pot, const Tool& tool, double y_mm) : tool_(tool), y_mm_(y_mm) {
+  Reach(const render::PotView& pot, const Tool& tool, double y_mm) : tool_(tool), y_mm_(y_mm) {
     row_mm_ = pot.rows.empty() ? 1.0 : pot.height_mm / static_cast<double>(pot.rows.size());
     const double rows = static_cast<double>(pot.rows.size());
     const auto row = [&](double at_mm) {
@@ -42,7 +42,7 @@ struct Sides {
   double inside_mm = std::numeric_limits<double>::infinity();  ///< and up to which; below 0: never
 };
 
-Sides sides_at(const draw::PotView& pot, const Tool& tool, double y_mm) {
+Sides sides_at(const render::PotView& pot, const Tool& tool, double y_mm) {
   Sides sides;
   const Reach reach(pot, tool, y_mm);
   for (std::size_t row = reach.first(); row < reach.last(); ++row) {
@@ -59,7 +59,7 @@ bool is_free(const Sides& sides, double rho) {
 }
 
 /// Straight up, in steps of a row, until the tool is clear.
-double free_height(const draw::PotView& pot, const Tool& tool, double rho, double y_mm) {
+double free_height(const render::PotView& pot, const Tool& tool, double rho, double y_mm) {
   const double step =
       pot.rows.empty() ? 1.0 : std::max(0.1, pot.height_mm / static_cast<double>(pot.rows.size()));
   const double top = pot.height_mm - tool.low() + kClearanceMm;
@@ -69,7 +69,7 @@ double free_height(const draw::PotView& pot, const Tool& tool, double rho, doubl
 
 }  // namespace
 
-glm::dvec2 free_place(const draw::PotView& pot, const Tool& tool, glm::dvec2 place_mm) {
+glm::dvec2 free_place(const render::PotView& pot, const Tool& tool, glm::dvec2 place_mm) {
   place_mm.y = std::max(place_mm.y, 0.0);
   const double side = place_mm.x < 0.0 ? -1.0 : 1.0, rho = std::abs(place_mm.x);
   const Sides sides = sides_at(pot, tool, place_mm.y);
@@ -85,11 +85,11 @@ glm::dvec2 free_place(const draw::PotView& pot, const Tool& tool, glm::dvec2 pla
   return nearest;
 }
 
-std::optional<WallPlace> wall_at(const draw::PotView& pot, const Tool& tool, double y_mm) {
+std::optional<WallPlace> wall_at(const render::PotView& pot, const Tool& tool, double y_mm) {
   if (pot.rows.empty() || y_mm < 0.0 || y_mm >= pot.height_mm) return std::nullopt;
   const Sides sides = sides_at(pot, tool, y_mm);
   const double rows = static_cast<double>(pot.rows.size());
-  const draw::Row& row =
+  const render::Row& row =
       pot.rows[static_cast<std::size_t>(std::min(y_mm / pot.height_mm * rows, rows - 1.0))];
   if (row.inner_mm <= 0.0f || sides.inside_mm < 0.0) return std::nullopt;
   // A pinch's gap is between the tools where they are widest.
@@ -97,10 +97,10 @@ std::optional<WallPlace> wall_at(const draw::PotView& pot, const Tool& tool, dou
   return WallPlace{0.5 * (outer + inner), std::max(0.0, outer - inner)};
 }
 
-bool inside(const draw::PotView& pot, const glm::dvec3& place_mm) {
+bool inside(const render::PotView& pot, const glm::dvec3& place_mm) {
   if (pot.rows.empty() || pot.height_mm <= 0.0) return false;
   const double rows = static_cast<double>(pot.rows.size());
-  const draw::Row& row = pot.rows[static_cast<std::size_t>(
+  const render::Row& row = pot.rows[static_cast<std::size_t>(
       std::clamp(place_mm.y / pot.height_mm * rows, 0.0, rows - 1.0))];
   const double middle = 0.5 * static_cast<double>(row.outer_mm + row.inner_mm);
   return row.inner_mm > 0.0f && std::hypot(place_mm.x, place_mm.z) < middle;

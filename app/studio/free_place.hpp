@@ -16,7 +16,7 @@ inline constexpr double kClearanceMm = 0.25;
 /// The nearest place to `place_mm` (rho, y) at which `tool` is clear of the clay: itself, or beside
 /// it at the same height, outside or in the bore, or straight above it. rho keeps its sign, and y
 /// is at least 0.
-[[nodiscard]] glm::dvec2 free_place(const draw::PotView& pot, const Tool& tool,
+[[nodiscard]] glm::dvec2 free_place(const render::PotView& pot, const Tool& tool,
                                     glm::dvec2 place_mm);
 
 struct WallPlace {
@@ -25,10 +25,10 @@ struct WallPlace {
 };
 /// The wall at a height, as far as the tool reaches up and down; nothing where there is none
 /// (no bore, or above the rim).
-[[nodiscard]] std::optional<WallPlace> wall_at(const draw::PotView& pot, const Tool& tool,
+[[nodiscard]] std::optional<WallPlace> wall_at(const render::PotView& pot, const Tool& tool,
                                                double y_mm);
 
 /// Whether a place on the wheel is nearer to the bore than to the outside.
-[[nodiscard]] bool inside(const draw::PotView& pot, const glm::dvec3& place_mm);
+[[nodiscard]] bool inside(const render::PotView& pot, const glm::dvec3& place_mm);
 
 }  // namespace clay::studio

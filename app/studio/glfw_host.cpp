@@ -102,7 +102,7 @@ void GlfwHost::run(Studio& studio, double seconds) {
   std::int64_t next_ns = clock_.now_ns();
   const std::int64_t end_ns =
       seconds > 0.0 ? next_ns + static_cast<std::int64_t>(1e9 * seconds) : INT64_MAX;
-  while (!studio.done() && live::ForceSignals::asked_to_stop() == 0 && clock_.now_ns() < end_ns) {
+  while (!studio.done() && servo::ForceSignals::asked_to_stop() == 0 && clock_.now_ns() < end_ns) {
     if (studio.wakeful())
       glfwPollEvents();
     else

@@ -17,14 +17,14 @@ class GlfwHost final : public Host {
   static Result<std::unique_ptr<GlfwHost>> create(glm::ivec2 size);
   ~GlfwHost() override;
 
-  /// Frames until the studio is done, or a signal asks to stop (live::ForceSignals); at most sixty
+  /// Frames until the studio is done, or a signal asks to stop (servo::ForceSignals); at most sixty
   /// a second, and none while nothing moves. `seconds`: no longer than that; 0: as long as it
   /// takes.
   void run(Studio& studio, double seconds = 0.0);
 
   [[nodiscard]] glm::ivec2 size_px() const override;
   [[nodiscard]] float content_scale() const override;
-  [[nodiscard]] live::Clock& clock() override { return clock_; }
+  [[nodiscard]] servo::Clock& clock() override { return clock_; }
   [[nodiscard]] bool real_time() const override { return true; }
   [[nodiscard]] std::int64_t frame_ns() override { return clock_.now_ns(); }
   void set_title(const std::string& title) override;
@@ -36,7 +36,7 @@ class GlfwHost final : public Host {
   void connect();
 
   GLFWwindow* window_;
-  live::MonotonicClock clock_;
+  servo::MonotonicClock clock_;
   Studio* studio_ = nullptr;
 };
 

@@ -20,7 +20,7 @@ class Host {
   /// Of the screen: 1 at 96 dots an inch.
   [[nodiscard]] virtual float content_scale() const = 0;
   /// The servo's.
-  [[nodiscard]] virtual live::Clock& clock() = 0;
+  [[nodiscard]] virtual servo::Clock& clock() = 0;
   /// Whether that clock runs by itself. If not, the servo ticks within the frame until the clock
   /// has come to the frame's time, and all that happens is the same every time.
   [[nodiscard]] virtual bool real_time() const = 0;

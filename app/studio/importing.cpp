@@ -21,18 +21,18 @@ bool is_drawing(const std::filesystem::path& path) {
 
 Result<Imported> import_drawing(const std::string& bytes, const std::string& name,
                                 const ImportSettings& settings) {
-  constexpr std::array kRules = {drawing::AxisRule::by_itself, drawing::AxisRule::left,
-                                 drawing::AxisRule::middle, drawing::AxisRule::at};
+  constexpr std::array kRules = {importing::AxisRule::by_itself, importing::AxisRule::left,
+                                 importing::AxisRule::middle, importing::AxisRule::at};
   const auto asked = [](double mm) { return mm > 0.0 ? std::optional(mm) : std::nullopt; };
-  const drawing::HalfSectionSettings how{kRules[static_cast<std::size_t>(settings.axis)],
-                                         settings.axis_mm, asked(settings.height_mm)};
-  drawing::DrawnPotSettings pot_settings;
+  const importing::HalfSectionSettings how{kRules[static_cast<std::size_t>(settings.axis)],
+                                           settings.axis_mm, asked(settings.height_mm)};
+  importing::DrawnPotSettings pot_settings;
   pot_settings.wall_mm = asked(settings.wall_mm);
-  auto section = drawing::read_drawing(bytes, name).and_then([&](drawing::Drawing&& drawing) {
-    return drawing::half_section(std::move(drawing), how, name);
+  auto section = importing::read_drawing(bytes, name).and_then([&](importing::Drawing&& drawing) {
+    return importing::half_section(std::move(drawing), how, name);
   });
   if (!section) return tl::make_unexpected(section.error());
-  return drawing::drawn_pot(*section, pot_settings, name).map([&](Pot&& pot) {
+  return importing::drawn_pot(*section, pot_settings, name).map([&](Pot&& pot) {
     return Imported{std::move(pot), section->volume_mm3(), section->axis_mm};
   });
 }
@@ -57,7 +57,7 @@ void read_again(ImportCard& card) {
     card.problem = made.error().message;
     return;
   }
-  card.view = draw::view_of(made->pot);
+  card.view = render::view_of(made->pot);
   card.made.emplace(std::move(*made));
 }
 

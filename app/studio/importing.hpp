@@ -41,7 +41,7 @@ struct ImportCard {
   ImportSettings settings;
   // Of these settings.
   std::optional<Imported> made;
-  draw::PotView view;
+  render::PotView view;
   std::string problem;  ///< why nothing was made
 };
 /// Anew, after a change of settings.

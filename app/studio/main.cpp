@@ -32,10 +32,10 @@ Result<glm::ivec2> size_of(const std::string& text) {
   int width = 0, height = 0;
   char rest = 0;
   if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 320 ||
-      height < 240 || width > draw::kMaxSidePx || height > draw::kMaxSidePx)
+      height < 240 || width > render::kMaxSidePx || height > render::kMaxSidePx)
     return failure(ErrorKind::bad_input,
                    fmt::format("--size: expected WIDTHxHEIGHT from 320x240 to {0}x{0}, found {1}",
-                               draw::kMaxSidePx, text));
+                               render::kMaxSidePx, text));
   return glm::ivec2(width, height);
 }
 
@@ -83,9 +83,9 @@ Result<void> run_window(const Options& options, glm::ivec2 size,
   if (!host) return tl::make_unexpected(host.error());
   auto studio = Studio::create(**host, loaded.settings, log);
   if (!studio) return tl::make_unexpected(studio.error());
-  Workshop& shop = (*studio)->shop();
+  AppState& shop = (*studio)->shop();
   shop.potter.keep_journals();
-  shop.left = work::recoverable();
+  shop.left = history::recoverable();
   if (options.device != "none")
     shop.devices = std::make_unique<DeviceWatch>(look_for(options.device, options.falcon));
   if (!loaded.note.empty()) shop.notices.say(Grade::warning, loaded.note);
@@ -97,7 +97,7 @@ Result<void> run_window(const Options& options, glm::ivec2 size,
                        "A work that was not saved is still there: File, New offers to recover it");
   }
   log("window open");
-  const live::ForceSignals signals;
+  const servo::ForceSignals signals;
   (*host)->run(**studio);
   // After a signal nobody was asked: what was not saved can be recovered.
   if (shop.done) shop.potter.close();
@@ -117,7 +117,7 @@ Result<void> run_servo_report(const Options& options, glm::ivec2 size,
   if (options.scale > 0.0) settings.scale = static_cast<float>(options.scale);
   auto studio = Studio::create(**host, settings, log);
   if (!studio) return tl::make_unexpected(studio.error());
-  Workshop& shop = (*studio)->shop();
+  AppState& shop = (*studio)->shop();
   open_file(shop, options.file);
   if (shop.notices.shown()) return failure(ErrorKind::bad_input, shop.notices.shown()->text);
   if (options.device == "auto") {
@@ -125,7 +125,7 @@ Result<void> run_servo_report(const Options& options, glm::ivec2 size,
   } else if (options.device != "none") {
     shop.devices = std::make_unique<DeviceWatch>(look_for(options.device, options.falcon));
   }
-  const live::ForceSignals signals;
+  const servo::ForceSignals signals;
   (*host)->run(**studio, options.servo_report_s);
   return report_servo(**studio, options.json);
 }
@@ -139,15 +139,15 @@ int run(int argc, char** argv) {
       .add_option("--device", options.device,
                   "auto, none, or as `claystack throw` has it (default auto)")
       ->check([](const std::string& which) {
-        return which == "none" ? std::string() : app::check_device_name(which);
+        return which == "none" ? std::string() : cli::check_device_name(which);
       });
-  app::add_falcon_options(parser, options.falcon);
+  cli::add_falcon_options(parser, options.falcon);
   parser.add_option("--script", options.script, "Drive the window from a file, without a screen");
   parser.add_option("--screenshot", options.screenshot,
                     "Without a screen: the window at the end, as PNG");
   parser.add_option("--size", options.size, "Of the window [px] (default 1280x800)");
   parser.add_option("--scale", options.scale, "Of text and controls")
-      ->check(app::in_range(kSmallestScale, kLargestScale));
+      ->check(cli::in_range(kSmallestScale, kLargestScale));
   parser.add_option("--theme", options.theme, "dark or light")
       ->check(CLI::IsMember({"dark", "light"}));
   parser.add_flag("--log", options.log, "Events on standard output, a line each");
@@ -156,7 +156,7 @@ int run(int argc, char** argv) {
           .add_option("--servo-report", options.servo_report_s,
                       "For so many seconds a simulated hand (or --device) throws in the window; "
                       "then tells how servo and window kept their time")
-          ->check(app::in_range(1.0, 3600.0))
+          ->check(cli::in_range(1.0, 3600.0))
           ->excludes("--script")
           ->excludes("--screenshot");
   parser.add_flag("--json", options.json, "That as JSON")->needs(report);
@@ -166,23 +166,23 @@ int run(int argc, char** argv) {
   try {
     parser.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app::report(parser, error);
+    return cli::report(parser, error);
   }
   const auto size = size_of(options.size);
-  if (!size) return app::report(size.error());
+  if (!size) return cli::report(size.error());
   const auto log = [&](std::string_view line) {
     if (!options.log) return;
-    app::put_out(std::string(line) + "\n");
-    (void)app::flush_out();
+    cli::put_out(std::string(line) + "\n");
+    (void)cli::flush_out();
   };
   const bool without_screen = !options.script.empty() || !options.screenshot.empty();
   const auto done = without_screen                 ? run_script(options, *size, log)
                     : options.servo_report_s > 0.0 ? run_servo_report(options, *size, log)
                                                    : run_window(options, *size, log);
-  return done ? app::kDone : app::report(done.error());
+  return done ? cli::kDone : cli::report(done.error());
 }
 
 }  // namespace
 }  // namespace clay::studio
 
-int main(int argc, char** argv) { return clay::app::run_program(clay::studio::run, argc, argv); }
+int main(int argc, char** argv) { return clay::cli::run_program(clay::studio::run, argc, argv); }

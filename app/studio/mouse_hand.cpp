@@ -14,8 +14,8 @@ constexpr double kSPerUs = 1e-6;
 
 }  // namespace
 
-live::LiveSettings MouseDevice::servo_settings() noexcept {
-  live::LiveSettings settings;
+servo::LiveSettings MouseDevice::servo_settings() noexcept {
+  servo::LiveSettings settings;
   settings.mapping.scale = 1.0;
   settings.mapping.reach_mm = 0.0;
   settings.mapping.height_mm = 0.0;

@@ -23,10 +23,10 @@ struct MouseAim {
 class MouseDevice final : public falcon::HapticDevice {
  public:
   /// `clock` is the servo's, and outlives this.
-  explicit MouseDevice(live::Clock& clock) noexcept : clock_(clock) {}
+  explicit MouseDevice(servo::Clock& clock) noexcept : clock_(clock) {}
 
   /// A servo for it: the mouse's millimetres are the wheel's.
-  [[nodiscard]] static live::LiveSettings servo_settings() noexcept;
+  [[nodiscard]] static servo::LiveSettings servo_settings() noexcept;
 
   /// The tool stands here when the next servo starts. Not while one runs.
   void begin_at(const glm::dvec3& place_mm) noexcept;
@@ -43,14 +43,14 @@ class MouseDevice final : public falcon::HapticDevice {
   [[nodiscard]] falcon::DeviceCounters counters() const noexcept override { return {}; }
 
  private:
-  live::Clock& clock_;
+  servo::Clock& clock_;
   falcon::DeviceInfo info_{.name = "Mouse",
                            .place = "window",
                            .can_push = false,
                            .force_limit_n = 0.0,
                            .half_workspace_mm = glm::dvec3(1000.0),
                            .rate_hz = 1000.0};
-  falcon::Snapshot<MouseAim> aim_;
+  Snapshot<MouseAim> aim_;
   glm::dvec3 place_mm_{0.0};
   std::int64_t last_us_ = -1;  // of the last sample; below 0: none since begin_at
 };

@@ -8,9 +8,9 @@ namespace clay::studio {
 
 Result<std::unique_ptr<OffscreenHost>> OffscreenHost::create(glm::ivec2 size_px,
                                                              float content_scale) {
-  auto gl = draw::Offscreen::create();
+  auto gl = render::Offscreen::create();
   if (!gl) return tl::make_unexpected(gl.error());
-  auto canvas = draw::Canvas::create(size_px.x, size_px.y, 0);
+  auto canvas = render::Canvas::create(size_px.x, size_px.y, 0);
   if (!canvas) return tl::make_unexpected(canvas.error());
   return std::unique_ptr<OffscreenHost>(
       new OffscreenHost(std::move(*gl), std::move(*canvas), content_scale));
@@ -18,9 +18,9 @@ Result<std::unique_ptr<OffscreenHost>> OffscreenHost::create(glm::ivec2 size_px,
 
 void OffscreenHost::bind() { glBindFramebuffer(GL_FRAMEBUFFER, canvas_.framebuffer()); }
 
-draw::Image OffscreenHost::read() const {
+render::Image OffscreenHost::read() const {
   const glm::ivec2 size = size_px();
-  draw::Image image{size.x, size.y, {}};
+  render::Image image{size.x, size.y, {}};
   const std::size_t row = 4 * static_cast<std::size_t>(size.x);
   image.rgba.resize(row * static_cast<std::size_t>(size.y));
   glReadPixels(0, 0, size.x, size.y, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());

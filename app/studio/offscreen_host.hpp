@@ -12,7 +12,7 @@
 namespace clay::studio {
 
 /// Sleeping on it makes it the later time.
-class VirtualClock final : public live::Clock {
+class VirtualClock final : public servo::Clock {
  public:
   [[nodiscard]] std::int64_t now_ns() noexcept override { return now_ns_; }
   void sleep_until_ns(std::int64_t time_ns) noexcept override {
@@ -25,18 +25,18 @@ class VirtualClock final : public live::Clock {
 
 class OffscreenHost final : public Host {
  public:
-  /// The context of OpenGL is current after it. Errors as draw::Offscreen::create.
+  /// The context of OpenGL is current after it. Errors as render::Offscreen::create.
   static Result<std::unique_ptr<OffscreenHost>> create(glm::ivec2 size_px, float content_scale);
 
   /// What is drawn from here on goes into its picture.
   void bind();
-  [[nodiscard]] draw::Image read() const;
+  [[nodiscard]] render::Image read() const;
 
   [[nodiscard]] glm::ivec2 size_px() const override {
     return {canvas_.width_px(), canvas_.height_px()};
   }
   [[nodiscard]] float content_scale() const override { return scale_; }
-  [[nodiscard]] live::Clock& clock() override { return clock_; }
+  [[nodiscard]] servo::Clock& clock() override { return clock_; }
   [[nodiscard]] bool real_time() const override { return false; }
   [[nodiscard]] std::int64_t frame_ns() override { return frame_ns_; }
   /// The next frame is so much later.
@@ -46,11 +46,11 @@ class OffscreenHost final : public Host {
   [[nodiscard]] std::string clipboard() override { return clipboard_; }
 
  private:
-  OffscreenHost(draw::Offscreen gl, draw::Canvas canvas, float scale)
+  OffscreenHost(render::Offscreen gl, render::Canvas canvas, float scale)
       : gl_(std::move(gl)), canvas_(std::move(canvas)), scale_(scale) {}
 
-  draw::Offscreen gl_;  // its context is the one that we draw in
-  draw::Canvas canvas_;
+  render::Offscreen gl_;  // its context is the one that we draw in
+  render::Canvas canvas_;
   float scale_;
   VirtualClock clock_;
   std::int64_t frame_ns_ = clock_.now_ns();

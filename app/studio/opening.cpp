@@ -1,7 +1,7 @@
 // Files that the studio opens and saves, told by the endings of their names.
 
 #include "app/history/work.hpp"
-#include "app/studio/workshop.hpp"
+#include "app/studio/app_state.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
 
@@ -16,8 +16,8 @@ bool is_pot(const std::string& name) {
   return name.ends_with(".pot.json") || name.ends_with(".pot.cbor");
 }
 
-Result<void> open_work(Workshop& shop, const std::string& name) {
-  return work::load(name).and_then([&](work::Loaded&& loaded) {
+Result<void> open_work(AppState& shop, const std::string& name) {
+  return history::load(name).and_then([&](history::Loaded&& loaded) {
     if (loaded.torn)
       shop.notices.say(Grade::warning,
                        fmt::format("{}: the last line was cut off; all before it is here", name));
@@ -25,7 +25,7 @@ Result<void> open_work(Workshop& shop, const std::string& name) {
   });
 }
 
-Result<void> open_text(Workshop& shop, const std::string& text, const std::filesystem::path& path) {
+Result<void> open_text(AppState& shop, const std::string& text, const std::filesystem::path& path) {
   const std::string name = path.string();
   if (is_pot(name))
     return parse_pot(text, name).and_then([&](Pot&& pot) {
@@ -36,7 +36,7 @@ Result<void> open_text(Workshop& shop, const std::string& text, const std::files
   });
 }
 
-void open_drawing(Workshop& shop, const std::filesystem::path& path) {
+void open_drawing(AppState& shop, const std::filesystem::path& path) {
   auto bytes = read_file(path);
   if (!bytes) return tell(shop, bytes.error());
   shop.importing = {};
@@ -47,7 +47,7 @@ void open_drawing(Workshop& shop, const std::filesystem::path& path) {
   shop.log("drawing: " + path.string());
 }
 
-void open_now(Workshop& shop, const std::filesystem::path& path) {
+void open_now(AppState& shop, const std::filesystem::path& path) {
   shop.notices.close();
   const std::string name = path.string();
   const bool is_work = name.ends_with(".work");
@@ -62,7 +62,7 @@ void open_now(Workshop& shop, const std::filesystem::path& path) {
 }
 
 /// Names in the box for files begin here.
-std::filesystem::path start_of(const Workshop& shop) {
+std::filesystem::path start_of(const AppState& shop) {
   const std::string& folder = shop.settings.folder;
   return folder.empty() ? std::filesystem::path() : std::filesystem::path(folder) / "";
 }
@@ -90,21 +90,21 @@ SceneSpec scene_for(const Pot& pot, const std::string& name) {
   return scene;
 }
 
-void take_process(Workshop& shop, const std::filesystem::path& path) {
-  if (auto process = app::process_of(path.string()); !process) return tell(shop, process.error());
+void take_process(AppState& shop, const std::filesystem::path& path) {
+  if (auto process = cli::process_of(path.string()); !process) return tell(shop, process.error());
   remember_process(shop.settings, path);
   if (shop.overlay == Overlay::export_files) shop.exporting.wish.process = shop.settings.process;
   shop.log("process: " + path.string());
 }
 
-void open_file(Workshop& shop, const std::filesystem::path& path) {
+void open_file(AppState& shop, const std::filesystem::path& path) {
   if (path.string().ends_with(".process.json")) return take_process(shop, path);
   if (is_drawing(path)) return open_drawing(shop, path);
-  ask_first(shop, "open", [path](Workshop& s) { open_now(s, path); });
+  ask_first(shop, "open", [path](AppState& s) { open_now(s, path); });
 }
 
-void take_import(Workshop& shop) {
-  ask_first(shop, "import", [](Workshop& s) {
+void take_import(AppState& shop) {
+  ask_first(shop, "import", [](AppState& s) {
     if (!s.importing.made) return;
     const std::string name = s.importing.path.stem().string();
     const Pot& pot = s.importing.made->pot;
@@ -117,7 +117,7 @@ void take_import(Workshop& shop) {
   });
 }
 
-bool save_to(Workshop& shop, const std::filesystem::path& path) {
+bool save_to(AppState& shop, const std::filesystem::path& path) {
   shop.potter.release();
   const std::string name = path.string();
   Result<void> saved;
@@ -146,21 +146,21 @@ bool save_to(Workshop& shop, const std::filesystem::path& path) {
   return true;
 }
 
-void ask_for_open(Workshop& shop) {
+void ask_for_open(AppState& shop) {
   const std::filesystem::path start = start_of(shop);
   if (shop.host.real_time() && shop.dialog.begin(FileDialog::Kind::open, start)) return;
   shop.path_box = start.string();
   shop.overlay = Overlay::open_file;
 }
 
-void ask_for_save(Workshop& shop) {
+void ask_for_save(AppState& shop) {
   const std::filesystem::path path = start_of(shop) / (shop.potter.scene().name + ".work");
   if (shop.host.real_time() && shop.dialog.begin(FileDialog::Kind::save, path)) return;
   shop.path_box = path.string();
   shop.overlay = Overlay::save_file;
 }
 
-void ask_for_process(Workshop& shop) {
+void ask_for_process(AppState& shop) {
   if (shop.host.real_time() && shop.dialog.begin(FileDialog::Kind::process, start_of(shop))) return;
   shop.notices.say(
       Grade::warning,
@@ -169,7 +169,7 @@ void ask_for_process(Workshop& shop) {
       1e-9 * static_cast<double>(shop.host.frame_ns()) + 5.0);
 }
 
-void look_at_dialog(Workshop& shop) {
+void look_at_dialog(AppState& shop) {
   const FileDialog::Kind kind = shop.dialog.kind();
   const auto chosen = shop.dialog.take();
   if (!chosen || chosen->empty()) return;

@@ -63,7 +63,7 @@ Result<SceneSpec> scene_of(const Sample& sample) {
   return parse_scene(sample.scene_text, sample.name);
 }
 
-Result<draw::PotView> finished(const Sample& sample) {
+Result<render::PotView> finished(const Sample& sample) {
   const auto scene = scene_of(sample);
   if (!scene) return tl::make_unexpected(scene.error());
   const auto session = parse_session(sample.session_text, sample.name);
@@ -71,7 +71,7 @@ Result<draw::PotView> finished(const Sample& sample) {
   auto wheel = Wheel::build(*scene);
   if (!wheel) return tl::make_unexpected(wheel.error());
   for (const Pose& pose : session->poses) wheel->step(pose);
-  return draw::view_of(wheel->pot());
+  return render::view_of(wheel->pot());
 }
 
 double lump_height_mm(double clay_kg, double radius_mm) {

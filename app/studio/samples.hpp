@@ -22,7 +22,7 @@ struct Sample {
 
 Result<SceneSpec> scene_of(const Sample& sample);
 /// What its session makes of it; some 20 ms of work.
-Result<draw::PotView> finished(const Sample& sample);
+Result<render::PotView> finished(const Sample& sample);
 
 /// A plain lump for one's own pot: a cylinder of that radius, as high as the clay makes it, and
 /// settings in proportion to it. Refuses what StepPlan::build refuses.

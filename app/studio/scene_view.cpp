@@ -1,8 +1,8 @@
 #include "app/studio/scene_view.hpp"
 
 #include "app/render/pot_view.hpp"
+#include "app/studio/app_state.hpp"
 #include "app/studio/free_place.hpp"
-#include "app/studio/workshop.hpp"
 
 #include <fmt/format.h>
 
@@ -18,13 +18,13 @@ constexpr double kRoomForTool = 1.35;                 // around the pot, in the 
 constexpr double kSizingPerPx = 0.006;                // of a drag: the logarithm of the size
 constexpr double kWeakest = 1e-4, kStrongest = 10.0;  // N/mm^2
 
-std::optional<Tool> chosen_tool(const Workshop& shop) {
+std::optional<Tool> chosen_tool(const AppState& shop) {
   auto tool = Tool::build(tool_of(shop.settings.tool).shape);
   if (!tool) return std::nullopt;
   return std::move(*tool);
 }
 
-double stiffness(const Workshop& shop) {
+double stiffness(const AppState& shop) {
   return shop.potter.has_work() && shop.potter.scene().force
              ? shop.potter.scene().force->stiffness_n_per_mm2
              : 0.0;
@@ -32,19 +32,19 @@ double stiffness(const Workshop& shop) {
 
 }  // namespace
 
-draw::Viewport SceneView::viewport() const noexcept {
+render::Viewport SceneView::viewport() const noexcept {
   return {std::max(1, static_cast<int>(rect_.size_px.x)),
           std::max(1, static_cast<int>(rect_.size_px.y))};
 }
 
-void SceneView::look(const Workshop& shop, Seen from) {
+void SceneView::look(const AppState& shop, Seen from) {
   constexpr double kRight = std::numbers::pi / 2.0;
-  const draw::PotView& pot = shop.potter.view();
-  draw::Camera camera = camera_;
+  const render::PotView& pot = shop.potter.view();
+  render::Camera camera = camera_;
   switch (from) {
     case Seen::home:
       wheel_radius_mm_ = 0.0;
-      camera_ = draw::framed(pot, viewport().aspect());
+      camera_ = render::framed(pot, viewport().aspect());
       camera_.distance_mm *= kRoomForTool;
       return;
     case Seen::front:
@@ -56,35 +56,35 @@ void SceneView::look(const Workshop& shop, Seen from) {
       break;
     case Seen::top:
       camera.azimuth_rad = 0.0;
-      camera.elevation_rad = draw::kSteepest;
+      camera.elevation_rad = render::kSteepest;
       break;
   }
-  camera_ = draw::framed(pot, viewport().aspect(), camera);
+  camera_ = render::framed(pot, viewport().aspect(), camera);
   camera_.distance_mm *= kRoomForTool;
 }
 
 /// The head does not change under a pot that grows and shrinks: it is as large as it ever had to
 /// be, until a pot is looked at as a whole.
-void SceneView::turn_wheel(const Workshop& shop, double rad) {
-  wheel_radius_mm_ = std::max(wheel_radius_mm_, draw::wheel_radius_mm(shop.potter.view()));
+void SceneView::turn_wheel(const AppState& shop, double rad) {
+  wheel_radius_mm_ = std::max(wheel_radius_mm_, render::wheel_radius_mm(shop.potter.view()));
   turn_rad_ = std::fmod(turn_rad_ + rad, 2.0 * std::numbers::pi);
 }
 
 glm::dvec3 SceneView::on_wheel(glm::dvec2 place_mm) const {
-  return place_mm.x * draw::profile_direction(camera_) + glm::dvec3(0.0, place_mm.y, 0.0);
+  return place_mm.x * render::profile_direction(camera_) + glm::dvec3(0.0, place_mm.y, 0.0);
 }
 
 std::optional<glm::dvec2> SceneView::pointed_mm() const {
-  return draw::profile_point(camera_, viewport(), glm::dvec2(pointer_px_ - rect_.corner_px));
+  return render::profile_point(camera_, viewport(), glm::dvec2(pointer_px_ - rect_.corner_px));
 }
 
 std::optional<glm::vec2> SceneView::pixel_of(glm::dvec2 place_mm) const noexcept {
-  const auto pixel = draw::pixel_of(camera_, viewport(), on_wheel(place_mm));
+  const auto pixel = render::pixel_of(camera_, viewport(), on_wheel(place_mm));
   if (!pixel) return std::nullopt;
   return glm::vec2(*pixel) + rect_.corner_px;
 }
 
-bool SceneView::pointer_moved(Workshop& shop, glm::vec2 place_px) {
+bool SceneView::pointer_moved(AppState& shop, glm::vec2 place_px) {
   const glm::vec2 by = place_px - pointer_px_;
   pointer_px_ = place_px;
   if (drag_ == Drag::none) return rect_.holds(place_px);
@@ -92,14 +92,14 @@ bool SceneView::pointer_moved(Workshop& shop, glm::vec2 place_px) {
   return true;
 }
 
-void SceneView::drag(Workshop& shop, glm::vec2 by_px) {
+void SceneView::drag(AppState& shop, glm::vec2 by_px) {
   ToolChoice& tool = shop.settings.tool;
   switch (drag_) {
     case Drag::orbit:
-      camera_ = draw::orbited(camera_, glm::dvec2(by_px), viewport());
+      camera_ = render::orbited(camera_, glm::dvec2(by_px), viewport());
       break;
     case Drag::pan:
-      camera_ = draw::panned(camera_, glm::dvec2(by_px), viewport());
+      camera_ = render::panned(camera_, glm::dvec2(by_px), viewport());
       break;
     case Drag::size:
       resize(tool, std::exp(kSizingPerPx * static_cast<double>(by_px.x)));
@@ -122,7 +122,7 @@ void SceneView::drag(Workshop& shop, glm::vec2 by_px) {
   }
 }
 
-bool SceneView::button(Workshop& shop, const ButtonChanged& change) {
+bool SceneView::button(AppState& shop, const ButtonChanged& change) {
   if (!change.down) {
     const bool was = drag_ != Drag::none && !sizing();
     if (was && drag_ == Drag::shape) shop.potter.release();
@@ -144,7 +144,7 @@ bool SceneView::button(Workshop& shop, const ButtonChanged& change) {
 
 /// In the clay a press takes the tool to the nearest place beside it, and from there on the
 /// tool goes as the mouse goes.
-void SceneView::press(Workshop& shop, bool inverted) {
+void SceneView::press(AppState& shop, bool inverted) {
   const auto pointed = pointed_mm();
   const auto tool = chosen_tool(shop);
   if (!pointed || !tool || !shop.potter.has_work() || shop.potter.has_device() ||
@@ -180,32 +180,32 @@ bool SceneView::scrolled(float steps) {
   return true;
 }
 
-void SceneView::begin_sizing(Workshop& shop) {
+void SceneView::begin_sizing(AppState& shop) {
   if (drag_ != Drag::none) return;
   drag_ = Drag::size;
   saved_tool_ = shop.settings.tool;
 }
 
-void SceneView::begin_strength(Workshop& shop) {
+void SceneView::begin_strength(AppState& shop) {
   if (drag_ != Drag::none || stiffness(shop) <= 0.0) return;
   drag_ = Drag::strength;
   before_ = stiffness(shop);
 }
 
-void SceneView::cancel(Workshop& shop) {
+void SceneView::cancel(AppState& shop) {
   if (drag_ == Drag::size) shop.settings.tool = saved_tool_;
   if (drag_ == Drag::strength) shop.potter.set_stiffness(before_);
   if (sizing()) drag_ = Drag::none;
 }
 
-std::optional<draw::ToolView> SceneView::tool_view(const Workshop& shop) const {
+std::optional<render::ToolView> SceneView::tool_view(const AppState& shop) const {
   const auto tool = chosen_tool(shop);
   if (!tool || !shop.potter.has_work()) return std::nullopt;
-  draw::ToolView view;
-  view.half_profile_mm = draw::half_profile_of(*tool);
+  render::ToolView view;
+  view.half_profile_mm = render::half_profile_of(*tool);
   const bool pinches = shop.settings.tool.mode == ToolMode::pinch;
   if (shop.potter.throwing()) {
-    const live::LiveStatus& status = shop.potter.status();
+    const servo::LiveStatus& status = shop.potter.status();
     if (status.ticks == 0) return std::nullopt;
     view.place_mm = status.tool_mm;
     view.contact = status.contact;
@@ -232,8 +232,8 @@ std::optional<draw::ToolView> SceneView::tool_view(const Workshop& shop) const {
   return view;
 }
 
-draw::Picture SceneView::picture(const Workshop& shop) const {
-  draw::Picture picture;
+render::Picture SceneView::picture(const AppState& shop) const {
+  render::Picture picture;
   picture.pot = shop.potter.view();
   picture.tool = tool_view(shop);
   if (const auto& check = shop.readings.check(); check && shop.settings.wall_map) {

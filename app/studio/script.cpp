@@ -159,7 +159,7 @@ Result<void> ScriptRunner::screenshot(const std::string& path) {
   host_.bind();
   studio_.frame(true);
   host_.bind();
-  return publish(path, draw::png_of(host_.read()));
+  return publish(path, render::png_of(host_.read()));
 }
 
 Result<void> ScriptRunner::act(const std::vector<std::string>& words) {

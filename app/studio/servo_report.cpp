@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMsPerNs = 1e-6, kUsPerNs = 1e-3;
 
-app::Json window_json(const Drawn& drawn) {
+cli::Json window_json(const Drawn& drawn) {
   const auto ms = [&](double part) {
     return kMsPerNs * static_cast<double>(drawn.took.quantile_ns(part));
   };
@@ -23,8 +23,8 @@ app::Json window_json(const Drawn& drawn) {
           {"frame_ms", {{"p50", ms(0.5)}, {"p99", ms(0.99)}, {"max", ms(1.0)}}}};
 }
 
-void tell_window(const app::Console& console, const app::Json& window) {
-  const app::Json& frame = window["frame_ms"];
+void tell_window(const cli::Console& console, const cli::Json& window) {
+  const cli::Json& frame = window["frame_ms"];
   console.say(fmt::format(
       "window: {} frames, {:.1f} a second; each: median {:.3g} ms, 99 % within {:.3g}, "
       "at most {:.3g}",
@@ -48,30 +48,31 @@ Result<void> judge(double late_p99_us, double fps, bool fifo) {
 
 }  // namespace
 
-Result<void> seat_simulated_hand(Workshop& shop, const std::string& scene_path) {
-  const auto session = app::load_session(app::session_beside(scene_path));
+Result<void> seat_simulated_hand(AppState& shop, const std::string& scene_path) {
+  const auto session = cli::load_session(cli::session_beside(scene_path));
   if (!session) return tl::make_unexpected(session.error());
-  live::LiveSettings settings;
-  settings.mapping = live::fitted(settings.mapping, session->poses, live::kSimulatedReachMm);
-  const auto mapping = live::Mapping::build(settings.mapping);
+  servo::LiveSettings settings;
+  settings.mapping = servo::fitted(settings.mapping, session->poses, servo::kSimulatedReachMm);
+  const auto mapping = servo::Mapping::build(settings.mapping);
   if (!mapping) return tl::make_unexpected(mapping.error());
-  auto device = app::open_chosen("simulated", {}, live::simulated_potter(session->poses, *mapping));
+  auto device =
+      cli::open_chosen("simulated", {}, servo::simulated_potter(session->poses, *mapping));
   if (!device) return tl::make_unexpected(device.error());
   shop.potter.take(std::move(*device), settings);
   return {};
 }
 
 Result<void> report_servo(Studio& studio, bool json) {
-  Potter& potter = studio.shop().potter;
+  StrokeController& potter = studio.shop().potter;
   potter.release();
   const ServoRecord& servo = potter.servo();
   if (servo.timing.ticks == 0)
     return failure(ErrorKind::device, "servo report: expected an arm that throws, found none");
-  const app::Console console{.json = json, .quiet = false};
-  const app::Json report = {{"servo", app::servo_json(servo.timing, servo.events, servo.realtime)},
+  const cli::Console console{.json = json, .quiet = false};
+  const cli::Json report = {{"servo", cli::servo_json(servo.timing, servo.events, servo.realtime)},
                             {"window", window_json(studio.drawn())}};
   if (json) console.print(report);
-  app::tell_servo(console, report["servo"]);
+  cli::tell_servo(console, report["servo"]);
   console.say(std::string("scheduling: ") +
               (servo.realtime.fifo ? "SCHED_FIFO" : "that of every other program"));
   tell_window(console, report["window"]);

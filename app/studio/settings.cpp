@@ -174,12 +174,12 @@ void remember_process(Settings& settings, const std::filesystem::path& path) {
 }
 
 std::filesystem::path settings_path() {
-  const std::filesystem::path folder = app::user_folder(app::UserFolder::config);
+  const std::filesystem::path folder = cli::user_folder(cli::UserFolder::config);
   return folder.empty() ? folder : folder / "studio.json";
 }
 
 Result<Settings> parse_settings(std::string_view text, std::string_view name) {
-  const auto document = files::LocatedJson::from_json(text, name, kMostValues);
+  const auto document = LocatedJson::from_json(text, name, kMostValues);
   if (!document) return tl::make_unexpected(document.error());
   const Json& json = document->root();
   const auto wrong = [&](std::string_view what) {
@@ -253,7 +253,7 @@ LoadedSettings load_settings(const std::filesystem::path& path) {
 }
 
 Result<void> save_settings(const Settings& settings, const std::filesystem::path& path) {
-  if (path.empty()) return failure(ErrorKind::io, std::string("settings: ") + app::kNoHome);
+  if (path.empty()) return failure(ErrorKind::io, std::string("settings: ") + cli::kNoHome);
   std::error_code failed;
   if (std::filesystem::exists(path, failed) && !std::filesystem::is_regular_file(path, failed))
     return not_regular(path);

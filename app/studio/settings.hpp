@@ -42,7 +42,7 @@ void remember(Settings& settings, const std::filesystem::path& path);
 /// A file of the user's own becomes the process, and the first of those to choose from.
 void remember_process(Settings& settings, const std::filesystem::path& path);
 
-/// The file studio.json in the user's folder for settings: app::user_folder. Empty without one.
+/// The file studio.json in the user's folder for settings: cli::user_folder. Empty without one.
 [[nodiscard]] std::filesystem::path settings_path();
 
 /// Errors name file, field, what was expected and what was found.

@@ -35,7 +35,7 @@ Studio::Studio(Host& host, Settings settings, std::function<void(std::string_vie
 Result<std::unique_ptr<Studio>> Studio::create(Host& host, Settings settings,
                                                std::function<void(std::string_view)> log_line) {
   std::unique_ptr<Studio> studio(new Studio(host, std::move(settings), std::move(log_line)));
-  auto painter = draw::Painter::create();
+  auto painter = render::Painter::create();
   if (!painter) return tl::make_unexpected(painter.error());
   studio->painter_.emplace(std::move(*painter));
   studio->context_ = ImGui::CreateContext();
@@ -117,7 +117,7 @@ void Studio::tell_news() {
     tell(shop_, *news.error);
   if (!news.stroke_ended) return;
   shop_.log(fmt::format("stroke ended: {} poses, {} ticks", news.poses, news.ticks));
-  if (news.ending == live::Ending::collapsed) {
+  if (news.ending == servo::Ending::collapsed) {
     shop_.fall.begin(shop_.potter.shared_pot(), last_s_);
     shop_.notices.say(Grade::warning,
                       "The clay has fallen: it could no longer carry itself. Undo takes the stroke "
@@ -210,14 +210,14 @@ void Studio::paint() {
 void Studio::draw_view(unsigned target) {
   const glm::ivec2 size = shop_.host.size_px();
   const ViewRect& rect = shop_.view.rect();
-  const draw::Viewport view = shop_.view.viewport();
+  const render::Viewport view = shop_.view.viewport();
   const Fineness fine = quality_.fineness(shop_.host.real_time() && moving());
   coarse_ = fine.divisor > 1 || fine.samples < kFineness[0].samples;
   const int width = std::max(1, view.width_px / fine.divisor);
   const int height = std::max(1, view.height_px / fine.divisor);
   if (!canvas_ || !canvas_->is(width, height, 0)) {
     canvas_.reset();
-    auto made = draw::Canvas::create(width, height, 0);
+    auto made = render::Canvas::create(width, height, 0);
     if (!made) return tell(shop_, made.error());
     canvas_.emplace(std::move(*made));
   }

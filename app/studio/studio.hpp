@@ -3,9 +3,9 @@
 
 #include "app/render/gl_objects.hpp"
 #include "app/render/painter.hpp"
+#include "app/studio/app_state.hpp"
 #include "app/studio/input.hpp"
 #include "app/studio/quality.hpp"
-#include "app/studio/workshop.hpp"
 
 #include <deque>
 #include <memory>
@@ -17,7 +17,7 @@ namespace clay::studio {
 
 /// Frames of a pot in motion.
 struct Drawn {
-  falcon::TimingHistogram took;  ///< drawing, until the last pixel
+  Histogram took;  ///< drawing, until the last pixel
   std::int64_t first_ns = 0, last_ns = 0;
   [[nodiscard]] double fps() const noexcept {
     return last_ns > first_ns ? 1e9 * static_cast<double>(took.count() - 1) /
@@ -40,8 +40,8 @@ class Studio {
   /// At the clock's present time. Without `paint` all is done but the drawing itself.
   void frame(bool paint);
 
-  [[nodiscard]] Workshop& shop() noexcept { return shop_; }
-  [[nodiscard]] const Workshop& shop() const noexcept { return shop_; }
+  [[nodiscard]] AppState& shop() noexcept { return shop_; }
+  [[nodiscard]] const AppState& shop() const noexcept { return shop_; }
   [[nodiscard]] const Drawn& drawn() const noexcept { return drawn_; }
   [[nodiscard]] bool done() const noexcept { return shop_.done; }
   /// Whether the next frame shows something else even if nothing comes from outside.
@@ -66,10 +66,10 @@ class Studio {
 
   static constexpr int kFramesAfterInput = 3;  // an ImGui window settles in that many
 
-  Workshop shop_;
+  AppState shop_;
   ImGuiContext* context_ = nullptr;
-  std::optional<draw::Painter> painter_;
-  std::optional<draw::Canvas> canvas_;
+  std::optional<render::Painter> painter_;
+  std::optional<render::Canvas> canvas_;
   std::deque<Input> waiting_;
   std::string title_;
   double last_s_ = 0.0;

@@ -7,7 +7,7 @@
 
 namespace clay::studio {
 
-using draw::Theme;
+using render::Theme;
 
 /// Colours with a meaning, for what panels draw themselves.
 struct Palette {

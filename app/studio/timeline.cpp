@@ -7,28 +7,28 @@ namespace {
 
 /// Nodes on the way that undo and redo take: up from where the work is, and on to the last branch
 /// that was taken.
-std::vector<char> main_line(const work::Work& work) {
+std::vector<char> main_line(const history::Work& work) {
   std::vector<char> on(work.size(), 0);
   const auto& nodes = work.record().nodes;
-  for (work::NodeId node = work.at(); node != 0; node = nodes[node].parent) on[node] = 1;
-  for (work::NodeId node = nodes[work.at()].taken; node != 0; node = nodes[node].taken)
+  for (history::NodeId node = work.at(); node != 0; node = nodes[node].parent) on[node] = 1;
+  for (history::NodeId node = nodes[work.at()].taken; node != 0; node = nodes[node].taken)
     on[node] = 1;
   return on;
 }
 
 }  // namespace
 
-Timeline timeline_of(const work::Work& work) {
+Timeline timeline_of(const history::Work& work) {
   const std::vector<char> line = main_line(work);
   std::vector<char> done(work.size(), 0);
-  for (work::NodeId node = work.at(); node != 0; node = work.record().nodes[node].parent)
+  for (history::NodeId node = work.at(); node != 0; node = work.record().nodes[node].parent)
     done[node] = 1;
   Timeline timeline;
   std::vector<TimelineBlock> of(work.size());
   std::vector<char> row_goes_on(work.size(), 0);  // a child has its row already
   row_goes_on[0] = 1;
-  for (work::NodeId node = 1; node < work.size(); ++node) {  // parents come first
-    const work::NodeView view = work.view(node);
+  for (history::NodeId node = 1; node < work.size(); ++node) {  // parents come first
+    const history::NodeView view = work.view(node);
     TimelineBlock& block = of[node];
     block.node = node;
     block.from_s = of[view.parent].to_s;

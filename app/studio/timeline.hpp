@@ -12,7 +12,7 @@ namespace clay::studio {
 /// One stroke, between two moments of the time that was thrown up to it. A stroke shorter than
 /// kShortestBlockS is drawn as if it had lasted that long, so that it can be hit.
 struct TimelineBlock {
-  work::NodeId node = 0;
+  history::NodeId node = 0;
   double from_s = 0.0, to_s = 0.0;
   std::size_t row = 0;         ///< 0: the line that undo and redo go along
   std::size_t parent_row = 0;  ///< where it branches off
@@ -28,7 +28,7 @@ struct Timeline {
 };
 
 /// Every other branch has a row of its own as far as it goes without branching again.
-[[nodiscard]] Timeline timeline_of(const work::Work& work);
+[[nodiscard]] Timeline timeline_of(const history::Work& work);
 
 /// The block at a moment of a row.
 [[nodiscard]] std::optional<TimelineBlock> block_at(const Timeline& timeline, double seconds,

@@ -18,26 +18,26 @@ constexpr float kScaleStep = 1.1f;
 constexpr KeyChord kNone{};
 
 template <Seen from>
-void look(Workshop& shop) {
+void look(AppState& shop) {
   shop.view.look(shop, from);
 }
-template <draw::Cut cut>
-void set_cut(Workshop& shop) {
-  shop.view.cut = shop.view.cut == cut ? draw::Cut::none : cut;
+template <render::Cut cut>
+void set_cut(AppState& shop) {
+  shop.view.cut = shop.view.cut == cut ? render::Cut::none : cut;
 }
-template <draw::Cut cut>
-bool is_cut(const Workshop& shop) {
+template <render::Cut cut>
+bool is_cut(const AppState& shop) {
   return shop.view.cut == cut;
 }
 template <LengthUnit unit>
-void set_unit(Workshop& shop) {
+void set_unit(AppState& shop) {
   shop.settings.unit = unit;
 }
 template <LengthUnit unit>
-bool is_unit(const Workshop& shop) {
+bool is_unit(const AppState& shop) {
   return shop.settings.unit == unit;
 }
-void set_scale(Workshop& shop, float scale) {
+void set_scale(AppState& shop, float scale) {
   shop.settings.scale = std::clamp(scale, kSmallestScale, kLargestScale);
   shop.restyle = true;
 }
@@ -63,50 +63,50 @@ const std::array kViewActions = {
       {GLFW_KEY_C, 0},
       kNone,
       has_work,
-      set_cut<draw::Cut::half>,
-      is_cut<draw::Cut::half>},
+      set_cut<render::Cut::half>,
+      is_cut<render::Cut::half>},
     A{"view.cut_quarter",
       "Cut a quarter",
       {GLFW_KEY_C, kShift},
       kNone,
       has_work,
-      set_cut<draw::Cut::quarter>,
-      is_cut<draw::Cut::quarter>},
+      set_cut<render::Cut::quarter>,
+      is_cut<render::Cut::quarter>},
     A{"view.wall_map",
       "Wall thickness on the pot",
       {GLFW_KEY_W, 0},
       kNone,
       always,
-      [](Workshop& s) { s.settings.wall_map = !s.settings.wall_map; },
-      [](const Workshop& s) { return s.settings.wall_map; }},
+      [](AppState& s) { s.settings.wall_map = !s.settings.wall_map; },
+      [](const AppState& s) { return s.settings.wall_map; }},
     A{"view.section",
       "Section",
       {GLFW_KEY_X, 0},
       kNone,
       always,
-      [](Workshop& s) { toggle_panel(s, "section"); },
-      [](const Workshop& s) { return panel_open(s, "section"); }},
-    A{"view.walls", "Walls", kNone, kNone, always, [](Workshop& s) { toggle_panel(s, "walls"); },
-      [](const Workshop& s) { return panel_open(s, "walls"); }},
+      [](AppState& s) { toggle_panel(s, "section"); },
+      [](const AppState& s) { return panel_open(s, "section"); }},
+    A{"view.walls", "Walls", kNone, kNone, always, [](AppState& s) { toggle_panel(s, "walls"); },
+      [](const AppState& s) { return panel_open(s, "walls"); }},
     A{"view.certificate", "Certificate", kNone, kNone, always,
-      [](Workshop& s) { toggle_panel(s, "certificate"); },
-      [](const Workshop& s) { return panel_open(s, "certificate"); }},
-    A{"view.ledger", "Ledger", kNone, kNone, always, [](Workshop& s) { toggle_panel(s, "ledger"); },
-      [](const Workshop& s) { return panel_open(s, "ledger"); }},
-    A{"view.stress", "Stress", kNone, kNone, always, [](Workshop& s) { toggle_panel(s, "stress"); },
-      [](const Workshop& s) { return panel_open(s, "stress"); }},
-    A{"view.servo", "Servo", kNone, kNone, always, [](Workshop& s) { toggle_panel(s, "servo"); },
-      [](const Workshop& s) { return panel_open(s, "servo"); }},
+      [](AppState& s) { toggle_panel(s, "certificate"); },
+      [](const AppState& s) { return panel_open(s, "certificate"); }},
+    A{"view.ledger", "Ledger", kNone, kNone, always, [](AppState& s) { toggle_panel(s, "ledger"); },
+      [](const AppState& s) { return panel_open(s, "ledger"); }},
+    A{"view.stress", "Stress", kNone, kNone, always, [](AppState& s) { toggle_panel(s, "stress"); },
+      [](const AppState& s) { return panel_open(s, "stress"); }},
+    A{"view.servo", "Servo", kNone, kNone, always, [](AppState& s) { toggle_panel(s, "servo"); },
+      [](const AppState& s) { return panel_open(s, "servo"); }},
     A{"view.theme",
       "Light theme",
       {GLFW_KEY_L, kControl},
       kNone,
       always,
-      [](Workshop& s) {
+      [](AppState& s) {
         s.settings.theme = s.settings.theme == Theme::dark ? Theme::light : Theme::dark;
         s.restyle = true;
       },
-      [](const Workshop& s) { return s.settings.theme == Theme::light; }},
+      [](const AppState& s) { return s.settings.theme == Theme::light; }},
     A{"view.mm", "Millimetres", kNone, kNone, always, set_unit<LengthUnit::mm>,
       is_unit<LengthUnit::mm>},
     A{"view.cm", "Centimetres", kNone, kNone, always, set_unit<LengthUnit::cm>,
@@ -117,22 +117,22 @@ const std::array kViewActions = {
       {GLFW_KEY_EQUAL, kControl},
       {GLFW_KEY_EQUAL, kControlShift},
       always,
-      [](Workshop& s) { set_scale(s, s.settings.scale * kScaleStep); }},
+      [](AppState& s) { set_scale(s, s.settings.scale * kScaleStep); }},
     A{"view.smaller",
       "Smaller text",
       {GLFW_KEY_MINUS, kControl},
       kNone,
       always,
-      [](Workshop& s) { set_scale(s, s.settings.scale / kScaleStep); }},
+      [](AppState& s) { set_scale(s, s.settings.scale / kScaleStep); }},
     A{"help.hint", "First steps below the pot", kNone, kNone, always,
-      [](Workshop& s) { s.settings.hints = !s.settings.hints; },
-      [](const Workshop& s) { return s.settings.hints; }},
+      [](AppState& s) { s.settings.hints = !s.settings.hints; },
+      [](const AppState& s) { return s.settings.hints; }},
     A{"help.keys",
       "Keys and mouse",
       {GLFW_KEY_SLASH, kShift},
       {GLFW_KEY_F1, 0},
       always,
-      [](Workshop& s) { s.overlay = Overlay::shortcuts; }},
+      [](AppState& s) { s.overlay = Overlay::shortcuts; }},
 };
 
 }  // namespace

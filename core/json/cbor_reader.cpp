@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-namespace clay::files {
+namespace clay::inline json {
 namespace {
 
 /// The first byte of an item (RFC 8949, section 3): major type and additional information.
@@ -172,4 +172,4 @@ bool read_cbor(std::string_view bytes, JsonBuilder& builder) {
   return CborReader(bytes, builder).document();
 }
 
-}  // namespace clay::files
+}  // namespace clay::inline json

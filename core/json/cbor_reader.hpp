@@ -7,10 +7,10 @@
 
 #include <string_view>
 
-namespace clay::files {
+namespace clay::inline json {
 
 /// One CBOR item (RFC 8949) and nothing behind it, as events for `builder`. Definite lengths and
 /// text keys only; no byte strings, no tags. False, with the reason in the builder, when refused.
 bool read_cbor(std::string_view bytes, JsonBuilder& builder);
 
-}  // namespace clay::files
+}  // namespace clay::inline json

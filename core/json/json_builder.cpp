@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-namespace clay::files {
+namespace clay::inline json {
 namespace {
 
 /// The library's message without its own numbering and position: ours has the line.
@@ -80,4 +80,4 @@ std::string printable(std::string text) {
   return text;
 }
 
-}  // namespace clay::files
+}  // namespace clay::inline json

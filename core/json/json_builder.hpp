@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace clay::files {
+namespace clay::inline json {
 
 /// Members keep the order of the file; integers keep their 64 bits.
 using Json = nlohmann::ordered_json;
@@ -54,4 +54,4 @@ class JsonBuilder {
 /// `text` fit for one line of a message: ASCII, and no longer than it takes to recognise it.
 std::string printable(std::string text);
 
-}  // namespace clay::files
+}  // namespace clay::inline json

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::solid {
+namespace clay {
 
 using Json = nlohmann::ordered_json;
 
@@ -181,4 +181,4 @@ auto parsed_with(std::string_view bytes, std::string_view name, Follow follow, R
   return bad_json(name, shown(std::string(bare_message(error.what())), kLongest));
 }
 
-}  // namespace clay::solid
+}  // namespace clay

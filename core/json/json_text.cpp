@@ -3,7 +3,7 @@
 #include <array>
 #include <charconv>
 
-namespace clay::files {
+namespace clay::inline json {
 namespace {
 
 constexpr std::size_t kNumbersPerRow = 10;
@@ -74,4 +74,4 @@ std::string json_line(const Json& value) {
   return value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-}  // namespace clay::files
+}  // namespace clay::inline json

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace clay::files {
+namespace clay::inline json {
 
 /// The shortest digits that read back as the same number.
 std::string shortest(double value);
@@ -15,4 +15,4 @@ std::string json_text(const Json& value);
 /// JSON on one line.
 std::string json_line(const Json& value);
 
-}  // namespace clay::files
+}  // namespace clay::inline json

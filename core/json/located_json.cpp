@@ -7,7 +7,7 @@
 #include <iterator>
 #include <utility>
 
-namespace clay::files {
+namespace clay::inline json {
 namespace {
 
 /// Leaves a trace of how far the lexer has come: its events do not say where they are.
@@ -194,4 +194,4 @@ bool is_unfinished_json(std::string_view text) {
   return finder.error_position > text.size();
 }
 
-}  // namespace clay::files
+}  // namespace clay::inline json

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-namespace clay::files {
+namespace clay::inline json {
 
 /// From the root inward: names of members and indices of elements.
 using Path = std::vector<std::variant<std::string_view, std::size_t>>;
@@ -48,4 +48,4 @@ class LocatedJson {
 /// Whether `text` is the beginning of a JSON value, sound as far as it goes.
 bool is_unfinished_json(std::string_view text);
 
-}  // namespace clay::files
+}  // namespace clay::inline json

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace clay::files {
+namespace clay::inline json {
 namespace {
 
 /// One edit away: a character more, less or other, or two neighbours exchanged. All short names
@@ -230,4 +230,4 @@ void ObjectReader::refuse_unknown_members() {
   }
 }
 
-}  // namespace clay::files
+}  // namespace clay::inline json

@@ -17,7 +17,7 @@
 #include <variant>
 #include <vector>
 
-namespace clay::files {
+namespace clay::inline json {
 
 /// Tells the overloads of `describe` apart; each serves a value and a constant alike.
 template <class T, class Described>
@@ -206,4 +206,4 @@ void ObjectReader::one_of(std::string_view name, std::variant<Ts...>& value, Nam
   });
 }
 
-}  // namespace clay::files
+}  // namespace clay::inline json

@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-namespace clay::files {
+namespace clay::inline json {
 
 inline constexpr std::string_view kWrittenBy = "claystack " CLAYSTACK_VERSION;
 
@@ -97,4 +97,4 @@ class ObjectWriter {
   Json& object_;
 };
 
-}  // namespace clay::files
+}  // namespace clay::inline json

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-namespace clay::files {
+namespace clay::inline json {
 
 /// An interval that reads as it is said: `from(0).to(5)`, `above(0).to(5000)`, `from(0).below(1)`.
 struct Range {
@@ -22,4 +22,4 @@ struct Range {
 constexpr Range from(double start) { return {start, start, false, false}; }
 constexpr Range above(double start) { return {start, start, true, false}; }
 
-}  // namespace clay::files
+}  // namespace clay::inline json

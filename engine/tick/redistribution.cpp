@@ -14,7 +14,7 @@ constexpr int kShareBits = 30;
 // A tick has a bounded length; the crown holds what is left for the next one.
 constexpr std::size_t kMostGrowthPerTick = 64;
 
-WideQuanta take(std::span<const Bite> bites, ClayStack& stack) noexcept {
+WideQuanta take(std::span<const ToolRemoval> bites, ClayStack& stack) noexcept {
   StackWriter writer(stack);
   WideQuanta total = 0;
   for (const auto& [contact, removed] : bites) {
@@ -54,7 +54,7 @@ Amount deal(const RayleighKernel& kernel, double offset, Amount clay_inside, Amo
             std::size_t count, RingOf ring_of, Rim* rim, ClayStack& stack) noexcept {
   StackWriter writer(stack);
   Amount rest = clay_inside + clay_outside;
-  RayleighKernel::Dealer dealer(kernel, offset);
+  RayleighKernel::ShareCursor dealer(kernel, offset);
   RayleighKernel::Shares<Amount> insides(clay_inside), outsides(clay_outside);
   Amount inside = 0, outside = 0;
   for (std::size_t j = 1; j <= count; ++j) {
@@ -100,7 +100,7 @@ WideQuanta flow_down(const RayleighKernel& kernel, Split clay, const Contact& co
 }
 
 /// A tool presses the crown with the top ring, and so makes both alike.
-void level(Rim* rim, std::span<const Bite> bites, std::size_t count) noexcept {
+void level(Rim* rim, std::span<const ToolRemoval> bites, std::size_t count) noexcept {
   if (rim == nullptr) return;
   for (const auto& [contact, removed] : bites)
     if (!contact.rings.empty() && contact.rings.to() == count)
@@ -148,8 +148,8 @@ void grow(Flow& flow, ClayStack& stack, Ledger& ledger, Rim* rim, StackWriter& w
 }  // namespace
 
 template <Model model>
-Flow press_clay(const StepPlan& plan, std::span<const Bite> bites, bool upward, ClayStack& stack,
-                Ledger& ledger, Rim* rim) noexcept {
+Flow press_clay(const StepPlan& plan, std::span<const ToolRemoval> bites, bool upward,
+                ClayStack& stack, Ledger& ledger, Rim* rim) noexcept {
   StackWriter writer(stack);
   const Contact& contact = bites.front().contact;
   const std::size_t count = stack.size();
@@ -173,7 +173,8 @@ Flow press_clay(const StepPlan& plan, std::span<const Bite> bites, bool upward, 
 }
 
 template <Model model>
-Flow trim_clay(std::span<const Bite> bites, ClayStack& stack, Ledger& ledger, Rim* rim) noexcept {
+Flow trim_clay(std::span<const ToolRemoval> bites, ClayStack& stack, Ledger& ledger,
+               Rim* rim) noexcept {
   StackWriter writer(stack);
   ledger.trimmed += take(bites, stack);
   level(rim, bites, stack.size());
@@ -185,12 +186,13 @@ Flow trim_clay(std::span<const Bite> bites, ClayStack& stack, Ledger& ledger, Ri
   return flow;
 }
 
-template Flow press_clay<Model::paper>(const StepPlan&, std::span<const Bite>, bool, ClayStack&,
-                                       Ledger&, Rim*) noexcept;
-template Flow press_clay<Model::conserving>(const StepPlan&, std::span<const Bite>, bool,
+template Flow press_clay<Model::paper>(const StepPlan&, std::span<const ToolRemoval>, bool,
+                                       ClayStack&, Ledger&, Rim*) noexcept;
+template Flow press_clay<Model::conserving>(const StepPlan&, std::span<const ToolRemoval>, bool,
                                             ClayStack&, Ledger&, Rim*) noexcept;
-template Flow trim_clay<Model::paper>(std::span<const Bite>, ClayStack&, Ledger&, Rim*) noexcept;
-template Flow trim_clay<Model::conserving>(std::span<const Bite>, ClayStack&, Ledger&,
+template Flow trim_clay<Model::paper>(std::span<const ToolRemoval>, ClayStack&, Ledger&,
+                                      Rim*) noexcept;
+template Flow trim_clay<Model::conserving>(std::span<const ToolRemoval>, ClayStack&, Ledger&,
                                            Rim*) noexcept;
 
 }  // namespace clay

@@ -32,12 +32,12 @@ struct Flow {
 /// `conserving` lays the kernel to the tool's ends, not to the ends of their rings (Contact's
 /// offsets), and gives new rings what `rim` has counted; without a rim they are copies.
 template <Model model>
-Flow press_clay(const StepPlan& plan, std::span<const Bite> bites, bool upward, ClayStack& stack,
-                Ledger& ledger, Rim* rim = nullptr) noexcept;
+Flow press_clay(const StepPlan& plan, std::span<const ToolRemoval> bites, bool upward,
+                ClayStack& stack, Ledger& ledger, Rim* rim = nullptr) noexcept;
 
 /// The paper's chiselling (section 8): what is bitten off leaves the pot and is booked as trimmed.
 template <Model model>
-Flow trim_clay(std::span<const Bite> bites, ClayStack& stack, Ledger& ledger,
+Flow trim_clay(std::span<const ToolRemoval> bites, ClayStack& stack, Ledger& ledger,
                Rim* rim = nullptr) noexcept;
 
 }  // namespace clay

@@ -151,7 +151,7 @@ void compute_removal(const RemovalPlan& plan, const ClayStack& stack, double dt_
 
 template <Model model>
 void compute_pinch_removal(const RemovalPlan& plan, const ClayStack& stack, double gap_mm,
-                           double dt_s, Bite& outer, Bite& inner) noexcept {
+                           double dt_s, ToolRemoval& outer, ToolRemoval& inner) noexcept {
   constexpr bool paper = model == Model::paper;
   const double least_wall = paper ? gap_mm : std::max(gap_mm, plan.min_wall_mm);
   const double fraction = paper ? plan.paper_fraction : one_minus_exp_neg(plan.rate_per_s * dt_s);
@@ -184,8 +184,8 @@ template void compute_removal<Model::paper>(const RemovalPlan&, const ClayStack&
 template void compute_removal<Model::conserving>(const RemovalPlan&, const ClayStack&, double,
                                                  Contact&, std::vector<Quanta>&) noexcept;
 template void compute_pinch_removal<Model::paper>(const RemovalPlan&, const ClayStack&, double,
-                                                  double, Bite&, Bite&) noexcept;
+                                                  double, ToolRemoval&, ToolRemoval&) noexcept;
 template void compute_pinch_removal<Model::conserving>(const RemovalPlan&, const ClayStack&, double,
-                                                       double, Bite&, Bite&) noexcept;
+                                                       double, ToolRemoval&, ToolRemoval&) noexcept;
 
 }  // namespace clay

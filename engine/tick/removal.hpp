@@ -9,7 +9,7 @@ namespace clay {
 
 /// One tool's contact, and what it takes from each ring of it this tick [quanta]. Storage is
 /// reserved once.
-struct Bite {
+struct ToolRemoval {
   Contact contact;
   std::vector<Quanta> removed;
 };
@@ -33,6 +33,6 @@ void compute_removal(const RemovalPlan& plan, const ClayStack& stack, double dt_
 /// yields to one tool near it. Both surfaces move alike: the middle of the wall stays.
 template <Model model>
 void compute_pinch_removal(const RemovalPlan& plan, const ClayStack& stack, double gap_mm,
-                           double dt_s, Bite& outer, Bite& inner) noexcept;
+                           double dt_s, ToolRemoval& outer, ToolRemoval& inner) noexcept;
 
 }  // namespace clay

@@ -30,7 +30,7 @@ struct Wheel::State {
   Rim rim;
   bool touching = false;  // at the last pose
   StabilityWatch watch;
-  std::array<Bite, 2> bites;  // scratch, reserved once; the second is for pinches alone
+  std::array<ToolRemoval, 2> bites;  // scratch, reserved once; the second is for pinches alone
   std::optional<Failure> failure;
   glm::dvec3 failure_hip{0.0};
   StepReport (*tick)(State&, const Pose&) noexcept = nullptr;
@@ -48,7 +48,7 @@ constexpr Model kModel = (stages & kPaperModel) ? Model::paper : Model::conservi
 
 /// What the tool touches; of a pinch the outer tool first, then the inner one.
 template <unsigned stages, class State>
-std::span<Bite> touch(State& s, const ToolState& tool) noexcept {
+std::span<ToolRemoval> touch(State& s, const ToolState& tool) noexcept {
   if constexpr (stages & kPinch) {
     if (tool.gap_mm > 0.0) {
       find_pinch<kModel<stages>>(s.plan.tool, s.stack, tool.hip_mm, tool.gap_mm, s.bites[0].contact,
@@ -61,9 +61,9 @@ std::span<Bite> touch(State& s, const ToolState& tool) noexcept {
   return std::span(s.bites).first(1);
 }
 
-std::uint32_t rings_of(std::span<const Bite> bites) noexcept {
+std::uint32_t rings_of(std::span<const ToolRemoval> bites) noexcept {
   std::size_t rings = 0;
-  for (const Bite& bite : bites) rings += bite.contact.rings.touched();
+  for (const ToolRemoval& bite : bites) rings += bite.contact.rings.touched();
   return static_cast<std::uint32_t>(rings);
 }
 
@@ -77,7 +77,7 @@ int parts_of(const ToolState& tool) noexcept {
 }
 
 template <unsigned stages, class State>
-void remove(State& s, const ToolState& tool, std::span<Bite> bites) noexcept {
+void remove(State& s, const ToolState& tool, std::span<ToolRemoval> bites) noexcept {
   if constexpr (stages & kPinch) {
     if (bites.size() == 2)
       return compute_pinch_removal<kModel<stages>>(s.plan.removal, s.stack, tool.gap_mm, tool.dt_s,
@@ -89,15 +89,16 @@ void remove(State& s, const ToolState& tool, std::span<Bite> bites) noexcept {
 
 /// How far the clay gives way, for the stack and for the force.
 template <unsigned stages, class State>
-void yield(State& s, const ToolState& tool, std::span<Bite> bites) noexcept {
+void yield(State& s, const ToolState& tool, std::span<ToolRemoval> bites) noexcept {
   remove<stages>(s, tool, bites);
   if constexpr ((stages & kForce) && kModel<stages> == Model::conserving)
-    for (Bite& bite : bites) feel_front(s.plan, s.stack, tool.hip_mm.y, tool.dt_s, bite.contact);
+    for (ToolRemoval& bite : bites)
+      feel_front(s.plan, s.stack, tool.hip_mm.y, tool.dt_s, bite.contact);
 }
 
 /// Moves the clay that is displaced, and sees whether the stack still stands.
 template <unsigned stages, class State>
-std::uint32_t deform(State& s, const ToolState& tool, std::span<const Bite> bites) noexcept {
+std::uint32_t deform(State& s, const ToolState& tool, std::span<const ToolRemoval> bites) noexcept {
   const std::size_t reach = flow_reach(s.plan.kernel);
   if constexpr (stages & kStability)
     s.watch.move_to(s.stack, std::min(bites[0].contact.top + reach, s.stack.size() - 1));
@@ -118,7 +119,8 @@ std::uint32_t deform(State& s, const ToolState& tool, std::span<const Bite> bite
 /// Clay leaves the touched rings on the tool's way, not at its end: the flow begins from the
 /// middle.
 template <unsigned stages, class State>
-void press(State& s, const ToolState& tool, std::span<Bite> bites, StepReport& report) noexcept {
+void press(State& s, const ToolState& tool, std::span<ToolRemoval> bites,
+           StepReport& report) noexcept {
   const std::uint32_t touched = rings_of(bites);
   if (touched == 0) return;
   report.flags |= kContact;
@@ -133,7 +135,7 @@ void press(State& s, const ToolState& tool, std::span<Bite> bites, StepReport& r
 }
 
 template <unsigned stages>
-glm::dvec3 felt(const ForcePlan& plan, std::span<const Bite> bites) noexcept {
+glm::dvec3 contact_force(const ForcePlan& plan, std::span<const ToolRemoval> bites) noexcept {
   const auto felt_from = [&](const Contact& contact) {
     glm::dvec3 force = spring_force<kModel<stages>>(plan, contact);
     if constexpr (stages & kFriction) force += friction_force(plan, contact, force);
@@ -147,8 +149,8 @@ glm::dvec3 felt(const ForcePlan& plan, std::span<const Bite> bites) noexcept {
 
 /// The tool at a pose, with its gap; not valid where the pose is refused.
 template <unsigned stages>
-ToolState believe(const StepPlan& plan, ToolTracker& tracker, const Pose& pose,
-                  StepReport& report) noexcept {
+ToolState track_tool(const StepPlan& plan, ToolTracker& tracker, const Pose& pose,
+                     StepReport& report) noexcept {
   ToolState tool = tracker.advance(pose, (stages & kPinch) ? kFarthestMm : 0.0);
   report.flags = (tool.valid ? 0u : kRefused) | (tool.dt_clamped ? kLongStep : 0u);
   if constexpr (stages & kPinch)
@@ -164,9 +166,9 @@ StepReport tick(State& s, const Pose& pose) noexcept {
     report.flags = kCollapsed;
     return report;
   }
-  ToolState tool = believe<stages>(s.plan, s.tracker, pose, report);
+  ToolState tool = track_tool<stages>(s.plan, s.tracker, pose, report);
   if (!tool.valid) return report;
-  std::span<Bite> bites = touch<stages>(s, tool);
+  std::span<ToolRemoval> bites = touch<stages>(s, tool);
   const bool touches = rings_of(bites) > 0;
   const int parts = touches || s.touching ? parts_of<kModel<stages>>(tool) : 1;
   s.touching = touches;
@@ -180,7 +182,8 @@ StepReport tick(State& s, const Pose& pose) noexcept {
   }
   if constexpr (stages & kForce)
     // After a collapse nothing is left to push against.
-    if (!s.failure && rings_of(bites) > 0) report.force_n = felt<stages>(s.plan.force, bites);
+    if (!s.failure && rings_of(bites) > 0)
+      report.force_n = contact_force<stages>(s.plan.force, bites);
   return report;
 }
 
@@ -193,18 +196,18 @@ StepReport feel(State& s, const Pose& pose) noexcept {
     return report;
   }
   ToolTracker tracker = s.tracker;
-  ToolState tool = believe<stages>(s.plan, tracker, pose, report);
+  ToolState tool = track_tool<stages>(s.plan, tracker, pose, report);
   if (!tool.valid) return report;
   const int parts = parts_of<kModel<stages>>(tool);
   tool.dt_s /= parts;
   tool.moved_mm /= parts;
-  const std::span<Bite> bites = touch<stages>(s, tool);
+  const std::span<ToolRemoval> bites = touch<stages>(s, tool);
   report.rings_touched = rings_of(bites);
   if (report.rings_touched == 0) return report;
   report.flags |= kContact;
   if constexpr (stages & kForce) {
     if constexpr (kModel<stages> == Model::conserving) yield<stages>(s, tool, bites);
-    report.force_n = felt<stages>(s.plan.force, bites);
+    report.force_n = contact_force<stages>(s.plan.force, bites);
   }
   return report;
 }
@@ -273,7 +276,7 @@ Result<Wheel> Wheel::assemble(StepPlan plan, ClayStack stack, const Ledger& ledg
   state->ledger = ledger;
   state->rim = rim;
   const std::size_t tools = (state->plan.stages & kPinch) ? 2 : 1;
-  for (Bite& bite : std::span(state->bites).first(tools)) {
+  for (ToolRemoval& bite : std::span(state->bites).first(tools)) {
     bite.contact.rings.reserve(touches);
     bite.removed.reserve(touches);
   }

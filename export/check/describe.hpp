@@ -6,11 +6,11 @@
 
 #include <string>
 
-namespace clay::solid {
+namespace clay::solid::inline check {
 
 /// "open edge (3): triangle 12 at (1, 2, 3) mm"
 inline std::string describe(const MeshProblem& problem) {
   return problem.what + " (" + std::to_string(problem.count) + "): " + problem.where;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline check

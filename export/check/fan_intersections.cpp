@@ -9,7 +9,7 @@
 #include <iterator>
 #include <numeric>
 
-namespace clay::solid {
+namespace clay::solid::inline check {
 namespace {
 
 /// The direction, to a few 2^-53: the difference is rounded once, and the scaling avoids overflow.
@@ -41,7 +41,7 @@ void set_arc(BoundingHull& body, const glm::dvec3& from, const glm::dvec3& to) {
 
 class Fan {
  public:
-  Fan(const TriangleMesh& mesh, const Hubs& hubs, std::size_t hub)
+  Fan(const TriangleMesh& mesh, const HighValenceVertices& hubs, std::size_t hub)
       : mesh_(mesh),
         hubs_(hubs),
         centre_(hubs.vertex(hub)),
@@ -173,7 +173,7 @@ class Fan {
   }
 
   const TriangleMesh& mesh_;
-  const Hubs& hubs_;
+  const HighValenceVertices& hubs_;
   std::uint32_t centre_;
   std::span<const std::uint32_t> triangles_;
   PairTest test_;
@@ -185,7 +185,8 @@ class Fan {
 
 }  // namespace
 
-Hubs::Hubs(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles)
+HighValenceVertices::HighValenceVertices(const TriangleMesh& mesh,
+                                         std::span<const std::uint32_t> triangles)
     : is_hub_(mesh.points.size(), false) {
   std::vector<std::uint32_t> degrees(mesh.points.size(), 0);
   for (const std::uint32_t t : triangles)
@@ -209,12 +210,13 @@ Hubs::Hubs(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles)
       if (is_hub_[v]) triangles_[next[degrees[v]]++] = t;
 }
 
-std::span<const std::uint32_t> Hubs::triangles(std::size_t hub) const {
+std::span<const std::uint32_t> HighValenceVertices::triangles(std::size_t hub) const {
   return std::span(triangles_).subspan(begins_[hub], begins_[hub + 1] - begins_[hub]);
 }
 
-Crossings crossings_about(const TriangleMesh& mesh, const Hubs& hubs, std::size_t hub) {
+Crossings crossings_about(const TriangleMesh& mesh, const HighValenceVertices& hubs,
+                          std::size_t hub) {
   return Fan(mesh, hubs, hub).run();
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline check

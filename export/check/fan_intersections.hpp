@@ -12,16 +12,16 @@
 #include <utility>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline check {
 
 /// A vertex of more is a hub; an edge of more, whose ends are then hubs too, is a book of its own.
 inline constexpr std::size_t kManyTriangles = 32;
 
 /// The vertices with many triangles, and which.
-class Hubs {
+class HighValenceVertices {
  public:
-  Hubs() = default;
-  Hubs(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles);
+  HighValenceVertices() = default;
+  HighValenceVertices(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles);
 
   [[nodiscard]] std::size_t size() const noexcept { return vertices_.size(); }
   [[nodiscard]] std::uint32_t vertex(std::size_t hub) const { return vertices_[hub]; }
@@ -36,6 +36,7 @@ class Hubs {
 };
 
 /// The pairs of triangles that share this hub, and none before it, and meet elsewhere.
-Crossings crossings_about(const TriangleMesh& mesh, const Hubs& hubs, std::size_t hub);
+Crossings crossings_about(const TriangleMesh& mesh, const HighValenceVertices& hubs,
+                          std::size_t hub);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline check

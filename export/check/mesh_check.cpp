@@ -15,7 +15,7 @@
 #include <string>
 #include <string_view>
 
-namespace clay::solid {
+namespace clay::solid::inline check {
 namespace {
 
 std::string numbered(std::string_view noun, const std::vector<std::uint32_t>& numbers) {
@@ -183,4 +183,4 @@ MeshReport check_mesh(const TriangleMesh& mesh) {
   }
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline check

@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline check {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -337,4 +337,4 @@ Result<SampledWall> sampled_wall(const TriangleMesh& mesh, std::size_t samples,
   return failure(ErrorKind::unsound, std::string("wall not measured: ") + e.what());
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline check

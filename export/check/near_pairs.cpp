@@ -9,7 +9,7 @@
 #include <numeric>
 #include <utility>
 
-namespace clay::solid {
+namespace clay::solid::inline check {
 namespace {
 
 struct Interval {
@@ -29,7 +29,7 @@ void NearPairs::search(const Visitor& visitor) {
 /// The bodies at `begin` to before `end`, which is a node of the tree of halves.
 void NearPairs::within(std::size_t begin, std::size_t end) {
   if (ended_) return;
-  if (end - begin <= Crowd::kFew) {
+  if (end - begin <= BroadPhase::kFew) {
     for (std::size_t i = begin; i < end; ++i)
       for (std::size_t j = begin; j < i; ++j)
         offer(static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(i));
@@ -50,7 +50,7 @@ void NearPairs::between(std::span<const std::uint32_t> first,
   step_of_loop();
   Positions a(first.begin(), first.end()), b(second.begin(), second.end());
   sieve_by_boxes(a, b);
-  const auto few = [&] { return a.size() * b.size() <= Crowd::kFew * Crowd::kFew; };
+  const auto few = [&] { return a.size() * b.size() <= BroadPhase::kFew * BroadPhase::kFew; };
   const auto stuck = [&] { return 4 * (a.size() + b.size()) > 3 * (first.size() + second.size()); };
   if (!few() && stuck()) {
     if (crowd_.any_hub() && without_hub(a, b)) return;
@@ -93,7 +93,7 @@ bool NearPairs::without_hub(const Positions& a, const Positions& b) {
 
 void NearPairs::sieve_by_boxes(Positions& a, Positions& b) const {
   const auto keep_near = [&](Positions& kept, const Positions& others) {
-    const Crowd::Box box = crowd_.box_of(others);
+    const BroadPhase::Box box = crowd_.box_of(others);
     std::erase_if(kept, [&](std::uint32_t i) { return apart(crowd_.box(i), box); });
   };
   keep_near(b, a);
@@ -151,4 +151,4 @@ void NearPairs::offer(std::uint32_t a, std::uint32_t b) {
   ended_ = !visitor_->call(visitor_->visit, a, b);
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline check

@@ -2,7 +2,7 @@
 // Which bodies of a crowd may meet: a sieve that leaves few pairs for exact tests, also where long
 // thin bodies lie aslant, side by side, and boxes along the axes say nothing.
 
-#include "export/check/crowd.hpp"
+#include "export/check/broad_phase.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline check {
 
 /// Every pair of bodies that may meet and share no hub, each once. Never leaves out a pair that
 /// meets: a pair is dropped only where a plane lies between them beyond the rounding error.
@@ -51,9 +51,9 @@ class NearPairs {
   void sieve_along(const glm::dvec3& direction, Positions& a, Positions& b) const;
   void offer(std::uint32_t a, std::uint32_t b);
 
-  Crowd crowd_;
+  BroadPhase crowd_;
   const Visitor* visitor_ = nullptr;
   bool ended_ = false;
 };
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline check

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace clay::solid {
+namespace clay::solid::inline check {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -71,4 +71,4 @@ int PairTest::quarter(std::uint32_t v, std::uint32_t w, std::uint32_t p, std::ui
   }
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline check

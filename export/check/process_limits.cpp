@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace clay::solid {
+namespace clay::solid::inline check {
 namespace {
 
 constexpr double kAnySize = std::numeric_limits<double>::infinity();
@@ -77,4 +77,4 @@ Result<ProcessLimits> parse_process(std::string_view bytes, std::string_view fil
   return parsed_with(bytes, file_name, JsonLimits(kDeepest, kSchema), process_from);
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline check

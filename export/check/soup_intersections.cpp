@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline check {
 namespace {
 
 /// Triangles to a slab, about: few enough to stay near the processor.
@@ -35,7 +35,7 @@ int longest_axis(const TriangleMesh& mesh) {
 SoupIntersections::SoupIntersections(const TriangleMesh& mesh)
     : mesh_(mesh), axis_(longest_axis(mesh)) {
   set_degenerate_aside();
-  hubs_ = Hubs(mesh, spread_);
+  hubs_ = HighValenceVertices(mesh, spread_);
   group_hubs();
   choose_begins();
   while (!distribute()) halve_slabs();
@@ -162,4 +162,4 @@ std::size_t SoupIntersections::slab_of(double low) const {
   return static_cast<std::size_t>(after - begins_.begin()) - 1;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline check

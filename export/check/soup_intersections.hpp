@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline check {
 
 /// Pairs of triangles that meet elsewhere than in the vertices or the edge they share, for any
 /// soup of finite points and indices in range. Triangles with corners in line, and pairs on the
@@ -49,10 +49,10 @@ class SoupIntersections {
   std::vector<double> begins_;                       ///< of the slabs along the axis, rising
   std::vector<std::uint32_t> spread_;                ///< triangles that are not degenerate
   std::vector<std::vector<std::uint32_t>> members_;  ///< of the slabs, triangles
-  Hubs hubs_;
+  HighValenceVertices hubs_;
   std::vector<std::size_t> groups_;  ///< of hubs, by the first; and the end of the last
   std::vector<Crossings> found_;     ///< by part: groups of hubs, then slabs
   Fault degenerate_;
 };
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline check

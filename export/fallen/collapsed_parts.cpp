@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline fallen {
 namespace {
 
 /// A stretch of the pot as a stack of its own, and the height it began at.
@@ -158,4 +158,4 @@ Result<CollapsedParts> collapsed_parts(const Pot& pot, Smoothing smoothing, doub
   return check_collapse(pot).and_then([&] { return Parting(pot, tolerance_mm).run(smoothing); });
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline fallen

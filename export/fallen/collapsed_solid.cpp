@@ -19,7 +19,7 @@
 #include <string>
 #include <utility>
 
-namespace clay::solid {
+namespace clay::solid::inline fallen {
 namespace {
 
 /// How the upper part may lie a little differently from one attempt to the next.
@@ -175,4 +175,4 @@ Result<CollapsedSolid> collapsed_solid(const CollapsedParts& parts, const Collap
   return failure(ErrorKind::io, std::string("union given up: ") + e.what());
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline fallen

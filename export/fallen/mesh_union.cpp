@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <tuple>
 
-namespace clay::solid {
+namespace clay::solid::inline fallen {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
@@ -129,4 +129,4 @@ Result<MeshUnion> unite(const TriangleMesh& a, const TriangleMesh& b) {
   return result;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline fallen

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline fallen {
 
 struct MeshUnion {
   TriangleMesh mesh;          ///< the exact points to the nearest double
@@ -18,4 +18,4 @@ struct MeshUnion {
 /// an error (`unsound`) where they touch in an edge or a point only, which no manifold can show.
 Result<MeshUnion> unite(const TriangleMesh& a, const TriangleMesh& b);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline fallen

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
-namespace clay::solid {
+namespace clay::solid::inline fallen {
 namespace {
 
 /// Points joined by triangles, as a forest whose roots stand for shells.
@@ -94,4 +94,4 @@ FilledPockets fill_pockets(const TriangleMesh& mesh, const std::vector<bool>& on
   return result;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline fallen

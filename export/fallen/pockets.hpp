@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline fallen {
 
 /// For each shell (points joined by triangles) its volume [mm^3], negative where it faces inward.
 [[nodiscard]] std::vector<double> shell_volumes(const TriangleMesh& mesh);
@@ -25,4 +25,4 @@ struct FilledPockets {
 FilledPockets fill_pockets(const TriangleMesh& mesh, const std::vector<bool>& on_seam,
                            double deepest_mm);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline fallen

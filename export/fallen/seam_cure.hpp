@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline fallen {
 
 struct CuredMesh {
   TriangleMesh mesh;
@@ -22,4 +22,4 @@ struct CuredMesh {
 Result<CuredMesh> cure_seam(const TriangleMesh& mesh, const std::vector<bool>& on_seam,
                             double shortest_mm);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline fallen

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <span>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 
 bool ByteStream::fill(std::size_t bytes) {
   if (end_ - begin_ >= bytes) return true;
@@ -26,4 +26,4 @@ bool ByteStream::fill(std::size_t bytes) {
   return end_ >= bytes;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

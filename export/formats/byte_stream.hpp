@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 
 class ByteStream {
  public:
@@ -41,4 +41,4 @@ class ByteStream {
   std::optional<Error> fault_;
 };
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 
 inline constexpr int kMinDracoBits = 8;
 inline constexpr int kDracoBitsStep = 2;
@@ -24,4 +24,4 @@ inline constexpr int kMaxDracoBits = 30;  // Draco's own limit
   return std::max(bits, kMinDracoBits);
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

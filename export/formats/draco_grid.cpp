@@ -11,7 +11,7 @@
 #include <numbers>
 #include <string>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 namespace {
 
 constexpr float kLeastSideMm = 1e-6F;  // smaller ones have inverses that overflow in Draco
@@ -94,4 +94,4 @@ Result<DracoGrid> choose_grid(const std::vector<glm::vec3>& points, const DracoS
   return failure(ErrorKind::bad_input, what + " mm");
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

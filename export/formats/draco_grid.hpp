@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 
 /// 2^bits points along each side of a cube: the corner of least coordinates, and the side.
 struct DracoGrid {
@@ -22,4 +22,4 @@ struct DracoGrid {
 [[nodiscard]] Result<DracoGrid> choose_grid(const std::vector<glm::vec3>& points,
                                             const DracoSettings& settings);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

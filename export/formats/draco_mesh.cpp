@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 namespace {
 
 /// Checked before any of its values is touched.
@@ -105,4 +105,4 @@ Result<TriangleMesh> from_draco(const draco::Mesh& mesh, std::string_view name) 
       .map([&] { return std::move(result); });
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

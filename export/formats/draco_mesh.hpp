@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 
 /// The triangles of `mesh` on `points`, its points as float32; indices are in range.
 [[nodiscard]] std::unique_ptr<draco::Mesh> to_draco(const TriangleMesh& mesh,
@@ -20,4 +20,4 @@ namespace clay::solid {
 /// states them. Corners share a point where Draco maps them to one position.
 [[nodiscard]] Result<TriangleMesh> from_draco(const draco::Mesh& mesh, std::string_view name);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

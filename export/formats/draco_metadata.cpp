@@ -15,7 +15,7 @@
 #include <map>
 #include <span>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 namespace {
 
 constexpr std::string_view kPrefix = "claystack.";
@@ -190,4 +190,4 @@ std::string without_metadata(std::string_view bytes, const DracoMetadata& metada
   return plain.append(bytes.substr(metadata.end));
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

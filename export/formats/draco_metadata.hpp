@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 
 inline constexpr std::size_t kDracoHeaderBytes = 11;
 
@@ -30,4 +30,4 @@ struct DracoMetadata {
 /// A file with metadata, without them.
 [[nodiscard]] std::string without_metadata(std::string_view bytes, const DracoMetadata& metadata);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

@@ -14,7 +14,7 @@
 #include <optional>
 #include <utility>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 namespace {
 
 // Draco's entropy coder keeps a counter for every value a residual may take: 0.1 GB of them
@@ -163,4 +163,4 @@ Result<std::optional<DracoClaims>> drc_claims(std::string_view bytes, std::strin
   });
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

@@ -3,7 +3,7 @@
 #include "claystack/export/formats.hpp"
 #include "export/formats/mesh_limits.hpp"
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 
 Result<std::string> encode_drc(const TriangleMesh&, const DracoSettings&, const DracoClaims*) {
   return failure(ErrorKind::bad_input, "cannot write .drc: this build has no Draco");
@@ -17,4 +17,4 @@ Result<std::optional<DracoClaims>> drc_claims(std::string_view, std::string_view
   return bad_file(name, "cannot read .drc: this build has no Draco");
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 
 std::vector<MeshProblem> compare_with_claims(const TriangleMesh& decoded,
                                              const DracoClaims& claims) {
@@ -18,4 +18,4 @@ std::vector<MeshProblem> compare_with_claims(const TriangleMesh& decoded,
            1}};
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 
 [[nodiscard]] inline glm::vec3 file_point(const glm::dvec3& point) noexcept {
   return glm::vec3(point) + 0.0F;  // -0 + 0 is 0
@@ -49,4 +49,4 @@ inline void append_point_line(std::string& text, std::string_view prefix, const 
   return line;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

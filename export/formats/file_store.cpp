@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 
 Result<void> MemoryStore::write(std::span<const std::byte> bytes) {
   bytes_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -18,4 +18,4 @@ Result<void> MemoryStore::read_at(std::uint64_t offset, std::span<std::byte> byt
   return {};
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

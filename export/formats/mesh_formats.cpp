@@ -3,7 +3,7 @@
 #include "export/formats/file_floats.hpp"
 #include "export/formats/text_scanner.hpp"
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 
 Result<MeshFormat> mesh_format_of(std::string_view path) {
   const std::size_t dot = path.rfind('.');
@@ -55,4 +55,4 @@ TriangleMesh rounded_to_float(const TriangleMesh& mesh) {
   return rounded;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

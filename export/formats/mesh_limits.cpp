@@ -2,7 +2,7 @@
 
 #include "export/formats/file_floats.hpp"
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 
 std::optional<std::string> find_bad_coordinate(const glm::vec3& point) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -51,4 +51,4 @@ Result<void> check_facet_count(std::size_t facets, std::string_view name) {
                             std::to_string(facets));
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

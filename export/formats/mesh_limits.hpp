@@ -14,7 +14,7 @@
 #include <string>
 #include <string_view>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 
 inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
 inline constexpr std::size_t kMaxPoints = 3 * kMaxTriangles;  // when no facets share a corner
@@ -54,4 +54,4 @@ template <class Read>
   return bad_file(name, std::string("cannot be read: ").append(error.what()));
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 namespace {
 
 constexpr std::size_t kMaxFaceCorners = 4096;
@@ -204,4 +204,4 @@ Result<TriangleMesh> decode_obj(std::string_view bytes, std::string_view name) {
   return check_file_size(bytes, name).and_then([&] { return read_obj(source_of(bytes), name); });
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

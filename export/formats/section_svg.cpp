@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 namespace {
 
 struct Extent {
@@ -172,4 +172,4 @@ std::string section_svg(const Pot& pot) {
   return drawing.finish();
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 namespace {
 
 const double kSharpestSmoothBend = std::sqrt(3.0) / 2.0;  // cos(30 degrees)
@@ -49,7 +49,7 @@ struct Normals {
 
 class ShadedObj {
  public:
-  ShadedObj(const RevolveRule& rule, const TriangleMesh& mesh) : rule_(rule), mesh_(mesh) {}
+  ShadedObj(const RevolveLayout& rule, const TriangleMesh& mesh) : rule_(rule), mesh_(mesh) {}
 
   std::string encode(std::string_view object_name) {
     text_.append("# claystack: units mm\no ").append(one_line(object_name)).append("\n");
@@ -98,7 +98,7 @@ class ShadedObj {
     text_ += '\n';
   }
 
-  const RevolveRule& rule_;
+  const RevolveLayout& rule_;
   const TriangleMesh& mesh_;
   std::vector<Normals> normals_;
   std::size_t face_ = 0;
@@ -107,9 +107,9 @@ class ShadedObj {
 
 }  // namespace
 
-std::string encode_shaded_obj(const RevolveRule& rule, const TriangleMesh& mesh,
+std::string encode_shaded_obj(const RevolveLayout& rule, const TriangleMesh& mesh,
                               std::string_view object_name) {
   return ShadedObj(rule, mesh).encode(object_name);
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

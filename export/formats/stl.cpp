@@ -10,7 +10,7 @@
 
 #include <array>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 namespace {
 
 constexpr std::size_t kUsualTextFacetBytes = 260;
@@ -200,4 +200,4 @@ Result<TriangleMesh> decode_stl(std::string_view bytes, std::string_view name) {
   return check_file_size(bytes, name).and_then([&] { return read_stl(source_of(bytes), name); });
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

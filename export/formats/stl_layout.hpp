@@ -11,7 +11,7 @@
 #include <glm/vec3.hpp>
 #include <string_view>
 
-namespace clay::solid::stl {
+namespace clay::solid::inline formats::stl {
 
 inline constexpr std::size_t kHeaderBytes = 80;
 inline constexpr std::size_t kPrologueBytes = kHeaderBytes + 4;
@@ -66,4 +66,4 @@ inline void store_facet(char* at, const Corners& corners) noexcept {
   at[kFacetBytes - 2] = at[kFacetBytes - 1] = '\0';
 }
 
-}  // namespace clay::solid::stl
+}  // namespace clay::solid::inline formats::stl

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 namespace {
 
 // Large enough that a system call costs nothing, small enough to stay in the cache.
@@ -22,7 +22,7 @@ constexpr std::size_t kFacetsWorthAThread = 200'000;
 /// The vertices of a shell in one meridian, as files hold them.
 using Meridian = std::vector<glm::vec3>;
 
-void fill_meridian(const RevolveRule& rule, const Shell& shell, std::size_t sector,
+void fill_meridian(const RevolveLayout& rule, const Shell& shell, std::size_t sector,
                    Meridian& meridian) {
   meridian.resize(shell.points.size());
   for (std::size_t i = 0; i < meridian.size(); ++i)
@@ -31,7 +31,7 @@ void fill_meridian(const RevolveRule& rule, const Shell& shell, std::size_t sect
 
 /// Calls visit(corners) for each facet of sectors `first` to `last` in the order of the rule.
 template <class Visit>
-void for_each_facet(const RevolveRule& rule, const Shell& shell, std::size_t first,
+void for_each_facet(const RevolveLayout& rule, const Shell& shell, std::size_t first,
                     std::size_t last, Visit visit) {
   Meridian here, next;
   fill_meridian(rule, shell, first, next);
@@ -109,7 +109,7 @@ tl::unexpected<Error> differs(std::size_t facet) {
                                          ": found corners that are not those of the solid");
 }
 
-Result<void> verify_stretch(const RevolveRule& rule, const Stretch& stretch,
+Result<void> verify_stretch(const RevolveLayout& rule, const Stretch& stretch,
                             const FileStore& store) {
   const std::size_t end = stretch.first_facet + stretch.shell->triangles_per_sector() *
                                                     (stretch.last_sector - stretch.first_sector);
@@ -133,7 +133,7 @@ Result<void> verify_stretch(const RevolveRule& rule, const Stretch& stretch,
   return verdict;
 }
 
-Result<void> verify_count(const RevolveRule& rule, const FileStore& store) {
+Result<void> verify_count(const RevolveLayout& rule, const FileStore& store) {
   std::string prologue(stl::kPrologueBytes, '\0');
   return store.read_at(0, std::as_writable_bytes(std::span(prologue)))
       .and_then([&]() -> Result<void> {
@@ -147,7 +147,7 @@ Result<void> verify_count(const RevolveRule& rule, const FileStore& store) {
 
 }  // namespace
 
-Result<StreamedFile> stream_stl(const RevolveRule& rule, FileStore& store) {
+Result<StreamedFile> stream_stl(const RevolveLayout& rule, FileStore& store) {
   BlockWriter writer(store, rule.triangles());
   for (const Shell& shell : rule.shells())
     for_each_facet(rule, shell, 0, rule.segments(),
@@ -155,7 +155,7 @@ Result<StreamedFile> stream_stl(const RevolveRule& rule, FileStore& store) {
   return writer.finish();
 }
 
-Result<void> verify_stl(const RevolveRule& rule, const FileStore& store) {
+Result<void> verify_stl(const RevolveLayout& rule, const FileStore& store) {
   if (auto count = verify_count(rule, store); !count) return count;
   const std::size_t half = rule.segments() / 2;
   std::size_t facet = 0;
@@ -178,4 +178,4 @@ Result<void> verify_stl(const RevolveRule& rule, const FileStore& store) {
   return {};
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

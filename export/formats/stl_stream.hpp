@@ -5,11 +5,11 @@
 #include "claystack/core/result.hpp"
 #include "claystack/export/formats.hpp"
 #include "core/content_hash.hpp"
-#include "export/solid/revolve_rule.hpp"
+#include "export/solid/revolve_layout.hpp"
 
 #include <cstdint>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 
 struct StreamedFile {
   std::uint64_t bytes = 0;
@@ -18,10 +18,10 @@ struct StreamedFile {
 
 /// The same bytes as `encode_stl_binary(revolve(...))`. Triangles are made while the block before
 /// is written. Needs rule.triangles() < 2^32.
-Result<StreamedFile> stream_stl(const RevolveRule& rule, FileStore& store);
+Result<StreamedFile> stream_stl(const RevolveLayout& rule, FileStore& store);
 
 /// Reads the file again and holds the corners of every facet against the vertices that the rule
 /// puts there, to the last bit. The error (kind `unsound`) names the first facet that differs.
-Result<void> verify_stl(const RevolveRule& rule, const FileStore& store);
+Result<void> verify_stl(const RevolveLayout& rule, const FileStore& store);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

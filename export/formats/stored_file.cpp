@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 
 namespace {
 
@@ -52,4 +52,4 @@ Result<MeshReport> check_stored(const FileStore& store, std::uint64_t bytes, Mes
   return failure(ErrorKind::unsound, name + ": found " + describe(report->problems.front()));
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 
 [[nodiscard]] inline std::span<const std::byte> bytes_of(const std::string& text) {
   return std::as_bytes(std::span(text));
@@ -34,4 +34,4 @@ Result<std::string> read_again(const FileStore& store, const std::string& writte
 /// The whole file, checked as a stranger's would be. Unsound is an error.
 Result<MeshReport> check_stored(const FileStore& store, std::uint64_t bytes, MeshFormat format);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

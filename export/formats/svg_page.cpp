@@ -4,7 +4,7 @@
 #include <charconv>
 #include <glm/geometric.hpp>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 namespace {
 
 constexpr std::string_view kStyle = R"svg(<style>
@@ -115,4 +115,4 @@ void SvgPage::element(std::string_view name, Attributes attributes, std::string_
     svg_.append(">").append(content).append("</").append(name).append(">\n");
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 
 /// `number` with that many digits after the point, whatever the locale.
 [[nodiscard]] std::string fixed(double number, int digits);
@@ -40,4 +40,4 @@ class SvgPage {
   std::string svg_;
 };
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

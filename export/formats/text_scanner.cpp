@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 namespace {
 
 constexpr std::size_t kMaxLineBytes = 64 * 1024;
@@ -189,4 +189,4 @@ void TextScanner::fail_at(std::size_t line, std::string_view what) {
   at_ = 0;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

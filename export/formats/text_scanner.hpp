@@ -14,7 +14,7 @@
 #include <string>
 #include <string_view>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 
 enum class LineRule { plain, backslash_continues };
 
@@ -66,4 +66,4 @@ class TextScanner {
 /// ASCII only, so that no locale plays a part.
 [[nodiscard]] bool equal_ignoring_case(std::string_view word, std::string_view lower) noexcept;
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

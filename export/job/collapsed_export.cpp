@@ -21,7 +21,7 @@
 #include <string>
 #include <utility>
 
-namespace clay::solid {
+namespace clay::solid::inline job {
 namespace {
 
 Result<void> check_options(const ExportOptions& options) {
@@ -233,4 +233,4 @@ Result<ExportReport> export_collapsed(const Pot& pot, const std::vector<Output>&
   return CollapsedExport(pot, outputs, options, progress).run();
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline job

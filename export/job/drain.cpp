@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline job {
 namespace {
 
 /// Rings below the bottom of the uppermost closed cavity; 0 where there is none.
@@ -46,4 +46,4 @@ Result<DrainedStack> drain(const ClayStack& stack, double diameter_mm) {
       });
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline job

@@ -2,7 +2,7 @@
 #include "claystack/core/result.hpp"
 #include "claystack/engine/clay.hpp"
 
-namespace clay::solid {
+namespace clay::solid::inline job {
 
 struct DrainedStack {
   ClayStack stack;
@@ -14,4 +14,4 @@ struct DrainedStack {
 /// (bad_input): no cavity to drain; a hole that leaves a ring, named, without a wall.
 Result<DrainedStack> drain(const ClayStack& stack, double diameter_mm);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline job

@@ -10,7 +10,7 @@
 #include "export/job/resolution.hpp"
 #include "export/job/revolve_files.hpp"
 #include "export/job/stages.hpp"
-#include "export/solid/revolve_rule.hpp"
+#include "export/solid/revolve_layout.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@
 #include <string>
 #include <utility>
 
-namespace clay::solid {
+namespace clay::solid::inline job {
 namespace {
 
 /// Steps that a file's float32 cannot hold apart with a margin.
@@ -134,7 +134,7 @@ class ExportJob {
   }
 
   Result<void> write_all(const Design& design) {
-    const RevolveRule rule(design.section.profile, design.segments);
+    const RevolveLayout rule(design.section.profile, design.segments);
     SolidCertificate claims = stages_.run(
         "claims", [&] { return claims_of(design.section.profile, design.segments, 0.0); });
     claims.counted_volume_mm3 = stack_.volume_mm3();
@@ -150,7 +150,7 @@ class ExportJob {
     return {};
   }
 
-  void describe_solid(const Design& design, const RevolveRule& rule,
+  void describe_solid(const Design& design, const RevolveLayout& rule,
                       const SolidCertificate& claims) {
     double widest = 0.0;
     for (const Shell& shell : rule.shells())
@@ -232,4 +232,4 @@ Result<ExportReport> run_export(const Pot& pot, const std::vector<Output>& outpu
   }
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline job

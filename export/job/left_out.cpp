@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
-namespace clay::solid {
+namespace clay::solid::inline job {
 namespace {
 
 template <class Work>
@@ -34,11 +34,11 @@ double encoding_seconds(MeshFormat format, const TriangleMesh& mesh, const Expor
   });
 }
 
-void measure(std::vector<LeftOut>& list, const ClayStack& stack, const RevolveRule& rule,
+void measure(std::vector<SkippedStage>& list, const ClayStack& stack, const RevolveLayout& rule,
              const ExportOptions& options) {
   TriangleMesh mesh;
   const double meshing = seconds_of([&] { mesh = revolve(rule); });
-  for (LeftOut& item : list) {
+  for (SkippedStage& item : list) {
     if (item.what == "mesh in memory") item.saved_s = meshing;
     if (item.what == "full verification")
       item.saved_s = seconds_of([&] { check_mesh(rounded_to_float(mesh)); });
@@ -55,10 +55,11 @@ void measure(std::vector<LeftOut>& list, const ClayStack& stack, const RevolveRu
 
 }  // namespace
 
-std::vector<LeftOut> left_out(const ClayStack& stack, const std::string& no_smoothing,
-                              const RevolveRule& rule, bool made_mesh,
-                              const std::vector<Output>& outputs, const ExportOptions& options) {
-  std::vector<LeftOut> list;
+std::vector<SkippedStage> left_out(const ClayStack& stack, const std::string& no_smoothing,
+                                   const RevolveLayout& rule, bool made_mesh,
+                                   const std::vector<Output>& outputs,
+                                   const ExportOptions& options) {
+  std::vector<SkippedStage> list;
   const auto add = [&](bool out, std::string what, std::string why) {
     if (out) list.push_back({std::move(what), std::move(why), std::nullopt});
   };
@@ -73,11 +74,11 @@ std::vector<LeftOut> left_out(const ClayStack& stack, const std::string& no_smoo
   return list;
 }
 
-void add_formats_left_out(const std::vector<Output>& outputs, std::vector<LeftOut>& list) {
+void add_formats_left_out(const std::vector<Output>& outputs, std::vector<SkippedStage>& list) {
   for (const MeshFormat format : kMeshFormats)
     if (std::none_of(outputs.begin(), outputs.end(),
                      [&](const Output& output) { return output.format == format; }))
       list.push_back({std::string(name_of(format)), "not asked for", std::nullopt});
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline job

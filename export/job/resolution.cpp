@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-namespace clay::solid {
+namespace clay::solid::inline job {
 namespace {
 
 struct Extent {
@@ -71,4 +71,4 @@ Result<void> check_pieces(const std::vector<PieceShape>& shapes, bool allow_piec
                      " are the first that part; ask for pieces to be exported together (--pieces)");
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline job

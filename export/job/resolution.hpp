@@ -7,7 +7,7 @@
 
 #include <cstddef>
 
-namespace clay::solid {
+namespace clay::solid::inline job {
 
 /// Segments as forced, or the fewest whose chordal error, float32's rounding included, is within
 /// the tolerance. Errors: settings out of range, a tolerance that cannot be kept (the least one is
@@ -19,4 +19,4 @@ Result<std::size_t> choose_segments(const Profile& profile, double tolerance_mm,
 /// Several pieces are an error unless allowed; the message names the first rings that part.
 Result<void> check_pieces(const std::vector<PieceShape>& shapes, bool allow_pieces);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline job

@@ -14,7 +14,7 @@
 #include <string>
 #include <utility>
 
-namespace clay::solid {
+namespace clay::solid::inline job {
 namespace {
 
 Result<void> check_sound(const TriangleMesh& mesh, const std::string& name) {
@@ -178,4 +178,4 @@ Result<FileReport> RevolveFiles::finish(MeshFormat format, SolidCertificate cert
   return report;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline job

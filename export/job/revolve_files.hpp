@@ -5,17 +5,17 @@
 #include "claystack/export/formats.hpp"
 #include "claystack/export/job.hpp"
 #include "export/job/stages.hpp"
-#include "export/solid/revolve_rule.hpp"
+#include "export/solid/revolve_layout.hpp"
 
 #include <optional>
 #include <string>
 
-namespace clay::solid {
+namespace clay::solid::inline job {
 
 class RevolveFiles {
  public:
   /// `claims` are those before any rounding.
-  RevolveFiles(const RevolveRule& rule, const SolidCertificate& claims,
+  RevolveFiles(const RevolveLayout& rule, const SolidCertificate& claims,
                const ExportOptions& options, Stages& stages)
       : rule_(rule), claims_(claims), options_(options), stages_(stages) {}
 
@@ -36,7 +36,7 @@ class RevolveFiles {
                                    const std::string& bytes, FileStore& store);
   Result<FileReport> finish(MeshFormat format, SolidCertificate certificate, FileStore& store);
 
-  const RevolveRule& rule_;
+  const RevolveLayout& rule_;
   const SolidCertificate& claims_;
   const ExportOptions& options_;
   Stages& stages_;
@@ -44,4 +44,4 @@ class RevolveFiles {
   std::optional<Result<void>> exact_;  ///< verdict on the mesh in float32, once asked for
 };
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline job

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline job {
 namespace {
 
 Quanta times(Quanta count, double factor) {
@@ -62,4 +62,4 @@ Result<Pot> enlarged(const Pot& pot, double shrinkage) {
       });
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline job

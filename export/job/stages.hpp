@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline job {
 
 /// Runs stages, tells of each as it begins and adds up its time under its name. A stage does not
 /// begin once the job is no longer wanted.
@@ -40,4 +40,4 @@ class Stages {
   const std::function<void(std::string_view)>& progress_;
 };
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline job

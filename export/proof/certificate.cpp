@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline proof {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -249,4 +249,4 @@ Result<PlanarCertificate> certify(const Profile& profile) {
   return certificate;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline proof

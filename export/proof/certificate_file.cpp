@@ -9,7 +9,7 @@
 #include <functional>
 #include <utility>
 
-namespace clay::solid {
+namespace clay::solid::inline proof {
 namespace {
 
 constexpr const char* kSchema = "claystack-certificate-1";
@@ -160,4 +160,4 @@ Result<SolidCertificate> parse_certificate(std::string_view bytes, std::string_v
       });
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline proof

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline proof {
 namespace {
 
 /// A vertex of the rule; sector 0 for poles.
@@ -40,7 +40,7 @@ struct Parallel {
 /// float32, so that files which hold just these are matched however close the vertices lie.
 class VertexFinder {
  public:
-  VertexFinder(const RevolveRule& rule, double reach_mm)
+  VertexFinder(const RevolveLayout& rule, double reach_mm)
       : rule_(rule), reach_(reach_mm), rounding_(2.0 * float_rounding_mm(rule)) {
     const double factor = equal_area_factor(rule.segments());
     for (std::uint32_t shell = 0; shell < rule.shells().size(); ++shell) {
@@ -115,7 +115,7 @@ class VertexFinder {
     if (std::abs(beyond) - rounding_ < search.away) seek(search, beyond < 0.0 ? above : below);
   }
 
-  const RevolveRule& rule_;
+  const RevolveLayout& rule_;
   double reach_;
   double rounding_;  ///< more than a vertex moves when it becomes float32
   std::vector<Parallel> parallels_;
@@ -125,7 +125,7 @@ class VertexFinder {
 /// Ticks off the triangles of the rule.
 class Roll {
  public:
-  explicit Roll(const RevolveRule& rule) : rule_(rule) {
+  explicit Roll(const RevolveLayout& rule) : rule_(rule) {
     std::size_t next = 0;
     for (const Shell& shell : rule.shells()) {
       std::vector<std::size_t>& band_of = band_from_.emplace_back(shell.points.size(), kNone);
@@ -171,7 +171,7 @@ class Roll {
     return first_[c[0].shell] + 2 * (b * rule_.segments() + s) + (upper ? 1 : 0);
   }
 
-  const RevolveRule& rule_;
+  const RevolveLayout& rule_;
   std::vector<std::vector<std::size_t>> band_from_;  ///< by shell and point
   std::vector<std::size_t> first_;                   ///< place of a shell's first triangle
   std::vector<bool> present_;
@@ -179,8 +179,8 @@ class Roll {
 
 }  // namespace
 
-Result<double> match_revolve(const TriangleMesh& decoded, const RevolveRule& rule, double reach_mm,
-                             std::string_view name) {
+Result<double> match_revolve(const TriangleMesh& decoded, const RevolveLayout& rule,
+                             double reach_mm, std::string_view name) {
   const auto wrong = [&](const std::string& what) {
     return failure(ErrorKind::unsound, std::string(name).append(": ").append(what));
   };
@@ -213,4 +213,4 @@ Result<double> match_revolve(const TriangleMesh& decoded, const RevolveRule& rul
   return finder.farthest();
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline proof

@@ -8,7 +8,7 @@
 #include "export/check/describe.hpp"
 #include "export/proof/revolve_match.hpp"
 #include "export/proof/rounded_claims.hpp"
-#include "export/solid/revolve_rule.hpp"
+#include "export/solid/revolve_layout.hpp"
 #include "export/walls/clearance.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 #include <exception>
 #include <numbers>
 
-namespace clay::solid {
+namespace clay::solid::inline proof {
 namespace {
 
 constexpr std::size_t kFewestSegmentsWithMargins = 8;
@@ -42,7 +42,7 @@ ContentHash hash_of_profile(const Profile& profile) {
 /// Moving every vertex by `rounding` along straight lines, the volume changes at a rate of at most
 /// `rounding` times the area; and an area |u x v| / 2 grows by at most
 /// rounding (|u| + |v|) + 2 rounding^2, since either edge grows by at most twice the rounding.
-double volume_bound(const RevolveRule& rule, double rounding) {
+double volume_bound(const RevolveLayout& rule, double rounding) {
   const auto n = static_cast<double>(rule.segments());
   const double chord_per_radius =
       2.0 * equal_area_factor(rule.segments()) * std::sin(std::numbers::pi / n);
@@ -144,7 +144,7 @@ Result<Margins> same_claims(const SolidCertificate& stated, std::string_view fil
 
 Result<void> same_solid(const SolidCertificate& stated, const Margins& margins,
                         const TriangleMesh& decoded, std::string_view file) {
-  const RevolveRule rule(stated.profile, stated.segments);
+  const RevolveLayout rule(stated.profile, stated.segments);
   if (const auto matched = match_revolve(decoded, rule, stated.rounding_mm, file); !matched)
     return tl::make_unexpected(matched.error());
   if (stated.proof == Proof::margins) {
@@ -191,10 +191,10 @@ SolidCertificate claims_of(const Profile& profile, std::size_t segments, double 
   claims.wall_upper_mm = wall * equal_area_factor(segments) / at_facets;
   claims.volume_mm3 = volume_of(profile);
   claims.counted_volume_mm3 = claims.volume_mm3;
-  return with_rounding(std::move(claims), RevolveRule(profile, segments), rounding_mm);
+  return with_rounding(std::move(claims), RevolveLayout(profile, segments), rounding_mm);
 }
 
-SolidCertificate with_rounding(SolidCertificate claims, const RevolveRule& rule,
+SolidCertificate with_rounding(SolidCertificate claims, const RevolveLayout& rule,
                                double rounding_mm) {
   claims.rounding_mm = rounding_mm;
   claims.wall_lower_mm = std::max(0.0, claims.wall_lower_mm - 2.0 * rounding_mm);
@@ -222,4 +222,4 @@ Result<void> verify_certificate(const SolidCertificate& certificate, std::string
   return failure(ErrorKind::io, std::string(file_name) + ": verification given up: " + e.what());
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline proof

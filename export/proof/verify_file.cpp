@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-namespace clay::solid {
+namespace clay::solid::inline proof {
 namespace {
 
 /// Largest move of a corner [mm] in formats that keep the order of triangles and corners.
@@ -60,4 +60,4 @@ Result<double> verify_file(std::string_view bytes, MeshFormat format, const Tria
   return moved;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline proof

@@ -7,7 +7,7 @@
 
 #include <string_view>
 
-namespace clay::solid {
+namespace clay::solid::inline proof {
 
 /// What float32 may move a vertex [mm]: half an ulp of each coordinate, 2^-24 of it at most.
 [[nodiscard]] double float_rounding_mm(const TriangleMesh& mesh) noexcept;
@@ -18,4 +18,4 @@ namespace clay::solid {
 Result<double> verify_file(std::string_view bytes, MeshFormat format, const TriangleMesh& mesh,
                            double allowed_mm);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline proof

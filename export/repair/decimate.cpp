@@ -13,7 +13,7 @@
 #include <cmath>
 #include <exception>
 
-namespace clay::solid {
+namespace clay::solid::inline repair {
 namespace {
 
 namespace om = OpenMesh::Decimater;
@@ -122,4 +122,4 @@ Result<DecimatedMesh> decimate(const TriangleMesh& sound_mesh, std::size_t max_t
   return failure(ErrorKind::unsound, std::string("decimation gave up: ") + e.what());
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline repair

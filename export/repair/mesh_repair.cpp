@@ -20,7 +20,7 @@
 #include <exception>
 #include <iterator>
 
-namespace clay::solid {
+namespace clay::solid::inline repair {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
@@ -215,7 +215,7 @@ Result<RepairedMesh> repair_unsound(const TriangleMesh& mesh) {
 
 }  // namespace
 
-Result<RepairedMesh> repair(const TriangleMesh& mesh) try {
+Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh) try {
   if (check_mesh(mesh).sound()) return RepairedMesh{mesh, {}};
   if (mesh.triangles.empty() || mesh.triangles.size() > kMaxTriangles)
     return failure(ErrorKind::unsound, "expected 1 to " + std::to_string(kMaxTriangles) +
@@ -226,4 +226,4 @@ Result<RepairedMesh> repair(const TriangleMesh& mesh) try {
   return failure(ErrorKind::unsound, std::string("repair gave up: ") + e.what());
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline repair

@@ -11,7 +11,7 @@
 #include <span>
 #include <tuple>
 
-namespace clay::solid {
+namespace clay::solid::inline repair {
 namespace {
 
 std::uint32_t narrow(std::size_t n) { return static_cast<std::uint32_t>(n); }
@@ -286,4 +286,4 @@ void clean_soup(TriangleMesh& mesh, std::vector<Repair>& repaired) {
   drop_unused_points(mesh);
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline repair

@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-namespace clay::solid {
+namespace clay::solid::inline repair {
 
 /// One entry for each kind, none for a count of 0.
 void note_repair(std::vector<Repair>& repaired, std::string_view what, std::size_t count);
@@ -17,4 +17,4 @@ void drop_unused_points(TriangleMesh& mesh);
 /// same; takes fins off. Points that no triangle uses go too.
 void clean_soup(TriangleMesh& mesh, std::vector<Repair>& repaired);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline repair

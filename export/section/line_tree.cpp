@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace clay::solid {
+namespace clay::solid::inline section {
 namespace {
 
 constexpr std::size_t kLeafEdges = 4;
@@ -130,4 +130,4 @@ double LineTree::nearest2(const LineTree& other, double bound2) const {
   return bound2;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline section

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline section {
 
 struct LineEdge {
   ProfilePoint from, to;
@@ -47,4 +47,4 @@ class LineTree {
   std::vector<std::vector<Box>> levels_;  ///< [0] are the leaves, the last is the root
 };
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline section

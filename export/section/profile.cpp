@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-namespace clay::solid {
+namespace clay::solid::inline section {
 namespace {
 
 tl::unexpected<Error> touching_in_a_circle(const ClayStack& stack, std::size_t upper) {
@@ -81,4 +81,4 @@ double volume_of(const Profile& profile) noexcept {
   return sum.value();
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline section

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace clay::solid {
+namespace clay::solid::inline section {
 namespace {
 
 /// A line right of the axis and its mirror image, joined into one outline.
@@ -128,4 +128,4 @@ std::vector<Outline> ghosts_of(const Pot& pot) {
   return ghosts;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline section

@@ -6,7 +6,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline section {
 
 using Outline = std::vector<glm::dvec2>;  // (right, up) in mm, seen along the cut
 
@@ -24,4 +24,4 @@ struct SectionBody {
 /// quarter of the energy was lost: outlines. None where the fall is not known.
 [[nodiscard]] std::vector<Outline> ghosts_of(const Pot& pot);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline section

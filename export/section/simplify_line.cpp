@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace clay::solid {
+namespace clay::solid::inline section {
 namespace {
 
 /// How far past the last point that would do the search goes on, beyond the length found so far:
@@ -103,4 +103,4 @@ Polygon without_straight_points(const Polygon& line) {
   return result;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline section

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline section {
 
 /// The line without the points that it can spare: every point left out lies within its own
 /// tolerance [mm] of the edge that stands for it. Both ends and points of tolerance 0 stay.
@@ -15,4 +15,4 @@ namespace clay::solid {
 /// Without the points between two others of the very same radius.
 [[nodiscard]] Polygon without_straight_points(const Polygon& line);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline section

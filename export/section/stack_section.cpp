@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace clay::solid {
+namespace clay::solid::inline section {
 namespace {
 
 using Radius = double (Ring::*)() const noexcept;
@@ -119,4 +119,4 @@ std::vector<Chain> chains_of(const Polygon& polygon) {
   return chains;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline section

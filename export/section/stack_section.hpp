@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline section {
 
 /// The rings `first` to `last`, both included.
 struct RingRange {
@@ -45,4 +45,4 @@ struct Chain {
 };
 [[nodiscard]] std::vector<Chain> chains_of(const Polygon& polygon);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline section

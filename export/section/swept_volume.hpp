@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <numbers>
 
-namespace clay::solid {
+namespace clay::solid::inline section {
 
 /// Volume [mm^3] between a line of points and the axis, swept once round: a frustum for each
 /// edge, positive upward (Green's theorem: V = pi times the integral of rho^2 dy).
@@ -20,4 +20,4 @@ namespace clay::solid {
   return sum.value() * std::numbers::pi / 3.0;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline section

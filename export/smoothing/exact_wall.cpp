@@ -9,7 +9,7 @@
 #include <numbers>
 #include <optional>
 
-namespace clay::solid {
+namespace clay::solid::inline smoothing {
 namespace {
 
 constexpr std::size_t kFrusta = 4;
@@ -182,4 +182,4 @@ ExactWall exact_wall(const PieceWalls& piece, const WallRings& wall, CutFlags& c
   return ExactWallMaker(piece, wall, cut).run(overshoot_limit_mm);
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline smoothing

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline smoothing {
 
 /// An interface that became a cut since a ring beside it would have overshot.
 struct OvershootCut {
@@ -32,4 +32,4 @@ struct ExactWall {
 [[nodiscard]] ExactWall exact_wall(const PieceWalls& piece, const WallRings& wall, CutFlags& cut,
                                    double overshoot_limit_mm);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline smoothing

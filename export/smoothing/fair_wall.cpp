@@ -3,7 +3,7 @@
 #include "core/cancel.hpp"
 #include "export/section/simplify_line.hpp"
 
-namespace clay::solid {
+namespace clay::solid::inline smoothing {
 
 Polygon fair_wall(const PieceWalls& piece, const WallRings& wall, const CutFlags& cut,
                   const std::vector<double>& tolerances_mm) {
@@ -33,4 +33,4 @@ Polygon stepped_wall(const PieceWalls& piece, const WallRings& wall) {
   return without_straight_points(line);
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline smoothing

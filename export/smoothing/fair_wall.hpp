@@ -1,7 +1,7 @@
 #pragma once
 #include "export/smoothing/piece_walls.hpp"
 
-namespace clay::solid {
+namespace clay::solid::inline smoothing {
 
 /// A wall from the bottom up: within every run straight to the middle of its first ring, from
 /// middle to middle, and straight to its end, so that at each height the radius is a mean of two
@@ -13,4 +13,4 @@ namespace clay::solid {
 /// The steps as they are.
 [[nodiscard]] Polygon stepped_wall(const PieceWalls& piece, const WallRings& wall);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline smoothing

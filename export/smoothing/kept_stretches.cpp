@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace clay::solid {
+namespace clay::solid::inline smoothing {
 namespace {
 constexpr double kNotKept = std::numeric_limits<double>::infinity();
 }
@@ -39,4 +39,4 @@ void KeptStretches::report(KeptFor reason, const std::vector<double>& walls_mm,
   }
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline smoothing

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline smoothing {
 
 /// The interfaces of a piece that became cuts for one reason, gathered into stretches.
 class KeptStretches {
@@ -29,4 +29,4 @@ class KeptStretches {
   std::vector<double> least_;  ///< by interface; infinite where nothing was kept
 };
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline smoothing

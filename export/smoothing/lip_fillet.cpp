@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace clay::solid {
+namespace clay::solid::inline smoothing {
 namespace {
 
 constexpr double kShrink = 0.9;      ///< of the radius, until the arcs fit
@@ -104,4 +104,4 @@ double largest_fillet_mm(const PieceWalls& piece, const Cuts& cuts, const WallLi
   return kHalf * std::min(width, piece.level.back() - piece.level[run]);
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline smoothing

@@ -1,7 +1,7 @@
 #pragma once
 #include "export/smoothing/wall_guard.hpp"
 
-namespace clay::solid {
+namespace clay::solid::inline smoothing {
 
 /// Both edges of the lip rounded by arcs that touch the top and the wall (at a bend of the wall,
 /// the bend), sampled so that no chord strays from its arc by more than `tolerance_mm`. The radius
@@ -18,4 +18,4 @@ struct FilletedLip {
 [[nodiscard]] double largest_fillet_mm(const PieceWalls& piece, const Cuts& cuts,
                                        const WallLines& lines);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline smoothing

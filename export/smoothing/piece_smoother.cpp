@@ -14,7 +14,7 @@
 #include <limits>
 #include <utility>
 
-namespace clay::solid {
+namespace clay::solid::inline smoothing {
 namespace {
 
 constexpr int kFilletRounds = 6;
@@ -214,4 +214,4 @@ SmoothedPiece smooth_piece(const PieceWalls& piece, const SmoothingOptions& opti
   return PieceSmoother(piece, options).run();
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline smoothing

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline smoothing {
 
 struct SmoothedPiece {
   Polygon section;
@@ -18,4 +18,4 @@ struct SmoothedPiece {
 /// One piece as `smooth_profile_of` says, `fair` or `exact`. Only the topmost piece has a lip.
 [[nodiscard]] SmoothedPiece smooth_piece(const PieceWalls& piece, const SmoothingOptions& options);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline smoothing

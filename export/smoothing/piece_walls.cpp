@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace clay::solid {
+namespace clay::solid::inline smoothing {
 namespace {
 
 constexpr double kFeatureRatio = 6.0;
@@ -94,4 +94,4 @@ Cuts corners_of(const PieceWalls& piece) {
   return {corners_of(piece, piece.outer), corners_of(piece, piece.bore)};
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline smoothing

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline smoothing {
 
 /// One wall of a piece, ring by ring from the bottom.
 struct WallRings {
@@ -56,4 +56,4 @@ void for_each_run(const CutFlags& cut, Visit visit) {
     if (cut[end] != 0) visit(first, end), first = end;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline smoothing

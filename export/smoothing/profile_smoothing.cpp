@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-namespace clay::solid {
+namespace clay::solid::inline smoothing {
 namespace {
 
 /// The error, or nothing.
@@ -113,4 +113,4 @@ Result<SmoothedProfile> smooth_profile_of(const ClayStack& stack, const Smoothin
   });
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline smoothing

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-namespace clay::solid {
+namespace clay::solid::inline smoothing {
 namespace {
 constexpr char kMaxRefinement = 4;
 constexpr double kRefinementRatio = 0.125;
@@ -138,4 +138,4 @@ bool SmoothingPlan::keep_jumps(double excess_over_pi, double moved_mm) {
   return !jumps.empty();
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline smoothing

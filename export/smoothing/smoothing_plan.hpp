@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline smoothing {
 
 /// A ring whose smoothed wall is thinner than it may be.
 struct ThinRing {
@@ -60,4 +60,4 @@ class SmoothingPlan {
   KeptStretches thinned_, jumps_;
 };
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline smoothing

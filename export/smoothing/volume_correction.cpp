@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace clay::solid {
+namespace clay::solid::inline smoothing {
 
 double swept_over_pi(const Polygon& line) noexcept {
   CompensatedSum sum;
@@ -42,4 +42,4 @@ double scale(Polygon& line, const std::vector<double>& weights, double share) no
   return most;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline smoothing

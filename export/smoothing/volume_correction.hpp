@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline smoothing {
 
 /// Integral of rho^2 dy along a line from the bottom up [mm^3]: the volume it sweeps, over pi.
 [[nodiscard]] double swept_over_pi(const Polygon& line) noexcept;
@@ -17,4 +17,4 @@ namespace clay::solid {
 /// rho (1 + weight share) for every point; the largest move [mm] is returned.
 double scale(Polygon& line, const std::vector<double>& weights, double share) noexcept;
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline smoothing

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace clay::solid {
+namespace clay::solid::inline smoothing {
 namespace {
 
 /// Heights where clay reaches the axis.
@@ -157,4 +157,4 @@ std::vector<double> walls_by_ring_mm(const PieceWalls& piece, const WallLines& l
   return walls;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline smoothing

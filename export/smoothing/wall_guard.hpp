@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline smoothing {
 
 /// A wall counts as thinner than another below this ratio: what rounding may do.
 inline constexpr double kWallRounding = 1.0 - 1e-9;
@@ -37,4 +37,4 @@ using RingFlags = std::vector<char>;
 [[nodiscard]] std::vector<double> walls_by_ring_mm(const PieceWalls& piece, const WallLines& lines,
                                                    double cap_mm, const RingFlags& rings);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline smoothing

@@ -1,7 +1,7 @@
 #include "claystack/export/solid.hpp"
 
 #include "core/cancel.hpp"
-#include "export/solid/revolve_rule.hpp"
+#include "export/solid/revolve_layout.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ struct Parallel {
 
 class Revolution {
  public:
-  explicit Revolution(const RevolveRule& rule) : rule_(rule) {
+  explicit Revolution(const RevolveLayout& rule) : rule_(rule) {
     const std::size_t triangles = rule.triangles();
     mesh_.triangles.reserve(triangles);
     // Euler: a shell of T triangles has T/2 + 2 vertices, or T/2 where it is a torus.
@@ -34,7 +34,7 @@ class Revolution {
   TriangleMesh take() { return std::move(mesh_); }
 
  private:
-  /// Poles last, for the sums in float32 that RevolveRule speaks of.
+  /// Poles last, for the sums in float32 that RevolveLayout speaks of.
   void add_shell(const Shell& shell) {
     std::vector<Parallel> parallels(shell.points.size());
     for (const bool pole : {false, true})
@@ -62,7 +62,7 @@ class Revolution {
     if (!b.pole) mesh_.triangles.push_back({a.at(next), b.at(next), b.at(s)});
   }
 
-  const RevolveRule& rule_;
+  const RevolveLayout& rule_;
   TriangleMesh mesh_;
 };
 
@@ -78,10 +78,10 @@ std::size_t triangle_count(const Profile& profile, std::size_t segments) noexcep
   return strips * segments;
 }
 
-TriangleMesh revolve(const RevolveRule& rule) { return Revolution(rule).take(); }
+TriangleMesh revolve(const RevolveLayout& rule) { return Revolution(rule).take(); }
 
 TriangleMesh revolve(const Profile& profile, std::size_t segments) {
-  return revolve(RevolveRule(profile, segments));
+  return revolve(RevolveLayout(profile, segments));
 }
 
 double chordal_error_mm(double radius_mm, std::size_t segments) noexcept {

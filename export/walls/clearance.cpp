@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace clay::solid {
+namespace clay::solid::inline walls {
 namespace {
 
 struct Corner {
@@ -112,4 +112,4 @@ double clearance_mm(const Profile& profile, double rho_scale) {
   return clearance(profile, rho_scale).distance_mm;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline walls

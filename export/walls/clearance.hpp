@@ -3,7 +3,7 @@
 
 #include "claystack/export/section.hpp"
 
-namespace clay::solid {
+namespace clay::solid::inline walls {
 
 struct Clearance {
   /// No more than the distance between any vertex and any edge, of any piece, that it does not
@@ -31,4 +31,4 @@ struct Clearance {
 /// `clearance(profile, rho_scale).distance_mm`.
 [[nodiscard]] double clearance_mm(const Profile& profile, double rho_scale = 1.0);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline walls

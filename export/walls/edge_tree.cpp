@@ -6,7 +6,7 @@
 #include <numbers>
 #include <span>
 
-namespace clay::solid {
+namespace clay::solid::inline walls {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -205,4 +205,4 @@ EdgeNode EdgeTree::joined(const EdgeNode& a, const EdgeNode& b) const {
   return node;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline walls

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline walls {
 
 using Vec2 = glm::dvec2;  ///< (rho, y) [mm]
 
@@ -149,4 +149,4 @@ void search_pairs(const EdgeTree& tree, Search& search, std::size_t a = 0, std::
   go(far, far_bound);
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline walls

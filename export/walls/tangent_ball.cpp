@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-namespace clay::solid {
+namespace clay::solid::inline walls {
 namespace {
 
 /// Across the axis: how far the outside of a solid may lean, by cosine and tangent.
@@ -212,4 +212,4 @@ Ball AxisClay::ball_at(const Vec2& p, const Face& face) const {
   return least_ball(place);
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline walls

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline walls {
 
 struct Ball {
   double diameter = std::numeric_limits<double>::infinity();
@@ -134,4 +134,4 @@ class AxisClay {
   std::vector<Stretch> stretches_;  ///< from the bottom up
 };
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline walls

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace clay::solid {
+namespace clay::solid::inline walls {
 namespace {
 
 /// Which edges of a polygon are what. Counterclockwise, the outer wall runs from the outermost of
@@ -116,4 +116,4 @@ std::vector<WallSample> wall_field(const Profile& profile, double spacing_mm) {
   return Field(profile, spacing_mm).run();
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline walls

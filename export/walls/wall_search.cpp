@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace clay::solid {
+namespace clay::solid::inline walls {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -97,4 +97,4 @@ void PlaceSearch::leaves(const EdgeNode&, const EdgeNode& leaf) {
   }
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline walls

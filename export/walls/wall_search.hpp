@@ -3,7 +3,7 @@
 
 #include "export/walls/tangent_ball.hpp"
 
-namespace clay::solid {
+namespace clay::solid::inline walls {
 
 /// Of all pairs of faces of the same piece.
 class WallSearch {
@@ -44,4 +44,4 @@ class PlaceSearch {
   Ball least_;
 };
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline walls

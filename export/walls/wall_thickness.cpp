@@ -2,7 +2,7 @@
 
 #include "export/walls/wall_search.hpp"
 
-namespace clay::solid {
+namespace clay::solid::inline walls {
 
 Wall min_wall(const Profile& profile, double rho_scale) {
   const EdgeTree tree(profile, rho_scale);
@@ -17,4 +17,4 @@ Wall min_wall(const Profile& profile, double rho_scale) {
 
 double min_wall_mm(const Profile& profile) { return min_wall(profile).thickness_mm; }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline walls

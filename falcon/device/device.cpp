@@ -1,6 +1,6 @@
 #include "claystack/falcon/device.hpp"
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 
 std::string_view name_of(DeviceFault fault) noexcept {
   switch (fault) {
@@ -50,4 +50,4 @@ std::string_view name_of(DeviceState state) noexcept {
   return "unknown";
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 namespace {
 
 constexpr double kMmPerM = 1e3;
@@ -230,4 +230,4 @@ DeviceCounters FalconDevice::counters() const noexcept {
   return counters;
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 namespace {
 
 constexpr std::string_view kGreeting = "\x0A\x43\x0D";
@@ -205,4 +205,4 @@ void FalconModel::answer_frame(double dt_s, Answer& answer) {
   answer.add(bytes.subspan(kMiddle + (lost ? 1 : 0)));
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

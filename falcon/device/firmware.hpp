@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 
 /// A boot stream that is whole.
 struct Firmware {
@@ -45,4 +45,4 @@ struct Firmware {
 [[nodiscard]] DeviceResult<void> load_firmware(Transport& line, const Firmware& firmware,
                                                int attempts = 10);
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

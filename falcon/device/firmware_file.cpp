@@ -8,7 +8,7 @@
 #include <memory>
 #include <optional>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 namespace {
 
 constexpr std::uint32_t kKeyOfBytes = 0x08AA;
@@ -141,4 +141,4 @@ DeviceResult<Firmware> read_firmware(const std::string& path) {
   return parse_firmware(std::move(bytes), path);
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

@@ -4,7 +4,7 @@
 #include <array>
 #include <functional>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 namespace {
 
 constexpr std::array<std::uint8_t, 3> kGreeting = {0x0A, 0x43, 0x0D};
@@ -119,4 +119,4 @@ DeviceResult<void> load_firmware(Transport& line, const Firmware& firmware, int 
   return tried(attempts, [&] { return load_once(line, firmware); });
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 namespace {
 
 constexpr std::uint8_t kBegin = '<';
@@ -99,4 +99,4 @@ std::optional<StateFrame> FrameReader::next(std::span<const std::uint8_t>& bytes
   return std::nullopt;
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

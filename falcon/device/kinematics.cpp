@@ -10,7 +10,7 @@
 #include <limits>
 #include <numbers>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 namespace {
 
 constexpr int kLegs = 3;
@@ -175,4 +175,4 @@ MotorCounts motor_counts(const glm::dvec3& torques_nm, double counts_per_nm) noe
   return {to_counts(glm::round(rendered * asked)), rendered};
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

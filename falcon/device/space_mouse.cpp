@@ -4,7 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 namespace {
 
 constexpr std::uint16_t kLogitech = 0x046d, k3Dconnexion = 0x256f;
@@ -90,4 +90,4 @@ void RateControl::advance(const glm::dvec3& deflection, std::int64_t now_us) noe
       glm::clamp(position_mm_ + step, -settings_.half_workspace_mm, settings_.half_workspace_mm);
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

@@ -2,7 +2,7 @@
 
 #include <time.h>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 
 std::int64_t monotonic_us() noexcept {
   timespec now{};
@@ -12,4 +12,4 @@ std::int64_t monotonic_us() noexcept {
 
 std::int64_t Transport::now_us() const noexcept { return monotonic_us(); }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

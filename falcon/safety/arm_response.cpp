@@ -3,7 +3,7 @@
 #include <array>
 #include <glm/geometric.hpp>
 
-namespace clay::falcon {
+namespace clay::falcon::inline safety {
 namespace {
 
 // With g t <= 1/4 and k t^2 <= 1/16 the terms left out are below 2^-53 of the first.
@@ -91,4 +91,4 @@ ArmResponse arm_response(double decay_per_s, double spring_per_s2, double time_s
   return response;
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline safety

@@ -6,7 +6,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-namespace clay::falcon {
+namespace clay::falcon::inline safety {
 
 /// What a velocity w and an acceleration a become: pairs are the factors of (w, a).
 struct ArmResponse {
@@ -19,4 +19,4 @@ struct ArmResponse {
 /// `decay_per_s` is g = damping / mass, `spring_per_s2` is k = stiffness / mass, both >= 0.
 ArmResponse arm_response(double decay_per_s, double spring_per_s2, double time_s) noexcept;
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline safety

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-namespace clay::falcon {
+namespace clay::falcon::inline safety {
 namespace {
 
 constexpr double kDoubtfulSteps = 4.0;
@@ -141,4 +141,4 @@ void EnergyObserver::forgive() noexcept {
   given_before_ = {};
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline safety

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace clay::falcon {
+namespace clay::falcon::inline safety {
 namespace {
 
 bool mends_itself(SafeCause cause) {
@@ -185,4 +185,4 @@ bool ForceGuard::rearm() noexcept {
   return true;
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline safety

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace clay::falcon {
+namespace clay::falcon::inline safety {
 
 enum GuardRule : std::uint32_t {
   kRuleFinite = 1u << 0,
@@ -52,4 +52,4 @@ inline constexpr NamedGuardRule kGuardRules[] = {
     {kRuleStop, "stop is for good"},
 };
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline safety

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-namespace clay::falcon {
+namespace clay::falcon::inline safety {
 namespace {
 
 // Of a norm that is cut, so that no rounding on the way carries it over the limit.
@@ -120,4 +120,4 @@ bool HeatLimit::fade_out(double fading_s, double fade_s) noexcept {
   return true;
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline safety

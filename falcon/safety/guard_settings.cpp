@@ -1,6 +1,6 @@
 #include "claystack/falcon/guard.hpp"
 
-namespace clay::falcon {
+namespace clay::falcon::inline safety {
 
 tl::expected<void, OutOfRange> check(const GuardSettings& s) noexcept {
   constexpr double kTiny = 1e-3;  // of a force [N] or the length of a fade [s]
@@ -29,4 +29,4 @@ tl::expected<void, OutOfRange> check(const GuardSettings& s) noexcept {
   return {};
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline safety

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-namespace clay::falcon {
+namespace clay::falcon::inline safety {
 namespace {
 
 // One debt may be a slip; a few, with no good while between them, are a rattle.
@@ -147,4 +147,4 @@ void PassivityController::send(const glm::dvec3& force_n) noexcept {
   oldest_ = (oldest_ + 1) % length;
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline safety

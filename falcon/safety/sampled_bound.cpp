@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-namespace clay::falcon {
+namespace clay::falcon::inline safety {
 namespace {
 
 constexpr int kMostDelay = 8;
@@ -156,4 +156,4 @@ tl::expected<void, StiffnessTooHigh> check_stiffness(const SampledLoop& loop,
   return tl::make_unexpected(StiffnessTooHigh{stiffness_n_per_m, highest, rate});
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline safety

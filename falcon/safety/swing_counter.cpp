@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace clay::falcon {
+namespace clay::falcon::inline safety {
 
 SwingCounter::SwingCounter(int limit, double window_s, double least_n) noexcept
     : limit_(static_cast<std::size_t>(limit)), window_s_(window_s), least_n_(least_n) {}
@@ -24,4 +24,4 @@ bool SwingCounter::swings_too_often(double time_s, const glm::dvec3& force_n) no
   return count_ >= limit_ && time_s - first <= window_s_;
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline safety

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace clay::falcon {
+namespace clay::falcon::inline sim {
 namespace {
 
 // A tick sees a few reversals at most; the rest of a chatter is spent stuck.
@@ -108,4 +108,4 @@ void move(const ArmAxis& axis, double force_n, double intended_m_s, AxisState& s
     slide(axis, axis.response, force_n, intended_m_s, axis.period_s, state);
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline sim

@@ -1,7 +1,7 @@
 #pragma once
 #include "falcon/safety/arm_response.hpp"
 
-namespace clay::falcon {
+namespace clay::falcon::inline sim {
 
 /// One axis: what moves it, and the response over its whole period.
 struct ArmAxis {
@@ -33,4 +33,4 @@ struct AxisState {
 /// One period under a constant force, the hand's point moving at constant speed.
 void move(const ArmAxis& axis, double force_n, double intended_m_s, AxisState& state) noexcept;
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline sim

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 
-namespace clay::falcon {
+namespace clay::falcon::inline sim {
 namespace {
 
 // Latency timer and two frames at 1.5 Mbaud, rounded to what a Falcon is known to keep.
@@ -107,4 +107,4 @@ void LoopbackTransport::write_last(std::span<const std::uint8_t> bytes) noexcept
   let_go(held);
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline sim

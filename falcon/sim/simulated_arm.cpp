@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-namespace clay::falcon {
+namespace clay::falcon::inline sim {
 
 struct SimulatedArm::Coefficients {
   std::array<ArmAxis, 3> axes;
@@ -120,4 +120,4 @@ double SimulatedArm::kinetic_energy_j() const noexcept {
   return 0.5 * spec_.loop.mass_kg * glm::dot(velocity_, velocity_);
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline sim

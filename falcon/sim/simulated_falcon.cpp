@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-namespace clay::falcon {
+namespace clay::falcon::inline sim {
 namespace {
 
 constexpr double kMPerMm = 1e-3;
@@ -102,4 +102,4 @@ DeviceResult<SimulatedFalcon> make_simulated_falcon(const SimulatedSettings& set
   return simulated;
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline sim

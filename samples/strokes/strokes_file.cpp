@@ -191,7 +191,7 @@ Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name)
     return failure(ErrorKind::bad_input, std::string(name) + ": " + message);
   };
   constexpr std::size_t kMostValues = 1'000'000;
-  const auto document = files::LocatedJson::from_json(text, name, kMostValues);
+  const auto document = LocatedJson::from_json(text, name, kMostValues);
   if (!document) return tl::make_unexpected(document.error());
   try {
     StrokeScript script;

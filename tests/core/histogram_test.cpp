@@ -22,15 +22,15 @@ rc::Gen<std::int64_t> any_time() {
   });
 }
 
-TimingHistogram histogram_of(const std::vector<std::int64_t>& times) {
-  TimingHistogram histogram;
+Histogram histogram_of(const std::vector<std::int64_t>& times) {
+  Histogram histogram;
   for (const std::int64_t time : times) histogram.add(time);
   return histogram;
 }
 
-RC_GTEST_PROP(TimingHistogram, TellsQuantilesWithinItsError, ()) {
+RC_GTEST_PROP(Histogram, TellsQuantilesWithinItsError, ()) {
   auto times = *rc::gen::nonEmpty(rc::gen::container<std::vector<std::int64_t>>(any_time()));
-  const TimingHistogram histogram = histogram_of(times);
+  const Histogram histogram = histogram_of(times);
   std::ranges::sort(times);
   RC_ASSERT(histogram.count() == times.size());
   RC_ASSERT(histogram.least_ns() == times.front());
@@ -42,19 +42,19 @@ RC_GTEST_PROP(TimingHistogram, TellsQuantilesWithinItsError, ()) {
     const std::int64_t told = histogram.quantile_ns(part);
     RC_ASSERT(told >= true_ns);
     RC_ASSERT(static_cast<double>(told - true_ns) <=
-              TimingHistogram::kRelativeError * static_cast<double>(true_ns));
+              Histogram::kRelativeError * static_cast<double>(true_ns));
     if (true_ns < 32) RC_ASSERT(told == true_ns);
   }
 }
 
-RC_GTEST_PROP(TimingHistogram, MergesAsIfAddedTogether, ()) {
+RC_GTEST_PROP(Histogram, MergesAsIfAddedTogether, ()) {
   const auto one = *rc::gen::container<std::vector<std::int64_t>>(any_time());
   const auto other = *rc::gen::container<std::vector<std::int64_t>>(any_time());
   std::vector<std::int64_t> both = one;
   both.insert(both.end(), other.begin(), other.end());
-  TimingHistogram merged = histogram_of(one);
+  Histogram merged = histogram_of(one);
   merged.merge(histogram_of(other));
-  const TimingHistogram together = histogram_of(both);
+  const Histogram together = histogram_of(both);
   RC_ASSERT(merged.count() == both.size());
   RC_ASSERT(merged.least_ns() == together.least_ns());
   RC_ASSERT(merged.most_ns() == together.most_ns());
@@ -64,8 +64,8 @@ RC_GTEST_PROP(TimingHistogram, MergesAsIfAddedTogether, ()) {
   RC_ASSERT(std::abs(merged.mean_ns() - mean) <= 1e-12 * mean);
 }
 
-TEST(TimingHistogram, KnowsItsEnds) {
-  TimingHistogram histogram;
+TEST(Histogram, KnowsItsEnds) {
+  Histogram histogram;
   EXPECT_EQ(histogram.quantile_ns(0.5), 0);
   EXPECT_EQ(histogram.least_ns(), 0);
   EXPECT_EQ(histogram.most_ns(), 0);
@@ -83,8 +83,8 @@ TEST(TimingHistogram, KnowsItsEnds) {
   EXPECT_EQ(histogram.count(), 0u);
 }
 
-TEST(TimingHistogram, CountsFromABound) {
-  TimingHistogram histogram;
+TEST(Histogram, CountsFromABound) {
+  Histogram histogram;
   for (std::int64_t ns = 1; ns <= 1000; ++ns) histogram.add(ns * 1'000'000);
   EXPECT_EQ(histogram.count_from(0), 1000u);
   // 512 ms is no power of two in ns; its bucket begins up to a 32nd lower.

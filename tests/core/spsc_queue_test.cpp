@@ -11,8 +11,8 @@
 namespace clay::falcon {
 namespace {
 
-RC_GTEST_PROP(CommandQueue, IsAQueueThatRefusesWhenFull, ()) {
-  CommandQueue<int, 4> queue;
+RC_GTEST_PROP(SpscQueue, IsAQueueThatRefusesWhenFull, ()) {
+  SpscQueue<int, 4> queue;
   std::deque<int> model;
   int next = 0;
   for (const bool push : *rc::gen::container<std::vector<bool>>(rc::gen::arbitrary<bool>())) {
@@ -30,8 +30,8 @@ RC_GTEST_PROP(CommandQueue, IsAQueueThatRefusesWhenFull, ()) {
   }
 }
 
-TEST(CommandQueue, HoldsAsManyAsItSays) {
-  CommandQueue<int, 1> one;
+TEST(SpscQueue, HoldsAsManyAsItSays) {
+  SpscQueue<int, 1> one;
   EXPECT_TRUE(one.push(1));
   EXPECT_FALSE(one.push(2));
   EXPECT_EQ(one.pop(), 1);
@@ -45,7 +45,7 @@ struct Command {
 /// How many words were not those that were pushed.
 template <std::size_t Capacity>
 std::uint32_t wrong_words(std::uint32_t commands) {
-  CommandQueue<Command, Capacity> queue;
+  SpscQueue<Command, Capacity> queue;
   std::thread pusher([&] {
     for (std::uint32_t n = 1; n <= commands; ++n) {
       Command command;
@@ -67,7 +67,7 @@ std::uint32_t wrong_words(std::uint32_t commands) {
 }
 
 // In the shortest ring each place is written as soon as it is free.
-TEST(CommandQueue, LosesAndMixesNothingBetweenThreads) {
+TEST(SpscQueue, LosesAndMixesNothingBetweenThreads) {
   EXPECT_EQ(wrong_words<1>(5'000), 0u);
   EXPECT_EQ(wrong_words<8>(20'000), 0u);
 }

@@ -10,7 +10,7 @@
 #define CLAYSTACK_TEXT(word) CLAYSTACK_TEXT_(word)
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace clay::drawing;
+  using namespace clay::importing;
   const std::string name = "x." CLAYSTACK_TEXT(FUZZED_FORMAT);
   auto drawing = read_drawing({reinterpret_cast<const char*>(data), size}, name);
   if (!drawing) return 0;

@@ -45,7 +45,7 @@ class Hand {
   }
 
  private:
-  live::Mapping mapping_ = live::Mapping::build({}).value();
+  servo::Mapping mapping_ = servo::Mapping::build({}).value();
   double x_mm_ = kOffClayMm, goal_mm_ = kOffClayMm, step_mm_ = kMovingMm;
 };
 

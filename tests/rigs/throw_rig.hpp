@@ -37,7 +37,7 @@ inline constexpr std::uint64_t kLeadFrames = 800;
 inline Trajectory bowl_stroke() {
   const std::string path = test::sample("bowl.session");
   const Session session = parse_session(read_file(path).value(), path).value();
-  const auto mapping = live::Mapping::build({}).value();
+  const auto mapping = servo::Mapping::build({}).value();
   std::vector<glm::dvec3> places;
   for (const Pose& pose : session.poses)
     places.push_back(Kinematics::kCentreM + 1e-3 * mapping.to_device(pose.position_mm));
@@ -153,7 +153,7 @@ class ThrowRig : public testing::Test {
     const std::string path = folder_.file("s.session");
     const Session session = parse_session(test::read_text(path), path).value();
     ASSERT_GT(session.poses.size(), 500u);
-    const auto mapping = live::Mapping::build({}).value();
+    const auto mapping = servo::Mapping::build({}).value();
     for (const Pose& pose : session.poses) {
       const glm::dvec3 place_m = Kinematics::kCentreM + 1e-3 * mapping.to_device(pose.position_mm);
       const auto at = std::ranges::min_element(
@@ -171,7 +171,7 @@ class ThrowRig : public testing::Test {
     const std::string path = folder_.file("s.session");
     const Session session = parse_session(test::read_text(path), path).value();
     ASSERT_GT(session.poses.size(), 1000u);
-    const auto mapping = live::Mapping::build({}).value();
+    const auto mapping = servo::Mapping::build({}).value();
     double farthest_mm = 0.0, along = 0.0, lengths = 0.0, felt_ns = 0.0, clay_ns = 0.0;
     for (const Pose& pose : session.poses) {
       const glm::dvec3 place_m = Kinematics::kCentreM + 1e-3 * mapping.to_device(pose.position_mm);

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace clay::servo {
+namespace clay::bench {
 namespace {
 
 using falcon::ArmEnergy;
@@ -238,4 +238,4 @@ Experiment clay_experiment(const falcon::SampledLoop& loop, double step_m) {
   return e;
 }
 
-}  // namespace clay::servo
+}  // namespace clay::bench

@@ -101,9 +101,9 @@ std::vector<std::pair<std::string, std::string>> svg_files(const Report& report)
   std::vector<std::pair<std::string, std::string>> files;
   for (const Section& section : report.sections) {
     for (const Plot& plot : section.plots)
-      files.emplace_back(file_name(plot.id, ".svg"), svg_of(plot, plot::Place::alone));
+      files.emplace_back(file_name(plot.id, ".svg"), svg_of(plot, chart::Place::alone));
     for (const Map& map : section.maps)
-      files.emplace_back(file_name(map.id, ".svg"), svg_of(map, plot::Place::alone));
+      files.emplace_back(file_name(map.id, ".svg"), svg_of(map, chart::Place::alone));
   }
   return files;
 }

@@ -9,7 +9,7 @@
 namespace clay::bench {
 namespace {
 
-using plot::escaped;
+using chart::escaped;
 
 constexpr std::size_t kManyColumns = 9;
 
@@ -85,7 +85,7 @@ template <class Drawing>
 std::string figure_of(const Drawing& drawing) {
   return fmt::format("<figure id=\"{}\"><figcaption>{}</figcaption>\n{}{}</figure>\n",
                      escaped(drawing.id), escaped(drawing.title),
-                     svg_of(drawing, plot::Place::page), note_of(drawing.note));
+                     svg_of(drawing, chart::Place::page), note_of(drawing.note));
 }
 
 std::string html_of(const Section& section) {
@@ -126,7 +126,7 @@ std::string html_of(const Report& report) {
       "<meta charset=\"utf-8\"/>\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
       "<title>Claystack, measured</title>\n<style>";
-  html.append(kPageStyle).append(plot::style()).append("</style>\n</head>\n<body>\n");
+  html.append(kPageStyle).append(chart::style()).append("</style>\n</head>\n<body>\n");
   html += header_of(report);
   for (const Section& section : report.sections) html += html_of(section);
   return html + "</body>\n</html>\n";

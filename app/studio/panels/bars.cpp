@@ -19,7 +19,7 @@ void part(const std::string& text, const ImVec4& colour, bool last = false) {
   if (!last) ImGui::SameLine(0.0f, 1.6f * ImGui::GetFontSize());
 }
 
-std::string words_of_work(const Workshop& shop) {
+std::string words_of_work(const AppState& shop) {
   if (!shop.potter.has_work()) return "No clay on the wheel";
   const std::string name =
       shop.file.empty() ? shop.potter.scene().name : shop.file.filename().string();
@@ -36,7 +36,7 @@ ImVec4 colour_of(Grade grade, const Palette& colours) {
 
 float status_height() { return std::round(1.75f * ImGui::GetFontSize()); }
 
-void draw_status_bar(Workshop& shop, glm::vec2 corner_px, glm::vec2 size_px) {
+void draw_status_bar(AppState& shop, glm::vec2 corner_px, glm::vec2 size_px) {
   ImGui::SetNextWindowPos({corner_px.x, corner_px.y});
   ImGui::SetNextWindowSize({size_px.x, size_px.y});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding,
@@ -48,7 +48,7 @@ void draw_status_bar(Workshop& shop, glm::vec2 corner_px, glm::vec2 size_px) {
   const ImVec4 text = ImGui::GetStyleColorVec4(ImGuiCol_Text);
   part(words_of_work(shop), text);
   part(shop.potter.device_name(), text);
-  const live::LiveStatus& status = shop.potter.status();
+  const servo::LiveStatus& status = shop.potter.status();
   if (shop.potter.throwing())
     part(fmt::format("{:.0f} Hz", shop.potter.tick_rate_hz()), text);
   else
@@ -66,7 +66,7 @@ void draw_status_bar(Workshop& shop, glm::vec2 corner_px, glm::vec2 size_px) {
   ImGui::PopStyleVar(2);
 }
 
-void draw_banner(Workshop& shop, const ViewRect& view) {
+void draw_banner(AppState& shop, const ViewRect& view) {
   shop.notices.forget_old(1e-9 * static_cast<double>(shop.host.frame_ns()));
   const auto& notice = shop.notices.shown();
   if (!notice) return;
@@ -98,7 +98,7 @@ void draw_banner(Workshop& shop, const ViewRect& view) {
   if (closed) shop.notices.close();
 }
 
-void draw_hint(Workshop& shop, const ViewRect& view) {
+void draw_hint(AppState& shop, const ViewRect& view) {
   if (!shop.settings.hints || shop.overlay != Overlay::none || shop.potter.throwing()) return;
   const char* text =
       "Hold the left button on the clay and drag to shape it.  Middle or right button turns the "

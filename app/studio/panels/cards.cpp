@@ -7,7 +7,7 @@
 #include <imgui_stdlib.h>
 
 namespace clay::studio {
-void draw_quit_prompt(Workshop& shop, const ViewRect& view) {
+void draw_quit_prompt(AppState& shop, const ViewRect& view) {
   begin_card("##quit", view, 34.0f);
   card_title(shop, "Keep this pot?");
   ImGui::TextWrapped("It has changed since it was last saved.");
@@ -21,7 +21,7 @@ void draw_quit_prompt(Workshop& shop, const ViewRect& view) {
   ImGui::End();
 }
 
-void draw_file_box(Workshop& shop, const ViewRect& view) {
+void draw_file_box(AppState& shop, const ViewRect& view) {
   const bool saves = shop.overlay == Overlay::save_file;
   begin_card("##file", view, 40.0f);
   card_title(shop, saves ? "Save as" : "Open");

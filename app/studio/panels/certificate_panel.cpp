@@ -50,7 +50,7 @@ void remarks(const PotCheck& check, const Palette& colours, LengthUnit unit) {
 
 }  // namespace
 
-void draw_certificate(Workshop& shop) {
+void draw_certificate(AppState& shop) {
   const Palette& colours = shop.colours();
   const auto& check = shop.readings.check();
   if (shop.readings.stack() == nullptr || !check)

@@ -16,7 +16,7 @@
 namespace clay::studio {
 namespace {
 
-void act(Workshop& shop, const char* id) { run(*find_action(id), shop); }
+void act(AppState& shop, const char* id) { run(*find_action(id), shop); }
 
 void draw_formats(ExportWish& wish) {
   form_row("Files");
@@ -31,7 +31,7 @@ void draw_formats(ExportWish& wish) {
   }
 }
 
-void draw_places(Workshop& shop, ExportWish& wish) {
+void draw_places(AppState& shop, ExportWish& wish) {
   form_row("Name");
   ImGui::InputText("##name", &wish.name);
   form_row("Folder");
@@ -47,7 +47,7 @@ void draw_places(Workshop& shop, ExportWish& wish) {
                      1e-9 * static_cast<double>(shop.host.frame_ns()) + 5.0);
 }
 
-void draw_choices(Workshop& shop, ExportWish& wish) {
+void draw_choices(AppState& shop, ExportWish& wish) {
   const Palette& colours = shop.colours();
   form_length("Tolerance", wish.tolerance_mm, kFinestMm, kCoarsestMm, LengthUnit::mm);
   constexpr std::array kSmooth = {"fair", "exact", "none"};
@@ -85,7 +85,7 @@ std::string size_text(const solid::ExportReport& report, double factor, LengthUn
                      length_text(factor * report.height_mm, unit));
 }
 
-void draw_shown(Workshop& shop, const app::ExportDone& done) {
+void draw_shown(AppState& shop, const cli::ExportDone& done) {
   const Palette& colours = shop.colours();
   const LengthUnit unit = shop.settings.unit;
   const solid::ExportReport& report = done.report;
@@ -99,16 +99,16 @@ void draw_shown(Workshop& shop, const app::ExportDone& done) {
   if (!report.collapsed)
     value_row(
         colours, "Thinnest wall",
-        fmt::format("{:.2f} mm, {:.1f} mm up", app::thinnest_mm(report), report.thinnest.from.y));
+        fmt::format("{:.2f} mm, {:.1f} mm up", cli::thinnest_mm(report), report.thinnest.from.y));
   ImGui::PushStyleColor(ImGuiCol_Text, colours.warning);
-  for (const app::Problem& problem : app::problems_of(done))
+  for (const cli::Problem& problem : cli::problems_of(done))
     ImGui::TextWrapped("%s", problem.text.c_str());
   ImGui::PopStyleColor();
 }
 
 /// What it is at, what it is of, or why not; in a part of its own, so that the card keeps its
 /// height while figures come and go.
-void draw_preview(Workshop& shop) {
+void draw_preview(AppState& shop) {
   const ExportCard& card = shop.exporting;
   const ImVec2 size(0.0f, 12.5f * ImGui::GetFontSize());
   ImGui::BeginChild("##preview", size, true);
@@ -126,7 +126,7 @@ void draw_preview(Workshop& shop) {
   ImGui::EndChild();
 }
 
-void draw_answers(Workshop& shop) {
+void draw_answers(AppState& shop) {
   const ExportCard& card = shop.exporting;
   const bool writes = shop.exporter.running() == Exporter::Kind::files;
   const std::vector<std::string> standing =
@@ -159,7 +159,7 @@ void draw_answers(Workshop& shop) {
 
 }  // namespace
 
-void draw_export_card(Workshop& shop, const ViewRect& view) {
+void draw_export_card(AppState& shop, const ViewRect& view) {
   begin_card("##export", view, 38.0f);
   card_title(shop, "Export");
   ExportWish& wish = shop.exporting.wish;

@@ -9,7 +9,7 @@ namespace clay::studio {
 namespace {
 
 /// A ring about the place, a line from it, and the words at the line's end, within the view.
-void draw_mark(const Workshop& shop, const ViewRect& view, const Mark& mark, glm::vec2 at,
+void draw_mark(const AppState& shop, const ViewRect& view, const Mark& mark, glm::vec2 at,
                float top) {
   const float em = ImGui::GetFontSize();
   const float wrap = std::min(16.0f * em, 0.45f * view.size_px.x);
@@ -33,12 +33,12 @@ void draw_mark(const Workshop& shop, const ViewRect& view, const Mark& mark, glm
 
 }  // namespace
 
-bool has_export_marks(const Workshop& shop) {
+bool has_export_marks(const AppState& shop) {
   return !shop.potter.throwing() && !shop.potter.scrubbing() && !shop.marks.empty() &&
          shop.marked == shop.potter.shared_pot();
 }
 
-void draw_export_marks(Workshop& shop, const ViewRect& view) {
+void draw_export_marks(AppState& shop, const ViewRect& view) {
   if (shop.overlay != Overlay::none || !has_export_marks(shop)) return;
   const float em = ImGui::GetFontSize();
   float top = view.corner_px.y + 1.2f * em;

@@ -20,12 +20,12 @@ constexpr std::size_t kMostLeftShown = 3;
 constexpr float kLeastCardEm = 10.6f, kPictureEm = 9.0f;
 
 /// Sections of the finished samples, made when they are first seen.
-const draw::PotView& section_of(const Sample& sample) {
-  static std::array<std::optional<draw::PotView>, 4> made;
+const render::PotView& section_of(const Sample& sample) {
+  static std::array<std::optional<render::PotView>, 4> made;
   const auto index = static_cast<std::size_t>(&sample - samples().data());
   if (!made[index]) {
     auto pot = finished(sample);
-    made[index] = pot ? std::move(*pot) : draw::PotView();
+    made[index] = pot ? std::move(*pot) : render::PotView();
   }
   return *made[index];
 }
@@ -49,7 +49,7 @@ bool card(const Sample& sample, float width, const Palette& colours, ImFont* tit
   return clicked;
 }
 
-void own_lump(Workshop& shop) {
+void own_lump(AppState& shop) {
   static double clay_kg = 1.0, radius_mm = 50.0;
   float kg = static_cast<float>(clay_kg);
   ImGui::Columns(3, "lump", false);
@@ -70,7 +70,7 @@ void own_lump(Workshop& shop) {
 }
 
 /// What was thrown before: any file, and the last ones by name.
-void files(Workshop& shop) {
+void files(AppState& shop) {
   if (ImGui::Button("Open...")) run(*find_action("file.open"), shop);
   std::string chosen;
   for (const std::string& path : shop.settings.recent) {
@@ -93,7 +93,7 @@ std::string time_text(std::chrono::system_clock::time_point when) {
 }
 
 /// What a program that died has left.
-void left_works(Workshop& shop) {
+void left_works(AppState& shop) {
   if (shop.left.empty()) return;
   const std::size_t shown = std::min(shop.left.size(), kMostLeftShown);
   const float em = ImGui::GetFontSize();
@@ -102,7 +102,7 @@ void left_works(Workshop& shop) {
   ImGui::PopStyleColor();
   ImGui::TextColored(shop.colours().warning, "Not saved when the program ended:");
   for (std::size_t i = 0; i < shown; ++i) {
-    const work::Recoverable& left = shop.left[i];
+    const history::Recoverable& left = shop.left[i];
     ImGui::PushID(static_cast<int>(i));
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(fmt::format("{}, {}: {} stroke{}, {:.0f} s{}", time_text(left.when),
@@ -123,7 +123,7 @@ void left_works(Workshop& shop) {
 
 }  // namespace
 
-void draw_gallery(Workshop& shop, const ViewRect& view) {
+void draw_gallery(AppState& shop, const ViewRect& view) {
   const float em = ImGui::GetFontSize();
   begin_card("##gallery", view, 47.2f);
   ImGui::PushFont(shop.fonts.title);

@@ -12,7 +12,7 @@
 namespace clay::studio {
 namespace {
 
-double limit_n(const Workshop& shop) {
+double limit_n(const AppState& shop) {
   return shop.potter.has_work() && shop.potter.scene().force ? shop.potter.scene().force->limit_n
                                                              : 5.0;
 }
@@ -21,11 +21,11 @@ struct Measures {
   double widest_mm = 0.0, grams = 0.0;
 };
 
-Measures measures_of(const Workshop& shop) {
-  const draw::PotView& pot = shop.potter.view();
+Measures measures_of(const AppState& shop) {
+  const render::PotView& pot = shop.potter.view();
   Measures m;
   double sum_mm2 = 0.0;
-  for (const draw::Row& row : pot.rows) {
+  for (const render::Row& row : pot.rows) {
     const double outer = row.outer_mm, inner = row.inner_mm;
     m.widest_mm = std::max(m.widest_mm, 2.0 * outer);
     sum_mm2 += outer * outer - inner * inner;
@@ -38,8 +38,8 @@ Measures measures_of(const Workshop& shop) {
 
 }  // namespace
 
-void draw_force(Workshop& shop) {
-  const live::LiveStatus& status = shop.potter.status();
+void draw_force(AppState& shop) {
+  const servo::LiveStatus& status = shop.potter.status();
   const double newtons = shop.potter.throwing() ? glm::length(status.clay_n) : 0.0;
   const double limit = limit_n(shop);
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -71,7 +71,7 @@ void draw_force(Workshop& shop) {
                                                        : "Beside the clay");
 }
 
-void draw_pot(Workshop& shop) {
+void draw_pot(AppState& shop) {
   if (!shop.potter.has_work()) return faint_text(shop.colours(), "No clay on the wheel");
   const Measures m = measures_of(shop);
   const LengthUnit unit = shop.settings.unit;

@@ -15,7 +15,7 @@ constexpr double kLowestPotMm = 0.0, kHighestPotMm = 600.0, kThickestWallMm = 40
 constexpr double kFarthestAxisMm = 1000.0;
 
 /// Whether anything has changed.
-bool draw_settings(Workshop& shop, ImportSettings& settings) {
+bool draw_settings(AppState& shop, ImportSettings& settings) {
   const ImportSettings before = settings;
   constexpr std::array kTitles = {"By itself", "Left end", "Middle", "At"};
   form_row("Axis");
@@ -39,7 +39,7 @@ bool draw_settings(Workshop& shop, ImportSettings& settings) {
   return !(settings == before);
 }
 
-void draw_made(Workshop& shop) {
+void draw_made(AppState& shop) {
   const ImportCard& card = shop.importing;
   const Palette& colours = shop.colours();
   const float side = 14.0f * ImGui::GetFontSize();
@@ -69,7 +69,7 @@ void draw_made(Workshop& shop) {
 
 }  // namespace
 
-void draw_import_card(Workshop& shop, const ViewRect& view) {
+void draw_import_card(AppState& shop, const ViewRect& view) {
   ImportCard& card = shop.importing;
   begin_card("##import", view, 36.0f);
   card_title(shop, "From a drawing");

@@ -7,7 +7,7 @@
 
 namespace clay::studio {
 
-void draw_ledger(Workshop& shop) {
+void draw_ledger(AppState& shop) {
   const Palette& colours = shop.colours();
   const Readings& readings = shop.readings;
   if (readings.stack() == nullptr) return faint_text(colours, "No clay on the wheel");

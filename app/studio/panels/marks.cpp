@@ -27,7 +27,7 @@ void shaded_text(ImDrawList* draw, ImVec2 at, const std::string& text, const ImV
 void draw_scale(const PotCheck& check, const ViewRect& view, LengthUnit unit) {
   const float em = ImGui::GetFontSize();
   if (view.size_px.y < kLeastViewEm * em) return;
-  const draw::WallMap map = wall_map_of(check);
+  const render::WallMap map = wall_map_of(check);
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
   const ImVec4 ink = ImGui::GetStyleColorVec4(ImGuiCol_Text);
   const float height = std::min(11.0f * em, 0.45f * view.size_px.y), width = 0.7f * em;
@@ -35,7 +35,7 @@ void draw_scale(const PotCheck& check, const ViewRect& view, LengthUnit unit) {
   shaded_text(draw, {low.x, low.y - 1.8f * em}, "Wall", ink);
   for (int px = 0; px < static_cast<int>(height); ++px) {
     const double wall = map.top_mm * (1.0 - (px + 0.5) / static_cast<double>(height));
-    const draw::Swatch swatch = draw::wall_swatch(map, wall);
+    const render::Swatch swatch = render::wall_swatch(map, wall);
     const float y = low.y + static_cast<float>(px);
     draw->AddRectFilled({low.x, y}, {low.x + width, y + 1.0f},
                         IM_COL32(swatch.red, swatch.green, swatch.blue, 255));
@@ -56,7 +56,7 @@ void draw_scale(const PotCheck& check, const ViewRect& view, LengthUnit unit) {
 }
 
 /// A ring about the place, and its thickness beside it.
-void mark_thinnest(const Workshop& shop, const PotCheck& check, ImDrawList* draw) {
+void mark_thinnest(const AppState& shop, const PotCheck& check, ImDrawList* draw) {
   const float em = ImGui::GetFontSize();
   const glm::dvec2 middle = 0.5 * (glm::abs(check.thinnest_from) + glm::abs(check.thinnest_to));
   const auto at = shop.view.pixel_of(middle);
@@ -69,10 +69,10 @@ void mark_thinnest(const Workshop& shop, const PotCheck& check, ImDrawList* draw
 }
 
 /// The level where the pot parts.
-void mark_fault(const Workshop& shop, double y_mm, ImDrawList* draw) {
+void mark_fault(const AppState& shop, double y_mm, ImDrawList* draw) {
   const ImVec4 colour = shop.colours().fault;
   float widest = 0.0f;
-  for (const draw::Row& row : shop.potter.view().rows) widest = std::max(widest, row.outer_mm);
+  for (const render::Row& row : shop.potter.view().rows) widest = std::max(widest, row.outer_mm);
   const auto left = shop.view.pixel_of({-1.2 * static_cast<double>(widest), y_mm});
   const auto right = shop.view.pixel_of({1.2 * static_cast<double>(widest), y_mm});
   if (!left || !right) return;
@@ -85,14 +85,14 @@ void mark_fault(const Workshop& shop, double y_mm, ImDrawList* draw) {
 
 }  // namespace
 
-void draw_marks(Workshop& shop, const ViewRect& view) {
+void draw_marks(AppState& shop, const ViewRect& view) {
   const auto& check = shop.readings.check();
   if (!check || shop.overlay != Overlay::none || shop.readings.fallen()) return;
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
   draw->PushClipRect({view.corner_px.x, view.corner_px.y},
                      {view.corner_px.x + view.size_px.x, view.corner_px.y + view.size_px.y});
   if (check->fault_mm && panel_open(shop, "certificate")) mark_fault(shop, *check->fault_mm, draw);
-  const bool open = shop.settings.wall_map && shop.view.cut != draw::Cut::none;
+  const bool open = shop.settings.wall_map && shop.view.cut != render::Cut::none;
   if (check->proved && (open || check->thin()) && !has_export_marks(shop))
     mark_thinnest(shop, *check, draw);
   if (check->proved && shop.settings.wall_map) draw_scale(*check, view, shop.settings.unit);

@@ -27,12 +27,12 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFla
                                     ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
 
-bool is_open(const Workshop& shop, const Panel& panel) {
+bool is_open(const AppState& shop, const Panel& panel) {
   const auto remembered = shop.settings.open.find(panel.id);
   return remembered == shop.settings.open.end() ? panel.open : remembered->second;
 }
 
-void draw_recent(Workshop& shop) {
+void draw_recent(AppState& shop) {
   if (!ImGui::BeginMenu("Recent", !shop.settings.recent.empty())) return;
   std::string chosen;
   for (const std::string& path : shop.settings.recent)
@@ -45,24 +45,24 @@ void draw_recent(Workshop& shop) {
 
 std::span<const Panel> panels() { return kPanels; }
 
-bool panel_open(const Workshop& shop, std::string_view id) {
+bool panel_open(const AppState& shop, std::string_view id) {
   const auto panel = std::ranges::find(kPanels, id, &Panel::id);
   return panel != kPanels.end() && is_open(shop, *panel);
 }
 
-void toggle_panel(Workshop& shop, std::string_view id) {
+void toggle_panel(AppState& shop, std::string_view id) {
   const std::string name(id);
   const bool open = !panel_open(shop, id);
   shop.settings.open[name] = open;
   shop.reveal = open ? name : std::string();
 }
 
-Wanted wanted_of(const Workshop& shop) {
+Wanted wanted_of(const AppState& shop) {
   return {shop.settings.wall_map || panel_open(shop, "walls") || panel_open(shop, "certificate"),
           panel_open(shop, "servo"), shop.settings.process};
 }
 
-void draw_column(Workshop& shop, Column column, glm::vec2 corner_px, glm::vec2 size_px) {
+void draw_column(AppState& shop, Column column, glm::vec2 corner_px, glm::vec2 size_px) {
   ImGui::SetNextWindowPos({corner_px.x, corner_px.y});
   ImGui::SetNextWindowSize({size_px.x, size_px.y});
   ImGui::Begin(column == Column::left ? "##left" : "##right", nullptr, kFixed);
@@ -84,7 +84,7 @@ void draw_column(Workshop& shop, Column column, glm::vec2 corner_px, glm::vec2 s
   ImGui::End();
 }
 
-float draw_menu(Workshop& shop) {
+float draw_menu(AppState& shop) {
   if (!ImGui::BeginMainMenuBar()) return 0.0f;
   for (const MenuTitle& menu : menus()) {
     if (!ImGui::BeginMenu(menu.title)) continue;
@@ -106,7 +106,7 @@ float draw_menu(Workshop& shop) {
   return height;
 }
 
-void draw_overlay(Workshop& shop, const ViewRect& view) {
+void draw_overlay(AppState& shop, const ViewRect& view) {
   switch (shop.overlay) {
     case Overlay::none:
       return;

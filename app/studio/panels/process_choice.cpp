@@ -16,7 +16,7 @@ std::string title_of(const std::string& process) {
 
 }  // namespace
 
-void choose_process(Workshop& shop, const char* none, std::string& process) {
+void choose_process(AppState& shop, const char* none, std::string& process) {
   if (!ImGui::BeginCombo("##process", process.empty() ? none : title_of(process).c_str())) return;
   if (ImGui::Selectable(none, process.empty())) process.clear();
   for (const std::string& name : process_names())

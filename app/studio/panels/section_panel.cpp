@@ -46,12 +46,12 @@ Sheet sheet_for(const PlotArea& area, double widest, double height, bool full) {
 ImU32 colour_at(const PotCheck* check, double y_mm, const ImVec4& clay) {
   if (check == nullptr || !check->proved) return ImGui::GetColorU32(clay);
   const double wall = wall_at_height(check->walls, check->height_mm, y_mm);
-  const draw::Swatch swatch = draw::wall_swatch(wall_map_of(*check), wall);
+  const render::Swatch swatch = render::wall_swatch(wall_map_of(*check), wall);
   return IM_COL32(swatch.red, swatch.green, swatch.blue, 255);
 }
 
 /// Clay that all rings of a row have is solid, what only some have is faint.
-void draw_clay(const Workshop& shop, const Sheet& sheet, double height, bool full,
+void draw_clay(const AppState& shop, const Sheet& sheet, double height, bool full,
                const PotCheck* check) {
   const std::size_t rows = whole_px(sheet.px_per_mm * static_cast<float>(height));
   const auto& section = shop.readings.section(rows);
@@ -114,7 +114,7 @@ void draw_outline(const std::vector<glm::vec2>& half_profile, const Sheet& sheet
                                           0.12f * ImGui::GetFontSize());
 }
 
-void draw_tool_at(const draw::ToolView& tool, const Sheet& sheet, const Palette& colours) {
+void draw_tool_at(const render::ToolView& tool, const Sheet& sheet, const Palette& colours) {
   const glm::dvec2 place(std::hypot(tool.place_mm.x, tool.place_mm.z), tool.place_mm.y);
   const ImVec4 colour = tool.contact ? colours.accent : ImGui::GetStyleColorVec4(ImGuiCol_Text);
   if (!tool.gap_mm) return draw_outline(tool.half_profile_mm, sheet, place, colour);
@@ -181,7 +181,7 @@ float plot_height_em(bool fallen) {
 
 }  // namespace
 
-void draw_section(Workshop& shop) {
+void draw_section(AppState& shop) {
   const Palette& colours = shop.colours();
   bool& full = shop.settings.full_section;
   if (const int part = choice_row("part", kParts, full ? 1 : 0, colours); part >= 0)

@@ -19,7 +19,7 @@ std::string time_text(double us) {
   return fmt::format("{:.{}f} \xc2\xb5s", us, us < 10.0 ? 1 : 0);
 }
 
-void draw_history(const TickHistory& ticks, float live::TickSample::*value, double top,
+void draw_history(const TickHistory& ticks, float servo::TickSample::*value, double top,
                   const std::string& top_text, const ImVec4& colour, const Palette& colours) {
   const PlotArea area = begin_plot(kHeightEm);
   plot_columns(area, min_max_of(ticks.curve(value), -kHistoryS, 0.0, whole_px(area.width())), top,
@@ -29,7 +29,7 @@ void draw_history(const TickHistory& ticks, float live::TickSample::*value, doub
 
 }  // namespace
 
-void draw_servo(Workshop& shop) {
+void draw_servo(AppState& shop) {
   const Palette& colours = shop.colours();
   const TickHistory& ticks = shop.readings.ticks();
   if (ticks.empty())
@@ -37,11 +37,11 @@ void draw_servo(Workshop& shop) {
   const TickFigures figures = ticks.figures();
   value_row(colours, "Force of the clay", fmt::format("last {:g} s", kHistoryS));
   const double force_top = round_up(std::max(kLeastForceN, figures.force_most_n));
-  draw_history(ticks, &live::TickSample::clay_n, force_top, fmt::format("{:g} N", force_top),
+  draw_history(ticks, &servo::TickSample::clay_n, force_top, fmt::format("{:g} N", force_top),
                colours.accent, colours);
   value_row(colours, "Woken late by", fmt::format("last {:g} s", kHistoryS));
   const double late_top = round_up(std::max(kLeastLateUs, figures.late_most_us));
-  draw_history(ticks, &live::TickSample::late_us, late_top, time_text(late_top), colours.warning,
+  draw_history(ticks, &servo::TickSample::late_us, late_top, time_text(late_top), colours.warning,
                colours);
   value_row(colours, "Late, median", time_text(figures.late_p50_us));
   value_row(colours, "Late, 99 % within", time_text(figures.late_p99_us));

@@ -11,7 +11,7 @@
 namespace clay::studio {
 namespace {
 
-void draw_look(Workshop& shop) {
+void draw_look(AppState& shop) {
   Settings& settings = shop.settings;
   constexpr std::array kThemes = {"Dark", "Light"};
   form_row("Theme");
@@ -39,7 +39,7 @@ void draw_look(Workshop& shop) {
     settings.unit = static_cast<LengthUnit>(chosen);
 }
 
-void draw_work(Workshop& shop) {
+void draw_work(AppState& shop) {
   Settings& settings = shop.settings;
   form_row("Hand in the clay");
   float speed = static_cast<float>(settings.pressing_mm_s);
@@ -57,7 +57,7 @@ void draw_work(Workshop& shop) {
 
 }  // namespace
 
-void draw_settings_card(Workshop& shop, const ViewRect& view) {
+void draw_settings_card(AppState& shop, const ViewRect& view) {
   begin_card("##settings", view, 34.0f);
   card_title(shop, "Settings");
   draw_look(shop);

@@ -87,7 +87,7 @@ float widest_of(const std::vector<Section>& column) {
 
 }  // namespace
 
-void draw_shortcuts(Workshop& shop, const ViewRect& view) {
+void draw_shortcuts(AppState& shop, const ViewRect& view) {
   static const auto kColumns = columns_of(all_sections());
   begin_card("##shortcuts", view, 68.0f);
   card_title(shop, "Keys and mouse");

@@ -58,7 +58,7 @@ void draw_curve(const StressCurve& curve, const Palette& colours) {
 
 }  // namespace
 
-void draw_stress(Workshop& shop) {
+void draw_stress(AppState& shop) {
   const Palette& colours = shop.colours();
   if (shop.readings.stack() == nullptr) return faint_text(colours, "No clay on the wheel");
   if (shop.readings.fallen())

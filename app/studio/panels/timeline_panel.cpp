@@ -21,7 +21,7 @@ constexpr std::size_t kMostRowsShown = 3;
 constexpr float kLeastRoomEm = 26.0f;  // of the view: below it the strip goes
 constexpr float kDragPx = 4.0f;        // a shake of a click is none
 
-std::string words_of(const work::NodeView& stroke, const TimelineBlock& block) {
+std::string words_of(const history::NodeView& stroke, const TimelineBlock& block) {
   constexpr std::array kModes = {"Press", "Trim", "Pinch"};
   constexpr std::array kShapes = {"sphere", "ellipse", "rib", "own tool"};
   const ToolSpec& tool = stroke.scene->tool;
@@ -34,7 +34,7 @@ std::string words_of(const work::NodeView& stroke, const TimelineBlock& block) {
                                  : std::string());
 }
 
-ImVec4 colour_of(const work::NodeView& stroke, const Palette& colours) {
+ImVec4 colour_of(const history::NodeView& stroke, const Palette& colours) {
   switch (stroke.scene->tool.mode) {
     case ToolMode::trim:
       return colours.warning;
@@ -60,10 +60,10 @@ struct Scale {
   }
 };
 
-void draw_block(const Workshop& shop, const TimelineBlock& block, const Scale& scale) {
+void draw_block(const AppState& shop, const TimelineBlock& block, const Scale& scale) {
   const float em = ImGui::GetFontSize();
-  const work::Work& work = shop.potter.work();
-  const work::NodeView stroke = work.view(block.node);
+  const history::Work& work = shop.potter.work();
+  const history::NodeView stroke = work.view(block.node);
   const Palette& colours = shop.colours();
   ImVec2 low = scale.low(block), high = scale.high(block);
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -90,7 +90,7 @@ void draw_block(const Workshop& shop, const TimelineBlock& block, const Scale& s
 }
 
 /// The pot that all began with.
-bool draw_start(const Workshop& shop, const Scale& scale) {
+bool draw_start(const AppState& shop, const Scale& scale) {
   const float em = ImGui::GetFontSize();
   const bool here = shop.potter.work().at() == 0;
   ImGui::SetCursorScreenPos({scale.origin.x, scale.origin.y + 0.12f * em});
@@ -112,13 +112,13 @@ float scale_px_per_s(const Timeline& timeline, float width_px) {
 
 /// The stroke that the mouse has hold of.
 struct Held {
-  work::NodeId node = 0;
+  history::NodeId node = 0;
   float from_px = 0.0f;
   bool dragged = false;
 };
 
 /// In mid-stroke, where the mouse is along the block.
-void scrub_to(Workshop& shop, const TimelineBlock& block, const Scale& scale) {
+void scrub_to(AppState& shop, const TimelineBlock& block, const Scale& scale) {
   const float low = scale.low(block).x, high = scale.high(block).x;
   const double part =
       std::clamp(static_cast<double>((ImGui::GetIO().MousePos.x - low) / (high - low)), 0.0, 1.0);
@@ -126,7 +126,7 @@ void scrub_to(Workshop& shop, const TimelineBlock& block, const Scale& scale) {
 }
 
 /// Where along its block the moment is that the view shows.
-void draw_moment(const Workshop& shop, const Timeline& timeline, const Scale& scale) {
+void draw_moment(const AppState& shop, const Timeline& timeline, const Scale& scale) {
   const auto& moment = shop.potter.moment();
   if (!moment) return;
   const auto block = std::ranges::find(timeline.blocks, moment->node, &TimelineBlock::node);
@@ -138,7 +138,7 @@ void draw_moment(const Workshop& shop, const Timeline& timeline, const Scale& sc
                                       2.0f);
 }
 
-void tell_moment(Workshop& shop) {
+void tell_moment(AppState& shop) {
   const Moment& moment = *shop.potter.moment();
   shop.log(fmt::format("timeline: {} at {:.3f} s", moment.node, moment.seconds));
   shop.notices.say(
@@ -149,7 +149,7 @@ void tell_moment(Workshop& shop) {
       1e-9 * static_cast<double>(shop.host.frame_ns()) + 8.0);
 }
 
-void handle_mouse(Workshop& shop, const Timeline& timeline, const Scale& scale) {
+void handle_mouse(AppState& shop, const Timeline& timeline, const Scale& scale) {
   static std::optional<Held> held;
   const ImGuiIO& io = ImGui::GetIO();
   const float rho = (io.MousePos.y - scale.origin.y) / scale.row_px;
@@ -182,7 +182,7 @@ void handle_mouse(Workshop& shop, const Timeline& timeline, const Scale& scale) 
 
 }  // namespace
 
-float timeline_height(const Workshop& shop, glm::vec2 room_px) {
+float timeline_height(const AppState& shop, glm::vec2 room_px) {
   const float em = ImGui::GetFontSize();
   if (!shop.potter.has_work() || shop.potter.work().size() < 2 || room_px.y < kLeastRoomEm * em)
     return 0.0f;
@@ -194,7 +194,7 @@ float timeline_height(const Workshop& shop, glm::vec2 room_px) {
                    (scrolls ? ImGui::GetStyle().ScrollbarSize : 0.0f));
 }
 
-void draw_timeline(Workshop& shop, glm::vec2 corner_px, glm::vec2 size_px) {
+void draw_timeline(AppState& shop, glm::vec2 corner_px, glm::vec2 size_px) {
   const float em = ImGui::GetFontSize();
   const Timeline timeline = timeline_of(shop.potter.work());
   ImGui::SetNextWindowPos({corner_px.x, corner_px.y});

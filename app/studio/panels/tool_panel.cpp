@@ -28,7 +28,7 @@ const char* words_of(ToolMode mode) {
 
 }  // namespace
 
-void draw_tool(Workshop& shop) {
+void draw_tool(AppState& shop) {
   ToolChoice& tool = shop.settings.tool;
   const LengthUnit unit = shop.settings.unit;
   if (const int mode = choice_row("mode", kModes, static_cast<int>(tool.mode), shop.colours());
@@ -63,7 +63,7 @@ void draw_tool(Workshop& shop) {
     length_slider("Gap", tool.gap_mm, kNarrowestGapMm, kWidestPinchMm, unit);
 }
 
-void draw_wheel(Workshop& shop) {
+void draw_wheel(AppState& shop) {
   ImGui::TextUnformatted("Speed");
   float rpm = static_cast<float>(shop.settings.wheel_rpm);
   ImGui::SetNextItemWidth(-1.0f);

@@ -23,7 +23,7 @@ void say_where(const PotCheck& check, const Palette& colours, LengthUnit unit) {
 
 }  // namespace
 
-void draw_walls(Workshop& shop) {
+void draw_walls(AppState& shop) {
   const Palette& colours = shop.colours();
   ImGui::Checkbox("Thickness as colours", &shop.settings.wall_map);
   ImGui::SetNextItemWidth(-1.0f);

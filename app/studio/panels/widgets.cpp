@@ -39,7 +39,7 @@ bool main_button(const char* text, const Palette& colours) {
   return clicked;
 }
 
-void card_title(const Workshop& shop, const char* text) {
+void card_title(const AppState& shop, const char* text) {
   ImGui::PushFont(shop.fonts.title);
   ImGui::TextUnformatted(text);
   ImGui::PopFont();
@@ -156,10 +156,10 @@ void begin_card(const char* id, const ViewRect& view, float width_em) {
   dim_around(low.y, ImGui::GetIO().DisplaySize.y - status_height());
 }
 
-void draw_section(const draw::PotView& pot, ImVec2 corner, float side, const Palette& colours) {
+void draw_section(const render::PotView& pot, ImVec2 corner, float side, const Palette& colours) {
   if (pot.rows.empty()) return;
   float widest = 1.0f;
-  for (const draw::Row& row : pot.rows) widest = std::max(widest, row.outer_mm);
+  for (const render::Row& row : pot.rows) widest = std::max(widest, row.outer_mm);
   const float height = static_cast<float>(pot.height_mm);
   const float scale = 0.9f * side / std::max(2.0f * widest, height);
   const float middle = std::floor(corner.x + 0.5f * side);

@@ -1,9 +1,9 @@
 #pragma once
 // Small things that more than one panel draws.
 
+#include "app/studio/app_state.hpp"
 #include "app/studio/length_text.hpp"
 #include "app/studio/settings.hpp"
-#include "app/studio/workshop.hpp"
 
 #include <span>
 #include <string>
@@ -21,7 +21,7 @@ bool length_slider(const char* label, double& mm, double low_mm, double high_mm,
 bool main_button(const char* text, const Palette& colours);
 
 /// The head of a card.
-void card_title(const Workshop& shop, const char* text);
+void card_title(const AppState& shop, const char* text);
 
 /// Label on the left; the next control takes the rest of the line.
 inline constexpr float kFormEm = 9.0f;
@@ -31,7 +31,7 @@ bool form_length(const char* label, double& mm, double low_mm, double high_mm, L
                  const char* none = nullptr);
 
 /// The pot as seen from the side, and its wall in section on the right half; in a square.
-void draw_section(const draw::PotView& pot, ImVec2 corner, float side, const Palette& colours);
+void draw_section(const render::PotView& pot, ImVec2 corner, float side, const Palette& colours);
 
 void faint_text(const Palette& colours, const std::string& text);
 /// Name on the left, value at the right edge of the column.

@@ -22,8 +22,8 @@ ClayAccount account_of(const Pot& pot) {
           grams(unaccounted),        capacity_mm3(pot.stack)};
 }
 
-ClayAccount account_of(const live::LiveStatus& status, const ClayStack& stack, double density_g_cm3,
-                       const ClayAccount& before) {
+ClayAccount account_of(const servo::LiveStatus& status, const ClayStack& stack,
+                       double density_g_cm3, const ClayAccount& before) {
   const double g = kCm3PerMm3 * density_g_cm3;
   ClayAccount account = before;
   account.in_stack_g = g * status.stack_mm3;

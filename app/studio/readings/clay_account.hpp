@@ -19,7 +19,7 @@ struct ClayAccount {
 [[nodiscard]] ClayAccount account_of(const Pot& pot);
 /// In mid-stroke: what the servo tells of the ledger, and `stack` for what it holds. `before`: the
 /// account as the stroke began.
-[[nodiscard]] ClayAccount account_of(const live::LiveStatus& status, const ClayStack& stack,
+[[nodiscard]] ClayAccount account_of(const servo::LiveStatus& status, const ClayStack& stack,
                                      double density_g_cm3, const ClayAccount& before);
 
 /// "3.2 g", "1.25 kg".

@@ -20,7 +20,7 @@ constexpr double kFinestSpacingMm = 0.05;
 std::optional<WallLimit> limit_of(const std::string& process, const ClayStack& stack,
                                   std::vector<PotRemark>& remarks) {
   if (process.empty()) return std::nullopt;
-  const auto limits = app::process_of(process);
+  const auto limits = cli::process_of(process);
   if (!limits) {
     remarks.push_back({0.0, stack.height_mm(), limits.error().message});
     return std::nullopt;
@@ -75,7 +75,7 @@ void take_report(const solid::ExportReport& report, std::size_t rows, PotCheck& 
   check.thinnest_mm = report.thinnest.thickness_mm;
   check.thinnest_from = {report.thinnest.from.rho, report.thinnest.from.y};
   check.thinnest_to = {report.thinnest.to.rho, report.thinnest.to.y};
-  check.walls = draw::row_walls(report.wall_field, rows, check.height_mm);
+  check.walls = render::row_walls(report.wall_field, rows, check.height_mm);
   take_remarks(report, check);
 }
 

@@ -23,7 +23,7 @@ struct WallLimit {
 
 struct PotQuestion {
   Subject subject;
-  std::string process;  ///< as app::process_of has it; empty: none
+  std::string process;  ///< as cli::process_of has it; empty: none
   double tolerance_mm = 0.02;
 };
 
@@ -52,7 +52,7 @@ struct PotCheck {
   double thinnest_mm = 0.0;    ///< of the section: the clay between two places (rho, y) [mm];
   glm::dvec2 thinnest_from{0.0}, thinnest_to{0.0};  ///< rho below 0 beyond the axis
   std::optional<WallLimit> limit;
-  std::vector<draw::RowWall> walls;  ///< of equal parts of `height_mm`; empty: not known
+  std::vector<render::RowWall> walls;  ///< of equal parts of `height_mm`; empty: not known
   double height_mm = 0.0;
   double seconds = 0.0;  ///< it took
 
@@ -66,11 +66,11 @@ struct PotCheck {
                                  const std::function<bool()>& given_up = {});
 
 /// The walls for an outline of `rows` rows that is `height_mm` high now: each from the same height.
-[[nodiscard]] std::vector<draw::RowWall> walls_for(const PotCheck& check, std::size_t rows,
-                                                   double height_mm);
+[[nodiscard]] std::vector<render::RowWall> walls_for(const PotCheck& check, std::size_t rows,
+                                                     double height_mm);
 
 /// Colours from 0 to 10 mm, whatever the pot; what the process does not bear is hatched.
-[[nodiscard]] draw::WallMap wall_map_of(const PotCheck& check);
+[[nodiscard]] render::WallMap wall_map_of(const PotCheck& check);
 
 /// Where walls are thinner than the process asks [mm of height], bottom to top.
 [[nodiscard]] std::vector<Stretch> thin_stretches(const PotCheck& check);

@@ -7,10 +7,10 @@
 
 namespace clay::studio {
 
-std::vector<draw::RowWall> walls_for(const PotCheck& check, std::size_t rows, double height_mm) {
+std::vector<render::RowWall> walls_for(const PotCheck& check, std::size_t rows, double height_mm) {
   if (check.walls.empty() || !(check.height_mm > 0.0)) return {};
   if (check.walls.size() == rows && check.height_mm == height_mm) return check.walls;
-  std::vector<draw::RowWall> walls(rows);
+  std::vector<render::RowWall> walls(rows);
   const double per_mm = static_cast<double>(check.walls.size()) / check.height_mm;
   for (std::size_t row = 0; row < rows; ++row) {
     const double y_mm = (static_cast<double>(row) + 0.5) * height_mm / static_cast<double>(rows);
@@ -20,7 +20,7 @@ std::vector<draw::RowWall> walls_for(const PotCheck& check, std::size_t rows, do
   return walls;
 }
 
-draw::WallMap wall_map_of(const PotCheck& check) {
+render::WallMap wall_map_of(const PotCheck& check) {
   return {check.limit ? check.limit->min_wall_mm : 0.0, 10.0};
 }
 
@@ -30,7 +30,7 @@ std::vector<Stretch> thin_stretches(const PotCheck& check) {
   const double row_mm = check.height_mm / static_cast<double>(check.walls.size());
   bool open = false;
   for (std::size_t row = 0; row < check.walls.size(); ++row) {
-    const draw::RowWall& wall = check.walls[row];
+    const render::RowWall& wall = check.walls[row];
     const bool thin =
         static_cast<double>(std::min(wall.outer_mm, wall.inner_mm)) < check.limit->min_wall_mm;
     const double low_mm = row_mm * static_cast<double>(row);

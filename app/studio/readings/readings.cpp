@@ -17,7 +17,7 @@ std::string line_of(const PotCheck& check) {
 
 }  // namespace
 
-void Readings::update(Potter& potter, const Wanted& wanted, std::int64_t now_ns,
+void Readings::update(StrokeController& potter, const Wanted& wanted, std::int64_t now_ns,
                       const std::function<void(std::string_view)>& log) {
   potter.trace().want(wanted.ticks);
   ticks_.take(potter.trace());
@@ -31,7 +31,7 @@ void Readings::update(Potter& potter, const Wanted& wanted, std::int64_t now_ns,
 }
 
 /// At rest the pot itself, while it is another than before; in mid-stroke what the servo shows.
-void Readings::look_at(const Potter& potter) {
+void Readings::look_at(const StrokeController& potter) {
   const bool live = potter.throwing();
   const bool same = live ? subject_.live() && subject_.outline == potter.view()
                          : subject_.pot == potter.shared_pot();

@@ -2,13 +2,13 @@
 // What panels show of the clay on the wheel: made once a frame where something has changed, and
 // what takes long by a thread of its own.
 
-#include "app/studio/potter.hpp"
 #include "app/studio/readings/clay_account.hpp"
 #include "app/studio/readings/pot_check.hpp"
 #include "app/studio/readings/section_rows.hpp"
 #include "app/studio/readings/stress_curve.hpp"
 #include "app/studio/readings/subject.hpp"
 #include "app/studio/readings/tick_history.hpp"
+#include "app/studio/stroke_controller.hpp"
 #include "core/newest_worker.hpp"
 
 #include <cstdint>
@@ -32,7 +32,7 @@ class Readings {
 
   /// Once a frame, `now_ns` of the servo's clock. `log` is told of checks of
   /// pots at rest.
-  void update(Potter& potter, const Wanted& wanted, std::int64_t now_ns,
+  void update(StrokeController& potter, const Wanted& wanted, std::int64_t now_ns,
               const std::function<void(std::string_view)>& log);
 
   /// Nothing: no clay on the wheel.
@@ -51,7 +51,7 @@ class Readings {
   [[nodiscard]] const std::vector<SectionRow>& section(std::size_t rows) const;
 
  private:
-  void look_at(const Potter& potter);
+  void look_at(const StrokeController& potter);
   void ask(const Wanted& wanted, std::int64_t now_ns);
 
   Subject subject_;

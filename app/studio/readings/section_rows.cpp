@@ -41,7 +41,7 @@ std::vector<SectionRow> section_rows(const ClayStack& stack, std::size_t rows) {
   return section;
 }
 
-double wall_at_height(std::span<const draw::RowWall> walls, double height_mm, double y_mm) {
+double wall_at_height(std::span<const render::RowWall> walls, double height_mm, double y_mm) {
   if (walls.empty() || !(height_mm > 0.0) || y_mm < 0.0 || y_mm > height_mm)
     return std::numeric_limits<double>::infinity();
   const double part = y_mm / height_mm * static_cast<double>(walls.size());

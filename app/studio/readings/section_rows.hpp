@@ -23,7 +23,7 @@ struct SectionRow {
 [[nodiscard]] std::vector<SectionRow> section_rows(const ClayStack& stack, std::size_t rows);
 
 /// Thickness of the wall at a height [mm]: the lesser of both faces'; infinite where unknown.
-[[nodiscard]] double wall_at_height(std::span<const draw::RowWall> walls, double height_mm,
+[[nodiscard]] double wall_at_height(std::span<const render::RowWall> walls, double height_mm,
                                     double y_mm);
 
 }  // namespace clay::studio

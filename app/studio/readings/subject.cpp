@@ -6,12 +6,12 @@
 
 namespace clay::studio {
 
-std::optional<ClayStack> stack_of(const draw::PotView& outline, double crown_mm) {
+std::optional<ClayStack> stack_of(const render::PotView& outline, double crown_mm) {
   if (outline.rows.empty()) return std::nullopt;
   const double ring_mm = (outline.height_mm - crown_mm) / static_cast<double>(outline.rows.size());
   std::vector<Ring> rings;
   rings.reserve(outline.rows.size());
-  for (const draw::Row& row : outline.rows)
+  for (const render::Row& row : outline.rows)
     rings.push_back({quanta_from_radius(static_cast<double>(row.outer_mm)),
                      quanta_from_radius(static_cast<double>(row.inner_mm))});
   // A crown is less than a ring.

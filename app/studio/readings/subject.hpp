@@ -10,8 +10,8 @@
 namespace clay::studio {
 
 struct Subject {
-  work::SharedPot pot;    ///< at rest; nothing in mid-stroke
-  draw::PotView outline;  ///< as it is on the screen, either way
+  history::SharedPot pot;   ///< at rest; nothing in mid-stroke
+  render::PotView outline;  ///< as it is on the screen, either way
   double density_g_cm3 = 1.9;
   double crown_mm = 0.0;  ///< of the outline's height, above its rows
   [[nodiscard]] bool live() const noexcept { return pot == nullptr; }
@@ -19,6 +19,6 @@ struct Subject {
 
 /// The stack behind an outline: its rows for rings, their radii as near as float holds them, and
 /// the crown. Nothing where the rows are no clay.
-[[nodiscard]] std::optional<ClayStack> stack_of(const draw::PotView& outline, double crown_mm);
+[[nodiscard]] std::optional<ClayStack> stack_of(const render::PotView& outline, double crown_mm);
 
 }  // namespace clay::studio

@@ -19,11 +19,11 @@ double percentile(std::vector<float>& values, double part) {
 
 }  // namespace
 
-void TickHistory::take(live::TickTrace& trace) {
+void TickHistory::take(servo::TickTrace& trace) {
   while (const auto sample = trace.take()) add(*sample);
 }
 
-void TickHistory::add(const live::TickSample& sample) {
+void TickHistory::add(const servo::TickSample& sample) {
   samples_.push_back(sample);
   const auto oldest = sample.time_ns - static_cast<std::int64_t>(1e9 * kHistoryS);
   while (samples_.front().time_ns < oldest || samples_.size() > kMost) samples_.pop_front();
@@ -36,7 +36,7 @@ TickFigures TickHistory::figures() const {
   std::vector<float> late, work;
   late.reserve(samples_.size());
   work.reserve(samples_.size());
-  for (const live::TickSample& sample : samples_) {
+  for (const servo::TickSample& sample : samples_) {
     late.push_back(sample.late_us);
     work.push_back(sample.work_us);
     figures.missed += sample.missed ? 1u : 0u;
@@ -49,10 +49,10 @@ TickFigures TickHistory::figures() const {
   return figures;
 }
 
-std::vector<CurvePoint> TickHistory::curve(float live::TickSample::*value) const {
+std::vector<CurvePoint> TickHistory::curve(float servo::TickSample::*value) const {
   std::vector<CurvePoint> points;
   points.reserve(samples_.size());
-  for (const live::TickSample& sample : samples_)
+  for (const servo::TickSample& sample : samples_)
     points.push_back({1e-9 * static_cast<double>(sample.time_ns - samples_.back().time_ns),
                       static_cast<double>(sample.*value)});
   return points;

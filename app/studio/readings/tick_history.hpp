@@ -22,18 +22,18 @@ struct TickFigures {
 class TickHistory {
  public:
   /// Takes what the trace holds; forgets what is older than kHistoryS before the newest.
-  void take(live::TickTrace& trace);
-  void add(const live::TickSample& sample);
+  void take(servo::TickTrace& trace);
+  void add(const servo::TickSample& sample);
 
   [[nodiscard]] bool empty() const noexcept { return samples_.empty(); }
-  [[nodiscard]] const std::deque<live::TickSample>& samples() const noexcept { return samples_; }
+  [[nodiscard]] const std::deque<servo::TickSample>& samples() const noexcept { return samples_; }
   /// Of all that is remembered. Percentiles: of n ticks in order, number ceil(p n).
   [[nodiscard]] TickFigures figures() const;
   /// Seconds before the newest tick, from -kHistoryS to 0, against a value.
-  [[nodiscard]] std::vector<CurvePoint> curve(float live::TickSample::*value) const;
+  [[nodiscard]] std::vector<CurvePoint> curve(float servo::TickSample::*value) const;
 
  private:
-  std::deque<live::TickSample> samples_;
+  std::deque<servo::TickSample> samples_;
 };
 
 }  // namespace clay::studio

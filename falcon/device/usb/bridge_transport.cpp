@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 namespace {
 
 constexpr std::size_t kReport = 64;
@@ -80,4 +80,4 @@ std::unique_ptr<Transport> make_bridge_transport(std::string place) {
   return std::make_unique<BridgeTransport>(std::move(place));
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 
 class ByteRing {
  public:
@@ -35,4 +35,4 @@ class ByteRing {
   std::size_t first_ = 0, size_ = 0;
 };
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

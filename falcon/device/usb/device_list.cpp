@@ -10,7 +10,7 @@
 #include <cwchar>
 #include <memory>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 namespace {
 
 constexpr const char* kNone = "plug one in; a Falcon shows up on USB even without its power supply";
@@ -141,4 +141,4 @@ DeviceResult<std::unique_ptr<HapticDevice>> open_device(std::string_view which,
   return device;
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 namespace {
 
 constexpr std::uint8_t kIn = 0x81, kOut = 0x02;
@@ -143,4 +143,4 @@ Received FtdiStream::read(std::span<std::uint8_t> bytes, std::int64_t wait_us) n
   return {ring_.pop(bytes), arrived_us_, status_};
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

@@ -13,7 +13,7 @@ struct libusb_context;
 struct libusb_device_handle;
 struct libusb_transfer;
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 
 class FtdiStream {
  public:
@@ -58,4 +58,4 @@ class FtdiStream {
   bool stopping_ = false;
 };
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

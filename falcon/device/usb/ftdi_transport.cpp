@@ -14,7 +14,7 @@
 #include <cerrno>
 #include <memory>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 namespace {
 
 // Both are whole divisors of the chip's 3 MHz, so that every driver sets the same.
@@ -153,4 +153,4 @@ std::unique_ptr<Transport> make_ftdi_transport(std::string place) {
   return std::make_unique<FtdiTransport>(std::move(place));
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

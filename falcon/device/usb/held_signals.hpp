@@ -6,7 +6,7 @@
 
 #include <csignal>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 
 class HeldSignals {
  public:
@@ -26,4 +26,4 @@ class HeldSignals {
   sigset_t before_{};
 };
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <csignal>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 namespace {
 
 /// This thread is in a call of hidapi, and may hold what the next one waits for.
@@ -63,4 +63,4 @@ void HidNode::write_last(std::span<const std::uint8_t> report) noexcept {
   errno = before;
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

@@ -11,7 +11,7 @@
 #include <span>
 #include <string>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 
 class HidNode {
  public:
@@ -36,4 +36,4 @@ class HidNode {
   std::atomic<int> descriptor_{-1};
 };
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 namespace {
 
 constexpr std::uint8_t kLight = 4;  // the report that switches the LED
@@ -92,4 +92,4 @@ std::unique_ptr<HapticDevice> make_space_mouse(std::string name, std::string pla
   return std::make_unique<SpaceMouse>(std::move(name), std::move(place), settings);
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

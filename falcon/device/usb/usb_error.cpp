@@ -8,7 +8,7 @@
 #include <cstring>
 #include <memory>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 namespace {
 
 constexpr const char* kRule =
@@ -70,4 +70,4 @@ DeviceError node_error(const std::string& place) {
   return {DeviceFault::no_permission, what + std::strerror(errno), kRule};
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

@@ -7,7 +7,7 @@
 
 struct libusb_device;
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 
 /// "usb:1-2.1": the bus, and the port of each hub on the way. The same after replugging.
 [[nodiscard]] std::string place_of(libusb_device* device);
@@ -22,4 +22,4 @@ namespace clay::falcon {
 /// A node in /dev that could not be opened.
 [[nodiscard]] DeviceError node_error(const std::string& place);
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

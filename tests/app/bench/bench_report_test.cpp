@@ -251,9 +251,9 @@ TEST(BenchHtml, IsWellFormedWhateverTheNames) {
 TEST(BenchHtml, ADrawingAloneIsWellFormedToo) {
   const Report report = odd_report();
   for (const Plot& plot : report.sections[0].plots)
-    EXPECT_EQ(parsed(svg_of(plot, plot::Place::alone)).status, 0) << plot.id;
+    EXPECT_EQ(parsed(svg_of(plot, chart::Place::alone)).status, 0) << plot.id;
   for (const Map& map : report.sections[0].maps)
-    EXPECT_EQ(parsed(svg_of(map, plot::Place::alone)).status, 0) << map.id;
+    EXPECT_EQ(parsed(svg_of(map, chart::Place::alone)).status, 0) << map.id;
 }
 
 }  // namespace

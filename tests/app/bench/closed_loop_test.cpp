@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-namespace clay::servo {
+namespace clay::bench {
 namespace {
 
 using falcon::SampledLoop;
@@ -159,4 +159,4 @@ TEST(Clay, IsMadePassiveAtAnyStiffness) {
 }
 
 }  // namespace
-}  // namespace clay::servo
+}  // namespace clay::bench

@@ -23,7 +23,7 @@ TEST(BareTick, LeavesTheVeryStackThatTheEngineLeaves) {
     scene.lump.inner_radius_mm = inner_mm;
     Wheel wheel = Wheel::build(scene).value();
     bench::BareWheel bare(scene);
-    for (const Pose& pose : app::stroke_poses(scene, app::kFirmMm)) {
+    for (const Pose& pose : cli::stroke_poses(scene, cli::kFirmMm)) {
       wheel.step(pose);
       bare.step(pose);
     }
@@ -38,14 +38,14 @@ TEST(StageCost, PutsInWhatItSays) {
   const unsigned none = StepPlan::build(bare)->stages;
   EXPECT_EQ(none, 0u);
   const auto stages = [&](const char* stage) {
-    return StepPlan::build(app::with_stage(bare, stage).value())->stages;
+    return StepPlan::build(cli::with_stage(bare, stage).value())->stages;
   };
   EXPECT_EQ(stages("force"), kForce);
   EXPECT_EQ(stages("friction"), kForce | kFriction);
   EXPECT_EQ(stages("stability"), kStability);
   EXPECT_EQ(stages("pinch"), kPinch);
-  EXPECT_GT(app::with_stage(bare, "inner surface")->lump.inner_radius_mm, 0.0);
-  EXPECT_FALSE(app::with_stage(bare, "contact"));
+  EXPECT_GT(cli::with_stage(bare, "inner surface")->lump.inner_radius_mm, 0.0);
+  EXPECT_FALSE(cli::with_stage(bare, "contact"));
 }
 
 /// Counts rings, not seconds: what a stroke costs is the rings that its ticks reach.
@@ -56,11 +56,11 @@ TEST(StageCost, TimesAStrokeThatStaysShortHoweverFineTheRings) {
     SceneSpec scene;
     scene.lump.rings = rings;
     scene.lump.ring_height_mm = ring_height_mm;
-    const auto timed = app::timed_stroke(scene, app::kFirmMm);
+    const auto timed = cli::timed_stroke(scene, cli::kFirmMm);
     ASSERT_TRUE(timed) << rings;
-    EXPECT_LE(timed->scene.lump.rings, 2 * app::kMostRingsInReach);
+    EXPECT_LE(timed->scene.lump.rings, 2 * cli::kMostRingsInReach);
     if (rings == 200) {
-      EXPECT_EQ(timed->poses, app::stroke_poses(scene, app::kFirmMm));
+      EXPECT_EQ(timed->poses, cli::stroke_poses(scene, cli::kFirmMm));
       EXPECT_EQ(timed->scene, scene);
     }
     Wheel wheel = Wheel::build(timed->scene).value();
@@ -69,9 +69,9 @@ TEST(StageCost, TimesAStrokeThatStaysShortHoweverFineTheRings) {
       const StepReport report = wheel.step(pose);
       touched += report.rings_touched;
       in_contact += report.rings_touched > 0;
-      EXPECT_LE(report.rings_touched, app::rings_in_reach(scene));
+      EXPECT_LE(report.rings_touched, cli::rings_in_reach(scene));
     }
-    EXPECT_LE(touched, app::kMostRingVisits) << rings;
+    EXPECT_LE(touched, cli::kMostRingVisits) << rings;
     EXPECT_GE(in_contact, timed->poses.size() * 9 / 10) << rings;
   }
 }
@@ -81,8 +81,8 @@ TEST(StageCost, TimesNoStrokeWhoseTicksReachTooManyRings) {
   scene.lump.rings = std::size_t{1} << 20;
   scene.lump.ring_height_mm = 0.001;
   scene.flow.reach_mm = 100.0;
-  EXPECT_FALSE(app::timed_stroke(scene, app::kFirmMm));
-  EXPECT_FALSE(app::cost_of(scene, "stability"));
+  EXPECT_FALSE(cli::timed_stroke(scene, cli::kFirmMm));
+  EXPECT_FALSE(cli::cost_of(scene, "stability"));
 }
 
 TEST(Presser, TouchesAsManyRingsAsItIsTimedBy) {

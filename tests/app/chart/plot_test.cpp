@@ -14,7 +14,7 @@
 namespace clay::test {
 namespace {
 
-using namespace plot;
+using namespace chart;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 

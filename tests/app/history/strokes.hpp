@@ -65,8 +65,8 @@ inline Pot plainly_thrown(const WorkRecord& record, std::size_t node) {
 }
 
 /// Some strokes, and ways to and fro between them.
-inline work::Work arbitrary_work(int actions) {
-  auto work = work::Work::begin(small_scene()).value();
+inline history::Work arbitrary_work(int actions) {
+  auto work = history::Work::begin(small_scene()).value();
   const std::vector<SceneSpec> tools = {small_scene(), small_scene(5.0),
                                         small_scene(8.0, ToolMode::trim)};
   for (int i = 0; i < actions; ++i) {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clay::work {
+namespace clay::history {
 namespace {
 
 using test::claystack;
@@ -103,4 +103,4 @@ TEST(ThrowFrom, ByHandToo) {
 #endif
 
 }  // namespace
-}  // namespace clay::work
+}  // namespace clay::history

@@ -21,7 +21,7 @@ using test::small_scene;
 
 /// Two branches, one of them trimmed, left on the first.
 WorkRecord sample_record() {
-  auto work = work::Work::begin(small_scene()).value();
+  auto work = history::Work::begin(small_scene()).value();
   (void)work.add(small_scene(), press_stroke(1)).value();
   (void)work.add(small_scene(5.0), press_stroke(2)).value();
   work.undo();
@@ -31,9 +31,9 @@ WorkRecord sample_record() {
 }
 
 std::string second_file() {
-  auto work = work::Work::begin(small_scene()).value();
+  auto work = history::Work::begin(small_scene()).value();
   (void)work.add(small_scene(), press_stroke(1)).value();
-  auto second = work::Work::begin(small_scene(), **work.pot()).value();
+  auto second = history::Work::begin(small_scene(), **work.pot()).value();
   (void)second.add(small_scene(), press_stroke(2)).value();
   return write_work(second.record());
 }
@@ -224,7 +224,7 @@ TEST(WorkFile, SalvageStopsAtTheDamage) {
 
 /// A file that goes to and fro in a long tree is read in a time that grows with its length alone.
 TEST(WorkFile, ALongOneIsReadOnce) {
-  std::string text = write_work(work::Work::begin(small_scene()).value().record());
+  std::string text = write_work(history::Work::begin(small_scene()).value().record());
   constexpr std::size_t kNodes = 50'000;
   for (std::size_t node = 1; node <= kNodes; ++node)
     text += work_stroke_line(node, node - 1, 0, small_scene()) + work_end_line(0, {}) +

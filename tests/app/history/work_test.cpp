@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace clay::work {
+namespace clay::history {
 namespace {
 
 using test::arbitrary_work;
@@ -228,7 +228,7 @@ std::vector<Pose> recording(int presses, double air_s, bool level = false) {
 
 /// As while it lasted, a few poses at a time.
 Split cut(const Pot& before, const std::vector<Pose>& poses) {
-  Rethrow again(Wheel::build(small_scene(), before).value());
+  Replay again(Wheel::build(small_scene(), before).value());
   for (std::span<const Pose> rest = poses; !rest.empty();) {
     const auto block = rest.first(std::min<std::size_t>(rest.size(), 37));
     again.append(block);
@@ -282,4 +282,4 @@ TEST(PotCache, LetsGoOfWhatWasLongestOfNoUse) {
 }
 
 }  // namespace
-}  // namespace clay::work
+}  // namespace clay::history

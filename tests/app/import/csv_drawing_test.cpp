@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace clay::drawing {
+namespace clay::importing {
 namespace {
 
 using testing::HasSubstr;
@@ -53,4 +53,4 @@ TEST(CsvDrawing, RefusesADrawingOfNothing) {
 }
 
 }  // namespace
-}  // namespace clay::drawing
+}  // namespace clay::importing

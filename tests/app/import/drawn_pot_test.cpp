@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace clay::drawing {
+namespace clay::importing {
 namespace {
 
 using testing::HasSubstr;
@@ -86,4 +86,4 @@ RC_GTEST_PROP(DrawnPot, HoldsTheClayThatIsDrawn, ()) {
 }
 
 }  // namespace
-}  // namespace clay::drawing
+}  // namespace clay::importing

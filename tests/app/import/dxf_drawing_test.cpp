@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-namespace clay::drawing {
+namespace clay::importing {
 namespace {
 
 using testing::HasSubstr;
@@ -135,4 +135,4 @@ TEST(DxfDrawing, RefusesBrokenSplinesAndOtherFiles) {
 }
 
 }  // namespace
-}  // namespace clay::drawing
+}  // namespace clay::importing

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-namespace clay::drawing {
+namespace clay::importing {
 namespace {
 
 using testing::HasSubstr;
@@ -61,4 +61,4 @@ RC_GTEST_PROP(HalfSection, HoldsWhatPappusSays, ()) {
 }
 
 }  // namespace
-}  // namespace clay::drawing
+}  // namespace clay::importing

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace clay::drawing {
+namespace clay::importing {
 
 /// The volume of the solid that a closed polygon right of the axis sweeps, from Pappus's theorem:
 /// 2 pi times the first moment of its area.
@@ -34,4 +34,4 @@ std::string refusal_of(const Result<T>& result) {
   return result ? std::string() : result.error().message;
 }
 
-}  // namespace clay::drawing
+}  // namespace clay::importing

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace clay::drawing {
+namespace clay::importing {
 namespace {
 
 using testing::HasSubstr;
@@ -147,4 +147,4 @@ TEST(SvgDrawing, ManyPointsOnOneLevelAreQuicklyMirrored) {
 }
 
 }  // namespace
-}  // namespace clay::drawing
+}  // namespace clay::importing

@@ -8,7 +8,7 @@
 namespace clay::test {
 namespace {
 
-using draw::Camera;
+using render::Camera;
 
 double between(double low, double high) {
   return low + (high - low) * *rc::gen::inRange(0, 1'000'001) * 1e-6;
@@ -25,12 +25,12 @@ Camera any_camera() {
 RC_GTEST_PROP(Camera, PickingInvertsTheProjection, ()) {
   const Camera camera = any_camera();
   const double rho = between(-120, 120), y = between(0, 200);
-  const glm::dvec3 at = rho * draw::profile_direction(camera) + glm::dvec3{0, y, 0};
-  const auto pixel = draw::pixel_of(camera, kView, at);
+  const glm::dvec3 at = rho * render::profile_direction(camera) + glm::dvec3{0, y, 0};
+  const auto pixel = render::pixel_of(camera, kView, at);
   RC_PRE(pixel.has_value());
   // Near the zenith the plane is seen edge on: no double tells heights apart.
   RC_PRE(std::abs(camera.elevation_rad) < 1.3);
-  const auto back = draw::profile_point(camera, kView, *pixel);
+  const auto back = render::profile_point(camera, kView, *pixel);
   RC_ASSERT(back.has_value());
   RC_ASSERT(std::abs(back->x - rho) < 1e-6);
   RC_ASSERT(std::abs(back->y - y) < 1e-6);
@@ -39,10 +39,10 @@ RC_GTEST_PROP(Camera, PickingInvertsTheProjection, ()) {
 RC_GTEST_PROP(Camera, MatricesProjectToTheSamePixel, ()) {
   const Camera camera = any_camera();
   const glm::dvec3 at{between(-100, 100), between(0, 200), between(-100, 100)};
-  const auto pixel = draw::pixel_of(camera, kView, at);
+  const auto pixel = render::pixel_of(camera, kView, at);
   RC_PRE(pixel.has_value());
-  const glm::dvec4 clip = draw::projection_matrix(camera, kView.aspect()) *
-                          draw::view_matrix(camera) * glm::dvec4(at, 1.0);
+  const glm::dvec4 clip = render::projection_matrix(camera, kView.aspect()) *
+                          render::view_matrix(camera) * glm::dvec4(at, 1.0);
   const double scale = 1e-9 * (1.0 + glm::length(*pixel));
   RC_ASSERT(std::abs((clip.x / clip.w + 1.0) * 240.0 - pixel->x) < scale);
   RC_ASSERT(std::abs((1.0 - clip.y / clip.w) * 180.0 - pixel->y) < scale);
@@ -50,12 +50,12 @@ RC_GTEST_PROP(Camera, MatricesProjectToTheSamePixel, ()) {
 
 TEST(Camera, LooksAtItsTargetFromItsEye) {
   const Camera camera{0.3, 0.5, 400.0, {5.0, 60.0, -3.0}, 0.5};
-  EXPECT_NEAR(glm::distance(draw::eye_mm(camera), camera.target_mm), 400.0, 1e-9);
+  EXPECT_NEAR(glm::distance(render::eye_mm(camera), camera.target_mm), 400.0, 1e-9);
   const glm::dmat4 expected =
-      glm::lookAt(draw::eye_mm(camera), camera.target_mm, glm::dvec3{0, 1, 0});
+      glm::lookAt(render::eye_mm(camera), camera.target_mm, glm::dvec3{0, 1, 0});
   for (int i = 0; i < 4; ++i)
-    EXPECT_LT(glm::length(expected[i] - draw::view_matrix(camera)[i]), 1e-9);
-  const auto middle = draw::pixel_of(camera, kView, camera.target_mm);
+    EXPECT_LT(glm::length(expected[i] - render::view_matrix(camera)[i]), 1e-9);
+  const auto middle = render::pixel_of(camera, kView, camera.target_mm);
   ASSERT_TRUE(middle);
   EXPECT_NEAR(middle->x, 240.0, 1e-9);
   EXPECT_NEAR(middle->y, 180.0, 1e-9);
@@ -64,23 +64,23 @@ TEST(Camera, LooksAtItsTargetFromItsEye) {
 TEST(Camera, NothingIsPickedBehindTheEye) {
   const Camera up{0.0, -1.2, 400.0, {0.0, 50.0, 0.0}, 1.0};
   const Camera past{0.0, 0.0, 10.0, {0.0, 50.0, 300.0}, 0.5};  // the axis lies beyond the target
-  EXPECT_TRUE(draw::profile_point(past, kView, {240, 180}));
+  EXPECT_TRUE(render::profile_point(past, kView, {240, 180}));
   const Camera away{0.0, 0.0, 10.0, {0.0, 50.0, -300.0}, 0.5};  // looks away from the axis
-  EXPECT_FALSE(draw::profile_point(away, kView, {240, 180}));
-  EXPECT_FALSE(draw::pixel_of(up, kView, draw::eye_mm(up) * 2.0 - up.target_mm));
+  EXPECT_FALSE(render::profile_point(away, kView, {240, 180}));
+  EXPECT_FALSE(render::pixel_of(up, kView, render::eye_mm(up) * 2.0 - up.target_mm));
 }
 
 TEST(Camera, DragsMoveWhatIsUnderTheMouse) {
   const Camera camera{0.3, 0.5, 400.0, {0.0, 60.0, 0.0}, 0.5};
-  const Camera moved = draw::panned(camera, {30.0, -20.0}, kView);
-  const auto now = draw::pixel_of(moved, kView, camera.target_mm);
+  const Camera moved = render::panned(camera, {30.0, -20.0}, kView);
+  const auto now = render::pixel_of(moved, kView, camera.target_mm);
   ASSERT_TRUE(now);
   EXPECT_NEAR(now->x, 270.0, 1e-6);
   EXPECT_NEAR(now->y, 160.0, 1e-6);
   // What is in front goes with the mouse when the pot is turned.
   const glm::dvec3 front =
-      camera.target_mm + 50.0 * glm::normalize(draw::eye_mm(camera) - camera.target_mm);
-  const auto turned = draw::pixel_of(draw::orbited(camera, {20.0, 10.0}, kView), kView, front);
+      camera.target_mm + 50.0 * glm::normalize(render::eye_mm(camera) - camera.target_mm);
+  const auto turned = render::pixel_of(render::orbited(camera, {20.0, 10.0}, kView), kView, front);
   ASSERT_TRUE(turned);
   EXPECT_GT(turned->x, 240.0);
   EXPECT_GT(turned->y, 180.0);
@@ -88,26 +88,26 @@ TEST(Camera, DragsMoveWhatIsUnderTheMouse) {
 
 TEST(Camera, ZoomAndOrbitKeepTheirLimits) {
   Camera camera;
-  EXPECT_LT(draw::zoomed(camera, 1).distance_mm, camera.distance_mm);
-  EXPECT_NEAR(draw::zoomed(draw::zoomed(camera, 3), -3).distance_mm, camera.distance_mm, 1e-9);
-  EXPECT_GT(draw::zoomed(camera, 1e6).distance_mm, 0.0);
-  EXPECT_LT(draw::zoomed(camera, -1e6).distance_mm, 1e7);
-  EXPECT_DOUBLE_EQ(draw::orbited(camera, {0, 1e6}, kView).elevation_rad, draw::kSteepest);
-  EXPECT_DOUBLE_EQ(draw::orbited(camera, {0, -1e6}, kView).elevation_rad, -draw::kSteepest);
+  EXPECT_LT(render::zoomed(camera, 1).distance_mm, camera.distance_mm);
+  EXPECT_NEAR(render::zoomed(render::zoomed(camera, 3), -3).distance_mm, camera.distance_mm, 1e-9);
+  EXPECT_GT(render::zoomed(camera, 1e6).distance_mm, 0.0);
+  EXPECT_LT(render::zoomed(camera, -1e6).distance_mm, 1e7);
+  EXPECT_DOUBLE_EQ(render::orbited(camera, {0, 1e6}, kView).elevation_rad, render::kSteepest);
+  EXPECT_DOUBLE_EQ(render::orbited(camera, {0, -1e6}, kView).elevation_rad, -render::kSteepest);
 }
 
 TEST(Camera, FramingShowsAllAndFillsThePicture) {
   for (const double height : {0.01, 20.0, 150.0, 4000.0})
     for (const double aspect : {0.5, 1.0, 16.0 / 9.0}) {
       const auto pot = pot_of([&](double part) { return 0.3 * height + 10.0 * part; }, height);
-      const draw::Viewport view{static_cast<int>(900 * aspect), 900};
-      const Camera camera = draw::framed(pot, view.aspect());
+      const render::Viewport view{static_cast<int>(900 * aspect), 900};
+      const Camera camera = render::framed(pot, view.aspect());
       double left = 1e9, right = -1e9, upper = 1e9, lower = -1e9;
       for (int k = 0; k < 360; ++k)
         for (const double y : {0.0, height}) {
           const double radius = 0.3 * height + (y > 0.0 ? 10.0 : 0.0), a = k * 0.0174533;
           const auto at =
-              draw::pixel_of(camera, view, {radius * std::sin(a), y, radius * std::cos(a)});
+              render::pixel_of(camera, view, {radius * std::sin(a), y, radius * std::cos(a)});
           ASSERT_TRUE(at);
           left = std::min(left, at->x);
           right = std::max(right, at->x);

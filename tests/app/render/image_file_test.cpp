@@ -8,11 +8,11 @@
 namespace clay::test {
 namespace {
 
-draw::Image turned(double azimuth) {
-  draw::Picture picture =
+render::Image turned(double azimuth) {
+  render::Picture picture =
       picture_of(pot_of([](double p) { return 30.0 + 20.0 * p; }, 80.0, 5.0, 6.0));
   picture.camera.azimuth_rad = azimuth;
-  picture.cut = draw::Cut::quarter;
+  picture.cut = render::Cut::quarter;
   picture.cut_azimuth_rad = 0.7;
   return drawn(picture);
 }
@@ -25,11 +25,11 @@ std::vector<std::uint8_t> decoded(const std::string& path, const std::string& fo
   return {text.begin(), text.end()};
 }
 
-draw::FrameSource shown(const std::vector<draw::Image>& frames) {
-  return [&frames](std::size_t index) -> Result<draw::Image> { return frames.at(index); };
+render::FrameSource shown(const std::vector<render::Image>& frames) {
+  return [&frames](std::size_t index) -> Result<render::Image> { return frames.at(index); };
 }
 
-draw::ByteSink into(std::string& bytes) {
+render::ByteSink into(std::string& bytes) {
   return [&bytes](std::string_view more) -> Result<void> {
     bytes += more;
     return {};
@@ -38,16 +38,16 @@ draw::ByteSink into(std::string& bytes) {
 
 TEST(ImageFile, PngHoldsEveryPixel) {
   const ScratchFolder folder;
-  const draw::Image image = turned(0.7);
-  write_text(folder.file("p.png"), draw::png_of(image));
+  const render::Image image = turned(0.7);
+  write_text(folder.file("p.png"), render::png_of(image));
   EXPECT_EQ(decoded(folder.file("p.png"), folder.file("raw")), image.rgba);
 }
 
 TEST(ImageFile, GifPlaysItsFramesForEver) {
   const ScratchFolder folder;
-  const std::vector<draw::Image> frames{turned(0.7), turned(1.7), turned(2.7)};
+  const std::vector<render::Image> frames{turned(0.7), turned(1.7), turned(2.7)};
   std::string bytes;
-  const auto written = draw::write_gif(frames.size(), 80, shown(frames), into(bytes));
+  const auto written = render::write_gif(frames.size(), 80, shown(frames), into(bytes));
   ASSERT_TRUE(written) << written.error().message;
   EXPECT_EQ(*written, bytes.size());
   EXPECT_NE(bytes.find("NETSCAPE2.0"), std::string::npos);
@@ -69,11 +69,11 @@ TEST(ImageFile, GifPlaysItsFramesForEver) {
 }
 
 TEST(ImageFile, GifStopsAtTheFirstErrorOfItsFramesOrItsSink) {
-  const std::vector<draw::Image> frames{turned(0.7)};
+  const std::vector<render::Image> frames{turned(0.7)};
   std::string bytes;
-  const auto unread = draw::write_gif(
+  const auto unread = render::write_gif(
       2, 80,
-      [&](std::size_t index) -> Result<draw::Image> {
+      [&](std::size_t index) -> Result<render::Image> {
         if (index == 1) return failure(ErrorKind::device, "the driver is gone");
         return frames[index];
       },
@@ -82,7 +82,7 @@ TEST(ImageFile, GifStopsAtTheFirstErrorOfItsFramesOrItsSink) {
   EXPECT_EQ(unread.error().message, "the driver is gone");
   int writes = 0;
   const auto unwritten =
-      draw::write_gif(1, 80, shown(frames), [&](std::string_view) -> Result<void> {
+      render::write_gif(1, 80, shown(frames), [&](std::string_view) -> Result<void> {
         ++writes;
         return failure(ErrorKind::io, "the disk is full");
       });

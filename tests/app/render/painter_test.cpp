@@ -8,12 +8,13 @@ namespace {
 bool is_section(const std::uint8_t* rgba) { return is_near(rgba, 0xF0, 0xB6, 0x8C, 2); }
 
 TEST(Painter, TheCutFaceIsAsWideAsTheWall) {
-  draw::Picture picture = picture_of(pot_of([](double) { return 45.0; }, 120.0, 12.0, 20.0), 0.15);
-  picture.cut = draw::Cut::half;
-  const draw::Image image = drawn(picture);
-  const glm::dvec3 right = draw::profile_direction(picture.camera);
+  render::Picture picture =
+      picture_of(pot_of([](double) { return 45.0; }, 120.0, 12.0, 20.0), 0.15);
+  picture.cut = render::Cut::half;
+  const render::Image image = drawn(picture);
+  const glm::dvec3 right = render::profile_direction(picture.camera);
   const auto px = [&](double rho, double y) {
-    return draw::pixel_of(picture.camera, kView, rho * right + glm::dvec3{0, y, 0}).value();
+    return render::pixel_of(picture.camera, kView, rho * right + glm::dvec3{0, y, 0}).value();
   };
   for (const double y : {30.0, 60.0, 110.0})
     for (const double side : {-1.0, 1.0}) {
@@ -34,16 +35,16 @@ TEST(Painter, TheCutFaceIsAsWideAsTheWall) {
 }
 
 TEST(Painter, WithoutACutThereIsNoSection) {
-  const draw::Image image =
+  const render::Image image =
       drawn(picture_of(pot_of([](double) { return 45.0; }, 120.0, 12.0, 20.0)));
   for (int y = 0; y < kView.height_px; ++y)
     for (int x = 0; x < kView.width_px; ++x) ASSERT_FALSE(is_section(image.at(x, y)));
 }
 
 TEST(Painter, AQuarterCutShowsWhatOpensToTheCamera) {
-  draw::Picture picture = picture_of(pot_of([](double) { return 45.0; }, 120.0, 12.0, 20.0), 0.3);
-  picture.cut = draw::Cut::quarter;
-  const auto count = [](const draw::Image& image) {
+  render::Picture picture = picture_of(pot_of([](double) { return 45.0; }, 120.0, 12.0, 20.0), 0.3);
+  picture.cut = render::Cut::quarter;
+  const auto count = [](const render::Image& image) {
     int found = 0;
     for (std::size_t i = 0; i < image.rgba.size(); i += 4) found += is_section(&image.rgba[i]);
     return found;
@@ -53,11 +54,11 @@ TEST(Painter, AQuarterCutShowsWhatOpensToTheCamera) {
   EXPECT_LT(count(drawn(picture)), 200);
 }
 
-draw::Picture with_tool(glm::dvec3 place) {
-  draw::Picture picture = picture_of(pot_of([](double) { return 30.0; }, 60.0), 0.3);
+render::Picture with_tool(glm::dvec3 place) {
+  render::Picture picture = picture_of(pot_of([](double) { return 30.0; }, 60.0), 0.3);
   picture.wheel_radius_mm = 80.0;
   picture.camera.distance_mm *= 1.8;
-  draw::ToolView tool;
+  render::ToolView tool;
   for (int k = 0; k <= 64; ++k) {
     const double a = 3.14159265358979 * k / 64;
     tool.half_profile_mm.emplace_back(10.0 * std::sin(a), -10.0 * std::cos(a));
@@ -69,13 +70,13 @@ draw::Picture with_tool(glm::dvec3 place) {
 }
 
 TEST(Painter, TheToolIsWhereItIs) {
-  const draw::Camera camera = with_tool({}).camera;
-  const glm::dvec3 place = 55.0 * draw::profile_direction(camera) + glm::dvec3{0, 70, 0};
-  draw::Picture picture = with_tool(place);
-  const draw::Image with = drawn(picture);
+  const render::Camera camera = with_tool({}).camera;
+  const glm::dvec3 place = 55.0 * render::profile_direction(camera) + glm::dvec3{0, 70, 0};
+  render::Picture picture = with_tool(place);
+  const render::Image with = drawn(picture);
   picture.tool.reset();
-  const draw::Image without = drawn(picture);
-  const glm::dvec3 eye = draw::eye_mm(camera), way = place - eye;
+  const render::Image without = drawn(picture);
+  const glm::dvec3 eye = render::eye_mm(camera), way = place - eye;
   const double px = 2.0 * std::tan(0.5 * camera.fov_rad) / kView.height_px;
   const double seen = std::asin(10.0 / glm::length(way));
   for (int y = 0; y < kView.height_px; ++y)
@@ -96,14 +97,14 @@ TEST(Painter, TheToolIsWhereItIs) {
 bool is_lit(const std::uint8_t* rgba) { return is_near(rgba, 255, 173, 63, 12); }
 
 TEST(Painter, AToolThatClayHidesIsSeenThrough) {
-  draw::Picture picture = with_tool({0, 30, 0});  // in the middle of a solid lump
-  const draw::Image with = drawn(picture);
+  render::Picture picture = with_tool({0, 30, 0});  // in the middle of a solid lump
+  const render::Image with = drawn(picture);
   picture.tool.reset();
-  const draw::Image without = drawn(picture);
+  const render::Image without = drawn(picture);
   const auto differs = [&](double rho) {
     const auto px =
-        draw::pixel_of(picture.camera, kView,
-                       rho * draw::profile_direction(picture.camera) + glm::dvec3{0, 30, 0})
+        render::pixel_of(picture.camera, kView,
+                         rho * render::profile_direction(picture.camera) + glm::dvec3{0, 30, 0})
             .value();
     const int x = static_cast<int>(px.x), y = static_cast<int>(px.y);
     const std::uint8_t* clay = without.at(x, y);
@@ -114,13 +115,13 @@ TEST(Painter, AToolThatClayHidesIsSeenThrough) {
 }
 
 TEST(Painter, ContactLightsTheSideThatTouches) {
-  const draw::Camera camera = with_tool({}).camera;
-  const glm::dvec3 right = draw::profile_direction(camera);
-  draw::Picture picture = with_tool(55.0 * right + glm::dvec3{0, 70, 0});
+  const render::Camera camera = with_tool({}).camera;
+  const glm::dvec3 right = render::profile_direction(camera);
+  render::Picture picture = with_tool(55.0 * right + glm::dvec3{0, 70, 0});
   picture.tool->contact = true;
   const auto lit_at = [&](double rho) {
-    const draw::Image image = drawn(picture);
-    const auto at = draw::pixel_of(camera, kView, rho * right + glm::dvec3{0, 70, 0}).value();
+    const render::Image image = drawn(picture);
+    const auto at = render::pixel_of(camera, kView, rho * right + glm::dvec3{0, 70, 0}).value();
     return is_lit(image.at(static_cast<int>(at.x), static_cast<int>(at.y)));
   };
   EXPECT_TRUE(lit_at(46.5));  // towards the axis
@@ -133,15 +134,15 @@ TEST(Painter, ContactLightsTheSideThatTouches) {
 }
 
 TEST(Painter, APinchHasTwoToolsAboutItsGap) {
-  const draw::Camera camera = with_tool({}).camera;
-  const glm::dvec3 right = draw::profile_direction(camera);
-  draw::Picture picture = with_tool(30.0 * right + glm::dvec3{0, 90, 0});
+  const render::Camera camera = with_tool({}).camera;
+  const glm::dvec3 right = render::profile_direction(camera);
+  render::Picture picture = with_tool(30.0 * right + glm::dvec3{0, 90, 0});
   picture.tool->gap_mm = 6.0;
-  const draw::Image with = drawn(picture);
+  const render::Image with = drawn(picture);
   picture.tool.reset();
-  const draw::Image without = drawn(picture);
+  const render::Image without = drawn(picture);
   const auto tool_at = [&](double rho) {
-    const auto at = draw::pixel_of(camera, kView, rho * right + glm::dvec3{0, 90, 0}).value();
+    const auto at = render::pixel_of(camera, kView, rho * right + glm::dvec3{0, 90, 0}).value();
     const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
     const auto* was = without.at(x, y);
     return !is_near(with.at(x, y), was[0], was[1], was[2], 3);
@@ -151,16 +152,16 @@ TEST(Painter, APinchHasTwoToolsAboutItsGap) {
 }
 
 TEST(Painter, TheArrowGrowsWithTheForceUpToALimit) {
-  const draw::Camera camera = with_tool({}).camera;
-  const glm::dvec3 right = draw::profile_direction(camera);
-  draw::Picture picture = with_tool(30.0 * right + glm::dvec3{0, 75, 0});
-  const draw::Image none = drawn(picture);
+  const render::Camera camera = with_tool({}).camera;
+  const glm::dvec3 right = render::profile_direction(camera);
+  render::Picture picture = with_tool(30.0 * right + glm::dvec3{0, 75, 0});
+  const render::Image none = drawn(picture);
   const auto reach_mm = [&](double newton) {  // beyond the tool's surface
     picture.tool->force_n = newton * right;
-    const draw::Image image = drawn(picture);
+    const render::Image image = drawn(picture);
     double farthest = 0.0;
     for (double rho = 30.0; rho < 130.0; rho += 0.25) {
-      const auto at = draw::pixel_of(camera, kView, rho * right + glm::dvec3{0, 75, 0}).value();
+      const auto at = render::pixel_of(camera, kView, rho * right + glm::dvec3{0, 75, 0}).value();
       const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
       if (x < 0 || x >= kView.width_px) break;
       const auto* was = none.at(x, y);
@@ -169,24 +170,24 @@ TEST(Painter, TheArrowGrowsWithTheForceUpToALimit) {
     return farthest;
   };
   EXPECT_EQ(reach_mm(0.0), 0.0);
-  EXPECT_NEAR(reach_mm(1.0), 1.0 * draw::kArrowMmPerN, 1.5);
-  EXPECT_NEAR(reach_mm(2.0), 2.0 * draw::kArrowMmPerN, 1.5);
+  EXPECT_NEAR(reach_mm(1.0), 1.0 * render::kArrowMmPerN, 1.5);
+  EXPECT_NEAR(reach_mm(2.0), 2.0 * render::kArrowMmPerN, 1.5);
   picture.tool->force_n = 5.0 * right;
-  const draw::Image most = drawn(picture);
+  const render::Image most = drawn(picture);
   picture.tool->force_n = 500.0 * right;
   EXPECT_EQ(drawn(picture), most);
 }
 
 TEST(Painter, TheMarkOnTheWheelTurnsCounterclockwise) {
-  draw::Picture picture = picture_of(pot_of([](double) { return 20.0; }, 20.0), 1.2);
+  render::Picture picture = picture_of(pot_of([](double) { return 20.0; }, 20.0), 1.2);
   picture.wheel_radius_mm = 30.0;
   picture.camera.distance_mm *= 1.4;
   for (const double turn : {0.0, 1.0, 2.5, -1.3}) {
     picture.wheel_turn_rad = turn;
-    const draw::Image image = drawn(picture);
+    const render::Image image = drawn(picture);
     const auto brightness = [&](double azimuth) {
       const glm::dvec3 at = 0.93 * 30.0 * glm::dvec3{std::sin(azimuth), 0.0, std::cos(azimuth)};
-      const auto px = draw::pixel_of(picture.camera, kView, at).value();
+      const auto px = render::pixel_of(picture.camera, kView, at).value();
       return static_cast<int>(image.at(static_cast<int>(px.x), static_cast<int>(px.y))[1]);
     };
     EXPECT_LT(brightness(turn), brightness(turn + 0.4) - 25) << turn;
@@ -195,17 +196,17 @@ TEST(Painter, TheMarkOnTheWheelTurnsCounterclockwise) {
 }
 
 TEST(Painter, AFallenPartIsDrawnWhereItLies) {
-  draw::PotView pot = pot_of([](double) { return 30.0; }, 100.0);
-  draw::FallenView fallen;
+  render::PotView pot = pot_of([](double) { return 30.0; }, 100.0);
+  render::FallenView fallen;
   fallen.first_row = 100;
   fallen.place[3] = {0.0, 0.0, 0.0, 1.0};
   fallen.place[3].x = 90.0;  // beside what stands, at the same height
   pot.fallen = fallen;
-  draw::Picture picture = picture_of(pot, 0.2);
+  render::Picture picture = picture_of(pot, 0.2);
   picture.camera.azimuth_rad = 0.0;
-  const draw::Image image = drawn(in_yellow(picture));
+  const render::Image image = drawn(in_yellow(picture));
   const auto clay_at = [&](double x, double y) {
-    const auto px = draw::pixel_of(picture.camera, kView, {x, y, 30.0}).value();
+    const auto px = render::pixel_of(picture.camera, kView, {x, y, 30.0}).value();
     return is_clay(image.at(static_cast<int>(px.x), static_cast<int>(px.y)));
   };
   EXPECT_TRUE(clay_at(0.0, 25.0));

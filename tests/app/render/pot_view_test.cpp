@@ -20,7 +20,7 @@ double cone(double part) { return 30.0 + 20.0 * part; }
 
 TEST(PotView, HasARowForEachRing) {
   const ClayStack stack = stack_of(100, 80.0, cone, 12.0);
-  const auto view = draw::view_of(stack);
+  const auto view = render::view_of(stack);
   ASSERT_EQ(view.rows.size(), 100u);
   EXPECT_DOUBLE_EQ(view.height_mm, 80.0);
   for (std::size_t i = 0; i < 100; ++i) {
@@ -30,10 +30,10 @@ TEST(PotView, HasARowForEachRing) {
 }
 
 TEST(PotView, OfManyRingsKeepsTheWalls) {
-  const auto view = draw::view_of(stack_of(50'000, 80.0, cone, 12.0));
-  ASSERT_EQ(view.rows.size(), draw::kMaxRows);
+  const auto view = render::view_of(stack_of(50'000, 80.0, cone, 12.0));
+  ASSERT_EQ(view.rows.size(), render::kMaxRows);
   for (std::size_t i = 0; i < view.rows.size(); ++i) {
-    const double part = (static_cast<double>(i) + 0.5) / static_cast<double>(draw::kMaxRows);
+    const double part = (static_cast<double>(i) + 0.5) / static_cast<double>(render::kMaxRows);
     EXPECT_NEAR(view.rows[i].outer_mm, cone(part), 1e-4);
     EXPECT_FLOAT_EQ(view.rows[i].inner_mm, part > 0.1 ? 12.0f : 0.0f) << part;
   }
@@ -42,7 +42,7 @@ TEST(PotView, OfManyRingsKeepsTheWalls) {
 TEST(PotView, ACrownIsPartOfTheHeight) {
   const ClayStack bare = stack_of(100, 80.0, cone, 0.0);
   const WideQuanta half = bare.rings().back().volume() / 2;
-  const auto view = draw::view_of(stack_of(100, 80.0, cone, 0.0, half));
+  const auto view = render::view_of(stack_of(100, 80.0, cone, 0.0, half));
   EXPECT_NEAR(view.height_mm, 80.4, 1e-9);
   for (std::size_t i = 0; i < view.rows.size(); ++i) {
     const double y = 80.4 * (static_cast<double>(i) + 0.5) / static_cast<double>(view.rows.size());
@@ -59,7 +59,7 @@ TEST(PotView, TheFallenPartIsWhereTheEngineSays) {
   pot.collapse->axis = {1.0, 0.0, 0.0};
   pot.collapse->angle_rad = 0.8;
   pot.collapse->shift_mm = {0.0, -3.0, 2.0};
-  const auto view = draw::view_of(pot);
+  const auto view = render::view_of(pot);
   ASSERT_TRUE(view.fallen);
   EXPECT_EQ(view.fallen->first_row, 40u);
   const FallenPlace place(*pot.collapse);
@@ -69,8 +69,8 @@ TEST(PotView, TheFallenPartIsWhereTheEngineSays) {
   Collapse moment = *pot.collapse;
   moment.angle_rad = 0.2;
   moment.shift_mm = {0.0, -1.0, 0.0};
-  EXPECT_EQ(draw::fallen_view(*pot.collapse, frame, view, pot.stack),
-            draw::fallen_view(moment, view, pot.stack));
+  EXPECT_EQ(render::fallen_view(*pot.collapse, frame, view, pot.stack),
+            render::fallen_view(moment, view, pot.stack));
 }
 
 TEST(PotView, HalfProfilesFollowTheTool) {
@@ -80,7 +80,7 @@ TEST(PotView, HalfProfilesFollowTheTool) {
   for (const ToolShapeSpec& shape : shapes) {
     const auto tool = Tool::build(shape);
     ASSERT_TRUE(tool);
-    const auto profile = draw::half_profile_of(*tool);
+    const auto profile = render::half_profile_of(*tool);
     ASSERT_GE(profile.size(), 2u);
     EXPECT_NEAR(profile.front().y, tool->low(), 1e-5);
     EXPECT_NEAR(profile.back().y, tool->high(), 1e-5);

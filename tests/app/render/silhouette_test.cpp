@@ -29,9 +29,9 @@ bool meets(const Shape& shape, const glm::dvec3& eye, const glm::dvec3& ray, dou
 void expect_silhouette(const std::function<double(double)>& radius, double wall_mm,
                        double elevation_rad) {
   constexpr double kHeight = 120.0;
-  const draw::Picture picture = picture_of(pot_of(radius, kHeight, wall_mm, 8.0), elevation_rad);
-  const draw::Image image = drawn(in_yellow(picture));
-  const draw::Camera& camera = picture.camera;
+  const render::Picture picture = picture_of(pot_of(radius, kHeight, wall_mm, 8.0), elevation_rad);
+  const render::Image image = drawn(in_yellow(picture));
+  const render::Camera& camera = picture.camera;
   const double px_mm = 2.0 * std::tan(0.5 * camera.fov_rad) * camera.distance_mm / kView.height_px;
   const Shape less{radius, kHeight, -kMarginPx * px_mm}, more{radius, kHeight, kMarginPx * px_mm};
   int inside = 0, holes = 0, spills = 0;
@@ -39,10 +39,10 @@ void expect_silhouette(const std::function<double(double)>& radius, double wall_
     for (int x = 0; x < kView.width_px; x += 2) {
       const glm::dvec3 ray = ray_through(camera, kView, x + 0.5, y + 0.5);
       const bool clay = is_clay(image.at(x, y));
-      const bool must = meets(less, draw::eye_mm(camera), ray, 2.0 * camera.distance_mm);
+      const bool must = meets(less, render::eye_mm(camera), ray, 2.0 * camera.distance_mm);
       inside += must;
       holes += must && !clay;
-      spills += clay && !meets(more, draw::eye_mm(camera), ray, 2.0 * camera.distance_mm);
+      spills += clay && !meets(more, render::eye_mm(camera), ray, 2.0 * camera.distance_mm);
     }
   EXPECT_GT(inside, 3000);
   EXPECT_EQ(holes, 0);

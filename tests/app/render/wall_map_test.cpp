@@ -9,26 +9,27 @@ namespace clay::test {
 namespace {
 
 /// Bands of known thickness, from the foot up, on a cylinder of 100 mm.
-draw::Picture banded(const std::vector<float>& walls, double limit_mm) {
-  draw::PotView pot = pot_of([](double) { return 45.0; }, 100.0, 15.0, 10.0);
+render::Picture banded(const std::vector<float>& walls, double limit_mm) {
+  render::PotView pot = pot_of([](double) { return 45.0; }, 100.0, 15.0, 10.0);
   for (std::size_t i = 0; i < pot.rows.size(); ++i) {
     const float wall = walls[i * walls.size() / pot.rows.size()];
     pot.wall_mm.push_back({wall, wall});
   }
-  draw::Picture picture = picture_of(pot, 0.1);
-  picture.wall_map = draw::WallMap{limit_mm, 10.0};
+  render::Picture picture = picture_of(pot, 0.1);
+  picture.wall_map = render::WallMap{limit_mm, 10.0};
   return picture;
 }
 
-const std::uint8_t* at(const draw::Image& image, const draw::Camera& camera,
+const std::uint8_t* at(const render::Image& image, const render::Camera& camera,
                        const glm::dvec3& place) {
-  const auto px = draw::pixel_of(camera, kView, place).value();
+  const auto px = render::pixel_of(camera, kView, place).value();
   return image.at(static_cast<int>(px.x), static_cast<int>(px.y));
 }
 
 /// On the face of a cut that opens to the camera.
-const std::uint8_t* at(const draw::Image& image, const draw::Camera& camera, double rho, double y) {
-  return at(image, camera, rho * draw::profile_direction(camera) + glm::dvec3{0, y, 0});
+const std::uint8_t* at(const render::Image& image, const render::Camera& camera, double rho,
+                       double y) {
+  return at(image, camera, rho * render::profile_direction(camera) + glm::dvec3{0, y, 0});
 }
 
 double linear(int byte) {
@@ -38,12 +39,12 @@ double linear(int byte) {
 
 TEST(WallMap, SectionsHaveTheColoursOfTheScale) {
   const std::vector<float> walls{8.0f, 6.0f, 4.0f, 2.0f, 40.0f};
-  draw::Picture picture = banded(walls, 0.0);
-  picture.cut = draw::Cut::half;
-  const draw::Image image = drawn(picture);
+  render::Picture picture = banded(walls, 0.0);
+  picture.cut = render::Cut::half;
+  const render::Image image = drawn(picture);
   for (std::size_t k = 0; k < walls.size(); ++k) {
     const auto* px = at(image, picture.camera, 37.5, 10.0 + 20.0 * static_cast<double>(k));
-    const auto swatch = draw::wall_swatch(*picture.wall_map, static_cast<double>(walls[k]));
+    const auto swatch = render::wall_swatch(*picture.wall_map, static_cast<double>(walls[k]));
     EXPECT_TRUE(is_near(px, swatch.red, swatch.green, swatch.blue, 3))
         << walls[k] << ": " << int{px[0]} << " " << int{px[1]} << " " << int{px[2]};
   }
@@ -51,14 +52,14 @@ TEST(WallMap, SectionsHaveTheColoursOfTheScale) {
 
 TEST(WallMap, ShadingLeavesTheHue) {
   const std::vector<float> walls{9.0f, 7.0f, 5.0f, 3.0f, 1.0f};
-  const draw::Picture picture = banded(walls, 0.0);
-  const draw::Image image = drawn(picture);
+  const render::Picture picture = banded(walls, 0.0);
+  const render::Image image = drawn(picture);
   for (std::size_t k = 0; k < walls.size(); ++k) {
     const double azimuth = picture.camera.azimuth_rad;
     const auto* px = at(
         image, picture.camera,
         {45.0 * std::sin(azimuth), 10.0 + 20.0 * static_cast<double>(k), 45.0 * std::cos(azimuth)});
-    const auto swatch = draw::wall_swatch(*picture.wall_map, static_cast<double>(walls[k]));
+    const auto swatch = render::wall_swatch(*picture.wall_map, static_cast<double>(walls[k]));
     const double green = linear(px[1]) / linear(swatch.green);
     EXPECT_GT(green, 0.45);
     EXPECT_LE(green, 1.02);
@@ -67,9 +68,9 @@ TEST(WallMap, ShadingLeavesTheHue) {
 }
 
 TEST(WallMap, ThinWallsAreHatchedInAColourOfTheirOwn) {
-  draw::Picture picture = banded({2.9f, 3.1f}, 3.0);
-  picture.cut = draw::Cut::half;
-  const draw::Image image = drawn(picture);
+  render::Picture picture = banded({2.9f, 3.1f}, 3.0);
+  picture.cut = render::Cut::half;
+  const render::Image image = drawn(picture);
   const auto red_part = [&](double low, double high) {
     int red = 0, all = 0;
     for (double y = low; y < high; y += 0.2)
@@ -84,10 +85,10 @@ TEST(WallMap, ThinWallsAreHatchedInAColourOfTheirOwn) {
 
 TEST(WallMap, UnboundedWallsAreThick) {
   constexpr float kInfinite = std::numeric_limits<float>::infinity();
-  draw::Picture picture = banded({5.0f, kInfinite, 5.0f}, 3.0);
-  picture.cut = draw::Cut::half;
-  const draw::Image image = drawn(picture);
-  const auto thick = draw::wall_swatch(*picture.wall_map, 10.0);
+  render::Picture picture = banded({5.0f, kInfinite, 5.0f}, 3.0);
+  picture.cut = render::Cut::half;
+  const render::Image image = drawn(picture);
+  const auto thick = render::wall_swatch(*picture.wall_map, 10.0);
   for (double y = 1.0; y < 99.0; y += 0.25) {
     const auto* px = at(image, picture.camera, 37.5, y);
     EXPECT_FALSE(px[0] > 2 * px[1]) << y;  // none is taken for thin
@@ -105,9 +106,9 @@ TEST(WallMap, RowsHaveTheWallsOfTheSection) {
   ASSERT_TRUE(stack);
   Pot pot;
   pot.stack = *stack;
-  const auto profile = draw::wall_profile(pot);
+  const auto profile = render::wall_profile(pot);
   ASSERT_TRUE(profile) << profile.error().message;
-  const auto walls = draw::row_walls(*profile, 100, 100.0);
+  const auto walls = render::row_walls(*profile, 100, 100.0);
   ASSERT_EQ(walls.size(), 100u);
   for (std::size_t row = 20; row < 95; ++row) {
     EXPECT_NEAR(walls[row].outer_mm, 5.0, 0.02) << row;
@@ -118,9 +119,9 @@ TEST(WallMap, RowsHaveTheWallsOfTheSection) {
 }
 
 TEST(WallMap, TheLegendIsTheScaleOfThePicture) {
-  const draw::WallMap map{2.0, 10.0};
-  draw::Image image{400, 360, std::vector<std::uint8_t>(4 * 400 * 360, 255)};
-  draw::draw_legend(map, draw::Theme::light, image);
+  const render::WallMap map{2.0, 10.0};
+  render::Image image{400, 360, std::vector<std::uint8_t>(4 * 400 * 360, 255)};
+  render::draw_legend(map, render::Theme::light, image);
   // From the top of the bar down: yellow, then dark blue, then red below the limit.
   std::vector<const std::uint8_t*> bar;
   for (int y = 0; y < 360; ++y)
@@ -129,9 +130,9 @@ TEST(WallMap, TheLegendIsTheScaleOfThePicture) {
   int red = 0;
   for (const auto* px : bar) red += px[0] > 200 && px[1] < 80;
   EXPECT_NEAR(red, 40, 2);  // two tenths of the 200 px of the bar
-  draw::Image small{100, 100, std::vector<std::uint8_t>(40000, 7)};
-  const draw::Image before = small;
-  draw::draw_legend(map, draw::Theme::dark, small);
+  render::Image small{100, 100, std::vector<std::uint8_t>(40000, 7)};
+  const render::Image before = small;
+  render::draw_legend(map, render::Theme::dark, small);
   EXPECT_EQ(small, before);
 }
 

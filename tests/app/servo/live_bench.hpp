@@ -15,7 +15,7 @@
 #include <string>
 #include <utility>
 
-namespace clay::live {
+namespace clay::servo {
 
 /// The clock of a LoopbackTransport that runs in virtual time. Nobody sleeps on it: reading waits.
 class LineClock final : public Clock {
@@ -135,4 +135,4 @@ inline HandAt press_to(double depth_mm) {
   };
 }
 
-}  // namespace clay::live
+}  // namespace clay::servo

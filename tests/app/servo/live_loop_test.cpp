@@ -10,7 +10,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace clay::live {
+namespace clay::servo {
 namespace {
 
 using falcon::GuardState;
@@ -289,4 +289,4 @@ TEST(LiveLoop, ShowsTheClayInOutline) {
 }
 
 }  // namespace
-}  // namespace clay::live
+}  // namespace clay::servo

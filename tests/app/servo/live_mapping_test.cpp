@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-namespace clay::live {
+namespace clay::servo {
 namespace {
 
 double any(double low, double high) {
@@ -165,4 +165,4 @@ TEST(Controls, ANumberThatIsNoneChangesNoGap) {
 }
 
 }  // namespace
-}  // namespace clay::live
+}  // namespace clay::servo

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace clay::live {
+namespace clay::servo {
 namespace {
 
 constexpr std::int64_t kPeriodNs = 1'000'000;
@@ -81,4 +81,4 @@ TEST(Pacer, ADeviceThatIsSlowerSetsThePace) {
 }
 
 }  // namespace
-}  // namespace clay::live
+}  // namespace clay::servo

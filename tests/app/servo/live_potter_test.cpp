@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-namespace clay::live {
+namespace clay::servo {
 namespace {
 
 constexpr double kReachMm = 46.0;
@@ -120,4 +120,4 @@ TEST(SimulatedPotter, HasTheWholeStrokeWithinReach) {
 }
 
 }  // namespace
-}  // namespace clay::live
+}  // namespace clay::servo

@@ -19,7 +19,7 @@
 #include <thread>
 #include <vector>
 
-namespace clay::live {
+namespace clay::servo {
 namespace {
 
 /// A tool on its way: what a hand does in a millisecond.
@@ -201,4 +201,4 @@ TEST(Recorder, KilledItHasLostNoMoreThanTheLast100Ms) {
 }
 
 }  // namespace
-}  // namespace clay::live
+}  // namespace clay::servo

@@ -18,7 +18,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace clay::live {
+namespace clay::servo {
 namespace {
 
 template <class Condition>
@@ -255,4 +255,4 @@ TEST_F(LastPacket, IsZeroAfterAnExceptionThatNobodyCatches) {
 }
 
 }  // namespace
-}  // namespace clay::live
+}  // namespace clay::servo

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-namespace clay::live {
+namespace clay::servo {
 namespace {
 
 TEST(LiveSettings, NamesTheOptionThatIsOutOfItsRange) {
@@ -25,4 +25,4 @@ TEST(LiveSettings, NamesTheOptionThatIsOutOfItsRange) {
 }
 
 }  // namespace
-}  // namespace clay::live
+}  // namespace clay::servo

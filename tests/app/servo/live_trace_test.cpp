@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-namespace clay::live {
+namespace clay::servo {
 namespace {
 
 TickSample at(std::int64_t time_ns) { return {.time_ns = time_ns, .clay_n = 1.0f}; }
@@ -76,4 +76,4 @@ TEST(TickTrace, HasEveryTickOfTheServo) {
 }
 
 }  // namespace
-}  // namespace clay::live
+}  // namespace clay::servo

@@ -7,7 +7,7 @@
 #include <bit>
 #include <glm/geometric.hpp>
 
-namespace clay::live {
+namespace clay::servo {
 namespace {
 
 using falcon::GuardState;
@@ -69,4 +69,4 @@ TEST(LiveWire, UnpluggedIsTheEnd) {
 }
 
 }  // namespace
-}  // namespace clay::live
+}  // namespace clay::servo

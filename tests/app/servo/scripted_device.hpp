@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <thread>
 
-namespace clay::live {
+namespace clay::servo {
 
 struct WireLog {
   std::atomic<std::uint64_t> writes{0}, zeros{0}, stops{0};
@@ -72,4 +72,4 @@ class ScriptedDevice final : public falcon::HapticDevice {
   std::atomic<bool> stopped_{false};
 };
 
-}  // namespace clay::live
+}  // namespace clay::servo

@@ -1,6 +1,6 @@
 // What comes and goes by itself, with the threads that a window on a screen has.
 
-#include "app/studio/potter.hpp"
+#include "app/studio/stroke_controller.hpp"
 #include "tests/app/servo/live_bench.hpp"
 #include "tests/app/servo/scripted_device.hpp"
 #include "tests/app/studio/socket.hpp"
@@ -27,16 +27,16 @@ DevicePointer wait_for_device(DeviceWatch& watch) {
 
 TEST(DeviceWatch, OpensWhatIsPluggedInLaterAndThenLooksNoMore) {
   Socket socket;
-  live::WireLog wire;
+  servo::WireLog wire;
   DeviceWatch watch(socket.look(), 1ms);
   socket.wait_for_looks(3);
   EXPECT_FALSE(watch.take());
-  socket.plug(std::make_unique<live::ScriptedDevice>(wire));
+  socket.plug(std::make_unique<servo::ScriptedDevice>(wire));
   EXPECT_EQ(wait_for_device(watch)->info().name, "scripted");
   const int looks = socket.looks;
   std::this_thread::sleep_for(50ms);
   EXPECT_EQ(socket.looks, looks);
-  socket.plug(std::make_unique<live::ScriptedDevice>(wire));
+  socket.plug(std::make_unique<servo::ScriptedDevice>(wire));
   watch.look_again();
   EXPECT_TRUE(wait_for_device(watch));
 }
@@ -60,15 +60,15 @@ TEST(DeviceWatch, TellsEachReasonOnceForWhatIsPluggedIn) {
   EXPECT_EQ(told(), "no firmware");
 }
 
-TEST(Potter, AnArmOfThreadsThatIsLostLeavesAStrokeAndNoForce) {
-  live::WireLog wire;
-  live::MonotonicClock clock;
-  Potter potter(clock, true);
-  ASSERT_TRUE(potter.begin(live::rib_scene()));
-  live::LiveSettings settings = live::one_to_one();
+TEST(StrokeController, AnArmOfThreadsThatIsLostLeavesAStrokeAndNoForce) {
+  servo::WireLog wire;
+  servo::MonotonicClock clock;
+  StrokeController potter(clock, true);
+  ASSERT_TRUE(potter.begin(servo::rib_scene()));
+  servo::LiveSettings settings = servo::one_to_one();
   settings.guard.ramp_s = 0.1;
   settings.guard.safe_rest_s = 0.01;  // a busy machine's late ticks are not what is tested here
-  potter.take(std::make_unique<live::ScriptedDevice>(wire), settings);
+  potter.take(std::make_unique<servo::ScriptedDevice>(wire), settings);
   const auto frames_until = [&](auto condition, const std::string& what) {
     const auto frame = [&] {
       potter.advance(clock.now_ns());
@@ -81,7 +81,7 @@ TEST(Potter, AnArmOfThreadsThatIsLostLeavesAStrokeAndNoForce) {
   frames_until([&] { return !potter.has_device(); }, "the loss of the device");
   const PotterNews news = potter.take_news();
   EXPECT_TRUE(news.device_lost && news.stroke_ended);
-  EXPECT_EQ(news.ending, live::Ending::device_lost);
+  EXPECT_EQ(news.ending, servo::Ending::device_lost);
   ASSERT_TRUE(news.error);
   EXPECT_EQ(news.error->message, "nowhere: unplugged; plug it in again");
   EXPECT_GT(news.poses, 0u);

@@ -20,7 +20,7 @@ namespace {
 
 /// The sample bowl's lump, of a clay that gives way so slowly that it is felt for long.
 SceneSpec slow_clay() {
-  SceneSpec scene = live::sample_scene("bowl");
+  SceneSpec scene = servo::sample_scene("bowl");
   scene.removal.rate_per_s = 0.1;
   return scene;
 }
@@ -40,7 +40,7 @@ class Arms : public testing::Test {
     begin_work(shop(), slow_clay());
     shop().devices = std::make_unique<DeviceWatch>(socket_.look(), std::chrono::milliseconds(1));
   }
-  Workshop& shop() { return studio_->shop(); }
+  AppState& shop() { return studio_->shop(); }
   void play(const std::string& text) {
     const auto done = runner_->run(parse_script(text, "s").value(), "s");
     ASSERT_TRUE(done) << done.error().message << "\n" << log_;

@@ -26,8 +26,8 @@ struct ArmScript {
 
 class ClockedArm final : public falcon::HapticDevice {
  public:
-  ClockedArm(live::Clock& clock, ArmScript& script)
-      : clock_(clock), script_(script), mapping_(live::Mapping::build({}).value()) {
+  ClockedArm(servo::Clock& clock, ArmScript& script)
+      : clock_(clock), script_(script), mapping_(servo::Mapping::build({}).value()) {
     info_ = {"Clocked arm", "nowhere", true, 8.0, glm::dvec3(48.0), 1000.0};
   }
   [[nodiscard]] const falcon::DeviceInfo& info() const noexcept override { return info_; }
@@ -67,9 +67,9 @@ class ClockedArm final : public falcon::HapticDevice {
     script_.most_n = std::max(script_.most_n, newtons);
   }
 
-  live::Clock& clock_;
+  servo::Clock& clock_;
   ArmScript& script_;
-  live::Mapping mapping_;
+  servo::Mapping mapping_;
   falcon::DeviceInfo info_;
   double at_mm_ = 80.0;
   std::int64_t last_us_ = -1;

@@ -19,8 +19,8 @@ using test::ScratchFolder;
 using test::write_text;
 
 /// A work of two strokes: its pot.
-work::SharedPot thrown() {
-  auto work = work::Work::begin(test::small_scene()).value();
+history::SharedPot thrown() {
+  auto work = history::Work::begin(test::small_scene()).value();
   for (const std::uint64_t seed : {3u, 4u})
     EXPECT_TRUE(work.add(test::small_scene(), test::press_stroke(seed)));
   return work.pot().value();
@@ -43,7 +43,7 @@ class Exporting : public ::testing::Test {
     return count;
   }
   ScratchFolder folder;
-  work::SharedPot pot = thrown();
+  history::SharedPot pot = thrown();
   ExportWish wish{.stl = true,
                   .obj = true,
                   .drc = false,
@@ -72,8 +72,8 @@ TEST_F(Exporting, TheBytesAreThoseOfTheCommand) {
                              ".svg --tolerance 0.05 --process porcelain --shrinkage 12%");
   // Its wall is thinner than porcelain asks: written, and said.
   ASSERT_EQ(ran.status, 1) << ran.err;
-  ASSERT_EQ(app::problems_of(*done.done).size(), 1u);
-  EXPECT_NE(ran.err.find(app::problems_of(*done.done)[0].text), std::string::npos);
+  ASSERT_EQ(cli::problems_of(*done.done).size(), 1u);
+  EXPECT_NE(ran.err.find(cli::problems_of(*done.done)[0].text), std::string::npos);
   for (const char* ending : {".stl", ".obj", ".svg", ".pot.json"})
     EXPECT_EQ(read_text(folder.file("two") + ending), read_text(mine + ending)) << ending;
   EXPECT_EQ(claystack("check " + folder.file("two.stl")).status, 0);
@@ -115,7 +115,7 @@ TEST_F(Exporting, OneThatIsCancelledLeavesNoFile) {
 }
 
 TEST_F(Exporting, CancelledAtAnyQuestionItLeavesAllFilesOrNone) {
-  app::ExportCommand command = command_of(wish);
+  cli::ExportCommand command = command_of(wish);
   std::size_t asked = 0, all = 0;
   std::mutex mutex;
   for (std::size_t until = 0; all == 0; ++until) {
@@ -124,7 +124,7 @@ TEST_F(Exporting, CancelledAtAnyQuestionItLeavesAllFilesOrNone) {
       const std::lock_guard lock(mutex);
       return ++asked > until;
     };
-    const auto done = app::export_files(*pot, command, {});
+    const auto done = cli::export_files(*pot, command, {});
     EXPECT_EQ(files(), done ? 4u : 0u) << until;
     if (done) all = asked;
   }
@@ -147,7 +147,7 @@ TEST_F(Exporting, AThinWallIsAProblemWithAPlace) {
   exporter.rehearse(pot, wish);
   const auto rehearsed = outcome();
   ASSERT_TRUE(rehearsed.done) << rehearsed.done.error().message;
-  const auto problems = app::problems_of(*rehearsed.done);
+  const auto problems = cli::problems_of(*rehearsed.done);
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_NE(problems[0].text.find("thin wall"), std::string::npos);
   ASSERT_TRUE(problems[0].at);

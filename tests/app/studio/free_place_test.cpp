@@ -8,8 +8,8 @@
 namespace clay::studio {
 namespace {
 
-draw::PotView tube(float outer_mm, float inner_mm, double height_mm, std::size_t rows) {
-  draw::PotView pot;
+render::PotView tube(float outer_mm, float inner_mm, double height_mm, std::size_t rows) {
+  render::PotView pot;
   pot.height_mm = height_mm;
   pot.rows.assign(rows, {outer_mm, inner_mm});
   return pot;
@@ -19,7 +19,7 @@ Tool sphere(double radius_mm) { return Tool::build(SphereSpec{radius_mm}).value(
 
 /// By the definition of distance, and not by rows: how deep a sphere is in a tube that stands on
 /// the wheel.
-double depth_mm(const draw::PotView& pot, double radius_mm, glm::dvec2 at) {
+double depth_mm(const render::PotView& pot, double radius_mm, glm::dvec2 at) {
   const double outer = pot.rows[0].outer_mm, inner = pot.rows[0].inner_mm;
   const double rho = std::abs(at.x);
   const double dx = rho > outer ? rho - outer : rho < inner ? inner - rho : 0.0;

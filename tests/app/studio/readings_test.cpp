@@ -24,7 +24,7 @@ std::vector<Ring> cup_rings(double wall_mm = 5.0) {
   return rings;
 }
 
-work::SharedPot pot_of(std::vector<Ring> rings, WideQuanta trimmed = 0) {
+history::SharedPot pot_of(std::vector<Ring> rings, WideQuanta trimmed = 0) {
   Pot pot;
   pot.stack = ClayStack::from_rings(0.5, std::move(rings), 0).value();
   pot.density_g_cm3 = 2.0;
@@ -33,8 +33,8 @@ work::SharedPot pot_of(std::vector<Ring> rings, WideQuanta trimmed = 0) {
   return std::make_shared<const Pot>(std::move(pot));
 }
 
-PotQuestion question_of(const work::SharedPot& pot, const std::string& process = {}) {
-  return {{pot, draw::view_of(*pot), pot->density_g_cm3}, process};
+PotQuestion question_of(const history::SharedPot& pot, const std::string& process = {}) {
+  return {{pot, render::view_of(*pot), pot->density_g_cm3}, process};
 }
 
 TEST(ClayAccount, WeighsWhatTheLedgerCounts) {
@@ -58,7 +58,7 @@ TEST(ClayAccount, TellsAQuantumThatIsNotThere) {
 TEST(ClayAccount, InMidStrokeIsTheServosLedger) {
   const auto pot = pot_of(cup_rings());
   const ClayAccount before = account_of(*pot);
-  live::LiveStatus status;
+  servo::LiveStatus status;
   status.stack_mm3 = 1000.0;
   status.trimmed_mm3 = 500.0;
   const ClayAccount account = account_of(status, pot->stack, 2.0, before);
@@ -123,7 +123,7 @@ TEST(TickHistory, RemembersTenSecondsAndTheirPercentiles) {
   EXPECT_EQ(figures.late_most_us, 500.0);
   EXPECT_EQ(figures.work_p50_us, 3.0);
   EXPECT_EQ(figures.missed, 10u);
-  const auto curve = ticks.curve(&live::TickSample::late_us);
+  const auto curve = ticks.curve(&servo::TickSample::late_us);
   EXPECT_EQ(curve.back().at, 0.0);
   EXPECT_NEAR(curve.front().at, -kHistoryS, 1e-9);
 }
@@ -132,9 +132,9 @@ TEST(Subject, OfAnOutlineKeepsTheCrown) {
   const Ring ring{quanta_from_radius(40.0), quanta_from_radius(30.0)};
   const auto stack =
       ClayStack::from_rings(0.5, std::vector<Ring>(10, ring), ring.volume() / 3).value();
-  live::LiveProfile profile;
-  live::show(stack, 0.0, profile);
-  draw::PotView outline;
+  servo::LiveProfile profile;
+  servo::show(stack, 0.0, profile);
+  render::PotView outline;
   outline.height_mm = profile.height_mm;
   for (std::size_t row = 0; row < profile.size; ++row)
     outline.rows.push_back({profile.rows[row].outer_mm, profile.rows[row].inner_mm});

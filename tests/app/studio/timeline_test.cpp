@@ -13,8 +13,8 @@ namespace {
 using test::press_stroke;
 using test::small_scene;
 
-work::Work work_of(const std::vector<int>& moves) {
-  work::Work work = work::Work::begin(small_scene()).value();
+history::Work work_of(const std::vector<int>& moves) {
+  history::Work work = history::Work::begin(small_scene()).value();
   std::uint64_t seed = 1;
   for (const int move : moves) {
     if (move > 0)
@@ -26,7 +26,7 @@ work::Work work_of(const std::vector<int>& moves) {
 }
 
 TEST(Timeline, StrokesInARowAreOneRow) {
-  const work::Work work = work_of({1, 1, 1});
+  const history::Work work = work_of({1, 1, 1});
   const Timeline timeline = timeline_of(work);
   ASSERT_EQ(timeline.blocks.size(), 3u);
   EXPECT_EQ(timeline.rows, 1u);
@@ -56,7 +56,7 @@ TEST(Timeline, WhatIsUndoneStaysInItsRowUntilAnotherWayIsTaken) {
 
 RC_GTEST_PROP(Timeline, NoTwoBlocksLieOnEachOtherAndEachIsFoundWhereItLies, ()) {
   const auto moves = *rc::gen::container<std::vector<int>>(12, rc::gen::element(1, 1, -1));
-  const work::Work work = work_of(moves);
+  const history::Work work = work_of(moves);
   const Timeline timeline = timeline_of(work);
   RC_ASSERT(timeline.blocks.size() + 1 == work.size());
   for (const TimelineBlock& block : timeline.blocks) {
@@ -65,8 +65,9 @@ RC_GTEST_PROP(Timeline, NoTwoBlocksLieOnEachOtherAndEachIsFoundWhereItLies, ()) 
     RC_ASSERT(found.has_value());
     RC_ASSERT(found->node == block.node);
   }
-  std::set<work::NodeId> before;
-  for (work::NodeId node = work.at(); node != 0; node = work.view(node).parent) before.insert(node);
+  std::set<history::NodeId> before;
+  for (history::NodeId node = work.at(); node != 0; node = work.view(node).parent)
+    before.insert(node);
   for (const TimelineBlock& block : timeline.blocks)
     RC_ASSERT(block.done == before.contains(block.node));
 }

@@ -294,7 +294,7 @@ TEST(SessionFile, TooManyPosesAreRefusedBeforeOneIsRead) {
 }
 
 TEST(SessionFile, ABlockThatFindsNoRoomIsRefusedWhereItStands) {
-  const auto line = files::LocatedJson::from_json(kThreePoses, "s", files::kMaxBlockValues, 7);
+  const auto line = LocatedJson::from_json(kThreePoses, "s", files::kMaxBlockValues, 7);
   std::vector<Pose> poses;
   test::expect_refused(files::append_block(line.value(), poses, 2),
                        "s:7: n: expected at most 10000000 poses in all, found more");

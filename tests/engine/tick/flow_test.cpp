@@ -19,7 +19,7 @@ template <class RingOf>
 WideQuanta literal_flow(const RayleighKernel& kernel, double offset, WideQuanta inside,
                         WideQuanta outside, std::size_t count, RingOf ring_of,
                         std::vector<Ring>& rings) {
-  RayleighKernel::Dealer dealer(kernel, offset);
+  RayleighKernel::ShareCursor dealer(kernel, offset);
   WideQuanta rest = inside + outside, inside_dealt = 0, outside_dealt = 0;
   for (std::size_t j = 1; j <= std::min(kernel.length() + 1, count); ++j) {
     const WideQuanta part = dealer.next();
@@ -54,7 +54,7 @@ RC_GTEST_PROP(Flow, IsAlikeInFewBitsAndInMany, ()) {
   Contact contact = contact_on(bottom, bottom + 19);
   contact.up_offset = contact.down_offset = samples::uniform(random) - 0.5;
   ClayStack stack = ClayStack::from_rings(1.0, rings, 0, 80).value();
-  Bite bite{contact, {}};
+  ToolRemoval bite{contact, {}};
   WideQuanta rest = 0;
   for (std::size_t i = bottom; i < bottom + 20; ++i) {
     bite.removed.push_back(static_cast<Quanta>(size * samples::uniform(random) *

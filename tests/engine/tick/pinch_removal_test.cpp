@@ -22,7 +22,7 @@ struct Wall {
   [[nodiscard]] double thickness() const { return outer - inner; }
 };
 
-Bite bite_of(Side side, double depth_mm, std::size_t ring = 0) {
+ToolRemoval bite_of(Side side, double depth_mm, std::size_t ring = 0) {
   return {samples::contact_on(ring, ring, side, depth_mm), {}};
 }
 
@@ -30,10 +30,10 @@ Bite bite_of(Side side, double depth_mm, std::size_t ring = 0) {
 template <Model model>
 Wall pinched(Wall wall, double gap_mm, double dt_s, const RemovalPlan& plan = kPlan) {
   const ClayStack stack = ClayStack::cylinder(1, 1.0, wall.outer, wall.inner, 1).value();
-  Bite outer = bite_of(Side::compressive, wall.from_out);
-  Bite inner = bite_of(Side::expansive, wall.from_in);
+  ToolRemoval outer = bite_of(Side::compressive, wall.from_out);
+  ToolRemoval inner = bite_of(Side::expansive, wall.from_in);
   compute_pinch_removal<model>(plan, stack, gap_mm, dt_s, outer, inner);
-  const auto taken = [](const Bite& bite) {
+  const auto taken = [](const ToolRemoval& bite) {
     return bite.removed.empty() ? 0.0 : mm2_from_quanta(bite.removed.at(0));
   };
   Wall after;
@@ -129,9 +129,9 @@ RC_GTEST_PROP(PinchRemoval, NeverLeavesARingWithoutClayAndBalances, ()) {
   ClayStack stack = samples::stack(random, 20);
   const RemovalPlan plan{.rate_per_s = 1e6, .min_wall_mm = 0.001, .paper_fraction = 1.0 - 1e-9};
   const double gap = *rc::gen::element(1e-300, 1e-6, 1.0);
-  Bite bites[2] = {{samples::contact_on(0, 19, Side::compressive, 1e6), {}},
-                   {samples::contact_on(0, 19, Side::expansive, 1e6), {}}};
-  for (Bite& bite : bites) {
+  ToolRemoval bites[2] = {{samples::contact_on(0, 19, Side::compressive, 1e6), {}},
+                          {samples::contact_on(0, 19, Side::expansive, 1e6), {}}};
+  for (ToolRemoval& bite : bites) {
     for (std::size_t i = 0; i < 20; ++i)
       if (samples::uniform(random) > 0.8) bite.contact.rings.depth(i) = 0.0;
     bite.contact.rings.trim();
@@ -140,7 +140,7 @@ RC_GTEST_PROP(PinchRemoval, NeverLeavesARingWithoutClayAndBalances, ()) {
     compute_pinch_removal<Model::paper>(plan, stack, gap, 1.0, bites[0], bites[1]);
   else
     compute_pinch_removal<Model::conserving>(plan, stack, gap, 1.0, bites[0], bites[1]);
-  for (const Bite& bite : bites) {
+  for (const ToolRemoval& bite : bites) {
     RC_ASSERT(bite.removed.size() == bite.contact.rings.size());
     for (const Quanta amount : bite.removed) RC_ASSERT(amount >= 0);
   }
@@ -160,7 +160,7 @@ TEST(PinchRemoval, WhatBothToolsTakeFlowsAsOneAmount) {
   constexpr Quanta kMm2 = Quanta{1} << 36;
   const auto flowed = [&](std::vector<std::pair<Side, Quanta>> takes) {
     ClayStack stack = ClayStack::cylinder(60, 1.0, 50.0, 40.0, 60).value();
-    std::vector<Bite> bites;
+    std::vector<ToolRemoval> bites;
     for (const auto& [side, amount] : takes) {
       bites.push_back(bite_of(side, 1.0, 30));
       bites.back().removed = {amount * kMm2};

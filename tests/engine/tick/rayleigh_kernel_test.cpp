@@ -28,7 +28,7 @@ RC_GTEST_PROP(RayleighKernel, SharesAddUpToTheAmount, ()) {
   const RayleighKernel kernel(sigma, reach, 0.5, 4000);
   const WideQuanta amount = WideQuanta{*rc::gen::inRange<Quanta>(0, Quanta{1} << 61)}
                             << *rc::gen::inRange(0, 24);  // up to 2^24 rings of 2^61
-  RayleighKernel::Dealer dealer(kernel);
+  RayleighKernel::ShareCursor dealer(kernel);
   RayleighKernel::Shares shares(amount);
   WideQuanta sum = 0;
   for (std::size_t j = 1; j <= kernel.length(); ++j) {
@@ -56,8 +56,9 @@ TEST(RayleighKernel, BeyondTheEffectiveLengthThereIsNothing) {
 TEST(RayleighKernel, LimitsOfSigmaAreDefined) {
   for (const double sigma : {0.0, 1e-160, 1e-3}) {
     const RayleighKernel narrow(sigma, 10.0, 1.0, 100);
-    EXPECT_EQ(RayleighKernel::Shares<Quanta>(12345).next(RayleighKernel::Dealer(narrow).next()),
-              12345)
+    EXPECT_EQ(
+        RayleighKernel::Shares<Quanta>(12345).next(RayleighKernel::ShareCursor(narrow).next()),
+        12345)
         << sigma;
   }
   for (const double sigma : {1e155, 1e300, std::numeric_limits<double>::infinity()}) {

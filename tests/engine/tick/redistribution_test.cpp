@@ -41,7 +41,7 @@ std::vector<double> weights(double sigma, double h, std::size_t length) {
 template <Model model>
 Flow press_one(const StepPlan& plan, const Contact& contact, std::vector<Quanta> removed,
                bool upward, ClayStack& stack, Ledger& ledger) {
-  const Bite bite{contact, std::move(removed)};
+  const ToolRemoval bite{contact, std::move(removed)};
   return press_clay<model>(plan, {&bite, 1}, upward, stack, ledger);
 }
 
@@ -77,7 +77,7 @@ TEST(Redistribution, TheKernelLiesToTheToolsEnds) {
     ClayStack stack = ClayStack::cylinder(60, 1.0, 50.0, 0.0, 60).value();
     Contact contact = contact_on(28, 30);
     contact.up_offset = offset;
-    const Bite bite{contact, {0, 120 * kMm2, 0}};
+    const ToolRemoval bite{contact, {0, 120 * kMm2, 0}};
     Ledger ledger;
     press_clay<Model::conserving>(plan_of(4.0, 12.0, 0.0), {&bite, 1}, true, stack, ledger);
     // Where a table that runs straight between its rings stands at x ring heights.
@@ -105,7 +105,7 @@ TEST(Redistribution, ANewRingContinuesTheRim) {
   Rim rim;
   const StepPlan plan = plan_of(4.0, 3.0, 0.25);
   const auto w = weights(4.0, 1.0, 3);
-  const Bite bite{contact_on(7, 7), {20 * kMm2}};
+  const ToolRemoval bite{contact_on(7, 7), {20 * kMm2}};
   press_clay<Model::conserving>(plan, {&bite, 1}, true, stack, ledger, &rim);
   EXPECT_NEAR(mm2_from_quanta(rim.outside), 15 * (w[2] - w[1]), 1e-7);
   EXPECT_NEAR(mm2_from_quanta(rim.inside), 5 * (w[2] - w[1]), 1e-7);
@@ -122,7 +122,7 @@ TEST(Redistribution, ATouchedRimIsLevel) {
   ClayStack stack = ClayStack::cylinder(10, 1.0, 10.0, 6.0, 40).value();
   Ledger ledger;
   Rim rim{kMm2, kMm2};
-  const Bite bite{contact_on(9, 9), {kMm2}};
+  const ToolRemoval bite{contact_on(9, 9), {kMm2}};
   press_clay<Model::conserving>(plan_of(4.0, 3.0, 0.25), {&bite, 1}, true, stack, ledger, &rim);
   EXPECT_TRUE(rim.outside == 0);
   EXPECT_TRUE(rim.inside == kMm2);
@@ -206,7 +206,7 @@ TEST(Redistribution, TrimmedClayIsBooked) {
   ClayStack stack = ClayStack::cylinder(10, 1.0, 10.0, 0.0, 10).value();
   Ledger ledger;
   ledger.initial = stack.volume();
-  const Bite bite{contact_on(4, 5), {10 * kMm2, 20 * kMm2}};
+  const ToolRemoval bite{contact_on(4, 5), {10 * kMm2, 20 * kMm2}};
   trim_clay<Model::conserving>({&bite, 1}, stack, ledger);
   EXPECT_TRUE(ledger.trimmed == 30 * kMm2);
   EXPECT_TRUE(ledger.imbalance(stack.recount()) == 0);

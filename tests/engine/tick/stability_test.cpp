@@ -74,7 +74,7 @@ TEST(Stability, APapersNewRingWeighsOnAllBelow) {
   StabilityWatch watch(stack);
   Ledger ledger;
   ledger.outside = ring - 1;  // what the body has lacked since its foot was looked at last
-  const Bite bite{samples::contact_on(499, 499), {1000}};
+  const ToolRemoval bite{samples::contact_on(499, 499), {1000}};
   watch.move_to(stack, 499);
   const Flow flow = press_clay<Model::paper>(plan, {&bite, 1}, true, stack, ledger);
   ASSERT_EQ(flow.grown, 1u);
@@ -110,7 +110,7 @@ RC_GTEST_PROP(Stability, WatchingTheFlowSeesWhatTheLiteralSumSees, ()) {
   for (int step = 0; step < 60; ++step) {
     const auto bottom =
         static_cast<std::size_t>(samples::uniform(random) * static_cast<double>(stack.size()));
-    Bite bite{samples::contact_on(bottom, std::min(bottom + 3, stack.size() - 1)), {}};
+    ToolRemoval bite{samples::contact_on(bottom, std::min(bottom + 3, stack.size() - 1)), {}};
     auto& [contact, removed] = bite;
     for (std::size_t i = contact.bottom; i <= contact.top; ++i) {
       removed.push_back(static_cast<Quanta>(0.4 * samples::uniform(random) *
@@ -158,7 +158,7 @@ TEST(Stability, NewRingsOnTopWeighOnTheWayToo) {
   Ledger ledger;
   std::size_t grown = 0;
   for (const std::size_t at : {50u, 40u}) {
-    const Bite bite{samples::contact_on(at, at), {ring.volume() / 2}};
+    const ToolRemoval bite{samples::contact_on(at, at), {ring.volume() / 2}};
     watch.move_to(stack, at);
     const Flow flow = trim_clay<Model::conserving>({&bite, 1}, stack, ledger);
     grown += flow.grown;
@@ -181,10 +181,10 @@ ClayStack random_stack(std::mt19937_64& random, std::size_t count) {
   return ClayStack::from_rings(1.0, std::move(rings), 0, count + 300).value();
 }
 
-Bite random_bite(std::mt19937_64& random, const ClayStack& stack) {
+ToolRemoval random_bite(std::mt19937_64& random, const ClayStack& stack) {
   const auto bottom =
       static_cast<std::size_t>(samples::uniform(random) * static_cast<double>(stack.size()));
-  Bite bite{samples::contact_on(bottom, std::min(bottom + 5, stack.size() - 1)), {}};
+  ToolRemoval bite{samples::contact_on(bottom, std::min(bottom + 5, stack.size() - 1)), {}};
   for (std::size_t i = bottom; i <= bite.contact.top; ++i) {
     bite.removed.push_back(static_cast<Quanta>(0.2 * samples::uniform(random) *
                                                static_cast<double>(stack.rings()[i].volume())));
@@ -210,7 +210,7 @@ void leaps_see_what_the_running_sum_sees() {
   StabilityWatch watch(stack);
   bool failed = false;
   for (int step = 0; step < 40 && !failed; ++step) {
-    const Bite bite = random_bite(random, stack);
+    const ToolRemoval bite = random_bite(random, stack);
     const std::size_t highest =
         std::min(bite.contact.top + flow_reach(plan.kernel), stack.size() - 1);
     watch.move_to(stack, highest);

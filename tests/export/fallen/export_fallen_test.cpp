@@ -41,7 +41,7 @@ TEST(ExportFallen, PotsAreUnited) {
                   report.counted_volume_mm3,
               1.0, 1e-6);
   EXPECT_LT(report.volume_error_relative, 1e-6);
-  for (const LeftOut& item : report.left_out) EXPECT_NE(item.what, "union");
+  for (const SkippedStage& item : report.left_out) EXPECT_NE(item.what, "union");
   for (std::size_t i = 0; i < result->files.size(); ++i) {
     EXPECT_EQ(report.files[i].proof, Proof::exact_test);
     EXPECT_FALSE(report.files[i].certificate);

@@ -44,7 +44,7 @@ std::vector<Corner> corners_in(const std::string& obj) {
 }
 
 std::vector<Corner> shaded(const Profile& profile, std::size_t segments) {
-  const RevolveRule rule(profile, segments);
+  const RevolveLayout rule(profile, segments);
   const TriangleMesh mesh = revolve(rule);
   const std::string obj = encode_shaded_obj(rule, mesh, "pot");
   EXPECT_EQ(decode_obj(obj, "pot").value(), rounded_to_float(mesh));

@@ -38,7 +38,7 @@ Profile cup_with_cavity() {
       ->profile;
 }
 
-std::string streamed(const RevolveRule& rule) {
+std::string streamed(const RevolveLayout& rule) {
   MemoryStore store;
   EXPECT_TRUE(stream_stl(rule, store));
   return store.bytes();
@@ -47,7 +47,7 @@ std::string streamed(const RevolveRule& rule) {
 RC_GTEST_PROP(StlStream, GivesTheBytesOfTheMesh, (const ClayStack& stack)) {
   const auto section = profile_of(stack, 1e-4);
   if (!section || !certify(section->profile)) return;
-  const RevolveRule rule(section->profile, *rc::gen::inRange<std::size_t>(3, 40));
+  const RevolveLayout rule(section->profile, *rc::gen::inRange<std::size_t>(3, 40));
   const TriangleMesh mesh = revolve(rule);
   RC_ASSERT(mesh.triangles.size() == rule.triangles());
   RC_ASSERT(mesh.points.size() == rule.vertices());
@@ -55,7 +55,7 @@ RC_GTEST_PROP(StlStream, GivesTheBytesOfTheMesh, (const ClayStack& stack)) {
 }
 
 TEST(StlStream, ManyBlocksAndTwoThreadsGiveTheSameBytes) {
-  const RevolveRule rule(cup_with_cavity(), 20'000);  // 440 000 facets: 22 blocks
+  const RevolveLayout rule(cup_with_cavity(), 20'000);  // 440 000 facets: 22 blocks
   MemoryStore store;
   const auto file = stream_stl(rule, store);
   ASSERT_TRUE(file);
@@ -67,14 +67,14 @@ TEST(StlStream, ManyBlocksAndTwoThreadsGiveTheSameBytes) {
 
 TEST(StlStream, ReportsTheStoresError) {
   TamperedStore store{""};
-  const auto file = stream_stl(RevolveRule(cup_with_cavity(), 12), store);
+  const auto file = stream_stl(RevolveLayout(cup_with_cavity(), 12), store);
   ASSERT_FALSE(file);
   EXPECT_EQ(file.error().message, "disk full");
   EXPECT_EQ(file.error().kind, ErrorKind::io);
 }
 
 TEST(VerifyStl, SeesEveryBitOfEveryCorner) {
-  const RevolveRule rule(cup_with_cavity(), 5);
+  const RevolveLayout rule(cup_with_cavity(), 5);
   const std::string good = streamed(rule);
   ASSERT_TRUE(verify_stl(rule, TamperedStore(good)));
   for (std::size_t facet = 0; facet < rule.triangles(); ++facet)
@@ -90,7 +90,7 @@ TEST(VerifyStl, SeesEveryBitOfEveryCorner) {
 }
 
 TEST(VerifyStl, SeesAWrongCountAndAMissingEnd) {
-  const RevolveRule rule(cup_with_cavity(), 6);
+  const RevolveLayout rule(cup_with_cavity(), 6);
   std::string bytes = streamed(rule);
   EXPECT_FALSE(verify_stl(rule, TamperedStore(bytes.substr(0, bytes.size() - 10))));
   ++bytes[80];
@@ -100,7 +100,7 @@ TEST(VerifyStl, SeesAWrongCountAndAMissingEnd) {
 }
 
 TEST(VerifyStl, TwoFacetsExchangedAreSeen) {
-  const RevolveRule rule(cup_with_cavity(), 6);
+  const RevolveLayout rule(cup_with_cavity(), 6);
   std::string bytes = streamed(rule);
   std::swap_ranges(bytes.begin() + 84, bytes.begin() + 134, bytes.begin() + 134);
   EXPECT_FALSE(verify_stl(rule, TamperedStore(bytes)));

@@ -73,7 +73,7 @@ TEST(RunExport, TellsWhatItLeftOut) {
   const auto result = exported(pot_of(stack_of(5.0, {{20, 0}})), {MeshFormat::stl_binary}, options);
   ASSERT_TRUE(result);
   std::vector<std::string> out;
-  for (const LeftOut& item : result->report.left_out) out.push_back(item.what);
+  for (const SkippedStage& item : result->report.left_out) out.push_back(item.what);
   EXPECT_EQ(out, (std::vector<std::string>{"inner shell", "smoothing", "union", "budget",
                                            "mesh in memory", "full verification", "stl_ascii",
                                            "obj", "drc"}));

@@ -17,7 +17,7 @@ constexpr double kReach = 1e-3;
 
 Profile vase_profile() { return profile_of(shapes::vase(20))->profile; }
 
-::testing::AssertionResult refused(const TriangleMesh& mesh, const RevolveRule& rule,
+::testing::AssertionResult refused(const TriangleMesh& mesh, const RevolveLayout& rule,
                                    const std::string& because) {
   const auto matched = match_revolve(mesh, rule, kReach, "file");
   if (matched) return ::testing::AssertionFailure() << "was accepted";
@@ -44,7 +44,7 @@ TriangleMesh shuffled(const TriangleMesh& mesh, std::mt19937& random) {
 RC_GTEST_PROP(MatchRevolve, KnowsTheSolidInAnyOrder, (const ClayStack& stack, unsigned seed)) {
   const auto section = profile_of(stack, 0.01);
   if (!section || !certify(section->profile)) return;
-  const RevolveRule rule(section->profile, *rc::gen::inRange<std::size_t>(8, 30));
+  const RevolveLayout rule(section->profile, *rc::gen::inRange<std::size_t>(8, 30));
   std::mt19937 random(seed);
   TriangleMesh mesh = shuffled(revolve(rule), random);
   const auto exact = match_revolve(mesh, rule, 1e-9, "file");
@@ -56,14 +56,14 @@ RC_GTEST_PROP(MatchRevolve, KnowsTheSolidInAnyOrder, (const ClayStack& stack, un
 }
 
 TEST(MatchRevolve, MeasuresTheFarthestPoint) {
-  const RevolveRule rule(vase_profile(), 24);
+  const RevolveLayout rule(vase_profile(), 24);
   TriangleMesh mesh = revolve(rule);
   mesh.points[7] += glm::dvec3(0.0, 3e-4, 4e-4);
   EXPECT_NEAR(match_revolve(mesh, rule, kReach, "file").value(), 5e-4, 1e-12);
 }
 
 TEST(MatchRevolve, NamesWhatIsNotTheSolid) {
-  const RevolveRule rule(vase_profile(), 24);
+  const RevolveLayout rule(vase_profile(), 24);
   const TriangleMesh good = revolve(rule);
   TriangleMesh bad = good;
   bad.points[3].z += 2.0 * kReach;
@@ -84,7 +84,7 @@ TEST(MatchRevolve, NamesWhatIsNotTheSolid) {
 
 TEST(MatchRevolve, TheOtherDiagonalIsAnotherSolid) {
   // Flat quads may be cut either way, but files hold one way, and an edge cut both ways is open.
-  const RevolveRule rule(vase_profile(), 24);
+  const RevolveLayout rule(vase_profile(), 24);
   TriangleMesh mesh = revolve(rule);
   const auto shared = std::find_if(mesh.triangles.begin() + 1, mesh.triangles.end(),
                                    [&](const auto& t) { return t[0] == mesh.triangles[0][0]; });
@@ -95,8 +95,8 @@ TEST(MatchRevolve, TheOtherDiagonalIsAnotherSolid) {
 }
 
 TEST(MatchRevolve, AnotherNumberOfSegmentsIsAnotherSolid) {
-  EXPECT_FALSE(match_revolve(revolve(RevolveRule(vase_profile(), 24)),
-                             RevolveRule(vase_profile(), 25), kReach, "file"));
+  EXPECT_FALSE(match_revolve(revolve(RevolveLayout(vase_profile(), 24)),
+                             RevolveLayout(vase_profile(), 25), kReach, "file"));
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ std::string names(const RepairedMesh& result) {
 /// The mesh is sound again, holds that volume, and this is all that was done.
 void expect_mended(const TriangleMesh& broken, double volume_mm3, const std::vector<Repair>& as) {
   ASSERT_FALSE(check_mesh(broken).sound());
-  const auto result = repair(broken);
+  const auto result = repair_mesh(broken);
   ASSERT_TRUE(result) << result.error().message;
   const MeshReport report = check_mesh(result->mesh);
   EXPECT_TRUE(report.sound()) << names(*result);
@@ -65,7 +65,7 @@ double reach_of(const TriangleMesh& mesh) {
 TEST(Repair, LeavesASoundMeshAsItIs) {
   TriangleMesh mesh = together(ball(10.0), inverted(ball(5.0)));
   mesh.points.push_back({50, 50, 50});
-  const auto result = repair(mesh);
+  const auto result = repair_mesh(mesh);
   ASSERT_TRUE(result);
   EXPECT_EQ(result->mesh, mesh);
   EXPECT_TRUE(result->repaired.empty());
@@ -154,7 +154,7 @@ TEST(Repair, TakesFinsOff) {
 
 TEST(Repair, SplitsAVertexButLeavesTheSolidsTouching) {
   TriangleMesh mesh = together(cube(2.0), moved(cube(2.0), {2, 2, 2}));
-  const auto result = repair(mesh);
+  const auto result = repair_mesh(mesh);
   ASSERT_TRUE(result);
   EXPECT_EQ(times(*result, "non-manifold vertex split"), 1u) << names(*result);
   const MeshReport report = check_mesh(result->mesh);
@@ -164,7 +164,7 @@ TEST(Repair, SplitsAVertexButLeavesTheSolidsTouching) {
 }
 
 TEST(Repair, CutsAnEdgeWhereSolidsTouch) {
-  const auto result = repair(together(cube(2.0), moved(cube(2.0), {2, 2, 0})));
+  const auto result = repair_mesh(together(cube(2.0), moved(cube(2.0), {2, 2, 0})));
   ASSERT_TRUE(result);
   EXPECT_EQ(times(*result, "non-manifold edge cut apart"), 1u) << names(*result);
   const MeshReport report = check_mesh(result->mesh);
@@ -189,7 +189,7 @@ TEST(Repair, DropsWhatHasNoPlace) {
   expect_mended(mesh, 8.0, {{"triangle without a place removed", 2}});
   mesh = cube(2.0);
   mesh.points[6].x = std::numeric_limits<double>::infinity();
-  const auto lost_corner = repair(mesh);
+  const auto lost_corner = repair_mesh(mesh);
   ASSERT_TRUE(lost_corner);
   EXPECT_TRUE(check_mesh(lost_corner->mesh).sound()) << names(*lost_corner);
   EXPECT_EQ(times(*lost_corner, "hole filled"), 1u);
@@ -197,7 +197,7 @@ TEST(Repair, DropsWhatHasNoPlace) {
 
 TEST(Repair, LeavesWhatCrosses) {
   const TriangleMesh mesh = together(cube(2.0), moved(cube(2.0), {1, 1, 1}));
-  const auto result = repair(mesh);
+  const auto result = repair_mesh(mesh);
   ASSERT_TRUE(result);
   EXPECT_TRUE(result->repaired.empty()) << names(*result);
   EXPECT_EQ(check_mesh(result->mesh).self_intersections, check_mesh(mesh).self_intersections);
@@ -208,7 +208,7 @@ TEST(Repair, SaysWhenNothingIsLeft) {
        {TriangleMesh{}, TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 1}}},
         TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}},
         TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}}}) {
-    const auto result = repair(mesh);
+    const auto result = repair_mesh(mesh);
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().kind, ErrorKind::unsound);
   }
@@ -225,7 +225,7 @@ RC_GTEST_PROP(Repair, OneTriangleLessOrTurnedIsAlwaysMended, (const ClayStack& s
     broken.triangles.erase(broken.triangles.begin() + static_cast<std::ptrdiff_t>(victim));
   else
     std::swap(broken.triangles[victim][0], broken.triangles[victim][1]);
-  const auto result = repair(broken);
+  const auto result = repair_mesh(broken);
   RC_ASSERT(result.has_value());
   RC_LOG() << names(*result);
   RC_ASSERT(check_mesh(result->mesh).sound());
@@ -243,7 +243,7 @@ RC_GTEST_PROP(Repair, AnySoupIsRepairedOrRefusedAndAlwaysTheSame, ()) {
   const auto count = *rc::gen::inRange(0, 40);
   const auto index = rc::gen::inRange<std::uint32_t>(0, points + 1);
   for (int i = 0; i < count; ++i) mesh.triangles.push_back({*index, *index, *index});
-  const auto once = repair(mesh), again = repair(mesh);
+  const auto once = repair_mesh(mesh), again = repair_mesh(mesh);
   RC_ASSERT(once.has_value() == again.has_value());
   if (!once) return;
   RC_ASSERT(once->mesh == again->mesh);

@@ -116,11 +116,11 @@ struct Wire {
   static void write_zero(void* wire) noexcept { static_cast<Wire*>(wire)->last.store(kZero); }
 };
 
-TEST(LastZero, IsTheLastThatTheDeviceHears) {
+TEST(EmergencyStop, IsTheLastThatTheDeviceHears) {
   for (int round = 0; round < 200; ++round) {
     ForceGate gate;
     Wire wire;
-    LastZero last_zero;
+    EmergencyStop last_zero;
     last_zero.arm(gate, &Wire::write_zero, &wire);
     std::atomic<bool> running{false};
     std::thread servo([&] {
@@ -139,10 +139,10 @@ TEST(LastZero, IsTheLastThatTheDeviceHears) {
   }
 }
 
-LastZero signalled;
+EmergencyStop signalled;
 void on_signal(int) { signalled.fire(); }
 
-TEST(LastZero, IsWrittenFromASignalInTheMidstOfAPacket) {
+TEST(EmergencyStop, IsWrittenFromASignalInTheMidstOfAPacket) {
   ForceGate gate;
   Wire wire;
   signalled.arm(gate, &Wire::write_zero, &wire);

@@ -59,9 +59,9 @@ class RayleighKernel {
   /// -1) moves all rings away from the tool: ring j then reaches from j - 1 + offset to j + offset
   /// in a distribution that is even within each ring of the table, and ring 1 has what lies before
   /// it too. A negative offset leaves something to ring L1 + 1.
-  class Dealer {
+  class ShareCursor {
    public:
-    explicit Dealer(const RayleighKernel& kernel, double offset = 0.0) noexcept
+    explicit ShareCursor(const RayleighKernel& kernel, double offset = 0.0) noexcept
         : kernel_(&kernel),
           at_(static_cast<std::int64_t>(std::floor(offset)) + 1),
           between_(static_cast<std::int64_t>((offset - std::floor(offset)) * kBetweenOne)),
@@ -83,9 +83,9 @@ class RayleighKernel {
     std::int64_t below_;    ///< C at at_
   };
 
-  /// Deals an amount out by the parts that a Dealer names, to the quantum: what rings 1..L1 get
-  /// adds up to it. Quanta or WideQuanta, which give the same shares: what an ordinary tick moves
-  /// fits into 64 bits, which is one multiplication instead of three.
+  /// Deals an amount out by the parts that a ShareCursor names, to the quantum: what rings 1..L1
+  /// get adds up to it. Quanta or WideQuanta, which give the same shares: what an ordinary tick
+  /// moves fits into 64 bits, which is one multiplication instead of three.
   template <class Amount>
   class Shares {
    public:

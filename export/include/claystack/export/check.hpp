@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline check {
 
 // ---- mesh check ----------------------------------------------------------------------
 // Is a mesh a solid that prints? The tests know nothing of how the mesh was made.
@@ -123,4 +123,4 @@ Result<ProcessLimits> process_named(std::string_view name);
 /// JSON as in samples/schema/process.schema.json; errors name the file and the field.
 Result<ProcessLimits> parse_process(std::string_view bytes, std::string_view file_name);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline check

@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <string>
 
-namespace clay::solid {
+namespace clay::solid::inline fallen {
 
 /// The most triangles of both parts together: exact numbers take ten times the memory of doubles.
 inline constexpr std::size_t kMaxUnitedTriangles = 4'000'000;
@@ -70,4 +70,4 @@ struct CollapsedSolid {
 Result<CollapsedSolid> collapsed_solid(const CollapsedParts& parts, const Collapse& collapse,
                                        std::size_t segments, double tolerance_mm);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline fallen

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline formats {
 
 // ---- mesh formats --------------------------------------------------------------------
 // The only doors through which meshes come in and go out. Encoders write to memory;
@@ -162,4 +162,4 @@ class MemoryStore final : public FileStore {
 /// it passed as it fell is dashed.
 std::string section_svg(const Pot& pot);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline formats

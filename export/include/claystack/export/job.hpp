@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline job {
 
 // ---- shrinkage -----------------------------------------------------------------------
 // Clay shrinks as it dries and is fired: what shall come out at a size is made larger.
@@ -85,7 +85,7 @@ struct StageTime {
   double seconds = 0.0;
 };
 
-struct LeftOut {
+struct SkippedStage {
   std::string what;
   std::string why;
   std::optional<double> saved_s;  ///< measured where asked for, and where it can be
@@ -117,7 +117,7 @@ struct ExportReport {
   double volume_error_relative = 0.0;  ///< to the counted clay, less what overlaps in a collapse
   std::vector<FileReport> files;       ///< one for each output, in that order
   std::vector<StageTime> stages;
-  std::vector<LeftOut> left_out;
+  std::vector<SkippedStage> left_out;
 };
 
 /// Steps of the stack that float32 cannot hold (below 2^-19 of the pot's reach) are levelled as
@@ -132,4 +132,4 @@ Result<ExportReport> run_export(const Pot& pot, const std::vector<Output>& outpu
                                 const ExportOptions& options,
                                 const std::function<void(std::string_view)>& progress = {});
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline job

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace clay::solid {
+namespace clay::solid::inline proof {
 
 // ---- certificate ---------------------------------------------------------------------
 // The proof in the plane. For every n >= 3 the n-gon revolve of a profile is closed and
@@ -91,4 +91,4 @@ inline constexpr std::size_t kMaxCertificateBytes = std::size_t{1} << 26;
 std::string write_certificate(const SolidCertificate& certificate);
 Result<SolidCertificate> parse_certificate(std::string_view bytes, std::string_view name);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline proof

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline repair {
 
 // ---- mesh repair ---------------------------------------------------------------------
 // What can be mended in a mesh that someone else made.
@@ -34,7 +34,7 @@ struct RepairedMesh {
 /// check_mesh to say. A sound mesh comes back as it is. The same mesh gives the same repair.
 /// Soup and holes by CGAL's Polygon Mesh Processing. Error (kind `unsound`): nothing is left to
 /// repair, or the library gave up.
-Result<RepairedMesh> repair(const TriangleMesh& mesh);
+Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh);
 
 /// Border of the largest hole that is filled: beyond, the search for a patch takes too long.
 inline constexpr std::size_t kMaxHoleEdges = 10'000;
@@ -58,4 +58,4 @@ inline constexpr std::size_t kFewestTriangles = 4;
 /// or no further edge may collapse (how far it came is said); `bad_input`: a limit below 4.
 Result<DecimatedMesh> decimate(const TriangleMesh& sound_mesh, std::size_t max_triangles);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline repair

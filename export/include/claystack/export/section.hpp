@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline section {
 
 struct ProfilePoint {
   double rho = 0.0;  ///< distance from the axis [mm], >= 0
@@ -59,4 +59,4 @@ Result<StackProfile> profile_of(const ClayStack& stack, double min_step_mm = 0.0
 /// Volume of the solid of revolution [mm^3], exact up to rounding (frusta).
 [[nodiscard]] double volume_of(const Profile& profile) noexcept;
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline section

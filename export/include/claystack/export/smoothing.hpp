@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline smoothing {
 
 enum class Smoothing {
   none,   ///< the steps as they are
@@ -98,4 +98,4 @@ struct SmoothedProfile {
 Result<SmoothedProfile> smooth_profile_of(const ClayStack& stack,
                                           const SmoothingOptions& options = {});
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline smoothing

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline walls {
 
 /// The clay between two points of the boundary. Across the axis `to` lies on the mirrored half of
 /// the section: its rho is negative.
@@ -62,4 +62,4 @@ inline constexpr std::size_t kMaxWallSamples = 100'000;
 /// to it.
 [[nodiscard]] std::vector<WallSample> wall_field(const Profile& profile, double spacing_mm);
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline walls

@@ -10,7 +10,7 @@
 #include <tl/expected.hpp>
 #include <utility>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 
 // ---- device error --------------------------------------------------------------------
 // What a device can refuse, told so that a person can act on it.
@@ -197,4 +197,4 @@ class HapticDevice {
   [[nodiscard]] virtual DeviceCounters counters() const noexcept = 0;
 };
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

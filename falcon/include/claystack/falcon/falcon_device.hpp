@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 
 // ---- geometry ------------------------------------------------------------------------
 // Sizes of the Novint Falcon in SI units. Nobody measured one well: the two published sets put
@@ -405,4 +405,4 @@ class FalconDevice final : public HapticDevice {
   std::atomic<bool> stopped_{false};
 };
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

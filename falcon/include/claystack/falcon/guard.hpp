@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <tl/expected.hpp>
 
-namespace clay::falcon {
+namespace clay::falcon::inline safety {
 
 // ---- guard settings ------------------------------------------------------------------
 // What the guard lets through and when it lets go. Sources: CHAI3D 3.3.0 has the small force and
@@ -352,7 +352,7 @@ class ForceGate {
 /// What a signal handler calls: shuts the gate for good, then writes zero. The function is the
 /// device's, and must be async-signal-safe (one write(2) of a frame made beforehand, no lock, no
 /// allocation). Install one in a static place before the force engages.
-class LastZero {
+class EmergencyStop {
  public:
   using WriteZero = void (*)(void* device) noexcept;
 
@@ -413,4 +413,4 @@ class Watchdog {
   }
 };
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline safety

@@ -9,7 +9,7 @@
 #include <optional>
 #include <tl/expected.hpp>
 
-namespace clay::falcon {
+namespace clay::falcon::inline safety {
 
 // ---- sampled bound -------------------------------------------------------------------
 // How stiff a wall can be that a sampled arm renders. A wall read once a period and held for the
@@ -280,4 +280,4 @@ class PassivityController {
   glm::dvec3 last_sent_{0.0};
 };
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline safety

@@ -12,7 +12,7 @@
 #include <optional>
 #include <tl/expected.hpp>
 
-namespace clay::falcon {
+namespace clay::falcon::inline sim {
 
 // ---- loopback transport --------------------------------------------------------------
 // A FalconModel as a transport, within the process.
@@ -175,4 +175,4 @@ struct SimulatedFalcon {
 /// Settings of one that is ready for the user to home it.
 [[nodiscard]] SimulatedSettings simulated_and_loaded();
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline sim

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clay::falcon {
+namespace clay::falcon::inline device {
 
 // ---- space mouse ---------------------------------------------------------------------
 // 3Dconnexion controllers: a cap that is pushed a little way, and does not push back. How far it is
@@ -113,4 +113,4 @@ struct DeviceSettings {
 [[nodiscard]] std::unique_ptr<HapticDevice> make_space_mouse(std::string name, std::string place,
                                                              const SpaceMouseSettings& settings);
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline device

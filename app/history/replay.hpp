@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-namespace clay::work {
+namespace clay::history {
 
 /// What the poses of a stroke have made.
 struct Thrown {
@@ -19,13 +19,13 @@ struct Thrown {
   std::vector<bool> touching;  ///< at each pose: whether the tool was in the clay
 };
 
-/// Poses come from one thread and are thrown by another, which Rethrow keeps.
-class Rethrow {
+/// Poses come from one thread and are thrown by another, which Replay keeps.
+class Replay {
  public:
-  explicit Rethrow(Wheel wheel);
-  ~Rethrow();
-  Rethrow(const Rethrow&) = delete;
-  Rethrow& operator=(const Rethrow&) = delete;
+  explicit Replay(Wheel wheel);
+  ~Replay();
+  Replay(const Replay&) = delete;
+  Replay& operator=(const Replay&) = delete;
 
   void append(std::span<const Pose> poses);  ///< waits for nothing
   /// After the last pose; waits until it is thrown. Once.
@@ -44,4 +44,4 @@ class Rethrow {
   std::thread thread_;  // last: it uses all of the above
 };
 
-}  // namespace clay::work
+}  // namespace clay::history

@@ -1,4 +1,4 @@
-#include "export/solid/revolve_rule.hpp"
+#include "export/solid/revolve_layout.hpp"
 
 #include "export/section/stack_section.hpp"
 
@@ -61,19 +61,19 @@ std::size_t Shell::triangles_per_sector() const noexcept {
   return triangles;
 }
 
-RevolveRule::RevolveRule(const Profile& profile, std::size_t segments)
+RevolveLayout::RevolveLayout(const Profile& profile, std::size_t segments)
     : circle_(circle_of(segments)) {
   for (const Polygon& polygon : profile.pieces)
     for (const Chain& chain : chains_of(polygon)) shells_.push_back(shell_of(polygon, chain));
 }
 
-std::size_t RevolveRule::triangles() const noexcept {
+std::size_t RevolveLayout::triangles() const noexcept {
   std::size_t triangles = 0;
   for (const Shell& shell : shells_) triangles += shell.triangles_per_sector() * segments();
   return triangles;
 }
 
-std::size_t RevolveRule::vertices() const noexcept {
+std::size_t RevolveLayout::vertices() const noexcept {
   std::size_t vertices = 0;
   for (const Shell& shell : shells_)
     for (std::size_t i = 0; i < shell.points.size(); ++i)
@@ -86,7 +86,7 @@ double equal_area_factor(std::size_t segments) noexcept {
   return std::sqrt(step / std::sin(step));
 }
 
-double float_rounding_mm(const RevolveRule& rule) noexcept {
+double float_rounding_mm(const RevolveLayout& rule) noexcept {
   double farthest = 0.0;
   for (const Shell& shell : rule.shells())
     for (const ProfilePoint& p : shell.points)

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace clay::solid {
+namespace clay::solid::inline check {
 
 inline constexpr std::uint32_t kNoHub = UINT32_MAX;
 
@@ -27,7 +27,7 @@ struct BoundingHull {
 
 /// The bodies stand in the order of halves of halves, so that neighbours in space are so in memory:
 /// where more than kFew are left, the lower half of them comes first.
-class Crowd {
+class BroadPhase {
  public:
   /// Few enough to compare each with each.
   static constexpr std::size_t kFew = 12;
@@ -36,7 +36,7 @@ class Crowd {
     glm::dvec3 low, high;
   };
 
-  explicit Crowd(std::vector<BoundingHull> bodies);
+  explicit BroadPhase(std::vector<BoundingHull> bodies);
 
   [[nodiscard]] std::size_t size() const { return bodies_.size(); }
   [[nodiscard]] const BoundingHull& operator[](std::uint32_t i) const { return bodies_[i]; }
@@ -78,9 +78,9 @@ class Crowd {
 };
 
 /// Along some axis one ends before the other begins.
-[[nodiscard]] inline bool apart(const Crowd::Box& a, const Crowd::Box& b) {
+[[nodiscard]] inline bool apart(const BroadPhase::Box& a, const BroadPhase::Box& b) {
   return a.low.x > b.high.x || b.low.x > a.high.x || a.low.y > b.high.y || b.low.y > a.high.y ||
          a.low.z > b.high.z || b.low.z > a.high.z;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline check

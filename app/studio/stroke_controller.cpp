@@ -1,4 +1,4 @@
-#include "app/studio/potter.hpp"
+#include "app/studio/stroke_controller.hpp"
 
 #include "app/render/pot_view.hpp"
 
@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kClosingMmPerS = 15.0;  // two hands that take hold of a wall
 
-draw::PotView view_of(const live::LiveProfile& profile) {
-  draw::PotView view;
+render::PotView view_of(const servo::LiveProfile& profile) {
+  render::PotView view;
   view.height_mm = profile.height_mm;
   view.rows.reserve(profile.size);
   for (std::size_t row = 0; row < profile.size; ++row)
@@ -20,24 +20,25 @@ draw::PotView view_of(const live::LiveProfile& profile) {
 
 }  // namespace
 
-Result<void> Potter::begin(const SceneSpec& scene) {
-  return work::Work::begin(scene).map([&](work::Work&& work) { begin(scene, std::move(work)); });
+Result<void> StrokeController::begin(const SceneSpec& scene) {
+  return history::Work::begin(scene).map(
+      [&](history::Work&& work) { begin(scene, std::move(work)); });
 }
 
-Result<void> Potter::begin(const SceneSpec& scene, const Pot& pot) {
-  return work::Work::begin(scene, pot).map([&](work::Work&& work) {
+Result<void> StrokeController::begin(const SceneSpec& scene, const Pot& pot) {
+  return history::Work::begin(scene, pot).map([&](history::Work&& work) {
     begin(scene, std::move(work));
   });
 }
 
-Result<void> Potter::begin(WorkRecord record) {
+Result<void> StrokeController::begin(WorkRecord record) {
   const SceneSpec scene = record.scenes.at(record.nodes.at(record.at).scene);
-  return work::Work::open(std::move(record)).map([&](work::Work&& work) {
+  return history::Work::open(std::move(record)).map([&](history::Work&& work) {
     begin(scene, std::move(work));
   });
 }
 
-void Potter::begin(const SceneSpec& scene, work::Work work) {
+void StrokeController::begin(const SceneSpec& scene, history::Work work) {
   release();
   scene_ = scene;
   if (work_ && (given_up_ || !work_->unsaved()) && work_->journal() != nullptr)
@@ -49,37 +50,37 @@ void Potter::begin(const SceneSpec& scene, work::Work work) {
   device_waits_ = device_ != nullptr;
   show_pot();
   if (!journals_ || work_->journal() != nullptr) return;
-  if (auto journal = work::Journal::begin(work_->record()))
+  if (auto journal = history::Journal::begin(work_->record()))
     work_->keep(std::move(*journal));
   else
     news_.error = journal.error();
 }
 
-Result<void> Potter::begin(work::Work work) {
+Result<void> StrokeController::begin(history::Work work) {
   const WorkRecord& record = work.record();
   const SceneSpec scene = record.scenes.at(record.nodes.at(record.at).scene);
   begin(scene, std::move(work));
   return {};
 }
 
-void Potter::close() {
+void StrokeController::close() {
   release();
   if (work_ && work_->journal() != nullptr) work_->journal()->discard();
 }
 
-void Potter::show_pot() {
+void StrokeController::show_pot() {
   moment_.reset();
   auto pot = work_->pot();
   if (pot) {
     pot_ = std::move(*pot);
-    view_ = draw::view_of(*pot_);
+    view_ = render::view_of(*pot_);
     crown_mm_ = 0.0;
   } else {
     news_.error = pot.error();
   }
 }
 
-Result<void> Potter::press(const Press& press) {
+Result<void> StrokeController::press(const Press& press) {
   if (device_) return {};  // the hand at the arm has the clay
   release();
   branch_here();
@@ -87,7 +88,7 @@ Result<void> Potter::press(const Press& press) {
   SceneSpec scene = scene_;
   scene.tool = press.tool;
   scene.removal.rate_per_s = press.rate_per_s;
-  live::LiveSettings settings = MouseDevice::servo_settings();
+  servo::LiveSettings settings = MouseDevice::servo_settings();
   closed_gap_mm_ = press.tool.mode == ToolMode::pinch ? press.tool.gap_mm.value_or(0.0) : 0.0;
   gap_mm_ = std::max(closed_gap_mm_, press.gap_mm);
   settings.gap_mm = gap_mm_;
@@ -95,8 +96,8 @@ Result<void> Potter::press(const Press& press) {
   return sit_down(scene, mouse_, settings);
 }
 
-Result<void> Potter::sit_down(const SceneSpec& scene, falcon::HapticDevice& device,
-                              const live::LiveSettings& settings) {
+Result<void> StrokeController::sit_down(const SceneSpec& scene, falcon::HapticDevice& device,
+                                        const servo::LiveSettings& settings) {
   if (pot_->collapse)
     return failure(ErrorKind::bad_input,
                    can_undo() ? "The clay has fallen: undo takes the last stroke back"
@@ -105,12 +106,12 @@ Result<void> Potter::sit_down(const SceneSpec& scene, falcon::HapticDevice& devi
   if (!wheel) return tl::make_unexpected(wheel.error());
   auto sink = work_->begin_stroke(scene);
   if (!sink) return tl::make_unexpected(sink.error());
-  auto recorder = live::Recorder::create(**sink);
+  auto recorder = servo::Recorder::create(**sink);
   const Pace pace = !threads_                ? Pace::stepped
                     : device.info().can_push ? Pace::real_time
                                              : Pace::thread;
-  auto sitting =
-      Sitting::begin(std::move(*wheel), device, clock_, recorder.get(), &trace_, settings, pace);
+  auto sitting = StrokeSession::begin(std::move(*wheel), device, clock_, recorder.get(), &trace_,
+                                      settings, pace);
   if (!sitting) {
     (void)recorder->finish();
     (void)work_->end_stroke();  // without a pose it is none
@@ -129,20 +130,20 @@ Result<void> Potter::sit_down(const SceneSpec& scene, falcon::HapticDevice& devi
   return {};
 }
 
-void Potter::command(const live::Command& command) noexcept {
+void StrokeController::command(const servo::Command& command) noexcept {
   if (sitting_) (void)sitting_->command(command);
 }
 
-void Potter::pause(bool on) noexcept {
+void StrokeController::pause(bool on) noexcept {
   paused_ = on;
-  command({live::CommandKind::pause, on ? 1.0 : 0.0});
+  command({servo::CommandKind::pause, on ? 1.0 : 0.0});
 }
 
-void Potter::set_stiffness(double n_per_mm2) {
+void StrokeController::set_stiffness(double n_per_mm2) {
   if (scene_.force) scene_.force->stiffness_n_per_mm2 = n_per_mm2;
 }
 
-void Potter::release() {
+void StrokeController::release() {
   if (!sitting_) return;
   news_.stroke_ended = true;
   news_.ending = sitting_->end();
@@ -163,66 +164,66 @@ void Potter::release() {
   sitting_.reset();
   recorder_.reset();
   show_pot();
-  if (news_.ending == live::Ending::device_lost) lose_device();
-  device_waits_ = device_ != nullptr && news_.ending != live::Ending::collapsed;
+  if (news_.ending == servo::Ending::device_lost) lose_device();
+  device_waits_ = device_ != nullptr && news_.ending != servo::Ending::collapsed;
 }
 
-void Potter::undo() {
+void StrokeController::undo() {
   release();
   if (work_->undo()) show_pot();
   device_waits_ = device_ != nullptr;
 }
 
-void Potter::redo() {
+void StrokeController::redo() {
   release();
   if (work_->redo()) show_pot();
   device_waits_ = device_ != nullptr;
 }
 
-void Potter::go_to(work::NodeId node) {
+void StrokeController::go_to(history::NodeId node) {
   release();
   if (node != work_->at()) work_->go_to(node);
   show_pot();
   device_waits_ = device_ != nullptr;
 }
 
-void Potter::scrub(work::NodeId node, double seconds) {
+void StrokeController::scrub(history::NodeId node, double seconds) {
   release();
   auto pot = work_->scrub(node, seconds);
   if (!pot) {
     news_.error = pot.error();
     return;
   }
-  view_ = draw::view_of(*pot);
+  view_ = render::view_of(*pot);
   moment_ = Moment{node, seconds};
   device_waits_ = false;
 }
 
-void Potter::show_present() {
+void StrokeController::show_present() {
   if (!moment_) return;
   show_pot();
   device_waits_ = device_ != nullptr;
 }
 
-void Potter::branch_here() {
+void StrokeController::branch_here() {
   if (!moment_) return;
   if (auto added = work_->branch(moment_->node, moment_->seconds); !added)
     news_.error = added.error();
   show_present();
 }
 
-Result<void> Potter::save(const std::string& path) {
+Result<void> StrokeController::save(const std::string& path) {
   release();
   return work_->save(path);
 }
 
-void Potter::advance(std::int64_t now_ns) {
+void StrokeController::advance(std::int64_t now_ns) {
   if (!sitting_ && device_waits_ && work_ && !pot_->collapse) sit_with_device();
   if (!sitting_) return;
   if (gap_mm_ > closed_gap_mm_) {
     const double elapsed_s = 1e-9 * static_cast<double>(now_ns - last_ns_);
     gap_mm_ = std::max(closed_gap_mm_, gap_mm_ - kClosingMmPerS * elapsed_s);
-    command({live::CommandKind::gap, gap_mm_});
+    command({servo::CommandKind::gap, gap_mm_});
   }
   last_ns_ = now_ns;
   sitting_->advance(now_ns);
@@ -231,16 +232,16 @@ void Potter::advance(std::int64_t now_ns) {
   if (!sitting_->running()) release();
 }
 
-void Potter::look() {
+void StrokeController::look() {
   status_ = sitting_->status();
-  const live::LiveProfile* profile = sitting_->new_profile();
+  const servo::LiveProfile* profile = sitting_->new_profile();
   if (profile == nullptr) return;
   view_ = view_of(*profile);
   crown_mm_ = profile->crown_mm;
 }
 
 /// Four times a second: a rate that can be read.
-void Potter::count_ticks(std::int64_t now_ns) {
+void StrokeController::count_ticks(std::int64_t now_ns) {
   constexpr std::int64_t kEveryNs = 250'000'000;
   if (now_ns - counted_ns_ < kEveryNs) return;
   tick_rate_hz_ = 1e9 * static_cast<double>(status_.ticks - counted_ticks_) /

@@ -19,53 +19,52 @@ enum class Pace {
   stepped,    ///< on the caller's thread, as far as `advance` says
 };
 
-class Sitting {
+class StrokeSession {
  public:
   /// Device, clock, recorder and trace outlive it; the device is open. Errors as
-  /// live::ServoLoop::build.
-  static Result<std::unique_ptr<Sitting>> begin(Wheel wheel, falcon::HapticDevice& device,
-                                                live::Clock& clock, live::Recorder* recorder,
-                                                live::TickTrace* trace,
-                                                const live::LiveSettings& settings, Pace pace);
-  ~Sitting();
-  Sitting(const Sitting&) = delete;
-  Sitting& operator=(const Sitting&) = delete;
+  /// servo::ServoLoop::build.
+  static Result<std::unique_ptr<StrokeSession>> begin(
+      Wheel wheel, falcon::HapticDevice& device, servo::Clock& clock, servo::Recorder* recorder,
+      servo::TickTrace* trace, const servo::LiveSettings& settings, Pace pace);
+  ~StrokeSession();
+  StrokeSession(const StrokeSession&) = delete;
+  StrokeSession& operator=(const StrokeSession&) = delete;
 
   /// Stepped: ticks until the clock stands at `until_ns`. Else nothing.
   void advance(std::int64_t until_ns);
-  bool command(const live::Command& command) noexcept;
+  bool command(const servo::Command& command) noexcept;
   /// False once it has ended by itself: the clay fell, the device went.
   [[nodiscard]] bool running() const noexcept;
 
-  [[nodiscard]] const live::LiveStatus& status() noexcept { return view().status.newest(); }
+  [[nodiscard]] const servo::LiveStatus& status() noexcept { return view().status.newest(); }
   /// Nothing where there is no newer one than the last.
-  [[nodiscard]] const live::LiveProfile* new_profile() noexcept;
+  [[nodiscard]] const servo::LiveProfile* new_profile() noexcept;
 
   /// Ends it, waits for the last tick, and is free of force. The wheel is the caller's to look at
   /// from then on.
-  live::Ending end();
+  servo::Ending end();
   [[nodiscard]] const Wheel& wheel() const noexcept { return wheel_; }
-  [[nodiscard]] const live::ServoLoop& loop() const noexcept { return *loop_; }
+  [[nodiscard]] const servo::ServoLoop& loop() const noexcept { return *loop_; }
   /// What the system gave the servo, once it has ended.
-  [[nodiscard]] live::Realtime realtime() const {
-    return servo_ ? servo_->realtime() : live::Realtime{};
+  [[nodiscard]] servo::Realtime realtime() const {
+    return servo_ ? servo_->realtime() : servo::Realtime{};
   }
 
  private:
-  Sitting(Wheel wheel, Pace pace) : wheel_(std::move(wheel)), pace_(pace) {}
-  [[nodiscard]] live::LiveView& view() noexcept { return servo_ ? servo_->view() : view_; }
+  StrokeSession(Wheel wheel, Pace pace) : wheel_(std::move(wheel)), pace_(pace) {}
+  [[nodiscard]] servo::LiveView& view() noexcept { return servo_ ? servo_->view() : view_; }
 
   Wheel wheel_;
   Pace pace_;
-  live::Clock* clock_ = nullptr;
-  std::optional<live::ServoLoop> loop_;
-  std::unique_ptr<live::Servo> servo_;  // with a thread
+  servo::Clock* clock_ = nullptr;
+  std::optional<servo::ServoLoop> loop_;
+  std::unique_ptr<servo::Servo> servo_;  // with a thread
   // Stepped.
   falcon::ForceGate gate_;
-  live::Commands commands_;
-  live::LiveView view_;
+  servo::Commands commands_;
+  servo::LiveView view_;
   std::atomic<std::int64_t> heartbeat_us_{0};
-  live::Ending ending_ = live::Ending::none;
+  servo::Ending ending_ = servo::Ending::none;
 };
 
 }  // namespace clay::studio

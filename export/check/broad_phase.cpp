@@ -1,4 +1,4 @@
-#include "export/check/crowd.hpp"
+#include "export/check/broad_phase.hpp"
 
 #include "core/cancel.hpp"
 
@@ -10,10 +10,11 @@
 #include <type_traits>
 #include <utility>
 
-namespace clay::solid {
+namespace clay::solid::inline check {
 namespace {
 
-/// Hubs are looked for in so many bodies of a set, and worth parting where an eighth has one.
+/// HighValenceVertices are looked for in so many bodies of a set, and worth parting where an eighth
+/// has one.
 constexpr std::size_t kSample = 32;
 
 }  // namespace
@@ -27,7 +28,7 @@ glm::dvec3 longest_side(const BoundingHull& body) {
   return longest;
 }
 
-Crowd::Crowd(std::vector<BoundingHull> bodies) : bodies_(std::move(bodies)) {
+BroadPhase::BroadPhase(std::vector<BoundingHull> bodies) : bodies_(std::move(bodies)) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   glm::dvec3 low{kInfinity}, high{-kInfinity};
   for (const BoundingHull& body : bodies_) {
@@ -59,7 +60,7 @@ Crowd::Crowd(std::vector<BoundingHull> bodies) : bodies_(std::move(bodies)) {
   arrange();
 }
 
-void Crowd::arrange() {
+void BroadPhase::arrange() {
   std::vector<std::uint32_t> order(bodies_.size());
   std::iota(order.begin(), order.end(), std::uint32_t{0});
   const auto split = [&](const auto& self, std::span<std::uint32_t> all) -> void {
@@ -81,7 +82,7 @@ void Crowd::arrange() {
   ordered(middles_);
 }
 
-Crowd::Box Crowd::box_of(std::span<const std::uint32_t> all) const {
+BroadPhase::Box BroadPhase::box_of(std::span<const std::uint32_t> all) const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Box box{glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
   for (const std::uint32_t i : all) {
@@ -91,13 +92,13 @@ Crowd::Box Crowd::box_of(std::span<const std::uint32_t> all) const {
   return box;
 }
 
-glm::dvec3 Crowd::middle_of(std::span<const std::uint32_t> all) const {
+glm::dvec3 BroadPhase::middle_of(std::span<const std::uint32_t> all) const {
   glm::dvec3 sum{0.0};
   for (const std::uint32_t i : all) sum += middles_[i];
   return sum / static_cast<double>(all.size());
 }
 
-glm::dvec3 Crowd::grain_of(std::span<const std::uint32_t> all, const glm::dvec3& like) const {
+glm::dvec3 BroadPhase::grain_of(std::span<const std::uint32_t> all, const glm::dvec3& like) const {
   glm::dvec3 sum{0.0};
   for (const std::uint32_t i : all) {
     const glm::dvec3 side = longest_side(bodies_[i]);
@@ -106,8 +107,8 @@ glm::dvec3 Crowd::grain_of(std::span<const std::uint32_t> all, const glm::dvec3&
   return sum / glm::length(sum);
 }
 
-std::uint32_t Crowd::common_hub(std::span<const std::uint32_t> a,
-                                std::span<const std::uint32_t> b) const {
+std::uint32_t BroadPhase::common_hub(std::span<const std::uint32_t> a,
+                                     std::span<const std::uint32_t> b) const {
   const auto sample = [&](std::span<const std::uint32_t> all) {
     std::vector<std::uint32_t> hubs;
     const std::size_t step = std::max<std::size_t>(all.size() / kSample, 1);
@@ -135,7 +136,7 @@ std::uint32_t Crowd::common_hub(std::span<const std::uint32_t> a,
   return best;
 }
 
-std::size_t Crowd::halve(std::span<std::uint32_t> all) const {
+std::size_t BroadPhase::halve(std::span<std::uint32_t> all) const {
   glm::dvec3 low = middles_[all.front()], high = low, sides{0.0};
   for (const std::uint32_t i : all) {
     low = glm::min(low, middles_[i]);
@@ -153,4 +154,4 @@ std::size_t Crowd::halve(std::span<std::uint32_t> all) const {
   return half;
 }
 
-}  // namespace clay::solid
+}  // namespace clay::solid::inline check

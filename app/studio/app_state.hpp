@@ -10,10 +10,10 @@
 #include "app/studio/host.hpp"
 #include "app/studio/importing.hpp"
 #include "app/studio/notices.hpp"
-#include "app/studio/potter.hpp"
 #include "app/studio/readings/readings.hpp"
 #include "app/studio/scene_view.hpp"
 #include "app/studio/settings.hpp"
+#include "app/studio/stroke_controller.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -46,14 +46,14 @@ struct Mark {
 /// The card of an export, and what came of it.
 struct ExportCard {
   ExportWish wish, rehearsed;  ///< `rehearsed`: what `shown` is of
-  std::optional<app::ExportDone> shown;
+  std::optional<cli::ExportDone> shown;
   std::string problem;               ///< why there is nothing to show
   std::vector<std::string> written;  ///< files of the last export; empty: none yet
   std::string said;                  ///< how it ended
 };
 
-struct Workshop {
-  Workshop(Host& given, Settings remembered, std::function<void(std::string_view)> log_line)
+struct AppState {
+  AppState(Host& given, Settings remembered, std::function<void(std::string_view)> log_line)
       : host(given),
         settings(std::move(remembered)),
         potter(given.clock(), given.real_time()),
@@ -62,7 +62,7 @@ struct Workshop {
 
   Host& host;
   Settings settings;
-  Potter potter;
+  StrokeController potter;
   Readings readings;
   SceneView view;
   Notices notices;
@@ -71,12 +71,12 @@ struct Workshop {
   std::string hand_is;                        ///< in the log: the guard's state
   std::function<void(std::string_view)> log;  ///< events, a line each
   Fonts fonts;
-  std::unique_ptr<DeviceWatch> devices;  ///< null: nobody looks for any
-  std::vector<work::Recoverable> left;   ///< by programs that died, newest first
+  std::unique_ptr<DeviceWatch> devices;    ///< null: nobody looks for any
+  std::vector<history::Recoverable> left;  ///< by programs that died, newest first
   Overlay overlay = Overlay::gallery;
   bool restyle = true;                     ///< theme or scale have changed
   bool done = false;                       ///< the window may close
-  std::function<void(Workshop&)> waiting;  ///< what an unsaved work holds up, until it is answered
+  std::function<void(AppState&)> waiting;  ///< what an unsaved work holds up, until it is answered
   bool save_first = false;                 ///< the answer was to save: then it goes on
   std::string reveal;  ///< id of a panel that has just been opened: its column scrolls to it
   std::filesystem::path file;  ///< of the work; empty: it has none yet
@@ -87,7 +87,7 @@ struct Workshop {
   ImportCard importing;
   FallShow fall;
   std::vector<Mark> marks;  ///< of the pot `marked`
-  work::SharedPot marked;
+  history::SharedPot marked;
   double rate_per_s = 20.0;  ///< of the scene, at kNominalRpm
 
   [[nodiscard]] float scale() const { return settings.scale * host.content_scale(); }
@@ -96,65 +96,65 @@ struct Workshop {
 
 /// A scene's removal rate is of a wheel that turns so fast; it goes in proportion.
 inline constexpr double kNominalRpm = 120.0;
-[[nodiscard]] double clay_rate_per_s(const Workshop& shop);
+[[nodiscard]] double clay_rate_per_s(const AppState& shop);
 
 /// As a banner and in the log.
-void tell(Workshop& shop, const Error& error);
+void tell(AppState& shop, const Error& error);
 /// Back to the view, or to the gallery where there is no work yet.
-void close_overlay(Workshop& shop);
+void close_overlay(AppState& shop);
 
 /// The work that the potter has now: its tool is chosen, the view is on it.
-void show_work(Workshop& shop);
+void show_work(AppState& shop);
 
 /// Does it at once, or where the work has changed since it was saved, after the question whether to
 /// keep it. `prompt`: a word for the log.
-void ask_first(Workshop& shop, const char* prompt, std::function<void(Workshop&)> then);
+void ask_first(AppState& shop, const char* prompt, std::function<void(AppState&)> then);
 /// The answers. `keep_it` saves before it goes on, and asks for a name where there is none.
-void keep_it(Workshop& shop);
-void let_it_go(Workshop& shop);
+void keep_it(AppState& shop);
+void let_it_go(AppState& shop);
 
 /// A new work from a scene; the tool that is chosen becomes the scene's.
-void begin_work(Workshop& shop, const SceneSpec& scene);
+void begin_work(AppState& shop, const SceneSpec& scene);
 /// Goes on with the work of a program that died, or drops it for good.
-void recover_work(Workshop& shop, std::size_t left);
-void discard_work(Workshop& shop, std::size_t left);
+void recover_work(AppState& shop, std::size_t left);
+void discard_work(AppState& shop, std::size_t left);
 
 /// An arm that has appeared takes the clay, with its stiffness within what it can render, once the
 /// mouse has let go; what is wrong with one is told.
-void look_at_devices(Workshop& shop);
+void look_at_devices(AppState& shop);
 /// The arm has gone: why is told, and one that comes is looked for.
-void lose_arm(Workshop& shop, const Error& why);
+void lose_arm(AppState& shop, const Error& why);
 /// What only the hand at the arm can do stands in a banner for as long as it is to be done.
-void look_at_hand(Workshop& shop);
+void look_at_hand(AppState& shop);
 /// Of an arm that throws: what it does, or needs. Empty with anything that can't push.
-[[nodiscard]] std::string words_of_hand(const Workshop& shop);
+[[nodiscard]] std::string words_of_hand(const AppState& shop);
 /// The guard keeps the force at zero until somebody asks for it.
-[[nodiscard]] bool waits_for_rearm(const Workshop& shop);
+[[nodiscard]] bool waits_for_rearm(const AppState& shop);
 
 /// For a pot that comes without one: its proportions.
 [[nodiscard]] SceneSpec scene_for(const Pot& pot, const std::string& name);
 /// Any file that the studio knows: a scene, a pot, a work, a process; of a drawing the card that
 /// imports it.
-void open_file(Workshop& shop, const std::filesystem::path& path);
+void open_file(AppState& shop, const std::filesystem::path& path);
 /// Limits of a process of the user's own, a .json file: for the walls, and for the export where its
 /// card is open.
-void take_process(Workshop& shop, const std::filesystem::path& path);
+void take_process(AppState& shop, const std::filesystem::path& path);
 /// By the ending of the name; whether it was written. What waits for it goes on.
-bool save_to(Workshop& shop, const std::filesystem::path& path);
+bool save_to(AppState& shop, const std::filesystem::path& path);
 /// Where the box for names begins: the folder of the last file.
-void ask_for_open(Workshop& shop);
-void ask_for_save(Workshop& shop);
-void ask_for_process(Workshop& shop);
+void ask_for_open(AppState& shop);
+void ask_for_save(AppState& shop);
+void ask_for_process(AppState& shop);
 /// What the desktop's dialog was answered.
-void look_at_dialog(Workshop& shop);
+void look_at_dialog(AppState& shop);
 
 /// The drawing of the card becomes the work.
-void take_import(Workshop& shop);
+void take_import(AppState& shop);
 
 /// The card of an export, with what was chosen last.
-void ask_for_export(Workshop& shop);
-void write_export(Workshop& shop);
+void ask_for_export(AppState& shop);
+void write_export(AppState& shop);
 /// Once a frame: the rehearsal of what is chosen, what has ended, and marks on the pot.
-void look_at_export(Workshop& shop);
+void look_at_export(AppState& shop);
 
 }  // namespace clay::studio

@@ -33,10 +33,10 @@ struct Shell {
   [[nodiscard]] std::size_t triangles_per_sector() const noexcept;
 };
 
-class RevolveRule {
+class RevolveLayout {
  public:
   /// Needs a certified profile and kMinSegments <= segments <= kMaxSegments.
-  RevolveRule(const Profile& profile, std::size_t segments);
+  RevolveLayout(const Profile& profile, std::size_t segments);
 
   [[nodiscard]] const std::vector<Shell>& shells() const noexcept { return shells_; }
   [[nodiscard]] std::size_t segments() const noexcept { return circle_.size(); }
@@ -56,12 +56,12 @@ class RevolveRule {
 };
 
 /// As the public `revolve`.
-[[nodiscard]] TriangleMesh revolve(const RevolveRule& rule);
+[[nodiscard]] TriangleMesh revolve(const RevolveLayout& rule);
 
 /// sqrt((2 pi/n) / sin(2 pi/n)): an n-gon of that radius has the area of the unit circle.
 [[nodiscard]] double equal_area_factor(std::size_t segments) noexcept;
 
 /// Largest move [mm] of a vertex when its coordinates are rounded to float32.
-[[nodiscard]] double float_rounding_mm(const RevolveRule& rule) noexcept;
+[[nodiscard]] double float_rounding_mm(const RevolveLayout& rule) noexcept;
 
 }  // namespace clay::solid

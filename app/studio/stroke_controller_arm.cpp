@@ -2,30 +2,31 @@
 
 #include "app/servo/mapping.hpp"
 #include "app/servo/servo_check.hpp"
-#include "app/studio/potter.hpp"
+#include "app/studio/stroke_controller.hpp"
 
 namespace clay::studio {
 namespace {
 
 /// As stiff as the device can render at this rate, and no stiffer than the scene. What becomes of
 /// the clay does not depend on it.
-Result<SceneSpec> softened(SceneSpec scene, const live::LiveSettings& settings) {
+Result<SceneSpec> softened(SceneSpec scene, const servo::LiveSettings& settings) {
   if (!scene.force) return scene;
-  const auto mapping = live::Mapping::build(settings.mapping);
+  const auto mapping = servo::Mapping::build(settings.mapping);
   if (!mapping) return tl::make_unexpected(mapping.error());
   const auto plan = StepPlan::build(scene);
   if (!plan) return tl::make_unexpected(plan.error());
   falcon::SampledLoop arm = settings.arm;
   arm.rate_hz = settings.rate_hz;
-  const auto contact = app::servo_contact(scene, *plan, arm, mapping->stiffness_gain());
+  const auto contact = cli::servo_contact(scene, *plan, arm, mapping->stiffness_gain());
   if (!contact) return tl::make_unexpected(contact.error());
-  app::soften(scene, *contact);
+  cli::soften(scene, *contact);
   return scene;
 }
 
 }  // namespace
 
-void Potter::take(std::unique_ptr<falcon::HapticDevice> device, live::LiveSettings settings) {
+void StrokeController::take(std::unique_ptr<falcon::HapticDevice> device,
+                            servo::LiveSettings settings) {
   release();
   device_ = std::move(device);
   device_settings_ = settings;
@@ -33,13 +34,13 @@ void Potter::take(std::unique_ptr<falcon::HapticDevice> device, live::LiveSettin
 }
 
 /// The force went with it; the mouse takes over.
-void Potter::lose_device() {
+void StrokeController::lose_device() {
   news_.error = Error{ErrorKind::device, falcon::text_of(device_->problem())};
   news_.device_lost = true;
   device_.reset();
 }
 
-void Potter::hold(const ToolSpec& tool, double rate_per_s) {
+void StrokeController::hold(const ToolSpec& tool, double rate_per_s) {
   if (!device_ || !work_ || (tool == scene_.tool && rate_per_s == scene_.removal.rate_per_s))
     return;
   release();
@@ -48,7 +49,7 @@ void Potter::hold(const ToolSpec& tool, double rate_per_s) {
 }
 
 /// A servo that has ended has told the device to give no force until it is opened again.
-void Potter::sit_with_device() {
+void StrokeController::sit_with_device() {
   device_waits_ = false;
   auto opened = device_->open();
   if (!opened) return lose_device();

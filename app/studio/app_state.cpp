@@ -1,4 +1,4 @@
-#include "app/studio/workshop.hpp"
+#include "app/studio/app_state.hpp"
 
 #include <utility>
 
@@ -7,7 +7,7 @@ namespace clay::studio {
 namespace {
 
 /// Free of what was there before.
-void begin_anew(Workshop& shop, const SceneSpec& scene) {
+void begin_anew(AppState& shop, const SceneSpec& scene) {
   if (auto begun = shop.potter.begin(scene); !begun) return tell(shop, begun.error());
   shop.file.clear();
   shop.notices.close();
@@ -16,23 +16,23 @@ void begin_anew(Workshop& shop, const SceneSpec& scene) {
 
 }  // namespace
 
-double clay_rate_per_s(const Workshop& shop) {
+double clay_rate_per_s(const AppState& shop) {
   return shop.rate_per_s * shop.settings.wheel_rpm / kNominalRpm;
 }
 
-void tell(Workshop& shop, const Error& error) {
+void tell(AppState& shop, const Error& error) {
   shop.log("error: " + error.message);
   shop.notices.say(error.kind == ErrorKind::bad_input ? Grade::warning : Grade::fault,
                    error.message);
 }
 
-void close_overlay(Workshop& shop) {
+void close_overlay(AppState& shop) {
   shop.overlay = shop.potter.has_work() ? Overlay::none : Overlay::gallery;
   shop.waiting = nullptr;
   shop.save_first = false;
 }
 
-void show_work(Workshop& shop) {
+void show_work(AppState& shop) {
   choose(shop.potter.scene().tool, shop.settings.tool);
   shop.rate_per_s = shop.potter.scene().removal.rate_per_s;
   shop.overlay = Overlay::none;
@@ -41,7 +41,7 @@ void show_work(Workshop& shop) {
   shop.log("work begun: " + shop.potter.scene().name);
 }
 
-void ask_first(Workshop& shop, const char* prompt, std::function<void(Workshop&)> then) {
+void ask_first(AppState& shop, const char* prompt, std::function<void(AppState&)> then) {
   shop.potter.release();
   if (!shop.potter.unsaved()) return then(shop);
   shop.waiting = std::move(then);
@@ -50,7 +50,7 @@ void ask_first(Workshop& shop, const char* prompt, std::function<void(Workshop&)
   shop.log(std::string("prompt: ").append(prompt));
 }
 
-void keep_it(Workshop& shop) {
+void keep_it(AppState& shop) {
   shop.save_first = true;
   if (shop.file.empty())
     ask_for_save(shop);
@@ -58,33 +58,33 @@ void keep_it(Workshop& shop) {
     save_to(shop, shop.file);
 }
 
-void let_it_go(Workshop& shop) {
+void let_it_go(AppState& shop) {
   const auto then = std::exchange(shop.waiting, nullptr);
   shop.potter.give_up();
   close_overlay(shop);
   if (then) then(shop);
 }
 
-void begin_work(Workshop& shop, const SceneSpec& scene) {
-  ask_first(shop, "new", [scene](Workshop& s) { begin_anew(s, scene); });
+void begin_work(AppState& shop, const SceneSpec& scene) {
+  ask_first(shop, "new", [scene](AppState& s) { begin_anew(s, scene); });
 }
 
-void recover_work(Workshop& shop, std::size_t left) {
+void recover_work(AppState& shop, std::size_t left) {
   const std::filesystem::path path = shop.left.at(left).path;
   if (shop.potter.unsaved())
-    return ask_first(shop, "recover", [left](Workshop& s) { recover_work(s, left); });
+    return ask_first(shop, "recover", [left](AppState& s) { recover_work(s, left); });
   shop.left.erase(shop.left.begin() + static_cast<std::ptrdiff_t>(left));
-  auto begun = work::recover(path).and_then(
-      [&](work::Work&& work) { return shop.potter.begin(std::move(work)); });
+  auto begun = history::recover(path).and_then(
+      [&](history::Work&& work) { return shop.potter.begin(std::move(work)); });
   if (!begun) return tell(shop, begun.error());
   shop.file.clear();
   show_work(shop);
   shop.log("recovered: " + path.string());
 }
 
-void discard_work(Workshop& shop, std::size_t left) {
+void discard_work(AppState& shop, std::size_t left) {
   const std::filesystem::path path = shop.left.at(left).path;
-  if (auto gone = work::discard(path); gone)
+  if (auto gone = history::discard(path); gone)
     shop.log("discarded: " + path.string());
   else
     tell(shop, gone.error());

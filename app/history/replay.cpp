@@ -1,14 +1,14 @@
-#include "app/history/rethrow.hpp"
+#include "app/history/replay.hpp"
 
 #include <utility>
 
-namespace clay::work {
+namespace clay::history {
 
-Rethrow::Rethrow(Wheel wheel) : wheel_(std::move(wheel)), thread_([this] { run(); }) {}
+Replay::Replay(Wheel wheel) : wheel_(std::move(wheel)), thread_([this] { run(); }) {}
 
-Rethrow::~Rethrow() { close(); }
+Replay::~Replay() { close(); }
 
-void Rethrow::append(std::span<const Pose> poses) {
+void Replay::append(std::span<const Pose> poses) {
   {
     const std::lock_guard lock(mutex_);
     waiting_.insert(waiting_.end(), poses.begin(), poses.end());
@@ -16,12 +16,12 @@ void Rethrow::append(std::span<const Pose> poses) {
   wake_.notify_one();
 }
 
-Thrown Rethrow::finish() {
+Thrown Replay::finish() {
   close();
   return {wheel_.pot(), std::move(touching_)};
 }
 
-void Rethrow::close() {
+void Replay::close() {
   {
     const std::lock_guard lock(mutex_);
     closing_ = true;
@@ -30,7 +30,7 @@ void Rethrow::close() {
   if (thread_.joinable()) thread_.join();
 }
 
-void Rethrow::run() {
+void Replay::run() {
   std::vector<Pose> poses;
   std::unique_lock lock(mutex_);
   for (;;) {
@@ -44,4 +44,4 @@ void Rethrow::run() {
   }
 }
 
-}  // namespace clay::work
+}  // namespace clay::history
