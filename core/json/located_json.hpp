@@ -28,8 +28,6 @@ class LocatedJson {
                                        std::size_t max_values);
 
   [[nodiscard]] const Json& root() const noexcept { return root_; }
-  /// Frees the memory of the values; errors can still be placed.
-  void forget_values() { root_ = nullptr; }
 
   /// "NAME:LINE: message"; in CBOR, which has no lines, "NAME: message".
   [[nodiscard]] Error error_at(const Path& path, const std::string& message) const;

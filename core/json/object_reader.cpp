@@ -174,7 +174,6 @@ std::optional<std::int64_t> ObjectReader::integer_in(const Json& value, std::int
 
 std::vector<double> ObjectReader::numbers_in(const Json& value, const Range& range) {
   std::vector<double> numbers;
-  numbers.reserve(value.size());
   each_element(value, [&](const Json& element) {
     if (const auto read = number_in(element, range)) numbers.push_back(*read);
   });
@@ -184,7 +183,6 @@ std::vector<double> ObjectReader::numbers_in(const Json& value, const Range& ran
 std::vector<std::int64_t> ObjectReader::integers_in(const Json& value, std::int64_t low,
                                                     std::int64_t high) {
   std::vector<std::int64_t> integers;
-  integers.reserve(value.size());
   each_element(value, [&](const Json& element) {
     if (const auto read = integer_in(element, low, high)) integers.push_back(*read);
   });

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 namespace clay {
 
@@ -131,17 +130,12 @@ PotRecord record_of(const Pot& pot, bool for_people) {
   return record;
 }
 
-std::vector<Ring> rings_of(const RingArrays& arrays) {
+Result<Pot> pot_of(const LocatedJson& document, const PotRecord& record) {
+  const auto& rounded = record.rounded_rings;
+  const RingArrays arrays =
+      rounded ? exact_rings(*rounded, *RadiusGrid::of(rounded->rounded_to_mm)) : *record.rings;
   std::vector<Ring> rings(arrays.outer2.size());
   for (std::size_t i = 0; i < rings.size(); ++i) rings[i] = {arrays.outer2[i], arrays.inner2[i]};
-  return rings;
-}
-
-/// Its arrays are large: the record is taken, and of them nothing outlives the rings.
-Result<Pot> pot_of(const LocatedJson& document, PotRecord record) {
-  const auto& rounded = record.rounded_rings;
-  auto rings = rounded ? rings_of(exact_rings(*rounded, *RadiusGrid::of(rounded->rounded_to_mm)))
-                       : rings_of(*std::exchange(record.rings, std::nullopt));
   auto stack = ClayStack::from_rings(record.ring_height_mm, std::move(rings), record.crown,
                                      record.max_rings);
   if (!stack) return tl::make_unexpected(document.field_error({"rings"}, stack.error().message));
@@ -167,11 +161,10 @@ Json files::pot_json(const Pot& pot, bool for_people) {
   return ObjectWriter::write(record_of(pot, for_people));
 }
 
-Result<Pot> files::pot_of(LocatedJson document) {
-  auto record = ObjectReader::read(document, PotRecord{});
-  if (!record) return tl::make_unexpected(record.error());
-  document.forget_values();
-  return clay::pot_of(document, std::move(*record));
+Result<Pot> files::pot_of(const LocatedJson& document) {
+  return ObjectReader::read(document, PotRecord{}).and_then([&](const PotRecord& record) {
+    return clay::pot_of(document, record);
+  });
 }
 
 Result<Pot> parse_pot(std::string_view bytes, std::string_view name) {
@@ -180,8 +173,8 @@ Result<Pot> parse_pot(std::string_view bytes, std::string_view name) {
                      : [](std::string_view text, std::string_view file, std::size_t max_values) {
                          return LocatedJson::from_json(text, file, max_values);
                        };
-  return parse(bytes, name, kMaxPotValues).and_then([](LocatedJson&& document) {
-    return files::pot_of(std::move(document));
+  return parse(bytes, name, kMaxPotValues).and_then([](const LocatedJson& document) {
+    return files::pot_of(document);
   });
 }
 

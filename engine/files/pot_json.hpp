@@ -10,7 +10,6 @@ inline constexpr std::size_t kMaxPotValues = 4 * kMaxRings + 1000;
 
 /// The pot as a file of JSON holds it, with radii for people where asked for.
 Json pot_json(const Pot& pot, bool for_people);
-/// Takes the document: its values are gone before the rings are made of them.
-Result<Pot> pot_of(LocatedJson document);
+Result<Pot> pot_of(const LocatedJson& document);
 
 }  // namespace clay::files

@@ -18,7 +18,7 @@ constexpr std::size_t kMaxLineValues = 100'000;  // as of a scene; a pot has mor
 class WorkBuilder {
  public:
   /// `rest`: the lines behind it.
-  Result<void> take(LocatedJson line, LineReader rest) {
+  Result<void> take(const LocatedJson& line, LineReader rest) {
     const Json& root = line.root();
     if (root.contains("n")) return take_block(line);
     if (root.contains("end")) return take_end(line);
@@ -27,7 +27,7 @@ class WorkBuilder {
       return take_node(line).map([&] { make_room(work_.nodes.back().poses, rest); });
     if (root.contains("at")) return take_at(line);
     if (root.contains("saved")) return take_saved(line);
-    if (root.contains("rings")) return take_start(std::move(line));
+    if (root.contains("rings")) return take_start(line);
     if (root.contains("lump")) return take_scene(line);
     return wrong(line, "a scene, a pot, a node, poses, an end, a place (at, saved)");
   }
@@ -77,10 +77,10 @@ class WorkBuilder {
     });
   }
 
-  Result<void> take_start(LocatedJson line) {
+  Result<void> take_start(const LocatedJson& line) {
     if (has_root() || work_.start)
       return wrong(line, "one pot at most, before node 0; a scene, a node or a place");
-    return pot_of(std::move(line)).map([&](Pot pot) { work_.start = std::move(pot); });
+    return pot_of(line).map([&](Pot pot) { work_.start = std::move(pot); });
   }
 
   Result<void> take_node(const LocatedJson& line) {
@@ -225,7 +225,7 @@ Result<WorkReading> read_work(std::string_view text, std::string_view name, bool
     reading.torn = lines.rest().empty() && is_unfinished_json(*line);
     if (reading.torn) break;
     const auto taken = document(*line).and_then(
-        [&](LocatedJson&& read) { return builder.take(std::move(read), lines); });
+        [&](const LocatedJson& read) { return builder.take(read, lines); });
     if (!taken) {
       if (!lenient || !builder.has_root()) return tl::make_unexpected(taken.error());
       reading.damage = taken.error();
