@@ -65,7 +65,7 @@ std::vector<Contender> sizes() {
       engine_at("n200_ns", "a tick of 200 rings, every stage in", press_scene(200)),
       engine_at("n10000_ns", "of 10 000 rings", press_scene(10'000)),
       engine_at("n1000000_ns", "of a million rings", press_scene(1'000'000)),
-      literal_at("literal_n200_ns", "the paper as printed: stress summed afresh for each ring",
+      literal_at("literal_n200_ns", "the paper as printed: stress summed again for each ring",
                  press_scene(200), as_printed),
       literal_at("literal_eased_n200_ns", "the paper with a running sum for the stress",
                  press_scene(200), eased),

@@ -121,19 +121,19 @@ void add_bench_command(CLI::App& app, Console& console, int& exit) {
   auto options = std::make_shared<BenchOptions>();
   CLI::App* command = app.add_subcommand(
       "bench", "Measure: speed, error against run time, convergence, extremes, the closed loop");
-  command->add_flag("--quick", options->quick, "Less of everything: within three minutes");
+  command->add_flag("--quick", options->quick, "Fewer repetitions: ends within three minutes");
   auto* const only =
-      command->add_option("--only", options->only, "Sections to measure, of " + section_list())
+      command->add_option("--only", options->only, "Sections to measure: " + section_list())
           ->delimiter(',');
   command->add_flag("--extremes", options->extremes, "The same as --only extremes")->excludes(only);
-  command->add_option("--report", options->report, "HTML page with all tables and plots");
-  command->add_option("--csv", options->csv, "Folder for a CSV file of each table, plot and map");
-  command->add_option("--svg", options->svg, "Folder for a drawing of each plot and map");
+  command->add_option("--report", options->report, "HTML file for all tables and plots");
+  command->add_option("--csv", options->csv, "Folder for one CSV file per table, plot and map");
+  command->add_option("--svg", options->svg, "Folder for one SVG file per plot and map");
   command->footer(
       "\nExamples:\n  claystack bench --quick --report bench.html\n"
       "  claystack bench --only tick,left_out --json\n"
       "  claystack bench --report bench.html --csv figures\n\n"
-      "Exit status 1: something that must hold did not.");
+      "Exit status 1: a required bound does not hold.");
   command->callback([options, &console, &exit] {
     const auto done = run_bench(*options, console);
     exit = done ? *done : report(done.error());

@@ -46,7 +46,7 @@ Result<Verdict> check_file(const CheckCommand& command, const Console& console) 
 std::string what_failed(ErrorKind kind) {
   switch (kind) {
     case ErrorKind::unsound:
-      return "not mended";
+      return "not repaired";
     case ErrorKind::io:
       return "not read or written";
     case ErrorKind::bad_input:
@@ -75,7 +75,7 @@ int check(CheckCommand& command, const Console& console) {
 void add_check_command(CLI::App& app, Console& console, int& exit) {
   auto command = std::make_shared<CheckCommand>();
   CLI::App* sub =
-      app.add_subcommand("check", "Say what is wrong with a pot or anyone's mesh, and where");
+      app.add_subcommand("check", "Check a pot or a mesh, and report each fault with its place");
   sub->add_option("file", command->file, ".stl, .obj, .drc, .pot.json or .pot.cbor")->required();
   command->walls.add_to(*sub);
   sub->add_option("--wall-samples", command->wall_samples,
@@ -84,18 +84,20 @@ void add_check_command(CLI::App& app, Console& console, int& exit) {
       ->check(CLI::Range(std::size_t{1}, solid::kMostWallSamples))
       ->capture_default_str();
   sub->add_option("--certificate", command->certificate,
-                  "Prove again what this certificate states of the file");
-  sub->add_flag("--repair", command->repair, "Mend the mesh, and tell what was repaired");
-  sub->add_option("--max-triangles", command->max_triangles,
-                  "Decimate a closed mesh, after any repair, and measure the error")
+                  "Certificate of the file, to be verified against its bytes");
+  sub->add_flag("--repair", command->repair, "Repair the mesh, and report what was repaired");
+  sub->add_option(
+         "--max-triangles", command->max_triangles,
+         "Most triangles: decimates a closed mesh after any repair, and measures the error")
       ->check(CLI::Range(solid::kFewestTriangles, solid::kMaxTriangles));
-  sub->add_option("-o,--out", command->out,
-                  "The mended or decimated mesh: .stl, .obj or .drc. Written even where nothing "
-                  "had to be done or problems remain; the verdict and the exit status are its own");
+  sub->add_option(
+      "-o,--out", command->out,
+      "File for the repaired or decimated mesh: .stl, .obj or .drc. Written even where nothing "
+      "had to be done or problems remain; the verdict and the exit status are its own");
   sub->footer(
       "\nExamples:\n  claystack check bowl.stl --certificate bowl.stl.certificate.json\n"
       "  claystack check bowl.pot.json --min-wall 3 "
-      "--json\n  claystack check found.stl --repair -o mended.stl\n"
+      "--json\n  claystack check found.stl --repair -o repaired.stl\n"
       "  claystack check scan.obj --repair --max-triangles 100000 -o small.stl --min-wall 2");
   sub->callback([command, &console, &exit] { exit = check(*command, console); });
 }

@@ -80,7 +80,7 @@ Result<TriangleMesh> mended(TriangleMesh mesh, const CheckCommand& command, Mend
 Result<std::string> encoded(const TriangleMesh& mesh, MeshFormat format) {
   switch (format) {
     case MeshFormat::obj:
-      return solid::encode_obj(mesh, "mended");
+      return solid::encode_obj(mesh, "repaired");
     case MeshFormat::drc:
       return solid::encode_drc(mesh, {});
     case MeshFormat::stl_binary:

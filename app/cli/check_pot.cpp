@@ -60,7 +60,7 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command) {
   if (command.mends())
     return failure(
         ErrorKind::bad_input,
-        command.file + ": --repair and --max-triangles are for meshes; export a pot anew");
+        command.file + ": --repair and --max-triangles are for meshes; export the pot again");
   if (!command.certificate.empty())
     return failure(ErrorKind::bad_input,
                    command.file + ": expected a mesh, of which certificates speak, found a pot");

@@ -121,17 +121,17 @@ void add_devices_command(CLI::App& app, Console& console, int& exit) {
       "devices", "Say what is plugged in, whether it can be used, and what to do if not");
   command
       ->add_option("which", options->which,
-                   "Open one: auto, falcon, bridge, spacemouse, simulated, or a place")
+                   "Device to open: auto, falcon, bridge, spacemouse, simulated, or its place")
       ->check(CLI::Validator(check_device_name, ""));
   add_falcon_options(*command, options->falcon);
   command->add_flag("--monitor", options->monitor, "Show position and buttons until interrupted");
-  command->add_option("--seconds", options->seconds, "Monitor for so long")
+  command->add_option("--seconds", options->seconds, "Duration of the monitor [s]")
       ->check(CLI::Validator(in_range(0.0, 1e6), ""));
   add_place_options(*command, options->mapping);
   command->footer(
       "\nExamples:\n  claystack devices\n  claystack devices falcon --firmware FILE --monitor\n"
       "  claystack devices simulated --monitor --seconds 5\n\n"
-      "Exit status: 0, or 4 when the device asked for can't be opened or fails.");
+      "Exit status: 0, or 4 when the named device cannot be opened or fails.");
   command->callback([options, &console, &exit] {
     falcon::DeviceSettings settings;
     settings.falcon = options->falcon;

@@ -48,8 +48,8 @@ Result<int> export_pot(ExportCommand& command, const Console& console) {
 
 void add_export_command(CLI::App& app, Console& console, int& exit) {
   auto command = std::make_shared<ExportCommand>();
-  CLI::App* sub =
-      app.add_subcommand("export", "Turn a pot into a solid that prints, proved and checked");
+  CLI::App* sub = app.add_subcommand(
+      "export", "Write a pot as a printable solid, with a proof that it is sound");
   sub->add_option("pot", command->pot, "NAME.pot.json or .pot.cbor, or - for standard input")
       ->required();
   sub->add_option("out", command->outputs,
@@ -66,13 +66,13 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
       ->check(CLI::IsMember({"fair", "exact", "none"}))
       ->capture_default_str();
   sub->add_option("--lip-fillet", command->options.lip_fillet_mm,
-                  "Radius that rounds both edges of the lip [mm]")
+                  "Radius of the fillet at both edges of the lip [mm]")
       ->check(in_range(0.0, 1e3));
   sub->add_option("--segments", command->options.segments,
-                  "Steps around the axis (default: as the tolerance asks)")
+                  "Facets around the axis (default: chosen from the tolerance)")
       ->check(CLI::Range(3, 1 << 20));
   sub->add_option("--max-triangles", command->options.max_triangles,
-                  "Coarser than the tolerance where that needs more triangles")
+                  "Most triangles: facets may be coarser than the tolerance")
       ->check(CLI::Range(8, 20'000'000));
   sub->add_option("--drain", command->options.drain_mm,
                   "Diameter of a hole along the axis that opens closed cavities [mm]")
@@ -90,22 +90,22 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
       });
   command->walls.add_to(*sub);
   sub->add_flag("--measure-left-out", command->options.measure_left_out,
-                "Do what was left out after all, and tell the time that leaving it out saved");
-  sub->add_option("--report", command->report, "Write what --json prints to this file");
+                "Run the skipped stages too, and report the time that skipping saves");
+  sub->add_option("--report", command->report, "File for the report that --json prints");
   sub->add_option("--precision", command->precision_mm,
-                  "Round the radii of pots that are written, meshes keep the exact ones [mm]")
+                  "Rounding of radii in pot files; meshes keep the exact radii [mm]")
       ->check(in_range(1e-5, 1.0));
   sub->add_flag("--certificate", command->certificate,
                 "Write OUT.certificate.json beside each mesh, for claystack check --certificate");
   sub->add_option("--verify", command->verify,
                   "margins: prove the rounding, read the file again; full: also check the file "
-                  "as a stranger's, exact self-intersection test included")
+                  "like any foreign mesh, with the exact self-intersection test")
       ->check(CLI::IsMember({"margins", "full"}))
       ->capture_default_str();
   sub->add_flag("--ascii", command->ascii, "Write .stl as text");
   sub->add_flag("--normals", command->options.normals, "Write .obj with normals, for shading");
   sub->add_flag("--pieces", command->options.allow_pieces,
-                "Allow pieces that do not touch, all in one file");
+                "Accept a pot of several pieces that do not touch");
   sub->footer(
       "\nExamples:\n  claystack export bowl.pot.json bowl.stl bowl.obj bowl.drc bowl.svg\n"
       "  claystack export bowl.pot.json bowl.stl --tolerance 0.005 --process stoneware\n"

@@ -95,16 +95,20 @@ void add_import_command(CLI::App& app, Console& console, int& exit) {
   command->add_option("--axis", options->axis,
                       "The pot's axis in the drawing: left, middle, or its place [mm]; by itself: "
                       "the middle of a symmetric drawing, otherwise its left end");
-  command->add_option("--height", options->section.height_mm, "Scale the drawing to this [mm]")
+  command
+      ->add_option("--height", options->section.height_mm,
+                   "Height of the pot: scales the drawing [mm]")
       ->check(in_range(0.01, 1e5));
   command
       ->add_option("--wall", options->pot_settings.wall_mm,
-                   "Hollow a drawing of the outside: wall, and floor, this thick [mm]")
+                   "Thickness of wall and floor, for a drawing of the outside alone [mm]")
       ->check(in_range(0.01, 1000.0));
-  command->add_option("--ring-height", options->pot_settings.ring_height_mm, "About [mm]")
+  command
+      ->add_option("--ring-height", options->pot_settings.ring_height_mm, "Target ring height [mm]")
       ->check(in_range(1e-3, 1e3))
       ->capture_default_str();
-  command->add_option("--density", options->pot_settings.density_g_cm3, "Of the clay [g/cm3]")
+  command
+      ->add_option("--density", options->pot_settings.density_g_cm3, "Density of the clay [g/cm3]")
       ->check(in_range(0.1, 20.0))
       ->capture_default_str();
   command->footer(

@@ -45,7 +45,7 @@ int run(int argc, char** argv) {
   app.footer(kExamples);
   app.require_subcommand(1);
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return std::string("claystack: ") + error.what() + "\nclaystack --help tells more\n";
+    return std::string("claystack: ") + error.what() + "\nrun claystack --help for usage\n";
   });
 
   Console console;
@@ -74,8 +74,8 @@ int run(int argc, char** argv) {
   const auto commands = app.get_subcommands({});
   for (CLI::App* command : commands) {
     if (command->get_name() == "studio") continue;  // hands all it is given to another program
-    command->add_flag("--json", console.json, "Data as JSON on standard output");
-    command->add_flag("-q,--quiet", console.quiet, "Errors only");
+    command->add_flag("--json", console.json, "Print data as JSON on standard output");
+    command->add_flag("-q,--quiet", console.quiet, "Print errors only");
   }
   const bool known = argc < 2 || argv[1][0] == '-' ||
                      std::any_of(commands.begin(), commands.end(), [&](const CLI::App* command) {

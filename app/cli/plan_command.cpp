@@ -60,11 +60,12 @@ Result<void> plan_servo(const SceneSpec& scene, const StepPlan& plan, const Plan
 }
 
 void add_servo_options(CLI::App& command, PlanOptions& options) {
-  command.add_option("--rate", options.rate_hz,
-                     "Can an arm render the scene's contact at this servo rate [Hz]?");
-  command.add_option("--damping", options.damping_ns_per_m, "Of that arm [N s/m]")
+  command.add_option(
+      "--rate", options.rate_hz,
+      "Servo rate at which to check whether an arm can render the scene's contact [Hz]");
+  command.add_option("--damping", options.damping_ns_per_m, "Damping of the arm [N s/m]")
       ->capture_default_str();
-  command.add_option("--delay", options.delay_ticks, "From a reading to its force [ticks]")
+  command.add_option("--delay", options.delay_ticks, "Delay from a reading to its force [ticks]")
       ->capture_default_str();
 }
 #endif
@@ -98,8 +99,8 @@ Result<void> plan_scene(const PlanOptions& options, const Console& console) {
 
 void add_plan_command(CLI::App& app, Console& console, int& exit) {
   auto options = std::make_shared<PlanOptions>();
-  CLI::App* command =
-      app.add_subcommand("plan", "Say what a scene needs, what is left out, and what that saves");
+  CLI::App* command = app.add_subcommand(
+      "plan", "Show the stages that a scene needs, the stages it skips, and the time this saves");
   command->add_option("scene", options->scene, "NAME.scene.json, or - for standard input")
       ->required();
 #ifdef CLAYSTACK_FALCON

@@ -29,7 +29,7 @@ std::optional<render::Viewport> size_of(std::string_view text) {
 void add_size(CLI::App& sub, RenderCommand& command) {
   sub.add_option_function<std::string>(
          "--size", [&command](const std::string& text) { command.size = *size_of(text); },
-         "Width x height [px]")
+         "Width x height of the picture [px]")
       ->check([](const std::string& text) {
         return size_of(text) ? std::string()
                              : fmt::format("expected WIDTHxHEIGHT, 1x1 to {0}x{0}, found {1}",
@@ -92,21 +92,20 @@ int run(RenderCommand& command, Console console) {
 void add_render_command(CLI::App& app, Console& console, int& exit) {
   auto command = std::make_shared<RenderCommand>();
   CLI::App* sub =
-      app.add_subcommand("render", "Draw a pot, without a screen: picture or turntable");
+      app.add_subcommand("render", "Draw a pot without a screen, as a picture or a turntable");
   sub->add_option("pot", command->pot,
                   ".pot.json or .pot.cbor; of a NAME.scene.json the lump is drawn")
       ->required();
-  sub->add_option("-o,--out", command->out, "Picture: .png");
-  sub->add_option("--turntable", command->turntable, "Animation, once around: .gif");
-  sub->add_option("--frames", command->frames, "Of the turntable")
+  sub->add_option("-o,--out", command->out, "File for the picture, .png");
+  sub->add_option("--turntable", command->turntable, "File for an animation of one turn, .gif");
+  sub->add_option("--frames", command->frames, "Frames of the turntable")
       ->check(CLI::Range(1, 720))
       ->capture_default_str();
   add_size(*sub, *command);
-  sub->add_flag("--section", command->section, "Cut open, to show the walls");
+  sub->add_flag("--section", command->section, "Cut the pot open to show its walls");
 #ifdef CLAYSTACK_EXPORT
-  sub->add_flag(
-      "--wall-map", command->wall_map,
-      "Colours for the thickness of walls; --min-wall or --process hatch what is thinner");
+  sub->add_flag("--wall-map", command->wall_map,
+                "Show wall thickness as colours; walls below --min-wall or --process are hatched");
   command->walls.add_to(*sub);
 #endif
   sub->add_option_function<std::string>(
@@ -114,11 +113,11 @@ void add_render_command(CLI::App& app, Console& console, int& exit) {
          "light or dark")
       ->check(CLI::IsMember({"light", "dark"}))
       ->default_str("light");
-  sub->add_option("--azimuth", command->azimuth_deg, "Of the eye around the pot [degrees]")
+  sub->add_option("--azimuth", command->azimuth_deg, "Camera azimuth [deg]")
       ->check(in_range(-3600.0, 3600.0));
-  sub->add_option("--elevation", command->elevation_deg, "Of the eye above the pot [degrees]")
+  sub->add_option("--elevation", command->elevation_deg, "Camera elevation [deg]")
       ->check(in_range(-89.0, 89.0));
-  sub->add_flag("--time", command->time, "How long a frame takes: the median of some");
+  sub->add_flag("--time", command->time, "Measure the time of a frame (median)");
   sub->footer(
       "\nExamples:\n  claystack render bowl.pot.json -o bowl.png\n"
       "  claystack render vase.pot.json -o walls.png --section --process porcelain\n"

@@ -34,7 +34,7 @@ Error become_studio(const std::vector<std::string>& arguments) {
 
 void add_studio_command(CLI::App& app, int& exit) {
   CLI::App* command =
-      app.add_subcommand("studio", "The window: throw by mouse or by hand, and see it");
+      app.add_subcommand("studio", "Open the window: throw by mouse or with a haptic device");
   command->prefix_command();
   command->set_help_flag();  // its own program has it
   command->callback([command, &exit] { exit = report(become_studio(command->remaining())); });

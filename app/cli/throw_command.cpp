@@ -103,9 +103,9 @@ void warn_of_oddities(const Console& console, const Session& session, const Scen
     console.warn(
         fmt::format("{}: the last line is cut off; its poses are not played", options.session));
   if (session.scene_hash != 0 && session.scene_hash != hash_of(scene))
-    console.warn(fmt::format(
-        "{}: recorded on another scene ({}); the pot will differ from the one that was felt",
-        options.session, session.scene_name));
+    console.warn(
+        fmt::format("{}: recorded on another scene ({}); the pot differs from the recorded one",
+                    options.session, session.scene_name));
 }
 
 /// The wheel would refuse such poses one by one.
@@ -227,7 +227,7 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
   if (outputs->trace) trace.emplace(*outputs->trace);
   const ReplayStats stats = play(*wheel, *session, trace ? &*trace : nullptr, console);
   if (stats.refused > 0)
-    console.warn(fmt::format("{} poses could not be believed and were not played", stats.refused));
+    console.warn(fmt::format("{} invalid poses were not played", stats.refused));
   if (stats.ring_limit) console.warn("clay waits above the top: raise lump.max_rings");
 
   const Pot pot = wheel->pot();
@@ -288,8 +288,8 @@ Result<void> throw_pot(const ThrowOptions& options, const Console& console) {
 
 void add_throw_command(CLI::App& app, Console& console, int& exit) {
   auto options = std::make_shared<ThrowOptions>();
-  CLI::App* command =
-      app.add_subcommand("throw", "Play a session on a scene, or throw by hand, and keep the pot");
+  CLI::App* command = app.add_subcommand(
+      "throw", "Replay a session on a scene, or throw by hand, and write the pot");
   command
       ->add_option("scene", options->scene,
                    "NAME.scene.json, or - for standard input; or a work, NAME.work")
@@ -298,17 +298,17 @@ void add_throw_command(CLI::App& app, Console& console, int& exit) {
                       "Poses to play (default: NAME.session beside the scene)");
   command->add_option("-o,--output", options->pot,
                       "Pot to write: .pot.json, or .pot.cbor (compact)");
-  command->add_option("--from", options->from, "Pot to throw on, instead of the scene's lump");
-  command->add_option("--at", options->at, "Node of a work (default: where it was left)");
-  command->add_flag("--list", options->list, "The strokes of a work, undone ones too");
+  command->add_option("--from", options->from, "Pot to start from, instead of the scene's lump");
+  command->add_option("--at", options->at, "Node of the work (default: the current one)");
+  command->add_flag("--list", options->list, "List the strokes of a work, undone ones included");
   command
       ->add_option("--model", options->model,
                    "Model to use instead of the scene's: conserving or paper")
       ->check(CLI::IsMember({"conserving", "paper"}));
   command->add_option("--trace", options->trace,
-                      "CSV with a row a tick: volume error, height, force");
+                      "CSV file with one row per tick: volume error, height, force");
   command->add_option("--error-plot", options->error_plot,
-                      "SVG of the volume error over time, both models");
+                      "SVG plot of the volume error over time, for both models");
 #ifdef CLAYSTACK_FALCON
   add_live_options(*command, options->live);
 #endif

@@ -21,11 +21,11 @@ Result<solid::ProcessLimits> process_of(const std::string& name) {
 }
 
 void WallDemands::add_to(CLI::App& command) {
-  command.add_option("--min-wall", min_wall_mm_, "Least wall that passes [mm]")
-      ->check(in_range(1e-6, 1e4));
-  command.add_option("--process", process_name_,
-                     "Walls as it asks: fdm, sla, earthenware, stoneware, porcelain, or a .json "
-                     "file with limits of your own");
+  command.add_option("--min-wall", min_wall_mm_, "Minimum wall [mm]")->check(in_range(1e-6, 1e4));
+  command.add_option(
+      "--process", process_name_,
+      "Process that sets the minimum wall: fdm, sla, earthenware, stoneware, porcelain, or a .json "
+      "file with limits of your own");
 }
 
 Result<void> WallDemands::load() {

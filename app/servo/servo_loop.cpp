@@ -151,7 +151,7 @@ void ServoLoop::send(falcon::ForceGate& gate) noexcept {
   guarded_.force_n = {};
 }
 
-/// What befell, when it comes and not while it lasts.
+/// Events, counted when they begin and not while they last.
 void ServoLoop::count_events() noexcept {
   const std::uint32_t came = guarded_.flags & ~flags_before_;
   for (std::size_t bit = 0; bit < GuardEvents::kFlags; ++bit)

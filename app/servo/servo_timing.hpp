@@ -25,7 +25,7 @@ struct ServoTiming {
   }
 };
 
-/// How often each thing befell: flags by their bit, counted when they come and not while they last.
+/// Event counts: one per flag, counted when it is raised and not while it lasts.
 struct GuardEvents {
   static constexpr std::size_t kFlags = 10;
   static constexpr std::size_t kCauses = 7;

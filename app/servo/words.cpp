@@ -17,7 +17,7 @@ std::string words_of_safe(SafeCause cause, std::string_view rearm_key) {
   };
   switch (cause) {
     case SafeCause::not_finite:
-      return asks("a number that is none");
+      return asks("invalid force (NaN)");
     case SafeCause::not_passive:
       return asks("the contact was unstable");
     case SafeCause::jumped:

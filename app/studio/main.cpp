@@ -142,24 +142,24 @@ int run(int argc, char** argv) {
         return which == "none" ? std::string() : cli::check_device_name(which);
       });
   cli::add_falcon_options(parser, options.falcon);
-  parser.add_option("--script", options.script, "Drive the window from a file, without a screen");
+  parser.add_option("--script", options.script, "Script that drives the window without a screen");
   parser.add_option("--screenshot", options.screenshot,
-                    "Without a screen: the window at the end, as PNG");
-  parser.add_option("--size", options.size, "Of the window [px] (default 1280x800)");
-  parser.add_option("--scale", options.scale, "Of text and controls")
+                    "File for a picture of the window at the end, .png (without a screen)");
+  parser.add_option("--size", options.size, "Size of the window [px] (default 1280x800)");
+  parser.add_option("--scale", options.scale, "Scale of text and controls")
       ->check(cli::in_range(kSmallestScale, kLargestScale));
-  parser.add_option("--theme", options.theme, "dark or light")
+  parser.add_option("--theme", options.theme, "Theme: dark or light")
       ->check(CLI::IsMember({"dark", "light"}));
-  parser.add_flag("--log", options.log, "Events on standard output, a line each");
+  parser.add_flag("--log", options.log, "Print events on standard output, one per line");
   auto* report =
       parser
           .add_option("--servo-report", options.servo_report_s,
-                      "For so many seconds a simulated hand (or --device) throws in the window; "
+                      "Seconds for which a simulated hand (or --device) throws in the window; "
                       "then tells how servo and window kept their time")
           ->check(cli::in_range(1.0, 3600.0))
           ->excludes("--script")
           ->excludes("--screenshot");
-  parser.add_flag("--json", options.json, "That as JSON")->needs(report);
+  parser.add_flag("--json", options.json, "Print the servo report as JSON")->needs(report);
   parser.footer(
       "\nExamples:\n  claystack studio\n  claystack studio samples/bowl.scene.json\n"
       "  claystack studio vase.pot.json --script samples/window/throw.script");

@@ -101,7 +101,7 @@ Result<void> StrokeController::sit_down(const SceneSpec& scene, falcon::HapticDe
   if (pot_->collapse)
     return failure(ErrorKind::bad_input,
                    can_undo() ? "The clay has fallen: undo takes the last stroke back"
-                              : "The clay has fallen: it can be exported as it lies");
+                              : "The clay has fallen: it can be exported as it is");
   auto wheel = Wheel::build(scene, *pot_);
   if (!wheel) return tl::make_unexpected(wheel.error());
   auto sink = work_->begin_stroke(scene);

@@ -16,7 +16,7 @@
 
 namespace clay::studio {
 
-/// What befell since the window looked last; each is told once.
+/// Events since the window last looked; each is reported once.
 struct PotterNews {
   bool stroke_ended = false;
   servo::Ending ending = servo::Ending::none;

@@ -107,7 +107,7 @@ std::string header_of(const Report& report) {
       "<dt>version</dt><dd>{}</dd>\n</dl>\n"
       "<p class=\"note\">Times are medians of repetitions, run by turns in an order that changes; "
       "the spread is the interquartile range, the middle half of them. Ratios are taken round by "
-      "round. Ticks are told in time of the processor, exports by the clock on the wall. A "
+      "round. Ticks are measured in CPU time, exports in wall-clock time. A "
       "requirement on a time is missed where three quarters of the rounds miss it.</p>\n"
       "<nav>",
       escaped(report.command), escaped(m.cpu), m.cores, escaped(m.system), escaped(m.compiler),

@@ -57,9 +57,9 @@ void draw_choices(AppState& shop, ExportWish& wish) {
   form_row("Walls");
   if (const int chosen = choice_row("##smooth", kSmoothTitles, smooth, colours); chosen >= 0)
     wish.smooth = kSmooth[static_cast<std::size_t>(chosen)];
-  form_row("Made by");
+  form_row("Process");
   choose_process(shop, "Not said", wish.process);
-  form_length("Least wall", wish.min_wall_mm, 0.0, kThickestDemandMm, shop.settings.unit,
+  form_length("Minimum wall", wish.min_wall_mm, 0.0, kThickestDemandMm, shop.settings.unit,
               wish.process.empty() ? "not asked" : "as the process asks");
   form_row("Shrinkage");
   float percent = static_cast<float>(wish.shrinkage_percent);
@@ -119,7 +119,7 @@ void draw_preview(AppState& shop) {
   else if (!card.problem.empty())
     ImGui::TextWrapped("%s", card.problem.c_str());
   else if (running)
-    faint_text(shop.colours(), "Reckoning: " + stage);
+    faint_text(shop.colours(), "Computing: " + stage);
   if (card.shown && card.problem.empty()) draw_shown(shop, *card.shown);
   if (!card.shown && !running && card.problem.empty())
     faint_text(shop.colours(), "No mesh among the files");

@@ -47,7 +47,7 @@ void draw_work(AppState& shop) {
                          static_cast<float>(kFastestHandMmPerS), "%.0f mm/s at most",
                          ImGuiSliderFlags_AlwaysClamp))
     settings.pressing_mm_s = static_cast<double>(speed);
-  form_row("Made by");
+  form_row("Process");
   choose_process(shop, "Not said", settings.process);
   form_row("Folder");
   ImGui::InputText("##folder", &settings.folder);

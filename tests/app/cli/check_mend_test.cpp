@@ -234,7 +234,7 @@ TEST_F(CheckMend, DecimatesAfterRepair) {
   const Ran open = claystack("check --json " + in + " --max-triangles 100 -o " + out);
   EXPECT_EQ(open.status, 1);
   EXPECT_NE(open.err.find("closed manifold"), std::string::npos) << open.err;
-  EXPECT_EQ(open.json().at("problems").at(0).at("what"), "not mended");
+  EXPECT_EQ(open.json().at("problems").at(0).at("what"), "not repaired");
   EXPECT_FALSE(std::filesystem::exists(out));
 
   const Ran run = claystack("check --json --repair " + in + " --max-triangles 100 -o " + out);
