@@ -25,7 +25,7 @@ inline constexpr std::size_t kMostWallSamples = 10'000'000;
 /// Work for all rays together, in boxes and triangles looked at. A closed mesh takes about a
 /// hundred a ray; in a soup of large triangles each ray comes past nearly all of them.
 [[nodiscard]] constexpr std::size_t most_wall_steps(std::size_t samples) noexcept {
-  return 400'000'000 + 2'000 * samples;
+  return 100'000'000 + 2'000 * samples;
 }
 
 /// Thickness along the inward normal from `samples` places on the surface, evenly by area (strata
