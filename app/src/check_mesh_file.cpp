@@ -35,8 +35,12 @@ Result<TriangleMesh> read_mesh(FileReader& file, MeshFormat format, const std::s
   const solid::ByteSource source{
       [&](std::span<char> part) { return file.read(part); }, *file.size(),
       [&](std::uint64_t triangles) {
-        return expect_memory(fmt::format("about {}", triangles), solid::check_memory(triangles),
-                             memory_room())
+        // With the mesh, which has half as many points as triangles if it is closed.
+        const std::uint64_t mesh =
+            triangles *
+            (sizeof(decltype(TriangleMesh::triangles)::value_type) + sizeof(glm::dvec3) / 2);
+        return expect_memory(fmt::format("about {}", triangles),
+                             mesh + solid::check_memory(triangles), memory_room())
             .map_error([&](const Error& e) {
               return Error{e.kind, name + ": " + e.message};
             });
