@@ -24,8 +24,10 @@ using solid::TriangleMesh;
 Result<void> expect_memory(std::string_view triangles, std::uint64_t bytes,
                            const MemoryRoom& room) {
   if (bytes <= room.bytes) return {};
-  return failure(ErrorKind::io,
-                 fmt::format("checking {} triangles {}", triangles, needs_text(bytes, room)));
+  return failure(
+      ErrorKind::io,
+      fmt::format("checking {} triangles takes about {} of memory, found {} left under {}",
+                  triangles, gigabytes(bytes), gigabytes(room.bytes), room.limit));
 }
 
 /// The mesh of a file, of which a little at a time is in memory.
@@ -33,8 +35,12 @@ Result<TriangleMesh> read_mesh(FileReader& file, MeshFormat format, const std::s
   const solid::ByteSource source{
       [&](std::span<char> part) { return file.read(part); }, *file.size(),
       [&](std::uint64_t triangles) {
-        return expect_memory(fmt::format("about {}", triangles), solid::check_memory(triangles),
-                             memory_room())
+        // With the mesh, which has half as many points as triangles if it is closed.
+        const std::uint64_t mesh =
+            triangles *
+            (sizeof(decltype(TriangleMesh::triangles)::value_type) + sizeof(glm::dvec3) / 2);
+        return expect_memory(fmt::format("about {}", triangles),
+                             mesh + solid::check_memory(triangles), memory_room())
             .map_error([&](const Error& e) {
               return Error{e.kind, name + ": " + e.message};
             });
@@ -51,8 +57,9 @@ Result<solid::MeshReport> checked(const TriangleMesh& mesh) {
   solid::MeshReport report = solid::check_mesh(mesh);
   // The estimate was too low for this mesh.
   if (report.out_of_memory)
-    return failure(ErrorKind::io, fmt::format("not enough memory: checking {} triangles {}",
-                                              triangles, needs_text(bytes, room)));
+    return failure(ErrorKind::io,
+                   fmt::format("checking {} triangles takes more memory than the {} left under {}",
+                               triangles, gigabytes(room.bytes), room.limit));
   return report;
 }
 

@@ -34,10 +34,8 @@ MemoryRoom memory_room() {
   return room;
 }
 
-std::string needs_text(std::uint64_t bytes, const MemoryRoom& room) {
-  const auto gb = [](std::uint64_t n) { return static_cast<double>(n) / 1e9; };
-  return fmt::format("takes about {:.2g} GB of memory; {:.2g} GB are left under {}", gb(bytes),
-                     gb(room.bytes), room.limit);
+std::string gigabytes(std::uint64_t bytes) {
+  return fmt::format("{:.2g} GB", static_cast<double>(bytes) / 1e9);
 }
 
 }  // namespace clay::cli

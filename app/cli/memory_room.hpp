@@ -15,7 +15,7 @@ struct MemoryRoom {
 /// The least of what `ulimit -v` leaves and what the machine has to give.
 [[nodiscard]] MemoryRoom memory_room();
 
-/// "takes about 2.4 GB of memory; 1.1 GB are left under LIMIT".
-[[nodiscard]] std::string needs_text(std::uint64_t bytes, const MemoryRoom& room);
+/// For messages.
+[[nodiscard]] std::string gigabytes(std::uint64_t bytes);
 
 }  // namespace clay::cli

@@ -166,16 +166,24 @@ class WallRay {
   [[nodiscard]] bool passes(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) const {
     const double farthest2 = std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
     const double margin = 1e-14 * farthest2;  // 90 roundings
-    const double ab = glm::dot(along_, glm::cross(a, b)), bc = glm::dot(along_, glm::cross(b, c)),
-                 ca = glm::dot(along_, glm::cross(c, a));
-    return std::max({ab, bc, ca}) > margin && std::min({ab, bc, ca}) < -margin;
+    const auto differ = [&](double x, double y) {
+      return std::max(x, y) > margin && std::min(x, y) < -margin;
+    };
+    const double ab = glm::dot(along_, glm::cross(a, b)), bc = glm::dot(along_, glm::cross(b, c));
+    if (differ(ab, bc)) return true;
+    const double ca = glm::dot(along_, glm::cross(c, a));
+    return differ(ab, ca) || differ(bc, ca);
   }
 
   void look_at(std::uint32_t triangle) {
     const auto& [i, j, k] = mesh_.triangles[triangle];
     const glm::dvec3 &a = mesh_.points[i], &b = mesh_.points[j], &c = mesh_.points[k];
+    // Both spare most triangles the exact tests, and decide nothing that is close.
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const double size = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
+    if (glm::dot(inward_, normal) < -1e-12 * size) return;
     if (passes(a - begin_, b - begin_, c - begin_)) return;
-    const double facing = glm::dot(inward_, glm::normalize(doubled_area(mesh_, triangle)));
+    const double facing = glm::dot(inward_, glm::normalize(normal));
     if (!(facing > 0.0)) return;  // seen from the front
     const Kernel::Triangle_3 whole(point(a), point(b), point(c));
     if (whole.is_degenerate()) return;
@@ -216,13 +224,13 @@ class WallProbe {
   WallProbe(const TriangleMesh& mesh, const SurfaceSampling& sampling)
       : mesh_(mesh), tree_(mesh), sampling_(sampling) {}
 
-  /// False where the steps did not suffice: then the ray does not count.
-  bool probe(std::size_t sample, std::size_t& steps, Found& found) const {
+  /// Where the steps do not suffice the ray does not count.
+  void probe(std::size_t sample, std::size_t& steps, Found& found) const {
     const std::uint32_t triangle = sampling_.triangle(sample);
     const glm::dvec3 inward = -glm::normalize(doubled_area(mesh_, triangle));
     const glm::dvec3 begin = sampling_.place(sample);
     const auto hit = WallRay(mesh_, begin, inward).first_hit(tree_, steps);
-    if (steps == 0) return false;
+    if (steps == 0) return;
     Found one;
     one.wall.rays = 1;
     one.wall.escaped = hit ? 0 : 1;
@@ -234,7 +242,6 @@ class WallProbe {
       one.sample = sample;
     }
     found.add(one);
-    return true;
   }
 
  private:
@@ -281,18 +288,20 @@ class WallSearch {
     const EvenOrder order(rays);
     std::size_t steps = most_steps_ / samples_ * rays;
     found.sample = samples_;
-    for (std::size_t i = 0; i < rays; ++i) {
+    std::size_t told = 0;
+    for (std::size_t i = 0; i < rays && steps > 0; ++i) {
       step_of_loop();
-      if (!probe_.probe(begin + order[i], steps, found)) {
-        tell(rays - i);
-        return;
+      probe_.probe(begin + order[i], steps, found);
+      if (i % kFewRays == 0) {
+        tell(i + 1 - told);
+        told = i + 1;
       }
-      if ((i + 1) % kFewRays == 0 || i + 1 == rays) tell(i % kFewRays + 1);
     }
+    tell(rays - told);
   }
 
   void tell(std::size_t more) {
-    if (!progress_) return;
+    if (!progress_ || more == 0) return;
     const std::lock_guard lock(progress_mutex_);
     progress_(done_ += more);
   }

@@ -129,9 +129,9 @@ std::size_t steps_of(const TriangleMesh& mesh) {
 TEST(MeshShells, TheSearchGrowsWithTheNumberOfShells) {
   // Four times as many: log-linear is less than six times, by pairs would be sixteen.
   EXPECT_LT(steps_of(nest(2000)), 6 * steps_of(nest(500)));
-  EXPECT_LT(steps_of(nest(2000)), 2000u * 200);
+  EXPECT_LT(steps_of(nest(2000)), 2000u * 400);
   EXPECT_LT(steps_of(crowd(16)), 12 * steps_of(crowd(8)));  // eight times as many
-  EXPECT_LT(steps_of(crowd(16)), 4096u * 200);
+  EXPECT_LT(steps_of(crowd(16)), 4096u * 400);
 }
 
 /// A shell with what is within it, each a cube in an octant of its own.

@@ -174,8 +174,9 @@ TEST(MeshStream, AnnouncesTheTrianglesBeforeItReadsThem) {
     return static_cast<double>(triangles);
   };
   EXPECT_EQ(announced(binary, read_stl), 400.0);
-  EXPECT_NEAR(announced(text, read_stl), 400.0, 100.0);
-  EXPECT_NEAR(announced(obj, read_obj), 400.0, 100.0);
+  // Text by a guess, within a factor of two.
+  EXPECT_NEAR(announced(text, read_stl), 400.0, 200.0);
+  EXPECT_NEAR(announced(obj, read_obj), 400.0, 200.0);
 }
 
 TEST(MeshStream, TooMuchTextIsRefusedByTheFilesSize) {
