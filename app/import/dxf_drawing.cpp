@@ -102,7 +102,9 @@ class Collector final : public DL_CreationAdapter {
     spline_.emplace(Spline{spline.degree, {}, {}});
   }
   void addControlPoint(const DL_ControlPointData& p) override {
-    if (spline_) spline_->control.emplace_back(at(p.x, p.y), p.w);
+    const glm::dvec2 point = at(p.x, p.y);
+    refuse(PointLimits::out_of_bounds({&point, 1}));
+    if (spline_) spline_->control.emplace_back(point, p.w);
   }
   void addKnot(const DL_KnotData& knot) override {
     if (spline_) spline_->knots.push_back(knot.k);

@@ -191,12 +191,22 @@ using Traversal = svgpp::document_traversal<
     svgpp::processed_elements<Elements>, svgpp::processed_attributes<Attributes>,
     svgpp::viewport_policy<svgpp::policy::viewport::as_transform>, svgpp::path_policy<Minimal>>;
 
+/// The library quotes whole attributes: for one line of a message.
+std::string shortened(std::string text) {
+  constexpr std::size_t kLongest = 160;
+  if (text.size() > kLongest) text.replace(kLongest, std::string::npos, "...");
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text;
+}
+
 std::string libxml_problem(const std::string& name) {
   const auto* error = xmlGetLastError();
   if (error == nullptr) return name + ": expected an SVG drawing";
   std::string message = error->message == nullptr ? "no XML" : error->message;
   while (!message.empty() && message.back() == '\n') message.pop_back();
-  return fmt::format("{}:{}: expected an SVG drawing, found: {}", name, error->line, message);
+  return fmt::format("{}:{}: expected an SVG drawing, found: {}", name, error->line,
+                     shortened(message));
 }
 
 /// ":LINE" of the element that an error is about, where the library knows it.
@@ -223,11 +233,12 @@ Result<Drawing> read_svg(std::string_view bytes, const std::string& name) {
     return failure(ErrorKind::bad_input,
                    fmt::format("{}{}: {}", name, line_of(refusal), refusal.what()));
   } catch (const svgpp::exception_base& error) {
-    return failure(ErrorKind::bad_input, fmt::format("{}{}: expected an SVG drawing, found: {}",
-                                                     name, line_of(error), error.what()));
-  } catch (const std::exception& error) {
     return failure(ErrorKind::bad_input,
-                   fmt::format("{}: expected an SVG drawing, found: {}", name, error.what()));
+                   fmt::format("{}{}: expected an SVG drawing, found: {}", name, line_of(error),
+                               shortened(error.what())));
+  } catch (const std::exception& error) {
+    return failure(ErrorKind::bad_input, fmt::format("{}: expected an SVG drawing, found: {}", name,
+                                                     shortened(error.what())));
   }
   return Drawing{std::move(collector.lines), false};
 }

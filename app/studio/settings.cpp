@@ -13,7 +13,6 @@
 namespace clay::studio {
 namespace {
 
-using files::Json;
 
 constexpr const char* kSchema = "claystack-studio-1";
 constexpr std::size_t kMostBytes = 1 << 20, kMostValues = 1000;
@@ -90,7 +89,7 @@ class Fields {
     if (!field->is_object()) return refuse(name, "an object", *field);
     for (const auto& [key, value] : field->items()) {
       if (!value.is_boolean())
-        return refuse(fmt::format("{}.{}", name, files::printable(key)), "true or false", value);
+        return refuse(fmt::format("{}.{}", name, printable(key)), "true or false", value);
       target[key] = value.get<bool>();
     }
   }
@@ -100,7 +99,7 @@ class Fields {
     if (!problem_.empty()) return problem_;
     for (const auto& [key, value] : json_.items())
       if (std::ranges::find(taken_, key) == taken_.end())
-        return fmt::format("{}: expected no such field", files::printable(key));
+        return fmt::format("{}: expected no such field", printable(key));
     return std::nullopt;
   }
 
@@ -113,7 +112,7 @@ class Fields {
   void refuse(std::string_view name, std::string_view expected, const Json& found) {
     if (problem_.empty())
       problem_ =
-          fmt::format("{}: expected {}, found {}", name, expected, files::printable(found.dump()));
+          fmt::format("{}: expected {}, found {}", name, expected, printable(found.dump()));
   }
 
   const Json& json_;

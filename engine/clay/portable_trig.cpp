@@ -79,8 +79,7 @@ CosSin cos_sin(double angle_rad) noexcept {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   if (!(std::abs(angle_rad) <= kMostRad)) return {kNaN, kNaN};
   // The square of such an angle is below half an ulp of 1, and may underflow.
-  if (std::abs(angle_rad) < 1e-8)
-    return {1.0, angle_rad - angle_rad * (angle_rad * angle_rad) / 6.0};
+  if (std::abs(angle_rad) < 1e-8) return {1.0, angle_rad};
   constexpr double kPerRad = 0.63661977236758134308;  // 2/pi
   const auto quarter =
       static_cast<std::int64_t>(angle_rad * kPerRad + (angle_rad < 0 ? -0.5 : 0.5));

@@ -17,7 +17,6 @@
 namespace clay::samples {
 namespace {
 
-using files::Json;
 
 /// Why a script is refused; never leaves parse_strokes.
 struct Refusal {
@@ -27,7 +26,7 @@ struct Refusal {
 [[noreturn]] void refuse(const std::string& place, const std::string& expected, const Json& found) {
   const std::string what = found.is_object()  ? "an object"
                            : found.is_array() ? "an array of " + std::to_string(found.size())
-                                              : files::printable(found.dump());
+                                              : printable(found.dump());
   throw Refusal{(place.empty() ? "" : place + ": ") + "expected " + expected + ", found " + what};
 }
 
@@ -112,7 +111,7 @@ class Members {
   void refuse_others() const {
     for (const auto& [name, value] : object_.items())
       if (std::ranges::find(known_, name) == known_.end())
-        throw Refusal{at(name) + ": unknown field"};
+        throw Refusal{at(printable(name)) + ": unknown field"};
   }
 
  private:

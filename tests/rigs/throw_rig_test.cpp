@@ -25,7 +25,7 @@ TEST_F(ThrowRig, AStockFalconThrowsTheSampleFromABareStart) {
   SCOPED_TRACE(run.json().dump());
   expect_no_bad_frame(run, kFrames);
   EXPECT_EQ(gadget.device.model.firmware(), dummy_firmware());
-  expect_felt(gadget.device.log);
+  expect_felt(run, gadget.device.log);
 }
 
 TEST_F(ThrowRig, AFalconThatNobodyHomesIsNotWaitedForForEver) {
@@ -79,7 +79,7 @@ TEST_F(ThrowRig, AFalconBehindABridgeThrowsTheSame) {
   const std::scoped_lock held(gadget.lock);
   SCOPED_TRACE(run.json().dump());
   expect_no_bad_frame(run, kFrames);
-  expect_felt(gadget.device.log);
+  expect_felt(run, gadget.device.log);
   EXPECT_EQ(gadget.bad_reports, 0u);
 }
 
@@ -107,7 +107,7 @@ TEST_F(ThrowRig, UnpluggedInMidStrokeKeepsPotAndSession) {
   EXPECT_NE(run.err.find("usb:1-1: unplugged; plug it in again"), std::string::npos) << run.err;
   const auto json = run.json();
   EXPECT_EQ(json.at("ended"), "device_lost");
-  EXPECT_GT(json.at("poses"), 1000);
+  EXPECT_GT(json.at("poses"), 100);
   EXPECT_EQ(thrown(), replayed());
 }
 

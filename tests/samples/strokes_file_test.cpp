@@ -101,6 +101,12 @@ TEST(StrokeFile, IsReadStrictly) {
             "pot.strokes.json:2: duplicate field \"seed\"");
   EXPECT_EQ(message_of(std::string(100'000, '[')),
             "pot.strokes.json:1: expected at most 64 levels, found more");
+  const std::string long_name(500'000, 'x');
+  EXPECT_LT(message_of("{\"" + long_name +
+                       "\": 1, \"start_mm\": [9, 9], "
+                       "\"strokes\": [{\"through_mm\": [[1, 2], [3, 4]]}]}")
+                .size(),
+            300u);
   EXPECT_LT(
       message_of("{\"start_mm\": \"" + std::string(500'000, 'x') + "\", \"strokes\": []}").size(),
       300u);

@@ -111,6 +111,13 @@ TEST(SvgDrawing, RefusesWhatIsNoDrawing) {
   EXPECT_THAT(refused(std::string(3, '\0')), HasSubstr("pot.svg"));
 }
 
+TEST(SvgDrawing, AMessageQuotesALongPathInPart) {
+  const std::string says = refusal_of(
+      read_drawing(page("<path d='M 0 0 L 1 x" + std::string(100'000, '7') + "'/>"), "pot.svg"));
+  EXPECT_THAT(says, HasSubstr("pot.svg:1: expected an SVG drawing"));
+  EXPECT_LT(says.size(), 300u);
+}
+
 // An arc of such numbers has no angle, and the number of its chords was that angle, as an int.
 TEST(SvgDrawing, HugeNumbersAreRefusedWithTheirLine) {
   const auto refused = [](const std::string& shape) {

@@ -16,17 +16,23 @@ using test::Ran;
 TEST(ServoReport, TellsHowServoAndWindowKeptTheirTimeAndEndsByIt) {
   ASSERT_EQ(test::shell("command -v Xvfb").status, 0) << "needs Xvfb (tests/run.sh installs it)";
   const test::ScratchFolder folder;
-  const Ran ran = test::shell("sh " CLAYSTACK_STUDIO_TESTS
-                              "/servo_report_under_xvfb.sh " CLAYSTACK_PROGRAM " " +
-                              folder.path().string() + " " + test::sample("bowl.scene.json"));
-  ASSERT_TRUE(ran.status == 0 || ran.status == 1) << ran.err;
-  const auto report = ran.json();
+  Ran ran;
+  nlohmann::json report;
+  // A loaded machine may take seconds to draw a frame.
+  for (const char* seconds : {"3", "60"}) {
+    ran = test::shell(
+        "sh " CLAYSTACK_STUDIO_TESTS "/servo_report_under_xvfb.sh " CLAYSTACK_PROGRAM " " +
+        folder.path().string() + " " + test::sample("bowl.scene.json") + " " + seconds);
+    ASSERT_TRUE(ran.status == 0 || ran.status == 1) << ran.err;
+    report = ran.json();
+    if (report.at("window").at("frames") > 2) break;
+  }
   const auto& servo = report.at("servo");
   const auto& window = report.at("window");
   EXPECT_GT(servo.at("ticks"), 0);
   EXPECT_LE(servo.at("lateness_us").at("p50"), servo.at("lateness_us").at("p99"));
   EXPECT_LE(servo.at("lateness_us").at("p99"), servo.at("lateness_us").at("max"));
-  EXPECT_GT(window.at("frames"), 0);
+  EXPECT_GT(window.at("frames"), 2);
   // Each frame takes its part of the time there was.
   const double fps = window.at("fps");
   EXPECT_GT(fps, 0.0);
