@@ -95,7 +95,7 @@ void ask_for_export(AppState& shop) {
   card.wish.folder = shop.settings.folder;
   if (card.wish.folder.empty()) card.wish.folder = std::filesystem::current_path().string();
   card.rehearsed = {};
-  card.rehearsed.name = "\n";  // no pot has it: the first rehearsal is due
+  card.rehearsed.name.assign(1, '\n');  // no pot has it: the first rehearsal is due
   card.shown.reset();
   card.problem.clear();
   card.said.clear();
