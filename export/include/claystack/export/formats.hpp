@@ -63,8 +63,8 @@ Result<std::string> encode_drc(const TriangleMesh& mesh, const DracoSettings& se
 
 /// A mesh as a file states it, nothing repaired: 1 to 20 million triangles, points of float32
 /// within 1e6 mm (-0 read as 0), indices in range. A file is at most 1 GiB. Errors are of kind
-/// `bad_input`, and `name` begins each: "NAME: facet 12: ...", "NAME:34: ..."; facets, faces
-/// and lines count from 1.
+/// `bad_input`, or `io` where there is not enough memory; `name` begins each: "NAME: facet 12:
+/// ...", "NAME:34: ..."; facets, faces and lines count from 1.
 Result<TriangleMesh> decode_mesh(std::string_view bytes, MeshFormat format, std::string_view name);
 
 /// A file that is read from front to back.
