@@ -31,17 +31,13 @@ def sources():
             for file in sorted((TOP / component).rglob("*.[ch]pp"))]
 
 
-# A public header belongs to the room that defines what it promises.
-DEFINED_IN = {(str(file.relative_to(TOP)).split("/")[0], file.stem): str(file.relative_to(TOP))
-              for file in sources() if file.suffix == ".cpp"}
-
-
 def room_of(path):
-    """The longest room that the path lies in; None for a path of no room."""
+    """The longest room that the path lies in; None for a path of no room. A public header belongs
+    to the room that it has its name from, else to COMPONENT/include, which is no room."""
     public = re.match(r"(?:\w+/include/)?claystack/(\w+)/(\w+)\.hpp", path)
     if public:
-        path = DEFINED_IN.get(public.groups())
-        return room_of(path) if path else public.group(1) + "/include"
+        room = "/".join(public.groups())
+        return room if room in ROOMS else public.group(1) + "/include"
     return next((room for room in ROOMS if path.startswith(room + "/")), None)
 
 
@@ -133,7 +129,7 @@ def main():
         for line in lines:
             include = INCLUDE.match(line)
             target = room_of(include.group(1)) if include else None
-            if target and target != room:
+            if target and target != room and not (room + target).count("/include"):
                 edges[room].add(target)
     print(f"{'room':24} {'files':>6} {'lines':>7} {'functions > ' + str(LONGEST):>15} "
           f"{'public headers':>15}")
