@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-namespace clay::falcon {
+namespace clay::falcon::inline safety {
 namespace {
 
 constexpr double kLimitN = 5.0, kSlewNPerS = 500.0, kSmallN = 0.2, kRampS = 2.0, kPeriodS = 0.001;
@@ -214,4 +214,4 @@ void Trial::expect(bool held, const std::string& what) {
   violations_.push_back(std::to_string(static_cast<double>(true_us_) / 1e6) + " s: " + what);
 }
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline safety

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace clay::falcon {
+namespace clay::falcon::inline safety {
 
 /// Makes a guard that lacks some rules.
 class GuardWithout {
@@ -109,4 +109,4 @@ class Trial {
   std::vector<std::string> violations_;
 };
 
-}  // namespace clay::falcon
+}  // namespace clay::falcon::inline safety
