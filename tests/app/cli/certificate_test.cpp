@@ -110,7 +110,7 @@ TEST_F(CertifiedVase, AHostileCertificateIsRefusedInALine) {
   refused(with("rounding_mm", "1e999"), 2, "number overflow");
   refused(with("format", "\"obj\""), 1, "format: the certificate states obj");
   refused(good.substr(0, good.size() / 2), 2, "parse error");
-  refused("", 2, "parse error");
+  refused("", 2, "found an empty file");
   refused(with("format", "\"\xff\""), 2, "UTF-8");
 }
 

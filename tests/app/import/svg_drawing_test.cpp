@@ -140,15 +140,15 @@ TEST(SvgDrawing, ASmallFileThatDrawsTooMuchIsRefused) {
   for (int i = 0; i < 60'000; ++i)
     arcs += i % 2 == 0 ? " A 4e5 4e5 0 1 1 1 1" : " A 4e5 4e5 0 1 1 0 0";
   EXPECT_THAT(refusal_of(read_drawing(page(arcs + "'/>"), "pot.svg")),
-              HasSubstr("expected at most 1000000 points"));
+              HasSubstr("expected at most 1000000 points, found more"));
 }
 
-// Every corner was held against all on its level.
+// Every corner was held against all on its level, for hours.
 TEST(SvgDrawing, ManyPointsOnOneLevelAreQuicklyMirrored) {
   std::string points;
-  for (int i = -100'000; i <= 100'000; ++i) points += std::to_string(1e-3 * i) + ",0 ";
+  for (int i = -400'000; i <= 400'000; ++i) points += std::to_string(i) + ",0 ";
   const auto section =
-      section_of(page("<polygon points='" + points + "100,50 -100,50'/>"), "pot.svg");
+      section_of(page("<polygon points='" + points + "400000,50 -400000,50'/>"), "pot.svg");
   ASSERT_TRUE(section) << refusal_of(section);
   EXPECT_EQ(section->axis, AxisRule::middle);
 }

@@ -3,7 +3,7 @@
 # tests/app/studio/references as FOLDER it makes them anew. Look at them then.
 set -eu
 program=$(realpath "$1") folder=$(realpath "$2")
-cd "$(dirname "$0")/../.."
+cd "$(dirname "$0")/../../.."
 pots=$(mktemp -d)
 trap 'rm -rf "$pots"' EXIT
 for sample in bowl vase; do

@@ -79,7 +79,7 @@ TEST(ProcessLimits, AFileOfAnotherKindIsNamedByItsKind) {
   expect("DRACO\x02\x02", "expected a JSON object, found a Draco mesh");
   expect("radius, height\n10, 0",
          "expected a JSON object, found text that begins with 'radius, height'");
-  expect(std::string(84, '\0'), "expected a JSON object, found data that is no text");
+  expect(std::string(84, '\0'), "expected a JSON object, found binary data");
   EXPECT_TRUE(parse_process(std::string("\xEF\xBB\xBF") + kWorkshop, "w.json"));
 }
 

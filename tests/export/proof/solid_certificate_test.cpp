@@ -137,7 +137,7 @@ TEST(SolidCertificate, ReaderNamesTheField) {
   expect("\"margins\"", "\"hope\"", "proof: expected margins");
   expect("\"format\": \"obj\"", "\"format\": 7", "format: expected text");
   expect("[[[", "[[[7,", "profile_mm");
-  expect("{", "", "parse error");
+  expect("{", "", "expected a JSON object");
 }
 
 TEST(Margins, AreThoseOfTheProfileScaled) {

@@ -87,7 +87,7 @@ TEST(Firmware, BlocksThatOverlapAreRefusedWithTheirPlace) {
   for (const auto& [address, other] : {std::pair{0x3F8014u, "3F8014"},
                                        {0x3F8027u, "3F8014"},
                                        {0x3F7FEDu, "3F8000"},
-                                       {0x3F8013u, "3F8000"}})
+                                       {0x3F8013u, "3F8014"}})
     EXPECT_TRUE(refusal_at(2, address).ends_with(std::string("over the block at ") + other))
         << refusal_at(2, address);
   EXPECT_EQ(refusal_at(2, 0x3F8028u), "");
