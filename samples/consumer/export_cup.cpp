@@ -1,7 +1,7 @@
 // From rings to a mesh in memory: a cup of 60 mm with walls of 4 mm.
 
-#include <claystack/engine/clay_stack.hpp>
-#include <claystack/export/export_job.hpp>
+#include <claystack/engine/clay.hpp>
+#include <claystack/export/job.hpp>
 
 #include <cstdio>
 #include <vector>

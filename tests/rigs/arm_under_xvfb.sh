@@ -3,7 +3,7 @@
 # mid-stroke and comes back, and the mouse meanwhile. FOLDER has
 # bowl.scene.json; what is asked of the arm, and its answers, are files there. Leaves the journal.
 set -u
-. "$(dirname "$0")/../studio/under_xvfb_start.sh"
+. "$(dirname "$0")/../app/studio/under_xvfb_start.sh"
 device=auto
 
 # until_file NAME
