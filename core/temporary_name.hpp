@@ -11,9 +11,8 @@ namespace clay {
 /// The name ".NAME.claystack-K" beside the file NAME, with a small K (long names are cut). It is
 /// removed with this object, and by `remove_temporary_files` in a handler of signals.
 ///
-/// What a killed process leaves, the next writer of NAME removes. Whose process lives is told by a
-/// lock (flock) on the file, which its writer holds. Where a file system has no locks, such a file
-/// stays.
+/// A writer holds a lock (flock) on its file. The next writer of NAME removes files without a lock:
+/// a killed process left them. On a file system without locks such a file stays.
 class TemporaryName {
  public:
   /// Puts a file under the name: a result of -1 with `errno` EEXIST asks for another name.

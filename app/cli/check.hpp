@@ -25,7 +25,7 @@ struct CheckCommand {
   std::optional<std::size_t> max_triangles;
   std::string out;  ///< empty: nothing is written
 
-  [[nodiscard]] bool mends() const { return repair || max_triangles; }
+  [[nodiscard]] bool changes_mesh() const { return repair || max_triangles; }
 };
 
 /// What became of a mesh on its way to the file that was written.

@@ -16,15 +16,15 @@ bool is_pot(std::string_view path) { return path.ends_with(".json") || path.ends
 
 /// What no option by itself can tell.
 Result<void> check_usage(const CheckCommand& command) {
-  if (command.mends() == command.out.empty())
+  if (command.changes_mesh() == command.out.empty())
     return failure(ErrorKind::bad_input,
-                   command.mends()
+                   command.changes_mesh()
                        ? "expected -o FILE for the mesh that --repair or --max-triangles makes"
                        : "-o: expected --repair or --max-triangles with it");
-  if (command.mends() && !is_pot(command.file))
+  if (command.changes_mesh() && !is_pot(command.file))
     if (const auto format = solid::mesh_format_of(command.out); !format)
       return tl::make_unexpected(format.error());
-  if (command.mends() && !command.certificate.empty())
+  if (command.changes_mesh() && !command.certificate.empty())
     return failure(ErrorKind::bad_input,
                    "--certificate: expected a file as it is, found --repair or --max-triangles");
   return check_distinct({command.out}, {command.file, command.certificate});
@@ -78,9 +78,10 @@ void add_check_command(CLI::App& app, Console& console, int& exit) {
       app.add_subcommand("check", "Check a pot or a mesh, and report each fault with its place");
   sub->add_option("file", command->file, ".stl, .obj, .drc, .pot.json or .pot.cbor")->required();
   command->walls.add_to(*sub);
-  sub->add_option("--wall-samples", command->wall_samples,
-                  "Walls are measured on pots and sampled by so many rays on meshes: these may "
-                  "miss the thinnest place")
+  sub->add_option(
+         "--wall-samples", command->wall_samples,
+         "Walls are measured on pots and sampled on meshes by this number of rays: these may "
+         "miss the thinnest place")
       ->check(CLI::Range(std::size_t{1}, solid::kMostWallSamples))
       ->capture_default_str();
   sub->add_option("--certificate", command->certificate,

@@ -230,7 +230,7 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
     return verdict;
   }
   if (!mesh) return tl::make_unexpected(mesh.error());
-  if (command.mends()) {
+  if (command.changes_mesh()) {
     mesh = mend_and_write(std::move(*mesh), command, verdict.mending.emplace());
     if (!mesh) return failure(mesh.error().kind, command.file + ": " + mesh.error().message);
   }
@@ -241,7 +241,7 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
     verdict.notes.push_back(
         fmt::format("{} closed cavities, {:.4g} cm3 trapped: they need drain holes",
                     verdict.mesh.cavities, verdict.mesh.trapped_mm3 / 1000.0));
-  if (format == MeshFormat::drc && !command.mends()) check_claims(*bytes, *mesh, verdict);
+  if (format == MeshFormat::drc && !command.changes_mesh()) check_claims(*bytes, *mesh, verdict);
   if (const auto demand = command.walls.for_size(size_sum_mm(*mesh)))
     if (auto done = measure_wall(*mesh, *demand, command, console, verdict); !done)
       return tl::make_unexpected(done.error());

@@ -57,7 +57,7 @@ Verdict check_section(const solid::StackProfile& section, const std::optional<Wa
 }  // namespace
 
 Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command) {
-  if (command.mends())
+  if (command.changes_mesh())
     return failure(
         ErrorKind::bad_input,
         command.file + ": --repair and --max-triangles are for meshes; export the pot again");

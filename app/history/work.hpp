@@ -55,8 +55,8 @@ class Work {
 
   // --- Strokes -------------------------------------------------------------------------------
   /// A stroke begins on the current pot. The sink is the recorder's; it keeps the poses, and the
-  /// journal gets them at once. It lasts until end_stroke; a full disk is told by the journal's
-  /// trouble(), and the sink fails only where the work would hold more than kMaxPoses. Errors are
+  /// journal gets them at once. It lasts until end_stroke. The journal's trouble() reports a full
+  /// disk; the sink fails only where the work would hold more than kMaxPoses. Errors are
   /// those of Wheel::build, and a work that is full.
   Result<PoseSink*> begin_stroke(const SceneSpec& scene);
   /// The recorder has finished. Throws the stroke again, splits it where the tool was in the air

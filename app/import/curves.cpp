@@ -11,7 +11,7 @@ namespace {
 // More than a curve that fits on a page needs.
 constexpr double kMostChords = 4096.0;
 
-/// So many parts, rounded up, from 1 to kMostChords; 1 for NaN.
+/// The number of chords: `parts` rounded up, from 1 to kMostChords; 1 for NaN.
 int chords_in(double parts) {
   return parts > 1.0 ? static_cast<int>(std::ceil(std::min(parts, kMostChords))) : 1;
 }
@@ -84,7 +84,7 @@ std::vector<glm::dvec2> spline_points(std::size_t degree, std::span<const glm::d
         std::max(bend, glm::length(glm::dvec2(control[i - 2] - 2.0 * control[i - 1] + control[i])));
   // The control polygon bends at least as much as the curve does, and weights may draw it together.
   const auto n = static_cast<double>(degree);
-  // So many control points that this makes chords fewer are more points than a drawing may have.
+  // The limit takes effect only where the curve has more points than a drawing may have.
   const int chords =
       std::min(chords_for(4.0 * n * n * bend), static_cast<int>(kMostPoints / control.size()) + 1);
   std::vector<glm::dvec2> points;

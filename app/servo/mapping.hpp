@@ -43,7 +43,7 @@ class Mapping {
   /// The clutch is let go with the hand here: from now on this is where the tool is.
   void recentre(const glm::dvec3& device_mm, const glm::dvec3& clay_mm) noexcept;
 
-  /// A contact feels so many times stiffer to the hand than to the tool.
+  /// Stiffness at the hand divided by stiffness at the tool.
   [[nodiscard]] double stiffness_gain() const noexcept { return force_gain_ * scale_; }
 
  private:

@@ -45,7 +45,7 @@ class SessionRecording final : public history::PoseSink {
   std::filesystem::path target_;  ///< the same behind symbolic links
   std::filesystem::path aside_;   ///< empty: written in place
   int descriptor_ = -1;
-  std::size_t poses_ = 0;  ///< so many are in it
+  std::size_t poses_ = 0;  ///< number of poses recorded
 };
 
 }  // namespace clay::servo

@@ -1,4 +1,4 @@
-// Files that the studio opens and saves, told by the endings of their names.
+// Files that the studio opens and saves; the ending of the name decides the kind.
 
 #include "app/history/work.hpp"
 #include "app/studio/app_state.hpp"

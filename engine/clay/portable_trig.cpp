@@ -63,8 +63,8 @@ Double2 alternating(Double2 x, int first, int last) noexcept {
   return series;
 }
 
-/// angle - turns pi/2. So many digits of pi/2 stand in the four numbers that what is left of an
-/// angle next to a multiple of it is right to 2^-90 of itself.
+/// angle - turns pi/2. The four numbers hold enough digits of pi/2 for a relative error of 2^-90
+/// even where the angle is next to a multiple of it.
 Double2 reduced(double angle_rad, double turns) noexcept {
   constexpr double kHalfPi[] = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54,
                                 -0x1.f1976b7ed8fbcp-110, 0x1.4cf98e804177dp-164};

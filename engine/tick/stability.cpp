@@ -7,7 +7,7 @@ namespace {
 
 // Farther than this the sums are faster than a walk.
 constexpr std::size_t kLeap = 256;
-// So many rings may have changed, besides those of the last flow, before the sums are told.
+// Most rings that may have changed, besides those of the last flow, before the sums are updated.
 constexpr std::size_t kMostStale = 512;
 
 /// Whether a ring is worth exact arithmetic. Sums in double are within 1e-9 of the exact ones.

@@ -13,8 +13,8 @@
 namespace clay::solid::inline check {
 namespace {
 
-/// HighValenceVertices are looked for in so many bodies of a set, and worth parting where an eighth
-/// has one.
+/// Number of bodies of a set that are searched for vertices of high valence. The set is divided
+/// there where one in eight has such a vertex.
 constexpr std::size_t kSample = 32;
 
 }  // namespace

@@ -37,7 +37,8 @@ inline constexpr std::string_view kCoordinateRule = "a coordinate within +-1e6 m
 /// No facets at all are refused too.
 [[nodiscard]] Result<void> check_facet_count(std::size_t facets, std::string_view name);
 
-/// A text file that is too large to be read, told by how many triangles it has at a guess.
+/// Refuses a text file that is too large, with an estimate of its triangles: its size divided by
+/// `usual_bytes`, the usual size of one [bytes].
 [[nodiscard]] Result<void> check_text_size(const ByteSource& source, std::size_t usual_bytes,
                                            std::string_view name);
 

@@ -104,7 +104,7 @@ class ThrowRig : public testing::Test {
     return program.wait();
   }
 
-  /// Throws until the device has had so many frames, however slow they are.
+  /// Throws until the device has had `frames` frames, however slow they are.
   template <class Gadget>
   Ran throw_frames(Gadget& gadget, std::size_t frames, const std::string& device,
                    const std::string& more) {

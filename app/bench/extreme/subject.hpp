@@ -45,8 +45,8 @@ class Subject {
   [[nodiscard]] virtual Radii ring(std::size_t i) const = 0;
   [[nodiscard]] virtual double centre_mm(std::size_t i) const = 0;  ///< height of ring i's middle
 
-  /// All clay that is accounted for, as the sum of R^2 - r^2 [mm^2], counted afresh and without
-  /// rounding. Nothing where a radius is not finite.
+  /// All clay that is accounted for, as the sum of R^2 - r^2 [mm^2], counted from all rings and
+  /// without rounding. Nothing where a radius is not finite.
   [[nodiscard]] virtual std::optional<Exact> clay() const = 0;
   /// How far `clay` may be from what it was: 0 where clay is counted; for doubles 8 u times the
   /// sum of R^2 + r^2, a tick, u = 2^-53.

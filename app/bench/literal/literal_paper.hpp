@@ -24,7 +24,7 @@ using LiteralTool = std::variant<LiteralEllipse, LiteralRib>;
 /// The same numbers to rounding, but for a ring level with a pole of the tool, where f_h' is
 /// infinite; written in two ways.
 enum class LiteralWriting {
-  /// M_i summed afresh for every ring, which is O(N^2); angles by atan, normals by sin and cos.
+  /// M_i summed again for every ring, which is O(N^2); angles by atan, normals by sin and cos.
   as_printed,
   /// What a careful programmer makes of it: M_i as a running sum, normals by one square root.
   eased,

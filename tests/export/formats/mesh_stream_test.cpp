@@ -23,7 +23,7 @@ class MadeFile {
     for (std::size_t i = 0; i < pieces; ++i) size_ += piece_(i).size();
   }
 
-  /// Parts of at most so many bytes.
+  /// Largest size of a part [bytes].
   ByteSource source(std::size_t most) {
     next_ = 0;
     rest_.clear();

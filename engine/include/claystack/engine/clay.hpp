@@ -97,7 +97,7 @@ class ClayStack {
 
   /// Rings and crown, kept up to date by every transfer: O(1). Normalised quanta.
   [[nodiscard]] WideQuanta volume() const noexcept { return rings_volume_ + crown_; }
-  /// The same counted afresh: O(N). The two are equal, or the engine is broken.
+  /// The same, counted again from all rings: O(N). The two are always equal.
   [[nodiscard]] WideQuanta recount() const noexcept;
   [[nodiscard]] double mm3_per_quantum() const noexcept;  ///< pi h 2^-36
   [[nodiscard]] double volume_mm3() const noexcept;

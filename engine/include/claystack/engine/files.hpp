@@ -146,8 +146,8 @@ std::string work_scene_line(const SceneSpec& scene);  ///< its index is the coun
 /// Stroke `node` begins, with the scene of that index.
 std::string work_stroke_line(std::size_t node, std::size_t parent, std::size_t scene,
                              const SceneSpec& spec);
-/// The stroke has so many poses. At each of `splits`, increasing indices of poses, a stroke of its
-/// own begins, below the one before: one holding of an arm, several strokes.
+/// Ends a stroke of `poses` poses. At each of `splits`, increasing indices of poses, a new stroke
+/// begins below the one before: a hand that holds an arm without a break makes several strokes.
 std::string work_end_line(std::size_t poses, std::span<const std::size_t> splits);
 std::string work_at_line(std::size_t node);  ///< undo, redo, or another branch
 /// The first `nodes` nodes are in a file, which has `node` for its current one.

@@ -52,7 +52,7 @@ struct MeshReport {
 /// An inward shell (a closed cavity) is sound when it lies inside an outward one.
 MeshReport check_mesh(const TriangleMesh& mesh);
 
-/// About how much memory [bytes] check_mesh takes beside the mesh of so many triangles: 50 bytes a
+/// Estimate of the memory [bytes] that check_mesh takes beside a mesh of `triangles`: 50 bytes a
 /// triangle were measured for one shell of 20 million. Shells that are many, small and nested take
 /// up to twice as much.
 [[nodiscard]] constexpr std::uint64_t check_memory(std::size_t triangles) noexcept {

@@ -9,7 +9,7 @@
 namespace clay::solid::inline repair {
 
 // ---- mesh repair ---------------------------------------------------------------------
-// What can be mended in a mesh that someone else made.
+// Repairs of foreign meshes.
 
 /// One kind of repair that was made, and how often.
 struct Repair {

@@ -29,7 +29,7 @@ struct GuardSettings {
   double slew_n_per_s = 500.0;  ///< fastest rise, 1 to 5000; falls are not held up. Our judgement
 
   double small_force_n = 0.2;  ///< to engage, less is wanted than this (CHAI3D); below the limit
-  int small_force_ticks = 5;   ///< for so many ticks, 1 to 1000 (CHAI3D: more than 3)
+  int small_force_ticks = 5;   ///< for this number of ticks, 1 to 1000 (CHAI3D: > 3)
   double ramp_s = 2.0;         ///< then the force grows to its whole, 0.1 to 60 s (CHAI3D)
 
   /// Age of the newest frame from which force fades: two periods or more. Our judgement.
@@ -49,7 +49,7 @@ struct GuardSettings {
   double hot_fade_s = 1.0;   ///< then force fades within this, 0.05 to 10
 
   int not_finite_ticks = 3;  ///< ticks in a row with a NaN or infinity until SAFE, 1 to 10
-  double safe_rest_s = 0.1;  ///< good frames before a SAFE that mends itself ends, 0.01 to 10
+  double safe_rest_s = 0.1;  ///< good frames before a SAFE that clears itself ends, 0.01 to 10
 };
 
 /// The first setting that is no number or out of its range, which other settings may bound.
@@ -198,7 +198,7 @@ enum class GuardState {
   ramping,
   engaged,
   fading,  ///< ramping or engaged, and letting go: stale frames, old clay, hot motors
-  safe,    ///< 0 until rearm(), or after a rest where the cause mends itself
+  safe,    ///< 0 until rearm(), or after a rest where the cause clears itself
 };
 
 /// Why the guard is safe.
@@ -206,8 +206,8 @@ enum class SafeCause {
   none,
   not_finite,   ///< force or position, not_finite_ticks in a row
   not_passive,  ///< the loop is unstable: lower the stiffness
-  jumped,       ///< the position leapt and stays; mends itself
-  overrun,      ///< a tick came later than pause_s; mends itself
+  jumped,       ///< the position leapt and stays; clears itself
+  overrun,      ///< a tick came later than pause_s; clears itself
   paused,       ///< asked for
   stopped,      ///< asked for, and for good
 };
