@@ -1,9 +1,29 @@
 # One place for what every target shares.
+include(cmake/ClaystackFastBuild.cmake)
 
 find_program(CLAYSTACK_CCACHE ccache)
 if(CLAYSTACK_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CLAYSTACK_CCACHE})
+  # ccache keeps files that use precompiled headers only with these settings (its manual says why).
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+    ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+    ${CLAYSTACK_CCACHE})
 endif()
+
+# Two types of one name with different members are undefined behaviour that neither compiler nor
+# linker sees; GCC's link-time optimisation compares them. Objects are fat, so that only the programs
+# of claystack_check_definitions pay for it.
+option(CLAYSTACK_ODR_CHECK "Compare definitions across files where programs are linked (GCC)" OFF)
+if(CLAYSTACK_ODR_CHECK)
+  add_compile_options(-flto -ffat-lto-objects)
+  string(APPEND CMAKE_EXE_LINKER_FLAGS " -fno-lto")
+  string(APPEND CMAKE_MODULE_LINKER_FLAGS " -fno-lto")
+endif()
+function(claystack_check_definitions target)
+  if(CLAYSTACK_ODR_CHECK)
+    target_link_options(${target} PRIVATE
+      -flto=2 -fno-fat-lto-objects -Wodr -Werror=odr -Werror=lto-type-mismatch)
+  endif()
+endfunction()
 
 function(claystack_compile_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -16,6 +36,11 @@ function(claystack_compile_options target)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
   endif()
+endfunction()
+
+# For code that runs once in a process, such as reading options: half the time to compile.
+function(claystack_optimise_little target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 # claystack_component(NAME USES targets ...): claystack::NAME, a static library made of the rooms

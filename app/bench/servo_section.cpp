@@ -16,7 +16,7 @@
 namespace clay::bench {
 namespace {
 
-using bench::Outcome;
+using closed_loop::Outcome;
 using falcon::SampledLoop;
 
 constexpr double kAllowedBorderErrorPercent = 15.0;
@@ -35,23 +35,23 @@ std::vector<double> stiffnesses(bool quick) {
 }
 
 Outcome at_wall(const SampledLoop& loop, double stiffness, double step_m, bool controlled) {
-  bench::Experiment e = bench::wall_experiment(loop, stiffness, step_m);
+  closed_loop::Experiment e = closed_loop::wall_experiment(loop, stiffness, step_m);
   e.controlled = controlled;
-  const auto wall = bench::make_wall({stiffness, 5.0, true});
+  const auto wall = closed_loop::make_wall({stiffness, 5.0, true});
   return run(e, *wall);
 }
 
 Outcome at_clay(const SampledLoop& loop, double stiffness, double rate_per_s, bool controlled) {
-  bench::Experiment e = bench::clay_experiment(loop, bench::kFalconStepM);
+  closed_loop::Experiment e = closed_loop::clay_experiment(loop, closed_loop::kFalconStepM);
   e.controlled = controlled;
-  const auto clay = bench::make_clay({stiffness, rate_per_s, 20.0});
+  const auto clay = closed_loop::make_clay({stiffness, rate_per_s, 20.0});
   return run(e, *clay);
 }
 
 /// 0 for no limit cycle, then from 0.4 at the limit to 1 at a hundred times as much.
 double badness(double swing_m) {
-  if (swing_m <= bench::kMostSwingM) return 0.0;
-  return std::min(1.0, 0.4 + 0.3 * std::log10(swing_m / bench::kMostSwingM));
+  if (swing_m <= closed_loop::kMostSwingM) return 0.0;
+  return std::min(1.0, 0.4 + 0.3 * std::log10(swing_m / closed_loop::kMostSwingM));
 }
 
 struct Verdict {
@@ -88,11 +88,11 @@ Table borders(const Effort& effort, Verdict& verdict) {
         SampledLoop loop = arm_at(rate, damping);
         loop.delay_ticks = delay;
         const double predicted = stable_stiffness(loop);
-        const double measured = bench::measured_stable_stiffness(loop, 1e-3);
+        const double measured = closed_loop::measured_stable_stiffness(loop, 1e-3);
         const falcon::VirtualWall wall{passive_stiffness(loop), 0.3 * damping};
         double asked = 0.0;
         for (int waves = 1; waves <= 100; ++waves)
-          asked = std::max(asked, bench::measured_passive_damping(loop, wall, waves, 200));
+          asked = std::max(asked, closed_loop::measured_passive_damping(loop, wall, waves, 200));
         const double error = 100.0 * (measured / predicted - 1.0);
         const double passivity_error = 100.0 * (asked / passive_damping(loop, wall) - 1.0);
         verdict.border_error_percent = std::max(verdict.border_error_percent, std::abs(error));
@@ -128,7 +128,7 @@ Map lined_map(std::string id, std::string title, Axis x, std::vector<double> x_v
     passive.y.push_back(passive_stiffness(loop));
     stable.y.push_back(stable_stiffness(loop));
     accepted.y.push_back(accepted_stiffness(loop));
-    measured.y.push_back(bench::measured_stable_stiffness(loop, 1e-2));
+    measured.y.push_back(closed_loop::measured_stable_stiffness(loop, 1e-2));
   }
   map.x_values = std::move(x_values);
   map.curves = {passive, stable, accepted, measured};
@@ -157,9 +157,9 @@ void add_wall_maps(Section& section, const std::string& id, const Axis& x,
         std::string("Wall, by ") + id + (controlled ? ", with the passivity controller" : ", bare"),
         x, x_values, k_values, loop_at);
     fill(map, [&](double at, double k) {
-      const double swing = at_wall(loop_at(at), k, bench::kFalconStepM, controlled).swing_m;
+      const double swing = at_wall(loop_at(at), k, closed_loop::kFalconStepM, controlled).swing_m;
       if (controlled) verdict.worst_controlled_m = std::max(verdict.worst_controlled_m, swing);
-      if (!controlled) verdict.buzzing_cells += swing > bench::kMostSwingM;
+      if (!controlled) verdict.buzzing_cells += swing > closed_loop::kMostSwingM;
       return badness(swing);
     });
     section.maps.push_back(std::move(map));
@@ -198,8 +198,8 @@ Plot energy_plot(const std::vector<double>& rates, Verdict& verdict) {
     for (double part = 0.2; part < 4.0; part *= 1.1) {
       const SampledLoop loop = arm_at(rate);
       const double k = part * stable_stiffness(loop);
-      const auto wall = bench::make_wall({k, 5.0, true});
-      const Outcome o = run(bench::energy_experiment(loop, k), *wall);
+      const auto wall = closed_loop::make_wall({k, 5.0, true});
+      const Outcome o = run(closed_loop::energy_experiment(loop, k), *wall);
       if (part < 1.0) {
         ++verdict.stable_cells;
         verdict.worst_stable_cycle_j = std::max(verdict.worst_stable_cycle_j, o.mean_cycle_j);
@@ -218,7 +218,7 @@ Plot energy_plot(const std::vector<double>& rates, Verdict& verdict) {
 double stiffest_calm_clay(double rate, double removal, const std::vector<double>& k_values) {
   double calm = std::numeric_limits<double>::quiet_NaN();
   for (const double k : k_values) {
-    if (at_clay(arm_at(rate), k, removal, false).swing_m > bench::kMostSwingM) break;
+    if (at_clay(arm_at(rate), k, removal, false).swing_m > closed_loop::kMostSwingM) break;
     calm = k;
   }
   return calm;
@@ -263,7 +263,7 @@ void conclude(Section& section, const Verdict& v) {
   section.sound = v.border_error_percent <= kAllowedBorderErrorPercent &&
                   v.passivity_error_percent <= kAllowedBorderErrorPercent &&
                   v.worst_stable_cycle_j <= 0.0 && v.buzzing_cells > 0 &&
-                  v.worst_controlled_m <= bench::kMostSwingM;
+                  v.worst_controlled_m <= closed_loop::kMostSwingM;
 }
 
 }  // namespace

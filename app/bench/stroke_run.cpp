@@ -12,7 +12,7 @@
 namespace clay::bench {
 namespace {
 
-constexpr double kLumpMm = 150.0, kOuterMm = 45.0, kInnerMm = 25.0, kBallMm = 10.0;
+constexpr double kLumpMm = 150.0, kOuterMm = 45.0, kInnerMm = 25.0, kStrokeBallMm = 10.0;
 constexpr double kSampleS = 0.008;
 constexpr double kLowMm = 5.0, kHighMm = 140.0;  // compared between: the lip may rise
 constexpr std::size_t kHeights = 541;            // 0.25 mm apart
@@ -73,7 +73,7 @@ glm::dvec3 stroke_mm(double t) {
   const double in = eased(t, 0.1, 0.7) - eased(t, 2.0, 2.3);
   // From the start: before any motion up or down the paper has no direction for the clay.
   const double up = eased(t, 0.0, 2.0);
-  return {kOuterMm + kBallMm + 2.0 - 8.0 * in, 50.0 + 50.0 * up, 0.0};
+  return {kOuterMm + kStrokeBallMm + 2.0 - 8.0 * in, 50.0 + 50.0 * up, 0.0};
 }
 
 SceneSpec stroke_scene(const Fineness& fineness, Model model) {
@@ -83,7 +83,7 @@ SceneSpec stroke_scene(const Fineness& fineness, Model model) {
   scene.lump.ring_height_mm = kLumpMm / static_cast<double>(fineness.rings);
   scene.lump.outer_radius_mm = kOuterMm;
   scene.lump.inner_radius_mm = kInnerMm;
-  scene.tool.shape = SphereSpec{kBallMm};
+  scene.tool.shape = SphereSpec{kStrokeBallMm};
   scene.flow.reach_mm = fineness.reach_mm;
   // The paper's K and k are of a ring and of a tick: those of 200 rings at 1 kHz, everywhere.
   scene.force->paper_stiffness_n_per_mm = scene.force->stiffness_n_per_mm2 * kLumpMm / 200.0;

@@ -11,7 +11,6 @@
 namespace clay::render {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kFloor = 3.0;  // radius of the floor, in those of the wheel head
 constexpr GLuint kBlockBinding = 0;
 
@@ -151,7 +150,7 @@ void ScenePainter::paint_section(const SceneFrame& frame) {
 void ScenePainter::paint_wheel(const SceneFrame& frame) {
   const auto radius = static_cast<float>(frame.wheel_radius);
   const float thick = frame.block.wheel.z, bevel = 0.12f * thick;
-  const glm::vec2 whole{0.0f, static_cast<float>(2.0 * kPi)};
+  const glm::vec2 whole{0.0f, static_cast<float>(2.0 * std::numbers::pi)};
   glUseProgram(wheel_.get());
   set(wheel_, "sweep", whole);
   set(wheel_, "metal", frame.look.metal);

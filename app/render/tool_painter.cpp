@@ -12,7 +12,6 @@
 namespace clay::render {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kLeastForceN = 0.02;  // below it there is no arrow
 constexpr float kSeenThrough = 0.4f;   // of a tool that clay hides
 
@@ -37,7 +36,7 @@ void ScenePainter::paint_tool(const SceneFrame& frame) {
                                 ? glm::dvec3{tool.place_mm.x, 0.0, tool.place_mm.z} / from_axis
                                 : glm::dvec3{1.0, 0.0, 0.0};
   glUseProgram(plain_.get());
-  set(plain_, "sweep", glm::vec2{0.0f, static_cast<float>(2.0 * kPi)});
+  set(plain_, "sweep", glm::vec2{0.0f, static_cast<float>(2.0 * std::numbers::pi)});
   set(plain_, "base", glm::vec4(frame.look.tool, 48.0f));
   const auto paint_at = [&](double shift, double touching) {
     set(plain_, "touch", glm::vec4(glm::vec3(touching * radial), tool.contact ? 1.0f : 0.0f));

@@ -3,6 +3,7 @@
 
 #include "claystack/core/result.hpp"
 
+#include "core/json/range.hpp"
 #include "core/text.hpp"
 
 #include <algorithm>
@@ -48,22 +49,7 @@ inline tl::unexpected<Error> bad_json(std::string_view name, std::string_view wh
   return failure(ErrorKind::bad_input, std::string(name).append(": ").append(what));
 }
 
-/// What a number of a file may be.
-struct Interval {
-  double low = 0.0, high = 0.0;
-  bool above_low = false;  ///< `low` itself is outside
-
-  [[nodiscard]] bool holds(double value) const noexcept {
-    return (above_low ? value > low : value >= low) && value <= high;
-  }
-  /// "from 0 to 1e+07", "above 0 to 10000"
-  [[nodiscard]] std::string text() const {
-    return (above_low ? "above " : "from ") + short_number_text(low) + " to " +
-           short_number_text(high);
-  }
-};
-
-inline double number_in(const Json& json, const char* name, const Interval& limits) {
+inline double number_in(const Json& json, const char* name, const Range& limits) {
   const Json& value = field_of(json, name);
   if (value.is_number() && limits.holds(value.get<double>())) return value.get<double>();
   throw BadField(std::string(name) + ": expected a number " + limits.text() + ", found " +

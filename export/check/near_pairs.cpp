@@ -12,7 +12,7 @@
 namespace clay::solid::inline check {
 namespace {
 
-struct Interval {
+struct Span {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
 };
@@ -120,23 +120,23 @@ void NearPairs::sieve_along(const glm::dvec3& direction, Positions& a, Positions
   if (!(length > 0.0) || !std::isfinite(length)) return;
   const glm::dvec3 unit = direction / length;
   const auto reach = [&](std::uint32_t i) {
-    Interval interval;
+    Span interval;
     for (const glm::dvec3& corner : crowd_[i].corners) {
       const double distance = glm::dot(corner, unit);
       interval.low = std::min(interval.low, distance);
       interval.high = std::max(interval.high, distance);
     }
     const double margin = crowd_.rounding() + 2.0 * crowd_[i].slack;
-    return Interval{interval.low - margin, interval.high + margin};
+    return Span{interval.low - margin, interval.high + margin};
   };
   const auto keep_near = [&](Positions& kept, const Positions& others) {
-    Interval all;
+    Span all;
     for (const std::uint32_t i : others) {
-      const Interval one = reach(i);
+      const Span one = reach(i);
       all = {std::min(all.low, one.low), std::max(all.high, one.high)};
     }
     std::erase_if(kept, [&](std::uint32_t i) {
-      const Interval one = reach(i);
+      const Span one = reach(i);
       return one.low > all.high || one.high < all.low;
     });
   };

@@ -12,7 +12,7 @@ namespace {
 constexpr double kAnySize = std::numeric_limits<double>::infinity();
 constexpr int kDeepest = 3;  // a field of a wall of the list
 constexpr const char* kSchema = "claystack-process-1";
-constexpr Interval kWallMm{0.0, 1e4, true}, kSizeSumMm{0.0, 1e7, true};
+constexpr Range kWallMm = above(0.0).to(1e4), kSizeSumMm = above(0.0).to(1e7);
 
 const std::vector<ProcessLimits>& built_in() {
   static const std::vector<ProcessLimits> processes{

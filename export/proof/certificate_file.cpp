@@ -16,7 +16,8 @@ constexpr const char* kSchema = "claystack-certificate-1";
 constexpr std::string_view kClaim =
     "closed and embedded, of the volume and no thinner than stated, as the file's bytes say";
 // Coordinates are within 1e6 mm, so no length between them is as long, no volume as large.
-constexpr Interval kLengthMm{0.0, 1e7}, kWallMm{-1e7, 1e7}, kVolumeMm3{0.0, 1e20};
+constexpr Range kLengthMm = from(0.0).to(1e7), kWallMm = from(-1e7).to(1e7),
+                kVolumeMm3 = from(0.0).to(1e20);
 constexpr std::size_t kMaxProfilePoints = kMaxTriangles / kMinSegments;
 
 Json profile_json(const Profile& profile) {

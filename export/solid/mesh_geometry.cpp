@@ -15,13 +15,13 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-constexpr std::uint32_t kNone = UINT32_MAX;
+constexpr std::uint32_t kNoShell = UINT32_MAX;
 
-struct Shell {
+struct NestedShell {
   std::uint32_t triangle = 0;  ///< the first of it
   std::uint32_t top = 0;       ///< the first vertex of the largest z
   bool outward = false;
-  std::uint32_t around = kNone;  ///< the shell that it lies in
+  std::uint32_t around = kNoShell;  ///< the shell that it lies in
   bool inner = false;            ///< it lies in an odd number of shells
   bool misplaced = false;
 };
@@ -85,7 +85,7 @@ class Nest {
     ShellGeometry geometry;
     geometry.steps = steps_;
     geometry.outward = shells_[highest_].outward;
-    for (const Shell& shell : shells_)
+    for (const NestedShell& shell : shells_)
       if (shell.misplaced) note(geometry.misplaced_shells, {shell.triangle}, {});
     geometry.bounds_volume = !geometry.misplaced_shells.found();
     return geometry;
@@ -108,7 +108,7 @@ class Nest {
   }
 
   void find_tops() {
-    for (Shell& shell : shells_) shell.top = mesh_.triangles[shell.triangle][0];
+    for (NestedShell& shell : shells_) shell.top = mesh_.triangles[shell.triangle][0];
     std::uint32_t highest = shells_.front().top;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       for (const std::uint32_t v : mesh_.triangles[t]) {
@@ -168,31 +168,31 @@ class Nest {
     std::optional<bool> outermost;  // are they outward?
     bool alike = true;
     for (const std::uint32_t s : order) {
-      Shell& shell = shells_[s];
+      NestedShell& shell = shells_[s];
       if (const auto& hit = hits_[s]) {
-        const Shell& other = shells_[shell_of_[hit->triangle]];
+        const NestedShell& other = shells_[shell_of_[hit->triangle]];
         const bool within = hit->from_back == other.outward;
         shell.around = within ? shell_of_[hit->triangle] : other.around;
       }
-      if (shell.around == kNone) {
+      if (shell.around == kNoShell) {
         alike = alike && shell.outward == outermost.value_or(shell.outward);
         outermost = shell.outward;
         continue;
       }
-      const Shell& around = shells_[shell.around];
+      const NestedShell& around = shells_[shell.around];
       shell.inner = !around.inner;
       shell.misplaced = around.misplaced || shell.outward != (*outermost != shell.inner);
     }
     // Where the outermost shells contradict each other, none is more at fault than another.
     if (!alike)
-      for (Shell& shell : shells_) shell.misplaced = true;
+      for (NestedShell& shell : shells_) shell.misplaced = true;
   }
 
   [[nodiscard]] double height(std::uint32_t v) const { return mesh_.points[v].z; }
 
   const TriangleMesh& mesh_;
   std::vector<std::uint32_t> shell_of_;  ///< by triangle
-  std::vector<Shell> shells_;            ///< in the order of their first triangles
+  std::vector<NestedShell> shells_;            ///< in the order of their first triangles
   std::uint32_t highest_ = 0;            ///< shell
   std::vector<std::optional<RayUpward::Hit>> hits_;
   std::size_t steps_ = 0;

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace clay::bench {
+namespace clay::closed_loop {
 namespace {
 
 using falcon::ArmEnergy;
@@ -238,4 +238,4 @@ Experiment clay_experiment(const falcon::SampledLoop& loop, double step_m) {
   return e;
 }
 
-}  // namespace clay::bench
+}  // namespace clay::closed_loop

@@ -8,7 +8,7 @@
 
 #include <functional>
 
-namespace clay::bench {
+namespace clay::closed_loop {
 
 struct Experiment {
   falcon::ArmSpec arm;
@@ -62,4 +62,4 @@ double measured_stable_stiffness(const falcon::SampledLoop& loop, double toleran
 double measured_passive_damping(const falcon::SampledLoop& loop, const falcon::VirtualWall& wall,
                                 int waves, int samples);
 
-}  // namespace clay::bench
+}  // namespace clay::closed_loop

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace clay::bench {
+namespace clay::closed_loop {
 namespace {
 
 constexpr double kMmPerM = 1000.0;
@@ -105,4 +105,4 @@ std::unique_ptr<Surface> make_clay(const ClaySpec& clay) {
   return std::make_unique<Clay>(clay, Wheel::build(clay_scene(clay)).value());
 }
 
-}  // namespace clay::bench
+}  // namespace clay::closed_loop

@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 #include <memory>
 
-namespace clay::bench {
+namespace clay::closed_loop {
 
 class Surface {
  public:
@@ -40,4 +40,4 @@ SceneSpec clay_scene(const ClaySpec& clay);
 /// Expects a scene that Wheel::build accepts.
 std::unique_ptr<Surface> make_clay(const ClaySpec& clay);
 
-}  // namespace clay::bench
+}  // namespace clay::closed_loop

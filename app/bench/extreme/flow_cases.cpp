@@ -9,7 +9,6 @@
 namespace clay::extreme {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void press_the_middle(Trial& trial) {
   trial.stroke({40, 22, 0}, {36, 26, 0}, 40);
@@ -199,7 +198,7 @@ Outcome fraction_above_1(Who who) {
   return trial.done();
 }
 
-constexpr Case kCases[] = {
+constexpr Case kFlowCases[] = {
     {"sigma_0", "sigma = 0", "clay kept, no 0/0", "exact rationals", Verdict::failed, sigma_0},
     {"sigma_0_is_the_limit", "sigma = 0, one tick", "one ring gains: the nearest", "the limit",
      Verdict::failed, sigma_0_is_the_limit},
@@ -244,6 +243,6 @@ constexpr Case kCases[] = {
 
 }  // namespace
 
-std::span<const Case> flow_cases() { return kCases; }
+std::span<const Case> flow_cases() { return kFlowCases; }
 
 }  // namespace clay::extreme

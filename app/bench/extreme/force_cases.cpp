@@ -157,7 +157,7 @@ Outcome tool_with_a_step(Who who) {
   return trial.done();
 }
 
-constexpr Case kCases[] = {
+constexpr Case kForceCases[] = {
     {"minus_gradient", "sphere, ellipse and rib at random poses, both sides",
      "force = -grad of the overlap energy to 1e-4 of it", "differences of an integral",
      Verdict::failed, minus_gradient},
@@ -176,6 +176,6 @@ constexpr Case kCases[] = {
 
 }  // namespace
 
-std::span<const Case> force_cases() { return kCases; }
+std::span<const Case> force_cases() { return kForceCases; }
 
 }  // namespace clay::extreme

@@ -13,7 +13,6 @@ namespace clay::extreme {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::int64_t kLatest = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kEarliest = std::numeric_limits<std::int64_t>::min();
 
@@ -142,7 +141,7 @@ Outcome long_pause(Who who) {
   return {Verdict::passed, "50 ms at most"};
 }
 
-constexpr Case kCases[] = {
+constexpr Case kInputCases[] = {
     {"nan_pose", "NaN in each coordinate", "no force, state to the bit, forgotten", "bytes",
      Verdict::failed, nan_pose},
     {"nan_velocity", "one NaN height in a stroke", "the direction of motion is kept", "bytes",
@@ -169,6 +168,6 @@ constexpr Case kCases[] = {
 
 }  // namespace
 
-std::span<const Case> input_cases() { return kCases; }
+std::span<const Case> input_cases() { return kInputCases; }
 
 }  // namespace clay::extreme

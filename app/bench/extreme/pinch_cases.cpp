@@ -87,7 +87,6 @@ Outcome pinch_in_a_free_bore(Who who) { return nothing_pinched(who, {{0, 1}, {5,
 
 Outcome gaps_that_are_none(Who who) {
   if (who == Who::literal) return kOneTool;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Trial trial(who, pinched_pot(24.0));
   trial.stroke({40, 24, 0}, {36, 28, 0}, 40);
   const std::string before = trial.subject().bytes();
@@ -143,7 +142,7 @@ Outcome minus_gradient_of_both(Who who) {
   return {Verdict::passed, fmt::format("at most {:.2g} N off, at up to {:.2g} N", worst, largest)};
 }
 
-constexpr Case kCases[] = {
+constexpr Case kPinchCases[] = {
     {"gap_of_nothing", "a gap of the least denormal", "clay kept, no wall below the least",
      "exact rationals, interval", Verdict::not_in_print, gap_of_nothing},
     {"gap_of_a_picometre", "a gap of 1e-9 mm", "clay kept, no wall below the least",
@@ -175,6 +174,6 @@ constexpr Case kCases[] = {
 
 }  // namespace
 
-std::span<const Case> pinch_cases() { return kCases; }
+std::span<const Case> pinch_cases() { return kPinchCases; }
 
 }  // namespace clay::extreme

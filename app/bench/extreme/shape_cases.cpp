@@ -226,7 +226,7 @@ Outcome largest_radius(Who who) {
   return trial.done();
 }
 
-constexpr Case kCases[] = {
+constexpr Case kShapeCases[] = {
     {"reference_stroke", "an ordinary stroke, up and down", "clay kept", "exact rationals",
      Verdict::passed, reference_stroke},
     {"wall_1e-12", "R - r = 1e-12 mm, pressed from both sides", "clay kept, no NaN",
@@ -269,6 +269,6 @@ constexpr Case kCases[] = {
 
 }  // namespace
 
-std::span<const Case> shape_cases() { return kCases; }
+std::span<const Case> shape_cases() { return kShapeCases; }
 
 }  // namespace clay::extreme

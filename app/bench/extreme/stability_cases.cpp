@@ -192,7 +192,7 @@ Outcome top_never_fails(Who who) {
   return trial.done(fmt::format("top ring of {:.3g} mm", trial.subject().ring(top).outer_mm));
 }
 
-constexpr Case kCases[] = {
+constexpr Case kStabilityCases[] = {
     {"threshold_to_the_ulp", "stress at the threshold, and one ulp above",
      "holds; collapses, at that very tick", "M summed again from the top; 50 digits",
      Verdict::passed, threshold_to_the_ulp},
@@ -210,6 +210,6 @@ constexpr Case kCases[] = {
 
 }  // namespace
 
-std::span<const Case> stability_cases() { return kCases; }
+std::span<const Case> stability_cases() { return kStabilityCases; }
 
 }  // namespace clay::extreme

@@ -132,7 +132,7 @@ Outcome side_by_side(Who who) {
   return {Verdict::passed, fmt::format("{} pots, {} ticks each", kPots, kTicks)};
 }
 
-constexpr Case kCases[] = {
+constexpr Case kStepCases[] = {
     {"one_step_again", "random ticks, pots, tools and kernels", "each ring within the bound",
      "removal and shares in 50 digits", Verdict::passed, one_step_again},
     {"drift", "10^6 ticks of a restless hand (10^7 in the full run)",
@@ -145,6 +145,6 @@ constexpr Case kCases[] = {
 
 void set_drift_ticks(std::size_t ticks) { drift_ticks = ticks; }
 
-std::span<const Case> step_cases() { return kCases; }
+std::span<const Case> step_cases() { return kStepCases; }
 
 }  // namespace clay::extreme

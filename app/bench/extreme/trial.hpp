@@ -3,10 +3,13 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <memory>
 #include <string>
 
 namespace clay::extreme {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// 60 solid rings of 1 mm height and 30 mm radius, a sphere of 8 mm, kernel of 12 mm.
 SceneSpec small_pot();

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-namespace clay::bench {
+namespace clay::closed_loop {
 namespace {
 
 using falcon::SampledLoop;
@@ -159,4 +159,4 @@ TEST(Clay, IsMadePassiveAtAnyStiffness) {
 }
 
 }  // namespace
-}  // namespace clay::bench
+}  // namespace clay::closed_loop
