@@ -10,7 +10,7 @@
 namespace clay::inline json {
 namespace {
 
-/// Leaves a trace of how far the lexer has come: its events do not say where they are.
+/// Records how far the lexer has read, because its events carry no positions.
 class TracedIterator {
  public:
   using iterator_category = std::input_iterator_tag;
