@@ -21,7 +21,7 @@ namespace {
 
 std::string cause() { return std::error_code(errno, std::system_category()).message(); }
 
-/// Speaks of `errno`, so call it before anything else can change that.
+/// Uses `errno`, so call it before anything can change that.
 tl::unexpected<Error> io_failure(const fs::path& path, const std::string& what) {
   return failure(ErrorKind::io, path.string() + ": " + what + ": " + cause());
 }
@@ -32,7 +32,7 @@ tl::unexpected<Error> too_large(const fs::path& path, const std::string& found,
                                     " bytes, found " + found);
 }
 
-/// To the end of the file; `expected_bytes` is a hint.
+/// Reads to the end of the file; `expected_bytes` is a hint.
 Result<std::string> read_all(int descriptor, const fs::path& path, std::size_t expected_bytes,
                              std::size_t max_bytes) {
   std::string text;
@@ -49,7 +49,7 @@ Result<std::string> read_all(int descriptor, const fs::path& path, std::size_t e
   }
 }
 
-/// Where a file of this name is or would be, behind all symbolic links.
+/// The path of a file after resolving all symbolic links, whether or not it exists.
 fs::path behind_links(fs::path path) {
   constexpr int kMaxLinks = 40;  // as in Linux
   std::error_code none;
@@ -58,17 +58,17 @@ fs::path behind_links(fs::path path) {
   return path;
 }
 
-/// What the kernel calls a file that has no name. Nothing where /proc is not mounted.
+/// The /proc path of an unnamed file. Does not exist if /proc is not mounted.
 fs::path name_in_proc(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
 
-/// Without a name where the file system can do that and the file can get one later, else with a
+/// Opens an unnamed file where the file system supports it and can name the file later, otherwise a
 /// temporary one.
 std::pair<int, TemporaryName> open_beside(const fs::path& target) {
   constexpr mode_t kReadWriteForAll = 0666;  // less the umask
   const int unnamed = open_retrying(folder_of(target), O_TMPFILE | O_RDWR, kReadWriteForAll);
   if (unnamed == -1) return open_temporary(target);
   if (::access(name_in_proc(unnamed).c_str(), F_OK) == 0) {
-    // For the time when it has a temporary name. Where there are no locks it has none.
+    // For later, when it gets a temporary name. Without locks it never does.
     (void)::flock(unnamed, LOCK_EX | LOCK_NB);
     return {unnamed, TemporaryName()};
   }
@@ -124,7 +124,7 @@ Result<AtomicFile> AtomicFile::create(const fs::path& target) {
                    target.string() + ": expected the name of a file, found a folder");
   if (exists && !S_ISREG(status.st_mode))
     return in_place(open_retrying(target, O_WRONLY | O_NOCTTY));
-  // A rename would not ask.
+  // A rename does not check this permission.
   if (exists && ::access(target.c_str(), W_OK) == -1) return io_failure(target, "cannot write");
 
   const fs::path resolved = behind_links(target);
@@ -151,8 +151,8 @@ Result<void> AtomicFile::write(std::span<const std::byte> bytes) {
   return {};
 }
 
-/// A large file is on its way to the disk while the rest of it is made, so that the sync at the end
-/// is short. What goes wrong here the sync will tell.
+/// Starts writing a large file to disk while the rest is produced, so that the final sync is short.
+/// Errors here are reported by the sync.
 void AtomicFile::begin_writeback() noexcept {
   constexpr std::uint64_t kWorthACall = 8U << 20;
   if (in_place_ || written_ - on_its_way_ < kWorthACall) return;
@@ -185,9 +185,9 @@ Result<void> AtomicFile::prepare() {
   // Terminals and pipes have nothing to sync.
   if (!in_place_ && uninterrupted([&] { return ::fsync(descriptor_); }) == -1)
     return give_up("cannot sync");
-  // Some file systems report at a close what has gone wrong, at that of a duplicate too: the file
-  // itself stays open for its lock. Where too many files are open for a duplicate, the sync has to
-  // do. An interrupted close has lost nothing after it.
+  // Some file systems report write errors only on close, also on the close of a duplicate; the file
+  // itself stays open for its lock. If the limit of open files prevents a duplicate, the sync must
+  // suffice. An interrupted close loses no later data.
   const int closing =
       in_place_ ? std::exchange(descriptor_, -1) : ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
   if (closing != -1 && ::close(closing) == -1 && errno != EINTR) return give_up("cannot close");
@@ -211,7 +211,7 @@ Result<void> AtomicFile::keep_old() {
   if (in_place_ || ::lstat(target_.c_str(), &status) == -1) return {};
   auto [result, old] = TemporaryName::take(
       target_, [&](const char* fresh) { return ::link(target_.c_str(), fresh); });
-  if (result == -1) old = copy_beside(target_);  // a file system without links, as of USB sticks
+  if (result == -1) old = copy_beside(target_);  // for file systems without links, such as FAT
   if (old.empty()) return give_up("cannot keep the old file");
   old_ = std::make_unique<TemporaryName>(std::move(old));
   return {};
@@ -274,7 +274,7 @@ Result<void> commit_all(std::span<AtomicFile* const> files) {
   const std::size_t all = files.size();
   auto done = each(&AtomicFile::prepare, all)
                   .and_then([&] { return each(&AtomicFile::name, all); })
-                  // When the last is in its place, nothing is left that can fail.
+                  // Once the last file is in place, nothing can fail.
                   .and_then([&] { return each(&AtomicFile::keep_old, all == 0 ? 0 : all - 1); })
                   .and_then([&] { return AtomicFile::replace_all(files); });
   for (AtomicFile* file : files) file->discard();

@@ -1,21 +1,21 @@
 #pragma once
-// Giving up in mid-work: long loops ask now and then whether anyone still wants what comes of them.
+// Cancellation: long loops check at intervals whether their result is still needed.
 
 #include <functional>
 
 namespace clay {
 
-/// The job is no longer wanted; no fault of its own. No std::exception: who makes errors of those
-/// lets it pass.
+/// Thrown when the job was cancelled; not an error. It does not derive from std::exception, so that
+/// handlers of errors let it pass.
 struct Cancelled {};
 
-/// For as long as it lives, what this thread works on is part of a job that may be given up. A
-/// thread that helps it begins a scope of its own, with its `current()`. Scopes nest.
+/// While a scope exists, the work of this thread belongs to a job that can be cancelled. A helper
+/// thread opens its own scope with the `current()` of the thread it helps. Scopes nest.
 class CancelScope {
  public:
-  using Question = std::function<bool()>;  ///< true: given up; asked from several threads
+  using Question = std::function<bool()>;  ///< true: cancelled; called from several threads
 
-  /// Null: what is worked on is not given up. The question outlives the scope.
+  /// Null: the work cannot be cancelled. `question` must outlive the scope.
   explicit CancelScope(const Question* question) noexcept;
   ~CancelScope();
   CancelScope(const CancelScope&) = delete;
@@ -27,12 +27,12 @@ class CancelScope {
   const Question* before_;
 };
 
-/// Throws Cancelled where the job has been given up.
+/// Throws Cancelled if the job was cancelled.
 void stop_if_cancelled();
 
 inline thread_local unsigned loop_steps = 0;
 
-/// Of a long loop, once around: stop_if_cancelled() at every 1024th.
+/// Call once per iteration of a long loop: calls stop_if_cancelled() every 1024th time.
 inline void step_of_loop() {
   if (++loop_steps % 1024 == 0) stop_if_cancelled();
 }

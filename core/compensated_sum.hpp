@@ -3,8 +3,8 @@
 
 namespace clay {
 
-/// Neumaier's summation: the error stays within an ulp or two of the sum however many terms there
-/// are, so that the volume of a mesh of millions of triangles can be held against counted clay.
+/// Neumaier's summation: the error stays within one or two ulp of the sum for any number of terms,
+/// so that the volume of a mesh of millions of triangles can be compared with counted clay.
 class CompensatedSum {
  public:
   void add(double term) noexcept {

@@ -1,6 +1,6 @@
 #include "core/content_hash.hpp"
 
-#define XXH_INLINE_ALL  // one header, nothing to link
+#define XXH_INLINE_ALL  // header only, nothing to link
 #include <xxhash.h>
 
 namespace clay {

@@ -1,6 +1,5 @@
 #pragma once
-// What identifies the bytes of a file: XXH3-128, which notices every accident but resists no
-// forger.
+// Identifies the bytes of a file: XXH3-128 detects accidental changes, but does not resist forgery.
 
 #include <cstddef>
 #include <memory>

@@ -11,7 +11,7 @@ namespace clay {
 namespace fs = std::filesystem;
 namespace {
 
-/// Speaks of `errno`, so call it before anything else can change that.
+/// Uses `errno`, so call it before anything can change that.
 tl::unexpected<Error> io_failure(const fs::path& path, const char* what) {
   const std::string cause = std::error_code(errno, std::system_category()).message();
   return failure(ErrorKind::io, path.string() + ": " + what + ": " + cause);

@@ -1,5 +1,5 @@
 #pragma once
-// Reading a file from front to back, where it is too large to be held in memory.
+// Sequential reading of files that are too large for memory.
 
 #include "claystack/core/result.hpp"
 
@@ -11,8 +11,7 @@
 
 namespace clay {
 
-/// A file that is open for reading. Errors are of kind `io`; they name the file and the system's
-/// reason.
+/// A file open for reading. Errors are of kind `io`; they name the file and the system's reason.
 class FileReader {
  public:
   static Result<FileReader> open(const std::filesystem::path& path);
@@ -20,9 +19,9 @@ class FileReader {
   FileReader& operator=(FileReader&&) = delete;
   ~FileReader();
 
-  /// Nothing for pipes and devices.
+  /// Empty for pipes and devices.
   [[nodiscard]] std::optional<std::uint64_t> size() const noexcept { return size_; }
-  /// Fills `part` from its begin; returns how many bytes, 0 at the end of the file only.
+  /// Fills `part` from its start; returns the number of bytes, 0 only at the end of the file.
   Result<std::size_t> read(std::span<char> part);
 
  private:

@@ -4,8 +4,8 @@
 
 namespace clay {
 
-/// FNV-1a, 64 bits (Fowler, Noll, Vo): every step is a bijection of the state, so one changed
-/// byte always shows.
+/// FNV-1a, 64 bits (Fowler, Noll, Vo). Every step is a bijection of the state, so the change of one
+/// byte always changes the hash.
 class Fnv1a {
  public:
   void add(std::string_view bytes) {

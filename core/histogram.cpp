@@ -13,12 +13,12 @@ std::size_t bucket_of(std::int64_t ns) noexcept {
   const auto value = static_cast<std::uint64_t>(std::max<std::int64_t>(ns, 0));
   const auto width = static_cast<unsigned>(std::bit_width(value));
   if (width <= kBits) return value;
-  const unsigned octave = width - kBits;  // 1 for 32 to 63: the leading bit goes without saying
+  const unsigned octave = width - kBits;  // 1 for 32 to 63: the leading bit is implicit
   const std::uint64_t mantissa = (value >> (octave - 1)) - (1u << kBits);
   return (std::size_t{octave} << kBits) + mantissa;
 }
 
-/// The longest time of a bucket.
+/// The largest time of a bucket.
 std::int64_t longest_of(std::size_t bucket) noexcept {
   const std::uint64_t octave = bucket >> kBits, mantissa = bucket & ((1u << kBits) - 1);
   if (octave == 0) return static_cast<std::int64_t>(mantissa);

@@ -1,6 +1,6 @@
 #pragma once
-// Times of many ticks in little memory: exact below 32 ns, then 32 buckets to each doubling, as
-// in a floating point number of 5 bits. Never allocates, and adds in a few instructions.
+// Times of many ticks in little memory: exact below 32 ns, then 32 buckets per doubling, as in a
+// floating-point number with 5 bits of mantissa. Never allocates; adding takes a few instructions.
 
 #include <array>
 #include <cstddef>
@@ -11,28 +11,28 @@ namespace clay {
 class Histogram {
  public:
   static constexpr unsigned kBits = 5;
-  /// A quantile is at most this part above the time it stands for, and never below.
+  /// A quantile exceeds the true time by at most this fraction, and is never below it.
   static constexpr double kRelativeError = 1.0 / (1u << kBits);
 
-  /// A time [ns]; negative ones count as 0 (and are early, not late).
+  /// Adds a time [ns]; negative times (early, not late) count as 0.
   void add(std::int64_t ns) noexcept;
-  /// Adds all that `other` has counted.
+  /// Adds all counts of `other`.
   void merge(const Histogram& other) noexcept;
   void clear() noexcept { *this = {}; }
 
   [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
   [[nodiscard]] std::int64_t least_ns() const noexcept { return count_ > 0 ? least_ : 0; }
   [[nodiscard]] std::int64_t most_ns() const noexcept { return most_; }
-  /// To rounding; 0 of nothing.
+  /// Exact up to rounding; 0 when empty.
   [[nodiscard]] double mean_ns() const noexcept;
 
-  /// The least time that `part` of all times don't exceed: of n times sorted, the one at place
-  /// max(1, ceil(part n)), or above it by kRelativeError at most; never beyond most_ns. `part` from
-  /// 0 to 1; 0 of nothing.
+  /// The smallest time that at least the fraction `part` (0 to 1) of all times do not exceed: the
+  /// element at index max(1, ceil(part n)) of the n sorted times, or up to kRelativeError above it,
+  /// and at most most_ns. 0 when empty.
   [[nodiscard]] std::int64_t quantile_ns(double part) const noexcept;
 
-  /// How many times were as long as `ns` or longer, to the bucket: times that share a bucket with
-  /// `ns` count.
+  /// The number of times of at least `ns`, to the resolution of a bucket: all times in the bucket
+  /// of `ns` count.
   [[nodiscard]] std::uint64_t count_from(std::int64_t ns) const noexcept;
 
  private:

@@ -5,12 +5,12 @@
 
 namespace clay {
 
-/// Takes complete lines off a text and counts them.
+/// Splits a text into complete lines and counts them.
 class LineReader {
  public:
   explicit LineReader(std::string_view text) : rest_(text) {}
 
-  /// Nothing at the end, and for a last line without its newline.
+  /// Empty at the end, and for a last line without its newline.
   std::optional<std::string_view> next() {
     const auto newline = rest_.find('\n');
     if (newline == std::string_view::npos) return std::nullopt;

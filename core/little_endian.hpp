@@ -1,5 +1,5 @@
 #pragma once
-// Numbers as binary files hold them, on every machine.
+// Numbers in binary files, with the same byte order on every machine.
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace clay {
 
-/// The value whose bytes in memory are those of `value`, least first; its own inverse.
+/// Swaps the bytes on big-endian machines; its own inverse.
 [[nodiscard]] inline std::uint32_t little_endian(std::uint32_t value) noexcept {
   if constexpr (std::endian::native == std::endian::little) return value;
   auto bytes = std::bit_cast<std::array<char, 4>>(value);

@@ -1,6 +1,6 @@
 #pragma once
-// A thread that works on the newest question only: one that comes while it works replaces the one
-// that waits, and what is worked on is given up.
+// A thread that works on the newest question only: a new question replaces a waiting one and
+// cancels the current work.
 
 #include <condition_variable>
 #include <cstdint>
@@ -12,19 +12,19 @@
 
 namespace clay {
 
-/// For one thread that asks and takes. Questions and answers are values; no one but the two
-/// threads knows the lock.
+/// For one thread that asks and takes. Questions and answers are values; the lock is internal.
 template <class Question, class Answer>
 class NewestWorker {
  public:
-  using GivenUp = std::function<bool()>;  ///< from any thread: nobody will see the answer
+  using GivenUp =
+      std::function<bool()>;  ///< callable from any thread; true: the answer is no longer needed
   using Work = std::function<Answer(const Question&, const GivenUp&)>;
 
-  /// Without `thread` an answer is there as soon as it is asked for.
+  /// Without `thread`, the question is answered during the call that asks it.
   NewestWorker(Work work, bool thread) : work_(std::move(work)) {
     if (thread) thread_ = std::thread([this] { run(); });
   }
-  /// Waits for the work that is under way to be given up.
+  /// Cancels the current work and waits for it to end.
   ~NewestWorker() {
     {
       const std::lock_guard lock(mutex_);
@@ -48,17 +48,17 @@ class NewestWorker {
     }
     wake_.notify_one();
   }
-  /// The newest answer, once.
+  /// The newest answer; each is returned once.
   [[nodiscard]] std::optional<Answer> take() {
     const std::lock_guard lock(mutex_);
     return std::exchange(answer_, std::nullopt);
   }
-  /// A question waits, is worked on, or its answer has not been taken.
+  /// True while a question waits or is worked on, or its answer has not been taken.
   [[nodiscard]] bool busy() const {
     const std::lock_guard lock(mutex_);
     return question_ || working_ || answer_;
   }
-  /// Questions that a newer one replaced.
+  /// The number of questions replaced by a newer one.
   [[nodiscard]] std::uint64_t dropped() const {
     const std::lock_guard lock(mutex_);
     return dropped_;
@@ -91,7 +91,7 @@ class NewestWorker {
   std::optional<Answer> answer_;
   bool working_ = false, over_ = false;
   std::uint64_t dropped_ = 0;
-  std::thread thread_;  // last: it uses all of the above
+  std::thread thread_;  // last: it uses all members above
 };
 
 }  // namespace clay

@@ -10,10 +10,10 @@
 
 namespace clay {
 
-/// work(0) .. work(parts - 1), on all cores. Which thread takes which part is left open: each part
-/// writes to a place of its own, so that the result never depends on it. Parts are begun in
-/// order, the longest had best come first. The caller may be cancelled in any of them. Of several
-/// exceptions the lowest part's is thrown.
+/// Runs work(0) .. work(parts - 1) on all cores. The assignment to threads is not deterministic:
+/// each part writes to its own place, so the result does not depend on it. Parts start in order;
+/// put the longest first. All parts belong to the caller's cancellation scope. If several parts
+/// throw, the exception of the lowest part is rethrown.
 template <class Work>
 void for_each_part(std::size_t parts, const Work& work) {
   std::vector<std::exception_ptr> failures(parts);
@@ -35,7 +35,7 @@ void for_each_part(std::size_t parts, const Work& work) {
     try {
       while (helpers.size() + 1 < std::min(cores, parts)) helpers.emplace_back(take_parts);
     } catch (const std::system_error&) {
-      // No more threads are to be had: those there are do all the work.
+      // No more threads are available: the existing ones do all the work.
     }
     take_parts();
   }

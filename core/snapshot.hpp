@@ -1,7 +1,7 @@
 #pragma once
-// The newest value, from one thread to another, with no lock and no waiting on either side. Three
-// buffers: the writer fills one, the reader looks at another, and the third lies in the middle
-// with the newest whole value. Each side swaps its own for the one in the middle.
+// Passes the newest value from one thread to another without locks or waiting. Triple buffer: the
+// writer fills one, the reader reads another, and the third holds the newest complete value. Each
+// side swaps its buffer with the third.
 
 #include <array>
 #include <atomic>
@@ -11,8 +11,8 @@
 
 namespace clay {
 
-/// One thread writes, one reads; for two readers take two snapshots. Values are copied into
-/// buffers made beforehand: a vector of the same size allocates nothing.
+/// One thread writes, one reads; two readers need two snapshots. Values are copied into existing
+/// buffers: a vector of the same size allocates nothing.
 template <class T>
 class Snapshot {
  public:
@@ -21,27 +21,27 @@ class Snapshot {
   Snapshot(const Snapshot&) = delete;
   Snapshot& operator=(const Snapshot&) = delete;
 
-  /// The writer's: fill this, then publish(). Holds a value written earlier, not the last.
+  /// Writer: fill this, then publish(). Holds an older value, not the last one.
   [[nodiscard]] T& draft() noexcept { return buffers_[written_].value; }
 
-  /// The draft is the newest value from now on.
+  /// Makes the draft the newest value.
   void publish() noexcept {
     written_ = middle_.exchange(written_ | kNew, std::memory_order_acq_rel) & kIndex;
   }
 
-  /// Both at once.
+  /// Fills the draft and publishes it.
   void write(const T& value) noexcept(std::is_nothrow_copy_assignable_v<T>) {
     draft() = value;
     publish();
   }
 
-  /// The reader's: is there a value that newest() hasn't shown yet?
+  /// Reader: true if newest() has not yet returned the newest value.
   [[nodiscard]] bool has_new() const noexcept {
     return (middle_.load(std::memory_order_relaxed) & kNew) != 0;
   }
 
-  /// The newest whole value; stays as it is until the next call. The first one given, or T{}, when
-  /// nothing was published yet.
+  /// The newest complete value; unchanged until the next call. Before the first publish: the
+  /// initial value, or T{}.
   [[nodiscard]] const T& newest() noexcept {
     if (has_new()) read_ = middle_.exchange(read_, std::memory_order_acq_rel) & kIndex;
     return buffers_[read_].value;
@@ -52,7 +52,7 @@ class Snapshot {
   static constexpr std::size_t kCacheLine = 64;
   static_assert(std::atomic<std::uint8_t>::is_always_lock_free);
 
-  // Neither side slows the other by writing next to what it reads.
+  // Separate cache lines: neither side slows the other by false sharing.
   struct alignas(kCacheLine) Buffer {
     T value{};
   };

@@ -1,6 +1,6 @@
 #pragma once
-// Commands from one thread to another in their order, with no lock and no waiting: a ring of fixed
-// size. A full queue refuses, an empty one gives nothing.
+// Passes commands from one thread to another in order, without locks or waiting: a ring buffer of
+// fixed size. A full queue refuses, an empty one returns nothing.
 
 #include <array>
 #include <atomic>
@@ -10,7 +10,7 @@
 
 namespace clay {
 
-/// One thread pushes, one pops. `Capacity`: a power of two, so that the counts may run over.
+/// One thread pushes, one pops. `Capacity`: a power of two, so that the counters may wrap.
 template <class T, std::size_t Capacity>
 class SpscQueue {
   static_assert(Capacity > 0 && (Capacity & (Capacity - 1)) == 0, "a power of two");
@@ -22,7 +22,7 @@ class SpscQueue {
   SpscQueue(const SpscQueue&) = delete;
   SpscQueue& operator=(const SpscQueue&) = delete;
 
-  /// False when full: the command was not taken.
+  /// False if full: the command was not queued.
   [[nodiscard]] bool push(const T& command) noexcept {
     const std::size_t pushed = pushed_.load(std::memory_order_relaxed);
     if (pushed - popped_.load(std::memory_order_acquire) == Capacity) return false;

@@ -1,5 +1,5 @@
 #pragma once
-// Calls of the operating system as this module makes them.
+// Wrappers of system calls.
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 
 namespace clay {
 
-/// A call, made again as long as a signal interrupts it.
+/// Repeats a call while signals interrupt it.
 template <class Call>
 auto uninterrupted(Call call) {
   auto result = call();
@@ -21,7 +21,7 @@ inline int open_retrying(const std::filesystem::path& path, int flags, mode_t mo
   return uninterrupted([&] { return ::open(path.c_str(), flags | O_CLOEXEC, mode); });
 }
 
-/// Closes what it holds at the end of its scope.
+/// Closes its descriptor at the end of the scope.
 class Descriptor {
  public:
   explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
@@ -36,7 +36,7 @@ class Descriptor {
   int descriptor_;
 };
 
-/// Signals by which a user ends a program wait for the end of the scope, in this thread.
+/// Blocks the signals that end a program, in this thread, until the end of the scope.
 class SignalsHeld {
  public:
   SignalsHeld() {
@@ -57,7 +57,7 @@ class SignalsHeld {
   sigset_t before_;
 };
 
-/// The folder that holds a file of this name.
+/// The folder that contains the file.
 inline std::filesystem::path folder_of(const std::filesystem::path& target) {
   return target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
 }

@@ -16,21 +16,23 @@ namespace clay {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kNames = 16;  // the names that are searched for litter
+constexpr int kNames = 16;  // the names that are searched for leftover files
 
 fs::path numbered(const fs::path& target, int number) {
-  constexpr std::size_t kMostBytes = 64;  // so that the name is short enough for every file system
+  constexpr std::size_t kMostBytes = 64;  // short enough for every file system
   std::string name = target.filename().string();
   if (name.size() > kMostBytes) {
     std::size_t end = kMostBytes;
-    const auto within_a_letter = [&] { return (name[end] & 0xC0) == 0x80; };  // of UTF-8
+    const auto within_a_letter = [&] {
+      return (name[end] & 0xC0) == 0x80;
+    };  // inside a UTF-8 character
     while (end > 0 && within_a_letter()) --end;
     name.resize(end);
   }
   return folder_of(target) / ("." + name + ".claystack-" + std::to_string(number));
 }
 
-/// What a handler of signals has to remove. A fixed place, as it must not ask for memory.
+/// The paths that a signal handler removes. Fixed storage, because it must not allocate.
 struct Slot {
   enum State { kFree, kTaken, kReady };
   std::atomic<int> state{kFree};
@@ -64,15 +66,15 @@ bool is_at(int descriptor, const fs::path& path) {
          S_ISREG(named.st_mode) && open.st_dev == named.st_dev && open.st_ino == named.st_ino;
 }
 
-/// The lock is held while the name is looked at and removed, so that of two that find the same file
-/// the second can't remove what a new writer has put there in between.
+/// Holds the lock while checking and removing the name. Otherwise a second cleaner of the same file
+/// could remove a file that a new writer has created since.
 void remove_if_left(const fs::path& path) {
   const Descriptor file(open_retrying(path, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY));
   if (file.get() == -1 || ::flock(file.get(), LOCK_EX | LOCK_NB) == -1) return;
   if (is_at(file.get(), path)) ::unlink(path.c_str());
 }
 
-/// -1, and EEXIST where somebody who looked for litter has it.
+/// Returns -1 with EEXIST if another cleaner holds it.
 int create_locked(const char* name) {
   constexpr mode_t kReadWriteForAll = 0666;  // less the umask
   const int file = ::open(name, O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, kReadWriteForAll);
@@ -85,7 +87,7 @@ int create_locked(const char* name) {
   return -1;
 }
 
-/// All that one file holds into the other, which is empty.
+/// Copies all bytes of one file to the other, which is empty.
 bool copy_bytes(int from, int to) {
   std::array<char, 65536> chunk;
   for (;;) {
@@ -112,9 +114,9 @@ TemporaryName& TemporaryName::operator=(TemporaryName&& other) noexcept {
 }
 
 std::pair<int, TemporaryName> TemporaryName::take(const fs::path& target, const Make& make) {
-  const SignalsHeld held;  // made and listed, or neither
+  const SignalsHeld held;  // create and list the file, or neither
   for (int number = 1; number <= kNames + 1; ++number) {
-    // The last resort is where no litter can be removed, as there are no locks.
+    // The last resort is used where leftovers cannot be removed, because there are no locks.
     fs::path path = numbered(target, number <= kNames ? number : ::getpid());
     const int result = uninterrupted([&] { return make(path.c_str()); });
     if (result != -1) return {result, TemporaryName(std::move(path))};

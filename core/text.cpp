@@ -27,7 +27,7 @@ bool is_text(char c) { return (c >= ' ' && c <= '~') || c == '\t' || c == '\r' |
 
 template <class... Format>
 std::string digits_of(double value, Format... format) {
-  std::array<char, 32> text{};  // the longest has 24
+  std::array<char, 32> text{};  // the longest number has 24
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value, format...).ptr};
 }
 

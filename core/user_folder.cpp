@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Empty where it is not set, or no absolute path.
+/// Empty if not set, or not an absolute path.
 fs::path absolute_path(const char* value) {
   return value != nullptr && value[0] == '/' ? fs::path(value) : fs::path();
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Where the programs keep what the user did not name a file for, as the XDG base directory
-// specification says: https://specifications.freedesktop.org/basedir-spec/latest
+// Folders for files that the user did not name, by the XDG base directory specification:
+// https://specifications.freedesktop.org/basedir-spec/latest
 
 #include <filesystem>
 
@@ -11,11 +11,11 @@ enum class UserFolder {
   state,   ///< $XDG_STATE_HOME, by default ~/.local/state
 };
 
-/// The folder `claystack` in there; it need not exist. A value that is empty or relative counts as
-/// not set. Without HOME the home is that of the password file. Empty where that names none either.
+/// The folder `claystack` in it; it need not exist. An empty or relative value counts as not set.
+/// Without HOME, the password file gives the home folder. Empty if neither exists.
 [[nodiscard]] std::filesystem::path user_folder(UserFolder kind);
 
-/// What to say where it is empty.
+/// The message for an empty folder.
 inline constexpr const char* kNoHome =
     "expected a home folder, found none: HOME is not set, and the password file has no entry";
 

@@ -74,7 +74,7 @@ class CborReader {
     return std::nullopt;
   }
 
-  /// Every announced item takes a byte at least: a lie is found before any memory is taken.
+  /// Every announced item takes at least one byte, so false lengths are found before allocation.
   bool fits(std::uint64_t count, std::uint64_t bytes_each) {
     return count <= rest_.size() / bytes_each ||
            builder_.refuse("expected a length the file can hold, found " + std::to_string(count));

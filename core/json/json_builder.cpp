@@ -8,7 +8,7 @@
 namespace clay::inline json {
 namespace {
 
-/// The library's message without its own numbering and position: ours has the line.
+/// The library's message without its number and position; the caller adds the line.
 std::string bare_message(std::string_view what) {
   if (const auto tag = what.find("] "); tag != std::string_view::npos) what.remove_prefix(tag + 2);
   if (what.starts_with("parse error"))

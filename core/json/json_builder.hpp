@@ -11,11 +11,11 @@ namespace clay::inline json {
 using Json = nlohmann::ordered_json;
 
 inline constexpr std::size_t kMaxDepth = 64;
-/// No object of ours has nearly as many; it also bounds the search for duplicate keys.
+/// Far above the number in any object of the schemas; also bounds the search for duplicate keys.
 inline constexpr std::size_t kMaxMembers = 64;
 
-/// Turns the events of a JSON or CBOR parser into a document. An event that returns false ends
-/// the parse, and `refusal` says why.
+/// Turns the events of a JSON or CBOR parser into a document. An event that returns false ends the
+/// parse, and `refusal` holds the reason.
 class JsonBuilder {
  public:
   explicit JsonBuilder(std::size_t max_values) : values_left_(max_values) {}
@@ -51,7 +51,7 @@ class JsonBuilder {
   std::string refusal_;
 };
 
-/// `text` fit for one line of a message: ASCII, and no longer than it takes to recognise it.
+/// `text` for one line of a message: ASCII, and just long enough to recognise it.
 std::string printable(std::string text);
 
 }  // namespace clay::inline json

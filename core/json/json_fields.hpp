@@ -1,5 +1,5 @@
 #pragma once
-// Strict reading of small JSON files: every field is there, of its kind, and known.
+// Strict reading of small JSON files: every field is present, known, and of its type.
 
 #include "claystack/core/result.hpp"
 
@@ -21,18 +21,18 @@ namespace clay {
 
 using Json = nlohmann::ordered_json;
 
-/// Thrown by the readers below, and turned into an error by `parsed_with`.
+/// Thrown by the readers below; `parsed_with` turns it into an error.
 struct BadField : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A value as messages show it: a number whole, all else by its kind. What a stranger nested or
-/// strung together is neither walked through nor repeated.
+/// A value for a message: a number in full, anything else by its type. Nested or long contents of
+/// untrusted files are neither traversed nor repeated.
 inline std::string shown(const Json& value) {
   return value.is_number() ? value.dump() : value.type_name();
 }
 
-/// So that messages stay short, whatever they quote.
+/// Shortens quoted text, to keep messages short.
 inline std::string shown(const std::string& text, std::size_t longest = 60) {
   return text.size() <= longest ? text : text.substr(0, longest) + "...";
 }
@@ -67,7 +67,7 @@ inline std::string text_in(const Json& json, const char* name) {
   const Json& value = field_of(json, name);
   if (!value.is_string())
     throw BadField(std::string(name) + ": expected text, found " + shown(value));
-  constexpr std::size_t kLongest = 1000;  // it is shown to people
+  constexpr std::size_t kLongest = 1000;  // for a message to people
   auto text = value.get<std::string>();
   if (text.size() > kLongest)
     throw BadField(std::string(name) + ": expected text of at most " + std::to_string(kLongest) +
@@ -96,9 +96,8 @@ inline void expect_schema(const Json& json, const std::string& schema) {
   if (found != schema) throw BadField("schema: expected " + schema + ", found " + shown(found));
 }
 
-/// Follows the parser, and stops it where a file is none of ours: its `schema`, which our files
-/// begin with, tells at once that it is of another kind. What the parser makes of a file
-/// takes many times the memory of the text, and for an object's keys the square of the time.
+/// Follows the parser and stops it when the file's `schema`, its first field, is of another kind. A
+/// complete parse takes many times the memory of the text, and time quadratic in an object's keys.
 class JsonLimits {
  public:
   JsonLimits(int deepest, std::string schema) : deepest_(deepest), schema_(std::move(schema)) {}
@@ -141,13 +140,13 @@ class JsonLimits {
   std::vector<std::vector<std::string>> keys_;  ///< of the objects that are open
 };
 
-/// The parser's message without its own number: "[json.exception.parse_error.101] parse error".
+/// The parser's message without its number: "[json.exception.parse_error.101] parse error".
 inline std::string_view bare_message(std::string_view what) {
   const auto tag = what.find("] ");
   return what.starts_with('[') && tag != what.npos ? what.substr(tag + 2) : what;
 }
 
-/// What a file begins with says of what kind it is, before a parser stumbles over it.
+/// Checks the first bytes for the kind of file, before the parser reports a syntax error.
 inline void expect_object_text(std::string_view bytes) {
   bytes = without_byte_order_mark(bytes);
   bytes.remove_prefix(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
@@ -155,15 +154,15 @@ inline void expect_object_text(std::string_view bytes) {
   throw BadField("expected a JSON object, found " + kind_of_file(bytes));
 }
 
-/// read(root) of a JSON text; what goes wrong becomes an error that begins with `name`. `follow`
-/// sees every event of the parser, as `Json::parse` describes, and may throw.
+/// Returns read(root) of a JSON text; errors begin with `name`. `follow` sees every event of the
+/// parser, as `Json::parse` describes, and may throw.
 template <class Read, class Follow>
 auto parsed_with(std::string_view bytes, std::string_view name, Follow follow, Read read)
     -> Result<decltype(read(Json()))> try {
   expect_object_text(bytes);
   return read(Json::parse(bytes, std::ref(follow)));
 } catch (const std::exception& error) {
-  constexpr std::size_t kLongest = 300;  // the parser quotes what it read last
+  constexpr std::size_t kLongest = 300;  // the parser quotes the last text it read
   return bad_json(name, shown(std::string(bare_message(error.what())), kLongest));
 }
 

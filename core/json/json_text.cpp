@@ -51,7 +51,7 @@ void append(std::string& text, const Json& value, std::size_t indent) {
   else if (value.is_number_float())
     text += shortest(value.get<double>());
   else if (value.is_number_integer() && !value.is_number_unsigned())
-    text += std::to_string(value.get<std::int64_t>());  // most of a pot, and many times faster
+    text += std::to_string(value.get<std::int64_t>());  // most values of a pot; many times faster
   else
     text += json_line(value);
 }

@@ -10,7 +10,7 @@
 namespace clay::inline json {
 namespace {
 
-/// Leaves a trace of how far the lexer has come: its events do not say where they are.
+/// Records how far the lexer has read, because its events carry no positions.
 class TracedIterator {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -39,7 +39,7 @@ class TracedIterator {
   const char** reached_;
 };
 
-/// Feeds the events of `text` to `handler`; the result is where the parse stopped.
+/// Feeds the events of `text` to `handler`; returns where the parse stopped.
 template <class Handler>
 const char* parse(std::string_view text, Handler& handler) {
   const char* reached = text.data();
@@ -49,15 +49,15 @@ const char* parse(std::string_view text, Handler& handler) {
   return reached;
 }
 
-/// How many lines end before the token with which a parse stopped. The last character read may
-/// be one too many, as only that shows the end of a number; no token ends with a newline.
+/// Number of lines that end before the last token. The last character read may be one too many,
+/// because the end of a number is only visible after it; no token ends with a newline.
 std::size_t lines_before(std::string_view text, const char* reached) {
   const auto read = static_cast<std::size_t>(reached - text.data());
   const auto before = text.substr(0, read == 0 ? 0 : read - 1);
   return static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
 }
 
-/// Follows a path through the events of a parse and stops at the value it leads to.
+/// Follows a path through the events of a parse and stops at its value.
 class Locator {
  public:
   explicit Locator(const Path& path) : path_(path) {}
@@ -141,7 +141,7 @@ Result<LocatedJson> LocatedJson::from_json(std::string_view text, std::string_vi
   const auto place = [&](const char* at) {
     return std::string(name) + ":" + std::to_string(first_line + lines_before(text, at));
   };
-  // The library takes a NUL for the end of the text and would never see what follows.
+  // The library treats a NUL as the end of the text and would ignore the rest.
   if (const auto nul = text.find('\0'); nul != std::string_view::npos)
     return input_failure(place(text.data() + nul + 1), "expected JSON, found a zero byte");
   try {
@@ -180,7 +180,7 @@ Error LocatedJson::field_error(const Path& path, const std::string& message) con
 }
 
 bool is_unfinished_json(std::string_view text) {
-  // Told apart by the position: an end that comes too soon is one behind the last character.
+  // Distinguished by position: a premature end is reported after the last character.
   struct EndFinder : JsonBuilder {
     using JsonBuilder::JsonBuilder;
     bool parse_error(std::size_t position, const std::string&, const Json::exception&) {

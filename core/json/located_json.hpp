@@ -10,18 +10,18 @@
 
 namespace clay::inline json {
 
-/// From the root inward: names of members and indices of elements.
+/// From the root inward: member names and element indices.
 using Path = std::vector<std::variant<std::string_view, std::size_t>>;
 
 /// "tool.shape.sphere", "rings.outer2[17]"; empty for the root.
 std::string to_string(const Path& path);
 
-/// A document that knows where its values stand. Lines are not stored: an error, and nothing
-/// else, reads the text once more to find its own.
+/// A document that can name the line of each value. Lines are not stored; an error reads the text a
+/// second time to find its line.
 class LocatedJson {
  public:
-  /// `text` is kept by reference. Refuses duplicate keys, more than 64 levels, numbers beyond a
-  /// double, malformed UTF-8, and anything behind the value. `first_line` is that of its start.
+  /// Keeps a reference to `text`. Refuses duplicate keys, more than 64 levels, numbers beyond a
+  /// double, malformed UTF-8, and anything after the value. `first_line` is the line of its start.
   static Result<LocatedJson> from_json(std::string_view text, std::string_view name,
                                        std::size_t max_values, std::size_t first_line = 1);
   static Result<LocatedJson> from_cbor(std::string_view bytes, std::string_view name,
@@ -43,7 +43,7 @@ class LocatedJson {
   std::size_t first_line_;
 };
 
-/// Whether `text` is the beginning of a JSON value, sound as far as it goes.
+/// Whether `text` is a valid but incomplete beginning of a JSON value.
 bool is_unfinished_json(std::string_view text);
 
 }  // namespace clay::inline json

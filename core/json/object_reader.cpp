@@ -7,8 +7,8 @@
 namespace clay::inline json {
 namespace {
 
-/// One edit away: a character more, less or other, or two neighbours exchanged. All short names
-/// are near each other, which says nothing.
+/// One edit apart: one character more, less or different, or two neighbours exchanged. Short names
+/// are excluded, because they are all near each other.
 bool is_near(std::string_view a, std::string_view b) {
   if (std::min(a.size(), b.size()) < 3) return false;
   while (!a.empty() && !b.empty() && a.front() == b.front()) {
@@ -27,7 +27,7 @@ std::string in_quotes(std::string_view name) {
   return std::string("\"").append(printable(std::string(name))).append("\"");
 }
 
-/// "; is "mode" meant?", or nothing where no candidate is near.
+/// "; is "mode" meant?", or empty if no candidate is near.
 std::string suggestion(std::string_view name, const auto& candidates) {
   const auto near = std::ranges::find_if(
       candidates, [&](std::string_view candidate) { return is_near(name, candidate); });
@@ -160,7 +160,7 @@ std::optional<double> ObjectReader::number_in(const Json& value, const Range& ra
 
 std::optional<std::int64_t> ObjectReader::integer_in(const Json& value, std::int64_t low,
                                                      std::int64_t high) {
-  // Above 2^63 an unsigned number would come out of the conversion as a negative one.
+  // An unsigned number of 2^63 or more would be converted to a negative one.
   const bool fits =
       value.is_number_integer() &&
       (!value.is_number_unsigned() || std::in_range<std::int64_t>(value.get<std::uint64_t>()));

@@ -19,7 +19,7 @@
 
 namespace clay::inline json {
 
-/// Tells the overloads of `describe` apart; each serves a value and a constant alike.
+/// Distinguishes the overloads of `describe`; each serves values and constants alike.
 template <class T, class Described>
 concept Is = std::same_as<std::remove_const_t<T>, Described>;
 
@@ -28,21 +28,21 @@ using Names = std::span<const std::string_view>;
 /// "sphere, ellipse, rib"
 std::string listed(Names names);
 
-/// Reads the members of an object as strictly as a table says them. Each part of a file has one
-/// function `describe(io, part)` that names its members in order; ObjectWriter walks the same
-/// table, so that what is written and what is read cannot differ.
+/// Reads the members of an object strictly by a table. Each part of a file has one function
+/// `describe(io, part)` that names its members in order; ObjectWriter uses the same table, so
+/// reader and writer cannot differ.
 ///
-/// A member that is absent leaves its value as it was. The first error found is kept, and after
-/// it nothing is read any more: a table needs no `if`. Names must outlive the reader.
+/// An absent member leaves its value unchanged. The first error is kept and stops all further
+/// reading, so a table needs no `if`. Names must outlive the reader.
 class ObjectReader {
  public:
-  /// The document as a T; `value` holds the defaults.
+  /// Reads the document as a T; `value` holds the defaults.
   template <class T>
   static Result<T> read(const LocatedJson& document, T value);
 
   void require(std::initializer_list<std::string_view> names);
   void constant(std::string_view name, std::string_view value);
-  /// Which program wrote the file: any text.
+  /// The program that wrote the file: any text.
   void written_by();
   void text(std::string_view name, std::string& value);
   void number(std::string_view name, double& value, const Range& range);
@@ -55,10 +55,10 @@ class ObjectReader {
   void integer(std::string_view name, Integer& value, std::int64_t low, std::int64_t high);
   void integers(std::string_view name, std::vector<std::int64_t>& values, std::int64_t low,
                 std::int64_t high);
-  /// A single integer stands for an array of one.
+  /// A single integer is an array of one.
   void series(std::string_view name, std::vector<std::int64_t>& values, std::int64_t low,
               std::int64_t high);
-  /// A value in the form of a text, by `Code::encode`, `Code::decode` and `Code::kExpected`.
+  /// A value stored as text, by `Code::encode`, `Code::decode` and `Code::kExpected`.
   template <class Code, class T>
   void coded(std::string_view name, T& value);
   /// One of `names`, in the order of the values of T.
@@ -70,11 +70,11 @@ class ObjectReader {
   void part(std::string_view name, std::optional<T>& value);
   template <class T>
   void part_or_null(std::string_view name, std::optional<T>& value);
-  /// An object with exactly one member, whose name, in the order of Ts, says which it is.
+  /// An object with exactly one member; its name selects the type, in the order of Ts.
   template <class... Ts>
   void one_of(std::string_view name, std::variant<Ts...>& value, Names names);
 
-  /// Rules between members: `rules(*this)`, once all before has been read without an error.
+  /// Rules between members: calls `rules(*this)` if everything before was read without an error.
   template <class Rules>
   void check(Rules rules) {
     if (!context_.error) rules(*this);
@@ -93,7 +93,7 @@ class ObjectReader {
 
   ObjectReader(Context& context, const Json& object) : context_(context), object_(object) {}
 
-  /// use(member), while there is one and no error; the name is known from now on.
+  /// Calls use(member) if the member exists and there is no error; marks the name as known.
   template <class Use>
   void at(std::string_view name, Use use);
   template <class ReadElement>

@@ -16,8 +16,8 @@ namespace clay::inline json {
 
 inline constexpr std::string_view kWrittenBy = "claystack " CLAYSTACK_VERSION;
 
-/// Walks the tables of ObjectReader the other way: values in, members of an object out, in the
-/// order of the table. What is absent is left out.
+/// The reverse of ObjectReader on the same tables: writes the members of an object in the order of
+/// the table. Absent values are omitted.
 class ObjectWriter {
  public:
   template <class T>

@@ -3,7 +3,7 @@
 
 namespace clay::inline json {
 
-/// An interval that reads as it is said: `from(0).to(5)`, `above(0).to(5000)`, `from(0).below(1)`.
+/// An interval with readable bounds: `from(0).to(5)`, `above(0).to(5000)`, `from(0).below(1)`.
 struct Range {
   double low = 0.0;
   double high = 0.0;

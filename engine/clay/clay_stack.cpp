@@ -47,7 +47,7 @@ Result<void> check_ring(const Ring& ring, std::size_t index) {
 
 Result<ClayStack> ClayStack::cylinder(std::size_t count, double ring_height_mm, double outer_mm,
                                       double inner_mm, std::size_t max_rings) {
-  // Compared before any conversion to an integer: these are a stranger's numbers.
+  // Compare before converting to integers: the numbers are untrusted.
   if (!(outer_mm >= kMinRadiusMm && outer_mm <= kMaxRadiusMm))
     return failure(ErrorKind::bad_input, "expected an outer radius from 0.001 to 5000 mm, found " +
                                              number_text(outer_mm));

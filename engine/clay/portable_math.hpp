@@ -1,6 +1,6 @@
 #pragma once
-// libm's exp may differ in its last bit between platforms, and one bit moves clay.
-// These use only +, *, / and exact scaling, which IEEE 754 fixes everywhere.
+// libm's exp may differ in its last bit between platforms, and one bit changes the clay. These use
+// only +, *, / and exact scaling, which IEEE 754 defines exactly.
 
 #include <cmath>
 

@@ -15,20 +15,20 @@ struct Double2 {
   double low = 0.0;
 };
 
-/// a + b without error.
+/// a + b, exactly.
 Double2 exact_sum(double a, double b) noexcept {
   const double sum = a + b, b_part = sum - a;
   return {sum, (a - (sum - b_part)) + (b - b_part)};
 }
 
-/// The two halves of a factor, of 26 bits each.
+/// Splits a factor into two halves of 26 bits.
 Double2 halves(double a) noexcept {
   const double shifted = 134217729.0 * a;  // 2^27 + 1
   const double high = shifted - (shifted - a);
   return {high, a - high};
 }
 
-/// a b without error.
+/// a b, exactly.
 Double2 exact_product(double a, double b) noexcept {
   const double product = a * b;
   const Double2 x = halves(a), y = halves(b);
@@ -63,8 +63,8 @@ Double2 alternating(Double2 x, int first, int last) noexcept {
   return series;
 }
 
-/// angle - turns pi/2. The four numbers hold enough digits of pi/2 for a relative error of 2^-90
-/// even where the angle is next to a multiple of it.
+/// angle - turns pi/2. The four constants hold enough digits of pi/2 for a relative error of 2^-90
+/// even close to a multiple of it.
 Double2 reduced(double angle_rad, double turns) noexcept {
   constexpr double kHalfPi[] = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54,
                                 -0x1.f1976b7ed8fbcp-110, 0x1.4cf98e804177dp-164};

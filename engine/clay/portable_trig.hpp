@@ -1,6 +1,7 @@
 #pragma once
-// libm's sine, cosine and hypotenuse may differ in the last bit between platforms, and a fall takes
-// that bit into the file of the pot. These use only +, -, *, / and sqrt, which IEEE 754 fixes.
+// libm's sine, cosine and hypotenuse may differ in the last bit between platforms, and a collapse
+// writes that bit to the pot file. These use only +, -, *, / and sqrt, which IEEE 754 defines
+// exactly.
 
 namespace clay {
 
@@ -14,7 +15,7 @@ struct CosSin {
 [[nodiscard]] CosSin cos_sin(double angle_rad) noexcept;
 inline constexpr double kMostRad = 1e6;
 
-/// sqrt(x^2 + y^2), as close to the nearest double, without overflow or underflow on the way.
+/// sqrt(x^2 + y^2), with the same accuracy, without intermediate overflow or underflow.
 [[nodiscard]] double length_of(double x, double y) noexcept;
 
 }  // namespace clay

@@ -7,20 +7,20 @@
 
 namespace clay {
 
-/// Radii that are whole multiples, "steps", of a precision of whole nanometres. From steps to
-/// quanta there are integers alone, so that every platform reads the same pot.
+/// Radii that are multiples ("steps") of a precision in whole nanometres. The conversion from steps
+/// to quanta uses integers only, so every platform reads the same pot.
 class RadiusGrid {
  public:
-  /// Finer than 10 nm, neighbouring radii near the axis have one and the same square in quanta.
+  /// Below 10 nm, neighbouring radii near the axis have the same square in quanta.
   static constexpr double kFinestMm = 1e-5;
   static constexpr double kCoarsestMm = 1.0;
-  /// No second difference of radii is larger: twice the largest radius in the finest steps.
+  /// Upper bound of second differences of radii: twice the largest radius in the finest steps.
   static constexpr std::int64_t kLargestDifference = 1'000'000'000;
 
-  /// Nothing where the precision is beyond these limits, or not a whole number of nanometres.
+  /// Empty if the precision is out of range, or not a whole number of nanometres.
   static std::optional<RadiusGrid> of(double precision_mm) {
     if (!(precision_mm >= kFinestMm && precision_mm <= kCoarsestMm)) return std::nullopt;
-    // The division is correctly rounded: n / 10^6 is the double that reads as the same decimal.
+    // The division is correctly rounded: n / 10^6 is the double nearest to that decimal.
     const std::int64_t step_nm = std::llround(precision_mm * kNmPerMm);
     if (static_cast<double>(step_nm) / kNmPerMm != precision_mm) return std::nullopt;
     return RadiusGrid(step_nm);
@@ -29,14 +29,14 @@ class RadiusGrid {
   [[nodiscard]] double radius_mm(std::int64_t steps) const {
     return static_cast<double>(steps * step_nm_) / kNmPerMm;
   }
-  /// The square of a radius of 0 to kMaxRadiusMm, to the nearest quantum. There are 2^36 quanta
-  /// to 10^12 nm2, which is 2^24 to 5^12, an odd number: no square lies midway between two.
+  /// The square of a radius of 0 to kMaxRadiusMm, to the nearest quantum. 2^36 quanta are 10^12
+  /// nm2, that is 2^24 to 5^12, an odd number: no square lies midway between two quanta.
   [[nodiscard]] Quanta square(std::int64_t steps) const {
     constexpr WideQuanta kDivisor = 244'140'625;
     const WideQuanta radius_nm = WideQuanta{steps} * step_nm_;
     return static_cast<Quanta>(((radius_nm * radius_nm << 24) + kDivisor / 2) / kDivisor);
   }
-  /// The number of steps nearest to the radius; the inverse of `square`.
+  /// The number of steps nearest to the radius; inverse of `square`.
   [[nodiscard]] std::int64_t steps(Quanta square) const {
     return std::llround(radius_from_quanta(square) * kNmPerMm / static_cast<double>(step_nm_));
   }

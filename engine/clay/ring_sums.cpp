@@ -20,7 +20,7 @@ Stretch sum(std::span<const Part> parts) noexcept {
   return stretch;
 }
 
-/// Sums again the stretches that first..last of their parts belong to.
+/// Recomputes the sums of the stretches that contain parts first..last.
 template <class Part>
 void sum_parts(std::span<const Part> parts, std::size_t first, std::size_t last,
                std::span<Stretch> stretches) noexcept {
@@ -29,7 +29,7 @@ void sum_parts(std::span<const Part> parts, std::size_t first, std::size_t last,
     stretches[k] = sum(parts.subspan(k * fan, std::min(fan, parts.size() - k * fan)));
 }
 
-/// Of the parts after the i-th that belong to the same stretch.
+/// The sum of the parts after the i-th in the same stretch.
 template <class Part>
 WideQuanta rest_of_stretch(std::span<const Part> parts, std::size_t i) noexcept {
   const std::size_t end = std::min(parts.size(), (i / RingSums::kFan + 1) * RingSums::kFan);

@@ -1,5 +1,5 @@
 #pragma once
-// Sums over stretches of a stack, for those who may not read all of it in a tick.
+// Sums over parts of a stack, for stages that cannot read all of it in a tick.
 
 #include "claystack/engine/clay.hpp"
 
@@ -9,32 +9,32 @@
 
 namespace clay {
 
-/// Of some consecutive rings.
+/// Sums of some consecutive rings.
 struct Stretch {
   WideQuanta volume = 0;
-  Quanta least = 0;  ///< volume of the thinnest of them
+  Quanta least = 0;  ///< volume of the smallest ring
 };
 
-/// Stretches of 64 rings, stretches of 64 such stretches, and so on up to the first level of no
-/// more than 64: three levels for the 2^24 rings that a stack can have, at half a byte for a ring.
+/// Stretches of 64 rings, stretches of 64 such stretches, and so on up to the first level of at
+/// most 64: three levels for the 2^24 rings of the largest stack, half a byte per ring.
 class RingSums {
  public:
   static constexpr std::size_t kFan = 64;
 
   RingSums() = default;
-  /// O(N). Takes the memory for max_rings() at once: nothing here allocates later.
+  /// O(N). Allocates for max_rings() at once; no later allocation.
   explicit RingSums(const ClayStack& stack);
 
-  /// Rings first..last have changed, or are new on top: O(last - first + 64 levels).
+  /// Updates the sums after rings first..last changed or were added: O(last - first + 64 levels).
   void refresh(std::span<const Ring> rings, std::size_t first, std::size_t last) noexcept;
 
-  /// Of all rings above ring i, in at most 63 additions a level and as many rings.
+  /// Volume of all rings above ring i, with at most 63 additions per level and as many rings.
   [[nodiscard]] WideQuanta above(std::span<const Ring> rings, std::size_t i) const noexcept;
 
-  /// Goes through the stack from the top. scan(first, last, weight) is called for those stretches
-  /// of at most 64 rings for which suspect(weight, least) is true of themselves and of every longer
-  /// stretch that they are part of. scan's weight is what stands on ring `last`, suspect's that
-  /// and the stretch itself; `crown` stands on the top ring.
+  /// Searches the stack from the top. Calls scan(first, last, weight) for the stretches of at most
+  /// 64 rings for which suspect(weight, least) is true, for themselves and for every stretch that
+  /// contains them. The weight of scan is the load on ring `last`; that of suspect also includes
+  /// the stretch itself. `crown` is the load on the top ring.
   template <class Suspect, class Scan>
   void search(std::size_t rings, WideQuanta crown, Suspect suspect, Scan scan) const noexcept {
     const std::size_t top = levels_.size() - 1;
@@ -42,13 +42,13 @@ class RingSums {
   }
 
  private:
-  /// How many stretches of a level so many rings fill or begin.
+  /// Number of stretches of a level that contain the given number of rings.
   [[nodiscard]] static std::size_t used(std::size_t rings, std::size_t level) noexcept {
     for (std::size_t k = 0; k <= level; ++k) rings = (rings + kFan - 1) / kFan;
     return rings;
   }
 
-  /// Stretches first..end-1 of a level. Returns the weight below them.
+  /// Searches stretches first..end-1 of a level. Returns the weight below them.
   template <class Suspect, class Scan>
   WideQuanta search(std::size_t rings, std::size_t level, std::size_t first, std::size_t end,
                     WideQuanta weight, Suspect& suspect, Scan& scan) const noexcept {
@@ -68,7 +68,7 @@ class RingSums {
     return weight;
   }
 
-  std::vector<std::vector<Stretch>> levels_;  ///< the shortest stretches first
+  std::vector<std::vector<Stretch>> levels_;  ///< shortest stretches first
 };
 
 }  // namespace clay

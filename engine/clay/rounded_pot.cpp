@@ -21,7 +21,7 @@ Ring rounded(const Ring& ring, const RadiusGrid& grid) {
   return {grid.square(grid.steps(ring.outer2)), grid.square(inner)};
 }
 
-/// Rings on top of each other share more than an edge.
+/// True if two adjacent rings share more than an edge.
 bool touch(const Ring& a, const Ring& b) { return a.inner2 < b.outer2 && b.inner2 < a.outer2; }
 
 tl::unexpected<Error> too_coarse(std::size_t ring, double precision_mm, const std::string& why) {

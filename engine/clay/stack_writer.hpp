@@ -1,6 +1,6 @@
 #pragma once
-// The only hand that changes a ClayStack. Keeps its running sums true: they are so again when the
-// writer goes, which lets a loop count in a register.
+// The only class that changes a ClayStack. It keeps the running sums; they are up to date again
+// when the writer is destroyed, so that a loop can count in a register.
 
 #include "claystack/engine/clay.hpp"
 
@@ -30,8 +30,8 @@ class StackWriter {
     gained_ -= amount;
     assert(stack_.rings_[i].volume() > 0);
   }
-  /// Each returns what found room: up to the axis inside, up to the largest radius outside. Of
-  /// Quanta or WideQuanta. The caller counts: `gain` what all of them have placed.
+  /// Each returns the amount that found room: up to the axis inside, up to the largest radius
+  /// outside. Amounts are Quanta or WideQuanta. The caller reports their total with `gain`.
   template <class Amount>
   Quanta put_inside(std::size_t i, Amount amount) noexcept {
     const auto placed = static_cast<Quanta>(std::min<Amount>(amount, stack_.rings_[i].inner2));
@@ -51,7 +51,7 @@ class StackWriter {
   void put_on_crown(WideQuanta amount) noexcept { stack_.crown_ += amount; }
 
   /// Step (b) of section 5.1: a new ring above the top one. Capacity for max_rings() is reserved
-  /// at scene build, so nothing is allocated here.
+  /// when the scene is built, so this does not allocate.
   void grow(const Ring& ring) noexcept {
     stack_.rings_.push_back(ring);
     opened_ += ring.inner2 > 0 ? 1u : 0u;
@@ -62,8 +62,8 @@ class StackWriter {
  private:
   static inline const Quanta kLargestOuter2 = quanta_from_radius(kMaxRadiusMm);
   ClayStack& stack_;
-  WideQuanta gained_ = 0;   ///< by rings, not yet in the stack's sum
-  std::size_t opened_ = 0;  ///< bores, less those that closed; modulo 2^64
+  WideQuanta gained_ = 0;   ///< by rings, not yet added to the stack's sum
+  std::size_t opened_ = 0;  ///< bores opened minus bores closed, modulo 2^64
 };
 
 }  // namespace clay

@@ -5,8 +5,8 @@
 
 namespace clay {
 
-/// Whether a scene can go on with a pot. Errors name the setting, what the pot asks of it, and what
-/// was found.
+/// Checks whether a scene can continue a pot. Errors name the setting, the value that the pot
+/// requires and the value found.
 Result<void> check_start(const SceneSpec& scene, const Pot& start);
 
 }  // namespace clay

@@ -10,7 +10,7 @@
 namespace clay {
 namespace {
 
-/// Half turns are made exact, so that faces that coincide after them do so to the last bit.
+/// Makes half turns exact, so that faces that coincide after them do so to the last bit.
 double exact_at_zero(double x) noexcept { return std::abs(x) < 1e-15 ? 0.0 : x; }
 
 }  // namespace

@@ -14,14 +14,15 @@ namespace clay {
 namespace {
 
 constexpr double kStepsPerReach = 400.0;
-constexpr double kLeastStep = 1e-4;  ///< of a step: how far a face may overrun the clay it meets
-constexpr std::size_t kMaxFrames = 20000;  ///< many times what any fall has needed
+constexpr double kLeastStep =
+    1e-4;  ///< of a step: the depth by which a face may enter the clay it meets
+constexpr std::size_t kMaxFrames = 20000;  ///< far above the number that any collapse has needed
 
 double weight_of(const FallenBody& body, double density_g_cm3) noexcept {
   return 1e-6 * density_g_cm3 * body.volume_mm3() * kStandardGravity;
 }
 
-/// A screw in the plane: a twist kept up for a while.
+/// A screw motion in the plane: a twist applied for some time.
 struct Course {
   glm::dvec2 velocity{0.0};
   double omega = 0.0;
@@ -84,8 +85,8 @@ class Fall {
     return power_.net(there.course.twist(body_.gyration_mm()));
   }
 
-  /// One step along a course whose net power is positive: up to `time`, to the wheel, or to where
-  /// it wins no more. False at the wheel.
+  /// One step along a course of positive net power: up to `time`, to the wheel, or to where it
+  /// gains no more power. Returns false at the wheel.
   bool advance(const Course& course, double time) {
     bool free = true;
     if (height(slid(course, time).pose) < 0.0) {
@@ -116,7 +117,7 @@ class Fall {
             time);
   }
 
-  /// The step ends where it wins no more: a face that lands there has cost nothing on the way.
+  /// Ends the step where no more power is gained: a face that lands there has cost nothing before.
   void move_to(const PlanePose& pose, const Twist& setting_off, const Twist& arriving,
                double time) {
     power_.place(pose_);
@@ -133,7 +134,7 @@ class Fall {
     return glm::length(course.velocity) + std::abs(course.omega) * body_.reach_mm();
   }
 
-  /// Toward the axis, where the centre of mass is.
+  /// Rotates toward the axis, where the centre of mass is.
   void turn_about_hip() {
     const glm::dvec2 pivot = plane_.pivot_mm;
     while (!spent()) {
@@ -158,14 +159,15 @@ class Fall {
     }
   }
 
-  /// What touches the wheel sticks to it: the part may only roll.
+  /// The part sticks to the wheel where it touches: it may only roll.
   void roll() {
     if (!on_wheel_) return;
     pose_.centre_mm.y = -body_.lowest(pose_.angle_rad).y;
     while (!spent() && (roll_step(1.0) || roll_step(-1.0))) continue;
   }
 
-  /// About the contact that stays: the one that a little more of the turn would make the only one.
+  /// Rotates about the contact that remains: the one that a slightly larger angle would make the
+  /// only one.
   [[nodiscard]] Course rolling(const PlanePose& pose, double sense) const noexcept {
     constexpr double kAhead = 1e-10;
     const glm::dvec2 contact = body_.lowest(pose.angle_rad + sense * kAhead);

@@ -12,9 +12,10 @@ namespace clay {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr std::size_t kBands = 96;     ///< of rings that are sampled as one
-constexpr double kWallCells = 32.0;    ///< to the reach, up a wall
-constexpr double kTreadCells = 128.0;  ///< and along a tread: a rim may rest on its edge
+constexpr std::size_t kBands = 96;   ///< limit of groups of rings, each sampled as one
+constexpr double kWallCells = 32.0;  ///< cells per reach, up a wall
+constexpr double kTreadCells =
+    128.0;  ///< cells per reach, along a tread: a rim may rest on its edge
 
 double top_of(const ClayStack& stack, std::size_t ring) noexcept {
   return stack.ring_height_mm() * static_cast<double>(ring + 1);
@@ -38,7 +39,7 @@ FallenBody::FallenBody(const ClayStack& stack, std::size_t failed_ring) {
 
 void FallenBody::measure(const ClayStack& stack, std::size_t first) {
   double volume = 0.0, moment = 0.0, second = 0.0;
-  // Heights from the first ring's foot, so that thin parts high up lose no digits.
+  // Heights are relative to the first ring's foot, so that thin parts high up lose no digits.
   const double foot = top_of(stack, first) - stack.ring_height_mm();
   const auto add = [&](double squanta, const Ring& ring, double bottom, double height) {
     const double middle = bottom - foot + 0.5 * height;
@@ -104,7 +105,7 @@ std::vector<FallenBody::Band> FallenBody::bands(const ClayStack& stack, std::siz
 }
 
 void FallenBody::add_surface(const std::vector<Band>& bands, const Ring& failed) {
-  // Cells of the foot end where the failed ring does: what rests on that ring is counted exactly.
+  // Cells of the foot end at the failed ring's radii, so the area resting on that ring is exact.
   const Band& foot = bands.front();
   std::array edges{foot.inner_mm, std::clamp(failed.inner_mm(), foot.inner_mm, foot.outer_mm),
                    std::clamp(failed.outer_mm(), foot.inner_mm, foot.outer_mm), foot.outer_mm};
@@ -118,7 +119,7 @@ void FallenBody::add_surface(const std::vector<Band>& bands, const Ring& failed)
   add_tread(bands.back().inner_mm, bands.back().outer_mm, bands.back().top_mm, 1.0);
 }
 
-/// Treads where one band reaches beyond the other.
+/// Adds treads where one band extends beyond the other.
 void FallenBody::add_difference(const Band& below, const Band& above) {
   const auto without = [&](const Band& a, const Band& b, double upward) {
     add_tread(a.inner_mm, std::min(a.outer_mm, b.inner_mm), below.top_mm, upward);
@@ -161,12 +162,12 @@ const std::array<double, kDirections>& FallenBody::directions() noexcept {
 
 glm::dvec2 FallenBody::lowest(double angle_rad) const noexcept {
   const auto [cosine, sine] = cos_sin(angle_rad);
-  const double c = cosine, s = sine;  // a lambda of C++20 holds no structured binding in Clang 14
-  // The left half is the right one turned the other way.
+  const double c = cosine, s = sine;  // Clang 14: a lambda cannot capture a structured binding
+  // The left half is the right half rotated the other way.
   const auto lowest_of_half = [&](double side) {
     const auto falls = [&](const glm::dvec2& edge) { return side * s * edge.x + c * edge.y < 0.0; };
     std::size_t low = 0, high = hull_.size() - 1;
-    if (side * s >= 0.0) {  // bulges upward: one end is lowest
+    if (side * s >= 0.0) {  // convex upward: one end is lowest
       if (falls(hull_.back() - hull_.front())) low = high;
     } else {
       while (low < high) {

@@ -8,45 +8,44 @@
 
 namespace clay {
 
-/// Where a fallen part lies in the plane of the fall: x outward, toward the HIP; y up from the
-/// wheel head; the angle counterclockwise.
+/// Pose of a fallen part in the plane of the collapse: x outward, toward the HIP; y up from the
+/// wheel head; angle counterclockwise.
 struct PlanePose {
   glm::dvec2 centre_mm{0.0};  ///< of mass
   double angle_rad = 0.0;
 };
 
-/// A strip of surface all round the part's own axis, a wall's or a tread's; it is sampled in
-/// kDirections on the half in front of the plane of the fall, which stands for both.
+/// A strip of surface around the part's own axis, of a wall or a tread. It is sampled in
+/// kDirections on the half in front of the plane of the collapse, which represents both halves.
 struct SurfaceStrip {
   double radius_mm = 0.0;
-  double height_mm = 0.0;  ///< from the centre of mass, as it stood
-  double outward = 0.0;    ///< the unit normal: along the radius,
-  double upward = 0.0;     ///< and along the axis
+  double height_mm = 0.0;  ///< from the centre of mass, before the collapse
+  double outward = 0.0;    ///< radial component of the unit normal
+  double upward = 0.0;     ///< axial component of the unit normal
   double area_mm2 = 0.0;   ///< of one sample
 };
 inline constexpr std::size_t kDirections = 32;
 
-/// What stands above a ring, crown included, as one rigid body that moves in a plane through its
-/// axis.
+/// The part above a ring, crown included, as one rigid body that moves in a plane through its axis.
 class FallenBody {
  public:
-  /// O(N) once; the number of strips is bounded, whatever N is.
+  /// O(N) once; the number of strips is bounded for any N.
   FallenBody(const ClayStack& stack, std::size_t failed_ring);
 
   [[nodiscard]] bool empty() const noexcept { return volume_mm3_ <= 0.0; }
   [[nodiscard]] double volume_mm3() const noexcept { return volume_mm3_; }
-  /// Height of the centre of mass above the wheel head, as it stood.
+  /// Height of the centre of mass above the wheel head, before the collapse.
   [[nodiscard]] double centre_height_mm() const noexcept { return centre_height_mm_; }
-  /// Root of the moment of inertia in the plane, about the centre of mass, over the mass.
+  /// Radius of gyration in the plane, about the centre of mass.
   [[nodiscard]] double gyration_mm() const noexcept { return gyration_mm_; }
-  /// No point is farther from the centre of mass.
+  /// The largest distance of a point from the centre of mass.
   [[nodiscard]] double reach_mm() const noexcept { return reach_mm_; }
   [[nodiscard]] const std::vector<SurfaceStrip>& surface() const noexcept { return surface_; }
 
-  /// Cosines of the directions of samples, from the outward side to the other.
+  /// Cosines of the sampled directions, from the outward side to the other.
   [[nodiscard]] static const std::array<double, kDirections>& directions() noexcept;
 
-  /// The lowest point when turned by an angle, relative to the centre of mass.
+  /// The lowest point after a rotation by an angle, relative to the centre of mass.
   [[nodiscard]] glm::dvec2 lowest(double angle_rad) const noexcept;
 
  private:
@@ -66,7 +65,8 @@ class FallenBody {
   double centre_height_mm_ = 0.0;
   double gyration_mm_ = 0.0;
   double reach_mm_ = 0.0;
-  std::vector<glm::dvec2> hull_;  ///< its right half, from the bottom up, from the centre of mass
+  std::vector<glm::dvec2>
+      hull_;  ///< right half, from the bottom up, relative to the centre of mass
   std::vector<SurfaceStrip> surface_;
 };
 

@@ -12,8 +12,8 @@
 namespace clay {
 namespace {
 
-/// Weights of the point of the affine hull of p[0..count) that is nearest to the origin: Lagrange's
-/// equations by elimination with pivoting. False where the points span too little.
+/// Weights of the point nearest to the origin in the affine hull of p[0..count): Lagrange's
+/// equations by elimination with pivoting. False if the points are nearly dependent.
 bool nearest_weights(const std::array<Twist, 4>& p, std::size_t count,
                      std::array<double, 4>& weights) {
   double m[5][6] = {};
@@ -38,18 +38,18 @@ bool nearest_weights(const std::array<Twist, 4>& p, std::size_t count,
   return true;
 }
 
-/// By the angle whose cosine and sine are given.
+/// Rotates by the angle with the given cosine and sine.
 glm::dvec2 turned(glm::dvec2 v, glm::dvec2 turn) noexcept {
   return {turn.x * v.x - turn.y * v.y, turn.y * v.x + turn.x * v.y};
 }
 
-/// Up to four points, and the point of their convex hull that is nearest to the origin.
+/// Up to four points, and the point of their convex hull nearest to the origin.
 struct Corral {
   std::array<Twist, 4> points{};
   std::size_t count = 0;
   Twist nearest{0.0};
 
-  /// Tries every subset; keeps the points that carry the nearest one.
+  /// Tries every subset; keeps the points that span the nearest one.
   void reduce() {
     std::array<Twist, 4> best{};
     std::size_t best_count = 0;
@@ -129,8 +129,8 @@ double YieldPower::plastic(const Twist& twist) const noexcept {
 
 double YieldPower::net(const Twist& twist) const noexcept { return -twist.y - plastic(twist); }
 
-/// Of all loads that the weight and admissible pressures add up to, the one that helps a motion
-/// least: its product with the twist is the twist's net power.
+/// The load, of all sums of the weight and admissible pressures, that supports a motion least: its
+/// product with the twist is the net power of the twist.
 Twist YieldPower::support(const Twist& direction) const noexcept {
   Twist load{0.0, -1.0, 0.0};
   for (const Touch& touch : touches_)
@@ -138,8 +138,8 @@ Twist YieldPower::support(const Twist& direction) const noexcept {
   return load;
 }
 
-/// The twist sought is the smallest of the loads (duality); Wolfe's algorithm finds it. Where it
-/// is slow to end, the best twist so far will do.
+/// The result is the smallest load (duality), found by Wolfe's algorithm. If that converges slowly,
+/// the best twist so far is used.
 Twist YieldPower::steepest() const noexcept {
   constexpr int kIterations = 200;
   constexpr double kNearly = 1.0 - 1e-9;

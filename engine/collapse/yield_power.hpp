@@ -1,8 +1,8 @@
 #pragma once
-// What clay that yields at one pressure allows a part above it to do: limit analysis. A velocity
-// wins power from the weight and costs the threshold times the volume of clay that the part's
-// surface sweeps. Some velocity has positive net power, or the part rests: pressures from 0 to
-// the threshold then exist that carry it.
+// Limit analysis of a part above clay that yields at one pressure. A velocity gains power from the
+// weight and costs the threshold times the volume of clay that the part's surface sweeps. Either
+// some velocity has positive net power, or the part rests: then pressures from 0 to the threshold
+// exist that carry it.
 
 #include "claystack/engine/clay.hpp"
 #include "engine/collapse/fallen_body.hpp"
@@ -23,7 +23,7 @@ class YieldPower {
   YieldPower(const ClayStack& stack, std::size_t failed_ring, const FallenBody& body,
              double weight_n, double threshold_kpa);
 
-  /// Looks up which of the part's surface lies in the standing clay, or on it.
+  /// Finds the surface of the part that lies in the standing clay, or on it.
   void place(const PlanePose& pose);
 
   /// Net power over the weight [mm/s].
@@ -31,17 +31,17 @@ class YieldPower {
   /// Power spent on the standing clay over the weight [mm/s].
   [[nodiscard]] double plastic(const Twist& twist) const noexcept;
 
-  /// The way the part sets off when let go: of all twists the one whose net power is
-  /// largest for its kinetic energy, to within a factor of 2. Zero where it rests: no twist
-  /// of kinetic energy m/2 has a net power above kRest times the weight.
+  /// The initial motion of the released part: the twist whose net power is largest for its kinetic
+  /// energy, to within a factor of 2. Zero if the part rests: no twist of kinetic energy m/2 has a
+  /// net power above kRest times the weight.
   [[nodiscard]] Twist steepest() const noexcept;
 
   static constexpr double kRest = 1e-6;
 
  private:
   struct Touch {
-    Twist unit_push;     ///< power of a unit force along the normal is the product with the twist
-    double share = 0.0;  ///< largest force over the weight
+    Twist unit_push;     ///< power of a unit force along the normal = product with the twist
+    double share = 0.0;  ///< largest force divided by the weight
   };
 
   void place(const SurfaceStrip& strip, glm::dvec2 centre_mm, glm::dvec2 turn);
@@ -52,7 +52,7 @@ class YieldPower {
   std::size_t failed_;
   const FallenBody& body_;
   double share_per_mm2_;
-  double top_mm_;  ///< of the failed ring, with room for rounding
+  double top_mm_;  ///< of the failed ring, with a margin for rounding
   std::vector<Touch> touches_;
 };
 

@@ -17,7 +17,7 @@ namespace clay {
 
 using namespace files;
 
-// In this namespace, where the writer and the reader look for the tables of its types.
+// In this namespace, where the writer and the reader look up the tables of their types.
 static void describe(auto& io, Is<Ledger> auto& ledger) {
   io.require({"initial", "added", "trimmed", "outside"});
   io.template coded<DecimalCode>("initial", ledger.initial);
@@ -33,7 +33,7 @@ static void describe(auto& io, Is<Rim> auto& rim) {
 }
 
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
-// More than 5 m of clay on one quantum, on as many rings as there can be, comes to.
+// Above the stress of 5 m of clay on one quantum, and of its energy on the most rings.
 const auto kStressKpa = from(0).to(1e30), kEnergyMj = from(0).to(1e30);
 
 static void describe(auto& io, Is<Collapse> auto& collapse) {
@@ -43,7 +43,7 @@ static void describe(auto& io, Is<Collapse> auto& collapse) {
   io.vector("axis", collapse.axis, from(-1).to(1));
   io.number("angle_rad", collapse.angle_rad, from(-kFullTurn).to(kFullTurn));
   io.number("stress_kpa", collapse.stress_kpa, kStressKpa);
-  // Files of before the fall was settled have none of these: a turn is all that there was.
+  // Files from before settling was modelled have no shift: the collapse was a rotation only.
   io.vector("shift_mm", collapse.shift_mm, from(-1e6).to(1e6));
   io.number("threshold_kpa", collapse.threshold_kpa, kStressKpa);
   io.number("energy_lost_mj", collapse.energy_lost_mj, kEnergyMj);
@@ -57,13 +57,13 @@ static void describe(auto& io, Is<Collapse> auto& collapse) {
 
 namespace {
 
-/// A pot as its file holds it.
+/// A pot in the form of its file.
 struct PotRecord {
   Model model = Model::conserving;
   double density_g_cm3 = 0.0;
   double ring_height_mm = 0.0;
   std::size_t max_rings = 0;
-  std::optional<RingArrays> rings;  ///< these, or the rounded ones
+  std::optional<RingArrays> rings;  ///< either these or the rounded ones
   std::optional<RoundedRingArrays> rounded_rings;
   WideQuanta crown = 0;
   Ledger ledger;
@@ -102,7 +102,7 @@ void describe(auto& io, Is<PotRecord> auto& pot) {
   });
 }
 
-/// The grid that the radii lie on; none where the pot is not rounded, or not what it says.
+/// The grid of the radii; empty if the pot is not rounded, or does not match its stated rounding.
 std::optional<RadiusGrid> grid_of(const Pot& pot) {
   if (!pot.rounding) return std::nullopt;
   const auto grid = RadiusGrid::of(pot.rounding->to_mm);

@@ -5,10 +5,10 @@
 
 namespace clay::files {
 
-/// Four numbers a ring, and the rest.
+/// Four numbers per ring, plus the other fields.
 inline constexpr std::size_t kMaxPotValues = 4 * kMaxRings + 1000;
 
-/// The pot as a file of JSON holds it, with radii for people where asked for.
+/// The JSON document of a pot, optionally with radii for people.
 Json pot_json(const Pot& pot, bool for_people);
 Result<Pot> pot_of(const LocatedJson& document);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kRadiusToleranceMm = 1e-5;
 
-/// What people see: millionths of a mm.
+/// Radii for people, in millionths of a mm.
 std::vector<double> radii_mm(const std::vector<Quanta>& squares) {
   std::vector<double> radii;
   radii.reserve(squares.size());
@@ -35,7 +35,7 @@ std::vector<std::int64_t> second_differences(const std::vector<Quanta>& squares,
   return differences;
 }
 
-/// The inverse; ends before the first radius that is not from `least_mm` to kMaxRadiusMm.
+/// The inverse; ends before the first radius outside `least_mm` to kMaxRadiusMm.
 std::vector<Quanta> squares_of(const std::vector<std::int64_t>& differences, const RadiusGrid& grid,
                                double least_mm) {
   std::vector<Quanta> squares;

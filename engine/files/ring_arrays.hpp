@@ -1,5 +1,5 @@
 #pragma once
-// The rings of a pot as its file holds them: exact, or rounded.
+// The rings of a pot in the form of its file: exact, or rounded.
 
 #include "claystack/engine/clay.hpp"
 #include "core/json/object_reader.hpp"
@@ -21,27 +21,27 @@ struct RingArrays : RadiiForPeople {
   std::vector<Quanta> outer2, inner2;
 };
 
-/// Radii of walls bend little from ring to ring: most of their second differences, counted in
-/// steps of the precision, take one byte of CBOR.
+/// Wall radii change slowly from ring to ring: most second differences, counted in steps of the
+/// precision, take one byte of CBOR.
 struct RoundedRingArrays : RadiiForPeople {
   double rounded_to_mm = 0.0;
   WideQuanta exact_volume = 0;
   std::vector<std::int64_t> outer_differences, inner_differences;
 };
 
-/// With radii for people where asked for.
+/// With radii for people, if requested.
 RingArrays ring_arrays(const ClayStack& stack, bool for_people);
 RoundedRingArrays rounded_ring_arrays(const RingArrays& rings, const Rounding& rounding,
                                       const RadiusGrid& grid);
-/// The inverse; an array ends before the first radius that is beyond the limits.
+/// The inverse; an array ends before the first radius out of range.
 RingArrays exact_rings(const RoundedRingArrays& rounded, const RadiusGrid& grid);
 
-/// The members that hold the radii, and what an error says of an inner one that is too large.
+/// The names of the radius members, and the error for an inner radius that is too large.
 struct RingMembers {
   std::string_view outer, inner, below_outer;
 };
 
-/// What holds for rings, however a file writes them.
+/// Checks the rules for rings, for every file encoding.
 void expect_rings(ObjectReader& reader, const RingArrays& rings, const RingMembers& members);
 void expect_rounded_rings(ObjectReader& reader, const RoundedRingArrays& rounded);
 

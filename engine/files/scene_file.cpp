@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, 2> kWheelTurnNames = {"clockwise", "count
 
 }  // namespace
 
-// In this namespace, where the writer and the reader look for the tables of its types.
+// In this namespace, where the writer and the reader look up the tables of their types.
 
 static void describe(auto& io, Is<LumpSpec> auto& lump) {
   io.integer("rings", lump.rings, 1, kMaxRings);

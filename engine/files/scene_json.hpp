@@ -9,11 +9,11 @@
 
 namespace clay::files {
 
-/// The scene as its file holds it.
+/// The JSON document of a scene.
 Json scene_json(const SceneSpec& scene);
 Result<SceneSpec> scene_of(const LocatedJson& document);
 
-// A pot repeats what it must from its scene.
+// Also used by the pot file, which repeats some fields of its scene.
 inline constexpr std::array<std::string_view, 2> kModelNames = {"conserving", "paper"};
 inline constexpr Range kRingHeightMm = from(1e-3).to(1e3);
 inline constexpr Range kDensity = from(0.1).to(25);

@@ -31,15 +31,15 @@ struct Header {
   std::uint64_t scene_hash = 0;
 };
 
-/// A block as its line holds it. Each coordinate is one count for all poses, or the first count,
+/// A block in the form of its line. Each coordinate is one count for all poses, or the first count,
 /// the first difference and the second differences.
 struct Block {
   std::size_t count = 0;
   std::int64_t first_us = 0;
-  Series steps_us;  ///< one for all, or one for each pose but the first; none for a single pose
+  Series steps_us;  ///< one for all, or one for each pose except the first; empty for a single pose
   std::array<Series, 3> coordinates;
   Series trim;  ///< one for all, or one for each pose
-  Series gap;   ///< as a coordinate; none where no pose has a gap
+  Series gap;   ///< like a coordinate; empty if no pose has a gap
   std::uint64_t check = 0;
 };
 
@@ -56,7 +56,7 @@ bool has_gaps(std::span<const Pose> poses) {
 }
 
 std::uint64_t checksum(std::span<const Pose> poses) {
-  const bool gaps = has_gaps(poses);  // without one a block is what it was before there were gaps
+  const bool gaps = has_gaps(poses);  // without gaps a block has its original form
   Fnv1a hash;
   for (const Pose& pose : poses) {
     hash.add(pose.time_us);
@@ -67,14 +67,14 @@ std::uint64_t checksum(std::span<const Pose> poses) {
   return hash.value();
 }
 
-/// One value where all are equal.
+/// One value if all are equal.
 Series shortened(Series values) {
   const bool varied =
       std::ranges::adjacent_find(values, std::ranges::not_equal_to{}) != values.end();
   return varied || values.empty() ? values : Series{values.front()};
 }
 
-/// [first, first difference, second differences...], or one value where all are equal.
+/// [first, first difference, second differences...], or one value if all are equal.
 Series differenced(Series values) {
   values = shortened(std::move(values));
   for (const std::size_t first : {std::size_t{1}, std::size_t{2}})
@@ -82,8 +82,8 @@ Series differenced(Series values) {
   return values;
 }
 
-/// The inverse; nothing where a count leaves its limits. The limits of the terms, checked when
-/// they were read, keep every sum far from an overflow.
+/// The inverse; empty if a count exceeds its limits. The limits of the terms, checked when they
+/// were read, prevent overflow of every sum.
 std::optional<Series> summed(const Series& terms, std::size_t count) {
   if (std::abs(terms.front()) > kMaxCount) return std::nullopt;
   if (terms.size() == 1) return Series(count, terms.front());
@@ -265,7 +265,7 @@ Result<Session> parse_session(std::string_view text, std::string_view name) {
   Session session{std::move(header->scene_name), header->scene_hash, {}, false};
   session.poses.reserve(*announced);
   while (const auto line = lines.next()) {
-    // An editor may have ended a torn line with a newline; nothing can stand behind it.
+    // An editor may have ended a torn line with a newline; nothing can follow it.
     if (lines.rest().empty() && is_unfinished_json(*line)) {
       session.torn = true;
       return session;
@@ -280,7 +280,7 @@ Result<Session> parse_session(std::string_view text, std::string_view name) {
 }
 
 std::uint64_t hash_of(const SceneSpec& scene) {
-  // The same scene, whichever version wrote it.
+  // Without the version that wrote it.
   Json json = scene_json(scene);
   json.erase("written_by");
   Fnv1a hash;

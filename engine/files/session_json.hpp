@@ -11,14 +11,13 @@ namespace clay::files {
 
 inline constexpr std::size_t kMaxBlockValues = 1000;
 
-/// How many poses a line says it holds, as session_block writes it; 0 for any other line. To make
-/// room for them: only reading the line tells whether it is true.
+/// The number of poses that a line announces, in the form of session_block; 0 for any other line.
+/// For reserving memory only: reading the line verifies it.
 std::size_t announced_poses(std::string_view line);
-/// An error where the blocks of a file announce more than kMaxPoses; else their number.
+/// The number of announced poses of a file; an error above kMaxPoses.
 Result<std::size_t> count_announced(std::string_view text, std::string_view name);
 
-/// The poses of a block, behind those that there are; refuses times that are not later, and more
-/// than `room` poses.
+/// Appends the poses of a block; refuses times that do not increase, and more than `room` poses.
 Result<void> append_block(const LocatedJson& line, std::vector<Pose>& poses, std::size_t room);
 
 }  // namespace clay::files

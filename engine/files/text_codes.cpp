@@ -26,7 +26,7 @@ std::optional<WideQuanta> DecimalCode::decode(std::string_view text) {
     if (digit < '0' || digit > '9') return std::nullopt;
     count = count * 10 + (digit - '0');
   }
-  // One count has one text: no empty one, no leading zeros.
+  // One count has one text: not empty, no leading zeros.
   if (encode(count) != text) return std::nullopt;
   return count;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers that JSON cannot hold exactly in every peer, in the form of texts.
+// Text codes for numbers that not every JSON reader holds exactly.
 
 #include "claystack/engine/clay.hpp"
 
@@ -17,7 +17,7 @@ struct HashCode {
   static std::optional<std::uint64_t> decode(std::string_view text);
 };
 
-/// A wide count in decimal digits, of at most 30: five such counts add up without overflow.
+/// A wide count of at most 30 decimal digits: the sum of five such counts does not overflow.
 struct DecimalCode {
   static constexpr std::string_view kExpected = "a text of 1 to 30 decimal digits";
   static std::string encode(WideQuanta count) { return clay::to_string(count); }

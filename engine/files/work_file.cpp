@@ -28,8 +28,8 @@ std::string node_text(NodeLine line, const SceneSpec& spec, const std::optional<
   return text_of(line);
 }
 
-/// `at` lines after which redo leads where it did. The deepest first: going there changes what redo
-/// does at all nodes above.
+/// The `at` lines that restore the choices of redo. The deepest come first, because visiting a node
+/// changes the choices at all nodes above it.
 std::string choices(const WorkRecord& work) {
   const std::size_t count = work.nodes.size();
   Visits visits(count);

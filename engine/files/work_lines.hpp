@@ -1,5 +1,5 @@
 #pragma once
-// The lines of a work file that are its own, and where redo leads in it.
+// The line types of a work file, and the choices of redo.
 
 #include "claystack/engine/files.hpp"
 #include "core/fnv1a.hpp"
@@ -28,7 +28,7 @@ inline std::uint64_t check_of(std::string_view kind, std::initializer_list<std::
   return hash.value();
 }
 
-/// As hash_of a scene: whichever version wrote it.
+/// Like hash_of a scene: independent of the version that wrote it.
 inline std::uint64_t hash_of(const std::optional<Pot>& start) {
   if (!start) return 0;
   Json json = pot_json(*start, false);
@@ -38,7 +38,7 @@ inline std::uint64_t hash_of(const std::optional<Pot>& start) {
   return hash.value();
 }
 
-/// Shifts the times, so that the first pose is at time 0.
+/// Shifts the times so that the first pose is at time 0.
 inline void to_zero(std::span<Pose> poses) {
   const std::int64_t first_us = poses.empty() ? 0 : poses.front().time_us;
   for (Pose& pose : poses) pose.time_us -= first_us;
@@ -49,7 +49,7 @@ struct WorkHeader {};
 struct NodeLine {
   std::size_t node = 0, parent = 0, scene = 0;
   std::uint64_t check = 0;
-  /// Over the scene too, and the pot that the root is.
+  /// Includes the scene, and the pot of the root.
   [[nodiscard]] std::uint64_t expected(std::uint64_t scene_hash, std::uint64_t start_hash) const {
     return check_of("node", {node, parent, scene, scene_hash, start_hash});
   }
@@ -114,8 +114,8 @@ void describe(auto& io, Is<SavedLine> auto& line) {
   io.template coded<HashCode>("check", line.check);
 }
 
-/// When the nodes of a tree were last the current one, and where redo leads therefore: to the child
-/// below which it was last. Linear in the tree, however often a file goes to and fro in it.
+/// Records when each node was last current, and therefore where redo leads: to the child below
+/// which it was last. Linear in the size of the tree, for any number of changes.
 class Visits {
  public:
   explicit Visits(std::size_t nodes = 0) : last_(nodes, 0) {}
@@ -123,8 +123,8 @@ class Visits {
     if (node >= last_.size()) last_.resize(node + 1, 0);
     last_[node] = ++clock_;
   }
-  /// look(node, child to which redo leads or 0), children before parents; true: the child that was
-  /// wanted instead has been visited now.
+  /// Calls look(node, child to which redo leads or 0), children before parents; the result true
+  /// means that the wanted child has now been visited instead.
   template <class Look>
   void from_leaves(std::span<const WorkNode> nodes, Look look) {
     std::vector<std::uint64_t> below(nodes.size(), 0);

@@ -12,12 +12,12 @@ namespace {
 
 using namespace files;
 
-constexpr std::size_t kMaxLineValues = 100'000;  // as of a scene; a pot has more
+constexpr std::size_t kMaxLineValues = 100'000;  // the limit for a scene; a pot has more
 
-/// Reads line after line into a record. After an error it holds what stood before that line.
+/// Reads lines into a record. After an error it holds everything before that line.
 class WorkBuilder {
  public:
-  /// `rest`: the lines behind it.
+  /// `rest`: the following lines.
   Result<void> take(const LocatedJson& line, LineReader rest) {
     const Json& root = line.root();
     if (root.contains("n")) return take_block(line);
@@ -111,7 +111,7 @@ class WorkBuilder {
     });
   }
 
-  /// For the blocks that come next.
+  /// Reserves memory for the following blocks.
   static void make_room(std::vector<Pose>& poses, LineReader lines) {
     std::size_t announced = 0;
     while (const auto line = lines.next()) {
@@ -162,7 +162,7 @@ class WorkBuilder {
     return {};
   }
 
-  /// The stroke that runs becomes one node, or several.
+  /// The running stroke becomes one or several nodes.
   void close(std::span<const std::int64_t> splits) {
     running_ = false;
     WorkNode& only = work_.nodes.back();
@@ -192,7 +192,7 @@ class WorkBuilder {
   WorkRecord work_;
   std::vector<std::uint64_t> scene_hashes_;
   Visits visits_;
-  std::size_t poses_ = 0;  ///< in all nodes
+  std::size_t poses_ = 0;  ///< of all nodes
   bool running_ = false;
 };
 
@@ -214,14 +214,14 @@ Result<WorkReading> read_work(std::string_view text, std::string_view name, bool
       [](const LocatedJson& line) { return ObjectReader::read(line, WorkHeader{}); });
   if (!header) return tl::make_unexpected(header.error());
 
-  // For what a crash left, all that can be kept is read.
+  // After a crash, everything that can be kept is read.
   if (const auto announced = count_announced(lines.rest(), name); !announced && !lenient)
     return tl::make_unexpected(announced.error());
   WorkReading reading;
   WorkBuilder builder;
   reading.sound_bytes = text.size() - lines.rest().size();
   while (const auto line = lines.next()) {
-    // An editor may have ended a torn line with a newline; nothing can stand behind it.
+    // An editor may have ended a torn line with a newline; nothing can follow it.
     reading.torn = lines.rest().empty() && is_unfinished_json(*line);
     if (reading.torn) break;
     const auto taken = document(*line).and_then(

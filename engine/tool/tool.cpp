@@ -64,7 +64,7 @@ std::vector<double> monotone_slopes(const std::vector<double>& t, const std::vec
   m.front() = end_slope(h[0], h[1], d[0], d[1]);
   m.back() = end_slope(h[n - 2], h[n - 3], d[n - 2], d[n - 3]);
   for (std::size_t k = 1; k + 1 < n; ++k) {
-    if (d[k - 1] * d[k] <= 0.0) continue;  // an extremum of the samples stays one
+    if (d[k - 1] * d[k] <= 0.0) continue;  // keeps extrema of the samples
     const double w1 = 2.0 * h[k] + h[k - 1], w2 = h[k] + 2.0 * h[k - 1];
     m[k] = (w1 + w2) / (w1 / d[k - 1] + w2 / d[k]);
   }
@@ -90,7 +90,7 @@ Result<Built> build_profile(const SampledSpec& s) {
                s.t_mm.back(), *std::ranges::max_element(s.f_mm)};
 }
 
-/// Interval of `at` in a rising table, the end ones for what lies beyond.
+/// The interval of `at` in an increasing table; the first or last one if `at` lies outside.
 std::size_t interval_of(const std::vector<double>& t, double at) {
   const auto above = std::upper_bound(t.begin() + 1, t.end() - 1, at);
   return static_cast<std::size_t>(above - t.begin()) - 1;

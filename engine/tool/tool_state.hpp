@@ -7,11 +7,11 @@ namespace clay {
 
 inline constexpr double kFarthestMm = 1e6;
 
-/// A pose that may be believed, with what its predecessors say of it.
+/// A valid pose, with the data derived from its predecessors.
 struct ToolState {
   glm::dvec3 hip_mm{0.0};
   double dt_s = 0.0;  ///< since the last pose; 0 for the first, at most 0.05
-  /// Since the last pose [mm]; none for the first.
+  /// Since the last pose [mm]; zero for the first.
   glm::dvec3 moved_mm{0.0};
   bool upward = true;  ///< direction of clay flow (section 5.1)
   bool trim = false;
@@ -20,12 +20,12 @@ struct ToolState {
   bool dt_clamped = false;
 };
 
-/// Section 5.1, "inertia of motion": a hand is slow against 1 kHz, so most vertical velocities
-/// are measured as zero; the last one that was not stays in force. Before any, clay flows up.
+/// Section 5.1, "inertia of motion": a hand is slow compared with 1 kHz, so most vertical
+/// velocities are measured as zero; the last nonzero one remains valid. Before any, clay flows up.
 class ToolTracker {
  public:
-  /// Refuses (valid = false, nothing remembered) positions that are not finite or beyond 1e6 mm,
-  /// times that do not advance, and gaps outside 0 .. widest_gap_mm.
+  /// Refuses positions that are not finite or beyond 1e6 mm, times that do not advance, and gaps
+  /// outside 0 .. widest_gap_mm (valid = false; the state does not change).
   ToolState advance(const Pose& pose, double widest_gap_mm = 0.0) noexcept;
 
  private:

@@ -13,8 +13,8 @@
 namespace clay::solid::inline check {
 namespace {
 
-/// Number of bodies of a set that are searched for vertices of high valence. The set is divided
-/// there where one in eight has such a vertex.
+/// Number of bodies sampled for vertices of high valence. If one in eight has such a vertex, the
+/// set is split by it.
 constexpr std::size_t kSample = 32;
 
 }  // namespace
@@ -44,18 +44,18 @@ BroadPhase::BroadPhase(std::vector<BoundingHull> bodies) : bodies_(std::move(bod
   for (BoundingHull& body : bodies_) {
     Box box{glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
     for (glm::dvec3& corner : body.corners) {
-      // Rounding keeps the order of coordinates, so that boxes stay apart only if they were.
+      // Rounding preserves the order of coordinates, so disjoint boxes stay disjoint.
       corner -= middle;
       box.low = glm::min(box.low, corner);
       box.high = glm::max(box.high, corner);
     }
     reach = std::max(reach, glm::length(glm::max(glm::abs(box.low), glm::abs(box.high))));
-    // By corners: bodies may have one box and yet lie side by side.
+    // By corners: bodies may have equal boxes and still lie side by side.
     middles_.push_back(body.corners[0] / 3.0 + body.corners[1] / 3.0 + body.corners[2] / 3.0);
     boxes_.push_back({box.low - body.slack, box.high + body.slack});
     any_hub_ = any_hub_ || *std::min_element(body.hubs.begin(), body.hubs.end()) != kNoHub;
   }
-  // A subtraction, three products and two sums: less than 8 * 2^-53 of the reach on either side.
+  // One subtraction, three products and two sums: less than 8 * 2^-53 of the reach on either side.
   rounding_ = std::ldexp(reach, -48) + std::numeric_limits<double>::min();
   arrange();
 }

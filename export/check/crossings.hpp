@@ -6,17 +6,17 @@
 
 namespace clay::solid::inline check {
 
-/// Counting stops here: a mesh in such a state is a lost one.
+/// Counting stops here: such a mesh cannot be used anyway.
 inline constexpr std::size_t kMaxSelfIntersections = 100'000;
 
 using TrianglePair = std::pair<std::uint32_t, std::uint32_t>;  ///< lower number first
 
-/// How many pairs of triangles meet, and the one of lowest numbers.
+/// The number of intersecting pairs of triangles, and the pair of lowest numbers.
 struct Crossings {
   std::size_t count = 0;
   TrianglePair first{UINT32_MAX, UINT32_MAX};
 
-  /// False when that is enough.
+  /// Returns false when the limit is reached.
   bool add(std::uint32_t a, std::uint32_t b, std::size_t pairs = 1) {
     return add({pairs, std::minmax(a, b)});
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Findings as messages for people show them.
+// Formats findings as messages.
 
 #include "claystack/export/check.hpp"
 #include "core/text.hpp"

@@ -12,20 +12,20 @@
 namespace clay::solid::inline check {
 namespace {
 
-/// The direction, to a few 2^-53: the difference is rounded once, and the scaling avoids overflow.
-/// Not finite where the difference is not.
+/// The direction, to a few 2^-53: the difference is rounded once, and scaling prevents overflow.
+/// Not finite if the difference is not.
 glm::dvec3 direction(const glm::dvec3& from, const glm::dvec3& to) {
   const glm::dvec3 way = to - from;
   const double most = std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
   return glm::normalize(way / most);
 }
 
-/// The arc from one direction to another, on the unit sphere. It bends away from its chord, but
-/// not past the tangents at its ends and its middle.
+/// The arc from one direction to another, on the unit sphere. It bulges beyond its chord, but not
+/// beyond the tangents at its ends and its middle.
 void set_arc(BoundingHull& body, const glm::dvec3& from, const glm::dvec3& to) {
   const double both = glm::length(from + to);
   if (!(both > std::ldexp(1.0, -20))) {
-    // Almost a half turn (or no number): it may pass anywhere.
+    // Nearly a half turn (or not finite): it may pass anywhere.
     body.corners.fill(glm::dvec3(0.0));
     body.slack = 2.0;
     return;
@@ -35,7 +35,7 @@ void set_arc(BoundingHull& body, const glm::dvec3& from, const glm::dvec3& to) {
     return (end + middle) / (1.0 + glm::dot(end, middle));
   };
   body.corners = {from, to, tangents_meet(from), tangents_meet(to)};
-  // The rounding of the ends, some 2^-51, grows with the scaling of the middle.
+  // The rounding error of the ends, about 2^-51, grows with the scaling of the middle.
   body.slack = std::ldexp(1.0, -46) / both;
 }
 
@@ -60,18 +60,18 @@ class Fan {
     std::uint32_t end = 0;
     std::uint32_t apex = 0;
     std::uint32_t triangle = 0;
-    int quarter = 0;  ///< as PairTest tells it, from the first of the book
+    int quarter = 0;  ///< result of PairTest::quarter, relative to the first triangle of the book
     friend auto operator<=>(const Leaf&, const Leaf&) = default;
   };
 
-  /// The two corners other than the centre.
+  /// The two corners that are not the centre.
   [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> rim(std::uint32_t triangle) const {
     const Triangle& t = mesh_.triangles[triangle];
     const std::size_t at = t[0] == centre_ ? 0 : t[1] == centre_ ? 1 : 2;
     return {t[(at + 1) % 3], t[(at + 2) % 3]};
   }
 
-  /// Edges of many triangles that end in the centre; both their ends are hubs.
+  /// Finds edges of many triangles that end in the centre; both their ends are hubs.
   void find_spokes() {
     for (const std::uint32_t t : triangles_) {
       const auto [a, b] = rim(t);
@@ -90,14 +90,14 @@ class Fan {
     }
   }
 
-  /// False when that is enough.
+  /// Returns false when the limit is reached.
   bool count_about_spokes() {
     for (const std::span<Leaf> spoke : spokes_)
       if (spoke.front().end > centre_ && !count_about(spoke)) return false;
     return true;
   }
 
-  /// Triangles on one edge meet where they lie in one half-plane about it, as in a book.
+  /// Triangles on one edge intersect if they lie in one half-plane about it, like pages of a book.
   bool count_about(std::span<Leaf> book) {
     const std::uint32_t end = book.front().end, first = book.front().apex;
     const auto quarter = [&](const Leaf& leaf) {
@@ -119,7 +119,7 @@ class Fan {
     return true;
   }
 
-  /// All pairs but those on the same three vertices.
+  /// All pairs except those on the same three vertices.
   bool count_in_half_plane(std::span<Leaf> leaves) {
     if (leaves.size() == 1) return true;
     std::sort(leaves.begin(), leaves.end());  // by apex

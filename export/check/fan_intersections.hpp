@@ -1,6 +1,7 @@
 #pragma once
-// Triangles about a vertex of many: all their boxes overlap there, but seen from the vertex each
-// is an arc on a sphere, and two of them meet beyond what they share where their arcs do.
+// Intersections of triangles about a vertex of high valence. All their boxes overlap there, but
+// seen from the vertex each triangle is an arc on a sphere, and two triangles intersect beyond
+// their common parts if their arcs do.
 
 #include "export/check/crossings.hpp"
 #include "export/check/pair_test.hpp"
@@ -14,10 +15,10 @@
 
 namespace clay::solid::inline check {
 
-/// A vertex of more is a hub; an edge of more, whose ends are then hubs too, is a book of its own.
+/// A vertex with more triangles is a hub; an edge with more, whose ends are then hubs, is a book.
 inline constexpr std::size_t kManyTriangles = 32;
 
-/// The vertices with many triangles, and which.
+/// The vertices of many triangles, with these triangles.
 class HighValenceVertices {
  public:
   HighValenceVertices() = default;
@@ -25,17 +26,17 @@ class HighValenceVertices {
 
   [[nodiscard]] std::size_t size() const noexcept { return vertices_.size(); }
   [[nodiscard]] std::uint32_t vertex(std::size_t hub) const { return vertices_[hub]; }
-  [[nodiscard]] std::span<const std::uint32_t> triangles(std::size_t hub) const;  ///< rising
+  [[nodiscard]] std::span<const std::uint32_t> triangles(std::size_t hub) const;  ///< ascending
   [[nodiscard]] bool is_hub(std::uint32_t vertex) const { return is_hub_[vertex]; }
 
  private:
   std::vector<bool> is_hub_;             ///< by vertex
-  std::vector<std::uint32_t> vertices_;  ///< rising
-  std::vector<std::size_t> begins_;      ///< in triangles_, and the end of the last
+  std::vector<std::uint32_t> vertices_;  ///< ascending
+  std::vector<std::size_t> begins_;      ///< offsets into triangles_, with the end of the last
   std::vector<std::uint32_t> triangles_;
 };
 
-/// The pairs of triangles that share this hub, and none before it, and meet elsewhere.
+/// The pairs of triangles that share this hub, but no earlier one, and intersect elsewhere.
 Crossings crossings_about(const TriangleMesh& mesh, const HighValenceVertices& hubs,
                           std::size_t hub);
 

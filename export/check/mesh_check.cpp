@@ -26,7 +26,7 @@ std::string numbered(std::string_view noun, const std::vector<std::uint32_t>& nu
   return text;
 }
 
-/// The middle of the vertices at fault; where none are named, of the first triangle.
+/// The middle of the faulty vertices; if none are listed, of the first triangle.
 std::string coordinates(const TriangleMesh& mesh, const Fault& fault) {
   const Triangle& triangle = mesh.triangles[fault.triangles.front()];
   const std::vector<std::uint32_t> corners(triangle.begin(), triangle.end());
@@ -131,9 +131,9 @@ class Inspection {
     }
   }
 
-  /// True where the outermost shell is oriented outward.
+  /// Returns true if the outermost shell is oriented outward.
   bool check_shells(const MeshTopology& topology, const SignedVolume& volume) {
-    // One shell that is embedded always bounds a volume, and the sign of that is its orientation.
+    // One embedded shell always bounds a volume, and the sign of that volume is its orientation.
     if (topology.components == 1 && volume.sign_is_certain()) {
       report_.bounds_volume = true;
       return volume.mm3 > 0.0;
@@ -174,7 +174,7 @@ MeshReport check_mesh(const TriangleMesh& mesh) {
   try {
     return inspection.run();
   } catch (const std::exception& e) {
-    // A library gave up, or memory did: what has not been checked is not sound.
+    // A library failed or memory ran out: an unchecked mesh is not sound.
     MeshReport report;
     report.triangles = mesh.triangles.size();
     report.out_of_memory = dynamic_cast<const std::bad_alloc*>(&e) != nullptr;

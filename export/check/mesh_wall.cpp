@@ -26,13 +26,13 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 
-/// Twice the area, along the outward normal.
+/// Twice the area, as a vector along the outward normal.
 glm::dvec3 doubled_area(const TriangleMesh& mesh, std::uint32_t triangle) {
   const auto& [a, b, c] = mesh.triangles[triangle];
   return glm::cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]);
 }
 
-/// The n-th number of van der Corput's sequence: its digits mirrored at the point.
+/// The n-th van der Corput number: its digits mirrored at the point.
 double radical_inverse(std::size_t n, std::size_t base) {
   double value = 0.0, digit = 1.0;
   for (; n > 0; n /= base) {
@@ -42,7 +42,7 @@ double radical_inverse(std::size_t n, std::size_t base) {
   return value;
 }
 
-/// Places on the surface, evenly by area.
+/// Points on the surface, evenly distributed by area.
 class SurfaceSampling {
  public:
   SurfaceSampling(const TriangleMesh& mesh, std::size_t samples) : mesh_(mesh), samples_(samples) {
@@ -54,7 +54,7 @@ class SurfaceSampling {
 
   [[nodiscard]] double area() const { return area_up_to_.empty() ? 0.0 : area_up_to_.back(); }
 
-  /// The triangle in the middle of the sample's share of the area.
+  /// The triangle at the middle of the sample's share of the area.
   [[nodiscard]] std::uint32_t triangle(std::size_t sample) const {
     const double share = (static_cast<double>(sample) + 0.5) / static_cast<double>(samples_);
     const auto found = std::upper_bound(area_up_to_.begin(), area_up_to_.end(), share * area());
@@ -80,10 +80,10 @@ class SurfaceSampling {
   std::vector<double> area_up_to_;
 };
 
-/// What a part of the rays found.
+/// The result of some of the rays.
 struct Found {
   SampledWall wall;
-  std::size_t sample = 0;  ///< whose ray was the shortest
+  std::size_t sample = 0;  ///< index of the shortest ray
 
   void add(const Found& other) {
     const SampledWall& found = other.wall;
@@ -110,7 +110,7 @@ class WallRay {
         along_(begin + inward - begin) {
     for (int axis = 0; axis < 3; ++axis) {
       if (std::abs(along_[axis]) > std::abs(along_[longest_])) longest_ = axis;
-      // Not infinite: that times 0 is no number.
+      // Not infinite, because infinity times 0 is NaN.
       per_mm_[axis] = along_[axis] == 0.0 ? std::numeric_limits<double>::max() : 1.0 / along_[axis];
     }
   }
@@ -118,11 +118,10 @@ class WallRay {
   struct Hit {
     std::uint32_t triangle = 0;
     double facing = 0.0;       ///< cosine between its normal and the ray
-    std::optional<double> mm;  ///< none where the ray runs in the triangle
+    std::optional<double> mm;  ///< empty if the ray lies in the triangle's plane
   };
 
-  /// To the first triangle seen from behind. Counts `steps` down for each box and triangle looked
-  /// at; at 0 it gives up.
+  /// Finds the first back face. Decrements `steps` for each visited box and triangle; stops at 0.
   std::optional<Hit> first_hit(const BoxTree& tree, std::size_t& steps) {
     const auto step = [&] { steps -= steps > 0 ? 1 : 0; };
     tree.for_each_near(
@@ -151,7 +150,7 @@ class WallRay {
     if (!(first <= last)) return BoxTree::kNever;
     const glm::dvec3 across(box.across);
     const double rise = glm::dot(across, along_), begin = glm::dot(across, begin_);
-    // Along the planes, rounding decides on which side they are met.
+    // Nearly parallel to the planes, rounding decides on which side the ray meets them.
     if (std::abs(rise) > 1e-6) {
       const double from = (box.from - begin) / rise, to = (box.to - begin) / rise;
       first = std::max(first, std::min(from, to));
@@ -162,7 +161,7 @@ class WallRay {
     return first <= last ? first : BoxTree::kNever;
   }
 
-  /// The line passes the triangle on one side by more than rounding can be the cause of.
+  /// True if the line passes the triangle on one side by more than the rounding error.
   [[nodiscard]] bool passes(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) const {
     const double farthest2 = std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
     const double margin = 1e-14 * farthest2;  // 90 roundings
@@ -178,13 +177,13 @@ class WallRay {
   void look_at(std::uint32_t triangle) {
     const auto& [i, j, k] = mesh_.triangles[triangle];
     const glm::dvec3 &a = mesh_.points[i], &b = mesh_.points[j], &c = mesh_.points[k];
-    // Both spare most triangles the exact tests, and decide nothing that is close.
+    // Both tests exclude most triangles from the exact tests, and decide no close case.
     const glm::dvec3 normal = glm::cross(b - a, c - a);
     const double size = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
     if (glm::dot(inward_, normal) < -1e-12 * size) return;
     if (passes(a - begin_, b - begin_, c - begin_)) return;
     const double facing = glm::dot(inward_, glm::normalize(normal));
-    if (!(facing > 0.0)) return;  // seen from the front
+    if (!(facing > 0.0)) return;  // a front face
     const Kernel::Triangle_3 whole(point(a), point(b), point(c));
     if (whole.is_degenerate()) return;
     const auto met = CGAL::intersection(ray_, whole);
@@ -224,7 +223,7 @@ class WallProbe {
   WallProbe(const TriangleMesh& mesh, const SurfaceSampling& sampling)
       : mesh_(mesh), tree_(mesh), sampling_(sampling) {}
 
-  /// Where the steps do not suffice the ray does not count.
+  /// A ray is not counted if the steps run out.
   void probe(std::size_t sample, std::size_t& steps, Found& found) const {
     const std::uint32_t triangle = sampling_.triangle(sample);
     const glm::dvec3 inward = -glm::normalize(doubled_area(mesh_, triangle));
@@ -250,7 +249,7 @@ class WallProbe {
   const SurfaceSampling& sampling_;
 };
 
-/// The numbers below `count`, each once, such that the first few lie evenly among all.
+/// The numbers below `count`, each once, ordered so that the first few are evenly spread.
 class EvenOrder {
  public:
   explicit EvenOrder(std::size_t count)
@@ -281,7 +280,7 @@ class WallSearch {
 
  private:
   static constexpr std::size_t kPartRays = 1024;
-  static constexpr std::size_t kFewRays = 64;  ///< to a report of progress
+  static constexpr std::size_t kFewRays = 64;  ///< rays per progress report
 
   void run_part(std::size_t part, Found& found) {
     const std::size_t begin = part * kPartRays, rays = std::min(samples_ - begin, kPartRays);
@@ -334,7 +333,7 @@ Result<SampledWall> sampled_wall(const TriangleMesh& mesh, std::size_t samples,
                                  const std::function<void(std::size_t)>& progress) try {
   if (const auto good = check_input(mesh, samples); !good) return tl::make_unexpected(good.error());
   const SurfaceSampling sampling(mesh, samples);
-  // Not finite where a point is not.
+  // Not finite if a point is not.
   if (!(sampling.area() > 0.0) || !std::isfinite(sampling.area()))
     return failure(ErrorKind::bad_input,
                    "expected a surface of finite area to measure the wall of, found none");

@@ -26,7 +26,7 @@ void NearPairs::search(const Visitor& visitor) {
   within(0, crowd_.size());
 }
 
-/// The bodies at `begin` to before `end`, which is a node of the tree of halves.
+/// The bodies from `begin` to before `end`, which form a node of the halving tree.
 void NearPairs::within(std::size_t begin, std::size_t end) {
   if (ended_) return;
   if (end - begin <= BroadPhase::kFew) {
@@ -73,7 +73,8 @@ void NearPairs::halves_between(Positions& cut, const Positions& whole) {
   between(all.subspan(half), whole);
 }
 
-/// Where many of both hang from one hub, goes on with the pairs that do not; false elsewhere.
+/// If many bodies of both sets share one hub, continues with the other pairs; otherwise returns
+/// false.
 bool NearPairs::without_hub(const Positions& a, const Positions& b) {
   const std::uint32_t hub = crowd_.common_hub(a, b);
   if (hub == kNoHub) return false;
@@ -100,7 +101,7 @@ void NearPairs::sieve_by_boxes(Positions& a, Positions& b) const {
   keep_near(a, b);
 }
 
-/// Planes along the grain of both sets, where bundles of long bodies lie side by side.
+/// Tests separating planes along the common direction of both sets, for bundles of long bodies.
 void NearPairs::sieve_by_planes(Positions& a, Positions& b) const {
   if (a.empty() || b.empty()) return;
   const glm::dvec3 across = crowd_.middle_of(b) - crowd_.middle_of(a);

@@ -1,6 +1,6 @@
 #pragma once
-// Which bodies of a crowd may meet: a sieve that leaves few pairs for exact tests, also where long
-// thin bodies lie aslant, side by side, and boxes along the axes say nothing.
+// Finds the bodies that may intersect: a filter that leaves few pairs for the exact tests, even for
+// long thin bodies at an angle to the axes, where boxes do not separate them.
 
 #include "export/check/broad_phase.hpp"
 
@@ -13,17 +13,18 @@
 
 namespace clay::solid::inline check {
 
-/// Every pair of bodies that may meet and share no hub, each once. Never leaves out a pair that
-/// meets: a pair is dropped only where a plane lies between them beyond the rounding error.
+/// Visits every pair of bodies that may intersect and shares no hub, once. Never drops an
+/// intersecting pair: a pair is dropped only if a plane separates it by more than the rounding
+/// error.
 ///
-/// Halves the crowd again and again by where its bodies are; of two halves only those stay that
-/// reach into the box of the other half, or past the plane between two bundles of long bodies.
-/// Bodies about one hub cannot be told apart like that, so such pairs are the caller's.
+/// Halves the set repeatedly by position; of two halves only those bodies remain that reach into
+/// the box of the other half, or beyond the plane between two bundles of long bodies. This does not
+/// separate bodies about one hub, so the caller handles such pairs.
 class NearPairs {
  public:
   explicit NearPairs(std::vector<BoundingHull> bodies) : crowd_(std::move(bodies)) {}
 
-  /// visit(a, b): positions of two bodies; false ends the search.
+  /// visit(a, b): indices of two bodies; false ends the search.
   template <class Visit>
   void for_each(const Visit& visit) {
     search({this, &visit, [](const void* on, std::uint32_t a, std::uint32_t b) {

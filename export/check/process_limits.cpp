@@ -10,7 +10,7 @@ namespace clay::solid::inline check {
 namespace {
 
 constexpr double kAnySize = std::numeric_limits<double>::infinity();
-constexpr int kDeepest = 3;  // a field of a wall of the list
+constexpr int kDeepest = 3;  // the depth of a field of a wall
 constexpr const char* kSchema = "claystack-process-1";
 constexpr Range kWallMm = above(0.0).to(1e4), kSizeSumMm = above(0.0).to(1e7);
 

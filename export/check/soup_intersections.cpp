@@ -13,11 +13,11 @@
 namespace clay::solid::inline check {
 namespace {
 
-/// Triangles to a slab, about: few enough to stay near the processor.
+/// Approximate number of triangles per slab: few enough to stay in the cache.
 constexpr std::size_t kSlabTriangles = 1 << 15;
 constexpr std::size_t kMostSlabs = 256;
 
-/// The axis along which the points spread most.
+/// The axis along which the points extend most.
 int longest_axis(const TriangleMesh& mesh) {
   glm::dvec3 low = mesh.points.front(), high = low;
   for (const glm::dvec3& p : mesh.points) {
@@ -54,7 +54,7 @@ void SoupIntersections::set_degenerate_aside() {
   }
 }
 
-/// So that a group has about the triangles of a slab at least.
+/// Groups hubs so that a group has at least about the triangles of a slab.
 void SoupIntersections::group_hubs() {
   std::size_t triangles = 0;
   groups_.push_back(0);
@@ -66,7 +66,7 @@ void SoupIntersections::group_hubs() {
   }
 }
 
-/// So that about as many triangles begin in each: by the lowest corners of a regular sample.
+/// Chooses slabs with about equally many triangles, by the lowest corners of a regular sample.
 void SoupIntersections::choose_begins() {
   const std::size_t slabs =
       std::clamp<std::size_t>(mesh_.triangles.size() / kSlabTriangles, 1, kMostSlabs);
@@ -82,7 +82,7 @@ void SoupIntersections::choose_begins() {
   }
 }
 
-/// False where the lists would grow too long.
+/// Returns false if the lists would grow too long.
 bool SoupIntersections::distribute() {
   const std::size_t most = 2 * spread_.size() + kSlabTriangles;
   std::size_t entries = 0;
@@ -99,7 +99,7 @@ bool SoupIntersections::distribute() {
   return true;
 }
 
-/// Where many triangles reach far, wider slabs have fewer of them twice.
+/// Where many triangles are long, wider slabs hold fewer of them twice.
 void SoupIntersections::halve_slabs() {
   for (std::size_t slab = 1; 2 * slab < begins_.size(); ++slab) begins_[slab] = begins_[2 * slab];
   begins_.resize((begins_.size() + 1) / 2);
@@ -135,7 +135,7 @@ Crossings SoupIntersections::search_slab(std::size_t slab) {
   Crossings found;
   NearPairs near(std::move(bodies));
   near.for_each([&](std::uint32_t i, std::uint32_t j) {
-    // Of the slabs that both reach, the pair is counted in the first.
+    // A pair that reaches several slabs is counted in the first of them.
     if (near[i].early && near[j].early) return true;
     const std::uint32_t a = near[i].number, b = near[j].number;
     return !test.meet(mesh_.triangles[a], mesh_.triangles[b]) || found.add(a, b);

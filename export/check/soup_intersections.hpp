@@ -1,5 +1,5 @@
 #pragma once
-// Which triangles of a soup meet, by exact predicates (CGAL).
+// Finds intersecting triangles of a soup, by exact predicates (CGAL).
 
 #include "export/check/crossings.hpp"
 #include "export/check/fan_intersections.hpp"
@@ -12,15 +12,15 @@
 
 namespace clay::solid::inline check {
 
-/// Pairs of triangles that meet elsewhere than in the vertices or the edge they share, for any
-/// soup of finite points and indices in range. Triangles with corners in line, and pairs on the
-/// same three vertices, are passed over.
+/// Pairs of triangles that intersect outside the vertices or the edge they share, for any soup of
+/// finite points and indices in range. Degenerate triangles, and pairs on the same three vertices,
+/// are skipped.
 ///
-/// The search goes by parts that several cores can share. Vertices of many triangles, and edges,
-/// have their own; all other pairs go by slabs across the longest side of the mesh, each with the
-/// triangles that reach into it: small sets stay near the processor. The parts depend on the mesh
-/// alone, so the result is the same on any machine. The slabs' lists hold at most two entries a
-/// triangle, about.
+/// The search is split into parts for several cores. Vertices and edges of many triangles have
+/// their own parts; all other pairs are split into slabs across the longest side of the mesh, each
+/// with the triangles that reach into it: small sets stay in the cache. The parts depend on the
+/// mesh alone, so the result is the same on any machine. The slabs' lists hold at most about two
+/// entries per triangle.
 class SoupIntersections {
  public:
   /// The mesh outlives this.
@@ -29,8 +29,8 @@ class SoupIntersections {
   [[nodiscard]] const Fault& degenerate() const noexcept { return degenerate_; }
   [[nodiscard]] std::size_t slabs() const noexcept { return begins_.size(); }
   [[nodiscard]] std::size_t parts() const noexcept { return found_.size(); }
-  void search(std::size_t part);  ///< each once, in any order and on any thread
-  /// Of the parts searched: how many pairs, and the one of lowest numbers.
+  void search(std::size_t part);  ///< each part once, in any order and on any thread
+  /// Of the searched parts: the number of pairs, and the pair of lowest numbers.
   [[nodiscard]] Fault found() const;
 
  private:
@@ -46,11 +46,11 @@ class SoupIntersections {
 
   const TriangleMesh& mesh_;
   int axis_;
-  std::vector<double> begins_;                       ///< of the slabs along the axis, rising
-  std::vector<std::uint32_t> spread_;                ///< triangles that are not degenerate
-  std::vector<std::vector<std::uint32_t>> members_;  ///< of the slabs, triangles
+  std::vector<double> begins_;         ///< starts of the slabs along the axis, ascending
+  std::vector<std::uint32_t> spread_;  ///< triangles that are not degenerate
+  std::vector<std::vector<std::uint32_t>> members_;  ///< triangles by slab
   HighValenceVertices hubs_;
-  std::vector<std::size_t> groups_;  ///< of hubs, by the first; and the end of the last
+  std::vector<std::size_t> groups_;  ///< hubs by group: the first of each, and the end of the last
   std::vector<Crossings> found_;     ///< by part: groups of hubs, then slabs
   Fault degenerate_;
 };

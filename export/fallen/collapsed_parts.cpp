@@ -13,14 +13,14 @@
 namespace clay::solid::inline fallen {
 namespace {
 
-/// A stretch of the pot as a stack of its own, and the height it began at.
+/// A part of the pot as a separate stack, and the height of its bottom.
 struct Part {
   ClayStack stack;
   std::size_t first_ring = 0;
   double bottom_mm = 0.0;
 };
 
-/// No coordinate of either part is larger, wherever the fall took it.
+/// Upper bound of the coordinates of both parts, for any motion of the collapse.
 double reach_of(const Pot& pot) {
   return std::hypot(largest_radius_mm(pot.stack), pot.stack.height_mm()) +
          2.0 * glm::length(pot.collapse->pivot_mm) + glm::length(pot.collapse->shift_mm);
@@ -55,7 +55,7 @@ Result<Part> part_of(const ClayStack& stack, RingRange rings, WideQuanta crown) 
       });
 }
 
-/// Back to the ring numbers and heights of the whole pot.
+/// Converts to the ring numbers and heights of the whole pot.
 StackProfile in_place(StackProfile found, const Part& part) {
   for (Polygon& polygon : found.profile.pieces)
     for (ProfilePoint& p : polygon) p.y += part.bottom_mm;

@@ -22,24 +22,24 @@
 namespace clay::solid::inline fallen {
 namespace {
 
-/// How the upper part may lie a little differently from one attempt to the next.
+/// A variation of the upper part's placement for one attempt.
 struct Attempt {
-  double phase = 0.0;  ///< of its facets about its own axis, in segments
-  double nudge = 0.0;  ///< its way off its place, in units of what float32 rounds by
+  double phase = 0.0;  ///< rotation of its facets about its own axis, in segments
+  double nudge = 0.0;  ///< displacement, in units of the float32 rounding
 };
 
-/// As it fell, first: faces that coincide then merge. Where the parts mirror each other, facets in
-/// step cross in needles, and out of step (by the golden section and its multiples) in the open.
-/// Where faces all but coincide, only a nudge tells them apart.
+/// First as it fell: coinciding faces then merge. Where the parts mirror each other, equally
+/// rotated facets intersect in needles, rotated ones (by the golden section and its multiples) do
+/// not. Where faces nearly coincide, only a nudge separates them.
 constexpr std::array kAttempts{Attempt{0.0, 0.0}, Attempt{0.381966, 0.0}, Attempt{0.763932, 64.0},
                                Attempt{0.145898, 256.0}, Attempt{0.527864, 1024.0}};
-constexpr glm::dvec3 kNudge{0.36, 0.48, -0.8};  // a unit vector that no facet is likely to hold
+constexpr glm::dvec3 kNudge{0.36, 0.48, -0.8};  // a unit vector that is unlikely to lie in a facet
 
-/// Shortest edges on the seam, in units of what float32 rounds by. Longer ones leave room for the
-/// rounding, but the walls of the parts have short edges of their own, which must not be run into.
+/// Shortest edges on the seam, in units of the float32 rounding. Longer ones leave room for the
+/// rounding, but must not reach the short edges of the parts' own walls.
 constexpr std::array kShortestEdges{64.0, 256.0, 1024.0, 16.0};
 
-/// From the wheel's frame (y up) to the mesh's (z up).
+/// From the wheel's frame (y up) to the mesh's frame (z up).
 glm::dvec3 upright(const glm::dvec3& p) { return {p.x, -p.z, p.y}; }
 
 /// From the mesh's frame to the wheel's.
@@ -111,7 +111,7 @@ class Union {
       return cured(both, solid);
     });
   } catch (const std::bad_alloc&) {
-    throw;  // the next attempt would fare no better
+    throw;  // further attempts would fail in the same way
   } catch (const std::exception& e) {
     return failure(ErrorKind::unsound, std::string("the union: ") + e.what());
   }
@@ -157,7 +157,7 @@ class Union {
   double step_rad_;
   FallenPlace place_;
   TriangleMesh lower_;
-  TriangleMesh upper_;  ///< before the fall
+  TriangleMesh upper_;  ///< before the collapse
 };
 
 }  // namespace

@@ -35,7 +35,7 @@ SurfaceMesh exact_mesh(const TriangleMesh& mesh) {
   return result;
 }
 
-/// The interval that stands for a lazy number may be as wide as 1e-5 of it: make it exact first.
+/// The interval of a lazy number may be as wide as 1e-5 of it, so evaluate it exactly first.
 glm::dvec3 nearest(const Kernel::Point_3& point) {
   const auto& p = point.exact();
   return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
@@ -64,7 +64,7 @@ bool before(const glm::dvec3& p, const glm::dvec3& q) {
   return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
 }
 
-/// CGAL calls it at every step.
+/// CGAL calls it at every step: checks for cancellation.
 struct Watch : pmp::Corefinement::Default_visitor<SurfaceMesh> {
   using Face = SurfaceMesh::Face_index;
   void progress_filtering_intersections(double) const { step_of_loop(); }
@@ -74,8 +74,8 @@ struct Watch : pmp::Corefinement::Default_visitor<SurfaceMesh> {
   void after_face_copy(Face, const SurfaceMesh&, Face, SurfaceMesh&) { step_of_loop(); }
 };
 
-/// CGAL finds crossings in an order that hangs on addresses in memory: put points in order of
-/// their coordinates, and triangles in order of their points.
+/// CGAL's order of intersections depends on memory addresses: sort points by coordinates, and
+/// triangles by their points.
 TriangleMesh in_order(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> order(mesh.points.size()), place(mesh.points.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -111,7 +111,7 @@ std::vector<bool> new_points(const TriangleMesh& result, const TriangleMesh& a,
 }  // namespace
 
 Result<MeshUnion> unite(const TriangleMesh& a, const TriangleMesh& b) {
-  CGAL::get_default_random() = CGAL::Random(0);  // its search for crossings draws from it
+  CGAL::get_default_random() = CGAL::Random(0);  // its search for intersections uses it
   SurfaceMesh first = exact_mesh(a), second = exact_mesh(b), both, common;
   std::array<boost::optional<SurfaceMesh*>, 4> wanted;
   wanted[pmp::Corefinement::UNION] = &both;

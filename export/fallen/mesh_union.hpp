@@ -9,9 +9,9 @@
 namespace clay::solid::inline fallen {
 
 struct MeshUnion {
-  TriangleMesh mesh;          ///< the exact points to the nearest double
-  std::vector<bool> on_seam;  ///< for each point: neither solid had it
-  double overlap_mm3 = 0.0;   ///< of the intersection, over its own surface
+  TriangleMesh mesh;          ///< the exact points, rounded to the nearest double
+  std::vector<bool> on_seam;  ///< for each point: true if it belongs to neither solid
+  double overlap_mm3 = 0.0;   ///< of the intersection, summed over its surface
 };
 
 /// Both bound a volume and cross themselves nowhere. Solids that touch in whole faces become one;

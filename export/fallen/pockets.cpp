@@ -9,7 +9,7 @@
 namespace clay::solid::inline fallen {
 namespace {
 
-/// Points joined by triangles, as a forest whose roots stand for shells.
+/// Points joined by triangles, as union-find; roots represent shells.
 class Forest {
  public:
   explicit Forest(const TriangleMesh& mesh) : parent_(mesh.points.size()) {
@@ -30,7 +30,7 @@ class Forest {
 
 struct Shell {
   std::size_t triangles = 0;
-  glm::dvec3 origin{0.0};  // of its own: about a point far away a pocket's volume would cancel
+  glm::dvec3 origin{0.0};  // per shell: relative to a distant point, a pocket's volume would cancel
   CompensatedSum sextuple;
   double area_mm2 = 0.0;
   bool on_seam = false;
@@ -44,7 +44,7 @@ struct Shell {
   }
 };
 
-/// For each point that is a root, its shell.
+/// The shell of each point that is a root.
 std::vector<Shell> shells_of(const TriangleMesh& mesh, Forest& forest) {
   std::vector<Shell> shells(mesh.points.size());
   for (const auto& [a, b, c] : mesh.triangles)

@@ -1,5 +1,5 @@
 #pragma once
-// Where two rough walls meet, their union traps air in pockets too small to mean anything.
+// Where two rough walls meet, their union encloses pockets of air too small to matter.
 
 #include "claystack/export/solid.hpp"
 
@@ -8,20 +8,20 @@
 
 namespace clay::solid::inline fallen {
 
-/// For each shell (points joined by triangles) its volume [mm^3], negative where it faces inward.
+/// For each shell (points joined by triangles) its volume [mm^3], negative if it faces inward.
 [[nodiscard]] std::vector<double> shell_volumes(const TriangleMesh& mesh);
 
 struct FilledPockets {
-  TriangleMesh mesh;          ///< without points that no triangle uses
+  TriangleMesh mesh;          ///< without unused points
   std::vector<bool> on_seam;  ///< for each of its points
   std::size_t pockets = 0;
-  double volume_mm3 = 0.0;    ///< what they held
-  double max_depth_mm = 0.0;  ///< no pocket was deeper
+  double volume_mm3 = 0.0;    ///< total volume of the filled pockets
+  double max_depth_mm = 0.0;  ///< depth of the deepest filled pocket
 };
 
-/// Leaves out shells that face inward, touch the seam (`on_seam`, for each point of `mesh`) and
-/// are no deeper than `deepest_mm`. The depth is three times volume over area: no convex pocket
-/// holds a ball of a larger radius.
+/// Removes shells that face inward, touch the seam (`on_seam`, for each point of `mesh`) and are at
+/// most `deepest_mm` deep. The depth is three times volume over area: no convex pocket contains a
+/// ball of a larger radius.
 FilledPockets fill_pockets(const TriangleMesh& mesh, const std::vector<bool>& on_seam,
                            double deepest_mm);
 

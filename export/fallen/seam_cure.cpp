@@ -19,9 +19,9 @@ using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 using Corners = std::array<glm::dvec3, 3>;
 
-// A bound for what should end by itself: each pass shortens the list of what is left to do.
+// A safety limit: each pass shortens the work list.
 constexpr int kMaxPasses = 20;
-// Triangles may turn by 60 degrees at most where they are not needles themselves.
+// Triangles may rotate by at most 60 degrees, except needles.
 constexpr double kLeastCosine = 0.5;
 
 glm::dvec3 normal_of(const Corners& t) { return glm::cross(t[1] - t[0], t[2] - t[0]); }
@@ -31,7 +31,7 @@ double longest_of(const Corners& t) {
       {glm::distance(t[0], t[1]), glm::distance(t[1], t[2]), glm::distance(t[2], t[0])});
 }
 
-/// Least of the three heights.
+/// The smallest of the three heights.
 double height_of(const Corners& t) {
   const double longest = longest_of(t);
   return longest > 0.0 ? glm::length(normal_of(t)) / longest : 0.0;
@@ -72,7 +72,7 @@ class Cure {
   double length(HalfedgeHandle h) const {
     return glm::distance(point(mesh_.from_vertex_handle(h)), point(mesh_.to_vertex_handle(h)));
   }
-  /// From the start of `h` on.
+  /// The vertices from the start of `h` on.
   std::array<VertexHandle, 3> vertices(HalfedgeHandle h) const {
     return {mesh_.from_vertex_handle(h), mesh_.to_vertex_handle(h),
             mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h))};
@@ -100,7 +100,7 @@ class Cure {
            (on_seam(mesh_.from_vertex_handle(h)) || on_seam(mesh_.to_vertex_handle(h)));
   }
 
-  /// A point of the parts stays and one of the seam goes, where there is the choice.
+  /// Where possible, keeps a point of the parts and removes one of the seam.
   bool collapse(EdgeHandle edge) {
     HalfedgeHandle h = mesh_.halfedge_handle(edge, 0);
     if (!on_seam(mesh_.from_vertex_handle(h))) h = mesh_.opposite_halfedge_handle(h);
@@ -116,14 +116,14 @@ class Cure {
     return false;
   }
 
-  /// Such a shell would end as two triangles, back to back, which OpenMesh does not mind.
+  /// Such a shell would end as two triangles back to back, which OpenMesh permits.
   bool is_tetrahedron(HalfedgeHandle h) const {
     return mesh_.valence(mesh_.from_vertex_handle(h)) == 3 &&
            mesh_.valence(mesh_.to_vertex_handle(h)) == 3 && mesh_.valence(vertices(h)[2]) == 3;
   }
 
-  /// No triangle turns over when the start of `way` is pulled to its end; needles must not get
-  /// lower, as their normals say little.
+  /// True if no triangle flips when the start of `way` moves to its end; needles must not become
+  /// lower, because their normals are unreliable.
   bool stays_unfolded(HalfedgeHandle way) const {
     const VertexHandle gone = mesh_.from_vertex_handle(way), kept = mesh_.to_vertex_handle(way);
     for (auto h = mesh_.cvoh_begin(gone); h != mesh_.cvoh_end(gone); ++h) {

@@ -16,7 +16,7 @@ bool ByteStream::fill(std::size_t bytes) {
   end_ = kept.size();
   begin_ = 0;
   while (end_ < bytes && !ended_) {
-    // A file that has grown since it was opened.
+    // For a file that has grown since it was opened.
     if (end_ == buffer_.size()) buffer_.resize(2 * kStretch);
     const auto count = source_.read(std::span(buffer_).subspan(end_));
     if (!count) fault_ = count.error();

@@ -12,7 +12,7 @@ inline constexpr int kMinDracoBits = 8;
 inline constexpr int kDracoBitsStep = 2;
 inline constexpr int kMaxDracoBits = 30;  // Draco's own limit
 
-/// The fewest bits that keep the ends of the shortest edge in different cells of Draco's grid.
+/// The smallest number of bits that separates the ends of the shortest edge on Draco's grid.
 [[nodiscard]] inline int least_draco_bits(const TriangleMesh& mesh) {
   const glm::dvec3 sides = extent_of(mesh);
   const double range = std::max({sides.x, sides.y, sides.z});

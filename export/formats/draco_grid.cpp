@@ -14,16 +14,16 @@
 namespace clay::solid::inline formats {
 namespace {
 
-constexpr float kLeastSideMm = 1e-6F;  // smaller ones have inverses that overflow in Draco
+constexpr float kLeastSideMm = 1e-6F;  // inverses of smaller ones overflow in Draco
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr double kUnitRoundoff = 0x1p-24;
 constexpr double kSideRoundings = 10.0;
 constexpr double kReachRoundings = 2.0;
 
-/// What the grid has to cover.
+/// The volume that the grid must cover.
 struct Extent {
   glm::vec3 low{0.0F};
-  float side = 1.0F;      ///< of the least cube, rounded up so that no point is left outside
+  float side = 1.0F;      ///< of the smallest cube, rounded up so that it contains every point
   float farthest = 0.0F;  ///< largest |coordinate|
 };
 
@@ -42,29 +42,29 @@ Extent extent_of(const std::vector<glm::vec3>& points) noexcept {
 
 double steps_of(int bits) noexcept { return std::exp2(bits) - 1.0; }
 
-/// A bound on how far a vertex moves [mm]: half a step along each axis, and what float32
-/// loses on the way. Draco works in float32: the difference to the origin, the scale and its
-/// product, the added half, then step, product and sum of the way back are at most 9 roundings
-/// relative to the side (10 covers the products of roundings), and the sum one relative to
-/// the coordinate itself, which has been rounded once before Draco saw it.
+/// Upper bound of a vertex displacement [mm]: half a step along each axis, and the rounding errors
+/// of float32. Draco computes in float32: the difference to the origin, the scale and its product,
+/// the added half, then step, product and sum of the decoding are at most 9 roundings relative to
+/// the side (10 covers the products of roundings), and the sum one relative to the coordinate
+/// itself, which was rounded once before.
 double error_bound_mm(double side, double farthest, int bits) noexcept {
   return std::numbers::sqrt3 *
          (0.5 * side / steps_of(bits) +
           kUnitRoundoff * (kSideRoundings * side + kReachRoundings * farthest));
 }
 
-/// The largest side of that error: the bound above solved for it, rounded down; below 0 where
-/// the roundings alone are too much.
+/// The largest side for that error: the bound above solved for it, rounded down; negative if the
+/// roundings alone exceed it.
 float widest_side_mm(double error_mm, double farthest, int bits) noexcept {
   const double left = error_mm / std::numbers::sqrt3 - kUnitRoundoff * kReachRoundings * farthest;
   const double side = left / (0.5 / steps_of(bits) + kUnitRoundoff * kSideRoundings);
-  // Beyond what any mesh needs, and within what float32 holds.
+  // Beyond the needs of any mesh, and within the range of float32.
   return std::nextafter(static_cast<float>(std::min(side, 8.0 * double{kMaxCoordinateMm})),
                         -kInfinity);
 }
 
-/// Puts a point of the grid on the origin of coordinates where the cube has room for it: what
-/// lies on either side of a pot's axis then falls into cells of the same shape.
+/// Puts a grid point on the origin of coordinates if the cube has room for it: then the cells on
+/// both sides of a pot's axis are symmetric.
 glm::vec3 origin_for(const Extent& extent, float side, int bits) noexcept {
   const double step = double{side} / steps_of(bits);
   const double room = double{side} - double{extent.side};

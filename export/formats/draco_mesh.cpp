@@ -8,7 +8,7 @@
 namespace clay::solid::inline formats {
 namespace {
 
-/// Checked before any of its values is touched.
+/// Checks the attribute before reading any value.
 Result<const draco::PointAttribute*> positions_of(const draco::Mesh& mesh, std::string_view name) {
   const draco::PointAttribute* const positions =
       mesh.GetNamedAttribute(draco::GeometryAttribute::POSITION);

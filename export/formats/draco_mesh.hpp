@@ -1,5 +1,5 @@
 #pragma once
-// Between our meshes and Draco's.
+// Converts meshes to and from Draco's.
 
 #include "claystack/core/result.hpp"
 #include "claystack/export/solid.hpp"
@@ -16,8 +16,8 @@ namespace clay::solid::inline formats {
 [[nodiscard]] std::unique_ptr<draco::Mesh> to_draco(const TriangleMesh& mesh,
                                                     const std::vector<glm::vec3>& points);
 
-/// Takes nothing on trust: Draco's decoder hands out sizes, maps and indices as a file
-/// states them. Corners share a point where Draco maps them to one position.
+/// Checks everything: Draco's decoder returns sizes, maps and indices as the file states them.
+/// Corners share a point if Draco maps them to one position.
 [[nodiscard]] Result<TriangleMesh> from_draco(const draco::Mesh& mesh, std::string_view name);
 
 }  // namespace clay::solid::inline formats

@@ -21,7 +21,7 @@ namespace {
 constexpr std::string_view kPrefix = "claystack.";
 constexpr std::string_view kChecksum = "claystack.checksum";
 constexpr std::size_t kChecksumDigits = 32;
-constexpr std::size_t kFlagsAt = 9;  // two bytes, the lower one first
+constexpr std::size_t kFlagsAt = 9;  // two bytes, low byte first
 constexpr int kMostNested = 16;
 
 struct Field {
@@ -34,11 +34,11 @@ constexpr std::array kFields{
     Field{"claystack.counted_volume_mm3", &DracoClaims::counted_volume_mm3},
     Field{"claystack.vertex_error_mm", &DracoClaims::vertex_error_mm}};
 
-/// Values by key: views of the file.
+/// Values by key: views into the file.
 using Entries = std::map<std::string_view, std::string_view>;
 
-/// Walks over a block; nothing is kept but our own entries. Every step takes bytes, so the counts
-/// that a file states cost no more than the file is long.
+/// Walks over a block; keeps only entries of Claystack. Every step consumes bytes, so the counts
+/// stated in a file cost at most its length.
 class MetadataWalk {
  public:
   explicit MetadataWalk(std::string_view bytes) : size_(bytes.size()) {
@@ -46,7 +46,7 @@ class MetadataWalk {
     in_.Advance(kDracoHeaderBytes);
   }
 
-  /// False where the block is not whole, nests too deep, or holds an entry of ours twice.
+  /// Returns false if the block is incomplete, nests too deep, or repeats an entry of Claystack.
   bool run() {
     std::uint32_t attributes = 0, id = 0;
     if (!draco::DecodeVarint(&attributes, &in_)) return false;
@@ -101,7 +101,7 @@ std::span<const std::byte> bytes_of(std::string_view text) {
   return std::as_bytes(std::span(text));
 }
 
-/// Of the whole file but `digits`, a view into it.
+/// Hash of the whole file without `digits`, a view into it.
 ContentHash hash_without(std::string_view bytes, std::string_view digits) {
   const auto at = static_cast<std::size_t>(digits.data() - bytes.data());
   ContentHasher hasher;
@@ -116,7 +116,7 @@ Result<void> check_checksum(std::string_view bytes, const Entries& entries, std:
     return bad_file(name, "expected a checksum of 32 digits beside other claims, found none");
   const ContentHash found = hash_without(bytes, stated->second);
   if (found == stated->second) return {};
-  // What a file states is shown only where it can be a checksum.
+  // The stated value is shown only if it can be a checksum.
   const bool digits = stated->second.find_first_not_of("0123456789abcdef") == std::string::npos;
   return bad_file(name, "checksum: expected " +
                             (digits ? std::string(stated->second) : "hexadecimal digits") +

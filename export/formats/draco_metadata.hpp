@@ -1,6 +1,7 @@
 #pragma once
-// The block of metadata between the header of a Draco file and its mesh. Draco's own reader of it
-// allocates without bound on what a file states; ours walks over it, and Draco never sees it.
+// The metadata block between the header of a Draco file and its mesh. Draco's reader allocates
+// without bound by the counts in a file; this one only walks over the block, and Draco never reads
+// it.
 
 #include "claystack/core/result.hpp"
 #include "claystack/export/formats.hpp"
@@ -15,19 +16,19 @@ namespace clay::solid::inline formats {
 inline constexpr std::size_t kDracoHeaderBytes = 11;
 
 struct DracoMetadata {
-  std::size_t end = 0;  ///< where the mesh begins
+  std::size_t end = 0;  ///< start of the mesh
   std::optional<DracoClaims> claims;
 };
 
-/// Of a file with a whole header: nothing where the header announces no metadata. Claims come with
-/// a checksum that holds, or the file is refused. Errors begin with `name`.
+/// For a file with a complete header: empty if the header announces no metadata. A file with claims
+/// is refused if its checksum does not match. Errors begin with `name`.
 [[nodiscard]] Result<std::optional<DracoMetadata>> read_draco_metadata(std::string_view bytes,
                                                                        std::string_view name);
 
-/// A file without metadata, with them.
+/// Adds metadata to a file without any.
 [[nodiscard]] std::string with_claims(std::string_view plain, const DracoClaims& claims);
 
-/// A file with metadata, without them.
+/// Removes the metadata of a file.
 [[nodiscard]] std::string without_metadata(std::string_view bytes, const DracoMetadata& metadata);
 
 }  // namespace clay::solid::inline formats

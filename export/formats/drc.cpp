@@ -17,9 +17,9 @@
 namespace clay::solid::inline formats {
 namespace {
 
-// Draco's entropy coder keeps a counter for every value a residual may take: 0.1 GB of them
-// at 24 bits, gigabytes at 30. Finer residuals are stored plainly, as noise would be anyway;
-// and from speed 2 on no prediction counts them either.
+// Draco's entropy coder keeps a counter for every value a residual may take: 0.1 GB at 24 bits,
+// gigabytes at 30. Finer residuals are stored uncompressed, as incompressible noise would be; from
+// speed 2 on, the prediction does not count them either.
 constexpr int kMaxEntropyCodedBits = 24;
 constexpr int kLeastSpeedWithoutCounters = 2;
 constexpr std::string_view kMagic = "DRACO";
@@ -45,7 +45,7 @@ Result<void> check_claims(const DracoClaims* claims, const DracoSettings& settin
                  "cannot write .drc: expected no smaller vertex error claimed than allowed");
 }
 
-/// Draco's encoder is not made for bad meshes: what would break it is refused here.
+/// Draco's encoder does not check meshes, so this refuses those that break it.
 Result<void> check_mesh_for_draco(const TriangleMesh& mesh, const std::vector<glm::vec3>& points) {
   const auto refuse = [](std::string_view what) {
     return failure(ErrorKind::unsound, std::string("cannot write .drc: ").append(what));
@@ -79,7 +79,7 @@ Result<std::string> encode_on_grid(const TriangleMesh& mesh, const std::vector<g
   if (!status.ok()) {
     return failure(ErrorKind::unsound, "cannot write .drc: Draco: " + status.error_msg_string());
   }
-  // Edgebreaker leaves out, silently, triangles that use one vertex twice.
+  // Edgebreaker silently drops triangles that use one vertex twice.
   const std::size_t dropped = mesh.triangles.size() - encoder.num_encoded_faces();
   if (dropped > 0) {
     return failure(ErrorKind::unsound, "cannot write .drc: " + std::to_string(dropped) +
@@ -88,7 +88,7 @@ Result<std::string> encode_on_grid(const TriangleMesh& mesh, const std::vector<g
   return std::string(buffer.data(), buffer.size());
 }
 
-/// No point clouds: decoding one may take gigabytes for a few hundred bytes.
+/// Refuses point clouds: decoding a few hundred bytes may take gigabytes.
 Result<void> check_header(std::string_view bytes, std::string_view name) {
   if (!bytes.starts_with(kMagic))
     return bad_file(name, "expected a Draco file, which begins with DRACO");
@@ -114,7 +114,7 @@ Result<std::optional<DracoMetadata>> read_metadata(std::string_view bytes, std::
       .and_then([&] { return read_draco_metadata(bytes, name); });
 }
 
-/// A file without metadata.
+/// Decodes a file without metadata.
 Result<TriangleMesh> decode_plain(std::string_view bytes, std::string_view name) {
   draco::DecoderBuffer buffer;
   buffer.Init(bytes.data(), bytes.size());

@@ -1,4 +1,4 @@
-// Stands in for drc.cpp where the build leaves Draco out.
+// Replaces drc.cpp in builds without Draco.
 
 #include "claystack/export/formats.hpp"
 #include "export/formats/mesh_limits.hpp"

@@ -1,6 +1,6 @@
 #pragma once
-// Coordinates as files hold them: float32, and never -0, because readers that compare
-// bytes take -0 and 0 for two places and see an open edge.
+// Coordinates in files: float32, and never -0, because readers that compare bytes treat -0 and 0 as
+// two points and find an open edge.
 
 #include <charconv>
 #include <glm/vec3.hpp>
@@ -21,7 +21,7 @@ namespace clay::solid::inline formats {
   return rounded;
 }
 
-/// In the fewest digits that read back as the same number, whatever the locale.
+/// Writes the fewest digits that read back as the same number, independent of the locale.
 template <class Number>
 void append_number(std::string& text, Number value) {
   char digits[32];
@@ -38,7 +38,7 @@ inline void append_point_line(std::string& text, std::string_view prefix, const 
   text += '\n';
 }
 
-/// A name that cannot end its line, continue it or grow it past what readers take.
+/// Shortens a name so that it cannot end or continue its line, or exceed the limits of readers.
 [[nodiscard]] inline std::string one_line(std::string_view name) {
   constexpr std::size_t kLongestName = 200;
   std::string line(name.substr(0, kLongestName));

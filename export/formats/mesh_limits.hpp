@@ -1,5 +1,5 @@
 #pragma once
-// What a mesh file may hold at most: every reader checks before it allocates.
+// Limits of mesh files: every reader checks them before it allocates.
 
 #include "claystack/core/result.hpp"
 #include "claystack/export/formats.hpp"
@@ -17,16 +17,16 @@
 namespace clay::solid::inline formats {
 
 inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
-inline constexpr std::size_t kMaxPoints = 3 * kMaxTriangles;  // when no facets share a corner
+inline constexpr std::size_t kMaxPoints = 3 * kMaxTriangles;  // if no facets share a corner
 inline constexpr float kMaxCoordinateMm = 1e6F;
 inline constexpr std::string_view kCoordinateRule = "a coordinate within +-1e6 mm";
 
-/// False for NaN too.
+/// False for NaN.
 [[nodiscard]] inline bool is_coordinate(float mm) noexcept {
   return std::abs(mm) <= kMaxCoordinateMm;
 }
 
-/// "expected ..., found ..." when one of the three is no coordinate.
+/// "expected ..., found ..." if one of the three is not a valid coordinate.
 [[nodiscard]] std::optional<std::string> find_bad_coordinate(const glm::vec3& point);
 
 /// "NAME: what", of kind bad_input.
@@ -34,18 +34,18 @@ inline constexpr std::string_view kCoordinateRule = "a coordinate within +-1e6 m
 
 [[nodiscard]] Result<void> check_file_size(std::string_view bytes, std::string_view name);
 
-/// No facets at all are refused too.
+/// Also refuses zero facets.
 [[nodiscard]] Result<void> check_facet_count(std::size_t facets, std::string_view name);
 
 /// Refuses a text file that is too large, with an estimate of its triangles: its size divided by
-/// `usual_bytes`, the usual size of one [bytes].
+/// `usual_bytes`, the usual size per triangle [bytes].
 [[nodiscard]] Result<void> check_text_size(const ByteSource& source, std::size_t usual_bytes,
                                            std::string_view name);
 
-/// The bytes of a file that is in memory. They outlive the source.
+/// A source that reads from memory. The bytes outlive it.
 [[nodiscard]] ByteSource source_of(std::string_view bytes);
 
-/// What `read` returns; what it throws (memory that is not to be had, Draco's own) as an error.
+/// Returns the result of `read`; converts exceptions (out of memory, Draco's own) to errors.
 template <class Read>
 [[nodiscard]] auto guarded(std::string_view name, const Read& read) -> decltype(read()) try {
   return read();

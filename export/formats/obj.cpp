@@ -17,8 +17,8 @@ constexpr std::size_t kMaxFaceCorners = 4096;
 constexpr std::size_t kUsualPointBytes = 36;
 constexpr std::size_t kUsualTriangleBytes = 26;
 
-/// The vertices of one kind (v, vt or vn). A face may name one that a later line defines,
-/// so the highest number used is judged at the end of the file.
+/// The vertices of one kind (v, vt or vn). A face may use one that a later line defines, so the
+/// largest index is checked at the end of the file.
 struct VertexList {
   std::string_view keyword;
   std::size_t count = 0;
@@ -60,8 +60,8 @@ class ObjReader {
 
  private:
   void read_statement(std::string_view keyword) {
-    // Names, groups, materials, smoothing, lines and points are no part of a surface; and
-    // a material library is another file, which no mesh may make us open.
+    // Names, groups, materials, smoothing, lines and points are not part of the surface. A material
+    // library is another file, which a mesh must not make the program open.
     static constexpr std::array<std::string_view, 7> kPassedOver = {"o",      "g", "s", "mtllib",
                                                                     "usemtl", "l", "p"};
     if (keyword == "v") {
@@ -83,7 +83,7 @@ class ObjReader {
     }
   }
 
-  /// "v x y z" and perhaps w, or red, green and blue: neither says a thing about polygons.
+  /// "v x y z", optionally followed by w, or by red, green and blue, which are ignored.
   void read_point() {
     glm::vec3 point;
     for (int axis = 0; axis < 3; ++axis) {
@@ -94,7 +94,7 @@ class ObjReader {
     mesh_.points.emplace_back(point + 0.0F);  // -0 + 0 is 0
   }
 
-  /// The finite numbers up to the end of the line; returns how many.
+  /// Reads finite numbers up to the end of the line; returns their count.
   std::size_t read_numbers(std::size_t fewest, std::size_t most) {
     std::size_t found = 0;
     for (auto word = scanner_.word_in_line(); !word.empty(); word = scanner_.word_in_line()) {
@@ -130,7 +130,8 @@ class ObjReader {
     }
   }
 
-  /// From 0. In the file numbers count from 1, or from the latest vertex back when negative.
+  /// Converts to an index from 0. In the file indices count from 1; negative ones count back from
+  /// the latest vertex.
   std::uint32_t resolve(std::string_view word, VertexList& list) {
     const long long number = scanner_.whole_number(word);
     const auto known = static_cast<long long>(list.count);

@@ -32,7 +32,7 @@ struct Extent {
   }
 };
 
-/// The wheel head (up = 0) is always in the picture.
+/// The wheel head (up = 0) is always included.
 Extent extent_of(const std::vector<SectionBody>& bodies) {
   if (bodies.empty()) return {};
   constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -74,7 +74,7 @@ class Drawing {
     for (const Outline& ghost : all) page_.fill("ghost", on_page(std::vector<Outline>{ghost}));
   }
 
-  /// What is cut stands before all that lies beyond, of whichever body.
+  /// The cut faces are drawn over everything beyond the cut, of any body.
   void bodies(const std::vector<SectionBody>& all) {
     for (const SectionBody& body : all) page_.fill("beyond", on_page(body.beyond));
     for (const SectionBody& body : all) page_.fill("cut", on_page(body.cut));
@@ -87,7 +87,7 @@ class Drawing {
     page_.line("axis", from - overhang, to + overhang);
   }
 
-  /// Of the point `top`, from the wheel head.
+  /// Dimension of the height of the point `top` above the wheel head.
   void height(glm::dvec2 top) {
     const double x = size_.x - kRight + 52.0;
     const glm::dvec2 from = on_page({top.x, 0.0}), to = on_page(top);
@@ -97,14 +97,14 @@ class Drawing {
     page_.upright_text({x + 20.0, 0.5 * (from.y + to.y)}, millimetres(top.y));
   }
 
-  /// Between two points, measured above the pot.
+  /// Dimension of the width between two points, drawn above the pot.
   void width(glm::dvec2 left, glm::dvec2 right, const std::string& label) {
     const double y = kTop - 42.0;
     const glm::dvec2 from = on_page(left), to = on_page(right);
     page_.line("thin", {from.x, from.y - 5.0}, {from.x, y - 6.0});
     page_.line("thin", {to.x, to.y - 5.0}, {to.x, y - 6.0});
     page_.dimension({from.x, y}, {to.x, y});
-    // Beside the axis, which rises through the middle.
+    // Beside the axis, which runs through the middle.
     page_.text({0.5 * (from.x + to.x) + 8.0, y - 8.0}, label, SvgPage::Anchor::start);
   }
 
@@ -140,7 +140,7 @@ class Drawing {
   SvgPage page_;
 };
 
-/// Where the pot is widest: the lowest such ring.
+/// The lowest of the widest rings.
 glm::dvec2 widest_point(const ClayStack& stack) {
   const auto rings = stack.rings();
   const auto widest = std::max_element(

@@ -12,16 +12,16 @@ namespace {
 
 const double kSharpestSmoothBend = std::sqrt(3.0) / 2.0;  // cos(30 degrees)
 
-/// In the half-plane, out of the clay, which lies to the left of the band.
+/// The normal in the half-plane that points out of the clay, which lies to the left of the band.
 glm::dvec2 outward(const Shell& shell, const Band& band) {
   const ProfilePoint &from = shell.points[band.from], &to = shell.points[band.to];
   return glm::normalize(glm::dvec2(to.y - from.y, from.rho - to.rho));
 }
 
-/// Normals of a shell in the half-plane, and which of them the two ends of a band have.
+/// Normals of a shell in the half-plane, and those at the two ends of each band.
 struct Normals {
   std::vector<glm::dvec2> all;
-  std::vector<std::array<std::size_t, 2>> of_band;  ///< at from, at to
+  std::vector<std::array<std::size_t, 2>> of_band;  ///< at start and end of the band
 
   explicit Normals(const Shell& shell) : of_band(shell.bands.size()) {
     std::vector<std::size_t> into(shell.points.size(), kNone), out(shell.points.size(), kNone);
@@ -72,7 +72,7 @@ class ShadedObj {
       }
   }
 
-  /// In the order of the rule, which is that of the mesh.
+  /// In the order of RevolveLayout, which is that of the mesh.
   void append_faces(const Shell& shell, const Normals& normals, std::size_t first) {
     const std::size_t n = rule_.segments();
     const auto at = [&](std::size_t normal, std::size_t s) { return first + normal * n + s; };

@@ -7,7 +7,7 @@
 
 namespace clay::solid::inline formats {
 
-/// As `encode_obj(mesh)`, `mesh` being the revolve, with a normal for each corner of a face: that
+/// Like `encode_obj(mesh)` for the mesh of a revolve, with a normal for each corner of a face: that
 /// of the surface of revolution, shared where the profile bends by less than 30 degrees, so that
 /// walls look round and rims stay edges.
 std::string encode_shaded_obj(const RevolveLayout& rule, const TriangleMesh& mesh,

@@ -58,7 +58,7 @@ class StlTextReader {
     return !scanner_.fault();
   }
 
-  /// False after "endsolid" or a fault.
+  /// Returns false after "endsolid" or a fault.
   bool read_facet() {
     const std::string_view keyword = scanner_.word();
     if (equal_ignoring_case(keyword, "endsolid")) return false;
@@ -100,7 +100,7 @@ tl::unexpected<Error> wrong_size(std::uint64_t bytes, std::uint64_t facets, std:
                             " facets it counts, found " + std::to_string(bytes) + " bytes");
 }
 
-/// From behind the prologue.
+/// Reads from the end of the prologue.
 Result<TriangleMesh> read_facets(ByteStream& stream, std::size_t facets, std::string_view name) {
   TriangleMesh mesh = mesh_with_room_for(facets);
   VertexWelder welder(mesh.points, facets);

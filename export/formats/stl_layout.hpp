@@ -1,5 +1,5 @@
 #pragma once
-// Binary STL, byte by byte.
+// Layout of binary STL.
 
 #include "core/little_endian.hpp"
 #include "export/formats/file_floats.hpp"
@@ -17,7 +17,7 @@ inline constexpr std::size_t kHeaderBytes = 80;
 inline constexpr std::size_t kPrologueBytes = kHeaderBytes + 4;
 inline constexpr std::size_t kFacetBytes = 50;
 inline constexpr std::size_t kPointBytes = 12;
-// Must not begin with "solid": careless readers would take the file for text.
+// Must not begin with "solid": simple readers would treat the file as text.
 inline constexpr std::string_view kHeader = "claystack: binary STL, units mm";
 
 using Corners = std::array<glm::vec3, 3>;
@@ -26,7 +26,7 @@ using Corners = std::array<glm::vec3, 3>;
   return kPrologueBytes + kFacetBytes * facets;
 }
 
-/// In double from the corners as written; zero where they span no area, as is the custom.
+/// In double, from the written corners; zero if they span no area, as is usual.
 [[nodiscard]] inline glm::vec3 facet_normal(const Corners& corners) noexcept {
   const glm::dvec3 origin(corners[0]);
   const glm::dvec3 normal =
@@ -59,7 +59,7 @@ inline void store_prologue(char* at, std::size_t facets) noexcept {
   return true;
 }
 
-/// With its two attribute bytes, which are zero.
+/// Includes its two attribute bytes, which are zero.
 inline void store_facet(char* at, const Corners& corners) noexcept {
   store_point(at, facet_normal(corners));
   for (std::size_t i = 0; i < 3; ++i) store_point(at + kPointBytes * (i + 1), corners[i]);

@@ -14,12 +14,12 @@
 namespace clay::solid::inline formats {
 namespace {
 
-// Large enough that a system call costs nothing, small enough to stay in the cache.
+// Large enough to make system calls cheap, small enough for the cache.
 constexpr std::size_t kBlockFacets = 20'000;
-// Below this a second thread costs more than it saves.
+// Below this, a second thread costs more than it saves.
 constexpr std::size_t kFacetsWorthAThread = 200'000;
 
-/// The vertices of a shell in one meridian, as files hold them.
+/// The vertices of a shell in one meridian, as float32.
 using Meridian = std::vector<glm::vec3>;
 
 void fill_meridian(const RevolveLayout& rule, const Shell& shell, std::size_t sector,
@@ -29,7 +29,7 @@ void fill_meridian(const RevolveLayout& rule, const Shell& shell, std::size_t se
     meridian[i] = file_point(rule.vertex(shell.points[i], sector));
 }
 
-/// Calls visit(corners) for each facet of sectors `first` to `last` in the order of the rule.
+/// Calls visit(corners) for each facet of sectors `first` to `last` in the order of the layout.
 template <class Visit>
 void for_each_facet(const RevolveLayout& rule, const Shell& shell, std::size_t first,
                     std::size_t last, Visit visit) {
@@ -46,7 +46,7 @@ void for_each_facet(const RevolveLayout& rule, const Shell& shell, std::size_t f
   }
 }
 
-/// Fills a block while the one before is on its way to the store.
+/// Fills one block while the previous one is written to the store.
 class BlockWriter {
  public:
   explicit BlockWriter(FileStore& store, std::size_t facets)
@@ -94,10 +94,11 @@ class BlockWriter {
   StreamedFile file_;
   ContentHasher hasher_;
   std::optional<Error> failed_;
-  std::future<Result<void>> writing_;  // last: its end waits for what uses the others
+  std::future<Result<void>>
+      writing_;  // last: its destructor waits for work that uses the members above
 };
 
-/// A stretch of sectors of one shell, and where its facets stand in the file.
+/// Some sectors of one shell, and the position of their facets in the file.
 struct Stretch {
   const Shell* shell = nullptr;
   std::size_t first_sector = 0, last_sector = 0;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kPartBytes = std::size_t{4} << 20;
 
-/// part(bytes, offset) for one stretch of `whole` after the other.
+/// Calls part(bytes, offset) for consecutive parts of `whole`.
 template <class Byte, class Part>
 Result<void> in_parts(std::span<Byte> whole, Part part) {
   for (std::size_t at = 0; at < whole.size(); at += kPartBytes) {

@@ -1,5 +1,5 @@
 #pragma once
-// Files as a store holds them, read again.
+// Reads files back from a store.
 
 #include "claystack/core/result.hpp"
 #include "claystack/export/check.hpp"
@@ -20,18 +20,18 @@ namespace clay::solid::inline formats {
   return std::string(verb).append("_").append(name_of(format));
 }
 
-/// For messages.
+/// The format's name for messages.
 [[nodiscard]] inline std::string as_written(MeshFormat format) {
   return std::string(name_of(format)) + " as written";
 }
 
-/// Part by part, so that a job that is given up need not wait for the disk.
+/// Writes in parts, so that a cancelled job does not wait for the disk.
 Result<void> write_in_parts(FileStore& store, const std::string& bytes);
 
-/// What the store holds; where that is gone, what was handed to it.
+/// The bytes in the store; if that cannot be read back, the bytes passed to it.
 Result<std::string> read_again(const FileStore& store, const std::string& written);
 
-/// The whole file, checked as a stranger's would be. Unsound is an error.
+/// Checks the whole file like a foreign one. An unsound file is an error.
 Result<MeshReport> check_stored(const FileStore& store, std::uint64_t bytes, MeshFormat format);
 
 }  // namespace clay::solid::inline formats

@@ -35,7 +35,7 @@ std::string at(glm::dvec2 p) { return px(p.x) + " " + px(p.y); }
 }  // namespace
 
 std::string fixed(double number, int digits) {
-  std::array<char, 400> text{};  // room for the largest double
+  std::array<char, 400> text{};  // enough for the largest double
   const auto end = std::to_chars(text.data(), text.data() + text.size(), number,
                                  std::chars_format::fixed, digits);
   return {text.data(), end.ptr};

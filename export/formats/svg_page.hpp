@@ -1,5 +1,5 @@
 #pragma once
-// A page of SVG: elements in px, y down, in the colours of a drawing of clay.
+// A page of SVG: elements in px, y down, in the colours of section drawings.
 
 #include <glm/vec2.hpp>
 #include <initializer_list>
@@ -10,15 +10,15 @@
 
 namespace clay::solid::inline formats {
 
-/// `number` with that many digits after the point, whatever the locale.
+/// `number` with that many decimals, independent of the locale.
 [[nodiscard]] std::string fixed(double number, int digits);
 
 class SvgPage {
  public:
-  /// With its own background, so that it reads on light and on dark.
+  /// With its own background, for light and dark themes.
   SvgPage(glm::dvec2 size, std::string_view title);
 
-  /// Closed outlines. Styles are named in svg_page.cpp.
+  /// Fills closed outlines. Styles are listed in svg_page.cpp.
   void fill(std::string_view style, const std::vector<std::vector<glm::dvec2>>& outlines);
   void rectangle(std::string_view style, glm::dvec2 corner, glm::dvec2 size);
   void line(std::string_view style, glm::dvec2 from, glm::dvec2 to);
@@ -27,10 +27,10 @@ class SvgPage {
 
   enum class Anchor { start, middle, end };
   void text(glm::dvec2 where, std::string_view words, Anchor anchor);
-  /// Reads upward, its middle at `where`.
+  /// Text that reads upward, centred at `where`.
   void upright_text(glm::dvec2 where, std::string_view words);
 
-  /// The whole document; the page is spent.
+  /// The whole document; do not use the page afterwards.
   [[nodiscard]] std::string finish();
 
  private:

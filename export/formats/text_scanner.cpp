@@ -16,7 +16,7 @@ bool is_blank(char c) noexcept {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
-/// Fit for a message: short, and without what a terminal might obey.
+/// Shortens a word for a message and removes terminal control characters.
 std::string shown(std::string_view word) {
   constexpr std::size_t kLongest = 32;
   if (word.empty()) return "the end of the line or file";
@@ -25,7 +25,7 @@ std::string shown(std::string_view word) {
   return text + (word.size() > kLongest ? "...'" : "'");
 }
 
-/// from_chars takes no '+', text files do.
+/// from_chars accepts no '+', but text files contain it.
 std::string_view without_plus(std::string_view word) noexcept {
   const bool plain_plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
   return plain_plus ? word.substr(1) : word;
@@ -40,8 +40,8 @@ std::optional<Number> parse(std::string_view word) noexcept {
   return value;
 }
 
-/// Straight to float32, as by way of double a decimal may be rounded twice; but what is
-/// too small for float32 is out of its range, and means 0.
+/// Parses directly to float32, because a detour by double may round twice. Values too small for
+/// float32 are out of range for from_chars, and become 0.
 std::optional<float> parse_float(std::string_view word) noexcept {
   if (const auto direct = parse<float>(word)) return direct;
   const auto wide = parse<double>(word);
@@ -63,7 +63,7 @@ TextScanner::TextScanner(ByteStream& text, std::string_view name, LineRule rule)
   check_lines(line_);
 }
 
-/// False where there are none, and `text_` is empty then.
+/// Returns false at the end; `text_` is then empty.
 bool TextScanner::next_lines() {
   if (fault_) return false;
   stream_.take(text_.size());
@@ -74,7 +74,7 @@ bool TextScanner::next_lines() {
     fault_ = stream_.fault();
     text_ = {};
   }
-  // What begins too long a line is kept: it will be found to be one.
+  // Keeps the start of an overlong line, which is then reported as too long.
   if (const std::size_t end = text_.rfind('\n'); more && end != text_.npos)
     text_ = text_.substr(0, end + 1);
   return !text_.empty();
@@ -132,7 +132,7 @@ void TextScanner::skip_blanks() {
   }
 }
 
-/// To the line below, if there is one: the last line keeps its number for messages.
+/// Moves to the next line, if there is one: the last line keeps its number for messages.
 void TextScanner::leave_line(std::size_t newline) {
   at_ = std::min(newline + 1, text_.size());
   if (at_ < text_.size()) {

@@ -1,7 +1,6 @@
 #pragma once
-// Words of a text mesh file, with the line each stands on. The first fault sticks, as in an
-// input stream: after it every read is empty, so that a grammar can be written down straight
-// and asked once at its end whether it held.
+// Splits a text mesh file into words with line numbers. The first fault is kept, as in an input
+// stream: after it every read returns empty, so that a parser can check for errors once at its end.
 
 #include "export/formats/byte_stream.hpp"
 
@@ -24,17 +23,17 @@ class TextScanner {
   /// megabyte before it is there. The stream and the name outlive this.
   TextScanner(ByteStream& text, std::string_view name, LineRule rule);
 
-  /// The next word on this line or a later one; empty at the end of the text. A word is gone when
-  /// the next is asked for.
+  /// The next word on this line or a later one; empty at the end of the text. The view is valid
+  /// until the next read.
   std::string_view word();
   /// The next word on this line; empty at its end.
   std::string_view word_in_line();
   void skip_line();
-  /// As `skip_line`, but a backslash at the end does not continue a comment: a path in it
-  /// may end so, and would swallow the line below.
+  /// Like `skip_line`, but a backslash does not continue a comment: a path in a comment may end
+  /// with one, and would hide the next line.
   void skip_comment();
 
-  /// Case does not matter, as writers differ in it.
+  /// Ignores case, because writers differ.
   void expect(std::string_view keyword);
   double finite_number(std::string_view word);
   float coordinate(std::string_view word);
@@ -55,7 +54,7 @@ class TextScanner {
   [[nodiscard]] std::size_t continuation_length() const noexcept;
 
   ByteStream& stream_;
-  std::string_view text_;  ///< whole lines, as many as are in memory
+  std::string_view text_;  ///< the complete lines in memory
   std::string_view name_;
   LineRule rule_;
   std::size_t at_ = 0;
@@ -63,7 +62,7 @@ class TextScanner {
   std::optional<Error> fault_;
 };
 
-/// ASCII only, so that no locale plays a part.
+/// ASCII only, independent of the locale.
 [[nodiscard]] bool equal_ignoring_case(std::string_view word, std::string_view lower) noexcept;
 
 }  // namespace clay::solid::inline formats

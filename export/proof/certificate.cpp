@@ -50,8 +50,8 @@ Result<void> check_points(const Polygon& polygon, std::size_t piece) {
   return {};
 }
 
-/// Counts the stretches of a polygon along the axis. A vertex on the axis without one is a
-/// pinch: the solid would hang together by a point.
+/// Counts the parts of a polygon along the axis. A vertex on the axis without an axis edge is a
+/// pinch: the solid would be connected by a point only.
 Result<std::size_t> check_axis(const Polygon& polygon, std::size_t piece) {
   std::size_t segments = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -66,7 +66,7 @@ Result<std::size_t> check_axis(const Polygon& polygon, std::size_t piece) {
   return segments;
 }
 
-/// An edge from `vertex` of `piece` to the vertex after it.
+/// The edge from `vertex` of `piece` to the next vertex.
 struct Edge {
   double bottom = 0.0;
   double top = 0.0;
@@ -74,7 +74,7 @@ struct Edge {
   std::size_t vertex = 0;
 };
 
-/// Merges runs in order, two by two. Walls rise and bores fall, so there are few of them.
+/// Merges sorted runs pairwise. Walls rise and bores fall, so there are few runs.
 void merge_runs(std::vector<Edge>& edges, std::vector<std::size_t> ends) {
   const auto lower = [](const Edge& a, const Edge& b) { return a.bottom < b.bottom; };
   std::vector<Edge> merged;
@@ -129,11 +129,11 @@ std::vector<Edge> edges_by_height(const Profile& profile) {
   return edges;
 }
 
-// Sections of stacks have a handful. More would cost the square of their number.
+// Sections of stacks have few. The cost is quadratic in this number.
 constexpr std::size_t kMostAbreast = 1000;
 
-/// A sweep from the bottom up. An edge is held against those that reach its lower end, which for
-/// the section of a stack are never more than a handful: the sweep costs no more than the sort.
+/// A sweep from the bottom up. An edge is compared with those that reach its lower end; for the
+/// section of a stack these are few, so the sweep costs no more than the sort.
 class UpwardSweep {
  public:
   explicit UpwardSweep(const Profile& profile)
@@ -176,8 +176,8 @@ class UpwardSweep {
            after(first.vertex, profile_.pieces[first.piece].size()) == second.vertex;
   }
 
-  /// Consecutive edges share a vertex by right. Where they fold back onto each other, one of them
-  /// also meets the edge beyond, or there is none and the polygon is a triangle without a turn.
+  /// Consecutive edges share a vertex. Where they fold back onto each other, one of them also meets
+  /// the next edge, or there is none and the polygon is a degenerate triangle.
   bool meet(const Edge& a, const Edge& b) const {
     if (follows(a, b) || follows(b, a)) return false;
     const auto [a_near, a_far] = std::minmax({from(a).rho, to(a).rho});
@@ -187,8 +187,8 @@ class UpwardSweep {
                               Kernel::Segment_2(exact(from(b)), exact(to(b))));
   }
 
-  /// Whether `p`, a lowest vertex of its piece, lies in another: parity of the edges between it
-  /// and the axis. Edges count without their lower end, so a vertex on the ray counts once.
+  /// Whether `p`, a lowest vertex of its piece, lies in another piece: parity of the edges between
+  /// it and the axis. Edges count without their lower end, so a vertex on the ray counts once.
   bool inside_another(const ProfilePoint& p) const {
     const auto left_of_p = [&](const Edge& edge) {
       return edge.bottom < p.y && CGAL::orientation(exact(lower_end(edge)), exact(upper_end(edge)),
@@ -210,11 +210,11 @@ class UpwardSweep {
   }
 
   const Profile& profile_;
-  std::vector<Edge> reached_;  ///< begun, and not ended below the edge in hand
+  std::vector<Edge> reached_;  ///< begun, and not ended below the current edge
   std::vector<bool> entered_;  ///< by piece
 };
 
-/// For a simple polygon the turn at its least vertex tells.
+/// The turn at the smallest vertex of a simple polygon gives its orientation.
 Result<void> check_counterclockwise(const Polygon& polygon, std::size_t piece) {
   const auto least = std::min_element(
       polygon.begin(), polygon.end(),

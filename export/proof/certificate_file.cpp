@@ -30,8 +30,8 @@ Json profile_json(const Profile& profile) {
   return pieces;
 }
 
-/// Takes the points out of the parser's hands one by one: its own structures would hold six times
-/// the memory. What is no profile stops it, so that no file costs more than its points.
+/// Takes the points from the parser one by one, because its own structures need six times the
+/// memory. Stops at an invalid profile, so that no file costs more than its points.
 class ProfileReader {
  public:
   explicit ProfileReader(Profile& profile) : profile_(profile) {}
@@ -81,7 +81,7 @@ class ProfileReader {
   JsonLimits limits_{kNumberDepth, kSchema};
   Profile& profile_;
   std::array<double, 2> point_{};
-  std::size_t count_ = 0;  ///< numbers of the point in hand
+  std::size_t count_ = 0;  ///< numbers of the current point
   std::size_t points_ = 0;
 };
 
@@ -92,7 +92,7 @@ Proof proof_from(const Json& json) {
   throw BadField("proof: expected margins or exact_test, found " + shown(name));
 }
 
-/// All but the profile.
+/// Reads everything except the profile.
 SolidCertificate from_json(const Json& json) {
   expect_schema(json, kSchema);
   expect_only(json, {"schema", "written_by", "claim", "format", "bytes", "content_hash",
@@ -142,7 +142,7 @@ std::string write_certificate(const SolidCertificate& c) {
                        {"volume_mm3", c.volume_mm3},
                        {"volume_bound_mm3", c.volume_bound_mm3},
                        {"counted_volume_mm3", c.counted_volume_mm3}};
-  // The profile on one line, the fields that people read on lines of their own.
+  // The profile on one line, the fields for people on separate lines.
   std::string text = fields.dump(1, ' ', false, Json::error_handler_t::replace);
   text.resize(text.rfind('\n'));
   return text + ",\n \"profile_mm\": " + profile_json(c.profile).dump() + "\n}\n";

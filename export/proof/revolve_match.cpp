@@ -19,7 +19,7 @@
 namespace clay::solid::inline proof {
 namespace {
 
-/// A vertex of the rule; sector 0 for poles.
+/// A vertex of the layout; sector 0 for poles.
 struct VertexName {
   std::uint32_t shell = 0, point = 0, sector = 0;
 };
@@ -28,16 +28,16 @@ std::string place(const glm::dvec3& p) {
   return std::string("(") + in_mm(p.x) + ", " + in_mm(p.y) + ", " + in_mm(p.z) + ") mm";
 }
 
-/// A circle or a pole of a revolve: where it goes through the half-plane of a sector.
+/// A circle or a pole of a revolve: its point in the half-plane of a sector.
 struct Parallel {
   std::array<double, 2> at{};  ///< distance from the axis, height [mm]
   std::uint32_t shell = 0, point = 0;
-  std::size_t split = 0;  ///< the coordinate that parts the stretch of which this is the middle
+  std::size_t split = 0;  ///< the coordinate that divides the part of which this is the median
 };
 
-/// The vertices of a revolve, found in logarithmic time wherever they lie: the parallels as a
-/// k-d tree, every stretch with its median in the middle. Distances are from the vertices in
-/// float32, so that files which hold just these are matched however close the vertices lie.
+/// Finds vertices of a revolve in logarithmic time: a k-d tree of the parallels, with the median of
+/// every part in its middle. Distances are to the vertices in float32, so that files that hold
+/// exactly these are matched for any vertex spacing.
 class VertexFinder {
  public:
   VertexFinder(const RevolveLayout& rule, double reach_mm)
@@ -51,7 +51,7 @@ class VertexFinder {
     sort(parallels_);
   }
 
-  /// The nearest vertex within reach; the largest of the distances is kept in `farthest`.
+  /// The nearest vertex within reach; keeps the largest distance in `farthest`.
   std::optional<VertexName> find(const glm::dvec3& p) {
     const double steps =
         std::atan2(p.y, p.x) * static_cast<double>(rule_.segments()) / (2.0 * std::numbers::pi);
@@ -73,7 +73,7 @@ class VertexFinder {
  private:
   struct Search {
     glm::dvec3 p;
-    std::array<double, 2> at{};  ///< of p, as in `Parallel`
+    std::array<double, 2> at{};  ///< of p, like Parallel::at
     std::size_t sector = 0;
     const Parallel* nearest = nullptr;
     double away = std::numeric_limits<double>::infinity();
@@ -83,7 +83,7 @@ class VertexFinder {
     return rule_.vertex(rule_.shells()[parallel.shell].points[parallel.point], sector);
   }
 
-  /// Parts it where it is longer.
+  /// Splits along the longer side.
   static void sort(std::span<Parallel> stretch) {
     if (stretch.size() < 2) return;
     step_of_loop();
@@ -117,12 +117,12 @@ class VertexFinder {
 
   const RevolveLayout& rule_;
   double reach_;
-  double rounding_;  ///< more than a vertex moves when it becomes float32
+  double rounding_;  ///< upper bound of a vertex's displacement by float32
   std::vector<Parallel> parallels_;
   double farthest_ = 0.0;
 };
 
-/// Ticks off the triangles of the rule.
+/// Marks the triangles of the layout that were found.
 class Roll {
  public:
   explicit Roll(const RevolveLayout& rule) : rule_(rule) {
@@ -136,7 +136,7 @@ class Roll {
     present_.resize(next, false);
   }
 
-  /// Whether these corners, in this turn, are a triangle of the rule not met before.
+  /// Whether these corners, in this orientation, are a triangle of the layout not found before.
   bool tick(std::array<VertexName, 3> corners) {
     for (int turn = 0; turn < 3; ++turn) {
       if (const auto place = place_of(corners); place && !present_[*place]) {
@@ -151,7 +151,7 @@ class Roll {
  private:
   static constexpr std::size_t kNone = SIZE_MAX;
 
-  /// For corners that begin as the rule has it: at `from`.
+  /// For corners in the order of the layout, starting at `from`.
   std::optional<std::size_t> place_of(const std::array<VertexName, 3>& c) const {
     if (c[1].shell != c[0].shell || c[2].shell != c[0].shell) return std::nullopt;
     const Shell& shell = rule_.shells()[c[0].shell];
@@ -161,7 +161,7 @@ class Roll {
     const bool lower = c[1].point == from && c[2].point == to && !shell.pole(from);
     const bool upper = c[1].point == to && c[2].point == to && !shell.pole(to);
     if (!lower && !upper) return std::nullopt;
-    // A pole has no sector of its own; in either kind one corner beside it tells.
+    // A pole has no sector; in both kinds of triangle another corner gives it.
     const std::size_t s = upper ? c[2].sector : c[0].sector;
     const std::size_t next = s + 1 < rule_.segments() ? s + 1 : 0;
     const auto in = [&](const VertexName& v, std::size_t sector) {
@@ -187,7 +187,7 @@ Result<double> match_revolve(const TriangleMesh& decoded, const RevolveLayout& r
   if (decoded.triangles.size() != rule.triangles())
     return wrong("expected " + std::to_string(rule.triangles()) + " triangles, found " +
                  std::to_string(decoded.triangles.size()));
-  // As many points as vertices: then no vertex is there twice, for every one bears triangles.
+  // The counts agree: so no vertex occurs twice, because every vertex has triangles.
   if (decoded.points.size() != rule.vertices())
     return wrong("expected " + std::to_string(rule.vertices()) + " points, found " +
                  std::to_string(decoded.points.size()));

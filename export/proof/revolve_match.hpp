@@ -1,5 +1,5 @@
 #pragma once
-// Is a decoded mesh the revolve it claims to be? Whatever the order of its points and triangles.
+// Checks whether a decoded mesh is a given revolve, for any order of its points and triangles.
 
 #include "claystack/core/result.hpp"
 #include "claystack/export/solid.hpp"
@@ -9,11 +9,11 @@
 
 namespace clay::solid::inline proof {
 
-/// Finds for every point the vertex of the revolve within `reach_mm` of it, and for every triangle
-/// its place in the rule; each place must be taken exactly once. Vertices must stand more than two
-/// reaches apart (see `Margins`), or the points be the vertices in float32, no two alike. Returns
-/// the largest distance [mm] of a point from its vertex. Errors (kind `unsound`) begin with `name`
-/// and say which point or triangle has no place.
+/// Finds for every point the vertex of the revolve within `reach_mm`, and for every triangle its
+/// place in the layout; each place must occur exactly once. Requires vertices more than two reaches
+/// apart (see `Margins`), or points that are exactly the float32 vertices, without duplicates.
+/// Returns the largest distance [mm] of a point from its vertex. Errors (kind `unsound`) begin with
+/// `name` and name the point or triangle without a place.
 Result<double> match_revolve(const TriangleMesh& decoded, const RevolveLayout& rule,
                              double reach_mm, std::string_view name);
 

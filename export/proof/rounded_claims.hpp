@@ -4,7 +4,7 @@
 
 namespace clay::solid::inline proof {
 
-/// The claims on a solid before any rounding, widened for one: for several files of one solid.
+/// Widens the claims on a solid before rounding by one rounding: for several files of one solid.
 SolidCertificate with_rounding(SolidCertificate claims, const RevolveLayout& rule,
                                double rounding_mm);
 

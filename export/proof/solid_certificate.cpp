@@ -39,9 +39,9 @@ ContentHash hash_of_profile(const Profile& profile) {
   return hasher.digest();
 }
 
-/// Moving every vertex by `rounding` along straight lines, the volume changes at a rate of at most
-/// `rounding` times the area; and an area |u x v| / 2 grows by at most
-/// rounding (|u| + |v|) + 2 rounding^2, since either edge grows by at most twice the rounding.
+/// If every vertex moves by at most `rounding` along a straight line, the volume changes at a rate
+/// of at most `rounding` times the area; an area |u x v| / 2 grows by at most rounding (|u| + |v|)
+/// + 2 rounding^2, because each edge grows by at most twice the rounding.
 double volume_bound(const RevolveLayout& rule, double rounding) {
   const auto n = static_cast<double>(rule.segments());
   const double chord_per_radius =
@@ -58,8 +58,8 @@ double volume_bound(const RevolveLayout& rule, double rounding) {
   return rounding * area.value();
 }
 
-/// The least of the factors by which the sections of an n-gon revolve scale rho, in the middle of
-/// its facets; at their sides it is the equal-volume factor.
+/// The smallest factor by which sections of an n-gon revolve scale rho, in the middle of its
+/// facets; at their sides the factor is the equal-volume factor.
 double scale_at_facets(std::size_t segments) {
   return std::min(1.0, equal_area_factor(segments) *
                            std::cos(std::numbers::pi / static_cast<double>(segments)));
@@ -78,14 +78,14 @@ tl::unexpected<Error> wrong(std::string_view file, std::string_view claim,
 
 Result<void> same_number(std::string_view file, std::string_view claim, double stated, double found,
                          double slack = 0.0) {
-  // Another compiler's libm may differ in the last bits.
+  // The libm of another compiler may differ in the last bits.
   if (std::abs(stated - found) <= 1e-9 * std::abs(found) + slack) return {};
   return wrong(file, claim, in_mm(stated), in_mm(found));
 }
 
-/// What a profile's volume [mm^3] may differ by from the counted clay: two walls by pi H step^2
-/// each where steps below 2^-19 of the reach are levelled, and an ulp or two of the full cylinder,
-/// which is much to walls that hold next to nothing.
+/// Permitted difference of a profile's volume [mm^3] from the counted clay: two walls by pi H
+/// step^2 each where steps below 2^-19 of the reach are levelled, and one or two ulp of the full
+/// cylinder, which matters for very thin walls.
 double counting_slack(const Profile& profile) {
   double radius = 0.0, low = 0.0, high = 0.0;
   for (const Polygon& polygon : profile.pieces)
@@ -98,7 +98,7 @@ double counting_slack(const Profile& profile) {
   return std::numbers::pi * (high - low) * (2.0 * step * step + std::ldexp(radius * radius, -50));
 }
 
-/// What costs no more than a look at each byte.
+/// The checks that are as cheap as reading the bytes.
 Result<void> same_bytes(const SolidCertificate& stated, std::string_view bytes,
                         std::string_view file) {
   if (stated.bytes != bytes.size())
@@ -112,7 +112,7 @@ Result<void> same_bytes(const SolidCertificate& stated, std::string_view bytes,
   return {};
 }
 
-/// Before any work on the profile: then that is no larger than the file itself.
+/// Checked before the profile is processed: afterwards that is no larger than the file.
 Result<void> same_count(const SolidCertificate& stated, const TriangleMesh& decoded,
                         std::string_view file) {
   const std::size_t triangles = triangle_count(stated.profile, stated.segments);
@@ -121,7 +121,7 @@ Result<void> same_count(const SolidCertificate& stated, const TriangleMesh& deco
                std::to_string(decoded.triangles.size()));
 }
 
-/// The margins, which the proof may rest on.
+/// Returns the margins for the proof.
 Result<Margins> same_claims(const SolidCertificate& stated, std::string_view file) {
   const SolidCertificate found = claims_of(stated.profile, stated.segments, stated.rounding_mm);
   const auto same = [&](std::string_view claim, double SolidCertificate::*member) {

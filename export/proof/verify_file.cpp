@@ -13,7 +13,7 @@
 namespace clay::solid::inline proof {
 namespace {
 
-/// Largest move of a corner [mm] in formats that keep the order of triangles and corners.
+/// Largest displacement of a corner [mm] in formats that keep the order of triangles and corners.
 double corner_distance(const TriangleMesh& mesh, const TriangleMesh& decoded) {
   double largest = 0.0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -49,7 +49,7 @@ Result<double> verify_file(std::string_view bytes, MeshFormat format, const Tria
     return wrong("expected vertices within " + in_mm(allowed_mm) + " mm of their places, found " +
                  in_mm(moved) + " mm");
   if (reordered) {
-    // Its points are not the ones that were checked before encoding.
+    // The decoded points differ from those checked before encoding.
     const MeshReport check = check_mesh(*decoded);
     if (!check.sound()) return wrong("found " + describe(check.problems.front()));
   } else {

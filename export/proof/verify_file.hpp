@@ -1,5 +1,5 @@
 #pragma once
-// Encoded bytes held against the mesh they were made of.
+// Compares encoded bytes with the mesh they were made from.
 
 #include "claystack/core/result.hpp"
 #include "claystack/export/formats.hpp"
@@ -9,11 +9,12 @@
 
 namespace clay::solid::inline proof {
 
-/// What float32 may move a vertex [mm]: half an ulp of each coordinate, 2^-24 of it at most.
+/// Maximum displacement of a vertex by float32 [mm]: half an ulp per coordinate, at most 2^-24 of
+/// it.
 [[nodiscard]] double float_rounding_mm(const TriangleMesh& mesh) noexcept;
 
-/// Reads the bytes back and returns the largest move of a vertex [mm]. An error (`unsound`) when
-/// triangles are missing, the surface is no closed manifold any more or crosses itself, or a
+/// Reads the bytes back and returns the largest displacement of a vertex [mm]. An error (`unsound`)
+/// if triangles are missing, the surface is no longer a closed manifold or intersects itself, or a
 /// vertex moved farther than allowed.
 Result<double> verify_file(std::string_view bytes, MeshFormat format, const TriangleMesh& mesh,
                            double allowed_mm);

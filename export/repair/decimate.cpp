@@ -18,7 +18,7 @@ namespace {
 
 namespace om = OpenMesh::Decimater;
 
-/// Rounding makes some errors of flat places negative, which OpenMesh would take for forbidden.
+/// Rounding makes some errors of flat places negative, which OpenMesh treats as forbidden.
 class Quadric : public om::ModQuadricT<HalfEdgeMesh> {
  public:
   using Self = Quadric;
@@ -46,7 +46,7 @@ bool is_closed_manifold(const TriangleMesh& mesh) {
          !topology.collapsed.found();
 }
 
-/// About the middle, so that the quadrics lose no digits to the distance from the origin.
+/// Relative to the middle, so that distance from the origin costs the quadrics no digits.
 glm::dvec3 middle_of(const TriangleMesh& mesh) {
   glm::dvec3 sum(0.0);
   for (const glm::dvec3& p : mesh.points) sum += p / static_cast<double>(mesh.points.size());
@@ -68,8 +68,8 @@ void collapse_edges(HalfEdgeMesh& mesh, std::size_t max_triangles) {
   decimater.decimate_to_faces(0, max_triangles);
 }
 
-/// The triangles that are left, on the points of the source: half-edge meshes number vertices by
-/// first use.
+/// The remaining triangles, on the points of the source: half-edge meshes number vertices by first
+/// use.
 TriangleMesh remaining(const HalfEdgeMesh& mesh, const TriangleMesh& source) {
   std::vector<bool> seen(source.points.size(), false);
   std::vector<std::uint32_t> source_of;

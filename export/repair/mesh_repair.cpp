@@ -36,7 +36,7 @@ Corners corners_of(const Surface& surface, Face face) {
           surface.point(surface.target(surface.next(h)))};
 }
 
-/// The same three different corners, the other way round.
+/// The same three distinct corners in opposite orientation.
 bool turned(const Corners& before, const Corners& after) {
   const auto first = std::find(after.begin(), after.end(), before[0]) - after.begin();
   return after[static_cast<std::size_t>(first + 1) % 3] != before[1];
@@ -52,8 +52,8 @@ struct Shells {
   std::size_t count;
 };
 
-/// Half-edges for a clean soup, with neighbours agreeing; each shell keeps the way round of most
-/// of its triangles.
+/// Half-edges for a clean soup with consistent orientation; each shell keeps the orientation of
+/// most of its triangles.
 class HalfEdgeRepair {
  public:
   HalfEdgeRepair(const TriangleMesh& soup, std::vector<Repair>& repaired) : repaired_(repaired) {
@@ -87,7 +87,7 @@ class HalfEdgeRepair {
     before.reserve(triangles_.size());
     for (const auto& [a, b, c] : triangles_) before.push_back({points_[a], points_[b], points_[c]});
     pmp::orient_polygon_soup(points_, triangles_);
-    // Half-edges of anything else would be built from indices that do not exist.
+    // Half-edges of any other soup would have invalid indices.
     if (!pmp::is_polygon_soup_a_polygon_mesh(triangles_)) return false;
     pmp::polygon_soup_to_polygon_mesh(points_, triangles_, surface_);
     turn_back(before);
@@ -113,7 +113,7 @@ class HalfEdgeRepair {
     note_repair(repaired_, "triangle turned", count);
   }
 
-  /// A triangle by itself encloses nothing, nor would its back.
+  /// A single triangle encloses nothing, even with a back face.
   void drop_lone_triangles() {
     std::vector<Face> lone;
     for (const Face face : surface_.faces()) {

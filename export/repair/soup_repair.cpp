@@ -38,7 +38,7 @@ void renumber(TriangleMesh& mesh, const std::vector<std::uint32_t>& number) {
     for (std::uint32_t& v : t) v = number[v];
 }
 
-/// Points are finite.
+/// Requires finite points.
 void merge_equal_points(TriangleMesh& mesh, std::vector<Repair>& repaired) {
   const auto place = [&](std::uint32_t v) {
     const glm::dvec3& p = mesh.points[v];
@@ -70,7 +70,7 @@ struct Edge {
   }
 };
 
-/// visit(edges) for each edge of the mesh: one entry for each of its triangles, rising.
+/// Calls visit(edges) for each edge of the mesh: one entry per triangle, in ascending order.
 template <class Visit>
 void for_each_edge(const TriangleMesh& mesh, const Visit& visit) {
   std::vector<Edge> all;
@@ -91,14 +91,14 @@ void for_each_edge(const TriangleMesh& mesh, const Visit& visit) {
   }
 }
 
-/// Points of a border by cells as wide as a crack. Only the first point of a cell stands for it:
-/// no file can fill a cell so that the search gets slow.
+/// Border points in cells as wide as a crack. Only the first point of a cell is stored, so no file
+/// can make the search slow.
 class CrackCells {
  public:
   CrackCells(const std::vector<glm::dvec3>& points, double crack_mm)
       : points_(points), crack_mm_(crack_mm) {}
 
-  /// A point seen before that lies within a crack's width; else this one, which is kept.
+  /// An earlier point within a crack's width; otherwise this one, which is stored.
   std::uint32_t first_near(std::uint32_t vertex) {
     const Cell home = cell_of(points_[vertex]);
     for (int x = -1; x <= 1; ++x)
@@ -154,11 +154,11 @@ void weld_cracks(TriangleMesh& mesh, std::vector<Repair>& repaired) {
   note_repair(repaired, "points welded across a crack", welded);
 }
 
-/// Whether the corners go round as their sorted numbers do.
+/// Whether the orientation of the corners is that of their sorted numbers.
 bool rises(const Triangle& t) { return (t[0] < t[1]) == (t[1] < t[2]) ? t[0] < t[1] : t[2] < t[0]; }
 
-/// Of triangles on the same vertices one stays where more go round one way than the other; where
-/// as many go either way they lie back to back, and none stays.
+/// Of triangles on the same vertices one is kept if one orientation prevails; if both are equally
+/// frequent they lie back to back, and none is kept.
 void drop_duplicates(TriangleMesh& mesh, std::vector<Repair>& repaired) {
   const auto key = [&](std::uint32_t t) {
     Triangle sorted = mesh.triangles[t];
@@ -189,7 +189,7 @@ void drop_duplicates(TriangleMesh& mesh, std::vector<Repair>& repaired) {
   note_repair(repaired, "triangle back to back with another removed", back_to_back);
 }
 
-/// Triangles joined by edges of two, as sets with their least triangle for a name.
+/// Triangles joined by edges of two triangles, as sets named by their smallest triangle.
 class Sheets {
  public:
   explicit Sheets(const TriangleMesh& mesh)
@@ -218,7 +218,7 @@ class Sheets {
   std::vector<bool> open_;
 };
 
-/// A fin is the one open sheet that ends at an edge of three, where the surface goes on without it.
+/// A fin is the only open sheet at an edge of three triangles; the other two continue the surface.
 std::size_t drop_fins_once(TriangleMesh& mesh) {
   Sheets sheets(mesh);
   std::vector<bool> fin(mesh.triangles.size(), false);  // by sheet
@@ -237,7 +237,7 @@ std::size_t drop_fins_once(TriangleMesh& mesh) {
 }
 
 void drop_fins(TriangleMesh& mesh, std::vector<Repair>& repaired) {
-  // A fin may stand on a fin.
+  // A fin may stand on another fin.
   constexpr int kMostRounds = 8;
   std::size_t dropped = 0;
   for (int round = 0; round < kMostRounds; ++round) {

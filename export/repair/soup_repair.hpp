@@ -1,5 +1,5 @@
 #pragma once
-// The part of a repair that needs no half-edges: which triangles stay, and on which points.
+// The part of a repair that needs no half-edges: selects triangles and points.
 
 #include "claystack/export/repair.hpp"
 
@@ -7,14 +7,14 @@
 
 namespace clay::solid::inline repair {
 
-/// One entry for each kind, none for a count of 0.
+/// Adds one entry for each kind; none for a count of 0.
 void note_repair(std::vector<Repair>& repaired, std::string_view what, std::size_t count);
 
-/// Keeps the points that triangles use, in their order. Indices are in range.
+/// Keeps the used points, in their order. Requires indices in range.
 void drop_unused_points(TriangleMesh& mesh);
 
-/// Drops and welds until every triangle has three points of its own and no two triangles are the
-/// same; takes fins off. Points that no triangle uses go too.
+/// Removes and welds until every triangle has three distinct points and no two triangles are equal;
+/// removes fins and unused points.
 void clean_soup(TriangleMesh& mesh, std::vector<Repair>& repaired);
 
 }  // namespace clay::solid::inline repair

@@ -10,17 +10,17 @@ struct LineEdge {
   ProfilePoint from, to;
 };
 
-/// A line of a section in boxes of boxes, in the order of the line, to find what is near. Edges
+/// A line of a section in a tree of boxes, in the order of the line, for proximity queries. Edges
 /// along the axis make no surface and are left out.
 class LineTree {
  public:
   explicit LineTree(const Polygon& line);
 
-  /// Squared distance [mm^2] of the nearest edge to `edge`, or `bound2` where none is nearer. 0
-  /// where they cross.
+  /// Squared distance [mm^2] of the nearest edge to `edge`, or `bound2` if none is nearer. 0 if
+  /// they intersect.
   [[nodiscard]] double nearest2(const LineEdge& edge, double bound2) const;
 
-  /// The same of the nearest two edges, one of each line.
+  /// The same for the nearest pair of edges, one of each line.
   [[nodiscard]] double nearest2(const LineTree& other, double bound2) const;
 
  private:

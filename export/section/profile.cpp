@@ -22,7 +22,7 @@ tl::unexpected<Error> touching_in_a_circle(const ClayStack& stack, std::size_t u
                      in_mm(std::min(below.outer_mm(), above.outer_mm())) + " mm only");
 }
 
-/// The stretches of a piece whose rings all have a bore.
+/// The parts of a piece in which all rings have a bore.
 std::vector<RingRange> bores_of(const ClayStack& stack, RingRange piece) {
   std::vector<RingRange> bores;
   for (std::size_t i = piece.first; i <= piece.last; ++i) {

@@ -9,7 +9,7 @@
 namespace clay::solid::inline section {
 namespace {
 
-/// A line right of the axis and its mirror image, joined into one outline.
+/// Joins a line right of the axis and its mirror image into one outline.
 Outline mirrored(const Polygon& line) {
   Outline outline;
   for (const ProfilePoint& p : line) outline.emplace_back(p.rho, p.y);
@@ -17,7 +17,7 @@ Outline mirrored(const Polygon& line) {
   return outline;
 }
 
-/// Chains that end on the axis close with their mirror images, so that no seam shows there.
+/// Lines that end on the axis are joined with their mirror images, so that no seam shows there.
 void add_cut(SectionBody& body, const Polygon& section) {
   for (const Chain& chain : chains_of(section)) {
     Polygon line;
@@ -53,7 +53,7 @@ SectionBody crown_of(const ClayStack& stack) {
   return body;
 }
 
-/// What stands: the crown is not on it any more.
+/// The standing part, without the crown.
 SectionBody standing(const ClayStack& stack, std::size_t failed) {
   const auto end = stack.rings().begin() + static_cast<std::ptrdiff_t>(failed) + 1;
   return ClayStack::from_rings(stack.ring_height_mm(), {stack.rings().begin(), end}, 0)
@@ -63,7 +63,7 @@ SectionBody standing(const ClayStack& stack, std::size_t failed) {
       .value_or(SectionBody{});
 }
 
-/// Of the plane through the pot's axis across the axis of the fall, the HIP to the right.
+/// The view along the axis of rotation of the collapse, with the HIP to the right.
 class FallView {
  public:
   explicit FallView(const Collapse& collapse)
@@ -81,7 +81,7 @@ class FallView {
   FallenPlace place_;
 };
 
-/// As it stood; none where no clay was above the failed ring.
+/// Before the collapse; empty if no clay was above the failed ring.
 std::vector<SectionBody> upper_part(const Pot& pot) {
   const std::size_t first = pot.collapse->failed_ring + 1;
   if (first < pot.stack.size()) return {body_of(pot.stack, {first, pot.stack.size() - 1})};

@@ -1,5 +1,5 @@
 #pragma once
-// What a knife along the axis shows of a pot: one rigid body, or two where it fell.
+// The section of a pot along its axis: one rigid body, or two after a collapse.
 
 #include "claystack/engine/clay.hpp"
 
@@ -12,16 +12,17 @@ using Outline = std::vector<glm::dvec2>;  // (right, up) in mm, seen along the c
 
 /// One rigid body as the section view shows it.
 struct SectionBody {
-  std::vector<Outline> cut;     ///< the clay that the knife met: fill by the even-odd rule
-  std::vector<Outline> beyond;  ///< the half behind, whose bore shows
+  std::vector<Outline> cut;     ///< cut faces: fill by the even-odd rule
+  std::vector<Outline> beyond;  ///< the half behind the cut, with the visible bore
   Outline axis;
 };
 
-/// The pot, or what stands and what fell. A fall is cut in its own plane, the HIP to the right.
+/// The pot, or its standing and fallen parts. A collapsed pot is cut in the plane of its motion,
+/// with the HIP to the right.
 [[nodiscard]] std::vector<SectionBody> bodies_of(const Pot& pot);
 
-/// Where the fallen part was as the pot failed, and when the first, the second and the third
-/// quarter of the energy was lost: outlines. None where the fall is not known.
+/// Outlines of the fallen part when the pot failed, and after a quarter, half and three quarters of
+/// the energy was lost. Empty if the motion is unknown.
 [[nodiscard]] std::vector<Outline> ghosts_of(const Pot& pot);
 
 }  // namespace clay::solid::inline section

@@ -9,8 +9,8 @@
 namespace clay::solid::inline section {
 namespace {
 
-/// How far past the last point that would do the search goes on, beyond the length found so far:
-/// this bounds the whole cost to a multiple of the points.
+/// The search continues this far past the last valid point, beyond the length found so far: this
+/// bounds the total cost to a multiple of the points.
 constexpr std::size_t kLookAhead = 32;
 
 struct Direction {
@@ -20,13 +20,13 @@ struct Direction {
 double cross(const Direction& a, const Direction& b) { return a.rho * b.y - a.y * b.rho; }
 double dot(const Direction& a, const Direction& b) { return a.rho * b.rho + a.y * b.y; }
 
-/// The directions from an apex that pass every point met so far within the tolerance.
+/// The directions from an apex that pass every point so far within its tolerance.
 class Cone {
  public:
   explicit Cone(const ProfilePoint& apex) : apex_(apex) {}
 
-  /// An edge from the apex to `p` would pass all points added within the tolerance. Since no
-  /// point added is farther from the apex, their nearest points on the line are on the edge.
+  /// Whether an edge from the apex to `p` passes all added points within their tolerances. No added
+  /// point is farther from the apex, so their nearest points on the line are on the edge.
   [[nodiscard]] bool allows(const ProfilePoint& p) const {
     const Direction way{p.rho - apex_.rho, p.y - apex_.y};
     if (std::sqrt(dot(way, way)) < farthest_) return false;
@@ -34,7 +34,7 @@ class Cone {
            (dot(middle_, way) > 0.0 && cross(low_, way) >= 0.0 && cross(way, high_) >= 0.0);
   }
 
-  /// False when no direction is left.
+  /// Returns false when no direction is left.
   bool add(const ProfilePoint& p, double tolerance_mm) {
     Direction way{p.rho - apex_.rho, p.y - apex_.y};
     const double length = std::sqrt(dot(way, way));
@@ -49,7 +49,7 @@ class Cone {
       middle_ = way, low_ = low, high_ = high;
       return true;
     }
-    // Points at right angles to the first, seen from the apex, are given up: then all that can
+    // Gives up on points at right angles to the first, seen from the apex: then everything that can
     // narrow the cone lies within a right angle of its middle, and the signs below decide.
     if (dot(middle_, way) <= 0.0) return false;
     if (dot(middle_, low) > 0.0 && cross(low_, low) > 0.0) low_ = low;
@@ -59,7 +59,7 @@ class Cone {
 
  private:
   ProfilePoint apex_;
-  bool open_ = true;  ///< no point has narrowed it yet
+  bool open_ = true;  ///< not yet narrowed by a point
   Direction middle_, low_, high_;
   double farthest_ = 0.0;
 };

@@ -10,7 +10,7 @@ namespace {
 
 using Radius = double (Ring::*)() const noexcept;
 
-/// Neighbouring rings of one radius, whose wall is straight.
+/// Neighbouring rings of equal radius, whose wall is straight.
 struct Run {
   double radius = 0.0;
   double bottom = 0.0;
@@ -30,7 +30,7 @@ std::vector<Run> runs_of(const ClayStack& stack, RingRange piece, Radius radius_
   return runs;
 }
 
-/// Where two runs may meet so that, to first order, the one gains the clay that the other loses.
+/// The radius at which, to first order, one run gains the clay that the other loses.
 double levelled_radius(const Run& lower, const Run& upper) {
   const double below = lower.top - lower.bottom, above = upper.top - upper.bottom;
   return std::sqrt((below * lower.radius * lower.radius + above * upper.radius * upper.radius) /
@@ -42,7 +42,7 @@ Polygon wall_of(const ClayStack& stack, RingRange piece, Radius radius_of, doubl
   Polygon wall{{runs.front().radius, runs.front().bottom}};
   for (std::size_t i = 1; i < runs.size(); ++i) {
     const Run &lower = runs[i - 1], &upper = runs[i];
-    // A step onto the axis stays: without it the wall would meet the axis in a point.
+    // A step onto the axis stays: otherwise the wall would meet the axis in a point.
     if (std::abs(upper.radius - lower.radius) < min_step_mm &&
         std::min(lower.radius, upper.radius) > 0.0) {
       wall.push_back({levelled_radius(lower, upper), lower.top});
@@ -62,7 +62,7 @@ bool on_axis(const Polygon& polygon, std::size_t edge) {
 
 }  // namespace
 
-// Decided on the counted squares: radii a quantum apart may round to one double.
+// Decided on the counted squares: radii one quantum apart may round to the same double.
 Contact contact_of(const Ring& lower, const Ring& upper) noexcept {
   const Quanta inner2 = std::max(lower.inner2, upper.inner2);
   const Quanta outer2 = std::min(lower.outer2, upper.outer2);
@@ -97,7 +97,7 @@ Polygon section_of(const ClayStack& stack, RingRange piece, double min_step_mm) 
   return section;
 }
 
-/// It has the radii of the last ring.
+/// The crown has the radii of the last ring.
 Polygon crown_section_of(const ClayStack& stack) {
   const Ring& ring = stack.rings().back();
   const double outer = ring.outer_mm(), inner = ring.inner_mm();

@@ -1,5 +1,5 @@
 #pragma once
-// Pieces of a stack, and the polygon that a knife along the axis leaves of each.
+// Pieces of a stack, and the polygon of each in the section.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/export/section.hpp"
@@ -15,29 +15,29 @@ struct RingRange {
   std::size_t last = 0;
 };
 
-/// What two rings, one above the other, share at their common level.
+/// The common part of two adjacent rings at their common level.
 enum class Contact { annulus, circle, none };
 [[nodiscard]] Contact contact_of(const Ring& lower, const Ring& upper) noexcept;
 
-/// Height [mm] of the bottom of ring `ring`; of the top of the stack, crown included, where there
-/// is no such ring.
+/// Height [mm] of the bottom of ring `ring`; if there is no such ring, of the top of the stack,
+/// crown included.
 [[nodiscard]] double level_mm(const ClayStack& stack, std::size_t ring) noexcept;
 
-/// The rings parted wherever two of them share no annulus.
+/// Splits the rings wherever two adjacent ones share no annulus.
 [[nodiscard]] std::vector<RingRange> pieces_of(const ClayStack& stack, RingRange rings);
 
-/// The outer wall of a piece from its bottom to its top.
+/// The outer wall of a piece from bottom to top.
 [[nodiscard]] Polygon outer_wall_of(const ClayStack& stack, RingRange piece);
 
-/// The whole section of a piece, counterclockwise: its outer wall up, its bore or the axis down.
-/// Steps narrower than `min_step_mm` are levelled as `profile_of` says.
+/// The whole section of a piece, counterclockwise: its outer wall upward, its bore or the axis
+/// downward. Steps narrower than `min_step_mm` are levelled as described at `profile_of`.
 [[nodiscard]] Polygon section_of(const ClayStack& stack, RingRange piece, double min_step_mm = 0.0);
 
 /// The section of the crown alone: foot and top of its outer wall, then of its bore or the axis.
 [[nodiscard]] Polygon crown_section_of(const ClayStack& stack);
 
-/// A stretch of a section that sweeps one shell: from pole to pole where edges on the axis cut
-/// the polygon, all round where it never meets the axis.
+/// A part of a section that sweeps one shell: from pole to pole if edges on the axis divide the
+/// polygon, the whole polygon if it never meets the axis.
 struct Chain {
   std::size_t first = 0;  ///< vertex of the polygon
   std::size_t edges = 0;

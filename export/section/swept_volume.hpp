@@ -7,8 +7,8 @@
 
 namespace clay::solid::inline section {
 
-/// Volume [mm^3] between a line of points and the axis, swept once round: a frustum for each
-/// edge, positive upward (Green's theorem: V = pi times the integral of rho^2 dy).
+/// Volume [mm^3] between a line of points and the axis, revolved once: a frustum per edge, positive
+/// upward (Green's theorem: V = pi times the integral of rho^2 dy).
 [[nodiscard]] inline double swept_volume(const Polygon& line, bool closed) noexcept {
   CompensatedSum sum;
   const std::size_t edges = line.size() - (closed ? 0 : 1);

@@ -12,7 +12,7 @@ namespace clay::solid {
 
 BoxTree::BoxTree(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.triangles.size()) {
   constexpr double kMargin = 1e-12;  // thousands of roundings of the largest coordinate
-  std::vector<glm::vec3> middles;    // only for the order: rounding does no harm
+  std::vector<glm::vec3> middles;    // only for sorting: rounding is harmless
   middles.reserve(mesh.triangles.size());
   for (const auto& [a, b, c] : mesh.triangles) {
     const glm::dvec3 &p = mesh.points[a], &q = mesh.points[b], &r = mesh.points[c];
@@ -27,8 +27,8 @@ BoxTree::BoxTree(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.triangles.
   nodes_.shrink_to_fit();
 }
 
-/// Returns the number of the node. Its halves lie to both sides of the middle, across the axis
-/// along which they spread most.
+/// Returns the number of the node. Its halves lie on both sides of the middle, along the axis of
+/// largest extent.
 std::uint32_t BoxTree::build(std::vector<glm::vec3>& middles, std::uint32_t begin,
                              std::uint32_t end) {
   step_of_loop();
@@ -74,7 +74,7 @@ BoxTree::Box BoxTree::box_of(std::uint32_t begin, std::uint32_t end) const {
   return box;
 }
 
-/// Across the mean of the normals, each turned to the same side.
+/// Perpendicular to the mean of the normals, all oriented to the same side.
 void BoxTree::set_planes(Box& box, std::uint32_t begin, std::uint32_t end) const {
   glm::dvec3 sum{0.0};
   for (std::uint32_t i = begin; i < end; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// Bounds of the triangles of a mesh, of halves of them, and halves of those: for rays.
+// A bounding volume tree over the triangles of a mesh, for rays.
 
 #include "claystack/export/solid.hpp"
 
@@ -13,37 +13,37 @@
 
 namespace clay::solid {
 
-/// About 40 bytes a triangle, and 16 more while it is built. For queries from many threads.
+/// About 40 bytes per triangle, and 16 more during construction. Allows queries from many threads.
 class BoxTree {
  public:
-  /// A box, and the part of it between two parallel planes. These lie along the triangles: where
-  /// many lean the same way, one behind the other, boxes alone say nothing. All a little larger
-  /// than what is between them, so that rounding in a test does no harm.
+  /// A box, and the part of it between two parallel planes. The planes follow the triangles: where
+  /// many triangles are inclined the same way, one behind the other, boxes alone do not separate
+  /// them. All are slightly enlarged, so that rounding in a test is harmless.
   struct Box {
     glm::dvec3 low{std::numeric_limits<double>::infinity()};
     glm::dvec3 high{-std::numeric_limits<double>::infinity()};
-    glm::vec3 across{0.0F};  ///< from plane to plane; about a unit long, or 0 where there are none
-    double from = 0.0, to = 0.0;  ///< of a point's product with `across`
+    glm::vec3 across{0.0F};       ///< from plane to plane; about unit length, or 0 without planes
+    double from = 0.0, to = 0.0;  ///< of a point's dot product with `across`
   };
   static constexpr double kNever = std::numeric_limits<double>::infinity();
 
-  /// The mesh outlives this; it has a triangle, points are finite, indices in range.
+  /// The mesh outlives this; it has at least one triangle, finite points, indices in range.
   explicit BoxTree(const TriangleMesh& mesh);
 
-  /// visit(triangles) for the leaves in reach, the nearest first. `entry(box)` says how far
-  /// away a box begins, or kNever. What begins beyond `limit()`, which is asked again and again,
-  /// is left out.
+  /// Calls visit(triangles) for the leaves in reach, nearest first. `entry(box)` returns the
+  /// distance at which a box begins, or kNever. Boxes beyond `limit()`, which is evaluated
+  /// repeatedly, are skipped.
   template <class Entry, class Limit, class Visit>
   void for_each_near(const Entry& entry, const Limit& limit, const Visit& visit) const;
 
  private:
-  static constexpr std::size_t kLeaf = 6;  ///< triangles at most
+  static constexpr std::size_t kLeaf = 6;  ///< most triangles of a leaf
 
   struct Node {
     Box box;
-    std::uint32_t second = 0;  ///< half; the first one follows its parent
+    std::uint32_t second = 0;  ///< second child; the first child follows its parent
   };
-  /// A node with the triangles in it.
+  /// A node with its triangles.
   struct Part {
     std::uint32_t node, begin, end;
     double entry;
@@ -55,13 +55,13 @@ class BoxTree {
 
   const TriangleMesh& mesh_;
   double margin_ = 0.0;
-  std::vector<std::uint32_t> order_;  ///< of the triangles
+  std::vector<std::uint32_t> order_;  ///< permutation of the triangles
   std::vector<Node> nodes_;
 };
 
 template <class Entry, class Limit, class Visit>
 void BoxTree::for_each_near(const Entry& entry, const Limit& limit, const Visit& visit) const {
-  std::vector<Part> open;  // a heap, the nearest on top
+  std::vector<Part> open;  // a heap, nearest first
   const auto farther = [](const Part& a, const Part& b) { return a.entry > b.entry; };
   const auto offer = [&](std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
     const double at = entry(nodes_[node].box);

@@ -47,9 +47,9 @@ class Builder {
     }
   }
 
-  /// Of each side the one that runs along it the other way, or itself on a border.
+  /// For each side the opposite one on the same edge, or itself on a border.
   [[nodiscard]] std::vector<std::uint32_t> twins() const {
-    // Filed under the lower vertex of the edge, then sorted by the higher.
+    // Sorted into buckets by the lower vertex of the edge, then by the higher one.
     std::vector<std::uint32_t> begins(mesh_.points.size() + 1, 0);
     const auto low = [&](std::size_t side) { return std::min(begin(side), end(side)); };
     for (std::size_t side = 0; side < half_edges_.size(); ++side) ++begins[low(side) + 1];
@@ -101,7 +101,7 @@ class Builder {
     }
   }
 
-  /// A vertex has one border at most, and OpenMesh wants it to know that.
+  /// A vertex has at most one border, and OpenMesh requires it to store that.
   void join_borders() {
     for (const HalfEdge border : borders_) {
       const Vertex vertex = result_.from_vertex_handle(border);

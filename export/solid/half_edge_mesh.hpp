@@ -1,6 +1,6 @@
 #pragma once
-// OpenMesh's half-edges, for meshes that are known to be manifold. Needs OpenMesh's headers: not
-// for other headers to include.
+// OpenMesh half-edges for meshes known to be manifold. Requires OpenMesh's headers: do not include
+// this in other headers.
 
 #include "claystack/export/solid.hpp"
 
@@ -10,13 +10,13 @@ namespace clay::solid {
 
 using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>;
 
-/// Faces keep their numbers, vertices are numbered by first use, edges too. Points that no triangle
-/// uses stay behind: CGAL's search for the topmost vertex starts from the first one, used or not,
-/// and takes an unused one for outward.
+/// Faces keep their numbers; vertices and edges are numbered by first use. Unused points are
+/// dropped: CGAL's search for the topmost vertex starts from the first one, used or not, and treats
+/// an unused one as outward.
 ///
-/// O(n log n) whatever the degrees: OpenMesh's own add_face looks through all edges of a vertex for
-/// each of its faces. Throws std::logic_error at an edge whose faces are more than two or run along
-/// it the same way, and at a vertex of two borders.
+/// O(n log n) for any degrees; OpenMesh's add_face searches all edges of a vertex for each of its
+/// faces. Throws std::logic_error at an edge with more than two faces or with two faces of the same
+/// direction, and at a vertex of two borders.
 HalfEdgeMesh half_edge_mesh(const TriangleMesh& mesh);
 
 }  // namespace clay::solid

@@ -5,7 +5,7 @@
 
 namespace clay::solid {
 
-/// Width, depth and height [mm] of the box around all points; there is at least one.
+/// Width, depth and height [mm] of the bounding box; requires at least one point.
 [[nodiscard]] inline glm::dvec3 extent_of(const TriangleMesh& mesh) {
   glm::dvec3 low = mesh.points.front(), high = low;
   for (const glm::dvec3& p : mesh.points) {

@@ -26,9 +26,9 @@ struct NestedShell {
   bool misplaced = false;
 };
 
-/// Is a shell oriented outward? By the triangles at its top, each turned to begin there. Of the
-/// edges from the top the flattest has nothing of the shell above it, so that the upper of the two
-/// triangles along it faces out.
+/// Whether a shell is oriented outward, from the triangles at its top, each rotated to begin there.
+/// No part of the shell lies above the flattest edge at the top, so the upper of its two triangles
+/// faces out.
 class TopFan {
  public:
   TopFan(const TriangleMesh& mesh, std::span<const Triangle> fan) : mesh_(mesh), fan_(fan) {}
@@ -44,7 +44,7 @@ class TopFan {
     const CGAL::Sign seen_left = from_above(left), seen_right = from_above(right);
     if (seen_left == CGAL::ZERO) return seen_right == CGAL::POSITIVE;
     if (seen_right == CGAL::ZERO || seen_left == seen_right) return seen_left == CGAL::POSITIVE;
-    // One above the other: the lower of them is behind the upper, if that faces up.
+    // One above the other: the lower one is behind the upper one if that faces up.
     const Triangle& up = seen_left == CGAL::POSITIVE ? left : right;
     const Triangle& down = seen_left == CGAL::POSITIVE ? right : left;
     const std::uint32_t apex = down[1] == up[2] ? down[2] : down[1];
@@ -158,14 +158,14 @@ class Nest {
     steps_ = std::accumulate(steps.begin(), steps.end(), std::size_t{0});
   }
 
-  /// From the highest shell down: what lies above a shell's top is settled before.
+  /// From the highest shell down: everything above a shell's top is decided before.
   void settle() {
     std::vector<std::uint32_t> order(shells_.size());
     std::iota(order.begin(), order.end(), std::uint32_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
       return height(shells_[a].top) > height(shells_[b].top);
     });
-    std::optional<bool> outermost;  // are they outward?
+    std::optional<bool> outermost;  // orientation of the outermost shells
     bool alike = true;
     for (const std::uint32_t s : order) {
       NestedShell& shell = shells_[s];
@@ -183,7 +183,7 @@ class Nest {
       shell.inner = !around.inner;
       shell.misplaced = around.misplaced || shell.outward != (*outermost != shell.inner);
     }
-    // Where the outermost shells contradict each other, none is more at fault than another.
+    // If the outermost shells contradict each other, the fault cannot be assigned to one.
     if (!alike)
       for (NestedShell& shell : shells_) shell.misplaced = true;
   }

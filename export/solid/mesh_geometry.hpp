@@ -1,5 +1,5 @@
 #pragma once
-// How the shells of a mesh lie, by exact predicates (CGAL).
+// The nesting of the shells of a mesh, by exact predicates (CGAL).
 
 #include "export/solid/mesh_topology.hpp"
 
@@ -8,18 +8,18 @@
 namespace clay::solid {
 
 struct ShellGeometry {
-  bool outward = false;    ///< the outermost shell's normals point away from what it encloses
-  Fault misplaced_shells;  ///< turned against the shells around or beside them
+  bool outward = false;    ///< the outermost shell's normals point outward
+  Fault misplaced_shells;  ///< oriented against the shells around or beside them
   bool bounds_volume = false;
-  std::size_t steps = 0;  ///< of the search: boxes and triangles looked at
+  std::size_t steps = 0;  ///< visited boxes and triangles
 };
 
-/// For meshes that are closed, manifold and consistently oriented, cross themselves nowhere and
-/// have no degenerate triangle.
+/// Requires a closed, manifold, consistently oriented mesh without self-intersections and
+/// degenerate triangles.
 ///
-/// One ray for each shell, upward from its top to the first triangle of another shell: the two
-/// bound the same region. Through a tree of all triangles, that takes O(log n) a shell where boxes
-/// say something.
+/// One ray per shell, upward from its top to the first triangle of another shell: both bound the
+/// same region. With a tree of all triangles this takes O(log n) per shell where boxes separate
+/// them.
 ShellGeometry shell_geometry(const TriangleMesh& mesh, const MeshTopology& topology);
 
 }  // namespace clay::solid

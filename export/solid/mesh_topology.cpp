@@ -13,7 +13,7 @@ std::uint32_t narrow(std::size_t n) { return static_cast<std::uint32_t>(n); }
 
 bool collapsed(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-/// Union-find with path halving; a set's representative is its least member.
+/// Union-find with path halving; a set is represented by its smallest member.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : parent_(count) {
@@ -33,16 +33,16 @@ class DisjointSets {
   std::vector<std::uint32_t> parent_;
 };
 
-/// A side of a triangle, filed under the lower vertex of its edge. Sides are numbered
-/// 3 * triangle + corner, from that corner to the next.
+/// A side of a triangle, stored with the lower vertex of its edge. Sides are numbered 3 * triangle
+/// + corner, from that corner to the next.
 struct Side {
   std::uint32_t high = 0;  ///< the other vertex of the edge
   std::uint32_t number = 0;
   friend auto operator<=>(const Side&, const Side&) = default;
 };
 
-/// All sides in buckets by lower vertex: a counting sort, since a mesh of millions of triangles
-/// has small buckets and a sort of all its edges is several times slower.
+/// All sides in buckets by lower vertex: a counting sort, because the buckets of a large mesh are
+/// small and sorting all its edges is several times slower.
 class SidesByVertex {
  public:
   SidesByVertex(std::size_t points, std::span<const Triangle> triangles) : begins_(points + 1, 0) {
@@ -50,7 +50,7 @@ class SidesByVertex {
     std::exclusive_scan(begins_.begin(), begins_.end(), begins_.begin(), std::uint32_t{0});
     sides_.resize(begins_.back());
     for_each_side(triangles, [&](std::uint32_t low, Side side) { sides_[begins_[low]++] = side; });
-    // Every begin has moved to its bucket's end, which is the begin of the next.
+    // Every start has moved to its bucket's end, which is the start of the next.
     std::rotate(begins_.begin(), begins_.end() - 1, begins_.end());
     begins_.front() = 0;
   }
@@ -72,7 +72,7 @@ class SidesByVertex {
     }
   }
 
-  std::vector<std::uint32_t> begins_;  ///< by vertex, and the end of the last
+  std::vector<std::uint32_t> begins_;  ///< by vertex, with the end of the last
   std::vector<Side> sides_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the indices of a mesh say by themselves, for any soup of triangles.
+// The properties of a mesh that follow from its indices alone, for any soup of triangles.
 
 #include "claystack/export/solid.hpp"
 
@@ -14,29 +14,30 @@ namespace clay::solid {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// One kind of fault: how often, and where first.
+/// One kind of fault: its count and its first place.
 struct Fault {
   std::size_t count = 0;
-  std::vector<std::uint32_t> triangles;  ///< of the first, a handful at most
-  std::vector<std::uint32_t> vertices;   ///< of the first: none, a vertex, or the ends of an edge
+  std::vector<std::uint32_t> triangles;  ///< at the first place, at most a few
+  std::vector<std::uint32_t>
+      vertices;  ///< at the first place: none, a vertex, or the ends of an edge
 
   [[nodiscard]] bool found() const noexcept { return count > 0; }
 };
 
-/// Counts one more; the place is kept of the first only.
+/// Counts one fault; keeps only the first place.
 void note(Fault& fault, std::initializer_list<std::uint32_t> triangles,
           std::initializer_list<std::uint32_t> vertices);
 
-/// Triangles that name a vertex twice cover no surface: they are counted in `collapsed` and
-/// left out of all the rest, as if their two equal corners had been pulled together.
+/// Triangles that use a vertex twice cover no surface: they are counted in `collapsed` and
+/// otherwise ignored, as if their two equal corners had been merged.
 struct MeshTopology {
   Fault collapsed;
-  Fault duplicates;                         ///< triangles on the same three vertices as one before
-  Fault open_edges;                         ///< of one triangle only
-  Fault crowded_edges;                      ///< of three triangles or more
-  Fault flipped_edges;                      ///< whose two triangles run along it the same way
-  Fault split_vertices;                     ///< whose triangles form more than one fan
-  std::size_t components = 0;               ///< sets of triangles joined by edges
+  Fault duplicates;            ///< triangles on the same three vertices as an earlier one
+  Fault open_edges;            ///< of one triangle only
+  Fault crowded_edges;         ///< of three or more triangles
+  Fault flipped_edges;         ///< whose two triangles have the same direction along it
+  Fault split_vertices;        ///< whose triangles form more than one fan
+  std::size_t components = 0;  ///< sets of triangles joined by edges
   std::vector<std::uint32_t> component_of;  ///< by triangle, where there are several
 
   [[nodiscard]] bool closed() const noexcept { return !open_edges.found(); }

@@ -12,7 +12,7 @@ using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 
 Kernel::Point_3 point(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
 
-/// The height of a triangle's plane above a place, and how it rises along x and y.
+/// The height of a triangle's plane above a point, and its slopes along x and y.
 struct Height {
   Exact::FT z, along_x, along_y;
 
@@ -29,7 +29,7 @@ struct Height {
     z = origin.z() + along_x * (place.x - origin.x()) + along_y * (place.y - origin.y());
   }
 
-  /// Where triangles touch over the place itself, the slopes decide beside it.
+  /// If triangles touch above the point itself, the slopes decide beside it.
   [[nodiscard]] bool below(const Height& other) const {
     if (z != other.z) return z < other.z;
     if (along_x != other.along_x) return along_x < other.along_x;
@@ -43,7 +43,8 @@ std::optional<RayUpward::Hit> RayUpward::first_hit(
     const BoxTree& tree, const std::function<bool(std::uint32_t)>& passed_over) {
   std::optional<Hit> first;
   std::optional<Height> lowest;
-  double limit = std::numeric_limits<double>::max();  // what begins above it is no lower
+  double limit = std::numeric_limits<double>::max();  // distance of the nearest hit so far; boxes
+                                                      // beyond it are skipped
   const auto entry = [&](const BoxTree::Box& box) {
     ++steps_;
     return enter(box);
@@ -66,7 +67,7 @@ std::optional<RayUpward::Hit> RayUpward::first_hit(
   return first;
 }
 
-/// The height at which the ray may meet something in the box first.
+/// The lowest height at which the ray can hit something in the box.
 double RayUpward::enter(const BoxTree::Box& box) const {
   if (box.low.x > from_.x || from_.x > box.high.x || box.low.y > from_.y || from_.y > box.high.y)
     return BoxTree::kNever;
@@ -83,7 +84,8 @@ double RayUpward::enter(const BoxTree::Box& box) const {
   return low <= high && from_.z <= high ? low : BoxTree::kNever;
 }
 
-/// Of the line from a to b, seen from above: 1 left, -1 right, 0 where that is a point.
+/// Side of the point relative to the line from a to b, seen from above: 1 left, -1 right, 0 for a
+/// degenerate line.
 int RayUpward::side(const glm::dvec3& a, const glm::dvec3& b) const {
   const CGAL::Sign exactly = CGAL::orientation(Kernel::Point_2(a.x, a.y), Kernel::Point_2(b.x, b.y),
                                                Kernel::Point_2(from_.x, from_.y));
@@ -102,7 +104,7 @@ std::optional<RayUpward::Hit> RayUpward::meet(std::uint32_t triangle) const {
   const int turn = side(a, b);
   if (turn == 0 || side(b, c) != turn || side(c, a) != turn) return std::nullopt;
   const CGAL::Sign front = CGAL::orientation(point(a), point(b), point(c), point(from_));
-  // Below it: behind what faces up, before what faces down.
+  // Below it: behind a triangle that faces up, in front of one that faces down.
   if (turn * front >= 0) return std::nullopt;
   return Hit{triangle, front == CGAL::NEGATIVE};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What lies right above the top of a shell, by exact predicates (CGAL).
+// Finds the triangle directly above the top of a shell, by exact predicates (CGAL).
 
 #include "export/solid/box_tree.hpp"
 
@@ -10,25 +10,25 @@
 
 namespace clay::solid {
 
-/// A ray along +z from a vertex, moved by nothing at all toward +x, and by less than that toward
-/// +y: so it passes through no vertex and no edge, and along no triangle, whatever the mesh.
+/// A ray along +z from a vertex, symbolically perturbed toward +x and, by a smaller order, toward
+/// +y: it passes through no vertex or edge and along no triangle of any mesh.
 ///
-/// No triangle that is asked after touches the vertex, and none crosses another.
+/// Requires that no queried triangle touches the vertex, and that none intersect.
 class RayUpward {
  public:
   struct Hit {
     std::uint32_t triangle = 0;
-    bool from_back = false;  ///< the ray comes out at the triangle's front
+    bool from_back = false;  ///< the ray leaves through the triangle's front
   };
 
   /// The mesh outlives this.
   RayUpward(const TriangleMesh& mesh, std::uint32_t from) : mesh_(mesh), from_(mesh.points[from]) {}
 
-  /// The lowest triangle above, of those not passed over.
+  /// The lowest triangle above, of those not skipped.
   std::optional<Hit> first_hit(const BoxTree& tree,
                                const std::function<bool(std::uint32_t)>& passed_over);
 
-  /// Boxes and triangles looked at.
+  /// Number of visited boxes and triangles.
   [[nodiscard]] std::size_t steps() const noexcept { return steps_; }
 
  private:

@@ -10,10 +10,10 @@
 namespace clay::solid {
 namespace {
 
-/// Direction `s` of `n`. Folded into an eighth of a turn by integers first, so that the polygon
-/// is symmetric to the last bit and the directions along the axes are exact, without a -0.
+/// Direction `s` of `n`. Reduced to an eighth of a turn in integers first, so that the polygon is
+/// exactly symmetric and the directions along the axes are exact, without -0.
 glm::dvec2 direction(std::size_t s, std::size_t n) {
-  std::size_t eighths = 8 * s;  // of a step: a full turn is 8 n of them
+  std::size_t eighths = 8 * s;  // unit: an eighth of a step; a full turn is 8 n
   const bool below = eighths > 4 * n;
   if (below) eighths = 8 * n - eighths;
   const bool behind = eighths > 2 * n;
@@ -22,7 +22,7 @@ glm::dvec2 direction(std::size_t s, std::size_t n) {
   if (steep) eighths = 2 * n - eighths;
   const double angle =
       std::numbers::pi / 4.0 * (static_cast<double>(eighths) / static_cast<double>(n));
-  // On the diagonal the sine and cosine of the library may differ by an ulp.
+  // On the diagonal the library's sine and cosine may differ by one ulp.
   glm::dvec2 d =
       eighths == n ? glm::dvec2{std::sqrt(0.5)} : glm::dvec2{std::cos(angle), std::sin(angle)};
   if (steep) std::swap(d.x, d.y);
@@ -38,8 +38,8 @@ std::vector<glm::dvec2> circle_of(std::size_t segments) {
   return circle;
 }
 
-/// Programs that add up a volume in float32 about the first vertex (admesh, PrusaSlicer) drift
-/// where equal terms follow each other, as they would about a pole: the first band comes last.
+/// Programs that sum a volume in float32 about the first vertex (admesh, PrusaSlicer) drift when
+/// equal terms follow each other, as they would about a pole, so the first band comes last.
 Shell shell_of(const Polygon& polygon, const Chain& chain) {
   Shell shell;
   const std::size_t count = chain.edges + (chain.round ? 0 : 1);
@@ -91,7 +91,7 @@ double float_rounding_mm(const RevolveLayout& rule) noexcept {
   for (const Shell& shell : rule.shells())
     for (const ProfilePoint& p : shell.points)
       farthest = std::max(farthest, std::hypot(equal_area_factor(rule.segments()) * p.rho, p.y));
-  // The products before the rounding are themselves rounded, to double.
+  // The products are themselves rounded to double first.
   constexpr double kDoubleRounding = 1.0 + 0x1p-20;
   return std::ldexp(farthest * kDoubleRounding, -24);
 }

@@ -3,8 +3,8 @@
 
 namespace clay::solid {
 
-/// The largest distance [mm] from a vertex of either mesh to the surface of the other. Each has a
-/// triangle with area; points that no triangle uses count too.
+/// The largest distance [mm] from a vertex of either mesh to the surface of the other. Each must
+/// have a triangle with area; unused points count too.
 [[nodiscard]] double surface_distance(const TriangleMesh& a, const TriangleMesh& b);
 
 }  // namespace clay::solid

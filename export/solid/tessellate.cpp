@@ -34,7 +34,7 @@ class Revolution {
   TriangleMesh take() { return std::move(mesh_); }
 
  private:
-  /// Poles last, for the sums in float32 that RevolveLayout speaks of.
+  /// Poles last, for sums in float32 (see RevolveLayout).
   void add_shell(const Shell& shell) {
     std::vector<Parallel> parallels(shell.points.size());
     for (const bool pole : {false, true})
@@ -55,7 +55,8 @@ class Revolution {
     return parallel;
   }
 
-  /// Clay lies to the left of the profile, so the way from `a` to `b`, seen from outside, is up.
+  /// Clay lies to the left of the profile, so the direction from `a` to `b`, seen from outside, is
+  /// up.
   void add_patch(const Parallel& a, const Parallel& b, std::size_t s) {
     const std::size_t next = s + 1 < rule_.segments() ? s + 1 : 0;
     if (!a.pole) mesh_.triangles.push_back({a.at(s), a.at(next), b.at(s)});
@@ -69,7 +70,7 @@ class Revolution {
 }  // namespace
 
 std::size_t triangle_count(const Profile& profile, std::size_t segments) noexcept {
-  std::size_t strips = 0;  // of one triangle for each segment
+  std::size_t strips = 0;  // one triangle per segment each
   for (const Polygon& polygon : profile.pieces) {
     for (std::size_t i = 0; i < polygon.size(); ++i)
       for (const std::size_t end : {i, (i + 1) % polygon.size()})
@@ -93,7 +94,7 @@ double chordal_error_mm(double radius_mm, std::size_t segments) noexcept {
 }
 
 std::size_t segments_for(double radius_mm, double tolerance_mm) noexcept {
-  // The error at the vertices leads: pi^2 / (3 n^2) of the radius to first order.
+  // The error at the vertices dominates: pi^2 / (3 n^2) of the radius to first order.
   const double estimate = std::numbers::pi * std::sqrt(radius_mm / (3.0 * tolerance_mm));
   const bool within_reach = estimate < static_cast<double>(kMaxSegments);
   std::size_t segments = within_reach ? static_cast<std::size_t>(estimate) / 4 * 4 : kMaxSegments;

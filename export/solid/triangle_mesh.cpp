@@ -10,7 +10,7 @@
 namespace clay::solid {
 namespace {
 
-/// The determinant of three edges, and with every sign plus: no rounding error is above a few
+/// The determinant of three edges with every sign positive: any rounding error is at most a few
 /// units of that (Shewchuk, "Adaptive precision floating-point arithmetic", section 4.3).
 double cross_sizes(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 p = glm::abs(a), q = glm::abs(b), r = glm::abs(c);
@@ -31,8 +31,8 @@ SignedVolume bounded_volume(const TriangleMesh& mesh) noexcept {
     sextuple.add(glm::dot(p, glm::cross(q, r)));
     sizes += cross_sizes(p, q, r);
   }
-  // A term takes three differences, two products of two and three sums: each factor and step is
-  // off by half an epsilon at most, and the compensated sum by one or two of the whole.
+  // A term takes three differences, two products of two and three sums: each factor and step has an
+  // error of at most half an epsilon, and the compensated sum one or two of the total.
   constexpr double kRoundings = 16.0;
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
   const double underflow =

@@ -1,5 +1,6 @@
 #pragma once
-// CGAL's tree of boxes over the triangles of a mesh. Needs CGAL's headers: not for other headers.
+// CGAL's tree of boxes over the triangles of a mesh. Requires CGAL's headers: do not include this
+// in other headers.
 
 #include "claystack/export/solid.hpp"
 
@@ -12,7 +13,7 @@
 
 namespace clay::solid {
 
-/// Triangles without area are left out. Points are finite, indices in range.
+/// Triangles without area are left out. Requires finite points and indices in range.
 class TriangleTree {
  public:
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -39,11 +40,11 @@ class TriangleTree {
   TriangleTree& operator=(const TriangleTree&) = delete;
 
   [[nodiscard]] bool empty() const { return triangles_.empty(); }
-  /// For queries from many threads.
+  /// Allows queries from many threads.
   [[nodiscard]] const Tree& boxes() const { return tree_; }
-  /// For the nearest point: before the first query.
+  /// Prepares nearest-point queries; call before the first one.
   void prepare_distances() { tree_.accelerate_distance_queries(); }
-  /// Of the mesh.
+  /// The triangle's number in the mesh.
   [[nodiscard]] std::uint32_t number(Triangles::const_iterator triangle) const {
     return numbers_[static_cast<std::size_t>(triangle - triangles_.cbegin())];
   }

@@ -4,7 +4,8 @@
 namespace clay::solid {
 
 /// The largest distance [mm] from a vertex of either mesh to the nearest of the other (Hausdorff
-/// distance of the vertex sets); for formats that change the order of vertices. Neither is empty.
+/// distance of the vertex sets); for formats that change the order of vertices. Neither may be
+/// empty.
 [[nodiscard]] double vertex_distance(const TriangleMesh& a, const TriangleMesh& b);
 
 }  // namespace clay::solid

@@ -9,16 +9,15 @@
 
 namespace clay::solid {
 
-/// One number for each place: points are the same where their float32 coordinates are equal
-/// (-0 equals 0), and are numbered by first use. NaN is not for it.
+/// Assigns one number to each position: points are equal if their float32 coordinates are equal (-0
+/// equals 0), and are numbered by first use. Does not accept NaN.
 ///
-/// Open addressing with multilinear hashing under random 64-bit factors, of which the upper
-/// 32 bits of a sum are strongly universal (Thorup, "High speed hashing for integers and
-/// strings", section 3.3): no file can be made that collides on purpose. The numbers given
-/// do not depend on the factors.
+/// Open addressing with multilinear hashing under random 64-bit factors, of which the upper 32 bits
+/// of a sum are strongly universal (Thorup, "High speed hashing for integers and strings", section
+/// 3.3): a file cannot force collisions. The numbers do not depend on the factors.
 class VertexWelder {
  public:
-  /// Appends to `points`, which outlives the welder. `expected` sizes the first table.
+  /// Appends to `points`, which must outlive the welder. `expected` sizes the first table.
   VertexWelder(std::vector<glm::dvec3>& points, std::size_t expected) : points_(points) {
     std::random_device random;
     for (std::uint64_t& factor : factors_) {
@@ -41,7 +40,7 @@ class VertexWelder {
  private:
   static constexpr std::uint32_t kEmpty = 0xFFFFFFFF;
 
-  /// The slot that holds `place`, or the empty one where it belongs.
+  /// The slot of `place`, or the empty slot for it.
   [[nodiscard]] std::size_t find(const glm::vec3& place) const noexcept {
     std::uint64_t sum = factors_[3];
     for (int axis = 0; axis < 3; ++axis) {

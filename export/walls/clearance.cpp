@@ -26,7 +26,7 @@ double squared_distance(const Vec2& p, const Corner& edge) {
 class ClearanceSearch {
  public:
   explicit ClearanceSearch(const EdgeTree& tree) : tree_(tree) {
-    // From a vertex to the edge after the one that it begins is at most that edge's length.
+    // The distance from a vertex to the edge after its own is at most the length of its own edge.
     for (std::uint32_t piece = 0; piece < tree.piece_count(); ++piece) start_with(piece);
     least_ = std::sqrt(least_square_);
   }

@@ -14,13 +14,14 @@ constexpr double kAngleRounding = 1e-7;  // of an inverse sine near 1 [rad]
 
 Vec2 across(const Vec2& along) { return {-along.y, along.x}; }
 
-/// An angle between -2 pi and 2 pi, less whole turns.
+/// Reduces an angle between -2 pi and 2 pi by whole turns.
 double wrapped(double angle) {
   if (angle > kPi) return angle - 2.0 * kPi;
   return angle < -kPi ? angle + 2.0 * kPi : angle;
 }
 
-/// From the rectangle of `a` to the one along its sides around that of `b`.
+/// Lower bound of the distance from the rectangle of `a` to the bounding rectangle of `b` along its
+/// sides.
 double least_distance_along(const EdgeNode& a, const EdgeNode& b) noexcept {
   const Vec2 way = b.centre - a.centre;
   const double cosine = std::abs(glm::dot(a.along, b.along));
@@ -32,7 +33,7 @@ double least_distance_along(const EdgeNode& a, const EdgeNode& b) noexcept {
   return std::hypot(std::max(x, 0.0), std::max(y, 0.0));
 }
 
-/// The rectangle along `chord` around points that are added one by one.
+/// The rectangle along `chord` around incrementally added points.
 class Rectangle {
  public:
   Rectangle(const Vec2& origin, const Vec2& chord) : origin_(origin) {
@@ -64,13 +65,13 @@ class Rectangle {
 
  private:
   Vec2 origin_, along_{1.0, 0.0};
-  Vec2 low_{0.0}, high_{0.0};  ///< the origin is in it
+  Vec2 low_{0.0}, high_{0.0};  ///< contains the origin
 };
 
 void bound_normals(EdgeNode& node, std::span<const Vec2> normals) {
   if (normals.empty()) return;
   const Vec2& middle = normals[normals.size() / 2];
-  double low = 0.0, high = 0.0;  // sines from the middle one
+  double low = 0.0, high = 0.0;  // sines relative to the middle one
   for (const Vec2& normal : normals) {
     if (glm::dot(middle, normal) <= 0.0) {
       node.normal_spread = kPi;

@@ -1,6 +1,6 @@
 #pragma once
-// Boxes over the edges of a profile, for searches by branch and bound. Neighbours along a polygon
-// are neighbours in space, so runs of edges, halved again and again, are the tree.
+// Boxes over the edges of a profile, for branch-and-bound searches. Neighbours along a polygon are
+// neighbours in space, so runs of edges, halved repeatedly, form the tree.
 
 #include "claystack/export/section.hpp"
 
@@ -27,7 +27,7 @@ struct Edge {
   [[nodiscard]] bool on_axis() const { return from.x == 0.0 && to.x == 0.0; }
 };
 
-/// A run of edges of one or more pieces, in a rectangle that need not be upright.
+/// A run of edges of one or more pieces, in a rectangle of any orientation.
 struct EdgeNode {
   Vec2 centre{0.0}, along{1.0, 0.0};  ///< of the rectangle; `along` is its unit direction
   double half_length = 0.0, half_width = 0.0;
@@ -40,22 +40,22 @@ struct EdgeNode {
   std::uint32_t leaves = 1;
 };
 
-/// No more than the distance between any edge of the one and any of the other.
+/// Lower bound of the distance between any edge of one and any edge of the other.
 [[nodiscard]] double least_distance(const EdgeNode& a, const EdgeNode& b) noexcept;
 
-/// At least the angle between any inward normal of the one and any of the other [rad]; negative
-/// where there are no normals.
+/// Upper bound of the angle between any inward normal of one and any of the other [rad]; negative
+/// without normals.
 [[nodiscard]] double greatest_turn(const EdgeNode& a, const EdgeNode& b) noexcept;
 
 class EdgeTree {
  public:
   static constexpr std::size_t kLeafEdges = 8;
 
-  /// At least one edge. Every rho is multiplied by `rho_scale`.
+  /// Requires at least one edge. Every rho is multiplied by `rho_scale`.
   EdgeTree(const Profile& profile, double rho_scale);
 
   [[nodiscard]] const std::vector<EdgeNode>& nodes() const { return nodes_; }
-  /// Of a node of two leaves or more. The root is node 0.
+  /// Requires a node of two or more leaves. The root is node 0.
   [[nodiscard]] static std::size_t left(std::size_t node) { return node + 1; }
   [[nodiscard]] std::size_t right(std::size_t node) const {
     return node + 2 * left_leaves(nodes_[node].leaves);
@@ -76,8 +76,8 @@ class EdgeTree {
   }
   [[nodiscard]] const Vec2& point(std::uint32_t index) const { return points_[index]; }
 
-  /// Arc length of a whole polygon [mm]. Edges on the axis are no surface: as arc, they are longer
-  /// than all others together.
+  /// Arc length of a whole polygon [mm]. Edges on the axis are no surface: in arc length they count
+  /// as longer than all others together.
   [[nodiscard]] double perimeter(std::uint32_t piece) const { return perimeters_[piece]; }
   [[nodiscard]] double arc_length(const Edge& edge) const {
     return edge.on_axis() ? axis_arc_ : glm::length(edge.to - edge.from);
@@ -92,14 +92,14 @@ class EdgeTree {
   [[nodiscard]] EdgeNode joined(const EdgeNode& a, const EdgeNode& b) const;
 
   std::vector<Vec2> points_;           ///< of all pieces
-  std::vector<std::uint32_t> begins_;  ///< first point of each piece, and their count
+  std::vector<std::uint32_t> begins_;  ///< first point of each piece, and their number
   std::vector<double> perimeters_;
   double axis_arc_ = 0.0;
-  std::vector<EdgeNode> nodes_;  ///< every node before its left half before its right
+  std::vector<EdgeNode> nodes_;  ///< preorder: node, left half, right half
 };
 
-/// Down the tree towards what is nearest to `node`. `search.bound(a, b)` is no more than what
-/// any edges of the two can give; `search.best()` what is known; `search.leaves(a, b)` compares.
+/// Descends towards the part nearest to `node`. `search.bound(a, b)` is a lower bound for any edges
+/// of the two; `search.best()` the best known; `search.leaves(a, b)` compares.
 template <class Search>
 void search_from(const EdgeTree& tree, const EdgeNode& node, Search& search, std::size_t at = 0,
                  double bound = 0.0) {
@@ -128,7 +128,7 @@ void search_pairs(const EdgeTree& tree, Search& search, std::size_t a = 0, std::
   };
   if (a == b) {
     const std::size_t left = EdgeTree::left(a), right = tree.right(a);
-    // The half of a polygon that rises against the half that falls: nearest first.
+    // The rising half of a polygon against the falling half: nearest first.
     search_pairs(tree, search, left, right, below(left, right));
     search_pairs(tree, search, left, left, below(left, left));
     search_pairs(tree, search, right, right, below(right, right));

@@ -7,7 +7,7 @@
 namespace clay::solid::inline walls {
 namespace {
 
-/// Across the axis: how far the outside of a solid may lean, by cosine and tangent.
+/// Across the axis: limit of the inclination of the outside of a solid, as cosine and tangent.
 const double kCosLean = std::sqrt(0.75), kTanLean = std::sqrt(1.0 / 3.0);
 
 struct Segment {
@@ -21,7 +21,7 @@ Vec2 nearest(const Vec2& p, const Segment& s) {
   return square > 0.0 ? s.at(glm::dot(p - s.from, along) / square) : s.from;
 }
 
-/// Cuts off what lies behind the line through `origin`; false if that is all.
+/// Clips the part behind the line through `origin`; false if nothing remains.
 bool clip(Segment& s, const Vec2& origin, const Vec2& normal) {
   const double from = glm::dot(s.from - origin, normal), to = glm::dot(s.to - origin, normal);
   if (from <= 0.0 && to <= 0.0) return false;
@@ -30,8 +30,8 @@ bool clip(Segment& s, const Vec2& origin, const Vec2& normal) {
   return true;
 }
 
-/// Where on `s` the ball that has `normal` at `p` is least: with d = a + t b from p, |d|^2 / (d n)
-/// is convex in t and least where d n = |(b n) a - (a n) b| / |b|.
+/// The point of `s` for which the ball with `normal` at `p` is smallest: with d = a + t b from p,
+/// |d|^2 / (d n) is convex in t and minimal where d n = |(b n) a - (a n) b| / |b|.
 Vec2 least_tangent(const Vec2& p, const Vec2& normal, const Segment& s) {
   const Vec2 a = s.from - p, b = s.to - s.from;
   const double an = glm::dot(a, normal), bn = glm::dot(b, normal), bb = glm::dot(b, b);
@@ -41,7 +41,7 @@ Vec2 least_tangent(const Vec2& p, const Vec2& normal, const Segment& s) {
 }
 
 /// Balls with `normal` on `a` through a point of `b`. Their diameter is |d|^2 / (d n) over the
-/// parallelogram b - a, without a minimum inside since it grows in proportion to d.
+/// parallelogram b - a, without an interior minimum because it grows in proportion to d.
 void keep_touching(Balls& balls, const Segment& a, const Vec2& normal, const Segment& b) {
   const auto offer = [&](const Vec2& p, const Vec2& q) {
     const Vec2 d = q - p;
@@ -67,9 +67,9 @@ void keep_at_corners(Balls& balls, const Face& a, const Face& b) {
   });
 }
 
-/// Between opposite faces.
+/// Balls between opposite faces.
 void keep_at_edges(Balls& balls, const Edge& a, const Edge& b) {
-  // Two faces that meet do so in a sharp edge or in a notch with only air between them.
+  // Two faces that meet form either a sharp edge or a notch with only air between them.
   if (a.to == b.from && cross(a.inward, b.inward) > 0.0) return balls.keep({0.0, a.to, a.to});
   if (b.to == a.from && cross(b.inward, a.inward) > 0.0) return balls.keep({0.0, a.from, a.from});
   Segment on_a{a.from, a.to}, on_b{b.from, b.to};
@@ -169,7 +169,7 @@ AxisClay::AxisClay(const EdgeTree& tree, std::uint32_t piece) {
 double AxisClay::bound(const EdgeNode& node) const {
   const Vec2 along = glm::abs(node.along);
   const Vec2 reach = node.half_length * along + node.half_width * Vec2{along.y, along.x};
-  // The radii of the balls lean no more than the normals.
+  // The radii of the balls are inclined no more than the normals.
   const double up = reach.y + (node.centre.x + reach.x) * kTanLean;
   const bool beyond = stretches_.empty() || node.centre.y + up < stretches_.front().low ||
                       node.centre.y - up > stretches_.back().high;

@@ -1,5 +1,5 @@
 #pragma once
-// Thickness between two edges: the least ball that touches both faces.
+// Thickness between two edges: the smallest ball that touches both faces.
 
 #include "export/walls/edge_tree.hpp"
 
@@ -15,12 +15,12 @@ namespace clay::solid::inline walls {
 
 struct Ball {
   double diameter = std::numeric_limits<double>::infinity();
-  Vec2 from{0.0}, to{0.0};  ///< where it touches
-  bool at_corner = false;   ///< a reentrant one, at either end
+  Vec2 from{0.0}, to{0.0};  ///< points of contact
+  bool at_corner = false;   ///< a reentrant corner at either end
 };
 
-/// Where the clay is more than a half-plane: a ball may touch it from every direction between the
-/// normals of its two edges.
+/// A corner where the clay fills more than a half-plane: a ball may touch it from every direction
+/// between the normals of its two edges.
 struct ReentrantCorner {
   Vec2 at{0.0};
   Vec2 before{0.0}, after{0.0};  ///< inward normals
@@ -30,10 +30,10 @@ struct ReentrantCorner {
   }
 };
 
-/// Balls between two faces, each least in its way.
+/// Balls between two faces, each minimal for its kind of contact.
 class Balls {
  public:
-  /// Only those below `limit` are kept.
+  /// Keeps only balls smaller than `limit`.
   explicit Balls(double limit) : limit_(limit) {}
   void keep(const Ball& ball) {
     if (ball.diameter >= limit_) return;
@@ -41,13 +41,13 @@ class Balls {
     if (swapped_) std::swap(balls_[count_].from, balls_[count_].to);
     ++count_;
   }
-  /// From now on the faces are named the other way round.
+  /// From now on the faces are given in reverse order.
   void swap() { swapped_ = !swapped_; }
   [[nodiscard]] const Ball* begin() const { return balls_.data(); }
   [[nodiscard]] const Ball* end() const { return balls_.data() + count_; }
 
  private:
-  /// Eight between the edges, and for each of two corners, twice, one edge and two corners.
+  /// Eight between the edges; for each of two corners, twice, one edge and two corners.
   std::array<Ball, 20> balls_;
   std::size_t count_ = 0;
   double limit_;
@@ -59,9 +59,9 @@ struct Face {
   Edge edge;
   double arc_begin = 0.0, arc_end = 0.0;
   std::uint32_t piece = 0;
-  /// The edge may begin with a reentrant corner or, on the axis, end with one.
+  /// Whether the edge begins with a reentrant corner or, at the axis, ends with one.
   bool begins_reentrant = false, ends_reentrant = false;
-  Vec2 before{0.0};  ///< inward normal of the edge before; on the axis that is the mirror image
+  Vec2 before{0.0};  ///< inward normal of the previous edge; on the axis, of the mirror image
 
   [[nodiscard]] bool has_corners() const { return begins_reentrant || ends_reentrant; }
   template <class Visit>
@@ -83,14 +83,14 @@ class LeafFaces {
   std::size_t count_ = 0;
 };
 
-/// Faces are opposite when their inward normals are farther apart than this [rad].
+/// Faces are opposite if the angle between their inward normals exceeds this [rad].
 inline constexpr double kOpposite = 150.0 / 180.0 * std::numbers::pi;
 inline const double kMinusCosOpposite = -std::cos(kOpposite);
 [[nodiscard]] inline bool opposite(const Vec2& normal, const Vec2& other) {
   return glm::dot(normal, other) < -kMinusCosOpposite;
 }
 
-/// No more than the distance between the two.
+/// Lower bound of the distance between the two.
 [[nodiscard]] inline double least_distance(const Edge& a, const Edge& b) {
   const auto gap = [](const Edge& line, const Edge& other) {
     const double from = glm::dot(other.from - line.from, line.inward);
@@ -100,31 +100,32 @@ inline const double kMinusCosOpposite = -std::cos(kOpposite);
   return std::max(gap(a, b), gap(b, a));
 }
 
-/// What the boundary on the shorter way between two places, and a little beyond, must measure:
-/// this many times the thickness between them. Half a circle is pi / 2, the chords around it a
-/// little less.
+/// The minimum length of the boundary on the shorter way between two places, and a little beyond,
+/// as a multiple of the thickness between them. Half a circle has pi / 2, the chords around it
+/// slightly less.
 inline constexpr double kRidge = 1.5;
 
 /// Whether the clay between `ball.from` on `a` and `ball.to` on `b` is more than a ridge. Beyond
-/// them edges count as far as both go on, and half the thickness at most, so that a lip is as thin
-/// as its very end; at a reentrant corner an edge goes on elsewhere.
+/// these points edges count as far as both continue, up to half the thickness, so that a lip is as
+/// thin as its end; at a reentrant corner an edge does not continue.
 [[nodiscard]] bool is_wall(const Face& a, const Face& b, const Ball& ball, double perimeter);
 
-/// The least balls between two faces of one piece, by the definition of `min_wall`, ridges or not.
+/// The smallest balls between two faces of one piece, by the definition of `min_wall`, including
+/// ridges.
 [[nodiscard]] Balls balls_between(const Face& a, const Face& b, double limit);
 
-/// Of the least ball that touches `a` at `p` and goes through `b`; nothing where none does.
+/// The smallest ball that touches `a` at `p` and passes through `b`; empty if there is none.
 [[nodiscard]] Ball ball_at(const Vec2& p, const Face& a, const Face& b);
 
-/// Where a piece reaches the axis.
+/// The parts of a piece on the axis.
 class AxisClay {
  public:
   AxisClay(const EdgeTree& tree, std::uint32_t piece);
-  /// The least ball about a point of the axis, in clay, that touches the face.
+  /// The smallest ball centred on the axis, in clay, that touches the face.
   [[nodiscard]] Ball least_ball(const Face& face) const;
-  /// The one that touches the face at `p`.
+  /// The ball centred on the axis that touches the face at `p`.
   [[nodiscard]] Ball ball_at(const Vec2& p, const Face& face) const;
-  /// No more than the diameter of any such ball of a node's faces.
+  /// Lower bound of the diameter of any such ball for a node's faces.
   [[nodiscard]] double bound(const EdgeNode& node) const;
 
  private:

@@ -7,8 +7,8 @@
 namespace clay::solid::inline walls {
 namespace {
 
-/// Which edges of a polygon are what. Counterclockwise, the outer wall runs from the outermost of
-/// the lowest vertices to the outermost of the highest.
+/// Labels the edges of a polygon. Counterclockwise, the outer wall runs from the outermost of the
+/// lowest vertices to the outermost of the highest.
 class FaceNames {
  public:
   explicit FaceNames(const Polygon& polygon) : count_(polygon.size()) {
@@ -100,7 +100,7 @@ class Field {
         {ball.diameter, place(at), place(found ? ball.to : at), 0.0, face.piece, WallFace::outer});
   }
 
-  static constexpr double kMostParts = 1e9;  // of one edge: the count of all stays exact
+  static constexpr double kMostParts = 1e9;  // of one edge: keeps the total count exact
 
   const Profile& profile_;
   EdgeTree tree_;

@@ -8,15 +8,15 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
-/// The shorter way along the polygon that holds all of `a` and `b`.
+/// The shorter way along the polygon that contains all of `a` and `b`.
 double arc_around(const EdgeNode& a, const EdgeNode& b, double perimeter) {
   const double begin = std::min(a.arc_begin, b.arc_begin), end = std::max(a.arc_end, b.arc_end);
   const double between = std::max(a.arc_begin, b.arc_begin) - std::min(a.arc_end, b.arc_end);
   return std::min(end - begin, perimeter - between);
 }
 
-/// Nodes that cannot hold opposite faces of one piece with more than a ridge between them, if they
-/// are `distance` apart.
+/// True for nodes that, at distance `distance`, cannot contain opposite faces of one piece with
+/// more than a ridge between them.
 bool no_wall_between(const EdgeTree& tree, const EdgeNode& a, const EdgeNode& b, double distance) {
   if (a.first_piece != a.last_piece || b.first_piece != b.last_piece) return false;
   return arc_around(a, b, tree.perimeter(a.first_piece)) < kRidge * distance;

@@ -1,11 +1,11 @@
 #pragma once
-// Searches for the least ball: of all pairs of faces, or of one place.
+// Searches for the smallest ball: over all pairs of faces, or at one place.
 
 #include "export/walls/tangent_ball.hpp"
 
 namespace clay::solid::inline walls {
 
-/// Of all pairs of faces of the same piece.
+/// Searches all pairs of faces of the same piece.
 class WallSearch {
  public:
   explicit WallSearch(const EdgeTree& tree) : tree_(tree) {}
@@ -14,7 +14,7 @@ class WallSearch {
   [[nodiscard]] double best() const { return least_.diameter; }
   void leaves(const EdgeNode& a, const EdgeNode& b);
 
-  /// Looks across the axis as well.
+  /// Also searches across the axis.
   void across(const AxisClay& axis, std::uint32_t piece, std::size_t node = 0);
   [[nodiscard]] const Ball& least() const { return least_; }
 
@@ -25,7 +25,7 @@ class WallSearch {
   Ball least_;
 };
 
-/// Of the balls that touch a face at one point of it.
+/// Searches the balls that touch a face at a given point.
 class PlaceSearch {
  public:
   PlaceSearch(const EdgeTree& tree, const Face& face, const Vec2& at)

@@ -21,7 +21,7 @@ using test::SystemCallFault;
 
 class AtomicFileFailures : public test::AtomicFileFolder {};
 
-TEST_F(AtomicFileFailures, AKilledWriterLeavesNoLitter) {
+TEST_F(AtomicFileFailures, KilledWriterLeavesNoTemporaryFile) {
   const fs::path path = folder_ / "pot";
   put(path, "old");
   const int status = status_of_child([&] {
@@ -34,7 +34,7 @@ TEST_F(AtomicFileFailures, AKilledWriterLeavesNoLitter) {
   EXPECT_EQ(names(), std::set<std::string>{"pot"});
 }
 
-TEST_F(AtomicFileFailures, AFullDiskLeavesTheOldFile) {
+TEST_F(AtomicFileFailures, FullDiskKeepsTheOldFile) {
   const fs::path path = folder_ / "pot";
   put(path, "old");
   const int status = status_of_child([&] {
@@ -74,7 +74,7 @@ TEST_F(AtomicFileFailures, RefusesAReadOnlyFolderAndAReadOnlyFile) {
   EXPECT_EQ(names(), (std::set<std::string>{"locked", "read only"}));
 }
 
-TEST_F(AtomicFileFailures, FindsTheTargetGoneAtTheCommit) {
+TEST_F(AtomicFileFailures, ReportsATargetFolderRemovedBeforeCommit) {
   fs::create_directory(folder_ / "kiln");
   auto orphan = AtomicFile::create(folder_ / "kiln/pot").value();
   fs::remove(folder_ / "kiln");
@@ -92,7 +92,7 @@ int status_under(const SystemCallFault& fault, Work work) {
   return status_of_child([&] { return test::inject(fault) && work(); });
 }
 
-TEST_F(AtomicFileFailures, ReportsEverySystemCallThatFails) {
+TEST_F(AtomicFileFailures, ReportsEveryFailingSystemCall) {
   const fs::path path = folder_ / "pot";
   put(path, "old");
   for (const SystemCallFault& fault : {
@@ -186,7 +186,7 @@ TEST_F(AtomicFileFailures, PublishesAllFilesOrNone) {
   EXPECT_EQ(names(), (std::set<std::string>{"blocked", "old", "pot"}));
 }
 
-TEST_F(AtomicFileFailures, TakesATemporaryNameWhereFilesCannotBeUnnamed) {
+TEST_F(AtomicFileFailures, UsesATemporaryNameWithoutUnnamedFiles) {
   const fs::path path = folder_ / "pot";
   put(path, "old");
   ASSERT_EQ(::chmod(path.c_str(), 0604), 0);
@@ -211,7 +211,7 @@ int status_of_writer(const fs::path& path, int signal) {
   });
 }
 
-TEST_F(AtomicFileFailures, TheNextWriterRemovesWhatAKilledOneHasLeft) {
+TEST_F(AtomicFileFailures, NextWriterRemovesFilesOfAKilledWriter) {
   const std::string longest(255, 'n');
   for (const std::string& name : {std::string("pot"), longest}) {
     const fs::path path = folder_ / name;
@@ -228,7 +228,7 @@ TEST_F(AtomicFileFailures, TheNextWriterRemovesWhatAKilledOneHasLeft) {
   }
 }
 
-TEST_F(AtomicFileFailures, WritersOfOneFileLeaveEachOtherAlone) {
+TEST_F(AtomicFileFailures, ConcurrentWritersDoNotInterfere) {
   const int status = status_under(kNoUnnamedFiles, [&] {
     auto first = AtomicFile::create(folder_ / "pot").value();
     auto second = AtomicFile::create(folder_ / "pot").value();
@@ -240,7 +240,7 @@ TEST_F(AtomicFileFailures, WritersOfOneFileLeaveEachOtherAlone) {
   EXPECT_EQ(names(), std::set<std::string>{"pot"});
 }
 
-TEST_F(AtomicFileFailures, AHandlerOfSignalsRemovesTemporaryFiles) {
+TEST_F(AtomicFileFailures, SignalHandlerRemovesTemporaryFiles) {
   const int status = status_under(kNoUnnamedFiles, [&] {
     auto gone = AtomicFile::create(folder_ / "pot").value();
     auto kept = AtomicFile::create(folder_ / "cup").value();

@@ -34,7 +34,7 @@ TEST_F(AtomicFileTest, PublishesAndReadsBack) {
   EXPECT_EQ(names(), std::set<std::string>{"pot"});
 }
 
-TEST_F(AtomicFileTest, ShowsNothingBeforeTheCommit) {
+TEST_F(AtomicFileTest, IsInvisibleBeforeCommit) {
   const fs::path path = folder_ / "pot";
   put(path, "old");
   auto file = AtomicFile::create(path);
@@ -50,7 +50,7 @@ TEST_F(AtomicFileTest, ShowsNothingBeforeTheCommit) {
   EXPECT_EQ(names(), std::set<std::string>{"pot"});
 }
 
-TEST_F(AtomicFileTest, WhatIsWrittenCanBeReadAgainBeforeTheCommit) {
+TEST_F(AtomicFileTest, WrittenBytesAreReadableBeforeCommit) {
   auto file = AtomicFile::create(folder_ / "pot").value();
   ASSERT_TRUE(file.rereadable());
   ASSERT_TRUE(file.write(std::string_view("clay and water")));
@@ -63,14 +63,14 @@ TEST_F(AtomicFileTest, WhatIsWrittenCanBeReadAgainBeforeTheCommit) {
   EXPECT_EQ(bytes_in(folder_ / "pot"), "clay and water!");
 }
 
-TEST_F(AtomicFileTest, DevicesCannotBeReadAgain) {
+TEST_F(AtomicFileTest, DevicesAreNotRereadable) {
   auto file = AtomicFile::create("/dev/null").value();
   EXPECT_FALSE(file.rereadable());
   std::string again(1, ' ');
   expect_says(file.read_at(0, std::as_writable_bytes(std::span(again))), "cannot be read again");
 }
 
-TEST_F(AtomicFileTest, LeavesNoTraceWithoutACommit) {
+TEST_F(AtomicFileTest, LeavesNothingWithoutCommit) {
   { ASSERT_TRUE(AtomicFile::create(folder_ / "pot")->write("x")); }
   EXPECT_TRUE(names().empty());
 }
@@ -121,7 +121,7 @@ TEST_F(AtomicFileTest, RefusesTargetsThatCannotBeFiles) {
   EXPECT_EQ(names(), std::set<std::string>{"loop"});
 }
 
-TEST_F(AtomicFileTest, WritesStraightToPipesAndDevices) {
+TEST_F(AtomicFileTest, WritesDirectlyToPipesAndDevices) {
   const fs::path pipe = folder_ / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
@@ -135,7 +135,7 @@ TEST_F(AtomicFileTest, WritesStraightToPipesAndDevices) {
   expect_io_error(publish("/dev/full", "x"), "/dev/full", ENOSPC);
 }
 
-TEST_F(AtomicFileTest, TakesADashForTheStandardStreams) {
+TEST_F(AtomicFileTest, AcceptsADashForTheStandardStreams) {
   put(folder_ / "in", "through");
   const int status = status_of_child([&] {
     ::dup2(::open((folder_ / "in").c_str(), O_RDONLY), STDIN_FILENO);
@@ -147,7 +147,7 @@ TEST_F(AtomicFileTest, TakesADashForTheStandardStreams) {
   EXPECT_EQ(bytes_in(folder_ / "out"), "through!");
 }
 
-TEST_F(AtomicFileTest, ReadFileRefusesWhatIsNotThereOrTooLarge) {
+TEST_F(AtomicFileTest, ReadFileRefusesMissingAndLargeFiles) {
   put(folder_ / "ten", "0123456789");
   EXPECT_EQ(read_file(folder_ / "ten", 10).value(), "0123456789");
   EXPECT_EQ(read_file(folder_ / "ten", 9).error().message,

@@ -94,7 +94,7 @@ TEST(CborReader, ReadsTheExamplesOfTheStandard) {
   }
 }
 
-TEST(CborReader, RefusesWhatAPotDoesNotHold) {
+TEST(CborReader, RefusesTypesThatPotsDoNotUse) {
   for (const char* hex : {
            "3bffffffffffffffff",  // -2^64: no 64-bit integer
            "f97c00",
@@ -122,7 +122,7 @@ TEST(CborReader, RefusesWhatAPotDoesNotHold) {
     EXPECT_FALSE(read(from_hex(hex)).value) << hex;
 }
 
-TEST(CborReader, RefusesAnnouncedLengthsBeforeItTakesMemory) {
+TEST(CborReader, RefusesHugeLengthsBeforeAllocating) {
   for (const char* hex : {"9bffffffffffffffff", "bbffffffffffffffff", "7bffffffffffffffff",
                           "9a7fffffff00", "ba7fffffff616100", "7a7fffffff61"})
     EXPECT_EQ(read(from_hex(hex)).refusal.substr(0, 42),
@@ -130,14 +130,14 @@ TEST(CborReader, RefusesAnnouncedLengthsBeforeItTakesMemory) {
         << hex;
 }
 
-TEST(CborReader, RefusesEveryDepthOfNesting) {
+TEST(CborReader, RefusesDeepNesting) {
   EXPECT_TRUE(read(repeated("81", 64) + from_hex("00")).value);
   EXPECT_FALSE(read(repeated("81", 65) + from_hex("00")).value);
   for (const char* hex : {"81", "9f", "a16161", "bf6161", "7f", "5f", "c1"})
     EXPECT_FALSE(read(repeated(hex, 2'000'000)).value) << hex;
 }
 
-TEST(CborReader, RefusesEveryCut) {
+TEST(CborReader, RefusesEveryTruncation) {
   const std::string whole = from_hex("a2616182fb3ff199999999999a1b000000e8d4a5100061626449455446");
   ASSERT_TRUE(read(whole).value);
   for (std::size_t n = 0; n < whole.size(); ++n)

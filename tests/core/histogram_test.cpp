@@ -28,7 +28,7 @@ Histogram histogram_of(const std::vector<std::int64_t>& times) {
   return histogram;
 }
 
-RC_GTEST_PROP(Histogram, TellsQuantilesWithinItsError, ()) {
+RC_GTEST_PROP(Histogram, ReturnsQuantilesWithinItsError, ()) {
   auto times = *rc::gen::nonEmpty(rc::gen::container<std::vector<std::int64_t>>(any_time()));
   const Histogram histogram = histogram_of(times);
   std::ranges::sort(times);
@@ -47,7 +47,7 @@ RC_GTEST_PROP(Histogram, TellsQuantilesWithinItsError, ()) {
   }
 }
 
-RC_GTEST_PROP(Histogram, MergesAsIfAddedTogether, ()) {
+RC_GTEST_PROP(Histogram, MergeEqualsAddingAll, ()) {
   const auto one = *rc::gen::container<std::vector<std::int64_t>>(any_time());
   const auto other = *rc::gen::container<std::vector<std::int64_t>>(any_time());
   std::vector<std::int64_t> both = one;
@@ -64,7 +64,7 @@ RC_GTEST_PROP(Histogram, MergesAsIfAddedTogether, ()) {
   RC_ASSERT(std::abs(merged.mean_ns() - mean) <= 1e-12 * mean);
 }
 
-TEST(Histogram, KnowsItsEnds) {
+TEST(Histogram, ReturnsMinimumAndMaximum) {
   Histogram histogram;
   EXPECT_EQ(histogram.quantile_ns(0.5), 0);
   EXPECT_EQ(histogram.least_ns(), 0);
@@ -83,7 +83,7 @@ TEST(Histogram, KnowsItsEnds) {
   EXPECT_EQ(histogram.count(), 0u);
 }
 
-TEST(Histogram, CountsFromABound) {
+TEST(Histogram, CountsTimesFromABound) {
   Histogram histogram;
   for (std::int64_t ns = 1; ns <= 1000; ++ns) histogram.add(ns * 1'000'000);
   EXPECT_EQ(histogram.count_from(0), 1000u);

@@ -19,7 +19,7 @@ void expect_refused(std::string_view text, const std::string& message) {
   test::expect_refused(parse(text), message);
 }
 
-TEST(LocatedJson, KnowsTheLineOfEveryValue) {
+TEST(LocatedJson, FindsTheLineOfEveryValue) {
   const std::string text =
       "\n{\n\"a\": 1\n,\n\"b\":\n[\n1\n,\n-2.5\n,{\n\"a\"\n:\n\"x\"}\n],\n\"c\": "
       "{\n},\"d\":\ntrue\n}";
@@ -38,7 +38,7 @@ TEST(LocatedJson, KnowsTheLineOfEveryValue) {
   EXPECT_EQ(json->field_error({"b", std::size_t{2}, "a"}, "no").message, "F:13: b[2].a: no");
 }
 
-TEST(LocatedJson, CountsFromTheLineItIsTold) {
+TEST(LocatedJson, CountsFromTheGivenFirstLine) {
   const auto json = LocatedJson::from_json("[1]", "F", 10, 41);
   EXPECT_EQ(json->error_at({}, "here").message, "F:41: here");
 }
@@ -51,7 +51,7 @@ TEST(LocatedJson, KeepsIntegersExactly) {
   EXPECT_EQ(json->root()[2].get<std::uint64_t>(), UINT64_MAX);
 }
 
-TEST(LocatedJson, RefusesWhatIsNotOneJsonValue) {
+TEST(LocatedJson, RefusesAnythingButOneValue) {
   expect_refused("",
                  "F:1: syntax error while parsing value - unexpected end of input; expected "
                  "'[', '{', or a literal");
@@ -70,7 +70,7 @@ TEST(LocatedJson, RefusesWhatIsNotOneJsonValue) {
   expect_refused(std::string_view("{}\n\0[]", 6), "F:2: expected JSON, found a zero byte");
 }
 
-TEST(LocatedJson, RefusesWhatPeersReadDifferently) {
+TEST(LocatedJson, RefusesAmbiguousJson) {
   expect_refused("{\"a\": 1,\n\"b\": {}, \"a\": 2}", "F:2: duplicate field \"a\"");
   expect_refused("[1,\n1e999]", "F:2: number overflow parsing '1e999'");
   expect_refused("[\n-1e999\n]", "F:2: number overflow parsing '-1e999'");
@@ -89,7 +89,7 @@ TEST(LocatedJson, RefusesMalformedUtf8) {
   EXPECT_TRUE(parse("[\"\u00fc\u6c34\"]"));
 }
 
-TEST(LocatedJson, BoundsDepthMembersAndValues) {
+TEST(LocatedJson, LimitsDepthMembersAndValues) {
   const auto nested = [](std::size_t n) { return std::string(n, '[') + std::string(n, ']'); };
   EXPECT_TRUE(parse(nested(64)));
   expect_refused(nested(65), "F:1: expected at most 64 levels, found more");
@@ -104,7 +104,7 @@ TEST(LocatedJson, BoundsDepthMembersAndValues) {
   EXPECT_FALSE(parse("[0,0,0,0]", 4));
 }
 
-TEST(LocatedJson, TellsAnUnfinishedTextFromADamagedOne) {
+TEST(LocatedJson, DistinguishesUnfinishedFromDamagedText) {
   const std::string whole = R"({"a": [1, -2.5e3, true, "x\u00fcy"], "b": null})";
   EXPECT_FALSE(is_unfinished_json(whole));
   for (std::size_t n = 0; n < whole.size(); ++n)
@@ -113,7 +113,7 @@ TEST(LocatedJson, TellsAnUnfinishedTextFromADamagedOne) {
     EXPECT_FALSE(is_unfinished_json(damaged)) << damaged;
 }
 
-RC_GTEST_PROP(LocatedJson, NoBytesMakeItThrow, (const std::vector<char>& bytes)) {
+RC_GTEST_PROP(LocatedJson, NeverThrows, (const std::vector<char>& bytes)) {
   const std::string text(bytes.begin(), bytes.end());
   (void)parse(text);
   (void)parse("[\"" + text);

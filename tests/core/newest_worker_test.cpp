@@ -15,7 +15,7 @@ void wait_for(std::binary_semaphore& begun) {
   test::wait_until([&] { return begun.try_acquire(); }, test::kDeadline, "the work to begin");
 }
 
-TEST(NewestWorker, DropsQuestionsThatANewerOneReplaced) {
+TEST(NewestWorker, DropsReplacedQuestions) {
   std::binary_semaphore begun(0), go(0);
   std::vector<int> worked;
   NewestWorker<int, int> worker(
@@ -45,7 +45,7 @@ TEST(NewestWorker, DropsQuestionsThatANewerOneReplaced) {
   EXPECT_EQ(worked, (std::vector<int>{1, 5}));
 }
 
-TEST(NewestWorker, WithoutAThreadTheAnswerIsThere) {
+TEST(NewestWorker, AnswersImmediatelyWithoutAThread) {
   NewestWorker<int, int> worker([](const int& question, const auto&) { return question + 1; },
                                 false);
   worker.ask(1);
@@ -55,7 +55,7 @@ TEST(NewestWorker, WithoutAThreadTheAnswerIsThere) {
 }
 
 /// Each would last for ever.
-TEST(NewestWorker, WhatIsWorkedOnIsGivenUpForANewerQuestionAndAtTheEnd) {
+TEST(NewestWorker, CancelsForANewerQuestionAndOnDestruction) {
   std::atomic<int> worked{0};
   {
     std::binary_semaphore begun(0);
@@ -81,7 +81,7 @@ TEST(NewestWorker, WhatIsWorkedOnIsGivenUpForANewerQuestionAndAtTheEnd) {
   EXPECT_EQ(worked, 3);
 }
 
-TEST(NewestWorker, EndsWithoutWorkingOnWhatWaits) {
+TEST(NewestWorker, DropsTheWaitingQuestionOnDestruction) {
   std::atomic<int> worked{0};
   {
     std::binary_semaphore begun(0);

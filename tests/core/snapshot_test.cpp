@@ -27,7 +27,7 @@ TEST(Snapshot, ShowsTheFirstValueUntilOneIsPublished) {
 }
 
 // All orders in which whole calls of the two sides can follow one another.
-RC_GTEST_PROP(Snapshot, IsTheLastPublishedInEveryOrderOfCalls, ()) {
+RC_GTEST_PROP(Snapshot, ReturnsTheLastPublishedInEveryOrderOfCalls, ()) {
   Snapshot<int> snapshot;
   int published = 0;
   const int* shown = &snapshot.newest();
@@ -55,7 +55,7 @@ struct Wide {
   }
 };
 
-TEST(Snapshot, IsNeverTornAndNeverGoesBackBetweenThreads) {
+TEST(Snapshot, IsNeverTornAndNeverGoesBack) {
   constexpr std::uint64_t kWrites = 20'000;
   Snapshot<Wide> snapshot;
   std::atomic<std::uint64_t> begun{0}, done{0};

@@ -11,7 +11,7 @@
 namespace clay::falcon {
 namespace {
 
-RC_GTEST_PROP(SpscQueue, IsAQueueThatRefusesWhenFull, ()) {
+RC_GTEST_PROP(SpscQueue, KeepsOrderAndRefusesWhenFull, ()) {
   SpscQueue<int, 4> queue;
   std::deque<int> model;
   int next = 0;
@@ -30,7 +30,7 @@ RC_GTEST_PROP(SpscQueue, IsAQueueThatRefusesWhenFull, ()) {
   }
 }
 
-TEST(SpscQueue, HoldsAsManyAsItSays) {
+TEST(SpscQueue, HoldsItsCapacity) {
   SpscQueue<int, 1> one;
   EXPECT_TRUE(one.push(1));
   EXPECT_FALSE(one.push(2));
@@ -67,7 +67,7 @@ std::uint32_t wrong_words(std::uint32_t commands) {
 }
 
 // In the shortest ring each place is written as soon as it is free.
-TEST(SpscQueue, LosesAndMixesNothingBetweenThreads) {
+TEST(SpscQueue, KeepsEveryItemInOrderBetweenThreads) {
   EXPECT_EQ(wrong_words<1>(5'000), 0u);
   EXPECT_EQ(wrong_words<8>(20'000), 0u);
 }

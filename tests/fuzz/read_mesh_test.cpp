@@ -80,14 +80,14 @@ class Mutator {
 
 class ReadMesh : public testing::TestWithParam<MeshFormat> {};
 
-TEST_P(ReadMesh, GoodFilesAreRead) {
+TEST_P(ReadMesh, ReadsValidFiles) {
   for (const std::string& file : samples::good_files(GetParam())) {
     const auto mesh = decode_mesh(file, GetParam(), "good");
     EXPECT_TRUE(mesh.has_value()) << mesh.error().message;
   }
 }
 
-TEST_P(ReadMesh, MutatedFilesKeepThePromise) {
+TEST_P(ReadMesh, MutatedFilesGiveAMeshOrAnError) {
   const std::vector<std::string> good = samples::good_files(GetParam());
   Mutator mutator(20'240'229);
   std::size_t refused = 0;
@@ -103,7 +103,7 @@ TEST_P(ReadMesh, MutatedFilesKeepThePromise) {
   EXPECT_LT(refused, kRuns);
 }
 
-RC_GTEST_PROP(ReadMeshAtAll, AnyBytesKeepThePromise, (const std::string& bytes)) {
+RC_GTEST_PROP(ReadMeshAtAll, AnyBytesGiveAMeshOrAnError, (const std::string& bytes)) {
   for (const std::string_view start :
        {"", "solid\n", "v 0 0 0\nf ", "DRACO\2\2\1\1", "DRACO\2\2\1"}) {
     for (const auto format : {MeshFormat::stl_binary, MeshFormat::obj, MeshFormat::drc}) {

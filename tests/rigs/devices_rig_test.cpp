@@ -58,7 +58,7 @@ class DevicesRig : public testing::Test {
   test::ScratchFolder folder_;
 };
 
-TEST_F(DevicesRig, TellsAFalconThroughItsStart) {
+TEST_F(DevicesRig, ReportsAFalconDuringItsStart) {
   FalconModelSettings model;
   model.power = false;
   plug_falcon(model);
@@ -92,7 +92,7 @@ TEST_F(DevicesRig, TellsAFalconThroughItsStart) {
 }
 
 /// Where the grip is, as --monitor says in the end, in the plane that the user faces and along z.
-TEST_F(DevicesRig, MeasuresByTheGeometryAndMapsAsAsked) {
+TEST_F(DevicesRig, UsesTheGivenGeometryAndMapping) {
   FalconModelSettings model;
   model.loaded = model.homed = true;
   model.geometry = kMartinHillierGeometry;
@@ -113,7 +113,7 @@ TEST_F(DevicesRig, MeasuresByTheGeometryAndMapsAsAsked) {
   EXPECT_GT(std::abs(last("").at("position_mm")[2].get<double>()), 1.0) << "the other set";
 }
 
-TEST_F(DevicesRig, TellsADriverAndAnotherProgram) {
+TEST_F(DevicesRig, ReportsABoundDriverAndAnotherProgram) {
   FalconModelSettings model;
   model.loaded = model.homed = true;
   plug_falcon(model);
@@ -128,7 +128,7 @@ TEST_F(DevicesRig, TellsADriverAndAnotherProgram) {
 }
 
 // Run as nobody where the tests run as root.
-TEST_F(DevicesRig, TellsThatPermissionIsMissing) {
+TEST_F(DevicesRig, ReportsMissingPermission) {
   plug_falcon({});
   SpaceMouseGadget mouse;
   const HidrawNode mouse_node(testbed_.get(), mouse, 3);
@@ -158,7 +158,7 @@ TEST_F(DevicesRig, TellsThatPermissionIsMissing) {
   }
 }
 
-TEST_F(DevicesRig, ListsAllThatIsPluggedInFalconsFirst) {
+TEST_F(DevicesRig, ListsConnectedDevicesFalconsFirst) {
   SpaceMouseGadget mouse;
   const HidrawNode mouse_node(testbed_.get(), mouse, 3);
   FalconModelSettings model;

@@ -110,7 +110,7 @@ TEST_F(FalconRig, LoadsFirmwareHomesAndRuns5000FramesWithNoBadOne) {
   EXPECT_EQ(device.counters().writes_dropped, 0u);
 }
 
-TEST_F(FalconRig, TheLastPacketIsZeroForce) {
+TEST_F(FalconRig, LastPacketIsZeroForce) {
   plug_ready();
   auto opened = open_device("auto", settings_);
   ASSERT_TRUE(opened) << text_of(opened.error());
@@ -124,7 +124,7 @@ TEST_F(FalconRig, TheLastPacketIsZeroForce) {
   EXPECT_EQ(locked([](auto& d) { return d.model.motors(); }), LegCounts{});
 }
 
-TEST_F(FalconRig, LosesAtMostTwoFramesToAFaultOnTheWire) {
+TEST_F(FalconRig, LosesAtMostTwoFramesPerWireFault) {
   plug_ready();
   auto opened = open_device("falcon", settings_);
   ASSERT_TRUE(opened) << text_of(opened.error());
@@ -157,7 +157,7 @@ TEST_F(FalconRig, LosesAtMostTwoFramesToAFaultOnTheWire) {
   }
 }
 
-TEST_F(FalconRig, TellsThatHomingIsLostAndSendsNoForceUntilItIsBack) {
+TEST_F(FalconRig, ReportsLostHomingAndSendsNoForceUntilHomed) {
   plug_ready();
   auto opened = open_device("falcon", settings_);
   ASSERT_TRUE(opened) << text_of(opened.error());
@@ -174,7 +174,7 @@ TEST_F(FalconRig, TellsThatHomingIsLostAndSendsNoForceUntilItIsBack) {
   EXPECT_EQ(sample.state, DeviceState::ready);
 }
 
-TEST_F(FalconRig, UnpluggedInMidStrokeIsAnErrorAndComesBack) {
+TEST_F(FalconRig, ReportsUnpluggingAndReconnects) {
   plug_ready();
   auto opened = open_device("falcon", settings_);
   ASSERT_TRUE(opened) << text_of(opened.error());
@@ -199,7 +199,7 @@ TEST_F(FalconRig, UnpluggedInMidStrokeIsAnErrorAndComesBack) {
   }
 }
 
-TEST_F(FalconRig, AWrongEchoIsTriedAgainAndToldInTheEnd) {
+TEST_F(FalconRig, RetriesAWrongEchoAndFinallyReportsIt) {
   FalconModelSettings model;
   model.faults = {{WireFault::echo_error, 500}};
   plug(model);
@@ -217,7 +217,7 @@ TEST_F(FalconRig, AWrongEchoIsTriedAgainAndToldInTheEnd) {
   EXPECT_NE(opened.error().what.find("tried 10 times"), std::string::npos);
 }
 
-TEST_F(FalconRig, TellsPowerFromFirmware) {
+TEST_F(FalconRig, DistinguishesMissingPowerFromMissingFirmware) {
   FalconModelSettings model;
   model.power = false;
   plug(model);
@@ -236,7 +236,7 @@ TEST_F(FalconRig, TellsPowerFromFirmware) {
   EXPECT_TRUE(open_device("falcon", settings_));
 }
 
-TEST_F(FalconRig, TakesItFromAKernelDriverAndLeavesItToAnotherProgram) {
+TEST_F(FalconRig, TakesOverFromAKernelDriverButNotFromAProgram) {
   plug_ready();
   plug_->manners.kernel_driver = true;
   auto listed = list_devices();
@@ -258,7 +258,7 @@ TEST_F(FalconRig, TakesItFromAKernelDriverAndLeavesItToAnotherProgram) {
   EXPECT_EQ(opened.error().fault, DeviceFault::busy);
 }
 
-TEST_F(FalconRig, ListsWithoutAByteSent) {
+TEST_F(FalconRig, ListsWithoutSendingAByte) {
   plug();
   const auto listed = list_devices();
   ASSERT_TRUE(listed);
@@ -269,7 +269,7 @@ TEST_F(FalconRig, ListsWithoutAByteSent) {
   EXPECT_TRUE(gadget_->bauds.empty());
 }
 
-TEST_F(FalconRig, FindsNothingWhereNothingIs) {
+TEST_F(FalconRig, FindsNothingWithoutDevices) {
   const auto listed = list_devices();
   ASSERT_TRUE(listed);
   EXPECT_TRUE(listed->empty());

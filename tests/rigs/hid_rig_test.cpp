@@ -104,7 +104,7 @@ TEST_F(BridgeRig, HomesAndRuns5000FramesWithNoBadOne) {
   EXPECT_EQ(locked([](auto& d) { return d.model.motors(); }), LegCounts{});
 }
 
-TEST_F(BridgeRig, LosesAtMostTwoFramesToAFaultOnTheWire) {
+TEST_F(BridgeRig, LosesAtMostTwoFramesPerWireFault) {
   auto opened = open_device("auto", settings_);
   ASSERT_TRUE(opened) << text_of(opened.error());
   HapticDevice& device = **opened;
@@ -126,7 +126,7 @@ TEST_F(BridgeRig, LosesAtMostTwoFramesToAFaultOnTheWire) {
   }
 }
 
-TEST_F(BridgeRig, PassesOverReportsOfAnotherMake) {
+TEST_F(BridgeRig, IgnoresForeignReports) {
   auto opened = open_device("bridge", settings_);
   ASSERT_TRUE(opened) << text_of(opened.error());
   {
@@ -140,7 +140,7 @@ TEST_F(BridgeRig, PassesOverReportsOfAnotherMake) {
   EXPECT_EQ((*opened)->counters().bytes_discarded, 0u);
 }
 
-TEST_F(BridgeRig, UnpluggedInMidStrokeIsAnErrorAndComesBack) {
+TEST_F(BridgeRig, ReportsUnpluggingAndReconnects) {
   auto opened = open_device("bridge", settings_);
   ASSERT_TRUE(opened) << text_of(opened.error());
   HapticDevice& device = **opened;
@@ -168,7 +168,7 @@ std::set<std::string> threads() {
   return all;
 }
 
-TEST_F(BridgeRig, TheThreadsOfALibraryTakeNoSignal) {
+TEST_F(BridgeRig, LibraryThreadsReceiveNoSignal) {
   const auto before = threads();
   auto opened = open_device("bridge", settings_);
   ASSERT_TRUE(opened) << text_of(opened.error());
@@ -190,7 +190,7 @@ std::atomic<int> stops{0};
 
 /// A hand that stops the device again and again, wherever it meets the thread that writes. A writer
 /// that waits for itself does not end: then the deadline in the hand's thread ends the program.
-TEST_F(BridgeRig, ALastWordNeverWaitsForTheThreadThatItMet) {
+TEST_F(BridgeRig, LastPacketNeverWaitsForTheInterruptedThread) {
   auto opened = open_device("bridge", settings_);
   ASSERT_TRUE(opened) << text_of(opened.error());
   met = opened->get();
@@ -232,7 +232,7 @@ TEST_F(BridgeRig, ALastWordNeverWaitsForTheThreadThatItMet) {
   EXPECT_EQ(locked([](auto& d) { return d.model.motors(); }), LegCounts{});
 }
 
-TEST_F(BridgeRig, SaysThatTheFalconBehindItIsSilent) {
+TEST_F(BridgeRig, ReportsASilentFalconBehindTheBridge) {
   locked([](auto& d) { d.model.set_baud(9600); });  // the bridge never set the line
   const auto opened = open_device("bridge", settings_);
   ASSERT_FALSE(opened);
@@ -262,7 +262,7 @@ class SpaceMouseRig : public HidRig {
   Plugged plugged_{testbed_.get(), gadget_};
 };
 
-TEST_F(SpaceMouseRig, IsAPositionDeviceWithALight) {
+TEST_F(SpaceMouseRig, ReportsPositionsAndSwitchesItsLight) {
   DeviceSettings settings;
   settings.space_mouse.silence_us = 1'000'000;
   auto opened = open_device("spacemouse", settings);
@@ -292,7 +292,7 @@ TEST_F(SpaceMouseRig, IsAPositionDeviceWithALight) {
   EXPECT_FALSE(light());
 }
 
-TEST_F(SpaceMouseRig, StandsStillWhenItFallsSilentAndTellsWhenItIsGone) {
+TEST_F(SpaceMouseRig, StopsWhenSilentAndReportsUnplugging) {
   auto opened = open_device("auto");
   ASSERT_TRUE(opened) << text_of(opened.error());
   HapticDevice& device = **opened;

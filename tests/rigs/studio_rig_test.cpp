@@ -182,7 +182,7 @@ class StudioRig : public testing::Test {
   std::optional<test::Program> user_;
 };
 
-TEST_F(StudioRig, AnArmComesThrowsIsLostAndComesBackAndTheMouseHasTheClayMeanwhile) {
+TEST_F(StudioRig, SwitchesBetweenAReconnectedArmAndTheMouse) {
   user_.emplace("sh " CLAYSTACK_RIGS "/arm_under_xvfb.sh " CLAYSTACK_PROGRAM " " +
                 folder_.path().string());
   comes_and_throws();

@@ -12,7 +12,7 @@ namespace {
 
 #ifndef CLAYSTACK_HIDAPI_LIBUSB  // no hidapi in these
 
-TEST_F(ThrowRig, AStockFalconThrowsTheSampleFromABareStart) {
+TEST_F(ThrowRig, StockFalconThrowsTheSampleWithoutFirmwareLoaded) {
   FalconGadget gadget({}, bowl_stroke());
   const UsbPlug plug(testbed_.get(), gadget);
   const auto run = throw_frames(gadget, kFrames + kHomingFrames, "falcon", firmware());
@@ -28,7 +28,7 @@ TEST_F(ThrowRig, AStockFalconThrowsTheSampleFromABareStart) {
   expect_felt(run, gadget.device.log);
 }
 
-TEST_F(ThrowRig, AFalconThatNobodyHomesIsNotWaitedForForEver) {
+TEST_F(ThrowRig, StopsWaitingForHoming) {
   FalconModelSettings model;
   model.loaded = true;
   model.homing_frames = 1 << 30;
@@ -43,7 +43,7 @@ TEST_F(ThrowRig, AFalconThatNobodyHomesIsNotWaitedForForEver) {
   for (const FrameLog& frame : gadget.device.log) ASSERT_EQ(frame.motors, LegCounts{});
 }
 
-TEST_F(ThrowRig, NoFaultOnTheWireIsBelieved) {
+TEST_F(ThrowRig, AcceptsNoWireFault) {
   FalconModelSettings model = ready();
   constexpr std::uint64_t kLost = 1900;
   model.faults = {{WireFault::lost_byte, 1300},   {WireFault::extra_byte, 1400},
@@ -68,7 +68,7 @@ TEST_F(ThrowRig, NoFaultOnTheWireIsBelieved) {
 
 #endif
 
-TEST_F(ThrowRig, AFalconBehindABridgeThrowsTheSame) {
+TEST_F(ThrowRig, BridgedFalconThrowsTheSamePot) {
   FalconModelSettings model;
   model.loaded = true;  // as the bridge does it
   BridgeGadget gadget(model, bowl_stroke());
@@ -83,7 +83,7 @@ TEST_F(ThrowRig, AFalconBehindABridgeThrowsTheSame) {
   EXPECT_EQ(gadget.bad_reports, 0u);
 }
 
-TEST_F(ThrowRig, ABridgeUnpluggedInMidStrokeKeepsPotAndSession) {
+TEST_F(ThrowRig, UnpluggedBridgeKeepsPotAndSession) {
   FalconModelSettings model = ready();
   model.faults = {{WireFault::unplugged, 1300}};
   BridgeGadget gadget(model, bowl_stroke());
@@ -97,7 +97,7 @@ TEST_F(ThrowRig, ABridgeUnpluggedInMidStrokeKeepsPotAndSession) {
 
 #ifndef CLAYSTACK_HIDAPI_LIBUSB
 
-TEST_F(ThrowRig, UnpluggedInMidStrokeKeepsPotAndSession) {
+TEST_F(ThrowRig, UnpluggedFalconKeepsPotAndSession) {
   FalconModelSettings model = ready();
   model.faults = {{WireFault::unplugged, 1300}};
   FalconGadget gadget(model, bowl_stroke());
@@ -111,7 +111,7 @@ TEST_F(ThrowRig, UnpluggedInMidStrokeKeepsPotAndSession) {
   EXPECT_EQ(thrown(), replayed());
 }
 
-TEST_F(ThrowRig, WaitsForTheDeviceToComeBackWhenAsked) {
+TEST_F(ThrowRig, WaitsForReconnectionIfRequested) {
   FalconModelSettings model = ready();
   model.faults = {{WireFault::unplugged, 500}};
   FalconGadget gadget(model, bowl_stroke());
@@ -137,7 +137,7 @@ TEST_F(ThrowRig, WaitsForTheDeviceToComeBackWhenAsked) {
 
 #endif
 
-TEST_F(ThrowRig, ASpaceMouseMovesTheToolAndFeelsNothing) {
+TEST_F(ThrowRig, SpaceMouseMovesTheToolWithoutForce) {
   SpaceMouseGadget gadget;
   Plugged plugged(testbed_.get(), gadget);
   // A cap held to the left until the tool is in the lump of 49 mm, or has pushed it over.

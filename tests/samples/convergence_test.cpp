@@ -22,7 +22,7 @@ auto parse_file(const std::string& path, Parse parse) {
 
 class ThrownPot : public testing::TestWithParam<const char*> {};
 
-TEST_P(ThrownPot, DependsNeitherOnItsRingsNorOnTheRate) {
+TEST_P(ThrownPot, IsIndependentOfRingHeightAndRate) {
   const std::string folder = CLAYSTACK_SAMPLES "/", name = GetParam();
   const SceneSpec scene = parse_file(folder + name + ".scene.json", parse_scene);
   const auto poses = play(parse_file(folder + "strokes/" + name + ".strokes.json", parse_strokes));

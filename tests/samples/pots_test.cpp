@@ -66,7 +66,7 @@ double floor_mm(const ClayStack& stack) {
 
 class Sample : public testing::TestWithParam<const char*> {};
 
-TEST_P(Sample, SessionIsWhatItsScriptPlays) {
+TEST_P(Sample, SessionMatchesItsScript) {
   const std::string sample = GetParam();
   const SceneSpec scene = scene_of(sample);
   const auto session = read_file(kFolder + sample + ".session");
@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(All, StandingPot,
                                                                                      : "");
                          });
 
-TEST(Vase, ItsFootIsTrimmed) {
+TEST(Vase, FootIsTrimmed) {
   EXPECT_GT(played("vase", Model::conserving).wheel.ledger().trimmed, 0);
 }
 
@@ -127,7 +127,7 @@ TEST(Bottle, HasANeckNarrowerThanHalfItsBelly) {
 
 class Cylinder : public testing::TestWithParam<Model> {};
 
-TEST_P(Cylinder, IsPulledToTheGapFromOneToolAboveTheFloorToTheRim) {
+TEST_P(Cylinder, WallEqualsTheGapFromFloorToRim) {
   const Played play = played("cylinder", GetParam());
   const ClayStack& stack = play.wheel.stack();
   const ToolSpec tool = scene_of("cylinder").tool;
@@ -177,7 +177,7 @@ TEST_P(PotSize, TwoHundredRingsFitIntoFourKilobytesAndRoundedIntoOne) {
   EXPECT_LE(rounded, 1000u);
 }
 
-TEST_P(PotSize, OfThePotAsThrownKeepsTheProportion) {
+TEST_P(PotSize, OfTheThrownPotStaysInProportion) {
   const Pot pot = played(GetParam(), Model::conserving).wheel.pot();
   const auto exact = write_pot(pot, PotEncoding::cbor).size();
   const auto rounded = write_pot(rounded_pot(pot, 0.001).value(), PotEncoding::cbor).size();

@@ -42,7 +42,7 @@ TEST(StrokeFile, ReadsEveryField) {
   EXPECT_EQ(script->strokes[2].gap_mm, (std::vector<double>{9.0, 3.0}));
 }
 
-TEST(StrokeFile, SaysWhatIsWrongAndWhere) {
+TEST(StrokeFile, ErrorsNameFieldAndPlace) {
   const auto with = [](const std::string& stroke) {
     return message_of(R"({"start_mm": [9, 9], "strokes": [{"through_mm": [[1, 2], [3, 4]]}, )" +
                       stroke + "]}");
@@ -82,7 +82,7 @@ TEST(StrokeFile, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(with("7"), "pot.strokes.json: strokes[1]: expected an object, found 7");
 }
 
-TEST(StrokeFile, SaysWhatIsWrongWithTheWhole) {
+TEST(StrokeFile, ReportsErrorsOfTheWholeFile) {
   EXPECT_EQ(message_of("[]"), "pot.strokes.json: expected an object, found an array of 0");
   EXPECT_EQ(message_of(R"({"strokes": []})"),
             "pot.strokes.json: start_mm: expected a field, found none");
@@ -96,7 +96,7 @@ TEST(StrokeFile, SaysWhatIsWrongWithTheWhole) {
   EXPECT_TRUE(torn.starts_with("pot.strokes.json:1: ")) << torn;
 }
 
-TEST(StrokeFile, IsReadStrictly) {
+TEST(StrokeFile, RefusesUnknownFields) {
   EXPECT_EQ(message_of("{\"seed\": 1,\n\"seed\": 2}"),
             "pot.strokes.json:2: duplicate field \"seed\"");
   EXPECT_EQ(message_of(std::string(100'000, '[')),

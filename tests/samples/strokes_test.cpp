@@ -78,7 +78,7 @@ RC_GTEST_PROP(Strokes, PosesAdvanceByOneMillisecond, (std::uint64_t seed)) {
     RC_ASSERT(poses[i].time_us == static_cast<std::int64_t>(i) * 1000);
 }
 
-RC_GTEST_PROP(Strokes, TheHandIsNeverFasterThanStated, (std::uint64_t seed)) {
+RC_GTEST_PROP(Strokes, HandNeverExceedsTheStatedSpeed, (std::uint64_t seed)) {
   std::vector<glm::dvec2> through;
   for (int k = 0; k < 5; ++k) through.emplace_back(30.0 * k, *rc::gen::inRange(0, 150));
   StrokeScript script = script_through(through);
@@ -105,7 +105,7 @@ RC_GTEST_PROP(Strokes, TheHandIsNeverFasterThanStated, (std::uint64_t seed)) {
   RC_ASSERT(fastest > 0.85 * script.strokes[0].speed_mm_s);
 }
 
-RC_GTEST_PROP(Strokes, APathPassesItsPoints, ()) {
+RC_GTEST_PROP(Strokes, PathPassesThroughItsPoints, ()) {
   std::vector<glm::dvec2> through;
   for (int k = 0; k < 6; ++k)
     through.emplace_back(*rc::gen::inRange(0, 100), 20.0 * k + *rc::gen::inRange(0, 10));
@@ -114,7 +114,7 @@ RC_GTEST_PROP(Strokes, APathPassesItsPoints, ()) {
   for (const glm::dvec2& point : through) RC_ASSERT(nearest(poses, point) <= 0.021);
 }
 
-TEST(Strokes, AStraightRowOfPointsIsAStraightPath) {
+TEST(Strokes, CollinearPointsGiveAStraightPath) {
   // A long span next to a short one is where a uniform spline would run past the corner.
   const auto poses = play(script_through({{0.0, 100.0}, {0.0, 20.0}, {0.0, 19.0}, {30.0, 19.0}}));
   for (const Pose& pose : poses) {
@@ -125,7 +125,7 @@ TEST(Strokes, AStraightRowOfPointsIsAStraightPath) {
   }
 }
 
-TEST(Strokes, APathIsTheSameBackward) {
+TEST(Strokes, PathIsTheSameBackward) {
   const std::vector<glm::dvec2> through{{0.0, 0.0}, {30.0, 0.0}, {35.0, 10.0}, {5.0, 60.0}};
   const auto forward = play(script_through(through));
   const auto backward = play(script_through({through.rbegin(), through.rend()}));
@@ -133,7 +133,7 @@ TEST(Strokes, APathIsTheSameBackward) {
     EXPECT_LE(nearest(forward, glm::dvec2(backward[i].position_mm)), 0.021);
 }
 
-TEST(Strokes, PassesAreShifted) {
+TEST(Strokes, ShiftsRepeatedPasses) {
   StrokeScript script = script_through({{10.0, 10.0}, {10.0, 30.0}});
   script.strokes[0].passes = 3;
   script.strokes[0].step_mm = {2.0, 1.0};
@@ -142,7 +142,7 @@ TEST(Strokes, PassesAreShifted) {
     EXPECT_LT(nearest(poses, {10.0 + 2.0 * pass, 30.0 + pass}), 1e-4);
 }
 
-TEST(Strokes, TheButtonIsPressedAlongTheStrokeAlone) {
+TEST(Strokes, PressesTheButtonDuringTheStrokeOnly) {
   StrokeScript script = script_through({{10.0, 10.0}, {10.0, 30.0}});
   script.start_mm = {50.0, 20.0};
   script.strokes[0].passes = 2;
@@ -155,7 +155,7 @@ TEST(Strokes, TheButtonIsPressedAlongTheStrokeAlone) {
   }
 }
 
-TEST(Strokes, TheGapRunsStraightFromPointToPoint) {
+TEST(Strokes, InterpolatesTheGapLinearly) {
   // Of points at even distances on a line the spline is that line, run through evenly.
   StrokeScript script = script_through({{10.0, 10.0}, {10.0, 30.0}, {10.0, 50.0}});
   script.start_mm = {50.0, 20.0};
@@ -174,7 +174,7 @@ TEST(Strokes, TheGapRunsStraightFromPointToPoint) {
   EXPECT_GT(along, 100u);
 }
 
-TEST(Strokes, AGapIsHeldToTheEnd) {
+TEST(Strokes, HoldsAGapToTheEnd) {
   StrokeScript script = script_through({{10.0, 10.0}, {10.0, 30.0}});
   script.strokes[0].gap_mm = {4.0};
   script.strokes[0].hold_s = 0.5;
@@ -184,7 +184,7 @@ TEST(Strokes, AGapIsHeldToTheEnd) {
   EXPECT_EQ(poses.back().gap_mm, 4.0);
 }
 
-TEST(Strokes, TremorIsAsLargeAsStated) {
+TEST(Strokes, TremorHasTheStatedAmplitude) {
   constexpr double kTremorMm = 0.2;
   const auto poses = play(resting_script(kTremorMm, 7));
   for (const glm::length_t axis : {0, 1, 2}) {
@@ -210,7 +210,7 @@ TEST(Strokes, TremorPeaksNearNineHertz) {
   EXPECT_GT(best, 20.0 * power_at(values, 40.0));
 }
 
-RC_GTEST_PROP(Strokes, TheSeedDecidesThePoses, (std::uint64_t seed)) {
+RC_GTEST_PROP(Strokes, SeedDeterminesThePoses, (std::uint64_t seed)) {
   StrokeScript script = script_through({{10.0, 10.0}, {20.0, 40.0}, {15.0, 60.0}}, 0.05);
   script.seed = seed;
   const auto poses = play(script);
@@ -219,7 +219,7 @@ RC_GTEST_PROP(Strokes, TheSeedDecidesThePoses, (std::uint64_t seed)) {
   RC_ASSERT(play(script) != poses);
 }
 
-TEST(Strokes, PosesAreCountedAsInASession) {
+TEST(Strokes, QuantizesPosesLikeASession) {
   for (const Pose& pose : play(script_through({{10.0, 10.0}, {20.0, 40.0}}, 0.05)))
     ASSERT_EQ(quantized(pose), pose);
 }

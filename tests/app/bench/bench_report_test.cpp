@@ -58,7 +58,7 @@ Ran parsed(const std::string& text) {
   return shell("xmllint --noout --nonet " + folder.file("page.xml"));
 }
 
-TEST(BenchStatistics, QuartilesOfKnownSamples) {
+TEST(BenchStatistics, ReturnsQuartilesOfKnownSamples) {
   // Definition 7: at (n - 1) p. Of 1..5 that is the 2nd, 3rd, 4th; of 1..4 it lies between.
   const Spread five = spread_of({5.0, 1.0, 4.0, 2.0, 3.0});
   EXPECT_EQ(five.low, 2.0);
@@ -74,7 +74,7 @@ TEST(BenchStatistics, QuartilesOfKnownSamples) {
   EXPECT_EQ(ratio_of({2.0, 9.0, 8.0}, {1.0, 3.0, 2.0}).median, 3.0);
 }
 
-RC_GTEST_PROP(BenchStatistics, AQuantileIsBetweenTheOrderStatisticsAroundIt, ()) {
+RC_GTEST_PROP(BenchStatistics, QuantileLiesBetweenNeighbouringOrderStatistics, ()) {
   auto samples = *rc::gen::nonEmpty(rc::gen::container<std::vector<double>>(
       rc::gen::map(rc::gen::inRange(-1000, 1000), [](int k) { return 0.125 * k; })));
   const double fraction = 0.001 * *rc::gen::inRange(0, 1001);
@@ -85,7 +85,7 @@ RC_GTEST_PROP(BenchStatistics, AQuantileIsBetweenTheOrderStatisticsAroundIt, ())
   RC_ASSERT(value <= samples[static_cast<std::size_t>(std::ceil(at))]);
 }
 
-TEST(BenchStatistics, ALimitIsMissedOnlyBeyondTheSpread) {
+TEST(BenchStatistics, MissesALimitOnlyBeyondTheSpread) {
   const Spread noisy{0.9, 1.1, 1.2};
   EXPECT_FALSE(exceeds(noisy, 1.0));
   EXPECT_TRUE(exceeds(noisy, 0.8));
@@ -93,7 +93,7 @@ TEST(BenchStatistics, ALimitIsMissedOnlyBeyondTheSpread) {
   EXPECT_TRUE(falls_short(noisy, 1.3));
 }
 
-TEST(BenchTiming, EveryWorkEveryRoundAndTheMeanOfItsRepetitions) {
+TEST(BenchTiming, RunsEveryWorkloadEveryRoundAndAveragesRepetitions) {
   std::vector<int> calls(2);
   const std::vector<Work> works{{"a", [&] { return ++calls[0], 1e-3; }},
                                 {"b", [&] { return ++calls[1], 2e-3; }}};
@@ -107,14 +107,14 @@ TEST(BenchTiming, EveryWorkEveryRoundAndTheMeanOfItsRepetitions) {
   EXPECT_EQ(duel(works[0], works[1], {3, 1e-3}).ratio.median, 2.0);
 }
 
-TEST(BenchTiming, AFailingWorkEndsAndSaysSo) {
+TEST(BenchTiming, StopsAndReportsAFailingWorkload) {
   const Work failing{"f", [] { return kNan; }}, sound{"s", [] { return 1e-3; }};
   const Duel d = duel(sound, failing, {3, 1e-3});
   EXPECT_NEAR(d.a.median, 1e-3, 1e-12);
   EXPECT_TRUE(std::isnan(d.b.median));
 }
 
-TEST(BenchSections, AnUnknownNameIsToldWhatThereIs) {
+TEST(BenchSections, ListsTheSectionsForAnUnknownName) {
   const auto chosen = chosen_sections({"tick", "pots"});
   ASSERT_FALSE(chosen);
   EXPECT_EQ(chosen.error().kind, ErrorKind::bad_input);
@@ -123,7 +123,7 @@ TEST(BenchSections, AnUnknownNameIsToldWhatThereIs) {
   EXPECT_NE(chosen.error().message.find("found pots"), std::string::npos);
 }
 
-TEST(BenchSections, AreMeasuredInTheReportsOrderWhateverTheOrderTyped) {
+TEST(BenchSections, RunInReportOrder) {
   const auto chosen = chosen_sections({"left_out", "tick"});
   ASSERT_TRUE(chosen);
   ASSERT_EQ(chosen->size(), 2u);
@@ -131,7 +131,7 @@ TEST(BenchSections, AreMeasuredInTheReportsOrderWhateverTheOrderTyped) {
   EXPECT_EQ(chosen_sections({})->size(), registered_sections().size());
 }
 
-TEST(BenchJson, EveryPartStandsUnderItsId) {
+TEST(BenchJson, StoresEveryPartUnderItsId) {
   const auto json = json_of(odd_report());
   EXPECT_EQ(json.at("odd").at("time_ns"), 12.5);
   EXPECT_EQ(json.at("odd").at("time_ns_iqr"), 0.25);
@@ -152,7 +152,7 @@ TEST(BenchJson, EveryPartStandsUnderItsId) {
   EXPECT_TRUE(again.at("odd_map").at("cells")[1][0].is_null());
 }
 
-TEST(BenchJson, ATableWithTheSectionsNameComesFirst) {
+TEST(BenchJson, PutsTheTableNamedLikeTheSectionFirst) {
   Report report = odd_report();
   report.sections[0].tables[0].id = "odd";
   const auto json = json_of(report);
@@ -194,7 +194,7 @@ std::string csv_named(const Report& report, const std::string& name) {
   return "no file " + name;
 }
 
-TEST(BenchCsv, GivesBackWhatItWasGiven) {
+TEST(BenchCsv, RoundTripsTables) {
   const auto records = parse_csv(csv_named(odd_report(), "odd_table.csv"));
   ASSERT_EQ(records.size(), 3u);
   EXPECT_EQ(records[0], (std::vector<std::string>{"case", "pass", "error_mm", "n"}));
@@ -205,7 +205,7 @@ TEST(BenchCsv, GivesBackWhatItWasGiven) {
   EXPECT_EQ(map[2], (std::vector<std::string>{"10", "0", "0.5"}));
 }
 
-RC_GTEST_PROP(BenchCsv, NumbersAndTextComeBackToTheBit,
+RC_GTEST_PROP(BenchCsv, RoundTripsNumbersAndTextExactly,
               (std::vector<std::pair<double, std::string>> rows)) {
   Report report;
   Table table{"t", "", {{"number", ""}, {"text", ""}}, {}, ""};
@@ -219,7 +219,7 @@ RC_GTEST_PROP(BenchCsv, NumbersAndTextComeBackToTheBit,
   }
 }
 
-TEST(BenchCsv, NoIdLeavesItsFolder) {
+TEST(BenchCsv, KeepsFilesOfAnyIdInTheFolder) {
   Report report = odd_report();
   report.sections[0].tables[0].id = "../../etc/a b";
   bool found = false;
@@ -230,7 +230,7 @@ TEST(BenchCsv, NoIdLeavesItsFolder) {
   EXPECT_TRUE(found);
 }
 
-TEST(BenchHtml, IsWellFormedWhateverTheNames) {
+TEST(BenchHtml, IsWellFormedForAnyNames) {
   const std::string html = html_of(odd_report());
   const auto run = parsed(html);
   EXPECT_EQ(run.status, 0) << run.err;
@@ -248,7 +248,7 @@ TEST(BenchHtml, IsWellFormedWhateverTheNames) {
   EXPECT_EQ(html, html_of(odd_report()));
 }
 
-TEST(BenchHtml, ADrawingAloneIsWellFormedToo) {
+TEST(BenchHtml, IsWellFormedForASingleDrawing) {
   const Report report = odd_report();
   for (const Plot& plot : report.sections[0].plots)
     EXPECT_EQ(parsed(svg_of(plot, chart::Place::alone)).status, 0) << plot.id;

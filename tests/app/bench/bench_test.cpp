@@ -9,14 +9,14 @@
 namespace clay::test {
 namespace {
 
-TEST(Bench, NamesTheSectionsWhereOneIsUnknown) {
+TEST(Bench, ListsTheSectionsForAnUnknownName) {
   const auto run = claystack("bench --only tick,pots");
   EXPECT_EQ(run.status, 2);
   EXPECT_NE(run.err.find("found pots"), std::string::npos);
   EXPECT_NE(run.err.find("left_out"), std::string::npos);
 }
 
-TEST(Bench, RefusesBeforeItMeasuresWhatItCouldNotWrite) {
+TEST(Bench, RefusesAnUnwritableOutputBeforeMeasuring) {
   const ScratchFolder folder;
   write_text(folder.file("taken"), "");
   // Seconds would pass if it measured first; the exit status alone cannot tell, so nothing may have
@@ -31,7 +31,7 @@ TEST(Bench, RefusesBeforeItMeasuresWhatItCouldNotWrite) {
   EXPECT_EQ(claystack("bench --extremes --only tick").status, 2);
 }
 
-TEST(Bench, TellsTheTickInEveryForm) {
+TEST(Bench, WritesTheTickSectionInEveryFormat) {
   const ScratchFolder folder;
   const auto run = claystack("bench --quick --only tick --json --report " + folder.file("r.html") +
                              " --csv " + folder.file("csv"));

@@ -31,7 +31,7 @@ Outcome resting(const SampledLoop& loop, double stiffness) {
   return run(energy_experiment(loop, stiffness), *wall);
 }
 
-TEST(Border, OfALinearWallIsWhereTheSwingGrows) {
+TEST(Border, StabilityBorderIsWhereAFreeSwingGrows) {
   for (const double rate : {100.0, 1000.0, 8000.0})
     for (const double damping : {1.0, 10.0})
       for (const int delay : {0, 1, 3}) {
@@ -42,7 +42,7 @@ TEST(Border, OfALinearWallIsWhereTheSwingGrows) {
       }
 }
 
-TEST(Border, OfPassivityIsMetBySwingsUpToNyquist) {
+TEST(Border, PassivityBorderIsReachedByForcedSwingsUpToNyquist) {
   for (const int delay : {0, 1, 2}) {
     const SampledLoop loop{1000, 0.1, 2.0, delay};
     const falcon::VirtualWall wall{1000.0, 0.7};
@@ -58,7 +58,7 @@ TEST(Border, OfPassivityIsMetBySwingsUpToNyquist) {
 }
 
 /// With exact encoders the tolerance is that of rounding alone.
-TEST(Energy, IsInjectedInNoCycleBelowTheBorderAndInSomeAbove) {
+TEST(Energy, IsInjectedOnlyAboveTheBorder) {
   for (const double rate : {100.0, 1000.0, 4000.0})
     for (const double damping : {2.0, 10.0})
       for (const int delay : {0, 1}) {
@@ -78,7 +78,7 @@ TEST(Energy, IsInjectedInNoCycleBelowTheBorderAndInSomeAbove) {
       }
 }
 
-TEST(Controller, LeavesNoLimitCycleAnywhere) {
+TEST(Controller, PreventsLimitCyclesEverywhere) {
   int buzzing = 0;
   for (const double rate : {100.0, 1000.0, 4000.0})
     for (const double mass : {0.1, 0.25, 0.5})
@@ -92,7 +92,7 @@ TEST(Controller, LeavesNoLimitCycleAnywhere) {
   EXPECT_GT(buzzing, 50);  // of 90: the map of instability is there without it
 }
 
-TEST(Controller, LeavesAnAcceptedWallAlone) {
+TEST(Controller, PassesAnAcceptedWallUnchanged) {
   for (const double damping : {1.0, 2.0, 5.0}) {
     const SampledLoop loop{1000, 0.1, damping, 1};
     const double stiffness = 0.99 * accepted_stiffness(loop);
@@ -124,7 +124,7 @@ class StaleWall final : public Surface {
 };
 
 /// No bound knew of this delay, but force is earned and work counted by the readings of each tick.
-TEST(Controller, TamesAContactThatIsLaterThanWasSaid) {
+TEST(Controller, StabilizesAContactWithMoreDelayThanStated) {
   const SampledLoop loop{1000, 0.1, 2.0, 1};
   const double stiffness = 0.95 * accepted_stiffness(loop);
   Experiment e = wall_experiment(loop, stiffness, kFalconStepM);
@@ -135,13 +135,13 @@ TEST(Controller, TamesAContactThatIsLaterThanWasSaid) {
   EXPECT_LT(run(e, wall).swing_m, kMostSwingM);
 }
 
-TEST(Clay, WithoutRemovalIsTheElasticWall) {
+TEST(Clay, WithoutRemovalEqualsTheElasticWall) {
   const SampledLoop loop{1000, 0.1, 2.0, 1};
   EXPECT_LT(at_clay(loop, {0.7 * stable_stiffness(loop), 0.0, 20.0}, false).swing_m, kMostSwingM);
   EXPECT_GT(at_clay(loop, {1.5 * stable_stiffness(loop), 0.0, 20.0}, false).swing_m, kMostSwingM);
 }
 
-TEST(Clay, ThatFlowsIsStableFarBeyondTheElasticBorder) {
+TEST(Clay, FlowingClayIsStableFarBeyondTheElasticBorder) {
   const SampledLoop loop{1000, 0.1, 2.0, 1};
   const Outcome o = at_clay(loop, {10.0 * stable_stiffness(loop), 20.0, 20.0}, false);
   EXPECT_LT(o.swing_m, kMostSwingM);

@@ -19,13 +19,13 @@ namespace {
 
 class Extreme : public testing::TestWithParam<Case> {};
 
-TEST_P(Extreme, HoldsOnTheWheel) {
+TEST_P(Extreme, EngineMeetsEveryRequiredResult) {
   const Outcome outcome = GetParam().run(Who::conserving);
   EXPECT_EQ(outcome.verdict, Verdict::passed) << outcome.note;
 }
 
 /// A suite that the paper as printed passes is not testing.
-TEST_P(Extreme, TellsThePaperAsPrinted) {
+TEST_P(Extreme, LiteralPaperGivesItsExpectedResult) {
   const Outcome outcome = GetParam().run(Who::literal);
   EXPECT_EQ(outcome.verdict, GetParam().literal) << outcome.note;
 }
@@ -39,7 +39,7 @@ std::string name_of(const testing::TestParamInfo<Case>& info) {
 INSTANTIATE_TEST_SUITE_P(Case, Extreme, testing::ValuesIn(cases().begin(), cases().end()), name_of);
 
 /// The yardstick of speed is measured in both writings, so they must say the same.
-TEST(LiteralPaper, IsTheSameInBothWritings) {
+TEST(LiteralPaper, GivesTheSameResultInBothVersions) {
   bench::LiteralScene scene;
   scene.rings = 60;
   scene.ring_height_mm = 1.0;
@@ -68,7 +68,7 @@ TEST(LiteralPaper, IsTheSameInBothWritings) {
   EXPECT_GT(collapsed, 0);
 }
 
-TEST(ExtremeTable, NamesEachCaseOnce) {
+TEST(ExtremeTable, CaseNamesAreUnique) {
   std::set<std::string_view> names;
   for (const Case& c : cases()) EXPECT_TRUE(names.insert(c.name).second) << c.name;
 }

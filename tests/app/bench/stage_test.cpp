@@ -16,7 +16,7 @@
 namespace clay::test {
 namespace {
 
-TEST(BareTick, LeavesTheVeryStackThatTheEngineLeaves) {
+TEST(BareTick, MatchesTheEnginesStackBitForBit) {
   for (const double inner_mm : {0.0, 20.0}) {
     SceneSpec scene;
     scene.force.reset();
@@ -32,7 +32,7 @@ TEST(BareTick, LeavesTheVeryStackThatTheEngineLeaves) {
   }
 }
 
-TEST(StageCost, PutsInWhatItSays) {
+TEST(StageCost, EnablesTheNamedStage) {
   SceneSpec bare;
   bare.force.reset();
   const unsigned none = StepPlan::build(bare)->stages;
@@ -49,7 +49,7 @@ TEST(StageCost, PutsInWhatItSays) {
 }
 
 /// Counts rings, not seconds: what a stroke costs is the rings that its ticks reach.
-TEST(StageCost, TimesAStrokeThatStaysShortHoweverFineTheRings) {
+TEST(StageCost, TimesAShortStrokeForAnyRingHeight) {
   for (const auto& [rings, ring_height_mm] :
        {std::pair(std::size_t{200}, 0.5), std::pair(std::size_t{1} << 20, 0.001),
         std::pair(std::size_t{1} << 24, 0.02), std::pair(std::size_t{1} << 24, 1.0)}) {
@@ -76,7 +76,7 @@ TEST(StageCost, TimesAStrokeThatStaysShortHoweverFineTheRings) {
   }
 }
 
-TEST(StageCost, TimesNoStrokeWhoseTicksReachTooManyRings) {
+TEST(StageCost, RefusesStrokesThatReachTooManyRings) {
   SceneSpec scene;
   scene.lump.rings = std::size_t{1} << 20;
   scene.lump.ring_height_mm = 0.001;
@@ -85,7 +85,7 @@ TEST(StageCost, TimesNoStrokeWhoseTicksReachTooManyRings) {
   EXPECT_FALSE(cli::cost_of(scene, "stability"));
 }
 
-TEST(Presser, TouchesAsManyRingsAsItIsTimedBy) {
+TEST(Presser, TouchesTheStatedNumberOfRings) {
   bench::Presser ball(bench::press_scene(200));
   ball.press();
   EXPECT_NEAR(ball.rings_touched(), 30.0, 5.0);
@@ -99,7 +99,7 @@ TEST(Presser, TouchesAsManyRingsAsItIsTimedBy) {
   }
 }
 
-TEST(StrokeRun, AnOutcomeDoesNotDeviateFromItselfAndDoesFromAnother) {
+TEST(StrokeRun, DeviationIsZeroOnlyFromItself) {
   const auto coarse = bench::play_engine({100, 500, 30.0}, Model::conserving);
   const auto fine = bench::play_engine({400, 1000, 30.0}, Model::conserving);
   const auto same = bench::deviation(coarse, coarse);
@@ -115,7 +115,7 @@ TEST(StrokeRun, AnOutcomeDoesNotDeviateFromItselfAndDoesFromAnother) {
   EXPECT_EQ(coarse.volume_error, 0.0);
 }
 
-TEST(StrokeRun, ANotANumberShowsAsOne) {
+TEST(StrokeRun, DeviationFromNanIsNan) {
   auto broken = bench::play_engine({100, 500, 30.0}, Model::conserving);
   const auto sound = broken;
   broken.outer_mm[7] = std::nan("");

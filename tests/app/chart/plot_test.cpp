@@ -37,7 +37,7 @@ TEST(PlotAxis, LinearTicksAreRound) {
             (std::vector<std::string>{"-0.3", "-0.2", "-0.1", "0", "0.1", "0.2", "0.3"}));
 }
 
-TEST(PlotAxis, DecadesAreLabelledAndWhatIsBetweenIsNot) {
+TEST(PlotAxis, LabelsDecadesOnly) {
   EXPECT_EQ(labels({true, 0.9, 1100.0}), (std::vector<std::string>{"1", "10", "100", "1000"}));
   EXPECT_EQ(labels({true, 1e-9, 1e-5}),
             (std::vector<std::string>{"10⁻⁹", "10⁻⁸", "10⁻⁷", "10⁻⁶", "10⁻⁵"}));
@@ -45,12 +45,12 @@ TEST(PlotAxis, DecadesAreLabelledAndWhatIsBetweenIsNot) {
   EXPECT_EQ((AxisScale{true, 0.9, 1000.0}.ticks().size()), 1u + 3u * 9u + 1u);
 }
 
-TEST(PlotAxis, FewDecadesHaveTheirFifthsLabelledAndManyAreThinned) {
+TEST(PlotAxis, LabelsFifthsOfFewDecadesAndThinsMany) {
   EXPECT_EQ(labels({true, 1.0, 20.0}), (std::vector<std::string>{"1", "2", "5", "10", "20"}));
   EXPECT_LE(labels({true, 1e-150, 1e150}).size(), 12u);
 }
 
-TEST(PlotAxis, PlacesByTheLogarithm) {
+TEST(PlotAxis, PlacesValuesByTheirLogarithm) {
   AxisScale axis(true, 1.0, 1e4);
   axis.place(100.0, 300.0);
   EXPECT_NEAR(axis.at(1.0), 100.0, 1e-9);
@@ -61,7 +61,7 @@ TEST(PlotAxis, PlacesByTheLogarithm) {
   EXPECT_FALSE(axis.shows(kNan));
 }
 
-RC_GTEST_PROP(PlotAxis, TicksAscendWithinTheRangeAndAreAFew, (bool logarithmic)) {
+RC_GTEST_PROP(PlotAxis, TicksAscendAndAreFew, (bool logarithmic)) {
   const double low = std::pow(10.0, *rc::gen::inRange(-12, 12)) * *rc::gen::inRange(1, 100);
   const double high = low * (1.0 + 0.001 * *rc::gen::inRange(1, 1'000'000));
   const AxisScale axis(logarithmic, low, high);
@@ -76,12 +76,12 @@ RC_GTEST_PROP(PlotAxis, TicksAscendWithinTheRangeAndAreAFew, (bool logarithmic))
   RC_ASSERT(labels(axis).size() <= 14u);
 }
 
-TEST(PlotAxis, ARangeWithOneRoundNumberIsLabelledAllTheSame) {
+TEST(PlotAxis, LabelsARangeWithOneRoundNumber) {
   EXPECT_GE(labels(AxisScale(true, 1.1e-11, 3.48e-11)).size(), 2u);
   EXPECT_GE(labels(AxisScale(true, 2.1, 9.9)).size(), 2u);
 }
 
-TEST(PlotAxis, ARangeOfNothingOrOfOneValueHasLength) {
+TEST(PlotAxis, GivesEmptyAndSingleValueRangesALength) {
   for (const bool logarithmic : {false, true}) {
     Extent extent{logarithmic};
     for (int values = 0; values < 2; ++values) {
@@ -94,7 +94,7 @@ TEST(PlotAxis, ARangeOfNothingOrOfOneValueHasLength) {
   }
 }
 
-TEST(Plot, DrawsEveryPointThatItsAxesCanShowAndZerosOnTheAxis) {
+TEST(Plot, DrawsEveryPointOnTheAxesAndZerosAtTheEdge) {
   Plot plot{"p", "", {"x", true}, {"y", true}, {}, ""};
   plot.curves.push_back(
       {"c", {1.0, 10.0, 100.0, 1000.0, -1.0}, {1.0, 0.0, kNan, 3.0, 1.0}, {}, {}});
@@ -105,7 +105,7 @@ TEST(Plot, DrawsEveryPointThatItsAxesCanShowAndZerosOnTheAxis) {
   EXPECT_NE(svg.find("exactly 0"), std::string::npos);
 }
 
-TEST(Plot, ThinningKeepsSpikesOfOnePoint) {
+TEST(Plot, ThinningKeepsSinglePointSpikes) {
   Plot plot{"p", "", {"x", false}, {"y", false}, {Curve{}}, ""};
   for (int k = 0; k < 100'000; ++k) {
     plot.curves[0].x.push_back(k);
@@ -125,7 +125,7 @@ TEST(Plot, ThinningKeepsSpikesOfOnePoint) {
   EXPECT_NEAR(most - least, 340.0 / 1.12, 0.1);
 }
 
-TEST(PlotMap, HasACellForEachNumberAndTellsWhatWasNotMeasured) {
+TEST(PlotMap, DrawsACellPerNumberAndMarksMissingOnes) {
   Map map{"m", "", {"x", true}, {"y", false}, {1.0, 10.0, 100.0}, {0.0, 1.0}, {}, {}, ""};
   map.cells = {{0.0, 1.0, 0.5}, {kNan, 0.25, 0.0}};
   const std::string svg = svg_of(map, Place::page);
@@ -134,7 +134,7 @@ TEST(PlotMap, HasACellForEachNumberAndTellsWhatWasNotMeasured) {
   EXPECT_EQ(count(svg, "class='none'"), 1u + 1u);
 }
 
-TEST(XmlText, EscapesWhatMeansSomethingAndReplacesWhatMayNotBe) {
+TEST(XmlText, EscapesMarkupAndReplacesInvalidCharacters) {
   EXPECT_EQ(escaped("<a b='c' d=\"e\">&"), "&lt;a b=&#39;c&#39; d=&quot;e&quot;&gt;&amp;");
   EXPECT_EQ(escaped("µ – 💡\t"), "µ – 💡\t");
   const std::string bad = "\xEF\xBF\xBD";

@@ -46,14 +46,14 @@ TEST_F(CertifiedVase, ConformsToItsSchema) {
   EXPECT_EQ(violation(load_schema("process"), process), "");
 }
 
-TEST_F(CertifiedVase, ASwappedCertificateIsNamed) {
+TEST_F(CertifiedVase, ReportsASwappedCertificate) {
   const Ran run = check(stl, obj + ".certificate.json");
   EXPECT_EQ(run.status, 1);
   EXPECT_NE((run.out + run.err).find("format: the certificate states obj"), std::string::npos)
       << run.out << run.err;
 }
 
-TEST_F(CertifiedVase, AnEditedByteIsNamed) {
+TEST_F(CertifiedVase, ReportsAnEditedByte) {
   std::string bytes = read_text(stl);
   bytes[84 + 50 * 7 + 20] ^= 1;
   write_text(stl, bytes);
@@ -62,7 +62,7 @@ TEST_F(CertifiedVase, AnEditedByteIsNamed) {
   EXPECT_NE((run.out + run.err).find("content hash"), std::string::npos) << run.out << run.err;
 }
 
-TEST_F(CertifiedVase, AnEditedByteInADracoFileIsNamedWithoutACertificate) {
+TEST_F(CertifiedVase, ReportsAnEditedDracoByteWithoutACertificate) {
   std::string bytes = read_text(drc);
   bytes[bytes.size() / 2] ^= 1;
   write_text(drc, bytes);
@@ -71,7 +71,7 @@ TEST_F(CertifiedVase, AnEditedByteInADracoFileIsNamedWithoutACertificate) {
   EXPECT_NE(run.err.find("checksum: expected"), std::string::npos) << run.err;
 }
 
-TEST_F(CertifiedVase, ACertificateThatLiesIsNamed) {
+TEST_F(CertifiedVase, ReportsAFalseClaim) {
   std::string text = read_text(stl + ".certificate.json");
   const std::string field = "\"wall_lower_mm\": ";
   const std::size_t at = text.find(field);
@@ -83,14 +83,14 @@ TEST_F(CertifiedVase, ACertificateThatLiesIsNamed) {
   EXPECT_NE((run.out + run.err).find("least wall"), std::string::npos) << run.out << run.err;
 }
 
-TEST_F(CertifiedVase, WhatIsNoCertificateIsBadInput) {
+TEST_F(CertifiedVase, RefusesAFileThatIsNotACertificate) {
   EXPECT_EQ(check(stl, pot).status, 2);
   EXPECT_EQ(check(stl, folder.file("none.json")).status, 3);
   const Ran pots = check(pot, stl + ".certificate.json");
   EXPECT_EQ(pots.status, 2) << pots.out;
 }
 
-TEST_F(CertifiedVase, AHostileCertificateIsRefusedInALine) {
+TEST_F(CertifiedVase, RefusesAHostileCertificateInOneLine) {
   const std::string good = read_text(stl + ".certificate.json"), bad = folder.file("bad.json");
   const auto refused = [&](const std::string& text, int status, const std::string& says) {
     write_text(bad, text);

@@ -48,7 +48,7 @@ std::string nest(std::uint32_t shells) {
   return stl;
 }
 
-TEST(CheckLarge, ManyNestedShellsTakeLittleMemory) {
+TEST(CheckLarge, ChecksManyNestedShellsInLittleMemory) {
   const ScratchFolder folder;
   write_text(folder.file("nest.stl"), nest(30'000));
   const Ran run = with_megabytes(kProgram, "check --json " + folder.file("nest.stl"));
@@ -57,7 +57,7 @@ TEST(CheckLarge, ManyNestedShellsTakeLittleMemory) {
   EXPECT_EQ(run.json().at("notes").dump().substr(0, 24), "[\"15000 closed cavities,");
 }
 
-TEST(CheckLarge, ATextFileIsNotHeldInMemory) {
+TEST(CheckLarge, StreamsTextFiles) {
   // A tetrahedron between lines of blanks: more bytes than there is address space.
   const ScratchFolder folder;
   const std::string facet_begin = "facet normal 0 0 0\nouter loop\n";
@@ -77,7 +77,7 @@ TEST(CheckLarge, ATextFileIsNotHeldInMemory) {
   EXPECT_EQ(stl.status, 0) << stl.err;
 }
 
-TEST(CheckLarge, AMeshThatTakesTooMuchMemoryIsRefusedInAdvance) {
+TEST(CheckLarge, RefusesAMeshThatNeedsTooMuchMemoryInAdvance) {
   // 20 million facets without a byte on the disk: they are never looked at.
   const ScratchFolder folder;
   const std::uint32_t count = 20'000'000;
@@ -95,7 +95,7 @@ TEST(CheckLarge, AMeshThatTakesTooMuchMemoryIsRefusedInAdvance) {
       << run.err;
 }
 
-TEST(CheckLarge, TooLongATextIsRefusedInAdvance) {
+TEST(CheckLarge, RefusesATooLongTextInAdvance) {
   const ScratchFolder folder;
   write_text(folder.file("long.stl"), "solid long\n");
   std::filesystem::resize_file(folder.file("long.stl"), std::uintmax_t{9} << 30);
@@ -106,7 +106,7 @@ TEST(CheckLarge, TooLongATextIsRefusedInAdvance) {
       << run.err;
 }
 
-TEST(CheckLarge, SaysWhereFewerRaysWereFollowed) {
+TEST(CheckLarge, ReportsAReducedNumberOfRays) {
   // A soup of 20 000 triangles, all about the middle: each ray comes past nearly all of them.
   const ScratchFolder folder;
   const std::uint32_t count = 20'000;

@@ -46,7 +46,7 @@ class CheckMesh : public testing::Test {
   ScratchFolder folder;
 };
 
-TEST_F(CheckMesh, AHoleIsNamedWithItsPlace) {
+TEST_F(CheckMesh, ReportsAHoleWithItsPlace) {
   std::string stl = good_stl;
   stl.erase(84 + 50 * 100, 50);
   set_count(stl);
@@ -56,7 +56,7 @@ TEST_F(CheckMesh, AHoleIsNamedWithItsPlace) {
   EXPECT_NE(json.at("problems").dump().find(" mm"), std::string::npos);
 }
 
-TEST_F(CheckMesh, AFlippedFaceIsNamedWithItsPlace) {
+TEST_F(CheckMesh, ReportsAFlippedFaceWithItsPlace) {
   std::string stl = good_stl;
   char* corners = facet(stl, 57) + 12;
   char second[12];
@@ -68,7 +68,7 @@ TEST_F(CheckMesh, AFlippedFaceIsNamedWithItsPlace) {
   EXPECT_TRUE(json.at("closed"));
 }
 
-TEST_F(CheckMesh, NotANumberIsNamedWithItsPlace) {
+TEST_F(CheckMesh, ReportsNanWithItsPlace) {
   std::string stl = good_stl;
   const float nan = std::numeric_limits<float>::quiet_NaN();
   std::memcpy(facet(stl, 33) + 12, &nan, 4);
@@ -78,27 +78,27 @@ TEST_F(CheckMesh, NotANumberIsNamedWithItsPlace) {
   expect_problem("nan.obj", obj, 2, "nan.obj:");
 }
 
-TEST_F(CheckMesh, ATruncatedFileIsRefused) {
+TEST_F(CheckMesh, RefusesATruncatedFile) {
   expect_problem("cut.stl", good_stl.substr(0, good_stl.size() - 7), 2, "cut.stl");
   expect_problem("cut.obj", good_obj.substr(0, good_obj.size() - 5), 2, "cut.obj:");
   expect_problem("cut.drc", good_drc.substr(0, good_drc.size() / 2), 2, "cut.drc");
   expect_problem("empty.stl", "", 2, "empty.stl");
 }
 
-TEST_F(CheckMesh, AChangedDracoFileIsRefused) {
+TEST_F(CheckMesh, RefusesAChangedDracoFile) {
   std::string drc = good_drc;
   drc.back() = static_cast<char>(drc.back() ^ 1);
   expect_problem("changed.drc", drc, 2, "the file has been changed");
 }
 
-TEST_F(CheckMesh, ADracoFileOfOursSaysThatItIsWhole) {
+TEST_F(CheckMesh, ReportsAnIntactDracoChecksum) {
   write_text(folder.file("p.drc"), good_drc);
   const Ran run = claystack("check --json " + folder.file("p.drc"));
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.json().at("notes"), nlohmann::json({"checksum holds"}));
 }
 
-TEST_F(CheckMesh, InsideOutIsNotOriented) {
+TEST_F(CheckMesh, ReportsAnInsideOutMesh) {
   std::string stl = good_stl;
   for (std::size_t k = 0; k < (stl.size() - 84) / 50; ++k) {
     char second[12];
@@ -112,14 +112,14 @@ TEST_F(CheckMesh, InsideOutIsNotOriented) {
   EXPECT_LT(json.at("volume_mm3"), 0.0);
 }
 
-TEST_F(CheckMesh, ADuplicateFaceIsNotManifold) {
+TEST_F(CheckMesh, ReportsADuplicateFaceAsNonManifold) {
   std::string stl = good_stl;
   stl.append(good_stl, 84 + 50 * 10, 50);
   set_count(stl);
   EXPECT_FALSE(expect_problem("double.stl", stl, 1, "10").at("manifold"));
 }
 
-TEST_F(CheckMesh, ATallSpikeThroughTheWallIntersects) {
+TEST_F(CheckMesh, ReportsASpikeThroughTheWallAsSelfIntersection) {
   // Every copy of one vertex is moved across the pot: closed as before, but self-crossing.
   std::string stl = good_stl;
   char vertex[12];
@@ -152,7 +152,7 @@ TEST(CheckPot, MeasuresTheWall) {
   EXPECT_NE(problem.at("where").get<std::string>().find("mm of height"), std::string::npos);
 }
 
-TEST(CheckPot, ACollapsedPotIsNotSound) {
+TEST(CheckPot, ReportsACollapsedPotAsUnsound) {
   const ScratchFolder folder;
   const std::string pot = folder.file("c.pot.json");
   ASSERT_EQ(claystack("throw -q " + sample("collapse.scene.json") + " -o " + pot).status, 0);
@@ -161,7 +161,7 @@ TEST(CheckPot, ACollapsedPotIsNotSound) {
   EXPECT_EQ(run.json().at("problems").at(0).at("what"), "collapsed");
 }
 
-TEST(CheckPot, AClosedCavityIsSoundAndNoted) {
+TEST(CheckPot, ReportsAClosedCavityAsSoundWithANote) {
   const ScratchFolder folder;
   const std::string pot = folder.file("p.pot.json");
   ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
@@ -180,7 +180,7 @@ TEST(CheckPot, AClosedCavityIsSoundAndNoted) {
   EXPECT_NE(exported.err.find("drain hole"), std::string::npos);
 }
 
-TEST(CheckPot, AnEditedQuantumIsCaughtByTheLedger) {
+TEST(CheckPot, DetectsAnEditedQuantumByTheLedger) {
   const ScratchFolder folder;
   const std::string pot = folder.file("p.pot.json");
   ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
@@ -193,7 +193,7 @@ TEST(CheckPot, AnEditedQuantumIsCaughtByTheLedger) {
   EXPECT_NE(run.err.find("ledger"), std::string::npos) << run.err;
 }
 
-TEST(Check, UnknownEndingsAreListed) {
+TEST(Check, ListsKnownExtensionsForAnUnknownOne) {
   const ScratchFolder folder;
   write_text(folder.file("pot.blend"), "x");
   const Ran run = claystack("check " + folder.file("pot.blend"));

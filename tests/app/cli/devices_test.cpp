@@ -9,29 +9,29 @@ namespace clay::test {
 namespace {
 
 // What is plugged into the machine of the test is unknown; the rigs plug devices in.
-TEST(Devices, ListsWhatIsThere) {
+TEST(Devices, ListsConnectedDevices) {
   const auto run = claystack("devices --json");
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(run.json().at("devices").is_array());
 }
 
-TEST(Devices, AskedForAndMissingIsStatus4) {
+TEST(Devices, ReturnsFourForAMissingDevice) {
   const auto run = claystack("devices usb:250-7");
   EXPECT_EQ(run.status, 4);
   EXPECT_NE(run.err.find("usb:250-7: no such device"), std::string::npos) << run.err;
 }
 
-TEST(Devices, UnknownKindIsBadUsage) {
+TEST(Devices, RefusesAnUnknownKind) {
   for (const char* arguments : {"devices mouse", "devices simulated --seconds nan"})
     EXPECT_EQ(claystack(arguments).status, 2) << arguments;
 }
 
-TEST(Devices, AutoNeverPicksTheSimulatedOne) {
+TEST(Devices, AutoNeverSelectsTheSimulatedArm) {
   const auto run = claystack("devices auto --json");
   EXPECT_EQ(run.out.find("simulated"), std::string::npos);
 }
 
-TEST(Devices, SimulatedIsHomedAndMonitored) {
+TEST(Devices, HomesAndMonitorsTheSimulatedArm) {
   const auto run = claystack("devices simulated --monitor --seconds 2 --json");
   ASSERT_EQ(run.status, 0) << run.err;
   std::istringstream lines(run.out);

@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(Import, MakesAPotThatPrints) {
+TEST(Import, MakesAPrintablePot) {
   const ScratchFolder folder;
   const std::string pot = folder.file("jug.pot.cbor"), stl = folder.file("jug.stl");
   const auto run = claystack("import --json " + sample("drawings/jug.svg") + " -o " + pot);
@@ -36,7 +36,7 @@ TEST(Import, MakesAPotThatPrints) {
   EXPECT_NEAR(revolved / drawn, 1.0, 1e-3);
 }
 
-TEST(Import, SaysWhatIsWrongAndLeavesNothing) {
+TEST(Import, ReportsErrorsAndLeavesNoFile) {
   const ScratchFolder folder;
   const std::string pot = folder.file("x.pot.json"), drawing = folder.file("x.csv");
   write_text(drawing, "10,0\n10,ten\n");

@@ -103,7 +103,7 @@ class InATerminal {
   std::string shown_;
 };
 
-TEST(LiveKeys, PauseTakeAwayGiveBackAndEnd) {
+TEST(LiveKeys, KeysPauseReleaseRearmAndQuit) {
   const ScratchFolder folder;
   InATerminal terminal(folder);
   ASSERT_TRUE(terminal.shows("keys: space pauses"));
@@ -132,7 +132,7 @@ TEST(LiveKeys, PauseTakeAwayGiveBackAndEnd) {
   EXPECT_EQ(read_text(folder.file("b.pot.json")), read_text(folder.file("a.pot.json")));
 }
 
-TEST(LiveKeys, CtrlCEndsItAndCtrlZDoesNotStopItUnderForce) {
+TEST(LiveKeys, CtrlCEndsAndCtrlZIsIgnored) {
   const ScratchFolder folder;
   InATerminal terminal(folder);
   ASSERT_TRUE(terminal.shows("force grows"));
@@ -144,7 +144,7 @@ TEST(LiveKeys, CtrlCEndsItAndCtrlZDoesNotStopItUnderForce) {
   EXPECT_EQ(terminal.modes(), terminal.modes_before());
 }
 
-TEST(LiveKeys, AClosedTerminalKeepsPotAndSession) {
+TEST(LiveKeys, KeepsPotAndSessionWhenTheTerminalCloses) {
   const ScratchFolder folder;
   InATerminal terminal(folder);
   ASSERT_TRUE(terminal.shows("force grows"));
@@ -158,7 +158,7 @@ TEST(LiveKeys, AClosedTerminalKeepsPotAndSession) {
   EXPECT_EQ(read_text(folder.file("b.pot.json")), read_text(folder.file("a.pot.json")));
 }
 
-TEST(LiveKeys, TheTerminalIsAsBeforeAfterEverySignalThatCanBeCaught) {
+TEST(LiveKeys, RestoresTheTerminalAfterEveryCatchableSignal) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT, SIGSEGV, SIGABRT}) {
     const ScratchFolder folder;
     InATerminal terminal(folder);

@@ -67,7 +67,7 @@ TEST(LiveThrow, RunsWithoutHardwareAndReplaysToTheSameBytes) {
   EXPECT_EQ(replayed(folder), read_text(folder.file("a.pot.json")));
 }
 
-TEST(LiveThrow, ASignalKeepsPotAndSession) {
+TEST(LiveThrow, KeepsPotAndSessionOnASignal) {
   for (const std::string signal : {"INT", "TERM", "HUP", "PIPE"}) {
     const ScratchFolder folder;
     const auto run = interrupted(folder, "--json -o " + folder.file("a.pot.json"),
@@ -79,7 +79,7 @@ TEST(LiveThrow, ASignalKeepsPotAndSession) {
   }
 }
 
-TEST(LiveThrow, KilledItLeavesARecordingThatReplaysAndTheOldSession) {
+TEST(LiveThrow, KilledLeavesAReplayableRecordingAndTheOldSession) {
   const ScratchFolder folder;
   write_text(folder.file("s.session"), "the old one");
   const auto run = interrupted(folder, "-o " + folder.file("a.pot.json"), "kill -s KILL $program");
@@ -89,7 +89,7 @@ TEST(LiveThrow, KilledItLeavesARecordingThatReplaysAndTheOldSession) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.pot.json")));
 }
 
-TEST(LiveThrow, ASecondOneOnTheSameSessionIsRefusedAtOnce) {
+TEST(LiveThrow, RefusesASecondRecorderOfTheSameSession) {
   const ScratchFolder folder;
   const auto run = interrupted(folder, "-o " + folder.file("a.pot.json"),
                                CLAYSTACK_PROGRAM " " + kBowl + " --device simulated --record " +
@@ -103,7 +103,7 @@ TEST(LiveThrow, ASecondOneOnTheSameSessionIsRefusedAtOnce) {
   EXPECT_EQ(replayed(folder), read_text(folder.file("a.pot.json")));
 }
 
-TEST(LiveThrow, WhatCannotBeWrittenIsRefusedBeforeAnythingIsThrown) {
+TEST(LiveThrow, RefusesUnwritableOutputsBeforeThrowing) {
   const ScratchFolder folder;
   write_text(folder.file("folder"), "");
   const std::string live = kBowl + " --device simulated --seconds 100 ";
@@ -123,7 +123,7 @@ TEST(LiveThrow, WhatCannotBeWrittenIsRefusedBeforeAnythingIsThrown) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.pot.json")));
 }
 
-TEST(LiveThrow, APotWhoseFolderIsGoneIsKeptInTheStateFolder) {
+TEST(LiveThrow, KeepsAPotInTheStateFolderIfItsFolderIsGone) {
   const ScratchFolder folder;
   const std::string pots = folder.file("pots"), state = folder.file("state");
   std::filesystem::create_directory(pots);
@@ -138,7 +138,7 @@ TEST(LiveThrow, APotWhoseFolderIsGoneIsKeptInTheStateFolder) {
   EXPECT_EQ(read_text(kept), replayed(folder));
 }
 
-TEST(LiveThrow, APotThatIsNoFileIsKeptInTheTemporaryFolderAsALastResort) {
+TEST(LiveThrow, KeepsAPotInTheTemporaryFolderAsALastResort) {
   const ScratchFolder folder;
   const std::string pot = folder.file("a.pot.json"), temporary = folder.file("tmp");
   std::filesystem::create_directory(temporary);
@@ -153,7 +153,7 @@ TEST(LiveThrow, APotThatIsNoFileIsKeptInTheTemporaryFolderAsALastResort) {
   EXPECT_EQ(read_text(kept), replayed(folder));
 }
 
-TEST(LiveThrow, AReaderThatIsGoneCostsNoPot) {
+TEST(LiveThrow, KeepsThePotWhenStdoutCloses) {
   const ScratchFolder folder;
   const auto run =
       shell(CLAYSTACK_PROGRAM " " + kBowl + " --device simulated --seconds 0.5 --record " +
@@ -162,7 +162,7 @@ TEST(LiveThrow, AReaderThatIsGoneCostsNoPot) {
   EXPECT_EQ(replayed(folder), read_text(folder.file("a.pot.json")));
 }
 
-TEST(LiveThrow, RefusesASceneThatIsTooStiffAndSoftensItWhenAsked) {
+TEST(LiveThrow, RefusesAStiffSceneUnlessSoftened) {
   const ScratchFolder folder;
   auto scene = nlohmann::json::parse(read_text(sample("bowl.scene.json")));
   scene["force"]["stiffness_n_per_mm2"] = 0.2;
@@ -183,7 +183,7 @@ TEST(LiveThrow, RefusesASceneThatIsTooStiffAndSoftensItWhenAsked) {
   EXPECT_EQ(claystack(live + " --scale 2 --force-gain 1").status, 2);
 }
 
-TEST(LiveThrow, NamesWhatItCannotDo) {
+TEST(LiveThrow, ReportsUnsupportedRequests) {
   const std::string live = "throw " + sample("bowl.scene.json") + " --device ";
   EXPECT_EQ(claystack(live + "hand").status, 2);
   EXPECT_EQ(claystack(live + "simulated --rate 50").status, 2);

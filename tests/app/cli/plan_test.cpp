@@ -20,7 +20,7 @@ constexpr const char* kSolidFrictionless = R"({
   "force": {"stiffness_n_per_mm2": 0.02}
 })";
 
-TEST(Plan, LeavesOutWhatASolidFrictionlessSceneDoesNotNeed) {
+TEST(Plan, LeavesOutUnneededStages) {
   const ScratchFolder folder;
   write_text(folder.file("s.scene.json"), kSolidFrictionless);
   const auto run = claystack("plan --json " + folder.file("s.scene.json"));
@@ -36,7 +36,7 @@ TEST(Plan, LeavesOutWhatASolidFrictionlessSceneDoesNotNeed) {
   }
 }
 
-TEST(Plan, HasAllInForASceneThatNeedsAll) {
+TEST(Plan, KeepsAllNeededStages) {
   const ScratchFolder folder;
   auto scene = nlohmann::json::parse(kSolidFrictionless);
   scene["lump"]["inner_radius_mm"] = 20;
@@ -52,7 +52,7 @@ TEST(Plan, HasAllInForASceneThatNeedsAll) {
             (std::set<std::string>{"force", "friction"}));
 }
 
-TEST(Plan, SaysWhetherAnArmCanRenderTheContact) {
+TEST(Plan, ReportsWhetherAnArmCanRenderTheContact) {
   const ScratchFolder folder;
   write_text(folder.file("s.scene.json"), kSolidFrictionless);
   // 41 rings of 0.5 mm under the sphere, 0.02 N/mm2: 410 N/m. Accepted: b / 3T.

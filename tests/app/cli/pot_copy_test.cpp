@@ -20,7 +20,7 @@ class PotCopies : public testing::TestWithParam<const char*> {
   std::string pot = folder.file("p.pot.json");
 };
 
-TEST_P(PotCopies, ThereAndBackGivesTheSameBytes) {
+TEST_P(PotCopies, RoundTripToTheSameBytes) {
   const std::string cbor = folder.file("c.pot.cbor"), back = folder.file("b.pot.json");
   ASSERT_EQ(claystack("export -q " + pot + " " + cbor).status, 0);
   ASSERT_EQ(claystack("export -q " + cbor + " " + back).status, 0);
@@ -28,7 +28,7 @@ TEST_P(PotCopies, ThereAndBackGivesTheSameBytes) {
   EXPECT_LT(3 * read_text(cbor).size(), read_text(pot).size());
 }
 
-TEST_P(PotCopies, RoundedThereAndBackGivesTheSameBytes) {
+TEST_P(PotCopies, RoundedRoundTripToTheSameBytes) {
   const std::string json = folder.file("r.pot.json"), cbor = folder.file("r.pot.cbor");
   ASSERT_EQ(claystack("export -q --precision 0.001 " + pot + " " + json + " " + cbor).status, 0);
   const std::string back = folder.file("b.pot.json"), again = folder.file("b.pot.cbor");
@@ -51,7 +51,7 @@ double clay_mm3(const std::string& pot_text) {
                              pot.at("ring_height_mm").get<long double>());
 }
 
-TEST_P(PotCopies, SaysWhatRoundingChanged) {
+TEST_P(PotCopies, ReportTheEffectOfRounding) {
   const std::string rounded = folder.file("r.pot.json");
   const auto run = claystack("export --json --precision 0.01 " + pot + " " + rounded);
   ASSERT_EQ(run.status, 0) << run.err;
@@ -67,7 +67,7 @@ TEST_P(PotCopies, SaysWhatRoundingChanged) {
   EXPECT_NE(file.at("volume_change_mm3"), 0.0);
 }
 
-TEST_P(PotCopies, RoundedPotsAreSoundAndPrint) {
+TEST_P(PotCopies, RoundedPotsAreSoundAndPrintable) {
   const std::string rounded = folder.file("r.pot.cbor"), stl = folder.file("r.stl");
   ASSERT_EQ(claystack("export -q --precision 0.001 " + pot + " " + rounded).status, 0);
   const Ran check = claystack("check " + rounded);
@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(Export, PotCopies, testing::Values("bowl", "vase", "bot
 
 class PotCopy : public ThrownBowl {};
 
-TEST_F(PotCopy, MeshesBesideARoundedCopyKeepTheExactRadii) {
+TEST_F(PotCopy, MeshesKeepTheExactRadiiBesideARoundedCopy) {
   const std::string alone = folder.file("a.stl"), beside = folder.file("b.stl");
   const std::string copy = folder.file("b.pot.cbor");
   ASSERT_EQ(claystack("export -q " + pot + " " + alone).status, 0);
@@ -92,7 +92,7 @@ TEST_F(PotCopy, MeshesBesideARoundedCopyKeepTheExactRadii) {
       << run.out;
 }
 
-TEST_F(PotCopy, RefusesWhatCannotBeRoundedAndWritesNothing) {
+TEST_F(PotCopy, RefusesUnroundablePotsAndWritesNothing) {
   const std::string copy = folder.file("c.pot.cbor"), stl = folder.file("c.stl");
   const auto expect = [&](const std::string& arguments, const std::string& says) {
     const Ran run = claystack("export " + arguments);

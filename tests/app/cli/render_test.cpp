@@ -20,7 +20,7 @@ const std::string& vase() {
   return path;
 }
 
-TEST(Render, WritesAPictureOfTheSizeAskedFor) {
+TEST(Render, WritesAPictureOfTheRequestedSize) {
   const ScratchFolder folder;
   const Ran run =
       claystack("render --json " + vase() + " --size 320x200 -o " + folder.file("v.png"));
@@ -29,7 +29,7 @@ TEST(Render, WritesAPictureOfTheSizeAskedFor) {
   EXPECT_EQ(shell("identify -format \"%m %w %h\" " + folder.file("v.png")).out, "PNG 320 200");
 }
 
-TEST(Render, TurntableHasItsFrames) {
+TEST(Render, TurntableHasTheRequestedFrames) {
   const ScratchFolder folder;
   const Ran run = claystack("render -q " + vase() + " --size 120x90 --frames 5 --section --theme " +
                             "dark --turntable " + folder.file("v.gif"));
@@ -55,7 +55,7 @@ long peak_kib_of(int frames) {
 }
 
 /// 64 frames more, of 1200 KiB each.
-TEST(Render, TurntableTakesNoMoreMemoryForMoreFrames) {
+TEST(Render, TurntableMemoryIsIndependentOfFrames) {
   EXPECT_LT(peak_kib_of(72) - peak_kib_of(8), 16 * 1200);
 }
 
@@ -68,7 +68,7 @@ TEST(Render, ShowsTheLumpOfAScene) {
   EXPECT_TRUE(std::filesystem::exists(folder.file("lump.png")));
 }
 
-TEST(Render, TellsTheWallsThatItMaps) {
+TEST(Render, PrintsTheMappedWalls) {
   const ScratchFolder folder;
   const Ran run = claystack("render --json " + vase() + " --size 64x64 --min-wall 4.5 -o " +
                             folder.file("v.png"));
@@ -81,20 +81,20 @@ TEST(Render, TellsTheWallsThatItMaps) {
               1e-9);
 }
 
-TEST(Render, DashIsStandardOutput) {
+TEST(Render, WritesToStandardOutputForADash) {
   const Ran run = claystack("render " + vase() + " --size 32x32 -o -");
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.out.rfind("\x89PNG", 0), 0u);
   EXPECT_EQ(claystack("render --json " + vase() + " -o -").status, 2);
 }
 
-TEST(Render, TimeIsTold) {
+TEST(Render, PrintsTheTimePerFrame) {
   const Ran run = claystack("render --json --time --size 64x64 " + vase());
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_GT(run.json().at("frame").at("ms").get<double>(), 0.0);
 }
 
-TEST(Render, BadUsageIsStatusTwo) {
+TEST(Render, ReturnsTwoForBadUsage) {
   const ScratchFolder folder;
   const std::string out = " -o " + folder.file("x.png");
   for (const std::string& arguments :
@@ -107,14 +107,14 @@ TEST(Render, BadUsageIsStatusTwo) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("x.png")));
 }
 
-TEST(Render, WhatCannotBeReadOrWrittenIsStatusThree) {
+TEST(Render, ReturnsThreeForUnreadableOrUnwritableFiles) {
   const ScratchFolder folder;
   EXPECT_EQ(claystack("render nowhere.pot.json --size 32x32 -o " + folder.file("x.png")).status, 3);
   EXPECT_EQ(claystack("render " + vase() + " --size 32x32 -o " + folder.file("no/x.png")).status,
             3);
 }
 
-TEST(Render, WithoutADriverIsStatusFour) {
+TEST(Render, ReturnsFourWithoutAGraphicsDriver) {
   const ScratchFolder folder;
   const Ran run = shell("__EGL_VENDOR_LIBRARY_DIRS=" + folder.file("none") + " " +
                         CLAYSTACK_PROGRAM + " render " + vase() + " -o " + folder.file("x.png"));

@@ -96,7 +96,7 @@ class StandardStreams : public testing::Test {
   const std::string pot_ = folder_.file("bowl.pot.json");
 };
 
-TEST_F(StandardStreams, ClosedOrFullTheyChangeNoMoreThanWhatTheyCarry) {
+TEST_F(StandardStreams, ClosedOrFullStreamsAffectOnlyTheirOwnText) {
   const std::string alone =
       "env -u DISPLAY -u WAYLAND_DISPLAY XDG_CONFIG_HOME=" + folder_.file("") +
       " timeout -s KILL 60 " CLAYSTACK_PROGRAM " ";
@@ -112,7 +112,7 @@ TEST_F(StandardStreams, ClosedOrFullTheyChangeNoMoreThanWhatTheyCarry) {
     }
 }
 
-TEST_F(StandardStreams, AClosedOneNeverEndsUpInAFile) {
+TEST_F(StandardStreams, NeverWritesAClosedStreamsTextToAFile) {
   const std::string pot = folder_.file("b.pot.json"), trace = folder_.file("trace.csv");
   EXPECT_EQ(claystack("throw " + bowl_ + " -o " + pot + " --trace " + trace + " >&- 2>&-").status,
             3);
@@ -121,7 +121,7 @@ TEST_F(StandardStreams, AClosedOneNeverEndsUpInAFile) {
 }
 
 #ifdef CLAYSTACK_USB
-TEST_F(StandardStreams, NobodyMonitorsWhatCannotBeShown) {
+TEST_F(StandardStreams, RefusesToMonitorWithClosedStdout) {
   const auto run =
       shell("timeout -s KILL 60 " CLAYSTACK_PROGRAM " devices simulated --monitor >/dev/full");
   EXPECT_EQ(run.status, 3) << run.err;
@@ -136,18 +136,18 @@ std::string limited(const std::string& limit, const std::string& arguments) {
       .out;
 }
 
-TEST_F(StandardStreams, AFileThatMayNotGrowIsAnError) {
+TEST_F(StandardStreams, ReportsAFileSizeLimit) {
   const std::string out = folder_.file("out.pot.json");
   EXPECT_EQ(limited("-f 0", "throw -q " + bowl_ + " -o " + out),
             "claystack: " + out + ": cannot write: File too large\nstatus 3\n");
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
-TEST_F(StandardStreams, ADozenDescriptorsAreEnough) {
+TEST_F(StandardStreams, RunsWithADozenDescriptors) {
   EXPECT_EQ(limited("-n 16", "export -q " + pot_ + " " + folder_.file("out.stl")), "status 0\n");
 }
 
-TEST_F(StandardStreams, TooLittleMemoryIsAnErrorInASentence) {
+TEST_F(StandardStreams, ReportsTooLittleMemoryInOneLine) {
   auto scene = nlohmann::json::parse(read_text(bowl_));
   scene["lump"]["max_rings"] = 16'000'000;
   write_text(folder_.file("huge.scene.json"), scene.dump());

@@ -30,7 +30,7 @@ TEST_P(Samples, ConservingKeepsEveryQuantum) {
   EXPECT_EQ(json.at("collapsed"), GetParam() == std::string("collapse"));
 }
 
-TEST_P(Samples, PaperMissesLessThanItsTopRingAtEveryTick) {
+TEST_P(Samples, PaperErrorIsBelowItsTopRingAtEveryTick) {
   const ScratchFolder folder;
   const auto run =
       claystack("throw " + scene + " --model paper --json --trace " + folder.file("t.csv"));
@@ -65,7 +65,7 @@ TEST_P(Samples, ReplaysToTheSameBytes) {
 INSTANTIATE_TEST_SUITE_P(Throw, Samples,
                          testing::Values("bowl", "vase", "bottle", "cylinder", "collapse"));
 
-TEST(Throw, TellsOfACollapse) {
+TEST(Throw, ReportsACollapse) {
   const auto run = claystack("throw " + sample("collapse.scene.json"));
   EXPECT_EQ(run.status, 0);
   const auto json = claystack("throw --json " + sample("collapse.scene.json")).json();
@@ -83,14 +83,14 @@ TEST(Throw, TellsOfACollapse) {
   EXPECT_GT(fall.at("energy_lost_mj"), fall.at("plastic_work_mj"));
 }
 
-TEST(Throw, WarnsOfASessionFromAnotherScene) {
+TEST(Throw, WarnsAboutASessionOfAnotherScene) {
   const auto run =
       claystack("throw " + sample("vase.scene.json") + " --session " + sample("bowl.session"));
   EXPECT_EQ(run.status, 0);
   EXPECT_NE(run.err.find("recorded on another scene (bowl)"), std::string::npos) << run.err;
 }
 
-TEST(Throw, RefusesASessionThatPinchesWhereTheSceneCannot) {
+TEST(Throw, RefusesAPinchSessionWithoutAGapInTheScene) {
   const ScratchFolder folder;
   const std::string pot = folder.file("p.pot.json"), session = sample("cylinder.session");
   const auto run =
@@ -115,7 +115,7 @@ TEST(Throw, DrawsTheErrorOfBothModels) {
   EXPECT_NE(svg.find("model conserving"), std::string::npos);
 }
 
-TEST(Throw, RefusesToWriteOverItsInputsOrTwice) {
+TEST(Throw, RefusesToOverwriteInputsOrRepeatOutputs) {
   const ScratchFolder folder;
   for (const char* end : {".scene.json", ".session"})
     write_text(folder.file("b") + end, read_text(sample(std::string("bowl") + end)));
@@ -141,7 +141,7 @@ TEST(Throw, PipesIntoExport) {
   EXPECT_EQ(claystack("check -q " + folder.file("piped.stl")).status, 0);
 }
 
-TEST(Throw, RefusesAndLeavesNothingBehind) {
+TEST(Throw, RefusesBadInputAndLeavesNoFile) {
   const ScratchFolder folder;
   const std::string pot = folder.file("x.pot.json");
   const auto expect = [&](const std::string& arguments, int status, const std::string& says) {

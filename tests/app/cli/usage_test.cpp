@@ -5,7 +5,7 @@
 namespace clay::test {
 namespace {
 
-TEST(Usage, VersionSaysWhatIsIn) {
+TEST(Usage, VersionListsTheBuildOptions) {
   const Ran run = claystack("--version");
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.out.rfind("claystack 0.", 0), 0u) << run.out;
@@ -21,7 +21,7 @@ TEST(Usage, HelpShowsExamplesAndExitStatuses) {
   EXPECT_NE(claystack("--help").out.find("Exit status"), std::string::npos);
 }
 
-TEST(Usage, BadUsageIsStatusTwo) {
+TEST(Usage, ReturnsTwoForBadUsage) {
   for (const char* arguments :
        {"", "knead", "throw", "export x.pot.json", "check", "throw x --unknown",
         "export x.pot.json x.stl --tolerance -1", "export x.pot.json x.stl --segments two",
@@ -29,11 +29,11 @@ TEST(Usage, BadUsageIsStatusTwo) {
     EXPECT_EQ(claystack(arguments).status, 2) << arguments;
 }
 
-TEST(Usage, AnUnknownCommandIsNamed) {
+TEST(Usage, ReportsAnUnknownCommand) {
   EXPECT_NE(claystack("knead").err.find("found knead"), std::string::npos);
 }
 
-TEST(Usage, WhatCannotBePrintedIsStatusThree) {
+TEST(Usage, ReturnsThreeForAFailedStdout) {
   const std::string scene = sample("bowl.scene.json");
   for (const std::string& command :
        {"throw --json " + scene, "plan " + scene, std::string("--help")})
@@ -49,14 +49,14 @@ TEST(Usage, QuietPrintsNothing) {
   EXPECT_TRUE(run.err.empty()) << run.err;
 }
 
-TEST(Usage, DashIsStandardInputAndOutput) {
+TEST(Usage, AcceptsADashForStandardStreams) {
   const Ran run = shell(std::string(CLAYSTACK_PROGRAM) + " throw -q - -s " +
                         sample("bowl.session") + " -o - < " + sample("bowl.scene.json"));
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.json().at("schema"), "claystack-pot-1");
 }
 
-TEST(Usage, AFolderThatIsNotThereIsStatusThree) {
+TEST(Usage, ReturnsThreeForAMissingFolder) {
   const Ran run =
       claystack("throw -q " + sample("bowl.scene.json") + " -o /no/such/folder/b.pot.json");
   EXPECT_EQ(run.status, 3);

@@ -147,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"ThrowKilled", kThrow, kPot, true, kStick, SIGKILL}),
     [](const auto& test) { return test.param.name; });
 
-TEST(WriteLimits, AFileBeyondItsLimitIsAnError) {
+TEST(WriteLimits, ReportsAFileAboveItsSizeLimit) {
   const ScratchFolder folder;
   const std::string pot = folder.file("a.pot.json"), stl = folder.file("a.stl");
   ASSERT_EQ(claystack("import -q " + sample("drawings/tumbler.csv") + " -o " + pot).status, 0);

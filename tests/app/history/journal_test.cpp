@@ -41,7 +41,7 @@ Work kept_work(const Folder& folder) {
   return work;
 }
 
-TEST(Journal, HoldsAllThatWasDone) {
+TEST(Journal, RecordsEveryEvent) {
   const Folder folder;
   std::filesystem::path path;
   WorkRecord record;
@@ -70,7 +70,7 @@ TEST(Journal, HoldsAllThatWasDone) {
   EXPECT_TRUE(work.unsaved());
 }
 
-TEST(Journal, GoesOnAfterARecovery) {
+TEST(Journal, ContinuesAfterARecovery) {
   const Folder folder;
   {
     Work work = kept_work(folder);
@@ -88,7 +88,7 @@ TEST(Journal, GoesOnAfterARecovery) {
   EXPECT_TRUE(recoverable(folder.path).empty());
 }
 
-TEST(Journal, WhatIsSavedOrEmptyIsNotOffered) {
+TEST(Journal, DoesNotOfferSavedOrEmptyWorks) {
   const Folder folder;
   { const Work nothing = kept_work(folder); }
   {
@@ -100,7 +100,7 @@ TEST(Journal, WhatIsSavedOrEmptyIsNotOffered) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path)) << "and is cleared away";
 }
 
-TEST(Journal, OfALivingProgramIsItsOwn) {
+TEST(Journal, IsNotOfferedWhileItsProgramRuns) {
   const Folder folder;
   int ready[2], done[2];
   ASSERT_EQ(pipe(ready) + pipe(done), 0);
@@ -176,7 +176,7 @@ void kill_one(double& lost_us) {
 }
 
 /// See the recorder's test of the same name.
-TEST(Journal, KilledInMidStrokeItHasLostNoMoreThan100Ms) {
+TEST(Journal, LosesAtMost100MsWhenKilledDuringAStroke) {
   double lost_us = 0.0;
   const auto loses_little = [&] {
     kill_one(lost_us);
@@ -202,7 +202,7 @@ TEST(Journal, AFullDiskDoesNotStopTheWork) {
   EXPECT_FALSE(work.journal()->sync());
 }
 
-TEST(Journal, ADamagedOneGivesWhatStandsBeforeTheDamage) {
+TEST(Journal, RecoversEverythingBeforeADamagedLine) {
   const Folder folder;
   std::filesystem::path path;
   {
@@ -224,7 +224,7 @@ TEST(Journal, ADamagedOneGivesWhatStandsBeforeTheDamage) {
   EXPECT_EQ(test::read_text(path.string() + ".damaged"), text);
 }
 
-TEST(Journal, StandsWhereTheStateIsKept) {
+TEST(Journal, IsStoredInTheStateFolder) {
   setenv("XDG_STATE_HOME", "/var/state", 1);
   EXPECT_EQ(recovery_folder(), "/var/state/claystack/recovery");
   setenv("XDG_STATE_HOME", "relative", 1);
@@ -241,7 +241,7 @@ TEST(Journal, StandsWhereTheStateIsKept) {
   EXPECT_EQ(recovery_folder(), home + "/.local/state/claystack/recovery");
 }
 
-TEST(Journal, WithoutAFolderIsAnError) {
+TEST(Journal, ReportsAMissingFolder) {
   const Work work = Work::begin(small_scene()).value();
   const auto journal = Journal::begin(work.record(), "");
   ASSERT_FALSE(journal);
@@ -249,7 +249,7 @@ TEST(Journal, WithoutAFolderIsAnError) {
 }
 
 // To open a pipe that nobody writes to takes for ever.
-TEST(Journal, APipeInTheFolderIsPassedOver) {
+TEST(Journal, SkipsAPipeInTheFolder) {
   const Folder folder;
   std::filesystem::path journal;
   {
@@ -268,7 +268,7 @@ TEST(Journal, APipeInTheFolderIsPassedOver) {
   EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
-TEST(Journal, BeginsInAFolderThatCannotBeSynced) {
+TEST(Journal, WorksInAFolderThatCannotBeSynced) {
   const Folder folder;
   const Work work = Work::begin(small_scene()).value();
   EXPECT_EQ(test::status_of_child([&] {
@@ -279,7 +279,7 @@ TEST(Journal, BeginsInAFolderThatCannotBeSynced) {
             0);
 }
 
-TEST(Journal, AFolderThatCannotBeIsAnError) {
+TEST(Journal, ReportsAFolderThatCannotBeCreated) {
   const Work work = Work::begin(small_scene()).value();
   const auto journal = Journal::begin(work.record(), "/proc/no/such");
   ASSERT_FALSE(journal);

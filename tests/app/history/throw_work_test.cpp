@@ -12,7 +12,7 @@ using test::press_stroke;
 using test::read_text;
 using test::small_scene;
 
-TEST(ThrowWork, GivesTheBytesOfThePotThatWasThrown) {
+TEST(ThrowWork, ReproducesTheThrownPotByteForByte) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("mine.work"), pot = folder.file("p.pot.json");
   Work work = Work::begin(small_scene()).value();
@@ -35,7 +35,7 @@ TEST(ThrowWork, GivesTheBytesOfThePotThatWasThrown) {
             std::string::npos);
 }
 
-TEST(ThrowWork, RefusesWhatAWorkDoesNotTake) {
+TEST(ThrowWork, RefusesOptionsInvalidForAWork) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("mine.work");
   ASSERT_TRUE(Work::begin(small_scene()).value().save(path));
@@ -52,7 +52,7 @@ TEST(ThrowWork, RefusesWhatAWorkDoesNotTake) {
   refused(path, path + ":4: at: expected a node below 1, found 7", 2);
 }
 
-TEST(ThrowFrom, GoesOnWithAPot) {
+TEST(ThrowFrom, ContinuesAPot) {
   const test::ScratchFolder folder;
   const auto file = [&](const char* name) { return folder.file(name); };
   const SceneSpec scene = small_scene();
@@ -86,7 +86,7 @@ TEST(ThrowFrom, GoesOnWithAPot) {
 }
 
 #ifdef CLAYSTACK_FALCON
-TEST(ThrowFrom, ByHandToo) {
+TEST(ThrowFrom, ContinuesAPotByHand) {
   const test::ScratchFolder folder;
   const std::string scene = test::sample("cylinder.scene.json");
   const auto pot = folder.file("1.pot.json"), live = folder.file("live.pot.json"),

@@ -52,7 +52,7 @@ std::vector<Pose> still(std::size_t count) {
   return poses;
 }
 
-TEST(WorkFile, TakesTheMemoryOfItsPosesAndOfOneLine) {
+TEST(WorkFile, UsesTheMemoryOfPosesAndOneLine) {
   constexpr std::size_t kStroke = 100'000, kOneLine = std::size_t{1} << 18;
   WorkRecord record;
   record.scenes = {small_scene()};
@@ -67,7 +67,7 @@ TEST(WorkFile, TakesTheMemoryOfItsPosesAndOfOneLine) {
   EXPECT_LE(bytes, 3 * kStroke * sizeof(Pose) + kOneLine);
 }
 
-TEST(WorkFile, TooManyPosesAreRefusedBeforeOneIsRead) {
+TEST(WorkFile, RefusesTooManyPosesInAdvance) {
   std::string text = write_work(sample_record());
   const std::size_t blocks = kMaxPoses / kPosesPerBlock;
   for (std::size_t block = 0; block < blocks; ++block)
@@ -83,7 +83,7 @@ TEST(WorkFile, TooManyPosesAreRefusedBeforeOneIsRead) {
   EXPECT_EQ(salvaged->work.nodes, sample_record().nodes);
 }
 
-RC_GTEST_PROP(WorkFile, WhatIsWrittenReadsBackTheSame, ()) {
+RC_GTEST_PROP(WorkFile, RoundTrips, ()) {
   const auto work = test::arbitrary_work(*rc::gen::inRange(0, 20));
   const std::string text = write_work(work.record());
   const auto read = parse_work(text, "w");
@@ -95,7 +95,7 @@ RC_GTEST_PROP(WorkFile, WhatIsWrittenReadsBackTheSame, ()) {
 }
 
 /// Strokes that were begun are there as far as their blocks go; nothing else is but what was.
-TEST(WorkFile, CutAnywhereGivesWhatStoodBeforeTheCut) {
+TEST(WorkFile, TruncatedFileGivesTheCompleteLines) {
   const WorkRecord whole = sample_record();
   const std::string text = write_work(whole);
   const std::size_t root_end = text.find('\n', text.find("{\"node\":0")) + 1;
@@ -118,7 +118,7 @@ TEST(WorkFile, CutAnywhereGivesWhatStoodBeforeTheCut) {
   }
 }
 
-TEST(WorkFile, NoFlippedBitGivesAnotherWork) {
+TEST(WorkFile, DetectsEveryFlippedBit) {
   const WorkRecord whole = sample_record();
   for (const std::string& text : {write_work(whole), second_file()}) {
     const WorkRecord expected = parse_work(text, "w").value().work;
@@ -190,7 +190,7 @@ TEST(WorkFile, ErrorsNameTheLine) {
   expect_error("\"at\":1", "\"at\":1,\"on\":2", "unknown field \"on\"");
 }
 
-TEST(WorkFile, ErrorsNameTheLineThatIsOutOfPlace) {
+TEST(WorkFile, ErrorsNameAMisplacedLine) {
   const std::string text = write_work(sample_record());
   const auto refused = [&](const std::string& more, const std::string& message) {
     const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
@@ -223,7 +223,7 @@ TEST(WorkFile, SalvageStopsAtTheDamage) {
 }
 
 /// A file that goes to and fro in a long tree is read in a time that grows with its length alone.
-TEST(WorkFile, ALongOneIsReadOnce) {
+TEST(WorkFile, ReadsALongFileInOnePass) {
   std::string text = write_work(history::Work::begin(small_scene()).value().record());
   constexpr std::size_t kNodes = 50'000;
   for (std::size_t node = 1; node <= kNodes; ++node)

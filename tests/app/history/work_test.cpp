@@ -19,7 +19,7 @@ using test::plainly_thrown;
 using test::press_stroke;
 using test::small_scene;
 
-RC_GTEST_PROP(Work, EveryPotIsThePlainReplayOfItsStrokes, ()) {
+RC_GTEST_PROP(Work, EveryPotEqualsTheReplayOfItsStrokes, ()) {
   Work work = arbitrary_work(*rc::gen::inRange(1, 20));
   if (*rc::gen::arbitrary<bool>()) work.set_memory_budget(1);  // nothing is kept but one
   RC_ASSERT(**work.pot() == plainly_thrown(work.record(), work.at()));
@@ -27,7 +27,7 @@ RC_GTEST_PROP(Work, EveryPotIsThePlainReplayOfItsStrokes, ()) {
   RC_ASSERT(**work.pot(node) == plainly_thrown(work.record(), node));
 }
 
-TEST(Work, HoldsNoMorePosesThanAFileOfItMay) {
+TEST(Work, RefusesMorePosesThanAFileHolds) {
   WorkRecord record;
   record.scenes = {small_scene()};
   record.nodes.resize(1);
@@ -72,7 +72,7 @@ RC_GTEST_PROP(Work, RedoFollowsTheBranchLastTaken, ()) {
   }
 }
 
-RC_GTEST_PROP(Work, AnyMomentOfAStrokeComesBack, ()) {
+RC_GTEST_PROP(Work, RestoresAnyMomentOfAStroke, ()) {
   Work work = Work::begin(small_scene()).value();
   (void)work.add(small_scene(), press_stroke(1)).value();
   const auto poses = press_stroke(2);
@@ -87,7 +87,7 @@ RC_GTEST_PROP(Work, AnyMomentOfAStrokeComesBack, ()) {
   }
 }
 
-RC_GTEST_PROP(Work, AMomentBecomesABranchAndTheStrokeStays, ()) {
+RC_GTEST_PROP(Work, BranchesFromAMomentAndKeepsTheStroke, ()) {
   Work work = Work::begin(small_scene()).value();
   (void)work.add(small_scene(), press_stroke(1)).value();
   const auto poses = press_stroke(2);
@@ -108,7 +108,7 @@ RC_GTEST_PROP(Work, AMomentBecomesABranchAndTheStrokeStays, ()) {
   }
 }
 
-TEST(Work, AFallenPotIsARootThatNothingIsThrownOn) {
+TEST(Work, RefusesStrokesOnACollapsedRoot) {
   Pot fallen = Wheel::build(small_scene()).value().pot();
   fallen.collapse = Collapse{10, {30.0, 10.0, 0.0}, {0.0, 0.0, 1.0}, 1.0, 12.0};
   Work work = Work::begin(small_scene(), fallen).value();
@@ -126,7 +126,7 @@ TEST(Work, AFallenPotIsARootThatNothingIsThrownOn) {
   EXPECT_FALSE(Work::begin(bad, fallen));
 }
 
-TEST(Work, KnowsItsStrokes) {
+TEST(Work, ListsItsStrokes) {
   Work work = Work::begin(small_scene()).value();
   EXPECT_FALSE(work.can_undo());
   (void)work.add(small_scene(), press_stroke(1)).value();
@@ -146,7 +146,7 @@ TEST(Work, KnowsItsStrokes) {
   EXPECT_DOUBLE_EQ(work.view(3).seconds, 1.0);
 }
 
-TEST(Work, TellsWhenThePosesAreNotWhatWasShown) {
+TEST(Work, ReportsWhenPosesDifferFromTheDisplayedPot) {
   Work work = Work::begin(small_scene()).value();
   const Pot shown = plainly_thrown(small_scene(), **work.pot(), press_stroke(1));
   EXPECT_TRUE(work.add(small_scene(), press_stroke(1), &shown).value().as_felt);
@@ -156,13 +156,13 @@ TEST(Work, TellsWhenThePosesAreNotWhatWasShown) {
   EXPECT_FALSE(work.add(small_scene(), short_of_it, &shown).value().as_felt);
 }
 
-TEST(Work, AStrokeWithoutPosesIsNone) {
+TEST(Work, IgnoresAStrokeWithoutPoses) {
   Work work = Work::begin(small_scene()).value();
   EXPECT_EQ(work.add(small_scene(), {}).value().strokes, 0u);
   EXPECT_EQ(work.size(), 1u);
 }
 
-TEST(Work, RefusesAStrokeThatThePotCannotTake) {
+TEST(Work, RefusesAStrokeThatDoesNotFitThePot) {
   Work work = Work::begin(small_scene()).value();
   SceneSpec paper = small_scene();
   paper.model = Model::paper;
@@ -172,7 +172,7 @@ TEST(Work, RefusesAStrokeThatThePotCannotTake) {
   EXPECT_FALSE(work.in_stroke());
 }
 
-TEST(Work, SavesWhatLoadsAgain) {
+TEST(Work, RoundTripsThroughAFile) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("mine.work");
   Work work = Work::begin(small_scene()).value();
@@ -195,7 +195,7 @@ TEST(Work, SavesWhatLoadsAgain) {
   EXPECT_EQ(**loaded->work.pot(), **work.pot());
 }
 
-TEST(Work, BeginsWithAPotToo) {
+TEST(Work, StartsFromAPot) {
   Work first = Work::begin(small_scene()).value();
   (void)first.add(small_scene(), press_stroke(1)).value();
   Work second = Work::begin(small_scene(), **first.pot()).value();
@@ -237,7 +237,7 @@ Split cut(const Pot& before, const std::vector<Pose>& poses) {
   return split(small_scene(), before, poses, again.finish());
 }
 
-TEST(Split, CutsARecordingInTheAir) {
+TEST(Split, SplitsARecordingInFreeAir) {
   const Pot lump = Wheel::build(small_scene()).value().pot();
   const auto poses = recording(4, 0.4);
   const Split parts = cut(lump, poses);
@@ -250,7 +250,7 @@ TEST(Split, CutsARecordingInTheAir) {
   }
 }
 
-TEST(Split, LeavesWholeWhatCannotBeCut) {
+TEST(Split, KeepsAnUnsplittableRecordingWhole) {
   const Pot lump = Wheel::build(small_scene()).value().pot();
   // The strokes' own ways in the air take less than 0.1 s.
   EXPECT_TRUE(cut(lump, recording(3, 0.1)).begins.empty());
@@ -269,7 +269,7 @@ RC_GTEST_PROP(Split, NeverChangesThePot, ()) {
   RC_ASSERT(parts.pots.back() == plainly_thrown(small_scene(), lump, poses));
 }
 
-TEST(PotCache, LetsGoOfWhatWasLongestOfNoUse) {
+TEST(PotCache, EvictsTheLeastRecentlyUsed) {
   const auto pot = std::make_shared<const Pot>(Wheel::build(small_scene()).value().pot());
   PotCache cache(3 * (sizeof(Pot) + 30 * sizeof(Ring)));
   for (const std::size_t node : {1u, 2u, 3u}) cache.put(node, pot);

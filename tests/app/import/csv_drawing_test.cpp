@@ -8,7 +8,7 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(CsvDrawing, ReadsRadiusAndHeightWhateverStandsBetween) {
+TEST(CsvDrawing, ReadsRadiusAndHeightWithAnySeparator) {
   const auto drawing = read_drawing(
       "# a cup\n\nradius,height\n10, 0\n12.5;5\n1e1\t20\n# the rim\n\n3 4\n5 6\n", "cup.csv");
   ASSERT_TRUE(drawing) << refusal_of(drawing);
@@ -19,7 +19,7 @@ TEST(CsvDrawing, ReadsRadiusAndHeightWhateverStandsBetween) {
   EXPECT_TRUE(drawing->axis_at_zero);
 }
 
-TEST(CsvDrawing, NamesTheLineThatItCannotRead) {
+TEST(CsvDrawing, ErrorsNameTheLine) {
   EXPECT_THAT(refusal_of(read_drawing("10,0\n10,x\n", "cup.csv")), HasSubstr("cup.csv:2: "));
   EXPECT_THAT(refusal_of(read_drawing("10,0\n10\n", "cup.csv")), HasSubstr("cup.csv:2: "));
   EXPECT_THAT(refusal_of(read_drawing("radius\nheight\n10,0\n", "cup.csv")),
@@ -31,7 +31,7 @@ TEST(CsvDrawing, NamesTheLineThatItCannotRead) {
               HasSubstr("cup.csv:2: expected points within 1e+06 mm, found (1e+300, 5)"));
 }
 
-TEST(CsvDrawing, PassesOverAByteOrderMark) {
+TEST(CsvDrawing, SkipsAByteOrderMark) {
   for (const char* title : {"", "radius,height\n"}) {
     const auto drawing =
         read_drawing(std::string("\xEF\xBB\xBF") + title + "10,0\n5,20\n", "cup.csv");
@@ -40,13 +40,13 @@ TEST(CsvDrawing, PassesOverAByteOrderMark) {
   }
 }
 
-TEST(CsvDrawing, RefusesMoreLinesThanCanBeJoined) {
+TEST(CsvDrawing, RefusesTooManyLines) {
   std::string rows;
   for (std::size_t i = 0; i <= kMostLines; ++i) rows += "10,0\n10,1\n\n";
   EXPECT_THAT(refusal_of(read_drawing(rows, "cup.csv")), HasSubstr("expected at most 10000 lines"));
 }
 
-TEST(CsvDrawing, RefusesADrawingOfNothing) {
+TEST(CsvDrawing, RefusesAnEmptyDrawing) {
   EXPECT_THAT(refusal_of(read_drawing("", "cup.csv")), HasSubstr("no line in it"));
   EXPECT_THAT(refusal_of(read_drawing("radius,height\n", "cup.csv")), HasSubstr("no line in it"));
   EXPECT_THAT(refusal_of(read_drawing("1,2\n", "cup.png")), HasSubstr("NAME.svg"));

@@ -19,7 +19,7 @@ Result<Pot> pot_of(const std::string& csv, const DrawnPotSettings& settings = {}
   });
 }
 
-TEST(DrawnPot, EachRingHoldsItsPartOfACone) {
+TEST(DrawnPot, EachRingHoldsItsSliceOfACone) {
   const auto pot = pot_of("40,0\n20,90\n", {0.75, {}, 1.9});
   ASSERT_TRUE(pot) << refusal_of(pot);
   ASSERT_EQ(pot->stack.size(), 120u);
@@ -32,7 +32,7 @@ TEST(DrawnPot, EachRingHoldsItsPartOfACone) {
   EXPECT_EQ(pot->ledger.imbalance(pot->stack.volume()), 0);
 }
 
-TEST(DrawnPot, AFloorWithinARingFillsItsPart) {
+TEST(DrawnPot, FillsAPartOfARingBelowAFloor) {
   // Rings of 2 mm, a floor of 3: the second ring is solid in its lower half.
   const auto pot = pot_of("0,0\n30,0\n30,10\n20,10\n20,3\n0,3\n", {2.0, {}, 1.9});
   ASSERT_TRUE(pot) << refusal_of(pot);
@@ -43,7 +43,7 @@ TEST(DrawnPot, AFloorWithinARingFillsItsPart) {
   EXPECT_EQ(rings[2].inner2, quanta_from_mm2(400.0));
 }
 
-TEST(DrawnPot, TheHeightIsAWholeNumberOfRings) {
+TEST(DrawnPot, RoundsTheHeightToWholeRings) {
   const auto pot = pot_of("10,0\n10,10\n", {3.0, {}, 1.9});
   ASSERT_TRUE(pot) << refusal_of(pot);
   EXPECT_EQ(pot->stack.size(), 3u);
@@ -51,7 +51,7 @@ TEST(DrawnPot, TheHeightIsAWholeNumberOfRings) {
   EXPECT_EQ(pot->stack.crown(), 0);
 }
 
-TEST(DrawnPot, AWallHollowsTheOutside) {
+TEST(DrawnPot, WallOptionHollowsTheOutline) {
   const auto pot = pot_of("30,0\n30,60\n", {2.0, 6.0, 1.9});
   ASSERT_TRUE(pot) << refusal_of(pot);
   for (std::size_t i = 0; i < 30; ++i)
@@ -60,12 +60,12 @@ TEST(DrawnPot, AWallHollowsTheOutside) {
               HasSubstr("--wall"));
 }
 
-TEST(DrawnPot, RefusesWhatNoStackCanBe) {
+TEST(DrawnPot, RefusesShapesThatNoStackCanRepresent) {
   EXPECT_THAT(refusal_of(pot_of("30,0\n30,60000\n", {1e-3, {}, 1.9})), HasSubstr("rings"));
   EXPECT_THAT(refusal_of(pot_of("6000,0\n6000,60\n")), HasSubstr("5000 mm"));
 }
 
-RC_GTEST_PROP(DrawnPot, HoldsTheClayThatIsDrawn, ()) {
+RC_GTEST_PROP(DrawnPot, HoldsTheDrawnVolume, ()) {
   std::string csv;
   double height = 0.0;
   const int count = *rc::gen::inRange(2, 20);

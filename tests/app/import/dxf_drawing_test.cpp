@@ -48,13 +48,13 @@ double volume_of(const std::string& bytes) {
   return section ? section->volume_mm3() : 0.0;
 }
 
-TEST(DxfDrawing, JoinsLinesWhateverTheirOrderAndDirection) {
+TEST(DxfDrawing, JoinsLinesInAnyOrderAndDirection) {
   const std::string cone = line({40, 0}, {0, 0}) + line({0, 90}, {20, 90}) +
                            line({0, 90.004}, {0, 0}) + line({40, 0}, {20, 90});
   EXPECT_NEAR(volume_of(file(cone)), kPi * 90.0 / 3.0 * (1600.0 + 800.0 + 400.0), 0.01 * 90 * 50);
 }
 
-TEST(DxfDrawing, ObeysItsUnits) {
+TEST(DxfDrawing, AppliesItsUnits) {
   const std::string box =
       line({0, 0}, {1, 0}) + line({1, 0}, {1, 2}) + line({1, 2}, {0, 2}) + line({0, 2}, {0, 0});
   for (const auto& [unit, mm] : {std::pair{0, 1.0}, {1, 25.4}, {4, 1.0}, {5, 10.0}, {6, 1000.0}})
@@ -62,7 +62,7 @@ TEST(DxfDrawing, ObeysItsUnits) {
   EXPECT_THAT(refusal_of(read_drawing(file(box, 13), "pot.dxf")), HasSubstr("$INSUNITS"));
 }
 
-TEST(DxfDrawing, ABulgeOfOneIsAHalfCircle) {
+TEST(DxfDrawing, BulgeOfOneIsAHalfCircle) {
   const std::string polyline = groups({{0, "LWPOLYLINE"},
                                        {100, "AcDbEntity"},
                                        {8, "0"},
@@ -99,7 +99,7 @@ TEST(DxfDrawing, ArcsCirclesAndEllipsesAreRound) {
   EXPECT_NEAR(volume_of(file(ellipse)), 4.0 / 3.0 * kPi * 900.0 * 60.0, kFlatMm * 1e5);
 }
 
-TEST(DxfDrawing, ARationalSplineIsTheCircleThatItStandsFor) {
+TEST(DxfDrawing, RationalSplineReproducesItsCircle) {
   // A quarter circle of radius 30 from (30, 0) to (0, 30), exactly.
   const auto spline = groups({{0, "SPLINE"}, {8, "0"},   {70, "4"},
                               {71, "2"},     {72, "6"},  {73, "3"},

@@ -11,20 +11,20 @@ using testing::HasSubstr;
 
 std::string refused(const std::string& csv) { return refusal_of(section_of(csv, "pot.csv")); }
 
-TEST(HalfSection, AnOpenLineIsTheOutsideOfASolidPot) {
+TEST(HalfSection, OpenLineIsTheOutsideOfASolidPot) {
   const auto cone = section_of("40,0\n20,90\n", "pot.csv");
   ASSERT_TRUE(cone) << refusal_of(cone);
   EXPECT_NEAR(cone->volume_mm3(), std::numbers::pi * 90.0 / 3.0 * (1600.0 + 800.0 + 400.0), 1e-6);
 }
 
-TEST(HalfSection, ATubeHasItsBoreFromTheFoot) {
+TEST(HalfSection, TubeBoreStartsAtTheFoot) {
   const auto tube = section_of("20,0\n30,0\n30,10\n20,10\n20,0\n", "pot.csv");
   ASSERT_TRUE(tube) << refusal_of(tube);
   EXPECT_NEAR(tube->volume_mm3(), std::numbers::pi * 500.0 * 10.0, 1e-6);
   EXPECT_EQ(tube->axis_mm, 0.0);
 }
 
-TEST(HalfSection, RefusesWithThePlace) {
+TEST(HalfSection, ErrorsNameThePlace) {
   // A wall that folds over: between 10 and 20 mm there are two walls.
   EXPECT_THAT(refused("0,0\n40,0\n40,20\n30,10\n20,10\n20,30\n0,30\n"), HasSubstr("in one place"));
   EXPECT_THAT(refused("0,0\n10,0\n10,5\n0,5\n0,0\n\n0,8\n10,8\n10,9\n0,9\n0,8\n"),
@@ -34,7 +34,7 @@ TEST(HalfSection, RefusesWithThePlace) {
   EXPECT_THAT(refused("5,0\n25,20\n5,20\n25,0\n5,0\n"), HasSubstr("cross itself"));
 }
 
-TEST(HalfSection, HeightScalesAllOfIt) {
+TEST(HalfSection, HeightOptionScalesUniformly) {
   const auto cone = section_of("40,10\n20,100\n", "pot.csv", {AxisRule::by_itself, 0.0, 45.0});
   ASSERT_TRUE(cone) << refusal_of(cone);
   EXPECT_NEAR(cone->height_mm, 45.0, 1e-12);
@@ -42,7 +42,7 @@ TEST(HalfSection, HeightScalesAllOfIt) {
 }
 
 /// A cup by its two sides: any radii outside, walls of any thickness inside, a floor.
-RC_GTEST_PROP(HalfSection, HoldsWhatPappusSays, ()) {
+RC_GTEST_PROP(HalfSection, VolumeFollowsPappus, ()) {
   const auto count = *rc::gen::inRange<std::size_t>(2, 30);
   std::vector<glm::dvec2> outer, inner;
   double height = 0.0;

@@ -25,7 +25,7 @@ double volume_of(const std::string& shapes) {
 
 constexpr double kPi = std::numbers::pi;
 
-TEST(SvgDrawing, ARectangleFromTheAxisIsACylinder) {
+TEST(SvgDrawing, RectangleAtTheAxisIsACylinder) {
   const auto section = section_of(page("<rect x='20' y='30' width='40' height='50'/>"), "pot.svg",
                                   {AxisRule::left, 0.0, {}});
   ASSERT_TRUE(section) << refusal_of(section);
@@ -34,13 +34,13 @@ TEST(SvgDrawing, ARectangleFromTheAxisIsACylinder) {
   EXPECT_NEAR(section->volume_mm3(), kPi * 1600.0 * 50.0, 1e-6);
 }
 
-TEST(SvgDrawing, TheMiddleOfASymmetricDrawingIsTheAxis) {
+TEST(SvgDrawing, UsesTheMirrorLineOfASymmetricDrawingAsAxis) {
   EXPECT_NEAR(volume_of("<rect x='20' y='30' width='40' height='50'/>"), kPi * 400.0 * 50.0, 1e-6);
   EXPECT_NEAR(volume_of("<circle cx='90' cy='90' r='30'/>"), 4.0 / 3.0 * kPi * 27000.0,
               kFlatMm * 4.0 * kPi * 900.0);
 }
 
-TEST(SvgDrawing, CurvesStayWithinTheFlatteningOfTheirArea) {
+TEST(SvgDrawing, FlattenedCurvesKeepTheirArea) {
   // A half circle by one arc, then by the usual two cubics, which are off by 2.7e-4 of the radius.
   const std::string end = " Z'/>";
   const double ball = 4.0 / 3.0 * kPi * 27000.0, surface = 4.0 * kPi * 900.0;
@@ -49,7 +49,7 @@ TEST(SvgDrawing, CurvesStayWithinTheFlatteningOfTheirArea) {
               ball, (2.8e-4 * 30.0 + kFlatMm) * surface);
 }
 
-TEST(SvgDrawing, ArcsGoTheWayTheirFlagsSay) {
+TEST(SvgDrawing, ArcsFollowTheirFlags) {
   // A circle of radius 30 about a point 18 to one side of the axis, cut off there at +-24: the
   // moment of a circle's segment about its chord, in closed form.
   const double moment = 2.0 / 3.0 * 24.0 * 24.0 * 24.0, angle = std::acos(18.0 / 30.0);
@@ -63,7 +63,7 @@ TEST(SvgDrawing, ArcsGoTheWayTheirFlagsSay) {
               4.0 / 3.0 * kPi * 20.0 * 20.0 * 40.0, kFlatMm * 4.0 * kPi * 1600.0);
 }
 
-TEST(SvgDrawing, TransformsGroupsAndUnitsAreObeyed) {
+TEST(SvgDrawing, AppliesTransformsGroupsAndUnits) {
   const double wanted = kPi * 900.0 * 60.0;
   EXPECT_NEAR(volume_of("<g transform='translate(5 7) scale(2 3)'><g transform='scale(0.5)'>"
                         "<path d='M 10 0 H 40 V 40 H 10 Z M 0 0' transform='scale(1 1)'/></g></g>"),
@@ -79,7 +79,7 @@ TEST(SvgDrawing, TransformsGroupsAndUnitsAreObeyed) {
   EXPECT_NEAR(high->volume_mm3(), wanted, 1e-6);
 }
 
-TEST(SvgDrawing, WhatIsNotShownIsNotDrawn) {
+TEST(SvgDrawing, IgnoresHiddenElements) {
   const std::string pot = "<path d='M 0 0 H 30 V 60 H 0 L 0 30 Z'/>";
   const std::string hidden = "<path d='M 0 0 H 90 V 60 H 0 Z'/>";
   const double wanted = kPi * 900.0 * 60.0;
@@ -89,7 +89,7 @@ TEST(SvgDrawing, WhatIsNotShownIsNotDrawn) {
     EXPECT_NEAR(volume_of(wrapped + pot), wanted, 1e-6) << wrapped;
 }
 
-TEST(SvgDrawing, ACupByTwoOutlinesOrOneIsTheSame) {
+TEST(SvgDrawing, CupOfTwoOutlinesEqualsCupOfOne) {
   // A wall of 4 around a bore of 26, floor of 6; the foot is below, as y goes down on a page.
   const double wanted = kPi * (900.0 * 60.0 - 676.0 * 54.0);
   EXPECT_NEAR(volume_of("<path d='M 0 60 H 30 V 0 H 26 V 54 H 0 Z'/>"), wanted, 1e-6);
@@ -98,7 +98,7 @@ TEST(SvgDrawing, ACupByTwoOutlinesOrOneIsTheSame) {
   EXPECT_NEAR(volume_of("<path d='M 0 60 H 30 V 0 H 26 V 54 H 0'/>"), wanted, 1e-6);
 }
 
-TEST(SvgDrawing, RefusesWhatIsNoDrawing) {
+TEST(SvgDrawing, RefusesFilesThatAreNotDrawings) {
   const auto refused = [](const std::string& bytes) {
     return refusal_of(read_drawing(bytes, "pot.svg"));
   };
@@ -111,7 +111,7 @@ TEST(SvgDrawing, RefusesWhatIsNoDrawing) {
   EXPECT_THAT(refused(std::string(3, '\0')), HasSubstr("pot.svg"));
 }
 
-TEST(SvgDrawing, AMessageQuotesALongPathInPart) {
+TEST(SvgDrawing, MessagesShortenALongPath) {
   const std::string says = refusal_of(
       read_drawing(page("<path d='M 0 0 L 1 x" + std::string(100'000, '7') + "'/>"), "pot.svg"));
   EXPECT_THAT(says, HasSubstr("pot.svg:1: expected an SVG drawing"));
@@ -119,7 +119,7 @@ TEST(SvgDrawing, AMessageQuotesALongPathInPart) {
 }
 
 // An arc of such numbers has no angle, and the number of its chords was that angle, as an int.
-TEST(SvgDrawing, HugeNumbersAreRefusedWithTheirLine) {
+TEST(SvgDrawing, RefusesHugeNumbersWithTheirLine) {
   const auto refused = [](const std::string& shape) {
     return refusal_of(read_drawing(page("\n<g>\n" + shape + "</g>"), "pot.svg"));
   };
@@ -135,7 +135,7 @@ TEST(SvgDrawing, HugeNumbersAreRefusedWithTheirLine) {
 }
 
 // Each arc is 4096 chords: without a limit on the way, 4 GB of them.
-TEST(SvgDrawing, ASmallFileThatDrawsTooMuchIsRefused) {
+TEST(SvgDrawing, RefusesASmallFileThatDrawsTooMuch) {
   std::string arcs = "<path d='M 0 0";
   for (int i = 0; i < 60'000; ++i)
     arcs += i % 2 == 0 ? " A 4e5 4e5 0 1 1 1 1" : " A 4e5 4e5 0 1 1 0 0";
@@ -144,7 +144,7 @@ TEST(SvgDrawing, ASmallFileThatDrawsTooMuchIsRefused) {
 }
 
 // Every corner was held against all on its level, for hours.
-TEST(SvgDrawing, ManyPointsOnOneLevelAreQuicklyMirrored) {
+TEST(SvgDrawing, MirrorsManyPointsOnOneLevelQuickly) {
   std::string points;
   for (int i = -400'000; i <= 400'000; ++i) points += std::to_string(i) + ",0 ";
   const auto section =

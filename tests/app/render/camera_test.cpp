@@ -61,7 +61,7 @@ TEST(Camera, LooksAtItsTargetFromItsEye) {
   EXPECT_NEAR(middle->y, 180.0, 1e-9);
 }
 
-TEST(Camera, NothingIsPickedBehindTheEye) {
+TEST(Camera, PicksNothingBehindTheCamera) {
   const Camera up{0.0, -1.2, 400.0, {0.0, 50.0, 0.0}, 1.0};
   const Camera past{0.0, 0.0, 10.0, {0.0, 50.0, 300.0}, 0.5};  // the axis lies beyond the target
   EXPECT_TRUE(render::profile_point(past, kView, {240, 180}));
@@ -70,7 +70,7 @@ TEST(Camera, NothingIsPickedBehindTheEye) {
   EXPECT_FALSE(render::pixel_of(up, kView, render::eye_mm(up) * 2.0 - up.target_mm));
 }
 
-TEST(Camera, DragsMoveWhatIsUnderTheMouse) {
+TEST(Camera, DraggingMovesThePointUnderTheMouse) {
   const Camera camera{0.3, 0.5, 400.0, {0.0, 60.0, 0.0}, 0.5};
   const Camera moved = render::panned(camera, {30.0, -20.0}, kView);
   const auto now = render::pixel_of(moved, kView, camera.target_mm);
@@ -86,7 +86,7 @@ TEST(Camera, DragsMoveWhatIsUnderTheMouse) {
   EXPECT_GT(turned->y, 180.0);
 }
 
-TEST(Camera, ZoomAndOrbitKeepTheirLimits) {
+TEST(Camera, ZoomAndOrbitRespectTheirLimits) {
   Camera camera;
   EXPECT_LT(render::zoomed(camera, 1).distance_mm, camera.distance_mm);
   EXPECT_NEAR(render::zoomed(render::zoomed(camera, 3), -3).distance_mm, camera.distance_mm, 1e-9);
@@ -96,7 +96,7 @@ TEST(Camera, ZoomAndOrbitKeepTheirLimits) {
   EXPECT_DOUBLE_EQ(render::orbited(camera, {0, -1e6}, kView).elevation_rad, -render::kSteepest);
 }
 
-TEST(Camera, FramingShowsAllAndFillsThePicture) {
+TEST(Camera, FramingShowsThePotAndFillsThePicture) {
   for (const double height : {0.01, 20.0, 150.0, 4000.0})
     for (const double aspect : {0.5, 1.0, 16.0 / 9.0}) {
       const auto pot = pot_of([&](double part) { return 0.3 * height + 10.0 * part; }, height);

@@ -36,14 +36,14 @@ render::ByteSink into(std::string& bytes) {
   };
 }
 
-TEST(ImageFile, PngHoldsEveryPixel) {
+TEST(ImageFile, PngStoresEveryPixel) {
   const ScratchFolder folder;
   const render::Image image = turned(0.7);
   write_text(folder.file("p.png"), render::png_of(image));
   EXPECT_EQ(decoded(folder.file("p.png"), folder.file("raw")), image.rgba);
 }
 
-TEST(ImageFile, GifPlaysItsFramesForEver) {
+TEST(ImageFile, GifLoopsItsFrames) {
   const ScratchFolder folder;
   const std::vector<render::Image> frames{turned(0.7), turned(1.7), turned(2.7)};
   std::string bytes;
@@ -68,7 +68,7 @@ TEST(ImageFile, GifPlaysItsFramesForEver) {
   }
 }
 
-TEST(ImageFile, GifStopsAtTheFirstErrorOfItsFramesOrItsSink) {
+TEST(ImageFile, GifStopsAtTheFirstError) {
   const std::vector<render::Image> frames{turned(0.7)};
   std::string bytes;
   const auto unread = render::write_gif(

@@ -7,7 +7,7 @@ namespace {
 
 bool is_section(const std::uint8_t* rgba) { return is_near(rgba, 0xF0, 0xB6, 0x8C, 2); }
 
-TEST(Painter, TheCutFaceIsAsWideAsTheWall) {
+TEST(Painter, CutFaceIsAsWideAsTheWall) {
   render::Picture picture =
       picture_of(pot_of([](double) { return 45.0; }, 120.0, 12.0, 20.0), 0.15);
   picture.cut = render::Cut::half;
@@ -34,14 +34,14 @@ TEST(Painter, TheCutFaceIsAsWideAsTheWall) {
   EXPECT_FALSE(is_section(image.at(static_cast<int>(above.x), static_cast<int>(above.y))));
 }
 
-TEST(Painter, WithoutACutThereIsNoSection) {
+TEST(Painter, DrawsNoSectionWithoutACut) {
   const render::Image image =
       drawn(picture_of(pot_of([](double) { return 45.0; }, 120.0, 12.0, 20.0)));
   for (int y = 0; y < kView.height_px; ++y)
     for (int x = 0; x < kView.width_px; ++x) ASSERT_FALSE(is_section(image.at(x, y)));
 }
 
-TEST(Painter, AQuarterCutShowsWhatOpensToTheCamera) {
+TEST(Painter, QuarterCutShowsTheSideFacingTheCamera) {
   render::Picture picture = picture_of(pot_of([](double) { return 45.0; }, 120.0, 12.0, 20.0), 0.3);
   picture.cut = render::Cut::quarter;
   const auto count = [](const render::Image& image) {
@@ -69,7 +69,7 @@ render::Picture with_tool(glm::dvec3 place) {
   return picture;
 }
 
-TEST(Painter, TheToolIsWhereItIs) {
+TEST(Painter, DrawsTheToolAtItsPosition) {
   const render::Camera camera = with_tool({}).camera;
   const glm::dvec3 place = 55.0 * render::profile_direction(camera) + glm::dvec3{0, 70, 0};
   render::Picture picture = with_tool(place);
@@ -96,7 +96,7 @@ TEST(Painter, TheToolIsWhereItIs) {
 
 bool is_lit(const std::uint8_t* rgba) { return is_near(rgba, 255, 173, 63, 12); }
 
-TEST(Painter, AToolThatClayHidesIsSeenThrough) {
+TEST(Painter, DrawsAHiddenToolThroughTheClay) {
   render::Picture picture = with_tool({0, 30, 0});  // in the middle of a solid lump
   const render::Image with = drawn(picture);
   picture.tool.reset();
@@ -114,7 +114,7 @@ TEST(Painter, AToolThatClayHidesIsSeenThrough) {
   for (const double rho : {-14.0, 14.0, 20.0}) EXPECT_FALSE(differs(rho)) << rho;
 }
 
-TEST(Painter, ContactLightsTheSideThatTouches) {
+TEST(Painter, HighlightsTheTouchingSide) {
   const render::Camera camera = with_tool({}).camera;
   const glm::dvec3 right = render::profile_direction(camera);
   render::Picture picture = with_tool(55.0 * right + glm::dvec3{0, 70, 0});
@@ -133,7 +133,7 @@ TEST(Painter, ContactLightsTheSideThatTouches) {
   EXPECT_FALSE(lit_at(63.5));
 }
 
-TEST(Painter, APinchHasTwoToolsAboutItsGap) {
+TEST(Painter, DrawsTwoToolsForAPinch) {
   const render::Camera camera = with_tool({}).camera;
   const glm::dvec3 right = render::profile_direction(camera);
   render::Picture picture = with_tool(30.0 * right + glm::dvec3{0, 90, 0});
@@ -151,7 +151,7 @@ TEST(Painter, APinchHasTwoToolsAboutItsGap) {
   for (const double rho : {5.5, 28.0, 30.0, 32.0, 54.5}) EXPECT_FALSE(tool_at(rho)) << rho;
 }
 
-TEST(Painter, TheArrowGrowsWithTheForceUpToALimit) {
+TEST(Painter, ForceArrowGrowsUpToALimit) {
   const render::Camera camera = with_tool({}).camera;
   const glm::dvec3 right = render::profile_direction(camera);
   render::Picture picture = with_tool(30.0 * right + glm::dvec3{0, 75, 0});
@@ -178,7 +178,7 @@ TEST(Painter, TheArrowGrowsWithTheForceUpToALimit) {
   EXPECT_EQ(drawn(picture), most);
 }
 
-TEST(Painter, TheMarkOnTheWheelTurnsCounterclockwise) {
+TEST(Painter, WheelMarkTurnsCounterclockwise) {
   render::Picture picture = picture_of(pot_of([](double) { return 20.0; }, 20.0), 1.2);
   picture.wheel_radius_mm = 30.0;
   picture.camera.distance_mm *= 1.4;
@@ -195,7 +195,7 @@ TEST(Painter, TheMarkOnTheWheelTurnsCounterclockwise) {
   }
 }
 
-TEST(Painter, AFallenPartIsDrawnWhereItLies) {
+TEST(Painter, DrawsAFallenPartAtItsRestingPlace) {
   render::PotView pot = pot_of([](double) { return 30.0; }, 100.0);
   render::FallenView fallen;
   fallen.first_row = 100;
@@ -215,7 +215,7 @@ TEST(Painter, AFallenPartIsDrawnWhereItLies) {
   EXPECT_FALSE(clay_at(90.0, 30.0));
 }
 
-TEST(Painter, AnEmptyWheelAndExtremePotsAreDrawn) {
+TEST(Painter, DrawsAnEmptyWheelAndExtremePots) {
   EXPECT_EQ(drawn({}).rgba.size(), 4u * 480u * 360u);
   for (const double size : {1e-2, 5000.0}) {
     const auto picture =
@@ -225,7 +225,7 @@ TEST(Painter, AnEmptyWheelAndExtremePotsAreDrawn) {
   EXPECT_EQ(drawn(picture_of(pot_of([](double) { return 10.0; }, 20.0)), {1, 1}).rgba.size(), 4u);
 }
 
-TEST(Painter, TheSamePictureGivesTheSamePixels) {
+TEST(Painter, IsDeterministic) {
   const auto picture = picture_of(pot_of([](double p) { return 30.0 + 20.0 * p; }, 80.0, 5.0, 6.0));
   EXPECT_EQ(drawn(picture), drawn(picture));
 }

@@ -29,7 +29,7 @@ TEST(PotView, HasARowForEachRing) {
   }
 }
 
-TEST(PotView, OfManyRingsKeepsTheWalls) {
+TEST(PotView, KeepsTheWallsOfManyRings) {
   const auto view = render::view_of(stack_of(50'000, 80.0, cone, 12.0));
   ASSERT_EQ(view.rows.size(), render::kMaxRows);
   for (std::size_t i = 0; i < view.rows.size(); ++i) {
@@ -39,7 +39,7 @@ TEST(PotView, OfManyRingsKeepsTheWalls) {
   }
 }
 
-TEST(PotView, ACrownIsPartOfTheHeight) {
+TEST(PotView, IncludesTheCrownInTheHeight) {
   const ClayStack bare = stack_of(100, 80.0, cone, 0.0);
   const WideQuanta half = bare.rings().back().volume() / 2;
   const auto view = render::view_of(stack_of(100, 80.0, cone, 0.0, half));
@@ -50,7 +50,7 @@ TEST(PotView, ACrownIsPartOfTheHeight) {
   }
 }
 
-TEST(PotView, TheFallenPartIsWhereTheEngineSays) {
+TEST(PotView, FallenPartMatchesTheEngine) {
   Pot pot;
   pot.stack = stack_of(100, 80.0, cone, 12.0);
   pot.collapse = Collapse{};

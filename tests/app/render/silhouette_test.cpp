@@ -55,14 +55,14 @@ double ball(double part) {
   return std::sqrt(60.5 * 60.5 - 120.0 * 120.0 * (part - 0.5) * (part - 0.5));
 }
 
-TEST(Silhouette, OfASolidCylinder) { expect_silhouette(cylinder, 0.0, 0.4); }
-TEST(Silhouette, OfACylinderWithABore) { expect_silhouette(cylinder, 6.0, 0.7); }
-TEST(Silhouette, OfAConeThatOpensUpwards) { expect_silhouette(cone, 5.0, 0.9); }
-TEST(Silhouette, FromAboveTheFloorIsClosed) { expect_silhouette(cylinder, 5.0, 1.5); }
-TEST(Silhouette, OfABall) { expect_silhouette(ball, 0.0, 0.3); }
-TEST(Silhouette, FromBelowTheFootIsClosed) { expect_silhouette(cylinder, 6.0, -0.6); }
+TEST(Silhouette, OutlinesASolidCylinder) { expect_silhouette(cylinder, 0.0, 0.4); }
+TEST(Silhouette, OutlinesACylinderWithABore) { expect_silhouette(cylinder, 6.0, 0.7); }
+TEST(Silhouette, OutlinesAConeThatOpensUpwards) { expect_silhouette(cone, 5.0, 0.9); }
+TEST(Silhouette, ShowsAClosedFloorFromAbove) { expect_silhouette(cylinder, 5.0, 1.5); }
+TEST(Silhouette, OutlinesABall) { expect_silhouette(ball, 0.0, 0.3); }
+TEST(Silhouette, ShowsAClosedFootFromBelow) { expect_silhouette(cylinder, 6.0, -0.6); }
 
-TEST(Silhouette, IsTheSameForAHundredTimesTheRows) {
+TEST(Silhouette, IsIndependentOfTheNumberOfRows) {
   const auto of_rows = [](std::size_t rows) {
     return drawn(in_yellow(picture_of(pot_of(cylinder, 120.0, 5.0, 12.0, rows))));
   };

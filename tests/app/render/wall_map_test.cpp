@@ -37,7 +37,7 @@ double linear(int byte) {
   return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
 
-TEST(WallMap, SectionsHaveTheColoursOfTheScale) {
+TEST(WallMap, UsesTheColoursOfTheScale) {
   const std::vector<float> walls{8.0f, 6.0f, 4.0f, 2.0f, 40.0f};
   render::Picture picture = banded(walls, 0.0);
   picture.cut = render::Cut::half;
@@ -50,7 +50,7 @@ TEST(WallMap, SectionsHaveTheColoursOfTheScale) {
   }
 }
 
-TEST(WallMap, ShadingLeavesTheHue) {
+TEST(WallMap, ShadingKeepsTheHue) {
   const std::vector<float> walls{9.0f, 7.0f, 5.0f, 3.0f, 1.0f};
   const render::Picture picture = banded(walls, 0.0);
   const render::Image image = drawn(picture);
@@ -67,7 +67,7 @@ TEST(WallMap, ShadingLeavesTheHue) {
   }
 }
 
-TEST(WallMap, ThinWallsAreHatchedInAColourOfTheirOwn) {
+TEST(WallMap, HatchesThinWallsInASeparateColour) {
   render::Picture picture = banded({2.9f, 3.1f}, 3.0);
   picture.cut = render::Cut::half;
   const render::Image image = drawn(picture);
@@ -83,7 +83,7 @@ TEST(WallMap, ThinWallsAreHatchedInAColourOfTheirOwn) {
   EXPECT_EQ(red_part(55.0, 95.0), 0.0);
 }
 
-TEST(WallMap, UnboundedWallsAreThick) {
+TEST(WallMap, ShowsUnboundedWallsAsThick) {
   constexpr float kInfinite = std::numeric_limits<float>::infinity();
   render::Picture picture = banded({5.0f, kInfinite, 5.0f}, 3.0);
   picture.cut = render::Cut::half;
@@ -97,7 +97,7 @@ TEST(WallMap, UnboundedWallsAreThick) {
       is_near(at(image, picture.camera, 37.5, 50.0), thick.red, thick.green, thick.blue, 3));
 }
 
-TEST(WallMap, RowsHaveTheWallsOfTheSection) {
+TEST(WallMap, RowsUseTheWallsOfTheSection) {
   // A cup: 5 mm around, a floor of 8 mm.
   std::vector<Ring> rings;
   for (int i = 0; i < 100; ++i)
@@ -118,7 +118,7 @@ TEST(WallMap, RowsHaveTheWallsOfTheSection) {
   for (std::size_t row = 0; row < 8; ++row) EXPECT_NEAR(walls[row].inner_mm, 8.0, 0.02) << row;
 }
 
-TEST(WallMap, TheLegendIsTheScaleOfThePicture) {
+TEST(WallMap, LegendMatchesTheColourScale) {
   const render::WallMap map{2.0, 10.0};
   render::Image image{400, 360, std::vector<std::uint8_t>(4 * 400 * 360, 255)};
   render::draw_legend(map, render::Theme::light, image);

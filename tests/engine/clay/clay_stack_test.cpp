@@ -19,7 +19,7 @@ TEST(ClayStack, CylinderHoldsPiRSquaredH) {
   EXPECT_TRUE(stack.hollow());
 }
 
-TEST(ClayStack, CrownIsTheFractionOfTheTopRing) {
+TEST(ClayStack, CrownIsAFractionOfTheTopRing) {
   const Ring ring{quanta_from_radius(10.0), 0};
   const auto stack = ClayStack::from_rings(2.0, {ring, ring}, ring.volume() / 4).value();
   EXPECT_DOUBLE_EQ(stack.crown_height_mm(), 0.5);
@@ -27,7 +27,7 @@ TEST(ClayStack, CrownIsTheFractionOfTheTopRing) {
   EXPECT_NEAR(stack.volume_mm3(), std::numbers::pi * 100.0 * 4.5, 1e-9);
 }
 
-TEST(ClayStack, RadiusSurvivesCounting) {
+TEST(ClayStack, RadiusRoundTripsThroughQuanta) {
   for (const double mm : {0.001, 0.37, 1.0, 50.0, 4999.0}) {
     // Half a quantum of R^2 is half a quantum / 2R of R.
     EXPECT_NEAR(radius_from_quanta(quanta_from_radius(mm)), mm,
@@ -42,7 +42,7 @@ struct BadCylinder {
   const char* names;
 };
 
-TEST(ClayStack, RefusesWhatItCannotCount) {
+TEST(ClayStack, RefusesRadiiOutOfRange) {
   const double nan = std::nan("");
   for (const BadCylinder& bad : {
            BadCylinder{0, 1, 10, 0, 10, "rings"},

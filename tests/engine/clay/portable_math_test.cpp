@@ -15,7 +15,7 @@ TEST(PortableMath, AgreesWithLibmInLongDouble) {
   }
 }
 
-TEST(PortableMath, EndsAreDefined) {
+TEST(PortableMath, DefinesTheLimits) {
   EXPECT_EQ(one_minus_exp_neg(0.0), 0.0);
   EXPECT_EQ(one_minus_exp_neg(-0.0), 0.0);
   EXPECT_EQ(one_minus_exp_neg(std::numeric_limits<double>::denorm_min()),

@@ -21,7 +21,7 @@ long double ulps(double found, long double expected) {
 // A long double has 11 bits more: a nearest double is within half an ulp and 2^-11 of its value.
 constexpr long double kNearest = 0.5L + 0x1p-11L;
 
-TEST(PortableTrig, IsTheNearestDouble) {
+TEST(PortableTrig, ReturnsTheNearestDouble) {
   std::mt19937_64 random(7);
   for (const double most : {1e-7, 1e-3, 3.5, 50.0, kMostRad}) {
     std::uniform_real_distribution<double> angles(-most, most);
@@ -36,7 +36,7 @@ TEST(PortableTrig, IsTheNearestDouble) {
   }
 }
 
-TEST(PortableTrig, KeepsItsDigitsBesideMultiplesOfAQuarterTurn) {
+TEST(PortableTrig, IsAccurateNearMultiplesOfAQuarterTurn) {
   for (int k = -1000; k <= 1000; ++k) {
     const double angle = k * (0.5 * std::numbers::pi);
     const auto [cosine, sine] = cos_sin(angle);
@@ -45,7 +45,7 @@ TEST(PortableTrig, KeepsItsDigitsBesideMultiplesOfAQuarterTurn) {
   }
 }
 
-TEST(PortableTrig, EndsAreDefined) {
+TEST(PortableTrig, DefinesTheLimits) {
   EXPECT_EQ(cos_sin(0.0).cosine, 1.0);
   EXPECT_EQ(cos_sin(0.0).sine, 0.0);
   EXPECT_TRUE(std::signbit(cos_sin(-0.0).sine));

@@ -30,7 +30,7 @@ std::size_t index_below(std::mt19937_64& random, std::size_t end) {
 /// Of one ring, of ends of stretches at every level, and between them.
 const auto kCounts = rc::gen::element<std::size_t>(1, 2, 63, 64, 65, 200, 4095, 4096, 4097, 9000);
 
-RC_GTEST_PROP(RingSums, AreTheSumsOfTheRings, ()) {
+RC_GTEST_PROP(RingSums, EqualTheSumsOfTheRings, ()) {
   auto random = *samples::random_engine();
   auto rings = random_rings(random, *kCounts);
   const std::size_t most = rings.size() + 150;
@@ -52,7 +52,7 @@ RC_GTEST_PROP(RingSums, AreTheSumsOfTheRings, ()) {
 }
 
 /// Whoever suspects everything sees every ring once, from the top, with what stands on it.
-RC_GTEST_PROP(RingSums, ASearchPassesAllThatIsSuspect, ()) {
+RC_GTEST_PROP(RingSums, SearchVisitsEverySuspectRing, ()) {
   auto random = *samples::random_engine();
   const auto rings = random_rings(random, *kCounts);
   const RingSums sums(ClayStack::from_rings(1.0, rings, 0, rings.size() + 100).value());

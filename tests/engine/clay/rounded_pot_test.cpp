@@ -63,7 +63,7 @@ RC_GTEST_PROP(RoundedPot, RadiiAreTheNearestMultiples, ()) {
   }
 }
 
-RC_GTEST_PROP(RoundedPot, IsAPotOfItsOwn, ()) {
+RC_GTEST_PROP(RoundedPot, IsAValidPot, ()) {
   const Pot pot = test::arbitrary_pot();
   const double precision = arbitrary_precision();
   const auto rounded = rounded_pot(pot, precision);
@@ -96,7 +96,7 @@ TEST(RoundedPot, SquaresAreTheNearestQuanta) {
   EXPECT_EQ(binary.rings()[0].inner2, Quanta{639} * 639 << 24);
 }
 
-TEST(RoundedPot, SaysWhatItAddedToTheClay) {
+TEST(RoundedPot, ReportsTheAddedVolume) {
   const Pot pot = pot_of({{10.0004, 0.0}, {20.0003, 8.9997}}, 2.0);
   EXPECT_EQ(volume_change_mm3(pot), 0.0);
   const double expected =
@@ -105,7 +105,7 @@ TEST(RoundedPot, SaysWhatItAddedToTheClay) {
   EXPECT_NEAR(volume_change_mm3(rounded_pot(pot, 0.001).value()), expected, 1e-9);
 }
 
-TEST(RoundedPot, KeepsTheFirstExactVolume) {
+TEST(RoundedPot, KeepsTheOriginalExactVolume) {
   const Pot pot = pot_of({{10.0044, 5.0}});
   const auto twice = rounded_pot(rounded_pot(pot, 0.001).value(), 0.01);
   ASSERT_TRUE(twice);
@@ -115,14 +115,14 @@ TEST(RoundedPot, KeepsTheFirstExactVolume) {
                  "0.001 mm");
 }
 
-TEST(RoundedPot, ABoreStaysABore) {
+TEST(RoundedPot, KeepsABore) {
   const auto rounded = rounded_pot(pot_of({{10.0, 0.0}, {10.0, 0.0003}}), 0.001);
   ASSERT_TRUE(rounded);
   EXPECT_EQ(rounded->stack.rings()[0].inner2, 0);
   EXPECT_NEAR(rounded->stack.rings()[1].inner_mm(), 0.001, 1e-8);
 }
 
-TEST(RoundedPot, RefusesWhatWouldChangeTheTopology) {
+TEST(RoundedPot, RefusesAChangeOfTopology) {
   expect_refused(pot_of({{10.0, 9.0}, {10.25, 9.875}}), 1.0,
                  "ring 1: expected radii that can be rounded to 1 mm, found a wall that would "
                  "vanish, from 9.875 mm to 10.25 mm");
@@ -147,7 +147,7 @@ TEST(RoundedPot, RefusesRadiiBeyondTheLimits) {
       << rounded.error().message;
 }
 
-TEST(RoundedPot, RefusesPrecisionsThatAreNone) {
+TEST(RoundedPot, RefusesInvalidPrecisions) {
   const Pot pot = pot_of({{10.0, 0.0}});
   for (const double precision : {0.0, -0.001, 1e-6, 9e-6, 1.000001, 1.0 / 3.0, 0.0012345,
                                  std::nan(""), double{INFINITY}, 1e300}) {

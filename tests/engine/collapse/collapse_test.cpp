@@ -55,7 +55,7 @@ TEST(Collapse, ColumnSinksStraightDownToTheWheel) {
   EXPECT_NEAR(c.plastic_work_mj / (0.5 * weight_n(pot) * 20.0), 1.0, 1e-9);
 }
 
-TEST(Collapse, NarrowTubeFallsIntoAWideOneUnhindered) {
+TEST(Collapse, NarrowTubeFallsFreelyIntoAWideOne) {
   std::vector<Ring> rings(10, ring_of(34, 30));
   rings.resize(40, ring_of(14, 10));
   const Pot pot = fallen(stack_of(2.0, rings), 9, {0, 20, 0}, 50.0);
@@ -63,7 +63,7 @@ TEST(Collapse, NarrowTubeFallsIntoAWideOneUnhindered) {
   EXPECT_EQ(pot.collapse->plastic_work_mj, 0.0);
 }
 
-TEST(Collapse, SolidNeckIsCarriedAgainWhereItIsWideEnough) {
+TEST(Collapse, SolidNeckRestsWhereItIsWideEnough) {
   // An hourglass that widens by 1 mm a ring both ways, of rings of 2 mm. Sunk by just over m rings,
   // the parts meet in a disc of the neck's radius and floor(m / 2) mm.
   std::vector<Ring> rings;
@@ -92,7 +92,7 @@ Pot tipped_cylinder(double radius, double height, double hip_x) {
   return fallen(stack_of(2.0, rings), 0, {hip_x, 2.0, 0.0}, kSoft);
 }
 
-TEST(Collapse, SlenderCylinderComesToLieOnItsSide) {
+TEST(Collapse, SlenderCylinderComesToRestOnItsSide) {
   // Lands where the HIP, 2 mm up and 2.5 mm out, lets its far edge down; leans by more than R / (H
   // / 2).
   const Pot pot = tipped_cylinder(8.0, 160.0, 2.5);
@@ -122,7 +122,7 @@ TEST(Collapse, RollsWithoutSlipping) {
   EXPECT_NEAR(foot.y, 0.0, 1e-5);
 }
 
-TEST(Collapse, ConeComesToLieOnItsFlank) {
+TEST(Collapse, ConeComesToRestOnItsSide) {
   // Wider at the top, by half a millimetre a ring of 2 mm: it falls onto the far rim's side, and
   // lies on the line through the tops of its rings.
   std::vector<Ring> rings{ring_of(1.0)};
@@ -164,7 +164,7 @@ TEST(Collapse, FallsAwayFromTheTool) {
   EXPECT_GT(fall.angle_rad, 0.1);
 }
 
-TEST(Collapse, TheSameToEverySide) {
+TEST(Collapse, IsRotationallySymmetric) {
   const ClayStack stack = [&] {
     std::vector<Ring> rings;
     for (int i = 0; i < 60; ++i) rings.push_back(ring_of(30 + 8 * std::cos(0.2 * i), 18));
@@ -206,7 +206,7 @@ Pot any_fall(std::mt19937_64& random) {
 
 class AnyFall : public testing::TestWithParam<std::uint64_t> {};
 
-TEST_P(AnyFall, EnergyOnlyFallsAndNothingDipsIntoTheWheel) {
+TEST_P(AnyFall, EnergyDecreasesAndNothingEntersTheWheel) {
   std::mt19937_64 random(GetParam());
   const Pot pot = any_fall(random);
   const auto frames = fall_frames(pot);
@@ -279,7 +279,7 @@ double most_won(const Pot& pot, std::mt19937_64& random) {
   return most;
 }
 
-TEST_P(AnyFall, RestsWhereNoMotionWinsPower) {
+TEST_P(AnyFall, RestsWhereNoMotionGainsPower) {
   std::mt19937_64 random(GetParam());
   const Pot pot = any_fall(random);
   // Both see the surface in samples, and not the same ones.

@@ -41,11 +41,11 @@ TEST(FallenBody, MeasuresOfATubeWithACrown) {
   EXPECT_NEAR(crown.lowest(0.0).y, -1.0, 1e-9);
 }
 
-TEST(FallenBody, NothingAboveTheTopRing) {
+TEST(FallenBody, IsEmptyAboveTheTopRing) {
   EXPECT_TRUE(FallenBody(ClayStack::cylinder(5, 2.0, 20.0, 0.0, 5).value(), 4).empty());
 }
 
-RC_GTEST_PROP(FallenBody, LowestIsOfAllCorners, ()) {
+RC_GTEST_PROP(FallenBody, LowestPointIsTheMinimumOfAllCorners, ()) {
   auto random = *samples::random_engine();
   const auto count = *rc::gen::inRange<std::size_t>(2, 80);
   const ClayStack stack = samples::stack(random, count, 3.0 * samples::uniform(random) + 0.1);
@@ -65,7 +65,7 @@ RC_GTEST_PROP(FallenBody, LowestIsOfAllCorners, ()) {
   }
 }
 
-RC_GTEST_PROP(FallenBody, SamplesCloseOverItsVolume, ()) {
+RC_GTEST_PROP(FallenBody, SamplesFormAClosedSurface, ()) {
   // Gauss: over a closed surface the normal sums to nothing, and x n_x, y n_y and z n_z each to the
   // volume.
   auto random = *samples::random_engine();
@@ -90,7 +90,7 @@ RC_GTEST_PROP(FallenBody, SamplesCloseOverItsVolume, ()) {
   RC_ASSERT(std::abs(up - body.volume_mm3()) < rounding);
 }
 
-TEST(FallenBody, SamplesAreBoundedWhateverTheRings) {
+TEST(FallenBody, NumberOfSamplesIsBounded) {
   const auto samples_of = [](std::size_t rings) {
     auto random = std::mt19937_64(7);
     return FallenBody(samples::stack(random, rings, 100.0 / static_cast<double>(rings)), 0)

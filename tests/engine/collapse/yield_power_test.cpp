@@ -25,7 +25,7 @@ Twist about(glm::dvec2 centre, const PlanePose& pose, double gyration) {
   return {-arm.y, arm.x, gyration};
 }
 
-TEST(YieldPower, WhereItFailedItIsTheCriterionOfSectionSeven) {
+TEST(YieldPower, AtTheFailedRingEqualsTheCriterionOfSectionSeven) {
   // A neck of 12 mm with a bore of 5 under a wide part: what it bears is its own face.
   std::vector<Ring> rings(30, Ring{quanta_from_radius(30), quanta_from_radius(3)});
   rings[8] = {quanta_from_radius(12), quanta_from_radius(5)};
@@ -54,7 +54,7 @@ TEST(YieldPower, ClayOnlyPushes) {
   EXPECT_NEAR(power.net(about({0, 10}, stood, body.gyration_mm())) / expected, 1.0, 5e-3);
 }
 
-RC_GTEST_PROP(YieldPower, SteepestWinsOrNothingDoes, ()) {
+RC_GTEST_PROP(YieldPower, ReturnsTheSteepestMotionOrNone, ()) {
   auto random = *samples::random_engine();
   const auto count = *rc::gen::inRange<std::size_t>(2, 40);
   const ClayStack stack = samples::stack(random, count, 2.0);

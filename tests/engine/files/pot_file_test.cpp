@@ -54,7 +54,7 @@ void expect_error(std::string_view from, std::string_view to, const std::string&
                        "p.json:" + std::to_string(test::line_of(text, from)) + ": " + message);
 }
 
-TEST(PotFile, WritesForPeopleToo) {
+TEST(PotFile, WritesRadiiForPeople) {
   const Json file = Json::parse(write_pot(collapsed_pot(), PotEncoding::json));
   EXPECT_EQ(file["schema"], "claystack-pot-1");
   EXPECT_EQ(file["rings"]["outer2"], Json({100 * kMm2, 121 * kMm2, 144 * kMm2 + 1, 2 * kMm2}));
@@ -66,7 +66,7 @@ TEST(PotFile, WritesForPeopleToo) {
   EXPECT_EQ(file["collapse"]["axis"], Json({0.6, 0, -0.8}));
 }
 
-TEST(PotFile, ACollapseFromBeforeShiftsWereKnownReadsAsATurn) {
+TEST(PotFile, ReadsAnOldCollapseWithoutAShiftAsARotation) {
   Pot pot = collapsed_pot();
   Json file = Json::parse(write_pot(pot, PotEncoding::json));
   for (const char* name : {"shift_mm", "threshold_kpa", "energy_lost_mj", "plastic_work_mj"})
@@ -77,7 +77,7 @@ TEST(PotFile, ACollapseFromBeforeShiftsWereKnownReadsAsATurn) {
   EXPECT_EQ(*read, pot);
 }
 
-RC_GTEST_PROP(PotFile, WhatIsWrittenReadsBackTheSame, ()) {
+RC_GTEST_PROP(PotFile, RoundTrips, ()) {
   const Pot pot = test::arbitrary_pot();
   for (const PotEncoding encoding : {PotEncoding::json, PotEncoding::cbor}) {
     const std::string bytes = write_pot(pot, encoding);
@@ -88,7 +88,7 @@ RC_GTEST_PROP(PotFile, WhatIsWrittenReadsBackTheSame, ()) {
   }
 }
 
-RC_GTEST_PROP(PotFile, CborHoldsWhatJsonHoldsButTheRadii, ()) {
+RC_GTEST_PROP(PotFile, CborHoldsTheFieldsOfJsonExceptRadii, ()) {
   const Pot pot = test::arbitrary_pot();
   Json file = Json::parse(write_pot(pot, PotEncoding::json));
   file["rings"].erase("outer_mm");
@@ -120,7 +120,7 @@ TEST(PotFile, TwoHundredRingsFitIntoFourKilobytes) {
   EXPECT_LE(write_pot(pot, PotEncoding::cbor).size(), 4096u);
 }
 
-TEST(PotFile, RefusesALedgerThatIsOneQuantumOut) {
+TEST(PotFile, RefusesALedgerOffByOneQuantum) {
   Pot pot = small_pot();
   pot.ledger.added += 1;
   const std::string text = write_pot(pot, PotEncoding::json);
@@ -154,7 +154,7 @@ TEST(PotFile, ErrorsNameTheRingAndItsLine) {
                "6871947673600.0");
 }
 
-TEST(PotFile, AcceptsRadiiThatAPersonRounded) {
+TEST(PotFile, AcceptsRadiiRoundedByAPerson) {
   const std::string text = write_pot(small_pot(), PotEncoding::json);
   EXPECT_TRUE(parse_pot(test::replaced(text, "1.414214", "1.41421"), "rounded"));
 }
@@ -196,7 +196,7 @@ TEST(PotFile, ErrorsInCborNameTheField) {
                        "p: ledger: expected a field \"added\", found none; is \"addad\" meant?");
 }
 
-TEST(PotFile, RefusesWhatIsNoPot) {
+TEST(PotFile, RefusesFilesThatAreNotPots) {
   EXPECT_FALSE(parse_pot("", "empty"));
   EXPECT_FALSE(parse_pot("[]", "array"));
   EXPECT_FALSE(parse_pot("\xa0", "empty map"));
@@ -207,7 +207,7 @@ TEST(PotFile, RefusesWhatIsNoPot) {
   EXPECT_FALSE(parse_pot(bytes + '\0', "trailing"));
 }
 
-TEST(PotFile, NoFlippedBitOfCborGivesAPotThatDoesNotBalance) {
+TEST(PotFile, NoFlippedBitGivesAnUnbalancedPot) {
   const std::string bytes = write_pot(collapsed_pot(), PotEncoding::cbor);
   for (std::size_t at = 0; at < bytes.size(); ++at)
     for (unsigned bit = 0; bit < 8; ++bit) {
@@ -219,7 +219,7 @@ TEST(PotFile, NoFlippedBitOfCborGivesAPotThatDoesNotBalance) {
     }
 }
 
-TEST(PotSchema, NamesTheFieldsThatAreWritten) {
+TEST(PotSchema, NamesTheWrittenFields) {
   const auto written =
       test::member_paths(Json::parse(write_pot(collapsed_pot(), PotEncoding::json)));
   auto described = test::property_paths(test::load_schema("pot"));

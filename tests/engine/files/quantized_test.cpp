@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kQuantumMm = 1.0 / 65536.0;
 
-TEST(Quantized, TakesTheNearestCount) {
+TEST(Quantized, RoundsToTheNearestCount) {
   EXPECT_EQ(quantized({5, {1.0, -2.5, 0.0}, true}), (Pose{5, {1.0, -2.5, 0.0}, true}));
   const Pose near = quantized({0, {1.4 * kQuantumMm, -1.4 * kQuantumMm, 0.6 * kQuantumMm}, false});
   EXPECT_EQ(near.position_mm, glm::dvec3(1, -1, 1) * kQuantumMm);
@@ -26,7 +26,7 @@ TEST(Quantized, TakesTheNearestCount) {
   EXPECT_EQ(gap(kInfinity), 1e6);
 }
 
-RC_GTEST_PROP(Quantized, MovesByHalfAQuantumAtMostAndOnlyOnce, ()) {
+RC_GTEST_PROP(Quantized, MovesByAtMostHalfAQuantumAndIsIdempotent, ()) {
   const Pose pose{0, {*test::number_in(-1e6, 1e6), *test::number_in(-1, 1), 0.0}, false};
   const Pose once = quantized(pose);
   RC_ASSERT(std::abs(once.position_mm.x - pose.position_mm.x) <= kQuantumMm / 2);

@@ -47,7 +47,7 @@ void expect_sound(const Pot& pot) {
   EXPECT_TRUE(*again == pot);
 }
 
-TEST(RoundedPotFile, HoldsSecondDifferencesAndRadiiForPeople) {
+TEST(RoundedPotFile, StoresSecondDifferencesAndRadii) {
   const Json rings = Json::parse(small_text())["rounded_rings"];
   EXPECT_EQ(rings["rounded_to_mm"], 0.001);
   EXPECT_EQ(rings["outer_differences"], Json({10000, -9998, 1, -3}));
@@ -57,7 +57,7 @@ TEST(RoundedPotFile, HoldsSecondDifferencesAndRadiiForPeople) {
   EXPECT_EQ(rings["exact_volume"], to_string(small_pot().rounding->exact_volume));
 }
 
-RC_GTEST_PROP(RoundedPotFile, WhatIsWrittenReadsBackTheSame, ()) {
+RC_GTEST_PROP(RoundedPotFile, RoundTrips, ()) {
   const auto pot = rounded_pot(test::arbitrary_pot(), *rc::gen::inRange(10, 1'000'001) / 1e6);
   RC_PRE(pot.has_value());
   for (const PotEncoding encoding : {PotEncoding::json, PotEncoding::cbor}) {
@@ -69,7 +69,7 @@ RC_GTEST_PROP(RoundedPotFile, WhatIsWrittenReadsBackTheSame, ()) {
   }
 }
 
-RC_GTEST_PROP(RoundedPotFile, CborHoldsWhatJsonHoldsButTheRadii, ()) {
+RC_GTEST_PROP(RoundedPotFile, CborHoldsTheFieldsOfJsonExceptRadii, ()) {
   const auto pot = rounded_pot(test::arbitrary_pot(), 0.001);
   RC_PRE(pot.has_value());
   Json file = Json::parse(write_pot(*pot, PotEncoding::json));
@@ -78,7 +78,7 @@ RC_GTEST_PROP(RoundedPotFile, CborHoldsWhatJsonHoldsButTheRadii, ()) {
   RC_ASSERT(Json::from_cbor(write_pot(*pot, PotEncoding::cbor)) == file);
 }
 
-TEST(RoundedPotFile, APotThatIsNotWhatItSaysIsWrittenExactly) {
+TEST(RoundedPotFile, WritesAPotWithFalseRoundingExactly) {
   Pot pot = small_pot();
   std::vector<Ring> rings(pot.stack.rings().begin(), pot.stack.rings().end());
   ++rings[1].outer2;
@@ -140,7 +140,7 @@ TEST(RoundedPotFile, ErrorsNameTheLineOfEveryOtherField) {
             std::string::npos);
 }
 
-TEST(RoundedPotFile, RefusesALedgerThatIsOneQuantumOut) {
+TEST(RoundedPotFile, RefusesALedgerOffByOneQuantum) {
   Pot pot = small_pot();
   pot.ledger.added += 1;
   test::expect_refused(parse_pot(write_pot(pot, PotEncoding::cbor), "p"),
@@ -148,13 +148,13 @@ TEST(RoundedPotFile, RefusesALedgerThatIsOneQuantumOut) {
                        "the stack, trimmed and outside, less initial and added)");
 }
 
-TEST(RoundedPotFile, EveryCutIsRefused) {
+TEST(RoundedPotFile, RefusesEveryTruncation) {
   const std::string bytes = write_pot(small_pot(), PotEncoding::cbor);
   for (std::size_t n = 0; n < bytes.size(); ++n) EXPECT_FALSE(parse_pot(bytes.substr(0, n), "cut"));
   EXPECT_FALSE(parse_pot(bytes + '\0', "trailing"));
 }
 
-TEST(RoundedPotFile, NoEditedByteGivesAPotThatIsNotSound) {
+TEST(RoundedPotFile, NoEditedByteGivesAnUnsoundPot) {
   const std::string bytes = write_pot(small_pot(), PotEncoding::cbor);
   std::size_t refused = 0;
   for (std::size_t at = 0; at < bytes.size(); ++at)
@@ -169,7 +169,7 @@ TEST(RoundedPotFile, NoEditedByteGivesAPotThatIsNotSound) {
   EXPECT_GT(refused, 10 * bytes.size());
 }
 
-TEST(RoundedPotFile, SumsThatWouldOverflowAreRefused) {
+TEST(RoundedPotFile, RefusesSumsThatOverflow) {
   // 2^18 differences of 10^9: their double sum would leave 64 bits.
   Json file = Json::parse(small_text());
   file["max_rings"] = kMaxRings;
@@ -182,7 +182,7 @@ TEST(RoundedPotFile, SumsThatWouldOverflowAreRefused) {
   }
 }
 
-TEST(RoundedPotSchema, NamesTheFieldsThatAreWritten) {
+TEST(RoundedPotSchema, NamesTheWrittenFields) {
   const auto written = test::member_paths(Json::parse(small_text()));
   auto described = test::property_paths(test::load_schema("pot"));
   std::erase_if(described, [](const std::string& path) {

@@ -64,7 +64,7 @@ TEST(SceneFile, ReadsEveryField) {
   EXPECT_EQ(*scene, test::full_scene());
 }
 
-TEST(SceneFile, TakesDefaultsForWhatIsAbsent) {
+TEST(SceneFile, UsesDefaultsForAbsentFields) {
   const auto scene =
       parse_scene(R"({"schema": "claystack-scene-1", "lump": {}, "tool": {}})", "least");
   ASSERT_TRUE(scene) << scene.error().message;
@@ -141,7 +141,7 @@ TEST(SceneFile, ErrorsBetweenFieldsNameTheLineOfOne) {
       "one:3: tool.shape.sampled.t_mm: expected two numbers at least, found an array of 1");
 }
 
-TEST(SceneFile, ErrorsNameFieldsThatShouldNotBeThere) {
+TEST(SceneFile, ErrorsNameUnknownFields) {
   expect_error("\"trim\"", "\"trim\", \"colour\": 3",
                "unknown field \"colour\" in tool; expected one of shape, mode, gap_mm");
   expect_error("\"friction\"", "\"fricton\"",
@@ -156,7 +156,7 @@ TEST(SceneFile, ErrorsNameFieldsThatShouldNotBeThere) {
   expect_error("\"friction\": 0.3", "\"limit_n\": 3", "duplicate field \"limit_n\"");
 }
 
-TEST(SceneFile, ErrorsNameFieldsThatAreMissing) {
+TEST(SceneFile, ErrorsNameMissingFields) {
   expect_error("\"sampled\": {\n        \"t_mm\"", "\"sampled\": {\n        \"tmm\"",
                "tool.shape.sampled: expected a field \"t_mm\", found none; is \"tmm\" meant?");
   test::expect_refused(parse_scene(R"({"schema": "claystack-scene-1", "lump": {},
@@ -167,7 +167,7 @@ TEST(SceneFile, ErrorsNameFieldsThatAreMissing) {
                        "empty:1: expected a field \"schema\", found none");
 }
 
-TEST(SceneFile, TakesExactlyOneShape) {
+TEST(SceneFile, RequiresExactlyOneShape) {
   const auto with_shape = [](const std::string& shape) {
     return parse_scene(
         R"({"schema": "claystack-scene-1", "lump": {}, "tool": {"shape": )" + shape + "}}",
@@ -184,7 +184,7 @@ TEST(SceneFile, TakesExactlyOneShape) {
                        "ellipse, rib, sampled");
 }
 
-TEST(SceneFile, WritesOneMemberALine) {
+TEST(SceneFile, WritesOneMemberPerLine) {
   SceneSpec scene;
   scene.tool.shape = SampledSpec{{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10.5}, {1, 1}};
   scene.force.reset();
@@ -202,7 +202,7 @@ TEST(SceneFile, WritesOneMemberALine) {
   EXPECT_EQ(text.substr(text.size() - 6), "  }\n}\n");
 }
 
-RC_GTEST_PROP(SceneFile, WhatIsWrittenReadsBackTheSame, ()) {
+RC_GTEST_PROP(SceneFile, RoundTrips, ()) {
   const SceneSpec scene = test::arbitrary_scene();
   const std::string text = write_scene(scene);
   const auto read = parse_scene(text, "written");

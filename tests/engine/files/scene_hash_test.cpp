@@ -16,7 +16,7 @@ std::uint64_t fnv1a(std::string_view text) {
   return hash;
 }
 
-TEST(SceneHash, IsThatOfTheTextWithoutItsVersion) {
+TEST(SceneHash, IgnoresTheWritingVersion) {
   ASSERT_EQ(fnv1a("foobar"), 0x85944171f73967e8u);  // the authors' test vector
   const SceneSpec scene;
   std::string text = write_scene(scene);
@@ -26,7 +26,7 @@ TEST(SceneHash, IsThatOfTheTextWithoutItsVersion) {
   EXPECT_EQ(hash_of(scene), fnv1a(text));
 }
 
-RC_GTEST_PROP(SceneHash, TellsScenesApart, ()) {
+RC_GTEST_PROP(SceneHash, DistinguishesScenes, ()) {
   const SceneSpec a = test::arbitrary_scene();
   const SceneSpec b = test::arbitrary_scene();
   RC_ASSERT((hash_of(a) == hash_of(b)) == (a == b));

@@ -18,13 +18,13 @@ namespace {
 
 using test::Json;
 
-RC_GTEST_PROP(SceneSchema, DescribesWhatIsWritten, ()) {
+RC_GTEST_PROP(SceneSchema, AcceptsWrittenScenes, ()) {
   static const Json schema = test::load_schema("scene");
   const std::string text = write_scene(test::arbitrary_scene());
   RC_ASSERT(test::violation(schema, Json::parse(text)) == "");
 }
 
-TEST(SceneSchema, NamesTheFieldsThatAreWritten) {
+TEST(SceneSchema, NamesTheWrittenFields) {
   std::set<std::string> written;
   for (const ToolShapeSpec& shape :
        {ToolShapeSpec(SphereSpec{}), ToolShapeSpec(EllipseSpec{}), ToolShapeSpec(RibSpec{}),
@@ -62,7 +62,7 @@ TEST(SceneSchema, AgreesWithTheReader) {
   }
 }
 
-TEST(SceneSchema, DescribesEverySample) {
+TEST(SceneSchema, AcceptsEverySample) {
   const Json schema = test::load_schema("scene");
   int samples = 0;
   for (const auto& entry : std::filesystem::directory_iterator(CLAYSTACK_SAMPLES)) {
@@ -77,7 +77,7 @@ TEST(SceneSchema, DescribesEverySample) {
   EXPECT_GT(samples, 0);
 }
 
-TEST(SceneSchema, GivesTheDefaultsOfTheReader) {
+TEST(SceneSchema, StatesTheDefaultsOfTheReader) {
   // A file in which every default is said in full is the same scene as one that says nothing.
   const auto filled = [](const auto& self, const Json& schema) -> Json {
     if (schema.contains("default") && !schema["default"].is_object()) return schema["default"];

@@ -68,7 +68,7 @@ const std::vector<Pose> kThreePinched = {pose_of(1000, {65536, -3, 0}),
                                          pose_of(2000, {65537, -3, 10}, false, 327'680),
                                          pose_of(3500, {65540, -3, 10}, true, 327'660)};
 
-TEST(SessionFile, WritesWhatTheFormatSays) {
+TEST(SessionFile, WritesTheDocumentedFormat) {
   EXPECT_EQ(session_block(kThree), kThreePoses);
   EXPECT_EQ(session_block(std::vector{pose_of(0, {0, 0, 0}, true)}), kOnePose);
   EXPECT_EQ(session_block(kThreePinched), kThreeGaps);
@@ -80,7 +80,7 @@ TEST(SessionFile, WritesWhatTheFormatSays) {
   EXPECT_EQ(header.dump(), expected.dump());
 }
 
-TEST(SessionFile, ReadsWhatTheFormatSays) {
+TEST(SessionFile, ReadsTheDocumentedFormat) {
   const auto session =
       parse_session(std::string(kHeader).append(kOnePose).append(kThreePoses), "s.session");
   ASSERT_TRUE(session) << session.error().message;
@@ -94,7 +94,7 @@ TEST(SessionFile, ReadsWhatTheFormatSays) {
             kThreePinched);
 }
 
-TEST(SessionFile, AGapThatStaysIsOneNumber) {
+TEST(SessionFile, StoresAConstantGapAsOneNumber) {
   auto poses = kThreePinched;
   for (Pose& pose : poses) pose.gap_mm = 5.0;
   EXPECT_EQ(Json::parse(session_block(poses))["gap"], 327'680);
@@ -105,7 +105,7 @@ TEST(SessionFile, IsCompact) {
   EXPECT_LT(text_of(wandering(poses)).size(), 20 * poses);
 }
 
-RC_GTEST_PROP(SessionFile, WhatIsWrittenReadsBackTheSame, ()) {
+RC_GTEST_PROP(SessionFile, RoundTrips, ()) {
   Session session;
   session.scene_name = *test::arbitrary_text();
   session.scene_hash = *rc::gen::arbitrary<std::uint64_t>();
@@ -130,7 +130,7 @@ RC_GTEST_PROP(SessionFile, WhatIsWrittenReadsBackTheSame, ()) {
   RC_ASSERT(!read->torn);
 }
 
-TEST(SessionFile, CutAnywhereGivesTheBlocksBeforeTheCut) {
+TEST(SessionFile, TruncatedFileGivesTheCompleteBlocks) {
   const auto poses = wandering(250);
   const std::string text = text_of(poses);
   const auto header_end = text.find('\n') + 1;
@@ -145,7 +145,7 @@ TEST(SessionFile, CutAnywhereGivesTheBlocksBeforeTheCut) {
   }
 }
 
-TEST(SessionFile, CutAndEndedByAnEditorIsTornToo) {
+TEST(SessionFile, ReportsATruncatedLineWithANewlineAsTorn) {
   const auto poses = wandering(150);
   const std::string text = text_of(poses);
   const auto last_line = text.rfind('\n', text.size() - 2) + 1;
@@ -157,7 +157,7 @@ TEST(SessionFile, CutAndEndedByAnEditorIsTornToo) {
   }
 }
 
-TEST(SessionFile, NoFlippedBitGivesOtherPoses) {
+TEST(SessionFile, DetectsEveryFlippedBit) {
   const auto poses = wandering(210);
   const std::string text = text_of(poses);
   const auto first_block = text.find('\n') + 1;
@@ -248,7 +248,7 @@ TEST(SessionFile, ErrorsNameTheLineOfAGap) {
           "damaged");
 }
 
-TEST(SessionFile, RefusesTimesThatDoNotIncreaseFromBlockToBlock) {
+TEST(SessionFile, RefusesTimesThatDecreaseBetweenBlocks) {
   const auto text = std::string(kHeader).append(kThreePoses).append(kOnePose);
   test::expect_refused(parse_session(text, "s"), "s:3: t_us: expected a time after 3500, found 0");
 }
@@ -265,7 +265,7 @@ std::string still_session(std::size_t blocks) {
   return text;
 }
 
-TEST(SessionFile, TakesTheMemoryOfItsPosesAndOfOneBlock) {
+TEST(SessionFile, UsesTheMemoryOfPosesAndOneBlock) {
   constexpr std::size_t kBlocks = 5001, kOneBlock = std::size_t{1} << 18;
   const std::string text = still_session(kBlocks);
   Result<Session> session;
@@ -275,12 +275,12 @@ TEST(SessionFile, TakesTheMemoryOfItsPosesAndOfOneBlock) {
   EXPECT_LE(bytes, session->poses.size() * sizeof(Pose) + kOneBlock);
 }
 
-TEST(SessionFile, TheLargestTakesLessThanOneGibibyteToRead) {
+TEST(SessionFile, ReadsTheLargestSessionInOneGibibyte) {
   static_assert(kMaxPoses * sizeof(Pose) + kMaxSessionBytes < std::size_t{1} << 30);
   EXPECT_GT(kMaxSessionBytes, 2 * (text_of(wandering(10'000)).size() / 10'000) * kMaxPoses);
 }
 
-TEST(SessionFile, TooManyPosesAreRefusedBeforeOneIsRead) {
+TEST(SessionFile, RefusesTooManyPosesInAdvance) {
   std::string text(kHeader);
   for (std::size_t block = 0; block <= kMaxPoses / kPosesPerBlock; ++block)
     text += R"({"n":100,"t_us":0})"
@@ -293,7 +293,7 @@ TEST(SessionFile, TooManyPosesAreRefusedBeforeOneIsRead) {
   EXPECT_LT(bytes, std::size_t{1} << 18);
 }
 
-TEST(SessionFile, ABlockThatFindsNoRoomIsRefusedWhereItStands) {
+TEST(SessionFile, RefusesABlockBeyondTheLimitAtItsLine) {
   const auto line = LocatedJson::from_json(kThreePoses, "s", files::kMaxBlockValues, 7);
   std::vector<Pose> poses;
   test::expect_refused(files::append_block(line.value(), poses, 2),
@@ -323,7 +323,7 @@ TEST(SessionSchema, DescribesEveryLine) {
   EXPECT_EQ(written, described);
 }
 
-TEST(SessionSchema, RefusesNothingButWhatTheReaderRefuses) {
+TEST(SessionSchema, RefusesOnlyWhatTheReaderRefuses) {
   const Json schema = test::load_schema("session");
   const std::string block(kThreeGaps);
   for (const auto& [what, line] : test::edits(schema, Json::parse(kHeader))) {

@@ -22,7 +22,7 @@ Contact contact_of(const Tool& tool, const ClayStack& stack, glm::dvec3 hip) {
 }
 
 /// Section 4 without its first stage: every ring is asked.
-RC_GTEST_PROP(Contact, TwoStagesFindWhatAskingEveryRingFinds, ()) {
+RC_GTEST_PROP(Contact, TwoStageSearchMatchesTestingEveryRing, ()) {
   auto random = *samples::random_engine();
   const auto count = *rc::gen::inRange<std::size_t>(1, 60);
   const double h = *rc::gen::element(0.1, 1.0, 7.0);
@@ -73,7 +73,7 @@ TEST_F(ContactOnCylinder, DemarcatingCircleDecidesTheSide) {
   EXPECT_EQ(contact_of(sphere, cup, {0, 50, -45.001}).side, Side::compressive);
 }
 
-TEST_F(ContactOnCylinder, CandidatesAreEquationsOneAndTwo) {
+TEST_F(ContactOnCylinder, CandidatesFollowEquationsOneAndTwo) {
   // (1): ceil((50.2 + 10) / 1) = 61st ring, (2): floor((50.2 - 10) / 1) = 40th ring.
   Contact contact;
   find_contact<Model::paper>(sphere, cup, {55, 50.2, 0}, contact);
@@ -82,7 +82,7 @@ TEST_F(ContactOnCylinder, CandidatesAreEquationsOneAndTwo) {
   EXPECT_EQ(contact.edge_count, 0u);
 }
 
-TEST_F(ContactOnCylinder, TheRangeEndsWithTheRingsOfTheToolsEnds) {
+TEST_F(ContactOnCylinder, RangeEndsAtTheRingsOfTheToolsEnds) {
   const Contact contact = contact_of(sphere, cup, {55, 50.2, 0});
   EXPECT_EQ(contact.top, 60u);     // 60.2
   EXPECT_EQ(contact.bottom, 40u);  // 40.2
@@ -90,7 +90,7 @@ TEST_F(ContactOnCylinder, TheRangeEndsWithTheRingsOfTheToolsEnds) {
   EXPECT_NEAR(contact.down_offset, 0.2 - 0.5, 1e-12);
 }
 
-TEST_F(ContactOnCylinder, PartsOfRingsAreFeltButDoNotYield) {
+TEST_F(ContactOnCylinder, PartlyCoveredRingsGiveForceButDoNotYield) {
   const Tool rib = Tool::build(RibSpec{20.0, 6.0}).value();
   // From 40.3 to 60.3: 0.7 of ring 40, whose middle it covers, and 0.3 of ring 60.
   const Contact contact = contact_of(rib, cup, {54, 50.3, 0});
@@ -109,7 +109,7 @@ TEST_F(ContactOnCylinder, PartsOfRingsAreFeltButDoNotYield) {
   EXPECT_NEAR(covered, 20.0, 1e-12);  // the rib's height
 }
 
-TEST_F(ContactOnCylinder, TheCrownIsFelt) {
+TEST_F(ContactOnCylinder, CrownGivesForce) {
   const Ring ring{quanta_from_radius(50), quanta_from_radius(40)};
   const ClayStack crowned =
       ClayStack::from_rings(1.0, std::vector<Ring>(100, ring), ring.volume() / 4).value();
@@ -119,7 +119,7 @@ TEST_F(ContactOnCylinder, TheCrownIsFelt) {
   EXPECT_NEAR(contact.edges[0].coverage, 0.25, 1e-9);
 }
 
-TEST_F(ContactOnCylinder, NothingAboveBelowOrBeside) {
+TEST_F(ContactOnCylinder, FindsNothingAboveBelowOrBeside) {
   for (const glm::dvec3 hip : {glm::dvec3{50, 110.1, 0},
                                {50, -10.1, 0},
                                {60.001, 50, 0},
@@ -129,7 +129,7 @@ TEST_F(ContactOnCylinder, NothingAboveBelowOrBeside) {
     EXPECT_TRUE(contact_of(sphere, cup, hip).rings.empty()) << hip.x << " " << hip.y;
 }
 
-TEST_F(ContactOnCylinder, OnTheAxisThereIsNoDirection) {
+TEST_F(ContactOnCylinder, HasNoDirectionOnTheAxis) {
   const Contact contact = contact_of(Tool::build(SphereSpec{45.0}).value(), cup, {0, 50, 0});
   ASSERT_FALSE(contact.rings.empty());
   EXPECT_EQ(contact.side, Side::expansive);
@@ -137,7 +137,7 @@ TEST_F(ContactOnCylinder, OnTheAxisThereIsNoDirection) {
   EXPECT_EQ(contact.radial_z, 0.0);
 }
 
-TEST_F(ContactOnCylinder, AToolWiderThanThePotTouchesEveryRing) {
+TEST_F(ContactOnCylinder, ToolWiderThanThePotTouchesEveryRing) {
   const Tool giant = Tool::build(SphereSpec{500.0}).value();
   EXPECT_EQ(contact_of(giant, cup, {100, 50, 0}).rings.touched(), 100u);
 }

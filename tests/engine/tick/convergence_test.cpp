@@ -21,7 +21,7 @@ class Convergence : public testing::TestWithParam<Experiment> {
   double percent_of_radius(double mm) const { return 100.0 * mm / e.scene.lump.outer_radius_mm; }
 };
 
-TEST_P(Convergence, TenTimesFinerRingsLeaveThePot) {
+TEST_P(Convergence, TenTimesFinerRingsKeepTheProfile) {
   const auto coarse = bench::played(e.scene, e.poses);
   const auto fine = bench::played(bench::refined(e.scene, 10), e.poses);
   const auto off = bench::profile_difference(coarse.stack, fine.stack);
@@ -29,13 +29,13 @@ TEST_P(Convergence, TenTimesFinerRingsLeaveThePot) {
   EXPECT_LT(percent_of_radius(off.outline_mm), 0.5);
 }
 
-TEST_P(Convergence, TenTimesFinerRingsFeelTheSame) {
+TEST_P(Convergence, TenTimesFinerRingsKeepTheForce) {
   const auto coarse = bench::played(e.scene, e.poses);
   const auto fine = bench::played(bench::refined(e.scene, 10), e.poses);
   EXPECT_LT(bench::force_difference(coarse, fine).rms_percent, 1.0);
 }
 
-TEST_P(Convergence, AKilohertzAndFourLeaveOnePotAndFeelTheSame) {
+TEST_P(Convergence, OneAndFourKilohertzGiveTheSamePotAndForce) {
   const auto slow = bench::played(e.scene, e.poses);
   const auto fast = bench::played(e.scene, bench::resampled(e.poses, 250));
   EXPECT_LT(bench::force_difference(slow, fast).rms_percent, 1.0);
@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(AnyGridAnyRate, StandingRib,
                          testing::Values(std::pair{1.0, 250.0}, std::pair{0.5, 1000.0},
                                          std::pair{0.1, 1000.0}, std::pair{0.5, 8000.0}));
 
-TEST(StandingRib, DisplacesWhatTheExactSolutionSays) {
+TEST(StandingRib, DisplacesTheExactVolume) {
   const bench::StandingRib rib = bench::standing_rib(0.5, 1000.0);
   SceneSpec scene = rib.scene;
   scene.tool.mode = ToolMode::trim;

@@ -39,7 +39,7 @@ WideQuanta literal_flow(const RayleighKernel& kernel, double offset, WideQuanta 
 }
 
 /// Small bites, which flow in 64 bits, and some of more than 2^63 quanta, which do not.
-RC_GTEST_PROP(Flow, IsAlikeInFewBitsAndInMany, ()) {
+RC_GTEST_PROP(Flow, AgreesInLowAndHighPrecision, ()) {
   auto random = *samples::random_engine();
   std::vector<Ring> rings;
   for (int i = 0; i < 80; ++i) {

@@ -52,7 +52,7 @@ ClayStack vase() {
 
 class SpringForce : public testing::TestWithParam<ToolShapeSpec> {};
 
-TEST_P(SpringForce, IsMinusTheGradientOfTheOverlapEnergy) {
+TEST_P(SpringForce, EqualsMinusTheGradientOfTheOverlapEnergy) {
   const Tool tool = Tool::build(GetParam()).value();
   const ClayStack stack = vase();
   for (const double angle : {0.0, 1.0, 2.5, 4.0}) {
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, SpringForce,
                                          ToolShapeSpec{EllipseSpec{14, 6}},
                                          ToolShapeSpec{SampledSpec{{-9, -3, 4, 9}, {1, 6, 7, 2}}}));
 
-TEST(PaperForce, IsKTimesDepthAlongTheUnitNormal) {
+TEST(PaperForce, EqualsKTimesDepthAlongTheUnitNormal) {
   Contact contact;
   contact.radial_x = 0.6;
   contact.radial_z = 0.8;
@@ -100,7 +100,7 @@ TEST(PaperForce, IsKTimesDepthAlongTheUnitNormal) {
   EXPECT_NEAR(inside.y, outside.y, 1e-15);
 }
 
-TEST(Friction, IsMuTimesTheSpringForceAlongTheTurn) {
+TEST(Friction, EqualsMuTimesTheSpringForceAlongTheRotation) {
   Contact contact;
   contact.radial_x = 1.0;
   const glm::dvec3 spring(3.0, 4.0, 0.0);
@@ -123,7 +123,7 @@ TEST(Force, OnTheAxisIsFiniteAndHasNoRadialPart) {
   EXPECT_EQ(glm::length(friction_force(kPlan, contact, spring)), 0.0);
 }
 
-RC_GTEST_PROP(Force, LimitKeepsDirectionAndIsNeverPassed, ()) {
+RC_GTEST_PROP(Force, LimitKeepsDirectionAndIsNeverExceeded, ()) {
   auto random = *samples::random_engine();
   const auto component = [&] {
     return std::pow(10.0, 12 * samples::uniform(random) - 4) *
@@ -136,7 +136,7 @@ RC_GTEST_PROP(Force, LimitKeepsDirectionAndIsNeverPassed, ()) {
   if (glm::length(force) <= 5.0) RC_ASSERT(kept == force);
 }
 
-TEST(Force, WhatIsNotFiniteBecomesZero) {
+TEST(Force, NonFiniteForceBecomesZero) {
   const double inf = std::numeric_limits<double>::infinity();
   EXPECT_EQ(limited({std::nan(""), 0, 0}, 5.0), glm::dvec3(0.0));
   EXPECT_EQ(limited({inf, 0, 0}, 5.0), glm::dvec3(0.0));

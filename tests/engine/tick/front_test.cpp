@@ -43,7 +43,7 @@ class Front : public testing::TestWithParam<double> {
 
 /// The integral over what the ball has behind its pole, ring or no ring: the depth there is 8 mm
 /// and what the ball has widened, less what has yielded, w (1 - exp(-kappa s / v)).
-TEST_P(Front, IsFeltAsTheClayYieldsWhereverInARingTheEndIs) {
+TEST_P(Front, ForceIsContinuousAsTheToolsEndCrossesARing) {
   const Contact contact = behind_end_at(30.0 + GetParam() * kRingMm);
   double expected = 0.0;
   constexpr int kParts = 100'000;
@@ -63,7 +63,7 @@ TEST_P(Front, IsFeltAsTheClayYieldsWhereverInARingTheEndIs) {
 }
 INSTANTIATE_TEST_SUITE_P(Places, Front, testing::Values(0.05, 0.3, 0.45, 0.55, 0.7, 0.95));
 
-TEST_F(Front, OfAToolThatStandsThereIsNone) {
+TEST_F(Front, IsAbsentForAStandingTool) {
   behind_end_at(30.05);
   Contact contact;
   find_contact(plan.tool, stack, {kAxis, 20.05, 0.0}, contact);

@@ -44,7 +44,7 @@ Thrown throw_with(const ToolShapeSpec& shape, bool four) {
 
 class Lanes : public testing::TestWithParam<ToolShapeSpec> {};
 
-TEST_P(Lanes, TwoAndFourGiveTheSameBits) {
+TEST_P(Lanes, TwoAndFourLanesGiveTheSameBits) {
   if (!four_lanes) std::clog << "this machine has no AVX2: two lanes against two\n";
   EXPECT_TRUE(throw_with(GetParam(), four_lanes) == throw_with(GetParam(), false));
 }

@@ -30,7 +30,7 @@ Pinch pinch_of(const Tool& tool, const ClayStack& stack, glm::dvec3 hip, double 
   return pinch;
 }
 
-RC_GTEST_PROP(PinchContact, EachToolIsOnItsSideOfTheGap, ()) {
+RC_GTEST_PROP(PinchContact, PutsEachToolOnItsSideOfTheGap, ()) {
   auto random = *samples::random_engine();
   const auto count = *rc::gen::inRange<std::size_t>(1, 60);
   const double h = *rc::gen::element(0.1, 1.0, 7.0);
@@ -78,7 +78,7 @@ RC_GTEST_PROP(PinchContact, EachToolIsOnItsSideOfTheGap, ()) {
   RC_ASSERT(outer.bottom == inner.bottom && outer.top == inner.top);
 }
 
-TEST(PinchContact, AToolWiderThanTheBoreStandsBeyondTheAxis) {
+TEST(PinchContact, ToolWiderThanTheBoreIsBeyondTheAxis) {
   const Tool tool = Tool::build(SphereSpec{kToolMm}).value();
   const ClayStack stack = ClayStack::cylinder(100, 0.5, 10.0, 3.0, 100).value();
   // Its centre is at 5 - 2 - 8 = -5: it reaches 13 mm on the far side, 10 beyond the bore.
@@ -91,7 +91,7 @@ TEST(PinchContact, AToolWiderThanTheBoreStandsBeyondTheAxis) {
   EXPECT_DOUBLE_EQ(deepest.depth_mm, 10.0);
 }
 
-TEST(PinchContact, OnTheAxisThereIsNoDirection) {
+TEST(PinchContact, HasNoDirectionOnTheAxis) {
   const Tool tool = Tool::build(SphereSpec{kToolMm}).value();
   const ClayStack stack = ClayStack::cylinder(100, 0.5, 20.0, 3.0, 100).value();
   const auto [outer, inner] = pinch_of(tool, stack, {0, 25, 0}, 4.0);
@@ -128,7 +128,7 @@ glm::dvec3 force_at(const SceneSpec& scene, glm::dvec3 hip, double gap_mm) {
   return Wheel::build(scene).value().step(pinch_at(0, hip, gap_mm)).force_n;
 }
 
-TEST(PinchForce, IsMinusTheGradientOfBothOverlapEnergies) {
+TEST(PinchForce, EqualsMinusTheGradientOfBothOverlapEnergies) {
   SceneSpec scene = tube_scene(50.0, 40.0);
   scene.force->stiffness_n_per_mm2 = 0.002;
   SceneSpec narrow = tube_scene(16.0, 4.0);  // its bore is narrower than the tool
@@ -158,7 +158,7 @@ TEST(PinchForce, IsMinusTheGradientOfBothOverlapEnergies) {
       }
 }
 
-TEST(PinchForce, CentredInTheWallTheRadialPartsCancel) {
+TEST(PinchForce, RadialPartsCancelInTheMiddleOfAWall) {
   SceneSpec scene = tube_scene(50.0, 40.0);
   const auto force = [&](double d) { return force_at(scene, {d, 25.0, 0.0}, 4.0); };
   EXPECT_NEAR(glm::length(force(45.0)), 0.0, 1e-12);

@@ -61,13 +61,13 @@ Wall integrated(Wall wall, double least_mm, double dt_s) {
   return wall;
 }
 
-TEST(PinchRemoval, BothSurfacesMoveAlikeAndThinTheWallTwiceAsFast) {
+TEST(PinchRemoval, BothSurfacesMoveEquallyAndThinTheWallTwiceAsFast) {
   const Wall after = pinched<Model::conserving>({50, 30, 15, 15}, 2.0, 0.004);
   EXPECT_NEAR(after.thickness(), 20.0 * std::exp(-2 * 20.0 * 0.004), 1e-9);
   EXPECT_NEAR(after.outer + after.inner, 80.0, 1e-9);
 }
 
-TEST(PinchRemoval, OneToolAloneTakesWhatATrimOrPressTakes) {
+TEST(PinchRemoval, OneToolAloneRemovesAsMuchAsAPress) {
   for (const bool outside : {true, false}) {
     const Wall wall = outside ? Wall{50, 30, 5, 0} : Wall{50, 30, 0, 5};
     const Wall after = pinched<Model::conserving>(wall, 2.0, 0.004);
@@ -90,7 +90,7 @@ RC_GTEST_PROP(PinchRemoval, SolvesTheEquationsOfBothSurfaces, ()) {
   RC_ASSERT(std::abs(found.inner - expected.inner) < 5e-3);
 }
 
-RC_GTEST_PROP(PinchRemoval, TwoHalfStepsAreOneStep, ()) {
+RC_GTEST_PROP(PinchRemoval, TwoHalfStepsEqualOneStep, ()) {
   auto random = *samples::random_engine();
   const auto below = [&](double mm) { return mm * samples::uniform(random); };
   const Wall wall{50.0, 45.0 - below(40.0), below(12.0), below(12.0)};
@@ -118,13 +118,13 @@ RC_GTEST_PROP(PinchRemoval, LeavesTheGapAndTheMinimumWall, ()) {
   RC_ASSERT(std::abs(conserving.thickness() - std::max(least, wanted)) < 1e-9);
 }
 
-TEST(PinchRemoval, PaperTakesAFractionOnEitherSide) {
+TEST(PinchRemoval, PaperRemovesAFractionOnEitherSide) {
   const Wall after = pinched<Model::paper>({50, 40, 1, 1}, 2.0, 0.001);
   EXPECT_NEAR(after.outer, 50.0 - 0.02 * 10.0, 1e-9);
   EXPECT_NEAR(after.inner, 40.0 + 0.02 * 10.0, 1e-9);
 }
 
-RC_GTEST_PROP(PinchRemoval, NeverLeavesARingWithoutClayAndBalances, ()) {
+RC_GTEST_PROP(PinchRemoval, NeverEmptiesARingAndBalances, ()) {
   auto random = *samples::random_engine();
   ClayStack stack = samples::stack(random, 20);
   const RemovalPlan plan{.rate_per_s = 1e6, .min_wall_mm = 0.001, .paper_fraction = 1.0 - 1e-9};
@@ -156,7 +156,7 @@ RC_GTEST_PROP(PinchRemoval, NeverLeavesARingWithoutClayAndBalances, ()) {
   for (const Ring& ring : stack.rings()) RC_ASSERT(ring.inner2 >= 0 && ring.outer2 > ring.inner2);
 }
 
-TEST(PinchRemoval, WhatBothToolsTakeFlowsAsOneAmount) {
+TEST(PinchRemoval, RemovedClayOfBothToolsFlowsAsOneAmount) {
   constexpr Quanta kMm2 = Quanta{1} << 36;
   const auto flowed = [&](std::vector<std::pair<Side, Quanta>> takes) {
     ClayStack stack = ClayStack::cylinder(60, 1.0, 50.0, 40.0, 60).value();

@@ -36,14 +36,14 @@ glm::dvec3 pulled(std::int64_t period_us) {
   return force;
 }
 
-TEST(Pinch, FeelsTheSameAtEveryRate) {
+TEST(Pinch, ForceIsIndependentOfTheRate) {
   const glm::dvec3 fast = pulled(125);
   EXPECT_GT(glm::length(fast), 1e-3);
   for (const std::int64_t period_us : {250, 1000})
     EXPECT_LT(glm::distance(pulled(period_us), fast), 0.05 * glm::length(fast)) << period_us;
 }
 
-TEST(Pinch, LeavesTheGapAroundTheMiddleThatTheHandHolds) {
+TEST(Pinch, LeavesTheGapAroundTheHandsPosition) {
   for (const Model model : {Model::conserving, Model::paper}) {
     SceneSpec scene = tube_scene(50.0, 40.0);
     scene.model = model;
@@ -58,7 +58,7 @@ TEST(Pinch, LeavesTheGapAroundTheMiddleThatTheHandHolds) {
   }
 }
 
-TEST(Pinch, ThePosesOwnGapGoesBeforeTheScenes) {
+TEST(Pinch, GapOfThePoseOverridesTheScene) {
   SceneSpec scene = tube_scene(50.0, 40.0);
   const auto wall = [&](ToolMode mode, double gap_mm) {
     scene.tool.mode = mode;
@@ -82,7 +82,7 @@ TEST(Pinch, TrimCutsOnBothSides) {
   EXPECT_TRUE(wheel.ledger().trimmed == wheel.ledger().initial - wheel.stack().recount());
 }
 
-TEST(Pinch, AHandTooThickForANeckOpensItAndKeepsTheWall) {
+TEST(Pinch, ToolTooWideForANeckOpensItAndKeepsTheWall) {
   const Wheel wheel = held(tube_scene(12.0, 3.0), {7.0, 25.25, 0.0}, 4.0);
   const Ring& ring = wheel.stack().rings()[50];
   // The outer tool stops at 9, the inner one would reach 11: what was 9 mm thick stays 4.
@@ -91,7 +91,7 @@ TEST(Pinch, AHandTooThickForANeckOpensItAndKeepsTheWall) {
   EXPECT_TRUE(wheel.ledger().imbalance(wheel.stack().recount()) == 0);
 }
 
-TEST(Pinch, AGapWhereTheSceneHasNoneIsRefused) {
+TEST(Pinch, RefusesAGapWithoutOneInTheScene) {
   SceneSpec scene = tube_scene(50.0, 40.0);
   scene.tool.gap_mm.reset();
   Wheel wheel = Wheel::build(scene).value();
@@ -103,14 +103,14 @@ TEST(Pinch, AGapWhereTheSceneHasNoneIsRefused) {
   EXPECT_EQ(wheel.step(pinch_at(0, {45, 25, 0}, 0.0)).flags, kContact);
 }
 
-TEST(Pinch, GapsThatCannotBeAreRefused) {
+TEST(Pinch, RefusesInvalidGaps) {
   Wheel wheel = Wheel::build(tube_scene(50.0, 40.0)).value();
   for (const double gap : {std::nan(""), -1.0, HUGE_VAL, 1.0001e6})
     EXPECT_EQ(wheel.step(pinch_at(0, {45, 25, 0}, gap)).flags, kRefused) << gap;
   EXPECT_EQ(wheel.step(pinch_at(0, {45, 25, 0}, 1e6)).flags, 0u);  // both far away
 }
 
-TEST(Pinch, SettingsAreChecked) {
+TEST(Pinch, ChecksSettings) {
   SceneSpec scene = tube_scene(50.0, 40.0);
   scene.tool.mode = ToolMode::pinch;
   for (const auto& [gap, message] :
@@ -125,7 +125,7 @@ TEST(Pinch, SettingsAreChecked) {
   }
 }
 
-TEST(Pinch, ASceneThatOnlyMayPinchPressesAsOneThatCannot) {
+TEST(Pinch, PressesTheSameWithAnUnusedGapSetting) {
   const auto play = [](std::optional<double> gap) {
     SceneSpec scene = tube_scene(50.0, 40.0);
     scene.tool.gap_mm = gap;
@@ -147,7 +147,7 @@ Wheel pulled(const SceneSpec& scene, int ticks, double gap_mm) {
   return wheel;
 }
 
-TEST(Pinch, PullingUpRaisesAWallOfTheGap) {
+TEST(Pinch, PullingUpRaisesAWallAsThickAsTheGap) {
   const Wheel wheel = pulled(tube_scene(50.0, 40.0), 6000, 4.0);
   const auto rings = wheel.stack().rings();
   EXPECT_TRUE(wheel.ledger().imbalance(wheel.stack().recount()) == 0);

@@ -9,7 +9,7 @@
 namespace clay {
 namespace {
 
-TEST(RayleighKernel, WeightsAreThePapers) {
+TEST(RayleighKernel, WeightsMatchThePaper) {
   const double sigma = 8.0, h = 0.75;
   const RayleighKernel kernel(sigma, 30.0, h, 1000);
   ASSERT_EQ(kernel.length(), 40u);
@@ -39,7 +39,7 @@ RC_GTEST_PROP(RayleighKernel, SharesAddUpToTheAmount, ()) {
   RC_ASSERT(sum == amount);
 }
 
-TEST(RayleighKernel, BeyondTheEffectiveLengthThereIsNothing) {
+TEST(RayleighKernel, IsZeroBeyondTheEffectiveLength) {
   for (const double sigma : {0.0, 1.0, 3.0, 50.0, 1e200}) {
     const RayleighKernel kernel(sigma, 200.0, 1.0, 1000);
     ASSERT_EQ(kernel.length(), 200u);

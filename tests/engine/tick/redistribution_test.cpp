@@ -49,7 +49,7 @@ constexpr Quanta kMm2 = Quanta{1} << 36;
 
 class Upward : public testing::TestWithParam<bool> {};
 
-TEST_P(Upward, EquationsFiveToEight) {
+TEST_P(Upward, FollowsEquationsFiveToEight) {
   const bool up = GetParam();
   ClayStack stack = ClayStack::cylinder(60, 1.0, 50.0, 40.0, 60).value();
   const StepPlan plan = plan_of(4.0, 12.0, 0.25);
@@ -71,7 +71,7 @@ TEST_P(Upward, EquationsFiveToEight) {
 }
 INSTANTIATE_TEST_SUITE_P(Redistribution, Upward, testing::Bool());
 
-TEST(Redistribution, TheKernelLiesToTheToolsEnds) {
+TEST(Redistribution, KernelStartsAtTheToolsEnds) {
   const auto w = weights(4.0, 1.0, 12);
   for (const double offset : {-0.5, -0.25, 0.25, 0.5}) {
     ClayStack stack = ClayStack::cylinder(60, 1.0, 50.0, 0.0, 60).value();
@@ -96,7 +96,7 @@ TEST(Redistribution, TheKernelLiesToTheToolsEnds) {
   }
 }
 
-TEST(Redistribution, ANewRingContinuesTheRim) {
+TEST(Redistribution, NewRingContinuesTheRim) {
   // Two rings above the tool and a kernel of three: the third share falls to the crown.
   std::vector<Ring> rings(10, {400 * kMm2, 225 * kMm2});
   rings[7].outer2 = 4000 * kMm2;  // enough for all bites
@@ -118,7 +118,7 @@ TEST(Redistribution, ANewRingContinuesTheRim) {
   EXPECT_LT(inner2(stack, 10), inner2(stack, 9));
 }
 
-TEST(Redistribution, ATouchedRimIsLevel) {
+TEST(Redistribution, TouchedRimIsLevel) {
   ClayStack stack = ClayStack::cylinder(10, 1.0, 10.0, 6.0, 40).value();
   Ledger ledger;
   Rim rim{kMm2, kMm2};
@@ -138,7 +138,7 @@ TEST(Redistribution, ExpansionWidensTheBore) {
   EXPECT_NEAR(outer2(stack, 4) + outer2(stack, 3) + outer2(stack, 2), 3 * 2500 + 9, 1e-9);
 }
 
-TEST(Redistribution, ABoreTooSmallSendsTheRestOutside) {
+TEST(Redistribution, SendsTheExcessOfASmallBoreOutside) {
   const Ring wide{2500 * kMm2, 1600 * kMm2}, narrow{2500 * kMm2, 1 * kMm2};
   ClayStack stack = ClayStack::from_rings(1.0, {wide, narrow, wide}, 0, 3).value();
   Ledger ledger;
@@ -149,7 +149,7 @@ TEST(Redistribution, ABoreTooSmallSendsTheRestOutside) {
   EXPECT_NEAR(outer2(stack, 1), 2500 + 99, 1e-9);
 }
 
-TEST(Redistribution, WhatFindsNoRoomBelowGoesUp) {
+TEST(Redistribution, ExcessBelowFlowsUp) {
   ClayStack stack = ClayStack::cylinder(40, 1.0, 50.0, 0.0, 40).value();
   Ledger ledger;
   press_one<Model::conserving>(plan_of(4.0, 10.0, 0.25), contact_on(4, 6), {0, 100 * kMm2, 0},
@@ -164,7 +164,7 @@ TEST(Redistribution, WhatFindsNoRoomBelowGoesUp) {
     EXPECT_NEAR(outer2(stack, 6 + j), 2500 + 100 * (1 - below) * w[j - 1], 1e-7);
 }
 
-TEST(Redistribution, WhatFindsNoRoomAboveBecomesHeight) {
+TEST(Redistribution, ExcessAboveBecomesHeight) {
   ClayStack stack = ClayStack::cylinder(10, 1.0, 10.0, 0.0, 40).value();
   Ledger ledger;
   // Nothing above the top ring: 50 mm^2 leave it for half a ring, twice.
@@ -192,7 +192,7 @@ TEST(Redistribution, PaperKeepsTheRestOutsideTheBody) {
   EXPECT_TRUE(ledger.imbalance(stack.recount()) == 0);
 }
 
-TEST(Redistribution, RingLimitHoldsTheClayInTheCrown) {
+TEST(Redistribution, AtTheRingLimitClayStaysInTheCrown) {
   ClayStack stack = ClayStack::cylinder(10, 1.0, 10.0, 0.0, 10).value();
   Ledger ledger;
   const Flow flow = press_one<Model::conserving>(plan_of(4.0, 5.0, 0.25), contact_on(9, 9),
@@ -202,7 +202,7 @@ TEST(Redistribution, RingLimitHoldsTheClayInTheCrown) {
   EXPECT_TRUE(stack.crown() == 80 * kMm2);
 }
 
-TEST(Redistribution, TrimmedClayIsBooked) {
+TEST(Redistribution, BooksTrimmedClay) {
   ClayStack stack = ClayStack::cylinder(10, 1.0, 10.0, 0.0, 10).value();
   Ledger ledger;
   ledger.initial = stack.volume();
@@ -214,7 +214,7 @@ TEST(Redistribution, TrimmedClayIsBooked) {
   EXPECT_EQ(outer2(stack, 6), 100);
 }
 
-RC_GTEST_PROP(Redistribution, MovesClayAndMakesNone, ()) {
+RC_GTEST_PROP(Redistribution, ConservesVolume, ()) {
   auto random = *samples::random_engine();
   const auto count = *rc::gen::inRange<std::size_t>(1, 40);
   ClayStack stack = samples::stack(random, count);

@@ -40,7 +40,7 @@ ClayStack cup(double outer, double inner) {
   return ClayStack::cylinder(1, 1.0, outer, inner, 1).value();
 }
 
-TEST(Removal, PaperTakesAFractionOfTheWall) {
+TEST(Removal, PaperRemovesAFractionOfTheWall) {
   const double eps = 0.02 * (50.0 - 40.0);  // equation (3): k (R - r)
   EXPECT_NEAR(removed_mm2<Model::paper>(cup(50, 40), Side::compressive, 3, 0.001),
               eps * (2 * 50 - eps), 1e-9);
@@ -56,7 +56,7 @@ TEST(Removal, ConservingFollowsTheExponential) {
               eps * (80 + eps), 1e-9);
 }
 
-TEST(Removal, TwoHalfStepsAreOneStep) {
+TEST(Removal, TwoHalfStepsEqualOneStep) {
   const ClayStack whole = cup(50, 30);
   const double first = removed_mm2<Model::conserving>(whole, Side::compressive, 30, 0.01);
   const double outer = std::sqrt(2500.0 - first);
@@ -65,7 +65,7 @@ TEST(Removal, TwoHalfStepsAreOneStep) {
               1e-8);
 }
 
-TEST(Removal, LeavesToTheForceTheDepthThatIsLeft) {
+TEST(Removal, PassesTheRemainingDepthToTheForce) {
   const ClayStack stack = cup(50, 40);
   for (const Side side : {Side::compressive, Side::expansive}) {
     Contact contact = deep_contact(stack, side, 3.0);
@@ -88,7 +88,7 @@ TEST(Removal, StopsAtTheToolAndAtTheMinimumWall) {
   EXPECT_EQ(removed_mm2<Model::conserving>(cup(50, 40), Side::compressive, 3, 0.0, fast), 0.0);
 }
 
-RC_GTEST_PROP(Removal, NeverLeavesARingWithoutClay, ()) {
+RC_GTEST_PROP(Removal, NeverEmptiesARing, ()) {
   auto random = *samples::random_engine();
   const ClayStack stack = samples::stack(random, 20);
   const RemovalPlan plan{.rate_per_s = 1e6,

@@ -23,7 +23,7 @@ StepPlan plan_of(double max_stress_kpa, double h = 1.0) {
   return StepPlan::build(scene).value();
 }
 
-TEST(Stability, StressIsWeightOverArea) {
+TEST(Stability, StressEqualsWeightOverArea) {
   const StepPlan plan = plan_of(100.0, 0.5);
   const ClayStack stack = ClayStack::cylinder(200, 0.5, 40.0, 30.0, 200).value();
   // SI, section 7 with g: 99.5 mm of 1900 kg/m^3 stand on ring 0.
@@ -34,7 +34,7 @@ TEST(Stability, StressIsWeightOverArea) {
   EXPECT_NEAR(stress_kpa(plan.stability, above, stack.rings()[0].volume()), expected, 1e-12);
 }
 
-TEST(Stability, HoldsAtTheThresholdAndFailsAnUlpBeyond) {
+TEST(Stability, HoldsAtTheThresholdAndFailsOneUlpAbove) {
   const ClayStack stack = ClayStack::cylinder(100, 1.0, 40.0, 0.0, 100).value();
   StabilityPlan plan = plan_of(100.0).stability;
   const double stress =
@@ -58,7 +58,7 @@ TEST(Stability, NamesTheWeakestRing) {
   EXPECT_EQ(failure->ring, 3u);  // 2 * 2500 / 16 above it, against 3 * 2500 / 25 above ring 1
 }
 
-TEST(Stability, TheTopRingCarriesTheCrown) {
+TEST(Stability, TopRingCarriesTheCrown) {
   const Ring ring{quanta_from_radius(10), 0};
   const StabilityPlan plan = plan_of(1e-9).stability;
   EXPECT_FALSE(StabilityWatch::check_all(plan, ClayStack::from_rings(1.0, {ring}, 0).value()));
@@ -66,7 +66,7 @@ TEST(Stability, TheTopRingCarriesTheCrown) {
       plan, ClayStack::from_rings(1.0, {ring}, ring.volume() / 2).value()));
 }
 
-TEST(Stability, APapersNewRingWeighsOnAllBelow) {
+TEST(Stability, NewRingOfPaperLoadsAllRingsBelow) {
   ClayStack stack = ClayStack::cylinder(500, 1.0, 30.0, 0.0, 600).value();
   const Quanta ring = stack.rings()[0].volume();
   StepPlan plan = plan_of(1.0);
@@ -96,7 +96,7 @@ std::optional<Failure> literal(const StabilityPlan& plan, const ClayStack& stack
   return worst;
 }
 
-RC_GTEST_PROP(Stability, WatchingTheFlowSeesWhatTheLiteralSumSees, ()) {
+RC_GTEST_PROP(Stability, WatchedRangeMatchesTheFullSum, ()) {
   auto random = *samples::random_engine();
   ClayStack stack = ClayStack::cylinder(40, 1.0, 30.0, 10.0, 400).value();
   SceneSpec scene;
@@ -149,7 +149,7 @@ double largest_stress(const StabilityPlan& plan, const ClayStack& stack) {
 }
 
 /// The crown becomes rings while the tool is far below, and the tool then goes a little further.
-TEST(Stability, NewRingsOnTopWeighOnTheWayToo) {
+TEST(Stability, NewTopRingsLoadTheRingsBetween) {
   const Ring ring{quanta_from_radius(30.0), 0};
   ClayStack stack =
       ClayStack::from_rings(1.0, std::vector<Ring>(100, ring), 3 * ring.volume(), 200).value();
@@ -229,10 +229,10 @@ void leaps_see_what_the_running_sum_sees() {
   RC_CLASSIFY(failed, "failed");
 }
 
-RC_GTEST_PROP(Stability, LeapsSeeWhatTheRunningSumSees, ()) {
+RC_GTEST_PROP(Stability, JumpsMatchTheRunningSum, ()) {
   leaps_see_what_the_running_sum_sees<Model::conserving>();
 }
-RC_GTEST_PROP(Stability, LeapsSeeWhatTheRunningSumSeesOfThePaper, ()) {
+RC_GTEST_PROP(Stability, JumpsMatchTheRunningSumInPaper, ()) {
   leaps_see_what_the_running_sum_sees<Model::paper>();
 }
 

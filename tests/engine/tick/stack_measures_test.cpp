@@ -19,19 +19,19 @@ ClayStack stack_of(double h, std::initializer_list<std::pair<double, double>> ra
   return ClayStack::from_rings(h, std::move(rings), 0).value();
 }
 
-TEST(MinWall, IsTheWallTheFloorOrTheDiameter) {
+TEST(MinWall, ReturnsTheWallTheFloorOrTheDiameter) {
   EXPECT_NEAR(min_wall(stack_of(5, {{40, 0}, {40, 35}})).thickness_mm, 5.0, 1e-9);   // wall = floor
   EXPECT_NEAR(min_wall(stack_of(3, {{40, 0}, {40, 35}})).thickness_mm, 3.0, 1e-9);   // floor
   EXPECT_NEAR(min_wall(stack_of(30, {{40, 0}, {40, 38}})).thickness_mm, 2.0, 1e-9);  // wall
   EXPECT_NEAR(min_wall(stack_of(30, {{40, 0}, {7, 0}})).thickness_mm, 14.0, 1e-9);   // across
 }
 
-TEST(MinWall, GoesThroughClayOnly) {
+TEST(MinWall, CrossesClayOnly) {
   EXPECT_NEAR(min_wall(stack_of(10, {{20, 15}, {14, 10}})).thickness_mm, 4.0, 1e-9);  // two pieces
   EXPECT_NEAR(min_wall(stack_of(10, {{20, 0}})).thickness_mm, 10.0, 1e-9);            // a puck
 }
 
-TEST(MinWall, SeesAcrossRings) {
+TEST(MinWall, SearchesAcrossRings) {
   // Neighbours share a level: from the bore of ring 1 (38) to the outside of ring 2 (39).
   const WallMinimum step = min_wall(stack_of(30, {{40, 0}, {44, 38}, {39, 30}}));
   EXPECT_NEAR(step.thickness_mm, 1.0, 1e-9);
@@ -40,7 +40,7 @@ TEST(MinWall, SeesAcrossRings) {
   EXPECT_NEAR(min_wall(stack_of(0.3, {{50, 40}, {50, 39}, {40.4, 30}})).thickness_mm, 0.5, 1e-9);
 }
 
-RC_GTEST_PROP(MinWall, IsTheLeastOverAllPairs, ()) {
+RC_GTEST_PROP(MinWall, EqualsTheMinimumOverAllPairs, ()) {
   auto random = *samples::random_engine();
   const auto count = *rc::gen::element<std::size_t>(1, 2, 15, 16, 17, 30, 256, 300);
   const double h = *rc::gen::element(0.01, 0.2, 1.0, 20.0);
@@ -64,7 +64,7 @@ RC_GTEST_PROP(MinWall, IsTheLeastOverAllPairs, ()) {
 
 /// A flared wall: 3 mm in the direction of the radius, at 45 degrees. Looking from each ring at all
 /// within reach of the wall would take 2^20 times 2 * 3000 looks.
-TEST(MinWall, OfManyFineRingsIsFoundWithoutLookingAtAllPairs) {
+TEST(MinWall, FindsTheWallOfManyFineRingsQuickly) {
   constexpr double kRingMm = 0.001, kWallMm = 3.0;
   std::vector<Ring> rings(std::size_t{1} << 20);
   for (std::size_t i = 0; i < rings.size(); ++i) {
@@ -75,7 +75,7 @@ TEST(MinWall, OfManyFineRingsIsFoundWithoutLookingAtAllPairs) {
   EXPECT_NEAR(wall.thickness_mm, kWallMm / std::numbers::sqrt2, kRingMm);
 }
 
-TEST(Stresses, AreWeightOverArea) {
+TEST(Stresses, EqualWeightOverArea) {
   // SI: a column of 2000 kg/m^3 on rings of 20 and 10 mm; the top one bears nothing.
   const auto stresses = stresses_kpa(stack_of(5, {{20, 0}, {10, 0}, {20, 0}}), 2.0);
   ASSERT_EQ(stresses.size(), 3u);
@@ -85,7 +85,7 @@ TEST(Stresses, AreWeightOverArea) {
   EXPECT_EQ(stresses[2], 0.0);
 }
 
-RC_GTEST_PROP(Stresses, AreThoseThatTheStabilityLooksAt, ()) {
+RC_GTEST_PROP(Stresses, MatchTheStabilityStage, ()) {
   auto random = *samples::random_engine();
   const ClayStack stack = samples::stack(random, *rc::gen::inRange<std::size_t>(1, 300), 0.5);
   SceneSpec scene;
@@ -100,7 +100,7 @@ RC_GTEST_PROP(Stresses, AreThoseThatTheStabilityLooksAt, ()) {
   RC_ASSERT(stresses[worst->ring] == most);
 }
 
-TEST(Capacity, IsTheBoreThatOpensAtTheTop) {
+TEST(Capacity, IsTheVolumeOfTheOpenBore) {
   const double pi = std::numbers::pi;
   EXPECT_NEAR(capacity_mm3(stack_of(5, {{40, 0}, {40, 30}, {40, 20}})), pi * 5 * (900 + 400), 1e-6);
   EXPECT_EQ(capacity_mm3(stack_of(5, {{40, 30}, {40, 30}})), 0.0);          // right through

@@ -48,7 +48,7 @@ Press integrated(Press at, double advance, double dt_s) {
   return at;
 }
 
-TEST(ExpNeg, IsTheExponential) {
+TEST(ExpNeg, MatchesTheExponential) {
   for (double x = 0.0; x < 60.0; x += 0.0137) EXPECT_NEAR(exp_neg(x), std::exp(-x), 1e-11) << x;
   EXPECT_EQ(exp_neg(0.0), 1.0);
   EXPECT_EQ(exp_neg(1e12), 0.0);
@@ -56,7 +56,7 @@ TEST(ExpNeg, IsTheExponential) {
 
 /// At every depth, at every rate: the exponential, the logistic curve and the change from one to
 /// the other.
-RC_GTEST_PROP(Yielding, OfAStandingToolSolvesTheEquation, ()) {
+RC_GTEST_PROP(Yielding, SolvesTheEquationOfAStandingTool, ()) {
   auto random = *samples::random_engine();
   const Press at{2.0 + 8.0 * samples::uniform(random), 1.5 * samples::uniform(random)};
   const double dt_s = *rc::gen::element(0.000125, 0.001, 0.004);
@@ -65,7 +65,7 @@ RC_GTEST_PROP(Yielding, OfAStandingToolSolvesTheEquation, ()) {
   RC_ASSERT(std::abs(found.wall - found.depth - (at.wall - at.depth)) < 1e-12);
 }
 
-RC_GTEST_PROP(Yielding, TwoHalfStepsAreOneStep, ()) {
+RC_GTEST_PROP(Yielding, TwoHalfStepsEqualOneStep, ()) {
   auto random = *samples::random_engine();
   const Press at{2.0 + 8.0 * samples::uniform(random), 0.25 * samples::uniform(random)};
   const double dt_s = 0.01 * samples::uniform(random), part = samples::uniform(random);
@@ -75,7 +75,7 @@ RC_GTEST_PROP(Yielding, TwoHalfStepsAreOneStep, ()) {
 }
 
 /// A hundredth of the yield depth, in ticks of a millisecond, at a hand's speeds.
-RC_GTEST_PROP(Yielding, OfAMovingToolSolvesTheEquation, ()) {
+RC_GTEST_PROP(Yielding, SolvesTheEquationOfAMovingTool, ()) {
   auto random = *samples::random_engine();
   const Press at{4.0 + 6.0 * samples::uniform(random), 1.0 * samples::uniform(random)};
   const double advance = 0.05 * (2.0 * samples::uniform(random) - 1.0);
@@ -85,7 +85,7 @@ RC_GTEST_PROP(Yielding, OfAMovingToolSolvesTheEquation, ()) {
 }
 
 /// v delta / (kappa w), to the part that the depth is of the wall: what a slow hand feels.
-TEST(Yielding, AHandOfConstantSpeedFeelsTheSameDepthAtEveryRate) {
+TEST(Yielding, DepthAtConstantSpeedIsIndependentOfTheRate) {
   for (const double rate_hz : {250.0, 1000.0, 8000.0}) {
     Press at{10.0, 0.0};
     const double speed = 10.0;
@@ -96,7 +96,7 @@ TEST(Yielding, AHandOfConstantSpeedFeelsTheSameDepthAtEveryRate) {
   }
 }
 
-TEST(Yielding, AToolThatCameInOnTheWayPressesFromThenOn) {
+TEST(Yielding, ToolPressesFromItsFirstContactWithinATick) {
   // Half of the way in front of the clay: as a tick of half the time from its surface.
   Yielding one;
   one.wall[0] = 10.0;
@@ -108,7 +108,7 @@ TEST(Yielding, AToolThatCameInOnTheWayPressesFromThenOn) {
   EXPECT_NEAR(one.left[0], yielded({10.0, 0.0}, 0.02, 0.0005).depth, 1e-12);
 }
 
-TEST(Yielding, NeverPassesTheToolNorPushesClayIntoIt) {
+TEST(Yielding, NeverPassesTheToolOrPushesClayIntoIt) {
   for (const double advance : {-5.0, -0.1, 0.0, 0.1, 5.0})
     for (const double depth : {1e-9, 0.1, 3.0, 20.0})
       for (const double dt_s : {0.0, 1e-6, 0.001, 0.05}) {

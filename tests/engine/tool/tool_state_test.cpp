@@ -10,7 +10,7 @@ namespace {
 
 Pose at(std::int64_t us, double y) { return {us, {60.0, y, 0.0}, false}; }
 
-TEST(ToolTracker, KeepsTheLastDirectionThatWasNotZero) {
+TEST(ToolTracker, KeepsTheLastNonzeroDirection) {
   ToolTracker tracker;
   EXPECT_TRUE(tracker.advance(at(0, 10)).upward);  // before any motion: up
   EXPECT_TRUE(tracker.advance(at(1000, 10)).upward);
@@ -28,7 +28,7 @@ TEST(ToolTracker, MeasuresTimeAndClampsIt) {
   EXPECT_TRUE(late.dt_clamped);
 }
 
-TEST(ToolTracker, RefusesAndForgetsWhatCannotBe) {
+TEST(ToolTracker, RefusesInvalidPoses) {
   ToolTracker tracker;
   ASSERT_TRUE(tracker.advance(at(0, 5)).valid);
   ASSERT_TRUE(tracker.advance(at(1000, 6)).valid);

@@ -36,7 +36,7 @@ TEST(Tool, SlopeIsTheDerivative) {
   }
 }
 
-TEST(Tool, WidestIsTheGreatestRadius) {
+TEST(Tool, WidestIsTheMaximumRadius) {
   for (const auto& [spec, at] :
        {std::pair{ToolShapeSpec{EllipseSpec{12, 5}}, 0.0},
         {ToolShapeSpec{RibSpec{20, 6}}, 3.0},
@@ -47,7 +47,7 @@ TEST(Tool, WidestIsTheGreatestRadius) {
   }
 }
 
-TEST(Tool, IsNothingBeyondItsEndsAndFiniteAtThem) {
+TEST(Tool, IsZeroBeyondItsEndsAndFiniteAtThem) {
   const Tool tool = Tool::build(SphereSpec{10}).value();
   EXPECT_EQ(tool.radius(10.0), 0.0);
   EXPECT_EQ(tool.radius(10.0000001), 0.0);
@@ -59,7 +59,7 @@ TEST(Tool, IsNothingBeyondItsEndsAndFiniteAtThem) {
   EXPECT_EQ(Tool::build(RibSpec{20, 6}).value().radius(10.0), 6.0);
 }
 
-RC_GTEST_PROP(Tool, SampledPassesItsSamplesAndNeverOvershoots, ()) {
+RC_GTEST_PROP(Tool, SampledProfileInterpolatesWithoutOvershoot, ()) {
   const auto steps = *rc::gen::container<std::vector<int>>(6, rc::gen::inRange(1, 1000));
   const auto heights = *rc::gen::container<std::vector<int>>(6, rc::gen::inRange(0, 500));
   SampledSpec spec;
@@ -79,7 +79,7 @@ RC_GTEST_PROP(Tool, SampledPassesItsSamplesAndNeverOvershoots, ()) {
   }
 }
 
-TEST(Tool, RefusesWhatIsNoTool) {
+TEST(Tool, RefusesInvalidShapes) {
   const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
   for (const ToolShapeSpec& spec :
        {ToolShapeSpec{SphereSpec{0}}, ToolShapeSpec{SphereSpec{-1}}, ToolShapeSpec{SphereSpec{nan}},

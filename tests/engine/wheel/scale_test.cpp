@@ -78,7 +78,7 @@ constexpr std::size_t kOwnPages = 6;
 class Rings : public testing::TestWithParam<std::size_t> {};
 class Leap : public testing::TestWithParam<std::size_t> {};
 
-TEST_P(Leap, OfOnePartReadsTwoPlaces) {
+TEST_P(Leap, OnePartReadsTwoPlaces) {
   Watched watched(scene_of(GetParam(), Model::paper));
   EXPECT_LE(pages_of_leap(watched), 2 * kPlacePages + kOwnPages);
 }
@@ -88,7 +88,7 @@ TEST_P(Leap, ReadsThePlacesOfItsParts) {
   EXPECT_LE(pages_of_leap(watched), 33 * kPlacePages + kOwnPages);
 }
 
-TEST_P(Rings, AStrokeReadsWhereItIs) {
+TEST_P(Rings, StrokeReadsOnlyNearbyRings) {
   Watched watched(scene_of(GetParam()));
   std::size_t most = 0;
   watched.pages(40.2, 3.0);
@@ -101,7 +101,7 @@ TEST_P(Rings, AStrokeReadsWhereItIs) {
   EXPECT_LE(most, 3 + kPlacePages + kOwnPages);
 }
 
-TEST(Scale, ALongStrokeLeavesNothingToTheLeapAfterIt) {
+TEST(Scale, LongStrokeLeavesNoWorkForTheNextJump) {
   Watched watched(scene_of(kMillion, Model::paper));
   for (int k = 0; k < 4000; ++k) {
     watched.go(40.2, 1.0 + 0.25 * k);
@@ -113,7 +113,7 @@ TEST(Scale, ALongStrokeLeavesNothingToTheLeapAfterIt) {
 }
 
 /// Nothing above the tool takes the clay, so that all of it weighs on every ring below the top.
-TEST_P(Rings, ClayThatGoesToTheTopIsSeenWithoutReadingWhatIsBetween) {
+TEST_P(Rings, ClayAtTheTopIsFoundWithoutReadingRingsBetween) {
   SceneSpec scene = scene_of(GetParam());
   scene.flow.reach_mm = 0.0;
   Watched watched(scene);
@@ -128,7 +128,7 @@ TEST_P(Rings, ClayThatGoesToTheTopIsSeenWithoutReadingWhatIsBetween) {
   EXPECT_LE(most, 2 * kPlacePages + kOwnPages);
 }
 
-TEST_P(Rings, AKernelReachesNoFartherThanItsWeights) {
+TEST_P(Rings, KernelReachEndsWithItsWeights) {
   SceneSpec scene = scene_of(GetParam());
   scene.flow = {0.1, 1e300, 0.27};
   Watched watched(scene);

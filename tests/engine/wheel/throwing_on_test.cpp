@@ -56,7 +56,7 @@ void play(Wheel& wheel, const std::vector<Pose>& poses) {
   for (const Pose& pose : poses) wheel.step(pose);
 }
 
-RC_GTEST_PROP(ThrowingOn, IsNeverHavingTakenThePotOffTheWheel, ()) {
+RC_GTEST_PROP(ThrowingOn, GivesTheSameBitsAsAnUninterruptedThrow, ()) {
   const SceneSpec scene = arbitrary_scene();
   auto built = Wheel::build(scene);
   RC_PRE(built.has_value());
@@ -80,7 +80,7 @@ RC_GTEST_PROP(ThrowingOn, IsNeverHavingTakenThePotOffTheWheel, ()) {
 
 /// A crown that leans, and a ring that grows from it later: what the rim has had is no part of the
 /// rings.
-TEST(ThrowingOn, ARimThatLeansIsKept) {
+TEST(ThrowingOn, KeepsALeaningRim) {
   const SceneSpec scene = scene_of(Model::conserving);
   const auto poses = [](double x) {
     std::vector<Pose> stroke = {{0, {90.0, 38.0, 0.0}, false, 0.0}};
@@ -107,7 +107,7 @@ TEST(ThrowingOn, ARimThatLeansIsKept) {
   EXPECT_NE(thrown_on(leaning).stack, thrown_on(level).stack);
 }
 
-TEST(ThrowingOn, TheLumpAsAPotIsTheLump) {
+TEST(ThrowingOn, LumpAsAPotEqualsTheLump) {
   for (const Model model : {Model::conserving, Model::paper})
     for (const std::size_t most : {std::size_t{0}, std::size_t{100}}) {
       SceneSpec scene = scene_of(model);
@@ -119,7 +119,7 @@ TEST(ThrowingOn, TheLumpAsAPotIsTheLump) {
     }
 }
 
-TEST(ThrowingOn, TheRingsAreThePots) {
+TEST(ThrowingOn, UsesTheRingsOfThePot) {
   Pot pot = Wheel::build(scene_of(Model::conserving)).value().pot();
   SceneSpec other = scene_of(Model::conserving);
   other.lump = {.rings = 7,
@@ -134,7 +134,7 @@ TEST(ThrowingOn, TheRingsAreThePots) {
   EXPECT_DOUBLE_EQ(wheel.plan().force.stiffness_n_per_mm, 0.05);
 }
 
-TEST(ThrowingOn, RefusesAPotThatTheSceneCannotGoOnWith) {
+TEST(ThrowingOn, RefusesAPotThatDoesNotFitTheScene) {
   const SceneSpec scene = scene_of(Model::conserving);
   const Pot pot = Wheel::build(scene).value().pot();
   const auto refused = [&](const SceneSpec& on, const Pot& start, const std::string& message) {

@@ -107,7 +107,7 @@ TEST(Wheel, ConservingBalancesToTheQuantumAfterEveryTick) {
   }));
 }
 
-TEST(Wheel, PaperMissesLessThanItsTopRingAfterEveryTick) {
+TEST(Wheel, PaperErrorIsBelowItsTopRingAfterEveryTick) {
   expect_all_was_met(play_a_million(Model::paper, [](const Wheel& wheel) {
     const WideQuanta counted = wheel.stack().recount(),
                      missing = -wheel.ledger().volume_error(counted);
@@ -118,7 +118,7 @@ TEST(Wheel, PaperMissesLessThanItsTopRingAfterEveryTick) {
   }));
 }
 
-TEST(Wheel, ThePapersErrorHalvesAsTheRingsDouble) {
+TEST(Wheel, PaperErrorHalvesAsTheRingsDouble) {
   // One stroke up a lump of 60 mm, cut into N rings: the bound is one ring.
   const auto worst_percent = [](std::size_t rings) {
     SceneSpec scene = scene_of(Model::paper);
@@ -141,7 +141,7 @@ TEST(Wheel, ThePapersErrorHalvesAsTheRingsDouble) {
   EXPECT_NEAR(fine / coarse, 0.5, 0.1);
 }
 
-TEST(Wheel, AReplayGivesTheSameBits) {
+TEST(Wheel, ReplayGivesTheSameBits) {
   for (const Model model : {Model::conserving, Model::paper}) {
     const auto play = [&] {
       Wheel wheel = Wheel::build(scene_of(model)).value();
@@ -180,7 +180,7 @@ TEST(Wheel, ATickAllocatesNothing) {
   EXPECT_TRUE(seen & kGrew);
 }
 
-TEST(Wheel, ARefusedPoseChangesNothing) {
+TEST(Wheel, RefusedPoseChangesNothing) {
   Wheel wheel = Wheel::build(scene_of(Model::conserving)).value();
   ASSERT_TRUE(wheel.step({0, {34, 20, 0}, false}).flags & kContact);
   ASSERT_TRUE(wheel.step({1000, {34, 20, 0}, false}).flags & kContact);
@@ -209,7 +209,7 @@ TEST(Wheel, ForceStaysWithinItsLimit) {
   EXPECT_GT(greatest, 4.99);
 }
 
-TEST(Wheel, CollapsesWhereANeckIsCutAndThenHoldsStill) {
+TEST(Wheel, CollapsesAtACutNeckAndThenStops) {
   SceneSpec scene = scene_of(Model::conserving);
   scene.stability = StabilitySpec{2.0};  // the lump itself reaches 0.73 kPa
   scene.tool.shape = SphereSpec{4.0};
@@ -231,7 +231,7 @@ TEST(Wheel, CollapsesWhereANeckIsCutAndThenHoldsStill) {
   EXPECT_TRUE(pot.ledger.imbalance(pot.stack.recount()) == 0);
 }
 
-TEST(Wheel, FeelsWhatAStepAnswersAndMovesNothing) {
+TEST(Wheel, FeelMatchesStepWithoutChangingTheClay) {
   for (const Model model : {Model::conserving, Model::paper}) {
     Wheel felt = Wheel::build(scene_of(model)).value(),
           plain = Wheel::build(scene_of(model)).value();

@@ -85,24 +85,24 @@ void expect_same(const TriangleMesh& mesh, std::size_t least) {
   EXPECT_EQ(fault.triangles, expected.triangles);
 }
 
-TEST(FanIntersections, NoneInADisc) {
+TEST(FanIntersections, FindsNoneInADisc) {
   expect_same(disc(100, 1, [](auto) { return 0.0; }), 0);
   EXPECT_EQ(found(disc(100, 1, [](auto i) { return i % 2 ? 1.0 : -1.0; })).count, 0u);
 }
 
-TEST(FanIntersections, OfADiscWoundTwiceRound) {
+TEST(FanIntersections, FindsThoseOfADiscWoundTwice) {
   expect_same(disc(101, 2, [](auto) { return 0.0; }), 101);
   // As a screw: it crosses itself along one spoke, at the least.
   expect_same(disc(101, 2, [](auto i) { return 0.01 * i; }), 1);
 }
 
-TEST(FanIntersections, OfAFoldedDisc) {
+TEST(FanIntersections, FindsThoseOfAFoldedDisc) {
   TriangleMesh mesh = disc(100, 1, [](auto) { return 0.0; });
   std::swap(mesh.points[20], mesh.points[23]);
   expect_same(mesh, 3);
 }
 
-TEST(FanIntersections, OfATriangleThroughAFan) {
+TEST(FanIntersections, FindsATriangleThroughAFan) {
   TriangleMesh mesh = disc(100, 1, [](auto) { return 3.0; });
   for (const glm::dvec3& tip : {glm::dvec3(3, 4, 2), {3, 4, 1.4}, {3, 4, 1.6}})
     mesh.points.push_back(tip);
@@ -113,7 +113,7 @@ TEST(FanIntersections, OfATriangleThroughAFan) {
   expect_same(clear, 0);
 }
 
-TEST(FanIntersections, OfABookOfTrianglesOnOneEdge) {
+TEST(FanIntersections, FindsThoseOfTrianglesOnOneEdge) {
   TriangleMesh book{{{0, 0, 0}, {1, 2, 3}}, {}};
   for (std::uint32_t i = 0; i < 60; ++i) {
     const double angle = 0.1 * i;
@@ -130,7 +130,7 @@ TEST(FanIntersections, OfABookOfTrianglesOnOneEdge) {
   expect_same(book, 5);
 }
 
-RC_GTEST_PROP(FanIntersections, OfAnySoupAreThoseThatCgalConstructs, ()) {
+RC_GTEST_PROP(FanIntersections, MatchCgalOnRandomSoups, ()) {
   // On a small grid much is coplanar, in line or the same; most triangles hang from few vertices.
   const int side = *rc::gen::inRange(3, 12);
   TriangleMesh mesh;
@@ -152,7 +152,7 @@ RC_GTEST_PROP(FanIntersections, OfAnySoupAreThoseThatCgalConstructs, ()) {
   RC_ASSERT(fault.triangles == expected.triangles);
 }
 
-TEST(FanIntersections, CrowdsThatAreSoundAreFoundSoInTime) {
+TEST(FanIntersections, SoundFansOfManyTrianglesAreFast) {
   constexpr std::size_t kSegments = 30'000;
   for (const Polygon& section :
        {Polygon{{0, 0}, {50, 0}, {50, 80}, {0, 80}}, Polygon{{0, 0}, {50, 0}, {0, 80}},
@@ -162,7 +162,7 @@ TEST(FanIntersections, CrowdsThatAreSoundAreFoundSoInTime) {
   }
 }
 
-TEST(FanIntersections, CrowdsInSeveralShellsEndInTime) {
+TEST(FanIntersections, FansInSeveralShellsAreFast) {
   const TriangleMesh one = revolve({{{{0, 0}, {50, 0}, {0, 80}}}}, 30'000);
   const TriangleMesh inner = revolve({{{{0, 10}, {30, 10}, {0, 50}}}}, 30'000);
   const MeshReport report =
@@ -171,7 +171,7 @@ TEST(FanIntersections, CrowdsInSeveralShellsEndInTime) {
   EXPECT_EQ(report.components, 3u);
 }
 
-TEST(FanIntersections, ACrowdedEdgeEndsInTime) {
+TEST(FanIntersections, EdgeOfManyTrianglesIsFast) {
   constexpr std::uint32_t kLeaves = 100'000;
   TriangleMesh book{{{0, 0, 0}, {0.1, 0.2, 1}}, {}};
   for (std::uint32_t i = 0; i < kLeaves; ++i) {
@@ -184,7 +184,7 @@ TEST(FanIntersections, ACrowdedEdgeEndsInTime) {
   EXPECT_EQ(found(book).count, kMaxSelfIntersections);
 }
 
-TEST(FanIntersections, EqualTrianglesEndInTime) {
+TEST(FanIntersections, EqualTrianglesAreFast) {
   TriangleMesh same{{{0, 0, 0}, {1, 0.3, 0.7}, {0.2, 1, 0.1}}, {}};
   same.triangles.assign(300'000, {0, 1, 2});
   const MeshReport report = check_mesh(same);
@@ -198,7 +198,7 @@ TEST(FanIntersections, EqualTrianglesEndInTime) {
   EXPECT_EQ(check_mesh(apart).self_intersections, kMaxSelfIntersections);
 }
 
-TEST(FanIntersections, DegenerateTrianglesOnOneVertexEndInTime) {
+TEST(FanIntersections, DegenerateTrianglesOnOneVertexAreFast) {
   constexpr std::uint32_t kMany = 1'000'000;
   TriangleMesh mesh{{{0, 0, 0}}, {}};
   for (std::uint32_t i = 1; i <= kMany; ++i) {
@@ -208,7 +208,7 @@ TEST(FanIntersections, DegenerateTrianglesOnOneVertexEndInTime) {
   EXPECT_EQ(check_mesh(mesh).degenerate, kMany);
 }
 
-TEST(FanIntersections, EqualBoxesEndInTime) {
+TEST(FanIntersections, EqualBoxesAreFast) {
   // Each with all its corners beyond the plane of the one before, on the same edges of a cube.
   constexpr std::uint32_t kMany = 100'000;
   TriangleMesh mesh;

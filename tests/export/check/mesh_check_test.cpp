@@ -43,7 +43,7 @@ TEST(CheckMesh, EmptyMeshIsNotSound) {
   EXPECT_FALSE(check_mesh({{{1, 2, 3}}, {}}).sound());
 }
 
-TEST(CheckMesh, Hole) {
+TEST(CheckMesh, ReportsAHole) {
   TriangleMesh mesh = cube(2.0);
   mesh.triangles.pop_back();
   const MeshReport report = check_mesh(mesh);
@@ -53,7 +53,7 @@ TEST(CheckMesh, Hole) {
   EXPECT_EQ(report.problems[0].count, 3u);
 }
 
-TEST(CheckMesh, OneFlippedFace) {
+TEST(CheckMesh, ReportsAFlippedFace) {
   TriangleMesh mesh = cube(2.0);
   std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
   const MeshReport report = check_mesh(mesh);
@@ -63,7 +63,7 @@ TEST(CheckMesh, OneFlippedFace) {
   EXPECT_NE(report.problems[0].where.find("3"), std::string::npos);
 }
 
-TEST(CheckMesh, Fin) {
+TEST(CheckMesh, ReportsAFin) {
   TriangleMesh mesh = cube(2.0);
   mesh.points.push_back({3, -3, 1});
   mesh.triangles.push_back({0, 1, 8});
@@ -77,7 +77,7 @@ TEST(CheckMesh, Fin) {
   EXPECT_NE(find(report, "non-manifold edge")->where.find("(1, 0, 0) mm"), std::string::npos);
 }
 
-TEST(CheckMesh, DuplicateFace) {
+TEST(CheckMesh, ReportsADuplicateFace) {
   TriangleMesh mesh = cube(2.0);
   mesh.triangles.push_back(mesh.triangles[4]);
   const MeshReport report = check_mesh(mesh);
@@ -87,13 +87,13 @@ TEST(CheckMesh, DuplicateFace) {
   EXPECT_NE(find(report, "duplicate triangle")->where.find("4, 12"), std::string::npos);
 }
 
-TEST(CheckMesh, TwoSidedTriangleIsNoSolid) {
+TEST(CheckMesh, ReportsATwoSidedTriangle) {
   const MeshReport report = check_mesh({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}});
   EXPECT_FALSE(report.sound());
   EXPECT_TRUE(find(report, "duplicate triangle")) << names(report);
 }
 
-TEST(CheckMesh, CrackOfOneUlp) {
+TEST(CheckMesh, ReportsACrackOfOneUlp) {
   TriangleMesh mesh = cube(2.0);
   mesh.points.push_back(mesh.points[6]);
   mesh.points.back().z = std::nextafter(2.0, 3.0);
@@ -106,7 +106,7 @@ TEST(CheckMesh, CrackOfOneUlp) {
   EXPECT_EQ(find(report, "open edge")->count, 4u) << names(report);
 }
 
-TEST(CheckMesh, DegenerateSliver) {
+TEST(CheckMesh, ReportsADegenerateSliver) {
   // A vertex in the middle of an edge: the face beside it is split, the sliver closes the gap.
   TriangleMesh mesh = cube(2.0);
   mesh.points.push_back({1, 0, 0});
@@ -121,7 +121,7 @@ TEST(CheckMesh, DegenerateSliver) {
   EXPECT_EQ(report.problems[0].where.substr(0, 11), "triangle 13");
 }
 
-TEST(CheckMesh, TriangleThatNamesAVertexTwiceLeavesTheRestClosed) {
+TEST(CheckMesh, ReportsATriangleWithARepeatedVertexAndClosedRest) {
   TriangleMesh mesh = cube(2.0);
   mesh.triangles.push_back({0, 0, 1});
   const MeshReport report = check_mesh(mesh);
@@ -130,7 +130,7 @@ TEST(CheckMesh, TriangleThatNamesAVertexTwiceLeavesTheRestClosed) {
   EXPECT_FALSE(report.sound());
 }
 
-TEST(CheckMesh, ConesThatTouchInAPoint) {
+TEST(CheckMesh, ReportsConesThatTouchInAPoint) {
   TriangleMesh mesh = together(cube(2.0), moved(cube(2.0), {2, 2, 2}));
   for (auto& t : mesh.triangles)
     for (auto& v : t)
@@ -143,7 +143,7 @@ TEST(CheckMesh, ConesThatTouchInAPoint) {
   EXPECT_EQ(report.components, 2u);
 }
 
-TEST(CheckMesh, PointsThatAreNoNumbers) {
+TEST(CheckMesh, ReportsNonFinitePoints) {
   for (const double x : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     TriangleMesh mesh = cube(2.0);
     mesh.points[5].y = x;
@@ -154,7 +154,7 @@ TEST(CheckMesh, PointsThatAreNoNumbers) {
   }
 }
 
-TEST(CheckMesh, IndexOutOfRange) {
+TEST(CheckMesh, ReportsAnIndexOutOfRange) {
   TriangleMesh mesh = cube(2.0);
   mesh.triangles[7][1] = 8;
   const MeshReport report = check_mesh(mesh);
@@ -163,13 +163,13 @@ TEST(CheckMesh, IndexOutOfRange) {
   EXPECT_EQ(report.problems[0].where, "triangle 7");
 }
 
-TEST(CheckMesh, UnusedPointsDoNoHarm) {
+TEST(CheckMesh, IgnoresUnusedPoints) {
   TriangleMesh mesh = cube(2.0);
   mesh.points.push_back({50, 50, 50});
   EXPECT_TRUE(check_mesh(mesh).sound());
 }
 
-RC_GTEST_PROP(CheckMesh, AnySoupGetsAReport, ()) {
+RC_GTEST_PROP(CheckMesh, ReportsOnAnySoup, ()) {
   TriangleMesh mesh;
   const auto points = *rc::gen::inRange<std::uint32_t>(1, 9);
   for (std::uint32_t i = 0; i < points; ++i)
@@ -186,7 +186,7 @@ RC_GTEST_PROP(CheckMesh, AnySoupGetsAReport, ()) {
   RC_ASSERT(report.sound() == all_well);
 }
 
-RC_GTEST_PROP(CheckMesh, OneTriangleLessOrTurnedIsAlwaysSeen, (const ClayStack& stack)) {
+RC_GTEST_PROP(CheckMesh, DetectsEveryRemovedOrFlippedTriangle, (const ClayStack& stack)) {
   const auto found = profile_of(stack);
   if (!found || !certify(found->profile)) RC_DISCARD("no certificate");
   const TriangleMesh mesh = revolve(found->profile, 5);
@@ -199,7 +199,7 @@ RC_GTEST_PROP(CheckMesh, OneTriangleLessOrTurnedIsAlwaysSeen, (const ClayStack& 
   RC_ASSERT(!check_mesh(flipped).oriented);
 }
 
-TEST(SignedVolume, IsTheSameWhereverTheMeshStands) {
+TEST(SignedVolume, IsTranslationInvariant) {
   EXPECT_DOUBLE_EQ(signed_volume(cube(2.0)), 8.0);
   EXPECT_DOUBLE_EQ(signed_volume(inverted(cube(2.0))), -8.0);
   EXPECT_NEAR(signed_volume(moved(cube(2.0), {4096, -8192, 1024})), 8.0, 1e-12);

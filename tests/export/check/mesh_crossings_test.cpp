@@ -23,13 +23,13 @@ using shapes::cube;
 using shapes::moved;
 using shapes::together;
 
-TEST(MeshCrossings, OverlappingSolids) {
+TEST(MeshCrossings, FindsOverlappingSolids) {
   const MeshReport report = check_mesh(together(cube(2.0), moved(cube(2.0), {1, 1, 1})));
   EXPECT_EQ(verdict(report), (Verdict{true, true, true, false, true}));
   ASSERT_TRUE(find(report, "self-intersection")) << names(report);
 }
 
-TEST(MeshCrossings, SelfCrossing) {
+TEST(MeshCrossings, FindsASelfIntersection) {
   TriangleMesh mesh = ball(5.0);
   mesh.points[0].z = 20.0;  // the lower pole through the top
   const MeshReport report = check_mesh(mesh);
@@ -38,12 +38,12 @@ TEST(MeshCrossings, SelfCrossing) {
   EXPECT_FALSE(report.bounds_volume);
 }
 
-TEST(MeshCrossings, SolidsThatTouchInACornerButShareNoIndex) {
+TEST(MeshCrossings, FindsSolidsThatTouchInAnUnsharedCorner) {
   const MeshReport report = check_mesh(together(cube(2.0), moved(cube(2.0), {2, 2, 2})));
   EXPECT_GT(report.self_intersections, 0u);
 }
 
-TEST(MeshCrossings, SelfIntersectionsAreFoundInSoupsToo) {
+TEST(MeshCrossings, FindsSelfIntersectionsInSoups) {
   // The same overlap with and without a fin that makes it a soup: one count, two ways.
   const TriangleMesh overlap = together(ball(5.0), moved(ball(5.0), {1.1, 0.7, 0.3}));
   TriangleMesh soup = overlap;
@@ -61,7 +61,7 @@ std::size_t crossings_in_soup(std::vector<glm::dvec3> points,
   return check_mesh({std::move(points), std::move(triangles)}).self_intersections;
 }
 
-TEST(MeshCrossings, TrianglesThatShareAnEdgeMayOverlap) {
+TEST(MeshCrossings, FindsOverlapOfTrianglesThatShareAnEdge) {
   EXPECT_EQ(crossings_in_soup({{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 0, 3}}),
             1u);
   EXPECT_EQ(
@@ -71,7 +71,7 @@ TEST(MeshCrossings, TrianglesThatShareAnEdgeMayOverlap) {
       0u);
 }
 
-TEST(MeshCrossings, TrianglesThatShareAVertexMayCross) {
+TEST(MeshCrossings, FindsCrossingOfTrianglesThatShareAVertex) {
   // A side of the second pierces the first above (1, 1), and not the reverse. Which of them is
   // looked at first depends on which reaches lower: the shear turns that round.
   for (const double shear : {0.0, -3.0}) {
@@ -85,7 +85,7 @@ TEST(MeshCrossings, TrianglesThatShareAVertexMayCross) {
   }
 }
 
-TEST(MeshCrossings, CountingStopsInAHopelessMesh) {
+TEST(MeshCrossings, StopsCountingAtTheLimit) {
   TriangleMesh mesh = ball(5.0);
   for (int i = 1; i < 60; ++i) mesh = together(mesh, moved(ball(5.0), {i * 1e-3, i * 2e-3, 0}));
   const MeshReport report = check_mesh(mesh);

@@ -37,7 +37,7 @@ TEST(MeshShells, DisjointSolidsAndCavitiesAreSound) {
   EXPECT_EQ(nested.components, 3u);
 }
 
-TEST(MeshShells, CavitiesAreCountedWithWhatTheyTrap) {
+TEST(MeshShells, CountsCavitiesAndTheirVolume) {
   // A cube of 10 mm with cavities of 2 and 3 mm, and a solid beside it.
   const TriangleMesh cavities =
       together(inverted(moved(cube(2), {1, 1, 1})), inverted(moved(cube(3), {5, 5, 5})));
@@ -50,7 +50,7 @@ TEST(MeshShells, CavitiesAreCountedWithWhatTheyTrap) {
   EXPECT_EQ(check_mesh(cube(10)).cavities, 0u);
 }
 
-TEST(MeshShells, InsideOut) {
+TEST(MeshShells, ReportsAnInsideOutSolid) {
   const MeshReport report = check_mesh(inverted(ball(5.0)));
   EXPECT_EQ(verdict(report), (Verdict{true, true, false, true, false}));
   ASSERT_EQ(report.problems.size(), 1u) << names(report);
@@ -58,7 +58,7 @@ TEST(MeshShells, InsideOut) {
   EXPECT_LT(report.volume_mm3, 0.0);
 }
 
-TEST(MeshShells, InsideOutBelowAnUnusedPoint) {
+TEST(MeshShells, ReportsAnInsideOutSolidBelowAnUnusedPoint) {
   TriangleMesh mesh = inverted(cube(2.0));
   mesh.points.insert(mesh.points.begin(), {0, 0, 99});
   for (auto& t : mesh.triangles)
@@ -66,7 +66,7 @@ TEST(MeshShells, InsideOutBelowAnUnusedPoint) {
   EXPECT_FALSE(check_mesh(mesh).oriented);
 }
 
-TEST(MeshShells, OneOfTwoSolidsInsideOut) {
+TEST(MeshShells, ReportsOneInsideOutSolidOfTwo) {
   const TriangleMesh upper = moved(cube(3.0), {0, 0, 9});
   const MeshReport below = check_mesh(together(inverted(cube(2.0)), upper));
   EXPECT_FALSE(below.bounds_volume);
@@ -76,13 +76,13 @@ TEST(MeshShells, OneOfTwoSolidsInsideOut) {
   EXPECT_FALSE(above.sound());
 }
 
-TEST(MeshShells, NestedShellsOfOneOrientation) {
+TEST(MeshShells, ReportsNestedShellsOfEqualOrientation) {
   const MeshReport report = check_mesh(together(ball(10.0), ball(5.0)));
   EXPECT_EQ(verdict(report), (Verdict{true, true, true, false, false}));
   EXPECT_TRUE(find(report, "shell turned against its neighbours")) << names(report);
 }
 
-TEST(MeshShells, CavityOutsideItsSolid) {
+TEST(MeshShells, ReportsACavityOutsideItsSolid) {
   const MeshReport report =
       check_mesh(together(ball(10.0), moved(inverted(ball(5.0)), {40, 0, 0})));
   EXPECT_FALSE(report.bounds_volume);
@@ -126,7 +126,7 @@ std::size_t steps_of(const TriangleMesh& mesh) {
   return geometry.steps;
 }
 
-TEST(MeshShells, TheSearchGrowsWithTheNumberOfShells) {
+TEST(MeshShells, SearchCostGrowsWithTheNumberOfShells) {
   // Four times as many: log-linear is less than six times, by pairs would be sixteen.
   EXPECT_LT(steps_of(nest(2000)), 6 * steps_of(nest(500)));
   EXPECT_LT(steps_of(nest(2000)), 2000u * 400);
@@ -167,7 +167,7 @@ std::size_t build(const Tree& tree, const glm::dvec3& low, double side, bool exp
   return misplaced;
 }
 
-RC_GTEST_PROP(MeshShellsAtRandom, MisplacedShellsAreThoseThatWereBuiltSo, ()) {
+RC_GTEST_PROP(MeshShellsAtRandom, ReportsExactlyTheMisplacedShells, ()) {
   Tree tree = *any_tree(4);
   tree.outward = true;
   const bool outward = *rc::gen::arbitrary<bool>();

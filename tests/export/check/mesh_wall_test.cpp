@@ -40,7 +40,7 @@ SampledWall wall_of(const TriangleMesh& mesh, std::size_t samples = 10'000) {
   return sampled_wall(mesh, samples).value();
 }
 
-TEST(SampledWall, OfACubeIsItsSide) {
+TEST(SampledWall, EqualsTheSideOfACube) {
   const SampledWall wall = wall_of(cube(2.0));
   EXPECT_DOUBLE_EQ(wall.least_mm, 2.0);
   EXPECT_EQ(wall.rays, 10'000u);
@@ -48,7 +48,7 @@ TEST(SampledWall, OfACubeIsItsSide) {
   EXPECT_EQ(wall.oblique, 0u);
 }
 
-TEST(SampledWall, OfAnotherPlaceAndScaleIsTheSame) {
+TEST(SampledWall, IsInvariantUnderTranslationAndScale) {
   for (const double side : {1e-3, 1.0, 1e5}) {
     const SampledWall wall = wall_of(moved(cube(side), glm::dvec3(-3.0, 7.0, 0.5) * side));
     EXPECT_NEAR(wall.least_mm, side, 1e-14 * side);
@@ -56,7 +56,7 @@ TEST(SampledWall, OfAnotherPlaceAndScaleIsTheSame) {
   }
 }
 
-TEST(SampledWall, OfACupIsTheThinnerOfWallAndFloor) {
+TEST(SampledWall, EqualsTheThinnerOfWallAndFloorOfACup) {
   const SampledWall by_wall = wall_of(cup(40.0, 2.5, 60.0, 6.0));
   EXPECT_NEAR(by_wall.least_mm, 2.5 * facet_scale(kSegments), 1e-9);
   EXPECT_EQ(by_wall.escaped, 0u);
@@ -67,7 +67,7 @@ TEST(SampledWall, OfACupIsTheThinnerOfWallAndFloor) {
   EXPECT_NEAR(by_floor.place.z, by_floor.place.z > 1.0 ? 1.75 : 0.0, 1e-9);  // on the floor
 }
 
-TEST(SampledWall, OfASphericalShellLiesBetweenItsFacetsAndItsCorners) {
+TEST(SampledWall, OfASphericalShellLiesBetweenFacetAndCornerThickness) {
   // Facets of both balls are parallel, those of the inner one nearer to the middle.
   const auto shell = [](double outer, double inner) {
     return together(shapes::ball(outer), inverted(shapes::ball(inner)));
@@ -80,7 +80,7 @@ TEST(SampledWall, OfASphericalShellLiesBetweenItsFacetsAndItsCorners) {
   EXPECT_EQ(wall.escaped, 0u);
 }
 
-TEST(SampledWall, OfALeaningRimIsNotItsEdge) {
+TEST(SampledWall, IgnoresTheEdgeOfALeaningRim) {
   // A rim of 80 degrees beside a wall of 3 mm: rays from near the edge leave through the wall
   // after next to nothing, and tell of no wall.
   const double lean = std::tan(10.0 * std::numbers::pi / 180.0);
@@ -100,7 +100,7 @@ TEST(SampledWall, OfALeaningRimIsNotItsEdge) {
   EXPECT_LT(wall.least_mm, 3.0);
 }
 
-TEST(SampledWall, IsAsThinAsItsThinnestPlace) {
+TEST(SampledWall, FindsTheThinnestPlace) {
   // A slab with a dent that leaves 0.4 of 5 mm, on a twentieth of its area.
   const TriangleMesh dented =
       revolve({{{{0, 0}, {20, 0}, {20, 5}, {6, 5}, {6, 0.4}, {0, 0.4}}}}, kSegments);
@@ -111,7 +111,7 @@ TEST(SampledWall, IsAsThinAsItsThinnestPlace) {
   EXPECT_NEAR(z, wall.place.z, 1e-9);
 }
 
-TEST(SampledWall, CountsRaysThatLeaveThroughAHole) {
+TEST(SampledWall, CountsRaysThatEscapeThroughAHole) {
   TriangleMesh mesh = cube(2.0);
   std::erase(mesh.triangles, (std::array<std::uint32_t, 3>{4, 5, 6}));
   std::erase(mesh.triangles, (std::array<std::uint32_t, 3>{4, 6, 7}));
@@ -120,13 +120,13 @@ TEST(SampledWall, CountsRaysThatLeaveThroughAHole) {
   EXPECT_NEAR(static_cast<double>(wall.escaped), 2000.0, 5.0);  // one side of five left
 }
 
-TEST(SampledWall, OfAnOpenSheetIsNotSeen) {
+TEST(SampledWall, FindsNoWallOnAnOpenSheet) {
   const SampledWall wall = wall_of({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}, 100);
   EXPECT_EQ(wall.escaped, 100u);
   EXPECT_TRUE(std::isinf(wall.least_mm));
 }
 
-TEST(SampledWall, PassesItsOwnCoplanarNeighbours) {
+TEST(SampledWall, RaysPassCoplanarNeighbours) {
   // A fine grid on top of a cube: every ray starts in the plane of hundreds of triangles.
   Polygon disc{{0, 0}};
   for (int i = 1; i <= 40; ++i) disc.push_back({0.25 * i, 0.0});
@@ -141,7 +141,7 @@ TEST(SampledWall, PassesItsOwnCoplanarNeighbours) {
   EXPECT_EQ(wall.escaped, 0u);
 }
 
-TEST(SampledWall, FollowsFewerRaysWhereTheyTakeTooLong) {
+TEST(SampledWall, FollowsFewerRaysBeyondTheStepLimit) {
   const TriangleMesh mesh = cup(40.0, 2.5, 60.0, 6.0);
   std::size_t told = 0;
   const auto half = sampled_wall(mesh, 10'000, 400'000, [&](std::size_t rays) {
@@ -159,7 +159,7 @@ TEST(SampledWall, FollowsFewerRaysWhereTheyTakeTooLong) {
               static_cast<double>(all.oblique) / 10'000.0, 0.05);
 }
 
-TEST(SampledWall, OfASoupTakesNoMoreStepsThanAreAllowed) {
+TEST(SampledWall, RespectsTheStepLimitOnASoup) {
   // Every ray comes past nearly all of these.
   TriangleMesh soup;
   for (std::uint32_t i = 0; i < 3000; ++i) {
@@ -175,7 +175,7 @@ TEST(SampledWall, OfASoupTakesNoMoreStepsThanAreAllowed) {
   EXPECT_GT(wall.rays, 50u);
 }
 
-TEST(SampledWall, IsTheSameEveryTime) {
+TEST(SampledWall, IsDeterministic) {
   const TriangleMesh mesh = cup(40.0, 2.5, 60.0, 6.0);
   const SampledWall once = wall_of(mesh), again = wall_of(mesh);
   EXPECT_EQ(once.least_mm, again.least_mm);
@@ -184,7 +184,7 @@ TEST(SampledWall, IsTheSameEveryTime) {
   EXPECT_EQ(once.oblique, again.oblique);
 }
 
-TEST(SampledWall, RefusesWhatHasNoSurface) {
+TEST(SampledWall, RefusesAMeshWithoutArea) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const TriangleMesh& mesh :
        {TriangleMesh{}, TriangleMesh{{{0, 0, 0}}, {{0, 0, 0}}},

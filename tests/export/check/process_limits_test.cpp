@@ -34,7 +34,7 @@ constexpr const char* kWorkshop = R"({"schema": "claystack-process-1", "name": "
   "walls": [{"up_to_size_sum_mm": 300, "min_wall_mm": 2.5, "source": "our own trials"},
             {"up_to_size_sum_mm": 600, "min_wall_mm": 4, "source": "our own trials"}]})";
 
-TEST(ProcessLimits, ReadFromAFile) {
+TEST(ProcessLimits, ReadsAFile) {
   const auto process = parse_process(kWorkshop, "w.json");
   ASSERT_TRUE(process) << process.error().message;
   EXPECT_EQ(process->name, "workshop");
@@ -43,7 +43,7 @@ TEST(ProcessLimits, ReadFromAFile) {
   EXPECT_EQ(process->wall_for(9e9).min_wall_mm, 4.0);  // the last holds for all larger ones
 }
 
-TEST(ProcessLimits, FaultsInAFileAreNamed) {
+TEST(ProcessLimits, ErrorsNameTheField) {
   const auto expect = [](const std::string& from, const std::string& to, const std::string& says) {
     std::string bad = kWorkshop;
     bad.replace(bad.find(from), from.size(), to);
@@ -65,7 +65,7 @@ TEST(ProcessLimits, FaultsInAFileAreNamed) {
   expect("}]}", "}", "parse error");
 }
 
-TEST(ProcessLimits, AFileOfAnotherKindIsNamedByItsKind) {
+TEST(ProcessLimits, ErrorsNameTheKindOfAnotherFile) {
   const auto expect = [](const std::string& bytes, const std::string& says) {
     const auto process = parse_process(bytes, "w.json");
     ASSERT_FALSE(process);

@@ -64,19 +64,19 @@ TriangleMesh vase(std::size_t rings, std::size_t segments) {
   return revolve(profile_of(shapes::vase(rings))->profile, segments);
 }
 
-TEST(SoupIntersections, OfCrossingVasesAreThoseThatCgalFinds) {
+TEST(SoupIntersections, MatchCgalOnCrossingVases) {
   // Crossing all along the height, so that pairs lie on the borders of slabs too.
   const TriangleMesh one = vase(60, 140);
   expect_same_as_cgal(together(one, moved(one, {1.1, 0.7, 0.3})), 3);
 }
 
-TEST(SoupIntersections, OfTrianglesThatReachThroughManySlabsAreFoundOnce) {
+TEST(SoupIntersections, CountTrianglesAcrossManySlabsOnce) {
   // Staves as long as the prism beside a fine vase that makes the slabs.
   const TriangleMesh staves = revolve({{{{0, -20}, {52, -20}, {52, 230}, {0, 230}}}}, 90);
   expect_same_as_cgal(together(vase(100, 100), staves), 2);
 }
 
-TEST(SoupIntersections, ListsStayShortWhereTrianglesReachFar) {
+TEST(SoupIntersections, ListsStayShortForLongTriangles) {
   // Staves side by side, half as long as all of them together reach: cut in six, each would be in
   // three or four of the lists.
   constexpr std::uint32_t kStaves = 200'000;
@@ -92,9 +92,9 @@ TEST(SoupIntersections, ListsStayShortWhereTrianglesReachFar) {
   EXPECT_EQ(search.found().count, 0u);
 }
 
-TEST(SoupIntersections, NoneInAFineVase) { EXPECT_EQ(found_in_slabs(vase(60, 200), 2).count, 0u); }
+TEST(SoupIntersections, FindNoneInAFineVase) { EXPECT_EQ(found_in_slabs(vase(60, 200), 2).count, 0u); }
 
-TEST(BoundedVolume, TheSignIsCertainOnlyBeyondTheError) {
+TEST(BoundedVolume, SignIsCertainOnlyBeyondTheError) {
   EXPECT_TRUE(bounded_volume(cube(2.0)).sign_is_certain());
   EXPECT_TRUE(bounded_volume(moved(inverted(cube(1e-3)), {1e3, 1e3, 1e3})).sign_is_certain());
   // Flat: no volume at all.
@@ -110,7 +110,7 @@ TEST(BoundedVolume, TheSignIsCertainOnlyBeyondTheError) {
   EXPECT_FALSE(bounded_volume(far).sign_is_certain());
 }
 
-RC_GTEST_PROP(BoundedVolume, TheErrorIsWithinTheBound, ()) {
+RC_GTEST_PROP(BoundedVolume, ErrorIsWithinTheBound, ()) {
   // Tetrahedra on a grid have a volume that 64-bit integers tell exactly; the shift costs digits.
   const auto coordinate = rc::gen::inRange<std::int64_t>(-1000, 1001);
   std::array<std::array<std::int64_t, 3>, 4> corners{};

@@ -43,7 +43,7 @@ glm::dvec3 centroid_of(const TriangleMesh& mesh) {
   return samples::refused(united(pot, 8), kind, because);
 }
 
-TEST(CollapsedSolid, NotTurnedAtAllIsThePotAsItStood) {
+TEST(CollapsedSolid, ZeroRotationGivesTheStandingPot) {
   const auto solid = united(fallen(stack_of(10, {{10, 0}, {10, 0}}), 0, {3, 4, 5}, 0.0), 16);
   ASSERT_TRUE(solid) << solid.error().message;
   EXPECT_EQ(solid->overlap_mm3, 0.0);
@@ -53,7 +53,7 @@ TEST(CollapsedSolid, NotTurnedAtAllIsThePotAsItStood) {
   EXPECT_EQ(solid->check.triangles, 6u * 16);
 }
 
-TEST(CollapsedSolid, HalfTurnAboutTheCutLaysEqualHalvesIntoEachOther) {
+TEST(CollapsedSolid, HalfTurnAboutTheCutOverlapsEqualHalves) {
   for (const double toward : {0.0, 0.5 * kPi, 1.234}) {
     const auto solid = united(
         fallen(stack_of(10, {{12, 0}, {9, 5}, {9, 5}, {12, 0}}), 1, {0, 20, 0}, kPi, toward), 16);
@@ -71,7 +71,7 @@ TEST(CollapsedSolid, HalfTurnAboutTheCutLaysEqualHalvesIntoEachOther) {
   }
 }
 
-TEST(CollapsedSolid, SquareBarsCrossInTwoPyramids) {
+TEST(CollapsedSolid, SquareBarsIntersectInTwoPyramids) {
   // Four segments make square bars, on edge, of half diagonal d; their axes cross at right angles.
   // At the distance t from the plane of the axes both are 2 (d - t) wide: 8 d^3 / 3 in all.
   const auto solid = united(fallen(stack_of(40, {{10, 0}, {10, 0}}), 0, {20, 40, 0}, kPi / 2), 4);
@@ -81,7 +81,7 @@ TEST(CollapsedSolid, SquareBarsCrossInTwoPyramids) {
   EXPECT_NEAR(solid->union_mm3 / (2 * kPi * 100 * 40 - 8 * d * d * d / 3), 1.0, 1e-9);
 }
 
-TEST(CollapsedSolid, CylindersCrossInSteinmetzsSolid) {
+TEST(CollapsedSolid, CylindersIntersectInASteinmetzSolid) {
   const glm::dvec3 pivot{20 * std::cos(0.3), 40, 20 * std::sin(0.3)};
   const auto solid = united(fallen(stack_of(40, {{10, 0}, {10, 0}}), 0, pivot, kPi / 2, 0.3), 128);
   ASSERT_TRUE(solid) << solid.error().message;
@@ -89,7 +89,7 @@ TEST(CollapsedSolid, CylindersCrossInSteinmetzsSolid) {
   EXPECT_NEAR(solid->overlap_mm3 / (16.0 / 3 * 1000), 1.0, 1e-3);
 }
 
-TEST(CollapsedSolid, AShiftIsPartOfTheFall) {
+TEST(CollapsedSolid, AppliesTheShift) {
   // Shifted by its radius and down by 5 mm: the overlap is a lens of two circles of that distance.
   Pot pot = fallen(stack_of(40, {{10, 0}, {10, 0}}), 0, {20, 40, 0}, 0.0);
   pot.collapse->shift_mm = {-6.0, -5.0, 8.0};
@@ -104,7 +104,7 @@ TEST(CollapsedSolid, AShiftIsPartOfTheFall) {
   EXPECT_EQ(united(pot, 16)->overlap_mm3, 0.0);
 }
 
-TEST(CollapsedSolid, PartsThatFellClearAreTwoBodies) {
+TEST(CollapsedSolid, SeparatePartsAreTwoBodies) {
   const auto solid = united(fallen(stack_of(10, {{10, 0}, {8, 4}}), 0, {40, 10, 0}, kPi), 20);
   ASSERT_TRUE(solid) << solid.error().message;
   EXPECT_EQ(solid->pieces, 2u);
@@ -114,7 +114,7 @@ TEST(CollapsedSolid, PartsThatFellClearAreTwoBodies) {
   EXPECT_NEAR(solid->volume_mm3 / solid->union_mm3, 1.0, 1e-6);
 }
 
-TEST(CollapsedSolid, TrappedAirIsAVoid) {
+TEST(CollapsedSolid, ReportsTrappedAirAsAVoid) {
   // A bell set down on a slab: a room of 15 mm radius and 8 mm height.
   const auto solid =
       united(fallen(stack_of(8, {{20, 0}, {20, 15}, {20, 0}}), 0, {20, 8, 0}, 0.0), 24);
@@ -125,7 +125,7 @@ TEST(CollapsedSolid, TrappedAirIsAVoid) {
   EXPECT_EQ(solid->pockets, 0u);
 }
 
-TEST(CollapsedSolid, CavitiesOfThePartsStay) {
+TEST(CollapsedSolid, KeepsCavitiesOfTheParts) {
   const auto solid =
       united(fallen(stack_of(5, {{20, 0}, {20, 10}, {20, 0}, {9, 0}, {9, 4}, {9, 0}}), 2,
                     {60, 15, 0}, 1.5),
@@ -135,7 +135,7 @@ TEST(CollapsedSolid, CavitiesOfThePartsStay) {
   EXPECT_NEAR(solid->voids_mm3, kPi * 5 * (100 + 16), 0.01);
 }
 
-TEST(CollapsedSolid, TheCrownFalls) {
+TEST(CollapsedSolid, CrownFallsAlone) {
   const Quanta third = quanta_from_radius(6.0) / 3;
   const auto alone = united(fallen(stack_of(3, {{9, 0}, {6, 0}}, third), 1, {30, 6, 0}, kPi), 8);
   ASSERT_TRUE(alone) << alone.error().message;
@@ -146,7 +146,7 @@ TEST(CollapsedSolid, TheCrownFalls) {
   EXPECT_NEAR(with_a_ring->upper_mm3, kPi * 36 * 4, 1e-6);
 }
 
-TEST(CollapsedSolid, NothingAboveTheFailedRingLeavesThePotStanding) {
+TEST(CollapsedSolid, WithoutClayAboveTheFailedRingThePotStands) {
   for (const WideQuanta crown : {WideQuanta{0}, WideQuanta{100}}) {
     const auto solid = united(fallen(stack_of(3, {{9, 0}, {6, 0}}, crown), 1, {6, 6, 0}, 2.0), 8);
     ASSERT_TRUE(solid) << solid.error().message;
@@ -156,7 +156,7 @@ TEST(CollapsedSolid, NothingAboveTheFailedRingLeavesThePotStanding) {
   }
 }
 
-TEST(CollapsedSolid, AGapThatFloat32CannotHoldIsClosed) {
+TEST(CollapsedSolid, ClosesAGapBelowFloat32) {
   // Set down upside down, 2e-13 mm above the lower part.
   const Pot pot = fallen(stack_of(10, {{20, 0}, {20, 0}, {6, 0}}), 1, {0, 25 + 1e-13, 0}, kPi);
   const auto solid = united(pot, 16);
@@ -166,7 +166,7 @@ TEST(CollapsedSolid, AGapThatFloat32CannotHoldIsClosed) {
   EXPECT_LT(solid->max_move_mm, 1e-3);
 }
 
-TEST(CollapsedSolid, AirIsKeptDownToTheToleranceOnly) {
+TEST(CollapsedSolid, KeepsPocketsDeeperThanTheTolerance) {
   // The bell sinks into the slab as it tilts, by half a millimetre at its axis. The room that is
   // left, 7.5 mm high, has three times its volume over its area for depth: 7.5 mm too.
   const double slope = 0.02, radius = 15, height = 8 - 25 * std::tan(slope);
@@ -184,14 +184,14 @@ TEST(CollapsedSolid, AirIsKeptDownToTheToleranceOnly) {
   EXPECT_NEAR(filled->volume_mm3, kept->volume_mm3 + room, 1e-3 * room);
 }
 
-TEST(CollapsedSolid, TheSameMeshEveryTime) {
+TEST(CollapsedSolid, IsDeterministic) {
   const Pot pot = fallen(shapes::vase(100), 40, {45, 90, 3}, 1.3, 0.1);
   const auto once = united(pot, 40, Smoothing::fair), again = united(pot, 40, Smoothing::fair);
   ASSERT_TRUE(once && again);
   EXPECT_EQ(once->mesh, again->mesh);
 }
 
-TEST(CollapsedSolid, RefusesWhatIsNoCollapse) {
+TEST(CollapsedSolid, RefusesAnInvalidCollapse) {
   const ClayStack stack = stack_of(3, {{9, 0}, {6, 0}});
   EXPECT_FALSE(collapsed_parts(shapes::pot_of(stack), Smoothing::none, 0.02));
   EXPECT_TRUE(refused(fallen(stack, 2, {6, 6, 0}, 1.0), ErrorKind::bad_input, "below 2"));
@@ -204,7 +204,7 @@ TEST(CollapsedSolid, RefusesWhatIsNoCollapse) {
   EXPECT_NE(too_fine.error().message.find("triangles"), std::string::npos);
 }
 
-TEST(CollapsedSolid, RefusesAPartThatFloat32Loses) {
+TEST(CollapsedSolid, RefusesAPartLostInFloat32) {
   EXPECT_TRUE(refused(fallen(stack_of(5, {{20, 0}, {73, 73 - 1e-6}}), 0, {200, 9, 0}, 0.7),
                       ErrorKind::unsound, "the upper part in float32"));
 }
@@ -223,7 +223,7 @@ bool holds(const Pot& pot, const glm::dvec3& p) {
          in(shapes::point_before_fall(fall, p), fall.failed_ring + 1, pot.stack.size() - 1);
 }
 
-TEST(CollapsedSolid, HoldsThePointsThatTheStackHolds) {
+TEST(CollapsedSolid, ContainsThePointsOfTheStack) {
   const Pot pot = fallen(shapes::vase(50), 22, {30, 95, 38}, 1.25, 0.9);
   const auto solid = united(pot, 256);
   ASSERT_TRUE(solid) << solid.error().message;

@@ -18,7 +18,7 @@ using samples::refused;
 using shapes::pot_of;
 using shapes::stack_of;
 
-TEST(ExportFallen, PotsAreUnited) {
+TEST(ExportFallen, UnitesTheParts) {
   Pot pot = pot_of(shapes::vase(100));
   pot.collapse = Collapse{30, {50, 70, 0}, {0, 0, 1}, 1.0, 12.0};
   ExportOptions options;
@@ -52,7 +52,7 @@ TEST(ExportFallen, PotsAreUnited) {
   }
 }
 
-TEST(ExportFallen, PiecesOnlyWhenAllowed) {
+TEST(ExportFallen, WritesSeparatePiecesOnlyIfAllowed) {
   for (const std::size_t failed : {std::size_t{1}, std::size_t{3}}) {
     Pot pot = pot_of(stack_of(2.0, {{10, 0}, {10, 0}, {10, 0}, {10, 0}, {30, 0}}));
     std::vector<Ring> rings(pot.stack.rings().begin(), pot.stack.rings().end());

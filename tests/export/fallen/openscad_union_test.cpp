@@ -42,7 +42,7 @@ double volume_by_openscad(const TriangleMesh& lower, const TriangleMesh& upper) 
   return mesh ? signed_volume(*mesh) : 0.0;
 }
 
-TEST(OpenScad, FindsTheSameUnion) {
+TEST(OpenScad, AgreesOnTheUnion) {
   for (const double angle : {0.4, 1.3, 2.2}) {
     const Pot pot =
         shapes::fallen(shapes::stack_of(12, {{20, 0}, {24, 18}, {20, 15}, {16, 11}, {20, 14}}), 1,

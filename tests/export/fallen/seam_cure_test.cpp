@@ -32,7 +32,7 @@ std::vector<bool> only(std::size_t count, std::size_t point) {
   return flags;
 }
 
-TEST(SeamCure, PullsShortEdgesTogetherTowardThePointOfThePart) {
+TEST(SeamCure, CollapsesShortEdgesToThePointOfThePart) {
   const TriangleMesh mesh = cube_with_a_point_on_its_edge(1e-4);
   ASSERT_TRUE(check_mesh(mesh).sound());
   const auto cured = cure_seam(mesh, only(9, 8), 1e-3);
@@ -44,7 +44,7 @@ TEST(SeamCure, PullsShortEdgesTogetherTowardThePointOfThePart) {
   EXPECT_DOUBLE_EQ(cured->max_move_mm, 1e-4);
 }
 
-TEST(SeamCure, LeavesLongEdgesAndWhatIsNotOnTheSeam) {
+TEST(SeamCure, KeepsLongEdgesAndEdgesOffTheSeam) {
   const TriangleMesh mesh = cube_with_a_point_on_its_edge(1e-4);
   for (const auto& cured :
        {cure_seam(mesh, only(9, 6), 1e-3), cure_seam(mesh, only(9, 8), 0.9e-4)}) {
@@ -55,7 +55,7 @@ TEST(SeamCure, LeavesLongEdgesAndWhatIsNotOnTheSeam) {
   }
 }
 
-TEST(SeamCure, FlatTrianglesGiveTheirLongestEdgeAway) {
+TEST(SeamCure, FlipsTheLongestEdgeOfFlatTriangles) {
   // The bottom's diagonal has a point beside it: a triangle 1e-5 mm high on an edge of 11 mm.
   TriangleMesh mesh = shapes::cube(8);
   mesh.points.emplace_back(4 + 1e-5, 4, 0);
@@ -79,7 +79,7 @@ TEST(SeamCure, FlatTrianglesGiveTheirLongestEdgeAway) {
   EXPECT_GT(lowest, 1.0);
 }
 
-TEST(SeamCure, DoesNotFoldTheSurface) {
+TEST(SeamCure, NeverFoldsTheSurface) {
   // The bottom, with a short edge from 8 to 9. A wedge beside it, 8 10 11, would be turned over by
   // pulling 8 to 9, though not by pulling 9 to 8.
   TriangleMesh mesh = shapes::cube(8);
@@ -107,20 +107,20 @@ TEST(SeamCure, DoesNotFoldTheSurface) {
   EXPECT_TRUE(check_mesh(cured->mesh).sound());
 }
 
-TEST(SeamCure, ATetrahedronStaysOne) {
+TEST(SeamCure, KeepsATetrahedron) {
   const TriangleMesh mesh{{{0, 0, 0}, {1e-4, 0, 0}, {0, 5, 0}, {0, 0, 5}},
                           {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
   ASSERT_TRUE(check_mesh(mesh).sound());
   EXPECT_TRUE(check_mesh(cure_seam(mesh, std::vector<bool>(4, true), 1e-3)->mesh).sound());
 }
 
-TEST(SeamCure, RefusesWhatIsNoManifold) {
+TEST(SeamCure, RefusesANonManifoldMesh) {
   TriangleMesh open = shapes::cube(8);
   open.triangles.pop_back();
   EXPECT_FALSE(cure_seam(open, only(8, 0), 1e-3));
 }
 
-TEST(Pockets, ShallowOnesOfTheSeamAreFilled) {
+TEST(Pockets, FillsShallowPocketsOfTheSeam) {
   const TriangleMesh hole = shapes::inverted(shapes::moved(shapes::cube(0.1), {4, 4, 4}));
   TriangleMesh mesh = shapes::together(shapes::cube(8), hole);
   mesh.points.emplace_back(1, 2, 3);  // of no triangle
@@ -141,7 +141,7 @@ TEST(Pockets, ShallowOnesOfTheSeamAreFilled) {
   }
 }
 
-TEST(Pockets, VolumesOfShells) {
+TEST(Pockets, ComputesVolumesOfShells) {
   const TriangleMesh mesh = shapes::together(
       shapes::cube(8), shapes::inverted(shapes::moved(shapes::cube(2), {3, 3, 3})));
   std::vector<double> volumes = shell_volumes(mesh);

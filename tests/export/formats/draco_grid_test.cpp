@@ -80,7 +80,7 @@ RC_GTEST_PROP(DracoGrid, IsAsCoarseAsTheErrorAllows, ()) {
 }
 
 /// Who asks for bits asks for a fine grid: enlarging the cube would take them back.
-RC_GTEST_PROP(DracoGrid, BitsAskedForDivideTheExtent, ()) {
+RC_GTEST_PROP(DracoGrid, RequestedBitsDivideTheExtent, ()) {
   const Case given = any_case();
   const DracoGrid grid = choose_grid(given.points, given.settings).value();
   const double coarsest = extent_of(given.points) / (std::exp2(given.settings.min_bits) - 1.0);

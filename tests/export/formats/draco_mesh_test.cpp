@@ -27,9 +27,9 @@ class DracoMesh : public testing::Test {
       to_draco(tetrahedron_, {tetrahedron_.points.begin(), tetrahedron_.points.end()});
 };
 
-TEST_F(DracoMesh, ComesBackAsItWent) { EXPECT_EQ(from_draco(*mesh_, "x").value(), tetrahedron_); }
+TEST_F(DracoMesh, RoundTrips) { EXPECT_EQ(from_draco(*mesh_, "x").value(), tetrahedron_); }
 
-TEST_F(DracoMesh, PointsOfOnePositionAreShared) {
+TEST_F(DracoMesh, SharesPointsOfEqualPosition) {
   // Points 0 to 5 on positions 0 to 3: faces may name twins.
   mesh_->set_num_points(6);
   positions().SetExplicitMapping(6);
@@ -40,18 +40,18 @@ TEST_F(DracoMesh, PointsOfOnePositionAreShared) {
   EXPECT_EQ(from_draco(*mesh_, "x").value(), tetrahedron_);
 }
 
-TEST_F(DracoMesh, NegativeZeroIsReadAsZero) {
+TEST_F(DracoMesh, ReadsNegativeZeroAsZero) {
   const float corner[3] = {-0.0F, -0.0F, -0.0F};
   positions().SetAttributeValue(AttributeValueIndex(0), corner);
   EXPECT_FALSE(std::signbit(from_draco(*mesh_, "x").value().points[0].x));
 }
 
-TEST_F(DracoMesh, RefusesFacesOfPointsThatAreNot) {
+TEST_F(DracoMesh, RefusesFacesOfMissingPoints) {
   mesh_->SetFace(FaceIndex(2), {PointIndex(1), PointIndex(4), PointIndex(3)});
   EXPECT_EQ(message(), "pot.drc: face 3: expected one of 4 points, found 4");
 }
 
-TEST_F(DracoMesh, RefusesFacesThatTheMapDoesNotReach) {
+TEST_F(DracoMesh, RefusesFacesOutsideThePointMap) {
   positions().SetExplicitMapping(4);
   for (std::uint32_t i = 0; i < 4; ++i) {
     positions().SetPointMapEntry(PointIndex(i), AttributeValueIndex(i));
@@ -60,7 +60,7 @@ TEST_F(DracoMesh, RefusesFacesThatTheMapDoesNotReach) {
   EXPECT_EQ(message(), "pot.drc: face 1: expected one of 4 points, found 1073741824");
 }
 
-TEST_F(DracoMesh, RefusesPositionsThatAreNot) {
+TEST_F(DracoMesh, RefusesMissingPositions) {
   positions().SetExplicitMapping(4);
   for (std::uint32_t i = 0; i < 4; ++i) {
     positions().SetPointMapEntry(PointIndex(i), AttributeValueIndex(i + 1));
@@ -68,7 +68,7 @@ TEST_F(DracoMesh, RefusesPositionsThatAreNot) {
   EXPECT_EQ(message(), "pot.drc: face 2: expected one of 4 positions, found 4");
 }
 
-TEST_F(DracoMesh, RefusesMapsAndBuffersCutShort) {
+TEST_F(DracoMesh, RefusesTruncatedMapsAndBuffers) {
   positions().SetExplicitMapping(3);
   EXPECT_EQ(message(), "pot.drc: the position attribute is not whole");
   positions().SetIdentityMapping();
@@ -77,7 +77,7 @@ TEST_F(DracoMesh, RefusesMapsAndBuffersCutShort) {
   EXPECT_EQ(message(), "pot.drc: the position attribute is not whole");
 }
 
-TEST_F(DracoMesh, RefusesMeshesOfNothing) {
+TEST_F(DracoMesh, RefusesEmptyMeshes) {
   mesh_->SetNumFaces(0);
   EXPECT_EQ(message(), "pot.drc: expected 1 to 20000000 triangles, found 0");
 }

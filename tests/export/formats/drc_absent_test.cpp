@@ -6,7 +6,7 @@
 namespace clay::solid {
 namespace {
 
-TEST(DrcAbsent, SaysSo) {
+TEST(DrcAbsent, ReportsThatDracoIsAbsent) {
   EXPECT_EQ(encode_drc(samples::tetrahedron(), {}).error().message,
             "cannot write .drc: this build has no Draco");
   EXPECT_EQ(drc_claims("DRACO", "pot.drc").error().message,

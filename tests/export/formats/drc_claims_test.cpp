@@ -75,12 +75,12 @@ std::vector<std::string> all_entries(double volume_mm3) {
           entry("claystack.vertex_error_mm", number(0.01))};
 }
 
-TEST(DrcClaims, ComeBackAsTheyWent) {
+TEST(DrcClaims, RoundTrip) {
   EXPECT_EQ(drc_claims(with_claims(torus(12, 8)), "x").value(), kClaims);
   EXPECT_EQ(drc_claims(encode_drc(torus(12, 8), {}).value(), "x").value(), std::nullopt);
 }
 
-TEST(DrcClaims, LeaveTheMeshAsItIs) {
+TEST(DrcClaims, DoNotChangeTheMesh) {
   const TriangleMesh mesh = torus(12, 8);
   const std::string plain = encode_drc(mesh, {}).value();
   const std::string claimed = with_claims(mesh);
@@ -88,7 +88,7 @@ TEST(DrcClaims, LeaveTheMeshAsItIs) {
   EXPECT_EQ(decode_drc(claimed, "x").value(), decode_drc(plain, "x").value());
 }
 
-TEST(DrcClaims, StandAsTheHeaderPromises) {
+TEST(DrcClaims, FollowTheDocumentedLayout) {
   EXPECT_EQ(drc_claims(with_entries_and_checksum(all_entries(123.25)), "x").value(), kClaims);
 }
 
@@ -109,7 +109,7 @@ TEST(DrcClaims, AreMetadataToDracoItself) {
   EXPECT_EQ(checksum, hash_of(std::as_bytes(std::span(rest))));
 }
 
-TEST(DrcClaims, AreReadOverByDracosProgram) {
+TEST(DrcClaims, AreIgnoredByDracosProgram) {
   const TriangleMesh mesh = torus(20, 10);
   const auto decoded_by_draco = [](const std::string& bytes) {
     const samples::ScratchFile packed(".drc", bytes);
@@ -125,7 +125,7 @@ TEST(DrcClaims, AreReadOverByDracosProgram) {
 }
 
 /// Each byte, to every other value: header, metadata and mesh alike.
-TEST(DrcClaims, NoByteCanBeChanged) {
+TEST(DrcClaims, DetectEveryChangedByte) {
   const std::string good = with_claims(torus(4, 3));
   const std::size_t body = good.size() - encode_drc(torus(4, 3), {})->size() + kHeaderBytes;
   for (std::size_t at = 0; at < good.size(); ++at) {
@@ -141,14 +141,14 @@ TEST(DrcClaims, NoByteCanBeChanged) {
   }
 }
 
-TEST(DrcClaims, NothingCanBeCutOffOrAdded) {
+TEST(DrcClaims, DetectTruncatedOrAppendedBytes) {
   const std::string good = with_claims(torus(4, 3));
   for (std::size_t size = 0; size < good.size(); ++size)
     EXPECT_TRUE(decode_message(good.substr(0, size)).starts_with("pot.drc: ")) << size;
   EXPECT_TRUE(decode_message(good + "x").ends_with(": the file has been changed"));
 }
 
-TEST(DrcClaims, AreTakenWholeOrNotAtAll) {
+TEST(DrcClaims, AreReadCompletelyOrRefused) {
   const std::string none =
       "pot.drc: expected a checksum of 32 digits beside other claims, found none";
   EXPECT_EQ(decode_message(with_block(std::string("\0\1", 2) +
@@ -169,7 +169,7 @@ TEST(DrcClaims, AreTakenWholeOrNotAtAll) {
             "pot.drc: claystack.volume_mm3: expected a float64 of 0 or more, found none");
 }
 
-TEST(DrcClaims, AreNotReadFromABrokenBlock) {
+TEST(DrcClaims, AreRefusedInABrokenBlock) {
   const std::string huge = "\xFF\xFF\xFF\xFF\x0F";
   auto twice = all_entries(1.0);
   twice.push_back(twice.front());
@@ -188,7 +188,7 @@ TEST(DrcClaims, AreNotReadFromABrokenBlock) {
 }
 
 /// Of others; with metadata of attributes, and nested.
-TEST(DrcClaims, OtherMetadataArePassedOver) {
+TEST(DrcClaims, IgnoreOtherMetadata) {
   auto metadata = std::make_unique<draco::GeometryMetadata>();
   metadata->AddEntryString("name", std::string(300, 'x'));
   metadata->AddEntryIntArray("numbers", {1, 2, 3});
@@ -219,7 +219,7 @@ TEST(DrcClaims, OtherMetadataArePassedOver) {
   EXPECT_EQ(drc_claims(bytes, "x").value(), std::nullopt);
 }
 
-TEST(DrcClaims, OnlyWhatCanBeHeldIsWritten) {
+TEST(DrcClaims, RefuseUnkeepableClaims) {
   const auto message = [](const DracoClaims& claims) {
     return message_of(encode_drc(tetrahedron(), {}, &claims));
   };
@@ -238,7 +238,7 @@ TEST(DrcClaims, OnlyWhatCanBeHeldIsWritten) {
             "cannot write .drc: expected no smaller vertex error claimed than allowed");
 }
 
-TEST(CompareWithClaims, AllowsTheBoundAndNoMore) {
+TEST(CompareWithClaims, AllowsUpToTheBound) {
   const TriangleMesh mesh = tetrahedron();  // 1000/6 mm3
   const auto problems = [&](double volume_mm3, double bound_mm3) {
     return compare_with_claims(mesh, {.volume_mm3 = volume_mm3, .volume_bound_mm3 = bound_mm3});

@@ -40,7 +40,7 @@ TEST(ReadDrc, RefusesEveryTruncation) {
             "pot.drc: expected the end of the file after the mesh, found 2 bytes more");
 }
 
-TEST(ReadDrc, NamesWhatIsWrongInTheHeader) {
+TEST(ReadDrc, ErrorsNameTheFaultInTheHeader) {
   const std::string good = encode_drc(tetrahedron(), {}).value();
   const auto with = [&](std::size_t at, int value) {
     std::string bytes = good;
@@ -85,7 +85,7 @@ struct DracoFile {
   }
 };
 
-TEST(ReadDrc, ReadsWhatOthersWrite) {
+TEST(ReadDrc, ReadsFilesOfOtherWriters) {
   EXPECT_EQ(decode_drc(DracoFile{}.encode(), "x").value(), tetrahedron());
   const auto edgebreaker = DracoFile{.method = draco::MESH_EDGEBREAKER_ENCODING}.encode();
   EXPECT_EQ(largest_move(decode_drc(edgebreaker, "x").value(), tetrahedron()), 0.0);
@@ -106,7 +106,7 @@ TEST(ReadDrc, RefusesMeshesWithoutUsablePositions) {
 }
 
 /// Draco 1.5 hands out what a sequential mesh states, in range or not.
-TEST(ReadDrc, FlippedBytesNeverPassAnIndexOutOfRange) {
+TEST(ReadDrc, FlippedBytesNeverGiveAnIndexOutOfRange) {
   bool named = false;
   for (const std::string& good : {DracoFile{}.encode(), encode_drc(torus(5, 4), {}).value()}) {
     for (std::size_t at = 0; at < good.size(); ++at) {

@@ -31,7 +31,7 @@ class DrcOfSample : public testing::TestWithParam<const char*> {
   }
 };
 
-TEST_P(DrcOfSample, TakesAtMost15ThousandthsOfTheStl) {
+TEST_P(DrcOfSample, IsAtMost15ThousandthsOfTheStl) {
   const Written pot = written();
   EXPECT_LE(1000 * pot.drc.size(), 15 * pot.stl.size());
 }
@@ -46,7 +46,7 @@ TEST_P(DrcOfSample, KeepsEveryVertexWithinTheTolerance) {
   EXPECT_LE(vertex_distance(stl, drc), kToleranceMm + 2.0 * 200.0 * 0x1p-24);
 }
 
-TEST_P(DrcOfSample, StatesWhatTheReportDoes) {
+TEST_P(DrcOfSample, ClaimsMatchTheReport) {
   const Written pot = written();
   const DracoClaims claims = drc_claims(pot.drc, "drc").value().value();
   EXPECT_EQ(claims.volume_mm3, pot.report.volume_mm3);

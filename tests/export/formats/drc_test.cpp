@@ -20,7 +20,7 @@ using samples::largest_move;
 using samples::tetrahedron;
 using samples::torus;
 
-RC_GTEST_PROP(Drc, KeepsTheErrorPromised, ()) {
+RC_GTEST_PROP(Drc, KeepsTheErrorLimit, ()) {
   TriangleMesh mesh = torus(*rc::gen::inRange(3u, 12u), *rc::gen::inRange(3u, 8u));
   const double scale = std::exp2(*rc::gen::inRange(-8, 9));
   const auto shift = [] { return 1000.0 * *rc::gen::inRange(-100, 101); };
@@ -58,7 +58,7 @@ RC_GTEST_PROP(Drc, KeepsEveryTriangleOfASoup, ()) {
   RC_ASSERT(largest_move(read, mesh) <= 0.01);
 }
 
-TEST(Drc, UsesTheErrorItIsAllowed) {
+TEST(Drc, UsesTheAllowedError) {
   const TriangleMesh mesh = torus(40, 20);
   for (const double error_mm : {0.17, 0.1, 0.071, 0.05, 0.01, 0.007, 0.0055, 0.001}) {
     const std::string bytes = encode_drc(mesh, {.max_error_mm = error_mm}).value();
@@ -67,7 +67,7 @@ TEST(Drc, UsesTheErrorItIsAllowed) {
   }
 }
 
-TEST(Drc, PotsStaySymmetricAboutTheirAxis) {
+TEST(Drc, KeepsPotsSymmetricAboutTheirAxis) {
   const TriangleMesh mesh = torus(40, 20);
   TriangleMesh turned = decode_drc(encode_drc(mesh, {.max_error_mm = 0.1}).value(), "x").value();
   const TriangleMesh read = turned;
@@ -75,14 +75,14 @@ TEST(Drc, PotsStaySymmetricAboutTheirAxis) {
   EXPECT_LT(largest_move(read, turned), 1e-4);
 }
 
-TEST(Drc, IsEdgebreakerAtEverySpeed) {
+TEST(Drc, UsesEdgebreakerAtEverySpeed) {
   for (int speed = 0; speed <= 10; ++speed) {
     EXPECT_EQ(encode_drc(tetrahedron(), {.speed = speed}).value()[8],
               draco::MESH_EDGEBREAKER_ENCODING);
   }
 }
 
-TEST(Drc, TakesAtLeastTheBitsAskedFor) {
+TEST(Drc, UsesAtLeastTheRequestedBits) {
   const TriangleMesh mesh = torus(12, 8);
   for (const int bits : {1, 4, 10, 20, 24, 30}) {
     const std::string bytes = encode_drc(mesh, {.max_error_mm = 1e3, .min_bits = bits}).value();
@@ -94,18 +94,18 @@ TEST(Drc, TakesAtLeastTheBitsAskedFor) {
   }
 }
 
-TEST(Drc, SameBytesEveryTime) {
+TEST(Drc, IsDeterministic) {
   EXPECT_EQ(encode_drc(torus(30, 20), {}).value(), encode_drc(torus(30, 20), {}).value());
 }
 
-TEST(Drc, MeshesOfNoExtent) {
+TEST(Drc, EncodesMeshesWithoutExtent) {
   const TriangleMesh dot{{{7, 7, 7}, {7, 7, 7}, {7, 7, 7}}, {{0, 1, 2}}};
   const TriangleMesh read = decode_drc(encode_drc(dot, {}).value(), "x").value();
   EXPECT_EQ(read.points, dot.points);
   EXPECT_EQ(read.triangles.size(), 1u);
 }
 
-TEST(Drc, FarFromTheOrigin) {
+TEST(Drc, KeepsTheErrorLimitFarFromTheOrigin) {
   TriangleMesh mesh = tetrahedron();
   for (glm::dvec3& point : mesh.points) point += glm::dvec3(999'980.0, -999'990.0, 0.0);
   const TriangleMesh read =
@@ -113,7 +113,7 @@ TEST(Drc, FarFromTheOrigin) {
   EXPECT_LE(largest_move(mesh, read), 0.3);
 }
 
-TEST(Drc, RefusesWhatItCannotPromise) {
+TEST(Drc, RefusesUnreachableErrorLimits) {
   const auto message = [](const DracoSettings& settings) {
     return encode_drc(tetrahedron(), settings).error().message;
   };
@@ -136,7 +136,7 @@ TEST(Drc, RefusesWhatItCannotPromise) {
   }
 }
 
-TEST(Drc, RefusesMeshesThatDracoWouldSpoil) {
+TEST(Drc, RefusesMeshesThatDracoWouldDamage) {
   const auto message = [](const TriangleMesh& mesh) {
     return encode_drc(mesh, {}).error().message;
   };

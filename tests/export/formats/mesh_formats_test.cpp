@@ -33,7 +33,7 @@ class HugeFile {
   void* data_;
 };
 
-TEST(MeshFormats, RefuseTooMuchBeforeTheyAllocate) {
+TEST(MeshFormats, RefuseLargeCountsBeforeAllocating) {
   const HugeFile facets(84 + std::size_t{50} * 20'000'001);
   const std::uint32_t count = 20'000'001;
   std::memcpy(facets.data() + 80, &count, sizeof count);
@@ -54,7 +54,7 @@ TEST(MeshFormats, ExceptionsBecomeErrors) {
             "pot.stl: cannot be read: too long");
 }
 
-TEST(MeshFormats, GoByTheEndOfTheName) {
+TEST(MeshFormats, AreChosenByExtension) {
   EXPECT_EQ(mesh_format_of("a/b.stl").value(), MeshFormat::stl_binary);
   EXPECT_EQ(mesh_format_of("pot.v2.OBJ").value(), MeshFormat::obj);
   EXPECT_EQ(mesh_format_of(".drc").value(), MeshFormat::drc);
@@ -64,7 +64,7 @@ TEST(MeshFormats, GoByTheEndOfTheName) {
   }
 }
 
-TEST(MeshFormats, DecodeMeshGoesByTheFormat) {
+TEST(MeshFormats, DecodeMeshUsesTheGivenFormat) {
   const auto as_float = rounded_to_float(torus(6, 5));
   EXPECT_EQ(decode_mesh(encode_obj(as_float, "o"), MeshFormat::obj, "x").value(), as_float);
   for (const auto format : {MeshFormat::stl_binary, MeshFormat::stl_ascii}) {

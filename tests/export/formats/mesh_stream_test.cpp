@@ -68,7 +68,7 @@ MadeFile text_strip(std::size_t facets, const std::string& end = "endsolid strip
           }};
 }
 
-TEST(MeshStream, ATextFileIsReadInPartsOfTwoMegabytesAtMost) {
+TEST(MeshStream, ReadsTextInPartsOfAtMostTwoMegabytes) {
   constexpr std::size_t kFacets = 40'000;
   MadeFile file = text_strip(kFacets);
   ASSERT_GT(file.size(), 5 * kMegabyte);
@@ -88,7 +88,7 @@ TEST(MeshStream, ATextFileIsReadInPartsOfTwoMegabytesAtMost) {
   EXPECT_LE(file.largest_part(), 2 * kMegabyte);
 }
 
-TEST(MeshStream, AFaultFarInHasItsLine) {
+TEST(MeshStream, ErrorsNameALateLine) {
   // Seven lines and an empty one a facet, after the first line.
   constexpr std::size_t kFacets = 40'000;
   MadeFile file = text_strip(kFacets, "facet normal 0 0 up\n");
@@ -103,7 +103,7 @@ TEST(MeshStream, AFaultFarInHasItsLine) {
             "strip.stl:" + line + ": expected a line of at most 64 KiB");
 }
 
-TEST(MeshStream, AnObjFileIsTheSameInPartsAndWhole) {
+TEST(MeshStream, ObjInPartsEqualsObjInOneBlock) {
   // Continued lines and comments, wherever a part ends.
   MadeFile file(60'000, [](std::size_t i) {
     const std::string x = std::to_string(i % 1000);
@@ -122,7 +122,7 @@ TEST(MeshStream, AnObjFileIsTheSameInPartsAndWhole) {
   EXPECT_LE(file.largest_part(), 2 * kMegabyte);
 }
 
-TEST(MeshStream, ABinaryFileIsReadInPartsToo) {
+TEST(MeshStream, ReadsBinaryFilesInParts) {
   const TriangleMesh mesh = rounded_to_float(torus(400, 300));
   const std::string bytes = encode_stl_binary(mesh);
   MadeFile file(1, [&](std::size_t) { return bytes; });
@@ -131,7 +131,7 @@ TEST(MeshStream, ABinaryFileIsReadInPartsToo) {
   EXPECT_LE(file.largest_part(), 2 * kMegabyte);
 }
 
-TEST(MeshStream, AFileThatShrinksOrFailsWhileItIsReadIsAnError) {
+TEST(MeshStream, ReportsAFileThatShrinksOrFailsDuringReading) {
   const std::string bytes = encode_stl_binary(torus(20, 10));
   const std::string size = std::to_string(bytes.size());
   MadeFile file(1, [&](std::size_t) { return bytes.substr(0, 1000); });
@@ -158,7 +158,7 @@ TEST(MeshStream, AFileThatShrinksOrFailsWhileItIsReadIsAnError) {
   }
 }
 
-TEST(MeshStream, AnnouncesTheTrianglesBeforeItReadsThem) {
+TEST(MeshStream, AnnouncesTheTrianglesBeforeReading) {
   const std::string binary = encode_stl_binary(torus(20, 10));
   const std::string text = encode_stl_ascii(torus(20, 10), "torus");
   const std::string obj = encode_obj(torus(20, 10), "torus");
@@ -179,7 +179,7 @@ TEST(MeshStream, AnnouncesTheTrianglesBeforeItReadsThem) {
   EXPECT_NEAR(announced(obj, read_obj), 400.0, 200.0);
 }
 
-TEST(MeshStream, TooMuchTextIsRefusedByTheFilesSize) {
+TEST(MeshStream, RefusesTooMuchTextByFileSize) {
   const std::uint64_t size = (std::uint64_t{8} << 30) + 1;
   const ByteSource huge{[](std::span<char> part) -> Result<std::size_t> {
                           std::fill(part.begin(), part.end(), ' ');

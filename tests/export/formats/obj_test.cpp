@@ -36,21 +36,21 @@ RC_GTEST_PROP(Obj, KeepsEveryBitAndIndex, ()) {
   RC_ASSERT(!samples::has_negative_zero(read));
 }
 
-TEST(Obj, TextIsTheShortestThatReadsBack) {
+TEST(Obj, WritesTheShortestTextThatReadsBack) {
   const TriangleMesh mesh{{{0.1, -0.0, 1e-30}, {16777216, 0, 0}, {0, 1.0 / 3.0, 0}}, {{2, 1, 0}}};
   EXPECT_EQ(encode_obj(mesh, "my pot\nf 9 9 9\\"),
             "# claystack: units mm\no my pot_f 9 9 9_\nv 0.1 0 1e-30\nv 16777216 0 0\n"
             "v 0 0.33333334 0\nf 3 2 1\n");
 }
 
-TEST(Obj, OverlongNameStillReads) {
+TEST(Obj, ShortensAnOverlongName) {
   const std::string text = encode_obj(tetrahedron(), std::string(100'000, 'n'));
   EXPECT_EQ(decode_obj(text, "x").value(), tetrahedron());
 }
 
 // ---- what we read
 
-TEST(Obj, EveryKindOfCorner) {
+TEST(Obj, ReadsEveryKindOfCorner) {
   const std::string rest = "vt 0 0\nvt 0.5\nvt 1 1 1\nvn 0 0 1\n";
   for (const char* face :
        {"f 1 2 3\n", "f 1/1 2/2 3/3\n", "f 1//1 2//1 3//1\n", "f 1/1/1 2/2/1 3/3/1\n",
@@ -59,13 +59,13 @@ TEST(Obj, EveryKindOfCorner) {
   }
 }
 
-TEST(Obj, PointsMayCarryWeightOrColour) {
+TEST(Obj, AcceptsPointsWithWeightOrColour) {
   const auto mesh =
       decode_obj("v 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv +1 1e-50 0\nf 1 2 3\n", "x").value();
   EXPECT_EQ(mesh.points, (std::vector<glm::dvec3>{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}}));
 }
 
-TEST(Obj, PolygonsBecomeFans) {
+TEST(Obj, SplitsPolygonsIntoFans) {
   EXPECT_EQ(triangles_of(kSquare + "f 1 2 3 4\n"), (Triangles{{0, 1, 2}, {0, 2, 3}}));
 }
 
@@ -74,17 +74,17 @@ TEST(Obj, NegativeNumbersCountFromTheLatestVertex) {
   EXPECT_EQ(triangles_of(text), (Triangles{{0, 1, 2}, {0, 4, 0}}));
 }
 
-TEST(Obj, FacesMayComeBeforeTheirVertices) {
+TEST(Obj, AcceptsFacesBeforeTheirVertices) {
   EXPECT_EQ(triangles_of("f 1 2 3/1\n" + kSquare + "vt 0\n"), (Triangles{{0, 1, 2}}));
 }
 
-TEST(Obj, PassesOverWhatIsNoSurface) {
+TEST(Obj, IgnoresStatementsWithoutSurface) {
   const std::string names = "#\no pot\ng a b \\\n c\ns off\nmtllib /dev/zero\nusemtl clay\n";
   const std::string text = names + kSquare + "l 1 2\np 1\n\n   \nf 1 2 3\n#end";
   EXPECT_EQ(triangles_of(text), (Triangles{{0, 1, 2}}));
 }
 
-TEST(Obj, CommentsSwallowNoLineBelow) {
+TEST(Obj, CommentsEndAtTheirLine) {
   EXPECT_EQ(triangles_of("# C:\\pots\\\n" + kSquare + "f 2 3 4\n"), (Triangles{{1, 2, 3}}));
 }
 
@@ -104,7 +104,7 @@ struct BadText {
   std::string says;
 };
 
-TEST(Obj, NamesTheLineOfEveryDefect) {
+TEST(Obj, ErrorsNameTheLine) {
   std::string corners = "f";
   for (int i = 0; i < 4097; ++i) corners += " 1";
   for (const BadText& bad : std::vector<BadText>{
@@ -162,12 +162,12 @@ TEST(Obj, NamesTheLineOfEveryDefect) {
   }
 }
 
-TEST(Obj, PassesOverAByteOrderMark) {
+TEST(Obj, SkipsAByteOrderMark) {
   EXPECT_EQ(triangles_of("\xEF\xBB\xBF" + kSquare + "f 1 2 3\n"),
             triangles_of(kSquare + "f 1 2 3\n"));
 }
 
-TEST(Obj, TakesAFaceOf4096Corners) {
+TEST(Obj, AcceptsAFaceOf4096Corners) {
   std::string face = "f";
   for (int i = 0; i < 4096; ++i) face.append(" ").append(std::to_string(1 + i % 4));
   EXPECT_EQ(triangles_of(kSquare + face).size(), 4094u);

@@ -53,7 +53,7 @@ double area(const std::vector<glm::dvec2>& outline) {
   return std::abs(0.5 * doubled);
 }
 
-TEST(SectionSvg, DimensionsAreThoseOfThePot) {
+TEST(SectionSvg, ShowsTheDimensionsOfThePot) {
   const std::string svg =
       section_svg(pot_of(stack_of(2.5, {{20, 0}, {30, 25}, {25, 20}, {22, 18}})));
   EXPECT_EQ(svg.rfind("<svg xmlns=", 0), 0u);
@@ -63,7 +63,7 @@ TEST(SectionSvg, DimensionsAreThoseOfThePot) {
   EXPECT_EQ(count(svg, "class=\"axis\""), 1u);
 }
 
-TEST(SectionSvg, IsToScaleAndBothHalvesAreThere) {
+TEST(SectionSvg, DrawsBothHalvesToScale) {
   // 40 mm wide and 10 mm high; two thirds of the section is clay.
   const std::string svg = section_svg(pot_of(stack_of(5.0, {{20, 0}, {20, 40.0 / 3}})));
   const auto cut = outlines(svg, "cut");
@@ -74,19 +74,19 @@ TEST(SectionSvg, IsToScaleAndBothHalvesAreThere) {
   EXPECT_NEAR(area(cut[0]) / scale2, 40.0 * 5.0 + 2 * 20.0 / 3 * 5.0, 0.5);
 }
 
-TEST(SectionSvg, CavitiesAreOutlinesOfTheirOwn) {
+TEST(SectionSvg, DrawsCavitiesAsSeparateOutlines) {
   const std::string svg =
       section_svg(pot_of(stack_of(2.0, {{10, 0}, {10, 4}, {10, 0}, {10, 6}, {10, 0}})));
   EXPECT_EQ(outlines(svg, "cut").size(), 3u);
   EXPECT_NE(svg.find("evenodd"), std::string::npos);
 }
 
-TEST(SectionSvg, TubesAndPiecesShowOneOutlineForEachSide) {
+TEST(SectionSvg, DrawsOneOutlinePerSideOfTubesAndPieces) {
   EXPECT_EQ(outlines(section_svg(pot_of(stack_of(2.0, {{10, 5}}))), "cut").size(), 2u);
   EXPECT_EQ(outlines(section_svg(pot_of(stack_of(2.0, {{10, 5}, {4, 0}}))), "cut").size(), 3u);
 }
 
-TEST(SectionSvg, UpperPartOfACollapsedPotIsTurned) {
+TEST(SectionSvg, DrawsTheFallenPartRotated) {
   // Two cubes' sections of 20 x 10 mm; the upper one turns by 90 degrees about its lower right
   // corner, toward the left, and then reaches from 0 to 10 mm across and from -10 to 10 mm up.
   Pot pot = pot_of(stack_of(10.0, {{10, 0}, {10, 0}}));
@@ -110,7 +110,7 @@ TEST(SectionSvg, UpperPartOfACollapsedPotIsTurned) {
   EXPECT_NEAR(most.y, 10.0, 0.01);
 }
 
-TEST(SectionSvg, ACrownThatFellByItselfLiesWhereItFell) {
+TEST(SectionSvg, DrawsAFallenCrownAtItsRestingPlace) {
   // 4 mm of crown, over 10 mm of ring that stays; it comes down by 10 mm, 30 mm to the right.
   Pot pot = pot_of(stack_of(10.0, {{10, 0}}, quanta_from_radius(10) * 4 / 10));
   pot.collapse = Collapse{0, {12, 10, 0}, {0, 0, 1}, 0.0, 1.0, {30, -10, 0}};
@@ -133,7 +133,7 @@ TEST(SectionSvg, ACrownThatFellByItselfLiesWhereItFell) {
   EXPECT_NEAR(crown_high.y, ring_high.y, 0.01);
 }
 
-TEST(SectionSvg, WhereAPartPassedIsDashed) {
+TEST(SectionSvg, DrawsThePathOfFallDashed) {
   Pot pot = pot_of(stack_of(10.0, {{10, 0}, {10, 0}, {10, 0}}));
   pot.collapse = Collapse{0, {0, 10, 0}, {0, 0, 1}, 0.0, 1.0, {0, -10, 0}};
   EXPECT_EQ(outlines(section_svg(pot), "ghost").size(), 0u);  // no telling how it fell
@@ -151,13 +151,13 @@ TEST(SectionSvg, WhereAPartPassedIsDashed) {
     EXPECT_NEAR((foot(ghosts[k]) - foot(ghosts[0])) / way, 0.25 * static_cast<double>(k), 0.02);
 }
 
-TEST(SectionSvg, DrawsWhatNoSolidCanBeMadeOf) {
+TEST(SectionSvg, DrawsPotsThatHaveNoSolid) {
   const std::string svg = section_svg(pot_of(stack_of(2.0, {{5, 0}, {9, 5}})));
   EXPECT_EQ(outlines(svg, "cut").size(), 3u);
   EXPECT_NE(section_svg(Pot{}).find("</svg>"), std::string::npos);
 }
 
-TEST(SectionSvg, AHugeStackStaysASmallFile) {
+TEST(SectionSvg, HugeStackGivesASmallFile) {
   EXPECT_LT(section_svg(pot_of(shapes::vase(100'000))).size(), 500'000u);
 }
 

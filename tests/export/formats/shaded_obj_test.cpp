@@ -51,7 +51,7 @@ std::vector<Corner> shaded(const Profile& profile, std::size_t segments) {
   return corners_in(obj);
 }
 
-TEST(ShadedObj, ACylinderHasARoundWallAndFlatEnds) {
+TEST(ShadedObj, CylinderHasARoundWallAndFlatEnds) {
   const auto corners = shaded({{{{20, 0}, {20, 30}, {0, 30}, {0, 0}}}}, 16);
   ASSERT_EQ(corners.size(), 3u * 16 * 4);
   for (std::size_t i = 0; i < corners.size(); i += 3) {
@@ -66,7 +66,7 @@ TEST(ShadedObj, ACylinderHasARoundWallAndFlatEnds) {
   }
 }
 
-TEST(ShadedObj, ABallIsSmoothAllOver) {
+TEST(ShadedObj, BallIsSmoothEverywhere) {
   Polygon half;
   for (int i = 0; i <= 24; ++i) {
     const double angle = std::numbers::pi * i / 24;

@@ -44,7 +44,7 @@ std::string streamed(const RevolveLayout& rule) {
   return store.bytes();
 }
 
-RC_GTEST_PROP(StlStream, GivesTheBytesOfTheMesh, (const ClayStack& stack)) {
+RC_GTEST_PROP(StlStream, EqualsTheEncodedMesh, (const ClayStack& stack)) {
   const auto section = profile_of(stack, 1e-4);
   if (!section || !certify(section->profile)) return;
   const RevolveLayout rule(section->profile, *rc::gen::inRange<std::size_t>(3, 40));
@@ -73,7 +73,7 @@ TEST(StlStream, ReportsTheStoresError) {
   EXPECT_EQ(file.error().kind, ErrorKind::io);
 }
 
-TEST(VerifyStl, SeesEveryBitOfEveryCorner) {
+TEST(VerifyStl, DetectsEveryFlippedBitOfACorner) {
   const RevolveLayout rule(cup_with_cavity(), 5);
   const std::string good = streamed(rule);
   ASSERT_TRUE(verify_stl(rule, TamperedStore(good)));
@@ -89,7 +89,7 @@ TEST(VerifyStl, SeesEveryBitOfEveryCorner) {
     }
 }
 
-TEST(VerifyStl, SeesAWrongCountAndAMissingEnd) {
+TEST(VerifyStl, DetectsAWrongCountAndAMissingEnd) {
   const RevolveLayout rule(cup_with_cavity(), 6);
   std::string bytes = streamed(rule);
   EXPECT_FALSE(verify_stl(rule, TamperedStore(bytes.substr(0, bytes.size() - 10))));
@@ -99,7 +99,7 @@ TEST(VerifyStl, SeesAWrongCountAndAMissingEnd) {
   EXPECT_NE(verdict.error().message.find("facets, found"), std::string::npos);
 }
 
-TEST(VerifyStl, TwoFacetsExchangedAreSeen) {
+TEST(VerifyStl, DetectsExchangedFacets) {
   const RevolveLayout rule(cup_with_cavity(), 6);
   std::string bytes = streamed(rule);
   std::swap_ranges(bytes.begin() + 84, bytes.begin() + 134, bytes.begin() + 134);

@@ -45,7 +45,7 @@ const std::string kThreeVertices = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
 
 // ---- what we write
 
-RC_GTEST_PROP(Stl, BothKindsKeepEveryBit, ()) {
+RC_GTEST_PROP(Stl, KeepsEveryBitInBothFormats, ()) {
   const TriangleMesh mesh = *samples::any_mesh();
   const auto binary = decode_stl(encode_stl_binary(mesh), "b").value();
   const auto text = decode_stl(encode_stl_ascii(mesh, "t"), "t").value();
@@ -55,7 +55,7 @@ RC_GTEST_PROP(Stl, BothKindsKeepEveryBit, ()) {
   RC_ASSERT(!samples::has_negative_zero(binary));
 }
 
-TEST(Stl, BinaryLayout) {
+TEST(Stl, FollowsTheBinaryLayout) {
   TriangleMesh mesh{{{1, 1, -0.0}, {3, 1, 0}, {1, 4, 0}, {5, 1, 0}}, {{0, 1, 2}, {0, 1, 3}}};
   const std::string bytes = encode_stl_binary(mesh);
   ASSERT_EQ(bytes.size(), kPrologue + 2 * kFacet);
@@ -77,7 +77,7 @@ TEST(Stl, NormalsSurviveTinyTriangles) {
   EXPECT_EQ(read_at<float>(bytes, kPrologue), 1.0F);
 }
 
-TEST(Stl, TextIsTheShortestThatReadsBack) {
+TEST(Stl, WritesTheShortestTextThatReadsBack) {
   const TriangleMesh mesh{{{0.1, -0.0, 1e-30}, {16777216, 0, 0}, {0, 1.0 / 3.0, 0}}, {{0, 1, 2}}};
   const std::string text = encode_stl_ascii(mesh, "a\nb\\");
   EXPECT_TRUE(text.starts_with("solid a_b_\nfacet normal ")) << text;
@@ -101,7 +101,7 @@ TEST(Stl, AdmeshAgrees) {
 
 // ---- what we read
 
-TEST(Stl, WeldsEqualFloatsAndNoOthers) {
+TEST(Stl, WeldsOnlyEqualFloats) {
   const float one_up = std::nextafter(1.0F, 2.0F);
   const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {one_up, 0, 0}},
                           {{0, 1, 2}, {0, 3, 2}}};
@@ -123,7 +123,7 @@ TEST(Stl, WeldsNegativeZeroWithZero) {
   EXPECT_FALSE(samples::has_negative_zero(read));
 }
 
-TEST(Stl, SizeTellsBinaryFromTextNotTheWordSolid) {
+TEST(Stl, SizeDistinguishesBinaryFromText) {
   std::string bytes = encode_stl_binary(torus(5, 4));
   bytes.replace(0, 6, "solid ");
   EXPECT_EQ(decode_stl(bytes, "x").value(),
@@ -132,14 +132,14 @@ TEST(Stl, SizeTellsBinaryFromTextNotTheWordSolid) {
   EXPECT_EQ(message_of(bytes), "pot.stl:1: expected text, found a NUL byte");
 }
 
-TEST(Stl, BinaryNormalsAndAttributesAreNotTrusted) {
+TEST(Stl, IgnoresBinaryNormalsAndAttributes) {
   std::string bytes = encode_stl_binary(tetrahedron());
   overwrite(bytes, kPrologue, std::nanf(""));
   overwrite(bytes, kPrologue + 48, std::uint16_t{0x8123});
   EXPECT_EQ(corners_of(decode_stl(bytes, "x").value()), corners_of(tetrahedron()));
 }
 
-TEST(Stl, TextOfOtherWriters) {
+TEST(Stl, ReadsTextOfOtherWriters) {
   const TriangleMesh plain = decode_stl(one_facet(kThreeVertices), "x").value();
   EXPECT_EQ(plain, (TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}));
   std::string windows = one_facet(kThreeVertices);
@@ -158,7 +158,7 @@ TEST(Stl, TextOfOtherWriters) {
   }
 }
 
-TEST(Stl, SeveralSolidsAreOneMesh) {
+TEST(Stl, JoinsSeveralSolids) {
   const std::string two =
       one_facet(kThreeVertices) + one_facet("vertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1\n");
   const auto mesh = decode_stl(two, "x").value();
@@ -171,7 +171,7 @@ struct BadText {
   std::string says;
 };
 
-TEST(Stl, NamesTheLineOfEveryDefectInText) {
+TEST(Stl, ErrorsNameTheLineInText) {
   const std::string head = "solid\n";
   for (const BadText& bad : std::vector<BadText>{
            {"",
@@ -215,7 +215,7 @@ TEST(Stl, NamesTheLineOfEveryDefectInText) {
   }
 }
 
-TEST(Stl, TextCutAnywhereNamesItsLastLine) {
+TEST(Stl, ErrorsNameTheLastLineOfTruncatedText) {
   const std::string whole = encode_stl_ascii(tetrahedron(), "pot");
   const std::size_t closed = whole.rfind("endsolid") + std::strlen("endsolid");
   for (std::size_t size = std::strlen("solid"); size < closed; ++size) {
@@ -227,7 +227,7 @@ TEST(Stl, TextCutAnywhereNamesItsLastLine) {
   EXPECT_TRUE(decode_stl(whole.substr(0, closed), "x").has_value());
 }
 
-TEST(Stl, NamesTheFacetOfEveryDefectInBinary) {
+TEST(Stl, ErrorsNameTheFacetInBinary) {
   struct BadCorner {
     std::size_t facet, corner;
     float value;
@@ -250,7 +250,7 @@ TEST(Stl, NamesTheFacetOfEveryDefectInBinary) {
   }
 }
 
-TEST(Stl, BinaryOfAnyOtherSizeIsRefused) {
+TEST(Stl, RefusesBinaryOfAnyOtherSize) {
   const std::string whole = encode_stl_binary(tetrahedron());
   for (std::size_t size = 0; size < whole.size(); ++size) {
     EXPECT_NE(message_of(whole.substr(0, size)).find(std::to_string(size) + " bytes"),

@@ -18,7 +18,7 @@ const Polygon kSquare{{1, 0}, {2, 0}, {2, 1}, {1, 1}};
   return samples::refused(certify(profile), ErrorKind::unsound, because);
 }
 
-TEST(Certify, CountsWhatItProved) {
+TEST(Certify, CountsProvedEdges) {
   const Polygon two_cavities{{9, 0}, {9, 9}, {0, 9}, {0, 8}, {3, 8}, {3, 6}, {0, 6},
                              {0, 5}, {0, 4}, {3, 4}, {3, 2}, {0, 2}, {0, 0}};
   const auto certificate = certify({{two_cavities, {{9, 10}, {9, 11}, {8, 11}, {8, 10}}}});
@@ -28,7 +28,7 @@ TEST(Certify, CountsWhatItProved) {
   EXPECT_EQ(certificate->axis_segments, 3u);
 }
 
-TEST(Certify, AcceptsTrianglesPointsInLineAndMinusZero) {
+TEST(Certify, AcceptsTrianglesCollinearPointsAndMinusZero) {
   EXPECT_TRUE(certify({{{{1, 0}, {2, 0}, {1, 1}}}}));
   EXPECT_TRUE(certify({{{{1, 0}, {1.5, 0}, {2, 0}, {2, 1}, {1, 1}}}}));
   EXPECT_TRUE(certify({{{{-0.0, 0}, {2, 0}, {2, 1}, {0, 1}}}}));
@@ -96,7 +96,7 @@ TEST(Certify, AcceptsPiecesSideBySideOnOneLevel) {
   EXPECT_TRUE(certify({{{{1, 0}, {3, 1}, {1, 2}}, {{4, 1}, {5, 1}, {5, 2}}}}));
 }
 
-TEST(Certify, TellsAnUlpFromATouch) {
+TEST(Certify, DistinguishesOneUlpFromATouch) {
   const double just_above = std::nextafter(1.0, 2.0);
   const auto notched = [](double tip) {
     return Profile{
@@ -165,7 +165,7 @@ RC_GTEST_PROP(Certify, AgreesWithIntegersOnRandomPolygons, ()) {
   RC_ASSERT(certify({{polygon}}).has_value() == sound);
 }
 
-RC_GTEST_PROP(Certify, ProvesEveryStackThatDoublesCanTellApart, (const ClayStack& stack)) {
+RC_GTEST_PROP(Certify, ProvesEveryStackWithDistinctDoubles, (const ClayStack& stack)) {
   const auto found = profile_of(stack);
   if (!found) RC_DISCARD("touching rings");
   RC_ASSERT(certify(found->profile).has_value());

@@ -62,12 +62,12 @@ Result<void> checked(const std::string& text) {
   return ::testing::AssertionSuccess();
 }
 
-TEST(HostileCertificate, TheGoodOneIsAccepted) {
+TEST(HostileCertificate, AcceptsTheValidCertificate) {
   const auto verdict = checked(cup().text);
   EXPECT_TRUE(verdict) << verdict.error().message;
 }
 
-TEST(HostileCertificate, NumbersThatAreNone) {
+TEST(HostileCertificate, RefusesInvalidNumbers) {
   for (const char* field :
        {"bytes", "segments", "rounding_mm", "clearance_mm", "chord_mm", "wall_lower_mm",
         "wall_upper_mm", "volume_mm3", "volume_bound_mm3", "counted_volume_mm3"}) {
@@ -83,14 +83,14 @@ TEST(HostileCertificate, NumbersThatAreNone) {
   }
 }
 
-TEST(HostileCertificate, SegmentsOutOfRange) {
+TEST(HostileCertificate, RefusesSegmentsOutOfRange) {
   for (const char* segments : {"0", "2", "1048577", "1000000000", "18446744073709551615"})
     EXPECT_TRUE(refused(with("segments", segments), "3 to 1048576 segments")) << segments;
   // In range, but the file has no such number: found before any circle is made.
   EXPECT_TRUE(refused(with("segments", "1048576"), "triangles, found"));
 }
 
-TEST(HostileCertificate, ProfilesThatAreNone) {
+TEST(HostileCertificate, RefusesInvalidProfiles) {
   for (const char* profile : {"[]", "[[[1,0],[2,0],[2,1]]]"})
     EXPECT_TRUE(refused(with("profile_mm", profile), "profile hash")) << profile;
   for (const char* profile : {"[[]]", "[[[1,0],[2,0]]]"})
@@ -105,7 +105,7 @@ TEST(HostileCertificate, ProfilesThatAreNone) {
   EXPECT_TRUE(refused(with("profile_mm", "[[[1e300,0],[2,0],[2,1]]]"), "within +-1e6 mm"));
 }
 
-TEST(HostileCertificate, FieldsTwiceUnknownOrMissing) {
+TEST(HostileCertificate, RefusesDuplicateUnknownOrMissingFields) {
   const std::string text = cup().text;
   const auto after_brace = [&](const std::string& more) {
     return std::string("{").append(more).append(text.substr(1));
@@ -125,7 +125,7 @@ TEST(HostileCertificate, FieldsTwiceUnknownOrMissing) {
 }
 
 // Each of these took the parser's stack, gigabytes, or hours.
-TEST(HostileCertificate, Bombs) {
+TEST(HostileCertificate, RefusesBombs) {
   EXPECT_TRUE(refused(repeated("[", 1'000'000), "expected an object"));
   EXPECT_TRUE(refused(with("profile_mm", repeated("[", 1'000'000)), "nested 4 deep"));
   EXPECT_TRUE(refused(with("bytes", repeated("[", 100'000) + repeated("]", 100'000)), "nested"));
@@ -146,7 +146,7 @@ TEST(HostileCertificate, Bombs) {
 }
 
 // The sweep would hold every tooth against every other.
-TEST(HostileCertificate, CombsAreRefused) {
+TEST(HostileCertificate, RefusesCombs) {
   constexpr std::size_t kTeeth = 50'000;
   Polygon comb{{1, 0}};
   for (std::size_t i = 0; i < kTeeth; ++i) {

@@ -41,7 +41,7 @@ TriangleMesh shuffled(const TriangleMesh& mesh, std::mt19937& random) {
   return result;
 }
 
-RC_GTEST_PROP(MatchRevolve, KnowsTheSolidInAnyOrder, (const ClayStack& stack, unsigned seed)) {
+RC_GTEST_PROP(MatchRevolve, MatchesTheSolidInAnyOrder, (const ClayStack& stack, unsigned seed)) {
   const auto section = profile_of(stack, 0.01);
   if (!section || !certify(section->profile)) return;
   const RevolveLayout rule(section->profile, *rc::gen::inRange<std::size_t>(8, 30));
@@ -62,7 +62,7 @@ TEST(MatchRevolve, MeasuresTheFarthestPoint) {
   EXPECT_NEAR(match_revolve(mesh, rule, kReach, "file").value(), 5e-4, 1e-12);
 }
 
-TEST(MatchRevolve, NamesWhatIsNotTheSolid) {
+TEST(MatchRevolve, ReportsDifferencesFromTheSolid) {
   const RevolveLayout rule(vase_profile(), 24);
   const TriangleMesh good = revolve(rule);
   TriangleMesh bad = good;
@@ -82,7 +82,7 @@ TEST(MatchRevolve, NamesWhatIsNotTheSolid) {
   EXPECT_TRUE(refused(bad, rule, "points, found"));
 }
 
-TEST(MatchRevolve, TheOtherDiagonalIsAnotherSolid) {
+TEST(MatchRevolve, RefusesTheOtherDiagonal) {
   // Flat quads may be cut either way, but files hold one way, and an edge cut both ways is open.
   const RevolveLayout rule(vase_profile(), 24);
   TriangleMesh mesh = revolve(rule);
@@ -94,7 +94,7 @@ TEST(MatchRevolve, TheOtherDiagonalIsAnotherSolid) {
   EXPECT_FALSE(match_revolve(mesh, rule, kReach, "file"));
 }
 
-TEST(MatchRevolve, AnotherNumberOfSegmentsIsAnotherSolid) {
+TEST(MatchRevolve, RefusesAnotherNumberOfSegments) {
   EXPECT_FALSE(match_revolve(revolve(RevolveLayout(vase_profile(), 24)),
                              RevolveLayout(vase_profile(), 25), kReach, "file"));
 }

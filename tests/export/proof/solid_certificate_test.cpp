@@ -49,7 +49,7 @@ TEST(SolidCertificate, HoldsForEveryFormat) {
   }
 }
 
-TEST(SolidCertificate, EveryLieIsNamed) {
+TEST(SolidCertificate, ReportsEveryFalseClaim) {
   const auto [good, file] = certified(shapes::vase(60), MeshFormat::stl_binary);
   const auto expect = [&, &good = good, &file = file](auto change, const std::string& says) {
     SolidCertificate lie = good;
@@ -71,7 +71,7 @@ TEST(SolidCertificate, EveryLieIsNamed) {
   expect([](auto& c) { c.segments = 2; }, "segments");
 }
 
-TEST(SolidCertificate, ClaimsThatAgreeWithEachOtherButNotWithTheFileAreFound) {
+TEST(SolidCertificate, DetectsConsistentClaimsThatDoNotMatchTheFile) {
   const auto [good, file] = certified(shapes::vase(60), MeshFormat::stl_binary);
   const auto with_claims_of = [&, &good = good](const SolidCertificate& claims) {
     SolidCertificate lie = claims;
@@ -90,7 +90,7 @@ TEST(SolidCertificate, ClaimsThatAgreeWithEachOtherButNotWithTheFileAreFound) {
       refused(with_claims_of(claims_of(other, good.segments, good.rounding_mm)), file, "vertex"));
 }
 
-TEST(SolidCertificate, MarginsThatDoNotCoverTheRoundingAreNoProof) {
+TEST(SolidCertificate, RefusesMarginsThatDoNotCoverTheRounding) {
   // Walls of 6e-6 mm: float32 holds them apart, but not with a margin.
   ExportOptions options;
   options.smoothing = Smoothing::none;
@@ -102,13 +102,13 @@ TEST(SolidCertificate, MarginsThatDoNotCoverTheRoundingAreNoProof) {
   EXPECT_TRUE(refused(certificate, file, "proof"));
 }
 
-TEST(SolidCertificate, AnotherPotsCertificateIsRefused) {
+TEST(SolidCertificate, RefusesTheCertificateOfAnotherPot) {
   const auto vase = certified(shapes::vase(60), MeshFormat::stl_binary);
   const auto cup = certified(shapes::stack_of(5, {{30, 0}, {30, 26}}), MeshFormat::stl_binary);
   EXPECT_TRUE(refused(vase.certificate, cup.file, "size"));
 }
 
-TEST(SolidCertificate, EveryEditedByteIsSeen) {
+TEST(SolidCertificate, DetectsEveryEditedByte) {
   ExportOptions options;
   options.segments = 8;
   const auto [certificate, file] =
@@ -120,7 +120,7 @@ TEST(SolidCertificate, EveryEditedByteIsSeen) {
   }
 }
 
-TEST(SolidCertificate, ReaderNamesTheField) {
+TEST(SolidCertificate, ErrorsNameTheField) {
   const std::string good =
       write_certificate(certified(shapes::vase(60), MeshFormat::obj).certificate);
   const auto expect = [&](const std::string& from, const std::string& to, const std::string& says) {
@@ -140,7 +140,7 @@ TEST(SolidCertificate, ReaderNamesTheField) {
   expect("{", "", "expected a JSON object");
 }
 
-TEST(Margins, AreThoseOfTheProfileScaled) {
+TEST(Margins, ScaleWithTheProfile) {
   // A cup whose floor, wall and lip are all 4 mm: the clearance is the least of the distances
   // between a vertex and an edge that it is no end of.
   const Profile cup = profile_of(shapes::stack_of(4.0, {{30, 0}, {30, 26}}))->profile;
@@ -154,7 +154,7 @@ TEST(Margins, AreThoseOfTheProfileScaled) {
   EXPECT_EQ(margins_of(cup, 7).safe_rounding_mm(), 0.0);
 }
 
-TEST(ClaimsOf, VolumeBoundIsTheAreaTimesTheRounding) {
+TEST(ClaimsOf, VolumeBoundEqualsAreaTimesRounding) {
   // For a small rounding the bound is the surface times it; a cylinder's is 2 pi R (R + H).
   const double r = 20.0, h = 30.0, rounding = 1e-7;
   const Profile cylinder{{{{r, 0}, {r, h}, {0, h}, {0, 0}}}};
@@ -202,7 +202,7 @@ std::vector<KnownPot> known_pots() {
   return pots;
 }
 
-TEST(ClaimsOf, WallBoundsHoldTheKnownWallAndAreNarrowerThanTheTolerance) {
+TEST(ClaimsOf, WallBoundsContainTheKnownWallWithinTheTolerance) {
   constexpr double kTolerance = 0.02;
   for (const KnownPot& pot : known_pots()) {
     ASSERT_TRUE(certify(pot.profile)) << pot.name;

@@ -45,7 +45,7 @@ TEST(VerifyFile, MeasuresTheLargestMove) {
   }
 }
 
-TEST(VerifyFile, MissesNoTriangle) {
+TEST(VerifyFile, DetectsEveryMissingTriangle) {
   const TriangleMesh ball = shapes::ball(8.0);
   TriangleMesh holed = ball;
   holed.triangles.pop_back();
@@ -55,11 +55,11 @@ TEST(VerifyFile, MissesNoTriangle) {
   }
 }
 
-TEST(VerifyFile, RefusesBytesThatAreNoFile) {
+TEST(VerifyFile, RefusesInvalidBytes) {
   EXPECT_FALSE(verify_file("pot", MeshFormat::stl_binary, shapes::ball(8.0), kAnyDistance));
 }
 
-TEST(FloatRounding, BoundsWhatFloatsMove) {
+TEST(FloatRounding, BoundsTheDisplacementByFloat32) {
   const TriangleMesh mesh = shapes::moved(shapes::ball(8.0), {1000.1, -2000.7, 3000.3});
   const TriangleMesh rounded = rounded_to_float(mesh);
   double largest = 0.0;

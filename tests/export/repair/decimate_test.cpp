@@ -62,7 +62,7 @@ TriangleMesh smooth_vase(std::size_t bands, std::size_t segments) {
   return revolve({{section}}, segments);
 }
 
-TEST(Decimate, FlatFacesCostNothing) {
+TEST(Decimate, FlatFacesHaveNoError) {
   for (const glm::dvec3& by : {glm::dvec3(0.0), glm::dvec3(4096.0, -1024.0, 512.0)}) {
     const TriangleMesh fine = moved(grid_cube(8.0, 8), by);
     ASSERT_EQ(fine.triangles.size(), 768u);
@@ -77,7 +77,7 @@ TEST(Decimate, FlatFacesCostNothing) {
   }
 }
 
-TEST(Decimate, FlatFacesThatLeanCostNothing) {
+TEST(Decimate, InclinedFlatFacesHaveNoError) {
   TriangleMesh fine = grid_cube(8.0, 8);
   const double c = std::cos(0.7), s = std::sin(0.7);
   for (glm::dvec3& p : fine.points) {
@@ -90,7 +90,7 @@ TEST(Decimate, FlatFacesThatLeanCostNothing) {
   EXPECT_NEAR(signed_volume(coarse->mesh), 512.0, 1e-10);
 }
 
-TEST(Decimate, AVaseToATenthStaysSoundAndNear) {
+TEST(Decimate, VaseAtATenthStaysSoundAndClose) {
   const TriangleMesh fine = smooth_vase(60, 64);
   const std::size_t tenth = fine.triangles.size() / 10;
   const auto coarse = decimate(fine, tenth);
@@ -104,7 +104,7 @@ TEST(Decimate, AVaseToATenthStaysSoundAndNear) {
     ASSERT_NE(std::find(fine.points.begin(), fine.points.end(), p), fine.points.end());
 }
 
-TEST(Decimate, TheErrorIsMeasuredFromTheVerticesThatWent) {
+TEST(Decimate, MeasuresTheErrorFromRemovedVertices) {
   // A ball down to a few triangles: the largest gap is from a lost vertex to the surface, found
   // here by looking at all points of a dense net on it.
   const TriangleMesh fine = ball(10.0);
@@ -126,14 +126,14 @@ TEST(Decimate, TheErrorIsMeasuredFromTheVerticesThatWent) {
   EXPECT_GE(coarse->max_error_mm, farthest - 0.25);  // the net's half-width: sides of 20 mm by 60
 }
 
-TEST(Decimate, WithinTheLimitNothingIsDone) {
+TEST(Decimate, ReturnsAMeshWithinTheLimitUnchanged) {
   const auto same = decimate(cube(2.0), 12);
   ASSERT_TRUE(same);
   EXPECT_EQ(same->mesh, cube(2.0));
   EXPECT_EQ(same->max_error_mm, 0.0);
 }
 
-TEST(Decimate, SaysHowFarItCame) {
+TEST(Decimate, ReportsTheNumberReached) {
   // Two solids cannot have fewer than four triangles each.
   const auto stuck = decimate(together(cube(2.0), moved(cube(2.0), {9, 0, 0})), 7);
   ASSERT_FALSE(stuck);
@@ -142,7 +142,7 @@ TEST(Decimate, SaysHowFarItCame) {
   EXPECT_NE(stuck.error().message.find("below "), std::string::npos) << stuck.error().message;
 }
 
-TEST(Decimate, RefusesWhatIsNoClosedManifold) {
+TEST(Decimate, RefusesAMeshThatIsNotAClosedManifold) {
   TriangleMesh open = ball(5.0);
   open.triangles.pop_back();
   TriangleMesh fin = cube(2.0);
@@ -161,7 +161,7 @@ TEST(Decimate, RefusesWhatIsNoClosedManifold) {
   EXPECT_EQ(decimate(cube(2.0), 3).error().kind, ErrorKind::bad_input);
 }
 
-TEST(SurfaceDistance, IsLargestFromEitherSide) {
+TEST(SurfaceDistance, IsTheMaximumFromBothSides) {
   EXPECT_DOUBLE_EQ(surface_distance(cube(2.0), moved(cube(2.0), {0, 0, 0.5})), 0.5);
   // A spike of 3 on one of them, seen from either.
   TriangleMesh spiked = cube(2.0);

@@ -62,7 +62,7 @@ double reach_of(const TriangleMesh& mesh) {
   return reach;
 }
 
-TEST(Repair, LeavesASoundMeshAsItIs) {
+TEST(Repair, LeavesASoundMeshUnchanged) {
   TriangleMesh mesh = together(ball(10.0), inverted(ball(5.0)));
   mesh.points.push_back({50, 50, 50});
   const auto result = repair_mesh(mesh);
@@ -87,7 +87,7 @@ TEST(Repair, FillsTwoHolesOfManyEdges) {
   expect_mended(tube, volume, {{"hole filled", 2}});
 }
 
-TEST(Repair, TurnsAFlippedFace) {
+TEST(Repair, ReorientsAFlippedFace) {
   for (const std::size_t victim : {0u, 3u}) {
     TriangleMesh mesh = cube(2.0);
     std::swap(mesh.triangles[victim][0], mesh.triangles[victim][1]);
@@ -95,7 +95,7 @@ TEST(Repair, TurnsAFlippedFace) {
   }
 }
 
-TEST(Repair, TurnsShells) {
+TEST(Repair, ReorientsShells) {
   expect_mended(inverted(cube(2.0)), 8.0, {{"shell turned", 1}});
   const double outer = signed_volume(ball(10.0)), inner = signed_volume(ball(5.0));
   expect_mended(together(ball(10.0), ball(5.0)), outer - inner, {{"shell turned", 1}});
@@ -114,7 +114,7 @@ TEST(Repair, KeepsOneOfDuplicates) {
   expect_mended(mesh, 8.0, {{"duplicate triangle removed", 2}});
 }
 
-TEST(Repair, FusesSolidsThatShareAFace) {
+TEST(Repair, MergesSolidsThatShareAFace) {
   // Both have the square between them, back to back.
   expect_mended(
       together(cube(2.0), moved(cube(2.0), {0, 0, 2})), 16.0,
@@ -130,7 +130,7 @@ TEST(Repair, ClosesACrackOfOneUlp) {
   expect_mended(mesh, 8.0, {{"points welded across a crack", 1}});
 }
 
-TEST(Repair, MergesPointsOfOnePlace) {
+TEST(Repair, MergesDuplicatePoints) {
   TriangleMesh soup;
   for (const auto& t : cube(2.0).triangles) {
     const auto first = static_cast<std::uint32_t>(soup.points.size());
@@ -140,7 +140,7 @@ TEST(Repair, MergesPointsOfOnePlace) {
   expect_mended(soup, 8.0, {{"points of one place merged", 28}});
 }
 
-TEST(Repair, TakesFinsOff) {
+TEST(Repair, RemovesFins) {
   TriangleMesh mesh = cube(2.0);
   mesh.points.insert(mesh.points.end(), {{3, -3, 1}, {4, -4, 1}});
   mesh.triangles.push_back({0, 1, 8});
@@ -163,7 +163,7 @@ TEST(Repair, SplitsAVertexButLeavesTheSolidsTouching) {
   EXPECT_NEAR(report.volume_mm3, 16.0, 1e-12);
 }
 
-TEST(Repair, CutsAnEdgeWhereSolidsTouch) {
+TEST(Repair, SplitsAnEdgeWhereSolidsTouch) {
   const auto result = repair_mesh(together(cube(2.0), moved(cube(2.0), {2, 2, 0})));
   ASSERT_TRUE(result);
   EXPECT_EQ(times(*result, "non-manifold edge cut apart"), 1u) << names(*result);
@@ -181,7 +181,7 @@ TEST(Repair, RemovesASliver) {
   expect_mended(mesh, 8.0, {{"triangle without area removed", 1}});
 }
 
-TEST(Repair, DropsWhatHasNoPlace) {
+TEST(Repair, DropsInvalidTriangles) {
   TriangleMesh mesh = cube(2.0);
   mesh.points.push_back({std::numeric_limits<double>::quiet_NaN(), 0, 0});
   mesh.triangles.push_back({0, 1, 8});
@@ -195,7 +195,7 @@ TEST(Repair, DropsWhatHasNoPlace) {
   EXPECT_EQ(times(*lost_corner, "hole filled"), 1u);
 }
 
-TEST(Repair, LeavesWhatCrosses) {
+TEST(Repair, LeavesSelfIntersections) {
   const TriangleMesh mesh = together(cube(2.0), moved(cube(2.0), {1, 1, 1}));
   const auto result = repair_mesh(mesh);
   ASSERT_TRUE(result);
@@ -203,7 +203,7 @@ TEST(Repair, LeavesWhatCrosses) {
   EXPECT_EQ(check_mesh(result->mesh).self_intersections, check_mesh(mesh).self_intersections);
 }
 
-TEST(Repair, SaysWhenNothingIsLeft) {
+TEST(Repair, ReportsWhenNothingIsLeft) {
   for (const TriangleMesh& mesh :
        {TriangleMesh{}, TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 1}}},
         TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}},
@@ -214,7 +214,7 @@ TEST(Repair, SaysWhenNothingIsLeft) {
   }
 }
 
-RC_GTEST_PROP(Repair, OneTriangleLessOrTurnedIsAlwaysMended, (const ClayStack& stack)) {
+RC_GTEST_PROP(Repair, RepairsEveryRemovedOrFlippedTriangle, (const ClayStack& stack)) {
   const auto found = profile_of(stack);
   if (!found || !certify(found->profile)) RC_DISCARD("no certificate");
   const TriangleMesh mesh = revolve(found->profile, 5);
@@ -234,7 +234,7 @@ RC_GTEST_PROP(Repair, OneTriangleLessOrTurnedIsAlwaysMended, (const ClayStack& s
             1e-9 * signed_volume(mesh) + kCrack * reach_of(mesh) * surface_mm2(mesh));
 }
 
-RC_GTEST_PROP(Repair, AnySoupIsRepairedOrRefusedAndAlwaysTheSame, ()) {
+RC_GTEST_PROP(Repair, RepairsOrRefusesAnySoupDeterministically, ()) {
   TriangleMesh mesh;
   const auto points = *rc::gen::inRange<std::uint32_t>(1, 14);
   for (std::uint32_t i = 0; i < points; ++i)

@@ -47,7 +47,7 @@ RC_GTEST_PROP(LineTree, FindsTheNearestEdges, ()) {
   RC_ASSERT(std::abs(std::sqrt(LineTree(other).nearest2(tree, kFar)) - least) < 1e-9L);
 }
 
-TEST(LineTree, LeavesOutTheAxisAndKeepsItsBound) {
+TEST(LineTree, IgnoresTheAxisAndRespectsItsBound) {
   const LineTree axis({{0, 0}, {0, 10}});
   EXPECT_EQ(axis.nearest2({{1, 0}, {1, 10}}, 7.0), 7.0);
   const LineTree wall({{3, 0}, {3, 10}});

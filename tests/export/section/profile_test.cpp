@@ -53,7 +53,7 @@ TEST(ProfileOf, BoreOpenAtBothEndsWithAFloorBetweenIsACup) {
   EXPECT_EQ(found->shapes.at(0).topology, Topology::cup);
 }
 
-TEST(ProfileOf, CavitiesAreListedWithWhatTheyTrap) {
+TEST(ProfileOf, ListsCavitiesWithTheirVolume) {
   const auto found =
       profile_of(stack_of(2.0, {{10, 0}, {10, 3}, {10, 4}, {10, 0}, {10, 5}, {10, 0}}));
   ASSERT_TRUE(found);
@@ -67,14 +67,14 @@ TEST(ProfileOf, CavitiesAreListedWithWhatTheyTrap) {
   EXPECT_NEAR(shape.cavities[1].volume_mm3, kPi * 25 * 2, 1e-9);
 }
 
-TEST(ProfileOf, ACupMayHaveACavityBelowItsFloor) {
+TEST(ProfileOf, CupMayHaveACavityBelowItsFloor) {
   const auto found = profile_of(stack_of(1.0, {{9, 0}, {9, 4}, {9, 0}, {9, 6}}));
   ASSERT_TRUE(found);
   EXPECT_EQ(found->shapes.at(0).topology, Topology::cup);
   EXPECT_EQ(found->shapes[0].cavities.size(), 1u);
 }
 
-TEST(ProfileOf, RingsThatShareNoAnnulusPart) {
+TEST(ProfileOf, SeparatesRingsWithoutCommonAnnulus) {
   const auto found = profile_of(stack_of(1.0, {{10, 8}, {6, 0}, {6, 2}, {20, 10}}));
   ASSERT_TRUE(found);
   ASSERT_EQ(found->profile.pieces.size(), 3u);
@@ -83,7 +83,7 @@ TEST(ProfileOf, RingsThatShareNoAnnulusPart) {
   EXPECT_EQ(found->profile.pieces[2], (Polygon{{20, 3}, {20, 4}, {10, 4}, {10, 3}}));
 }
 
-TEST(ProfileOf, RingsThatTouchInACircleAreRefusedByName) {
+TEST(ProfileOf, RefusesRingsThatTouchInACircle) {
   for (const auto& radii : {std::vector<shapes::Radii>{{9, 2}, {5, 0}, {9, 5}},
                             std::vector<shapes::Radii>{{5, 2}, {9, 5}, {5, 0}}}) {
     const auto found = profile_of(stack_of(1.0, radii));
@@ -96,7 +96,7 @@ TEST(ProfileOf, RingsThatTouchInACircleAreRefusedByName) {
   EXPECT_NE(upper.error().message.find("rings 1 and 2"), std::string::npos);
 }
 
-TEST(ProfileOf, OneQuantumDecidesBetweenTouchingOverlappingAndParting) {
+TEST(ProfileOf, OneQuantumDecidesBetweenTouchOverlapAndSeparation) {
   const Quanta r2 = quanta_from_radius(5000.0);  // here neighbouring counts share a double
   const auto pieces = [&](Quanta bore2) {
     std::vector<Ring> rings{{r2 - 4, 0}, {r2, bore2}};
@@ -107,14 +107,14 @@ TEST(ProfileOf, OneQuantumDecidesBetweenTouchingOverlappingAndParting) {
   EXPECT_EQ(pieces(r2 - 3)->profile.pieces.size(), 2u);
 }
 
-TEST(ProfileOf, EmptyStackIsRefused) { EXPECT_FALSE(profile_of(ClayStack{})); }
+TEST(ProfileOf, RefusesAnEmptyStack) { EXPECT_FALSE(profile_of(ClayStack{})); }
 
-TEST(VolumeOf, FrustumOfACone) {
+TEST(VolumeOf, IsExactForAFrustum) {
   const Profile frustum{{{{3, 0}, {1, 6}, {0, 6}, {0, 0}}}};
   EXPECT_NEAR(volume_of(frustum), kPi * 6.0 / 3.0 * (9 + 3 + 1), 1e-12);
 }
 
-TEST(VolumeOf, TubeAndClockwiseTube) {
+TEST(VolumeOf, IsNegativeForAClockwiseTube) {
   const Profile tube{{{{5, 0}, {5, 4}, {3, 4}, {3, 0}}}};
   EXPECT_NEAR(volume_of(tube), kPi * (25 - 9) * 4, 1e-12);
   const Profile clockwise{{{{3, 0}, {3, 4}, {5, 4}, {5, 0}}}};
@@ -128,7 +128,7 @@ RC_GTEST_PROP(VolumeOf, ProfileHoldsTheCountedClay, (const ClayStack& stack)) {
             shapes::volume_rounding(stack));
 }
 
-RC_GTEST_PROP(ProfileOf, EveryRadiusAndLevelIsOneOfTheStack, (const ClayStack& stack)) {
+RC_GTEST_PROP(ProfileOf, UsesOnlyRadiiAndLevelsOfTheStack, (const ClayStack& stack)) {
   const auto found = profile_of(stack);
   if (!found) RC_DISCARD("touching rings");
   for (const Polygon& polygon : found->profile.pieces) {
@@ -142,7 +142,7 @@ RC_GTEST_PROP(ProfileOf, EveryRadiusAndLevelIsOneOfTheStack, (const ClayStack& s
   }
 }
 
-TEST(ProfileOf, NarrowStepsBecomeOneVertex) {
+TEST(ProfileOf, ReplacesNarrowStepsByOneVertex) {
   const ClayStack stack = stack_of(2.0, {{10, 0}, {11, 5}, {12, 6}, {20, 6}});
   const auto found = profile_of(stack, 1.5);
   ASSERT_TRUE(found);
@@ -155,7 +155,7 @@ TEST(ProfileOf, NarrowStepsBecomeOneVertex) {
   EXPECT_EQ(polygon[9], (ProfilePoint{0, 2}));   // and so does the floor
 }
 
-TEST(ProfileOf, ABoreAsNarrowAsAStepStillEndsOnAFloor) {
+TEST(ProfileOf, NarrowBoreStillEndsOnAFloor) {
   // Levelled, the floor would shrink to the tip of a cone, which no certificate lets pass.
   const auto found = profile_of(stack_of(1.0, {{10, 0}, {10, 5e-4}}), 1e-3);
   ASSERT_TRUE(found);
@@ -185,7 +185,7 @@ TEST(ProfileOf, LevellingKeepsTheVolumeToSecondOrder) {
   EXPECT_NEAR(volume_of(found->profile) / stack.volume_mm3(), 1.0, 1e-11);
 }
 
-TEST(ProfileOf, RadiiAreThoseOfTheCounts) {
+TEST(ProfileOf, RadiiEqualTheCounts) {
   const auto found = profile_of(stack_of(1.0, {{7.3, 0.1}}));
   EXPECT_EQ(found->profile.pieces.at(0).front().rho, exact_radius(7.3));
 }

@@ -36,7 +36,7 @@ Polygon wandering_line(std::mt19937_64& random, std::size_t count, double sidewa
   return line;
 }
 
-RC_GTEST_PROP(SimplifyLine, LeavesOutOnlyWhatLiesNearTheEdgeThatStays, ()) {
+RC_GTEST_PROP(SimplifyLine, RemovesOnlyPointsNearTheRemainingEdge, ()) {
   auto random = *samples::random_engine();
   const Polygon line =
       wandering_line(random, *rc::gen::inRange<std::size_t>(2, 300),
@@ -48,13 +48,13 @@ RC_GTEST_PROP(SimplifyLine, LeavesOutOnlyWhatLiesNearTheEdgeThatStays, ()) {
   RC_ASSERT(promise_kept(line, simplified(line, tolerances), tolerances));
 }
 
-TEST(SimplifyLine, AStraightLineIsItsEnds) {
+TEST(SimplifyLine, ReducesAStraightLineToItsEnds) {
   Polygon line;
   for (int i = 0; i <= 1000; ++i) line.push_back({5.0 + 0.3 * i, 0.7 * i});
   EXPECT_EQ(simplified(line, std::vector<double>(line.size(), 1e-6)).size(), 2u);
 }
 
-TEST(SimplifyLine, APointWithoutToleranceStays) {
+TEST(SimplifyLine, KeepsAPointWithoutTolerance) {
   Polygon line;
   for (int i = 0; i <= 100; ++i) line.push_back({5.0, 0.5 * i});
   std::vector<double> tolerances(line.size(), 1.0);
@@ -62,7 +62,7 @@ TEST(SimplifyLine, APointWithoutToleranceStays) {
   EXPECT_EQ(simplified(line, tolerances), (Polygon{line[0], line[30], line[100]}));
 }
 
-TEST(SimplifyLine, AnArcNeedsAsManyChordsAsItsSagitta) {
+TEST(SimplifyLine, ArcNeedsTheChordsOfItsSagitta) {
   // A chord between points on the arc may stray by the tolerance: 2 acos(1 - e / R) each.
   constexpr double kRadius = 50.0, kTolerance = 0.01;
   Polygon line;
@@ -76,7 +76,7 @@ TEST(SimplifyLine, AnArcNeedsAsManyChordsAsItsSagitta) {
   EXPECT_GE(static_cast<double>(made.size()), std::floor(chords));
 }
 
-TEST(SimplifyLine, NoOrderOfAMillionPointsIsHard) {
+TEST(SimplifyLine, IsFastForAMillionPointsInAnyOrder) {
   // Worst cases of Douglas and Peucker (a split beside an end each time) and of a search that
   // looks on for a farther point that would do.
   std::mt19937_64 random(11);
@@ -91,7 +91,7 @@ TEST(SimplifyLine, NoOrderOfAMillionPointsIsHard) {
   }
 }
 
-TEST(SimplifyLine, OnlyPointsBetweenEqualRadiiAreStraight) {
+TEST(SimplifyLine, RemovesExactlyCollinearPointsOnVerticals) {
   EXPECT_EQ(without_straight_points({{3, 0}, {3, 1}, {3, 1}, {3, 2}, {4, 2}, {4, 3}, {4.5, 4}}),
             (Polygon{{3, 0}, {3, 2}, {4, 2}, {4, 3}, {4.5, 4}}));
 }

@@ -39,7 +39,7 @@ TEST(Revolve, CylinderHasTheVolumeOfTheCircleForAnyNumberOfSegments) {
   }
 }
 
-TEST(Revolve, StandsUpright) {
+TEST(Revolve, HasZUp) {
   const TriangleMesh mesh = revolve(profile_from(4.0, {{10, 0}}), 8);
   double low = 1e9, high = -1e9;
   for (const glm::dvec3& p : mesh.points) {
@@ -50,7 +50,7 @@ TEST(Revolve, StandsUpright) {
   EXPECT_EQ(high, 4.0);
 }
 
-TEST(Revolve, EulerCharacteristicOfEachTopology) {
+TEST(Revolve, HasTheEulerCharacteristicOfEachTopology) {
   EXPECT_EQ(euler(revolve(profile_from(1, {{9, 0}, {9, 5}}), 12)), 2);          // cup: a sphere
   EXPECT_EQ(euler(revolve(profile_from(1, {{9, 4}, {9, 5}}), 12)), 0);          // tube: a torus
   EXPECT_EQ(euler(revolve(profile_from(1, {{9, 0}, {9, 5}, {9, 0}}), 12)), 4);  // two spheres
@@ -58,7 +58,7 @@ TEST(Revolve, EulerCharacteristicOfEachTopology) {
   EXPECT_EQ(euler(revolve(profile_from(1, {{3, 0}, {9, 5}, {3, 0}}), 12)), 4);  // three pieces
 }
 
-TEST(Revolve, CavityIsAShellTurnedInward) {
+TEST(Revolve, CavityIsAnInwardShell) {
   const TriangleMesh mesh = revolve(profile_from(2, {{9, 0}, {9, 5}, {9, 0}}), 16);
   const MeshReport report = check_mesh(mesh);
   EXPECT_TRUE(report.sound());
@@ -66,14 +66,14 @@ TEST(Revolve, CavityIsAShellTurnedInward) {
   EXPECT_NEAR(report.volume_mm3, kPi * (81 * 6 - 25 * 2), 1e-9);
 }
 
-TEST(Revolve, PointsInLineOnTheAxisMakeNoPole) {
+TEST(Revolve, CollinearPointsOnTheAxisMakeNoPole) {
   const Profile profile{{{{2, 0}, {2, 3}, {0, 3}, {0, 2}, {0, 1}, {0, 0}}}};
   const TriangleMesh mesh = revolve(profile, 8);
   EXPECT_EQ(mesh.points.size(), 2u * 8 + 2);
   EXPECT_TRUE(check_mesh(mesh).sound());
 }
 
-TEST(Revolve, IsSymmetricToTheLastBitAndFreeOfMinusZero) {
+TEST(Revolve, IsExactlySymmetricWithoutMinusZero) {
   for (const std::size_t n : {8u, 12u, 20u, 28u}) {
     const TriangleMesh mesh = revolve({{{{7.3, -0.0}, {7.3, 1.0}, {2.1, 1.0}, {2.1, -0.0}}}}, n);
     std::set<std::pair<double, double>> places;
@@ -89,7 +89,7 @@ TEST(Revolve, IsSymmetricToTheLastBitAndFreeOfMinusZero) {
   }
 }
 
-TEST(Revolve, GoesCounterclockwiseSeenFromAbove) {
+TEST(Revolve, IsCounterclockwiseSeenFromAbove) {
   const TriangleMesh mesh = revolve(profile_from(1.0, {{5, 2}}), 12);
   for (std::size_t s = 0; s < 12; ++s) {
     const double angle = std::atan2(mesh.points[s].y, mesh.points[s].x);
@@ -97,7 +97,7 @@ TEST(Revolve, GoesCounterclockwiseSeenFromAbove) {
   }
 }
 
-TEST(ChordalError, IsTheDistanceBetweenCircleAndPolygon) {
+TEST(ChordalError, EqualsTheDistanceBetweenCircleAndPolygon) {
   for (const std::size_t n : {3u, 8u, 100u}) {
     const TriangleMesh mesh = revolve(profile_from(1.0, {{10, 2}}), n);
     const glm::dvec3 a = mesh.points[0], b = mesh.points[1];
@@ -107,7 +107,7 @@ TEST(ChordalError, IsTheDistanceBetweenCircleAndPolygon) {
   }
 }
 
-RC_GTEST_PROP(SegmentsFor, IsTheFewestWithinTheTolerance, ()) {
+RC_GTEST_PROP(SegmentsFor, IsTheMinimumWithinTheTolerance, ()) {
   const double radius = *rc::gen::inRange(1, 5000000) * 1e-3;
   const double tolerance = std::pow(10.0, -*rc::gen::inRange(0, 50) / 10.0);
   const std::size_t n = segments_for(radius, tolerance);
@@ -123,7 +123,7 @@ TEST(SegmentsFor, StopsAtTheLimit) {
   EXPECT_EQ(segments_for(10.0, std::nan("")), kMaxSegments);
 }
 
-RC_GTEST_PROP(Revolve, CertifiedStacksBecomeSoundSolidsOfTheSameVolume, (const ClayStack& stack)) {
+RC_GTEST_PROP(Revolve, CertifiedStacksGiveSoundSolidsOfEqualVolume, (const ClayStack& stack)) {
   const auto found = profile_of(stack);
   if (!found || !certify(found->profile)) RC_DISCARD("no certificate");
   const auto segments = *rc::gen::inRange<std::size_t>(3, 24);

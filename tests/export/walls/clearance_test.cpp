@@ -14,18 +14,18 @@ namespace {
 
 constexpr double kRounding = 1e-11;  // far above ulps of a pot, far below any print
 
-TEST(Clearance, OfASquareIsItsSide) {
+TEST(Clearance, EqualsTheSideOfASquare) {
   const Clearance found = clearance({{{{10, 0}, {14, 0}, {14, 4}, {10, 4}}}});
   EXPECT_LE(found.distance_mm, 4.0);
   EXPECT_NEAR(found.distance_mm, 4.0, kRounding);
   EXPECT_EQ(found.least_radius_mm, 10.0);
 }
 
-TEST(Clearance, OfATriangleIsItsAltitude) {
+TEST(Clearance, EqualsTheAltitudeOfATriangle) {
   EXPECT_NEAR(clearance_mm({{{{10, 0}, {20, 0}, {15, 1}}}}), 1.0, kRounding);
 }
 
-TEST(Clearance, SeesAVertexCloseToAnEdge) {
+TEST(Clearance, FindsAVertexCloseToAnEdge) {
   // A notch whose tip ends 0.01 mm above the foot.
   const Clearance found =
       clearance({{{{10, 0}, {40, 0}, {40, 20}, {26, 20}, {25, 0.01}, {24, 20}, {10, 20}}}});
@@ -33,7 +33,7 @@ TEST(Clearance, SeesAVertexCloseToAnEdge) {
   EXPECT_EQ(found.at, (ProfilePoint{25, 0.01}));
 }
 
-TEST(Clearance, IsBetweenPiecesToo) {
+TEST(Clearance, IncludesDistancesBetweenPieces) {
   EXPECT_NEAR(clearance_mm({{{{10, 0}, {20, 0}, {20, 10}, {10, 10}},
                              {{12, 10.5}, {18, 10.5}, {18, 20}, {12, 20}}}}),
               0.5, kRounding);
@@ -83,13 +83,13 @@ void is_a_close_lower_bound(const Profile& profile) {
   }
 }
 
-RC_GTEST_PROP(Clearance, OfStepsIsALowerBound, (const ClayStack& stack)) {
+RC_GTEST_PROP(Clearance, IsALowerBoundForSteps, (const ClayStack& stack)) {
   const auto section = profile_of(stack);
   RC_PRE(section.has_value());
   is_a_close_lower_bound(section->profile);
 }
 
-RC_GTEST_PROP(Clearance, OfFairWallsIsALowerBound, ()) {
+RC_GTEST_PROP(Clearance, IsALowerBoundForFairWalls, ()) {
   auto random = *samples::random_engine();
   const auto count = *rc::gen::inRange<std::size_t>(1, 60);
   const auto section = shapes::fair_section(samples::stack(random, count, 0.7), 0.02);

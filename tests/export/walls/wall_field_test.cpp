@@ -16,7 +16,7 @@ namespace {
 
 using shapes::cup;
 
-TEST(WallField, NamesTheFaces) {
+TEST(WallField, LabelsTheFaces) {
   const Polygon pot{{0, 0}, {40, 0}, {40, 60}, {0, 60}, {0, 58}, {30, 58}, {30, 9}, {0, 9}};
   const auto field = wall_field({{pot}}, 1e3);
   const std::vector<WallFace> faces{WallFace::foot, WallFace::outer, WallFace::rim,
@@ -31,7 +31,7 @@ TEST(WallField, NamesTheFaces) {
   EXPECT_NEAR(field[3].thickness_mm, 2.0, 1e-12);
 }
 
-TEST(WallField, KeepsToTheSpacingAndTheMost) {
+TEST(WallField, RespectsSpacingAndLimit) {
   const auto field = wall_field({{cup(5, 8)}}, 0.5);
   for (std::size_t i = 1; i < field.size(); ++i)
     EXPECT_LE(field[i].arc_mm - field[i - 1].arc_mm, 0.5 + 1e-9);
@@ -40,7 +40,7 @@ TEST(WallField, KeepsToTheSpacingAndTheMost) {
   EXPECT_GT(many.size(), kMaxWallSamples / 2);
 }
 
-RC_GTEST_PROP(WallField, ComesDownToTheLeast, ()) {
+RC_GTEST_PROP(WallField, ConvergesToTheMinimumWall, ()) {
   auto random = *samples::random_engine();
   // Walls that change slowly, without sharp edges.
   constexpr double h = 0.3;

@@ -43,13 +43,13 @@ Polygon divided(const Polygon& polygon, int parts) {
   return points;
 }
 
-TEST(WallThickness, OfASolidIsItsDiameterOrItsHeight) {
+TEST(WallThickness, EqualsDiameterOrHeightOfASolid) {
   EXPECT_NEAR(wall_of({{0, 0}, {30, 0}, {30, 50}, {0, 50}}), 50.0, 1e-12);
   EXPECT_NEAR(wall_of({{0, 0}, {20, 0}, {20, 50}, {0, 50}}), 40.0, 1e-12);
   EXPECT_NEAR(wall_of({{0, 0}, {20, 0}, {8, 40}, {20, 80}, {0, 80}}), 16.0, 1e-12);  // waist
 }
 
-TEST(WallThickness, AcrossTheAxisCountsOnlyWhereThereIsClay) {
+TEST(WallThickness, CrossesTheAxisOnlyThroughClay) {
   // A narrow foot below, 20 mm across, and a wide bowl above.
   const Wall wall =
       min_wall({{{{0, 0}, {10, 0}, {10, 30}, {60, 50}, {60, 110}, {35, 110}, {35, 75}, {0, 75}}}});
@@ -60,21 +60,21 @@ TEST(WallThickness, AcrossTheAxisCountsOnlyWhereThereIsClay) {
   EXPECT_NEAR(wall_of({{2, 0}, {10, 0}, {10, 30}, {2, 30}}), 8.0, 1e-12);
 }
 
-TEST(WallThickness, OfACupIsItsWallOrItsFloor) {
+TEST(WallThickness, EqualsWallOrFloorOfACup) {
   for (const int parts : {1, 3, 40}) {
     EXPECT_NEAR(wall_of(divided(cup(5, 8), parts)), 5.0, 1e-12);
     EXPECT_NEAR(wall_of(divided(cup(5, 3), parts)), 3.0, 1e-12);
   }
 }
 
-TEST(WallThickness, TellsThePlace) {
+TEST(WallThickness, ReportsThePlace) {
   const Wall floor = min_wall({{cup(5, 3)}}), wall = min_wall({{cup(3, 5)}});
   EXPECT_NEAR(std::abs(floor.from.y - floor.to.y), 3.0, 1e-12);
   EXPECT_NEAR(floor.from.rho, floor.to.rho, 1e-12);
   EXPECT_NEAR(std::abs(wall.from.rho - wall.to.rho), 3.0, 1e-12);
 }
 
-TEST(WallThickness, OfALeaningWallIsMeasuredAcrossIt) {
+TEST(WallThickness, IsMeasuredAcrossALeaningWall) {
   // A conical tube leaning by 25 degrees: 4 mm along the radius are 4 cos 25 across.
   const double angle = 25.0 * M_PI / 180.0, lean = 60.0 * std::tan(angle);
   for (const int parts : {1, 7, 100})
@@ -84,7 +84,7 @@ TEST(WallThickness, OfALeaningWallIsMeasuredAcrossIt) {
   EXPECT_NEAR(wall_of({{40, 0}, {100, 60}, {96, 60}, {36, 0}}), 4.0 * std::cos(M_PI / 4), 1e-12);
 }
 
-TEST(WallThickness, OfASphericalShellIsTheSameAllRound) {
+TEST(WallThickness, IsConstantOnASphericalShell) {
   constexpr int kChords = 720;
   Polygon outside = arc({0, 0}, 50, -M_PI / 2, M_PI / 2, kChords);
   Polygon inside = arc({0, 0}, 46, M_PI / 2, -M_PI / 2, kChords);
@@ -97,7 +97,7 @@ TEST(WallThickness, OfASphericalShellIsTheSameAllRound) {
     EXPECT_NEAR(sample.thickness_mm, 4.0, 2.0 * sagitta) << sample.at.rho << ' ' << sample.at.y;
 }
 
-TEST(WallThickness, OfARoundSectionIsItsDiameter) {
+TEST(WallThickness, EqualsTheDiameterOfARoundSection) {
   Polygon ring = arc({30, 0}, 5, 0, 2 * M_PI, 720);
   ring.pop_back();
   // A chord's normal is off that of its ends by half a step, and opposite chords are off each other
@@ -111,7 +111,7 @@ TEST(WallThickness, OfARoundSectionIsItsDiameter) {
   }
 }
 
-TEST(WallThickness, OfAWedgeIsThatOfItsBluntEnd) {
+TEST(WallThickness, EqualsTheBluntEndOfAWedge) {
   // A lip that narrows from 8 mm to 1 mm, symmetric, by 4 degrees on each side.
   const Polygon lip{{40, 0}, {48, 0}, {44.5, 50}, {43.5, 50}};
   const Wall wall = min_wall({{lip}});
@@ -125,7 +125,7 @@ TEST(WallThickness, OfAWedgeIsThatOfItsBluntEnd) {
   EXPECT_LT(fine, 1.0 + 2.0 * std::tan(half));
 }
 
-TEST(WallThickness, OfABevelledLipIsTheDistanceOfItsCorner) {
+TEST(WallThickness, EqualsTheCornerDistanceOfABevelledLip) {
   // From the lower corner of the rim straight through to the middle of the outside.
   const Wall wall = min_wall({{{{40, 0}, {48, 0}, {48, 51}, {47, 50}}}});
   EXPECT_NEAR(wall.thickness_mm, 1.0, 1e-12);
@@ -133,9 +133,9 @@ TEST(WallThickness, OfABevelledLipIsTheDistanceOfItsCorner) {
   EXPECT_NEAR(wall.to.y, 50.0, 1e-9);
 }
 
-TEST(WallThickness, OfASharpEdgeIsNone) { EXPECT_EQ(wall_of({{40, 0}, {50, 0}, {45, 60}}), 0.0); }
+TEST(WallThickness, IgnoresASharpEdge) { EXPECT_EQ(wall_of({{40, 0}, {50, 0}, {45, 60}}), 0.0); }
 
-TEST(WallThickness, OfAFlangeIsItsHeightAndARidgeIsNone) {
+TEST(WallThickness, EqualsTheHeightOfAFlangeAndIgnoresARidge) {
   const auto with_flange = [](double out) {
     Polygon polygon = cup(5, 8);
     polygon.insert(polygon.begin() + 2, {{40, 30}, {40 + out, 30}, {40 + out, 32}, {40, 32}});
@@ -146,7 +146,7 @@ TEST(WallThickness, OfAFlangeIsItsHeightAndARidgeIsNone) {
   EXPECT_NEAR(with_flange(0.49), 5.0, 1e-12);
 }
 
-TEST(WallThickness, BetweenReentrantCornersIsTheirDistance) {
+TEST(WallThickness, EqualsTheDistanceOfReentrantCorners) {
   // Two blocks joined by a neck from (60, 26) to (63, 30), aslant.
   EXPECT_NEAR(wall_of({{40, 0},
                        {80, 0},
@@ -161,23 +161,23 @@ TEST(WallThickness, BetweenReentrantCornersIsTheirDistance) {
               5.0, 1e-12);
 }
 
-TEST(WallThickness, OfACavityCountsItsLid) {
+TEST(WallThickness, IncludesTheLidOfACavity) {
   EXPECT_NEAR(wall_of({{0, 0}, {40, 0}, {40, 60}, {0, 60}, {0, 58}, {30, 58}, {30, 9}, {0, 9}}),
               2.0, 1e-12);
 }
 
-TEST(WallThickness, OverACavityWithAPointIsMeasuredOnTheAxis) {
+TEST(WallThickness, IsMeasuredOnTheAxisAboveAPointedCavity) {
   EXPECT_NEAR(wall_of({{0, 0}, {40, 0}, {40, 60}, {0, 60}, {0, 55}, {25, 40}, {25, 20}, {0, 9}}),
               5.0, 1e-12);
 }
 
-TEST(WallThickness, OfPiecesIsTheThinnestPieces) {
+TEST(WallThickness, IsTheMinimumOverPieces) {
   const Polygon low{{20, 0}, {30, 0}, {30, 10}, {20, 10}},
       high{{20, 11}, {27, 11}, {27, 20}, {20, 20}};
   EXPECT_NEAR(min_wall_mm({{low, high}}), 7.0, 1e-12);
 }
 
-TEST(WallThickness, OfTheFacetsIsThatOfTheProfileScaled) {
+TEST(WallThickness, OfTheFacetsEqualsTheScaledProfile) {
   const double scale = std::cos(M_PI / 12);
   const Wall wall = min_wall({{cup(5, 8)}}, scale);
   EXPECT_NEAR(wall.thickness_mm, 5.0 * scale, 1e-12);
@@ -188,7 +188,7 @@ TEST(WallThickness, OfTheFacetsIsThatOfTheProfileScaled) {
 /// Stacks whose walls open or close upwards by less than a quarter of a ring's height at a time,
 /// and that are not much thicker than a ring is high. The engine does not look at flanges, such as
 /// a wider step near the rim would be, and looks at the rim's own corners as if the wall went on.
-RC_GTEST_PROP(WallThickness, OfStepsIsTheEnginesOwn, ()) {
+RC_GTEST_PROP(WallThickness, OfStepsMatchesTheEngine, ()) {
   auto random = *samples::random_engine();
   const auto count = *rc::gen::inRange<std::size_t>(1, 25);
   const double h = *rc::gen::element(0.3, 2.0, 15.0);
@@ -216,14 +216,14 @@ void agrees_with_the_definition(const Profile& profile, std::mt19937_64& random,
   RC_ASSERT(oracle.least_of_samples(random, margin) > wall.thickness_mm - 1e-9);
 }
 
-RC_GTEST_PROP(WallThickness, IsThatOfTheDefinitionForSteps, (const ClayStack& stack)) {
+RC_GTEST_PROP(WallThickness, MatchesTheDefinitionForSteps, (const ClayStack& stack)) {
   auto random = *samples::random_engine();
   const auto section = profile_of(stack);
   RC_PRE(section.has_value());
   agrees_with_the_definition(section->profile, random);
 }
 
-RC_GTEST_PROP(WallThickness, IsThatOfTheDefinitionForFairWalls, ()) {
+RC_GTEST_PROP(WallThickness, MatchesTheDefinitionForFairWalls, ()) {
   auto random = *samples::random_engine();
   const double h = *rc::gen::element(0.5, 3.0, 20.0);
   const ClayStack stack = samples::stack(random, *rc::gen::inRange<std::size_t>(2, 14), h);
@@ -233,7 +233,7 @@ RC_GTEST_PROP(WallThickness, IsThatOfTheDefinitionForFairWalls, ()) {
 }
 
 /// Wavy hoops: faces of every direction, many to a branch of the search.
-RC_GTEST_PROP(WallThickness, IsThatOfTheDefinitionForWavyHoops, ()) {
+RC_GTEST_PROP(WallThickness, MatchesTheDefinitionForWavyHoops, ()) {
   auto random = *samples::random_engine();
   const double depth = *rc::gen::element(0.1, 0.3, 0.6);
   const double turn = 6.28 * samples::uniform(random), waves = *rc::gen::inRange(2, 6);
@@ -248,7 +248,7 @@ RC_GTEST_PROP(WallThickness, IsThatOfTheDefinitionForWavyHoops, ()) {
   agrees_with_the_definition(profile, random, true);
 }
 
-RC_GTEST_PROP(WallThickness, MovesWithThePotAndScalesWithIt, ()) {
+RC_GTEST_PROP(WallThickness, TranslatesAndScalesWithThePot, ()) {
   auto random = *samples::random_engine();
   const auto section = shapes::fair_section(samples::stack(random, 12, 3.0), 0.02);
   RC_PRE(section.has_value() && certify(section->profile).has_value());

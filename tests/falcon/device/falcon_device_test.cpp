@@ -15,7 +15,7 @@ static_assert(noexcept(std::declval<HapticDevice&>().read(0)));
 static_assert(noexcept(std::declval<HapticDevice&>().write({})));
 static_assert(noexcept(std::declval<HapticDevice&>().stop()));
 
-TEST(FalconDevice, SeesTheGripWhereItIs) {
+TEST(FalconDevice, ReportsTheGripPosition) {
   auto settings = ready_model();
   settings.buttons = kButtonForward | kButtonMinus;
   FalconBench bench(settings);
@@ -34,7 +34,7 @@ TEST(FalconDevice, SeesTheGripWhereItIs) {
   EXPECT_EQ(bench.device->counters().without_pose, 0u);
 }
 
-TEST(FalconDevice, RendersTheForceAskedFor) {
+TEST(FalconDevice, RendersTheRequestedForce) {
   FalconBench bench(ready_model());
   ASSERT_TRUE(bench.device->open());
   for (const glm::dvec3& force :
@@ -47,7 +47,7 @@ TEST(FalconDevice, RendersTheForceAskedFor) {
   }
 }
 
-TEST(FalconDevice, CutsForcesAndSendsNoneThatIsNoNumber) {
+TEST(FalconDevice, LimitsForcesAndSendsZeroForNan) {
   FalconBench bench(ready_model());
   bench.grip = [](std::uint64_t) { return Kinematics::kCentreM; };
   ASSERT_TRUE(bench.device->open());
@@ -63,7 +63,7 @@ TEST(FalconDevice, CutsForcesAndSendsNoneThatIsNoNumber) {
   }
 }
 
-TEST(FalconDevice, TheLastPacketIsZeroAfterStop) {
+TEST(FalconDevice, LastPacketIsZeroAfterStop) {
   FalconBench bench(ready_model());
   ASSERT_TRUE(bench.device->open());
   bench.tick();
@@ -82,7 +82,7 @@ TEST(FalconDevice, TheLastPacketIsZeroAfterStop) {
   EXPECT_EQ(bench.model->motors(), LegCounts{}) << "closed with a force on";
 }
 
-TEST(FalconDevice, HasNoForceFromTheFrameOnThatLosesItsHoming) {
+TEST(FalconDevice, SendsZeroFromTheFrameThatLosesHoming) {
   FalconBench bench(ready_model());
   ASSERT_TRUE(bench.device->open());
   for (int i = 0; i < 10; ++i) bench.tick({3, 0, 0});
@@ -108,7 +108,7 @@ TEST(FalconDevice, ReadsTheNewestOfManyFrames) {
   EXPECT_FALSE(bench.device->read(0).fresh);
 }
 
-TEST(FalconDevice, DoesNotBelieveAnglesWithoutAPose) {
+TEST(FalconDevice, RejectsAnglesWithoutAPose) {
   auto settings = ready_model();
   settings.homed = false;
   settings.unhomed_offset = -5000;  // half a turn: every thigh points away from the user

@@ -30,14 +30,14 @@ TEST(FalconOpening, GoesFromPowerUpToReady) {
   EXPECT_NE(bench.model->motors(), LegCounts{});
 }
 
-TEST(FalconOpening, KeepsThePowerOnFirmware) {
+TEST(FalconOpening, KeepsLoadedFirmware) {
   FalconBench bench(ready_model());
   ASSERT_TRUE(bench.device->open());
   EXPECT_TRUE(bench.model->firmware().empty()) << "loaded though it ran already";
   EXPECT_EQ(bench.tick().state, DeviceState::ready);
 }
 
-TEST(FalconOpening, SaysThatFirmwareIsMissing) {
+TEST(FalconOpening, ReportsMissingFirmware) {
   FalconBench bench;
   const auto opened = bench.device->open();
   ASSERT_FALSE(opened);
@@ -47,7 +47,7 @@ TEST(FalconOpening, SaysThatFirmwareIsMissing) {
   EXPECT_EQ(bench.device->problem().fault, DeviceFault::no_firmware);
 }
 
-TEST(FalconOpening, TellsAFalconWithoutPowerFromOneWithoutFirmware) {
+TEST(FalconOpening, DistinguishesMissingPowerFromMissingFirmware) {
   FalconModelSettings dark;
   dark.power = false;
   FalconBench bench(dark);
@@ -57,7 +57,7 @@ TEST(FalconOpening, TellsAFalconWithoutPowerFromOneWithoutFirmware) {
   EXPECT_NE(opened.error().remedy.find("power supply"), std::string::npos);
 }
 
-TEST(FalconOpening, RefusesAFileBeforeAByteOfItIsSent) {
+TEST(FalconOpening, RefusesABadFileBeforeSendingIt) {
   FalconSettings settings;
   settings.firmware_path = "/dev/null";
   FalconBench bench({}, settings);
@@ -67,7 +67,7 @@ TEST(FalconOpening, RefusesAFileBeforeAByteOfItIsSent) {
   EXPECT_TRUE(bench.model->firmware().empty());
 }
 
-TEST(FalconOpening, RefusesNonsenseSettings) {
+TEST(FalconOpening, RefusesInvalidSettings) {
   const double nan = std::nan("");
   std::vector<FalconSettings> nonsense(7);
   nonsense[0].force_limit_n = 9.0;

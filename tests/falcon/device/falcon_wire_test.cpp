@@ -18,7 +18,7 @@ struct WireCase {
 
 class FaultyWire : public testing::TestWithParam<WireCase> {};
 
-TEST_P(FaultyWire, LosesAtMostTwoFramesAndBelievesNoWrongOne) {
+TEST_P(FaultyWire, LosesAtMostTwoFramesAndAcceptsNoWrongOne) {
   const auto& [fault, lost] = GetParam();
   FalconBench bench(ready_model());
   ASSERT_TRUE(bench.device->open());
@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(
                     WireCase{WireFault::half_frame, 1}, WireCase{WireFault::bad_nibble, 1},
                     WireCase{WireFault::no_frame, 1}, WireCase{WireFault::stale_frame, 0}));
 
-TEST(FalconWire, TellsThatItWasUnpluggedAndComesBack) {
+TEST(FalconWire, ReportsUnpluggingAndReconnects) {
   const FirmwareFile firmware;
   FalconSettings settings;
   settings.firmware_path = firmware.path();
@@ -69,7 +69,7 @@ TEST(FalconWire, TellsThatItWasUnpluggedAndComesBack) {
   EXPECT_EQ(bench.model->motors(), LegCounts{});
 }
 
-TEST(FalconWire, IsAtFaultWhenItFallsSilent) {
+TEST(FalconWire, ReportsAFaultWhenTheDeviceIsSilent) {
   FalconBench bench(ready_model());
   ASSERT_TRUE(bench.device->open());
   bench.tick();
@@ -82,7 +82,7 @@ TEST(FalconWire, IsAtFaultWhenItFallsSilent) {
   EXPECT_EQ(bench.device->problem().fault, DeviceFault::no_answer);
 }
 
-TEST(FalconWire, IsNotAtFaultWhenTheHostPauses) {
+TEST(FalconWire, ReportsNoFaultWhenTheHostPauses) {
   FalconBench bench(ready_model());
   ASSERT_TRUE(bench.device->open());
   bench.tick();

@@ -23,7 +23,7 @@ DeviceFault fault_of(const std::vector<std::uint8_t>& bytes) {
   return parsed ? DeviceFault::not_found : parsed.error().fault;
 }
 
-TEST(Firmware, IsReadToItsLastByte) {
+TEST(Firmware, ReadsTheWholeFile) {
   const auto parsed = parse_firmware(dummy_firmware(300, 3), "f");
   ASSERT_TRUE(parsed);
   EXPECT_EQ(parsed->bytes.size(), 2u * (1 + 8 + 2 + 3 * (3 + 300) + 1));
@@ -31,7 +31,7 @@ TEST(Firmware, IsReadToItsLastByte) {
   EXPECT_EQ(parsed->blocks, 3u);
 }
 
-TEST(Firmware, IsRefusedWhenCutAnywhere) {
+TEST(Firmware, RefusesEveryTruncation) {
   const auto whole = dummy_firmware(20, 2);
   for (std::size_t size = 0; size < whole.size(); ++size)
     EXPECT_EQ(fault_of({whole.begin(), whole.begin() + static_cast<long>(size)}),
@@ -42,7 +42,7 @@ TEST(Firmware, IsRefusedWhenCutAnywhere) {
   EXPECT_EQ(fault_of(longer), DeviceFault::bad_firmware);
 }
 
-TEST(Firmware, IsRefusedWithAnotherHeader) {
+TEST(Firmware, RefusesAnotherHeader) {
   for (std::size_t at = 0; at < 2 * (1 + 8); ++at) {
     auto bytes = dummy_firmware();
     bytes[at] ^= 1;
@@ -71,7 +71,7 @@ std::string refusal_at(std::size_t block, std::uint32_t address) {
   return parsed ? "" : parsed.error().what;
 }
 
-TEST(Firmware, BlocksOutsideTheMemoryAreRefusedWithTheirPlace) {
+TEST(Firmware, RefusesBlocksOutsideTheMemory) {
   EXPECT_EQ(refusal_at(2, 0x3FFFECu), "");  // its last word is the last there is
   const std::string place = "f: expected a TI C28x boot stream; at byte 120 of 162: ";
   for (const auto& [address, text] :
@@ -82,7 +82,7 @@ TEST(Firmware, BlocksOutsideTheMemoryAreRefusedWithTheirPlace) {
                   text);
 }
 
-TEST(Firmware, BlocksThatOverlapAreRefusedWithTheirPlace) {
+TEST(Firmware, RefusesOverlappingBlocks) {
   // The first block fills 3F8000 to 3F8013, the second 3F8014 to 3F8027.
   for (const auto& [address, other] : {std::pair{0x3F8014u, "3F8014"},
                                        {0x3F8027u, "3F8014"},
@@ -94,7 +94,7 @@ TEST(Firmware, BlocksThatOverlapAreRefusedWithTheirPlace) {
   EXPECT_EQ(refusal_at(2, 0x3F7FECu), "");
 }
 
-RC_GTEST_PROP(Firmware, OfAnyBytesIsReadOrRefused, (std::vector<std::uint8_t> bytes)) {
+RC_GTEST_PROP(Firmware, ReadsOrRefusesAnyBytes, (std::vector<std::uint8_t> bytes)) {
   auto spoilt = dummy_firmware(4, 2);
   const auto at = *rc::gen::inRange<std::size_t>(0, spoilt.size());
   spoilt.insert(spoilt.begin() + static_cast<long>(at), bytes.begin(), bytes.end());
@@ -102,7 +102,7 @@ RC_GTEST_PROP(Firmware, OfAnyBytesIsReadOrRefused, (std::vector<std::uint8_t> by
   if (!parsed) RC_ASSERT(parsed.error().what.starts_with("name of the file: expected"));
 }
 
-TEST(Firmware, FileIsRefusedByName) {
+TEST(Firmware, ErrorsNameTheFile) {
   for (const char* path : {"/nonexistent/firmware.bin", "/"}) {
     const auto read = read_firmware(path);
     ASSERT_FALSE(read);
@@ -113,7 +113,7 @@ TEST(Firmware, FileIsRefusedByName) {
   EXPECT_FALSE(read_firmware("/dev/null"));
 }
 
-TEST(LoadFirmware, ArrivesAsItWasSent) {
+TEST(LoadFirmware, SendsTheFileUnchanged) {
   const auto model = std::make_shared<FalconModel>(FalconModelSettings{}, still());
   LoopbackTransport line(model, Pace::virtual_);
   ASSERT_TRUE(line.open());
@@ -123,7 +123,7 @@ TEST(LoadFirmware, ArrivesAsItWasSent) {
   EXPECT_EQ(model->firmware(), firmware.bytes);
 }
 
-TEST(LoadFirmware, StartsAnewWhenAnEchoIsWrongAndSaysSoInTheEnd) {
+TEST(LoadFirmware, RestartsOnAWrongEchoAndFinallyReportsIt) {
   const Firmware firmware = parse_firmware(dummy_firmware(), "f").value();
   for (const int attempts : {2, 3}) {
     FalconModelSettings settings;
@@ -141,7 +141,7 @@ TEST(LoadFirmware, StartsAnewWhenAnEchoIsWrongAndSaysSoInTheEnd) {
   }
 }
 
-TEST(LoadFirmware, NamesThePowerSupplyWhenNothingAnswers) {
+TEST(LoadFirmware, ReportsThePowerSupplyWithoutAnyAnswer) {
   FalconModelSettings settings;
   settings.power = false;
   LoopbackTransport line(std::make_shared<FalconModel>(settings, still()), Pace::virtual_);
@@ -184,7 +184,7 @@ class ZeroFirst final : public Transport {
   bool zero_ = false;
 };
 
-TEST(LoadFirmware, PassesOverAZeroBeforeTheGreeting) {
+TEST(LoadFirmware, SkipsAZeroBeforeTheGreeting) {
   ZeroFirst line(std::make_shared<FalconModel>(FalconModelSettings{}, still()));
   ASSERT_TRUE(line.open());
   EXPECT_TRUE(load_firmware(line, parse_firmware(dummy_firmware(), "f").value(), 1));

@@ -53,13 +53,13 @@ std::vector<StateFrame> read_text(std::string_view text) {
   return read_all(reader, bytes);
 }
 
-TEST(Encode, WritesTheLeastNibbleFirst) {
+TEST(Encode, WritesTheLowestNibbleFirst) {
   const EncodedFrame frame = encode({.motors = {-1447, 0, 1}});
   EXPECT_EQ(text_of(frame), "<JFKPAAAABAAAAA>");
   EXPECT_FALSE(frame.saturated);
 }
 
-TEST(Encode, PutsHomingAndLightsInTheStatusByte) {
+TEST(Encode, StoresHomingAndLightsInTheStatusByte) {
   EXPECT_EQ(encode({.homing = true}).bytes[13], 'A' + 1);
   EXPECT_EQ(encode({.green = true}).bytes[13], 'A' + 2);
   EXPECT_EQ(encode({.blue = true}).bytes[13], 'A' + 4);
@@ -67,7 +67,7 @@ TEST(Encode, PutsHomingAndLightsInTheStatusByte) {
   EXPECT_EQ(encode({.homing = true, .green = true, .blue = true, .red = true}).bytes[13], 'P');
 }
 
-TEST(Encode, HoldsMotorsAtTheirLimitAndSaysSo) {
+TEST(Encode, SaturatesMotorsAndReportsIt) {
   for (const auto& [motors, saturated] : {std::pair{LegCounts{4095, -4095, 4095}, false},
                                           std::pair{LegCounts{4096, -4095, 4095}, true},
                                           std::pair{LegCounts{4095, -4096, 4095}, true},
@@ -78,7 +78,7 @@ TEST(Encode, HoldsMotorsAtTheirLimitAndSaysSo) {
   }
 }
 
-RC_GTEST_PROP(Encode, WritesEveryMotorAsItsHexadecimalDigits, ()) {
+RC_GTEST_PROP(Encode, WritesEveryMotorAsHexadecimalDigits, ()) {
   const auto motor = [] { return *rc::gen::inRange<std::int16_t>(-4095, 4096); };
   const LegCounts motors = {motor(), motor(), motor()};
   const EncodedFrame frame = encode({.motors = motors});
@@ -96,7 +96,7 @@ TEST(FrameReader, ReadsAFrame) {
   EXPECT_TRUE(frames[0].all_homed());
 }
 
-TEST(FrameReader, TellsButtonsAndLegsApart) {
+TEST(FrameReader, DecodesButtonsAndLegsSeparately) {
   for (const std::uint8_t button : {kButtonPlus, kButtonForward, kButtonCentre, kButtonMinus})
     for (std::size_t leg = 0; leg < 3; ++leg) {
       StateFrame sent{.buttons = button};
@@ -107,7 +107,7 @@ TEST(FrameReader, TellsButtonsAndLegsApart) {
     }
 }
 
-TEST(FrameReader, RefusesWhatNoDeviceSends) {
+TEST(FrameReader, RefusesInvalidFrames) {
   const std::string good = "<JFKPAAAABAAAAA>";
   ASSERT_EQ(read_text(good).size(), 1u);
   for (std::size_t at = 0; at < kFrameBytes; ++at) {
@@ -126,7 +126,7 @@ TEST(FrameReader, RefusesWhatNoDeviceSends) {
   }
 }
 
-TEST(FrameReader, DoesNotTakeTheEndOfAShortFrameForItsStatus) {
+TEST(FrameReader, DoesNotReadTheEndOfAShortFrameAsStatus) {
   EXPECT_TRUE(read_text("<JFKPAAAABAAA><JFKPAAAABAAA>").empty());
   EXPECT_EQ(read_text("<JFKPAAAABAAA><JFKPAAAABAAAAA>").size(), 1u);
 }
@@ -158,7 +158,7 @@ RC_GTEST_PROP(FrameReader, ReadsFramesInChunksOfAnySize, ()) {
   RC_ASSERT(reader.pending() == 0u);
 }
 
-RC_GTEST_PROP(FrameReader, AccountsForEveryByteOfNoise, ()) {
+RC_GTEST_PROP(FrameReader, CountsEveryByteOfNoise, ()) {
   // Mostly bytes that may stand in a frame, or none would ever be found.
   const auto byte =
       rc::gen::weightedOneOf<std::uint8_t>({{12, rc::gen::inRange<std::uint8_t>('A', 'P' + 1)},
@@ -220,7 +220,7 @@ void plant_fault(Faulty& stretch) {
 
 // One fault in each four frames. A frame that a fault touched may come through if what it says is
 // unharmed; every other must, and nothing that was never sent.
-RC_GTEST_PROP(FrameReader, LosesOnlyTheFramesThatAFaultTouches, ()) {
+RC_GTEST_PROP(FrameReader, LosesOnlyTheFramesOfAFault, ()) {
   FrameReader reader;
   std::int16_t number = 0;
   std::size_t lost = 0, faults = 0;
@@ -247,7 +247,7 @@ RC_GTEST_PROP(FrameReader, LosesOnlyTheFramesThatAFaultTouches, ()) {
   RC_ASSERT(lost <= 2 * faults);
 }
 
-TEST(FrameReader, LosesOneFrameForALostOrSpoiltByte) {
+TEST(FrameReader, LosesOneFrameForALostOrDamagedByte) {
   std::string good;
   for (int i = 0; i < 4; ++i) good += "<JFKPAAAABAAAAA>";
   for (std::size_t at = 0; at < good.size(); ++at) {

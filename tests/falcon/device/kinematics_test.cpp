@@ -35,7 +35,7 @@ glm::dvec3 end_of(const Geometry& g, int leg, const Chain& t) {
          g.grip_radial_m * along - g.grip_lateral_m * aside;
 }
 
-RC_GTEST_PROP(ThighAngle, UndoesTheChainOfLinks, ()) {
+RC_GTEST_PROP(ThighAngle, InvertsTheChainOfLinks, ()) {
   const Geometry g = *rc::gen::element(0, 1) ? kLibnifalconGeometry : kMartinHillierGeometry;
   const int leg = *rc::gen::inRange(0, 3);
   const double thigh = within(-0.5, 1.8), elbow = within(0.2, 2.4);
@@ -62,7 +62,7 @@ TEST(Inverse, NamesTheLegThatCannotReach) {
   }
 }
 
-TEST(Inverse, RefusesWhatIsFarOrNoPlace) {
+TEST(Inverse, RefusesFarAndInvalidPositions) {
   const Kinematics device(kLibnifalconGeometry);
   const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
   for (const double bad : {0.3, -0.3, nan, inf, -inf, 1e300})
@@ -70,7 +70,7 @@ TEST(Inverse, RefusesWhatIsFarOrNoPlace) {
       EXPECT_FALSE(device.inverse(glm::mix(Kinematics::kCentreM, glm::dvec3(bad), axis))) << bad;
 }
 
-TEST(Inverse, RefusesAShinLaidAllAcross) {
+TEST(Inverse, RefusesAFlatShin) {
   Geometry g = kLibnifalconGeometry;
   g.base_lateral_m = 0.0;
   g.grip_lateral_m = g.shin_m;
@@ -80,7 +80,7 @@ TEST(Inverse, RefusesAShinLaidAllAcross) {
   EXPECT_TRUE(Kinematics(g).jacobian({0, 0, 0.06}));
 }
 
-TEST(Forward, AtCountZeroStandsWhereTheTrianglesPutIt) {
+TEST(Forward, AtCountZeroMatchesTheTriangles) {
   // On the axis all legs are alike: the height is a sin t1 plus a cathetus of the shin.
   const auto height = [](const Geometry& g) {
     const double v = g.grip_lateral_m - g.base_lateral_m, u = g.grip_radial_m - g.base_radial_m;
@@ -97,7 +97,7 @@ TEST(Forward, AtCountZeroStandsWhereTheTrianglesPutIt) {
   }
 }
 
-RC_GTEST_PROP(Forward, UndoesInverseFromAColdStart, ()) {
+RC_GTEST_PROP(Forward, InvertsInverseFromAColdStart, ()) {
   const Kinematics& device = any_device();
   const glm::dvec3 position = anywhere();
   const auto found = device.forward(device.inverse(position).value());
@@ -105,7 +105,7 @@ RC_GTEST_PROP(Forward, UndoesInverseFromAColdStart, ()) {
   RC_ASSERT(glm::distance(*found, position) < 1e-14);
 }
 
-RC_GTEST_PROP(Forward, UndoesInverseFromAnyStartInTheWorkspace, ()) {
+RC_GTEST_PROP(Forward, InvertsInverseFromAnyStartInTheWorkspace, ()) {
   const Kinematics& device = any_device();
   const glm::dvec3 position = anywhere();
   const auto found = device.forward(device.inverse(position).value(), anywhere());
@@ -126,7 +126,7 @@ RC_GTEST_PROP(Forward, FindsThePoseOfAnyCountsTheArmsReach, ()) {
 
 // Far beyond what the arms allow, as encoders read before homing: a pose of these angles, or an
 // error. (Where a leg is almost straight its angle moves much for little.)
-RC_GTEST_PROP(Forward, NeverMakesUpAPose, ()) {
+RC_GTEST_PROP(Forward, NeverReturnsAFalsePose, ()) {
   const Kinematics& device = any_device();
   const auto counts = *rc::gen::container<LegCounts>(rc::gen::arbitrary<std::int16_t>());
   const glm::dvec3 angles = device.angles_of(counts);
@@ -138,7 +138,7 @@ RC_GTEST_PROP(Forward, NeverMakesUpAPose, ()) {
     RC_ASSERT(std::abs(std::remainder((*back)[leg] - angles[leg], 2 * kPi)) < 1e-6);
 }
 
-TEST(Forward, ReportsAnglesOfNoPose) {
+TEST(Forward, ReportsAnglesWithoutAPose) {
   const Kinematics device(kLibnifalconGeometry);
   const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
   // With all thighs straight down the axis is to the inner side of each: no knee is outward.
@@ -157,7 +157,7 @@ TEST(Kinematics, NamesTheLegsAsTheUserSeesThem) {
   EXPECT_LT(std::cos(left), -0.7);
 }
 
-RC_GTEST_PROP(Kinematics, TurnsWithItsLegs, ()) {
+RC_GTEST_PROP(Kinematics, RotatesWithItsLegs, ()) {
   const Kinematics& device = any_device();
   const glm::dvec3 p = anywhere(), angles = device.inverse(p).value();
   // A third of a turn clockwise takes each leg to the next.
@@ -167,7 +167,7 @@ RC_GTEST_PROP(Kinematics, TurnsWithItsLegs, ()) {
   RC_ASSERT(glm::distance(device.inverse(turned).value(), expected) < 1e-13);
 }
 
-RC_GTEST_PROP(Jacobian, IsTheSlopeOfTheAngles, ()) {
+RC_GTEST_PROP(Jacobian, EqualsTheSlopeOfTheAngles, ()) {
   const Kinematics& device = any_device();
   const glm::dvec3 position = anywhere();
   const glm::dmat3 jacobian = device.jacobian(position).value();
@@ -191,7 +191,7 @@ RC_GTEST_PROP(Torques, DoTheWorkOfTheForce, ()) {
   RC_ASSERT(std::abs(work - glm::dot(force, step)) <= 1e-9 * glm::length(force) * 2e-5);
 }
 
-RC_GTEST_PROP(Torques, GiveAsMuchPowerAsTheHandTakes, ()) {
+RC_GTEST_PROP(Torques, EqualThePowerOfTheHand, ()) {
   const Kinematics& device = any_device();
   const glm::dvec3 position = anywhere(), force = any_vector(8.0), velocity = any_vector(1.0);
   const glm::dvec3 torques = device.torques(position, force).value();
@@ -201,7 +201,7 @@ RC_GTEST_PROP(Torques, GiveAsMuchPowerAsTheHandTakes, ()) {
 }
 
 // The force that torques make, by slopes of the angles taken numerically: F = J^T torques.
-RC_GTEST_PROP(Torques, PushInTheDirectionAskedFor, ()) {
+RC_GTEST_PROP(Torques, PushInTheRequestedDirection, ()) {
   const Kinematics& device = any_device();
   const glm::dvec3 position = anywhere(), force = any_vector(8.0);
   RC_PRE(glm::length(force) > 1e-3);
@@ -218,7 +218,7 @@ RC_GTEST_PROP(Torques, PushInTheDirectionAskedFor, ()) {
 
 // Whole counts turn it a little: each torque is off by half a count at most, and the three forces
 // that torques of one count make bound what that does.
-RC_GTEST_PROP(Torques, InWholeCountsKeepTheDirectionToTheCount, ()) {
+RC_GTEST_PROP(Torques, InWholeCountsKeepTheDirectionWithinACount, ()) {
   const Kinematics& device = any_device();
   const glm::dvec3 position = anywhere(), force = any_vector(20.0);  // often beyond the motors
   const MotorCounts motors = motor_counts(device.torques(position, force).value());
@@ -232,7 +232,7 @@ RC_GTEST_PROP(Torques, InWholeCountsKeepTheDirectionToTheCount, ()) {
   RC_ASSERT(glm::distance(felt, motors.rendered * force) <= off);
 }
 
-TEST(Torques, ReportALegWhoseShinsLieFlat) {
+TEST(Torques, ReportALegWithFlatShins) {
   // A device made for it: on its axis at this height all shins are horizontal, and none can push
   // along z.
   Geometry g = kLibnifalconGeometry;

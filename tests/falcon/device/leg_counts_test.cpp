@@ -24,7 +24,7 @@ TEST(Encoder, HasTheResolutionOfWheelAndGear) {
   EXPECT_EQ(turn.z, 0.0);
 }
 
-RC_GTEST_PROP(Encoder, CountsWhatItReads, ()) {
+RC_GTEST_PROP(Encoder, InvertsItsReading, ()) {
   const Kinematics& device = any_device();
   const auto counts = *rc::gen::container<LegCounts>(rc::gen::arbitrary<std::int16_t>());
   const glm::dvec3 angles = device.angles_of(counts);
@@ -51,7 +51,7 @@ RC_GTEST_PROP(Encoder, CoversTheWorkspaceWithin1600Counts, ()) {
   for (const std::int16_t count : counts.value()) RC_ASSERT(std::abs(count) <= 1600);
 }
 
-TEST(MotorCounts, AreTheTorquesTurnedRound) {
+TEST(MotorCounts, AreTheNegatedTorques) {
   const MotorCounts motors = motor_counts({0.1, -0.2, 0.00026}, 10000.0);
   EXPECT_EQ(motors.counts, (LegCounts{-1000, 2000, -3}));
   EXPECT_EQ(motors.rendered, 1.0);

@@ -24,7 +24,7 @@ Bytes report(std::uint8_t number, const std::vector<int>& values) {
   return bytes;
 }
 
-TEST(SpaceMouseReports, TurnTheAxesIntoTheDeviceFrame) {
+TEST(SpaceMouseReports, ConvertAxesToTheDeviceFrame) {
   SpaceMouseReports reports;
   // Raw: x right, y to the user, z down. Device: x right, y up, z to the user.
   EXPECT_TRUE(reports.take(report(1, {350, 0, 0})));
@@ -37,7 +37,7 @@ TEST(SpaceMouseReports, TurnTheAxesIntoTheDeviceFrame) {
   EXPECT_EQ(reports.deflection(), glm::dvec3(-0.5, 0, 0));
 }
 
-TEST(SpaceMouseReports, TakeTheLongFormAndLeaveRotationAlone) {
+TEST(SpaceMouseReports, ReadTheLongFormAndIgnoreRotation) {
   SpaceMouseReports reports;
   EXPECT_TRUE(reports.take(report(1, {350, -350, 0, 1, 2, 3})));
   const glm::dvec3 moved(1, 0, -1);
@@ -46,7 +46,7 @@ TEST(SpaceMouseReports, TakeTheLongFormAndLeaveRotationAlone) {
   EXPECT_EQ(reports.deflection(), moved);
 }
 
-TEST(SpaceMouseReports, NeverExceedTheFullWay) {
+TEST(SpaceMouseReports, NeverExceedFullDeflection) {
   SpaceMouseReports reports;
   EXPECT_TRUE(reports.take(report(1, {32767, -32768, 500})));
   EXPECT_EQ(reports.deflection(), glm::dvec3(1, -1, -1));
@@ -64,7 +64,7 @@ TEST(SpaceMouseReports, ReadButtonsOfEverySize) {
   EXPECT_EQ(reports.buttons(), 0u);
 }
 
-RC_GTEST_PROP(SpaceMouseReports, PassOverWhatIsTooShortOrUnknown, ()) {
+RC_GTEST_PROP(SpaceMouseReports, IgnoreShortAndUnknownReports, ()) {
   SpaceMouseReports reports;
   RC_ASSERT(reports.take(report(1, {35, 70, 105})));
   const glm::dvec3 before = reports.deflection();
@@ -75,7 +75,7 @@ RC_GTEST_PROP(SpaceMouseReports, PassOverWhatIsTooShortOrUnknown, ()) {
   if (!translation) RC_ASSERT(reports.deflection() == before);
 }
 
-TEST(SpaceMouseModels, AreTheSixAxisOnesEachOnce) {
+TEST(SpaceMouseModels, ListEachSixAxisModelOnce) {
   std::set<std::pair<int, int>> ids;
   for (const SpaceMouseModel& model : space_mouse_models()) {
     EXPECT_TRUE(ids.emplace(model.vendor, model.product).second);
@@ -87,7 +87,7 @@ TEST(SpaceMouseModels, AreTheSixAxisOnesEachOnce) {
     EXPECT_FALSE(ids.count({0x256f, keypad}));
 }
 
-TEST(RateControl, GoesAtTheSpeedSet) {
+TEST(RateControl, MovesAtTheSetSpeed) {
   RateControl control({});
   const SpaceMouseSettings settings;
   control.advance({1, 0, 0}, 1'000'000);
@@ -96,7 +96,7 @@ TEST(RateControl, GoesAtTheSpeedSet) {
   EXPECT_EQ(control.position_mm().y, 0.0);
 }
 
-TEST(RateControl, StandsStillInTheDeadZoneAndStartsFromRestBeyond) {
+TEST(RateControl, IsStillInTheDeadZoneAndContinuousBeyond) {
   RateControl control({});
   control.advance({0, 0.05, 0}, 1);
   for (int i = 0; i < 1000; ++i) control.advance({0, 0.05, 0}, 1 + 1000 * i);

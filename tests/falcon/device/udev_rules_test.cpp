@@ -33,7 +33,7 @@ bool covers(const std::string& rule, const SpaceMouseModel& model) {
   return names(digits(model.vendor)) && (!names("idProduct") || names(digits(model.product)));
 }
 
-TEST(UdevRules, CoverEveryDeviceAndSortBeforeTheSeats) {
+TEST(UdevRules, CoverEveryDeviceAndSortBeforeSeatRules) {
   const auto lines = rules();
   ASSERT_GE(lines.size(), 4u);
   for (const std::string& rule : lines)

@@ -31,7 +31,7 @@ HandSpec guiding(double stiffness, double damping, double push = 0.0) {
   return hand;
 }
 
-RC_GTEST_PROP(SimulatedArm, FollowsTheFormulaOfADampedMassAtEveryRate, ()) {
+RC_GTEST_PROP(SimulatedArm, MatchesADampedMassAtEveryRate, ()) {
   const double rate = within(100, 8000), m = within(0.1, 0.5), b = within(0.1, 20.0);
   const double force = within(-8.0, 8.0);
   SimulatedArm arm = built(undelayed(rate, m, b));
@@ -45,7 +45,7 @@ RC_GTEST_PROP(SimulatedArm, FollowsTheFormulaOfADampedMassAtEveryRate, ()) {
   RC_ASSERT(arm.position_m().x == 0.0 && arm.position_m().z == 0.0);
 }
 
-TEST(SimulatedArm, WithoutDampingFallsByTheSquareOfTime) {
+TEST(SimulatedArm, WithoutDampingMovesWithTheSquareOfTime) {
   SimulatedArm arm = built(undelayed(1000, 0.25, 0.0));
   for (int k = 0; k < 100; ++k) arm.advance({0, 0, -2.0});
   EXPECT_NEAR(arm.position_m().z, -0.5 * 8.0 * 0.01, 1e-15);
@@ -106,7 +106,7 @@ RC_GTEST_PROP(SimulatedArm, AgreesWithSmallStepsWhenAHandGuidesIt, ()) {
   }
 }
 
-RC_GTEST_PROP(SimulatedArm, OnePeriodIsAsGoodAsMany, ()) {
+RC_GTEST_PROP(SimulatedArm, OnePeriodEqualsManyShorterOnes, ()) {
   const double m = within(0.1, 0.5), b = within(0.0, 20.0), force = within(-5.0, 5.0);
   const HandSpec hand = guiding(within(0.0, 2000.0), within(0.0, 20.0));
   SimulatedArm slow = built(undelayed(100, m, b), hand), fast = built(undelayed(8000, m, b), hand);
@@ -118,7 +118,7 @@ RC_GTEST_PROP(SimulatedArm, OnePeriodIsAsGoodAsMany, ()) {
   }
 }
 
-RC_GTEST_PROP(SimulatedArm, APushingHandsWorkIsItsForceTimesTheWay, ()) {
+RC_GTEST_PROP(SimulatedArm, WorkOfAPushEqualsForceTimesDistance, ()) {
   HandSpec hand;
   hand.push_n = {within(-2, 2), within(-2, 2), within(-2, 2)};
   ArmSpec spec = undelayed(1000, within(0.1, 0.5), within(0.0, 10.0));
@@ -128,7 +128,7 @@ RC_GTEST_PROP(SimulatedArm, APushingHandsWorkIsItsForceTimesTheWay, ()) {
   RC_ASSERT(std::abs(arm.energy().hand - glm::dot(hand.push_n, arm.position_m())) <= 1e-12);
 }
 
-TEST(SimulatedArm, AForceArrivesAfterItsDelayAndStaysForOnePeriod) {
+TEST(SimulatedArm, ForceArrivesAfterItsDelayForOnePeriod) {
   for (int delay = 0; delay <= 8; ++delay) {
     ArmSpec spec = undelayed(1000, 0.5, 0.0);
     spec.loop.delay_ticks = delay;
@@ -151,7 +151,7 @@ TEST(SimulatedArm, EncodersReadTheNearestStep) {
   EXPECT_EQ(built(spec, {}, {1.24e-4, 0, 0}).reading_m().x, 1.24e-4);
 }
 
-TEST(Friction, HoldsWhatPullsLess) {
+TEST(Friction, HoldsAgainstASmallerPull) {
   ArmSpec spec = undelayed(1000, 0.2, 0.0);
   spec.friction_n = 0.5;
   SimulatedArm arm = built(spec);
@@ -176,7 +176,7 @@ TEST(Friction, StopsASlideWithinTheTickAndHoldsIt) {
   EXPECT_NEAR(arm.energy().rubbed, arm.energy().displayed, 1e-16);
 }
 
-TEST(Friction, LetsGoWhenTheHandHasStretchedFarEnough) {
+TEST(Friction, ReleasesWhenTheHandPullsHarder) {
   ArmSpec spec = undelayed(1000, 0.2, 1.0);
   spec.friction_n = 0.5;
   SimulatedArm arm = built(spec, guiding(100.0, 0.0));  // lets go at 5 mm
@@ -186,7 +186,7 @@ TEST(Friction, LetsGoWhenTheHandHasStretchedFarEnough) {
   }
 }
 
-TEST(SimulatedArm, CarriedGoesWhereTheHandSaysAndBooksIt) {
+TEST(SimulatedArm, CarryFollowsTheHandAndCountsItsWork) {
   ArmSpec spec = undelayed(1000, 0.2, 3.0);
   SimulatedArm arm = built(spec);
   arm.carry({1.5, 0, 0}, {1e-3, 0, 0});
@@ -196,14 +196,14 @@ TEST(SimulatedArm, CarriedGoesWhereTheHandSaysAndBooksIt) {
   EXPECT_NEAR(arm.energy().hand, 0.5 * 0.2 - 1.5e-3 + 3e-3, 1e-16);
 }
 
-TEST(SimulatedArm, TakesAForceThatIsNotFiniteAsNone) {
+TEST(SimulatedArm, TreatsANonFiniteForceAsZero) {
   SimulatedArm arm = built(undelayed(1000, 0.1, 1.0));
   arm.advance({std::nan(""), 1.0, 0});
   arm.advance({0, std::numeric_limits<double>::infinity(), 0});
   EXPECT_EQ(arm.position_m(), glm::dvec3(0.0));
 }
 
-TEST(SimulatedArm, RefusesByTheNameOfTheSetting) {
+TEST(SimulatedArm, ErrorsNameTheSetting) {
   const auto refused = [](const ArmSpec& arm, const HandSpec& hand = {}, glm::dvec3 start = {}) {
     const auto built = SimulatedArm::build(arm, hand, start);
     return built ? std::string() : std::string(built.error().setting);

@@ -40,7 +40,7 @@ TEST(SimulatedFalcon, IsHomedAndFollowsTheHand) {
   }
 }
 
-TEST(SimulatedFalcon, YieldsToAForceAsFarAsTheHandIsStiff) {
+TEST(SimulatedFalcon, DeflectsByForceOverHandStiffness) {
   SimulatedSettings settings = in_virtual_time();
   settings.path = [](double) { return glm::dvec3(0.0); };
   auto simulated = make_simulated_falcon(settings);
@@ -57,7 +57,7 @@ TEST(SimulatedFalcon, YieldsToAForceAsFarAsTheHandIsStiff) {
   EXPECT_LT(glm::distance(sample.position_mm, {10, 0, 0}), 0.1);
 }
 
-TEST(SimulatedFalcon, KeepsItsTimeWhenFramesComeLate) {
+TEST(SimulatedFalcon, KeepsItsTimeWhenFramesAreLate) {
   SimulatedSettings settings = in_virtual_time();
   settings.path = [](double time_s) { return glm::dvec3(10.0 * time_s, 0, 0); };  // 10 mm/s
   auto simulated = make_simulated_falcon(settings);
@@ -78,7 +78,7 @@ TEST(SimulatedFalcon, KeepsItsTimeWhenFramesComeLate) {
   EXPECT_NEAR(sample.position_mm.x - before.position_mm.x, 10.0 * seconds, 0.15);
 }
 
-TEST(SimulatedFalcon, NamesASettingThatIsRefused) {
+TEST(SimulatedFalcon, ErrorsNameTheSetting) {
   SimulatedSettings settings = in_virtual_time();
   settings.arm.loop.mass_kg = std::nan("");
   const auto simulated = make_simulated_falcon(settings);
@@ -87,7 +87,7 @@ TEST(SimulatedFalcon, NamesASettingThatIsRefused) {
   EXPECT_NE(simulated.error().what.find("mass_kg"), std::string::npos);
 }
 
-TEST(SimulatedFalcon, RunsOnTheClockOfTheMachineToo) {
+TEST(SimulatedFalcon, RunsInRealTime) {
   auto simulated = make_simulated_falcon(simulated_and_loaded());
   ASSERT_TRUE(simulated);
   HapticDevice& device = *simulated->device;

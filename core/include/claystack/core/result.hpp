@@ -1,6 +1,5 @@
 #pragma once
-// Errors that a user can cause are values: what went wrong, where, and what
-// was expected instead.
+// Errors that a user can cause are values: what failed, where, and what was expected.
 
 #include <string>
 #include <tl/expected.hpp>
@@ -8,10 +7,10 @@
 
 namespace clay {
 
-/// The kind decides the exit status of the program that meets the error.
+/// The kind sets the exit status of the program.
 enum class ErrorKind {
   unsound,    ///< exit 1: the pot or mesh fails a check
-  bad_input,  ///< exit 2: bad usage, or a file that does not say what it must
+  bad_input,  ///< exit 2: bad usage, or a file with invalid contents
   io,         ///< exit 3: could not read or write
   device,     ///< exit 4: a device failed
 };

@@ -1,6 +1,6 @@
 #pragma once
-// The clay on the wheel: all public headers of the component.
-// Scene, session, pot and work files: claystack/engine/files.hpp, component `files`.
+// The clay on the wheel: all public headers of the component. Scene, session, pot and work files:
+// claystack/engine/files.hpp, component `files`.
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/collapse.hpp"
 #include "claystack/engine/scene.hpp"

@@ -1,6 +1,6 @@
 #pragma once
-// What a scene is made of, in the units of the outer face. StepPlan::build turns
-// it into what the tick runs on.
+// The contents of a scene, in the units of the outer face. StepPlan::build turns it into the data
+// of the tick.
 
 #include <cstddef>
 #include <optional>
@@ -10,9 +10,9 @@
 
 namespace clay {
 
-/// How the paper is followed. `paper`: removal k(R-r) per tick, stiffness per ring, whole rings
-/// of growth with the rest kept outside the body. `conserving`: exponential removal, stiffness
-/// per mm of contact height, the rest of growth shown as the crown.
+/// How closely the engine follows the paper. `paper`: removal k(R-r) per tick, stiffness per ring,
+/// growth by whole rings with the rest kept outside the body. `conserving`: exponential removal,
+/// stiffness per mm of contact height, the rest of growth shown as the crown.
 enum class Model { conserving, paper };
 
 /// The starting lump: equal rings.
@@ -26,7 +26,7 @@ struct LumpSpec {
   friend bool operator==(const LumpSpec&, const LumpSpec&) = default;
 };
 
-/// Where growth stops: `max_rings`, or 4 times `rings` where it is 0.
+/// The limit of growth: `max_rings`, or 4 times `rings` if that is 0.
 [[nodiscard]] std::size_t max_rings_of(const LumpSpec& lump) noexcept;
 
 /// Half-profiles f(t) of the tool, t in mm from its centre (paper, section 3).
@@ -46,7 +46,7 @@ struct RibSpec {
   double radius_mm = 6.0;
   friend bool operator==(const RibSpec&, const RibSpec&) = default;
 };
-/// Monotone cubic through (t, f): t strictly increasing, f >= 0, two points at least.
+/// Monotone cubic through (t, f): t strictly increasing, f >= 0, at least two points.
 struct SampledSpec {
   std::vector<double> t_mm;
   std::vector<double> f_mm;
@@ -54,29 +54,29 @@ struct SampledSpec {
 };
 using ToolShapeSpec = std::variant<SphereSpec, EllipseSpec, RibSpec, SampledSpec>;
 
-/// `pinch`: two such tools press the wall from both sides, as a potter's two hands do.
+/// `pinch`: two equal tools press the wall from both sides, as a potter's two hands do.
 enum class ToolMode { press, trim, pinch };
 
 struct ToolSpec {
   ToolShapeSpec shape = SphereSpec{};
-  ToolMode mode = ToolMode::press;  ///< a pose's trim button turns the others into trim
-  /// Where set, poses may pinch, in any mode: a pose's own gap decides. `pinch` needs it, and takes
-  /// it for poses without a gap of their own.
+  ToolMode mode = ToolMode::press;  ///< a pose's trim button switches the other modes to trim
+  /// If set, poses may pinch in any mode: the gap of the pose decides. Mode `pinch` requires it,
+  /// and uses it for poses without a gap.
   std::optional<double> gap_mm = std::nullopt;
   friend bool operator==(const ToolSpec&, const ToolSpec&) = default;
 };
 
-/// Equations (3), (4): clay gives way at rate (R - r), less where a tool is nearer to its surface
-/// than `yield_depth_mm`; in `paper` by k (R - r) a tick.
+/// Equations (3), (4): clay yields at rate (R - r), and less where the tool is less than
+/// `yield_depth_mm` deep; in `paper` by k (R - r) per tick.
 struct RemovalSpec {
   double rate_per_s = 20.0;
-  double yield_depth_mm = 0.25;  ///< conserving: of the tool in the clay, for all of the rate
+  double yield_depth_mm = 0.25;  ///< conserving: depth of the tool in the clay for the full rate
   double min_wall_mm = 1.0;      ///< conserving: no tool thins a wall below this
   std::optional<double> paper_fraction;  ///< k; rate / 1000 when absent
   friend bool operator==(const RemovalSpec&, const RemovalSpec&) = default;
 };
 
-/// Section 5.1: Rayleigh kernel of mode sigma, cut at reach; alpha of the clay goes inside.
+/// Section 5.1: Rayleigh kernel of mode sigma, cut at reach; the fraction alpha goes inside.
 struct FlowSpec {
   double sigma_mm = 8.0;
   double reach_mm = 30.0;
@@ -84,12 +84,12 @@ struct FlowSpec {
   friend bool operator==(const FlowSpec&, const FlowSpec&) = default;
 };
 
-/// Section 6. Friction is left out when 0, the whole stage when ForceSpec is absent.
+/// Section 6. Friction 0 leaves friction out; an absent ForceSpec leaves out the whole stage.
 struct ForceSpec {
   double stiffness_n_per_mm2 = 0.05;  ///< per mm of depth and mm of contact height
   double limit_n = 5.0;
   double friction = 0.0;                           ///< mu
-  bool counterclockwise = true;                    ///< turn of the wheel seen from above
+  bool counterclockwise = true;                    ///< rotation of the wheel seen from above
   std::optional<double> paper_stiffness_n_per_mm;  ///< K per ring; stiffness x h when absent
   friend bool operator==(const ForceSpec&, const ForceSpec&) = default;
 };

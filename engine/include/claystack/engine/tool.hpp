@@ -13,28 +13,28 @@ namespace clay {
 
 // ---- pose ----------------------------------------------------------------------------
 
-/// One sample of the tool: the HIP at a time. A pinch has two tools, one on either side of a wall;
+/// One sample of the tool: the HIP at a time. A pinch has two tools, one on each side of a wall;
 /// the HIP is then the middle of the gap between them.
 struct Pose {
   std::int64_t time_us = 0;     ///< since the session began
   glm::dvec3 position_mm{0.0};  ///< y up, the wheel head at y = 0, the axis at x = z = 0
   bool trim = false;            ///< button: cut clay off instead of pressing it aside
-  double gap_mm = 0.0;          ///< above 0: two tools, so far apart at their widest; 0: one tool
+  double gap_mm = 0.0;  ///< above 0: the distance of two tools where they are widest; 0: one tool
   friend bool operator==(const Pose&, const Pose&) = default;
 };
 
 // ---- tool ----------------------------------------------------------------------------
 // The tool: a body of revolution about a vertical axis through the HIP (paper, section 3).
 
-/// How a stretch of the tool's surface faces the clay. With theta its slope against the axis,
-/// tan theta = f', a radial depth is cos theta times as deep along the normal.
+/// The orientation of a part of the tool's surface. With theta its slope against the axis, tan
+/// theta = f', the depth along the normal is cos theta times the radial depth.
 struct Facing {
   double normal2 = 1.0;  ///< cos^2 theta, 1 / (1 + f'^2)
   double lean = 0.0;     ///< cos^2 theta f'; at most 1/2
   double turn = 0.0;     ///< derivative of cos^2 theta by t [1/mm]
 };
 
-/// A stretch of the surface, in its middle.
+/// A part of the surface, evaluated at its middle.
 struct Surface {
   double radius = 0.0;  ///< f [mm]
   Facing facing = {};
@@ -49,17 +49,17 @@ struct EllipseProfile {
     const double u = t * per_a, s = 1.0 - u * u;
     return b * std::sqrt(s > 0.0 ? s : 0.0);
   }
-  /// f' = -b t / (a^2 sqrt(1 - t^2/a^2)), held at its value 127/128 of the way to the poles,
-  /// where the formula runs to infinity.
+  /// f' = -b t / (a^2 sqrt(1 - t^2/a^2)), clamped to its value at 127/128 of the way to the poles,
+  /// where the formula diverges.
   [[nodiscard]] double slope(double t) const noexcept {
     const double u = std::clamp(t / a, -kSlopeLimit, kSlopeLimit);
     return -(b / a) * u / std::sqrt(1.0 - u * u);
   }
-  /// Around t; of no height, for it has bounds up to the poles.
+  /// Around t; independent of the height, because the terms are bounded up to the poles.
   [[nodiscard]] Surface surface(double t, double /*height*/) const noexcept {
     return a == b ? surface_as<true>(t) : surface_as<false>(t);
   }
-  /// The same of one that is known to be a sphere, or not to be.
+  /// The same for a profile known to be a sphere, or known not to be.
   template <bool sphere>
   [[nodiscard]] Surface surface_as(double t) const noexcept {
     const double u = t * per_a, s = 1.0 - u * u, flat = s > 0.0 ? s : 0.0, root = std::sqrt(flat);
@@ -77,17 +77,17 @@ struct RibProfile {
   [[nodiscard]] Surface surface(double, double) const noexcept { return {b, {}}; }
 };
 
-/// Monotone cubic (Fritsch and Carlson, SIAM J. Numer. Anal. 17(2) 1980): no overshoot, so
-/// f stays between its samples.
+/// Monotone cubic (Fritsch and Carlson, SIAM J. Numer. Anal. 17(2) 1980): no overshoot, so f stays
+/// between its samples.
 struct SampledProfile {
   std::vector<double> t, f, slopes;
   [[nodiscard]] double radius(double at) const noexcept;
   [[nodiscard]] double slope(double at) const noexcept;
-  /// Around t; the turn is the mean over the height, for f'' jumps at each sample.
+  /// Around t; the turn is the mean over the height, because f'' jumps at each sample.
   [[nodiscard]] Surface surface(double at, double height) const noexcept;
 };
 
-/// Half-profile f(t) [mm] over t in [low, high] [mm] from the HIP. Outside there is no tool: f = 0.
+/// Half-profile f(t) [mm] for t in [low, high] [mm] from the HIP. Outside, f = 0.
 class Tool {
  public:
   using Profile = std::variant<EllipseProfile, RibProfile, SampledProfile>;

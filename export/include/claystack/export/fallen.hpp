@@ -1,5 +1,5 @@
 #pragma once
-// A collapsed pot as one solid: the union of what stands and of what fell over it.
+// A collapsed pot as one solid: the union of the standing part and the fallen part.
 
 #include "claystack/core/result.hpp"
 #include "claystack/engine/clay.hpp"
@@ -17,56 +17,56 @@ namespace clay::solid::inline fallen {
 /// The most triangles of both parts together: exact numbers take ten times the memory of doubles.
 inline constexpr std::size_t kMaxUnitedTriangles = 4'000'000;
 
-/// What stands and what fell, each as a body of revolution that is proved in the plane. Heights
-/// are those of the whole stack, before the fall.
+/// The standing and the fallen part, each a body of revolution proved in the plane. Heights are
+/// those of the whole stack, before the collapse.
 struct CollapsedParts {
   StackProfile lower;
-  StackProfile upper;  ///< no pieces where no clay stood above the failed ring
+  StackProfile upper;  ///< no pieces if no clay stood above the failed ring
   PlanarCertificate lower_certificate;
   PlanarCertificate upper_certificate;
-  Smoothing smoothing = Smoothing::none;  ///< as done, for both parts alike
-  std::string no_smoothing;               ///< why not, where it was asked for and not done
+  Smoothing smoothing = Smoothing::none;  ///< as applied, the same for both parts
+  std::string no_smoothing;               ///< why it was not applied although requested
 
   /// All pieces, lower ones first.
   [[nodiscard]] Profile together() const;
 };
 
-/// Rings 0 to `failed_ring`, and the rest with the crown. Where one part cannot be smoothed, the
-/// steps of both stay as they are. Steps that float32 cannot hold (below 2^-20 of the largest
-/// distance from the origin) are levelled as `profile_of` describes; so is a crown that fell by
-/// itself and is no higher than that: it is left out.
+/// Rings 0 to `failed_ring`, and the rest with the crown. If one part cannot be smoothed, both keep
+/// their steps. Steps too small for float32 (below 2^-20 of the largest distance from the origin)
+/// are levelled as `profile_of` describes; a crown that fell alone and is no higher than that is
+/// left out.
 ///
-/// Errors: `bad_input` for a pot that has not collapsed or whose collapse is none (no such ring,
-/// an axis that is not horizontal); `unsound` as `profile_of` and `certify`.
+/// Errors: `bad_input` for a pot that has not collapsed or whose collapse is invalid (no such ring,
+/// an axis that is not horizontal); `unsound` as for `profile_of` and `certify`.
 Result<CollapsedParts> collapsed_parts(const Pot& pot, Smoothing smoothing, double tolerance_mm);
 
 struct CollapsedSolid {
-  TriangleMesh mesh;  ///< z up; every coordinate is a float32, so that files hold it as it is
+  TriangleMesh mesh;  ///< z up; every coordinate is a float32, so files store it unchanged
   MeshReport check;   ///< of `mesh`: sound
-  /// By exact constructions, each summed in double over its own surface:
-  /// union = lower + upper - overlap, and lower + upper is the counted clay.
+  /// From exact constructions, each summed in double over its own surface: union = lower + upper -
+  /// overlap, and lower + upper is the counted clay.
   double lower_mm3 = 0.0;
   double upper_mm3 = 0.0;
   double overlap_mm3 = 0.0;
   double union_mm3 = 0.0;
-  std::size_t pieces = 0;    ///< bodies that do not touch: 2 where the upper part fell clear
-  std::size_t voids = 0;     ///< closed cavities, of the parts or trapped between them
-  double voids_mm3 = 0.0;    ///< what they hold
-  std::size_t pockets = 0;   ///< trapped too, but less deep than the tolerance: filled
-  double pockets_mm3 = 0.0;  ///< what they held
-  double volume_mm3 = 0.0;   ///< of `mesh`: union and pockets, but for the rounding
-  double max_move_mm = 0.0;  ///< of the surface from the exact union to `mesh`, at most
+  std::size_t pieces = 0;    ///< bodies that do not touch: 2 if the upper part fell clear
+  std::size_t voids = 0;     ///< closed cavities, in the parts or trapped between them
+  double voids_mm3 = 0.0;    ///< their volume
+  std::size_t pockets = 0;   ///< also trapped, but shallower than the tolerance: filled
+  double pockets_mm3 = 0.0;  ///< their volume
+  double volume_mm3 = 0.0;   ///< of `mesh`: union and pockets, up to rounding
+  double max_move_mm = 0.0;  ///< upper bound of the distance from the exact union to `mesh`
 };
 
-/// Both parts revolved by `segments` (the upper one perhaps out of step with the lower), the upper
-/// one moved by `collapse`, and united (CGAL corefinement with exact constructions). Edges and
-/// heights of triangles along the seam that rounding to float32 might turn over are then removed.
-/// Where parts all but touch, the upper one may be nudged by up to 2^-14 of the largest
-/// coordinate. Parts that do not touch stay shells of their own. The same mesh every time.
+/// Both parts revolved in `segments` steps (the upper one possibly rotated against the lower), the
+/// upper one moved by `collapse`, and united (CGAL corefinement with exact constructions). Edges
+/// and triangle heights along the seam that rounding to float32 might invert are then removed.
+/// Where the parts nearly touch, the upper one may be moved by up to 2^-14 of the largest
+/// coordinate. Parts that do not touch stay separate shells. Deterministic.
 ///
-/// Needs kMinSegments <= segments <= kMaxSegments. `bad_input` beyond kMaxUnitedTriangles;
-/// `unsound` when a part is lost in float32, or when no attempt gives a sound mesh; the message
-/// tells what the last one lacked.
+/// Requires kMinSegments <= segments <= kMaxSegments. `bad_input` above kMaxUnitedTriangles;
+/// `unsound` if a part is lost in float32, or if no attempt gives a sound mesh; the message names
+/// the defect of the last attempt.
 Result<CollapsedSolid> collapsed_solid(const CollapsedParts& parts, const Collapse& collapse,
                                        std::size_t segments, double tolerance_mm);
 

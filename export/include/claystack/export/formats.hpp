@@ -17,9 +17,8 @@
 namespace clay::solid::inline formats {
 
 // ---- mesh formats --------------------------------------------------------------------
-// The only doors through which meshes come in and go out. Encoders write to memory;
-// publishing is the caller's. Decoders trust nothing: they are ours for STL and OBJ, and
-// Draco's own behind a guard.
+// The only readers and writers of mesh files. Encoders write to memory; the caller publishes.
+// Decoders treat input as untrusted: own decoders for STL and OBJ, Draco's decoder behind checks.
 
 struct DracoClaims;  // drc_claims.hpp
 
@@ -27,119 +26,120 @@ enum class MeshFormat { stl_binary, stl_ascii, obj, drc };
 inline constexpr std::array kMeshFormats{MeshFormat::stl_binary, MeshFormat::stl_ascii,
                                          MeshFormat::obj, MeshFormat::drc};
 
-/// By the name's end, in either case: .stl (binary), .obj, .drc; anything else is an error
+/// By the file name's extension, ignoring case: .stl (binary), .obj, .drc; any other is an error
 /// that lists them.
 Result<MeshFormat> mesh_format_of(std::string_view path);
-/// By `name_of`.
+/// By the name that `name_of` returns.
 Result<MeshFormat> mesh_format_named(std::string_view name);
-/// As the enumerator is spelt.
+/// The enumerator's name.
 [[nodiscard]] std::string_view name_of(MeshFormat format) noexcept;
 
-/// What Draco's encoder may do to positions.
+/// Limits on the positions for Draco's encoder.
 struct DracoSettings {
   double max_error_mm = 0.01;  ///< largest displacement of a vertex, above 0
   int min_bits = 8;            ///< at least this many bits per coordinate, 1 to 30
-  int speed = 2;               ///< of Draco, 0 .. 10; on pots 2 is smallest, 10 fastest
+  int speed = 2;  ///< Draco's speed, 0 to 10; on pots 2 gives the smallest files, 10 is fastest
 };
 
-/// Coordinates go out as float32 without -0: the text formats print the shortest digits that
-/// read back as the same float32, and STL's normals are those of the corners as written (zero
-/// where these lie in a line). The mesh has coordinates within 1e6 mm, indices in range and at
-/// most 2^32 - 1 triangles. Of a name only one line is written, of at most 200 bytes.
+/// Coordinates are written as float32 without -0: the text formats print the shortest digits that
+/// read back as the same float32, and STL normals are those of the written corners (zero if these
+/// are collinear). Requires coordinates within 1e6 mm, indices in range and at most 2^32 - 1
+/// triangles. Of a name only one line is written, of at most 200 bytes.
 std::string encode_stl_binary(const TriangleMesh& mesh);
 std::string encode_stl_ascii(const TriangleMesh& mesh, std::string_view solid_name);
 std::string encode_obj(const TriangleMesh& mesh, std::string_view object_name);
 
-/// Edgebreaker, positions only, on the coarsest grid of at least `min_bits` that keeps the
-/// promise for every vertex, roundings included; the same bytes every time. With `claims` the file
-/// carries them, and a checksum of all its bytes, as metadata. Triangles and
-/// vertices come in an order of Draco's own, vertices where surfaces touch are split, and
-/// points of no triangle are left out. Errors: `bad_input` for settings out of range or an
-/// error that no 30 bits can keep (the least possible is named), or claims that are not finite,
-/// below 0 or of a smaller vertex error than `settings` allow; `unsound` for a mesh that
-/// Draco would spoil (a triangle that uses a vertex twice, a coordinate or index out of range).
+/// Edgebreaker, positions only, on the coarsest grid of at least `min_bits` that keeps
+/// `max_error_mm` for every vertex, roundings included; deterministic. With `claims`, the file
+/// carries them and a checksum of all its bytes as metadata. Triangles and vertices are in Draco's
+/// order, vertices where surfaces touch are split, and unused points are omitted. Errors:
+/// `bad_input` for settings out of range, an error limit that 30 bits cannot keep (the message
+/// holds the smallest possible), or claims that are not finite, negative or of a smaller vertex
+/// error than `settings` allow; `unsound` for a mesh that Draco would damage (a triangle that uses
+/// a vertex twice, a coordinate or index out of range).
 Result<std::string> encode_drc(const TriangleMesh& mesh, const DracoSettings& settings,
                                const DracoClaims* claims = nullptr);
 
-/// A mesh as a file states it, nothing repaired: 1 to 20 million triangles, points of float32
+/// The mesh as the file states it, without repairs: 1 to 20 million triangles, float32 points
 /// within 1e6 mm (-0 read as 0), indices in range. A file is at most 1 GiB. Errors are of kind
-/// `bad_input`, or `io` where there is not enough memory; `name` begins each: "NAME: facet 12:
+/// `bad_input`, or `io` if there is not enough memory; each begins with `name`: "NAME: facet 12:
 /// ...", "NAME:34: ..."; facets, faces and lines count from 1.
 Result<TriangleMesh> decode_mesh(std::string_view bytes, MeshFormat format, std::string_view name);
 
-/// A file that is read from front to back.
+/// A file that is read sequentially.
 struct ByteSource {
-  /// Fills the span from its begin with the bytes that follow; returns how many, 0 at the end.
+  /// Fills the span from its start with the next bytes; returns their number, 0 at the end.
   std::function<Result<std::size_t>(std::span<char>)> read;
   std::uint64_t size = 0;  ///< of the whole file
-  /// May be empty. Told about how many triangles there are, by the file's size, before memory is
-  /// taken for them; an error of its ends the reading.
+  /// May be empty. Called with the estimated number of triangles, by the file's size, before memory
+  /// is allocated for them; an error that it returns ends the reading.
   std::function<Result<void>(std::uint64_t triangles)> announce;
 };
 
-/// More than 20 million triangles take as text, but for odd ones.
+/// More than 20 million triangles take as text, except in unusual files.
 inline constexpr std::uint64_t kMaxTextBytes = std::uint64_t{8} << 30;
 
-/// An STL or OBJ file as `decode_stl` and `decode_obj` read it, but only a megabyte or two of it
-/// are in memory at a time, and text may take kMaxTextBytes. What the source reports is passed on.
+/// Read an STL or OBJ file like `decode_stl` and `decode_obj`, but hold only one or two megabytes
+/// of it in memory; text may have up to kMaxTextBytes. Errors of the source are passed on.
 Result<TriangleMesh> read_stl(const ByteSource& source, std::string_view name);
 Result<TriangleMesh> read_obj(const ByteSource& source, std::string_view name);
 
-/// A file of exactly the size that its count asks for is binary, whatever its first word;
-/// anything else must be text, whole from "solid" to "endsolid". The solids of a text file make
-/// one mesh. Corners are welded where their float32 coordinates are equal. Normals are not
-/// trusted: binary ones and attributes are passed over, and text ones need only be finite.
+/// A file of exactly the size that its count requires is binary, whatever its first word; any other
+/// file must be complete text from "solid" to "endsolid". The solids of a text file make one mesh.
+/// Corners with equal float32 coordinates are welded. Normals are not used: binary ones and
+/// attributes are ignored, text ones must be finite.
 Result<TriangleMesh> decode_stl(std::string_view bytes, std::string_view name);
 
-/// v, vt, vn and f are read, polygons (up to 4096 corners) as fans; o, g, s, mtllib, usemtl, l,
-/// p and comments are passed over, and no other file is opened; any other statement is an error.
-/// Indices are kept: points that coincide stay apart.
+/// Reads v, vt, vn and f, with polygons (up to 4096 corners) as fans; ignores o, g, s, mtllib,
+/// usemtl, l, p and comments, and opens no other file; any other statement is an error. Indices are
+/// kept: coincident points stay separate.
 Result<TriangleMesh> decode_obj(std::string_view bytes, std::string_view name);
 
-/// Triangle meshes of Draco 2.2; point clouds are refused. The format has no checksum: a spoilt
-/// file may well decode to another mesh. One with claims of ours (`drc_claims`) has, and is refused
-/// unless it holds.
+/// Triangle meshes of Draco 2.2; point clouds are refused. The format has no checksum: a damaged
+/// file may decode to another mesh. Files with claims of Claystack (`drc_claims`) have one, and are
+/// refused if it does not match.
 Result<TriangleMesh> decode_drc(std::string_view bytes, std::string_view name);
 
-/// The mesh as float32 files hold it.
+/// The mesh with coordinates rounded to float32, as files store it.
 [[nodiscard]] TriangleMesh rounded_to_float(const TriangleMesh& mesh);
 
 // ---- drc claims ----------------------------------------------------------------------
-// What a Draco file of ours states of the solid in it, as metadata that other decoders pass over:
+// The claims of a Draco file written by Claystack about its solid, as metadata that other decoders
+// ignore:
 //   claystack.volume_mm3, .volume_bound_mm3, .counted_volume_mm3, .vertex_error_mm   float64
 //   claystack.checksum   XXH3-128 of the file without these 32 hexadecimal digits
 
-/// Finite, and none below 0.
+/// Finite and not negative.
 struct DracoClaims {
   double volume_mm3 = 0.0;          ///< of the solid before it was encoded
-  double volume_bound_mm3 = 0.0;    ///< the decoded mesh's volume is within this of it
-  double counted_volume_mm3 = 0.0;  ///< of the stack that the solid was made of
-  double vertex_error_mm = 0.0;     ///< no vertex is farther from where it was
+  double volume_bound_mm3 = 0.0;    ///< the decoded mesh's volume is within this of `volume_mm3`
+  double counted_volume_mm3 = 0.0;  ///< of the stack from which the solid was made
+  double vertex_error_mm = 0.0;     ///< maximum displacement of a vertex
 
   friend bool operator==(const DracoClaims&, const DracoClaims&) = default;
 };
 
-/// What the file states, after the checksum has been found to hold; nothing for files of others.
-/// Errors as those of `decode_drc`: header, metadata and checksum are checked, not the mesh.
+/// The claims of the file, after its checksum was verified; empty for files of other programs.
+/// Errors as for `decode_drc`: header, metadata and checksum are checked, not the mesh.
 Result<std::optional<DracoClaims>> drc_claims(std::string_view bytes, std::string_view name);
 
-/// One problem where the volume is farther than stated from the one stated (but for what adding it
-/// up in double costs, 1e-9 of it); none where the mesh keeps what its file states.
+/// Reports one problem if the volume differs from the claimed one by more than its bound (plus 1e-9
+/// of it for summation in double); none if the mesh agrees with its claims.
 [[nodiscard]] std::vector<MeshProblem> compare_with_claims(const TriangleMesh& decoded,
                                                            const DracoClaims& claims);
 
 // ---- file store ----------------------------------------------------------------------
-// Where the bytes of a file go, and from where they can be read again before they are believed.
+// The destination of a file's bytes, from which they can be read back for verification.
 
 class FileStore {
  public:
   virtual ~FileStore() = default;
-  /// Appends. After an error nothing more is written.
+  /// Appends. After an error, nothing more is written.
   virtual Result<void> write(std::span<const std::byte> bytes) = 0;
-  /// False where what has been written is gone (a pipe): then nothing is read.
+  /// False if written bytes cannot be read back (a pipe): then nothing is read.
   [[nodiscard]] virtual bool rereadable() const noexcept = 0;
-  /// Fills `bytes` with what was written from `offset` on; from several threads at once. An error
-  /// where so much has not been written.
+  /// Fills `bytes` with the bytes written from `offset` on; callable from several threads at once.
+  /// Fails beyond the end.
   virtual Result<void> read_at(std::uint64_t offset, std::span<std::byte> bytes) const = 0;
 };
 
@@ -157,9 +157,8 @@ class MemoryStore final : public FileStore {
 
 // ---- section svg ---------------------------------------------------------------------
 
-/// A drawing of the pot cut through its axis, to scale, with height, diameter and a
-/// scale bar [mm]; a collapsed pot is drawn as it lies, seen with the HIP to the right, and where
-/// it passed as it fell is dashed.
+/// A drawing of the pot cut through its axis, to scale, with height, diameter and a scale bar [mm].
+/// A collapsed pot is drawn at rest, seen with the HIP to the right, with its path of fall dashed.
 std::string section_svg(const Pot& pot);
 
 }  // namespace clay::solid::inline formats

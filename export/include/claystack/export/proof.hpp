@@ -11,10 +11,10 @@
 namespace clay::solid::inline proof {
 
 // ---- certificate ---------------------------------------------------------------------
-// The proof in the plane. For every n >= 3 the n-gon revolve of a profile is closed and
-// embedded if each polygon is strictly simple, they are disjoint, and they meet the axis in
-// segments of positive length only (each sector is a prism over the profile with rho scaled
-// by cos(pi/n), and a homeomorphism takes the smooth revolve to the polygonal one).
+// The proof in the plane. For every n >= 3 the n-gon revolve of a profile is closed and embedded if
+// each polygon is strictly simple, the polygons are disjoint, and they meet the axis only in
+// segments of positive length (each sector is a prism over the profile with rho scaled by
+// cos(pi/n), and a homeomorphism maps the smooth revolve to the polygonal one).
 
 struct PlanarCertificate {
   std::size_t polygons = 0;
@@ -22,22 +22,23 @@ struct PlanarCertificate {
   std::size_t axis_segments = 0;
 };
 
-/// Exact predicates throughout. The error (kind `unsound`) names the first place that fails. Made
-/// for sections of stacks, which have few edges at any one height: more than 1000 are an error.
+/// Uses exact predicates throughout. The error (kind `unsound`) names the first place that fails.
+/// Designed for sections of stacks, which have few edges at any height: more than 1000 are an
+/// error.
 Result<PlanarCertificate> certify(const Profile& profile);
 
 // ---- solid certificate ---------------------------------------------------------------
-// What is claimed of a file that holds a revolve, with all that it takes to prove it again from the
-// file's bytes: the profile, how far the format's rounding moved its vertices, and the margins that
-// cover this.
+// The claims about a file that holds a revolve, with all data needed to prove them again from the
+// file's bytes: the profile, the displacement of its vertices by the format's rounding, and the
+// margins that cover it.
 
-/// How far the vertices of a revolve may move before its triangles could meet: by less than an
-/// eighth of the lesser of the two, if there are at least 8 segments. That no two disjoint parts
-/// meet within half of the distance is a lemma on simplexwise linear maps; the factor of 4 more
-/// covers triangles that share a vertex, and is confirmed by tests against CGAL's exact predicates.
+/// The displacement of vertices that cannot make triangles meet: less than an eighth of the smaller
+/// value, for at least 8 segments. That no two disjoint parts meet within half of the distance is a
+/// lemma on simplexwise linear maps; the further factor of 4 covers triangles that share a vertex,
+/// and is confirmed by tests against CGAL's exact predicates.
 struct Margins {
-  double clearance_mm = 0.0;  ///< between a vertex of the profile and an edge not its own
-  double chord_mm = 0.0;      ///< least circle: r sin(2 pi/n)
+  double clearance_mm = 0.0;  ///< between a vertex of the profile and an edge not incident to it
+  double chord_mm = 0.0;      ///< on the smallest circle: r sin(2 pi/n)
   std::size_t segments = 0;
 
   [[nodiscard]] double safe_rounding_mm() const noexcept;
@@ -48,42 +49,44 @@ struct Margins {
 
 enum class Proof {
   margins,    ///< the profile is simple, and its margins cover the rounding
-  exact_test  ///< they do not; no two triangles of the file meet by CGAL's exact predicates
+  exact_test  ///< they do not, but no two triangles of the file intersect by CGAL's exact
+              ///< predicates
 };
 
 struct SolidCertificate {
   std::string format;        ///< as `name_of` spells it
   std::uint64_t bytes = 0;   ///< of the file
   std::string content_hash;  ///< XXH3-128 of the file
-  std::string profile_hash;  ///< XXH3-128 of the coordinates, least byte first
+  std::string profile_hash;  ///< XXH3-128 of the coordinates, little-endian
   Proof proof = Proof::margins;
   Profile profile;
   std::size_t segments = 0;
-  double rounding_mm = 0.0;  ///< no vertex of the file is farther from its place
+  double rounding_mm = 0.0;  ///< maximum displacement of a vertex of the file
   Margins margins;
-  double wall_lower_mm = 0.0;       ///< the file's solid is nowhere thinner,
-  double wall_upper_mm = 0.0;       ///< and somewhere no thicker
+  double wall_lower_mm = 0.0;       ///< lower bound of the minimum wall of the file's solid
+  double wall_upper_mm = 0.0;       ///< upper bound of it
   double volume_mm3 = 0.0;          ///< of the solid before rounding
-  double volume_bound_mm3 = 0.0;    ///< the file's volume is within this of it
+  double volume_bound_mm3 = 0.0;    ///< the file's volume is within this of `volume_mm3`
   double counted_volume_mm3 = 0.0;  ///< of the stack
 
   friend bool operator==(const SolidCertificate&, const SolidCertificate&) = default;
 };
 
-/// All claims but those on the bytes of a file. `profile` is certified; `rounding_mm` moves no
-/// vertex farther. The wall of an n-gon revolve is that of the profile with rho scaled by f
-/// cos(pi/n) in the middle of a facet and by f at its sides, f being the equal-volume factor. The
-/// volume moves by less than the area, grown by what rounding may add to it, times the rounding.
+/// All claims except those on the bytes of a file. Requires a certified `profile` and `rounding_mm`
+/// as an upper bound of vertex displacement. The wall of an n-gon revolve is that of the profile
+/// with rho scaled by f cos(pi/n) in the middle of a facet and by f at its sides, f being the
+/// equal-volume factor. The volume changes by less than the rounding times the area, itself
+/// enlarged by what rounding may add.
 SolidCertificate claims_of(const Profile& profile, std::size_t segments, double rounding_mm);
 
-/// Proves every claim again and holds the file against them: size and hashes, number of triangles,
-/// profile, margins (or the exact test), walls, volume; then each triangle of the decoded file
-/// against the revolve of the profile. The error (kind `unsound`) names the first claim that fails;
-/// a file that cannot be read at all is `bad_input`. Certificates may come from strangers.
+/// Proves every claim again and compares the file with them: size and hashes, number of triangles,
+/// profile, margins (or the exact test), walls, volume; then each triangle of the decoded file with
+/// the revolve of the profile. The error (kind `unsound`) names the first claim that fails; an
+/// unreadable file is `bad_input`. Certificates may be untrusted.
 Result<void> verify_certificate(const SolidCertificate& certificate, std::string_view file_bytes,
                                 std::string_view file_name);
 
-/// The largest file that `parse_certificate` reads. A point takes some 40 bytes: enough for every
+/// The largest file that `parse_certificate` reads. A point takes about 40 bytes: enough for every
 /// mesh of at most kMaxTriangles with 8 segments or more.
 inline constexpr std::size_t kMaxCertificateBytes = std::size_t{1} << 26;
 

@@ -11,7 +11,7 @@ namespace clay::solid::inline repair {
 // ---- mesh repair ---------------------------------------------------------------------
 // Repairs of foreign meshes.
 
-/// One kind of repair that was made, and how often.
+/// One kind of repair, and how often it was made.
 struct Repair {
   std::string what;  ///< "hole filled", "shell turned", ...
   std::size_t count = 0;
@@ -19,43 +19,43 @@ struct Repair {
 
 struct RepairedMesh {
   TriangleMesh mesh;
-  std::vector<Repair> repaired;  ///< in the order of the work; empty for a mesh that was sound
+  std::vector<Repair> repaired;  ///< in the order of the work; empty for a sound mesh
 };
 
-/// Mends what has one sensible answer, with no vertex moved but those of cracks:
-///  - triangles with an index out of range, a point that is no number or no area;
-///  - points of one place; border points within 4 units in the last place of float32 at the
-///    largest coordinate (cracks); triangles on the same vertices, of which one is kept, or none
-///    where two lie back to back;
-///  - open sheets on an edge of three triangles (fins); edges and vertices where surfaces touch;
-///  - triangles turned against their neighbours, holes of up to kMaxHoleEdges edges, and shells
-///    turned against what they enclose or lie in.
-/// Surfaces that cross or touch are left: there is no telling what was meant. What remains is for
-/// check_mesh to say. A sound mesh comes back as it is. The same mesh gives the same repair.
-/// Soup and holes by CGAL's Polygon Mesh Processing. Error (kind `unsound`): nothing is left to
-/// repair, or the library gave up.
+/// Repairs defects that have one sensible answer; only vertices of cracks are moved:
+/// - triangles with an index out of range, a point that is not finite, or zero area;
+/// - duplicate points; border points within 4 units in the last place of float32 at the largest
+///   coordinate (cracks); triangles on the same vertices, of which one is kept, or none where two
+///   lie back to back;
+/// - open sheets on an edge of three triangles (fins); edges and vertices where surfaces touch;
+/// - triangles oriented against their neighbours, holes of up to kMaxHoleEdges edges, and shells
+///   oriented against those that enclose them.
+/// Intersecting or touching surfaces are left, because the intent is unknown; check_mesh reports
+/// what remains. A sound mesh is returned unchanged. Deterministic. Soup and holes use CGAL's
+/// Polygon Mesh Processing. Error (kind `unsound`): nothing is left to repair, or the library
+/// failed.
 Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh);
 
-/// Border of the largest hole that is filled: beyond, the search for a patch takes too long.
+/// The longest border of a hole that is filled: above it, the search for a patch takes too long.
 inline constexpr std::size_t kMaxHoleEdges = 10'000;
 
 // ---- decimate ------------------------------------------------------------------------
-// Fewer triangles for meshes that have no profile to make them from again.
+// Fewer triangles for meshes that have no profile to revolve again.
 
 struct DecimatedMesh {
-  TriangleMesh mesh;  ///< on points of the mesh that came in
-  /// The largest distance from a vertex of either mesh to the surface of the other: measured, but
-  /// at the vertices only. Between them surfaces may lie farther apart.
+  TriangleMesh mesh;  ///< on points of the input mesh
+  /// The largest distance from a vertex of either mesh to the surface of the other. Measured at the
+  /// vertices only; between them the surfaces may be farther apart.
   double max_error_mm = 0.0;
 };
 
 inline constexpr std::size_t kFewestTriangles = 4;
 
-/// At most `max_triangles`, by collapsing edges in the order of OpenMesh's error quadrics (Garland,
-/// Heckbert, "Surface simplification using quadric error metrics"), none of which may turn a face
-/// over. A mesh within the limit comes back as it is. Nothing keeps walls from meeting: check what
-/// comes out. Errors of kind `unsound`: the mesh is no closed manifold with neighbours agreeing,
-/// or no further edge may collapse (how far it came is said); `bad_input`: a limit below 4.
+/// Reduces to at most `max_triangles` by collapsing edges in the order of OpenMesh's error quadrics
+/// (Garland, Heckbert, "Surface simplification using quadric error metrics"); no collapse may flip
+/// a face. A mesh within the limit is returned unchanged. Walls may come to intersect: check the
+/// result. Errors of kind `unsound`: the mesh is not a closed, oriented manifold, or no further
+/// edge can collapse (the message holds the number reached); `bad_input`: a limit below 4.
 Result<DecimatedMesh> decimate(const TriangleMesh& sound_mesh, std::size_t max_triangles);
 
 }  // namespace clay::solid::inline repair

@@ -11,7 +11,7 @@ namespace clay::solid {
 
 // ---- triangle mesh -------------------------------------------------------------------
 
-/// The largest mesh that is made, read or checked; its file as binary STL takes 1 GB.
+/// The largest mesh that is made, read or checked; as binary STL it takes 1 GB.
 inline constexpr std::size_t kMaxTriangles = 20'000'000;
 
 /// Points [mm] and triangles by index, counterclockwise seen from outside.
@@ -31,23 +31,22 @@ struct TriangleMesh {
 inline constexpr std::size_t kMinSegments = 3;
 inline constexpr std::size_t kMaxSegments = std::size_t{1} << 20;
 
-/// The revolve of a certified profile by `segments` equal steps about the axis, z up (for
-/// printers): the profile's y is the mesh's z. Radii carry the equal-volume factor
-/// sqrt((2 pi/n) / sin(2 pi/n)), so that the mesh holds exactly the clay of the profile.
-/// Each polygon gives a shell where it never meets the axis, else one for each of its stretches
-/// between axis segments (a closed cavity is a shell oriented inward). Vertices are shared, with
-/// one for each pole; there is no -0. Needs kMinSegments <= segments <= kMaxSegments and
-/// triangle_count() <= kMaxTriangles.
+/// Revolves a certified profile in `segments` equal steps about the axis, z up (for printers): the
+/// profile's y becomes the mesh's z. Radii carry the equal-volume factor sqrt((2 pi/n) / sin(2
+/// pi/n)), so that the mesh holds exactly the clay of the profile. A polygon that never meets the
+/// axis gives one shell; any other gives one shell for each part between axis segments (a closed
+/// cavity is a shell oriented inward). Vertices are shared, with one for each pole; there is no -0.
+/// Requires kMinSegments <= segments <= kMaxSegments and triangle_count() <= kMaxTriangles.
 TriangleMesh revolve(const Profile& profile, std::size_t segments);
 
-/// How many triangles `revolve` makes.
+/// The number of triangles that `revolve` makes.
 [[nodiscard]] std::size_t triangle_count(const Profile& profile, std::size_t segments) noexcept;
 
 /// Largest distance [mm] between a circle of radius `radius_mm` and its equal-area n-gon.
 [[nodiscard]] double chordal_error_mm(double radius_mm, std::size_t segments) noexcept;
 
-/// The fewest segments (at least 8, a multiple of 4) whose chordal error is within the tolerance;
-/// kMaxSegments where even they do not reach it.
+/// The smallest number of segments (at least 8, a multiple of 4) whose chordal error is within the
+/// tolerance; kMaxSegments if even that exceeds it.
 [[nodiscard]] std::size_t segments_for(double radius_mm, double tolerance_mm) noexcept;
 
 }  // namespace clay::solid

@@ -1,5 +1,5 @@
 #pragma once
-// How thick the clay is, from the profile alone.
+// Wall thickness, computed from the profile alone.
 
 #include "claystack/export/section.hpp"
 
@@ -9,57 +9,58 @@
 
 namespace clay::solid::inline walls {
 
-/// The clay between two points of the boundary. Across the axis `to` lies on the mirrored half of
-/// the section: its rho is negative.
+/// A wall between two points of the boundary. If it crosses the axis, `to` lies on the mirrored
+/// half of the section: its rho is negative.
 struct Wall {
   double thickness_mm = 0.0;
   ProfilePoint from, to;
 };
 
-/// Least thickness [mm] of what a certified profile sweeps, exact for its edges up to rounding
-/// (and at the limit of the rule on ridges, below, up to the length of an edge).
+/// Minimum wall thickness [mm] of the solid of revolution of a certified profile. Exact for the
+/// profile's edges up to rounding (and, at the limit of the ridge rule below, up to the length of
+/// an edge).
 ///
-/// Two points of a piece are opposite when the inward normals of their edges are more than 150
-/// degrees apart and the straight way from the one to the other leaves into clay and arrives out
-/// of clay; faces at 30 degrees or more to each other meet in an edge and are no wall. The
-/// thickness between opposite points is the diameter of the least ball that touches the face at the
-/// one and goes through the other: for a way d and a normal n, |d|^2 / (d n). At a reentrant corner
-/// the ball may touch in every direction between the two normals: there it is the distance. Where
-/// clay reaches the axis, balls about its points that touch an outside that leans by 30 degrees at
-/// most count too (2R).
+/// Two points of a piece are opposite if the inward normals of their edges are more than 150
+/// degrees apart and the segment between them lies in clay at both ends; faces at 30 degrees or
+/// more to each other meet in an edge and are no wall. The thickness between opposite points is the
+/// diameter of the smallest ball that touches the face at one point and passes through the other:
+/// |d|^2 / (d n) for the segment d and the normal n. At a reentrant corner the ball may touch in
+/// any direction between the two normals: there the thickness is the distance. Where clay reaches
+/// the axis, balls centred on the axis that touch an outside leaning by at most 30 degrees also
+/// count (2R).
 ///
-/// A flange is as thick as it is high, but what sticks out less than a quarter of that, such as a
-/// step of a stack, is a ridge and no wall: the boundary around two opposite points must
-/// measure 1.5 times the thickness between them, where half a circle would be pi / 2. As far as
-/// both edges go on beyond the points, but no more than half the thickness, they count as well, so
-/// that a lip is as thin as its very end.
+/// A flange is as thick as it is high. What protrudes less than a quarter of that, such as a step
+/// of a stack, is a ridge and not a wall: the boundary between two opposite points must be at least
+/// 1.5 times as long as the thickness (half a circle has pi / 2). Where both edges continue beyond
+/// the points, up to half the thickness of them counts as well, so that a lip is as thin as its
+/// end.
 ///
-/// Every rho is multiplied by `rho_scale` first: cos(pi / n) gives the wall of the n-gon revolve,
-/// whose sectors are prisms over the profile scaled so. The places are the profile's own.
+/// Every rho is first multiplied by `rho_scale`: cos(pi / n) gives the wall of the n-gon revolve,
+/// whose sectors are prisms over the scaled profile. The places are those of the unscaled profile.
 [[nodiscard]] Wall min_wall(const Profile& profile, double rho_scale = 1.0);
 
 /// `min_wall(profile).thickness_mm`.
 [[nodiscard]] double min_wall_mm(const Profile& profile);
 
-/// What a place of the boundary is, seen along its polygon: the outer wall rises from the foot to
-/// the rim, all else is the bore's. Floors look up and lids down, within 45 degrees.
+/// The kind of a boundary point, in the order of the polygon: the outer wall rises from the foot to
+/// the rim, the rest belongs to the bore. Floors face up and lids face down, within 45 degrees.
 enum class WallFace : std::uint8_t { foot, outer, rim, bore, floor, lid };
 
 struct WallSample {
-  double thickness_mm = 0.0;  ///< infinite where nothing is opposite
+  double thickness_mm = 0.0;  ///< infinite if no point is opposite
   ProfilePoint at;
-  ProfilePoint opposite;  ///< `at` where nothing is; see `Wall::to`
-  double arc_mm = 0.0;    ///< from the first vertex of the polygon, edges on the axis left out
+  ProfilePoint opposite;  ///< `at` if there is none; see `Wall::to`
+  double arc_mm = 0.0;    ///< from the first vertex of the polygon, without edges on the axis
   std::size_t piece = 0;
   WallFace face = WallFace::outer;
 };
 
 inline constexpr std::size_t kMaxWallSamples = 100'000;
 
-/// Thickness along every face, at the middles of equal parts of its edges that are no longer than
-/// `spacing_mm` > 0. Of more than `kMaxWallSamples`, every second, third, ... is kept. No sample is
-/// thinner than `min_wall`, as exact as that is, and as the spacing shrinks the thinnest comes down
-/// to it.
+/// Thickness along every face, at the middles of equal parts of its edges, each at most
+/// `spacing_mm` > 0 long. Above `kMaxWallSamples`, only every second, third, ... sample is kept. No
+/// sample is thinner than `min_wall`, to its accuracy; as the spacing shrinks, the thinnest
+/// converges to it.
 [[nodiscard]] std::vector<WallSample> wall_field(const Profile& profile, double spacing_mm);
 
 }  // namespace clay::solid::inline walls

@@ -13,26 +13,26 @@
 namespace clay::falcon::inline device {
 
 // ---- device error --------------------------------------------------------------------
-// What a device can refuse, told so that a person can act on it.
+// Errors of a device, worded so that a person can act on them.
 
 enum class DeviceFault {
-  not_found,      ///< nothing like it is plugged in
-  no_permission,  ///< the system lets this user not open it
-  driver_bound,   ///< a kernel driver has it
-  busy,           ///< another program has it
-  no_firmware,    ///< a Falcon after power-up, and no file to load
-  bad_firmware,   ///< the file is no boot stream
-  echo_error,     ///< the firmware came back other than it was sent
-  no_answer,      ///< open, but silent: most often the power supply
+  not_found,      ///< no such device is connected
+  no_permission,  ///< the system denies this user access
+  driver_bound,   ///< a kernel driver holds it
+  busy,           ///< another program holds it
+  no_firmware,    ///< a Falcon after power-up, and no firmware file to load
+  bad_firmware,   ///< the file is not a boot stream
+  echo_error,     ///< the firmware echo differs from the bytes sent
+  no_answer,      ///< open, but silent: usually the power supply is off
   unplugged,
-  transfer_failed,  ///< anything else that the system reports
+  transfer_failed,  ///< any other error reported by the system
   bad_setting,
 };
 
 struct DeviceError {
   DeviceFault fault = DeviceFault::transfer_failed;
   std::string what;    ///< which device, what was expected, what was found
-  std::string remedy;  ///< what to do about it; empty when nothing is known to help
+  std::string remedy;  ///< the action that may help; empty if none is known
 };
 
 template <class T>
@@ -43,24 +43,24 @@ using DeviceResult = tl::expected<T, DeviceError>;
   return tl::make_unexpected(DeviceError{fault, std::move(what), std::move(remedy)});
 }
 
-/// For scripts: "no_permission".
+/// For scripts, for example "no_permission".
 [[nodiscard]] std::string_view name_of(DeviceFault fault) noexcept;
 
-/// For people: what, and what to do.
+/// For people: the fault and its remedy.
 [[nodiscard]] std::string text_of(const DeviceError& error);
 
 // ---- out of range --------------------------------------------------------------------
 
-/// A setting out of its range, by the name it has in its struct.
+/// A setting out of its range, by its field name.
 struct OutOfRange {
   const char* setting;
   double low, high, found;
 };
 
 // ---- transport -----------------------------------------------------------------------
-// A stream of bytes to and from the Falcon's processor, whatever carries it.
+// A byte stream to and from the Falcon's processor, over any medium.
 
-/// How the line must be set for each step of the Falcon's start (docs/devices.md).
+/// The line settings for each step of the Falcon's start (docs/devices.md).
 enum class LineMode {
   greeting,  ///< 9600 baud, latency 16 ms, DTR low then high: the processor restarts
   loading,   ///< 142857 baud, DTR low: its boot loader listens
@@ -69,14 +69,14 @@ enum class LineMode {
 
 enum class WireStatus : std::uint8_t {
   ok,
-  busy,  ///< nothing taken: what was written before has not left yet
+  busy,  ///< nothing accepted: earlier bytes are still being sent
   unplugged,
   failed,
 };
 
 struct Received {
-  std::size_t size = 0;      ///< bytes; 0 when none came in time
-  std::int64_t time_us = 0;  ///< CLOCK_MONOTONIC when the last of them arrived
+  std::size_t size = 0;      ///< bytes; 0 if none came in time
+  std::int64_t time_us = 0;  ///< CLOCK_MONOTONIC when the last byte arrived
   WireStatus status = WireStatus::ok;
 };
 
@@ -87,85 +87,86 @@ class Transport {
   Transport& operator=(const Transport&) = delete;
   virtual ~Transport() = default;
 
-  /// The place of DeviceInfo.
+  /// The value for DeviceInfo::place.
   [[nodiscard]] virtual std::string describe() const = 0;
 
-  /// Whether this side loads the firmware; a bridge does so itself.
+  /// Whether the host loads the firmware; a bridge loads it itself.
   [[nodiscard]] virtual bool loads_firmware() const noexcept = 0;
 
   virtual DeviceResult<void> open() = 0;
   virtual void close() noexcept = 0;
 
-  /// Sets the line and forgets what was on it.
+  /// Sets the line and discards pending bytes.
   virtual DeviceResult<void> set_mode(LineMode mode) = 0;
 
-  /// At most 62 bytes, all of them or none.
+  /// Writes at most 62 bytes, all or none.
   virtual WireStatus write(std::span<const std::uint8_t> bytes) noexcept = 0;
 
-  /// What has come, or comes within `wait_us`.
+  /// Reads bytes that have arrived or arrive within `wait_us`.
   virtual Received read(std::span<std::uint8_t> bytes, std::int64_t wait_us) noexcept = 0;
 
-  /// At most 62 bytes, from any thread or signal handler, after all that was written.
+  /// Writes at most 62 bytes after all earlier ones, from any thread or signal handler.
   virtual void write_last(std::span<const std::uint8_t> bytes) noexcept = 0;
 
-  /// The clock of `Received`. CLOCK_MONOTONIC, but for models that run in a time of their own.
+  /// The clock of `Received`: CLOCK_MONOTONIC, except for models with a simulated clock.
   [[nodiscard]] virtual std::int64_t now_us() const noexcept;
 };
 
-/// Most bytes of a write: what an FTDI packet or a report of the bridge holds.
+/// The most bytes per write: the payload of an FTDI packet or a bridge report.
 inline constexpr std::size_t kMostWritten = 62;
 
 /// CLOCK_MONOTONIC [us].
 [[nodiscard]] std::int64_t monotonic_us() noexcept;
 
 // ---- device --------------------------------------------------------------------------
-// One door for everything a hand can hold: a Falcon, one behind a bridge, a 3Dconnexion controller,
-// an arm that is simulated.
+// One interface for every input device: a Falcon, a Falcon behind a bridge, a 3Dconnexion
+// controller, a simulated arm.
 //
 // Device frame: x to the right, y up, z towards the user; the origin is the middle of the
 // workspace. Positions in mm, forces in N, times in us of CLOCK_MONOTONIC.
 
 enum class DeviceState : std::uint8_t {
   closed,
-  needs_firmware,  ///< open, and does not answer: its processor has no program yet
-  needs_homing,    ///< answers, but positions are relative until the user moves it through
+  needs_firmware,  ///< open, but silent: its processor has no program yet
+  needs_homing,  ///< answers, but positions are relative until the user moves the grip through its
+                 ///< range
   ready,
-  fault,  ///< `HapticDevice::problem` tells; `open` tries again
+  fault,  ///< `HapticDevice::problem` explains; `open` tries again
 };
 
-/// For scripts: "needs_homing".
+/// For scripts, for example "needs_homing".
 [[nodiscard]] std::string_view name_of(DeviceState state) noexcept;
 
 struct DeviceSample {
-  std::int64_t time_us = 0;     ///< when its frame arrived
-  glm::dvec3 position_mm{0.0};  ///< of the grip, or the handle
-  unsigned buttons = 0;         ///< a bit for each that is down
+  std::int64_t time_us = 0;     ///< arrival of its frame
+  glm::dvec3 position_mm{0.0};  ///< of the grip or the handle
+  unsigned buttons = 0;         ///< one bit for each pressed button
   DeviceState state = DeviceState::closed;
-  bool fresh = false;  ///< arrived since the last read; otherwise the last one again
+  bool fresh = false;  ///< arrived since the last read; false: a repeat of the last sample
   std::optional<double> grip_mm =
-      std::nullopt;  ///< how far fingers are apart, of a device that measures it
+      std::nullopt;  ///< distance between the fingers, if the device measures it
 };
 
 struct DeviceInfo {
   std::string name;                   ///< "Novint Falcon"
-  std::string place;                  ///< where it is plugged in: "usb:001:004", "/dev/hidraw0"
+  std::string place;                  ///< its connection: "usb:001:004", "/dev/hidraw0"
   bool can_push = false;              ///< has motors
-  double force_limit_n = 0.0;         ///< `write` cuts forces to this length; 0 without motors
+  double force_limit_n = 0.0;         ///< `write` limits forces to this length; 0 without motors
   glm::dvec3 half_workspace_mm{0.0};  ///< reach from the origin along each axis
-  double rate_hz = 0.0;               ///< of samples, nominally
+  double rate_hz = 0.0;               ///< nominal sample rate
 };
 
-/// Since `open`.
+/// Counted since `open`.
 struct DeviceCounters {
-  std::uint64_t frames = 0;           ///< whole frames taken
-  std::uint64_t bytes_discarded = 0;  ///< of no whole frame
-  std::uint64_t without_pose = 0;     ///< frames whose angles no pose has: not believed
-  std::uint64_t writes_dropped = 0;   ///< forces not sent, since the device took none
+  std::uint64_t frames = 0;           ///< whole frames received
+  std::uint64_t bytes_discarded = 0;  ///< bytes that belong to no whole frame
+  std::uint64_t without_pose = 0;     ///< rejected frames: no pose has their angles
+  std::uint64_t writes_dropped = 0;   ///< forces not sent because the device accepted none
 };
 
-/// `read`, `write`, `zero` and `stop` allocate and throw nothing. `read` and `write` belong to one
-/// thread; `zero` and `stop` may be called from any, and from a signal handler. The rest is for
-/// set-up.
+/// `read`, `write`, `zero` and `stop` do not allocate or throw. `read` and `write` belong to one
+/// thread; `zero` and `stop` may be called from any thread and from a signal handler. The other
+/// functions are for setup.
 class HapticDevice {
  public:
   HapticDevice() = default;
@@ -178,20 +179,21 @@ class HapticDevice {
   /// From closed or fault to needs_homing or ready. May take seconds (firmware).
   virtual DeviceResult<void> open() = 0;
 
-  /// The newest sample; waits for one at most `wait_us`. Never fails: the state tells.
+  /// The newest sample; waits for one for at most `wait_us`. Never fails: see the state of the
+  /// sample.
   virtual DeviceSample read(std::int64_t wait_us) noexcept = 0;
 
-  /// Sends a force. One that is not finite is sent as zero, and until `ready` all are.
+  /// Sends a force. An invalid force (not finite) is sent as zero, as is every force before
+  /// `ready`.
   virtual void write(const glm::dvec3& force_n) noexcept = 0;
 
-  /// A packet of zero force after all that was written, for a watchdog: what is written next counts
-  /// again.
+  /// Sends zero force after all earlier writes, for a watchdog; later writes take effect again.
   virtual void zero() noexcept = 0;
 
-  /// The last packet is zero force: nothing that `write` sends comes after it, until `open`.
+  /// Sends zero force as the last packet: later writes are ignored until `open`.
   virtual void stop() noexcept = 0;
 
-  /// What made the state `fault`, or keeps it at `needs_firmware`.
+  /// The reason for the state `fault` or `needs_firmware`.
   [[nodiscard]] virtual DeviceError problem() const = 0;
 
   [[nodiscard]] virtual DeviceCounters counters() const noexcept = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// Haptic devices and what keeps them safe: all public headers of the component.
-// Devices on USB: claystack/falcon/usb.hpp, component `falcon_usb`.
+// Haptic devices and their safety: all public headers of the component. USB devices:
+// claystack/falcon/usb.hpp, component `falcon_usb`.
 #include "claystack/falcon/device.hpp"
 #include "claystack/falcon/falcon_device.hpp"
 #include "claystack/falcon/guard.hpp"

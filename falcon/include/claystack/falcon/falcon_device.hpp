@@ -21,24 +21,24 @@
 namespace clay::falcon::inline device {
 
 // ---- geometry ------------------------------------------------------------------------
-// Sizes of the Novint Falcon in SI units. Nobody measured one well: the two published sets put
-// the grip up to 10 mm apart along z, so absolute position is uncertain by that much. Motion
-// relative to a start is not.
+// Dimensions of the Novint Falcon in SI units. No accurate measurement is published: the two
+// published sets differ by up to 10 mm in the grip's z, so absolute position is uncertain by that
+// much. Motion relative to a start is not.
 
 /// Directions of the top, right and left leg about the z axis, from x [rad]: 105, -15, -135 deg.
 inline constexpr double kLegDirectionsRad[] = {std::numbers::pi * 7 / 12, -std::numbers::pi / 12,
                                                -std::numbers::pi * 3 / 4};
 
-/// One leg, the same three times; letters as in Stamper's thesis (see kinematics.hpp).
+/// One leg (all three are equal); letters as in Stamper's thesis (see Kinematics).
 struct Geometry {
   double thigh_m;         ///< a: hip to knee
   double shin_m;          ///< b: side of the shin's parallelogram
   double shin_ends_m;     ///< d + e: from knee and grip to the parallelogram's corners
-  double base_radial_m;   ///< r: centre to hip, along the leg
-  double base_lateral_m;  ///< s: the same, across
-  double grip_radial_m;   ///< c: grip's centre to its joint, along the leg
-  double grip_lateral_m;  ///< f: the same, across
-  double gear_ratio;      ///< motor turns in a turn of the thigh
+  double base_radial_m;   ///< r: centre to hip, along the leg's direction
+  double base_lateral_m;  ///< s: the same, perpendicular to it
+  double grip_radial_m;   ///< c: grip centre to its joint, along the leg's direction
+  double grip_lateral_m;  ///< f: the same, perpendicular to it
+  double gear_ratio;      ///< motor turns per turn of the thigh
   double zero_angle_rad;  ///< thigh angle at encoder count 0
 };
 
@@ -55,8 +55,8 @@ inline constexpr Geometry kLibnifalconGeometry = {
     .zero_angle_rad = std::numbers::pi * 35 / 180,
 };
 
-/// Martin and Hillier, "Characterisation of the Novint Falcon haptic device for application as
-/// a robot manipulator", ACRA 2009. The zero angle is what users of this set report.
+/// Martin and Hillier, "Characterisation of the Novint Falcon haptic device for application as a
+/// robot manipulator", ACRA 2009. The zero angle is the one reported by users of this set.
 inline constexpr Geometry kMartinHillierGeometry = {
     .thigh_m = 0.060,
     .shin_m = 0.1025,
@@ -69,12 +69,11 @@ inline constexpr Geometry kMartinHillierGeometry = {
     .zero_angle_rad = std::numbers::pi * 40 / 180,
 };
 
-/// 320 slots of the encoder wheel, each seen four times in quadrature.
+/// 320 slots of the encoder wheel, each counted four times in quadrature.
 inline constexpr double kCountsPerMotorTurn = 320 * 4;
 
-/// Motor counts for 1 N m at the thigh: Martin and Hillier measured 1.9835e-5 N m a count at the
-/// motor, which agrees with the force Novint states. libnifalcon's 10000 renders half as much
-/// again.
+/// Motor counts for 1 N m at the thigh: Martin and Hillier measured 1.9835e-5 N m per count at the
+/// motor, which agrees with the force Novint states. libnifalcon's 10000 renders 1.5 times as much.
 inline constexpr double kMotorCountsPerNm = 1.0 / (1.9835e-5 * 7.62);
 
 // ---- frame ---------------------------------------------------------------------------
@@ -83,19 +82,19 @@ inline constexpr double kMotorCountsPerNm = 1.0 / (1.9835e-5 * 7.62);
 //   0    1..4   5..8   9..12   13      14      15
 //   '<'  top    right  left    status  unused  '>'
 //
-// Every payload byte is its value + 'A'. A leg's number is an int16, a nibble to the byte, the
-// least significant first: -1447 = 0xFA59 is "JFKP".
+// Every payload byte is its value + 'A'. A leg's number is an int16, one nibble per byte, least
+// significant first: -1447 = 0xFA59 is "JFKP".
 
 inline constexpr std::size_t kFrameBytes = 16;
-inline constexpr std::int16_t kMotorLimit = 4095;  ///< where the vendor's own driver saturates
+inline constexpr std::int16_t kMotorLimit = 4095;  ///< where the vendor's driver saturates
 
 /// One number for each leg: top, right, left, as the user sees them.
 using LegCounts = std::array<std::int16_t, 3>;
 
-/// What the host sends.
+/// Frame from the host.
 struct MotorFrame {
   LegCounts motors{};   ///< within +-kMotorLimit
-  bool homing = false;  ///< on in every frame until all legs are homed
+  bool homing = false;  ///< set in every frame until all legs are homed
   bool green = false;
   bool blue = false;
   bool red = false;
@@ -103,7 +102,8 @@ struct MotorFrame {
 
 struct EncodedFrame {
   std::array<std::uint8_t, kFrameBytes> bytes{};
-  bool saturated = false;  ///< a motor was beyond the limit: the force sent is not the one asked
+  bool saturated =
+      false;  ///< a motor exceeded the limit: the force sent is not the force requested
 };
 
 [[nodiscard]] EncodedFrame encode(const MotorFrame& frame) noexcept;
@@ -116,29 +116,29 @@ enum Button : std::uint8_t {
   kButtonMinus = 8,
 };
 
-/// What the device answers.
+/// Frame from the device.
 struct StateFrame {
   LegCounts encoders{};         ///< relative until homed: the origin jumps at homing
-  std::uint8_t buttons = 0;     ///< of Button
+  std::uint8_t buttons = 0;     ///< bits of Button
   std::array<bool, 3> homed{};  ///< each leg has passed its index
 
   [[nodiscard]] bool all_homed() const noexcept { return homed[0] && homed[1] && homed[2]; }
   friend bool operator==(const StateFrame&, const StateFrame&) = default;
 };
 
-/// Finds the frames in a stream of bytes that may lose, repeat or spoil some (FTDI's own status
-/// bytes already taken out). '<' and '>' never stand inside a frame, so each '<' begins one
-/// anew: a fault costs the frames it touches and no other. The format has no checksum: a letter
-/// turned into another, or two halves joined by the loss of 16 bytes or a multiple, can't be seen.
+/// Finds the frames in a byte stream that may lose, repeat or damage bytes (FTDI status bytes
+/// already removed). '<' and '>' never occur inside a frame, so each '<' starts a new one: a fault
+/// costs only the frames it touches. The format has no checksum: a letter changed to another, or
+/// two halves joined by the loss of a multiple of 16 bytes, cannot be detected.
 class FrameReader {
  public:
-  /// The next whole frame in `bytes`, and leaves there what follows it; nothing when all bytes
-  /// are used up. A frame may begin in one call and end in another.
+  /// The next whole frame in `bytes`; advances `bytes` past it. Empty when all bytes are consumed.
+  /// A frame may begin in one call and end in another.
   [[nodiscard]] std::optional<StateFrame> next(std::span<const std::uint8_t>& bytes) noexcept;
 
-  /// Bytes so far that belonged to no whole frame.
+  /// Number of bytes so far that belonged to no whole frame.
   [[nodiscard]] std::uint64_t discarded() const noexcept { return discarded_; }
-  /// Bytes of a frame that is not whole yet, below kFrameBytes.
+  /// Number of bytes of an incomplete frame, below kFrameBytes.
   [[nodiscard]] std::size_t pending() const noexcept { return size_; }
 
  private:
@@ -150,13 +150,13 @@ class FrameReader {
 };
 
 // ---- kinematics ----------------------------------------------------------------------
-// Where the grip is and what the motors must do: a translational delta of three equal legs,
+// Position of the grip and torques of the motors: a translational delta robot of three equal legs,
 // after R. E. Stamper, "A three degree of freedom parallel manipulator with only translational
 // degrees of freedom", thesis, University of Maryland, 1997.
 //
-// The device's frame has x to the right, y up and z out of the device towards the user. A leg
-// has a frame of its own from its hip: u along the leg's direction phi, v across, w = z. There,
-// with the letters of geometry.hpp and t1, t2, t3 the angles of thigh, shin and parallelogram,
+// The device's frame has x to the right, y up and z out of the device towards the user. Each leg
+// has its own frame at its hip: u along the leg's direction phi, v perpendicular to it, w = z. With
+// the letters of Geometry and t1, t2, t3 the angles of thigh, shin and parallelogram:
 //
 //   u =  x cos phi + y sin phi - r + c  =  a cos t1 + L cos t2
 //   w =  z                              =  a sin t1 + L sin t2,    L = d + e + b sin t3
@@ -165,18 +165,18 @@ class FrameReader {
 // The Falcon is built with its knees outward: 0 < t2 - t1 < pi. Encoders measure t1.
 
 enum class KinematicsError {
-  top_leg_unreachable,  ///< the leg would have to stretch or fold further than straight
+  top_leg_unreachable,  ///< the leg would have to extend beyond straight or fold completely
   right_leg_unreachable,
   left_leg_unreachable,
-  singular,        ///< the legs can't push in the direction asked
+  singular,        ///< the legs cannot push in the requested direction
   not_converged,   ///< no pose found for these angles
-  beyond_encoder,  ///< an angle that no int16 counts
+  beyond_encoder,  ///< an angle out of range of int16 counts
 };
 
 template <class T>
 using Solved = tl::expected<T, KinematicsError>;
 
-/// Vectors of angles and torques hold one number for each leg: top, right, left.
+/// Vectors of angles and torques hold one number per leg: top, right, left.
 class Kinematics {
  public:
   /// Middle of the workspace, a ball of 48 mm about it.
@@ -184,21 +184,21 @@ class Kinematics {
 
   explicit Kinematics(const Geometry& geometry) noexcept;
 
-  /// Thigh angle t1 [rad] of one leg, 0 to 2, in closed form; nothing when out of its reach.
+  /// Thigh angle t1 [rad] of one leg, 0 to 2, in closed form; empty if out of reach.
   [[nodiscard]] std::optional<double> thigh_angle(int leg,
                                                   const glm::dvec3& position_m) const noexcept;
 
-  /// All three. The error names the first leg that can't reach.
+  /// All three. The error names the first leg that cannot reach.
   [[nodiscard]] Solved<glm::dvec3> inverse(const glm::dvec3& position_m) const noexcept;
 
   /// Position [m] of the grip at these thigh angles [rad], to rounding. Newton's method from
-  /// `start_m`, at most 16 steps: start at the last position when following the hand, at the
-  /// centre when nothing is known. Outside the workspace some angles allow two poses, and the
-  /// start decides. `not_converged` also when the pose found has a knee turned inward.
+  /// `start_m`, at most 16 steps: start at the last position when following the hand, at the centre
+  /// when nothing is known. Outside the workspace some angles allow two poses, and the start
+  /// selects one. Also `not_converged` if the pose found has a knee turned inward.
   [[nodiscard]] Solved<glm::dvec3> forward(const glm::dvec3& angles_rad,
                                            const glm::dvec3& start_m = kCentreM) const noexcept;
 
-  /// J [rad/m] with d angles = J d position, by formula. Column-major as all of GLM: J[axis][leg].
+  /// J [rad/m] with d angles = J d position, in closed form. Column-major as in GLM: J[axis][leg].
   [[nodiscard]] Solved<glm::dmat3> jacobian(const glm::dvec3& position_m) const noexcept;
 
   /// Torques [N m] about the hips that push the hand with `force_n` [N]: the solution of
@@ -218,40 +218,39 @@ class Kinematics {
 
 struct MotorCounts {
   LegCounts counts{};     ///< within +-kMotorLimit
-  double rendered = 1.0;  ///< the part of the torque that the motors can give, 0 to 1
+  double rendered = 1.0;  ///< the fraction of the torque that the motors can give, 0 to 1
 };
 
-/// A positive count drives a thigh to smaller angles. When one motor would pass its limit all three
+/// A positive count drives a thigh to smaller angles. If a motor would exceed its limit, all three
 /// are scaled alike, which keeps the direction of the force; torques that are not finite give 0.
 [[nodiscard]] MotorCounts motor_counts(const glm::dvec3& torques_nm,
                                        double counts_per_nm = kMotorCountsPerNm) noexcept;
 
 // ---- falcon model --------------------------------------------------------------------
-// A Falcon that isn't there, byte for byte: boot loader, homing, frames, a grip that moves, and
-// faults on demand. It stands behind LoopbackTransport and behind the emulated USB device of the
-// tests. What it says of the real one's manner is only as good as docs/devices.md: it was written
-// from the same notes as the driver.
+// A byte-exact simulation of a Falcon: boot loader, homing, frames, a moving grip, and faults on
+// demand. It serves LoopbackTransport and the emulated USB device of the tests. It was written from
+// the same notes as the driver, so its fidelity is limited to docs/devices.md.
 
-/// What moves the modelled grip. Called once a frame with the force [N] that the motors were told
-/// and the time [s] since the last frame; returns the position [m] in the frame of kinematics.hpp.
+/// Moves the modelled grip. Called once per frame with the commanded force [N] and the time [s]
+/// since the last frame; returns the position [m] in the frame of Kinematics.
 using Grip = std::function<glm::dvec3(const glm::dvec3& force_n, double dt_s)>;
-/// What presses its buttons: called once a frame, after Grip; returns their bits.
+/// Presses its buttons: called once per frame, after Grip; returns their bits.
 using Thumb = std::function<std::uint8_t()>;
 
 enum class WireFault {
   lost_byte,    ///< of the frame it sends
   extra_byte,   ///< within the frame
-  half_frame,   ///< the second half never comes
-  bad_nibble,   ///< a byte that is no letter
+  half_frame,   ///< the second half is not sent
+  bad_nibble,   ///< a byte that is not a payload letter
   no_frame,     ///< it does not answer
-  stale_frame,  ///< it sends what it sent before
-  homing_lost,  ///< from here on, until it is homed again
+  stale_frame,  ///< it repeats an earlier frame
+  homing_lost,  ///< from here on, until homed again
   unplugged,
-  echo_error,  ///< a byte of the firmware comes back changed
+  echo_error,  ///< one byte of the firmware echo is changed
 };
 
-/// At a frame, counted from 0 since the first was received; for echo_error at a byte of firmware.
-/// Each happens once, at the first chance from there on.
+/// Happens once, at the first opportunity from that frame on, counted from 0 since the first frame
+/// received; for echo_error at that byte of the firmware.
 struct PlannedFault {
   WireFault fault = WireFault::lost_byte;
   std::uint64_t at = 0;
@@ -260,16 +259,16 @@ struct PlannedFault {
 struct FalconModelSettings {
   Geometry geometry = kLibnifalconGeometry;
   double motor_counts_per_nm = kMotorCountsPerNm;
-  bool power = true;    ///< off: USB enumerates, and nothing answers
-  bool loaded = false;  ///< firmware is there from an earlier start
+  bool power = true;    ///< false: USB enumerates, but the device does not answer
+  bool loaded = false;  ///< firmware is present from an earlier start
   bool homed = false;
-  int homing_frames = 20;  ///< frames with the homing bit until a leg is homed, one by one
+  int homing_frames = 20;  ///< frames with the homing bit per leg, one leg after the other
   std::int16_t unhomed_offset = -300;  ///< of the encoders until then
   std::uint8_t buttons = 0;
   std::vector<PlannedFault> faults;
 };
 
-/// What the model says to a piece of at most kMostWritten bytes.
+/// The model's answer to a write of at most kMostWritten bytes.
 struct Answer {
   std::array<std::uint8_t, 128> bytes{};
   std::size_t size = 0;
@@ -280,24 +279,24 @@ struct Answer {
   }
 };
 
-/// Allocates while firmware is loaded, and never in `running`.
+/// Allocates while firmware is loaded, never in `running`.
 class FalconModel {
  public:
   FalconModel(FalconModelSettings settings, Grip grip);
 
   // The line, as the USB-UART sets it.
   void set_baud(int baud) noexcept { baud_ = baud; }
-  void set_dtr(bool high) noexcept;  ///< a rise restarts the processor: a guess
+  void set_dtr(bool high) noexcept;  ///< a rising edge restarts the processor (assumption)
 
   /// Bytes from the host, `dt_s` since the last ones.
   [[nodiscard]] Answer receive(std::span<const std::uint8_t> bytes, double dt_s);
 
-  /// A frame from the host's signal handler: it is obeyed and not answered.
+  /// A frame from the host's signal handler: it is executed but not answered.
   void receive_last(std::span<const std::uint8_t> frame) noexcept;
 
   [[nodiscard]] bool unplugged() const noexcept { return unplugged_; }
   void unplug() noexcept { unplugged_ = true; }
-  /// Plugged in again: the processor starts from nothing.
+  /// Reconnected: the processor starts without a program.
   void replug() noexcept;
 
   void switch_power(bool on) noexcept;
@@ -309,7 +308,7 @@ class FalconModel {
   [[nodiscard]] bool homed() const noexcept { return homed_legs_ == 3; }
   [[nodiscard]] std::uint64_t frames() const noexcept { return frames_; }
   [[nodiscard]] const std::vector<std::uint8_t>& firmware() const noexcept { return firmware_; }
-  /// What the motors were told last, and the force [N] that it makes.
+  /// The last motor command, and its force [N].
   [[nodiscard]] const LegCounts& motors() const noexcept { return motors_; }
   [[nodiscard]] const glm::dvec3& force_n() const noexcept { return force_n_; }
   [[nodiscard]] const glm::dvec3& position_m() const noexcept { return position_m_; }
@@ -330,7 +329,7 @@ class FalconModel {
 
   FalconModelSettings settings_;
   Grip grip_;
-  Thumb thumb_;  // none: `press`
+  Thumb thumb_;  // empty: `press`
   Kinematics kinematics_;
   Stage stage_ = Stage::waiting;
   int baud_ = 9600;
@@ -357,11 +356,12 @@ class FalconModel {
 
 struct FalconSettings {
   Geometry geometry = kLibnifalconGeometry;
-  double motor_counts_per_nm = kMotorCountsPerNm;  ///< 1 to 1e6; more pushes harder
-  glm::dvec3 centre_m = Kinematics::kCentreM;      ///< the origin of samples, in kinematics.hpp's
-  double force_limit_n = 8.0;                      ///< 0 to 8.9, what Novint states
-  std::int64_t silence_us = 500'000;               ///< without a frame this long: fault
-  std::string firmware_path;                       ///< empty: it must be loaded already
+  double motor_counts_per_nm = kMotorCountsPerNm;  ///< 1 to 1e6; more gives a larger force
+  glm::dvec3 centre_m =
+      Kinematics::kCentreM;           ///< the origin of samples, in the frame of Kinematics
+  double force_limit_n = 8.0;         ///< 0 to 8.9, the limit that Novint states
+  std::int64_t silence_us = 500'000;  ///< without a frame for this time: fault
+  std::string firmware_path;          ///< empty: the firmware must be loaded already
 };
 
 class FalconDevice final : public HapticDevice {
@@ -378,7 +378,7 @@ class FalconDevice final : public HapticDevice {
   [[nodiscard]] DeviceError problem() const override;
   [[nodiscard]] DeviceCounters counters() const noexcept override;
 
-  /// What the motors were last told; for logs.
+  /// The last motor command; for logs.
   [[nodiscard]] const LegCounts& motors() const noexcept { return motors_; }
 
  private:

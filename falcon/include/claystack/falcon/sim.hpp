@@ -15,16 +15,16 @@
 namespace clay::falcon::inline sim {
 
 // ---- loopback transport --------------------------------------------------------------
-// A FalconModel as a transport, within the process.
+// Connects a FalconModel as a transport, within the process.
 
 enum class Pace {
-  real,     ///< answers come a millisecond after the question, by CLOCK_MONOTONIC
-  virtual_  ///< the same on a clock that only waiting moves: a second takes microseconds
+  real,     ///< answers come one millisecond after the question, by CLOCK_MONOTONIC
+  virtual_  ///< the same on a clock that only waiting advances: a second takes microseconds
 };
 
 class LoopbackTransport final : public Transport {
  public:
-  /// The model outlives this; its owner may look at it and plan faults between calls.
+  /// The model outlives this; its owner may inspect it and plan faults between calls.
   LoopbackTransport(std::shared_ptr<FalconModel> model, Pace pace);
 
   [[nodiscard]] std::string describe() const override { return "simulated"; }
@@ -59,9 +59,9 @@ class LoopbackTransport final : public Transport {
 };
 
 // ---- simulated arm -------------------------------------------------------------------
-// An arm that isn't there: a mass on three independent axes, with damping, friction, encoders that
-// step, a force that comes late and is held for a period, and a hand. For tests and demos. Between
-// two readings it moves by formula, so it is right at every rate.
+// A simulated arm: a mass on three independent axes with damping, friction, encoder steps, a force
+// that arrives late and is held for one period, and a hand. For tests and demos. Between two
+// readings it moves by closed-form solution, so the result is exact at every rate.
 //
 //   m x'' = F_held - b x' - f sign(x') + hand,     hand = push + k_h (s - x) + b_h (s' - x')
 //
@@ -70,20 +70,20 @@ class LoopbackTransport final : public Transport {
 struct ArmSpec {
   SampledLoop loop;         ///< rate, m, b and delay
   double friction_n = 0.0;  ///< f, Coulomb: of each axis
-  double step_m = 0.0;      ///< of the encoders: readings are whole multiples; 0: they don't step
+  double step_m = 0.0;      ///< encoder step: readings are whole multiples; 0: continuous
 };
 
-/// A hand pulls towards a point s that it means to be at, and pushes.
+/// A hand pulls towards its intended point s, and pushes.
 struct HandSpec {
   glm::dvec3 push_n{0.0};
   glm::dvec3 stiffness_n_per_m{0.0};  ///< k_h, of each axis
   glm::dvec3 damping_ns_per_m{0.0};   ///< b_h
 };
 
-/// Work since the start, summed over the axes [J]. It balances: the kinetic energy gained is
-/// displayed + hand - damped - rubbed.
+/// Work since the start, summed over the axes [J]. Balance: kinetic energy gained = displayed +
+/// hand - damped - rubbed.
 struct ArmEnergy {
-  double displayed = 0.0;  ///< done on the arm by the force as it was held
+  double displayed = 0.0;  ///< done on the arm by the held force
   double hand = 0.0;       ///< done on the arm by the hand
   double damped = 0.0;     ///< lost in b: the integral of b v^2
   double rubbed = 0.0;     ///< lost in friction
@@ -91,22 +91,22 @@ struct ArmEnergy {
 
 class SimulatedArm {
  public:
-  /// At rest at `start_m`. Refuses what `check` of the loop refuses, friction outside 0 to 100 N,
-  /// steps outside 0 to 0.01 m, a hand stiffer than 1e6 N/m, damped more than 1e4 N s/m, pushing
-  /// more than 100 N, or a start beyond 10 m.
+  /// Starts at rest at `start_m`. Refuses what `check` of the loop refuses, friction outside 0 to
+  /// 100 N, steps outside 0 to 0.01 m, a hand stiffer than 1e6 N/m, damped more than 1e4 N s/m or
+  /// pushing more than 100 N, and a start beyond 10 m.
   static tl::expected<SimulatedArm, OutOfRange> build(const ArmSpec& arm, const HandSpec& hand = {},
                                                       const glm::dvec3& start_m = {}) noexcept;
 
-  /// What the encoders say now [m].
+  /// The current encoder readings [m].
   [[nodiscard]] glm::dvec3 reading_m() const noexcept;
 
-  /// Takes the force [N] that answers this reading, and lets one period pass. The hand's point goes
-  /// to `intended_m` at constant speed meanwhile. A force that is not finite is taken as none.
+  /// Applies the force [N] that answers this reading for one period, while the hand's point moves
+  /// to `intended_m` at constant speed. An invalid force (not finite) counts as zero.
   void advance(const glm::dvec3& force_n, const glm::dvec3& intended_m) noexcept;
-  /// The same with the hand's point where it is.
+  /// The same with the hand's point at rest.
   void advance(const glm::dvec3& force_n) noexcept { advance(force_n, intended_); }
 
-  /// The same with a hand that can't be resisted: the arm goes to `position_m` at constant speed.
+  /// The same with an unyielding hand: the arm goes to `position_m` at constant speed.
   void carry(const glm::dvec3& force_n, const glm::dvec3& position_m) noexcept;
 
   [[nodiscard]] const glm::dvec3& position_m() const noexcept { return position_; }
@@ -133,21 +133,22 @@ class SimulatedArm {
 
 // ---- simulated falcon ----------------------------------------------------------------
 // A whole Falcon without hardware: a SimulatedArm as the grip of a FalconModel, behind a
-// LoopbackTransport and the driver of the real one. For demos and tests; `auto` never picks it.
+// LoopbackTransport and the real driver. For demos and tests; `auto` never selects it.
 
-/// Where the hand means to be [mm], in the device frame, at a time [s] since the device was made.
+/// The hand's intended point [mm], in the device frame, at a time [s] since the device was made.
 using HandPath = std::function<glm::dvec3(double time_s)>;
 
-/// A circle of 20 mm about the origin, in the plane that the user faces, a turn in four seconds.
+/// A circle of radius 20 mm about the origin in the plane facing the user, one turn in four
+/// seconds.
 [[nodiscard]] glm::dvec3 idle_circle_mm(double time_s);
 
-/// What a hand does beside moving.
+/// Input of the hand beside motion.
 struct Fingers {
   std::uint8_t buttons = 0;                      ///< as DeviceSample has them
-  std::optional<double> grip_mm = std::nullopt;  ///< of a hand that holds something
+  std::optional<double> grip_mm = std::nullopt;  ///< set if the hand holds something
   friend bool operator==(const Fingers&, const Fingers&) = default;
 };
-/// At a time [s] as that of HandPath; no function: nothing is pressed and nothing held.
+/// At the time [s] of HandPath; without a function no button is pressed and nothing is held.
 using HandFingers = std::function<Fingers(double time_s)>;
 
 struct SimulatedSettings {
@@ -155,7 +156,7 @@ struct SimulatedSettings {
   HandSpec hand{glm::dvec3(0.0), glm::dvec3(300.0), glm::dvec3(3.0)};
   HandPath path = idle_circle_mm;
   HandFingers fingers;
-  FalconModelSettings model;  ///< faults; its firmware is there when `loaded`
+  FalconModelSettings model;  ///< faults; `loaded`: its firmware is present
   FalconSettings falcon;
   Pace pace = Pace::real;
 };
@@ -163,16 +164,17 @@ struct SimulatedSettings {
 struct SimulatedFalcon {
   std::unique_ptr<HapticDevice> device;  ///< closed
   std::shared_ptr<FalconModel> model;    ///< the other end of the wire, for faults on demand
-  const Transport* line = nullptr;       ///< the device's, for its clock
+  const Transport* line = nullptr;       ///< the device's transport, for its clock
 };
 
-/// The arm lives by the frames' times: it makes as many of its ticks as have passed, at most 50 ms
-/// of them after a pause. Buttons come over the wire; a Falcon measures no grip, so that comes
-/// beside it, as of the same frame. `bad_setting` names what SimulatedArm refuses.
+/// The arm follows the times of the frames: it makes one tick per period that has passed, at most
+/// 50 ms of them after a pause. Buttons are sent over the wire; a Falcon measures no grip, so the
+/// grip value bypasses the wire, with the same frame. `bad_setting` names what SimulatedArm
+/// refuses.
 [[nodiscard]] DeviceResult<SimulatedFalcon> make_simulated_falcon(
     const SimulatedSettings& settings);
 
-/// Settings of one that is ready for the user to home it.
+/// Settings of a Falcon that is ready for homing.
 [[nodiscard]] SimulatedSettings simulated_and_loaded();
 
 }  // namespace clay::falcon::inline sim

@@ -14,27 +14,27 @@
 namespace clay::falcon::inline device {
 
 // ---- space mouse ---------------------------------------------------------------------
-// 3Dconnexion controllers: a cap that is pushed a little way, and does not push back. How far it is
-// pushed is a speed, and the speeds add up to a position.
+// 3Dconnexion controllers: a cap that deflects a little and has no motors. Its deflection sets a
+// speed, which is integrated to a position.
 
 struct SpaceMouseModel {
   std::uint16_t vendor = 0, product = 0;
   std::string_view name;
 };
 
-/// The controllers of six axes. 3Dconnexion's other devices (keypads, mice of two axes) are not
-/// among them.
+/// The six-axis controllers. Other 3Dconnexion devices (keypads, two-axis mice) are excluded.
 [[nodiscard]] std::span<const SpaceMouseModel> space_mouse_models() noexcept;
 
-/// Reads reports: 1 is translation, with rotation behind it in the longer form that the wireless
-/// ones send; 2 is rotation, which has no use here; 3 is buttons. Numbers are int16, low byte
-/// first.
+/// Decodes reports: 1 is translation, followed by rotation in the longer form of the wireless
+/// models; 2 is rotation, which is ignored; 3 is buttons. Numbers are int16, low byte first.
 class SpaceMouseReports {
  public:
-  /// `report` begins with its number. False: of no use, nothing changed (unknown, or too short).
+  /// `report` begins with its number. Returns false, without a change, for unknown or short
+  /// reports.
   bool take(std::span<const std::uint8_t> report) noexcept;
 
-  /// Part of the full way, in the device frame (x right, y up, z to the user), each within +-1.
+  /// Fraction of the full deflection, in the device frame (x right, y up, z to the user), within
+  /// +-1.
   [[nodiscard]] const glm::dvec3& deflection() const noexcept { return deflection_; }
   [[nodiscard]] unsigned buttons() const noexcept { return buttons_; }
   void release() noexcept { deflection_ = glm::dvec3(0.0); }
@@ -45,22 +45,23 @@ class SpaceMouseReports {
 };
 
 struct SpaceMouseSettings {
-  double speed_mm_s = 80.0;           ///< at full deflection, 1 to 500
-  double dead_zone = 0.05;            ///< part of the full way that does nothing, 0 to 0.5
-  double half_workspace_mm = 100;     ///< where the position stops, 10 to 1000
-  std::int64_t silence_us = 100'000;  ///< a cap not heard of for longer is let go; 20 ms to 1 s
+  double speed_mm_s = 80.0;        ///< at full deflection, 1 to 500
+  double dead_zone = 0.05;         ///< fraction of the deflection that is ignored, 0 to 0.5
+  double half_workspace_mm = 100;  ///< limit of the position, 10 to 1000
+  std::int64_t silence_us =
+      100'000;  ///< after this time without a report the cap counts as released; 20 ms to 1 s
 };
 
 /// Refuses settings out of their ranges.
 [[nodiscard]] DeviceResult<void> check(const SpaceMouseSettings& settings);
 
-/// Adds speeds up. Within the dead zone it stands still; beyond, speed grows with the square of the
-/// way, so that small corrections are easy.
+/// Integrates the speed. It is zero within the dead zone; beyond, it grows with the square of the
+/// deflection, for fine control.
 class RateControl {
  public:
   explicit RateControl(const SpaceMouseSettings& settings) noexcept : settings_(settings) {}
 
-  /// Moves on to `now_us`, at most by 50 ms of motion: after a pause the position does not leap.
+  /// Advances to `now_us`, by at most 50 ms of motion: no jump after a pause.
   void advance(const glm::dvec3& deflection, std::int64_t now_us) noexcept;
 
   [[nodiscard]] const glm::dvec3& position_mm() const noexcept { return position_mm_; }
@@ -72,28 +73,28 @@ class RateControl {
 };
 
 // ---- usb devices ---------------------------------------------------------------------
-// Devices that are plugged in: claystack::falcon_usb, with libftdi1, libusb and hidapi.
+// Connected devices: claystack::falcon_usb, with libftdi1, libusb and hidapi.
 
 inline constexpr std::uint16_t kFalconVendor = 0x0403, kFalconProduct = 0xcb48;
-/// How a bridge is known: its USB product string begins so.
+/// Identifies a bridge: its USB product string begins with this.
 inline constexpr std::string_view kBridgeProduct = "Falcon HID bridge";
 
 enum class DeviceKind { falcon, bridge, space_mouse };
 
-/// As the command line has it: "falcon", "bridge", "spacemouse".
+/// As on the command line: "falcon", "bridge", "spacemouse".
 [[nodiscard]] std::string_view name_of(DeviceKind kind) noexcept;
 
 struct ListedDevice {
   DeviceKind kind = DeviceKind::falcon;
   std::string name;                    ///< "SpaceNavigator"
   std::string place;                   ///< "usb:1-2.1" (bus and ports), "/dev/hidraw3"
-  bool usable = true;                  ///< whether it could be opened now
-  std::optional<DeviceError> problem;  ///< why not; or, usable, what is worth knowing
+  bool usable = true;                  ///< whether it can be opened now
+  std::optional<DeviceError> problem;  ///< the reason if not usable; otherwise a note
 };
 
-/// What is plugged in, and whether the system lets it be opened. Sends no byte to any device, so it
-/// can't tell whether a Falcon has power or firmware: opening it does. An error only when the
-/// system can't be asked at all.
+/// Lists the connected devices, and whether the system permits opening them. Sends no byte to any
+/// device, so it cannot report whether a Falcon has power or firmware; opening does. Fails only if
+/// the system cannot list devices at all.
 [[nodiscard]] DeviceResult<std::vector<ListedDevice>> list_devices();
 
 struct DeviceSettings {
@@ -101,13 +102,13 @@ struct DeviceSettings {
   SpaceMouseSettings space_mouse;
 };
 
-/// A device by kind ("falcon", "bridge", "spacemouse"), by place, or "auto": the first usable one,
-/// in that order. It is open.
+/// Opens a device by kind ("falcon", "bridge", "spacemouse"), by place, or "auto": the first usable
+/// one in that order.
 [[nodiscard]] DeviceResult<std::unique_ptr<HapticDevice>> open_device(
     std::string_view which, const DeviceSettings& settings = {});
 
-/// The parts of it. None touches the device before `open`. After unplugging, `open` finds a Falcon
-/// again that is plugged in at the same port.
+/// The parts of `open_device`. None touches the device before `open`. After unplugging, `open`
+/// finds a Falcon again at the same port.
 [[nodiscard]] std::unique_ptr<Transport> make_ftdi_transport(std::string place);
 [[nodiscard]] std::unique_ptr<Transport> make_bridge_transport(std::string place);
 [[nodiscard]] std::unique_ptr<HapticDevice> make_space_mouse(std::string name, std::string place,

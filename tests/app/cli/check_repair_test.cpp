@@ -144,7 +144,7 @@ const nlohmann::json* find(const nlohmann::json& list, const std::string& what) 
   return nullptr;
 }
 
-TEST_P(PlantedFault, IsNamedWithItsPlace) {
+TEST_P(PlantedFault, IsReportedWithItsPlace) {
   const ScratchFolder folder;
   const Ran run = claystack("check --json " + write(folder));
   EXPECT_EQ(run.status, 1) << run.out << run.err;
@@ -155,7 +155,7 @@ TEST_P(PlantedFault, IsNamedWithItsPlace) {
       << problem->dump();
 }
 
-TEST_P(PlantedFault, IsRepairedOrSaidToRemain) {
+TEST_P(PlantedFault, IsRepairedOrReportedAsRemaining) {
   const ScratchFolder folder;
   const Planted& planted = GetParam();
   const std::string out = folder.file("mended.stl");
@@ -186,7 +186,7 @@ INSTANTIATE_TEST_SUITE_P(Check, PlantedFault, testing::ValuesIn(faults()), [](co
   return name;
 });
 
-class CheckMend : public testing::Test {
+class CheckRepair : public testing::Test {
  protected:
   std::string write(const std::string& name, const TriangleMesh& mesh) const {
     write_text(folder.file(name), solid::encode_stl_binary(mesh));
@@ -195,7 +195,7 @@ class CheckMend : public testing::Test {
   ScratchFolder folder;
 };
 
-TEST_F(CheckMend, NotANumberIsRefusedAndNothingWritten) {
+TEST_F(CheckRepair, RefusesNanAndWritesNothing) {
   std::string obj = solid::encode_obj(cube(20.0), "fault");
   obj.replace(obj.find("\nv ") + 3, 1, "nan ");
   write_text(folder.file("nan.obj"), obj);
@@ -206,7 +206,7 @@ TEST_F(CheckMend, NotANumberIsRefusedAndNothingWritten) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
-TEST_F(CheckMend, ASoundMeshIsWrittenAsItIs) {
+TEST_F(CheckRepair, WritesASoundMeshUnchanged) {
   const std::string in = write("in.stl", ball(10.0)), out = folder.file("out.stl");
   const Ran run = claystack("check --json --repair " + in + " -o " + out);
   EXPECT_EQ(run.status, 0) << run.err;
@@ -215,7 +215,7 @@ TEST_F(CheckMend, ASoundMeshIsWrittenAsItIs) {
   EXPECT_EQ(read_text(out), read_text(in));
 }
 
-TEST_F(CheckMend, RepairedAndRemainingAreToldApart) {
+TEST_F(CheckRepair, SeparatesRepairedFromRemainingDefects) {
   // Two balls through each other, and a cube with a hole.
   const TriangleMesh balls = together(ball(10.0), moved(ball(10.0), {3.3, 1.7, 0.9}));
   const std::string in = write("in.stl", together(balls, moved(hole(), {50, 0, 0})));
@@ -227,7 +227,7 @@ TEST_F(CheckMend, RepairedAndRemainingAreToldApart) {
   EXPECT_EQ(run.out.find("remaining: open edge"), std::string::npos) << run.out;
 }
 
-TEST_F(CheckMend, DecimatesAfterRepair) {
+TEST_F(CheckRepair, DecimatesAfterRepair) {
   TriangleMesh mesh = ball(10.0);
   mesh.triangles.pop_back();
   const std::string in = write("in.stl", mesh), out = folder.file("out.stl");
@@ -245,7 +245,7 @@ TEST_F(CheckMend, DecimatesAfterRepair) {
   EXPECT_LT(run.json().at("decimated").at("max_error_mm"), 2.0);
 }
 
-TEST_F(CheckMend, UsageIsSaidBeforeAnyWork) {
+TEST_F(CheckRepair, ReportsBadUsageBeforeAnyWork) {
   const std::string in = write("in.stl", cube(20.0));
   const auto refused = [&](const std::string& arguments, const std::string& says) {
     const Ran run = claystack("check " + arguments);
@@ -263,12 +263,12 @@ TEST_F(CheckMend, UsageIsSaidBeforeAnyWork) {
   refused("--repair " + pot + " -o " + folder.file("out.stl"), "for meshes");
 }
 
-TEST_F(CheckMend, AnOutputThatCannotBeWrittenIsExitThree) {
+TEST_F(CheckRepair, ReturnsThreeForAnUnwritableOutput) {
   const std::string in = write("in.stl", cube(20.0));
   EXPECT_EQ(claystack("check --repair " + in + " -o /nonexistent/out.stl").status, 3);
 }
 
-TEST_F(CheckMend, TheWallOfAMeshIsSampled) {
+TEST_F(CheckRepair, SamplesTheWallOfAMesh) {
   const TriangleMesh box = together(cube(20.0), moved(inverted(cube(16.0)), {2, 2, 2}));
   const std::string in = write("box.stl", box);
   const Ran thick = claystack("check " + in + " --min-wall 1.99");
@@ -287,7 +287,7 @@ TEST_F(CheckMend, TheWallOfAMeshIsSampled) {
   EXPECT_EQ(wall.at("at_mm").size(), 3u);
 }
 
-TEST_F(CheckMend, AWallThatNoRayMeetsDoesNotPass) {
+TEST_F(CheckRepair, FailsAWallThatNoRayHits) {
   const std::string in = write("sheet.stl", {{{0, 0, 0}, {9, 0, 0}, {0, 9, 0}}, {{0, 1, 2}}});
   const Ran run = claystack("check --json " + in + " --min-wall 1");
   EXPECT_EQ(run.status, 1);
