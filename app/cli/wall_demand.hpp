@@ -2,7 +2,7 @@
 // How thick a wall must be: as the user says, or as a process asks.
 
 #include "claystack/core/result.hpp"
-#include "claystack/export/check.hpp"
+#include "claystack/export/walls.hpp"
 
 #include <optional>
 #include <string>

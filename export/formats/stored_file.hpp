@@ -2,7 +2,6 @@
 // Files as a store holds them, read again.
 
 #include "claystack/core/result.hpp"
-#include "claystack/export/check.hpp"
 #include "claystack/export/formats.hpp"
 
 #include <cstdint>
@@ -31,7 +30,7 @@ Result<void> write_in_parts(FileStore& store, const std::string& bytes);
 /// What the store holds; where that is gone, what was handed to it.
 Result<std::string> read_again(const FileStore& store, const std::string& written);
 
-/// The whole file, checked as a stranger's would be. Unsound is an error.
-Result<MeshReport> check_stored(const FileStore& store, std::uint64_t bytes, MeshFormat format);
+/// The first `bytes` of what was written, read again.
+Result<std::string> read_whole(const FileStore& store, std::uint64_t bytes);
 
 }  // namespace clay::solid::inline formats

@@ -1,11 +1,10 @@
 #include "export/job/collapsed_export.hpp"
 
 #include "claystack/engine/tick.hpp"
-#include "claystack/export/repair.hpp"
 #include "claystack/export/solid.hpp"
 #include "claystack/export/walls.hpp"
 #include "core/content_hash.hpp"
-#include "export/check/describe.hpp"
+#include "export/proof/describe.hpp"
 #include "export/formats/draco_bits.hpp"
 #include "export/formats/stored_file.hpp"
 #include "export/job/left_out.hpp"

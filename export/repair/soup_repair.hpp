@@ -10,9 +10,6 @@ namespace clay::solid::inline repair {
 /// One entry for each kind, none for a count of 0.
 void note_repair(std::vector<Repair>& repaired, std::string_view what, std::size_t count);
 
-/// Keeps the points that triangles use, in their order. Indices are in range.
-void drop_unused_points(TriangleMesh& mesh);
-
 /// Drops and welds until every triangle has three points of its own and no two triangles are the
 /// same; takes fins off. Points that no triangle uses go too.
 void clean_soup(TriangleMesh& mesh, std::vector<Repair>& repaired);

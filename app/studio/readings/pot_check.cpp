@@ -3,7 +3,7 @@
 #include "app/cli/wall_demand.hpp"
 #include "app/render/wall_rows.hpp"
 #include "claystack/engine/tick.hpp"
-#include "claystack/export/check.hpp"
+#include "claystack/export/walls.hpp"
 #include "claystack/export/job.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "claystack/export/check.hpp"
+#include "claystack/export/proof.hpp"
 #include "tests/export/formats/refused.hpp"
 #include "tests/export/job/exported.hpp"
 #include "tests/export/solid/shapes.hpp"

@@ -1,7 +1,6 @@
 #pragma once
 #include "claystack/core/result.hpp"
 #include "claystack/engine/clay.hpp"
-#include "claystack/export/check.hpp"
 #include "claystack/export/solid.hpp"
 
 #include <array>
@@ -122,11 +121,6 @@ struct DracoClaims {
 /// What the file states, after the checksum has been found to hold; nothing for files of others.
 /// Errors as those of `decode_drc`: header, metadata and checksum are checked, not the mesh.
 Result<std::optional<DracoClaims>> drc_claims(std::string_view bytes, std::string_view name);
-
-/// One problem where the volume is farther than stated from the one stated (but for what adding it
-/// up in double costs, 1e-9 of it); none where the mesh keeps what its file states.
-[[nodiscard]] std::vector<MeshProblem> compare_with_claims(const TriangleMesh& decoded,
-                                                           const DracoClaims& claims);
 
 // ---- file store ----------------------------------------------------------------------
 // Where the bytes of a file go, and from where they can be read again before they are believed.

@@ -1,7 +1,6 @@
 #pragma once
 #include "claystack/core/result.hpp"
 #include "claystack/engine/clay.hpp"
-#include "claystack/export/check.hpp"
 #include "claystack/export/fallen.hpp"
 #include "claystack/export/formats.hpp"
 #include "claystack/export/proof.hpp"

@@ -1,8 +1,8 @@
 // Shells beside, within and against each other.
 
-#include "claystack/export/check.hpp"
+#include "claystack/export/proof.hpp"
 #include "export/solid/mesh_geometry.hpp"
-#include "tests/export/check/mesh_verdict.hpp"
+#include "tests/export/proof/mesh_verdict.hpp"
 #include "tests/export/solid/shapes.hpp"
 
 #include <gtest/gtest.h>

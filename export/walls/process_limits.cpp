@@ -1,4 +1,4 @@
-#include "claystack/export/check.hpp"
+#include "claystack/export/walls.hpp"
 
 #include "core/json/json_fields.hpp"
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace clay::solid::inline check {
+namespace clay::solid::inline walls {
 namespace {
 
 constexpr double kAnySize = std::numeric_limits<double>::infinity();
@@ -77,4 +77,4 @@ Result<ProcessLimits> parse_process(std::string_view bytes, std::string_view fil
   return parsed_with(bytes, file_name, JsonLimits(kDeepest, kSchema), process_from);
 }
 
-}  // namespace clay::solid::inline check
+}  // namespace clay::solid::inline walls

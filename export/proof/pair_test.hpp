@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace clay::solid::inline check {
+namespace clay::solid::inline proof {
 
 /// For finite points and indices in range. The mesh outlives this.
 class PairTest {
@@ -29,4 +29,4 @@ class PairTest {
   const TriangleMesh& mesh_;
 };
 
-}  // namespace clay::solid::inline check
+}  // namespace clay::solid::inline proof

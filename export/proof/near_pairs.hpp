@@ -2,7 +2,7 @@
 // Which bodies of a crowd may meet: a sieve that leaves few pairs for exact tests, also where long
 // thin bodies lie aslant, side by side, and boxes along the axes say nothing.
 
-#include "export/check/broad_phase.hpp"
+#include "export/proof/broad_phase.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::solid::inline check {
+namespace clay::solid::inline proof {
 
 /// Every pair of bodies that may meet and share no hub, each once. Never leaves out a pair that
 /// meets: a pair is dropped only where a plane lies between them beyond the rounding error.
@@ -56,4 +56,4 @@ class NearPairs {
   bool ended_ = false;
 };
 
-}  // namespace clay::solid::inline check
+}  // namespace clay::solid::inline proof

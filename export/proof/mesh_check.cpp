@@ -1,9 +1,9 @@
-#include "claystack/export/check.hpp"
+#include "claystack/export/proof.hpp"
 
 #include "core/compensated_sum.hpp"
 #include "core/parallel_parts.hpp"
 #include "core/text.hpp"
-#include "export/check/soup_intersections.hpp"
+#include "export/proof/soup_intersections.hpp"
 #include "export/solid/bounded_volume.hpp"
 #include "export/solid/mesh_geometry.hpp"
 #include "export/solid/mesh_topology.hpp"
@@ -15,7 +15,7 @@
 #include <string>
 #include <string_view>
 
-namespace clay::solid::inline check {
+namespace clay::solid::inline proof {
 namespace {
 
 std::string numbered(std::string_view noun, const std::vector<std::uint32_t>& numbers) {
@@ -183,4 +183,4 @@ MeshReport check_mesh(const TriangleMesh& mesh) {
   }
 }
 
-}  // namespace clay::solid::inline check
+}  // namespace clay::solid::inline proof

@@ -1,8 +1,8 @@
 #pragma once
 // Which triangles of a soup meet, by exact predicates (CGAL).
 
-#include "export/check/crossings.hpp"
-#include "export/check/fan_intersections.hpp"
+#include "export/proof/crossings.hpp"
+#include "export/proof/fan_intersections.hpp"
 #include "export/solid/mesh_topology.hpp"
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::solid::inline check {
+namespace clay::solid::inline proof {
 
 /// Pairs of triangles that meet elsewhere than in the vertices or the edge they share, for any
 /// soup of finite points and indices in range. Triangles with corners in line, and pairs on the
@@ -55,4 +55,4 @@ class SoupIntersections {
   Fault degenerate_;
 };
 
-}  // namespace clay::solid::inline check
+}  // namespace clay::solid::inline proof

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace clay::solid::inline check {
+namespace clay::solid::inline proof {
 
 /// Counting stops here: a mesh in such a state is a lost one.
 inline constexpr std::size_t kMaxSelfIntersections = 100'000;
@@ -27,4 +27,4 @@ struct Crossings {
   }
 };
 
-}  // namespace clay::solid::inline check
+}  // namespace clay::solid::inline proof

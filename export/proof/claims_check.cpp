@@ -1,10 +1,10 @@
-#include "claystack/export/formats.hpp"
+#include "claystack/export/proof.hpp"
 
 #include "core/text.hpp"
 
 #include <cmath>
 
-namespace clay::solid::inline formats {
+namespace clay::solid::inline proof {
 
 std::vector<MeshProblem> compare_with_claims(const TriangleMesh& decoded,
                                              const DracoClaims& claims) {
@@ -18,4 +18,4 @@ std::vector<MeshProblem> compare_with_claims(const TriangleMesh& decoded,
            1}};
 }
 
-}  // namespace clay::solid::inline formats
+}  // namespace clay::solid::inline proof

@@ -1,7 +1,7 @@
 #pragma once
 // What a report says, for tests to compare and to print.
 
-#include "claystack/export/check.hpp"
+#include "claystack/export/proof.hpp"
 
 #include <algorithm>
 #include <ostream>

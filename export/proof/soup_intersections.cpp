@@ -1,8 +1,8 @@
-#include "export/check/soup_intersections.hpp"
+#include "export/proof/soup_intersections.hpp"
 
 #include "core/cancel.hpp"
-#include "export/check/near_pairs.hpp"
-#include "export/check/pair_test.hpp"
+#include "export/proof/near_pairs.hpp"
+#include "export/proof/pair_test.hpp"
 
 #include <algorithm>
 #include <glm/common.hpp>
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::solid::inline check {
+namespace clay::solid::inline proof {
 namespace {
 
 /// Triangles to a slab, about: few enough to stay near the processor.
@@ -162,4 +162,4 @@ std::size_t SoupIntersections::slab_of(double low) const {
   return static_cast<std::size_t>(after - begins_.begin()) - 1;
 }
 
-}  // namespace clay::solid::inline check
+}  // namespace clay::solid::inline proof

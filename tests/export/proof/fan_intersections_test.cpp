@@ -1,9 +1,9 @@
 // Crowded vertices and edges: the same pairs as by each against each, and in time. The sizes are
 // such that a search of the square of them would not end within the time that a test has.
 
-#include "export/check/soup_intersections.hpp"
+#include "export/proof/soup_intersections.hpp"
 
-#include "claystack/export/check.hpp"
+#include "claystack/export/proof.hpp"
 #include "tests/export/solid/shapes.hpp"
 
 #include <CGAL/Cartesian_converter.h>

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace clay::solid::inline check {
+namespace clay::solid::inline proof {
 
 inline constexpr std::uint32_t kNoHub = UINT32_MAX;
 
@@ -83,4 +83,4 @@ class BroadPhase {
          a.low.z > b.high.z || b.low.z > a.high.z;
 }
 
-}  // namespace clay::solid::inline check
+}  // namespace clay::solid::inline proof

@@ -1,4 +1,4 @@
-#include "claystack/export/check.hpp"
+#include "claystack/export/walls.hpp"
 
 #include <gtest/gtest.h>
 #include <string>

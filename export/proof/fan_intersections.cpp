@@ -1,6 +1,6 @@
-#include "export/check/fan_intersections.hpp"
+#include "export/proof/fan_intersections.hpp"
 
-#include "export/check/near_pairs.hpp"
+#include "export/proof/near_pairs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <iterator>
 #include <numeric>
 
-namespace clay::solid::inline check {
+namespace clay::solid::inline proof {
 namespace {
 
 /// The direction, to a few 2^-53: the difference is rounded once, and the scaling avoids overflow.
@@ -219,4 +219,4 @@ Crossings crossings_about(const TriangleMesh& mesh, const HighValenceVertices& h
   return Fan(mesh, hubs, hub).run();
 }
 
-}  // namespace clay::solid::inline check
+}  // namespace clay::solid::inline proof

@@ -1,7 +1,7 @@
 // Meshes that cut through themselves.
 
-#include "claystack/export/check.hpp"
-#include "tests/export/check/mesh_verdict.hpp"
+#include "claystack/export/proof.hpp"
+#include "tests/export/proof/mesh_verdict.hpp"
 #include "tests/export/solid/shapes.hpp"
 
 #include <gtest/gtest.h>

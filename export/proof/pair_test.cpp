@@ -1,4 +1,4 @@
-#include "export/check/pair_test.hpp"
+#include "export/proof/pair_test.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace clay::solid::inline check {
+namespace clay::solid::inline proof {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -71,4 +71,4 @@ int PairTest::quarter(std::uint32_t v, std::uint32_t w, std::uint32_t p, std::ui
   }
 }
 
-}  // namespace clay::solid::inline check
+}  // namespace clay::solid::inline proof

@@ -1,7 +1,6 @@
-#include "claystack/export/repair.hpp"
+#include "claystack/export/solid.hpp"
 
 #include "core/cancel.hpp"
-#include "export/repair/soup_repair.hpp"
 #include "export/solid/half_edge_mesh.hpp"
 #include "export/solid/mesh_topology.hpp"
 #include "export/solid/surface_distance.hpp"
@@ -13,7 +12,7 @@
 #include <cmath>
 #include <exception>
 
-namespace clay::solid::inline repair {
+namespace clay::solid {
 namespace {
 
 namespace om = OpenMesh::Decimater;
@@ -122,4 +121,4 @@ Result<DecimatedMesh> decimate(const TriangleMesh& sound_mesh, std::size_t max_t
   return failure(ErrorKind::unsound, std::string("decimation gave up: ") + e.what());
 }
 
-}  // namespace clay::solid::inline repair
+}  // namespace clay::solid

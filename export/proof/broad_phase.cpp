@@ -1,4 +1,4 @@
-#include "export/check/broad_phase.hpp"
+#include "export/proof/broad_phase.hpp"
 
 #include "core/cancel.hpp"
 
@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace clay::solid::inline check {
+namespace clay::solid::inline proof {
 namespace {
 
 /// Number of bodies of a set that are searched for vertices of high valence. The set is divided
@@ -154,4 +154,4 @@ std::size_t BroadPhase::halve(std::span<std::uint32_t> all) const {
   return half;
 }
 
-}  // namespace clay::solid::inline check
+}  // namespace clay::solid::inline proof

@@ -1,6 +1,6 @@
-#include "claystack/export/repair.hpp"
+#include "claystack/export/solid.hpp"
 
-#include "claystack/export/check.hpp"
+#include "claystack/export/proof.hpp"
 #include "export/solid/surface_distance.hpp"
 #include "tests/export/solid/shapes.hpp"
 

@@ -1,4 +1,4 @@
-#include "export/check/near_pairs.hpp"
+#include "export/proof/near_pairs.hpp"
 
 #include "core/cancel.hpp"
 
@@ -9,7 +9,7 @@
 #include <numeric>
 #include <utility>
 
-namespace clay::solid::inline check {
+namespace clay::solid::inline proof {
 namespace {
 
 struct Interval {
@@ -151,4 +151,4 @@ void NearPairs::offer(std::uint32_t a, std::uint32_t b) {
   ended_ = !visitor_->call(visitor_->visit, a, b);
 }
 
-}  // namespace clay::solid::inline check
+}  // namespace clay::solid::inline proof

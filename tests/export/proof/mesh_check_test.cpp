@@ -1,6 +1,6 @@
-#include "claystack/export/check.hpp"
+#include "claystack/export/proof.hpp"
 
-#include "tests/export/check/mesh_verdict.hpp"
+#include "tests/export/proof/mesh_verdict.hpp"
 #include "tests/export/solid/shapes.hpp"
 
 #include <gtest/gtest.h>

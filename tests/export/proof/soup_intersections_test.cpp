@@ -1,4 +1,4 @@
-#include "export/check/soup_intersections.hpp"
+#include "export/proof/soup_intersections.hpp"
 
 #include "export/solid/bounded_volume.hpp"
 #include "tests/export/solid/shapes.hpp"

@@ -2,8 +2,8 @@
 // Triangles about a vertex of many: all their boxes overlap there, but seen from the vertex each
 // is an arc on a sphere, and two of them meet beyond what they share where their arcs do.
 
-#include "export/check/crossings.hpp"
-#include "export/check/pair_test.hpp"
+#include "export/proof/crossings.hpp"
+#include "export/proof/pair_test.hpp"
 #include "export/solid/mesh_topology.hpp"
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::solid::inline check {
+namespace clay::solid::inline proof {
 
 /// A vertex of more is a hub; an edge of more, whose ends are then hubs too, is a book of its own.
 inline constexpr std::size_t kManyTriangles = 32;
@@ -39,4 +39,4 @@ class HighValenceVertices {
 Crossings crossings_about(const TriangleMesh& mesh, const HighValenceVertices& hubs,
                           std::size_t hub);
 
-}  // namespace clay::solid::inline check
+}  // namespace clay::solid::inline proof
