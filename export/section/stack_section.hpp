@@ -26,6 +26,9 @@ enum class Contact { annulus, circle, none };
 /// The rings parted wherever two of them share no annulus.
 [[nodiscard]] std::vector<RingRange> pieces_of(const ClayStack& stack, RingRange rings);
 
+/// One for each piece, bottom to top.
+[[nodiscard]] std::vector<PieceShape> shapes_of(const ClayStack& stack);
+
 /// The outer wall of a piece from its bottom to its top.
 [[nodiscard]] Polygon outer_wall_of(const ClayStack& stack, RingRange piece);
 

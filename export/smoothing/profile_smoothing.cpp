@@ -1,4 +1,4 @@
-#include "claystack/export/smoothing.hpp"
+#include "export/smoothing/profile_smoothing.hpp"
 
 #include "claystack/export/proof.hpp"
 #include "core/text.hpp"
@@ -98,9 +98,9 @@ std::string_view name_of(KeptFor reason) noexcept {
   }
 }
 
-Result<SmoothedProfile> smooth_profile_of(const ClayStack& stack, const SmoothingOptions& options) {
-  if (auto sound = check(options); !sound) return tl::make_unexpected(sound.error());
-  return profile_of(stack).map([&](StackProfile steps) {
+Result<SmoothedProfile> smoothed_profile(const ClayStack& stack, StackProfile steps,
+                                         const SmoothingOptions& options) {
+  return check(options).map([&] {
     SmoothedProfile result;
     result.section = std::move(steps);
     if (options.mode != Smoothing::none) {
@@ -111,6 +111,13 @@ Result<SmoothedProfile> smooth_profile_of(const ClayStack& stack, const Smoothin
     result.volume_error_relative = std::abs(volume_of(result.section.profile) - counted) / counted;
     return result;
   });
+}
+
+Result<SmoothedProfile> smooth_profile_of(const ClayStack& stack, const SmoothingOptions& options) {
+  return check(options)
+      .and_then([&] { return profile_of(stack); })
+      .and_then(
+          [&](StackProfile steps) { return smoothed_profile(stack, std::move(steps), options); });
 }
 
 }  // namespace clay::solid::inline smoothing

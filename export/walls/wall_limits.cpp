@@ -1,33 +1,46 @@
 #include "claystack/export/walls.hpp"
 
+#include "claystack/core/atomic_file.hpp"
 #include "core/json/json_fields.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace clay::solid::inline walls {
 namespace {
 
 constexpr double kAnySize = std::numeric_limits<double>::infinity();
-constexpr int kDeepest = 3;  // a field of a wall of the list
+constexpr std::size_t kMaxProcessBytes = std::size_t{1} << 20;  // of a few lines for people
+constexpr int kDeepest = 3;                                     // a field of a wall of the list
 constexpr const char* kSchema = "claystack-process-1";
 constexpr Interval kWallMm{0.0, 1e4, true}, kSizeSumMm{0.0, 1e7, true};
 
+std::vector<ProcessLimits> with_names(std::vector<ProcessLimits> processes) {
+  for (ProcessLimits& process : processes)
+    for (WallLimit& wall : process.walls) wall.process = process.name;
+  return processes;
+}
+
 const std::vector<ProcessLimits>& built_in() {
-  static const std::vector<ProcessLimits> processes{
+  static const std::vector<ProcessLimits> processes = with_names({
       {"fdm",
-       {{kAnySize, 0.8,
-         "design guides of Hycubeworks, Layer-One and Neway: 0.8 mm at least, 1.2 mm usual"}}},
+       {{kAnySize,
+         0.8,
+         "design guides of Hycubeworks, Layer-One and Neway: 0.8 mm at least, 1.2 mm usual",
+         {}}}},
       {"sla",
-       {{200.0, 1.0, "i.materialise, resin: up to 200 mm of width + depth + height"},
-        {400.0, 2.0, "i.materialise, resin: 200 to 400 mm of width + depth + height"},
-        {kAnySize, 3.0, "i.materialise, resin: above 400 mm of width + depth + height"}}},
+       {{200.0, 1.0, "i.materialise, resin: up to 200 mm of width + depth + height", {}},
+        {400.0, 2.0, "i.materialise, resin: 200 to 400 mm of width + depth + height", {}},
+        {kAnySize, 3.0, "i.materialise, resin: above 400 mm of width + depth + height", {}}}},
       {"earthenware",
-       {{kAnySize, 5.0, "CCL_Clay3DP, ClayPresets.cs: one bead, laboratory preset"}}},
-      {"stoneware", {{kAnySize, 3.0, "CCL_Clay3DP, ClayPresets.cs: one bead, laboratory preset"}}},
-      {"porcelain", {{kAnySize, 2.0, "CCL_Clay3DP, ClayPresets.cs: one bead, laboratory preset"}}},
-  };
+       {{kAnySize, 5.0, "CCL_Clay3DP, ClayPresets.cs: one bead, laboratory preset", {}}}},
+      {"stoneware",
+       {{kAnySize, 3.0, "CCL_Clay3DP, ClayPresets.cs: one bead, laboratory preset", {}}}},
+      {"porcelain",
+       {{kAnySize, 2.0, "CCL_Clay3DP, ClayPresets.cs: one bead, laboratory preset", {}}}},
+  });
   return processes;
 }
 
@@ -51,10 +64,14 @@ ProcessLimits process_from(const Json& json) {
   for (std::size_t i = 1; i < process.walls.size(); ++i)
     if (!(process.walls[i - 1].up_to_size_sum_mm < process.walls[i].up_to_size_sum_mm))
       throw BadField("walls: expected sizes that rise");
-  return process;
+  return with_names({std::move(process)}).front();
 }
 
 }  // namespace
+
+std::string WallLimit::asked_by() const {
+  return process.empty() ? source : process + ": " + source;
+}
 
 const WallLimit& ProcessLimits::wall_for(double size_sum_mm) const noexcept {
   const auto limit = std::find_if(walls.begin(), walls.end(), [&](const WallLimit& wall) {
@@ -75,6 +92,21 @@ Result<ProcessLimits> process_named(std::string_view name) {
 
 Result<ProcessLimits> parse_process(std::string_view bytes, std::string_view file_name) {
   return parsed_with(bytes, file_name, JsonLimits(kDeepest, kSchema), process_from);
+}
+
+Result<ProcessLimits> read_process(const std::string& name) {
+  if (!name.ends_with(".json")) return process_named(name);
+  return read_file(name, kMaxProcessBytes).and_then([&](const std::string& bytes) {
+    return parse_process(bytes, name);
+  });
+}
+
+std::optional<WallLimit> WallDemand::for_size(double size_sum_mm) const {
+  std::optional<WallLimit> limit;
+  if (min_wall_mm) limit = WallLimit{kAnySize, *min_wall_mm, "--min-wall", {}};
+  if (!process) return limit;
+  const WallLimit& asked = process->wall_for(size_sum_mm);
+  return limit && limit->min_wall_mm >= asked.min_wall_mm ? limit : asked;
 }
 
 }  // namespace clay::solid::inline walls
