@@ -7,8 +7,8 @@ cmake_minimum_required(VERSION 3.25)
 set(rooms
   core core/json
   engine/clay engine/tool engine/tick engine/collapse engine/wheel engine/files
-  export/section export/solid export/walls export/check export/formats export/proof
-  export/smoothing export/repair export/fallen export/job
+  export/section export/solid export/walls export/formats export/proof export/smoothing
+  export/check export/repair export/fallen export/job
   falcon/device falcon/device/usb falcon/safety falcon/sim
   app/chart app/history app/servo app/import app/render app/bench app/cli app/studio)
 # A component may include the public headers of these.

@@ -10,7 +10,9 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace clay::cli {
 namespace {
@@ -51,17 +53,32 @@ Result<void> open_folder(const std::string& folder) {
 
 using Files = std::vector<std::pair<std::string, std::string>>;
 
-Result<void> write_into(const std::string& folder, const Files& files) {
-  for (const auto& [name, content] : files)
-    if (auto written = publish(std::filesystem::path(folder) / name, content); !written)
-      return written;
+Result<void> write_into(const std::string& folder, const Files& files,
+                        std::vector<AtomicFile>& written) {
+  for (const auto& [name, content] : files) {
+    auto file = AtomicFile::create(std::filesystem::path(folder) / name);
+    if (!file) return tl::make_unexpected(file.error());
+    if (auto done = file->write(content); !done) return done;
+    written.push_back(std::move(*file));
+  }
   return {};
 }
 
-Result<void> write_folders(const bench::Report& report, const BenchOptions& options) {
+/// The page and the files of both folders: all of them or none.
+Result<void> publish_report(const bench::Report& report, const BenchOptions& options,
+                            std::optional<AtomicFile> page) {
+  std::vector<AtomicFile> written;
+  if (page) {
+    if (auto done = page->write(bench::html_of(report)); !done) return done;
+    written.push_back(std::move(*page));
+  }
   if (!options.csv.empty())
-    if (auto done = write_into(options.csv, bench::csv_files(report)); !done) return done;
-  return options.svg.empty() ? Result<void>() : write_into(options.svg, bench::svg_files(report));
+    if (auto done = write_into(options.csv, bench::csv_files(report), written); !done) return done;
+  if (!options.svg.empty())
+    if (auto done = write_into(options.svg, bench::svg_files(report), written); !done) return done;
+  std::vector<AtomicFile*> files;
+  for (AtomicFile& file : written) files.push_back(&file);
+  return commit_all(files);
 }
 
 void measure(bench::Report& report, const std::vector<bench::RegisteredSection>& chosen,
@@ -97,12 +114,8 @@ Result<int> run_bench(BenchOptions options, Console console) {
 
   bench::Report report{bench::this_machine(), command_line(options, console), {}};
   measure(report, *chosen, options, console);
-  if (page)
-    if (auto done = page->write(bench::html_of(report)).and_then([&] { return page->commit(); });
-        !done)
-      return tl::make_unexpected(done.error());
-  if (auto written = write_folders(report, options); !written)
-    return tl::make_unexpected(written.error());
+  if (auto published = publish_report(report, options, std::move(page)); !published)
+    return tl::make_unexpected(published.error());
   if (console.json) console.print(bench::json_of(report));
   for (const bench::Section& section : report.sections) console.say(bench::text_of(section));
   return report.sound() ? kDone : kUnsound;

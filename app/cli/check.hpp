@@ -2,7 +2,7 @@
 // What `claystack check` does in turn: examine a pot or a mesh, then tell the verdict.
 
 #include "app/cli/console.hpp"
-#include "app/cli/wall_demand.hpp"
+#include "app/cli/wall_options.hpp"
 
 #include "claystack/export/check.hpp"
 #include "claystack/export/formats.hpp"
@@ -18,7 +18,7 @@ namespace clay::cli {
 
 struct CheckCommand {
   std::string file;
-  WallDemands walls;
+  WallOptions walls;
   std::string certificate;  ///< empty: none is asked after
   std::size_t wall_samples = 10'000;
   bool repair = false;

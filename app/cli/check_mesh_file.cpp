@@ -1,6 +1,5 @@
 #include "app/cli/check.hpp"
 #include "app/cli/memory_room.hpp"
-#include "app/cli/thin_walls.hpp"
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/export/formats.hpp"
@@ -122,7 +121,7 @@ double size_sum_mm(const TriangleMesh& mesh) {
   return size.x + size.y + size.z;
 }
 
-Result<void> measure_wall(const TriangleMesh& mesh, const WallDemand& demand,
+Result<void> measure_wall(const TriangleMesh& mesh, const solid::WallLimit& limit,
                           const CheckCommand& command, const Console& console, Verdict& verdict) {
   const auto problem = [&](std::string what, std::string where) {
     verdict.mesh.problems.push_back({std::move(what), std::move(where), 1});
@@ -145,14 +144,14 @@ Result<void> measure_wall(const TriangleMesh& mesh, const WallDemand& demand,
   if (std::isinf(wall->least_mm))
     problem("wall not measured",
             fmt::format("none of {} rays met the other side of a wall", wall->rays));
-  else if (wall->least_mm >= demand.min_wall_mm)
-    verdict.notes.push_back("walls seen: " + wall_text(wall->least_mm, demand));
+  else if (wall->least_mm >= limit.min_wall_mm)
+    verdict.notes.push_back("walls seen: " + solid::wall_text(wall->least_mm, limit));
   else
     problem("thin wall (sampled)",
             fmt::format("triangle {} at ({:.6g}, {:.6g}, {:.6g}) mm: {:.3f} mm, expected {:.3f} mm "
                         "at least ({})",
                         wall->triangle, wall->place.x, wall->place.y, wall->place.z, wall->least_mm,
-                        demand.min_wall_mm, demand.source));
+                        limit.min_wall_mm, limit.asked_by()));
   return {};
 }
 
@@ -242,8 +241,8 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
         fmt::format("{} closed cavities, {:.4g} cm3 trapped: they need drain holes",
                     verdict.mesh.cavities, verdict.mesh.trapped_mm3 / 1000.0));
   if (format == MeshFormat::drc && !command.changes_mesh()) check_claims(*bytes, *mesh, verdict);
-  if (const auto demand = command.walls.for_size(size_sum_mm(*mesh)))
-    if (auto done = measure_wall(*mesh, *demand, command, console, verdict); !done)
+  if (const auto limit = command.walls.demand().for_size(size_sum_mm(*mesh)))
+    if (auto done = measure_wall(*mesh, *limit, command, console, verdict); !done)
       return tl::make_unexpected(done.error());
   if (verdict.certificate) verify(*bytes, format, command, verdict);
   return verdict;

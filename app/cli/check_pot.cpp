@@ -1,5 +1,4 @@
 #include "app/cli/check.hpp"
-#include "app/cli/thin_walls.hpp"
 
 #include "claystack/engine/files.hpp"
 #include "claystack/engine/tick.hpp"
@@ -27,7 +26,8 @@ std::size_t check_segments(const solid::Profile& profile) {
 }
 
 /// A section that proves a solid, and the mesh that it gives, passing every test.
-Verdict check_section(const solid::StackProfile& section, const std::optional<WallDemand>& demand) {
+Verdict check_section(const solid::StackProfile& section,
+                      const std::optional<solid::WallLimit>& limit) {
   Verdict verdict;
   if (solid::triangle_count(section.profile, kFewestSegments) <= solid::kMaxTriangles)
     verdict.mesh =
@@ -46,11 +46,11 @@ Verdict check_section(const solid::StackProfile& section, const std::optional<Wa
          fmt::format("{} pieces; ring {} is the first of the second", section.shapes.size(),
                      section.shapes[1].first_ring),
          section.shapes.size()});
-  if (demand && *verdict.wall_mm < demand->min_wall_mm)
+  if (limit && *verdict.wall_mm < limit->min_wall_mm)
     verdict.mesh.problems.push_back(
-        {"thin wall", thin_wall_text(section.profile, *verdict.wall_mm, *demand), 1});
-  else if (demand)
-    verdict.notes.push_back("walls: " + wall_text(*verdict.wall_mm, *demand));
+        {"thin wall", solid::thin_wall_text(section.profile, *verdict.wall_mm, *limit), 1});
+  else if (limit)
+    verdict.notes.push_back("walls: " + solid::wall_text(*verdict.wall_mm, *limit));
   return verdict;
 }
 
@@ -70,15 +70,15 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command) {
     return unsound("collapsed", fmt::format("ring {} yielded at {:g} kPa",
                                             pot->collapse->failed_ring, pot->collapse->stress_kpa));
   // As `export` makes it unless told otherwise.
-  const auto demand =
-      command.walls.for_size(4.0 * largest_radius_mm(pot->stack) + pot->stack.height_mm());
+  const auto limit =
+      command.walls.demand().for_size(4.0 * largest_radius_mm(pot->stack) + pot->stack.height_mm());
   solid::SmoothingOptions how;
-  if (demand) how.min_wall_mm = demand->min_wall_mm;
+  if (limit) how.min_wall_mm = limit->min_wall_mm;
   const auto smoothed = solid::smooth_profile_of(pot->stack, how);
   if (!smoothed) return unsound("no solid", smoothed.error().message);
   if (const auto certificate = solid::certify(smoothed->section.profile); !certificate)
     return unsound("no certificate", certificate.error().message);
-  Verdict verdict = check_section(smoothed->section, demand);
+  Verdict verdict = check_section(smoothed->section, limit);
   if (pot->rounding)
     verdict.notes.push_back(fmt::format("radii rounded to {} mm", pot->rounding->to_mm));
   return verdict;

@@ -1,47 +1,170 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/export_report.hpp"
-#include "app/cli/export_run.hpp"
+#include "app/cli/pot_copy.hpp"
+#include "app/cli/wall_options.hpp"
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
+#include "claystack/export/job.hpp"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace clay::cli {
 namespace {
 
-Result<Pot> read_pot(const ExportCommand& command) {
-  auto pot = read_file(command.pot).and_then([&](const std::string& bytes) {
-    return parse_pot(bytes, command.pot);
-  });
-  if (pot && command.certificate && pot->collapse)
-    return failure(
-        ErrorKind::bad_input,
-        command.pot + ": --certificate: expected a pot that stands, found a collapsed one");
-  return pot;
+using solid::FileKind;
+using solid::FileRequest;
+using solid::MeshFormat;
+
+/// The command line as it was given.
+struct ExportCommand {
+  std::string pot;
+  std::vector<std::string> outputs;
+  solid::ExportRequest request;
+  std::string smooth = "fair";
+  std::string verify = "margins";
+  WallOptions walls;
+  std::optional<double> precision_mm;
+  bool ascii = false;
+};
+
+solid::Smoothing smoothing_of(std::string_view name) {
+  for (const auto mode : {solid::Smoothing::fair, solid::Smoothing::exact})
+    if (solid::name_of(mode) == name) return mode;
+  return solid::Smoothing::none;
+}
+
+/// "12%": a part, 0.12. Errors state what was expected.
+Result<double> shrinkage_of(const std::string& text) {
+  double percent = 0.0;
+  const char* end = text.data() + text.size();
+  const auto [stop, problem] = std::from_chars(text.data(), end, percent);
+  const std::string_view rest(stop, static_cast<std::size_t>(end - stop));
+  if (problem != std::errc() || rest != "%" ||
+      !(percent >= 0.0 && percent <= 100.0 * solid::kMostShrinkage))
+    return failure(ErrorKind::bad_input, fmt::format("expected 0% to {:g}%, found {}",
+                                                     100.0 * solid::kMostShrinkage, text));
+  return 0.01 * percent;
+}
+
+Result<void> check_names(const ExportCommand& command) {
+  std::vector<std::string> outputs = command.outputs;
+  outputs.push_back(command.request.report_path);
+  if (command.request.certificates)
+    for (const std::string& path : command.outputs) outputs.push_back(path + ".certificate.json");
+  return check_distinct(outputs, {command.pot});
+}
+
+/// Refuses options that would do nothing for the files asked for.
+Result<void> check_options(const ExportCommand& command) {
+  const auto need = [&](bool option, std::string_view name, std::string_view kind,
+                        auto is) -> Result<void> {
+    if (!option || std::ranges::any_of(command.request.files, is)) return {};
+    return failure(ErrorKind::bad_input, std::string(name)
+                                             .append(": expected ")
+                                             .append(kind)
+                                             .append(" among the files to write, found none"));
+  };
+  const auto pot = [](const FileRequest& file) { return file.kind == FileKind::given; };
+  const auto mesh = [](const FileRequest& file) { return file.kind == FileKind::mesh; };
+  const auto format = [](MeshFormat wanted) {
+    return [wanted](const FileRequest& file) {
+      return file.kind == FileKind::mesh && file.format == wanted;
+    };
+  };
+  return need(command.precision_mm.has_value(), "--precision", "a pot", pot)
+      .and_then([&] { return need(command.request.certificates, "--certificate", "a mesh", mesh); })
+      .and_then([&] {
+        return need(command.request.options.shrinkage > 0.0, "--shrinkage", "a mesh or its section",
+                    [](const FileRequest& file) { return file.kind != FileKind::given; });
+      })
+      .and_then(
+          [&] { return need(command.walls.asked(), "--min-wall and --process", "a mesh", mesh); })
+      .and_then(
+          [&] { return need(command.ascii, "--ascii", "an .stl", format(MeshFormat::stl_ascii)); })
+      .and_then([&] {
+        return need(command.request.options.normals, "--normals", "an .obj",
+                    format(MeshFormat::obj));
+      });
+}
+
+Result<FileRequest> file_of(const std::string& path, bool ascii) {
+  if (pot_encoding_of(path)) return FileRequest{path, FileKind::given};
+  return solid::file_request(path)
+      .map([&](FileRequest file) {
+        if (ascii && file.kind == FileKind::mesh && file.format == MeshFormat::stl_binary)
+          file.format = MeshFormat::stl_ascii;
+        return file;
+      })
+      .map_error([](const Error& error) {
+        return Error{error.kind, error.message + ", .pot.json or .pot.cbor for the pot"};
+      });
+}
+
+/// Everything but the pot itself.
+Result<void> complete_request(ExportCommand& command) {
+  if (auto loaded = command.walls.load(); !loaded) return loaded;
+  if (auto names = check_names(command); !names) return names;
+  for (const std::string& path : command.outputs) {
+    auto file = file_of(path, command.ascii);
+    if (!file) return tl::make_unexpected(file.error());
+    command.request.files.push_back(std::move(*file));
+  }
+  solid::ExportOptions& options = command.request.options;
+  options.smoothing = smoothing_of(command.smooth);
+  options.full_verification = command.verify == "full";
+  options.walls = command.walls.demand();
+  options.name = std::filesystem::path(command.pot).stem().stem().string();
+  options.source = command.pot;
+  return check_options(command);
+}
+
+/// Copies of the pot among the files, as exact as asked for.
+Result<std::vector<PotCopy>> add_copies(const Pot& pot, ExportCommand& command) {
+  const auto copied = command.precision_mm ? rounded_pot(pot, *command.precision_mm) : pot;
+  if (!copied) return failure(copied.error().kind, command.pot + ": " + copied.error().message);
+  std::vector<PotCopy> copies;
+  for (FileRequest& file : command.request.files) {
+    const auto encoding = pot_encoding_of(file.path);
+    if (!encoding) continue;
+    file.bytes = write_pot(*copied, *encoding);
+    copies.push_back(describe_copy(*copied, *encoding, file.bytes.size()));
+  }
+  return copies;
 }
 
 /// Exit status: done, or done with a wall below what was asked for.
 Result<int> export_pot(ExportCommand& command, const Console& console) {
-  const auto pot = read_pot(command);
+  const auto pot = read_file(command.pot).and_then([&](const std::string& bytes) {
+    return parse_pot(bytes, command.pot);
+  });
   if (!pot) return tl::make_unexpected(pot.error());
-  command.options.smoothing = smoothing_of(command.smooth);
-  command.options.full_verification = command.verify == "full";
-  command.options.name = std::filesystem::path(command.pot).stem().stem().string();
-  const auto done = [&] {
+  if (auto complete = complete_request(command); !complete)
+    return tl::make_unexpected(complete.error());
+  const auto copies = add_copies(*pot, command);
+  if (!copies) return tl::make_unexpected(copies.error());
+  command.request.report_text = [&](const solid::ExportReport& report) {
+    return pretty(export_json(report, *copies));
+  };
+  const auto report = [&] {
     Progress progress(console, "exporting", 0);
-    return export_files(*pot, command, [&](std::string_view stage) { progress.stage(stage); });
+    return solid::export_files(*pot, command.request,
+                               [&](std::string_view stage) { progress.stage(stage); });
   }();
-  if (!done) return tl::make_unexpected(done.error());
-
-  const auto& [report, copies, demand] = *done;
-  if (console.json) console.print(export_json(report, copies, command.outputs, demand));
-  tell_export(console, report, copies, command.outputs);
-  return tell_thin_wall(console, report, demand) ? kUnsound : kDone;
+  if (!report) return tl::make_unexpected(report.error());
+  if (console.json) console.print(export_json(*report, *copies));
+  tell_export(console, *report, *copies);
+  return tell_thin_wall(console, *report) ? kUnsound : kDone;
 }
 
 }  // namespace
@@ -56,7 +179,7 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
                   "Files to write: .stl, .obj, .drc; .svg for the section, .csv for its walls; "
                   ".pot.json or .pot.cbor for the pot")
       ->required();
-  sub->add_option("--tolerance", command->options.tolerance_mm,
+  sub->add_option("--tolerance", command->request.options.tolerance_mm,
                   "Largest chordal error, and vertex error in .drc [mm]")
       ->check(in_range(1e-5, 10.0))
       ->capture_default_str();
@@ -65,22 +188,22 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
                   "steps of the rings")
       ->check(CLI::IsMember({"fair", "exact", "none"}))
       ->capture_default_str();
-  sub->add_option("--lip-fillet", command->options.lip_fillet_mm,
+  sub->add_option("--lip-fillet", command->request.options.lip_fillet_mm,
                   "Radius of the fillet at both edges of the lip [mm]")
       ->check(in_range(0.0, 1e3));
-  sub->add_option("--segments", command->options.segments,
+  sub->add_option("--segments", command->request.options.segments,
                   "Facets around the axis (default: chosen from the tolerance)")
       ->check(CLI::Range(3, 1 << 20));
-  sub->add_option("--max-triangles", command->options.max_triangles,
+  sub->add_option("--max-triangles", command->request.options.max_triangles,
                   "Most triangles: facets may be coarser than the tolerance")
       ->check(CLI::Range(8, 20'000'000));
-  sub->add_option("--drain", command->options.drain_mm,
+  sub->add_option("--drain", command->request.options.drain_mm,
                   "Diameter of a hole along the axis that opens closed cavities [mm]")
       ->check(in_range(1e-3, 1e4));
   sub->add_option_function<std::string>(
          "--shrinkage",
          [command](const std::string& text) {
-           command->options.shrinkage = shrinkage_of(text).value_or(0.0);
+           command->request.options.shrinkage = shrinkage_of(text).value_or(0.0);
          },
          "Part of each length lost in drying and firing, as 12%: files are so much larger that the "
          "piece comes out in the pot's own size")
@@ -89,13 +212,14 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
         return parsed ? std::string() : parsed.error().message;
       });
   command->walls.add_to(*sub);
-  sub->add_flag("--measure-left-out", command->options.measure_left_out,
+  sub->add_flag("--measure-left-out", command->request.options.measure_left_out,
                 "Run the skipped stages too, and report the time that skipping saves");
-  sub->add_option("--report", command->report, "File for the report that --json prints");
+  sub->add_option("--report", command->request.report_path,
+                  "File for the report that --json prints");
   sub->add_option("--precision", command->precision_mm,
                   "Rounding of radii in pot files; meshes keep the exact radii [mm]")
       ->check(in_range(1e-5, 1.0));
-  sub->add_flag("--certificate", command->certificate,
+  sub->add_flag("--certificate", command->request.certificates,
                 "Write OUT.certificate.json beside each mesh, for claystack check --certificate");
   sub->add_option("--verify", command->verify,
                   "margins: prove the rounding, read the file again; full: also check the file "
@@ -103,8 +227,9 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
       ->check(CLI::IsMember({"margins", "full"}))
       ->capture_default_str();
   sub->add_flag("--ascii", command->ascii, "Write .stl as text");
-  sub->add_flag("--normals", command->options.normals, "Write .obj with normals, for shading");
-  sub->add_flag("--pieces", command->options.allow_pieces,
+  sub->add_flag("--normals", command->request.options.normals,
+                "Write .obj with normals, for shading");
+  sub->add_flag("--pieces", command->request.options.allow_pieces,
                 "Accept a pot of several pieces that do not touch");
   sub->footer(
       "\nExamples:\n  claystack export bowl.pot.json bowl.stl bowl.obj bowl.drc bowl.svg\n"

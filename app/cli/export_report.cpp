@@ -1,6 +1,4 @@
 #include "app/cli/export_report.hpp"
-#include "app/cli/export_run.hpp"
-#include "app/cli/thin_walls.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -10,6 +8,7 @@ namespace clay::cli {
 namespace {
 
 using solid::ExportReport;
+using solid::FileKind;
 using solid::FileReport;
 
 std::string_view proof_of(const FileReport& file) {
@@ -25,8 +24,8 @@ std::string_view proof_of(const ExportReport& report) {
   return "closed and embedded: the profile is strictly simple and meets the axis in segments only";
 }
 
-Json file_json(const FileReport& file, const std::string& path) {
-  Json json = {{"path", path},
+Json file_json(const FileReport& file) {
+  Json json = {{"path", file.path},
                {"format", solid::name_of(file.format)},
                {"bytes", file.bytes},
                {"content_hash", file.content_hash},
@@ -61,14 +60,8 @@ Json collapsed_json(const solid::CollapsedSolid& collapsed) {
           {"pockets_mm3", collapsed.pockets_mm3}, {"max_move_mm", collapsed.max_move_mm}};
 }
 
-/// Of files that say nothing of themselves: the section, and the table of walls.
-std::string_view plain_format_of(std::string_view path) {
-  if (path.ends_with(".svg")) return "svg";
-  return path.ends_with(".csv") ? "csv" : "";
-}
-
-void tell_file(const Console& console, const FileReport& file, const std::string& path) {
-  console.say(fmt::format("{}: {}, {} bytes; vertices within {:.2g} mm; {}{}{}", path,
+void tell_file(const Console& console, const FileReport& file) {
+  console.say(fmt::format("{}: {}, {} bytes; vertices within {:.2g} mm; {}{}{}", file.path,
                           solid::name_of(file.format), file.bytes, file.max_error_mm,
                           proof_of(file), file.read_again ? "; read again" : "",
                           file.full_verification ? "; checked in full" : ""));
@@ -96,49 +89,51 @@ void tell_smoothing(const Console& console, const ExportReport& report) {
   for (const auto reason : {solid::KeptFor::wall, solid::KeptFor::overshoot, solid::KeptFor::volume,
                             solid::KeptFor::certificate}) {
     const auto is = [&](const solid::KeptSteps& kept) { return kept.reason == reason; };
-    const auto first = std::find_if(report.kept_steps.begin(), report.kept_steps.end(), is);
-    if (first == report.kept_steps.end()) continue;
+    const auto first = std::find_if(report.section.smoothed.guard.begin(),
+                                    report.section.smoothed.guard.end(), is);
+    if (first == report.section.smoothed.guard.end()) continue;
     console.say(fmt::format(
         "steps kept for {}: {} stretch(es), the first from {:.2f} to {:.2f} mm ({:.3f} mm if "
         "smoothed)",
         solid::name_of(reason),
-        std::count_if(report.kept_steps.begin(), report.kept_steps.end(), is), first->from_mm,
-        first->to_mm, first->smoothed_mm));
+        std::count_if(report.section.smoothed.guard.begin(), report.section.smoothed.guard.end(),
+                      is),
+        first->from_mm, first->to_mm, first->smoothed_mm));
   }
-  if (report.wall_as_steps_mm)
-    console.warn(
-        fmt::format("exact walls leave an edge of {:.3f} mm at height {:.1f} mm, where the "
-                    "steps are {:.3f} mm at least; --smooth fair does not",
-                    report.min_wall_mm, report.thinnest.from.y, *report.wall_as_steps_mm));
-  if (report.taken_mm > 0.0)
+  if (report.walls.as_steps_mm)
+    console.warn(fmt::format(
+        "exact walls leave an edge of {:.3f} mm at height {:.1f} mm, where the "
+        "steps are {:.3f} mm at least; --smooth fair does not",
+        report.walls.min_wall_mm, report.walls.thinnest.from.y, *report.walls.as_steps_mm));
+  if (report.section.smoothed.taken_mm > 0.0)
     console.warn(
         fmt::format("walls may be thinner than they were by {:.2g} mm: no other clay to "
                     "take from",
-                    report.taken_mm));
+                    report.section.smoothed.taken_mm));
 }
 
 void tell_shrinkage(const Console& console, const ExportReport& report) {
-  if (report.shrinkage == 0.0) return;
-  const double fired = 1.0 - report.shrinkage;
+  if (report.prepared.shrinkage == 0.0) return;
+  const double fired = 1.0 - report.prepared.shrinkage;
   console.say(fmt::format(
       "for a shrinkage of {:g} % the files are larger: {:.2f} mm wide and {:.2f} mm high, to come "
       "out {:.2f} mm wide and {:.2f} mm high",
-      100.0 * report.shrinkage, report.diameter_mm, report.height_mm, fired * report.diameter_mm,
-      fired * report.height_mm));
+      100.0 * report.prepared.shrinkage, report.size.diameter_mm, report.size.height_mm,
+      fired * report.size.diameter_mm, fired * report.size.height_mm));
 }
 
 void tell_solid(const Console& console, const ExportReport& report) {
   console.say(
       fmt::format("proved: {}closed and embedded, from {} profile vertices; {} triangles in "
                   "{} shell(s)",
-                  report.collapsed ? "each part before the fall " : "", report.planar.vertices,
-                  report.triangles, report.shells));
+                  report.collapsed ? "each part before the fall " : "",
+                  report.section.planar.vertices, report.size.triangles, report.size.shells));
   console.say(
       fmt::format("volume {:.3f} cm3, {}off the counted clay by {:.1e}; thinnest {:.2f} mm, at "
                   "height {:.1f} mm; chordal error {:.3g} mm",
-                  report.volume_mm3 / 1000.0, report.collapsed ? "with the overlap " : "",
-                  report.volume_error_relative, report.min_wall_mm, report.thinnest.from.y,
-                  report.chordal_error_mm));
+                  report.volume.solid_mm3 / 1000.0, report.collapsed ? "with the overlap " : "",
+                  report.volume.error_relative, report.walls.min_wall_mm,
+                  report.walls.thinnest.from.y, report.size.chordal_error_mm));
   tell_shrinkage(console, report);
   if (report.collapsed) tell_collapse(console, *report.collapsed);
   tell_smoothing(console, report);
@@ -149,70 +144,80 @@ void tell_solid(const Console& console, const ExportReport& report) {
 /// What was made and proved.
 Json solid_json(const ExportReport& report) {
   Json json = {
-      {"triangles", report.triangles},
-      {"shells", report.shells},
-      {"segments", report.segments},
-      {"smoothing", solid::name_of(report.smoothing)},
-      {"tolerance_mm", report.tolerance_mm},
-      {"chordal_error_mm", report.chordal_error_mm},
-      {"volume_mm3", report.volume_mm3},
-      {"counted_volume_mm3", report.counted_volume_mm3},
-      {"volume_error_relative", report.volume_error_relative},
-      {"min_wall_mm", report.min_wall_mm},
+      {"triangles", report.size.triangles},
+      {"shells", report.size.shells},
+      {"segments", report.size.segments},
+      {"smoothing", solid::name_of(report.section.smoothing)},
+      {"tolerance_mm", report.size.tolerance_mm},
+      {"chordal_error_mm", report.size.chordal_error_mm},
+      {"volume_mm3", report.volume.solid_mm3},
+      {"counted_volume_mm3", report.prepared.counted_volume_mm3},
+      {"volume_error_relative", report.volume.error_relative},
+      {"min_wall_mm", report.walls.min_wall_mm},
       {"thinnest_at_mm",
-       {{report.thinnest.from.rho, report.thinnest.from.y},
-        {report.thinnest.to.rho, report.thinnest.to.y}}},
-      {"diameter_mm", report.diameter_mm},
-      {"height_mm", report.height_mm},
+       {{report.walls.thinnest.from.rho, report.walls.thinnest.from.y},
+        {report.walls.thinnest.to.rho, report.walls.thinnest.to.y}}},
+      {"diameter_mm", report.size.diameter_mm},
+      {"height_mm", report.size.height_mm},
       {"certificate",
        {{"proved", proof_of(report)},
-        {"polygons", report.planar.polygons},
-        {"vertices", report.planar.vertices},
-        {"axis_segments", report.planar.axis_segments}}},
-      {"overshoot_mm", report.overshoot_mm},
+        {"polygons", report.section.planar.polygons},
+        {"vertices", report.section.planar.vertices},
+        {"axis_segments", report.section.planar.axis_segments}}},
+      {"overshoot_mm", report.section.smoothed.overshoot_mm},
       {"kept_steps", Json::array()},
       {"cavities", Json::array()},
   };
-  for (const auto& shape : report.shapes)
+  for (const auto& shape : report.section.shapes())
     for (const auto& cavity : shape.cavities)
       json["cavities"].push_back({{"bottom_mm", cavity.bottom_mm},
                                   {"top_mm", cavity.top_mm},
                                   {"volume_mm3", cavity.volume_mm3}});
-  for (const auto& kept : report.kept_steps) json["kept_steps"].push_back(kept_json(kept));
-  if (report.shrinkage > 0.0) {
-    const double fired = 1.0 - report.shrinkage;
-    json["shrinkage"] = {{"part", report.shrinkage},
-                         {"fired_diameter_mm", fired * report.diameter_mm},
-                         {"fired_height_mm", fired * report.height_mm},
-                         {"fired_volume_mm3", fired * fired * fired * report.volume_mm3}};
+  for (const auto& kept : report.section.smoothed.guard)
+    json["kept_steps"].push_back(kept_json(kept));
+  if (report.prepared.shrinkage > 0.0) {
+    const double fired = 1.0 - report.prepared.shrinkage;
+    json["shrinkage"] = {{"part", report.prepared.shrinkage},
+                         {"fired_diameter_mm", fired * report.size.diameter_mm},
+                         {"fired_height_mm", fired * report.size.height_mm},
+                         {"fired_volume_mm3", fired * fired * fired * report.volume.solid_mm3}};
   }
   if (report.collapsed) json["collapsed"] = collapsed_json(*report.collapsed);
-  if (report.drilled_mm3 > 0.0) json["drilled_mm3"] = report.drilled_mm3;
-  if (report.smoothing == solid::Smoothing::exact)
-    json["max_ring_error_relative"] = report.max_ring_error_relative;
-  if (report.wall_as_steps_mm) json["wall_as_steps_mm"] = *report.wall_as_steps_mm;
-  if (report.lip_fillet_mm > 0.0) json["lip_fillet_mm"] = report.lip_fillet_mm;
-  if (report.taken_mm > 0.0) json["taken_mm"] = report.taken_mm;
+  if (report.prepared.drilled_mm3 > 0.0) json["drilled_mm3"] = report.prepared.drilled_mm3;
+  if (report.section.smoothing == solid::Smoothing::exact)
+    json["max_ring_error_relative"] = report.section.smoothed.max_ring_error_relative;
+  if (report.walls.as_steps_mm) json["wall_as_steps_mm"] = *report.walls.as_steps_mm;
+  if (report.section.smoothed.lip_fillet_mm > 0.0)
+    json["lip_fillet_mm"] = report.section.smoothed.lip_fillet_mm;
+  if (report.section.smoothed.taken_mm > 0.0) json["taken_mm"] = report.section.smoothed.taken_mm;
   return json;
 }
 
 }  // namespace
 
-Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies,
-                 const std::vector<std::string>& paths, const std::optional<WallDemand>& demand) {
-  Json json = report.files.empty() ? Json::object() : solid_json(report);
+Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies) {
+  Json json = report.has_mesh() ? solid_json(report) : Json::object();
   for (const char* list : {"files", "left_out", "stages"}) json[list] = Json::array();
-  if (demand && !report.files.empty())
-    json["wall_demand"] = {{"min_wall_mm", demand->min_wall_mm},
-                           {"source", demand->source},
-                           {"passes", thinnest_mm(report) >= demand->min_wall_mm}};
-  auto file = report.files.begin();
+  if (const auto& limit = report.walls.limit; limit && report.has_mesh())
+    json["wall_demand"] = {{"min_wall_mm", limit->min_wall_mm},
+                           {"source", limit->asked_by()},
+                           {"passes", report.thinnest_mm() >= limit->min_wall_mm}};
   auto copy = copies.begin();
-  for (const std::string& path : paths) {
-    const std::string_view plain = plain_format_of(path);
-    json["files"].push_back(!plain.empty()          ? Json{{"path", path}, {"format", plain}}
-                            : pot_encoding_of(path) ? copy_json(*copy++, path)
-                                                    : file_json(*file++, path));
+  for (const FileReport& file : report.files) {
+    switch (file.kind) {
+      case FileKind::mesh:
+        json["files"].push_back(file_json(file));
+        break;
+      case FileKind::section:
+        json["files"].push_back({{"path", file.path}, {"format", "svg"}});
+        break;
+      case FileKind::wall_table:
+        json["files"].push_back({{"path", file.path}, {"format", "csv"}});
+        break;
+      case FileKind::given:
+        json["files"].push_back(copy_json(*copy++, file.path));
+        break;
+    }
   }
   for (const auto& [what, why, saved] : report.left_out) {
     json["left_out"].push_back({{"what", what}, {"why", why}});
@@ -224,33 +229,39 @@ Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies,
 }
 
 void tell_export(const Console& console, const ExportReport& report,
-                 const std::vector<PotCopy>& copies, const std::vector<std::string>& paths) {
-  if (!report.files.empty()) tell_solid(console, report);
-  if (report.drilled_mm3 > 0.0)
-    console.say(
-        fmt::format("drain drilled, {:.3f} cm3 of clay taken", report.drilled_mm3 / 1000.0));
-  for (const auto& shape : report.shapes)
-    for (const auto& cavity : shape.cavities) console.warn(text_of(cavity));
-  auto file = report.files.begin();
+                 const std::vector<PotCopy>& copies) {
+  if (report.has_mesh()) tell_solid(console, report);
+  if (report.prepared.drilled_mm3 > 0.0)
+    console.say(fmt::format("drain drilled, {:.3f} cm3 of clay taken",
+                            report.prepared.drilled_mm3 / 1000.0));
+  for (const auto& shape : report.section.shapes())
+    for (const auto& cavity : shape.cavities) console.warn(solid::text_of(cavity));
   auto copy = copies.begin();
-  for (const std::string& path : paths) {
-    if (const std::string_view plain = plain_format_of(path); !plain.empty())
-      console.say(path + (plain == "svg" ? ": section" : ": walls along the section"));
-    else if (pot_encoding_of(path))
-      console.say(copy_text(*copy++, path));
-    else
-      tell_file(console, *file++, path);
+  for (const FileReport& file : report.files) {
+    switch (file.kind) {
+      case FileKind::mesh:
+        tell_file(console, file);
+        break;
+      case FileKind::section:
+        console.say(file.path + ": section");
+        break;
+      case FileKind::wall_table:
+        console.say(file.path + ": walls along the section");
+        break;
+      case FileKind::given:
+        console.say(copy_text(*copy++, file.path));
+        break;
+    }
   }
 }
 
-bool tell_thin_wall(const Console& console, const ExportReport& report,
-                    const std::optional<WallDemand>& demand) {
-  if (!demand || report.files.empty()) return false;
-  if (const auto thin = thin_wall_of(report, demand)) {
+bool tell_thin_wall(const Console& console, const ExportReport& report) {
+  if (!report.walls.limit || !report.has_mesh()) return false;
+  if (const auto thin = solid::thin_wall_of(report)) {
     console.warn(*thin);
     return true;
   }
-  console.say("walls: " + wall_text(thinnest_mm(report), *demand));
+  console.say("walls: " + solid::wall_text(report.thinnest_mm(), *report.walls.limit));
   return false;
 }
 

@@ -3,26 +3,20 @@
 
 #include "app/cli/console.hpp"
 #include "app/cli/pot_copy.hpp"
-#include "app/cli/wall_demand.hpp"
 #include "claystack/export/job.hpp"
 
-#include <optional>
-#include <string>
 #include <vector>
 
 namespace clay::cli {
 
-/// `paths` are those of all files, drawings and pots among them; the report has one file for each
-/// mesh, and `copies` one for each pot. Without a mesh there is no solid to speak of.
+/// `copies` describe the given files of the report, which are pots, in their order. Without a mesh
+/// there is no solid to report on.
 [[nodiscard]] Json export_json(const solid::ExportReport& report,
-                               const std::vector<PotCopy>& copies,
-                               const std::vector<std::string>& paths,
-                               const std::optional<WallDemand>& demand);
+                               const std::vector<PotCopy>& copies);
 void tell_export(const Console& console, const solid::ExportReport& report,
-                 const std::vector<PotCopy>& copies, const std::vector<std::string>& paths);
+                 const std::vector<PotCopy>& copies);
 
-/// Whether a file may be thinner somewhere than demanded; says so, and by how much.
-bool tell_thin_wall(const Console& console, const solid::ExportReport& report,
-                    const std::optional<WallDemand>& demand);
+/// Whether a file may be thinner somewhere than asked; prints so, and by how much.
+bool tell_thin_wall(const Console& console, const solid::ExportReport& report);
 
 }  // namespace clay::cli

@@ -63,7 +63,7 @@ Result<Pot> clay_of(const std::string& path) {
 Result<void> map_walls(const RenderCommand& command, const Pot& pot, render::Picture& picture,
                        Rendered& done) {
   const auto demand =
-      command.walls.for_size(4.0 * largest_radius_mm(pot.stack) + pot.stack.height_mm());
+      command.walls.demand().for_size(4.0 * largest_radius_mm(pot.stack) + pot.stack.height_mm());
   const double limit = demand ? demand->min_wall_mm : 0.0;
   const auto profile =
       render::wall_profile(pot, demand ? std::optional(limit) : std::optional<double>());

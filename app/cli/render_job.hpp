@@ -4,7 +4,7 @@
 #include "app/cli/console.hpp"
 #include "app/render/picture.hpp"
 #ifdef CLAYSTACK_EXPORT
-#include "app/cli/wall_demand.hpp"
+#include "app/cli/wall_options.hpp"
 #endif
 
 #include "claystack/engine/clay.hpp"
@@ -24,7 +24,7 @@ struct RenderCommand {
   bool section = false, wall_map = false, dark = false, time = false;
   std::optional<double> azimuth_deg, elevation_deg;
 #ifdef CLAYSTACK_EXPORT
-  WallDemands walls;
+  WallOptions walls;
 #endif
 };
 

@@ -46,7 +46,7 @@ struct Mark {
 /// The card of an export, and what came of it.
 struct ExportCard {
   ExportWish wish, rehearsed;  ///< `rehearsed`: what `shown` is of
-  std::optional<cli::ExportDone> shown;
+  std::optional<solid::ExportReport> shown;
   std::string problem;               ///< why there is nothing to show
   std::vector<std::string> written;  ///< files of the last export; empty: none yet
   std::string said;                  ///< how it ended

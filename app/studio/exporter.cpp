@@ -1,5 +1,7 @@
 #include "app/studio/exporter.hpp"
 
+#include "app/cli/pot_copy.hpp"
+
 #include <algorithm>
 #include <array>
 #include <system_error>
@@ -19,26 +21,43 @@ constexpr std::array kEndings = {Ending{&ExportWish::stl, ".stl"}, Ending{&Expor
 
 }  // namespace
 
-cli::ExportCommand command_of(const ExportWish& wish) {
-  cli::ExportCommand command;
-  command.pot = wish.name;
+std::vector<std::string> paths_of(const ExportWish& wish) {
+  std::vector<std::string> paths;
   for (const auto& [wanted, ending] : kEndings)
     if (wish.*wanted)
-      command.outputs.push_back(
-          (std::filesystem::path(wish.folder) / (wish.name + ending)).string());
-  command.options.tolerance_mm = wish.tolerance_mm;
-  command.options.smoothing = cli::smoothing_of(wish.smooth);
-  command.options.name = wish.name;
+      paths.push_back((std::filesystem::path(wish.folder) / (wish.name + ending)).string());
+  return paths;
+}
+
+Result<solid::ExportRequest> request_of(const ExportWish& wish, const Pot& pot) {
+  solid::ExportRequest request;
+  for (const std::string& path : paths_of(wish)) {
+    if (const auto encoding = cli::pot_encoding_of(path)) {
+      request.files.push_back(
+          {.path = path, .kind = solid::FileKind::given, .bytes = write_pot(pot, *encoding)});
+      continue;
+    }
+    auto file = solid::file_request(path);
+    if (!file) return tl::make_unexpected(file.error());
+    request.files.push_back(std::move(*file));
+  }
+  solid::ExportOptions& options = request.options;
+  options.tolerance_mm = wish.tolerance_mm;
+  options.smoothing = wish.smoothing;
+  options.name = options.source = wish.name;
   const bool mesh = wish.stl || wish.obj || wish.drc;
-  if (mesh || wish.section) command.options.shrinkage = 0.01 * wish.shrinkage_percent;
-  if (mesh)
-    command.walls.ask(wish.min_wall_mm > 0.0 ? std::optional(wish.min_wall_mm) : std::nullopt,
-                      wish.process);
-  return command;
+  if (mesh || wish.section) options.shrinkage = 0.01 * wish.shrinkage_percent;
+  if (!mesh) return request;
+  if (wish.min_wall_mm > 0.0) options.walls.min_wall_mm = wish.min_wall_mm;
+  if (wish.process.empty()) return request;
+  return solid::read_process(wish.process).map([&](solid::ProcessLimits process) {
+    options.walls.process = std::move(process);
+    return std::move(request);
+  });
 }
 
 std::vector<std::string> standing_files(const ExportWish& wish) {
-  std::vector<std::string> paths = command_of(wish).outputs;
+  std::vector<std::string> paths = paths_of(wish);
   std::erase_if(paths, [](const std::string& path) {
     std::error_code ignored;
     return !std::filesystem::exists(path, ignored);
@@ -132,16 +151,17 @@ void Exporter::run() {
 }
 
 Exporter::Outcome Exporter::done(const Job& job) {
-  cli::ExportCommand command = command_of(job.wish);
-  command.options.cancelled = [token = job.stop.get_token()] { return token.stop_requested(); };
-  const auto tell = [this](std::string_view stage) {
+  const auto show = [this](std::string_view stage) {
     const std::lock_guard lock(mutex_);
     stage_ = stage;
   };
-  auto result = job.kind == Kind::files ? cli::export_files(*job.pot, command, tell)
-                                        : cli::rehearse_export(*job.pot, command, tell);
+  auto result = request_of(job.wish, *job.pot).and_then([&](solid::ExportRequest request) {
+    request.options.cancelled = [token = job.stop.get_token()] { return token.stop_requested(); };
+    return job.kind == Kind::files ? solid::export_files(*job.pot, request, show)
+                                   : solid::rehearse_export(*job.pot, request, show);
+  });
   const bool cancelled = !result && job.stop.stop_requested();
-  return {job.kind, job.pot, job.wish, std::move(result), cancelled, std::move(command.outputs)};
+  return {job.kind, job.pot, job.wish, std::move(result), cancelled, paths_of(job.wish)};
 }
 
 }  // namespace clay::studio

@@ -1,8 +1,8 @@
 #pragma once
 // The pot to files from the window: the job of `claystack export`, on a thread of its own.
 
-#include "app/cli/export_run.hpp"
 #include "app/history/work.hpp"
+#include "claystack/export/job.hpp"
 
 #include <condition_variable>
 #include <cstddef>
@@ -24,16 +24,18 @@ struct ExportWish {
   bool stl = true, obj = false, drc = false, section = false, pot = false;
   std::string folder, name;
   double tolerance_mm = 0.02;
-  std::string smooth = "fair";  ///< as --smooth
-  std::string process;          ///< as --process; empty: none
-  double min_wall_mm = 0.0;     ///< 0: none but the process's
+  solid::Smoothing smoothing = solid::Smoothing::fair;
+  std::string process;       ///< as --process; empty: none
+  double min_wall_mm = 0.0;  ///< 0: none but the process's
   double shrinkage_percent = 0.0;
   friend bool operator==(const ExportWish&, const ExportWish&) = default;
 };
 
-/// As the command line would have it.
-[[nodiscard]] cli::ExportCommand command_of(const ExportWish& wish);
-/// Files with these names that are there already.
+/// For this pot. Errors: a process that is not known or cannot be read.
+[[nodiscard]] Result<solid::ExportRequest> request_of(const ExportWish& wish, const Pot& pot);
+/// In the order of the request.
+[[nodiscard]] std::vector<std::string> paths_of(const ExportWish& wish);
+/// Those of them that are there already.
 [[nodiscard]] std::vector<std::string> standing_files(const ExportWish& wish);
 
 class Exporter {
@@ -43,9 +45,9 @@ class Exporter {
     Kind kind = Kind::rehearsal;
     history::SharedPot pot;
     ExportWish wish;
-    Result<cli::ExportDone> done;
+    Result<solid::ExportReport> done;
     bool cancelled = false;
-    std::vector<std::string> paths;  ///< of the files, in the order of the command
+    std::vector<std::string> paths;  ///< of the files, in the order of the request
   };
 
   Exporter();

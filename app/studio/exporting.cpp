@@ -17,23 +17,23 @@ glm::dvec2 on_pot(const solid::ProfilePoint& place, double shrinkage) {
 }
 
 void mark(AppState& shop, const Exporter::Outcome& outcome) {
-  const cli::ExportDone& done = *outcome.done;
   shop.marks.clear();
   shop.marked = outcome.pot;
-  for (const cli::Problem& problem : cli::problems_of(done))
+  for (const solid::Problem& problem : solid::problems_of(*outcome.done))
     if (problem.at)
-      shop.marks.push_back({on_pot(*problem.at, done.report.shrinkage), problem.text});
+      shop.marks.push_back({on_pot(*problem.at, outcome.done->prepared.shrinkage), problem.text});
 }
 
-std::string text_of(const cli::ExportDone& done, const std::vector<std::string>& paths) {
+std::string text_of(const solid::ExportReport& report, const std::vector<std::string>& paths) {
   std::uint64_t bytes = 0;
-  for (const solid::FileReport& file : done.report.files) bytes += file.bytes;
-  return done.report.files.empty()
+  for (const solid::FileReport& file : report.files)
+    if (file.kind == solid::FileKind::mesh) bytes += file.bytes;
+  return !report.has_mesh()
              ? fmt::format("{} file{} written", paths.size(), paths.size() == 1 ? "" : "s")
              : fmt::format(
                    "{} file{} written; {} triangles, {:.2f} MB of meshes, each proved and "
                    "read again",
-                   paths.size(), paths.size() == 1 ? "" : "s", done.report.triangles,
+                   paths.size(), paths.size() == 1 ? "" : "s", report.size.triangles,
                    1e-6 * static_cast<double>(bytes));
 }
 
@@ -52,7 +52,7 @@ void take_files(AppState& shop, Exporter::Outcome outcome) {
   }
   card.written = outcome.paths;
   card.said = text_of(*outcome.done, outcome.paths);
-  if (!outcome.done->report.files.empty()) {
+  if (outcome.done->has_mesh()) {
     mark(shop, outcome);
     card.shown = std::move(*outcome.done);
   }
@@ -71,7 +71,7 @@ void take_rehearsal(AppState& shop, Exporter::Outcome outcome) {
   if (outcome.done) {
     mark(shop, outcome);
     card.shown = std::move(*outcome.done);
-    shop.log(fmt::format("export rehearsed: {} triangles", card.shown->report.triangles));
+    shop.log(fmt::format("export rehearsed: {} triangles", card.shown->size.triangles));
   } else {
     card.problem = outcome.done.error().message;
   }

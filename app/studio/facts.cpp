@@ -62,7 +62,7 @@ const std::array kFacts = {
          }},
     Fact{"triangles",
          [](const AppState& s) {
-           return fmt::format("{}", s.exporting.shown ? s.exporting.shown->report.triangles : 0);
+           return fmt::format("{}", s.exporting.shown ? s.exporting.shown->size.triangles : 0);
          }},
     Fact{"exported",
          [](const AppState& s) { return fmt::format("{}", s.exporting.written.size()); }},

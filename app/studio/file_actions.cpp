@@ -27,8 +27,7 @@ bool exports(const AppState& shop) {
   const std::string& name = shop.exporting.wish.name;
   if (name.empty() || name.find('/') != std::string::npos) return false;
   return shop.overlay == Overlay::export_files &&
-         shop.exporter.running() != Exporter::Kind::files &&
-         !command_of(shop.exporting.wish).outputs.empty();
+         shop.exporter.running() != Exporter::Kind::files && !paths_of(shop.exporting.wish).empty();
 }
 bool writes(const AppState& shop) { return shop.exporter.running() == Exporter::Kind::files; }
 bool has_written(const AppState& shop) { return !shop.exporting.written.empty(); }

@@ -91,7 +91,8 @@ SceneSpec scene_for(const Pot& pot, const std::string& name) {
 }
 
 void take_process(AppState& shop, const std::filesystem::path& path) {
-  if (auto process = cli::process_of(path.string()); !process) return tell(shop, process.error());
+  if (auto process = solid::read_process(path.string()); !process)
+    return tell(shop, process.error());
   remember_process(shop.settings, path);
   if (shop.overlay == Overlay::export_files) shop.exporting.wish.process = shop.settings.process;
   shop.log("process: " + path.string());

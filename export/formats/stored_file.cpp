@@ -1,7 +1,6 @@
 #include "export/formats/stored_file.hpp"
 
 #include "core/cancel.hpp"
-#include "export/check/describe.hpp"
 
 #include <algorithm>
 
@@ -22,14 +21,6 @@ Result<void> in_parts(std::span<Byte> whole, Part part) {
   return {};
 }
 
-Result<std::string> read_whole(const FileStore& store, std::size_t bytes) {
-  std::string file(bytes, '\0');
-  return in_parts(
-             std::as_writable_bytes(std::span(file)),
-             [&](std::span<std::byte> part, std::size_t at) { return store.read_at(at, part); })
-      .map([&] { return std::move(file); });
-}
-
 }  // namespace
 
 Result<void> write_in_parts(FileStore& store, const std::string& bytes) {
@@ -42,14 +33,12 @@ Result<std::string> read_again(const FileStore& store, const std::string& writte
   return read_whole(store, written.size());
 }
 
-Result<MeshReport> check_stored(const FileStore& store, std::uint64_t bytes, MeshFormat format) {
-  const std::string name = as_written(format);
-  const auto report =
-      read_whole(store, bytes)
-          .and_then([&](const std::string& file) { return decode_mesh(file, format, name); })
-          .map(check_mesh);
-  if (!report || report->sound()) return report;
-  return failure(ErrorKind::unsound, name + ": found " + describe(report->problems.front()));
+Result<std::string> read_whole(const FileStore& store, std::uint64_t bytes) {
+  std::string file(bytes, '\0');
+  return in_parts(
+             std::as_writable_bytes(std::span(file)),
+             [&](std::span<std::byte> part, std::size_t at) { return store.read_at(at, part); })
+      .map([&] { return std::move(file); });
 }
 
 }  // namespace clay::solid::inline formats

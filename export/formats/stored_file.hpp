@@ -2,7 +2,6 @@
 // Reads files back from a store.
 
 #include "claystack/core/result.hpp"
-#include "claystack/export/check.hpp"
 #include "claystack/export/formats.hpp"
 
 #include <cstdint>
@@ -31,7 +30,7 @@ Result<void> write_in_parts(FileStore& store, const std::string& bytes);
 /// The bytes in the store; if that cannot be read back, the bytes passed to it.
 Result<std::string> read_again(const FileStore& store, const std::string& written);
 
-/// Checks the whole file like a foreign one. An unsound file is an error.
-Result<MeshReport> check_stored(const FileStore& store, std::uint64_t bytes, MeshFormat format);
+/// The first `bytes` bytes of the store, read back.
+Result<std::string> read_whole(const FileStore& store, std::uint64_t bytes);
 
 }  // namespace clay::solid::inline formats

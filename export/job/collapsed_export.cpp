@@ -1,16 +1,15 @@
 #include "export/job/collapsed_export.hpp"
 
 #include "claystack/engine/tick.hpp"
-#include "claystack/export/repair.hpp"
 #include "claystack/export/solid.hpp"
 #include "claystack/export/walls.hpp"
 #include "core/content_hash.hpp"
-#include "export/check/describe.hpp"
 #include "export/formats/draco_bits.hpp"
 #include "export/formats/stored_file.hpp"
 #include "export/job/left_out.hpp"
 #include "export/job/resolution.hpp"
 #include "export/job/stages.hpp"
+#include "export/proof/describe.hpp"
 #include "export/proof/verify_file.hpp"
 #include "export/solid/mesh_extent.hpp"
 
@@ -30,7 +29,6 @@ Result<void> check_options(const ExportOptions& options) {
         ErrorKind::bad_input,
         std::string(option).append(": expected a pot that stands, found a collapsed one"));
   };
-  if (options.drain_mm) return refuse("drain");
   if (options.normals) return refuse("normals");
   if (options.wall_spacing_mm) return refuse("field of walls");
   if (options.lip_fillet_mm > 0.0) return refuse("lip fillet");
@@ -39,23 +37,30 @@ Result<void> check_options(const ExportOptions& options) {
 
 class CollapsedExport {
  public:
-  CollapsedExport(const Pot& pot, const std::vector<Output>& outputs, const ExportOptions& options,
+  CollapsedExport(const PreparedPot& prepared, const std::vector<Output>& outputs,
+                  const ExportOptions& options,
                   const std::function<void(std::string_view)>& progress)
-      : pot_(pot), outputs_(outputs), options_(options), stages_(report_.stages, progress) {}
+      : prepared_(prepared),
+        pot_(prepared.pot),
+        outputs_(outputs),
+        options_(options),
+        stages_(report_.stages, progress) {}
 
   Result<ExportReport> run() {
-    return check_options(options_)
-        .and_then([&] { return make_parts(); })
-        .and_then([&] { return unite(); })
-        .and_then([&] { return meet_budget(); })
-        .and_then([&] { return write_all(); })
-        .map([&] {
-          tell_left_out();
-          return std::move(report_);
-        });
+    return named(make_solid(), options_.source).and_then([&] { return write_all(); }).map([&] {
+      list_left_out();
+      return std::move(report_);
+    });
   }
 
  private:
+  Result<void> make_solid() {
+    return check_options(options_)
+        .and_then([&] { return make_parts(); })
+        .and_then([&] { return unite(); })
+        .and_then([&] { return meet_budget(); });
+  }
+
   Result<void> make_parts() {
     return stages_
         .run("parts",
@@ -85,41 +90,47 @@ class CollapsedExport {
 
   void describe_parts(std::size_t segments) {
     const PlanarCertificate &lower = parts_.lower_certificate, &upper = parts_.upper_certificate;
-    report_.planar = {lower.polygons + upper.polygons, lower.vertices + upper.vertices,
+    ProvedSection& section = report_.section;
+    section.planar = {lower.polygons + upper.polygons, lower.vertices + upper.vertices,
                       lower.axis_segments + upper.axis_segments};
-    report_.smoothing = parts_.smoothing;
-    report_.shapes = parts_.lower.shapes;
-    report_.shapes.insert(report_.shapes.end(), parts_.upper.shapes.begin(),
-                          parts_.upper.shapes.end());
-    report_.segments = segments;
-    report_.tolerance_mm = options_.tolerance_mm;
-    report_.chordal_error_mm = chordal_error_mm(largest_radius_mm(pot_.stack), segments);
-    report_.thinnest = min_wall(parts_.lower.profile);
+    section.smoothing = parts_.smoothing;
+    section.no_smoothing =
+        options_.smoothing == Smoothing::none ? "not asked for" : parts_.no_smoothing;
+    section.smoothed.section = {parts_.together(), parts_.lower.shapes};
+    std::vector<PieceShape>& shapes = section.smoothed.section.shapes;
+    shapes.insert(shapes.end(), parts_.upper.shapes.begin(), parts_.upper.shapes.end());
+    report_.size.segments = segments;
+    report_.size.tolerance_mm = options_.tolerance_mm;
+    report_.size.chordal_error_mm = chordal_error_mm(largest_radius_mm(pot_.stack), segments);
+    Wall& thinnest = report_.walls.thinnest;
+    thinnest = min_wall(parts_.lower.profile);
     if (!parts_.upper.shapes.empty()) {
       const Wall fallen = min_wall(parts_.upper.profile);
-      if (fallen.thickness_mm < report_.thinnest.thickness_mm) report_.thinnest = fallen;
+      if (fallen.thickness_mm < thinnest.thickness_mm) thinnest = fallen;
     }
-    report_.min_wall_mm =
-        report_.thinnest.thickness_mm * std::cos(std::numbers::pi / static_cast<double>(segments));
+    report_.walls.min_wall_mm =
+        thinnest.thickness_mm * std::cos(std::numbers::pi / static_cast<double>(segments));
   }
 
   void describe_solid(CollapsedSolid solid) {
     const glm::dvec3 extent = extent_of(mesh_);
-    report_.diameter_mm = std::max(extent.x, extent.y);
-    report_.height_mm = extent.z;
-    report_.counted_volume_mm3 = pot_.stack.volume_mm3();
-    report_.triangles = mesh_.triangles.size();
-    report_.shells = solid.check.components;
+    report_.prepared = prepared_.done;
+    report_.size.diameter_mm = std::max(extent.x, extent.y);
+    report_.size.height_mm = extent.z;
+    report_.size.triangles = mesh_.triangles.size();
+    report_.size.shells = solid.check.components;
+    report_.walls.limit =
+        options_.walls.for_size(2.0 * report_.size.diameter_mm + report_.size.height_mm);
     report_.collapsed = std::move(solid);
     describe_volume(report_.collapsed->volume_mm3);
   }
 
   void describe_volume(double volume_mm3) {
     const CollapsedSolid& solid = *report_.collapsed;
-    report_.volume_mm3 = volume_mm3;
-    report_.volume_error_relative =
-        std::abs(volume_mm3 - solid.pockets_mm3 + solid.overlap_mm3 - report_.counted_volume_mm3) /
-        report_.counted_volume_mm3;
+    const double counted_mm3 = prepared_.done.counted_volume_mm3;
+    report_.volume = {
+        volume_mm3,
+        std::abs(volume_mm3 - solid.pockets_mm3 + solid.overlap_mm3 - counted_mm3) / counted_mm3};
   }
 
   /// There is no profile of the whole to make coarser: the mesh is decimated, and checked again.
@@ -132,9 +143,9 @@ class CollapsedExport {
           if (!check.sound())
             return failure(ErrorKind::unsound,
                            "decimated: found " + describe(check.problems.front()));
-          report_.triangles = mesh_.triangles.size();
-          report_.tolerance_mm += decimated.max_error_mm;
-          report_.chordal_error_mm += decimated.max_error_mm;
+          report_.size.triangles = mesh_.triangles.size();
+          report_.size.tolerance_mm += decimated.max_error_mm;
+          report_.size.chordal_error_mm += decimated.max_error_mm;
           describe_volume(check.volume_mm3);
           report_.collapsed->max_move_mm += decimated.max_error_mm;
           return {};
@@ -143,8 +154,10 @@ class CollapsedExport {
 
   Result<void> write_all() {
     for (const Output& output : outputs_) {
-      auto file = output.format == MeshFormat::drc ? write_drc(*output.store)
-                                                   : write_exact(output.format, *output.store);
+      auto file =
+          named(output.format == MeshFormat::drc ? write_drc(*output.store)
+                                                 : write_exact(output.format, *output.store),
+                output.name.empty() ? options_.source : output.name);
       if (!file) return tl::make_unexpected(file.error());
       report_.files.push_back(std::move(*file));
     }
@@ -208,14 +221,15 @@ class CollapsedExport {
         });
   }
 
-  void tell_left_out() {
+  void list_left_out() {
     auto& list = report_.left_out;
     if (!pot_.stack.hollow()) list.push_back({"inner shell", "no ring has a bore", {}});
-    if (options_.smoothing == Smoothing::none) list.push_back({"smoothing", "not asked for", {}});
-    if (!parts_.no_smoothing.empty()) list.push_back({"smoothing", parts_.no_smoothing, {}});
+    if (const std::string& why = report_.section.no_smoothing; !why.empty())
+      list.push_back({"smoothing", why, {}});
     add_formats_left_out(outputs_, list);
   }
 
+  const PreparedPot& prepared_;
   const Pot& pot_;
   const std::vector<Output>& outputs_;
   const ExportOptions& options_;
@@ -227,10 +241,11 @@ class CollapsedExport {
 
 }  // namespace
 
-Result<ExportReport> export_collapsed(const Pot& pot, const std::vector<Output>& outputs,
+Result<ExportReport> export_collapsed(const PreparedPot& prepared,
+                                      const std::vector<Output>& outputs,
                                       const ExportOptions& options,
                                       const std::function<void(std::string_view)>& progress) {
-  return CollapsedExport(pot, outputs, options, progress).run();
+  return CollapsedExport(prepared, outputs, options, progress).run();
 }
 
 }  // namespace clay::solid::inline job

@@ -1,6 +1,6 @@
 #include "export/job/left_out.hpp"
 
-#include "claystack/export/check.hpp"
+#include "claystack/export/proof.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -1,11 +1,10 @@
 #include "claystack/export/proof.hpp"
 
-#include "claystack/export/check.hpp"
 #include "claystack/export/solid.hpp"
 #include "claystack/export/walls.hpp"
 #include "core/compensated_sum.hpp"
 #include "core/content_hash.hpp"
-#include "export/check/describe.hpp"
+#include "export/proof/describe.hpp"
 #include "export/proof/revolve_match.hpp"
 #include "export/proof/rounded_claims.hpp"
 #include "export/solid/revolve_layout.hpp"

@@ -1,7 +1,7 @@
 #include "export/proof/verify_file.hpp"
 
-#include "claystack/export/check.hpp"
-#include "export/check/describe.hpp"
+#include "export/formats/stored_file.hpp"
+#include "export/proof/describe.hpp"
 #include "export/solid/mesh_topology.hpp"
 #include "export/solid/vertex_distance.hpp"
 
@@ -58,6 +58,16 @@ Result<double> verify_file(std::string_view bytes, MeshFormat format, const Tria
       return wrong("expected a closed manifold, found that the indices do not make one");
   }
   return moved;
+}
+
+Result<MeshReport> check_stored(const FileStore& store, std::uint64_t bytes, MeshFormat format) {
+  const std::string name = as_written(format);
+  const auto report =
+      read_whole(store, bytes)
+          .and_then([&](const std::string& file) { return decode_mesh(file, format, name); })
+          .map(check_mesh);
+  if (!report || report->sound()) return report;
+  return failure(ErrorKind::unsound, name + ": found " + describe(report->problems.front()));
 }
 
 }  // namespace clay::solid::inline proof

@@ -3,6 +3,7 @@
 
 #include "claystack/core/result.hpp"
 #include "claystack/export/formats.hpp"
+#include "claystack/export/proof.hpp"
 #include "claystack/export/solid.hpp"
 
 #include <string_view>
@@ -18,5 +19,8 @@ namespace clay::solid::inline proof {
 /// vertex moved farther than allowed.
 Result<double> verify_file(std::string_view bytes, MeshFormat format, const TriangleMesh& mesh,
                            double allowed_mm);
+
+/// The whole file, checked as a stranger's would be. Unsound is an error.
+Result<MeshReport> check_stored(const FileStore& store, std::uint64_t bytes, MeshFormat format);
 
 }  // namespace clay::solid::inline proof

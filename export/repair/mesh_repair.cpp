@@ -1,6 +1,6 @@
 #include "claystack/export/repair.hpp"
 
-#include "claystack/export/check.hpp"
+#include "claystack/export/proof.hpp"
 #include "export/repair/soup_repair.hpp"
 #include "export/solid/mesh_topology.hpp"
 

@@ -260,21 +260,6 @@ void note_repair(std::vector<Repair>& repaired, std::string_view what, std::size
     known->count += count;
 }
 
-void drop_unused_points(TriangleMesh& mesh) {
-  std::vector<bool> used(mesh.points.size(), false);
-  for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : t) used[v] = true;
-  std::vector<std::uint32_t> number(mesh.points.size(), 0);
-  std::size_t kept = 0;
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    if (!used[v]) continue;
-    number[v] = narrow(kept);
-    mesh.points[kept++] = mesh.points[v];
-  }
-  mesh.points.resize(kept);
-  renumber(mesh, number);
-}
-
 void clean_soup(TriangleMesh& mesh, std::vector<Repair>& repaired) {
   drop_unusable(mesh, repaired);
   drop_unused_points(mesh);

@@ -10,9 +10,6 @@ namespace clay::solid::inline repair {
 /// Adds one entry for each kind; none for a count of 0.
 void note_repair(std::vector<Repair>& repaired, std::string_view what, std::size_t count);
 
-/// Keeps the used points, in their order. Requires indices in range.
-void drop_unused_points(TriangleMesh& mesh);
-
 /// Removes and welds until every triangle has three distinct points and no two triangles are equal;
 /// removes fins and unused points.
 void clean_soup(TriangleMesh& mesh, std::vector<Repair>& repaired);

@@ -61,6 +61,14 @@ PieceShape shape_of(const ClayStack& stack, RingRange piece) {
 
 }  // namespace
 
+std::vector<PieceShape> shapes_of(const ClayStack& stack) {
+  std::vector<PieceShape> shapes;
+  if (stack.size() == 0) return shapes;
+  for (const RingRange piece : pieces_of(stack, {0, stack.size() - 1}))
+    shapes.push_back(shape_of(stack, piece));
+  return shapes;
+}
+
 Result<StackProfile> profile_of(const ClayStack& stack, double min_step_mm) {
   const std::span<const Ring> rings = stack.rings();
   if (rings.empty()) return failure(ErrorKind::unsound, "expected at least one ring, found none");
@@ -68,10 +76,9 @@ Result<StackProfile> profile_of(const ClayStack& stack, double min_step_mm) {
     if (contact_of(rings[upper - 1], rings[upper]) == Contact::circle)
       return touching_in_a_circle(stack, upper);
   StackProfile result;
-  for (const RingRange piece : pieces_of(stack, {0, rings.size() - 1})) {
+  for (const RingRange piece : pieces_of(stack, {0, rings.size() - 1}))
     result.profile.pieces.push_back(section_of(stack, piece, min_step_mm));
-    result.shapes.push_back(shape_of(stack, piece));
-  }
+  result.shapes = shapes_of(stack);
   return result;
 }
 

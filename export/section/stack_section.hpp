@@ -26,7 +26,10 @@ enum class Contact { annulus, circle, none };
 /// Splits the rings wherever two adjacent ones share no annulus.
 [[nodiscard]] std::vector<RingRange> pieces_of(const ClayStack& stack, RingRange rings);
 
-/// The outer wall of a piece from bottom to top.
+/// One for each piece, bottom to top.
+[[nodiscard]] std::vector<PieceShape> shapes_of(const ClayStack& stack);
+
+/// The outer wall of a piece from its bottom to its top.
 [[nodiscard]] Polygon outer_wall_of(const ClayStack& stack, RingRange piece);
 
 /// The whole section of a piece, counterclockwise: its outer wall upward, its bore or the axis

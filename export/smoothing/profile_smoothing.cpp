@@ -1,18 +1,230 @@
-#include "claystack/export/smoothing.hpp"
+#include "export/smoothing/profile_smoothing.hpp"
 
 #include "claystack/export/proof.hpp"
+#include "core/cancel.hpp"
 #include "core/text.hpp"
 #include "export/section/stack_section.hpp"
 #include "export/section/swept_volume.hpp"
-#include "export/smoothing/piece_smoother.hpp"
+#include "export/smoothing/exact_wall.hpp"
+#include "export/smoothing/fair_wall.hpp"
+#include "export/smoothing/lip_fillet.hpp"
+#include "export/smoothing/smoothing_plan.hpp"
+#include "export/smoothing/wall_guard.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace clay::solid::inline smoothing {
 namespace {
+
+constexpr int kFilletRounds = 6;
+constexpr double kSettledShare = 1e-14;
+constexpr double kInvisibleHeights = 0.01;
+
+struct SmoothedPiece {
+  Polygon section;
+  std::vector<KeptSteps> guard;
+  double overshoot_mm = 0.0;
+  double taken_mm = 0.0;
+  double lip_fillet_mm = 0.0;
+  double max_ring_error_relative = 0.0;
+};
+
+/// Counterclockwise.
+Polygon outline_of(const WallLines& lines) {
+  Polygon section = lines.outer;
+  section.insert(section.end(), lines.bore.rbegin(), lines.bore.rend());
+  return section;
+}
+
+class PieceSmoother {
+ public:
+  PieceSmoother(const PieceWalls& piece, const SmoothingOptions& options)
+      : piece_(piece),
+        options_(options),
+        // Never 0, so that walls that would meet are seen here, and mended where they do.
+        limit_(options.min_wall_mm ? std::max(*options.min_wall_mm, piece.least_step_mm)
+                                   : least_own_wall_mm(piece)),
+        plan_(piece),
+        overshot_(piece) {}
+
+  SmoothedPiece run() {
+    do {
+      do build();
+      while (guard_found_more());
+    } while (options_.mode == Smoothing::fair && !volume_kept());
+    result_.section = outline_of(lines_);
+    report();
+    if (!certify({{result_.section}})) keep_all_steps();
+    return std::move(result_);
+  }
+
+ private:
+  void build() {
+    stop_if_cancelled();
+    if (options_.mode == Smoothing::fair) {
+      const std::vector<double> tolerances = plan_.tolerances(0.5 * options_.tolerance_mm);
+      lines_ = {fair_wall(piece_, piece_.outer, plan_.outer_cuts(), tolerances),
+                fair_wall(piece_, piece_.bore, plan_.bore_cuts(), tolerances)};
+      return;
+    }
+    result_.overshoot_mm = result_.max_ring_error_relative = 0.0;
+    lines_ = {exactly(piece_.outer, plan_.outer_cuts()), exactly(piece_.bore, plan_.bore_cuts())};
+  }
+
+  Polygon exactly(const WallRings& wall, CutFlags& cut) {
+    ExactWall made =
+        exact_wall(piece_, wall, cut, options_.overshoot_limit_mm.value_or(options_.tolerance_mm));
+    for (const OvershootCut& at : made.cut) overshot_.add(at.interface, -at.overshoot_mm);
+    result_.overshoot_mm = std::max(result_.overshoot_mm, made.overshoot_mm);
+    result_.max_ring_error_relative = std::max(result_.max_ring_error_relative, made.largest_error);
+    return std::move(made.line);
+  }
+
+  /// Whether the guard found walls too thin, and something to take back there.
+  bool guard_found_more() {
+    if (!thinner_than(piece_, lines_, limit_)) return false;
+    const RingFlags suspects = rings_near_thin(piece_, lines_, limit_);
+    const std::vector<double> own =
+        walls_by_ring_mm(piece_, stepped_lines(piece_), limit_, suspects);
+    const std::vector<double> now = walls_by_ring_mm(piece_, lines_, limit_, suspects);
+    std::vector<ThinRing> thin;
+    for (std::size_t i = 0; i < piece_.size(); ++i)
+      if (now[i] < own[i] * kWallRounding) thin.push_back({i, now[i]});
+    return (options_.mode == Smoothing::fair && plan_.refine(thin)) || plan_.keep_steps(thin);
+  }
+
+  struct Correction {
+    WallLines lines;
+    double lacking_over_pi = 0.0;  ///< what was given, below 0 taken [mm^3]
+    double moved_mm = 0.0;         ///< the farthest that a wall has moved
+    double fillet_mm = 0.0;
+  };
+
+  /// Gives back (or takes) what chords, simplification and fillet have changed. False when that
+  /// would move the walls too far, and jumps were cut or the simplification left out instead.
+  bool volume_kept() {
+    RingFlags rings(piece_.size(), 1);
+    Correction correction = corrected(rings, 0.0);
+    const bool taken = correction.lacking_over_pi < 0.0;
+    result_.taken_mm = 0.0;
+    if (taken && thinner_than(piece_, correction.lines, limit_)) {
+      result_.taken_mm = correction.moved_mm;
+      const RingFlags thick = thick_rings();
+      Correction careful = corrected(thick, 0.0);
+      if (careful.moved_mm > 0.0 && careful.moved_mm <= allowed_move_mm()) {
+        result_.taken_mm = 0.0;
+        correction = std::move(careful);
+        rings = thick;
+      }
+    }
+    if (correction.moved_mm > allowed_move_mm()) {
+      const double too_much = 1.0 - allowed_move_mm() / correction.moved_mm;
+      const double excess = too_much * correction.lacking_over_pi;
+      if (plan_.keep_jumps(excess, correction.moved_mm) || plan_.refine_everywhere()) return false;
+    }
+    finish(std::move(correction), rings);
+    return true;
+  }
+
+  void finish(Correction correction, const RingFlags& rings) {
+    const double fillet =
+        piece_.carries_piece
+            ? 0.0
+            : std::min(options_.lip_fillet_mm, largest_fillet_mm(piece_, plan_.cuts(), lines_));
+    if (fillet > 0.0) correction = corrected(rings, fillet);
+    result_.overshoot_mm = correction.moved_mm;
+    result_.lip_fillet_mm = correction.fillet_mm;
+    lines_ = std::move(correction.lines);
+  }
+
+  /// A fillet is cut into the scaled wall, so that its arcs stay round; what it then takes
+  /// changes the scale a little. The last round scales what little is left as it stands.
+  Correction corrected(const RingFlags& rings, double fillet_mm) const {
+    Correction made;
+    WallLines scaled = lines_;
+    for (int round = 1;; ++round) {
+      made.lines = scaled;
+      if (fillet_mm > 0.0) {
+        FilletedLip lip = with_lip_fillet(scaled, fillet_mm, 0.5 * options_.tolerance_mm);
+        made.lines = std::move(lip.lines);
+        made.fillet_mm = lip.radius_mm;
+      }
+      const double wanted = piece_.clay_over_pi + swept_over_pi(made.lines.bore);
+      made.lacking_over_pi += wanted - swept_over_pi(made.lines.outer);
+      const std::vector<double> weights = weights_of(made.lines.outer, rings);
+      const double share = scale_for(made.lines.outer, weights, wanted);
+      made.moved_mm += scale(scaled.outer, weights_of(scaled.outer, rings), share);
+      if (fillet_mm > 0.0 && std::abs(share) > kSettledShare && round < kFilletRounds) continue;
+      scale(made.lines.outer, weights, share);
+      return made;
+    }
+  }
+
+  /// 1 for the points whose edges lie in flagged rings only, else 0.
+  std::vector<double> weights_of(const Polygon& line, const RingFlags& rings) const {
+    std::vector<double> weights(line.size(), 1.0);
+    std::size_t first = 0;
+    for (std::size_t e = 0; e + 1 < line.size(); ++e) {
+      step_of_loop();
+      while (first + 1 < piece_.size() && piece_.level[first + 1] < line[e].y) ++first;
+      for (std::size_t i = first; i < piece_.size() && piece_.level[i] <= line[e + 1].y; ++i)
+        if (rings[i] == 0) weights[e] = weights[e + 1] = 0.0;
+    }
+    return weights;
+  }
+
+  /// How far the volume correction may move a wall: no more than simplification does, or than
+  /// what is invisible beside the rings.
+  double allowed_move_mm() const {
+    return std::max(options_.tolerance_mm, kInvisibleHeights * piece_.ring_height_mm);
+  }
+
+  /// Rings that can spare such a move without coming near what the guard promises.
+  RingFlags thick_rings() const {
+    const double spare = 2.0 * allowed_move_mm();  // across a solid both sides move
+    const RingFlags all(piece_.size(), 1);
+    const std::vector<double> own = walls_by_ring_mm(piece_, stepped_lines(piece_), limit_, all);
+    const std::vector<double> now = walls_by_ring_mm(piece_, lines_, limit_ + spare, all);
+    RingFlags thick(piece_.size());
+    for (std::size_t i = 0; i < piece_.size(); ++i)
+      thick[i] = now[i] >= (own[i] + spare) * kWallRounding ? 1 : 0;
+    return thick;
+  }
+
+  void report() {
+    overshot_.report(KeptFor::overshoot, {}, result_.guard);
+    plan_.kept_for_volume().report(KeptFor::volume, {}, result_.guard);
+    const KeptStretches& thinned = plan_.kept_for_wall();
+    if (!thinned.empty())
+      thinned.report(KeptFor::wall, walls_by_ring_mm(piece_, lines_, limit_, thinned.rings()),
+                     result_.guard);
+  }
+
+  void keep_all_steps() {
+    result_ = {};
+    result_.section = outline_of(stepped_lines(piece_));
+    result_.guard.push_back(
+        {piece_.level.front(), piece_.level.back(), KeptFor::certificate, 0.0, 0.0});
+  }
+
+  const PieceWalls& piece_;
+  const SmoothingOptions& options_;
+  double limit_;
+  SmoothingPlan plan_;
+  WallLines lines_;
+  KeptStretches overshot_;
+  SmoothedPiece result_;
+};
+
+/// One piece, `fair` or `exact`. Only the topmost piece has a lip.
+SmoothedPiece smooth_piece(const PieceWalls& piece, const SmoothingOptions& options) {
+  return PieceSmoother(piece, options).run();
+}
 
 /// The error, or nothing.
 Result<void> check_range(const std::string& option, double value, bool zero_allowed) {
@@ -98,9 +310,9 @@ std::string_view name_of(KeptFor reason) noexcept {
   }
 }
 
-Result<SmoothedProfile> smooth_profile_of(const ClayStack& stack, const SmoothingOptions& options) {
-  if (auto sound = check(options); !sound) return tl::make_unexpected(sound.error());
-  return profile_of(stack).map([&](StackProfile steps) {
+Result<SmoothedProfile> smoothed_profile(const ClayStack& stack, StackProfile steps,
+                                         const SmoothingOptions& options) {
+  return check(options).map([&] {
     SmoothedProfile result;
     result.section = std::move(steps);
     if (options.mode != Smoothing::none) {
@@ -111,6 +323,13 @@ Result<SmoothedProfile> smooth_profile_of(const ClayStack& stack, const Smoothin
     result.volume_error_relative = std::abs(volume_of(result.section.profile) - counted) / counted;
     return result;
   });
+}
+
+Result<SmoothedProfile> smooth_profile_of(const ClayStack& stack, const SmoothingOptions& options) {
+  return check(options)
+      .and_then([&] { return profile_of(stack); })
+      .and_then(
+          [&](StackProfile steps) { return smoothed_profile(stack, std::move(steps), options); });
 }
 
 }  // namespace clay::solid::inline smoothing

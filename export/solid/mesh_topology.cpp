@@ -205,4 +205,20 @@ MeshTopology topology_of(std::size_t points, std::span<const Triangle> triangles
   return TopologyCount(points, triangles).run();
 }
 
+void drop_unused_points(TriangleMesh& mesh) {
+  std::vector<bool> used(mesh.points.size(), false);
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t) used[v] = true;
+  std::vector<std::uint32_t> number(mesh.points.size(), 0);
+  std::size_t kept = 0;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if (!used[v]) continue;
+    number[v] = static_cast<std::uint32_t>(kept);
+    mesh.points[kept++] = mesh.points[v];
+  }
+  mesh.points.resize(kept);
+  for (Triangle& t : mesh.triangles)
+    for (std::uint32_t& v : t) v = number[v];
+}
+
 }  // namespace clay::solid

@@ -54,4 +54,7 @@ Fault indices_out_of_range(std::size_t points, std::span<const Triangle> triangl
 /// all indices in range.
 MeshTopology topology_of(std::size_t points, std::span<const Triangle> triangles);
 
+/// Keeps the points that triangles use, in their order. Indices are in range.
+void drop_unused_points(TriangleMesh& mesh);
+
 }  // namespace clay::solid

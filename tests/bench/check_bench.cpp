@@ -9,7 +9,7 @@
 
 #include "tests/bench/cgal_peer.hpp"
 
-#include "claystack/export/check.hpp"
+#include "claystack/export/proof.hpp"
 #include "claystack/export/formats.hpp"
 #include "claystack/export/solid.hpp"
 

@@ -50,13 +50,14 @@ void draw_places(AppState& shop, ExportWish& wish) {
 void draw_choices(AppState& shop, ExportWish& wish) {
   const Palette& colours = shop.colours();
   form_length("Tolerance", wish.tolerance_mm, kFinestMm, kCoarsestMm, LengthUnit::mm);
-  constexpr std::array kSmooth = {"fair", "exact", "none"};
+  constexpr std::array kSmooth = {solid::Smoothing::fair, solid::Smoothing::exact,
+                                  solid::Smoothing::none};
   constexpr std::array kSmoothTitles = {"Fair", "Exact", "As thrown"};
   const auto smooth =
-      static_cast<int>(std::ranges::find(kSmooth, std::string_view(wish.smooth)) - kSmooth.begin());
+      static_cast<int>(std::ranges::find(kSmooth, wish.smoothing) - kSmooth.begin());
   form_row("Walls");
   if (const int chosen = choice_row("##smooth", kSmoothTitles, smooth, colours); chosen >= 0)
-    wish.smooth = kSmooth[static_cast<std::size_t>(chosen)];
+    wish.smoothing = kSmooth[static_cast<std::size_t>(chosen)];
   form_row("Process");
   choose_process(shop, "Not said", wish.process);
   form_length("Minimum wall", wish.min_wall_mm, 0.0, kThickestDemandMm, shop.settings.unit,
@@ -81,27 +82,27 @@ const char* title_of(solid::MeshFormat format) {
 }
 
 std::string size_text(const solid::ExportReport& report, double factor, LengthUnit unit) {
-  return fmt::format("{} wide, {} high", length_text(factor * report.diameter_mm, unit),
-                     length_text(factor * report.height_mm, unit));
+  return fmt::format("{} wide, {} high", length_text(factor * report.size.diameter_mm, unit),
+                     length_text(factor * report.size.height_mm, unit));
 }
 
-void draw_shown(AppState& shop, const cli::ExportDone& done) {
+void draw_shown(AppState& shop, const solid::ExportReport& report) {
   const Palette& colours = shop.colours();
   const LengthUnit unit = shop.settings.unit;
-  const solid::ExportReport& report = done.report;
-  value_row(colours, "Triangles", fmt::format("{}", report.triangles));
+  value_row(colours, "Triangles", fmt::format("{}", report.size.triangles));
   for (const solid::FileReport& file : report.files)
-    value_row(colours, title_of(file.format),
-              fmt::format("{:.3f} MB", 1e-6 * static_cast<double>(file.bytes)));
+    if (file.kind == solid::FileKind::mesh)
+      value_row(colours, title_of(file.format),
+                fmt::format("{:.3f} MB", 1e-6 * static_cast<double>(file.bytes)));
   value_row(colours, "Size as written", size_text(report, 1.0, unit));
-  if (report.shrinkage > 0.0)
-    value_row(colours, "Size when fired", size_text(report, 1.0 - report.shrinkage, unit));
+  if (report.prepared.shrinkage > 0.0)
+    value_row(colours, "Size when fired", size_text(report, 1.0 - report.prepared.shrinkage, unit));
   if (!report.collapsed)
     value_row(
         colours, "Thinnest wall",
-        fmt::format("{:.2f} mm, {:.1f} mm up", cli::thinnest_mm(report), report.thinnest.from.y));
+        fmt::format("{:.2f} mm, {:.1f} mm up", report.thinnest_mm(), report.walls.thinnest.from.y));
   ImGui::PushStyleColor(ImGuiCol_Text, colours.warning);
-  for (const cli::Problem& problem : cli::problems_of(done))
+  for (const solid::Problem& problem : solid::problems_of(report))
     ImGui::TextWrapped("%s", problem.text.c_str());
   ImGui::PopStyleColor();
 }

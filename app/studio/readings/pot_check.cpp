@@ -1,10 +1,9 @@
 #include "app/studio/readings/pot_check.hpp"
 
-#include "app/cli/wall_demand.hpp"
 #include "app/render/wall_rows.hpp"
 #include "claystack/engine/tick.hpp"
-#include "claystack/export/check.hpp"
 #include "claystack/export/job.hpp"
+#include "claystack/export/walls.hpp"
 
 #include <fmt/format.h>
 
@@ -17,16 +16,15 @@ namespace {
 
 constexpr double kFinestSpacingMm = 0.05;
 
-std::optional<WallLimit> limit_of(const std::string& process, const ClayStack& stack,
-                                  std::vector<PotRemark>& remarks) {
+std::optional<solid::WallLimit> limit_of(const std::string& process, const ClayStack& stack,
+                                         std::vector<PotRemark>& remarks) {
   if (process.empty()) return std::nullopt;
-  const auto limits = cli::process_of(process);
+  const auto limits = solid::read_process(process);
   if (!limits) {
     remarks.push_back({0.0, stack.height_mm(), limits.error().message});
     return std::nullopt;
   }
-  const auto& wall = limits->wall_for(4.0 * largest_radius_mm(stack) + stack.height_mm());
-  return WallLimit{wall.min_wall_mm, limits->name, wall.source};
+  return limits->wall_for(4.0 * largest_radius_mm(stack) + stack.height_mm());
 }
 
 /// The lowest level where the rings on both sides share no clay: a pot in pieces parts there.
@@ -54,28 +52,28 @@ const char* words_of(solid::KeptFor reason) {
 }
 
 void take_remarks(const solid::ExportReport& report, PotCheck& check) {
-  for (const solid::PieceShape& shape : report.shapes)
+  for (const solid::PieceShape& shape : report.section.shapes())
     for (const solid::Cavity& cavity : shape.cavities)
       check.remarks.push_back(
           {cavity.bottom_mm, cavity.top_mm,
            fmt::format("closed cavity of {:.1f} ml: it needs a drain", 1e-3 * cavity.volume_mm3)});
-  for (const solid::KeptSteps& kept : report.kept_steps)
+  for (const solid::KeptSteps& kept : report.section.smoothed.guard)
     check.remarks.push_back({kept.from_mm, kept.to_mm, words_of(kept.reason)});
 }
 
 void take_report(const solid::ExportReport& report, std::size_t rows, PotCheck& check) {
   check.proved = true;
-  check.triangles = report.triangles;
-  check.tolerance_mm = report.tolerance_mm;
-  check.counted_mm3 = report.counted_volume_mm3;
-  check.proved_mm3 = report.volume_mm3;
-  check.volume_error_relative = report.volume_error_relative;
+  check.triangles = report.size.triangles;
+  check.tolerance_mm = report.size.tolerance_mm;
+  check.counted_mm3 = report.prepared.counted_volume_mm3;
+  check.proved_mm3 = report.volume.solid_mm3;
+  check.volume_error_relative = report.volume.error_relative;
   if (check.fallen) return take_remarks(report, check);
-  check.least_wall_mm = report.min_wall_mm;
-  check.thinnest_mm = report.thinnest.thickness_mm;
-  check.thinnest_from = {report.thinnest.from.rho, report.thinnest.from.y};
-  check.thinnest_to = {report.thinnest.to.rho, report.thinnest.to.y};
-  check.walls = render::row_walls(report.wall_field, rows, check.height_mm);
+  check.least_wall_mm = report.walls.min_wall_mm;
+  check.thinnest_mm = report.walls.thinnest.thickness_mm;
+  check.thinnest_from = {report.walls.thinnest.from.rho, report.walls.thinnest.from.y};
+  check.thinnest_to = {report.walls.thinnest.to.rho, report.walls.thinnest.to.y};
+  check.walls = render::row_walls(report.walls.field, rows, check.height_mm);
   take_remarks(report, check);
 }
 
@@ -95,7 +93,7 @@ void run(const PotQuestion& question, const Pot& pot, const std::function<bool()
   solid::ExportOptions options;
   options.tolerance_mm = question.tolerance_mm;
   options.cancelled = given_up;
-  if (check.limit) options.min_wall_mm = check.limit->min_wall_mm;
+  if (check.limit) options.walls.min_wall_mm = check.limit->min_wall_mm;
   if (!check.fallen)  // one that has fallen has no one section
     options.wall_spacing_mm =
         std::max(kFinestSpacingMm, 0.5 * check.height_mm / static_cast<double>(rows));

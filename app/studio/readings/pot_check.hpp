@@ -4,6 +4,7 @@
 
 #include "app/studio/readings/subject.hpp"
 #include "app/studio/settings.hpp"
+#include "claystack/export/walls.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -14,16 +15,9 @@
 
 namespace clay::studio {
 
-/// What a process asks of the walls of a pot of this size.
-struct WallLimit {
-  double min_wall_mm = 0.0;
-  std::string process;
-  std::string source;  ///< whose figure it is
-};
-
 struct PotQuestion {
   Subject subject;
-  std::string process;  ///< as cli::process_of has it; empty: none
+  std::string process;  ///< as solid::read_process has it; empty: none
   double tolerance_mm = 0.02;
 };
 
@@ -51,7 +45,7 @@ struct PotCheck {
   double least_wall_mm = 0.0;  ///< the solid is nowhere thinner
   double thinnest_mm = 0.0;    ///< of the section: the clay between two places (rho, y) [mm];
   glm::dvec2 thinnest_from{0.0}, thinnest_to{0.0};  ///< rho below 0 beyond the axis
-  std::optional<WallLimit> limit;
+  std::optional<solid::WallLimit> limit;
   std::vector<render::RowWall> walls;  ///< of equal parts of `height_mm`; empty: not known
   double height_mm = 0.0;
   double seconds = 0.0;  ///< it took

@@ -52,7 +52,7 @@ class Exporting : public ::testing::Test {
                   .folder = folder.path().string(),
                   .name = "two",
                   .tolerance_mm = 0.05,
-                  .smooth = "fair",
+                  .smoothing = solid::Smoothing::fair,
                   .process = "porcelain",
                   .min_wall_mm = 0.0,
                   .shrinkage_percent = 12.0};
@@ -72,8 +72,8 @@ TEST_F(Exporting, TheBytesAreThoseOfTheCommand) {
                              ".svg --tolerance 0.05 --process porcelain --shrinkage 12%");
   // Its wall is thinner than porcelain asks: written, and said.
   ASSERT_EQ(ran.status, 1) << ran.err;
-  ASSERT_EQ(cli::problems_of(*done.done).size(), 1u);
-  EXPECT_NE(ran.err.find(cli::problems_of(*done.done)[0].text), std::string::npos);
+  ASSERT_EQ(solid::problems_of(*done.done).size(), 1u);
+  EXPECT_NE(ran.err.find(solid::problems_of(*done.done)[0].text), std::string::npos);
   for (const char* ending : {".stl", ".obj", ".svg", ".pot.json"})
     EXPECT_EQ(read_text(folder.file("two") + ending), read_text(mine + ending)) << ending;
   EXPECT_EQ(claystack("check " + folder.file("two.stl")).status, 0);
@@ -87,7 +87,7 @@ TEST_F(Exporting, ARehearsalTellsWhatTheFilesWillBe) {
   EXPECT_EQ(files(), 0u);
   exporter.write(pot, wish);
   ASSERT_TRUE(outcome().done);
-  const auto& reports = rehearsed.done->report.files;
+  const auto& reports = rehearsed.done->files;
   ASSERT_EQ(reports.size(), 2u);
   EXPECT_EQ(reports[0].bytes, std::filesystem::file_size(folder.file("two.stl")));
   EXPECT_EQ(reports[1].bytes, std::filesystem::file_size(folder.file("two.obj")));
@@ -115,16 +115,16 @@ TEST_F(Exporting, OneThatIsCancelledLeavesNoFile) {
 }
 
 TEST_F(Exporting, CancelledAtAnyQuestionItLeavesAllFilesOrNone) {
-  cli::ExportCommand command = command_of(wish);
+  solid::ExportRequest request = request_of(wish, *pot).value();
   std::size_t asked = 0, all = 0;
   std::mutex mutex;
   for (std::size_t until = 0; all == 0; ++until) {
     asked = 0;
-    command.options.cancelled = [&] {
+    request.options.cancelled = [&] {
       const std::lock_guard lock(mutex);
       return ++asked > until;
     };
-    const auto done = cli::export_files(*pot, command, {});
+    const auto done = solid::export_files(*pot, request);
     EXPECT_EQ(files(), done ? 4u : 0u) << until;
     if (done) all = asked;
   }
@@ -147,7 +147,7 @@ TEST_F(Exporting, AThinWallIsAProblemWithAPlace) {
   exporter.rehearse(pot, wish);
   const auto rehearsed = outcome();
   ASSERT_TRUE(rehearsed.done) << rehearsed.done.error().message;
-  const auto problems = cli::problems_of(*rehearsed.done);
+  const auto problems = solid::problems_of(*rehearsed.done);
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_NE(problems[0].text.find("thin wall"), std::string::npos);
   ASSERT_TRUE(problems[0].at);

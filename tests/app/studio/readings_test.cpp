@@ -4,7 +4,7 @@
 
 #include "app/render/pot_view.hpp"
 #include "claystack/engine/tick.hpp"
-#include "claystack/export/check.hpp"
+#include "claystack/export/walls.hpp"
 
 #include <gtest/gtest.h>
 

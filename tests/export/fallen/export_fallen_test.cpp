@@ -1,4 +1,4 @@
-#include "claystack/export/check.hpp"
+#include "claystack/export/proof.hpp"
 #include "tests/export/formats/refused.hpp"
 #include "tests/export/job/exported.hpp"
 #include "tests/export/solid/shapes.hpp"
@@ -32,15 +32,16 @@ TEST(ExportFallen, UnitesTheParts) {
   const ExportReport& report = result->report;
   ASSERT_TRUE(report.collapsed);
   EXPECT_TRUE(report.collapsed->check.sound());
-  EXPECT_EQ(report.smoothing, Smoothing::fair);
-  EXPECT_EQ(report.planar.polygons, 2u);
-  EXPECT_EQ(report.shapes.at(1).first_ring, 31u);
-  EXPECT_DOUBLE_EQ(report.counted_volume_mm3, pot.stack.volume_mm3());
-  EXPECT_GT(report.collapsed->overlap_mm3, 0.01 * report.counted_volume_mm3);
-  EXPECT_NEAR((report.volume_mm3 + report.collapsed->overlap_mm3 - report.collapsed->pockets_mm3) /
-                  report.counted_volume_mm3,
-              1.0, 1e-6);
-  EXPECT_LT(report.volume_error_relative, 1e-6);
+  EXPECT_EQ(report.section.smoothing, Smoothing::fair);
+  EXPECT_EQ(report.section.planar.polygons, 2u);
+  EXPECT_EQ(report.section.shapes().at(1).first_ring, 31u);
+  EXPECT_DOUBLE_EQ(report.prepared.counted_volume_mm3, pot.stack.volume_mm3());
+  EXPECT_GT(report.collapsed->overlap_mm3, 0.01 * report.prepared.counted_volume_mm3);
+  EXPECT_NEAR(
+      (report.volume.solid_mm3 + report.collapsed->overlap_mm3 - report.collapsed->pockets_mm3) /
+          report.prepared.counted_volume_mm3,
+      1.0, 1e-6);
+  EXPECT_LT(report.volume.error_relative, 1e-6);
   for (const SkippedStage& item : report.left_out) EXPECT_NE(item.what, "union");
   for (std::size_t i = 0; i < result->files.size(); ++i) {
     EXPECT_EQ(report.files[i].proof, Proof::exact_test);
@@ -48,7 +49,7 @@ TEST(ExportFallen, UnitesTheParts) {
     const auto decoded = decode_mesh(result->files[i], report.files[i].format, "file");
     ASSERT_TRUE(decoded) << decoded.error().message;
     EXPECT_TRUE(check_mesh(*decoded).sound());
-    EXPECT_EQ(decoded->triangles.size(), report.triangles);
+    EXPECT_EQ(decoded->triangles.size(), report.size.triangles);
   }
 }
 

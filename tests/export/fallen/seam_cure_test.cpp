@@ -1,6 +1,6 @@
 #include "export/fallen/seam_cure.hpp"
 
-#include "claystack/export/check.hpp"
+#include "claystack/export/proof.hpp"
 #include "export/fallen/pockets.hpp"
 #include "tests/export/solid/shapes.hpp"
 

@@ -49,12 +49,13 @@ TEST_P(DrcOfSample, KeepsEveryVertexWithinTheTolerance) {
 TEST_P(DrcOfSample, ClaimsMatchTheReport) {
   const Written pot = written();
   const DracoClaims claims = drc_claims(pot.drc, "drc").value().value();
-  EXPECT_EQ(claims.volume_mm3, pot.report.volume_mm3);
-  EXPECT_EQ(claims.counted_volume_mm3, pot.report.counted_volume_mm3);
+  EXPECT_EQ(claims.volume_mm3, pot.report.volume.solid_mm3);
+  EXPECT_EQ(claims.counted_volume_mm3, pot.report.prepared.counted_volume_mm3);
   EXPECT_NEAR(claims.counted_volume_mm3 / claims.volume_mm3, 1.0, 1e-9);
   EXPECT_LE(claims.vertex_error_mm, kToleranceMm);
   EXPECT_GE(claims.vertex_error_mm, pot.report.files[1].max_error_mm);
-  EXPECT_EQ(pot.report.files[1].certificate->counted_volume_mm3, pot.report.counted_volume_mm3);
+  EXPECT_EQ(pot.report.files[1].certificate->counted_volume_mm3,
+            pot.report.prepared.counted_volume_mm3);
   EXPECT_LT(claims.volume_bound_mm3, 0.01 * claims.volume_mm3);
   EXPECT_TRUE(compare_with_claims(decode_drc(pot.drc, "drc").value(), claims).empty());
 }

@@ -116,7 +116,7 @@ TEST(Cancel, LongStagesAskAllTheTime) {
   EXPECT_GE(asked["smooth"], 4 * kRings / 1024);
   for (const char* each :
        {"tessellate", "encode_stl_binary", "verify_stl_binary", "encode_obj", "verify_obj"})
-    EXPECT_GE(asked[each], report->triangles / (2 * 1024)) << each;
+    EXPECT_GE(asked[each], report->size.triangles / (2 * 1024)) << each;
 }
 
 TEST(Cancel, NoStageBeginsAfterIt) {

@@ -1,4 +1,4 @@
-#include "export/job/drain.hpp"
+#include "export/job/prepare.hpp"
 
 #include "claystack/export/section.hpp"
 #include "tests/export/solid/shapes.hpp"

@@ -28,12 +28,12 @@ TEST(RunExport, VaseInEveryFormat) {
   const auto result = exported(pot, every_format(), {});
   ASSERT_TRUE(result) << result.error().message;
   const ExportReport& report = result->report;
-  EXPECT_EQ(report.shells, 1u);
-  EXPECT_EQ(report.planar.polygons, 1u);
-  EXPECT_EQ(report.shapes.at(0).topology, Topology::cup);
-  EXPECT_LE(report.chordal_error_mm, 0.02);
-  EXPECT_DOUBLE_EQ(report.counted_volume_mm3, pot.stack.volume_mm3());
-  EXPECT_LT(report.volume_error_relative, 1e-9);
+  EXPECT_EQ(report.size.shells, 1u);
+  EXPECT_EQ(report.section.planar.polygons, 1u);
+  EXPECT_EQ(report.section.shapes().at(0).topology, Topology::cup);
+  EXPECT_LE(report.size.chordal_error_mm, 0.02);
+  EXPECT_DOUBLE_EQ(report.prepared.counted_volume_mm3, pot.stack.volume_mm3());
+  EXPECT_LT(report.volume.error_relative, 1e-9);
   ASSERT_EQ(report.files.size(), every_format().size());
   for (std::size_t i = 0; i < report.files.size(); ++i) {
     const FileReport& file = report.files[i];
@@ -43,10 +43,10 @@ TEST(RunExport, VaseInEveryFormat) {
     EXPECT_EQ(file.bytes, result->files[i].size());
     const auto decoded = decode_mesh(result->files[i], file.format, "file");
     ASSERT_TRUE(decoded) << decoded.error().message;
-    EXPECT_EQ(decoded->triangles.size(), report.triangles);
+    EXPECT_EQ(decoded->triangles.size(), report.size.triangles);
     const MeshReport check = check_mesh(*decoded);
     EXPECT_TRUE(check.sound());
-    EXPECT_NEAR(check.volume_mm3, report.volume_mm3, file.certificate->volume_bound_mm3);
+    EXPECT_NEAR(check.volume_mm3, report.volume.solid_mm3, file.certificate->volume_bound_mm3);
     EXPECT_LE(file.max_error_mm, file.format == MeshFormat::drc ? 0.0201 : 4e-5);
     EXPECT_GT(file.max_error_mm, 0.0);
   }
@@ -78,7 +78,7 @@ TEST(RunExport, TellsWhatItLeftOut) {
                                            "mesh in memory", "full verification", "stl_ascii",
                                            "obj", "drc"}));
   const auto hollow = exported(pot_of(shapes::vase(100)), {}, {});
-  EXPECT_EQ(hollow->report.smoothing, Smoothing::fair);
+  EXPECT_EQ(hollow->report.section.smoothing, Smoothing::fair);
   EXPECT_EQ(hollow->report.left_out.front().what, "union");
 }
 
@@ -89,10 +89,10 @@ TEST(RunExport, SegmentsFollowTheToleranceUnlessForced) {
   const auto coarse = exported(pot, {}, options);
   options.tolerance_mm = 0.005;
   const auto fine = exported(pot, {}, options);
-  EXPECT_GT(fine->report.segments, 5 * coarse->report.segments);
-  EXPECT_LE(fine->report.chordal_error_mm, 0.005);
+  EXPECT_GT(fine->report.size.segments, 5 * coarse->report.size.segments);
+  EXPECT_LE(fine->report.size.chordal_error_mm, 0.005);
   options.segments = 9;
-  EXPECT_EQ(exported(pot, {}, options)->report.segments, 9u);
+  EXPECT_EQ(exported(pot, {}, options)->report.size.segments, 9u);
 }
 
 TEST(RunExport, RefusesOptionsThatCannotBeMet) {
@@ -126,9 +126,10 @@ TEST(RunExport, ThinWallsAreSmoothedNoThinner) {
   options.tolerance_mm = 8.0;
   const auto result = exported(pot_of(stack), {}, options);
   ASSERT_TRUE(result) << result.error().message;
-  EXPECT_EQ(result->report.smoothing, Smoothing::fair);
-  const double facets = std::cos(std::numbers::pi / static_cast<double>(result->report.segments));
-  EXPECT_GE(result->report.min_wall_mm, min_wall(stack).thickness_mm * facets * (1.0 - 1e-9));
+  EXPECT_EQ(result->report.section.smoothing, Smoothing::fair);
+  const double facets =
+      std::cos(std::numbers::pi / static_cast<double>(result->report.size.segments));
+  EXPECT_GE(result->report.walls.min_wall_mm, min_wall(stack).thickness_mm * facets * (1.0 - 1e-9));
 }
 
 TEST(RunExport, WallIsThatOfTheFacets) {
@@ -137,7 +138,8 @@ TEST(RunExport, WallIsThatOfTheFacets) {
   const auto result = exported(pot_of(stack_of(30.0, {{40, 0}, {40, 35}})), {}, options);
   // A dodecagon of the area of the unit circle has this radius.
   const double factor = std::sqrt(std::numbers::pi / (6.0 * std::sin(std::numbers::pi / 6)));
-  EXPECT_NEAR(result->report.min_wall_mm, 5.0 * factor * std::cos(std::numbers::pi / 12), 1e-9);
+  EXPECT_NEAR(result->report.walls.min_wall_mm, 5.0 * factor * std::cos(std::numbers::pi / 12),
+              1e-9);
 }
 
 TEST(RunExport, PiecesOnlyWhenAllowed) {
@@ -147,7 +149,7 @@ TEST(RunExport, PiecesOnlyWhenAllowed) {
   options.allow_pieces = true;
   const auto result = exported(pot, every_format(), options);
   ASSERT_TRUE(result) << result.error().message;
-  EXPECT_EQ(result->report.shells, 2u);
+  EXPECT_EQ(result->report.size.shells, 2u);
 }
 
 TEST(RunExport, WallsLostInFloat32AreRefusedWithThePlace) {
@@ -167,7 +169,7 @@ TEST(RunExport, StepsBelowFloat32AreLevelledAndKeepTheVolume) {
   const Pot pot = pot_of(ClayStack::from_rings(1.0, rings, 0).value());
   const auto result = exported(pot, every_format(), {});
   ASSERT_TRUE(result) << result.error().message;
-  EXPECT_LT(result->report.volume_error_relative, 1e-9);
+  EXPECT_LT(result->report.volume.error_relative, 1e-9);
 }
 
 TEST(RunExport, TouchingRingsAreRefused) {
@@ -217,7 +219,7 @@ RC_GTEST_PROP(RunExport, WhatIsWrittenIsSoundOrRefused, (const ClayStack& stack)
     RC_ASSERT(result.error().kind == ErrorKind::unsound);
     return;
   }
-  RC_ASSERT(result->report.volume_error_relative * stack.volume_mm3() <=
+  RC_ASSERT(result->report.volume.error_relative * stack.volume_mm3() <=
             shapes::volume_rounding(stack, 1e-6 * 20.0));
   for (std::size_t i = 0; i < result->files.size(); ++i) {
     const auto decoded = decode_mesh(result->files[i], every_format()[i], "pot");

@@ -55,10 +55,10 @@ TEST(Shrinkage, TheFilesAreLarger) {
   const Pot pot = pot_of(shapes::vase(200));
   const auto plain = report_of(pot, 0.0), larger = report_of(pot, 0.12);
   ASSERT_TRUE(plain && larger);
-  EXPECT_NEAR(larger->volume_mm3 / plain->volume_mm3, std::pow(1.0 / 0.88, 3), 1e-8);
-  EXPECT_NEAR(larger->height_mm / plain->height_mm, 1.0 / 0.88, 1e-12);
-  EXPECT_EQ(larger->shrinkage, 0.12);
-  EXPECT_LT(larger->volume_error_relative, 1e-9);
+  EXPECT_NEAR(larger->volume.solid_mm3 / plain->volume.solid_mm3, std::pow(1.0 / 0.88, 3), 1e-8);
+  EXPECT_NEAR(larger->size.height_mm / plain->size.height_mm, 1.0 / 0.88, 1e-12);
+  EXPECT_EQ(larger->prepared.shrinkage, 0.12);
+  EXPECT_LT(larger->volume.error_relative, 1e-9);
 }
 
 TEST(Shrinkage, WhatFellLiesWhereItWouldInThatSize) {

@@ -257,7 +257,7 @@ TEST(SolidCertificate, IsNeverWrong) {
     ASSERT_TRUE(decoded);
     const MeshReport check = check_mesh(*decoded);
     ASSERT_TRUE(check.sound()) << k << check.problems.front().what;
-    ASSERT_NEAR(check.volume_mm3, report->volume_mm3, certificate.volume_bound_mm3) << k;
+    ASSERT_NEAR(check.volume_mm3, report->volume.solid_mm3, certificate.volume_bound_mm3) << k;
     const auto verdict = verify_certificate(certificate, store.bytes(), "pot");
     ASSERT_TRUE(verdict) << k << verdict.error().message;
   }

@@ -1,6 +1,6 @@
 #include "claystack/export/repair.hpp"
 
-#include "claystack/export/check.hpp"
+#include "claystack/export/proof.hpp"
 #include "tests/export/solid/mesh_surface.hpp"
 #include "tests/export/solid/shapes.hpp"
 

@@ -1,6 +1,6 @@
 #include "claystack/export/solid.hpp"
 
-#include "claystack/export/check.hpp"
+#include "claystack/export/proof.hpp"
 #include "tests/export/solid/shapes.hpp"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,6 @@
 
 #include "claystack/core/result.hpp"
 #include "claystack/engine/clay.hpp"
-#include "claystack/export/check.hpp"
 #include "claystack/export/proof.hpp"
 #include "claystack/export/section.hpp"
 #include "claystack/export/smoothing.hpp"

@@ -1,7 +1,6 @@
 #pragma once
 #include "claystack/core/result.hpp"
 #include "claystack/engine/clay.hpp"
-#include "claystack/export/check.hpp"
 #include "claystack/export/solid.hpp"
 
 #include <array>
@@ -122,11 +121,6 @@ struct DracoClaims {
 /// The claims of the file, after its checksum was verified; empty for files of other programs.
 /// Errors as for `decode_drc`: header, metadata and checksum are checked, not the mesh.
 Result<std::optional<DracoClaims>> drc_claims(std::string_view bytes, std::string_view name);
-
-/// Reports one problem if the volume differs from the claimed one by more than its bound (plus 1e-9
-/// of it for summation in double); none if the mesh agrees with its claims.
-[[nodiscard]] std::vector<MeshProblem> compare_with_claims(const TriangleMesh& decoded,
-                                                           const DracoClaims& claims);
 
 // ---- file store ----------------------------------------------------------------------
 // The destination of a file's bytes, from which they can be read back for verification.

@@ -39,23 +39,4 @@ Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh);
 /// The longest border of a hole that is filled: above it, the search for a patch takes too long.
 inline constexpr std::size_t kMaxHoleEdges = 10'000;
 
-// ---- decimate ------------------------------------------------------------------------
-// Fewer triangles for meshes that have no profile to revolve again.
-
-struct DecimatedMesh {
-  TriangleMesh mesh;  ///< on points of the input mesh
-  /// The largest distance from a vertex of either mesh to the surface of the other. Measured at the
-  /// vertices only; between them the surfaces may be farther apart.
-  double max_error_mm = 0.0;
-};
-
-inline constexpr std::size_t kFewestTriangles = 4;
-
-/// Reduces to at most `max_triangles` by collapsing edges in the order of OpenMesh's error quadrics
-/// (Garland, Heckbert, "Surface simplification using quadric error metrics"); no collapse may flip
-/// a face. A mesh within the limit is returned unchanged. Walls may come to intersect: check the
-/// result. Errors of kind `unsound`: the mesh is not a closed, oriented manifold, or no further
-/// edge can collapse (the message holds the number reached); `bad_input`: a limit below 4.
-Result<DecimatedMesh> decimate(const TriangleMesh& sound_mesh, std::size_t max_triangles);
-
 }  // namespace clay::solid::inline repair

@@ -1,10 +1,16 @@
 #pragma once
 // Wall thickness, computed from the profile alone.
 
+#include "claystack/core/result.hpp"
 #include "claystack/export/section.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace clay::solid::inline walls {
@@ -62,5 +68,67 @@ inline constexpr std::size_t kMaxWallSamples = 100'000;
 /// sample is thinner than `min_wall`, to its accuracy; as the spacing shrinks, the thinnest
 /// converges to it.
 [[nodiscard]] std::vector<WallSample> wall_field(const Profile& profile, double spacing_mm);
+
+/// "outer", "bore", ...
+[[nodiscard]] std::string_view name_of(WallFace face);
+
+/// Of the samples in a table: none is farther from the next along an edge.
+inline constexpr double kWallTableSpacingMm = 0.5;
+
+/// CSV with a header, for plots and spreadsheets; lengths in mm, thickness empty where nothing is
+/// opposite.
+[[nodiscard]] std::string wall_table(const std::vector<WallSample>& field);
+
+// ---- wall limits ---------------------------------------------------------------------
+// What the user, or a way of making things, asks of walls. Every figure says where it comes from.
+
+/// The least wall that is asked for, and by whom.
+struct WallLimit {
+  /// Holds for objects whose width, depth and height add up to no more than this.
+  double up_to_size_sum_mm = std::numeric_limits<double>::infinity();
+  double min_wall_mm = 0.0;
+  std::string source;   ///< whose figure it is
+  std::string process;  ///< that asks for it; empty: the user does
+
+  /// "porcelain: WHOSE FIGURE".
+  [[nodiscard]] std::string asked_by() const;
+};
+
+struct ProcessLimits {
+  std::string name;
+  std::vector<WallLimit> walls;  ///< by rising size; the last holds for all larger objects too
+
+  [[nodiscard]] const WallLimit& wall_for(double size_sum_mm) const noexcept;
+};
+
+inline constexpr std::array<std::string_view, 5> kProcessNames{"fdm", "sla", "earthenware",
+                                                               "stoneware", "porcelain"};
+
+/// One of kProcessNames; any other name is an error that lists them.
+Result<ProcessLimits> process_named(std::string_view name);
+
+/// JSON as in samples/schema/process.schema.json; errors name the file and the field.
+Result<ProcessLimits> parse_process(std::string_view bytes, std::string_view file_name);
+
+/// One of kProcessNames, or the file of that name, which ends in .json.
+Result<ProcessLimits> read_process(const std::string& name);
+
+/// What is asked of the walls of an object, before its size is known.
+struct WallDemand {
+  std::optional<double> min_wall_mm;
+  std::optional<ProcessLimits> process;
+
+  /// For an object whose width, depth and height add up to this: of both the larger figure. Nothing
+  /// where nothing is asked.
+  [[nodiscard]] std::optional<WallLimit> for_size(double size_sum_mm) const;
+};
+
+/// "3.440 mm, expected 3.000 mm at least (WHOSE FIGURE)".
+[[nodiscard]] std::string wall_text(double thinnest_mm, const WallLimit& limit);
+
+/// The same with the stretches of the section's faces that are too thin, the first few of them:
+/// "...; thinner: bore from 64.0 to 137.2 mm of height, ...".
+[[nodiscard]] std::string thin_wall_text(const Profile& profile, double thinnest_mm,
+                                         const WallLimit& limit);
 
 }  // namespace clay::solid::inline walls

@@ -1,0 +1,24 @@
+#include "app/cli/wall_options.hpp"
+
+#include "app/cli/console.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace clay::cli {
+
+void WallOptions::add_to(CLI::App& command) {
+  command.add_option("--min-wall", min_wall_mm_, "Minimum wall [mm]")->check(in_range(1e-6, 1e4));
+  command.add_option(
+      "--process", process_,
+      "Process that sets the minimum wall: fdm, sla, earthenware, stoneware, porcelain, or a .json "
+      "file with limits of your own");
+}
+
+Result<void> WallOptions::load() {
+  demand_ = {min_wall_mm_, std::nullopt};
+  if (process_.empty()) return {};
+  return solid::read_process(process_).map(
+      [&](solid::ProcessLimits process) { demand_.process = std::move(process); });
+}
+
+}  // namespace clay::cli

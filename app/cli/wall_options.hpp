@@ -1,0 +1,31 @@
+#pragma once
+#include "claystack/core/result.hpp"
+#include "claystack/export/walls.hpp"
+
+#include <optional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace clay::cli {
+
+/// The options --min-wall and --process of a command; of both, the larger figure holds.
+class WallOptions {
+ public:
+  void add_to(CLI::App& command);
+
+  [[nodiscard]] bool asked() const noexcept { return min_wall_mm_ || !process_.empty(); }
+  /// Reads the process where one is named. Before any work: a bad name costs nothing then.
+  Result<void> load();
+  /// After `load`.
+  [[nodiscard]] const solid::WallDemand& demand() const noexcept { return demand_; }
+
+ private:
+  std::optional<double> min_wall_mm_;
+  std::string process_;
+  solid::WallDemand demand_;
+};
+
+}  // namespace clay::cli

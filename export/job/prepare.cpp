@@ -1,0 +1,119 @@
+#include "export/job/prepare.hpp"
+
+#include "claystack/engine/tick.hpp"
+#include "core/text.hpp"
+#include "export/section/stack_section.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace clay::solid::inline job {
+namespace {
+
+Quanta times(Quanta count, double factor) {
+  return static_cast<Quanta>(std::llround(factor * static_cast<double>(count)));
+}
+
+/// Of one ring; a wall of a few quanta stays one.
+Ring times(const Ring& ring, double factor) {
+  Ring larger{times(ring.outer2, factor), times(ring.inner2, factor)};
+  if (larger.inner2 >= larger.outer2) larger.inner2 = larger.outer2 - 1;
+  return larger;
+}
+
+/// The part of a ring that the crown has does not change, whatever rounding did to that ring.
+WideQuanta crown_of(const ClayStack& stack, const Ring& larger_top) {
+  const double part =
+      static_cast<double>(stack.crown()) / static_cast<double>(stack.rings().back().volume());
+  return std::min(times(larger_top.volume(), part), larger_top.volume() - 1);
+}
+
+/// Rings below the bottom of the uppermost closed cavity; 0 where there is none.
+std::size_t rings_to_drill(const ClayStack& stack) {
+  std::size_t rings = 0;
+  for (const PieceShape& shape : shapes_of(stack))
+    for (const Cavity& cavity : shape.cavities)
+      rings = static_cast<std::size_t>(cavity.bottom_mm / stack.ring_height_mm() + 0.5);
+  return rings;
+}
+
+}  // namespace
+
+Result<Pot> enlarged(const Pot& pot, double shrinkage) {
+  if (!(shrinkage >= 0.0 && shrinkage <= kMostShrinkage))
+    return failure(ErrorKind::bad_input, "shrinkage: expected 0 to " + in_mm(kMostShrinkage) +
+                                             ", found " + in_mm(shrinkage));
+  if (shrinkage == 0.0) return pot;
+  const double factor = enlargement(shrinkage);
+  std::vector<Ring> rings;
+  rings.reserve(pot.stack.size());
+  // A double holds no radius of more than 362 mm to the quantum; nor does any file.
+  for (const Ring& ring : pot.stack.rings()) rings.push_back(times(ring, factor * factor));
+  const WideQuanta crown = crown_of(pot.stack, rings.back());
+  return ClayStack::from_rings(pot.stack.ring_height_mm() * factor, std::move(rings), crown,
+                               pot.stack.max_rings())
+      .map_error([](const Error& error) {
+        return Error{error.kind, "enlarged for its shrinkage: " + error.message};
+      })
+      .map([&](ClayStack stack) {
+        Pot larger = pot;
+        larger.stack = std::move(stack);
+        larger.rim = {};
+        larger.ledger = {.initial = larger.stack.volume()};
+        larger.rounding.reset();
+        if (larger.collapse) {
+          larger.collapse->pivot_mm *= factor;
+          larger.collapse->shift_mm *= factor;
+        }
+        return larger;
+      });
+}
+
+Result<DrainedStack> drain(const ClayStack& stack, double diameter_mm) {
+  const std::size_t depth = rings_to_drill(stack);
+  if (depth == 0)
+    return failure(ErrorKind::bad_input, "drain: expected a closed cavity, found none");
+  const Quanta hole2 = quanta_from_radius(0.5 * diameter_mm);
+  std::vector<Ring> rings(stack.rings().begin(), stack.rings().end());
+  for (std::size_t i = 0; i < depth; ++i) {
+    if (rings[i].outer2 <= hole2)
+      return failure(ErrorKind::bad_input, "drain: expected a hole narrower than ring " +
+                                               std::to_string(i) + " (" +
+                                               in_mm(2.0 * rings[i].outer_mm()) + " mm), found " +
+                                               in_mm(diameter_mm) + " mm");
+    rings[i].inner2 = std::max(rings[i].inner2, hole2);
+  }
+  return ClayStack::from_rings(stack.ring_height_mm(), std::move(rings), stack.crown(),
+                               stack.max_rings())
+      .map([&](ClayStack drained) {
+        const double drilled =
+            static_cast<double>(stack.volume() - drained.volume()) * stack.mm3_per_quantum();
+        return DrainedStack{std::move(drained), drilled};
+      });
+}
+
+Result<PreparedPot> prepare(const Pot& pot, const ExportOptions& options) {
+  if (options.drain_mm && pot.collapse)
+    return failure(ErrorKind::bad_input,
+                   "drain: expected a pot that stands, found a collapsed one");
+  return enlarged(pot, options.shrinkage)
+      .and_then([&](Pot larger) -> Result<PreparedPot> {
+        PreparedPot prepared{std::move(larger), {options.shrinkage, 0.0, 0.0}, std::nullopt};
+        if (!options.drain_mm) return prepared;
+        return drain(prepared.pot.stack, *options.drain_mm).map([&](DrainedStack drained) {
+          prepared.pot.stack = std::move(drained.stack);
+          prepared.done.drilled_mm3 = drained.drilled_mm3;
+          return std::move(prepared);
+        });
+      })
+      .map([&](PreparedPot prepared) {
+        const ClayStack& stack = prepared.pot.stack;
+        prepared.done.counted_volume_mm3 = stack.volume_mm3();
+        prepared.limit = options.walls.for_size(4.0 * largest_radius_mm(stack) + stack.height_mm());
+        return prepared;
+      });
+}
+
+}  // namespace clay::solid::inline job

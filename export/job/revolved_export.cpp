@@ -1,0 +1,205 @@
+#include "export/job/revolved_export.hpp"
+
+#include "claystack/engine/tick.hpp"
+#include "claystack/export/solid.hpp"
+#include "export/job/left_out.hpp"
+#include "export/job/resolution.hpp"
+#include "export/job/revolve_files.hpp"
+#include "export/job/stages.hpp"
+#include "export/smoothing/profile_smoothing.hpp"
+#include "export/solid/revolve_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace clay::solid::inline job {
+namespace {
+
+/// Steps that a file's float32 cannot hold apart with a margin.
+double min_step_mm(const ClayStack& stack) {
+  return std::ldexp(std::hypot(largest_radius_mm(stack), stack.height_mm()), -19);
+}
+
+/// No step but floors and lids.
+bool has_straight_walls(const ClayStack& stack) {
+  const auto rings = stack.rings();
+  for (std::size_t i = 1; i < rings.size(); ++i) {
+    const Ring &below = rings[i - 1], &above = rings[i];
+    const bool floor = below.inner2 == 0 || above.inner2 == 0;
+    if (below.outer2 != above.outer2 || (!floor && below.inner2 != above.inner2)) return false;
+  }
+  return true;
+}
+
+/// A section that has been proved, and how it is revolved.
+struct Design {
+  ProvedSection section;
+  SolidSize size;
+};
+
+class RevolvedExport {
+ public:
+  RevolvedExport(const PreparedPot& prepared, const std::vector<Output>& outputs,
+                 const ExportOptions& options,
+                 const std::function<void(std::string_view)>& progress)
+      : prepared_(prepared),
+        stack_(prepared.pot.stack),
+        outputs_(outputs),
+        options_(options),
+        stages_(report_.stages, progress) {}
+
+  Result<ExportReport> run() {
+    return named(take_section().and_then([&] { return design(); }), options_.source)
+        .and_then([&](Design design) { return write_all(std::move(design)); })
+        .map([&] { return std::move(report_); });
+  }
+
+ private:
+  /// Once, whatever the tolerance.
+  Result<void> take_section() {
+    return stages_.run("profile", [&] { return profile_of(stack_, min_step_mm(stack_)); })
+        .map([&](StackProfile steps) {
+          steps_ = std::move(steps);
+          if (options_.smoothing == Smoothing::exact)
+            wall_as_steps_mm_ = min_wall_mm(steps_.profile);
+        });
+  }
+
+  /// As fine as asked for; with a budget of triangles, at the least tolerance that meets it.
+  Result<Design> design() {
+    auto finest = design_at(options_.tolerance_mm);
+    if (!finest || !options_.max_triangles || finest->size.triangles <= *options_.max_triangles)
+      return finest;
+    double low = options_.tolerance_mm, high = coarsest_mm();
+    auto coarsest = design_at(high);
+    if (!coarsest) return coarsest;
+    if (coarsest->size.triangles > *options_.max_triangles)
+      return failure(ErrorKind::bad_input, "max triangles: expected at least " +
+                                               std::to_string(coarsest->size.triangles) +
+                                               " for this pot, found " +
+                                               std::to_string(*options_.max_triangles));
+    while (high > 1.02 * low) {
+      const double middle = std::sqrt(low * high);
+      auto tried = design_at(middle);
+      if (!tried) return tried;
+      if (tried->size.triangles > *options_.max_triangles) {
+        low = middle;
+      } else {
+        high = middle;
+        coarsest = std::move(tried);
+      }
+    }
+    return coarsest;
+  }
+
+  double coarsest_mm() const {
+    return std::max(0.1 * largest_radius_mm(stack_), options_.tolerance_mm);
+  }
+
+  Result<Design> design_at(double tolerance_mm) {
+    Design design;
+    design.size.tolerance_mm = tolerance_mm;
+    return smooth(design.section, tolerance_mm)
+        .and_then([&] {
+          return stages_.run("certificate", [&] { return certify(design.section.profile()); });
+        })
+        .and_then([&](const PlanarCertificate& planar) {
+          design.section.planar = planar;
+          return check_pieces(design.section.shapes(), options_.allow_pieces);
+        })
+        .and_then([&] { return choose_segments(design.section.profile(), tolerance_mm, options_); })
+        .map([&](std::size_t segments) {
+          design.size.segments = segments;
+          design.size.triangles = triangle_count(design.section.profile(), segments);
+          return std::move(design);
+        });
+  }
+
+  Result<void> smooth(ProvedSection& section, double tolerance_mm) {
+    if (options_.smoothing == Smoothing::none && options_.lip_fillet_mm == 0.0)
+      section.no_smoothing = "not asked for";
+    else if (has_straight_walls(stack_) && options_.lip_fillet_mm == 0.0)
+      section.no_smoothing = "the walls are straight";
+    if (!section.no_smoothing.empty()) {
+      section.smoothed.section = steps_;
+      return {};
+    }
+    SmoothingOptions how{options_.smoothing, tolerance_mm, {}, options_.lip_fillet_mm, {}};
+    if (prepared_.limit) how.min_wall_mm = prepared_.limit->min_wall_mm;
+    return stages_.run("smooth", [&] { return smoothed_profile(stack_, steps_, how); })
+        .map([&](SmoothedProfile smoothed) {
+          section.smoothed = std::move(smoothed);
+          section.smoothing = options_.smoothing;
+        });
+  }
+
+  Result<void> write_all(Design design) {
+    const RevolveLayout rule(design.section.profile(), design.size.segments);
+    SolidCertificate claims = stages_.run(
+        "claims", [&] { return claims_of(design.section.profile(), design.size.segments, 0.0); });
+    claims.counted_volume_mm3 = prepared_.done.counted_volume_mm3;
+    report_.prepared = prepared_.done;
+    report_.section = std::move(design.section);
+    report_.size = measured(design.size, rule);
+    report_.volume = {claims.volume_mm3, std::abs(claims.volume_mm3 - claims.counted_volume_mm3) /
+                                             claims.counted_volume_mm3};
+    measure_walls(claims.wall_lower_mm);
+    RevolveFiles files(rule, claims, options_, stages_);
+    for (const Output& output : outputs_) {
+      auto file = named(files.write(output.format, *output.store),
+                        output.name.empty() ? options_.source : output.name);
+      if (!file) return tl::make_unexpected(file.error());
+      report_.files.push_back(std::move(*file));
+    }
+    report_.left_out =
+        left_out(stack_, report_.section.no_smoothing, rule, files.made_mesh(), outputs_, options_);
+    return {};
+  }
+
+  SolidSize measured(SolidSize size, const RevolveLayout& rule) const {
+    double widest = 0.0;
+    for (const Shell& shell : rule.shells())
+      for (const ProfilePoint& p : shell.points) widest = std::max(widest, p.rho);
+    size.shells = rule.shells().size();
+    size.chordal_error_mm = chordal_error_mm(widest, size.segments);
+    size.diameter_mm = 2.0 * widest * equal_area_factor(size.segments);
+    size.height_mm = stack_.height_mm();
+    return size;
+  }
+
+  void measure_walls(double min_wall_mm) {
+    const Profile& profile = report_.section.profile();
+    WallReport& walls = report_.walls;
+    walls.min_wall_mm = min_wall_mm;
+    walls.thinnest = stages_.run("wall", [&] { return min_wall(profile); });
+    if (report_.section.smoothing == Smoothing::exact &&
+        wall_as_steps_mm_ > walls.thinnest.thickness_mm)
+      walls.as_steps_mm = wall_as_steps_mm_;
+    if (options_.wall_spacing_mm)
+      walls.field =
+          stages_.run("wall_field", [&] { return wall_field(profile, *options_.wall_spacing_mm); });
+    walls.limit = options_.walls.for_size(2.0 * report_.size.diameter_mm + report_.size.height_mm);
+  }
+
+  const PreparedPot& prepared_;
+  const ClayStack& stack_;
+  const std::vector<Output>& outputs_;
+  const ExportOptions& options_;
+  StackProfile steps_;
+  std::optional<double> wall_as_steps_mm_;
+  ExportReport report_;
+  Stages stages_;
+};
+
+}  // namespace
+
+Result<ExportReport> export_revolved(const PreparedPot& prepared,
+                                     const std::vector<Output>& outputs,
+                                     const ExportOptions& options,
+                                     const std::function<void(std::string_view)>& progress) {
+  return RevolvedExport(prepared, outputs, options, progress).run();
+}
+
+}  // namespace clay::solid::inline job

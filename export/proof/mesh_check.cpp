@@ -1,0 +1,186 @@
+#include "claystack/export/proof.hpp"
+
+#include "core/compensated_sum.hpp"
+#include "core/parallel_parts.hpp"
+#include "core/text.hpp"
+#include "export/proof/soup_intersections.hpp"
+#include "export/solid/bounded_volume.hpp"
+#include "export/solid/mesh_geometry.hpp"
+#include "export/solid/mesh_topology.hpp"
+
+#include <cmath>
+#include <exception>
+#include <glm/geometric.hpp>
+#include <new>
+#include <string>
+#include <string_view>
+
+namespace clay::solid::inline proof {
+namespace {
+
+std::string numbered(std::string_view noun, const std::vector<std::uint32_t>& numbers) {
+  std::string text(noun);
+  if (numbers.size() > 1) text += "s";
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    text += (i == 0 ? " " : ", ") + std::to_string(numbers[i]);
+  return text;
+}
+
+/// The middle of the faulty vertices; if none are listed, of the first triangle.
+std::string coordinates(const TriangleMesh& mesh, const Fault& fault) {
+  const Triangle& triangle = mesh.triangles[fault.triangles.front()];
+  const std::vector<std::uint32_t> corners(triangle.begin(), triangle.end());
+  const std::vector<std::uint32_t>& vertices = fault.vertices.empty() ? corners : fault.vertices;
+  glm::dvec3 middle{0.0};
+  for (const std::uint32_t v : vertices)
+    middle += mesh.points[v] / static_cast<double>(vertices.size());
+  return std::string("(") + in_mm(middle.x) + ", " + in_mm(middle.y) + ", " + in_mm(middle.z) +
+         ") mm";
+}
+
+class Inspection {
+ public:
+  explicit Inspection(const TriangleMesh& mesh) : mesh_(mesh) {
+    report_.triangles = mesh.triangles.size();
+  }
+
+  MeshReport run() {
+    if (mesh_.triangles.empty() || mesh_.triangles.size() > kMaxTriangles) {
+      problem("mesh size", "expected 1 to " + std::to_string(kMaxTriangles) + " triangles, found " +
+                               std::to_string(mesh_.triangles.size()));
+      return std::move(report_);
+    }
+    const bool finite = check_points();
+    if (!check_indices()) return std::move(report_);
+    MeshTopology topology;
+    if (!finite) {
+      check_topology(topology_of(mesh_.points.size(), mesh_.triangles));
+      return std::move(report_);
+    }
+    SoupIntersections intersections(mesh_);
+    for_each_part(1 + intersections.parts(), [&](std::size_t part) {
+      if (part == 0)
+        topology = topology_of(mesh_.points.size(), mesh_.triangles);
+      else
+        intersections.search(part - 1);
+    });
+    check_topology(topology);
+    check_geometry(topology, intersections);
+    return std::move(report_);
+  }
+
+ private:
+  bool check_points() {
+    Fault fault;
+    for (std::uint32_t v = 0; v < mesh_.points.size(); ++v) {
+      const glm::dvec3& p = mesh_.points[v];
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) note(fault, {}, {v});
+    }
+    if (fault.found()) problem("non-finite point", numbered("point", fault.vertices), fault.count);
+    return !fault.found();
+  }
+
+  bool check_indices() {
+    const Fault fault = indices_out_of_range(mesh_.points.size(), mesh_.triangles);
+    if (fault.found())
+      problem("index out of range", numbered("triangle", fault.triangles), fault.count);
+    return !fault.found();
+  }
+
+  void check_topology(const MeshTopology& topology) {
+    report_.closed = topology.closed();
+    report_.manifold = topology.manifold();
+    report_.oriented = topology.oriented();
+    report_.components = topology.components;
+    report_.degenerate = topology.collapsed.count;
+    problem("duplicate triangle", topology.duplicates);
+    problem("open edge", topology.open_edges);
+    problem("non-manifold edge", topology.crowded_edges);
+    problem("edge between faces of opposite orientation", topology.flipped_edges);
+    problem("non-manifold vertex", topology.split_vertices);
+  }
+
+  void check_geometry(const MeshTopology& topology, const SoupIntersections& intersections) {
+    const SignedVolume volume = bounded_volume(mesh_);
+    report_.volume_mm3 = volume.mm3;
+    const Fault crossings = intersections.found();
+    report_.degenerate = intersections.degenerate().count;
+    report_.self_intersections = crossings.count;
+    problem("degenerate triangle", intersections.degenerate());
+    problem("self-intersection", crossings);
+    if (!topology.closed() || !topology.oriented()) return;
+    bool outward = volume.mm3 > 0.0;
+    if (topology.manifold() && !intersections.degenerate().found() && !crossings.found())
+      outward = check_shells(topology, volume);
+    check_outward(outward);
+  }
+
+  void count_cavities(const MeshTopology& topology) {
+    std::vector<CompensatedSum> six_volumes(mesh_.triangles.size());
+    const glm::dvec3 origin = mesh_.points[mesh_.triangles.front()[0]];
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto& [a, b, c] = mesh_.triangles[t];
+      six_volumes[topology.component_of[t]].add(
+          glm::dot(mesh_.points[a] - origin,
+                   glm::cross(mesh_.points[b] - origin, mesh_.points[c] - origin)));
+    }
+    for (const CompensatedSum& six : six_volumes) {
+      if (six.value() >= 0.0) continue;
+      ++report_.cavities;
+      report_.trapped_mm3 -= six.value() / 6.0;
+    }
+  }
+
+  /// Returns true if the outermost shell is oriented outward.
+  bool check_shells(const MeshTopology& topology, const SignedVolume& volume) {
+    // One embedded shell always bounds a volume, and the sign of that volume is its orientation.
+    if (topology.components == 1 && volume.sign_is_certain()) {
+      report_.bounds_volume = true;
+      return volume.mm3 > 0.0;
+    }
+    const ShellGeometry geometry = shell_geometry(mesh_, topology);
+    report_.bounds_volume = geometry.bounds_volume;
+    problem("shell turned against its neighbours", geometry.misplaced_shells);
+    if (geometry.bounds_volume && geometry.outward && topology.components > 1)
+      count_cavities(topology);
+    return geometry.outward;
+  }
+
+  void check_outward(bool outward) {
+    report_.oriented = outward;
+    if (!outward)
+      problem("inside out",
+              "normals point into the clay, volume " + in_mm(report_.volume_mm3) + " mm^3");
+  }
+
+  void problem(std::string what, std::string where, std::size_t count = 1) {
+    report_.problems.push_back({std::move(what), std::move(where), count});
+  }
+  void problem(std::string what, const Fault& fault) {
+    if (fault.found())
+      problem(std::move(what),
+              numbered("triangle", fault.triangles) + " at " + coordinates(mesh_, fault),
+              fault.count);
+  }
+
+  const TriangleMesh& mesh_;
+  MeshReport report_;
+};
+
+}  // namespace
+
+MeshReport check_mesh(const TriangleMesh& mesh) {
+  Inspection inspection(mesh);
+  try {
+    return inspection.run();
+  } catch (const std::exception& e) {
+    // A library failed or memory ran out: an unchecked mesh is not sound.
+    MeshReport report;
+    report.triangles = mesh.triangles.size();
+    report.out_of_memory = dynamic_cast<const std::bad_alloc*>(&e) != nullptr;
+    report.problems.push_back({"check abandoned", e.what(), 1});
+    return report;
+  }
+}
+
+}  // namespace clay::solid::inline proof

@@ -1,0 +1,10 @@
+#pragma once
+#include "claystack/export/smoothing.hpp"
+
+namespace clay::solid::inline smoothing {
+
+/// `smooth_profile_of` where the steps of the stack are known already.
+Result<SmoothedProfile> smoothed_profile(const ClayStack& stack, StackProfile steps,
+                                         const SmoothingOptions& options);
+
+}  // namespace clay::solid::inline smoothing

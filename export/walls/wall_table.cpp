@@ -1,0 +1,77 @@
+// Walls in words: the table of a section, and what is wrong with it.
+
+#include "claystack/export/walls.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+namespace clay::solid::inline walls {
+namespace {
+
+constexpr std::size_t kMostStretches = 4;  // of a long list, people read the first few
+
+struct Stretch {
+  std::size_t piece = 0;
+  WallFace face = WallFace::outer;
+  double low_mm = 0.0, high_mm = 0.0;
+};
+
+std::vector<Stretch> thin_stretches(const Profile& profile, double min_wall_mm) {
+  std::vector<Stretch> stretches;
+  bool open = false;
+  for (const WallSample& s : wall_field(profile, kWallTableSpacingMm)) {
+    const bool thin = s.thickness_mm < min_wall_mm;
+    if (open && (stretches.back().face != s.face || stretches.back().piece != s.piece))
+      open = false;
+    if (thin && !open) stretches.push_back({s.piece, s.face, s.at.y, s.at.y});
+    if (thin) {
+      stretches.back().low_mm = std::min(stretches.back().low_mm, s.at.y);
+      stretches.back().high_mm = std::max(stretches.back().high_mm, s.at.y);
+    }
+    open = thin;
+  }
+  return stretches;
+}
+
+}  // namespace
+
+std::string wall_text(double thinnest_mm, const WallLimit& limit) {
+  return fmt::format("{:.3f} mm, expected {:.3f} mm at least ({})", thinnest_mm, limit.min_wall_mm,
+                     limit.asked_by());
+}
+
+std::string thin_wall_text(const Profile& profile, double thinnest_mm, const WallLimit& limit) {
+  std::string text = wall_text(thinnest_mm, limit);
+  const std::vector<Stretch> stretches = thin_stretches(profile, limit.min_wall_mm);
+  for (std::size_t i = 0; i < std::min(stretches.size(), kMostStretches); ++i)
+    text += fmt::format("{} {} from {:.1f} to {:.1f} mm of height", i == 0 ? "; thinner:" : ",",
+                        name_of(stretches[i].face), stretches[i].low_mm, stretches[i].high_mm);
+  if (stretches.size() > kMostStretches)
+    text += fmt::format(", and {} more", stretches.size() - kMostStretches);
+  return text;
+}
+
+std::string_view name_of(WallFace face) {
+  constexpr std::array<std::string_view, 6> kNames{"foot", "outer", "rim", "bore", "floor", "lid"};
+  return kNames.at(static_cast<std::size_t>(face));
+}
+
+std::string wall_table(const std::vector<WallSample>& field) {
+  std::string text = "piece,face,arc_mm,rho_mm,y_mm,thickness_mm,opposite_rho_mm,opposite_y_mm\n";
+  for (const WallSample& s : field) {
+    fmt::format_to(std::back_inserter(text), "{},{},{:.6f},{:.6f},{:.6f},", s.piece,
+                   name_of(s.face), s.arc_mm, s.at.rho, s.at.y);
+    if (std::isfinite(s.thickness_mm))
+      fmt::format_to(std::back_inserter(text), "{:.6f},{:.6f},{:.6f}\n", s.thickness_mm,
+                     s.opposite.rho, s.opposite.y);
+    else
+      text += ",,\n";
+  }
+  return text;
+}
+
+}  // namespace clay::solid::inline walls

@@ -1,0 +1,149 @@
+// What becomes of the files of a request, and how errors name them.
+
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/export/job.hpp"
+#include "tests/export/formats/refused.hpp"
+#include "tests/export/solid/shapes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdlib.h>
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace clay::solid {
+namespace {
+
+using samples::refused;
+using shapes::pot_of;
+using shapes::stack_of;
+
+/// A disk that is full after the first 100 bytes.
+class FullStore final : public FileStore {
+ public:
+  Result<void> write(std::span<const std::byte> bytes) override {
+    written_ += bytes.size();
+    if (written_ <= 100) return {};
+    return failure(ErrorKind::io, "no space left");
+  }
+  [[nodiscard]] bool rereadable() const noexcept override { return false; }
+  Result<void> read_at(std::uint64_t, std::span<std::byte>) const override {
+    return failure(ErrorKind::io, "gone");
+  }
+
+ private:
+  std::size_t written_ = 0;
+};
+
+TEST(ExportErrors, NameTheFileOrThePot) {
+  ExportOptions options;
+  options.source = "p.pot.json";
+  FullStore full;
+  for (const MeshFormat format : {MeshFormat::stl_binary, MeshFormat::obj}) {
+    const auto unwritten =
+        run_export(pot_of(shapes::vase(50)), {{format, &full, "out.mesh"}}, options);
+    ASSERT_FALSE(unwritten);
+    EXPECT_EQ(unwritten.error().message, "out.mesh: no space left");
+  }
+  MemoryStore store;
+  const auto no_solid = run_export(pot_of(stack_of(2.0, {{5, 0}, {9, 5}})),
+                                   {{MeshFormat::stl_binary, &store, "out.stl"}}, options);
+  ASSERT_FALSE(no_solid);
+  EXPECT_EQ(no_solid.error().message.find("p.pot.json: rings 0 and 1"), 0u)
+      << no_solid.error().message;
+}
+
+class ExportFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = testing::TempDir() + "export_files_XXXXXX";
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+TEST_F(ExportFiles, AreListedInTheOrderOfTheRequest) {
+  ExportRequest request;
+  request.files.push_back(file_request(path("a.svg")).value());
+  request.files.push_back(file_request(path("a.obj")).value());
+  request.files.push_back({.path = path("note"), .kind = FileKind::given, .bytes = "clay"});
+  request.files.push_back(file_request(path("a.csv")).value());
+  request.files.push_back(file_request(path("a.stl")).value());
+  request.certificates = true;
+  request.report_path = path("report");
+  request.report_text = [](const ExportReport& report) {
+    return std::to_string(report.files.size());
+  };
+  const auto report = export_files(pot_of(shapes::vase(50)), request);
+  ASSERT_TRUE(report) << report.error().message;
+  ASSERT_EQ(report->files.size(), request.files.size());
+  for (std::size_t i = 0; i < request.files.size(); ++i) {
+    EXPECT_EQ(report->files[i].path, request.files[i].path);
+    EXPECT_EQ(report->files[i].kind, request.files[i].kind);
+    EXPECT_EQ(report->files[i].bytes, std::filesystem::file_size(request.files[i].path));
+  }
+  EXPECT_EQ(read_file(path("note")).value(), "clay");
+  EXPECT_EQ(read_file(path("report")).value(), "5");
+  const auto certificate =
+      parse_certificate(read_file(path("a.stl.certificate.json")).value(), "certificate").value();
+  EXPECT_TRUE(verify_certificate(certificate, read_file(path("a.stl")).value(), "a.stl"));
+  EXPECT_EQ(certificate, *report->files[4].certificate);
+}
+
+TEST_F(ExportFiles, ADrawingShowsTheDrain) {
+  // A cavity of 4 mm between a solid foot and a lid.
+  const Pot pot = pot_of(stack_of(2.0, {{30, 0}, {30, 20}, {30, 20}, {30, 0}}));
+  ExportRequest request;
+  request.files.push_back(file_request(path("a.svg")).value());
+  request.files.push_back(file_request(path("a.stl")).value());
+  request.options.drain_mm = 8.0;
+  const auto report = export_files(pot, request);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_GT(report->prepared.drilled_mm3, 0.0);
+  EXPECT_TRUE(report->section.shapes()[0].cavities.empty());
+  Pot drained = pot;
+  drained.stack = stack_of(2.0, {{30, 4}, {30, 20}, {30, 20}, {30, 0}});
+  EXPECT_EQ(read_file(path("a.svg")).value(), section_svg(drained));
+}
+
+TEST_F(ExportFiles, NoneIsLeftWhereOneCannotBeWritten) {
+  ExportRequest request;
+  request.files.push_back(file_request(path("a.stl")).value());
+  request.files.push_back(file_request(path("nowhere/a.obj")).value());
+  request.options.source = "p.pot.json";
+  const auto failed = export_files(pot_of(shapes::vase(20)), request);
+  ASSERT_FALSE(failed);
+  EXPECT_EQ(failed.error().kind, ErrorKind::io);
+  EXPECT_EQ(failed.error().message.find("p.pot.json"), std::string::npos);
+  EXPECT_NE(failed.error().message.find("a.obj"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(path("a.stl")));
+}
+
+TEST_F(ExportFiles, AFallenPotHasNoCertificateAndNoDrain) {
+  Pot pot = pot_of(shapes::vase(60));
+  pot.collapse = Collapse{20, {50, 70, 0}, {0, 0, 1}, 1.0, 12.0};
+  ExportRequest request;
+  request.files.push_back(file_request(path("a.stl")).value());
+  request.certificates = true;
+  EXPECT_TRUE(refused(export_files(pot, request), ErrorKind::bad_input, "--certificate"));
+  request.certificates = false;
+  request.options.drain_mm = 5.0;
+  EXPECT_TRUE(refused(export_files(pot, request), ErrorKind::bad_input, "drain"));
+  EXPECT_FALSE(std::filesystem::exists(path("a.stl")));
+}
+
+TEST(FileRequests, FollowTheEndOfTheName) {
+  EXPECT_EQ(file_request("a.drc")->format, MeshFormat::drc);
+  EXPECT_EQ(file_request("a.svg")->kind, FileKind::section);
+  EXPECT_EQ(file_request("a.csv")->kind, FileKind::wall_table);
+  EXPECT_TRUE(refused(file_request("a.ply"), ErrorKind::bad_input, ".svg"));
+}
+
+}  // namespace
+}  // namespace clay::solid

@@ -1,0 +1,189 @@
+// Shells beside, within and against each other.
+
+#include "claystack/export/proof.hpp"
+#include "export/solid/mesh_geometry.hpp"
+#include "tests/export/proof/mesh_verdict.hpp"
+#include "tests/export/solid/shapes.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+#include <cmath>
+
+namespace clay::solid {
+namespace {
+
+using samples::find;
+using samples::kSound;
+using samples::names;
+using samples::verdict;
+using samples::Verdict;
+using shapes::ball;
+using shapes::cube;
+using shapes::inverted;
+using shapes::moved;
+using shapes::together;
+
+TEST(MeshShells, DisjointSolidsAndCavitiesAreSound) {
+  const MeshReport two = check_mesh(together(cube(2.0), moved(cube(2.0), {5, 0, 0})));
+  EXPECT_TRUE(two.sound()) << names(two);
+  EXPECT_EQ(two.components, 2u);
+  const MeshReport hollow = check_mesh(together(ball(10.0), inverted(ball(5.0))));
+  EXPECT_TRUE(hollow.sound()) << names(hollow);
+  EXPECT_EQ(verdict(hollow), kSound);
+  // A ball in the cavity of a ball.
+  const MeshReport nested =
+      check_mesh(together(together(ball(10.0), inverted(ball(5.0))), ball(2.0)));
+  EXPECT_TRUE(nested.sound()) << names(nested);
+  EXPECT_EQ(nested.components, 3u);
+}
+
+TEST(MeshShells, CountsCavitiesAndTheirVolume) {
+  // A cube of 10 mm with cavities of 2 and 3 mm, and a solid beside it.
+  const TriangleMesh cavities =
+      together(inverted(moved(cube(2), {1, 1, 1})), inverted(moved(cube(3), {5, 5, 5})));
+  const TriangleMesh mesh = together(together(cube(10), cavities), moved(cube(4), {20, 0, 0}));
+  const MeshReport report = check_mesh(mesh);
+  EXPECT_TRUE(report.sound());
+  EXPECT_EQ(report.components, 4u);
+  EXPECT_EQ(report.cavities, 2u);
+  EXPECT_NEAR(report.trapped_mm3, 8.0 + 27.0, 1e-9);
+  EXPECT_EQ(check_mesh(cube(10)).cavities, 0u);
+}
+
+TEST(MeshShells, ReportsAnInsideOutSolid) {
+  const MeshReport report = check_mesh(inverted(ball(5.0)));
+  EXPECT_EQ(verdict(report), (Verdict{true, true, false, true, false}));
+  ASSERT_EQ(report.problems.size(), 1u) << names(report);
+  EXPECT_EQ(report.problems[0].what, "inside out");
+  EXPECT_LT(report.volume_mm3, 0.0);
+}
+
+TEST(MeshShells, ReportsAnInsideOutSolidBelowAnUnusedPoint) {
+  TriangleMesh mesh = inverted(cube(2.0));
+  mesh.points.insert(mesh.points.begin(), {0, 0, 99});
+  for (auto& t : mesh.triangles)
+    for (auto& v : t) ++v;
+  EXPECT_FALSE(check_mesh(mesh).oriented);
+}
+
+TEST(MeshShells, ReportsOneInsideOutSolidOfTwo) {
+  const TriangleMesh upper = moved(cube(3.0), {0, 0, 9});
+  const MeshReport below = check_mesh(together(inverted(cube(2.0)), upper));
+  EXPECT_FALSE(below.bounds_volume);
+  EXPECT_TRUE(find(below, "shell turned against its neighbours")) << names(below);
+  const MeshReport above = check_mesh(together(cube(4.0), inverted(upper)));
+  EXPECT_FALSE(above.bounds_volume);
+  EXPECT_FALSE(above.sound());
+}
+
+TEST(MeshShells, ReportsNestedShellsOfEqualOrientation) {
+  const MeshReport report = check_mesh(together(ball(10.0), ball(5.0)));
+  EXPECT_EQ(verdict(report), (Verdict{true, true, true, false, false}));
+  EXPECT_TRUE(find(report, "shell turned against its neighbours")) << names(report);
+}
+
+TEST(MeshShells, ReportsACavityOutsideItsSolid) {
+  const MeshReport report =
+      check_mesh(together(ball(10.0), moved(inverted(ball(5.0)), {40, 0, 0})));
+  EXPECT_FALSE(report.bounds_volume);
+  EXPECT_FALSE(report.sound());
+}
+
+/// Cubes within cubes, about one axis: every upward ray runs through the corners of all others.
+TriangleMesh nest(std::size_t shells) {
+  TriangleMesh mesh;
+  for (std::size_t i = 0; i < shells; ++i) {
+    const double side = 2.0 * static_cast<double>(i + 1);
+    const TriangleMesh shell = moved(cube(side), glm::dvec3(-side / 2.0));
+    // The outermost faces out.
+    const TriangleMesh turned = (shells - i) % 2 == 1 ? shell : inverted(shell);
+    const auto offset = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.points.insert(mesh.points.end(), turned.points.begin(), turned.points.end());
+    for (const auto& [a, b, c] : turned.triangles)
+      mesh.triangles.push_back({a + offset, b + offset, c + offset});
+  }
+  return mesh;
+}
+
+/// Cubes beside and above each other.
+TriangleMesh crowd(std::size_t side) {
+  TriangleMesh mesh;
+  for (std::size_t i = 0; i < side * side * side; ++i) {
+    const glm::dvec3 place(i % side, i / side % side, i / side / side);
+    const auto offset = static_cast<std::uint32_t>(mesh.points.size());
+    for (const glm::dvec3& p : cube(1.0).points) mesh.points.push_back(p + 2.0 * place);
+    for (const auto& [a, b, c] : cube(1.0).triangles)
+      mesh.triangles.push_back({a + offset, b + offset, c + offset});
+  }
+  return mesh;
+}
+
+std::size_t steps_of(const TriangleMesh& mesh) {
+  const ShellGeometry geometry =
+      shell_geometry(mesh, topology_of(mesh.points.size(), mesh.triangles));
+  EXPECT_TRUE(geometry.bounds_volume);
+  EXPECT_TRUE(geometry.outward);
+  return geometry.steps;
+}
+
+TEST(MeshShells, SearchCostGrowsWithTheNumberOfShells) {
+  // Four times as many: log-linear is less than six times, by pairs would be sixteen.
+  EXPECT_LT(steps_of(nest(2000)), 6 * steps_of(nest(500)));
+  EXPECT_LT(steps_of(nest(2000)), 2000u * 400);
+  EXPECT_LT(steps_of(crowd(16)), 12 * steps_of(crowd(8)));  // eight times as many
+  EXPECT_LT(steps_of(crowd(16)), 4096u * 400);
+}
+
+/// A shell with what is within it, each a cube in an octant of its own.
+struct Tree {
+  bool outward = true;
+  std::vector<Tree> within;
+};
+
+rc::Gen<Tree> any_tree(int depth) {
+  return rc::gen::exec([depth] {
+    Tree tree;
+    tree.outward = *rc::gen::inRange(0, 6) > 0;  // mended by the depth below
+    const int count = depth == 0 ? 0 : *rc::gen::inRange(0, 4);
+    for (int i = 0; i < count; ++i) tree.within.push_back(*any_tree(depth - 1));
+    return tree;
+  });
+}
+
+/// Adds the shells to the mesh; returns how many are misplaced where `expected` is how this faces.
+std::size_t build(const Tree& tree, const glm::dvec3& low, double side, bool expected, bool spoilt,
+                  TriangleMesh& mesh) {
+  // `outward` false: not as it should be.
+  const bool outward = tree.outward == expected;
+  const TriangleMesh shell = moved(cube(side), low);
+  mesh = together(std::move(mesh), outward ? shell : inverted(shell));
+  spoilt = spoilt || !tree.outward;
+  std::size_t misplaced = spoilt ? 1 : 0;
+  for (std::size_t i = 0; i < tree.within.size(); ++i) {
+    const glm::dvec3 octant(i % 2, i / 2 % 2, i / 4);
+    misplaced += build(tree.within[i], low + side * (0.1 + 0.4 * octant), 0.3 * side, !expected,
+                       spoilt, mesh);
+  }
+  return misplaced;
+}
+
+RC_GTEST_PROP(MeshShellsAtRandom, ReportsExactlyTheMisplacedShells, ()) {
+  Tree tree = *any_tree(4);
+  tree.outward = true;
+  const bool outward = *rc::gen::arbitrary<bool>();
+  TriangleMesh mesh;
+  const std::size_t misplaced = build(tree, {-3.0, 1.0, 0.5}, 64.0, outward, false, mesh);
+  // Turned, so that tops are corners, or not, so that they are faces.
+  if (*rc::gen::arbitrary<bool>())
+    for (glm::dvec3& p : mesh.points)
+      p = {0.8 * p.x - 0.6 * p.z, 0.6 * p.y + 0.48 * p.x + 0.64 * p.z,
+           0.36 * p.x - 0.8 * p.y + 0.48 * p.z};
+  const ShellGeometry geometry =
+      shell_geometry(mesh, topology_of(mesh.points.size(), mesh.triangles));
+  RC_ASSERT(geometry.outward == outward);
+  RC_ASSERT(geometry.misplaced_shells.count == misplaced);
+  RC_ASSERT(geometry.bounds_volume == (misplaced == 0));
+}
+
+}  // namespace
+}  // namespace clay::solid

@@ -1,0 +1,176 @@
+#include "claystack/export/solid.hpp"
+
+#include "claystack/export/proof.hpp"
+#include "export/solid/surface_distance.hpp"
+#include "tests/export/solid/shapes.hpp"
+
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+namespace clay::solid {
+namespace {
+
+using shapes::ball;
+using shapes::cube;
+using shapes::moved;
+using shapes::together;
+
+/// A cube whose faces are grids of `steps` squares, points shared.
+TriangleMesh grid_cube(double side_mm, int steps) {
+  TriangleMesh mesh;
+  const auto add = [&](glm::dvec3 origin, glm::dvec3 u, glm::dvec3 v) {
+    for (int i = 0; i < steps; ++i)
+      for (int j = 0; j < steps; ++j) {
+        const auto corner = [&](int a, int b) {
+          const glm::dvec3 p = origin + u * static_cast<double>(a) + v * static_cast<double>(b);
+          const auto known = std::find(mesh.points.begin(), mesh.points.end(), p);
+          if (known == mesh.points.end()) mesh.points.push_back(p);
+          return static_cast<std::uint32_t>(std::find(mesh.points.begin(), mesh.points.end(), p) -
+                                            mesh.points.begin());
+        };
+        const auto a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1),
+                   d = corner(i, j + 1);
+        mesh.triangles.push_back({a, b, c});
+        mesh.triangles.push_back({a, c, d});
+      }
+  };
+  const double s = side_mm / steps, l = side_mm;
+  const glm::dvec3 x{s, 0, 0}, y{0, s, 0}, z{0, 0, s};
+  add({0, 0, 0}, y, x);
+  add({0, 0, l}, x, y);
+  add({0, 0, 0}, x, z);
+  add({0, l, 0}, z, x);
+  add({0, 0, 0}, z, y);
+  add({l, 0, 0}, y, z);
+  return mesh;
+}
+
+/// A bellied vase, 200 mm high, with a floor of 6 mm and a wall of 3 mm across.
+TriangleMesh smooth_vase(std::size_t bands, std::size_t segments) {
+  const auto outer = [](double t) { return 50.0 + 18.0 * std::sin(6.9 * t - 0.6) - 8.0 * t; };
+  Polygon section{{0.0, 0.0}};
+  const auto at = [&](std::size_t i) {
+    return static_cast<double>(i) / static_cast<double>(bands);
+  };
+  for (std::size_t i = 0; i <= bands; ++i) section.push_back({outer(at(i)), 200.0 * at(i)});
+  for (std::size_t i = bands; 200.0 * at(i) > 6.0; --i)
+    section.push_back({outer(at(i)) - 3.0, 200.0 * at(i)});
+  section.push_back({0.0, 6.0});
+  return revolve({{section}}, segments);
+}
+
+TEST(Decimate, FlatFacesHaveNoError) {
+  for (const glm::dvec3& by : {glm::dvec3(0.0), glm::dvec3(4096.0, -1024.0, 512.0)}) {
+    const TriangleMesh fine = moved(grid_cube(8.0, 8), by);
+    ASSERT_EQ(fine.triangles.size(), 768u);
+    ASSERT_TRUE(check_mesh(fine).sound());
+    const auto coarse = decimate(fine, 12);
+    ASSERT_TRUE(coarse) << coarse.error().message;
+    EXPECT_EQ(coarse->mesh.triangles.size(), 12u);
+    EXPECT_EQ(coarse->max_error_mm, 0.0);
+    const MeshReport report = check_mesh(coarse->mesh);
+    EXPECT_TRUE(report.sound());
+    EXPECT_DOUBLE_EQ(report.volume_mm3, 512.0);
+  }
+}
+
+TEST(Decimate, InclinedFlatFacesHaveNoError) {
+  TriangleMesh fine = grid_cube(8.0, 8);
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  for (glm::dvec3& p : fine.points) {
+    p = {c * p.x - s * p.z, p.y, s * p.x + c * p.z};
+    p = {p.x, c * p.y - s * p.z, s * p.y + c * p.z};
+  }
+  const auto coarse = decimate(fine, 12);
+  ASSERT_TRUE(coarse) << coarse.error().message;
+  EXPECT_LT(coarse->max_error_mm, 1e-13);
+  EXPECT_NEAR(signed_volume(coarse->mesh), 512.0, 1e-10);
+}
+
+TEST(Decimate, VaseAtATenthStaysSoundAndClose) {
+  const TriangleMesh fine = smooth_vase(60, 64);
+  const std::size_t tenth = fine.triangles.size() / 10;
+  const auto coarse = decimate(fine, tenth);
+  ASSERT_TRUE(coarse) << coarse.error().message;
+  EXPECT_LE(coarse->mesh.triangles.size(), tenth);
+  EXPECT_TRUE(check_mesh(coarse->mesh).sound());
+  EXPECT_GT(coarse->max_error_mm, 0.0);
+  EXPECT_LT(coarse->max_error_mm, 3.0);  // the wall
+  // Every point that is left is one that was there.
+  for (const glm::dvec3& p : coarse->mesh.points)
+    ASSERT_NE(std::find(fine.points.begin(), fine.points.end(), p), fine.points.end());
+}
+
+TEST(Decimate, MeasuresTheErrorFromRemovedVertices) {
+  // A ball down to a few triangles: the largest gap is from a lost vertex to the surface, found
+  // here by looking at all points of a dense net on it.
+  const TriangleMesh fine = ball(10.0);
+  const auto coarse = decimate(fine, 12);
+  ASSERT_TRUE(coarse) << coarse.error().message;
+  double farthest = 0.0;
+  for (const glm::dvec3& p : fine.points) {
+    double nearest = 1e300;
+    for (const auto& [a, b, c] : coarse->mesh.triangles)
+      for (int i = 0; i <= 60; ++i)
+        for (int j = 0; i + j <= 60; ++j) {
+          const double u = i / 60.0, v = j / 60.0;
+          const auto& q = coarse->mesh.points;
+          nearest = std::min(nearest, glm::distance(p, q[a] * (1.0 - u - v) + q[b] * u + q[c] * v));
+        }
+    farthest = std::max(farthest, nearest);
+  }
+  EXPECT_LE(coarse->max_error_mm, farthest);
+  EXPECT_GE(coarse->max_error_mm, farthest - 0.25);  // the net's half-width: sides of 20 mm by 60
+}
+
+TEST(Decimate, ReturnsAMeshWithinTheLimitUnchanged) {
+  const auto same = decimate(cube(2.0), 12);
+  ASSERT_TRUE(same);
+  EXPECT_EQ(same->mesh, cube(2.0));
+  EXPECT_EQ(same->max_error_mm, 0.0);
+}
+
+TEST(Decimate, ReportsTheNumberReached) {
+  // Two solids cannot have fewer than four triangles each.
+  const auto stuck = decimate(together(cube(2.0), moved(cube(2.0), {9, 0, 0})), 7);
+  ASSERT_FALSE(stuck);
+  EXPECT_EQ(stuck.error().kind, ErrorKind::unsound);
+  EXPECT_NE(stuck.error().message.find("at most 7"), std::string::npos) << stuck.error().message;
+  EXPECT_NE(stuck.error().message.find("below "), std::string::npos) << stuck.error().message;
+}
+
+TEST(Decimate, RefusesAMeshThatIsNotAClosedManifold) {
+  TriangleMesh open = ball(5.0);
+  open.triangles.pop_back();
+  TriangleMesh fin = cube(2.0);
+  fin.points.push_back({3, -3, 1});
+  fin.triangles.push_back({0, 1, 8});
+  TriangleMesh flipped = ball(5.0);
+  std::swap(flipped.triangles[3][0], flipped.triangles[3][1]);
+  TriangleMesh beyond = cube(2.0);
+  beyond.triangles[7][1] = 8;
+  for (const TriangleMesh& mesh : {open, fin, flipped, beyond, TriangleMesh{}}) {
+    const auto refused = decimate(mesh, 4);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().kind, ErrorKind::unsound);
+    EXPECT_NE(refused.error().message.find("closed manifold"), std::string::npos);
+  }
+  EXPECT_EQ(decimate(cube(2.0), 3).error().kind, ErrorKind::bad_input);
+}
+
+TEST(SurfaceDistance, IsTheMaximumFromBothSides) {
+  EXPECT_DOUBLE_EQ(surface_distance(cube(2.0), moved(cube(2.0), {0, 0, 0.5})), 0.5);
+  // A spike of 3 on one of them, seen from either.
+  TriangleMesh spiked = cube(2.0);
+  spiked.points[6] = {2, 2, 5};
+  EXPECT_DOUBLE_EQ(surface_distance(cube(2.0), spiked), 3.0);
+  EXPECT_DOUBLE_EQ(surface_distance(spiked, cube(2.0)), 3.0);
+  // Points that lie on the other's faces count for nothing.
+  EXPECT_EQ(surface_distance(grid_cube(2.0, 4), cube(2.0)), 0.0);
+}
+
+}  // namespace
+}  // namespace clay::solid

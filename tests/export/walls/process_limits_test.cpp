@@ -1,0 +1,87 @@
+#include "claystack/export/walls.hpp"
+
+#include <gtest/gtest.h>
+#include <string>
+
+namespace clay::solid {
+namespace {
+
+TEST(ProcessLimits, EveryFigureHasASourceAndASize) {
+  for (const std::string_view name : kProcessNames) {
+    const auto process = process_named(name);
+    ASSERT_TRUE(process);
+    EXPECT_EQ(process->name, name);
+    ASSERT_FALSE(process->walls.empty());
+    for (const WallLimit& wall : process->walls) {
+      EXPECT_GT(wall.min_wall_mm, 0.0);
+      EXPECT_GT(wall.source.size(), 10u);
+    }
+  }
+  const auto unknown = process_named("bronze");
+  ASSERT_FALSE(unknown);
+  EXPECT_NE(unknown.error().message.find("porcelain"), std::string::npos);
+}
+
+TEST(ProcessLimits, WallsGrowWithTheObject) {
+  const ProcessLimits sla = process_named("sla").value();
+  EXPECT_EQ(sla.wall_for(150.0).min_wall_mm, 1.0);
+  EXPECT_EQ(sla.wall_for(200.0).min_wall_mm, 1.0);
+  EXPECT_EQ(sla.wall_for(200.1).min_wall_mm, 2.0);
+  EXPECT_EQ(sla.wall_for(1e6).min_wall_mm, 3.0);
+}
+
+constexpr const char* kWorkshop = R"({"schema": "claystack-process-1", "name": "workshop",
+  "walls": [{"up_to_size_sum_mm": 300, "min_wall_mm": 2.5, "source": "our own trials"},
+            {"up_to_size_sum_mm": 600, "min_wall_mm": 4, "source": "our own trials"}]})";
+
+TEST(ProcessLimits, ReadsAFile) {
+  const auto process = parse_process(kWorkshop, "w.json");
+  ASSERT_TRUE(process) << process.error().message;
+  EXPECT_EQ(process->name, "workshop");
+  EXPECT_EQ(process->wall_for(299.0).min_wall_mm, 2.5);
+  EXPECT_EQ(process->wall_for(301.0).min_wall_mm, 4.0);
+  EXPECT_EQ(process->wall_for(9e9).min_wall_mm, 4.0);  // the last holds for all larger ones
+}
+
+TEST(ProcessLimits, ErrorsNameTheField) {
+  const auto expect = [](const std::string& from, const std::string& to, const std::string& says) {
+    std::string bad = kWorkshop;
+    bad.replace(bad.find(from), from.size(), to);
+    const auto process = parse_process(bad, "w.json");
+    ASSERT_FALSE(process) << from;
+    EXPECT_EQ(process.error().kind, ErrorKind::bad_input);
+    EXPECT_EQ(process.error().message.find("w.json: "), 0u) << process.error().message;
+    EXPECT_NE(process.error().message.find(says), std::string::npos) << process.error().message;
+  };
+  expect("2.5", "-2.5", "min_wall_mm: expected a number above 0 to 10000, found -2.5");
+  expect("2.5", "0", "min_wall_mm: expected a number above 0 to 10000, found 0");
+  expect("2.5", "1e308", "min_wall_mm: expected a number above 0 to 10000, found 1e+308");
+  expect("600", "1e308", "up_to_size_sum_mm: expected a number above 0 to 1e+07, found 1e+308");
+  expect("2.5", "\"thick\"", "min_wall_mm: expected a number");
+  expect("600", "200", "sizes that rise");
+  expect("\"source\"", "\"sauce\"", "sauce: unknown field");
+  expect("process-1", "pot-1", "schema: expected claystack-process-1, found claystack-pot-1");
+  expect("\"walls\": [", "\"walls\": [], \"x\": [", "x: unknown field");
+  expect("}]}", "}", "parse error");
+}
+
+TEST(ProcessLimits, ErrorsNameTheKindOfAnotherFile) {
+  const auto expect = [](const std::string& bytes, const std::string& says) {
+    const auto process = parse_process(bytes, "w.json");
+    ASSERT_FALSE(process);
+    EXPECT_EQ(process.error().message, "w.json: " + says);
+  };
+  // Deeper than any process, and of more fields.
+  expect("{\"schema\": \"claystack-pot-1\", \"a\": {\"b\": {\"c\": [[[1]]]}}}",
+         "schema: expected claystack-process-1, found claystack-pot-1");
+  expect("", "expected a JSON object, found an empty file");
+  expect("solid vase\nfacet", "expected a JSON object, found an STL mesh in text");
+  expect("DRACO\x02\x02", "expected a JSON object, found a Draco mesh");
+  expect("radius, height\n10, 0",
+         "expected a JSON object, found text that begins with 'radius, height'");
+  expect(std::string(84, '\0'), "expected a JSON object, found binary data");
+  EXPECT_TRUE(parse_process(std::string("\xEF\xBB\xBF") + kWorkshop, "w.json"));
+}
+
+}  // namespace
+}  // namespace clay::solid
