@@ -2,7 +2,7 @@
 // All that can be done at the window: one table, which the menu, the keys, the sheet of shortcuts
 // and the scripts read.
 
-#include "app/studio/keys.hpp"
+#include "app/studio/input.hpp"
 
 #include <span>
 #include <string_view>

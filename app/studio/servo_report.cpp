@@ -7,6 +7,7 @@
 #include "app/servo/scene_hand.hpp"
 
 #include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 namespace clay::studio {

@@ -13,7 +13,6 @@
 namespace clay::studio {
 namespace {
 
-
 constexpr const char* kSchema = "claystack-studio-1";
 constexpr std::size_t kMostBytes = 1 << 20, kMostValues = 1000;
 
@@ -111,8 +110,7 @@ class Fields {
   }
   void refuse(std::string_view name, std::string_view expected, const Json& found) {
     if (problem_.empty())
-      problem_ =
-          fmt::format("{}: expected {}, found {}", name, expected, printable(found.dump()));
+      problem_ = fmt::format("{}: expected {}, found {}", name, expected, printable(found.dump()));
   }
 
   const Json& json_;

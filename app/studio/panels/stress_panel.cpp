@@ -68,7 +68,7 @@ void draw_stress(AppState& shop) {
   ImGui::PushStyleColor(ImGuiCol_Text, part && *part >= kNear
                                            ? colours.warning
                                            : ImGui::GetStyleColorVec4(ImGuiCol_Text));
-  ImGui::TextWrapped("%s", stress_words(curve, shop.settings.unit).c_str());
+  ImGui::TextWrapped("%s", stress_text(curve, shop.settings.unit).c_str());
   ImGui::PopStyleColor();
   draw_curve(curve, colours);
   faint_text(colours,

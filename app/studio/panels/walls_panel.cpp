@@ -34,7 +34,7 @@ void draw_walls(AppState& shop) {
   ImGui::PushStyleColor(ImGuiCol_Text, check->thin()  ? colours.warning
                                        : check->limit ? colours.good
                                                       : ImGui::GetStyleColorVec4(ImGuiCol_Text));
-  ImGui::TextWrapped("%s", wall_words(*check, shop.settings.unit).c_str());
+  ImGui::TextWrapped("%s", wall_text(*check, shop.settings.unit).c_str());
   ImGui::PopStyleColor();
   say_where(*check, colours, shop.settings.unit);
   if (check->limit) faint_text(colours, check->limit->source);

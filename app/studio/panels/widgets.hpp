@@ -2,7 +2,7 @@
 // Small things that more than one panel draws.
 
 #include "app/studio/app_state.hpp"
-#include "app/studio/length_text.hpp"
+#include "app/studio/units.hpp"
 #include "app/studio/settings.hpp"
 
 #include <span>

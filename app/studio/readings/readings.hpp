@@ -2,12 +2,9 @@
 // What panels show of the clay on the wheel: made once a frame where something has changed, and
 // what takes long by a thread of its own.
 
-#include "app/studio/readings/clay_account.hpp"
+#include "app/studio/readings/clay_figures.hpp"
+#include "app/studio/readings/curves.hpp"
 #include "app/studio/readings/pot_check.hpp"
-#include "app/studio/readings/section_rows.hpp"
-#include "app/studio/readings/stress_curve.hpp"
-#include "app/studio/readings/subject.hpp"
-#include "app/studio/readings/tick_history.hpp"
 #include "app/studio/stroke_controller.hpp"
 #include "core/newest_worker.hpp"
 

@@ -1,5 +1,3 @@
-#include "app/studio/keys.hpp"
-
 #include "app/studio/input.hpp"
 
 #define GLFW_INCLUDE_NONE
@@ -10,6 +8,7 @@
 #include <cctype>
 
 namespace clay::studio {
+
 namespace {
 
 struct NamedKey {
