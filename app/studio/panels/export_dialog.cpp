@@ -1,6 +1,6 @@
 // What an export would write, and what it has written.
 
-#include "app/studio/actions.hpp"
+#include "app/studio/commands.hpp"
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/panels/widgets.hpp"
 
@@ -16,8 +16,7 @@
 namespace clay::studio {
 namespace {
 
-void act(AppState& shop, const char* id) { run(*find_action(id), shop); }
-
+/// Each function changes its own choices of `wish`.
 void draw_formats(ExportWish& wish) {
   form_row("Files");
   const std::array boxes = {std::pair{"STL", &wish.stl}, std::pair{"OBJ", &wish.obj},
@@ -31,7 +30,7 @@ void draw_formats(ExportWish& wish) {
   }
 }
 
-void draw_places(AppState& shop, ExportWish& wish) {
+void draw_places(ExportWish& wish, Actions& actions) {
   form_row("Name");
   ImGui::InputText("##name", &wish.name);
   form_row("Folder");
@@ -39,33 +38,28 @@ void draw_places(AppState& shop, ExportWish& wish) {
   ImGui::SetNextItemWidth(-button - ImGui::GetStyle().ItemSpacing.x);
   ImGui::InputText("##folder", &wish.folder);
   ImGui::SameLine();
-  if (ImGui::Button("Choose...") &&
-      !(shop.host.real_time() &&
-        shop.dialog.begin(FileDialog::Kind::folder, std::filesystem::path(wish.folder) / "")))
-    shop.notices.say(Grade::warning,
-                     "No file dialog is installed (zenity, kdialog): type the folder",
-                     1e-9 * static_cast<double>(shop.host.frame_ns()) + 5.0);
+  if (ImGui::Button("Choose...")) actions.emplace_back(ChooseExportFolder{});
 }
 
-void draw_choices(AppState& shop, ExportWish& wish) {
-  const Palette& colours = shop.colours();
+void draw_choices(const ViewModel& model, ExportWish& wish, Actions& actions) {
+  const Palette& colours = model.colours();
   form_length("Tolerance", wish.tolerance_mm, kFinestMm, kCoarsestMm, LengthUnit::mm);
   constexpr std::array kSmooth = {"fair", "exact", "none"};
-  constexpr std::array kSmoothTitles = {"Fair", "Exact", "As thrown"};
+  constexpr std::array kSmoothTitles = {"Fair", "Exact", "None"};
   const auto smooth =
       static_cast<int>(std::ranges::find(kSmooth, std::string_view(wish.smooth)) - kSmooth.begin());
-  form_row("Walls");
+  form_row("Smoothing");
   if (const int chosen = choice_row("##smooth", kSmoothTitles, smooth, colours); chosen >= 0)
     wish.smooth = kSmooth[static_cast<std::size_t>(chosen)];
   form_row("Process");
-  choose_process(shop, "Not said", wish.process);
-  form_length("Minimum wall", wish.min_wall_mm, 0.0, kThickestDemandMm, shop.settings.unit,
-              wish.process.empty() ? "not asked" : "as the process asks");
+  (void)choose_process(model, "None", wish.process, actions);
+  form_length("Minimum wall", wish.min_wall_mm, 0.0, kThickestDemandMm, model.settings.unit,
+              wish.process.empty() ? "no limit" : "as the process requires");
   form_row("Shrinkage");
   float percent = static_cast<float>(wish.shrinkage_percent);
   if (ImGui::SliderFloat("##shrinkage", &percent, 0.0f, 25.0f, percent > 0.0f ? "%.1f %%" : "none",
                          ImGuiSliderFlags_AlwaysClamp))
-    // In tenths, as it is shown: the file is what the command line makes of the same number.
+    // In tenths, as shown, so that the command line makes the same file from the same number.
     wish.shrinkage_percent = std::round(10.0 * static_cast<double>(percent)) / 10.0;
 }
 
@@ -85,90 +79,92 @@ std::string size_text(const solid::ExportReport& report, double factor, LengthUn
                      length_text(factor * report.height_mm, unit));
 }
 
-void draw_shown(AppState& shop, const cli::ExportDone& done) {
-  const Palette& colours = shop.colours();
-  const LengthUnit unit = shop.settings.unit;
+void draw_figures(const ViewModel& model, const cli::ExportDone& done) {
+  const Palette& colours = model.colours();
+  const LengthUnit unit = model.settings.unit;
   const solid::ExportReport& report = done.report;
   value_row(colours, "Triangles", fmt::format("{}", report.triangles));
   for (const solid::FileReport& file : report.files)
     value_row(colours, title_of(file.format),
               fmt::format("{:.3f} MB", 1e-6 * static_cast<double>(file.bytes)));
-  value_row(colours, "Size as written", size_text(report, 1.0, unit));
+  value_row(colours, "Size in the file", size_text(report, 1.0, unit));
   if (report.shrinkage > 0.0)
-    value_row(colours, "Size when fired", size_text(report, 1.0 - report.shrinkage, unit));
+    value_row(colours, "Fired size", size_text(report, 1.0 - report.shrinkage, unit));
   if (!report.collapsed)
-    value_row(
-        colours, "Thinnest wall",
-        fmt::format("{:.2f} mm, {:.1f} mm up", cli::thinnest_mm(report), report.thinnest.from.y));
+    value_row(colours, "Thinnest wall",
+              fmt::format("{:.2f} mm, at a height of {:.1f} mm", cli::thinnest_mm(report),
+                          report.thinnest.from.y));
   ImGui::PushStyleColor(ImGuiCol_Text, colours.warning);
   for (const cli::Problem& problem : cli::problems_of(done))
     ImGui::TextWrapped("%s", problem.text.c_str());
   ImGui::PopStyleColor();
 }
 
-/// What it is at, what it is of, or why not; in a part of its own, so that the card keeps its
-/// height while figures come and go.
-void draw_preview(AppState& shop) {
-  const ExportCard& card = shop.exporting;
+/// Progress, figures or the problem, in a part of fixed height, so that the dialog keeps its
+/// height.
+void draw_preview(const ViewModel& model) {
+  const ExportState& exporting = model.ui.exporting;
   const ImVec2 size(0.0f, 12.5f * ImGui::GetFontSize());
   ImGui::BeginChild("##preview", size, true);
-  const std::string stage = shop.exporter.stage();
-  const auto running = shop.exporter.running();
-  if (running == Exporter::Kind::files)
-    faint_text(shop.colours(), "Writing: " + stage);
-  else if (!card.problem.empty())
-    ImGui::TextWrapped("%s", card.problem.c_str());
+  const bool running = model.export_running.has_value();
+  if (model.writing())
+    faint_text(model.colours(), "Writing: " + model.export_stage);
+  else if (!exporting.problem.empty())
+    ImGui::TextWrapped("%s", exporting.problem.c_str());
   else if (running)
-    faint_text(shop.colours(), "Computing: " + stage);
-  if (card.shown && card.problem.empty()) draw_shown(shop, *card.shown);
-  if (!card.shown && !running && card.problem.empty())
-    faint_text(shop.colours(), "No mesh among the files");
+    faint_text(model.colours(), "Computing: " + model.export_stage);
+  if (exporting.preview && exporting.problem.empty()) draw_figures(model, *exporting.preview);
+  if (!exporting.preview && !running && exporting.problem.empty())
+    faint_text(model.colours(), "No mesh file is chosen");
   ImGui::EndChild();
 }
 
-void draw_answers(AppState& shop) {
-  const ExportCard& card = shop.exporting;
-  const bool writes = shop.exporter.running() == Exporter::Kind::files;
-  const std::vector<std::string> standing =
-      card.written.empty() && !writes ? standing_files(card.wish) : std::vector<std::string>();
-  if (!card.said.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, shop.colours().good);
-    ImGui::TextWrapped("%s", card.said.c_str());
+void draw_buttons(const ViewModel& model, Actions& actions) {
+  const ExportState& exporting = model.ui.exporting;
+  const bool writes = model.writing();
+  const std::vector<std::string> standing = exporting.written.empty() && !writes
+                                                ? standing_files(exporting.wish)
+                                                : std::vector<std::string>();
+  if (!exporting.result.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, model.colours().good);
+    ImGui::TextWrapped("%s", exporting.result.c_str());
     ImGui::PopStyleColor();
   } else {
-    faint_text(shop.colours(),
+    faint_text(model.colours(),
                standing.empty()
-                   ? "A file is written whole or not at all"
+                   ? "Each file is written completely or not at all"
                    : fmt::format("{} will be replaced",
                                  standing.size() == 1
                                      ? std::filesystem::path(standing.front()).filename().string()
                                      : fmt::format("{} files", standing.size())));
   }
   if (writes) {
-    if (ImGui::Button("Cancel")) act(shop, "export.cancel");
+    if (ImGui::Button("Cancel")) actions.emplace_back(RunCommand{"export.cancel"});
   } else {
-    if (main_button("Export (Ctrl+Enter)", shop.colours())) act(shop, "export.write");
+    if (main_button("Export (Ctrl+Enter)", model.colours()))
+      actions.emplace_back(RunCommand{"export.write"});
     ImGui::SameLine();
-    if (!card.written.empty()) {
-      if (ImGui::Button("Open folder")) act(shop, "export.folder");
+    if (!exporting.written.empty()) {
+      if (ImGui::Button("Open folder")) actions.emplace_back(RunCommand{"export.folder"});
       ImGui::SameLine();
     }
-    if (ImGui::Button("Close (Esc)")) close_overlay(shop);
+    if (ImGui::Button("Close (Esc)")) actions.emplace_back(CloseDialog{});
   }
 }
 
 }  // namespace
 
-void draw_export_card(AppState& shop, const ViewRect& view) {
-  begin_card("##export", view, 38.0f);
-  card_title(shop, "Export");
-  ExportWish& wish = shop.exporting.wish;
+void draw(const ExportDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect) {
+  begin_dialog("##export", rect, 38.0f);
+  dialog_title(model, "Export");
+  ExportWish wish = model.ui.exporting.wish;
   draw_formats(wish);
-  draw_places(shop, wish);
-  draw_choices(shop, wish);
+  draw_places(wish, actions);
+  draw_choices(model, wish, actions);
+  if (wish != model.ui.exporting.wish) actions.emplace_back(EditExport{wish});
   ImGui::Spacing();
-  draw_preview(shop);
-  draw_answers(shop);
+  draw_preview(model);
+  draw_buttons(model, actions);
   ImGui::End();
 }
 
