@@ -5,10 +5,12 @@
 #include "claystack/falcon/device.hpp"
 #include "claystack/falcon/sim.hpp"
 
-#include <CLI/App.hpp>
-
 #include <memory>
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace clay::cli {
 

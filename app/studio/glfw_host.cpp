@@ -11,7 +11,7 @@ namespace clay::studio {
 namespace {
 
 constexpr std::int64_t kFrameNs = 1'000'000'000 / 60;
-constexpr double kIdleS = 0.5;  // between looks at what may have changed by itself
+constexpr double kIdleS = 0.5;  // between updates without input
 
 GlfwHost& host_of(GLFWwindow* window) {
   return *static_cast<GlfwHost*>(glfwGetWindowUserPointer(window));
@@ -58,7 +58,7 @@ GlfwHost::~GlfwHost() {
   glfwTerminate();
 }
 
-/// Keys and clicks are taken as they come, so that none is too short to be seen.
+/// Every key and click is queued, so that none is too short to be seen.
 void GlfwHost::connect() {
   glfwSetWindowUserPointer(window_, this);
   glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
@@ -92,7 +92,7 @@ void GlfwHost::connect() {
     host_of(window).studio_->take(CloseAsked{});
   });
   glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* window, float, float) {
-    host_of(window).studio_->shop().restyle = true;
+    host_of(window).studio_->state().ui.restyle = true;
   });
 }
 
@@ -112,7 +112,7 @@ void GlfwHost::run(Studio& studio, double seconds) {
       studio.frame(true);
       glfwSwapBuffers(window_);
     }
-    // Without a screen's own pace the servo would share its cores with frames no one sees.
+    // Without vertical sync the servo would share its cores with frames that nobody sees.
     clock_.sleep_until_ns(next_ns);
     next_ns = std::max(next_ns + kFrameNs, clock_.now_ns());
   }

@@ -13,13 +13,12 @@ namespace clay::studio {
 
 class GlfwHost final : public Host {
  public:
-  /// The context of OpenGL is current after it. `device`: no display, or no OpenGL 3.3 on it.
+  /// Makes its OpenGL context current. Error `device`: no display, or no OpenGL 3.3.
   static Result<std::unique_ptr<GlfwHost>> create(glm::ivec2 size);
   ~GlfwHost() override;
 
-  /// Frames until the studio is done, or a signal asks to stop (servo::ForceSignals); at most sixty
-  /// a second, and none while nothing moves. `seconds`: no longer than that; 0: as long as it
-  /// takes.
+  /// Draws frames until the studio is done, or a signal asks to stop (servo::ForceSignals); at most
+  /// sixty a second, and none while nothing moves. `seconds`: longest time; 0: no limit.
   void run(Studio& studio, double seconds = 0.0);
 
   [[nodiscard]] glm::ivec2 size_px() const override;

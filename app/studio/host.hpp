@@ -1,5 +1,5 @@
 #pragma once
-// What a window gives, or the absence of one: a surface to draw on, time, a clipboard.
+// The surroundings of the window, on screen or off screen: size, time, clipboard.
 
 #include "app/servo/clock.hpp"
 
@@ -17,14 +17,14 @@ class Host {
   virtual ~Host() = default;
 
   [[nodiscard]] virtual glm::ivec2 size_px() const = 0;
-  /// Of the screen: 1 at 96 dots an inch.
+  /// Scale of the screen: 1 at 96 dots per inch.
   [[nodiscard]] virtual float content_scale() const = 0;
-  /// The servo's.
+  /// Clock of the servo.
   [[nodiscard]] virtual servo::Clock& clock() = 0;
-  /// Whether that clock runs by itself. If not, the servo ticks within the frame until the clock
-  /// has come to the frame's time, and all that happens is the same every time.
+  /// Whether that clock runs by itself. If not, the servo ticks within the frame up to the time of
+  /// the frame, and every run is the same.
   [[nodiscard]] virtual bool real_time() const = 0;
-  /// The time of this frame, of the same clock.
+  /// Time of this frame on the same clock.
   [[nodiscard]] virtual std::int64_t frame_ns() = 0;
   virtual void set_title(const std::string& title) = 0;
   virtual void set_clipboard(const std::string& text) = 0;

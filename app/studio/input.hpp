@@ -1,10 +1,12 @@
 #pragma once
-// What reaches the window from outside: from GLFW's callbacks, or from a script. One queue, so that
-// a script drives the very handlers that a hand does.
+// What reaches the window from outside, from GLFW callbacks or from a script: one queue, so that a
+// script drives the same handlers as a person. Keys have names: "Ctrl+Shift+Z", "F", "[", "Home".
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -42,5 +44,17 @@ struct CloseAsked {};
 
 using Input = std::variant<PointerMoved, ButtonChanged, Scrolled, KeyChanged, TextTyped,
                            FilesDropped, CloseAsked>;
+
+struct KeyChord {
+  int key = 0;  ///< GLFW's code; 0: none
+  unsigned mods = 0;
+  friend bool operator==(const KeyChord&, const KeyChord&) = default;
+};
+
+/// "Ctrl+Shift+Z"; empty for none.
+[[nodiscard]] std::string text_of(const KeyChord& chord);
+
+/// Its inverse; nothing for what names no key.
+[[nodiscard]] std::optional<KeyChord> chord_of(std::string_view text);
 
 }  // namespace clay::studio

@@ -2,50 +2,36 @@
 
 #include "app/cli/console.hpp"
 #include "app/cli/device_choice.hpp"
+#include "app/cli/replay.hpp"
+#include "app/cli/studio_options.hpp"
+#include "app/cli/window_report.hpp"
+#include "app/servo/scene_hand.hpp"
 #include "app/servo/signals.hpp"
 #include "app/studio/glfw_host.hpp"
 #include "app/studio/script.hpp"
-#include "app/studio/servo_report.hpp"
-
 #include "claystack/core/atomic_file.hpp"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
-#include <cstdio>
+#include <functional>
+#include <string>
+#include <string_view>
 
 namespace clay::studio {
 namespace {
 
-struct Options {
-  std::string file, script, screenshot, theme;
-  std::string device = "auto";
-  falcon::FalconSettings falcon;
-  std::string size = "1280x800";
-  double scale = 0.0;  ///< 0: the screen's, or 1 without one
-  bool log = false;
-  double servo_report_s = 0.0;  ///< 0: none
-  bool json = false;
-};
+using cli::StudioOptions;
+using LogLine = std::function<void(std::string_view)>;
 
-Result<glm::ivec2> size_of(const std::string& text) {
-  int width = 0, height = 0;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 320 ||
-      height < 240 || width > render::kMaxSidePx || height > render::kMaxSidePx)
-    return failure(ErrorKind::bad_input,
-                   fmt::format("--size: expected WIDTHxHEIGHT from 320x240 to {0}x{0}, found {1}",
-                               render::kMaxSidePx, text));
-  return glm::ivec2(width, height);
-}
+/// Limits of `--servo-report`.
+constexpr double kLatestP99Us = 100.0, kFewestFps = 30.0;
 
-void apply(const Options& options, Settings& settings) {
+void apply(const StudioOptions& options, Settings& settings) {
   if (options.theme == "dark") settings.theme = Theme::dark;
   if (options.theme == "light") settings.theme = Theme::light;
 }
 
-Result<void> run_script(const Options& options, glm::ivec2 size,
-                        const std::function<void(std::string_view)>& log) {
+Result<void> run_script(const StudioOptions& options, const LogLine& log) {
   std::vector<ScriptLine> lines;
   if (!options.script.empty()) {
     const auto text = read_file(options.script, 1 << 24);
@@ -54,10 +40,10 @@ Result<void> run_script(const Options& options, glm::ivec2 size,
     if (!parsed) return tl::make_unexpected(parsed.error());
     lines = std::move(*parsed);
   }
-  auto host =
-      OffscreenHost::create(size, options.scale > 0.0 ? static_cast<float>(options.scale) : 1.0f);
+  auto host = OffscreenHost::create(options.size_px,
+                                    options.scale > 0.0 ? static_cast<float>(options.scale) : 1.0f);
   if (!host) return tl::make_unexpected(host.error());
-  // What one user has set changes no script's picture.
+  // Scripts are independent of the settings of a user.
   Settings settings;
   settings.hints = false;
   apply(options, settings);
@@ -65,65 +51,118 @@ Result<void> run_script(const Options& options, glm::ivec2 size,
   if (!studio) return tl::make_unexpected(studio.error());
   ScriptRunner runner(**host, **studio);
   if (!options.file.empty()) {
-    open_file((*studio)->shop(), options.file);
-    if ((*studio)->shop().notices.shown())
-      return failure(ErrorKind::bad_input, (*studio)->shop().notices.shown()->text);
+    AppState& state = (*studio)->state();
+    apply(state, OpenFile{options.file});
+    if (const auto& notice = state.ui.notices.shown())
+      return failure(ErrorKind::bad_input, notice->text);
   }
   if (auto done = runner.run(lines, options.script); !done) return done;
   if (!options.screenshot.empty()) return runner.screenshot(options.screenshot);
   return {};
 }
 
-Result<void> run_window(const Options& options, glm::ivec2 size,
-                        const std::function<void(std::string_view)>& log) {
+Result<void> run_window(const StudioOptions& options, const LogLine& log) {
   LoadedSettings loaded = load_settings(settings_path());
   apply(options, loaded.settings);
   if (options.scale > 0.0) loaded.settings.scale = static_cast<float>(options.scale);
-  auto host = GlfwHost::create(size);
+  auto host = GlfwHost::create(options.size_px);
   if (!host) return tl::make_unexpected(host.error());
   auto studio = Studio::create(**host, loaded.settings, log);
   if (!studio) return tl::make_unexpected(studio.error());
-  AppState& shop = (*studio)->shop();
-  shop.potter.keep_journals();
-  shop.left = history::recoverable();
+  AppState& state = (*studio)->state();
+  state.document.keep_journals();
+  state.recoverable = history::recoverable();
   if (options.device != "none")
-    shop.devices = std::make_unique<DeviceWatch>(look_for(options.device, options.falcon));
-  if (!loaded.note.empty()) shop.notices.say(Grade::warning, loaded.note);
-  if (!options.file.empty()) open_file(shop, options.file);
-  if (!shop.left.empty()) {
-    log(fmt::format("recovery offered: {}", shop.left.size()));
-    if (shop.overlay != Overlay::gallery)
-      shop.notices.say(Grade::note,
-                       "A work that was not saved is still there: File, New offers to recover it");
+    state.devices = std::make_unique<DeviceWatch>(look_for(options.device, options.falcon));
+  if (!loaded.note.empty()) state.ui.notices.show(Grade::warning, loaded.note);
+  if (!options.file.empty()) apply(state, OpenFile{options.file});
+  if (!state.recoverable.empty()) {
+    log(fmt::format("recovery offered: {}", state.recoverable.size()));
+    if (!state.ui.shows<GalleryDialog>())
+      state.ui.notices.show(Grade::note,
+                            "There is an unsaved work: File, New offers to recover it");
   }
   log("window open");
   const servo::ForceSignals signals;
   (*host)->run(**studio);
-  // After a signal nobody was asked: what was not saved can be recovered.
-  if (shop.done) shop.potter.close();
+  // After a signal the user was not asked: the journal stays, so that the work can be recovered.
+  state.stroke.release();
+  if (state.done) state.document.close();
   log("window closed");
-  return save_settings(shop.settings, settings_path());
+  return save_settings(state.settings, settings_path());
 }
 
-/// With the settings of no user, and leaving nothing behind.
-Result<void> run_servo_report(const Options& options, glm::ivec2 size,
-                              const std::function<void(std::string_view)>& log) {
+/// A simulated hand plays the session beside the scene, as for `claystack throw --device
+/// simulated`.
+Result<void> take_simulated_hand(AppState& state, const std::string& scene_path) {
+  const auto session = cli::load_session(cli::session_beside(scene_path));
+  if (!session) return tl::make_unexpected(session.error());
+  servo::LiveSettings settings;
+  settings.mapping = servo::fitted(settings.mapping, session->poses, servo::kSimulatedReachMm);
+  const auto mapping = servo::Mapping::build(settings.mapping);
+  if (!mapping) return tl::make_unexpected(mapping.error());
+  auto device =
+      cli::open_chosen("simulated", {}, servo::simulated_potter(session->poses, *mapping));
+  if (!device) return tl::make_unexpected(device.error());
+  state.stroke.take(std::move(*device), settings);
+  return {};
+}
+
+/// Compares with the limits that docs/studio.md promises.
+Result<void> judge(double late_p99_us, double fps, bool fifo) {
+  const auto missed = [](std::string what) {
+    return failure(ErrorKind::unsound, "servo report: expected " + std::move(what));
+  };
+  if (!fifo) return missed("SCHED_FIFO, which the system does not give");
+  if (fps < kFewestFps)
+    return missed(fmt::format("{:g} frames a second or more, found {:.1f}", kFewestFps, fps));
+  if (late_p99_us > kLatestP99Us)
+    return missed(
+        fmt::format("99 % of ticks woken within {:g} us, found {:.1f}", kLatestP99Us, late_p99_us));
+  return {};
+}
+
+/// Ends the stroke, prints the timings and compares them with the limits.
+Result<void> report_servo(Studio& studio, bool json) {
+  StrokeController& stroke = studio.state().stroke;
+  stroke.release();
+  const ServoRecord& servo = stroke.servo();
+  if (servo.timing.ticks == 0)
+    return failure(ErrorKind::device, "servo report: expected a device in use, found none");
+  const FrameTimes& times = studio.frame_times();
+  const auto ms = [&](double part) {
+    return 1e-6 * static_cast<double>(times.drawing.quantile_ns(part));
+  };
+  cli::print_window_report(servo.timing, servo.events, servo.realtime,
+                           {.frames = times.drawing.count(),
+                            .fps = times.fps(),
+                            .median_ms = ms(0.5),
+                            .p99_ms = ms(0.99),
+                            .longest_ms = ms(1.0)},
+                           json);
+  return judge(1e-3 * static_cast<double>(servo.timing.lateness.quantile_ns(0.99)), times.fps(),
+               servo.realtime.fifo);
+}
+
+/// With default settings, which are not stored.
+Result<void> run_servo_report(const StudioOptions& options, const LogLine& log) {
   if (options.file.empty())
     return failure(ErrorKind::bad_input, "--servo-report: expected a scene to throw, found none");
-  auto host = GlfwHost::create(size);
+  auto host = GlfwHost::create(options.size_px);
   if (!host) return tl::make_unexpected(host.error());
   Settings settings;
   apply(options, settings);
   if (options.scale > 0.0) settings.scale = static_cast<float>(options.scale);
   auto studio = Studio::create(**host, settings, log);
   if (!studio) return tl::make_unexpected(studio.error());
-  AppState& shop = (*studio)->shop();
-  open_file(shop, options.file);
-  if (shop.notices.shown()) return failure(ErrorKind::bad_input, shop.notices.shown()->text);
+  AppState& state = (*studio)->state();
+  apply(state, OpenFile{options.file});
+  if (const auto& notice = state.ui.notices.shown())
+    return failure(ErrorKind::bad_input, notice->text);
   if (options.device == "auto") {
-    if (auto seated = seat_simulated_hand(shop, options.file); !seated) return seated;
+    if (auto seated = take_simulated_hand(state, options.file); !seated) return seated;
   } else if (options.device != "none") {
-    shop.devices = std::make_unique<DeviceWatch>(look_for(options.device, options.falcon));
+    state.devices = std::make_unique<DeviceWatch>(look_for(options.device, options.falcon));
   }
   const servo::ForceSignals signals;
   (*host)->run(**studio, options.servo_report_s);
@@ -131,54 +170,18 @@ Result<void> run_servo_report(const Options& options, glm::ivec2 size,
 }
 
 int run(int argc, char** argv) {
-  Options options;
-  CLI::App parser("The window: throw by mouse or by hand, see and keep what becomes of it.",
-                  "claystack studio");
-  parser.add_option("file", options.file, "NAME.scene.json, a pot, or NAME.work");
-  parser
-      .add_option("--device", options.device,
-                  "auto, none, or as `claystack throw` has it (default auto)")
-      ->check([](const std::string& which) {
-        return which == "none" ? std::string() : cli::check_device_name(which);
-      });
-  cli::add_falcon_options(parser, options.falcon);
-  parser.add_option("--script", options.script, "Script that drives the window without a screen");
-  parser.add_option("--screenshot", options.screenshot,
-                    "File for a picture of the window at the end, .png (without a screen)");
-  parser.add_option("--size", options.size, "Size of the window [px] (default 1280x800)");
-  parser.add_option("--scale", options.scale, "Scale of text and controls")
-      ->check(cli::in_range(kSmallestScale, kLargestScale));
-  parser.add_option("--theme", options.theme, "Theme: dark or light")
-      ->check(CLI::IsMember({"dark", "light"}));
-  parser.add_flag("--log", options.log, "Print events on standard output, one per line");
-  auto* report =
-      parser
-          .add_option("--servo-report", options.servo_report_s,
-                      "Seconds for which a simulated hand (or --device) throws in the window; "
-                      "then tells how servo and window kept their time")
-          ->check(cli::in_range(1.0, 3600.0))
-          ->excludes("--script")
-          ->excludes("--screenshot");
-  parser.add_flag("--json", options.json, "Print the servo report as JSON")->needs(report);
-  parser.footer(
-      "\nExamples:\n  claystack studio\n  claystack studio samples/bowl.scene.json\n"
-      "  claystack studio vase.pot.json --script samples/window/throw.script");
-  try {
-    parser.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return cli::report(parser, error);
-  }
-  const auto size = size_of(options.size);
-  if (!size) return cli::report(size.error());
+  StudioOptions options;
+  if (const auto ended = cli::parse(argc, argv, kSmallestScale, kLargestScale, options))
+    return *ended;
   const auto log = [&](std::string_view line) {
     if (!options.log) return;
     cli::put_out(std::string(line) + "\n");
     (void)cli::flush_out();
   };
   const bool without_screen = !options.script.empty() || !options.screenshot.empty();
-  const auto done = without_screen                 ? run_script(options, *size, log)
-                    : options.servo_report_s > 0.0 ? run_servo_report(options, *size, log)
-                                                   : run_window(options, *size, log);
+  const auto done = without_screen                 ? run_script(options, log)
+                    : options.servo_report_s > 0.0 ? run_servo_report(options, log)
+                                                   : run_window(options, log);
   return done ? cli::kDone : cli::report(done.error());
 }
 

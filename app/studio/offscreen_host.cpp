@@ -24,12 +24,12 @@ render::Image OffscreenHost::read() const {
   const std::size_t row = 4 * static_cast<std::size_t>(size.x);
   image.rgba.resize(row * static_cast<std::size_t>(size.y));
   glReadPixels(0, 0, size.x, size.y, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
-  for (int y = 0; y < size.y / 2; ++y) {  // OpenGL begins below
+  for (int y = 0; y < size.y / 2; ++y) {  // OpenGL begins with the lowest row
     const auto upper = image.rgba.begin() + static_cast<std::ptrdiff_t>(row) * y;
     const auto lower = image.rgba.begin() + static_cast<std::ptrdiff_t>(row) * (size.y - 1 - y);
     std::swap_ranges(upper, upper + static_cast<std::ptrdiff_t>(row), lower);
   }
-  // A window's own alpha is of no use in a picture of it.
+  // The alpha of a window has no meaning in a picture.
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
   return image;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// No window: a picture of one in memory, and a clock that only moves when it is told to.
+// A host without a window: a picture in memory, and a virtual clock.
 
 #include "app/render/gl_objects.hpp"
 #include "app/render/image.hpp"
@@ -11,7 +11,7 @@
 
 namespace clay::studio {
 
-/// Sleeping on it makes it the later time.
+/// Sleeping sets it to the later time.
 class VirtualClock final : public servo::Clock {
  public:
   [[nodiscard]] std::int64_t now_ns() noexcept override { return now_ns_; }
@@ -25,10 +25,10 @@ class VirtualClock final : public servo::Clock {
 
 class OffscreenHost final : public Host {
  public:
-  /// The context of OpenGL is current after it. Errors as render::Offscreen::create.
+  /// Makes its OpenGL context current. Errors as render::Offscreen::create.
   static Result<std::unique_ptr<OffscreenHost>> create(glm::ivec2 size_px, float content_scale);
 
-  /// What is drawn from here on goes into its picture.
+  /// Directs drawing into its picture.
   void bind();
   [[nodiscard]] render::Image read() const;
 
@@ -39,7 +39,7 @@ class OffscreenHost final : public Host {
   [[nodiscard]] servo::Clock& clock() override { return clock_; }
   [[nodiscard]] bool real_time() const override { return false; }
   [[nodiscard]] std::int64_t frame_ns() override { return frame_ns_; }
-  /// The next frame is so much later.
+  /// Moves the time of the next frame.
   void let_pass(std::int64_t ns) noexcept { frame_ns_ += ns; }
   void set_title(const std::string&) override {}
   void set_clipboard(const std::string& text) override { clipboard_ = text; }
@@ -49,7 +49,7 @@ class OffscreenHost final : public Host {
   OffscreenHost(render::Offscreen gl, render::Canvas canvas, float scale)
       : gl_(std::move(gl)), canvas_(std::move(canvas)), scale_(scale) {}
 
-  render::Offscreen gl_;  // its context is the one that we draw in
+  render::Offscreen gl_;  // owns the current context
   render::Canvas canvas_;
   float scale_;
   VirtualClock clock_;

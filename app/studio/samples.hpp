@@ -13,7 +13,7 @@ namespace clay::studio {
 struct Sample {
   std::string_view name;
   const char* title;
-  const char* words;                          ///< what it teaches
+  const char* description;                    ///< what it teaches
   std::string_view scene_text, session_text;  ///< as in samples/
 };
 
@@ -21,11 +21,10 @@ struct Sample {
 [[nodiscard]] const Sample* find_sample(std::string_view name);
 
 Result<SceneSpec> scene_of(const Sample& sample);
-/// What its session makes of it; some 20 ms of work.
+/// The pot that its session makes; takes about 20 ms.
 Result<render::PotView> finished(const Sample& sample);
 
-/// A plain lump for one's own pot: a cylinder of that radius, as high as the clay makes it, and
-/// settings in proportion to it. Refuses what StepPlan::build refuses.
+/// A cylinder of clay of this radius, with settings in proportion to it.
 inline constexpr double kLeastClayKg = 0.1, kMostClayKg = 20.0;
 [[nodiscard]] SceneSpec lump_of(double clay_kg, double radius_mm);
 [[nodiscard]] double lump_height_mm(double clay_kg, double radius_mm);

@@ -1,10 +1,8 @@
 #include "app/studio/scene_view.hpp"
 
 #include "app/render/pot_view.hpp"
-#include "app/studio/app_state.hpp"
 #include "app/studio/free_place.hpp"
-
-#include <fmt/format.h>
+#include "app/studio/view_model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,20 +12,19 @@
 namespace clay::studio {
 namespace {
 
-constexpr double kRoomForTool = 1.35;                 // around the pot, in the picture of it all
-constexpr double kSizingPerPx = 0.006;                // of a drag: the logarithm of the size
-constexpr double kWeakest = 1e-4, kStrongest = 10.0;  // N/mm^2
+constexpr double kRoomForTool = 1.35;   // around the whole pot
+constexpr double kSizingPerPx = 0.006;  // of a drag: change of the logarithm of the size
+constexpr double kSoftest = 1e-4, kStiffest = 10.0;  // N/mm^2
 
-std::optional<Tool> chosen_tool(const AppState& shop) {
-  auto tool = Tool::build(tool_of(shop.settings.tool).shape);
+std::optional<Tool> chosen_tool(const ViewModel& view) {
+  auto tool = Tool::build(tool_of(view.settings.tool).shape);
   if (!tool) return std::nullopt;
   return std::move(*tool);
 }
 
-double stiffness(const AppState& shop) {
-  return shop.potter.has_work() && shop.potter.scene().force
-             ? shop.potter.scene().force->stiffness_n_per_mm2
-             : 0.0;
+/// The middle of a wall, on the side that the mouse points at.
+glm::dvec2 pinch_place(const WallPlace& wall, glm::dvec2 pointed_mm) {
+  return {pointed_mm.x < 0.0 ? -wall.middle_mm : wall.middle_mm, pointed_mm.y};
 }
 
 }  // namespace
@@ -37,24 +34,23 @@ render::Viewport SceneView::viewport() const noexcept {
           std::max(1, static_cast<int>(rect_.size_px.y))};
 }
 
-void SceneView::look(const AppState& shop, Seen from) {
+void SceneView::look(const render::PotView& pot, ViewFrom from) {
   constexpr double kRight = std::numbers::pi / 2.0;
-  const render::PotView& pot = shop.potter.view();
   render::Camera camera = camera_;
   switch (from) {
-    case Seen::home:
+    case ViewFrom::home:
       wheel_radius_mm_ = 0.0;
       camera_ = render::framed(pot, viewport().aspect());
       camera_.distance_mm *= kRoomForTool;
       return;
-    case Seen::front:
+    case ViewFrom::front:
       camera.azimuth_rad = camera.elevation_rad = 0.0;
       break;
-    case Seen::right:
+    case ViewFrom::right:
       camera.azimuth_rad = kRight;
       camera.elevation_rad = 0.0;
       break;
-    case Seen::top:
+    case ViewFrom::top:
       camera.azimuth_rad = 0.0;
       camera.elevation_rad = render::kSteepest;
       break;
@@ -63,10 +59,10 @@ void SceneView::look(const AppState& shop, Seen from) {
   camera_.distance_mm *= kRoomForTool;
 }
 
-/// The head does not change under a pot that grows and shrinks: it is as large as it ever had to
-/// be, until a pot is looked at as a whole.
-void SceneView::turn_wheel(const AppState& shop, double rad) {
-  wheel_radius_mm_ = std::max(wheel_radius_mm_, render::wheel_radius_mm(shop.potter.view()));
+/// The wheel head only grows, so that it does not change with every stroke; looking at the whole
+/// pot fits it again.
+void SceneView::turn_wheel(const render::PotView& pot, double rad) {
+  wheel_radius_mm_ = std::max(wheel_radius_mm_, render::wheel_radius_mm(pot));
   turn_rad_ = std::fmod(turn_rad_ + rad, 2.0 * std::numbers::pi);
 }
 
@@ -84,16 +80,16 @@ std::optional<glm::vec2> SceneView::pixel_of(glm::dvec2 place_mm) const noexcept
   return glm::vec2(*pixel) + rect_.corner_px;
 }
 
-bool SceneView::pointer_moved(AppState& shop, glm::vec2 place_px) {
+bool SceneView::pointer_moved(const ViewModel& view, glm::vec2 place_px, Actions& actions) {
   const glm::vec2 by = place_px - pointer_px_;
   pointer_px_ = place_px;
   if (drag_ == Drag::none) return rect_.holds(place_px);
-  drag(shop, by);
+  drag(view, by, actions);
   return true;
 }
 
-void SceneView::drag(AppState& shop, glm::vec2 by_px) {
-  ToolChoice& tool = shop.settings.tool;
+void SceneView::drag(const ViewModel& view, glm::vec2 by_px, Actions& actions) {
+  const double factor = std::exp(kSizingPerPx * static_cast<double>(by_px.x));
   switch (drag_) {
     case Drag::orbit:
       camera_ = render::orbited(camera_, glm::dvec2(by_px), viewport());
@@ -102,19 +98,19 @@ void SceneView::drag(AppState& shop, glm::vec2 by_px) {
       camera_ = render::panned(camera_, glm::dvec2(by_px), viewport());
       break;
     case Drag::size:
-      resize(tool, std::exp(kSizingPerPx * static_cast<double>(by_px.x)));
+      actions.emplace_back(ScaleTool{factor});
       break;
-    case Drag::strength:
-      shop.potter.set_stiffness(
-          std::clamp(stiffness(shop) * std::exp(kSizingPerPx * static_cast<double>(by_px.x)),
-                     kWeakest, kStrongest));
+    case Drag::stiffness:
+      actions.emplace_back(
+          SetStiffness{std::clamp(view.document.stiffness() * factor, kSoftest, kStiffest)});
       break;
     case Drag::shape:
       if (const auto place = pointed_mm()) {
         glm::dvec2 aim = *place + offset_mm_;
         aim.y = std::max(0.0, aim.y);
-        shop.potter.aim({on_wheel(aim), shop.potter.status().contact ? shop.settings.pressing_mm_s
-                                                                     : kReachingMmPerS});
+        const double speed_mm_s =
+            view.stroke.status().contact ? view.settings.pressing_mm_s : kReachingMmPerS;
+        actions.emplace_back(AimTool{{on_wheel(aim), speed_mm_s}});
       }
       break;
     case Drag::none:
@@ -122,56 +118,53 @@ void SceneView::drag(AppState& shop, glm::vec2 by_px) {
   }
 }
 
-bool SceneView::button(AppState& shop, const ButtonChanged& change) {
+bool SceneView::button(const ViewModel& view, const ButtonChanged& change, Actions& actions) {
   if (!change.down) {
-    const bool was = drag_ != Drag::none && !sizing();
-    if (was && drag_ == Drag::shape) shop.potter.release();
+    const bool was = drag_ != Drag::none && !setting();
+    if (was && drag_ == Drag::shape) actions.emplace_back(ReleaseTool{});
     if (was) drag_ = Drag::none;
     return was;
   }
-  if (sizing()) {  // a click takes the size as it is
-    if (change.button == MouseButton::right) cancel(shop);
+  if (setting()) {  // a click accepts the value
+    if (change.button == MouseButton::right) cancel(actions);
     drag_ = Drag::none;
     return true;
   }
   if (!rect_.holds(pointer_px_) || drag_ != Drag::none) return false;
   if (change.button == MouseButton::left)
-    press(shop, (change.mods & kControl) != 0);
+    press(view, (change.mods & kControl) != 0, actions);
   else
     drag_ = (change.mods & kShift) != 0 ? Drag::pan : Drag::orbit;
   return true;
 }
 
-/// In the clay a press takes the tool to the nearest place beside it, and from there on the
-/// tool goes as the mouse goes.
-void SceneView::press(AppState& shop, bool inverted) {
+/// On the clay a press takes the tool to the nearest free place; from there the tool follows the
+/// mouse.
+void SceneView::press(const ViewModel& view, bool inverted, Actions& actions) {
   const auto pointed = pointed_mm();
-  const auto tool = chosen_tool(shop);
-  if (!pointed || !tool || !shop.potter.has_work() || shop.potter.has_device() ||
-      shop.potter.paused())
+  const auto tool = chosen_tool(view);
+  if (!pointed || !tool || !view.document.has_work() || view.stroke.has_device() ||
+      view.stroke.paused())
     return;
-  const ToolSpec spec = tool_of(shop.settings.tool, inverted);
-  glm::dvec2 start = free_place(shop.potter.view(), *tool, *pointed);
+  const ToolSpec spec = tool_of(view.settings.tool, inverted);
+  const render::PotView& pot = view.stroke.view();
+  glm::dvec2 start = free_place(pot, *tool, *pointed);
   double gap_mm = 0.0;
   if (spec.mode == ToolMode::pinch) {
-    const auto wall = wall_at(shop.potter.view(), *tool, pointed->y);
+    const auto wall = wall_at(pot, *tool, pointed->y);
     if (!wall) {
-      shop.notices.say(Grade::warning,
-                       "There is no wall here to pinch: open the clay with a press from above "
-                       "first, or point at the wall");
+      actions.emplace_back(
+          ShowWarning{"There is no wall here to pinch: open the clay with a press from above "
+                      "first, or point at "
+                      "the wall"});
       return;
     }
-    start = {pointed->x < 0.0 ? -wall->middle_mm : wall->middle_mm, pointed->y};
+    start = pinch_place(*wall, *pointed);
     gap_mm = wall->thickness_mm;
   }
-  if (auto begun = shop.potter.press({spec, clay_rate_per_s(shop), on_wheel(start), gap_mm});
-      !begun) {
-    tell(shop, begun.error());
-    return;
-  }
-  shop.log("stroke begun");
   offset_mm_ = start - *pointed;
   drag_ = Drag::shape;
+  actions.emplace_back(PressClay{{spec, removal_rate_per_s(view), on_wheel(start), gap_mm}});
 }
 
 bool SceneView::scrolled(float steps) {
@@ -180,68 +173,73 @@ bool SceneView::scrolled(float steps) {
   return true;
 }
 
-void SceneView::begin_sizing(AppState& shop) {
+void SceneView::drag_size(const ViewModel& view) {
   if (drag_ != Drag::none) return;
   drag_ = Drag::size;
-  saved_tool_ = shop.settings.tool;
+  tool_before_ = view.settings.tool;
 }
 
-void SceneView::begin_strength(AppState& shop) {
-  if (drag_ != Drag::none || stiffness(shop) <= 0.0) return;
-  drag_ = Drag::strength;
-  before_ = stiffness(shop);
+void SceneView::drag_stiffness(const ViewModel& view) {
+  if (drag_ != Drag::none || view.document.stiffness() <= 0.0) return;
+  drag_ = Drag::stiffness;
+  stiffness_before_ = view.document.stiffness();
 }
 
-void SceneView::cancel(AppState& shop) {
-  if (drag_ == Drag::size) shop.settings.tool = saved_tool_;
-  if (drag_ == Drag::strength) shop.potter.set_stiffness(before_);
-  if (sizing()) drag_ = Drag::none;
+void SceneView::cancel(Actions& actions) {
+  if (drag_ == Drag::size) actions.emplace_back(SetTool{tool_before_});
+  if (drag_ == Drag::stiffness) actions.emplace_back(SetStiffness{stiffness_before_});
+  if (setting()) drag_ = Drag::none;
 }
 
-std::optional<render::ToolView> SceneView::tool_view(const AppState& shop) const {
-  const auto tool = chosen_tool(shop);
-  if (!tool || !shop.potter.has_work()) return std::nullopt;
-  render::ToolView view;
-  view.half_profile_mm = render::half_profile_of(*tool);
-  const bool pinches = shop.settings.tool.mode == ToolMode::pinch;
-  if (shop.potter.throwing()) {
-    const servo::LiveStatus& status = shop.potter.status();
-    if (status.ticks == 0) return std::nullopt;
-    view.place_mm = status.tool_mm;
-    view.contact = status.contact;
-    view.force_n = status.clay_n;
-    if (pinches) view.gap_mm = status.gap_mm > 0.0 ? status.gap_mm : shop.settings.tool.gap_mm;
-    view.inside = inside(shop.potter.view(), status.tool_mm);
-    return view;
-  }
-  if (shop.overlay != Overlay::none || drag_ == Drag::orbit || drag_ == Drag::pan ||
-      !rect_.holds(pointer_px_))
-    return std::nullopt;
+std::optional<render::ToolView> SceneView::tool_view(const ViewModel& view) const {
+  const auto tool = chosen_tool(view);
+  if (!tool || !view.document.has_work()) return std::nullopt;
+  if (!view.stroke.throwing()) return hovering_tool(view, *tool);
+  const servo::LiveStatus& status = view.stroke.status();
+  if (status.ticks == 0) return std::nullopt;
+  render::ToolView shown;
+  shown.half_profile_mm = render::half_profile_of(*tool);
+  shown.place_mm = status.tool_mm;
+  shown.contact = status.contact;
+  shown.force_n = status.clay_n;
+  const ToolChoice& choice = view.settings.tool;
+  if (choice.mode == ToolMode::pinch)
+    shown.gap_mm = status.gap_mm > 0.0 ? status.gap_mm : choice.gap_mm;
+  shown.inside = inside(view.stroke.view(), status.tool_mm);
+  return shown;
+}
+
+std::optional<render::ToolView> SceneView::hovering_tool(const ViewModel& view,
+                                                         const Tool& tool) const {
+  if (!view.ui.shows<NoDialog>() || turning() || !rect_.holds(pointer_px_)) return std::nullopt;
   const auto pointed = pointed_mm();
   if (!pointed) return std::nullopt;
-  glm::dvec2 place = free_place(shop.potter.view(), *tool, *pointed);
-  if (pinches) {
-    view.gap_mm = shop.settings.tool.gap_mm;
-    if (const auto wall = wall_at(shop.potter.view(), *tool, pointed->y)) {
-      place = {pointed->x < 0.0 ? -wall->middle_mm : wall->middle_mm, pointed->y};
-      view.gap_mm = std::max(*view.gap_mm, wall->thickness_mm);
+  const render::PotView& pot = view.stroke.view();
+  render::ToolView shown;
+  shown.half_profile_mm = render::half_profile_of(tool);
+  glm::dvec2 place = free_place(pot, tool, *pointed);
+  if (view.settings.tool.mode == ToolMode::pinch) {
+    shown.gap_mm = view.settings.tool.gap_mm;
+    if (const auto wall = wall_at(pot, tool, pointed->y)) {
+      place = pinch_place(*wall, *pointed);
+      shown.gap_mm = std::max(*shown.gap_mm, wall->thickness_mm);
     }
   }
-  view.place_mm = on_wheel(place);
-  view.inside = inside(shop.potter.view(), view.place_mm);
-  return view;
+  shown.place_mm = on_wheel(place);
+  shown.inside = inside(pot, shown.place_mm);
+  return shown;
 }
 
-render::Picture SceneView::picture(const AppState& shop) const {
+render::Picture SceneView::picture(const ViewModel& view) const {
   render::Picture picture;
-  picture.pot = shop.potter.view();
-  picture.tool = tool_view(shop);
-  if (const auto& check = shop.readings.check(); check && shop.settings.wall_map) {
+  picture.pot = view.stroke.view();
+  picture.tool = tool_view(view);
+  if (const auto& check = view.readings.check(); check && view.settings.wall_map) {
     picture.pot.wall_mm = walls_for(*check, picture.pot.rows.size(), picture.pot.height_mm);
     picture.wall_map = wall_map_of(*check);
   }
   picture.camera = camera_;
-  picture.theme = shop.settings.theme;
+  picture.theme = view.settings.theme;
   picture.cut = cut;
   picture.wheel_turn_rad = turn_rad_;
   if (wheel_radius_mm_ > 0.0) picture.wheel_radius_mm = wheel_radius_mm_;

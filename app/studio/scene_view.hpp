@@ -1,17 +1,17 @@
 #pragma once
-// The pot as it stands in the window: the camera, the mouse above it, the picture.
+// The pot in the window: camera, mouse over the pot, picture. What the mouse does to the clay and
+// to the settings becomes actions.
 
 #include "app/render/painter.hpp"
+#include "app/studio/action.hpp"
 #include "app/studio/input.hpp"
 #include "app/studio/tool_choice.hpp"
-#include "claystack/engine/tool.hpp"
 
-#include <memory>
 #include <optional>
 
 namespace clay::studio {
 
-struct AppState;
+struct ViewModel;
 
 /// Of the framebuffer, from its upper left corner [px].
 struct ViewRect {
@@ -22,45 +22,52 @@ struct ViewRect {
   }
 };
 
-enum class Seen { home, front, right, top };
-
 class SceneView {
  public:
-  // What the mouse does. `take` answers whether the view made use of it.
-  bool pointer_moved(AppState& shop, glm::vec2 place_px);
-  bool button(AppState& shop, const ButtonChanged& change);
+  // --- Mouse. Functions that return a bool: whether the view used the event.
+  // -------------------------
+  bool pointer_moved(const ViewModel& view, glm::vec2 place_px, Actions& actions);
+  bool button(const ViewModel& view, const ButtonChanged& change, Actions& actions);
   bool scrolled(float steps);
-  /// F and Shift+F: the mouse then sets a size or a strength, until a click or a key.
-  void begin_sizing(AppState& shop);
-  void begin_strength(AppState& shop);
-  void cancel(AppState& shop);
-  [[nodiscard]] bool sizing() const noexcept {
-    return drag_ == Drag::size || drag_ == Drag::strength;
+  /// The mouse sets the size of the tool, or the stiffness, until a click or Esc.
+  void drag_size(const ViewModel& view);
+  void drag_stiffness(const ViewModel& view);
+  [[nodiscard]] bool setting() const noexcept {
+    return drag_ == Drag::size || drag_ == Drag::stiffness;
   }
-
+  /// Ends `setting`, with the value from before.
+  void cancel(Actions& actions);
+  /// The stroke could not begin.
+  void stop_shaping() noexcept { drag_ = Drag::none; }
   [[nodiscard]] bool turning() const noexcept { return drag_ == Drag::orbit || drag_ == Drag::pan; }
 
-  void look(const AppState& shop, Seen from);
+  // --- Camera.
+  // ----------------------------------------------------------------------------------------
+  void look(const render::PotView& pot, ViewFrom from);
   void zoom(double notches) { camera_ = render::zoomed(camera_, notches); }
   void place(const ViewRect& rect) noexcept { rect_ = rect; }
   [[nodiscard]] const ViewRect& rect() const noexcept { return rect_; }
   [[nodiscard]] const render::Camera& camera() const noexcept { return camera_; }
   [[nodiscard]] render::Viewport viewport() const noexcept;
-  /// Where a place on the profile's plane (rho, y) [mm] is in the window [px].
+  /// Pixel of the window for a point (rho, y) [mm] of the profile plane.
   [[nodiscard]] std::optional<glm::vec2> pixel_of(glm::dvec2 place_mm) const noexcept;
-
   /// Once a frame.
-  void turn_wheel(const AppState& shop, double rad);
-  [[nodiscard]] render::Picture picture(const AppState& shop) const;
-  /// At work, or as it would begin where the mouse points; nothing else.
-  [[nodiscard]] std::optional<render::ToolView> tool_view(const AppState& shop) const;
+  void turn_wheel(const render::PotView& pot, double rad);
+
+  // --- Picture.
+  // ---------------------------------------------------------------------------------------
+  [[nodiscard]] render::Picture picture(const ViewModel& view) const;
+  /// In the clay, or where a press would begin; empty where neither is shown.
+  [[nodiscard]] std::optional<render::ToolView> tool_view(const ViewModel& view) const;
 
   render::Cut cut = render::Cut::none;
 
  private:
-  enum class Drag { none, shape, orbit, pan, size, strength };
-  void press(AppState& shop, bool inverted);
-  void drag(AppState& shop, glm::vec2 by_px);
+  enum class Drag { none, shape, orbit, pan, size, stiffness };
+  void press(const ViewModel& view, bool inverted, Actions& actions);
+  void drag(const ViewModel& view, glm::vec2 by_px, Actions& actions);
+  [[nodiscard]] std::optional<render::ToolView> hovering_tool(const ViewModel& view,
+                                                              const Tool& tool) const;
   [[nodiscard]] glm::dvec3 on_wheel(glm::dvec2 place_mm) const;
   [[nodiscard]] std::optional<glm::dvec2> pointed_mm() const;
 
@@ -68,9 +75,9 @@ class SceneView {
   render::Camera camera_;
   Drag drag_ = Drag::none;
   glm::vec2 pointer_px_{-1.0f};
-  glm::dvec2 offset_mm_{0.0};  // from the pointer to the tool, since the press
-  ToolChoice saved_tool_;      // before a size is set
-  double before_ = 0.0;        // stiffness, before it is set
+  glm::dvec2 offset_mm_{0.0};      // from the pointer to the tool, since the press
+  ToolChoice tool_before_;         // before its size is set
+  double stiffness_before_ = 0.0;  // before it is set
   double turn_rad_ = 0.0, wheel_radius_mm_ = 0.0;
 };
 

@@ -1,8 +1,7 @@
 #include "app/studio/script.hpp"
 
 #include "app/render/image_file.hpp"
-#include "app/studio/actions.hpp"
-#include "app/studio/facts.hpp"
+#include "app/studio/commands.hpp"
 #include "claystack/core/atomic_file.hpp"
 
 #include <fmt/format.h>
@@ -12,6 +11,7 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace clay::studio {
 namespace {
@@ -20,27 +20,27 @@ constexpr double kFrameS = 1.0 / 60.0;
 constexpr std::int64_t kFrameNs = 1'000'000'000 / 60;
 constexpr double kLongestWaitS = 3600.0;
 
-struct Command {
+struct Form {
   std::string_view name;
   std::size_t fewest, most;  // arguments
   const char* form;
 };
-constexpr std::array kCommands = {
-    Command{"move", 2, 4, "move X Y [over SECONDS]"},
-    Command{"point", 2, 4, "point RHO_MM Y_MM [over SECONDS]"},
-    Command{"press", 1, 1, "press left|right|middle"},
-    Command{"release", 1, 1, "release left|right|middle"},
-    Command{"hold", 0, 3, "hold [Ctrl] [Shift] [Alt]"},
-    Command{"scroll", 1, 1, "scroll STEPS"},
-    Command{"key", 1, 1, "key CHORD"},
-    Command{"type", 1, 1, "type TEXT"},
-    Command{"do", 1, 1, "do ACTION"},
-    Command{"open", 1, 1, "open FILE"},
-    Command{"save", 1, 1, "save FILE"},
-    Command{"close", 0, 0, "close"},
-    Command{"wait", 1, 1, "wait SECONDS"},
-    Command{"screenshot", 1, 1, "screenshot FILE.png"},
-    Command{"expect", 2, 3, "expect FACT VALUE | expect FACT below|above NUMBER"},
+constexpr std::array kForms = {
+    Form{"move", 2, 4, "move X Y [over SECONDS]"},
+    Form{"point", 2, 4, "point RHO_MM Y_MM [over SECONDS]"},
+    Form{"press", 1, 1, "press left|right|middle"},
+    Form{"release", 1, 1, "release left|right|middle"},
+    Form{"hold", 0, 3, "hold [Ctrl] [Shift] [Alt]"},
+    Form{"scroll", 1, 1, "scroll STEPS"},
+    Form{"key", 1, 1, "key CHORD"},
+    Form{"type", 1, 1, "type TEXT"},
+    Form{"do", 1, 1, "do ACTION"},
+    Form{"open", 1, 1, "open FILE"},
+    Form{"save", 1, 1, "save FILE"},
+    Form{"close", 0, 0, "close"},
+    Form{"wait", 1, 1, "wait SECONDS"},
+    Form{"screenshot", 1, 1, "screenshot FILE.png"},
+    Form{"expect", 2, 3, "expect FACT VALUE | expect FACT below|above NUMBER"},
 };
 
 std::optional<double> number_of(std::string_view text) {
@@ -62,7 +62,7 @@ tl::unexpected<Error> bad(std::string message) {
   return failure(ErrorKind::bad_input, std::move(message));
 }
 
-/// Blanks part words, quotes hold them together; nothing for a quote that is not closed.
+/// Words are separated by blanks unless quoted; empty for a quote that does not close.
 std::optional<std::vector<std::string>> words_of(std::string_view line) {
   std::vector<std::string> words;
   std::size_t i = 0;
@@ -98,8 +98,8 @@ Result<std::vector<ScriptLine>> parse_script(std::string_view text, std::string_
     if (!words)
       return bad(fmt::format("{}:{}: expected a quote that closes, found none", name, number));
     if (words->empty()) continue;
-    const auto* command = std::ranges::find(kCommands, words->front(), &Command::name);
-    if (command == kCommands.end())
+    const auto* command = std::ranges::find(kForms, words->front(), &Form::name);
+    if (command == kForms.end())
       return bad(fmt::format("{}:{}: expected a command, found {}", name, number, words->front()));
     const std::size_t arguments = words->size() - 1;
     if (arguments < command->fewest || arguments > command->most)
@@ -130,20 +130,16 @@ void ScriptRunner::frames(int count) {
   }
 }
 
-void ScriptRunner::wait(double seconds) {
-  frames(static_cast<int>(std::lround(seconds / kFrameS)));
-}
-
-Result<glm::vec2> ScriptRunner::place_of(const std::vector<std::string>& words) const {
+Result<glm::vec2> ScriptRunner::place_of(const Words& words) const {
   const auto x = number_of(words[1]), y = number_of(words[2]);
   if (!x || !y) return bad(fmt::format("expected two numbers, found {} {}", words[1], words[2]));
   if (words[0] == "move") return glm::vec2(static_cast<float>(*x), static_cast<float>(*y));
-  const auto pixel = studio_.shop().view.pixel_of({*x, *y});
+  const auto pixel = studio_.state().scene.pixel_of({*x, *y});
   if (!pixel) return bad("expected a place before the camera");
   return *pixel;
 }
 
-/// As a hand moves it: a step a frame.
+/// One step per frame, as a hand moves it.
 Result<void> ScriptRunner::move(glm::vec2 to_px, double seconds) {
   const glm::vec2 from = pointer_px_;
   const int steps = std::max(1, static_cast<int>(std::ceil(seconds / kFrameS)));
@@ -162,96 +158,127 @@ Result<void> ScriptRunner::screenshot(const std::string& path) {
   return publish(path, render::png_of(host_.read()));
 }
 
-Result<void> ScriptRunner::act(const std::vector<std::string>& words) {
-  const std::string& name = words.front();
-  if (name == "move" || name == "point") {
-    double seconds = 0.0;
-    if (words.size() > 3) {
-      const auto given =
-          words.size() == 5 && words[3] == "over" ? number_of(words[4]) : std::nullopt;
-      if (!given || *given < 0.0 || *given > kLongestWaitS) return bad("expected over SECONDS");
-      seconds = *given;
-    }
-    return place_of(words).and_then([&](glm::vec2 to) { return move(to, seconds); });
-  }
-  if (name == "press" || name == "release") {
-    const auto button = button_of(words[1]);
-    if (!button) return bad(fmt::format("expected left, right or middle, found {}", words[1]));
-    studio_.take(ButtonChanged{*button, name == "press", mods_});
-    frames(1);
-    return {};
-  }
-  if (name == "hold") {
-    unsigned mods = 0;
-    for (std::size_t i = 1; i < words.size(); ++i) {
-      const auto mod = words[i] == "Ctrl"    ? kControl
-                       : words[i] == "Shift" ? kShift
-                       : words[i] == "Alt"   ? kAlt
-                                             : kNoMods;
-      if (mod == kNoMods)
-        return bad(fmt::format("expected Ctrl, Shift or Alt, found {}", words[i]));
-      mods |= mod;
-    }
-    mods_ = mods;
-    return {};
-  }
-  if (name == "key") {
-    const auto chord = chord_of(words[1]);
-    if (!chord) return bad(fmt::format("expected a key, found {}", words[1]));
-    studio_.take(KeyChanged{chord->key, true, false, chord->mods});
-    studio_.take(KeyChanged{chord->key, false, false, chord->mods});
-    frames(1);
-    return {};
-  }
-  if (name == "type") {
-    for (const char c : words[1])
-      studio_.take(TextTyped{static_cast<char32_t>(static_cast<unsigned char>(c))});
-    frames(1);
-    return {};
-  }
-  if (name == "scroll" || name == "wait") {
-    const auto value = number_of(words[1]);
-    if (!value || std::abs(*value) > kLongestWaitS)
-      return bad(fmt::format("expected a number, found {}", words[1]));
-    if (name == "wait") {
-      wait(*value);
-    } else {
-      studio_.take(Scrolled{static_cast<float>(*value)});
-      frames(1);
-    }
-    return {};
-  }
-  if (name == "do") {
-    const Action* action = find_action(words[1]);
-    if (action == nullptr) return bad(fmt::format("expected an action, found {}", words[1]));
-    const bool done = clay::studio::run(*action, studio_.shop());
-    if (!done)
-      return failure(ErrorKind::unsound, fmt::format("expected {} to be possible now", words[1]));
-    frames(1);
-    return {};
-  }
-  if (name == "open") {
-    studio_.take(FilesDropped{{words[1]}});
-    frames(1);
-    return {};
-  }
-  if (name == "save") {
-    if (!studio_.shop().potter.has_work()) return bad("expected a pot to save, found none");
-    if (!save_to(studio_.shop(), words[1]))
-      return failure(ErrorKind::io, fmt::format("{}: could not be saved", words[1]));
-    return {};
-  }
-  if (name == "close") {
-    studio_.take(CloseAsked{});
-    frames(1);
-    return {};
-  }
-  if (name == "screenshot") return screenshot(words[1]);
-  return expect(words);
+Result<void> ScriptRunner::act(const Words& words) {
+  using Verb = Result<void> (ScriptRunner::*)(const Words&);
+  static constexpr std::array<std::pair<std::string_view, Verb>, kForms.size()> kVerbs = {{
+      {"move", &ScriptRunner::point},
+      {"point", &ScriptRunner::point},
+      {"press", &ScriptRunner::button},
+      {"release", &ScriptRunner::button},
+      {"hold", &ScriptRunner::hold},
+      {"scroll", &ScriptRunner::scroll},
+      {"key", &ScriptRunner::key},
+      {"type", &ScriptRunner::type},
+      {"do", &ScriptRunner::run_command},
+      {"open", &ScriptRunner::open},
+      {"save", &ScriptRunner::save},
+      {"close", &ScriptRunner::close},
+      {"wait", &ScriptRunner::let_pass},
+      {"screenshot", &ScriptRunner::picture},
+      {"expect", &ScriptRunner::expect},
+  }};
+  const auto* verb = std::ranges::find(kVerbs, std::string_view(words.front()),
+                                       &std::pair<std::string_view, Verb>::first);
+  return (this->*verb->second)(words);  // parse_script accepts no other word
 }
 
-Result<void> ScriptRunner::expect(const std::vector<std::string>& words) {
-  const auto found = fact(studio_.shop(), words[1]);
+Result<void> ScriptRunner::point(const Words& words) {
+  double seconds = 0.0;
+  if (words.size() > 3) {
+    const auto given = words.size() == 5 && words[3] == "over" ? number_of(words[4]) : std::nullopt;
+    if (!given || *given < 0.0 || *given > kLongestWaitS) return bad("expected over SECONDS");
+    seconds = *given;
+  }
+  return place_of(words).and_then([&](glm::vec2 to) { return move(to, seconds); });
+}
+
+Result<void> ScriptRunner::button(const Words& words) {
+  const auto button = button_of(words[1]);
+  if (!button) return bad(fmt::format("expected left, right or middle, found {}", words[1]));
+  studio_.take(ButtonChanged{*button, words[0] == "press", mods_});
+  frames(1);
+  return {};
+}
+
+Result<void> ScriptRunner::hold(const Words& words) {
+  unsigned mods = kNoMods;
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const auto mod = words[i] == "Ctrl"    ? kControl
+                     : words[i] == "Shift" ? kShift
+                     : words[i] == "Alt"   ? kAlt
+                                           : kNoMods;
+    if (mod == kNoMods) return bad(fmt::format("expected Ctrl, Shift or Alt, found {}", words[i]));
+    mods |= mod;
+  }
+  mods_ = mods;
+  return {};
+}
+
+Result<void> ScriptRunner::key(const Words& words) {
+  const auto chord = chord_of(words[1]);
+  if (!chord) return bad(fmt::format("expected a key, found {}", words[1]));
+  studio_.take(KeyChanged{chord->key, true, false, chord->mods});
+  studio_.take(KeyChanged{chord->key, false, false, chord->mods});
+  frames(1);
+  return {};
+}
+
+Result<void> ScriptRunner::type(const Words& words) {
+  for (const char c : words[1])
+    studio_.take(TextTyped{static_cast<char32_t>(static_cast<unsigned char>(c))});
+  frames(1);
+  return {};
+}
+
+Result<void> ScriptRunner::scroll(const Words& words) {
+  const auto steps = number_of(words[1]);
+  if (!steps || std::abs(*steps) > kLongestWaitS)
+    return bad(fmt::format("expected a number, found {}", words[1]));
+  studio_.take(Scrolled{static_cast<float>(*steps)});
+  frames(1);
+  return {};
+}
+
+Result<void> ScriptRunner::let_pass(const Words& words) {
+  const auto seconds = number_of(words[1]);
+  if (!seconds || std::abs(*seconds) > kLongestWaitS)
+    return bad(fmt::format("expected a number, found {}", words[1]));
+  frames(static_cast<int>(std::lround(*seconds / kFrameS)));
+  return {};
+}
+
+Result<void> ScriptRunner::run_command(const Words& words) {
+  const Command* command = find_command(words[1]);
+  if (command == nullptr) return bad(fmt::format("expected an action, found {}", words[1]));
+  if (!clay::studio::run(*command, studio_.state()))
+    return failure(ErrorKind::unsound, fmt::format("expected {} to be possible now", words[1]));
+  frames(1);
+  return {};
+}
+
+Result<void> ScriptRunner::open(const Words& words) {
+  studio_.take(FilesDropped{{words[1]}});
+  frames(1);
+  return {};
+}
+
+Result<void> ScriptRunner::save(const Words& words) {
+  AppState& state = studio_.state();
+  if (!state.document.has_work()) return bad("expected a pot to save, found none");
+  const bool saved = save_document(state, words[1]);
+  if (saved) apply(state, CloseDialog{});
+  if (!saved) return failure(ErrorKind::io, fmt::format("{}: could not be saved", words[1]));
+  return {};
+}
+
+Result<void> ScriptRunner::close(const Words&) {
+  studio_.take(CloseAsked{});
+  frames(1);
+  return {};
+}
+
+Result<void> ScriptRunner::expect(const Words& words) {
+  const auto found = fact(studio_.state(), words[1]);
   if (!found) return bad(fmt::format("expected a fact, found {}", words[1]));
   const auto fails = [&](std::string_view expected) {
     return failure(ErrorKind::unsound,

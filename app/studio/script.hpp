@@ -1,11 +1,12 @@
 #pragma once
-// Drives the window's own handlers from a file, on a clock of its own: the same every time, and
-// without a screen. docs/studio.md lists the commands.
+// Scripts drive the handlers of the window without a screen, on a virtual clock, so that the result
+// is the same every time. docs/studio.md lists the commands.
 
 #include "app/studio/offscreen_host.hpp"
 #include "app/studio/studio.hpp"
 #include "claystack/core/result.hpp"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,31 +18,46 @@ struct ScriptLine {
   std::vector<std::string> words;  ///< the command and its arguments
 };
 
-/// A command a line, "#" begins a comment, words with blanks stand between double quotes. Errors
-/// read "NAME:LINE: what was expected, what was found", for every command and number of arguments,
-/// before any is run.
+/// One command per line; "#" begins a comment; words with blanks stand in double quotes. Errors
+/// begin with NAME:LINE. Commands and their numbers of arguments are checked before any runs.
 Result<std::vector<ScriptLine>> parse_script(std::string_view text, std::string_view name);
+
+/// A fact about the window as text; numbers in the shortest form that reads back. Empty for a name
+/// that docs/studio.md does not list.
+[[nodiscard]] std::optional<std::string> fact(const AppState& state, std::string_view name);
 
 class ScriptRunner {
  public:
   ScriptRunner(OffscreenHost& host, Studio& studio) : host_(host), studio_(studio) {}
 
-  /// Until the script or the window ends. What is expected and not so is `unsound`, at its line.
+  /// Until the script or the window ends. A failed `expect` is `unsound`, with its line.
   Result<void> run(const std::vector<ScriptLine>& lines, std::string_view name);
   Result<void> screenshot(const std::string& path);
 
  private:
-  Result<void> act(const std::vector<std::string>& words);
-  Result<void> expect(const std::vector<std::string>& words);
+  using Words = std::vector<std::string>;  // a command and its arguments
+  Result<void> act(const Words& words);
+  Result<void> point(const Words& words);
+  Result<void> button(const Words& words);
+  Result<void> hold(const Words& words);
+  Result<void> scroll(const Words& words);
+  Result<void> key(const Words& words);
+  Result<void> type(const Words& words);
+  Result<void> run_command(const Words& words);
+  Result<void> open(const Words& words);
+  Result<void> save(const Words& words);
+  Result<void> close(const Words& words);
+  Result<void> let_pass(const Words& words);
+  Result<void> picture(const Words& words) { return screenshot(words[1]); }
+  Result<void> expect(const Words& words);
   void frames(int count);
-  void wait(double seconds);
-  [[nodiscard]] Result<glm::vec2> place_of(const std::vector<std::string>& words) const;
+  [[nodiscard]] Result<glm::vec2> place_of(const Words& words) const;
   Result<void> move(glm::vec2 to_px, double seconds);
 
   OffscreenHost& host_;
   Studio& studio_;
   glm::vec2 pointer_px_{0.0f};
-  unsigned mods_ = 0;  // that are held with the mouse
+  unsigned mods_ = 0;  // held with the mouse
 };
 
 }  // namespace clay::studio

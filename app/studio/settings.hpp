@@ -3,6 +3,7 @@
 
 #include "app/studio/style.hpp"
 #include "app/studio/tool_choice.hpp"
+#include "app/studio/units.hpp"
 #include "claystack/core/result.hpp"
 
 #include <filesystem>
@@ -12,8 +13,6 @@
 #include <vector>
 
 namespace clay::studio {
-
-enum class LengthUnit { mm, cm, in };
 
 inline constexpr double kSlowestHandMmPerS = 10.0, kFastestHandMmPerS = 200.0;
 inline constexpr std::size_t kMostRecent = 8, kMostProcesses = 4;

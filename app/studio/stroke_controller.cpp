@@ -1,13 +1,14 @@
 #include "app/studio/stroke_controller.hpp"
 
-#include "app/render/pot_view.hpp"
+#include "app/servo/mapping.hpp"
+#include "app/servo/servo_check.hpp"
 
 #include <algorithm>
 
 namespace clay::studio {
 namespace {
 
-constexpr double kClosingMmPerS = 15.0;  // two hands that take hold of a wall
+constexpr double kClosingMmPerS = 15.0;  // of a pinch, as two hands take hold of a wall
 
 render::PotView view_of(const servo::LiveProfile& profile) {
   render::PotView view;
@@ -18,74 +19,29 @@ render::PotView view_of(const servo::LiveProfile& profile) {
   return view;
 }
 
+/// The scene with a contact that is at most as stiff as the device can render at this rate. The
+/// clay does not depend on it.
+Result<SceneSpec> softened(SceneSpec scene, const servo::LiveSettings& settings) {
+  if (!scene.force) return scene;
+  const auto mapping = servo::Mapping::build(settings.mapping);
+  if (!mapping) return tl::make_unexpected(mapping.error());
+  const auto plan = StepPlan::build(scene);
+  if (!plan) return tl::make_unexpected(plan.error());
+  falcon::SampledLoop arm = settings.arm;
+  arm.rate_hz = settings.rate_hz;
+  const auto contact = cli::servo_contact(scene, *plan, arm, mapping->stiffness_gain());
+  if (!contact) return tl::make_unexpected(contact.error());
+  cli::soften(scene, *contact);
+  return scene;
+}
+
 }  // namespace
 
-Result<void> StrokeController::begin(const SceneSpec& scene) {
-  return history::Work::begin(scene).map(
-      [&](history::Work&& work) { begin(scene, std::move(work)); });
-}
-
-Result<void> StrokeController::begin(const SceneSpec& scene, const Pot& pot) {
-  return history::Work::begin(scene, pot).map([&](history::Work&& work) {
-    begin(scene, std::move(work));
-  });
-}
-
-Result<void> StrokeController::begin(WorkRecord record) {
-  const SceneSpec scene = record.scenes.at(record.nodes.at(record.at).scene);
-  return history::Work::open(std::move(record)).map([&](history::Work&& work) {
-    begin(scene, std::move(work));
-  });
-}
-
-void StrokeController::begin(const SceneSpec& scene, history::Work work) {
+Result<void> StrokeController::press(const MousePress& press) {
+  if (device_) return {};  // the hand at the device has the clay
   release();
-  scene_ = scene;
-  if (work_ && (given_up_ || !work_->unsaved()) && work_->journal() != nullptr)
-    work_->journal()->discard();
-  given_up_ = false;
-  work_.emplace(std::move(work));
-  status_ = {};
-  news_ = {};
-  device_waits_ = device_ != nullptr;
-  show_pot();
-  if (!journals_ || work_->journal() != nullptr) return;
-  if (auto journal = history::Journal::begin(work_->record()))
-    work_->keep(std::move(*journal));
-  else
-    news_.error = journal.error();
-}
-
-Result<void> StrokeController::begin(history::Work work) {
-  const WorkRecord& record = work.record();
-  const SceneSpec scene = record.scenes.at(record.nodes.at(record.at).scene);
-  begin(scene, std::move(work));
-  return {};
-}
-
-void StrokeController::close() {
-  release();
-  if (work_ && work_->journal() != nullptr) work_->journal()->discard();
-}
-
-void StrokeController::show_pot() {
-  moment_.reset();
-  auto pot = work_->pot();
-  if (pot) {
-    pot_ = std::move(*pot);
-    view_ = render::view_of(*pot_);
-    crown_mm_ = 0.0;
-  } else {
-    news_.error = pot.error();
-  }
-}
-
-Result<void> StrokeController::press(const Press& press) {
-  if (device_) return {};  // the hand at the arm has the clay
-  release();
-  branch_here();
   device_waits_ = false;
-  SceneSpec scene = scene_;
+  SceneSpec scene = document_.scene();
   scene.tool = press.tool;
   scene.removal.rate_per_s = press.rate_per_s;
   servo::LiveSettings settings = MouseDevice::servo_settings();
@@ -93,45 +49,54 @@ Result<void> StrokeController::press(const Press& press) {
   gap_mm_ = std::max(closed_gap_mm_, press.gap_mm);
   settings.gap_mm = gap_mm_;
   mouse_.begin_at(press.place_mm);
-  return sit_down(scene, mouse_, settings);
+  auto begun = begin_session(scene, mouse_, settings);
+  if (begun) document_.set_tool(press.tool, press.rate_per_s);
+  return begun;
 }
 
-Result<void> StrokeController::sit_down(const SceneSpec& scene, falcon::HapticDevice& device,
-                                        const servo::LiveSettings& settings) {
-  if (pot_->collapse)
+Result<void> StrokeController::begin_session(const SceneSpec& scene, falcon::HapticDevice& device,
+                                             const servo::LiveSettings& settings) {
+  if (auto branched = document_.branch_here(); !branched) return branched;
+  if (document_.pot().collapse)
     return failure(ErrorKind::bad_input,
-                   can_undo() ? "The clay has fallen: undo takes the last stroke back"
-                              : "The clay has fallen: it can be exported as it is");
-  auto wheel = Wheel::build(scene, *pot_);
+                   document_.can_undo()
+                       ? "The clay has fallen: undo takes the last stroke back"
+                       : "The clay has fallen: no stroke is possible, but it can be exported");
+  view_ = document_.view();
+  crown_mm_ = 0.0;
+  if (auto started = start_servo(scene, device, settings); !started) return started;
+  if (paused_) pause(true);
+  status_ = {};
+  last_ns_ = measured_ns_ = clock_.now_ns();
+  measured_ticks_ = 0;
+  tick_rate_hz_ = 0.0;
+  return {};
+}
+
+Result<void> StrokeController::start_servo(const SceneSpec& scene, falcon::HapticDevice& device,
+                                           const servo::LiveSettings& settings) {
+  auto wheel = Wheel::build(scene, document_.pot());
   if (!wheel) return tl::make_unexpected(wheel.error());
-  auto sink = work_->begin_stroke(scene);
+  auto sink = document_.begin_stroke(scene);
   if (!sink) return tl::make_unexpected(sink.error());
   auto recorder = servo::Recorder::create(**sink);
   const Pace pace = !threads_                ? Pace::stepped
                     : device.info().can_push ? Pace::real_time
                                              : Pace::thread;
-  auto sitting = StrokeSession::begin(std::move(*wheel), device, clock_, recorder.get(), &trace_,
+  auto session = StrokeSession::begin(std::move(*wheel), device, clock_, recorder.get(), &trace_,
                                       settings, pace);
-  if (!sitting) {
+  if (!session) {
     (void)recorder->finish();
-    (void)work_->end_stroke();  // without a pose it is none
-    return tl::make_unexpected(sitting.error());
+    (void)document_.end_stroke(nullptr);  // without a pose nothing is added
+    return tl::make_unexpected(session.error());
   }
-  given_up_ = false;
-  moment_.reset();
-  scene_ = scene;
   recorder_ = std::move(recorder);
-  sitting_ = std::move(*sitting);
-  if (paused_) pause(true);
-  status_ = {};
-  last_ns_ = counted_ns_ = clock_.now_ns();
-  counted_ticks_ = 0;
-  tick_rate_hz_ = 0.0;
+  session_ = std::move(*session);
   return {};
 }
 
 void StrokeController::command(const servo::Command& command) noexcept {
-  if (sitting_) (void)sitting_->command(command);
+  if (session_) (void)session_->command(command);
 }
 
 void StrokeController::pause(bool on) noexcept {
@@ -139,115 +104,101 @@ void StrokeController::pause(bool on) noexcept {
   command({servo::CommandKind::pause, on ? 1.0 : 0.0});
 }
 
-void StrokeController::set_stiffness(double n_per_mm2) {
-  if (scene_.force) scene_.force->stiffness_n_per_mm2 = n_per_mm2;
-}
-
 void StrokeController::release() {
-  if (!sitting_) return;
+  if (!session_) return;
   news_.stroke_ended = true;
-  news_.ending = sitting_->end();
-  status_ = sitting_->status();
+  news_.ending = session_->end();
+  status_ = session_->status();
   news_.poses = status_.poses;
   news_.ticks = status_.ticks;
   news_.ring_limit = status_.ring_limit;
-  servo_ = {sitting_->loop().timing(), sitting_->loop().events(), sitting_->realtime()};
-  const Pot felt = sitting_->wheel().pot();
+  servo_ = {session_->loop().timing(), session_->loop().events(), session_->realtime()};
+  const Pot thrown = session_->wheel().pot();
   if (auto kept = recorder_->finish(); !kept)
     news_.error = kept.error();
   else if (recorder_->lost() > 0)
     news_.error = Error{ErrorKind::io,
-                        "The stroke was kept up to where the machine was too slow to "
-                        "record it; what came after is gone"};
-  auto added = work_->end_stroke(&felt);
-  if (!added) news_.error = added.error();
-  sitting_.reset();
+                        "The end of the stroke is lost: the machine was too slow to record it"};
+  if (auto added = document_.end_stroke(&thrown); !added) news_.error = added.error();
+  session_.reset();
   recorder_.reset();
-  show_pot();
   if (news_.ending == servo::Ending::device_lost) lose_device();
   device_waits_ = device_ != nullptr && news_.ending != servo::Ending::collapsed;
 }
 
-void StrokeController::undo() {
-  release();
-  if (work_->undo()) show_pot();
-  device_waits_ = device_ != nullptr;
+void StrokeController::begin_work() noexcept {
+  status_ = {};
+  news_ = {};
+  resume();
 }
 
-void StrokeController::redo() {
+void StrokeController::take(std::unique_ptr<falcon::HapticDevice> device,
+                            servo::LiveSettings settings) {
   release();
-  if (work_->redo()) show_pot();
-  device_waits_ = device_ != nullptr;
+  device_ = std::move(device);
+  device_settings_ = settings;
+  device_waits_ = true;
 }
 
-void StrokeController::go_to(history::NodeId node) {
-  release();
-  if (node != work_->at()) work_->go_to(node);
-  show_pot();
-  device_waits_ = device_ != nullptr;
+/// Its force went with it; the mouse takes over.
+void StrokeController::lose_device() {
+  news_.error = Error{ErrorKind::device, falcon::text_of(device_->problem())};
+  news_.device_lost = true;
+  device_.reset();
 }
 
-void StrokeController::scrub(history::NodeId node, double seconds) {
+void StrokeController::hold(const ToolSpec& tool, double rate_per_s) {
+  if (!device_ || !document_.has_work()) return;
+  const SceneSpec& scene = document_.scene();
+  if (tool == scene.tool && rate_per_s == scene.removal.rate_per_s) return;
   release();
-  auto pot = work_->scrub(node, seconds);
-  if (!pot) {
-    news_.error = pot.error();
-    return;
-  }
-  view_ = render::view_of(*pot);
-  moment_ = Moment{node, seconds};
+  document_.set_tool(tool, rate_per_s);
+}
+
+/// A servo that has ended set the device to zero force until it is opened again.
+void StrokeController::begin_with_device() {
   device_waits_ = false;
-}
-
-void StrokeController::show_present() {
-  if (!moment_) return;
-  show_pot();
-  device_waits_ = device_ != nullptr;
-}
-
-void StrokeController::branch_here() {
-  if (!moment_) return;
-  if (auto added = work_->branch(moment_->node, moment_->seconds); !added)
-    news_.error = added.error();
-  show_present();
-}
-
-Result<void> StrokeController::save(const std::string& path) {
-  release();
-  return work_->save(path);
+  if (!device_->open()) return lose_device();
+  const SceneSpec& wanted = document_.scene();
+  auto scene =
+      device_->info().can_push ? softened(wanted, device_settings_) : Result<SceneSpec>(wanted);
+  auto begun = std::move(scene).and_then(
+      [&](SceneSpec&& soft) { return begin_session(soft, *device_, device_settings_); });
+  if (!begun) news_.error = begun.error();
 }
 
 void StrokeController::advance(std::int64_t now_ns) {
-  if (!sitting_ && device_waits_ && work_ && !pot_->collapse) sit_with_device();
-  if (!sitting_) return;
+  if (!session_ && device_waits_ && document_.has_work() && !document_.pot().collapse)
+    begin_with_device();
+  if (!session_) return;
   if (gap_mm_ > closed_gap_mm_) {
     const double elapsed_s = 1e-9 * static_cast<double>(now_ns - last_ns_);
     gap_mm_ = std::max(closed_gap_mm_, gap_mm_ - kClosingMmPerS * elapsed_s);
     command({servo::CommandKind::gap, gap_mm_});
   }
   last_ns_ = now_ns;
-  sitting_->advance(now_ns);
-  look();
-  count_ticks(now_ns);
-  if (!sitting_->running()) release();
+  session_->advance(now_ns);
+  read_servo();
+  measure_rate(now_ns);
+  if (!session_->running()) release();
 }
 
-void StrokeController::look() {
-  status_ = sitting_->status();
-  const servo::LiveProfile* profile = sitting_->new_profile();
+void StrokeController::read_servo() {
+  status_ = session_->status();
+  const servo::LiveProfile* profile = session_->new_profile();
   if (profile == nullptr) return;
   view_ = view_of(*profile);
   crown_mm_ = profile->crown_mm;
 }
 
-/// Four times a second: a rate that can be read.
-void StrokeController::count_ticks(std::int64_t now_ns) {
-  constexpr std::int64_t kEveryNs = 250'000'000;
-  if (now_ns - counted_ns_ < kEveryNs) return;
-  tick_rate_hz_ = 1e9 * static_cast<double>(status_.ticks - counted_ticks_) /
-                  static_cast<double>(now_ns - counted_ns_);
-  counted_ns_ = now_ns;
-  counted_ticks_ = status_.ticks;
+/// Four times a second, so that the number can be read.
+void StrokeController::measure_rate(std::int64_t now_ns) {
+  constexpr std::int64_t kPeriodNs = 250'000'000;
+  if (now_ns - measured_ns_ < kPeriodNs) return;
+  tick_rate_hz_ = 1e9 * static_cast<double>(status_.ticks - measured_ticks_) /
+                  static_cast<double>(now_ns - measured_ns_);
+  measured_ns_ = now_ns;
+  measured_ticks_ = status_.ticks;
 }
 
 }  // namespace clay::studio

@@ -1,12 +1,14 @@
 #pragma once
-// The window: takes what comes from outside, lets the potter throw, draws what there is.
+// The window: takes input, updates the state, draws a frame.
 
 #include "app/render/gl_objects.hpp"
 #include "app/render/painter.hpp"
 #include "app/studio/app_state.hpp"
 #include "app/studio/input.hpp"
-#include "app/studio/quality.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -15,68 +17,107 @@ struct ImGuiContext;
 
 namespace clay::studio {
 
+struct Fineness {
+  int samples;  ///< per pixel
+  int divisor;  ///< of width and height
+};
+inline constexpr std::array<Fineness, 4> kFineness = {{{4, 1}, {1, 1}, {1, 2}, {1, 3}}};
+
+/// How finely the view is drawn: without a graphics card a pot in motion gets fewer pixels, and all
+/// of them when it is at rest.
+class Quality {
+ public:
+  [[nodiscard]] Fineness fineness(bool moving) const noexcept {
+    return kFineness[moving ? level_ : 0];
+  }
+  /// A frame of a pot in motion took this long.
+  void took(double seconds) noexcept {
+    smooth_s_ = smooth_s_ > 0.0 ? 0.7 * smooth_s_ + 0.3 * seconds : seconds;
+    // A pot that lags behind the hand is worse than a coarse one: coarser at once, finer later.
+    if (smooth_s_ > kSlowS && level_ + 1 < kFineness.size())
+      change(level_ + 1);
+    else if (++since_ >= kFramesBetween && smooth_s_ < kFastS && level_ > 0)
+      change(level_ - 1);
+  }
+
+ private:
+  // The next finer level costs up to four times as much.
+  static constexpr double kSlowS = 0.033, kFastS = 0.006;
+  static constexpr int kFramesBetween = 30;
+  void change(std::size_t level) noexcept {
+    level_ = level;
+    since_ = 0;
+    smooth_s_ = 0.0;
+  }
+
+  std::size_t level_ = 0;
+  double smooth_s_ = 0.0;
+  int since_ = 0;
+};
+
 /// Frames of a pot in motion.
-struct Drawn {
-  Histogram took;  ///< drawing, until the last pixel
+struct FrameTimes {
+  Histogram drawing;  ///< until the last pixel
   std::int64_t first_ns = 0, last_ns = 0;
   [[nodiscard]] double fps() const noexcept {
-    return last_ns > first_ns ? 1e9 * static_cast<double>(took.count() - 1) /
+    return last_ns > first_ns ? 1e9 * static_cast<double>(drawing.count() - 1) /
                                     static_cast<double>(last_ns - first_ns)
                               : 0.0;
   }
 };
 
+/// Keys and clipboard of the current ImGui context. The host outlives it.
+void connect_imgui(Host& host);
+
 class Studio {
  public:
-  /// The host's context of OpenGL is current, here and in every call. `log_line` gets events.
+  /// The OpenGL context of the host is current, here and in every call. `log_line` gets events.
   static Result<std::unique_ptr<Studio>> create(Host& host, Settings settings,
                                                 std::function<void(std::string_view)> log_line);
   ~Studio();
   Studio(const Studio&) = delete;
   Studio& operator=(const Studio&) = delete;
 
-  /// In order, with the next frame.
-  void take(Input input) { waiting_.push_back(std::move(input)); }
-  /// At the clock's present time. Without `paint` all is done but the drawing itself.
+  /// Queues input for the next frame.
+  void take(Input input) { input_.push_back(std::move(input)); }
+  /// One frame at the current time of the clock. Without `paint` nothing is drawn.
   void frame(bool paint);
 
-  [[nodiscard]] AppState& shop() noexcept { return shop_; }
-  [[nodiscard]] const AppState& shop() const noexcept { return shop_; }
-  [[nodiscard]] const Drawn& drawn() const noexcept { return drawn_; }
-  [[nodiscard]] bool done() const noexcept { return shop_.done; }
-  /// Whether the next frame shows something else even if nothing comes from outside.
+  [[nodiscard]] AppState& state() noexcept { return state_; }
+  [[nodiscard]] const AppState& state() const noexcept { return state_; }
+  [[nodiscard]] const FrameTimes& frame_times() const noexcept { return times_; }
+  [[nodiscard]] bool done() const noexcept { return state_.done; }
+  /// Whether the next frame differs from this one even without input.
   [[nodiscard]] bool wakeful() const noexcept;
 
  private:
   Studio(Host& host, Settings settings, std::function<void(std::string_view)> log_line);
   [[nodiscard]] bool moving() const noexcept;
-  void take_waiting();
-  void shape_frame(double elapsed_s);
+  void take_input();
+  void restyle();
+  void build_frame(double elapsed_s);
   void apply(const Input& input);
   void key(const KeyChanged& change);
-  void drop(const FilesDropped& files);
-  void tell_news();
-  void show_fall(double now_s);
   void name_window();
   void turn_wheel(double elapsed_s);
-  void lay_out();
+  void lay_out(const ViewModel& model, Actions& actions);
   void paint();
 
   void draw_view(unsigned target);
 
-  static constexpr int kFramesAfterInput = 3;  // an ImGui window settles in that many
+  static constexpr int kFramesAfterInput = 3;  // until an ImGui window has settled
 
-  AppState shop_;
+  AppState state_;
   ImGuiContext* context_ = nullptr;
   std::optional<render::Painter> painter_;
   std::optional<render::Canvas> canvas_;
-  std::deque<Input> waiting_;
+  std::deque<Input> input_;
   std::string title_;
   double last_s_ = 0.0;
-  double spin_ = 0.0;  // of the wheel: 0 stands, 1 turns at its speed
+  double spin_ = 0.0;  // of the wheel: 0 at rest, 1 at full speed
   Quality quality_;
-  Drawn drawn_;
-  bool coarse_ = false;   // the last frame was not drawn in full
+  FrameTimes times_;
+  bool coarse_ = false;   // the last frame was drawn with fewer pixels
   int awake_frames_ = 0;  // ImGui needs some after an input
 };
 

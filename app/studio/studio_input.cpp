@@ -1,20 +1,79 @@
-// What comes from outside, one after the other.
+// Input of the window, one event after the other: to ImGui, to the view, or to a command.
 
-#include "app/studio/actions.hpp"
+#include "app/studio/commands.hpp"
 #include "app/studio/studio.hpp"
 
 #define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 #include <imgui.h>
 
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
 namespace clay::studio {
+namespace {
+
+/// Keys have the codes of GLFW.
+void map_keys(ImGuiIO& io) {
+  constexpr std::array kKeys = {std::pair{ImGuiKey_Tab, GLFW_KEY_TAB},
+                                std::pair{ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
+                                std::pair{ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
+                                std::pair{ImGuiKey_UpArrow, GLFW_KEY_UP},
+                                std::pair{ImGuiKey_DownArrow, GLFW_KEY_DOWN},
+                                std::pair{ImGuiKey_Home, GLFW_KEY_HOME},
+                                std::pair{ImGuiKey_End, GLFW_KEY_END},
+                                std::pair{ImGuiKey_Delete, GLFW_KEY_DELETE},
+                                std::pair{ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
+                                std::pair{ImGuiKey_Enter, GLFW_KEY_ENTER},
+                                std::pair{ImGuiKey_Escape, GLFW_KEY_ESCAPE},
+                                std::pair{ImGuiKey_A, GLFW_KEY_A},
+                                std::pair{ImGuiKey_C, GLFW_KEY_C},
+                                std::pair{ImGuiKey_V, GLFW_KEY_V},
+                                std::pair{ImGuiKey_X, GLFW_KEY_X},
+                                std::pair{ImGuiKey_Y, GLFW_KEY_Y},
+                                std::pair{ImGuiKey_Z, GLFW_KEY_Z}};
+  for (const auto& [ours, theirs] : kKeys) io.KeyMap[ours] = theirs;
+}
+
+void connect_clipboard(ImGuiIO& io, Host& host) {
+  io.ClipboardUserData = &host;
+  io.SetClipboardTextFn = [](void* user, const char* text) {
+    static_cast<Host*>(user)->set_clipboard(text);
+  };
+  io.GetClipboardTextFn = [](void* user) -> const char* {
+    static std::string held;  // until ImGui has copied it
+    held = static_cast<Host*>(user)->clipboard();
+    return held.c_str();
+  };
+}
+
+/// Commands that are possible while a dialog is open.
+bool in_dialogs(const Command& command) {
+  constexpr std::array kPrefixes = {"file.",   "view.",    "help.",  "quit.",
+                                    "export.", "recover.", "import."};
+  return std::ranges::any_of(kPrefixes,
+                             [&](const char* prefix) { return command.id.starts_with(prefix); });
+}
+
+}  // namespace
+
+void connect_imgui(Host& host) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  io.LogFilename = nullptr;
+  map_keys(io);
+  connect_clipboard(io, host);
+}
 
 /// A button or key changes at most once in a frame, and a button only where the pointer has been
-/// for a frame: ImGui sees every click, however short.
-void Studio::take_waiting() {
+/// for a frame, so that ImGui sees every click, however short.
+void Studio::take_input() {
   bool moved = false, pressed = false;
-  while (!waiting_.empty()) {
-    const Input& next = waiting_.front();
+  while (!input_.empty()) {
+    const Input& next = input_.front();
     const bool is_move = std::holds_alternative<PointerMoved>(next);
     const bool is_press =
         std::holds_alternative<ButtonChanged>(next) || std::holds_alternative<KeyChanged>(next);
@@ -22,34 +81,37 @@ void Studio::take_waiting() {
     moved = moved || is_move;
     pressed = pressed || is_press;
     apply(next);
-    waiting_.pop_front();
+    input_.pop_front();
     awake_frames_ = kFramesAfterInput;
   }
 }
 
 void Studio::apply(const Input& input) {
   ImGuiIO& io = ImGui::GetIO();
-  // What lies over the view has the mouse for itself.
-  const bool view = shop_.overlay == Overlay::none && !io.WantCaptureMouse;
+  const ViewModel model = view_model(state_);
+  Actions actions;
+  // A dialog takes the whole mouse.
+  const bool view = state_.ui.shows<NoDialog>() && !io.WantCaptureMouse;
   if (const auto* moved = std::get_if<PointerMoved>(&input)) {
     io.MousePos = {moved->place_px.x, moved->place_px.y};
-    shop_.view.pointer_moved(shop_, moved->place_px);
+    state_.scene.pointer_moved(model, moved->place_px, actions);
   } else if (const auto* change = std::get_if<ButtonChanged>(&input)) {
-    const bool taken = (view || !change->down) && shop_.view.button(shop_, *change);
+    const bool taken = (view || !change->down) && state_.scene.button(model, *change, actions);
     if (!taken || !change->down) io.MouseDown[static_cast<int>(change->button)] = change->down;
     io.KeyCtrl = (change->mods & kControl) != 0;
     io.KeyShift = (change->mods & kShift) != 0;
   } else if (const auto* scrolled = std::get_if<Scrolled>(&input)) {
-    if (!view || !shop_.view.scrolled(scrolled->steps)) io.MouseWheel += scrolled->steps;
+    if (!view || !state_.scene.scrolled(scrolled->steps)) io.MouseWheel += scrolled->steps;
   } else if (const auto* pressed = std::get_if<KeyChanged>(&input)) {
     key(*pressed);
   } else if (const auto* typed = std::get_if<TextTyped>(&input)) {
     io.AddInputCharacter(typed->character);
   } else if (const auto* files = std::get_if<FilesDropped>(&input)) {
-    drop(*files);
+    if (!files->paths.empty()) actions.emplace_back(OpenFile{files->paths.front()});
   } else if (std::holds_alternative<CloseAsked>(input)) {
-    run(*find_action("file.quit"), shop_);
+    actions.emplace_back(RunCommand{"file.quit"});
   }
+  apply_all(state_, actions);
 }
 
 void Studio::key(const KeyChanged& change) {
@@ -59,27 +121,18 @@ void Studio::key(const KeyChanged& change) {
   io.KeyShift = (change.mods & kShift) != 0;
   io.KeyAlt = (change.mods & kAlt) != 0;
   if (!change.down) return;
-  const Action* action = action_of({change.key, change.mods});
-  if (action == nullptr) return;
-  // In a box for text only what no text has in it is a shortcut.
-  const bool edits = io.WantTextInput;
-  if (edits && change.key != GLFW_KEY_ESCAPE &&
-      ((change.mods & kControl) == 0 || change.key == GLFW_KEY_Z || change.key == GLFW_KEY_Y))
+  const Command* command = command_for({change.key, change.mods});
+  if (command == nullptr) return;
+  // A text field keeps the keys that edit text.
+  const bool edits_text =
+      (change.mods & kControl) == 0 || change.key == GLFW_KEY_Z || change.key == GLFW_KEY_Y;
+  if (change.key != GLFW_KEY_ESCAPE) {
+    if (io.WantTextInput && edits_text) return;
+    if (!state_.ui.shows<NoDialog>() && !in_dialogs(*command)) return;
+  }
+  if (change.repeated && !command->id.starts_with("tool.") && !command->id.starts_with("edit."))
     return;
-  if (change.repeated && !action->id.starts_with("tool.") && !action->id.starts_with("edit."))
-    return;
-  // Behind what is open over the view nothing changes.
-  if (shop_.overlay != Overlay::none && change.key != GLFW_KEY_ESCAPE &&
-      !action->id.starts_with("file.") && !action->id.starts_with("view.") &&
-      !action->id.starts_with("help.") && !action->id.starts_with("quit.") &&
-      !action->id.starts_with("export.") && !action->id.starts_with("recover.") &&
-      !action->id.starts_with("import."))
-    return;
-  run(*action, shop_);
-}
-
-void Studio::drop(const FilesDropped& files) {
-  if (!files.paths.empty()) open_file(shop_, files.paths.front());
+  (void)run(*command, state_);
 }
 
 }  // namespace clay::studio

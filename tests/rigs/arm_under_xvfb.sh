@@ -33,7 +33,7 @@ until_file felt
 
 ask pull
 until_line "stroke ended"
-until_line "error: usb:1-1: unplugged; plug it in again; the mouse throws meanwhile"
+until_line "error: usb:1-1: unplugged; plug it in again; the mouse is in use now"
 press_by_mouse 1
 xdotool mouseup 1
 until_line "stroke ended" 2

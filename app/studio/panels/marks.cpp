@@ -1,4 +1,5 @@
-// What the checks say, where it is on the pot; and what the colours on it mean.
+// Over the view: results of the checks and problems of an export, at their places on the pot, and
+// the scale of the wall map.
 
 #include "app/render/legend.hpp"
 #include "app/studio/panels/panels.hpp"
@@ -12,7 +13,7 @@
 namespace clay::studio {
 namespace {
 
-constexpr float kLeastViewEm = 18.0f;  // of height, for the scale
+constexpr float kLeastViewEm = 18.0f;  // height of the view that the scale needs
 constexpr int kSteps = 5;
 
 void shaded_text(ImDrawList* draw, ImVec2 at, const std::string& text, const ImVec4& colour) {
@@ -23,16 +24,16 @@ void shaded_text(ImDrawList* draw, ImVec2 at, const std::string& text, const ImV
   draw->AddText(at, ImGui::GetColorU32(colour), text.c_str());
 }
 
-/// The same range for every pot, with the limit.
-void draw_scale(const PotCheck& check, const ViewRect& view, LengthUnit unit) {
+/// The scale of the wall map: the same range for every pot, with the limit.
+void draw_scale(const PotCheck& check, const ViewRect& rect, LengthUnit unit) {
   const float em = ImGui::GetFontSize();
-  if (view.size_px.y < kLeastViewEm * em) return;
+  if (rect.size_px.y < kLeastViewEm * em) return;
   const render::WallMap map = wall_map_of(check);
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
   const ImVec4 ink = ImGui::GetStyleColorVec4(ImGuiCol_Text);
-  const float height = std::min(11.0f * em, 0.45f * view.size_px.y), width = 0.7f * em;
-  const ImVec2 low(view.corner_px.x + 1.2f * em, view.corner_px.y + 3.2f * em);
-  shaded_text(draw, {low.x, low.y - 1.8f * em}, "Wall", ink);
+  const float height = std::min(11.0f * em, 0.45f * rect.size_px.y), width = 0.7f * em;
+  const ImVec2 low(rect.corner_px.x + 1.2f * em, rect.corner_px.y + 3.2f * em);
+  shaded_text(draw, {low.x, low.y - 1.8f * em}, "Wall thickness", ink);
   for (int px = 0; px < static_cast<int>(height); ++px) {
     const double wall = map.top_mm * (1.0 - (px + 0.5) / static_cast<double>(height));
     const render::Swatch swatch = render::wall_swatch(map, wall);
@@ -44,7 +45,7 @@ void draw_scale(const PotCheck& check, const ViewRect& view, LengthUnit unit) {
     const double wall = map.top_mm * step / kSteps;
     const float y = low.y + height * (1.0f - static_cast<float>(step) / kSteps);
     draw->AddLine({low.x, y}, {low.x + width + 0.3f * em, y}, ImGui::GetColorU32(ink));
-    const std::string more = step == kSteps ? " and more" : "";
+    const std::string more = step == kSteps ? " or more" : "";
     shaded_text(draw, {low.x + width + 0.6f * em, y - 0.55f * em}, length_text(wall, unit) + more,
                 ink);
   }
@@ -55,26 +56,26 @@ void draw_scale(const PotCheck& check, const ViewRect& view, LengthUnit unit) {
                 ink);
 }
 
-/// A ring about the place, and its thickness beside it.
-void mark_thinnest(const AppState& shop, const PotCheck& check, ImDrawList* draw) {
+/// A circle around the thinnest place, and its thickness.
+void mark_thinnest(const ViewModel& model, const PotCheck& check, ImDrawList* draw) {
   const float em = ImGui::GetFontSize();
   const glm::dvec2 middle = 0.5 * (glm::abs(check.thinnest_from) + glm::abs(check.thinnest_to));
-  const auto at = shop.view.pixel_of(middle);
-  if (!at || !shop.view.rect().holds(*at)) return;
+  const auto at = model.scene.pixel_of(middle);
+  if (!at || !model.scene.rect().holds(*at)) return;
   const ImVec4 colour =
-      check.thin() ? shop.colours().warning : ImGui::GetStyleColorVec4(ImGuiCol_Text);
+      check.thin() ? model.colours().warning : ImGui::GetStyleColorVec4(ImGuiCol_Text);
   draw->AddCircle({at->x, at->y}, 0.6f * em, ImGui::GetColorU32(colour), 0, 0.15f * em);
   shaded_text(draw, {at->x + em, at->y - 0.5f * em},
-              length_text(check.thinnest_mm, shop.settings.unit), colour);
+              length_text(check.thinnest_mm, model.settings.unit), colour);
 }
 
-/// The level where the pot parts.
-void mark_fault(const AppState& shop, double y_mm, ImDrawList* draw) {
-  const ImVec4 colour = shop.colours().fault;
+/// The level at which the pot is in two parts.
+void mark_fault(const ViewModel& model, double y_mm, ImDrawList* draw) {
+  const ImVec4 colour = model.colours().fault;
   float widest = 0.0f;
-  for (const render::Row& row : shop.potter.view().rows) widest = std::max(widest, row.outer_mm);
-  const auto left = shop.view.pixel_of({-1.2 * static_cast<double>(widest), y_mm});
-  const auto right = shop.view.pixel_of({1.2 * static_cast<double>(widest), y_mm});
+  for (const render::Row& row : model.stroke.view().rows) widest = std::max(widest, row.outer_mm);
+  const auto left = model.scene.pixel_of({-1.2 * static_cast<double>(widest), y_mm});
+  const auto right = model.scene.pixel_of({1.2 * static_cast<double>(widest), y_mm});
   if (!left || !right) return;
   draw->AddLine({left->x, left->y}, {right->x, right->y}, ImGui::GetColorU32(colour),
                 0.15f * ImGui::GetFontSize());
@@ -85,18 +86,57 @@ void mark_fault(const AppState& shop, double y_mm, ImDrawList* draw) {
 
 }  // namespace
 
-void draw_marks(AppState& shop, const ViewRect& view) {
-  const auto& check = shop.readings.check();
-  if (!check || shop.overlay != Overlay::none || shop.readings.fallen()) return;
+void draw_marks(const ViewModel& model, const ViewRect& rect) {
+  const auto& check = model.readings.check();
+  if (!check || !model.ui.shows<NoDialog>() || model.readings.fallen()) return;
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
-  draw->PushClipRect({view.corner_px.x, view.corner_px.y},
-                     {view.corner_px.x + view.size_px.x, view.corner_px.y + view.size_px.y});
-  if (check->fault_mm && panel_open(shop, "certificate")) mark_fault(shop, *check->fault_mm, draw);
-  const bool open = shop.settings.wall_map && shop.view.cut != render::Cut::none;
-  if (check->proved && (open || check->thin()) && !has_export_marks(shop))
-    mark_thinnest(shop, *check, draw);
-  if (check->proved && shop.settings.wall_map) draw_scale(*check, view, shop.settings.unit);
+  draw->PushClipRect({rect.corner_px.x, rect.corner_px.y},
+                     {rect.corner_px.x + rect.size_px.x, rect.corner_px.y + rect.size_px.y});
+  if (check->fault_mm && panel_open(model.settings, "certificate"))
+    mark_fault(model, *check->fault_mm, draw);
+  const bool open = model.settings.wall_map && model.scene.cut != render::Cut::none;
+  if (check->proved && (open || check->thin()) && !model.has_marks())
+    mark_thinnest(model, *check, draw);
+  if (check->proved && model.settings.wall_map) draw_scale(*check, rect, model.settings.unit);
   draw->PopClipRect();
+}
+
+namespace {
+
+/// A circle around the place, and a line from it to the text, within the view.
+void draw_mark(const ViewModel& model, const ViewRect& rect, const Mark& mark, glm::vec2 at,
+               float top) {
+  const float em = ImGui::GetFontSize();
+  const float wrap = std::min(16.0f * em, 0.45f * rect.size_px.x);
+  // The problem only; the dialog has its source and further places.
+  const std::string text = mark.text.substr(0, std::min(mark.text.find(';'), mark.text.find(" (")));
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+  const float right = rect.corner_px.x + rect.size_px.x;
+  const ImVec2 corner(std::max(rect.corner_px.x + em, right - size.x - 1.5f * em), top);
+  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  const ImU32 colour = ImGui::GetColorU32(model.colours().warning);
+  const ImVec2 low(corner.x - 0.5f * em, corner.y - 0.4f * em);
+  const ImVec2 high(corner.x + size.x + 0.5f * em, corner.y + size.y + 0.4f * em);
+  draw->AddLine({at.x, at.y}, {0.5f * (low.x + high.x), high.y}, colour, 0.12f * em);
+  draw->AddCircle({at.x, at.y}, 0.7f * em, colour, 0, 0.16f * em);
+  draw->AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_PopupBg), 0.3f * em);
+  draw->AddRect(low, high, colour, 0.3f * em);
+  draw->AddText(ImGui::GetFont(), em, corner, ImGui::GetColorU32(ImGuiCol_Text), text.c_str(),
+                nullptr, wrap);
+}
+
+}  // namespace
+
+void draw_export_marks(const ViewModel& model, const ViewRect& rect) {
+  if (!model.ui.shows<NoDialog>() || !model.has_marks()) return;
+  const float em = ImGui::GetFontSize();
+  float top = rect.corner_px.y + 1.2f * em;
+  for (const Mark& mark : model.ui.marks) {
+    const auto at = model.scene.pixel_of(mark.place_mm);
+    if (!at || !rect.holds(*at)) continue;
+    draw_mark(model, rect, mark, *at, top);
+    top += 6.0f * em;
+  }
 }
 
 }  // namespace clay::studio

@@ -1,14 +1,25 @@
 #include "app/studio/panels/panels.hpp"
 
-#include "app/studio/actions.hpp"
+#include "app/studio/commands.hpp"
+#include "app/studio/panels/widgets.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 
 namespace clay::studio {
 namespace {
 
+struct Panel {
+  const char* id;     ///< in the settings
+  const char* title;  ///< of its header, which folds it
+  Column column;
+  bool open;  ///< where the settings do not name it
+  void (*draw)(const ViewModel& model, Actions& actions);
+};
 const std::array kPanels = {
     Panel{"tool", "Tool", Column::left, true, &draw_tool},
     Panel{"wheel", "Wheel and clay", Column::left, true, &draw_wheel},
@@ -27,76 +38,85 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFla
                                     ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
 
-bool is_open(const AppState& shop, const Panel& panel) {
-  const auto remembered = shop.settings.open.find(panel.id);
-  return remembered == shop.settings.open.end() ? panel.open : remembered->second;
+bool is_open(const Settings& settings, const Panel& panel) {
+  const auto remembered = settings.open.find(panel.id);
+  return remembered == settings.open.end() ? panel.open : remembered->second;
 }
 
-void draw_recent(AppState& shop) {
-  if (!ImGui::BeginMenu("Recent", !shop.settings.recent.empty())) return;
-  std::string chosen;
-  for (const std::string& path : shop.settings.recent)
-    if (ImGui::MenuItem(path.c_str())) chosen = path;
+void draw_recent(const ViewModel& model, Actions& actions) {
+  if (!ImGui::BeginMenu("Recent", !model.settings.recent.empty())) return;
+  for (const std::string& path : model.settings.recent)
+    if (ImGui::MenuItem(path.c_str())) actions.emplace_back(OpenFile{path});
   ImGui::EndMenu();
-  if (!chosen.empty()) open_file(shop, chosen);
+}
+
+constexpr ImGuiWindowFlags kBar = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                  ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoScrollbar |
+                                  ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings;
+
+void part(const std::string& text, const ImVec4& colour, bool last = false) {
+  ImGui::TextColored(colour, "%s", text.c_str());
+  if (!last) ImGui::SameLine(0.0f, 1.6f * ImGui::GetFontSize());
+}
+
+std::string document_text(const ViewModel& model) {
+  if (!model.document.has_work()) return "No clay on the wheel";
+  return model.document.name() + (model.document.unsaved() ? " \xe2\x80\xa2 not saved" : "");
+}
+
+ImVec4 colour_of(Grade grade, const Palette& colours) {
+  return grade == Grade::note      ? colours.accent
+         : grade == Grade::warning ? colours.warning
+                                   : colours.fault;
 }
 
 }  // namespace
 
-std::span<const Panel> panels() { return kPanels; }
-
-bool panel_open(const AppState& shop, std::string_view id) {
-  const auto panel = std::ranges::find(kPanels, id, &Panel::id);
-  return panel != kPanels.end() && is_open(shop, *panel);
+bool panel_open(const Settings& settings, std::string_view id) {
+  const auto* panel = std::ranges::find(kPanels, id, &Panel::id);
+  return panel != kPanels.end() && is_open(settings, *panel);
 }
 
-void toggle_panel(AppState& shop, std::string_view id) {
-  const std::string name(id);
-  const bool open = !panel_open(shop, id);
-  shop.settings.open[name] = open;
-  shop.reveal = open ? name : std::string();
+Wanted wanted_of(const Settings& settings) {
+  return {settings.wall_map || panel_open(settings, "walls") || panel_open(settings, "certificate"),
+          panel_open(settings, "servo"), settings.process};
 }
 
-Wanted wanted_of(const AppState& shop) {
-  return {shop.settings.wall_map || panel_open(shop, "walls") || panel_open(shop, "certificate"),
-          panel_open(shop, "servo"), shop.settings.process};
-}
-
-void draw_column(AppState& shop, Column column, glm::vec2 corner_px, glm::vec2 size_px) {
+void draw_column(const ViewModel& model, Actions& actions, Column column, glm::vec2 corner_px,
+                 glm::vec2 size_px) {
   ImGui::SetNextWindowPos({corner_px.x, corner_px.y});
   ImGui::SetNextWindowSize({size_px.x, size_px.y});
   ImGui::Begin(column == Column::left ? "##left" : "##right", nullptr, kFixed);
   for (const Panel& panel : kPanels) {
     if (panel.column != column) continue;
-    const bool open = is_open(shop, panel);
+    const bool open = is_open(model.settings, panel);
     ImGui::SetNextItemOpen(open);
     const bool shown = ImGui::CollapsingHeader(panel.title);
-    if (shown != open) shop.settings.open[panel.id] = shown;
+    if (shown != open) actions.emplace_back(FoldPanel{panel.id, shown});
     if (!shown) continue;
     ImGui::PushID(panel.id);
-    panel.draw(shop);
+    panel.draw(model, actions);
     ImGui::Spacing();
     ImGui::PopID();
-    if (shop.reveal != panel.id) continue;
-    ImGui::SetScrollHereY(1.0f);
-    shop.reveal.clear();
+    if (model.ui.reveal == panel.id) ImGui::SetScrollHereY(1.0f);
   }
   ImGui::End();
 }
 
-float draw_menu(AppState& shop) {
+float draw_menu(const ViewModel& model, Actions& actions) {
   if (!ImGui::BeginMainMenuBar()) return 0.0f;
-  for (const MenuTitle& menu : menus()) {
+  for (const Menu& menu : menus()) {
     if (!ImGui::BeginMenu(menu.title)) continue;
-    // Room between what an action is called and its keys.
+    // Space between the title of a command and its keys.
     const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(2.5f * spacing.x, spacing.y));
-    for (const Action& action : actions()) {
-      if (!action.id.starts_with(menu.prefix)) continue;
-      const bool on = action.checked != nullptr && action.checked(shop);
-      if (ImGui::MenuItem(action.title, text_of(action.chord).c_str(), on, action.enabled(shop)))
-        run(action, shop);
-      if (action.id == "file.open") draw_recent(shop);
+    for (const Command& command : commands()) {
+      if (!command.id.starts_with(menu.prefix)) continue;
+      const bool on = command.checked != nullptr && command.checked(model);
+      if (ImGui::MenuItem(command.title, text_of(command.chord).c_str(), on,
+                          command.enabled(model)))
+        actions.emplace_back(RunCommand{command.id});
+      if (command.id == "file.open") draw_recent(model, actions);
     }
     ImGui::PopStyleVar();
     ImGui::EndMenu();
@@ -106,26 +126,90 @@ float draw_menu(AppState& shop) {
   return height;
 }
 
-void draw_overlay(AppState& shop, const ViewRect& view) {
-  switch (shop.overlay) {
-    case Overlay::none:
-      return;
-    case Overlay::gallery:
-      return draw_gallery(shop, view);
-    case Overlay::shortcuts:
-      return draw_shortcuts(shop, view);
-    case Overlay::quit_prompt:
-      return draw_quit_prompt(shop, view);
-    case Overlay::open_file:
-    case Overlay::save_file:
-      return draw_file_box(shop, view);
-    case Overlay::export_files:
-      return draw_export_card(shop, view);
-    case Overlay::import_drawing:
-      return draw_import_card(shop, view);
-    case Overlay::settings:
-      return draw_settings_card(shop, view);
-  }
+float status_height() { return std::round(1.75f * ImGui::GetFontSize()); }
+
+void draw_status_bar(const ViewModel& model, glm::vec2 corner_px, glm::vec2 size_px) {
+  ImGui::SetNextWindowPos({corner_px.x, corner_px.y});
+  ImGui::SetNextWindowSize({size_px.x, size_px.y});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding,
+                      ImVec2(ImGui::GetStyle().WindowPadding.x, 0.3f * ImGui::GetFontSize()));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1.0f, 1.0f));
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg));
+  ImGui::Begin("##status", nullptr, kBar);
+  const Palette& colours = model.colours();
+  const ImVec4 text = ImGui::GetStyleColorVec4(ImGuiCol_Text);
+  part(document_text(model), text);
+  part(model.stroke.device_name(), text);
+  const servo::LiveStatus& status = model.stroke.status();
+  if (model.stroke.throwing())
+    part(fmt::format("{:.0f} Hz", model.stroke.tick_rate_hz()), text);
+  else
+    part("idle", colours.faint);
+  part(fmt::format("{} missed ticks", status.missed),
+       status.missed > 0 ? colours.warning : colours.faint);
+  if (model.document.has_work())
+    part(fmt::format("volume error {:.0f} quanta", std::abs(status.volume_error)),
+         status.volume_error != 0.0 ? colours.fault : colours.good);
+  const std::string arm = model.arm_text();
+  const bool attention = model.stroke.paused() || model.waits_for_rearm();
+  part(arm.empty() && model.stroke.paused() ? "paused" : arm, attention ? colours.warning : text,
+       true);
+  ImGui::End();
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar(2);
+}
+
+void draw_banner(const ViewModel& model, Actions& actions, const ViewRect& rect) {
+  const auto& notice = model.ui.notices.shown();
+  if (!notice) return;
+  // A note does not cover a dialog.
+  if (notice->grade == Grade::note && !model.ui.shows<NoDialog>()) return;
+  const float pad = ImGui::GetFontSize();
+  const float width = std::min(rect.size_px.x - 2.0f * pad, 40.0f * ImGui::GetFontSize());
+  ImGui::SetNextWindowPos(
+      {rect.corner_px.x + 0.5f * (rect.size_px.x - width), rect.corner_px.y + pad});
+  ImGui::SetNextWindowSize({width, 0.0f});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.4f * pad);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
+  const ImVec4 colour = colour_of(notice->grade, model.colours());
+  ImGui::PushStyleColor(ImGuiCol_Border, colour);
+  ImGui::Begin("##banner", nullptr,
+               kBar | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
+  const char* grade = notice->grade == Grade::note      ? "Note"
+                      : notice->grade == Grade::warning ? "Warning"
+                                                        : "Fault";
+  ImGui::TextColored(colour, "%s", grade);
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("Close").x -
+                  2.0f * ImGui::GetStyle().FramePadding.x);
+  const bool closed = ImGui::Button("Close");
+  ImGui::TextWrapped("%s", notice->text.c_str());
+  ImGui::End();
+  ImGui::PopStyleColor(2);
+  ImGui::PopStyleVar(2);
+  if (closed) actions.emplace_back(CloseNotice{});
+}
+
+void draw_hint(const ViewModel& model, Actions& actions, const ViewRect& rect) {
+  if (!model.settings.hints || !model.ui.shows<NoDialog>() || model.stroke.throwing()) return;
+  const char* text =
+      "Hold the left button on the clay and drag to shape it.  Middle or right button turns the "
+      "view, the wheel zooms.  Press ? for all keys.";
+  const float pad = ImGui::GetFontSize();
+  const float width = std::min(rect.size_px.x - 2.0f * pad, 36.0f * pad);
+  ImGui::SetNextWindowPos(
+      {rect.corner_px.x + 0.5f * (rect.size_px.x - width), rect.corner_px.y + rect.size_px.y - pad},
+      ImGuiCond_Always, {0.0f, 1.0f});
+  ImGui::SetNextWindowSize({width, 0.0f});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.4f * pad);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
+  ImGui::Begin("##hint", nullptr,
+               kBar | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
+  ImGui::TextWrapped("%s", text);
+  if (ImGui::Button("Hide")) actions.emplace_back(SetHints{false});
+  ImGui::End();
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar();
 }
 
 }  // namespace clay::studio

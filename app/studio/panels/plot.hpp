@@ -1,7 +1,7 @@
 #pragma once
 // Plots of a column's width: a frame, curves with nothing lost between pixels, words in corners.
 
-#include "app/studio/readings/min_max.hpp"
+#include "app/studio/readings/curves.hpp"
 #include "app/studio/style.hpp"
 
 #include <optional>

@@ -1,4 +1,4 @@
-// The section: what a knife would show, with its measures, as fine as there are pixels.
+// The section of the pot with its dimensions, as fine as there are pixels.
 
 #include "app/render/legend.hpp"
 #include "app/render/pot_view.hpp"
@@ -28,7 +28,7 @@ struct Sheet {
   }
 };
 
-/// Room for the measures: above and left the height's, below the width's.
+/// Leaves room for the dimensions: height above and at the left, width below.
 Sheet sheet_for(const PlotArea& area, double widest, double height, bool full) {
   const float em = ImGui::GetFontSize();
   const ImVec2 low(area.low.x + 1.4f * em, area.low.y + 1.6f * em);
@@ -50,17 +50,17 @@ ImU32 colour_at(const PotCheck* check, double y_mm, const ImVec4& clay) {
   return IM_COL32(swatch.red, swatch.green, swatch.blue, 255);
 }
 
-/// Clay that all rings of a row have is solid, what only some have is faint.
-void draw_clay(const AppState& shop, const Sheet& sheet, double height, bool full,
+/// Clay of all rings of a row is opaque, clay of only some is faint.
+void draw_clay(const ViewModel& model, const Sheet& sheet, double height, bool full,
                const PotCheck* check) {
   const std::size_t rows = whole_px(sheet.px_per_mm * static_cast<float>(height));
-  const auto& section = shop.readings.section(rows);
+  const auto& section = model.readings.section(rows);
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const double row_mm = height / static_cast<double>(rows);
   for (std::size_t i = 0; i < section.size(); ++i) {
     const SectionRow& row = section[i];
     const double low = row_mm * static_cast<double>(i), high = low + row_mm;
-    const ImU32 solid = colour_at(check, low + 0.5 * row_mm, shop.colours().clay);
+    const ImU32 solid = colour_at(check, low + 0.5 * row_mm, model.colours().clay);
     const ImU32 faint = (solid & ~IM_COL32_A_MASK) | IM_COL32(0, 0, 0, 90);
     const auto stretch = [&](float inner, float outer, ImU32 colour) {
       if (!(outer > inner)) return;
@@ -73,7 +73,7 @@ void draw_clay(const AppState& shop, const Sheet& sheet, double height, bool ful
   }
 }
 
-/// Lines with ends, and what they measure.
+/// Dimension lines with their values.
 void draw_measures(const PlotArea& area, const Sheet& sheet, double widest, double height,
                    bool full, const Palette& colours, LengthUnit unit) {
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -147,14 +147,14 @@ void draw_faults(const PlotArea& area, const Sheet& sheet, const PotCheck& check
   for (const ImVec2& end : {from, to}) draw->AddCircleFilled(end, 0.18f * em, ink);
 }
 
-/// What is under the pointer, in words.
+/// Values under the pointer, as text.
 std::string read_out(const PlotArea& area, const Sheet& sheet, double height, bool full,
                      const PotCheck* check, LengthUnit unit) {
-  if (!ImGui::IsMouseHoveringRect(area.low, area.high)) return "Point at the section to read it";
+  if (!ImGui::IsMouseHoveringRect(area.low, area.high)) return "Point here to read values";
   const ImVec2 mouse = ImGui::GetMousePos();
   const double rho = static_cast<double>((mouse.x - sheet.foot.x) / sheet.px_per_mm);
   const double y = static_cast<double>((sheet.foot.y - mouse.y) / sheet.px_per_mm);
-  if (y < 0.0 || (!full && rho < 0.0)) return "Point at the section to read it";
+  if (y < 0.0 || (!full && rho < 0.0)) return "Point here to read values";
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text, 0.5f);
   draw->AddLine({area.low.x, mouse.y}, {area.high.x, mouse.y}, ink);
@@ -170,7 +170,7 @@ std::string read_out(const PlotArea& area, const Sheet& sheet, double height, bo
   return text + u.name;
 }
 
-/// As high as wide, or what is left of the column: nothing scrolls that need not.
+/// As high as wide, or the rest of the column, so that nothing scrolls without need.
 float plot_height_em(bool fallen) {
   const float em = ImGui::GetFontSize(), below = ImGui::GetTextLineHeightWithSpacing();
   const float room = ImGui::GetContentRegionAvail().y - (fallen ? 2.0f : 1.0f) * below -
@@ -181,29 +181,29 @@ float plot_height_em(bool fallen) {
 
 }  // namespace
 
-void draw_section(AppState& shop) {
-  const Palette& colours = shop.colours();
-  bool& full = shop.settings.full_section;
+void draw_section(const ViewModel& model, Actions& actions) {
+  const Palette& colours = model.colours();
+  const bool full = model.settings.full_section;
   if (const int part = choice_row("part", kParts, full ? 1 : 0, colours); part >= 0)
-    full = part == 1;
-  const PlotArea area = begin_plot(plot_height_em(shop.readings.fallen()));
-  const ClayStack* stack = shop.readings.stack();
+    actions.emplace_back(SetFullSection{part == 1});
+  const PlotArea area = begin_plot(plot_height_em(model.readings.fallen()));
+  const ClayStack* stack = model.readings.stack();
   if (stack == nullptr || stack->size() == 0)
     return plot_text(area, Corner::upper_left, "No clay on the wheel", colours.faint);
-  const double height = stack->height_mm(), widest = shop.readings.widest_mm();
-  const auto& known = shop.readings.check();
-  const PotCheck* check = known && !shop.readings.fallen() ? &*known : nullptr;
+  const double height = stack->height_mm(), widest = model.readings.widest_mm();
+  const auto& known = model.readings.check();
+  const PotCheck* check = known && !model.readings.fallen() ? &*known : nullptr;
   const Sheet sheet = sheet_for(area, widest, height, full);
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->PushClipRect(area.low, area.high, true);
-  draw_clay(shop, sheet, height, full, shop.settings.wall_map ? check : nullptr);
-  draw_measures(area, sheet, widest, height, full, colours, shop.settings.unit);
+  draw_clay(model, sheet, height, full, model.settings.wall_map ? check : nullptr);
+  draw_measures(area, sheet, widest, height, full, colours, model.settings.unit);
   if (check != nullptr) draw_faults(area, sheet, *check, colours);
-  if (const auto tool = shop.view.tool_view(shop)) draw_tool_at(*tool, sheet, colours);
-  const std::string words = read_out(area, sheet, height, full, check, shop.settings.unit);
+  if (const auto tool = model.scene.tool_view(model)) draw_tool_at(*tool, sheet, colours);
+  const std::string words = read_out(area, sheet, height, full, check, model.settings.unit);
   draw->PopClipRect();
   faint_text(colours, words);
-  if (shop.readings.fallen()) faint_text(colours, "As it stood before it fell.");
+  if (model.readings.fallen()) faint_text(colours, "Shown as it stood before the fall.");
 }
 
 }  // namespace clay::studio

@@ -1,6 +1,6 @@
-// The sheet of keys and of what the mouse does, from the table of actions.
+// The list of keys and of mouse buttons, from the table of commands.
 
-#include "app/studio/actions.hpp"
+#include "app/studio/commands.hpp"
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/panels/widgets.hpp"
 
@@ -23,33 +23,33 @@ struct Section {
 Section mouse_section() {
   return {"Mouse",
           {{"Left", "Shape the clay"},
-           {"Ctrl+Left", "Trim, or press when trimming"},
+           {"Ctrl+Left", "Trim, or press if the tool trims"},
            {"Middle or right", "Turn the view"},
-           {"Shift+the same", "Shift the view"},
-           {"Wheel", "Nearer, farther"}}};
+           {"Shift+middle or right", "Move the view"},
+           {"Wheel", "Zoom"}}};
 }
 
-/// An action in no menu is one of a card that is open.
-Section section_of(const MenuTitle* menu) {
-  Section section{menu != nullptr ? menu->title : "In cards", {}};
-  for (const Action& action : actions()) {
-    const MenuTitle* its = nullptr;
-    for (const MenuTitle& other : menus())
-      if (action.id.starts_with(other.prefix)) its = &other;
-    if (its == menu && action.chord.key != 0)
-      section.rows.push_back({text_of(action.chord), action.title});
+/// Commands in no menu belong to a dialog.
+Section section_of(const Menu* menu) {
+  Section section{menu != nullptr ? menu->title : "Dialogs", {}};
+  for (const Command& command : commands()) {
+    const Menu* its = nullptr;
+    for (const Menu& other : menus())
+      if (command.id.starts_with(other.prefix)) its = &other;
+    if (its == menu && command.chord.key != 0)
+      section.rows.push_back({text_of(command.chord), command.title});
   }
   return section;
 }
 
 std::vector<Section> all_sections() {
   std::vector<Section> sections{mouse_section()};
-  for (const MenuTitle& menu : menus()) sections.push_back(section_of(&menu));
+  for (const Menu& menu : menus()) sections.push_back(section_of(&menu));
   sections.push_back(section_of(nullptr));
   return sections;
 }
 
-/// Into columns, in order, none much longer than another.
+/// Three columns of similar length, in order.
 std::array<std::vector<Section>, 3> columns_of(std::vector<Section> sections) {
   const auto lines = [](const Section& section) { return section.rows.size() + 2; };
   std::size_t all = 0;
@@ -87,10 +87,10 @@ float widest_of(const std::vector<Section>& column) {
 
 }  // namespace
 
-void draw_shortcuts(AppState& shop, const ViewRect& view) {
+void draw(const ShortcutsDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect) {
   static const auto kColumns = columns_of(all_sections());
-  begin_card("##shortcuts", view, 68.0f);
-  card_title(shop, "Keys and mouse");
+  begin_dialog("##shortcuts", rect, 68.0f);
+  dialog_title(model, "Keys and mouse");
   const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(spacing.x, 0.3f * spacing.y));
   if (ImGui::BeginTable("##keys", static_cast<int>(kColumns.size()),
@@ -98,12 +98,12 @@ void draw_shortcuts(AppState& shop, const ViewRect& view) {
     for (const std::vector<Section>& column : kColumns) {
       ImGui::TableNextColumn();
       for (const Section& section : column)
-        draw_section_of_keys(section, shop.colours(), widest_of(column));
+        draw_section_of_keys(section, model.colours(), widest_of(column));
     }
     ImGui::EndTable();
   }
   ImGui::PopStyleVar();
-  if (ImGui::Button("Close (Esc)")) close_overlay(shop);
+  if (ImGui::Button("Close (Esc)")) actions.emplace_back(CloseDialog{});
   ImGui::End();
 }
 

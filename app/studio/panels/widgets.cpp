@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace clay::studio {
 int choice_row(const char* id, std::span<const char* const> titles, int chosen,
@@ -39,8 +40,8 @@ bool main_button(const char* text, const Palette& colours) {
   return clicked;
 }
 
-void card_title(const AppState& shop, const char* text) {
-  ImGui::PushFont(shop.fonts.title);
+void dialog_title(const ViewModel& model, const char* text) {
+  ImGui::PushFont(model.ui.fonts.title);
   ImGui::TextUnformatted(text);
   ImGui::PopFont();
   ImGui::Spacing();
@@ -103,8 +104,8 @@ void value_row(const Palette& colours, const char* name, const std::string& valu
 
 namespace {
 
-/// All beside the card but menu and status. Drawn by the card itself: then it
-/// lies over the columns, too.
+/// Dims everything around the dialog except menu and status bar. The dialog draws it, so that it
+/// covers the columns too.
 void dim_around(float top, float bottom) {
   const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
   const float right = corner.x + size.x, foot = corner.y + size.y;
@@ -119,7 +120,7 @@ void dim_around(float top, float bottom) {
   draw->PopClipRect();
 }
 
-/// A row of pixels from y down; those at its ends as far as they are covered.
+/// A row of pixels at y; those at its ends in proportion to their coverage.
 void fill_row(float y, float from, float to, ImVec4 colour) {
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const auto fill = [&](float begin, float end, float part) {
@@ -136,17 +137,17 @@ void fill_row(float y, float from, float to, ImVec4 colour) {
 
 }  // namespace
 
-void begin_card(const char* id, const ViewRect& view, float width_em) {
+void begin_dialog(const char* id, const ViewRect& rect, float width_em) {
   const float em = ImGui::GetFontSize();
-  const ImVec2 low(view.corner_px.x, view.corner_px.y);
-  const ImVec2 high(low.x + view.size_px.x, low.y + view.size_px.y);
-  // Where the view is narrow a card lies over the columns too: better that than words cut off.
+  const ImVec2 low(rect.corner_px.x, rect.corner_px.y);
+  const ImVec2 high(low.x + rect.size_px.x, low.y + rect.size_px.y);
+  // In a narrow view a dialog covers the columns too, so that no text is cut off.
   const float room = ImGui::GetIO().DisplaySize.x;
   const float width = std::min(width_em * em, room);
-  const float middle = width > view.size_px.x ? 0.5f * room : 0.5f * (low.x + high.x);
+  const float middle = width > rect.size_px.x ? 0.5f * room : 0.5f * (low.x + high.x);
   ImGui::SetNextWindowPos({middle, 0.5f * (low.y + high.y)}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSize({width, 0.0f});  // as high as what is in it, up to the view
-  ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, view.size_px.y});
+  ImGui::SetNextWindowSize({width, 0.0f});  // as high as its content, up to the view
+  ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, rect.size_px.y});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(1.3f * em, 1.1f * em));
   ImGui::Begin(id, nullptr,
@@ -156,7 +157,8 @@ void begin_card(const char* id, const ViewRect& view, float width_em) {
   dim_around(low.y, ImGui::GetIO().DisplaySize.y - status_height());
 }
 
-void draw_section(const render::PotView& pot, ImVec2 corner, float side, const Palette& colours) {
+void draw_half_section(const render::PotView& pot, ImVec2 corner, float side,
+                       const Palette& colours) {
   if (pot.rows.empty()) return;
   float widest = 1.0f;
   for (const render::Row& row : pot.rows) widest = std::max(widest, row.outer_mm);
@@ -175,6 +177,36 @@ void draw_section(const render::PotView& pot, ImVec2 corner, float side, const P
     fill_row(y, middle, middle + outer, shade);
     fill_row(y, middle + inner, middle + outer, colours.clay);
   }
+}
+
+namespace {
+
+/// "workshop.process.json" is shown as workshop.
+std::string title_of(const std::string& process) {
+  if (!process.ends_with(".json")) return process;
+  const std::filesystem::path stem = std::filesystem::path(process).stem();
+  return (stem.extension() == ".process" ? stem.stem() : stem).string();
+}
+
+}  // namespace
+
+bool choose_process(const ViewModel& model, const char* none, std::string& process,
+                    Actions& actions) {
+  if (!ImGui::BeginCombo("##process", process.empty() ? none : title_of(process).c_str()))
+    return false;
+  const std::string before = process;
+  if (ImGui::Selectable(none, process.empty())) process.clear();
+  for (const std::string& name : process_names())
+    if (ImGui::Selectable(name.c_str(), name == before)) process = name;
+  for (const std::string& path : model.settings.processes) {
+    ImGui::PushID(path.c_str());
+    if (ImGui::Selectable(title_of(path).c_str(), path == before)) process = path;
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", path.c_str());
+    ImGui::PopID();
+  }
+  if (ImGui::Selectable("From a file...")) actions.emplace_back(ChooseProcessFile{});
+  ImGui::EndCombo();
+  return process != before;
 }
 
 }  // namespace clay::studio

@@ -1,6 +1,7 @@
 #include "app/studio/readings/pot_check.hpp"
 
 #include "app/render/wall_rows.hpp"
+#include "app/studio/units.hpp"
 #include "claystack/engine/tick.hpp"
 #include "claystack/export/job.hpp"
 #include "claystack/export/walls.hpp"
@@ -10,8 +11,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace clay::studio {
+
 namespace {
 
 constexpr double kFinestSpacingMm = 0.05;
@@ -27,7 +31,7 @@ std::optional<solid::WallLimit> limit_of(const std::string& process, const ClayS
   return limits->wall_for(4.0 * largest_radius_mm(stack) + stack.height_mm());
 }
 
-/// The lowest level where the rings on both sides share no clay: a pot in pieces parts there.
+/// The lowest level at which the rings above and below share no clay, as in a pot in pieces.
 std::optional<double> parting_mm(const ClayStack& stack) {
   const auto rings = stack.rings();
   for (std::size_t i = 1; i < rings.size(); ++i)
@@ -37,18 +41,18 @@ std::optional<double> parting_mm(const ClayStack& stack) {
   return std::nullopt;
 }
 
-const char* words_of(solid::KeptFor reason) {
+const char* text_of(solid::KeptFor reason) {
   switch (reason) {
     case solid::KeptFor::wall:
-      return "steps stay: smoothed, the wall would be too thin";
+      return "steps kept: smoothing would make the wall too thin";
     case solid::KeptFor::overshoot:
-      return "steps stay: a radius would overshoot";
+      return "steps kept: smoothing would overshoot a radius";
     case solid::KeptFor::volume:
-      return "steps stay: the walls would move to keep the volume";
+      return "steps kept: smoothing would move the walls to keep the volume";
     case solid::KeptFor::certificate:
       break;
   }
-  return "steps stay: smoothed, the section would meet itself";
+  return "steps kept: the smoothed section would intersect itself";
 }
 
 void take_remarks(const solid::ExportReport& report, PotCheck& check) {
@@ -56,9 +60,9 @@ void take_remarks(const solid::ExportReport& report, PotCheck& check) {
     for (const solid::Cavity& cavity : shape.cavities)
       check.remarks.push_back(
           {cavity.bottom_mm, cavity.top_mm,
-           fmt::format("closed cavity of {:.1f} ml: it needs a drain", 1e-3 * cavity.volume_mm3)});
+           fmt::format("closed cavity of {:.1f} ml: add a drain hole", 1e-3 * cavity.volume_mm3)});
   for (const solid::KeptSteps& kept : report.section.smoothed.guard)
-    check.remarks.push_back({kept.from_mm, kept.to_mm, words_of(kept.reason)});
+    check.remarks.push_back({kept.from_mm, kept.to_mm, text_of(kept.reason)});
 }
 
 void take_report(const solid::ExportReport& report, std::size_t rows, PotCheck& check) {
@@ -84,7 +88,7 @@ Pot provisional(ClayStack stack, double density_g_cm3) {
   return pot;
 }
 
-void run(const PotQuestion& question, const Pot& pot, const std::function<bool()>& given_up,
+void run(const PotQuestion& question, const Pot& pot, const std::function<bool()>& cancelled,
          PotCheck& check) {
   check.height_mm = pot.stack.height_mm();
   check.fallen = pot.collapse.has_value();
@@ -92,9 +96,9 @@ void run(const PotQuestion& question, const Pot& pot, const std::function<bool()
   const std::size_t rows = std::max<std::size_t>(1, question.subject.outline.rows.size());
   solid::ExportOptions options;
   options.tolerance_mm = question.tolerance_mm;
-  options.cancelled = given_up;
+  options.cancelled = cancelled;
   if (check.limit) options.walls.min_wall_mm = check.limit->min_wall_mm;
-  if (!check.fallen)  // one that has fallen has no one section
+  if (!check.fallen)  // a fallen pot has no single section
     options.wall_spacing_mm =
         std::max(kFinestSpacingMm, 0.5 * check.height_mm / static_cast<double>(rows));
   const auto report = solid::run_export(pot, {}, options);
@@ -109,19 +113,82 @@ std::vector<std::string> process_names() {
   return {solid::kProcessNames.begin(), solid::kProcessNames.end()};
 }
 
-PotCheck check_pot(const PotQuestion& question, const std::function<bool()>& given_up) {
+PotCheck check_pot(const PotQuestion& question, const std::function<bool()>& cancelled) {
   const auto begin = std::chrono::steady_clock::now();
   PotCheck check;
   check.live = question.subject.live();
   if (!check.live)
-    run(question, *question.subject.pot, given_up, check);
+    run(question, *question.subject.pot, cancelled, check);
   else if (auto stack = stack_of(question.subject.outline, question.subject.crown_mm))
-    run(question, provisional(std::move(*stack), question.subject.density_g_cm3), given_up, check);
+    run(question, provisional(std::move(*stack), question.subject.density_g_cm3), cancelled, check);
   else
     check.why_not = "expected clay, found none";
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
   check.seconds = spent.count();
   return check;
+}
+
+std::optional<ClayStack> stack_of(const render::PotView& outline, double crown_mm) {
+  if (outline.rows.empty()) return std::nullopt;
+  const double ring_mm = (outline.height_mm - crown_mm) / static_cast<double>(outline.rows.size());
+  std::vector<Ring> rings;
+  rings.reserve(outline.rows.size());
+  for (const render::Row& row : outline.rows)
+    rings.push_back({quanta_from_radius(static_cast<double>(row.outer_mm)),
+                     quanta_from_radius(static_cast<double>(row.inner_mm))});
+  // A crown holds less clay than a ring.
+  const auto crown = static_cast<WideQuanta>(static_cast<double>(rings.back().volume()) *
+                                             std::clamp(crown_mm / ring_mm, 0.0, 1.0 - 1e-9));
+  auto stack = ClayStack::from_rings(ring_mm, std::move(rings), crown);
+  if (!stack) return std::nullopt;
+  return std::move(*stack);
+}
+
+std::vector<render::RowWall> walls_for(const PotCheck& check, std::size_t rows, double height_mm) {
+  if (check.walls.empty() || !(check.height_mm > 0.0)) return {};
+  if (check.walls.size() == rows && check.height_mm == height_mm) return check.walls;
+  std::vector<render::RowWall> walls(rows);
+  const double per_mm = static_cast<double>(check.walls.size()) / check.height_mm;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const double y_mm = (static_cast<double>(row) + 0.5) * height_mm / static_cast<double>(rows);
+    walls[row] =
+        check.walls[std::min(static_cast<std::size_t>(y_mm * per_mm), check.walls.size() - 1)];
+  }
+  return walls;
+}
+
+render::WallMap wall_map_of(const PotCheck& check) {
+  return {check.limit ? check.limit->min_wall_mm : 0.0, 10.0};
+}
+
+std::vector<Stretch> thin_stretches(const PotCheck& check) {
+  std::vector<Stretch> stretches;
+  if (!check.limit || check.walls.empty()) return stretches;
+  const double row_mm = check.height_mm / static_cast<double>(check.walls.size());
+  bool open = false;
+  for (std::size_t row = 0; row < check.walls.size(); ++row) {
+    const render::RowWall& wall = check.walls[row];
+    const bool thin =
+        static_cast<double>(std::min(wall.outer_mm, wall.inner_mm)) < check.limit->min_wall_mm;
+    const double low_mm = row_mm * static_cast<double>(row);
+    if (thin && !open) stretches.push_back({low_mm, low_mm});
+    if (thin) stretches.back().to_mm = low_mm + row_mm;
+    open = thin;
+  }
+  return stretches;
+}
+
+std::string wall_text(const PotCheck& check, LengthUnit unit) {
+  if (check.fallen) return "Fallen: walls are not measured";
+  if (!check.proved) return "Walls unknown: the section is not that of one solid";
+  std::string words =
+      fmt::format("Thinnest wall {}, at a height of {}", length_text(check.thinnest_mm, unit),
+                  length_text(check.thinnest_from.y, unit));
+  if (check.limit)
+    words += fmt::format("; {} requires {}: {}", check.limit->process,
+                         length_text(check.limit->min_wall_mm, unit),
+                         check.thin() ? "too thin" : "thick enough");
+  return words;
 }
 
 }  // namespace clay::studio

@@ -1,9 +1,11 @@
 #pragma once
-// What the export says of a pot: proved or not, where and why, how thick its walls are. A value
+// What the export reports of a pot: proved or not, where and why, and its wall thickness. A value
 // that any thread can make; all figures are those of solid::run_export.
 
-#include "app/studio/readings/subject.hpp"
+#include "app/history/work.hpp"
+#include "app/render/picture.hpp"
 #include "app/studio/settings.hpp"
+#include "claystack/engine/clay.hpp"
 #include "claystack/export/walls.hpp"
 
 #include <cstddef>
@@ -15,9 +17,18 @@
 
 namespace clay::studio {
 
+/// The clay that panels describe: the pot at rest, to the quantum, or its outline during a stroke.
+struct Subject {
+  history::SharedPot pot;   ///< at rest; null during a stroke
+  render::PotView outline;  ///< as shown on screen
+  double density_g_cm3 = 1.9;
+  double crown_mm = 0.0;  ///< height of the crown above the rows of the outline
+  [[nodiscard]] bool live() const noexcept { return pot == nullptr; }
+};
+
 struct PotQuestion {
   Subject subject;
-  std::string process;  ///< as solid::read_process has it; empty: none
+  std::string process;  ///< name or file, as for solid::read_process; empty: none
   double tolerance_mm = 0.02;
 };
 
@@ -26,50 +37,54 @@ struct Stretch {
   friend bool operator==(const Stretch&, const Stretch&) = default;
 };
 
-/// A place that is worth a look, from a height to another [mm].
+/// A remark about the pot between two heights [mm].
 struct PotRemark {
   double from_mm = 0.0, to_mm = 0.0;
   std::string text;
 };
 
 struct PotCheck {
-  bool live = false;  ///< of the outline in mid-stroke
+  bool live = false;  ///< made from the outline during a stroke
   bool proved = false;
   std::string why_not;
-  std::optional<double> fault_mm;  ///< the height that is at fault, where it is one
-  std::vector<PotRemark> remarks;  ///< steps that were kept, closed cavities
-  bool fallen = false;             ///< proved by the exact test of its triangles; no walls
+  std::optional<double> fault_mm;  ///< height of the fault, where it has one
+  std::vector<PotRemark> remarks;  ///< steps that smoothing kept, closed cavities
+  bool fallen = false;             ///< proved by the exact test of its triangles; walls are unknown
   std::size_t triangles = 0;
   double tolerance_mm = 0.0;
   double counted_mm3 = 0.0, proved_mm3 = 0.0, volume_error_relative = 0.0;
-  double least_wall_mm = 0.0;  ///< the solid is nowhere thinner
-  double thinnest_mm = 0.0;    ///< of the section: the clay between two places (rho, y) [mm];
-  glm::dvec2 thinnest_from{0.0}, thinnest_to{0.0};  ///< rho below 0 beyond the axis
+  double least_wall_mm = 0.0;  ///< proved lower bound of the wall
+  double thinnest_mm = 0.0;    ///< thinnest place of the section, between two points (rho, y) [mm]
+  glm::dvec2 thinnest_from{0.0}, thinnest_to{0.0};  ///< rho is negative beyond the axis
   std::optional<solid::WallLimit> limit;
-  std::vector<render::RowWall> walls;  ///< of equal parts of `height_mm`; empty: not known
+  std::vector<render::RowWall> walls;  ///< one for each equal part of `height_mm`; empty: unknown
   double height_mm = 0.0;
-  double seconds = 0.0;  ///< it took
+  double seconds = 0.0;  ///< run time of the check
 
   [[nodiscard]] bool thin() const { return limit && !fallen && thinnest_mm < limit->min_wall_mm; }
 };
 
 [[nodiscard]] std::vector<std::string> process_names();
 
-/// `given_up` as ExportOptions::cancelled: what then comes of it says nothing.
+/// `cancelled` as ExportOptions::cancelled: the result of a cancelled check is meaningless.
 [[nodiscard]] PotCheck check_pot(const PotQuestion& question,
-                                 const std::function<bool()>& given_up = {});
+                                 const std::function<bool()>& cancelled = {});
 
-/// The walls for an outline of `rows` rows that is `height_mm` high now: each from the same height.
+/// Walls resampled by height for an outline of `rows` rows and `height_mm`.
 [[nodiscard]] std::vector<render::RowWall> walls_for(const PotCheck& check, std::size_t rows,
                                                      double height_mm);
 
-/// Colours from 0 to 10 mm, whatever the pot; what the process does not bear is hatched.
+/// Colours from 0 to 10 mm for every pot; walls below the limit of the process are hatched.
 [[nodiscard]] render::WallMap wall_map_of(const PotCheck& check);
 
-/// Where walls are thinner than the process asks [mm of height], bottom to top.
+/// Heights at which walls are thinner than the process requires [mm], bottom to top.
 [[nodiscard]] std::vector<Stretch> thin_stretches(const PotCheck& check);
 
-/// "Thinnest 2.1 mm, 34.0 mm up; porcelain asks 3.0 mm: too thin".
-[[nodiscard]] std::string wall_words(const PotCheck& check, LengthUnit unit);
+/// "Thinnest wall 2.1 mm, at a height of 34.0 mm; porcelain requires 3.0 mm: too thin".
+[[nodiscard]] std::string wall_text(const PotCheck& check, LengthUnit unit);
+
+/// A stack whose rings are the rows of an outline, with radii to float precision, and the crown.
+/// Empty where the rows hold no clay.
+[[nodiscard]] std::optional<ClayStack> stack_of(const render::PotView& outline, double crown_mm);
 
 }  // namespace clay::studio

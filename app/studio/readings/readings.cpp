@@ -7,7 +7,7 @@
 namespace clay::studio {
 namespace {
 
-constexpr std::int64_t kLiveCheckNs = 100'000'000;  // in mid-stroke, one at most in this time
+constexpr std::int64_t kLiveCheckNs = 100'000'000;  // minimum time between checks during a stroke
 
 std::string line_of(const PotCheck& check) {
   const std::string verdict =
@@ -17,12 +17,12 @@ std::string line_of(const PotCheck& check) {
 
 }  // namespace
 
-void Readings::update(StrokeController& potter, const Wanted& wanted, std::int64_t now_ns,
-                      const std::function<void(std::string_view)>& log) {
-  potter.trace().want(wanted.ticks);
-  ticks_.take(potter.trace());
-  if (!potter.has_work()) return;
-  look_at(potter);
+void Readings::update(const Document& document, StrokeController& stroke, const Wanted& wanted,
+                      std::int64_t now_ns, const std::function<void(std::string_view)>& log) {
+  stroke.trace().want(wanted.ticks);
+  ticks_.take(stroke.trace());
+  if (!document.has_work()) return;
+  read(document, stroke);
   if (wanted.check) ask(wanted, now_ns);
   if (auto answer = checker_.take()) {
     check_ = std::move(answer);
@@ -30,17 +30,17 @@ void Readings::update(StrokeController& potter, const Wanted& wanted, std::int64
   }
 }
 
-/// At rest the pot itself, while it is another than before; in mid-stroke what the servo shows.
-void Readings::look_at(const StrokeController& potter) {
-  const bool live = potter.throwing();
-  const bool same = live ? subject_.live() && subject_.outline == potter.view()
-                         : subject_.pot == potter.shared_pot();
-  const SceneSpec& scene = potter.scene();
+/// The pot at rest, or during a stroke the outline that the servo provides.
+void Readings::read(const Document& document, const StrokeController& stroke) {
+  const bool live = stroke.throwing();
+  const bool same = live ? subject_.live() && subject_.outline == stroke.view()
+                         : subject_.pot == document.shared_pot();
+  const SceneSpec& scene = document.scene();
   const auto limit_kpa =
       scene.stability ? std::optional(scene.stability->max_stress_kpa) : std::nullopt;
   if (!same) {
-    subject_ = {live ? nullptr : potter.shared_pot(), potter.view(), scene.lump.density_g_cm3,
-                potter.crown_mm()};
+    subject_ = {live ? nullptr : document.shared_pot(), stroke.view(), scene.lump.density_g_cm3,
+                stroke.crown_mm()};
     outline_stack_ = live ? stack_of(subject_.outline, subject_.crown_mm) : std::nullopt;
     section_size_ = 0;
     changed_ = true;
@@ -50,9 +50,9 @@ void Readings::look_at(const StrokeController& potter) {
     }
     if (!live) account_ = resting_account_ = account_of(*subject_.pot);
   }
-  if (live && outline_stack_ && potter.status().ticks > 0)
+  if (live && outline_stack_ && stroke.status().ticks > 0)
     account_ =
-        account_of(potter.status(), *outline_stack_, subject_.density_g_cm3, resting_account_);
+        account_of(stroke.status(), *outline_stack_, subject_.density_g_cm3, resting_account_);
 }
 
 void Readings::ask(const Wanted& wanted, std::int64_t now_ns) {

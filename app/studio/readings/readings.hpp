@@ -1,13 +1,11 @@
 #pragma once
-// What panels show of the clay on the wheel: made once a frame where something has changed, and
-// what takes long by a thread of its own.
+// What panels show of the clay on the wheel: computed in a frame where something has changed, and
+// in the background where that takes long.
 
-#include "app/studio/readings/clay_account.hpp"
+#include "app/studio/document.hpp"
+#include "app/studio/readings/clay_figures.hpp"
+#include "app/studio/readings/curves.hpp"
 #include "app/studio/readings/pot_check.hpp"
-#include "app/studio/readings/section_rows.hpp"
-#include "app/studio/readings/stress_curve.hpp"
-#include "app/studio/readings/subject.hpp"
-#include "app/studio/readings/tick_history.hpp"
 #include "app/studio/stroke_controller.hpp"
 #include "core/newest_worker.hpp"
 
@@ -19,7 +17,7 @@
 
 namespace clay::studio {
 
-/// What some panel shows, so that nothing else is made.
+/// What the open panels need; nothing else is computed.
 struct Wanted {
   bool check = false, ticks = false;
   std::string process;  ///< as PotQuestion has it
@@ -27,15 +25,14 @@ struct Wanted {
 
 class Readings {
  public:
-  /// Without `threads` the check is done within `update`, so that scripts see the same every time.
+  /// Without `threads` checks run within `update`, so that scripts are reproducible.
   explicit Readings(bool threads) : checker_(&check_pot, threads) {}
 
-  /// Once a frame, `now_ns` of the servo's clock. `log` is told of checks of
-  /// pots at rest.
-  void update(StrokeController& potter, const Wanted& wanted, std::int64_t now_ns,
-              const std::function<void(std::string_view)>& log);
+  /// Once a frame, with the time of the servo's clock. Checks of pots at rest are logged.
+  void update(const Document& document, StrokeController& stroke, const Wanted& wanted,
+              std::int64_t now_ns, const std::function<void(std::string_view)>& log);
 
-  /// Nothing: no clay on the wheel.
+  /// Null: no clay on the wheel.
   [[nodiscard]] const ClayStack* stack() const noexcept;
   [[nodiscard]] double widest_mm() const noexcept { return widest_mm_; }  ///< radius
   [[nodiscard]] bool live() const noexcept { return subject_.live(); }
@@ -43,19 +40,19 @@ class Readings {
   [[nodiscard]] const ClayAccount& account() const noexcept { return account_; }
   [[nodiscard]] const StressCurve& stress() const noexcept { return stress_; }
   [[nodiscard]] const TickHistory& ticks() const noexcept { return ticks_; }
-  /// The newest, of this clay or of what it was a moment ago.
+  /// The newest check, of this clay or of an earlier state of it.
   [[nodiscard]] const std::optional<PotCheck>& check() const noexcept { return check_; }
-  /// One is under way: another frame will show it.
+  /// A check is running.
   [[nodiscard]] bool checking() const { return checker_.busy(); }
-  /// Of the clay as it is; kept until it changes.
+  /// Section of the current clay in `rows` rows.
   [[nodiscard]] const std::vector<SectionRow>& section(std::size_t rows) const;
 
  private:
-  void look_at(const StrokeController& potter);
+  void read(const Document& document, const StrokeController& stroke);
   void ask(const Wanted& wanted, std::int64_t now_ns);
 
   Subject subject_;
-  std::optional<ClayStack> outline_stack_;  // in mid-stroke
+  std::optional<ClayStack> outline_stack_;  // during a stroke
   double widest_mm_ = 0.0;
   ClayAccount account_, resting_account_;
   StressCurve stress_;

@@ -8,9 +8,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <span>
 #include <vector>
 
 namespace clay::test {
@@ -45,6 +47,14 @@ inline std::vector<Pose> press_stroke(std::uint64_t seed) {
         quantized({1000 * i, {60.0 + (deep - 60.0) * in, y + up * t, 0.0}, false, 0.0}));
   }
   return poses;
+}
+
+/// As a recorder does, in blocks.
+inline void record(const std::vector<Pose>& poses, history::PoseSink& sink) {
+  for (std::size_t at = 0; at < poses.size(); at += kPosesPerBlock)
+    ASSERT_TRUE(
+        sink.append(std::span(poses).subspan(at, std::min(kPosesPerBlock, poses.size() - at))));
+  ASSERT_TRUE(sink.finish());
 }
 
 inline Pot plainly_thrown(const SceneSpec& scene, const Pot& before,

@@ -1,81 +1,166 @@
-#include "app/studio/actions.hpp"
+// Actions on the state of the window, without a window: what each changes, and what is asked first.
 
-#include "app/studio/input.hpp"
+#include "app/studio/app_state.hpp"
+#include "app/studio/commands.hpp"
+#include "tests/app/history/strokes.hpp"
+#include "tests/app/studio/still_host.hpp"
+#include "tests/support/run_program.hpp"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <set>
 #include <string>
 
 namespace clay::studio {
 namespace {
 
-TEST(Actions, EachIdAndEachChordIsGivenOnce) {
-  std::set<std::string_view> ids;
-  std::set<std::string> chords;
-  for (const Action& action : actions()) {
-    EXPECT_TRUE(ids.insert(action.id).second) << action.id;
-    for (const KeyChord& chord : {action.chord, action.also}) {
-      if (chord.key == 0) continue;
-      EXPECT_TRUE(chords.insert(text_of(chord)).second) << text_of(chord) << " " << action.id;
-    }
+using test::ScratchFolder;
+using test::small_scene;
+
+class ActionsTest : public ::testing::Test {
+ protected:
+  ActionsTest() { apply(state, BeginWork{small_scene(), nullptr, {}}); }
+  /// A stroke, so that there is something to lose.
+  void change() {
+    auto sink = state.document.begin_stroke(small_scene());
+    ASSERT_TRUE(sink);
+    test::record(test::press_stroke(1), **sink);
+    ASSERT_TRUE(state.document.end_stroke(nullptr));
+  }
+  [[nodiscard]] std::size_t strokes() const { return state.document.work().size() - 1; }
+
+  StillHost host;
+  std::string log;
+  AppState state{host, Settings{},
+                 [this](std::string_view line) { log.append(line).append("\n"); }};
+  ScratchFolder folder;
+};
+
+TEST_F(ActionsTest, ADialogReplacesTheOneBefore) {
+  EXPECT_TRUE(state.ui.shows<NoDialog>());
+  apply(state, ShowDialog{DialogKind::settings});
+  EXPECT_TRUE(state.ui.shows<SettingsDialog>());
+  apply(state, ShowDialog{DialogKind::export_files});
+  EXPECT_TRUE(state.ui.shows<ExportDialog>());
+  apply(state, ShowDialog{DialogKind::open_file});
+  EXPECT_TRUE(state.ui.shows<OpenDialog>());
+  apply(state, EditPath{"somewhere"});
+  EXPECT_EQ(std::get<OpenDialog>(state.ui.dialog).path, "somewhere");
+  apply(state, CloseDialog{});
+  EXPECT_TRUE(state.ui.shows<NoDialog>());
+}
+
+TEST_F(ActionsTest, WithoutAWorkTheGalleryStays) {
+  AppState empty{host, Settings{}, [](std::string_view) {}};
+  EXPECT_TRUE(empty.ui.shows<GalleryDialog>());
+  apply(empty, ShowDialog{DialogKind::shortcuts});
+  apply(empty, Back{});
+  EXPECT_TRUE(empty.ui.shows<GalleryDialog>());
+}
+
+TEST_F(ActionsTest, EachActionThatReplacesAnUnsavedWorkAsksFirst) {
+  change();
+  state.recoverable.emplace_back();
+  const Action replacing[] = {BeginWork{small_scene(), nullptr, {}}, BeginSample{0},
+                              OpenFile{folder.file("a.work")}, RecoverWork{0}, Quit{}};
+  for (const Action& action : replacing) {
+    apply(state, action);
+    ASSERT_TRUE(state.ui.shows<UnsavedDialog>()) << action.index();
+    EXPECT_EQ(std::get<UnsavedDialog>(state.ui.dialog).next.index(), action.index());
+    EXPECT_EQ(strokes(), 1u);
+    EXPECT_FALSE(state.done);
+    apply(state, CloseDialog{});
+    EXPECT_TRUE(state.ui.shows<NoDialog>());
   }
 }
 
-TEST(Actions, EachIsFoundByItsIdAndItsChord) {
-  for (const Action& action : actions()) {
-    EXPECT_EQ(find_action(action.id), &action);
-    if (action.chord.key == 0) continue;
-    EXPECT_EQ(action_of(action.chord), &action);
-  }
-  EXPECT_EQ(find_action("edit.nothing"), nullptr);
-  EXPECT_EQ(action_of({}), nullptr);
+TEST_F(ActionsTest, DiscardingGoesOnAndAFailedOpenKeepsTheWork) {
+  change();
+  apply(state, OpenFile{folder.file("none.work")});
+  apply(state, DiscardAndContinue{});
+  EXPECT_EQ(strokes(), 1u);
+  EXPECT_TRUE(state.document.unsaved()) << "the file could not be opened";
+  EXPECT_TRUE(state.ui.notices.shown());
+  apply(state, BeginSample{1});
+  apply(state, DiscardAndContinue{});
+  EXPECT_EQ(strokes(), 0u);
+  EXPECT_EQ(state.document.scene().name, "vase");
+  change();
+  apply(state, Quit{});
+  apply(state, DiscardAndContinue{});
+  EXPECT_TRUE(state.done);
 }
 
-TEST(Actions, EachMenuHasSome) {
-  for (const MenuTitle& menu : menus())
-    EXPECT_TRUE(std::ranges::any_of(actions(), [&](const Action& action) {
-      return action.id.starts_with(menu.prefix);
-    })) << menu.title;
+TEST_F(ActionsTest, SavingAsksForANameAndGoesOnOnlyWithAWork) {
+  change();
+  apply(state, Quit{});
+  apply(state, SaveAndContinue{});
+  ASSERT_TRUE(state.ui.shows<SaveDialog>());
+  apply(state, SaveFile{"/nonexistent/a.work"});
+  EXPECT_TRUE(state.ui.shows<SaveDialog>()) << "not saved";
+  EXPECT_FALSE(state.done);
+  apply(state, SaveFile{folder.file("a.pot.json")});
+  EXPECT_FALSE(state.done) << "a pot keeps no strokes";
+  apply(state, Quit{});
+  apply(state, SaveAndContinue{});
+  apply(state, SaveFile{folder.file("a.work")});
+  EXPECT_TRUE(state.done);
 }
 
-TEST(Actions, WhatUsersExpectIsWhereTheyExpectIt) {
-  const auto id_of = [](std::string_view chord) {
-    const Action* action = action_of(chord_of(chord).value());
-    return action != nullptr ? action->id : "none";
-  };
-  EXPECT_EQ(id_of("Ctrl+Z"), "edit.undo");
-  EXPECT_EQ(id_of("Ctrl+Shift+Z"), "edit.redo");
-  EXPECT_EQ(id_of("Ctrl+S"), "file.save");
-  EXPECT_EQ(id_of("Ctrl+O"), "file.open");
-  EXPECT_EQ(id_of("Ctrl+N"), "file.new");
-  EXPECT_EQ(id_of("Ctrl+Y"), "edit.redo");
-  EXPECT_EQ(id_of("Ctrl+E"), "file.export");
-  EXPECT_EQ(id_of("Ctrl+Q"), "file.quit");
-  EXPECT_EQ(id_of("Home"), "view.home");
-  EXPECT_EQ(id_of("1"), "view.front");
-  EXPECT_EQ(id_of("3"), "view.right");
-  EXPECT_EQ(id_of("7"), "view.top");
-  EXPECT_EQ(id_of("["), "tool.smaller");
-  EXPECT_EQ(id_of("]"), "tool.larger");
-  EXPECT_EQ(id_of("F"), "tool.size");
-  EXPECT_EQ(id_of("Shift+F"), "tool.strength");
-  EXPECT_EQ(id_of("Space"), "wheel.pause");
-  EXPECT_EQ(id_of("Esc"), "wheel.zero_force");
-  EXPECT_EQ(id_of("?"), "help.keys");
+TEST_F(ActionsTest, SavingFromTheMenuDuringTheQuestionDoesNotGoOn) {
+  change();
+  ASSERT_TRUE(state.document.save(folder.file("a.work")));
+  apply(state, Undo{});
+  apply(state, Quit{});
+  ASSERT_TRUE(state.ui.shows<UnsavedDialog>());
+  apply(state, Save{});
+  EXPECT_FALSE(state.done);
+  EXPECT_FALSE(state.document.unsaved());
 }
 
-TEST(Keys, TextAndChordAreEachOthersInverse) {
-  for (const Action& action : actions()) {
-    if (action.chord.key == 0) continue;
-    const auto back = chord_of(text_of(action.chord));
-    ASSERT_TRUE(back) << text_of(action.chord);
-    EXPECT_EQ(*back, action.chord) << text_of(action.chord);
-  }
-  EXPECT_EQ(text_of({'Z', kControl | kShift}), "Ctrl+Shift+Z");
-  EXPECT_FALSE(chord_of("Ctrl+"));
-  EXPECT_FALSE(chord_of("Hyper+Z"));
+TEST_F(ActionsTest, UndoAndRedoAreThoseOfTheDocument) {
+  change();
+  const auto pot = state.document.shared_pot();
+  apply(state, RunCommand{"edit.undo"});
+  EXPECT_EQ(state.document.work().at(), 0u);
+  EXPECT_FALSE(find_command("edit.undo")->enabled(view_model(state)));
+  apply(state, RunCommand{"edit.redo"});
+  EXPECT_EQ(state.document.shared_pot(), pot);
+  EXPECT_NE(log.find("action: edit.undo\n"), std::string::npos);
+}
+
+TEST_F(ActionsTest, SettingsChangeByTheirActions) {
+  state.ui.restyle = false;
+  apply(state, SetWheelSpeed{90.0});
+  apply(state, SetToolShape{Shape::rib});
+  EXPECT_FALSE(state.ui.restyle);
+  EXPECT_EQ(state.settings.wheel_rpm, 90.0);
+  EXPECT_EQ(state.settings.tool.shape, Shape::rib);
+  EXPECT_EQ(removal_rate_per_s(view_model(state)),
+            state.document.nominal_rate_per_s() * 90.0 / 120.0);
+  apply(state, ToggleTheme{});
+  EXPECT_EQ(state.settings.theme, Theme::light);
+  EXPECT_TRUE(state.ui.restyle);
+  apply(state, ScaleText{1000.0f});
+  EXPECT_EQ(state.settings.scale, kLargestScale);
+  apply(state, ToggleWallMap{});
+  EXPECT_TRUE(state.settings.wall_map);
+}
+
+TEST_F(ActionsTest, ADrawingOpensItsDialogAndAsksWhenItIsTaken) {
+  change();
+  apply(state, OpenFile{test::sample("drawings/jug.svg")});
+  ASSERT_TRUE(state.ui.shows<ImportDialog>());
+  const auto& import = std::get<ImportDialog>(state.ui.dialog);
+  ASSERT_TRUE(import.made) << import.problem;
+  ImportSettings settings;
+  settings.height_mm = 100.0;
+  apply(state, EditImport{settings});
+  EXPECT_NEAR(import.made->pot.stack.height_mm(), 100.0, 0.5);
+  apply(state, TakeImport{});
+  ASSERT_TRUE(state.ui.shows<UnsavedDialog>());
+  apply(state, DiscardAndContinue{});
+  EXPECT_EQ(state.document.scene().name, "jug");
+  EXPECT_NEAR(state.document.pot().stack.height_mm(), 100.0, 0.5);
 }
 
 }  // namespace

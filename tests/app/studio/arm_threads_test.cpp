@@ -63,38 +63,39 @@ TEST(DeviceWatch, TellsEachReasonOnceForWhatIsPluggedIn) {
 TEST(StrokeController, AnArmOfThreadsThatIsLostLeavesAStrokeAndNoForce) {
   servo::WireLog wire;
   servo::MonotonicClock clock;
-  StrokeController potter(clock, true);
-  ASSERT_TRUE(potter.begin(servo::rib_scene()));
+  Document document;
+  StrokeController stroke(document, clock, true);
+  ASSERT_TRUE(document.begin(servo::rib_scene()));
   servo::LiveSettings settings = servo::one_to_one();
   settings.guard.ramp_s = 0.1;
   settings.guard.safe_rest_s = 0.01;  // a busy machine's late ticks are not what is tested here
-  potter.take(std::make_unique<servo::ScriptedDevice>(wire), settings);
+  stroke.take(std::make_unique<servo::ScriptedDevice>(wire), settings);
   const auto frames_until = [&](auto condition, const std::string& what) {
     const auto frame = [&] {
-      potter.advance(clock.now_ns());
+      stroke.advance(clock.now_ns());
       return condition();
     };
     test::wait_until(frame, test::kDeadline, what);
   };
-  frames_until([&] { return wire.last_n > 0.0 && potter.status().contact; }, "a force");
+  frames_until([&] { return wire.last_n > 0.0 && stroke.status().contact; }, "a force");
   wire.gone = true;
-  frames_until([&] { return !potter.has_device(); }, "the loss of the device");
-  const PotterNews news = potter.take_news();
+  frames_until([&] { return !stroke.has_device(); }, "the loss of the device");
+  const StrokeNews news = stroke.take_news();
   EXPECT_TRUE(news.device_lost && news.stroke_ended);
   EXPECT_EQ(news.ending, servo::Ending::device_lost);
   ASSERT_TRUE(news.error);
   EXPECT_EQ(news.error->message, "nowhere: unplugged; plug it in again");
   EXPECT_GT(news.poses, 0u);
   EXPECT_EQ(wire.last_n, 0.0);
-  EXPECT_EQ(potter.servo().timing.ticks, news.ticks);
+  EXPECT_EQ(stroke.servo().timing.ticks, news.ticks);
 
   const std::uint64_t writes = wire.writes;
-  const std::size_t strokes = potter.work().size();
-  ASSERT_TRUE(potter.press({potter.scene().tool, 20.0, {60.0, 30.0, 0.0}}));
-  potter.aim({{40.0, 30.0, 0.0}});
-  frames_until([&] { return potter.status().contact; }, "the mouse to touch the clay");
-  potter.release();
-  EXPECT_GT(potter.work().size(), strokes);
+  const std::size_t strokes = document.work().size();
+  ASSERT_TRUE(stroke.press({document.scene().tool, 20.0, {60.0, 30.0, 0.0}}));
+  stroke.aim({{40.0, 30.0, 0.0}});
+  frames_until([&] { return stroke.status().contact; }, "the mouse to touch the clay");
+  stroke.release();
+  EXPECT_GT(document.work().size(), strokes);
   EXPECT_EQ(wire.writes, writes);
 }
 

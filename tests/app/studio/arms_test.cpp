@@ -1,7 +1,7 @@
 // Arms at the window: they come, throw, need something, go and come back. On the studio's own clock
 // with an arm that does as it is told.
 
-#include "app/studio/actions.hpp"
+#include "app/studio/commands.hpp"
 #include "app/studio/script.hpp"
 #include "tests/app/servo/live_bench.hpp"
 #include "tests/app/studio/clocked_arm.hpp"
@@ -37,10 +37,10 @@ class Arms : public testing::Test {
     studio_ = std::move(*Studio::create(
         *host_, settings, [this](std::string_view line) { log_.append(line).append("\n"); }));
     runner_.emplace(*host_, *studio_);
-    begin_work(shop(), slow_clay());
-    shop().devices = std::make_unique<DeviceWatch>(socket_.look(), std::chrono::milliseconds(1));
+    apply(state(), BeginWork{slow_clay(), nullptr, {}});
+    state().devices = std::make_unique<DeviceWatch>(socket_.look(), std::chrono::milliseconds(1));
   }
-  AppState& shop() { return studio_->shop(); }
+  AppState& state() { return studio_->state(); }
   void play(const std::string& text) {
     const auto done = runner_->run(parse_script(text, "s").value(), "s");
     ASSERT_TRUE(done) << done.error().message << "\n" << log_;
@@ -51,7 +51,7 @@ class Arms : public testing::Test {
     socket_.wait_until_opened();
   }
   void until_taken() {
-    while (!shop().potter.has_device()) play("wait 0.02");
+    while (!state().stroke.has_device()) play("wait 0.02");
   }
   void plug_and_earn(ArmScript& script) {
     plug(script);
@@ -59,7 +59,7 @@ class Arms : public testing::Test {
     play("wait 3\nexpect force engaged\n");
   }
   [[nodiscard]] std::string banner() const {
-    const auto& notice = studio_->shop().notices.shown();
+    const auto& notice = studio_->state().ui.notices.shown();
     return notice ? notice->text : "";
   }
 
@@ -97,7 +97,7 @@ TEST_F(Arms, OneThatIsLostInMidStrokeGivesTheClayToTheMouseAndIsFoundAgain) {
   arm.state = falcon::DeviceState::fault;
   play("wait 0.1\nexpect device Mouse\nexpect throwing no\nexpect strokes 1\nexpect force none\n");
   EXPECT_EQ(arm.told_n, 0.0);
-  const std::string why = "nowhere: unplugged; plug it in again; the mouse throws meanwhile";
+  const std::string why = "nowhere: unplugged; plug it in again; the mouse is in use now";
   EXPECT_EQ(banner(), why);
   const std::uint64_t writes = arm.writes;
   play(std::string(kMousePresses) + "release left\nexpect strokes 2\n");
@@ -133,8 +133,8 @@ TEST_F(Arms, OneThatGoesBeforeItEverThrewIsToldAndLookedForAgain) {
 TEST_F(Arms, ForceComesBackFromSafeOnlyWhenAskedForAndOnlyOffTheClay) {
   ArmScript& arm = arms_.emplace_back();
   plug_and_earn(arm);
-  const Action& rearm = *find_action("wheel.rearm");
-  EXPECT_FALSE(rearm.enabled(shop()));
+  const Command& rearm = *find_command("wheel.rearm");
+  EXPECT_FALSE(rearm.enabled(view_model(state())));
   arm.goal_mm = 52.0;
   play("wait 0.5\nexpect contact yes\n");
   ASSERT_GT(arm.told_n, 0.1);
@@ -150,7 +150,7 @@ TEST_F(Arms, ForceComesBackFromSafeOnlyWhenAskedForAndOnlyOffTheClay) {
   // In the clay that is not enough.
   play("key Shift+R\nwait 0.5\nexpect force waiting\nexpect banner \"\"\n");
   EXPECT_EQ(arm.most_n, 0.0);
-  EXPECT_FALSE(rearm.enabled(shop()));
+  EXPECT_FALSE(rearm.enabled(view_model(state())));
   arm.goal_mm = 80.0;
   play("wait 0.3\nexpect force ramping\nwait 2\nexpect force engaged\n");
   arm.goal_mm = 38.0;

@@ -75,9 +75,9 @@ TEST(StressCurve, IsTheEnginesAndSaysWhere) {
   EXPECT_EQ(curve.kpa, stresses_kpa(pot->stack, 2.0));
   // The lowest ring of the wall bears the 49.5 mm above it.
   EXPECT_NEAR(curve.most_kpa, 2000.0 * 9.80665 * 0.0495 * 1e-3, 1e-9);
-  EXPECT_EQ(stress_words(curve, LengthUnit::mm), "49 % of what it bears, at 10.2 mm");
-  EXPECT_EQ(stress_words(stress_of(pot->stack, 2.0, std::nullopt), LengthUnit::cm),
-            "At most 0.97 kPa, at 1.02 cm; no limit is set: it bears all");
+  EXPECT_EQ(stress_text(curve, LengthUnit::mm), "49 % of the limit, at a height of 10.2 mm");
+  EXPECT_EQ(stress_text(stress_of(pot->stack, 2.0, std::nullopt), LengthUnit::cm),
+            "Maximum 0.97 kPa, at a height of 1.02 cm; no limit is set");
 }
 
 TEST(SectionRows, LoseNothingOfTenThousandRingsAPixel) {
@@ -156,7 +156,7 @@ TEST(PotCheck, HasTheFiguresOfTheCup) {
   EXPECT_NEAR(check.proved_mm3 / check.counted_mm3, 1.0, 1e-9);
   EXPECT_GT(check.triangles, 100u);
   EXPECT_NEAR(wall_at_height(check.walls, check.height_mm, 40.0), 5.0, 1e-3);
-  EXPECT_EQ(wall_words(check, LengthUnit::mm).substr(0, 15), "Thinnest 5.0 mm");
+  EXPECT_EQ(wall_text(check, LengthUnit::mm).substr(0, 20), "Thinnest wall 5.0 mm");
 }
 
 TEST(PotCheck, SaysAThinWallWithItsHeight) {
@@ -169,9 +169,9 @@ TEST(PotCheck, SaysAThinWallWithItsHeight) {
   EXPECT_EQ(check.limit->min_wall_mm,
             solid::process_named("porcelain").value().wall_for(80 + 80 + 60).min_wall_mm);
   EXPECT_TRUE(check.thin());
-  const std::string words = wall_words(check, LengthUnit::mm);
-  EXPECT_EQ(words.find("Thinnest 1.6 mm, 3"), 0u) << words;
-  EXPECT_NE(words.find("porcelain asks"), std::string::npos) << words;
+  const std::string words = wall_text(check, LengthUnit::mm);
+  EXPECT_EQ(words.find("Thinnest wall 1.6 mm, at a height of 3"), 0u) << words;
+  EXPECT_NE(words.find("porcelain requires"), std::string::npos) << words;
   EXPECT_NE(words.find("too thin"), std::string::npos) << words;
   const auto thin = thin_stretches(check);
   ASSERT_EQ(thin.size(), 1u);

@@ -1,6 +1,6 @@
 #include "app/studio/settings.hpp"
 
-#include "app/studio/length_text.hpp"
+#include "app/studio/units.hpp"
 #include "tests/support/run_program.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "app/studio/timeline.hpp"
+#include "app/studio/panels/timeline.hpp"
 
 #include "tests/app/history/strokes.hpp"
 

@@ -108,7 +108,8 @@ TEST_F(Window, AFallenPotIsShownAndExportedAndNotThrown) {
       run("open FOLDER/fallen.pot.json\nexpect fallen yes\nexpect can_undo no\nkey 1\n"
           "wait 0.1\nexpect proved yes\n"
           "screenshot FOLDER/fallen.png\npoint 50 10\npress left\nexpect throwing no\n"
-          "expect banner \"The clay has fallen: it can be exported as it is\"\nrelease left\n"
+          "expect banner \"The clay has fallen: no stroke is possible, but it can be "
+          "exported\"\nrelease left\n"
           "save FOLDER/fallen.work\ndo file.export\nwait 0.1\nexpect triangles above 100\n"
           "do export.write\nwait 0.1\nexpect exported 1\nkey Esc\n"
           "open FOLDER/fallen.work\nexpect fallen yes\nsave FOLDER/again.pot.json\n");

@@ -1,0 +1,81 @@
+#include "app/cli/studio_options.hpp"
+
+#include "app/cli/console.hpp"
+#include "app/cli/device_choice.hpp"
+#include "app/render/offscreen.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+
+namespace clay::cli {
+namespace {
+
+Result<glm::ivec2> size_of(const std::string& text) {
+  int width = 0, height = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 320 ||
+      height < 240 || width > render::kMaxSidePx || height > render::kMaxSidePx)
+    return failure(ErrorKind::bad_input,
+                   fmt::format("--size: expected WIDTHxHEIGHT from 320x240 to {0}x{0}, found {1}",
+                               render::kMaxSidePx, text));
+  return glm::ivec2(width, height);
+}
+
+void add_device_options(CLI::App& parser, StudioOptions& options) {
+  parser
+      .add_option("--device", options.device,
+                  "Device: auto, none, or as for `claystack throw` (default auto)")
+      ->check([](const std::string& which) {
+        return which == "none" ? std::string() : check_device_name(which);
+      });
+  add_falcon_options(parser, options.falcon);
+}
+
+void add_report_options(CLI::App& parser, StudioOptions& options) {
+  auto* report =
+      parser
+          .add_option("--servo-report", options.servo_report_s,
+                      "Time for which a simulated hand (or --device) throws in the window [s]; "
+                      "then prints the timings of servo and window")
+          ->check(in_range(1.0, 3600.0))
+          ->excludes("--script")
+          ->excludes("--screenshot");
+  parser.add_flag("--json", options.json, "Print the servo report as JSON")->needs(report);
+}
+
+}  // namespace
+
+std::optional<int> parse(int argc, char** argv, double smallest_scale, double largest_scale,
+                         StudioOptions& options) {
+  CLI::App parser("The window: throw pots with the mouse or an arm, view, save and export them.",
+                  "claystack studio");
+  parser.add_option("file", options.file, "NAME.scene.json, a pot, or NAME.work");
+  add_device_options(parser, options);
+  parser.add_option("--script", options.script, "Script that drives the window without a screen");
+  parser.add_option("--screenshot", options.screenshot,
+                    "Picture of the window at the end, a .png file (without a screen)");
+  std::string size = "1280x800";
+  parser.add_option("--size", size, "Size of the window [px] (default 1280x800)");
+  parser.add_option("--scale", options.scale, "Scale of text and controls (default: as stored)")
+      ->check(in_range(smallest_scale, largest_scale));
+  parser.add_option("--theme", options.theme, "Theme: dark or light (default: as stored)")
+      ->check(CLI::IsMember({"dark", "light"}));
+  parser.add_flag("--log", options.log, "Print events on standard output, one per line");
+  add_report_options(parser, options);
+  parser.footer(
+      "\nExamples:\n  claystack studio\n  claystack studio samples/bowl.scene.json\n"
+      "  claystack studio vase.pot.json --script samples/window/throw.script");
+  try {
+    parser.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return report(parser, error);
+  }
+  const auto size_px = size_of(size);
+  if (!size_px) return report(size_px.error());
+  options.size_px = *size_px;
+  return std::nullopt;
+}
+
+}  // namespace clay::cli

@@ -1,0 +1,29 @@
+#pragma once
+// The command line of `claystack studio`.
+
+#include "claystack/falcon/falcon_device.hpp"
+
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+
+namespace clay::cli {
+
+struct StudioOptions {
+  std::string file, script, screenshot;
+  std::string theme;  ///< dark, light; empty: as stored
+  std::string device = "auto";
+  falcon::FalconSettings falcon;
+  glm::ivec2 size_px{1280, 800};
+  double scale = 0.0;  ///< of text and controls; 0: the stored one, or 1 without a screen
+  bool log = false;
+  double servo_report_s = 0.0;  ///< 0: no report
+  bool json = false;
+};
+
+/// The exit status where the program ends here: after help, or after an error that it has printed.
+/// The scale is refused outside its range.
+[[nodiscard]] std::optional<int> parse(int argc, char** argv, double smallest_scale,
+                                       double largest_scale, StudioOptions& options);
+
+}  // namespace clay::cli

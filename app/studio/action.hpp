@@ -1,0 +1,195 @@
+#pragma once
+// Actions: everything that a user can ask of the window, as plain values. Panels, keys, the mouse
+// and scripts make them; apply() is the one place that carries them out.
+
+#include "app/history/work.hpp"
+#include "app/render/painter.hpp"
+#include "app/studio/exporter.hpp"
+#include "app/studio/importing.hpp"
+#include "app/studio/mouse_hand.hpp"
+#include "app/studio/settings.hpp"
+#include "app/studio/stroke_controller.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace clay::studio {
+
+/// A row of the table of commands, by its id (commands.hpp).
+struct RunCommand {
+  std::string_view id;
+};
+
+// --- The document. Those that replace the work ask first where it is not saved.
+// -------------------
+/// `pot` null: the lump of the scene. `source`: the drawing that the pot was read from, or empty.
+struct BeginWork {
+  SceneSpec scene;
+  history::SharedPot pot;
+  std::filesystem::path source;
+};
+struct BeginSample {
+  std::size_t index = 0;  ///< in samples()
+};
+/// A scene, a pot or a work; a drawing opens its dialog, a process becomes the chosen one.
+struct OpenFile {
+  std::filesystem::path path;
+};
+struct RecoverWork {
+  std::size_t index = 0;  ///< in AppState::recoverable
+};
+struct Quit {};
+struct DiscardRecoverable {
+  std::size_t index = 0;
+};
+struct SaveFile {
+  std::filesystem::path path;
+};
+/// To the file of the document, or asks for a name.
+struct Save {};
+struct Undo {};
+struct Redo {};
+struct GoToStroke {
+  history::NodeId node = 0;
+  bool logged = false;  ///< as an event of the timeline
+};
+struct OtherBranch {};
+struct Scrub {
+  history::NodeId node = 0;
+  double seconds = 0.0;
+};
+/// The mouse has left the timeline at a moment in the middle of a stroke.
+struct EndScrub {};
+struct BranchHere {};
+
+// --- Dialogs. -----------------------------------------------------------------------------------
+enum class DialogKind { gallery, shortcuts, settings, open_file, save_file, export_files };
+struct ShowDialog {
+  DialogKind kind = DialogKind::gallery;
+};
+struct CloseDialog {};
+struct EditPath {
+  std::string path;  ///< in the field of the dialogs that open and save
+};
+/// Answers to the question about unsaved changes.
+struct SaveAndContinue {};
+struct DiscardAndContinue {};
+struct EditExport {
+  ExportWish wish;
+};
+struct WriteExport {};
+struct CancelExport {};
+struct ShowExportFolder {};
+struct ChooseExportFolder {};
+struct ChooseProcessFile {};
+/// A process of the user's own, from its file.
+struct UseProcess {
+  std::filesystem::path path;
+};
+struct EditImport {
+  ImportSettings settings;
+};
+struct TakeImport {};
+struct ShowWarning {
+  std::string text;
+};
+struct CloseNotice {};
+
+// --- Tool and wheel. ----------------------------------------------------------------------------
+struct SetToolMode {
+  ToolMode mode = ToolMode::press;
+};
+struct SetToolShape {
+  Shape shape = Shape::sphere;
+};
+struct ScaleTool {
+  double factor = 1.0;
+};
+struct ChangeGap {
+  double by_mm = 0.0;
+};
+struct SetStiffness {
+  double n_per_mm2 = 0.0;
+};
+/// From now on the mouse sets the size of the tool, or the stiffness, until a click.
+struct DragToolSize {};
+struct DragStiffness {};
+struct TogglePause {};
+/// Force ramps up again after the guard held it at zero.
+struct Rearm {};
+/// Zero force at once, and back to what was before.
+struct Back {};
+struct PressClay {
+  MousePress press;
+};
+struct AimTool {
+  MouseAim aim;
+};
+struct ReleaseTool {};
+
+// --- The view and the settings. -----------------------------------------------------------------
+enum class ViewFrom { home, front, right, top };
+struct LookFrom {
+  ViewFrom from = ViewFrom::home;
+};
+struct ToggleCut {
+  render::Cut cut = render::Cut::half;
+};
+/// Unfolds a panel and scrolls to it, or folds it.
+struct TogglePanel {
+  std::string_view id;
+};
+struct FoldPanel {
+  std::string_view id;
+  bool open = false;
+};
+struct ToggleTheme {};
+struct ScaleText {
+  float factor = 1.0f;
+};
+template <class Field>
+struct FieldType;
+template <class T>
+struct FieldType<T Settings::*> {
+  using Type = T;
+};
+/// Sets one field of the settings.
+template <auto Field>
+struct Set {
+  typename FieldType<decltype(Field)>::Type value;
+};
+template <bool Settings::*Field>
+struct Toggle {};
+using SetTheme = Set<&Settings::theme>;
+using SetScale = Set<&Settings::scale>;
+using SetUnit = Set<&Settings::unit>;
+using SetWheelSpeed = Set<&Settings::wheel_rpm>;
+using SetTool = Set<&Settings::tool>;
+using SetProcess = Set<&Settings::process>;
+using SetHints = Set<&Settings::hints>;
+using SetFolder = Set<&Settings::folder>;
+using SetHandSpeed = Set<&Settings::pressing_mm_s>;
+using SetWallMap = Set<&Settings::wall_map>;
+using SetFullSection = Set<&Settings::full_section>;
+using ToggleWallMap = Toggle<&Settings::wall_map>;
+using ToggleHints = Toggle<&Settings::hints>;
+
+using Action = std::variant<
+    RunCommand, BeginWork, BeginSample, OpenFile, RecoverWork, Quit, DiscardRecoverable, SaveFile,
+    Save, Undo, Redo, GoToStroke, OtherBranch, Scrub, EndScrub, BranchHere, ShowDialog, CloseDialog,
+    EditPath, SaveAndContinue, DiscardAndContinue, EditExport, WriteExport, CancelExport,
+    ShowExportFolder, ChooseExportFolder, ChooseProcessFile, UseProcess, EditImport, TakeImport,
+    ShowWarning, CloseNotice, SetToolMode, SetToolShape, ScaleTool, ChangeGap, SetStiffness,
+    DragToolSize, DragStiffness, TogglePause, Rearm, Back, PressClay, AimTool, ReleaseTool,
+    LookFrom, ToggleCut, TogglePanel, FoldPanel, ToggleTheme, ScaleText, SetTheme, SetScale,
+    SetUnit, SetWheelSpeed, SetTool, SetProcess, SetHints, SetFolder, SetHandSpeed, SetWallMap,
+    SetFullSection, ToggleWallMap, ToggleHints>;
+
+/// In the order in which they were made.
+using Actions = std::vector<Action>;
+
+}  // namespace clay::studio

@@ -1,0 +1,411 @@
+// Carries out actions.
+
+#include "app/studio/app_state.hpp"
+#include "app/studio/commands.hpp"
+#include "app/studio/panels/panels.hpp"
+#include "app/studio/samples.hpp"
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/export/walls.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace clay::studio {
+namespace {
+
+constexpr double kNoteS = 5.0, kSavedNoteS = 4.0;
+
+bool is_process(const std::filesystem::path& path) {
+  return path.string().ends_with(".process.json");
+}
+
+/// For the log; null: the action leaves the work as it is.
+const char* replaces_work(const Action& action) {
+  if (std::holds_alternative<Quit>(action)) return "quit";
+  if (std::holds_alternative<RecoverWork>(action)) return "recover";
+  if (const auto* begin = std::get_if<BeginWork>(&action))
+    return begin->source.empty() ? "new" : "import";
+  if (std::holds_alternative<BeginSample>(action)) return "new";
+  const auto* open = std::get_if<OpenFile>(&action);
+  return open != nullptr && !is_process(open->path) && !is_drawing(open->path) ? "open" : nullptr;
+}
+
+/// Names in the dialogs for files begin here.
+std::filesystem::path start_folder(const AppState& state) {
+  const std::string& folder = state.settings.folder;
+  return folder.empty() ? std::filesystem::path() : std::filesystem::path(folder) / "";
+}
+
+/// The dialog of the desktop, where it is installed. Scripts have none.
+bool ask_desktop(AppState& state, FileDialog::Kind kind, const std::filesystem::path& start) {
+  return state.host.real_time() && state.file_dialog.begin(kind, start);
+}
+
+void close_dialog(AppState& state) {
+  if (state.document.has_work())
+    state.ui.dialog = NoDialog{};
+  else
+    state.ui.dialog = GalleryDialog{};
+}
+
+/// Carries out one action; nothing is asked.
+struct Performer {
+  AppState& state;
+
+  // --- The document. -----------------------------------------------------------------------------
+  void operator()(const RunCommand& command) const {
+    const Command* found = find_command(command.id);
+    if (found != nullptr) (void)run(*found, state);
+  }
+  void operator()(const BeginWork& begin) const {
+    state.stroke.release();
+    const auto begun = begin.pot ? state.document.begin(begin.scene, *begin.pot)
+                                 : state.document.begin(begin.scene);
+    if (!succeeded(state, begun)) return;
+    state.ui.notices.close();
+    if (!begin.source.empty()) remember(state.settings, begin.source);
+    show_work();
+    if (!begin.source.empty()) state.log("imported: " + begin.source.string());
+  }
+  void operator()(const BeginSample& sample) const {
+    if (auto scene = scene_of(samples().at(sample.index))) (*this)(BeginWork{*scene, nullptr, {}});
+  }
+  void operator()(const OpenFile& open) const {
+    if (is_process(open.path)) return (*this)(UseProcess{open.path});
+    if (is_drawing(open.path)) return open_drawing(open.path);
+    state.stroke.release();
+    state.ui.notices.close();
+    const auto opened = state.document.open(open.path);
+    if (!opened) return report(state, opened.error());
+    if (!opened->empty()) state.ui.notices.show(Grade::warning, *opened);
+    remember(state.settings, open.path);
+    show_work();
+    state.log("opened: " + open.path.string());
+  }
+  void operator()(const RecoverWork& recover) const {
+    const std::filesystem::path path = state.recoverable.at(recover.index).path;
+    forget(recover.index);
+    state.stroke.release();
+    auto work = history::recover(path);
+    if (!work) return report(state, work.error());
+    state.document.begin(std::move(*work));
+    show_work();
+    state.log("recovered: " + path.string());
+  }
+  void operator()(const DiscardRecoverable& discard) const {
+    const std::filesystem::path path = state.recoverable.at(discard.index).path;
+    forget(discard.index);
+    if (succeeded(state, history::discard(path))) state.log("discarded: " + path.string());
+  }
+  void operator()(const Quit&) const { state.done = true; }
+  void operator()(const SaveFile& save) const {
+    if (!save_document(state, save.path)) return;
+    const std::optional<Action> next = waits_for_save();
+    close_dialog(state);
+    if (next) apply(state, *next);
+  }
+  void operator()(const Save&) const {
+    if (state.document.file().empty())
+      ask_for_name(std::nullopt);
+    else
+      (*this)(SaveFile{state.document.file()});
+  }
+  void operator()(const Undo&) const {
+    change_document([](Document& document) { return document.undo(); });
+  }
+  void operator()(const Redo&) const {
+    change_document([](Document& document) { return document.redo(); });
+  }
+  void operator()(const GoToStroke& go) const {
+    if (go.logged) state.log(fmt::format("timeline: {}", go.node));
+    change_document([&](Document& document) { return document.go_to(go.node); });
+  }
+  void operator()(const OtherBranch&) const {
+    state.stroke.release();
+    if (const auto node = state.document.other_branch()) (*this)(GoToStroke{*node});
+  }
+  void operator()(const Scrub& scrub) const {
+    state.stroke.release();
+    if (succeeded(state, state.document.scrub(scrub.node, scrub.seconds))) state.stroke.hold_back();
+  }
+  void operator()(const EndScrub&) const {
+    const auto& moment = state.document.moment();
+    if (!moment) return;
+    state.log(fmt::format("timeline: {} at {:.3f} s", moment->node, moment->seconds));
+    note(state, Grade::note,
+         fmt::format("{:.1f} s into stroke {}: Ctrl+Shift+B, or a press on the clay, continues "
+                     "from here as a branch; Esc goes back",
+                     moment->seconds, moment->node),
+         8.0);
+  }
+  void operator()(const BranchHere&) const {
+    change_document([](Document& document) { return document.branch_here(); });
+  }
+
+  // --- Dialogs. ----------------------------------------------------------------------------------
+  void operator()(const ShowDialog& show) const {
+    switch (show.kind) {
+      case DialogKind::gallery:
+        state.ui.dialog = GalleryDialog{};
+        break;
+      case DialogKind::shortcuts:
+        state.ui.dialog = ShortcutsDialog{};
+        break;
+      case DialogKind::settings:
+        state.ui.dialog = SettingsDialog{};
+        break;
+      case DialogKind::open_file:
+        if (!ask_desktop(state, FileDialog::Kind::open, start_folder(state)))
+          state.ui.dialog = OpenDialog{start_folder(state).string()};
+        break;
+      case DialogKind::save_file:
+        ask_for_name(std::nullopt);
+        break;
+      case DialogKind::export_files:
+        show_export();
+        break;
+    }
+  }
+  void operator()(const CloseDialog&) const { close_dialog(state); }
+  void operator()(const EditPath& edit) const {
+    if (auto* open = std::get_if<OpenDialog>(&state.ui.dialog)) open->path = edit.path;
+    if (auto* save = std::get_if<SaveDialog>(&state.ui.dialog)) save->path = edit.path;
+  }
+  void operator()(const SaveAndContinue&) const {
+    auto* unsaved = std::get_if<UnsavedDialog>(&state.ui.dialog);
+    if (unsaved == nullptr) return;
+    unsaved->saving = true;
+    if (state.document.file().empty())
+      ask_for_name(unsaved->next);
+    else
+      (*this)(SaveFile{state.document.file()});
+  }
+  void operator()(const DiscardAndContinue&) const {
+    const auto* unsaved = std::get_if<UnsavedDialog>(&state.ui.dialog);
+    if (unsaved == nullptr) return;
+    const Action next = unsaved->next;
+    state.document.discard_changes();
+    close_dialog(state);
+    apply(state, next);
+    // Where the next work could not be opened, this one is still there.
+    if (!state.done) state.document.keep_changes();
+  }
+  void operator()(const EditExport& edit) const { state.ui.exporting.wish = edit.wish; }
+  void operator()(const WriteExport&) const {
+    ExportState& exporting = state.ui.exporting;
+    exporting.written.clear();
+    exporting.problem.clear();
+    exporting.result.clear();
+    state.log("export begun");
+    state.exporter.write(state.document.shared_pot(), exporting.wish);
+  }
+  void operator()(const CancelExport&) const { state.exporter.cancel(); }
+  void operator()(const ShowExportFolder&) const {
+    if (state.ui.exporting.written.empty()) return;
+    const auto folder = std::filesystem::path(state.ui.exporting.written.front()).parent_path();
+    if (!show_folder(folder))
+      state.ui.notices.show(Grade::warning,
+                            "No file manager is installed. The files are in " +
+                                (folder.empty() ? "the current folder" : folder.string()));
+  }
+  void operator()(const ChooseExportFolder&) const {
+    const auto start = std::filesystem::path(state.ui.exporting.wish.folder) / "";
+    if (!ask_desktop(state, FileDialog::Kind::folder, start))
+      note(state, Grade::warning,
+           "No file dialog is installed (zenity, kdialog): type the name of the folder", kNoteS);
+  }
+  void operator()(const ChooseProcessFile&) const {
+    if (!ask_desktop(state, FileDialog::Kind::process, start_folder(state)))
+      note(state, Grade::warning,
+           "No file dialog is installed (zenity, kdialog): drop a .process.json file on the "
+           "window, or open it by name (Ctrl+O)",
+           kNoteS);
+  }
+  /// For the walls, and for the export where its dialog is open.
+  void operator()(const UseProcess& use) const {
+    if (auto process = solid::read_process(use.path.string()); !process)
+      return report(state, process.error());
+    remember_process(state.settings, use.path);
+    if (state.ui.shows<ExportDialog>()) state.ui.exporting.wish.process = state.settings.process;
+    state.log("process: " + use.path.string());
+  }
+  void operator()(const EditImport& edit) const {
+    auto* import = std::get_if<ImportDialog>(&state.ui.dialog);
+    if (import == nullptr) return;
+    import->settings = edit.settings;
+    read_again(*import);
+  }
+  void operator()(const TakeImport&) const {
+    const auto* import = std::get_if<ImportDialog>(&state.ui.dialog);
+    if (import == nullptr || !import->made) return;
+    const Pot& pot = import->made->pot;
+    apply(state, BeginWork{scene_for(pot, import->path.stem().string()),
+                           std::make_shared<const Pot>(pot), import->path});
+  }
+  void operator()(const ShowWarning& warning) const {
+    state.ui.notices.show(Grade::warning, warning.text);
+  }
+  void operator()(const CloseNotice&) const { state.ui.notices.close(); }
+
+  // --- Tool and wheel. ---------------------------------------------------------------------------
+  void operator()(const SetToolMode& set) const { state.settings.tool.mode = set.mode; }
+  void operator()(const SetToolShape& set) const { state.settings.tool.shape = set.shape; }
+  void operator()(const ScaleTool& scale) const { resize(state.settings.tool, scale.factor); }
+  void operator()(const ChangeGap& change) const {
+    double& gap_mm = state.settings.tool.gap_mm;
+    gap_mm = std::clamp(gap_mm + change.by_mm, kNarrowestGapMm, kWidestPinchMm);
+  }
+  void operator()(const SetStiffness& set) const { state.document.set_stiffness(set.n_per_mm2); }
+  void operator()(const DragToolSize&) const { state.scene.drag_size(view_model(state)); }
+  void operator()(const DragStiffness&) const { state.scene.drag_stiffness(view_model(state)); }
+  void operator()(const TogglePause&) const { state.stroke.pause(!state.stroke.paused()); }
+  void operator()(const Rearm&) const { state.stroke.command({servo::CommandKind::rearm, 0.0}); }
+  /// However often Esc is pressed, it brings no force back.
+  void operator()(const Back&) const {
+    const bool force =
+        state.stroke.has_device() && state.document.has_work() && !state.stroke.paused();
+    if (force) state.stroke.pause(true);
+    if (state.scene.setting()) {
+      Actions undone;
+      state.scene.cancel(undone);
+      return apply_all(state, undone);
+    }
+    if (!state.ui.shows<NoDialog>()) return close_dialog(state);
+    if (state.document.scrubbing())
+      return change_document([](Document& document) { return document.show_present(); });
+    if (state.stroke.throwing() && !state.stroke.has_device()) return state.stroke.release();
+    if (!force) state.ui.notices.close();
+  }
+  void operator()(const PressClay& press) const {
+    if (succeeded(state, state.stroke.press(press.press)))
+      state.log("stroke begun");
+    else
+      state.scene.stop_shaping();
+  }
+  void operator()(const AimTool& aim) const { state.stroke.aim(aim.aim); }
+  void operator()(const ReleaseTool&) const { state.stroke.release(); }
+
+  // --- The view and the settings. ----------------------------------------------------------------
+  void operator()(const LookFrom& look) const { state.scene.look(state.stroke.view(), look.from); }
+  void operator()(const ToggleCut& toggle) const {
+    state.scene.cut = state.scene.cut == toggle.cut ? render::Cut::none : toggle.cut;
+  }
+  void operator()(const TogglePanel& toggle) const {
+    const bool open = !panel_open(state.settings, toggle.id);
+    state.settings.open[std::string(toggle.id)] = open;
+    state.ui.reveal = open ? toggle.id : std::string_view();
+  }
+  void operator()(const FoldPanel& fold) const {
+    state.settings.open[std::string(fold.id)] = fold.open;
+  }
+  void operator()(const ToggleTheme&) const {
+    (*this)(SetTheme{state.settings.theme == Theme::dark ? Theme::light : Theme::dark});
+  }
+  void operator()(const ScaleText& scale) const {
+    (*this)(
+        SetScale{std::clamp(state.settings.scale * scale.factor, kSmallestScale, kLargestScale)});
+  }
+  template <auto Field>
+  void operator()(const Set<Field>& set) const {
+    state.settings.*Field = set.value;
+  }
+  void operator()(const SetTheme& set) const {
+    state.settings.theme = set.value;
+    state.ui.restyle = true;
+  }
+  void operator()(const SetScale& set) const {
+    state.settings.scale = set.value;
+    state.ui.restyle = true;
+  }
+  template <bool Settings::*Field>
+  void operator()(const Toggle<Field>&) const {
+    state.settings.*Field = !(state.settings.*Field);
+  }
+
+ private:
+  template <class Change>
+  void change_document(Change change) const {
+    state.stroke.release();
+    (void)succeeded(state, change(state.document));
+    state.stroke.resume();
+  }
+  /// The work that has just begun: its tool is chosen, and the view shows it.
+  void show_work() const {
+    state.stroke.begin_work();
+    choose(state.document.scene().tool, state.settings.tool);
+    state.ui.dialog = NoDialog{};
+    state.scene.look(state.stroke.view(), ViewFrom::home);
+    state.ui.exporting.written.clear();
+    state.log("work begun: " + state.document.scene().name);
+  }
+  /// What may follow now; nothing where only a pot was saved, which keeps no strokes.
+  [[nodiscard]] std::optional<Action> waits_for_save() const {
+    if (state.document.unsaved()) return std::nullopt;
+    if (const auto* save = std::get_if<SaveDialog>(&state.ui.dialog)) return save->next;
+    const auto* unsaved = std::get_if<UnsavedDialog>(&state.ui.dialog);
+    return unsaved != nullptr && unsaved->saving ? std::optional(unsaved->next) : std::nullopt;
+  }
+  void forget(std::size_t index) const {
+    state.recoverable.erase(state.recoverable.begin() + static_cast<std::ptrdiff_t>(index));
+  }
+  void open_drawing(const std::filesystem::path& path) const {
+    auto bytes = read_file(path);
+    if (!bytes) return report(state, bytes.error());
+    ImportDialog import;
+    import.path = path;
+    import.bytes = std::move(*bytes);
+    read_again(import);
+    state.ui.dialog = std::move(import);
+    state.log("drawing: " + path.string());
+  }
+  void ask_for_name(std::optional<Action> next) const {
+    const std::filesystem::path path =
+        start_folder(state) / (state.document.scene().name + ".work");
+    if (!ask_desktop(state, FileDialog::Kind::save, path))
+      state.ui.dialog = SaveDialog{path.string(), std::move(next)};
+  }
+  void show_export() const {
+    state.stroke.release();
+    ExportState& exporting = state.ui.exporting;
+    ExportWish& wish = exporting.wish;
+    if (wish.name.empty()) wish.process = state.settings.process;
+    const std::string& scene = state.document.scene().name;
+    const std::filesystem::path& file = state.document.file();
+    wish.name = !file.empty() ? file.stem().string() : scene.empty() ? "pot" : scene;
+    wish.folder = state.settings.folder;
+    if (wish.folder.empty()) wish.folder = std::filesystem::current_path().string();
+    exporting = {.wish = wish, .preview = {}, .problem = {}, .written = {}, .result = {}};
+    state.ui.dialog = ExportDialog{};
+  }
+};
+
+}  // namespace
+
+void apply(AppState& state, const Action& action) {
+  if (const char* reason = replaces_work(action)) {
+    state.stroke.release();
+    if (state.document.unsaved()) {
+      state.ui.dialog = UnsavedDialog{action};
+      state.log(std::string("prompt: ").append(reason));
+      return;
+    }
+  }
+  std::visit(Performer{state}, action);
+}
+
+bool save_document(AppState& state, const std::filesystem::path& path) {
+  state.stroke.release();
+  if (!succeeded(state, state.document.save(path))) return false;
+  remember(state.settings, path);
+  state.log("saved: " + path.string());
+  note(state, Grade::note, "Saved " + path.string(), kSavedNoteS);
+  return true;
+}
+
+void apply_all(AppState& state, Actions& actions) {
+  for (const Action& action : std::exchange(actions, {})) apply(state, action);
+}
+
+}  // namespace clay::studio

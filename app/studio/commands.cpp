@@ -1,0 +1,189 @@
+#include "app/studio/commands.hpp"
+
+#include "app/studio/app_state.hpp"
+#include "app/studio/panels/panels.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <array>
+
+namespace clay::studio {
+namespace {
+
+constexpr double kSizeStep = 1.1, kGapStepMm = 0.5;
+constexpr float kTextStep = 1.1f;
+
+using View = const ViewModel&;
+
+constexpr std::string_view kSection = "section", kWalls = "walls", kCertificate = "certificate",
+                           kLedger = "ledger", kStress = "stress", kServo = "servo";
+
+bool always(View) { return true; }
+bool has_work(View view) { return view.document.has_work(); }
+bool at_rest(View view) { return view.at_rest(); }
+bool between(View view) { return view.between_strokes(); }
+
+/// The current stroke of a device counts too: undo ends it first.
+bool can_undo(View view) {
+  const bool current = view.stroke.throwing() && view.stroke.status().poses > 0;
+  return view.between_strokes() && (view.document.can_undo() || current);
+}
+bool can_redo(View view) { return view.between_strokes() && view.document.can_redo(); }
+bool can_switch(View view) {
+  return view.between_strokes() && view.document.other_branch().has_value();
+}
+bool scrubbing(View view) { return view.document.scrubbing(); }
+bool asks(View view) { return view.ui.shows<UnsavedDialog>(); }
+bool recoverable(View view) { return !view.recoverable.empty(); }
+bool can_export(View view) {
+  const ExportWish& wish = view.ui.exporting.wish;
+  return view.ui.shows<ExportDialog>() && !view.writing() && !wish.name.empty() &&
+         wish.name.find('/') == std::string::npos && !paths_of(wish).empty();
+}
+bool writing(View view) { return view.writing(); }
+bool has_written(View view) { return !view.ui.exporting.written.empty(); }
+bool can_import(View view) {
+  const auto* import = std::get_if<ImportDialog>(&view.ui.dialog);
+  return import != nullptr && import->made;
+}
+bool pinching(View view) { return view.settings.tool.mode == ToolMode::pinch; }
+bool rearmable(View view) { return view.waits_for_rearm(); }
+
+template <ToolMode mode>
+bool is_mode(View view) {
+  return view.settings.tool.mode == mode;
+}
+template <Shape shape>
+bool is_shape(View view) {
+  return view.settings.tool.shape == shape;
+}
+template <render::Cut cut>
+bool is_cut(View view) {
+  return view.scene.cut == cut;
+}
+template <LengthUnit unit>
+bool is_unit(View view) {
+  return view.settings.unit == unit;
+}
+template <const std::string_view& id>
+bool is_open(View view) {
+  return panel_open(view.settings, id);
+}
+bool paused(View view) { return view.stroke.paused(); }
+bool is_light(View view) { return view.settings.theme == Theme::light; }
+bool has_wall_map(View view) { return view.settings.wall_map; }
+bool has_hints(View view) { return view.settings.hints; }
+
+constexpr unsigned kCtrl = kControl, kCtrlShift = kControl | kShift;
+constexpr KeyChord kNone{};
+constexpr KeyChord key(int code, unsigned mods = kNoMods) { return {code, mods}; }
+
+using C = Command;
+using Kind = DialogKind;
+
+// clang-format off
+const std::array kCommands = {
+    C{"file.new", "New...", key(GLFW_KEY_N, kCtrl), kNone, ShowDialog{Kind::gallery}, between},
+    C{"file.new_bowl", "New bowl", kNone, kNone, BeginSample{0}, always},
+    C{"file.new_vase", "New vase", kNone, kNone, BeginSample{1}, always},
+    C{"file.new_bottle", "New bottle", kNone, kNone, BeginSample{2}, always},
+    C{"file.new_cylinder", "New cylinder", kNone, kNone, BeginSample{3}, always},
+    C{"file.open", "Open...", key(GLFW_KEY_O, kCtrl), kNone, ShowDialog{Kind::open_file}, always},
+    C{"file.save", "Save", key(GLFW_KEY_S, kCtrl), kNone, Save{}, between},
+    C{"file.save_as", "Save as...", key(GLFW_KEY_S, kCtrlShift), kNone, ShowDialog{Kind::save_file}, between},
+    C{"file.export", "Export...", key(GLFW_KEY_E, kCtrl), kNone, ShowDialog{Kind::export_files}, between},
+    C{"file.settings", "Settings...", key(GLFW_KEY_COMMA, kCtrl), kNone, ShowDialog{Kind::settings}, always},
+    C{"file.quit", "Quit", key(GLFW_KEY_Q, kCtrl), kNone, Quit{}, always},
+
+    C{"edit.undo", "Undo stroke", key(GLFW_KEY_Z, kCtrl), kNone, Undo{}, can_undo},
+    C{"edit.redo", "Redo stroke", key(GLFW_KEY_Z, kCtrlShift), key(GLFW_KEY_Y, kCtrl), Redo{}, can_redo},
+    C{"edit.to_start", "Go to the start", key(GLFW_KEY_HOME, kCtrl), kNone, GoToStroke{0}, can_undo},
+    C{"edit.other_branch", "Switch branch", key(GLFW_KEY_B, kCtrl), kNone, OtherBranch{}, can_switch},
+    C{"edit.branch", "Branch at this moment", key(GLFW_KEY_B, kCtrlShift), kNone, BranchHere{}, scrubbing},
+
+    // In dialogs; in no menu.
+    C{"quit.save", "Save first", key(GLFW_KEY_ENTER), kNone, SaveAndContinue{}, asks},
+    C{"quit.discard", "Discard changes", key(GLFW_KEY_D, kCtrl), kNone, DiscardAndContinue{}, asks},
+    C{"quit.cancel", "Cancel", kNone, kNone, CloseDialog{}, asks},
+    C{"recover.take", "Recover the unsaved work", key(GLFW_KEY_R, kCtrl), kNone, RecoverWork{0}, recoverable},
+    C{"recover.discard", "Discard the unsaved work", kNone, kNone, DiscardRecoverable{0}, recoverable},
+    C{"export.write", "Export the files", key(GLFW_KEY_ENTER, kCtrl), kNone, WriteExport{}, can_export},
+    C{"export.cancel", "Cancel the export", kNone, kNone, CancelExport{}, writing},
+    C{"export.folder", "Open the folder", kNone, kNone, ShowExportFolder{}, has_written},
+    C{"import.take", "Place on the wheel", key(GLFW_KEY_ENTER, kCtrlShift), kNone, TakeImport{}, can_import},
+
+    C{"tool.press", "Press", key(GLFW_KEY_P), kNone, SetToolMode{ToolMode::press}, always, is_mode<ToolMode::press>},
+    C{"tool.trim", "Trim", key(GLFW_KEY_T), kNone, SetToolMode{ToolMode::trim}, always, is_mode<ToolMode::trim>},
+    C{"tool.pinch", "Pinch", key(GLFW_KEY_H), kNone, SetToolMode{ToolMode::pinch}, always, is_mode<ToolMode::pinch>},
+    C{"tool.sphere", "Sphere", key(GLFW_KEY_S), kNone, SetToolShape{Shape::sphere}, always, is_shape<Shape::sphere>},
+    C{"tool.ellipse", "Ellipse", key(GLFW_KEY_E), kNone, SetToolShape{Shape::ellipse}, always, is_shape<Shape::ellipse>},
+    C{"tool.rib", "Rib", key(GLFW_KEY_R), kNone, SetToolShape{Shape::rib}, always, is_shape<Shape::rib>},
+    C{"tool.smaller", "Smaller", key(GLFW_KEY_LEFT_BRACKET), kNone, ScaleTool{1.0 / kSizeStep}, always},
+    C{"tool.larger", "Larger", key(GLFW_KEY_RIGHT_BRACKET), kNone, ScaleTool{kSizeStep}, always},
+    C{"tool.size", "Set size with the mouse", key(GLFW_KEY_F), kNone, DragToolSize{}, at_rest},
+    C{"tool.strength", "Set stiffness with the mouse", key(GLFW_KEY_F, kShift), kNone, DragStiffness{}, at_rest},
+    C{"tool.narrower", "Narrower gap", key(GLFW_KEY_COMMA), kNone, ChangeGap{-kGapStepMm}, pinching},
+    C{"tool.wider", "Wider gap", key(GLFW_KEY_PERIOD), kNone, ChangeGap{kGapStepMm}, pinching},
+
+    C{"wheel.pause", "Pause", key(GLFW_KEY_SPACE), kNone, TogglePause{}, has_work, paused},
+    C{"wheel.rearm", "Re-arm the force", key(GLFW_KEY_R, kShift), kNone, Rearm{}, rearmable},
+    C{"wheel.zero_force", "Zero force, or go back", key(GLFW_KEY_ESCAPE), kNone, Back{}, always},
+
+    C{"view.home", "Whole pot", key(GLFW_KEY_HOME), kNone, LookFrom{ViewFrom::home}, has_work},
+    C{"view.front", "Front", key(GLFW_KEY_1), key(GLFW_KEY_KP_1), LookFrom{ViewFrom::front}, has_work},
+    C{"view.right", "Right side", key(GLFW_KEY_3), key(GLFW_KEY_KP_3), LookFrom{ViewFrom::right}, has_work},
+    C{"view.top", "Top", key(GLFW_KEY_7), key(GLFW_KEY_KP_7), LookFrom{ViewFrom::top}, has_work},
+    C{"view.cut_half", "Cut away a half", key(GLFW_KEY_C), kNone, ToggleCut{render::Cut::half}, has_work, is_cut<render::Cut::half>},
+    C{"view.cut_quarter", "Cut away a quarter", key(GLFW_KEY_C, kShift), kNone, ToggleCut{render::Cut::quarter}, has_work, is_cut<render::Cut::quarter>},
+    C{"view.wall_map", "Wall thickness map", key(GLFW_KEY_W), kNone, ToggleWallMap{}, always, has_wall_map},
+    C{"view.section", "Section", key(GLFW_KEY_X), kNone, TogglePanel{kSection}, always, is_open<kSection>},
+    C{"view.walls", "Walls", kNone, kNone, TogglePanel{kWalls}, always, is_open<kWalls>},
+    C{"view.certificate", "Certificate", kNone, kNone, TogglePanel{kCertificate}, always, is_open<kCertificate>},
+    C{"view.ledger", "Ledger", kNone, kNone, TogglePanel{kLedger}, always, is_open<kLedger>},
+    C{"view.stress", "Stress", kNone, kNone, TogglePanel{kStress}, always, is_open<kStress>},
+    C{"view.servo", "Servo", kNone, kNone, TogglePanel{kServo}, always, is_open<kServo>},
+    C{"view.theme", "Light theme", key(GLFW_KEY_L, kCtrl), kNone, ToggleTheme{}, always, is_light},
+    C{"view.mm", "Millimetres", kNone, kNone, SetUnit{LengthUnit::mm}, always, is_unit<LengthUnit::mm>},
+    C{"view.cm", "Centimetres", kNone, kNone, SetUnit{LengthUnit::cm}, always, is_unit<LengthUnit::cm>},
+    C{"view.in", "Inches", kNone, kNone, SetUnit{LengthUnit::in}, always, is_unit<LengthUnit::in>},
+    C{"view.larger", "Larger text", key(GLFW_KEY_EQUAL, kCtrl), key(GLFW_KEY_EQUAL, kCtrlShift), ScaleText{kTextStep}, always},
+    C{"view.smaller", "Smaller text", key(GLFW_KEY_MINUS, kCtrl), kNone, ScaleText{1.0f / kTextStep}, always},
+
+    C{"help.hint", "First steps", kNone, kNone, ToggleHints{}, always, has_hints},
+    C{"help.keys", "Keys and mouse", key(GLFW_KEY_SLASH, kShift), key(GLFW_KEY_F1), ShowDialog{Kind::shortcuts}, always},
+};
+// clang-format on
+
+constexpr std::array kMenus = {Menu{"file.", "File"}, Menu{"edit.", "Edit"},
+                               Menu{"tool.", "Tool"}, Menu{"wheel.", "Wheel"},
+                               Menu{"view.", "View"}, Menu{"help.", "Help"}};
+
+}  // namespace
+
+std::span<const Command> commands() { return kCommands; }
+std::span<const Menu> menus() { return kMenus; }
+
+const Command* find_command(std::string_view id) {
+  const auto* found = std::ranges::find(kCommands, id, &Command::id);
+  return found == kCommands.end() ? nullptr : found;
+}
+
+const Command* command_for(const KeyChord& chord) {
+  if (chord.key == 0) return nullptr;
+  const auto* found = std::ranges::find_if(kCommands, [&](const Command& command) {
+    return command.chord == chord || command.second_chord == chord;
+  });
+  return found == kCommands.end() ? nullptr : found;
+}
+
+bool run(const Command& command, AppState& state) {
+  if (!command.enabled(view_model(state))) return false;
+  std::string line = "action: ";
+  state.log(line.append(command.id));
+  apply(state, command.action);
+  return true;
+}
+
+}  // namespace clay::studio

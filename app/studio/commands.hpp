@@ -1,0 +1,40 @@
+#pragma once
+// The table of commands: an action with an id, a title and a key. Menus, keys, the list of
+// shortcuts and scripts read it.
+
+#include "app/studio/action.hpp"
+#include "app/studio/input.hpp"
+
+#include <span>
+#include <string_view>
+
+namespace clay::studio {
+
+struct AppState;
+struct ViewModel;
+
+struct Command {
+  std::string_view id;  ///< for scripts: "edit.undo"; its menu before the point
+  const char* title;
+  KeyChord chord;
+  KeyChord second_chord;  ///< not shown in the menu
+  Action action;
+  bool (*enabled)(const ViewModel&);
+  bool (*checked)(const ViewModel&) = nullptr;  ///< of a command that switches something
+};
+
+/// In the order of the menus.
+[[nodiscard]] std::span<const Command> commands();
+/// Null where no command has this id, or this chord.
+[[nodiscard]] const Command* find_command(std::string_view id);
+[[nodiscard]] const Command* command_for(const KeyChord& chord);
+/// Logs the command and applies its action, where it is enabled; whether it was.
+bool run(const Command& command, AppState& state);
+
+struct Menu {
+  std::string_view prefix;  ///< of the ids: "edit."
+  const char* title;
+};
+[[nodiscard]] std::span<const Menu> menus();
+
+}  // namespace clay::studio

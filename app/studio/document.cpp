@@ -1,0 +1,195 @@
+#include "app/studio/document.hpp"
+
+#include "app/render/pot_view.hpp"
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace clay::studio {
+namespace {
+
+bool is_pot(const std::string& name) {
+  return name.ends_with(".pot.json") || name.ends_with(".pot.cbor");
+}
+
+bool is_work(const std::string& name) { return name.ends_with(".work"); }
+
+SceneSpec current_scene(const WorkRecord& record) {
+  return record.scenes.at(record.nodes.at(record.at).scene);
+}
+
+}  // namespace
+
+SceneSpec scene_for(const Pot& pot, const std::string& name) {
+  const double height_mm = std::max(1.0, pot.stack.height_mm());
+  double widest_mm = 1.0;
+  for (const Ring& ring : pot.stack.rings()) widest_mm = std::max(widest_mm, ring.outer_mm());
+  SceneSpec scene;
+  scene.name = name;
+  scene.model = pot.model;
+  scene.lump = {.rings = pot.stack.size(),
+                .ring_height_mm = pot.stack.ring_height_mm(),
+                .outer_radius_mm = widest_mm,
+                .inner_radius_mm = 0.0,
+                .max_rings = 0,
+                .density_g_cm3 = pot.density_g_cm3};
+  scene.removal.yield_depth_mm = 2.0;
+  scene.removal.min_wall_mm = 3.0;
+  scene.flow = {.sigma_mm = 0.12 * height_mm, .reach_mm = 0.5 * height_mm, .inside_share = 0.25};
+  scene.force->stiffness_n_per_mm2 = 0.03;
+  scene.force->friction = 0.2;
+  return scene;
+}
+
+Result<void> Document::begin(const SceneSpec& scene) {
+  return history::Work::begin(scene).map(
+      [&](history::Work&& work) { replace(scene, std::move(work)); });
+}
+
+Result<void> Document::begin(const SceneSpec& scene, const Pot& pot) {
+  return history::Work::begin(scene, pot).map([&](history::Work&& work) {
+    replace(scene, std::move(work));
+  });
+}
+
+void Document::begin(history::Work work) {
+  const SceneSpec scene = current_scene(work.record());
+  replace(scene, std::move(work));
+}
+
+void Document::replace(const SceneSpec& scene, history::Work work) {
+  if (work_ && !unsaved() && work_->journal() != nullptr) work_->journal()->discard();
+  changes_discarded_ = false;
+  file_.clear();
+  scene_ = scene;
+  nominal_rate_per_s_ = scene.removal.rate_per_s;
+  work_.emplace(std::move(work));
+  if (auto shown = show_pot(); !shown) problem_ = shown.error();
+  if (!journals_ || work_->journal() != nullptr) return;
+  if (auto journal = history::Journal::begin(work_->record()))
+    work_->keep(std::move(*journal));
+  else
+    problem_ = journal.error();
+}
+
+void Document::close() {
+  if (work_ && work_->journal() != nullptr) work_->journal()->discard();
+}
+
+Result<Document::Remark> Document::open_work(const std::string& name) {
+  auto loaded = history::load(name);
+  if (!loaded) return tl::make_unexpected(loaded.error());
+  begin(std::move(loaded->work));
+  file_ = name;
+  if (!loaded->torn) return Remark();
+  return fmt::format("{}: the last line was cut off; all lines before it were read", name);
+}
+
+Result<Document::Remark> Document::open(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  if (is_work(name)) return open_work(name);
+  const auto text = read_file(path);
+  if (!text) return tl::make_unexpected(text.error());
+  auto begun =
+      is_pot(name)
+          ? parse_pot(*text, name).and_then([&](Pot&& pot) {
+              return begin(scene_for(pot, path.stem().stem().string()), pot);
+            })
+          : parse_scene(*text, name).and_then([&](SceneSpec&& scene) { return begin(scene); });
+  if (!begun) return tl::make_unexpected(begun.error());
+  return Remark();
+}
+
+Result<void> Document::save(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  if (is_work(name)) return work_->save(name).map([&] { file_ = path; });
+  if (!is_pot(name))
+    return failure(
+        ErrorKind::bad_input,
+        fmt::format("{}: expected a name that ends in .work, .pot.json or .pot.cbor", name));
+  const auto encoding = name.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
+  return publish(path, write_pot(*pot_, encoding));
+}
+
+std::string Document::name() const {
+  return file_.empty() ? scene_.name : file_.filename().string();
+}
+
+void Document::set_tool(const ToolSpec& tool, double removal_rate_per_s) {
+  scene_.tool = tool;
+  scene_.removal.rate_per_s = removal_rate_per_s;
+}
+
+void Document::set_stiffness(double n_per_mm2) {
+  if (scene_.force) scene_.force->stiffness_n_per_mm2 = n_per_mm2;
+}
+
+double Document::stiffness() const noexcept {
+  return work_ && scene_.force ? scene_.force->stiffness_n_per_mm2 : 0.0;
+}
+
+Result<void> Document::show_pot() {
+  moment_.reset();
+  auto pot = work_->pot();
+  if (!pot) return tl::make_unexpected(pot.error());
+  pot_ = std::move(*pot);
+  view_ = render::view_of(*pot_);
+  return {};
+}
+
+Result<history::PoseSink*> Document::begin_stroke(const SceneSpec& scene) {
+  auto sink = work_->begin_stroke(scene);
+  if (sink) changes_discarded_ = false;
+  return sink;
+}
+
+Result<void> Document::end_stroke(const Pot* thrown) {
+  const auto added = work_->end_stroke(thrown);
+  auto shown = show_pot();
+  if (!added) return tl::make_unexpected(added.error());
+  return shown;
+}
+
+Result<void> Document::undo() { return work_->undo() ? show_pot() : Result<void>(); }
+
+Result<void> Document::redo() { return work_->redo() ? show_pot() : Result<void>(); }
+
+Result<void> Document::go_to(history::NodeId node) {
+  if (node != work_->at()) work_->go_to(node);
+  return show_pot();
+}
+
+std::optional<history::NodeId> Document::other_branch() const {
+  if (!work_) return std::nullopt;
+  for (history::NodeId node = work_->at(); node != 0; node = work_->view(node).parent) {
+    const auto siblings = work_->view(work_->view(node).parent).children;
+    if (siblings.size() < 2) continue;
+    const auto here = std::ranges::find(siblings, node);
+    return here + 1 == siblings.end() ? siblings.front() : *(here + 1);
+  }
+  return std::nullopt;
+}
+
+Result<void> Document::scrub(history::NodeId node, double seconds) {
+  auto pot = work_->scrub(node, seconds);
+  if (!pot) return tl::make_unexpected(pot.error());
+  view_ = render::view_of(*pot);
+  moment_ = Moment{node, seconds};
+  return {};
+}
+
+Result<void> Document::show_present() { return moment_ ? show_pot() : Result<void>(); }
+
+Result<void> Document::branch_here() {
+  if (!moment_) return {};
+  const auto added = work_->branch(moment_->node, moment_->seconds);
+  auto shown = show_pot();
+  if (!added) return tl::make_unexpected(added.error());
+  return shown;
+}
+
+}  // namespace clay::studio

@@ -1,0 +1,95 @@
+#include "app/studio/input.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace clay::studio {
+
+namespace {
+
+struct NamedKey {
+  std::string_view name;
+  int key;
+};
+
+// Letters and digits have their ASCII codes as GLFW's.
+constexpr std::array kNamedKeys = {
+    NamedKey{"Space", GLFW_KEY_SPACE},
+    NamedKey{"Esc", GLFW_KEY_ESCAPE},
+    NamedKey{"Enter", GLFW_KEY_ENTER},
+    NamedKey{"Tab", GLFW_KEY_TAB},
+    NamedKey{"Backspace", GLFW_KEY_BACKSPACE},
+    NamedKey{"Delete", GLFW_KEY_DELETE},
+    NamedKey{"Home", GLFW_KEY_HOME},
+    NamedKey{"End", GLFW_KEY_END},
+    NamedKey{"Left", GLFW_KEY_LEFT},
+    NamedKey{"Right", GLFW_KEY_RIGHT},
+    NamedKey{"Up", GLFW_KEY_UP},
+    NamedKey{"Down", GLFW_KEY_DOWN},
+    NamedKey{"F1", GLFW_KEY_F1},
+    NamedKey{"F11", GLFW_KEY_F11},
+    NamedKey{"Num+", GLFW_KEY_KP_ADD},
+    NamedKey{"Num-", GLFW_KEY_KP_SUBTRACT},
+    NamedKey{"Num1", GLFW_KEY_KP_1},
+    NamedKey{"Num3", GLFW_KEY_KP_3},
+    NamedKey{"Num7", GLFW_KEY_KP_7},
+    NamedKey{"[", GLFW_KEY_LEFT_BRACKET},
+    NamedKey{"]", GLFW_KEY_RIGHT_BRACKET},
+    NamedKey{"/", GLFW_KEY_SLASH},
+    NamedKey{"-", GLFW_KEY_MINUS},
+    NamedKey{"=", GLFW_KEY_EQUAL},
+    NamedKey{",", GLFW_KEY_COMMA},
+    NamedKey{".", GLFW_KEY_PERIOD},
+};
+
+struct NamedMod {
+  std::string_view name;
+  unsigned mod;
+};
+constexpr std::array kNamedMods = {NamedMod{"Ctrl+", kControl}, NamedMod{"Shift+", kShift},
+                                   NamedMod{"Alt+", kAlt}};
+
+bool is_character(int key) { return (key >= 'A' && key <= 'Z') || (key >= '0' && key <= '9'); }
+
+}  // namespace
+
+std::string text_of(const KeyChord& chord) {
+  if (chord.key == 0) return {};
+  // What is printed on the key is what a person looks for.
+  if (chord == KeyChord{GLFW_KEY_SLASH, kShift}) return "?";
+  std::string text;
+  for (const NamedMod& mod : kNamedMods)
+    if ((chord.mods & mod.mod) != 0) text += mod.name;
+  if (is_character(chord.key)) return text + static_cast<char>(chord.key);
+  const auto* named = std::ranges::find(kNamedKeys, chord.key, &NamedKey::key);
+  if (named != kNamedKeys.end()) text += named->name;
+  return text;
+}
+
+std::optional<KeyChord> chord_of(std::string_view text) {
+  if (text == "?") return KeyChord{GLFW_KEY_SLASH, kShift};
+  KeyChord chord;
+  for (bool found = true; found;) {
+    found = false;
+    for (const NamedMod& mod : kNamedMods) {
+      if (!text.starts_with(mod.name)) continue;
+      chord.mods |= mod.mod;
+      text.remove_prefix(mod.name.size());
+      found = true;
+    }
+  }
+  if (text.size() == 1 && std::isalnum(static_cast<unsigned char>(text[0])) != 0) {
+    chord.key = std::toupper(static_cast<unsigned char>(text[0]));
+    return chord;
+  }
+  const auto* named = std::ranges::find(kNamedKeys, text, &NamedKey::name);
+  if (named == kNamedKeys.end()) return std::nullopt;
+  chord.key = named->key;
+  return chord;
+}
+
+}  // namespace clay::studio

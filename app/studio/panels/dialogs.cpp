@@ -1,0 +1,125 @@
+// Small dialogs: unsaved changes, file names, settings.
+
+#include "app/studio/panels/panels.hpp"
+#include "app/studio/panels/widgets.hpp"
+
+#include <imgui_stdlib.h>
+
+#include <array>
+#include <string>
+
+namespace clay::studio {
+namespace {
+
+void draw_look_settings(const ViewModel& model, Actions& actions) {
+  const Settings& settings = model.settings;
+  constexpr std::array kThemes = {"Dark", "Light"};
+  form_row("Theme");
+  const int theme =
+      choice_row("##theme", kThemes, settings.theme == Theme::dark ? 0 : 1, model.colours());
+  if (theme >= 0) actions.emplace_back(SetTheme{theme == 0 ? Theme::dark : Theme::light});
+  form_row("Text scale");
+  // Applied when the mouse is released: the slider would move away under it.
+  ImGuiStorage& kept = *ImGui::GetStateStorage();
+  const ImGuiID id = ImGui::GetID("scale");
+  float scale = ImGui::IsAnyItemActive() ? kept.GetFloat(id, settings.scale) : settings.scale;
+  ImGui::SliderFloat("##scale", &scale, kSmallestScale, kLargestScale, "%.2f",
+                     ImGuiSliderFlags_AlwaysClamp);
+  kept.SetFloat(id, scale);
+  if (ImGui::IsItemDeactivatedAfterEdit()) actions.emplace_back(SetScale{scale});
+  constexpr std::array kUnits = {"mm", "cm", "in"};
+  form_row("Length unit");
+  const int unit = choice_row("##unit", kUnits, static_cast<int>(settings.unit), model.colours());
+  if (unit >= 0) actions.emplace_back(SetUnit{static_cast<LengthUnit>(unit)});
+}
+
+void draw_work_settings(const ViewModel& model, Actions& actions) {
+  const Settings& settings = model.settings;
+  form_row("Speed in clay");
+  float speed = static_cast<float>(settings.pressing_mm_s);
+  if (ImGui::SliderFloat("##speed", &speed, static_cast<float>(kSlowestHandMmPerS),
+                         static_cast<float>(kFastestHandMmPerS), "at most %.0f mm/s",
+                         ImGuiSliderFlags_AlwaysClamp))
+    actions.emplace_back(SetHandSpeed{static_cast<double>(speed)});
+  form_row("Process");
+  std::string process = settings.process;
+  if (choose_process(model, "None", process, actions)) actions.emplace_back(SetProcess{process});
+  form_row("Folder");
+  std::string folder = settings.folder;
+  if (ImGui::InputText("##folder", &folder)) actions.emplace_back(SetFolder{folder});
+  form_row("First steps");
+  bool hints = settings.hints;
+  if (ImGui::Checkbox("Show below the pot", &hints)) actions.emplace_back(SetHints{hints});
+}
+
+/// The field for a name; Enter or the button gives `done`.
+template <class Done>
+void draw_path(const std::string& path, const char* help, const char* button,
+               const ViewModel& model, Actions& actions) {
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1.0f);
+  std::string typed = path;
+  const bool entered = ImGui::InputText("##path", &typed, ImGuiInputTextFlags_EnterReturnsTrue);
+  if (typed != path) actions.emplace_back(EditPath{typed});
+  faint_text(model.colours(), help);
+  const bool clicked = main_button(button, model.colours());
+  if ((clicked || entered) && !typed.empty()) actions.emplace_back(Done{typed});
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel (Esc)")) actions.emplace_back(CloseDialog{});
+}
+
+}  // namespace
+
+void draw_dialog(const ViewModel& model, Actions& actions, const ViewRect& rect) {
+  std::visit([&](const auto& dialog) { draw(dialog, model, actions, rect); }, model.ui.dialog);
+}
+
+void draw(const NoDialog&, const ViewModel&, Actions&, const ViewRect&) {}
+
+void draw(const UnsavedDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect) {
+  begin_dialog("##unsaved", rect, 34.0f);
+  dialog_title(model, "Save this pot?");
+  ImGui::TextWrapped("It has changed since it was last saved.");
+  ImGui::Spacing();
+  if (main_button("Save (Enter)", model.colours())) actions.emplace_back(RunCommand{"quit.save"});
+  ImGui::SameLine();
+  if (ImGui::Button("Discard changes (Ctrl+D)")) actions.emplace_back(RunCommand{"quit.discard"});
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel (Esc)")) actions.emplace_back(RunCommand{"quit.cancel"});
+  ImGui::End();
+}
+
+void draw(const OpenDialog& dialog, const ViewModel& model, Actions& actions,
+          const ViewRect& rect) {
+  begin_dialog("##open", rect, 40.0f);
+  dialog_title(model, "Open");
+  draw_path<OpenFile>(dialog.path,
+                      "A scene, a pot, a work, or a drawing of a section (SVG, DXF, CSV)",
+                      "Open (Enter)", model, actions);
+  ImGui::End();
+}
+
+void draw(const SaveDialog& dialog, const ViewModel& model, Actions& actions,
+          const ViewRect& rect) {
+  begin_dialog("##save", rect, 40.0f);
+  dialog_title(model, "Save as");
+  draw_path<SaveFile>(
+      dialog.path, "NAME.work keeps all strokes; NAME.pot.json and NAME.pot.cbor keep only the pot",
+      "Save (Enter)", model, actions);
+  ImGui::End();
+}
+
+void draw(const SettingsDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect) {
+  begin_dialog("##settings", rect, 34.0f);
+  dialog_title(model, "Settings");
+  draw_look_settings(model, actions);
+  draw_work_settings(model, actions);
+  ImGui::Spacing();
+  const std::string path = settings_path().string();
+  faint_text(model.colours(),
+             path.empty() ? "Not stored: there is no home folder" : "Stored in " + path);
+  if (ImGui::Button("Close (Esc)")) actions.emplace_back(CloseDialog{});
+  ImGui::End();
+}
+
+}  // namespace clay::studio

@@ -1,0 +1,172 @@
+// What an export would write, and what it has written.
+
+#include "app/studio/commands.hpp"
+#include "app/studio/panels/panels.hpp"
+#include "app/studio/panels/widgets.hpp"
+
+#include <fmt/format.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace clay::studio {
+namespace {
+
+/// Each function changes its own choices of `wish`.
+void draw_formats(ExportWish& wish) {
+  form_row("Files");
+  const std::array boxes = {std::pair{"STL", &wish.stl}, std::pair{"OBJ", &wish.obj},
+                            std::pair{"Draco", &wish.drc}, std::pair{"Section", &wish.section},
+                            std::pair{"Pot", &wish.pot}};
+  bool first = true;
+  for (const auto& [title, wanted] : boxes) {
+    if (!first) ImGui::SameLine();
+    ImGui::Checkbox(title, wanted);
+    first = false;
+  }
+}
+
+void draw_places(ExportWish& wish, Actions& actions) {
+  form_row("Name");
+  ImGui::InputText("##name", &wish.name);
+  form_row("Folder");
+  const float button = ImGui::CalcTextSize("Choose...").x + 3.0f * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetNextItemWidth(-button - ImGui::GetStyle().ItemSpacing.x);
+  ImGui::InputText("##folder", &wish.folder);
+  ImGui::SameLine();
+  if (ImGui::Button("Choose...")) actions.emplace_back(ChooseExportFolder{});
+}
+
+void draw_choices(const ViewModel& model, ExportWish& wish, Actions& actions) {
+  const Palette& colours = model.colours();
+  form_length("Tolerance", wish.tolerance_mm, kFinestMm, kCoarsestMm, LengthUnit::mm);
+  constexpr std::array kSmooth = {solid::Smoothing::fair, solid::Smoothing::exact,
+                                  solid::Smoothing::none};
+  constexpr std::array kSmoothTitles = {"Fair", "Exact", "None"};
+  const auto smooth =
+      static_cast<int>(std::ranges::find(kSmooth, wish.smoothing) - kSmooth.begin());
+  form_row("Smoothing");
+  if (const int chosen = choice_row("##smooth", kSmoothTitles, smooth, colours); chosen >= 0)
+    wish.smoothing = kSmooth[static_cast<std::size_t>(chosen)];
+  form_row("Process");
+  (void)choose_process(model, "None", wish.process, actions);
+  form_length("Minimum wall", wish.min_wall_mm, 0.0, kThickestDemandMm, model.settings.unit,
+              wish.process.empty() ? "no limit" : "as the process requires");
+  form_row("Shrinkage");
+  float percent = static_cast<float>(wish.shrinkage_percent);
+  if (ImGui::SliderFloat("##shrinkage", &percent, 0.0f, 25.0f, percent > 0.0f ? "%.1f %%" : "none",
+                         ImGuiSliderFlags_AlwaysClamp))
+    // In tenths, as shown, so that the command line makes the same file from the same number.
+    wish.shrinkage_percent = std::round(10.0 * static_cast<double>(percent)) / 10.0;
+}
+
+const char* title_of(solid::MeshFormat format) {
+  switch (format) {
+    case solid::MeshFormat::obj:
+      return "OBJ";
+    case solid::MeshFormat::drc:
+      return "Draco";
+    default:
+      return "STL";
+  }
+}
+
+std::string size_text(const solid::ExportReport& report, double factor, LengthUnit unit) {
+  return fmt::format("{} wide, {} high", length_text(factor * report.size.diameter_mm, unit),
+                     length_text(factor * report.size.height_mm, unit));
+}
+
+void draw_figures(const ViewModel& model, const solid::ExportReport& report) {
+  const Palette& colours = model.colours();
+  const LengthUnit unit = model.settings.unit;
+  value_row(colours, "Triangles", fmt::format("{}", report.size.triangles));
+  for (const solid::FileReport& file : report.files)
+    if (file.kind == solid::FileKind::mesh)
+      value_row(colours, title_of(file.format),
+                fmt::format("{:.3f} MB", 1e-6 * static_cast<double>(file.bytes)));
+  value_row(colours, "Size in the file", size_text(report, 1.0, unit));
+  if (report.prepared.shrinkage > 0.0)
+    value_row(colours, "Fired size", size_text(report, 1.0 - report.prepared.shrinkage, unit));
+  if (!report.collapsed)
+    value_row(colours, "Thinnest wall",
+              fmt::format("{:.2f} mm, at a height of {:.1f} mm", report.thinnest_mm(),
+                          report.walls.thinnest.from.y));
+  ImGui::PushStyleColor(ImGuiCol_Text, colours.warning);
+  for (const solid::Problem& problem : solid::problems_of(report))
+    ImGui::TextWrapped("%s", problem.text.c_str());
+  ImGui::PopStyleColor();
+}
+
+/// Progress, figures or the problem, in a part of fixed height, so that the dialog keeps its
+/// height.
+void draw_preview(const ViewModel& model) {
+  const ExportState& exporting = model.ui.exporting;
+  const ImVec2 size(0.0f, 12.5f * ImGui::GetFontSize());
+  ImGui::BeginChild("##preview", size, true);
+  const bool running = model.export_running.has_value();
+  if (model.writing())
+    faint_text(model.colours(), "Writing: " + model.export_stage);
+  else if (!exporting.problem.empty())
+    ImGui::TextWrapped("%s", exporting.problem.c_str());
+  else if (running)
+    faint_text(model.colours(), "Computing: " + model.export_stage);
+  if (exporting.preview && exporting.problem.empty()) draw_figures(model, *exporting.preview);
+  if (!exporting.preview && !running && exporting.problem.empty())
+    faint_text(model.colours(), "No mesh file is chosen");
+  ImGui::EndChild();
+}
+
+void draw_buttons(const ViewModel& model, Actions& actions) {
+  const ExportState& exporting = model.ui.exporting;
+  const bool writes = model.writing();
+  const std::vector<std::string> standing = exporting.written.empty() && !writes
+                                                ? standing_files(exporting.wish)
+                                                : std::vector<std::string>();
+  if (!exporting.result.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, model.colours().good);
+    ImGui::TextWrapped("%s", exporting.result.c_str());
+    ImGui::PopStyleColor();
+  } else {
+    faint_text(model.colours(),
+               standing.empty()
+                   ? "Each file is written completely or not at all"
+                   : fmt::format("{} will be replaced",
+                                 standing.size() == 1
+                                     ? std::filesystem::path(standing.front()).filename().string()
+                                     : fmt::format("{} files", standing.size())));
+  }
+  if (writes) {
+    if (ImGui::Button("Cancel")) actions.emplace_back(RunCommand{"export.cancel"});
+  } else {
+    if (main_button("Export (Ctrl+Enter)", model.colours()))
+      actions.emplace_back(RunCommand{"export.write"});
+    ImGui::SameLine();
+    if (!exporting.written.empty()) {
+      if (ImGui::Button("Open folder")) actions.emplace_back(RunCommand{"export.folder"});
+      ImGui::SameLine();
+    }
+    if (ImGui::Button("Close (Esc)")) actions.emplace_back(CloseDialog{});
+  }
+}
+
+}  // namespace
+
+void draw(const ExportDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect) {
+  begin_dialog("##export", rect, 38.0f);
+  dialog_title(model, "Export");
+  ExportWish wish = model.ui.exporting.wish;
+  draw_formats(wish);
+  draw_places(wish, actions);
+  draw_choices(model, wish, actions);
+  if (wish != model.ui.exporting.wish) actions.emplace_back(EditExport{wish});
+  ImGui::Spacing();
+  draw_preview(model);
+  draw_buttons(model, actions);
+  ImGui::End();
+}
+
+}  // namespace clay::studio

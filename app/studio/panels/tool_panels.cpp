@@ -1,0 +1,130 @@
+// The tool, the wheel, and the force on the hand.
+
+#include "app/studio/panels/panels.hpp"
+#include "app/studio/panels/widgets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+
+namespace clay::studio {
+namespace {
+
+constexpr std::array kModes = {"Press", "Trim", "Pinch"};
+constexpr std::array kShapes = {"Sphere", "Ellipse", "Rib", "Custom"};
+constexpr double kSoftest = 1e-3, kStiffest = 1.0;  // N/mm2
+constexpr double kUsualLimitN = 5.0;
+
+const char* help_text(ToolMode mode) {
+  switch (mode) {
+    case ToolMode::press:
+      return "Displaces clay and keeps its volume. Hold Ctrl to trim.";
+    case ToolMode::trim:
+      return "Removes clay. Hold Ctrl to press.";
+    case ToolMode::pinch:
+      break;
+  }
+  return "Presses from both sides of the wall: drag up to pull it.";
+}
+
+/// The sliders of the present shape; whether one has moved.
+bool draw_sizes(ToolChoice& tool, LengthUnit unit, const Palette& colours) {
+  const auto size = [&](const char* label, double& mm) {
+    return length_slider(label, mm, kSmallestToolMm, kLargestToolMm, unit);
+  };
+  bool changed = false;
+  switch (tool.shape) {
+    case Shape::sphere:
+      changed = size("Radius", tool.sphere.radius_mm);
+      break;
+    case Shape::ellipse:
+      changed = size("Half height", tool.ellipse.half_height_mm);
+      changed = size("Half width", tool.ellipse.half_width_mm) || changed;
+      break;
+    case Shape::rib:
+      changed = size("Height", tool.rib.height_mm);
+      changed = size("Radius", tool.rib.radius_mm) || changed;
+      break;
+    case Shape::own:
+      faint_text(colours, fmt::format("{} points, from the scene", tool.own.t_mm.size()));
+      break;
+  }
+  if (tool.mode == ToolMode::pinch)
+    changed = length_slider("Gap", tool.gap_mm, kNarrowestGapMm, kWidestPinchMm, unit) || changed;
+  return changed;
+}
+
+/// A bar of the force, with its value in readable ink on either ground.
+void draw_bar(float part, const std::string& text, const ImVec4& colour) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetFrameHeight();
+  const float round = ImGui::GetStyle().FrameRounding;
+  const float end = at.x + part * width;
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled(at, {at.x + width, at.y + height}, ImGui::GetColorU32(ImGuiCol_FrameBg),
+                      round);
+  if (part > 0.0f) draw->AddRectFilled(at, {end, at.y + height}, ImGui::GetColorU32(colour), round);
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const ImVec2 corner(at.x + 0.5f * (width - size.x), at.y + 0.5f * (height - size.y));
+  const auto text_between = [&](float left, float right, const ImVec4& ink) {
+    draw->PushClipRect({left, at.y}, {right, at.y + height}, true);
+    draw->AddText(corner, ImGui::GetColorU32(ink), text.c_str());
+    draw->PopClipRect();
+  };
+  text_between(at.x, end, ink_on(colour));
+  text_between(end, at.x + width, ImGui::GetStyleColorVec4(ImGuiCol_Text));
+  ImGui::Dummy({width, height});
+}
+
+}  // namespace
+
+void draw_tool(const ViewModel& model, Actions& actions) {
+  ToolChoice tool = model.settings.tool;
+  const int mode = choice_row("mode", kModes, static_cast<int>(tool.mode), model.colours());
+  if (mode >= 0) actions.emplace_back(SetToolMode{static_cast<ToolMode>(mode)});
+  faint_text(model.colours(), help_text(tool.mode));
+  const std::size_t shapes = tool.own.t_mm.empty() ? 3 : 4;
+  const int shape = choice_row("shape", std::span(kShapes).first(shapes),
+                               static_cast<int>(tool.shape), model.colours());
+  if (shape >= 0) actions.emplace_back(SetToolShape{static_cast<Shape>(shape)});
+  if (draw_sizes(tool, model.settings.unit, model.colours())) actions.emplace_back(SetTool{tool});
+}
+
+void draw_wheel(const ViewModel& model, Actions& actions) {
+  ImGui::TextUnformatted("Speed");
+  float rpm = static_cast<float>(model.settings.wheel_rpm);
+  ImGui::SetNextItemWidth(-1.0f);
+  if (ImGui::SliderFloat("##rpm", &rpm, static_cast<float>(kSlowestRpm),
+                         static_cast<float>(kFastestRpm), "%.0f rpm", ImGuiSliderFlags_AlwaysClamp))
+    actions.emplace_back(SetWheelSpeed{static_cast<double>(rpm)});
+  faint_text(model.colours(), "The clay yields faster at a higher speed.");
+  if (!model.document.has_work() || !model.document.scene().force) return;
+  ImGui::TextUnformatted("Stiffness");
+  float stiffness = static_cast<float>(model.document.stiffness());
+  ImGui::SetNextItemWidth(-1.0f);
+  if (ImGui::SliderFloat("##stiffness", &stiffness, static_cast<float>(kSoftest),
+                         static_cast<float>(kStiffest), "%.3g N/mm\xc2\xb2",
+                         ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+    actions.emplace_back(SetStiffness{static_cast<double>(stiffness)});
+  faint_text(model.colours(), "Affects the force you feel, not the clay.");
+}
+
+void draw_force(const ViewModel& model, Actions&) {
+  const servo::LiveStatus& status = model.stroke.status();
+  const bool throwing = model.stroke.throwing();
+  const double newtons = throwing ? glm::length(status.clay_n) : 0.0;
+  const bool limited = model.document.has_work() && model.document.scene().force;
+  const double limit_n = limited ? model.document.scene().force->limit_n : kUsualLimitN;
+  const float part = static_cast<float>(std::clamp(newtons / limit_n, 0.0, 1.0));
+  const Palette& colours = model.colours();
+  draw_bar(part, fmt::format("{:.2f} N of {:g} N", newtons, limit_n),
+           part >= 1.0f ? colours.warning : colours.accent);
+  faint_text(colours, part >= 1.0f     ? "At the limit of the force"
+                      : !throwing      ? "No tool in use"
+                      : status.contact ? "In contact with the clay"
+                                       : "Clear of the clay");
+}
+
+}  // namespace clay::studio

@@ -1,0 +1,129 @@
+// Facts that scripts query.
+
+#include "app/studio/script.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+
+namespace clay::studio {
+namespace {
+
+std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
+
+/// In the order of Dialog's alternatives.
+const char* name_of(const Dialog& dialog) {
+  constexpr std::array<const char*, std::variant_size_v<Dialog>> kNames = {
+      "none", "gallery", "shortcuts", "quit", "open", "save", "export", "import", "settings"};
+  return kNames[dialog.index()];
+}
+
+struct Fact {
+  std::string_view name;
+  std::string (*read)(const AppState&);
+};
+
+const std::array kFacts = {
+    Fact{"overlay", [](const AppState& s) { return std::string(name_of(s.ui.dialog)); }},
+    Fact{"throwing", [](const AppState& s) { return yes_or_no(s.stroke.throwing()); }},
+    Fact{"contact", [](const AppState& s) { return yes_or_no(s.stroke.status().contact); }},
+    Fact{"paused", [](const AppState& s) { return yes_or_no(s.stroke.paused()); }},
+    Fact{"unsaved", [](const AppState& s) { return yes_or_no(s.document.unsaved()); }},
+    Fact{"can_undo", [](const AppState& s) { return yes_or_no(s.document.can_undo()); }},
+    Fact{"can_redo", [](const AppState& s) { return yes_or_no(s.document.can_redo()); }},
+    Fact{"tool_mm",
+         [](const AppState& s) {
+           const auto size = size_mm(s.settings.tool);
+           return size ? fmt::format("{}", *size) : std::string();
+         }},
+    Fact{"stiffness",
+         [](const AppState& s) {
+           return s.document.has_work() && s.document.scene().force
+                      ? fmt::format("{}", s.document.scene().force->stiffness_n_per_mm2)
+                      : std::string();
+         }},
+    Fact{"strokes",
+         [](const AppState& s) {
+           return fmt::format("{}", s.document.has_work() ? s.document.work().size() - 1 : 0);
+         }},
+    Fact{"node",
+         [](const AppState& s) {
+           return fmt::format("{}", s.document.has_work() ? s.document.work().at() : 0);
+         }},
+    Fact{"scrubbing", [](const AppState& s) { return yes_or_no(s.document.scrubbing()); }},
+    Fact{"falling", [](const AppState& s) { return yes_or_no(s.fall.running()); }},
+    Fact{"fallen",
+         [](const AppState& s) {
+           return yes_or_no(s.document.has_work() && s.document.pot().collapse.has_value());
+         }},
+    Fact{"marks",
+         [](const AppState& s) {
+           return fmt::format("{}", s.document.has_work() && s.ui.marked == s.document.shared_pot()
+                                        ? s.ui.marks.size()
+                                        : 0);
+         }},
+    Fact{"triangles",
+         [](const AppState& s) {
+           return fmt::format(
+               "{}", s.ui.exporting.preview ? s.ui.exporting.preview->size.triangles : 0);
+         }},
+    Fact{"exported",
+         [](const AppState& s) { return fmt::format("{}", s.ui.exporting.written.size()); }},
+    Fact{"problem",
+         [](const AppState& s) {
+           const auto* import = std::get_if<ImportDialog>(&s.ui.dialog);
+           return import != nullptr ? import->problem : s.ui.exporting.problem;
+         }},
+    Fact{"closed", [](const AppState& s) { return yes_or_no(s.done); }},
+    Fact{"device", [](const AppState& s) { return s.stroke.device_name(); }},
+    Fact{"force",
+         [](const AppState& s) { return s.ui.arm.guard.empty() ? "none" : s.ui.arm.guard; }},
+    Fact{"process",
+         [](const AppState& s) {
+           return s.ui.shows<ExportDialog>() ? s.ui.exporting.wish.process : s.settings.process;
+         }},
+    Fact{"banner",
+         [](const AppState& s) {
+           return s.ui.notices.shown() ? s.ui.notices.shown()->text : std::string();
+         }},
+    Fact{"height_mm",
+         [](const AppState& s) { return fmt::format("{}", s.stroke.view().height_mm); }},
+    Fact{
+        "force_n",
+        [](const AppState& s) { return fmt::format("{}", glm::length(s.stroke.status().clay_n)); }},
+    Fact{"volume_error",
+         [](const AppState& s) { return fmt::format("{}", s.stroke.status().volume_error); }},
+    Fact{"poses", [](const AppState& s) { return fmt::format("{}", s.stroke.status().poses); }},
+    Fact{"proved",
+         [](const AppState& s) {
+           return yes_or_no(s.readings.check() && s.readings.check()->proved);
+         }},
+    Fact{"thin",
+         [](const AppState& s) {
+           return yes_or_no(s.readings.check() && s.readings.check()->thin());
+         }},
+    Fact{"thinnest_mm",
+         [](const AppState& s) {
+           return s.readings.check() ? fmt::format("{}", s.readings.check()->thinnest_mm)
+                                     : std::string();
+         }},
+    Fact{"stress_part",
+         [](const AppState& s) {
+           return fmt::format("{}", s.readings.stress().part().value_or(0.0));
+         }},
+    Fact{"plotted_ticks",
+         [](const AppState& s) { return fmt::format("{}", s.readings.ticks().samples().size()); }},
+    Fact{"missed", [](const AppState& s) { return fmt::format("{}", s.stroke.status().missed); }},
+};
+
+}  // namespace
+
+std::optional<std::string> fact(const AppState& state, std::string_view name) {
+  const auto* found = std::ranges::find(kFacts, name, &Fact::name);
+  if (found == kFacts.end()) return std::nullopt;
+  return found->read(state);
+}
+
+}  // namespace clay::studio

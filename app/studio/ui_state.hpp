@@ -1,0 +1,113 @@
+#pragma once
+// State of the window that is neither document nor settings: the dialog that is open, the banner,
+// marks on the pot. Panels read it; apply() and update() change it.
+
+#include "app/history/work.hpp"
+#include "app/studio/action.hpp"
+#include "app/studio/style.hpp"
+
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace clay::studio {
+
+enum class Grade { note, warning, fault };
+
+struct Notice {
+  Grade grade = Grade::note;
+  std::string text;
+  double until_s = 0.0;  ///< of the host's clock; 0: until it is closed
+};
+
+/// One banner at a time, the most severe first, until it is closed or its time is over.
+class Notices {
+ public:
+  void show(Grade grade, std::string text, double until_s = 0.0) {
+    if (!notice_ || grade >= notice_->grade) notice_ = Notice{grade, std::move(text), until_s};
+  }
+  void close() { notice_.reset(); }
+  /// Closes a notice that no longer holds.
+  void withdraw(const std::string& text) {
+    if (notice_ && notice_->text == text) notice_.reset();
+  }
+  void expire(double now_s) {
+    if (notice_ && notice_->until_s > 0.0 && now_s > notice_->until_s) notice_.reset();
+  }
+  [[nodiscard]] const std::optional<Notice>& shown() const noexcept { return notice_; }
+
+ private:
+  std::optional<Notice> notice_;
+};
+
+// --- Dialogs: one alternative each, with what it edits.
+// -------------------------------------------
+struct NoDialog {};
+struct GalleryDialog {};
+struct ShortcutsDialog {};
+struct SettingsDialog {};
+/// Asks whether to save before `next` replaces the work.
+struct UnsavedDialog {
+  Action next;
+  bool saving = false;  ///< the answer was to save: `next` follows once that is done
+};
+struct OpenDialog {
+  std::string path;
+};
+/// `next`: what waits for the file to be saved.
+struct SaveDialog {
+  std::string path;
+  std::optional<Action> next;
+};
+struct ExportDialog {
+  std::optional<ExportWish> previewed;  ///< choices that the preview is made of
+};
+/// A drawing, how it is read, and the pot that this gives.
+using ImportDialog = ImportCard;
+
+using Dialog = std::variant<NoDialog, GalleryDialog, ShortcutsDialog, UnsavedDialog, OpenDialog,
+                            SaveDialog, ExportDialog, ImportDialog, SettingsDialog>;
+
+/// Choices for an export and what came of them. They outlive the dialog: an export goes on when it
+/// is closed.
+struct ExportState {
+  ExportWish wish;
+  std::optional<solid::ExportReport> preview;
+  std::string problem;               ///< why there is no preview, or no file
+  std::vector<std::string> written;  ///< files of the last export
+  std::string result;                ///< how it ended, in words
+};
+
+/// A problem at a place of the pot.
+struct Mark {
+  glm::dvec2 place_mm{0.0};  ///< (rho, y)
+  std::string text;
+};
+
+/// Banner and log of an arm: what was reported last.
+struct ArmReport {
+  std::string shown;      ///< text of its banner
+  bool requests = false;  ///< the banner asks the user to do something
+  std::string guard;      ///< state of the force guard
+};
+
+struct UiState {
+  Dialog dialog = GalleryDialog{};
+  Notices notices;
+  ExportState exporting;
+  ArmReport arm;
+  std::vector<Mark> marks;    ///< of the pot `marked`
+  history::SharedPot marked;  ///< pot of the last export or preview
+  std::string reveal;         ///< id of a panel to scroll to in this frame
+  Fonts fonts;
+  bool restyle = true;  ///< theme or scale have changed
+
+  template <class D>
+  [[nodiscard]] bool shows() const noexcept {
+    return std::holds_alternative<D>(dialog);
+  }
+};
+
+}  // namespace clay::studio

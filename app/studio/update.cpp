@@ -1,0 +1,238 @@
+// What happens by itself between two frames: devices come and go, strokes end, a pot falls, the
+// dialog of the desktop and background jobs give their results.
+
+#include "app/servo/words.hpp"
+#include "app/studio/app_state.hpp"
+#include "claystack/export/job.hpp"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace clay::studio {
+namespace {
+
+constexpr double kDeviceNoteS = 6.0, kExportNoteS = 6.0;
+// A homed device reports that with its first frames.
+constexpr std::uint64_t kTicksUntilHomed = 250;
+
+// --- Devices.
+// -------------------------------------------------------------------------------------
+
+/// Replaces the banner about the arm, as far as it still stands.
+void show_arm_notice(AppState& state, Grade grade, const std::string& text, double until_s = 0.0) {
+  state.ui.notices.withdraw(std::exchange(state.ui.arm.shown, text));
+  if (!text.empty()) state.ui.notices.show(grade, text, until_s);
+}
+
+/// A device that has appeared replaces the mouse, once that has released the clay.
+void update_devices(AppState& state) {
+  if (!state.devices) return;
+  if (const std::string problem = state.devices->take_problem(); !problem.empty())
+    report(state, {ErrorKind::bad_input, problem + "; the mouse remains in use"});
+  if (state.stroke.throwing() && !state.stroke.has_device()) return;
+  auto device = state.devices->take();
+  if (!device) {
+    if (!ImGui::IsMouseDown(ImGuiMouseButton_Left))  // a slider is released first
+      state.stroke.hold(tool_of(state.settings.tool), removal_rate_per_s(view_model(state)));
+    return;
+  }
+  const falcon::DeviceInfo& info = device->info();
+  state.log("device: " + info.name);
+  show_arm_notice(state, Grade::note, info.name + " is connected and in use",
+                  state.now_s() + kDeviceNoteS);
+  servo::LiveSettings settings;
+  settings.buttons = info.can_push ? servo::kFalconButtons : servo::kTwoButtons;
+  state.stroke.take(std::move(device), settings);
+}
+
+void lose_device(AppState& state, const Error& why) {
+  if (state.devices) state.devices->look_again();
+  const Error error{why.kind, why.message + "; the mouse is in use now"};
+  show_arm_notice(state, Grade::fault, {});
+  state.ui.arm.shown = error.message;
+  report(state, error);
+}
+
+/// What only the user can do at the arm stays in the banner until it is done.
+void update_arm_notice(AppState& state) {
+  const bool in_use = state.stroke.throwing() && state.stroke.has_motors();
+  const servo::LiveStatus& status = state.stroke.status();
+  ArmReport& arm = state.ui.arm;
+  const std::string guard = in_use ? servo::name_of(status.guard) : "";
+  if (guard != arm.guard && !guard.empty()) state.log("force: " + guard);
+  arm.guard = guard;
+  if (!in_use) return;
+  const bool homing =
+      status.device == falcon::DeviceState::needs_homing && status.ticks > kTicksUntilHomed;
+  const bool requests = homing || servo::waits_for_rearm(status);
+  const std::string text = requests ? view_model(state).arm_text() : std::string();
+  const bool requested = std::exchange(arm.requests, requests && !text.empty());
+  if (arm.requests ? text != arm.shown : requested) show_arm_notice(state, Grade::warning, text);
+}
+
+// --- Strokes.
+// -------------------------------------------------------------------------------------
+
+void update_strokes(AppState& state) {
+  if (const auto problem = state.document.take_problem()) report(state, *problem);
+  const StrokeNews news = state.stroke.take_news();
+  if (news.device_lost)
+    lose_device(state, *news.error);
+  else if (news.error)
+    report(state, *news.error);
+  if (!news.stroke_ended) return;
+  state.log(fmt::format("stroke ended: {} poses, {} ticks", news.poses, news.ticks));
+  if (news.ending == servo::Ending::collapsed) {
+    state.fall.begin(state.document.shared_pot(), state.now_s());
+    state.ui.notices.show(Grade::warning,
+                          "The pot has fallen: the clay could not carry its own weight. Undo "
+                          "takes the stroke back.");
+  }
+  if (news.ring_limit)
+    state.ui.notices.show(Grade::warning,
+                          "The pot has reached the maximum height of this lump: more clay waits "
+                          "above the rim.");
+}
+
+/// The fall ends early where another pot is shown.
+void update_fall(AppState& state) {
+  if (!state.fall.running()) return;
+  const bool fallen = state.document.has_work() && state.document.pot().collapse &&
+                      !state.document.scrubbing() && !state.stroke.throwing();
+  if (!fallen) return state.fall.end();
+  if (const auto place = state.fall.at(state.now_s(), state.document.view()))
+    state.document.show_fall(*place);
+  else
+    apply(state, GoToStroke{state.document.work().at()});
+}
+
+// --- Files.
+// ---------------------------------------------------------------------------------------
+
+void update_file_dialog(AppState& state) {
+  const FileDialog::Kind kind = state.file_dialog.kind();
+  const auto chosen = state.file_dialog.take();
+  if (!chosen || chosen->empty()) return;
+  switch (kind) {
+    case FileDialog::Kind::open:
+      apply(state, OpenFile{*chosen});
+      break;
+    case FileDialog::Kind::process:
+      apply(state, UseProcess{*chosen});
+      break;
+    case FileDialog::Kind::save:
+      apply(state, SaveFile{*chosen});
+      break;
+    case FileDialog::Kind::folder:
+      state.ui.exporting.wish.folder = *chosen;
+      break;
+  }
+}
+
+/// The solid is larger than the pot on screen.
+glm::dvec2 on_pot(const solid::ProfilePoint& place, double shrinkage) {
+  return glm::dvec2(place.rho, place.y) / solid::enlargement(shrinkage);
+}
+
+void mark_problems(AppState& state, const Exporter::Outcome& outcome) {
+  state.ui.marks.clear();
+  state.ui.marked = outcome.pot;
+  for (const solid::Problem& problem : solid::problems_of(*outcome.done))
+    if (problem.at)
+      state.ui.marks.push_back(
+          {on_pot(*problem.at, outcome.done->prepared.shrinkage), problem.text});
+}
+
+std::string result_text(const solid::ExportReport& report, std::size_t count) {
+  std::string text = fmt::format("{} file{} written", count, count == 1 ? "" : "s");
+  std::uint64_t bytes = 0;
+  for (const solid::FileReport& file : report.files)
+    if (file.kind == solid::FileKind::mesh) bytes += file.bytes;
+  if (report.has_mesh())
+    text += fmt::format("; {} triangles, {:.2f} MB of meshes, each proved and read back",
+                        report.size.triangles, 1e-6 * static_cast<double>(bytes));
+  return text;
+}
+
+void take_files(AppState& state, Exporter::Outcome outcome) {
+  ExportState& exporting = state.ui.exporting;
+  if (outcome.cancelled) {
+    exporting.result = "Cancelled; no file was written";
+    return state.log("export cancelled");
+  }
+  if (!outcome.done) {
+    exporting.result.clear();
+    exporting.problem = outcome.done.error().message;
+    return state.log("error: " + exporting.problem);
+  }
+  exporting.written = outcome.paths;
+  exporting.result = result_text(*outcome.done, outcome.paths.size());
+  if (outcome.done->has_mesh()) {
+    mark_problems(state, outcome);
+    exporting.preview = std::move(*outcome.done);
+  }
+  for (const std::string& path : outcome.paths) state.log("exported: " + path);
+  if (!state.ui.shows<ExportDialog>()) note(state, Grade::note, exporting.result, kExportNoteS);
+  state.settings.folder = outcome.wish.folder;
+  state.settings.process = outcome.wish.process;
+}
+
+void take_preview(AppState& state, Exporter::Outcome outcome) {
+  ExportState& exporting = state.ui.exporting;
+  exporting.preview.reset();
+  exporting.problem.clear();
+  if (!outcome.done) {
+    exporting.problem = outcome.done.error().message;
+    return;
+  }
+  mark_problems(state, outcome);
+  exporting.preview = std::move(*outcome.done);
+  state.log(fmt::format("export rehearsed: {} triangles", exporting.preview->size.triangles));
+}
+
+/// The choices that change the solid.
+ExportWish solid_choices(ExportWish wish) {
+  wish.folder.clear();
+  wish.section = wish.pot = false;
+  return wish;
+}
+
+/// While its dialog is open, an export is previewed after every change of the choices.
+void update_export(AppState& state) {
+  ExportState& exporting = state.ui.exporting;
+  auto* dialog = std::get_if<ExportDialog>(&state.ui.dialog);
+  const bool writing = state.exporter.running() == Exporter::Kind::files;
+  if (dialog != nullptr && !writing && dialog->previewed != solid_choices(exporting.wish)) {
+    dialog->previewed = solid_choices(exporting.wish);
+    exporting.preview.reset();
+    exporting.problem.clear();
+    if (exporting.wish.stl || exporting.wish.obj || exporting.wish.drc)
+      state.exporter.rehearse(state.document.shared_pot(), exporting.wish);
+  }
+  if (!state.host.real_time()) state.exporter.wait();  // the frames of a script are reproducible
+  auto outcome = state.exporter.take();
+  if (!outcome) return;
+  if (outcome->kind == Exporter::Kind::files)
+    take_files(state, std::move(*outcome));
+  else if (dialog != nullptr)
+    take_preview(state, std::move(*outcome));
+}
+
+}  // namespace
+
+void update(AppState& state) {
+  const std::int64_t now_ns = state.host.frame_ns();
+  update_devices(state);
+  update_file_dialog(state);
+  update_export(state);
+  state.stroke.advance(now_ns);
+  state.host.clock().sleep_until_ns(now_ns);  // where no servo has moved it
+  update_strokes(state);
+  update_arm_notice(state);
+  update_fall(state);
+}
+
+}  // namespace clay::studio

@@ -1,0 +1,51 @@
+#pragma once
+// What panels, the scene view and commands read: the state of the window in one frame, all of it
+// const.
+
+#include "app/history/recovery.hpp"
+#include "app/studio/document.hpp"
+#include "app/studio/readings/readings.hpp"
+#include "app/studio/settings.hpp"
+#include "app/studio/stroke_controller.hpp"
+#include "app/studio/ui_state.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace clay::studio {
+
+class SceneView;
+
+struct ViewModel {
+  const Settings& settings;
+  const Document& document;
+  const StrokeController& stroke;
+  const Readings& readings;
+  const SceneView& scene;
+  const UiState& ui;
+  const std::vector<history::Recoverable>&
+      recoverable;  ///< works of crashed programs, newest first
+  std::optional<Exporter::Kind> export_running;
+  std::string export_stage;  ///< of the running export
+  double now_s = 0.0;        ///< of the host's clock
+  bool real_time = false;    ///< false in scripts: no figure may depend on the machine
+
+  [[nodiscard]] const Palette& colours() const { return palette(settings.theme); }
+  [[nodiscard]] bool at_rest() const { return document.has_work() && !stroke.throwing(); }
+  /// No stroke, or that of a device, which may be ended at any time.
+  [[nodiscard]] bool between_strokes() const { return at_rest() || stroke.has_device(); }
+  [[nodiscard]] bool writing() const { return export_running == Exporter::Kind::files; }
+  /// Problems of the last export or preview that belong to the pot on screen.
+  [[nodiscard]] bool has_marks() const;
+  /// State and needs of an arm in use; empty without motors.
+  [[nodiscard]] std::string arm_text() const;
+  /// The guard keeps the force at zero until it is re-armed.
+  [[nodiscard]] bool waits_for_rearm() const;
+};
+
+/// A scene gives its removal rate for this wheel speed; the rate is proportional to the speed.
+inline constexpr double kNominalRpm = 120.0;
+[[nodiscard]] double removal_rate_per_s(const ViewModel& view);
+
+}  // namespace clay::studio

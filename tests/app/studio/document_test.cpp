@@ -1,0 +1,137 @@
+#include "app/studio/document.hpp"
+
+#include "tests/app/history/strokes.hpp"
+#include "tests/support/run_program.hpp"
+
+#include "claystack/engine/files.hpp"
+
+#include <gtest/gtest.h>
+
+namespace clay::studio {
+namespace {
+
+using test::press_stroke;
+using test::read_text;
+using test::ScratchFolder;
+using test::small_scene;
+using test::write_text;
+
+class DocumentTest : public ::testing::Test {
+ protected:
+  DocumentTest() { EXPECT_TRUE(document.begin(small_scene())); }
+  /// One stroke through the functions that a servo's recorder uses.
+  void stroke(std::uint64_t seed) {
+    auto sink = document.begin_stroke(small_scene());
+    ASSERT_TRUE(sink) << sink.error().message;
+    test::record(press_stroke(seed), **sink);
+    ASSERT_TRUE(document.end_stroke(nullptr));
+  }
+  [[nodiscard]] std::string pot() const { return write_pot(document.pot(), PotEncoding::json); }
+  Document document;
+  ScratchFolder folder;
+};
+
+TEST_F(DocumentTest, IsUnsavedFromAStrokeUntilAWorkIsSaved) {
+  EXPECT_FALSE(document.unsaved());
+  stroke(1);
+  EXPECT_TRUE(document.unsaved());
+  ASSERT_TRUE(document.save(folder.file("a.pot.json")));
+  EXPECT_TRUE(document.unsaved()) << "a pot keeps no strokes";
+  EXPECT_TRUE(document.file().empty());
+  ASSERT_TRUE(document.save(folder.file("a.work")));
+  EXPECT_FALSE(document.unsaved());
+  EXPECT_EQ(document.name(), "a.work");
+  ASSERT_TRUE(document.undo());
+  EXPECT_TRUE(document.unsaved());
+}
+
+TEST_F(DocumentTest, DiscardedChangesCountAgainWithTheNextStroke) {
+  stroke(1);
+  document.discard_changes();
+  EXPECT_FALSE(document.unsaved());
+  document.keep_changes();
+  EXPECT_TRUE(document.unsaved());
+  document.discard_changes();
+  stroke(2);
+  EXPECT_TRUE(document.unsaved());
+}
+
+TEST_F(DocumentTest, UndoAndRedoWalkTheStrokes) {
+  const std::string lump = pot();
+  EXPECT_FALSE(document.can_undo());
+  stroke(1);
+  const std::string one = pot();
+  EXPECT_NE(one, lump);
+  EXPECT_FALSE(document.can_redo());
+  ASSERT_TRUE(document.undo());
+  EXPECT_EQ(pot(), lump);
+  ASSERT_TRUE(document.redo());
+  EXPECT_EQ(pot(), one);
+  ASSERT_TRUE(document.go_to(0));
+  stroke(2);
+  EXPECT_EQ(document.work().at(), 2u);
+  EXPECT_EQ(document.other_branch(), 1u);
+  ASSERT_TRUE(document.go_to(*document.other_branch()));
+  EXPECT_EQ(pot(), one);
+}
+
+TEST_F(DocumentTest, AScrubbedMomentIsShownAndBecomesABranch) {
+  stroke(1);
+  const double half_s = 0.5 * document.work().view(1).seconds;
+  const render::PotView whole = document.view();
+  ASSERT_TRUE(document.scrub(1, half_s));
+  EXPECT_TRUE(document.scrubbing());
+  EXPECT_NE(document.view(), whole);
+  ASSERT_TRUE(document.show_present());
+  EXPECT_FALSE(document.scrubbing());
+  EXPECT_EQ(document.view(), whole);
+  ASSERT_TRUE(document.scrub(1, half_s));
+  const render::PotView shown = document.view();
+  ASSERT_TRUE(document.branch_here());
+  EXPECT_EQ(document.work().at(), 2u);
+  EXPECT_EQ(document.view(), shown);
+}
+
+TEST_F(DocumentTest, AFileThatFailsToOpenChangesNothing) {
+  stroke(1);
+  const std::string before = pot();
+  EXPECT_EQ(document.open(folder.file("none.work")).error().kind, ErrorKind::io);
+  EXPECT_EQ(document.open(folder.file("none.scene.json")).error().kind, ErrorKind::io);
+  for (const char* name : {"bad.work", "bad.pot.json", "bad.scene.json"}) {
+    write_text(folder.file(name), "{}");
+    EXPECT_EQ(document.open(folder.file(name)).error().kind, ErrorKind::bad_input) << name;
+  }
+  EXPECT_EQ(pot(), before);
+  EXPECT_TRUE(document.unsaved());
+}
+
+TEST_F(DocumentTest, SavesAndOpensEachKindOfFile) {
+  stroke(1);
+  const std::string before = pot();
+  for (const char* name : {"a.work", "a.pot.json", "a.pot.cbor"}) {
+    ASSERT_TRUE(document.save(folder.file(name))) << name;
+    Document other;
+    const auto opened = other.open(folder.file(name));
+    ASSERT_TRUE(opened) << opened.error().message;
+    EXPECT_EQ(*opened, "") << name;
+    EXPECT_EQ(write_pot(other.pot(), PotEncoding::json), before) << name;
+    EXPECT_FALSE(other.unsaved());
+    EXPECT_EQ(other.file().empty(), std::string(name) != "a.work");
+  }
+  EXPECT_EQ(document.save(folder.file("a.txt")).error().kind, ErrorKind::bad_input);
+  EXPECT_EQ(document.save("/nonexistent/a.work").error().kind, ErrorKind::io);
+}
+
+TEST_F(DocumentTest, RemarksThatTheLastLineOfAWorkIsIncomplete) {
+  stroke(1);
+  ASSERT_TRUE(document.save(folder.file("a.work")));
+  const std::string text = read_text(folder.file("a.work"));
+  write_text(folder.file("torn.work"), text.substr(0, text.size() - 5));
+  Document other;
+  const auto opened = other.open(folder.file("torn.work"));
+  ASSERT_TRUE(opened) << opened.error().message;
+  EXPECT_NE(*opened, "");
+}
+
+}  // namespace
+}  // namespace clay::studio
