@@ -1,4 +1,4 @@
-# One place for what every target shares.
+# Settings shared by all targets.
 
 find_program(CLAYSTACK_CCACHE ccache)
 if(CLAYSTACK_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
@@ -12,16 +12,16 @@ function(claystack_compile_options target)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wconversion -Wshadow -ffp-contract=off
     $<$<BOOL:${CLAYSTACK_WERROR}>:-Werror>)
-  # With sanitizers GCC 12 loses track of a variant's members and warns of nothing.
+  # With sanitizers, GCC 12 gives false warnings about a variant's members.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
   endif()
 endfunction()
 
-# claystack_component(NAME USES targets ...): claystack::NAME, a static library made of the rooms
-# that claystack_room adds. Public headers are in include/; every other header is private and is
-# included by its path from the top, "export/walls/edge_tree.hpp", which names its room.
-# tests/layering.cmake checks which room may include which.
+# claystack_component(NAME USES targets ...): claystack::NAME, a static library of the rooms added
+# by claystack_room. Public headers are in include/; every other header is private and is included
+# by its path from the top, "export/walls/edge_tree.hpp", which names its room. tests/layering.cmake
+# checks which room may include which.
 function(claystack_component name)
   cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE" ${ARGN})
   add_library(claystack_${name} STATIC)
@@ -34,8 +34,8 @@ function(claystack_component name)
   claystack_compile_options(claystack_${name})
 endfunction()
 
-# claystack_room(COMPONENT ROOM SOURCES ... [LIBRARIES ...]): the objects of one room, as the
-# target claystack_COMPONENT_ROOM; LIBRARIES are what this room alone compiles against.
+# claystack_room(COMPONENT ROOM SOURCES ... [LIBRARIES ...]): the objects of one room, as the target
+# claystack_COMPONENT_ROOM; LIBRARIES are used by this room only.
 function(claystack_room component room)
   cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
   string(REPLACE / _ target claystack_${component}_${room})
