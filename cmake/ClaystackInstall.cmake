@@ -1,4 +1,4 @@
-# find_package(Claystack COMPONENTS engine export) for programs that build on the libraries.
+# find_package(Claystack COMPONENTS engine export) for programs that use the libraries.
 include(CMakePackageConfigHelpers)
 
 set(claystack_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Claystack)
@@ -31,7 +31,7 @@ endif()
 if(CLAYSTACK_FALCON AND CLAYSTACK_USB)
   install(TARGETS claystack_falcon_usb_core claystack_falcon_usb EXPORT ClaystackFalconUsb)
   install(EXPORT ClaystackFalconUsb NAMESPACE claystack:: DESTINATION ${claystack_config_dir})
-  # udev looks here below /usr and /usr/local; for another prefix docs/devices.md says what to do.
+  # udev reads this folder below /usr and /usr/local; docs/devices.md describes other prefixes.
   install(FILES falcon/device/60-claystack.rules DESTINATION lib/udev/rules.d)
 endif()
 if(CLAYSTACK_APP)

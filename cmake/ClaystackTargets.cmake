@@ -32,7 +32,7 @@ function(claystack_compile_options target)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wconversion -Wshadow -ffp-contract=off
     $<$<BOOL:${CLAYSTACK_WERROR}>:-Werror>)
-  # With sanitizers GCC 12 loses track of a variant's members and warns of nothing.
+  # With sanitizers, GCC 12 gives false warnings about a variant's members.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
   endif()
@@ -59,8 +59,8 @@ function(claystack_component name)
   claystack_compile_options(claystack_${name})
 endfunction()
 
-# claystack_room(COMPONENT ROOM SOURCES ... [LIBRARIES ...]): the objects of one room, as the
-# target claystack_COMPONENT_ROOM; LIBRARIES are what this room alone compiles against.
+# claystack_room(COMPONENT ROOM SOURCES ... [LIBRARIES ...]): the objects of one room, as the target
+# claystack_COMPONENT_ROOM; LIBRARIES are used by this room only.
 function(claystack_room component room)
   cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
   string(REPLACE / _ target claystack_${component}_${room})

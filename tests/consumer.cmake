@@ -1,11 +1,11 @@
-# cmake -DSOURCE=... -DBUILD=... -DWORK=... -P consumer.cmake: install, then build a stranger's
-# program on what was installed; and the engine alone, which must bring no heavy library along.
+# cmake -DSOURCE=... -DBUILD=... -DWORK=... -P consumer.cmake: installs, then builds a separate
+# program with the installed copy; and the engine alone, which must not need heavy libraries.
 
 function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-# All of it, from the build under test.
+# Everything, from the build under test.
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/full)
 run(${CMAKE_COMMAND} -S ${SOURCE}/samples/consumer -B ${WORK}/consumer -G Ninja
   -DCMAKE_PREFIX_PATH=${WORK}/full -DCMAKE_BUILD_TYPE=Release)

@@ -1,5 +1,5 @@
-# cmake -DSOURCE=... -DWORK=... -P determinism.cmake: one session, two compilers, two levels of
-# optimisation: the pot files must be the same to the byte.
+# cmake -DSOURCE=... -DWORK=... -P determinism.cmake: one session, two compilers, two optimisation
+# levels: the pot files must be identical.
 
 function(run)
   execute_process(COMMAND ${ARGV} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)

@@ -1,5 +1,6 @@
-# cmake -DSOURCE=... -P layering.cmake: which room may include which. The compiler can't check it:
-# private headers share one include root, and CGAL, Draco and libusb share one system folder.
+# cmake -DSOURCE=... -P layering.cmake: checks which room may include which. The compiler cannot
+# check it: private headers share one include root, and CGAL, Draco and libusb share one system
+# folder.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -17,10 +18,10 @@ set(engine_uses core engine)
 set(export_uses core engine export)
 set(falcon_uses core falcon)
 set(app_uses core engine export falcon)
-# The benchmark times the stages of a tick one by one.
+# The benchmark times the stages of a tick individually.
 set(exceptions "app/bench -> engine/clay" "app/bench -> engine/tool" "app/bench -> engine/tick")
 
-# room_of(PATH OUT): the longest room that PATH lies in; empty where there is none.
+# room_of(PATH OUT): the longest room that contains PATH; empty if there is none.
 function(room_of path out)
   set(found "")
   foreach(room IN LISTS rooms)
@@ -91,7 +92,7 @@ if(seen LESS 1000)
   message(FATAL_ERROR "found ${seen} includes only: this check sees too little")
 endif()
 
-# Libraries from outside, by the rooms that know of them.
+# External libraries, by the rooms that may use them.
 function(forbid folders pattern why)
   foreach(folder IN LISTS folders)
     file(GLOB_RECURSE files ${SOURCE}/${folder}/*.hpp ${SOURCE}/${folder}/*.cpp)

@@ -10,8 +10,8 @@ struct CosSin {
   double sine = 0.0;
 };
 
-/// Of an angle of at most kMostRad either way: within 1e-9 ulp of the nearest double, so that the
-/// nearest double is missed about once in 10^9 angles. NaN for NaN and for angles beyond.
+/// For angles of magnitude at most kMostRad: within 1e-9 ulp of the nearest double, so about one
+/// result in 10^9 is not the nearest. NaN for NaN and for larger angles.
 [[nodiscard]] CosSin cos_sin(double angle_rad) noexcept;
 inline constexpr double kMostRad = 1e6;
 

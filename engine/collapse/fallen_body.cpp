@@ -79,8 +79,8 @@ void FallenBody::add_outline(const ClayStack& stack, std::size_t first) {
   }
 }
 
-/// The first ring by itself, for the part rests on it; then rings by the same number, each band
-/// with the volume of its rings; then the crown.
+/// The first ring alone, because the part rests on it; then bands of equally many rings, each with
+/// the volume of its rings; then the crown.
 std::vector<FallenBody::Band> FallenBody::bands(const ClayStack& stack, std::size_t first) const {
   std::vector<Band> result;
   const double h = stack.ring_height_mm();

@@ -14,8 +14,8 @@ struct MeshUnion {
   double overlap_mm3 = 0.0;   ///< of the intersection, summed over its surface
 };
 
-/// Both bound a volume and cross themselves nowhere. Solids that touch in whole faces become one;
-/// an error (`unsound`) where they touch in an edge or a point only, which no manifold can show.
+/// Requires that both bound a volume and do not intersect themselves. Solids that touch in whole
+/// faces become one; an error (`unsound`) if they touch only in an edge or a point.
 Result<MeshUnion> unite(const TriangleMesh& a, const TriangleMesh& b);
 
 }  // namespace clay::solid::inline fallen

@@ -19,8 +19,8 @@ enum class LineRule { plain, backslash_continues };
 
 class TextScanner {
  public:
-  /// Passes over a byte order mark. Faults on a NUL byte or a line of more than 64 KiB, up to a
-  /// megabyte before it is there. The stream and the name outlive this.
+  /// Skips a byte order mark. Reports a NUL byte or a line of more than 64 KiB, up to a megabyte
+  /// before the parser reaches it. The stream and the name outlive this.
   TextScanner(ByteStream& text, std::string_view name, LineRule rule);
 
   /// The next word on this line or a later one; empty at the end of the text. The view is valid

@@ -31,8 +31,8 @@ struct Edge {
 struct EdgeNode {
   Vec2 centre{0.0}, along{1.0, 0.0};  ///< of the rectangle; `along` is its unit direction
   double half_length = 0.0, half_width = 0.0;
-  /// Inward normals, those between two edges at a reentrant corner included, differ from this
-  /// direction [rad] by at most `normal_spread`, which is negative where there are none.
+  /// Inward normals, including those between two edges at a reentrant corner, differ from this
+  /// direction [rad] by at most `normal_spread`, which is negative if there are none.
   double normal_angle = 0.0, normal_spread = -1.0;
   double arc_begin = 0.0, arc_end = 0.0;  ///< along the polygon [mm], see `EdgeTree::perimeter`
   std::uint32_t first = 0, end = 0;       ///< edges

@@ -9,15 +9,15 @@ namespace clay::falcon::inline device {
 namespace {
 
 constexpr double kMmPerM = 1e3;
-constexpr double kStatedForceN = 8.9;  // 2 lbf, on Novint's box
-constexpr double kWorkspaceMm = 48.0;  // largest ball that all encoders count, kinematics.hpp
+constexpr double kStatedForceN = 8.9;  // 2 lbf, as printed on Novint's box
+constexpr double kWorkspaceMm = 48.0;  // largest ball within the range of all encoders
 // Motors 0, lights off. A constant, so that a signal handler can send it.
 constexpr std::uint8_t kZeroFrame[] = {'<', 'A', 'A', 'A', 'A', 'A', 'A', 'A',
                                        'A', 'A', 'A', 'A', 'A', 'A', 'A', '>'};
-// A transport that has less room than this left may have stopped for it.
+// A transport with less remaining room than this may have stopped because of it.
 constexpr std::size_t kMostInPiece = 64;
 constexpr int kQuestions = 10;
-constexpr std::int64_t kAnswerUs = 20'000;  // ten times what a frame and its answer take
+constexpr std::int64_t kAnswerUs = 20'000;  // ten times the duration of a frame and its answer
 
 bool within(double value, double low, double high) { return value >= low && value <= high; }
 
@@ -26,7 +26,7 @@ DeviceInfo info_of(const Transport& line, const FalconSettings& settings) {
           settings.force_limit_n, glm::dvec3(kWorkspaceMm), 1000.0};
 }
 
-/// What is not finite stays so, or is 0: `motor_counts` makes it none.
+/// Values that are not finite stay so or become 0: `motor_counts` makes them 0.
 glm::dvec3 limited(const glm::dvec3& force_n, double limit_n) {
   const double length = glm::length(force_n);
   return length > limit_n ? limit_n / length * force_n : force_n;
@@ -109,7 +109,7 @@ DeviceResult<void> FalconDevice::start() {
                         "switch its power supply off and on, and try another firmware file");
 }
 
-/// Whether frames come back, to frames of zero force.
+/// Whether the device answers frames of zero force.
 DeviceResult<bool> FalconDevice::answers() {
   for (int i = 0; i < kQuestions; ++i) {
     const WireStatus sent = line_->write(kZeroFrame);
@@ -142,7 +142,7 @@ void FalconDevice::accept(const StateFrame& frame, std::int64_t time_us) noexcep
   unanswered_since_us_ = 0;
   const bool was_ready = sample_.state == DeviceState::ready;
   sample_.state = frame.all_homed() ? DeviceState::ready : DeviceState::needs_homing;
-  // Homing moves the origin: the last position is no longer near.
+  // Homing moves the origin: the last position is no longer a good start.
   const bool moved = was_ready != frame.all_homed();
   const glm::dvec3 angles = kinematics_.angles_of(frame.encoders);
   auto position = kinematics_.forward(angles, moved ? settings_.centre_m : position_m_);
@@ -165,7 +165,7 @@ DeviceSample FalconDevice::read(std::int64_t wait_us) noexcept {
   const std::int64_t end_us = line_->now_us() + wait_us;
   std::int64_t left_us = wait_us;
   std::array<std::uint8_t, 512> bytes{};
-  bool more = false;  // after a pause of the host: the newest frame is at the end
+  bool more = false;  // after a pause of the host, the newest frame is the last one
   do {
     const Received got = line_->read(bytes, std::max<std::int64_t>(left_us, 0));
     take(std::span(bytes).first(got.size), got.time_us);
@@ -195,7 +195,7 @@ void FalconDevice::write(const glm::dvec3& force_n) noexcept {
   const bool homing = sample_.state == DeviceState::needs_homing;
   const WireStatus sent = line_->write(
       encode({.motors = motors_, .homing = homing, .green = !homing, .red = homing}).bytes);
-  // A stop that came meanwhile must still have the last word.
+  // A concurrent stop must still send the last packet.
   if (stopped_.load()) line_->write_last(kZeroFrame);
   if (unanswered_since_us_ == 0) unanswered_since_us_ = line_->now_us();
   if (sent == WireStatus::busy) ++counters_.writes_dropped;

@@ -10,10 +10,10 @@ constexpr std::string_view kGreeting = "\x0A\x43\x0D";
 constexpr std::string_view kGreetingAnswer = "\x0A\x44\x2C\x0D";
 constexpr int kGreetingBaud = 9600, kLoadingBaud = 142'857, kRunningBaud = 1'500'000;
 constexpr std::size_t kHeaderBytes = 2 * (1 + 8 + 2);
-constexpr std::size_t kBlockHeadBytes = 2 * 2;  // the address; the size stands before it
+constexpr std::size_t kBlockHeadBytes = 2 * 2;  // the address; the size precedes it
 constexpr std::size_t kMiddle = kFrameBytes / 2;
 
-/// Whether a boot stream is at its end: follows the blocks from size to size.
+/// Whether a boot stream is complete: follows the blocks by their sizes.
 bool is_whole(const std::vector<std::uint8_t>& stream) {
   std::size_t at = kHeaderBytes;
   while (at + 2 <= stream.size()) {
@@ -131,7 +131,7 @@ void FalconModel::load(std::uint8_t byte, Answer& answer) {
   heard_size_ = 0;
 }
 
-/// Whether a frame is whole.
+/// Returns whether a frame is complete.
 bool FalconModel::take(std::uint8_t byte) noexcept {
   if (byte == '<') heard_size_ = 0;
   if (heard_size_ < kFrameBytes) heard_[heard_size_++] = byte;
@@ -182,7 +182,7 @@ void FalconModel::answer_frame(double dt_s, Answer& answer) {
   force_n_ = force_of(motors_);
   position_m_ = grip_(force_n_, dt_s);
   if (thumb_) press(thumb_());
-  // A grip that is out of reach leaves the encoders where they were.
+  // A grip out of reach leaves the encoders unchanged.
   counts_ =
       kinematics_.inverse(position_m_)
           .and_then([this](const glm::dvec3& angles) { return kinematics_.counts_of(angles); })

@@ -48,10 +48,10 @@ class WordReader {
   std::size_t at_ = 0;
 };
 
-/// Addresses that blocks have filled.
+/// The addresses already used by blocks.
 class Filled {
  public:
-  /// The start of a block that overlaps the `size` words from `start`, or nothing.
+  /// The start of a block that overlaps the `size` words from `start`, if any.
   std::optional<std::uint32_t> add(std::uint32_t start, std::uint32_t size) {
     const auto after = starts_.upper_bound(start);
     if (after != starts_.end() && after->first - start < size) return after->first;
@@ -64,7 +64,7 @@ class Filled {
   }
 
  private:
-  std::map<std::uint32_t, std::uint32_t> starts_;  ///< and sizes; none overlap
+  std::map<std::uint32_t, std::uint32_t> starts_;  ///< start and size; no two overlap
 };
 
 std::string hex(std::uint32_t address) {
@@ -88,7 +88,7 @@ std::string parse_block(WordReader& words, std::uint32_t size, Filled& filled, b
   return {};
 }
 
-/// Empty where the stream is whole, or "expected ...".
+/// Empty if the stream is complete, otherwise "expected ...".
 std::string parse(WordReader& words, Firmware& firmware) {
   if (words.word() != kKeyOfBytes) return "expected the key AA 08";
   for (int i = 0; i < kReservedWords; ++i)

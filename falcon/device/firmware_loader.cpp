@@ -10,8 +10,8 @@ namespace {
 constexpr std::array<std::uint8_t, 3> kGreeting = {0x0A, 0x43, 0x0D};
 constexpr std::array<std::uint8_t, 4> kGreetingAnswer = {0x0A, 0x44, 0x2C, 0x0D};
 constexpr std::array<std::uint8_t, 1> kAutobaud = {0x41};
-// The latency timer is 16 ms, and 62 bytes take 4 ms at 142857 baud, the greeting as long at 9600:
-// ample. The greeting is what an absent power supply makes one wait for.
+// The latency timer is 16 ms; 62 bytes take 4 ms at 142857 baud, and so does the greeting at 9600.
+// The greeting limit is also the waiting time without a power supply.
 constexpr std::int64_t kGreetingUs = 200'000, kEchoUs = 500'000;
 
 DeviceError lost(const Transport& line, WireStatus status) {
@@ -23,7 +23,7 @@ DeviceError lost(const Transport& line, WireStatus status) {
           {}};
 }
 
-/// Fills `bytes`, or as much of it as comes in time.
+/// Fills `bytes`, or the part of it that arrives in time.
 DeviceResult<std::size_t> read_fully(Transport& line, std::span<std::uint8_t> bytes,
                                      std::int64_t wait_us) {
   const std::int64_t end_us = line.now_us() + wait_us;
@@ -47,7 +47,7 @@ DeviceResult<void> send(Transport& line, std::span<const std::uint8_t> bytes) {
 DeviceResult<void> greet(Transport& line) {
   if (auto set = line.set_mode(LineMode::greeting); !set) return set;
   if (auto sent = send(line, kGreeting); !sent) return sent;
-  // A byte 0 may come first, from the moment the processor restarts.
+  // A byte 0 may precede the answer, from the restart of the processor.
   std::array<std::uint8_t, kGreetingAnswer.size() + 1> answer{};
   const auto first = read_fully(line, std::span(answer).first(kGreetingAnswer.size()), kGreetingUs);
   if (!first) return tl::make_unexpected(first.error());
@@ -67,7 +67,7 @@ DeviceResult<void> greet(Transport& line) {
                         "plug in the Falcon's own power supply and switch it on");
 }
 
-/// Byte by byte the same comes back; `at` says where the piece stands in the whole.
+/// Sends a piece and compares its echo byte by byte; `at` is the offset of the piece.
 DeviceResult<void> send_echoed(Transport& line, std::span<const std::uint8_t> piece,
                                const std::string& at) {
   if (auto sent = send(line, piece); !sent) return sent;

@@ -15,7 +15,7 @@ constexpr std::size_t kUnused = 14;
 constexpr std::size_t kLast = kFrameBytes - 1;
 
 constexpr unsigned kHoming = 0x01, kGreen = 0x02, kBlue = 0x04, kRed = 0x08;
-constexpr unsigned kTopHomed = 0x10;  // right and left follow
+constexpr unsigned kTopHomed = 0x10;  // the bits of right and left follow
 constexpr unsigned kStateBits = 0x7F;
 
 constexpr std::size_t byte_of(std::size_t leg, std::size_t nibble) {
@@ -28,8 +28,8 @@ constexpr bool is_value(std::uint8_t byte, unsigned most) {
   return byte >= kZero && byte - kZero <= static_cast<int>(most);
 }
 
-/// Whether `byte` may stand at `position`. Of the unused byte no source says what the device
-/// sends; it is held only not to be a mark.
+/// Whether `byte` is valid at `position`. No source documents the unused byte; it is only checked
+/// not to be a frame mark.
 constexpr bool fits(std::size_t position, std::uint8_t byte) {
   switch (position) {
     case 0:

@@ -15,11 +15,11 @@ namespace {
 
 constexpr int kLegs = 3;
 constexpr int kMaxSteps = 16;
-// Full Newton steps from the centre leap over poses at the rim of the workspace.
+// Full Newton steps from the centre overshoot poses at the border of the workspace.
 constexpr double kLongestStepM = 0.015;
-// Newton doubles the digits: after a step this short the next would be lost in rounding.
+// Newton doubles the digits: the step after one this short would be below rounding.
 constexpr double kLastStepM = 1e-9;
-// Volume of the box of three unit vectors below which they lie in one plane.
+// Minimum volume of the box of three unit vectors; below it they count as coplanar.
 constexpr double kFlat = 1e-9;
 
 double squared(double x) { return x * x; }
@@ -38,7 +38,7 @@ tl::unexpected<KinematicsError> failed(KinematicsError error) { return tl::make_
 /// The grip's joint in a leg's own frame [m].
 struct LegPoint {
   double u, v, w;
-  double across;  // b sin t3: what the parallelogram spans in the leg's plane; NaN out of its reach
+  double across;  // b sin t3: the parallelogram's extent in the leg's plane; NaN out of reach
 };
 
 LegPoint in_leg_frame(const Geometry& g, const glm::dvec2& direction,
@@ -50,12 +50,12 @@ LegPoint in_leg_frame(const Geometry& g, const glm::dvec2& direction,
   return {u, v, position.z, std::sqrt(squared(g.shin_m) - squared(v))};
 }
 
-/// What lies between the knees of thighs at given angles and the grip at a given place, a column
-/// or number for each leg.
+/// The vectors between the knees of thighs at given angles and the grip at a given position, one
+/// column or number per leg.
 struct Shins {
-  glm::dmat3 gradients{0.0};  // of the gap, by the position: (cos t2, cot t3, sin t2) turned by phi
-  glm::dvec3 gaps_m{0.0};     // how much longer than the shin the way is; 0 in a true pose
-  glm::dvec3 levers_m{0.0};   // a sin(t2 - t1): of a force along the shin, about the hip
+  glm::dmat3 gradients{0.0};  // of the gap by the position: (cos t2, cot t3, sin t2) rotated by phi
+  glm::dvec3 gaps_m{0.0};     // distance minus shin length; 0 in a true pose
+  glm::dvec3 levers_m{0.0};   // a sin(t2 - t1): lever of a force along the shin about the hip
 };
 
 Shins shins_between(const Geometry& g, const glm::dmat3x2& directions, const glm::dvec3& angles,
@@ -76,8 +76,7 @@ Shins shins_between(const Geometry& g, const glm::dmat3x2& directions, const glm
   return shins;
 }
 
-/// Inverse of a matrix whose columns belong to the legs; nothing when they lie in one plane or
-/// are not finite.
+/// Inverse of a matrix with one column per leg; empty if the columns are coplanar or not finite.
 std::optional<glm::dmat3> inverse_of(const glm::dmat3& columns) noexcept {
   const double box = glm::length(columns[0]) * glm::length(columns[1]) * glm::length(columns[2]);
   if (!(std::abs(glm::determinant(columns)) > kFlat * box)) return std::nullopt;
@@ -94,7 +93,7 @@ Kinematics::Kinematics(const Geometry& geometry) noexcept : geometry_(geometry) 
 std::optional<double> Kinematics::thigh_angle(int leg,
                                               const glm::dvec3& position_m) const noexcept {
   const LegPoint point = in_leg_frame(geometry_, directions_[leg], position_m);
-  // Hip, knee and grip make a triangle: the law of cosines.
+  // Hip, knee and grip form a triangle: the law of cosines.
   const double thigh = geometry_.thigh_m, shin = geometry_.shin_ends_m + point.across;
   const double reach = std::hypot(point.u, point.w);
   const double cosine = (squared(reach) + squared(thigh) - squared(shin)) / (2.0 * thigh * reach);
@@ -122,7 +121,8 @@ Solved<glm::dvec3> Kinematics::forward(const glm::dvec3& angles_rad,
     const Shins shins = shins_between(geometry_, directions_, angles_rad, position);
     const auto inverse = inverse_of(shins.gradients);
     if (!inverse) break;
-    // A vector times the inverse solves the transposed system: Newton's has the gradients as rows.
+    // A vector times the inverse solves the transposed system: Newton's matrix has the gradients as
+    // rows.
     const glm::dvec3 step = shins.gaps_m * *inverse;
     const double length = glm::length(step);
     position -= std::min(1.0, kLongestStepM / length) * step;

@@ -64,7 +64,7 @@ DeviceResult<void> check(const SpaceMouseSettings& settings) {
 
 bool SpaceMouseReports::take(std::span<const std::uint8_t> report) noexcept {
   if (report.size() >= kTranslationBytes && report[0] == kTranslation) {
-    // The controller's own axes: x right, y to the user, z down.
+    // The controller's axes: x right, y to the user, z down.
     deflection_ = {axis(report, 0), -axis(report, 2), axis(report, 1)};
     return true;
   }

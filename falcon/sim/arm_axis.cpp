@@ -6,11 +6,11 @@
 namespace clay::falcon::inline sim {
 namespace {
 
-// A tick sees a few reversals at most; the rest of a chatter is spent stuck.
+// A tick has a few reversals at most; after this many the axis sticks.
 constexpr int kMostPhases = 32;
 constexpr int kBisections = 60;
 
-/// What a slide starts from, relative to the hand's point, which then stands still.
+/// Initial state of a slide, relative to the hand's point, which is then at rest.
 struct Start {
   double velocity, acceleration;
 };
@@ -24,7 +24,7 @@ Start start_of(const ArmAxis& axis, double force_n, double intended_m_s,
   return {w, (force_n - resistance) / axis.mass_kg};
 }
 
-/// `force_n` has the friction in it: its sign does not change during a slide.
+/// `force_n` includes friction: its sign is constant during a slide.
 void slide(const ArmAxis& axis, const ArmResponse& r, double force_n, double intended_m_s,
            double time_s, AxisState& s) noexcept {
   const auto [w, a] = start_of(axis, force_n, intended_m_s, s);
@@ -43,7 +43,8 @@ double velocity_after(const ArmAxis& axis, const Start& start, double intended_m
   return intended_m_s + r.velocity.x * start.velocity + r.velocity.y * start.acceleration;
 }
 
-/// Slides with friction against `sign`, until the time is up or the velocity turns; the time spent.
+/// Slides with friction against `sign` until the time ends or the velocity reverses; returns the
+/// duration.
 double slide_until_turn(const ArmAxis& axis, double force_n, double intended_m_s, double sign,
                         double time_s, AxisState& s) noexcept {
   const double net = force_n - sign * axis.friction_n;
@@ -63,8 +64,8 @@ double slide_until_turn(const ArmAxis& axis, double force_n, double intended_m_s
 }
 
 struct Rest {
-  double time_s;  ///< until the pull is more than friction holds
-  double sign;    ///< of the motion that then begins; 0: none within the time given
+  double time_s;  ///< until the pull exceeds static friction
+  double sign;    ///< of the motion that then begins; 0: none within the given time
 };
 
 Rest rest_of(const ArmAxis& axis, double force_n, double intended_m_s, double time_s,
@@ -81,7 +82,7 @@ Rest rest_of(const ArmAxis& axis, double force_n, double intended_m_s, double ti
 
 void move_with_friction(const ArmAxis& axis, double force_n, double intended_m_s,
                         AxisState& s) noexcept {
-  // Short enough that the velocity turns at most once in a slide.
+  // Short enough that the velocity reverses at most once in a slide.
   const double swing_s = 0.5 * std::sqrt(axis.mass_kg / axis.hand_stiffness_n_per_m);
   double left_s = axis.period_s;
   for (int phase = 0; phase < kMostPhases && left_s > 0.0; ++phase) {

@@ -3,7 +3,7 @@
 
 namespace clay::falcon::inline sim {
 
-/// One axis: what moves it, and the response over its whole period.
+/// One axis: its forces, and its response over a whole period.
 struct ArmAxis {
   double mass_kg = 1.0;
   double damping_ns_per_m = 0.0;
@@ -25,12 +25,12 @@ struct ArmAxis {
 struct AxisState {
   double position_m = 0.0;
   double velocity_m_s = 0.0;
-  double intended_m = 0.0;  ///< where the hand's point is
+  double intended_m = 0.0;  ///< position of the hand's point
   double damped_j = 0.0;
   double rubbed_j = 0.0;
 };
 
-/// One period under a constant force, the hand's point moving at constant speed.
+/// Advances one period under a constant force, with the hand's point at constant speed.
 void move(const ArmAxis& axis, double force_n, double intended_m_s, AxisState& state) noexcept;
 
 }  // namespace clay::falcon::inline sim

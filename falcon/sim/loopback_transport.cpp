@@ -8,9 +8,9 @@
 namespace clay::falcon::inline sim {
 namespace {
 
-// Latency timer and two frames at 1.5 Mbaud, rounded to what a Falcon is known to keep.
+// Latency timer and two frames at 1.5 Mbaud, rounded to the known rate of a Falcon.
 constexpr std::int64_t kAnswerUs = 1'000;
-constexpr int kPatience = 1'000'000;  // looks: a second or less
+constexpr int kPatience = 1'000'000;  // polls: at most about a second
 
 }  // namespace
 
@@ -74,7 +74,7 @@ Received LoopbackTransport::read(std::span<std::uint8_t> bytes, std::int64_t wai
   Received received{0, now_us(), model_->unplugged() ? WireStatus::unplugged : WireStatus::ok};
   const std::int64_t now = received.time_us;
   while (size_ > 0 && first().ready_us <= now) {
-    // When it came, however late it is asked for.
+    // The arrival time, independent of the time of reading.
     received.time_us = first().ready_us;
     const auto next = first().answer.span().subspan(first().taken);
     const std::size_t taken = std::min(next.size(), bytes.size() - received.size);
@@ -88,8 +88,8 @@ Received LoopbackTransport::read(std::span<std::uint8_t> bytes, std::int64_t wai
   return received;
 }
 
-/// A real wire takes one packet after the other; so does this one. A signal that met its own
-/// thread in the model would wait for ever: it goes ahead after a while.
+/// Serializes packets, as a real wire does. A signal handler that interrupted its own thread in the
+/// model would wait for ever, so it continues after a while.
 bool LoopbackTransport::hold_model() noexcept {
   for (int looks = 0; looks < kPatience; ++looks)
     if (!model_held_.exchange(true, std::memory_order_acquire)) return true;

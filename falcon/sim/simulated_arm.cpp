@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kFarthestM = 10.0;
 
-/// The first component outside, by the name of the setting. Not (x < low): NaN must fail.
+/// The first component out of range, by the name of the setting. Not (x < low): NaN must fail.
 std::optional<OutOfRange> outside(const char* setting, double low, double high,
                                   const glm::dvec3& found) {
   for (int axis = 0; axis < 3; ++axis)

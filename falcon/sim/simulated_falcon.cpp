@@ -11,7 +11,7 @@ namespace {
 constexpr double kMPerMm = 1e-3;
 constexpr double kMostPauseS = 0.05;
 
-/// A hand that holds an arm, ticked as time passes.
+/// An arm held by a hand, ticked as time passes.
 class HeldArm {
  public:
   HeldArm(SimulatedArm arm, const SimulatedSettings& settings)
@@ -23,7 +23,7 @@ class HeldArm {
   glm::dvec3 move(const glm::dvec3& force_n, double dt_s) {
     const double period_s = arm_.spec().loop.period_s();
     due_s_ += std::min(dt_s, kMostPauseS);
-    // Half a tick of tolerance: frames that come by the clock must not beat against the ticks.
+    // Half a tick of tolerance, so that periodic frames do not beat against the ticks.
     for (; due_s_ > 0.5 * period_s; due_s_ -= period_s) {
       time_s_ += period_s;
       arm_.advance(force_n, centre_m_ + kMPerMm * path_(time_s_));
@@ -41,7 +41,7 @@ class HeldArm {
   double due_s_ = 0.0, time_s_ = 0.0;
 };
 
-/// The driver of the real one, and the grip.
+/// The real driver, with the simulated grip.
 class GrippedFalcon final : public HapticDevice {
  public:
   GrippedFalcon(std::unique_ptr<Transport> line, const FalconSettings& settings,

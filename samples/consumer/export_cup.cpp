@@ -1,4 +1,4 @@
-// From rings to a mesh in memory: a cup of 60 mm with walls of 4 mm.
+// Makes a mesh in memory from rings: a cup of 60 mm with walls of 4 mm.
 
 #include <claystack/engine/clay.hpp>
 #include <claystack/export/job.hpp>

@@ -1,4 +1,4 @@
-// The engine alone: press a thumb into a lump for a tenth of a second, and weigh it again.
+// Uses the engine alone: presses a thumb into a lump for a tenth of a second and prints the mass.
 
 #include <claystack/engine/wheel.hpp>
 

@@ -1,5 +1,5 @@
-// replay_pot SCENE SESSION [paper]: the shortest way from a scene and its session to a pot file
-// on standard output. Also what the determinism test builds with every compiler.
+// replay_pot SCENE SESSION [paper]: writes the pot of a scene and its session to standard output.
+// The determinism test builds it with every compiler.
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"

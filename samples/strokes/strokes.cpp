@@ -13,7 +13,7 @@
 namespace clay::samples {
 namespace {
 
-/// Where the hand is on its way, and how far apart its tools are.
+/// A point of the hand's path, and the gap of its tools.
 struct Place {
   glm::dvec2 at{0.0};
   double gap_mm = 0.0;
@@ -25,7 +25,7 @@ double noise(std::mt19937_64& random) {
   return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0;
 }
 
-/// Band-limited noise of unit root mean square: a resonator at 9 Hz that white noise rings.
+/// Band-limited noise of unit root mean square: a resonator at 9 Hz driven by white noise.
 class Tremor {
  public:
   explicit Tremor(double rate_hz) {
@@ -50,8 +50,8 @@ class Tremor {
 };
 
 /// A centripetal Catmull-Rom spline by Barry and Goldman's pyramid (SIGGRAPH 1988): unlike the
-/// uniform one it does not swing out where long and short spans meet. Gaps run straight from point
-/// to point: a curve would close them below what is asked for.
+/// uniform one it does not overshoot where long and short spans meet. Gaps are interpolated
+/// linearly, because a curve would undershoot the given values.
 Path spline(const Path& through) {
   constexpr int kPieces = 32;
   const auto lerp = [](glm::dvec2 a, double ta, glm::dvec2 b, double tb, double t) {
@@ -59,7 +59,7 @@ Path spline(const Path& through) {
   };
   Path path{through.front()};
   for (std::size_t k = 0; k + 1 < through.size(); ++k) {
-    // Beyond its ends the path runs on as it begins and ends.
+    // The path is extrapolated beyond its ends.
     const glm::dvec2 p1 = through[k].at, p2 = through[k + 1].at;
     const glm::dvec2 p0 = k > 0 ? through[k - 1].at : 2.0 * p1 - p2;
     const glm::dvec2 p3 = k + 2 < through.size() ? through[k + 2].at : 2.0 * p2 - p1;
@@ -78,7 +78,7 @@ Path spline(const Path& through) {
   return path;
 }
 
-/// The hand: where it is, and what it has played so far.
+/// The hand: its position and the poses so far.
 class Hand {
  public:
   explicit Hand(const StrokeScript& script)
@@ -89,13 +89,13 @@ class Hand {
         vertical_(script.rate_hz),
         sideways_(script.rate_hz) {}
 
-  /// Along a path in minimum-jerk time (Flash and Hogan, J. Neurosci. 5(7) 1985), whose
-  /// greatest speed is 15/8 of the mean.
+  /// Moves along a path in minimum-jerk time (Flash and Hogan, J. Neurosci. 5(7) 1985), with a peak
+  /// speed of 15/8 of the mean.
   void move(const Path& path, double speed_mm_s, bool trim) {
     std::vector<double> length{0.0};
     for (std::size_t k = 1; k < path.size(); ++k)
       length.push_back(length.back() + glm::distance(path[k - 1].at, path[k].at));
-    // No two strokes of a hand are equally fast.
+    // Strokes of a hand vary in speed.
     const double speed = speed_mm_s * (0.95 + 0.05 * noise(random_));
     const auto ticks =
         static_cast<std::int64_t>(length.back() * 1.875 / speed * script_.rate_hz) + 1;
@@ -121,7 +121,7 @@ class Hand {
   }
   void emit(const Place& place, bool trim) {
     here_ = place;
-    // One after another: compilers differ in the order in which they evaluate arguments.
+    // In separate statements, because compilers differ in the order of evaluating arguments.
     glm::dvec3 hip(place.at, 0.0);
     hip.x += script_.tremor_mm * radial_.next(random_);
     hip.y += script_.tremor_mm * vertical_.next(random_);

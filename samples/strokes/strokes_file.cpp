@@ -17,8 +17,7 @@
 namespace clay::samples {
 namespace {
 
-
-/// Why a script is refused; never leaves parse_strokes.
+/// The reason for refusing a script; does not leave parse_strokes.
 struct Refusal {
   std::string message;
 };
@@ -49,7 +48,7 @@ void read(const Json& json, const std::string& place, double& value, Range range
 
 template <std::integral Integer>
 void read(const Json& json, const std::string& place, Integer& value, IntegerRange range) {
-  // A negative integer is the only one that is not unsigned.
+  // Only negative integers are not unsigned.
   if (!json.is_number_unsigned() || json < range.low || json > range.high)
     refuse(place,
            "an integer from " + std::to_string(range.low) + " to " + std::to_string(range.high),
@@ -69,7 +68,7 @@ void read(const Json& json, const std::string& place, glm::dvec2& value) {
          value[axis], kPositionMm);
 }
 
-/// One gap for a whole stroke, or one for each of its points.
+/// One gap for a whole stroke, or one per point.
 void read(const Json& json, const std::string& place, std::vector<double>& gap_mm) {
   gap_mm.assign(json.is_array() ? json.size() : 1, 0.0);
   if (!json.is_array()) return read(json, place, gap_mm[0], kGapMm);
@@ -89,7 +88,7 @@ void read(const Json& json, const std::string& place, std::vector<T>& values, st
     read(json[i], place + "[" + std::to_string(i) + "]", values[i]);
 }
 
-/// The members of an object: all of `required`, and none that the calls have not named.
+/// The members of an object: all of `required`, and no others than those named by the calls.
 class Members {
  public:
   Members(const Json& object, std::string place, std::initializer_list<const char*> required)
@@ -99,7 +98,7 @@ class Members {
       if (!object.contains(name)) throw Refusal{at(name) + ": expected a field, found none"};
   }
 
-  /// A member that is absent leaves its value as it was.
+  /// An absent member leaves its value unchanged.
   template <class... Arguments>
   Members& field(const char* name, Arguments&&... arguments) {
     known_.emplace_back(name);
@@ -134,7 +133,7 @@ void read(const Json& json, const std::string& place, Stroke& stroke) {
       .field("trim", stroke.trim)
       .field("gap_mm", stroke.gap_mm)
       .refuse_others();
-  // A spline has no direction where it stands still.
+  // A spline has no direction between equal points.
   if (std::ranges::adjacent_find(stroke.through_mm) != stroke.through_mm.end())
     throw Refusal{place + ".through_mm: expected neighbours apart, found two equal"};
   if (const std::size_t gaps = stroke.gap_mm.size(), points = stroke.through_mm.size();
@@ -154,8 +153,8 @@ void read(const Json& json, StrokeScript& script) {
       .refuse_others();
 }
 
-/// About the most poses that a stroke plays, by the distances between its points; a hand's mean
-/// speed is 8/15 of its greatest, and varies by a tenth.
+/// Estimated maximum of the poses of a stroke, from the distances between its points; the hand's
+/// mean speed is 8/15 of its peak, and varies by a tenth.
 double poses_of(const StrokeScript& script, const Stroke& stroke) {
   constexpr double kSlowest = 1.875 / 0.9;
   const auto shift = [&](int pass) { return static_cast<double>(pass) * stroke.step_mm; };

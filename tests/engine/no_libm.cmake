@@ -1,6 +1,6 @@
-# cmake -DNM=... -DLIBRARIES=... -P no_libm.cmake: the engine decides the bytes of a pot's file, and
-# these functions of libm differ in the last bit between platforms. sqrt, floor, fma and their like
-# are exact everywhere.
+# cmake -DNM=... -DLIBRARIES=... -P no_libm.cmake: checks that the engine does not call functions of
+# libm that differ in the last bit between platforms, because it determines the bytes of pot files.
+# sqrt, floor, fma and similar functions are exact everywhere.
 
 set(inexact "a?(sin|cos|tan)h?(pi)?|atan2|sincos|exp(2|10|m1)?|log(2|10|1p)?|pow|hypot|cbrt|erfc?|[lt]gamma")
 foreach(library IN LISTS LIBRARIES)

@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kReport = 64;
 constexpr std::size_t kMostInReport = kReport - 1;
 
-using Report = std::array<std::uint8_t, 1 + kReport>;  // hidapi has the report's number before it
+using Report = std::array<std::uint8_t, 1 + kReport>;  // hidapi puts the report's number first
 
 Report report_of(std::span<const std::uint8_t> bytes) noexcept {
   Report report{};
@@ -19,7 +19,7 @@ Report report_of(std::span<const std::uint8_t> bytes) noexcept {
   return report;
 }
 
-/// A Falcon behind a microcontroller that hands its bytes on in HID reports (docs/devices.md).
+/// A Falcon behind a microcontroller that passes its bytes on in HID reports (docs/devices.md).
 class BridgeTransport final : public Transport {
  public:
   explicit BridgeTransport(std::string place) : place_(std::move(place)) {}
@@ -44,8 +44,8 @@ class BridgeTransport final : public Transport {
     return node_.write(report_of(bytes)) ? WireStatus::ok : WireStatus::unplugged;
   }
 
-  /// Bytes of as many reports as are there and have room. A count that is too large marks a report
-  /// of another make: passed over.
+  /// Reads the bytes of all available reports for which there is room. Ignores reports with a count
+  /// that is too large: they are not from a bridge.
   Received read(std::span<std::uint8_t> bytes, std::int64_t wait_us) noexcept override {
     Received received{0, monotonic_us(), WireStatus::ok};
     const std::int64_t end_us = received.time_us + wait_us;

@@ -1,6 +1,6 @@
 #pragma once
-// Bytes that came and were not asked for yet. When they are too many the old ones go: who reads
-// late wants the newest.
+// A buffer of received bytes. On overflow the oldest are dropped, because a late reader needs the
+// newest.
 
 #include <algorithm>
 #include <array>

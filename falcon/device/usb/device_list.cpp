@@ -49,7 +49,7 @@ std::string narrow(const wchar_t* text) {
   return narrowed;
 }
 
-/// The controllers of some receivers are one of several HID interfaces.
+/// On some receivers the controller is one of several HID interfaces.
 bool is_multi_axis(const hid_device_info& info) {
   constexpr int kGenericDesktop = 1, kMultiAxis = 8;
   return info.usage_page == 0 || (info.usage_page == kGenericDesktop && info.usage == kMultiAxis);
@@ -75,7 +75,7 @@ void list_hid(std::vector<ListedDevice>& found) {
                          return other.place == device->place;
                        });
     if (!device || twice) continue;
-    // Nodes say who may open them; what hidapi's libusb backend names is no node.
+    // A /dev node has permissions; the names of hidapi's libusb backend are not nodes.
     if (device->place.front() == '/' && access(device->place.c_str(), R_OK | W_OK) != 0) {
       device->usable = false;
       device->problem = node_error(device->place);

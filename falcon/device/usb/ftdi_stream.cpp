@@ -8,9 +8,9 @@ namespace clay::falcon::inline device {
 namespace {
 
 constexpr std::uint8_t kIn = 0x81, kOut = 0x02;
-// Modem and line status, before the data of every packet.
+// Modem and line status, which precede the data of every packet.
 constexpr std::size_t kStatusBytes = 2;
-// The kernel reports a line that dies as some broken transfers before it says so.
+// The kernel reports some broken transfers of a failing line before it reports the disconnection.
 constexpr int kErrorsBorne = 3;
 constexpr std::int64_t kFarewellUs = 10'000;
 constexpr int kFarewells = 100;
@@ -48,7 +48,7 @@ bool FtdiStream::any_queued() const noexcept {
 
 void FtdiStream::stop() noexcept {
   if (!context_) return;
-  // What was written last is a force of zero: it may leave first.
+  // The last write is a zero force: let it finish.
   const auto writing = [this] {
     return std::any_of(writes_.begin(), writes_.end(), [](const Slot& s) { return s.queued; });
   };
@@ -61,7 +61,7 @@ void FtdiStream::stop() noexcept {
   std::for_each(writes_.begin(), writes_.end(), cancel);
   for (int i = 0; i < kFarewells && any_queued(); ++i) pump(kFarewellUs);
   const auto release = [](Slot& slot) {
-    // One that never came back is left to the system rather than pulled from under it.
+    // A transfer that never completed stays allocated, because the system may still use it.
     if (!slot.queued) libusb_free_transfer(slot.transfer);
     slot.transfer = nullptr;
     slot.queued = false;

@@ -1,6 +1,6 @@
 #pragma once
-// The bulk transfers of an FTDI chip: reads that are always queued, writes that nobody waits for.
-// All happens within `pump`, on the caller's thread. libusb itself allocates a little in each.
+// The bulk transfers of an FTDI chip: reads are always queued, writes are not waited for.
+// Everything runs inside `pump`, on the caller's thread. libusb allocates a little in each call.
 
 #include "claystack/falcon/device.hpp"
 #include "falcon/device/usb/byte_ring.hpp"
@@ -22,9 +22,9 @@ class FtdiStream {
   FtdiStream& operator=(const FtdiStream&) = delete;
   ~FtdiStream() { stop(); }
 
-  /// Queues the reads. The handle must be claimed, and outlive `stop`.
+  /// Queues the reads. The handle must be claimed, and must outlive `stop`.
   [[nodiscard]] bool start(libusb_context* context, libusb_device_handle* handle);
-  /// Takes back what is queued.
+  /// Cancels all queued transfers.
   void stop() noexcept;
 
   WireStatus write(std::span<const std::uint8_t> bytes) noexcept;
@@ -32,7 +32,8 @@ class FtdiStream {
   void forget() noexcept { ring_.clear(); }
 
  private:
-  static constexpr std::size_t kPacket = 64;  // of a full-speed chip, the Falcon's
+  static constexpr std::size_t kPacket =
+      64;  // packet size of a full-speed chip such as the Falcon's
   struct Slot {
     FtdiStream* owner = nullptr;
     libusb_transfer* transfer = nullptr;

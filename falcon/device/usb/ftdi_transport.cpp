@@ -17,18 +17,18 @@
 namespace clay::falcon::inline device {
 namespace {
 
-// Both are whole divisors of the chip's 3 MHz, so that every driver sets the same.
+// Integer divisors of the chip's 3 MHz, so that every driver sets the same.
 constexpr int kGreetingBaud = 9'600, kLoadingBaud = 142'857, kRunningBaud = 1'500'000;
-// With 1 ms the greeting fails often on real devices.
+// With 1 ms the greeting often fails on real devices.
 constexpr unsigned char kLoadingLatencyMs = 16, kRunningLatencyMs = 1;
 constexpr unsigned kOut = 0x02;
 constexpr unsigned kLastWordMs = 20;
 
-/// The descriptor by which libusb talks to the one device that is open in its context.
+/// The file descriptor that libusb uses for the only open device of its context.
 int descriptor_of(libusb_context* context) {
   const libusb_pollfd** all = libusb_get_pollfds(context);
   int found = -1;
-  // Of a device libusb waits until it can be written; of its own wake-ups until they can be read.
+  // libusb polls a device for writing, and its own event pipe for reading.
   for (const libusb_pollfd** one = all; one && *one; ++one)
     if ((*one)->events & POLLOUT) found = (*one)->fd;
   libusb_free_pollfds(all);
@@ -88,8 +88,8 @@ class FtdiTransport final : public Transport {
     return stream_.read(bytes, wait_us);
   }
 
-  /// Past libusb, whose locks a signal may have met: one call of the kernel, which keeps the order
-  /// of what is queued.
+  /// Bypasses libusb, whose locks the interrupted thread may hold: one system call, which keeps the
+  /// order of queued packets.
   void write_last(std::span<const std::uint8_t> bytes) noexcept override {
     const int descriptor = descriptor_.load();
     if (descriptor < 0 || bytes.size() > kMostWritten) return;
@@ -127,7 +127,7 @@ class FtdiTransport final : public Transport {
   }
 
   DeviceResult<void> open_device(libusb_device* device) {
-    // libftdi says little of why it can't; a driver in the way it sends away itself.
+    // libftdi reports little about the cause; it detaches a bound kernel driver itself.
     auto access = check_usb_access(device);
     if (!access && access.error().fault != DeviceFault::driver_bound) return access;
     if (const int code = ftdi_usb_open_dev(ftdi_, device); code < 0)

@@ -1,6 +1,6 @@
 #pragma once
-// Threads that a library makes while this lives take no signal: a handler of ours that met one of
-// them inside the library, and then asked the library for a last word, would wait for itself.
+// Blocks signals in threads that a library creates during this scope: a handler that interrupted
+// one of them inside the library, and then called the library for the last packet, would deadlock.
 
 #include <pthread.h>
 
@@ -13,7 +13,7 @@ class HeldSignals {
   HeldSignals() noexcept {
     sigset_t all;
     sigfillset(&all);
-    // A fault befalls the thread that makes it, held or not.
+    // A fault signal is delivered to the thread that caused it, blocked or not.
     for (const int fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGABRT, SIGSYS})
       sigdelset(&all, fault);
     pthread_sigmask(SIG_BLOCK, &all, &before_);

@@ -12,7 +12,7 @@
 namespace clay::falcon::inline device {
 namespace {
 
-/// This thread is in a call of hidapi, and may hold what the next one waits for.
+/// True while this thread is in a call of hidapi and may hold its locks.
 thread_local volatile std::sig_atomic_t in_hidapi = 0;
 
 class InHidapi {

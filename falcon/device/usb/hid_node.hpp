@@ -21,14 +21,14 @@ class HidNode {
   void close() noexcept;
   [[nodiscard]] bool is_open() const noexcept { return device_ != nullptr; }
 
-  /// One report; its size, 0 when none came within `wait_us` (whole ms, rounded up), below 0 when
-  /// the device is gone.
+  /// Reads one report; returns its size, 0 if none arrives within `wait_us` (rounded up to whole
+  /// ms), negative if the device was disconnected.
   int read(std::span<std::uint8_t> report, std::int64_t wait_us) noexcept;
-  /// `report` begins with its number, 0 where reports have none. False when the device is gone.
+  /// `report` begins with its number, or 0 without numbers. False if the device was disconnected.
   bool write(std::span<const std::uint8_t> report) noexcept;
-  /// The same from a signal handler: past hidapi where the device is a node of /dev. With its
-  /// libusb backend a handler that met its own thread inside hidapi writes nothing: the locks are
-  /// taken. What that thread writes next is what the device is told last.
+  /// The same from a signal handler: bypasses hidapi if the device is a /dev node. With the libusb
+  /// backend, a handler that interrupted its own thread inside hidapi writes nothing, because the
+  /// locks are held. The next write of that thread is then the last packet.
   void write_last(std::span<const std::uint8_t> report) noexcept;
 
  private:

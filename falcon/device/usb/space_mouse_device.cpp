@@ -7,7 +7,7 @@
 namespace clay::falcon::inline device {
 namespace {
 
-constexpr std::uint8_t kLight = 4;  // the report that switches the LED
+constexpr std::uint8_t kLight = 4;  // the number of the report that switches the LED
 
 class SpaceMouse final : public HapticDevice {
  public:
@@ -35,7 +35,7 @@ class SpaceMouse final : public HapticDevice {
     return opened;
   }
 
-  /// Does not wait: where the position is follows from the time.
+  /// Does not wait: the position follows from the time.
   DeviceSample read(std::int64_t) noexcept override {
     sample_.fresh = false;
     if (sample_.state != DeviceState::ready) return sample_;
@@ -51,7 +51,7 @@ class SpaceMouse final : public HapticDevice {
       sample_.state = DeviceState::fault;
       return sample_;
     }
-    // The report that says it was let go may be lost: a controller that is held keeps talking.
+    // The release report may be lost: a deflected controller sends reports continuously.
     if (now_us - heard_us_ > settings_.silence_us) reports_.release();
     motion_.advance(reports_.deflection(), now_us);
     sample_ = {now_us, motion_.position_mm(), reports_.buttons(), DeviceState::ready, true};

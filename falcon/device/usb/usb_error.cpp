@@ -62,7 +62,7 @@ DeviceResult<void> check_usb_access(libusb_device* device) {
 
 DeviceError node_error(const std::string& place) {
   const std::string what = place + ": could not open: ";
-  // hidapi keeps the cause to itself, and its libusb backend has no node to ask.
+  // hidapi does not report the cause, and its libusb backend has no node to check.
   if (place.front() != '/' || access(place.c_str(), R_OK | W_OK) == 0)
     return {DeviceFault::busy, what + "another program has it, or no permission", kRule};
   if (errno == ENOENT || errno == ENODEV)
