@@ -126,7 +126,7 @@ Played played(const SceneSpec& scene, const std::vector<Pose>& poses) {
   Played run;
   for (const Pose& pose : poses) {
     run.time_us.push_back(pose.time_us);
-    run.force_n.push_back(wheel.step(pose).force_n);
+    run.force_n.push_back(wheel.step(pose).force_n());
   }
   run.stack = wheel.stack();
   return run;

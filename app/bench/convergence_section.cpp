@@ -109,7 +109,7 @@ Table exact_table(bool& sound) {
     double wall = 0.0, force = 0.0;
     for (const Pose& pose : rib.poses) {
       const double t_s = 1e-6 * static_cast<double>(pose.time_us);
-      const double felt = wheel.step(pose).force_n.x;
+      const double felt = wheel.step(pose).force_n().x;
       const Ring& ring = wheel.stack().rings()[static_cast<std::size_t>(30.0 / h)];
       force = std::max(force, std::abs(felt - rib.force_n(t_s)));
       wall = std::max(wall, std::abs(ring.outer_mm() - ring.inner_mm() - rib.wall_mm(t_s)));

@@ -99,7 +99,7 @@ Outcome play_engine(const Fineness& fineness, Model model) {
   const double initial = static_cast<double>(wheel.ledger().initial);
   for (int tick = 0; tick <= ticks_of(fineness.rate_hz); ++tick) {
     const StepReport report = wheel.step(pose_at(tick, fineness.rate_hz));
-    if (tick % every == 0) outcome.force_n.push_back(report.force_n);
+    if (tick % every == 0) outcome.force_n.push_back(report.force_n());
     const auto error = static_cast<double>(wheel.ledger().volume_error(wheel.stack().volume()));
     outcome.volume_error = std::max(outcome.volume_error, std::abs(error) / initial);
   }

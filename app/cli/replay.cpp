@@ -59,7 +59,7 @@ ReplayStats replay(Wheel& wheel, std::span<const Pose> poses, const ReplayOption
     const auto before = Clock::now();
     const StepReport step = wheel.step(poses[k]);
     tick_ns.push_back(std::chrono::duration<double, std::nano>(Clock::now() - before).count());
-    const double force = glm::length(step.force_n);
+    const double force = glm::length(step.force_n());
     stats.refused += (step.flags & kRefused) != 0;
     stats.ring_limit = stats.ring_limit || (step.flags & kRingLimit) != 0;
     stats.max_force_n = std::max(stats.max_force_n, force);

@@ -3,22 +3,13 @@
 // passive. Without a motor none of it is done.
 
 #include "app/servo/mapping.hpp"
+#include "claystack/engine/wheel.hpp"
 #include "claystack/falcon/passivity.hpp"
 
 #include <cstdint>
 #include <glm/vec3.hpp>
 
 namespace clay::servo {
-
-/// A force on the tool as its spring and the friction of the turning wheel. Friction drags the hand
-/// along the wheel's turn and works on it by right; only the spring is held to be passive.
-struct SplitForce {
-  glm::dvec3 spring_n{0.0}, friction_n{0.0};
-};
-
-/// Friction is what runs along the turn of the wheel at the tool: the spring of a body of
-/// revolution has no such part.
-[[nodiscard]] SplitForce split(const glm::dvec3& tool_mm, const glm::dvec3& force_n) noexcept;
 
 class HandForce {
  public:
@@ -30,10 +21,11 @@ class HandForce {
     glm::dvec3 force_n{0.0};  ///< in the device's frame
     bool passive = true;
   };
-  /// The answer to a fresh sample of the hand, with the clay's force on the tool.
+  /// The answer to a fresh sample of the hand, with the clay's force on the tool. Friction drags
+  /// the hand along the wheel's turn and works on it by right; only the spring is held to be
+  /// passive.
   [[nodiscard]] Wanted answer(std::int64_t now_us, const glm::dvec3& device_mm,
-                              const Mapping& mapping, const glm::dvec3& tool_mm,
-                              const glm::dvec3& clay_n) noexcept;
+                              const Mapping& mapping, const StepReport& clay) noexcept;
 
   /// What the guard let through of the last answer: energy is counted with this. Of the spring's
   /// part, which is let through as the whole is.

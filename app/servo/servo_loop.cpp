@@ -124,11 +124,10 @@ void ServoLoop::follow(const falcon::DeviceSample& sample, std::int64_t now_us) 
   const StepReport report =
       clay_.meet({sample.time_us - first_us_, tool_mm_, controls_.trim(), controls_.gap_mm()});
   status_.contact = (report.flags & kContact) != 0;
-  status_.clay_n = report.force_n;
+  status_.clay_n = report.force_n();
   status_.ring_limit = status_.ring_limit || (report.flags & kRingLimit) != 0;
   if (!bench_.device.info().can_push) return;
-  const HandForce::Wanted hand =
-      hand_.answer(now_us, sample.position_mm, mapping_, tool_mm_, report.force_n);
+  const HandForce::Wanted hand = hand_.answer(now_us, sample.position_mm, mapping_, report);
   wanted_.force_n = hand.force_n;
   wanted_.passive = hand.passive;
 }

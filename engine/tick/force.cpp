@@ -45,12 +45,13 @@ glm::dvec3 friction_force(const ForcePlan& plan, const Contact& contact,
   return plan.turn * plan.friction * glm::length(spring) * tangent;
 }
 
-glm::dvec3 limited(const glm::dvec3& force, double limit_n) noexcept {
-  const double norm = glm::length(force);
-  if (norm <= limit_n) return force;
-  if (!std::isfinite(norm)) return glm::dvec3(0.0);
+void limit_sum(glm::dvec3& spring, glm::dvec3& friction, double limit_n) noexcept {
+  const double norm = glm::length(spring + friction);
+  if (norm <= limit_n) return;
   // A few ulp of slack, so that the rounded norm does not pass the limit.
-  return force * (limit_n / norm * (1.0 - 0x1p-50));
+  const double part = limit_n / norm * (1.0 - 0x1p-50);
+  spring = std::isfinite(norm) ? part * spring : glm::dvec3(0.0);
+  friction = std::isfinite(norm) ? part * friction : glm::dvec3(0.0);
 }
 
 template glm::dvec3 spring_force<Model::paper>(const ForcePlan&, const Contact&) noexcept;

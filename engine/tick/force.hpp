@@ -18,7 +18,8 @@ glm::dvec3 spring_force(const ForcePlan& plan, const Contact& contact) noexcept;
 glm::dvec3 friction_force(const ForcePlan& plan, const Contact& contact,
                           const glm::dvec3& spring) noexcept;
 
-/// At most `limit_n`, direction kept; zero where it is not finite.
-glm::dvec3 limited(const glm::dvec3& force, double limit_n) noexcept;
+/// Scales both parts of a force alike, so that their sum is at most `limit_n`; both are zero where
+/// the sum is not finite.
+void limit_sum(glm::dvec3& spring, glm::dvec3& friction, double limit_n) noexcept;
 
 }  // namespace clay

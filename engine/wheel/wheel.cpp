@@ -135,16 +135,17 @@ void press(State& s, const ToolState& tool, std::span<ToolRemoval> bites,
 }
 
 template <unsigned stages>
-glm::dvec3 contact_force(const ForcePlan& plan, std::span<const ToolRemoval> bites) noexcept {
-  const auto felt_from = [&](const Contact& contact) {
-    glm::dvec3 force = spring_force<kModel<stages>>(plan, contact);
-    if constexpr (stages & kFriction) force += friction_force(plan, contact, force);
-    return force;
+void add_force(const ForcePlan& plan, std::span<const ToolRemoval> bites,
+               StepReport& report) noexcept {
+  const auto add = [&](const Contact& contact) {
+    const glm::dvec3 spring = spring_force<kModel<stages>>(plan, contact);
+    report.spring_n += spring;
+    if constexpr (stages & kFriction) report.friction_n += friction_force(plan, contact, spring);
   };
-  glm::dvec3 force = felt_from(bites[0].contact);
+  add(bites[0].contact);
   if constexpr (stages & kPinch)
-    if (bites.size() == 2) force += felt_from(bites[1].contact);
-  return limited(force, plan.limit_n);
+    if (bites.size() == 2) add(bites[1].contact);
+  limit_sum(report.spring_n, report.friction_n, plan.limit_n);
 }
 
 /// The tool at a pose, with its gap; not valid where the pose is refused.
@@ -182,8 +183,7 @@ StepReport tick(State& s, const Pose& pose) noexcept {
   }
   if constexpr (stages & kForce)
     // After a collapse nothing is left to push against.
-    if (!s.failure && rings_of(bites) > 0)
-      report.force_n = contact_force<stages>(s.plan.force, bites);
+    if (!s.failure && rings_of(bites) > 0) add_force<stages>(s.plan.force, bites, report);
   return report;
 }
 
@@ -207,7 +207,7 @@ StepReport feel(State& s, const Pose& pose) noexcept {
   report.flags |= kContact;
   if constexpr (stages & kForce) {
     if constexpr (kModel<stages> == Model::conserving) yield<stages>(s, tool, bites);
-    report.force_n = contact_force<stages>(s.plan.force, bites);
+    add_force<stages>(s.plan.force, bites, report);
   }
   return report;
 }

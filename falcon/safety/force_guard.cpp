@@ -1,188 +1,152 @@
-#include "claystack/falcon/guard.hpp"
-
-#include "falcon/safety/guard_rule.hpp"
+#include "falcon/safety/force_guard.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
 
 namespace clay::falcon::inline safety {
 namespace {
 
-bool mends_itself(SafeCause cause) {
-  return cause == SafeCause::jumped || cause == SafeCause::overrun;
+// Of a norm that is cut, so that no rounding on the way carries it over the limit.
+constexpr double kJustBelow = 1.0 - 4.0 * std::numeric_limits<double>::epsilon();
+
+double largest(const glm::dvec3& v) noexcept {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
 }  // namespace
 
-tl::expected<ForceGuard, OutOfRange> ForceGuard::make(const GuardSettings& settings) noexcept {
-  return check(settings).map([&] { return ForceGuard(settings); });
+tl::expected<void, OutOfRange> check(const GuardSettings& s) noexcept {
+  constexpr double kTiny = 1e-3;  // of a force [N] or the length of a fade [s]
+  const OutOfRange ranges[] = {
+      {"period_s", 0.0001, 0.0025, s.period_s},
+      {"force_limit_n", kTiny, kMostForceN, s.force_limit_n},
+      {"slew_n_per_s", 1.0, 5000.0, s.slew_n_per_s},
+      {"small_force_n", kTiny / 10.0, s.force_limit_n, s.small_force_n},
+      {"small_force_ticks", 1, 1000, static_cast<double>(s.small_force_ticks)},
+      {"ramp_s", 0.1, 60.0, s.ramp_s},
+      {"stale_fade_s", 2.0 * s.period_s, kLongestToZeroS - kTiny, s.stale_fade_s},
+      {"stale_zero_s", s.stale_fade_s + kTiny, kLongestToZeroS, s.stale_zero_s},
+      {"late_zero_s", 2.0 * s.period_s, kLongestToZeroS, s.late_zero_s},
+      {"pause_s", s.late_zero_s, 1.0, s.pause_s},
+      {"jump_mm_per_s", 100.0, 10'000.0, s.jump_mm_per_s},
+      {"clay_fade_s", 2.0 * s.period_s, 1.0, s.clay_fade_s},
+      {"clay_zero_s", s.clay_fade_s + kTiny, 2.0, s.clay_zero_s},
+      {"hot_force_n", kTiny, s.force_limit_n, s.hot_force_n},
+      {"hot_time_s", 0.1, 60.0, s.hot_time_s},
+      {"hot_fade_s", 0.05, 10.0, s.hot_fade_s},
+      {"not_finite_ticks", 1, 10, static_cast<double>(s.not_finite_ticks)},
+      {"safe_rest_s", 0.01, 10.0, s.safe_rest_s},
+  };
+  for (const OutOfRange& range : ranges)
+    if (!(range.low <= range.found && range.found <= range.high)) return tl::make_unexpected(range);
+  return {};
 }
 
-Admission ForceGuard::admit(std::int64_t now_us, const GuardSample& sample) noexcept {
-  Admission admission;
-  flags_ = 0;
-  admitted_ = false;
-  ready_ = sample.ready || !on(kRuleReady);
-  const bool is_new = is_new_frame(sample);
-  if (!ready_) {
-    flags_ |= kGuardNotReady;
-    jumps_.forget();
-    frame_age_.forget();
-    engagement_.restart();
-  } else if (on(kRuleFinite) && !is_finite(sample.position_mm)) {
-    flags_ |= kGuardNotFinite;
-  } else if (is_new) {
-    admitted_ = take_frame(now_us, sample, admission);
+double elapsed_s(std::int64_t from_us, std::int64_t to_us) noexcept {
+  constexpr std::uint64_t kMost = 1'000'000'000;
+  if (to_us <= from_us) return 0.0;
+  const auto elapsed = static_cast<std::uint64_t>(to_us) - static_cast<std::uint64_t>(from_us);
+  return static_cast<double>(std::min(elapsed, kMost)) / 1e6;
+}
+
+bool is_finite(const glm::dvec3& v) noexcept {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+double norm(const glm::dvec3& v) noexcept {
+  const double most = largest(v);
+  return most > 0.0 ? most * glm::length(v / most) : most;
+}
+
+glm::dvec3 limit_norm(const glm::dvec3& v, double limit) noexcept {
+  if (norm(v) <= kJustBelow * limit) return v;
+  const glm::dvec3 direction = v / largest(v);
+  return direction * (kJustBelow * limit / glm::length(direction));
+}
+
+glm::dvec3 limit_rise(const glm::dvec3& wanted, const glm::dvec3& before, double rise) noexcept {
+  const double size = glm::dot(before, before);
+  const double kept = size > 0.0 ? std::clamp(glm::dot(wanted, before) / size, 0.0, 1.0) : 0.0;
+  const glm::dvec3 way = wanted - kept * before;
+  const double length = norm(way);
+  return length <= rise ? wanted : kept * before + way * (rise / length);
+}
+
+double fade(double age, double from, double zero) noexcept {
+  return std::clamp((zero - age) / (zero - from), 0.0, 1.0);
+}
+
+TickTime TickClock::advance(std::int64_t now_us, double period_s) noexcept {
+  TickTime time;
+  if (started_) time.real_s = elapsed_s(last_us_, now_us);
+  time.growing_s = std::min(time.real_s, period_s);
+  time.fading_s = std::max(time.real_s, kShortestStepS);
+  last_us_ = now_us;
+  started_ = true;
+  return time;
+}
+
+void Age::see(std::int64_t stamp_us, std::int64_t now_us) noexcept {
+  if (is_last(stamp_us)) return;
+  stamp_us_ = stamp_us;
+  passed_s_ = elapsed_s(stamp_us, now_us);
+  any_ = true;
+}
+
+double Age::at(std::int64_t now_us) const noexcept {
+  return std::max(passed_s_, elapsed_s(stamp_us_, now_us));
+}
+
+bool Age::is_last(std::int64_t stamp_us) const noexcept { return any_ && stamp_us == stamp_us_; }
+
+JumpFilter::Verdict JumpFilter::take(const glm::dvec3& position_mm, double reach_mm) noexcept {
+  const double moved = norm(position_mm - plausible_mm_);
+  const bool reached = !any_ || moved <= reach_mm;
+  const bool by_suspect = suspected_ && norm(position_mm - suspect_mm_) < moved;
+  if (reached && !by_suspect) {
+    plausible_mm_ = position_mm;
+    any_ = true;
+    suspected_ = false;
+    return Verdict::plausible;
   }
-  admission.may_deform = admitted_ && cause_ == SafeCause::none &&
-                         (frame_age_.at(now_us) < settings_.stale_fade_s || !on(kRuleStaleFrames));
-  admission.flags = flags_;
-  return admission;
+  if (suspected_) {
+    forget();
+    return Verdict::stays;
+  }
+  suspect_mm_ = position_mm;
+  suspected_ = true;
+  return Verdict::dropped;
 }
 
-bool ForceGuard::is_new_frame(const GuardSample& sample) noexcept {
-  if (!sample.fresh || (seen_ && sample.time_us == seen_us_)) return false;
-  seen_us_ = sample.time_us;
-  seen_ = true;
+void Engagement::want(double wanted_n, double small_n, int ticks) noexcept {
+  if (phase_ != Phase::waiting) return;
+  small_ticks_ = wanted_n < small_n ? small_ticks_ + 1 : 0;
+  if (small_ticks_ >= ticks) phase_ = Phase::ramping;
+}
+
+void Engagement::grow(double growing_s, double ramp_s) noexcept {
+  if (phase_ != Phase::ramping) return;
+  gain_ = std::min(1.0, gain_ + growing_s / ramp_s);
+  if (gain_ == 1.0) phase_ = Phase::engaged;
+}
+
+void HeatLimit::hold(double force_n, double hot_n, const TickTime& time, double most_s) noexcept {
+  hot_s_ += force_n > hot_n ? time.fading_s : -time.growing_s;
+  hot_s_ = std::clamp(hot_s_, 0.0, most_s);
+  fading_ = fading_ || hot_s_ == most_s;
+}
+
+bool HeatLimit::fade_out(double fading_s, double fade_s) noexcept {
+  if (!fading_) return false;
+  gain_ -= fading_s / fade_s;
+  if (gain_ > 0.0) return false;
+  gain_ = 1.0;
+  fading_ = false;
   return true;
 }
 
-/// Whether the frame is plausible, and so shows the hand.
-bool ForceGuard::take_frame(std::int64_t now_us, const GuardSample& sample,
-                            Admission& admission) noexcept {
-  const double since =
-      frame_age_.any() ? elapsed_s(frame_age_.stamp_us(), sample.time_us) : kShortestStepS;
-  admission.step_s = on(kRuleStep) ? std::clamp(since, kShortestStepS, kLongestStepS) : since;
-  const double reach = settings_.jump_mm_per_s * std::max(admission.step_s, settings_.period_s);
-  const auto verdict =
-      on(kRuleJump) ? jumps_.take(sample.position_mm, reach) : JumpFilter::Verdict::plausible;
-  if (verdict == JumpFilter::Verdict::plausible) {
-    frame_age_.see(sample.time_us, now_us);
-    return true;
-  }
-  flags_ |= kGuardJump;
-  if (verdict == JumpFilter::Verdict::stays) latch(SafeCause::jumped);
-  return false;
-}
-
-GuardedForce ForceGuard::force(std::int64_t now_us, const WantedForce& wanted) noexcept {
-  const TickTime time = clock_.advance(now_us, settings_.period_s);
-  if (on(kRuleHeat)) heat_.hold(norm(sent_n_), settings_.hot_force_n, time, settings_.hot_time_s);
-  watch_force(wanted);
-  watch_clock(time);
-  watch_ages(time, now_us, wanted);
-  rest(time.growing_s);
-
-  const glm::dvec3 limited = limit(wanted.force_n);
-  const double held = let_go(time, now_us);
-  earn(limited, time.growing_s);
-  const bool zero = cause_ != SafeCause::none || !ready_ || !frame_age_.any() ||
-                    (on(kRuleFinite) && (flags_ & kGuardNotFinite) != 0) ||
-                    (on(kRuleLate) && (flags_ & kGuardLate) != 0) || engagement_.gain() == 0.0;
-  sent_n_ = zero ? glm::dvec3(0.0) : rise(held * engagement_.gain() * limited, time.growing_s);
-
-  const GuardedForce out{sent_n_, engagement_.gain(), state(held), cause_, flags_};
-  flags_ = 0;
-  admitted_ = false;
-  return out;
-}
-
-void ForceGuard::watch_force(const WantedForce& wanted) noexcept {
-  if (!is_finite(wanted.force_n)) flags_ |= kGuardNotFinite;
-  not_finite_ticks_ = (flags_ & kGuardNotFinite) != 0 ? not_finite_ticks_ + 1 : 0;
-  if (on(kRuleNotFiniteLatch) && not_finite_ticks_ >= settings_.not_finite_ticks)
-    latch(SafeCause::not_finite);
-  if (on(kRulePassive) && !wanted.passive) latch(SafeCause::not_passive);
-}
-
-void ForceGuard::watch_clock(const TickTime& time) noexcept {
-  if (time.real_s == 0.0) flags_ |= kGuardClock;
-  if (time.real_s >= settings_.late_zero_s) flags_ |= kGuardLate;
-  if (on(kRuleOverrun) && time.real_s > settings_.pause_s) latch(SafeCause::overrun);
-}
-
-void ForceGuard::watch_ages(const TickTime& time, std::int64_t now_us,
-                            const WantedForce& wanted) noexcept {
-  if (!admitted_) frame_age_.pass(time.fading_s);
-  if (clay_age_.is_last(wanted.clay_time_us)) clay_age_.pass(time.fading_s);
-  clay_age_.see(wanted.clay_time_us, now_us);
-  if (!on(kRulePause)) return;
-  if (frame_age_.any() && frame_age_.at(now_us) > settings_.pause_s) {
-    jumps_.forget();
-    frame_age_.forget();
-    engagement_.restart();
-  }
-  if (clay_age_.at(now_us) >= settings_.clay_zero_s) engagement_.restart();
-}
-
-void ForceGuard::rest(double growing_s) noexcept {
-  if (!admitted_) return;
-  rested_s_ += growing_s;
-  const bool rested = mends_itself(cause_) && rested_s_ >= settings_.safe_rest_s;
-  if (rested || !on(kRuleLatch)) cause_ = SafeCause::none;
-}
-
-glm::dvec3 ForceGuard::limit(const glm::dvec3& wanted_n) noexcept {
-  if (!is_finite(wanted_n) && on(kRuleFinite)) return glm::dvec3(0.0);
-  if (norm(wanted_n) > settings_.force_limit_n) flags_ |= kGuardLimited;
-  return on(kRuleLimit) ? limit_norm(wanted_n, settings_.force_limit_n) : wanted_n;
-}
-
-/// What is left of the force while frames, clay or motors say to let go, 0 to 1.
-double ForceGuard::let_go(const TickTime& time, std::int64_t now_us) noexcept {
-  const double frame_s = frame_age_.at(now_us), clay_s = clay_age_.at(now_us);
-  double held = 1.0;
-  if (frame_age_.any() && frame_s > settings_.stale_fade_s) flags_ |= kGuardStale;
-  if (clay_s > settings_.clay_fade_s) flags_ |= kGuardOldClay;
-  if (on(kRuleStaleFrames)) held *= fade(frame_s, settings_.stale_fade_s, settings_.stale_zero_s);
-  if (on(kRuleOldClay)) held *= fade(clay_s, settings_.clay_fade_s, settings_.clay_zero_s);
-  if (heat_.fading()) flags_ |= kGuardHot;
-  if (heat_.fade_out(time.fading_s, settings_.hot_fade_s)) engagement_.restart();
-  return held * heat_.gain();
-}
-
-void ForceGuard::earn(const glm::dvec3& limited_n, double growing_s) noexcept {
-  if (cause_ != SafeCause::none || !ready_) return;
-  const double small = settings_.small_force_n;
-  const bool unknown = (flags_ & kGuardNotFinite) != 0;
-  const double wanted = unknown ? settings_.force_limit_n : norm(limited_n);
-  if (!on(kRuleSmallForce))
-    engagement_.want(0.0, small, 1);
-  else if (admitted_ || !(wanted < small))
-    engagement_.want(wanted, small, settings_.small_force_ticks);
-  engagement_.grow(growing_s, on(kRuleRamp) ? settings_.ramp_s : kShortestStepS);
-}
-
-glm::dvec3 ForceGuard::rise(const glm::dvec3& force_n, double growing_s) noexcept {
-  if (!on(kRuleSlew)) return force_n;
-  const glm::dvec3 risen = limit_rise(force_n, sent_n_, settings_.slew_n_per_s * growing_s);
-  if (risen != force_n) flags_ |= kGuardSlewed;
-  // On the way between two forces that keep the limit, but for rounding.
-  return on(kRuleLimit) ? limit_norm(risen, settings_.force_limit_n) : risen;
-}
-
-GuardState ForceGuard::state(double held) const noexcept {
-  if (cause_ != SafeCause::none) return GuardState::safe;
-  if (!ready_ || !frame_age_.any()) return GuardState::idle;
-  if (engagement_.phase() == Engagement::Phase::waiting) return GuardState::waiting;
-  if (held < 1.0) return GuardState::fading;
-  return engagement_.phase() == Engagement::Phase::ramping ? GuardState::ramping
-                                                           : GuardState::engaged;
-}
-
-void ForceGuard::latch(SafeCause cause) noexcept {
-  if (cause == SafeCause::stopped && !on(kRuleStop)) return;
-  const bool holds = cause_ != SafeCause::none && !mends_itself(cause_);
-  if (cause != SafeCause::stopped && holds) return;
-  cause_ = cause;
-  rested_s_ = 0.0;
-  engagement_.restart();
-}
-
-bool ForceGuard::rearm() noexcept {
-  if (cause_ == SafeCause::stopped) return false;
-  cause_ = SafeCause::none;
-  engagement_.restart();
-  return true;
-}
+template class BasicForceGuard<kAllGuardRules>;
 
 }  // namespace clay::falcon::inline safety

@@ -15,7 +15,7 @@ int main() {
   clay::StepReport last;
   for (int tick = 0; tick < 100; ++tick)
     last = wheel->step({1000 * (tick + 1), {52.0, 60.0 + 0.05 * tick, 0.0}, false});
-  std::printf("pushed back with %.2f N; volume changed by %g mm3\n", last.force_n.x,
+  std::printf("pushed back with %.2f N; volume changed by %g mm3\n", last.force_n().x,
               wheel->stack().volume_mm3() - before);
   return wheel->stack().volume_mm3() == before ? 0 : 1;
 }

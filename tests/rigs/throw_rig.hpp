@@ -179,7 +179,7 @@ class ThrowRig : public testing::Test {
       const auto at = std::ranges::min_element(
           log, {}, [&](const FrameLog& frame) { return glm::distance(frame.position_m, place_m); });
       farthest_mm = std::max(farthest_mm, 1e3 * glm::distance(at->position_m, place_m));
-      const glm::dvec3 clay_n = wheel.step(pose).force_n;
+      const glm::dvec3 clay_n = wheel.step(pose).force_n();
       if (at + 1 == log.end()) continue;
       const glm::dvec3& felt_n = (at + 1)->force_n;
       along += glm::dot(felt_n, clay_n);

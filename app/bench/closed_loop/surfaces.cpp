@@ -40,7 +40,7 @@ class Clay final : public Surface {
   Clay(const ClaySpec& spec, Wheel wheel) : wheel_(std::move(wheel)), spec_(spec) {}
 
   glm::dvec3 press(std::int64_t time_us, const glm::dvec3& reading_m) override {
-    return wheel_.step({time_us, hip_mm(reading_m), false}).force_n;
+    return wheel_.step({time_us, hip_mm(reading_m), false}).force_n();
   }
   /// The overlap energy E = sum K' h depth^2 / 2, from the stack itself.
   [[nodiscard]] double stored_j(const glm::dvec3& position_m) const override {

@@ -26,8 +26,8 @@ class OnTheEngine final : public Subject {
   Tick step(const Pose& pose) override {
     const StepReport report = wheel_.step(pose);
     const auto flag = [&](StepFlag f) { return (report.flags & f) != 0; };
-    return {report.force_n,  flag(kContact),   flag(kRefused), flag(kCollapsed),
-            flag(kLongStep), flag(kRingLimit), false,          false};
+    return {report.force_n(), flag(kContact),   flag(kRefused), flag(kCollapsed),
+            flag(kLongStep),  flag(kRingLimit), false,          false};
   }
   std::size_t rings() const override { return wheel_.stack().size(); }
   Radii ring(std::size_t i) const override {

@@ -83,21 +83,23 @@ TEST(Mapping, RefusesWhatNoHandCanUse) {
   EXPECT_FALSE(Mapping::build({.reach_mm = -1.0}));
 }
 
-RC_GTEST_PROP(SplitForce, FrictionIsWhatRunsAlongTheTurn, ()) {
-  const glm::dvec3 tool = any_vector(100.0), force = any_vector(5.0);
-  const SplitForce parts = split(tool, force);
-  RC_ASSERT(glm::distance(parts.spring_n + parts.friction_n, force) < 1e-12);
-  RC_ASSERT(parts.friction_n.y == 0.0);
-  // Square to the radius, and nothing of the spring along it.
-  const glm::dvec3 radial(tool.x, 0.0, tool.z);
-  RC_ASSERT(std::abs(glm::dot(parts.friction_n, radial)) < 1e-9);
-  RC_ASSERT(std::abs(glm::dot(parts.spring_n, glm::dvec3(tool.z, 0.0, -tool.x))) < 1e-9);
-}
-
-TEST(SplitForce, OnTheAxisThereIsNoTurn) {
-  const SplitForce parts = split({0, 50, 0}, {1, 2, 3});
-  EXPECT_EQ(parts.spring_n, glm::dvec3(1, 2, 3));
-  EXPECT_EQ(parts.friction_n, glm::dvec3(0.0));
+// Friction that drives the hand at 1 m/s gives 1 J a second. As a spring force it is damped.
+TEST(HandForce, OnlyTheSpringIsHeldToBePassive) {
+  const Mapping mapping = Mapping::build({.scale = 1.0}).value();
+  const auto most_removed_n = [&](bool as_spring) {
+    HandForce hand(falcon::PassivityController::build({.loop = {}, .step_m = 5e-5}).value());
+    double most = 0.0;
+    for (int k = 0; k < 100; ++k) {
+      StepReport clay;
+      (as_spring ? clay.spring_n : clay.friction_n) = {0.0, 0.0, 1.0};
+      const auto wanted = hand.answer(1000 * k, {0.0, 0.0, 1.0 * k}, mapping, clay);
+      most = std::max(most, glm::distance(wanted.force_n, {0.0, 0.0, 1.0}));
+      hand.displayed(wanted.force_n);
+    }
+    return most;
+  };
+  EXPECT_EQ(most_removed_n(false), 0.0);
+  EXPECT_GT(most_removed_n(true), 0.5);
 }
 
 TEST(Controls, ButtonsHoldAndStep) {

@@ -62,7 +62,7 @@ TEST_P(StandingRib, FollowsTheExactSolution) {
   for (const Pose& pose : rib.poses) {
     const double t_s = 1e-6 * static_cast<double>(pose.time_us);
     const StepReport report = wheel.step(pose);
-    EXPECT_NEAR(report.force_n.x, rib.force_n(t_s), 1e-6) << t_s;
+    EXPECT_NEAR(report.force_n().x, rib.force_n(t_s), 1e-6) << t_s;
     const Ring& ring = wheel.stack().rings()[under];
     EXPECT_NEAR(ring.outer_mm() - ring.inner_mm(), rib.wall_mm(t_s), 1e-6) << t_s;
   }

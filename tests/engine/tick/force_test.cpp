@@ -129,18 +129,26 @@ RC_GTEST_PROP(Force, LimitKeepsDirectionAndIsNeverExceeded, ()) {
     return std::pow(10.0, 12 * samples::uniform(random) - 4) *
            (samples::uniform(random) < 0.5 ? -1 : 1);
   };
-  const glm::dvec3 force(component(), component(), component());
-  const glm::dvec3 kept = limited(force, 5.0);
+  const glm::dvec3 spring(component(), component(), 0.0), friction(0.0, 0.0, component());
+  const glm::dvec3 force = spring + friction;
+  glm::dvec3 kept_spring = spring, kept_friction = friction;
+  limit_sum(kept_spring, kept_friction, 5.0);
+  const glm::dvec3 kept = kept_spring + kept_friction;
   RC_ASSERT(glm::length(kept) <= 5.0);
   RC_ASSERT(glm::length(glm::cross(kept, force)) <= 1e-14 * glm::length(kept) * glm::length(force));
+  RC_ASSERT(kept_spring.z == 0.0);
+  RC_ASSERT(kept_friction.x == 0.0);
   if (glm::length(force) <= 5.0) RC_ASSERT(kept == force);
 }
 
 TEST(Force, NonFiniteForceBecomesZero) {
   const double inf = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(limited({std::nan(""), 0, 0}, 5.0), glm::dvec3(0.0));
-  EXPECT_EQ(limited({inf, 0, 0}, 5.0), glm::dvec3(0.0));
-  EXPECT_EQ(limited({1e200, 1e200, 0}, 5.0), glm::dvec3(0.0));
+  for (const double x : {std::nan(""), inf, 1e200}) {
+    glm::dvec3 spring(x, x, 0.0), friction(0.0, 0.0, 1.0);
+    limit_sum(spring, friction, 5.0);
+    EXPECT_EQ(spring, glm::dvec3(0.0));
+    EXPECT_EQ(friction, glm::dvec3(0.0));
+  }
 }
 
 }  // namespace

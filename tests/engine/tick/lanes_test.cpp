@@ -35,7 +35,7 @@ Thrown throw_with(const ToolShapeSpec& shape, bool four) {
     const double part = k / 2000.0;
     const glm::dvec3 hip(reach - 6.0 * std::sin(3.0 * part), 30.0 + 15.0 * std::sin(9.0 * part),
                          2.0 * part);
-    thrown.forces_n.push_back(wheel.step({1000 * (k + 1), hip, false}).force_n);
+    thrown.forces_n.push_back(wheel.step({1000 * (k + 1), hip, false}).force_n());
   }
   four_lanes = machine;
   thrown.rings.assign(wheel.stack().rings().begin(), wheel.stack().rings().end());

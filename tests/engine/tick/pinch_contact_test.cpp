@@ -125,7 +125,7 @@ double energy(const SceneSpec& scene, glm::dvec3 hip, double gap_mm) {
 
 /// What the hand feels at once, before any clay has moved.
 glm::dvec3 force_at(const SceneSpec& scene, glm::dvec3 hip, double gap_mm) {
-  return Wheel::build(scene).value().step(pinch_at(0, hip, gap_mm)).force_n;
+  return Wheel::build(scene).value().step(pinch_at(0, hip, gap_mm)).force_n();
 }
 
 TEST(PinchForce, EqualsMinusTheGradientOfBothOverlapEnergies) {

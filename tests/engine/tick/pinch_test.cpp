@@ -32,7 +32,8 @@ glm::dvec3 pulled(std::int64_t period_us) {
   Wheel wheel = Wheel::build(scene).value();
   glm::dvec3 force(0.0);
   for (std::int64_t t = 0; t <= 500'000; t += period_us)
-    force = wheel.step(pinch_at(t, {35.0, 15.0 + 2e-5 * static_cast<double>(t), 0.0}, 4.0)).force_n;
+    force =
+        wheel.step(pinch_at(t, {35.0, 15.0 + 2e-5 * static_cast<double>(t), 0.0}, 4.0)).force_n();
   return force;
 }
 
@@ -133,7 +134,7 @@ TEST(Pinch, PressesTheSameWithAnUnusedGapSetting) {
     Wheel wheel = Wheel::build(scene).value();
     glm::dvec3 impulse(0.0);
     for (int k = 0; k < 3000; ++k)
-      impulse += wheel.step({1000 * k, {57.0, 0.02 * k, 0.0}, k > 2500}).force_n;
+      impulse += wheel.step({1000 * k, {57.0, 0.02 * k, 0.0}, k > 2500}).force_n();
     return std::pair(wheel.pot(), impulse);
   };
   EXPECT_TRUE(play(4.0) == play(std::nullopt));

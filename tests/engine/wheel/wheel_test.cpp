@@ -147,7 +147,7 @@ TEST(Wheel, ReplayGivesTheSameBits) {
       Wheel wheel = Wheel::build(scene_of(model)).value();
       RestlessHand hand(7);
       glm::dvec3 impulse(0.0);
-      for (int k = 0; k < 5000; ++k) impulse += wheel.step(hand.next(wheel.stack())).force_n;
+      for (int k = 0; k < 5000; ++k) impulse += wheel.step(hand.next(wheel.stack())).force_n();
       return std::pair(wheel.pot(), impulse);
     };
     EXPECT_TRUE(play() == play());
@@ -191,7 +191,7 @@ TEST(Wheel, RefusedPoseChangesNothing) {
                           Pose{-5, {30, 20, 0}, false}}) {
     const StepReport report = wheel.step(bad);
     EXPECT_EQ(report.flags, kRefused);
-    EXPECT_EQ(report.force_n, glm::dvec3(0.0));
+    EXPECT_EQ(report.force_n(), glm::dvec3(0.0));
     EXPECT_TRUE(wheel.pot() == before);
   }
   EXPECT_TRUE(wheel.step({2000, {34, 20, 0}, false}).flags & kContact);
@@ -204,9 +204,35 @@ TEST(Wheel, ForceStaysWithinItsLimit) {
   RestlessHand hand(5);
   double greatest = 0.0;
   for (int k = 0; k < 5000; ++k)
-    greatest = std::max(greatest, glm::length(wheel.step(hand.next(wheel.stack())).force_n));
+    greatest = std::max(greatest, glm::length(wheel.step(hand.next(wheel.stack())).force_n()));
   EXPECT_LE(greatest, 5.0);
   EXPECT_GT(greatest, 4.99);
+}
+
+TEST(Wheel, FrictionRunsAlongTheTurnAndTheSpringDoesNot) {
+  for (const Model model : {Model::conserving, Model::paper}) {
+    SceneSpec scene = scene_of(model), bare = scene;
+    bare.force->friction = 0.0;
+    Wheel wheel = Wheel::build(scene).value(), without = Wheel::build(bare).value();
+    RestlessHand hand(13);
+    int compared = 0;
+    for (int k = 0; k < 5000; ++k) {
+      const Pose pose = hand.next(wheel.stack());
+      const StepReport report = wheel.step(pose), spring = without.step(pose);
+      const glm::dvec3 along(pose.position_mm.z, 0.0, -pose.position_mm.x);
+      const double off = 1e-9 * glm::length(along);
+      ASSERT_EQ(spring.friction_n, glm::dvec3(0.0));
+      ASSERT_NEAR(glm::dot(report.spring_n, along), 0.0, off) << k;
+      ASSERT_NEAR(glm::length(report.friction_n),
+                  scene.force->friction * glm::length(report.spring_n), 1e-9)
+          << k;
+      ASSERT_LE(glm::length(glm::cross(report.friction_n, along)), off) << k;
+      if (glm::length(report.force_n()) >= 4.99) continue;
+      ASSERT_EQ(report.spring_n, spring.spring_n) << k;
+      compared += (report.flags & kContact) != 0;
+    }
+    EXPECT_GT(compared, 500);
+  }
 }
 
 TEST(Wheel, CollapsesAtACutNeckAndThenStops) {
@@ -243,12 +269,12 @@ TEST(Wheel, FeelMatchesStepWithoutChangingTheClay) {
       const StepReport before = felt.feel(pose);
       (void)felt.feel({pose.time_us, {30.0, 10.0, 0.0}});
       const StepReport after = felt.step(pose);
-      ASSERT_EQ(plain.step(pose).force_n, after.force_n) << i;
+      ASSERT_EQ(plain.step(pose).force_n(), after.force_n()) << i;
       // A longer way is stepped in parts, and the clay gives way between them.
       const glm::dvec3 way = glm::abs(pose.position_mm - last.position_mm);
       last = pose;
       if (std::max({way.x, way.y, way.z}) >= 0.05) continue;
-      ASSERT_EQ(before.force_n, after.force_n) << i;
+      ASSERT_EQ(before.force_n(), after.force_n()) << i;
       ASSERT_EQ(before.rings_touched, after.rings_touched) << i;
       compared += (before.flags & kContact) != 0;
     }

@@ -1,6 +1,6 @@
 #include "claystack/falcon/guard.hpp"
 
-#include "falcon/safety/guard_rule.hpp"
+#include "falcon/safety/force_guard.hpp"
 #include "tests/falcon/safety/guard_faults.hpp"
 #include "tests/falcon/safety/guard_trial.hpp"
 

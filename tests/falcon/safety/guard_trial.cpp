@@ -1,11 +1,14 @@
 #include "tests/falcon/safety/guard_trial.hpp"
 
-#include "claystack/falcon/guard.hpp"
+#include "falcon/safety/force_guard.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <numbers>
+#include <utility>
 
 namespace clay::falcon::inline safety {
 namespace {
@@ -40,12 +43,43 @@ std::int64_t sum(std::int64_t a, std::int64_t b) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
 }
 
+template <std::uint32_t rules>
+class GuardOf final : public TriedGuard {
+ public:
+  Admission admit(std::int64_t now_us, const GuardSample& sample) override {
+    return guard_.admit(now_us, sample);
+  }
+  GuardedForce force(std::int64_t now_us, const WantedForce& wanted) override {
+    return guard_.force(now_us, wanted);
+  }
+  void obey(Tick::Command command) override {
+    if (command == Tick::Command::pause) guard_.pause();
+    if (command == Tick::Command::stop) guard_.stop();
+    if (command == Tick::Command::rearm) guard_.rearm();
+  }
+
+ private:
+  BasicForceGuard<rules> guard_ = BasicForceGuard<rules>::make({}).value();
+};
+
+template <std::uint32_t rules>
+std::unique_ptr<TriedGuard> make_guard() {
+  return std::make_unique<GuardOf<rules>>();
+}
+
+template <std::size_t... k>
+constexpr auto makers(std::index_sequence<k...>) {
+  return std::array{&make_guard<kAllGuardRules & ~kGuardRules[k].rule>...};
+}
+
 }  // namespace
 
-ForceGuard GuardWithout::make(std::uint32_t rules, const GuardSettings& settings) {
-  ForceGuard guard = ForceGuard::make(settings).value();
-  guard.rules_ &= ~rules;
-  return guard;
+std::unique_ptr<TriedGuard> guard_without(std::uint32_t rule) {
+  if (rule == 0) return std::make_unique<GuardOf<kAllGuardRules>>();
+  static constexpr auto kMakers = makers(std::make_index_sequence<std::size(kGuardRules)>{});
+  for (std::size_t k = 0; k < kMakers.size(); ++k)
+    if (kGuardRules[k].rule == rule) return kMakers[k]();
+  return nullptr;
 }
 
 void Allowance::obey(Tick::Command command) {
@@ -133,9 +167,7 @@ void Trial::tick(const Tick& tick) {
   true_us_ += tick.gap_us;
   told_us_ = sum(told_us_, sum(tick.clock_stands ? 0 : tick.gap_us, tick.clock_leap_us));
   if (tick.clay_new) clay_us_ = told_us_;
-  if (tick.command == Tick::Command::pause) guard_.pause();
-  if (tick.command == Tick::Command::stop) guard_.stop();
-  if (tick.command == Tick::Command::rearm) guard_.rearm();
+  guard_->obey(tick.command);
 
   const GuardSample sample = sample_of(tick);
   const double told_s = told_us_ > before_us
@@ -148,8 +180,8 @@ void Trial::tick(const Tick& tick) {
   watchdog_looks(before_us);
   LogEntry entry{};
   entry.time_s = static_cast<double>(true_us_) / 1e6;
-  entry.admission = guard_.admit(told_us_, sample);
-  entry.out = guard_.force(told_us_, {tick.wanted_n, clay_us_, tick.passive});
+  entry.admission = guard_->admit(told_us_, sample);
+  entry.out = guard_->force(told_us_, {tick.wanted_n, clay_us_, tick.passive});
   entry.sent_n = entry.out.force_n;
   entry.rise_n = beyond(entry.sent_n, sent_n_);
   hold_against(allowed, entry);

@@ -7,16 +7,11 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace clay::falcon::inline safety {
-
-/// Makes a guard that lacks some rules.
-class GuardWithout {
- public:
-  static ForceGuard make(std::uint32_t rules, const GuardSettings& settings = {});
-};
 
 /// All that can happen in a tick; as it stands, all is well and nothing is wanted.
 struct Tick {
@@ -33,6 +28,18 @@ struct Tick {
   bool passive = true;
   enum class Command { none, pause, stop, rearm } command = Command::none;
 };
+
+/// A guard of which rules may be left out.
+class TriedGuard {
+ public:
+  virtual ~TriedGuard() = default;
+  virtual Admission admit(std::int64_t now_us, const GuardSample& sample) = 0;
+  virtual GuardedForce force(std::int64_t now_us, const WantedForce& wanted) = 0;
+  virtual void obey(Tick::Command command) = 0;
+};
+
+/// One of kGuardRules, or 0 for the guard that programs use.
+[[nodiscard]] std::unique_ptr<TriedGuard> guard_without(std::uint32_t rule);
 
 struct LogEntry {
   double time_s;
@@ -76,7 +83,7 @@ class Allowance {
 
 class Trial {
  public:
-  explicit Trial(std::uint32_t removed_rules = 0) : guard_(GuardWithout::make(removed_rules)) {}
+  explicit Trial(std::uint32_t removed_rule = 0) : guard_(guard_without(removed_rule)) {}
 
   void tick(const Tick& tick);
   void run(double seconds, const Tick& tick);
@@ -98,7 +105,7 @@ class Trial {
   void hold_against(const Allowance::Verdict& allowed, const LogEntry& entry);
   void hold_heat(double sent_n, double told_s);
 
-  ForceGuard guard_;
+  std::unique_ptr<TriedGuard> guard_;
   Allowance allowance_;
   std::int64_t true_us_ = 0, told_us_ = 1'000'000, clay_us_ = 0;
   std::int64_t hand_us_ = 0;

@@ -1,0 +1,253 @@
+#pragma once
+// The guard as a template over its rules: force_guard.cpp compiles the one that has them all, and
+// tests compile guards that lack one and show what gets through.
+
+#include "claystack/falcon/guard.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace clay::falcon::inline safety {
+
+enum GuardRule : std::uint32_t {
+  kRuleFinite = 1u << 0,
+  kRuleNotFiniteLatch = 1u << 1,
+  kRuleLimit = 1u << 2,
+  kRuleSlew = 1u << 3,
+  kRuleSmallForce = 1u << 4,
+  kRuleRamp = 1u << 5,
+  kRuleReady = 1u << 6,
+  kRuleStaleFrames = 1u << 7,
+  kRulePause = 1u << 8,
+  kRuleJump = 1u << 9,
+  kRuleStep = 1u << 10,
+  kRuleLate = 1u << 11,
+  kRuleOverrun = 1u << 12,
+  kRuleOldClay = 1u << 13,
+  kRulePassive = 1u << 14,
+  kRuleHeat = 1u << 15,
+  kRuleLatch = 1u << 16,
+  kRuleStop = 1u << 17,
+};
+
+struct NamedGuardRule {
+  GuardRule rule;
+  const char* name;
+};
+
+inline constexpr NamedGuardRule kGuardRules[] = {
+    {kRuleFinite, "finite or zero"},
+    {kRuleNotFiniteLatch, "three not finite are SAFE"},
+    {kRuleLimit, "limit of the norm"},
+    {kRuleSlew, "slew"},
+    {kRuleSmallForce, "small force first"},
+    {kRuleRamp, "ramp"},
+    {kRuleReady, "ready or zero"},
+    {kRuleStaleFrames, "stale frames fade"},
+    {kRulePause, "after a pause, again"},
+    {kRuleJump, "jumps"},
+    {kRuleStep, "step within bounds"},
+    {kRuleLate, "late tick is zero"},
+    {kRuleOverrun, "overrun is SAFE"},
+    {kRuleOldClay, "old clay fades"},
+    {kRulePassive, "passive or SAFE"},
+    {kRuleHeat, "heat"},
+    {kRuleLatch, "SAFE holds"},
+    {kRuleStop, "stop is for good"},
+};
+
+[[nodiscard]] constexpr bool clears_itself(SafeCause cause) noexcept {
+  return cause == SafeCause::jumped || cause == SafeCause::overrun;
+}
+
+template <std::uint32_t rules>
+tl::expected<BasicForceGuard<rules>, OutOfRange> BasicForceGuard<rules>::make(
+    const GuardSettings& settings) noexcept {
+  return check(settings).map([&] { return BasicForceGuard(settings); });
+}
+
+template <std::uint32_t rules>
+Admission BasicForceGuard<rules>::admit(std::int64_t now_us, const GuardSample& sample) noexcept {
+  Admission admission;
+  flags_ = 0;
+  admitted_ = false;
+  ready_ = sample.ready || !on(kRuleReady);
+  const bool is_new = is_new_frame(sample);
+  if (!ready_) {
+    flags_ |= kGuardNotReady;
+    jumps_.forget();
+    frame_age_.forget();
+    engagement_.restart();
+  } else if (on(kRuleFinite) && !is_finite(sample.position_mm)) {
+    flags_ |= kGuardNotFinite;
+  } else if (is_new) {
+    admitted_ = take_frame(now_us, sample, admission);
+  }
+  admission.may_deform = admitted_ && cause_ == SafeCause::none &&
+                         (frame_age_.at(now_us) < settings_.stale_fade_s || !on(kRuleStaleFrames));
+  admission.flags = flags_;
+  return admission;
+}
+
+template <std::uint32_t rules>
+bool BasicForceGuard<rules>::is_new_frame(const GuardSample& sample) noexcept {
+  if (!sample.fresh || (seen_ && sample.time_us == seen_us_)) return false;
+  seen_us_ = sample.time_us;
+  seen_ = true;
+  return true;
+}
+
+/// Whether the frame is plausible, and so shows the hand.
+template <std::uint32_t rules>
+bool BasicForceGuard<rules>::take_frame(std::int64_t now_us, const GuardSample& sample,
+                                        Admission& admission) noexcept {
+  const double since =
+      frame_age_.any() ? elapsed_s(frame_age_.stamp_us(), sample.time_us) : kShortestStepS;
+  admission.step_s = on(kRuleStep) ? std::clamp(since, kShortestStepS, kLongestStepS) : since;
+  const double reach = settings_.jump_mm_per_s * std::max(admission.step_s, settings_.period_s);
+  const auto verdict =
+      on(kRuleJump) ? jumps_.take(sample.position_mm, reach) : JumpFilter::Verdict::plausible;
+  if (verdict == JumpFilter::Verdict::plausible) {
+    frame_age_.see(sample.time_us, now_us);
+    return true;
+  }
+  flags_ |= kGuardJump;
+  if (verdict == JumpFilter::Verdict::stays) latch(SafeCause::jumped);
+  return false;
+}
+
+template <std::uint32_t rules>
+GuardedForce BasicForceGuard<rules>::force(std::int64_t now_us,
+                                           const WantedForce& wanted) noexcept {
+  const TickTime time = clock_.advance(now_us, settings_.period_s);
+  if (on(kRuleHeat)) heat_.hold(norm(sent_n_), settings_.hot_force_n, time, settings_.hot_time_s);
+  watch_force(wanted);
+  watch_clock(time);
+  watch_ages(time, now_us, wanted);
+  rest(time.growing_s);
+
+  const glm::dvec3 limited = limit(wanted.force_n);
+  const double held = let_go(time, now_us);
+  earn(limited, time.growing_s);
+  const bool zero = cause_ != SafeCause::none || !ready_ || !frame_age_.any() ||
+                    (on(kRuleFinite) && (flags_ & kGuardNotFinite) != 0) ||
+                    (on(kRuleLate) && (flags_ & kGuardLate) != 0) || engagement_.gain() == 0.0;
+  sent_n_ = zero ? glm::dvec3(0.0) : rise(held * engagement_.gain() * limited, time.growing_s);
+
+  const GuardedForce out{sent_n_, engagement_.gain(), state(held), cause_, flags_};
+  flags_ = 0;
+  admitted_ = false;
+  return out;
+}
+
+template <std::uint32_t rules>
+void BasicForceGuard<rules>::watch_force(const WantedForce& wanted) noexcept {
+  if (!is_finite(wanted.force_n)) flags_ |= kGuardNotFinite;
+  not_finite_ticks_ = (flags_ & kGuardNotFinite) != 0 ? not_finite_ticks_ + 1 : 0;
+  if (on(kRuleNotFiniteLatch) && not_finite_ticks_ >= settings_.not_finite_ticks)
+    latch(SafeCause::not_finite);
+  if (on(kRulePassive) && !wanted.passive) latch(SafeCause::not_passive);
+}
+
+template <std::uint32_t rules>
+void BasicForceGuard<rules>::watch_clock(const TickTime& time) noexcept {
+  if (time.real_s == 0.0) flags_ |= kGuardClock;
+  if (time.real_s >= settings_.late_zero_s) flags_ |= kGuardLate;
+  if (on(kRuleOverrun) && time.real_s > settings_.pause_s) latch(SafeCause::overrun);
+}
+
+template <std::uint32_t rules>
+void BasicForceGuard<rules>::watch_ages(const TickTime& time, std::int64_t now_us,
+                                        const WantedForce& wanted) noexcept {
+  if (!admitted_) frame_age_.pass(time.fading_s);
+  if (clay_age_.is_last(wanted.clay_time_us)) clay_age_.pass(time.fading_s);
+  clay_age_.see(wanted.clay_time_us, now_us);
+  if (!on(kRulePause)) return;
+  if (frame_age_.any() && frame_age_.at(now_us) > settings_.pause_s) {
+    jumps_.forget();
+    frame_age_.forget();
+    engagement_.restart();
+  }
+  if (clay_age_.at(now_us) >= settings_.clay_zero_s) engagement_.restart();
+}
+
+template <std::uint32_t rules>
+void BasicForceGuard<rules>::rest(double growing_s) noexcept {
+  if (!admitted_) return;
+  rested_s_ += growing_s;
+  const bool rested = clears_itself(cause_) && rested_s_ >= settings_.safe_rest_s;
+  if (rested || !on(kRuleLatch)) cause_ = SafeCause::none;
+}
+
+template <std::uint32_t rules>
+glm::dvec3 BasicForceGuard<rules>::limit(const glm::dvec3& wanted_n) noexcept {
+  if (!is_finite(wanted_n) && on(kRuleFinite)) return glm::dvec3(0.0);
+  if (norm(wanted_n) > settings_.force_limit_n) flags_ |= kGuardLimited;
+  return on(kRuleLimit) ? limit_norm(wanted_n, settings_.force_limit_n) : wanted_n;
+}
+
+/// What is left of the force while frames, clay or motors say to let go, 0 to 1.
+template <std::uint32_t rules>
+double BasicForceGuard<rules>::let_go(const TickTime& time, std::int64_t now_us) noexcept {
+  const double frame_s = frame_age_.at(now_us), clay_s = clay_age_.at(now_us);
+  double held = 1.0;
+  if (frame_age_.any() && frame_s > settings_.stale_fade_s) flags_ |= kGuardStale;
+  if (clay_s > settings_.clay_fade_s) flags_ |= kGuardOldClay;
+  if (on(kRuleStaleFrames)) held *= fade(frame_s, settings_.stale_fade_s, settings_.stale_zero_s);
+  if (on(kRuleOldClay)) held *= fade(clay_s, settings_.clay_fade_s, settings_.clay_zero_s);
+  if (heat_.fading()) flags_ |= kGuardHot;
+  if (heat_.fade_out(time.fading_s, settings_.hot_fade_s)) engagement_.restart();
+  return held * heat_.gain();
+}
+
+template <std::uint32_t rules>
+void BasicForceGuard<rules>::earn(const glm::dvec3& limited_n, double growing_s) noexcept {
+  if (cause_ != SafeCause::none || !ready_) return;
+  const double small = settings_.small_force_n;
+  const bool unknown = (flags_ & kGuardNotFinite) != 0;
+  const double wanted = unknown ? settings_.force_limit_n : norm(limited_n);
+  if (!on(kRuleSmallForce))
+    engagement_.want(0.0, small, 1);
+  else if (admitted_ || !(wanted < small))
+    engagement_.want(wanted, small, settings_.small_force_ticks);
+  engagement_.grow(growing_s, on(kRuleRamp) ? settings_.ramp_s : kShortestStepS);
+}
+
+template <std::uint32_t rules>
+glm::dvec3 BasicForceGuard<rules>::rise(const glm::dvec3& force_n, double growing_s) noexcept {
+  if (!on(kRuleSlew)) return force_n;
+  const glm::dvec3 risen = limit_rise(force_n, sent_n_, settings_.slew_n_per_s * growing_s);
+  if (risen != force_n) flags_ |= kGuardSlewed;
+  // On the way between two forces that keep the limit, but for rounding.
+  return on(kRuleLimit) ? limit_norm(risen, settings_.force_limit_n) : risen;
+}
+
+template <std::uint32_t rules>
+GuardState BasicForceGuard<rules>::state(double held) const noexcept {
+  if (cause_ != SafeCause::none) return GuardState::safe;
+  if (!ready_ || !frame_age_.any()) return GuardState::idle;
+  if (engagement_.phase() == Engagement::Phase::waiting) return GuardState::waiting;
+  if (held < 1.0) return GuardState::fading;
+  return engagement_.phase() == Engagement::Phase::ramping ? GuardState::ramping
+                                                           : GuardState::engaged;
+}
+
+template <std::uint32_t rules>
+void BasicForceGuard<rules>::latch(SafeCause cause) noexcept {
+  if (cause == SafeCause::stopped && !on(kRuleStop)) return;
+  const bool holds = cause_ != SafeCause::none && !clears_itself(cause_);
+  if (cause != SafeCause::stopped && holds) return;
+  cause_ = cause;
+  rested_s_ = 0.0;
+  engagement_.restart();
+}
+
+template <std::uint32_t rules>
+bool BasicForceGuard<rules>::rearm() noexcept {
+  if (cause_ == SafeCause::stopped) return false;
+  cause_ = SafeCause::none;
+  engagement_.restart();
+  return true;
+}
+
+}  // namespace clay::falcon::inline safety
