@@ -8,22 +8,13 @@
 #include <cmath>
 #include <numbers>
 
-// The files themselves, as bytes of the program.
-#define CLAYSTACK_EMBED(symbol, file)                                                      \
-  __asm__(".pushsection .rodata\n" #symbol "_begin: .incbin \"" CLAYSTACK_SAMPLES "/" file \
-          "\"\n" #symbol "_end: .byte 0\n.popsection\n");                                  \
-  extern "C" {                                                                             \
-  extern const char symbol##_begin[], symbol##_end[];                                      \
-  }
-
-CLAYSTACK_EMBED(clay_bowl_scene, "bowl.scene.json")
-CLAYSTACK_EMBED(clay_bowl_session, "bowl.session")
-CLAYSTACK_EMBED(clay_vase_scene, "vase.scene.json")
-CLAYSTACK_EMBED(clay_vase_session, "vase.session")
-CLAYSTACK_EMBED(clay_bottle_scene, "bottle.scene.json")
-CLAYSTACK_EMBED(clay_bottle_session, "bottle.session")
-CLAYSTACK_EMBED(clay_cylinder_scene, "cylinder.scene.json")
-CLAYSTACK_EMBED(clay_cylinder_session, "cylinder.session")
+// Made of the files of samples/ when the program is built.
+namespace clay::studio::embedded {
+extern const std::string_view bowl_scene_json, bowl_session;
+extern const std::string_view vase_scene_json, vase_session;
+extern const std::string_view bottle_scene_json, bottle_session;
+extern const std::string_view cylinder_scene_json, cylinder_session;
+}  // namespace clay::studio::embedded
 
 namespace clay::studio {
 namespace {
@@ -31,26 +22,18 @@ namespace {
 constexpr double kDensity = 1.9;  // g/cm3, wet stoneware
 constexpr std::size_t kRings = 200;
 
-std::string_view text(const char* begin, const char* end) {
-  return {begin, static_cast<std::size_t>(end - begin)};
-}
-
 }  // namespace
 
 const std::array<Sample, 4>& samples() {
   static const std::array<Sample, 4> all = {
-      Sample{"bowl", "Bowl", "Open wide, and keep the floor",
-             text(clay_bowl_scene_begin, clay_bowl_scene_end),
-             text(clay_bowl_session_begin, clay_bowl_session_end)},
-      Sample{"vase", "Vase", "A belly, a shoulder, a lip",
-             text(clay_vase_scene_begin, clay_vase_scene_end),
-             text(clay_vase_session_begin, clay_vase_session_end)},
-      Sample{"bottle", "Bottle", "Collar a neck over a full body",
-             text(clay_bottle_scene_begin, clay_bottle_scene_end),
-             text(clay_bottle_session_begin, clay_bottle_session_end)},
-      Sample{"cylinder", "Cylinder", "Pull a wall between two hands",
-             text(clay_cylinder_scene_begin, clay_cylinder_scene_end),
-             text(clay_cylinder_session_begin, clay_cylinder_session_end)}};
+      Sample{"bowl", "Bowl", "Open wide, and keep the floor", embedded::bowl_scene_json,
+             embedded::bowl_session},
+      Sample{"vase", "Vase", "A belly, a shoulder, a lip", embedded::vase_scene_json,
+             embedded::vase_session},
+      Sample{"bottle", "Bottle", "Collar a neck over a full body", embedded::bottle_scene_json,
+             embedded::bottle_session},
+      Sample{"cylinder", "Cylinder", "Pull a wall between two hands", embedded::cylinder_scene_json,
+             embedded::cylinder_session}};
   return all;
 }
 

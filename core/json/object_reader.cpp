@@ -142,16 +142,6 @@ void ObjectReader::expect_element(bool holds, std::string_view name, std::size_t
   });
 }
 
-template <class ReadElement>
-void ObjectReader::each_element(const Json& array, ReadElement read_element) {
-  if (!array.is_array()) return expected("an array", array);
-  for (std::size_t i = 0; i < array.size() && !context_.error; ++i) {
-    context_.path.emplace_back(i);
-    read_element(array[i]);
-    context_.path.pop_back();
-  }
-}
-
 std::optional<double> ObjectReader::number_in(const Json& value, const Range& range) {
   if (value.is_number() && range.holds(value.get<double>())) return value.get<double>();
   expected("a number " + range.text(), value);

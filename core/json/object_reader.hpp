@@ -70,6 +70,9 @@ class ObjectReader {
   void part(std::string_view name, std::optional<T>& value);
   template <class T>
   void part_or_null(std::string_view name, std::optional<T>& value);
+  /// An array of objects.
+  template <class T>
+  void parts(std::string_view name, std::vector<T>& values);
   /// An object with exactly one member; its name selects the type, in the order of Ts.
   template <class... Ts>
   void one_of(std::string_view name, std::variant<Ts...>& value, Names names);
@@ -146,6 +149,16 @@ void ObjectReader::read_part(const Json& object, T& value) {
   reader.refuse_unknown_members();
 }
 
+template <class ReadElement>
+void ObjectReader::each_element(const Json& array, ReadElement read_element) {
+  if (!array.is_array()) return expected("an array", array);
+  for (std::size_t i = 0; i < array.size() && !context_.error; ++i) {
+    context_.path.emplace_back(i);
+    read_element(array[i]);
+    context_.path.pop_back();
+  }
+}
+
 template <std::integral Integer>
 void ObjectReader::integer(std::string_view name, Integer& value, std::int64_t low,
                            std::int64_t high) {
@@ -187,6 +200,13 @@ template <class T>
 void ObjectReader::part_or_null(std::string_view name, std::optional<T>& value) {
   at(name, [&](const Json& found) {
     if (!found.is_null()) read_part(found, value.emplace());
+  });
+}
+
+template <class T>
+void ObjectReader::parts(std::string_view name, std::vector<T>& values) {
+  at(name, [&](const Json& array) {
+    each_element(array, [&](const Json& found) { read_part(found, values.emplace_back()); });
   });
 }
 

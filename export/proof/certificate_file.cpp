@@ -1,8 +1,8 @@
 #include "claystack/export/proof.hpp"
 
 #include "claystack/export/solid.hpp"
-#include "core/json/json_fields.hpp"
 #include "export/formats/mesh_limits.hpp"
+#include "export/proof/certificate_json.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,7 +1,8 @@
 #include "claystack/export/walls.hpp"
 
 #include "claystack/core/atomic_file.hpp"
-#include "core/json/json_fields.hpp"
+#include "core/json/object_reader.hpp"
+#include "core/text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +14,7 @@ namespace {
 
 constexpr double kAnySize = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMaxProcessBytes = std::size_t{1} << 20;
-constexpr int kDeepest = 3;  // the depth of a field of a wall
-constexpr const char* kSchema = "claystack-process-1";
+constexpr std::size_t kMaxValues = 10'000;  // of a process file: fields of some thousand walls
 constexpr Range kWallMm = above(0.0).to(1e4), kSizeSumMm = above(0.0).to(1e7);
 
 std::vector<ProcessLimits> with_names(std::vector<ProcessLimits> processes) {
@@ -44,30 +44,28 @@ const std::vector<ProcessLimits>& built_in() {
   return processes;
 }
 
-WallLimit wall_from(const Json& json) {
-  expect_only(json, {"up_to_size_sum_mm", "min_wall_mm", "source"});
-  WallLimit limit;
-  limit.up_to_size_sum_mm = json.contains("up_to_size_sum_mm")
-                                ? number_in(json, "up_to_size_sum_mm", kSizeSumMm)
-                                : kAnySize;
-  limit.min_wall_mm = number_in(json, "min_wall_mm", kWallMm);
-  limit.source = text_in(json, "source");
-  return limit;
-}
-
-ProcessLimits process_from(const Json& json) {
-  expect_schema(json, kSchema);
-  expect_only(json, {"schema", "name", "walls"});
-  ProcessLimits process{text_in(json, "name"), {}};
-  for (const Json& wall : array_in(json, "walls")) process.walls.push_back(wall_from(wall));
-  if (process.walls.empty()) throw BadField("walls: expected at least one, found none");
-  for (std::size_t i = 1; i < process.walls.size(); ++i)
-    if (!(process.walls[i - 1].up_to_size_sum_mm < process.walls[i].up_to_size_sum_mm))
-      throw BadField("walls: expected sizes that rise");
-  return with_names({std::move(process)}).front();
-}
-
 }  // namespace
+
+static void describe(auto& io, Is<WallLimit> auto& wall) {
+  io.require({"min_wall_mm", "source"});
+  io.number("up_to_size_sum_mm", wall.up_to_size_sum_mm, kSizeSumMm);
+  io.number("min_wall_mm", wall.min_wall_mm, kWallMm);
+  io.text("source", wall.source);
+}
+
+static void describe(auto& io, Is<ProcessLimits> auto& process) {
+  io.require({"schema", "name", "walls"});
+  io.constant("schema", "claystack-process-1");
+  io.text("name", process.name);
+  io.parts("walls", process.walls);
+  io.check([&](auto& reader) {
+    reader.expect(!process.walls.empty(), "walls", "at least one wall");
+    for (std::size_t i = 1; i < process.walls.size(); ++i)
+      reader.expect_element(
+          process.walls[i - 1].up_to_size_sum_mm < process.walls[i].up_to_size_sum_mm, "walls", i,
+          "a size that is larger than the one before");
+  });
+}
 
 std::string WallLimit::asked_by() const {
   return process.empty() ? source : process + ": " + source;
@@ -91,7 +89,16 @@ Result<ProcessLimits> process_named(std::string_view name) {
 }
 
 Result<ProcessLimits> parse_process(std::string_view bytes, std::string_view file_name) {
-  return parsed_with(bytes, file_name, JsonLimits(kDeepest, kSchema), process_from);
+  const std::string_view text = without_byte_order_mark(bytes);
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos || (text[first] != '{' && text[first] != '['))
+    return failure(
+        ErrorKind::bad_input,
+        std::string(file_name) + ": expected a JSON object, found " + kind_of_file(text));
+  return LocatedJson::from_json(text, file_name, kMaxValues)
+      .and_then(
+          [](const LocatedJson& document) { return ObjectReader::read(document, ProcessLimits{}); })
+      .map([](ProcessLimits process) { return with_names({std::move(process)}).front(); });
 }
 
 Result<ProcessLimits> read_process(const std::string& name) {

@@ -1,5 +1,6 @@
 #pragma once
-// Strict reading of small JSON files: every field is present, known, and of its type.
+// Strict reading of certificates by the events of the parser: a profile of millions of points must
+// not become a document, which takes six times their memory. All other files use ObjectReader.
 
 #include "claystack/core/result.hpp"
 
@@ -17,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay {
+namespace clay::solid::inline proof {
 
 using Json = nlohmann::ordered_json;
 
@@ -166,4 +167,4 @@ auto parsed_with(std::string_view bytes, std::string_view name, Follow follow, R
   return bad_json(name, shown(std::string(bare_message(error.what())), kLongest));
 }
 
-}  // namespace clay
+}  // namespace clay::solid::inline proof
