@@ -128,7 +128,7 @@ int run_program(int (*run)(int argc, char** argv), int argc, char** argv) noexce
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     const int exit = run(argc, argv);
-    // What could not be printed was not done.
+    // Output that could not be printed is a failure.
     return flush_out() ? exit : report({ErrorKind::io, "standard output: could not write"});
   } catch (const std::bad_alloc&) {
     return out_of_memory();

@@ -6,7 +6,7 @@
 
 namespace clay::cli {
 
-/// A file under construction that the exporters write to and read again.
+/// A file under construction that exporters write to and read back.
 class FileOnDisk final : public solid::FileStore {
  public:
   explicit FileOnDisk(AtomicFile file) : file_(std::move(file)) {}
