@@ -65,7 +65,7 @@ int report(const CLI::App& app, const CLI::ParseError& error);
 /// signal.
 int run_program(int (*run)(int argc, char** argv), int argc, char** argv) noexcept;
 
-/// A count for JSON: a number where 64 bits hold it, decimal digits in a string where not.
+/// A count for JSON: a number if it fits into 64 bits, otherwise decimal digits in a string.
 [[nodiscard]] Json json_count(WideQuanta count);
 
 /// One line on stderr that is overwritten; only on a terminal.
