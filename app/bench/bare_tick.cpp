@@ -12,7 +12,7 @@
 namespace clay::bench {
 namespace {
 
-/// As the engine cuts a tick, so that a fast hand leaves what a slow one does.
+/// The same number of parts as in the engine.
 int parts_of(const ToolState& tool) noexcept {
   const glm::dvec3 way = glm::abs(tool.moved_mm);
   const double parts = std::max({way.x, way.y, way.z}) / 0.05;

@@ -1,6 +1,6 @@
 #pragma once
-// A tick written by hand of the engine's stages, as if force, friction, stability and pinch had
-// never been thought of: what leaving them out has to be as fast as.
+// A tick composed by hand from the engine's stages, without force, friction, stability and pinch:
+// the reference for the cost of left-out stages.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/tick.hpp"
@@ -14,7 +14,7 @@ namespace clay::bench {
 
 class BareWheel {
  public:
-  /// Of a scene that Wheel::build takes; whatever it asks for beside the four is left out.
+  /// For a scene that Wheel::build accepts; ignores its settings for the four stages.
   explicit BareWheel(const SceneSpec& scene);
   void step(const Pose& pose) noexcept;
   [[nodiscard]] const ClayStack& stack() const noexcept { return stack_; }
@@ -26,11 +26,11 @@ class BareWheel {
   Ledger ledger_;
   ToolTracker tracker_;
   Rim rim_;
-  bool touching_ = false;           // at the last pose
-  std::vector<ToolRemoval> bites_;  // one
+  bool touching_ = false;           // in the last pose
+  std::vector<ToolRemoval> bites_;  // one element
 };
 
-/// Seconds of the stroke of `cli::stroke_ns`.
+/// Duration [s] of the stroke of `stroke_ns`.
 [[nodiscard]] double bare_stroke_s(const SceneSpec& scene, double depth_mm);
 
 }  // namespace clay::bench

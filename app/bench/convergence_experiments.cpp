@@ -48,7 +48,7 @@ double upper_edge(const ClayStack& stack, std::size_t ring) {
                                   : stack.ring_height_mm() * static_cast<double>(ring + 1);
 }
 
-/// The section of the stack on one side of the axis, as it is stepped.
+/// The stepped section of the stack on one side of the axis.
 std::vector<glm::dvec2> outline(const ClayStack& stack) {
   std::vector<glm::dvec2> line;
   const auto rings = stack.rings();

@@ -1,5 +1,5 @@
 #pragma once
-// The same session on finer rings and at other rates: what changes of the pot and of the force.
+// The same session on finer rings and at other rates: the change of the pot and of the force.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/scene.hpp"
@@ -18,12 +18,12 @@ struct Experiment {
   std::vector<Pose> poses;  ///< at 1 kHz
 };
 
-/// Strokes that between them touch, push, open, and pass the rim.
+/// Strokes that together touch, push, open, and cross the rim.
 std::vector<Experiment> convergence_experiments();
 
-/// The scene's lump in `factor` times as many rings.
+/// The scene's lump with `factor` times as many rings.
 SceneSpec refined(SceneSpec scene, std::size_t factor);
-/// The same way of the tool, a pose every `period_us`: straight between the poses.
+/// The same path with a pose every `period_us`, linear between the poses.
 std::vector<Pose> resampled(const std::vector<Pose>& poses, std::int64_t period_us);
 
 struct Played {
@@ -33,25 +33,25 @@ struct Played {
 };
 Played played(const SceneSpec& scene, const std::vector<Pose>& poses);
 
-/// Of R(y) and r(y), over the height that both have.
+/// Differences of R(y) and r(y), over the common height.
 struct ProfileDifference {
   double rms_mm = 0.0;
-  /// Greatest distance of a point of one section's outline from the other's (Hausdorff): where a
-  /// radius jumps, as at the floor, R(y) - R'(y) says how high the jump is, not how far it moved.
+  /// Maximum distance of a point of one outline from the other (Hausdorff). Where a radius jumps,
+  /// as at the floor, R(y) - R'(y) gives the size of the jump, not its displacement.
   double outline_mm = 0.0;
   double height_mm = 0.0;  ///< signed
 };
 ProfileDifference profile_difference(const ClayStack& stack, const ClayStack& reference);
 
-/// Of the force vectors at the times that both have, relative to the reference's largest.
+/// Differences of the force vectors at common times, relative to the reference's maximum.
 struct ForceDifference {
   double rms_percent = 0.0, most_percent = 0.0, largest_n = 0.0;
 };
 ForceDifference force_difference(const Played& run, const Played& reference);
 
-/// A rib leaps `leap_mm` deep into a cylinder and stands: until it is the yield depth from its
-/// surface the wall w decays as w e^(-kappa t), from there as the logistic curve that ends there.
-/// The force is K' L times what is left of the depth.
+/// A rib jumps `leap_mm` deep into a cylinder and stands still: up to the yield depth from its
+/// surface, the wall w decays as w e^(-kappa t), then as the logistic curve to the surface. The
+/// force is K' L times the remaining depth.
 struct StandingRib {
   SceneSpec scene;
   std::vector<Pose> poses;

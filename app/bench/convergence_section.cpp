@@ -1,4 +1,4 @@
-// Convergence: what is left of the height of a ring and of the rate of the poses in pot and force.
+// Convergence: the influence of ring height and pose rate on pot and force.
 
 #include "app/bench/convergence_experiments.hpp"
 #include "app/bench/section.hpp"
@@ -28,7 +28,7 @@ Errors errors(const Experiment& e, double step, const Played& run, const Played&
           force.most_percent};
 }
 
-/// Refines rings by each factor against the last one.
+/// Compares rings refined by each factor with the last one.
 std::vector<Errors> over_rings(const Experiment& e, const std::vector<std::size_t>& factors) {
   const Played reference = played(refined(e.scene, factors.back()), e.poses);
   std::vector<Errors> rows;
@@ -48,7 +48,7 @@ std::vector<Errors> over_rate(const Experiment& e, const std::vector<std::int64_
   return rows;
 }
 
-/// log2 of the ratio of an error to that at half the step; nothing where there is no error.
+/// log2 of the ratio of an error to that at half the step; empty without an error.
 Cell order(const std::vector<Errors>& rows, std::size_t k, double Errors::*error) {
   if (k + 1 >= rows.size() || !(rows[k + 1].*error > 1e-9)) return {};
   return std::log2(rows[k].*error / (rows[k + 1].*error)) /
@@ -121,7 +121,7 @@ Table exact_table(bool& sound) {
   return table;
 }
 
-/// The requirements, each as the worst of all strokes.
+/// The requirements, each as the worst over all strokes.
 struct Worst {
   double force_h10 = 0.0, profile_h10 = 0.0, profile_rate = 0.0, force_rate = 0.0;
 };

@@ -23,17 +23,17 @@ struct Run {
   Outcome outcome;
   Deviation off;
   Spread tick_ns;
-  /// Of one ms of the potter's time: at 1 kHz, of one tick.
+  /// Per ms of session time; at 1 kHz, per tick.
   [[nodiscard]] Spread ns_per_ms() const {
     const double ticks = fineness.rate_hz / 1000.0;
     return {ticks * tick_ns.low, ticks * tick_ns.median, ticks * tick_ns.high};
   }
 };
 
-/// Runs that differ in one setting only, coarse to fine.
+/// Runs that differ in one setting, coarse to fine.
 struct Series {
   std::string name;   ///< of the curve
-  std::string along;  ///< what differs
+  std::string along;  ///< the setting that differs
   std::vector<Run> runs;
 };
 
@@ -73,13 +73,13 @@ std::vector<Series> all_series() {
   return all;
 }
 
-/// Finer than all of a series; the reach is its own.
+/// Finer than all of a series; the reach has its own reference.
 Outcome reference_of(const std::string& along, const Effort& effort) {
   Fineness fine;
   fine.rings = effort.quick ? 6400 : 12'800;
   fine.rate_hz = effort.quick ? 10'000 : 20'000;
   if (along != "reach") return play_engine(fine, Model::conserving);
-  // What the reach cuts off is looked at apart from the rings.
+  // The effect of the reach is examined separately from the rings.
   fine = Fineness{};
   fine.reach_mm = 56.0;
   return play_engine(fine, Model::conserving);
@@ -143,7 +143,7 @@ Table table_of(const std::vector<Series>& all) {
   return table;
 }
 
-/// Work-precision: run time over error is the convention of the literature on solvers, error up.
+/// Work-precision diagram: run time over error, as usual in the literature on solvers.
 template <class Error>
 Plot plot_of(const std::vector<Series>& all, const std::string& id, const char* title,
              const char* label, Error error) {
@@ -154,7 +154,7 @@ Plot plot_of(const std::vector<Series>& all, const std::string& id, const char* 
             {},
             "Each curve goes from coarse to fine. The spread of the run times is in the table."};
   for (const Series& series : all) {
-    // The reach has a reference of its own, and so a plot.
+    // The reach has its own reference, and so its own plot.
     if ((series.along == "reach") != id.ends_with("reach")) continue;
     Curve curve;
     curve.name = series.name;

@@ -19,22 +19,23 @@ using solid::MeshFormat;
 using solid::Smoothing;
 
 constexpr double kWallMm = 4.0;
-constexpr double kFineMm = 1e-5;  ///< tolerance of the section that files are held against
+constexpr double kFineMm = 1e-5;  ///< tolerance of the reference section
 constexpr std::size_t kMostSamples = 6000;
 
-/// What one export is asked for, and what came of it.
+/// The settings and results of one export.
 struct Run {
   std::string along;  ///< the setting that differs from run to run
   MeshFormat format = MeshFormat::stl_binary;
   solid::ExportOptions options;
   double bytes = 0.0, triangles = 0.0;
-  double surface_mm = 0.0;  ///< largest distance of the file's surface from the smoothed pot's
-  double volume = 0.0;      ///< of the file against the counted clay, relative
+  double surface_mm =
+      0.0;              ///< largest distance of the file's surface from that of the smoothed pot
+  double volume = 0.0;  ///< relative difference from the counted clay
   double wall_width_mm = 0.0;
   Spread seconds;
 };
 
-/// Distance from the outline of the section; the axis is none of its surface.
+/// Distance from the outline of the section; the axis is not part of its surface.
 double distance(const solid::Profile& section, glm::dvec2 at) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& polygon : section.pieces)
@@ -49,7 +50,7 @@ double distance(const solid::Profile& section, glm::dvec2 at) {
   return least;
 }
 
-/// At corners and in the middle of edges, where a facet's chord is farthest from the circle.
+/// Measured at corners and in the middle of edges, where a facet is farthest from the circle.
 double surface_error(const solid::TriangleMesh& mesh, const solid::Profile& section) {
   const std::size_t stride = std::max<std::size_t>(1, 6 * mesh.triangles.size() / kMostSamples);
   double worst = 0.0;
@@ -66,7 +67,7 @@ double surface_error(const solid::TriangleMesh& mesh, const solid::Profile& sect
   return worst;
 }
 
-/// Exports, reads the bytes again and measures them.
+/// Exports, reads the bytes back and measures them.
 bool examine(const Pot& pot, Run& run) {
   solid::MemoryStore store;
   const auto report = solid::run_export(pot, {{run.format, &store}}, run.options);
@@ -175,7 +176,7 @@ Plot plot_of(const std::vector<Run>& runs, const char* id, const char* title, co
   return plot;
 }
 
-/// Bytes and time of Draco alone, over the bits that an error needs and over its speeds.
+/// Bytes and time of Draco alone, for the bits of each error and for its speeds.
 std::optional<Table> draco_table(const Pot& pot, const Effort& effort) {
   solid::MemoryStore store;
   solid::ExportOptions options;

@@ -14,7 +14,7 @@ using extreme::Verdict;
 
 constexpr std::size_t kQuickDrift = 1'000'000, kFullDrift = 10'000'000;  // ticks
 
-/// Nothing where the paper does not say.
+/// Empty if the paper does not define the case.
 Cell cell_of(Verdict verdict) {
   if (verdict == Verdict::not_in_print) return {};
   return verdict == Verdict::passed;

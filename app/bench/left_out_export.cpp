@@ -27,7 +27,7 @@ struct Job {
     for (std::size_t k = 0; k < formats.size(); ++k) outputs.push_back({formats[k], &stores[k]});
     return solid::run_export(*pot, outputs, options);
   }
-  /// NaN seconds where it fails.
+  /// NaN seconds on failure.
   [[nodiscard]] Work work() const {
     return {"export", [job = *this] {
               bool done = false;
@@ -85,7 +85,7 @@ Table empty_table() {
                   kBelliedRings)};
 }
 
-/// Of the job's time, what none of its stages accounts for.
+/// The part of the job's time that no stage accounts for.
 Samples unaccounted(const Job& job, int rounds) {
   Samples shares;
   for (int k = 0; k < rounds; ++k) {
@@ -100,7 +100,7 @@ Samples unaccounted(const Job& job, int rounds) {
   return shares;
 }
 
-/// The job's own word on what it left out: as `claystack export --measure-left-out`.
+/// The job's own measurement: as `claystack export --measure-left-out`.
 Table own_word(Job job) {
   Table table{"left_out_export_saved",
               "What the job says that it left out, and what that saved",

@@ -3,7 +3,7 @@
 
 namespace clay::bench {
 
-/// What the stages of an export cost, and what the job does beside its stages.
+/// The cost of the stages of an export, and of the job outside its stages.
 void measure_export_stages(Section& section, const Effort& effort);
 
 }  // namespace clay::bench

@@ -10,17 +10,17 @@
 namespace clay::bench {
 namespace {
 
-constexpr double kNoiseRatio = 1.03;  // asked of what is said to cost nothing
+constexpr double kNoiseRatio = 1.03;  // limit for stages that must cost nothing
 constexpr double kInTheAirMm = -5.0;
 
-/// A solid lump with none of the stages that can be left out.
+/// A solid lump without any optional stage.
 SceneSpec bare_scene() {
   SceneSpec scene;
   scene.force.reset();
   return scene;
 }
 
-/// What a stage is measured against: without it, but with the stage that it rests on.
+/// The reference for a stage: without it, but with the stage on which it depends.
 SceneSpec scene_without(const std::string& stage) {
   SceneSpec scene = bare_scene();
   if (stage == "friction") scene.force = ForceSpec{};
@@ -36,7 +36,7 @@ Work by_hand(double depth_mm) {
   return {"by hand", [depth_mm] { return bare_stroke_s(bare_scene(), depth_mm); }};
 }
 
-/// One hand at a wall, and both.
+/// One tool at a wall, and two.
 Duel pinch_at_work(const Rounds& rounds) {
   SceneSpec wall = bare_scene();
   wall.lump.inner_radius_mm = wall.lump.outer_radius_mm - 12.0;

@@ -3,14 +3,14 @@
 
 namespace clay::bench {
 
-/// Where the figures come from: no figure without it.
+/// The machine and build that produced the figures.
 struct Machine {
   std::string cpu;  ///< model, as the system names it
   unsigned cores = 0;
   std::string system;    ///< kernel and architecture
   std::string compiler;  ///< with its version
-  std::string flags;     ///< that everything was compiled with
-  std::string version;   ///< of Claystack, with the commit where it is known
+  std::string flags;     ///< compiler flags
+  std::string version;   ///< of Claystack, with the commit if known
 };
 
 [[nodiscard]] Machine this_machine();

@@ -8,7 +8,8 @@
 namespace clay::bench {
 namespace {
 
-constexpr double kApartMm = 126.0;  // tools: what flows from one place does not reach the next
+constexpr double kApartMm =
+    126.0;  // distance of presses: the flow from one does not reach the next
 constexpr double kFirstDepthMm = 6.0;
 constexpr double kBallMm = 12.0;
 constexpr double kRibMm = 6.0;
@@ -23,7 +24,7 @@ double height(const ToolSpec& tool) {
   return rib ? rib->height_mm : 2.0 * kBallMm;
 }
 
-/// Places on a lump that do not touch each other's clay.
+/// Places on a lump that do not influence each other.
 std::size_t places_on(const SceneSpec& scene) {
   const double lump_mm = static_cast<double>(scene.lump.rings) * scene.lump.ring_height_mm;
   return std::max<std::size_t>(1,
@@ -50,10 +51,9 @@ SceneSpec press_scene(std::size_t rings) {
   scene.lump.inner_radius_mm = 20.0;
   scene.tool.shape = SphereSpec{kBallMm};
   scene.force->friction = 0.2;
-  // The paper's clay gives way as fast as the tool comes, no faster: so it is touched all the
-  // while.
+  // The paper's clay yields exactly as fast as the tool advances, so it is always in contact.
   scene.removal.paper_fraction = 2e-4;
-  // So high that the tallest lump stands: looking at the stress is what costs.
+  // High enough for the tallest lump: only the cost of the check matters.
   scene.stability = StabilitySpec{1e6};
   return scene;
 }
@@ -131,7 +131,7 @@ double Presser::press() {
 }
 
 double Presser::jump() {
-  // Deeper each time: where there is no contact there is nothing to do.
+  // Deeper each time, to keep contact.
   if (!wheel_ || ++jumps_ == kPressTicks) {
     wheel_.emplace(Wheel::build(scene_).value());
     jumps_ = 0;
@@ -150,7 +150,7 @@ LiteralPresser::LiteralPresser(const SceneSpec& scene, LiteralWriting writing, i
 
 double LiteralPresser::press() {
   LiteralPaper paper(scene_);
-  // Its first ring is centred at y = 0, ours at h/2.
+  // The first ring of the paper is centred at y = 0, that of the engine at h/2.
   const double middle_mm = scene_.ring_height_mm * (0.5 * static_cast<double>(scene_.rings) - 0.5);
   paper.step(place_of(first_distance_mm_, middle_mm, 0));
   std::uint64_t touched = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// The work that ticks are timed by: a tool pressed into the middle of a hollow lump.
+// The workload for timing ticks: a tool pressed into the middle of a hollow lump.
 
 #include "app/bench/literal/literal_paper.hpp"
 #include "claystack/engine/scene.hpp"
@@ -12,26 +12,26 @@
 namespace clay::bench {
 
 inline constexpr int kPressTicks = 1000;  ///< of 1 ms
-inline constexpr double kPressMm = 6.0;   ///< inward, and as far upward
+inline constexpr double kPressMm = 6.0;   ///< inward, and the same upward
 
-/// Every stage in but the pinch; a ball that touches about 30 rings.
+/// All stages except the pinch; a ball that touches about 30 rings.
 [[nodiscard]] SceneSpec press_scene(std::size_t rings);
-/// The same with an upright rib that touches as many rings as are named, from 1 to 300.
+/// The same with a vertical rib that touches the given number of rings, from 1 to 300.
 [[nodiscard]] SceneSpec rib_scene(std::size_t touched);
-/// The same scene in the paper's own terms: K, mu and the threshold of stress as well.
+/// The same scene in the paper's terms, including K, mu and the stress threshold.
 [[nodiscard]] LiteralScene literal_of(const SceneSpec& scene, LiteralWriting writing);
 
-/// Presses a lump at one place after the other; when there is none left it takes a new lump.
+/// Presses a lump at one place after the other, then takes a new lump.
 class Presser {
  public:
-  /// Of a scene that Wheel::build takes. The tool rises by so much while it is pressed; one that
-  /// rises by more than it is pressed in takes a new lump each time.
+  /// For a scene that Wheel::build accepts. The tool rises by `rise_mm` during a press; if that
+  /// exceeds the depth, each press takes a new lump.
   explicit Presser(const SceneSpec& scene, double rise_mm = kPressMm);
-  /// Seconds of the ticks of one press. To make the lump and to go there does not count.
+  /// Duration [s] of the ticks of one press, without making the lump and moving there.
   double press();
-  /// The mean tick of the last press. 0 before any.
+  /// Mean over the ticks of the last press. 0 before the first.
   [[nodiscard]] double rings_touched() const { return touched_; }
-  /// Seconds of a tick at the foot of the stack, after one at its top.
+  /// Duration [s] of a tick at the foot of the stack, after one at its top.
   double jump();
 
  private:
@@ -46,7 +46,7 @@ class Presser {
   int jumps_ = 0;
 };
 
-/// The same of the literal paper, a new lump for each press.
+/// The same for the literal paper, with a new lump for each press.
 class LiteralPresser {
  public:
   LiteralPresser(const SceneSpec& scene, LiteralWriting writing, int ticks = kPressTicks);

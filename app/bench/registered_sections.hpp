@@ -18,7 +18,7 @@ struct RegisteredSection {
 
 [[nodiscard]] std::span<const RegisteredSection> registered_sections();
 
-/// Those named, in the order of the report; all where none is. Errors name what there is.
+/// The named sections, in the order of the report; all if none is named. Errors list the names.
 Result<std::vector<RegisteredSection>> chosen_sections(const std::vector<std::string>& names);
 
 }  // namespace clay::bench

@@ -1,6 +1,6 @@
 #pragma once
-// What a measurement has to say, apart from how it is shown: numbers, tables and plots. One
-// writer each turns them into text, JSON, CSV and HTML.
+// The results of a measurement, independent of the output format: numbers, tables and plots. One
+// writer each for text, JSON, CSV and HTML.
 
 #include "app/chart/plot.hpp"
 
@@ -13,11 +13,11 @@
 
 namespace clay::bench {
 
-/// A measured number: median of the repetitions, and how far the middle half of them spreads.
+/// A measured number: median and interquartile range of the repetitions.
 struct Value {
   std::string name;  ///< key in JSON, with its unit: n200_ns
   double median = 0.0;
-  double spread = 0.0;  ///< interquartile range; 0 for what is counted, not timed: then not told
+  double spread = 0.0;  ///< interquartile range; 0 for counted values, which are shown without it
   std::string about;    ///< for people
 };
 
@@ -43,17 +43,17 @@ using chart::Map;
 using chart::Plot;
 
 struct Section {
-  std::string id;  ///< the word after --only
+  std::string id;  ///< the word for --only
   std::string title;
-  std::string summary;  ///< what was asked, how it was measured, what came out
+  std::string summary;  ///< question, method and result
   std::vector<Value> values;
   std::vector<Table> tables;
   std::vector<Plot> plots;
   std::vector<Map> maps;
-  bool sound = true;  ///< false when something that must hold did not
+  bool sound = true;  ///< false if a requirement failed
 };
 
-/// How much time to spend. `quick`: all sections together within 3 minutes on 2 cores.
+/// The time to spend. `quick`: all sections together within 3 minutes on 2 cores.
 struct Effort {
   bool quick = false;
   std::function<void(std::string_view stage)> progress = [](std::string_view) {};
@@ -63,9 +63,9 @@ struct Effort {
 Section tick_section(const Effort& effort);         ///< cost of a tick: N, rings touched, literal
 Section engine_section(const Effort& effort);       ///< error against run time
 Section convergence_section(const Effort& effort);  ///< h -> 0 and rate -> infinity
-Section left_out_section(const Effort& effort);     ///< what each stage costs in, and out
-Section extremes_section(const Effort& effort);     ///< the suite of tests/extreme
-Section servo_section(const Effort& effort);        ///< stable stiffness, stiff closed loop
-Section export_section(const Effort& effort);       ///< error and bytes against run time
+Section left_out_section(const Effort& effort);  ///< the cost of each stage, included and left out
+Section extremes_section(const Effort& effort);  ///< the suite of app/bench/extreme
+Section servo_section(const Effort& effort);     ///< stable stiffness, stiff closed loop
+Section export_section(const Effort& effort);    ///< error and bytes against run time
 
 }  // namespace clay::bench

@@ -1,6 +1,6 @@
-// Stable stiffness of the sampled arm against rate and damping, measured beside both bounds;
-// energy; the clay; and what the passivity controller makes of it. docs/haptics.md has the
-// definitions.
+// Stable stiffness of the sampled arm over rate and damping, measured and compared with both
+// bounds; energy; the clay; and the effect of the passivity controller. Definitions are in
+// docs/haptics.md.
 
 #include "app/bench/closed_loop/closed_loop.hpp"
 #include "app/bench/section.hpp"
@@ -21,7 +21,7 @@ using falcon::SampledLoop;
 
 constexpr double kAllowedBorderErrorPercent = 15.0;
 
-/// The arm of the docs: a light handle, a force that answers a tick late.
+/// The arm of the docs: a light handle, and one tick of delay.
 SampledLoop arm_at(double rate_hz, double damping_ns_per_m = 2.0) {
   return {rate_hz, 0.1, damping_ns_per_m, 1};
 }
@@ -48,7 +48,7 @@ Outcome at_clay(const SampledLoop& loop, double stiffness, double rate_per_s, bo
   return run(e, *clay);
 }
 
-/// 0 for no limit cycle, then from 0.4 at the limit to 1 at a hundred times as much.
+/// 0 without a limit cycle, otherwise from 0.4 at the limit to 1 at a hundred times that.
 double badness(double swing_m) {
   if (swing_m <= closed_loop::kMostSwingM) return 0.0;
   return std::min(1.0, 0.4 + 0.3 * std::log10(swing_m / closed_loop::kMostSwingM));
@@ -62,8 +62,8 @@ struct Verdict {
   int stable_cells = 0, buzzing_cells = 0;
 };
 
-/// Measured over predicted, for linear walls that hold from both sides, without encoder steps or
-/// a hand: all that the theory assumes.
+/// Measured over predicted, for two-sided linear walls without encoder steps or a hand, as the
+/// theory assumes.
 Table borders(const Effort& effort, Verdict& verdict) {
   Table table{"servo_borders",
               "Borders of a linear wall, predicted and measured",
@@ -146,7 +146,7 @@ void fill(Map& map, const Cell& cell) {
 
 using LoopAt = std::function<SampledLoop(double)>;
 
-/// Without and with the controller, at a wall.
+/// With and without the controller, at a wall.
 void add_wall_maps(Section& section, const std::string& id, const Axis& x,
                    const std::vector<double>& x_values, const std::vector<double>& k_values,
                    const LoopAt& loop_at, Verdict& verdict) {
@@ -184,7 +184,7 @@ void add_clay_maps(Section& section, const std::vector<double>& rates,
   }
 }
 
-/// Energy injected in a cycle over the stiffness, in parts of what the pushed wall stores at rest.
+/// Energy injected per cycle over the stiffness, relative to the energy stored in the wall at rest.
 Plot energy_plot(const std::vector<double>& rates, Verdict& verdict) {
   Plot plot{"servo_energy",
             "Energy that the loop injects in a cycle",
@@ -214,7 +214,7 @@ Plot energy_plot(const std::vector<double>& rates, Verdict& verdict) {
   return plot;
 }
 
-/// The stiffest clay that comes to rest, from soft to stiff.
+/// The stiffest clay that comes to rest, searched from soft to stiff.
 double stiffest_calm_clay(double rate, double removal, const std::vector<double>& k_values) {
   double calm = std::numeric_limits<double>::quiet_NaN();
   for (const double k : k_values) {

@@ -1,6 +1,6 @@
 #pragma once
-// What a stage of the tick costs, for `plan` and for the measurements of `bench`: one stroke, in
-// scenes that differ in that stage alone.
+// The cost of a stage of the tick, for `plan` and for `bench`: one stroke in scenes that differ in
+// that stage only.
 
 #include "claystack/engine/scene.hpp"
 #include "claystack/engine/tool.hpp"
@@ -12,20 +12,20 @@
 
 namespace clay::cli {
 
-/// The scene with the stage in; nothing for stages that no setting puts in.
+/// The scene with the stage included; empty for stages that no setting includes.
 std::optional<SceneSpec> with_stage(SceneSpec scene, std::string_view stage);
 
 inline constexpr double kFirmMm = 1.0;  ///< depth of a firm hand
 inline constexpr int kStrokeTicks = 4000;
 
 /// A stroke from the wheel to the top in kStrokeTicks of 1 ms: up the outside of the scene's lump,
-/// or, in mode pinch, up the middle of its wall and so deep from both sides. Below 0 mm deep it is
-/// in the air. Nothing for a tool that cannot be built.
+/// or, in mode pinch, up the middle of its wall with that depth on both sides. Negative depths are
+/// in free air. Empty for an invalid tool.
 std::vector<Pose> stroke_poses(const SceneSpec& scene, double depth_mm);
 
-/// What is played to time a stroke: all of it; where rings are many, on a shorter lump; and its
-/// middle, where they are so fine that all of it would take too long. The time of a tick depends on
-/// the rings within reach of the tool, not on how many there are.
+/// The stroke that is timed: all of it; with many rings, on a shorter lump; with very fine rings,
+/// only its middle. The time of a tick depends on the rings within reach of the tool, not on their
+/// total.
 struct TimedStroke {
   SceneSpec scene;
   std::vector<Pose> poses;
@@ -36,12 +36,12 @@ inline constexpr std::size_t kMostRingVisits = std::size_t{1} << 19;    ///< in 
 
 /// Rings that a tick may touch, and that its clay may flow to.
 [[nodiscard]] double rings_in_reach(const SceneSpec& scene);
-/// Nothing for a tool that cannot be built, and where more than kMostRingsInReach are within reach:
-/// a stroke of a few ticks would take minutes.
+/// Empty for an invalid tool, and if more than kMostRingsInReach are within reach: a stroke of a
+/// few ticks would take minutes.
 [[nodiscard]] std::optional<TimedStroke> timed_stroke(const SceneSpec& scene, double depth_mm);
 
-/// Mean time [ns] of the ticks of a timed stroke; to make the lump does not count. NaN where there
-/// is none, and for a scene that cannot be built.
+/// Mean time [ns] of the ticks of a timed stroke, without making the lump. NaN if there is none,
+/// and for an invalid scene.
 double stroke_ns(const SceneSpec& scene, double depth_mm = kFirmMm);
 
 /// Median time of a tick in contact [ns], with a stage and without it.
@@ -50,9 +50,9 @@ struct StageCost {
   double without_ns = 0.0;
 };
 
-/// Measured now, on this machine, on this scene: the stroke with the stage put in and left out by
-/// turns. A pinch put in is not made use of: a second tool is another stroke, not another stage.
-/// Nothing for stages that can't be put in by a setting, and where there is no timed stroke.
+/// Measured now, on this machine, on this scene: the stroke alternately with and without the stage.
+/// An included pinch is not used, because a second tool would be another stroke. Empty for stages
+/// that no setting includes, and without a timed stroke.
 std::optional<StageCost> cost_of(const SceneSpec& scene, std::string_view stage);
 
 }  // namespace clay::cli

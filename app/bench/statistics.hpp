@@ -1,11 +1,11 @@
 #pragma once
-// What repetitions say: their median, and how far the middle half of them spreads.
+// Statistics of repetitions: median and interquartile range.
 
 #include <vector>
 
 namespace clay::bench {
 
-/// Median and quartiles. Of nothing: NaN.
+/// Median and quartiles. NaN without samples.
 struct Spread {
   double low = 0.0;  ///< a quarter of the repetitions lies below
   double median = 0.0;
@@ -14,11 +14,11 @@ struct Spread {
 };
 
 /// The value below which `fraction` (0..1) of the samples lie, interpolated between the two nearest
-/// (Hyndman and Fan, The American Statistician 50(4) 1996, definition 7). NaN of no samples.
+/// (Hyndman and Fan, The American Statistician 50(4) 1996, definition 7). NaN without samples.
 [[nodiscard]] double quantile(std::vector<double> samples, double fraction);
 [[nodiscard]] Spread spread_of(const std::vector<double>& samples);
 
-/// Of a[k] / b[k], as long as both go on: taken round by round, a noisy moment hits both alike.
+/// Of a[k] / b[k] for the common length: round by round, so that noise affects both.
 [[nodiscard]] Spread ratio_of(const std::vector<double>& a, const std::vector<double>& b);
 
 /// A requirement on a noisy median is missed where three quarters of the repetitions miss it.

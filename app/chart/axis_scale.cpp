@@ -10,8 +10,8 @@ namespace clay::chart {
 namespace {
 
 constexpr double kLinearParts = 6.0;
-constexpr int kMostDecades = 8;      // labelled one by one; of more, every second and so on
-constexpr double kFewDecades = 2.5;  // so few have 2 and 5 labelled as well
+constexpr int kMostDecades = 8;      // labelled individually; above, every second one and so on
+constexpr double kFewDecades = 2.5;  // up to this many also have labels at 2 and 5
 constexpr double kSlack = 1e-9;      // a tick at the end of the range is within it
 
 std::string superscript(int power) {
@@ -78,7 +78,7 @@ std::vector<Tick> AxisScale::linear_ticks() const {
 
 std::vector<Tick> AxisScale::decade_ticks() const {
   const double decades = std::log10(high_ / low_);
-  // Less than a factor of two or three is linear to the eye.
+  // Below a factor of two or three, a logarithmic axis looks linear.
   if (decades < 0.5) return linear_ticks();
   std::vector<Tick> ticks;
   const int first = static_cast<int>(std::floor(std::log10(low_)));
@@ -96,7 +96,7 @@ std::vector<Tick> AxisScale::decade_ticks() const {
     }
   const auto labelled =
       std::ranges::count_if(ticks, [](const Tick& t) { return !t.label.empty(); });
-  return labelled < 2 ? linear_ticks() : ticks;  // as between 2 and 5, or 5 and 10
+  return labelled < 2 ? linear_ticks() : ticks;  // for example between 2 and 5, or 5 and 10
 }
 
 void Extent::add(double value) {

@@ -9,11 +9,11 @@ struct Tick {
   std::string label;  ///< empty for a line of the minor grid
 };
 
-/// From the values of an axis to px, linear or logarithmic.
+/// Maps the values of an axis to px, linear or logarithmic.
 class AxisScale {
  public:
-  /// `low` and `high` finite, and above 0 where logarithmic; where they are equal, or the wrong way
-  /// round, room is made around them.
+  /// `low` and `high` are finite, and positive for logarithmic axes; an empty or reversed range is
+  /// widened.
   AxisScale(bool logarithmic, double low, double high);
 
   void place(double low_px, double high_px);
@@ -24,8 +24,8 @@ class AxisScale {
   [[nodiscard]] double low() const { return low_; }
   [[nodiscard]] double high() const { return high_; }
 
-  /// At round values within the range; on a logarithmic axis at decades, with the values between
-  /// them labelled too where there are few.
+  /// Ticks at round values within the range; on a logarithmic axis at decades, with labels between
+  /// them if there are few.
   [[nodiscard]] std::vector<Tick> ticks() const;
 
  private:
@@ -39,14 +39,14 @@ class AxisScale {
 /// The smallest of 1, 2, 5 times a power of ten that divides `range` into at most `parts`.
 [[nodiscard]] double round_step(double range, double parts);
 
-/// A range that grows with the values it is shown.
+/// A range that grows to include added values.
 struct Extent {
   bool logarithmic = false;
   double low = 0.0, high = 0.0;
   bool empty = true;
   void add(double value);
   void add(const std::vector<double>& values);
-  /// With a share of its length added at both ends; from 0 to 1 (1 to 10) where nothing was added.
+  /// Widened by a fraction of its length at both ends; 0 to 1 (1 to 10) if empty.
   [[nodiscard]] AxisScale scale(double margin) const;
 };
 

@@ -13,12 +13,12 @@ namespace {
 
 constexpr double kHeight = 340.0;  // of the frame
 constexpr std::size_t kColours = 7;
-constexpr std::size_t kMostMarks = 60;  // of more points a line alone is drawn
+constexpr std::size_t kMostMarks = 60;  // above this number of points only the line is drawn
 constexpr std::size_t kUnthinned = 2000;
-constexpr double kPxPerLetter = 7.3;  // of 13 px, on the wide side
+constexpr double kPxPerLetter = 7.3;  // at 13 px; an upper estimate
 constexpr double kRow = 21.0;         // of the legend
 
-/// Shapes of about one area, around (0, 0).
+/// Marks of about equal area, around (0, 0).
 constexpr const char* kMarks[] = {"M-3.6 0a3.6 3.6 0 1 0 7.2 0a3.6 3.6 0 1 0 -7.2 0Z",
                                   "M-3.2 -3.2H3.2V3.2H-3.2Z",
                                   "M0 -4.6L4.2 3H-4.2Z",
@@ -95,7 +95,7 @@ std::vector<Chart::Point> Chart::points_of(const Curve& curve, const std::vector
     if (x_.shows(curve.x[k]) && (zero || y_.shows(y[k])))
       points.push_back({x_.at(curve.x[k]), zero ? bottom_ : y_.at(y[k]), zero});
     else
-      points.push_back({std::nan(""), 0.0, false});  // the line breaks here
+      points.push_back({std::nan(""), 0.0, false});  // a gap in the line
   }
   if (count <= kUnthinned) return points;
   std::vector<Point> thinned;
@@ -154,7 +154,7 @@ void Chart::marks(const std::vector<Point>& points, std::size_t number, bool on_
 void Chart::curve(const Curve& curve, std::size_t number, bool on_map) {
   const auto points = points_of(curve, curve.y);
   const std::string stroke = colour(number, on_map, "s");
-  // A drawing within the drawing is cut at its frame, and needs no name for that.
+  // A nested SVG clips at its frame without needing an id.
   add(
       fmt::format("<svg x='{0:.1f}' y='{1:.1f}' width='{2:.1f}' height='{3:.1f}' "
                   "viewBox='{0:.1f} {1:.1f} {2:.1f} {3:.1f}'>\n",
@@ -166,7 +166,7 @@ void Chart::curve(const Curve& curve, std::size_t number, bool on_map) {
   const bool marked = !curve.line || (!on_map && !curve.dashed && points.size() <= kMostMarks);
   if (marked) marks(points, number, on_map);
   if (curve.name.empty()) return;
-  // Black lies on the pale of the map here, too.
+  // On a map, black is drawn on a pale background here as well.
   std::string symbol = on_map ? "<rect class='pale' x='-15' y='-8' width='30' height='16'/>" : "";
   if (curve.line)
     symbol += fmt::format("<path class='line {}'{} d='M-13 0H13'/>", stroke,

@@ -1,5 +1,5 @@
 #pragma once
-// What plots and maps share: frame, axes, curves, legend.
+// Shared by plots and maps: frame, axes, curves, legend.
 
 #include "app/chart/axis_scale.hpp"
 #include "app/chart/plot.hpp"
@@ -24,16 +24,16 @@ class Chart {
   void add(std::string_view svg) { body_ += svg; }
 
   void grid();
-  /// In the colour and with the mark of its number; on a map in black above white.
+  /// In the colour and with the mark of its number; on a map in black on white.
   void curve(const Curve& curve, std::size_t number, bool on_map);
-  /// A further line of the legend, with a symbol 26 px wide around (0, 0).
+  /// Adds a line to the legend, with a symbol 26 px wide around (0, 0).
   void legend_entry(const std::string& symbol, const std::string& text);
   [[nodiscard]] std::string finish();
 
  private:
   struct Point {
     double x, y;
-    bool zero;  ///< y is 0 on a logarithmic axis: drawn at its foot
+    bool zero;  ///< y is 0 on a logarithmic axis: drawn at its lower end
   };
   [[nodiscard]] std::vector<Point> points_of(const Curve& curve,
                                              const std::vector<double>& y) const;

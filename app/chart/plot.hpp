@@ -15,8 +15,8 @@ struct Axis {
 struct Curve {
   std::string name;
   std::vector<double> x, y;
-  std::vector<double> low, high;  ///< spread of y, where measured
-  bool line = true;               ///< joined by a line, or points alone
+  std::vector<double> low, high;  ///< spread of y, if measured
+  bool line = true;               ///< false: points only
   bool dashed = false;            ///< for theory and bounds
 };
 
@@ -28,7 +28,7 @@ struct Plot {
   std::string note;
 };
 
-/// A map over two parameters: the servo's stable cells, for one. cells[row][column].
+/// A map over two parameters, for example the servo's stable cells. cells[row][column].
 struct Map {
   std::string id;
   std::string title;
@@ -39,17 +39,17 @@ struct Map {
   std::string note;
 };
 
-/// A drawing that stands alone brings its title and its style; one inside a page uses the page's.
+/// A standalone drawing includes its title and style; one in a page uses the page's style.
 enum class Place { alone, page };
 
-/// What is not finite is not drawn, nor is what a logarithmic axis cannot show, save for zero: that
-/// stands on the axis, as an open triangle. Curves of thousands of points are thinned to the
-/// extremes of each half pixel. Names may hold anything; they are escaped.
+/// Values that are not finite are not drawn, nor values that a logarithmic axis cannot show, except
+/// zero, which is drawn on the axis as an open triangle. Curves of thousands of points are thinned
+/// to the extremes of each half pixel. Names are escaped.
 [[nodiscard]] std::string svg_of(const Plot& plot, Place place);
-/// Colour and the size of a dot both tell how bad a cell is.
+/// Both the colour and the size of a dot encode the value of a cell.
 [[nodiscard]] std::string svg_of(const Map& map, Place place);
 
-/// CSS of the drawings, for light and dark, for a page that holds some.
+/// CSS of the drawings, for light and dark themes, for a page that contains them.
 [[nodiscard]] std::string_view style();
 
 }  // namespace clay::chart

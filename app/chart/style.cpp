@@ -2,7 +2,8 @@
 
 namespace clay::chart {
 
-// Hues that stay apart for the colour-blind; shapes and dashes tell curves apart without any.
+// Hues that are distinguishable with colour blindness; shapes and dashes distinguish curves without
+// colour.
 std::string_view style() {
   return R"css(
 .plot text { font: 13px system-ui, "DejaVu Sans", Arial, sans-serif; fill: #2b2b2b; stroke: none; }

@@ -8,7 +8,7 @@
 namespace clay::chart {
 namespace {
 
-/// Borders of the cells around ascending centres: halfway between them, in the axis' own measure.
+/// Borders of the cells around ascending centres: midpoints, on the scale of the axis.
 std::vector<double> borders(const std::vector<double>& centres, bool logarithmic) {
   std::vector<double> edges;
   if (centres.empty()) return edges;
@@ -24,7 +24,8 @@ std::vector<double> borders(const std::vector<double>& centres, bool logarithmic
   return edges;
 }
 
-/// From blue through a pale middle to orange: apart for the colour-blind, and in light on paper.
+/// From blue through a pale middle to orange: distinguishable with colour blindness, and by
+/// lightness in print.
 std::string cell_colour(double bad) {
   constexpr double kGood[] = {0x8f, 0xc3, 0xe6}, kMiddle[] = {0xf4, 0xee, 0xdd},
                    kBad[] = {0xe0, 0x7b, 0x2f};
@@ -46,7 +47,7 @@ std::string cell_svg(double x0, double y0, double x1, double y1, double bad) {
   std::string svg = fmt::format(
       "<rect class='cell' x='{:.1f}' y='{:.1f}' width='{:.1f}' height='{:.1f}' fill='{}'/>\n", left,
       top, width, height, cell_colour(bad));
-  // Area as bad as the cell: to be read in grey as well.
+  // The area also encodes the value, for reading in grey.
   const double radius = 0.32 * std::min(width, height) * std::sqrt(bad);
   if (radius > 0.4)
     svg += fmt::format("<circle class='cell-dot' cx='{:.1f}' cy='{:.1f}' r='{:.1f}'/>\n",

@@ -17,7 +17,7 @@ std::size_t length_by_lead(unsigned char lead) {
   return 0;
 }
 
-/// Bytes of the character at the front that XML 1.0 allows (its production 2); 0 for none.
+/// Length of the first character if XML 1.0 permits it (production 2); otherwise 0.
 std::size_t allowed(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const std::size_t length = length_by_lead(byte(0));

@@ -4,8 +4,8 @@
 
 namespace clay::chart {
 
-/// For the text and the attributes of SVG and HTML. What is no UTF-8, or no character that XML
-/// allows, becomes U+FFFD.
+/// For text and attributes of SVG and HTML. Invalid UTF-8, and characters that XML forbids, become
+/// U+FFFD.
 [[nodiscard]] std::string escaped(std::string_view text);
 
 }  // namespace clay::chart

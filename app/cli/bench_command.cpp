@@ -26,7 +26,7 @@ struct BenchOptions {
   std::string svg;
 };
 
-/// As it was typed, without what it does not measure by.
+/// The command line as typed, without options that do not affect the measurement.
 std::string command_line(const BenchOptions& options, const Console& console) {
   std::string line = "claystack bench";
   if (options.quick) line += " --quick";
@@ -40,7 +40,7 @@ std::string command_line(const BenchOptions& options, const Console& console) {
   return console.json ? line + " --json" : line;
 }
 
-/// Before minutes are spent: a folder that can be written to.
+/// Checks before measuring that the folder is writable.
 Result<void> open_folder(const std::string& folder) {
   if (folder.empty()) return {};
   std::error_code error;

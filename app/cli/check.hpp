@@ -1,5 +1,5 @@
 #pragma once
-// What `claystack check` does in turn: examine a pot or a mesh, then tell the verdict.
+// The stages of `claystack check`: examine a pot or a mesh, then print the verdict.
 
 #include "app/cli/console.hpp"
 #include "app/cli/wall_options.hpp"
@@ -19,7 +19,7 @@ namespace clay::cli {
 struct CheckCommand {
   std::string file;
   WallOptions walls;
-  std::string certificate;  ///< empty: none is asked after
+  std::string certificate;  ///< empty: no certificate is checked
   std::size_t wall_samples = 10'000;
   bool repair = false;
   std::optional<std::size_t> max_triangles;
@@ -28,34 +28,34 @@ struct CheckCommand {
   [[nodiscard]] bool changes_mesh() const { return repair || max_triangles; }
 };
 
-/// What became of a mesh on its way to the file that was written.
-struct Mending {
-  std::vector<solid::MeshProblem> found;  ///< in the file that was read
+/// Repairs and decimation of a mesh before it was written.
+struct RepairSummary {
+  std::vector<solid::MeshProblem> found;  ///< in the input file
   std::vector<solid::Repair> repaired;
-  std::size_t triangles_before = 0;           ///< decimation
-  std::optional<double> decimation_error_mm;  ///< where there was any
+  std::size_t triangles_before = 0;           ///< before decimation
+  std::optional<double> decimation_error_mm;  ///< set if the mesh was decimated
   std::string path;
   solid::MeshFormat format = solid::MeshFormat::stl_binary;
   std::size_t bytes = 0;
 };
 
 struct Verdict {
-  solid::MeshReport mesh;         ///< after mending: of the mesh that was written
+  solid::MeshReport mesh;         ///< of the written mesh, after repairs
   bool examined = true;           ///< false: no mesh was made, `mesh` holds only problems
   std::optional<double> wall_mm;  ///< of pots
-  std::optional<solid::SampledWall> wall_sampled;  ///< of meshes, where it was asked for
-  std::vector<std::string> notes;                  ///< sound, but worth knowing
-  std::optional<Mending> mending;
-  std::optional<solid::SolidCertificate> certificate;  ///< the one asked after
+  std::optional<solid::SampledWall> wall_sampled;  ///< of meshes, if requested
+  std::vector<std::string> notes;                  ///< sound, but noteworthy
+  std::optional<RepairSummary> repair_summary;
+  std::optional<solid::SolidCertificate> certificate;  ///< the certificate that was checked
   bool certificate_holds = false;
 };
 
-/// A verdict of one problem, for what was never examined.
+/// A verdict of one problem, for input that was not examined.
 Verdict unsound(std::string what, std::string where);
 
 Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command);
-/// Writes `command.out` where it is named. An error of kind `io`, in advance, for a mesh that takes
-/// more memory than there is.
+/// Writes `command.out` if set. An error of kind `io`, in advance, for a mesh that needs more
+/// memory than available.
 Result<Verdict> check_mesh_file(solid::MeshFormat format, const CheckCommand& command,
                                 const Console& console);
 

@@ -14,7 +14,7 @@ namespace {
 
 bool is_pot(std::string_view path) { return path.ends_with(".json") || path.ends_with(".cbor"); }
 
-/// What no option by itself can tell.
+/// Checks combinations of options.
 Result<void> check_usage(const CheckCommand& command) {
   if (command.changes_mesh() == command.out.empty())
     return failure(ErrorKind::bad_input,

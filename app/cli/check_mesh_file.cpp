@@ -19,7 +19,7 @@ using solid::MeshFormat;
 using solid::SolidCertificate;
 using solid::TriangleMesh;
 
-/// Nothing where there is room for what check_mesh takes.
+/// An error if check_mesh needs more memory than available.
 Result<void> expect_memory(std::string_view triangles, std::uint64_t bytes,
                            const MemoryRoom& room) {
   if (bytes <= room.bytes) return {};
@@ -29,12 +29,12 @@ Result<void> expect_memory(std::string_view triangles, std::uint64_t bytes,
                   triangles, gigabytes(bytes), gigabytes(room.bytes), room.limit));
 }
 
-/// The mesh of a file, of which a little at a time is in memory.
+/// Reads the mesh of a file with little of the file in memory.
 Result<TriangleMesh> read_mesh(FileReader& file, MeshFormat format, const std::string& name) {
   const solid::ByteSource source{
       [&](std::span<char> part) { return file.read(part); }, *file.size(),
       [&](std::uint64_t triangles) {
-        // With the mesh, which has half as many points as triangles if it is closed.
+        // Including the mesh; a closed mesh has half as many points as triangles.
         const std::uint64_t mesh =
             triangles *
             (sizeof(decltype(TriangleMesh::triangles)::value_type) + sizeof(glm::dvec3) / 2);
@@ -62,22 +62,23 @@ Result<solid::MeshReport> checked(const TriangleMesh& mesh) {
   return report;
 }
 
-/// Repairs and decimates as asked.
-Result<TriangleMesh> mended(TriangleMesh mesh, const CheckCommand& command, Mending& mending) {
+/// Repairs and decimates if requested.
+Result<TriangleMesh> repaired_mesh(TriangleMesh mesh, const CheckCommand& command,
+                                   RepairSummary& summary) {
   auto found = checked(mesh);
   if (!found) return tl::make_unexpected(found.error());
-  mending.found = std::move(found->problems);
-  if (command.repair && !mending.found.empty()) {
+  summary.found = std::move(found->problems);
+  if (command.repair && !summary.found.empty()) {
     auto repaired = solid::repair_mesh(mesh);
     if (!repaired) return tl::make_unexpected(repaired.error());
     mesh = std::move(repaired->mesh);
-    mending.repaired = std::move(repaired->repaired);
+    summary.repaired = std::move(repaired->repaired);
   }
-  mending.triangles_before = mesh.triangles.size();
+  summary.triangles_before = mesh.triangles.size();
   if (command.max_triangles && mesh.triangles.size() > *command.max_triangles) {
     auto decimated = solid::decimate(mesh, *command.max_triangles);
     if (!decimated) return tl::make_unexpected(decimated.error());
-    mending.decimation_error_mm = decimated->max_error_mm;
+    summary.decimation_error_mm = decimated->max_error_mm;
     mesh = std::move(decimated->mesh);
   }
   return mesh;
@@ -96,21 +97,22 @@ Result<std::string> encoded(const TriangleMesh& mesh, MeshFormat format) {
   return solid::encode_stl_binary(mesh);
 }
 
-/// The verdict is on what the file will hold, so the bytes are read again before they are written.
+/// The verdict is on the contents of the output file, so the bytes are decoded again before
+/// writing.
 Result<TriangleMesh> written(const TriangleMesh& mesh, const CheckCommand& command,
-                             Mending& mending) {
-  const auto bytes = encoded(mesh, mending.format);
+                             RepairSummary& summary) {
+  const auto bytes = encoded(mesh, summary.format);
   if (!bytes) return tl::make_unexpected(bytes.error());
-  auto reread = solid::decode_mesh(*bytes, mending.format, command.out);
+  auto reread = solid::decode_mesh(*bytes, summary.format, command.out);
   if (!reread) return reread;
   if (const auto done = publish(command.out, *bytes); !done)
     return tl::make_unexpected(done.error());
-  mending.path = command.out;
-  mending.bytes = bytes->size();
+  summary.path = command.out;
+  summary.bytes = bytes->size();
   return reread;
 }
 
-/// Width, depth and height together.
+/// Sum of width, depth and height.
 double size_sum_mm(const TriangleMesh& mesh) {
   glm::dvec3 low = mesh.points.front(), high = low;
   for (const glm::dvec3& p : mesh.points) {
@@ -155,17 +157,17 @@ Result<void> measure_wall(const TriangleMesh& mesh, const solid::WallLimit& limi
   return {};
 }
 
-Result<TriangleMesh> mend_and_write(TriangleMesh mesh, const CheckCommand& command,
-                                    Mending& mending) {
+Result<TriangleMesh> repair_and_write(TriangleMesh mesh, const CheckCommand& command,
+                                      RepairSummary& summary) {
   const auto format = solid::mesh_format_of(command.out);
   if (!format) return tl::make_unexpected(format.error());
-  mending.format = *format;
-  return mended(std::move(mesh), command, mending).and_then([&](const TriangleMesh& result) {
-    return written(result, command, mending);
+  summary.format = *format;
+  return repaired_mesh(std::move(mesh), command, summary).and_then([&](const TriangleMesh& result) {
+    return written(result, command, summary);
   });
 }
 
-/// What a Draco file of ours states of itself; its checksum has been found to hold.
+/// Checks the claims of a Draco file by Claystack, whose checksum has been verified.
 void check_claims(std::string_view bytes, const TriangleMesh& mesh, Verdict& verdict) {
   const auto claims = solid::drc_claims(bytes, {}).value_or(std::nullopt);
   if (!claims) return;
@@ -174,7 +176,7 @@ void check_claims(std::string_view bytes, const TriangleMesh& mesh, Verdict& ver
     verdict.mesh.problems.push_back(std::move(problem));
 }
 
-/// Nothing where none is asked after.
+/// Empty if no certificate is checked.
 Result<std::optional<SolidCertificate>> read_certificate(const CheckCommand& command) {
   if (command.certificate.empty()) return std::nullopt;
   return read_file(command.certificate, solid::kMaxCertificateBytes)
@@ -184,7 +186,7 @@ Result<std::optional<SolidCertificate>> read_certificate(const CheckCommand& com
       .map([](SolidCertificate certificate) { return std::optional(std::move(certificate)); });
 }
 
-/// The same bytes may well be a mesh in two formats: the one that the file's name says counts.
+/// The same bytes may be a mesh in two formats: the format of the file's name must match.
 Result<void> same_format(const SolidCertificate& certificate, MeshFormat format,
                          const std::string& file) {
   const auto family = [](MeshFormat f) {
@@ -216,21 +218,21 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
   if (!certificate) return tl::make_unexpected(certificate.error());
   Verdict verdict;
   verdict.certificate = std::move(*certificate);
-  // Certificates and Draco files speak of all bytes, and a pipe does not tell how many come.
+  // Certificates and Draco checksums cover all bytes, and a pipe has no known size.
   const bool whole = verdict.certificate || format == MeshFormat::drc || !file->size();
   const auto bytes = whole ? read_file(command.file) : std::string();
   if (!bytes) return tl::make_unexpected(bytes.error());
   auto mesh = whole ? solid::decode_mesh(*bytes, format, command.file)
                     : read_mesh(*file, format, command.file);
   if (!mesh && verdict.certificate) {
-    // Whatever has become of the file, it is not what the certificate speaks of.
+    // The file no longer matches its certificate.
     verify(*bytes, format, command, verdict);
     verdict.examined = false;
     return verdict;
   }
   if (!mesh) return tl::make_unexpected(mesh.error());
   if (command.changes_mesh()) {
-    mesh = mend_and_write(std::move(*mesh), command, verdict.mending.emplace());
+    mesh = repair_and_write(std::move(*mesh), command, verdict.repair_summary.emplace());
     if (!mesh) return failure(mesh.error().kind, command.file + ": " + mesh.error().message);
   }
   auto report = checked(*mesh);

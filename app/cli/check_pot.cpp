@@ -14,8 +14,8 @@
 namespace clay::cli {
 namespace {
 
-// A pot is checked on a mesh of its walls: enough facets to look like the pot, few enough to be
-// quick. Whether it is sound does not depend on how many.
+// A pot is checked on a mesh of its walls: enough facets to resemble the pot, few enough to be
+// fast. Soundness does not depend on their number.
 constexpr std::size_t kMostSegments = 64;
 constexpr std::size_t kFewestSegments = 8;
 constexpr std::size_t kQuickTriangles = 1'000'000;
@@ -25,7 +25,7 @@ std::size_t check_segments(const solid::Profile& profile) {
   return std::clamp(kQuickTriangles / each, kFewestSegments, kMostSegments);
 }
 
-/// A section that proves a solid, and the mesh that it gives, passing every test.
+/// Checks a section that proves a solid, and its mesh.
 Verdict check_section(const solid::StackProfile& section,
                       const std::optional<solid::WallLimit>& limit) {
   Verdict verdict;
@@ -69,7 +69,7 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command) {
   if (pot->collapse)
     return unsound("collapsed", fmt::format("ring {} yielded at {:g} kPa",
                                             pot->collapse->failed_ring, pot->collapse->stress_kpa));
-  // As `export` makes it unless told otherwise.
+  // The default of `export`.
   const auto limit =
       command.walls.demand().for_size(4.0 * largest_radius_mm(pot->stack) + pot->stack.height_mm());
   solid::SmoothingOptions how;

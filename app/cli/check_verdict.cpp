@@ -8,7 +8,8 @@
 namespace clay::cli {
 namespace {
 
-constexpr std::size_t kCountingStops = 100'000;  // of self-intersections, see MeshReport
+constexpr std::size_t kCountingStops =
+    100'000;  // the counting limit of self-intersections, see MeshReport
 
 template <class Problems>
 Json problems_json(const Problems& problems) {
@@ -31,18 +32,18 @@ Json wall_json(const solid::SampledWall& wall) {
   return json;
 }
 
-void add_mending(Json& json, const Mending& mending, const Verdict& verdict) {
-  json["found"] = problems_json(mending.found);
+void add_repair(Json& json, const RepairSummary& summary, const Verdict& verdict) {
+  json["found"] = problems_json(summary.found);
   json["repaired"] = Json::array();
-  for (const auto& [what, count] : mending.repaired)
+  for (const auto& [what, count] : summary.repaired)
     json["repaired"].push_back({{"what", what}, {"count", count}});
   json["remaining"] = problems_json(verdict.mesh.problems);
-  if (mending.decimation_error_mm)
-    json["decimated"] = {{"from_triangles", mending.triangles_before},
+  if (summary.decimation_error_mm)
+    json["decimated"] = {{"from_triangles", summary.triangles_before},
                          {"to_triangles", verdict.mesh.triangles},
-                         {"max_error_mm", *mending.decimation_error_mm}};
+                         {"max_error_mm", *summary.decimation_error_mm}};
   json["written"] = {
-      {"path", mending.path}, {"format", solid::name_of(mending.format)}, {"bytes", mending.bytes}};
+      {"path", summary.path}, {"format", solid::name_of(summary.format)}, {"bytes", summary.bytes}};
 }
 
 Json certificate_json(const solid::SolidCertificate& certificate, bool holds) {
@@ -70,16 +71,16 @@ void tell_wall(const Console& console, const solid::SampledWall& wall) {
     console.say(fmt::format("  {} of {} rays left through an opening", wall.escaped, wall.rays));
 }
 
-void tell_mending(const Console& console, const Mending& mending, const Verdict& verdict) {
-  for (const auto& problem : mending.found)
+void print_repair(const Console& console, const RepairSummary& summary, const Verdict& verdict) {
+  for (const auto& problem : summary.found)
     console.say(fmt::format("  found: {} ({}): {}", problem.what, problem.count, problem.where));
-  for (const auto& [what, count] : mending.repaired)
+  for (const auto& [what, count] : summary.repaired)
     console.say(fmt::format("  repaired: {} ({})", what, count));
-  if (mending.decimation_error_mm)
+  if (summary.decimation_error_mm)
     console.say(fmt::format("  decimated: {} to {} triangles; vertices within {:.2g} mm",
-                            mending.triangles_before, verdict.mesh.triangles,
-                            *mending.decimation_error_mm));
-  console.say(fmt::format("  written: {}, {} bytes, {}", mending.path, mending.bytes,
+                            summary.triangles_before, verdict.mesh.triangles,
+                            *summary.decimation_error_mm));
+  console.say(fmt::format("  written: {}, {} bytes, {}", summary.path, summary.bytes,
                           verdict.mesh.sound() ? "sound" : "NOT SOUND"));
 }
 
@@ -113,16 +114,16 @@ Json verdict_json(const std::string& file, const Verdict& verdict) {
   if (verdict.certificate)
     json["certificate"] = certificate_json(*verdict.certificate, verdict.certificate_holds);
   json["notes"] = verdict.notes;
-  if (verdict.mending) add_mending(json, *verdict.mending, verdict);
+  if (verdict.repair_summary) add_repair(json, *verdict.repair_summary, verdict);
   return json;
 }
 
 void tell(const Console& console, const std::string& file, const Verdict& verdict) {
   const solid::MeshReport& mesh = verdict.mesh;
-  const bool mended = verdict.mending.has_value();
-  const bool sound = mended ? verdict.mending->found.empty() : mesh.sound();
+  const bool was_repaired = verdict.repair_summary.has_value();
+  const bool sound = was_repaired ? verdict.repair_summary->found.empty() : mesh.sound();
   console.say(fmt::format("{}: {}", file, sound ? "sound" : "NOT SOUND"));
-  if (mended) tell_mending(console, *verdict.mending, verdict);
+  if (was_repaired) print_repair(console, *verdict.repair_summary, verdict);
   const auto yes = [](bool value) { return value ? "yes" : "no"; };
   if (verdict.examined) {
     console.say(fmt::format(
@@ -137,7 +138,7 @@ void tell(const Console& console, const std::string& file, const Verdict& verdic
   if (verdict.certificate_holds) tell_certificate(console, *verdict.certificate);
   for (const std::string& note : verdict.notes) console.say("  note: " + note);
   for (const auto& problem : mesh.problems)
-    console.say(fmt::format("  {}{} ({}{}): {}", mended ? "remaining: " : "", problem.what,
+    console.say(fmt::format("  {}{} ({}{}): {}", was_repaired ? "remaining: " : "", problem.what,
                             problem.count == kCountingStops ? "at least " : "", problem.count,
                             problem.where));
 }

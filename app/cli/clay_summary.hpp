@@ -1,5 +1,5 @@
 #pragma once
-// What is on the wheel when the throwing is over, for people and for scripts.
+// A summary of the clay after throwing, for people and for scripts.
 
 #include "app/cli/console.hpp"
 #include "claystack/engine/wheel.hpp"
@@ -11,7 +11,7 @@ namespace clay::cli {
 /// Rings, height, volume and its error, thinnest wall, collapse.
 [[nodiscard]] Json clay_json(const Wheel& wheel, const Pot& pot);
 
-/// `summary`: with the fields of clay_json.
+/// `summary` has the fields of clay_json.
 void tell_collapse(const Console& console, const Json& summary);
 
 }  // namespace clay::cli

@@ -1,6 +1,6 @@
 #pragma once
-// One function for each command of the outer face. Each registers itself with the
-// parser and returns, through `exit`, the status of what it did.
+// One function per command. Each registers itself with the parser and returns its status through
+// `exit`.
 
 #include "app/cli/console.hpp"
 
@@ -28,10 +28,10 @@ void add_devices_command(CLI::App& app, Console& console, int& exit);
 #ifdef CLAYSTACK_STUDIO
 void add_studio_command(CLI::App& app, int& exit);
 #endif
-/// Where CLAYSTACK_BENCH is on.
+/// Only if CLAYSTACK_BENCH is on.
 void add_bench_command(CLI::App& app, Console& console, int& exit);
 
-/// Program, version, compiler, and the parts that are built in.
+/// Program, version, compiler and build options.
 [[nodiscard]] std::string version_text();
 
 }  // namespace clay::cli

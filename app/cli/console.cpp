@@ -24,8 +24,8 @@ constexpr auto kPatience = std::chrono::milliseconds(300);
 constexpr auto kRedraw = std::chrono::milliseconds(100);
 constexpr std::size_t kBarWidth = 32;
 
-/// Opens those of standard input, output and error that are closed, so that no file gets their
-/// numbers. The wrong way round: using them still fails.
+/// Opens closed standard streams, so that no file gets their numbers. Opened in the wrong
+/// direction: using them still fails.
 void reserve_standard_streams() noexcept {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) == -1)
@@ -128,7 +128,7 @@ int run_program(int (*run)(int argc, char** argv), int argc, char** argv) noexce
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     const int exit = run(argc, argv);
-    // What could not be printed was not done.
+    // Output that could not be printed is a failure.
     return flush_out() ? exit : report({ErrorKind::io, "standard output: could not write"});
   } catch (const std::bad_alloc&) {
     return out_of_memory();

@@ -1,5 +1,5 @@
 #pragma once
-// Which device a person means, and how what is wrong with it is told.
+// Selects the device and reports its errors.
 
 #include "claystack/core/result.hpp"
 #include "claystack/falcon/device.hpp"
@@ -14,18 +14,19 @@ class App;
 
 namespace clay::cli {
 
-/// A fault of the user's files and settings is bad input, any other the device's.
+/// Faults of the user's files and settings are bad input; all others are device errors.
 [[nodiscard]] Error error_of(const falcon::DeviceError& error);
 
-/// For CLI options: auto, falcon, bridge, spacemouse, simulated or a place; otherwise what was
-/// expected.
+/// For CLI options: accepts auto, falcon, bridge, spacemouse, simulated or a place; otherwise
+/// returns the expected values.
 [[nodiscard]] std::string check_device_name(const std::string& which);
 
-/// Of a Falcon, also behind a bridge: --firmware, or CLAYSTACK_FALCON_FIRMWARE; --geometry and
-/// --motor-counts, since published figures differ. `settings` outlives the command.
+/// For a Falcon, also behind a bridge: --firmware, or CLAYSTACK_FALCON_FIRMWARE; --geometry and
+/// --motor-counts, because published figures differ. `settings` must outlive the command.
 void add_falcon_options(CLI::App& command, falcon::FalconSettings& settings);
 
-/// The device, open. `simulated` is made as it says; the others need the USB parts built in.
+/// Opens the device. `simulated` is made with the given settings; the others need the USB parts
+/// built in.
 Result<std::unique_ptr<falcon::HapticDevice>> open_chosen(
     const std::string& which, const falcon::FalconSettings& falcon,
     const falcon::SimulatedSettings& simulated);

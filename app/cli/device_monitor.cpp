@@ -17,7 +17,7 @@ constexpr auto kRedraw = std::chrono::milliseconds(100);
 
 volatile sig_atomic_t interrupted = 0;
 
-/// For as long as it lives SIGINT and SIGTERM only end the watch.
+/// During its scope, SIGINT and SIGTERM only end the monitor.
 class Interrupts {
  public:
   Interrupts() {
@@ -44,7 +44,7 @@ struct View {
   falcon::DeviceSample sample;
   double rate_hz = 0.0;
   falcon::DeviceCounters counters;
-  glm::dvec3 tool_mm{0.0};  // on the wheel, as `throw` maps by default
+  glm::dvec3 tool_mm{0.0};  // on the wheel, with the default mapping of `throw`
 };
 
 Json view_json(const View& view) {
@@ -69,7 +69,7 @@ std::string view_text(const View& view) {
   return text;
 }
 
-/// False: it cannot be shown, now or ever again.
+/// False: output failed permanently.
 bool show(const View& view, const Console& console, bool terminal) {
   if (console.json) {
     put_out(view_json(view).dump() + "\n");
@@ -107,7 +107,7 @@ falcon::DeviceResult<void> watch(falcon::HapticDevice& device, double seconds,
       fresh = 0;
       next_view = now + kRedraw;
     }
-    // After a pause the ticks missed are not made up for.
+    // Missed ticks are not repeated after a pause.
     next = std::max(next + kTick, now);
     std::this_thread::sleep_until(next);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// A device as it moves, for people and scripts.
+// Shows a moving device, for people and scripts.
 
 #include "app/cli/console.hpp"
 #include "app/servo/mapping.hpp"
@@ -7,10 +7,10 @@
 
 namespace clay::cli {
 
-/// Reads the device a thousand times a second with zero force, and shows it ten times a second, and
-/// where the tool would be on the wheel: on a terminal in one line, elsewhere line by line, as JSON
-/// objects when asked for. Ends after `seconds` (0: never), on SIGINT or SIGTERM, and with the
-/// device's problem when it fails.
+/// Reads the device a thousand times a second with zero force, and shows it, and the tool's
+/// position on the wheel, ten times a second: on a terminal in one line, otherwise line by line, as
+/// JSON objects if requested. Ends after `seconds` (0: never), on SIGINT or SIGTERM, and with the
+/// device's error if it fails.
 falcon::DeviceResult<void> watch(falcon::HapticDevice& device, double seconds,
                                  const servo::Mapping& mapping, const Console& console);
 

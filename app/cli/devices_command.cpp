@@ -27,7 +27,7 @@ Json problem_json(const falcon::DeviceError& error) {
   return {{"fault", name_of(error.fault)}, {"what", error.what}, {"remedy", error.remedy}};
 }
 
-/// One device, as it is and as it answers when it is opened for a moment.
+/// One device, and its answer when opened briefly.
 struct Entry {
   falcon::ListedDevice listed;
   falcon::DeviceState state = falcon::DeviceState::closed;

@@ -12,8 +12,8 @@ struct ErrorCurve {
   std::vector<TraceRow> rows;
 };
 
-/// Keeps the rows of a curve in bounded memory: all of some hundred thousand ticks; of more, those
-/// with the least and the greatest error of each run of ticks too short to be seen.
+/// Keeps the rows of a curve in bounded memory: all of some hundred thousand ticks; above that, the
+/// rows with the smallest and the largest error of each short run of ticks.
 class ErrorRows {
  public:
   explicit ErrorRows(std::size_t ticks) : run_(ticks / kMostRuns + 1) {}
@@ -31,7 +31,7 @@ class ErrorRows {
 };
 
 /// Volume error in percent of the initial volume over time, as in the paper's figure 7, with the
-/// paper's bound Delta v_N. Self-contained SVG; curves are thinned to the extremes of each column.
+/// paper's bound Delta v_N. Standalone SVG; curves are thinned to the extremes of each column.
 std::string error_plot_svg(const std::string& title, const std::vector<ErrorCurve>& curves);
 
 }  // namespace clay::cli

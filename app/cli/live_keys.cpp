@@ -11,12 +11,12 @@
 namespace clay::cli {
 namespace {
 
-// Static, and set before the signals know of it: a handler puts it back.
+// Static, and set before signal handlers are installed: a handler restores it.
 termios before{};
 
 void put_back() noexcept { tcsetattr(STDIN_FILENO, TCSANOW, &before); }
 
-/// In the background a terminal belongs to somebody else.
+/// A background process does not own the terminal.
 bool is_ours() {
   return isatty(STDIN_FILENO) == 1 && tcgetpgrp(STDIN_FILENO) == getpgrp() &&
          tcgetattr(STDIN_FILENO, &before) == 0;
@@ -28,14 +28,14 @@ LiveKeys::LiveKeys() : on_(is_ours()) {
   if (!on_) return;
   servo::ForceSignals::at_the_end(put_back);
   termios raw = before;
-  raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);  // Ctrl-C and Ctrl-\ stay signals
+  raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);  // Ctrl-C and Ctrl-\ still send signals
   raw.c_cc[VMIN] = raw.c_cc[VTIME] = 0;
   tcsetattr(STDIN_FILENO, TCSANOW, &raw);
 }
 
 LiveKeys::~LiveKeys() {
   if (!on_) return;
-  // Keys that nobody took are not the shell's.
+  // Discards unread keys, so that the shell does not get them.
   tcsetattr(STDIN_FILENO, TCSAFLUSH, &before);
   servo::ForceSignals::at_the_end(nullptr);
 }
@@ -46,7 +46,7 @@ void LiveKeys::serve(servo::Servo& servo, std::chrono::milliseconds time) {
   if (poll(&input, 1, static_cast<int>(time.count())) <= 0) return;
   char key = 0;
   if (read(STDIN_FILENO, &key, 1) == 1) return press(key, servo);
-  std::this_thread::sleep_for(time);  // hung up
+  std::this_thread::sleep_for(time);  // the terminal was closed
 }
 
 void LiveKeys::press(char key, servo::Servo& servo) {

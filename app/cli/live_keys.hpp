@@ -1,6 +1,6 @@
 #pragma once
-// Keys of the terminal while throwing: space pauses and goes on, z takes the force away, r lets it
-// be earned again, q ends.
+// Keys of the terminal while throwing: space pauses and resumes, z sets the force to zero, r lets
+// it ramp up again, q ends.
 
 #include "app/servo/servo.hpp"
 
@@ -8,9 +8,9 @@
 
 namespace clay::cli {
 
-/// For as long as it lives each key of the terminal counts at once and is not shown, where standard
-/// input is a terminal and ours to read. However it ends, signals included, the terminal is as
-/// before. Within the life of a servo::ForceSignals; one at a time.
+/// During its scope each key acts immediately and is not echoed, if standard input is a terminal in
+/// the foreground. The terminal is always restored, also on signals. Use within the scope of a
+/// servo::ForceSignals; one at a time.
 class LiveKeys {
  public:
   LiveKeys();
@@ -18,10 +18,10 @@ class LiveKeys {
   LiveKeys(const LiveKeys&) = delete;
   LiveKeys& operator=(const LiveKeys&) = delete;
 
-  /// Whether there are any.
+  /// Whether keys are available.
   [[nodiscard]] bool on() const noexcept { return on_; }
 
-  /// Hands keys on to the servo, for so long or until a signal comes.
+  /// Passes keys to the servo for the given time, or until a signal arrives.
   void serve(servo::Servo& servo, std::chrono::milliseconds time);
 
  private:
@@ -31,7 +31,7 @@ class LiveKeys {
   bool paused_ = false;
 };
 
-/// For the potter.
+/// Help text for the user.
 inline constexpr const char* kKeysInWords =
     "keys: space pauses and goes on, z takes the force away, r gives it back, q ends";
 

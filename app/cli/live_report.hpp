@@ -1,5 +1,5 @@
 #pragma once
-// What a live throw says of itself: in a line while it runs, in full when it is over.
+// Reports of a live throw: one line while it runs, a summary at the end.
 
 #include "app/cli/console.hpp"
 #include "app/servo/servo.hpp"
@@ -8,13 +8,13 @@
 
 namespace clay::cli {
 
-/// For scripts: "time_up".
+/// For scripts, for example "time_up".
 [[nodiscard]] const char* name_of(servo::Ending ending);
 
-/// In the terminal: lets force be earned again.
+/// The key that lets force ramp up again.
 inline constexpr const char* kRearmKey = "r";
 
-/// One line: rate, force, volume error, words.
+/// One line: rate, force, volume error, state.
 [[nodiscard]] std::string status_line(const servo::LiveStatus& status, double rate_hz);
 
 /// Times in us, events by name.

@@ -30,7 +30,7 @@ namespace {
 using namespace std::chrono_literals;
 using servo::Ending;
 
-constexpr auto kLook = 20ms;  // at the servo, for its end
+constexpr auto kLook = 20ms;  // polling period for the servo's end
 constexpr auto kReopen = 500ms;
 
 /// Refuses a scene that is too stiff for the arm, or softens it.
@@ -50,7 +50,7 @@ Result<void> fit_stiffness(SceneSpec& scene, const StepPlan& plan, const LiveOpt
   return {};
 }
 
-/// All that a live throw is made of, in the order in which it is made.
+/// The parts of a live throw, in the order of their construction.
 struct Stage {
   std::vector<Pose> stroke;  // of the simulated hand
   SceneSpec scene;
@@ -63,7 +63,7 @@ struct Stage {
   std::optional<servo::ServoLoop> loop;
 };
 
-/// The simulated hand's stroke: how long it takes, and where the hand works unless that is said.
+/// The simulated hand's stroke: sets duration and workspace unless given.
 Result<void> take_up_stroke(const LiveJob& job, LiveOptions& options, Stage& stage) {
   std::error_code ignored;
   if (options.device != "simulated" || job.stroke_path.empty() ||
@@ -84,8 +84,8 @@ std::string written_pot(const LiveJob& job, const Pot& pot) {
   return write_pot(pot, cbor ? PotEncoding::cbor : PotEncoding::json);
 }
 
-/// Only writing shows that a disk is full: the pot as it is now is tried, where that leaves
-/// nothing.
+/// Only writing detects a full disk: tries to write the current pot, if that changes no existing
+/// file.
 Result<AtomicFile> open_pot_file(const LiveJob& job, const Pot& pot) {
   {
     auto trial = AtomicFile::create(job.pot_path);
@@ -96,7 +96,7 @@ Result<AtomicFile> open_pot_file(const LiveJob& job, const Pot& pot) {
   return AtomicFile::create(job.pot_path);
 }
 
-/// Before anything is thrown: what cannot be written then would cost the pot.
+/// Before throwing: an unwritable output found later would lose the pot.
 Result<void> open_outputs(const LiveJob& job, const LiveOptions& options, Stage& stage) {
   if (!job.pot_path.empty()) {
     auto file = open_pot_file(job, stage.wheel->pot());
@@ -154,7 +154,7 @@ Result<void> build(const LiveJob& job, LiveOptions& options, const Console& cons
   return {};
 }
 
-/// Shows the servo until it ends.
+/// Shows the servo's state until it ends.
 void watch(servo::Servo& servo, LiveKeys& keys, StatusLine& line) {
   std::uint64_t ticks = 0;
   auto since = std::chrono::steady_clock::now();
@@ -172,7 +172,7 @@ void watch(servo::Servo& servo, LiveKeys& keys, StatusLine& line) {
   }
 }
 
-/// Tries to open the device again until it can be, or a signal comes.
+/// Tries to reopen the device until it succeeds or a signal arrives.
 bool comes_back(falcon::HapticDevice& device) {
   while (servo::ForceSignals::asked_to_stop() == 0) {
     if (device.open()) return true;
@@ -181,7 +181,7 @@ bool comes_back(falcon::HapticDevice& device) {
   return false;
 }
 
-/// Ends with the hand free of force. Within the life of a servo::ForceSignals.
+/// Ends with zero force. Use within the scope of a servo::ForceSignals.
 Ending run(Stage& stage, const LiveOptions& options, const Console& console,
            servo::Realtime& realtime) {
   LiveKeys keys;
@@ -191,7 +191,7 @@ Ending run(Stage& stage, const LiveOptions& options, const Console& console,
     servo::Servo servo({*stage.wheel, *stage.device, stage.clock, stage.recorder.get()},
                        *stage.loop, true);
     servo.start();
-    // A signal before this found nothing to stop.
+    // An earlier signal found no servo to stop.
     if (servo::ForceSignals::asked_to_stop() != 0) servo.command({servo::CommandKind::stop, 0.0});
     watch(servo, keys, line);
     const Ending ending = servo.join();
@@ -245,7 +245,7 @@ Result<void> keep_pot(const LiveJob& job, Stage& stage, const Pot& pot) {
                                                           rescued.error().message));
 }
 
-/// Whatever went wrong, all else is kept; the error is the first.
+/// Keeps everything else after an error; returns the first error.
 Result<void> first_error(const Kept& kept, const Console& console) {
   if (!kept.session && !kept.pot) console.warn(kept.pot.error().message);
   return kept.session ? kept.pot : kept.session;
@@ -275,7 +275,7 @@ Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console
   Stage stage;
   if (auto built = build(job, options, console, stage); !built) return built;
   servo::Realtime realtime;
-  // Until pot and session are kept: a terminal that closes may send its signal twice.
+  // Until pot and session are saved: a closing terminal may send its signal twice.
   std::optional<servo::ForceSignals> signals(std::in_place);
   const Ending ending = run(stage, options, console, realtime);
   const Pot pot = stage.wheel->pot();

@@ -12,31 +12,31 @@
 namespace clay::cli {
 
 struct LiveOptions {
-  std::string device;  ///< empty: nothing is live
+  std::string device;  ///< empty: not live
   std::string record;  ///< session to write; empty: none
   falcon::FalconSettings falcon;
-  bool wait = false;    ///< for a device that was unplugged to come back
-  bool soften = false;  ///< lower the scene's stiffness to what is accepted
+  bool wait = false;    ///< wait for a disconnected device to return
+  bool soften = false;  ///< lower the scene's stiffness to the accepted limit
   servo::LiveSettings settings;
 };
 
 void add_live_options(CLI::App& command, LiveOptions& options);
 
-/// Where the hand works, of the mapping: --scale, --side, --reach, --height, --flip.
+/// The workspace of the mapping: --scale, --side, --reach, --height, --flip.
 void add_place_options(CLI::App& command, servo::MappingSettings& mapping);
 
-/// What is thrown, and where it goes.
+/// Inputs and outputs of a live throw.
 struct LiveJob {
   std::string scene_path;
-  std::string stroke_path;  ///< session that the simulated hand plays
-  std::string pot_path;     ///< empty: not kept
-  std::string model;        ///< empty: the scene's own
-  std::string from_path;    ///< pot to throw on; empty: the scene's lump
+  std::string stroke_path;  ///< session played by the simulated hand
+  std::string pot_path;     ///< empty: not saved
+  std::string model;        ///< empty: the model of the scene
+  std::string from_path;    ///< pot to continue; empty: the scene's lump
 };
 
-/// Until it is over: the stroke's end, --seconds, SIGINT or SIGTERM, the device's failure, a
-/// collapse. In every case the hand is free of force and pot and session are kept; a failed device
-/// is then the error.
+/// Runs until the stroke ends, --seconds pass, SIGINT or SIGTERM arrives, the device fails, or the
+/// pot collapses. In every case force is zero and pot and session are saved; a device failure is
+/// then returned as the error.
 Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console);
 
 }  // namespace clay::cli

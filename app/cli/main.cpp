@@ -24,15 +24,15 @@ Examples:
 Exit status: 0 done and sound; 1 done, but the pot or mesh fails a check;
 2 bad usage or bad input; 3 could not read or write; 4 a device failed.)";
 
-/// A signal that ends the program leaves no temporary file.
+/// Removes temporary files on a signal that ends the program.
 void on_end(int signal) {
   clay::remove_temporary_files();
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
 
-/// A signal that is ignored stays ignored, as nohup wants it. servo::ForceSignals takes the place
-/// of these for as long as it lives.
+/// An ignored signal stays ignored, as nohup requires. servo::ForceSignals replaces these handlers
+/// during its scope.
 void handle_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE})
     if (std::signal(signal, on_end) == SIG_IGN) std::signal(signal, SIG_IGN);
@@ -73,7 +73,7 @@ int run(int argc, char** argv) {
 #endif
   const auto commands = app.get_subcommands({});
   for (CLI::App* command : commands) {
-    if (command->get_name() == "studio") continue;  // hands all it is given to another program
+    if (command->get_name() == "studio") continue;  // passes all its arguments to another program
     command->add_flag("--json", console.json, "Print data as JSON on standard output");
     command->add_flag("-q,--quiet", console.quiet, "Print errors only");
   }

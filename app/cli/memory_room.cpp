@@ -9,7 +9,7 @@
 namespace clay::cli {
 namespace {
 
-/// A figure in kB of one of the kernel's tables, in bytes; nothing where it has none.
+/// A value in kB of one of the kernel's tables, in bytes; empty if missing.
 std::uint64_t kernel_figure(const char* table, std::string_view label) {
   std::ifstream lines(table);
   for (std::string word; lines >> word;) {

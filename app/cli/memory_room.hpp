@@ -1,5 +1,5 @@
 #pragma once
-// How much memory this process may still take, asked before large work is begun.
+// The memory that this process may still allocate, checked before large work.
 
 #include <cstdint>
 #include <string>
@@ -9,10 +9,10 @@ namespace clay::cli {
 
 struct MemoryRoom {
   std::uint64_t bytes = UINT64_MAX;
-  std::string_view limit = "any limit";  ///< what sets it
+  std::string_view limit = "any limit";  ///< the source of the limit
 };
 
-/// The least of what `ulimit -v` leaves and what the machine has to give.
+/// The smaller of the remainder of `ulimit -v` and the machine's available memory.
 [[nodiscard]] MemoryRoom memory_room();
 
 /// For messages.

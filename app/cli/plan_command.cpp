@@ -15,7 +15,7 @@
 namespace clay::cli {
 namespace {
 
-// Below 3 % the clock's noise is louder than the stage.
+// Below 3 %, the clock's noise exceeds the cost of the stage.
 constexpr double kMeasurable = 1.03;
 
 Json line_json(const PlanLine& line, const StageCost* saved) {
@@ -36,7 +36,7 @@ std::string line_text(const PlanLine& line, const StageCost* saved) {
 
 struct PlanOptions {
   std::string scene;
-  std::optional<double> rate_hz;  ///< of a servo; absent: no arm is asked about
+  std::optional<double> rate_hz;  ///< of a servo; empty: no arm is checked
   double damping_ns_per_m = 2.0;
   int delay_ticks = 1;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Pots among the files to write: from one encoding to the other, exactly or rounded.
+// Pots as output files: conversion between encodings, exact or rounded.
 
 #include "app/cli/console.hpp"
 #include "claystack/engine/files.hpp"
@@ -11,10 +11,10 @@
 
 namespace clay::cli {
 
-/// The encoding that a name asks for; nothing for files that hold no pots.
+/// The encoding by file name; empty for files that hold no pots.
 [[nodiscard]] std::optional<PotEncoding> pot_encoding_of(std::string_view path);
 
-/// What was written, for the report.
+/// The written copy, for the report.
 struct PotCopy {
   PotEncoding encoding = PotEncoding::json;
   std::size_t bytes = 0;

@@ -24,7 +24,7 @@ namespace clay::cli {
 namespace {
 
 constexpr double kMapTopMm = 10.0;
-constexpr int kTurnMs = 3000;  // of a turntable, once around
+constexpr int kTurnMs = 3000;  // one turn of the turntable
 constexpr std::size_t kTimedFrames = 15;
 
 Result<void> check_usage(const RenderCommand& command, const Console& console) {
@@ -44,7 +44,7 @@ Result<void> check_usage(const RenderCommand& command, const Console& console) {
   return check_distinct({command.out, command.turntable}, {command.pot});
 }
 
-/// A pot as it is; of a scene the lump.
+/// The pot, or the lump of a scene.
 Result<Pot> clay_of(const std::string& path) {
   const auto bytes = read_file(path);
   if (!bytes) return tl::make_unexpected(bytes.error());
@@ -104,13 +104,13 @@ Result<render::Image> drawn(render::Offscreen& screen, const render::Picture& pi
   });
 }
 
-/// Streams the frames into `file`, which the caller commits. Returns its bytes.
+/// Streams the frames into `file`, which the caller commits. Returns the number of bytes.
 Result<std::uint64_t> turn(render::Offscreen& screen, render::Picture picture,
                            const RenderCommand& command, const Console& console, AtomicFile& file) {
   const auto frames = static_cast<std::size_t>(command.frames);
   Progress progress(console, "turning", 2 * frames);  // each frame is drawn twice
   std::size_t done = 0;
-  picture.cut_azimuth_rad = picture.camera.azimuth_rad;  // turns with the pot
+  picture.cut_azimuth_rad = picture.camera.azimuth_rad;  // rotates with the pot
   const double step = 2.0 * std::numbers::pi / command.frames;
   const double first = picture.camera.azimuth_rad;
   const auto frame_at = [&](std::size_t k) {
@@ -145,7 +145,7 @@ Result<Rendered> render(const RenderCommand& command, const Console& console) {
   auto screen = render::Offscreen::create();
   if (!screen) return tl::make_unexpected(screen.error());
   done.renderer = screen->renderer();
-  std::string png;  // the picture and the animation are both made before one is published
+  std::string png;  // picture and animation are both made before either is published
   if (!command.out.empty()) {
     const auto image = drawn(*screen, *picture, command.size);
     if (!image) return tl::make_unexpected(image.error());

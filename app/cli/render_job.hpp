@@ -1,5 +1,5 @@
 #pragma once
-// What `claystack render` does in turn: read the clay, measure its walls, draw, write.
+// The stages of `claystack render`: read the clay, measure its walls, draw, write.
 
 #include "app/cli/console.hpp"
 #include "app/render/picture.hpp"
@@ -28,12 +28,12 @@ struct RenderCommand {
 #endif
 };
 
-/// Medians of some frames.
+/// Medians over some frames.
 struct FrameTime {
   double ms = 0.0, anti_aliased_ms = 0.0;
 };
 
-/// What was drawn, for people and scripts.
+/// The result, for people and scripts.
 struct Rendered {
   std::uint64_t png_bytes = 0, gif_bytes = 0;
   std::string renderer;

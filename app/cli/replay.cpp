@@ -19,7 +19,7 @@ double percentile(std::vector<double>& values, double fraction) {
   return values[at];
 }
 
-/// Follows the ledger from tick to tick, without counting the rings again.
+/// Tracks the ledger from tick to tick without recounting the rings.
 class Auditor {
  public:
   explicit Auditor(const Wheel& wheel)

@@ -17,13 +17,13 @@ namespace clay::cli {
 struct TraceRow {
   double time_s = 0.0;
   double volume_error_percent = 0.0;  ///< of the initial volume; negative: clay is missing
-  double top_ring_percent = 0.0;      ///< Delta v_N, the paper's bound, in the same measure
+  double top_ring_percent = 0.0;      ///< Delta v_N, the paper's bound, in the same unit
   double height_mm = 0.0;
   double force_n = 0.0;
 };
 
 struct ReplayStats {
-  std::size_t refused = 0;  ///< poses that could not be believed
+  std::size_t refused = 0;  ///< invalid poses
   bool ring_limit = false;
   double max_volume_error_percent = 0.0;
   double max_missing_over_top =
@@ -38,13 +38,13 @@ struct ReplayOptions {
   std::function<void(std::size_t)> progress;   ///< called with the ticks done
 };
 
-/// Plays every pose on the wheel, and looks at the ledger after each.
+/// Plays every pose on the wheel, and checks the ledger after each.
 ReplayStats replay(Wheel& wheel, std::span<const Pose> poses, const ReplayOptions& options);
 
 /// Reads a scene; "-" is standard input.
 Result<SceneSpec> load_scene(const std::string& path);
-/// The scene's wheel, with the pot of that file on it instead of its lump; "" : none. Errors name
-/// the files.
+/// The scene's wheel, with the pot of that file instead of its lump; "": the lump. Errors name the
+/// files.
 Result<Wheel> build_wheel(const SceneSpec& scene, const std::string& scene_path,
                           const std::string& pot_path);
 /// Reads a session, by default the one beside the scene: NAME.scene.json -> NAME.session.

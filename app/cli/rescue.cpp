@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "bowl.pot.json" becomes "bowl.rescued-20261121T230307-4711.pot.json": when, by which process.
+/// "bowl.pot.json" becomes "bowl.rescued-20261121T230307-4711.pot.json": with time and process.
 std::string rescued_name(const fs::path& wanted) {
   const std::string name = wanted == "-" ? "pot.pot.json" : wanted.filename().string();
   const std::size_t stem = std::min(name.find(".pot."), name.size());

@@ -13,8 +13,8 @@
 namespace clay::cli {
 namespace {
 
-/// In place of this program: the window's, which lies beside it. Returns only where it is not to be
-/// had.
+/// Replaces this process by the window's program, which is installed beside it. Returns only on
+/// failure.
 Error become_studio(const std::vector<std::string>& arguments) {
   std::error_code failed;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", failed);
@@ -36,7 +36,7 @@ void add_studio_command(CLI::App& app, int& exit) {
   CLI::App* command =
       app.add_subcommand("studio", "Open the window: throw by mouse or with a haptic device");
   command->prefix_command();
-  command->set_help_flag();  // its own program has it
+  command->set_help_flag();  // the other program prints it
   command->callback([command, &exit] { exit = report(become_studio(command->remaining())); });
 }
 

@@ -29,8 +29,8 @@ struct ThrowOptions {
   std::string pot;
   std::string trace;
   std::string error_plot;
-  std::string model;  ///< empty: the scene's own
-  std::string from;   ///< pot to throw on; empty: the scene's lump
+  std::string model;  ///< empty: the model of the scene
+  std::string from;   ///< pot to continue; empty: the scene's lump
   std::optional<std::size_t> at;
   bool list = false;
 #ifdef CLAYSTACK_FALCON
@@ -70,7 +70,7 @@ void tell(const Console& console, const Json& s) {
   tell_collapse(console, s);
 }
 
-/// CSV that is written while the rows come.
+/// Writes a CSV file row by row.
 class TraceWriter {
  public:
   explicit TraceWriter(AtomicFile& file) : file_(file) {}
@@ -108,7 +108,7 @@ void warn_of_oddities(const Console& console, const Session& session, const Scen
                     options.session, session.scene_name));
 }
 
-/// The wheel would refuse such poses one by one.
+/// In advance, because the wheel would refuse such poses one by one.
 Result<void> check_gaps(const Session& session, const SceneSpec& scene,
                         const ThrowOptions& options) {
   if (scene.tool.gap_mm) return {};
@@ -148,12 +148,12 @@ Result<std::string> error_plot(const SceneSpec& scene, const Session& session) {
   return error_plot_svg(scene.name, curves);
 }
 
-/// The files of a replay; those that are not asked for stay closed.
+/// The output files of a replay; only requested ones are opened.
 struct Outputs {
   std::optional<AtomicFile> pot, trace, error_plot;
 };
 
-/// Before anything is played: what cannot be written is known at once.
+/// Before playing, so that unwritable outputs are reported at once.
 Result<Outputs> open_outputs(const ThrowOptions& options) {
   Outputs outputs;
   for (const auto& [path, file] :
@@ -167,7 +167,7 @@ Result<Outputs> open_outputs(const ThrowOptions& options) {
   return outputs;
 }
 
-/// All files that were asked for, or none.
+/// Writes all requested files, or none.
 Result<void> write_outputs(Outputs& outputs, const Pot& pot, PotEncoding encoding,
                            std::optional<TraceWriter>& trace, const SceneSpec& scene,
                            const Session& session) {
@@ -193,7 +193,7 @@ Result<void> check_pot_name(const std::string& pot) {
                  pot + ": expected a name that ends in .pot.json or .pot.cbor");
 }
 
-/// Names that cannot be meant, refused before anything is read or played.
+/// Refuses invalid names before anything is read or played.
 Result<void> check_names(const ThrowOptions& options, const Console& console) {
   if (options.session.empty())
     return failure(ErrorKind::bad_input,
@@ -207,7 +207,7 @@ Result<void> check_names(const ThrowOptions& options, const Console& console) {
 
 Result<void> replay_pot(const ThrowOptions& options, Console console) {
   if (auto names = check_names(options, console); !names) return names;
-  // What goes to standard output goes there alone.
+  // Output to standard output must be the only one.
   for (const std::string& output : {options.pot, options.trace, options.error_plot})
     if (output == "-") console.quiet = true;
   auto scene = load_scene(options.scene);

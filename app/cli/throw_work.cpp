@@ -33,7 +33,7 @@ Json node_json(const history::Work& work, history::NodeId node) {
   return json;
 }
 
-/// "* 3 below 1: press sphere, 2.4 s, 451.2 cm3"; the star is where the work was left.
+/// "* 3 below 1: press sphere, 2.4 s, 451.2 cm3"; the star marks the current node.
 std::string line_of(const Json& node) {
   const std::string star = node["current"].get<bool>() ? "*" : " ";
   const double cm3 = node["volume_mm3"].get<double>() / 1000.0;

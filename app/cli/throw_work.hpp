@@ -1,5 +1,5 @@
 #pragma once
-// A work again: `claystack throw NAME.work`.
+// Replays a work: `claystack throw NAME.work`.
 
 #include "app/cli/console.hpp"
 
@@ -11,8 +11,8 @@ namespace clay::cli {
 
 struct WorkJob {
   std::string work_path;
-  std::string pot_path;           ///< empty: not kept
-  std::optional<std::size_t> at;  ///< node; none: the current one
+  std::string pot_path;           ///< empty: not saved
+  std::optional<std::size_t> at;  ///< node; empty: the current one
   bool list = false;              ///< print the tree
 };
 

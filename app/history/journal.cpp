@@ -27,7 +27,7 @@ Error system_error(const fs::path& path, const char* action) {
                                      std::generic_category().message(errno))};
 }
 
-/// "20261121T230307-4711": when it began, by which process.
+/// "20261121T230307-4711": start time and process.
 std::string stem_of_now() {
   const std::time_t now = std::time(nullptr);
   std::tm utc{};
@@ -37,7 +37,8 @@ std::string stem_of_now() {
   return fmt::format("{}-{}", std::string_view(text, length), getpid());
 }
 
-/// The file gets its name when it is locked and begun: nobody takes it for a dead one's.
+/// The file is named after it is locked and has its header, so that no other process treats it as
+/// abandoned.
 Result<fs::path> give_name(int descriptor, const fs::path& temporary, const fs::path& folder,
                            const std::string& stem) {
   for (int twin = 0; twin < 100; ++twin) {
@@ -91,7 +92,7 @@ Result<std::unique_ptr<Journal>> Journal::begin(const WorkRecord& work, const fs
 }
 
 Result<std::unique_ptr<Journal>> Journal::take_over(const fs::path& path, WorkReading& found) {
-  // Whatever has the name of a journal, nothing waits for it.
+  // Opening never blocks, whatever kind of file has that name.
   const int descriptor = open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   if (descriptor < 0) return tl::make_unexpected(system_error(path, "open"));
   std::unique_ptr<Journal> journal(new Journal(path, descriptor));
@@ -171,7 +172,7 @@ std::optional<Error> Journal::trouble() const {
   return trouble_;
 }
 
-/// Syncs without the mutex: appending goes on meanwhile.
+/// Syncs without holding the mutex, so that appending continues.
 void Journal::run() {
   std::unique_lock lock(mutex_);
   while (!closing_ || dirty_) {

@@ -1,6 +1,6 @@
 #pragma once
-// The file that a work goes to as it happens, so that nothing of it is lost: docs/work.md. It is a
-// work file in the state folder; its lock tells a living program's from a dead one's.
+// The file that records a work as it happens, so that a crash loses nothing: docs/work.md. It is a
+// work file in the state folder; its lock distinguishes running programs from ended ones.
 
 #include "claystack/core/result.hpp"
 #include "claystack/engine/files.hpp"
@@ -19,33 +19,34 @@
 
 namespace clay::history {
 
-/// The folder `recovery` in the user's folder for state: cli::user_folder. Empty without one.
+/// The folder `recovery` in the user's state folder (cli::user_folder). Empty without one.
 [[nodiscard]] std::filesystem::path recovery_folder();
 
-/// Lines are written at once, by whichever thread brings them; a thread of its own syncs them to
-/// the disk when a stroke has ended, and every 30 s. Never for the servo's thread.
+/// Lines are written immediately, by the calling thread; a separate thread syncs them to disk at
+/// the end of a stroke and every 30 s. Not for the servo's thread.
 class Journal {
  public:
-  /// Begins one with all that `work` holds.
+  /// Creates a journal with all contents of `work`.
   static Result<std::unique_ptr<Journal>> begin(
       const WorkRecord& work, const std::filesystem::path& folder = recovery_folder());
-  /// Goes on with a dead one, after cutting off what is not sound. Refused while it is another's.
+  /// Continues the journal of an ended program, after cutting off damaged lines. Refused while
+  /// another program holds it.
   static Result<std::unique_ptr<Journal>> take_over(const std::filesystem::path& path,
                                                     WorkReading& found);
-  /// The file stays: what was not saved can be recovered.
+  /// Keeps the file: unsaved strokes can be recovered.
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
   void append(std::string_view lines);
-  void sync_soon();  ///< does not wait for it
-  /// Waits until all is on the disk; the first error that there was.
+  void sync_soon();  ///< does not wait
+  /// Waits until everything is on disk; returns the first error.
   Result<void> sync();
-  /// A clean end: the work was saved, or is not wanted. The file goes.
+  /// Deletes the file: the work was saved, or is not needed.
   void discard();
 
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-  /// The first thing that went wrong; nothing is written after it.
+  /// The first error; nothing is written after it.
   [[nodiscard]] std::optional<Error> trouble() const;
 
  private:

@@ -6,15 +6,15 @@
 
 namespace clay::history {
 
-/// Where poses go that a recorder takes off the servo's queue: a session, a journal. Called from
-/// one thread at a time.
+/// Receives the poses that a recorder takes from the servo's queue: a session or a journal. Called
+/// from one thread at a time.
 class PoseSink {
  public:
   virtual ~PoseSink() = default;
-  /// The next poses of the stroke, at most kPosesPerBlock of them, quantised. An error is the last
-  /// word: nothing is appended after it.
+  /// The next poses of the stroke, at most kPosesPerBlock, quantized. After an error nothing more
+  /// is appended.
   virtual Result<void> append(std::span<const Pose> poses) = 0;
-  /// No more come. An error: not all of them are where they should be.
+  /// The end of the poses. An error: not all of them were stored.
   virtual Result<void> finish() = 0;
 };
 

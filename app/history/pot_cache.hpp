@@ -8,13 +8,13 @@
 
 namespace clay::history {
 
-/// Pots by the node that they belong to, within a budget: the one that was longest of no use goes
-/// first. At least one stays.
+/// Pots by node, within a memory budget: the least recently used one is evicted first. At least one
+/// stays.
 class PotCache {
  public:
   explicit PotCache(std::size_t budget_bytes) : budget_(budget_bytes) {}
 
-  [[nodiscard]] std::shared_ptr<const Pot> find(std::size_t node);  ///< null where there is none
+  [[nodiscard]] std::shared_ptr<const Pot> find(std::size_t node);  ///< null if not cached
   void put(std::size_t node, std::shared_ptr<const Pot> pot);
   void set_budget(std::size_t bytes);
   [[nodiscard]] std::size_t size() const noexcept { return kept_.size(); }

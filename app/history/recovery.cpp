@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whose journal it is: a living program holds its lock. A pipe or a device of that name is none,
+/// The lock of a journal, held by its running program. A pipe or device of that name is no journal,
 /// and is not waited for.
 class Lock {
  public:
@@ -48,7 +48,7 @@ class Lock {
   bool held_ = false;
 };
 
-/// What one offers; nothing where that is nothing. `needless`: a dead one's, with nothing to lose.
+/// What a journal offers; empty if nothing. `needless`: set if it can be deleted.
 std::optional<Recoverable> look_at(const fs::path& path, bool& needless) {
   const Lock lock(path, LOCK_SH);
   if (!lock.held()) return std::nullopt;

@@ -1,5 +1,5 @@
 #pragma once
-// What programs that died have left: their journals.
+// Journals left by programs that ended without saving.
 
 #include "app/history/journal.hpp"
 #include "app/history/work.hpp"
@@ -12,25 +12,25 @@
 
 namespace clay::history {
 
-/// A dead program's journal.
+/// The journal of an ended program.
 struct Recoverable {
   std::filesystem::path path;
   std::chrono::system_clock::time_point when;  ///< last written
   std::string scene;                           ///< its name
   std::size_t strokes = 0;
   double seconds = 0.0;         ///< of all strokes together
-  bool running = false;         ///< it died in mid-stroke
-  std::optional<Error> damage;  ///< what cannot be read of it, and where
+  bool running = false;         ///< it ended during a stroke
+  std::optional<Error> damage;  ///< the unreadable part and its place
 };
 
-/// Newest first; without those of living programs. Those with no strokes, and those whose work was
-/// saved as it is, are removed. No folder: none.
+/// Newest first; without those of running programs. Removes journals without strokes and those
+/// whose work was saved. Empty without a folder.
 std::vector<Recoverable> recoverable(const std::filesystem::path& folder = recovery_folder());
 
-/// The work, with the same journal going on. A stroke that was being recorded is there, but for its
-/// last 100 ms. A journal with a damaged line is kept beside as NAME.damaged.
+/// The work, which continues the same journal. A stroke that was being recorded is included, except
+/// for its last 100 ms. A journal with a damaged line is kept beside it as NAME.damaged.
 Result<Work> recover(const std::filesystem::path& path);
-/// Removes it. An error while it is a living program's.
+/// Removes it. An error while its program runs.
 Result<void> discard(const std::filesystem::path& path);
 
 }  // namespace clay::history

@@ -1,6 +1,6 @@
 #pragma once
-// A stroke thrown again while it lasts: when it ends there is little left to do, however long it
-// was and however many rings its pot has.
+// Replays a stroke while it is recorded, so that little is left to do at its end, for any length
+// and number of rings.
 
 #include "claystack/engine/tool.hpp"
 #include "claystack/engine/wheel.hpp"
@@ -13,13 +13,13 @@
 
 namespace clay::history {
 
-/// What the poses of a stroke have made.
+/// The result of a stroke's poses.
 struct Thrown {
   Pot pot;
-  std::vector<bool> touching;  ///< at each pose: whether the tool was in the clay
+  std::vector<bool> touching;  ///< for each pose: whether the tool was in the clay
 };
 
-/// Poses come from one thread and are thrown by another, which Replay keeps.
+/// One thread supplies poses; a thread of this class replays them.
 class Replay {
  public:
   explicit Replay(Wheel wheel);
@@ -27,21 +27,21 @@ class Replay {
   Replay(const Replay&) = delete;
   Replay& operator=(const Replay&) = delete;
 
-  void append(std::span<const Pose> poses);  ///< waits for nothing
-  /// After the last pose; waits until it is thrown. Once.
+  void append(std::span<const Pose> poses);  ///< does not wait
+  /// After the last pose: waits until all are replayed. Call once.
   [[nodiscard]] Thrown finish();
 
  private:
   void close();
   void run();
 
-  Wheel wheel_;                 // the thread's, until it has ended
+  Wheel wheel_;                 // used by the thread until it ends
   std::vector<bool> touching_;  // the same
-  std::mutex mutex_;            // of what follows
+  std::mutex mutex_;            // protects the following members
   std::condition_variable wake_;
   std::vector<Pose> waiting_;
   bool closing_ = false;
-  std::thread thread_;  // last: it uses all of the above
+  std::thread thread_;  // last: it uses all members above
 };
 
 }  // namespace clay::history

@@ -13,8 +13,8 @@ namespace {
 constexpr std::int64_t kFreeAirUs = 300'000;
 static_assert(kFreeAirUs == static_cast<std::int64_t>(1e6 * kFreeAirS));
 
-/// Where a stroke of its own may begin in the free air from pose `first` to before pose `touch`:
-/// half way, or before the last move up or down ahead of the touch. 0: nowhere.
+/// Where a separate stroke may begin in free air between pose `first` and pose `touch`: in the
+/// middle, or before the last vertical motion ahead of the contact. 0: nowhere.
 std::size_t place_in(std::span<const Pose> poses, std::size_t first, std::size_t touch) {
   if (poses[touch - 1].time_us - poses[first].time_us < kFreeAirUs) return 0;
   std::size_t move = touch;
@@ -27,7 +27,7 @@ std::size_t place_in(std::span<const Pose> poses, std::size_t first, std::size_t
 
 std::vector<std::size_t> places(std::span<const Pose> poses, const std::vector<bool>& touching) {
   std::vector<std::size_t> begins;
-  std::size_t free_since = 0;  // 0: not touched yet
+  std::size_t free_since = 0;  // 0: no contact yet
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (!touching[i]) continue;
     if (free_since > 0 && free_since < i)

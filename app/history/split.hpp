@@ -1,6 +1,6 @@
 #pragma once
-// One long recording into strokes: an arm is held on and on, and one undo should take back one
-// stroke of it.
+// Splits one long recording into strokes, because one undo should remove one stroke although the
+// arm is held all the time.
 
 #include "app/history/replay.hpp"
 #include "claystack/engine/clay.hpp"
@@ -13,19 +13,19 @@
 
 namespace clay::history {
 
-/// A recording, thrown, in one or more strokes.
+/// A replayed recording as one or more strokes.
 struct Split {
-  std::vector<std::size_t> begins;  ///< pose at which each stroke but the first begins
+  std::vector<std::size_t> begins;  ///< first pose of each stroke except the first
   std::vector<Pot> pots;            ///< after each stroke
 };
 [[nodiscard]] Split as_one(Thrown whole);
 
 inline constexpr double kFreeAirS = 0.3;
 
-/// Cut where the tool was in free air for kFreeAirS at least, at a pose after which it moves up or
-/// down before it touches: a stroke remembers of its past only whether the tool last moved up. Kept
-/// only if the strokes, each on the pot before, give the very pot that the whole gives; else one.
-/// `poses`: quantised; `whole`: what they make of `before`.
+/// Splits where the tool was in free air for at least kFreeAirS, at a pose after which it moves up
+/// or down before it touches: a stroke remembers of earlier motion only whether the tool last moved
+/// up. The split is used only if the strokes, each on the previous pot, give exactly the pot of the
+/// whole; otherwise one stroke. `poses`: quantized; `whole`: their result on `before`.
 [[nodiscard]] Split split(const SceneSpec& scene, const Pot& before, std::span<const Pose> poses,
                           Thrown whole);
 

@@ -29,7 +29,7 @@ Error full() {
                       kMaxPoses)};
 }
 
-/// A pot that has fallen is thrown no more, but it can be looked at and exported.
+/// A collapsed pot cannot be thrown, but viewed and exported.
 Result<Pot> root_of(const SceneSpec& scene, const std::optional<Pot>& start) {
   if (start && start->collapse)
     return StepPlan::build(scene).map([&](const StepPlan&) { return *start; });
@@ -39,7 +39,7 @@ Result<Pot> root_of(const SceneSpec& scene, const std::optional<Pot>& start) {
 
 }  // namespace
 
-/// The stroke that lasts. Poses come on the recorder's thread, until it has finished.
+/// The stroke in progress. Poses arrive on the recorder's thread until it has finished.
 struct Work::Running final : PoseSink {
   explicit Running(Wheel wheel) : again(std::move(wheel)) {}
 
@@ -51,7 +51,7 @@ struct Work::Running final : PoseSink {
   Journal* journal = nullptr;
   Replay again;
 
-  /// The stroke's own line comes with its first poses: one without any leaves no trace.
+  /// The stroke's line is written with its first poses: a stroke without poses leaves no line.
   Result<void> append(std::span<const Pose> more) override {
     if (more.size() > room - poses.size()) return tl::make_unexpected(full());
     if (journal != nullptr) {
@@ -65,7 +65,7 @@ struct Work::Running final : PoseSink {
   Result<void> finish() override { return {}; }
 };
 
-/// A wheel in mid-stroke.
+/// A wheel in the middle of a stroke.
 struct Work::Scrubbing {
   NodeId node;
   Wheel wheel;

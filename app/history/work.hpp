@@ -1,7 +1,7 @@
 #pragma once
-// What was done at the wheel, as a tree of strokes: undo, redo, branches, and any moment again. A
-// stroke is a session of its own on the pot before it, so every pot of the tree can be thrown again
-// to the same bits; pots are kept only to save that time. For one thread.
+// The history of a work as a tree of strokes: undo, redo, branches, and any moment again. A stroke
+// is a session on the pot before it, so every pot of the tree can be replayed to the same bits;
+// pots are cached only to save time. For one thread.
 
 #include "app/history/journal.hpp"
 #include "app/history/pose_sink.hpp"
@@ -28,66 +28,67 @@ struct NodeView {
   const SceneSpec* scene = nullptr;  ///< tool, mode, settings; valid until the next stroke
   double seconds = 0.0;
   std::size_t poses = 0;
-  // Known once its pot has been on the wheel in this run of the program.
+  // Known after its pot has been on the wheel in this run of the program.
   std::optional<double> volume_mm3;
-  std::optional<bool> changed;  ///< the clay; false: the tool was in the air all the time
+  std::optional<bool> changed;  ///< whether the clay changed; false: the tool stayed in free air
 };
 
-/// What became of a stroke.
+/// The result of adding a stroke.
 struct Added {
-  NodeId node = 0;          ///< now the current one; several strokes: the last of them
-  std::size_t strokes = 0;  ///< 0: there was no pose, and nothing was added
-  bool as_felt = true;      ///< thrown again it gives the pot that was shown while it lasted
+  NodeId node = 0;          ///< the new current node; of several strokes the last
+  std::size_t strokes = 0;  ///< 0: there were no poses, and nothing was added
+  bool as_felt = true;      ///< the replay equals the pot displayed during the stroke
 };
 
 class Work {
  public:
-  /// With the scene's lump, or with a pot. Errors are those of Wheel::build; but a pot that has
-  /// fallen may be the root, and then has no strokes.
+  /// From the scene's lump, or from a pot. Errors as for Wheel::build; a collapsed pot may be the
+  /// root, but has no strokes.
   static Result<Work> begin(const SceneSpec& scene);
   static Result<Work> begin(const SceneSpec& scene, const Pot& start);
-  /// Of a file. Checks that the root can be on the wheel; strokes are thrown when they are asked
-  /// for.
+  /// From a file. Checks that the root fits on the wheel; strokes are replayed on request.
   static Result<Work> open(WorkRecord record);
   Work(Work&&) noexcept;
   Work& operator=(Work&&) noexcept;
   ~Work();
 
   // --- Strokes -------------------------------------------------------------------------------
-  /// A stroke begins on the current pot. The sink is the recorder's; it keeps the poses, and the
-  /// journal gets them at once. It lasts until end_stroke. The journal's trouble() reports a full
-  /// disk; the sink fails only where the work would hold more than kMaxPoses. Errors are
-  /// those of Wheel::build, and a work that is full.
+  /// Begins a stroke on the current pot, until end_stroke. The sink is for the recorder; it keeps
+  /// the poses and passes them to the journal immediately. The journal's trouble() reports a full
+  /// disk; the sink fails only if the work would hold more than kMaxPoses. Errors as for
+  /// Wheel::build, and a full work.
   Result<PoseSink*> begin_stroke(const SceneSpec& scene);
-  /// The recorder has finished. Throws the stroke again, splits it where the tool was in the air
-  /// long enough (split.hpp), and makes it current. `shown`: the pot that the servo left, compared
-  /// with what the poses give; the tree keeps the latter. Errors are those of Wheel::build.
+  /// Call after the recorder has finished. Replays the stroke, splits it where the tool was in free
+  /// air long enough (split.hpp), and makes it current. `shown`: the pot from the servo, compared
+  /// with the replay; the tree keeps the replay. Errors as for Wheel::build.
   Result<Added> end_stroke(const Pot* shown = nullptr);
-  /// Both at once, for poses that are there already. Not split.
+  /// Both in one call, for existing poses. Not split.
   Result<Added> add(const SceneSpec& scene, std::vector<Pose> poses, const Pot* shown = nullptr);
   [[nodiscard]] bool in_stroke() const noexcept;
 
-  // --- Ways through the tree; false where there is none. Not while a stroke lasts. ---------------
+  // --- Navigation in the tree; false if there is no such node. Not during a stroke.
+  // -----------------
   bool undo();
-  bool redo();  ///< to the branch that was last taken
+  bool redo();  ///< to the branch last taken
   void go_to(NodeId node);
   [[nodiscard]] bool can_undo() const noexcept;
   [[nodiscard]] bool can_redo() const noexcept;
 
   // --- Pots ------------------------------------------------------------------------------------
-  /// As the strokes up to `node` leave it. At once where it is kept, else thrown again from the
-  /// nearest one that is. Errors: a file's stroke that cannot be thrown on the pot before it.
+  /// The pot after the strokes up to `node`. From the cache, or replayed from the nearest cached
+  /// one. Errors: a stroke of a file that cannot be thrown on the pot before it.
   Result<SharedPot> pot(NodeId node);
   Result<SharedPot> pot() { return pot(at()); }
-  /// In mid-stroke, after the poses up to `seconds`. Going forward costs the ticks between.
+  /// The pot during a stroke, after the poses up to `seconds`. Moving forward costs only the ticks
+  /// between.
   Result<Pot> scrub(NodeId node, double seconds);
-  /// What `scrub` shows becomes the present pot: a stroke of the poses up to there, beside the one
-  /// that they are of, which stays. At a stroke's end it is that stroke, before all poses the pot
-  /// before it: then nothing is added.
+  /// Makes the pot shown by `scrub` the current one: a new stroke of the poses up to there, beside
+  /// the original stroke, which stays. At a stroke's end it selects that stroke, and before all
+  /// poses the pot before it; then nothing is added.
   Result<Added> branch(NodeId node, double seconds);
-  /// Throws what has not been thrown yet, so that every view is complete.
+  /// Replays all remaining strokes, so that every view is complete.
   Result<void> throw_all();
-  void set_memory_budget(std::size_t bytes);  ///< of kept pots; 256 MiB at first
+  void set_memory_budget(std::size_t bytes);  ///< of cached pots; default 256 MiB
 
   // --- The tree --------------------------------------------------------------------------------
   [[nodiscard]] NodeId at() const noexcept { return record_.at; }
@@ -96,10 +97,10 @@ class Work {
   [[nodiscard]] const WorkRecord& record() const noexcept { return record_; }
 
   // --- Files -----------------------------------------------------------------------------------
-  /// The whole tree, in one step or not at all; `unsaved` is false then.
+  /// Writes the whole tree atomically; then `unsaved` is false.
   Result<void> save(const std::string& path);
   [[nodiscard]] bool unsaved() const noexcept;
-  /// What happens from now on goes to the journal too; what has happened is in it already.
+  /// From now on events also go to the journal, which already holds the earlier ones.
   void keep(std::unique_ptr<Journal> journal);
   [[nodiscard]] Journal* journal() noexcept { return journal_.get(); }
 
@@ -129,7 +130,7 @@ class Work {
   std::unique_ptr<Journal> journal_;
 };
 
-/// A work file, and whether its end was cut off.
+/// A work file, and whether its end was incomplete.
 struct Loaded {
   Work work;
   bool torn = false;

@@ -20,7 +20,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-/// Takes a number, and what separates it from the next, off the front.
+/// Removes a number, and the separator after it, from the front.
 std::optional<double> take_number(std::string_view& text) {
   double value = 0.0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -42,12 +42,12 @@ std::optional<glm::dvec2> point_of(std::string_view row) {
 }  // namespace
 
 Result<Drawing> read_csv(std::string_view text, const std::string& name) {
-  // Spreadsheets begin a table in UTF-8 with a byte order mark.
+  // Spreadsheets write a byte order mark in UTF-8 tables.
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   Drawing drawing{{}, true};
   PointLimits limits;
-  bool open = false;    // the last line may go on
-  bool titled = false;  // a row before the first point was taken for the names of the columns
+  bool open = false;    // the last line may continue
+  bool titled = false;  // the row before the first point was treated as column names
   std::size_t number = 0;
   while (!text.empty()) {
     ++number;

@@ -8,7 +8,7 @@
 namespace clay::importing {
 namespace {
 
-// More than a curve that fits on a page needs.
+// More than a curve on a page needs.
 constexpr double kMostChords = 4096.0;
 
 /// The number of chords: `parts` rounded up, from 1 to kMostChords; 1 for NaN.
@@ -16,8 +16,8 @@ int chords_in(double parts) {
   return parts > 1.0 ? static_cast<int>(std::ceil(std::min(parts, kMostChords))) : 1;
 }
 
-/// Chords of equal steps, when half the second derivative over a step is at most `bend_mm`: the
-/// error of a chord is an eighth of |f''| times the step squared.
+/// Number of equal chords if half the second derivative over a step is at most `bend_mm`: the error
+/// of a chord is an eighth of |f''| times the step squared.
 int chords_for(double bend_mm) { return chords_in(std::sqrt(bend_mm / (8.0 * kFlatMm))); }
 
 glm::dvec2 projected(const glm::dvec3& p) { return glm::dvec2(p) / p.z; }
@@ -82,9 +82,9 @@ std::vector<glm::dvec2> spline_points(std::size_t degree, std::span<const glm::d
   for (std::size_t i = 2; i < control.size(); ++i)
     bend =
         std::max(bend, glm::length(glm::dvec2(control[i - 2] - 2.0 * control[i - 1] + control[i])));
-  // The control polygon bends at least as much as the curve does, and weights may draw it together.
+  // The control polygon bends at least as much as the curve, and weights may contract it.
   const auto n = static_cast<double>(degree);
-  // The limit takes effect only where the curve has more points than a drawing may have.
+  // The limit matters only where the curve has more points than a drawing may have.
   const int chords =
       std::min(chords_for(4.0 * n * n * bend), static_cast<int>(kMostPoints / control.size()) + 1);
   std::vector<glm::dvec2> points;

@@ -1,5 +1,5 @@
 #pragma once
-// Curves as chords that stay within kFlatMm of them.
+// Approximates curves by chords within kFlatMm.
 
 #include "app/import/drawing.hpp"
 
@@ -10,19 +10,19 @@
 
 namespace clay::importing {
 
-/// Each appends the points after the first, which is there already.
+/// Each appends the points after the first, which is already there.
 void append_cubic(std::vector<glm::dvec2>& points, glm::dvec2 a, glm::dvec2 b, glm::dvec2 c,
                   glm::dvec2 d);
 
-/// Of the ellipse centre + cos(t) u + sin(t) v, from t = `from` to `to` [rad], either way round.
+/// The ellipse centre + cos(t) u + sin(t) v, from t = `from` to `to` [rad], in either direction.
 void append_arc(std::vector<glm::dvec2>& points, glm::dvec2 centre, glm::dvec2 u, glm::dvec2 v,
                 double from, double to);
 
-/// The circular arc of a polyline's bulge: the tangent of a quarter of its angle, left turns
-/// positive.
+/// The circular arc of a polyline's bulge: the tangent of a quarter of its angle, positive to the
+/// left.
 void append_bulge(std::vector<glm::dvec2>& points, glm::dvec2 from, glm::dvec2 to, double bulge);
 
-/// A rational B-spline: control points (x, y, weight), degree + points + 1 knots that never fall.
+/// A rational B-spline: control points (x, y, weight), degree + points + 1 non-decreasing knots.
 [[nodiscard]] std::vector<glm::dvec2> spline_points(std::size_t degree,
                                                     std::span<const glm::dvec3> control,
                                                     std::span<const double> knots);

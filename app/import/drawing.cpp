@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kFarthestMm = 1e6;
 
-/// Whatever the reader.
+/// Checks that apply to every reader.
 Result<Drawing> checked(Drawing drawing, const std::string& name) {
   std::size_t count = 0;
   for (const Line& line : drawing.lines) count += line.points_mm.size();

@@ -20,10 +20,10 @@ namespace {
 constexpr int kClosed = 1;  // bit of a polyline's or spline's flags
 constexpr unsigned kHighestDegree = 10;
 
-/// mm of a unit by its number in $INSUNITS; none for those that nobody draws pots in.
+/// Length in mm of a unit by its number in $INSUNITS; empty for units that are not used for pots.
 std::optional<double> mm_of_unit(int unit) {
   switch (unit) {
-    case 0:  // says none
+    case 0:  // no unit given
     case 4:
       return 1.0;
     case 1:
@@ -41,7 +41,7 @@ std::optional<double> mm_of_unit(int unit) {
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
-/// Collects what the library reports. Blocks are parts to be inserted, not the drawing.
+/// Collects what the library reports. Ignores blocks, which are parts to be inserted.
 class Collector final : public DL_CreationAdapter {
  public:
   std::vector<Line> lines;  // in mm
@@ -113,7 +113,7 @@ class Collector final : public DL_CreationAdapter {
   void endEntity() override { finish(); }
   void endSequence() override { finish(); }
 
-  /// What is begun is complete: the library does not always say so.
+  /// Completes the last entity: the library does not always report its end.
   void finish() {
     if (polyline_ && !polyline_->points_mm.empty()) {
       if (polyline_->closed) {
@@ -136,7 +136,7 @@ class Collector final : public DL_CreationAdapter {
 
   [[nodiscard]] glm::dvec2 at(double x, double y) const { return unit_mm_ * glm::dvec2{x, y}; }
 
-  /// `checked`: points that have been checked before.
+  /// `checked`: number of points already checked.
   void add(Line line, std::size_t checked = 0) {
     check(line.points_mm, checked);
     if (!in_block_) lines.push_back(std::move(line));

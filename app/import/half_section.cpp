@@ -14,7 +14,7 @@
 namespace clay::importing {
 namespace {
 
-/// A straight piece of the outline that rises from `low` to `high`.
+/// A straight segment of the outline that rises from `low` to `high`.
 struct Edge {
   glm::dvec2 low, high;
   [[nodiscard]] double radius_at(double y) const {
@@ -44,7 +44,7 @@ Cell cell_of(glm::dvec2 p) {
   return {std::llround(p.x / kSamePointMm), std::llround(p.y / kSamePointMm)};
 }
 
-/// Every corner has its mirror image among the corners, in its cell or in one that touches it: a
+/// Whether every corner has a mirror image among the corners, in its cell or a neighbouring one: a
 /// drawing of both halves.
 bool mirrored(const std::vector<Line>& lines, double middle) {
   std::vector<Cell> cells, images;
@@ -79,7 +79,7 @@ std::string ends_of(const Line& line) {
                      b.y);
 }
 
-/// Closes what may be; the message says what may not.
+/// Closes open lines where possible; the message names the others.
 Result<void> close(std::vector<Line>& lines, const std::string& name) {
   for (Line& line : lines) {
     if (line.closed) continue;
@@ -98,7 +98,7 @@ Result<void> close(std::vector<Line>& lines, const std::string& name) {
   return {};
 }
 
-/// The pieces right of the axis, but for level ones: those bound no clay sideways.
+/// The segments right of the axis, except horizontal ones, which do not bound clay sideways.
 std::vector<Edge> edges_of(const std::vector<Line>& lines) {
   std::vector<Edge> edges;
   for (const Line& line : lines) {
@@ -128,7 +128,7 @@ std::vector<double> levels_of(const std::vector<Edge>& edges) {
   return levels;
 }
 
-/// Between two levels no edge begins or ends. `edges`: those that span both.
+/// No edge begins or ends between the two levels. `edges`: those that span both.
 Result<Slab> slab_between(double from, double to, std::vector<const Edge*>& edges,
                           const std::string& name) {
   const double middle = 0.5 * (from + to);

@@ -3,10 +3,10 @@
 
 namespace clay::importing {
 
-/// Ends nearer than this are one point: nobody draws a gap of a hundredth of a millimetre.
+/// Ends closer than this are one point: smaller gaps are drawing errors.
 inline constexpr double kSamePointMm = 0.01;
 
-/// Open lines joined where they meet, end to end, either way round; closed where the ends do.
+/// Joins open lines end to end, in either direction; closes those whose ends meet.
 [[nodiscard]] std::vector<Line> joined(std::vector<Line> lines);
 
 }  // namespace clay::importing

@@ -7,14 +7,14 @@
 
 namespace clay::importing {
 
-/// What every reader asks of the points that it finds, as soon as it has them: a small file may
-/// draw very much.
+/// Limits that every reader applies to points as soon as it has them, because a small file may
+/// contain very many.
 class PointLimits {
  public:
-  /// "expected ..., found ..." for the first point [mm] that no drawing has; empty where all are
-  /// sound. Counts them.
+  /// "expected ..., found ..." for the first invalid point [mm]; empty if all are valid. Counts
+  /// them.
   std::string problem_with(std::span<const glm::dvec2> points_mm);
-  /// The same for points that only steer a curve: those do not count.
+  /// The same for control points, which are not counted.
   static std::string out_of_bounds(std::span<const glm::dvec2> points_mm);
 
  private:

@@ -28,13 +28,13 @@ namespace {
 
 constexpr double kMmPerPx = 25.4 / 96.0;
 
-/// What the library's own errors are too: it adds the element to them.
+/// Derives from the library's exception class, so that the library adds the element.
 struct Refusal : boost::exception, std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 struct Minimal : svgpp::policy::path::minimal {
-  static const bool arc_as_cubic_bezier = false;  // a cubic is 3e-4 of the radius beside it
+  static const bool arc_as_cubic_bezier = false;  // a cubic would deviate by 3e-4 of the radius
 };
 
 /// An SVG arc, given by its ends, as centre + cos(t) u + sin(t) v (SVG 2, appendix B.2.4).
@@ -49,7 +49,7 @@ Arc arc_between(glm::dvec2 first, glm::dvec2 last, glm::dvec2 radii, double turn
                 bool sweep) {
   const glm::dvec2 x{std::cos(turned_rad), std::sin(turned_rad)}, y{-x.y, x.x};
   const glm::dvec2 half = 0.5 * (first - last);
-  // In the ellipse's own axes and in units of its radii it is a circle of radius 1.
+  // In the ellipse's axes and scaled by its radii it is a unit circle.
   glm::dvec2 start = glm::dvec2{glm::dot(x, half), glm::dot(y, half)} / radii;
   const double grown = std::max(1.0, glm::length(start));  // radii too short for the ends
   radii *= grown;
@@ -67,7 +67,7 @@ Arc arc_between(glm::dvec2 first, glm::dvec2 last, glm::dvec2 radii, double turn
   return arc;
 }
 
-/// Told of shapes by the library, as moves, straight lines, cubics and arcs; keeps them in mm.
+/// Receives shapes from the library as moves, lines, cubics and arcs; stores them in mm.
 class Collector {
  public:
   std::vector<Line> lines;
@@ -111,7 +111,7 @@ class Collector {
   void path_elliptical_arc_to(double rx, double ry, double turned_degrees, bool large, bool sweep,
                               double x, double y, svgpp::tag::coordinate::absolute) {
     const glm::dvec2 end{x, y};
-    if (end == pen_) return;  // draws nothing, says SVG
+    if (end == pen_) return;  // SVG draws nothing here
     if (rx == 0.0 || ry == 0.0) return path_line_to(x, y, {});
     begin_again();
     const Arc arc = arc_between(pen_, end, glm::abs(glm::dvec2{rx, ry}),
@@ -143,20 +143,20 @@ class Collector {
     bool shown = true;
   };
 
-  /// y goes down on a page.
+  /// y points down on a page.
   [[nodiscard]] glm::dvec2 at(double x, double y) const {
     const glm::dvec3 p = states_.back().to_page * glm::dvec3{x, y, 1.0};
     return kMmPerPx * glm::dvec2{p.x, -p.y};
   }
 
-  /// After a closed subpath the next one may begin without a move, where that one began.
+  /// After a closed subpath the next one may begin without a move, at the same start.
   void begin_again() {
     if (!line_.points_mm.empty()) return;
     line_.points_mm.push_back(at(pen_.x, pen_.y));
     check(1);
   }
 
-  /// The points that came last.
+  /// Checks the most recent points.
   void check(std::size_t count) {
     refuse(limits_.problem_with(std::span(line_.points_mm).last(count)));
   }
@@ -172,7 +172,7 @@ class Collector {
   std::vector<State> states_{State{}};
   Line line_;
   PointLimits limits_;
-  glm::dvec2 pen_{0.0}, restart_{0.0};  // in the shape's own units
+  glm::dvec2 pen_{0.0}, restart_{0.0};  // in the shape's coordinates
 };
 
 using Elements =
@@ -191,7 +191,7 @@ using Traversal = svgpp::document_traversal<
     svgpp::processed_elements<Elements>, svgpp::processed_attributes<Attributes>,
     svgpp::viewport_policy<svgpp::policy::viewport::as_transform>, svgpp::path_policy<Minimal>>;
 
-/// The library quotes whole attributes: for one line of a message.
+/// Shortens the library's messages, which quote whole attributes, to one line.
 std::string shortened(std::string text) {
   constexpr std::size_t kLongest = 160;
   if (text.size() > kLongest) text.replace(kLongest, std::string::npos, "...");
@@ -209,7 +209,7 @@ std::string libxml_problem(const std::string& name) {
                      shortened(message));
 }
 
-/// ":LINE" of the element that an error is about, where the library knows it.
+/// ":LINE" of the element of an error, if the library knows it.
 std::string line_of(const boost::exception& error) {
   using Element = boost::error_info<svgpp::tag::error_info::xml_element, xmlNode*>;
   xmlNode* const* element = boost::get_error_info<Element>(error);
@@ -219,7 +219,7 @@ std::string line_of(const boost::exception& error) {
 }  // namespace
 
 Result<Drawing> read_svg(std::string_view bytes, const std::string& name) {
-  // Nothing is fetched, no entity is put in: a drawing is what is in the file.
+  // Fetches nothing and expands no entities: only the file itself is read.
   const std::unique_ptr<xmlDoc, decltype(&xmlFreeDoc)> document(
       xmlReadMemory(bytes.data(), static_cast<int>(bytes.size()), nullptr, nullptr,
                     XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING),

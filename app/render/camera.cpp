@@ -13,9 +13,9 @@ namespace {
 constexpr double kNearest = 0.02, kFarthest = 60.0;  // planes, in distances to the target
 constexpr double kShortestMm = 1e-2, kLongestMm = 1e6;
 constexpr double kNotch = 8.0 / 9.0;
-constexpr double kGrazing = 1e-9;  // of a ray and the plane that it should meet
+constexpr double kGrazing = 1e-9;  // of a ray to the plane that it should intersect
 
-/// The eye's own directions; `back` points from the target to the eye.
+/// The camera's axes; `back` points from the target to the camera.
 struct Axes {
   glm::dvec3 right, up, back;
 };
@@ -27,7 +27,7 @@ Axes axes_of(const Camera& camera) noexcept {
   return {{ca, 0.0, -sa}, {-sa * se, ce, -ca * se}, {sa * ce, se, ca * ce}};
 }
 
-/// Of a point at the target's distance.
+/// At the target's distance.
 double mm_per_px(const Camera& camera, Viewport viewport) noexcept {
   return 2.0 * camera.distance_mm * std::tan(0.5 * camera.fov_rad) / viewport.height_px;
 }

@@ -14,7 +14,7 @@ namespace clay::render {
 namespace {
 
 constexpr int kColours = 256;
-constexpr std::size_t kSampled = std::size_t{1} << 20;  // pixels that the palette is chosen from
+constexpr std::size_t kSampled = std::size_t{1} << 20;  // pixels from which the palette is chosen
 constexpr std::size_t kCell = 6;                        // bits of a channel in the look-up table
 
 using Palette = std::array<GifColorType, kColours>;
@@ -67,7 +67,7 @@ class Nearest {
   static GifByteType nearest(const Palette& palette, int red, int green, int blue) {
     const auto far = [&](const GifColorType& c) {
       const int r = c.Red - red, g = c.Green - green, b = c.Blue - blue;
-      return 3 * r * r + 6 * g * g + b * b;  // about as the eye weighs them
+      return 3 * r * r + 6 * g * g + b * b;  // approximate sensitivity of the eye
     };
     const auto least = std::ranges::min_element(
         palette, [&](const auto& a, const auto& b) { return far(a) < far(b); });
@@ -76,13 +76,13 @@ class Nearest {
   std::vector<GifByteType> index_;
 };
 
-/// Ordered dither: steps of the palette become a fine pattern that stays still between frames.
+/// Ordered dither: a fine pattern that does not move between frames.
 int dither(int x, int y) {
   constexpr std::array<int, 16> kBayer{0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
   return kBayer[static_cast<std::size_t>((y & 3) << 2 | (x & 3))] - 8;
 }
 
-/// Collects the few bytes that giflib writes at a time, and keeps the sink's first error.
+/// Collects the small writes of giflib, and keeps the sink's first error.
 class Output {
  public:
   explicit Output(const ByteSink& sink) : sink_(sink) { buffer_.reserve(kBuffered); }
@@ -92,7 +92,7 @@ class Output {
     buffer_.clear();
     return state_;
   }
-  /// For giflib: fewer than `size` means that the write failed.
+  /// For giflib: a result below `size` reports a failed write.
   static int append(GifFileType* gif, const GifByteType* data, int size) {
     auto& self = *static_cast<Output*>(gif->UserData);
     self.buffer_.append(reinterpret_cast<const char*>(data), static_cast<std::size_t>(size));

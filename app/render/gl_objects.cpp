@@ -27,7 +27,7 @@ class Shader {
   Shader& operator=(const Shader&) = delete;
   ~Shader() { glDeleteShader(name_); }
   [[nodiscard]] GLuint get() const noexcept { return name_; }
-  /// What the compiler has against it; empty: nothing.
+  /// The compiler's error text; empty if there is none.
   [[nodiscard]] std::string complaint() const {
     GLint fine = GL_FALSE, size = 0;
     glGetShaderiv(name_, GL_COMPILE_STATUS, &fine);

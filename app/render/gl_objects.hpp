@@ -1,5 +1,5 @@
 #pragma once
-// OpenGL's names as values with an owner. Deleted with the context that made them current.
+// Owners of OpenGL object names. They are deleted with the context that was current at creation.
 
 #include "claystack/core/result.hpp"
 
@@ -15,7 +15,7 @@
 
 namespace clay::render {
 
-/// `Delete`: what gives the name back.
+/// `Delete`: the function that deletes the name.
 template <auto Delete>
 class GlName {
  public:
@@ -55,7 +55,8 @@ Buffer make_buffer();
 VertexArray make_vertex_array();
 Texture make_texture();
 
-/// Compiles and links. `device`, with the driver's own words, where it refuses; `name` says which.
+/// Compiles and links. An error of kind `device`, with the driver's text, on failure; `name`
+/// identifies the program.
 Result<Program> make_program(std::string_view name, const std::string& vertex,
                              const std::string& fragment);
 
@@ -67,10 +68,10 @@ void set(const Program& program, const char* name, const glm::vec3& value);
 void set(const Program& program, const char* name, const glm::vec2& value);
 void set(const Program& program, const char* name, float value);
 
-/// Colour and depth, multisampled where `samples` is above 1.
+/// Colour and depth, multisampled if `samples` is above 1.
 class Canvas {
  public:
-  /// `device`: the driver refuses such a size.
+  /// `device`: the driver refuses this size.
   static Result<Canvas> create(int width_px, int height_px, int samples);
   [[nodiscard]] GLuint framebuffer() const noexcept { return framebuffer_.get(); }
   [[nodiscard]] bool is(int width_px, int height_px, int samples) const noexcept {

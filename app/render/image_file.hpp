@@ -1,5 +1,5 @@
 #pragma once
-// Pictures as bytes of files; publish them with the engine's atomic publisher.
+// Encodes pictures as bytes of files; publish them with AtomicFile.
 
 #include "app/render/image.hpp"
 #include "claystack/core/result.hpp"
@@ -12,18 +12,18 @@
 
 namespace clay::render {
 
-/// RGBA, 8 bits. Needs an image of at least one pixel.
+/// RGBA, 8 bits. Requires at least one pixel.
 std::string png_of(const Image& image);
 
 /// Frame `index` of an animation, from 0.
 using FrameSource = std::function<Result<Image>(std::size_t index)>;
-/// Takes the bytes of a file as they come, in order.
+/// Receives the bytes of a file in order.
 using ByteSink = std::function<Result<void>(std::string_view bytes)>;
 
-/// An animation that plays for ever. Alpha is left out; all frames share one palette of 256
-/// colours. Needs at least one frame, all of one size. `delay_ms` between frames, to the nearest
-/// 10. Asks for each frame twice, as the palette is chosen from all of them, and holds one at a
-/// time. Returns the bytes written. Errors are those of `frame_at` and `sink`, and of giflib.
+/// An endless animation. Ignores alpha; all frames share one palette of 256 colours. Requires at
+/// least one frame, all of one size. `delay_ms` between frames is rounded to 10. Requests each
+/// frame twice, because the palette is chosen from all of them, and holds one at a time. Returns
+/// the number of bytes. Errors are those of `frame_at` and `sink`, and of giflib.
 Result<std::uint64_t> write_gif(std::size_t frames, int delay_ms, const FrameSource& frame_at,
                                 const ByteSink& sink);
 

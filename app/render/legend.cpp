@@ -44,7 +44,7 @@ class Sheet {
       }
   }
 
-  /// Letters of 7 units of height, `scale` px each; `y` is their middle.
+  /// Letters 7 units high, `scale` px each; `y` is their middle.
   void text(int x, int y, std::string words, int scale) {
     struct Vertex {
       float x, y, z;

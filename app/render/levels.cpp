@@ -9,12 +9,12 @@
 namespace clay::render {
 namespace {
 
-constexpr float kLeanTolerance = 0.09f;  // [rad]: less is not seen in the shading
+constexpr float kLeanTolerance = 0.09f;  // [rad]: smaller differences are invisible in the shading
 constexpr float kWallTolerance = 0.05f;  // [mm]: half a colour of 256
 constexpr float kThickest = 1e4f;        // [mm]
-constexpr float kLeanSpan = 4.0f;        // tolerances that a lean is measured over, at least
+constexpr float kLeanSpan = 4.0f;        // minimum span of the inclination, in tolerances
 
-/// Finite, so that what lies between two rows is a number too.
+/// Finite, so that interpolation between two rows is defined.
 RowWall wall_of(const PotView& pot, std::size_t row) {
   if (row >= pot.wall_mm.size()) return {};
   const RowWall& wall = pot.wall_mm[row];
@@ -23,7 +23,7 @@ RowWall wall_of(const PotView& pot, std::size_t row) {
 
 bool bore_ends(const Level& a, const Level& b) { return (a.inner > 0.0f) != (b.inner > 0.0f); }
 
-/// The end of one bore, or the beginning of another, at the height between two rows.
+/// Adds the end of one bore, or the start of another, at the height between two rows.
 void add_jump(const Level& below, const Level& above, std::vector<Level>& levels) {
   Level low = below, high = above;
   low.y = high.y = 0.5f * (below.y + above.y);
@@ -32,7 +32,7 @@ void add_jump(const Level& below, const Level& above, std::vector<Level>& levels
   levels.push_back(high);
 }
 
-/// One for the middle of each row, and for the ends of the first and the last.
+/// One level for the middle of each row, and one for each end.
 std::vector<Level> all_levels(const PotView& pot, std::size_t first, std::size_t last) {
   const double height = pot.height_mm / static_cast<double>(pot.rows.size());
   const auto level = [&](std::size_t row, double at) {
@@ -53,7 +53,7 @@ std::vector<Level> all_levels(const PotView& pot, std::size_t first, std::size_t
   return levels;
 }
 
-/// By differences over `span_mm` to both sides, without looking past a jump.
+/// By differences over `span_mm` on both sides, but not across a jump.
 void measure_leans(std::vector<Level>& levels, float span_mm) {
   const auto jump = [&](std::size_t i) { return !(levels[i].y > levels[i - 1].y); };
   std::size_t low = 0, high = 0;
@@ -72,7 +72,7 @@ void measure_leans(std::vector<Level>& levels, float span_mm) {
   }
 }
 
-/// What runs straight between the levels that are kept, each with its tolerance.
+/// The values interpolated between kept levels, each with its tolerance.
 using Channels = std::array<float, 6>;
 
 Channels channels_of(const Level& level) {
@@ -80,7 +80,7 @@ Channels channels_of(const Level& level) {
           level.inner_lean, level.wall.outer_mm, level.wall.inner_mm};
 }
 
-/// The slopes of lines from a level that pass all since within the tolerances.
+/// The slopes of lines from a level that pass all later levels within the tolerances.
 class Corridor {
  public:
   Corridor(const Level& from, const Channels& tolerance)
@@ -88,7 +88,7 @@ class Corridor {
     least_.fill(-std::numeric_limits<float>::infinity());
     most_.fill(std::numeric_limits<float>::infinity());
   }
-  /// Whether the line to `level` does; from now on it is one of those to pass.
+  /// Whether the line to `level` does; then adds it to the levels to pass.
   bool takes(const Level& level) {
     const Channels to = channels_of(level);
     const float run = level.y - y_;
@@ -107,7 +107,7 @@ class Corridor {
   Channels from_, tolerance_, least_{}, most_{};
 };
 
-/// Of rising levels those that lines between cannot do without. O(N).
+/// Keeps the ascending levels that interpolation cannot replace. O(N).
 void simplify(std::span<const Level> levels, float tolerance_mm, std::vector<Level>& kept) {
   const Channels tolerance{tolerance_mm,   tolerance_mm,   kLeanTolerance,
                            kLeanTolerance, kWallTolerance, kWallTolerance};
@@ -132,7 +132,7 @@ std::vector<Level> levels_of(const PotView& pot, std::size_t first, std::size_t 
   measure_leans(levels, kLeanSpan * tolerance_mm);
   std::vector<Level> kept;
   for (std::size_t begin = 0; begin < levels.size();) {
-    std::size_t end = begin + 1;  // a run of rising levels ends at a jump
+    std::size_t end = begin + 1;  // a run of ascending levels ends at a jump
     while (end < levels.size() && levels[end].y > levels[end - 1].y) ++end;
     simplify(std::span(levels).subspan(begin, end - begin), tolerance_mm, kept);
     begin = end;

@@ -12,8 +12,8 @@ namespace clay::render {
 /// Linear light of an sRGB colour, 0xRRGGBB.
 [[nodiscard]] glm::vec3 linear_of(unsigned rgb) noexcept;
 
-/// The colours of the wall map, linear, from no wall to the top of the range: cividis, which reads
-/// the same to people with any kind of colour vision (Nunez, Anderton and Renslow, PLoS ONE 13(7)
+/// The colours of the wall map, linear, from zero thickness to the top of the range: cividis, which
+/// looks the same with any kind of colour vision (Nunez, Anderton and Renslow, PLoS ONE 13(7)
 /// 2018).
 [[nodiscard]] const std::array<glm::vec4, kMapColours>& map_colours() noexcept;
 
@@ -25,7 +25,8 @@ struct Look {
 };
 [[nodiscard]] const Look& look_of(Theme theme) noexcept;
 
-/// Lamps stand with the camera, so that form reads from every side: (right, up, to the eye), unit.
+/// The lamps move with the camera, so that shape is visible from every side: (right, up, to the
+/// camera), unit.
 [[nodiscard]] glm::dvec3 lamp_direction() noexcept;
 [[nodiscard]] glm::dvec3 rim_lamp_direction() noexcept;
 

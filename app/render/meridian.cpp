@@ -8,8 +8,8 @@
 namespace clay::render {
 namespace {
 
-constexpr float kCreaseCosine = 0.64f;  // faces that meet at more than 50 degrees have an edge
-constexpr float kLip = 0.25f;           // of the radius: narrower rims are shaded as if rounded
+constexpr float kCreaseCosine = 0.64f;  // faces that meet at more than 50 degrees form an edge
+constexpr float kLip = 0.25f;           // of the radius: narrower rims are shaded as rounded
 
 struct Joint {
   glm::vec2 at{0.0f};
@@ -38,7 +38,7 @@ void add_stretch(const Joint& from, const Joint& to, std::vector<Stretch>& merid
                       from.neck.x > 0.0f ? from.neck : to.neck});
 }
 
-/// Where faces meet in a joint they share the mean of their normals, unless they make an edge.
+/// Faces that meet in a joint share the mean of their normals, unless they form an edge.
 void smooth_joint(Stretch& before, Stretch& after, bool rounded) {
   const glm::vec2 a = before.to_normal, b = after.from_normal;
   if (before.to != after.from || (!rounded && glm::dot(a, b) < kCreaseCosine)) return;

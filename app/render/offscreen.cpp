@@ -46,7 +46,7 @@ tl::unexpected<Error> no_context(const std::string& what) {
 }
 
 Result<EglContext> EglContext::create() {
-  // epoxy ends the program where the library is not there.
+  // libepoxy aborts if the library is missing.
   void* library = dlopen("libEGL.so.1", RTLD_LAZY);
   if (library == nullptr) return no_context("the library libEGL.so.1");
   dlclose(library);
@@ -83,7 +83,7 @@ Image read_pixels(int width, int height) {
   image.rgba.resize(row * static_cast<std::size_t>(height));
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
-  for (int y = 0; y < height / 2; ++y) {  // OpenGL begins below
+  for (int y = 0; y < height / 2; ++y) {  // OpenGL's rows start at the bottom
     const auto upper = image.rgba.begin() + static_cast<std::ptrdiff_t>(row) * y;
     const auto lower = image.rgba.begin() + static_cast<std::ptrdiff_t>(row) * (height - 1 - y);
     std::swap_ranges(upper, upper + static_cast<std::ptrdiff_t>(row), lower);
@@ -94,12 +94,12 @@ Image read_pixels(int width, int height) {
 }  // namespace
 
 struct Offscreen::State {
-  EglContext context;  ///< outlives what was made in it
+  EglContext context;  ///< destroyed after the objects made in it
   std::string renderer;
   std::optional<Canvas> target;
   std::optional<Painter> painter;
 
-  ~State() { context.make_current(); }  // for the names that are given back now
+  ~State() { context.make_current(); }  // for the names that are deleted now
 
   Result<void> paint(const Picture& picture, Viewport viewport, int samples) {
     if (!context.make_current()) return no_context("the context to be there still");

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures without a screen: OpenGL through EGL, on no surface.
+// Pictures without a screen: OpenGL through EGL without a surface.
 
 #include "app/render/image.hpp"
 #include "app/render/picture.hpp"
@@ -13,21 +13,21 @@ namespace clay::render {
 inline constexpr int kMaxSidePx = 8192;
 inline constexpr int kSamples = 4;
 
-/// A context of its own, which each call makes current. One thread at a time.
+/// Has its own context, which each call makes current. One thread at a time.
 class Offscreen {
  public:
-  /// `device`: no EGL here, or none that draws OpenGL 3.3 without a surface; the message tells what
-  /// is missing.
+  /// `device`: no EGL, or none that draws OpenGL 3.3 without a surface; the message names what is
+  /// missing.
   static Result<Offscreen> create();
   Offscreen(Offscreen&&) noexcept;
   Offscreen& operator=(Offscreen&&) noexcept;
   ~Offscreen();
 
-  /// Of kSamples a pixel. Needs sides from 1 to kMaxSidePx.
+  /// With kSamples per pixel. Requires sides from 1 to kMaxSidePx.
   Result<Image> draw(const Picture& picture, Viewport viewport);
-  /// Draws without reading back, and waits for it to end: the time [ms] that a frame takes.
+  /// Draws without reading back, and waits for the end: the time [ms] of a frame.
   Result<double> time_ms(const Picture& picture, Viewport viewport, int samples);
-  /// What draws: "llvmpipe (LLVM 15.0.6, 256 bits)".
+  /// The renderer, for example "llvmpipe (LLVM 15.0.6, 256 bits)".
   [[nodiscard]] const std::string& renderer() const noexcept;
 
  private:

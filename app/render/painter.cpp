@@ -22,7 +22,7 @@ GLuint bound_framebuffer() {
 
 struct Painter::State {
   ScenePainter scene;
-  std::optional<Canvas> canvas;  ///< multisampled, of the last size asked for
+  std::optional<Canvas> canvas;  ///< multisampled, of the last requested size
 };
 
 Painter::Painter(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -46,7 +46,7 @@ void Painter::paint(const Picture& picture, int width_px, int height_px, int sam
   auto& canvas = state_->canvas;
   if (samples > 1 && !(canvas && canvas->is(width_px, height_px, samples))) {
     canvas.reset();
-    // Where a driver has no room for samples, jagged edges are better than none.
+    // If a driver lacks memory for samples, draw without antialiasing.
     if (auto made = Canvas::create(width_px, height_px, samples)) canvas.emplace(std::move(*made));
   }
   if (samples <= 1 || !canvas) {

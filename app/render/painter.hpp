@@ -8,8 +8,8 @@
 
 namespace clay::render {
 
-/// Bound to the context that was current in `create`: every call, and the destructor, need it
-/// current. Leaves viewport, program, buffers and tests as it likes, the framebuffer as it was.
+/// Belongs to the context that was current in `create`, which must be current in every call and in
+/// the destructor. Changes viewport, program, buffers and tests; keeps the framebuffer binding.
 class Painter {
  public:
   /// `device`: the context is older than OpenGL 3.3, or its compiler refuses a shader.
@@ -18,11 +18,11 @@ class Painter {
   Painter& operator=(Painter&&) noexcept;
   ~Painter();
 
-  /// The whole picture, background and all, into the framebuffer that is bound for drawing, from
-  /// its lower left corner on. Colours are written as sRGB values: leave GL_FRAMEBUFFER_SRGB off.
-  /// `samples` above 1: into a multisampled buffer of its own first, for a framebuffer without
-  /// samples; 0 or 1: straight into it. Where the processor itself draws (llvmpipe), four samples
-  /// take more than twice the time: use none while things move.
+  /// Draws the whole picture with background into the bound framebuffer, from its lower left
+  /// corner. Colours are written as sRGB values: leave GL_FRAMEBUFFER_SRGB off. `samples` above 1:
+  /// draws into its own multisampled buffer first, for a framebuffer without samples; 0 or 1: draws
+  /// directly. With a software renderer (llvmpipe), four samples take more than twice the time: use
+  /// none while things move.
   void paint(const Picture& picture, int width_px, int height_px, int samples) noexcept;
 
  private:

@@ -10,11 +10,11 @@ namespace clay::render {
 namespace {
 
 constexpr double kDefaultAzimuth = 0.6, kDefaultElevation = 0.42, kDefaultFov = 0.42;
-constexpr double kFilled = 0.80;       // of the picture's width or height, by the pot
+constexpr double kFilled = 0.80;  // fraction of the picture's width or height that the pot fills
 constexpr double kWheelBeyond = 1.45;  // radii of the clay
 constexpr std::size_t kCircles = 64, kCirclePoints = 24;
 
-/// Points on circles of the outside, in the wheel's coordinates: their hull is the pot's.
+/// Points on circles of the outside, in the wheel's coordinates: their hull is that of the pot.
 std::vector<glm::dvec3> outline_points(const PotView& pot) {
   std::vector<glm::dvec3> points;
   const std::size_t count = pot.rows.size();

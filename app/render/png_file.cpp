@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-// stb is one header; what it warns of is its own.
+// stb is a single header with warnings of its own.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wall"
 #pragma GCC diagnostic ignored "-Wextra"

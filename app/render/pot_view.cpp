@@ -7,15 +7,15 @@
 namespace clay::render {
 namespace {
 
-constexpr int kArcs = 48;          // of a half-profile, evenly in angle
-constexpr int kPerSampleStep = 6;  // between the samples of a sampled one
+constexpr int kArcs = 48;          // segments of a half-profile, equal in angle
+constexpr int kPerSampleStep = 6;  // between the samples of a sampled profile
 
 Row row_of(const Ring& ring) {
   return {static_cast<float>(ring.outer_mm()), static_cast<float>(ring.inner_mm())};
 }
 
-/// Radii at a height, on chords from the middle of a ring to the next; a bore ends at its ring's
-/// end.
+/// Radii at a height, interpolated between the middles of neighbouring rings; a bore ends at the
+/// end of its ring.
 Row row_at(const ClayStack& stack, double y) {
   const auto rings = stack.rings();
   const auto last = static_cast<double>(rings.size() - 1);
@@ -37,7 +37,7 @@ void add_arc(const Tool& tool, double from, double to, int steps, std::vector<gl
   }
 }
 
-/// From pole to pole, where equal steps in t would make corners.
+/// From pole to pole, equal in angle, because equal steps in t would give corners.
 std::vector<glm::vec2> ellipse_arc(const EllipseProfile& ellipse) {
   std::vector<glm::vec2> profile;
   for (int k = 0; k <= kArcs; ++k) {

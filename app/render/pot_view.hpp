@@ -1,5 +1,5 @@
 #pragma once
-// From the engine's values to what is drawn of them.
+// Converts values of the engine to views for drawing.
 
 #include "app/render/picture.hpp"
 #include "claystack/engine/clay.hpp"
@@ -10,16 +10,16 @@ namespace clay::render {
 
 inline constexpr std::size_t kMaxRows = 2048;
 
-/// A row for each ring, crown included; of more than kMaxRows - 1 rings so many rows, radii in
-/// between taken from the nearest two rings.
+/// One row per ring, crown included; above kMaxRows - 1 rings that many rows, with radii
+/// interpolated between the nearest two rings.
 [[nodiscard]] PotView view_of(const ClayStack& stack);
-/// With the fallen part where it came to rest.
+/// With the fallen part at its resting place.
 [[nodiscard]] PotView view_of(const Pot& pot);
 
-/// Where rows of a view are that stood above the failed ring of `pot`.
+/// The rows of a view above the failed ring of `pot`.
 [[nodiscard]] FallenView fallen_view(const Collapse& collapse, const PotView& view,
                                      const ClayStack& stack);
-/// At a moment of the fall (engine/fall.hpp).
+/// At a moment of the collapse (FallFrame).
 [[nodiscard]] FallenView fallen_view(const Collapse& collapse, const FallFrame& frame,
                                      const PotView& view, const ClayStack& stack);
 

@@ -42,7 +42,7 @@ void Revolver::draw(const std::vector<Stretch>& meridian, int sectors) {
   if (meridian.empty()) return;
   glBindVertexArray(vertices_.get());
   if (sectors != sectors_) {
-    std::vector<glm::vec2> steps;  // upper end first: front faces turn counterclockwise
+    std::vector<glm::vec2> steps;  // upper end first: front faces are counterclockwise
     for (int k = 0; k <= sectors; ++k)
       for (const float end : {1.0f, 0.0f})
         steps.emplace_back(static_cast<float>(k) / static_cast<float>(sectors), end);

@@ -1,6 +1,6 @@
 #pragma once
-// Buffers from which the vertex shaders revolve: a line of stretches goes up in each frame, some
-// ten kilobytes; the sectors stay.
+// Buffers for vertex shaders that revolve a meridian: its stretches are uploaded in each frame,
+// some ten kilobytes; the sectors stay.
 
 #include "app/render/gl_objects.hpp"
 #include "app/render/section.hpp"
@@ -12,7 +12,7 @@ namespace clay::render {
 class Revolver {
  public:
   static Revolver create();
-  /// Draws the stretches with the program in use, each around in so many sectors.
+  /// Draws the stretches with the current program, revolved in the given number of sectors.
   void draw(const std::vector<Stretch>& meridian, int sectors);
 
  private:

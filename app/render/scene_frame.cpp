@@ -10,10 +10,11 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kThickness = 0.07;  // of the wheel head, in radii
-constexpr double kStraightPx = 0.2;  // levels that chords miss by less are left out
+constexpr double kStraightPx = 0.2;  // levels that chords miss by less are omitted
 constexpr double kChordPx = 0.2;     // between a sector's chord and its arc
 
-/// A turn about y that takes the eye's right, up and horizontal backwards to the wheel's x, y, z.
+/// A rotation about y that maps the camera's right, up and horizontal backward directions to x, y,
+/// z.
 glm::vec3 beside_camera(const Camera& camera, const glm::dvec3& direction) {
   const double s = std::sin(camera.azimuth_rad), c = std::cos(camera.azimuth_rad);
   return {direction.x * c + direction.z * s, direction.y, direction.z * c - direction.x * s};

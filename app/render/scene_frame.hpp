@@ -1,5 +1,5 @@
 #pragma once
-// What the stages of one frame share, reckoned once.
+// Values shared by the stages of one frame, computed once.
 
 #include "app/render/look.hpp"
 #include "app/render/picture.hpp"
@@ -17,11 +17,11 @@ struct SceneFrame {
   FrameBlock block;
   std::vector<Body> bodies;
   double wheel_radius;
-  glm::vec2 sweep;  ///< azimuths that the cut leaves
+  glm::vec2 sweep;  ///< azimuths left by the cut
   double px_per_mm;
 
   SceneFrame(const Picture& shown, Viewport viewport);
-  /// So many that a circle of that radius looks like one.
+  /// Enough sectors for a circle of that radius to look round.
   [[nodiscard]] int sectors_for(double radius_mm) const;
   [[nodiscard]] bool from_above() const { return block.eye.y > 0.0f; }
 

@@ -11,7 +11,7 @@
 namespace clay::render {
 namespace {
 
-constexpr double kFloor = 3.0;  // radius of the floor, in those of the wheel head
+constexpr double kFloor = 3.0;  // radius of the floor, in radii of the wheel head
 constexpr GLuint kBlockBinding = 0;
 
 Result<Program> frame_program(std::string_view name, const std::string& vertex,
@@ -106,7 +106,7 @@ void ScenePainter::send(const ShadowMap& map) {
     glTexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
 }
 
-/// At the far plane, so only where nothing else is.
+/// At the far plane, so it covers only empty pixels.
 void ScenePainter::paint_background() {
   glUseProgram(background_.get());
   glBindVertexArray(nothing_.get());

@@ -1,6 +1,6 @@
 #pragma once
-// The stages of a frame: clay, section, tool, wheel, floor, background; the nearest first, so that
-// what is hidden costs nothing.
+// The stages of a frame: clay, section, tool, wheel, floor, background; nearest first, so that
+// hidden parts are not shaded.
 
 #include "app/render/gl_objects.hpp"
 #include "app/render/look.hpp"
@@ -17,7 +17,7 @@ struct SceneFrame;
 class ScenePainter {
  public:
   static Result<ScenePainter> create();
-  /// Into the framebuffer that is bound for drawing.
+  /// Draws into the bound framebuffer.
   void paint(const Picture& picture, Viewport viewport);
 
  private:
@@ -35,7 +35,7 @@ class ScenePainter {
 
   Program background_, clay_, plain_, wheel_, ground_, slice_;
   Buffer block_;
-  VertexArray nothing_;  ///< for the background, whose vertices come from their numbers
+  VertexArray nothing_;  ///< for the background, whose vertices are computed from their indices
   Texture shadow_;
   Revolver revolver_;
   SliceFan slices_;

@@ -1,6 +1,6 @@
 #pragma once
-// From rows to what is drawn of them: the levels of a body's section, and the meridian that
-// revolves into its surface.
+// Converts rows to geometry: the levels of a body's section, and the meridian that revolves into
+// its surface.
 
 #include "app/render/picture.hpp"
 
@@ -10,36 +10,37 @@
 
 namespace clay::render {
 
-/// The section at a height. Between two levels walls run straight; two levels of one height are a
-/// floor, a lid or nothing at all.
+/// The section at a height. Walls are straight between two levels; two levels of equal height are a
+/// floor, a lid or nothing.
 struct Level {
   float y = 0.0f;
   float outer = 0.0f, inner = 0.0f;
-  float outer_lean = 0.0f, inner_lean = 0.0f;  ///< of the walls, outwards from upright [rad]
+  float outer_lean = 0.0f,
+        inner_lean = 0.0f;  ///< inclination of the walls, outward from vertical [rad]
   RowWall wall;
 };
 
-/// Rows `first` up to, not including, `last`. Levels that lie on straight walls between others to
-/// within `tolerance_mm` are left out: triangles below the size of a pixel cost the most.
+/// Rows `first` up to, not including, `last`. Levels on straight walls between others, within
+/// `tolerance_mm`, are omitted: triangles below the size of a pixel cost the most.
 [[nodiscard]] std::vector<Level> levels_of(const PotView& pot, std::size_t first, std::size_t last,
                                            float tolerance_mm);
 
-/// A stretch of a meridian, left of which there is matter: what the vertex shader revolves. All
-/// pairs: at its beginning, at its end.
+/// A stretch of a meridian with matter to its left; the vertex shader revolves it. All pairs: at
+/// its start, at its end.
 struct Stretch {
   glm::vec2 from{0.0f}, to{0.0f};                ///< (rho, y) [mm]
   glm::vec2 from_normal{0.0f}, to_normal{0.0f};  ///< outward, unit
-  glm::vec2 open{1.0f};                          ///< part of the sky that reaches it
+  glm::vec2 open{1.0f};                          ///< visible fraction of the sky
   glm::vec2 wall{0.0f};                          ///< thickness [mm]
   glm::vec2 neck{
-      0.0f};  ///< radius and height of the ring that light must pass [mm]; radius 0: none
+      0.0f};  ///< radius and height of the ring that limits the light [mm]; radius 0: none
 };
 
-/// The closed surface of what lies between the levels.
+/// The closed surface of the body between the levels.
 [[nodiscard]] std::vector<Stretch> meridian_of(const std::vector<Level>& levels);
 
-/// Of a line (rho, y) upwards; closed by discs where it does not end on the axis. For tools and the
-/// like: open sky, no wall, no neck.
+/// The surface of a line (rho, y) upward, closed by discs where it does not end on the axis. For
+/// tools and similar bodies: full sky, no wall, no limiting ring.
 [[nodiscard]] std::vector<Stretch> meridian_of(const std::vector<glm::vec2>& line);
 
 /// A slice of the section's face, from the bore to the outside.

@@ -1,6 +1,5 @@
 #pragma once
-// The programs that run on the graphics processor, in GLSL 3.30. All light is linear until the
-// last line of a fragment shader.
+// The shader programs, in GLSL 3.30. All light is linear until the last line of a fragment shader.
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
@@ -8,7 +7,7 @@
 
 namespace clay::render {
 
-/// What all programs know of a frame: block `Frame`, std140, field by field.
+/// Data of a frame for all programs: block `Frame`, std140, field by field.
 struct FrameBlock {
   glm::mat4 view_projection{1.0f};
   glm::vec4 eye{0.0f};                                       ///< [mm]

@@ -8,11 +8,11 @@
 namespace clay::render {
 namespace {
 
-constexpr std::size_t kDiscs = 28;   // that stand for a body
-constexpr float kLampWidth = 0.16f;  // tangent of the angle that the lamp is seen at
+constexpr std::size_t kDiscs = 28;   // discs that approximate a body
+constexpr float kLampWidth = 0.16f;  // tangent of the lamp's angular size
 constexpr float kAmbientDepth = 0.62f;
 
-/// A disc of clay in a body's own coordinates, and its lowest point in the wheel's.
+/// A disc of clay in a body's coordinates, and its lowest point in the wheel's.
 struct Disc {
   float y, radius;
   glm::vec3 centre;  ///< in the wheel's coordinates
@@ -42,7 +42,7 @@ float smooth(float t) {
   return t * t * (3.0f - 2.0f * t);
 }
 
-/// Part of the lamp that is hidden from a point of the ground.
+/// The fraction of the lamp that is hidden from a point of the ground.
 float lamp_hidden(const Caster& caster, const glm::vec3& point, const glm::vec3& to_lamp,
                   float texel) {
   const glm::vec3 from(caster.back * glm::vec4(point, 1.0f));

@@ -1,5 +1,5 @@
 #pragma once
-// The shadow of the clay on the wheel head, as a small map: soft, so that few texels do.
+// The shadow of the clay on the wheel head as a small map: soft, so that few texels suffice.
 
 #include "app/render/section.hpp"
 
@@ -13,7 +13,7 @@
 
 namespace clay::render {
 
-/// A body as the light sees it: its levels, and where it lies.
+/// A body that casts a shadow: its levels, and its placement.
 struct Body {
   std::vector<Level> levels;
   glm::mat4 place{1.0f};
@@ -21,7 +21,7 @@ struct Body {
 
 struct ShadowMap {
   static constexpr std::size_t kSide = 96;
-  /// Light of the lamp and of the sky that reaches a texel, rows along z, texels along x.
+  /// Light of the lamp and of the sky that reaches each texel, rows along z, texels along x.
   std::array<std::array<std::uint8_t, 2>, kSide * kSide> light{};
   float half_side_mm = 1.0f;  ///< covers the square of twice this side about the axis
 };

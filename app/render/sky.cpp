@@ -9,8 +9,8 @@ namespace clay::render {
 namespace {
 
 constexpr std::size_t kRings = 96;
-constexpr float kLeastRise = 1e-4f;  // of the height: what is level with a place hides nothing
-constexpr float kFootShade = 0.45f;  // of the light that the ground takes from the lowest clay
+constexpr float kLeastRise = 1e-4f;  // of the height: points at the same level hide nothing
+constexpr float kFootShade = 0.45f;  // fraction of the ground's light that the lowest clay hides
 constexpr float kFar = 1e9f;
 
 }  // namespace
@@ -25,7 +25,7 @@ Sky::Sky(const std::vector<Level>& levels) {
 
 float Sky::outside(glm::vec2 at) const {
   const float foot = rings_.front().y, height = rings_.back().y - foot;
-  // Run over rise of the nearest overhang: the cotangent of where the sky ends.
+  // Run over rise of the nearest overhang: the cotangent of the horizon's elevation.
   float overhang = 0.0f;
   for (const Ring& ring : rings_) {
     const float rise = ring.y - at.y, run = ring.outer - at.x;
@@ -39,7 +39,7 @@ float Sky::outside(glm::vec2 at) const {
 
 SeenSky Sky::inside(glm::vec2 at) const {
   const float height = rings_.back().y - rings_.front().y;
-  float near = kFar, far = kFar;  // run over rise, both measured outwards from the place
+  float near = kFar, far = kFar;  // run over rise, both measured outward from the point
   SeenSky seen;
   seen.neck = {kFar, at.y};
   for (const Ring& ring : rings_) {
@@ -51,7 +51,7 @@ SeenSky Sky::inside(glm::vec2 at) const {
   }
   if (near >= kFar) return {1.0f, {0.0f, 0.0f}};  // the rim itself
   if (seen.neck.x <= 0.0f) return {0.0f, {0.0f, 0.0f}};
-  // From the place the sky lies between the directions (near, 1) and (-far, 1).
+  // The sky visible from the point lies between the directions (near, 1) and (-far, 1).
   const float left = near / std::sqrt(1.0f + near * near);
   const float right = -far / std::sqrt(1.0f + far * far);
   seen.open = std::clamp(0.5f * (left - right), 0.0f, 1.0f);

@@ -1,5 +1,5 @@
 #pragma once
-// How much of the sky the walls of a pot leave to a place on it: the ambient light of its shading.
+// The fraction of the sky visible from a point between the walls of a pot: its ambient light.
 
 #include <glm/vec2.hpp>
 #include <vector>
@@ -9,12 +9,12 @@ namespace clay::render {
 struct Level;
 
 struct SeenSky {
-  float open = 1.0f;     ///< 0 none, 1 all that would be seen without the walls above
+  float open = 1.0f;     ///< 0 none, 1 as without the walls above
   glm::vec2 neck{0.0f};  ///< narrowest ring above: radius, height [mm]; radius 0: closed above
 };
 
 /// In the plane of the section: an arc of sky between the walls on both sides of the axis, weighted
-/// by the cosine to an upright wall or a level floor.
+/// by the cosine to a vertical wall or a horizontal floor.
 class Sky {
  public:
   explicit Sky(const std::vector<Level>& levels);

@@ -1,4 +1,4 @@
-// The hand in the picture: its tool, what touches, what of it is behind clay, and the force on it.
+// Draws the tool: its contact, its hidden part, and the force on it.
 
 #include "app/render/scene_frame.hpp"
 #include "app/render/scene_painter.hpp"
@@ -12,10 +12,10 @@
 namespace clay::render {
 namespace {
 
-constexpr double kLeastForceN = 0.02;  // below it there is no arrow
-constexpr float kSeenThrough = 0.4f;   // of a tool that clay hides
+constexpr double kLeastForceN = 0.02;  // below this no arrow is drawn
+constexpr float kSeenThrough = 0.4f;   // opacity of a tool hidden by clay
 
-/// Takes y to `direction`, the origin to `from`.
+/// Maps y to `direction`, the origin to `from`.
 glm::mat4 along(const glm::dvec3& from, const glm::dvec3& direction) {
   const glm::dvec3 y = glm::normalize(direction);
   const glm::dvec3 aside = std::abs(y.x) < 0.7 ? glm::dvec3{1, 0, 0} : glm::dvec3{0, 0, 1};
@@ -49,8 +49,8 @@ void ScenePainter::paint_tool(const SceneFrame& frame) {
   paint_at(-reach, 1.0);
 }
 
-/// What clay hides of it is seen through: in a bore, behind a wall, sunk in. Only clay has been
-/// drawn when this is.
+/// Draws the part hidden by clay translucently: in a bore, behind a wall, sunk in. Called when only
+/// clay has been drawn.
 void ScenePainter::paint_hidden_tool(const SceneFrame& frame) {
   glEnable(GL_BLEND);
   glBlendColor(0.0f, 0.0f, 0.0f, kSeenThrough);
@@ -68,7 +68,7 @@ void ScenePainter::paint_arrow(const SceneFrame& frame) {
   const double force = glm::length(tool.force_n);
   if (!(force > kLeastForceN)) return;
   const glm::dvec3 way = tool.force_n / force;
-  double beyond = 0.0;  // of the tool's surface, along the force
+  double beyond = 0.0;  // the tool's surface, along the force
   const double flat = std::hypot(way.x, way.z);
   for (const glm::vec2& p : tool.half_profile_mm)
     beyond = std::max(beyond, static_cast<double>(p.x) * flat + static_cast<double>(p.y) * way.y);

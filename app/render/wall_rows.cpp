@@ -10,10 +10,10 @@
 namespace clay::render {
 namespace {
 
-constexpr double kTolerance = 0.02;  // [mm], as `claystack export` has it
+constexpr double kTolerance = 0.02;  // [mm], the default of `claystack export`
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
-/// Rows between samples take the thickness of the nearest row that has one.
+/// Rows between samples take the thickness of the nearest row with one.
 void fill_gaps(std::vector<RowWall>& walls, float RowWall::*face, std::vector<bool>& known) {
   const std::size_t count = walls.size();
   std::vector<std::size_t> below(count, count);
@@ -55,9 +55,9 @@ std::vector<RowWall> row_walls(std::span<const solid::WallSample> field, std::si
   const double row_height = height_mm / static_cast<double>(rows);
   std::vector<bool> outside(rows, false), inside(rows, false);
   for (const solid::WallSample& s : field) {
-    // Feet are seen from below only; what they carry is told by the floor.
+    // Feet are visible only from below; their thickness is shown on the floor.
     if (s.face == solid::WallFace::rim || s.face == solid::WallFace::foot) continue;
-    // A floor is the face of the row below it.
+    // A floor belongs to the row below it.
     const double y = s.at.y - (s.face == solid::WallFace::floor ? 1e-3 * row_height : 0.0);
     const auto row = static_cast<std::size_t>(
         std::clamp(std::floor(y / row_height), 0.0, static_cast<double>(rows - 1)));

@@ -14,7 +14,7 @@ using falcon::ArmEnergy;
 using falcon::PassivityController;
 using falcon::SimulatedArm;
 
-/// What the loop has put in, up to now, and how far that may be off.
+/// The injected energy so far, and its uncertainty.
 struct Account {
   double injected_j = 0.0;
   double tolerance_j = 0.0;
@@ -27,7 +27,7 @@ class Bookkeeper {
       : arm_(arm),
         surface_(surface),
         began_j_(total_j()),
-        // A reading is off by half a step; the force for it by as much, times K.
+        // A reading has an error of half a step, and the force one of K times that.
         force_error_n_(0.5 * surface.stiffness_n_per_m() * arm.spec().step_m),
         last_m_(arm.position_m()) {}
 
@@ -42,7 +42,7 @@ class Bookkeeper {
   }
 
  private:
-  // A few additions a tick, of energies that grow with the throughput.
+  // A few additions per tick, of energies that grow with the throughput.
   static constexpr double kRounding = 1e-13;
   [[nodiscard]] double total_j() const {
     return arm_.kinetic_energy_j() + surface_.stored_j(arm_.position_m());
@@ -57,7 +57,7 @@ class Bookkeeper {
   glm::dvec3 last_m_;
 };
 
-/// Deepest points: where the arm turns back outward while it is in contact.
+/// Deepest points: where the arm reverses outward while in contact.
 class CycleWatch {
  public:
   void look(const SimulatedArm& arm, const Surface& surface, const Account& now, Outcome& outcome) {
@@ -84,7 +84,7 @@ class CycleWatch {
   std::optional<Account> began_;
 };
 
-/// Peak to peak about the straight line through the points.
+/// Peak to peak about the regression line.
 double swing_about_trend(const std::vector<double>& x) {
   if (x.size() < 2) return 0.0;
   const auto n = static_cast<double>(x.size());
@@ -150,11 +150,12 @@ Outcome run(const Experiment& e, Surface& surface) {
 
 namespace {
 
-/// Does a free swing in a linear wall grow? Its largest |x| over a second stretch against a first.
+/// Whether a free swing in a linear wall grows: compares the largest |x| of a later interval with
+/// an earlier one.
 bool grows(const falcon::SampledLoop& loop, double stiffness) {
   SimulatedArm arm = SimulatedArm::build({loop, 0.0, 0.0}, {}, {1e-3, 0.0, 0.0}).value();
   const double swing_s = 2.0 * std::numbers::pi * std::sqrt(loop.mass_kg / stiffness);
-  // Some swings to forget the start; then stretches of many.
+  // Some swings for the transient; then intervals of many swings.
   const auto stretch =
       static_cast<int>(20.0 * std::max(swing_s, 4.0 / loop.rate_hz) * loop.rate_hz);
   double largest[4] = {};
@@ -169,7 +170,8 @@ bool grows(const falcon::SampledLoop& loop, double stiffness) {
 }  // namespace
 
 double measured_stable_stiffness(const falcon::SampledLoop& loop, double tolerance) {
-  // From where a swing takes a thousand periods and more: the arms in question hold that.
+  // Starts at a stiffness whose swing takes a thousand periods or more, which all these arms can
+  // hold.
   double low = 2e-5 * loop.mass_kg * loop.rate_hz * loop.rate_hz, high = low;
   while (!grows(loop, high)) high *= 2.0;
   low = 0.5 * high;
@@ -208,8 +210,8 @@ Experiment wall_experiment(const falcon::SampledLoop& loop, double stiffness_n_p
   e.arm = {loop, 0.0, step_m};
   e.hand.push_n = {-0.5, 0.0, 0.0};
   e.start_m = {1e-3, 0.0, 0.0};
-  // What the wall leaves of the damping decides how long a swing takes to die, at half of it at
-  // most under the controller; near the border for ever.
+  // The damping left by the wall sets the decay time of a swing: at most half of it under the
+  // controller; infinite at the border.
   const double left = std::abs(1.0 - stiffness_n_per_m / falcon::stable_stiffness(loop));
   const double decay_s = 2.0 * loop.mass_kg / loop.damping_ns_per_m / std::clamp(left, 0.02, 0.25);
   e.seconds = 1.0 + 8.0 * decay_s;

@@ -19,7 +19,7 @@ class Wall final : public Surface {
   }
   [[nodiscard]] double stored_j(const glm::dvec3& position_m) const override {
     const double d = std::abs(depth(position_m.x));
-    // Beyond the limit the force is constant, and so the energy goes on in a straight line.
+    // Beyond the limit the force is constant, so the energy grows linearly.
     const double full = spec_.limit_n / spec_.stiffness_n_per_m;
     if (d > full) return spec_.limit_n * (d - 0.5 * full);
     return 0.5 * spec_.stiffness_n_per_m * d * d;

@@ -1,6 +1,5 @@
 #pragma once
-// What the arm is pressed against in the closed-loop experiments: along x, from x > 0. Metres, as
-// the arm.
+// The surfaces for the closed-loop experiments: along x, from x > 0. In metres, like the arm.
 
 #include "claystack/engine/scene.hpp"
 #include "claystack/engine/wheel.hpp"
@@ -14,19 +13,19 @@ namespace clay::closed_loop {
 class Surface {
  public:
   virtual ~Surface() = default;
-  /// The force [N] that answers a reading.
+  /// The force [N] for a reading.
   virtual glm::dvec3 press(std::int64_t time_us, const glm::dvec3& reading_m) = 0;
-  /// Energy [J] stored in the spring with the arm at this place.
+  /// Energy [J] stored in the spring with the arm at this position.
   [[nodiscard]] virtual double stored_j(const glm::dvec3& position_m) const = 0;
   [[nodiscard]] virtual double stiffness_n_per_m() const = 0;
-  /// Place of the undeformed surface as it is now [m].
+  /// Current position of the undeformed surface [m].
   [[nodiscard]] virtual double face_m() const = 0;
 };
 
 struct WallSpec {
   double stiffness_n_per_m = 0.0;
   double limit_n = 5.0;   ///< of the force; infinite for a linear wall
-  bool one_sided = true;  ///< false: a spring to x = 0, from both sides
+  bool one_sided = true;  ///< false: a two-sided spring to x = 0
 };
 std::unique_ptr<Surface> make_wall(const WallSpec& wall);
 

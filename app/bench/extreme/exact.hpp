@@ -1,5 +1,5 @@
 #pragma once
-// Exact numbers, made by Boost.Multiprecision and not by the engine.
+// Exact numbers by Boost.Multiprecision, independent of the engine.
 
 #include "claystack/engine/clay.hpp"
 

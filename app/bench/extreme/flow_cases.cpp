@@ -1,4 +1,4 @@
-// Where displaced clay goes: kernels, shares and growth at the ends of their ranges.
+// The distribution of displaced clay: kernels, shares and growth at the limits of their ranges.
 
 #include "app/bench/extreme/trial.hpp"
 
@@ -39,7 +39,7 @@ Outcome sigma_infinite_is_linear(Who who) {
   scene.flow.sigma_mm = kInfinity;
   scene.tool.shape = RibSpec{10.0, 6.0};
   Trial trial(who, scene);
-  // At rest, with its end in the middle of a ring: from there the kernel is counted.
+  // At rest, with its end in the middle of a ring, where the kernel starts.
   trial.stroke({45, 30.4, 0}, {45, 30.5, 0}, 2);
   trial.at({34, 30.5, 0});
   if (!trial.going_well()) return trial.done();
@@ -55,7 +55,7 @@ Outcome sigma_infinite_is_linear(Who who) {
   return trial.done();
 }
 
-/// All to the nearest ring, as the limit of the kernel for sigma -> 0.
+/// Everything goes to the nearest ring, the limit of the kernel for sigma -> 0.
 Outcome sigma_0_is_the_limit(Who who) {
   SceneSpec scene = small_pot();
   scene.flow.sigma_mm = 0.0;
@@ -63,7 +63,7 @@ Outcome sigma_0_is_the_limit(Who who) {
   Trial trial(who, scene);
   trial.stroke({45, 29.9, 0}, {45, 30.1, 0}, 2);
   trial.at({34, 30.2, 0});
-  // The rib ends at 35.2: ring 34's middle is level with it, ring 35 holds its upper end.
+  // The rib ends at 35.2: the middle of ring 34 is level with it; ring 35 contains its upper end.
   int gained = 0;
   for (std::size_t i = 0; i < trial.subject().rings(); ++i)
     if (trial.subject().ring(i).outer_mm > 30.0) ++gained;
@@ -83,7 +83,7 @@ Outcome narrow_bore(Who who, double inside_share) {
 Outcome alpha_1(Who who) { return narrow_bore(who, 1.0); }
 Outcome alpha_0(Who who) { return narrow_bore(who, 0.0); }
 
-/// A bore is opened from above, then clay is pressed down across its floor.
+/// Opens a bore from above, then presses clay down across its floor.
 Outcome one_ring_without_bore(Who who) {
   Trial trial(who, small_pot());
   trial.stroke({0, 70, 0}, {0, 45, 0}, 100);
@@ -100,8 +100,8 @@ Outcome never_moved(Who who) {
   return trial.done("clay went up");
 }
 
-/// A hand at rest keeps the direction it had: after a way up nothing comes to lie below the tool,
-/// after a way down nothing above it.
+/// A hand at rest keeps its direction: after an upward motion no clay goes below the tool, after a
+/// downward motion none above it.
 Outcome hand_at_rest(Who who) {
   Trial trial(who, small_pot());
   const auto rest = [&](const glm::dvec3& from, const glm::dvec3& to, bool above) {
@@ -123,7 +123,7 @@ Outcome hand_at_rest(Who who) {
   return trial.done();
 }
 
-/// The top is cut to the thinnest rings there are; then more clay comes up than they can count.
+/// Cuts the top to the thinnest rings; then more clay rises than they can count.
 Outcome growth_onto_an_empty_top(Who who) {
   SceneSpec scene = small_pot();
   scene.tool.shape = RibSpec{12.0, 40.0};
@@ -167,7 +167,7 @@ Outcome all_clay_cut_away(Who who) {
   return trial.done();
 }
 
-/// With max_rings reached, what comes up waits above the top, and is counted.
+/// At max_rings, rising clay waits above the top and is counted.
 Outcome no_room_above(Who who) {
   if (who == Who::literal) return {Verdict::not_in_print, "no limit of N is printed"};
   SceneSpec scene = small_pot();

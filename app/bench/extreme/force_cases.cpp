@@ -1,4 +1,4 @@
-// The force: its direction, its size, and the energy that it must be the gradient of.
+// The force: direction, magnitude, and the energy of which it is the gradient.
 
 #include "app/bench/extreme/hand.hpp"
 #include "app/bench/extreme/overlap_energy.hpp"
@@ -13,7 +13,7 @@
 namespace clay::extreme {
 namespace {
 
-/// Soft enough that the limit of 5 N is not met; K of one ring is the same in both models, h = 1.
+/// Soft enough to stay below the limit of 5 N; K of one ring is the same in both models, h = 1.
 constexpr double kSoftNPerMm = 5e-4;
 
 SceneSpec soft_pot(const ToolShapeSpec& shape, double bore_mm) {
@@ -37,9 +37,9 @@ glm::dvec3 place_near_wall(Hand& hand, const ToolShapeSpec& shape, bool outside)
   return {d * std::cos(azimuth), y, d * std::sin(azimuth)};
 }
 
-/// The first tick of a scene has dt = 0 and moves no clay in the engine; the force is of the rings
-/// before it in both models. Rings are thin, so that their sum is the integral: the difference is
-/// of second order in h.
+/// The first tick of a scene has dt = 0 and moves no clay in the engine; in both models the force
+/// is that of the rings before it. Rings are thin, so that their sum approximates the integral,
+/// with an error of second order in h.
 Outcome minus_gradient(Who who) {
   constexpr double kRingMm = 1.0 / 16.0, kTolerance = 1e-4;  // of the largest force
   Hand hand(17);

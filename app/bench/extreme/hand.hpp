@@ -7,9 +7,9 @@
 
 namespace clay::extreme {
 
-/// A hand that wanders over and into the small pot, inside and outside, over rim and base, and
-/// jumps now and then. The same poses on every platform: the engine of the standard, no
-/// distribution of it.
+/// A hand that moves over and into the small pot, inside and outside, over rim and base, with
+/// occasional jumps. The same poses on every platform: uses the standard's engine, but none of its
+/// distributions.
 class Hand {
  public:
   explicit Hand(std::uint64_t seed) : random_(seed) {}

@@ -1,4 +1,4 @@
-// Poses and times that are no poses and times.
+// Invalid poses and times.
 
 #include "app/bench/extreme/trial.hpp"
 
@@ -18,8 +18,8 @@ constexpr std::int64_t kEarliest = std::numeric_limits<std::int64_t>::min();
 
 void start(Trial& trial) { trial.stroke({40, 24, 0}, {36, 28, 0}, 40); }
 
-/// Each bad pose leaves the state to the bit and gives no force; the stroke then goes on as though
-/// it had not been.
+/// Each invalid pose leaves the state unchanged to the bit and gives no force; the stroke then
+/// continues as if it had not occurred.
 Outcome dropped(Who who, const std::vector<glm::dvec3>& bad) {
   Trial trial(who, small_pot()), undisturbed(who, small_pot());
   start(trial);
@@ -30,8 +30,8 @@ Outcome dropped(Who who, const std::vector<glm::dvec3>& bad) {
     trial.require(trial.subject().bytes() == before, "the clay has moved");
     trial.require(tick.force_n == glm::dvec3(0.0), "a force from a pose that is none");
   }
-  // Deeper at the same height: how much clay goes where now depends on the last good pose alone, on
-  // its time and on the direction before it.
+  // Deeper at the same height: the flow now depends only on the last valid pose, its time, and the
+  // direction before it.
   trial.at({34, 28, 0}, false, 1000);
   undisturbed.at({34, 28, 0}, false, 1000 * (static_cast<std::int64_t>(bad.size()) + 1));
   trial.stroke({36, 28, 0}, {36, 34, 0}, 60);
@@ -60,7 +60,7 @@ Outcome first_pose_nan(Who who) {
   return trial.done();
 }
 
-/// From +0 to -0 is no motion: the direction stays.
+/// From +0 to -0 is no motion: the direction is unchanged.
 Outcome minus_zero(Who who) {
   Trial trial(who, small_pot()), plain(who, small_pot());
   for (Trial* t : {&trial, &plain}) t->stroke({45, -6, 0}, {36, 0.0, 0}, 40);
@@ -86,7 +86,7 @@ Outcome denormal_pose(Who who) {
   return trial.done();
 }
 
-/// Times are the engine's alone; the printed model has none.
+/// Only the engine has times; the printed model has none.
 struct Clocked {
   std::int64_t time_us;
   bool refused;

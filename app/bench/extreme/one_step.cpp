@@ -14,7 +14,7 @@
 namespace clay::extreme {
 namespace {
 
-/// On a grid of 1/256 mm, so that no offset of the kernel is rounded (it has 20 bits of fraction).
+/// On a grid of 1/256 mm, so that offsets of the kernel (20 fractional bits) are exact.
 double on_grid(double mm) { return std::round(256.0 * mm) / 256.0; }
 
 SceneSpec random_scene(Hand& hand) {
@@ -40,7 +40,7 @@ double miss(const Fifty& expected, double found_mm, bool counted) {
   return abs(Fifty(found - expected)).convert_to<double>();
 }
 
-/// How many times the bound the worst ring is off.
+/// The largest deviation of a ring, as a multiple of its bound.
 double worst_of(const Recomputed& step, const Subject& subject, Who who) {
   const bool counted = who == Who::conserving;
   double worst = 0.0;
@@ -70,7 +70,7 @@ Outcome one_step_again(Who who) {
     subject->step(pose);
     for (int k = 0; k < 20; ++k) {
       for (int wild = 0; wild < 8; ++wild) subject->step(pose = hand.next());
-      // Less than 0.2 mm from here on, which is a tick in one part; first to the grid.
+      // At most 0.2 mm from here on, which is a tick in one part; first rounded to the grid.
       pose = {pose.time_us + 400, pose.position_mm, false};
       pose.position_mm.y = on_grid(pose.position_mm.y);
       subject->step(pose);
@@ -84,7 +84,7 @@ Outcome one_step_again(Who who) {
       const Recomputed step(who, scene, section_of(*subject), pose.position_mm, moved);
       subject->step(pose);
       if (!step.pressed() || subject->rings() != rings) continue;
-      if (!subject->fault().empty()) break;  // the paper's own, in other cases of the suite
+      if (!subject->fault().empty()) break;  // the paper's own faults are tested in other cases
       ++compared;
       worst = std::max(worst, worst_of(step, *subject, who));
       if (!(worst <= 1.0))

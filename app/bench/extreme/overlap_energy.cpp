@@ -45,7 +45,7 @@ OverlapEnergy::OverlapEnergy(ToolShapeSpec shape, Section section, double stiffn
   tools_ = {{true, reach}, {false, -reach}};
 }
 
-/// In s with t = a sin s, so that f is smooth up to its poles.
+/// Integrated in s with t = a sin s, so that f is smooth up to its poles.
 double OverlapEnergy::of_ring(std::size_t i, double hip_y, double d, bool outside) const {
   static constexpr double kNodes[] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
                                       0.9602898564975363};
@@ -86,7 +86,7 @@ double OverlapEnergy::at(const glm::dvec3& hip_mm) const {
 }
 
 glm::dvec3 OverlapEnergy::force_n(const glm::dvec3& hip_mm) const {
-  constexpr double kStep = 1e-4;  // E is of third order smooth but at the rim of the contact
+  constexpr double kStep = 1e-4;  // E is smooth to third order except at the border of the contact
   glm::dvec3 force(0.0);
   for (int axis = 0; axis < 3; ++axis) {
     glm::dvec3 plus = hip_mm, minus = hip_mm;

@@ -1,6 +1,6 @@
 #pragma once
-// The energy whose gradient the force must be, written from the model's definition and without a
-// line of the engine.
+// The energy of which the force must be the gradient, written from the model's definition without
+// code of the engine.
 
 #include "app/bench/extreme/subject.hpp"
 
@@ -15,13 +15,13 @@ struct Section {
 };
 [[nodiscard]] Section section_of(const Subject& subject);
 
-/// E = K'/2 times the integral of (depth cos theta)^2 over the height that tool and clay share;
-/// depth = max(0, R + f - d) outside, max(0, d + f - r) inside, tan theta = f'; K' in N/mm^2. An
-/// integral, by Gauss and Legendre, where the engine adds up rings.
+/// E = K'/2 times the integral of (depth cos theta)^2 over the common height of tool and clay;
+/// depth = max(0, R + f - d) outside, max(0, d + f - r) inside, tan theta = f'; K' in N/mm^2.
+/// Integrated by Gauss-Legendre quadrature; the engine sums over rings.
 class OverlapEnergy {
  public:
   OverlapEnergy(ToolShapeSpec shape, Section section, double stiffness_n_per_mm2, bool outside);
-  /// Of two tools, `gap_mm` apart at their widest, t = 0; the HIP between them.
+  /// Two tools, `gap_mm` apart at their widest (t = 0), with the HIP between them.
   OverlapEnergy(ToolShapeSpec shape, Section section, double stiffness_n_per_mm2, double gap_mm);
 
   /// Minus the gradient at `hip_mm`, by central differences [N].

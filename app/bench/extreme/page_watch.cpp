@@ -27,7 +27,7 @@ Pages pages_of(std::span<const std::byte> memory) {
 }
 
 bool allow(std::uintptr_t first, std::uintptr_t end, int access) {
-  // The page is the subject's own and was writable before; no object changes.
+  // The page belongs to the subject and was writable before; no object changes.
   return mprotect(reinterpret_cast<void*>(first), end - first, access) == 0;
 }
 
@@ -40,7 +40,7 @@ void open_page(int signal, siginfo_t* info, void*) {
   const std::uintptr_t page = at / page_size() * page_size();
   if (at < watched.first || at >= watched.end ||
       !allow(page, page + page_size(), PROT_READ | PROT_WRITE)) {
-    // Not ours: as though nobody had watched. The access is tried again and meets the old action.
+    // A fault elsewhere: restore the old action and retry the access.
     sigaction(signal, &outer_action, nullptr);
     return;
   }

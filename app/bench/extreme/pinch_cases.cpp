@@ -1,5 +1,5 @@
-// Two tools at once: gaps that are none, gaps wider than the pot, bores narrower than the tool.
-// The paper knows one tool.
+// Two tools at once: invalid gaps, gaps wider than the pot, bores narrower than the tool. The paper
+// has one tool.
 
 #include "app/bench/extreme/hand.hpp"
 #include "app/bench/extreme/overlap_energy.hpp"
@@ -26,7 +26,8 @@ SceneSpec pinched_pot(double bore_mm) {
   return scene;
 }
 
-/// A stroke up and down the wall with this gap. The thinnest ring stays above `least_wall_mm`.
+/// A stroke up and down the wall with this gap. Requires that the thinnest ring stays above
+/// `least_wall_mm`.
 Outcome pinched(Who who, const SceneSpec& scene, double d, double gap_mm, double least_wall_mm) {
   if (who == Who::literal) return kOneTool;
   Trial trial(who, scene);
@@ -38,7 +39,7 @@ Outcome pinched(Who who, const SceneSpec& scene, double d, double gap_mm, double
   double wall = 1e9;
   for (std::size_t i = 0; i < trial.subject().rings(); ++i)
     wall = std::min(wall, trial.subject().ring(i).outer_mm - trial.subject().ring(i).inner_mm);
-  // A quantum of R^2 and the roundings of two roots.
+  // One quantum of R^2 and the roundings of two roots.
   trial.require(wall >= least_wall_mm - 1e-11, fmt::format("a wall of {:.6g} mm", wall));
   return trial.done(fmt::format("thinnest ring {:.6g} mm", wall));
 }
@@ -62,7 +63,7 @@ Outcome pinch_of_a_quantum(Who who) {
   return pinched(who, scene, 30.1, 1e-3, 0.0);
 }
 
-/// Both tools are clear of the wall: of a bore of 24 mm and an outside of 30 mm.
+/// Both tools are clear of the wall: bore 24 mm, outside 30 mm.
 Outcome nothing_pinched(Who who, const std::vector<glm::dvec2>& distances_and_gaps) {
   if (who == Who::literal) return kOneTool;
   Trial trial(who, pinched_pot(24.0));
@@ -110,8 +111,8 @@ Outcome gap_not_in_the_scene(Who who) {
   return trial.done();
 }
 
-/// As minus_gradient. The axes of both tools stay outside the wall: else a pole, where f' has no
-/// bound, is in the clay.
+/// As minus_gradient. The axes of both tools stay outside the wall: otherwise a pole, where f' is
+/// unbounded, is in the clay.
 Outcome minus_gradient_of_both(Who who) {
   if (who == Who::literal) return kOneTool;
   constexpr double kSoftNPerMm2 = 5e-4, kRingMm = 1.0 / 32.0, kTolerance = 1e-4;

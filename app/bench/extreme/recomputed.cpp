@@ -26,11 +26,11 @@ Recomputed::Recomputed(Who who, const SceneSpec& scene, Section before, const gl
   Fifty rest = removed_;
   double slack = slack_;
   if (!upward) rest -= give(rest, slack, -1);
-  // As printed, clay goes on upward only where the kernel was cut at the base.
+  // As printed, clay continues upward only if the kernel was cut at the base.
   if (upward || counted_ || bottom_ < reach()) give(rest, slack, +1);
 }
 
-/// Radii of the engine are roots of counts; the counts are what is exact.
+/// Radii of the engine are roots of counts; only the counts are exact.
 void Recomputed::use_counts() {
   for (Expected& ring : rings_) {
     ring.outer2 = round(Fifty(ring.outer2 / kQuantum)) * kQuantum;
@@ -70,7 +70,7 @@ std::size_t Recomputed::ring_at_centre() const {
   return static_cast<std::size_t>(std::clamp(at, low, high));
 }
 
-/// Equations (3), (4), with what docs/model.md adds to them.
+/// Equations (3), (4), with the additions of docs/model.md.
 void Recomputed::take() {
   const Fifty d = sqrt(Fifty(Fifty(hip_.x) * hip_.x + Fifty(hip_.z) * hip_.z));
   const Expected& middle = rings_[ring_at_centre()];
@@ -82,14 +82,14 @@ void Recomputed::take() {
   for (std::size_t i = bottom_; i <= top_; ++i) take_from(i, d, outside_ ? way : Fifty(-way));
 }
 
-/// f at a height, or at the tool's end where that is nearer.
+/// f at a height, clamped to the tool's ends.
 Fifty Recomputed::profile_at(const Fifty& t) const {
   const Fifty half = half_height_mm(scene_.tool.shape);
   return half_profile(scene_.tool.shape, std::clamp(t, Fifty(-half), half));
 }
 
-/// docs/model.md, "How clay gives way", for a tool that is now `depth` in a wall, after it has
-/// come `advance` nearer in a part of the time `whole`, times kappa.
+/// docs/model.md, "How clay yields", for a tool that is `depth` in a wall after it has advanced by
+/// `advance` in a part of the time `whole`, times kappa.
 Fifty Recomputed::depth_left(const Fifty& wall, const Fifty& depth, Fifty advance, Fifty part,
                              const Fifty& whole) {
   const Fifty knee = scene_.removal.yield_depth_mm, thinnest = scene_.removal.min_wall_mm;
@@ -112,7 +112,7 @@ Fifty Recomputed::depth_left(const Fifty& wall, const Fifty& depth, Fifty advanc
   const Fifty off = std::min(start, knee) - steady;
   const Fifty left = exp(Fifty(-kappa_dt * rest * spread / knee));
   const Fifty relaxed = steady + off * left / (1 + off / spread * (1 - left));
-  // The engine's exponential is good to 1e-11.
+  // The accuracy of the engine's exponential is 1e-11.
   exp_slack_ = 1e-11 * abs(off).convert_to<double>();
   return std::clamp(std::max(relaxed, Fifty(depth - at_most)), Fifty(0), depth);
 }
@@ -123,7 +123,7 @@ void Recomputed::take_from(std::size_t i, const Fifty& d, const Fifty& way) {
   const Fifty half = half_height_mm(scene_.tool.shape), half_ring = scene_.lump.ring_height_mm / 2;
   const bool ellipse = !std::holds_alternative<RibSpec>(scene_.tool.shape);
   if (abs(t) > half && (counted_ || ellipse)) return;
-  // A ring that the tool covers in part is met in the middle of that part.
+  // A partly covered ring is evaluated in the middle of the covered part.
   if (counted_)
     t = (std::max(Fifty(t - half_ring), Fifty(-half)) + std::min(Fifty(t + half_ring), half)) / 2;
   Expected& ring = rings_[i];
@@ -150,8 +150,8 @@ void Recomputed::take_from(std::size_t i, const Fifty& d, const Fifty& way) {
   slack_ += slack;
 }
 
-/// eps comes of sums of R, r, d and f, some of them roots: 16 half ulps of their sum cover them.
-/// f itself loses digits toward a pole, where df = b^2 / f du, u = t / a.
+/// eps is computed from sums of R, r, d and f, some of them roots: 16 half ulps of their sum bound
+/// the error. f itself loses digits toward a pole, where df = b^2 / f du, u = t / a.
 double Recomputed::slack_of(const Fifty& outer, const Fifty& f, const Fifty& d) const {
   const auto big = Fifty(outer + f + d).convert_to<double>();
   const auto width = half_profile(scene_.tool.shape, 0).convert_to<double>();
@@ -159,7 +159,7 @@ double Recomputed::slack_of(const Fifty& outer, const Fifty& f, const Fifty& d) 
   return 2.0 * big * (16.0 * kUlp * big + pole) + kQuantum;
 }
 
-/// C(x): the sum of P_d(1) .. P_d(x), in between on straight lines.
+/// C(x): the sum of P_d(1) .. P_d(x), linear between integers.
 Fifty Recomputed::dealt(const std::vector<Fifty>& sums, const Fifty& x) const {
   if (x <= 0) return 0;
   if (x >= sums.size() - 1) return 1;
@@ -179,12 +179,12 @@ std::vector<Fifty> Recomputed::sums_of_weights() const {
   return sums;
 }
 
-/// Equations (5)-(8), from the tool's end. Returns what was given.
+/// Equations (5)-(8), from the tool's end. Returns the distributed amount.
 Fifty Recomputed::give(const Fifty& amount, double slack, int direction) {
   const std::vector<Fifty> sums = sums_of_weights();
   const Fifty offset = direction > 0 ? up_offset_ : down_offset_;
   const Fifty alpha = hollow_ ? Fifty(scene_.flow.inside_share) : Fifty(0);
-  // The engine's table has 40 bits of fraction, and a share is cut to a whole quantum.
+  // The engine's table has 40 fractional bits, and a share is truncated to a whole quantum.
   const double grain = counted_ ? 0x1p-38 * amount.convert_to<double>() + 4.0 * kQuantum : 0.0;
   Fifty given = 0, before = 0;
   for (std::size_t j = 1; j <= reach() + (counted_ ? 1 : 0); ++j) {

@@ -1,5 +1,5 @@
 #pragma once
-// A tick computed again in 50 digits, from docs/model.md or from the paper, ring by ring.
+// A tick recomputed in 50 digits, from docs/model.md or from the paper, ring by ring.
 
 #include "app/bench/extreme/exact.hpp"
 #include "app/bench/extreme/overlap_energy.hpp"
@@ -14,7 +14,7 @@ namespace clay::extreme {
 inline constexpr double kUlp = 0x1p-53;
 inline constexpr double kQuantum = 0x1p-36;  // mm^2
 
-/// A ring as it should be, R^2 and r^2 [mm^2], and how far rounding may take each from that.
+/// The expected ring, R^2 and r^2 [mm^2], and the permitted rounding error of each.
 struct Expected {
   Fifty outer2 = 0, inner2 = 0;
   double outer_slack = 0.0, inner_slack = 0.0;

@@ -1,4 +1,4 @@
-// Stacks and tools at the ends of their ranges.
+// Stacks and tools at the limits of their ranges.
 
 #include "app/bench/extreme/page_watch.hpp"
 #include "app/bench/extreme/trial.hpp"
@@ -33,7 +33,7 @@ Outcome wall_of(Who who, double wall_mm) {
 
 Outcome wall_1e_12(Who who) { return wall_of(who, 1e-12); }
 
-/// The thinnest wall that the engine counts: one quantum, by bisection over the radius.
+/// The thinnest wall that the engine counts: one quantum, found by bisection over the radius.
 Outcome wall_of_a_quantum(Who who) {
   const double inner_mm = std::sqrt(mm2_from_quanta(quanta_from_radius(30.0) - 1));
   SceneSpec scene = small_pot();
@@ -55,8 +55,8 @@ Outcome wall_of_nothing(Who who) {
   return trial.done();
 }
 
-/// Rings whose middle is not level with the tool must not be touched; the clay goes up, so what
-/// is below has to stay as it was.
+/// Rings whose middle is not level with the tool must not be touched; clay goes up, so rings below
+/// must stay unchanged.
 Outcome beyond_the_tool(Who who) {
   SceneSpec scene = small_pot();
   scene.tool.shape = RibSpec{10.0, 6.0};
@@ -150,7 +150,7 @@ Outcome one_ring(Who who) {
   return trial.done();
 }
 
-/// A stroke on very many rings; three ticks, since the suite looks at every ring after each.
+/// A stroke on very many rings; three ticks, because the suite examines every ring after each.
 Outcome many_rings(Who who, std::size_t rings) {
   SceneSpec scene = small_pot();
   scene.lump.rings = rings;
@@ -165,8 +165,8 @@ Outcome many_rings(Who who, std::size_t rings) {
   return trial.done();
 }
 
-/// Every page of the rings is protected but for the tick; each that the tick opens is counted. The
-/// engine has a million rings, the paper's N^2 / 2 additions for the stress fewer.
+/// Protects every page of the rings, and counts those that the tick opens. The engine has a million
+/// rings, the paper fewer, because of its N^2 / 2 additions for the stress.
 Outcome work_of_a_tick(Who who) {
   SceneSpec scene = small_pot();
   scene.lump.rings = who == Who::conserving ? 1'000'000 : 10'000;
@@ -212,7 +212,7 @@ Outcome radius_1e_160(Who who) {
   return refused_or_sound(who, scene, {8, 29, 0}, {7.9, 31, 0}, 20);
 }
 
-/// Pressed at the largest radius there is: rings next to it have no room outside.
+/// Pressed at the largest radius: rings near it have no room outside.
 Outcome largest_radius(Who who) {
   SceneSpec scene = small_pot();
   scene.lump.outer_radius_mm = 5000.0;

@@ -1,4 +1,4 @@
-// The stress threshold to the ulp, and collapse at both ends.
+// The stress threshold to one ulp, and collapse at both ends.
 
 #include "app/bench/extreme/trial.hpp"
 #include "app/bench/literal/literal_paper.hpp"
@@ -30,8 +30,8 @@ SceneSpec neck_scene(double max_stress_kpa) {
   return scene;
 }
 
-/// The largest beta of a stack [kPa], M summed from the top in integers, then rounded as the model
-/// says: rho g h (M / ring). The same in 50 digits, to see that this is what was meant.
+/// The largest beta of a stack [kPa], with M summed from the top in integers, then rounded as in
+/// the model: rho g h (M / ring). Also in 50 digits, as a check.
 struct Largest {
   double kpa = 0.0;
   Fifty exact = 0;
@@ -142,7 +142,7 @@ Outcome lump_too_heavy(Who who) {
   return trial.done();
 }
 
-/// Cuts ring `i` with a rib that reaches no other until the stack fails there.
+/// Cuts ring `i` with a rib that reaches no other ring until the stack fails there.
 Outcome collapse_at(Who who, std::size_t i) {
   SceneSpec scene = small_pot();
   scene.tool.shape = RibSpec{1.2, 6.0};
@@ -176,7 +176,7 @@ Outcome collapse_at(Who who, std::size_t i) {
 Outcome collapse_at_the_base(Who who) { return collapse_at(who, 0); }
 Outcome collapse_below_the_top(Who who) { return collapse_at(who, 58); }
 
-/// Nothing stands on the top ring: it may be cut to a thread.
+/// No load on the top ring: it may be cut to a thread.
 Outcome top_never_fails(Who who) {
   SceneSpec scene = small_pot();
   scene.tool.shape = RibSpec{1.2, 6.0};

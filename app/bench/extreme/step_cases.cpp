@@ -1,4 +1,4 @@
-// One step computed again, very many steps, and the same steps twice.
+// One step recomputed, very many steps, and the same steps twice.
 
 #include "app/bench/extreme/hand.hpp"
 #include "app/bench/extreme/one_step.hpp"
@@ -40,12 +40,12 @@ class Hash {
 struct Played {
   std::uint64_t hash = 0;
   std::size_t contacts = 0;
-  Exact worst = 0;  ///< clay missing or too much, mm^2, whenever it was weighed
+  Exact worst = 0;  ///< largest volume error, mm^2, at any check
   std::string fault;
 };
 
-/// A pot under a restless hand. Force and contact of every tick go into the hash; the clay is
-/// weighed ten thousand times and at the end.
+/// A pot under random strokes. Hashes force and contact of every tick; checks the volume ten
+/// thousand times and at the end.
 class Player {
  public:
   Player(Who who, std::size_t ticks, std::uint64_t seed) : who_(who), ticks_(ticks), hand_(seed) {
@@ -111,8 +111,8 @@ Outcome drift(Who who) {
                                        ticks, first.contacts, first.hash)};
 }
 
-/// Pots thrown side by side, a tick of each in turn and in threads of their own, give what they
-/// give alone.
+/// Pots thrown in parallel, tick by tick in turn and in separate threads, give the same results as
+/// alone.
 Outcome side_by_side(Who who) {
   constexpr std::size_t kTicks = 2'000, kPots = 4;
   std::vector<std::uint64_t> alone, in_turn, in_threads(kPots);

@@ -95,7 +95,7 @@ class AsPrinted final : public Subject {
   std::optional<Exact> clay() const override {
     Exact sum = 0;
     const auto& rings = paper_.rings();
-    // A run of equal rings is weighed once: rationals are slow.
+    // Runs of equal rings are summed once, because rationals are slow.
     for (std::size_t i = 0, end = 0; i < rings.size(); i = end) {
       const double outer = rings[i].outer_mm, inner = rings[i].inner_mm;
       if (!std::isfinite(outer) || !std::isfinite(inner)) return std::nullopt;

@@ -1,6 +1,6 @@
 #pragma once
-// What the suite puts on the wheel: the engine, or the paper as printed, behind one face, so that
-// the same requirement judges both.
+// The subject of the suite: the engine, or the paper as printed, behind one interface, so that the
+// same requirement judges both.
 
 #include "app/bench/extreme/exact.hpp"
 #include "claystack/core/result.hpp"
@@ -28,8 +28,8 @@ enum class Who { conserving, literal };
 struct Tick {
   glm::dvec3 force_n{0.0};
   bool contact = false, refused = false, collapsed = false, long_step = false, ring_limit = false;
-  bool undefined = false;  ///< the printed formula leaves what C++ defines
-  bool endless = false;    ///< the printed loop does not end
+  bool undefined = false;  ///< the printed formula is undefined in C++
+  bool endless = false;    ///< the printed loop does not terminate
 };
 
 struct Radii {
@@ -45,18 +45,18 @@ class Subject {
   [[nodiscard]] virtual Radii ring(std::size_t i) const = 0;
   [[nodiscard]] virtual double centre_mm(std::size_t i) const = 0;  ///< height of ring i's middle
 
-  /// All clay that is accounted for, as the sum of R^2 - r^2 [mm^2], counted from all rings and
-  /// without rounding. Nothing where a radius is not finite.
+  /// Total clay as the sum of R^2 - r^2 [mm^2], counted exactly from all rings. Empty if a radius
+  /// is not finite.
   [[nodiscard]] virtual std::optional<Exact> clay() const = 0;
-  /// How far `clay` may be from what it was: 0 where clay is counted; for doubles 8 u times the
-  /// sum of R^2 + r^2, a tick, u = 2^-53.
+  /// Permitted change of `clay`: 0 where clay is counted; for doubles 8 u times the sum of R^2 +
+  /// r^2 per tick, u = 2^-53.
   [[nodiscard]] virtual Exact allowance() const = 0;
-  /// Empty, or what is wrong: 0 <= r < R and finite in every ring.
+  /// The violated invariant, if any: 0 <= r < R and finite in every ring.
   [[nodiscard]] virtual std::string fault() const = 0;
-  /// Every bit of the state that the next tick may depend on and that can be seen.
+  /// Every visible bit of the state on which the next tick may depend.
   [[nodiscard]] virtual std::string bytes() const = 0;
 
-  /// The array of rings as it lies in memory, until the next growth.
+  /// The array of rings in memory, valid until the next growth.
   [[nodiscard]] virtual std::span<const std::byte> ring_bytes() const = 0;
 
   [[nodiscard]] virtual const Wheel* wheel() const { return nullptr; }
@@ -64,11 +64,11 @@ class Subject {
 };
 
 /// Both read the same scene; K of the paper is force.paper_stiffness_n_per_mm or 0.05 N/mm, its k
-/// removal.paper_fraction or rate / 1000, its L_1 reach / h, rounded. The literal paper refuses
-/// nothing.
+/// is removal.paper_fraction or rate / 1000, its L_1 is reach / h, rounded. The literal paper
+/// refuses nothing.
 Result<std::unique_ptr<Subject>> put_on_wheel(Who who, const SceneSpec& scene);
 
-/// Clay in `wheel`'s rings and crown and in its ledger's other columns, each ring added by Boost.
+/// Clay in `wheel`'s rings and crown and in its ledger's other columns, summed by Boost.
 [[nodiscard]] Count count_clay(const Wheel& wheel);
 
 }  // namespace clay::extreme

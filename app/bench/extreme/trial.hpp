@@ -14,28 +14,28 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// 60 solid rings of 1 mm height and 30 mm radius, a sphere of 8 mm, kernel of 12 mm.
 SceneSpec small_pot();
 
-/// One subject, played tick by tick. After every tick: 0 <= r < R and all finite, the force finite,
-/// no endless loop, nothing undefined; and to the end no clay lost. The first that fails is kept.
+/// Plays one subject tick by tick. Checks after every tick: 0 <= r < R and all finite, force
+/// finite, no endless loop, nothing undefined; at the end no clay lost. Keeps the first failure.
 class Trial {
  public:
   Trial(Who who, const SceneSpec& scene);
 
-  /// The scene was refused at the door; `why` says so in the engine's words.
+  /// The scene was refused; `why` holds the engine's message.
   [[nodiscard]] bool refused() const { return !subject_; }
   [[nodiscard]] const std::string& why() const { return why_; }
 
   Subject& subject() { return *subject_; }
   [[nodiscard]] bool going_well() const { return fault_.empty(); }
 
-  /// Of all poses from here on; 0: one tool.
+  /// Gap of all following poses; 0: one tool.
   void pinch(double gap_mm) { gap_mm_ = gap_mm; }
   /// One tick, `dt_us` after the last one.
   Tick at(const glm::dvec3& hip_mm, bool trim = false, std::int64_t dt_us = 1000);
-  /// `ticks` ticks on the straight line between two places, both included.
+  /// `ticks` ticks on the straight line between two points, both included.
   void stroke(const glm::dvec3& from_mm, const glm::dvec3& to_mm, int ticks, bool trim = false);
 
   void require(bool holds, const std::string& otherwise);
-  /// Weighs the clay now, exactly; at the end this happens anyway.
+  /// Checks the volume now, exactly; also done at the end.
   void weigh();
   /// The verdict. `extra` is appended to the note.
   Outcome done(const std::string& extra = {});
@@ -57,7 +57,7 @@ class Trial {
   double largest_force_n_ = 0.0, gap_mm_ = 0.0;
 };
 
-/// Passes if the scene is refused; otherwise plays a stroke and judges that.
+/// Passes if the scene is refused; otherwise plays a stroke and judges it.
 Outcome refused_or_sound(Who who, const SceneSpec& scene, const glm::dvec3& from_mm,
                          const glm::dvec3& to_mm, int ticks);
 

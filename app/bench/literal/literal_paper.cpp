@@ -26,7 +26,7 @@ struct Rib {
   [[nodiscard]] double slope(double) const { return 0.0; }
 };
 
-/// Q_p(hj) over the sum of all L_1 of them.
+/// Q_p(hj) divided by the sum of all L_1 values.
 std::vector<double> rayleigh(double sigma, double h, std::size_t count) {
   std::vector<double> weights(count);
   double sum = 0.0;
@@ -43,7 +43,7 @@ double squared_wall(const LiteralRing& ring) {
   return ring.outer_mm * ring.outer_mm - ring.inner_mm * ring.inner_mm;
 }
 
-/// What the conversion to an index is defined for.
+/// The range in which the conversion to an index is defined.
 bool fits_index(double level) {
   return level > std::numeric_limits<int>::min() && level < std::numeric_limits<int>::max();
 }
@@ -138,7 +138,7 @@ glm::dvec3 LiteralPaper::force(const Contact& contact, const glm::dvec3& hip) co
   return spring + scene_.friction * glm::length(spring) * tangent;
 }
 
-/// Equations (5), (6). Returns what was given.
+/// Equations (5), (6). Returns the distributed amount.
 double LiteralPaper::give_up(double inside, double outside, std::size_t top) {
   double given = 0.0;
   const std::size_t last = std::min(top + weights_.size(), rings_.size());
@@ -152,7 +152,7 @@ double LiteralPaper::give_up(double inside, double outside, std::size_t top) {
   return given * (inside + outside);
 }
 
-/// Equations (7), (8). Returns what was given.
+/// Equations (7), (8). Returns the distributed amount.
 double LiteralPaper::give_down(double inside, double outside, std::size_t bottom) {
   double given = 0.0;
   const std::size_t first = bottom > weights_.size() ? bottom - weights_.size() : 1;
@@ -166,7 +166,7 @@ double LiteralPaper::give_down(double inside, double outside, std::size_t bottom
   return given * (inside + outside);
 }
 
-/// Steps (a), (b). What is left when the loop ends is left out of the body, as printed.
+/// Steps (a), (b). The remainder after the loop is left out of the body, as printed.
 void LiteralPaper::grow(double excess, LiteralReport& report) {
   double top = squared_wall(rings_.back());
   while (excess > top) {
@@ -182,7 +182,7 @@ void LiteralPaper::grow(double excess, LiteralReport& report) {
   }
 }
 
-/// Section 5.1. With no velocity ever measured no direction is defined, and nothing is given.
+/// Section 5.1. Before any nonzero velocity the direction is undefined, and nothing is distributed.
 void LiteralPaper::redistribute(const Contact& contact, LiteralReport& report) {
   const double alpha = hollow_ ? scene_.inside_share : 0.0;
   if (!(rise_mm_ > 0.0 || rise_mm_ < 0.0)) return;
@@ -195,7 +195,7 @@ void LiteralPaper::redistribute(const Contact& contact, LiteralReport& report) {
     if (contact.bottom > weights_.size() + 1) return;
   }
   rest -= give_up(inside(), outside(), contact.top);
-  // "top + L_1 greater than N": what found no ring above is height.
+  // "top + L_1 greater than N": clay without a ring above becomes height.
   if (contact.top + weights_.size() > rings_.size()) grow(rest, report);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// The paper's equations as they are printed, in floating point and without a guard: the yardstick
-// of speed, and the proof that the extreme suite can fail. Not for use.
+// The paper's equations as printed, in floating point and without checks: a reference for speed,
+// and the proof that the extreme suite can fail. Not for use.
 
 #include <cstddef>
 #include <glm/vec3.hpp>
@@ -21,16 +21,16 @@ struct LiteralRib {
 };
 using LiteralTool = std::variant<LiteralEllipse, LiteralRib>;
 
-/// The same numbers to rounding, but for a ring level with a pole of the tool, where f_h' is
-/// infinite; written in two ways.
+/// Equal to rounding, except for a ring level with a pole of the tool, where f_h' is infinite; in
+/// two versions.
 enum class LiteralWriting {
   /// M_i summed again for every ring, which is O(N^2); angles by atan, normals by sin and cos.
   as_printed,
-  /// What a careful programmer makes of it: M_i as a running sum, normals by one square root.
+  /// An efficient version: M_i as a running sum, normals by one square root.
   eased,
 };
 
-/// Settings in the paper's own terms. mm, N/mm per ring. Nothing is checked.
+/// Settings in the paper's terms. mm, N/mm per ring. Not checked.
 struct LiteralScene {
   std::size_t rings = 200;
   double ring_height_mm = 0.75;
@@ -44,8 +44,9 @@ struct LiteralScene {
   double stiffness_n_per_mm = 0.05;  ///< K, of each ring
   double friction = 0.0;             ///< mu
   double density_g_cm3 = 1.9;
-  double max_stress_kg_per_mm2 = 0.0;    ///< beta_T as in section 7, without g; 0: not looked at
-  std::size_t growth_limit = 5'000'000;  ///< so that an endless loop of the paper ends: reported
+  double max_stress_kg_per_mm2 = 0.0;  ///< beta_T as in section 7, without g; 0: not checked
+  std::size_t growth_limit =
+      5'000'000;  ///< stops an endless loop of the paper, which is then reported
   LiteralWriting writing = LiteralWriting::as_printed;
 };
 
@@ -57,10 +58,11 @@ struct LiteralRing {
 struct LiteralReport {
   glm::dvec3 force_n{0.0};  ///< with the paper's sign, unlimited
   std::size_t rings_touched = 0;
-  bool collapsed = false;  ///< beta_i > beta_T somewhere; the turn that follows has no end in print
-  bool endless = false;    ///< the growth loop had to be stopped
-  /// What is printed has no meaning in C++: equation (1) or (2) leaves the range of an index.
-  /// Nothing was done.
+  bool collapsed =
+      false;  ///< beta_i > beta_T somewhere; the rotation that follows has no end in print
+  bool endless = false;  ///< the growth loop had to be stopped
+  /// The printed formula is undefined in C++: equation (1) or (2) leaves the range of an index. The
+  /// tick did nothing.
   bool undefined = false;
 };
 
@@ -95,9 +97,9 @@ class LiteralPaper {
   LiteralScene scene_;
   std::vector<LiteralRing> rings_;
   std::vector<double> weights_;  ///< P_d(1)..P_d(L_1)
-  bool hollow_ = false;          ///< not r_i = 0 for all i
+  bool hollow_ = false;          ///< false if r_i = 0 for all i
   double last_y_mm_ = 0.0;
-  double rise_mm_ = 0.0;  ///< of the last tick in which there was one: its sign is the velocity's
+  double rise_mm_ = 0.0;  ///< of the last tick with a rise: its sign is that of the velocity
   bool has_last_ = false;
 };
 

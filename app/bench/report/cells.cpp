@@ -24,7 +24,7 @@ bool Report::sound() const {
 std::string short_number(double value) {
   if (!std::isfinite(value)) return std::isnan(value) ? "–" : value > 0 ? "∞" : "−∞";
   const double size = std::abs(value);
-  // Below a million whole numbers are told in full; %g would cut them.
+  // Whole numbers below a million are printed in full; %g would round them.
   if (size >= 1e3 && size < 1e6) return fmt::format("{:.0f}", value);
   return fmt::format("{:.4g}", value == 0.0 ? 0.0 : value);
 }

@@ -14,7 +14,7 @@ std::string quoted(const std::string& text) {
   return field + "\"";
 }
 
-/// The shortest digits that give the same number back.
+/// The shortest digits that read back as the same number.
 std::string digits(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
 struct ToField {
@@ -67,7 +67,7 @@ std::string csv_of(const Map& map) {
   return csv;
 }
 
-/// No id leaves the folder.
+/// Replaces characters so that the file stays in the folder.
 std::string file_name(const std::string& id, const char* ending) {
   std::string name;
   for (const char c : id) {

@@ -28,14 +28,14 @@ std::string cell_of(const Cell& cell) {
   return fmt::format("<td class=\"{}\">{}</td>", style, escaped(short_text(cell)));
 }
 
-/// A column is headed on the side where its numbers stand.
+/// A column heading is aligned like its numbers.
 bool numeric(const Table& table, std::size_t column) {
   return std::ranges::any_of(table.rows, [&](const std::vector<Cell>& row) {
     return column < row.size() && is_number(row[column]);
   });
 }
 
-/// Names are keys: for people without their underscores, and without the unit that follows.
+/// Converts a key to text: without underscores, and without the unit, which follows.
 std::string heading(const Table& table, std::size_t column) {
   std::string name = table.columns[column].name;
   const std::string& unit = table.columns[column].unit;

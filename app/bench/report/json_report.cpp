@@ -59,7 +59,7 @@ Json json_of(const std::vector<Value>& values) {
   return json;
 }
 
-/// What the parts are called and say for themselves; the parts are elsewhere.
+/// The description of parts; the parts themselves are stored elsewhere.
 template <class Part>
 Json titles_of(const std::vector<Part>& parts) {
   Json list = Json::array();

@@ -1,5 +1,5 @@
 #pragma once
-// The writers of what was measured. None of them says when: the same figures give the same bytes.
+// Writers of the results. None writes a date: the same figures give the same bytes.
 
 #include "app/bench/machine.hpp"
 #include "app/bench/section.hpp"
@@ -14,14 +14,14 @@ namespace clay::bench {
 
 struct Report {
   Machine machine;
-  std::string command;  ///< as it was typed
+  std::string command;  ///< as typed
   std::vector<Section> sections;
 
-  [[nodiscard]] bool sound() const;  ///< every section is
+  [[nodiscard]] bool sound() const;  ///< every section is sound
 };
 
-/// "machine", "compiler", "command", "sound" and "sections" (what each is, and of which parts with
-/// which units); then each part under its id:
+/// "machine", "compiler", "command", "sound" and "sections" (description, parts and units of each);
+/// then each part under its id:
 ///
 /// - a section's values as {"NAME": median, "NAME_iqr": interquartile range where timed}. Where a
 ///   table has the section's name, they stand under "ID_values".
@@ -29,17 +29,17 @@ struct Report {
 /// - a plot as {"x", "y", "curves": [{"name", "x", "y", "low", "high"}]};
 /// - a map as {"x", "y", "x_values", "y_values", "cells", "curves"}.
 ///
-/// What is not finite is null.
+/// Values that are not finite are null.
 [[nodiscard]] nlohmann::ordered_json json_of(const Report& report);
 
-/// Name and content of a file for each set of values, table, plot and map: RFC 4180, first line the
-/// column names, numbers with all their digits, nothing where there is none.
+/// Name and contents of a file for each set of values, table, plot and map: RFC 4180, first line
+/// the column names, numbers with all digits, empty if missing.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> csv_files(const Report& report);
 
 /// Name and content of a drawing for each plot and map.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> svg_files(const Report& report);
 
-/// One page that needs no other file, no network and no script; well-formed as XML, too.
+/// One page without other files, network or scripts; also well-formed XML.
 [[nodiscard]] std::string html_of(const Report& report);
 
 /// For a terminal.
@@ -47,9 +47,9 @@ struct Report {
 
 /// A number for people: four significant digits.
 [[nodiscard]] std::string short_number(double value);
-/// A cell for people; a dash where there is nothing.
+/// A cell for people; a dash if empty.
 [[nodiscard]] std::string short_text(const Cell& cell);
-/// Right-aligned, that is.
+/// Whether the cell is right-aligned.
 [[nodiscard]] bool is_number(const Cell& cell);
 
 }  // namespace clay::bench
