@@ -1,8 +1,7 @@
 // The arm or controller at the potter's: it takes the clay, and goes.
 
-#include "app/servo/mapping.hpp"
-#include "app/servo/servo_check.hpp"
 #include "app/studio/stroke_controller.hpp"
+#include "claystack/servo/servo.hpp"
 
 namespace clay::studio {
 namespace {
@@ -10,17 +9,7 @@ namespace {
 /// As stiff as the device can render at this rate, and no stiffer than the scene. What becomes of
 /// the clay does not depend on it.
 Result<SceneSpec> softened(SceneSpec scene, const servo::LiveSettings& settings) {
-  if (!scene.force) return scene;
-  const auto mapping = servo::Mapping::build(settings.mapping);
-  if (!mapping) return tl::make_unexpected(mapping.error());
-  const auto plan = StepPlan::build(scene);
-  if (!plan) return tl::make_unexpected(plan.error());
-  falcon::SampledLoop arm = settings.arm;
-  arm.rate_hz = settings.rate_hz;
-  const auto contact = cli::servo_contact(scene, *plan, arm, mapping->stiffness_gain());
-  if (!contact) return tl::make_unexpected(contact.error());
-  cli::soften(scene, *contact);
-  return scene;
+  return servo::soften(scene, settings).map([&](double) { return scene; });
 }
 
 }  // namespace
