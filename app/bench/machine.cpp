@@ -1,5 +1,6 @@
 #include "app/bench/machine.hpp"
 
+#include "claystack/version.hpp"
 #include "claystack_commit.hpp"
 
 #include <sys/utsname.h>

@@ -92,7 +92,7 @@ Result<void> show(const DevicesOptions& options, const falcon::DeviceSettings& s
   falcon::HapticDevice& open = **device;
   if (options.monitor) {
     const auto mapping = servo::Mapping::build(options.mapping);
-    if (!mapping) return tl::make_unexpected(mapping.error());
+    if (!mapping) return tl::make_unexpected(by_option(mapping.error()));
     if (auto watched = watch(open, options.seconds, *mapping, console); !watched)
       return tl::make_unexpected(error_of(watched.error()));
     return {};

@@ -3,6 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <string_view>
+#include <utility>
+
 namespace clay::cli {
 namespace {
 
@@ -79,6 +82,23 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
       "--force-gain", settings.mapping.force_gain,
       "Scale of force: N at the hand per N at the tool (default: 1 / scale, so that the clay feels "
       "as stiff as it is; = scale: the hand does the tool's work)");
+}
+
+Error by_option(Error error) {
+  constexpr std::pair<std::string_view, std::string_view> kOptions[] = {
+      {"rate_hz", "--rate"},
+      {"clay_rate_hz", "--clay-rate"},
+      {"seconds", "--seconds"},
+      {"patience_s", "--patience"},
+      {"gap_mm", "--gap"},
+      {"scale", "--scale"},
+      {"force_gain", "--force-gain"},
+      {"reach_mm", "--reach"},
+      {"height_mm", "--height"}};
+  for (const auto& [setting, option] : kOptions)
+    if (error.message.starts_with(std::string(setting) + ":"))
+      error.message.replace(0, setting.size(), option);
+  return error;
 }
 
 }  // namespace clay::cli

@@ -38,14 +38,14 @@ Result<void> fit_stiffness(SceneSpec& scene, const StepPlan& plan, const LiveOpt
                            double gain, const Console& console) {
   falcon::SampledLoop arm = options.settings.arm;
   arm.rate_hz = options.settings.rate_hz;
-  const auto contact = servo_contact(scene, plan, arm, gain);
+  const auto contact = servo::servo_contact(scene, plan, arm, gain);
   if (!contact) return tl::make_unexpected(contact.error());
   if (!options.soften) {
-    const auto checked = check_servo(scene, plan, arm, gain);
+    const auto checked = servo::check_servo(scene, plan, arm, gain);
     if (checked) return {};
     return failure(checked.error().kind, checked.error().message + "; or --soften");
   }
-  if (const double part = soften(scene, *contact); part < 1.0)
+  if (const double part = servo::soften(scene, *contact); part < 1.0)
     console.say(fmt::format("stiffness lowered to {:.3g} of the scene's", part));
   return {};
 }
@@ -124,9 +124,10 @@ Result<void> build(const LiveJob& job, LiveOptions& options, const Console& cons
   falcon::GuardSettings& guard = options.settings.guard;
   guard.hot_force_n = std::min(guard.hot_force_n, 0.8 * guard.force_limit_n);
   if (auto taken = take_up_stroke(job, options, stage); !taken) return taken;
-  if (auto checked = check(options.settings); !checked) return checked;
+  if (const auto checked = check(options.settings); !checked)
+    return tl::make_unexpected(by_option(checked.error()));
   const auto mapping = servo::Mapping::build(options.settings.mapping);
-  if (!mapping) return tl::make_unexpected(mapping.error());
+  if (!mapping) return tl::make_unexpected(by_option(mapping.error()));
   auto scene = load_scene(job.scene_path);
   if (!scene) return tl::make_unexpected(scene.error());
   stage.scene = std::move(*scene);

@@ -2,8 +2,8 @@
 // Throwing by hand: `claystack throw SCENE --device ...`.
 
 #include "app/cli/console.hpp"
-#include "app/servo/live_settings.hpp"
 #include "claystack/falcon/falcon_device.hpp"
+#include "claystack/servo/servo.hpp"
 
 #include <CLI/App.hpp>
 
@@ -21,6 +21,9 @@ struct LiveOptions {
 };
 
 void add_live_options(CLI::App& command, LiveOptions& options);
+
+/// An error that begins with the name of a setting of the servo begins with its option instead.
+[[nodiscard]] Error by_option(Error error);
 
 /// The workspace of the mapping: --scale, --side, --reach, --height, --flip.
 void add_place_options(CLI::App& command, servo::MappingSettings& mapping);

@@ -48,7 +48,7 @@ Result<void> plan_servo(const SceneSpec& scene, const StepPlan& plan, const Plan
   loop.rate_hz = *options.rate_hz;
   loop.damping_ns_per_m = options.damping_ns_per_m;
   loop.delay_ticks = options.delay_ticks;
-  const auto contact = check_servo(scene, plan, loop);
+  const auto contact = servo::check_servo(scene, plan, loop);
   if (!contact)
     return failure(contact.error().kind, options.scene + ": " + contact.error().message);
   json["servo"] = {{"contact_height_mm", contact->height_mm},

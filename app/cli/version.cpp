@@ -1,3 +1,4 @@
+#include "claystack/version.hpp"
 #include "app/cli/commands.hpp"
 
 namespace clay::cli {

@@ -2,6 +2,7 @@
 // What the potter asks for beside the motion of the hand: by the device's buttons, or by commands
 // from another thread.
 
+#include "claystack/servo/servo.hpp"
 #include "core/spsc_queue.hpp"
 
 #include <cstdint>
@@ -9,33 +10,9 @@
 
 namespace clay::servo {
 
-enum class CommandKind {
-  clutch,  ///< value 0 lets go, any other holds; so of trim and pause
-  trim,
-  pause,
-  gap,    ///< value: mm, 0 to kWidestGapMm; 0: one tool
-  zero,   ///< no force, and the clay is left alone, until `rearm`
-  rearm,  ///< force again after `zero` or when the guard went safe, once the cause is gone
-  stop,
-};
-
-struct Command {
-  CommandKind kind = CommandKind::stop;
-  double value = 0.0;
-};
-
 /// One thread gives the commands, the servo takes them.
 using Commands = SpscQueue<Command, 64>;
 
-/// Bits of DeviceSample::buttons; 0 where there is no such button.
-struct ButtonMap {
-  unsigned clutch = 0, trim = 0;  ///< for as long as they are held
-  unsigned wider = 0,
-           narrower = 0;  ///< the gap, by kGapStepMm at each press, and on while it is held
-};
-inline constexpr ButtonMap kFalconButtons{4, 2, 1, 8};  ///< centre, forward, plus, minus
-inline constexpr ButtonMap kTwoButtons{2, 1, 0, 0};     ///< of a controller with two
-inline constexpr double kGapStepMm = 0.5, kWidestGapMm = 100.0;
 /// A button that is held steps on after a while: 36 mm in four seconds.
 inline constexpr std::int64_t kGapWaitUs = 400'000, kGapEveryUs = 50'000;
 

@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <glm/geometric.hpp>
+
 namespace clay::servo {
 namespace {
 
-Result<void> check_range(const char* option, double value, double low, double high) {
-  if (value >= low && value <= high) return {};
-  return failure(
-      ErrorKind::bad_input,
-      fmt::format("{}: expected a value from {:g} to {:g}, found {:g}", option, low, high, value));
-}
+constexpr double kMPerMm = 1e-3;
 
 glm::dvec3 middle_mm(const MappingSettings& settings) {
   const double reach = settings.reach_mm;
@@ -27,15 +24,20 @@ glm::dvec3 middle_mm(const MappingSettings& settings) {
 
 }  // namespace
 
+Result<void> check_range(const char* setting, double value, double low, double high) {
+  if (value >= low && value <= high) return {};
+  return failure(
+      ErrorKind::bad_input,
+      fmt::format("{}: expected a value from {:g} to {:g}, found {:g}", setting, low, high, value));
+}
+
 Result<Mapping> Mapping::build(const MappingSettings& settings) {
-  if (auto ok = check_range("--scale", settings.scale, 0.1, 10.0); !ok)
-    return tl::make_unexpected(ok.error());
-  if (auto ok = check_range("--force-gain", settings.force_gain, 0.0, 10.0); !ok)
-    return tl::make_unexpected(ok.error());
-  if (auto ok = check_range("--reach", settings.reach_mm, 0.0, 1000.0); !ok)
-    return tl::make_unexpected(ok.error());
-  if (auto ok = check_range("--height", settings.height_mm, -1000.0, 1000.0); !ok)
-    return tl::make_unexpected(ok.error());
+  const auto checked =
+      check_range("scale", settings.scale, 0.1, 10.0)
+          .and_then([&] { return check_range("force_gain", settings.force_gain, 0.0, 10.0); })
+          .and_then([&] { return check_range("reach_mm", settings.reach_mm, 0.0, 1000.0); })
+          .and_then([&] { return check_range("height_mm", settings.height_mm, -1000.0, 1000.0); });
+  if (!checked) return tl::make_unexpected(checked.error());
   Mapping mapping;
   mapping.scale_ = settings.scale;
   mapping.force_gain_ = settings.force_gain > 0.0 ? settings.force_gain : 1.0 / settings.scale;
@@ -59,6 +61,22 @@ glm::dvec3 Mapping::force_to_device(const glm::dvec3& clay_n) const noexcept {
 
 void Mapping::recentre(const glm::dvec3& device_mm, const glm::dvec3& clay_mm) noexcept {
   offset_mm_ = clay_mm - scale_ * turned_ * device_mm;
+}
+
+HandForce::Wanted HandForce::answer(std::int64_t now_us, const glm::dvec3& device_mm,
+                                    const Mapping& mapping, const StepReport& clay) noexcept {
+  const falcon::PassiveForce passive =
+      controller_.tick(now_us, kMPerMm * device_mm, mapping.force_to_device(clay.spring_n));
+  spring_n_ = whole_n_ = {};
+  if (passive.state == falcon::PassivityState::safe) return {{}, false};
+  spring_n_ = passive.force_n;
+  whole_n_ = spring_n_ + mapping.force_to_device(clay.friction_n);
+  return {whole_n_, true};
+}
+
+void HandForce::displayed(const glm::dvec3& sent_n) noexcept {
+  const double whole = glm::length(whole_n_);
+  controller_.displayed(whole > 0.0 ? glm::length(sent_n) / whole * spring_n_ : glm::dvec3(0.0));
 }
 
 }  // namespace clay::servo

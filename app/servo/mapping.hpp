@@ -10,29 +10,21 @@
 // scene states.
 
 #include "claystack/core/result.hpp"
+#include "claystack/engine/wheel.hpp"
+#include "claystack/falcon/passivity.hpp"
+#include "claystack/servo/servo.hpp"
 
+#include <cstdint>
 #include <glm/vec3.hpp>
-#include <string>
 
 namespace clay::servo {
 
-/// Where the hand works; the middle of the workspace lies there, at half the height.
-enum class Side { right, left, front };
-
-struct MappingSettings {
-  /// Wheel mm to a mm of the hand, 0.1 to 10. 1.6 makes 154 mm of a Falcon's 96.
-  double scale = 1.6;
-  double force_gain = 0.0;  ///< N at the hand to a N at the tool, to 10; 0: 1 / scale
-  Side side = Side::right;
-  double reach_mm = 60.0;   ///< of the workspace's middle from the axis, 0 to 1000
-  double height_mm = 75.0;  ///< and above the wheel head, -1000 to 1000
-  bool flip_x = false, flip_y = false, flip_z = false;
-  friend bool operator==(const MappingSettings&, const MappingSettings&) = default;
-};
+/// Refuses a value outside its range, and one that is not a number.
+Result<void> check_range(const char* setting, double value, double low, double high);
 
 class Mapping {
  public:
-  /// Errors name the option of the command line.
+  /// Errors name the setting.
   static Result<Mapping> build(const MappingSettings& settings);
 
   [[nodiscard]] glm::dvec3 to_clay(const glm::dvec3& device_mm) const noexcept;
@@ -50,6 +42,37 @@ class Mapping {
   double scale_ = 1.0, force_gain_ = 1.0;
   glm::dvec3 turned_{1.0};  // the diagonal of D
   glm::dvec3 offset_mm_{0.0};
+};
+
+/// From the force of the clay to the one that the hand may be asked to bear: mapped, and its spring
+/// made passive. Without a motor none of it is done.
+class HandForce {
+ public:
+  /// `spec` as PassivityController::build lets it through.
+  explicit HandForce(const falcon::PassivityController& controller) noexcept
+      : controller_(controller) {}
+
+  struct Wanted {
+    glm::dvec3 force_n{0.0};  ///< in the device's frame
+    bool passive = true;
+  };
+  /// The answer to a fresh sample of the hand, with the clay's force on the tool. Friction drags
+  /// the hand along the wheel's turn and works on it by right; only the spring is held to be
+  /// passive.
+  [[nodiscard]] Wanted answer(std::int64_t now_us, const glm::dvec3& device_mm,
+                              const Mapping& mapping, const StepReport& clay) noexcept;
+
+  /// What the guard let through of the last answer: energy is counted with this. Of the spring's
+  /// part, which is let through as the whole is.
+  void displayed(const glm::dvec3& sent_n) noexcept;
+
+  /// After a pause: what was given before is no debt of what comes now.
+  void reset() noexcept { controller_.reset(); }
+  [[nodiscard]] falcon::PassivityState state() const noexcept { return controller_.state(); }
+
+ private:
+  falcon::PassivityController controller_;
+  glm::dvec3 spring_n_{0.0}, whole_n_{0.0};  // the last answer, in the device's frame
 };
 
 }  // namespace clay::servo

@@ -2,15 +2,20 @@
 // The threads around the loop: the servo itself, and a watchdog that ends the force when the servo
 // hangs. Whoever wants to end it all from a signal handler fires `last_zero()`.
 
-#include "app/servo/realtime.hpp"
 #include "app/servo/servo_loop.hpp"
 #include "claystack/falcon/guard.hpp"
+#include "claystack/servo/servo.hpp"
 
 #include <atomic>
 #include <cstdint>
 #include <thread>
 
 namespace clay::servo {
+
+inline constexpr int kServoPriority = 70, kWatchdogPriority = 80;
+
+/// For the calling thread, and of memory for the process as it is then. Reported, never fatal.
+[[nodiscard]] Realtime ask_for_realtime(int priority);
 
 /// What signal handlers fire: the force of the servo that runs ends, for good.
 [[nodiscard]] falcon::EmergencyStop& last_zero() noexcept;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace clay::cli {
+namespace clay::servo {
 namespace {
 
 constexpr double kMmPerM = 1000.0;
@@ -73,4 +73,4 @@ double soften(SceneSpec& scene, const ServoContact& contact) {
   return part;
 }
 
-}  // namespace clay::cli
+}  // namespace clay::servo

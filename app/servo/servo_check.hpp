@@ -4,7 +4,7 @@
 #include "claystack/engine/tick.hpp"
 #include "claystack/falcon/passivity.hpp"
 
-namespace clay::cli {
+namespace clay::servo {
 
 /// A scene's contact as an arm feels it.
 struct ServoContact {
@@ -29,4 +29,4 @@ Result<ServoContact> check_servo(const SceneSpec& scene, const StepPlan& plan,
 /// enough. It has no part in what becomes of the clay: a softened scene replays to the same pot.
 double soften(SceneSpec& scene, const ServoContact& contact);
 
-}  // namespace clay::cli
+}  // namespace clay::servo

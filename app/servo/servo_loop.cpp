@@ -1,5 +1,7 @@
 #include "app/servo/servo_loop.hpp"
 
+#include "claystack/engine/files.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,6 +29,20 @@ Error range_error(const falcon::OutOfRange& out) {
 }
 
 }  // namespace
+
+StepReport LiveClay::meet(const Pose& measured) noexcept {
+  const Pose pose = quantized(measured);
+  if (pose.time_us <= last_us_) return {.flags = kRefused};
+  if (pose.time_us < due_us_) return wheel_.feel(pose);
+  const StepReport report = wheel_.step(pose);
+  if ((report.flags & kRefused) != 0) return report;
+  last_us_ = pose.time_us;
+  // Periods that were missed are not made up for.
+  due_us_ = std::max(due_us_ + period_us_, pose.time_us + period_us_ / 2);
+  ++poses_;
+  if (recorder_ != nullptr) (void)recorder_->take(pose);
+  return report;
+}
 
 Result<ServoLoop> ServoLoop::build(const Bench& bench, const LiveSettings& settings) {
   if (auto checked = check(settings); !checked) return tl::make_unexpected(checked.error());

@@ -3,8 +3,8 @@
 // window says where the tool should go; the servo moves it there, no faster than a hand would.
 
 #include "app/servo/clock.hpp"
-#include "app/servo/live_settings.hpp"
 #include "claystack/falcon/device.hpp"
+#include "claystack/servo/servo.hpp"
 #include "core/snapshot.hpp"
 
 #include <atomic>

@@ -1,7 +1,5 @@
 #include "app/studio/stroke_controller.hpp"
 
-#include "app/servo/mapping.hpp"
-#include "app/servo/servo_check.hpp"
 
 #include <algorithm>
 
@@ -22,17 +20,7 @@ render::PotView view_of(const servo::LiveProfile& profile) {
 /// The scene with a contact that is at most as stiff as the device can render at this rate. The
 /// clay does not depend on it.
 Result<SceneSpec> softened(SceneSpec scene, const servo::LiveSettings& settings) {
-  if (!scene.force) return scene;
-  const auto mapping = servo::Mapping::build(settings.mapping);
-  if (!mapping) return tl::make_unexpected(mapping.error());
-  const auto plan = StepPlan::build(scene);
-  if (!plan) return tl::make_unexpected(plan.error());
-  falcon::SampledLoop arm = settings.arm;
-  arm.rate_hz = settings.rate_hz;
-  const auto contact = cli::servo_contact(scene, *plan, arm, mapping->stiffness_gain());
-  if (!contact) return tl::make_unexpected(contact.error());
-  cli::soften(scene, *contact);
-  return scene;
+  return servo::soften(scene, settings).map([&](double) { return scene; });
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #pragma once
+#include "claystack/version.hpp"
 #include "core/json/json_builder.hpp"
 #include "core/json/object_reader.hpp"
 

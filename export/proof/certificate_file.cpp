@@ -1,6 +1,7 @@
 #include "claystack/export/proof.hpp"
 
 #include "claystack/export/solid.hpp"
+#include "claystack/version.hpp"
 #include "export/formats/mesh_limits.hpp"
 #include "export/proof/certificate_json.hpp"
 

@@ -14,7 +14,8 @@ int main() {
   const double before = wheel->stack().volume_mm3();
   clay::StepReport last;
   for (int tick = 0; tick < 100; ++tick)
-    last = wheel->step({1000 * (tick + 1), {52.0, 60.0 + 0.05 * tick, 0.0}, false});
+    last =
+        wheel->step({.time_us = 1000 * (tick + 1), .position_mm = {52.0, 60.0 + 0.05 * tick, 0.0}});
   std::printf("pushed back with %.2f N; volume changed by %g mm3\n", last.force_n().x,
               wheel->stack().volume_mm3() - before);
   return wheel->stack().volume_mm3() == before ? 0 : 1;

@@ -1,5 +1,4 @@
 #include "app/servo/controls.hpp"
-#include "app/servo/hand_force.hpp"
 #include "app/servo/mapping.hpp"
 
 #include <gtest/gtest.h>
@@ -76,7 +75,7 @@ TEST(Mapping, RefusesWhatNoHandCanUse) {
   for (const double scale : {0.0, -1.0, 11.0, std::numeric_limits<double>::quiet_NaN()}) {
     const auto refused = Mapping::build({.scale = scale});
     ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().message.find("--scale: expected a value from 0.1 to 10"),
+    EXPECT_NE(refused.error().message.find("scale: expected a value from 0.1 to 10"),
               std::string::npos);
   }
   EXPECT_FALSE(Mapping::build({.force_gain = 11.0}));

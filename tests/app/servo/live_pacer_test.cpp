@@ -1,4 +1,4 @@
-#include "app/servo/pacer.hpp"
+#include "app/servo/clock.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

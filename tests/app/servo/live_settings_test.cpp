@@ -1,4 +1,4 @@
-#include "app/servo/live_settings.hpp"
+#include "claystack/servo/servo.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace clay::servo {
 namespace {
 
-TEST(LiveSettings, NamesTheOptionThatIsOutOfItsRange) {
+TEST(LiveSettings, NamesTheSettingThatIsOutOfItsRange) {
   const auto refused = [](auto change) {
     LiveSettings settings;
     change(settings);
@@ -16,9 +16,9 @@ TEST(LiveSettings, NamesTheOptionThatIsOutOfItsRange) {
     return checked ? std::string() : checked.error().message;
   };
   EXPECT_EQ(refused([](LiveSettings& s) { s.rate_hz = 100; }),
-            "--rate: expected a value from 400 to 4000, found 100");
+            "rate_hz: expected a value from 400 to 4000, found 100");
   EXPECT_EQ(refused([](LiveSettings& s) { s.clay_rate_hz = 2000; }),
-            "--clay-rate: expected a value from 20 to 1000, found 2000");
+            "clay_rate_hz: expected a value from 20 to 1000, found 2000");
   EXPECT_NE(refused([](LiveSettings& s) { s.seconds = std::nan(""); }), "");
   EXPECT_NE(refused([](LiveSettings& s) { s.gap_mm = -1; }), "");
   EXPECT_EQ(refused([](LiveSettings&) {}), "");

@@ -1,0 +1,145 @@
+// The public component: what a program sees that embeds the servo.
+
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
+#include "claystack/servo/servo.hpp"
+#include "tests/app/servo/live_bench.hpp"
+#include "tests/app/servo/scripted_device.hpp"
+#include "tests/support/run_program.hpp"
+#include "tests/support/wait_until.hpp"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+
+namespace clay::servo {
+namespace {
+
+template <class Condition>
+void wait_for(Condition condition, const std::string& what) {
+  test::wait_until(condition, test::kDeadline, what);
+}
+
+struct Embedded {
+  explicit Embedded(const std::string& session = {}) {
+    LiveSettings settings = one_to_one();
+    settings.guard.ramp_s = 0.1;
+    settings.guard.safe_rest_s = 0.01;
+    live.emplace(
+        LiveThrow::build(
+            {.wheel = wheel, .device = device, .scene = scene, .session_path = session}, settings)
+            .value());
+  }
+  void throw_until_force() {
+    live->start(false);
+    wait_for([&] { return log.last_n > 0.0; }, "a force");
+  }
+  Ending stop() {
+    wait_for([&] { return live->command({CommandKind::stop}); }, "room for a command");
+    return live->join();
+  }
+
+  WireLog log;
+  ScriptedDevice device{log};
+  SceneSpec scene = rib_scene();
+  Wheel wheel = Wheel::build(scene).value();
+  std::optional<LiveThrow> live;
+};
+
+TEST(LiveThrow, DisplaysAForceUntilItIsStopped) {
+  Embedded embedded;
+  EXPECT_FALSE(embedded.live->running());
+  embedded.throw_until_force();
+  EXPECT_TRUE(embedded.live->running());
+  wait_for([&] { return embedded.live->status().poses > 0; }, "poses");
+  wait_for([&] { return embedded.live->profile().size > 0; }, "a profile");
+  EXPECT_EQ(embedded.live->profile().size, embedded.scene.lump.rings);
+  EXPECT_EQ(embedded.stop(), Ending::stopped);
+  EXPECT_EQ(embedded.log.last_n, 0.0);
+  EXPECT_EQ(embedded.log.stops, 1u);
+  EXPECT_LE(embedded.log.most_n, 5.0);
+  EXPECT_EQ(embedded.live->status().ending, Ending::stopped);
+}
+
+TEST(LiveThrow, ItsRecordedSessionReplaysToThePot) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("a.session");
+  Embedded embedded(path);
+  embedded.throw_until_force();
+  EXPECT_EQ(embedded.stop(), Ending::stopped);
+  ASSERT_TRUE(embedded.live->finish_recording());
+  const auto session =
+      read_file(path).and_then([&](const std::string& text) { return parse_session(text, path); });
+  ASSERT_TRUE(session) << session.error().message;
+  EXPECT_EQ(session->poses.size(), embedded.live->status().poses);
+  Wheel again = Wheel::build(embedded.scene).value();
+  for (const Pose& pose : session->poses) again.step(pose);
+  EXPECT_TRUE(again.pot() == embedded.wheel.pot());
+}
+
+TEST(LiveThrow, GoesOnWithADeviceThatCameBack) {
+  Embedded embedded;
+  embedded.throw_until_force();
+  embedded.log.gone = true;
+  EXPECT_EQ(embedded.live->join(), Ending::device_lost);
+  EXPECT_EQ(embedded.log.last_n, 0.0);
+  const std::uint64_t poses = embedded.live->status().poses;
+  embedded.log.gone = false;
+  embedded.live->start(false);
+  wait_for([&] { return embedded.live->status().poses > poses + 20; }, "more poses");
+  EXPECT_EQ(embedded.stop(), Ending::stopped);
+}
+
+TEST(LiveThrow, EndsTheForceFromOutsideForGood) {
+  Embedded embedded;
+  embedded.throw_until_force();
+  LiveThrow::end_force();
+  EXPECT_EQ(embedded.live->join(), Ending::stopped);
+  EXPECT_EQ(embedded.log.last_n, 0.0);
+}
+
+TEST(LiveThrow, RefusesAContactThatTheArmCannotRenderUntilItIsSoftened) {
+  WireLog log;
+  ScriptedDevice device(log);
+  SceneSpec scene = rib_scene();
+  scene.force->stiffness_n_per_mm2 = 10.0;
+  Wheel wheel = Wheel::build(scene).value();
+  const LiveSettings settings = one_to_one();
+  const auto refused =
+      LiveThrow::build({.wheel = wheel, .device = device, .scene = scene}, settings);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::bad_input);
+  EXPECT_EQ(refused.error().message.find("force.stiffness_n_per_mm2: "), 0u);
+  const auto part = soften(scene, settings);
+  ASSERT_TRUE(part);
+  EXPECT_LT(*part, 1.0);
+  EXPECT_DOUBLE_EQ(scene.force->stiffness_n_per_mm2, 10.0 * *part);
+  Wheel softer = Wheel::build(scene).value();
+  EXPECT_TRUE(LiveThrow::build({.wheel = softer, .device = device, .scene = scene}, settings));
+  EXPECT_EQ(soften(scene, settings).value(), 1.0);
+}
+
+TEST(LiveThrow, NamesTheSettingAndTheSessionThatItRefuses) {
+  WireLog log;
+  ScriptedDevice device(log);
+  const SceneSpec scene = rib_scene();
+  Wheel wheel = Wheel::build(scene).value();
+  const auto message = [&](auto change, const std::string& session = {}) {
+    LiveSettings settings = one_to_one();
+    change(settings);
+    const auto live = LiveThrow::build(
+        {.wheel = wheel, .device = device, .scene = scene, .session_path = session}, settings);
+    return live ? std::string() : live.error().message;
+  };
+  EXPECT_EQ(message([](LiveSettings&) {}), "");
+  EXPECT_EQ(message([](LiveSettings& s) { s.rate_hz = 1.0; }).find("rate_hz: "), 0u);
+  EXPECT_EQ(message([](LiveSettings& s) { s.mapping.scale = 0.0; }).find("scale: "), 0u);
+  EXPECT_EQ(message([](LiveSettings& s) { s.guard.force_limit_n = 9.0; }).find("force_limit_n: "),
+            0u);
+  EXPECT_NE(message([](LiveSettings&) {}, "/nowhere/a.session").find("/nowhere/a.session"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace clay::servo
