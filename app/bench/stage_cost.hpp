@@ -34,7 +34,7 @@ inline constexpr std::size_t kEnoughRings = 4096;                       ///< of 
 inline constexpr std::size_t kMostRingsInReach = std::size_t{1} << 16;  ///< of a tick
 inline constexpr std::size_t kMostRingVisits = std::size_t{1} << 19;    ///< in a stroke
 
-/// Rings that a tick may touch, and that its clay may flow to.
+/// Rings that a tick may touch, and to which its clay may flow.
 [[nodiscard]] double rings_in_reach(const SceneSpec& scene);
 /// Empty for an invalid tool, and if more than kMostRingsInReach are within reach: a stroke of a
 /// few ticks would take minutes.

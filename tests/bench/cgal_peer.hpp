@@ -4,7 +4,7 @@
 namespace clay::bench {
 
 /// CGAL's soup-to-mesh and self-intersection test, with exact predicates. False on sound meshes;
-/// whoever measures looks at it, so that the work cannot be left out.
+/// callers use the result, so that the compiler cannot remove the work.
 bool cgal_finds_fault(const solid::TriangleMesh& mesh);
 
 }  // namespace clay::bench

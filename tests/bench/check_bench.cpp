@@ -1,5 +1,5 @@
-// How long check_mesh takes beside CGAL's soup-to-mesh and self-intersection test alone, on the
-// same mesh, interleaved so that a busy machine slows both.
+// Times check_mesh and CGAL's soup-to-mesh and self-intersection test alone on the same mesh,
+// interleaved so that a busy machine slows both.
 //
 //   check_bench [TRIANGLES [SHELLS [ROUNDS]]]     default 1000000 1 5; at most 20 million triangles
 //   check_bench fans [SEGMENTS]     a cylinder and a cone, whose ends are fans about one vertex,
@@ -65,7 +65,7 @@ TriangleMesh vase(std::size_t triangles) {
   return revolve(profile, std::max<std::size_t>(triangles / triangle_count(profile, 1), 3));
 }
 
-/// Vases side by side: more shells than one raise the question how they lie.
+/// Vases side by side: several shells need the nesting test.
 TriangleMesh vases(std::size_t count, std::size_t triangles) {
   const TriangleMesh one = vase(triangles / count);
   TriangleMesh all;

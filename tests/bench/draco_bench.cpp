@@ -1,5 +1,5 @@
-// What Draco's speeds cost and give on the sample pots: bytes, and the time to write and to read.
-// The default of DracoSettings::speed is the smallest of this table.
+// Draco's speeds on the sample pots: bytes, and the time to write and to read. The default of
+// DracoSettings::speed is the smallest of this table.
 
 #include "claystack/export/job.hpp"
 #include "tests/export/job/sample_pots.hpp"
@@ -41,7 +41,7 @@ double stage_ms(const ExportReport& report, std::string_view name) {
   return stage == report.stages.end() ? 0.0 : 1000.0 * stage->seconds;
 }
 
-/// The whole job: what `claystack export` does, but for the disk.
+/// The whole job of `claystack export`, except the disk.
 struct Job {
   MemoryStore stl, drc;
   double stl_ms = 0.0, drc_ms = 0.0;
@@ -64,7 +64,7 @@ struct SpeedRow {
   Times encode_ms{}, decode_ms{};
 };
 
-/// Round by round, not speed by speed: what else the machine does then falls on all alike.
+/// Round by round instead of speed by speed, so that other load affects all equally.
 Result<std::array<SpeedRow, kSpeeds>> try_speeds(const TriangleMesh& mesh) {
   std::array<SpeedRow, kSpeeds> rows;
   for (std::size_t round = 0; round < kRounds; ++round)

@@ -1,5 +1,5 @@
-// Pot to binary STL, whole process, against a program that only writes as many bytes, and against
-// peers where they are installed. Usage: export_bench [ROUNDS] [FOLDER]
+// Pot to binary STL, whole process, compared with a program that only writes as many bytes, and
+// with other programs if installed. Usage: export_bench [ROUNDS] [FOLDER]
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A bellied vase with the ripples that fingers leave: no two rings are in line.
+/// A bellied vase with throwing marks: no two rings are equal.
 Pot rippled_vase(std::size_t rings) {
   std::vector<Ring> stack;
   const double height_mm = 200.0;
@@ -36,7 +36,7 @@ Pot rippled_vase(std::size_t rings) {
   return pot;
 }
 
-/// The yardstick: write(2) of as many bytes, sync and rename as any careful program must.
+/// The reference: write(2) of as many bytes, with sync and rename.
 int only_write(const std::string& path, std::size_t bytes, bool sync) {
   const std::vector<char> block(1 << 20, 'x');
   const std::string temporary = path + ".part";

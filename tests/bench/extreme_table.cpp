@@ -1,5 +1,5 @@
-// extreme_table [--full] [CASE]: the table of the suite on standard output. --full plays 10^7 ticks
-// of drift instead of 10^6. Exit status 1 when a case fails on the wheel.
+// extreme_table [--full] [CASE]: prints the table of the suite. --full plays 10^7 ticks of drift
+// instead of 10^6. Exit status 1 if a case fails on the wheel.
 
 #include "app/bench/extreme/suite.hpp"
 
@@ -31,7 +31,7 @@ int print(const std::string& only) {
     const Outcome engine = c.run(Who::conserving), literal = c.run(Who::literal);
     fmt::print("{:<26} {:<4}  {:<4}  {}\n{:<26} {:<4}  {:<4}  {}\n", c.name, word(engine.verdict),
                word(literal.verdict), engine.note, "", "", "", literal.note);
-    std::fflush(stdout);  // whoever waits sees how far it is
+    std::fflush(stdout);  // shows progress
     ++count;
     failed += engine.verdict != Verdict::passed;
     literal_failed += literal.verdict == Verdict::failed;

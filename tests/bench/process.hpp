@@ -1,5 +1,5 @@
 #pragma once
-// Whole processes against each other: wall time and peak memory of interleaved runs.
+// Compares whole processes: wall-clock time and peak memory of interleaved runs.
 
 #include <string>
 #include <vector>
@@ -19,8 +19,7 @@ struct Measured {
   int status = 0;  ///< of the first run that failed
 };
 
-/// Runs every contestant once a round, so that a noisy moment hits all alike. Output is thrown
-/// away.
+/// Runs every contestant once per round, so that noise affects all equally. Output is discarded.
 std::vector<Measured> race(const std::vector<Contestant>& contestants, int rounds);
 
 void print(const std::string& title, const std::vector<Measured>& results);

@@ -1,4 +1,4 @@
-// Times what is proved and measured of a profile: wall_bench [RUNS]. Medians, one process.
+// Times the proofs and measurements of a profile: wall_bench [RUNS]. Medians, one process.
 
 #include "claystack/export/proof.hpp"
 #include "claystack/export/solid.hpp"
@@ -22,8 +22,9 @@ constexpr double kHeight = 200.0, kFloor = 6.0;
 
 double radius(double y) { return 50.0 + 20.0 * std::sin(0.018 * y - 0.6); }
 
-/// A bellied bowl of 3 mm along the radius, with a floor. Its vertices stray by `noise_mm`, but
-/// for those within 1 mm of its corners: there, noise makes sharp edges of no thickness.
+/// A bellied bowl with a radial wall of 3 mm, and a floor. Its vertices are displaced by
+/// `noise_mm`, except within 1 mm of its corners, where noise would make sharp edges of zero
+/// thickness.
 Profile bowl(std::size_t rings, double noise_mm, bool hollow) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform(-noise_mm, noise_mm);
@@ -90,7 +91,7 @@ void report(const char* name, const Profile& profile, int runs) {
               clear);
 }
 
-/// The proof in the plane beside CGAL's of the mesh.
+/// The proof in the plane compared with CGAL's test of the mesh.
 void compare_with_cgal(const Profile& profile, std::size_t segments, int runs) {
   const TriangleMesh mesh = revolve(profile, segments);
   bool fault = false;

@@ -1,4 +1,4 @@
-// Writers that are killed, full disks, and system calls that fail: what stood there stays.
+// Killed writers, full disks and failing system calls: the old file stays.
 
 #include "tests/engine/files/atomic_folder.hpp"
 #include "tests/engine/files/system_call_fault.hpp"
@@ -38,13 +38,13 @@ TEST_F(AtomicFileFailures, FullDiskKeepsTheOldFile) {
   const fs::path path = folder_ / "pot";
   put(path, "old");
   const int status = status_of_child([&] {
-    // A limit on the size of files stands in for a disk that is full after a part of a write.
+    // A limit on file size simulates a disk that becomes full during a write.
     const rlimit limit{100'000, 100'000};
     ::setrlimit(RLIMIT_FSIZE, &limit);
     ::signal(SIGXFSZ, SIG_IGN);
     auto file = AtomicFile::create(path);
     const auto written = file->write(std::string(150'000, 'x'));
-    // What failed once must not be published after all.
+    // A failed file must not be published later.
     return !written &&
            written.error().message == path.string() + ": cannot write: " + std::strerror(EFBIG) &&
            !file->commit();
@@ -62,7 +62,7 @@ TEST_F(AtomicFileFailures, RefusesAReadOnlyFolderAndAReadOnlyFile) {
   ASSERT_EQ(::chmod(locked.c_str(), 0555), 0);
   ASSERT_EQ(::chmod((folder_ / "read only").c_str(), 0444), 0);
   const int status = status_of_child([&] {
-    // Modes do not bind root.
+    // Permissions do not restrict root.
     constexpr uid_t kNobody = 65534;
     if (::getuid() == 0 && ::setuid(kNobody) != 0) return false;
     expect_io_error(publish(locked / "pot", "x"), locked / "pot", EACCES);
@@ -132,7 +132,7 @@ TEST_F(AtomicFileFailures, PublishesInAFolderThatCannotBeSynced) {
   }
 }
 
-/// Runs `work` in a child whom modes bind: they do not bind root.
+/// Runs `work` in a child process without root rights, which permissions restrict.
 template <class Work>
 int status_as_nobody(Work work) {
   return status_of_child([&] {
@@ -170,9 +170,9 @@ TEST_F(AtomicFileFailures, PublishesAllFilesOrNone) {
   EXPECT_EQ(bytes_in(folder_ / "old"), "old");
   EXPECT_EQ(mode_of(folder_ / "old"), 0604u);
   EXPECT_EQ(names(), (std::set<std::string>{"blocked", "kiln", "old"}));
-  EXPECT_FALSE(old.commit());  // what failed once is not published after all
+  EXPECT_FALSE(old.commit());  // a failed file is not published later
 
-  // Where it fails before any has its name, and where nothing fails.
+  // Fails before any file has its name, and then without a fault.
   auto orphan = AtomicFile::create(kiln / "pot").value();
   auto first = AtomicFile::create(folder_ / "old").value();
   ASSERT_TRUE(first.write("new"));
@@ -202,7 +202,7 @@ TEST_F(AtomicFileFailures, UsesATemporaryNameWithoutUnnamedFiles) {
   EXPECT_EQ(names(), std::set<std::string>{"pot"});
 }
 
-/// What a writer of `path` leaves that ends by a signal.
+/// The leftovers of a writer of `path` that ends by a signal.
 int status_of_writer(const fs::path& path, int signal) {
   return status_under(kNoUnnamedFiles, [&] {
     auto file = AtomicFile::create(path);
@@ -220,7 +220,7 @@ TEST_F(AtomicFileFailures, NextWriterRemovesFilesOfAKilledWriter) {
     ASSERT_TRUE(WIFSIGNALED(status_of_writer(folder_ / "cup", SIGKILL)));
     ASSERT_EQ(names().size(), 3u);
     ASSERT_TRUE(publish(folder_ / "cup", "new"));
-    ASSERT_EQ(names().size(), 3u);  // it is not the cup's
+    ASSERT_EQ(names().size(), 3u);  // not a leftover of the cup
     ASSERT_TRUE(publish(path, "new"));
     EXPECT_EQ(names(), (std::set<std::string>{"cup", name}));
     fs::remove(folder_ / "cup");

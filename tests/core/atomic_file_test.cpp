@@ -58,7 +58,7 @@ TEST_F(AtomicFileTest, WrittenBytesAreReadableBeforeCommit) {
   ASSERT_TRUE(file.read_at(9, std::as_writable_bytes(std::span(again))));
   EXPECT_EQ(again, "water");
   expect_says(file.read_at(10, std::as_writable_bytes(std::span(again))), "ends early");
-  ASSERT_TRUE(file.write(std::string_view("!")));  // reading has not moved the end
+  ASSERT_TRUE(file.write(std::string_view("!")));  // reading has not moved the write position
   ASSERT_TRUE(file.commit());
   EXPECT_EQ(bytes_in(folder_ / "pot"), "clay and water!");
 }
@@ -154,7 +154,7 @@ TEST_F(AtomicFileTest, ReadFileRefusesMissingAndLargeFiles) {
             (folder_ / "ten").string() + ": expected at most 9 bytes, found 10");
   EXPECT_EQ(read_file("/dev/zero", 1000).error().message,
             "/dev/zero: expected at most 1000 bytes, found more");
-  // Tells no size before it is read.
+  // Reports no size before it is read.
   EXPECT_TRUE(read_file("/proc/self/status", 1'000'000));
   EXPECT_FALSE(read_file("/proc/self/status", 10));
   EXPECT_EQ(read_file(folder_).error().message,

@@ -22,7 +22,7 @@ std::string repeated(std::string_view hex, std::size_t times) {
   return bytes;
 }
 
-/// The item, or why it was refused.
+/// The item, or the reason for refusing it.
 struct Outcome {
   std::optional<Json> value;
   std::string refusal;

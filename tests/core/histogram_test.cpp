@@ -12,7 +12,7 @@
 namespace clay::falcon {
 namespace {
 
-/// Of every size, from 0 to the largest.
+/// Times of every magnitude, from 0 to the largest.
 rc::Gen<std::int64_t> any_time() {
   return rc::gen::exec([] {
     const int bits = *rc::gen::inRange(0, 64);

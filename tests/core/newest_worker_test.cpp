@@ -29,7 +29,7 @@ TEST(NewestWorker, DropsReplacedQuestions) {
       },
       true);
   worker.ask(1);
-  wait_for(begun);  // it works on the first; the others come meanwhile
+  wait_for(begun);  // works on the first question; the others arrive meanwhile
   for (int question = 2; question <= 5; ++question) worker.ask(question);
   EXPECT_TRUE(worker.busy());
   EXPECT_EQ(worker.dropped(), 3u);
@@ -54,7 +54,7 @@ TEST(NewestWorker, AnswersImmediatelyWithoutAThread) {
   EXPECT_FALSE(worker.busy());
 }
 
-/// Each would last for ever.
+/// Each question would take for ever.
 TEST(NewestWorker, CancelsForANewerQuestionAndOnDestruction) {
   std::atomic<int> worked{0};
   {

@@ -26,7 +26,7 @@ TEST(Snapshot, ShowsTheFirstValueUntilOneIsPublished) {
   EXPECT_EQ(given.newest(), 8);
 }
 
-// All orders in which whole calls of the two sides can follow one another.
+// All orders in which calls of the two sides can be interleaved.
 RC_GTEST_PROP(Snapshot, ReturnsTheLastPublishedInEveryOrderOfCalls, ()) {
   Snapshot<int> snapshot;
   int published = 0;
@@ -41,11 +41,11 @@ RC_GTEST_PROP(Snapshot, ReturnsTheLastPublishedInEveryOrderOfCalls, ()) {
       kept = *shown;
       RC_ASSERT(kept == published);
     }
-    RC_ASSERT(*shown == kept);  // what the reader looks at does not move under it
+    RC_ASSERT(*shown == kept);  // the value being read does not change
   }
 }
 
-/// Wide enough to be seen half written.
+/// Large enough that a torn value would be visible.
 struct Wide {
   std::array<std::uint64_t, 64> words{};
   bool whole() const {

@@ -42,7 +42,7 @@ struct Command {
   std::array<std::uint32_t, 32> words{};
 };
 
-/// How many words were not those that were pushed.
+/// Number of items that differ from the pushed ones.
 template <std::size_t Capacity>
 std::uint32_t wrong_words(std::uint32_t commands) {
   SpscQueue<Command, Capacity> queue;
@@ -66,7 +66,7 @@ std::uint32_t wrong_words(std::uint32_t commands) {
   return wrong + (queue.pop() ? 1 : 0);
 }
 
-// In the shortest ring each place is written as soon as it is free.
+// In the smallest ring each slot is reused as soon as it is free.
 TEST(SpscQueue, KeepsEveryItemInOrderBetweenThreads) {
   EXPECT_EQ(wrong_words<1>(5'000), 0u);
   EXPECT_EQ(wrong_words<8>(20'000), 0u);

@@ -1,4 +1,4 @@
-// The writers of reports and what they stand on, against known figures and an XML parser.
+// The writers of reports and their basis, compared with known figures and an XML parser.
 
 #include "app/bench/registered_sections.hpp"
 #include "app/bench/report/report.hpp"
@@ -24,7 +24,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const std::string kHostile = "</td><script>alert(1)</script>\"'& \x01\xff\xC0\x80 end]]>";
 
-/// A report with something of everything, much of it odd.
+/// A report with something of every kind, including unusual values.
 Report odd_report() {
   Section section;
   section.id = "odd";
@@ -51,7 +51,7 @@ Report odd_report() {
   return {{kHostile, 2, "s", "c", "f", "v"}, kHostile, {section}};
 }
 
-/// xmllint's word on a document.
+/// The result of xmllint for a document.
 Ran parsed(const std::string& text) {
   const ScratchFolder folder;
   write_text(folder.file("page.xml"), text);
@@ -59,7 +59,7 @@ Ran parsed(const std::string& text) {
 }
 
 TEST(BenchStatistics, ReturnsQuartilesOfKnownSamples) {
-  // Definition 7: at (n - 1) p. Of 1..5 that is the 2nd, 3rd, 4th; of 1..4 it lies between.
+  // Definition 7: at (n - 1) p. For 1..5 these are the 2nd, 3rd, 4th; for 1..4 they lie between.
   const Spread five = spread_of({5.0, 1.0, 4.0, 2.0, 3.0});
   EXPECT_EQ(five.low, 2.0);
   EXPECT_EQ(five.median, 3.0);
@@ -144,7 +144,7 @@ TEST(BenchJson, StoresEveryPartUnderItsId) {
   EXPECT_EQ(json.at("odd_map").at("cells")[0][1], 0.5);
   EXPECT_EQ(json.at("sections")[0].at("tables")[0].at("units").at("error_mm"), "mm");
   EXPECT_EQ(json.at("machine").at("cores"), 2);
-  // Text that a parser reads again, with null where there is no number.
+  // The text parses again, with null for missing numbers.
   const auto again =
       nlohmann::json::parse(json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   EXPECT_TRUE(again.at("odd").at("none").is_null());
@@ -237,7 +237,7 @@ TEST(BenchHtml, IsWellFormedForAnyNames) {
   EXPECT_EQ(html.find("<script"), std::string::npos);
   for (const char* outside : {"http://", "https://", "src=", "@import", "url("}) {
     std::string rest = html;
-    // The names of the two languages are no addresses that anything is fetched from.
+    // The namespaces of the two languages are not fetched.
     for (const std::string name : {"http://www.w3.org/1999/xhtml", "http://www.w3.org/2000/svg"})
       for (auto at = rest.find(name); at != std::string::npos; at = rest.find(name))
         rest.erase(at, name.size());

@@ -1,4 +1,4 @@
-// The command `bench` as its users run it.
+// The command `bench` as users run it.
 
 #include "tests/support/run_program.hpp"
 
@@ -19,8 +19,8 @@ TEST(Bench, ListsTheSectionsForAnUnknownName) {
 TEST(Bench, RefusesAnUnwritableOutputBeforeMeasuring) {
   const ScratchFolder folder;
   write_text(folder.file("taken"), "");
-  // Seconds would pass if it measured first; the exit status alone cannot tell, so nothing may have
-  // been said of the measurement.
+  // A measurement would take seconds; the exit status alone cannot show that none was made, so no
+  // output about it may appear.
   for (const std::string& option :
        {"--report " + folder.file("none/r.html"), "--csv " + folder.file("taken/csv")}) {
     const auto run = claystack("bench --quick --only tick " + option);
@@ -35,7 +35,7 @@ TEST(Bench, WritesTheTickSectionInEveryFormat) {
   const ScratchFolder folder;
   const auto run = claystack("bench --quick --only tick --json --report " + folder.file("r.html") +
                              " --csv " + folder.file("csv"));
-  // 1 is allowed: a machine under load may miss the time that is asked for.
+  // 1 is allowed: a loaded machine may miss the required time.
   ASSERT_TRUE(run.status == 0 || run.status == 1) << run.err;
   const auto json = run.json();
   EXPECT_EQ(json.at("sound"), run.status == 0);

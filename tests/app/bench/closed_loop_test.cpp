@@ -69,7 +69,7 @@ TEST(Energy, IsInjectedOnlyAboveTheBorder) {
           const std::string cell = std::to_string(rate) + " " + std::to_string(damping) + " " +
                                    std::to_string(delay) + " " + std::to_string(part);
           EXPECT_LE(o.mean_cycle_j, 0.0) << cell;
-          // Between the two borders a cycle of a few samples may end a little above the last.
+          // Between the two borders a cycle of a few samples may end slightly above the last.
           if (part * border < passive_stiffness(loop)) {
             EXPECT_LE(o.worst_cycle_j, 0.0) << cell;
           }
@@ -89,7 +89,7 @@ TEST(Controller, PreventsLimitCyclesEverywhere) {
           EXPECT_LT(at_wall(loop, stiffness, kFalconStepM, true).swing_m, kMostSwingM)
               << rate << " " << mass << " " << damping << " " << stiffness;
         }
-  EXPECT_GT(buzzing, 50);  // of 90: the map of instability is there without it
+  EXPECT_GT(buzzing, 50);  // of 90: without the controller the map shows instability
 }
 
 TEST(Controller, PassesAnAcceptedWallUnchanged) {
@@ -104,7 +104,7 @@ TEST(Controller, PassesAnAcceptedWallUnchanged) {
   }
 }
 
-/// A wall that is asked only now and then, as when the clay runs slower than the force.
+/// A wall that is evaluated less often than the force, as when the clay runs slower.
 class StaleWall final : public Surface {
  public:
   StaleWall(double stiffness, int every)
@@ -123,7 +123,7 @@ class StaleWall final : public Surface {
   glm::dvec3 force_{0.0};
 };
 
-/// No bound knew of this delay, but force is earned and work counted by the readings of each tick.
+/// The bounds do not include this delay, but the controller counts the work of each tick.
 TEST(Controller, StabilizesAContactWithMoreDelayThanStated) {
   const SampledLoop loop{1000, 0.1, 2.0, 1};
   const double stiffness = 0.95 * accepted_stiffness(loop);

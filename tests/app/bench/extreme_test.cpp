@@ -12,7 +12,7 @@
 
 namespace clay::extreme {
 
-/// What googletest says when one fails.
+/// googletest's text for a failed case.
 static void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 namespace {
@@ -24,7 +24,7 @@ TEST_P(Extreme, EngineMeetsEveryRequiredResult) {
   EXPECT_EQ(outcome.verdict, Verdict::passed) << outcome.note;
 }
 
-/// A suite that the paper as printed passes is not testing.
+/// A suite that the paper as printed passes would not test anything.
 TEST_P(Extreme, LiteralPaperGivesItsExpectedResult) {
   const Outcome outcome = GetParam().run(Who::literal);
   EXPECT_EQ(outcome.verdict, GetParam().literal) << outcome.note;
@@ -38,7 +38,7 @@ std::string name_of(const testing::TestParamInfo<Case>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(Case, Extreme, testing::ValuesIn(cases().begin(), cases().end()), name_of);
 
-/// The yardstick of speed is measured in both writings, so they must say the same.
+/// Speed is measured in both versions, so they must give the same results.
 TEST(LiteralPaper, GivesTheSameResultInBothVersions) {
   bench::LiteralScene scene;
   scene.rings = 60;

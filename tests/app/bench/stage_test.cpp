@@ -1,4 +1,4 @@
-// That what is timed against each other does the same work.
+// Workloads that are compared do the same work.
 
 #include "app/bench/bare_tick.hpp"
 #include "app/bench/pressing.hpp"
@@ -48,7 +48,7 @@ TEST(StageCost, EnablesTheNamedStage) {
   EXPECT_FALSE(cli::with_stage(bare, "contact"));
 }
 
-/// Counts rings, not seconds: what a stroke costs is the rings that its ticks reach.
+/// Counts rings, not seconds: the cost of a stroke is the number of rings its ticks reach.
 TEST(StageCost, TimesAShortStrokeForAnyRingHeight) {
   for (const auto& [rings, ring_height_mm] :
        {std::pair(std::size_t{200}, 0.5), std::pair(std::size_t{1} << 20, 0.001),

@@ -1,4 +1,4 @@
-// Axes and drawings, against the geometry that they show.
+// Axes and drawings, compared with their geometry.
 
 #include "app/chart/plot.hpp"
 #include "app/chart/axis_scale.hpp"
@@ -129,8 +129,8 @@ TEST(PlotMap, DrawsACellPerNumberAndMarksMissingOnes) {
   Map map{"m", "", {"x", true}, {"y", false}, {1.0, 10.0, 100.0}, {0.0, 1.0}, {}, {}, ""};
   map.cells = {{0.0, 1.0, 0.5}, {kNan, 0.25, 0.0}};
   const std::string svg = svg_of(map, Place::page);
-  EXPECT_EQ(count(svg, "class='cell'"), 5u + 3u);      // and three in the legend
-  EXPECT_EQ(count(svg, "class='cell-dot'"), 3u + 2u);  // none where all is good
+  EXPECT_EQ(count(svg, "class='cell'"), 5u + 3u);      // plus three in the legend
+  EXPECT_EQ(count(svg, "class='cell-dot'"), 3u + 2u);  // none where the value is 0
   EXPECT_EQ(count(svg, "class='none'"), 1u + 1u);
 }
 

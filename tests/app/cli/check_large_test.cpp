@@ -1,5 +1,4 @@
-// Meshes that are legal but large: they end in a verdict or are refused in advance, whatever the
-// limit on memory.
+// Valid but large meshes: they give a verdict or are refused in advance, for any memory limit.
 
 #include "tests/support/run_program.hpp"
 
@@ -13,16 +12,16 @@
 namespace clay::test {
 namespace {
 
-/// Runs the program with so much address space.
+/// Runs the program with a limit of address space.
 Ran with_megabytes(std::size_t megabytes, const std::string& arguments) {
   return shell("ulimit -v " + std::to_string(1024 * megabytes) + " && " CLAYSTACK_PROGRAM " " +
                arguments);
 }
 
-/// The address space that the program takes with next to no work, and some more.
+/// The address space that the program needs for almost no work, with a margin.
 constexpr std::size_t kProgram = 700;
 
-/// Octahedra within octahedra about one axis, by turns outward and inward, as binary STL.
+/// Nested octahedra about one axis, alternately outward and inward, as binary STL.
 std::string nest(std::uint32_t shells) {
   constexpr std::array<std::array<int, 3>, 6> kCorners{
       {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
@@ -58,7 +57,7 @@ TEST(CheckLarge, ChecksManyNestedShellsInLittleMemory) {
 }
 
 TEST(CheckLarge, StreamsTextFiles) {
-  // A tetrahedron between lines of blanks: more bytes than there is address space.
+  // A tetrahedron between blank lines: more bytes than there is address space.
   const ScratchFolder folder;
   const std::string facet_begin = "facet normal 0 0 0\nouter loop\n";
   std::string text = "solid wide\n";
@@ -78,7 +77,7 @@ TEST(CheckLarge, StreamsTextFiles) {
 }
 
 TEST(CheckLarge, RefusesAMeshThatNeedsTooMuchMemoryInAdvance) {
-  // 20 million facets without a byte on the disk: they are never looked at.
+  // 20 million facets without a byte on disk: they are never read.
   const ScratchFolder folder;
   const std::uint32_t count = 20'000'000;
   std::string head(84, '\0');
@@ -107,7 +106,7 @@ TEST(CheckLarge, RefusesATooLongTextInAdvance) {
 }
 
 TEST(CheckLarge, ReportsAReducedNumberOfRays) {
-  // A soup of 20 000 triangles, all about the middle: each ray comes past nearly all of them.
+  // A soup of 20 000 triangles, all around the middle: each ray passes nearly all of them.
   const ScratchFolder folder;
   const std::uint32_t count = 20'000;
   std::string stl(84 + 50 * std::size_t{count}, '\0');

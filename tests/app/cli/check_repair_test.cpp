@@ -21,8 +21,7 @@ using solid::shapes::inverted;
 using solid::shapes::moved;
 using solid::shapes::together;
 
-/// A fault in a mesh of cubes, where it lies by the cube's own numbers, and what repair makes of
-/// it.
+/// A fault in a mesh of cubes, its place in the cube's numbering, and the result of repair.
 struct Planted {
   std::string name;
   TriangleMesh mesh;
@@ -103,7 +102,7 @@ std::vector<Planted> faults() {
        "self-intersection",
        "triangles 0, 12 at (13.3333333, 6.66666667, 0) mm",
        {{"points of one place merged", 2}, {"non-manifold edge cut apart", 1}},
-       "non-manifold edge",  // STL knows points by their place alone
+       "non-manifold edge",  // STL identifies points by their position alone
        16000.0},
       {"inner",
        together(good, moved(cube(10.0), {5, 5, 5})),
@@ -174,7 +173,7 @@ TEST_P(PlantedFault, IsRepairedOrReportedAsRemaining) {
     EXPECT_NE(find(json.at("remaining"), planted.remains), nullptr) << json.at("remaining").dump(2);
   }
   EXPECT_NEAR(json.at("volume_mm3"), planted.volume_mm3, 1e-3);
-  // The file says the same when it is checked by itself.
+  // The file gives the same result when checked separately.
   const Ran again = claystack("check --json " + out);
   EXPECT_EQ(again.status, run.status);
   EXPECT_EQ(again.json().at("problems"), json.at("remaining"));
@@ -216,7 +215,7 @@ TEST_F(CheckRepair, WritesASoundMeshUnchanged) {
 }
 
 TEST_F(CheckRepair, SeparatesRepairedFromRemainingDefects) {
-  // Two balls through each other, and a cube with a hole.
+  // Two intersecting balls, and a cube with a hole.
   const TriangleMesh balls = together(ball(10.0), moved(ball(10.0), {3.3, 1.7, 0.9}));
   const std::string in = write("in.stl", together(balls, moved(hole(), {50, 0, 0})));
   const Ran run = claystack("check --repair " + in + " -o " + folder.file("out.obj"));

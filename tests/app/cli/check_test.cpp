@@ -8,7 +8,7 @@
 namespace clay::test {
 namespace {
 
-/// A good binary STL of the bowl with few triangles, to plant faults in.
+/// A valid binary STL of the bowl with few triangles, to plant faults in.
 class CheckMesh : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -120,7 +120,7 @@ TEST_F(CheckMesh, ReportsADuplicateFaceAsNonManifold) {
 }
 
 TEST_F(CheckMesh, ReportsASpikeThroughTheWallAsSelfIntersection) {
-  // Every copy of one vertex is moved across the pot: closed as before, but self-crossing.
+  // Moves every copy of one vertex across the pot: still closed, but self-intersecting.
   std::string stl = good_stl;
   char vertex[12];
   std::memcpy(vertex, facet(stl, 200) + 12, 12);
@@ -141,7 +141,7 @@ TEST(CheckPot, MeasuresTheWall) {
   const ScratchFolder folder;
   const std::string pot = folder.file("p.pot.json");
   ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
-  // The wall of the pot that export makes of it; that of its facets is a little thinner.
+  // The wall of the pot is measured on its export; that of its facets is slightly thinner.
   const auto exported = claystack("export --json " + pot + " " + folder.file("p.stl")).json();
   const double wall = exported.at("min_wall_mm");
   EXPECT_EQ(claystack("check " + pot + " --min-wall " + std::to_string(wall - 0.01)).status, 0);

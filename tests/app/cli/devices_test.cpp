@@ -8,7 +8,7 @@
 namespace clay::test {
 namespace {
 
-// What is plugged into the machine of the test is unknown; the rigs plug devices in.
+// The devices of the test machine are unknown; the rigs emulate connected devices.
 TEST(Devices, ListsConnectedDevices) {
   const auto run = claystack("devices --json");
   ASSERT_EQ(run.status, 0) << run.err;
@@ -40,7 +40,7 @@ TEST(Devices, HomesAndMonitorsTheSimulatedArm) {
   while (std::getline(lines, line)) {
     last = nlohmann::json::parse(line);
     if (last.at("state") != "ready") continue;
-    // Its hand goes round a circle of 20 mm.
+    // Its hand moves on a circle of 20 mm.
     const auto at = last.at("position_mm");
     EXPECT_NEAR(std::hypot(at[0].get<double>(), at[1].get<double>()), 20.0, 1.0) << line;
   }

@@ -1,5 +1,5 @@
-// A library to preload (LD_PRELOAD): the n-th call that changes a folder fails, or ends the
-// program.
+// A library to preload (LD_PRELOAD): makes the n-th call that changes a folder fail, or ends the
+// program there.
 //
 //   CLAYSTACK_FAULT_FOLDER   the folder to watch: absolute, without symbolic links
 //   CLAYSTACK_FAULT_AT       the call that fails, counted from 1; without it none does

@@ -26,8 +26,9 @@ TEST(Import, MakesAPrintablePot) {
   const auto check = claystack("check --json " + stl);
   ASSERT_EQ(check.status, 0) << check.out;
 
-  // OpenSCAD revolves the same drawing, its curves and circles in chords of its own: of 400 around
-  // it lacks 1 - sin(2 pi/n) n/(2 pi) = 4e-5, along a little more.
+  // OpenSCAD revolves the same drawing, with its own chords for curves and circles: with 400
+  // around, its volume is smaller by 1 - sin(2 pi/n) n/(2 pi) = 4e-5, and slightly more along the
+  // curves.
   const std::string script = folder.file("jug.scad"), peer = folder.file("peer.stl");
   write_text(script, "rotate_extrude($fn = 400) translate([-10, 0]) import(\"" +
                          sample("drawings/jug.svg") + "\", $fn = 400);");

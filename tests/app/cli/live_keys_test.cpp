@@ -1,4 +1,4 @@
-// Keys of a terminal while throwing, with the program in a terminal of its own.
+// Keys while throwing, with the program in a separate terminal.
 
 #include "claystack/engine/files.hpp"
 #include "tests/support/run_program.hpp"
@@ -32,7 +32,7 @@ class InATerminal {
                       pot = folder.file("a.pot.json");
     program_ = fork();
     if (program_ == 0) {
-      alarm(static_cast<unsigned>(kProgramDeadline.count()));  // no orphan
+      alarm(static_cast<unsigned>(kProgramDeadline.count()));  // prevents an orphan
       close(ours_);
       login_tty(theirs_);
       execl(CLAYSTACK_PROGRAM, CLAYSTACK_PROGRAM, "throw", scene.c_str(), "--device", "simulated",
@@ -52,10 +52,10 @@ class InATerminal {
     ASSERT_EQ(write(ours_, keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
   }
   void send(int signal) { kill(program_, signal); }
-  /// As when its window is closed: reading and writing fail from here on, and SIGHUP comes.
+  /// Like closing the terminal window: reading and writing fail from here on, and SIGHUP arrives.
   void hang_up() { close(std::exchange(ours_, -1)); }
 
-  /// Whether the terminal shows this from here on, before the program ends.
+  /// Whether the terminal shows this text from here on, before the program ends.
   bool shows(const std::string& text) {
     bool open = true;
     wait_until([&] { return shown_.find(text) != std::string::npos || !(open = read_on()); },
@@ -65,7 +65,7 @@ class InATerminal {
     return true;
   }
 
-  /// How it ended.
+  /// Its wait status.
   int wait() {
     int status = 0;
     waitpid(std::exchange(program_, -1), &status, 0);
@@ -86,7 +86,7 @@ class InATerminal {
   }
 
  private:
-  /// False: the program has left the terminal.
+  /// False: the program has closed the terminal.
   bool read_on() {
     pollfd output{ours_, POLLIN, 0};
     if (poll(&output, 1, 100) <= 0) return true;
@@ -117,13 +117,13 @@ TEST(LiveKeys, KeysPauseReleaseRearmAndQuit) {
   ASSERT_TRUE(terminal.shows("force grows"));
   terminal.type("z");
   ASSERT_TRUE(terminal.shows("no force: as asked; r"));
-  terminal.type("xr");  // a key that means nothing, and one that does
+  terminal.type("xr");  // one key without a function, and one with
   ASSERT_TRUE(terminal.shows("force grows"));
   terminal.type("q");
   ASSERT_TRUE(terminal.shows("ended: stopped"));
   EXPECT_EQ(terminal.wait(), 0);
   EXPECT_EQ(terminal.modes(), terminal.modes_before());
-  // The clay stood still while it was paused: a hole in time, and none in the record.
+  // The clay does not move during a pause: a gap in time, but no poses in the record.
   EXPECT_GT(terminal.poses().size(), paused);
   EXPECT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -s " + folder.file("s.session") +
                       " -o " + folder.file("b.pot.json"))

@@ -1,4 +1,4 @@
-// Throwing by hand, as the program does it, with the simulated arm.
+// Throwing by hand with the simulated arm.
 
 #include "tests/support/run_program.hpp"
 
@@ -12,9 +12,9 @@ namespace {
 
 const std::string kBowl = "throw " + sample("bowl.scene.json");
 
-/// Starts `throw --device simulated` with these options more, does `then` once its recording in
-/// `folder` holds some blocks, and waits for its end. The exit status is the program's, or 124
-/// where the recording never came.
+/// Starts `throw --device simulated` with additional options, runs `then` when its recording in
+/// `folder` holds some blocks, and waits for its end. Returns the program's exit status, or 124 if
+/// the recording did not appear.
 Ran interrupted(const ScratchFolder& folder, const std::string& more, const std::string& then,
                 const std::string& environment = "") {
   const std::string session = folder.file("s.session");
@@ -26,7 +26,7 @@ Ran interrupted(const ScratchFolder& folder, const std::string& more, const std:
                then + "; wait $program");
 }
 
-/// What the session, or what there is of it, replays to.
+/// The pot replayed from the session, or from an incomplete recording.
 std::string replayed(const ScratchFolder& folder, const std::string& session = "s.session") {
   const auto run =
       claystack(kBowl + " -q -s " + folder.file(session) + " -o " + folder.file("replay.pot.json"));
@@ -34,7 +34,7 @@ std::string replayed(const ScratchFolder& folder, const std::string& session = "
   return read_text(folder.file("replay.pot.json"));
 }
 
-/// The one file of this folder and those below it.
+/// The only file in this folder and its subfolders.
 std::string only_file_in(const std::string& folder) {
   std::string found;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
@@ -115,7 +115,7 @@ TEST(LiveThrow, RefusesUnwritableOutputsBeforeThrowing) {
     EXPECT_EQ(run.out, "") << output;
     EXPECT_NE(run.err.find(folder.path().string()), std::string::npos) << run.err;
   }
-  // A limit on the size of files stands for a full disk.
+  // A limit on file size simulates a full disk.
   const auto full = shell("(ulimit -f 0; " CLAYSTACK_PROGRAM " " + live + " -o " +
                           folder.file("a.pot.json") + "; echo status $?) 2>&1 | cat");
   EXPECT_NE(full.out.find("a.pot.json: cannot write: File too large\nstatus 3"), std::string::npos)
@@ -175,7 +175,8 @@ TEST(LiveThrow, RefusesAStiffSceneUnlessSoftened) {
             std::string::npos)
       << refused.err;
   EXPECT_NE(refused.err.find("--soften"), std::string::npos);
-  // Twice the travel of the hand at the same force: half as stiff... and at unit gain twice.
+  // Twice the travel of the hand at the same force is half as stiff; at unit gain it is twice as
+  // stiff.
   EXPECT_EQ(claystack(live + " --soften").status, 0);
   scene["force"]["stiffness_n_per_mm2"] = 0.03;
   write_text(path, scene.dump());
@@ -191,7 +192,7 @@ TEST(LiveThrow, ReportsUnsupportedRequests) {
   EXPECT_EQ(claystack(live + "simulated --trace t.csv").status, 2);
   EXPECT_EQ(claystack(live + "simulated -o pot.stl").status, 2);
   EXPECT_EQ(claystack(live + "simulated --seconds 0.1 --record /no/such/folder/s").status, 3);
-  // No such device here, and none is made up.
+  // A missing device is not simulated.
   const auto none = claystack(live + "/dev/hidraw99");
   EXPECT_EQ(none.status, 4);
 }

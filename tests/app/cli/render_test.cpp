@@ -8,7 +8,7 @@
 namespace clay::test {
 namespace {
 
-/// A thrown pot for all tests of this file.
+/// One thrown pot for all tests of this file.
 const std::string& vase() {
   static const ScratchFolder folder;
   static const std::string path = [] {
@@ -37,7 +37,7 @@ TEST(Render, TurntableHasTheRequestedFrames) {
   EXPECT_EQ(shell("identify -format \"%m \" " + folder.file("v.gif")).out, "GIF GIF GIF GIF GIF ");
 }
 
-/// The most memory that a turntable takes [KiB].
+/// The peak memory of a turntable [KiB].
 long peak_kib_of(int frames) {
   const ScratchFolder folder;
   const std::string gif = folder.file("v.gif"), count = std::to_string(frames), pot = vase();
@@ -54,7 +54,7 @@ long peak_kib_of(int frames) {
   return usage.ru_maxrss;
 }
 
-/// 64 frames more, of 1200 KiB each.
+/// 64 more frames of 1200 KiB each.
 TEST(Render, TurntableMemoryIsIndependentOfFrames) {
   EXPECT_LT(peak_kib_of(72) - peak_kib_of(8), 16 * 1200);
 }

@@ -1,4 +1,4 @@
-// Every command with standard streams that are closed or full.
+// Every command with closed or full standard streams.
 
 #include "tests/support/run_program.hpp"
 
@@ -13,14 +13,14 @@ namespace {
 
 struct Command {
   std::string arguments;
-  int status;          ///< where all streams can be written
+  int status;          ///< if all streams are writable
   bool prints;         ///< to standard output
   bool reads = false;  ///< standard input
 };
 
 struct Streams {
   const char* redirection;
-  bool input, output;  ///< can be read, can be written
+  bool input, output;  ///< readable, writable
 };
 
 constexpr Streams kStreams[] = {
@@ -128,8 +128,8 @@ TEST_F(StandardStreams, RefusesToMonitorWithClosedStdout) {
 }
 #endif
 
-/// Runs claystack under a limit of the shell's. What it says goes through a pipe, as the limit may
-/// be one on files.
+/// Runs claystack under a shell limit. The output goes through a pipe, because the limit may apply
+/// to files.
 std::string limited(const std::string& limit, const std::string& arguments) {
   return shell("(ulimit " + limit + "; " CLAYSTACK_PROGRAM " " + arguments +
                "; echo status $?) 2>&1 | cat")

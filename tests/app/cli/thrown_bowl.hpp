@@ -7,7 +7,7 @@
 
 namespace clay::test {
 
-/// The sample bowl as the program throws it.
+/// The sample bowl, thrown by the program.
 class ThrownBowl : public testing::Test {
  protected:
   void SetUp() override {

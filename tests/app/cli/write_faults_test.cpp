@@ -1,5 +1,5 @@
-// Every call by which a command writes fails once, or is where the program is killed
-// (fault_shim.cpp): what was asked for is all there or not at all, and nothing else is.
+// Every write call of a command fails once, or is where the program is killed (fault_shim.cpp):
+// either all outputs exist or none, and no other files.
 
 #include "tests/support/run_program.hpp"
 
@@ -26,9 +26,9 @@ Files files_in(const fs::path& folder) {
 
 struct Case {
   std::string name;
-  std::string arguments;  ///< @ is the folder with what is read, # that to write in
+  std::string arguments;  ///< @ is the input folder, # the output folder
   std::vector<std::string> outputs;
-  bool replaces = false;     ///< files of these names are there before
+  bool replaces = false;     ///< files of these names exist before
   std::string without = {};  ///< as CLAYSTACK_FAULT_WITHOUT
   int signal = 0;            ///< instead of an error
 };
@@ -108,7 +108,7 @@ TEST_P(WriteFaults, WriteAllOrNothing) {
       break;
     }
     SCOPED_TRACE(call + ", call " + std::to_string(at) + ": " + std::strerror(error));
-    if (GetParam().signal == SIGKILL) {  // the next to write finds what it has left
+    if (GetParam().signal == SIGKILL) {  // the next writer finds the leftovers
       ASSERT_EQ(run(0, 0).status, 0);
       EXPECT_TRUE(files_in(folder.path()) == whole);
       continue;
@@ -129,12 +129,12 @@ TEST_P(WriteFaults, WriteAllOrNothing) {
   }
 }
 
-// Pots and meshes that are written again have the same bytes; a report has not, as it holds times.
+// Pots and meshes written again have the same bytes; reports do not, because they contain times.
 const std::string kExport = "export -q --segments 16 @/a.pot.json #/a.stl #/b.obj #/c.drc";
 const std::vector<std::string> kMeshes = {"a.stl", "b.obj", "c.drc"};
 const std::string kThrow = "throw -q @/a.scene.json -o #/a.pot.json --trace #/trace.csv";
 const std::vector<std::string> kPot = {"a.pot.json", "trace.csv"};
-const std::string kStick = "tmpfile,links";  // FAT, as on USB sticks
+const std::string kStick = "tmpfile,links";  // FAT, as on USB drives
 
 INSTANTIATE_TEST_SUITE_P(
     Commands, WriteFaults,

@@ -29,7 +29,7 @@ using test::plainly_thrown;
 using test::press_stroke;
 using test::small_scene;
 
-/// A folder of journals of its own.
+/// A separate folder for journals.
 struct Folder {
   test::ScratchFolder scratch;
   std::filesystem::path path = scratch.file("state/claystack/recovery");
@@ -132,7 +132,8 @@ TEST(Journal, IsNotOfferedWhileItsProgramRuns) {
   for (const int fd : {ready[0], ready[1], done[0], done[1]}) close(fd);
 }
 
-/// A work that is killed in mid-stroke: how much of what it took is not recovered [us].
+/// A work whose process is killed during a stroke: the time of accepted poses that is not recovered
+/// [us].
 void kill_one(double& lost_us) {
   const Folder folder;
   using Time = std::atomic<std::int64_t>;
@@ -248,7 +249,7 @@ TEST(Journal, ReportsAMissingFolder) {
   EXPECT_NE(journal.error().message.find("home folder"), std::string::npos);
 }
 
-// To open a pipe that nobody writes to takes for ever.
+// Opening a pipe without a writer blocks for ever.
 TEST(Journal, SkipsAPipeInTheFolder) {
   const Folder folder;
   std::filesystem::path journal;
@@ -272,7 +273,7 @@ TEST(Journal, WorksInAFolderThatCannotBeSynced) {
   const Folder folder;
   const Work work = Work::begin(small_scene()).value();
   EXPECT_EQ(test::status_of_child([&] {
-              // The journal's own file is opened; its folder, to sync it, is not.
+              // The journal's file can be opened, but not its folder for syncing.
               if (!test::inject({SYS_openat, EIO, O_DIRECTORY})) return false;
               return Journal::begin(work.record(), folder.path).has_value();
             }),

@@ -1,5 +1,5 @@
 #pragma once
-// Strokes for works, and what plain throwing makes of them.
+// Strokes for works, and their results by plain throwing.
 
 #include "app/history/work.hpp"
 #include "claystack/engine/files.hpp"
@@ -33,7 +33,7 @@ inline SceneSpec small_scene(double radius_mm = 8.0, ToolMode mode = ToolMode::p
   return scene;
 }
 
-/// In from the side, up a little, and out again; `seed` says where. Some 180 poses.
+/// From the side into the clay, upward, and out again; `seed` sets the place. About 180 poses.
 inline std::vector<Pose> press_stroke(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto uniform = [&](double low, double high) {
@@ -64,7 +64,7 @@ inline Pot plainly_thrown(const SceneSpec& scene, const Pot& before,
   return wheel.pot();
 }
 
-/// The pot of a node with nothing kept on the way.
+/// The pot of a node, replayed without any cache.
 inline Pot plainly_thrown(const WorkRecord& record, std::size_t node) {
   const SceneSpec& first = record.scenes[record.nodes[0].scene];
   Pot pot = record.start ? *record.start : Wheel::build(first).value().pot();
@@ -74,7 +74,7 @@ inline Pot plainly_thrown(const WorkRecord& record, std::size_t node) {
   return pot;
 }
 
-/// Some strokes, and ways to and fro between them.
+/// Some strokes, with undo and redo between them.
 inline history::Work arbitrary_work(int actions) {
   auto work = history::Work::begin(small_scene()).value();
   const std::vector<SceneSpec> tools = {small_scene(), small_scene(5.0),

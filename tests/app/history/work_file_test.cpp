@@ -19,7 +19,7 @@ namespace {
 using test::press_stroke;
 using test::small_scene;
 
-/// Two branches, one of them trimmed, left on the first.
+/// Two branches, one of them trimmed; the first is current.
 WorkRecord sample_record() {
   auto work = history::Work::begin(small_scene()).value();
   (void)work.add(small_scene(), press_stroke(1)).value();
@@ -42,7 +42,7 @@ bool same(const WorkRecord& a, const WorkRecord& b) {
   return a.scenes == b.scenes && a.start == b.start && a.nodes == b.nodes && a.at == b.at;
 }
 
-/// A stroke that stands still in the air.
+/// A stroke at rest in free air.
 std::vector<Pose> still(std::size_t count) {
   std::vector<Pose> poses(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -94,7 +94,7 @@ RC_GTEST_PROP(WorkFile, RoundTrips, ()) {
   RC_ASSERT(write_work(read->work) == text);
 }
 
-/// Strokes that were begun are there as far as their blocks go; nothing else is but what was.
+/// Begun strokes are present up to their last complete block; nothing else differs.
 TEST(WorkFile, TruncatedFileGivesTheCompleteLines) {
   const WorkRecord whole = sample_record();
   const std::string text = write_work(whole);
@@ -128,7 +128,7 @@ TEST(WorkFile, DetectsEveryFlippedBit) {
       flipped[at] = static_cast<char>(static_cast<unsigned char>(text[at]) ^ (1u << (at % 8)));
       const auto read = parse_work(flipped, "flipped");
       if (!read) continue;
-      // Who wrote a scene or a pot is told, and is no part of it.
+      // The program that wrote a scene or a pot is reported, but is not part of it.
       const bool told = same(read->work, expected);
       ASSERT_TRUE(told || (at >= last_line && read->torn)) << "bit " << at % 8 << " of byte " << at;
     }
@@ -222,7 +222,7 @@ TEST(WorkFile, SalvageStopsAtTheDamage) {
   EXPECT_FALSE(salvage_work(text.substr(0, 200) + "\n" + text, "w"));
 }
 
-/// A file that goes to and fro in a long tree is read in a time that grows with its length alone.
+/// A file with many undos in a long tree is read in time linear in its length.
 TEST(WorkFile, ReadsALongFileInOnePass) {
   std::string text = write_work(history::Work::begin(small_scene()).value().record());
   constexpr std::size_t kNodes = 50'000;
@@ -250,7 +250,7 @@ TEST(WorkSchema, DescribesEveryLine) {
   EXPECT_NE(conforms("{\"at\":1,\"check\":\"0123456789abcde\"}"), "");
 }
 
-/// Where the schema and the reader could disagree about a line by itself.
+/// The cases in which the schema and the reader could disagree about a single line.
 TEST(WorkSchema, AgreesWithTheReader) {
   const test::Json schema = test::load_schema("work");
   const std::string text = write_work(sample_record());

@@ -21,7 +21,7 @@ using test::small_scene;
 
 RC_GTEST_PROP(Work, EveryPotEqualsTheReplayOfItsStrokes, ()) {
   Work work = arbitrary_work(*rc::gen::inRange(1, 20));
-  if (*rc::gen::arbitrary<bool>()) work.set_memory_budget(1);  // nothing is kept but one
+  if (*rc::gen::arbitrary<bool>()) work.set_memory_budget(1);  // keeps one pot only
   RC_ASSERT(**work.pot() == plainly_thrown(work.record(), work.at()));
   const auto node = *rc::gen::inRange<std::size_t>(0, work.size());
   RC_ASSERT(**work.pot(node) == plainly_thrown(work.record(), node));
@@ -206,7 +206,7 @@ TEST(Work, StartsFromAPot) {
   EXPECT_EQ(read.work.start, second.record().start);
 }
 
-/// Presses, with so long between them in the air.
+/// Presses, separated by this time in free air.
 std::vector<Pose> recording(int presses, double air_s, bool level = false) {
   std::vector<Pose> poses;
   std::int64_t time_us = 5000;
@@ -226,7 +226,7 @@ std::vector<Pose> recording(int presses, double air_s, bool level = false) {
   return poses;
 }
 
-/// As while it lasted, a few poses at a time.
+/// A few poses at a time, as during recording.
 Split cut(const Pot& before, const std::vector<Pose>& poses) {
   Replay again(Wheel::build(small_scene(), before).value());
   for (std::span<const Pose> rest = poses; !rest.empty();) {
@@ -252,7 +252,7 @@ TEST(Split, SplitsARecordingInFreeAir) {
 
 TEST(Split, KeepsAnUnsplittableRecordingWhole) {
   const Pot lump = Wheel::build(small_scene()).value().pot();
-  // The strokes' own ways in the air take less than 0.1 s.
+  // The motion of the strokes in free air takes less than 0.1 s.
   EXPECT_TRUE(cut(lump, recording(3, 0.1)).begins.empty());
   EXPECT_TRUE(cut(lump, recording(3, 0.4, true)).begins.empty())
       << "nothing tells a stroke which way the tool last went";

@@ -78,7 +78,7 @@ RC_GTEST_PROP(DrawnPot, HoldsTheDrawnVolume, ()) {
   RC_ASSERT(section.has_value());
   const auto pot = drawn_pot(*section, {0.01 * *rc::gen::inRange(1, 500), {}, 1.9}, "pot");
   RC_ASSERT(pot.has_value());
-  // Half a quantum a bound and ring, and the rounding of the sums.
+  // Half a quantum per bound and ring, plus the rounding of the sums.
   const double slack = 1e-12 * section->volume_mm3() +
                        static_cast<double>(pot->stack.size()) * pot->stack.mm3_per_quantum();
   RC_ASSERT(std::abs(pot->stack.volume_mm3() - section->volume_mm3()) < slack);

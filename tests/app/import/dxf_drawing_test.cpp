@@ -13,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 constexpr double kPi = std::numbers::pi;
 
-/// Group codes and values, a pair of lines each.
+/// Group codes and values, two lines each.
 std::string groups(const std::vector<std::pair<int, std::string>>& pairs) {
   std::string text;
   for (const auto& [code, value] : pairs) text += fmt::format("{:3}\n{}\n", code, value);
@@ -83,7 +83,7 @@ TEST(DxfDrawing, ArcsCirclesAndEllipsesAreRound) {
       groups({{0, "ARC"}, {8, "0"}, {10, "0"}, {20, "30"}, {40, "30"}, {50, "270"}, {51, "90"}});
   EXPECT_NEAR(volume_of(file(arc)), 4.0 / 3.0 * kPi * 27000.0, kFlatMm * 4.0 * kPi * 900.0);
   const auto circle = groups({{0, "CIRCLE"}, {8, "0"}, {10, "50"}, {20, "30"}, {40, "10"}});
-  // A ring by Pappus's theorem; its bore touches nothing, so the axis must be given.
+  // A torus by Pappus's theorem; it does not touch the axis, so the axis must be given.
   const auto torus = section_of(file(circle), "pot.dxf", {AxisRule::at, 0.0, {}});
   ASSERT_TRUE(torus) << refusal_of(torus);
   EXPECT_NEAR(torus->volume_mm3(), 2.0 * kPi * 50.0 * kPi * 100.0, kFlatMm * 4 * kPi * kPi * 500);

@@ -41,7 +41,7 @@ TEST(HalfSection, HeightOptionScalesUniformly) {
   EXPECT_NEAR(cone->volume_mm3(), std::numbers::pi * 45.0 / 3.0 * (400.0 + 200.0 + 100.0), 1e-6);
 }
 
-/// A cup by its two sides: any radii outside, walls of any thickness inside, a floor.
+/// A cup by its two sides: arbitrary outer radii and wall thicknesses, and a floor.
 RC_GTEST_PROP(HalfSection, VolumeFollowsPappus, ()) {
   const auto count = *rc::gen::inRange<std::size_t>(2, 30);
   std::vector<glm::dvec2> outer, inner;

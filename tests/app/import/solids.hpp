@@ -1,5 +1,5 @@
 #pragma once
-// What a drawing must turn into, by formulae of their own.
+// The expected results of drawings, by independent formulae.
 
 #include "app/import/half_section.hpp"
 
@@ -10,8 +10,8 @@
 
 namespace clay::importing {
 
-/// The volume of the solid that a closed polygon right of the axis sweeps, from Pappus's theorem:
-/// 2 pi times the first moment of its area.
+/// The volume swept by a closed polygon right of the axis, from Pappus's theorem: 2 pi times the
+/// first moment of its area.
 inline double swept_mm3(const std::vector<glm::dvec2>& polygon) {
   double moment = 0.0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -28,7 +28,7 @@ inline Result<HalfSection> section_of(const std::string& bytes, const std::strin
   });
 }
 
-/// The message of what must be refused; empty where it was not.
+/// The error message; empty if the input was not refused.
 template <class T>
 std::string refusal_of(const Result<T>& result) {
   return result ? std::string() : result.error().message;

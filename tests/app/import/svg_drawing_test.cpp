@@ -41,7 +41,7 @@ TEST(SvgDrawing, UsesTheMirrorLineOfASymmetricDrawingAsAxis) {
 }
 
 TEST(SvgDrawing, FlattenedCurvesKeepTheirArea) {
-  // A half circle by one arc, then by the usual two cubics, which are off by 2.7e-4 of the radius.
+  // A half circle by one arc, then by the usual two cubics, which deviate by 2.7e-4 of the radius.
   const std::string end = " Z'/>";
   const double ball = 4.0 / 3.0 * kPi * 27000.0, surface = 4.0 * kPi * 900.0;
   EXPECT_NEAR(volume_of("<path d='M 10 10 A 30 30 0 0 1 10 70" + end), ball, kFlatMm * surface);
@@ -50,15 +50,15 @@ TEST(SvgDrawing, FlattenedCurvesKeepTheirArea) {
 }
 
 TEST(SvgDrawing, ArcsFollowTheirFlags) {
-  // A circle of radius 30 about a point 18 to one side of the axis, cut off there at +-24: the
-  // moment of a circle's segment about its chord, in closed form.
+  // A circle of radius 30 about a point 18 to one side of the axis, cut there at +-24: the moment
+  // of a circle's segment about its chord, in closed form.
   const double moment = 2.0 / 3.0 * 24.0 * 24.0 * 24.0, angle = std::acos(18.0 / 30.0);
   const double small = 900.0 * angle - 18.0 * 24.0, large = 900.0 * kPi - small;
   EXPECT_NEAR(volume_of("<path d='M 0 1 a 30 30 0 0 1 0 48 Z'/>"),
               2.0 * kPi * (moment - 18.0 * small), kFlatMm * 4.0 * kPi * 900.0);
   EXPECT_NEAR(volume_of("<path d='M 0 49 a 30 30 0 1 0 0 -48 Z'/>"),
               2.0 * kPi * (moment + 18.0 * large), kFlatMm * 4.0 * kPi * 48.0 * 48.0);
-  // An ellipse on its side, its radii too short for its ends: SVG lets them grow.
+  // An ellipse on its side with radii too short for its ends: SVG enlarges them.
   EXPECT_NEAR(volume_of("<path d='M 0 0 A 20 10 90 0 1 0 80 Z'/>"),
               4.0 / 3.0 * kPi * 20.0 * 20.0 * 40.0, kFlatMm * 4.0 * kPi * 1600.0);
 }
@@ -90,7 +90,8 @@ TEST(SvgDrawing, IgnoresHiddenElements) {
 }
 
 TEST(SvgDrawing, CupOfTwoOutlinesEqualsCupOfOne) {
-  // A wall of 4 around a bore of 26, floor of 6; the foot is below, as y goes down on a page.
+  // A wall of 4 around a bore of 26, floor of 6; the foot is below, because y points down on a
+  // page.
   const double wanted = kPi * (900.0 * 60.0 - 676.0 * 54.0);
   EXPECT_NEAR(volume_of("<path d='M 0 60 H 30 V 0 H 26 V 54 H 0 Z'/>"), wanted, 1e-6);
   EXPECT_NEAR(volume_of("<path d='M 0 60 H 30 V 0 H 0 Z M 0 0 H 26 V 54 H 0 V 20 Z'/>"), wanted,
@@ -118,7 +119,8 @@ TEST(SvgDrawing, MessagesShortenALongPath) {
   EXPECT_LT(says.size(), 300u);
 }
 
-// An arc of such numbers has no angle, and the number of its chords was that angle, as an int.
+// An arc of such numbers has no angle, and the number of its chords was once computed from it as an
+// int.
 TEST(SvgDrawing, RefusesHugeNumbersWithTheirLine) {
   const auto refused = [](const std::string& shape) {
     return refusal_of(read_drawing(page("\n<g>\n" + shape + "</g>"), "pot.svg"));
@@ -134,7 +136,7 @@ TEST(SvgDrawing, RefusesHugeNumbersWithTheirLine) {
   EXPECT_THAT(refused("<path d='M 0 0 L 1'/>"), HasSubstr("pot.svg:3: expected an SVG drawing"));
 }
 
-// Each arc is 4096 chords: without a limit on the way, 4 GB of them.
+// Each arc has 4096 chords: without an intermediate limit, 4 GB of them.
 TEST(SvgDrawing, RefusesASmallFileThatDrawsTooMuch) {
   std::string arcs = "<path d='M 0 0";
   for (int i = 0; i < 60'000; ++i)
@@ -143,7 +145,7 @@ TEST(SvgDrawing, RefusesASmallFileThatDrawsTooMuch) {
               HasSubstr("expected at most 1000000 points, found more"));
 }
 
-// Every corner was held against all on its level, for hours.
+// Comparing every corner with all others on its level took hours.
 TEST(SvgDrawing, MirrorsManyPointsOnOneLevelQuickly) {
   std::string points;
   for (int i = -400'000; i <= 400'000; ++i) points += std::to_string(i) + ",0 ";

@@ -28,7 +28,7 @@ RC_GTEST_PROP(Camera, PickingInvertsTheProjection, ()) {
   const glm::dvec3 at = rho * render::profile_direction(camera) + glm::dvec3{0, y, 0};
   const auto pixel = render::pixel_of(camera, kView, at);
   RC_PRE(pixel.has_value());
-  // Near the zenith the plane is seen edge on: no double tells heights apart.
+  // Near the zenith the plane is seen edge-on, and doubles cannot resolve heights.
   RC_PRE(std::abs(camera.elevation_rad) < 1.3);
   const auto back = render::profile_point(camera, kView, *pixel);
   RC_ASSERT(back.has_value());
@@ -63,9 +63,9 @@ TEST(Camera, LooksAtItsTargetFromItsEye) {
 
 TEST(Camera, PicksNothingBehindTheCamera) {
   const Camera up{0.0, -1.2, 400.0, {0.0, 50.0, 0.0}, 1.0};
-  const Camera past{0.0, 0.0, 10.0, {0.0, 50.0, 300.0}, 0.5};  // the axis lies beyond the target
+  const Camera past{0.0, 0.0, 10.0, {0.0, 50.0, 300.0}, 0.5};  // the axis is behind the target
   EXPECT_TRUE(render::profile_point(past, kView, {240, 180}));
-  const Camera away{0.0, 0.0, 10.0, {0.0, 50.0, -300.0}, 0.5};  // looks away from the axis
+  const Camera away{0.0, 0.0, 10.0, {0.0, 50.0, -300.0}, 0.5};  // faces away from the axis
   EXPECT_FALSE(render::profile_point(away, kView, {240, 180}));
   EXPECT_FALSE(render::pixel_of(up, kView, render::eye_mm(up) * 2.0 - up.target_mm));
 }
@@ -77,7 +77,7 @@ TEST(Camera, DraggingMovesThePointUnderTheMouse) {
   ASSERT_TRUE(now);
   EXPECT_NEAR(now->x, 270.0, 1e-6);
   EXPECT_NEAR(now->y, 160.0, 1e-6);
-  // What is in front goes with the mouse when the pot is turned.
+  // Points in front move with the mouse when the pot is rotated.
   const glm::dvec3 front =
       camera.target_mm + 50.0 * glm::normalize(render::eye_mm(camera) - camera.target_mm);
   const auto turned = render::pixel_of(render::orbited(camera, {20.0, 10.0}, kView), kView, front);

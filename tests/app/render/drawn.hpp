@@ -1,5 +1,5 @@
 #pragma once
-// Pots of known shape, pictures of them, and what a pixel shows.
+// Pots of known shape, pictures of them, and the contents of pixels.
 
 #include "app/render/offscreen.hpp"
 
@@ -11,7 +11,7 @@ namespace clay::test {
 
 inline constexpr render::Viewport kView{480, 360};
 
-/// Rows of a wall that runs from `outer(0)` to `outer(1)`, with a bore above the floor.
+/// Rows of a wall from `outer(0)` to `outer(1)`, with a bore above the floor.
 inline render::PotView pot_of(const std::function<double(double)>& outer, double height_mm,
                               double wall_mm = 0.0, double floor_mm = 0.0, std::size_t rows = 200) {
   render::PotView pot;
@@ -41,7 +41,7 @@ inline render::Image drawn(const render::Picture& picture, render::Viewport view
   return screen->draw(picture, view).value();
 }
 
-/// Clay as thick as the wall map goes: yellow, however the light falls, and nothing else is.
+/// Clay at the top of the wall map's range: yellow in any light, unlike everything else.
 inline render::Picture in_yellow(render::Picture picture) {
   picture.pot.wall_mm.assign(picture.pot.rows.size(), {10.0f, 10.0f});
   picture.wall_map = render::WallMap{0.0, 10.0};

@@ -17,7 +17,7 @@ render::Image turned(double azimuth) {
   return drawn(picture);
 }
 
-/// As ImageMagick reads it.
+/// Decoded by ImageMagick.
 std::vector<std::uint8_t> decoded(const std::string& path, const std::string& folder) {
   const Ran run = shell("convert " + path + " -depth 8 rgba:" + folder);
   EXPECT_EQ(run.status, 0) << run.err;

@@ -200,7 +200,7 @@ TEST(Painter, DrawsAFallenPartAtItsRestingPlace) {
   render::FallenView fallen;
   fallen.first_row = 100;
   fallen.place[3] = {0.0, 0.0, 0.0, 1.0};
-  fallen.place[3].x = 90.0;  // beside what stands, at the same height
+  fallen.place[3].x = 90.0;  // beside the standing part, at the same height
   pot.fallen = fallen;
   render::Picture picture = picture_of(pot, 0.2);
   picture.camera.azimuth_rad = 0.0;

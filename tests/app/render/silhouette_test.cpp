@@ -7,14 +7,14 @@ namespace {
 
 constexpr double kMarginPx = 1.5;
 
-/// A solid of revolution, `grown` by so many mm on all sides.
+/// A solid of revolution, offset by `grown` mm on all sides.
 struct Shape {
-  std::function<double(double)> radius;  ///< at a part of the height
+  std::function<double(double)> radius;  ///< at a fraction of the height
   double height_mm;
   double grown_mm;
 };
 
-/// Marches along the ray: an independent answer to what it meets.
+/// Marches along the ray: an independent test of intersection.
 bool meets(const Shape& shape, const glm::dvec3& eye, const glm::dvec3& ray, double far_mm) {
   constexpr int kSteps = 4000;
   for (int k = 0; k < kSteps; ++k) {

@@ -26,7 +26,7 @@ const std::uint8_t* at(const render::Image& image, const render::Camera& camera,
   return image.at(static_cast<int>(px.x), static_cast<int>(px.y));
 }
 
-/// On the face of a cut that opens to the camera.
+/// On a cut face that opens to the camera.
 const std::uint8_t* at(const render::Image& image, const render::Camera& camera, double rho,
                        double y) {
   return at(image, camera, rho * render::profile_direction(camera) + glm::dvec3{0, y, 0});
@@ -91,7 +91,7 @@ TEST(WallMap, ShowsUnboundedWallsAsThick) {
   const auto thick = render::wall_swatch(*picture.wall_map, 10.0);
   for (double y = 1.0; y < 99.0; y += 0.25) {
     const auto* px = at(image, picture.camera, 37.5, y);
-    EXPECT_FALSE(px[0] > 2 * px[1]) << y;  // none is taken for thin
+    EXPECT_FALSE(px[0] > 2 * px[1]) << y;  // none is shown as thin
   }
   EXPECT_TRUE(
       is_near(at(image, picture.camera, 37.5, 50.0), thick.red, thick.green, thick.blue, 3));

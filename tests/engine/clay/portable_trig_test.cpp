@@ -11,14 +11,14 @@
 namespace clay {
 namespace {
 
-/// How far a double is from the true value, in units of its last place.
+/// Distance of a double from the true value, in ulp.
 long double ulps(double found, long double expected) {
   const double size = std::abs(found);
   const double ulp = std::nextafter(size, std::numeric_limits<double>::infinity()) - size;
   return std::abs(expected - static_cast<long double>(found)) / static_cast<long double>(ulp);
 }
 
-// A long double has 11 bits more: a nearest double is within half an ulp and 2^-11 of its value.
+// A long double has 11 more bits: a nearest double is within half an ulp and 2^-11 of its value.
 constexpr long double kNearest = 0.5L + 0x1p-11L;
 
 TEST(PortableTrig, ReturnsTheNearestDouble) {

@@ -27,7 +27,7 @@ std::size_t index_below(std::mt19937_64& random, std::size_t end) {
                   static_cast<std::size_t>(samples::uniform(random) * static_cast<double>(end)));
 }
 
-/// Of one ring, of ends of stretches at every level, and between them.
+/// One ring, the ends of stretches at every level, and values between them.
 const auto kCounts = rc::gen::element<std::size_t>(1, 2, 63, 64, 65, 200, 4095, 4096, 4097, 9000);
 
 RC_GTEST_PROP(RingSums, EqualTheSumsOfTheRings, ()) {
@@ -51,7 +51,7 @@ RC_GTEST_PROP(RingSums, EqualTheSumsOfTheRings, ()) {
   }
 }
 
-/// Whoever suspects everything sees every ring once, from the top, with what stands on it.
+/// A predicate that is always true visits every ring once, from the top, with its load.
 RC_GTEST_PROP(RingSums, SearchVisitsEverySuspectRing, ()) {
   auto random = *samples::random_engine();
   const auto rings = random_rings(random, *kCounts);

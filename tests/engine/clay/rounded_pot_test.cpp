@@ -44,7 +44,8 @@ RC_GTEST_PROP(RoundedPot, RadiiAreTheNearestMultiples, ()) {
   const auto rounded = rounded_pot(pot, precision);
   RC_PRE(rounded.has_value());
   const auto is_multiple = [&](Quanta square) {
-    // In long double a square of 2^61 quanta is off by a few at most, a multiple by many more.
+    // In long double the square has an error of a few quanta at most; a wrong multiple differs by
+    // many more.
     const long double steps = std::round(radius_from_quanta(square) / precision);
     const long double mm = steps * std::round(precision * 1e6L) / 1e6L;
     return std::abs(mm * mm * 0x1p36L - static_cast<long double>(square)) <= 2.0L;

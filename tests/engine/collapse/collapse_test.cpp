@@ -18,7 +18,7 @@ namespace {
 
 using falls::kPi;
 constexpr double kCell = 0.3, kSlack = 0.02;
-constexpr double kSoft = 1e-7;  // kPa: clay that carries nothing
+constexpr double kSoft = 1e-7;  // kPa: clay without strength
 
 Ring ring_of(double outer_mm, double inner_mm = 0.0) {
   return {quanta_from_radius(outer_mm), quanta_from_radius(inner_mm)};
@@ -27,7 +27,7 @@ ClayStack stack_of(double h, std::vector<Ring> rings, WideQuanta crown = 0) {
   return ClayStack::from_rings(h, std::move(rings), crown).value();
 }
 
-/// Settled from the failure of a ring that bears `stress_kpa`.
+/// The settled pot after the failure of a ring that bears `stress_kpa`.
 Pot fallen(ClayStack stack, std::size_t failed, glm::dvec3 hip_mm, double threshold_kpa) {
   Pot pot = falls::pot_of(std::move(stack));
   pot.collapse = settle(pot.stack, 1.9, {failed, 2.0 * threshold_kpa}, hip_mm, threshold_kpa);
@@ -43,7 +43,7 @@ double centre_mm(const Pot& pot) { return falls::potential_mj(pot, *pot.collapse
 double lowest_mm(const Pot& pot) { return falls::lowest_mm(pot, *pot.collapse); }
 
 TEST(Collapse, ColumnSinksStraightDownToTheWheel) {
-  // The same face all the way: half the weight is carried, half of the energy is damped.
+  // The same face throughout: half the weight is carried, half of the energy is damped.
   std::vector<Ring> rings(10, ring_of(20, 12));
   rings.resize(40, ring_of(19, 13));
   const Pot pot = fallen(stack_of(2.0, rings), 9, {0, 20, 0}, 0.5 * 1.9e-3 * 9.80665 * 60.0);
@@ -64,8 +64,8 @@ TEST(Collapse, NarrowTubeFallsFreelyIntoAWideOne) {
 }
 
 TEST(Collapse, SolidNeckRestsWhereItIsWideEnough) {
-  // An hourglass that widens by 1 mm a ring both ways, of rings of 2 mm. Sunk by just over m rings,
-  // the parts meet in a disc of the neck's radius and floor(m / 2) mm.
+  // An hourglass that widens by 1 mm per ring both ways, with rings of 2 mm. Sunk by just over m
+  // rings, the parts meet in a disc of the neck's radius and floor(m / 2) mm.
   std::vector<Ring> rings;
   for (int i = 20; i >= 0; --i) rings.push_back(ring_of(15.0 + i));
   for (int i = 0; i <= 20; ++i) rings.push_back(ring_of(15.0 + i));
@@ -79,13 +79,14 @@ TEST(Collapse, SolidNeckRestsWhereItIsWideEnough) {
   EXPECT_NEAR(rests_at(15.5), 4.0, 1e-3);
   EXPECT_NEAR(rests_at(16.5), 8.0, 1e-3);
   EXPECT_NEAR(rests_at(18.5), 16.0, 1e-3);
-  // All but carried on the way, and then stopped by a wider face: it paid for no more than it lost.
+  // Nearly carried during the fall, then stopped by a wider face: the plastic work does not exceed
+  // the energy lost.
   const Collapse slow = fall(15.0001);
   EXPECT_LE(slow.plastic_work_mj, slow.energy_lost_mj);
   EXPECT_NEAR(slow.plastic_work_mj / slow.energy_lost_mj, 1.0, 1e-3);
 }
 
-/// A cylinder on a small foot that carries nothing, pressed far out: it lands on its edge.
+/// A cylinder on a small foot without strength, pressed far out: it lands on its edge.
 Pot tipped_cylinder(double radius, double height, double hip_x) {
   std::vector<Ring> rings(static_cast<std::size_t>(height / 2.0) + 1, ring_of(radius));
   rings[0] = ring_of(1.0);
@@ -112,7 +113,7 @@ TEST(Collapse, SquatCylinderRocksBackOntoItsFoot) {
 }
 
 TEST(Collapse, RollsWithoutSlipping) {
-  // It turns about the HIP until its edge touches, then about that edge.
+  // It rotates about the HIP until its edge touches, then about that edge.
   const double radius = 8.0, hip = 2.5;
   const Pot pot = tipped_cylinder(radius, 160.0, hip);
   const double lands = std::asin(2.0 / (hip + radius));
@@ -123,8 +124,8 @@ TEST(Collapse, RollsWithoutSlipping) {
 }
 
 TEST(Collapse, ConeComesToRestOnItsSide) {
-  // Wider at the top, by half a millimetre a ring of 2 mm: it falls onto the far rim's side, and
-  // lies on the line through the tops of its rings.
+  // Wider at the top, by half a millimetre per ring of 2 mm: it falls onto the far side of the rim,
+  // and rests on the line through the tops of its rings.
   std::vector<Ring> rings{ring_of(1.0)};
   for (int i = 0; i < 60; ++i) rings.push_back(ring_of(4.0 + 0.5 * i));
   const Pot pot = fallen(stack_of(2.0, rings), 0, {2.5, 2.0, 0.0}, kSoft);
@@ -178,7 +179,7 @@ TEST(Collapse, IsRotationallySymmetric) {
   EXPECT_NEAR(glm::length(one.shift_mm), glm::length(other.shift_mm), 1e-5);
 }
 
-/// A vessel of any kind, failing at any ring, pressed from anywhere.
+/// Any vessel, failing at any ring, pressed from anywhere.
 Pot any_fall(std::mt19937_64& random) {
   const auto uniform = [&] { return samples::uniform(random); };
   const auto pick = [&](std::size_t from, std::size_t end) {
@@ -231,7 +232,7 @@ TEST_P(AnyFall, EnergyDecreasesAndNothingEntersTheWheel) {
   EXPECT_EQ(pot.collapse->plastic_work_mj, spent);
 }
 
-/// The ends of what touches the wheel, along `outward`: left, right. NaN where nothing does.
+/// The ends of the contact with the wheel, along `outward`: left, right. NaN without contact.
 std::pair<double, double> footing(const Pot& pot, const glm::dvec3& outward) {
   std::pair<double, double> ends{std::nan(""), std::nan("")};
   const double h = pot.stack.ring_height_mm();
@@ -248,7 +249,7 @@ std::pair<double, double> footing(const Pot& pot, const glm::dvec3& outward) {
   return ends;
 }
 
-/// The greatest net power over the weight [mm/s] of motions whose fastest point moves at about 1
+/// The largest net power over the weight [mm/s] of motions whose fastest point moves at about 1
 /// mm/s.
 double most_won(const Pot& pot, std::mt19937_64& random) {
   const Collapse& c = *pot.collapse;
@@ -282,7 +283,7 @@ double most_won(const Pot& pot, std::mt19937_64& random) {
 TEST_P(AnyFall, RestsWhereNoMotionGainsPower) {
   std::mt19937_64 random(GetParam());
   const Pot pot = any_fall(random);
-  // Both see the surface in samples, and not the same ones.
+  // Both sample the surface, at different points.
   EXPECT_LT(most_won(pot, random), 0.02);
 }
 

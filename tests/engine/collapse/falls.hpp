@@ -1,6 +1,6 @@
 #pragma once
-// A second look at a fall, in space and ring by ring: where points went, and what a motion from
-// there would win. Shares nothing with the engine but the place that a collapse states.
+// An independent analysis of a collapse, in space and ring by ring: positions of points, and the
+// power of motions from there. Shares only the resting place with the engine.
 
 #include "claystack/engine/collapse.hpp"
 
@@ -33,7 +33,7 @@ inline double top_mm(const ClayStack& stack, std::size_t ring) {
                                   : stack.ring_height_mm() * static_cast<double>(ring + 1);
 }
 
-/// Mass above the failed ring [kg], and its centre as it stood.
+/// Mass above the failed ring [kg], and its centre before the collapse.
 struct Weight {
   double kg = 0.0;
   double centre_mm = 0.0;
@@ -55,7 +55,7 @@ inline double potential_mj(const Pot& pot, const Collapse& c) {
   return weight.kg * 9.80665 * moved(c, {0.0, weight.centre_mm, 0.0}).y;
 }
 
-/// Of every corner of every ring that fell, in the plane of the fall.
+/// Over every corner of every fallen ring, in the plane of the collapse.
 inline double lowest_mm(const Pot& pot, const Collapse& c) {
   const ClayStack& stack = pot.stack;
   const glm::dvec3 outward{c.axis.z, 0.0, -c.axis.x};
@@ -82,8 +82,8 @@ inline bool in_standing_clay(const Pot& pot, const Collapse& c, const glm::dvec3
          radius >= pot.stack.rings()[level].inner_mm() - slack_mm;
 }
 
-/// use(place as it stood, unit normal, area) for bits of the surface of the fallen rings, of
-/// `cell_mm` or less. Needs no crown.
+/// Calls use(place before the collapse, unit normal, area) for surface elements of the fallen
+/// rings, at most `cell_mm` large. Requires a pot without a crown.
 template <class Use>
 void each_bit(const Pot& pot, std::size_t failed, double cell_mm, Use use) {
   const auto rings = pot.stack.rings();
@@ -117,7 +117,8 @@ void each_bit(const Pot& pot, std::size_t failed, double cell_mm, Use use) {
     const double inner = rings[i].inner_mm(), outer = rings[i].outer_mm();
     wall(outer, bottom, 1.0);
     if (inner > 0.0) wall(inner, bottom, -1.0);
-    // What a neighbour covers is no surface: parts of an annulus inside and outside of it.
+    // Parts covered by a neighbour are no surface: uses the parts of an annulus inside and outside
+    // of it.
     const auto face = [&](bool covered, const Ring& by, double y, double up) {
       if (!covered) return tread(inner, outer, y, up);
       tread(inner, std::min(outer, by.inner_mm()), y, up);
@@ -128,7 +129,7 @@ void each_bit(const Pot& pot, std::size_t failed, double cell_mm, Use use) {
   }
 }
 
-/// A bit of the fallen surface that lies in the standing clay, or within `slack_mm` of it.
+/// An element of the fallen surface in the standing clay, or within `slack_mm` of it.
 struct Touch {
   glm::dvec3 place_mm, normal;
   double area_mm2;
@@ -145,7 +146,7 @@ inline std::vector<Touch> touches(const Pot& pot, const Collapse& c, double cell
   return found;
 }
 
-/// Net power [mW] of a motion of what fell, with the velocity of each point [mm/s] given.
+/// Net power [mW] of a motion of the fallen part, given the velocity of each point [mm/s].
 template <class Velocity>
 double net_power_mw(const Pot& pot, const Collapse& c, const std::vector<Touch>& in_clay,
                     Velocity velocity) {

@@ -26,7 +26,7 @@ Twist about(glm::dvec2 centre, const PlanePose& pose, double gyration) {
 }
 
 TEST(YieldPower, AtTheFailedRingEqualsTheCriterionOfSectionSeven) {
-  // A neck of 12 mm with a bore of 5 under a wide part: what it bears is its own face.
+  // A neck of 12 mm with a bore of 5 under a wide part: the neck's face bears the load.
   std::vector<Ring> rings(30, Ring{quanta_from_radius(30), quanta_from_radius(3)});
   rings[8] = {quanta_from_radius(12), quanta_from_radius(5)};
   const ClayStack stack = ClayStack::from_rings(2.0, rings, 0).value();
@@ -37,7 +37,7 @@ TEST(YieldPower, AtTheFailedRingEqualsTheCriterionOfSectionSeven) {
   power.place(stood);
   EXPECT_NEAR(power.net({0, -1, 0}), 1.0 - borne / weight, 1e-12);
   EXPECT_NEAR(power.net({0, 1, 0}), -1.0, 1e-12);
-  // About a point beyond the neck, weight and clay act on the same lever.
+  // About a point beyond the neck, weight and clay have the same lever.
   EXPECT_NEAR(power.net(about({40, 18}, stood, body.gyration_mm())), 40 * (1.0 - borne / weight),
               1e-9);
 }
@@ -48,8 +48,9 @@ TEST(YieldPower, ClayOnlyPushes) {
   const PlanePose stood{{0.0, body.centre_height_mm()}, 0.0};
   YieldPower power(stack, 4, body, 1.0, 1e3);
   power.place(stood);
-  // About a point of the face itself, the part to the right lifts off at no cost. Where the face
-  // goes down, |x| over the half disc is 2 R^3 / 3.
+  // About a point of the face itself, the part to the right lifts off without cost. Where the face
+  // moves down, the integral of
+  // |x| over the half disc is 2 R^3 / 3.
   const double expected = -(2.0 / 3) * 8000;
   EXPECT_NEAR(power.net(about({0, 10}, stood, body.gyration_mm())) / expected, 1.0, 5e-3);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Arbitrary values for the files' properties, the ends of every range among them.
+// Arbitrary values for properties of the files, including the limits of every range.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/scene.hpp"

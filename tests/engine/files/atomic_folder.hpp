@@ -1,5 +1,5 @@
 #pragma once
-// A folder to publish files in, and what is seen there from outside.
+// A folder for publishing files, and its contents as seen from outside.
 
 #include "claystack/core/atomic_file.hpp"
 
@@ -32,7 +32,7 @@ inline mode_t mode_of(const std::filesystem::path& path) {
   return status.st_mode & 07777;
 }
 
-/// A folder that is gone after the test.
+/// A folder that is removed after the test.
 class AtomicFileFolder : public ::testing::Test {
  protected:
   AtomicFileFolder() {

@@ -3,7 +3,7 @@
 
 namespace clay::test {
 
-/// Every field of its own, none left at its default.
+/// Every field differs from its default.
 inline SceneSpec full_scene() {
   SceneSpec scene;
   scene.name = "vase";

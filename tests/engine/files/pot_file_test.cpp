@@ -20,7 +20,7 @@ using test::Json;
 
 constexpr Quanta kMm2 = Quanta{1} << 36;
 
-/// Four rings and a ledger that balances.
+/// Four rings and a balanced ledger.
 Pot small_pot() {
   Pot pot;
   pot.stack = ClayStack::from_rings(0.75,
@@ -97,7 +97,7 @@ RC_GTEST_PROP(PotFile, CborHoldsTheFieldsOfJsonExceptRadii, ()) {
 }
 
 TEST(PotFile, TwoHundredRingsFitIntoFourKilobytes) {
-  // No two radii equal, low bits in use, and clay trimmed: nothing to gain by luck.
+  // All radii differ, low bits are used, and clay is trimmed, so that no size is saved by chance.
   std::vector<Ring> rings;
   for (int i = 0; i < 200; ++i)
     rings.push_back({quanta_from_radius(45.0 + 0.0123 * i), quanta_from_radius(40.0 + 0.0071 * i)});
@@ -228,8 +228,8 @@ TEST(PotSchema, NamesTheWrittenFields) {
   EXPECT_EQ(std::set(written.begin(), written.end()), std::set(described.begin(), described.end()));
 }
 
-/// Edited counts no longer agree with the ledger and the radii, nor indices with the stack: there
-/// alone the reader is the stricter one.
+/// Edited counts no longer agree with the ledger and the radii, nor indices with the stack: only
+/// there the reader is stricter than the schema.
 bool is_rule_between_fields(const std::string& edit) {
   constexpr std::array kRules = {"/rings/", "/failed_ring: ", "/axis/", "/max_rings: at minimum",
                                  "/max_rings: above minimum"};

@@ -39,7 +39,7 @@ void expect_error(std::string_view from, std::string_view to, const std::string&
       "p.json:" + std::to_string(test::line_of(text, from)) + ": rounded_rings." + message);
 }
 
-/// Whatever was done to the file, what comes out is a pot that can be written and read.
+/// After any edit, an accepted pot can be written and read.
 void expect_sound(const Pot& pot) {
   EXPECT_EQ(to_string(pot.ledger.imbalance(pot.stack.recount())), "0");
   const auto again = parse_pot(write_pot(pot, PotEncoding::cbor), "again");
@@ -170,7 +170,7 @@ TEST(RoundedPotFile, NoEditedByteGivesAnUnsoundPot) {
 }
 
 TEST(RoundedPotFile, RefusesSumsThatOverflow) {
-  // 2^18 differences of 10^9: their double sum would leave 64 bits.
+  // 2^18 differences of 10^9: their double sum would overflow 64 bits.
   Json file = Json::parse(small_text());
   file["max_rings"] = kMaxRings;
   for (const std::int64_t difference : {1'000'000'000, -1'000'000'000}) {

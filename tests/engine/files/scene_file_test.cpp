@@ -50,7 +50,7 @@ constexpr std::string_view kText = R"({
 }
 )";
 
-/// `from` becomes `to`, and the message must name the line where `from` stood.
+/// Replaces `from` by `to`; the message must name the line of `from`.
 void expect_error(std::string_view from, std::string_view to, const std::string& message) {
   SCOPED_TRACE(to);
   test::expect_refused(

@@ -38,7 +38,7 @@ TEST(SceneSchema, NamesTheWrittenFields) {
   EXPECT_EQ(written, std::set<std::string>(described.begin(), described.end()));
 }
 
-/// A schema cannot compare two fields; there alone the reader is the stricter one.
+/// A schema cannot compare two fields: only there the reader is stricter.
 bool is_rule_between_fields(const std::string& message) {
   constexpr std::array kRules = {"less than outer_radius_mm", "at least rings", "more than",
                                  "as many numbers as"};
@@ -78,7 +78,7 @@ TEST(SceneSchema, AcceptsEverySample) {
 }
 
 TEST(SceneSchema, StatesTheDefaultsOfTheReader) {
-  // A file in which every default is said in full is the same scene as one that says nothing.
+  // A file with all defaults written out is the same scene as a file without them.
   const auto filled = [](const auto& self, const Json& schema) -> Json {
     if (schema.contains("default") && !schema["default"].is_object()) return schema["default"];
     Json object = Json::object();

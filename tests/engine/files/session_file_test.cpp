@@ -23,7 +23,7 @@ Pose pose_of(std::int64_t time_us, glm::dvec3 counts, bool trim = false, double 
   return {time_us, counts * kQuantumMm, trim, gap * kQuantumMm};
 }
 
-/// A hand that wanders, with a button pressed now and then, and pinches after its first block.
+/// A moving hand with occasional button presses, which pinches after its first block.
 std::vector<Pose> wandering(std::size_t count) {
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < count; ++i) {
@@ -48,7 +48,7 @@ constexpr std::string_view kHeader =
     R"({"schema":"claystack-session-1","written_by":"claystack 0.1.0","scene":"vase",)"
     R"("scene_hash":"0123456789abcdef","position_quantum_mm":"2^-16"})"
     "\n";
-// The checks are from a program in another language.
+// The checksums were computed by a program in another language.
 constexpr std::string_view kThreePoses =
     R"({"n":3,"t_us":1000,"dt_us":[1000,1500],"x":[65536,1,2],"y":-3,"z":[0,10,-10],)"
     R"("trim":[0,0,1],"check":"dafff0894e3655ed"})"
@@ -168,7 +168,7 @@ TEST(SessionFile, DetectsEveryFlippedBit) {
       flipped[at] = static_cast<char>(static_cast<unsigned char>(text[at]) ^ (1u << bit));
       const auto session = parse_session(flipped, "flipped");
       if (!session) continue;
-      // Only an end that seems cut off may be forgiven, and then the whole block is dropped.
+      // Only an end that looks truncated may be accepted, and then the whole block is dropped.
       EXPECT_GE(at, last_block) << "bit " << bit << " of byte " << at;
       EXPECT_TRUE(session->torn);
       EXPECT_EQ(session->poses.size(), 200u);
@@ -176,7 +176,7 @@ TEST(SessionFile, DetectsEveryFlippedBit) {
     }
 }
 
-/// `from` becomes `to` in a session of a header and two blocks.
+/// Replaces `from` by `to` in a session of a header and two blocks.
 void expect_error(std::string_view from, std::string_view to, std::size_t line,
                   const std::string& message) {
   SCOPED_TRACE(to);
@@ -253,7 +253,7 @@ TEST(SessionFile, RefusesTimesThatDecreaseBetweenBlocks) {
   test::expect_refused(parse_session(text, "s"), "s:3: t_us: expected a time after 3500, found 0");
 }
 
-/// A header, and blocks of poses that stand still: as many poses a byte as there can be.
+/// A header, and blocks of poses at rest: the most poses per byte.
 std::string still_session(std::size_t blocks) {
   std::string text(kHeader);
   std::vector<Pose> poses(kPosesPerBlock);
@@ -300,7 +300,7 @@ TEST(SessionFile, RefusesABlockBeyondTheLimitAtItsLine) {
                        "s:7: n: expected at most 10000000 poses in all, found more");
   EXPECT_TRUE(poses.empty());
   EXPECT_TRUE(files::append_block(line.value(), poses, 3));
-  // Laid out so that no announcement is found in it, a block is read all the same.
+  // With a layout in which no announced count is found, a block is read nevertheless.
   EXPECT_EQ(files::announced_poses(kThreePoses), 3u);
   EXPECT_EQ(files::announced_poses(" " + std::string(kThreePoses)), 0u);
   EXPECT_EQ(parse_session(std::string(kHeader) + " " + std::string(kThreePoses), "s").value().poses,
@@ -331,7 +331,7 @@ TEST(SessionSchema, RefusesOnlyWhatTheReaderRefuses) {
     EXPECT_EQ(read.has_value(), test::violation(schema, line).empty()) << what;
   }
   for (const auto& [what, line] : test::edits(schema, Json::parse(block))) {
-    // The reader refuses every other edit as well, for the checksum.
+    // The reader refuses every other edit as well, because of the checksum.
     if (test::violation(schema, line).empty()) continue;
     const auto read = parse_session(std::string(kHeader) + line.dump() + "\n", "edited");
     ASSERT_FALSE(read) << what;

@@ -1,6 +1,6 @@
 #pragma once
-// Failing system calls, by a seccomp filter: the kernel itself answers with the error, so that no
-// seam is needed in the code under test.
+// Failing system calls by a seccomp filter: the kernel returns the error, so the code under test
+// needs no hooks.
 
 #include <fcntl.h>
 #include <linux/filter.h>
@@ -19,16 +19,16 @@ namespace clay::test {
 #ifdef SYS_rename
 inline constexpr long kRenameCall = SYS_rename;
 #else
-inline constexpr long kRenameCall = SYS_renameat;  // what newer architectures have instead
+inline constexpr long kRenameCall = SYS_renameat;  // the replacement on newer architectures
 #endif
 
 struct SystemCallFault {
   long call;                           ///< SYS_...
-  unsigned error;                      ///< the errno it gives
-  std::optional<unsigned> flags = {};  ///< only where the third argument has these
+  unsigned error;                      ///< the errno it returns
+  std::optional<unsigned> flags = {};  ///< only if the third argument has these
 };
 
-/// From now on, in this process and for good.
+/// Applies to this process permanently.
 inline bool inject(const SystemCallFault& fault) {
   const auto load = [](std::size_t offset) {
     return sock_filter(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset)));

@@ -9,7 +9,7 @@
 
 namespace clay::test {
 
-/// `text` with the first `from` replaced; a missing one fails the test.
+/// `text` with the first `from` replaced; fails the test if it is missing.
 inline std::string replaced(std::string text, std::string_view from, std::string_view to) {
   const auto at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
@@ -24,7 +24,7 @@ inline std::size_t line_of(std::string_view text, std::string_view part) {
                  std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
 }
 
-/// Refused as bad input, with this message in full.
+/// Expects an error of kind bad_input with exactly this message.
 template <class T>
 void expect_refused(const Result<T>& result, const std::string& message) {
   ASSERT_FALSE(result) << "accepted, expected: " << message;

@@ -1,5 +1,5 @@
 #pragma once
-// How clay flows, said outright.
+// Explicit flow settings.
 
 #include "claystack/engine/tick.hpp"
 #include "tests/engine/tick/contact_samples.hpp"

@@ -1,4 +1,4 @@
-// The work of a tick, whatever the number of rings: not timed, counted in pages of memory.
+// The work of a tick for any number of rings, counted in pages of memory instead of time.
 
 #include "app/bench/extreme/page_watch.hpp"
 #include "claystack/engine/wheel.hpp"
@@ -20,7 +20,7 @@ SceneSpec scene_of(std::size_t rings, Model model = Model::conserving) {
   scene.model = model;
   scene.lump.rings = rings;
   scene.lump.max_rings = std::min(rings + 200, kMaxRings);
-  scene.lump.ring_height_mm = 0.05;  // the most rings there are stay within reach
+  scene.lump.ring_height_mm = 0.05;  // the largest number of rings stays within reach
   scene.lump.outer_radius_mm = 40.0;
   scene.lump.inner_radius_mm = 20.0;
   scene.tool.shape = SphereSpec{0.5};
@@ -30,7 +30,7 @@ SceneSpec scene_of(std::size_t rings, Model model = Model::conserving) {
   return scene;
 }
 
-/// A wheel all of whose memory is watched.
+/// A wheel whose whole memory is watched.
 class Watched {
  public:
   explicit Watched(const SceneSpec& scene)
@@ -40,7 +40,7 @@ class Watched {
     time_us_ += 1000;
     report_ = wheel_->step({time_us_, {x_mm, y_mm, 0.0}, false});
   }
-  /// The pages that a tick there opens.
+  /// The number of pages opened by a tick at that position.
   std::size_t pages(double x_mm, double y_mm) {
     time_us_ += 1000;
     return extreme::pages_opened(memory_, [&] {
@@ -57,7 +57,7 @@ class Watched {
   StepReport report_;
 };
 
-/// The most that a leap from end to end opens.
+/// The largest number of pages opened by a jump from end to end.
 std::size_t pages_of_leap(Watched& watched) {
   std::size_t most = 0;
   for (int k = 0; k < 6; ++k) {
@@ -69,10 +69,10 @@ std::size_t pages_of_leap(Watched& watched) {
   return most;
 }
 
-// 20 rings of contact and 19 on either side of it are a page or two. To know what stands on them:
-// a page of each of three levels where the tool comes to, and one or two where it was.
+// 20 rings of contact and 19 on both sides of it are one or two pages. The load on them: one page
+// of each of three levels at the new position, and one or two at the old one.
 constexpr std::size_t kPlacePages = 2 + 3 * 2;
-// The wheel's state, the kernel, the contact and what it removes.
+// The wheel's state, the kernel, the contact and its removal.
 constexpr std::size_t kOwnPages = 6;
 
 class Rings : public testing::TestWithParam<std::size_t> {};
@@ -97,7 +97,7 @@ TEST_P(Rings, StrokeReadsOnlyNearbyRings) {
     EXPECT_TRUE(watched.report().flags & kContact);
     most = std::max(most, pages);
   }
-  // All the places since the sums were told last: 500 rings and the place itself, 3 pages.
+  // All positions since the last update of the sums: 500 rings and the position itself, 3 pages.
   EXPECT_LE(most, 3 + kPlacePages + kOwnPages);
 }
 
@@ -112,7 +112,7 @@ TEST(Scale, LongStrokeLeavesNoWorkForTheNextJump) {
   EXPECT_TRUE(watched.report().flags & kContact);
 }
 
-/// Nothing above the tool takes the clay, so that all of it weighs on every ring below the top.
+/// No ring above the tool takes clay, so all of it loads every ring below the top.
 TEST_P(Rings, ClayAtTheTopIsFoundWithoutReadingRingsBetween) {
   SceneSpec scene = scene_of(GetParam());
   scene.flow.reach_mm = 0.0;

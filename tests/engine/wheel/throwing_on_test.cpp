@@ -22,9 +22,9 @@ SceneSpec arbitrary_scene() {
   return scene;
 }
 
-constexpr glm::dvec3 kFree{90.0, 10.0, 0.0};  // no tool of these reaches the clay from there
+constexpr glm::dvec3 kFree{90.0, 10.0, 0.0};  // in free air for all these tools
 
-/// From free air to the clay, some way about it, and back.
+/// From free air to the clay, some motion, and back.
 std::vector<Pose> arbitrary_stroke(std::int64_t time_us) {
   std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
   const auto uniform = [&](double low, double high) {
@@ -41,7 +41,8 @@ std::vector<Pose> arbitrary_stroke(std::int64_t time_us) {
     }
   };
   poses.push_back({time_us, kFree, false, 0.0});
-  // The first way goes up or down: what a stroke must not inherit is the way of the one before.
+  // The first motion is up or down, because a stroke must not inherit the direction of the one
+  // before.
   go({90.0, uniform(0.0, 50.0), 0.0}, 0.05);
   const int places = *rc::gen::inRange(1, 4);
   go({uniform(34.0, 45.0), at.y, 0.0}, 0.05);
@@ -78,7 +79,7 @@ RC_GTEST_PROP(ThrowingOn, GivesTheSameBitsAsAnUninterruptedThrow, ()) {
   RC_CLASSIFY(whole.stack().size() > scene.lump.rings, "grew");
 }
 
-/// A crown that leans, and a ring that grows from it later: what the rim has had is no part of the
+/// A crown that leans, and a ring that grows from it later: the state of the rim is not part of the
 /// rings.
 TEST(ThrowingOn, KeepsALeaningRim) {
   const SceneSpec scene = scene_of(Model::conserving);

@@ -14,8 +14,8 @@ namespace {
 
 using samples::scene_of;
 
-/// A hand that wanders, and likes the places where engines fail: the base, the rim, the axis, deep
-/// in the wall, jumps, and the trim button. One that pinches does so now and then.
+/// A moving hand that prefers difficult places: the base, the rim, the axis, deep in the wall,
+/// jumps, and the trim button; with occasional pinches if enabled.
 class RestlessHand {
  public:
   explicit RestlessHand(std::uint64_t seed, bool pinches = false)
@@ -54,7 +54,7 @@ struct Outcome {
   int contacts = 0, grown = 0, trims = 0, expansive = 0, pinches = 0;
 };
 
-/// Plays a million ticks, in pots of twenty thousand, and checks the account after each.
+/// Plays a million ticks, in pots of twenty thousand, and checks the ledger after each.
 template <class Check>
 Outcome play_a_million(Model model, Check check) {
   Outcome outcome;
@@ -137,7 +137,7 @@ TEST(Wheel, PaperErrorHalvesAsTheRingsDouble) {
   };
   const double coarse = worst_percent(200), fine = worst_percent(400);
   EXPECT_GT(coarse,
-            0.5);  // the clay that was pushed up has made the top ring wider than the others
+            0.5);  // the raised clay has made the top ring wider than the others
   EXPECT_NEAR(fine / coarse, 0.5, 0.1);
 }
 
@@ -248,7 +248,7 @@ TEST(Wheel, CollapsesAtACutNeckAndThenStops) {
   const Pot pot = wheel.pot();
   ASSERT_TRUE(pot.collapse);
   EXPECT_NEAR(static_cast<double>(pot.collapse->failed_ring), 10.0, 1.0);
-  EXPECT_EQ(pot.collapse->pivot_mm.y, 10.2);  // the HIP when it happened
+  EXPECT_EQ(pot.collapse->pivot_mm.y, 10.2);  // the HIP at the time of the collapse
   EXPECT_GT(pot.collapse->pivot_mm.x, 2.0);
   EXPECT_GT(pot.collapse->stress_kpa, 2.0);
   EXPECT_GT(pot.collapse->angle_rad, 0.0);
@@ -270,7 +270,7 @@ TEST(Wheel, FeelMatchesStepWithoutChangingTheClay) {
       (void)felt.feel({pose.time_us, {30.0, 10.0, 0.0}});
       const StepReport after = felt.step(pose);
       ASSERT_EQ(plain.step(pose).force_n(), after.force_n()) << i;
-      // A longer way is stepped in parts, and the clay gives way between them.
+      // A longer motion is played in parts, and the clay yields between them.
       const glm::dvec3 way = glm::abs(pose.position_mm - last.position_mm);
       last = pose;
       if (std::max({way.x, way.y, way.z}) >= 0.05) continue;
@@ -303,7 +303,7 @@ TEST(Wheel, RefusesSettingsOutOfRange) {
   names("lump: ", [](SceneSpec& s) { s.lump.outer_radius_mm = 1e6; });
   names("tool: ", [](SceneSpec& s) { s.tool.shape = SphereSpec{0.0}; });
   names("stability.max_stress_kpa", [](SceneSpec& s) { s.stability = StabilitySpec{0.01}; });
-  // In digits that tell the number from the limit.
+  // With enough digits to distinguish the number from the limit.
   names("to 0.999999999, found 1", [](SceneSpec& s) { s.removal.paper_fraction = 1.0; });
   names("found 1e-09", [](SceneSpec& s) { s.lump.ring_height_mm = 1e-9; });
   names("found 1e+300", [](SceneSpec& s) { s.lump.outer_radius_mm = 1e300; });
