@@ -1,4 +1,4 @@
-// make_corpus FOLDER: writes good files of every format to FOLDER/FORMAT for the fuzzers.
+// make_corpus FOLDER: writes valid files of every format to FOLDER/FORMAT for the fuzzers.
 
 #include "tests/fuzz/mesh_promise.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a reader owes for any bytes at all, and files to begin from.
+// The guarantee of every reader for arbitrary bytes, and initial files.
 
 #include "claystack/export/formats.hpp"
 #include "tests/fuzz/sample_meshes.hpp"
@@ -12,8 +12,8 @@
 
 namespace clay::solid::samples {
 
-/// Nothing when the promise is kept: an error with a message that names the file, or a mesh
-/// of finite points within 1e6 mm and indices in range.
+/// Empty if the guarantee holds: an error with a message that names the file, or a mesh of finite
+/// points within 1e6 mm and indices in range.
 inline std::optional<std::string> broken_promise(std::string_view bytes, MeshFormat format) {
   const auto mesh = decode_mesh(bytes, format, "fuzzed");
   if (!mesh) {
@@ -34,7 +34,7 @@ inline std::optional<std::string> broken_promise(std::string_view bytes, MeshFor
   return std::nullopt;
 }
 
-/// Small good files of a format: what mutation makes of them goes deeper than noise would.
+/// Small valid files of a format: their mutations reach deeper code than random bytes.
 inline std::vector<std::string> good_files(MeshFormat format) {
   std::vector<std::string> files;
   const DracoClaims claims{.volume_mm3 = 1.0, .vertex_error_mm = 0.01};

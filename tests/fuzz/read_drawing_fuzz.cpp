@@ -1,4 +1,4 @@
-// Any bytes are a drawing or an error: the reader, and what is made of the lines.
+// Arbitrary bytes give a drawing or an error: tests the reader and the use of its lines.
 #include "app/import/drawn_pot.hpp"
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// libFuzzer over one reader; CMake names which.
+// libFuzzer over one reader, which CMake selects.
 
 #include "tests/fuzz/mesh_promise.hpp"
 

@@ -1,4 +1,4 @@
-// The fuzzers' promise on a fixed run of mutated files, short enough for every build.
+// The fuzzers' guarantee on a fixed set of mutated files, short enough for every build.
 
 #include "tests/fuzz/mesh_promise.hpp"
 
@@ -12,8 +12,8 @@
 namespace clay::solid {
 namespace {
 
-/// Spoils a file as disks, editors and attackers do. The standard's distributions differ
-/// between libraries, so numbers are drawn by remainder.
+/// Damages a file like disks, editors and attackers. The standard's distributions differ between
+/// libraries, so numbers are drawn by remainder.
 class Mutator {
  public:
   explicit Mutator(unsigned seed) : random_(seed) {}
@@ -98,7 +98,7 @@ TEST_P(ReadMesh, MutatedFilesGiveAMeshOrAnError) {
     ASSERT_FALSE(broken.has_value()) << *broken << " in run " << run;
     refused += !decode_mesh(bytes, GetParam(), "again").has_value();
   }
-  // Both ways are walked: most mutants are refused, and some still are meshes.
+  // Both outcomes occur: most mutants are refused, and some are still meshes.
   EXPECT_GT(refused, kRuns / 4);
   EXPECT_LT(refused, kRuns);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Meshes that the tests of the formats and the fuzzers' first corpus share.
+// Meshes shared by the tests of the formats and the fuzzers' initial corpus.
 
 #include "claystack/export/solid.hpp"
 

@@ -19,7 +19,7 @@ using shapes::together;
 constexpr std::size_t kSegments = 48;
 
 /// A revolve of `segments` steps is wider than its profile by the equal-volume factor, and its
-/// facets lie nearer to the axis than its corners.
+/// facets are nearer to the axis than its corners.
 double facet_scale(std::size_t segments) {
   const double step = 2.0 * std::numbers::pi / static_cast<double>(segments);
   return std::sqrt(step / std::sin(step)) * std::cos(step / 2.0);
@@ -81,8 +81,8 @@ TEST(SampledWall, OfASphericalShellLiesBetweenFacetAndCornerThickness) {
 }
 
 TEST(SampledWall, IgnoresTheEdgeOfALeaningRim) {
-  // A rim of 80 degrees beside a wall of 3 mm: rays from near the edge leave through the wall
-  // after next to nothing, and tell of no wall.
+  // A rim at 80 degrees to a wall of 3 mm: rays from near the edge leave through the wall after a
+  // short distance, which is no wall thickness.
   const double lean = std::tan(10.0 * std::numbers::pi / 180.0);
   const double height = 60.0, horizontal = 3.0;
   const auto at = [&](double y) { return 30.0 + lean * y; };
@@ -95,7 +95,8 @@ TEST(SampledWall, IgnoresTheEdgeOfALeaningRim) {
                                        kSegments);
   const SampledWall wall = wall_of(flaring);
   EXPECT_GT(wall.oblique, 0u);
-  // Across: the horizontal width times the cosine of the lean, on the cut through the facets.
+  // Across: the horizontal width times the cosine of the inclination, on the cut through the
+  // facets.
   EXPECT_GT(wall.least_mm, 2.8);
   EXPECT_LT(wall.least_mm, 3.0);
 }
@@ -117,7 +118,7 @@ TEST(SampledWall, CountsRaysThatEscapeThroughAHole) {
   std::erase(mesh.triangles, (std::array<std::uint32_t, 3>{4, 6, 7}));
   const SampledWall wall = wall_of(mesh);
   EXPECT_DOUBLE_EQ(wall.least_mm, 2.0);
-  EXPECT_NEAR(static_cast<double>(wall.escaped), 2000.0, 5.0);  // one side of five left
+  EXPECT_NEAR(static_cast<double>(wall.escaped), 2000.0, 5.0);  // one of five sides
 }
 
 TEST(SampledWall, FindsNoWallOnAnOpenSheet) {
@@ -151,7 +152,7 @@ TEST(SampledWall, FollowsFewerRaysBeyondTheStepLimit) {
   EXPECT_GT(half.rays, 1'000u);
   EXPECT_LT(half.rays, 9'000u);
   EXPECT_EQ(told, 10'000u);
-  // Those that are left lie on all of the surface, and see as thin a wall.
+  // The remaining rays cover all of the surface, and find the same minimum wall.
   EXPECT_NEAR(half.least_mm, 2.5 * facet_scale(kSegments), 1e-9);
   const SampledWall all = wall_of(mesh);
   EXPECT_EQ(all.rays, 10'000u);
@@ -160,7 +161,7 @@ TEST(SampledWall, FollowsFewerRaysBeyondTheStepLimit) {
 }
 
 TEST(SampledWall, RespectsTheStepLimitOnASoup) {
-  // Every ray comes past nearly all of these.
+  // Every ray passes nearly all of these.
   TriangleMesh soup;
   for (std::uint32_t i = 0; i < 3000; ++i) {
     const auto at = [&](double k) {

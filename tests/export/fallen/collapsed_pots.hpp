@@ -1,6 +1,5 @@
 #pragma once
-// Pots that fell, and where a point of the pot came to lie: by quaternions, which the export does
-// not use.
+// Collapsed pots, and the resting place of a point, by quaternions, which the export does not use.
 
 #include "claystack/engine/clay.hpp"
 #include "tests/export/solid/shapes.hpp"
@@ -13,7 +12,8 @@
 
 namespace clay::solid::shapes {
 
-/// Falls about an axis through `pivot_mm`, square to the direction `toward_rad` about the wheel.
+/// Falls about an axis through `pivot_mm`, perpendicular to the direction `toward_rad` about the
+/// wheel.
 inline Pot fallen(ClayStack stack, std::size_t failed_ring, glm::dvec3 pivot_mm, double angle_rad,
                   double toward_rad = 0.0) {
   Pot pot = pot_of(std::move(stack));
@@ -22,7 +22,7 @@ inline Pot fallen(ClayStack stack, std::size_t failed_ring, glm::dvec3 pivot_mm,
   return pot;
 }
 
-/// Place of a point of the upper part after the fall; both y up.
+/// Resting place of a point of the upper part; both with y up.
 inline glm::dvec3 fallen_point(const Collapse& collapse, const glm::dvec3& p) {
   return collapse.pivot_mm + collapse.shift_mm +
          glm::angleAxis(collapse.angle_rad, collapse.axis) * (p - collapse.pivot_mm);
@@ -32,7 +32,8 @@ inline glm::dvec3 point_before_fall(const Collapse& collapse, const glm::dvec3& 
                                  (p - collapse.pivot_mm - collapse.shift_mm);
 }
 
-/// Any stack, fallen anyhow: along the axes and across, by quarter and half turns, not at all.
+/// Any stack with any collapse: along and across the axes, by quarter and half turns, and not at
+/// all.
 inline rc::Gen<Pot> any_fallen_pot() {
   return rc::gen::exec([] {
     const ClayStack stack = *any_stack();

@@ -49,7 +49,7 @@ TEST(CollapsedSolid, ZeroRotationGivesTheStandingPot) {
   EXPECT_EQ(solid->overlap_mm3, 0.0);
   EXPECT_NEAR(solid->union_mm3, kPi * 100 * 20, 1e-9);
   EXPECT_EQ(solid->pieces, 1u);
-  // Two storeys of walls and two caps: nothing is left of the faces in which the parts touch.
+  // Two storeys of walls and two caps: the faces where the parts touch are gone.
   EXPECT_EQ(solid->check.triangles, 6u * 16);
 }
 
@@ -58,12 +58,12 @@ TEST(CollapsedSolid, HalfTurnAboutTheCutOverlapsEqualHalves) {
     const auto solid = united(
         fallen(stack_of(10, {{12, 0}, {9, 5}, {9, 5}, {12, 0}}), 1, {0, 20, 0}, kPi, toward), 16);
     ASSERT_TRUE(solid) << solid.error().message;
-    // Out of step, facets stand out of each other by the chord's height and no more.
+    // Rotated against each other, facets overlap by the chord's height at most.
     const double half = kPi * 10 * (144 + 81 - 25), facets = half * (1.0 - std::cos(kPi / 16));
     EXPECT_NEAR(solid->lower_mm3, half, 1e-9);
     EXPECT_NEAR(solid->union_mm3, half, facets);
     EXPECT_NEAR(solid->overlap_mm3, half, facets);
-    // A half turn about a corner's direction takes the polygon to itself, to the last bit.
+    // A half turn about a corner's direction maps the polygon to itself, to the last bit.
     if (toward == 0.0) {
       EXPECT_NEAR(solid->overlap_mm3, half, 1e-9);
       EXPECT_LT(solid->max_move_mm, 1e-5);
@@ -72,8 +72,8 @@ TEST(CollapsedSolid, HalfTurnAboutTheCutOverlapsEqualHalves) {
 }
 
 TEST(CollapsedSolid, SquareBarsIntersectInTwoPyramids) {
-  // Four segments make square bars, on edge, of half diagonal d; their axes cross at right angles.
-  // At the distance t from the plane of the axes both are 2 (d - t) wide: 8 d^3 / 3 in all.
+  // Four segments make square bars, on edge, with half diagonal d; their axes are perpendicular. At
+  // the distance t from the plane of the axes both are 2 (d - t) wide: 8 d^3 / 3 in all.
   const auto solid = united(fallen(stack_of(40, {{10, 0}, {10, 0}}), 0, {20, 40, 0}, kPi / 2), 4);
   ASSERT_TRUE(solid) << solid.error().message;
   const double d = 10 * std::sqrt(kPi / 2);
@@ -85,12 +85,12 @@ TEST(CollapsedSolid, CylindersIntersectInASteinmetzSolid) {
   const glm::dvec3 pivot{20 * std::cos(0.3), 40, 20 * std::sin(0.3)};
   const auto solid = united(fallen(stack_of(40, {{10, 0}, {10, 0}}), 0, pivot, kPi / 2, 0.3), 128);
   ASSERT_TRUE(solid) << solid.error().message;
-  // 16 R^3 / 3, but for the facets: both polygons have the circle's area.
+  // 16 R^3 / 3, except for the facets: both polygons have the circle's area.
   EXPECT_NEAR(solid->overlap_mm3 / (16.0 / 3 * 1000), 1.0, 1e-3);
 }
 
 TEST(CollapsedSolid, AppliesTheShift) {
-  // Shifted by its radius and down by 5 mm: the overlap is a lens of two circles of that distance.
+  // Shifted by its radius and down by 5 mm: the overlap is a lens of two circles at that distance.
   Pot pot = fallen(stack_of(40, {{10, 0}, {10, 0}}), 0, {20, 40, 0}, 0.0);
   pot.collapse->shift_mm = {-6.0, -5.0, 8.0};
   const auto solid = united(pot, 128);
@@ -98,7 +98,7 @@ TEST(CollapsedSolid, AppliesTheShift) {
   const double lens = 100 * (2 * kPi / 3 - std::sqrt(3.0) / 2);
   EXPECT_NEAR(solid->overlap_mm3 / (5 * lens), 1.0, 2e-3);
   EXPECT_NEAR(solid->union_mm3, 2 * kPi * 100 * 40 - solid->overlap_mm3, 1e-6);
-  // A half turn, then back over the foot it came from.
+  // A half turn, then back over the original foot.
   pot = fallen(stack_of(10, {{12, 0}, {9, 5}, {9, 5}, {12, 0}}), 1, {0, 20, 0}, kPi);
   pot.collapse->shift_mm = {0.0, 20.0, 0.0};
   EXPECT_EQ(united(pot, 16)->overlap_mm3, 0.0);
@@ -115,7 +115,7 @@ TEST(CollapsedSolid, SeparatePartsAreTwoBodies) {
 }
 
 TEST(CollapsedSolid, ReportsTrappedAirAsAVoid) {
-  // A bell set down on a slab: a room of 15 mm radius and 8 mm height.
+  // A bell placed on a slab: a room of 15 mm radius and 8 mm height.
   const auto solid =
       united(fallen(stack_of(8, {{20, 0}, {20, 15}, {20, 0}}), 0, {20, 8, 0}, 0.0), 24);
   ASSERT_TRUE(solid) << solid.error().message;
@@ -157,7 +157,7 @@ TEST(CollapsedSolid, WithoutClayAboveTheFailedRingThePotStands) {
 }
 
 TEST(CollapsedSolid, ClosesAGapBelowFloat32) {
-  // Set down upside down, 2e-13 mm above the lower part.
+  // Placed upside down, 2e-13 mm above the lower part.
   const Pot pot = fallen(stack_of(10, {{20, 0}, {20, 0}, {6, 0}}), 1, {0, 25 + 1e-13, 0}, kPi);
   const auto solid = united(pot, 16);
   ASSERT_TRUE(solid) << solid.error().message;
@@ -167,8 +167,8 @@ TEST(CollapsedSolid, ClosesAGapBelowFloat32) {
 }
 
 TEST(CollapsedSolid, KeepsPocketsDeeperThanTheTolerance) {
-  // The bell sinks into the slab as it tilts, by half a millimetre at its axis. The room that is
-  // left, 7.5 mm high, has three times its volume over its area for depth: 7.5 mm too.
+  // The bell sinks into the slab as it tilts, by half a millimetre at its axis. The remaining room,
+  // 7.5 mm high, has a depth (three times volume over area) of 7.5 mm too.
   const double slope = 0.02, radius = 15, height = 8 - 25 * std::tan(slope);
   const Pot pot = fallen(stack_of(8, {{30, 0}, {20, radius}, {20, 0}}), 0, {-25, 8, 0}, -slope);
   const double room = kPi * radius * radius * height;
@@ -209,7 +209,7 @@ TEST(CollapsedSolid, RefusesAPartLostInFloat32) {
                       ErrorKind::unsound, "the upper part in float32"));
 }
 
-/// By the counted stack alone.
+/// From the counted stack alone.
 bool holds(const Pot& pot, const glm::dvec3& p) {
   const Collapse& fall = *pot.collapse;
   const auto in = [&](const glm::dvec3& q, std::size_t first, std::size_t last) {
@@ -259,12 +259,12 @@ RC_GTEST_PROP(CollapsedSolid, VolumesAddUpAndTheMeshIsSound, ()) {
   const auto solid = united(pot, segments, smoothing, 0.3);
   RC_CLASSIFY(solid.has_value());
   if (!solid) {
-    // Rings that touch in a circle, or walls of 1e-4 mm and less.
+    // Rings that touch in a circle, or walls of at most 1e-4 mm.
     RC_ASSERT(solid.error().kind == ErrorKind::unsound);
     return;
   }
   const double parts = solid->lower_mm3 + solid->upper_mm3;
-  // Walls of 1e-6 mm hold less clay than doubles can tell of the cylinders that bound them.
+  // Walls of 1e-6 mm hold less clay than the rounding error of the cylinders that bound them.
   RC_ASSERT(std::abs(parts - solid->overlap_mm3 - solid->union_mm3) <=
             1e-9 * solid->union_mm3 + shapes::volume_rounding(pot.stack));
   const double levelled = 1e-6 * (20.0 + pot.stack.height_mm() + 2.0 * 25.0);

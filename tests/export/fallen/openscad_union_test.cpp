@@ -1,4 +1,4 @@
-// A second engine: OpenSCAD unites the same two parts by Nef polyhedra.
+// An independent program: OpenSCAD unites the same two parts by Nef polyhedra.
 
 #include "claystack/export/fallen.hpp"
 #include "claystack/export/formats.hpp"
@@ -18,7 +18,7 @@ namespace {
 using samples::output_of;
 using samples::ScratchFile;
 
-/// The upper part where it fell, turned by quaternions; z up.
+/// The upper part at its resting place, rotated by quaternions; z up.
 TriangleMesh fallen_part(const CollapsedParts& parts, const Collapse& fall, std::size_t segments) {
   TriangleMesh mesh = revolve(parts.upper.profile, segments);
   for (glm::dvec3& p : mesh.points) {
@@ -54,7 +54,7 @@ TEST(OpenScad, AgreesOnTheUnion) {
     EXPECT_GT(solid->overlap_mm3, 100.0);
     const double theirs = volume_by_openscad(revolve(parts->lower.profile, 24),
                                              fallen_part(*parts, *pot.collapse, 24));
-    // It writes six digits.
+    // OpenSCAD writes six digits.
     EXPECT_NEAR(theirs / solid->union_mm3, 1.0, 1e-5) << angle;
   }
 }

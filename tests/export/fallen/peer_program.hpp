@@ -1,5 +1,5 @@
 #pragma once
-// Other people's programs as judges of the files we write.
+// Independent programs that check the written files.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 namespace clay::solid::samples {
 
-/// A file in the temporary folder for as long as this lives.
+/// A file in the temporary folder that is removed at the end of the scope.
 class ScratchFile {
  public:
   explicit ScratchFile(std::string_view ending, std::string_view bytes = {})
@@ -32,7 +32,7 @@ class ScratchFile {
   std::filesystem::path path_;
 };
 
-/// What the command prints; the test fails unless it ends well within 20 s.
+/// The output of a command; fails the test unless it ends well within 20 s.
 inline std::string output_of(const std::string& command) {
   std::FILE* const pipe = popen(("timeout 20 " + command + " 2>&1").c_str(), "r");
   if (pipe == nullptr) return {};

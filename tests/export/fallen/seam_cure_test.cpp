@@ -14,7 +14,8 @@
 namespace clay::solid {
 namespace {
 
-/// A cube whose edge from (0, 0, 0) to (8, 0, 0) has a point of its own at `x`, moved by `off`.
+/// A cube with an additional point at `x` on its edge from (0, 0, 0) to (8, 0, 0), displaced by
+/// `off`.
 TriangleMesh cube_with_a_point_on_its_edge(double x, glm::dvec3 off = glm::dvec3{0.0}) {
   TriangleMesh mesh = shapes::cube(8);
   mesh.points.push_back(glm::dvec3{x, 0, 0} + off);
@@ -56,7 +57,7 @@ TEST(SeamCure, KeepsLongEdgesAndEdgesOffTheSeam) {
 }
 
 TEST(SeamCure, FlipsTheLongestEdgeOfFlatTriangles) {
-  // The bottom's diagonal has a point beside it: a triangle 1e-5 mm high on an edge of 11 mm.
+  // A point beside the diagonal of the bottom: a triangle 1e-5 mm high on an edge of 11 mm.
   TriangleMesh mesh = shapes::cube(8);
   mesh.points.emplace_back(4 + 1e-5, 4, 0);
   std::erase(mesh.triangles, std::array<std::uint32_t, 3>{0, 2, 1});
@@ -80,8 +81,8 @@ TEST(SeamCure, FlipsTheLongestEdgeOfFlatTriangles) {
 }
 
 TEST(SeamCure, NeverFoldsTheSurface) {
-  // The bottom, with a short edge from 8 to 9. A wedge beside it, 8 10 11, would be turned over by
-  // pulling 8 to 9, though not by pulling 9 to 8.
+  // The bottom, with a short edge from 8 to 9. Collapsing 8 to 9 would flip a wedge beside it (8 10
+  // 11), but collapsing 9 to 8 would not.
   TriangleMesh mesh = shapes::cube(8);
   for (const glm::dvec2 p : {glm::dvec2{4, 4}, {4.00095, 4}, {4.0006, 4.01}, {4.0006, 6}, {4.5, 5}})
     mesh.points.emplace_back(p, 0.0);
@@ -123,11 +124,11 @@ TEST(SeamCure, RefusesANonManifoldMesh) {
 TEST(Pockets, FillsShallowPocketsOfTheSeam) {
   const TriangleMesh hole = shapes::inverted(shapes::moved(shapes::cube(0.1), {4, 4, 4}));
   TriangleMesh mesh = shapes::together(shapes::cube(8), hole);
-  mesh.points.emplace_back(1, 2, 3);  // of no triangle
+  mesh.points.emplace_back(1, 2, 3);  // unused
   const auto fill = [&](std::size_t seam, double deepest) {
     return fill_pockets(mesh, only(mesh.points.size(), seam), deepest);
   };
-  // A cube's depth by this measure is half its side: the radius of the ball it holds.
+  // The depth of a cube by this measure is half its side: the radius of its inscribed ball.
   const FilledPockets filled = fill(10, 0.051);
   EXPECT_EQ(filled.mesh, shapes::cube(8));
   EXPECT_EQ(filled.on_seam, std::vector<bool>(8, false));

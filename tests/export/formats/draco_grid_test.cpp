@@ -20,7 +20,7 @@ struct Case {
   DracoSettings settings;
 };
 
-/// A cloud at any scale, beside the origin or about it, and an error that its float32 allows.
+/// A point cloud at any scale, near the origin or around it, and an error that float32 permits.
 Case any_case() {
   const auto unit = [] { return static_cast<float>(*rc::gen::inRange(-1000, 1001)) / 1000.0F; };
   const float scale = std::exp2(static_cast<float>(*rc::gen::inRange(-8, 9)));
@@ -61,7 +61,7 @@ RC_GTEST_PROP(DracoGrid, CoversEveryPoint, ()) {
   }
 }
 
-/// The farthest that a point can be from the grid is half the diagonal of a cell.
+/// The largest distance of a point from the grid is half the diagonal of a cell.
 RC_GTEST_PROP(DracoGrid, IsAsCoarseAsTheErrorAllows, ()) {
   const Case given = any_case();
   const DracoGrid grid = choose_grid(given.points, given.settings).value();
@@ -70,7 +70,7 @@ RC_GTEST_PROP(DracoGrid, IsAsCoarseAsTheErrorAllows, ()) {
   RC_ASSERT(half_diagonal < error);
   RC_ASSERT(grid.bits >= given.settings.min_bits);
   if (grid.bits > given.settings.min_bits) {
-    // float32 takes its share: some 20 roundings of numbers up to 21 times the extent.
+    // float32 rounding: about 20 roundings of numbers up to 21 times the extent.
     const double rounding = 20.0 * 21.0 * 0x1p-24 * extent_of(given.points);
     RC_ASSERT(half_diagonal > error - rounding);
     const double steps_of_a_bit_less = std::exp2(grid.bits - 1) - 1.0;
@@ -79,7 +79,7 @@ RC_GTEST_PROP(DracoGrid, IsAsCoarseAsTheErrorAllows, ()) {
   }
 }
 
-/// Who asks for bits asks for a fine grid: enlarging the cube would take them back.
+/// Requested bits mean a fine grid: enlarging the cube would undo them.
 RC_GTEST_PROP(DracoGrid, RequestedBitsDivideTheExtent, ()) {
   const Case given = any_case();
   const DracoGrid grid = choose_grid(given.points, given.settings).value();

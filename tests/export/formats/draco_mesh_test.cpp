@@ -13,7 +13,7 @@ using draco::AttributeValueIndex;
 using draco::FaceIndex;
 using draco::PointIndex;
 
-/// A tetrahedron of Draco's, to be spoilt as no encoder of theirs would.
+/// A Draco tetrahedron, damaged in ways that no Draco encoder produces.
 class DracoMesh : public testing::Test {
  protected:
   [[nodiscard]] std::string message() const {

@@ -40,7 +40,7 @@ std::string decode_message(const std::string& bytes) {
   return message_of(decode_drc(bytes, "pot.drc"));
 }
 
-/// A plain file with this block after the header.
+/// A file without metadata, with this block inserted after the header.
 std::string with_block(const std::string& block) {
   std::string bytes = encode_drc(tetrahedron(), {}).value();
   bytes[kHeaderBytes - 1] = static_cast<char>(0x80);
@@ -57,7 +57,7 @@ std::string number(double value) {
   return bytes;
 }
 
-/// A block of these entries and a checksum that holds for the file it stands in.
+/// A block of these entries with a checksum that matches its file.
 std::string with_entries_and_checksum(const std::vector<std::string>& entries) {
   std::string block = std::string(1, '\0') + static_cast<char>(entries.size() + 1);
   for (const std::string& each : entries) block += each;
@@ -124,7 +124,7 @@ TEST(DrcClaims, AreIgnoredByDracosProgram) {
   EXPECT_EQ(text, decoded_by_draco(encode_drc(mesh, {}).value()));
 }
 
-/// Each byte, to every other value: header, metadata and mesh alike.
+/// Each byte changed to every other value: header, metadata and mesh.
 TEST(DrcClaims, DetectEveryChangedByte) {
   const std::string good = with_claims(torus(4, 3));
   const std::size_t body = good.size() - encode_drc(torus(4, 3), {})->size() + kHeaderBytes;
@@ -187,7 +187,7 @@ TEST(DrcClaims, AreRefusedInABrokenBlock) {
   }
 }
 
-/// Of others; with metadata of attributes, and nested.
+/// Metadata of other programs, including attribute metadata and nested blocks.
 TEST(DrcClaims, IgnoreOtherMetadata) {
   auto metadata = std::make_unique<draco::GeometryMetadata>();
   metadata->AddEntryString("name", std::string(300, 'x'));

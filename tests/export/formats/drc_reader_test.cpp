@@ -55,7 +55,7 @@ TEST(ReadDrc, ErrorsNameTheFaultInTheHeader) {
   EXPECT_EQ(message_of(decode_drc("DRACO\2\2", "pot.drc")), "pot.drc: the Draco header ends early");
 }
 
-/// A mesh such as Draco itself makes it, with what the test asks for.
+/// A mesh made by Draco itself, with the properties that the test sets.
 struct DracoFile {
   int components = 3;
   draco::DataType type = draco::DT_FLOAT32;
@@ -105,7 +105,7 @@ TEST(ReadDrc, RefusesMeshesWithoutUsablePositions) {
             "pot.drc: position 4: expected a coordinate within +-1e6 mm, found nan");
 }
 
-/// Draco 1.5 hands out what a sequential mesh states, in range or not.
+/// Draco 1.5 returns the indices of a sequential mesh unchecked.
 TEST(ReadDrc, FlippedBytesNeverGiveAnIndexOutOfRange) {
   bool named = false;
   for (const std::string& good : {DracoFile{}.encode(), encode_drc(torus(5, 4), {}).value()}) {

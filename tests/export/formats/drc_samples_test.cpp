@@ -1,4 +1,4 @@
-// What a Draco file of a pot promises, on the sample pots.
+// The properties of a Draco file of a pot, on the sample pots.
 
 #include "claystack/export/formats.hpp"
 #include "claystack/export/job.hpp"
@@ -42,7 +42,7 @@ TEST_P(DrcOfSample, KeepsEveryVertexWithinTheTolerance) {
   const TriangleMesh drc = decode_drc(pot.drc, "drc").value();
   ASSERT_EQ(drc.triangles.size(), stl.triangles.size());
   ASSERT_EQ(drc.points.size(), stl.points.size());
-  // Twice float32's rounding at 200 mm: the grid was laid on the points that STL holds rounded.
+  // Twice float32's rounding at 200 mm: the grid was chosen for the rounded points in the STL.
   EXPECT_LE(vertex_distance(stl, drc), kToleranceMm + 2.0 * 200.0 * 0x1p-24);
 }
 

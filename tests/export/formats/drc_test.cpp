@@ -42,7 +42,7 @@ RC_GTEST_PROP(Drc, KeepsTheErrorLimit, ()) {
   RC_ASSERT(largest_move(read, mesh) <= settings.max_error_mm);
 }
 
-/// Soup that no solid has: Draco may split its vertices, but every triangle stays in place.
+/// A soup that is not a solid: Draco may split its vertices, but every triangle keeps its place.
 RC_GTEST_PROP(Drc, KeepsEveryTriangleOfASoup, ()) {
   const auto millimetre = rc::gen::map(rc::gen::inRange(-5, 6), [](int x) { return double(x); });
   TriangleMesh mesh = *samples::any_mesh(millimetre);
@@ -62,7 +62,7 @@ TEST(Drc, UsesTheAllowedError) {
   const TriangleMesh mesh = torus(40, 20);
   for (const double error_mm : {0.17, 0.1, 0.071, 0.05, 0.01, 0.007, 0.0055, 0.001}) {
     const std::string bytes = encode_drc(mesh, {.max_error_mm = error_mm}).value();
-    // Of 800 vertices one comes near the corner of its cell.
+    // Of 800 vertices, one lies near the corner of its cell.
     EXPECT_GT(largest_move(mesh, decode_drc(bytes, "x").value()), 0.7 * error_mm) << error_mm;
   }
 }
@@ -165,7 +165,7 @@ TEST(Drc, DracosOwnDecoderAgrees) {
   text << std::ifstream(unpacked.path()).rdbuf();
   const TriangleMesh read = decode_obj(text.str(), "draco_decoder").value();
   EXPECT_EQ(read.triangles.size(), mesh.triangles.size());
-  EXPECT_LE(largest_move(mesh, read), 0.01 + 1e-6);  // it prints six decimals
+  EXPECT_LE(largest_move(mesh, read), 0.01 + 1e-6);  // the program prints six decimals
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 using samples::corners_of;
 using samples::torus;
 
-/// Pages of zeros that take no memory until they are written.
+/// Pages of zeros that use no memory until they are written.
 class HugeFile {
  public:
   explicit HugeFile(std::size_t size)

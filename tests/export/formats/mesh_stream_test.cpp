@@ -1,4 +1,4 @@
-// Mesh files that are read a little at a time.
+// Mesh files that are read in parts.
 
 #include "claystack/export/formats.hpp"
 #include "tests/fuzz/sample_meshes.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 using samples::torus;
 
-/// A file that is made while it is read: nothing of it stays in memory.
+/// A file generated while it is read, so it is never in memory.
 class MadeFile {
  public:
   using Piece = std::function<std::string(std::size_t)>;
@@ -53,7 +53,7 @@ class MadeFile {
 
 constexpr std::size_t kMegabyte = std::size_t{1} << 20;
 
-/// Facets along a strip, with lines of many lengths, so that they end anywhere in a part.
+/// Facets along a strip, with lines of varying length, so that they end anywhere in a part.
 std::string text_facet(std::size_t i) {
   const std::string x = std::to_string(i), y = std::to_string(i + 1);
   return std::string(i % 97, ' ') + "facet normal 0 0 1\nouter loop\nvertex " + x +
@@ -76,7 +76,7 @@ TEST(MeshStream, ReadsTextInPartsOfAtMostTwoMegabytes) {
     const auto mesh = read_stl(file.source(most), "strip.stl");
     ASSERT_TRUE(mesh) << mesh.error().message;
     ASSERT_EQ(mesh->triangles.size(), kFacets);
-    // Facet i has two corners of its own and shares the one after it.
+    // Facet i has two new corners and shares the next one.
     ASSERT_EQ(mesh->points.size(), 2 * kFacets + 1);
     for (std::size_t i = 0; i < kFacets; ++i) {
       const auto& [a, b, c] = mesh->triangles[i];
@@ -89,7 +89,7 @@ TEST(MeshStream, ReadsTextInPartsOfAtMostTwoMegabytes) {
 }
 
 TEST(MeshStream, ErrorsNameALateLine) {
-  // Seven lines and an empty one a facet, after the first line.
+  // Seven lines and an empty one per facet, after the first line.
   constexpr std::size_t kFacets = 40'000;
   MadeFile file = text_strip(kFacets, "facet normal 0 0 up\n");
   const std::string line = std::to_string(8 * kFacets + 2);
@@ -104,7 +104,7 @@ TEST(MeshStream, ErrorsNameALateLine) {
 }
 
 TEST(MeshStream, ObjInPartsEqualsObjInOneBlock) {
-  // Continued lines and comments, wherever a part ends.
+  // Continued lines and comments at every position of a part.
   MadeFile file(60'000, [](std::size_t i) {
     const std::string x = std::to_string(i % 1000);
     if (i < 30'000)
@@ -174,7 +174,7 @@ TEST(MeshStream, AnnouncesTheTrianglesBeforeReading) {
     return static_cast<double>(triangles);
   };
   EXPECT_EQ(announced(binary, read_stl), 400.0);
-  // Text by a guess, within a factor of two.
+  // For text an estimate, within a factor of two.
   EXPECT_NEAR(announced(text, read_stl), 400.0, 200.0);
   EXPECT_NEAR(announced(obj, read_obj), 400.0, 200.0);
 }

@@ -27,7 +27,7 @@ Triangles triangles_of(const std::string& text) {
   return mesh ? mesh->triangles : Triangles{};
 }
 
-// ---- what we write
+// ---- writing
 
 RC_GTEST_PROP(Obj, KeepsEveryBitAndIndex, ()) {
   const TriangleMesh mesh = *samples::any_mesh();
@@ -48,7 +48,7 @@ TEST(Obj, ShortensAnOverlongName) {
   EXPECT_EQ(decode_obj(text, "x").value(), tetrahedron());
 }
 
-// ---- what we read
+// ---- reading
 
 TEST(Obj, ReadsEveryKindOfCorner) {
   const std::string rest = "vt 0 0\nvt 0.5\nvt 1 1 1\nvn 0 0 1\n";

@@ -68,7 +68,7 @@ TEST(SectionSvg, DrawsBothHalvesToScale) {
   const std::string svg = section_svg(pot_of(stack_of(5.0, {{20, 0}, {20, 40.0 / 3}})));
   const auto cut = outlines(svg, "cut");
   const auto beyond = outlines(svg, "beyond");
-  ASSERT_EQ(cut.size(), 1u);  // both halves hang together: no seam on the axis
+  ASSERT_EQ(cut.size(), 1u);  // both halves are connected: no seam on the axis
   ASSERT_EQ(beyond.size(), 1u);
   const double scale2 = area(beyond[0]) / (40.0 * 10.0);
   EXPECT_NEAR(area(cut[0]) / scale2, 40.0 * 5.0 + 2 * 20.0 / 3 * 5.0, 0.5);
@@ -87,8 +87,8 @@ TEST(SectionSvg, DrawsOneOutlinePerSideOfTubesAndPieces) {
 }
 
 TEST(SectionSvg, DrawsTheFallenPartRotated) {
-  // Two cubes' sections of 20 x 10 mm; the upper one turns by 90 degrees about its lower right
-  // corner, toward the left, and then reaches from 0 to 10 mm across and from -10 to 10 mm up.
+  // Sections of two cubes, 20 x 10 mm; the upper one rotates by 90 degrees about its lower right
+  // corner, toward the left, and then extends from 0 to 10 mm across and from -10 to 10 mm up.
   Pot pot = pot_of(stack_of(10.0, {{10, 0}, {10, 0}}));
   pot.collapse = Collapse{0, {0, 10, 10}, {-1, 0, 0}, std::numbers::pi / 2, 1.0};
   const std::string svg = section_svg(pot);
@@ -111,7 +111,7 @@ TEST(SectionSvg, DrawsTheFallenPartRotated) {
 }
 
 TEST(SectionSvg, DrawsAFallenCrownAtItsRestingPlace) {
-  // 4 mm of crown, over 10 mm of ring that stays; it comes down by 10 mm, 30 mm to the right.
+  // 4 mm of crown, above 10 mm of ring that stays; it falls by 10 mm, 30 mm to the right.
   Pot pot = pot_of(stack_of(10.0, {{10, 0}}, quanta_from_radius(10) * 4 / 10));
   pot.collapse = Collapse{0, {12, 10, 0}, {0, 0, 1}, 0.0, 1.0, {30, -10, 0}};
   const auto cut = outlines(section_svg(pot), "cut");
@@ -136,11 +136,11 @@ TEST(SectionSvg, DrawsAFallenCrownAtItsRestingPlace) {
 TEST(SectionSvg, DrawsThePathOfFallDashed) {
   Pot pot = pot_of(stack_of(10.0, {{10, 0}, {10, 0}, {10, 0}}));
   pot.collapse = Collapse{0, {0, 10, 0}, {0, 0, 1}, 0.0, 1.0, {0, -10, 0}};
-  EXPECT_EQ(outlines(section_svg(pot), "ghost").size(), 0u);  // no telling how it fell
+  EXPECT_EQ(outlines(section_svg(pot), "ghost").size(), 0u);  // the path of fall is unknown
   pot.collapse->threshold_kpa = 0.1;                          // half of its weight
   const auto ghosts = outlines(section_svg(pot), "ghost");
   ASSERT_EQ(ghosts.size(), 4u);
-  // As it stood, and after each quarter of its way down: all 20 mm high, to within a step.
+  // Before the collapse, and after each quarter of the descent: all 20 mm high, to within a step.
   const auto foot = [](const std::vector<glm::dvec2>& outline) {
     return std::max_element(outline.begin(), outline.end(),
                             [](auto a, auto b) { return a.y < b.y; })

@@ -18,7 +18,7 @@ struct Corner {
   glm::dvec3 point, normal;
 };
 
-/// Our decoder passes normals over, so the text is read here.
+/// The decoder ignores normals, so the text is parsed here.
 std::vector<Corner> corners_in(const std::string& obj) {
   std::vector<glm::dvec3> points, normals;
   std::vector<Corner> corners;

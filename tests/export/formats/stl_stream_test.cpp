@@ -12,7 +12,7 @@
 namespace clay::solid {
 namespace {
 
-/// Lets a test change what has been written, and lose the ability to write.
+/// Lets a test change the written bytes, and make writing fail.
 class TamperedStore final : public FileStore {
  public:
   explicit TamperedStore(std::string bytes) : bytes_(std::move(bytes)) {}

@@ -43,7 +43,7 @@ std::string one_facet(const std::string& vertices) {
 
 const std::string kThreeVertices = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
 
-// ---- what we write
+// ---- writing
 
 RC_GTEST_PROP(Stl, KeepsEveryBitInBothFormats, ()) {
   const TriangleMesh mesh = *samples::any_mesh();
@@ -65,7 +65,7 @@ TEST(Stl, FollowsTheBinaryLayout) {
   const float first[12] = {0, 0, 1, 1, 1, 0, 3, 1, 0, 1, 4, 0};
   EXPECT_EQ(std::memcmp(bytes.data() + kPrologue, first, sizeof first), 0);
   EXPECT_EQ(read_at<std::uint16_t>(bytes, kPrologue + 48), 0u);
-  // Three corners in a line have no normal.
+  // Three collinear corners have no normal.
   const float second[12] = {0, 0, 0, 1, 1, 0, 3, 1, 0, 5, 1, 0};
   EXPECT_EQ(std::memcmp(bytes.data() + kPrologue + kFacet, second, sizeof second), 0);
 }
@@ -99,7 +99,7 @@ TEST(Stl, AdmeshAgrees) {
   }
 }
 
-// ---- what we read
+// ---- reading
 
 TEST(Stl, WeldsOnlyEqualFloats) {
   const float one_up = std::nextafter(1.0F, 2.0F);
@@ -109,7 +109,7 @@ TEST(Stl, WeldsOnlyEqualFloats) {
 }
 
 TEST(Stl, WeldsNegativeZeroWithZero) {
-  // Many pairs, as a single one might meet in the hash table by chance.
+  // Many pairs, because a single one might collide in the hash table by chance.
   TriangleMesh mesh{{{1, 0, 0}, {2, 0, 0}}, {}};
   for (std::uint32_t i = 0; i < 50; ++i) {
     mesh.points.push_back({0, i, 0});

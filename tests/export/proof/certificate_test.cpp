@@ -71,7 +71,7 @@ TEST(Certify, RefusesTriangleWithoutArea) {
 
 TEST(Certify, RefusesPinchAtTheAxis) {
   EXPECT_TRUE(refused({{{{2, 0}, {2, 2}, {0, 1}}}}, "single point"));
-  // An hourglass on the axis: both halves have their axis segment, the waist has none.
+  // An hourglass on the axis: both halves have an axis segment, the waist has none.
   EXPECT_TRUE(refused({{{{2, 0}, {1, 2}, {2, 4}, {1, 4}, {0, 2}, {1, 0}}}}, "single point"));
 }
 
@@ -85,7 +85,7 @@ TEST(Certify, RefusesPiecesThatTouchCrossOrNest) {
   const Polygon around{{0.5, -1}, {3, -1}, {3, 3}, {0.5, 3}};
   EXPECT_TRUE(refused({{kSquare, around}}, "piece 0: expected pieces beside each other"));
   EXPECT_TRUE(refused({{around, kSquare}}, "piece 1: expected pieces beside each other"));
-  // Nested twice: the parity of the innermost is even again.
+  // Nested twice: the parity of the innermost polygon is even again.
   const Polygon inmost{{1.4, 0.4}, {1.6, 0.4}, {1.6, 0.6}, {1.4, 0.6}};
   EXPECT_TRUE(refused({{inmost, kSquare, around}}, "expected pieces beside each other"));
 }
@@ -114,7 +114,7 @@ TEST(Certify, RefusesAWallLostInRounding) {
   EXPECT_TRUE(refused(found->profile, "found none at (rho, y) = (5000, 1) mm"));
 }
 
-/// On a small grid of integers everything can be decided by plain integer arithmetic.
+/// On a small integer grid, every predicate can be decided by integer arithmetic.
 struct GridPoint {
   std::int64_t x = 0, y = 0;
   friend bool operator==(const GridPoint&, const GridPoint&) = default;

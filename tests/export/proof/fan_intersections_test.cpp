@@ -1,5 +1,5 @@
-// Crowded vertices and edges: the same pairs as by each against each, and in time. The sizes are
-// such that a search of the square of them would not end within the time that a test has.
+// Vertices and edges of many triangles: the same pairs as by comparing all, and in time. The sizes
+// are such that a quadratic search would exceed the time limit of a test.
 
 #include "export/proof/soup_intersections.hpp"
 
@@ -32,8 +32,8 @@ Kernel::Triangle_3 triangle_of(const TriangleMesh& mesh, std::size_t t) {
   return {point(0), point(1), point(2)};
 }
 
-/// By the intersection as CGAL constructs it: a point where one vertex is shared, a segment of
-/// two of the corners where an edge is, else they meet elsewhere too.
+/// By the intersection that CGAL constructs: a point if one vertex is shared, a segment between two
+/// corners if an edge is shared; any other intersection counts.
 bool meet_by_construction(const TriangleMesh& mesh, std::size_t i, std::size_t j) {
   const Triangle &a = mesh.triangles[i], &b = mesh.triangles[j];
   const auto shared = std::count_if(a.begin(), a.end(), [&](std::uint32_t v) {
@@ -66,7 +66,7 @@ Fault found(const TriangleMesh& mesh) {
   return search.found();
 }
 
-/// A disc about point 0, its rim `turns` times round; heights of the rim by `z(step)`.
+/// A disc about point 0, its rim going `turns` times around; heights of the rim by `z(step)`.
 template <class Height>
 TriangleMesh disc(std::uint32_t steps, std::uint32_t turns, const Height& z) {
   TriangleMesh mesh{{{0, 0, 0}}, {}};
@@ -92,7 +92,7 @@ TEST(FanIntersections, FindsNoneInADisc) {
 
 TEST(FanIntersections, FindsThoseOfADiscWoundTwice) {
   expect_same(disc(101, 2, [](auto) { return 0.0; }), 101);
-  // As a screw: it crosses itself along one spoke, at the least.
+  // Like a screw: it intersects itself along at least one spoke.
   expect_same(disc(101, 2, [](auto i) { return 0.01 * i; }), 1);
 }
 
@@ -122,8 +122,8 @@ TEST(FanIntersections, FindsThoseOfTrianglesOnOneEdge) {
     book.triangles.push_back({0, 1, 2 + i});
   }
   expect_same(book, 0);
-  // Two leaves in the half-plane of the eleventh, one opposite, and a duplicate, which is no
-  // meeting.
+  // Two triangles in the half-plane of the eleventh, one opposite, and a duplicate, which does not
+  // count.
   const glm::dvec3 way = book.points[12];
   book.points.insert(book.points.end(), {way * 2.0, way + book.points[1], way * -1.0});
   book.triangles.insert(book.triangles.end(), {{62, 1, 0}, {0, 1, 63}, {1, 0, 64}, {12, 0, 1}});
@@ -131,7 +131,7 @@ TEST(FanIntersections, FindsThoseOfTrianglesOnOneEdge) {
 }
 
 RC_GTEST_PROP(FanIntersections, MatchCgalOnRandomSoups, ()) {
-  // On a small grid much is coplanar, in line or the same; most triangles hang from few vertices.
+  // On a small grid many triangles are coplanar, collinear or equal; most share few vertices.
   const int side = *rc::gen::inRange(3, 12);
   TriangleMesh mesh;
   const std::uint32_t points = *rc::gen::inRange<std::uint32_t>(6, 60);
@@ -189,7 +189,7 @@ TEST(FanIntersections, EqualTrianglesAreFast) {
   same.triangles.assign(300'000, {0, 1, 2});
   const MeshReport report = check_mesh(same);
   EXPECT_EQ(report.self_intersections, 0u);
-  // The same again with corners of their own.
+  // The same with separate corners.
   TriangleMesh apart;
   for (std::uint32_t i = 0; i < 20'000; ++i) {
     apart.points.insert(apart.points.end(), same.points.begin(), same.points.end());
@@ -209,7 +209,7 @@ TEST(FanIntersections, DegenerateTrianglesOnOneVertexAreFast) {
 }
 
 TEST(FanIntersections, EqualBoxesAreFast) {
-  // Each with all its corners beyond the plane of the one before, on the same edges of a cube.
+  // Each has all its corners beyond the plane of the previous one, on the same edges of a cube.
   constexpr std::uint32_t kMany = 100'000;
   TriangleMesh mesh;
   for (std::uint32_t i = 0; i < kMany; ++i) {

@@ -1,4 +1,4 @@
-// Certificates as an enemy would write them: each is refused with a reason, at little cost.
+// Malicious certificates: each is refused with a reason, at little cost.
 
 #include "claystack/export/job.hpp"
 #include "claystack/export/proof.hpp"
@@ -29,7 +29,7 @@ const Certified& cup() {
   return made;
 }
 
-/// The cup's certificate with the value of a field replaced.
+/// The cup's certificate with the value of one field replaced.
 std::string with(const std::string& field, const std::string& value) {
   std::string text = cup().text;
   const std::string name = std::string("\"").append(field).append("\": ");
@@ -38,14 +38,14 @@ std::string with(const std::string& field, const std::string& value) {
   return text.replace(begin, end - begin, value);
 }
 
-/// `part` so many times, after `before`.
+/// `part` repeated, after `before`.
 std::string repeated(const std::string& part, std::size_t times, std::string before = "") {
   std::string text = std::move(before);
   for (std::size_t i = 0; i < times; ++i) text += part;
   return text;
 }
 
-/// What `check --certificate` does with the two.
+/// The same as `check --certificate` on the two.
 Result<void> checked(const std::string& text) {
   return parse_certificate(text, "c.json").and_then([](const SolidCertificate& certificate) {
     return verify_certificate(certificate, cup().file, "cup.stl");
@@ -86,7 +86,7 @@ TEST(HostileCertificate, RefusesInvalidNumbers) {
 TEST(HostileCertificate, RefusesSegmentsOutOfRange) {
   for (const char* segments : {"0", "2", "1048577", "1000000000", "18446744073709551615"})
     EXPECT_TRUE(refused(with("segments", segments), "3 to 1048576 segments")) << segments;
-  // In range, but the file has no such number: found before any circle is made.
+  // In range, but the file has another number: detected before any circle is made.
   EXPECT_TRUE(refused(with("segments", "1048576"), "triangles, found"));
 }
 
@@ -124,7 +124,7 @@ TEST(HostileCertificate, RefusesDuplicateUnknownOrMissingFields) {
   EXPECT_TRUE(refused("7", "expected a JSON object, found text that begins with '7'"));
 }
 
-// Each of these took the parser's stack, gigabytes, or hours.
+// Each of these once exhausted the parser's stack, gigabytes of memory, or hours.
 TEST(HostileCertificate, RefusesBombs) {
   EXPECT_TRUE(refused(repeated("[", 1'000'000), "expected an object"));
   EXPECT_TRUE(refused(with("profile_mm", repeated("[", 1'000'000)), "nested 4 deep"));
@@ -145,7 +145,7 @@ TEST(HostileCertificate, RefusesBombs) {
       refused(std::string(kMaxCertificateBytes + 1, ' '), "expected a certificate of at most"));
 }
 
-// The sweep would hold every tooth against every other.
+// The sweep would compare every tooth with every other.
 TEST(HostileCertificate, RefusesCombs) {
   constexpr std::size_t kTeeth = 50'000;
   Polygon comb{{1, 0}};
@@ -181,7 +181,7 @@ TEST(HostileCertificate, RandomEditsNeverPassNorThrow) {
       }
     }
     if (!checked(text)) continue;
-    // Left as it was, but for space, the words for people, or digits beyond double.
+    // Unchanged except for whitespace, text for people, or digits beyond double.
     const auto parsed = parse_certificate(text, "c.json");
     EXPECT_EQ(parsed->profile, same.profile);
     EXPECT_EQ(parsed->segments, same.segments);

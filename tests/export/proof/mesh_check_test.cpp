@@ -107,13 +107,13 @@ TEST(CheckMesh, ReportsACrackOfOneUlp) {
 }
 
 TEST(CheckMesh, ReportsADegenerateSliver) {
-  // A vertex in the middle of an edge: the face beside it is split, the sliver closes the gap.
+  // A vertex in the middle of an edge: the face beside it is split, and the sliver closes the gap.
   TriangleMesh mesh = cube(2.0);
   mesh.points.push_back({1, 0, 0});
   std::erase(mesh.triangles, (std::array<std::uint32_t, 3>{0, 1, 5}));
   mesh.triangles.insert(mesh.triangles.end(), {{0, 8, 5}, {8, 1, 5}, {0, 1, 8}});
   const MeshReport report = check_mesh(mesh);
-  // The faces on both sides of the sliver touch along it, which no two faces may.
+  // The faces on both sides of the sliver touch along it, which is an intersection.
   EXPECT_EQ(verdict(report), (Verdict{true, true, true, false, true})) << names(report);
   EXPECT_EQ(report.degenerate, 1u);
   ASSERT_EQ(report.problems.size(), 2u) << names(report);

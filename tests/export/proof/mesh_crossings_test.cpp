@@ -1,4 +1,4 @@
-// Meshes that cut through themselves.
+// Self-intersecting meshes.
 
 #include "claystack/export/proof.hpp"
 #include "tests/export/proof/mesh_verdict.hpp"
@@ -31,7 +31,7 @@ TEST(MeshCrossings, FindsOverlappingSolids) {
 
 TEST(MeshCrossings, FindsASelfIntersection) {
   TriangleMesh mesh = ball(5.0);
-  mesh.points[0].z = 20.0;  // the lower pole through the top
+  mesh.points[0].z = 20.0;  // moves the lower pole through the top
   const MeshReport report = check_mesh(mesh);
   EXPECT_TRUE(report.closed && report.manifold);
   EXPECT_GT(report.self_intersections, 0u);
@@ -44,7 +44,7 @@ TEST(MeshCrossings, FindsSolidsThatTouchInAnUnsharedCorner) {
 }
 
 TEST(MeshCrossings, FindsSelfIntersectionsInSoups) {
-  // The same overlap with and without a fin that makes it a soup: one count, two ways.
+  // The same overlap with and without a fin that makes it a soup: equal counts by two methods.
   const TriangleMesh overlap = together(ball(5.0), moved(ball(5.0), {1.1, 0.7, 0.3}));
   TriangleMesh soup = overlap;
   soup.points.push_back({90, 90, 90});
@@ -54,7 +54,7 @@ TEST(MeshCrossings, FindsSelfIntersectionsInSoups) {
   EXPECT_GT(check_mesh(soup).self_intersections, 0u);
 }
 
-/// A soup, because its last triangle names a vertex twice.
+/// A soup, because its last triangle uses a vertex twice.
 std::size_t crossings_in_soup(std::vector<glm::dvec3> points,
                               std::vector<std::array<std::uint32_t, 3>> triangles) {
   triangles.push_back({0, 0, 1});
@@ -72,8 +72,8 @@ TEST(MeshCrossings, FindsOverlapOfTrianglesThatShareAnEdge) {
 }
 
 TEST(MeshCrossings, FindsCrossingOfTrianglesThatShareAVertex) {
-  // A side of the second pierces the first above (1, 1), and not the reverse. Which of them is
-  // looked at first depends on which reaches lower: the shear turns that round.
+  // A side of the second pierces the first above (1, 1), and not the reverse. The order of the
+  // search depends on which reaches lower; the shear reverses it.
   for (const double shear : {0.0, -3.0}) {
     const auto count = [&](double tip) {
       std::vector<glm::dvec3> points{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 1}, {1, 1, tip}};

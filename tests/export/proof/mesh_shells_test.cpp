@@ -1,4 +1,4 @@
-// Shells beside, within and against each other.
+// Shells beside, inside and against each other.
 
 #include "claystack/export/proof.hpp"
 #include "export/solid/mesh_geometry.hpp"
@@ -89,13 +89,13 @@ TEST(MeshShells, ReportsACavityOutsideItsSolid) {
   EXPECT_FALSE(report.sound());
 }
 
-/// Cubes within cubes, about one axis: every upward ray runs through the corners of all others.
+/// Nested cubes about one axis: every upward ray passes the corners of all others.
 TriangleMesh nest(std::size_t shells) {
   TriangleMesh mesh;
   for (std::size_t i = 0; i < shells; ++i) {
     const double side = 2.0 * static_cast<double>(i + 1);
     const TriangleMesh shell = moved(cube(side), glm::dvec3(-side / 2.0));
-    // The outermost faces out.
+    // The outermost shell faces out.
     const TriangleMesh turned = (shells - i) % 2 == 1 ? shell : inverted(shell);
     const auto offset = static_cast<std::uint32_t>(mesh.points.size());
     mesh.points.insert(mesh.points.end(), turned.points.begin(), turned.points.end());
@@ -127,14 +127,14 @@ std::size_t steps_of(const TriangleMesh& mesh) {
 }
 
 TEST(MeshShells, SearchCostGrowsWithTheNumberOfShells) {
-  // Four times as many: log-linear is less than six times, by pairs would be sixteen.
+  // Four times as many: log-linear gives less than six times, comparing pairs sixteen times.
   EXPECT_LT(steps_of(nest(2000)), 6 * steps_of(nest(500)));
   EXPECT_LT(steps_of(nest(2000)), 2000u * 400);
   EXPECT_LT(steps_of(crowd(16)), 12 * steps_of(crowd(8)));  // eight times as many
   EXPECT_LT(steps_of(crowd(16)), 4096u * 400);
 }
 
-/// A shell with what is within it, each a cube in an octant of its own.
+/// A shell with its contents, each a cube in a separate octant.
 struct Tree {
   bool outward = true;
   std::vector<Tree> within;
@@ -143,7 +143,7 @@ struct Tree {
 rc::Gen<Tree> any_tree(int depth) {
   return rc::gen::exec([depth] {
     Tree tree;
-    tree.outward = *rc::gen::inRange(0, 6) > 0;  // mended by the depth below
+    tree.outward = *rc::gen::inRange(0, 6) > 0;  // corrected by the depth below
     const int count = depth == 0 ? 0 : *rc::gen::inRange(0, 4);
     for (int i = 0; i < count; ++i) tree.within.push_back(*any_tree(depth - 1));
     return tree;
@@ -153,7 +153,7 @@ rc::Gen<Tree> any_tree(int depth) {
 /// Adds the shells to the mesh; returns how many are misplaced where `expected` is how this faces.
 std::size_t build(const Tree& tree, const glm::dvec3& low, double side, bool expected, bool spoilt,
                   TriangleMesh& mesh) {
-  // `outward` false: not as it should be.
+  // `outward` false: the wrong orientation.
   const bool outward = tree.outward == expected;
   const TriangleMesh shell = moved(cube(side), low);
   mesh = together(std::move(mesh), outward ? shell : inverted(shell));
@@ -173,7 +173,7 @@ RC_GTEST_PROP(MeshShellsAtRandom, ReportsExactlyTheMisplacedShells, ()) {
   const bool outward = *rc::gen::arbitrary<bool>();
   TriangleMesh mesh;
   const std::size_t misplaced = build(tree, {-3.0, 1.0, 0.5}, 64.0, outward, false, mesh);
-  // Turned, so that tops are corners, or not, so that they are faces.
+  // Rotated, so that tops are corners, or not, so that they are faces.
   if (*rc::gen::arbitrary<bool>())
     for (glm::dvec3& p : mesh.points)
       p = {0.8 * p.x - 0.6 * p.z, 0.6 * p.y + 0.48 * p.x + 0.64 * p.z,

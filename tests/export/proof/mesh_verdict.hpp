@@ -1,5 +1,5 @@
 #pragma once
-// What a report says, for tests to compare and to print.
+// The verdicts of a report, for tests to compare and to print.
 
 #include "claystack/export/proof.hpp"
 
@@ -9,7 +9,7 @@
 
 namespace clay::solid::samples {
 
-/// The verdicts of a report, in one value to compare.
+/// The verdicts of a report as one comparable value.
 struct Verdict {
   bool closed, manifold, oriented, bounds_volume, crosses;
   friend bool operator==(const Verdict&, const Verdict&) = default;

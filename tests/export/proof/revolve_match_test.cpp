@@ -26,7 +26,7 @@ Profile vase_profile() { return profile_of(shapes::vase(20))->profile; }
   return ::testing::AssertionSuccess();
 }
 
-/// The same surface with points and triangles in another order, and triangles turned.
+/// The same surface with points and triangles in another order, and rotated triangles.
 TriangleMesh shuffled(const TriangleMesh& mesh, std::mt19937& random) {
   std::vector<std::uint32_t> place(mesh.points.size());
   for (std::uint32_t i = 0; i < place.size(); ++i) place[i] = i;
@@ -48,7 +48,7 @@ RC_GTEST_PROP(MatchRevolve, MatchesTheSolidInAnyOrder, (const ClayStack& stack, 
   std::mt19937 random(seed);
   TriangleMesh mesh = shuffled(revolve(rule), random);
   const auto exact = match_revolve(mesh, rule, 1e-9, "file");
-  // Walls may be thinner than the reach: then some other vertex may be as near.
+  // Walls may be thinner than the reach: then another vertex may be as near.
   if (!exact) return;
   RC_ASSERT(*exact == 0.0);
   std::swap(mesh.triangles.front()[0], mesh.triangles.front()[1]);
@@ -83,7 +83,8 @@ TEST(MatchRevolve, ReportsDifferencesFromTheSolid) {
 }
 
 TEST(MatchRevolve, RefusesTheOtherDiagonal) {
-  // Flat quads may be cut either way, but files hold one way, and an edge cut both ways is open.
+  // Flat quads may have either diagonal, but files use one, and an edge with both diagonals is
+  // open.
   const RevolveLayout rule(vase_profile(), 24);
   TriangleMesh mesh = revolve(rule);
   const auto shared = std::find_if(mesh.triangles.begin() + 1, mesh.triangles.end(),

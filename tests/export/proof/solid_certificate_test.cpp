@@ -91,7 +91,7 @@ TEST(SolidCertificate, DetectsConsistentClaimsThatDoNotMatchTheFile) {
 }
 
 TEST(SolidCertificate, RefusesMarginsThatDoNotCoverTheRounding) {
-  // Walls of 6e-6 mm: float32 holds them apart, but not with a margin.
+  // Walls of 6e-6 mm: float32 separates them, but without a margin.
   ExportOptions options;
   options.smoothing = Smoothing::none;
   auto [certificate, file] =
@@ -141,8 +141,8 @@ TEST(SolidCertificate, ErrorsNameTheField) {
 }
 
 TEST(Margins, ScaleWithTheProfile) {
-  // A cup whose floor, wall and lip are all 4 mm: the clearance is the least of the distances
-  // between a vertex and an edge that it is no end of.
+  // A cup whose floor, wall and lip are all 4 mm: the clearance is the minimum distance between a
+  // vertex and an edge not incident to it.
   const Profile cup = profile_of(shapes::stack_of(4.0, {{30, 0}, {30, 26}}))->profile;
   const Margins margins = margins_of(cup, 100);
   const double factor =
@@ -186,7 +186,7 @@ std::vector<KnownPot> known_pots() {
   std::vector<KnownPot> pots;
   pots.push_back(
       {"cylinder cup", {{{{30, 0}, {30, 50}, {26.5, 50}, {26.5, 5}, {0, 5}, {0, 0}}}}, 3.5});
-  // A radial wall of 4 mm that leans by atan(1/2).
+  // A radial wall of 4 mm inclined by atan(1/2).
   pots.push_back({"cone", {{{{30, 0}, {60, 60}, {56, 60}, {26, 0}}}}, 4.0 * 2.0 / std::sqrt(5.0)});
   // From 30 to 150 degrees of latitude, so that the rims are cut along radii.
   const auto shell = [&](double radius) {
@@ -215,7 +215,7 @@ TEST(ClaimsOf, WallBoundsContainTheKnownWallWithinTheTolerance) {
   }
 }
 
-/// Random stacks with walls and ring heights from the rounding unit of float32 up.
+/// Random stacks with walls and ring heights down to the rounding unit of float32.
 ClayStack thin_stack(std::mt19937_64& random) {
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -226,7 +226,7 @@ ClayStack thin_stack(std::mt19937_64& random) {
   for (int i = 0; i < count; ++i) {
     const double outer = uniform(20.0, 74.0);
     radii.push_back({outer, outer - 0.5 * outer * std::exp2(uniform(thinnest, 0.0))});
-    // A ring that overlaps the last one by as little as float32 can tell.
+    // A ring that overlaps the last one by the smallest amount that float32 resolves.
     if (i > 0 && random() % 2 == 0)
       radii.back() = {radii[radii.size() - 2].inner_mm * (1.0 + std::exp2(uniform(-24.0, -4.0))),
                       5.0};
@@ -234,8 +234,8 @@ ClayStack thin_stack(std::mt19937_64& random) {
   return shapes::stack_of(std::exp2(uniform(-9.0, 3.0)), radii);
 }
 
-/// Whatever the certificate passes, CGAL's exact test on the decoded bytes passes; and so does the
-/// verification of the certificate.
+/// Whatever the certificate accepts, CGAL's exact test on the decoded bytes accepts; and so does
+/// the verification of the certificate.
 TEST(SolidCertificate, IsNeverWrong) {
   std::mt19937_64 random(20);
   int by_margins = 0, by_test = 0, refused = 0;
@@ -261,7 +261,7 @@ TEST(SolidCertificate, IsNeverWrong) {
     const auto verdict = verify_certificate(certificate, store.bytes(), "pot");
     ASSERT_TRUE(verdict) << k << verdict.error().message;
   }
-  // The three ways out are all well trodden.
+  // All three outcomes occur often.
   EXPECT_GT(by_margins, 500);
   EXPECT_GT(by_test, 100);
   EXPECT_GT(refused, 20);

@@ -24,7 +24,7 @@ using shapes::together;
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Pairs by CGAL's own test of whole meshes, lower number first, rising.
+/// Pairs by CGAL's test of whole meshes, lower number first, ascending.
 std::vector<Pair> pairs_by_cgal(const TriangleMesh& mesh) {
   namespace pmp = CGAL::Polygon_mesh_processing;
   using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
@@ -42,7 +42,7 @@ std::vector<Pair> pairs_by_cgal(const TriangleMesh& mesh) {
   return pairs;
 }
 
-/// Parts in reverse, since the order must not matter.
+/// Parts in reverse order, because the order must not matter.
 Fault found_in_slabs(const TriangleMesh& mesh, std::size_t fewest_slabs) {
   SoupIntersections search(mesh);
   EXPECT_GE(search.slabs(), fewest_slabs);
@@ -65,20 +65,20 @@ TriangleMesh vase(std::size_t rings, std::size_t segments) {
 }
 
 TEST(SoupIntersections, MatchCgalOnCrossingVases) {
-  // Crossing all along the height, so that pairs lie on the borders of slabs too.
+  // Intersecting along the whole height, so that pairs also lie on the borders of slabs.
   const TriangleMesh one = vase(60, 140);
   expect_same_as_cgal(together(one, moved(one, {1.1, 0.7, 0.3})), 3);
 }
 
 TEST(SoupIntersections, CountTrianglesAcrossManySlabsOnce) {
-  // Staves as long as the prism beside a fine vase that makes the slabs.
+  // Staves as long as the prism, beside a fine vase that determines the slabs.
   const TriangleMesh staves = revolve({{{{0, -20}, {52, -20}, {52, 230}, {0, 230}}}}, 90);
   expect_same_as_cgal(together(vase(100, 100), staves), 2);
 }
 
 TEST(SoupIntersections, ListsStayShortForLongTriangles) {
-  // Staves side by side, half as long as all of them together reach: cut in six, each would be in
-  // three or four of the lists.
+  // Parallel staves, half as long as the whole set: with six slabs, each would be in three or four
+  // of the lists.
   constexpr std::uint32_t kStaves = 200'000;
   TriangleMesh staves;
   for (std::uint32_t i = 0; i < kStaves; ++i) {
@@ -92,17 +92,19 @@ TEST(SoupIntersections, ListsStayShortForLongTriangles) {
   EXPECT_EQ(search.found().count, 0u);
 }
 
-TEST(SoupIntersections, FindNoneInAFineVase) { EXPECT_EQ(found_in_slabs(vase(60, 200), 2).count, 0u); }
+TEST(SoupIntersections, FindNoneInAFineVase) {
+  EXPECT_EQ(found_in_slabs(vase(60, 200), 2).count, 0u);
+}
 
 TEST(BoundedVolume, SignIsCertainOnlyBeyondTheError) {
   EXPECT_TRUE(bounded_volume(cube(2.0)).sign_is_certain());
   EXPECT_TRUE(bounded_volume(moved(inverted(cube(1e-3)), {1e3, 1e3, 1e3})).sign_is_certain());
-  // Flat: no volume at all.
+  // Flat: zero volume.
   TriangleMesh flat = cube(2.0);
   for (glm::dvec3& p : flat.points) p.z = 0.1 * p.x + 0.3 * p.y;
   EXPECT_FALSE(bounded_volume(flat).sign_is_certain());
   EXPECT_FALSE(bounded_volume({}).sign_is_certain());
-  // A needle far from its first point, less thick than the digits there.
+  // A needle far from its first point, thinner than the digits there resolve.
   TriangleMesh far = moved(cube(1e-9), {1e6, 1e6, 1e6});
   far.points.insert(far.points.begin(), {0, 0, 0});
   for (auto& t : far.triangles)
@@ -111,7 +113,8 @@ TEST(BoundedVolume, SignIsCertainOnlyBeyondTheError) {
 }
 
 RC_GTEST_PROP(BoundedVolume, ErrorIsWithinTheBound, ()) {
-  // Tetrahedra on a grid have a volume that 64-bit integers tell exactly; the shift costs digits.
+  // Tetrahedra on a grid have a volume that 64-bit integers represent exactly; the translation
+  // costs digits.
   const auto coordinate = rc::gen::inRange<std::int64_t>(-1000, 1001);
   std::array<std::array<std::int64_t, 3>, 4> corners{};
   for (auto& corner : corners)

@@ -39,7 +39,7 @@ std::string names(const RepairedMesh& result) {
   return all;
 }
 
-/// The mesh is sound again, holds that volume, and this is all that was done.
+/// The mesh is sound again with that volume, and only these repairs were made.
 void expect_mended(const TriangleMesh& broken, double volume_mm3, const std::vector<Repair>& as) {
   ASSERT_FALSE(check_mesh(broken).sound());
   const auto result = repair_mesh(broken);
@@ -78,7 +78,7 @@ TEST(Repair, FillsAHole) {
 }
 
 TEST(Repair, FillsTwoHolesOfManyEdges) {
-  // A tube of 400 sides without its two rings of ends.
+  // A tube of 400 sides without its two end rings.
   TriangleMesh tube = revolve({{{{0, 0}, {30, 0}, {30, 50}, {0, 50}}}}, 400);
   const double volume = signed_volume(tube);
   std::erase_if(tube.triangles, [&](const auto& t) {
@@ -109,13 +109,13 @@ TEST(Repair, KeepsOneOfDuplicates) {
   TriangleMesh mesh = cube(2.0);
   mesh.triangles.push_back(mesh.triangles[4]);
   expect_mended(mesh, 8.0, {{"duplicate triangle removed", 1}});
-  // Two one way, one the other: the many are right.
+  // Two in one orientation, one in the other: the majority is right.
   mesh.triangles.push_back({mesh.triangles[4][1], mesh.triangles[4][0], mesh.triangles[4][2]});
   expect_mended(mesh, 8.0, {{"duplicate triangle removed", 2}});
 }
 
 TEST(Repair, MergesSolidsThatShareAFace) {
-  // Both have the square between them, back to back.
+  // Both contain the square between them, back to back.
   expect_mended(
       together(cube(2.0), moved(cube(2.0), {0, 0, 2})), 16.0,
       {{"points of one place merged", 4}, {"triangle back to back with another removed", 4}});
@@ -147,7 +147,7 @@ TEST(Repair, RemovesFins) {
   expect_mended(mesh, 8.0, {{"triangle of a fin removed", 1}});
   mesh.triangles.push_back({8, 1, 9});
   expect_mended(mesh, 8.0, {{"triangle of a fin removed", 2}});
-  // A hole beside the fin does not make a fin of the cube.
+  // A hole beside the fin does not make the cube a fin.
   mesh.triangles.erase(mesh.triangles.begin() + 9);
   expect_mended(mesh, 8.0, {{"triangle of a fin removed", 2}, {"hole filled", 1}});
 }

@@ -97,7 +97,8 @@ TEST(ProfileOf, RefusesRingsThatTouchInACircle) {
 }
 
 TEST(ProfileOf, OneQuantumDecidesBetweenTouchOverlapAndSeparation) {
-  const Quanta r2 = quanta_from_radius(5000.0);  // here neighbouring counts share a double
+  const Quanta r2 =
+      quanta_from_radius(5000.0);  // here neighbouring counts round to the same double
   const auto pieces = [&](Quanta bore2) {
     std::vector<Ring> rings{{r2 - 4, 0}, {r2, bore2}};
     return profile_of(ClayStack::from_rings(1.0, rings, 0).value());
@@ -156,7 +157,7 @@ TEST(ProfileOf, ReplacesNarrowStepsByOneVertex) {
 }
 
 TEST(ProfileOf, NarrowBoreStillEndsOnAFloor) {
-  // Levelled, the floor would shrink to the tip of a cone, which no certificate lets pass.
+  // Levelled, the floor would shrink to the tip of a cone, which no certificate accepts.
   const auto found = profile_of(stack_of(1.0, {{10, 0}, {10, 5e-4}}), 1e-3);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->profile.pieces.at(0).size(), 6u);

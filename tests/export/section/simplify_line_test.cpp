@@ -13,7 +13,7 @@ namespace {
 
 oracles::Point real(const ProfilePoint& p) { return {p.rho, p.y}; }
 
-/// Every point left out lies within its tolerance of the edge that stands for it.
+/// Every removed point lies within its tolerance of the edge that replaces it.
 bool promise_kept(const Polygon& line, const Polygon& made, const std::vector<double>& tolerances) {
   if (made.front() != line.front() || made.back() != line.back()) return false;
   std::size_t edge = 0;
@@ -63,7 +63,7 @@ TEST(SimplifyLine, KeepsAPointWithoutTolerance) {
 }
 
 TEST(SimplifyLine, ArcNeedsTheChordsOfItsSagitta) {
-  // A chord between points on the arc may stray by the tolerance: 2 acos(1 - e / R) each.
+  // A chord between points on the arc may deviate by the tolerance: 2 acos(1 - e / R) each.
   constexpr double kRadius = 50.0, kTolerance = 0.01;
   Polygon line;
   for (int i = 0; i <= 100'000; ++i) {
@@ -77,8 +77,8 @@ TEST(SimplifyLine, ArcNeedsTheChordsOfItsSagitta) {
 }
 
 TEST(SimplifyLine, IsFastForAMillionPointsInAnyOrder) {
-  // Worst cases of Douglas and Peucker (a split beside an end each time) and of a search that
-  // looks on for a farther point that would do.
+  // Worst cases of Douglas-Peucker (a split beside an end each time) and of a search that continues
+  // for a farther valid point.
   std::mt19937_64 random(11);
   Polygon growing, fanning;
   for (int i = 0; i < 1'000'000; ++i) {

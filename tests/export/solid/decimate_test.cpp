@@ -18,7 +18,7 @@ using shapes::cube;
 using shapes::moved;
 using shapes::together;
 
-/// A cube whose faces are grids of `steps` squares, points shared.
+/// A cube whose faces are grids of `steps` squares with shared points.
 TriangleMesh grid_cube(double side_mm, int steps) {
   TriangleMesh mesh;
   const auto add = [&](glm::dvec3 origin, glm::dvec3 u, glm::dvec3 v) {
@@ -99,14 +99,14 @@ TEST(Decimate, VaseAtATenthStaysSoundAndClose) {
   EXPECT_TRUE(check_mesh(coarse->mesh).sound());
   EXPECT_GT(coarse->max_error_mm, 0.0);
   EXPECT_LT(coarse->max_error_mm, 3.0);  // the wall
-  // Every point that is left is one that was there.
+  // Every remaining point is an original one.
   for (const glm::dvec3& p : coarse->mesh.points)
     ASSERT_NE(std::find(fine.points.begin(), fine.points.end(), p), fine.points.end());
 }
 
 TEST(Decimate, MeasuresTheErrorFromRemovedVertices) {
-  // A ball down to a few triangles: the largest gap is from a lost vertex to the surface, found
-  // here by looking at all points of a dense net on it.
+  // A ball reduced to a few triangles: the largest error is from a removed vertex to the surface,
+  // found here by testing all points of a dense grid on it.
   const TriangleMesh fine = ball(10.0);
   const auto coarse = decimate(fine, 12);
   ASSERT_TRUE(coarse) << coarse.error().message;
@@ -123,7 +123,7 @@ TEST(Decimate, MeasuresTheErrorFromRemovedVertices) {
     farthest = std::max(farthest, nearest);
   }
   EXPECT_LE(coarse->max_error_mm, farthest);
-  EXPECT_GE(coarse->max_error_mm, farthest - 0.25);  // the net's half-width: sides of 20 mm by 60
+  EXPECT_GE(coarse->max_error_mm, farthest - 0.25);  // the grid's half-width: sides of 20 mm by 60
 }
 
 TEST(Decimate, ReturnsAMeshWithinTheLimitUnchanged) {
@@ -134,7 +134,7 @@ TEST(Decimate, ReturnsAMeshWithinTheLimitUnchanged) {
 }
 
 TEST(Decimate, ReportsTheNumberReached) {
-  // Two solids cannot have fewer than four triangles each.
+  // Two solids need at least four triangles each.
   const auto stuck = decimate(together(cube(2.0), moved(cube(2.0), {9, 0, 0})), 7);
   ASSERT_FALSE(stuck);
   EXPECT_EQ(stuck.error().kind, ErrorKind::unsound);
@@ -163,12 +163,12 @@ TEST(Decimate, RefusesAMeshThatIsNotAClosedManifold) {
 
 TEST(SurfaceDistance, IsTheMaximumFromBothSides) {
   EXPECT_DOUBLE_EQ(surface_distance(cube(2.0), moved(cube(2.0), {0, 0, 0.5})), 0.5);
-  // A spike of 3 on one of them, seen from either.
+  // A spike of 3 on one of them, measured from both sides.
   TriangleMesh spiked = cube(2.0);
   spiked.points[6] = {2, 2, 5};
   EXPECT_DOUBLE_EQ(surface_distance(cube(2.0), spiked), 3.0);
   EXPECT_DOUBLE_EQ(surface_distance(spiked, cube(2.0)), 3.0);
-  // Points that lie on the other's faces count for nothing.
+  // Points on the other's faces have no distance.
   EXPECT_EQ(surface_distance(grid_cube(2.0, 4), cube(2.0)), 0.0);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Random meshes for RapidCheck, and what it means that two meshes say the same.
+// Random meshes for RapidCheck, and the equivalence of meshes.
 
 #include "claystack/export/formats.hpp"
 
@@ -24,7 +24,7 @@ inline rc::Gen<double> any_coordinate() {
       [](float x) { return static_cast<double>(x); });
 }
 
-/// Soup of any points and any indices: files must hold broken meshes as faithfully as sound ones.
+/// Soups of any points and indices: files must store broken meshes as exactly as sound ones.
 inline rc::Gen<TriangleMesh> any_mesh(const rc::Gen<double>& coordinate = any_coordinate()) {
   const auto point = rc::gen::construct<glm::dvec3>(coordinate, coordinate, coordinate);
   const auto points = rc::gen::nonEmpty(rc::gen::container<std::vector<glm::dvec3>>(point));
@@ -39,7 +39,7 @@ inline rc::Gen<TriangleMesh> any_mesh(const rc::Gen<double>& coordinate = any_co
 
 using Corners = std::array<glm::dvec3, 3>;
 
-/// What a mesh says whatever the numbering of its points.
+/// The corners of a mesh, independent of the numbering of its points.
 inline std::vector<Corners> corners_of(const TriangleMesh& mesh) {
   std::vector<Corners> all;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -48,7 +48,7 @@ inline std::vector<Corners> corners_of(const TriangleMesh& mesh) {
   return all;
 }
 
-/// The farthest that a corner moves when a triangle becomes another, whichever it begins with.
+/// The largest displacement of a corner between two triangles, for any rotation.
 inline double distance(const Corners& from, const Corners& to) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t turn = 0; turn < 3; ++turn) {
@@ -84,7 +84,7 @@ inline bool has_negative_zero(const TriangleMesh& mesh) {
   return false;
 }
 
-/// Points no two of which are equal, numbered in the order triangles first use them.
+/// Distinct points, numbered in the order of first use.
 inline bool is_welded(const TriangleMesh& mesh) {
   std::uint32_t known = 0;
   for (const auto& triangle : mesh.triangles) {

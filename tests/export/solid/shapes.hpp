@@ -1,5 +1,5 @@
 #pragma once
-// Stacks and meshes that several tests share, made from geometry alone.
+// Stacks and meshes shared by several tests, made from geometry alone.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/export/proof.hpp"
@@ -35,9 +35,9 @@ inline Pot pot_of(ClayStack stack) {
   return pot;
 }
 
-/// What rounding may do to a volume [mm^3]: an ulp or two of the full cylinders, however little
-/// clay their walls hold. Relative to the clay, 1e-9 for walls above a millionth of the radius.
-/// Levelling steps below `min_step_mm` may change two walls by pi H step^2 each.
+/// Permitted rounding error of a volume [mm^3]: one or two ulp of the full cylinders, however thin
+/// their walls. Relative to the clay, 1e-9 for walls above a millionth of the radius. Levelling
+/// steps below `min_step_mm` may change two walls by pi H step^2 each.
 inline double volume_rounding(const ClayStack& stack, double min_step_mm = 0.0) {
   double hull = 0.0;
   for (const Ring& ring : stack.rings()) hull += mm2_from_quanta(ring.outer2);
@@ -121,8 +121,8 @@ inline TriangleMesh together(TriangleMesh a, const TriangleMesh& b) {
 }
 
 /// Random stacks of up to 12 rings on a coarse grid of radii, so that equal radii, circles of
-/// contact, floors, cavities and separate pieces all turn up; some with walls down to 1e-7 mm
-/// and some with steps of a few quanta, as a tool's far reach leaves them.
+/// contact, floors, cavities and separate pieces all occur; some with walls down to 1e-7 mm and
+/// some with steps of a few quanta, as at the edge of a tool's reach.
 inline rc::Gen<ClayStack> any_stack() {
   return rc::gen::exec([] {
     const auto count = *rc::gen::inRange<std::size_t>(1, 13);

@@ -21,7 +21,7 @@ Profile profile_from(double h, const std::vector<shapes::Radii>& radii) {
   return profile_of(stack_of(h, radii)).value().profile;
 }
 
-/// V - E + F, the edges counted afresh: 2 for each sphere, 0 for each torus.
+/// V - E + F, with independently counted edges: 2 for each sphere, 0 for each torus.
 long euler(const TriangleMesh& mesh) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (const auto& t : mesh.triangles)

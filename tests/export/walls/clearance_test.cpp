@@ -12,7 +12,7 @@
 namespace clay::solid {
 namespace {
 
-constexpr double kRounding = 1e-11;  // far above ulps of a pot, far below any print
+constexpr double kRounding = 1e-11;  // far above ulps of a pot, far below any print resolution
 
 TEST(Clearance, EqualsTheSideOfASquare) {
   const Clearance found = clearance({{{{10, 0}, {14, 0}, {14, 4}, {10, 4}}}});

@@ -40,7 +40,7 @@ TEST(ProcessLimits, ReadsAFile) {
   EXPECT_EQ(process->name, "workshop");
   EXPECT_EQ(process->wall_for(299.0).min_wall_mm, 2.5);
   EXPECT_EQ(process->wall_for(301.0).min_wall_mm, 4.0);
-  EXPECT_EQ(process->wall_for(9e9).min_wall_mm, 4.0);  // the last holds for all larger ones
+  EXPECT_EQ(process->wall_for(9e9).min_wall_mm, 4.0);  // the last also applies to all larger ones
 }
 
 TEST(ProcessLimits, ErrorsNameTheField) {

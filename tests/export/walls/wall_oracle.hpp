@@ -17,7 +17,7 @@ class WallOracle {
     for (const Polygon& polygon : profile.pieces) pieces_.push_back(piece_of(polygon));
   }
 
-  /// What the definition says of the two places; infinite if they are no wall.
+  /// The thickness between the two places by the definition; infinite if they are no wall.
   double thickness(const Wall& wall) const {
     if (wall.to.rho < 0.0) return thickness_across(wall.from);
     double least = kNone;
@@ -30,8 +30,8 @@ class WallOracle {
     return least;
   }
 
-  /// The least over the ends of all edges and a few places on them. With `margin` only pairs count
-  /// that stay walls wherever on their edges they are moved.
+  /// The minimum over the ends of all edges and some places on them. With `margin`, only pairs
+  /// count that stay walls for any displacement along their edges.
   double least_of_samples(std::mt19937_64& random, bool margin) {
     margin_ = margin ? 3.0 : 0.0;
     std::uniform_real_distribution<double> uniform;
@@ -55,7 +55,7 @@ class WallOracle {
 
   struct Edge {
     ProfilePoint from, to;
-    double length = 0.0, begin = 0.0;  ///< along the polygon; axis edges are without end
+    double length = 0.0, begin = 0.0;  ///< along the polygon; axis edges have infinite length
     double normal = 0.0;               ///< its angle
     double turn_before = 0.0, turn_after = 0.0;
     bool axis = false;
@@ -107,7 +107,7 @@ class WallOracle {
     return s < 1e-9 ? 0.0 : s > 1.0 - 1e-9 ? 1.0 : s;
   }
 
-  /// How far `angle` is outside the fan of normals at place s of the edge.
+  /// By how much `angle` is outside the fan of normals at place s of the edge.
   static double outside(const Edge& e, double s, double angle) {
     const double turn = s == 0.0 ? -e.turn_before : s == 1.0 ? e.turn_after : 0.0;
     const double away = wrapped(angle - e.normal);
@@ -145,8 +145,8 @@ class WallOracle {
     return std::min(least, if_wall(at_corner, 0.0, piece, a, s, b, t));
   }
 
-  /// The thickness, or none if the boundary around it is too short: it counts beyond the places
-  /// for `beyond` thicknesses at most.
+  /// The thickness, or none if the boundary around it is too short: beyond the places at most
+  /// `beyond` thicknesses count.
   double if_wall(double thickness, double beyond, const Piece& piece, const Edge& a, double s,
                  const Edge& b, double t) const {
     if (a.begin > b.begin) return if_wall(thickness, beyond, piece, b, t, a, s);
@@ -161,7 +161,7 @@ class WallOracle {
                : kNone;
   }
 
-  /// Of balls about the axis, wherever `p` lies on an outside that is steep enough.
+  /// Of balls centred on the axis, where `p` lies on a steep enough outside.
   double thickness_across(const ProfilePoint& p) const {
     double least = kNone;
     for (const Piece& piece : pieces_)

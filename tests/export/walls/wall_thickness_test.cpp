@@ -30,7 +30,7 @@ Polygon arc(ProfilePoint centre, double radius, double from, double to, int coun
   return points;
 }
 
-/// Every edge in `parts`, so that no edge is long.
+/// Splits every edge into `parts`, so that no edge is long.
 Polygon divided(const Polygon& polygon, int parts) {
   Polygon points;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -50,7 +50,7 @@ TEST(WallThickness, EqualsDiameterOrHeightOfASolid) {
 }
 
 TEST(WallThickness, CrossesTheAxisOnlyThroughClay) {
-  // A narrow foot below, 20 mm across, and a wide bowl above.
+  // A narrow foot, 20 mm across, and a wide bowl above.
   const Wall wall =
       min_wall({{{{0, 0}, {10, 0}, {10, 30}, {60, 50}, {60, 110}, {35, 110}, {35, 75}, {0, 75}}}});
   EXPECT_NEAR(wall.thickness_mm, 20.0, 1e-12);
@@ -75,12 +75,12 @@ TEST(WallThickness, ReportsThePlace) {
 }
 
 TEST(WallThickness, IsMeasuredAcrossALeaningWall) {
-  // A conical tube leaning by 25 degrees: 4 mm along the radius are 4 cos 25 across.
+  // A conical tube inclined by 25 degrees: 4 mm along the radius are 4 cos 25 across.
   const double angle = 25.0 * M_PI / 180.0, lean = 60.0 * std::tan(angle);
   for (const int parts : {1, 7, 100})
     EXPECT_NEAR(wall_of(divided({{40, 0}, {40 + lean, 60}, {36 + lean, 60}, {36, 0}}, parts)),
                 4.0 * std::cos(angle), 1e-12);
-  // At 45 degrees the rim and the outside meet in an edge that is no wall.
+  // At 45 degrees the rim and the outside meet in an edge, which is no wall.
   EXPECT_NEAR(wall_of({{40, 0}, {100, 60}, {96, 60}, {36, 0}}), 4.0 * std::cos(M_PI / 4), 1e-12);
 }
 
@@ -100,8 +100,8 @@ TEST(WallThickness, IsConstantOnASphericalShell) {
 TEST(WallThickness, EqualsTheDiameterOfARoundSection) {
   Polygon ring = arc({30, 0}, 5, 0, 2 * M_PI, 720);
   ring.pop_back();
-  // A chord's normal is off that of its ends by half a step, and opposite chords are off each other
-  // by 30 degrees at most: their balls are less by as much as this.
+  // A chord's normal differs from that of its ends by half a step, and opposite chords by at most
+  // 30 degrees from each other: their balls are smaller by this amount.
   const double lost = 10.0 * (M_PI / 720) * std::tan(M_PI / 12);
   EXPECT_LT(wall_of(ring), 10.0);
   EXPECT_GT(wall_of(ring), 10.0 - lost);
@@ -115,18 +115,18 @@ TEST(WallThickness, EqualsTheBluntEndOfAWedge) {
   // A lip that narrows from 8 mm to 1 mm, symmetric, by 4 degrees on each side.
   const Polygon lip{{40, 0}, {48, 0}, {44.5, 50}, {43.5, 50}};
   const Wall wall = min_wall({{lip}});
-  // From one end of the rim, the ball that touches the other face is the least.
+  // From one end of the rim, the ball that touches the other face is the smallest.
   const double half = std::atan2(3.5, 50.0);
   EXPECT_NEAR(wall.thickness_mm, 1.0 / std::cos(half), 1e-9);
   EXPECT_NEAR(wall.from.y, 50.0, 1e-9);
-  // In small edges no ball reaches the rim, but none is farther from it than its radius.
+  // With small edges no ball reaches the rim, but none is farther from it than its radius.
   const double fine = wall_of(divided(lip, 2000));
   EXPECT_GT(fine, 1.0);
   EXPECT_LT(fine, 1.0 + 2.0 * std::tan(half));
 }
 
 TEST(WallThickness, EqualsTheCornerDistanceOfABevelledLip) {
-  // From the lower corner of the rim straight through to the middle of the outside.
+  // From the lower corner of the rim straight to the middle of the outside.
   const Wall wall = min_wall({{{{40, 0}, {48, 0}, {48, 51}, {47, 50}}}});
   EXPECT_NEAR(wall.thickness_mm, 1.0, 1e-12);
   EXPECT_NEAR(wall.from.y, 50.0, 1e-9);
@@ -147,7 +147,7 @@ TEST(WallThickness, EqualsTheHeightOfAFlangeAndIgnoresARidge) {
 }
 
 TEST(WallThickness, EqualsTheDistanceOfReentrantCorners) {
-  // Two blocks joined by a neck from (60, 26) to (63, 30), aslant.
+  // Two blocks joined by an oblique neck from (60, 26) to (63, 30).
   EXPECT_NEAR(wall_of({{40, 0},
                        {80, 0},
                        {80, 30},
@@ -186,8 +186,8 @@ TEST(WallThickness, OfTheFacetsEqualsTheScaledProfile) {
 }
 
 /// Stacks whose walls open or close upwards by less than a quarter of a ring's height at a time,
-/// and that are not much thicker than a ring is high. The engine does not look at flanges, such as
-/// a wider step near the rim would be, and looks at the rim's own corners as if the wall went on.
+/// and that are not much thicker than a ring is high. The engine ignores flanges, such as a wider
+/// step near the rim, and treats the rim's corners as if the wall continued.
 RC_GTEST_PROP(WallThickness, OfStepsMatchesTheEngine, ()) {
   auto random = *samples::random_engine();
   const auto count = *rc::gen::inRange<std::size_t>(1, 25);
@@ -207,7 +207,7 @@ RC_GTEST_PROP(WallThickness, OfStepsMatchesTheEngine, ()) {
                      min_wall(stack).thickness_mm) < 1e-9);
 }
 
-/// The place that is found is as thin as said, and no pair of sampled places is thinner.
+/// The place found has the stated thickness, and no pair of sampled places is thinner.
 void agrees_with_the_definition(const Profile& profile, std::mt19937_64& random,
                                 bool margin = false) {
   const Wall wall = min_wall(profile);
@@ -232,7 +232,7 @@ RC_GTEST_PROP(WallThickness, MatchesTheDefinitionForFairWalls, ()) {
   agrees_with_the_definition(section->profile, random);
 }
 
-/// Wavy hoops: faces of every direction, many to a branch of the search.
+/// Wavy hoops: faces of every direction, many per branch of the search.
 RC_GTEST_PROP(WallThickness, MatchesTheDefinitionForWavyHoops, ()) {
   auto random = *samples::random_engine();
   const double depth = *rc::gen::element(0.1, 0.3, 0.6);

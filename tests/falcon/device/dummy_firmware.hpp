@@ -1,5 +1,5 @@
 #pragma once
-// A harmless program for no processor, in the container that real ones come in.
+// A harmless program for no processor, in the container format of real ones.
 
 #include <cstddef>
 #include <cstdint>

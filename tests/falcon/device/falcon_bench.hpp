@@ -1,5 +1,5 @@
 #pragma once
-// A FalconDevice on a bench: its other end is a model that moves its grip as the test says.
+// A FalconDevice connected to a model whose grip moves as the test requires.
 
 #include "claystack/falcon/falcon_device.hpp"
 #include "claystack/falcon/sim.hpp"
@@ -23,13 +23,13 @@ inline constexpr std::int64_t kTickUs = 1'000;
 // An encoder's count is 67 um at most within 40 mm of the centre; half of one on each leg.
 inline constexpr double kEncoderMm = 0.07;
 
-/// Where the grip of the model is at each frame [m]: a circle, 20 mm about the centre, 1 turn/s.
+/// The grip of the model at each frame [m]: a circle, 20 mm about the centre, 1 turn/s.
 inline glm::dvec3 on_circle(std::uint64_t frame) {
   const double turn = 2e-3 * 3.14159265358979 * static_cast<double>(frame);
   return Kinematics::kCentreM + 0.02 * glm::dvec3(std::cos(turn), std::sin(turn), 0.0);
 }
 
-/// A device with its model, on a clock of their own.
+/// A device with its model, on a simulated clock.
 struct FalconBench {
   explicit FalconBench(FalconModelSettings model_settings = {}, FalconSettings settings = {})
       : model(std::make_shared<FalconModel>(
@@ -72,7 +72,7 @@ class FirmwareFile {
   [[nodiscard]] const std::string& path() const { return path_; }
 
  private:
-  /// A pattern until mkstemp has put a name in its place.
+  /// A template until mkstemp replaces it.
   std::string path_ = std::filesystem::temp_directory_path() / "firmware-XXXXXX";
 };
 

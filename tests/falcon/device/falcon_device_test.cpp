@@ -42,7 +42,7 @@ TEST(FalconDevice, RendersTheRequestedForce) {
     bench.grip = [](std::uint64_t) { return Kinematics::kCentreM; };
     bench.tick();
     bench.tick(force);
-    // A count of each motor is 1.5e-4 N m; of the shortest lever, 60 mm, 2.5 mN: half of three.
+    // One count of each motor is 1.5e-4 N m; at the shortest lever, 60 mm, 2.5 mN: half of three.
     EXPECT_LT(glm::distance(bench.model->force_n(), force), 0.01);
   }
 }

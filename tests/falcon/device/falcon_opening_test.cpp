@@ -1,4 +1,4 @@
-// From power-up, and from a file of firmware, to a device that is ready.
+// From power-up and a firmware file to a ready device.
 
 #include "tests/falcon/device/falcon_bench.hpp"
 

@@ -1,4 +1,4 @@
-// What a wire can do to the frames on it, and silence.
+// Faults of the wire, and silence.
 
 #include "tests/falcon/device/falcon_bench.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 
 struct WireCase {
   WireFault fault;
-  std::uint64_t lost;  // frames that do not come
+  std::uint64_t lost;  // frames that are lost
 };
 
 class FaultyWire : public testing::TestWithParam<WireCase> {};
@@ -30,7 +30,7 @@ TEST_P(FaultyWire, LosesAtMostTwoFramesAndAcceptsNoWrongOne) {
     for (int tick = 0; tick < 10; ++tick) {
       const DeviceSample sample = bench.tick({1, 0, 0});
       ASSERT_EQ(sample.state, DeviceState::ready);
-      // The frame just made, or when that was spoilt the one before it: 1/8 mm apart.
+      // The current frame, or after a fault the previous one: 1/8 mm apart.
       const glm::dvec3 now = 1e3 * (on_circle(bench.frame - 1) - Kinematics::kCentreM);
       const glm::dvec3 before = 1e3 * (on_circle(bench.frame - 2) - Kinematics::kCentreM);
       if (!sample.fresh) ++missing;

@@ -152,7 +152,7 @@ TEST(LoadFirmware, ReportsThePowerSupplyWithoutAnyAnswer) {
   EXPECT_NE(loaded.error().remedy.find("power supply"), std::string::npos);
 }
 
-/// A line on which the greeting's answer is preceded by a byte 0, as some devices have it.
+/// A line on which a byte 0 precedes the greeting's answer, as with some devices.
 class ZeroFirst final : public Transport {
  public:
   explicit ZeroFirst(std::shared_ptr<FalconModel> model)

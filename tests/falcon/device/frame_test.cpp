@@ -19,7 +19,7 @@ using Bytes = std::vector<std::uint8_t>;
 static_assert(std::is_trivially_copyable_v<FrameReader>, "it owns no memory");
 static_assert(noexcept(encode({})));
 
-/// A frame as the format's description has it; 'A' + 3 stands for 3.
+/// A frame by the format's description; 'A' + 3 represents 3.
 std::string frame_text(const LegCounts& counts, int status = 0) {
   std::string text = "<";
   for (const std::int16_t count : counts) {
@@ -30,7 +30,7 @@ std::string frame_text(const LegCounts& counts, int status = 0) {
   return text + "A>";
 }
 
-/// What the device would send.
+/// The bytes that the device would send.
 Bytes bytes_of(const StateFrame& frame) {
   const auto& [top, right, left] = frame.homed;
   const std::string text = frame_text(
@@ -159,7 +159,7 @@ RC_GTEST_PROP(FrameReader, ReadsFramesInChunksOfAnySize, ()) {
 }
 
 RC_GTEST_PROP(FrameReader, CountsEveryByteOfNoise, ()) {
-  // Mostly bytes that may stand in a frame, or none would ever be found.
+  // Mostly valid frame bytes, because otherwise no frame would ever be found.
   const auto byte =
       rc::gen::weightedOneOf<std::uint8_t>({{12, rc::gen::inRange<std::uint8_t>('A', 'P' + 1)},
                                             {2, rc::gen::element<std::uint8_t>('<', '>')},
@@ -171,7 +171,7 @@ RC_GTEST_PROP(FrameReader, CountsEveryByteOfNoise, ()) {
   RC_ASSERT(frames * kFrameBytes + reader.discarded() + reader.pending() == noise.size());
 }
 
-/// A fault in a stretch of four frames, and which of them it leaves whole.
+/// A fault in a sequence of four frames, and the frames that stay whole.
 struct Faulty {
   Bytes bytes;
   std::array<bool, 4> whole = {true, true, true, true};
@@ -202,7 +202,7 @@ void plant_fault(Faulty& stretch) {
     case 0:
       return lose(stretch, at, 1);
     case 1: {
-      // The loss of whole frames' worth from within a frame joins two halves: nothing can tell.
+      // Losing a multiple of 16 bytes within a frame joins two halves, which cannot be detected.
       auto count = *rc::gen::inRange<std::size_t>(1, 18);
       count = std::min(count, size - at);
       return lose(stretch, at, count % kFrameBytes == 0 ? count - 1 : count);
@@ -218,8 +218,8 @@ void plant_fault(Faulty& stretch) {
   }
 }
 
-// One fault in each four frames. A frame that a fault touched may come through if what it says is
-// unharmed; every other must, and nothing that was never sent.
+// One fault in each four frames. A frame touched by a fault may be accepted if its contents are
+// unharmed; every other must be accepted, and nothing that was never sent.
 RC_GTEST_PROP(FrameReader, LosesOnlyTheFramesOfAFault, ()) {
   FrameReader reader;
   std::int16_t number = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Devices, places and vectors for properties of the kinematics.
+// Devices, positions and vectors for properties of the kinematics.
 
 #include "claystack/falcon/falcon_device.hpp"
 #include "tests/falcon/random_values.hpp"

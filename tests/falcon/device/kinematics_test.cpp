@@ -20,7 +20,7 @@ struct Chain {
   double thigh, shin, parallelogram;
 };
 
-/// Where a leg ends, hip to grip, link by link.
+/// The end of a leg, from hip to grip, link by link.
 glm::dvec3 end_of(const Geometry& g, int leg, const Chain& t) {
   const double phi = kLegDirectionsRad[leg];
   const glm::dvec3 along(std::cos(phi), std::sin(phi), 0.0),
@@ -51,8 +51,7 @@ TEST(Inverse, NamesTheLegThatCannotReach) {
                                     KinematicsError::right_leg_unreachable,
                                     KinematicsError::left_leg_unreachable};
   for (int leg = 0; leg < 3; ++leg) {
-    // Out and over to the other side: further than this leg stretches, and within the others'
-    // reach.
+    // Out and over to the other side: beyond the reach of this leg, and within that of the others.
     const double phi = kLegDirectionsRad[leg];
     const glm::dvec3 far(-0.06 * std::cos(phi), -0.06 * std::sin(phi), 0.165);
     EXPECT_FALSE(device.thigh_angle(leg, far));
@@ -81,7 +80,7 @@ TEST(Inverse, RefusesAFlatShin) {
 }
 
 TEST(Forward, AtCountZeroMatchesTheTriangles) {
-  // On the axis all legs are alike: the height is a sin t1 plus a cathetus of the shin.
+  // On the axis all legs are equal: the height is a sin t1 plus a leg of the shin's right triangle.
   const auto height = [](const Geometry& g) {
     const double v = g.grip_lateral_m - g.base_lateral_m, u = g.grip_radial_m - g.base_radial_m;
     const double shin = g.shin_ends_m + std::sqrt(g.shin_m * g.shin_m - v * v);
@@ -89,7 +88,7 @@ TEST(Forward, AtCountZeroMatchesTheTriangles) {
     return g.thigh_m * std::sin(g.zero_angle_rad) + std::sqrt(shin * shin - base * base);
   };
   EXPECT_NEAR(height(kLibnifalconGeometry), 0.1346, 5e-5);    // published for these sizes
-  EXPECT_NEAR(height(kMartinHillierGeometry), 0.1448, 5e-5);  // by the same triangles, on paper
+  EXPECT_NEAR(height(kMartinHillierGeometry), 0.1448, 5e-5);  // by the same triangles, by hand
   for (const Geometry& g : {kLibnifalconGeometry, kMartinHillierGeometry}) {
     const Kinematics device(g);
     const glm::dvec3 position = device.forward(device.angles_of({0, 0, 0})).value();
@@ -124,8 +123,8 @@ RC_GTEST_PROP(Forward, FindsThePoseOfAnyCountsTheArmsReach, ()) {
   RC_ASSERT(back == counts);
 }
 
-// Far beyond what the arms allow, as encoders read before homing: a pose of these angles, or an
-// error. (Where a leg is almost straight its angle moves much for little.)
+// Far beyond the reach of the arms, as encoders read before homing: a pose with these angles, or an
+// error. (Where a leg is almost straight, its angle changes much for a small motion.)
 RC_GTEST_PROP(Forward, NeverReturnsAFalsePose, ()) {
   const Kinematics& device = any_device();
   const auto counts = *rc::gen::container<LegCounts>(rc::gen::arbitrary<std::int16_t>());
@@ -141,7 +140,7 @@ RC_GTEST_PROP(Forward, NeverReturnsAFalsePose, ()) {
 TEST(Forward, ReportsAnglesWithoutAPose) {
   const Kinematics device(kLibnifalconGeometry);
   const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
-  // With all thighs straight down the axis is to the inner side of each: no knee is outward.
+  // With all thighs straight down, the axis is on the inner side of each: no knee is outward.
   for (const glm::dvec3& angles :
        {glm::dvec3(-kPi / 2), glm::dvec3(nan, 0, 0), glm::dvec3(0, inf, 0)}) {
     EXPECT_TRUE(fails_with(device.forward(angles), KinematicsError::not_converged));
@@ -160,7 +159,7 @@ TEST(Kinematics, NamesTheLegsAsTheUserSeesThem) {
 RC_GTEST_PROP(Kinematics, RotatesWithItsLegs, ()) {
   const Kinematics& device = any_device();
   const glm::dvec3 p = anywhere(), angles = device.inverse(p).value();
-  // A third of a turn clockwise takes each leg to the next.
+  // A third of a turn clockwise maps each leg to the next.
   const double c = -0.5, s = -std::sqrt(0.75);
   const glm::dvec3 turned(c * p.x - s * p.y, s * p.x + c * p.y, p.z);
   const glm::dvec3 expected(angles[2], angles[0], angles[1]);
@@ -178,7 +177,7 @@ RC_GTEST_PROP(Jacobian, EqualsTheSlopeOfTheAngles, ()) {
   }
 }
 
-// Central differences leave an error of order 3; two of them, one twice as long, of order 5.
+// Central differences have an error of order 3; combining two, one twice as long, gives order 5.
 RC_GTEST_PROP(Torques, DoTheWorkOfTheForce, ()) {
   const Kinematics& device = any_device();
   const glm::dvec3 position = anywhere(), force = any_vector(8.0), way = any_vector(1.0);
@@ -216,8 +215,8 @@ RC_GTEST_PROP(Torques, PushInTheRequestedDirection, ()) {
   RC_ASSERT(std::abs(glm::length(felt) / glm::length(force) - 1.0) < 1e-6);
 }
 
-// Whole counts turn it a little: each torque is off by half a count at most, and the three forces
-// that torques of one count make bound what that does.
+// Whole counts rotate it slightly: each torque is off by at most half a count, and the three forces
+// of one count each bound the effect.
 RC_GTEST_PROP(Torques, InWholeCountsKeepTheDirectionWithinACount, ()) {
   const Kinematics& device = any_device();
   const glm::dvec3 position = anywhere(), force = any_vector(20.0);  // often beyond the motors
@@ -233,8 +232,8 @@ RC_GTEST_PROP(Torques, InWholeCountsKeepTheDirectionWithinACount, ()) {
 }
 
 TEST(Torques, ReportALegWithFlatShins) {
-  // A device made for it: on its axis at this height all shins are horizontal, and none can push
-  // along z.
+  // A special device: on its axis at this height all shins are horizontal, and none can push along
+  // z.
   Geometry g = kLibnifalconGeometry;
   const double thigh = kPi / 4;
   g.grip_lateral_m = g.base_lateral_m;

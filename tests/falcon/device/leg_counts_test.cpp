@@ -1,4 +1,4 @@
-// Counts: what encoders read, and what motors are sent.
+// Counts: encoder readings, and motor commands.
 
 #include "tests/falcon/device/kinematics_samples.hpp"
 
@@ -83,7 +83,7 @@ TEST(MotorCounts, AreZeroForTorquesThatAreNotFinite) {
   EXPECT_EQ(motor_counts({0, 0, 0}).rendered, 1.0);
 }
 
-// The scale of the motors is chosen because it agrees with what Novint states: above 2 lbf.
+// The scale of the motors is chosen because it agrees with Novint's statement: above 2 lbf.
 TEST(MotorCounts, GiveTheStatedForceInEveryDirection) {
   const Kinematics device(kLibnifalconGeometry);
   const auto most_newtons = [&](const glm::dvec3& direction) {

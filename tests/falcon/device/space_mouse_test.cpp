@@ -101,7 +101,7 @@ TEST(RateControl, IsStillInTheDeadZoneAndContinuousBeyond) {
   control.advance({0, 0.05, 0}, 1);
   for (int i = 0; i < 1000; ++i) control.advance({0, 0.05, 0}, 1 + 1000 * i);
   EXPECT_EQ(control.position_mm(), glm::dvec3(0.0));
-  // Half way between dead zone and full: a quarter of the speed.
+  // Midway between dead zone and full deflection: a quarter of the speed.
   RateControl half({});
   half.advance({0, 0.525, 0}, 1);
   for (int i = 1; i <= 1000; ++i) half.advance({0, 0.525, 0}, 1 + 1000 * i);

@@ -1,4 +1,4 @@
-// Each device that the driver knows may be opened by the user of the machine.
+// The user of the machine may open each device that the driver supports.
 
 #include "claystack/falcon/usb.hpp"
 

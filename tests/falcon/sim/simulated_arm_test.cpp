@@ -58,7 +58,7 @@ struct Reference {
   double x = 0.0, v = 0.0, s = 0.0, damped = 0.0, hand = 0.0;
 };
 
-/// The same equation by Runge and Kutta's fourth order, with many small steps.
+/// The same equation by the fourth-order Runge-Kutta method with many small steps.
 Reference stepped(Reference r, const ArmSpec& arm, const HandSpec& hand, double force,
                   double speed) {
   constexpr int kSteps = 400;
@@ -163,7 +163,7 @@ TEST(Friction, HoldsAgainstASmallerPull) {
 }
 
 TEST(Friction, StopsASlideWithinTheTickAndHoldsIt) {
-  // A kick of 1 N for 10 ms: 0.05 m/s less friction; it slides m v^2 / 2f further.
+  // A push of 1 N for 10 ms: 0.05 m/s minus friction; it then slides m v^2 / 2f.
   ArmSpec spec = undelayed(100, 0.2, 0.0);
   spec.friction_n = 0.4;
   SimulatedArm arm = built(spec);
@@ -179,7 +179,7 @@ TEST(Friction, StopsASlideWithinTheTickAndHoldsIt) {
 TEST(Friction, ReleasesWhenTheHandPullsHarder) {
   ArmSpec spec = undelayed(1000, 0.2, 1.0);
   spec.friction_n = 0.5;
-  SimulatedArm arm = built(spec, guiding(100.0, 0.0));  // lets go at 5 mm
+  SimulatedArm arm = built(spec, guiding(100.0, 0.0));  // releases at 5 mm
   for (int k = 1; k <= 60; ++k) {
     arm.advance({0, 0, 0}, {1e-4 * k, 0, 0});
     EXPECT_EQ(arm.position_m().x > 0.0, k > 50) << k;
@@ -192,7 +192,7 @@ TEST(SimulatedArm, CarryFollowsTheHandAndCountsItsWork) {
   arm.carry({1.5, 0, 0}, {1e-3, 0, 0});
   EXPECT_EQ(arm.position_m().x, 1e-3);
   EXPECT_NEAR(arm.energy().displayed, 1.5e-3, 1e-18);
-  EXPECT_NEAR(arm.energy().damped, 3.0 * 1.0 * 1e-3, 1e-17);  // b v times the way, at 1 m/s
+  EXPECT_NEAR(arm.energy().damped, 3.0 * 1.0 * 1e-3, 1e-17);  // b v times the distance, at 1 m/s
   EXPECT_NEAR(arm.energy().hand, 0.5 * 0.2 - 1.5e-3 + 3e-3, 1e-16);
 }
 

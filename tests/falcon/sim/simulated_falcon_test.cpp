@@ -35,7 +35,7 @@ TEST(SimulatedFalcon, IsHomedAndFollowsTheHand) {
     device.write({});
     const DeviceSample sample = device.read(kTickUs);
     ASSERT_TRUE(sample.fresh);
-    // The hand's spring of 300 N/m lags: 2 N s/m at 31 mm/s, and 0.25 kg kept on a circle.
+    // The hand's spring of 300 N/m lags: 2 N s/m at 31 mm/s, and 0.25 kg on a circle.
     EXPECT_NEAR(glm::length(sample.position_mm), 20.0, 0.5) << i;
   }
 }
@@ -66,7 +66,7 @@ TEST(SimulatedFalcon, KeepsItsTimeWhenFramesAreLate) {
   ASSERT_TRUE(device.open());
   const DeviceSample before = homed(device);
   DeviceSample sample;
-  for (int i = 0; i < 300; ++i) {  // three ticks of the arm to a frame
+  for (int i = 0; i < 300; ++i) {  // three ticks of the arm per frame
     device.write({});
     while (!(sample = device.read(3 * kTickUs)).fresh) {
     }
