@@ -64,9 +64,10 @@ void tell_certificate(const Console& console, const solid::SolidCertificate& cer
 
 void tell_wall(const Console& console, const solid::SampledWall& wall) {
   if (!std::isinf(wall.least_mm))
-    console.say(fmt::format(
-        "  thinnest seen {:.2f} mm at ({:.6g}, {:.6g}, {:.6g}), {} rays; a sampling, not a bound",
-        wall.least_mm, wall.place.x, wall.place.y, wall.place.z, wall.rays));
+    console.say(
+        fmt::format("  thinnest seen {:.2f} mm at ({:.6g}, {:.6g}, {:.6g}), {} rays; a sampled "
+                    "value, not a bound",
+                    wall.least_mm, wall.place.x, wall.place.y, wall.place.z, wall.rays));
   if (wall.escaped > 0)
     console.say(fmt::format("  {} of {} rays left through an opening", wall.escaped, wall.rays));
 }

@@ -51,12 +51,12 @@ void add_falcon_options(CLI::App& command, falcon::FalconSettings& settings) {
             settings.geometry = name == "libnifalcon" ? falcon::kLibnifalconGeometry
                                                       : falcon::kMartinHillierGeometry;
           },
-          "Sizes of the Falcon's arms: libnifalcon or martin-hillier")
+          "Dimensions of the Falcon's arms: libnifalcon or martin-hillier")
       ->check(CLI::IsMember({"libnifalcon", "martin-hillier"}))
       ->default_str("libnifalcon");
   command
       .add_option("--motor-counts", settings.motor_counts_per_nm,
-                  "Of the Falcon's motors, for 1 N m at an arm; more pushes harder")
+                  "Falcon motor counts for 1 N m at an arm; more gives a larger force")
       ->check(CLI::Validator(in_range(1.0, 1e6), ""))
       ->capture_default_str();
 }

@@ -79,7 +79,7 @@ Result<void> list(const falcon::DeviceSettings& settings, const Console& console
     say_entry(entry, console);
   }
   if (found->empty())
-    console.say("no device is plugged in; a Falcon shows up even without its power supply");
+    console.say("no device is connected; a Falcon is listed even without its power supply");
   if (console.json) console.print(json);
   return {};
 }
@@ -118,7 +118,7 @@ Result<void> show(const DevicesOptions& options, const falcon::DeviceSettings& s
 void add_devices_command(CLI::App& app, Console& console, int& exit) {
   auto options = std::make_shared<DevicesOptions>();
   CLI::App* command = app.add_subcommand(
-      "devices", "Say what is plugged in, whether it can be used, and what to do if not");
+      "devices", "List connected devices, whether each can be used, and what to do if not");
   command
       ->add_option("which", options->which,
                    "Device to open: auto, falcon, bridge, spacemouse, simulated, or its place")

@@ -93,7 +93,7 @@ void add_import_command(CLI::App& app, Console& console, int& exit) {
   command->add_option("drawing", options->drawing, "NAME.svg, NAME.dxf or NAME.csv")->required();
   command->add_option("-o,--output", options->pot, "NAME.pot.json or NAME.pot.cbor")->required();
   command->add_option("--axis", options->axis,
-                      "The pot's axis in the drawing: left, middle, or its place [mm]; by itself: "
+                      "The pot's axis in the drawing: left, middle, or its place [mm]; default: "
                       "the middle of a symmetric drawing, otherwise its left end");
   command
       ->add_option("--height", options->section.height_mm,

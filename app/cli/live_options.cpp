@@ -75,13 +75,13 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
       ->capture_default_str();
   command.add_flag("--soften", options.soften,
                    "Lower force.stiffness_n_per_mm2 to what the arm can render");
-  command.add_flag("--wait", options.wait, "Wait for an unplugged device to come back");
+  command.add_flag("--wait", options.wait, "Wait for a disconnected device to return");
   add_falcon_options(command, options.falcon);
   add_place_options(command, settings.mapping);
   command.add_option(
       "--force-gain", settings.mapping.force_gain,
-      "Scale of force: N at the hand per N at the tool (default: 1 / scale, so that the clay feels "
-      "as stiff as it is; = scale: the hand does the tool's work)");
+      "Scale of force: N at the hand per N at the tool (default: 1 / scale, which keeps "
+      "the stiffness of the clay; = scale: the hand does the work of the tool)");
 }
 
 Error by_option(Error error) {

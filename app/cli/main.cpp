@@ -40,7 +40,7 @@ void handle_signals() {
 
 int run(int argc, char** argv) {
   using namespace clay::cli;
-  CLI::App app("Throw a pot on a virtual wheel, and take home a file that prints.", "claystack");
+  CLI::App app("Throw a pot on a virtual wheel, and export a file that prints.", "claystack");
   app.set_version_flag("--version", version_text());
   app.footer(kExamples);
   app.require_subcommand(1);

@@ -1,4 +1,4 @@
-// `claystack devices` as a user runs it, with devices that are emulated.
+// `claystack devices` as users run it, with emulated devices.
 
 #include "tests/falcon/device/dummy_firmware.hpp"
 #include "tests/rigs/falcon_gadget.hpp"
@@ -30,7 +30,7 @@ class DevicesRig : public testing::Test {
     plug_ = std::make_unique<UsbPlug>(testbed_.get(), *falcon_);
   }
 
-  /// The one device that is plugged in, as --json has it.
+  /// The only connected device, from --json.
   static nlohmann::json only_one(const std::string& arguments = "") {
     const auto run = claystack("devices --json " + arguments);
     EXPECT_EQ(run.status, 0) << run.err;
@@ -39,7 +39,7 @@ class DevicesRig : public testing::Test {
     return devices.at(0);
   }
 
-  /// Monitors until the condition holds, and asks it to stop. What it printed.
+  /// Monitors until the condition holds, then stops. Returns the output.
   template <class Condition>
   static std::string monitored(const std::string& more, Condition condition,
                                const std::string& what) {
@@ -91,7 +91,7 @@ TEST_F(DevicesRig, ReportsAFalconDuringItsStart) {
   EXPECT_EQ(falcon_->device.log.back().motors, LegCounts{});
 }
 
-/// Where the grip is, as --monitor says in the end, in the plane that the user faces and along z.
+/// The final grip position of --monitor, in the plane facing the user and along z.
 TEST_F(DevicesRig, UsesTheGivenGeometryAndMapping) {
   FalconModelSettings model;
   model.loaded = model.homed = true;
@@ -127,20 +127,20 @@ TEST_F(DevicesRig, ReportsABoundDriverAndAnotherProgram) {
   EXPECT_EQ(bound.at("problem").at("fault"), "driver_bound");
 }
 
-// Run as nobody where the tests run as root.
+// Runs as user nobody if the tests run as root.
 TEST_F(DevicesRig, ReportsMissingPermission) {
   plug_falcon({});
   SpaceMouseGadget mouse;
   const HidrawNode mouse_node(testbed_.get(), mouse, 3);
   gchar* root = umockdev_testbed_get_root_dir(testbed_.get());
-  // umockdev makes sockets there, and connects to its own even where opening the node fails.
+  // umockdev creates sockets there, and connects to its own even if opening the node fails.
   for (const auto& entry :
        std::filesystem::recursive_directory_iterator(std::string(root) + "/ioctl"))
     std::filesystem::permissions(entry.path(), std::filesystem::perms::all);
   std::filesystem::permissions(root, std::filesystem::perms::all);
   std::filesystem::permissions(root + plug_->node(), std::filesystem::perms::none);
   std::filesystem::permissions(root + mouse_node.node(), std::filesystem::perms::none);
-  // Where nobody reaches it, wherever it was built.
+  // In a folder that user nobody can read, wherever the program was built.
   const std::string program = std::string(root) + "/claystack";
   std::filesystem::copy_file(CLAYSTACK_PROGRAM, program);
   g_free(root);

@@ -6,7 +6,7 @@ namespace clay::rig {
 namespace {
 
 constexpr double kFrameS = 1e-3;
-// FTDI's own two bytes at the head of each packet: modem status (1 in the low nibble), line status.
+// The two FTDI bytes at the start of each packet: modem status (1 in the low nibble), line status.
 constexpr std::uint8_t kModemStatus = 0x01, kLineStatus = 0x60;
 constexpr std::size_t kPacket = 64, kStatusBytes = 2;
 

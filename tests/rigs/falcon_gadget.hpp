@@ -1,5 +1,5 @@
 #pragma once
-// A Falcon on USB: an FTDI chip in front of a FalconModel.
+// A USB Falcon: an FTDI chip in front of a FalconModel.
 
 #include "claystack/falcon/falcon_device.hpp"
 #include "tests/rigs/usb_gadget.hpp"
@@ -12,17 +12,17 @@
 
 namespace clay::rig {
 
-/// Where the hand holds the grip at each frame [m], in the frame of kinematics.hpp.
+/// The grip position set by the hand at each frame [m], in the frame of Kinematics.
 using Trajectory = std::function<glm::dvec3(std::uint64_t frame)>;
 
-/// What the device was told, frame by frame.
+/// The commands to the device, frame by frame.
 struct FrameLog {
   glm::dvec3 position_m;
   glm::dvec3 force_n;
   falcon::LegCounts motors;
 };
 
-/// A model whose grip follows the hand, whatever the motors do, and that keeps a log.
+/// A model whose grip follows the hand regardless of the motors, with a log.
 class HandledModel {
  public:
   HandledModel(const falcon::FalconModelSettings& settings, Trajectory hand);
@@ -41,8 +41,8 @@ class FalconGadget final : public UsbGadget {
   bool unplugged() const override { return device.model.unplugged(); }
 
   HandledModel device;
-  int latency_ms = 16;               ///< as the host set it
-  std::vector<int> bauds;            ///< each that the host set
+  int latency_ms = 16;               ///< set by the host
+  std::vector<int> bauds;            ///< all baud rates set by the host
   std::uint64_t control_errors = 0;  ///< requests that no FTDI driver makes
 
  private:

@@ -1,4 +1,4 @@
-// A stock Falcon: unmodified libftdi1 and libusb against an emulated 0403:cb48.
+// A stock Falcon: unmodified libftdi1 and libusb with an emulated 0403:cb48.
 
 #include "claystack/falcon/usb.hpp"
 #include "tests/falcon/device/dummy_firmware.hpp"
@@ -57,7 +57,7 @@ class FalconRig : public testing::Test {
     plug(model);
   }
 
-  /// Writes until a frame comes back, or the device is at fault; how many answers were lost.
+  /// Writes until a frame arrives or the device reports a fault; counts lost answers.
   static DeviceSample tick(HapticDevice& device, const glm::dvec3& force_n) {
     device.write(force_n);
     return device.read(kPatienceUs);
@@ -100,7 +100,7 @@ TEST_F(FalconRig, LoadsFirmwareHomesAndRuns5000FramesWithNoBadOne) {
     sample = tick(device, force_at(frame));
     ASSERT_TRUE(sample.fresh) << frame;
     ASSERT_LT(glm::distance(sample.position_mm, mm_of(on_circle(frame))), kEncoderMm) << frame;
-    // The force was made for the position of the frame before: 0.13 mm away.
+    // The force belongs to the position of the previous frame: 0.13 mm away.
     const glm::dvec3 felt = locked([](auto& d) { return d.log.back().force_n; });
     ASSERT_LT(glm::distance(felt, force_at(frame)), 0.05) << frame;
   }
@@ -117,7 +117,7 @@ TEST_F(FalconRig, LastPacketIsZeroForce) {
   for (int i = 0; i < 20; ++i) tick(**opened, {4, 0, 0});
   ASSERT_NE(locked([](auto& d) { return d.model.motors(); }), LegCounts{});
   (*opened)->write({4, 0, 0});
-  (*opened)->stop();  // as a signal handler would
+  (*opened)->stop();  // as from a signal handler
   EXPECT_EQ(locked([](auto& d) { return d.model.motors(); }), LegCounts{});
   (*opened)->write({4, 0, 0});
   opened->reset();
@@ -141,7 +141,7 @@ TEST_F(FalconRig, LosesAtMostTwoFramesPerWireFault) {
       });
       for (int i = 0; i < 8; ++i) {
         device.write({1, 0, 0});
-        // Where a frame is lost none comes: long enough for one that is not.
+        // A lost frame does not arrive: waits long enough for one that is not lost.
         const DeviceSample sample = device.read(50'000);
         ASSERT_EQ(sample.state, DeviceState::ready);
         if (!sample.fresh) continue;
@@ -207,7 +207,7 @@ TEST_F(FalconRig, RetriesAWrongEchoAndFinallyReportsIt) {
   locked([](auto& d) {
     d.model.unplug();
     d.model.replug();
-    // Enough for every byte of the rest of the piece, ten times over.
+    // Enough for every remaining byte of the piece, ten times over.
     for (int i = 0; i < 1000; ++i) d.model.plan({WireFault::echo_error, 500});
   });
   const auto opened = open_device("falcon", settings_);

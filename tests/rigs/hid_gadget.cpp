@@ -34,7 +34,7 @@ std::string four_digits(std::uint16_t number) {
   return digits;
 }
 
-/// USB device, interface, HID device and node, each within the one before, as sysfs has them.
+/// USB device, interface, HID device and node, each inside the one before, as in sysfs.
 std::string sysfs_of(const UsbIdentity& id, const Bytes& descriptor, int number) {
   const std::string n = std::to_string(number), port = std::to_string(id.port);
   const std::string usb = "/devices/pci0000:00/0000:00:14.0/usb1/1-" + port;
@@ -83,7 +83,7 @@ void BridgeGadget::out(std::span<const std::uint8_t> report) {
   auto left = answer.span();
   while (!left.empty()) {
     const std::size_t size = std::min(left.size(), kReport - 1);
-    Bytes next(kReport, 0xEE);  // what follows the bytes counted means nothing
+    Bytes next(kReport, 0xEE);  // bytes after the counted ones have no meaning
     next[0] = static_cast<std::uint8_t>(size);
     std::copy_n(left.begin(), size, next.begin() + 1);
     reports.push_back(std::move(next));
@@ -126,9 +126,9 @@ void HidrawNode::show(bool there) {
 
 void HidrawNode::pump() {
   if (waiting_ || (gadget_.reports.empty() && !gadget_.unplugged())) return;
-  // A byte that nobody will get wakes who waits on a device that is gone.
+  // A dummy byte wakes a reader that waits on a removed device.
   const Bytes report = gadget_.in(kReport, {}).value_or(Bytes{0});
-  // Not by write(): umockdev would take it for the program's.
+  // Not by write(), which umockdev would attribute to the program.
   waiting_ = syscall(SYS_write, terminal_, report.data(), report.size()) > 0;
 }
 
@@ -168,7 +168,7 @@ gboolean HidrawNode::on_write(UMockdevIoctlBase*, UMockdevIoctlClient* client, g
   const UMockdevIoctlData* data = umockdev_ioctl_client_get_arg(client);
   const std::span<const std::uint8_t> bytes(data->data, static_cast<std::size_t>(data->data_len));
   const bool gone = node.gadget_.unplugged();
-  // The kernel keeps the report's number to itself where reports have none.
+  // The kernel removes the report's number if reports have none.
   if (!gone) node.gadget_.out(bytes[0] == 0 ? bytes.subspan(1) : bytes);
   umockdev_ioctl_client_complete(client, gone ? -1 : data->data_len, gone ? ENODEV : 0);
   node.pump();

@@ -1,6 +1,5 @@
 #pragma once
-// HID devices, for both backends of hidapi: as USB devices for libusb, as nodes of the kernel for
-// hidraw.
+// HID devices for both backends of hidapi: as USB devices for libusb, as kernel nodes for hidraw.
 
 #include "tests/rigs/falcon_gadget.hpp"
 #include "tests/rigs/usb_gadget.hpp"
@@ -24,7 +23,7 @@ class HidGadget : public UsbGadget {
   UsbIdentity identity_;
 };
 
-/// A microcontroller between HID and the Falcon's processor, as docs/devices.md asks for it.
+/// A microcontroller between HID and the Falcon's processor, as described in docs/devices.md.
 class BridgeGadget final : public HidGadget {
  public:
   BridgeGadget(const falcon::FalconModelSettings& settings, Trajectory hand);
@@ -32,11 +31,11 @@ class BridgeGadget final : public HidGadget {
   bool unplugged() const override { return device.model.unplugged(); }
 
   HandledModel device;
-  std::uint64_t bad_reports = 0;  ///< that the layout does not allow
-  std::uint64_t bytes = 0;        ///< that reports brought, by their counts
+  std::uint64_t bad_reports = 0;  ///< reports with an invalid layout
+  std::uint64_t bytes = 0;        ///< payload bytes, by the reports' counts
 };
 
-/// A SpaceMouse: it says what the test puts into `reports`.
+/// A SpaceMouse that sends the reports in `reports`.
 class SpaceMouseGadget final : public HidGadget {
  public:
   SpaceMouseGadget();
@@ -49,8 +48,8 @@ class SpaceMouseGadget final : public HidGadget {
   bool gone = false;
 };
 
-/// The gadget as /dev/hidrawN. The node is a terminal that is waited on in earnest: it holds one
-/// report at a time, so that none run together.
+/// The gadget as /dev/hidrawN. The node is a terminal with real polling: it holds one report at a
+/// time, so that reports do not merge.
 class HidrawNode {
  public:
   HidrawNode(UMockdevTestbed* testbed, HidGadget& gadget, int number);
@@ -58,9 +57,9 @@ class HidrawNode {
   HidrawNode(const HidrawNode&) = delete;
   HidrawNode& operator=(const HidrawNode&) = delete;
 
-  /// Hands on what the gadget has to say; call it with the lock after a change to `reports`.
+  /// Sends the gadget's reports; call it with the lock after a change to `reports`.
   void pump();
-  /// The node vanishes, or is there again.
+  /// Removes or restores the node.
   void show(bool there);
   [[nodiscard]] const std::string& node() const { return node_; }
 
@@ -73,7 +72,7 @@ class HidrawNode {
   UMockdevIoctlBase* base_ = nullptr;
   std::string node_, path_;
   int terminal_ = -1;
-  bool waiting_ = false;  // a report lies in the terminal
+  bool waiting_ = false;  // a report is in the terminal
 };
 
 }  // namespace clay::rig

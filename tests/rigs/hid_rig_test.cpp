@@ -1,6 +1,6 @@
-// A Falcon behind a bridge and a SpaceMouse: unmodified hidapi against emulated HID devices. The
-// same tests with hidapi's hidraw backend, on nodes of the kernel, and with its libusb backend, on
-// USB devices (CLAYSTACK_HIDAPI_LIBUSB).
+// A Falcon behind a bridge and a SpaceMouse: unmodified hidapi with emulated HID devices. The same
+// tests run with hidapi's hidraw backend on kernel nodes, and with its libusb backend on USB
+// devices (CLAYSTACK_HIDAPI_LIBUSB).
 
 #include "claystack/falcon/usb.hpp"
 #include "tests/rigs/hid_gadget.hpp"
@@ -38,7 +38,7 @@ glm::dvec3 on_circle(std::uint64_t frame) {
   return Kinematics::kCentreM + 0.02 * glm::dvec3(std::cos(turn), std::sin(turn), 0.0);
 }
 
-/// hidapi keeps its state for good, and the next test has another /dev.
+/// hidapi keeps its state for the process, and the next test has another /dev.
 class HidRig : public testing::Test {
  protected:
   ~HidRig() override { hid_exit(); }
@@ -188,8 +188,8 @@ TEST_F(BridgeRig, LibraryThreadsReceiveNoSignal) {
 HapticDevice* met = nullptr;
 std::atomic<int> stops{0};
 
-/// A hand that stops the device again and again, wherever it meets the thread that writes. A writer
-/// that waits for itself does not end: then the deadline in the hand's thread ends the program.
+/// A signal handler that stops the device repeatedly, interrupting the writing thread anywhere. If
+/// the writer deadlocks, the deadline in the signalling thread ends the program.
 TEST_F(BridgeRig, LastPacketNeverWaitsForTheInterruptedThread) {
   auto opened = open_device("bridge", settings_);
   ASSERT_TRUE(opened) << text_of(opened.error());
@@ -204,7 +204,8 @@ TEST_F(BridgeRig, LastPacketNeverWaitsForTheInterruptedThread) {
     using Clock = std::chrono::steady_clock;
     auto sent = Clock::now(), next = sent;
     int seen = stops;
-    // After a stop the writer has as long to itself, however slow the machine makes both.
+    // After a stop the writer gets as much time as the stop took, so the speed of the machine does
+    // not matter.
     const auto ended = [&] {
       const auto now = Clock::now();
       if (stops != seen) {
@@ -233,7 +234,7 @@ TEST_F(BridgeRig, LastPacketNeverWaitsForTheInterruptedThread) {
 }
 
 TEST_F(BridgeRig, ReportsASilentFalconBehindTheBridge) {
-  locked([](auto& d) { d.model.set_baud(9600); });  // the bridge never set the line
+  locked([](auto& d) { d.model.set_baud(9600); });  // the bridge did not set the line
   const auto opened = open_device("bridge", settings_);
   ASSERT_FALSE(opened);
   EXPECT_EQ(opened.error().fault, DeviceFault::no_answer);
@@ -247,7 +248,7 @@ class SpaceMouseRig : public HidRig {
     gadget_.reports.push_back(report);
     plugged_.pump();
   }
-  /// As a cap that is held does: the next when the last was heard.
+  /// Like a deflected cap: sends the next report after the last was read.
   void go_on_saying(const Bytes& report) {
     const std::scoped_lock held(gadget_.lock);
     if (gadget_.reports.empty()) gadget_.reports.push_back(report);
@@ -272,7 +273,7 @@ TEST_F(SpaceMouseRig, ReportsPositionsAndSwitchesItsLight) {
   EXPECT_FALSE(device.info().can_push);
   EXPECT_EQ(device.read(0).position_mm, glm::dvec3(0.0));
   say({1, 0x5E, 0x01, 0, 0, 0, 0});                    // x full to the right
-  say({1, 0x5E, 0x01, 0, 0, 0, 0, 9, 9, 9, 9, 9, 9});  // the same, of a wireless one
+  say({1, 0x5E, 0x01, 0, 0, 0, 0, 9, 9, 9, 9, 9, 9});  // the same from a wireless model
   say({2, 1, 0, 1, 0, 1, 0});
   say({3, 0x02, 0x00});
   DeviceSample sample;

@@ -1,6 +1,6 @@
 #pragma once
-// A HID gadget where the backend of hidapi under test looks for it: a node of the kernel for
-// hidraw, a USB device for libusb (CLAYSTACK_HIDAPI_LIBUSB).
+// A HID gadget for the backend of hidapi under test: a kernel node for hidraw, a USB device for
+// libusb (CLAYSTACK_HIDAPI_LIBUSB).
 
 #include "tests/rigs/hid_gadget.hpp"
 

@@ -1,6 +1,6 @@
-// The window as a user has it, on a screen, with an arm that is plugged in while it runs and pulled
-// out in mid-stroke: unmodified libftdi1 and libusb against an emulated Falcon, real events of the
-// mouse. arm_under_xvfb.sh is the user; here is the hand at the arm.
+// The window as users have it, on a screen, with an arm that is connected while it runs and
+// disconnected during a stroke: unmodified libftdi1 and libusb with an emulated Falcon, and real
+// mouse events. arm_under_xvfb.sh acts as the user; this file moves the arm.
 
 #include "app/servo/mapping.hpp"
 #include "tests/rigs/falcon_gadget.hpp"
@@ -30,7 +30,7 @@ constexpr double kOffClayMm = 62.0, kInClayMm = 54.0, kDeepMm = 35.0, kHeightMm 
 constexpr double kPressingMm = 0.05, kMovingMm = 0.4;  // a frame
 constexpr std::size_t kEnoughFrames = 100;
 
-/// Goes straight to where it is told to be, no faster than a hand. Under the gadget's lock.
+/// Moves straight to its target, no faster than a hand. Under the gadget's lock.
 class Hand {
  public:
   void go(double x_mm, double step_mm) {
@@ -55,7 +55,7 @@ FalconModelSettings ready() {
   return model;
 }
 
-/// A frame whose motors are all told 0, whatever its lights: '<' and four letters for each motor.
+/// A frame whose motor commands are all 0, with any lights: '<' and four letters for each motor.
 bool is_no_force(const Bytes& frame) {
   constexpr std::size_t kMotorBytes = 13;
   const auto zero = encode({}).bytes;
@@ -69,7 +69,7 @@ class StudioRig : public testing::Test {
     ASSERT_EQ(test::shell("command -v Xvfb && command -v xdotool").status, 0)
         << "needs Xvfb and xdotool (tests/run.sh installs them)";
     auto scene = nlohmann::json::parse(test::read_text(test::sample("bowl.scene.json")));
-    // So stiff a clay gives way by little while it is pressed: the hand feels it for long.
+    // Clay this stiff yields slowly when pressed, so the force lasts.
     scene["removal"]["rate_per_s"] = 0.1;
     test::write_text(folder_.file("bowl.scene.json"), scene.dump());
   }
@@ -84,7 +84,7 @@ class StudioRig : public testing::Test {
     return std::filesystem::exists(folder_.file(what));
   }
   void answer(const char* what) { test::write_text(folder_.file(what), ""); }
-  /// Throws where the user's script ends before: it says why.
+  /// Throws if the user's script ends earlier, with its output.
   template <class Condition>
   void until(Condition condition, const std::string& what, bool presses = false) {
     const auto done = [&] {
@@ -99,7 +99,7 @@ class StudioRig : public testing::Test {
     until([&] { return asked(what); }, std::string("the script to ask: ") + what, presses);
   }
 
-  /// The last of the guard's states that the window has told.
+  /// The last guard state printed by the window.
   [[nodiscard]] std::string force() const {
     std::istringstream log(test::read_text(folder_.file("log")));
     std::string line, last;
@@ -107,8 +107,8 @@ class StudioRig : public testing::Test {
       if (line.starts_with("force: ")) last = line.substr(7);
     return last;
   }
-  /// As a potter would: into the clay while force is given, be it little, and off it to earn it
-  /// again. A loaded machine's servo may never get to all of it.
+  /// Like a potter: into the clay while there is force, however small, and off it to ramp up again.
+  /// On a loaded machine the servo may never reach full force.
   void press() {
     const std::string state = force();
     const bool given = state == "ramping" || state == "engaged" || state == "fading";
@@ -120,7 +120,7 @@ class StudioRig : public testing::Test {
   [[nodiscard]] std::size_t frames() {
     return locked([&] { return gadget_.device.log.size(); });
   }
-  /// Frames from there on that pushed.
+  /// Number of frames from there on with nonzero force.
   [[nodiscard]] std::size_t felt(std::size_t from) {
     return locked([&] {
       const auto& log = gadget_.device.log;
@@ -138,7 +138,7 @@ class StudioRig : public testing::Test {
     until([&] { return felt(0) > kEnoughFrames; }, "the hand to feel the clay", true);
     answer("felt");
   }
-  /// While the motors push.
+  /// Disconnects the arm while the motors push.
   void is_pulled_out() {
     const auto pushed = [&] {
       return locked([&] {
@@ -151,7 +151,7 @@ class StudioRig : public testing::Test {
     until(pushed, "a frame that pushes", true);
     plugs_.back()->pull();
   }
-  /// With its grip where the clay is: no force, however long. Then off it, and in again.
+  /// Reconnects with the grip in the clay: no force for any time. Then off the clay, and in again.
   void comes_back() {
     until_asked("again");
     const std::size_t before = frames();
@@ -167,7 +167,7 @@ class StudioRig : public testing::Test {
     EXPECT_EQ(felt(before), 0u);
     answer("held");
     until_asked("away");
-    press_to_mm_ = kDeepMm - 5.0;  // past what it made way for
+    press_to_mm_ = kDeepMm - 5.0;  // beyond the clay already displaced
     until([&] { return felt(before) > kEnoughFrames; }, "the hand to feel the clay again", true);
     answer("felt_again");
   }
@@ -192,14 +192,14 @@ TEST_F(StudioRig, SwitchesBetweenAReconnectedArmAndTheMouse) {
   const auto ran = user_->wait();
   ASSERT_EQ(ran.status, 0) << ran.err << ran.out;
   EXPECT_EQ(locked([&] { return gadget_.device.model.motors(); }), LegCounts{}) << "the last word";
-  // The packet by which the loss is found out was made before; all that follow it are no force.
+  // The packet that detects the loss was made before; all following packets have zero force.
   for (std::size_t i = 1; i < gadget_.refused.size(); ++i)
     EXPECT_TRUE(is_no_force(gadget_.refused[i])) << i << ": " << hexadecimal(gadget_.refused[i]);
 
   const auto listed = test::claystack("throw " + folder_.file("journal.work") + " --list --json");
   ASSERT_EQ(listed.status, 0) << listed.err;
   const auto nodes = listed.json().at("nodes");
-  // Arm, mouse, mouse, arm; what an arm throws may be more strokes than one.
+  // Arm, mouse, mouse, arm; a throw by the arm may be several strokes.
   ASSERT_GE(nodes.size(), 5u) << nodes << ran.out;
   for (std::size_t i = 1; i < 5; ++i) EXPECT_TRUE(nodes[i].at("changed")) << nodes;
 }

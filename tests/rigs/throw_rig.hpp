@@ -1,5 +1,5 @@
 #pragma once
-// The sample's stroke on an emulated device, and what a throw of it must leave behind.
+// The sample's stroke on an emulated device, and the expected results of a throw.
 
 #include "app/servo/mapping.hpp"
 #include "claystack/core/atomic_file.hpp"
@@ -30,10 +30,11 @@ using test::claystack;
 using test::Program;
 using test::Ran;
 
-// Frames that the hand stands off the clay: by the end of them most of the force is earned.
+// Frames with the hand off the clay: at their end most of the force has ramped up.
 inline constexpr std::uint64_t kLeadFrames = 800;
 
-/// The bowl's stroke, in the frame of kinematics.hpp. Two poses a frame: emulated frames are slow.
+/// The bowl's stroke, in the frame of Kinematics. Two poses per frame, because emulated frames are
+/// slow.
 inline Trajectory bowl_stroke() {
   const std::string path = test::sample("bowl.session");
   const Session session = parse_session(read_file(path).value(), path).value();
@@ -53,7 +54,7 @@ inline FalconModelSettings ready() {
   return model;
 }
 
-/// While it lives, programs find this backend of hidapi before the one that they are linked with.
+/// During its scope, programs load this backend of hidapi before the linked one.
 class Backend {
  public:
 #ifdef CLAYSTACK_HIDAPI_LIBUSB
@@ -66,7 +67,7 @@ class Backend {
   Backend& operator=(const Backend&) = delete;
 
  private:
-  std::string before_ = std::getenv("LD_PRELOAD");  // umockdev's own
+  std::string before_ = std::getenv("LD_PRELOAD");  // set by umockdev
 };
 
 class ThrowRig : public testing::Test {
@@ -84,7 +85,7 @@ class ThrowRig : public testing::Test {
     return begin(device, more).wait();
   }
 
-  /// Waits for what comes of a throw; its end ends the wait too.
+  /// Waits for a condition during a throw; the end of the throw also ends the wait.
   template <class Condition>
   static void until(Program& program, Condition condition, const std::string& what) {
     test::wait_until([&] { return !program.running() || condition(); }, test::kProgramDeadline,
@@ -98,13 +99,13 @@ class ThrowRig : public testing::Test {
     };
     until(program, full, "frame " + std::to_string(frames) + " of the device");
   }
-  /// Asks it to stop.
+  /// Requests a stop.
   static Ran stop(Program& program) {
     program.send(SIGINT);
     return program.wait();
   }
 
-  /// Throws until the device has had `frames` frames, however slow they are.
+  /// Throws until the device has received `frames` frames, at any speed.
   template <class Gadget>
   Ran throw_frames(Gadget& gadget, std::size_t frames, const std::string& device,
                    const std::string& more) {
@@ -113,7 +114,7 @@ class ThrowRig : public testing::Test {
     return stop(program);
   }
 
-  /// From nothing: the firmware is loaded and echoed, the grip homed.
+  /// A firmware file for a cold start: it is loaded and echoed, and the grip is homed.
   std::string firmware() {
     const std::string path = folder_.file("firmware.bin");
     const auto bytes = dummy_firmware();
@@ -121,7 +122,7 @@ class ThrowRig : public testing::Test {
     return "--firmware " + path;
   }
 
-  /// 5000 frames and more, homing left out, and none of them bad.
+  /// At least 5000 frames without homing, and none of them bad.
   static void expect_no_bad_frame(const Ran& run, std::size_t frames) {
     const auto device = run.json().at("frames");
     EXPECT_GE(device.at("taken"), frames);
@@ -129,7 +130,7 @@ class ThrowRig : public testing::Test {
     EXPECT_EQ(device.at("without_pose"), 0);
   }
 
-  /// The pot as the recorded session leaves it: without any device.
+  /// The pot of the recorded session, without any device.
   std::string replayed() {
     const auto run =
         claystack("throw -q " + test::sample("bowl.scene.json") + " -s " +
@@ -139,7 +140,7 @@ class ThrowRig : public testing::Test {
   }
   std::string thrown() { return test::read_text(folder_.file("live.pot.json")); }
 
-  /// How far from the axis the session has the tool last [mm], as far as it is written.
+  /// The last recorded distance of the tool from the axis [mm].
   double tool_mm() {
     std::string path = folder_.file("s.session.recording");  // until it is complete
     if (!std::filesystem::exists(path)) path = folder_.file("s.session");
@@ -148,7 +149,7 @@ class ThrowRig : public testing::Test {
     return session->poses.back().position_mm.x;
   }
 
-  /// Each pose recorded is a place where the hand was: half an encoder's step on each leg.
+  /// Each recorded pose is a position of the hand, within half an encoder step on each leg.
   void expect_true_places(const std::vector<FrameLog>& log) {
     const std::string path = folder_.file("s.session");
     const Session session = parse_session(test::read_text(path), path).value();
@@ -162,9 +163,9 @@ class ThrowRig : public testing::Test {
     }
   }
 
-  /// Position went in, torque came out: each pose recorded is a place where the hand was, and what
-  /// the motors pushed in the frame after it points where the clay of the replay pushes the tool.
-  /// How much force there was is the guard's affair where a loaded machine held the servo up.
+  /// Each recorded pose is a position of the hand, and the motor torque in the next frame points in
+  /// the direction of the replayed clay's force. The magnitude is up to the guard if a loaded
+  /// machine delayed the servo.
   void expect_felt(const Ran& run, const std::vector<FrameLog>& log) {
     const std::string scene_path = test::sample("bowl.scene.json");
     Wheel wheel =

@@ -1,7 +1,7 @@
-// `claystack throw --device` as a user runs it: unmodified libftdi1, libusb and hidapi, and a hand
-// that plays the sample's stroke on the emulated device. The same tests with hidapi's hidraw
-// backend, as the program is linked, and with its libusb backend put before that
-// (CLAYSTACK_HIDAPI_LIBUSB is the library).
+// `claystack throw --device` as users run it: unmodified libftdi1, libusb and hidapi, and a hand
+// that plays the sample's stroke on the emulated device. The same tests run with hidapi's hidraw
+// backend, as the program is linked, and with its libusb backend preloaded (CLAYSTACK_HIDAPI_LIBUSB
+// is the library).
 
 #include "tests/rigs/throw_rig.hpp"
 
@@ -70,7 +70,7 @@ TEST_F(ThrowRig, AcceptsNoWireFault) {
 
 TEST_F(ThrowRig, BridgedFalconThrowsTheSamePot) {
   FalconModelSettings model;
-  model.loaded = true;  // as the bridge does it
+  model.loaded = true;  // a bridge loads it itself
   BridgeGadget gadget(model, bowl_stroke());
   const Plugged plugged(testbed_.get(), gadget);
   const auto run = throw_frames(gadget, kFrames + kHomingFrames, "bridge", "");
@@ -117,13 +117,13 @@ TEST_F(ThrowRig, WaitsForReconnectionIfRequested) {
   FalconGadget gadget(model, bowl_stroke());
   const UsbPlug plug(testbed_.get(), gadget);
   Program program = begin("falcon", "--wait");
-  // A hand that is faster may not be missed.
+  // A faster hand must not be missed.
   until(
       program, [&] { return program.err().find("waiting for it") != std::string::npos; },
       "the throw to miss the device");
   const std::size_t before = [&] {
     const std::scoped_lock held(gadget.lock);
-    gadget.device.model.replug();  // its firmware is still there, as with a supply of its own
+    gadget.device.model.replug();  // its firmware stays loaded, because it has its own power supply
     return gadget.device.log.size();
   }();
   wait_for_frames(program, gadget, before + 500);
@@ -140,7 +140,7 @@ TEST_F(ThrowRig, WaitsForReconnectionIfRequested) {
 TEST_F(ThrowRig, SpaceMouseMovesTheToolWithoutForce) {
   SpaceMouseGadget gadget;
   Plugged plugged(testbed_.get(), gadget);
-  // A cap held to the left until the tool is in the lump of 49 mm, or has pushed it over.
+  // A cap deflected to the left until the tool is in the lump of 49 mm, or has pushed it over.
   const auto pressed = [&] {
     {
       const std::scoped_lock held(gadget.lock);

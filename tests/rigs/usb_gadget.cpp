@@ -13,7 +13,7 @@
 namespace clay::rig {
 namespace {
 
-// Emulated nodes are always ready to poll: without a pause libusb would spin.
+// Emulated nodes are always ready to poll: without a pause libusb would loop.
 constexpr auto kHold = std::chrono::microseconds(50);
 constexpr std::uint32_t kCapabilities = USBDEVFS_CAP_ZERO_PACKET | USBDEVFS_CAP_BULK_CONTINUATION |
                                         USBDEVFS_CAP_NO_PACKET_SIZE_LIM |
@@ -173,7 +173,7 @@ void UsbPlug::finish(const Urb& urb, int status, std::size_t length) {
   done_.push_back(urb);
 }
 
-/// Strings (USB 2.0, section 9.6.7): languages, maker, name; in UTF-16.
+/// Strings (USB 2.0, section 9.6.7): languages, manufacturer, name; in UTF-16.
 std::optional<Bytes> UsbPlug::describe(const Setup& setup) const {
   constexpr std::uint8_t kString = 3;
   if (setup.request_type != 0x80 || setup.request != 6 || setup.value >> 8 != kString)
@@ -229,7 +229,7 @@ void UsbPlug::refuse(UMockdevIoctlData* bytes, std::size_t size) {
   g_object_unref(bytes);
 }
 
-/// Reads are answered in their order.
+/// Reads are answered in order.
 void UsbPlug::fill_reads() {
   while (!reads_.empty()) {
     const Urb& urb = reads_.front();
@@ -272,7 +272,7 @@ void UsbPlug::discard(UMockdevIoctlClient* client) {
   umockdev_ioctl_client_complete(client, 0, 0);
 }
 
-/// The call that waits for its end; written to only.
+/// The pending call; written to only.
 void UsbPlug::bulk(UMockdevIoctlClient* client, UMockdevIoctlData* data) {
   const auto& transfer = *reinterpret_cast<usbdevfs_bulktransfer*>(data->data);
   UMockdevIoctlData* bytes = resolve(data, offsetof(usbdevfs_bulktransfer, data), transfer.len);

@@ -1,6 +1,6 @@
 #pragma once
-// A USB device that libusb finds, opens and talks to, and that is not there: umockdev hands the
-// system calls of unmodified libraries to a gadget. Runs under umockdev-wrapper.
+// An emulated USB device that libusb finds, opens and uses: umockdev passes the system calls of
+// unmodified libraries to a gadget. Runs under umockdev-wrapper.
 
 #include <umockdev.h>
 
@@ -28,48 +28,47 @@ struct UsbIdentity {
   std::string name;
   std::uint8_t interface_class = 0xFF;
   std::uint8_t in = 0x81, out = 0x02;  ///< endpoints, of 64 bytes
-  bool interrupt = false;              ///< they are; otherwise bulk
+  bool interrupt = false;              ///< interrupt endpoints; otherwise bulk
   Bytes report_descriptor;             ///< of a HID device
   int port = 1;                        ///< on bus 1
 };
 
-/// Two digits a byte, as umockdev's descriptions have them.
+/// Two digits per byte, as in umockdev's descriptions.
 std::string hexadecimal(const Bytes& bytes);
 
-/// What the device does. Called on the testbed's thread, one call at a time, under `lock`.
+/// The device's behaviour. Called on the testbed's thread, one call at a time, under `lock`.
 class UsbGadget {
  public:
   virtual ~UsbGadget() = default;
   [[nodiscard]] virtual const UsbIdentity& identity() const = 0;
-  /// The answer; nothing for a request that it does not know.
+  /// The answer; empty for an unknown request.
   virtual std::optional<Bytes> control(const Setup& setup, std::span<const std::uint8_t> data) = 0;
   virtual void out(std::span<const std::uint8_t> bytes) = 0;
-  /// Data for a read that has waited so long; nothing: it waits on.
+  /// Data for a read that has waited this long; empty: it continues to wait.
   virtual std::optional<Bytes> in(std::size_t room, std::chrono::microseconds waited) = 0;
   virtual bool unplugged() const = 0;
 
   std::mutex lock;
-  std::vector<Bytes> refused;  ///< what the host meant to send to a device that is gone
+  std::vector<Bytes> refused;  ///< writes of the host to a removed device
 };
 
-/// How the system treats the device.
+/// How the system handles the device.
 struct UsbManners {
-  bool kernel_driver = false;  ///< bound, until it is sent away
-  bool busy = false;           ///< another program has claimed it
+  bool kernel_driver = false;  ///< bound until it is detached
+  bool busy = false;           ///< claimed by another program
 };
 
 class UsbPlug {
  public:
-  /// Plugs the gadget into the testbed, which outlives this; it stays there for good, or until
-  /// `pull`.
+  /// Connects the gadget to the testbed, which must outlive this, permanently or until `pull`.
   UsbPlug(UMockdevTestbed* testbed, UsbGadget& gadget);
   ~UsbPlug();
   UsbPlug(const UsbPlug&) = delete;
   UsbPlug& operator=(const UsbPlug&) = delete;
 
-  /// Where the node is, for its permissions.
+  /// Path of the node, for setting its permissions.
   [[nodiscard]] const std::string& node() const { return node_; }
-  /// The system knows of no such device from here on.
+  /// Removes the device from the system.
   void pull();
   UsbManners manners;  ///< set between calls of the code under test
 
@@ -95,7 +94,7 @@ class UsbPlug {
 
   UMockdevTestbed* testbed_;
   UsbGadget& gadget_;
-  std::string path_;  // of its folder in /sys
+  std::string path_;  // its folder in /sys
   UMockdevIoctlBase* base_ = nullptr;
   std::string node_;
   std::deque<Urb> reads_, done_;

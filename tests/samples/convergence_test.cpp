@@ -1,4 +1,4 @@
-// The sample pots do not know how high their rings are, nor how often the hand was asked.
+// The sample pots do not depend on the ring height or on the pose rate.
 
 #include "app/bench/convergence_experiments.hpp"
 #include "samples/strokes/strokes.hpp"

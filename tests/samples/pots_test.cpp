@@ -1,4 +1,4 @@
-// What the samples promise: sessions that their scripts play, and pots worth the name.
+// The properties of the samples: sessions that match their scripts, and usable pots.
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/clay.hpp"
@@ -38,12 +38,12 @@ std::vector<Pose> poses_of(const std::string& sample) {
   return play(parse_file(kFolder + "strokes/" + sample + ".strokes.json", parse_strokes));
 }
 
-/// A session played to its end.
+/// A session after replay.
 struct Played {
   Wheel wheel;
   std::size_t poses = 0;
-  std::size_t standing = 0;  ///< poses before the pot fell
-  std::uint32_t flags = 0;   ///< all that the ticks had to say
+  std::size_t standing = 0;  ///< poses before the collapse
+  std::uint32_t flags = 0;   ///< flags of all ticks
 };
 
 Played played(const std::string& sample, Model model) {
@@ -71,7 +71,7 @@ TEST_P(Sample, SessionMatchesItsScript) {
   const SceneSpec scene = scene_of(sample);
   const auto session = read_file(kFolder + sample + ".session");
   ASSERT_TRUE(session) << session.error().message;
-  // Not EXPECT_EQ: nobody wants to see a megabyte.
+  // Not EXPECT_EQ, which would print a megabyte.
   EXPECT_TRUE(*session == write_session({scene.name, hash_of(scene), poses_of(sample), false}));
 }
 
@@ -97,7 +97,7 @@ TEST_P(StandingPot, IsSound) {
   EXPECT_GE(floor_mm(stack), 5.0);
   EXPECT_LE(floor_mm(stack), 8.0);
   EXPECT_GE(min_wall(stack).thickness_mm, 2.5);
-  // Open at the top, and thrown: taller than its lump by half at least.
+  // Open at the top, and at least half as tall again as its lump.
   EXPECT_GT(stack.rings().back().inner_mm(), 8.0);
   EXPECT_GT(stack.size(), 300u);
 }
@@ -132,7 +132,7 @@ TEST_P(Cylinder, WallEqualsTheGapFromFloorToRim) {
   const ClayStack& stack = play.wheel.stack();
   const ToolSpec tool = scene_of("cylinder").tool;
   EXPECT_GE(stack.height_mm(), 200.0);
-  // Below, the inner tool is in the corner of the floor; the rim is not left out.
+  // Below, the inner tool is in the corner of the floor; the rim is included.
   const double pulled_mm = floor_mm(stack) + std::get<SphereSpec>(tool.shape).radius_mm;
   const auto rings = stack.rings().subspan(
       static_cast<std::size_t>(std::ceil(pulled_mm / stack.ring_height_mm())));
@@ -149,7 +149,7 @@ INSTANTIATE_TEST_SUITE_P(Models, Cylinder, testing::Values(Model::conserving, Mo
                            return model.param == Model::paper ? "paper" : "conserving";
                          });
 
-/// A pot of at least 200 rings, as many as the paper's: thrown from fewer and higher ones.
+/// A pot of at least 200 rings, as in the paper, thrown from fewer and higher ones.
 Pot pot_of_200_rings(const std::string& sample) {
   SceneSpec scene = scene_of(sample);
   const double height_mm = scene.lump.ring_height_mm * static_cast<double>(scene.lump.rings);

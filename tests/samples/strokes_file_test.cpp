@@ -112,7 +112,7 @@ TEST(StrokeFile, RefusesUnknownFields) {
       300u);
 }
 
-/// 20 passes of 60 s at 10 kHz are 12 million poses, and some for the ways between.
+/// 20 passes of 60 s at 10 kHz are 12 million poses, plus those between passes.
 TEST(StrokeFile, RefusesMorePosesThanASessionHolds) {
   const auto held = [](int passes) {
     return message_of(R"({"start_mm": [9, 9], "rate_hz": 10000, "strokes": [{"hold_s": 60,

@@ -17,7 +17,7 @@
 namespace clay::samples {
 namespace {
 
-/// One stroke that begins where the hand does; without tremor unless asked for.
+/// One stroke that begins at the hand's start; without tremor unless set.
 StrokeScript script_through(std::vector<glm::dvec2> through_mm, double tremor_mm = 0.0) {
   StrokeScript script;
   script.tremor_mm = tremor_mm;
@@ -34,7 +34,7 @@ StrokeScript resting_script(double tremor_mm, std::uint64_t seed) {
   return script;
 }
 
-/// The last `count` samples along one axis, less their mean.
+/// The last `count` samples along one axis, minus their mean.
 std::vector<double> deviations(const std::vector<Pose>& poses, glm::length_t axis,
                                std::size_t count) {
   std::vector<double> values;
@@ -47,7 +47,7 @@ std::vector<double> deviations(const std::vector<Pose>& poses, glm::length_t axi
   return values;
 }
 
-/// Power of one frequency [Hz] in samples at 1 kHz, averaged over pieces of a second (Bartlett).
+/// Power of one frequency [Hz] in samples at 1 kHz, averaged over segments of a second (Bartlett).
 double power_at(const std::vector<double>& values, double frequency_hz) {
   constexpr std::size_t kPiece = 1000;
   double power = 0.0;
@@ -100,8 +100,8 @@ RC_GTEST_PROP(Strokes, HandNeverExceedsTheStatedSpeed, (std::uint64_t seed)) {
     RC_ASSERT(speed <= (i <= first ? script.travel_mm_s : script.strokes[0].speed_mm_s) + 0.05);
     if (i > first) fastest = std::max(fastest, speed);
   }
-  // The bound is one that is come near: the pace differs by up to 10 % from stroke to stroke, and
-  // the chord of a bend is shorter than the way.
+  // The bound is nearly reached: the speed varies by up to 10 % between strokes, and the chord of a
+  // bend is shorter than its arc.
   RC_ASSERT(fastest > 0.85 * script.strokes[0].speed_mm_s);
 }
 
@@ -110,12 +110,12 @@ RC_GTEST_PROP(Strokes, PathPassesThroughItsPoints, ()) {
   for (int k = 0; k < 6; ++k)
     through.emplace_back(*rc::gen::inRange(0, 100), 20.0 * k + *rc::gen::inRange(0, 10));
   const auto poses = play(script_through(through));
-  // Between two samples at 40 mm/s there are 0.04 mm.
+  // Samples at 40 mm/s are 0.04 mm apart.
   for (const glm::dvec2& point : through) RC_ASSERT(nearest(poses, point) <= 0.021);
 }
 
 TEST(Strokes, CollinearPointsGiveAStraightPath) {
-  // A long span next to a short one is where a uniform spline would run past the corner.
+  // A long span next to a short one, where a uniform spline would overshoot the corner.
   const auto poses = play(script_through({{0.0, 100.0}, {0.0, 20.0}, {0.0, 19.0}, {30.0, 19.0}}));
   for (const Pose& pose : poses) {
     if (pose.position_mm.y > 20.0) {
@@ -149,14 +149,15 @@ TEST(Strokes, PressesTheButtonDuringTheStrokeOnly) {
   script.strokes[0].trim = true;
   for (const Pose& pose : play(script)) {
     const glm::dvec2 at(pose.position_mm);
-    if (glm::distance(at, script.strokes[0].through_mm.front()) < 0.01) continue;  // on both ways
+    if (glm::distance(at, script.strokes[0].through_mm.front()) < 0.01)
+      continue;  // both lines contain it
     if (glm::distance(at, script.strokes[0].through_mm.back()) < 0.01) continue;
     EXPECT_EQ(pose.trim, at.x < 10.001) << at.x << ", " << at.y;
   }
 }
 
 TEST(Strokes, InterpolatesTheGapLinearly) {
-  // Of points at even distances on a line the spline is that line, run through evenly.
+  // For equidistant points on a line the spline is that line at uniform speed.
   StrokeScript script = script_through({{10.0, 10.0}, {10.0, 30.0}, {10.0, 50.0}});
   script.start_mm = {50.0, 20.0};
   script.strokes[0].gap_mm = {20.0, 4.0, 5.0};
@@ -164,7 +165,7 @@ TEST(Strokes, InterpolatesTheGapLinearly) {
   for (const Pose& pose : play(script)) {
     const double y = pose.position_mm.y;
     if (pose.position_mm.x > 10.001) {
-      EXPECT_EQ(pose.gap_mm, 0.0);  // on its way the hand is one tool
+      EXPECT_EQ(pose.gap_mm, 0.0);  // between strokes the hand is one tool
     } else if (y > 10.001) {
       const double expected = y < 30.0 ? 20.0 - 0.8 * (y - 10.0) : 4.0 + 0.05 * (y - 30.0);
       EXPECT_NEAR(pose.gap_mm, expected, 1e-4) << y;

@@ -9,7 +9,7 @@
 
 namespace {
 
-// Address space; memory is taken by the pages that are used.
+// Address space; only used pages take memory.
 constexpr std::size_t kSize = std::size_t{1} << 31;
 constexpr std::size_t kAlignment = 16, kPage = 4096;
 

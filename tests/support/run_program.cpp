@@ -17,7 +17,7 @@
 namespace clay::test {
 namespace {
 
-/// Becomes the command, in a group of processes of its own that ends with the test.
+/// Executes the command in its own process group, which ends with the test.
 [[noreturn]] void become(const char* command, const std::array<int, 3>& files) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
@@ -29,7 +29,7 @@ namespace {
 }  // namespace
 
 Program::Program(const std::string& command) : command_(command) {
-  // Opened before the fork: in between only what a signal handler may do is safe.
+  // Opened before the fork, because between fork and exec only async-signal-safe calls are allowed.
   constexpr int kWrite = O_WRONLY | O_CREAT | O_CLOEXEC;
   const std::array<int, 3> files = {open("/dev/null", O_RDONLY | O_CLOEXEC),
                                     open(folder_.file("out").c_str(), kWrite, 0600),

@@ -1,5 +1,5 @@
 #pragma once
-// Runs programs as a shell would, and keeps what they print.
+// Runs programs through a shell, and captures their output.
 
 #include <sys/types.h>
 #include <nlohmann/json.hpp>
@@ -23,10 +23,10 @@ Ran shell(const std::string& command);
 /// Runs claystack with these arguments.
 Ran claystack(const std::string& arguments);
 
-/// What most programs never need; shorter than CTest's limit for a test.
+/// Far above the needs of the programs; below CTest's limit for a test.
 inline constexpr std::chrono::seconds kProgramDeadline{240};
 
-/// A folder that is gone after the test.
+/// A folder that is removed after the test.
 class ScratchFolder {
  public:
   ScratchFolder();
@@ -44,7 +44,7 @@ std::string read_text(const std::string& path);
 void write_text(const std::string& path, const std::string& text);
 [[nodiscard]] std::string sample(const std::string& name);
 
-/// A command line that runs beside the test, and ends with it at the latest.
+/// A command line that runs in parallel with the test, and ends with it at the latest.
 class Program {
  public:
   /// Through the shell. `exec` before a program's name makes signals reach that program.
@@ -54,9 +54,9 @@ class Program {
   Program& operator=(const Program&) = delete;
 
   [[nodiscard]] bool running();
-  /// To a program that is still running.
+  /// Sends a signal to the running program.
   void send(int signal);
-  /// What it has printed so far.
+  /// The output so far.
   [[nodiscard]] std::string out() const { return read_text(folder_.file("out")); }
   [[nodiscard]] std::string err() const { return read_text(folder_.file("err")); }
   /// Waits for its end; throws after the deadline.
@@ -64,8 +64,8 @@ class Program {
 
  private:
   std::string command_;
-  ScratchFolder folder_;  // what it prints
-  pid_t process_ = -1;    // leads a group of its own
+  ScratchFolder folder_;  // for its output
+  pid_t process_ = -1;    // leader of its process group
   int status_ = -1;       // as Ran's
   bool running_ = true;
 };

@@ -1,6 +1,6 @@
 #pragma once
-// The part of JSON Schema (draft 2020-12) that samples/schema uses, and edits of a file that find
-// out where a schema and a reader disagree.
+// The part of JSON Schema (draft 2020-12) that samples/schema uses, and edits of a file that reveal
+// differences between a schema and a reader.
 
 #include <nlohmann/json.hpp>
 
@@ -14,8 +14,8 @@ using Json = nlohmann::ordered_json;
 /// samples/schema/NAME.schema.json
 Json load_schema(const std::string& name);
 
-/// The first violation, "/path: keyword"; empty when `value` conforms. A keyword it does not know
-/// is a violation: nothing passes unread.
+/// The first violation, "/path: keyword"; empty if `value` conforms. An unknown keyword is a
+/// violation, so that nothing is skipped.
 std::string violation(const Json& schema, const Json& value);
 
 struct Edit {
@@ -28,7 +28,7 @@ std::vector<Edit> edits(const Json& schema, const Json& file);
 
 /// "/lump/rings" for every property of the schema, choices of `oneOf` merged.
 std::vector<std::string> property_paths(const Json& schema);
-/// The same for every member of a file; elements of arrays are left out.
+/// The same for every member of a file, without elements of arrays.
 std::vector<std::string> member_paths(const Json& file);
 
 }  // namespace clay::test

@@ -1,5 +1,5 @@
 #pragma once
-// Every wait of a test has a deadline, and says what it waited for when the deadline passes.
+// Every wait of a test has a deadline, and reports the condition when it passes.
 
 #include <chrono>
 #include <stdexcept>
@@ -8,10 +8,10 @@
 
 namespace clay::test {
 
-/// Far longer than any wait lasts on a loaded machine, and shorter than CTest's limit for a test.
+/// Far longer than any wait on a loaded machine, and shorter than CTest's limit for a test.
 inline constexpr std::chrono::seconds kDeadline{120};
 
-/// Asks until the condition holds. After the deadline it throws, and the test has failed.
+/// Polls until the condition holds. After the deadline it throws, and the test fails.
 template <class Condition>
 void wait_until(Condition condition, std::chrono::seconds deadline, const std::string& what) {
   const auto end = std::chrono::steady_clock::now() + deadline;

@@ -1,5 +1,5 @@
 #pragma once
-// Contacts as a test has them in mind: ring by ring.
+// Explicit contacts for tests, ring by ring.
 
 #include "engine/tick/contact.hpp"
 
@@ -7,7 +7,7 @@
 
 namespace clay::samples {
 
-/// Every ring that is touched, ascending.
+/// The touched rings, ascending.
 inline std::vector<RingContact> touched(const Contact& contact) {
   std::vector<RingContact> touches;
   for (std::size_t i = contact.rings.from(); i < contact.rings.to(); ++i)
@@ -16,7 +16,7 @@ inline std::vector<RingContact> touched(const Contact& contact) {
   return touches;
 }
 
-/// Rings first..last, each touched as deep from that side.
+/// Rings first..last, each touched at the same depth from that side.
 inline Contact contact_on(std::size_t first, std::size_t last, Side side = Side::compressive,
                           double depth_mm = 1.0) {
   Contact contact;

@@ -21,7 +21,7 @@ Contact contact_of(const Tool& tool, const ClayStack& stack, glm::dvec3 hip) {
   return contact;
 }
 
-/// Section 4 without its first stage: every ring is asked.
+/// Section 4 without its first stage: tests every ring.
 RC_GTEST_PROP(Contact, TwoStageSearchMatchesTestingEveryRing, ()) {
   auto random = *samples::random_engine();
   const auto count = *rc::gen::inRange<std::size_t>(1, 60);
@@ -44,7 +44,7 @@ RC_GTEST_PROP(Contact, TwoStageSearchMatchesTestingEveryRing, ()) {
   for (std::size_t i = 0; i < count; ++i) {
     const double t = (static_cast<double>(i) + 0.5) * h - hip.y;
     if (std::abs(t) > tool.high()) continue;
-    // The middle of what the tool covers of the ring.
+    // The middle of the covered part of the ring.
     const double covered =
         0.5 * (std::max(t - 0.5 * h, tool.low()) + std::min(t + 0.5 * h, tool.high()));
     const double f = std::sqrt(tool.high() * tool.high() - covered * covered);

@@ -1,4 +1,4 @@
-// Settings mean something: neither the height of a ring nor the rate of the poses is one of them.
+// Pot and force do not depend on the ring height or on the pose rate.
 
 #include "app/bench/convergence_experiments.hpp"
 
@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(Strokes, Convergence, testing::ValuesIn(bench::converge
 
 class StandingRib : public testing::TestWithParam<std::pair<double, double>> {};
 
-/// The exact solution, at any ring height that divides the rib and at any rate.
+/// The exact solution, for any ring height that divides the rib and for any rate.
 TEST_P(StandingRib, FollowsTheExactSolution) {
   const auto [h, rate_hz] = GetParam();
   const bench::StandingRib rib = bench::standing_rib(h, rate_hz);
@@ -66,7 +66,7 @@ TEST_P(StandingRib, FollowsTheExactSolution) {
     const Ring& ring = wheel.stack().rings()[under];
     EXPECT_NEAR(ring.outer_mm() - ring.inner_mm(), rib.wall_mm(t_s), 1e-6) << t_s;
   }
-  EXPECT_LT(rib.force_n(0.1), 1e-12);  // the clay has given way altogether
+  EXPECT_LT(rib.force_n(0.1), 1e-12);  // the clay has yielded completely
 }
 INSTANTIATE_TEST_SUITE_P(AnyGridAnyRate, StandingRib,
                          testing::Values(std::pair{1.0, 250.0}, std::pair{0.5, 1000.0},

@@ -14,7 +14,7 @@ namespace {
 using samples::contact_on;
 using samples::plan_of;
 
-/// (5)-(8) over the whole kernel, in 128 bits. Returns what is left over.
+/// (5)-(8) over the whole kernel, in 128 bits. Returns the remainder.
 template <class RingOf>
 WideQuanta literal_flow(const RayleighKernel& kernel, double offset, WideQuanta inside,
                         WideQuanta outside, std::size_t count, RingOf ring_of,
@@ -38,7 +38,7 @@ WideQuanta literal_flow(const RayleighKernel& kernel, double offset, WideQuanta 
   return rest;
 }
 
-/// Small bites, which flow in 64 bits, and some of more than 2^63 quanta, which do not.
+/// Small removals, which flow in 64 bits, and some above 2^63 quanta, which do not.
 RC_GTEST_PROP(Flow, AgreesInLowAndHighPrecision, ()) {
   auto random = *samples::random_engine();
   std::vector<Ring> rings;

@@ -21,7 +21,7 @@ Contact touch(const Tool& tool, const ClayStack& stack, glm::dvec3 hip) {
   return contact;
 }
 
-// Rings so thin that the energy is the integral, also where f' has no bound at a pole.
+// Rings thin enough for the energy to be the integral, even where f' is unbounded at a pole.
 constexpr double kRingMm = 0.005;
 constexpr ForcePlan kThinPlan{
     .stiffness_n_per_mm = 0.04 * kRingMm, .limit_n = 5.0, .friction = 0.3, .turn = 1.0};
@@ -72,7 +72,7 @@ TEST_P(SpringForce, EqualsMinusTheGradientOfTheOverlapEnergy) {
         EXPECT_NEAR(force[axis], -slope, 0.005 * glm::length(force))
             << axis << " " << angle << outside;
       }
-      // It pushes the hand out of the clay: away from the axis outside, toward it inside.
+      // The force pushes the hand out of the clay: away from the axis outside, toward it inside.
       const double radial = (force.x * hip.x + force.z * hip.z) / d;
       EXPECT_EQ(radial > 0.0, outside);
     }
@@ -104,7 +104,7 @@ TEST(Friction, EqualsMuTimesTheSpringForceAlongTheRotation) {
   Contact contact;
   contact.radial_x = 1.0;
   const glm::dvec3 spring(3.0, 4.0, 0.0);
-  // A wheel turning counterclockwise seen from above (y toward the eye) carries +x toward -z.
+  // A wheel turning counterclockwise seen from above (y toward the viewer) moves +x toward -z.
   EXPECT_NEAR(glm::distance(friction_force(kPlan, contact, spring), glm::dvec3(0, 0, -0.3 * 5.0)),
               0, 1e-15);
   ForcePlan clockwise = kPlan;

@@ -1,4 +1,4 @@
-// What the force knows of clay within a ring.
+// The force within a ring, at the front of the tool.
 
 #include "engine/tick/front.hpp"
 
@@ -12,8 +12,8 @@
 namespace clay {
 namespace {
 
-/// A ball of 10 mm that rises by 0.02 mm a millisecond under clay that stands 4 mm over its axis,
-/// and has cleared all behind it.
+/// A ball of 10 mm that rises by 0.02 mm per millisecond under clay 4 mm above its axis, with no
+/// clay left behind it.
 class Front : public testing::TestWithParam<double> {
  protected:
   static constexpr double kRingMm = 0.2, kRise = 0.02, kDt = 0.001, kAxis = 46.0, kOuter = 50.0;
@@ -27,7 +27,7 @@ class Front : public testing::TestWithParam<double> {
   Contact behind_end_at(double level_mm) {
     std::vector<Ring> rings;
     for (int i = 0; i < 200; ++i) {
-      // As the ball leaves it: down to its surface where it has been.
+      // The clay as the ball leaves it: down to its surface along its path.
       const double t = (i + 0.5) * kRingMm - (level_mm - 10.0);
       const double outer = t < 10.0 && t > 0.0 ? kAxis - std::sqrt(100.0 - t * t) : kOuter;
       rings.push_back({quanta_from_radius(outer), 0});
@@ -41,8 +41,8 @@ class Front : public testing::TestWithParam<double> {
   ClayStack stack = ClayStack::cylinder(1, 1, 1, 0, 1).value();
 };
 
-/// The integral over what the ball has behind its pole, ring or no ring: the depth there is 8 mm
-/// and what the ball has widened, less what has yielded, w (1 - exp(-kappa s / v)).
+/// The exact integral behind the ball's pole: the depth there is 8 mm plus the widening of the
+/// ball, minus the yielded part, w (1 - exp(-kappa s / v)).
 TEST_P(Front, ForceIsContinuousAsTheToolsEndCrossesARing) {
   const Contact contact = behind_end_at(30.0 + GetParam() * kRingMm);
   double expected = 0.0;
@@ -69,7 +69,7 @@ TEST_F(Front, IsAbsentForAStandingTool) {
   find_contact(plan.tool, stack, {kAxis, 20.05, 0.0}, contact);
   feel_front(plan, stack, 20.05, kDt, contact);
   EXPECT_FALSE(contact.has_front);
-  // The part of a ring that is to yield later has, in truth: as its neighbour.
+  // A part of a ring that has not yielded yet equals its neighbour.
   for (std::size_t k = 0; k < contact.edge_count; ++k) EXPECT_LT(contact.edges[k].depth_mm, 0.1);
 }
 

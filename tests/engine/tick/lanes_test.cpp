@@ -1,4 +1,4 @@
-// Rings taken four at a time, where the machine can, and two at a time: the same bits.
+// Processing rings four at a time, where the machine can, and two at a time gives the same bits.
 
 #include "engine/tick/lanes.hpp"
 
@@ -20,7 +20,7 @@ struct Thrown {
   friend bool operator==(const Thrown&, const Thrown&) = default;
 };
 
-/// A tool that goes up and down a wall and into it, and out where it stood at first.
+/// A tool that moves up and down a wall, into it, and back out to the start.
 Thrown throw_with(const ToolShapeSpec& shape, bool four) {
   const bool machine = std::exchange(four_lanes, four);
   SceneSpec scene;

@@ -1,4 +1,4 @@
-// Where the two tools of a pinch stand, and what the hand between them feels.
+// The positions of the two tools of a pinch, and the force on the hand.
 
 #include "claystack/engine/wheel.hpp"
 #include "engine/tick/contact.hpp"
@@ -48,16 +48,16 @@ RC_GTEST_PROP(PinchContact, PutsEachToolOnItsSideOfTheGap, ()) {
   for (std::size_t i = 0; i < count; ++i) {
     const double t = (static_cast<double>(i) + 0.5) * h - hip.y;
     if (std::abs(t) > size) continue;
-    // The middle of what the tools cover of the ring.
+    // The middle of the covered part of the ring.
     const double covered = 0.5 * (std::max(t - 0.5 * h, -size) + std::min(t + 0.5 * h, size));
     const double f = std::sqrt(size * size - covered * covered);
-    // The clay's side of each tool, from the axis; an inner tool beyond the axis reaches as far as
-    // its other side does.
+    // The side of each tool that faces the clay, from the axis; an inner tool beyond the axis
+    // reaches as far as its other side.
     const double surface_out = d + gap / 2 + (size - f);
     const double surface_in = std::abs(d - gap / 2 - size) + f;
     const double from_out = stack.rings()[i].outer_mm() - surface_out;
     const double from_in = surface_in - stack.rings()[i].inner_mm();
-    // Clear of the ring: the outer tool within the bore, the inner one beyond the outside.
+    // Clear of the ring: the outer tool inside the bore, the inner one beyond the outside.
     const double past_bore = d + gap / 2 + size + f - stack.rings()[i].inner_mm();
     const double past_outside = stack.rings()[i].outer_mm() - (surface_in - 2.0 * f);
     RC_PRE(std::abs(past_bore) > 1e-9 && std::abs(past_outside) > 1e-9);
@@ -103,8 +103,8 @@ TEST(PinchContact, HasNoDirectionOnTheAxis) {
   }
 }
 
-/// E_out + E_in of a tube, from its geometry: the integral of the square of the depth along the
-/// ball's normal over the height, by the middles of slices far thinner than a ring.
+/// E_out + E_in of a tube, from its geometry: the integral over the height of the squared depth
+/// along the ball's normal, by the midpoints of slices far thinner than a ring.
 double energy(const SceneSpec& scene, glm::dvec3 hip, double gap_mm) {
   const LumpSpec& lump = scene.lump;
   const double d = std::hypot(hip.x, hip.z), reach = gap_mm / 2 + kToolMm;
@@ -123,7 +123,7 @@ double energy(const SceneSpec& scene, glm::dvec3 hip, double gap_mm) {
   return 0.5 * scene.force->stiffness_n_per_mm2 * slice * sum;
 }
 
-/// What the hand feels at once, before any clay has moved.
+/// The initial force, before any clay has moved.
 glm::dvec3 force_at(const SceneSpec& scene, glm::dvec3 hip, double gap_mm) {
   return Wheel::build(scene).value().step(pinch_at(0, hip, gap_mm)).force_n();
 }
@@ -150,8 +150,8 @@ TEST(PinchForce, EqualsMinusTheGradientOfBothOverlapEnergies) {
           plus[axis] += step;
           minus[axis] -= step;
           const double slope = (energy(tube, plus, 4.0) - energy(tube, minus, 4.0)) / (2 * step);
-          // The engine's rings are coarser than the slices: some per cent of a grazing contact,
-          // and of an f' without bound where a pole is in the clay.
+          // The engine's rings are coarser than the slices: some per cent for a grazing contact,
+          // and for an unbounded f' where a pole is in the clay.
           EXPECT_NEAR(force[axis], -slope, 0.03 * glm::length(force) + 1e-5)
               << axis << " at " << d << ", " << y;
         }
@@ -162,7 +162,7 @@ TEST(PinchForce, RadialPartsCancelInTheMiddleOfAWall) {
   SceneSpec scene = tube_scene(50.0, 40.0);
   const auto force = [&](double d) { return force_at(scene, {d, 25.0, 0.0}, 4.0); };
   EXPECT_NEAR(glm::length(force(45.0)), 0.0, 1e-12);
-  EXPECT_LT(force(45.5).x, -0.1);  // back to the middle
+  EXPECT_LT(force(45.5).x, -0.1);  // towards the middle
   EXPECT_GT(force(44.5).x, 0.1);
 }
 
@@ -175,7 +175,7 @@ TEST(PinchForce, FrictionOfBothToolsAddsUp) {
     tube.lump.inner_radius_mm = inner_mm;
     return std::abs(force_at(tube, {45.0, 25.0, 0.0}, 4.0).x);
   };
-  // Thinner tubes that one tool alone touches, as deep as it is in the whole wall.
+  // Thinner tubes touched by one tool only, at the same depth as in the whole wall.
   const double springs = alone(50.0, 43.5) + alone(46.5, 40.0);
   scene.force->friction = 0.3;
   const glm::dvec3 force = force_at(scene, {45.0, 25.0, 0.0}, 4.0);

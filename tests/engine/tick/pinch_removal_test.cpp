@@ -15,7 +15,7 @@ namespace {
 
 constexpr RemovalPlan kPlan{.rate_per_s = 20.0, .min_wall_mm = 1.0, .paper_fraction = 0.02};
 
-/// A wall between two tools: its radii, and how deep each tool is in it.
+/// A wall between two tools: its radii, and the depth of each tool.
 struct Wall {
   double outer = 0.0, inner = 0.0;
   double from_out = 0.0, from_in = 0.0;
@@ -113,7 +113,7 @@ RC_GTEST_PROP(PinchRemoval, LeavesTheGapAndTheMinimumWall, ()) {
   const double least = std::min(wall.thickness(), std::max(gap, 2.0));
   RC_ASSERT(conserving.thickness() >= least - 1e-9);
   RC_ASSERT(paper.thickness() >= std::min(wall.thickness(), gap) - 1e-9);
-  // All that the tools may take, they take at this rate.
+  // The amount that the tools remove at this rate.
   const double wanted = wall.thickness() - wall.from_out - wall.from_in;
   RC_ASSERT(std::abs(conserving.thickness() - std::max(least, wanted)) < 1e-9);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A tube of clay and a sphere on either side of its wall.
+// A tube of clay and a sphere on each side of its wall.
 
 #include "claystack/engine/scene.hpp"
 #include "claystack/engine/tool.hpp"

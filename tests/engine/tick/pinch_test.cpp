@@ -1,4 +1,4 @@
-// The wall that two tools at once leave, and what the wheel refuses.
+// The wall left by two tools, and the input that the wheel refuses.
 
 #include "claystack/engine/wheel.hpp"
 #include "tests/engine/tick/pinch_samples.hpp"
@@ -25,7 +25,7 @@ Wheel held(const SceneSpec& scene, glm::dvec3 hip, double gap_mm) {
   return wheel;
 }
 
-/// A wall pulled up at 20 mm/s: what is felt half a second on.
+/// A wall pulled up at 20 mm/s: the force half a second later.
 glm::dvec3 pulled(std::int64_t period_us) {
   SceneSpec scene = tube_scene(40.0, 30.0);
   scene.force->friction = 0.3;
@@ -50,7 +50,7 @@ TEST(Pinch, LeavesTheGapAroundTheHandsPosition) {
     scene.model = model;
     const Wheel wheel = held(scene, {0.0, 25.25, -45.5}, 5.0);
     const Ring& ring = wheel.stack().rings()[50];  // its middle is at 25.25 mm
-    // The paper's removal does not stop at the surface: its last tick may pass it by k (R - r).
+    // The paper's removal does not stop at the surface: its last tick may exceed it by k (R - r).
     const double slack = model == Model::paper ? 0.04 * 10.0 : 1e-6;
     EXPECT_NEAR(ring.outer_mm(), 48.0, slack);
     EXPECT_NEAR(ring.inner_mm(), 43.0, slack);
@@ -86,7 +86,7 @@ TEST(Pinch, TrimCutsOnBothSides) {
 TEST(Pinch, ToolTooWideForANeckOpensItAndKeepsTheWall) {
   const Wheel wheel = held(tube_scene(12.0, 3.0), {7.0, 25.25, 0.0}, 4.0);
   const Ring& ring = wheel.stack().rings()[50];
-  // The outer tool stops at 9, the inner one would reach 11: what was 9 mm thick stays 4.
+  // The outer tool stops at 9, the inner one would reach 11: a wall of 9 mm stays 4 mm thick.
   EXPECT_NEAR(ring.outer_mm() - ring.inner_mm(), 4.0, 1e-6);
   EXPECT_GT(ring.inner_mm(), 3.0);
   EXPECT_TRUE(wheel.ledger().imbalance(wheel.stack().recount()) == 0);
@@ -100,7 +100,7 @@ TEST(Pinch, RefusesAGapWithoutOneInTheScene) {
   EXPECT_EQ(wheel.step(pinch_at(0, {45, 25, 0}, 4.0)).flags, kRefused);
   EXPECT_TRUE(wheel.pot() == before);
   EXPECT_EQ(wheel.plan().stages & kPinch, 0u);
-  // It was not remembered either: this is the first pose.
+  // The refused pose was not stored either: this is the first pose.
   EXPECT_EQ(wheel.step(pinch_at(0, {45, 25, 0}, 0.0)).flags, kContact);
 }
 
@@ -140,7 +140,7 @@ TEST(Pinch, PressesTheSameWithAnUnusedGapSetting) {
   EXPECT_TRUE(play(4.0) == play(std::nullopt));
 }
 
-/// Pulls a wall up, from low in it to above its top.
+/// Pulls a wall up, from near its foot to above its top.
 Wheel pulled(const SceneSpec& scene, int ticks, double gap_mm) {
   Wheel wheel = Wheel::build(scene).value();
   for (int k = 0; k < ticks; ++k)
@@ -153,7 +153,7 @@ TEST(Pinch, PullingUpRaisesAWallAsThickAsTheGap) {
   const auto rings = wheel.stack().rings();
   EXPECT_TRUE(wheel.ledger().imbalance(wheel.stack().recount()) == 0);
   EXPECT_GT(wheel.stack().height_mm(), 1.5 * 50.0);
-  // From where the hand began to the rim.
+  // From the start of the pull to the rim.
   for (std::size_t i = 20; i < rings.size(); ++i)
     EXPECT_NEAR(rings[i].outer_mm() - rings[i].inner_mm(), 4.0, 0.1) << i;
 }

@@ -65,7 +65,7 @@ TEST_P(Upward, FollowsEquationsFiveToEight) {
   EXPECT_NEAR(outer2(stack, 29), 2500 - 40, 1e-9);
   EXPECT_EQ(outer2(stack, up ? 27 : 31), 2500);
   EXPECT_EQ(outer2(stack, up ? 43 : 15), 2500);
-  // A ring more than the kernel is long: it may lie between the rings.
+  // One ring beyond the kernel's length: the tool's end may lie between rings.
   EXPECT_EQ(flow.lowest, up ? 28u : 15u);
   EXPECT_EQ(flow.highest, 43u);
 }
@@ -80,7 +80,7 @@ TEST(Redistribution, KernelStartsAtTheToolsEnds) {
     const ToolRemoval bite{contact, {0, 120 * kMm2, 0}};
     Ledger ledger;
     press_clay<Model::conserving>(plan_of(4.0, 12.0, 0.0), {&bite, 1}, true, stack, ledger);
-    // Where a table that runs straight between its rings stands at x ring heights.
+    // The value of a table, linear between its rings, at x ring heights.
     const auto dealt = [&](double x) {
       double sum = 0.0;
       for (std::size_t k = 0; k < w.size(); ++k)
@@ -97,9 +97,9 @@ TEST(Redistribution, KernelStartsAtTheToolsEnds) {
 }
 
 TEST(Redistribution, NewRingContinuesTheRim) {
-  // Two rings above the tool and a kernel of three: the third share falls to the crown.
+  // Two rings above the tool and a kernel of three: the third share goes to the crown.
   std::vector<Ring> rings(10, {400 * kMm2, 225 * kMm2});
-  rings[7].outer2 = 4000 * kMm2;  // enough for all bites
+  rings[7].outer2 = 4000 * kMm2;  // enough for all removals
   ClayStack stack = ClayStack::from_rings(1.0, std::move(rings), 150 * kMm2, 40).value();
   Ledger ledger;
   Rim rim;
@@ -114,7 +114,7 @@ TEST(Redistribution, NewRingContinuesTheRim) {
     flow = press_clay<Model::conserving>(plan, {&bite, 1}, true, stack, ledger, &rim);
   ASSERT_EQ(stack.size(), 11u);
   EXPECT_TRUE(rim.outside == 0 && rim.inside == 0);
-  EXPECT_GT(outer2(stack, 10), outer2(stack, 9));  // it has had three shares where the top had two
+  EXPECT_GT(outer2(stack, 10), outer2(stack, 9));  // it received three shares, the top ring two
   EXPECT_LT(inner2(stack, 10), inner2(stack, 9));
 }
 
@@ -134,7 +134,7 @@ TEST(Redistribution, ExpansionWidensTheBore) {
   press_one<Model::conserving>(plan_of(2.0, 3.0, 0.25), contact_on(5, 5, Side::expansive),
                                {9 * kMm2}, false, stack, ledger);
   EXPECT_EQ(stack.rings()[5].inner_mm(), 3.0);
-  // The neighbours have no bore to fill: all of it goes outside.
+  // The neighbours have no bore: everything goes outside.
   EXPECT_NEAR(outer2(stack, 4) + outer2(stack, 3) + outer2(stack, 2), 3 * 2500 + 9, 1e-9);
 }
 
@@ -142,7 +142,7 @@ TEST(Redistribution, SendsTheExcessOfASmallBoreOutside) {
   const Ring wide{2500 * kMm2, 1600 * kMm2}, narrow{2500 * kMm2, 1 * kMm2};
   ClayStack stack = ClayStack::from_rings(1.0, {wide, narrow, wide}, 0, 3).value();
   Ledger ledger;
-  // One ring of reach: ring 1 is offered 30 mm^2 inside, and has 1.
+  // Reach of one ring: ring 1 is offered 30 mm^2 inside, and has room for 1.
   press_one<Model::conserving>(plan_of(4.0, 1.0, 0.3), contact_on(0, 0), {100 * kMm2}, true, stack,
                                ledger);
   EXPECT_EQ(stack.rings()[1].inner2, 0);
@@ -167,7 +167,7 @@ TEST(Redistribution, ExcessBelowFlowsUp) {
 TEST(Redistribution, ExcessAboveBecomesHeight) {
   ClayStack stack = ClayStack::cylinder(10, 1.0, 10.0, 0.0, 40).value();
   Ledger ledger;
-  // Nothing above the top ring: 50 mm^2 leave it for half a ring, twice.
+  // No ring above the top: 50 mm^2 remain for half a ring, twice.
   const auto press = [&] {
     return press_one<Model::conserving>(plan_of(4.0, 5.0, 0.25), contact_on(9, 9), {40 * kMm2},
                                         true, stack, ledger);

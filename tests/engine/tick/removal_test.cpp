@@ -76,7 +76,7 @@ TEST(Removal, PassesTheRemainingDepthToTheForce) {
 }
 
 TEST(Removal, StopsAtTheToolAndAtTheMinimumWall) {
-  // A fast clay: the exponential alone would take the whole wall.
+  // Fast clay: the exponential alone would remove the whole wall.
   const RemovalPlan fast{
       .rate_per_s = 1e6, .yield_depth_mm = 0.25, .min_wall_mm = 1.0, .paper_fraction = 0.0};
   const auto r = [&](double mm2) { return std::sqrt(2500.0 - mm2); };

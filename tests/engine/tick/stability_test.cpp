@@ -73,7 +73,7 @@ TEST(Stability, NewRingOfPaperLoadsAllRingsBelow) {
   plan.stability.max_stress_kpa = stress_kpa(plan.stability, stack.volume() - ring / 2, ring);
   StabilityWatch watch(stack);
   Ledger ledger;
-  ledger.outside = ring - 1;  // what the body has lacked since its foot was looked at last
+  ledger.outside = ring - 1;  // clay missing from the body since the foot was last checked
   const ToolRemoval bite{samples::contact_on(499, 499), {1000}};
   watch.move_to(stack, 499);
   const Flow flow = press_clay<Model::paper>(plan, {&bite, 1}, true, stack, ledger);
@@ -148,7 +148,7 @@ double largest_stress(const StabilityPlan& plan, const ClayStack& stack) {
   return running(any, stack)->stress_kpa;
 }
 
-/// The crown becomes rings while the tool is far below, and the tool then goes a little further.
+/// The crown becomes rings while the tool is far below, and the tool then moves a little further.
 TEST(Stability, NewTopRingsLoadTheRingsBetween) {
   const Ring ring{quanta_from_radius(30.0), 0};
   ClayStack stack =
@@ -168,8 +168,8 @@ TEST(Stability, NewTopRingsLoadTheRingsBetween) {
   EXPECT_EQ(grown, 3u);
 }
 
-/// Walls from a tenth of the radius to solid; at times a top ring that is next to nothing, so that
-/// the clay above it becomes many rings.
+/// Walls from a tenth of the radius to solid; sometimes a nearly empty top ring, so that the clay
+/// above it becomes many rings.
 ClayStack random_stack(std::mt19937_64& random, std::size_t count) {
   std::vector<Ring> rings;
   while (rings.size() < count) {
@@ -192,7 +192,7 @@ ToolRemoval random_bite(std::mt19937_64& random, const ClayStack& stack) {
   return bite;
 }
 
-/// Leaps over stacks of one and of two levels of sums, clay that goes to the top from far below
+/// Jumps over stacks of one and of two levels of sums, clay that flows to the top from far below
 /// (reach 0), and growth that a tick leaves to the next ones (a thin ring on top).
 template <Model model>
 void leaps_see_what_the_running_sum_sees() {

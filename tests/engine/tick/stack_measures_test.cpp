@@ -62,8 +62,8 @@ RC_GTEST_PROP(MinWall, EqualsTheMinimumOverAllPairs, ()) {
   RC_ASSERT(std::abs(min_wall(stack).thickness_mm - least) < 1e-9);
 }
 
-/// A flared wall: 3 mm in the direction of the radius, at 45 degrees. Looking from each ring at all
-/// within reach of the wall would take 2^20 times 2 * 3000 looks.
+/// A flared wall: radially 3 mm, at 45 degrees. Testing from each ring all rings within reach would
+/// take 2^20 times 2 * 3000 tests.
 TEST(MinWall, FindsTheWallOfManyFineRingsQuickly) {
   constexpr double kRingMm = 0.001, kWallMm = 3.0;
   std::vector<Ring> rings(std::size_t{1} << 20);
@@ -76,7 +76,7 @@ TEST(MinWall, FindsTheWallOfManyFineRingsQuickly) {
 }
 
 TEST(Stresses, EqualWeightOverArea) {
-  // SI: a column of 2000 kg/m^3 on rings of 20 and 10 mm; the top one bears nothing.
+  // SI: a column of 2000 kg/m^3 on rings of 20 and 10 mm; the top one bears no load.
   const auto stresses = stresses_kpa(stack_of(5, {{20, 0}, {10, 0}, {20, 0}}), 2.0);
   ASSERT_EQ(stresses.size(), 3u);
   const double of_one = 2000.0 * 9.80665 * 0.005 * 1e-3;  // kPa under 5 mm of its own width
@@ -103,7 +103,7 @@ RC_GTEST_PROP(Stresses, MatchTheStabilityStage, ()) {
 TEST(Capacity, IsTheVolumeOfTheOpenBore) {
   const double pi = std::numbers::pi;
   EXPECT_NEAR(capacity_mm3(stack_of(5, {{40, 0}, {40, 30}, {40, 20}})), pi * 5 * (900 + 400), 1e-6);
-  EXPECT_EQ(capacity_mm3(stack_of(5, {{40, 30}, {40, 30}})), 0.0);          // right through
+  EXPECT_EQ(capacity_mm3(stack_of(5, {{40, 30}, {40, 30}})), 0.0);          // a through bore
   EXPECT_EQ(capacity_mm3(stack_of(5, {{40, 0}, {40, 30}, {40, 0}})), 0.0);  // closed
   const Ring wall{quanta_from_radius(40), quanta_from_radius(30)};
   const auto crowned =

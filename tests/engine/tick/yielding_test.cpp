@@ -1,4 +1,4 @@
-// The law of yielding against its equation, integrated in small steps.
+// The yielding law compared with its equation, integrated in small steps.
 
 #include "engine/tick/yielding.hpp"
 
@@ -16,12 +16,12 @@ namespace {
 constexpr RemovalPlan kPlan{
     .rate_per_s = 20.0, .yield_depth_mm = 0.25, .min_wall_mm = 0.5, .paper_fraction = 0.0};
 
-/// A tool in a wall, at the beginning of a tick.
+/// A tool in a wall, at the start of a tick.
 struct Press {
   double wall = 10.0, depth = 0.0;
 };
 
-/// After a tick in which the tool comes `advance` nearer.
+/// The state after a tick in which the tool advances by `advance`.
 Press yielded(Press at, double advance, double dt_s) {
   Yielding one;
   one.wall[0] = at.wall;
@@ -54,8 +54,7 @@ TEST(ExpNeg, MatchesTheExponential) {
   EXPECT_EQ(exp_neg(1e12), 0.0);
 }
 
-/// At every depth, at every rate: the exponential, the logistic curve and the change from one to
-/// the other.
+/// At every depth and rate: the exponential, the logistic curve and the transition between them.
 RC_GTEST_PROP(Yielding, SolvesTheEquationOfAStandingTool, ()) {
   auto random = *samples::random_engine();
   const Press at{2.0 + 8.0 * samples::uniform(random), 1.5 * samples::uniform(random)};
@@ -74,7 +73,7 @@ RC_GTEST_PROP(Yielding, TwoHalfStepsEqualOneStep, ()) {
   RC_ASSERT(std::abs(once.depth - twice.depth) < 1e-10);
 }
 
-/// A hundredth of the yield depth, in ticks of a millisecond, at a hand's speeds.
+/// Within a hundredth of the yield depth, in ticks of a millisecond, at a hand's speeds.
 RC_GTEST_PROP(Yielding, SolvesTheEquationOfAMovingTool, ()) {
   auto random = *samples::random_engine();
   const Press at{4.0 + 6.0 * samples::uniform(random), 1.0 * samples::uniform(random)};
@@ -84,20 +83,20 @@ RC_GTEST_PROP(Yielding, SolvesTheEquationOfAMovingTool, ()) {
   RC_ASSERT(std::abs(found.depth - std::max(expected.depth, 0.0)) < 0.01 * kPlan.yield_depth_mm);
 }
 
-/// v delta / (kappa w), to the part that the depth is of the wall: what a slow hand feels.
+/// v delta / (kappa w), up to the ratio of depth to wall: the depth for a slow hand.
 TEST(Yielding, DepthAtConstantSpeedIsIndependentOfTheRate) {
   for (const double rate_hz : {250.0, 1000.0, 8000.0}) {
     Press at{10.0, 0.0};
     const double speed = 10.0;
     for (int k = 0; k < static_cast<int>(0.02 * rate_hz); ++k)
       at = yielded(at, speed / rate_hz, 1.0 / rate_hz);
-    // The wall has gone from 10 to 9.8 mm.
+    // The wall has decreased from 10 to 9.8 mm.
     EXPECT_NEAR(at.depth, speed * 0.25 / (20.0 * 9.8), 1e-4) << rate_hz;
   }
 }
 
 TEST(Yielding, ToolPressesFromItsFirstContactWithinATick) {
-  // Half of the way in front of the clay: as a tick of half the time from its surface.
+  // Half of the motion is in front of the clay: equal to a tick of half the time from its surface.
   Yielding one;
   one.wall[0] = 10.0;
   one.depth[0] = 0.02;
