@@ -1,6 +1,5 @@
 #include "app/studio/stroke_controller.hpp"
 
-
 #include <algorithm>
 
 namespace clay::studio {

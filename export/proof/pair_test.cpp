@@ -10,19 +10,19 @@ namespace clay::solid::inline proof {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
+using CgalPoint = Kernel::Point_3;
 
-Point point(const TriangleMesh& mesh, std::uint32_t vertex) {
+CgalPoint cgal_point(const TriangleMesh& mesh, std::uint32_t vertex) {
   const glm::dvec3& p = mesh.points[vertex];
   return {p.x, p.y, p.z};
 }
 
 Kernel::Triangle_3 whole(const TriangleMesh& mesh, const Triangle& t) {
-  return {point(mesh, t[0]), point(mesh, t[1]), point(mesh, t[2])};
+  return {cgal_point(mesh, t[0]), cgal_point(mesh, t[1]), cgal_point(mesh, t[2])};
 }
 
 Kernel::Segment_3 last_side(const TriangleMesh& mesh, const Triangle& t) {
-  return {point(mesh, t[1]), point(mesh, t[2])};
+  return {cgal_point(mesh, t[1]), cgal_point(mesh, t[2])};
 }
 
 std::size_t bring_shared_to_front(Triangle& a, Triangle& b) {
@@ -40,7 +40,7 @@ std::size_t bring_shared_to_front(Triangle& a, Triangle& b) {
 }  // namespace
 
 bool PairTest::degenerate(const Triangle& t) const {
-  return CGAL::collinear(point(mesh_, t[0]), point(mesh_, t[1]), point(mesh_, t[2]));
+  return CGAL::collinear(cgal_point(mesh_, t[0]), cgal_point(mesh_, t[1]), cgal_point(mesh_, t[2]));
 }
 
 bool PairTest::meet(Triangle a, Triangle b) const {
@@ -59,8 +59,8 @@ bool PairTest::meet(Triangle a, Triangle b) const {
 
 int PairTest::quarter(std::uint32_t v, std::uint32_t w, std::uint32_t p, std::uint32_t q) const {
   if (p == q) return 0;
-  const Point origin = point(mesh_, v), end = point(mesh_, w);
-  const Point from = point(mesh_, p), to = point(mesh_, q);
+  const CgalPoint origin = cgal_point(mesh_, v), end = cgal_point(mesh_, w);
+  const CgalPoint from = cgal_point(mesh_, p), to = cgal_point(mesh_, q);
   switch (CGAL::orientation(origin, end, from, to)) {
     case CGAL::POSITIVE:
       return 1;
