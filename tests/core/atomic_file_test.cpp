@@ -23,7 +23,8 @@ void expect_says(const Result<void>& result, std::string_view says) {
 
 TEST_F(AtomicFileTest, PublishesAndReadsBack) {
   const fs::path path = folder_ / "pot";
-  const std::string bytes = std::string(1'000'000, 'x') + '\0' + "end\n";
+  std::string bytes(1'000'000, 'x');
+  bytes.append("\0end\n", 5);
   ASSERT_TRUE(publish(path, bytes));
   EXPECT_EQ(bytes_in(path), bytes);
   EXPECT_EQ(read_file(path).value(), bytes);
