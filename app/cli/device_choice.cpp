@@ -17,19 +17,12 @@ using DevicePointer = std::unique_ptr<falcon::HapticDevice>;
 
 Result<DevicePointer> open_simulated(const falcon::SimulatedSettings& settings) {
   auto simulated = falcon::make_simulated_falcon(settings);
-  if (!simulated) return tl::make_unexpected(error_of(simulated.error()));
-  if (auto opened = simulated->device->open(); !opened)
-    return tl::make_unexpected(error_of(opened.error()));
+  if (!simulated) return tl::make_unexpected(simulated.error());
+  if (auto opened = simulated->device->open(); !opened) return tl::make_unexpected(opened.error());
   return std::move(simulated->device);
 }
 
 }  // namespace
-
-Error error_of(const falcon::DeviceError& error) {
-  const bool ours = error.fault == falcon::DeviceFault::bad_firmware ||
-                    error.fault == falcon::DeviceFault::bad_setting;
-  return {ours ? ErrorKind::bad_input : ErrorKind::device, text_of(error)};
-}
 
 std::string check_device_name(const std::string& which) {
   for (const char* name : {"auto", "falcon", "bridge", "spacemouse", "simulated"})
@@ -66,7 +59,7 @@ Result<DevicePointer> open_chosen(const std::string& which, const falcon::Falcon
   if (which == "simulated") return open_simulated(simulated);
 #ifdef CLAYSTACK_USB
   auto device = falcon::open_device(which, {.falcon = settings, .space_mouse = {}});
-  if (!device) return tl::make_unexpected(error_of(device.error()));
+  if (!device) return tl::make_unexpected(device.error());
   return std::move(*device);
 #else
   (void)settings;

@@ -14,9 +14,6 @@ class App;
 
 namespace clay::cli {
 
-/// Faults of the user's files and settings are bad input; all others are device errors.
-[[nodiscard]] Error error_of(const falcon::DeviceError& error);
-
 /// For CLI options: accepts auto, falcon, bridge, spacemouse, simulated or a place; otherwise
 /// returns the expected values.
 [[nodiscard]] std::string check_device_name(const std::string& which);

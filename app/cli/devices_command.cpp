@@ -64,14 +64,14 @@ void say_entry(const Entry& entry, const Console& console) {
                                                                          : "open";
   console.say(
       fmt::format("{:<11}{:<16}{}: {}", name_of(device.kind), device.place, device.name, state));
-  if (device.problem) console.say("  " + text_of(*device.problem));
+  if (device.problem) console.say("  " + device.problem->message);
   if (entry.state == falcon::DeviceState::needs_homing)
     console.say(std::string("  ") + servo::kHomingAdvice);
 }
 
 Result<void> list(const falcon::DeviceSettings& settings, const Console& console) {
   auto found = falcon::list_devices();
-  if (!found) return tl::make_unexpected(error_of(found.error()));
+  if (!found) return tl::make_unexpected(found.error());
   Json json = {{"devices", Json::array()}};
   for (falcon::ListedDevice& device : *found) {
     const Entry entry = looked_at(std::move(device), settings);
@@ -94,7 +94,7 @@ Result<void> show(const DevicesOptions& options, const falcon::DeviceSettings& s
     const auto mapping = servo::Mapping::build(options.mapping);
     if (!mapping) return tl::make_unexpected(by_option(mapping.error()));
     if (auto watched = watch(open, options.seconds, *mapping, console); !watched)
-      return tl::make_unexpected(error_of(watched.error()));
+      return tl::make_unexpected(watched.error());
     return {};
   }
   open.write({});

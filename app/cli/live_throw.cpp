@@ -199,7 +199,7 @@ Ending run(Stage& stage, const LiveOptions& options, const Console& console,
     realtime = servo.realtime();
     if (ending != Ending::device_lost || !options.wait) return ending;
     line.clear();
-    console.warn(text_of(stage.device->problem()) + "; waiting for it");
+    console.warn(stage.device->problem().message + "; waiting for it");
     if (!comes_back(*stage.device)) return Ending::stopped;
   }
 }
@@ -296,7 +296,7 @@ Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console
   if (console.json) console.print(json);
   tell(job, options, console, json, kept);
   if (auto all = first_error(kept, console); !all) return all;
-  if (ending == Ending::device_lost) return tl::make_unexpected(error_of(stage.device->problem()));
+  if (ending == Ending::device_lost) return tl::make_unexpected(stage.device->problem());
   if (ending == Ending::time_up && status.poses == 0)
     return failure(ErrorKind::device, stage.device->info().place + ": nothing was thrown; " +
                                           servo::words_of(status, kRearmKey));

@@ -41,10 +41,7 @@ Error refusal(const SceneSpec& scene, const ServoContact& contact, const falcon:
 Result<ServoContact> servo_contact(const SceneSpec& scene, const StepPlan& plan,
                                    const falcon::SampledLoop& loop, double stiffness_gain) {
   if (const auto checked = check(loop); !checked)
-    return failure(ErrorKind::bad_input,
-                   fmt::format("{}: expected a value from {:.6g} to {:.6g}, found {:.6g}",
-                               checked.error().setting, checked.error().low, checked.error().high,
-                               checked.error().found));
+    return tl::make_unexpected(error_of(checked.error()));
   const double rings = most_rings_touched(scene, plan.tool);
   ServoContact contact;
   contact.height_mm = rings * scene.lump.ring_height_mm;

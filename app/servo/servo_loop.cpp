@@ -2,8 +2,6 @@
 
 #include "claystack/engine/files.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -21,11 +19,6 @@ std::int64_t period_ns(double rate_hz) { return std::llround(1e9 / rate_hz); }
 
 std::int64_t clay_period_us(const LiveSettings& settings) {
   return settings.clay_rate_hz > 0.0 ? std::llround(1e6 / settings.clay_rate_hz) : 0;
-}
-
-Error range_error(const falcon::OutOfRange& out) {
-  return {ErrorKind::bad_input, fmt::format("{}: expected a value from {:g} to {:g}, found {:g}",
-                                            out.setting, out.low, out.high, out.found)};
 }
 
 }  // namespace
@@ -51,11 +44,11 @@ Result<ServoLoop> ServoLoop::build(const Bench& bench, const LiveSettings& setti
   falcon::GuardSettings guard_settings = settings.guard;
   guard_settings.period_s = 1.0 / settings.rate_hz;
   const auto guard = falcon::ForceGuard::make(guard_settings);
-  if (!guard) return tl::make_unexpected(range_error(guard.error()));
+  if (!guard) return tl::make_unexpected(falcon::error_of(guard.error()));
   falcon::PassivitySpec spec{.loop = settings.arm, .step_m = settings.encoder_step_m};
   spec.loop.rate_hz = settings.rate_hz;
   const auto controller = falcon::PassivityController::build(spec);
-  if (!controller) return tl::make_unexpected(range_error(controller.error()));
+  if (!controller) return tl::make_unexpected(falcon::error_of(controller.error()));
   return ServoLoop(bench, settings, *mapping, *guard, *controller);
 }
 

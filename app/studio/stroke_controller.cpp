@@ -129,7 +129,7 @@ void StrokeController::take(std::unique_ptr<falcon::HapticDevice> device,
 
 /// Its force went with it; the mouse takes over.
 void StrokeController::lose_device() {
-  news_.error = Error{ErrorKind::device, falcon::text_of(device_->problem())};
+  news_.error = device_->problem();
   news_.device_lost = true;
   device_.reset();
 }

@@ -1,5 +1,7 @@
 #include "engine/tick/force.hpp"
 
+#include "core/limit_norm.hpp"
+
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -46,12 +48,11 @@ glm::dvec3 friction_force(const ForcePlan& plan, const Contact& contact,
 }
 
 void limit_sum(glm::dvec3& spring, glm::dvec3& friction, double limit_n) noexcept {
-  const double norm = glm::length(spring + friction);
-  if (norm <= limit_n) return;
-  // A few ulp of slack, so that the rounded norm does not pass the limit.
-  const double part = limit_n / norm * (1.0 - 0x1p-50);
-  spring = std::isfinite(norm) ? part * spring : glm::dvec3(0.0);
-  friction = std::isfinite(norm) ? part * friction : glm::dvec3(0.0);
+  const glm::dvec3 sum = spring + friction, kept = limit_norm(sum, limit_n);
+  if (kept == sum) return;
+  const double part = is_finite(sum) ? norm(kept) / norm(sum) : 0.0;
+  spring = part > 0.0 ? part * spring : glm::dvec3(0.0);
+  friction = part > 0.0 ? part * friction : glm::dvec3(0.0);
 }
 
 template glm::dvec3 spring_force<Model::paper>(const ForcePlan&, const Contact&) noexcept;

@@ -1,5 +1,7 @@
 #include "claystack/falcon/device.hpp"
 
+#include <cstdio>
+
 namespace clay::falcon::inline device {
 
 std::string_view name_of(DeviceFault fault) noexcept {
@@ -30,8 +32,20 @@ std::string_view name_of(DeviceFault fault) noexcept {
   return "unknown";
 }
 
-std::string text_of(const DeviceError& error) {
-  return error.remedy.empty() ? error.what : error.what + "; " + error.remedy;
+DeviceError::DeviceError(DeviceFault device_fault, std::string found, std::string help)
+    : Error{device_fault == DeviceFault::bad_firmware || device_fault == DeviceFault::bad_setting
+                ? ErrorKind::bad_input
+                : ErrorKind::device,
+            help.empty() ? found : found + "; " + help},
+      fault(device_fault),
+      what(std::move(found)),
+      remedy(std::move(help)) {}
+
+Error error_of(const OutOfRange& out) {
+  char text[160];
+  std::snprintf(text, sizeof text, "%s: expected a value from %g to %g, found %g", out.setting,
+                out.low, out.high, out.found);
+  return {ErrorKind::bad_input, text};
 }
 
 std::string_view name_of(DeviceState state) noexcept {

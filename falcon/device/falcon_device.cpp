@@ -1,5 +1,6 @@
 #include "claystack/falcon/falcon_device.hpp"
 
+#include "core/limit_norm.hpp"
 #include "falcon/device/firmware.hpp"
 
 #include <algorithm>
@@ -24,12 +25,6 @@ bool within(double value, double low, double high) { return value >= low && valu
 DeviceInfo info_of(const Transport& line, const FalconSettings& settings) {
   return {"Novint Falcon",        line.describe(),          true,
           settings.force_limit_n, glm::dvec3(kWorkspaceMm), 1000.0};
-}
-
-/// Values that are not finite stay so or become 0: `motor_counts` makes them 0.
-glm::dvec3 limited(const glm::dvec3& force_n, double limit_n) {
-  const double length = glm::length(force_n);
-  return length > limit_n ? limit_n / length * force_n : force_n;
 }
 
 }  // namespace
@@ -184,7 +179,8 @@ DeviceSample FalconDevice::read(std::int64_t wait_us) noexcept {
 
 LegCounts FalconDevice::motors_for(const glm::dvec3& force_n) const noexcept {
   if (sample_.state != DeviceState::ready) return {};
-  const auto torques = kinematics_.torques(position_m_, limited(force_n, settings_.force_limit_n));
+  const auto torques =
+      kinematics_.torques(position_m_, limit_norm(force_n, settings_.force_limit_n));
   return torques ? motor_counts(*torques, settings_.motor_counts_per_nm).counts : LegCounts{};
 }
 

@@ -6,16 +6,6 @@
 #include <limits>
 
 namespace clay::falcon::inline safety {
-namespace {
-
-// Of a norm that is cut, so that no rounding on the way carries it over the limit.
-constexpr double kJustBelow = 1.0 - 4.0 * std::numeric_limits<double>::epsilon();
-
-double largest(const glm::dvec3& v) noexcept {
-  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
-}  // namespace
 
 tl::expected<void, OutOfRange> check(const GuardSettings& s) noexcept {
   constexpr double kTiny = 1e-3;  // of a force [N] or the length of a fade [s]
@@ -49,21 +39,6 @@ double elapsed_s(std::int64_t from_us, std::int64_t to_us) noexcept {
   if (to_us <= from_us) return 0.0;
   const auto elapsed = static_cast<std::uint64_t>(to_us) - static_cast<std::uint64_t>(from_us);
   return static_cast<double>(std::min(elapsed, kMost)) / 1e6;
-}
-
-bool is_finite(const glm::dvec3& v) noexcept {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-double norm(const glm::dvec3& v) noexcept {
-  const double most = largest(v);
-  return most > 0.0 ? most * glm::length(v / most) : most;
-}
-
-glm::dvec3 limit_norm(const glm::dvec3& v, double limit) noexcept {
-  if (norm(v) <= kJustBelow * limit) return v;
-  const glm::dvec3 direction = v / largest(v);
-  return direction * (kJustBelow * limit / glm::length(direction));
 }
 
 glm::dvec3 limit_rise(const glm::dvec3& wanted, const glm::dvec3& before, double rise) noexcept {

@@ -3,6 +3,7 @@
 // tests compile guards that lack one and show what gets through.
 
 #include "claystack/falcon/guard.hpp"
+#include "core/limit_norm.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,7 @@
 #include "claystack/falcon/passivity.hpp"
 
+#include "core/limit_norm.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -13,10 +15,6 @@ constexpr int kMostDebts = 3;
 constexpr double kGoodWhileS = 2.0;
 constexpr double kYield = 0.5;
 constexpr double kPayWithinS = 0.5;  // or it counts again
-
-bool is_finite(const glm::dvec3& v) noexcept {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 double most_damping(const PassivitySpec& spec, double stiffness) noexcept {
   const double borne = 0.5 * stable_damping(spec.loop, stiffness);

@@ -1,5 +1,6 @@
 #include "claystack/falcon/sim.hpp"
 
+#include "core/limit_norm.hpp"
 #include "falcon/sim/arm_axis.hpp"
 
 #include <algorithm>
@@ -27,10 +28,6 @@ std::optional<OutOfRange> outside(const char* setting, double low, double high,
     if (!(found[axis] >= low && found[axis] <= high))
       return OutOfRange{setting, low, high, found[axis]};
   return std::nullopt;
-}
-
-bool is_finite(const glm::dvec3& v) noexcept {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 }  // namespace

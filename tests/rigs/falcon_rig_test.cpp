@@ -79,7 +79,7 @@ class FalconRig : public testing::Test {
 TEST_F(FalconRig, LoadsFirmwareHomesAndRuns5000FramesWithNoBadOne) {
   plug();
   auto opened = open_device("falcon", settings_);
-  ASSERT_TRUE(opened) << text_of(opened.error());
+  ASSERT_TRUE(opened) << opened.error().message;
   HapticDevice& device = **opened;
   EXPECT_EQ(device.info().place, "usb:1-1");
   EXPECT_EQ(locked([](auto& d) { return d.model.firmware(); }), dummy_firmware());
@@ -113,7 +113,7 @@ TEST_F(FalconRig, LoadsFirmwareHomesAndRuns5000FramesWithNoBadOne) {
 TEST_F(FalconRig, LastPacketIsZeroForce) {
   plug_ready();
   auto opened = open_device("auto", settings_);
-  ASSERT_TRUE(opened) << text_of(opened.error());
+  ASSERT_TRUE(opened) << opened.error().message;
   for (int i = 0; i < 20; ++i) tick(**opened, {4, 0, 0});
   ASSERT_NE(locked([](auto& d) { return d.model.motors(); }), LegCounts{});
   (*opened)->write({4, 0, 0});
@@ -127,7 +127,7 @@ TEST_F(FalconRig, LastPacketIsZeroForce) {
 TEST_F(FalconRig, LosesAtMostTwoFramesPerWireFault) {
   plug_ready();
   auto opened = open_device("falcon", settings_);
-  ASSERT_TRUE(opened) << text_of(opened.error());
+  ASSERT_TRUE(opened) << opened.error().message;
   HapticDevice& device = **opened;
   const WireFault faults[] = {WireFault::lost_byte,  WireFault::extra_byte, WireFault::half_frame,
                               WireFault::bad_nibble, WireFault::no_frame,   WireFault::stale_frame};
@@ -160,7 +160,7 @@ TEST_F(FalconRig, LosesAtMostTwoFramesPerWireFault) {
 TEST_F(FalconRig, ReportsLostHomingAndSendsNoForceUntilHomed) {
   plug_ready();
   auto opened = open_device("falcon", settings_);
-  ASSERT_TRUE(opened) << text_of(opened.error());
+  ASSERT_TRUE(opened) << opened.error().message;
   for (int i = 0; i < 10; ++i) tick(**opened, {2, 0, 0});
   locked([](auto& d) { d.model.plan({WireFault::homing_lost, 0}); });
   DeviceSample sample = tick(**opened, {2, 0, 0});
@@ -177,7 +177,7 @@ TEST_F(FalconRig, ReportsLostHomingAndSendsNoForceUntilHomed) {
 TEST_F(FalconRig, ReportsUnpluggingAndReconnects) {
   plug_ready();
   auto opened = open_device("falcon", settings_);
-  ASSERT_TRUE(opened) << text_of(opened.error());
+  ASSERT_TRUE(opened) << opened.error().message;
   HapticDevice& device = **opened;
   for (int i = 0; i < 100; ++i) tick(device, {2, 0, 0});
   for (int i = 0; i < 3; ++i) {
@@ -186,14 +186,14 @@ TEST_F(FalconRig, ReportsUnpluggingAndReconnects) {
     EXPECT_EQ(sample.state, DeviceState::fault);
     EXPECT_FALSE(sample.fresh);
     EXPECT_EQ(device.problem().fault, DeviceFault::unplugged);
-    EXPECT_EQ(text_of(device.problem()), "usb:1-1: unplugged; plug it in again");
+    EXPECT_EQ(device.problem().message, "usb:1-1: unplugged; plug it in again");
     device.write({2, 0, 0});
     device.stop();
     EXPECT_FALSE(device.open());
     EXPECT_EQ(device.problem().fault, DeviceFault::unplugged);
     locked([](auto& d) { d.model.replug(); });
     const auto again = device.open();
-    ASSERT_TRUE(again) << text_of(again.error());
+    ASSERT_TRUE(again) << again.error().message;
     test::wait_until([&] { return tick(device, {}).state == DeviceState::ready; }, test::kDeadline,
                      "the device to be ready again");
   }

@@ -78,7 +78,7 @@ class BridgeRig : public HidRig {
 
 TEST_F(BridgeRig, HomesAndRuns5000FramesWithNoBadOne) {
   auto opened = open_device("bridge", settings_);
-  ASSERT_TRUE(opened) << text_of(opened.error());
+  ASSERT_TRUE(opened) << opened.error().message;
   HapticDevice& device = **opened;
   const auto homed = [&] {
     const bool ready = tick(device, {1, 0, 0}).state == DeviceState::ready;
@@ -106,7 +106,7 @@ TEST_F(BridgeRig, HomesAndRuns5000FramesWithNoBadOne) {
 
 TEST_F(BridgeRig, LosesAtMostTwoFramesPerWireFault) {
   auto opened = open_device("auto", settings_);
-  ASSERT_TRUE(opened) << text_of(opened.error());
+  ASSERT_TRUE(opened) << opened.error().message;
   HapticDevice& device = **opened;
   home(device);
   for (const WireFault fault : {WireFault::lost_byte, WireFault::extra_byte, WireFault::half_frame,
@@ -128,7 +128,7 @@ TEST_F(BridgeRig, LosesAtMostTwoFramesPerWireFault) {
 
 TEST_F(BridgeRig, IgnoresForeignReports) {
   auto opened = open_device("bridge", settings_);
-  ASSERT_TRUE(opened) << text_of(opened.error());
+  ASSERT_TRUE(opened) << opened.error().message;
   {
     const std::scoped_lock held(gadget_.lock);
     gadget_.reports.push_back(Bytes(64, 0xFF));
@@ -142,7 +142,7 @@ TEST_F(BridgeRig, IgnoresForeignReports) {
 
 TEST_F(BridgeRig, ReportsUnpluggingAndReconnects) {
   auto opened = open_device("bridge", settings_);
-  ASSERT_TRUE(opened) << text_of(opened.error());
+  ASSERT_TRUE(opened) << opened.error().message;
   HapticDevice& device = **opened;
   for (int i = 0; i < 50; ++i) tick(device, {1, 0, 0});
   locked([](auto& d) { d.model.plan({WireFault::unplugged, 0}); });
@@ -157,7 +157,7 @@ TEST_F(BridgeRig, ReportsUnpluggingAndReconnects) {
   plugged_.show(true);
   locked([](auto& d) { d.model.replug(); });
   const auto again = device.open();
-  ASSERT_TRUE(again) << text_of(again.error());
+  ASSERT_TRUE(again) << again.error().message;
   EXPECT_EQ(tick(device, {}).state, DeviceState::needs_homing);
 }
 
@@ -171,7 +171,7 @@ std::set<std::string> threads() {
 TEST_F(BridgeRig, LibraryThreadsReceiveNoSignal) {
   const auto before = threads();
   auto opened = open_device("bridge", settings_);
-  ASSERT_TRUE(opened) << text_of(opened.error());
+  ASSERT_TRUE(opened) << opened.error().message;
   for (const std::string& task : threads()) {
     if (before.contains(task)) continue;
     std::ifstream status(task + "/status");
@@ -192,7 +192,7 @@ std::atomic<int> stops{0};
 /// the writer deadlocks, the deadline in the signalling thread ends the program.
 TEST_F(BridgeRig, LastPacketNeverWaitsForTheInterruptedThread) {
   auto opened = open_device("bridge", settings_);
-  ASSERT_TRUE(opened) << text_of(opened.error());
+  ASSERT_TRUE(opened) << opened.error().message;
   met = opened->get();
   home(*met);
   const auto before = std::signal(SIGUSR1, [](int) {
@@ -267,7 +267,7 @@ TEST_F(SpaceMouseRig, ReportsPositionsAndSwitchesItsLight) {
   DeviceSettings settings;
   settings.space_mouse.silence_us = 1'000'000;
   auto opened = open_device("spacemouse", settings);
-  ASSERT_TRUE(opened) << text_of(opened.error());
+  ASSERT_TRUE(opened) << opened.error().message;
   HapticDevice& device = **opened;
   EXPECT_EQ(device.info().name, "SpaceMouse Compact");
   EXPECT_FALSE(device.info().can_push);
@@ -295,7 +295,7 @@ TEST_F(SpaceMouseRig, ReportsPositionsAndSwitchesItsLight) {
 
 TEST_F(SpaceMouseRig, StopsWhenSilentAndReportsUnplugging) {
   auto opened = open_device("auto");
-  ASSERT_TRUE(opened) << text_of(opened.error());
+  ASSERT_TRUE(opened) << opened.error().message;
   HapticDevice& device = **opened;
   const auto moved = [&] {
     go_on_saying({1, 0x5E, 0x01, 0, 0, 0, 0});

@@ -52,12 +52,12 @@ TEST(FalconDevice, LimitsForcesAndSendsZeroForNan) {
   bench.grip = [](std::uint64_t) { return Kinematics::kCentreM; };
   ASSERT_TRUE(bench.device->open());
   bench.tick();
-  for (const double huge : {10.0, 1e6, 1e150}) {
+  for (const double huge : {10.0, 1e6, 1e150, 1e200}) {
     bench.tick({huge, 0, 0});
     EXPECT_NEAR(glm::length(bench.model->force_n()), 8.0, 0.01) << huge;
     EXPECT_GT(bench.model->force_n().x, 7.9);
   }
-  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1e200}) {
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     bench.tick({1, bad, 0});
     EXPECT_EQ(bench.model->motors(), LegCounts{}) << bad;
   }

@@ -1,4 +1,5 @@
 #pragma once
+#include "claystack/core/result.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -29,8 +30,14 @@ enum class DeviceFault {
   bad_setting,
 };
 
-struct DeviceError {
-  DeviceFault fault = DeviceFault::transfer_failed;
+/// An error of core with its fault: it can be returned as it is where a Result is expected. A fault
+/// of the user's files or settings is bad input, any other is the device's. The message has the
+/// fault and its remedy.
+struct DeviceError : Error {
+  DeviceError() : DeviceError(DeviceFault::transfer_failed, {}) {}
+  DeviceError(DeviceFault device_fault, std::string found, std::string help = {});
+
+  DeviceFault fault;
   std::string what;    ///< which device, what was expected, what was found
   std::string remedy;  ///< the action that may help; empty if none is known
 };
@@ -46,9 +53,6 @@ using DeviceResult = tl::expected<T, DeviceError>;
 /// For scripts, for example "no_permission".
 [[nodiscard]] std::string_view name_of(DeviceFault fault) noexcept;
 
-/// For people: the fault and its remedy.
-[[nodiscard]] std::string text_of(const DeviceError& error);
-
 // ---- out of range --------------------------------------------------------------------
 
 /// A setting out of its range, by its field name.
@@ -56,6 +60,9 @@ struct OutOfRange {
   const char* setting;
   double low, high, found;
 };
+
+/// "rate_hz: expected a value from 10 to 100000, found 1"; bad input.
+[[nodiscard]] Error error_of(const OutOfRange& out);
 
 // ---- transport -----------------------------------------------------------------------
 // A byte stream to and from the Falcon's processor, over any medium.

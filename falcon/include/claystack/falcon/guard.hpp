@@ -63,15 +63,6 @@ struct GuardSettings {
 /// Seconds from one reading of the clock to a later one; 0 when the clock went back. At most 1000.
 [[nodiscard]] double elapsed_s(std::int64_t from_us, std::int64_t to_us) noexcept;
 
-[[nodiscard]] bool is_finite(const glm::dvec3& v) noexcept;
-
-/// Length that does not overflow: infinite for vectors that are, NaN for those that are none.
-[[nodiscard]] double norm(const glm::dvec3& v) noexcept;
-
-/// The nearest vector of the same direction that is no longer than `limit`, in exact arithmetic:
-/// what is cut comes out up to 2^-49 shorter. `v` finite.
-[[nodiscard]] glm::dvec3 limit_norm(const glm::dvec3& v, double limit) noexcept;
-
 /// The way from `before` to `wanted`, in one tick: to let go costs nothing, so the force may first
 /// shrink to any part of `before`; from there it goes `rise` at most. A force that turns
 /// about thus begins again at 0.

@@ -1,0 +1,40 @@
+#pragma once
+// The one clamp for the length of a force: the engine, the guard and the devices use it.
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+
+namespace clay {
+
+[[nodiscard]] inline bool is_finite(const glm::dvec3& v) noexcept {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// The greatest component without its sign.
+[[nodiscard]] inline double largest(const glm::dvec3& v) noexcept {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+/// Length that does not overflow on the way: infinite where the length is, NaN where it is none.
+[[nodiscard]] inline double norm(const glm::dvec3& v) noexcept {
+  const double most = largest(v);
+  return most > 0.0 ? most * glm::length(v / most) : most;
+}
+
+/// Of a norm that is cut: no rounding, here or in what a caller adds up from parts of it, carries
+/// it over the limit.
+inline constexpr double kJustBelow = 1.0 - 8.0 * std::numeric_limits<double>::epsilon();
+
+/// The vector of the same direction that is no longer than `limit`, in exact arithmetic: what is
+/// cut comes out up to 2^-48 shorter. Zero where `v` is not finite.
+[[nodiscard]] inline glm::dvec3 limit_norm(const glm::dvec3& v, double limit) noexcept {
+  if (!is_finite(v)) return glm::dvec3(0.0);
+  if (norm(v) <= kJustBelow * limit) return v;
+  const glm::dvec3 direction = v / largest(v);
+  return direction * (kJustBelow * limit / glm::length(direction));
+}
+
+}  // namespace clay
