@@ -1,0 +1,61 @@
+#include "engine/tick/band.hpp"
+
+#include <algorithm>
+
+namespace clay {
+namespace {
+
+/// Where the contact ends beside its last ring, `next` being the one beyond it.
+double end_beside(const Tool& tool, const ClayStack& stack, double hip_y, const Contact& contact,
+                  std::size_t last, bool up) noexcept {
+  const double h = stack.ring_height_mm(), middle = (static_cast<double>(last) + 0.5) * h;
+  if (up ? last + 1 >= stack.size() : last == 0)
+    return up ? std::clamp(hip_y + tool.high(), middle, stack.height_mm())
+              : std::clamp(hip_y + tool.low(), 0.0, middle);
+  const std::size_t next = up ? last + 1 : last - 1;
+  const double inside = contact.rings.get(last).depth_mm;
+  const double clear = -signed_depth(tool, stack, hip_y, next, contact);
+  const double step = up ? h : -h;
+  if (clear > 1e299) {
+    const double end = hip_y + (up ? tool.high() : tool.low());
+    return up ? std::clamp(end, middle, middle + step) : std::clamp(end, middle + step, middle);
+  }
+  return middle + step * (clear > 0.0 ? inside / (inside + clear) : 1.0);
+}
+
+}  // namespace
+
+double signed_depth(const Tool& tool, const ClayStack& stack, double hip_y, std::size_t ring,
+                    const Contact& contact) noexcept {
+  const double t = (static_cast<double>(ring) + 0.5) * stack.ring_height_mm() - hip_y;
+  if (!(t >= tool.low() && t <= tool.high())) return -1e300;
+  return depth_of(stack.rings()[ring], tool.radius(t), contact);
+}
+
+Band band_of(const Tool& tool, const ClayStack& stack, double hip_y,
+             const Contact& contact) noexcept {
+  const TouchedRings& rings = contact.rings;
+  Band band;
+  band.ring = rings.from();
+  rings.each_slice([&](const auto& slice) {
+    for (std::size_t k = slice.begin; k < slice.end; ++k) {
+      band.deepest_mm = std::max(band.deepest_mm, slice.rows.depth[k]);
+      if (slice.rows.give[k] > band.give_mm) {
+        band.give_mm = slice.rows.give[k];
+        band.ring = slice.ring + (k - slice.begin);
+      }
+    }
+  });
+  const double h = stack.ring_height_mm();
+  band.low_mm = end_beside(tool, stack, hip_y, contact, rings.from(), false);
+  band.high_mm = end_beside(tool, stack, hip_y, contact, rings.to() - 1, true);
+  const double before = rings.has(band.ring - 1) ? rings.give(band.ring - 1) : 0.0;
+  const double after = rings.has(band.ring + 1) ? rings.give(band.ring + 1) : 0.0;
+  const double curve = before - 2.0 * band.give_mm + after;
+  const double off = curve < 0.0 ? 0.5 * (before - after) / curve : 0.0;
+  const double peak = (static_cast<double>(band.ring) + 0.5 + std::clamp(off, -0.5, 0.5)) * h;
+  band.peak_mm = std::clamp(peak, band.low_mm, std::max(band.low_mm, band.high_mm));
+  return band;
+}
+
+}  // namespace clay

@@ -1,0 +1,34 @@
+#pragma once
+// Where a tool presses the wall, finer than rings: what the clay rules reckon with.
+
+#include "claystack/engine/clay.hpp"
+#include "claystack/engine/tool.hpp"
+#include "engine/tick/contact.hpp"
+
+#include <cstddef>
+
+namespace clay {
+
+/// A band of the wall under one tool, or under the two of a pinch. [mm]
+struct Band {
+  double low_mm = 0.0, high_mm = 0.0;  ///< ends of the contact above the wheel head
+  double peak_mm = 0.0;                ///< where the surface gives way most
+  double give_mm = 0.0;                ///< how far it does there
+  double deepest_mm = 0.0;             ///< of the tool in the clay
+  std::size_t ring = 0;                ///< of the peak
+
+  [[nodiscard]] double height_mm() const noexcept { return high_mm - low_mm; }
+};
+
+/// How deep the tool is in a ring; below 0 by how much it is clear of it. Of a ring whose middle is
+/// beyond an end of the tool: -1e300.
+[[nodiscard]] double signed_depth(const Tool& tool, const ClayStack& stack, double hip_y,
+                                  std::size_t ring, const Contact& contact) noexcept;
+
+/// The band of a contact whose rings have given way (`TouchedRings::give`). Ends lie where the
+/// depth is 0 between two rings, or at the tool's own end; the peak is that of a parabola through
+/// three rings.
+[[nodiscard]] Band band_of(const Tool& tool, const ClayStack& stack, double hip_y,
+                           const Contact& contact) noexcept;
+
+}  // namespace clay
