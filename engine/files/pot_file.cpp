@@ -152,9 +152,14 @@ Result<Pot> pot_of(const LocatedJson& document, const PotRecord& record) {
     return tl::make_unexpected(document.field_error(
         {"ledger"}, "expected every quantum accounted for, found " + to_string(imbalance) +
                         " too many (in the stack, trimmed and outside, less initial and added)"));
-  Pot pot{std::move(*stack),         record.ledger,   record.model,
-          record.density_g_cm3,      record.collapse, std::nullopt,
-          record.rim.value_or(Rim{}), record.motion.value_or(Motion{})};
+  Pot pot{std::move(*stack),
+          record.ledger,
+          record.model,
+          record.density_g_cm3,
+          record.collapse,
+          std::nullopt,
+          record.rim.value_or(Rim{}),
+          record.motion.value_or(Motion{})};
   if (rounded) pot.rounding = {rounded->rounded_to_mm, rounded->exact_volume};
   return pot;
 }

@@ -32,29 +32,30 @@ double signed_depth(const Tool& tool, const ClayStack& stack, double hip_y, std:
   return depth_of(stack.rings()[ring], tool.radius(t), contact);
 }
 
+void Peak::settle(double h, Band& band) const noexcept {
+  const double level = weight > 0.0 ? sum / weight : static_cast<double>(band.ring) + 0.5;
+  band.peak_mm = std::clamp(level * h, band.low_mm, std::max(band.low_mm, band.high_mm));
+  band.ring = static_cast<std::size_t>(level);
+}
+
 Band band_of(const Tool& tool, const ClayStack& stack, double hip_y,
              const Contact& contact) noexcept {
   const TouchedRings& rings = contact.rings;
   Band band;
   band.ring = rings.from();
+  Peak peak;
   rings.each_slice([&](const auto& slice) {
     for (std::size_t k = slice.begin; k < slice.end; ++k) {
+      const double give = slice.rows.give[k],
+                   level = static_cast<double>(slice.ring + (k - slice.begin)) + 0.5;
       band.deepest_mm = std::max(band.deepest_mm, slice.rows.depth[k]);
-      if (slice.rows.give[k] > band.give_mm) {
-        band.give_mm = slice.rows.give[k];
-        band.ring = slice.ring + (k - slice.begin);
-      }
+      band.give_mm = std::max(band.give_mm, give);
+      peak.add(level, give);
     }
   });
-  const double h = stack.ring_height_mm();
   band.low_mm = end_beside(tool, stack, hip_y, contact, rings.from(), false);
   band.high_mm = end_beside(tool, stack, hip_y, contact, rings.to() - 1, true);
-  const double before = rings.has(band.ring - 1) ? rings.give(band.ring - 1) : 0.0;
-  const double after = rings.has(band.ring + 1) ? rings.give(band.ring + 1) : 0.0;
-  const double curve = before - 2.0 * band.give_mm + after;
-  const double off = curve < 0.0 ? 0.5 * (before - after) / curve : 0.0;
-  const double peak = (static_cast<double>(band.ring) + 0.5 + std::clamp(off, -0.5, 0.5)) * h;
-  band.peak_mm = std::clamp(peak, band.low_mm, std::max(band.low_mm, band.high_mm));
+  peak.settle(stack.ring_height_mm(), band);
   return band;
 }
 

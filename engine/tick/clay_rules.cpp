@@ -12,8 +12,9 @@
 namespace clay {
 namespace {
 
-constexpr double kMemoryS = 0.05;  // of a motion: longer than a device's steps, shorter than a hand's
-constexpr double kSlowMmS = 5.0;   // slower than that, a motion has no direction
+constexpr double kMemoryS =
+    0.05;  // of a motion: longer than a device's steps, shorter than a hand's
+constexpr double kSlowMmS = 5.0;  // slower than that, a motion has no direction
 
 /// Speed at which the tool goes into the wall from its side; 0 on its way out.
 double speed_into(Side side, const Motion& motion) noexcept {
@@ -27,8 +28,8 @@ struct Pinched {
   bool felt = false;       ///< by one of them at least
 };
 
-Pinched pinched(const RulePress& press, const ClayStack& stack,
-                std::span<const ToolRemoval> bites, std::size_t i) noexcept {
+Pinched pinched(const RulePress& press, const ClayStack& stack, std::span<const ToolRemoval> bites,
+                std::size_t i) noexcept {
   double depth[2];
   for (std::size_t side = 0; side < 2; ++side) {
     const Contact& contact = bites[side].contact;
@@ -44,39 +45,45 @@ Pinched pinched(const RulePress& press, const ClayStack& stack,
 bool find_push(const RulePress& press, const ClayStack& stack, std::span<const ToolRemoval> bites,
                Band& band, bool& outward) noexcept {
   band.give_mm = 0.0;
+  Peak peak;
   for (const bool from_outside : {true, false}) {
     const TouchedRings& rings = bites[from_outside ? 0 : 1].contact.rings;
+    Peak side;
+    double most = 0.0;
     for (std::size_t i = rings.from(); i < rings.to(); ++i) {
       const double give = rings.give(i);
-      if (!(give > band.give_mm) || stack.rings()[i].inner2 == 0) continue;
+      if (!(give > 0.0) || stack.rings()[i].inner2 == 0) continue;
       const Pinched ring = pinched(press, stack, bites, i);
       const double over = from_outside ? ring.deeper_mm : -ring.deeper_mm;
-      if (!(std::min(give, 0.5 * over) > band.give_mm)) continue;
-      band.give_mm = std::min(give, 0.5 * over);
-      band.ring = i;
-      outward = !from_outside;
+      const double push = std::min(give, 0.5 * over);
+      if (!(push > 0.0)) continue;
+      most = std::max(most, push);
+      side.add(static_cast<double>(i) + 0.5, push);
     }
+    if (!(most > band.give_mm)) continue;
+    band.give_mm = most;
+    outward = !from_outside;
+    peak = side;
   }
-  band.peak_mm = (static_cast<double>(band.ring) + 0.5) * stack.ring_height_mm();
-  return band.give_mm > 0.0;
+  if (peak.weight > 0.0) peak.settle(stack.ring_height_mm(), band);
+  return peak.weight > 0.0;
 }
 
 /// A wall that one of two tools is deeper in is pushed over to the other, never past the middle.
-void centre(const RulePress& press, const ClayStack& stack, std::span<ToolRemoval> bites,
-            bool hoop, RuleWork& work) noexcept {
+void centre(const RulePress& press, const ClayStack& stack, std::span<ToolRemoval> bites, bool hoop,
+            RuleWork& work) noexcept {
   Band band;
-  bool outward = false;
-  if (!find_push(press, stack, bites, band, outward)) return;
   band.low_mm = 1e300;
   for (std::size_t side = 0; side < 2; ++side) {
     if (bites[side].contact.rings.empty()) continue;
     band.low_mm = std::min(band.low_mm, work.bands[side].low_mm);
     band.high_mm = std::max(band.high_mm, work.bands[side].high_mm);
   }
+  bool outward = false;
+  if (!find_push(press, stack, bites, band, outward)) return;
   const double min_wall = press.plan.removal.min_wall_mm;
-  const Side side = outward ? Side::expansive : Side::compressive;
-  const Shell shell = shell_at(stack, band, min_wall, press.motion.upward_mm_s,
-                               speed_into(side, press.motion));
+  // Where two tools hold the wall, it is not their way that bends it.
+  const Shell shell = shell_at(stack, band, min_wall, 0.0, 0.0);
   if (!(shell.share > 0.0)) return;
   work.shift.lay(
       stack, band, shell, {outward, hoop, min_wall}, [](std::size_t) { return 0.0; },
@@ -113,10 +120,10 @@ void reach_of(const RulePress& press, const ClayStack& stack, std::span<const To
   if (press.trim) return;
   const auto widen = [&](double low_mm, double high_mm) {
     const double h = stack.ring_height_mm(), last = static_cast<double>(top);
-    work.lowest = std::min(work.lowest,
-                           static_cast<std::size_t>(std::clamp(low_mm / h - 1.0, 0.0, last)));
-    work.highest = std::max(work.highest,
-                            static_cast<std::size_t>(std::clamp(high_mm / h + 1.0, 0.0, last)));
+    work.lowest =
+        std::min(work.lowest, static_cast<std::size_t>(std::clamp(low_mm / h - 1.0, 0.0, last)));
+    work.highest =
+        std::max(work.highest, static_cast<std::size_t>(std::clamp(high_mm / h + 1.0, 0.0, last)));
   };
   if (!work.shift.empty()) {
     work.lowest = std::min(work.lowest, work.shift.from());
@@ -155,8 +162,7 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
       Contact& contact = bites[k].contact;
       if (contact.rings.empty()) continue;
       give_way(plan.removal, stack, dt_s, contact);
-      if (two || kOneToolBand<rules>)
-        work.bands[k] = band_of(plan.tool, stack, hip_y, contact);
+      if (two || kOneToolBand<rules>) work.bands[k] = band_of(plan.tool, stack, hip_y, contact);
     }
   if (two) {
     if ((rules & kShift) && !press.trim) centre(press, stack, bites, hoop, work);
@@ -268,8 +274,7 @@ void follow(Motion& motion, const ToolState& tool) noexcept {
 void RuleWork::reserve(const Tool& tool, const ClayStack& stack) {
   const double reach = tool.high() - tool.low() + 3.0 * kLongestShellMm;
   const double rings = reach / stack.ring_height_mm() + 8.0;
-  shift.reserve(
-      static_cast<std::size_t>(std::min(rings, static_cast<double>(stack.max_rings()))));
+  shift.reserve(static_cast<std::size_t>(std::min(rings, static_cast<double>(stack.max_rings()))));
 }
 
 RuleSteps rule_steps(unsigned rules) noexcept {

@@ -1,6 +1,6 @@
 #pragma once
-// The rules of real clay on top of model `conserving` (docs/model.md): what gives way moves the wall
-// (shift), becomes height (lift, hoop), or heaves up beside the tool; a wet finger smears.
+// The rules of real clay on top of model `conserving` (docs/model.md): what gives way moves the
+// wall (shift), becomes height (lift, hoop), or heaves up beside the tool; a wet finger smears.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/tick.hpp"
@@ -22,7 +22,7 @@ void follow(Motion& motion, const ToolState& tool) noexcept;
 /// What the stages of one part of a tick leave to each other. Storage is reserved once.
 struct RuleWork {
   Shift shift;
-  std::array<Band, 2> bands;    ///< of each tool
+  std::array<Band, 2> bands;            ///< of each tool
   std::size_t lowest = 0, highest = 0;  ///< rings that the flow may change
 
   void reserve(const Tool& tool, const ClayStack& stack);
@@ -40,8 +40,8 @@ struct RulePress {
 struct RuleSteps {
   /// How far the clay gives way, and what of that the wall does by moving; leaves to the contacts
   /// the depths that are left. Writes no clay.
-  void (*yield)(const RulePress&, const ClayStack&, std::span<ToolRemoval>, RuleWork&) noexcept =
-      nullptr;
+  void (*yield)(const RulePress&, const ClayStack&, std::span<ToolRemoval>,
+                RuleWork&) noexcept = nullptr;
   /// Moves the clay.
   Flow (*move)(const RulePress&, std::span<const ToolRemoval>, const RuleWork&, ClayStack&, Ledger&,
                Rim&) noexcept = nullptr;

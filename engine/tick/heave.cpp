@@ -8,7 +8,7 @@
 namespace clay {
 namespace {
 
-constexpr double kSteepest = 0.5;       // of a ring's growth over its height
+constexpr double kSteepest = 0.5;  // of a ring's growth over its height
 constexpr std::size_t kRows = 32;
 
 double share_within(double t) noexcept {
@@ -44,16 +44,21 @@ class Heaving {
  public:
   Heaving(const Tool& tool, const ClayStack& stack, double hip_y, const Contact& contact,
           const Band& band, const Heap& heap, StackWriter& writer) noexcept
-      : tool_(tool), stack_(stack), contact_(contact), writer_(writer), heap_(heap),
-        h_(stack.ring_height_mm()), hip_y_(hip_y),
+      : tool_(tool),
+        stack_(stack),
+        contact_(contact),
+        writer_(writer),
+        heap_(heap),
+        h_(stack.ring_height_mm()),
+        hip_y_(hip_y),
         from_mm_(heap.up ? band.high_mm : band.low_mm),
         per_reach_(1.0 / heave_reach(tool, stack, band)) {}
 
   WideQuanta run() noexcept {
     const double level = from_mm_ / h_, size = static_cast<double>(stack_.size());
     if (heap_.up ? !(level < size) : !(level > 0.0)) return heap_.inside + heap_.outside;
-    std::size_t ring = heap_.up ? static_cast<std::size_t>(level)
-                                : static_cast<std::size_t>(std::ceil(level)) - 1;
+    std::size_t ring =
+        heap_.up ? static_cast<std::size_t>(level) : static_cast<std::size_t>(std::ceil(level)) - 1;
     while (part_ < kWhole || carried() > 0) {
       const std::size_t left = heap_.up ? stack_.size() - ring : ring + 1;
       const std::size_t count = std::min({left, kRows, rings_to_end(ring)});
@@ -123,7 +128,8 @@ class Heaving {
     // No root where there is plenty of room: 1.0 is more than r / (r + sqrt(r^2 - inside)) needs.
     const double bound = 0.5 * outside2 / R + (inside2 > 0.0 ? inside2 / r : 0.0);
     Portion taken = carry_;
-    if (!(bound <= room) || beside_tool) taken = fitting(i, room, R, r, outside2, inside2, t, beside_tool);
+    if (!(bound <= room) || beside_tool)
+      taken = fitting(i, room, R, r, outside2, inside2, t, beside_tool);
     const WideQuanta inside = writer_.put_inside(i, taken.inside);
     const WideQuanta outside = writer_.put_outside(i, taken.outside);
     carry_.inside -= inside;
@@ -151,7 +157,8 @@ class Heaving {
     const auto least = [](double mm2, WideQuanta most) {
       return std::min(static_cast<WideQuanta>(std::max(mm2, 0.0) * kQuantaPerMm2), most);
     };
-    return {least(in * (2.0 * r - in), carry_.inside), least(out * (2.0 * R + out), carry_.outside)};
+    return {least(in * (2.0 * r - in), carry_.inside),
+            least(out * (2.0 * R + out), carry_.outside)};
   }
 
   const Tool& tool_;

@@ -16,8 +16,8 @@ namespace clay {
 struct Flow {
   std::size_t lowest = 0;  ///< rings lowest..highest may have changed
   std::size_t highest = 0;
-  std::size_t grown = 0;    ///< rings added on top
-  std::size_t sunk = 0;     ///< rings taken out on top; then none is added
+  std::size_t grown = 0;  ///< rings added on top
+  std::size_t sunk = 0;   ///< rings taken out on top; then none is added
   WideQuanta sunk_volume = 0;
   bool ring_limit = false;  ///< clay waits for a ring that max_rings does not allow
 };

@@ -230,8 +230,8 @@ void compute_pinch_removal(const RemovalPlan& plan, const ClayStack& stack, doub
   const std::size_t end = std::max(out.to(), in.to());
   for (std::size_t i = first; i < end; ++i) {
     Ring ring = rules != nullptr ? rules->ring(i, stack.rings()) : stack.rings()[i];
-    auto eps = pinch_ring<model>(plan, ring.outer_mm() - ring.inner_mm(), least_wall,
-                                       fraction, dt_s, {out.get(i), in.get(i)});
+    auto eps = pinch_ring<model>(plan, ring.outer_mm() - ring.inner_mm(), least_wall, fraction,
+                                 dt_s, {out.get(i), in.get(i)});
     if (rules != nullptr && i < rules->floor_rings && ring.inner2 == 0) eps[1] = 0.0;
     if (out.has(i)) {
       Quanta& removed = outer.removed[i - out.from()];

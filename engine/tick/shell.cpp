@@ -16,8 +16,8 @@ double free_length(const ClayStack& stack, double end_mm, bool up, double most,
   const double h = stack.ring_height_mm(), per_stop = h / stop;
   const auto rings = stack.rings();
   const double level = end_mm / h;
-  std::size_t i = static_cast<std::size_t>(
-      std::clamp(level, 0.0, static_cast<double>(rings.size() - 1)));
+  std::size_t i =
+      static_cast<std::size_t>(std::clamp(level, 0.0, static_cast<double>(rings.size() - 1)));
   double length = 0.0, stopped = 0.0;
   while (length < most && stopped < 1.0) {
     const Ring& ring = rings[i];
@@ -41,15 +41,16 @@ double trailing(double along_mm_s, double into_mm_s, double thinness) noexcept {
 
 }  // namespace
 
-Shell shell_at(const ClayStack& stack, const Band& band, double min_wall_mm,
-               double upward_mm_s, double into_mm_s) noexcept {
+Shell shell_at(const ClayStack& stack, const Band& band, double min_wall_mm, double upward_mm_s,
+               double into_mm_s) noexcept {
   Shell shell;
   const Ring& ring = stack.rings()[band.ring];
   const double pliant = pliancy(ring);
   if (!(pliant > 0.0 && band.give_mm > 0.0)) return shell;
   const double h = stack.ring_height_mm(), R = ring.outer_mm(), w = R - ring.inner_mm();
   const double length = std::min(std::sqrt(R * w), kLongestShellMm);
-  const double c = std::max(band.height_mm(), h), rim = std::max(stack.height_mm() - band.high_mm, 0.0);
+  const double c = std::max(band.height_mm(), h),
+               rim = std::max(stack.height_mm() - band.high_mm, 0.0);
   const double hinge_mm = 0.25 * w;
   const double below = free_length(stack, band.low_mm, false, length, hinge_mm);
   const double above = free_length(stack, band.high_mm, true, length, hinge_mm);

@@ -17,8 +17,8 @@ inline constexpr double kLongestShellMm = 35.0;
 /// with S(t) = t^2 (3 - 2t), from 0 to 1.
 struct Shell {
   double share = 0.0;  ///< of what gives way, by which the wall moves instead of being squeezed
-  double below_mm = 1.0, above_mm = 1.0;  ///< where the wall stands still again
-  double turn = 1.0;                      ///< below 1 near the rim, which turns with the wall
+  double below_mm = 1.0, above_mm = 1.0;        ///< where the wall stands still again
+  double turn = 1.0;                            ///< below 1 near the rim, which turns with the wall
   double trail_below = 1.0, trail_above = 1.0;  ///< less than 1 on the side the tool comes from
 };
 

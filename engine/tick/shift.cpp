@@ -38,8 +38,7 @@ CLAYSTACK_INLINE inline void push_out(Moved& rows, std::size_t count, double hoo
     const double outer2 = rows.outer2[k], inner2 = rows.inner2[k];
     const double outer = std::sqrt(outer2 * kMm2PerQuantum);
     const double inner = std::sqrt(inner2 * kMm2PerQuantum);
-    const double room =
-        0.5 * ((outer2 - inner2) * kMm2PerQuantum * per_min_wall - outer - inner);
+    const double room = 0.5 * ((outer2 - inner2) * kMm2PerQuantum * per_min_wall - outer - inner);
     const double by = lesser(rows.by[k] * pliancy(outer2, inner2), greater(room, 0.0));
     const double q =
         lesser(by * (2.0 * inner + by) * kQuantaPerMm2, greater(largest2 - outer2, 0.0));

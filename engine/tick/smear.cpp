@@ -40,11 +40,12 @@ void smear(const Tool& tool, const ClayStack& stack, double hip_y, double dt_s,
     const double depth = signed_depth(tool, stack, hip_y, i, contact);
     if (depth <= -1e299) return 1e300;
     if (depth >= 0.0 || contact.rings.has(i)) return 0.0;
-    return -depth * 2.0 * (outside ? rings[i].outer_mm() : rings[i].inner_mm() + depth) * kQuantaPerMm2;
+    return -depth * 2.0 * (outside ? rings[i].outer_mm() : rings[i].inner_mm() + depth) *
+           kQuantaPerMm2;
   };
   const auto may_give = [&](const Ring& ring) {
-    const double spare = mm2_from_quanta(ring.volume()) -
-                         how.min_wall_mm * (ring.outer_mm() + ring.inner_mm());
+    const double spare =
+        mm2_from_quanta(ring.volume()) - how.min_wall_mm * (ring.outer_mm() + ring.inner_mm());
     return std::max(spare, 0.0) * kQuantaPerMm2;
   };
   // From the old differences, half of what either end may: so the order of the pairs is nothing.

@@ -8,7 +8,8 @@
 namespace clay {
 
 struct Smearing {
-  double surface_per_s = 0.0;  ///< speed of a surface of radius 1 under the tool: 2 pi turns a second
+  double surface_per_s =
+      0.0;  ///< speed of a surface of radius 1 under the tool: 2 pi turns a second
   double yield_depth_mm = 0.25;
   double min_wall_mm = 0.0;
 };

@@ -116,8 +116,8 @@ std::optional<Failure> StabilityWatch::check(const StabilityPlan& plan, const Cl
   const bool came_on_top = !at_top && (flow.grown > 0 || stack.crown() != crown_);
   if (came_on_top || stack.volume() > volume_) return search(plan, stack);
   std::optional<Failure> worst;
-  find_weakest(plan, rings, above_cursor_ + stack.crown(), cursor_,
-               std::min(flow.lowest, cursor_), worst);
+  find_weakest(plan, rings, above_cursor_ + stack.crown(), cursor_, std::min(flow.lowest, cursor_),
+               worst);
   return worst;
 }
 

@@ -77,8 +77,7 @@ RulesPlan rules_plan(const SceneSpec& s) {
   // Rings whose middle is below the floor's height.
   const double rings = s.clay->floor_mm / s.lump.ring_height_mm + 0.5;
   constexpr double kTurn = 2.0 * std::numbers::pi;
-  return {rules_of(s),
-          static_cast<std::size_t>(std::fmin(rings, static_cast<double>(kMaxRings))),
+  return {rules_of(s), static_cast<std::size_t>(std::fmin(rings, static_cast<double>(kMaxRings))),
           kTurn * s.clay->wheel_rpm / 60.0};
 }
 

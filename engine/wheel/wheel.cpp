@@ -32,7 +32,7 @@ struct Wheel::State {
   bool touching = false;  // at the last pose
   StabilityWatch watch;
   std::array<ToolRemoval, 2> bites;  // scratch, reserved once; the second is for pinches alone
-  Motion motion;  // of scenes with clay rules, as these two
+  Motion motion;                     // of scenes with clay rules, as these two
   RuleWork work;
   RuleSteps rules;
   std::optional<Failure> failure;

@@ -34,9 +34,10 @@ double square_of_roughness(std::span<const double> profile, double h, std::size_
   return end > first ? sum / static_cast<double>(end - first) : 0.0;
 }
 
-void find_ledges(std::span<const double> profile, double h, std::size_t first,
-                 PotMeasures& pot) {
-  const auto steep = [&](std::size_t i) { return std::abs(profile[i + 1] - profile[i]) > kSteep * h; };
+void find_ledges(std::span<const double> profile, double h, std::size_t first, PotMeasures& pot) {
+  const auto steep = [&](std::size_t i) {
+    return std::abs(profile[i + 1] - profile[i]) > kSteep * h;
+  };
   for (std::size_t i = first; i + 1 < profile.size(); ++i) {
     if (!steep(i)) continue;
     const double start = profile[i], step = profile[i + 1] - start;
@@ -82,12 +83,14 @@ PotMeasures measure(const ClayStack& stack) {
   pot.wall_mm = sum / count;
   pot.wall_cv = std::sqrt(std::max(0.0, squares / count - pot.wall_mm * pot.wall_mm)) / pot.wall_mm;
   const auto edge = std::min(size / 2, static_cast<std::size_t>(2.5 / h));
-  pot.roughness_um = 1e3 * std::sqrt(0.5 * (square_of_roughness(outer, h, edge, size - edge) +
-                                            square_of_roughness(inner, h, std::min(wall, size - edge),
-                                                                size - edge)));
+  pot.roughness_um =
+      1e3 *
+      std::sqrt(0.5 * (square_of_roughness(outer, h, edge, size - edge) +
+                       square_of_roughness(inner, h, std::min(wall, size - edge), size - edge)));
   find_ledges(outer, h, 0, pot);
   find_ledges(inner, h, wall, pot);
-  pot.neck_mm = 2.0 * *std::min_element(outer.begin() + static_cast<std::ptrdiff_t>(size / 2), outer.end());
+  pot.neck_mm =
+      2.0 * *std::min_element(outer.begin() + static_cast<std::ptrdiff_t>(size / 2), outer.end());
   return pot;
 }
 

@@ -7,8 +7,8 @@ namespace clay::bench {
 
 struct PotMeasures {
   double height_mm = 0.0, width_mm = 0.0;
-  double wall_mm = 0.0;       ///< mean, from 10 mm above the floor to the rim
-  double wall_cv = 0.0;       ///< its standard deviation over the mean
+  double wall_mm = 0.0;  ///< mean, from 10 mm above the floor to the rim
+  double wall_cv = 0.0;  ///< its standard deviation over the mean
   double thinnest_mm = 0.0;
   double roughness_um = 0.0;  ///< RMS against a Gaussian of 5 mm cut-off (ISO 16610-21)
   int ledges = 0;             ///< steps of more than 1 mm, steeper than 3

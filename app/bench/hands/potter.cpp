@@ -20,17 +20,12 @@ double smooth(double t) {
 
 }  // namespace
 
-double Dice::unit() {
-  state_ ^= state_ << 13;
-  state_ ^= state_ >> 7;
-  state_ ^= state_ << 17;
-  return static_cast<double>(state_ >> 11) * 0x1p-53;
-}
-
 Potter::Potter(Wheel& wheel, std::uint64_t seed) : Potter(wheel, seed, 0.0) {}
 
 Potter::Potter(Wheel& wheel, std::uint64_t seed, double time_s)
-    : wheel_(wheel), dice_(seed), time_s_(time_s),
+    : wheel_(wheel),
+      dice_(seed),
+      time_s_(time_s),
       time_us_(static_cast<std::int64_t>(1e6 * time_s)) {
   for (std::size_t k = 0; k < 3; ++k) {
     tremor_hz_[k] = dice_.between(7.0, 9.0);
@@ -114,7 +109,8 @@ void Potter::open() {
 void Potter::widen(double most_mm) {
   for (int pass = 0; pass < 2; ++pass) {
     const double top = height(), bottom = floor_mm() + tool_mm();
-    const double to = (pass == 0 ? 0.64 * most_mm : most_mm) + dice_.between(-2.0, 2.0), v = speed();
+    const double to = (pass == 0 ? 0.64 * most_mm : most_mm) + dice_.between(-2.0, 2.0),
+                 v = speed();
     stroke({{8.0, top + 12.0},
             {8.0, bottom + 1.0},
             {to, bottom + dice_.between(0.0, 1.5)},
@@ -216,8 +212,7 @@ void Potter::belly(double depth_mm) {
 }
 
 void Potter::collar(double depth_mm, int passes) {
-  aim({depth_mm, passes, true, 0.45, 0.8, 1.0,
-       [](double f) { return smooth((f - 0.45) / 0.4); }});
+  aim({depth_mm, passes, true, 0.45, 0.8, 1.0, [](double f) { return smooth((f - 0.45) / 0.4); }});
 }
 
 void Potter::flare(double depth_mm) {

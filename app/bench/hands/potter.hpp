@@ -1,6 +1,7 @@
 #pragma once
 // A simulated potter with human error, who throws on a wheel of the engine.
 
+#include "app/bench/hands/dice.hpp"
 #include "claystack/engine/wheel.hpp"
 
 #include <array>
@@ -10,28 +11,15 @@
 
 namespace clay::bench {
 
-/// Random numbers that are the same everywhere (xorshift, Marsaglia 2003).
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15u + 1) {
-    for (int i = 0; i < 8; ++i) unit();
-  }
-  double unit();
-  double between(double low, double high) { return low + (high - low) * unit(); }
-
- private:
-  std::uint64_t state_;
-};
-
 /// A place of the hand: distance from the axis, height [mm].
 struct Place {
   double out = 0.0, up = 0.0;
 };
 
-/// How well a hand is steered. A tremor of 0.3 mm (RMS) at 7 to 9 Hz, strokes at 20 to 60 mm/s, depth
-/// misjudged by 30 % of what remains, pulls that end at 80 to 102 % of the way to the rim and stand
-/// off the middle by 15 % of the wall. The program gets 60 events a second, as of a mouse, joined by
-/// straight ways, and ticks at 1 kHz.
+/// How well a hand is steered. A tremor of 0.3 mm (RMS) at 7 to 9 Hz, strokes at 20 to 60 mm/s,
+/// depth misjudged by 30 % of what remains, pulls that end at 80 to 102 % of the way to the rim and
+/// stand off the middle by 15 % of the wall. The program gets 60 events a second, as of a mouse,
+/// joined by straight ways, and ticks at 1 kHz.
 class Potter {
  public:
   Potter(Wheel& wheel, std::uint64_t seed);
@@ -39,9 +27,9 @@ class Potter {
   /// Goes on with another wheel, as another potter who takes over.
   Potter(Wheel& wheel, std::uint64_t seed, double time_s);
 
-  void open();                         ///< drives a ball into the lump, 8 mm above the wheel
-  void widen(double most_mm = 25.0);   ///< in two passes
-  void flatten(double most_mm);        ///< a plate: outward along the floor
+  void open();                        ///< drives a ball into the lump, 8 mm above the wheel
+  void widen(double most_mm = 25.0);  ///< in two passes
+  void flatten(double most_mm);       ///< a plate: outward along the floor
   void pull(double gap_mm, double target_mm = 0.0);  ///< between two fingers; 0: where the wall is
   void belly(double depth_mm);
   void collar(double depth_mm, int passes = 4);

@@ -189,7 +189,7 @@ struct Pot {
   double density_g_cm3 = 1.9;
   std::optional<Collapse> collapse;
   std::optional<Rounding> rounding;
-  Rim rim{};  ///< for who throws on; of the paper's model none
+  Rim rim{};        ///< for who throws on; of the paper's model none
   Motion motion{};  ///< likewise; of a scene without clay rules none
   friend bool operator==(const Pot&, const Pot&) = default;
 };

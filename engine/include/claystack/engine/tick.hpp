@@ -164,9 +164,9 @@ struct StabilityPlan {
 };
 
 struct RulesPlan {
-  unsigned rules = 0;            ///< Rule bits
-  std::size_t floor_rings = 0;   ///< that no tool opens where they are solid
-  double surface_per_s = 0.0;    ///< speed of a surface of radius 1 under a tool
+  unsigned rules = 0;           ///< Rule bits
+  std::size_t floor_rings = 0;  ///< that no tool opens where they are solid
+  double surface_per_s = 0.0;   ///< speed of a surface of radius 1 under a tool
 };
 
 /// One line of `claystack plan`.
