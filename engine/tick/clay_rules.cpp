@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace clay {
@@ -205,11 +206,14 @@ WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> bites,
     if (part == 0) return part;
     if constexpr (rules & kHeave) {
       StackWriter writer(stack);
-      const WideQuanta inside = inside_part(part, plan.inside_share, stack);
-      const WideQuanta rest = heave(plan.tool, stack, press.tool.hip_mm.y, contact, work.bands[at],
-                                    {inside, part - inside, up}, writer);
-      writer.gain(part - rest);
-      return rest;
+      // More than any ring can hold goes up at once.
+      constexpr WideQuanta kMost = std::numeric_limits<Quanta>::max() / 2;
+      const auto heaved = static_cast<Quanta>(std::min(part, kMost));
+      const auto inside = static_cast<Quanta>(inside_part(heaved, plan.inside_share, stack));
+      const Quanta rest = heave(plan.tool, stack, press.tool.hip_mm.y, contact, work.bands[at],
+                                {inside, heaved - inside, up}, writer);
+      writer.gain(heaved - rest);
+      return part - heaved + rest;
     } else {
       return flow_by_kernel(plan, part, up, bites.front().contact, rim, stack);
     }

@@ -11,7 +11,7 @@ namespace clay {
 
 /// An amount to lay on the wall from one end of a band.
 struct Heap {
-  WideQuanta inside = 0, outside = 0;
+  Quanta inside = 0, outside = 0;
   bool up = true;  ///< from the upper end upward
 };
 
@@ -24,7 +24,7 @@ struct Heap {
 /// than half of its height (a slope that a tool of any size leaves), and none grows into the tool;
 /// what a ring cannot take goes on to the next. Returns what found no place within the reach.
 /// The caller counts what was placed (`StackWriter::gain`).
-WideQuanta heave(const Tool& tool, const ClayStack& stack, double hip_y, const Contact& contact,
-                 const Band& band, const Heap& heap, StackWriter& writer) noexcept;
+Quanta heave(const Tool& tool, const ClayStack& stack, double hip_y, const Contact& contact,
+             const Band& band, const Heap& heap, StackWriter& writer) noexcept;
 
 }  // namespace clay
