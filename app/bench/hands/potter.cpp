@@ -96,8 +96,8 @@ void Potter::stroke(const std::vector<Place>& way, double speed_mm_s, double gap
   time_s_ += all_s + kTickS;
 }
 
-void Potter::open() {
-  const double top = height(), bottom = 8.0 * misjudged() + tool_mm(), v = speed();
+void Potter::open(double floor_mm) {
+  const double top = height(), bottom = floor_mm * misjudged() + tool_mm(), v = speed();
   stroke({{1.0, top + 12.0},
           {1.0, bottom},
           {14.0, bottom + dice_.between(-1.0, 1.0)},
@@ -116,19 +116,6 @@ void Potter::widen(double most_mm) {
             {to, bottom + dice_.between(0.0, 1.5)},
             {to + dice_.between(-1.0, 1.0), 0.6 * top},
             {to, top + 12.0}},
-           v, 0.0);
-  }
-}
-
-void Potter::flatten(double most_mm) {
-  for (int pass = 0; pass < 3; ++pass) {
-    const double top = height(), bottom = floor_mm() + tool_mm();
-    const double to = most_mm * (0.6 + 0.2 * pass) + dice_.between(-2.0, 2.0), v = speed();
-    stroke({{8.0, top + 12.0},
-            {8.0, bottom + 1.0},
-            {to - 8.0, bottom + dice_.between(0.0, 1.5)},
-            {to, bottom + 4.0},
-            {to + 2.0, top + 12.0}},
            v, 0.0);
   }
 }

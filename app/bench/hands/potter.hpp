@@ -27,9 +27,9 @@ class Potter {
   /// Goes on with another wheel, as another potter who takes over.
   Potter(Wheel& wheel, std::uint64_t seed, double time_s);
 
-  void open();                        ///< drives a ball into the lump, 8 mm above the wheel
+  /// Drives a ball into the lump, down to a floor of so much.
+  void open(double floor_mm = 8.0);
   void widen(double most_mm = 25.0);  ///< in two passes
-  void flatten(double most_mm);       ///< a plate: outward along the floor
   void pull(double gap_mm, double target_mm = 0.0);  ///< between two fingers; 0: where the wall is
   void belly(double depth_mm);
   void collar(double depth_mm, int passes = 4);
