@@ -63,6 +63,7 @@ struct Effort {
 Section tick_section(const Effort& effort);         ///< cost of a tick: N, rings touched, literal
 Section engine_section(const Effort& effort);       ///< error against run time
 Section convergence_section(const Effort& effort);  ///< h -> 0 and rate -> infinity
+Section hands_section(const Effort& effort);        ///< pots thrown by simulated hands
 Section left_out_section(const Effort& effort);  ///< the cost of each stage, included and left out
 Section extremes_section(const Effort& effort);  ///< the suite of app/bench/extreme
 Section servo_section(const Effort& effort);     ///< stable stiffness, stiff closed loop

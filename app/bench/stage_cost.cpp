@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace clay::cli {
@@ -17,6 +18,27 @@ double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+/// Of those, the rule alone where the scene has none.
+std::optional<SceneSpec> with_rule(SceneSpec scene, std::string_view rule) {
+  if (!scene.clay) scene.clay = ClaySpec{false, false, false, false, false, false, 120.0, 0.0};
+  ClaySpec& clay = *scene.clay;
+  if (rule == "lift")
+    clay.lift = true;
+  else if (rule == "shift")
+    clay.shift = true;
+  else if (rule == "rim")
+    clay.rim = true;
+  else if (rule == "hoop")
+    clay.shift = clay.hoop = true;
+  else if (rule == "heave")
+    clay.heave = true;
+  else if (rule == "smear")
+    clay.smear = true;
+  else
+    return std::nullopt;
+  return scene;
 }
 
 }  // namespace
@@ -33,6 +55,8 @@ std::optional<SceneSpec> with_stage(SceneSpec scene, std::string_view stage) {
     scene.stability = StabilitySpec{1e6};
   } else if (stage == "pinch") {
     scene.tool.gap_mm = kFirmMm;
+  } else if (scene.model != Model::paper) {
+    return with_rule(std::move(scene), stage);
   } else {
     return std::nullopt;
   }

@@ -48,6 +48,21 @@ class StackWriter {
     return placed;
   }
   void gain(WideQuanta amount) noexcept { gained_ += amount; }
+  /// The ring becomes another one; its clay is counted.
+  void replace(std::size_t i, const Ring& ring) noexcept {
+    Ring& old = stack_.rings_[i];
+    assert(ring.volume() > 0 && ring.inner2 >= 0);
+    gained_ += ring.volume() - old.volume();
+    opened_ += (ring.inner2 > 0 ? 1u : 0u) - (old.inner2 > 0 ? 1u : 0u);
+    old = ring;
+  }
+  /// Clay along a surface: the outer one, or that of a bore.
+  void smear(std::size_t from, std::size_t to, Quanta amount, bool outside) noexcept {
+    Quanta& less = outside ? stack_.rings_[from].outer2 : stack_.rings_[to].inner2;
+    Quanta& more = outside ? stack_.rings_[to].outer2 : stack_.rings_[from].inner2;
+    less -= amount;
+    more += amount;
+  }
   void put_on_crown(WideQuanta amount) noexcept { stack_.crown_ += amount; }
 
   /// Step (b) of section 5.1: a new ring above the top one. Capacity for max_rings() is reserved
@@ -56,6 +71,14 @@ class StackWriter {
     stack_.rings_.push_back(ring);
     opened_ += ring.inner2 > 0 ? 1u : 0u;
     gained_ += ring.volume();
+  }
+  /// The top ring goes into the crown.
+  void sink() noexcept {
+    const Ring& top = stack_.rings_.back();
+    stack_.crown_ += top.volume();
+    gained_ -= top.volume();
+    opened_ -= top.inner2 > 0 ? 1u : 0u;
+    stack_.rings_.pop_back();
   }
   void reserve() { stack_.rings_.reserve(stack_.max_rings_); }
 

@@ -32,6 +32,12 @@ static void describe(auto& io, Is<Rim> auto& rim) {
   io.template coded<SignedDecimalCode>("inside", rim.inside);
 }
 
+static void describe(auto& io, Is<Motion> auto& motion) {
+  io.require({"upward_mm_s", "outward_mm_s"});
+  io.number("upward_mm_s", motion.upward_mm_s, from(-1e12).to(1e12));
+  io.number("outward_mm_s", motion.outward_mm_s, from(-1e12).to(1e12));
+}
+
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
 // Above the stress of 5 m of clay on one quantum, and of its energy on the most rings.
 const auto kStressKpa = from(0).to(1e30), kEnergyMj = from(0).to(1e30);
@@ -68,6 +74,7 @@ struct PotRecord {
   WideQuanta crown = 0;
   Ledger ledger;
   std::optional<Rim> rim;
+  std::optional<Motion> motion;
   std::optional<Collapse> collapse;
 
   [[nodiscard]] std::size_t size() const {
@@ -90,6 +97,7 @@ void describe(auto& io, Is<PotRecord> auto& pot) {
   io.template coded<DecimalCode>("crown", pot.crown);
   io.part("ledger", pot.ledger);
   io.part("rim", pot.rim);
+  io.part("motion", pot.motion);
   io.part_or_null("collapse", pot.collapse);
   io.check([&](ObjectReader& reader) {
     if (!pot.rings && !pot.rounded_rings) return reader.require({"rings"});
@@ -122,6 +130,7 @@ PotRecord record_of(const Pot& pot, bool for_people) {
                    .crown = pot.stack.crown(),
                    .ledger = pot.ledger,
                    .rim = pot.rim == Rim{} ? std::nullopt : std::optional(pot.rim),
+                   .motion = pot.motion == Motion{} ? std::nullopt : std::optional(pot.motion),
                    .collapse = pot.collapse};
   if (const auto grid = grid_of(pot)) {
     record.rounded_rings = rounded_ring_arrays(*record.rings, *pot.rounding, *grid);
@@ -143,9 +152,14 @@ Result<Pot> pot_of(const LocatedJson& document, const PotRecord& record) {
     return tl::make_unexpected(document.field_error(
         {"ledger"}, "expected every quantum accounted for, found " + to_string(imbalance) +
                         " too many (in the stack, trimmed and outside, less initial and added)"));
-  Pot pot{std::move(*stack),         record.ledger,   record.model,
-          record.density_g_cm3,      record.collapse, std::nullopt,
-          record.rim.value_or(Rim{})};
+  Pot pot{std::move(*stack),
+          record.ledger,
+          record.model,
+          record.density_g_cm3,
+          record.collapse,
+          std::nullopt,
+          record.rim.value_or(Rim{}),
+          record.motion.value_or(Motion{})};
   if (rounded) pot.rounding = {rounded->rounded_to_mm, rounded->exact_volume};
   return pot;
 }

@@ -18,6 +18,7 @@ constexpr std::size_t kMaxValues = 100'000;
 constexpr Range kToolSizeMm = above(0).to(kMaxRadiusMm);
 constexpr std::array<std::string_view, 4> kShapeNames = {"sphere", "ellipse", "rib", "sampled"};
 constexpr std::array<std::string_view, 3> kToolModeNames = {"press", "trim", "pinch"};
+constexpr std::array<std::string_view, 2> kSwitchNames = {"off", "on"};
 constexpr std::array<std::string_view, 2> kWheelTurnNames = {"clockwise", "counterclockwise"};
 
 }  // namespace
@@ -101,6 +102,17 @@ static void describe(auto& io, Is<StabilitySpec> auto& stability) {
   io.number("max_stress_kpa", stability.max_stress_kpa, above(0).to(1e6));
 }
 
+static void describe(auto& io, Is<ClaySpec> auto& clay) {
+  io.choice("lift", clay.lift, kSwitchNames);
+  io.choice("shift", clay.shift, kSwitchNames);
+  io.choice("rim", clay.rim, kSwitchNames);
+  io.choice("hoop", clay.hoop, kSwitchNames);
+  io.choice("heave", clay.heave, kSwitchNames);
+  io.choice("smear", clay.smear, kSwitchNames);
+  io.number("wheel_rpm", clay.wheel_rpm, from(0).to(1e3));
+  io.number("floor_mm", clay.floor_mm, from(0).to(1e6));
+}
+
 static void describe(auto& io, Is<SceneSpec> auto& scene) {
   io.require({"schema", "lump", "tool"});
   io.constant("schema", "claystack-scene-1");
@@ -113,6 +125,7 @@ static void describe(auto& io, Is<SceneSpec> auto& scene) {
   io.part("flow", scene.flow);
   io.part("force", scene.force);
   io.part("stability", scene.stability);
+  io.part("clay", scene.clay);
 }
 
 Json files::scene_json(const SceneSpec& scene) { return ObjectWriter::write(scene); }

@@ -14,6 +14,9 @@ constexpr int kShareBits = 30;
 // A tick has a bounded length; the crown holds what is left for the next one.
 constexpr std::size_t kMostGrowthPerTick = 64;
 
+// Of a rim's thickness over its height.
+constexpr double kTaper = 0.5;
+
 WideQuanta take(std::span<const ToolRemoval> bites, ClayStack& stack) noexcept {
   StackWriter writer(stack);
   WideQuanta total = 0;
@@ -125,12 +128,13 @@ Ring next_ring(const Ring& top, const Rim* rim) noexcept {
 
 /// Steps (a), (b): whole rings from the excess. `paper` keeps the remainder outside the body,
 /// below one top ring after every tick; `conserving` shows it as the crown.
-template <Model model>
-void grow(Flow& flow, ClayStack& stack, Ledger& ledger, Rim* rim, StackWriter& writer) noexcept {
+template <Model model, class NextRing>
+void grow(Flow& flow, ClayStack& stack, Ledger& ledger, StackWriter& writer, Rim* rim,
+          NextRing next) noexcept {
   const auto excess = [&] { return model == Model::paper ? ledger.outside : stack.crown(); };
   // Less than half of the top ring is not worth a look: no ring above it is smaller.
   while (2 * excess() >= stack.rings().back().volume()) {
-    const Ring ring = next_ring(stack.rings().back(), model == Model::paper ? nullptr : rim);
+    const Ring ring = next();
     if (excess() < ring.volume()) return;
     flow.ring_limit = stack.size() >= stack.max_rings();
     if (flow.ring_limit) return;
@@ -143,6 +147,29 @@ void grow(Flow& flow, ClayStack& stack, Ledger& ledger, Rim* rim, StackWriter& w
     if (rim != nullptr) *rim = {};
     ++flow.grown;
   }
+}
+template <Model model>
+void grow(Flow& flow, ClayStack& stack, Ledger& ledger, Rim* rim, StackWriter& writer) noexcept {
+  grow<model>(flow, stack, ledger, writer, rim, [&] {
+    return next_ring(stack.rings().back(), model == Model::paper ? nullptr : rim);
+  });
+}
+
+/// The rim as it is: its middle line goes on upright, for a wall that is lifted keeps its radius,
+/// and a rim thicker than the wall below it tapers back to that.
+Ring copied_rim(const ClayStack& stack) noexcept {
+  const auto rings = stack.rings();
+  const Ring& top = rings.back();
+  if (top.inner2 == 0) return top;
+  const double h = stack.ring_height_mm(), outer = top.outer_mm(), inner = top.inner_mm();
+  const double wall = outer - inner;
+  const double below = std::clamp(wall / h + 0.5, 1.0, static_cast<double>(rings.size()) - 1.0);
+  const Ring& old = rings[rings.size() - 1 - static_cast<std::size_t>(std::max(below, 0.0))];
+  if (old.inner2 == 0) return top;
+  const double thinner = wall - (old.outer_mm() - old.inner_mm());
+  if (!(thinner > 0.0)) return top;
+  const double by = 0.5 * std::min(thinner, kTaper * h);
+  return {quanta_from_radius(outer - by), quanta_from_radius(inner + by)};
 }
 
 }  // namespace
@@ -184,6 +211,37 @@ Flow trim_clay(std::span<const ToolRemoval> bites, ClayStack& stack, Ledger& led
   grow<model>(flow, stack, ledger, rim,
               writer);  // a thinner top ring may be worth less than the excess
   return flow;
+}
+
+WideQuanta take_bites(std::span<const ToolRemoval> bites, ClayStack& stack, Rim* rim) noexcept {
+  level(rim, bites, stack.size());
+  return take(bites, stack);
+}
+
+WideQuanta inside_part(WideQuanta amount, std::int64_t inside_share,
+                       const ClayStack& stack) noexcept {
+  return split(amount, inside_share, stack).inside;
+}
+
+WideQuanta flow_by_kernel(const StepPlan& plan, WideQuanta amount, bool up, const Contact& contact,
+                          Rim* rim, ClayStack& stack) noexcept {
+  const Split clay = split(amount, plan.inside_share, stack);
+  return up ? flow_up(plan.kernel, clay, contact, stack.size(), rim, stack)
+            : flow_down(plan.kernel, clay, contact, stack);
+}
+
+void grow_rim(Flow& flow, ClayStack& stack, Rim* rim, StackWriter& writer) noexcept {
+  Ledger none;
+  if (rim != nullptr) return grow<Model::conserving>(flow, stack, none, rim, writer);
+  grow<Model::conserving>(flow, stack, none, writer, rim, [&] { return copied_rim(stack); });
+}
+
+void sink_rim(Flow& flow, ClayStack& stack, StackWriter& writer) noexcept {
+  while (stack.crown() < 0 && stack.size() > 1) {
+    flow.sunk_volume += stack.rings().back().volume();
+    ++flow.sunk;
+    writer.sink();
+  }
 }
 
 template Flow press_clay<Model::paper>(const StepPlan&, std::span<const ToolRemoval>, bool,

@@ -3,9 +3,11 @@
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/tick.hpp"
+#include "engine/clay/stack_writer.hpp"
 #include "engine/tick/removal.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 namespace clay {
@@ -14,7 +16,9 @@ namespace clay {
 struct Flow {
   std::size_t lowest = 0;  ///< rings lowest..highest may have changed
   std::size_t highest = 0;
-  std::size_t grown = 0;    ///< rings added on top
+  std::size_t grown = 0;  ///< rings added on top
+  std::size_t sunk = 0;   ///< rings taken out on top; then none is added
+  WideQuanta sunk_volume = 0;
   bool ring_limit = false;  ///< clay waits for a ring that max_rings does not allow
 };
 
@@ -39,5 +43,21 @@ Flow press_clay(const StepPlan& plan, std::span<const ToolRemoval> bites, bool u
 template <Model model>
 Flow trim_clay(std::span<const ToolRemoval> bites, ClayStack& stack, Ledger& ledger,
                Rim* rim = nullptr) noexcept;
+
+// Parts of these, for the clay rules.
+
+/// Takes what the tools bite off.
+WideQuanta take_bites(std::span<const ToolRemoval> bites, ClayStack& stack, Rim* rim) noexcept;
+/// alpha of an amount, as long as some ring has a bore.
+[[nodiscard]] WideQuanta inside_part(WideQuanta amount, std::int64_t inside_share,
+                                     const ClayStack& stack) noexcept;
+/// Spreads an amount by the kernel; returns what finds no ring.
+WideQuanta flow_by_kernel(const StepPlan& plan, WideQuanta amount, bool up, const Contact& contact,
+                          Rim* rim, ClayStack& stack) noexcept;
+/// Whole rings from the crown: with a rim as `press_clay` makes them, without one as copies of the
+/// rim that taper to the wall below where the rim is thicker.
+void grow_rim(Flow& flow, ClayStack& stack, Rim* rim, StackWriter& writer) noexcept;
+/// The top rings make good what a crown below 0 lacks. There is so much clay in them.
+void sink_rim(Flow& flow, ClayStack& stack, StackWriter& writer) noexcept;
 
 }  // namespace clay

@@ -88,14 +88,14 @@ std::array<double, 2> pinch_ring(const RemovalPlan& plan, double wall, double le
   return eps;
 }
 
-/// Of a slice of what one tool touches.
-void yield_to_tool(const RemovalPlan& plan, std::span<const Ring> rings, double dt_s, bool outside,
-                   const TouchedRings::Slice& slice, Quanta* removed) noexcept {
-  const double min_wall = plan.min_wall_mm, outward = outside ? 1.0 : -1.0;
+/// Of a slice of what one tool touches: the rings as the tool finds them, and the depths that their
+/// yielding leaves.
+void load_and_yield(const RemovalPlan& plan, std::span<const Ring> rings, double dt_s, bool outside,
+                    const TouchedRings::Slice& slice, Yielding& block) noexcept {
+  const double outward = outside ? 1.0 : -1.0;
   const std::size_t count = slice.size(), first = slice.begin;
-  TouchedRings::Block& rows = slice.rows;
-  Yielding block;
-  TouchedRings::Row opposite, eps;
+  const TouchedRings::Block& rows = slice.rows;
+  TouchedRings::Row opposite;
   for (std::size_t k = 0; k < count; ++k) {
     const Ring& ring = rings[slice.ring + k];
     opposite[k] = static_cast<double>(outside ? ring.inner2 : ring.outer2);
@@ -110,6 +110,16 @@ void yield_to_tool(const RemovalPlan& plan, std::span<const Ring> rings, double 
     }
   });
   yield(plan, dt_s, block, count);
+}
+
+void yield_to_tool(const RemovalPlan& plan, std::span<const Ring> rings, double dt_s, bool outside,
+                   const TouchedRings::Slice& slice, Quanta* removed) noexcept {
+  const double min_wall = plan.min_wall_mm;
+  const std::size_t count = slice.size(), first = slice.begin;
+  TouchedRings::Block& rows = slice.rows;
+  Yielding block;
+  TouchedRings::Row eps;
+  load_and_yield(plan, rings, dt_s, outside, slice, block);
   for (std::size_t k = 0; k < count; ++k) {
     const double gone = block.depth[k] - block.left[k], spare = block.wall[k] - min_wall;
     const double most = spare > 0.0 ? spare : 0.0;
@@ -120,6 +130,41 @@ void yield_to_tool(const RemovalPlan& plan, std::span<const Ring> rings, double 
     const Ring& ring = rings[slice.ring + k];
     const double surface = rows.surface[first + k];
     removed[k] = outside ? take_outside(ring, surface, eps[k]) : take_inside(ring, surface, eps[k]);
+  }
+}
+
+/// Of a slice: squeezes out what has given way and was not moved.
+void squeeze(const Squeeze& squeeze, std::span<const Ring> rings, bool outside,
+             const TouchedRings::Slice& slice, Quanta* removed) noexcept {
+  const double min_wall = squeeze.min_wall_mm, outward = outside ? 1.0 : -1.0;
+  const std::size_t count = slice.size(), first = slice.begin;
+  TouchedRings::Block& rows = slice.rows;
+  TouchedRings::Row near, far, eps;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Ring ring = squeeze.ring(slice.ring + k, rings);
+    near[k] = static_cast<double>(outside ? ring.outer2 : ring.inner2);
+    far[k] = static_cast<double>(outside ? ring.inner2 : ring.outer2);
+  }
+  in_lanes([&]() CLAYSTACK_INLINE {
+    for (std::size_t k = 0; k < count; ++k) {
+      near[k] = std::sqrt(near[k] * kMm2PerQuantum);
+      const double by = outward * (rows.surface[first + k] - near[k]);
+      const double give = rows.give[first + k] - by;
+      const double spare = outward * (near[k] - std::sqrt(far[k] * kMm2PerQuantum)) - min_wall;
+      const double most = spare > 0.0 ? spare : 0.0, less = give < most ? give : most;
+      eps[k] = less > 0.0 ? less : 0.0;
+      const double left = rows.depth[first + k] - by - eps[k];
+      rows.depth[first + k] = left > 0.0 ? left : 0.0;
+    }
+  });
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = slice.ring + k;
+    const Ring ring = squeeze.ring(i, rings);
+    if (!outside && i < squeeze.floor_rings && ring.inner2 == 0) [[unlikely]] {
+      rows.depth[first + k] += eps[k];
+      eps[k] = 0.0;
+    }
+    removed[k] = outside ? take_outside(ring, near[k], eps[k]) : take_inside(ring, near[k], eps[k]);
   }
 }
 
@@ -149,9 +194,30 @@ void compute_removal(const RemovalPlan& plan, const ClayStack& stack, double dt_
   }
 }
 
+void give_way(const RemovalPlan& plan, const ClayStack& stack, double dt_s,
+              Contact& contact) noexcept {
+  const bool outside = contact.side == Side::compressive;
+  contact.rings.each_slice([&](const TouchedRings::Slice& slice) {
+    Yielding block;
+    load_and_yield(plan, stack.rings(), dt_s, outside, slice, block);
+    for (std::size_t k = 0; k < slice.size(); ++k)
+      slice.rows.give[slice.begin + k] = block.depth[k] - block.left[k];
+  });
+}
+
+void squeeze_out(const Squeeze& rules, const ClayStack& stack, Contact& contact,
+                 std::vector<Quanta>& removed) noexcept {
+  const bool outside = contact.side == Side::compressive;
+  removed.resize(contact.rings.size());
+  contact.rings.each_slice([&](const TouchedRings::Slice& slice) {
+    squeeze(rules, stack.rings(), outside, slice, &removed[slice.ring - contact.rings.from()]);
+  });
+}
+
 template <Model model>
 void compute_pinch_removal(const RemovalPlan& plan, const ClayStack& stack, double gap_mm,
-                           double dt_s, ToolRemoval& outer, ToolRemoval& inner) noexcept {
+                           double dt_s, ToolRemoval& outer, ToolRemoval& inner,
+                           const Squeeze* rules) noexcept {
   constexpr bool paper = model == Model::paper;
   const double least_wall = paper ? gap_mm : std::max(gap_mm, plan.min_wall_mm);
   const double fraction = paper ? plan.paper_fraction : one_minus_exp_neg(plan.rate_per_s * dt_s);
@@ -163,9 +229,10 @@ void compute_pinch_removal(const RemovalPlan& plan, const ClayStack& stack, doub
                                          : std::min(out.from(), in.from());
   const std::size_t end = std::max(out.to(), in.to());
   for (std::size_t i = first; i < end; ++i) {
-    Ring ring = stack.rings()[i];
-    const auto eps = pinch_ring<model>(plan, ring.outer_mm() - ring.inner_mm(), least_wall,
-                                       fraction, dt_s, {out.get(i), in.get(i)});
+    Ring ring = rules != nullptr ? rules->ring(i, stack.rings()) : stack.rings()[i];
+    auto eps = pinch_ring<model>(plan, ring.outer_mm() - ring.inner_mm(), least_wall, fraction,
+                                 dt_s, {out.get(i), in.get(i)});
+    if (rules != nullptr && i < rules->floor_rings && ring.inner2 == 0) eps[1] = 0.0;
     if (out.has(i)) {
       Quanta& removed = outer.removed[i - out.from()];
       removed = take_outside(ring, ring.outer_mm(), eps[0]);
@@ -184,8 +251,10 @@ template void compute_removal<Model::paper>(const RemovalPlan&, const ClayStack&
 template void compute_removal<Model::conserving>(const RemovalPlan&, const ClayStack&, double,
                                                  Contact&, std::vector<Quanta>&) noexcept;
 template void compute_pinch_removal<Model::paper>(const RemovalPlan&, const ClayStack&, double,
-                                                  double, ToolRemoval&, ToolRemoval&) noexcept;
+                                                  double, ToolRemoval&, ToolRemoval&,
+                                                  const Squeeze*) noexcept;
 template void compute_pinch_removal<Model::conserving>(const RemovalPlan&, const ClayStack&, double,
-                                                       double, ToolRemoval&, ToolRemoval&) noexcept;
+                                                       double, ToolRemoval&, ToolRemoval&,
+                                                       const Squeeze*) noexcept;
 
 }  // namespace clay

@@ -2,7 +2,10 @@
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/tick.hpp"
 #include "engine/tick/contact.hpp"
+#include "engine/tick/shift.hpp"
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 namespace clay {
@@ -24,6 +27,26 @@ template <Model model>
 void compute_removal(const RemovalPlan& plan, const ClayStack& stack, double dt_s, Contact& contact,
                      std::vector<Quanta>& removed) noexcept;
 
+/// Clay rules: how what gives way is squeezed out of rings that a shift has moved.
+struct Squeeze {
+  double min_wall_mm = 0.0;
+  std::size_t floor_rings = 0;   ///< that are not opened from inside
+  const Shift* shift = nullptr;  ///< none: the rings as they are
+
+  [[nodiscard]] Ring ring(std::size_t i, std::span<const Ring> rings) const noexcept {
+    return shift != nullptr ? shift->after(i, rings[i]) : rings[i];
+  }
+};
+
+/// Clay rules, first half of `compute_removal`: leaves to the contact how far each ring gives way
+/// (`TouchedRings::give`), by a shift or by being squeezed.
+void give_way(const RemovalPlan& plan, const ClayStack& stack, double dt_s,
+              Contact& contact) noexcept;
+/// Second half: what of that the shift has not moved is removed, as far as minimum wall and floor
+/// allow. Leaves to the contact the depths that are left.
+void squeeze_out(const Squeeze& rules, const ClayStack& stack, Contact& contact,
+                 std::vector<Quanta>& removed) noexcept;
+
 /// What two tools take from one wall, each from its own side, that it is nowhere thinner for them
 /// than the gap. Equations (3) and (4) at once:
 ///
@@ -33,6 +56,7 @@ void compute_removal(const RemovalPlan& plan, const ClayStack& stack, double dt_
 /// yields to one tool near it. Both surfaces move alike: the middle of the wall stays.
 template <Model model>
 void compute_pinch_removal(const RemovalPlan& plan, const ClayStack& stack, double gap_mm,
-                           double dt_s, ToolRemoval& outer, ToolRemoval& inner) noexcept;
+                           double dt_s, ToolRemoval& outer, ToolRemoval& inner,
+                           const Squeeze* rules = nullptr) noexcept;
 
 }  // namespace clay

@@ -101,9 +101,10 @@ void StabilityWatch::move_to(const ClayStack& stack, std::size_t highest) noexce
 std::optional<Failure> StabilityWatch::check(const StabilityPlan& plan, const ClayStack& stack,
                                              const Flow& flow) noexcept {
   const auto rings = stack.rings();
-  const std::size_t old_size = rings.size() - flow.grown;
+  const std::size_t old_size = rings.size() - flow.grown + flow.sunk;
   const bool at_top = cursor_ + 1 == old_size;
-  note_change(rings, flow.lowest, cursor_);
+  if (flow.sunk > 0) note_sunk(rings, flow);
+  note_change(rings, std::min(flow.lowest, cursor_), cursor_);
   if (flow.grown > 0) {
     sums_.refresh(rings, old_size, rings.size() - 1);
     if (at_top)
@@ -115,8 +116,22 @@ std::optional<Failure> StabilityWatch::check(const StabilityPlan& plan, const Cl
   const bool came_on_top = !at_top && (flow.grown > 0 || stack.crown() != crown_);
   if (came_on_top || stack.volume() > volume_) return search(plan, stack);
   std::optional<Failure> worst;
-  find_weakest(plan, rings, above_cursor_ + stack.crown(), cursor_, flow.lowest, worst);
+  find_weakest(plan, rings, above_cursor_ + stack.crown(), cursor_, std::min(flow.lowest, cursor_),
+               worst);
   return worst;
+}
+
+void StabilityWatch::note_sunk(std::span<const Ring> rings, const Flow& flow) noexcept {
+  const std::size_t top = rings.size() - 1;
+  if (cursor_ >= top) {
+    cursor_ = top;
+    above_cursor_ = 0;
+  } else {
+    above_cursor_ -= flow.sunk_volume;
+  }
+  stale_end_ = std::min(stale_end_, rings.size());
+  if (stale_first_ >= stale_end_) stale_first_ = stale_end_;
+  sums_.refresh(rings, top, top);
 }
 
 std::optional<Failure> StabilityWatch::search(const StabilityPlan& plan,

@@ -55,6 +55,7 @@ class StabilityWatch {
 
  private:
   void note_change(std::span<const Ring> rings, std::size_t first, std::size_t last) noexcept;
+  void note_sunk(std::span<const Ring> rings, const Flow& flow) noexcept;
   void bring_up_to_date(std::span<const Ring> rings) noexcept;
   [[nodiscard]] std::optional<Failure> search(const StabilityPlan& plan,
                                               const ClayStack& stack) noexcept;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace clay {
 namespace {
@@ -45,6 +46,8 @@ Result<void> check(const SceneSpec& s) {
       {"force.paper_stiffness_n_per_mm", force.paper_stiffness_n_per_mm.value_or(0.0), 0.0, 1e6},
       {"force.limit_n", force.limit_n, 0.0, 10.0},
       {"force.friction", force.friction, 0.0, 2.0},
+      {"clay.wheel_rpm", s.clay.value_or(ClaySpec{}).wheel_rpm, 0.0, 1e3},
+      {"clay.floor_mm", s.clay.value_or(ClaySpec{}).floor_mm, 0.0, 1e6},
       {"stability.max_stress_kpa", stability.max_stress_kpa, std::numeric_limits<double>::min(),
        1e6},
   });
@@ -57,7 +60,25 @@ unsigned stages_of(const SceneSpec& s) {
   if (s.force && s.force->friction > 0.0) stages |= kFriction;
   if (s.stability) stages |= kStability;
   if (s.tool.gap_mm) stages |= kPinch;
+  if (s.clay && s.model != Model::paper) stages |= kRules;
   return stages;
+}
+
+unsigned rules_of(const SceneSpec& s) {
+  if (!s.clay || s.model == Model::paper) return 0;
+  const ClaySpec& clay = *s.clay;
+  return (clay.lift ? kLift : 0u) | (clay.shift ? kShift : 0u) | (clay.rim ? kRim : 0u) |
+         (clay.hoop && clay.shift ? kHoop : 0u) | (clay.heave ? kHeave : 0u) |
+         (clay.smear && clay.wheel_rpm > 0.0 ? kSmear : 0u);
+}
+
+RulesPlan rules_plan(const SceneSpec& s) {
+  if (!s.clay) return {};
+  // Rings whose middle is below the floor's height.
+  const double rings = s.clay->floor_mm / s.lump.ring_height_mm + 0.5;
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  return {rules_of(s), static_cast<std::size_t>(std::fmin(rings, static_cast<double>(kMaxRings))),
+          kTurn * s.clay->wheel_rpm / 60.0};
 }
 
 ForcePlan force_plan(const SceneSpec& s) {
@@ -73,10 +94,26 @@ StabilityPlan stability_plan(const SceneSpec& s) {
   return {s.stability->max_stress_kpa, kpa_per_ratio(s.lump.density_g_cm3, s.lump.ring_height_mm)};
 }
 
+void describe_rules(const SceneSpec& s, std::vector<PlanLine>& lines) {
+  const unsigned rules = rules_of(s);
+  const std::string none = s.clay ? "the paper's model has no clay rules" : "no clay rules are set";
+  const bool any = s.clay && s.model != Model::paper;
+  const auto line = [&](const char* stage, unsigned rule, const char* in, const char* out) {
+    lines.push_back({stage, (rules & rule) != 0, (rules & rule) ? in : any ? out : none});
+  };
+  line("lift", kLift, "what two tools squeeze out becomes height", "off in the scene");
+  line("shift", kShift, "a tool on one side moves the wall", "off in the scene");
+  line("rim", kRim, "a new ring copies the rim", "off in the scene");
+  line("hoop", kHoop, "half of a hoop strain becomes height", "off in the scene, or shift is");
+  line("heave", kHeave, "displaced clay leaves no steep slope", "off in the scene");
+  line("smear", kSmear, "a wet finger evens out the surface",
+       "off in the scene, or the wheel stands");
+}
+
 std::vector<PlanLine> describe(const SceneSpec& s, unsigned stages) {
   const bool hollow = s.lump.inner_radius_mm > 0.0;
   const bool press = s.tool.mode != ToolMode::trim;
-  return {
+  std::vector<PlanLine> lines{
       {"tool state", true, "pose, time step, direction of motion"},
       {"contact", true, "equations (1), (2), then the rings touched"},
       {"removal", true,
@@ -95,6 +132,8 @@ std::vector<PlanLine> describe(const SceneSpec& s, unsigned stages) {
       {"pinch", (stages & kPinch) != 0,
        (stages & kPinch) ? "a pose with a gap has two tools" : "no gap is set"},
   };
+  describe_rules(s, lines);
+  return lines;
 }
 
 }  // namespace
@@ -124,6 +163,7 @@ Result<StepPlan> StepPlan::build(const SceneSpec& scene) {
                       std::fmin(scene.removal.rate_per_s / kPaperRateHz, 0.5))};
   plan.force = force_plan(scene);
   plan.stability = stability_plan(scene);
+  plan.clay = rules_plan(scene);
   plan.density_g_cm3 = scene.lump.density_g_cm3;
   plan.lines = describe(scene, plan.stages);
   return plan;

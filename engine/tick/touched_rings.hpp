@@ -28,9 +28,10 @@ class TouchedRings {
  public:
   static constexpr std::size_t kBlock = 32;
   using Row = std::array<double, kBlock>;
-  /// RingContact's members, each of 32 rings.
+  /// RingContact's members and what gives way, each of 32 rings.
   struct Block {
     Row depth, slope, coverage, normal2, lean, turn, advance, since, surface;
+    Row give;  ///< how far the surface gives way in this tick; for the clay rules alone [mm]
   };
   /// Of one block, rows begin..end-1; the first of them is of `ring`.
   template <class Rows>
@@ -88,6 +89,10 @@ class TouchedRings {
   [[nodiscard]] double& depth(std::size_t ring) noexcept { return block(ring).depth[row(ring)]; }
   [[nodiscard]] double& coverage(std::size_t ring) noexcept {
     return block(ring).coverage[row(ring)];
+  }
+
+  [[nodiscard]] double give(std::size_t ring) const noexcept {
+    return blocks_[(ring - origin_) / kBlock].give[row(ring)];
   }
 
   void put(const RingContact& touch) noexcept {

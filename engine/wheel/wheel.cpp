@@ -4,6 +4,7 @@
 #include "engine/clay/stack_writer.hpp"
 #include "engine/clay/start.hpp"
 #include "engine/collapse/collapse.hpp"
+#include "engine/tick/clay_rules.hpp"
 #include "engine/tick/contact.hpp"
 #include "engine/tick/force.hpp"
 #include "engine/tick/front.hpp"
@@ -31,6 +32,9 @@ struct Wheel::State {
   bool touching = false;  // at the last pose
   StabilityWatch watch;
   std::array<ToolRemoval, 2> bites;  // scratch, reserved once; the second is for pinches alone
+  Motion motion;                     // of scenes with clay rules, as these two
+  RuleWork work;
+  RuleSteps rules;
   std::optional<Failure> failure;
   glm::dvec3 failure_hip{0.0};
   StepReport (*tick)(State&, const Pose&) noexcept = nullptr;
@@ -87,10 +91,23 @@ void remove(State& s, const ToolState& tool, std::span<ToolRemoval> bites) noexc
                                   bites[0].removed);
 }
 
+template <class State>
+bool trims(const State& s, const ToolState& tool) noexcept {
+  return tool.trim || s.plan.mode == ToolMode::trim;
+}
+
+template <class State>
+RulePress rule_press(const State& s, const ToolState& tool) noexcept {
+  return {s.plan, tool, s.motion, trims(s, tool)};
+}
+
 /// How far the clay gives way, for the stack and for the force.
 template <unsigned stages, class State>
 void yield(State& s, const ToolState& tool, std::span<ToolRemoval> bites) noexcept {
-  remove<stages>(s, tool, bites);
+  if constexpr (stages & kRules)
+    s.rules.yield(rule_press(s, tool), s.stack, bites, s.work);
+  else
+    remove<stages>(s, tool, bites);
   if constexpr ((stages & kForce) && kModel<stages> == Model::conserving)
     for (ToolRemoval& bite : bites)
       feel_front(s.plan, s.stack, tool.hip_mm.y, tool.dt_s, bite.contact);
@@ -99,14 +116,19 @@ void yield(State& s, const ToolState& tool, std::span<ToolRemoval> bites) noexce
 /// Moves the clay that is displaced, and sees whether the stack still stands.
 template <unsigned stages, class State>
 std::uint32_t deform(State& s, const ToolState& tool, std::span<const ToolRemoval> bites) noexcept {
-  const std::size_t reach = flow_reach(s.plan.kernel);
-  if constexpr (stages & kStability)
-    s.watch.move_to(s.stack, std::min(bites[0].contact.top + reach, s.stack.size() - 1));
-
-  const bool trim = tool.trim || s.plan.mode == ToolMode::trim;
-  const Flow flow =
-      trim ? trim_clay<kModel<stages>>(bites, s.stack, s.ledger, &s.rim)
-           : press_clay<kModel<stages>>(s.plan, bites, tool.upward, s.stack, s.ledger, &s.rim);
+  const Flow flow = [&] {
+    if constexpr (stages & kRules) {
+      if constexpr (stages & kStability) s.watch.move_to(s.stack, s.work.highest);
+      return s.rules.move(rule_press(s, tool), bites, s.work, s.stack, s.ledger, s.rim);
+    } else {
+      const std::size_t reach = flow_reach(s.plan.kernel);
+      if constexpr (stages & kStability)
+        s.watch.move_to(s.stack, std::min(bites[0].contact.top + reach, s.stack.size() - 1));
+      return trims(s, tool) ? trim_clay<kModel<stages>>(bites, s.stack, s.ledger, &s.rim)
+                            : press_clay<kModel<stages>>(s.plan, bites, tool.upward, s.stack,
+                                                         s.ledger, &s.rim);
+    }
+  }();
 
   if constexpr (stages & kStability) {
     s.failure = s.watch.check(s.plan.stability, s.stack, flow);
@@ -171,6 +193,7 @@ StepReport tick(State& s, const Pose& pose) noexcept {
   if (!tool.valid) return report;
   std::span<ToolRemoval> bites = touch<stages>(s, tool);
   const bool touches = rings_of(bites) > 0;
+  if constexpr (stages & kRules) follow(s.motion, tool);
   const int parts = touches || s.touching ? parts_of<kModel<stages>>(tool) : 1;
   s.touching = touches;
   tool.dt_s /= parts;
@@ -198,6 +221,7 @@ StepReport feel(State& s, const Pose& pose) noexcept {
   ToolTracker tracker = s.tracker;
   ToolState tool = track_tool<stages>(s.plan, tracker, pose, report);
   if (!tool.valid) return report;
+  [[maybe_unused]] const ToolState whole = tool;
   const int parts = parts_of<kModel<stages>>(tool);
   tool.dt_s /= parts;
   tool.moved_mm /= parts;
@@ -206,7 +230,12 @@ StepReport feel(State& s, const Pose& pose) noexcept {
   if (report.rings_touched == 0) return report;
   report.flags |= kContact;
   if constexpr (stages & kForce) {
-    if constexpr (kModel<stages> == Model::conserving) yield<stages>(s, tool, bites);
+    if constexpr (kModel<stages> == Model::conserving) {
+      const Motion before = s.motion;
+      if constexpr (stages & kRules) follow(s.motion, whole);
+      yield<stages>(s, tool, bites);
+      s.motion = before;
+    }
     add_force<stages>(s.plan.force, bites, report);
   }
   return report;
@@ -253,7 +282,9 @@ Result<Wheel> Wheel::build(const SceneSpec& scene, const Pot& start) {
   auto stack = ClayStack::from_rings(lump.ring_height_mm, {rings.begin(), rings.end()},
                                      start.stack.crown(), lump.max_rings);
   if (!stack) return failure(stack.error().kind, "pot: " + stack.error().message);
-  return assemble(std::move(*plan), std::move(*stack), start.ledger, start.rim, "pot");
+  auto wheel = assemble(std::move(*plan), std::move(*stack), start.ledger, start.rim, "pot");
+  if (wheel && scene.clay) wheel->state_->motion = start.motion;
+  return wheel;
 }
 
 Result<Wheel> Wheel::assemble(StepPlan plan, ClayStack stack, const Ledger& ledger, const Rim& rim,
@@ -282,6 +313,10 @@ Result<Wheel> Wheel::assemble(StepPlan plan, ClayStack stack, const Ledger& ledg
   }
   static constexpr auto kTicks = tick_table<State>(std::make_index_sequence<kStageSets>{});
   static constexpr auto kFeels = feel_table<State>(std::make_index_sequence<kStageSets>{});
+  if (state->plan.stages & kRules) {
+    state->work.reserve(state->plan.tool, state->stack);
+    state->rules = rule_steps(state->plan.clay.rules);
+  }
   state->tick = kTicks[state->plan.stages];
   state->feel = kFeels[state->plan.stages];
   return Wheel(std::move(state));
@@ -297,7 +332,7 @@ bool Wheel::collapsed() const noexcept { return state_->failure.has_value(); }
 
 Pot Wheel::pot() const {
   const State& s = *state_;
-  Pot pot{s.stack, s.ledger, s.plan.model, s.plan.density_g_cm3, {}, {}, {}};
+  Pot pot{s.stack, s.ledger, s.plan.model, s.plan.density_g_cm3, {}, {}, {}, s.motion};
   if (pot.model == Model::conserving) pot.rim = s.rim;
   if (s.failure)
     pot.collapse = settle(s.stack, s.plan.density_g_cm3, *s.failure, s.failure_hip,

@@ -44,6 +44,15 @@ TEST(StageCost, EnablesTheNamedStage) {
   EXPECT_EQ(stages("friction"), kForce | kFriction);
   EXPECT_EQ(stages("stability"), kStability);
   EXPECT_EQ(stages("pinch"), kPinch);
+  const auto rules = [&](const char* rule) {
+    return StepPlan::build(cli::with_stage(bare, rule).value())->clay.rules;
+  };
+  EXPECT_EQ(rules("lift"), kLift);
+  EXPECT_EQ(rules("shift"), kShift);
+  EXPECT_EQ(rules("rim"), kRim);
+  EXPECT_EQ(rules("hoop"), kShift | kHoop);
+  EXPECT_EQ(rules("heave"), kHeave);
+  EXPECT_EQ(rules("smear"), kSmear);
   EXPECT_GT(cli::with_stage(bare, "inner surface")->lump.inner_radius_mm, 0.0);
   EXPECT_FALSE(cli::with_stage(bare, "contact"));
 }

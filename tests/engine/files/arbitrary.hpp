@@ -87,6 +87,10 @@ inline SceneSpec arbitrary_scene() {
                      *rc::gen::arbitrary<bool>(), maybe<double>([] { return *number_in(0, 1e6); })};
   });
   scene.stability = maybe<StabilitySpec>([] { return StabilitySpec{*number_in(1e-300, 1e6)}; });
+  scene.clay = maybe<ClaySpec>([] {
+    const auto on = [] { return *rc::gen::arbitrary<bool>(); };
+    return ClaySpec{on(), on(), on(), on(), on(), on(), *number_in(0, 1e3), *number_in(0, 1e6)};
+  });
   return scene;
 }
 
@@ -112,6 +116,7 @@ inline Pot arbitrary_pot() {
   pot.ledger.added = pot.ledger.outside;
   pot.model = *rc::gen::element(Model::conserving, Model::paper);
   pot.rim = {wide() - wide(), wide() - wide()};
+  pot.motion = {*number_in(-1e12, 1e12), *number_in(-1e12, 1e12)};
   pot.density_g_cm3 = *number_in(0.1, 25);
   pot.collapse = maybe<Collapse>([&] {
     const double heading = *number_in(-3, 3);

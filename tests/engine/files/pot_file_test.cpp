@@ -42,6 +42,7 @@ Pot small_pot() {
 Pot collapsed_pot() {
   Pot pot = small_pot();
   pot.rim = {7, -3};
+  pot.motion = {-12.5, 0.1};
   pot.collapse = Collapse{
       2, {11.5, 2.25, -3.0}, {0.6, 0.0, -0.8}, 1.25, 12.5, {0.8, -1.5, 0.6}, 12.0, 45.5, 31.75};
   return pot;
@@ -185,7 +186,7 @@ TEST(PotFile, ErrorsNameTheLineOfEveryOtherField) {
       "\"density_g_cm3\": 2.1", "\"density_g_cm3\": 2.1, \"density\": 2",
       "unknown field \"density\"; expected one of schema, written_by, model, "
       "density_g_cm3, ring_height_mm, max_rings, quantum_mm2, rings, rounded_rings, crown, "
-      "ledger, rim, collapse");
+      "ledger, rim, motion, collapse");
 }
 
 TEST(PotFile, ErrorsInCborNameTheField) {

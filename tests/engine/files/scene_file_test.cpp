@@ -46,7 +46,17 @@ constexpr std::string_view kText = R"({
     "wheel": "clockwise",
     "paper_stiffness_n_per_mm": 0.75
   },
-  "stability": {"max_stress_kpa": 8}
+  "stability": {"max_stress_kpa": 8},
+  "clay": {
+    "lift": "off",
+    "shift": "off",
+    "rim": "off",
+    "hoop": "off",
+    "heave": "off",
+    "smear": "off",
+    "wheel_rpm": 90,
+    "floor_mm": 7
+  }
 }
 )";
 
@@ -152,7 +162,7 @@ TEST(SceneFile, ErrorsNameUnknownFields) {
                "friction, wheel, paper_stiffness_n_per_mm; is \"limit_n\" meant?");
   expect_error("\"stability\"", "\"colour\"",
                "unknown field \"colour\"; expected one of schema, written_by, name, model, lump, "
-               "tool, removal, flow, force, stability");
+               "tool, removal, flow, force, stability, clay");
   expect_error("\"friction\": 0.3", "\"limit_n\": 3", "duplicate field \"limit_n\"");
 }
 

@@ -97,7 +97,8 @@ TEST(SceneSchema, StatesTheDefaultsOfTheReader) {
                  {"lump", Json::object()},
                  {"tool", {{"shape", {{shape, Json::object()}}}}},
                  {"force", Json::object()},
-                 {"stability", Json::object()}};
+                 {"stability", Json::object()},
+                 {"clay", Json::object()}};
     EXPECT_EQ(parse_scene(one.dump(), "full").value(), parse_scene(bare.dump(), "bare").value());
   }
 }

@@ -172,6 +172,14 @@ struct Rim {
   friend bool operator==(const Rim&, const Rim&) = default;
 };
 
+/// How the tool last moved, as the clay rules remember it: a mean over the last few hundredths of a
+/// second. The rules split what a tool displaces by it.
+struct Motion {
+  double upward_mm_s = 0.0;
+  double outward_mm_s = 0.0;  ///< away from the axis
+  friend bool operator==(const Motion&, const Motion&) = default;
+};
+
 /// When collapsed, `stack` still holds all rings in their order: 0..failed_ring stand,
 /// the others (and the crown) are turned by `collapse`.
 struct Pot {
@@ -181,7 +189,8 @@ struct Pot {
   double density_g_cm3 = 1.9;
   std::optional<Collapse> collapse;
   std::optional<Rounding> rounding;
-  Rim rim{};  ///< for who throws on; of the paper's model none
+  Rim rim{};        ///< for who throws on; of the paper's model none
+  Motion motion{};  ///< likewise; of a scene without clay rules none
   friend bool operator==(const Pot&, const Pot&) = default;
 };
 

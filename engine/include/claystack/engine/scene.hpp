@@ -100,6 +100,20 @@ struct StabilitySpec {
   friend bool operator==(const StabilitySpec&, const StabilitySpec&) = default;
 };
 
+/// Rules of real clay on top of `conserving` (docs/model.md), each a stage of its own. The paper's
+/// model has none of them.
+struct ClaySpec {
+  bool lift = true;          ///< what two tools squeeze out becomes height
+  bool shift = true;         ///< a tool on one side moves the wall as a plastic shell
+  bool rim = true;           ///< a new ring copies the rim
+  bool hoop = true;          ///< half of a hoop strain becomes height
+  bool heave = true;         ///< displaced clay leaves no slope that is steeper than a tool
+  bool smear = true;         ///< a wet finger evens out the surface below it
+  double wheel_rpm = 120.0;  ///< for smear
+  double floor_mm = 0.0;     ///< no tool opens the solid bottom below this height; 0: no stop
+  friend bool operator==(const ClaySpec&, const ClaySpec&) = default;
+};
+
 struct SceneSpec {
   std::string name;
   Model model = Model::conserving;
@@ -109,6 +123,7 @@ struct SceneSpec {
   FlowSpec flow;
   std::optional<ForceSpec> force = ForceSpec{};
   std::optional<StabilitySpec> stability;
+  std::optional<ClaySpec> clay;
   friend bool operator==(const SceneSpec&, const SceneSpec&) = default;
 };
 

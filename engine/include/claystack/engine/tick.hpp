@@ -129,8 +129,20 @@ enum Stage : unsigned {
   kFriction = 4u,
   kStability = 8u,
   kPinch = 16u,
+  kRules = 32u,  ///< some clay rule
 };
-inline constexpr unsigned kStageSets = 32;
+inline constexpr unsigned kStageSets = 64;
+
+/// Clay rules that a scene may do without, as the stages above.
+enum Rule : unsigned {
+  kLift = 1u,
+  kShift = 2u,
+  kRim = 4u,
+  kHoop = 8u,
+  kHeave = 16u,
+  kSmear = 32u,
+};
+inline constexpr unsigned kRuleSets = 64;
 
 struct RemovalPlan {
   double rate_per_s = 0.0;  ///< conserving: kappa
@@ -151,6 +163,12 @@ struct StabilityPlan {
   double kpa_per_ratio = 0.0;  ///< beta_i = this * (quanta above ring i) / (quanta of ring i)
 };
 
+struct RulesPlan {
+  unsigned rules = 0;           ///< Rule bits
+  std::size_t floor_rings = 0;  ///< that no tool opens where they are solid
+  double surface_per_s = 0.0;   ///< speed of a surface of radius 1 under a tool
+};
+
 /// One line of `claystack plan`.
 struct PlanLine {
   std::string stage;
@@ -169,6 +187,7 @@ struct StepPlan {
   RemovalPlan removal;
   ForcePlan force;
   StabilityPlan stability;
+  RulesPlan clay;
   double density_g_cm3 = 0.0;
   std::vector<PlanLine> lines;  ///< every stage, in or out, and why
 

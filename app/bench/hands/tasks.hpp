@@ -1,0 +1,43 @@
+#pragma once
+// What the simulated potters throw, and what comes of it.
+
+#include "app/bench/hands/pot_measures.hpp"
+#include "claystack/engine/clay.hpp"
+#include "claystack/engine/scene.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace clay::bench {
+
+enum class Task { open, cylinder, belly, collar, bowl, plate, bottle };
+inline constexpr std::array kTasks{Task::open, Task::cylinder, Task::belly, Task::collar,
+                                   Task::bowl, Task::plate,    Task::bottle};
+
+struct TaskFacts {
+  std::string_view name;
+  std::string_view strokes;
+  double width_mm;         ///< that the hand asks for
+  double least_printable;  ///< share of pots that must be printable with the clay rules
+};
+[[nodiscard]] const TaskFacts& facts_of(Task task);
+
+/// 1 kg of clay, a ball of 10 mm, rings of `ring_height_mm`; two fingers allowed. A plate begins
+/// from a flat lump, all else from one as high as it is wide.
+[[nodiscard]] SceneSpec hands_scene(Task task, const std::optional<ClaySpec>& clay,
+                                    double ring_height_mm = 0.335063);
+
+struct ThrownPot {
+  ClayStack stack;
+  PotMeasures measures;
+  double wheel_s = 0.0;  ///< at the wheel
+  double tick_us = 0.0;  ///< of the computer's time, of the mean tick in contact
+  WideQuanta volume_error = 0;
+};
+
+/// A whole pot by one potter, from the lump.
+[[nodiscard]] ThrownPot throw_pot(Task task, const SceneSpec& scene, std::uint64_t seed);
+
+}  // namespace clay::bench

@@ -1,0 +1,188 @@
+#include "app/bench/hands/tasks.hpp"
+#include "app/bench/section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace clay::bench {
+namespace {
+
+constexpr int kPotters = 20, kPottersQuick = 3;
+constexpr std::uint64_t kOtherSeeds = 7000;  // a second set that the rules were not tried on
+constexpr double kWidest = 1.3;              // of what the hand asked for
+
+struct RuleSet {
+  std::string name;
+  std::optional<ClaySpec> clay;
+};
+
+std::vector<RuleSet> rule_sets(bool quick) {
+  std::vector<RuleSet> sets{{"none", std::nullopt}, {"all", ClaySpec{}}};
+  if (quick) return sets;
+  const auto without = [&](const char* name, bool ClaySpec::*rule) {
+    ClaySpec clay;
+    clay.*rule = false;
+    sets.push_back({std::string("all but ") + name, clay});
+  };
+  without("lift", &ClaySpec::lift);
+  without("shift", &ClaySpec::shift);
+  without("rim", &ClaySpec::rim);
+  without("hoop", &ClaySpec::hoop);
+  without("heave", &ClaySpec::heave);
+  without("smear", &ClaySpec::smear);
+  return sets;
+}
+
+/// The pots of one task with one set of rules, together.
+struct Outcome {
+  double height = 0.0, wall = 0.0, cv = 0.0, thinnest = 1e300, ledge = 0.0, width = 0.0;
+  double wheel_s = 0.0, tick_us = 0.0;
+  std::vector<double> roughness;
+  int ledges = 0, cavities = 0, printable = 0, pots = 0;
+  WideQuanta volume_error = 0;
+
+  void add(const ThrownPot& pot) {
+    const PotMeasures& m = pot.measures;
+    height += m.height_mm;
+    wall += m.wall_mm;
+    cv += m.wall_cv;
+    thinnest = std::min(thinnest, m.thinnest_mm);
+    ledge = std::max(ledge, m.ledge_mm);
+    width = std::max(width, m.width_mm);
+    roughness.push_back(m.roughness_um);
+    ledges += m.ledges;
+    cavities += m.cavities > 0 ? 1 : 0;
+    printable += m.printable() ? 1 : 0;
+    wheel_s += pot.wheel_s;
+    tick_us += pot.tick_us;
+    volume_error += pot.volume_error < 0 ? -pot.volume_error : pot.volume_error;
+    ++pots;
+  }
+  [[nodiscard]] double share() const { return static_cast<double>(printable) / pots; }
+  [[nodiscard]] double mean(double sum) const { return sum / pots; }
+};
+
+Table empty_table() {
+  return {
+      "hands",
+      "Pots thrown by simulated hands",
+      {{"task", ""},
+       {"rules", ""},
+       {"pots", ""},
+       {"printable", "%"},
+       {"height_mm", "mm"},
+       {"wall_mm", "mm"},
+       {"wall_cv", ""},
+       {"thinnest_mm", "mm"},
+       {"roughness_um", "um"},
+       {"ledges", "a pot"},
+       {"ledge_mm", "mm"},
+       {"cavities", ""},
+       {"width_mm", "mm"},
+       {"wheel_s", "s"},
+       {"wheel_s_per_printable", "s"},
+       {"volume_error", "quanta"},
+       {"tick_us", "us"}},
+      {},
+      "Printable: no closed cavity, wall of 2 mm at least, no ledge of 2 mm. Thinnest, ledge and "
+      "width are the worst of all pots, roughness is the median, all else the mean."};
+}
+
+std::vector<Cell> row_of(Task task, const RuleSet& rules, Outcome outcome) {
+  std::nth_element(outcome.roughness.begin(), outcome.roughness.begin() + outcome.pots / 2,
+                   outcome.roughness.end());
+  const double share = outcome.share(), seconds = outcome.mean(outcome.wheel_s);
+  return {std::string(facts_of(task).name),
+          rules.name,
+          std::int64_t{outcome.pots},
+          100.0 * share,
+          outcome.mean(outcome.height),
+          outcome.mean(outcome.wall),
+          outcome.mean(outcome.cv),
+          outcome.thinnest,
+          outcome.roughness[static_cast<std::size_t>(outcome.pots / 2)],
+          outcome.mean(outcome.ledges),
+          outcome.ledge,
+          std::int64_t{outcome.cavities},
+          outcome.width,
+          seconds,
+          share > 0.0 ? Cell(seconds / share) : Cell(std::string("never")),
+          static_cast<std::int64_t>(outcome.volume_error),
+          outcome.mean(outcome.tick_us)};
+}
+
+Curve section_curve(const ClayStack& stack, const std::string& name, bool dashed) {
+  Curve curve{name, {}, {}, {}, {}, true, dashed};
+  const auto rings = stack.rings();
+  const double h = stack.ring_height_mm();
+  const auto point = [&](double x, std::size_t i) {
+    curve.x.push_back(x);
+    curve.y.push_back((static_cast<double>(i) + 0.5) * h);
+  };
+  for (std::size_t i = 0; i < rings.size(); ++i) point(rings[i].outer_mm(), i);
+  for (std::size_t i = rings.size(); i-- > 0;) point(rings[i].inner_mm(), i);
+  return curve;
+}
+
+bool holds(const TaskFacts& task, const Outcome& outcome) {
+  return outcome.share() >= task.least_printable && outcome.cavities == 0 &&
+         outcome.volume_error == 0 && outcome.width <= kWidest * task.width_mm;
+}
+
+}  // namespace
+
+Section hands_section(const Effort& effort) {
+  Section section;
+  section.id = "hands";
+  section.title = "Pots thrown by simulated hands";
+  section.summary =
+      "Does what a hand throws become a pot? Potters with tremor, misjudged depth and strokes that "
+      "end early throw from 1 kg of clay, without the clay rules, with all of them, and with each "
+      "left out in turn. ";
+  Table table = empty_table();
+  const int potters = effort.quick ? kPottersQuick : kPotters;
+  int asked = 0, met = 0;
+  for (const Task task : kTasks) {
+    const TaskFacts& facts = facts_of(task);
+    Plot plot{"hands_" + std::string(facts.name),
+              "Section: " + std::string(facts.name),
+              {"radius [mm]", false},
+              {"height [mm]", false},
+              {},
+              std::string(facts.strokes)};
+    for (const RuleSet& rules : rule_sets(effort.quick)) {
+      effort.progress(fmt::format("{}, {}", facts.name, rules.name));
+      const SceneSpec scene = hands_scene(task, rules.clay);
+      Outcome outcome;
+      for (int k = 0; k < potters; ++k) {
+        const ThrownPot pot = throw_pot(task, scene, static_cast<std::uint64_t>(k));
+        if (k == 0 && (rules.name == "none" || rules.name == "all"))
+          plot.curves.push_back(section_curve(
+              pot.stack, rules.name == "all" ? "clay rules" : "no rules", rules.name == "none"));
+        outcome.add(pot);
+        if (rules.name == "all" && !effort.quick)
+          outcome.add(throw_pot(task, scene, kOtherSeeds + static_cast<std::uint64_t>(k)));
+      }
+      table.rows.push_back(row_of(task, rules, outcome));
+      if (rules.name != "all") continue;
+      ++asked;
+      met += holds(facts, outcome) ? 1 : 0;
+      section.values.push_back(
+          {"printable_" + std::string(facts.name), outcome.share(), 0.0,
+           fmt::format("share of {} pots, with all rules; at least {} is asked "
+                       "for",
+                       outcome.pots, facts.least_printable)});
+    }
+    section.plots.push_back(std::move(plot));
+  }
+  section.tables.push_back(std::move(table));
+  section.sound = met == asked;
+  section.summary +=
+      fmt::format("With all rules {} of {} tasks hold what is asked for.", met, asked);
+  return section;
+}
+
+}  // namespace clay::bench

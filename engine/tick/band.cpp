@@ -1,0 +1,62 @@
+#include "engine/tick/band.hpp"
+
+#include <algorithm>
+
+namespace clay {
+namespace {
+
+/// Where the contact ends beside its last ring, `next` being the one beyond it.
+double end_beside(const Tool& tool, const ClayStack& stack, double hip_y, const Contact& contact,
+                  std::size_t last, bool up) noexcept {
+  const double h = stack.ring_height_mm(), middle = (static_cast<double>(last) + 0.5) * h;
+  if (up ? last + 1 >= stack.size() : last == 0)
+    return up ? std::clamp(hip_y + tool.high(), middle, stack.height_mm())
+              : std::clamp(hip_y + tool.low(), 0.0, middle);
+  const std::size_t next = up ? last + 1 : last - 1;
+  const double inside = contact.rings.get(last).depth_mm;
+  const double clear = -signed_depth(tool, stack, hip_y, next, contact);
+  const double step = up ? h : -h;
+  if (clear > 1e299) {
+    const double end = hip_y + (up ? tool.high() : tool.low());
+    return up ? std::clamp(end, middle, middle + step) : std::clamp(end, middle + step, middle);
+  }
+  return middle + step * (clear > 0.0 ? inside / (inside + clear) : 1.0);
+}
+
+}  // namespace
+
+double signed_depth(const Tool& tool, const ClayStack& stack, double hip_y, std::size_t ring,
+                    const Contact& contact) noexcept {
+  const double t = (static_cast<double>(ring) + 0.5) * stack.ring_height_mm() - hip_y;
+  if (!(t >= tool.low() && t <= tool.high())) return -1e300;
+  return depth_of(stack.rings()[ring], tool.radius(t), contact);
+}
+
+void Peak::settle(double h, Band& band) const noexcept {
+  const double level = weight > 0.0 ? sum / weight : static_cast<double>(band.ring) + 0.5;
+  band.peak_mm = std::clamp(level * h, band.low_mm, std::max(band.low_mm, band.high_mm));
+  band.ring = static_cast<std::size_t>(level);
+}
+
+Band band_of(const Tool& tool, const ClayStack& stack, double hip_y,
+             const Contact& contact) noexcept {
+  const TouchedRings& rings = contact.rings;
+  Band band;
+  band.ring = rings.from();
+  Peak peak;
+  rings.each_slice([&](const auto& slice) {
+    for (std::size_t k = slice.begin; k < slice.end; ++k) {
+      const double give = slice.rows.give[k],
+                   level = static_cast<double>(slice.ring + (k - slice.begin)) + 0.5;
+      band.deepest_mm = std::max(band.deepest_mm, slice.rows.depth[k]);
+      band.give_mm = std::max(band.give_mm, give);
+      peak.add(level, give);
+    }
+  });
+  band.low_mm = end_beside(tool, stack, hip_y, contact, rings.from(), false);
+  band.high_mm = end_beside(tool, stack, hip_y, contact, rings.to() - 1, true);
+  peak.settle(stack.ring_height_mm(), band);
+  return band;
+}
+
+}  // namespace clay

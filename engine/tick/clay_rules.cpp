@@ -1,0 +1,289 @@
+#include "engine/tick/clay_rules.hpp"
+
+#include "engine/clay/stack_writer.hpp"
+#include "engine/tick/heave.hpp"
+#include "engine/tick/shell.hpp"
+#include "engine/tick/smear.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace clay {
+namespace {
+
+constexpr double kMemoryS =
+    0.05;  // of a motion: longer than a device's steps, shorter than a hand's
+constexpr double kSlowMmS = 5.0;  // slower than that, a motion has no direction
+
+/// Speed at which the tool goes into the wall from its side; 0 on its way out.
+double speed_into(Side side, const Motion& motion) noexcept {
+  const double out = motion.outward_mm_s;
+  return std::max(side == Side::compressive ? -out : out, 0.0);
+}
+
+/// A pinched ring: how much deeper one tool is in it than the other.
+struct Pinched {
+  double deeper_mm = 0.0;  ///< above 0: the outer one
+  bool felt = false;       ///< by one of them at least
+};
+
+Pinched pinched(const RulePress& press, const ClayStack& stack, std::span<const ToolRemoval> bites,
+                std::size_t i) noexcept {
+  double depth[2];
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Contact& contact = bites[side].contact;
+    depth[side] = contact.rings.get(i).depth_mm;
+    if (!(depth[side] > 0.0))
+      depth[side] = signed_depth(press.plan.tool, stack, press.tool.hip_mm.y, i, contact);
+    if (depth[side] <= -1e299) return {};
+  }
+  return {depth[0] - depth[1], depth[0] > 0.0 || depth[1] > 0.0};
+}
+
+/// The ring that one of two tools would have to push over most, its band in both contacts.
+bool find_push(const RulePress& press, const ClayStack& stack, std::span<const ToolRemoval> bites,
+               Band& band, bool& outward) noexcept {
+  band.give_mm = 0.0;
+  Peak peak;
+  for (const bool from_outside : {true, false}) {
+    const TouchedRings& rings = bites[from_outside ? 0 : 1].contact.rings;
+    Peak side;
+    double most = 0.0;
+    for (std::size_t i = rings.from(); i < rings.to(); ++i) {
+      const double give = rings.give(i);
+      if (!(give > 0.0) || stack.rings()[i].inner2 == 0) continue;
+      const Pinched ring = pinched(press, stack, bites, i);
+      const double over = from_outside ? ring.deeper_mm : -ring.deeper_mm;
+      const double push = std::min(give, 0.5 * over);
+      if (!(push > 0.0)) continue;
+      most = std::max(most, push);
+      side.add(static_cast<double>(i) + 0.5, push);
+    }
+    if (!(most > band.give_mm)) continue;
+    band.give_mm = most;
+    outward = !from_outside;
+    peak = side;
+  }
+  if (peak.weight > 0.0) peak.settle(stack.ring_height_mm(), band);
+  return peak.weight > 0.0;
+}
+
+/// A wall that one of two tools is deeper in is pushed over to the other, never past the middle.
+void centre(const RulePress& press, const ClayStack& stack, std::span<ToolRemoval> bites, bool hoop,
+            RuleWork& work) noexcept {
+  Band band;
+  band.low_mm = 1e300;
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (bites[side].contact.rings.empty()) continue;
+    band.low_mm = std::min(band.low_mm, work.bands[side].low_mm);
+    band.high_mm = std::max(band.high_mm, work.bands[side].high_mm);
+  }
+  bool outward = false;
+  if (!find_push(press, stack, bites, band, outward)) return;
+  const double min_wall = press.plan.removal.min_wall_mm;
+  // Where two tools hold the wall, it is not their way that bends it.
+  const Shell shell = shell_at(stack, band, min_wall, 0.0, 0.0);
+  if (!(shell.share > 0.0)) return;
+  work.shift.lay(
+      stack, band, shell, {outward, hoop, min_wall}, [](std::size_t) { return 0.0; },
+      [&](std::size_t i) {
+        const Pinched ring = pinched(press, stack, bites, i);
+        if (!ring.felt) return 1e300;
+        return std::max(0.5 * (outward ? -ring.deeper_mm : ring.deeper_mm), 0.0);
+      });
+  for (std::size_t k = 0; k < 2; ++k) {
+    TouchedRings& rings = bites[k].contact.rings;
+    for (std::size_t i = rings.from(); i < rings.to(); ++i) {
+      double& depth = rings.depth(i);
+      if (!(depth > 0.0)) continue;
+      const Ring &was = stack.rings()[i], is = work.shift.after(i, was);
+      depth += k == 0 ? is.outer_mm() - was.outer_mm() : was.inner_mm() - is.inner_mm();
+      depth = std::max(depth, 0.0);
+    }
+  }
+}
+
+template <unsigned rules>
+constexpr bool kOneToolBand = (rules & (kShift | kHeave | kSmear)) != 0;
+template <unsigned rules>
+constexpr bool kTwoToolBand = (rules & (kShift | kSmear)) != 0 || !(rules & kLift);
+
+/// Rings that the flow may change.
+template <unsigned rules>
+void reach_of(const RulePress& press, const ClayStack& stack, std::span<const ToolRemoval> bites,
+              RuleWork& work) noexcept {
+  const Contact& contact = bites.front().contact;
+  const std::size_t top = stack.size() - 1;
+  work.lowest = contact.bottom;
+  work.highest = contact.top;
+  if (press.trim) return;
+  const auto widen = [&](double low_mm, double high_mm) {
+    const double h = stack.ring_height_mm(), last = static_cast<double>(top);
+    work.lowest =
+        std::min(work.lowest, static_cast<std::size_t>(std::clamp(low_mm / h - 1.0, 0.0, last)));
+    work.highest =
+        std::max(work.highest, static_cast<std::size_t>(std::clamp(high_mm / h + 1.0, 0.0, last)));
+  };
+  if (!work.shift.empty()) {
+    work.lowest = std::min(work.lowest, work.shift.from());
+    work.highest = std::max(work.highest, work.shift.to() - 1);
+  }
+  const bool lifts = (rules & kLift) && bites.size() == 2;
+  for (std::size_t k = 0; k < bites.size(); ++k) {
+    const Band& band = work.bands[k];
+    if (bites[k].contact.rings.empty()) continue;
+    const double c = band.height_mm();
+    if constexpr (rules & kSmear) widen(band.low_mm - c, band.high_mm + c);
+    if constexpr (rules & kHeave) {
+      const double reach = 2.0 * heave_reach(press.plan.tool, stack, band);
+      if (!lifts) widen(band.low_mm - reach, band.high_mm + reach);
+    }
+  }
+  if (!lifts && !(rules & kHeave)) {
+    const std::size_t reach = flow_reach(press.plan.kernel);
+    work.lowest = std::min(work.lowest, contact.bottom - std::min(contact.bottom, reach));
+    work.highest = std::max(work.highest, std::min(top, contact.top + reach));
+  }
+}
+
+template <unsigned rules>
+void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRemoval> bites,
+                RuleWork& work) noexcept {
+  const StepPlan& plan = press.plan;
+  const double hip_y = press.tool.hip_mm.y, dt_s = press.tool.dt_s;
+  const double min_wall = plan.removal.min_wall_mm;
+  constexpr bool hoop = (rules & kHoop) != 0;
+  work.shift.clear();
+  const Squeeze squeeze{min_wall, plan.clay.floor_rings, (rules & kShift) ? &work.shift : nullptr};
+  const bool two = bites.size() == 2;
+  if (!two || kTwoToolBand<rules>)
+    for (std::size_t k = 0; k < bites.size(); ++k) {
+      Contact& contact = bites[k].contact;
+      if (contact.rings.empty()) continue;
+      give_way(plan.removal, stack, dt_s, contact);
+      if (two || kOneToolBand<rules>) work.bands[k] = band_of(plan.tool, stack, hip_y, contact);
+    }
+  if (two) {
+    if ((rules & kShift) && !press.trim) centre(press, stack, bites, hoop, work);
+    compute_pinch_removal<Model::conserving>(plan.removal, stack, press.tool.gap_mm, dt_s, bites[0],
+                                             bites[1], &squeeze);
+  } else {
+    Contact& contact = bites[0].contact;
+    if ((rules & kShift) && !press.trim) {
+      const Band& band = work.bands[0];
+      const Shell shell = shell_at(stack, band, min_wall, press.motion.upward_mm_s,
+                                   speed_into(contact.side, press.motion));
+      if (shell.share > 0.0)
+        work.shift.lay(
+            stack, band, shell, {contact.side == Side::expansive, hoop, min_wall},
+            [&](std::size_t i) {
+              return contact.rings.has(i) ? shell.share * contact.rings.give(i) : 0.0;
+            },
+            [](std::size_t) { return 1e300; });
+    }
+    squeeze_out(squeeze, stack, contact, bites[0].removed);
+  }
+  reach_of<rules>(press, stack, bites, work);
+}
+
+/// The part of an amount that flows up, continuous in the speed.
+WideQuanta upward_part(WideQuanta amount, const Motion& motion) noexcept {
+  const double v = motion.upward_mm_s;
+  const double up = 0.5 * (1.0 + v / std::sqrt(v * v + kSlowMmS * kSlowMmS));
+  return (amount * static_cast<std::int64_t>(up * 0x1p30)) >> 30;
+}
+
+/// Lays what one tool squeezed aside beside it. Returns what becomes height.
+template <unsigned rules>
+WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> bites,
+                    const RuleWork& work, WideQuanta amount, ClayStack& stack, Rim* rim) noexcept {
+  const StepPlan& plan = press.plan;
+  const std::size_t at = bites[0].contact.rings.empty() ? bites.size() - 1 : 0;
+  const Contact& contact = bites[at].contact;
+  const auto flow = [&](WideQuanta part, bool up) {
+    if (part == 0) return part;
+    if constexpr (rules & kHeave) {
+      StackWriter writer(stack);
+      // More than any ring can hold goes up at once.
+      constexpr WideQuanta kMost = std::numeric_limits<Quanta>::max() / 2;
+      const auto heaved = static_cast<Quanta>(std::min(part, kMost));
+      const auto inside = static_cast<Quanta>(inside_part(heaved, plan.inside_share, stack));
+      const Quanta rest = heave(plan.tool, stack, press.tool.hip_mm.y, contact, work.bands[at],
+                                {inside, heaved - inside, up}, writer);
+      writer.gain(heaved - rest);
+      return part - heaved + rest;
+    } else {
+      return flow_by_kernel(plan, part, up, bites.front().contact, rim, stack);
+    }
+  };
+  const WideQuanta up = upward_part(amount, press.motion);
+  return flow(up + flow(amount - up, false), true);
+}
+
+template <unsigned rules>
+Flow move_clay(const RulePress& press, std::span<const ToolRemoval> bites, const RuleWork& work,
+               ClayStack& stack, Ledger& ledger, Rim& all_rim) noexcept {
+  const StepPlan& plan = press.plan;
+  Rim* const rim = (rules & kRim) ? nullptr : &all_rim;
+  StackWriter writer(stack);
+  if constexpr (rules & kShift) {
+    for (std::size_t i = work.shift.from(); i < work.shift.to(); ++i)
+      writer.replace(i, work.shift.after(i, stack.rings()[i]));
+    writer.put_on_crown(work.shift.raised());
+  }
+  const WideQuanta removed = take_bites(bites, stack, rim);
+  if (press.trim)
+    ledger.trimmed += removed;
+  else if ((rules & kLift) && bites.size() == 2)
+    writer.put_on_crown(removed);
+  else
+    writer.put_on_crown(displace<rules>(press, bites, work, removed, stack, rim));
+  if constexpr (rules & kSmear)
+    if (!press.trim)
+      for (std::size_t k = 0; k < bites.size(); ++k)
+        if (!bites[k].contact.rings.empty())
+          smear(plan.tool, stack, press.tool.hip_mm.y, press.tool.dt_s, bites[k].contact,
+                work.bands[k],
+                {plan.clay.surface_per_s, plan.removal.yield_depth_mm, plan.removal.min_wall_mm},
+                writer);
+  Flow flow;
+  flow.lowest = work.lowest;
+  flow.highest = work.highest;
+  if (stack.crown() < 0)
+    sink_rim(flow, stack, writer);
+  else
+    grow_rim(flow, stack, rim, writer);
+  return flow;
+}
+
+template <std::size_t... sets>
+constexpr auto steps_table(std::index_sequence<sets...>) {
+  return std::array{RuleSteps{&yield_clay<static_cast<unsigned>(sets)>,
+                              &move_clay<static_cast<unsigned>(sets)>}...};
+}
+
+}  // namespace
+
+void follow(Motion& motion, const ToolState& tool) noexcept {
+  if (!(tool.dt_s > 0.0)) return;
+  const auto distance = [](const glm::dvec3& p) { return std::sqrt(p.x * p.x + p.z * p.z); };
+  const double out = distance(tool.hip_mm) - distance(tool.hip_mm - tool.moved_mm);
+  const double part = 1.0 / (kMemoryS + tool.dt_s);
+  motion.upward_mm_s += part * (tool.moved_mm.y - tool.dt_s * motion.upward_mm_s);
+  motion.outward_mm_s += part * (out - tool.dt_s * motion.outward_mm_s);
+}
+
+void RuleWork::reserve(const Tool& tool, const ClayStack& stack) {
+  const double reach = tool.high() - tool.low() + 3.0 * kLongestShellMm;
+  const double rings = reach / stack.ring_height_mm() + 8.0;
+  shift.reserve(static_cast<std::size_t>(std::min(rings, static_cast<double>(stack.max_rings()))));
+}
+
+RuleSteps rule_steps(unsigned rules) noexcept {
+  static constexpr auto kSteps = steps_table(std::make_index_sequence<kRuleSets>{});
+  return kSteps[rules];
+}
+
+}  // namespace clay

@@ -1,0 +1,51 @@
+#pragma once
+// The rules of real clay on top of model `conserving` (docs/model.md): what gives way moves the
+// wall (shift), becomes height (lift, hoop), or heaves up beside the tool; a wet finger smears.
+
+#include "claystack/engine/clay.hpp"
+#include "claystack/engine/tick.hpp"
+#include "engine/tick/band.hpp"
+#include "engine/tick/redistribution.hpp"
+#include "engine/tick/removal.hpp"
+#include "engine/tick/shift.hpp"
+#include "engine/tool/tool_state.hpp"
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace clay {
+
+/// The tool's mean motion goes on by a tick.
+void follow(Motion& motion, const ToolState& tool) noexcept;
+
+/// What the stages of one part of a tick leave to each other. Storage is reserved once.
+struct RuleWork {
+  Shift shift;
+  std::array<Band, 2> bands;            ///< of each tool
+  std::size_t lowest = 0, highest = 0;  ///< rings that the flow may change
+
+  void reserve(const Tool& tool, const ClayStack& stack);
+};
+
+/// A part of a tick: the tool as it stands, what it touches, and whether it cuts.
+struct RulePress {
+  const StepPlan& plan;
+  const ToolState& tool;
+  const Motion& motion;
+  bool trim = false;
+};
+
+/// The two stages for a set of rules. A rule that is off is not in their code.
+struct RuleSteps {
+  /// How far the clay gives way, and what of that the wall does by moving; leaves to the contacts
+  /// the depths that are left. Writes no clay.
+  void (*yield)(const RulePress&, const ClayStack&, std::span<ToolRemoval>,
+                RuleWork&) noexcept = nullptr;
+  /// Moves the clay.
+  Flow (*move)(const RulePress&, std::span<const ToolRemoval>, const RuleWork&, ClayStack&, Ledger&,
+               Rim&) noexcept = nullptr;
+};
+[[nodiscard]] RuleSteps rule_steps(unsigned rules) noexcept;
+
+}  // namespace clay

@@ -1,0 +1,30 @@
+#pragma once
+// Where clay goes that a tool squeezes aside: it heaves up the wall beside the contact.
+
+#include "claystack/engine/clay.hpp"
+#include "claystack/engine/tick.hpp"
+#include "engine/clay/stack_writer.hpp"
+#include "engine/tick/band.hpp"
+#include "engine/tick/shell.hpp"
+
+namespace clay {
+
+/// An amount to lay on the wall from one end of a band.
+struct Heap {
+  Quanta inside = 0, outside = 0;
+  bool up = true;  ///< from the upper end upward
+};
+
+/// How far from the band clay is heaved: 0.8 (c + min(w, width of the tool)) [mm].
+[[nodiscard]] double heave_reach(const Tool& tool, const ClayStack& stack,
+                                 const Band& band) noexcept;
+
+/// Lays clay beside the band: up to a distance x the share t^3 (10 - 15 t + 6 t^2), t = x / reach,
+/// which begins and ends with slope 0. No ring becomes thicker than its thinner neighbour by more
+/// than half of its height (a slope that a tool of any size leaves), and none grows into the tool;
+/// what a ring cannot take goes on to the next. Returns what found no place within the reach.
+/// The caller counts what was placed (`StackWriter::gain`).
+Quanta heave(const Tool& tool, const ClayStack& stack, double hip_y, const Contact& contact,
+             const Band& band, const Heap& heap, StackWriter& writer) noexcept;
+
+}  // namespace clay

@@ -1,0 +1,83 @@
+#include "engine/tick/shell.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clay {
+namespace {
+
+constexpr double kPunch = 2.570796326794897;  // (2 + pi) / 2: a flat punch on a Tresca half-space
+constexpr double kSlowMmS = 5.0;              // slower than that, a motion has no direction
+
+/// How far the wall is free to bend from an end of the band: to the floor, to a solid part, or
+/// farther than `most`.
+double free_length(const ClayStack& stack, double end_mm, bool up, double most,
+                   double stop) noexcept {
+  const double h = stack.ring_height_mm(), per_stop = h / stop;
+  const auto rings = stack.rings();
+  const double level = end_mm / h;
+  std::size_t i =
+      static_cast<std::size_t>(std::clamp(level, 0.0, static_cast<double>(rings.size() - 1)));
+  double length = 0.0, stopped = 0.0;
+  while (length < most && stopped < 1.0) {
+    const Ring& ring = rings[i];
+    if (ring.inner2 < (ring.outer2 >> 3) + (ring.outer2 >> 5))
+      stopped += per_stop * (1.0 - pliancy(ring));
+    length += h;
+    if (up ? i + 1 == rings.size() : i == 0) return up ? most : std::min(most, length);
+    i = up ? i + 1 : i - 1;
+  }
+  return std::min(most, length);
+}
+
+/// How much of the wall behind a tool still moves with it. A tool that goes along the wall lays
+/// it down as it passes; the wall behind would have to be bent back again. Of the two mechanisms
+/// the one that stretches the wall by half the square of the way's slope costs less for slopes
+/// below 2 sqrt(w / R).
+double trailing(double along_mm_s, double into_mm_s, double thinness) noexcept {
+  const double into2 = into_mm_s * into_mm_s + kSlowMmS * kSlowMmS;
+  return into2 / (into2 + 4.0 * thinness * along_mm_s * along_mm_s);
+}
+
+}  // namespace
+
+Shell shell_at(const ClayStack& stack, const Band& band, double min_wall_mm, double upward_mm_s,
+               double into_mm_s) noexcept {
+  Shell shell;
+  const Ring& ring = stack.rings()[band.ring];
+  const double pliant = pliancy(ring);
+  if (!(pliant > 0.0 && band.give_mm > 0.0)) return shell;
+  const double h = stack.ring_height_mm(), R = ring.outer_mm(), w = R - ring.inner_mm();
+  const double length = std::min(std::sqrt(R * w), kLongestShellMm);
+  const double c = std::max(band.height_mm(), h),
+               rim = std::max(stack.height_mm() - band.high_mm, 0.0);
+  const double hinge_mm = 0.25 * w;
+  const double below = free_length(stack, band.low_mm, false, length, hinge_mm);
+  const double above = free_length(stack, band.high_mm, true, length, hinge_mm);
+
+  const double thinness = w / R;
+  const double behind = trailing(upward_mm_s, into_mm_s, thinness);
+  shell.trail_below = upward_mm_s > 0.0 ? behind : 1.0;
+  shell.trail_above = upward_mm_s < 0.0 ? behind : 1.0;
+
+  double hoop = c + shell.trail_below * 0.5 * below;
+  double hinge = shell.trail_below * 2.0 / std::max(below, hinge_mm);
+  if (rim < length && above >= length) {
+    shell.turn = std::clamp(2.0 * rim * rim / (R * w) - 1.0, -1.0, 1.0);
+    hoop += shell.trail_above * rim * (1.0 - 0.5 * shell.turn * rim / length);
+    hinge += shell.trail_above * (1.0 + shell.turn) / length;
+  } else {
+    hoop += shell.trail_above * 0.5 * above;
+    hinge += shell.trail_above * 2.0 / std::max(above, hinge_mm);
+  }
+  shell.below_mm = 0.5 * c + below;
+  shell.above_mm = 0.5 * c + above;
+  const double shift_load = thinness * hoop + 0.25 * w * w * hinge, punch_load = kPunch * c;
+  const double ratio = shift_load / punch_load, ratio2 = ratio * ratio;
+  const double thinned = band.give_mm * (ratio2 * ratio2 / (1.0 + ratio2 * ratio2));
+  // What the minimum wall does not allow to be squeezed out, bends.
+  shell.share = pliant * (1.0 - std::min(thinned, std::max(w - min_wall_mm, 0.0)) / band.give_mm);
+  return shell;
+}
+
+}  // namespace clay

@@ -1,0 +1,45 @@
+#pragma once
+// How a wall answers to a tool on one side of it: as a plastic shell, by limit analysis.
+
+#include "claystack/engine/clay.hpp"
+#include "engine/tick/band.hpp"
+
+namespace clay {
+
+/// Farthest from a band that a shell is bent: bounds the work of a tick for pots of any size.
+inline constexpr double kLongestShellMm = 35.0;
+
+/// How the wall moves about a band. u(x) = share * give * tent(x), x the distance from the peak:
+///
+///     below  trail_below * S(1 - x / below_mm)
+///     above  trail_above * S(1 - turn x / above_mm), and for turn <= 0: 1 - turn x / above_mm
+///
+/// with S(t) = t^2 (3 - 2t), from 0 to 1.
+struct Shell {
+  double share = 0.0;  ///< of what gives way, by which the wall moves instead of being squeezed
+  double below_mm = 1.0, above_mm = 1.0;        ///< where the wall stands still again
+  double turn = 1.0;                            ///< below 1 near the rim, which turns with the wall
+  double trail_below = 1.0, trail_above = 1.0;  ///< less than 1 on the side the tool comes from
+};
+
+/// By how much a ring may move as part of a shell: 0 where it is solid or nearly so (r < 0.2 R),
+/// 1 from r = 0.4 R. Its hoops are no longer thin there.
+[[nodiscard]] inline double pliancy(double outer2, double inner2) noexcept {
+  constexpr double kStiff = 0.04, kThin = 0.15625;  // (r / R)^2, so that no root is needed
+  const double fade = (inner2 / outer2 - kStiff) * (1.0 / (kThin - kStiff));
+  return fade < 0.0 ? 0.0 : fade > 1.0 ? 1.0 : fade;
+}
+[[nodiscard]] inline double pliancy(const Ring& ring) noexcept {
+  return pliancy(static_cast<double>(ring.outer2), static_cast<double>(ring.inner2));
+}
+
+/// Limit analysis of a plastic cylinder under a ring load (Tresca, hinge circles; moment M0 =
+/// sigma w^2 / 4 and hoop force N0 = sigma w per mm). The mechanism of least power has the length
+/// L = sqrt(R w); near the rim it turns, near the floor it is clamped. Its load Q_s, and that of a
+/// punch that squeezes the clay aside, Q_i = (2 + pi) / 2 sigma c, are two yielding mechanisms in
+/// series under one force, each with a rate ~ (Q / Q_k)^n: hence the share. What the tool leaves
+/// behind on its way, at these speeds upward and into the wall, keeps its place.
+[[nodiscard]] Shell shell_at(const ClayStack& stack, const Band& band, double min_wall_mm,
+                             double upward_mm_s, double into_mm_s) noexcept;
+
+}  // namespace clay

@@ -1,0 +1,140 @@
+#include "engine/tick/smear.hpp"
+
+#include "engine/tick/lanes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clay {
+namespace {
+
+constexpr double kFilmMm = 0.012;
+constexpr double kMostOfStep = 0.25;  // of a difference, for a diffusion that does not oscillate
+constexpr std::size_t kRows = 32;
+
+/// Pairs of places on a surface, `stride` rings apart.
+class Smear {
+ public:
+  Smear(const Tool& tool, const ClayStack& stack, double hip_y, const Contact& contact,
+        const Band& band, double min_wall_mm, StackWriter& writer) noexcept
+      : tool_(tool),
+        stack_(stack),
+        contact_(contact),
+        writer_(writer),
+        hip_y_(hip_y),
+        min_wall_(min_wall_mm),
+        middle_(0.5 * (band.low_mm + band.high_mm)),
+        per_c_(1.0 / std::max(band.height_mm(), stack.ring_height_mm())),
+        outside_(contact.side == Side::compressive) {}
+
+  /// Pairs whose lower place is of rings first..end-1; `k` of the difference in the window's
+  /// middle.
+  void run(std::size_t first, std::size_t end, std::size_t stride, double k) noexcept {
+    for (; first < end; first += kRows) pairs(first, std::min(kRows, end - first), stride, k);
+  }
+
+ private:
+  /// Places and how much a ring there may give before it is too thin, and get before it stands in
+  /// the tool's way: half of it, for each ring is of two pairs. [quanta]
+  struct Places {
+    double outer[kRows], inner[kRows], give[kRows], get[kRows];
+  };
+
+  void load(std::size_t first, std::size_t count, Places& places) noexcept {
+    const auto rings = stack_.rings().subspan(first, count);
+    for (std::size_t k = 0; k < count; ++k) {
+      places.outer[k] = static_cast<double>(rings[k].outer2);
+      places.inner[k] = static_cast<double>(rings[k].inner2);
+      places.get[k] = room_beside_tool(first + k);
+    }
+    const double min_wall = min_wall_;
+    in_lanes([&]() CLAYSTACK_INLINE {
+      for (std::size_t k = 0; k < count; ++k) {
+        const double outer2 = places.outer[k], inner2 = places.inner[k];
+        const double both = std::sqrt(outer2 * kMm2PerQuantum) + std::sqrt(inner2 * kMm2PerQuantum);
+        const double spare = outer2 - inner2 - min_wall * both * kQuantaPerMm2;
+        places.give[k] = spare > 0.0 ? 0.5 * spare : 0.0;
+      }
+    });
+  }
+
+  [[nodiscard]] double room_beside_tool(std::size_t i) const noexcept {
+    if (contact_.rings.has(i)) return 0.0;
+    const double t = (static_cast<double>(i) + 0.5) * stack_.ring_height_mm() - hip_y_;
+    if (t < tool_.low() || t > tool_.high()) return 1e300;
+    const double clear = -depth_of(stack_.rings()[i], tool_.radius(t), contact_);
+    if (!(clear > 0.0)) return 0.0;
+    const Ring& ring = stack_.rings()[i];
+    const double surface = outside_ ? 2.0 * ring.outer_mm() : ring.inner_mm();
+    return 0.5 * clear * surface * kQuantaPerMm2;
+  }
+
+  void pairs(std::size_t first, std::size_t count, std::size_t stride, double k0) noexcept {
+    Places low, high;
+    load(first, count, low);
+    load(first + stride, count, high);
+    const double h = stack_.ring_height_mm(), per_c = per_c_, sign = outside_ ? 1.0 : -1.0;
+    const double start = (static_cast<double>(2 * first + stride + 1) * 0.5 * h - middle_) * per_c;
+    const bool outside = outside_;
+    double amount[kRows];
+    in_lanes([&]() CLAYSTACK_INLINE {
+      for (std::size_t k = 0; k < count; ++k) {
+        const double z = start + static_cast<double>(static_cast<int>(k)) * h * per_c;
+        const double window = 1.0 - z * z, share = window > 0.0 ? k0 * window : 0.0;
+        const double difference =
+            outside ? low.outer[k] - high.outer[k] : low.inner[k] - high.inner[k];
+        const double up = sign * share * difference;
+        const double most_up = low.give[k] < high.get[k] ? low.give[k] : high.get[k];
+        const double most_down = high.give[k] < low.get[k] ? high.give[k] : low.get[k];
+        const double less = up < most_up ? up : most_up;
+        const double flow = less > -most_down ? less : -most_down;
+        const bool closed = !outside && (low.inner[k] == 0.0 || high.inner[k] == 0.0);
+        amount[k] = closed ? 0.0 : flow;
+      }
+    });
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto flow = static_cast<Quanta>(amount[k]);
+      if (flow != 0) writer_.smear(first + k, first + k + stride, flow, outside_);
+    }
+  }
+
+  const Tool& tool_;
+  const ClayStack& stack_;
+  const Contact& contact_;
+  StackWriter& writer_;
+  double hip_y_, min_wall_, middle_, per_c_;
+  bool outside_;
+};
+
+}  // namespace
+
+void smear(const Tool& tool, const ClayStack& stack, double hip_y, double dt_s,
+           const Contact& contact, const Band& band, const Smearing& how,
+           StackWriter& writer) noexcept {
+  const auto rings = stack.rings();
+  const double h = stack.ring_height_mm(), c = std::max(band.height_mm(), h);
+  if (!(band.deepest_mm > 0.0 && dt_s > 0.0)) return;
+  const Ring& at = rings[std::min(band.ring, rings.size() - 1)];
+  const double radius = contact.side == Side::compressive ? at.outer_mm() : at.inner_mm();
+  const double wet = std::min(1.0, 4.0 * band.deepest_mm / how.yield_depth_mm);
+  const double spread = kFilmMm * radius * how.surface_per_s * wet * dt_s;  // D dt
+  // Far enough apart that a step is stable.
+  const double apart = std::max(1.0, std::ceil(std::sqrt(spread / kMostOfStep) / h));
+  const double middle = 0.5 * (band.low_mm + band.high_mm);
+  const double size = static_cast<double>(rings.size());
+  const double first = std::clamp((middle - c) / h, 0.0, size);
+  const double end = std::clamp((middle + c) / h + 1.0, 0.0, size) - apart;
+  if (!(end > first)) return;
+  const auto stride = static_cast<std::size_t>(apart), from = static_cast<std::size_t>(first),
+             to = static_cast<std::size_t>(end);
+  // Between two rings that the tool touches, nothing goes anywhere.
+  const std::size_t touched = std::clamp(contact.rings.from(), from, to);
+  const std::size_t free =
+      std::clamp(contact.rings.to() - std::min(stride, contact.rings.to()), touched, to);
+  const double k = spread / (apart * apart * h * h);
+  Smear pairs(tool, stack, hip_y, contact, band, how.min_wall_mm, writer);
+  pairs.run(from, touched, stride, k);
+  pairs.run(free, to, stride, k);
+}
+
+}  // namespace clay

@@ -1,0 +1,362 @@
+// The clay rules on the wheel: against closed forms, and what must hold after every tick.
+
+#include "app/bench/hands/dice.hpp"
+#include "claystack/engine/wheel.hpp"
+#include "tests/support/allocation_counter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace clay {
+namespace {
+
+constexpr double kH = 0.2;
+
+ClaySpec no_rules() { return {false, false, false, false, false, false, 120.0, 0.0}; }
+
+/// A thin wall of 5 mm around a bore of 40 mm, 120 mm high.
+SceneSpec cylinder_scene(ClaySpec clay) {
+  SceneSpec scene;
+  scene.lump = {.rings = 600,
+                .ring_height_mm = kH,
+                .outer_radius_mm = 45.0,
+                .inner_radius_mm = 40.0,
+                .max_rings = 2400,
+                .density_g_cm3 = 1.9};
+  scene.tool = {SphereSpec{10.0}, ToolMode::press, 5.0};
+  scene.removal = {20.0, 0.25, 1.0, {}};
+  scene.force.reset();
+  scene.clay = clay;
+  return scene;
+}
+
+class Hand {
+ public:
+  explicit Hand(Wheel& wheel) : wheel_(wheel) {}
+  void go(double x, double y, double mm_s, double gap_mm = 0.0) {
+    const double way = std::hypot(x - x_, y - y_);
+    const int ticks = std::max(1, static_cast<int>(way / mm_s * 1000.0));
+    const double from_x = x_, from_y = y_;
+    for (int k = 1; k <= ticks; ++k) {
+      x_ = from_x + (x - from_x) * k / ticks;
+      y_ = from_y + (y - from_y) * k / ticks;
+      wheel_.step({time_us_ += 1000, {x_, y_, 0.0}, false, gap_mm});
+    }
+  }
+  void stand(double x, double y) {
+    x_ = x;
+    y_ = y;
+    wheel_.step({time_us_ += 1000, {x, y, 0.0}, false, 0.0});
+  }
+
+ private:
+  Wheel& wheel_;
+  double x_ = 0.0, y_ = 0.0;
+  std::int64_t time_us_ = 0;
+};
+
+const Ring& ring_at(const Wheel& wheel, double y) {
+  return wheel.stack().rings()[static_cast<std::size_t>(y / wheel.stack().ring_height_mm())];
+}
+double middle_of(const Ring& ring) { return 0.5 * (ring.outer_mm() + ring.inner_mm()); }
+double wall_of(const Ring& ring) { return ring.outer_mm() - ring.inner_mm(); }
+
+void expect_balanced(const Wheel& wheel) {
+  ASSERT_EQ(wheel.ledger().imbalance(wheel.stack().recount()), 0);
+  ASSERT_EQ(wheel.stack().recount(), wheel.stack().volume());
+}
+
+/// Hoop strain splits evenly over thickness and height: w ~ 1 / sqrt(m).
+TEST(ClayRules, CollaringThickensTheWallByHalfOfTheHoopStrain) {
+  ClaySpec clay = no_rules();
+  clay.shift = clay.hoop = clay.rim = true;
+  SceneSpec scene = cylinder_scene(clay);
+  scene.removal.min_wall_mm = 5.5;  // nothing is squeezed out
+  Wheel wheel = Wheel::build(scene).value();
+  const double height = wheel.stack().height_mm();
+  Hand hand(wheel);
+  hand.stand(56.0, 60.0);
+  hand.go(49.0, 60.0, 5.0);
+  hand.go(56.0, 60.0, 50.0);
+  const Ring& ring = ring_at(wheel, 60.1);
+  EXPECT_LT(middle_of(ring), 38.0);
+  const double thicker = 5.0 * std::sqrt(42.5 / middle_of(ring)) - 5.0;
+  EXPECT_GT(thicker, 0.25);
+  EXPECT_NEAR(wall_of(ring) - 5.0, thicker, 0.05 * thicker);
+  EXPECT_GT(wheel.stack().height_mm(), height + 0.3);
+  expect_balanced(wheel);
+}
+
+TEST(ClayRules, WithoutHoopAShiftKeepsTheClayOfEachRing) {
+  ClaySpec clay = no_rules();
+  clay.shift = clay.heave = true;
+  Wheel wheel = Wheel::build(cylinder_scene(clay)).value();
+  Hand hand(wheel);
+  hand.stand(56.0, 60.0);
+  hand.go(49.0, 60.0, 5.0);
+  const Ring& ring = ring_at(wheel, 49.0);  // beside the contact nothing is squeezed or laid
+  EXPECT_LT(middle_of(ring), 42.2);
+  const Ring& still = wheel.stack().rings().front();
+  EXPECT_NEAR(mm2_from_quanta(ring.volume()), mm2_from_quanta(still.volume()), 2.0);
+}
+
+TEST(ClayRules, BellyingThinsTheWallAndLowersTheRim) {
+  ClaySpec clay = no_rules();
+  clay.shift = clay.hoop = clay.rim = clay.heave = true;
+  SceneSpec scene = cylinder_scene(clay);
+  scene.lump.outer_radius_mm = 42.0;
+  scene.removal.min_wall_mm = 0.2;
+  Wheel wheel = Wheel::build(scene).value();
+  const double height = wheel.stack().height_mm();
+  Hand hand(wheel);
+  hand.stand(28.0, 60.0);
+  hand.go(36.0, 60.0, 5.0);
+  hand.go(28.0, 60.0, 50.0);
+  EXPECT_GT(middle_of(ring_at(wheel, 60.0)), 46.0);
+  EXPECT_LT(wall_of(ring_at(wheel, 60.0)), 1.9);
+  // The other half of every ring's strain.
+  double lower = 0.0;
+  for (const Ring& ring : wheel.stack().rings())
+    lower += kH * 0.5 * std::log(middle_of(ring) / 41.0);
+  EXPECT_NEAR(height - wheel.stack().height_mm(), lower, 0.05 * lower);
+  EXPECT_LT(wheel.stack().height_mm(), height - 0.3);
+  EXPECT_LT(wheel.stack().size(), 600u);
+  expect_balanced(wheel);
+}
+
+/// A rolling mill: the wall comes in at w0 and leaves at w1; what is above is pushed up whole.
+TEST(ClayRules, APinchLiftsTheRimAsARollingMillDoes) {
+  ClaySpec clay = no_rules();
+  clay.lift = clay.rim = true;
+  SceneSpec scene = cylinder_scene(clay);
+  scene.removal = {200.0, 0.25, 1.0, {}};
+  Wheel wheel = Wheel::build(scene).value();
+  Hand hand(wheel);
+  hand.stand(42.5, 25.0);
+  constexpr double kSpeed = 20.0, kGap = 4.0;
+  hand.go(42.5, 45.0, kSpeed, kGap);
+  const double start = wheel.stack().height_mm();
+  hand.go(42.5, 85.0, kSpeed, kGap);
+  const double seconds = 40.0 / kSpeed, wall = wall_of(ring_at(wheel, 65.0));
+  // As clay: volumes, for the wall is not quite thin.
+  const Ring& thinned = ring_at(wheel, 65.0);
+  const double part = 1.0 - static_cast<double>(thinned.volume()) /
+                                static_cast<double>(wheel.stack().rings().front().volume());
+  EXPECT_NEAR(wall, kGap, 0.05);
+  EXPECT_NEAR((wheel.stack().height_mm() - start) / seconds, kSpeed * (1.0 - kGap / 5.0),
+              0.02 * kSpeed * (1.0 - kGap / 5.0));
+  EXPECT_NEAR((wheel.stack().height_mm() - start) / 40.0, part, 0.02 * part);
+  // Nothing was piled up in front of the fingers.
+  EXPECT_EQ(ring_at(wheel, 110.0), wheel.stack().rings().back());
+  expect_balanced(wheel);
+}
+
+TEST(ClayRules, APinchBesideTheWallCentresIt) {
+  ClaySpec clay = no_rules();
+  clay.lift = clay.shift = clay.rim = true;
+  Wheel wheel = Wheel::build(cylinder_scene(clay)).value();
+  Hand hand(wheel);
+  hand.stand(44.0, 40.0);
+  hand.go(44.0, 80.0, 20.0, 6.0);
+  const Ring& ring = ring_at(wheel, 60.0);
+  EXPECT_GT(middle_of(ring), 43.2);
+  EXPECT_LT(middle_of(ring), 44.6);
+  EXPECT_NEAR(wall_of(ring), 5.0 * 42.5 / middle_of(ring), 0.05);
+}
+
+/// A lump without a bore cannot move as a shell: the tool squeezes out what it always did.
+TEST(ClayRules, ASolidLumpGivesWayAsWithoutThem) {
+  SceneSpec plain = cylinder_scene(no_rules());
+  plain.lump.inner_radius_mm = 0.0;
+  plain.clay.reset();
+  SceneSpec ruled = plain;
+  ruled.clay = ClaySpec{};
+  Wheel old_wheel = Wheel::build(plain).value(), new_wheel = Wheel::build(ruled).value();
+  for (Wheel* wheel : {&old_wheel, &new_wheel}) {
+    Hand hand(*wheel);
+    hand.stand(53.0, 60.0);
+    hand.stand(53.0, 60.0);
+  }
+  const Ring was = Wheel::build(plain)->stack().rings()[300];
+  EXPECT_LT(ring_at(new_wheel, 60.0).outer2, was.outer2);
+  EXPECT_EQ(ring_at(new_wheel, 60.0), ring_at(old_wheel, 60.0));
+  expect_balanced(new_wheel);
+}
+
+/// A wall at its minimum bends away from the tool, and is not thinned.
+TEST(ClayRules, AWallAtItsMinimumBends) {
+  ClaySpec clay;
+  SceneSpec scene = cylinder_scene(clay);
+  scene.removal.min_wall_mm = 5.0;
+  Wheel wheel = Wheel::build(scene).value();
+  Hand hand(wheel);
+  hand.stand(56.0, 60.0);
+  hand.go(50.0, 60.0, 5.0);
+  EXPECT_LT(middle_of(ring_at(wheel, 60.0)), 39.0);
+  for (const Ring& ring : wheel.stack().rings()) EXPECT_GT(wall_of(ring), 5.0 - 1e-9);
+}
+
+TEST(ClayRules, NoToolOpensTheFloor) {
+  SceneSpec scene = cylinder_scene({});
+  scene.lump.inner_radius_mm = 0.0;
+  scene.clay->floor_mm = 7.0;
+  Wheel wheel = Wheel::build(scene).value();
+  Hand hand(wheel);
+  hand.stand(1.0, 135.0);
+  hand.go(1.0, 8.0, 60.0);
+  hand.go(15.0, 8.0, 60.0);
+  std::size_t solid = 0;
+  while (wheel.stack().rings()[solid].inner2 == 0) ++solid;
+  EXPECT_EQ(solid, 35u);
+  expect_balanced(wheel);
+}
+
+/// One position quantum up or down at the first tick of a level press: with a sign, 1 mm of clay.
+TEST(ClayRules, TheDirectionOfTheFlowHasNoCliff) {
+  const auto pressed = [](double first_dy) {
+    SceneSpec scene = cylinder_scene({});
+    scene.lump.inner_radius_mm = 20.0;
+    Wheel wheel = Wheel::build(scene).value();
+    Hand hand(wheel);
+    hand.stand(56.0, 60.1);
+    hand.stand(56.0, 60.1 + first_dy);
+    hand.go(48.0, 60.1 + first_dy, 10.0);
+    return wheel.pot();
+  };
+  const double quantum = 0x1p-16;
+  const Pot up = pressed(quantum), down = pressed(-quantum);
+  double most = 0.0;
+  for (std::size_t i = 0; i < std::min(up.stack.size(), down.stack.size()); ++i)
+    most =
+        std::max(most, std::abs(up.stack.rings()[i].outer_mm() - down.stack.rings()[i].outer_mm()));
+  EXPECT_LT(most, 1e-3);
+}
+
+/// A tremor about the wall with all that a hand can do; both ends and thin walls in it.
+std::vector<Pose> random_poses(std::uint64_t seed, int count) {
+  bench::Dice dice(seed);
+  std::vector<Pose> poses;
+  glm::dvec3 at{30.0, 40.0, 0.0}, goal = at;
+  double gap = 0.0, speed = 0.05;
+  for (int k = 0; k < count; ++k) {
+    if (k % 50 == 0) {
+      goal = {dice.between(-10.0, 70.0), dice.between(-15.0, 95.0), 0.0};
+      gap = dice.unit() < 0.4 ? dice.between(0.5, 40.0) : 0.0;
+      speed = dice.unit() < 0.1 ? 5.0 : dice.between(0.01, 0.3);
+    }
+    const glm::dvec3 way = goal - at;
+    const double length = std::sqrt(way.x * way.x + way.y * way.y);
+    if (length > speed) at += way * (speed / length);
+    poses.push_back({1000 * (k + 1), at, k % 300 > 270, gap});
+  }
+  return poses;
+}
+
+SceneSpec small_scene() {
+  SceneSpec scene = cylinder_scene({});
+  scene.lump = {.rings = 150,
+                .ring_height_mm = 0.5,
+                .outer_radius_mm = 40.0,
+                .inner_radius_mm = 30.0,
+                .max_rings = 600,
+                .density_g_cm3 = 1.9};
+  scene.removal = {20.0, 2.0, 3.0, {}};
+  scene.force = ForceSpec{};
+  scene.stability = StabilitySpec{1e6};
+  return scene;
+}
+
+TEST(ClayRules, EveryQuantumIsAccountedForAfterEveryTick) {
+  for (unsigned rules = 0; rules < kRuleSets; rules += 7) {
+    SceneSpec scene = small_scene();
+    scene.clay = ClaySpec{(rules & kLift) != 0,
+                          (rules & kShift) != 0,
+                          (rules & kRim) != 0,
+                          (rules & kHoop) != 0,
+                          (rules & kHeave) != 0,
+                          (rules & kSmear) != 0,
+                          120.0,
+                          3.0};
+    Wheel wheel = Wheel::build(scene).value();
+    for (const Pose& pose : random_poses(rules + 1, 3000)) {
+      const StepReport report = wheel.step(pose);
+      const glm::dvec3 force = report.force_n();
+      ASSERT_TRUE(std::isfinite(force.x + force.y + force.z));
+      ASSERT_GE(wheel.stack().crown(), 0);
+      expect_balanced(wheel);
+      ASSERT_EQ(wheel.stack().hollow(),
+                std::ranges::any_of(wheel.stack().rings(),
+                                    [](const Ring& ring) { return ring.inner2 > 0; }));
+    }
+    for (const Ring& ring : wheel.stack().rings()) {
+      EXPECT_GE(ring.outer2, quanta_from_radius(kMinRadiusMm));
+      EXPECT_GE(ring.inner2, 0);
+      EXPECT_GE(wall_of(ring), 3.0 - 1e-6) << rules;
+    }
+  }
+}
+
+TEST(ClayRules, FeelIsWhatStepSays) {
+  Wheel wheel = Wheel::build(small_scene()).value();
+  glm::dvec3 last{0.0};
+  const auto short_of = [&](const Pose& pose) {
+    const glm::dvec3 way = pose.position_mm - last;
+    return std::max(std::abs(way.x), std::abs(way.y)) < 0.05;
+  };
+  for (const Pose& pose : random_poses(9, 2000)) {
+    const StepReport felt = wheel.feel(pose);
+    const ClayStack before = wheel.stack();
+    EXPECT_EQ(wheel.feel(pose).force_n(), felt.force_n());
+    EXPECT_EQ(wheel.stack(), before);
+    const StepReport report = wheel.step(pose);
+    // A leap is cut into parts, which feel does not take.
+    if (!(report.flags & kGrew) && short_of(pose)) {
+      EXPECT_EQ(report.force_n(), felt.force_n());
+    }
+    last = pose.position_mm;
+  }
+}
+
+TEST(ClayRules, ATickAllocatesNothing) {
+  Wheel wheel = Wheel::build(small_scene()).value();
+  const auto poses = random_poses(5, 3000);
+  const std::size_t before = allocation_count();
+  for (const Pose& pose : poses) wheel.step(pose);
+  EXPECT_EQ(allocation_count(), before);
+}
+
+/// Cut anywhere, in clay or in air: the second half begins where the hand is.
+TEST(ClayRules, APotGoesOnBitForBitAfterAnyCut) {
+  const SceneSpec scene = small_scene();
+  const auto poses = random_poses(3, 4000);
+  Wheel whole = Wheel::build(scene).value();
+  for (const Pose& pose : poses) whole.step(pose);
+  for (const std::size_t cut : {1u, 500u, 1234u, 2345u, 3999u}) {
+    Wheel first = Wheel::build(scene).value();
+    for (std::size_t k = 0; k <= cut; ++k) first.step(poses[k]);
+    Wheel second = Wheel::build(scene, first.pot()).value();
+    for (std::size_t k = cut; k < poses.size(); ++k) second.step(poses[k]);
+    EXPECT_EQ(second.pot(), whole.pot()) << cut;
+  }
+}
+
+TEST(ClayRules, ThePapersModelHasNone) {
+  SceneSpec scene = small_scene();
+  scene.model = Model::paper;
+  Wheel ruled = Wheel::build(scene).value();
+  EXPECT_EQ(ruled.plan().stages & kRules, 0u);
+  scene.clay.reset();
+  Wheel plain = Wheel::build(scene).value();
+  for (const Pose& pose : random_poses(4, 500)) {
+    ruled.step(pose);
+    plain.step(pose);
+  }
+  EXPECT_EQ(ruled.pot(), plain.pot());
+}
+
+}  // namespace
+}  // namespace clay
