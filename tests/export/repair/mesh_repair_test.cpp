@@ -218,7 +218,7 @@ RC_GTEST_PROP(Repair, RepairsEveryRemovedOrFlippedTriangle, (const ClayStack& st
   const auto found = profile_of(stack);
   if (!found || !certify(found->profile)) RC_DISCARD("no certificate");
   const TriangleMesh mesh = revolve(found->profile, 5);
-  if (!check_mesh(mesh).sound()) RC_DISCARD("walls thinner than doubles tell");
+  if (!check_mesh(mesh).sound()) RC_DISCARD("walls thinner than doubles resolve");
   const auto victim = *rc::gen::inRange<std::size_t>(0, mesh.triangles.size());
   TriangleMesh broken = mesh;
   if (*rc::gen::arbitrary<bool>())
