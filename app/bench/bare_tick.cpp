@@ -21,7 +21,7 @@ int parts_of(const ToolState& tool) noexcept {
 
 }  // namespace
 
-BareWheel::BareWheel(const SceneSpec& scene) : plan_(StepPlan::build(scene).value()), bites_(1) {
+BareWheel::BareWheel(const SceneSpec& scene) : plan_(StepPlan::build(scene).value()), removals_(1) {
   const LumpSpec& lump = scene.lump;
   stack_ = ClayStack::cylinder(lump.rings, lump.ring_height_mm, lump.outer_radius_mm,
                                lump.inner_radius_mm, max_rings_of(lump))
@@ -29,16 +29,16 @@ BareWheel::BareWheel(const SceneSpec& scene) : plan_(StepPlan::build(scene).valu
   StackWriter(stack_).reserve();
   ledger_.initial = stack_.volume();
   const auto touches = most_contacts(plan_.tool, lump.ring_height_mm, max_rings_of(lump));
-  bites_[0].contact.rings.reserve(touches);
-  bites_[0].removed.reserve(touches);
+  removals_[0].contact.rings.reserve(touches);
+  removals_[0].removed.reserve(touches);
 }
 
 void BareWheel::step(const Pose& pose) noexcept {
   ToolState tool = tracker_.advance(pose);
   if (!tool.valid) return;
-  ToolRemoval& bite = bites_[0];
-  find_contact<Model::conserving>(plan_.tool, stack_, tool.hip_mm, bite.contact, tool.moved_mm);
-  const bool touches = !bite.contact.rings.empty();
+  ToolRemoval& removal = removals_[0];
+  find_contact<Model::conserving>(plan_.tool, stack_, tool.hip_mm, removal.contact, tool.moved_mm);
+  const bool touches = !removal.contact.rings.empty();
   const int parts = touches || touching_ ? parts_of(tool) : 1;
   touching_ = touches;
   tool.dt_s /= parts;
@@ -46,18 +46,19 @@ void BareWheel::step(const Pose& pose) noexcept {
   for (int part = 1; part <= parts; ++part) {
     const glm::dvec3 hip = tool.hip_mm - static_cast<double>(parts - part) * tool.moved_mm;
     if (parts > 1)
-      find_contact<Model::conserving>(plan_.tool, stack_, hip, bite.contact, tool.moved_mm);
-    if (!bite.contact.rings.empty()) press(tool);
+      find_contact<Model::conserving>(plan_.tool, stack_, hip, removal.contact, tool.moved_mm);
+    if (!removal.contact.rings.empty()) press(tool);
   }
 }
 
 void BareWheel::press(const ToolState& tool) noexcept {
-  ToolRemoval& bite = bites_[0];
+  ToolRemoval& removal = removals_[0];
   const double half_way = 0.5 * tool.moved_mm.y / stack_.ring_height_mm();
-  bite.contact.up_offset += std::max(half_way, 0.0);
-  bite.contact.down_offset += std::max(-half_way, 0.0);
-  compute_removal<Model::conserving>(plan_.removal, stack_, tool.dt_s, bite.contact, bite.removed);
-  press_clay<Model::conserving>(plan_, bites_, tool.upward, stack_, ledger_, &rim_);
+  removal.contact.up_offset += std::max(half_way, 0.0);
+  removal.contact.down_offset += std::max(-half_way, 0.0);
+  compute_removal<Model::conserving>(plan_.removal, stack_, tool.dt_s, removal.contact,
+                                     removal.removed);
+  press_clay<Model::conserving>(plan_, removals_, tool.upward, stack_, ledger_, &rim_);
 }
 
 double bare_stroke_s(const SceneSpec& scene, double depth_mm) {

@@ -26,8 +26,8 @@ class BareWheel {
   Ledger ledger_;
   ToolTracker tracker_;
   Rim rim_;
-  bool touching_ = false;           // in the last pose
-  std::vector<ToolRemoval> bites_;  // one element
+  bool touching_ = false;              // in the last pose
+  std::vector<ToolRemoval> removals_;  // one element
 };
 
 /// Duration [s] of the stroke of `stroke_ns`.

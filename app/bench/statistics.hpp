@@ -21,7 +21,7 @@ struct Spread {
 /// Of a[k] / b[k] for the common length: round by round, so that noise affects both.
 [[nodiscard]] Spread ratio_of(const std::vector<double>& a, const std::vector<double>& b);
 
-/// A requirement on a noisy median is missed where three quarters of the repetitions miss it.
+/// A requirement on a noisy median is missed if three quarters of the repetitions miss it.
 [[nodiscard]] inline bool exceeds(const Spread& measured, double limit) {
   return measured.low > limit;
 }

@@ -14,16 +14,16 @@ namespace {
 
 constexpr double kLumpMm = 150.0, kOuterMm = 45.0, kInnerMm = 25.0, kStrokeBallMm = 10.0;
 constexpr double kSampleS = 0.008;
-constexpr double kLowMm = 5.0, kHighMm = 140.0;  // compared between: the lip may rise
+constexpr double kLowMm = 5.0, kHighMm = 140.0;  // the range of comparison: the lip may rise
 constexpr std::size_t kHeights = 541;            // 0.25 mm apart
 
-/// From 0 to 1 while `time` goes from `begin` to `end`, with no velocity at either.
+/// Rises from 0 to 1 while `time` goes from `begin` to `end`, with zero velocity at both.
 double eased(double time, double begin, double end) {
   const double s = std::clamp((time - begin) / (end - begin), 0.0, 1.0);
   return s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
 }
 
-/// Radius at a height, linear in its square between the centres of rings.
+/// Radius at a height, with its square interpolated between the centres of rings.
 template <class Squared>
 double radius_at(double y_mm, double ring_height_mm, std::size_t rings, Squared squared) {
   const double at = std::clamp(y_mm / ring_height_mm - 0.5, 0.0, static_cast<double>(rings - 1));
@@ -55,7 +55,7 @@ std::vector<Pose> poses_at(int rate_hz) {
   return poses;
 }
 
-/// Its first ring is centred at y = 0, ours at h/2.
+/// The first ring of the paper is centred at y = 0, that of the engine at h/2.
 glm::dvec3 literal_hip(glm::dvec3 hip_mm, const LiteralScene& scene) {
   hip_mm.y -= 0.5 * scene.ring_height_mm;
   return hip_mm;
@@ -71,7 +71,7 @@ int ticks_of(int rate_hz) { return static_cast<int>(std::lround(kStrokeS * rate_
 
 glm::dvec3 stroke_mm(double t) {
   const double in = eased(t, 0.1, 0.7) - eased(t, 2.0, 2.3);
-  // From the start: before any motion up or down the paper has no direction for the clay.
+  // Rises from the start: before any vertical motion the paper has no direction for the clay.
   const double up = eased(t, 0.0, 2.0);
   return {kOuterMm + kStrokeBallMm + 2.0 - 8.0 * in, 50.0 + 50.0 * up, 0.0};
 }
@@ -85,7 +85,8 @@ SceneSpec stroke_scene(const Fineness& fineness, Model model) {
   scene.lump.inner_radius_mm = kInnerMm;
   scene.tool.shape = SphereSpec{kStrokeBallMm};
   scene.flow.reach_mm = fineness.reach_mm;
-  // The paper's K and k are of a ring and of a tick: those of 200 rings at 1 kHz, everywhere.
+  // The paper's K and k are per ring and per tick: those of 200 rings at 1 kHz are used for all
+  // runs.
   scene.force->paper_stiffness_n_per_mm = scene.force->stiffness_n_per_mm2 * kLumpMm / 200.0;
   scene.removal.paper_fraction = scene.removal.rate_per_s / kPaperRateHz;
   scene.stability = StabilitySpec{1e6};
@@ -103,7 +104,7 @@ Outcome play_engine(const Fineness& fineness, Model model) {
     const auto error = static_cast<double>(wheel.ledger().volume_error(wheel.stack().volume()));
     outcome.volume_error = std::max(outcome.volume_error, std::abs(error) / initial);
   }
-  // The running volume is believed no further than the rings bear it out.
+  // The running volume is checked against a recount of the rings.
   const auto counted = static_cast<double>(wheel.ledger().volume_error(wheel.stack().recount()));
   outcome.volume_error = std::max(outcome.volume_error, std::abs(counted) / initial);
   const auto rings = wheel.stack().rings();
@@ -162,7 +163,7 @@ Deviation deviation(const Outcome& outcome, const Outcome& reference) {
   for (const auto surface : {&Outcome::outer_mm, &Outcome::inner_mm})
     for (std::size_t k = 0; k < kHeights; ++k) {
       const double off = std::abs((outcome.*surface)[k] - (reference.*surface)[k]);
-      // Not max: a NaN must show, and stay.
+      // Not max: a NaN must be kept and shown.
       if (std::isnan(off) || off > worst.profile_max_mm) worst.profile_max_mm = off;
       sum_mm += off;
     }

@@ -1,6 +1,6 @@
 #pragma once
-// One stroke of a potter, played by the engine and by the paper as printed, at any fineness: what
-// it leaves and what it makes felt, to be held against a finer one.
+// One stroke, played by the engine and by the paper as printed, at any fineness: the resulting pot
+// and forces, for comparison with a finer run.
 
 #include "app/bench/literal/literal_paper.hpp"
 #include "claystack/engine/scene.hpp"
@@ -13,11 +13,11 @@ namespace clay::bench {
 
 inline constexpr double kStrokeS = 2.4;
 
-/// Ticks of the stroke, without the first, which only says where the tool is.
+/// Ticks of the stroke, without the first, which only sets the tool's position.
 [[nodiscard]] int ticks_of(int rate_hz);
 
 /// A ball comes in from outside, presses a hollow cylinder of 150 mm at a third of its height,
-/// pulls up the wall and goes out again; smooth in time.
+/// pulls up the wall and moves out again; smooth in time.
 [[nodiscard]] glm::dvec3 stroke_mm(double time_s);
 
 struct Fineness {
@@ -27,22 +27,22 @@ struct Fineness {
 };
 [[nodiscard]] SceneSpec stroke_scene(const Fineness& fineness, Model model);
 
-/// What is left of a stroke, at places and times that all finenesses have in common.
+/// The result of a stroke, at positions and times common to all finenesses.
 struct Outcome {
   std::vector<double> outer_mm, inner_mm;  ///< radii over height, between the centres of rings
   std::vector<glm::dvec3> force_n;         ///< every 8 ms
-  double volume_error = 0.0;               ///< of the body, relative; the worst on the way
+  double volume_error = 0.0;               ///< of the body, relative; the maximum during the stroke
   bool collapsed = false;
 };
 
 [[nodiscard]] Outcome play_engine(const Fineness& fineness, Model model);
 [[nodiscard]] Outcome play_literal(const Fineness& fineness);
-/// Seconds of the same ticks when nothing is written down between them.
+/// Duration [s] of the same ticks without recording.
 [[nodiscard]] double time_engine(const Fineness& fineness, Model model);
 [[nodiscard]] double time_literal(const Fineness& fineness);
 
 /// Over both surfaces, and of the length of the force's difference. The ball leaves a ledge, a jump
-/// of the profile: there the largest error cannot fall below half the jump, the mean one can.
+/// of the profile: there the maximum error cannot fall below half the jump, but the mean error can.
 struct Deviation {
   double profile_max_mm = 0.0, profile_mean_mm = 0.0;
   double force_max_n = 0.0, force_rms_n = 0.0;

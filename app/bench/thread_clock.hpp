@@ -3,8 +3,8 @@
 
 namespace clay::cli {
 
-/// Seconds that this thread has run so far. While the machine does something else they stand still:
-/// a tick that was interrupted is no slower. To ask takes some 100 ns.
+/// CPU time [s] of this thread so far. It does not advance while other threads run, so an
+/// interrupted tick is no slower. A call takes about 100 ns.
 inline double thread_seconds() noexcept {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -14,9 +14,9 @@ namespace {
 constexpr double kMostNs = 1000.0;     // of a tick of 200 rings, 30 of them touched
 constexpr double kLeastSpeedUp = 5.0;  // over the paper as printed
 constexpr double kMostGrowth = 1.5;    // from 200 rings to a million
-constexpr int kFewTicks = 20;          // enough of what takes 100 us each
+constexpr int kFewTicks = 20;          // enough where each takes 100 us
 
-/// A presser and how to tell its time of a tick.
+/// A presser with its functions for time and contact.
 struct Contender {
   std::string name, about;
   std::function<double()> press;    ///< seconds
@@ -31,7 +31,7 @@ Contender engine_at(std::string name, std::string about, const SceneSpec& scene,
           [presser] { return presser->rings_touched(); }};
 }
 
-/// With rings taken two at a time, as on a machine without AVX2.
+/// With rings processed two at a time, as on a machine without AVX2.
 Contender in_two_lanes(Contender contender) {
   contender.press = [press = std::move(contender.press)] {
     const bool machine = std::exchange(four_lanes, false);
@@ -49,7 +49,7 @@ Contender literal_at(std::string name, std::string about, const SceneSpec& scene
           [presser] { return presser->rings_touched(); }, static_cast<double>(ticks)};
 }
 
-/// [ns] of a tick, one sample a round.
+/// [ns] per tick, one sample per round.
 std::vector<Samples> tick_ns(const std::vector<Contender>& contenders, const Rounds& rounds) {
   std::vector<Work> works;
   for (const Contender& c : contenders) works.push_back({c.name, c.press});
@@ -106,7 +106,7 @@ void measure_sizes(Section& section, const Effort& effort) {
       least.median, speed_up.median, growth.median);
 }
 
-/// Ribs of all heights, and the paper beside them.
+/// Ribs of all heights, compared with the paper.
 void measure_ribs(Section& section, const Effort& effort) {
   effort.progress("rings touched");
   Table table{"tick_rings",
@@ -151,7 +151,7 @@ void measure_ribs(Section& section, const Effort& effort) {
   section.plots.push_back(std::move(plot));
 }
 
-/// A fast hand's tick is cut into parts: what it costs over the speed of the hand.
+/// The tick of a fast hand is played in parts: its cost over the speed of the hand.
 void measure_speeds(Section& section, const Effort& effort) {
   effort.progress("speeds");
   Table table{"tick_speed",
@@ -171,7 +171,7 @@ void measure_speeds(Section& section, const Effort& effort) {
   section.tables.push_back(std::move(table));
 }
 
-/// From the top to the bottom between two poses: what a tick can cost at most.
+/// From the top to the bottom between two poses: the maximum cost of a tick.
 void measure_jump(Section& section, const Effort& effort) {
   effort.progress("jumps");
   std::vector<Work> works;

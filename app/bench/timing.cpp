@@ -35,7 +35,7 @@ Timed time_once(const Work& work, benchmark::IterationCount repetitions, double 
       benchmark::RegisterBenchmark(work.name.c_str(), [&work](benchmark::State& state) {
         for (auto _ : state) {
           const double seconds = work.once();
-          // Else it would be tried for ever.
+          // Without this the library would repeat it for ever.
           if (!std::isfinite(seconds)) state.SkipWithError("failed");
           state.SetIterationTime(seconds);
         }
@@ -62,7 +62,7 @@ Rounds rounds_of(const Effort& effort) {
 
 std::vector<Samples> time_rounds(const std::vector<Work>& works, const Rounds& rounds) {
   std::vector<benchmark::IterationCount> repetitions;
-  // The first run finds out how often; it warms up, too, and does not count.
+  // The first run determines the number of repetitions; it also warms up, and is not counted.
   for (const Work& work : works)
     repetitions.push_back(
         std::max<benchmark::IterationCount>(1, time_once(work, 0, rounds.least_s).repetitions));

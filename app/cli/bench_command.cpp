@@ -101,7 +101,7 @@ Result<int> run_bench(BenchOptions options, Console console) {
   const auto chosen = bench::chosen_sections(options.only);
   if (!chosen) return tl::make_unexpected(chosen.error());
   if (options.report == "-" && console.json)
-    return failure(ErrorKind::bad_input, "-: expected one thing only on standard output");
+    return failure(ErrorKind::bad_input, "-: expected at most one output on standard output");
   if (options.report == "-") console.quiet = true;
   for (const std::string& folder : {options.csv, options.svg})
     if (auto opened = open_folder(folder); !opened) return tl::make_unexpected(opened.error());

@@ -26,7 +26,8 @@ Result<void> check_usage(const CheckCommand& command) {
       return tl::make_unexpected(format.error());
   if (command.changes_mesh() && !command.certificate.empty())
     return failure(ErrorKind::bad_input,
-                   "--certificate: expected a file as it is, found --repair or --max-triangles");
+                   "--certificate: expected no --repair or --max-triangles, because it verifies "
+                   "the unchanged file");
   return check_distinct({command.out}, {command.file, command.certificate});
 }
 

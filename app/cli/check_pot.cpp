@@ -63,7 +63,7 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command) {
         command.file + ": --repair and --max-triangles are for meshes; export the pot again");
   if (!command.certificate.empty())
     return failure(ErrorKind::bad_input,
-                   command.file + ": expected a mesh, of which certificates speak, found a pot");
+                   command.file + ": expected a mesh for --certificate, found a pot");
   const auto pot = parse_pot(bytes, command.file);
   if (!pot) return tl::make_unexpected(pot.error());
   if (pot->collapse)

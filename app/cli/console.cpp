@@ -83,7 +83,8 @@ Result<void> check_distinct(const std::vector<std::string>& outputs,
     if (std::find(seen.begin(), seen.end(), place(output)) != seen.end())
       return failure(
           ErrorKind::bad_input,
-          output + ": expected a file of its own to write, found it named twice or read from");
+          output +
+              ": expected a separate output file, found another output or an input of that name");
     seen.push_back(place(output));
   }
   return {};

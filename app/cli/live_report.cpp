@@ -39,7 +39,7 @@ Json events_json(const servo::GuardEvents& events) {
   return json;
 }
 
-/// "not_ready 12, safe after position_leaps 1", or the text for no events.
+/// "not_ready 12, safe after position_leaps 1", or "no events".
 std::string events_in_words(const Json& events) {
   std::string words;
   const auto add = [&](const std::string& what, const Json& count) {
@@ -52,7 +52,7 @@ std::string events_in_words(const Json& events) {
       for (const auto& [cause, count] : value.items())
         add(std::string("safe after ").append(cause), count);
   }
-  return words.empty() ? "nothing to tell" : words;
+  return words.empty() ? "no events" : words;
 }
 
 std::string spread(const Json& times) {
@@ -114,7 +114,7 @@ void tell_servo(const Console& console, const Json& servo) {
       servo["work_share_percent"].get<double>(), servo["missed_ticks"].get<std::uint64_t>(),
       servo["stale_ticks"].get<std::uint64_t>()));
   console.say("lateness: " + spread(servo["lateness_us"]));
-  console.say("sleeps alone end late by: " + spread(servo["oversleep_us"]));
+  console.say("oversleep (system alone): " + spread(servo["oversleep_us"]));
   console.say("work: " + spread(servo["work_us"]));
   console.say("age of samples: " + spread(servo["sample_age_us"]));
   console.say("guard: " + events_in_words(servo["guard"]));

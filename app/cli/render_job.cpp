@@ -40,7 +40,7 @@ Result<void> check_usage(const RenderCommand& command, const Console& console) {
     return failure(ErrorKind::bad_input, command.turntable + ": expected a name that ends in .gif");
   const int streams = (command.out == "-") + (command.turntable == "-") + console.json;
   if (streams > 1)
-    return failure(ErrorKind::bad_input, "-: expected one thing only on standard output");
+    return failure(ErrorKind::bad_input, "-: expected at most one output on standard output");
   return check_distinct({command.out, command.turntable}, {command.pot});
 }
 

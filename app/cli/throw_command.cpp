@@ -201,7 +201,7 @@ Result<void> check_names(const ThrowOptions& options, const Console& console) {
   if (auto named = check_pot_name(options.pot); !named) return named;
   const std::vector<std::string> outputs = {options.pot, options.trace, options.error_plot};
   if (std::count(outputs.begin(), outputs.end(), "-") > (console.json ? 0 : 1))
-    return failure(ErrorKind::bad_input, "-: expected one thing only on standard output");
+    return failure(ErrorKind::bad_input, "-: expected at most one output on standard output");
   return check_distinct(outputs, {options.scene, options.session, options.from});
 }
 
@@ -252,8 +252,8 @@ Result<void> throw_work_file(const ThrowOptions& options, const Console& console
   if (other)
     return failure(ErrorKind::bad_input,
                    options.scene +
-                       ": a work holds scenes, poses and its first pot: expected "
-                       "nothing but --at, --list and -o");
+                       ": expected only --at, --list and -o with a work, which "
+                       "holds scenes, poses and its first pot");
   if (auto named = check_pot_name(options.pot); !named) return named;
   if (auto distinct = check_distinct({options.pot}, {options.scene}); !distinct) return distinct;
   return throw_work({options.scene, options.pot, options.at, options.list}, console);
@@ -263,10 +263,11 @@ Result<void> throw_pot(const ThrowOptions& options, const Console& console) {
   if (options.scene.ends_with(".work")) return throw_work_file(options, console);
   if (options.at || options.list)
     return failure(ErrorKind::bad_input,
-                   "--at and --list are of works: expected NAME.work, found " + options.scene);
+                   "--at and --list: expected NAME.work, found " + options.scene);
   if (!options.from.empty() && !options.error_plot.empty())
-    return failure(ErrorKind::bad_input,
-                   "--error-plot throws with both models: expected no --from, as a pot has one");
+    return failure(
+        ErrorKind::bad_input,
+        "--error-plot: expected no --from, because it throws with both models and a pot has one");
 #ifdef CLAYSTACK_FALCON
   if (!options.live.device.empty()) {
     if (!options.trace.empty() || !options.error_plot.empty())

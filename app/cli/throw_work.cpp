@@ -71,7 +71,7 @@ Result<void> throw_work(const WorkJob& job, Console console) {
   if (!loaded) return tl::make_unexpected(loaded.error());
   history::Work& work = loaded->work;
   if (loaded->torn)
-    console.warn(job.work_path + ": the end is cut off; what stands before it is played");
+    console.warn(job.work_path + ": the last line is incomplete; everything before it is played");
   const history::NodeId node = job.at.value_or(work.at());
   if (node >= work.size())
     return failure(ErrorKind::bad_input,

@@ -287,16 +287,16 @@ class WallSearch {
     const EvenOrder order(rays);
     std::size_t steps = most_steps_ / samples_ * rays;
     found.sample = samples_;
-    std::size_t told = 0;
+    std::size_t reported = 0;
     for (std::size_t i = 0; i < rays && steps > 0; ++i) {
       step_of_loop();
       probe_.probe(begin + order[i], steps, found);
       if (i % kFewRays == 0) {
-        tell(i + 1 - told);
-        told = i + 1;
+        tell(i + 1 - reported);
+        reported = i + 1;
       }
     }
-    tell(rays - told);
+    tell(rays - reported);
   }
 
   void tell(std::size_t more) {

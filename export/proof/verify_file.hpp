@@ -20,7 +20,7 @@ namespace clay::solid::inline proof {
 Result<double> verify_file(std::string_view bytes, MeshFormat format, const TriangleMesh& mesh,
                            double allowed_mm);
 
-/// The whole file, checked as a stranger's would be. Unsound is an error.
+/// Checks the whole file like a foreign one. An unsound file is an error.
 Result<MeshReport> check_stored(const FileStore& store, std::uint64_t bytes, MeshFormat format);
 
 }  // namespace clay::solid::inline proof

@@ -122,8 +122,8 @@ void FalconModel::boot(std::uint8_t byte, Answer& answer) {
 }
 
 void FalconModel::load(std::uint8_t byte, Answer& answer) {
-  const bool spoilt = happens(WireFault::echo_error, firmware_.size());
-  const std::uint8_t echo = spoilt ? static_cast<std::uint8_t>(~byte) : byte;
+  const bool damaged = happens(WireFault::echo_error, firmware_.size());
+  const std::uint8_t echo = damaged ? static_cast<std::uint8_t>(~byte) : byte;
   answer.add({&echo, 1});
   firmware_.push_back(byte);
   if (!is_whole(firmware_)) return;

@@ -39,11 +39,11 @@ RC_GTEST_PROP(Histogram, ReturnsQuantilesWithinItsError, ()) {
     const auto place =
         static_cast<std::size_t>(std::ceil(part * static_cast<double>(times.size())));
     const std::int64_t true_ns = times[std::max<std::size_t>(place, 1) - 1];
-    const std::int64_t told = histogram.quantile_ns(part);
-    RC_ASSERT(told >= true_ns);
-    RC_ASSERT(static_cast<double>(told - true_ns) <=
+    const std::int64_t reported = histogram.quantile_ns(part);
+    RC_ASSERT(reported >= true_ns);
+    RC_ASSERT(static_cast<double>(reported - true_ns) <=
               Histogram::kRelativeError * static_cast<double>(true_ns));
-    if (true_ns < 32) RC_ASSERT(told == true_ns);
+    if (true_ns < 32) RC_ASSERT(reported == true_ns);
   }
 }
 

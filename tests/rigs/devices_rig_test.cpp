@@ -100,8 +100,8 @@ TEST_F(DevicesRig, UsesTheGivenGeometryAndMapping) {
       model, [](std::uint64_t) { return Kinematics::kCentreM + glm::dvec3(0.01, -0.02, 0.0); });
   plug_ = std::make_unique<UsbPlug>(testbed_.get(), *falcon_);
   const auto last = [](const std::string& more) {
-    const auto told = [](const std::string& lines) { return lines.ends_with("}\n"); };
-    const std::string lines = monitored(more, told, "a position");
+    const auto complete = [](const std::string& lines) { return lines.ends_with("}\n"); };
+    const std::string lines = monitored(more, complete, "a position");
     return nlohmann::json::parse(lines.substr(lines.rfind('\n', lines.size() - 2) + 1));
   };
   const auto right = last("--geometry martin-hillier --scale 2 --side left --reach 50 --flip x");

@@ -34,7 +34,7 @@ struct ClaySpec {
   double rate_per_s = 20.0;        ///< of removal; 0: the clay is a spring
   double rib_height_mm = 20.0;
 };
-/// A solid cylinder of 45 mm under an upright rib. The height of contact is the rib's.
+/// A solid cylinder of 45 mm under a vertical rib. The height of contact is the rib's.
 SceneSpec clay_scene(const ClaySpec& clay);
 /// Expects a scene that Wheel::build accepts.
 std::unique_ptr<Surface> make_clay(const ClaySpec& clay);

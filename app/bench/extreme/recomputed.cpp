@@ -160,7 +160,7 @@ double Recomputed::slack_of(const Fifty& outer, const Fifty& f, const Fifty& d) 
 }
 
 /// C(x): the sum of P_d(1) .. P_d(x), linear between integers.
-Fifty Recomputed::dealt(const std::vector<Fifty>& sums, const Fifty& x) const {
+Fifty Recomputed::distributed(const std::vector<Fifty>& sums, const Fifty& x) const {
   if (x <= 0) return 0;
   if (x >= sums.size() - 1) return 1;
   const auto below = static_cast<std::size_t>(floor(x).convert_to<double>());
@@ -191,7 +191,7 @@ Fifty Recomputed::give(const Fifty& amount, double slack, int direction) {
     const std::size_t from = direction > 0 ? top_ : bottom_;
     if (direction > 0 ? from + j >= rings_.size() : j > from) break;
     Expected& ring = rings_[direction > 0 ? from + j : from - j];
-    const Fifty part = dealt(sums, j + offset) - before;
+    const Fifty part = distributed(sums, j + offset) - before;
     before += part;
     const Fifty share = part * amount, inside = std::min(Fifty(alpha * share), ring.inner2);
     ring.inner2 -= inside;

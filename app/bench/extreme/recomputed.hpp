@@ -40,7 +40,7 @@ class Recomputed {
                    const Fifty& whole);
   void take_from(std::size_t i, const Fifty& d, const Fifty& way);
   double slack_of(const Fifty& outer, const Fifty& f, const Fifty& d) const;
-  [[nodiscard]] Fifty dealt(const std::vector<Fifty>& sums, const Fifty& x) const;
+  [[nodiscard]] Fifty distributed(const std::vector<Fifty>& sums, const Fifty& x) const;
   [[nodiscard]] std::vector<Fifty> sums_of_weights() const;
   Fifty give(const Fifty& amount, double slack, int direction);
 

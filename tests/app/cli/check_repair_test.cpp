@@ -157,7 +157,7 @@ TEST_P(PlantedFault, IsReportedWithItsPlace) {
 TEST_P(PlantedFault, IsRepairedOrReportedAsRemaining) {
   const ScratchFolder folder;
   const Planted& planted = GetParam();
-  const std::string out = folder.file("mended.stl");
+  const std::string out = folder.file("repaired.stl");
   const Ran run = claystack("check --json --repair " + write(folder) + " -o " + out);
   EXPECT_EQ(run.status, planted.remains.empty() ? 0 : 1) << run.out << run.err;
   const auto json = run.json();

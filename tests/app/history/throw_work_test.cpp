@@ -45,8 +45,8 @@ TEST(ThrowWork, RefusesOptionsInvalidForAWork) {
     EXPECT_NE(run.err.find(message), std::string::npos) << run.err;
   };
   refused(path + " --at 1", "--at: expected a node of " + path + ", from 0 to 0, found 1", 2);
-  refused(path + " -s x.session", "expected nothing but --at, --list and -o", 2);
-  refused(test::sample("bowl.scene.json") + " --list", "--at and --list are of works", 2);
+  refused(path + " -s x.session", "expected only --at, --list and -o", 2);
+  refused(test::sample("bowl.scene.json") + " --list", "--at and --list: expected NAME.work", 2);
   refused(folder.file("none.work"), "none.work: ", 3);
   test::write_text(path, read_text(path) + "{\"at\":7,\"check\":\"0123456789abcdef\"}\n");
   refused(path, path + ":4: at: expected a node below 1, found 7", 2);

@@ -129,8 +129,9 @@ TEST(WorkFile, DetectsEveryFlippedBit) {
       const auto read = parse_work(flipped, "flipped");
       if (!read) continue;
       // The program that wrote a scene or a pot is reported, but is not part of it.
-      const bool told = same(read->work, expected);
-      ASSERT_TRUE(told || (at >= last_line && read->torn)) << "bit " << at % 8 << " of byte " << at;
+      const bool equal = same(read->work, expected);
+      ASSERT_TRUE(equal || (at >= last_line && read->torn))
+          << "bit " << at % 8 << " of byte " << at;
     }
   }
 }

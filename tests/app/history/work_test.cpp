@@ -255,7 +255,7 @@ TEST(Split, KeepsAnUnsplittableRecordingWhole) {
   // The motion of the strokes in free air takes less than 0.1 s.
   EXPECT_TRUE(cut(lump, recording(3, 0.1)).begins.empty());
   EXPECT_TRUE(cut(lump, recording(3, 0.4, true)).begins.empty())
-      << "nothing tells a stroke which way the tool last went";
+      << "a stroke has no earlier direction of the tool";
   Work work = Work::begin(small_scene()).value();
   EXPECT_EQ(work.add(small_scene(), recording(3, 0.4)).value().strokes, 1u) << "poses from a file";
 }

@@ -52,8 +52,8 @@ TEST(ImageFile, GifLoopsItsFrames) {
   EXPECT_EQ(*written, bytes.size());
   EXPECT_NE(bytes.find("NETSCAPE2.0"), std::string::npos);
   write_text(folder.file("a.gif"), bytes);
-  const Ran told = shell("identify -format \"%w %h %T,\" " + folder.file("a.gif"));
-  EXPECT_EQ(told.out, "480 360 8,480 360 8,480 360 8,") << told.err;
+  const Ran output = shell("identify -format \"%w %h %T,\" " + folder.file("a.gif"));
+  EXPECT_EQ(output.out, "480 360 8,480 360 8,480 360 8,") << output.err;
   const auto pixels = decoded(folder.file("a.gif"), folder.file("raw"));
   const std::size_t each = frames.front().rgba.size();
   ASSERT_EQ(pixels.size(), 3 * each);

@@ -144,14 +144,14 @@ TEST(SampledWall, RaysPassCoplanarNeighbours) {
 
 TEST(SampledWall, FollowsFewerRaysBeyondTheStepLimit) {
   const TriangleMesh mesh = cup(40.0, 2.5, 60.0, 6.0);
-  std::size_t told = 0;
+  std::size_t reported = 0;
   const auto half = sampled_wall(mesh, 10'000, 400'000, [&](std::size_t rays) {
-                      EXPECT_GT(rays, told);
-                      told = rays;
+                      EXPECT_GT(rays, reported);
+                      reported = rays;
                     }).value();
   EXPECT_GT(half.rays, 1'000u);
   EXPECT_LT(half.rays, 9'000u);
-  EXPECT_EQ(told, 10'000u);
+  EXPECT_EQ(reported, 10'000u);
   // The remaining rays cover all of the surface, and find the same minimum wall.
   EXPECT_NEAR(half.least_mm, 2.5 * facet_scale(kSegments), 1e-9);
   const SampledWall all = wall_of(mesh);

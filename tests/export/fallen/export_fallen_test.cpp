@@ -23,12 +23,12 @@ TEST(ExportFallen, UnitesTheParts) {
   pot.collapse = Collapse{30, {50, 70, 0}, {0, 0, 1}, 1.0, 12.0};
   ExportOptions options;
   options.tolerance_mm = 0.2;
-  std::vector<std::string> told;
+  std::vector<std::string> reported;
   const auto result = exported(pot, every_format(), options,
-                               [&](std::string_view stage) { told.emplace_back(stage); });
+                               [&](std::string_view stage) { reported.emplace_back(stage); });
   ASSERT_TRUE(result) << result.error().message;
-  EXPECT_EQ(told.at(0), "parts");
-  EXPECT_EQ(told.at(1), "union");
+  EXPECT_EQ(reported.at(0), "parts");
+  EXPECT_EQ(reported.at(1), "union");
   const ExportReport& report = result->report;
   ASSERT_TRUE(report.collapsed);
   EXPECT_TRUE(report.collapsed->check.sound());

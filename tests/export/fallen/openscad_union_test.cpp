@@ -33,8 +33,8 @@ double volume_by_openscad(const TriangleMesh& lower, const TriangleMesh& upper) 
   const ScratchFile program(
       ".scad", "union() { import(\"" + a.path() + "\"); import(\"" + b.path() + "\"); }\n");
   const ScratchFile result(".stl");
-  const std::string told = output_of("openscad -o " + result.path() + " " + program.path());
-  EXPECT_NE(told.find("Simple:        yes"), std::string::npos) << told;
+  const std::string output = output_of("openscad -o " + result.path() + " " + program.path());
+  EXPECT_NE(output.find("Simple:        yes"), std::string::npos) << output;
   std::ifstream file(result.path(), std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   const auto mesh = decode_stl(bytes, "openscad's");

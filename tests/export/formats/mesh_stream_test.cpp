@@ -95,8 +95,8 @@ TEST(MeshStream, ErrorsNameALateLine) {
   const std::string line = std::to_string(8 * kFacets + 2);
   EXPECT_EQ(read_stl(file.source(kMegabyte), "strip.stl").error().message,
             "strip.stl:" + line + ": expected a finite number, found 'up'");
-  MadeFile spoilt = text_strip(kFacets, std::string("end\0solid\n", 10));
-  EXPECT_EQ(read_stl(spoilt.source(kMegabyte), "strip.stl").error().message,
+  MadeFile damaged = text_strip(kFacets, std::string("end\0solid\n", 10));
+  EXPECT_EQ(read_stl(damaged.source(kMegabyte), "strip.stl").error().message,
             "strip.stl:" + line + ": expected text, found a NUL byte");
   MadeFile wide = text_strip(kFacets, "endsolid " + std::string(3 * kMegabyte, 'x'));
   EXPECT_EQ(read_stl(wide.source(kMegabyte), "strip.stl").error().message,

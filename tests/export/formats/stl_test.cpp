@@ -91,11 +91,13 @@ TEST(Stl, AdmeshAgrees) {
   const TriangleMesh mesh = torus(20, 10);
   for (const std::string& bytes : {encode_stl_binary(mesh), encode_stl_ascii(mesh, "torus")}) {
     const samples::ScratchFile file(".stl", bytes);
-    const std::string told = samples::output_of("admesh " + file.path());
-    EXPECT_NE(told.find("Number of facets                 :   400                 400"), told.npos)
-        << told;
-    EXPECT_NE(told.find("Total disconnected facets        :     0                   0"), told.npos);
-    EXPECT_NE(told.find("Normals fixed         :     0"), told.npos);
+    const std::string output = samples::output_of("admesh " + file.path());
+    EXPECT_NE(output.find("Number of facets                 :   400                 400"),
+              output.npos)
+        << output;
+    EXPECT_NE(output.find("Total disconnected facets        :     0                   0"),
+              output.npos);
+    EXPECT_NE(output.find("Normals fixed         :     0"), output.npos);
   }
 }
 

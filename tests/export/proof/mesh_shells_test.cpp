@@ -150,19 +150,20 @@ rc::Gen<Tree> any_tree(int depth) {
   });
 }
 
-/// Adds the shells to the mesh; returns how many are misplaced where `expected` is how this faces.
-std::size_t build(const Tree& tree, const glm::dvec3& low, double side, bool expected, bool spoilt,
+/// Adds the shells to the mesh; returns the number of misplaced ones. `expected`: the orientation
+/// of this shell.
+std::size_t build(const Tree& tree, const glm::dvec3& low, double side, bool expected, bool damaged,
                   TriangleMesh& mesh) {
   // `outward` false: the wrong orientation.
   const bool outward = tree.outward == expected;
   const TriangleMesh shell = moved(cube(side), low);
   mesh = together(std::move(mesh), outward ? shell : inverted(shell));
-  spoilt = spoilt || !tree.outward;
-  std::size_t misplaced = spoilt ? 1 : 0;
+  damaged = damaged || !tree.outward;
+  std::size_t misplaced = damaged ? 1 : 0;
   for (std::size_t i = 0; i < tree.within.size(); ++i) {
     const glm::dvec3 octant(i % 2, i / 2 % 2, i / 4);
     misplaced += build(tree.within[i], low + side * (0.1 + 0.4 * octant), 0.3 * side, !expected,
-                       spoilt, mesh);
+                       damaged, mesh);
   }
   return misplaced;
 }

@@ -40,7 +40,7 @@ std::string names(const RepairedMesh& result) {
 }
 
 /// The mesh is sound again with that volume, and only these repairs were made.
-void expect_mended(const TriangleMesh& broken, double volume_mm3, const std::vector<Repair>& as) {
+void expect_repaired(const TriangleMesh& broken, double volume_mm3, const std::vector<Repair>& as) {
   ASSERT_FALSE(check_mesh(broken).sound());
   const auto result = repair_mesh(broken);
   ASSERT_TRUE(result) << result.error().message;
@@ -74,7 +74,7 @@ TEST(Repair, LeavesASoundMeshUnchanged) {
 TEST(Repair, FillsAHole) {
   TriangleMesh mesh = cube(2.0);
   mesh.triangles.pop_back();
-  expect_mended(mesh, 8.0, {{"hole filled", 1}});
+  expect_repaired(mesh, 8.0, {{"hole filled", 1}});
 }
 
 TEST(Repair, FillsTwoHolesOfManyEdges) {
@@ -84,39 +84,39 @@ TEST(Repair, FillsTwoHolesOfManyEdges) {
   std::erase_if(tube.triangles, [&](const auto& t) {
     return tube.points[t[0]].z == tube.points[t[1]].z && tube.points[t[1]].z == tube.points[t[2]].z;
   });
-  expect_mended(tube, volume, {{"hole filled", 2}});
+  expect_repaired(tube, volume, {{"hole filled", 2}});
 }
 
 TEST(Repair, ReorientsAFlippedFace) {
   for (const std::size_t victim : {0u, 3u}) {
     TriangleMesh mesh = cube(2.0);
     std::swap(mesh.triangles[victim][0], mesh.triangles[victim][1]);
-    expect_mended(mesh, 8.0, {{"triangle turned", 1}});
+    expect_repaired(mesh, 8.0, {{"triangle turned", 1}});
   }
 }
 
 TEST(Repair, ReorientsShells) {
-  expect_mended(inverted(cube(2.0)), 8.0, {{"shell turned", 1}});
+  expect_repaired(inverted(cube(2.0)), 8.0, {{"shell turned", 1}});
   const double outer = signed_volume(ball(10.0)), inner = signed_volume(ball(5.0));
-  expect_mended(together(ball(10.0), ball(5.0)), outer - inner, {{"shell turned", 1}});
-  expect_mended(inverted(together(ball(10.0), inverted(ball(5.0)))), outer - inner,
-                {{"shell turned", 2}});
-  expect_mended(together(cube(2.0), moved(inverted(cube(3.0)), {9, 0, 0})), 35.0,
-                {{"shell turned", 1}});
+  expect_repaired(together(ball(10.0), ball(5.0)), outer - inner, {{"shell turned", 1}});
+  expect_repaired(inverted(together(ball(10.0), inverted(ball(5.0)))), outer - inner,
+                  {{"shell turned", 2}});
+  expect_repaired(together(cube(2.0), moved(inverted(cube(3.0)), {9, 0, 0})), 35.0,
+                  {{"shell turned", 1}});
 }
 
 TEST(Repair, KeepsOneOfDuplicates) {
   TriangleMesh mesh = cube(2.0);
   mesh.triangles.push_back(mesh.triangles[4]);
-  expect_mended(mesh, 8.0, {{"duplicate triangle removed", 1}});
+  expect_repaired(mesh, 8.0, {{"duplicate triangle removed", 1}});
   // Two in one orientation, one in the other: the majority is right.
   mesh.triangles.push_back({mesh.triangles[4][1], mesh.triangles[4][0], mesh.triangles[4][2]});
-  expect_mended(mesh, 8.0, {{"duplicate triangle removed", 2}});
+  expect_repaired(mesh, 8.0, {{"duplicate triangle removed", 2}});
 }
 
 TEST(Repair, MergesSolidsThatShareAFace) {
   // Both contain the square between them, back to back.
-  expect_mended(
+  expect_repaired(
       together(cube(2.0), moved(cube(2.0), {0, 0, 2})), 16.0,
       {{"points of one place merged", 4}, {"triangle back to back with another removed", 4}});
 }
@@ -127,7 +127,7 @@ TEST(Repair, ClosesACrackOfOneUlp) {
   mesh.points.back().z = std::nextafter(2.0F, 3.0F);
   for (const std::size_t t : {2u, 3u})
     std::replace(mesh.triangles[t].begin(), mesh.triangles[t].end(), 6u, 8u);
-  expect_mended(mesh, 8.0, {{"points welded across a crack", 1}});
+  expect_repaired(mesh, 8.0, {{"points welded across a crack", 1}});
 }
 
 TEST(Repair, MergesDuplicatePoints) {
@@ -137,19 +137,19 @@ TEST(Repair, MergesDuplicatePoints) {
     for (const std::uint32_t v : t) soup.points.push_back(cube(2.0).points[v]);
     soup.triangles.push_back({first, first + 1, first + 2});
   }
-  expect_mended(soup, 8.0, {{"points of one place merged", 28}});
+  expect_repaired(soup, 8.0, {{"points of one place merged", 28}});
 }
 
 TEST(Repair, RemovesFins) {
   TriangleMesh mesh = cube(2.0);
   mesh.points.insert(mesh.points.end(), {{3, -3, 1}, {4, -4, 1}});
   mesh.triangles.push_back({0, 1, 8});
-  expect_mended(mesh, 8.0, {{"triangle of a fin removed", 1}});
+  expect_repaired(mesh, 8.0, {{"triangle of a fin removed", 1}});
   mesh.triangles.push_back({8, 1, 9});
-  expect_mended(mesh, 8.0, {{"triangle of a fin removed", 2}});
+  expect_repaired(mesh, 8.0, {{"triangle of a fin removed", 2}});
   // A hole beside the fin does not make the cube a fin.
   mesh.triangles.erase(mesh.triangles.begin() + 9);
-  expect_mended(mesh, 8.0, {{"triangle of a fin removed", 2}, {"hole filled", 1}});
+  expect_repaired(mesh, 8.0, {{"triangle of a fin removed", 2}, {"hole filled", 1}});
 }
 
 TEST(Repair, SplitsAVertexButLeavesTheSolidsTouching) {
@@ -178,7 +178,7 @@ TEST(Repair, RemovesASliver) {
   mesh.points.push_back({1, 0, 0});
   std::erase(mesh.triangles, (std::array<std::uint32_t, 3>{0, 1, 5}));
   mesh.triangles.insert(mesh.triangles.end(), {{0, 8, 5}, {8, 1, 5}, {0, 1, 8}});
-  expect_mended(mesh, 8.0, {{"triangle without area removed", 1}});
+  expect_repaired(mesh, 8.0, {{"triangle without area removed", 1}});
 }
 
 TEST(Repair, DropsInvalidTriangles) {
@@ -186,7 +186,7 @@ TEST(Repair, DropsInvalidTriangles) {
   mesh.points.push_back({std::numeric_limits<double>::quiet_NaN(), 0, 0});
   mesh.triangles.push_back({0, 1, 8});
   mesh.triangles.push_back({0, 1, 99});
-  expect_mended(mesh, 8.0, {{"triangle without a place removed", 2}});
+  expect_repaired(mesh, 8.0, {{"triangle without a place removed", 2}});
   mesh = cube(2.0);
   mesh.points[6].x = std::numeric_limits<double>::infinity();
   const auto lost_corner = repair_mesh(mesh);
@@ -218,7 +218,7 @@ RC_GTEST_PROP(Repair, RepairsEveryRemovedOrFlippedTriangle, (const ClayStack& st
   const auto found = profile_of(stack);
   if (!found || !certify(found->profile)) RC_DISCARD("no certificate");
   const TriangleMesh mesh = revolve(found->profile, 5);
-  if (!check_mesh(mesh).sound()) RC_DISCARD("walls thinner than doubles tell");
+  if (!check_mesh(mesh).sound()) RC_DISCARD("walls thinner than doubles resolve");
   const auto victim = *rc::gen::inRange<std::size_t>(0, mesh.triangles.size());
   TriangleMesh broken = mesh;
   if (*rc::gen::arbitrary<bool>())

@@ -96,7 +96,7 @@ class WallOracle {
     return {e.from.rho + s * (e.to.rho - e.from.rho), e.from.y + s * (e.to.y - e.from.y)};
   }
 
-  /// The place of `p` on the edge, or -1 if it is not there.
+  /// The position of `p` on the edge, or -1 if it is elsewhere.
   static double along(const Edge& e, const ProfilePoint& p) {
     const double s = std::clamp(
         ((p.rho - e.from.rho) * (e.to.rho - e.from.rho) + (p.y - e.from.y) * (e.to.y - e.from.y)) /

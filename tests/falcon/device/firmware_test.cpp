@@ -95,10 +95,10 @@ TEST(Firmware, RefusesOverlappingBlocks) {
 }
 
 RC_GTEST_PROP(Firmware, ReadsOrRefusesAnyBytes, (std::vector<std::uint8_t> bytes)) {
-  auto spoilt = dummy_firmware(4, 2);
-  const auto at = *rc::gen::inRange<std::size_t>(0, spoilt.size());
-  spoilt.insert(spoilt.begin() + static_cast<long>(at), bytes.begin(), bytes.end());
-  const auto parsed = parse_firmware(spoilt, "name of the file");
+  auto damaged = dummy_firmware(4, 2);
+  const auto at = *rc::gen::inRange<std::size_t>(0, damaged.size());
+  damaged.insert(damaged.begin() + static_cast<long>(at), bytes.begin(), bytes.end());
+  const auto parsed = parse_firmware(damaged, "name of the file");
   if (!parsed) RC_ASSERT(parsed.error().what.starts_with("name of the file: expected"));
 }
 

@@ -251,12 +251,12 @@ TEST(FrameReader, LosesOneFrameForALostOrDamagedByte) {
   std::string good;
   for (int i = 0; i < 4; ++i) good += "<JFKPAAAABAAAAA>";
   for (std::size_t at = 0; at < good.size(); ++at) {
-    std::string shorter = good, spoilt = good, longer = good;
+    std::string shorter = good, damaged = good, longer = good;
     shorter.erase(at, 1);
-    spoilt[at] = '\0';
+    damaged[at] = '\0';
     longer.insert(at, 1, 'A');
     EXPECT_EQ(read_text(shorter).size(), 3u) << at;
-    EXPECT_GE(read_text(spoilt).size(), 3u) << at;
+    EXPECT_GE(read_text(damaged).size(), 3u) << at;
     EXPECT_GE(read_text(longer).size(), 3u) << at;
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The wall of a mesh that has no profile: seen from many places, never bounded.
+// The wall of a mesh that has no profile: sampled at many points, not bounded.
 
 #include "claystack/core/result.hpp"
 #include "claystack/export/solid.hpp"
@@ -11,7 +11,7 @@
 
 namespace clay::solid::inline check {
 
-/// What rays found. A sampling and no bound: between the rays the wall may be thinner.
+/// The result of the rays: sampled values, not a bound. Between the rays the wall may be thinner.
 struct SampledWall {
   double least_mm = std::numeric_limits<double>::infinity();  ///< infinite if nothing was hit
   glm::dvec3 place{0.0};       ///< the start of that ray on the surface [mm]

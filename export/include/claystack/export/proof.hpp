@@ -97,9 +97,9 @@ std::string write_certificate(const SolidCertificate& certificate);
 Result<SolidCertificate> parse_certificate(std::string_view bytes, std::string_view name);
 
 // ---- mesh check ----------------------------------------------------------------------
-// Is a mesh a solid that prints? The tests know nothing of how the mesh was made.
+// Checks whether a mesh is a printable solid, independently of how the mesh was made.
 
-/// One thing wrong with a mesh, and where.
+/// One defect of a mesh, and its place.
 struct MeshProblem {
   std::string what;       ///< "open edge", "inside out", "self-intersection", ...
   std::string where;      ///< triangle numbers and coordinates in mm, for people
@@ -107,43 +107,45 @@ struct MeshProblem {
 };
 
 struct MeshReport {
-  bool closed = false;    ///< no edge has a face on one side only
-  bool manifold = false;  ///< no edge of more than two faces, no vertex of two fans
+  bool closed = false;    ///< no edge has only one face
+  bool manifold = false;  ///< no edge of more than two faces, no vertex with two fans
   bool oriented = false;  ///< neighbours agree, and (if closed) normals point out of the clay
-  /// Pairs of triangles that meet where they should not; counting stops at 100 000.
+  /// Pairs of triangles that intersect outside shared edges and vertices; counting stops at 100
+  /// 000.
   std::size_t self_intersections = 0;
-  /// Shells lie beside or inside each other in alternating turns, be it inside out. False too
-  /// where that has no meaning: open, crossing itself or with degenerate triangles.
+  /// Shells lie beside or inside each other with alternating orientation, possibly inside out. Also
+  /// false where this is undefined: open, self-intersecting or with degenerate triangles.
   bool bounds_volume = false;
   std::size_t components = 0;
-  std::size_t cavities = 0;    ///< shells that are turned inward, of a mesh that bounds a volume
-  double trapped_mm3 = 0.0;    ///< what they enclose: resin or powder stays in
-  std::size_t degenerate = 0;  ///< triangles of no area
+  std::size_t cavities = 0;    ///< inward shells of a mesh that bounds a volume
+  double trapped_mm3 = 0.0;    ///< the volume they enclose, which traps resin or powder
+  std::size_t degenerate = 0;  ///< triangles of zero area
   std::size_t triangles = 0;
   double volume_mm3 = 0.0;
-  bool out_of_memory = false;  ///< the check was abandoned for that, which is no fault of the mesh
+  bool out_of_memory =
+      false;  ///< the check stopped for lack of memory, which is no fault of the mesh
   std::vector<MeshProblem> problems;
 
   [[nodiscard]] bool sound() const noexcept { return problems.empty(); }
 };
 
-/// Combinatorics by our own count over the indices; crossings by CGAL's exact predicates on the
-/// pairs that a sieve leaves, in parts that all cores share (the report does not depend on how many
-/// there are); how several shells lie by one ray from the top of each, with exact predicates too.
-/// `check_bench 20000000 1 1` prints time and peak memory of the largest mesh, `check_bench fans`
-/// the time that vertices of many triangles take.
-/// An inward shell (a closed cavity) is sound when it lies inside an outward one.
+/// Topology is counted on the indices; intersections use CGAL's exact predicates on the pairs that
+/// a broad phase leaves, in parts shared by all cores (the report does not depend on their number);
+/// the nesting of shells uses one ray from the top of each, also with exact predicates.
+/// `check_bench 20000000 1 1` prints time and peak memory for the largest mesh, `check_bench fans`
+/// the time for vertices of many triangles. An inward shell (a closed cavity) is sound if it lies
+/// inside an outward one.
 MeshReport check_mesh(const TriangleMesh& mesh);
 
-/// Estimate of the memory [bytes] that check_mesh takes beside a mesh of `triangles`: 50 bytes a
-/// triangle were measured for one shell of 20 million. Shells that are many, small and nested take
-/// up to twice as much.
+/// Estimated memory [bytes] of check_mesh in addition to a mesh of `triangles`: 50 bytes per
+/// triangle were measured for one shell of 20 million. Many small, nested shells take up to twice
+/// as much.
 [[nodiscard]] constexpr std::uint64_t check_memory(std::size_t triangles) noexcept {
   return std::uint64_t{60} * triangles;
 }
 
-/// One problem where the volume is farther than stated from the one stated (but for what adding it
-/// up in double costs, 1e-9 of it); none where the mesh keeps what its file states.
+/// Reports one problem if the volume differs from the claimed one by more than its bound (plus 1e-9
+/// of it for summation in double); none if the mesh agrees with its claims.
 [[nodiscard]] std::vector<MeshProblem> compare_with_claims(const TriangleMesh& decoded,
                                                            const DracoClaims& claims);
 

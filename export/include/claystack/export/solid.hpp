@@ -51,22 +51,22 @@ TriangleMesh revolve(const Profile& profile, std::size_t segments);
 [[nodiscard]] std::size_t segments_for(double radius_mm, double tolerance_mm) noexcept;
 
 // ---- decimate ------------------------------------------------------------------------
-// Fewer triangles for meshes that have no profile to make them from again.
+// Fewer triangles for meshes that have no profile to revolve again.
 
 struct DecimatedMesh {
-  TriangleMesh mesh;  ///< on points of the mesh that came in
-  /// The largest distance from a vertex of either mesh to the surface of the other: measured, but
-  /// at the vertices only. Between them surfaces may lie farther apart.
+  TriangleMesh mesh;  ///< on points of the input mesh
+  /// The largest distance from a vertex of either mesh to the surface of the other. Measured at the
+  /// vertices only; between them the surfaces may be farther apart.
   double max_error_mm = 0.0;
 };
 
 inline constexpr std::size_t kFewestTriangles = 4;
 
-/// At most `max_triangles`, by collapsing edges in the order of OpenMesh's error quadrics (Garland,
-/// Heckbert, "Surface simplification using quadric error metrics"), none of which may turn a face
-/// over. A mesh within the limit comes back as it is. Nothing keeps walls from meeting: check what
-/// comes out. Errors of kind `unsound`: the mesh is no closed manifold with neighbours agreeing,
-/// or no further edge may collapse (how far it came is said); `bad_input`: a limit below 4.
+/// Reduces to at most `max_triangles` by collapsing edges in the order of OpenMesh's error quadrics
+/// (Garland, Heckbert, "Surface simplification using quadric error metrics"); no collapse may flip
+/// a face. A mesh within the limit is returned unchanged. Walls may come to intersect: check the
+/// result. Errors of kind `unsound`: the mesh is not a closed, oriented manifold, or no further
+/// edge can collapse (the message holds the number reached); `bad_input`: a limit below 4.
 Result<DecimatedMesh> decimate(const TriangleMesh& sound_mesh, std::size_t max_triangles);
 
 }  // namespace clay::solid

@@ -72,31 +72,33 @@ inline constexpr std::size_t kMaxWallSamples = 100'000;
 /// "outer", "bore", ...
 [[nodiscard]] std::string_view name_of(WallFace face);
 
-/// Of the samples in a table: none is farther from the next along an edge.
+/// Maximum distance of consecutive samples in a table, along an edge.
 inline constexpr double kWallTableSpacingMm = 0.5;
 
-/// CSV with a header, for plots and spreadsheets; lengths in mm, thickness empty where nothing is
+/// CSV with a header, for plots and spreadsheets; lengths in mm, thickness empty if no face is
 /// opposite.
 [[nodiscard]] std::string wall_table(const std::vector<WallSample>& field);
 
 // ---- wall limits ---------------------------------------------------------------------
-// What the user, or a way of making things, asks of walls. Every figure says where it comes from.
+// The minimum walls required by the user or by a manufacturing process. Every figure names its
+// source.
 
-/// The least wall that is asked for, and by whom.
+/// A minimum wall and its source.
 struct WallLimit {
-  /// Holds for objects whose width, depth and height add up to no more than this.
+  /// Applies to objects whose width, depth and height add up to at most this.
   double up_to_size_sum_mm = std::numeric_limits<double>::infinity();
   double min_wall_mm = 0.0;
-  std::string source;   ///< whose figure it is
-  std::string process;  ///< that asks for it; empty: the user does
+  std::string source;   ///< source of the figure
+  std::string process;  ///< the process that requires it; empty: the user
 
-  /// "porcelain: WHOSE FIGURE".
+  /// "porcelain: SOURCE".
   [[nodiscard]] std::string asked_by() const;
 };
 
 struct ProcessLimits {
   std::string name;
-  std::vector<WallLimit> walls;  ///< by rising size; the last holds for all larger objects too
+  std::vector<WallLimit>
+      walls;  ///< by increasing size; the last also applies to all larger objects
 
   [[nodiscard]] const WallLimit& wall_for(double size_sum_mm) const noexcept;
 };
@@ -110,24 +112,24 @@ Result<ProcessLimits> process_named(std::string_view name);
 /// JSON as in samples/schema/process.schema.json; errors name the file and the field.
 Result<ProcessLimits> parse_process(std::string_view bytes, std::string_view file_name);
 
-/// One of kProcessNames, or the file of that name, which ends in .json.
+/// One of kProcessNames, or a file name ending in .json.
 Result<ProcessLimits> read_process(const std::string& name);
 
-/// What is asked of the walls of an object, before its size is known.
+/// The requirements on the walls of an object, before its size is known.
 struct WallDemand {
   std::optional<double> min_wall_mm;
   std::optional<ProcessLimits> process;
 
-  /// For an object whose width, depth and height add up to this: of both the larger figure. Nothing
-  /// where nothing is asked.
+  /// For an object whose width, depth and height add up to this: the larger of both figures. Empty
+  /// without requirements.
   [[nodiscard]] std::optional<WallLimit> for_size(double size_sum_mm) const;
 };
 
-/// "3.440 mm, expected 3.000 mm at least (WHOSE FIGURE)".
+/// "3.440 mm, expected 3.000 mm at least (SOURCE)".
 [[nodiscard]] std::string wall_text(double thinnest_mm, const WallLimit& limit);
 
-/// The same with the stretches of the section's faces that are too thin, the first few of them:
-/// "...; thinner: bore from 64.0 to 137.2 mm of height, ...".
+/// The same with the first few parts of the section's faces that are too thin: "...; thinner: bore
+/// from 64.0 to 137.2 mm of height, ...".
 [[nodiscard]] std::string thin_wall_text(const Profile& profile, double thinnest_mm,
                                          const WallLimit& limit);
 
