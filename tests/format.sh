@@ -2,11 +2,17 @@
 # Reports the files that clang-format 14 would change. `tests/format.sh --fix` changes them.
 set -eu
 cd "$(dirname "$0")/.."
+sources() {
+  find core engine export falcon app samples tests \( -name '*.cpp' -o -name '*.hpp' \) -print0
+}
 if [ "${1-}" = --fix ]; then
-  options=-i
-else
-  options="--dry-run -Werror"
+  sources | xargs -0 clang-format-14 -i
+  exit
 fi
-# shellcheck disable=SC2086  # a list of words
-find core engine export falcon app samples tests \( -name '*.cpp' -o -name '*.hpp' \) -print0 |
-  xargs -0 clang-format-14 $options
+# Not --dry-run: version 14 reports the end of every `namespace a::inline b`, and changes nothing.
+sources | xargs -0 -n 50 -P 2 sh -c '
+  status=0
+  for file; do
+    clang-format-14 "$file" | cmp -s - "$file" || { echo "$file: not formatted" >&2; status=1; }
+  done
+  exit $status' sh

@@ -3,10 +3,10 @@
 #include "claystack/engine/collapse.hpp"
 #include "claystack/export/formats.hpp"
 #include "claystack/export/solid.hpp"
-#include "export/proof/describe.hpp"
 #include "export/fallen/mesh_union.hpp"
 #include "export/fallen/pockets.hpp"
 #include "export/fallen/seam_cure.hpp"
+#include "export/proof/describe.hpp"
 #include "export/proof/verify_file.hpp"
 
 #include <algorithm>

@@ -1,11 +1,11 @@
 #include "export/job/revolve_files.hpp"
 
 #include "claystack/export/solid.hpp"
-#include "export/proof/describe.hpp"
 #include "export/formats/draco_bits.hpp"
 #include "export/formats/shaded_obj.hpp"
 #include "export/formats/stl_stream.hpp"
 #include "export/formats/stored_file.hpp"
+#include "export/proof/describe.hpp"
 #include "export/proof/revolve_match.hpp"
 #include "export/proof/rounded_claims.hpp"
 #include "export/proof/verify_file.hpp"

@@ -22,7 +22,7 @@ struct NestedShell {
   std::uint32_t top = 0;       ///< the first vertex of the largest z
   bool outward = false;
   std::uint32_t around = kNoShell;  ///< the shell that it lies in
-  bool inner = false;            ///< it lies in an odd number of shells
+  bool inner = false;               ///< it lies in an odd number of shells
   bool misplaced = false;
 };
 
@@ -192,7 +192,7 @@ class Nest {
 
   const TriangleMesh& mesh_;
   std::vector<std::uint32_t> shell_of_;  ///< by triangle
-  std::vector<NestedShell> shells_;            ///< in the order of their first triangles
+  std::vector<NestedShell> shells_;      ///< in the order of their first triangles
   std::uint32_t highest_ = 0;            ///< shell
   std::vector<std::optional<RayUpward::Hit>> hits_;
   std::size_t steps_ = 0;

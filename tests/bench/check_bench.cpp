@@ -9,8 +9,8 @@
 
 #include "tests/bench/cgal_peer.hpp"
 
-#include "claystack/export/proof.hpp"
 #include "claystack/export/formats.hpp"
+#include "claystack/export/proof.hpp"
 #include "claystack/export/solid.hpp"
 
 #include <sys/resource.h>

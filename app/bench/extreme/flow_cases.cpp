@@ -9,7 +9,6 @@
 namespace clay::extreme {
 namespace {
 
-
 void press_the_middle(Trial& trial) {
   trial.stroke({40, 22, 0}, {36, 26, 0}, 40);
   trial.stroke({36, 26, 0}, {35, 34, 0}, 80);
