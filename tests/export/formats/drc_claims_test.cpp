@@ -1,4 +1,5 @@
 #include "claystack/export/formats.hpp"
+#include "claystack/export/proof.hpp"
 
 #include "core/content_hash.hpp"
 #include "tests/export/fallen/peer_program.hpp"

@@ -82,7 +82,9 @@ TEST(ProcessLimits, ErrorsNameTheKindOfAnotherFile) {
   expect("radius, height\n10, 0",
          "expected a JSON object, found text that begins with 'radius, height'");
   expect(std::string(84, '\0'), "expected a JSON object, found binary data");
-  EXPECT_TRUE(parse_process(std::string("\xEF\xBB\xBF") + kWorkshop, "w.json"));
+  std::string marked = "\xEF\xBB\xBF";
+  marked += kWorkshop;
+  EXPECT_TRUE(parse_process(marked, "w.json"));
 }
 
 }  // namespace
