@@ -36,6 +36,9 @@ struct Contact {
   /// Behind the leading end; see front.hpp. Here `coverage` is the height of a piece in rings.
   std::array<RingContact, 4> front;
   bool has_front = false;
+  /// Of the tool's lower and upper end, where they lie in the clay: (depth cos theta)^2 [mm^2]. The
+  /// force needs it where a tool ends with a flat face, as a rib does; see front.hpp.
+  std::array<double, 2> end_depth2{};
 };
 
 /// How deep a tool of radius f at its height is in the ring.

@@ -35,6 +35,8 @@ glm::dvec3 spring_force(const ForcePlan& plan, const Contact& contact) noexcept 
   for (std::size_t k = 0; k < contact.edge_count; ++k) add_part(contact.edges[k]);
   if (contact.has_front)
     for (const RingContact& piece : contact.front) add_part(piece);
+  if constexpr (model == Model::conserving)
+    vertical += 0.5 * plan.per_ring_mm * (contact.end_depth2[0] - contact.end_depth2[1]);
   const double out = contact.side == Side::compressive ? radial : -radial;
   return plan.stiffness_n_per_mm *
          glm::dvec3(out * contact.radial_x, vertical, out * contact.radial_z);

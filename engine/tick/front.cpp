@@ -119,15 +119,48 @@ void feel_lead(const Profile& profile, const StepPlan& plan, const ClayStack& st
   if (rings[1].depth_mm != nullptr) *rings[1].coverage = std::min(all - reach, h) / h;
 }
 
+/// How deep an end of the tool is in the clay that it has not passed, or has left behind.
+double depth_at_end(const Tool& tool, const ClayStack& stack, double hip_y, const Contact& contact,
+                    bool upper) noexcept {
+  const double t = upper ? tool.high() : tool.low(), h = stack.ring_height_mm();
+  const double level = (hip_y + t) / h, size = static_cast<double>(stack.size());
+  if (!(level > 0.0 && level * h < stack.height_mm())) return 0.0;
+  if (contact.has_front && (contact.rise_mm > 0.0) == upper && contact.rise_mm != 0.0)
+    return contact.front[0].depth_mm;
+  const auto ring = static_cast<std::size_t>(std::min(level, size - 1.0));
+  for (std::size_t k = 0; k < contact.edge_count; ++k)
+    if (contact.edge_end[k] == (level >= size ? 0 : upper ? 1 : -1))
+      return contact.edges[k].depth_mm;
+  if (level >= size || !contact.rings.has(ring)) return 0.0;
+  // The ring's depth is that in the middle of what the tool covers of it.
+  const double low = std::max(static_cast<double>(ring) * h - hip_y, tool.low());
+  const double high = std::min(static_cast<double>(ring + 1) * h - hip_y, tool.high());
+  const double depth = contact.rings.get(ring).depth_mm;
+  return depth > 0.0 ? depth + tool.radius(t) - tool.radius(0.5 * (low + high)) : 0.0;
+}
+
+void feel_ends(const Tool& tool, const ClayStack& stack, double hip_y, Contact& contact) noexcept {
+  contact.end_depth2 = {};
+  if (std::holds_alternative<EllipseProfile>(tool.profile())) return;  // cos theta = 0 at its poles
+  for (const bool upper : {false, true}) {
+    const double t = upper ? tool.high() : tool.low(), slope = tool.slope(t);
+    const double depth = std::max(depth_at_end(tool, stack, hip_y, contact, upper), 0.0);
+    contact.end_depth2[upper ? 1 : 0] = depth * depth / (1.0 + slope * slope);
+  }
+}
+
 }  // namespace
 
 void feel_front(const StepPlan& plan, const ClayStack& stack, double hip_y, double dt_s,
                 Contact& contact) noexcept {
-  if (!(dt_s > 0.0)) return;
-  level_edges(contact);
-  Lead lead;
-  if (contact.rise_mm == 0.0 || !find_lead(plan, stack, hip_y, dt_s, contact, lead)) return;
-  std::visit([&](const auto& p) { feel_lead(p, plan, stack, lead, contact); }, plan.tool.profile());
+  if (dt_s > 0.0) {
+    level_edges(contact);
+    Lead lead;
+    if (contact.rise_mm != 0.0 && find_lead(plan, stack, hip_y, dt_s, contact, lead))
+      std::visit([&](const auto& p) { feel_lead(p, plan, stack, lead, contact); },
+                 plan.tool.profile());
+  }
+  feel_ends(plan.tool, stack, hip_y, contact);
 }
 
 }  // namespace clay

@@ -86,7 +86,8 @@ ForcePlan force_plan(const SceneSpec& s) {
   const double per_ring = s.force->stiffness_n_per_mm2 * s.lump.ring_height_mm;
   const double k =
       s.model == Model::paper ? s.force->paper_stiffness_n_per_mm.value_or(per_ring) : per_ring;
-  return {k, s.force->limit_n, s.force->friction, s.force->counterclockwise ? 1.0 : -1.0};
+  return {k, s.force->limit_n, s.force->friction, s.force->counterclockwise ? 1.0 : -1.0,
+          1.0 / s.lump.ring_height_mm};
 }
 
 StabilityPlan stability_plan(const SceneSpec& s) {

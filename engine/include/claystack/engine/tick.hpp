@@ -156,6 +156,7 @@ struct ForcePlan {
   double limit_n = 5.0;
   double friction = 0.0;
   double turn = 1.0;  ///< +1 counterclockwise seen from above, -1 clockwise
+  double per_ring_mm = 1.0;  ///< 1 / h
 };
 
 struct StabilityPlan {
