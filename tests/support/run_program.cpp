@@ -76,7 +76,7 @@ Ran Program::wait(std::chrono::seconds deadline) {
 Ran shell(const std::string& command) { return Program(command).wait(); }
 
 Ran claystack(const std::string& arguments) {
-  return shell(std::string(CLAYSTACK_PROGRAM) + " " + arguments);
+  return shell(std::string(CLAYSTACK_PROGRAM).append(" ").append(arguments));
 }
 
 ScratchFolder::ScratchFolder() {
@@ -101,6 +101,6 @@ void write_text(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-std::string sample(const std::string& name) { return std::string(CLAYSTACK_SAMPLES) + "/" + name; }
+std::string sample(const std::string& name) { return std::string(CLAYSTACK_SAMPLES).append("/").append(name); }
 
 }  // namespace clay::test
