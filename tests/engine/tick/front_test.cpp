@@ -80,7 +80,7 @@ TEST_F(Front, IsAbsentForAStandingTool) {
 
 /// Over the rim and back along another way, through clay that does not give way: a force that is
 /// minus a gradient does no work. Without the end term a rib injects 63 % of what it goes through.
-TEST(Front, AToolWithFlatEndsDoesNoWorkOverTheRim) {
+TEST(FlatEnds, DoNoWorkOverTheRim) {
   for (const ToolShapeSpec& shape :
        {ToolShapeSpec{RibSpec{20.0, 6.0}}, ToolShapeSpec{SampledSpec{{-8, 0, 9}, {3, 6, 2}}}})
     for (const double h : {2.0, 0.5}) {
