@@ -180,8 +180,8 @@ TEST(PotCheck, SaysAThinWallWithItsHeight) {
   EXPECT_TRUE(thin_stretches(check_pot(question_of(pot_of(cup_rings()), "porcelain"))).empty());
 }
 
-TEST(PotCheck, HoldsWallsAgainstAProcessOfOnesOwn) {
-  const std::string file = std::string(CLAYSTACK_SAMPLES) + "/workshop.process.json";
+TEST(PotCheck, ComparesWallsWithAProcessFile) {
+  const std::string file = std::string(CLAYSTACK_SAMPLES).append("/workshop.process.json");
   const PotCheck check = check_pot(question_of(pot_of(cup_rings()), file));
   ASSERT_TRUE(check.limit);
   EXPECT_EQ(check.limit->min_wall_mm, 4.0) << "up to 400 mm of size";
