@@ -29,7 +29,7 @@ class Potter {
 
   /// Drives a ball into the lump, down to a floor of so much.
   void open(double floor_mm = 8.0);
-  void widen(double most_mm = 25.0);  ///< in two passes
+  void widen(double most_mm = 25.0);                 ///< in two passes
   void pull(double gap_mm, double target_mm = 0.0);  ///< between two fingers; 0: where the wall is
   void belly(double depth_mm);
   void collar(double depth_mm, int passes = 4);

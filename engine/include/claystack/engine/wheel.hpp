@@ -25,8 +25,8 @@ enum StepFlag : std::uint32_t {
 };
 
 struct StepReport {
-  /// Force on the hand [N], of both tools for a pinch: the spring of the contact, and the friction of
-  /// the turning wheel, which does work on the hand. A passivity check needs the spring alone.
+  /// Force on the hand [N], of both tools for a pinch: the spring of the contact, and the friction
+  /// of the turning wheel, which does work on the hand. A passivity check needs the spring alone.
   glm::dvec3 spring_n{0.0}, friction_n{0.0};
   std::uint32_t flags = 0;
   std::uint32_t rings_touched = 0;  ///< by both tools of a pinch together
