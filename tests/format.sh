@@ -10,9 +10,9 @@ if [ "${1-}" = --fix ]; then
   exit
 fi
 # Not --dry-run: version 14 reports the end of every `namespace a::inline b`, and changes nothing.
-sources | xargs -0 -n 50 -P 2 sh -c '
-  status=0
+sources | xargs -0 -n 50 -P 2 bash -c '
+  cmp -s <(cat "$@") <(clang-format-14 "$@") && exit
   for file; do
-    clang-format-14 "$file" | cmp -s - "$file" || { echo "$file: not formatted" >&2; status=1; }
+    clang-format-14 "$file" | cmp -s - "$file" || echo "$file: not formatted" >&2
   done
-  exit $status' sh
+  exit 1' bash

@@ -127,7 +127,9 @@ double depth_at_end(const Tool& tool, const ClayStack& stack, double hip_y, cons
   if (!(level > 0.0 && level * h < stack.height_mm())) return 0.0;
   if (contact.has_front && (contact.rise_mm > 0.0) == upper && contact.rise_mm != 0.0)
     return contact.front[0].depth_mm;
-  const auto ring = static_cast<std::size_t>(std::min(level, size - 1.0));
+  auto ring = static_cast<std::size_t>(std::min(level, size - 1.0));
+  // An end between two rings belongs to the one inside the tool, at both ends alike.
+  if (upper && ring > 0 && static_cast<double>(ring) == level) --ring;
   for (std::size_t k = 0; k < contact.edge_count; ++k)
     if (contact.edge_end[k] == (level >= size ? 0 : upper ? 1 : -1))
       return contact.edges[k].depth_mm;

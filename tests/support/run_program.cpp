@@ -101,6 +101,8 @@ void write_text(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-std::string sample(const std::string& name) { return std::string(CLAYSTACK_SAMPLES).append("/").append(name); }
+std::string sample(const std::string& name) {
+  return std::string(CLAYSTACK_SAMPLES).append("/").append(name);
+}
 
 }  // namespace clay::test

@@ -253,7 +253,7 @@ TEST_F(CheckRepair, ReportsBadUsageBeforeAnyWork) {
   };
   refused("--repair " + in, "-o");
   refused(in + " -o " + folder.file("out.stl"), "--repair");
-  refused("--repair " + in + " -o " + in, "of its own");
+  refused("--repair " + in + " -o " + in, "in.stl: expected a separate output file");
   refused("--repair " + in + " -o " + folder.file("out.step"), ".obj");
   refused(in + " --max-triangles 3 -o " + folder.file("out.stl"), "max-triangles");
   refused(in + " --min-wall 1 --wall-samples 0", "wall-samples");

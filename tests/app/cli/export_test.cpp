@@ -176,8 +176,10 @@ TEST_F(ExportBowl, RefusesAndWritesNothing) {
     EXPECT_NE(run.err.find(says), std::string::npos) << run.err;
   };
   expect(pot + " " + folder.file("x.stl") + " " + folder.file("x.ply"), 2, "x.ply");
-  expect(pot + " " + folder.file("x.stl") + " " + folder.file("./x.stl"), 2, "twice");
-  expect(pot + " " + folder.file("x.stl") + " " + pot, 2, "read from");
+  expect(pot + " " + folder.file("x.stl") + " " + folder.file("./x.stl"), 2,
+         "./x.stl: expected a separate output file");
+  expect(pot + " " + folder.file("x.stl") + " " + pot, 2,
+         "bowl.pot.json: expected a separate output file");
   expect(folder.file("none.pot.json") + " " + folder.file("x.stl"), 3, "none.pot.json");
   expect(sample("bowl.scene.json") + " " + folder.file("x.stl"), 2, "bowl.scene.json");
   EXPECT_FALSE(std::filesystem::exists(folder.file("x.stl")));

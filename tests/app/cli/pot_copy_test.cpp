@@ -108,7 +108,7 @@ TEST_F(PotCopy, RefusesUnroundablePotsAndWritesNothing) {
   const std::string coarse = folder.file("d.pot.cbor");
   ASSERT_EQ(claystack("export -q --precision 0.01 " + pot + " " + coarse).status, 0);
   expect("--precision 0.001 " + coarse + " " + copy, "0.01 mm or coarser");
-  expect(pot + " " + pot, "read from");
+  expect(pot + " " + pot, "expected a separate output file");
 }
 
 TEST(PotCopyCollapsed, IsCopiedAndRounded) {

@@ -61,13 +61,12 @@ TEST(ProcessLimits, ErrorsNameTheField) {
          "w.json:3: walls[1].up_to_size_sum_mm: expected a number above 0 to 1e+07");
   expect("2.5", "\"thick\"", "walls[0].min_wall_mm: expected a number");
   expect("600", "200", "w.json:3: walls[1]: expected a size that is larger");
-  expect("\"source\"", "\"sauce\"",
-         "walls[0]: expected a field \"source\", found none; is \"sauce\"");
+  expect("\"source\"", "\"sauce\"", "walls[0]: expected a field \"source\", found none");
   expect("process-1", "pot-1",
          "schema: expected \"claystack-process-1\", found \"claystack-pot-1\"");
   expect("\"walls\": [", "\"walls\": [], \"x\": [", "walls: expected at least one wall");
   expect("\"name\"", "\"x\": 1, \"name\"", "unknown field \"x\"");
-  expect("}]}", "}", "parse error");
+  expect("}]}", "}", "w.json:3: syntax error");
 }
 
 TEST(ProcessLimits, ErrorsNameTheKindOfAnotherFile) {

@@ -155,7 +155,7 @@ struct ForcePlan {
   double stiffness_n_per_mm = 0.0;  ///< of one ring: K' h, or the paper's K
   double limit_n = 5.0;
   double friction = 0.0;
-  double turn = 1.0;  ///< +1 counterclockwise seen from above, -1 clockwise
+  double turn = 1.0;         ///< +1 counterclockwise seen from above, -1 clockwise
   double per_ring_mm = 1.0;  ///< 1 / h
 };
 
