@@ -47,7 +47,7 @@ struct AppState {
   [[nodiscard]] double now_s() { return 1e-9 * static_cast<double>(host.frame_ns()); }
 };
 
-/// Valid until the state changes its place; made anew for every frame and every action.
+/// Valid until the state changes its place; made for every frame and every action.
 [[nodiscard]] ViewModel view_model(AppState& state);
 
 /// Carries out an action. Actions that replace an unsaved work are kept by a question first

@@ -1,5 +1,5 @@
 #pragma once
-// Where a tool presses the wall, finer than rings: what the clay rules reckon with.
+// The part of the wall that a tool presses, finer than rings: the input of the clay rules.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/tool.hpp"

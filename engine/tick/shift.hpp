@@ -13,7 +13,7 @@ namespace clay {
 /// will be, and redistribution makes it so. Storage is reserved once.
 class Shift {
  public:
-  /// For so many rings at once.
+  /// Room for this number of rings.
   void reserve(std::size_t rings);
   void clear() noexcept;
 

@@ -42,7 +42,7 @@ class TouchedRings {
   };
   using Slice = SliceOf<Block>;
 
-  /// For so many rings at once; nothing is allocated later.
+  /// Room for this number of rings; nothing is allocated later.
   void reserve(std::size_t rings) { blocks_.resize(blocks_for(rings)); }
 
   [[nodiscard]] std::size_t from() const noexcept { return from_; }

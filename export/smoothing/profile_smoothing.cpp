@@ -46,7 +46,7 @@ class PieceSmoother {
   PieceSmoother(const PieceWalls& piece, const SmoothingOptions& options)
       : piece_(piece),
         options_(options),
-        // Never 0, so that walls that would meet are seen here, and mended where they do.
+        // Never 0, so that walls that would meet are found here and corrected.
         limit_(options.min_wall_mm ? std::max(*options.min_wall_mm, piece.least_step_mm)
                                    : least_own_wall_mm(piece)),
         plan_(piece),
