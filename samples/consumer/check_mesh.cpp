@@ -1,7 +1,7 @@
-// Check a mesh: is it a solid that prints?
+// Checks whether a mesh is a printable solid.
 #include <claystack/core/atomic_file.hpp>
-#include <claystack/export/check.hpp>
 #include <claystack/export/formats.hpp>
+#include <claystack/export/proof.hpp>
 
 #include <cstdio>
 #include <string>

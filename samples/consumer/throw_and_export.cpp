@@ -16,7 +16,8 @@ int main(int argc, char** argv) {
     const auto report = clay::solid::run_export(
         done.pot(), {{clay::solid::MeshFormat::stl_binary, &stl}}, {.tolerance_mm = 0.1});
     if (!report) return tl::make_unexpected(report.error());
-    std::printf("%zu triangles, %.1f cm3\n", report->triangles, report->volume_mm3 / 1000.0);
+    std::printf("%zu triangles, %.1f cm3\n", report->size.triangles,
+                report->volume.solid_mm3 / 1000.0);
     return clay::publish(argc > 1 ? argv[1] : "pot.stl", stl.bytes());
   });
   if (!published) std::fprintf(stderr, "%s\n", published.error().message.c_str());
