@@ -23,7 +23,7 @@ namespace clay::servo {
 ///
 /// With a clay rate below the servo's, the clay is deformed at the first believable sample of each
 /// of its own periods, and that pose alone is recorded. In the ticks between, the force is computed
-/// anew at the tool's place from the clay as it was left: contact and spring, no removal, no flow.
+/// again at the tool's place from the clay as it was left: contact and spring, no removal, no flow.
 class LiveClay {
  public:
   /// Both outlive this. `period_us`: of the clay; 0: every sample deforms it. No recorder: nothing
