@@ -1,5 +1,5 @@
-# Less to parse: small files spend most of their time to compile in the headers of others. GCC reads a
-# precompiled header in a second per 100 MB, so that one for CGAL (530 MB) would save nothing.
+# Shorter builds: a small file spends most of its compile time in headers. CGAL has no precompiled
+# header, because GCC takes longer to load one of that size than to compile a small file.
 option(CLAYSTACK_FAST_BUILD "Precompiled headers for tests, several files at once in the programs" ON)
 
 # The headers of most tests. claystack_use_test_headers(TARGET) uses them; compiler options that

@@ -58,11 +58,11 @@ struct ExportOptions {
   bool normals = false;            ///< for shading, in formats that have them (obj)
   bool allow_pieces = false;       ///< several pieces that do not touch, in one file
   bool measure_left_out = false;   ///< run the skipped stages too, and report what that saves
-  bool full_verification = false;  ///< every file read again whole, and checked as a stranger's is
+  bool full_verification = false;  ///< read every file back whole and check it like a foreign mesh
   std::string name = "pot";        ///< solid or object name inside the file
-  std::string source;              ///< what messages call the pot; empty: they do not name it
-  /// Asked before each stage and every few milliseconds, also by several threads at once. True: the
-  /// job is an error (io). Only an encoder of Draco ends what it has begun.
+  std::string source;              ///< name of the pot in messages; empty: none
+  /// Called before each stage and every few milliseconds, also by several threads at once. If it
+  /// returns true, the job ends with an error (io). Only a running Draco encoder finishes first.
   std::function<bool()> cancelled;
 };
 
@@ -70,7 +70,7 @@ enum class FileKind {
   mesh,
   section,     ///< the drawing of `section_svg`
   wall_table,  ///< the table of `wall_table`
-  given,       ///< bytes that the caller has made, such as a copy of the pot
+  given,       ///< bytes from the caller, such as a copy of the pot
 };
 
 /// A file to write.
@@ -81,8 +81,8 @@ struct FileRequest {
   std::string bytes = {};                      ///< of a given file
 };
 
-/// What the name's end asks for: .stl (binary), .obj, .drc, .svg (the section) or .csv (its walls).
-/// Anything else is an error that lists them.
+/// The kind of file by its extension: .stl (binary), .obj, .drc, .svg (the section) or .csv (its
+/// walls). Any other extension is an error that lists these.
 Result<FileRequest> file_request(const std::string& path);
 
 struct ExportReport;
@@ -90,29 +90,29 @@ struct ExportReport;
 struct ExportRequest {
   ExportOptions options;
   std::vector<FileRequest> files;
-  /// Writes PATH.certificate.json beside each mesh of a pot that stands.
+  /// Writes PATH.certificate.json beside each mesh of a standing pot.
   bool certificates = false;
   std::string report_path = {};  ///< file for `report_text`; empty: none
-  std::function<std::string(const ExportReport&)> report_text = {};  ///< made after all else
+  std::function<std::string(const ExportReport&)> report_text =
+      {};  ///< called after all other files
 };
 
 // ---- report --------------------------------------------------------------------------
-// Made of what the stages of the job return. All lengths and volumes are those of the solid as it
-// is written, enlarged for its shrinkage.
+// The results of the stages. All lengths and volumes are those of the written solid, enlarged for
+// shrinkage.
 
 /// Scale and drain.
 struct Preparation {
-  double shrinkage = 0.0;           ///< as asked for
-  double drilled_mm3 = 0.0;         ///< clay taken for the drain
-  double counted_volume_mm3 = 0.0;  ///< of the stack, drilled where asked
+  double shrinkage = 0.0;           ///< as requested, 0 to below 1
+  double drilled_mm3 = 0.0;         ///< clay removed for the drain
+  double counted_volume_mm3 = 0.0;  ///< volume of the stack, after drilling
 };
 
-/// The section, smoothed and proved in the plane. Of a collapsed pot: of both parts before the
-/// fall.
+/// The section, smoothed and proved in the plane. For a collapsed pot: both parts before the fall.
 struct ProvedSection {
-  SmoothedProfile smoothed;               ///< the steps, where there was no smoothing
-  Smoothing smoothing = Smoothing::none;  ///< as done: straight walls need none
-  std::string no_smoothing;               ///< why not; empty where there was
+  SmoothedProfile smoothed;               ///< the steps, if not smoothed
+  Smoothing smoothing = Smoothing::none;  ///< as applied: straight walls need none
+  std::string no_smoothing;               ///< the reason; empty if smoothed
   PlanarCertificate planar;
 
   [[nodiscard]] const Profile& profile() const noexcept { return smoothed.section.profile; }
@@ -125,37 +125,38 @@ struct SolidSize {
   std::size_t segments = 0;
   std::size_t triangles = 0;
   std::size_t shells = 0;
-  double tolerance_mm = 0.0;  ///< as used: coarser than asked for where max_triangles demands it
+  double tolerance_mm = 0.0;  ///< as used; coarser than requested if max_triangles requires it
   double chordal_error_mm = 0.0;
   double diameter_mm = 0.0;
   double height_mm = 0.0;
 };
 
 struct WallReport {
-  double min_wall_mm = 0.0;  ///< of the solid before rounding
-  Wall thinnest;             ///< of the section: where that is
-  /// Smoothing `exact`: the least wall as steps, where an edge that overshoot has made is thinner.
+  double min_wall_mm = 0.0;  ///< lower bound for the solid before rounding
+  Wall thinnest;             ///< the thinnest place of the section
+  /// Smoothing `exact`: the minimum wall of the steps, if overshoot made a thinner edge.
   std::optional<double> as_steps_mm;
-  std::vector<WallSample> field;   ///< of the section, where asked for
-  std::optional<WallLimit> limit;  ///< that was asked for, for a solid of this size
+  std::vector<WallSample> field;   ///< of the section, if requested
+  std::optional<WallLimit> limit;  ///< the requested limit for a solid of this size
 };
 
 struct VolumeReport {
   double solid_mm3 = 0.0;       ///< before rounding
-  double error_relative = 0.0;  ///< to the counted clay, less what overlaps in a collapse
+  double error_relative = 0.0;  ///< relative to the counted clay, without the overlap in a collapse
 };
 
 struct FileReport {
   std::string path;  ///< empty: in memory
   FileKind kind = FileKind::mesh;
   std::uint64_t bytes = 0;
-  // Of a mesh:
+  // For a mesh:
   MeshFormat format = MeshFormat::stl_binary;
   std::string content_hash;   ///< XXH3-128
-  double max_error_mm = 0.0;  ///< no vertex of the file is farther from its place
+  double max_error_mm = 0.0;  ///< largest distance of a vertex in the file from its exact position
   Proof proof = Proof::margins;
-  bool read_again = false;                      ///< false for pipes only
-  std::optional<SolidCertificate> certificate;  ///< of a body of revolution: a pot that stands
+  bool read_again = false;  ///< false for pipes only
+  std::optional<SolidCertificate>
+      certificate;  ///< for a body of revolution, which is a standing pot
   std::optional<MeshReport> full_verification;
 };
 
@@ -167,7 +168,7 @@ struct StageTime {
 struct SkippedStage {
   std::string what;
   std::string why;
-  std::optional<double> saved_s;  ///< measured where asked for, and where it can be
+  std::optional<double> saved_s;  ///< if measured
 };
 
 struct ExportReport {
@@ -177,17 +178,17 @@ struct ExportReport {
   WallReport walls;
   VolumeReport volume;
   std::optional<CollapsedSolid> collapsed;  ///< without its mesh
-  std::vector<FileReport> files;            ///< one for each file asked for, in that order
+  std::vector<FileReport> files;            ///< one for each requested file, in that order
   std::vector<StageTime> stages;
   std::vector<SkippedStage> left_out;
 
   [[nodiscard]] bool has_mesh() const noexcept;
-  /// Of all meshes, between its bounds; of none: the solid's own [mm].
+  /// Lower bound of the wall over all meshes; without a mesh, of the solid [mm].
   [[nodiscard]] double thinnest_mm() const noexcept;
 };
 
-/// What a potter should know before it is printed, and where: in words, and as a place of the
-/// written solid's section, where there is one.
+/// A problem to know of before printing, with its place on the section of the written solid, if it
+/// has one.
 struct Problem {
   std::string text;
   std::optional<ProfilePoint> at;
@@ -195,38 +196,38 @@ struct Problem {
 
 /// A wall below the limit, cavities without a drain hole, pieces that do not touch.
 [[nodiscard]] std::vector<Problem> problems_of(const ExportReport& report);
-/// Nothing where the wall is as thick as asked for, or nothing was.
+/// Empty if the wall meets the limit, or if there is no limit.
 [[nodiscard]] std::optional<std::string> thin_wall_of(const ExportReport& report);
 [[nodiscard]] std::string text_of(const Cavity& cavity);
 
 // ---- export job ----------------------------------------------------------------------
 
-/// A mesh to write. The caller owns the store, and publishes it after the job has succeeded.
+/// A mesh to write. The caller owns the store and publishes it after the job has succeeded.
 struct Output {
   MeshFormat format = MeshFormat::stl_binary;
   FileStore* store = nullptr;
-  std::string name = {};  ///< what messages call the file; empty: as the pot
+  std::string name = {};  ///< name of the file in messages; empty: the name of the pot
 };
 
-/// Steps of the stack that float32 cannot hold (below 2^-19 of the pot's reach) are levelled as
-/// `profile_of` describes. A binary STL is streamed: no mesh is held in memory for it. Draco gets
-/// more bits than the tolerance asks for where the margins need them. Where margins do not cover a
-/// format's rounding, CGAL's exact test of the triangles as written takes their place; where that
-/// fails, the job does, with the reason. `progress(stage)` is called as each stage begins.
+/// Steps of the stack that float32 cannot represent (below 2^-19 of the pot's extent) are levelled
+/// as described at `profile_of`. A binary STL is streamed: no mesh is held in memory for it. Draco
+/// gets more bits than the tolerance requires if the margins need them. If the margins do not cover
+/// the rounding of a format, CGAL tests the written triangles exactly; if that fails, the job fails
+/// with the reason. `progress(stage)` is called at the start of each stage.
 ///
-/// Of a collapsed pot the two parts are united, whether they touch or not (see `collapsed_solid`);
-/// its proof is the exact test of the triangles, and a budget of triangles is met by decimation.
-/// Errors name the file that cannot be written, else `options.source`.
+/// The two parts of a collapsed pot are united (see `collapsed_solid`); the proof is the exact test
+/// of the triangles, and a triangle budget is met by decimation. Errors name the file that cannot
+/// be written, otherwise `options.source`.
 Result<ExportReport> run_export(const Pot& pot, const std::vector<Output>& outputs,
                                 const ExportOptions& options,
                                 const std::function<void(std::string_view)>& progress = {});
 
-/// All files are whole and verified before the first one gets its name; a job that fails, or is
-/// cancelled, leaves none. Without a mesh or a table of walls nothing is proved.
+/// Publishes all files together, after all are complete and verified; a failed or cancelled job
+/// leaves none. Without a mesh or a wall table, nothing is proved.
 Result<ExportReport> export_files(const Pot& pot, const ExportRequest& request,
                                   const std::function<void(std::string_view)>& progress = {});
 
-/// The same job with the meshes in memory, to report what they would be; no file is opened.
+/// The same job with the meshes in memory, for a preview; no file is opened.
 Result<ExportReport> rehearse_export(const Pot& pot, const ExportRequest& request,
                                      const std::function<void(std::string_view)>& progress = {});
 

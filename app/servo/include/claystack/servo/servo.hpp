@@ -1,8 +1,8 @@
 #pragma once
 // The servo: a pot thrown live with a haptic arm. It joins a wheel of claystack::engine to a device
 // of claystack::falcon: 1000 times a second it reads the hand, moves the tool, deforms the clay and
-// sends a force back, on a thread of its own and through the force guard, with a watchdog beside
-// it. docs/servo.md describes the tick, docs/force-guard.md the guard.
+// sends a force back, on its own thread and through the force guard, supervised by a watchdog.
+// docs/servo.md describes the tick, docs/force-guard.md the guard.
 //
 //   auto live = clay::servo::LiveThrow::build({.wheel = *wheel, .device = *device, .scene = scene},
 //                                             {.seconds = 2.0});
@@ -26,64 +26,64 @@ namespace clay::servo {
 
 // ---- settings ------------------------------------------------------------------------
 
-/// Where the hand works; the middle of the workspace lies there, at half the height.
+/// The side of the pot on which the middle of the workspace lies.
 enum class Side { right, left, front };
 
 struct MappingSettings {
-  /// Wheel mm to a mm of the hand, 0.1 to 10. 1.6 makes 154 mm of a Falcon's 96.
+  /// Travel of the tool per travel of the hand, 0.1 to 10. With 1.6, 96 mm of a Falcon reach 154
+  /// mm.
   double scale = 1.6;
-  double force_gain = 0.0;  ///< N at the hand to a N at the tool, to 10; 0: 1 / scale
+  double force_gain = 0.0;  ///< force at the hand per force at the tool, up to 10; 0: 1 / scale
   Side side = Side::right;
-  double reach_mm = 60.0;   ///< of the workspace's middle from the axis, 0 to 1000
-  double height_mm = 75.0;  ///< and above the wheel head, -1000 to 1000
+  double reach_mm = 60.0;   ///< distance of the workspace's middle from the axis, 0 to 1000
+  double height_mm = 75.0;  ///< its height above the wheel head, -1000 to 1000
   bool flip_x = false, flip_y = false, flip_z = false;
   friend bool operator==(const MappingSettings&, const MappingSettings&) = default;
 };
 
-/// Bits of DeviceSample::buttons; 0 where there is no such button.
+/// Bits of DeviceSample::buttons; 0: no such button.
 struct ButtonMap {
-  unsigned clutch = 0, trim = 0;  ///< for as long as they are held
+  unsigned clutch = 0, trim = 0;  ///< active while held
   unsigned wider = 0,
-           narrower = 0;  ///< the gap, by kGapStepMm at each press, and on while it is held
+           narrower = 0;  ///< change the gap by kGapStepMm per press, repeated while held
 };
 inline constexpr ButtonMap kFalconButtons{4, 2, 1, 8};  ///< centre, forward, plus, minus
-inline constexpr ButtonMap kTwoButtons{2, 1, 0, 0};     ///< of a controller with two
+inline constexpr ButtonMap kTwoButtons{2, 1, 0, 0};     ///< a controller with two buttons
 inline constexpr double kGapStepMm = 0.5, kWidestGapMm = 100.0;
-/// What a servo is made of beside the wheel and the device.
+/// Settings of a servo, apart from the wheel and the device.
 struct LiveSettings {
-  double rate_hz = 1000.0;  ///< of device and force: 400, where frames grow stale, to 4000
-  double clay_rate_hz =
-      0.0;               ///< 20, as the engine counts no step for longer, to the rate; 0: the rate
-  double seconds = 0.0;  ///< from the first sample believed, pauses and all; 0: until asked to end
-  /// Where `seconds` are set: how long that sample is waited for, as of a device that nobody homes;
-  /// or `seconds`, where that is longer.
+  double rate_hz = 1000.0;  ///< rate of device and force, 400 to 4000; slower frames count as stale
+  double clay_rate_hz = 0.0;  ///< ticks of the clay, 20 to rate_hz; 0: rate_hz
+  double seconds = 0.0;       ///< counted from the first valid sample, pauses included; 0: no limit
+  /// If `seconds` is set: the longest wait for the first valid sample, for example while the device
+  /// is not homed. At least `seconds`.
   double patience_s = 60.0;
-  double gap_mm = 0.0;  ///< of poses, where the scene lets them pinch, to kWidestGapMm
+  double gap_mm = 0.0;  ///< gap of the poses, if the scene allows a pinch; up to kWidestGapMm
   MappingSettings mapping;
   ButtonMap buttons = kFalconButtons;
-  falcon::GuardSettings guard;  ///< its period follows from the rate
-  /// The arm as the passivity controller counts on it; its rate follows from ours.
+  falcon::GuardSettings guard;  ///< its period is set from rate_hz
+  /// Model of the arm for the passivity controller; its rate is set from rate_hz.
   falcon::SampledLoop arm{1000.0, 0.1, 2.0, 1};
-  double encoder_step_m = 5e-5;  ///< the Falcon's, in the middle of its workspace
+  double encoder_step_m = 5e-5;  ///< of the Falcon in the middle of its workspace
 };
 
-/// Errors name the setting. Mapping, guard and arm are checked where they are built.
+/// Errors name the setting. Mapping, guard and arm are checked when they are built.
 Result<void> check(const LiveSettings& settings);
 
 /// Lowers the stiffness of the scene's contact to what the arm of `settings` can render safely;
-/// returns the part of it that is left, 1 where it was soft enough. The pot does not depend on it:
-/// a softened scene replays to the same pot. Build the wheel from the softened scene.
+/// returns the remaining fraction, 1 if it was soft enough. The pot does not depend on it: a
+/// softened scene replays to the same pot. Build the wheel from the softened scene.
 Result<double> soften(SceneSpec& scene, const LiveSettings& settings);
 
 // ---- commands ------------------------------------------------------------------------
 
 enum class CommandKind {
-  clutch,  ///< value 0 lets go, any other holds; so of trim and pause
+  clutch,  ///< value 0 releases, any other holds; also for trim and pause
   trim,
   pause,
   gap,    ///< value: mm, 0 to kWidestGapMm; 0: one tool
-  zero,   ///< no force, and the clay is left alone, until `rearm`
-  rearm,  ///< force again after `zero` or when the guard went safe, once the cause is gone
+  zero,   ///< no force and no deformation until `rearm`
+  rearm,  ///< restores the force after `zero` or a safe state whose cause is gone
   stop,
 };
 
@@ -94,39 +94,39 @@ struct Command {
 
 // ---- status --------------------------------------------------------------------------
 
-/// Why the servo no longer ticks.
+/// The reason why the servo ended.
 enum class Ending {
-  none,         ///< it does
-  stopped,      ///< asked to, by command or signal
-  time_up,      ///< the seconds asked for are over, or no sample came to begin them
-  device_lost,  ///< HapticDevice::problem tells
-  collapsed,    ///< nothing is left to throw
+  none,         ///< still running
+  stopped,      ///< by command or signal
+  time_up,      ///< `seconds` are over, or no valid sample arrived in time
+  device_lost,  ///< HapticDevice::problem has the reason
+  collapsed,    ///< the pot collapsed
 };
 
-/// A tick as it was.
+/// The state after a tick.
 struct LiveStatus {
-  double time_s = 0.0;  ///< of throwing: since the first sample that was believed
+  double time_s = 0.0;  ///< since the first valid sample
   Ending ending = Ending::none;
   falcon::DeviceState device = falcon::DeviceState::closed;
   falcon::GuardState guard = falcon::GuardState::idle;
   falcon::SafeCause cause = falcon::SafeCause::none;
   falcon::PassivityState passivity = falcon::PassivityState::watching;
   bool clutched = false, paused = false, contact = false;
-  bool ring_limit = false;    ///< clay waits above the top: raise lump.max_rings
-  glm::dvec3 tool_mm{0.0};    ///< on the wheel
-  double gap_mm = 0.0;        ///< of a pinch; 0: one tool, or the scene's own gap
-  glm::dvec3 clay_n{0.0};     ///< of the clay on the tool, whatever the device can show of it
-  glm::dvec3 force_n{0.0};    ///< sent, in the device's frame
-  double force_gain = 0.0;    ///< part of it that is earned
+  bool ring_limit = false;    ///< the stack cannot grow further: raise lump.max_rings
+  glm::dvec3 tool_mm{0.0};    ///< position of the tool, in the wheel's frame
+  double gap_mm = 0.0;        ///< gap of a pinch; 0: one tool, or the gap of the scene
+  glm::dvec3 clay_n{0.0};     ///< force of the clay on the tool, before mapping and guard
+  glm::dvec3 force_n{0.0};    ///< force sent, in the device's frame
+  double force_gain = 0.0;    ///< fraction of the force that the guard's ramp allows
   double volume_error = 0.0;  ///< clay unaccounted for [quanta]; exact below 2^53
-  double imbalance = 0.0;     ///< the same with what is outside: Ledger::imbalance
-  double stack_mm3 = 0.0, trimmed_mm3 = 0.0, outside_mm3 = 0.0;  ///< of the clay, as in Ledger
+  double imbalance = 0.0;     ///< the same including clay outside the stack: Ledger::imbalance
+  double stack_mm3 = 0.0, trimmed_mm3 = 0.0, outside_mm3 = 0.0;  ///< as in Ledger
   double height_mm = 0.0;                                        ///< of the clay
   std::uint64_t ticks = 0, poses = 0, missed = 0;
-  std::int64_t late_ns = 0;  ///< of this tick
+  std::int64_t late_ns = 0;  ///< lateness of this tick
 };
 
-/// The clay in outline, bottom to top: radii of at most kRows rings, evenly chosen where there are
+/// Outline of the clay, bottom to top: radii of at most kRows rings, evenly chosen if there are
 /// more.
 struct LiveProfile {
   static constexpr std::size_t kRows = 2048;
@@ -135,34 +135,34 @@ struct LiveProfile {
   };
   std::array<Row, kRows> rows{};
   std::size_t size = 0;    ///< rows in use
-  double height_mm = 0.0;  ///< of the whole stack, crown and all
-  double crown_mm = 0.0;   ///< of that, the height of the crown
-  double time_s = 0.0;     ///< of the tick that it was seen in
+  double height_mm = 0.0;  ///< of the whole stack, crown included
+  double crown_mm = 0.0;   ///< height of the crown
+  double time_s = 0.0;     ///< time of its tick
 };
 
-/// What the system granted when it was asked for real-time scheduling.
+/// What the system granted when real-time scheduling was requested.
 struct Realtime {
-  bool asked = false;
-  bool fifo = false;  ///< SCHED_FIFO
+  bool asked = false;  ///< requested
+  bool fifo = false;   ///< SCHED_FIFO
   bool memory_locked = false;
   bool exact_sleep = false;  ///< timer slack of 1 ns
-  std::string missing;       ///< what was not given, why, and what would help; empty: nothing
+  std::string missing;       ///< what was not granted, why, and the remedy; empty: nothing
 };
 
 // ---- live throw ----------------------------------------------------------------------
 
-/// What a live throw works on. All outlive it.
+/// The parts of a live throw. All must outlive it.
 struct ThrowParts {
   Wheel& wheel;
   falcon::HapticDevice& device;  ///< open
-  const SceneSpec& scene;        ///< of the wheel; read by build() only
+  const SceneSpec& scene;        ///< the scene of the wheel; read by build() only
   /// A session file to record the poses to, which replays to the same pot; empty: none.
   std::string session_path = {};
 };
 
-/// The servo thread, its watchdog and the force guard, ready to run. Nothing reaches the device but
-/// through the guard: finite, at most the limit, zero within 10 ms of a fault, and zero as the last
-/// word. The servo thread allocates nothing and takes no lock.
+/// The servo thread, its watchdog and the force guard. Every force passes the guard: it is finite,
+/// at most the limit, zero within 10 ms of a fault, and zero at the end. The servo thread allocates
+/// nothing and takes no lock.
 class LiveThrow {
  public:
   /// Refuses settings out of range, by name; a scene whose contact is stiffer than the arm can
@@ -170,32 +170,33 @@ class LiveThrow {
   static Result<LiveThrow> build(const ThrowParts& parts, const LiveSettings& settings);
   LiveThrow(LiveThrow&&) noexcept;
   LiveThrow& operator=(LiveThrow&&) noexcept;
-  /// Stops, and waits for the end.
+  /// Stops and waits for the end.
   ~LiveThrow();
 
-  /// Begins to tick; after join() with device_lost and a device that was opened again, goes on: the
-  /// force ramps up again from zero. `realtime`: ask the system for SCHED_FIFO and locked memory.
+  /// Starts the servo. After join() returned device_lost and the device was opened again,
+  /// continues, with the force ramped up from zero. `realtime`: request SCHED_FIFO and locked
+  /// memory.
   void start(bool realtime = true);
 
-  /// From one other thread. False: too many commands wait.
+  /// For one other thread. False: the queue is full.
   bool command(const Command& command) noexcept;
 
-  /// The newest whole values, without a lock. For one thread; valid until the next call.
+  /// The newest complete values, without a lock. For one thread; valid until the next call.
   [[nodiscard]] const LiveStatus& status() noexcept;
   [[nodiscard]] const LiveProfile& profile() noexcept;
   [[nodiscard]] bool running() const noexcept;
 
-  /// Waits until the servo has ended: by the time set, by `stop`, by a lost device or a collapse.
-  /// The device then gives no force. The wheel may be read from now on.
+  /// Waits for the end: time, `stop`, a lost device or a collapse. The device then has zero force,
+  /// and the wheel may be read.
   Ending join();
   /// After join().
   [[nodiscard]] const Realtime& realtime() const noexcept;
-  /// After the last join(): the recorded session is complete and has its name. Nothing to do where
-  /// none is recorded. Errors: the disk was too slow, full or gone.
+  /// After the last join(): completes the recorded session under its name; does nothing without a
+  /// recording. Errors: the disk was too slow, full or removed.
   Result<void> finish_recording();
 
-  /// Ends the force of the servo that runs, at once and for good. Async-signal-safe: for handlers
-  /// of SIGINT, SIGSEGV and std::terminate.
+  /// Ends the force of the running servo immediately and permanently. Async-signal-safe: for
+  /// handlers of SIGINT, SIGSEGV and std::terminate.
   static void end_force() noexcept;
 
  private:
