@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <span>
 
 namespace clay {
 
@@ -48,20 +49,45 @@ class StackWriter {
     return placed;
   }
   void gain(WideQuanta amount) noexcept { gained_ += amount; }
-  /// The ring becomes another one; its clay is counted.
-  void replace(std::size_t i, const Ring& ring) noexcept {
-    Ring& old = stack_.rings_[i];
-    assert(ring.volume() > 0 && ring.inner2 >= 0);
-    gained_ += ring.volume() - old.volume();
-    opened_ += (ring.inner2 > 0 ? 1u : 0u) - (old.inner2 > 0 ? 1u : 0u);
-    old = ring;
+  /// Rings from `first` on get these amounts, whole quanta, for which they have room without a bore
+  /// closing. The caller reports their sum with `gain`.
+  void thicken(std::size_t first, std::span<const double> outside,
+               std::span<const double> inside) noexcept {
+    Ring* const rings = stack_.rings_.data() + first;
+    for (std::size_t k = 0; k < outside.size(); ++k) {
+      rings[k].outer2 += static_cast<Quanta>(outside[k]);
+      rings[k].inner2 -= static_cast<Quanta>(inside[k]);
+    }
   }
-  /// Clay along a surface: the outer one, or that of a bore.
-  void smear(std::size_t from, std::size_t to, Quanta amount, bool outside) noexcept {
-    Quanta& less = outside ? stack_.rings_[from].outer2 : stack_.rings_[to].inner2;
-    Quanta& more = outside ? stack_.rings_[to].outer2 : stack_.rings_[from].inner2;
-    less -= amount;
-    more += amount;
+  /// Rings from `first` on move by these amounts and give up clay from inside [quanta], `total` in
+  /// all; no bore opens or closes.
+  void bend(std::size_t first, std::span<const Quanta> moved, std::span<const Quanta> raised,
+            WideQuanta total) noexcept {
+    Ring* const rings = stack_.rings_.data() + first;
+    for (std::size_t k = 0; k < moved.size(); ++k) {
+      rings[k].outer2 += moved[k];
+      rings[k].inner2 += moved[k] + raised[k];
+      assert(rings[k].volume() > 0 && rings[k].inner2 >= 0);
+    }
+    gained_ -= total;
+  }
+  /// Clay along a surface, the outer one or that of a bore: amounts from the rings `from` on to the
+  /// rings `to` on [quanta, rounded down in size].
+  void smear(std::size_t from, std::size_t to, std::span<const double> amounts,
+             bool outside) noexcept {
+    Ring *const low = stack_.rings_.data() + from, *const high = stack_.rings_.data() + to;
+    if (outside)
+      for (std::size_t k = 0; k < amounts.size(); ++k) {
+        const auto amount = static_cast<Quanta>(amounts[k]);
+        low[k].outer2 -= amount;
+        high[k].outer2 += amount;
+      }
+    else
+      for (std::size_t k = 0; k < amounts.size(); ++k) {
+        const auto amount = static_cast<Quanta>(amounts[k]);
+        low[k].inner2 += amount;
+        high[k].inner2 -= amount;
+      }
   }
   void put_on_crown(WideQuanta amount) noexcept { stack_.crown_ += amount; }
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace clay {
@@ -23,12 +22,14 @@ double speed_into(Side side, const Motion& motion) noexcept {
   return std::max(side == Side::compressive ? -out : out, 0.0);
 }
 
-/// A pinched ring: how much deeper one tool is in it than the other.
+/// How far a pinched ring may be pushed over from the tool that is deeper in it [mm].
 struct Pinched {
-  double deeper_mm = 0.0;  ///< above 0: the outer one
-  bool felt = false;       ///< by one of them at least
+  double inward_mm = 0.0, outward_mm = 0.0;
+  bool beside = false;  ///< the tools; else nothing limits it
 };
 
+/// Until both tools push back alike: the overlap with both loses energy all the way. A wall that
+/// is pushed in by u keeps its clay, so its inner surface moves by u R / r.
 Pinched pinched(const RulePress& press, const ClayStack& stack, std::span<const ToolRemoval> bites,
                 std::size_t i) noexcept {
   double depth[2];
@@ -39,7 +40,14 @@ Pinched pinched(const RulePress& press, const ClayStack& stack, std::span<const 
       depth[side] = signed_depth(press.plan.tool, stack, press.tool.hip_mm.y, i, contact);
     if (depth[side] <= -1e299) return {};
   }
-  return {depth[0] - depth[1], depth[0] > 0.0 || depth[1] > 0.0};
+  const Ring& ring = stack.rings()[i];
+  const double opening = ring.inner_mm() > 0.0 ? ring.outer_mm() / ring.inner_mm() : 1.0;
+  // As far as the other tool, where neither is in the ring yet.
+  const bool felt = depth[0] > 0.0 || depth[1] > 0.0;
+  const double in =
+      felt ? (depth[0] - opening * depth[1]) / (1.0 + opening * opening) : -depth[1] / opening;
+  const double out = felt ? 0.5 * (depth[1] - depth[0]) : -depth[0];
+  return {std::max(in, 0.0), std::max(out, 0.0), true};
 }
 
 /// The ring that one of two tools would have to push over most, its band in both contacts.
@@ -55,8 +63,7 @@ bool find_push(const RulePress& press, const ClayStack& stack, std::span<const T
       const double give = rings.give(i);
       if (!(give > 0.0) || stack.rings()[i].inner2 == 0) continue;
       const Pinched ring = pinched(press, stack, bites, i);
-      const double over = from_outside ? ring.deeper_mm : -ring.deeper_mm;
-      const double push = std::min(give, 0.5 * over);
+      const double push = std::min(give, from_outside ? ring.inward_mm : ring.outward_mm);
       if (!(push > 0.0)) continue;
       most = std::max(most, push);
       side.add(static_cast<double>(i) + 0.5, push);
@@ -86,13 +93,14 @@ void centre(const RulePress& press, const ClayStack& stack, std::span<ToolRemova
   // Where two tools hold the wall, it is not their way that bends it.
   const Shell shell = shell_at(stack, band, min_wall, 0.0, 0.0);
   if (!(shell.share > 0.0)) return;
-  work.shift.lay(
-      stack, band, shell, {outward, hoop, min_wall}, [](std::size_t) { return 0.0; },
-      [&](std::size_t i) {
-        const Pinched ring = pinched(press, stack, bites, i);
-        if (!ring.felt) return 1e300;
-        return std::max(0.5 * (outward ? -ring.deeper_mm : ring.deeper_mm), 0.0);
-      });
+  work.shift.lay(stack, band, shell, {outward, hoop, min_wall},
+                 [&](std::size_t first, std::span<double> by) {
+                   for (std::size_t k = 0; k < by.size(); ++k) {
+                     const Pinched ring = pinched(press, stack, bites, first + k);
+                     if (!ring.beside) continue;
+                     by[k] = std::min(by[k], outward ? ring.outward_mm : ring.inward_mm);
+                   }
+                 });
   for (std::size_t k = 0; k < 2; ++k) {
     TouchedRings& rings = bites[k].contact.rings;
     for (std::size_t i = rings.from(); i < rings.to(); ++i) {
@@ -176,12 +184,14 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
       const Shell shell = shell_at(stack, band, min_wall, press.motion.upward_mm_s,
                                    speed_into(contact.side, press.motion));
       if (shell.share > 0.0)
-        work.shift.lay(
-            stack, band, shell, {contact.side == Side::expansive, hoop, min_wall},
-            [&](std::size_t i) {
-              return contact.rings.has(i) ? shell.share * contact.rings.give(i) : 0.0;
-            },
-            [](std::size_t) { return 1e300; });
+        // A ring that is touched moves by its part of what it gives way itself, at least.
+        work.shift.lay(stack, band, shell, {contact.side == Side::expansive, hoop, min_wall},
+                       [&](std::size_t first, std::span<double> by) {
+                         const TouchedRings& rings = contact.rings;
+                         const std::size_t end = std::min(first + by.size(), rings.to());
+                         for (std::size_t i = std::max(first, rings.from()); i < end; ++i)
+                           by[i - first] = std::max(by[i - first], shell.share * rings.give(i));
+                       });
     }
     squeeze_out(squeeze, stack, contact, bites[0].removed);
   }
@@ -206,14 +216,17 @@ WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> bites,
     if (part == 0) return part;
     if constexpr (rules & kHeave) {
       StackWriter writer(stack);
-      // More than any ring can hold goes up at once.
-      constexpr WideQuanta kMost = std::numeric_limits<Quanta>::max() / 2;
-      const auto heaved = static_cast<Quanta>(std::min(part, kMost));
-      const auto inside = static_cast<Quanta>(inside_part(heaved, plan.inside_share, stack));
-      const Quanta rest = heave(plan.tool, stack, press.tool.hip_mm.y, contact, work.bands[at],
-                                {inside, heaved - inside, up}, writer);
-      writer.gain(heaved - rest);
-      return part - heaved + rest;
+      WideQuanta rest = 0;
+      for (WideQuanta left = part; left > 0;) {
+        const auto piece = static_cast<Quanta>(std::min(left, WideQuanta{kLargestHeap}));
+        const auto inside = static_cast<Quanta>(inside_part(piece, plan.inside_share, stack));
+        const Quanta over = heave(plan.tool, stack, press.tool.hip_mm.y, contact, work.bands[at],
+                                  {inside, piece - inside, up}, writer);
+        writer.gain(piece - over);
+        rest += over;
+        left -= piece;
+      }
+      return rest;
     } else {
       return flow_by_kernel(plan, part, up, bites.front().contact, rim, stack);
     }
@@ -229,8 +242,8 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> bites, const
   Rim* const rim = (rules & kRim) ? nullptr : &all_rim;
   StackWriter writer(stack);
   if constexpr (rules & kShift) {
-    for (std::size_t i = work.shift.from(); i < work.shift.to(); ++i)
-      writer.replace(i, work.shift.after(i, stack.rings()[i]));
+    writer.bend(work.shift.from(), work.shift.moved(), work.shift.raised_of_rings(),
+                work.shift.raised());
     writer.put_on_crown(work.shift.raised());
   }
   const WideQuanta removed = take_bites(bites, stack, rim);
@@ -254,7 +267,7 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> bites, const
   if (stack.crown() < 0)
     sink_rim(flow, stack, writer);
   else
-    grow_rim(flow, stack, rim, writer);
+    grow_rim(flow, plan.tool, press.tool.hip_mm.y, bites, stack, rim, writer);
   return flow;
 }
 

@@ -9,28 +9,14 @@ namespace clay {
 namespace {
 
 constexpr double kSteepest = 0.5;  // of a ring's growth over its height
-constexpr std::size_t kRows = 32;
+constexpr std::size_t kRows = 64;
 
-/// Radii of some rings and of one more at either end.
-struct Walls {
-  double outer[kRows + 2], inner[kRows + 2], wall[kRows + 2];
-};
-
-void load(std::span<const Ring> rings, std::size_t first, std::size_t count,
-          Walls& walls) noexcept {
-  for (std::size_t k = 0; k < count + 2; ++k) {
-    // Beyond an end of the stack there is nothing to be compared with: the ring itself.
-    const std::size_t i = std::min(first + k > 0 ? first + k - 1 : 0, rings.size() - 1);
-    walls.outer[k] = static_cast<double>(rings[i].outer2);
-    walls.inner[k] = static_cast<double>(rings[i].inner2);
-  }
-  in_lanes([&]() CLAYSTACK_INLINE {
-    for (std::size_t k = 0; k < count + 2; ++k) {
-      walls.outer[k] = std::sqrt(walls.outer[k] * kMm2PerQuantum);
-      walls.inner[k] = std::sqrt(walls.inner[k] * kMm2PerQuantum);
-      walls.wall[k] = walls.outer[k] - walls.inner[k];
-    }
-  });
+/// Up to a distance t of the reach, from 0 to 1: t^3 (10 - 15 t + 6 t^2). Each half from its own
+/// end, so that rounding cannot make it fall.
+CLAYSTACK_INLINE inline double share_up_to(double t) noexcept {
+  const double far = 1.0 - t, s = t < far ? t : far;
+  const double share = s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
+  return t < far ? share : 1.0 - share;
 }
 
 /// One end of a band and the way from there.
@@ -53,7 +39,7 @@ class Heaving {
     if (heap_.up ? !(level < size) : !(level > 0.0)) return heap_.inside + heap_.outside;
     std::size_t ring =
         heap_.up ? static_cast<std::size_t>(level) : static_cast<std::size_t>(std::ceil(level)) - 1;
-    while (part_ < kWhole || carried() > 0) {
+    while (!reached_end_ || carried() > 0) {
       const std::size_t left = heap_.up ? stack_.size() - ring : ring + 1;
       const std::size_t count = std::min({left, kRows, rings_to_end(ring)});
       if (count == 0) break;
@@ -65,9 +51,20 @@ class Heaving {
   }
 
  private:
-  static constexpr std::int64_t kWhole = std::int64_t{1} << 40;
+  static constexpr double kFar = 1e300;
   struct Portion {
     Quanta inside = 0, outside = 0;
+  };
+  /// Some neighbouring rings and one more at either end, which has no share.
+  struct Block {
+    double outer2[kRows + 2], inner2[kRows + 2];                 ///< [quanta]
+    double per_outer[kRows + 2], per_inner[kRows + 2];           ///< 1 / R, 1 / r [1/mm]
+    double outer[kRows + 2], inner[kRows + 2], wall[kRows + 2];  ///< [mm]
+    double share_outside[kRows], share_inside[kRows];            ///< whole quanta
+    double clear[kRows];                                         ///< of the tool [mm]
+    double lack[kRows];  ///< above 0: does not take its share
+    Quanta total;        ///< of the shares
+    bool any_full;
   };
 
   [[nodiscard]] Quanta carried() const noexcept { return carry_.inside + carry_.outside; }
@@ -82,91 +79,124 @@ class Heaving {
     return heap_.up ? face - from_mm_ : from_mm_ - face;
   }
 
-  static Quanta part_of(Quanta amount, std::int64_t part) noexcept {
-    return static_cast<Quanta>((WideQuanta{amount} * part) >> 40);
-  }
-
   void lay(std::size_t first, std::size_t count) noexcept {
-    load(stack_.rings(), first, count, walls_);
+    load(first, count);
     divide(first, count);
-    const bool fits = clear_of_tool(first, count) && carried() == 0 && there_is_room(count);
+    find_room(first, count);
+    const std::span<const double> outside(block_.share_outside, count);
+    const std::span<const double> inside(block_.share_inside, count);
+    if (carried() == 0 && !block_.any_full) {
+      writer_.thicken(first, outside, inside);
+      placed_ += block_.total;
+      return;
+    }
     for (std::size_t n = 0; n < count; ++n) {
       const std::size_t k = heap_.up ? n : count - 1 - n;
-      const auto part = std::max(part_, static_cast<std::int64_t>(parts_[k]));
-      Portion share;
-      if (part > part_) {
-        share = {part_of(heap_.inside, part) - dealt_.inside,
-                 part_of(heap_.outside, part) - dealt_.outside};
-        dealt_.inside += share.inside;
-        dealt_.outside += share.outside;
-        part_ = part;
-      }
-      if (fits) {
-        const Quanta inside = share.inside > 0 ? writer_.put_inside(first + k, share.inside) : 0;
-        share.outside += share.inside - inside;
-        const Quanta outside = writer_.put_outside(first + k, share.outside);
-        placed_ += inside + outside;
-        carry_.outside += share.outside - outside;
+      if (carried() == 0 && !(block_.lack[k] > 0.0)) {
+        writer_.thicken(first + k, outside.subspan(k, 1), inside.subspan(k, 1));
+        placed_ += static_cast<Quanta>(outside[k] + inside[k]);
         continue;
       }
-      carry_.inside += share.inside;
-      carry_.outside += share.outside;
+      carry_.inside += static_cast<Quanta>(inside[k]);
+      carry_.outside += static_cast<Quanta>(outside[k]);
       if (carried() > 0) place(first + k, k + 1);
     }
   }
 
-  /// What of the heap lies as far as each ring's far face, in 2^-40.
+  /// The block at an end of the stack. Beyond it there is nothing to be compared with: the end ring
+  /// itself.
+  const Ring* copy_end(std::size_t first, std::size_t count) noexcept {
+    const auto rings = stack_.rings();
+    for (std::size_t k = 0; k < count + 2; ++k)
+      end_[k] = rings[std::min(first + k > 0 ? first + k - 1 : 0, rings.size() - 1)];
+    return end_;
+  }
+
+  void load(std::size_t first, std::size_t count) noexcept {
+    const bool at_end = first == 0 || first + count == stack_.size();
+    const Ring* const from = at_end ? copy_end(first, count) : &stack_.rings()[first - 1];
+    Block& b = block_;
+    in_lanes([&]() CLAYSTACK_INLINE {
+      for (std::size_t k = 0; k < count + 2; ++k) {
+        b.outer2[k] = lane_double(from[k].outer2);
+        b.inner2[k] = lane_double(from[k].inner2);
+        b.outer[k] = rough_root(b.outer2[k] * kMm2PerQuantum);
+        b.inner[k] = rough_root(b.inner2[k] * kMm2PerQuantum);
+        b.wall[k] = b.outer[k] - b.inner[k];
+        b.per_outer[k] = 1.0f / static_cast<float>(b.outer[k]);
+        b.per_inner[k] = 1.0f / static_cast<float>(b.inner[k] + 1e-30);
+      }
+    });
+  }
+
+  /// What of the heap each ring gets: the difference of what lies up to its two faces.
   void divide(std::size_t first, std::size_t count) noexcept {
-    const double near = way_to(heap_.up ? first : first + count - 1) * per_reach_;
-    const double step = h_ * per_reach_;
-    const double start = heap_.up ? near + step : near + static_cast<double>(count) * step;
-    const double by = heap_.up ? step : -step;
+    const double away = heap_.up ? per_reach_ : -per_reach_, step = away * h_;
+    const double start = away * (static_cast<double>(first) * h_ - from_mm_);
+    const double inside = static_cast<double>(heap_.inside);
+    const double outside = static_cast<double>(heap_.outside), sign = heap_.up ? 1.0 : -1.0;
+    double in[kRows + 1], out[kRows + 1];
+    Block& b = block_;
     in_lanes([&]() CLAYSTACK_INLINE {
-      for (std::size_t k = 0; k < count; ++k) {
-        const double x = start + static_cast<double>(static_cast<int>(k)) * by;
+      for (std::size_t k = 0; k < count + 1; ++k) {
+        const double x = start + static_cast<double>(static_cast<int>(k)) * step;
         const double low = x > 0.0 ? x : 0.0, t = low < 1.0 ? low : 1.0;
-        parts_[k] = t * t * t * (10.0 - 15.0 * t + 6.0 * t * t) * 0x1p40;
+        const double share = share_up_to(t);
+        in[k] = lane_nearest(inside * share);
+        out[k] = lane_nearest(outside * share);
       }
-    });
-  }
-
-  /// Whether no ring stands beside the tool, where it could grow into it.
-  [[nodiscard]] bool clear_of_tool(std::size_t first, std::size_t count) const noexcept {
-    const double low = (static_cast<double>(first) + 0.5) * h_ - hip_y_;
-    const double high = low + static_cast<double>(count - 1) * h_;
-    return low > tool_.high() || high < tool_.low();
-  }
-
-  /// Whether every ring of the block takes its share: without a root, by what is more than each
-  /// surface moves.
-  [[nodiscard]] bool there_is_room(std::size_t count) const noexcept {
-    const double out2 = static_cast<double>(heap_.outside) * (kMm2PerQuantum * 0x1p-40);
-    const double in2 = static_cast<double>(heap_.inside) * (kMm2PerQuantum * 0x1p-40);
-    double worst = 0.0;
-    const double spare = kSteepest * h_;
-    const bool hollow = in2 > 0.0;
-    double before = static_cast<double>(part_);
-    double shares[kRows];
-    for (std::size_t n = 0; n < count; ++n) {
-      const std::size_t k = heap_.up ? n : count - 1 - n;
-      shares[k] = parts_[k] - before;
-      before = parts_[k];
-    }
-    in_lanes([&]() CLAYSTACK_INLINE {
       for (std::size_t k = 0; k < count; ++k) {
-        const double w = walls_.wall[k + 1], below = walls_.wall[k], above = walls_.wall[k + 2];
-        const double least = below < above ? below : above;
-        const double inner = walls_.inner[k + 1];
-        const double inside = in2 * shares[k], outside = 0.5 * out2 * shares[k];
-        // A bore without room counts as no room.
-        const double in = hollow ? inside / (inner + 1e-300) : 0.0;
-        const double over = outside / walls_.outer[k + 1] + in - (least + spare - w);
-        const double full = inside - inner * inner;
-        const double bad = over > full ? over : full;
-        worst = bad > worst ? bad : worst;
+        b.share_inside[k] = sign * (in[k + 1] - in[k]);
+        b.share_outside[k] = sign * (out[k + 1] - out[k]);
       }
     });
-    return !(worst > 0.0);
+    block_.total = static_cast<Quanta>(sign * (in[count] - in[0] + (out[count] - out[0])));
+    const double end = start + (heap_.up ? static_cast<double>(count) * step : 0.0);
+    reached_end_ = end >= 1.0;
+  }
+
+  /// How far ring i may grow before it stands in the tool [mm]; of one that is not beside it: a
+  /// long way.
+  [[nodiscard]] double clear_of_tool(std::size_t i, double R, double r) const noexcept {
+    const double t = (static_cast<double>(i) + 0.5) * h_ - hip_y_;
+    if (!(t >= tool_.low() && t <= tool_.high())) return kFar;
+    const double f = tool_.radius(t), d = contact_.axis_distance_mm;
+    return std::max(contact_.side == Side::compressive ? d - f - R : r - (d + f), 0.0);
+  }
+
+  /// Which rings of the block do not take their share: without a root, by what is more than each
+  /// surface moves. A share leaves a bore open.
+  void find_room(std::size_t first, std::size_t count) noexcept {
+    static const double largest2 = static_cast<double>(quanta_from_radius(kMaxRadiusMm));
+    Block& b = block_;
+    for (std::size_t k = 0; k < count; ++k) b.clear[k] = kFar;
+    const double low = (hip_y_ + tool_.low()) / h_, high = (hip_y_ + tool_.high()) / h_;
+    const double from = std::max(low - 1.0, static_cast<double>(first));
+    const double to = std::min(high + 1.0, static_cast<double>(first + count));
+    if (from < to)
+      for (std::size_t k = static_cast<std::size_t>(from) - first;
+           k < static_cast<std::size_t>(to) - first; ++k)
+        b.clear[k] = clear_of_tool(first + k, b.outer[k + 1], b.inner[k + 1]);
+    const double spare = kSteepest * h_;
+    in_lanes([&, end = count, most = largest2]() CLAYSTACK_INLINE {
+      std::int64_t any = 0;
+      for (std::size_t k = 0; k < end; ++k) {
+        const double below = b.wall[k], above = b.wall[k + 2];
+        const double least = below < above ? below : above;
+        const double inside = b.share_inside[k], outside = b.share_outside[k];
+        const double moved =
+            kMm2PerQuantum * (0.5 * outside * b.per_outer[k + 1] + inside * b.per_inner[k + 1]);
+        const double slope = least + spare - b.wall[k + 1];
+        const double over = moved - (slope < b.clear[k] ? slope : b.clear[k]);
+        const double bore = inside > 0.0 ? inside + 1.0 - b.inner2[k + 1] : 0.0;
+        const double wide = b.outer2[k + 1] + outside - most;
+        const double worse = bore > wide ? bore : wide;
+        const double lacks = over > worse ? over : worse, lack = moved > 0.0 ? lacks : 0.0;
+        b.lack[k] = lack;
+        any |= lack > 0.0 ? std::int64_t{1} : std::int64_t{0};
+      }
+      b.any_full = any != 0;
+    });
   }
 
   /// As much of what is carried as ring i takes.
@@ -176,10 +206,10 @@ class Heaving {
       carry_.outside += carry_.inside - ring.inner2;
       carry_.inside = ring.inner2;
     }
-    const double least = std::min(walls_.wall[k - 1], walls_.wall[k + 1]);
-    const double room = least + kSteepest * h_ - walls_.wall[k];
+    const double least = std::min(block_.wall[k - 1], block_.wall[k + 1]);
+    const double room = least + kSteepest * h_ - block_.wall[k];
     if (!(room > 0.0)) return;
-    const double R = walls_.outer[k], r = walls_.inner[k];
+    const double R = block_.outer[k], r = block_.inner[k];
     double out = 0.0, in = 0.0;
     const Portion taken = fitting(i, room, R, r, out, in);
     const Quanta inside = writer_.put_inside(i, taken.inside);
@@ -187,7 +217,7 @@ class Heaving {
     carry_.inside -= inside;
     carry_.outside -= outside;
     placed_ += inside + outside;
-    walls_.wall[k] += out + in;
+    block_.wall[k] += out + in;
   }
 
   /// The part of what is carried for which there is room, in the same proportion.
@@ -195,22 +225,16 @@ class Heaving {
                                 double& in) const noexcept {
     const double outside2 = static_cast<double>(carry_.outside) * kMm2PerQuantum;
     const double inside2 = static_cast<double>(carry_.inside) * kMm2PerQuantum;
-    const double t = (static_cast<double>(i) + 0.5) * h_ - hip_y_;
-    const bool beside_tool = t >= tool_.low() && t <= tool_.high();
+    const double clear = clear_of_tool(i, R, r);
     // No root where there is plenty of room.
     out = 0.5 * outside2 / R;
     in = inside2 > 0.0 ? inside2 / r : 0.0;
-    if (out + in <= room && !beside_tool) return carry_;
+    if (out + in <= std::min(room, clear)) return carry_;
     out = std::sqrt(R * R + outside2) - R;
     in = inside2 > 0.0 ? r - std::sqrt(std::max(r * r - inside2, 0.0)) : 0.0;
-    double most_out = out, most_in = in;
-    if (beside_tool) {
-      const double f = tool_.radius(t), d = contact_.axis_distance_mm;
-      if (contact_.side == Side::compressive)
-        most_out = std::max(d - f - R, 0.0);
-      else
-        most_in = std::max(r - (d + f), 0.0);
-    }
+    const bool presses_outside = contact_.side == Side::compressive;
+    const double most_out = presses_outside ? std::min(out, clear) : out;
+    const double most_in = presses_outside ? in : std::min(in, clear);
     if (out + in <= room && out <= most_out && in <= most_in) return carry_;
     const double part = out + in > room ? room / (out + in) : 1.0;
     out = std::min(out * part, most_out);
@@ -228,11 +252,11 @@ class Heaving {
   StackWriter& writer_;
   const Heap& heap_;
   double h_, hip_y_, from_mm_, per_reach_;
-  std::int64_t part_ = 0;  ///< of the heap that was dealt so far, in 2^-40
-  Portion dealt_, carry_;
+  bool reached_end_ = false;  ///< the whole heap is shared out
+  Portion carry_;
   Quanta placed_ = 0;
-  Walls walls_{};
-  double parts_[kRows];
+  Block block_;
+  Ring end_[kRows + 2];
 };
 
 }  // namespace

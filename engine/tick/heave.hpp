@@ -9,7 +9,10 @@
 
 namespace clay {
 
-/// An amount to lay on the wall from one end of a band.
+/// Most that is laid at once: shares are whole quanta in floating point.
+inline constexpr Quanta kLargestHeap = Quanta{1} << 50;
+
+/// An amount to lay on the wall from one end of a band, at most `kLargestHeap`.
 struct Heap {
   Quanta inside = 0, outside = 0;
   bool up = true;  ///< from the upper end upward

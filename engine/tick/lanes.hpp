@@ -4,7 +4,34 @@
 
 #define CLAYSTACK_INLINE __attribute__((always_inline))
 
+#include "claystack/engine/clay.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
 namespace clay {
+
+/// Quanta >= 0 as a double, rounded to nearest like a conversion; unlike one it is done in lanes.
+CLAYSTACK_INLINE inline double lane_double(Quanta q) noexcept {
+  constexpr std::uint64_t kExponent = std::bit_cast<std::uint64_t>(0x1p52);
+  const auto bits = static_cast<std::uint64_t>(q);
+  const double low = std::bit_cast<double>((bits & 0xffffffffu) | kExponent) - 0x1p52;
+  const double high = std::bit_cast<double>((bits >> 32) | kExponent) - 0x1p52;
+  return high * 0x1p32 + low;
+}
+
+/// The nearest whole number to x, |x| <= kMostLaneQuanta.
+inline constexpr double kMostLaneQuanta = 0x1p50;
+CLAYSTACK_INLINE inline double lane_nearest(double x) noexcept { return (x + 0x1.8p52) - 0x1.8p52; }
+CLAYSTACK_INLINE inline Quanta lane_quanta(double x) noexcept {
+  return std::bit_cast<Quanta>(x + 0x1.8p52) - std::bit_cast<Quanta>(0x1.8p52);
+}
+
+/// A root to single precision: of a length that decides how far clay moves, not how much there is.
+CLAYSTACK_INLINE inline double rough_root(double x) noexcept {
+  return std::sqrt(static_cast<float>(x));
+}
 
 #if defined(__x86_64__)
 /// Only a test or a benchmark that compares the two writes this.

@@ -135,7 +135,7 @@ void grow(Flow& flow, ClayStack& stack, Ledger& ledger, StackWriter& writer, Rim
   // Less than half of the top ring is not worth a look: no ring above it is smaller.
   while (2 * excess() >= stack.rings().back().volume()) {
     const Ring ring = next();
-    if (excess() < ring.volume()) return;
+    if (ring.volume() <= 0 || excess() < ring.volume()) return;
     flow.ring_limit = stack.size() >= stack.max_rings();
     if (flow.ring_limit) return;
     if (model == Model::conserving && flow.grown >= kMostGrowthPerTick) return;
@@ -170,6 +170,24 @@ Ring copied_rim(const ClayStack& stack) noexcept {
   if (!(thinner > 0.0)) return top;
   const double by = 0.5 * std::min(thinner, kTaper * h);
   return {quanta_from_radius(outer - by), quanta_from_radius(inner + by)};
+}
+
+/// What of a ring above the rim the tools leave room for: no wall where there is not half of it.
+Ring beside_tools(const Ring& next, const ClayStack& stack, const Tool& tool, double hip_y,
+                  std::span<const ToolRemoval> bites) noexcept {
+  Ring ring = next;
+  const double t = (static_cast<double>(stack.size()) + 0.5) * stack.ring_height_mm() - hip_y;
+  if (!(t >= tool.low() && t <= tool.high())) return ring;
+  const double f = tool.radius(t);
+  for (const auto& [contact, removed] : bites) {
+    if (!(depth_of(ring, f, contact) > 0.0)) continue;
+    const double d = contact.axis_distance_mm;
+    if (contact.side == Side::compressive)
+      ring.outer2 = std::min(ring.outer2, quanta_from_radius(std::max(d - f, 0.0)));
+    else
+      ring.inner2 = std::max(ring.inner2, quanta_from_radius(d + f));
+  }
+  return 2 * ring.volume() >= next.volume() ? ring : Ring{};
 }
 
 }  // namespace
@@ -230,10 +248,13 @@ WideQuanta flow_by_kernel(const StepPlan& plan, WideQuanta amount, bool up, cons
             : flow_down(plan.kernel, clay, contact, stack);
 }
 
-void grow_rim(Flow& flow, ClayStack& stack, Rim* rim, StackWriter& writer) noexcept {
+void grow_rim(Flow& flow, const Tool& tool, double hip_y, std::span<const ToolRemoval> bites,
+              ClayStack& stack, Rim* rim, StackWriter& writer) noexcept {
   Ledger none;
-  if (rim != nullptr) return grow<Model::conserving>(flow, stack, none, rim, writer);
-  grow<Model::conserving>(flow, stack, none, writer, rim, [&] { return copied_rim(stack); });
+  grow<Model::conserving>(flow, stack, none, writer, rim, [&] {
+    const Ring next = rim != nullptr ? next_ring(stack.rings().back(), rim) : copied_rim(stack);
+    return beside_tools(next, stack, tool, hip_y, bites);
+  });
 }
 
 void sink_rim(Flow& flow, ClayStack& stack, StackWriter& writer) noexcept {

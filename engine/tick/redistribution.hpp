@@ -55,8 +55,10 @@ WideQuanta take_bites(std::span<const ToolRemoval> bites, ClayStack& stack, Rim*
 WideQuanta flow_by_kernel(const StepPlan& plan, WideQuanta amount, bool up, const Contact& contact,
                           Rim* rim, ClayStack& stack) noexcept;
 /// Whole rings from the crown: with a rim as `press_clay` makes them, without one as copies of the
-/// rim that taper to the wall below where the rim is thicker.
-void grow_rim(Flow& flow, ClayStack& stack, Rim* rim, StackWriter& writer) noexcept;
+/// rim that taper to the wall below where the rim is thicker. A ring rises beside the tools, not
+/// into them; where they leave it less than half of its clay, the crown waits.
+void grow_rim(Flow& flow, const Tool& tool, double hip_y, std::span<const ToolRemoval> bites,
+              ClayStack& stack, Rim* rim, StackWriter& writer) noexcept;
 /// The top rings make good what a crown below 0 lacks. There is so much clay in them.
 void sink_rim(Flow& flow, ClayStack& stack, StackWriter& writer) noexcept;
 

@@ -139,27 +139,27 @@ void squeeze(const Squeeze& squeeze, std::span<const Ring> rings, bool outside,
   const double min_wall = squeeze.min_wall_mm, outward = outside ? 1.0 : -1.0;
   const std::size_t count = slice.size(), first = slice.begin;
   TouchedRings::Block& rows = slice.rows;
-  TouchedRings::Row near, far, eps;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Ring ring = squeeze.ring(slice.ring + k, rings);
-    near[k] = static_cast<double>(outside ? ring.outer2 : ring.inner2);
-    far[k] = static_cast<double>(outside ? ring.inner2 : ring.outer2);
-  }
-  in_lanes([&]() CLAYSTACK_INLINE {
-    for (std::size_t k = 0; k < count; ++k) {
-      near[k] = std::sqrt(near[k] * kMm2PerQuantum);
+  TouchedRings::Row near, eps;
+  std::array<Ring, TouchedRings::kBlock> moved;
+  for (std::size_t k = 0; k < count; ++k) moved[k] = squeeze.ring(slice.ring + k, rings);
+  in_lanes([&, end = count, from = &rows.depth[first]]() CLAYSTACK_INLINE {
+    for (std::size_t k = 0; k < end; ++k) {
+      const double outer2 = lane_double(moved[k].outer2), inner2 = lane_double(moved[k].inner2);
+      const double outer = std::sqrt(outer2 * kMm2PerQuantum);
+      const double inner = std::sqrt(inner2 * kMm2PerQuantum);
+      near[k] = outside ? outer : inner;
       const double by = outward * (rows.surface[first + k] - near[k]);
       const double give = rows.give[first + k] - by;
-      const double spare = outward * (near[k] - std::sqrt(far[k] * kMm2PerQuantum)) - min_wall;
+      const double spare = outer - inner - min_wall;
       const double most = spare > 0.0 ? spare : 0.0, less = give < most ? give : most;
       eps[k] = less > 0.0 ? less : 0.0;
-      const double left = rows.depth[first + k] - by - eps[k];
-      rows.depth[first + k] = left > 0.0 ? left : 0.0;
+      const double left = from[k] - by - eps[k];
+      from[k] = left > 0.0 ? left : 0.0;
     }
   });
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = slice.ring + k;
-    const Ring ring = squeeze.ring(i, rings);
+    const Ring& ring = moved[k];
     if (!outside && i < squeeze.floor_rings && ring.inner2 == 0) [[unlikely]] {
       rows.depth[first + k] += eps[k];
       eps[k] = 0.0;

@@ -27,7 +27,8 @@ struct Shell {
 [[nodiscard]] inline double pliancy(double outer2, double inner2) noexcept {
   constexpr double kStiff = 0.04, kThin = 0.15625;  // (r / R)^2, so that no root is needed
   const double fade = (inner2 / outer2 - kStiff) * (1.0 / (kThin - kStiff));
-  return fade < 0.0 ? 0.0 : fade > 1.0 ? 1.0 : fade;
+  const double low = fade > 0.0 ? fade : 0.0;
+  return low < 1.0 ? low : 1.0;
 }
 [[nodiscard]] inline double pliancy(const Ring& ring) noexcept {
   return pliancy(static_cast<double>(ring.outer2), static_cast<double>(ring.inner2));

@@ -17,34 +17,42 @@ double lesser(double a, double b) noexcept { return a < b ? a : b; }
 double greater(double a, double b) noexcept { return a > b ? a : b; }
 double smooth(double t) noexcept { return t * t * (3.0 - 2.0 * t); }
 
-struct Moved {
-  double outer2[32], inner2[32], by[32], moved[32], raised[32];
+/// One ring's change of R^2 and the clay that it gives up [quanta].
+struct Move {
+  double moved, raised;
 };
 
-CLAYSTACK_INLINE inline void push_in(Moved& rows, std::size_t count, double hoop) noexcept {
-  for (std::size_t k = 0; k < count; ++k) {
-    const double outer2 = rows.outer2[k], inner2 = rows.inner2[k];
-    const double outer = std::sqrt(outer2 * kMm2PerQuantum);
-    const double by = lesser(rows.by[k] * pliancy(outer2, inner2), outer);
-    const double q = lesser(by * (2.0 * outer - by) * kQuantaPerMm2, kMostOfBore * inner2);
-    rows.moved[k] = -q;
-    rows.raised[k] = hoop * q * (outer2 - inner2) / (outer2 + inner2);
-  }
+/// In the plane of the ring: how far `by` moves it, less where its hoops are not thin, and
+/// (R^2 - r^2) / (R^2 + r^2), the thickness over the middle radius.
+struct Bent {
+  double by, thinness;
+};
+CLAYSTACK_INLINE inline Bent bend_ring(double outer2, double inner2, double by) noexcept {
+  const double both = outer2 + inner2;
+  const double per_both = 1.0 / both;
+  const double fade = pliancy(outer2, inner2);
+  return {by * fade, (outer2 - inner2) * per_both};
 }
 
-CLAYSTACK_INLINE inline void push_out(Moved& rows, std::size_t count, double hoop,
+CLAYSTACK_INLINE inline Move push_in(double outer2, double inner2, double by,
+                                     double hoop) noexcept {
+  const Bent bent = bend_ring(outer2, inner2, by);
+  const double outer = rough_root(outer2 * kMm2PerQuantum), u = lesser(bent.by, outer);
+  const double q = lesser(u * (2.0 * outer - u) * kQuantaPerMm2, kMostOfBore * inner2);
+  const double most = lesser(q, kMostLaneQuanta);
+  return {-most, hoop * most * bent.thinness};
+}
+
+CLAYSTACK_INLINE inline Move push_out(double outer2, double inner2, double by, double hoop,
                                       double per_min_wall, double largest2) noexcept {
-  for (std::size_t k = 0; k < count; ++k) {
-    const double outer2 = rows.outer2[k], inner2 = rows.inner2[k];
-    const double outer = std::sqrt(outer2 * kMm2PerQuantum);
-    const double inner = std::sqrt(inner2 * kMm2PerQuantum);
-    const double room = 0.5 * ((outer2 - inner2) * kMm2PerQuantum * per_min_wall - outer - inner);
-    const double by = lesser(rows.by[k] * pliancy(outer2, inner2), greater(room, 0.0));
-    const double q =
-        lesser(by * (2.0 * inner + by) * kQuantaPerMm2, greater(largest2 - outer2, 0.0));
-    rows.moved[k] = q;
-    rows.raised[k] = -hoop * q * (outer2 - inner2) / (outer2 + inner2);
-  }
+  const Bent bent = bend_ring(outer2, inner2, by);
+  const double outer = std::sqrt(outer2 * kMm2PerQuantum);
+  const double inner = std::sqrt(inner2 * kMm2PerQuantum);
+  const double room = 0.5 * ((outer2 - inner2) * kMm2PerQuantum * per_min_wall - outer - inner);
+  const double u = lesser(bent.by, greater(room, 0.0));
+  const double q = lesser(u * (2.0 * inner + u) * kQuantaPerMm2, greater(largest2 - outer2, 0.0));
+  const double most = lesser(q, kMostLaneQuanta);
+  return {most, -hoop * most * bent.thinness};
 }
 
 }  // namespace
@@ -73,47 +81,58 @@ void Shift::begin(const ClayStack& stack, const Band& band, const Shell& shell) 
   raised_.resize(rings);
 }
 
-void Shift::bend(double h, const Band& band, const Shell& shell, double amplitude,
-                 std::size_t first, std::size_t count, Rows& rows) noexcept {
+void Shift::bend(double h, const Band& band, const Shell& shell, std::size_t first,
+                 std::span<double> by) noexcept {
+  const double amplitude = shell.share * band.give_mm;
   const double per_below = 1.0 / shell.below_mm;
   const double per_above = greater(shell.turn, 0.0) / shell.above_mm;
   const double flare = greater(-shell.turn, 0.0) / shell.above_mm;
   const double low = amplitude * shell.trail_below, high = amplitude * shell.trail_above;
   const double start = (static_cast<double>(first) + 0.5) * h - band.peak_mm;
-  in_lanes([&]() CLAYSTACK_INLINE {
-    for (std::size_t k = 0; k < count; ++k) {
-      const double x = start + static_cast<double>(static_cast<int>(k)) * h;
-      const double down = greater(1.0 + lesser(x, 0.0) * per_below, 0.0);
-      const double up = greater(1.0 - greater(x, 0.0) * per_above, 0.0);
-      const double side = x < 0.0 ? low : high;
-      rows.by[k] = side * (smooth(down) * smooth(up) + greater(x, 0.0) * flare);
+  double* const rows = by.data();
+  const int count = static_cast<int>(by.size());
+  in_lanes([=]() CLAYSTACK_INLINE {
+    for (int k = 0; k < count; ++k) {
+      const double x = start + static_cast<double>(k) * h;
+      const double t = greater(1.0 + lesser(x * per_below, -x * per_above), 0.0);
+      rows[k] = (x < 0.0 ? low : high) * (smooth(t) + greater(x, 0.0) * flare);
     }
   });
 }
 
-void Shift::move(const ClayStack& stack, const Push& push, std::size_t first, std::size_t count,
-                 const Rows& rows) noexcept {
+void Shift::move(const ClayStack& stack, const Push& push, std::size_t first,
+                 std::span<const double> by) noexcept {
   static const double largest2 = static_cast<double>(quanta_from_radius(kMaxRadiusMm));
-  Moved moved;
-  const auto rings = stack.rings().subspan(first, count);
-  for (std::size_t k = 0; k < count; ++k) {
-    moved.outer2[k] = static_cast<double>(rings[k].outer2);
-    moved.inner2[k] = static_cast<double>(rings[k].inner2);
-    moved.by[k] = rows.by[k];
-  }
   const double hoop = push.hoop ? 0.5 : 0.0, per_min_wall = 1.0 / push.min_wall_mm;
-  in_lanes([&]() CLAYSTACK_INLINE {
+  const std::size_t count = by.size();
+  // Copies, which what is written cannot alias.
+  in_lanes([=, most = largest2, rings_at = stack.rings().data() + first, by_at = by.data(),
+            moved_at = &moved_[first - from_],
+            raised_at = &raised_[first - from_]]() CLAYSTACK_INLINE {
+    const Ring* __restrict const rings = rings_at;
+    const double* __restrict const rows = by_at;
+    Quanta* __restrict const moved = moved_at;
+    Quanta* __restrict const raised = raised_at;
+    const double strain = hoop, per_wall = per_min_wall, largest = most;
+    const std::size_t end = count;
     if (push.outward)
-      push_out(moved, count, hoop, per_min_wall, largest2);
+      for (std::size_t k = 0; k < end; ++k) {
+        const Move m = push_out(lane_double(rings[k].outer2), lane_double(rings[k].inner2), rows[k],
+                                strain, per_wall, largest);
+        moved[k] = lane_quanta(m.moved);
+        raised[k] = lane_quanta(m.raised);
+      }
     else
-      push_in(moved, count, hoop);
+      for (std::size_t k = 0; k < end; ++k) {
+        const Move m =
+            push_in(lane_double(rings[k].outer2), lane_double(rings[k].inner2), rows[k], strain);
+        moved[k] = lane_quanta(m.moved);
+        raised[k] = lane_quanta(m.raised);
+      }
   });
-  const std::size_t at = first - from_;
-  for (std::size_t k = 0; k < count; ++k) {
-    moved_[at + k] = static_cast<Quanta>(moved.moved[k]);
-    raised_[at + k] = static_cast<Quanta>(moved.raised[k]);
-    raised_total_ += raised_[at + k];
-  }
+  Quanta sum = 0;  // of 32 rings: fits
+  for (std::size_t k = 0; k < count; ++k) sum += raised_[first - from_ + k];
+  raised_total_ += sum;
 }
 
 /// A wall that sinks must find its clay above it.

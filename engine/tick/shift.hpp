@@ -4,7 +4,9 @@
 #include "claystack/engine/clay.hpp"
 #include "engine/tick/shell.hpp"
 
+#include <algorithm>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace clay {
@@ -32,39 +34,38 @@ class Shift {
     return {ring.outer2 + moved_[k], ring.inner2 + moved_[k] + raised_[k]};
   }
 
-  /// Lays the wall's motion about a band. `share_of(i)`: how far ring i itself gives way [mm], at
-  /// least so far it moves; `most(i)`: no ring moves farther.
+  /// Of R^2 of each ring from() .. to()-1, and the clay that it gives up [quanta].
+  [[nodiscard]] std::span<const Quanta> moved() const noexcept { return moved_; }
+  [[nodiscard]] std::span<const Quanta> raised_of_rings() const noexcept { return raised_; }
+
   struct Push {
     bool outward = false;
     bool hoop = true;
     double min_wall_mm = 0.0;
   };
-  template <class Least, class Most>
+  /// Lays the wall's motion about a band. `limit(first, by)` may change how far the rings from
+  /// `first` on move [mm].
+  template <class Limit>
   void lay(const ClayStack& stack, const Band& band, const Shell& shell, const Push& push,
-           Least least, Most most) noexcept {
-    const double amplitude = shell.share * band.give_mm;
+           Limit limit) noexcept {
     begin(stack, band, shell);
-    for (std::size_t first = from_; first < from_ + moved_.size(); first += kRows) {
-      Rows rows;
-      const std::size_t count = std::min(kRows, from_ + moved_.size() - first);
-      bend(stack.ring_height_mm(), band, shell, amplitude, first, count, rows);
-      for (std::size_t k = 0; k < count; ++k)
-        rows.by[k] = std::min(std::max(rows.by[k], least(first + k)), most(first + k));
-      move(stack, push, first, count, rows);
+    for (std::size_t first = from_; first < to(); first += kRows) {
+      double by[kRows];
+      const std::span<double> rows(by, std::min(kRows, to() - first));
+      bend(stack.ring_height_mm(), band, shell, first, rows);
+      limit(first, rows);
+      move(stack, push, first, rows);
     }
     settle(stack);
   }
 
  private:
   static constexpr std::size_t kRows = 32;
-  struct Rows {
-    double by[kRows];
-  };
   void begin(const ClayStack& stack, const Band& band, const Shell& shell) noexcept;
-  static void bend(double h, const Band& band, const Shell& shell, double amplitude,
-                   std::size_t first, std::size_t count, Rows& rows) noexcept;
-  void move(const ClayStack& stack, const Push& push, std::size_t first, std::size_t count,
-            const Rows& rows) noexcept;
+  static void bend(double h, const Band& band, const Shell& shell, std::size_t first,
+                   std::span<double> by) noexcept;
+  void move(const ClayStack& stack, const Push& push, std::size_t first,
+            std::span<const double> by) noexcept;
   void settle(const ClayStack& stack) noexcept;
 
   std::size_t from_ = 0;

@@ -25,7 +25,14 @@ class Smear {
         min_wall_(min_wall_mm),
         middle_(0.5 * (band.low_mm + band.high_mm)),
         per_c_(1.0 / std::max(band.height_mm(), stack.ring_height_mm())),
-        outside_(contact.side == Side::compressive) {}
+        outside_(contact.side == Side::compressive) {
+    const double h = stack.ring_height_mm(), size = static_cast<double>(stack.size());
+    const auto ring_at = [&](double y) {
+      return static_cast<std::size_t>(std::clamp(y / h, 0.0, size));
+    };
+    beside_from_ = std::min(ring_at(hip_y + tool.low()), contact.rings.from());
+    beside_to_ = std::max(ring_at(hip_y + tool.high() + h), contact.rings.to());
+  }
 
   /// Pairs whose lower place is of rings first..end-1; `k` of the difference in the window's
   /// middle.
@@ -41,21 +48,24 @@ class Smear {
   };
 
   void load(std::size_t first, std::size_t count, Places& places) noexcept {
-    const auto rings = stack_.rings().subspan(first, count);
-    for (std::size_t k = 0; k < count; ++k) {
-      places.outer[k] = static_cast<double>(rings[k].outer2);
-      places.inner[k] = static_cast<double>(rings[k].inner2);
-      places.get[k] = room_beside_tool(first + k);
-    }
-    const double min_wall = min_wall_;
-    in_lanes([&]() CLAYSTACK_INLINE {
-      for (std::size_t k = 0; k < count; ++k) {
-        const double outer2 = places.outer[k], inner2 = places.inner[k];
-        const double both = std::sqrt(outer2 * kMm2PerQuantum) + std::sqrt(inner2 * kMm2PerQuantum);
-        const double spare = outer2 - inner2 - min_wall * both * kQuantaPerMm2;
+    in_lanes([&, per_quantum = kMm2PerQuantum, rings_at = stack_.rings().data() + first,
+              end = count, least_wall = min_wall_, outside = outside_]() CLAYSTACK_INLINE {
+      const Ring* const rings = rings_at;
+      for (std::size_t k = 0; k < end; ++k) {
+        const double outer2 = lane_double(rings[k].outer2), inner2 = lane_double(rings[k].inner2);
+        const double thinnest = outside ? std::sqrt(inner2 * per_quantum) + least_wall
+                                        : std::sqrt(outer2 * per_quantum) - least_wall;
+        const double kept = thinnest * thinnest * kQuantaPerMm2;
+        const double spare = outside ? outer2 - kept : kept - inner2;
+        places.outer[k] = outer2;
+        places.inner[k] = inner2;
         places.give[k] = spare > 0.0 ? 0.5 * spare : 0.0;
+        places.get[k] = 1e300;
       }
     });
+    for (std::size_t i = std::max(first, beside_from_); i < std::min(first + count, beside_to_);
+         ++i)
+      places.get[i - first] = room_beside_tool(i);
   }
 
   [[nodiscard]] double room_beside_tool(std::size_t i) const noexcept {
@@ -88,14 +98,12 @@ class Smear {
         const double most_down = high.give[k] < low.get[k] ? high.give[k] : low.get[k];
         const double less = up < most_up ? up : most_up;
         const double flow = less > -most_down ? less : -most_down;
+        const double most = flow < kMostLaneQuanta ? flow : kMostLaneQuanta;
         const bool closed = !outside && (low.inner[k] == 0.0 || high.inner[k] == 0.0);
-        amount[k] = closed ? 0.0 : flow;
+        amount[k] = closed ? 0.0 : (most > -kMostLaneQuanta ? most : -kMostLaneQuanta);
       }
     });
-    for (std::size_t k = 0; k < count; ++k) {
-      const auto flow = static_cast<Quanta>(amount[k]);
-      if (flow != 0) writer_.smear(first + k, first + k + stride, flow, outside_);
-    }
+    writer_.smear(first, first + stride, {amount, count}, outside_);
   }
 
   const Tool& tool_;
@@ -103,6 +111,7 @@ class Smear {
   const Contact& contact_;
   StackWriter& writer_;
   double hip_y_, min_wall_, middle_, per_c_;
+  std::size_t beside_from_, beside_to_;  ///< rings that the tool touches or could stand beside
   bool outside_;
 };
 

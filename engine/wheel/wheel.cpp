@@ -113,6 +113,17 @@ void yield(State& s, const ToolState& tool, std::span<ToolRemoval> bites) noexce
       feel_front(s.plan, s.stack, tool.hip_mm.y, tool.dt_s, bite.contact);
 }
 
+/// Whether the stack still stands after a flow; the flags of both.
+template <unsigned stages, class State>
+std::uint32_t settle_flow(State& s, const Flow& flow, const ToolState& tool) noexcept {
+  if constexpr (stages & kStability) {
+    s.failure = s.watch.check(s.plan.stability, s.stack, flow);
+    if (s.failure) s.failure_hip = tool.hip_mm;
+  }
+  return (flow.grown > 0 ? kGrew : 0u) | (flow.ring_limit ? kRingLimit : 0u) |
+         (s.failure ? kCollapsed : 0u);
+}
+
 /// Moves the clay that is displaced, and sees whether the stack still stands.
 template <unsigned stages, class State>
 std::uint32_t deform(State& s, const ToolState& tool, std::span<const ToolRemoval> bites) noexcept {
@@ -130,12 +141,20 @@ std::uint32_t deform(State& s, const ToolState& tool, std::span<const ToolRemova
     }
   }();
 
-  if constexpr (stages & kStability) {
-    s.failure = s.watch.check(s.plan.stability, s.stack, flow);
-    if (s.failure) s.failure_hip = tool.hip_mm;
-  }
-  return (flow.grown > 0 ? kGrew : 0u) | (flow.ring_limit ? kRingLimit : 0u) |
-         (s.failure ? kCollapsed : 0u);
+  return settle_flow<stages>(s, flow, tool);
+}
+
+/// Clay that a tool kept from rising becomes rings when the tool has gone.
+template <unsigned stages, class State>
+std::uint32_t raise_crown(State& s, const ToolState& tool) noexcept {
+  if (s.stack.crown() < s.stack.rings().back().volume()) return 0;
+  Flow flow;
+  flow.lowest = flow.highest = s.stack.size() - 1;
+  if constexpr (stages & kStability) s.watch.move_to(s.stack, flow.highest);
+  StackWriter writer(s.stack);
+  Rim* const rim = (s.plan.clay.rules & kRim) ? nullptr : &s.rim;
+  grow_rim(flow, s.plan.tool, tool.hip_mm.y, {}, s.stack, rim, writer);
+  return settle_flow<stages>(s, flow, tool);
 }
 
 /// Clay leaves the touched rings on the tool's way, not at its end: the flow begins from the
@@ -194,6 +213,8 @@ StepReport tick(State& s, const Pose& pose) noexcept {
   std::span<ToolRemoval> bites = touch<stages>(s, tool);
   const bool touches = rings_of(bites) > 0;
   if constexpr (stages & kRules) follow(s.motion, tool);
+  if constexpr (stages & kRules)
+    if (!touches) report.flags |= raise_crown<stages>(s, tool);
   const int parts = touches || s.touching ? parts_of<kModel<stages>>(tool) : 1;
   s.touching = touches;
   tool.dt_s /= parts;

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,13 +22,14 @@ struct Thrown {
 };
 
 /// A tool that moves up and down a wall, into it, and back out to the start.
-Thrown throw_with(const ToolShapeSpec& shape, bool four) {
+Thrown throw_with(const ToolShapeSpec& shape, bool four, std::optional<ClaySpec> clay = {}) {
   const bool machine = std::exchange(four_lanes, four);
   SceneSpec scene;
   scene.lump.ring_height_mm = 0.3;
   scene.lump.inner_radius_mm = 15.0;
   scene.tool.shape = shape;
   scene.force->friction = 0.2;
+  scene.clay = clay;
   Wheel wheel = Wheel::build(scene).value();
   Thrown thrown;
   const double reach = Tool::build(shape).value().radius(0.0) + scene.lump.outer_radius_mm;
@@ -47,6 +49,10 @@ class Lanes : public testing::TestWithParam<ToolShapeSpec> {};
 TEST_P(Lanes, TwoAndFourLanesGiveTheSameBits) {
   if (!four_lanes) std::clog << "this machine has no AVX2: two lanes against two\n";
   EXPECT_TRUE(throw_with(GetParam(), four_lanes) == throw_with(GetParam(), false));
+}
+TEST_P(Lanes, TwoAndFourLanesGiveTheSameBitsWithClayRules) {
+  EXPECT_TRUE(throw_with(GetParam(), four_lanes, ClaySpec{}) ==
+              throw_with(GetParam(), false, ClaySpec{}));
 }
 INSTANTIATE_TEST_SUITE_P(Shapes, Lanes,
                          testing::Values(ToolShapeSpec{SphereSpec{12}},

@@ -1,7 +1,7 @@
 // The clay rules on the wheel: against closed forms, and what must hold after every tick.
 
-#include "app/bench/hands/dice.hpp"
 #include "claystack/engine/wheel.hpp"
+#include "tests/engine/wheel/rule_samples.hpp"
 #include "tests/support/allocation_counter.hpp"
 
 #include <gtest/gtest.h>
@@ -13,26 +13,6 @@
 
 namespace clay {
 namespace {
-
-constexpr double kH = 0.2;
-
-ClaySpec no_rules() { return {false, false, false, false, false, false, 120.0, 0.0}; }
-
-/// A thin wall of 5 mm around a bore of 40 mm, 120 mm high.
-SceneSpec cylinder_scene(ClaySpec clay) {
-  SceneSpec scene;
-  scene.lump = {.rings = 600,
-                .ring_height_mm = kH,
-                .outer_radius_mm = 45.0,
-                .inner_radius_mm = 40.0,
-                .max_rings = 2400,
-                .density_g_cm3 = 1.9};
-  scene.tool = {SphereSpec{10.0}, ToolMode::press, 5.0};
-  scene.removal = {20.0, 0.25, 1.0, {}};
-  scene.force.reset();
-  scene.clay = clay;
-  return scene;
-}
 
 class Hand {
  public:
@@ -63,13 +43,6 @@ const Ring& ring_at(const Wheel& wheel, double y) {
   return wheel.stack().rings()[static_cast<std::size_t>(y / wheel.stack().ring_height_mm())];
 }
 double middle_of(const Ring& ring) { return 0.5 * (ring.outer_mm() + ring.inner_mm()); }
-double wall_of(const Ring& ring) { return ring.outer_mm() - ring.inner_mm(); }
-
-void expect_balanced(const Wheel& wheel) {
-  ASSERT_EQ(wheel.ledger().imbalance(wheel.stack().recount()), 0);
-  ASSERT_EQ(wheel.stack().recount(), wheel.stack().volume());
-}
-
 /// Hoop strain splits evenly over thickness and height: w ~ 1 / sqrt(m).
 TEST(ClayRules, CollaringThickensTheWallByHalfOfTheHoopStrain) {
   ClaySpec clay = no_rules();
@@ -234,70 +207,6 @@ TEST(ClayRules, TheDirectionOfTheFlowHasNoCliff) {
     most =
         std::max(most, std::abs(up.stack.rings()[i].outer_mm() - down.stack.rings()[i].outer_mm()));
   EXPECT_LT(most, 1e-3);
-}
-
-/// A tremor about the wall with all that a hand can do; both ends and thin walls in it.
-std::vector<Pose> random_poses(std::uint64_t seed, int count) {
-  bench::Dice dice(seed);
-  std::vector<Pose> poses;
-  glm::dvec3 at{30.0, 40.0, 0.0}, goal = at;
-  double gap = 0.0, speed = 0.05;
-  for (int k = 0; k < count; ++k) {
-    if (k % 50 == 0) {
-      goal = {dice.between(-10.0, 70.0), dice.between(-15.0, 95.0), 0.0};
-      gap = dice.unit() < 0.4 ? dice.between(0.5, 40.0) : 0.0;
-      speed = dice.unit() < 0.1 ? 5.0 : dice.between(0.01, 0.3);
-    }
-    const glm::dvec3 way = goal - at;
-    const double length = std::sqrt(way.x * way.x + way.y * way.y);
-    if (length > speed) at += way * (speed / length);
-    poses.push_back({1000 * (k + 1), at, k % 300 > 270, gap});
-  }
-  return poses;
-}
-
-SceneSpec small_scene() {
-  SceneSpec scene = cylinder_scene({});
-  scene.lump = {.rings = 150,
-                .ring_height_mm = 0.5,
-                .outer_radius_mm = 40.0,
-                .inner_radius_mm = 30.0,
-                .max_rings = 600,
-                .density_g_cm3 = 1.9};
-  scene.removal = {20.0, 2.0, 3.0, {}};
-  scene.force = ForceSpec{};
-  scene.stability = StabilitySpec{1e6};
-  return scene;
-}
-
-TEST(ClayRules, EveryQuantumIsAccountedForAfterEveryTick) {
-  for (unsigned rules = 0; rules < kRuleSets; rules += 7) {
-    SceneSpec scene = small_scene();
-    scene.clay = ClaySpec{(rules & kLift) != 0,
-                          (rules & kShift) != 0,
-                          (rules & kRim) != 0,
-                          (rules & kHoop) != 0,
-                          (rules & kHeave) != 0,
-                          (rules & kSmear) != 0,
-                          120.0,
-                          3.0};
-    Wheel wheel = Wheel::build(scene).value();
-    for (const Pose& pose : random_poses(rules + 1, 3000)) {
-      const StepReport report = wheel.step(pose);
-      const glm::dvec3 force = report.force_n();
-      ASSERT_TRUE(std::isfinite(force.x + force.y + force.z));
-      ASSERT_GE(wheel.stack().crown(), 0);
-      expect_balanced(wheel);
-      ASSERT_EQ(wheel.stack().hollow(),
-                std::ranges::any_of(wheel.stack().rings(),
-                                    [](const Ring& ring) { return ring.inner2 > 0; }));
-    }
-    for (const Ring& ring : wheel.stack().rings()) {
-      EXPECT_GE(ring.outer2, quanta_from_radius(kMinRadiusMm));
-      EXPECT_GE(ring.inner2, 0);
-      EXPECT_GE(wall_of(ring), 3.0 - 1e-6) << rules;
-    }
-  }
 }
 
 TEST(ClayRules, FeelIsWhatStepSays) {

@@ -1,0 +1,127 @@
+// What must hold after every tick with clay rules, whatever the hand does. A long run:
+// CLAYSTACK_AUDIT_TICKS=100000 engine_tests --gtest_filter=ClayAudit.*
+
+#include "claystack/engine/wheel.hpp"
+#include "engine/tick/contact.hpp"
+#include "tests/engine/wheel/rule_samples.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace clay {
+namespace {
+
+// The radius of a bore of one quantum.
+constexpr double kRoundingMm = 4e-6;
+
+int ticks() {
+  const char* const text = std::getenv("CLAYSTACK_AUDIT_TICKS");
+  return text != nullptr ? std::max(std::atoi(text), 1) : 3000;
+}
+
+TEST(ClayAudit, EveryQuantumIsAccountedForAfterEveryTick) {
+  for (unsigned rules = 0; rules < kRuleSets; rules += 7) {
+    SceneSpec scene = small_scene();
+    scene.clay = ClaySpec{(rules & kLift) != 0,
+                          (rules & kShift) != 0,
+                          (rules & kRim) != 0,
+                          (rules & kHoop) != 0,
+                          (rules & kHeave) != 0,
+                          (rules & kSmear) != 0,
+                          120.0,
+                          3.0};
+    Wheel wheel = Wheel::build(scene).value();
+    for (const Pose& pose : random_poses(rules + 1, ticks())) {
+      const StepReport report = wheel.step(pose);
+      const glm::dvec3 force = report.force_n();
+      ASSERT_TRUE(std::isfinite(force.x + force.y + force.z));
+      ASSERT_GE(wheel.stack().crown(), 0);
+      expect_balanced(wheel);
+      ASSERT_EQ(wheel.stack().hollow(),
+                std::ranges::any_of(wheel.stack().rings(),
+                                    [](const Ring& ring) { return ring.inner2 > 0; }));
+    }
+    // With the hand away, clay that it kept from rising rises.
+    for (int k = 1; k <= 20; ++k)
+      wheel.step({1000 * (ticks() + k), {500.0, 500.0, 0.0}, false, 0.0});
+    if (wheel.stack().size() < wheel.stack().max_rings()) {
+      EXPECT_LT(wheel.stack().crown(), wheel.stack().rings().back().volume());
+    }
+    for (const Ring& ring : wheel.stack().rings()) {
+      EXPECT_GE(ring.outer2, quanta_from_radius(kMinRadiusMm));
+      EXPECT_GE(ring.inner2, 0);
+      EXPECT_GE(wall_of(ring), 3.0 - kRoundingMm) << rules;
+    }
+  }
+}
+
+/// How deep a tool at this height is in a ring; below 0 where it is clear of it.
+double depth_in(const Ring& ring, std::size_t i, const SceneSpec& scene, const Tool& tool,
+                double hip_y, const Contact& contact) {
+  const double t = (static_cast<double>(i) + 0.5) * scene.lump.ring_height_mm - hip_y;
+  if (!(t > tool.low() && t < tool.high())) return -1e9;
+  return depth_of(ring, tool.radius(t), contact);
+}
+
+/// With the tool held still the energy of the overlap only falls: of no ring does it rise, and a
+/// new ring has none. So the change of clay gives no energy to the hand.
+TEST(ClayAudit, ClayNeverMovesIntoTheTool) {
+  const SceneSpec scene = [] {
+    SceneSpec small = small_scene();
+    small.clay = ClaySpec{};
+    return small;
+  }();
+  const Tool tool = Tool::build(scene.tool.shape).value();
+  Wheel wheel = Wheel::build(scene).value();
+  glm::dvec3 last{0.0};
+  double worst = 0.0, worst_new = 0.0;
+  int seen = 0, grown = 0;
+  for (const Pose& pose : random_poses(77, ticks())) {
+    const ClayStack before = wheel.stack();
+    Contact outer, inner;
+    for (Contact* contact : {&outer, &inner})
+      contact->rings.reserve(most_contacts(tool, scene.lump.ring_height_mm, scene.lump.max_rings));
+    const bool pinch = pose.gap_mm > 0.0;
+    if (pinch)
+      find_pinch(tool, before, pose.position_mm, pose.gap_mm, outer, inner);
+    else
+      find_contact(tool, before, pose.position_mm, outer);
+    wheel.step(pose);
+    const glm::dvec3 way = pose.position_mm - last;
+    last = pose.position_mm;
+    if (std::max(std::abs(way.x), std::abs(way.y)) > 0.05) continue;  // a leap is cut into parts
+    ++seen;
+    const std::size_t top = before.size() - 1;
+    // Of a ring, the sum over both tools: a wall between them may move from one to the other.
+    const auto energy = [&](const Ring& ring, std::size_t i) {
+      double sum = 0.0;
+      for (const Contact* contact : {&outer, &inner}) {
+        if (contact == &inner && !pinch) continue;
+        const double depth =
+            std::max(depth_in(ring, i, scene, tool, pose.position_mm.y, *contact), 0.0);
+        sum += depth * depth;
+      }
+      return sum;
+    };
+    const auto rings = wheel.stack().rings();
+    for (std::size_t i = 0; i < rings.size(); ++i) {
+      const double now = energy(rings[i], i);
+      if (i <= top) {
+        worst = std::max(worst, now - energy(before.rings()[i], i));
+      } else {
+        worst_new = std::max(worst_new, now);
+        ++grown;
+      }
+    }
+  }
+  EXPECT_GT(seen, 500);
+  EXPECT_GT(grown, 0);
+  EXPECT_LT(worst, 1e-9);
+  EXPECT_LT(worst_new, 1e-9);
+}
+
+}  // namespace
+}  // namespace clay

@@ -1,0 +1,76 @@
+#pragma once
+// Scenes with clay rules, hands that try all that a hand can do, and what must hold.
+
+#include "app/bench/hands/dice.hpp"
+#include "claystack/engine/wheel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace clay {
+
+inline constexpr double kH = 0.2;
+
+inline ClaySpec no_rules() { return {false, false, false, false, false, false, 120.0, 0.0}; }
+
+/// A thin wall of 5 mm around a bore of 40 mm, 120 mm high.
+inline SceneSpec cylinder_scene(ClaySpec clay) {
+  SceneSpec scene;
+  scene.lump = {.rings = 600,
+                .ring_height_mm = kH,
+                .outer_radius_mm = 45.0,
+                .inner_radius_mm = 40.0,
+                .max_rings = 2400,
+                .density_g_cm3 = 1.9};
+  scene.tool = {SphereSpec{10.0}, ToolMode::press, 5.0};
+  scene.removal = {20.0, 0.25, 1.0, {}};
+  scene.force.reset();
+  scene.clay = clay;
+  return scene;
+}
+
+inline double wall_of(const Ring& ring) { return ring.outer_mm() - ring.inner_mm(); }
+
+inline void expect_balanced(const Wheel& wheel) {
+  ASSERT_EQ(wheel.ledger().imbalance(wheel.stack().recount()), 0);
+  ASSERT_EQ(wheel.stack().recount(), wheel.stack().volume());
+}
+
+/// A tremor about the wall with all that a hand can do; both ends and thin walls in it.
+inline std::vector<Pose> random_poses(std::uint64_t seed, int count) {
+  bench::Dice dice(seed);
+  std::vector<Pose> poses;
+  glm::dvec3 at{30.0, 40.0, 0.0}, goal = at;
+  double gap = 0.0, speed = 0.05;
+  for (int k = 0; k < count; ++k) {
+    if (k % 50 == 0) {
+      goal = {dice.between(-10.0, 70.0), dice.between(-15.0, 95.0), 0.0};
+      gap = dice.unit() < 0.4 ? dice.between(0.5, 40.0) : 0.0;
+      speed = dice.unit() < 0.1 ? 5.0 : dice.between(0.01, 0.3);
+    }
+    const glm::dvec3 way = goal - at;
+    const double length = std::sqrt(way.x * way.x + way.y * way.y);
+    if (length > speed) at += way * (speed / length);
+    poses.push_back({1000 * (k + 1), at, k % 300 > 270, gap});
+  }
+  return poses;
+}
+
+inline SceneSpec small_scene() {
+  SceneSpec scene = cylinder_scene({});
+  scene.lump = {.rings = 150,
+                .ring_height_mm = 0.5,
+                .outer_radius_mm = 40.0,
+                .inner_radius_mm = 30.0,
+                .max_rings = 600,
+                .density_g_cm3 = 1.9};
+  scene.removal = {20.0, 2.0, 3.0, {}};
+  scene.force = ForceSpec{};
+  scene.stability = StabilitySpec{1e6};
+  return scene;
+}
+
+}  // namespace clay
