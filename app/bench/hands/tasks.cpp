@@ -16,6 +16,7 @@ void throw_by(Potter& potter, Task task) {
   if (task == Task::plate) {
     potter.open(5.0);
     potter.widen(48.0);
+    potter.pull(16.0);
     potter.pull(10.0);
     potter.flare(22.0);
     return;
@@ -50,7 +51,7 @@ const TaskFacts& facts_of(Task task) {
       {"belly", "a cylinder, bellied by 18 mm in four passes", 120.0, 0.95},
       {"collar", "a cylinder, collared by 15 mm in four passes", 108.0, 0.95},
       {"bowl", "open, widen, two pulls, flared by 28 mm in five passes", 150.0, 0.95},
-      {"plate", "a flat lump: open, widen, one pull, laid out by 22 mm", 220.0, 0.85},
+      {"plate", "a flat lump: open, widen, two pulls, laid out by 22 mm", 220.0, 0.85},
       {"bottle", "a cylinder, collared by 12 mm, pulled, collared by 10 mm", 108.0, 0.85},
   }};
   return kFacts[static_cast<std::size_t>(task)];
