@@ -34,6 +34,7 @@ std::span<const Case> input_cases();      ///< invalid poses and times
 std::span<const Case> force_cases();      ///< direction, size, energy
 std::span<const Case> stability_cases();  ///< the threshold to the ulp, collapse
 std::span<const Case> pinch_cases();      ///< two tools at once
+std::span<const Case> rule_cases();       ///< the clay rules at their limits
 std::span<const Case> step_cases();       ///< one step recomputed; many steps; the same twice
 
 /// All cases, in the order of the table.
