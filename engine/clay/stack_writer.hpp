@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstddef>
 #include <span>
 
 namespace clay {
@@ -105,6 +106,25 @@ class StackWriter {
     gained_ -= top.volume();
     opened_ -= top.inner2 > 0 ? 1u : 0u;
     stack_.rings_.pop_back();
+  }
+  /// Takes the rings i .. top off, and the crown. Returns their clay.
+  WideQuanta cut_above(std::size_t i) noexcept {
+    const WideQuanta crown = stack_.crown_, before = gained_;
+    while (stack_.rings_.size() > i) sink();
+    const WideQuanta cut = before - gained_ + crown;
+    stack_.crown_ = 0;
+    return cut;
+  }
+  /// Takes the rings below ring i off; the others are set down. Returns their clay.
+  WideQuanta cut_below(std::size_t i) noexcept {
+    const WideQuanta before = gained_;
+    for (std::size_t k = 0; k < i; ++k) {
+      gained_ -= stack_.rings_[k].volume();
+      opened_ -= stack_.rings_[k].inner2 > 0 ? 1u : 0u;
+    }
+    stack_.rings_.erase(stack_.rings_.begin(),
+                        stack_.rings_.begin() + static_cast<std::ptrdiff_t>(i));
+    return before - gained_;
   }
   void reserve() { stack_.rings_.reserve(stack_.max_rings_); }
 

@@ -17,7 +17,8 @@ using namespace files;
 constexpr std::size_t kMaxValues = 100'000;
 constexpr Range kToolSizeMm = above(0).to(kMaxRadiusMm);
 constexpr std::array<std::string_view, 4> kShapeNames = {"sphere", "ellipse", "rib", "sampled"};
-constexpr std::array<std::string_view, 3> kToolModeNames = {"press", "trim", "pinch"};
+constexpr std::array<std::string_view, 7> kToolModeNames = {"press",  "trim", "pinch",    "smooth",
+                                                            "needle", "wire", "trim_foot"};
 constexpr std::array<std::string_view, 2> kSwitchNames = {"off", "on"};
 constexpr std::array<std::string_view, 2> kWheelTurnNames = {"clockwise", "counterclockwise"};
 

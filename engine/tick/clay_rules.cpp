@@ -271,6 +271,31 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> bites, const
   return flow;
 }
 
+void yield_to_sponge(const RulePress& press, const ClayStack& stack, std::span<ToolRemoval> bites,
+                     RuleWork& work) noexcept {
+  work.shift.clear();
+  Contact& contact = bites[0].contact;
+  bites[0].removed.assign(contact.rings.size(), 0);
+  contact.rings.each_slice([](const TouchedRings::Slice& slice) {
+    for (std::size_t k = slice.begin; k < slice.end; ++k) slice.rows.give[k] = 0.0;
+  });
+  work.bands[0] = band_of(press.plan.tool, stack, press.tool.hip_mm.y, contact);
+  reach_of<kSmear | kLift>(press, stack, bites, work);
+}
+
+Flow smooth_clay(const RulePress& press, std::span<const ToolRemoval> bites, const RuleWork& work,
+                 ClayStack& stack, Ledger&, Rim&) noexcept {
+  const StepPlan& plan = press.plan;
+  StackWriter writer(stack);
+  smear(plan.tool, stack, press.tool.hip_mm.y, press.tool.dt_s, bites[0].contact, work.bands[0],
+        {plan.clay.surface_per_s, plan.removal.yield_depth_mm, plan.removal.min_wall_mm, true},
+        writer);
+  Flow flow;
+  flow.lowest = work.lowest;
+  flow.highest = work.highest;
+  return flow;
+}
+
 template <std::size_t... sets>
 constexpr auto steps_table(std::index_sequence<sets...>) {
   return std::array{RuleSteps{&yield_clay<static_cast<unsigned>(sets)>,
@@ -293,6 +318,8 @@ void RuleWork::reserve(const Tool& tool, const ClayStack& stack) {
   const double rings = reach / stack.ring_height_mm() + 8.0;
   shift.reserve(static_cast<std::size_t>(std::min(rings, static_cast<double>(stack.max_rings()))));
 }
+
+RuleSteps sponge_steps() noexcept { return {&yield_to_sponge, &smooth_clay}; }
 
 RuleSteps rule_steps(unsigned rules) noexcept {
   static constexpr auto kSteps = steps_table(std::make_index_sequence<kRuleSets>{});

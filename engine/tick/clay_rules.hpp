@@ -47,5 +47,7 @@ struct RuleSteps {
                Rim&) noexcept = nullptr;
 };
 [[nodiscard]] RuleSteps rule_steps(unsigned rules) noexcept;
+/// A sponge: it moves no wall and squeezes nothing out, whatever the rules.
+[[nodiscard]] RuleSteps sponge_steps() noexcept;
 
 }  // namespace clay

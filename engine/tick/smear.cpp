@@ -9,20 +9,22 @@ namespace clay {
 namespace {
 
 constexpr double kFilmMm = 0.012;
-constexpr double kMostOfStep = 0.25;  // of a difference, for a diffusion that does not oscillate
+constexpr double kSpongeFilmMm = 0.05;  // wetter than a finger
+constexpr double kMostOfStep = 0.25;    // of a difference, for a diffusion that does not oscillate
 constexpr std::size_t kRows = 32;
 
 /// Pairs of places on a surface, `stride` rings apart.
 class Smear {
  public:
   Smear(const Tool& tool, const ClayStack& stack, double hip_y, const Contact& contact,
-        const Band& band, double min_wall_mm, StackWriter& writer) noexcept
+        const Band& band, const Smearing& how, StackWriter& writer) noexcept
       : tool_(tool),
         stack_(stack),
         contact_(contact),
         writer_(writer),
         hip_y_(hip_y),
-        min_wall_(min_wall_mm),
+        min_wall_(how.min_wall_mm),
+        sponge_(how.sponge),
         middle_(0.5 * (band.low_mm + band.high_mm)),
         per_c_(1.0 / std::max(band.height_mm(), stack.ring_height_mm())),
         outside_(contact.side == Side::compressive) {
@@ -45,6 +47,7 @@ class Smear {
   /// the tool's way: half of it, for each ring is of two pairs. [quanta]
   struct Places {
     double outer[kRows], inner[kRows], give[kRows], get[kRows];
+    double depth[kRows];  ///< of the tool [mm]
   };
 
   void load(std::size_t first, std::size_t count, Places& places) noexcept {
@@ -61,15 +64,18 @@ class Smear {
         places.inner[k] = inner2;
         places.give[k] = spare > 0.0 ? 0.5 * spare : 0.0;
         places.get[k] = 1e300;
+        places.depth[k] = 0.0;
       }
     });
     for (std::size_t i = std::max(first, beside_from_); i < std::min(first + count, beside_to_);
-         ++i)
+         ++i) {
       places.get[i - first] = room_beside_tool(i);
+      places.depth[i - first] = contact_.rings.get(i).depth_mm;
+    }
   }
 
   [[nodiscard]] double room_beside_tool(std::size_t i) const noexcept {
-    if (contact_.rings.has(i)) return 0.0;
+    if (contact_.rings.has(i)) return sponge_ ? 1e300 : 0.0;
     const double t = (static_cast<double>(i) + 0.5) * stack_.ring_height_mm() - hip_y_;
     if (t < tool_.low() || t > tool_.high()) return 1e300;
     const double clear = -depth_of(stack_.rings()[i], tool_.radius(t), contact_);
@@ -103,14 +109,32 @@ class Smear {
         amount[k] = closed ? 0.0 : (most > -kMostLaneQuanta ? most : -kMostLaneQuanta);
       }
     });
+    if (sponge_) level(low, high, {amount, count});
     writer_.smear(first, first + stride, {amount, count}, outside_);
+  }
+
+  /// Into what the sponge touches, clay goes only until it is as deep there as where it came from:
+  /// the overlap loses energy.
+  void level(const Places& low, const Places& high, std::span<double> amounts) const noexcept {
+    for (std::size_t k = 0; k < amounts.size(); ++k) {
+      const bool up = amounts[k] > 0.0;
+      const Places &from = up ? low : high, &to = up ? high : low;
+      if (!(to.depth[k] > 0.0)) continue;
+      const double surface2 =
+          outside_ ? std::min(from.outer[k], to.outer[k]) : std::min(from.inner[k], to.inner[k]);
+      const double deeper = std::max(from.depth[k] - to.depth[k], 0.0);
+      const double most = 0.25 * deeper * std::sqrt(surface2 * kMm2PerQuantum) * kQuantaPerMm2;
+      amounts[k] = std::clamp(amounts[k], -most, most);
+    }
   }
 
   const Tool& tool_;
   const ClayStack& stack_;
   const Contact& contact_;
   StackWriter& writer_;
-  double hip_y_, min_wall_, middle_, per_c_;
+  double hip_y_, min_wall_;
+  bool sponge_;
+  double middle_, per_c_;
   std::size_t beside_from_, beside_to_;  ///< rings that the tool touches or could stand beside
   bool outside_;
 };
@@ -126,7 +150,8 @@ void smear(const Tool& tool, const ClayStack& stack, double hip_y, double dt_s,
   const Ring& at = rings[std::min(band.ring, rings.size() - 1)];
   const double radius = contact.side == Side::compressive ? at.outer_mm() : at.inner_mm();
   const double wet = std::min(1.0, 4.0 * band.deepest_mm / how.yield_depth_mm);
-  const double spread = kFilmMm * radius * how.surface_per_s * wet * dt_s;  // D dt
+  const double film = how.sponge ? kSpongeFilmMm : kFilmMm;
+  const double spread = film * radius * how.surface_per_s * wet * dt_s;  // D dt
   // Far enough apart that a step is stable.
   const double apart = std::max(1.0, std::ceil(std::sqrt(spread / kMostOfStep) / h));
   const double middle = 0.5 * (band.low_mm + band.high_mm);
@@ -141,7 +166,8 @@ void smear(const Tool& tool, const ClayStack& stack, double hip_y, double dt_s,
   const std::size_t free =
       std::clamp(contact.rings.to() - std::min(stride, contact.rings.to()), touched, to);
   const double k = spread / (apart * apart * h * h);
-  Smear pairs(tool, stack, hip_y, contact, band, how.min_wall_mm, writer);
+  Smear pairs(tool, stack, hip_y, contact, band, how, writer);
+  if (how.sponge) return pairs.run(from, to, stride, k);
   pairs.run(from, touched, stride, k);
   pairs.run(free, to, stride, k);
 }

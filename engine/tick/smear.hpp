@@ -12,6 +12,8 @@ struct Smearing {
       0.0;  ///< speed of a surface of radius 1 under the tool: 2 pi turns a second
   double yield_depth_mm = 0.25;
   double min_wall_mm = 0.0;
+  /// A sponge also evens out what it touches: from where it is deeper in the clay to where less.
+  bool sponge = false;
 };
 
 /// Diffusion of R^2 (of r^2 inside) along the pressed surface, which keeps the clay to the quantum:

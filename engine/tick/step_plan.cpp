@@ -61,6 +61,10 @@ unsigned stages_of(const SceneSpec& s) {
   if (s.stability) stages |= kStability;
   if (s.tool.gap_mm) stages |= kPinch;
   if (s.clay && s.model != Model::paper) stages |= kRules;
+  // A cut presses nothing; a pot upside down rests on its rim, not on its rings.
+  if (cuts_level(s.tool.mode)) return stages & kPaperModel;
+  if (s.tool.mode == ToolMode::trim_foot) stages &= ~(kStability | kPinch);
+  if (s.tool.mode == ToolMode::smooth) stages &= ~kPinch;
   return stages;
 }
 
@@ -95,6 +99,17 @@ StabilityPlan stability_plan(const SceneSpec& s) {
   return {s.stability->max_stress_kpa, kpa_per_ratio(s.lump.density_g_cm3, s.lump.ring_height_mm)};
 }
 
+/// The same tool seen in a pot that stands upside down.
+ToolShapeSpec turned(const ToolShapeSpec& shape) {
+  const auto* const sampled = std::get_if<SampledSpec>(&shape);
+  if (sampled == nullptr) return shape;
+  SampledSpec turned = *sampled;
+  std::ranges::reverse(turned.t_mm);
+  std::ranges::reverse(turned.f_mm);
+  for (double& t : turned.t_mm) t = -t;
+  return turned;
+}
+
 void describe_rules(const SceneSpec& s, std::vector<PlanLine>& lines) {
   const unsigned rules = rules_of(s);
   const std::string none = s.clay ? "the paper's model has no clay rules" : "no clay rules are set";
@@ -113,7 +128,13 @@ void describe_rules(const SceneSpec& s, std::vector<PlanLine>& lines) {
 
 std::vector<PlanLine> describe(const SceneSpec& s, unsigned stages) {
   const bool hollow = s.lump.inner_radius_mm > 0.0;
-  const bool press = s.tool.mode != ToolMode::trim;
+  if (cuts_level(s.tool.mode))
+    return {
+        {"tool state", true, "pose, time step"},
+        {"cut", true,
+         s.tool.mode == ToolMode::needle ? "the rim, level, where the tool goes through the wall"
+                                         : "the pot off the wheel; the upper part stays"}};
+  const bool press = s.tool.mode != ToolMode::trim && s.tool.mode != ToolMode::trim_foot;
   std::vector<PlanLine> lines{
       {"tool state", true, "pose, time step, direction of motion"},
       {"contact", true, "equations (1), (2), then the rings touched"},
@@ -147,7 +168,11 @@ Result<StepPlan> StepPlan::build(const SceneSpec& scene) {
   if (auto checked = check(scene); !checked) return tl::make_unexpected(checked.error());
   if (scene.tool.mode == ToolMode::pinch && !scene.tool.gap_mm)
     return failure(ErrorKind::bad_input, "tool.gap_mm: expected a gap for mode pinch, found none");
-  auto tool = Tool::build(scene.tool.shape);
+  if (scene.tool.mode == ToolMode::smooth && (!scene.clay || scene.model == Model::paper))
+    return failure(ErrorKind::bad_input,
+                   "tool.mode: expected a scene with clay rules for smooth, found none");
+  auto tool = Tool::build(scene.tool.mode == ToolMode::trim_foot ? turned(scene.tool.shape)
+                                                                 : scene.tool.shape);
   if (!tool) return tl::make_unexpected(tool.error());
 
   StepPlan plan;

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/common.hpp>
 #include <optional>
 #include <span>
@@ -35,6 +36,7 @@ struct Wheel::State {
   Motion motion;                     // of scenes with clay rules, as these two
   RuleWork work;
   RuleSteps rules;
+  std::optional<double> turned_mm;  // height of a pot that stands upside down
   std::optional<Failure> failure;
   glm::dvec3 failure_hip{0.0};
   StepReport (*tick)(State&, const Pose&) noexcept = nullptr;
@@ -93,7 +95,7 @@ void remove(State& s, const ToolState& tool, std::span<ToolRemoval> bites) noexc
 
 template <class State>
 bool trims(const State& s, const ToolState& tool) noexcept {
-  return tool.trim || s.plan.mode == ToolMode::trim;
+  return tool.trim || s.plan.mode == ToolMode::trim || s.plan.mode == ToolMode::trim_foot;
 }
 
 template <class State>
@@ -262,6 +264,52 @@ StepReport feel(State& s, const Pose& pose) noexcept {
   return report;
 }
 
+// From the axis, where there is no bore: as good as through.
+constexpr double kThroughMm = 2.0;
+
+/// Whether a point at this height is beyond the wall, seen from outside.
+bool through_wall(const Ring& ring, const glm::dvec3& hip_mm) noexcept {
+  const double d = std::sqrt(hip_mm.x * hip_mm.x + hip_mm.z * hip_mm.z);
+  return d <= std::max(ring.inner_mm(), kThroughMm);
+}
+
+/// The tick of a needle or a wire. It cuts once, between the nearest rings, as the HIP goes through
+/// the wall. At least a ring stays.
+template <class State>
+StepReport cut_tick(State& s, const Pose& pose) noexcept {
+  StepReport report;
+  const ToolState tool = s.tracker.advance(pose, kFarthestMm);
+  report.flags = (tool.valid ? 0u : kRefused) | (tool.dt_clamped ? kLongStep : 0u);
+  const auto rings = s.stack.rings();
+  const double level = tool.hip_mm.y / s.stack.ring_height_mm();
+  if (!tool.valid || !(level >= 0.0 && level < static_cast<double>(rings.size()))) return report;
+  const Ring& ring = rings[static_cast<std::size_t>(level)];
+  const glm::dvec3 &now = tool.hip_mm, before = now - tool.moved_mm;
+  if (now.x * now.x + now.z * now.z >= mm2_from_quanta(ring.outer2)) return report;
+  report.flags |= kContact;
+  report.rings_touched = 1;
+  const auto cut = static_cast<std::size_t>(level + 0.5);
+  if (!through_wall(ring, now) || through_wall(ring, before) || cut == 0 || cut >= rings.size())
+    return report;
+  StackWriter writer(s.stack);
+  s.ledger.trimmed +=
+      s.plan.mode == ToolMode::needle ? writer.cut_above(cut) : writer.cut_below(cut);
+  s.rim = {};
+  report.flags |= kCut;
+  return report;
+}
+
+/// Turns a pose, or a force, of a hand at a pot that stands upside down.
+Pose turned(Pose pose, double height_mm) noexcept {
+  pose.position_mm.y = height_mm - pose.position_mm.y;
+  return pose;
+}
+StepReport turned(StepReport report) noexcept {
+  report.spring_n.y = -report.spring_n.y;
+  report.friction_n.y = -report.friction_n.y;
+  return report;
+}
+
 template <class State, std::size_t... sets>
 constexpr auto tick_table(std::index_sequence<sets...>) {
   return std::array{&tick<static_cast<unsigned>(sets), State>...};
@@ -336,15 +384,27 @@ Result<Wheel> Wheel::assemble(StepPlan plan, ClayStack stack, const Ledger& ledg
   static constexpr auto kFeels = feel_table<State>(std::make_index_sequence<kStageSets>{});
   if (state->plan.stages & kRules) {
     state->work.reserve(state->plan.tool, state->stack);
-    state->rules = rule_steps(state->plan.clay.rules);
+    state->rules =
+        state->plan.mode == ToolMode::smooth ? sponge_steps() : rule_steps(state->plan.clay.rules);
   }
   state->tick = kTicks[state->plan.stages];
   state->feel = kFeels[state->plan.stages];
+  if (cuts_level(state->plan.mode)) {
+    state->tick = &cut_tick<State>;
+    state->feel = [](State&, const Pose&) noexcept { return StepReport{}; };
+  }
+  if (state->plan.mode == ToolMode::trim_foot) state->turned_mm = state->stack.height_mm();
   return Wheel(std::move(state));
 }
 
-StepReport Wheel::step(const Pose& pose) noexcept { return state_->tick(*state_, pose); }
-StepReport Wheel::feel(const Pose& pose) noexcept { return state_->feel(*state_, pose); }
+StepReport Wheel::step(const Pose& pose) noexcept {
+  State& s = *state_;
+  return s.turned_mm ? turned(s.tick(s, turned(pose, *s.turned_mm))) : s.tick(s, pose);
+}
+StepReport Wheel::feel(const Pose& pose) noexcept {
+  State& s = *state_;
+  return s.turned_mm ? turned(s.feel(s, turned(pose, *s.turned_mm))) : s.feel(s, pose);
+}
 
 const StepPlan& Wheel::plan() const noexcept { return state_->plan; }
 const ClayStack& Wheel::stack() const noexcept { return state_->stack; }

@@ -54,8 +54,20 @@ struct SampledSpec {
 };
 using ToolShapeSpec = std::variant<SphereSpec, EllipseSpec, RibSpec, SampledSpec>;
 
-/// `pinch`: two equal tools press the wall from both sides, as a potter's two hands do.
-enum class ToolMode { press, trim, pinch };
+enum class ToolMode {
+  press,  ///< displaces clay
+  trim,   ///< cuts clay off
+  pinch,  ///< two equal tools press the wall from both sides, as a potter's two hands do
+  /// A sponge, or a wet rib: evens out the surface and cuts nothing. Needs the section `clay`.
+  smooth,
+  /// Cuts the rim level at the height of the HIP as soon as the HIP has gone through the wall.
+  needle,
+  /// Cuts the pot off the wheel at the height of the HIP; what is above stays and is set down.
+  wire,
+  /// The pot stands upside down on the wheel, and the tool trims: for the foot. Poses and forces
+  /// are those of the hand; the pot in memory and in files stays upright.
+  trim_foot,
+};
 
 struct ToolSpec {
   ToolShapeSpec shape = SphereSpec{};

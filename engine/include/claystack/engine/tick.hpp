@@ -177,6 +177,11 @@ struct PlanLine {
   std::string why;
 };
 
+/// Whether a tool of this mode cuts the pot at one height and does nothing else.
+[[nodiscard]] constexpr bool cuts_level(ToolMode mode) noexcept {
+  return mode == ToolMode::needle || mode == ToolMode::wire;
+}
+
 struct StepPlan {
   Model model = Model::conserving;
   unsigned stages = 0;  ///< Stage bits

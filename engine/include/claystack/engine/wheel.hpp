@@ -22,6 +22,7 @@ enum StepFlag : std::uint32_t {
   kGrew = 1u << 3,       ///< rings were added on top
   kRingLimit = 1u << 4,  ///< clay waits above the top ring: raise lump.max_rings
   kCollapsed = 1u << 5,  ///< the stack has failed; further ticks do nothing
+  kCut = 1u << 6,        ///< a needle or a wire has cut the pot
 };
 
 struct StepReport {
