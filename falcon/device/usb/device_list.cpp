@@ -16,9 +16,8 @@ namespace {
 constexpr const char* kNone = "plug one in; a Falcon shows up on USB even without its power supply";
 
 tl::unexpected<DeviceError> usb_is_out(int code) {
-  return device_failure(
-      DeviceFault::transfer_failed,
-      std::string("USB: could not be asked for devices: ") + libusb_strerror(code));
+  return device_failure(DeviceFault::transfer_failed,
+                        std::string("USB: could not list devices: ") + libusb_strerror(code));
 }
 
 DeviceResult<void> list_falcons(std::vector<ListedDevice>& found) {
