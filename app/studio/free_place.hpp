@@ -20,9 +20,8 @@ inline constexpr double kClearanceMm = 0.25;
                                     glm::dvec2 place_mm);
 
 struct WallPlace {
-  double middle_mm = 0.0;  ///< rho of the middle of the wall, above 0
-  double thickness_mm =
-      0.0;  ///< distance that two tools must span to be clear of the clay on both sides
+  double middle_mm = 0.0;     ///< rho of the middle of the wall, above 0
+  double thickness_mm = 0.0;  ///< gap at which two tools are clear of the clay
 };
 /// The wall at this height, over the height of the tool; nothing if there is no wall (no bore, or
 /// above the rim).

@@ -30,7 +30,7 @@ class Potter {
   /// Opens the lump with a ball, down to a floor of this thickness.
   void open(double floor_mm = 8.0);
   void widen(double most_mm = 25.0);                 ///< in two passes
-  void pull(double gap_mm, double target_mm = 0.0);  ///< gap of the fingers; 0: at the wall
+  void pull(double gap_mm, double target_mm = 0.0);  ///< gap of the fingers; target 0: the wall
   void belly(double depth_mm);
   void collar(double depth_mm, int passes = 4);
   void flare(double depth_mm);
