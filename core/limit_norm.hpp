@@ -13,23 +13,23 @@ namespace clay {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// The greatest component without its sign.
+/// The largest absolute component.
 [[nodiscard]] inline double largest(const glm::dvec3& v) noexcept {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-/// Length that does not overflow on the way: infinite where the length is, NaN where it is none.
+/// Length without intermediate overflow: infinite or NaN only if the true length is.
 [[nodiscard]] inline double norm(const glm::dvec3& v) noexcept {
   const double most = largest(v);
   return most > 0.0 ? most * glm::length(v / most) : most;
 }
 
-/// Of a norm that is cut: no rounding, here or in what a caller adds up from parts of it, carries
-/// it over the limit.
+/// Margin of a limited norm, so that no rounding, here or in a caller's sum of its parts, exceeds
+/// the limit.
 inline constexpr double kJustBelow = 1.0 - 8.0 * std::numeric_limits<double>::epsilon();
 
-/// The vector of the same direction that is no longer than `limit`, in exact arithmetic: what is
-/// cut comes out up to 2^-48 shorter. Zero where `v` is not finite.
+/// Shortens `v` to `limit`, keeping its direction. The result is not longer than `limit` in exact
+/// arithmetic; a shortened vector is up to 2^-48 (relative) too short. Zero if `v` is not finite.
 [[nodiscard]] inline glm::dvec3 limit_norm(const glm::dvec3& v, double limit) noexcept {
   if (!is_finite(v)) return glm::dvec3(0.0);
   if (norm(v) <= kJustBelow * limit) return v;

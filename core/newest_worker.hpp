@@ -12,7 +12,8 @@
 
 namespace clay {
 
-/// For one thread that asks and takes. Questions and answers are values; the lock is internal.
+/// For one thread that puts the questions and reads the answers. Both are values; the lock is
+/// internal.
 template <class Question, class Answer>
 class NewestWorker {
  public:

@@ -1,6 +1,6 @@
 #pragma once
 // A tick composed by hand from the engine's stages, without force, friction, stability and pinch:
-// the reference for the cost of left-out stages.
+// the reference for the cost of skipped stages.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/tick.hpp"

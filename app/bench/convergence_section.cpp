@@ -81,9 +81,9 @@ Table table_of(std::string id, std::string title, Column step) {
                    {"outline", "% of R"}, {"force", "% of largest"},
                    {"force_order", ""},   {"force_most", "% of largest"}};
   table.note =
-      "profile: root mean square of R(y) and r(y) over the height; outline: greatest distance of "
-      "the sections' outlines; force: root mean square over time, and the most at any pose; each "
-      "against the finest run. Orders: log2 of the ratio to the error at half the step.";
+      "profile: root mean square of R(y) and r(y) over the height; outline: maximum distance of "
+      "the sections' outlines; force: root mean square over time, and maximum over the poses; each "
+      "compared with the finest run. Orders: log2 of the ratio to the error at half the step.";
   return table;
 }
 
@@ -121,7 +121,7 @@ Table exact_table(bool& sound) {
   return table;
 }
 
-/// The requirements, each as the worst over all strokes.
+/// The requirements, each as the worst case over all strokes.
 struct Worst {
   double force_h10 = 0.0, profile_h10 = 0.0, profile_rate = 0.0, force_rate = 0.0;
 };
@@ -143,8 +143,9 @@ Section convergence_section(const Effort& effort) {
   section.id = "convergence";
   section.title = "Convergence in the height of a ring and in the rate of the poses";
   section.summary =
-      "The same strokes on finer rings and at other rates, against the finest run and, where there "
-      "is one, the exact solution. Neither is a property of clay, so neither may show.";
+      "The same strokes on finer rings and at other rates, compared with the finest run and, if "
+      "there "
+      "is one, the exact solution. The result must not depend on either. ";
 
   using Factors = std::vector<std::size_t>;
   using Periods = std::vector<std::int64_t>;
@@ -170,12 +171,12 @@ Section convergence_section(const Effort& effort) {
   }
   section.values = {
       {"force_change_percent_h10", worst.force_h10, 0.0,
-       "root mean square change of the force with 10 times finer rings, of the largest force"},
-      {"profile_change_percent_h10", worst.profile_h10, 0.0, "of the profile, of R"},
+       "root mean square change of the force with 10 times finer rings, relative to its maximum"},
+      {"profile_change_percent_h10", worst.profile_h10, 0.0, "of the profile, relative to R"},
       {"profile_change_percent_1k_4k", worst.profile_rate, 0.0,
-       "of the profile from 1 kHz to 4 kHz, of R"},
+       "of the profile from 1 kHz to 4 kHz, relative to R"},
       {"force_change_percent_1k_4k", worst.force_rate, 0.0,
-       "of the force from 1 kHz to 4 kHz, of the largest force"}};
+       "of the force from 1 kHz to 4 kHz, relative to its maximum"}};
   section.sound = worst.force_h10 < kMostForcePercent && worst.profile_h10 < kMostProfilePercent &&
                   worst.profile_rate < kMostRatePercent && worst.force_rate < kMostForceRatePercent;
   section.tables = {std::move(rings), std::move(rates), exact_table(section.sound)};

@@ -112,25 +112,24 @@ void measure(std::vector<Series>& all, const Effort& effort) {
 }
 
 Table table_of(const std::vector<Series>& all) {
-  Table table{
-      "engine_precision",
-      "Error and run time of one stroke",
-      {{"along", ""},
-       {"model", ""},
-       {"rings", ""},
-       {"rate_hz", "Hz"},
-       {"reach_mm", "mm"},
-       {"tick_ns", "ns"},
-       {"tick_iqr_ns", "ns"},
-       {"ns_per_ms", "ns"},
-       {"volume_error", "relative"},
-       {"profile_max_mm", "mm"},
-       {"profile_mean_mm", "mm"},
-       {"force_max_n", "N"},
-       {"force_rms_n", "N"}},
-      {},
-      "ns per ms: run time for one ms of the potter's, at 1 kHz that of a tick. Volume: the "
-      "worst error of the body on the way; 0 is not one quantum."};
+  Table table{"engine_precision",
+              "Error and run time of one stroke",
+              {{"along", ""},
+               {"model", ""},
+               {"rings", ""},
+               {"rate_hz", "Hz"},
+               {"reach_mm", "mm"},
+               {"tick_ns", "ns"},
+               {"tick_iqr_ns", "ns"},
+               {"ns_per_ms", "ns"},
+               {"volume_error", "relative"},
+               {"profile_max_mm", "mm"},
+               {"profile_mean_mm", "mm"},
+               {"force_max_n", "N"},
+               {"force_rms_n", "N"}},
+              {},
+              "ns per ms: run time for one ms of the session; at 1 kHz, of one tick. Volume: the "
+              "maximum error during the stroke; 0: not a single quantum."};
   for (const Series& series : all)
     for (const Run& run : series.runs) {
       const Fineness& f = run.fineness;
@@ -185,7 +184,7 @@ Section engine_section(const Effort& effort) {
       plot_of(all, "engine_force", "Force against run time", newtons, force),
       plot_of(all, "engine_volume", "Volume against run time",
               "largest error of the volume, relative", volume),
-      plot_of(all, "engine_profile_reach", "What the kernel's reach cuts off", radii, profile)};
+      plot_of(all, "engine_profile_reach", "Effect of the kernel's reach", radii, profile)};
   section.tables = {table_of(all)};
   double conserving = 0.0, literal = 0.0;
   for (const Series& series : all)
@@ -194,18 +193,18 @@ Section engine_section(const Effort& effort) {
           run.player != Player::paper)
         (run.player == Player::literal ? literal : conserving) = run.outcome.volume_error;
   section.values = {
-      {"conserving_volume_error", conserving, 0.0, "relative, worst of all; 0 is asked"},
-      {"literal_volume_error", literal, 0.0, "relative, worst of all"}};
+      {"conserving_volume_error", conserving, 0.0, "relative, maximum; 0 is required"},
+      {"literal_volume_error", literal, 0.0, "relative, maximum"}};
   section.sound = conserving == 0.0;
   section.summary = fmt::format(
-      "What does accuracy cost? A ball presses a hollow cylinder and pulls up its wall within {} "
+      "Cost of accuracy. A ball presses a hollow cylinder and pulls up its wall within {} "
       "s. "
-      "Radii and forces are held against those of the conserving model at {} rings and {} Hz (of "
+      "Radii and forces are compared with those of the conserving model at {} rings and {} Hz (for "
       "the kernel's reach: against 7 sigma at 200 rings and 1 kHz). `paper` and literal, the paper "
       "as printed with a running sum for the stress, keep its K per ring and k per tick. The "
       "conserving model's volume is {}.",
       kStrokeS, effort.quick ? 6400 : 12'800, effort.quick ? 10'000 : 20'000,
-      conserving == 0.0 ? "kept to the quantum in every run" : "NOT kept");
+      conserving == 0.0 ? "conserved to the quantum in every run" : "NOT conserved");
   return section;
 }
 

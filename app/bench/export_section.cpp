@@ -149,10 +149,11 @@ Table table_of(const std::vector<Run>& runs) {
        {"volume_error", "relative"},
        {"wall_width_mm", "mm"}},
       {},
-      "Surface: the largest distance found between the file, read again, and the smoothed "
+      "Surface: the largest distance found between the file, read back, and the smoothed "
       "pot, at corners and in the middle of edges. Wall: between the two bounds that the "
-      "certificate proves. The tolerance is one for the section, one for the chords around it and, "
-      "in Draco's files, one for every vertex: the surface may be off by their sum."};
+      "certificate proves. The tolerance applies once to the section, once to the chords around it "
+      "and, "
+      "in Draco files, once to every vertex; the error of the surface is at most their sum."};
   for (const Run& run : runs)
     table.rows.push_back(
         {run.along, std::string(solid::name_of(run.format)), run.options.tolerance_mm,
@@ -176,7 +177,7 @@ Plot plot_of(const std::vector<Run>& runs, const char* id, const char* title, co
   return plot;
 }
 
-/// Bytes and time of Draco alone, for the bits of each error and for its speeds.
+/// Bytes and time of Draco alone, for bits of each error and for its speeds.
 std::optional<Table> draco_table(const Pot& pot, const Effort& effort) {
   solid::MemoryStore store;
   solid::ExportOptions options;
@@ -192,7 +193,7 @@ std::optional<Table> draco_table(const Pot& pot, const Effort& effort) {
                {"ms", "ms"},
                {"iqr_ms", "ms"}},
               {},
-              "The bits of the grid follow from the error that a vertex may have. Encoding only."};
+              "The bits of the grid follow from the permitted error of a vertex. Encoding only."};
   std::vector<solid::DracoSettings> settings;
   for (const double error : {0.1, 0.01, 0.001}) settings.push_back({error, 8, 2});
   for (const int speed : {0, 1, 4, 6, 8, 10}) settings.push_back({0.01, 8, speed});
@@ -240,8 +241,8 @@ Section export_section(const Effort& effort) {
   section.plots = {
       plot_of(runs, "export_surface", "Surface against run time", time, mm, ms, surface),
       plot_of(runs, "export_bytes", "Surface against size", "size [kB]", mm, kilobytes, surface),
-      plot_of(runs, "export_wall", "What is proved of the wall against run time", time,
-              "between the bounds of the wall [mm]", ms, wall),
+      plot_of(runs, "export_wall", "Certified wall bounds against run time", time,
+              "difference of the wall bounds [mm]", ms, wall),
       plot_of(runs, "export_volume", "Volume against run time", time,
               "error of the file's volume, relative", ms, volume)};
   section.tables = {table_of(runs)};
@@ -261,15 +262,16 @@ Section export_section(const Effort& effort) {
       worst = std::max(worst, run.surface_mm / run.options.tolerance_mm / (drc ? 3.0 : 2.0));
   }
   section.values = {
-      {"export_surface_share", worst, 0.0, "of the sum of tolerances, the worst of all files"},
-      {"export_volume_error", volume_error, 0.0, "relative, worst of all STL and OBJ"},
-      {"export_drc_volume_error", volume_error_drc, 0.0, "relative, worst of all Draco files"}};
+      {"export_surface_share", worst, 0.0,
+       "relative to the sum of tolerances, maximum over all files"},
+      {"export_volume_error", volume_error, 0.0, "relative, maximum over STL and OBJ"},
+      {"export_drc_volume_error", volume_error_drc, 0.0, "relative, maximum over Draco files"}};
   sound = sound && worst <= 1.0;
   section.sound = sound;
   section.summary = fmt::format(
-      "What does a finer file cost? A bellied pot of 200 rings with throwing marks is smoothed, "
-      "proved, written to memory, read again and verified. The surface of a file takes up at most "
-      "{:.2f} of what its tolerances allow together; the volume of STL and OBJ is within {:.1e} of "
+      "Cost of finer files. A bellied pot of 200 rings with throwing marks is smoothed, "
+      "proved, written to memory, read back and verified. The surface error of a file is at most "
+      "{:.2f} of the sum of its tolerances; the volume of STL and OBJ is within {:.1e} of "
       "the counted clay.",
       worst, volume_error);
   return section;

@@ -46,7 +46,7 @@ Section extremes_section(const Effort& effort) {
               "Extreme cases",
               {{"case", ""}, {"pass", ""}, {"literal_pass", ""}, {"oracle", ""}, {"note", ""}},
               {},
-              "literal_pass is empty where the paper says nothing."};
+              "literal_pass is empty if the paper does not define the case."};
   Tally tally;
   for (const Case& c : extreme::cases()) {
     effort.progress(c.name);
@@ -60,13 +60,13 @@ Section extremes_section(const Effort& effort) {
       {"cases", static_cast<double>(extreme::cases().size()), 0.0, "in the suite"},
       {"failed", static_cast<double>(tally.failed), 0.0, "of the engine"},
       {"literal_failed", static_cast<double>(tally.literal_failed), 0.0, "of the paper as printed"},
-      {"literal_ran", static_cast<double>(tally.literal_ran), 0.0, "that the paper has words for"}};
+      {"literal_ran", static_cast<double>(tally.literal_ran), 0.0, "that the paper defines"}};
   section.sound = tally.failed == 0 && tally.surprises == 0;
   section.summary = fmt::format(
       "Each case has a requirement and an oracle outside the engine. The same case judges the "
       "paper "
       "as printed, which proves that it can fail: of {} the engine fails {}; of the {} that the "
-      "paper has words for, the paper as printed fails {}.",
+      "paper defines, the paper as printed fails {}.",
       extreme::cases().size(), tally.failed, tally.literal_ran, tally.literal_failed);
   return section;
 }

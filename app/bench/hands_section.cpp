@@ -11,8 +11,8 @@ namespace clay::bench {
 namespace {
 
 constexpr int kPotters = 20, kPottersQuick = 3;
-constexpr std::uint64_t kOtherSeeds = 7000;  // a second set that the rules were not tried on
-constexpr double kWidest = 1.3;              // of what the hand asked for
+constexpr std::uint64_t kOtherSeeds = 7000;  // a second set, not used for tuning the rules
+constexpr double kWidest = 1.3;              // relative to the target of the hand
 
 struct RuleSet {
   std::string name;
@@ -36,7 +36,7 @@ std::vector<RuleSet> rule_sets(bool quick) {
   return sets;
 }
 
-/// The pots of one task with one set of rules, together.
+/// All pots of one task with one set of rules.
 struct Outcome {
   double height = 0.0, wall = 0.0, cv = 0.0, thinnest = 1e300, ledge = 0.0, width = 0.0;
   double wheel_s = 0.0, tick_us = 0.0;
@@ -87,8 +87,8 @@ Table empty_table() {
        {"volume_error", "quanta"},
        {"tick_us", "us"}},
       {},
-      "Printable: no closed cavity, wall of 2 mm at least, no ledge of 2 mm. Thinnest, ledge and "
-      "width are the worst of all pots, roughness is the median, all else the mean."};
+      "Printable: no closed cavity, wall of at least 2 mm, no ledge of 2 mm. Thinnest, ledge and "
+      "width are the worst values of all pots, roughness is the median, the rest are means."};
 }
 
 std::vector<Cell> row_of(Task task, const RuleSet& rules, Outcome outcome) {
@@ -139,9 +139,10 @@ Section hands_section(const Effort& effort) {
   section.id = "hands";
   section.title = "Pots thrown by simulated hands";
   section.summary =
-      "Does what a hand throws become a pot? Potters with tremor, misjudged depth and strokes that "
+      "Quality of pots thrown by hand. Simulated potters with tremor, misjudged depth and strokes "
+      "that "
       "end early throw from 1 kg of clay, without the clay rules, with all of them, and with each "
-      "left out in turn. ";
+      "omitted in turn. ";
   Table table = empty_table();
   const int potters = effort.quick ? kPottersQuick : kPotters;
   int asked = 0, met = 0;
@@ -172,7 +173,7 @@ Section hands_section(const Effort& effort) {
       met += holds(facts, outcome) ? 1 : 0;
       section.values.push_back(
           {"printable_" + std::string(facts.name), outcome.share(), 0.0,
-           fmt::format("share of {} pots, with all rules; at least {} is asked "
+           fmt::format("share of {} pots, with all rules; required: at least {} "
                        "for",
                        outcome.pots, facts.least_printable)});
     }
@@ -181,7 +182,7 @@ Section hands_section(const Effort& effort) {
   section.tables.push_back(std::move(table));
   section.sound = met == asked;
   section.summary +=
-      fmt::format("With all rules {} of {} tasks hold what is asked for.", met, asked);
+      fmt::format("With all rules {} of {} tasks meet the requirements.", met, asked);
   return section;
 }
 

@@ -56,7 +56,7 @@ std::vector<Pair> pairs() {
   add("none: the same job twice", [](Job&) {});
   add("smoothing, fair", [](Job& j) { j.options.smoothing = solid::Smoothing::fair; });
   add("smoothing, exact", [](Job& j) { j.options.smoothing = solid::Smoothing::exact; });
-  add("walls measured all over", [](Job& j) { j.options.wall_spacing_mm = 1.0; });
+  add("wall field", [](Job& j) { j.options.wall_spacing_mm = 1.0; });
   add("full verification", [](Job& j) { j.options.full_verification = true; });
   add("OBJ as well", [](Job& j) { j.formats.push_back(MeshFormat::obj); });
 #ifdef CLAYSTACK_DRACO
@@ -71,7 +71,7 @@ std::vector<Pair> pairs() {
 Table empty_table() {
   return {
       "left_out_export",
-      "What a stage of an export costs",
+      "Cost of the stages of an export",
       {{"stage", ""},
        {"out_ms", "ms"},
        {"in_ms", "ms"},
@@ -80,7 +80,7 @@ Table empty_table() {
        {"iqr", ""}},
       {},
       fmt::format("A bellied pot of {} rings as binary STL, into memory, unsmoothed, to 0.05 mm. "
-                  "A smooth wall needs fewer facets than its steps, and so may save more than "
+                  "A smooth wall needs fewer facets than its steps, and so may save more time than "
                   "it costs.",
                   kBelliedRings)};
 }
@@ -100,13 +100,13 @@ Samples unaccounted(const Job& job, int rounds) {
   return shares;
 }
 
-/// The job's own measurement: as `claystack export --measure-left-out`.
+/// Measured by the job itself, as by `claystack export --measure-left-out`.
 Table own_word(Job job) {
   Table table{"left_out_export_saved",
-              "What the job says that it left out, and what that saved",
+              "Stages that the job skipped, and the time saved",
               {{"what", ""}, {"why", ""}, {"saved_ms", "ms"}},
               {},
-              "Once, as by claystack export --measure-left-out."};
+              "Measured once, as by claystack export --measure-left-out."};
   job.options.measure_left_out = true;
   if (const auto report = job.run())
     for (const solid::SkippedStage& item : report->left_out)
@@ -132,10 +132,10 @@ void measure_export_stages(Section& section, const Effort& effort) {
   }
   const Spread rest = spread_of(unaccounted(all[0].out, rounds.count));
   section.values.push_back({"export_unaccounted_percent", rest.median, rest.range(),
-                            "of an export's time that is in none of the stages it lists"});
-  section.summary += fmt::format(
-      "An export lists the stages that it runs; all the rest of it is {:.1f} % of its time.",
-      rest.median);
+                            "of an export's time outside its listed stages"});
+  section.summary +=
+      fmt::format("An export lists the stages that it runs; {:.1f} % of its time is outside them.",
+                  rest.median);
   section.tables.push_back(std::move(table));
   section.tables.push_back(own_word(all[0].out));
 }

@@ -36,7 +36,7 @@ Work by_hand(double depth_mm) {
   return {"by hand", [depth_mm] { return bare_stroke_s(bare_scene(), depth_mm); }};
 }
 
-/// One tool at a wall, and two.
+/// One tool on a wall, and two tools.
 Duel pinch_at_work(const Rounds& rounds) {
   SceneSpec wall = bare_scene();
   wall.lump.inner_radius_mm = wall.lump.outer_radius_mm - 12.0;
@@ -58,20 +58,20 @@ std::vector<Cell> row_of(const std::string& stage, const std::string& where, con
 }
 
 Table empty_table() {
-  return {
-      "left_out",
-      "What a stage of the tick costs",
-      {{"stage", ""},
-       {"where", ""},
-       {"out_ns", "ns"},
-       {"in_ns", "ns"},
-       {"cost_ns", "ns"},
-       {"in_over_out", ""},
-       {"iqr", ""}},
-      {},
-      "A stroke up the outside of 200 rings, 1 mm deep, or 5 mm off it in the air. The first rows "
-      "compare the scene with all stages out: with itself, which is the noise, and with a tick "
-      "that was written by hand without them."};
+  return {"left_out",
+          "Cost of the stages of a tick",
+          {{"stage", ""},
+           {"where", ""},
+           {"out_ns", "ns"},
+           {"in_ns", "ns"},
+           {"cost_ns", "ns"},
+           {"in_over_out", ""},
+           {"iqr", ""}},
+          {},
+          "A stroke up the outside of 200 rings, 1 mm deep, or 5 mm away from it in the air. The "
+          "first rows "
+          "compare the scene with all stages out: with itself, which is the noise, and with a tick "
+          "written by hand without them."};
 }
 
 void measure_tick_stages(Section& section, const Effort& effort) {
@@ -97,12 +97,12 @@ void measure_tick_stages(Section& section, const Effort& effort) {
   table.rows.push_back(row_of("pinch, both hands", "in contact", pinch_at_work(rounds)));
   section.tables.push_back(std::move(table));
   section.values.push_back({"out_over_by_hand", bare.ratio.median, bare.ratio.range(),
-                            "ratio: the engine with all out, a tick that never had them"});
+                            "ratio: the engine with all stages skipped, a tick without them"});
   section.values.push_back(
       {"same_scene_twice", noise.ratio.median, noise.ratio.range(), "ratio: the noise"});
   section.sound = section.sound && !exceeds(bare.ratio, kNoiseRatio);
   section.summary += fmt::format(
-      "With all of them out the engine takes {:.3f} times as long as a tick written by hand "
+      "With all stages skipped the engine takes {:.3f} times as long as a tick written by hand "
       "without "
       "them; the same scene measured twice gives {:.3f}. ",
       bare.ratio.median, noise.ratio.median);
@@ -113,11 +113,11 @@ void measure_tick_stages(Section& section, const Effort& effort) {
 Section left_out_section(const Effort& effort) {
   Section section;
   section.id = "left_out";
-  section.title = "What a scene does not need";
+  section.title = "Skipped stages";
   section.summary =
-      "What does a stage cost when it is in, and does it cost anything when it is out? The same "
+      "Cost of a stage when included and when skipped. The same "
       "work "
-      "with and without it, by turns. ";
+      "alternately with and without it. ";
   measure_tick_stages(section, effort);
 #ifdef CLAYSTACK_EXPORT
   measure_export_stages(section, effort);

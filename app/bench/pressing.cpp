@@ -8,8 +8,7 @@
 namespace clay::bench {
 namespace {
 
-constexpr double kApartMm =
-    126.0;  // distance of presses: the flow from one does not reach the next
+constexpr double kApartMm = 126.0;  // distance of presses: beyond the reach of the flow
 constexpr double kFirstDepthMm = 6.0;
 constexpr double kBallMm = 12.0;
 constexpr double kRibMm = 6.0;

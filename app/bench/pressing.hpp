@@ -21,7 +21,7 @@ inline constexpr double kPressMm = 6.0;   ///< inward, and the same upward
 /// The same scene in the paper's terms, including K, mu and the stress threshold.
 [[nodiscard]] LiteralScene literal_of(const SceneSpec& scene, LiteralWriting writing);
 
-/// Presses a lump at one place after the other, then takes a new lump.
+/// Presses a lump at one place after the other, then continues with a new lump.
 class Presser {
  public:
   /// For a scene that Wheel::build accepts. The tool rises by `rise_mm` during a press; if that

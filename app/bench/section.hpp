@@ -21,12 +21,12 @@ struct Value {
   std::string about;    ///< for people
 };
 
-/// Nothing, a verdict, a count, a number, or words.
+/// Nothing, a verdict, a count, a number, or text.
 using Cell = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
 
 struct Column {
   std::string name;  ///< key in JSON
-  std::string unit;  ///< empty where there is none
+  std::string unit;  ///< empty if there is none
 };
 
 struct Table {
@@ -62,11 +62,11 @@ struct Effort {
 // The sections, in the order of the report.
 Section tick_section(const Effort& effort);         ///< cost of a tick: N, rings touched, literal
 Section engine_section(const Effort& effort);       ///< error against run time
-Section convergence_section(const Effort& effort);  ///< h -> 0 and rate -> infinity
+Section convergence_section(const Effort& effort);  ///< convergence in ring height and rate
 Section hands_section(const Effort& effort);        ///< pots thrown by simulated hands
 Section left_out_section(const Effort& effort);  ///< the cost of each stage, included and left out
 Section extremes_section(const Effort& effort);  ///< the suite of app/bench/extreme
-Section servo_section(const Effort& effort);     ///< stable stiffness, stiff closed loop
+Section servo_section(const Effort& effort);     ///< stable stiffness, closed loop
 Section export_section(const Effort& effort);    ///< error and bytes against run time
 
 }  // namespace clay::bench

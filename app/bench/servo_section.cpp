@@ -77,8 +77,8 @@ Table borders(const Effort& effort, Verdict& verdict) {
                {"passivity_error", "%"}},
               {},
               "Passive: 2b/((2n+1)T). Stable: Jury's test. Measured: bisection on the growth of a "
-              "free swing. Passivity error: damping that forced swings up to Nyquist ask for, "
-              "against the theorem's."};
+              "free swing. Passivity error: damping required by forced swings up to Nyquist, "
+              "compared with the theorem."};
   const std::vector<double> rates =
       effort.quick ? std::vector<double>{100, 1000, 8000}
                    : std::vector<double>{100, 250, 500, 1000, 2000, 4000, 8000};
@@ -192,7 +192,7 @@ Plot energy_plot(const std::vector<double>& rates, Verdict& verdict) {
             {"mean over the cycles / energy stored at rest", false},
             {},
             "Exact encoders; a cycle is from one deepest point to the next. Above zero the loop "
-            "feeds the hand. Tolerance: rounding, 1e-13 of the energy passed."};
+            "feeds energy to the hand. Tolerance: rounding, 1e-13 of the energy passed."};
   for (const double rate : rates) {
     Curve curve{std::to_string(static_cast<int>(rate)) + " Hz", {}, {}, {}, {}, true, false};
     for (double part = 0.2; part < 4.0; part *= 1.1) {
@@ -225,16 +225,17 @@ double stiffest_calm_clay(double rate, double removal, const std::vector<double>
 }
 
 Table clay_table(const std::vector<double>& k_values) {
-  Table table{"servo_clay_gain",
-              "How far beyond the elastic border clay stays calm",
-              {{"rate", "Hz"},
-               {"removal", "1/s"},
-               {"stable_elastic", "N/m"},
-               {"calm_up_to", "N/m"},
-               {"gain", ""}},
-              {},
-              "Bare loop. Calm: no swing above 0.2 mm in a stroke of 3 mm/s. The last stiffness of "
-              "the scan is 1e6 N/m: a gain that reaches it is a lower bound."};
+  Table table{
+      "servo_clay_gain",
+      "Stable stiffness of clay beyond the elastic border",
+      {{"rate", "Hz"},
+       {"removal", "1/s"},
+       {"stable_elastic", "N/m"},
+       {"calm_up_to", "N/m"},
+       {"gain", ""}},
+      {},
+      "Bare loop. Stable: no swing above 0.2 mm in a stroke of 3 mm/s. The last stiffness of "
+      "the scan is 1e6 N/m: a gain that reaches it is a lower bound."};
   for (const double rate : {100.0, 1000.0, 4000.0})
     for (const double removal : {0.0, 1.0, 20.0, 100.0}) {
       const double border = stable_stiffness(arm_at(rate));
@@ -250,12 +251,13 @@ Value counted(std::string name, double value, std::string about) {
 
 void conclude(Section& section, const Verdict& v) {
   section.values = {
-      counted("border_error_percent", v.border_error_percent, "largest, of the stable stiffness"),
+      counted("border_error_percent", v.border_error_percent,
+              "maximum, relative to the stable stiffness"),
       counted("passivity_error_percent", v.passivity_error_percent,
-              "largest, of the damping asked"),
+              "maximum, relative to the required damping"),
       counted("stable_cells", v.stable_cells, "of the energy plot"),
       counted("worst_stable_cycle_j", v.worst_stable_cycle_j,
-              "most energy injected in one of them, less its tolerance"),
+              "maximum energy injected in one of them, minus its tolerance"),
       counted("buzzing_cells_bare", v.buzzing_cells, "limit cycle above 0.2 mm without controller"),
       counted("worst_swing_controlled_mm", 1e3 * v.worst_controlled_m,
               "largest limit cycle with it, peak to peak"),
@@ -275,7 +277,7 @@ Section servo_section(const Effort& effort) {
   section.summary =
       "A simulated arm of 0.1 kg, 2 N s/m and a tick of delay against a wall and against the clay, "
       "over stiffness, rate and damping: where it is stable, what energy it injects, and what the "
-      "passivity controller makes of the rest.";
+      "passivity controller does with the rest.";
   Verdict verdict;
   const std::vector<double> k_values = stiffnesses(effort.quick);
   const std::vector<double> rates{100, 250, 500, 1000, 2000, 4000, 8000};

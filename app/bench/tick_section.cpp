@@ -62,7 +62,7 @@ std::vector<Samples> tick_ns(const std::vector<Contender>& contenders, const Rou
 std::vector<Contender> sizes() {
   using enum LiteralWriting;
   return {
-      engine_at("n200_ns", "a tick of 200 rings, every stage in", press_scene(200)),
+      engine_at("n200_ns", "a tick of 200 rings, all stages", press_scene(200)),
       engine_at("n10000_ns", "of 10 000 rings", press_scene(10'000)),
       engine_at("n1000000_ns", "of a million rings", press_scene(1'000'000)),
       literal_at("literal_n200_ns", "the paper as printed: stress summed again for each ring",
@@ -71,7 +71,7 @@ std::vector<Contender> sizes() {
                  press_scene(200), eased),
       literal_at("literal_eased_n10000_ns", "the same of 10 000 rings", press_scene(10'000), eased,
                  kFewTicks),
-      in_two_lanes(engine_at("two_lanes_n200_ns", "of 200 rings, two at a time where four could be",
+      in_two_lanes(engine_at("two_lanes_n200_ns", "of 200 rings, two at a time instead of four",
                              press_scene(200))),
   };
 }
@@ -91,18 +91,17 @@ void measure_sizes(Section& section, const Effort& effort) {
   const Spread least = spread_of(ns[0]), speed_up = ratio_of(ns[3], ns[0]),
                growth = ratio_of(ns[2], ns[0]);
   section.values.push_back(
-      value_of("literal_over_engine_n200", speed_up, "ratio; at least 5 is asked for"));
+      value_of("literal_over_engine_n200", speed_up, "ratio; required: at least 5"));
   section.values.push_back(value_of("literal_eased_over_engine_n200", ratio_of(ns[4], ns[0]),
-                                    "ratio; the paper's equations, written with care"));
-  section.values.push_back(
-      value_of("n1000000_over_n200", growth, "ratio; at most 1.5 is asked for"));
+                                    "ratio; the paper's equations, implemented efficiently"));
+  section.values.push_back(value_of("n1000000_over_n200", growth, "ratio; required: at most 1.5"));
   section.values.push_back(value_of("two_lanes_over_four", ratio_of(ns[6], ns[0]),
-                                    "ratio; 1 where the machine has no AVX2"));
+                                    "ratio; 1 on a machine without AVX2"));
   section.sound = !exceeds(least, kMostNs) && !falls_short(speed_up, kLeastSpeedUp) &&
                   !exceeds(growth, kMostGrowth);
   section.summary += fmt::format(
-      "Of 200 rings a tick takes {:.0f} ns, {:.1f} times less than the paper as printed; of a "
-      "million rings {:.2f} times as long.",
+      "With 200 rings a tick takes {:.0f} ns, {:.1f} times less than the paper as printed; with a "
+      "million rings, {:.2f} times as long.",
       least.median, speed_up.median, growth.median);
 }
 
@@ -110,7 +109,7 @@ void measure_sizes(Section& section, const Effort& effort) {
 void measure_ribs(Section& section, const Effort& effort) {
   effort.progress("rings touched");
   Table table{"tick_rings",
-              "Time of a tick over the rings that it touches",
+              "Duration of a tick over the number of rings touched",
               {{"rings", ""},
                {"engine_ns", "ns"},
                {"engine_iqr_ns", "ns"},
@@ -121,7 +120,7 @@ void measure_ribs(Section& section, const Effort& effort) {
               {},
               "An upright rib against 800 rings; the paper with a running sum for the stress."};
   Plot plot{"tick_rings_plot",
-            "Time of a tick over the rings that it touches",
+            "Duration of a tick over the number of rings touched",
             {"rings touched", true},
             {"time of a tick [ns]", true},
             {},
@@ -155,7 +154,7 @@ void measure_ribs(Section& section, const Effort& effort) {
 void measure_speeds(Section& section, const Effort& effort) {
   effort.progress("speeds");
   Table table{"tick_speed",
-              "Time of a tick over the speed of the hand",
+              "Duration of a tick over the speed of the hand",
               {{"speed_mm_s", "mm/s"}, {"rings", ""}, {"engine_ns", "ns"}, {"iqr_ns", "ns"}},
               {},
               "The ball rises along 800 rings while it is pressed, at 1 kHz."};
@@ -194,9 +193,10 @@ void measure_jump(Section& section, const Effort& effort) {
 Section tick_section(const Effort& effort) {
   Section section;
   section.id = "tick";
-  section.title = "What a tick costs";
+  section.title = "Cost of a tick";
   section.summary =
-      "How long does a tick take, and does it grow with the pot? A ball is pressed into the middle "
+      "Duration of a tick, and its dependence on the size of the pot. A ball is pressed into the "
+      "middle "
       "of a hollow lump for a thousand ticks: contact, removal, flow on both surfaces, stress, "
       "force and friction. ";
   measure_sizes(section, effort);

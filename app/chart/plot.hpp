@@ -42,9 +42,9 @@ struct Map {
 /// A standalone drawing includes its title and style; one in a page uses the page's style.
 enum class Place { alone, page };
 
-/// Values that are not finite are not drawn, nor values that a logarithmic axis cannot show, except
-/// zero, which is drawn on the axis as an open triangle. Curves of thousands of points are thinned
-/// to the extremes of each half pixel. Names are escaped.
+/// Omits values that are not finite or that a logarithmic axis cannot show, except zero, which is
+/// drawn on the axis as an open triangle. Curves of thousands of points are thinned to the extremes
+/// of each half pixel. Names are escaped.
 [[nodiscard]] std::string svg_of(const Plot& plot, Place place);
 /// Both the colour and the size of a dot encode the value of a cell.
 [[nodiscard]] std::string svg_of(const Map& map, Place place);

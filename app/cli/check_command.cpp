@@ -19,7 +19,7 @@ Result<void> check_usage(const CheckCommand& command) {
   if (command.changes_mesh() == command.out.empty())
     return failure(ErrorKind::bad_input,
                    command.changes_mesh()
-                       ? "expected -o FILE for the mesh that --repair or --max-triangles makes"
+                       ? "expected -o FILE for the result of --repair or --max-triangles"
                        : "-o: expected --repair or --max-triangles with it");
   if (command.changes_mesh() && !is_pot(command.file))
     if (const auto format = solid::mesh_format_of(command.out); !format)
@@ -79,23 +79,22 @@ void add_check_command(CLI::App& app, Console& console, int& exit) {
       app.add_subcommand("check", "Check a pot or a mesh, and report each fault with its place");
   sub->add_option("file", command->file, ".stl, .obj, .drc, .pot.json or .pot.cbor")->required();
   command->walls.add_to(*sub);
-  sub->add_option(
-         "--wall-samples", command->wall_samples,
-         "Walls are measured on pots and sampled on meshes by this number of rays: these may "
-         "miss the thinnest place")
+  sub->add_option("--wall-samples", command->wall_samples,
+                  "Number of rays that sample the walls of a mesh; they may "
+                  "miss the thinnest place (pots are measured, not sampled)")
       ->check(CLI::Range(std::size_t{1}, solid::kMostWallSamples))
       ->capture_default_str();
   sub->add_option("--certificate", command->certificate,
                   "Certificate of the file, to be verified against its bytes");
   sub->add_flag("--repair", command->repair, "Repair the mesh, and report what was repaired");
-  sub->add_option(
-         "--max-triangles", command->max_triangles,
-         "Most triangles: decimates a closed mesh after any repair, and measures the error")
+  sub->add_option("--max-triangles", command->max_triangles,
+                  "Maximum number of triangles: decimates a closed mesh after any repair, and "
+                  "measures the error")
       ->check(CLI::Range(solid::kFewestTriangles, solid::kMaxTriangles));
   sub->add_option(
       "-o,--out", command->out,
-      "File for the repaired or decimated mesh: .stl, .obj or .drc. Written even where nothing "
-      "had to be done or problems remain; the verdict and the exit status are its own");
+      "File for the repaired or decimated mesh: .stl, .obj or .drc. Written even if nothing "
+      "had to be changed or problems remain; verdict and exit status are those of the result");
   sub->footer(
       "\nExamples:\n  claystack check bowl.stl --certificate bowl.stl.certificate.json\n"
       "  claystack check bowl.pot.json --min-wall 3 "

@@ -25,7 +25,7 @@ Result<void> expect_memory(std::string_view triangles, std::uint64_t bytes,
   if (bytes <= room.bytes) return {};
   return failure(
       ErrorKind::io,
-      fmt::format("checking {} triangles takes about {} of memory, found {} left under {}",
+      fmt::format("checking {} triangles needs about {} of memory, found {} left under {}",
                   triangles, gigabytes(bytes), gigabytes(room.bytes), room.limit));
 }
 
@@ -57,7 +57,7 @@ Result<solid::MeshReport> checked(const TriangleMesh& mesh) {
   // The estimate was too low for this mesh.
   if (report.out_of_memory)
     return failure(ErrorKind::io,
-                   fmt::format("checking {} triangles takes more memory than the {} left under {}",
+                   fmt::format("checking {} triangles needs more memory than the {} left under {}",
                                triangles, gigabytes(room.bytes), room.limit));
   return report;
 }
@@ -141,19 +141,21 @@ Result<void> measure_wall(const TriangleMesh& mesh, const solid::WallLimit& limi
   verdict.wall_sampled = *wall;
   if (wall->rays < command.wall_samples)
     verdict.notes.push_back(fmt::format(
-        "walls sampled by {} rays only, {} were asked for: too many triangles lie about each ray",
+        "walls sampled by only {} rays instead of {}: too many triangles lie near each ray",
         wall->rays, command.wall_samples));
   if (std::isinf(wall->least_mm))
     problem("wall not measured",
-            fmt::format("none of {} rays met the other side of a wall", wall->rays));
+            fmt::format("none of {} rays reached the other side of a wall", wall->rays));
   else if (wall->least_mm >= limit.min_wall_mm)
-    verdict.notes.push_back("walls seen: " + solid::wall_text(wall->least_mm, limit));
+    verdict.notes.push_back("sampled walls: " + solid::wall_text(wall->least_mm, limit));
   else
-    problem("thin wall (sampled)",
-            fmt::format("triangle {} at ({:.6g}, {:.6g}, {:.6g}) mm: {:.3f} mm, expected {:.3f} mm "
-                        "at least ({})",
-                        wall->triangle, wall->place.x, wall->place.y, wall->place.z, wall->least_mm,
-                        limit.min_wall_mm, limit.asked_by()));
+    problem(
+        "thin wall (sampled)",
+        fmt::format(
+            "triangle {} at ({:.6g}, {:.6g}, {:.6g}) mm: {:.3f} mm, expected at least {:.3f} mm "
+            "({})",
+            wall->triangle, wall->place.x, wall->place.y, wall->place.z, wall->least_mm,
+            limit.min_wall_mm, limit.asked_by()));
   return {};
 }
 

@@ -54,7 +54,7 @@ Json certificate_json(const solid::SolidCertificate& certificate, bool holds) {
           {"counted_volume_mm3", certificate.counted_volume_mm3}};
 }
 
-void tell_certificate(const Console& console, const solid::SolidCertificate& certificate) {
+void print_certificate(const Console& console, const solid::SolidCertificate& certificate) {
   console.say(fmt::format(
       "  certificate holds: closed and embedded, wall {:.4f} to {:.4f} mm at its thinnest, volume "
       "{:.3f} cm3 within {:.2g} mm3",
@@ -62,10 +62,10 @@ void tell_certificate(const Console& console, const solid::SolidCertificate& cer
       certificate.volume_bound_mm3));
 }
 
-void tell_wall(const Console& console, const solid::SampledWall& wall) {
+void print_wall(const Console& console, const solid::SampledWall& wall) {
   if (!std::isinf(wall.least_mm))
     console.say(
-        fmt::format("  thinnest seen {:.2f} mm at ({:.6g}, {:.6g}, {:.6g}), {} rays; a sampled "
+        fmt::format("  thinnest sample {:.2f} mm at ({:.6g}, {:.6g}, {:.6g}), {} rays; a sampled "
                     "value, not a bound",
                     wall.least_mm, wall.place.x, wall.place.y, wall.place.z, wall.rays));
   if (wall.escaped > 0)
@@ -135,8 +135,8 @@ void tell(const Console& console, const std::string& file, const Verdict& verdic
                             mesh.components, mesh.volume_mm3 / 1000.0));
   }
   if (verdict.wall_mm) console.say(fmt::format("  thinnest {:.3f} mm", *verdict.wall_mm));
-  if (verdict.wall_sampled) tell_wall(console, *verdict.wall_sampled);
-  if (verdict.certificate_holds) tell_certificate(console, *verdict.certificate);
+  if (verdict.wall_sampled) print_wall(console, *verdict.wall_sampled);
+  if (verdict.certificate_holds) print_certificate(console, *verdict.certificate);
   for (const std::string& note : verdict.notes) console.say("  note: " + note);
   for (const auto& problem : mesh.problems)
     console.say(fmt::format("  {}{} ({}{}): {}", was_repaired ? "remaining: " : "", problem.what,

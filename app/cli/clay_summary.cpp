@@ -41,12 +41,13 @@ Json clay_json(const Wheel& wheel, const Pot& pot) {
   return json;
 }
 
-void tell_collapse(const Console& console, const Json& summary) {
+void print_collapse(const Console& console, const Json& summary) {
   if (!summary["collapsed"].get<bool>()) return;
   const Json& fall = summary["collapse"];
   console.say(fmt::format(
-      "collapsed: ring {} had to bear {:.3f} kPa, more than {:.3f}; the part above "
-      "came to rest at {:.0f} degrees and lost {:.1f} mJ, {:.1f} of them to the clay below",
+      "collapsed: ring {} carried {:.3f} kPa, more than the limit of {:.3f} kPa; the part above "
+      "came to rest at {:.0f} degrees and lost {:.1f} mJ, {:.1f} of them by deforming the clay "
+      "below",
       fall["ring"].get<std::size_t>(), fall["stress_kpa"].get<double>(),
       fall["threshold_kpa"].get<double>(), fall["angle_deg"].get<double>(),
       fall["energy_lost_mj"].get<double>(), fall["plastic_work_mj"].get<double>()));

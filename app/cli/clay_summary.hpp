@@ -12,6 +12,6 @@ namespace clay::cli {
 [[nodiscard]] Json clay_json(const Wheel& wheel, const Pot& pot);
 
 /// `summary` has the fields of clay_json.
-void tell_collapse(const Console& console, const Json& summary);
+void print_collapse(const Console& console, const Json& summary);
 
 }  // namespace clay::cli

@@ -33,7 +33,7 @@ void reserve_standard_streams() noexcept {
 }
 
 int out_of_memory() noexcept {
-  put_err("claystack: out of memory; close other programs, or ask for less at once\n");
+  put_err("claystack: out of memory; close other programs, or choose a smaller job\n");
   return kIoFailed;
 }
 

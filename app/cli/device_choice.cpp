@@ -35,7 +35,8 @@ std::string check_device_name(const std::string& which) {
 
 void add_falcon_options(CLI::App& command, falcon::FalconSettings& settings) {
   command
-      .add_option("--firmware", settings.firmware_path, "The Falcon's firmware, from its driver")
+      .add_option("--firmware", settings.firmware_path,
+                  "File with the Falcon's firmware, from its driver")
       ->envname("CLAYSTACK_FALCON_FIRMWARE");
   command
       .add_option_function<std::string>(
@@ -48,8 +49,9 @@ void add_falcon_options(CLI::App& command, falcon::FalconSettings& settings) {
       ->check(CLI::IsMember({"libnifalcon", "martin-hillier"}))
       ->default_str("libnifalcon");
   command
-      .add_option("--motor-counts", settings.motor_counts_per_nm,
-                  "Falcon motor counts for 1 N m at an arm; more gives a larger force")
+      .add_option(
+          "--motor-counts", settings.motor_counts_per_nm,
+          "Motor counts of a Falcon per 1 N m at an arm; a larger number gives a larger force")
       ->check(CLI::Validator(in_range(1.0, 1e6), ""))
       ->capture_default_str();
 }

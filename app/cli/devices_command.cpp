@@ -56,7 +56,7 @@ Json entry_json(const Entry& entry) {
   return json;
 }
 
-void say_entry(const Entry& entry, const Console& console) {
+void print_entry(const Entry& entry, const Console& console) {
   const falcon::ListedDevice& device = entry.listed;
   const char* state = !device.usable                                     ? "can't be used"
                       : entry.state == falcon::DeviceState::ready        ? "ready"
@@ -76,7 +76,7 @@ Result<void> list(const falcon::DeviceSettings& settings, const Console& console
   for (falcon::ListedDevice& device : *found) {
     const Entry entry = looked_at(std::move(device), settings);
     json["devices"].push_back(entry_json(entry));
-    say_entry(entry, console);
+    print_entry(entry, console);
   }
   if (found->empty())
     console.say("no device is connected; a Falcon is listed even without its power supply");
@@ -125,7 +125,9 @@ void add_devices_command(CLI::App& app, Console& console, int& exit) {
       ->check(CLI::Validator(check_device_name, ""));
   add_falcon_options(*command, options->falcon);
   command->add_flag("--monitor", options->monitor, "Show position and buttons until interrupted");
-  command->add_option("--seconds", options->seconds, "Duration of the monitor [s]")
+  command
+      ->add_option("--seconds", options->seconds,
+                   "Duration of the monitor [s] (default: until interrupted)")
       ->check(CLI::Validator(in_range(0.0, 1e6), ""));
   add_place_options(*command, options->mapping);
   command->footer(

@@ -26,7 +26,7 @@ using solid::FileKind;
 using solid::FileRequest;
 using solid::MeshFormat;
 
-/// The command line as it was given.
+/// The command line as given.
 struct ExportCommand {
   std::string pot;
   std::vector<std::string> outputs;
@@ -65,7 +65,7 @@ Result<void> check_names(const ExportCommand& command) {
   return check_distinct(outputs, {command.pot});
 }
 
-/// Refuses options that would do nothing for the files asked for.
+/// Refuses options that have no effect on any of the requested files.
 Result<void> check_options(const ExportCommand& command) {
   const auto need = [&](bool option, std::string_view name, std::string_view kind,
                         auto is) -> Result<void> {
@@ -111,7 +111,7 @@ Result<FileRequest> file_of(const std::string& path, bool ascii) {
       });
 }
 
-/// Everything but the pot itself.
+/// The request without the pot.
 Result<void> complete_request(ExportCommand& command) {
   if (auto loaded = command.walls.load(); !loaded) return loaded;
   if (auto names = check_names(command); !names) return names;
@@ -129,7 +129,7 @@ Result<void> complete_request(ExportCommand& command) {
   return check_options(command);
 }
 
-/// Copies of the pot among the files, as exact as asked for.
+/// Writes the copies of the pot at the requested precision.
 Result<std::vector<PotCopy>> add_copies(const Pot& pot, ExportCommand& command) {
   const auto copied = command.precision_mm ? rounded_pot(pot, *command.precision_mm) : pot;
   if (!copied) return failure(copied.error().kind, command.pot + ": " + copied.error().message);
@@ -143,7 +143,7 @@ Result<std::vector<PotCopy>> add_copies(const Pot& pot, ExportCommand& command) 
   return copies;
 }
 
-/// Exit status: done, or done with a wall below what was asked for.
+/// The exit status: done, or unsound if a wall is below the requested minimum.
 Result<int> export_pot(ExportCommand& command, const Console& console) {
   const auto pot = read_file(command.pot).and_then([&](const std::string& bytes) {
     return parse_pot(bytes, command.pot);
@@ -163,8 +163,8 @@ Result<int> export_pot(ExportCommand& command, const Console& console) {
   }();
   if (!report) return tl::make_unexpected(report.error());
   if (console.json) console.print(export_json(*report, *copies));
-  tell_export(console, *report, *copies);
-  return tell_thin_wall(console, *report) ? kUnsound : kDone;
+  print_export(console, *report, *copies);
+  return print_thin_wall(console, *report) ? kUnsound : kDone;
 }
 
 }  // namespace
@@ -180,49 +180,52 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
                   ".pot.json or .pot.cbor for the pot")
       ->required();
   sub->add_option("--tolerance", command->request.options.tolerance_mm,
-                  "Largest chordal error, and vertex error in .drc [mm]")
+                  "Maximum chordal error, and maximum vertex error in .drc [mm]")
       ->check(in_range(1e-5, 10.0))
       ->capture_default_str();
   sub->add_option("--smooth", command->smooth,
-                  "fair: walls as they were meant; exact: every ring keeps its volume; none: the "
-                  "steps of the rings")
+                  "fair: smooth walls; exact: smooth walls, every ring keeps its volume; none: the "
+                  "steps of the rings remain")
       ->check(CLI::IsMember({"fair", "exact", "none"}))
       ->capture_default_str();
   sub->add_option("--lip-fillet", command->request.options.lip_fillet_mm,
-                  "Radius of the fillet at both edges of the lip [mm]")
+                  "Radius of the fillet at both edges of the lip [mm] (default: none)")
       ->check(in_range(0.0, 1e3));
   sub->add_option("--segments", command->request.options.segments,
                   "Facets around the axis (default: chosen from the tolerance)")
       ->check(CLI::Range(3, 1 << 20));
-  sub->add_option("--max-triangles", command->request.options.max_triangles,
-                  "Most triangles: facets may be coarser than the tolerance")
+  sub->add_option(
+         "--max-triangles", command->request.options.max_triangles,
+         "Maximum number of triangles (default: no limit); facets may then exceed the tolerance")
       ->check(CLI::Range(8, 20'000'000));
-  sub->add_option("--drain", command->request.options.drain_mm,
-                  "Diameter of a hole along the axis that opens closed cavities [mm]")
+  sub->add_option(
+         "--drain", command->request.options.drain_mm,
+         "Diameter of a hole along the axis that opens closed cavities [mm] (default: none)")
       ->check(in_range(1e-3, 1e4));
   sub->add_option_function<std::string>(
          "--shrinkage",
          [command](const std::string& text) {
            command->request.options.shrinkage = shrinkage_of(text).value_or(0.0);
          },
-         "Part of each length lost in drying and firing, as 12%: files are so much larger that the "
-         "piece comes out in the pot's own size")
+         "Shrinkage in drying and firing, in percent of each length, such as 12%: the files are "
+         "enlarged so that the fired piece has the size of the pot (default: 0%)")
       ->check([](const std::string& text) {
         const auto parsed = shrinkage_of(text);
         return parsed ? std::string() : parsed.error().message;
       });
   command->walls.add_to(*sub);
   sub->add_flag("--measure-left-out", command->request.options.measure_left_out,
-                "Run the skipped stages too, and report the time that skipping saves");
+                "Also run the skipped stages, and report the time [s] that skipping saves");
   sub->add_option("--report", command->request.report_path,
                   "File for the report that --json prints");
-  sub->add_option("--precision", command->precision_mm,
-                  "Rounding of radii in pot files; meshes keep the exact radii [mm]")
+  sub->add_option(
+         "--precision", command->precision_mm,
+         "Rounding of radii in pot files [mm] (default: exact); meshes keep the exact radii")
       ->check(in_range(1e-5, 1.0));
   sub->add_flag("--certificate", command->request.certificates,
                 "Write OUT.certificate.json beside each mesh, for claystack check --certificate");
   sub->add_option("--verify", command->verify,
-                  "margins: prove the rounding, read the file again; full: also check the file "
+                  "margins: prove the rounding, read the file back; full: also check the file "
                   "like any foreign mesh, with the exact self-intersection test")
       ->check(CLI::IsMember({"margins", "full"}))
       ->capture_default_str();

@@ -12,11 +12,12 @@ using solid::FileKind;
 using solid::FileReport;
 
 std::string_view proof_of(const FileReport& file) {
-  return file.proof == solid::Proof::margins ? "the profile's margins cover the rounding"
-                                             : "no two triangles as written meet (exact test)";
+  return file.proof == solid::Proof::margins
+             ? "the margins of the profile exceed the rounding"
+             : "no two triangles in the file intersect (exact test)";
 }
 
-/// What the planar certificate says, and where it ends.
+/// The scope of the planar certificate.
 std::string_view proof_of(const ExportReport& report) {
   if (report.collapsed)
     return "each part before the fall: closed and embedded; the whole: no self-intersection by "
@@ -60,32 +61,32 @@ Json collapsed_json(const solid::CollapsedSolid& collapsed) {
           {"pockets_mm3", collapsed.pockets_mm3}, {"max_move_mm", collapsed.max_move_mm}};
 }
 
-void tell_file(const Console& console, const FileReport& file) {
+void print_file(const Console& console, const FileReport& file) {
   console.say(fmt::format("{}: {}, {} bytes; vertices within {:.2g} mm; {}{}{}", file.path,
                           solid::name_of(file.format), file.bytes, file.max_error_mm,
-                          proof_of(file), file.read_again ? "; read again" : "",
-                          file.full_verification ? "; checked in full" : ""));
+                          proof_of(file), file.read_again ? "; read back" : "",
+                          file.full_verification ? "; fully checked" : ""));
   if (const auto& c = file.certificate)
-    console.say(fmt::format("  wall {:.4f} to {:.4f} mm at its thinnest, volume within {:.2g} mm3",
+    console.say(fmt::format("  minimum wall between {:.4f} and {:.4f} mm, volume within {:.2g} mm3",
                             c->wall_lower_mm, c->wall_upper_mm, c->volume_bound_mm3));
 }
 
-void tell_collapse(const Console& console, const solid::CollapsedSolid& collapsed) {
+void print_collapse(const Console& console, const solid::CollapsedSolid& collapsed) {
   const auto cm3 = [](double mm3) { return mm3 / 1000.0; };
   console.say(fmt::format(
-      "collapsed: {:.3f} cm3 stand and {:.3f} cm3 fell; they overlap by {:.3f} cm3, so that the "
+      "collapsed: {:.3f} cm3 standing, {:.3f} cm3 fallen; they overlap by {:.3f} cm3, so the "
       "union holds {:.3f} cm3",
       cm3(collapsed.lower_mm3), cm3(collapsed.upper_mm3), cm3(collapsed.overlap_mm3),
       cm3(collapsed.union_mm3)));
   if (collapsed.pieces > 1)
     console.warn(fmt::format("the file holds {} bodies that do not touch", collapsed.pieces));
   if (collapsed.voids > 0)
-    console.warn(fmt::format("{} closed cavities hold {:.3g} cm3: they need drain holes",
+    console.warn(fmt::format("{} closed cavities of {:.3g} cm3 in total: they need drain holes",
                              collapsed.voids, cm3(collapsed.voids_mm3)));
 }
 
-/// Where smoothing gave way: one line for each reason.
-void tell_smoothing(const Console& console, const ExportReport& report) {
+/// Where smoothing kept steps: one line for each reason.
+void print_smoothing(const Console& console, const ExportReport& report) {
   for (const auto reason : {solid::KeptFor::wall, solid::KeptFor::overshoot, solid::KeptFor::volume,
                             solid::KeptFor::certificate}) {
     const auto is = [&](const solid::KeptSteps& kept) { return kept.reason == reason; };
@@ -102,46 +103,47 @@ void tell_smoothing(const Console& console, const ExportReport& report) {
   }
   if (report.walls.as_steps_mm)
     console.warn(fmt::format(
-        "exact walls leave an edge of {:.3f} mm at height {:.1f} mm, where the "
-        "steps are {:.3f} mm at least; --smooth fair does not",
+        "exact smoothing gives a wall of {:.3f} mm at height {:.1f} mm, where the "
+        "unsmoothed wall is at least {:.3f} mm; use --smooth fair",
         report.walls.min_wall_mm, report.walls.thinnest.from.y, *report.walls.as_steps_mm));
   if (report.section.smoothed.taken_mm > 0.0)
     console.warn(
-        fmt::format("walls may be thinner than they were by {:.2g} mm: no other clay to "
-                    "take from",
+        fmt::format("smoothing may have thinned walls by {:.2g} mm, because no other clay "
+                    "was available to keep the volume",
                     report.section.smoothed.taken_mm));
 }
 
-void tell_shrinkage(const Console& console, const ExportReport& report) {
+void print_shrinkage(const Console& console, const ExportReport& report) {
   if (report.prepared.shrinkage == 0.0) return;
   const double fired = 1.0 - report.prepared.shrinkage;
   console.say(fmt::format(
-      "for a shrinkage of {:g} % the files are larger: {:.2f} mm wide and {:.2f} mm high, to come "
-      "out {:.2f} mm wide and {:.2f} mm high",
+      "enlarged for a shrinkage of {:g} %: {:.2f} mm wide and {:.2f} mm high in the files, "
+      "{:.2f} mm wide and {:.2f} mm high after firing",
       100.0 * report.prepared.shrinkage, report.size.diameter_mm, report.size.height_mm,
       fired * report.size.diameter_mm, fired * report.size.height_mm));
 }
 
-void tell_solid(const Console& console, const ExportReport& report) {
+void print_solid(const Console& console, const ExportReport& report) {
   console.say(
       fmt::format("proved: {}closed and embedded, from {} profile vertices; {} triangles in "
                   "{} shell(s)",
                   report.collapsed ? "each part before the fall " : "",
                   report.section.planar.vertices, report.size.triangles, report.size.shells));
   console.say(
-      fmt::format("volume {:.3f} cm3, {}off the counted clay by {:.1e}; thinnest {:.2f} mm, at "
+      fmt::format("volume {:.3f} cm3, relative difference {}to the counted clay {:.1e}; minimum "
+                  "wall {:.2f} mm at "
                   "height {:.1f} mm; chordal error {:.3g} mm",
-                  report.volume.solid_mm3 / 1000.0, report.collapsed ? "with the overlap " : "",
+                  report.volume.solid_mm3 / 1000.0, report.collapsed ? "with overlap " : "",
                   report.volume.error_relative, report.walls.min_wall_mm,
                   report.walls.thinnest.from.y, report.size.chordal_error_mm));
-  tell_shrinkage(console, report);
-  if (report.collapsed) tell_collapse(console, *report.collapsed);
-  tell_smoothing(console, report);
+  print_shrinkage(console, report);
+  if (report.collapsed) print_collapse(console, *report.collapsed);
+  print_smoothing(console, report);
   for (const auto& [what, why, saved] : report.left_out)
-    if (saved) console.say(fmt::format("left out: {} ({}), saved {:.2g} s", what, why, *saved));
+    if (saved) console.say(fmt::format("skipped: {} ({}), saved {:.2g} s", what, why, *saved));
 }
 
-/// What was made and proved.
+/// The solid and its proof.
 Json solid_json(const ExportReport& report) {
   Json json = {
       {"triangles", report.size.triangles},
@@ -228,11 +230,11 @@ Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies)
   return json;
 }
 
-void tell_export(const Console& console, const ExportReport& report,
-                 const std::vector<PotCopy>& copies) {
-  if (report.has_mesh()) tell_solid(console, report);
+void print_export(const Console& console, const ExportReport& report,
+                  const std::vector<PotCopy>& copies) {
+  if (report.has_mesh()) print_solid(console, report);
   if (report.prepared.drilled_mm3 > 0.0)
-    console.say(fmt::format("drain drilled, {:.3f} cm3 of clay taken",
+    console.say(fmt::format("drain hole: {:.3f} cm3 of clay removed",
                             report.prepared.drilled_mm3 / 1000.0));
   for (const auto& shape : report.section.shapes())
     for (const auto& cavity : shape.cavities) console.warn(solid::text_of(cavity));
@@ -240,7 +242,7 @@ void tell_export(const Console& console, const ExportReport& report,
   for (const FileReport& file : report.files) {
     switch (file.kind) {
       case FileKind::mesh:
-        tell_file(console, file);
+        print_file(console, file);
         break;
       case FileKind::section:
         console.say(file.path + ": section");
@@ -255,7 +257,7 @@ void tell_export(const Console& console, const ExportReport& report,
   }
 }
 
-bool tell_thin_wall(const Console& console, const ExportReport& report) {
+bool print_thin_wall(const Console& console, const ExportReport& report) {
   if (!report.walls.limit || !report.has_mesh()) return false;
   if (const auto thin = solid::thin_wall_of(report)) {
     console.warn(*thin);

@@ -1,5 +1,5 @@
 #pragma once
-// What an export did, for scripts and for people.
+// The report of an export, as JSON and as text.
 
 #include "app/cli/console.hpp"
 #include "app/cli/pot_copy.hpp"
@@ -9,14 +9,14 @@
 
 namespace clay::cli {
 
-/// `copies` describe the given files of the report, which are pots, in their order. Without a mesh
-/// there is no solid to report on.
+/// `copies` describe those files of the report that are pots, in their order. Without a mesh there
+/// are no figures of a solid.
 [[nodiscard]] Json export_json(const solid::ExportReport& report,
                                const std::vector<PotCopy>& copies);
-void tell_export(const Console& console, const solid::ExportReport& report,
-                 const std::vector<PotCopy>& copies);
+void print_export(const Console& console, const solid::ExportReport& report,
+                  const std::vector<PotCopy>& copies);
 
-/// Whether a file may be thinner somewhere than asked; prints so, and by how much.
-bool tell_thin_wall(const Console& console, const solid::ExportReport& report);
+/// Warns if a file may be thinner than requested, and by how much. Returns true in that case.
+bool print_thin_wall(const Console& console, const solid::ExportReport& report);
 
 }  // namespace clay::cli

@@ -57,10 +57,11 @@ Json summary(const ImportOptions& options, const HalfSection& section, const Pot
 void tell(const Console& console, const Json& json) {
   console.say(fmt::format("axis at x = {:.3f} mm of the drawing ({})",
                           json["axis_mm"].get<double>(), json["axis"].get<std::string>()));
-  console.say(fmt::format("{} rings of {:.4g} mm: {:.1f} mm high, {:.1f} cm3 of clay, {:.1f} drawn",
-                          json["rings"].get<std::size_t>(), json["ring_height_mm"].get<double>(),
-                          json["height_mm"].get<double>(), json["volume_mm3"].get<double>() / 1e3,
-                          json["drawn_mm3"].get<double>() / 1e3));
+  console.say(fmt::format(
+      "{} rings of {:.4g} mm: {:.1f} mm high, {:.1f} cm3 of clay ({:.1f} cm3 in the drawing)",
+      json["rings"].get<std::size_t>(), json["ring_height_mm"].get<double>(),
+      json["height_mm"].get<double>(), json["volume_mm3"].get<double>() / 1e3,
+      json["drawn_mm3"].get<double>() / 1e3));
 }
 
 Result<void> import_drawing(ImportOptions options, Console console) {
@@ -92,16 +93,18 @@ void add_import_command(CLI::App& app, Console& console, int& exit) {
       "import", "Make a pot from a drawing of its section, to throw on or to print");
   command->add_option("drawing", options->drawing, "NAME.svg, NAME.dxf or NAME.csv")->required();
   command->add_option("-o,--output", options->pot, "NAME.pot.json or NAME.pot.cbor")->required();
-  command->add_option("--axis", options->axis,
-                      "The pot's axis in the drawing: left, middle, or its place [mm]; default: "
-                      "the middle of a symmetric drawing, otherwise its left end");
+  command->add_option(
+      "--axis", options->axis,
+      "Axis of the pot in the drawing: left, middle, or its x position [mm]; default: "
+      "the middle of a symmetric drawing, otherwise its left end");
   command
       ->add_option("--height", options->section.height_mm,
-                   "Height of the pot: scales the drawing [mm]")
+                   "Height of the pot: scales the drawing [mm] (default: as drawn)")
       ->check(in_range(0.01, 1e5));
   command
       ->add_option("--wall", options->pot_settings.wall_mm,
-                   "Thickness of wall and floor, for a drawing of the outside alone [mm]")
+                   "Thickness of wall and floor, for a drawing that shows only the outside [mm] "
+                   "(default: solid)")
       ->check(in_range(0.01, 1000.0));
   command
       ->add_option("--ring-height", options->pot_settings.ring_height_mm, "Target ring height [mm]")

@@ -33,6 +33,6 @@ class LiveKeys {
 
 /// Help text for the user.
 inline constexpr const char* kKeysInWords =
-    "keys: space pauses and goes on, z takes the force away, r gives it back, q ends";
+    "keys: space pauses and resumes, z sets the force to zero, r restores it, q ends";
 
 }  // namespace clay::cli

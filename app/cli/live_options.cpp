@@ -28,7 +28,7 @@ void add_place_options(CLI::App& command, servo::MappingSettings& mapping) {
                            : side == "front" ? servo::Side::front
                                              : servo::Side::right;
           },
-          "Side of the pot at which the hand works: right, left or front")
+          "Side of the pot on which the hand works: right, left or front")
       ->check(CLI::IsMember({"right", "left", "front"}))
       ->default_str("right");
   command
@@ -47,7 +47,7 @@ void add_place_options(CLI::App& command, servo::MappingSettings& mapping) {
             mapping.flip_y = axes.find('y') != std::string::npos;
             mapping.flip_z = axes.find('z') != std::string::npos;
           },
-          "Axes to invert, for example xz")
+          "Axes to invert, for example xz (default: none)")
       ->check(CLI::Validator(check_flip, ""));
 }
 
@@ -58,19 +58,22 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
                   "Device to throw with: auto, falcon, bridge, spacemouse, simulated, or its place")
       ->check(CLI::Validator(check_device_name, ""));
   command.add_option("--record", options.record, "File in which to record the session");
-  command.add_option("--seconds", settings.seconds,
-                     "Duration of the throw [s] (simulated: until its stroke ends)");
+  command.add_option(
+      "--seconds", settings.seconds,
+      "Duration of the throw [s] (default: until ended; simulated: until its stroke ends)");
   command
       .add_option("--patience", settings.patience_s,
-                  "Longest wait for the device to be homed, with --seconds [s]")
+                  "Maximum time to wait for homing, with --seconds [s]")
       ->capture_default_str();
   command.add_option("--rate", settings.rate_hz, "Servo rate [Hz]")->capture_default_str();
   command.add_option("--clay-rate", settings.clay_rate_hz,
-                     "Rate of the clay, at most the servo rate [Hz]");
+                     "Update rate of the clay [Hz] (default: the servo rate)");
   command.add_option("--force-limit", settings.guard.force_limit_n, "Force limit [N]")
       ->check(CLI::Validator(in_range(0.5, falcon::kMostForceN), ""))
       ->capture_default_str();
-  command.add_option("--gap", settings.gap_mm, "Gap of a pinch [mm]; the keys + and - change it");
+  command.add_option(
+      "--gap", settings.gap_mm,
+      "Gap of a pinch [mm] (default: that of the scene); the keys + and - change it");
   command.add_option("--damping", settings.arm.damping_ns_per_m, "Damping of the arm [N s/m]")
       ->capture_default_str();
   command.add_flag("--soften", options.soften,

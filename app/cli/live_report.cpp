@@ -106,15 +106,15 @@ Json servo_json(const servo::ServoTiming& timing, const servo::GuardEvents& even
           {"guard", events_json(events)}};
 }
 
-void tell_servo(const Console& console, const Json& servo) {
+void print_servo(const Console& console, const Json& servo) {
   console.say(fmt::format(
-      "servo: {} ticks at {:.1f} Hz, {:.2g} % of the time at work, {} missed, "
+      "servo: {} ticks at {:.1f} Hz, {:.2g} % load, {} missed, "
       "{} without a fresh sample",
       servo["ticks"].get<std::uint64_t>(), servo["rate_hz"].get<double>(),
       servo["work_share_percent"].get<double>(), servo["missed_ticks"].get<std::uint64_t>(),
       servo["stale_ticks"].get<std::uint64_t>()));
   console.say("lateness: " + spread(servo["lateness_us"]));
-  console.say("oversleep (system alone): " + spread(servo["oversleep_us"]));
+  console.say("wake-up delay of the system: " + spread(servo["oversleep_us"]));
   console.say("work: " + spread(servo["work_us"]));
   console.say("age of samples: " + spread(servo["sample_age_us"]));
   console.say("guard: " + events_in_words(servo["guard"]));

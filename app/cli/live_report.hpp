@@ -22,6 +22,6 @@ inline constexpr const char* kRearmKey = "r";
                               const servo::Realtime& realtime);
 
 /// The same for people.
-void tell_servo(const Console& console, const Json& servo);
+void print_servo(const Console& console, const Json& servo);
 
 }  // namespace clay::cli

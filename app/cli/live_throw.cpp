@@ -227,8 +227,8 @@ Result<void> keep_session(const LiveOptions& options, const Console& console, St
   auto kept = stage.recorder->finish();
   if (kept && stage.recorder->lost() > 0)
     console.warn(
-        fmt::format("{}: the disk was too slow: the last {} poses are not in it, and it "
-                    "replays to the pot as it was before them",
+        fmt::format("{}: the disk was too slow: the last {} poses are missing, and the session "
+                    "replays to the pot before them",
                     options.record, stage.recorder->lost()));
   return kept;
 }
@@ -240,13 +240,14 @@ Result<void> keep_pot(const LiveJob& job, Stage& stage, const Pot& pot) {
       stage.pot_file->write(bytes).and_then([&] { return stage.pot_file->commit(); });
   if (written) return written;
   const auto rescued = rescue(job.pot_path, stage.pot_file->rereadable(), bytes);
-  return failure(written.error().kind,
-                 written.error().message + (rescued ? "; the pot is in " + rescued->string()
-                                                    : "; nor could the pot be kept elsewhere: " +
-                                                          rescued.error().message));
+  return failure(
+      written.error().kind,
+      written.error().message +
+          (rescued ? "; the pot is in " + rescued->string()
+                   : "; the pot could not be saved elsewhere either: " + rescued.error().message));
 }
 
-/// Keeps everything else after an error; returns the first error.
+/// Continues after an error and returns the first one.
 Result<void> first_error(const Kept& kept, const Console& console) {
   if (!kept.session && !kept.pot) console.warn(kept.pot.error().message);
   return kept.session ? kept.pot : kept.session;
@@ -261,8 +262,8 @@ void tell(const LiveJob& job, const LiveOptions& options, const Console& console
                           json["rings"].get<std::size_t>(), json["height_mm"].get<double>(),
                           json["volume_mm3"].get<double>() / 1000.0,
                           json["volume_error_quanta"].dump()));
-  tell_collapse(console, json);
-  tell_servo(console, json["servo"]);
+  print_collapse(console, json);
+  print_servo(console, json["servo"]);
   if (!job.pot_path.empty() && kept.pot) console.say("pot: " + job.pot_path);
   if (options.record.empty() || !kept.session) return;
   const bool empty = json["recording"]["poses"].get<std::uint64_t>() == 0;

@@ -24,7 +24,7 @@ std::uint64_t kernel_figure(const char* table, std::string_view label) {
 MemoryRoom memory_room() {
   MemoryRoom room;
   if (const auto free = kernel_figure("/proc/meminfo", "MemAvailable:"); free > 0)
-    room = {free + kernel_figure("/proc/meminfo", "SwapFree:"), "what this machine has free"};
+    room = {free + kernel_figure("/proc/meminfo", "SwapFree:"), "the free memory of this machine"};
   rlimit space{};
   if (::getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY) {
     const std::uint64_t used = kernel_figure("/proc/self/status", "VmSize:");

@@ -27,10 +27,10 @@ Json line_json(const PlanLine& line, const StageCost* saved) {
 std::string line_text(const PlanLine& line, const StageCost* saved) {
   std::string text = fmt::format("{:<4}{:<15}{}", line.in ? "in" : "out", line.stage, line.why);
   if (saved && saved->with_ns > kMeasurable * saved->without_ns)
-    text += fmt::format(" (with it {:.0f} ns a tick, without {:.0f})", saved->with_ns,
+    text += fmt::format(" ({:.0f} ns per tick with it, {:.0f} ns without)", saved->with_ns,
                         saved->without_ns);
   else if (saved)
-    text += " (nothing measurable saved)";
+    text += " (saves no measurable time)";
   return text;
 }
 
@@ -54,7 +54,7 @@ Result<void> plan_servo(const SceneSpec& scene, const StepPlan& plan, const Plan
   json["servo"] = {{"contact_height_mm", contact->height_mm},
                    {"stiffness_n_per_m", contact->stiffness_n_per_m},
                    {"accepted_n_per_m", contact->accepted_n_per_m}};
-  console.say(fmt::format("{:<19}{:.4g} N/m at most, {:.4g} are accepted at {:.6g} Hz", "contact",
+  console.say(fmt::format("{:<19}{:.4g} N/m, at most {:.4g} N/m accepted at {:.6g} Hz", "contact",
                           contact->stiffness_n_per_m, contact->accepted_n_per_m, loop.rate_hz));
   return {};
 }
@@ -85,8 +85,9 @@ Result<void> plan_scene(const PlanOptions& options, const Console& console) {
     console.say(line_text(line, saved));
   }
   if (!timed_stroke(*scene, kFirmMm))
-    console.say(fmt::format("no times: a tick may reach {:.0f} rings, expected at most {}",
-                            rings_in_reach(*scene), kMostRingsInReach));
+    console.say(
+        fmt::format("times not measured: a tick may reach {:.0f} rings, expected at most {}",
+                    rings_in_reach(*scene), kMostRingsInReach));
 #ifdef CLAYSTACK_FALCON
   if (options.rate_hz)
     if (auto done = plan_servo(*scene, wheel->plan(), options, console, json); !done) return done;

@@ -42,7 +42,7 @@ std::string copy_text(const PotCopy& copy, const std::string& path) {
           ? fmt::format("rounded to {} mm; counted clay changed by {:.3g} mm3 ({:.1e} relative)",
                         *copy.rounded_to_mm, copy.change_mm3, copy.change_relative)
           : "exact";
-  return fmt::format("{}: the pot, {} bytes, {}", path, copy.bytes, what);
+  return fmt::format("{}: pot, {} bytes, {}", path, copy.bytes, what);
 }
 
 }  // namespace clay::cli

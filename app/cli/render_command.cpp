@@ -94,11 +94,11 @@ void add_render_command(CLI::App& app, Console& console, int& exit) {
   CLI::App* sub =
       app.add_subcommand("render", "Draw a pot without a screen, as a picture or a turntable");
   sub->add_option("pot", command->pot,
-                  ".pot.json or .pot.cbor; of a NAME.scene.json the lump is drawn")
+                  ".pot.json or .pot.cbor; for a NAME.scene.json its lump is drawn")
       ->required();
   sub->add_option("-o,--out", command->out, "File for the picture, .png");
   sub->add_option("--turntable", command->turntable, "File for an animation of one turn, .gif");
-  sub->add_option("--frames", command->frames, "Frames of the turntable")
+  sub->add_option("--frames", command->frames, "Number of frames of the turntable")
       ->check(CLI::Range(1, 720))
       ->capture_default_str();
   add_size(*sub, *command);
@@ -110,14 +110,15 @@ void add_render_command(CLI::App& app, Console& console, int& exit) {
 #endif
   sub->add_option_function<std::string>(
          "--theme", [command](const std::string& name) { command->dark = name == "dark"; },
-         "light or dark")
+         "Theme of the picture: light or dark")
       ->check(CLI::IsMember({"light", "dark"}))
       ->default_str("light");
-  sub->add_option("--azimuth", command->azimuth_deg, "Camera azimuth [deg]")
+  sub->add_option("--azimuth", command->azimuth_deg, "Camera azimuth [deg] (default: about 34)")
       ->check(in_range(-3600.0, 3600.0));
-  sub->add_option("--elevation", command->elevation_deg, "Camera elevation [deg]")
+  sub->add_option("--elevation", command->elevation_deg,
+                  "Camera elevation [deg] (default: about 24)")
       ->check(in_range(-89.0, 89.0));
-  sub->add_flag("--time", command->time, "Measure the time of a frame (median)");
+  sub->add_flag("--time", command->time, "Print the median time of a frame [ms]");
   sub->footer(
       "\nExamples:\n  claystack render bowl.pot.json -o bowl.png\n"
       "  claystack render vase.pot.json -o walls.png --section --process porcelain\n"

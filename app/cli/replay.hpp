@@ -27,7 +27,7 @@ struct ReplayStats {
   bool ring_limit = false;
   double max_volume_error_percent = 0.0;
   double max_missing_over_top =
-      0.0;  ///< missing clay / Delta v_N, at worst; the paper's bound is 1
+      0.0;  ///< largest ratio of missing clay to Delta v_N; the paper's bound is 1
   double max_force_n = 0.0;
   double tick_ns_median = 0.0;
   double tick_ns_p999 = 0.0;

@@ -36,7 +36,7 @@ void add_studio_command(CLI::App& app, int& exit) {
   CLI::App* command =
       app.add_subcommand("studio", "Open the window: throw by mouse or with a haptic device");
   command->prefix_command();
-  command->set_help_flag();  // the other program prints it
+  command->set_help_flag();  // the other program prints the help
   command->callback([command, &exit] { exit = report(become_studio(command->remaining())); });
 }
 

@@ -21,8 +21,8 @@ struct StudioOptions {
   bool json = false;
 };
 
-/// The exit status where the program ends here: after help, or after an error that it has printed.
-/// The scale is refused outside its range.
+/// Returns an exit status if the program ends here: after help, or after an error, which it has
+/// printed. A scale outside its range is an error.
 [[nodiscard]] std::optional<int> parse(int argc, char** argv, double smallest_scale,
                                        double largest_scale, StudioOptions& options);
 

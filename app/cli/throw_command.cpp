@@ -59,15 +59,15 @@ void tell(const Console& console, const Json& s) {
       s["ticks"].get<std::size_t>(), s["model"].get<std::string>(), s["rings"].get<std::size_t>(),
       s["height_mm"].get<double>(), s["volume_mm3"].get<double>() / 1000.0,
       s["min_wall_mm"].get<double>()));
-  console.say(fmt::format("volume error: {} quanta (at worst {:.4g} % on the way)",
+  console.say(fmt::format("volume error: {} quanta (maximum during the session: {:.4g} %)",
                           s["volume_error_quanta"].dump(),
                           s["max_volume_error_percent"].get<double>()));
-  console.say(fmt::format("tick: median {:.0f} ns, 99.9 % within {:.0f} ns; force up to {:.2f} N",
+  console.say(fmt::format("tick: median {:.0f} ns, 99.9 % within {:.0f} ns; maximum force {:.2f} N",
                           s["tick_ns_median"].get<double>(), s["tick_ns_p999"].get<double>(),
                           s["max_force_n"].get<double>()));
   if (s["trimmed_mm3"].get<double>() > 0.0)
-    console.say(fmt::format("trimmed off: {:.1f} cm3", s["trimmed_mm3"].get<double>() / 1000.0));
-  tell_collapse(console, s);
+    console.say(fmt::format("trimmed: {:.1f} cm3", s["trimmed_mm3"].get<double>() / 1000.0));
+  print_collapse(console, s);
 }
 
 /// Writes a CSV file row by row.
@@ -228,7 +228,7 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
   const ReplayStats stats = play(*wheel, *session, trace ? &*trace : nullptr, console);
   if (stats.refused > 0)
     console.warn(fmt::format("{} invalid poses were not played", stats.refused));
-  if (stats.ring_limit) console.warn("clay waits above the top: raise lump.max_rings");
+  if (stats.ring_limit) console.warn("there is clay above the top ring: increase lump.max_rings");
 
   const Pot pot = wheel->pot();
   const PotEncoding encoding =
@@ -265,14 +265,15 @@ Result<void> throw_pot(const ThrowOptions& options, const Console& console) {
     return failure(ErrorKind::bad_input,
                    "--at and --list: expected NAME.work, found " + options.scene);
   if (!options.from.empty() && !options.error_plot.empty())
-    return failure(
-        ErrorKind::bad_input,
-        "--error-plot: expected no --from, because it throws with both models and a pot has one");
+    return failure(ErrorKind::bad_input,
+                   "--error-plot: expected no --from, because it throws with both models and a pot "
+                   "belongs to one");
 #ifdef CLAYSTACK_FALCON
   if (!options.live.device.empty()) {
     if (!options.trace.empty() || !options.error_plot.empty())
-      return failure(ErrorKind::bad_input,
-                     "--trace and --error-plot show a replay: record with --record, then replay");
+      return failure(
+          ErrorKind::bad_input,
+          "--trace and --error-plot describe a replay: record with --record, then replay");
     if (auto named = check_pot_name(options.pot); !named) return named;
     if (auto distinct = check_distinct({options.pot, options.live.record},
                                        {options.scene, options.session, options.from});
@@ -293,7 +294,7 @@ void add_throw_command(CLI::App& app, Console& console, int& exit) {
       "throw", "Replay a session on a scene, or throw by hand, and write the pot");
   command
       ->add_option("scene", options->scene,
-                   "NAME.scene.json, or - for standard input; or a work, NAME.work")
+                   "NAME.scene.json, or - for standard input; or NAME.work")
       ->required();
   command->add_option("-s,--session", options->session,
                       "Poses to play (default: NAME.session beside the scene)");
@@ -301,13 +302,14 @@ void add_throw_command(CLI::App& app, Console& console, int& exit) {
                       "Pot to write: .pot.json, or .pot.cbor (compact)");
   command->add_option("--from", options->from, "Pot to start from, instead of the scene's lump");
   command->add_option("--at", options->at, "Node of the work (default: the current one)");
-  command->add_flag("--list", options->list, "List the strokes of a work, undone ones included");
+  command->add_flag("--list", options->list, "List the strokes of a work, including undone ones");
   command
       ->add_option("--model", options->model,
                    "Model to use instead of the scene's: conserving or paper")
       ->check(CLI::IsMember({"conserving", "paper"}));
-  command->add_option("--trace", options->trace,
-                      "CSV file with one row per tick: volume error, height, force");
+  command->add_option(
+      "--trace", options->trace,
+      "CSV file with one row per tick: time [s], volume error [%], height [mm], force [N]");
   command->add_option("--error-plot", options->error_plot,
                       "SVG plot of the volume error over time, for both models");
 #ifdef CLAYSTACK_FALCON

@@ -37,12 +37,11 @@ Json node_json(const history::Work& work, history::NodeId node) {
 std::string line_of(const Json& node) {
   const std::string star = node["current"].get<bool>() ? "*" : " ";
   const double cm3 = node["volume_mm3"].get<double>() / 1000.0;
-  if (!node.contains("parent"))
-    return fmt::format("{} 0: the pot that it began with, {:.1f} cm3", star, cm3);
+  if (!node.contains("parent")) return fmt::format("{} 0: initial pot, {:.1f} cm3", star, cm3);
   return fmt::format("{} {} below {}: {}, {:.2f} s, {:.1f} cm3{}", star,
                      node["node"].get<std::size_t>(), node["parent"].get<std::size_t>(),
                      node["tool"].get<std::string>(), node["seconds"].get<double>(), cm3,
-                     node["changed"].get<bool>() ? "" : ", in the air");
+                     node["changed"].get<bool>() ? "" : ", no contact");
 }
 
 Result<Json> tree_of(history::Work& work, const Console& console) {

@@ -7,11 +7,12 @@
 namespace clay::cli {
 
 void WallOptions::add_to(CLI::App& command) {
-  command.add_option("--min-wall", min_wall_mm_, "Minimum wall [mm]")->check(in_range(1e-6, 1e4));
+  command.add_option("--min-wall", min_wall_mm_, "Minimum wall [mm] (default: no limit)")
+      ->check(in_range(1e-6, 1e4));
   command.add_option(
       "--process", process_,
       "Process that sets the minimum wall: fdm, sla, earthenware, stoneware, porcelain, or a .json "
-      "file with limits of your own");
+      "file with custom limits (default: none)");
 }
 
 Result<void> WallOptions::load() {

@@ -11,15 +11,16 @@ class App;
 
 namespace clay::cli {
 
-/// The options --min-wall and --process of a command; of both, the larger figure holds.
+/// The options --min-wall and --process of a command. The larger limit applies.
 class WallOptions {
  public:
   void add_to(CLI::App& command);
 
   [[nodiscard]] bool asked() const noexcept { return min_wall_mm_ || !process_.empty(); }
-  /// Reads the process where one is named. Before any work: a bad name costs nothing then.
+  /// Reads the process if one is given. Call it first, so that a bad name is reported before any
+  /// work.
   Result<void> load();
-  /// After `load`.
+  /// Valid after `load`.
   [[nodiscard]] const solid::WallDemand& demand() const noexcept { return demand_; }
 
  private:

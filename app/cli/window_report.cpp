@@ -19,7 +19,7 @@ void print_window_report(const servo::ServoTiming& timing, const servo::GuardEve
     const Json window = {{"frames", frames.frames}, {"fps", frames.fps}, {"frame_ms", frame_ms}};
     console.print({{"servo", servo}, {"window", window}});
   }
-  tell_servo(console, servo);
+  print_servo(console, servo);
   console.say(std::string("scheduling: ") +
               (realtime.fifo ? "SCHED_FIFO" : "that of every other program"));
   console.say(fmt::format(

@@ -7,14 +7,14 @@
 
 namespace clay::cli {
 
-/// Of all frames of a pot in motion.
+/// Frames with a moving pot.
 struct FrameTiming {
   std::uint64_t frames = 0;
   double fps = 0.0;
   double median_ms = 0.0, p99_ms = 0.0, longest_ms = 0.0;
 };
 
-/// To standard output, for people or as JSON.
+/// Prints to standard output, for people or as JSON.
 void print_window_report(const servo::ServoTiming& timing, const servo::GuardEvents& events,
                          const servo::Realtime& realtime, const FrameTiming& frames, bool json);
 

@@ -55,7 +55,7 @@ class Journal {
 
   std::filesystem::path path_;
   int descriptor_;
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // protects the members below
   std::condition_variable wake_;
   std::optional<Error> trouble_;
   bool dirty_ = false, asked_ = false, closing_ = false;

@@ -18,11 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The lock of a journal, held by its running program. A pipe or device of that name is no journal,
-/// and is not waited for.
+/// The lock of a journal, held by its running program. A pipe or device of that name is not a
+/// journal; opening it does not block.
 class Lock {
  public:
-  /// `kind`: LOCK_SH to look, LOCK_EX to remove.
+  /// `kind`: LOCK_SH to read, LOCK_EX to remove.
   Lock(const fs::path& path, int kind)
       : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
     struct stat status {};
@@ -48,7 +48,7 @@ class Lock {
   bool held_ = false;
 };
 
-/// What a journal offers; empty if nothing. `needless`: set if it can be deleted.
+/// The work that a journal offers; empty if none. `needless`: set if the journal can be deleted.
 std::optional<Recoverable> look_at(const fs::path& path, bool& needless) {
   const Lock lock(path, LOCK_SH);
   if (!lock.held()) return std::nullopt;

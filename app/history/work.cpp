@@ -29,7 +29,7 @@ Error full() {
                       kMaxPoses)};
 }
 
-/// A collapsed pot cannot be thrown, but viewed and exported.
+/// A collapsed pot cannot be thrown on, but it can be viewed and exported.
 Result<Pot> root_of(const SceneSpec& scene, const std::optional<Pot>& start) {
   if (start && start->collapse)
     return StepPlan::build(scene).map([&](const StepPlan&) { return *start; });

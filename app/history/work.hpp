@@ -1,7 +1,7 @@
 #pragma once
-// The history of a work as a tree of strokes: undo, redo, branches, and any moment again. A stroke
-// is a session on the pot before it, so every pot of the tree can be replayed to the same bits;
-// pots are cached only to save time. For one thread.
+// The history of a work as a tree of strokes: undo, redo, branches, and any earlier moment. A
+// stroke is a session on the pot before it, so every pot of the tree can be replayed to the same
+// bits; pots are cached only to save time. Not thread-safe.
 
 #include "app/history/journal.hpp"
 #include "app/history/pose_sink.hpp"
@@ -42,8 +42,8 @@ struct Added {
 
 class Work {
  public:
-  /// From the scene's lump, or from a pot. Errors as for Wheel::build; a collapsed pot may be the
-  /// root, but has no strokes.
+  /// Begins with the scene's lump, or with a pot. Errors as for Wheel::build. A collapsed pot may
+  /// be the root, but no stroke can follow it.
   static Result<Work> begin(const SceneSpec& scene);
   static Result<Work> begin(const SceneSpec& scene, const Pot& start);
   /// From a file. Checks that the root fits on the wheel; strokes are replayed on request.
@@ -66,8 +66,7 @@ class Work {
   Result<Added> add(const SceneSpec& scene, std::vector<Pose> poses, const Pot* shown = nullptr);
   [[nodiscard]] bool in_stroke() const noexcept;
 
-  // --- Navigation in the tree; false if there is no such node. Not during a stroke.
-  // -----------------
+  // --- Navigation in the tree; false if there is no such node. Not during a stroke. --------------
   bool undo();
   bool redo();  ///< to the branch last taken
   void go_to(NodeId node);

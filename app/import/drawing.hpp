@@ -26,9 +26,9 @@ struct Drawing {
 
 /// Maximum distance of chords from their curves.
 inline constexpr double kFlatMm = 1e-3;
-/// Far above the needs of a pot; more are refused.
+/// Far above the needs of a pot; larger drawings are refused.
 inline constexpr std::size_t kMostPoints = 1'000'000;
-/// Unconnected lines: each is compared with all others.
+/// Limit of unconnected lines, because each is compared with all others.
 inline constexpr std::size_t kMostLines = 10'000;
 inline constexpr std::size_t kMostBytes = 32u << 20;
 

@@ -142,7 +142,7 @@ class Collector final : public DL_CreationAdapter {
     if (!in_block_) lines.push_back(std::move(line));
   }
 
-  /// Only an exception stops the library.
+  /// The library can be stopped only by an exception.
   void check(const std::vector<glm::dvec2>& points, std::size_t from) {
     refuse(limits_.problem_with(std::span(points).subspan(std::min(from, points.size()))));
   }

@@ -9,7 +9,7 @@ namespace {
 
 bool same(glm::dvec2 a, glm::dvec2 b) { return glm::length(a - b) <= kSamePointMm; }
 
-/// Takes from `rest` a line that begins or ends at the end of `chain`, and appends it.
+/// Removes from `rest` a line that begins or ends at the end of `chain`, and appends it to `chain`.
 bool extend(std::vector<glm::dvec2>& chain, std::vector<Line>& rest) {
   const auto next = std::find_if(rest.begin(), rest.end(), [&](const Line& line) {
     return same(line.points_mm.front(), chain.back()) || same(line.points_mm.back(), chain.back());

@@ -10,7 +10,7 @@
 namespace clay::render {
 namespace {
 
-constexpr double kNearest = 0.02, kFarthest = 60.0;  // planes, in distances to the target
+constexpr double kNearest = 0.02, kFarthest = 60.0;  // clip planes, per distance
 constexpr double kShortestMm = 1e-2, kLongestMm = 1e6;
 constexpr double kNotch = 8.0 / 9.0;
 constexpr double kGrazing = 1e-9;  // of a ray to the plane that it should intersect

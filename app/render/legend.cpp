@@ -21,7 +21,7 @@
 namespace clay::render {
 namespace {
 
-constexpr int kLeastSide = 240;  // px: smaller pictures have no room
+constexpr int kLeastSide = 240;  // px: no legend in smaller pictures
 constexpr Swatch kThin{0xE7, 0x28, 0x30}, kInkLight{0x33, 0x33, 0x38}, kInkDark{0xE6, 0xE6, 0xEA};
 
 std::uint8_t srgb_byte(float linear) noexcept {

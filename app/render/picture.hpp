@@ -26,7 +26,7 @@ struct RowWall {
   friend bool operator==(const RowWall&, const RowWall&) = default;
 };
 
-/// The rows from one on, moved as a rigid body: rotated, then translated.
+/// The rows from `first_row` on, moved as a rigid body: rotated, then translated.
 struct FallenView {
   std::size_t first_row = 0;
   glm::dmat4 place{1.0};  ///< from standing to resting place
@@ -50,7 +50,7 @@ struct ToolView {
   std::optional<double> gap_mm;            ///< pinch: between the tools, on either side of the HIP
   bool contact = false;                    ///< highlights the touching side
   bool inside = false;      ///< touches the bore: highlights the side away from the axis
-  glm::dvec3 force_n{0.0};  ///< on the hand; drawn as an arrow of limited length
+  glm::dvec3 force_n{0.0};  ///< on the hand [N]; drawn as an arrow of limited length
   friend bool operator==(const ToolView&, const ToolView&) = default;
 };
 
@@ -79,7 +79,7 @@ struct Picture {
   /// Direction of the middle of the cut, like Camera::azimuth_rad; empty: towards the camera.
   std::optional<double> cut_azimuth_rad;
   std::optional<WallMap> wall_map;
-  double wheel_turn_rad = 0.0;  ///< counterclockwise from above, of wheel and clay
+  double wheel_turn_rad = 0.0;  ///< counterclockwise seen from above, of wheel and clay
   /// Of the wheel head; empty: the next standard size that holds the clay.
   std::optional<double> wheel_radius_mm;
   friend bool operator==(const Picture&, const Picture&) = default;

@@ -14,8 +14,8 @@ layout(std140) uniform Frame {
 )";
 
 constexpr const char* kColour = R"(
-// sRGB by three square roots in place of a power (least squares; within 0.3/255 above 0.0031), and
-// half a step of noise, so that calm gradients show no bands.
+// sRGB by three square roots instead of a power (least squares; error below 0.3/255 above 0.0031),
+// plus half a step of noise, so that smooth gradients show no bands.
 vec4 shown(vec3 linear) {
   vec3 c = clamp(linear, 0.0, 1.0);
   vec3 s1 = sqrt(c), s2 = sqrt(s1), s3 = sqrt(s2);
@@ -33,13 +33,13 @@ vec3 background() {
 )";
 
 constexpr const char* kLight = R"(
-// Matte, with a sheen that grows towards grazing views: a wet surface. `open`: part of the sky that
-// is seen; `lit`: part of the lamp.
+// Matte with a sheen that grows at grazing angles, like a wet surface. `open`: visible fraction of
+// the sky; `lit`: visible fraction of the lamp.
 vec3 lit_surface(vec3 base, vec3 n, vec3 v, float open, float lit, float gloss, float shine) {
   vec3 l = frame.to_lamp.xyz, h = normalize(l + v);
   float facing = clamp(dot(n, l), 0.0, 1.0);
   vec3 ambient = mix(frame.bounce.rgb, frame.sky.rgb, 0.5 + 0.5 * n.y);
-  // What is hidden from the sky sees clay, which sends a little light on.
+  // Parts hidden from the sky receive a little light reflected by clay.
   vec3 diffuse = base * (ambient * mix(0.16 * base + 0.10, vec3(1.0), open) +
                          frame.lamp.rgb * facing * lit);
   float grazing = 1.0 - clamp(dot(n, v), 0.0, 1.0);
@@ -51,7 +51,7 @@ vec3 lit_surface(vec3 base, vec3 n, vec3 v, float open, float lit, float gloss, 
   return diffuse + sheen + frame.sky.rgb * grazing * 0.10 * open;
 }
 
-// Whites roll off instead of clipping.
+// Compresses bright values instead of clipping them.
 vec3 exposed(vec3 c) { return c * (1.0 + c * 0.12) / (1.0 + c * 0.42); }
 )";
 
@@ -71,13 +71,13 @@ vec3 wall_colour(float wall) {
 )";
 
 constexpr const char* kRevolveVertex = R"(
-layout(location = 0) in vec2 step_;     // part of the sweep, end of the stretch
-layout(location = 1) in vec4 points_;   // (rho, y) from, to
+layout(location = 0) in vec2 step_;     // fraction of the sweep, end of the stretch
+layout(location = 1) in vec4 points_;   // (rho, y) start, end
 layout(location = 2) in vec4 normals_;
-layout(location = 3) in vec4 shade_;    // open from, to; wall from, to
+layout(location = 3) in vec4 shade_;    // open start, end; wall start, end
 layout(location = 4) in vec2 neck_;
 uniform mat4 place;
-uniform vec2 sweep;  // azimuths from, to
+uniform vec2 sweep;  // azimuth start, end
 out vec3 world, normal, own;
 centroid out vec3 shade;  // open; wall [mm]; azimuth
 flat out vec2 neck;
@@ -101,11 +101,11 @@ centroid in vec3 shade;
 flat in vec2 neck;
 uniform mat4 place;
 uniform vec2 rim;    // radius and height of the opening
-uniform float turn;  // of the clay with the wheel
-uniform float cut;   // 1: light comes in where the pot is cut open
+uniform float turn;  // rotation of the clay with the wheel
+uniform float cut;   // 1: light enters through the cut
 out vec4 colour;
 
-// Spiral grooves that the fingers leave, and slower waves, as the slope of the wall.
+// Slope of the wall due to spiral grooves from the fingers and to slower waves.
 float grooves(float y, float azimuth, float size, float pixel) {
   float fine = 6.2832 / (0.0115 * size), coarse = fine * 0.31;
   float seen = 1.0 - smoothstep(0.15, 0.5, pixel * fine / 6.2832);
@@ -139,7 +139,7 @@ void main() {
     colour = shown(base * mix(0.50, 1.0, facing * mix(0.5, 1.0, open)));
     return;
   }
-  // Iron and grog: faint bands around, fainter specks.
+  // Iron and grog: faint bands and fainter specks.
   float band = sin(own.y * 5.1 / (0.02 * size) + 2.0 * sin(azimuth)) * sin(own.y * 1.7 / (0.02 * size));
   vec3 base = vec3(0.430, 0.178, 0.088) * (1.0 + 0.045 * band + 0.9 * groove);
   vec3 c = lit_surface(base, n, v, open, lit, 26.0, 0.16);
@@ -152,7 +152,7 @@ in vec3 world, normal, own;
 centroid in vec3 shade;
 flat in vec2 neck;
 uniform vec4 base;         // colour; gloss
-uniform vec4 touch;        // unit, to the clay; 1 where it touches
+uniform vec4 touch;        // unit direction to the clay; 1 while touching
 out vec4 colour;
 void main() {
   vec3 n = normalize(normal), v = normalize(frame.eye.xyz - world);
@@ -182,12 +182,12 @@ void main() {
   float radius = frame.wheel.y, rho = length(own.xz), width = fwidth(rho);
   float top = step(0.99, normal.y);
   vec2 light = mix(vec2(1.0), shadow_at(world.xz), top);
-  // Turned grooves, a tenth of the radius apart; finer than a pixel they go.
+  // Turned grooves, a tenth of the radius apart; those finer than a pixel fade out.
   float pitch = 0.1 * radius;
   float groove = abs(fract(rho / pitch) - 0.5) * pitch;
   float line = (1.0 - smoothstep(0.0, 0.0035 * radius + width, groove)) *
                (1.0 - smoothstep(0.05, 0.4, width / pitch));
-  // The mark that shows the turn: a short line near the edge.
+  // The mark that makes the rotation visible: a short line near the edge.
   float s = frame.to_rim_lamp.w, c = frame.to_lamp.w;
   vec2 turned = vec2(own.x * c - own.z * s, own.x * s + own.z * c);
   vec2 soft = vec2(-1.0, 1.0) * max(width, 1e-6);
@@ -201,7 +201,7 @@ void main() {
 }
 )";
 
-// The floor is the background itself, darker where the wheel keeps light away.
+// The floor is the background, darkened where the wheel blocks the light.
 constexpr const char* kGroundFragment = R"(
 in vec3 world, normal, own;
 centroid in vec3 shade;
@@ -219,8 +219,8 @@ void main() {
 )";
 
 constexpr const char* kSliceVertex = R"(
-layout(location = 0) in vec2 corner;  // bore or outside, low or high
-layout(location = 1) in vec4 radii;   // low: bore, outside; high: the same
+layout(location = 0) in vec2 corner;  // x: bore, outside; y: low, high
+layout(location = 1) in vec4 radii;   // low: bore, outside; high: bore, outside
 layout(location = 2) in vec4 rest;    // y low, high; wall low, high
 uniform mat4 place;
 uniform float azimuth;

@@ -1,5 +1,5 @@
 #pragma once
-// The servo's only source of time, so that tests can run it on one of their own.
+// The only time source of the servo, so that tests can use a clock of their own.
 
 #include <algorithm>
 #include <cstdint>
@@ -13,28 +13,28 @@ class Clock {
   Clock& operator=(const Clock&) = delete;
   virtual ~Clock() = default;
 
-  /// [ns]; in whole microseconds the time of the device's samples.
+  /// Monotonic time [ns]. Whole microseconds are the times of the device's samples.
   [[nodiscard]] virtual std::int64_t now_ns() noexcept = 0;
   [[nodiscard]] std::int64_t now_us() noexcept { return now_ns() / 1000; }
 
-  /// Returns at once where that time has passed.
+  /// Returns at once if that time has passed.
   virtual void sleep_until_ns(std::int64_t time_ns) noexcept = 0;
 
-  /// The same as exactly as can be, for one thread. How much later than asked the sleep within it
-  /// ended [ns]: what the system alone is good for.
+  /// Sleeps as exactly as possible; for one thread. Returns by how much the system ended the sleep
+  /// late [ns].
   virtual std::int64_t wake_at_ns(std::int64_t time_ns) noexcept {
     sleep_until_ns(time_ns);
     return 0;
   }
 };
 
-/// CLOCK_MONOTONIC, with absolute deadlines: what a sleep comes late by does not add up.
+/// CLOCK_MONOTONIC with absolute deadlines, so that delays of sleeps do not accumulate.
 class MonotonicClock final : public Clock {
  public:
   [[nodiscard]] std::int64_t now_ns() noexcept override;
   void sleep_until_ns(std::int64_t time_ns) noexcept override;
-  /// Sleeps until a little before, by as much as sleeps of the last while ended late, and looks at
-  /// the clock from there on: for kLongestLookNs at most.
+  /// Sleeps until shortly before `time_ns`, with a margin that follows the recent delays of sleeps,
+  /// then polls the clock, for kLongestLookNs at most.
   std::int64_t wake_at_ns(std::int64_t time_ns) noexcept override;
 
   static constexpr std::int64_t kLongestLookNs = 100'000;
@@ -43,33 +43,33 @@ class MonotonicClock final : public Clock {
   std::int64_t lead_ns_ = kLongestLookNs;
 };
 
-/// When the servo ticks. Absolute deadlines, one period apart, so that what a sleep is late by does
-/// not add up; ticks that were missed are not made up for. A device that answers a question of ours
-/// sets the pace itself: the servo wakes half a period before its answer is due, and waits for it.
+/// Schedules the ticks: absolute deadlines, one period apart, so that delays do not accumulate;
+/// missed ticks are not repeated. A device that answers requests sets the pace itself: the servo
+/// wakes half a period before the answer is due and waits for it.
 class Pacer {
  public:
   explicit Pacer(std::int64_t period_ns) noexcept : period_ns_(period_ns) {}
 
-  /// A device may have been asked just now.
+  /// Call when the device is opened; a request may have been sent to it just now.
   void start(std::int64_t now_ns) noexcept { deadline_ns_ = now_ns + period_ns_ / 2; }
 
-  /// Sleeps until the deadline; how late it woke [ns].
+  /// Sleeps until the deadline. Returns the delay of the wake-up [ns].
   [[nodiscard]] std::int64_t wait(Clock& clock) noexcept {
     overslept_ns_ = clock.wake_at_ns(deadline_ns_);
     return std::max<std::int64_t>(0, clock.now_ns() - deadline_ns_);
   }
 
-  /// How long the device may then be waited for [us].
+  /// Maximum time to wait for the device after the wake-up [us].
   [[nodiscard]] std::int64_t patience_us(std::int64_t now_ns) const noexcept {
     return std::max<std::int64_t>(0, deadline_ns_ + period_ns_ - now_ns) / 1000;
   }
 
-  /// The sample is there, or was not to be had.
+  /// Call when the sample has arrived or has been given up.
   void sampled(std::int64_t now_ns) noexcept {
     deadline_ns_ = std::max(deadline_ns_ + period_ns_, now_ns + period_ns_ / 2);
   }
 
-  /// What wait() would have been late by without looking at the clock.
+  /// Delay that wait() would have had without polling the clock.
   [[nodiscard]] std::int64_t overslept_ns() const noexcept { return overslept_ns_; }
   [[nodiscard]] std::int64_t period_ns() const noexcept { return period_ns_; }
 

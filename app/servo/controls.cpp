@@ -14,7 +14,7 @@ void Controls::update(std::int64_t now_us, unsigned buttons, Commands& commands,
   if (grip_mm) set_gap(*grip_mm);
 }
 
-/// At each press, and again and again while it is held.
+/// At each press, and repeatedly while the button is held.
 void Controls::step_gap(std::int64_t now_us, unsigned buttons) noexcept {
   const unsigned either = map_.wider | map_.narrower;
   const unsigned pressed = buttons & ~before_ & either;

@@ -1,6 +1,5 @@
 #pragma once
-// What the potter asks for beside the motion of the hand: by the device's buttons, or by commands
-// from another thread.
+// Controls beside the motion of the hand: buttons of the device, or commands from another thread.
 
 #include "claystack/servo/servo.hpp"
 #include "core/spsc_queue.hpp"
@@ -10,19 +9,19 @@
 
 namespace clay::servo {
 
-/// One thread gives the commands, the servo takes them.
+/// One thread sends the commands; the servo receives them.
 using Commands = SpscQueue<Command, 64>;
 
-/// A button that is held steps on after a while: 36 mm in four seconds.
+/// A button that is held repeats after a delay: 36 mm in four seconds.
 inline constexpr std::int64_t kGapWaitUs = 400'000, kGapEveryUs = 50'000;
 
 class Controls {
  public:
-  /// `pinches`: whether the scene lets poses have a gap at all.
+  /// `pinches`: the scene permits poses with a gap.
   Controls(const ButtonMap& buttons, bool pinches, double gap_mm) noexcept
       : map_(buttons), pinches_(pinches), gap_mm_(pinches ? gap_mm : 0.0) {}
 
-  /// Once a tick. Where the device measures a grip, that is the gap.
+  /// Call once per tick. If the device measures a grip, the grip sets the gap.
   void update(std::int64_t now_us, unsigned buttons, Commands& commands,
               std::optional<double> grip_mm = std::nullopt) noexcept;
 
@@ -31,7 +30,7 @@ class Controls {
   [[nodiscard]] bool trim() const noexcept { return trim_held_ || trim_asked_; }
   [[nodiscard]] double gap_mm() const noexcept { return gap_mm_; }
   [[nodiscard]] bool stopped() const noexcept { return stopped_; }
-  /// In this tick, whichever was asked for last.
+  /// In this tick, the most recent request.
   [[nodiscard]] bool zero() const noexcept { return zero_; }
   [[nodiscard]] bool rearm() const noexcept { return rearm_; }
 
@@ -43,8 +42,8 @@ class Controls {
   ButtonMap map_;
   bool pinches_;
   double gap_mm_;
-  unsigned before_ = 0;          // buttons of the last tick
-  std::int64_t gap_due_us_ = 0;  // when a held button steps again
+  unsigned before_ = 0;          // buttons of the previous tick
+  std::int64_t gap_due_us_ = 0;  // time at which a held button repeats
   bool clutch_held_ = false, clutch_asked_ = false;
   bool trim_held_ = false, trim_asked_ = false;
   bool paused_ = false, stopped_ = false, zero_ = false, rearm_ = false;

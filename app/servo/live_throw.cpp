@@ -41,8 +41,8 @@ Result<double> soften(SceneSpec& scene, const LiveSettings& settings) {
       .map([&](const ServoContact& contact) { return soften(scene, contact); });
 }
 
-/// In the order of their lives: the loop ticks on the servo's thread and hands poses to the
-/// recorder.
+/// Declared so that the servo's thread ends before the loop that it runs, and the loop before the
+/// recorder that it feeds.
 struct LiveThrow::State {
   explicit State(const ThrowParts& parts) : wheel(parts.wheel), device(parts.device) {}
   [[nodiscard]] Bench bench() noexcept { return {wheel, device, clock, recorder.get()}; }
@@ -117,6 +117,6 @@ Result<void> LiveThrow::finish_recording() {
                                     " poses are not in the session");
 }
 
-void LiveThrow::end_force() noexcept { last_zero().fire(); }
+void LiveThrow::end_force() noexcept { emergency_stop().fire(); }
 
 }  // namespace clay::servo

@@ -1,5 +1,5 @@
 #pragma once
-// What the servo shows of itself to other threads: whole values, without a lock.
+// The servo's data for other threads: complete values, without a lock.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/servo/servo.hpp"
@@ -7,10 +7,10 @@
 
 namespace clay::servo {
 
-/// Fills `profile`. Work and memory are bounded, whatever the stack's size.
+/// Fills `profile`. Time and memory are bounded for any size of the stack.
 void show(const ClayStack& stack, double time_s, LiveProfile& profile) noexcept;
 
-/// One reader each.
+/// One reader for each.
 struct LiveView {
   Snapshot<LiveStatus> status;
   Snapshot<LiveProfile> profile;

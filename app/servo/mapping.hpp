@@ -3,9 +3,9 @@
 //
 //   p_clay = offset + scale D p_device,     F_device = force_gain D F_clay
 //
-// D turns axes over, so it is its own transpose. With force_gain = scale the hand does just the
-// work that the tool does; with any other it does force_gain / scale of it, at every motion, so a
-// contact that gives no energy to the tool gives none to the hand. The hand feels the contact's
+// D inverts axes, so it is its own transpose. With force_gain = scale the hand does the same
+// work as the tool; otherwise force_gain / scale times that work, in every motion, so a
+// contact that returns no energy to the tool returns none to the hand. The hand feels the contact's
 // stiffness times force_gain scale: by default, force_gain = 1 / scale, the stiffness that the
 // scene states.
 
@@ -19,7 +19,7 @@
 
 namespace clay::servo {
 
-/// Refuses a value outside its range, and one that is not a number.
+/// Refuses NaN and values outside their range.
 Result<void> check_range(const char* setting, double value, double low, double high);
 
 class Mapping {
@@ -32,7 +32,8 @@ class Mapping {
   [[nodiscard]] glm::dvec3 to_device(const glm::dvec3& clay_mm) const noexcept;
   [[nodiscard]] glm::dvec3 force_to_device(const glm::dvec3& clay_n) const noexcept;
 
-  /// The clutch is let go with the hand here: from now on this is where the tool is.
+  /// Moves the offset so that the hand's current position maps to the current position of the tool.
+  /// Called when the clutch is released.
   void recentre(const glm::dvec3& device_mm, const glm::dvec3& clay_mm) noexcept;
 
   /// Stiffness at the hand divided by stiffness at the tool.
@@ -44,11 +45,11 @@ class Mapping {
   glm::dvec3 offset_mm_{0.0};
 };
 
-/// From the force of the clay to the one that the hand may be asked to bear: mapped, and its spring
-/// made passive. Without a motor none of it is done.
+/// Converts the clay's force to the force for the hand: mapped, with a passive spring. Without a
+/// motor it does nothing.
 class HandForce {
  public:
-  /// `spec` as PassivityController::build lets it through.
+  /// `controller`: from PassivityController::build.
   explicit HandForce(const falcon::PassivityController& controller) noexcept
       : controller_(controller) {}
 
@@ -56,17 +57,16 @@ class HandForce {
     glm::dvec3 force_n{0.0};  ///< in the device's frame
     bool passive = true;
   };
-  /// The answer to a fresh sample of the hand, with the clay's force on the tool. Friction drags
-  /// the hand along the wheel's turn and works on it by right; only the spring is held to be
-  /// passive.
+  /// The force for a fresh sample of the hand, given the clay's force on the tool. Friction may do
+  /// work on the hand, because the wheel drags it along; only the spring is made passive.
   [[nodiscard]] Wanted answer(std::int64_t now_us, const glm::dvec3& device_mm,
                               const Mapping& mapping, const StepReport& clay) noexcept;
 
-  /// What the guard let through of the last answer: energy is counted with this. Of the spring's
-  /// part, which is let through as the whole is.
+  /// Call with the part of the last answer that the guard sent; the energy balance uses it. The
+  /// spring's part is reduced in the same ratio as the whole.
   void displayed(const glm::dvec3& sent_n) noexcept;
 
-  /// After a pause: what was given before is no debt of what comes now.
+  /// After a pause: energy from before the pause does not count.
   void reset() noexcept { controller_.reset(); }
   [[nodiscard]] falcon::PassivityState state() const noexcept { return controller_.state(); }
 

@@ -9,7 +9,7 @@
 namespace clay::servo {
 namespace {
 
-// A third of what may be lost, for a thread that has to wait for its turn.
+// A third of the permitted loss, because the thread may have to wait for the processor.
 constexpr auto kPause = std::chrono::milliseconds(30);
 
 }  // namespace

@@ -1,8 +1,8 @@
 #pragma once
-// Keeps what is played: a session, or a stroke of a journal. The servo hands over poses and never
-// waits; a thread of its own brings them to a sink a few hundredths of a second later, whole blocks
-// at a time: a process that is killed loses at most the last 100 ms. (The machine's own end is not
-// guarded against until `finish` has synced the file.)
+// Stores the poses that are played: in a session, or in a stroke of a journal. The servo hands over
+// poses without waiting; a separate thread writes them to a sink in blocks, some hundredths of a
+// second later. A process that is killed loses at most the last 100 ms. A power failure may lose
+// more until `finish` has synced the file.
 
 #include "app/history/pose_sink.hpp"
 #include "claystack/core/result.hpp"
@@ -21,26 +21,27 @@ namespace clay::servo {
 
 class Recorder {
  public:
-  /// To a session file: session_recording.hpp has its errors and what is where meanwhile.
+  /// Records to a session file; see session_recording.hpp for errors and temporary files.
   static Result<std::unique_ptr<Recorder>> create(const std::string& path,
                                                   std::string_view scene_name,
                                                   std::uint64_t scene_hash);
-  /// For any sink, which outlives it.
+  /// Records to any sink, which must outlive this object.
   static std::unique_ptr<Recorder> create(history::PoseSink& sink);
-  /// Ends the recording; who wants to know how it went calls finish() first.
+  /// Ends the recording. Call finish() first to learn whether it succeeded.
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// From the servo: a quantised pose, later than the last. No waiting, no allocation. False: it is
-  /// not recorded, nor is any after it, since a session with a hole would replay to another pot.
+  /// Called by the servo with a quantised pose, later than the last. Does not wait or allocate.
+  /// False: neither this pose nor any later one is recorded, because a session with a gap would
+  /// replay to another pot.
   bool take(const Pose& pose) noexcept;
 
-  /// After the last take: waits until all is in the sink, and the sink has finished. The error is
-  /// of the first write that failed.
+  /// After the last pose: waits until all poses are in the sink and the sink has finished. Returns
+  /// the first error.
   Result<void> finish();
 
-  /// Poses not recorded, since the disk was too slow or refused.
+  /// Number of poses not recorded, because the disk was too slow or refused them.
   [[nodiscard]] std::uint64_t lost() const noexcept { return lost_.load(); }
   [[nodiscard]] std::uint64_t taken() const noexcept { return taken_.load(); }
 
@@ -55,8 +56,8 @@ class Recorder {
   SpscQueue<Pose, kWaiting> queue_;
   std::atomic<std::uint64_t> lost_{0}, taken_{0};
   std::atomic<bool> closing_{false}, failed_{false};
-  std::vector<Pose> block_;  // the thread's
-  Error error_;              // the thread's, until it has ended
+  std::vector<Pose> block_;  // used by the recorder's thread
+  Error error_;              // used by the recorder's thread until it has ended
   std::thread thread_;
 };
 

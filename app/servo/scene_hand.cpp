@@ -52,7 +52,7 @@ falcon::HandPath hand_path(const std::vector<Pose>& poses, const Mapping& mappin
 
 falcon::HandFingers hand_fingers(const std::vector<Pose>& poses) {
   if (poses.empty()) return {};
-  // Only where it changes.
+  // Only when it changes.
   auto holds = std::make_shared<std::vector<Hold>>();
   for (const Pose& pose : poses) {
     const falcon::Fingers fingers{static_cast<std::uint8_t>(pose.trim ? kFalconButtons.trim : 0u),

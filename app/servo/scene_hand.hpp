@@ -1,6 +1,6 @@
 #pragma once
-// A hand for the simulated arm: it means to do what a recorded session did. Where the clay pushes
-// back it gets a little less far, as a hand does.
+// A hand for the simulated arm that follows a recorded session. Where the clay resists, it lags
+// behind, like a human hand.
 
 #include "app/servo/mapping.hpp"
 #include "claystack/engine/tool.hpp"
@@ -10,29 +10,30 @@
 
 namespace clay::servo {
 
-/// Time before the stroke begins, for homing and for the guard to see that nothing is in the way.
+/// Time before the stroke begins, for homing and for the guard to find the tool clear of the clay.
 inline constexpr double kHandLeadS = 0.5;
-/// How far from the middle of its workspace it goes: a Falcon's hand could go 48 mm.
+/// Maximum distance of the hand from the middle of the workspace; the Falcon permits 48 mm.
 inline constexpr double kSimulatedReachMm = 46.0;
 
-/// The poses in the device's frame, linear between them, kHandLeadS late; before and after, the
-/// first and the last. Times of the poses rise. Copies what it needs; called, it allocates nothing.
+/// The poses in the device's frame, interpolated linearly and delayed by kHandLeadS; before and
+/// after the stroke, the first and the last pose. Times of the poses ascend. The function owns its
+/// data and does not allocate when called.
 [[nodiscard]] falcon::HandPath hand_path(const std::vector<Pose>& poses, const Mapping& mapping);
 
-/// What the hand does beside: the trim button held down, the gap of a pinch between its fingers, as
-/// of the last pose. No function without poses.
+/// The controls of the recorded hand: the trim button, and the gap of a pinch, as in the latest
+/// pose. An empty function without poses.
 [[nodiscard]] falcon::HandFingers hand_fingers(const std::vector<Pose>& poses);
 
-/// A mapping by which the whole stroke lies within `reach_mm` of the middle of the workspace: the
-/// usual scale, or as much more as it takes; `settings` otherwise. Themselves without poses.
+/// A mapping that keeps the whole stroke within `reach_mm` of the middle of the workspace: the
+/// default scale, or a larger one if needed. Returns `settings` without poses.
 [[nodiscard]] MappingSettings fitted(MappingSettings settings, const std::vector<Pose>& poses,
                                      double reach_mm);
 
-/// When the stroke is over [s]; 0 without poses.
+/// End of the stroke [s]; 0 without poses.
 [[nodiscard]] double seconds_of(const std::vector<Pose>& poses) noexcept;
 
-/// A Falcon that has its firmware, held by a hand that is stiff enough to keep to the path: 200
-/// N/mm and damped so that it does not swing.
+/// A Falcon with loaded firmware, held by a hand that is stiff enough to follow the path: 200 N/mm,
+/// damped so that it does not oscillate.
 [[nodiscard]] falcon::SimulatedSettings simulated_potter(const std::vector<Pose>& poses,
                                                          const Mapping& mapping);
 

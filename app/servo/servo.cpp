@@ -14,7 +14,8 @@
 namespace clay::servo {
 namespace {
 
-// More than the servo's deepest call needs: touched now, so that no tick meets a new page.
+// More stack than the servo's deepest call needs. It is touched in advance, so that no tick causes
+// a page fault.
 constexpr std::size_t kStackBytes = 128 * 1024;
 
 void touch_stack() noexcept {
@@ -33,7 +34,7 @@ void stop_device(void* device) noexcept { static_cast<falcon::HapticDevice*>(dev
 
 }  // namespace
 
-Realtime ask_for_realtime(int priority) {
+Realtime request_realtime(int priority) {
   Realtime realtime;
   realtime.asked = true;
   sched_param parameters{};
@@ -43,7 +44,8 @@ Realtime ask_for_realtime(int priority) {
   if (!realtime.fifo)
     note(realtime.missing, "no SCHED_FIFO", refused, "set rtprio in limits.conf, or CAP_SYS_NICE");
   touch_stack();
-  // What is there now, and no more: with a limit on locked memory, later requests would fail.
+  // Current pages only: with a limit on locked memory, MCL_FUTURE would make later allocations
+  // fail.
   realtime.memory_locked = mlockall(MCL_CURRENT) == 0;
   if (!realtime.memory_locked)
     note(realtime.missing, "memory not locked", errno, "set memlock in limits.conf");
@@ -52,21 +54,21 @@ Realtime ask_for_realtime(int priority) {
   return realtime;
 }
 
-falcon::EmergencyStop& last_zero() noexcept {
-  // In static memory: a handler may run before main, or after it.
+falcon::EmergencyStop& emergency_stop() noexcept {
+  // Static memory, because a handler may run before main or after it.
   static constinit falcon::EmergencyStop last;
   return last;
 }
 
 Servo::~Servo() {
-  // Without room for the command the gate says it too.
+  // If the command queue is full, the gate ends the force instead.
   if (!command({CommandKind::stop, 0.0})) gate_.shut_for_good();
   join();
 }
 
 void Servo::start() {
   running_.store(true);
-  last_zero().arm(gate_, &stop_device, &bench_.device);
+  emergency_stop().arm(gate_, &stop_device, &bench_.device);
   watchdog_ = std::thread([this] { watch(); });
   servo_ = std::thread([this] { run(); });
 }
@@ -81,26 +83,27 @@ Ending Servo::join() {
 }
 
 void Servo::run() noexcept {
-  if (ask_realtime_) realtime_ = ask_for_realtime(kServoPriority);
+  if (want_realtime_) realtime_ = request_realtime(kServoPriority);
   loop_.start();
   while (loop_.tick(gate_, commands_, view_, heartbeat_us_) == Ending::none) {
   }
-  // No signal reaches for the device from here on: its last word is said.
+  // From here on signal handlers do not use the device: it has received its last force.
   gate_.shut_for_good();
   bench_.device.stop();
-  last_zero().arm(gate_, nullptr, &bench_.device);
+  emergency_stop().arm(gate_, nullptr, &bench_.device);
   running_.store(false, std::memory_order_release);
 }
 
-/// The servo can't watch itself. A heartbeat that stands for 10 ms ends the force once; the servo
-/// opens the gate again when it is alive, and its guard has seen how late it is.
+/// Supervises the servo from another thread. If the heartbeat stops for 10 ms, ends the force once.
+/// The servo opens the gate again when it runs, after its guard has seen the delay.
 void Servo::watch() noexcept {
-  if (ask_realtime_) (void)ask_for_realtime(kWatchdogPriority);
-  std::int64_t ended_us = -1;  // the heartbeat after which it was
+  if (want_realtime_) (void)request_realtime(kWatchdogPriority);
+  std::int64_t ended_us = -1;  // heartbeat at which the force was ended
   while (running()) {
     const std::int64_t beat_us = heartbeat_us_.load(std::memory_order_acquire);
     const std::int64_t now_us = bench_.clock.now_us();
-    const bool ticks = beat_us != 0;  // it may still be asking for real time
+    const bool ticks =
+        beat_us != 0;  // before the first tick, the servo may still be requesting real time
     if (ticks && beat_us != ended_us && falcon::Watchdog::must_zero(beat_us, now_us) && running()) {
       gate_.shut();
       bench_.device.zero();

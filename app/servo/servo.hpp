@@ -1,6 +1,6 @@
 #pragma once
-// The threads around the loop: the servo itself, and a watchdog that ends the force when the servo
-// hangs. Whoever wants to end it all from a signal handler fires `last_zero()`.
+// The threads around the loop: the servo, and a watchdog that ends the force when the servo hangs.
+// Signal handlers end the force through `emergency_stop()`.
 
 #include "app/servo/servo_loop.hpp"
 #include "claystack/falcon/guard.hpp"
@@ -14,32 +14,33 @@ namespace clay::servo {
 
 inline constexpr int kServoPriority = 70, kWatchdogPriority = 80;
 
-/// For the calling thread, and of memory for the process as it is then. Reported, never fatal.
-[[nodiscard]] Realtime ask_for_realtime(int priority);
+/// Requests real-time scheduling for the calling thread and locks the current memory of the
+/// process. Failures are reported, never fatal.
+[[nodiscard]] Realtime request_realtime(int priority);
 
-/// What signal handlers fire: the force of the servo that runs ends, for good.
-[[nodiscard]] falcon::EmergencyStop& last_zero() noexcept;
+/// For signal handlers: permanently ends the force of the running servo.
+[[nodiscard]] falcon::EmergencyStop& emergency_stop() noexcept;
 
 class Servo {
  public:
-  /// `bench` and `loop` outlive it. `realtime`: ask the system for it.
+  /// `bench` and `loop` must outlive it. `realtime`: request real-time scheduling.
   Servo(const Bench& bench, ServoLoop& loop, bool realtime) noexcept
-      : bench_(bench), loop_(loop), ask_realtime_(realtime) {}
+      : bench_(bench), loop_(loop), want_realtime_(realtime) {}
   ~Servo();
   Servo(const Servo&) = delete;
   Servo& operator=(const Servo&) = delete;
 
-  /// Ticks until the loop ends. The device is open. Once.
+  /// Ticks until the loop ends. The device is open. Call once.
   void start();
 
-  /// From one other thread. False: too many wait already.
+  /// For one other thread. False: the queue is full.
   bool command(const Command& command) noexcept { return commands_.push(command); }
 
   /// For one reader.
   [[nodiscard]] LiveView& view() noexcept { return view_; }
   [[nodiscard]] bool running() const noexcept { return running_.load(std::memory_order_acquire); }
 
-  /// Waits for the end. The device was told to give no force, as its last word.
+  /// Waits for the end. The last force sent to the device is zero.
   Ending join();
 
   /// After join().
@@ -51,7 +52,7 @@ class Servo {
 
   Bench bench_;
   ServoLoop& loop_;
-  bool ask_realtime_;
+  bool want_realtime_;
   Commands commands_;
   LiveView view_;
   falcon::ForceGate gate_;

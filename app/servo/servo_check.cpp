@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kMmPerM = 1000.0;
 
-/// Rings whose middles lie within the tool's reach: one more than steps between them.
+/// The maximum number of rings whose middles lie within the tool's reach: one more than the number
+/// of steps between them.
 double most_rings_touched(const SceneSpec& scene, const Tool& tool) {
   const double rings = std::floor((tool.high() - tool.low()) / scene.lump.ring_height_mm) + 1.0;
   return std::min(rings, static_cast<double>(max_rings_of(scene.lump)));

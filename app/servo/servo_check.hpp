@@ -6,27 +6,27 @@
 
 namespace clay::servo {
 
-/// A scene's contact as an arm feels it.
+/// Stiffness of a scene's contact as seen by an arm.
 struct ServoContact {
-  double height_mm = 0.0;          ///< most that the tool can touch at once, in whole rings
+  double height_mm = 0.0;          ///< maximum height of contact, in whole rings
   double stiffness_n_per_m = 0.0;  ///< radial: K' times that height
-  double accepted_n_per_m = 0.0;   ///< half of what is passive at the arm's rate and damping
+  double accepted_n_per_m = 0.0;   ///< half of the passive limit at the arm's rate and damping
 };
 
-/// What an arm would have to render. `stiffness_gain`: of the mapping between tool and hand. A
-/// pinch has two tools, one on each side of the wall: where one presses deeper the other presses
-/// less, so their stiffnesses add up. Refuses what `check` of the loop refuses.
+/// The contact that an arm would have to render. `stiffness_gain`: of the mapping between tool and
+/// hand. A pinch has two tools, one on each side of the wall; where one presses deeper the other
+/// presses less, so their stiffnesses add up. Refuses the settings that ServoLoop::check refuses.
 Result<ServoContact> servo_contact(const SceneSpec& scene, const StepPlan& plan,
                                    const falcon::SampledLoop& loop, double stiffness_gain = 1.0);
 
-/// Can this arm render the scene? Refuses a contact stiffer than is accepted, and names the setting
-/// to change and both numbers that would do: the stiffness at this rate, the rate at this
+/// Checks that this arm can render the scene. The error for a contact that is too stiff names the
+/// setting and both values that would be accepted: the stiffness at this rate, and the rate at this
 /// stiffness.
 Result<ServoContact> check_servo(const SceneSpec& scene, const StepPlan& plan,
                                  const falcon::SampledLoop& loop, double stiffness_gain = 1.0);
 
-/// Lowers the scene's stiffness to what is accepted; what part of it is left, 1 where it was soft
-/// enough. It has no part in what becomes of the clay: a softened scene replays to the same pot.
+/// Lowers the scene's stiffness to the accepted value. Returns the remaining fraction, 1 if it was
+/// low enough. The clay does not depend on it: a softened scene replays to the same pot.
 double soften(SceneSpec& scene, const ServoContact& contact);
 
 }  // namespace clay::servo

@@ -12,7 +12,7 @@ namespace {
 using falcon::DeviceState;
 
 constexpr std::int64_t kNsPerUs = 1000;
-// A picture of the clay for a window, some sixty times a second.
+// Interval of the profiles for a window, about sixty per second.
 constexpr std::uint64_t kTicksToProfile = 16;
 
 std::int64_t period_ns(double rate_hz) { return std::llround(1e9 / rate_hz); }
@@ -30,7 +30,7 @@ StepReport LiveClay::meet(const Pose& measured) noexcept {
   const StepReport report = wheel_.step(pose);
   if ((report.flags & kRefused) != 0) return report;
   last_us_ = pose.time_us;
-  // Periods that were missed are not made up for.
+  // Missed periods are not repeated.
   due_us_ = std::max(due_us_ + period_us_, pose.time_us + period_us_ / 2);
   ++poses_;
   if (recorder_ != nullptr) (void)recorder_->take(pose);
@@ -94,7 +94,7 @@ Ending ServoLoop::tick(falcon::ForceGate& gate, Commands& commands, LiveView& vi
   return status_.ending;
 }
 
-/// Buttons and commands. With the clutch in, the hand moves and the tool stays.
+/// Applies buttons and commands. While the clutch is held, the hand moves and the tool stays.
 void ServoLoop::obey(const falcon::DeviceSample& sample, std::int64_t now_us,
                      Commands& commands) noexcept {
   const bool ready = sample.state == DeviceState::ready;
@@ -113,7 +113,7 @@ void ServoLoop::obey(const falcon::DeviceSample& sample, std::int64_t now_us,
   status_.paused = controls_.paused();
 }
 
-/// Where the hand is believed to be, there the tool goes; what it meets is the force wanted.
+/// Moves the tool to the accepted position of the hand and computes the force of the contact.
 void ServoLoop::follow(const falcon::DeviceSample& sample, std::int64_t now_us) noexcept {
   const falcon::Admission admission = guard_.admit(
       now_us,
@@ -126,7 +126,7 @@ void ServoLoop::follow(const falcon::DeviceSample& sample, std::int64_t now_us) 
     status_.clay_n = {};
     return;
   }
-  if (!admission.may_deform) return;  // the last force stays wanted; the guard lets it fade
+  if (!admission.may_deform) return;  // keep the last force; the guard fades it out
   if (!thrown_) first_us_ = sample.time_us;
   thrown_ = true;
   tool_mm_ = mapping_.to_clay(sample.position_mm);
@@ -141,7 +141,8 @@ void ServoLoop::follow(const falcon::DeviceSample& sample, std::int64_t now_us) 
   wanted_.passive = hand.passive;
 }
 
-/// One owner of the force: the gate. The watchdog may have shut it for a while, a signal for good.
+/// The gate decides about the force: the watchdog may have shut it temporarily, a signal
+/// permanently.
 void ServoLoop::send(falcon::ForceGate& gate) noexcept {
   const std::int64_t now_us = bench_.clock.now_us();
   guarded_ = guard_.force(now_us, wanted_);
@@ -159,7 +160,7 @@ void ServoLoop::send(falcon::ForceGate& gate) noexcept {
   guarded_.force_n = {};
 }
 
-/// Events, counted when they begin and not while they last.
+/// Counts events when they begin, not while they last.
 void ServoLoop::count_events() noexcept {
   const std::uint32_t came = guarded_.flags & ~flags_before_;
   for (std::size_t bit = 0; bit < GuardEvents::kFlags; ++bit)

@@ -1,7 +1,7 @@
 #pragma once
-// One tick of throwing: device, mapping, guard, clay, force, guard, device. It runs on the thread
-// that calls it and on the clock that it is given, allocates and throws nothing; docs/servo.md has
-// the threads around it and the faults that it meets.
+// One tick of throwing: device, mapping, guard, clay, force, guard, device. It runs on the caller's
+// thread and on a given clock; it neither allocates nor throws. docs/servo.md describes the threads
+// around it and the faults that it handles.
 
 #include "app/servo/clock.hpp"
 #include "app/servo/controls.hpp"
@@ -19,15 +19,15 @@
 
 namespace clay::servo {
 
-/// The clay's side of a tick: where a pose is played, recorded, or only felt.
+/// Plays and records poses, or only computes the contact force.
 ///
-/// With a clay rate below the servo's, the clay is deformed at the first believable sample of each
-/// of its own periods, and that pose alone is recorded. In the ticks between, the force is computed
-/// again at the tool's place from the clay as it was left: contact and spring, no removal, no flow.
+/// If the clay rate is below the servo rate, the first accepted sample of each clay period deforms
+/// the clay, and only that pose is recorded. In the ticks between, the force is computed at the
+/// current position of the tool from the unchanged clay: contact and spring, no removal, no flow.
 class LiveClay {
  public:
-  /// Both outlive this. `period_us`: of the clay; 0: every sample deforms it. No recorder: nothing
-  /// is recorded.
+  /// `wheel` and `recorder` must outlive it. `period_us`: of the clay; 0: every sample deforms it.
+  /// `recorder` null: nothing is recorded.
   LiveClay(Wheel& wheel, Recorder* recorder, std::int64_t period_us) noexcept
       : wheel_(wheel), recorder_(recorder), period_us_(period_us) {}
 
@@ -46,13 +46,13 @@ class LiveClay {
   std::uint64_t poses_ = 0;
 };
 
-/// What the loop works on. All outlive it.
+/// The parts used by the loop. All must outlive it.
 struct Bench {
   Wheel& wheel;
   falcon::HapticDevice& device;
   Clock& clock;
-  Recorder* recorder = nullptr;  ///< none: nothing is recorded
-  TickTrace* trace = nullptr;    ///< none: nobody plots the ticks
+  Recorder* recorder = nullptr;  ///< null: nothing is recorded
+  TickTrace* trace = nullptr;    ///< null: no plot of ticks
 };
 
 class ServoLoop {
@@ -60,16 +60,16 @@ class ServoLoop {
   /// Errors name the setting.
   static Result<ServoLoop> build(const Bench& bench, const LiveSettings& settings);
 
-  /// Before the first tick, and again after the device was opened anew: force is earned from
-  /// nothing, the session goes on.
+  /// Before the first tick, and after the device was reopened: the force ramps up again from zero,
+  /// and the session continues.
   void start() noexcept;
 
-  /// Sleeps until it is due, then ticks. Anything but `none` is the last. `heartbeat_us` is what
-  /// the watchdog looks at.
+  /// Sleeps until the deadline, then ticks. Any result but `none` ends the loop. `heartbeat_us` is
+  /// read by the watchdog.
   Ending tick(falcon::ForceGate& gate, Commands& commands, LiveView& view,
               std::atomic<std::int64_t>& heartbeat_us) noexcept;
 
-  // Once no thread ticks.
+  // Only while no thread ticks.
   [[nodiscard]] const ServoTiming& timing() const noexcept { return timing_; }
   [[nodiscard]] const GuardEvents& events() const noexcept { return events_; }
   [[nodiscard]] const LiveStatus& status() const noexcept { return status_; }
@@ -98,15 +98,15 @@ class ServoLoop {
   LiveClay clay_;
   Pacer pacer_;
 
-  bool held_ = false;          // clutched or paused: the clay is left alone
-  bool thrown_ = false;        // a sample was believed
-  std::int64_t first_us_ = 0;  // its time
+  bool held_ = false;          // clutched or paused: the tool does not touch the clay
+  bool thrown_ = false;        // a sample was accepted
+  std::int64_t first_us_ = 0;  // time of the first accepted sample
   std::int64_t started_ns_ = 0;
   std::int64_t last_begun_ns_ = 0;
   glm::dvec3 tool_mm_{0.0};
   falcon::WantedForce wanted_;
   falcon::GuardedForce guarded_;
-  std::uint32_t flags_before_ = falcon::kGuardClock;  // the first tick has no time before it
+  std::uint32_t flags_before_ = falcon::kGuardClock;  // the first tick has no previous time
   ServoTiming timing_;
   GuardEvents events_;
   LiveStatus status_;

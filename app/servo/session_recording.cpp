@@ -32,7 +32,8 @@ Result<std::unique_ptr<SessionRecording>> SessionRecording::begin(const std::str
   if (!exists && errno != ENOENT) return recording->failed("open");
   if ((exists && S_ISDIR(status.st_mode)) || !fs::path(path).has_filename())
     return failure(ErrorKind::io, path + ": expected the name of a file, found a folder");
-  // The old session is not written to, but a rename would not ask.
+  // The old session is not opened for writing, so its write permission is checked here: a rename
+  // would ignore it.
   if (exists && access(path.c_str(), W_OK) != 0) return recording->failed("open");
   const bool replaceable = !exists || S_ISREG(status.st_mode);
   auto begun = replaceable ? recording->open_aside() : recording->open_in_place();
@@ -70,7 +71,7 @@ Result<void> SessionRecording::lock_aside() {
       const bool taken = errno == EWOULDBLOCK;
       auto error = taken ? failure(ErrorKind::io, path_ + ": another program is recording to it")
                          : failed("lock");
-      aside_.clear();  // not ours to remove
+      aside_.clear();  // belongs to the other program
       return error;
     }
     struct stat locked {
@@ -78,12 +79,12 @@ Result<void> SessionRecording::lock_aside() {
     if (fstat(descriptor_, &locked) == 0 && stat(aside_.c_str(), &named) == 0 &&
         same_file(locked, named))
       return {};
-    // The other program finished between our open and our lock: this file is its session now.
+    // The other program finished between open and lock, so this file is now its session.
     (void)close(std::exchange(descriptor_, -1));
   }
 }
 
-/// What a program that died before its first pose left is of no use; with poses it is.
+/// Removes the recording of a program that died before its first pose; keeps one with poses.
 Result<void> SessionRecording::clear_aside() {
   struct stat status {};
   if (fstat(descriptor_, &status) != 0) return failed("read");
@@ -94,7 +95,7 @@ Result<void> SessionRecording::clear_aside() {
   if (!left || !left->poses.empty()) {
     aside_.clear();
     return failure(ErrorKind::io, name +
-                                      ": holds a recording that was never finished; play it with "
+                                      ": holds an unfinished recording; play it with "
                                       "--session, then rename or remove it");
   }
   if (ftruncate(descriptor_, 0) != 0) return failed("shorten");
@@ -105,7 +106,7 @@ Result<void> SessionRecording::append(std::span<const Pose> poses) {
   if (poses.size() > kMaxPoses - poses_)
     return failure(ErrorKind::bad_input,
                    path_ + ": expected at most " + std::to_string(kMaxPoses) +
-                       " poses in one session, found more; it ends with the last that fits");
+                       " poses in one session, found more; the session ends at the limit");
   poses_ += poses.size();
   return write(session_block(poses));
 }
@@ -130,7 +131,7 @@ Result<void> SessionRecording::finish() {
   while ((synced = fsync(descriptor_)) != 0 && errno == EINTR) continue;
   if (synced != 0 && (!aside_.empty() || errno != EINVAL)) return failed("sync");
   if (aside_.empty()) return {};
-  // Named while it is still locked: nobody takes it for one that was never finished.
+  // Renamed while it is still locked, so that no other program treats it as unfinished.
   if (rename(aside_.c_str(), target_.c_str()) != 0) return failed("replace");
   aside_.clear();
   const fs::path folder = target_.parent_path();
@@ -143,11 +144,11 @@ void SessionRecording::discard() noexcept {
   aside_.clear();
 }
 
-/// Speaks of `errno`.
+/// Describes `errno`.
 tl::unexpected<Error> SessionRecording::failed(const char* action) const {
   std::string message =
       path_ + ": could not " + action + ": " + std::generic_category().message(errno);
-  if (poses_ > 0 && !aside_.empty()) message += "; what was recorded is in " + aside_.string();
+  if (poses_ > 0 && !aside_.empty()) message += "; the recording is in " + aside_.string();
   return failure(ErrorKind::io, std::move(message));
 }
 

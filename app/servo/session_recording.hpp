@@ -19,8 +19,8 @@ namespace clay::servo {
 /// nothing and replaces nothing. Pipes and devices have no NAME.recording: lines go straight there.
 class SessionRecording final : public history::PoseSink {
  public:
-  /// Refused while another program records to this name, and where NAME.recording holds poses of a
-  /// recording that never finished. `scene_hash`: hash_of the scene as it is on disk.
+  /// Refused while another program records to this name, and if NAME.recording holds poses of an
+  /// unfinished recording. `scene_hash`: hash_of the scene file.
   static Result<std::unique_ptr<SessionRecording>> begin(const std::string& path,
                                                          std::string_view scene_name,
                                                          std::uint64_t scene_hash);
@@ -41,8 +41,8 @@ class SessionRecording final : public history::PoseSink {
   void discard() noexcept;
   [[nodiscard]] tl::unexpected<Error> failed(const char* action) const;
 
-  std::string path_;              ///< as it was asked for
-  std::filesystem::path target_;  ///< the same behind symbolic links
+  std::string path_;              ///< path as given
+  std::filesystem::path target_;  ///< path with symbolic links resolved
   std::filesystem::path aside_;   ///< empty: written in place
   int descriptor_ = -1;
   std::size_t poses_ = 0;  ///< number of poses recorded

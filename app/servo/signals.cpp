@@ -8,8 +8,8 @@
 namespace clay::servo {
 namespace {
 
-constexpr int kAsks[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE};
-// All whose default is the end of the process, but for those and SIGKILL.
+constexpr int kStopRequests[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE};
+// All signals that end the process by default, except those above and SIGKILL.
 constexpr int kEnds[] = {SIGSEGV, SIGBUS,  SIGFPE,    SIGILL,  SIGABRT,   SIGQUIT,
                          SIGTRAP, SIGSYS,  SIGXCPU,   SIGALRM, SIGVTALRM, SIGPROF,
                          SIGUSR1, SIGUSR2, SIGSTKFLT, SIGPOLL, SIGPWR};
@@ -21,18 +21,18 @@ using Act = void (*)() noexcept;
 std::atomic<Act> last_act{nullptr};
 static_assert(std::atomic<Act>::is_always_lock_free);
 
-// For the thread that made ForceSignals: a stack that has run over can't hold a handler.
+// An alternate stack for the thread of ForceSignals: a handler cannot run on an overflowed stack.
 constexpr std::size_t kStackBytes = 64 * 1024;
 alignas(16) char handler_stack[kStackBytes];
 
-void on_ask(int signal) {
-  last_zero().fire();
+void on_stop_request(int signal) {
+  emergency_stop().fire();
   asked = signal;
 }
 
-/// Back from here the fault befalls again, and then does what it does by default.
+/// After the return the fault occurs again and has its default action.
 void on_end(int signal) {
-  last_zero().fire();
+  emergency_stop().fire();
   if (const Act act = last_act.load(std::memory_order_acquire); act != nullptr) act();
   std::signal(signal, SIG_DFL);
   std::raise(signal);
@@ -42,7 +42,7 @@ void on_end(int signal) {
 
 ForceSignals::ForceSignals() {
   asked = 0;
-  (void)last_zero();  // made before any handler asks for it
+  (void)emergency_stop();  // constructed before a handler can use it
   stack_t stack{};
   stack.ss_sp = handler_stack;
   stack.ss_size = kStackBytes;
@@ -55,7 +55,7 @@ ForceSignals::ForceSignals() {
     sigaction(signal, &action, &before);
     before_.emplace_back(signal, before);
   };
-  for (const int signal : kAsks) handle(signal, on_ask);
+  for (const int signal : kStopRequests) handle(signal, on_stop_request);
   for (const int signal : kEnds) handle(signal, on_end);
   for (const int signal : kIgnored) handle(signal, SIG_IGN);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Signals while a force is on. Whatever ends the process, zero force goes out first.
+// Signal handlers that send zero force before the process ends.
 
 #include <csignal>
 #include <utility>
@@ -7,12 +7,12 @@
 
 namespace clay::servo {
 
-/// For as long as it lives: SIGINT, SIGTERM, SIGHUP and SIGPIPE end the force at once and ask the
-/// program to stop. Every other signal that would end the process and can be caught ends the force
-/// and then does what it does: faults, SIGABRT (so an uncaught exception, a failed assertion),
-/// SIGQUIT, SIGXCPU (too long at SCHED_FIFO) and the rest. Job control is ignored, since a process
-/// that is stopped leaves the force as it is; so is SIGXFSZ, since a write that fails is told. One
-/// of these at a time.
+/// During its lifetime SIGINT, SIGTERM, SIGHUP and SIGPIPE end the force at once and request the
+/// end of the program. Every other signal that would end the process and can be caught ends the
+/// force and then has its default action: faults, SIGABRT (an uncaught exception, a failed
+/// assertion), SIGQUIT, SIGXCPU (too long at SCHED_FIFO) and the rest. Job control is ignored,
+/// because a stopped process would leave the force as it is; SIGXFSZ is ignored, because the failed
+/// write reports an error. One object at a time.
 class ForceSignals {
  public:
   ForceSignals();
@@ -20,11 +20,11 @@ class ForceSignals {
   ForceSignals(const ForceSignals&) = delete;
   ForceSignals& operator=(const ForceSignals&) = delete;
 
-  /// The signal that asked to stop; 0: none did.
+  /// The signal that requested the end; 0: none.
   [[nodiscard]] static int asked_to_stop() noexcept;
 
-  /// What a signal that ends the process does after the force has ended: a terminal is not left as
-  /// it was made. Async-signal-safe; nullptr: nothing.
+  /// An action after the force has ended, for signals that end the process, for example to restore
+  /// the terminal. Async-signal-safe; nullptr: none.
   static void at_the_end(void (*act)() noexcept) noexcept;
 
  private:

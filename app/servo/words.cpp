@@ -12,20 +12,20 @@ using falcon::GuardState;
 using falcon::SafeCause;
 
 std::string words_of_safe(SafeCause cause, std::string_view rearm_key) {
-  const auto asks = [&](const char* why) {
-    return fmt::format("no force: {}; {} or the clutch to go on", why, rearm_key);
+  const auto rearm_after = [&](const char* why) {
+    return fmt::format("no force: {}; press {} or the clutch to continue", why, rearm_key);
   };
   switch (cause) {
     case SafeCause::not_finite:
-      return asks("invalid force (NaN)");
+      return rearm_after("invalid force (NaN)");
     case SafeCause::not_passive:
-      return asks("the contact was unstable");
+      return rearm_after("the contact was unstable");
     case SafeCause::jumped:
-      return "no force: the position leapt";
+      return "no force: the position jumped";
     case SafeCause::overrun:
-      return "no force: the servo was held up";
+      return "no force: the servo was delayed";
     case SafeCause::paused:
-      return asks("as asked");
+      return rearm_after("on request");
     default:
       return "no force";
   }
@@ -36,13 +36,13 @@ std::string words_of_guard(const LiveStatus& status, std::string_view rearm_key)
     case GuardState::idle:
       return "waiting for the device";
     case GuardState::waiting:
-      return status.contact ? "take the tool off the clay: force comes after that" : "ready";
+      return status.contact ? "lift the tool off the clay to get force" : "ready";
     case GuardState::ramping:
-      return fmt::format("force grows, {:.0f} %", 100.0 * status.force_gain);
+      return fmt::format("force ramps up, {:.0f} %", 100.0 * status.force_gain);
     case GuardState::engaged:
       return status.contact ? "throwing" : "ready";
     case GuardState::fading:
-      return "force let go: no samples, or warm motors";
+      return "force fades out: no samples, or warm motors";
     case GuardState::safe:
       return words_of_safe(status.cause, rearm_key);
   }
@@ -60,8 +60,8 @@ std::string words_of(const LiveStatus& status, std::string_view rearm_key) {
   if (status.device == DeviceState::needs_homing) return std::string("home it: ") + kHomingAdvice;
   if (status.device != DeviceState::ready) return std::string(falcon::name_of(status.device));
   if (status.paused) return "paused";
-  if (status.clutched) return "clutch: the tool stays where it is";
-  if (status.ring_limit) return "clay waits above the top: raise lump.max_rings";
+  if (status.clutched) return "clutch held: the tool does not move";
+  if (status.ring_limit) return "there is clay above the top ring: increase lump.max_rings";
   return words_of_guard(status, rearm_key);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Actions: everything that a user can ask of the window, as plain values. Panels, keys, the mouse
-// and scripts make them; apply() is the one place that carries them out.
+// Actions: everything that a user can do in the window, as plain values. Panels, keys, the mouse
+// and scripts create them; apply() is the one place that executes them.
 
 #include "app/history/work.hpp"
 #include "app/render/painter.hpp"
@@ -24,23 +24,24 @@ struct RunCommand {
   std::string_view id;
 };
 
-// --- The document. Those that replace the work ask first where it is not saved.
-// -------------------
-/// `pot` null: the lump of the scene. `source`: the drawing that the pot was read from, or empty.
+// --- The document. Those that replace an unsaved work open a question first. ---------------------
+/// `pot` null: start with the lump of the scene. `source`: the drawing that the pot was read from,
+/// or empty.
 struct BeginWork {
   SceneSpec scene;
   history::SharedPot pot;
   std::filesystem::path source;
 };
 struct BeginSample {
-  std::size_t index = 0;  ///< in samples()
+  std::size_t index = 0;  ///< index in samples()
 };
-/// A scene, a pot or a work; a drawing opens its dialog, a process becomes the chosen one.
+/// Opens a scene, a pot or a work. A drawing opens the import dialog; a process file selects that
+/// process.
 struct OpenFile {
   std::filesystem::path path;
 };
 struct RecoverWork {
-  std::size_t index = 0;  ///< in AppState::recoverable
+  std::size_t index = 0;  ///< index in AppState::recoverable
 };
 struct Quit {};
 struct DiscardRecoverable {
@@ -49,20 +50,20 @@ struct DiscardRecoverable {
 struct SaveFile {
   std::filesystem::path path;
 };
-/// To the file of the document, or asks for a name.
+/// Saves to the file of the document, or opens a dialog for a name.
 struct Save {};
 struct Undo {};
 struct Redo {};
 struct GoToStroke {
   history::NodeId node = 0;
-  bool logged = false;  ///< as an event of the timeline
+  bool logged = false;  ///< write it to the log as an event of the timeline
 };
 struct OtherBranch {};
 struct Scrub {
   history::NodeId node = 0;
   double seconds = 0.0;
 };
-/// The mouse has left the timeline at a moment in the middle of a stroke.
+/// The mouse has left the timeline while the view showed a moment in the middle of a stroke.
 struct EndScrub {};
 struct BranchHere {};
 
@@ -73,20 +74,20 @@ struct ShowDialog {
 };
 struct CloseDialog {};
 struct EditPath {
-  std::string path;  ///< in the field of the dialogs that open and save
+  std::string path;  ///< in the field of the open or save dialog
 };
-/// Answers to the question about unsaved changes.
+/// The answer to the question about unsaved changes.
 struct SaveAndContinue {};
 struct DiscardAndContinue {};
 struct EditExport {
-  ExportWish wish;
+  ExportChoices choices;
 };
 struct WriteExport {};
 struct CancelExport {};
 struct ShowExportFolder {};
 struct ChooseExportFolder {};
 struct ChooseProcessFile {};
-/// A process of the user's own, from its file.
+/// Selects a custom process by its file.
 struct UseProcess {
   std::filesystem::path path;
 };
@@ -115,13 +116,13 @@ struct ChangeGap {
 struct SetStiffness {
   double n_per_mm2 = 0.0;
 };
-/// From now on the mouse sets the size of the tool, or the stiffness, until a click.
+/// The mouse sets the size of the tool, or the stiffness, until the next click.
 struct DragToolSize {};
 struct DragStiffness {};
 struct TogglePause {};
-/// Force ramps up again after the guard held it at zero.
+/// Re-arms the guard: force ramps up again after the guard held it at zero.
 struct Rearm {};
-/// Zero force at once, and back to what was before.
+/// Sets the force to zero at once, or returns to the state before.
 struct Back {};
 struct PressClay {
   MousePress press;
@@ -189,7 +190,7 @@ using Action = std::variant<
     SetUnit, SetWheelSpeed, SetTool, SetProcess, SetHints, SetFolder, SetHandSpeed, SetWallMap,
     SetFullSection, ToggleWallMap, ToggleHints>;
 
-/// In the order in which they were made.
+/// In the order of creation.
 using Actions = std::vector<Action>;
 
 }  // namespace clay::studio

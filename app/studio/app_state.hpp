@@ -1,6 +1,6 @@
 #pragma once
-// The whole state of the window, without its drawing: document, hand, view model, user interface,
-// and the jobs in the background. It needs a host, but no screen and no OpenGL.
+// The complete state of the window, without drawing: document, stroke, view model, user interface
+// and background jobs. It needs a host, but neither screen nor OpenGL.
 
 #include "app/history/recovery.hpp"
 #include "app/studio/device_watch.hpp"
@@ -37,36 +37,37 @@ struct AppState {
   UiState ui;
   FallShow fall;
   Exporter exporter;
-  FileDialog file_dialog;                ///< of the desktop, instead of a text field
-  std::unique_ptr<DeviceWatch> devices;  ///< null: no device is looked for
+  FileDialog file_dialog;                ///< the desktop's dialog, used instead of a text field
+  std::unique_ptr<DeviceWatch> devices;  ///< null: do not look for devices
   std::vector<history::Recoverable> recoverable;
-  std::function<void(std::string_view)> log;  ///< events, one line each
+  std::function<void(std::string_view)> log;  ///< receives events, one line each
   bool done = false;                          ///< the window may close
 
   [[nodiscard]] float scale() const { return settings.scale * host.content_scale(); }
   [[nodiscard]] double now_s() { return 1e-9 * static_cast<double>(host.frame_ns()); }
 };
 
-/// Valid until the state changes its place; made for every frame and every action.
+/// Valid until the state is moved; created for every frame and every action.
 [[nodiscard]] ViewModel view_model(AppState& state);
 
-/// Carries out an action. Actions that replace an unsaved work are kept by a question first
-/// (UnsavedDialog). Errors appear as a banner and in the log.
+/// Executes an action. An action that would replace an unsaved work waits in an UnsavedDialog.
+/// Errors appear as a banner and in the log.
 void apply(AppState& state, const Action& action);
-/// In order; `actions` is empty afterwards.
+/// Executes them in order; `actions` is empty afterwards.
 void apply_all(AppState& state, Actions& actions);
 
-/// What happens by itself, once a frame: devices come and go, the servo ticks, background jobs end.
+/// Once a frame: connects and disconnects devices, advances the servo, collects finished background
+/// jobs.
 void update(AppState& state);
 
 // --- For actions and updates. --------------------------------------------------------------------
-/// Banner and log.
+/// Shows an error as a banner and logs it.
 void report(AppState& state, const Error& error);
-/// The same, unless it succeeded; whether it did.
+/// Reports the error, if there is one. Returns true on success.
 bool succeeded(AppState& state, const Result<void>& result);
-/// Ends the stroke and saves; whether that succeeded.
+/// Ends the stroke and saves. Returns true on success.
 bool save_document(AppState& state, const std::filesystem::path& path);
-/// A note that disappears after some seconds.
+/// Shows a note that disappears after some seconds.
 void note(AppState& state, Grade grade, std::string text, double seconds);
 
 }  // namespace clay::studio

@@ -1,4 +1,4 @@
-// Carries out actions.
+// Executes actions.
 
 #include "app/studio/app_state.hpp"
 #include "app/studio/commands.hpp"
@@ -21,7 +21,7 @@ bool is_process(const std::filesystem::path& path) {
   return path.string().ends_with(".process.json");
 }
 
-/// For the log; null: the action leaves the work as it is.
+/// Text for the log; null: the action does not change the work.
 const char* replaces_work(const Action& action) {
   if (std::holds_alternative<Quit>(action)) return "quit";
   if (std::holds_alternative<RecoverWork>(action)) return "recover";
@@ -32,13 +32,13 @@ const char* replaces_work(const Action& action) {
   return open != nullptr && !is_process(open->path) && !is_drawing(open->path) ? "open" : nullptr;
 }
 
-/// Names in the dialogs for files begin here.
+/// The folder in which file dialogs start.
 std::filesystem::path start_folder(const AppState& state) {
   const std::string& folder = state.settings.folder;
   return folder.empty() ? std::filesystem::path() : std::filesystem::path(folder) / "";
 }
 
-/// The dialog of the desktop, where it is installed. Scripts have none.
+/// Opens the desktop's file dialog, if it is installed. Not used in scripts.
 bool ask_desktop(AppState& state, FileDialog::Kind kind, const std::filesystem::path& start) {
   return state.host.real_time() && state.file_dialog.begin(kind, start);
 }
@@ -50,7 +50,7 @@ void close_dialog(AppState& state) {
     state.ui.dialog = GalleryDialog{};
 }
 
-/// Carries out one action; nothing is asked.
+/// Executes one action without asking about unsaved changes.
 struct Performer {
   AppState& state;
 
@@ -189,17 +189,17 @@ struct Performer {
     state.document.discard_changes();
     close_dialog(state);
     apply(state, next);
-    // Where the next work could not be opened, this one is still there.
+    // If the next work could not be opened, the current one remains.
     if (!state.done) state.document.keep_changes();
   }
-  void operator()(const EditExport& edit) const { state.ui.exporting.wish = edit.wish; }
+  void operator()(const EditExport& edit) const { state.ui.exporting.choices = edit.choices; }
   void operator()(const WriteExport&) const {
     ExportState& exporting = state.ui.exporting;
     exporting.written.clear();
     exporting.problem.clear();
     exporting.result.clear();
-    state.log("export begun");
-    state.exporter.write(state.document.shared_pot(), exporting.wish);
+    state.log("export started");
+    state.exporter.write(state.document.shared_pot(), exporting.choices);
   }
   void operator()(const CancelExport&) const { state.exporter.cancel(); }
   void operator()(const ShowExportFolder&) const {
@@ -211,7 +211,7 @@ struct Performer {
                                 (folder.empty() ? "the current folder" : folder.string()));
   }
   void operator()(const ChooseExportFolder&) const {
-    const auto start = std::filesystem::path(state.ui.exporting.wish.folder) / "";
+    const auto start = std::filesystem::path(state.ui.exporting.choices.folder) / "";
     if (!ask_desktop(state, FileDialog::Kind::folder, start))
       note(state, Grade::warning,
            "No file dialog is installed (zenity, kdialog): type the name of the folder", kNoteS);
@@ -223,12 +223,12 @@ struct Performer {
            "window, or open it by name (Ctrl+O)",
            kNoteS);
   }
-  /// For the walls, and for the export where its dialog is open.
+  /// Sets the process for the walls, and for the export if its dialog is open.
   void operator()(const UseProcess& use) const {
     if (auto process = solid::read_process(use.path.string()); !process)
       return report(state, process.error());
     remember_process(state.settings, use.path);
-    if (state.ui.shows<ExportDialog>()) state.ui.exporting.wish.process = state.settings.process;
+    if (state.ui.shows<ExportDialog>()) state.ui.exporting.choices.process = state.settings.process;
     state.log("process: " + use.path.string());
   }
   void operator()(const EditImport& edit) const {
@@ -262,7 +262,7 @@ struct Performer {
   void operator()(const DragStiffness&) const { state.scene.drag_stiffness(view_model(state)); }
   void operator()(const TogglePause&) const { state.stroke.pause(!state.stroke.paused()); }
   void operator()(const Rearm&) const { state.stroke.command({servo::CommandKind::rearm, 0.0}); }
-  /// However often Esc is pressed, it brings no force back.
+  /// Pressing Esc repeatedly never restores force.
   void operator()(const Back&) const {
     const bool force =
         state.stroke.has_device() && state.document.has_work() && !state.stroke.paused();
@@ -280,7 +280,7 @@ struct Performer {
   }
   void operator()(const PressClay& press) const {
     if (succeeded(state, state.stroke.press(press.press)))
-      state.log("stroke begun");
+      state.log("stroke started");
     else
       state.scene.stop_shaping();
   }
@@ -331,16 +331,17 @@ struct Performer {
     (void)succeeded(state, change(state.document));
     state.stroke.resume();
   }
-  /// The work that has just begun: its tool is chosen, and the view shows it.
+  /// After a new work has begun: selects its tool and shows it in the view.
   void show_work() const {
     state.stroke.begin_work();
     choose(state.document.scene().tool, state.settings.tool);
     state.ui.dialog = NoDialog{};
     state.scene.look(state.stroke.view(), ViewFrom::home);
     state.ui.exporting.written.clear();
-    state.log("work begun: " + state.document.scene().name);
+    state.log("work started: " + state.document.scene().name);
   }
-  /// What may follow now; nothing where only a pot was saved, which keeps no strokes.
+  /// The action to run after saving; none if only a pot was saved, because a pot file keeps no
+  /// strokes.
   [[nodiscard]] std::optional<Action> waits_for_save() const {
     if (state.document.unsaved()) return std::nullopt;
     if (const auto* save = std::get_if<SaveDialog>(&state.ui.dialog)) return save->next;
@@ -369,14 +370,14 @@ struct Performer {
   void show_export() const {
     state.stroke.release();
     ExportState& exporting = state.ui.exporting;
-    ExportWish& wish = exporting.wish;
-    if (wish.name.empty()) wish.process = state.settings.process;
+    ExportChoices& choices = exporting.choices;
+    if (choices.name.empty()) choices.process = state.settings.process;
     const std::string& scene = state.document.scene().name;
     const std::filesystem::path& file = state.document.file();
-    wish.name = !file.empty() ? file.stem().string() : scene.empty() ? "pot" : scene;
-    wish.folder = state.settings.folder;
-    if (wish.folder.empty()) wish.folder = std::filesystem::current_path().string();
-    exporting = {.wish = wish, .preview = {}, .problem = {}, .written = {}, .result = {}};
+    choices.name = !file.empty() ? file.stem().string() : scene.empty() ? "pot" : scene;
+    choices.folder = state.settings.folder;
+    if (choices.folder.empty()) choices.folder = std::filesystem::current_path().string();
+    exporting = {.choices = choices, .preview = {}, .problem = {}, .written = {}, .result = {}};
     state.ui.dialog = ExportDialog{};
   }
 };

@@ -25,7 +25,7 @@ bool has_work(View view) { return view.document.has_work(); }
 bool at_rest(View view) { return view.at_rest(); }
 bool between(View view) { return view.between_strokes(); }
 
-/// The current stroke of a device counts too: undo ends it first.
+/// The current stroke of a device counts as well: undo ends it first.
 bool can_undo(View view) {
   const bool current = view.stroke.throwing() && view.stroke.status().poses > 0;
   return view.between_strokes() && (view.document.can_undo() || current);
@@ -38,9 +38,9 @@ bool scrubbing(View view) { return view.document.scrubbing(); }
 bool asks(View view) { return view.ui.shows<UnsavedDialog>(); }
 bool recoverable(View view) { return !view.recoverable.empty(); }
 bool can_export(View view) {
-  const ExportWish& wish = view.ui.exporting.wish;
-  return view.ui.shows<ExportDialog>() && !view.writing() && !wish.name.empty() &&
-         wish.name.find('/') == std::string::npos && !paths_of(wish).empty();
+  const ExportChoices& choices = view.ui.exporting.choices;
+  return view.ui.shows<ExportDialog>() && !view.writing() && !choices.name.empty() &&
+         choices.name.find('/') == std::string::npos && !paths_of(choices).empty();
 }
 bool writing(View view) { return view.writing(); }
 bool has_written(View view) { return !view.ui.exporting.written.empty(); }
@@ -103,7 +103,7 @@ const std::array kCommands = {
     C{"edit.other_branch", "Switch branch", key(GLFW_KEY_B, kCtrl), kNone, OtherBranch{}, can_switch},
     C{"edit.branch", "Branch at this moment", key(GLFW_KEY_B, kCtrlShift), kNone, BranchHere{}, scrubbing},
 
-    // In dialogs; in no menu.
+    // Used in dialogs; not in a menu.
     C{"quit.save", "Save first", key(GLFW_KEY_ENTER), kNone, SaveAndContinue{}, asks},
     C{"quit.discard", "Discard changes", key(GLFW_KEY_D, kCtrl), kNone, DiscardAndContinue{}, asks},
     C{"quit.cancel", "Cancel", kNone, kNone, CloseDialog{}, asks},

@@ -14,25 +14,26 @@ struct AppState;
 struct ViewModel;
 
 struct Command {
-  std::string_view id;  ///< for scripts: "edit.undo"; its menu before the point
+  /// For scripts, such as "edit.undo"; the part before the point names the menu.
+  std::string_view id;
   const char* title;
   KeyChord chord;
   KeyChord second_chord;  ///< not shown in the menu
   Action action;
   bool (*enabled)(const ViewModel&);
-  bool (*checked)(const ViewModel&) = nullptr;  ///< of a command that switches something
+  bool (*checked)(const ViewModel&) = nullptr;  ///< state of a command that toggles something
 };
 
 /// In the order of the menus.
 [[nodiscard]] std::span<const Command> commands();
-/// Null where no command has this id, or this chord.
+/// Null if no command has this id or chord.
 [[nodiscard]] const Command* find_command(std::string_view id);
 [[nodiscard]] const Command* command_for(const KeyChord& chord);
-/// Logs the command and applies its action, where it is enabled; whether it was.
+/// Logs the command and applies its action if the command is enabled. Returns false otherwise.
 bool run(const Command& command, AppState& state);
 
 struct Menu {
-  std::string_view prefix;  ///< of the ids: "edit."
+  std::string_view prefix;  ///< prefix of the ids: "edit."
   const char* title;
 };
 [[nodiscard]] std::span<const Menu> menus();

@@ -11,7 +11,8 @@
 namespace clay::studio {
 namespace {
 
-/// Asking costs little; opening a device that nobody plugged in would say so every second.
+/// Listing devices is cheap; trying to open a device that is not connected would report an error
+/// every second.
 bool anything_plugged_in() {
 #ifdef CLAYSTACK_USB
   const auto listed = falcon::list_devices();
@@ -51,7 +52,7 @@ std::unique_ptr<falcon::HapticDevice> DeviceWatch::take() {
 void DeviceWatch::look_again() {
   const std::lock_guard lock(mutex_);
   looking_ = true;
-  told_.clear();
+  reported_.clear();
 }
 
 std::string DeviceWatch::take_problem() {
@@ -75,12 +76,12 @@ void DeviceWatch::look() {
   auto device = look_for_();
   const std::lock_guard lock(mutex_);
   if (!device) {
-    if (device.error().message != told_) problem_ = told_ = device.error().message;
+    if (device.error().message != reported_) problem_ = reported_ = device.error().message;
   } else if (*device) {
     found_ = std::move(*device);
     looking_ = false;
   } else {
-    told_.clear();  // what is plugged in next is another story
+    reported_.clear();  // report the problems of the next device again
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Looks for an arm or a controller while the window runs, and opens one that appears. Opening may
-// take seconds, so a thread of its own does it.
+// Looks for an arm or a controller while the window runs, and opens it. Opening can take seconds,
+// so it happens on a separate thread.
 
 #include "claystack/core/result.hpp"
 #include "claystack/falcon/device.hpp"
@@ -16,10 +16,11 @@
 
 namespace clay::studio {
 
-/// One look: a device, open; null where none is plugged in; or why the one that is cannot be used.
+/// One attempt. Returns an open device, null if none is connected, or an error if a connected
+/// device cannot be used.
 using LookForDevice = std::function<Result<std::unique_ptr<falcon::HapticDevice>>()>;
 
-/// `which` as device_choice has it: "auto" waits for whatever is plugged in, any other is tried
+/// `which` as in device_choice. "auto" waits for any connected device; any other choice is tried
 /// until it opens.
 [[nodiscard]] LookForDevice look_for(std::string which, falcon::FalconSettings settings);
 
@@ -31,10 +32,11 @@ class DeviceWatch {
   DeviceWatch(const DeviceWatch&) = delete;
   DeviceWatch& operator=(const DeviceWatch&) = delete;
 
-  /// An open device that has appeared since, or null. It then stops looking, until `look_again`.
+  /// A device that was opened since the last call, or null. The search then stops until
+  /// `look_again`.
   [[nodiscard]] std::unique_ptr<falcon::HapticDevice> take();
   void look_again();
-  /// Why what is there cannot be used, each reason once; empty: nothing new.
+  /// Why a connected device cannot be used. Each problem is returned once; empty: nothing new.
   [[nodiscard]] std::string take_problem();
 
  private:
@@ -43,10 +45,10 @@ class DeviceWatch {
 
   LookForDevice look_for_;
   std::chrono::milliseconds between_;
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // protects the members below
   std::condition_variable wake_;
   std::unique_ptr<falcon::HapticDevice> found_;
-  std::string problem_, told_;
+  std::string problem_, reported_;
   bool looking_ = true, closing_ = false;
   std::thread thread_;
 };

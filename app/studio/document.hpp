@@ -1,5 +1,5 @@
 #pragma once
-// The document of the window: a work with its file, the pot it shows, and whether it is saved.
+// The document of the window: a work, its file, the pot on screen, and whether it is saved.
 
 #include "app/history/pose_sink.hpp"
 #include "app/history/work.hpp"
@@ -21,92 +21,87 @@ struct Moment {
   double seconds = 0.0;
 };
 
-/// A scene in proportion to a pot that comes without one.
+/// A scene with settings in proportion to a pot that has no scene.
 [[nodiscard]] SceneSpec scene_for(const Pot& pot, const std::string& name);
 
-/// For one thread. Functions that read the work or its pot require has_work().
+/// Not thread-safe. Functions that read the work or its pot require has_work().
 class Document {
  public:
-  /// From now on every work has a journal, so that a crash loses nothing.
+  /// Keeps a journal of every work from now on, so that a crash loses no stroke.
   void keep_journals() noexcept { journals_ = true; }
 
-  // --- A new work replaces the old one, and has no file.
-  // ------------------------------------------
-  /// With the scene's lump, or with a pot.
+  // --- A new work replaces the old one, and has no file. -----------------------------------------
+  /// Begins with the lump of the scene, or with a pot.
   Result<void> begin(const SceneSpec& scene);
   Result<void> begin(const SceneSpec& scene, const Pot& pot);
-  /// A recovered work keeps its journal.
+  /// Continues a recovered work with its journal.
   void begin(history::Work work);
-  /// What failed after a work had begun: its journal, or its pot. Reported once.
+  /// The error of the journal or the pot after a work has begun. Returned once.
   [[nodiscard]] std::optional<Error> take_problem() { return std::exchange(problem_, {}); }
-  /// The end of the program, as the user chose it: the journal is not needed any more.
+  /// The user ends the program: deletes the journal, which is not needed any more.
   void close();
 
-  // --- Files. The ending of a name decides the kind.
-  // ------------------------------------------------
-  /// What was unusual about a file that was read; empty: nothing.
+  // --- Files. The extension selects the kind. ----------------------------------------------------
+  /// A remark about a file that was read, such as a cut-off last line; empty: none.
   using Remark = std::string;
   /// Reads a scene, a pot or a work. On an error the document is unchanged.
   Result<Remark> open(const std::filesystem::path& path);
   /// Writes .work, .pot.json or .pot.cbor. Only a .work saves the document and becomes its file.
   Result<void> save(const std::filesystem::path& path);
-  /// Of the work; empty: it has none yet.
+  /// The file of the work; empty: none yet.
   [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
-  /// File name, or the name of the scene.
+  /// The name of the file, or of the scene.
   [[nodiscard]] std::string name() const;
   [[nodiscard]] bool unsaved() const noexcept {
     return work_ && work_->unsaved() && !changes_discarded_;
   }
-  /// The user does not want the unsaved changes: the journal ends with the work. The next stroke
+  /// The user discards the unsaved changes: the journal is deleted with the work. The next stroke
   /// makes the document unsaved again.
   void discard_changes() noexcept { changes_discarded_ = true; }
   void keep_changes() noexcept { changes_discarded_ = false; }
 
-  // --- The work and its pot.
-  // ------------------------------------------------------------------------
+  // --- The work and its pot. ---------------------------------------------------------------------
   [[nodiscard]] bool has_work() const noexcept { return work_.has_value(); }
   [[nodiscard]] const history::Work& work() const noexcept { return *work_; }
   [[nodiscard]] const Pot& pot() const noexcept { return *pot_; }
   /// Null before there is a work. During a stroke: the pot at its start.
   [[nodiscard]] const history::SharedPot& shared_pot() const noexcept { return pot_; }
-  /// What is on screen at rest: the current pot, or that of `moment`.
+  /// The pot on screen between strokes: the current pot, or the pot at `moment`.
   [[nodiscard]] const render::PotView& view() const noexcept { return view_; }
-  /// Shows the fallen part of the pot at this place.
+  /// Moves the fallen part of the pot on screen to this place.
   void show_fall(const render::FallenView& fallen) { view_.fallen = fallen; }
 
-  // --- The next stroke.
-  // -----------------------------------------------------------------------------
+  // --- The next stroke. --------------------------------------------------------------------------
   [[nodiscard]] const SceneSpec& scene() const noexcept { return scene_; }
   void set_tool(const ToolSpec& tool, double removal_rate_per_s);
   /// Stiffness of the contact [N/mm^2].
   void set_stiffness(double n_per_mm2);
   /// Stiffness of the contact [N/mm^2]; 0 in a scene without force.
   [[nodiscard]] double stiffness() const noexcept;
-  /// Removal rate that the scene had when the work began [1/s].
+  /// Removal rate of the scene when the work began [1/s].
   [[nodiscard]] double nominal_rate_per_s() const noexcept { return nominal_rate_per_s_; }
 
-  /// A stroke begins on the current pot. The sink is the recorder's.
+  /// Begins a stroke on the current pot. The recorder writes to the sink.
   Result<history::PoseSink*> begin_stroke(const SceneSpec& scene);
-  /// The recorder has finished. `thrown`: the pot that the servo left. Shows the new pot.
+  /// Call after the recorder has finished. `thrown`: the pot at the end of the stroke; it is shown.
   Result<void> end_stroke(const Pot* thrown);
 
-  // --- The tree of strokes. Not during a stroke.
-  // ----------------------------------------------------
+  // --- The tree of strokes. Not during a stroke. -------------------------------------------------
   [[nodiscard]] bool can_undo() const noexcept { return work_ && work_->can_undo(); }
   [[nodiscard]] bool can_redo() const noexcept { return work_ && work_->can_redo(); }
   Result<void> undo();
   Result<void> redo();
   Result<void> go_to(history::NodeId node);
-  /// The nearest ancestor that has a sibling gives its next sibling; empty: there is no branch.
+  /// The next sibling of the nearest ancestor that has siblings; empty: there is no branch.
   [[nodiscard]] std::optional<history::NodeId> other_branch() const;
-  /// Shows the pot in the middle of a stroke until another pot is shown. The work stays where it
-  /// is.
+  /// Shows the pot at a moment in the middle of a stroke until another pot is shown. The work does
+  /// not change.
   Result<void> scrub(history::NodeId node, double seconds);
   [[nodiscard]] bool scrubbing() const noexcept { return moment_.has_value(); }
   [[nodiscard]] const std::optional<Moment>& moment() const noexcept { return moment_; }
   /// Ends `scrub` and shows the current pot.
   Result<void> show_present();
-  /// The shown moment becomes current, as a branch (history::Work::branch).
+  /// Makes the shown moment current, as a branch (history::Work::branch).
   Result<void> branch_here();
 
  private:

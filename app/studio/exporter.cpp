@@ -11,27 +11,27 @@ namespace clay::studio {
 namespace {
 
 struct Ending {
-  bool ExportWish::*wanted;
+  bool ExportChoices::*wanted;
   const char* text;
 };
-constexpr std::array kEndings = {Ending{&ExportWish::stl, ".stl"}, Ending{&ExportWish::obj, ".obj"},
-                                 Ending{&ExportWish::drc, ".drc"},
-                                 Ending{&ExportWish::section, ".svg"},
-                                 Ending{&ExportWish::pot, ".pot.json"}};
+constexpr std::array kEndings = {
+    Ending{&ExportChoices::stl, ".stl"}, Ending{&ExportChoices::obj, ".obj"},
+    Ending{&ExportChoices::drc, ".drc"}, Ending{&ExportChoices::section, ".svg"},
+    Ending{&ExportChoices::pot, ".pot.json"}};
 
 }  // namespace
 
-std::vector<std::string> paths_of(const ExportWish& wish) {
+std::vector<std::string> paths_of(const ExportChoices& choices) {
   std::vector<std::string> paths;
   for (const auto& [wanted, ending] : kEndings)
-    if (wish.*wanted)
-      paths.push_back((std::filesystem::path(wish.folder) / (wish.name + ending)).string());
+    if (choices.*wanted)
+      paths.push_back((std::filesystem::path(choices.folder) / (choices.name + ending)).string());
   return paths;
 }
 
-Result<solid::ExportRequest> request_of(const ExportWish& wish, const Pot& pot) {
+Result<solid::ExportRequest> request_of(const ExportChoices& choices, const Pot& pot) {
   solid::ExportRequest request;
-  for (const std::string& path : paths_of(wish)) {
+  for (const std::string& path : paths_of(choices)) {
     if (const auto encoding = cli::pot_encoding_of(path)) {
       request.files.push_back(
           {.path = path, .kind = solid::FileKind::given, .bytes = write_pot(pot, *encoding)});
@@ -42,22 +42,22 @@ Result<solid::ExportRequest> request_of(const ExportWish& wish, const Pot& pot) 
     request.files.push_back(std::move(*file));
   }
   solid::ExportOptions& options = request.options;
-  options.tolerance_mm = wish.tolerance_mm;
-  options.smoothing = wish.smoothing;
-  options.name = options.source = wish.name;
-  const bool mesh = wish.stl || wish.obj || wish.drc;
-  if (mesh || wish.section) options.shrinkage = 0.01 * wish.shrinkage_percent;
+  options.tolerance_mm = choices.tolerance_mm;
+  options.smoothing = choices.smoothing;
+  options.name = options.source = choices.name;
+  const bool mesh = choices.stl || choices.obj || choices.drc;
+  if (mesh || choices.section) options.shrinkage = 0.01 * choices.shrinkage_percent;
   if (!mesh) return request;
-  if (wish.min_wall_mm > 0.0) options.walls.min_wall_mm = wish.min_wall_mm;
-  if (wish.process.empty()) return request;
-  return solid::read_process(wish.process).map([&](solid::ProcessLimits process) {
+  if (choices.min_wall_mm > 0.0) options.walls.min_wall_mm = choices.min_wall_mm;
+  if (choices.process.empty()) return request;
+  return solid::read_process(choices.process).map([&](solid::ProcessLimits process) {
     options.walls.process = std::move(process);
     return std::move(request);
   });
 }
 
-std::vector<std::string> standing_files(const ExportWish& wish) {
-  std::vector<std::string> paths = paths_of(wish);
+std::vector<std::string> standing_files(const ExportChoices& choices) {
+  std::vector<std::string> paths = paths_of(choices);
   std::erase_if(paths, [](const std::string& path) {
     std::error_code ignored;
     return !std::filesystem::exists(path, ignored);
@@ -78,20 +78,20 @@ Exporter::~Exporter() {
   thread_.join();
 }
 
-void Exporter::rehearse(history::SharedPot pot, const ExportWish& wish) {
-  put({Kind::rehearsal, std::move(pot), wish, {}});
+void Exporter::preview(history::SharedPot pot, const ExportChoices& choices) {
+  put({Kind::preview, std::move(pot), choices, {}});
 }
 
-void Exporter::write(history::SharedPot pot, const ExportWish& wish) {
-  put({Kind::files, std::move(pot), wish, {}});
+void Exporter::write(history::SharedPot pot, const ExportChoices& choices) {
+  put({Kind::files, std::move(pot), choices, {}});
 }
 
-/// A job that writes is never given up for a rehearsal.
+/// A preview does not cancel a job that writes files.
 void Exporter::put(Job job) {
   {
     const std::lock_guard lock(mutex_);
     const bool writes = running_ == Kind::files || (next_ && next_->kind == Kind::files);
-    if (job.kind == Kind::rehearsal && writes) return;
+    if (job.kind == Kind::preview && writes) return;
     stop_.request_stop();
     outcome_.reset();
     next_ = std::move(job);
@@ -144,7 +144,7 @@ void Exporter::run() {
     running_.reset();
     stop_ = std::stop_source(std::nostopstate);
     stage_.clear();
-    // A rehearsal that was given up has nothing to tell.
+    // A cancelled preview has no result to report.
     if (job.kind == Kind::files || !outcome.cancelled) outcome_ = std::move(outcome);
     if (!next_) idle_.notify_all();
   }
@@ -155,13 +155,13 @@ Exporter::Outcome Exporter::done(const Job& job) {
     const std::lock_guard lock(mutex_);
     stage_ = stage;
   };
-  auto result = request_of(job.wish, *job.pot).and_then([&](solid::ExportRequest request) {
+  auto result = request_of(job.choices, *job.pot).and_then([&](solid::ExportRequest request) {
     request.options.cancelled = [token = job.stop.get_token()] { return token.stop_requested(); };
     return job.kind == Kind::files ? solid::export_files(*job.pot, request, show)
-                                   : solid::rehearse_export(*job.pot, request, show);
+                                   : solid::preview_export(*job.pot, request, show);
   });
   const bool cancelled = !result && job.stop.stop_requested();
-  return {job.kind, job.pot, job.wish, std::move(result), cancelled, paths_of(job.wish)};
+  return {job.kind, job.pot, job.choices, std::move(result), cancelled, paths_of(job.choices)};
 }
 
 }  // namespace clay::studio

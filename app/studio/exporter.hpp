@@ -1,5 +1,5 @@
 #pragma once
-// The pot to files from the window: the job of `claystack export`, on a thread of its own.
+// Exports the pot from the window: the same job as `claystack export`, on a separate thread.
 
 #include "app/history/work.hpp"
 #include "claystack/export/job.hpp"
@@ -16,38 +16,38 @@
 
 namespace clay::studio {
 
-inline constexpr double kFinestMm = 0.001, kCoarsestMm = 1.0;  // tolerance
+inline constexpr double kFinestMm = 0.001, kCoarsestMm = 1.0;  // tolerance [mm]
 inline constexpr double kThickestDemandMm = 20.0;
 
-/// What is chosen in the card.
-struct ExportWish {
+/// The settings of the export dialog.
+struct ExportChoices {
   bool stl = true, obj = false, drc = false, section = false, pot = false;
   std::string folder, name;
   double tolerance_mm = 0.02;
   solid::Smoothing smoothing = solid::Smoothing::fair;
-  std::string process;       ///< as --process; empty: none
-  double min_wall_mm = 0.0;  ///< 0: none but the process's
+  std::string process;       ///< as for --process; empty: none
+  double min_wall_mm = 0.0;  ///< 0: the limit of the process, if there is one
   double shrinkage_percent = 0.0;
-  friend bool operator==(const ExportWish&, const ExportWish&) = default;
+  friend bool operator==(const ExportChoices&, const ExportChoices&) = default;
 };
 
-/// For this pot. Errors: a process that is not known or cannot be read.
-[[nodiscard]] Result<solid::ExportRequest> request_of(const ExportWish& wish, const Pot& pot);
-/// In the order of the request.
-[[nodiscard]] std::vector<std::string> paths_of(const ExportWish& wish);
-/// Those of them that are there already.
-[[nodiscard]] std::vector<std::string> standing_files(const ExportWish& wish);
+/// The request for this pot. Errors: an unknown or unreadable process.
+[[nodiscard]] Result<solid::ExportRequest> request_of(const ExportChoices& choices, const Pot& pot);
+/// Paths of the output files, in the order of the request.
+[[nodiscard]] std::vector<std::string> paths_of(const ExportChoices& choices);
+/// Those of the output files that exist already.
+[[nodiscard]] std::vector<std::string> standing_files(const ExportChoices& choices);
 
 class Exporter {
  public:
-  enum class Kind { rehearsal, files };
+  enum class Kind { preview, files };
   struct Outcome {
-    Kind kind = Kind::rehearsal;
+    Kind kind = Kind::preview;
     history::SharedPot pot;
-    ExportWish wish;
+    ExportChoices choices;
     Result<solid::ExportReport> done;
     bool cancelled = false;
-    std::vector<std::string> paths;  ///< of the files, in the order of the request
+    std::vector<std::string> paths;  ///< output files, in the order of the request
   };
 
   Exporter();
@@ -55,36 +55,36 @@ class Exporter {
   Exporter(const Exporter&) = delete;
   Exporter& operator=(const Exporter&) = delete;
 
-  /// The newest wins: a rehearsal that runs or waits is given up for it.
-  void rehearse(history::SharedPot pot, const ExportWish& wish);
-  void write(history::SharedPot pot, const ExportWish& wish);
-  /// In a moment; no file is left.
+  /// Computes the figures without writing. A newer preview cancels an older one.
+  void preview(history::SharedPot pot, const ExportChoices& choices);
+  void write(history::SharedPot pot, const ExportChoices& choices);
+  /// Cancels soon after the call; no output file remains.
   void cancel();
 
   [[nodiscard]] bool busy() const;
-  /// That runs now; empty: none.
+  /// Stage of the running job; empty: no job.
   [[nodiscard]] std::string stage() const;
   [[nodiscard]] std::optional<Kind> running() const;
-  /// The newest outcome, once.
+  /// The newest outcome; returned once.
   [[nodiscard]] std::optional<Outcome> take();
-  void wait();  ///< until nothing runs
+  void wait();  ///< blocks until no job runs
 
  private:
   struct Job {
     Kind kind;
     history::SharedPot pot;
-    ExportWish wish;
+    ExportChoices choices;
     std::stop_source stop;
   };
   void put(Job job);
   void run();
   Outcome done(const Job& job);
 
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // protects the members below
   std::condition_variable wake_, idle_;
   std::optional<Job> next_;
   std::optional<Kind> running_;
-  std::stop_source stop_{std::nostopstate};  // of what runs
+  std::stop_source stop_{std::nostopstate};  // stops the running job
   std::string stage_;
   std::optional<Outcome> outcome_;
   bool closing_ = false;

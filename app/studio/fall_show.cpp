@@ -8,11 +8,12 @@
 namespace clay::studio {
 namespace {
 
-/// Of what has been lost so far nothing is spent standing still: the first frames have some.
+/// Lower bound of the part of the lost energy that is motion, so that the first frames take a
+/// finite time.
 constexpr double kLeastPart = 1e-3;
 
-/// Frames are equally far apart; how long each takes goes with the root of the energy that has
-/// become motion before it.
+/// Frames are equally spaced. The duration of each is inversely proportional to the speed, the
+/// square root of the kinetic energy gained before it.
 std::vector<double> times_of(const std::vector<FallFrame>& frames) {
   const double lost_mj = frames.front().potential_mj - frames.back().potential_mj;
   std::vector<double> times(frames.size(), 0.0);

@@ -1,5 +1,5 @@
 #pragma once
-// A fall that is shown: the pot is fallen already, and the view follows.
+// Animation of a fall: the pot has already fallen, and the view replays the motion.
 
 #include "app/history/work.hpp"
 #include "app/render/picture.hpp"
@@ -10,23 +10,23 @@
 
 namespace clay::studio {
 
-/// As long as it takes to see it; a real one is over in a fifth of that.
+/// Duration of the animation, long enough to follow; a real fall takes a fifth of it.
 inline constexpr double kFallS = 1.2;
 
 class FallShow {
  public:
-  /// Of a pot that has collapsed. One whose fall is not known is not shown.
+  /// Starts the animation of a collapsed pot. Does nothing if the frames of its fall are unknown.
   void begin(history::SharedPot pot, double now_s);
   void end() noexcept { frames_.clear(); }
   [[nodiscard]] bool running() const noexcept { return !frames_.empty(); }
-  /// Where the part that falls is now, in proportion to its real pace: it gains speed as it loses
-  /// height. Nothing once it lies.
+  /// Place of the falling part, at a pace in proportion to the real one: it gains speed as it loses
+  /// height. Nothing once it has come to rest.
   [[nodiscard]] std::optional<render::FallenView> at(double now_s, const render::PotView& view);
 
  private:
   history::SharedPot pot_;
   std::vector<FallFrame> frames_;
-  std::vector<double> times_s_;  // of the frames, from the first
+  std::vector<double> times_s_;  // time of each frame after the first
   double begun_s_ = 0.0;
 };
 

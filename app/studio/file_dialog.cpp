@@ -30,7 +30,8 @@ std::optional<std::string> program(std::string_view name) {
   return std::nullopt;
 }
 
-/// The process, its output into `output` where that is a descriptor; 0: it did not start.
+/// Starts a process, with its output sent to `output` unless that is negative. Returns its id; 0:
+/// it did not start.
 int start(std::vector<std::string> words, int output) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
@@ -97,7 +98,7 @@ std::optional<std::string> FileDialog::take() {
   close(pipe_);
   pipe_ = -1;
   int status = 0;
-  waitpid(child_, &status, 0);  // it has closed its output: it ends now
+  waitpid(child_, &status, 0);  // it has closed its output, so it is about to exit
   child_ = 0;
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return std::string();
   while (!chosen_.empty() && chosen_.back() == '\n') chosen_.pop_back();
@@ -106,7 +107,7 @@ std::optional<std::string> FileDialog::take() {
 
 bool show_folder(const std::filesystem::path& folder) {
   const auto opener = program("xdg-open");
-  // Twice, so that no one has to wait for it: `sh` ends at once.
+  // Forked twice, so that no process remains to be waited for: `sh` exits at once.
   if (!opener) return false;
   const int child = start({"/bin/sh", "-c", "\"$0\" \"$1\" >/dev/null 2>&1 &", *opener,
                            folder.empty() ? std::string(".") : folder.string()},

@@ -1,6 +1,6 @@
 #pragma once
-// The desktop's own dialog for files, through zenity or kdialog where one is installed; the window
-// goes on meanwhile.
+// The desktop's file dialog, through zenity or kdialog if one is installed. The window keeps
+// running meanwhile.
 
 #include <cstdint>
 #include <filesystem>
@@ -18,21 +18,21 @@ class FileDialog {
   FileDialog(const FileDialog&) = delete;
   FileDialog& operator=(const FileDialog&) = delete;
 
-  /// False where neither program is there, or one dialog is open already.
+  /// False if neither program is installed, or if a dialog is open already.
   bool begin(Kind kind, const std::filesystem::path& start);
   [[nodiscard]] bool open() const noexcept { return child_ > 0; }
   [[nodiscard]] Kind kind() const noexcept { return kind_; }
-  /// What was chosen, once the dialog has closed; empty: nothing was. Does not wait.
+  /// The chosen file, once the dialog has closed; empty: none was chosen. Does not wait.
   [[nodiscard]] std::optional<std::string> take();
 
  private:
   Kind kind_ = Kind::open;
-  int child_ = 0;  // its process
-  int pipe_ = -1;  // what it prints
+  int child_ = 0;  // process of the dialog
+  int pipe_ = -1;  // its output
   std::string chosen_;
 };
 
-/// Shows a folder in the desktop's file manager (xdg-open); false where that is not installed.
+/// Shows a folder in the desktop's file manager (xdg-open). False if that is not installed.
 bool show_folder(const std::filesystem::path& folder);
 
 }  // namespace clay::studio

@@ -7,7 +7,7 @@
 namespace clay::studio {
 namespace {
 
-/// Rows that a tool at this height reaches, and how wide it is there.
+/// Rows within the height of the tool at this height, and the radius of the tool in each.
 class Reach {
  public:
   Reach(const render::PotView& pot, const Tool& tool, double y_mm) : tool_(tool), y_mm_(y_mm) {
@@ -21,7 +21,7 @@ class Reach {
   }
   [[nodiscard]] std::size_t first() const { return first_; }
   [[nodiscard]] std::size_t last() const { return last_; }
-  /// The widest that the tool is between a row's lower and upper edge.
+  /// The largest radius of the tool between the lower and the upper edge of a row.
   [[nodiscard]] double width_mm(std::size_t row) const {
     const double low = std::max(static_cast<double>(row) * row_mm_ - y_mm_, tool_.low());
     const double high = std::min(static_cast<double>(row + 1) * row_mm_ - y_mm_, tool_.high());
@@ -38,8 +38,9 @@ class Reach {
 };
 
 struct Sides {
-  double outside_mm = 0.0;  ///< rho from which on the tool is clear
-  double inside_mm = std::numeric_limits<double>::infinity();  ///< and up to which; below 0: never
+  double outside_mm = 0.0;  ///< the tool is clear of the clay from this rho on
+  double inside_mm = std::numeric_limits<double>::infinity();  ///< and up to this rho in the bore;
+                                                               ///< negative: nowhere in the bore
 };
 
 Sides sides_at(const render::PotView& pot, const Tool& tool, double y_mm) {
@@ -58,7 +59,7 @@ bool is_free(const Sides& sides, double rho) {
   return rho >= sides.outside_mm || rho <= sides.inside_mm;
 }
 
-/// Straight up, in steps of a row, until the tool is clear.
+/// Moves straight up in steps of one row until the tool is clear.
 double free_height(const render::PotView& pot, const Tool& tool, double rho, double y_mm) {
   const double step =
       pot.rows.empty() ? 1.0 : std::max(0.1, pot.height_mm / static_cast<double>(pot.rows.size()));
@@ -92,7 +93,7 @@ std::optional<WallPlace> wall_at(const render::PotView& pot, const Tool& tool, d
   const render::Row& row =
       pot.rows[static_cast<std::size_t>(std::min(y_mm / pot.height_mm * rows, rows - 1.0))];
   if (row.inner_mm <= 0.0f || sides.inside_mm < 0.0) return std::nullopt;
-  // A pinch's gap is between the tools where they are widest.
+  // The gap of a pinch is measured between the widest points of the two tools.
   const double outer = sides.outside_mm - tool.widest(), inner = sides.inside_mm + tool.widest();
   return WallPlace{0.5 * (outer + inner), std::max(0.0, outer - inner)};
 }

@@ -11,7 +11,7 @@ namespace clay::studio {
 namespace {
 
 constexpr std::int64_t kFrameNs = 1'000'000'000 / 60;
-constexpr double kIdleS = 0.5;  // between updates without input
+constexpr double kIdleS = 0.5;  // interval of updates without input
 
 GlfwHost& host_of(GLFWwindow* window) {
   return *static_cast<GlfwHost*>(glfwGetWindowUserPointer(window));
@@ -58,7 +58,7 @@ GlfwHost::~GlfwHost() {
   glfwTerminate();
 }
 
-/// Every key and click is queued, so that none is too short to be seen.
+/// Every key and click is queued, so that short ones are not lost.
 void GlfwHost::connect() {
   glfwSetWindowUserPointer(window_, this);
   glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
@@ -112,7 +112,8 @@ void GlfwHost::run(Studio& studio, double seconds) {
       studio.frame(true);
       glfwSwapBuffers(window_);
     }
-    // Without vertical sync the servo would share its cores with frames that nobody sees.
+    // Without vertical sync, frames that the screen never shows would compete with the servo for
+    // the processor.
     clock_.sleep_until_ns(next_ns);
     next_ns = std::max(next_ns + kFrameNs, clock_.now_ns());
   }

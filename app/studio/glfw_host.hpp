@@ -17,8 +17,8 @@ class GlfwHost final : public Host {
   static Result<std::unique_ptr<GlfwHost>> create(glm::ivec2 size);
   ~GlfwHost() override;
 
-  /// Draws frames until the studio is done, or a signal asks to stop (servo::ForceSignals); at most
-  /// sixty a second, and none while nothing moves. `seconds`: longest time; 0: no limit.
+  /// Draws frames until the studio ends or a signal requests the end (servo::ForceSignals): at most
+  /// sixty frames a second, and none while nothing moves. `seconds`: maximum duration; 0: no limit.
   void run(Studio& studio, double seconds = 0.0);
 
   [[nodiscard]] glm::ivec2 size_px() const override;

@@ -1,5 +1,5 @@
 #pragma once
-// The surroundings of the window, on screen or off screen: size, time, clipboard.
+// The environment of the window, on screen or off screen: size, time, clipboard.
 
 #include "app/servo/clock.hpp"
 
@@ -21,8 +21,8 @@ class Host {
   [[nodiscard]] virtual float content_scale() const = 0;
   /// Clock of the servo.
   [[nodiscard]] virtual servo::Clock& clock() = 0;
-  /// Whether that clock runs by itself. If not, the servo ticks within the frame up to the time of
-  /// the frame, and every run is the same.
+  /// True if that clock runs in real time. Otherwise the servo advances within each frame up to the
+  /// time of the frame, and every run gives the same result.
   [[nodiscard]] virtual bool real_time() const = 0;
   /// Time of this frame on the same clock.
   [[nodiscard]] virtual std::int64_t frame_ns() = 0;

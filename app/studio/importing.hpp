@@ -1,5 +1,5 @@
 #pragma once
-// A drawing of a section on its way to the wheel: how it is read, and what comes of that.
+// Import of a drawing of a section: its settings and the pot that results.
 
 #include "app/render/picture.hpp"
 #include "claystack/core/result.hpp"
@@ -11,18 +11,18 @@
 
 namespace clay::studio {
 
-/// Whether `claystack import` would read it: .svg, .dxf, .csv. False for all of them in a build
-/// without drawings.
+/// True for a file that `claystack import` reads: .svg, .dxf, .csv. Always false in a build without
+/// drawings.
 [[nodiscard]] bool is_drawing(const std::filesystem::path& path);
 
 enum class ImportAxis { by_itself, left, middle, at };
 
-/// What `claystack import` has as options; 0: not asked for.
+/// The options of `claystack import`; 0: not set.
 struct ImportSettings {
   ImportAxis axis = ImportAxis::by_itself;
-  double axis_mm = 0.0;    ///< with `at`
-  double height_mm = 0.0;  ///< scaled to it
-  double wall_mm = 0.0;    ///< hollowed
+  double axis_mm = 0.0;    ///< axis position, used with `at`
+  double height_mm = 0.0;  ///< the drawing is scaled to this height
+  double wall_mm = 0.0;    ///< the pot is hollowed to this wall thickness
   friend bool operator==(const ImportSettings&, const ImportSettings&) = default;
 };
 
@@ -30,7 +30,7 @@ struct Imported {
   Pot pot;
   double drawn_mm3 = 0.0, axis_mm = 0.0;
 };
-/// The pot that `claystack import` writes. `name` is of the file, for its ending and for errors.
+/// Makes the same pot as `claystack import`. `name`: file name, for its extension and for errors.
 Result<Imported> import_drawing(const std::string& bytes, const std::string& name,
                                 const ImportSettings& settings);
 
@@ -42,9 +42,9 @@ struct ImportCard {
   // Of these settings.
   std::optional<Imported> made;
   render::PotView view;
-  std::string problem;  ///< why nothing was made
+  std::string problem;  ///< why no pot was made
 };
-/// Anew, after a change of settings.
+/// Repeats the import after a change of settings.
 void read_again(ImportCard& card);
 
 }  // namespace clay::studio

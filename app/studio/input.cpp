@@ -59,7 +59,7 @@ bool is_character(int key) { return (key >= 'A' && key <= 'Z') || (key >= '0' &&
 
 std::string text_of(const KeyChord& chord) {
   if (chord.key == 0) return {};
-  // What is printed on the key is what a person looks for.
+  // The printed name of the key comes first, because users look for it.
   if (chord == KeyChord{GLFW_KEY_SLASH, kShift}) return "?";
   std::string text;
   for (const NamedMod& mod : kNamedMods)

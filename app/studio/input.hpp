@@ -1,6 +1,6 @@
 #pragma once
-// What reaches the window from outside, from GLFW callbacks or from a script: one queue, so that a
-// script drives the same handlers as a person. Keys have names: "Ctrl+Shift+Z", "F", "[", "Home".
+// Input of the window, from GLFW callbacks or from a script, in one queue, so that a script
+// exercises the same handlers as a person. Keys have names: "Ctrl+Shift+Z", "F", "[", "Home".
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -12,7 +12,7 @@
 
 namespace clay::studio {
 
-/// Bits of what is held with a key or a button.
+/// Modifier keys as bits.
 enum Mods : unsigned { kNoMods = 0, kShift = 1, kControl = 2, kAlt = 4 };
 
 enum class MouseButton { left, right, middle };
@@ -26,7 +26,7 @@ struct ButtonChanged {
   unsigned mods = kNoMods;
 };
 struct Scrolled {
-  float steps = 0.0f;  ///< of the wheel, away from the user
+  float steps = 0.0f;  ///< scroll steps, positive away from the user
 };
 struct KeyChanged {
   int key = 0;  ///< GLFW's code
@@ -54,7 +54,7 @@ struct KeyChord {
 /// "Ctrl+Shift+Z"; empty for none.
 [[nodiscard]] std::string text_of(const KeyChord& chord);
 
-/// Its inverse; nothing for what names no key.
+/// The inverse; nothing for an unknown name.
 [[nodiscard]] std::optional<KeyChord> chord_of(std::string_view text);
 
 }  // namespace clay::studio

@@ -1,4 +1,5 @@
-// `claystack studio`: a program of its own, so that no other command loads a window's libraries.
+// `claystack studio` is a separate program, so that the other commands do not load the libraries of
+// the window.
 
 #include "app/cli/console.hpp"
 #include "app/cli/device_choice.hpp"
@@ -43,7 +44,7 @@ Result<void> run_script(const StudioOptions& options, const LogLine& log) {
   auto host = OffscreenHost::create(options.size_px,
                                     options.scale > 0.0 ? static_cast<float>(options.scale) : 1.0f);
   if (!host) return tl::make_unexpected(host.error());
-  // Scripts are independent of the settings of a user.
+  // Scripts ignore the settings of the user.
   Settings settings;
   settings.hints = false;
   apply(options, settings);
@@ -85,7 +86,7 @@ Result<void> run_window(const StudioOptions& options, const LogLine& log) {
   log("window open");
   const servo::ForceSignals signals;
   (*host)->run(**studio);
-  // After a signal the user was not asked: the journal stays, so that the work can be recovered.
+  // After a signal the user could not decide, so the journal stays and the work can be recovered.
   state.stroke.release();
   if (state.done) state.document.close();
   log("window closed");
@@ -108,12 +109,12 @@ Result<void> take_simulated_hand(AppState& state, const std::string& scene_path)
   return {};
 }
 
-/// Compares with the limits that docs/studio.md promises.
+/// Compares the timings with the limits stated in docs/studio.md.
 Result<void> judge(double late_p99_us, double fps, bool fifo) {
   const auto missed = [](std::string what) {
     return failure(ErrorKind::unsound, "servo report: expected " + std::move(what));
   };
-  if (!fifo) return missed("SCHED_FIFO, which the system does not give");
+  if (!fifo) return missed("SCHED_FIFO, which the system does not permit");
   if (fps < kFewestFps)
     return missed(fmt::format("{:g} frames a second or more, found {:.1f}", kFewestFps, fps));
   if (late_p99_us > kLatestP99Us)

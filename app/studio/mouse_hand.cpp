@@ -6,8 +6,7 @@
 namespace clay::studio {
 namespace {
 
-// The hand closes a third of its distance in this time: what the window says sixty times a second
-// becomes one smooth motion.
+// Time constant of the hand. It turns sixty positions a second into one smooth motion.
 constexpr double kLagS = 0.025;
 constexpr double kLongestStepS = 0.01;
 constexpr double kSPerUs = 1e-6;

@@ -1,6 +1,6 @@
 #pragma once
-// The mouse as a hand at the wheel: a device without motors whose frame is the wheel's own. The
-// window says where the tool should go; the servo moves it there, no faster than a hand would.
+// The mouse as a device without motors, in the frame of the wheel. The window sets a target for the
+// tool; the device moves towards it no faster than a hand.
 
 #include "app/servo/clock.hpp"
 #include "claystack/falcon/device.hpp"
@@ -12,25 +12,25 @@
 
 namespace clay::studio {
 
-/// In clay a hand presses this fast [mm/s]; beside it, it may hurry.
+/// Maximum speed of the tool in clay and in air [mm/s].
 inline constexpr double kPressingMmPerS = 80.0, kReachingMmPerS = 400.0;
 
 struct MouseAim {
-  glm::dvec3 place_mm{0.0};  ///< where the tool should go, on the wheel
+  glm::dvec3 place_mm{0.0};  ///< target of the tool, in the frame of the wheel
   double speed_mm_s = kPressingMmPerS;
 };
 
 class MouseDevice final : public falcon::HapticDevice {
  public:
-  /// `clock` is the servo's, and outlives this.
+  /// `clock`: the clock of the servo; it must outlive this object.
   explicit MouseDevice(servo::Clock& clock) noexcept : clock_(clock) {}
 
-  /// A servo for it: the mouse's millimetres are the wheel's.
+  /// Settings of a servo for this device: device and wheel share one frame.
   [[nodiscard]] static servo::LiveSettings servo_settings() noexcept;
 
-  /// The tool stands here when the next servo starts. Not while one runs.
+  /// Start position of the tool for the next servo. Not while a servo runs.
   void begin_at(const glm::dvec3& place_mm) noexcept;
-  /// From the window's thread, at any time.
+  /// Called by the thread of the window, at any time.
   void aim(const MouseAim& aim) noexcept { aim_.write(aim); }
 
   [[nodiscard]] const falcon::DeviceInfo& info() const noexcept override { return info_; }

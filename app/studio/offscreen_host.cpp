@@ -29,7 +29,7 @@ render::Image OffscreenHost::read() const {
     const auto lower = image.rgba.begin() + static_cast<std::ptrdiff_t>(row) * (size.y - 1 - y);
     std::swap_ranges(upper, upper + static_cast<std::ptrdiff_t>(row), lower);
   }
-  // The alpha of a window has no meaning in a picture.
+  // A window has no transparency, so its picture has none either.
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
   return image;
 }

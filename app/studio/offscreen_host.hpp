@@ -11,7 +11,7 @@
 
 namespace clay::studio {
 
-/// Sleeping sets it to the later time.
+/// Sleeping advances the time to the end of the sleep.
 class VirtualClock final : public servo::Clock {
  public:
   [[nodiscard]] std::int64_t now_ns() noexcept override { return now_ns_; }
@@ -20,7 +20,7 @@ class VirtualClock final : public servo::Clock {
   }
 
  private:
-  std::int64_t now_ns_ = 1'000'000'000;  // a device's times are above 0
+  std::int64_t now_ns_ = 1'000'000'000;  // times of a device must be above 0
 };
 
 class OffscreenHost final : public Host {
@@ -28,7 +28,7 @@ class OffscreenHost final : public Host {
   /// Makes its OpenGL context current. Errors as render::Offscreen::create.
   static Result<std::unique_ptr<OffscreenHost>> create(glm::ivec2 size_px, float content_scale);
 
-  /// Directs drawing into its picture.
+  /// Redirects drawing into the picture.
   void bind();
   [[nodiscard]] render::Image read() const;
 
@@ -39,7 +39,7 @@ class OffscreenHost final : public Host {
   [[nodiscard]] servo::Clock& clock() override { return clock_; }
   [[nodiscard]] bool real_time() const override { return false; }
   [[nodiscard]] std::int64_t frame_ns() override { return frame_ns_; }
-  /// Moves the time of the next frame.
+  /// Sets the time of the next frame.
   void let_pass(std::int64_t ns) noexcept { frame_ns_ += ns; }
   void set_title(const std::string&) override {}
   void set_clipboard(const std::string& text) override { clipboard_ = text; }

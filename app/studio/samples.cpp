@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-// Made of the files of samples/ when the program is built.
+// Generated from the files of samples/ by the build.
 namespace clay::studio::embedded {
 extern const std::string_view bowl_scene_json, bowl_session;
 extern const std::string_view vase_scene_json, vase_session;

@@ -1,5 +1,5 @@
 #pragma once
-// The samples that come with the program, so that a first pot needs no file.
+// Samples embedded in the program, so that a first pot needs no file.
 
 #include "app/render/picture.hpp"
 #include "claystack/core/result.hpp"
@@ -13,15 +13,15 @@ namespace clay::studio {
 struct Sample {
   std::string_view name;
   const char* title;
-  const char* description;                    ///< what it teaches
-  std::string_view scene_text, session_text;  ///< as in samples/
+  const char* description;                    ///< purpose of the sample
+  std::string_view scene_text, session_text;  ///< contents of the files in samples/
 };
 
 [[nodiscard]] const std::array<Sample, 4>& samples();
 [[nodiscard]] const Sample* find_sample(std::string_view name);
 
 Result<SceneSpec> scene_of(const Sample& sample);
-/// The pot that its session makes; takes about 20 ms.
+/// The pot that the session of the sample makes; takes about 20 ms.
 Result<render::PotView> finished(const Sample& sample);
 
 /// A cylinder of clay of this radius, with settings in proportion to it.

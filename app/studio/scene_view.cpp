@@ -12,8 +12,8 @@
 namespace clay::studio {
 namespace {
 
-constexpr double kRoomForTool = 1.35;   // around the whole pot
-constexpr double kSizingPerPx = 0.006;  // of a drag: change of the logarithm of the size
+constexpr double kRoomForTool = 1.35;   // size of the view relative to the whole pot
+constexpr double kSizingPerPx = 0.006;  // drag: change of the logarithm of the size per pixel
 constexpr double kSoftest = 1e-4, kStiffest = 10.0;  // N/mm^2
 
 std::optional<Tool> chosen_tool(const ViewModel& view) {
@@ -22,7 +22,7 @@ std::optional<Tool> chosen_tool(const ViewModel& view) {
   return std::move(*tool);
 }
 
-/// The middle of a wall, on the side that the mouse points at.
+/// The middle of a wall, on the side of the pointer.
 glm::dvec2 pinch_place(const WallPlace& wall, glm::dvec2 pointed_mm) {
   return {pointed_mm.x < 0.0 ? -wall.middle_mm : wall.middle_mm, pointed_mm.y};
 }
@@ -59,8 +59,8 @@ void SceneView::look(const render::PotView& pot, ViewFrom from) {
   camera_.distance_mm *= kRoomForTool;
 }
 
-/// The wheel head only grows, so that it does not change with every stroke; looking at the whole
-/// pot fits it again.
+/// The wheel head only grows, so that it does not change with every stroke; showing the whole pot
+/// fits it again.
 void SceneView::turn_wheel(const render::PotView& pot, double rad) {
   wheel_radius_mm_ = std::max(wheel_radius_mm_, render::wheel_radius_mm(pot));
   turn_rad_ = std::fmod(turn_rad_ + rad, 2.0 * std::numbers::pi);
@@ -138,7 +138,7 @@ bool SceneView::button(const ViewModel& view, const ButtonChanged& change, Actio
   return true;
 }
 
-/// On the clay a press takes the tool to the nearest free place; from there the tool follows the
+/// A press on the clay moves the tool to the nearest free place; from there the tool follows the
 /// mouse.
 void SceneView::press(const ViewModel& view, bool inverted, Actions& actions) {
   const auto pointed = pointed_mm();

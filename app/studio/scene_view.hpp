@@ -1,6 +1,6 @@
 #pragma once
-// The pot in the window: camera, mouse over the pot, picture. What the mouse does to the clay and
-// to the settings becomes actions.
+// The pot in the window: camera, mouse and picture. Mouse actions on the clay and on the settings
+// become Actions.
 
 #include "app/render/painter.hpp"
 #include "app/studio/action.hpp"
@@ -13,7 +13,7 @@ namespace clay::studio {
 
 struct ViewModel;
 
-/// Of the framebuffer, from its upper left corner [px].
+/// Relative to the upper left corner of the framebuffer [px].
 struct ViewRect {
   glm::vec2 corner_px{0.0f}, size_px{1.0f};
   [[nodiscard]] bool holds(glm::vec2 place_px) const noexcept {
@@ -24,8 +24,7 @@ struct ViewRect {
 
 class SceneView {
  public:
-  // --- Mouse. Functions that return a bool: whether the view used the event.
-  // -------------------------
+  // --- Mouse. A bool result: the view used the event. --------------------------------------------
   bool pointer_moved(const ViewModel& view, glm::vec2 place_px, Actions& actions);
   bool button(const ViewModel& view, const ButtonChanged& change, Actions& actions);
   bool scrolled(float steps);
@@ -35,29 +34,27 @@ class SceneView {
   [[nodiscard]] bool setting() const noexcept {
     return drag_ == Drag::size || drag_ == Drag::stiffness;
   }
-  /// Ends `setting`, with the value from before.
+  /// Ends `setting` and restores the previous value.
   void cancel(Actions& actions);
-  /// The stroke could not begin.
+  /// Call if the stroke could not begin.
   void stop_shaping() noexcept { drag_ = Drag::none; }
   [[nodiscard]] bool turning() const noexcept { return drag_ == Drag::orbit || drag_ == Drag::pan; }
 
-  // --- Camera.
-  // ----------------------------------------------------------------------------------------
+  // --- Camera. -----------------------------------------------------------------------------------
   void look(const render::PotView& pot, ViewFrom from);
   void zoom(double notches) { camera_ = render::zoomed(camera_, notches); }
   void place(const ViewRect& rect) noexcept { rect_ = rect; }
   [[nodiscard]] const ViewRect& rect() const noexcept { return rect_; }
   [[nodiscard]] const render::Camera& camera() const noexcept { return camera_; }
   [[nodiscard]] render::Viewport viewport() const noexcept;
-  /// Pixel of the window for a point (rho, y) [mm] of the profile plane.
+  /// Pixel of the window for a point (rho, y) [mm] of the section plane.
   [[nodiscard]] std::optional<glm::vec2> pixel_of(glm::dvec2 place_mm) const noexcept;
-  /// Once a frame.
+  /// Call once a frame.
   void turn_wheel(const render::PotView& pot, double rad);
 
-  // --- Picture.
-  // ---------------------------------------------------------------------------------------
+  // --- Picture. ----------------------------------------------------------------------------------
   [[nodiscard]] render::Picture picture(const ViewModel& view) const;
-  /// In the clay, or where a press would begin; empty where neither is shown.
+  /// Place of the tool in the clay, or where a press would begin; empty if neither is shown.
   [[nodiscard]] std::optional<render::ToolView> tool_view(const ViewModel& view) const;
 
   render::Cut cut = render::Cut::none;
@@ -75,9 +72,9 @@ class SceneView {
   render::Camera camera_;
   Drag drag_ = Drag::none;
   glm::vec2 pointer_px_{-1.0f};
-  glm::dvec2 offset_mm_{0.0};      // from the pointer to the tool, since the press
-  ToolChoice tool_before_;         // before its size is set
-  double stiffness_before_ = 0.0;  // before it is set
+  glm::dvec2 offset_mm_{0.0};      // offset from the pointer to the tool since the press
+  ToolChoice tool_before_;         // value before a change
+  double stiffness_before_ = 0.0;  // value before a change
   double turn_rad_ = 0.0, wheel_radius_mm_ = 0.0;
 };
 

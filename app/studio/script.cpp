@@ -22,7 +22,7 @@ constexpr double kLongestWaitS = 3600.0;
 
 struct Form {
   std::string_view name;
-  std::size_t fewest, most;  // arguments
+  std::size_t fewest, most;  // number of arguments
   const char* form;
 };
 constexpr std::array kForms = {
@@ -62,7 +62,7 @@ tl::unexpected<Error> bad(std::string message) {
   return failure(ErrorKind::bad_input, std::move(message));
 }
 
-/// Words are separated by blanks unless quoted; empty for a quote that does not close.
+/// Splits at blanks outside quotes; empty for a quote that is not closed.
 std::optional<std::vector<std::string>> words_of(std::string_view line) {
   std::vector<std::string> words;
   std::size_t i = 0;
@@ -96,7 +96,7 @@ Result<std::vector<ScriptLine>> parse_script(std::string_view text, std::string_
     text.remove_prefix(std::min(end + 1, text.size()));
     ++number;
     if (!words)
-      return bad(fmt::format("{}:{}: expected a quote that closes, found none", name, number));
+      return bad(fmt::format("{}:{}: expected a closing quote, found none", name, number));
     if (words->empty()) continue;
     const auto* command = std::ranges::find(kForms, words->front(), &Form::name);
     if (command == kForms.end())
@@ -114,8 +114,8 @@ Result<void> ScriptRunner::run(const std::vector<ScriptLine>& lines, std::string
   frames(2);
   for (const ScriptLine& line : lines) {
     if (studio_.done() && line.words.front() != "expect")
-      return bad(fmt::format("{}:{}: expected a window that is open, found one that has closed",
-                             name, line.number));
+      return bad(
+          fmt::format("{}:{}: expected an open window, found a closed one", name, line.number));
     if (auto done = act(line.words); !done)
       return failure(done.error().kind,
                      fmt::format("{}:{}: {}", name, line.number, done.error().message));
@@ -139,7 +139,7 @@ Result<glm::vec2> ScriptRunner::place_of(const Words& words) const {
   return *pixel;
 }
 
-/// One step per frame, as a hand moves it.
+/// One step per frame, like a hand.
 Result<void> ScriptRunner::move(glm::vec2 to_px, double seconds) {
   const glm::vec2 from = pointer_px_;
   const int steps = std::max(1, static_cast<int>(std::ceil(seconds / kFrameS)));
@@ -179,7 +179,7 @@ Result<void> ScriptRunner::act(const Words& words) {
   }};
   const auto* verb = std::ranges::find(kVerbs, std::string_view(words.front()),
                                        &std::pair<std::string_view, Verb>::first);
-  return (this->*verb->second)(words);  // parse_script accepts no other word
+  return (this->*verb->second)(words);  // parse_script has refused unknown commands
 }
 
 Result<void> ScriptRunner::point(const Words& words) {
@@ -251,7 +251,8 @@ Result<void> ScriptRunner::run_command(const Words& words) {
   const Command* command = find_command(words[1]);
   if (command == nullptr) return bad(fmt::format("expected an action, found {}", words[1]));
   if (!clay::studio::run(*command, studio_.state()))
-    return failure(ErrorKind::unsound, fmt::format("expected {} to be possible now", words[1]));
+    return failure(ErrorKind::unsound,
+                   fmt::format("expected {} to be enabled, found it disabled", words[1]));
   frames(1);
   return {};
 }

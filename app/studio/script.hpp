@@ -1,6 +1,6 @@
 #pragma once
-// Scripts drive the handlers of the window without a screen, on a virtual clock, so that the result
-// is the same every time. docs/studio.md lists the commands.
+// Scripts drive the handlers of the window without a screen, on a virtual clock, so that every run
+// gives the same result. docs/studio.md lists the commands.
 
 #include "app/studio/offscreen_host.hpp"
 #include "app/studio/studio.hpp"
@@ -14,23 +14,25 @@
 namespace clay::studio {
 
 struct ScriptLine {
-  std::size_t number = 0;          ///< in the file, from 1
+  std::size_t number = 0;          ///< line number in the file, from 1
   std::vector<std::string> words;  ///< the command and its arguments
 };
 
-/// One command per line; "#" begins a comment; words with blanks stand in double quotes. Errors
-/// begin with NAME:LINE. Commands and their numbers of arguments are checked before any runs.
+/// One command per line; "#" begins a comment; arguments with blanks are in double quotes. Errors
+/// begin with NAME:LINE. Commands and their numbers of arguments are checked before the first one
+/// runs.
 Result<std::vector<ScriptLine>> parse_script(std::string_view text, std::string_view name);
 
 /// A fact about the window as text; numbers in the shortest form that reads back. Empty for a name
-/// that docs/studio.md does not list.
+/// that is not in docs/studio.md.
 [[nodiscard]] std::optional<std::string> fact(const AppState& state, std::string_view name);
 
 class ScriptRunner {
  public:
   ScriptRunner(OffscreenHost& host, Studio& studio) : host_(host), studio_(studio) {}
 
-  /// Until the script or the window ends. A failed `expect` is `unsound`, with its line.
+  /// Runs until the script or the window ends. A failed `expect` returns an `unsound` error with
+  /// its line.
   Result<void> run(const std::vector<ScriptLine>& lines, std::string_view name);
   Result<void> screenshot(const std::string& path);
 
@@ -57,7 +59,7 @@ class ScriptRunner {
   OffscreenHost& host_;
   Studio& studio_;
   glm::vec2 pointer_px_{0.0f};
-  unsigned mods_ = 0;  // held with the mouse
+  unsigned mods_ = 0;  // modifier keys held during mouse events
 };
 
 }  // namespace clay::studio

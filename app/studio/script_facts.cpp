@@ -13,7 +13,7 @@ namespace {
 
 std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
 
-/// In the order of Dialog's alternatives.
+/// In the order of the alternatives of Dialog.
 const char* name_of(const Dialog& dialog) {
   constexpr std::array<const char*, std::variant_size_v<Dialog>> kNames = {
       "none", "gallery", "shortcuts", "quit", "open", "save", "export", "import", "settings"};
@@ -82,7 +82,7 @@ const std::array kFacts = {
          [](const AppState& s) { return s.ui.arm.guard.empty() ? "none" : s.ui.arm.guard; }},
     Fact{"process",
          [](const AppState& s) {
-           return s.ui.shows<ExportDialog>() ? s.ui.exporting.wish.process : s.settings.process;
+           return s.ui.shows<ExportDialog>() ? s.ui.exporting.choices.process : s.settings.process;
          }},
     Fact{"banner",
          [](const AppState& s) {

@@ -20,7 +20,7 @@ constexpr std::array kThemes = {"dark", "light"};
 constexpr std::array kThemeValues = {Theme::dark, Theme::light};
 constexpr std::array kUnits = {"mm", "cm", "in"};
 constexpr std::array kUnitValues = {LengthUnit::mm, LengthUnit::cm, LengthUnit::in};
-// A custom shape belongs to a scene; it is stored as the first of these.
+// A custom shape belongs to a scene; it is stored as the first of these shapes.
 constexpr std::array kShapes = {"sphere", "ellipse", "rib"};
 constexpr std::array kShapeValues = {Shape::sphere, Shape::ellipse, Shape::rib};
 constexpr std::array kModes = {"press", "trim", "pinch"};
@@ -36,7 +36,7 @@ void choice(Io& io, const char* name, E& value, const std::array<const char*, N>
   if (index != before || found != values.end()) value = values[index];
 }
 
-/// The fields of the file in their order, for the reader and the writer.
+/// The fields of the file in their order, for both reader and writer.
 template <class Io>
 void describe(Io& io, Settings& s) {
   choice(io, "theme", s.theme, kThemes, kThemeValues);

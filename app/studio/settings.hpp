@@ -1,5 +1,5 @@
 #pragma once
-// What the window remembers from one time to the next.
+// Settings of the window that are kept between runs.
 
 #include "app/studio/style.hpp"
 #include "app/studio/tool_choice.hpp"
@@ -20,28 +20,28 @@ inline constexpr double kSlowestRpm = 20.0, kFastestRpm = 240.0;
 
 struct Settings {
   Theme theme = Theme::dark;
-  float scale = 1.0f;  ///< beside the screen's own, kSmallestScale to kLargestScale
+  float scale = 1.0f;  ///< multiplies the scale of the screen; kSmallestScale to kLargestScale
   LengthUnit unit = LengthUnit::mm;
   double wheel_rpm = 120.0;  ///< kSlowestRpm to kFastestRpm
   ToolChoice tool;
-  bool wall_map = false;      ///< thickness of walls as colours on the pot
-  bool full_section = false;  ///< both halves
-  std::string
-      process;  ///< whose walls are asked for, also in an export: a name or a file; empty: none
-  std::vector<std::string> processes;  ///< files of the user's own, newest first
+  bool wall_map = false;      ///< show wall thickness as colours on the pot
+  bool full_section = false;  ///< show both halves of the section
+  std::string process;        ///< process for walls and exports: a name or a file; empty: none
+  std::vector<std::string> processes;  ///< custom process files, newest first
   bool hints = true;                   ///< the first-run hint has not been closed yet
-  std::map<std::string, bool> open;    ///< panels by id; one that is not named is as it comes
-  std::string folder;                  ///< of the last file; empty: none yet
-  std::vector<std::string> recent;     ///< files, newest first, kMostRecent at most
-  double pressing_mm_s = 80.0;         ///< of the tool in the clay, kSlowestHand to kFastestHand
+  std::map<std::string, bool> open;    ///< unfolded panels by id; others have their default
+  std::string folder;                  ///< folder of the last file; empty: none yet
+  std::vector<std::string> recent;     ///< files, newest first, at most kMostRecent
+  double pressing_mm_s = 80.0;  ///< maximum tool speed in the clay, kSlowestHand to kFastestHand
 };
 
-/// A file that was opened or saved: its folder, and the first of the recent ones.
+/// Adds a file that was opened or saved: sets the folder and puts the file first in the recent
+/// ones.
 void remember(Settings& settings, const std::filesystem::path& path);
-/// A file of the user's own becomes the process, and the first of those to choose from.
+/// Selects a custom process file and puts it first in the list.
 void remember_process(Settings& settings, const std::filesystem::path& path);
 
-/// The file studio.json in the user's folder for settings: cli::user_folder. Empty without one.
+/// The file studio.json in the user's settings folder (cli::user_folder). Empty without one.
 [[nodiscard]] std::filesystem::path settings_path();
 
 /// Errors name file, field, what was expected and what was found.
@@ -50,9 +50,9 @@ Result<Settings> parse_settings(std::string_view text, std::string_view name);
 
 struct LoadedSettings {
   Settings settings;
-  std::string note;  ///< what to tell the user; empty: nothing
+  std::string note;  ///< a message for the user; empty: none
 };
-/// A file that is broken is moved aside, never overwritten; without one all is as it comes.
+/// A broken file is renamed, never overwritten. Without a file all settings have their defaults.
 [[nodiscard]] LoadedSettings load_settings(const std::filesystem::path& path);
 Result<void> save_settings(const Settings& settings, const std::filesystem::path& path);
 

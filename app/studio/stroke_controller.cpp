@@ -5,7 +5,7 @@
 namespace clay::studio {
 namespace {
 
-constexpr double kClosingMmPerS = 15.0;  // of a pinch, as two hands take hold of a wall
+constexpr double kClosingMmPerS = 15.0;  // closing speed of a pinch, like two hands on a wall
 
 render::PotView view_of(const servo::LiveProfile& profile) {
   render::PotView view;
@@ -16,8 +16,8 @@ render::PotView view_of(const servo::LiveProfile& profile) {
   return view;
 }
 
-/// The scene with a contact that is at most as stiff as the device can render at this rate. The
-/// clay does not depend on it.
+/// The scene with its contact stiffness limited to what the device can render at this rate. This
+/// does not change the clay.
 Result<SceneSpec> softened(SceneSpec scene, const servo::LiveSettings& settings) {
   return servo::soften(scene, settings).map([&](double) { return scene; });
 }
@@ -25,7 +25,7 @@ Result<SceneSpec> softened(SceneSpec scene, const servo::LiveSettings& settings)
 }  // namespace
 
 Result<void> StrokeController::press(const MousePress& press) {
-  if (device_) return {};  // the hand at the device has the clay
+  if (device_) return {};  // a device is already in use
   release();
   device_waits_ = false;
   SceneSpec scene = document_.scene();
@@ -47,7 +47,7 @@ Result<void> StrokeController::begin_session(const SceneSpec& scene, falcon::Hap
   if (document_.pot().collapse)
     return failure(ErrorKind::bad_input,
                    document_.can_undo()
-                       ? "The clay has fallen: undo takes the last stroke back"
+                       ? "The clay has fallen: undo removes the last stroke"
                        : "The clay has fallen: no stroke is possible, but it can be exported");
   view_ = document_.view();
   crown_mm_ = 0.0;
@@ -74,7 +74,7 @@ Result<void> StrokeController::start_servo(const SceneSpec& scene, falcon::Hapti
                                       settings, pace);
   if (!session) {
     (void)recorder->finish();
-    (void)document_.end_stroke(nullptr);  // without a pose nothing is added
+    (void)document_.end_stroke(nullptr);  // without a pose no stroke is added
     return tl::make_unexpected(session.error());
   }
   recorder_ = std::move(recorder);
@@ -127,7 +127,7 @@ void StrokeController::take(std::unique_ptr<falcon::HapticDevice> device,
   device_waits_ = true;
 }
 
-/// Its force went with it; the mouse takes over.
+/// The force of the device ended with it; the mouse replaces it.
 void StrokeController::lose_device() {
   news_.error = device_->problem();
   news_.device_lost = true;
@@ -142,7 +142,7 @@ void StrokeController::hold(const ToolSpec& tool, double rate_per_s) {
   document_.set_tool(tool, rate_per_s);
 }
 
-/// A servo that has ended set the device to zero force until it is opened again.
+/// After its servo has ended, a device must be opened again before it can exert force.
 void StrokeController::begin_with_device() {
   device_waits_ = false;
   if (!device_->open()) return lose_device();
@@ -178,7 +178,7 @@ void StrokeController::read_servo() {
   crown_mm_ = profile->crown_mm;
 }
 
-/// Four times a second, so that the number can be read.
+/// Four times a second, so that the number is readable.
 void StrokeController::measure_rate(std::int64_t now_ns) {
   constexpr std::int64_t kPeriodNs = 250'000'000;
   if (now_ns - measured_ns_ < kPeriodNs) return;

@@ -1,6 +1,6 @@
 #pragma once
-// The hand at the wheel: the mouse or a device, its servo, and the stroke that is under way. What
-// the strokes make is the document.
+// Controls strokes: the mouse or a device, its servo, and the current stroke. The document keeps
+// the results.
 
 #include "app/render/picture.hpp"
 #include "app/servo/recorder.hpp"
@@ -15,13 +15,13 @@
 
 namespace clay::studio {
 
-/// Events since the window last asked; each is reported once.
+/// Events since the last call; each is reported once.
 struct StrokeNews {
   bool stroke_ended = false;
   servo::Ending ending = servo::Ending::none;
   std::size_t poses = 0;    ///< of the stroke that ended
   std::uint64_t ticks = 0;  ///< of the stroke that ended
-  bool ring_limit = false;  ///< clay waits above the rim
+  bool ring_limit = false;  ///< there is clay above the rim
   bool device_lost = false;
   std::optional<Error> error;
 };
@@ -37,70 +37,69 @@ struct ServoRecord {
 struct MousePress {
   ToolSpec tool;
   double rate_per_s = 20.0;  ///< removal rate
-  glm::dvec3 place_mm{0.0};  ///< on the wheel, clear of the clay
-  double gap_mm = 0.0;       ///< of a pinch: as wide as the wall; it closes to the tool's own gap
+  glm::dvec3 place_mm{0.0};  ///< start position on the wheel, clear of the clay
+  double gap_mm =
+      0.0;  ///< gap at the start of a pinch, as wide as the wall; it closes to the gap of the tool
 };
 
 class StrokeController {
  public:
-  /// `document` and `clock` outlive it. Without `threads` the servo ticks within `advance`.
+  /// `document` and `clock` must outlive it. Without `threads` the servo runs within `advance`.
   StrokeController(Document& document, servo::Clock& clock, bool threads)
       : document_(document), clock_(clock), threads_(threads), mouse_(clock) {}
   ~StrokeController() { release(); }
   StrokeController(const StrokeController&) = delete;
   StrokeController& operator=(const StrokeController&) = delete;
 
-  // --- Strokes.
-  // -------------------------------------------------------------------------------------
-  /// The mouse begins a stroke, unless a device is in use.
+  // --- Strokes. ----------------------------------------------------------------------------------
+  /// Begins a stroke of the mouse, unless a device is in use.
   Result<void> press(const MousePress& press);
   void aim(const MouseAim& aim) noexcept { mouse_.aim(aim); }
   void command(const servo::Command& command) noexcept;
-  /// While paused neither clay nor hand feels the other, in this stroke and in those that follow.
+  /// A pause separates tool and clay, in this stroke and in those that follow.
   void pause(bool on) noexcept;
   [[nodiscard]] bool paused() const noexcept { return paused_; }
   /// Ends the stroke; the document keeps it.
   void release();
-  /// The document shows another pot or another work: a device begins a stroke on it.
+  /// Call when the document shows another pot: a device begins a stroke on it.
   void resume() noexcept { device_waits_ = device_ != nullptr; }
-  /// The same for a new work: figures of the old one are cleared.
+  /// The same for a new work; also clears the figures of the old one.
   void begin_work() noexcept;
-  /// No device begins a stroke until `resume`.
+  /// Devices begin no stroke until `resume`.
   void hold_back() noexcept { device_waits_ = false; }
   [[nodiscard]] bool throwing() const noexcept { return session_ != nullptr; }
 
-  // --- Devices.
-  // -------------------------------------------------------------------------------------
+  // --- Devices. ----------------------------------------------------------------------------------
   /// An open device replaces the mouse until it is lost. Its strokes follow each other; undo and a
   /// change of tool end one.
   void take(std::unique_ptr<falcon::HapticDevice> device, servo::LiveSettings settings);
   [[nodiscard]] bool has_device() const noexcept { return device_ != nullptr; }
   /// The device can exert force.
   [[nodiscard]] bool has_motors() const noexcept { return device_ && device_->info().can_push; }
-  /// Tool of the device from the next frame on.
+  /// Sets the tool of the device from the next frame on.
   void hold(const ToolSpec& tool, double rate_per_s);
   [[nodiscard]] std::string device_name() const {
     return device_ ? device_->info().name : mouse_.info().name;
   }
 
-  // --- Every frame.
-  // ---------------------------------------------------------------------------------
+  // --- Every frame. ------------------------------------------------------------------------------
   void advance(std::int64_t now_ns);
   [[nodiscard]] StrokeNews take_news() { return std::exchange(news_, {}); }
-  /// The pot on screen: the clay under the tool, or at rest what the document shows.
+  /// The pot on screen: during a stroke the clay under the tool, otherwise the pot of the document.
   [[nodiscard]] const render::PotView& view() const noexcept {
     return session_ ? view_ : document_.view();
   }
-  /// Part of the height of `view` that the crown has; 0 at rest, where rows include it [mm].
+  /// Height of the crown above the rows of `view`; 0 at rest, because the rows include it then
+  /// [mm].
   [[nodiscard]] double crown_mm() const noexcept { return session_ ? crown_mm_ : 0.0; }
-  /// Of the current stroke, or of the last one.
+  /// Figures of the current stroke, or of the last one.
   [[nodiscard]] const servo::LiveStatus& status() const noexcept { return status_; }
-  /// Of the stroke that ended last.
+  /// Figures of the last finished stroke.
   [[nodiscard]] const ServoRecord& servo() const noexcept { return servo_; }
-  /// Every tick of all strokes; the window takes them.
+  /// Every tick of all strokes; the window consumes them.
   [[nodiscard]] servo::TickTrace& trace() noexcept { return trace_; }
   [[nodiscard]] const servo::TickTrace& trace() const noexcept { return trace_; }
-  /// Measured; 0 at rest.
+  /// Measured rate; 0 at rest.
   [[nodiscard]] double tick_rate_hz() const noexcept { return tick_rate_hz_; }
 
  private:
@@ -120,7 +119,7 @@ class StrokeController {
   MouseDevice mouse_;
   std::unique_ptr<falcon::HapticDevice> device_;
   servo::LiveSettings device_settings_;
-  bool device_waits_ = false;  // it begins a stroke as soon as it can
+  bool device_waits_ = false;  // it begins a stroke as soon as possible
   servo::TickTrace trace_;
   std::unique_ptr<servo::Recorder> recorder_;
   std::unique_ptr<StrokeSession> session_;
@@ -129,8 +128,8 @@ class StrokeController {
   render::PotView view_;  // during a stroke
   double crown_mm_ = 0.0;
   StrokeNews news_;
-  double gap_mm_ = 0.0, closed_gap_mm_ = 0.0;  // of a pinch that closes
-  std::int64_t last_ns_ = 0;                   // previous frame
+  double gap_mm_ = 0.0, closed_gap_mm_ = 0.0;  // for a pinch that closes
+  std::int64_t last_ns_ = 0;                   // time of the previous frame
   std::int64_t measured_ns_ = 0;
   std::uint64_t measured_ticks_ = 0;
   double tick_rate_hz_ = 0.0;

@@ -1,6 +1,5 @@
 #pragma once
-// A tool in the clay, from when it is taken to when it is let go: the wheel, the device and the
-// servo between them.
+// One tool in the clay, from start to end: the wheel, the device and the servo between them.
 
 #include "app/servo/servo.hpp"
 #include "claystack/engine/wheel.hpp"
@@ -12,16 +11,16 @@
 
 namespace clay::studio {
 
-/// How the servo gets its time.
+/// How the servo is scheduled.
 enum class Pace {
-  thread,     ///< a thread of its own, on the machine's clock
-  real_time,  ///< the same, with all the system gives a servo: for devices with motors
-  stepped,    ///< on the caller's thread, as far as `advance` says
+  thread,     ///< on its own thread, with the system clock
+  real_time,  ///< the same with real-time priority, if permitted: for devices with motors
+  stepped,    ///< on the caller's thread, in `advance`
 };
 
 class StrokeSession {
  public:
-  /// Device, clock, recorder and trace outlive it; the device is open. Errors as
+  /// Device, clock, recorder and trace must outlive it; the device is open. Errors as in
   /// servo::ServoLoop::build.
   static Result<std::unique_ptr<StrokeSession>> begin(
       Wheel wheel, falcon::HapticDevice& device, servo::Clock& clock, servo::Recorder* recorder,
@@ -30,22 +29,22 @@ class StrokeSession {
   StrokeSession(const StrokeSession&) = delete;
   StrokeSession& operator=(const StrokeSession&) = delete;
 
-  /// Stepped: ticks until the clock stands at `until_ns`. Else nothing.
+  /// With Pace::stepped: ticks until the clock reaches `until_ns`. Otherwise does nothing.
   void advance(std::int64_t until_ns);
   bool command(const servo::Command& command) noexcept;
-  /// False once it has ended by itself: the clay fell, the device went.
+  /// False once it has ended by itself, because the clay fell or the device was lost.
   [[nodiscard]] bool running() const noexcept;
 
   [[nodiscard]] const servo::LiveStatus& status() noexcept { return view().status.newest(); }
-  /// Nothing where there is no newer one than the last.
+  /// Null if there is no newer profile than the last one returned.
   [[nodiscard]] const servo::LiveProfile* new_profile() noexcept;
 
-  /// Ends it, waits for the last tick, and is free of force. The wheel is the caller's to look at
-  /// from then on.
+  /// Ends the servo, waits for the last tick and leaves the device without force. After that the
+  /// caller may read the wheel.
   servo::Ending end();
   [[nodiscard]] const Wheel& wheel() const noexcept { return wheel_; }
   [[nodiscard]] const servo::ServoLoop& loop() const noexcept { return *loop_; }
-  /// What the system gave the servo, once it has ended.
+  /// The scheduling that the system granted, once the servo has ended.
   [[nodiscard]] servo::Realtime realtime() const {
     return servo_ ? servo_->realtime() : servo::Realtime{};
   }
@@ -58,8 +57,8 @@ class StrokeSession {
   Pace pace_;
   servo::Clock* clock_ = nullptr;
   std::optional<servo::ServoLoop> loop_;
-  std::unique_ptr<servo::Servo> servo_;  // with a thread
-  // Stepped.
+  std::unique_ptr<servo::Servo> servo_;  // with Pace::thread or real_time
+  // with Pace::stepped
   falcon::ForceGate gate_;
   servo::Commands commands_;
   servo::LiveView view_;

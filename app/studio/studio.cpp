@@ -18,7 +18,7 @@ namespace clay::studio {
 namespace {
 
 constexpr float kColumnEm = 16.0f, kNarrowestViewEm = 20.0f;
-constexpr double kSpinUpS = 0.6;  // of the wheel, between rest and full speed
+constexpr double kSpinUpS = 0.6;  // time of the wheel between rest and full speed
 constexpr double kLongestFrameS = 0.1;
 
 std::int64_t steady_ns() {
@@ -74,8 +74,8 @@ void Studio::frame(bool paint_it) {
   state_.ui.notices.expire(now_s);
   state_.readings.update(state_.document, state_.stroke, wanted_of(state_.settings), now_ns,
                          state_.log);
-  // ImGui has to see each input; drawing, which may be slow, follows once for all of them. What a
-  // click has closed is under the mouse for two more ImGui frames.
+  // ImGui must process each input; the slow painting follows once for all of them. A closed window
+  // remains under the mouse for two more ImGui frames.
   do {
     const int passes = input_.empty() ? 1 : kFramesAfterInput;
     take_input();
@@ -110,7 +110,7 @@ void Studio::build_frame(double elapsed_s) {
   apply_all(state_, actions);
 }
 
-/// A star marks an unsaved work, as on other desktops.
+/// A star marks an unsaved work, as usual on desktops.
 void Studio::name_window() {
   std::string title = "Claystack";
   if (state_.document.has_work())
@@ -136,7 +136,7 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   const float top = draw_menu(model, actions);
   const float status = status_height();
   const float height = std::max(1.0f, size.y - top - status);
-  // In a narrow window the view comes first, and then the left column.
+  // In a narrow window the view has priority, then the left column.
   const float column = std::round(kColumnEm * em);
   const float left = size.x - column >= kNarrowestViewEm * em ? column : 0.0f;
   const float right = size.x - 2.0f * column >= kNarrowestViewEm * em ? column : 0.0f;
@@ -167,14 +167,14 @@ void Studio::paint() {
   glViewport(0, 0, size.x, size.y);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   if (!state_.host.real_time() || !moving()) return;
-  glFinish();  // only then the frame is drawn
+  glFinish();  // waits until the frame is drawn
   times_.last_ns = steady_ns();
   if (times_.drawing.count() == 0) times_.first_ns = times_.last_ns;
   times_.drawing.add(times_.last_ns - begun_ns);
   quality_.took(seconds(times_.last_ns - begun_ns));
 }
 
-/// Into a separate canvas, because the painter fills all of its target, and from there to the
+/// Paints into a separate canvas, because the painter fills its whole target, and copies it to the
 /// window.
 void Studio::draw_view(unsigned target) {
   const glm::ivec2 size = state_.host.size_px();

@@ -1,5 +1,5 @@
 #pragma once
-// The window: takes input, updates the state, draws a frame.
+// The window: processes input, updates the state, draws a frame.
 
 #include "app/render/gl_objects.hpp"
 #include "app/render/painter.hpp"
@@ -18,22 +18,23 @@ struct ImGuiContext;
 namespace clay::studio {
 
 struct Fineness {
-  int samples;  ///< per pixel
-  int divisor;  ///< of width and height
+  int samples;  ///< samples per pixel
+  int divisor;  ///< divisor of width and height
 };
 inline constexpr std::array<Fineness, 4> kFineness = {{{4, 1}, {1, 1}, {1, 2}, {1, 3}}};
 
-/// How finely the view is drawn: without a graphics card a pot in motion gets fewer pixels, and all
-/// of them when it is at rest.
+/// Resolution of the view. Without a graphics card a moving pot is drawn with fewer pixels, and
+/// with all of them at rest.
 class Quality {
  public:
   [[nodiscard]] Fineness fineness(bool moving) const noexcept {
     return kFineness[moving ? level_ : 0];
   }
-  /// A frame of a pot in motion took this long.
+  /// Reports the drawing time of a frame with a moving pot.
   void took(double seconds) noexcept {
     smooth_s_ = smooth_s_ > 0.0 ? 0.7 * smooth_s_ + 0.3 * seconds : seconds;
-    // A pot that lags behind the hand is worse than a coarse one: coarser at once, finer later.
+    // A pot that lags behind the hand is worse than a coarse one, so the resolution falls at once
+    // and rises slowly.
     if (smooth_s_ > kSlowS && level_ + 1 < kFineness.size())
       change(level_ + 1);
     else if (++since_ >= kFramesBetween && smooth_s_ < kFastS && level_ > 0)
@@ -55,9 +56,9 @@ class Quality {
   int since_ = 0;
 };
 
-/// Frames of a pot in motion.
+/// Frames with a moving pot.
 struct FrameTimes {
-  Histogram drawing;  ///< until the last pixel
+  Histogram drawing;  ///< time until the frame is complete
   std::int64_t first_ns = 0, last_ns = 0;
   [[nodiscard]] double fps() const noexcept {
     return last_ns > first_ns ? 1e9 * static_cast<double>(drawing.count() - 1) /
@@ -66,12 +67,13 @@ struct FrameTimes {
   }
 };
 
-/// Keys and clipboard of the current ImGui context. The host outlives it.
+/// Keys and clipboard of the current ImGui context. The host must outlive it.
 void connect_imgui(Host& host);
 
 class Studio {
  public:
-  /// The OpenGL context of the host is current, here and in every call. `log_line` gets events.
+  /// Requires the OpenGL context of the host to be current, here and in every call. `log_line`
+  /// receives events.
   static Result<std::unique_ptr<Studio>> create(Host& host, Settings settings,
                                                 std::function<void(std::string_view)> log_line);
   ~Studio();
@@ -80,14 +82,14 @@ class Studio {
 
   /// Queues input for the next frame.
   void take(Input input) { input_.push_back(std::move(input)); }
-  /// One frame at the current time of the clock. Without `paint` nothing is drawn.
+  /// Draws one frame at the current time of the clock. Without `paint` it only updates.
   void frame(bool paint);
 
   [[nodiscard]] AppState& state() noexcept { return state_; }
   [[nodiscard]] const AppState& state() const noexcept { return state_; }
   [[nodiscard]] const FrameTimes& frame_times() const noexcept { return times_; }
   [[nodiscard]] bool done() const noexcept { return state_.done; }
-  /// Whether the next frame differs from this one even without input.
+  /// True if the next frame differs from this one even without input.
   [[nodiscard]] bool wakeful() const noexcept;
 
  private:
@@ -105,7 +107,7 @@ class Studio {
 
   void draw_view(unsigned target);
 
-  static constexpr int kFramesAfterInput = 3;  // until an ImGui window has settled
+  static constexpr int kFramesAfterInput = 3;  // frames until an ImGui window has settled
 
   AppState state_;
   ImGuiContext* context_ = nullptr;
@@ -114,11 +116,11 @@ class Studio {
   std::deque<Input> input_;
   std::string title_;
   double last_s_ = 0.0;
-  double spin_ = 0.0;  // of the wheel: 0 at rest, 1 at full speed
+  double spin_ = 0.0;  // speed of the wheel: 0 at rest, 1 at full speed
   Quality quality_;
   FrameTimes times_;
-  bool coarse_ = false;   // the last frame was drawn with fewer pixels
-  int awake_frames_ = 0;  // ImGui needs some after an input
+  bool coarse_ = false;   // the last frame had a reduced resolution
+  int awake_frames_ = 0;  // ImGui needs some frames after an input
 };
 
 }  // namespace clay::studio

@@ -1,4 +1,4 @@
-// Input of the window, one event after the other: to ImGui, to the view, or to a command.
+// Sends each input event of the window to ImGui, to the view, or to a command.
 
 #include "app/studio/commands.hpp"
 #include "app/studio/studio.hpp"
@@ -16,7 +16,7 @@
 namespace clay::studio {
 namespace {
 
-/// Keys have the codes of GLFW.
+/// Key codes are those of GLFW.
 void map_keys(ImGuiIO& io) {
   constexpr std::array kKeys = {std::pair{ImGuiKey_Tab, GLFW_KEY_TAB},
                                 std::pair{ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
@@ -44,13 +44,13 @@ void connect_clipboard(ImGuiIO& io, Host& host) {
     static_cast<Host*>(user)->set_clipboard(text);
   };
   io.GetClipboardTextFn = [](void* user) -> const char* {
-    static std::string held;  // until ImGui has copied it
+    static std::string held;  // kept until ImGui has copied it
     held = static_cast<Host*>(user)->clipboard();
     return held.c_str();
   };
 }
 
-/// Commands that are possible while a dialog is open.
+/// Commands that are enabled while a dialog is open.
 bool in_dialogs(const Command& command) {
   constexpr std::array kPrefixes = {"file.",   "view.",    "help.",  "quit.",
                                     "export.", "recover.", "import."};
@@ -68,8 +68,8 @@ void connect_imgui(Host& host) {
   connect_clipboard(io, host);
 }
 
-/// A button or key changes at most once in a frame, and a button only where the pointer has been
-/// for a frame, so that ImGui sees every click, however short.
+/// A button or key changes at most once per frame, and a button only after the pointer has been at
+/// its place for a frame, so that ImGui registers every click, however short.
 void Studio::take_input() {
   bool moved = false, pressed = false;
   while (!input_.empty()) {
@@ -90,7 +90,7 @@ void Studio::apply(const Input& input) {
   ImGuiIO& io = ImGui::GetIO();
   const ViewModel model = view_model(state_);
   Actions actions;
-  // A dialog takes the whole mouse.
+  // A dialog captures the mouse.
   const bool view = state_.ui.shows<NoDialog>() && !io.WantCaptureMouse;
   if (const auto* moved = std::get_if<PointerMoved>(&input)) {
     io.MousePos = {moved->place_px.x, moved->place_px.y};
@@ -123,7 +123,7 @@ void Studio::key(const KeyChanged& change) {
   if (!change.down) return;
   const Command* command = command_for({change.key, change.mods});
   if (command == nullptr) return;
-  // A text field keeps the keys that edit text.
+  // A text field captures the keys that edit text.
   const bool edits_text =
       (change.mods & kControl) == 0 || change.key == GLFW_KEY_Z || change.key == GLFW_KEY_Y;
   if (change.key != GLFW_KEY_ESCAPE) {

@@ -16,7 +16,7 @@ ImVec4 rgb(unsigned hex, float alpha = 1.0f) {
           alpha};
 }
 
-// Okabe and Ito's set for the meanings: told apart by the colour-blind too.
+// Okabe and Ito's colours, which colour-blind people can distinguish.
 const Palette kDark = {.accent = rgb(0xd98a5b),
                        .faint = rgb(0x9aa0a6),
                        .good = rgb(0x3fb68b),
@@ -58,7 +58,7 @@ void set_colours(const Greys& g, const Palette& p) {
   c[ImGuiCol_ScrollbarGrab] = rgb(g.hovered);
   c[ImGuiCol_ScrollbarGrabHovered] = c[ImGuiCol_ScrollbarGrabActive] = rgb(g.active);
   c[ImGuiCol_CheckMark] = p.accent;
-  c[ImGuiCol_SliderGrab] = accent(0.55f);  // the value is written over it
+  c[ImGuiCol_SliderGrab] = accent(0.55f);  // translucent, because the value is drawn over it
   c[ImGuiCol_SliderGrabActive] = accent(0.75f);
   c[ImGuiCol_PlotLines] = c[ImGuiCol_PlotHistogram] = p.accent;
   c[ImGuiCol_Header] = accent(0.24f);
@@ -89,7 +89,7 @@ void set_sizes(float scale) {
 
 ImFont* load(const char* file, float size_px, float scale) {
   ImGuiIO& io = ImGui::GetIO();
-  // Latin, and the signs that units and buttons are written with.
+  // Latin, and the symbols used by units and buttons.
   static constexpr ImWchar kRanges[] = {0x20,   0x17f,  0x370,  0x3ff,  0x2010,
                                         0x2044, 0x2070, 0x209f, 0x2190, 0x21ff,
                                         0x2200, 0x22ff, 0x2600, 0x26ff, 0};
@@ -113,7 +113,7 @@ ImVec4 ink_on(const ImVec4& face) {
   };
   const float luminance = 0.2126f * light(face.x, ground.x) + 0.7152f * light(face.y, ground.y) +
                           0.0722f * light(face.z, ground.z);
-  // Where the contrasts to black and to white are equal, as WCAG reckons them.
+  // The luminance at which the contrasts to black and to white are equal (WCAG).
   constexpr float kEven = 0.179f;
   return luminance > kEven ? rgb(0x141414) : rgb(0xffffff);
 }

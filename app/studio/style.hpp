@@ -1,5 +1,5 @@
 #pragma once
-// How the window looks: two themes, one font, one scale.
+// Appearance of the window: two themes, one font, one scale.
 
 #include "app/render/picture.hpp"
 
@@ -9,18 +9,18 @@ namespace clay::studio {
 
 using render::Theme;
 
-/// Colours with a meaning, for what panels draw themselves.
+/// Colours with a meaning, for elements that the panels draw themselves.
 struct Palette {
-  ImVec4 accent;   ///< what is chosen
-  ImVec4 faint;    ///< words that explain
-  ImVec4 good;     ///< all is well
-  ImVec4 warning;  ///< thin walls, lost ticks
-  ImVec4 fault;    ///< a device is gone, a file was not written
-  ImVec4 clay;     ///< a section's face
+  ImVec4 accent;   ///< selected items
+  ImVec4 faint;    ///< explanations
+  ImVec4 good;     ///< success
+  ImVec4 warning;  ///< thin walls, missed ticks
+  ImVec4 fault;    ///< lost device, file not written
+  ImVec4 clay;     ///< cut face of the section
 };
 [[nodiscard]] const Palette& palette(Theme theme);
-/// Black or white, whichever is easier to read on `face`; where that is not opaque, on the theme's
-/// own ground below it.
+/// Black or white, whichever is easier to read on `face`; if that is translucent, on the background
+/// of the theme below it.
 [[nodiscard]] ImVec4 ink_on(const ImVec4& face);
 
 inline constexpr float kSmallestScale = 0.5f, kLargestScale = 3.0f;
@@ -30,8 +30,8 @@ struct Fonts {
   ImFont* title = nullptr;  ///< bold, 21 px
 };
 
-/// Sets colours, sizes and fonts of the current ImGui context anew. The font texture is stale
-/// after it. Without DejaVu on the machine it falls back on ImGui's own font.
+/// Sets colours, sizes and fonts of the current ImGui context; the font texture must be rebuilt
+/// afterwards. Without DejaVu it uses the default font of ImGui.
 Fonts apply_style(Theme theme, float scale);
 
 }  // namespace clay::studio

@@ -86,7 +86,7 @@ void resize(ToolChoice& choice, double factor) {
       scale(choice.rib.radius_mm, factor);
       break;
     case Shape::own:
-      break;  // its points are its size
+      break;  // its points define its size
     case Shape::sphere:
       scale(choice.sphere.radius_mm, factor);
       break;

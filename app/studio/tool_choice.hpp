@@ -1,6 +1,6 @@
 #pragma once
-// The tool as it is chosen at the window: each shape keeps its own size, so that changing to and
-// fro loses nothing.
+// The tool chosen in the window. Each shape keeps its size, so that switching between shapes loses
+// nothing.
 
 #include "claystack/engine/scene.hpp"
 
@@ -16,7 +16,7 @@ struct ToolChoice {
   SphereSpec sphere;
   EllipseSpec ellipse;
   RibSpec rib;
-  SampledSpec own;  ///< of the scene that was opened; without points there is none
+  SampledSpec own;  ///< from the scene that was opened; without points there is none
   double gap_mm = 6.0;
   friend bool operator==(const ToolChoice&, const ToolChoice&) = default;
 };
@@ -24,17 +24,17 @@ struct ToolChoice {
 inline constexpr double kSmallestToolMm = 0.5, kLargestToolMm = 60.0;
 inline constexpr double kNarrowestGapMm = 0.5, kWidestPinchMm = 40.0;
 
-/// For a scene. `inverted`: press instead of trim, and trim instead of the others.
+/// The tool for a scene. `inverted`: press instead of trim, and trim instead of the other modes.
 [[nodiscard]] ToolSpec tool_of(const ToolChoice& choice, bool inverted = false);
 
-/// From a scene, keeping the sizes of the shapes that it has not.
+/// The tool of a scene; shapes that the scene does not use keep their sizes.
 void choose(const ToolSpec& tool, ToolChoice& choice);
 
-/// What names the present shape's size [mm]: a sphere's radius, an ellipse's half height, a rib's
-/// height. None for points of a scene's own.
+/// The size of the selected shape [mm]: radius of a sphere, half height of an ellipse, height of a
+/// rib. None for a custom shape.
 [[nodiscard]] std::optional<double> size_mm(const ToolChoice& choice);
 
-/// Multiplies the present shape's size, within its limits.
+/// Multiplies the size of the selected shape, within its limits.
 void resize(ToolChoice& choice, double factor);
 
 }  // namespace clay::studio

@@ -1,6 +1,6 @@
 #pragma once
-// State of the window that is neither document nor settings: the dialog that is open, the banner,
-// marks on the pot. Panels read it; apply() and update() change it.
+// User interface state that is neither document nor settings: the open dialog, the banner, marks on
+// the pot. Panels read it; apply() and update() change it.
 
 #include "app/history/work.hpp"
 #include "app/studio/action.hpp"
@@ -19,17 +19,17 @@ enum class Grade { note, warning, fault };
 struct Notice {
   Grade grade = Grade::note;
   std::string text;
-  double until_s = 0.0;  ///< of the host's clock; 0: until it is closed
+  double until_s = 0.0;  ///< on the host's clock; 0: until the user closes it
 };
 
-/// One banner at a time, the most severe first, until it is closed or its time is over.
+/// One banner at a time, the most severe first, until it is closed or expires.
 class Notices {
  public:
   void show(Grade grade, std::string text, double until_s = 0.0) {
     if (!notice_ || grade >= notice_->grade) notice_ = Notice{grade, std::move(text), until_s};
   }
   void close() { notice_.reset(); }
-  /// Closes a notice that no longer holds.
+  /// Closes a notice that no longer applies.
   void withdraw(const std::string& text) {
     if (notice_ && notice_->text == text) notice_.reset();
   }
@@ -42,8 +42,7 @@ class Notices {
   std::optional<Notice> notice_;
 };
 
-// --- Dialogs: one alternative each, with what it edits.
-// -------------------------------------------
+// --- Dialogs: one alternative each, with its state. ----------------------------------------------
 struct NoDialog {};
 struct GalleryDialog {};
 struct ShortcutsDialog {};
@@ -51,33 +50,33 @@ struct SettingsDialog {};
 /// Asks whether to save before `next` replaces the work.
 struct UnsavedDialog {
   Action next;
-  bool saving = false;  ///< the answer was to save: `next` follows once that is done
+  bool saving = false;  ///< the user chose to save; `next` follows
 };
 struct OpenDialog {
   std::string path;
 };
-/// `next`: what waits for the file to be saved.
+/// `next`: the action to run after saving.
 struct SaveDialog {
   std::string path;
   std::optional<Action> next;
 };
 struct ExportDialog {
-  std::optional<ExportWish> previewed;  ///< choices that the preview is made of
+  std::optional<ExportChoices> previewed;  ///< choices of the current preview
 };
-/// A drawing, how it is read, and the pot that this gives.
+/// A drawing, its import settings, and the resulting pot.
 using ImportDialog = ImportCard;
 
 using Dialog = std::variant<NoDialog, GalleryDialog, ShortcutsDialog, UnsavedDialog, OpenDialog,
                             SaveDialog, ExportDialog, ImportDialog, SettingsDialog>;
 
-/// Choices for an export and what came of them. They outlive the dialog: an export goes on when it
+/// Choices and results of an export. They outlive the dialog, because an export continues after it
 /// is closed.
 struct ExportState {
-  ExportWish wish;
+  ExportChoices choices;
   std::optional<solid::ExportReport> preview;
   std::string problem;               ///< why there is no preview, or no file
   std::vector<std::string> written;  ///< files of the last export
-  std::string result;                ///< how it ended, in words
+  std::string result;                ///< outcome as text
 };
 
 /// A problem at a place of the pot.
@@ -86,11 +85,11 @@ struct Mark {
   std::string text;
 };
 
-/// Banner and log of an arm: what was reported last.
+/// The last report about an arm, in the banner and the log.
 struct ArmReport {
   std::string shown;      ///< text of its banner
   bool requests = false;  ///< the banner asks the user to do something
-  std::string guard;      ///< state of the force guard
+  std::string guard;      ///< last reported state of the force guard
 };
 
 struct UiState {
@@ -98,11 +97,11 @@ struct UiState {
   Notices notices;
   ExportState exporting;
   ArmReport arm;
-  std::vector<Mark> marks;    ///< of the pot `marked`
+  std::vector<Mark> marks;    ///< marks on the pot `marked`
   history::SharedPot marked;  ///< pot of the last export or preview
   std::string reveal;         ///< id of a panel to scroll to in this frame
   Fonts fonts;
-  bool restyle = true;  ///< theme or scale have changed
+  bool restyle = true;  ///< theme or scale has changed
 
   template <class D>
   [[nodiscard]] bool shows() const noexcept {

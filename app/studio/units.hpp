@@ -10,7 +10,7 @@ enum class LengthUnit { mm, cm, in };
 struct UnitText {
   double mm;  ///< millimetres in one unit
   const char* name;
-  int digits;  ///< after the decimal point
+  int digits;  ///< decimals
 };
 [[nodiscard]] UnitText unit_text(LengthUnit unit);
 

@@ -1,5 +1,5 @@
-// What happens by itself between two frames: devices come and go, strokes end, a pot falls, the
-// dialog of the desktop and background jobs give their results.
+// Updates between two frames: devices connect and disconnect, strokes end, a pot falls, the
+// desktop's file dialog and background jobs return their results.
 
 #include "app/servo/words.hpp"
 #include "app/studio/app_state.hpp"
@@ -15,19 +15,18 @@ namespace clay::studio {
 namespace {
 
 constexpr double kDeviceNoteS = 6.0, kExportNoteS = 6.0;
-// A homed device reports that with its first frames.
+// A homed device reports its state with its first frames.
 constexpr std::uint64_t kTicksUntilHomed = 250;
 
-// --- Devices.
-// -------------------------------------------------------------------------------------
+// --- Devices. ------------------------------------------------------------------------------------
 
-/// Replaces the banner about the arm, as far as it still stands.
+/// Replaces the banner about the arm if it is still shown.
 void show_arm_notice(AppState& state, Grade grade, const std::string& text, double until_s = 0.0) {
   state.ui.notices.withdraw(std::exchange(state.ui.arm.shown, text));
   if (!text.empty()) state.ui.notices.show(grade, text, until_s);
 }
 
-/// A device that has appeared replaces the mouse, once that has released the clay.
+/// A newly opened device replaces the mouse once the mouse has released the clay.
 void update_devices(AppState& state) {
   if (!state.devices) return;
   if (const std::string problem = state.devices->take_problem(); !problem.empty())
@@ -35,7 +34,7 @@ void update_devices(AppState& state) {
   if (state.stroke.throwing() && !state.stroke.has_device()) return;
   auto device = state.devices->take();
   if (!device) {
-    if (!ImGui::IsMouseDown(ImGuiMouseButton_Left))  // a slider is released first
+    if (!ImGui::IsMouseDown(ImGuiMouseButton_Left))  // not while a slider is dragged
       state.stroke.hold(tool_of(state.settings.tool), removal_rate_per_s(view_model(state)));
     return;
   }
@@ -56,7 +55,7 @@ void lose_device(AppState& state, const Error& why) {
   report(state, error);
 }
 
-/// What only the user can do at the arm stays in the banner until it is done.
+/// The banner about an action at the arm stays until the user has done it.
 void update_arm_notice(AppState& state) {
   const bool in_use = state.stroke.throwing() && state.stroke.has_motors();
   const servo::LiveStatus& status = state.stroke.status();
@@ -73,8 +72,7 @@ void update_arm_notice(AppState& state) {
   if (arm.requests ? text != arm.shown : requested) show_arm_notice(state, Grade::warning, text);
 }
 
-// --- Strokes.
-// -------------------------------------------------------------------------------------
+// --- Strokes. ------------------------------------------------------------------------------------
 
 void update_strokes(AppState& state) {
   if (const auto problem = state.document.take_problem()) report(state, *problem);
@@ -89,7 +87,7 @@ void update_strokes(AppState& state) {
     state.fall.begin(state.document.shared_pot(), state.now_s());
     state.ui.notices.show(Grade::warning,
                           "The pot has fallen: the clay could not carry its own weight. Undo "
-                          "takes the stroke back.");
+                          "removes the stroke.");
   }
   if (news.ring_limit)
     state.ui.notices.show(Grade::warning,
@@ -97,7 +95,7 @@ void update_strokes(AppState& state) {
                           "above the rim.");
 }
 
-/// The fall ends early where another pot is shown.
+/// The animation of a fall ends early if another pot is shown.
 void update_fall(AppState& state) {
   if (!state.fall.running()) return;
   const bool fallen = state.document.has_work() && state.document.pot().collapse &&
@@ -109,8 +107,7 @@ void update_fall(AppState& state) {
     apply(state, GoToStroke{state.document.work().at()});
 }
 
-// --- Files.
-// ---------------------------------------------------------------------------------------
+// --- Files. --------------------------------------------------------------------------------------
 
 void update_file_dialog(AppState& state) {
   const FileDialog::Kind kind = state.file_dialog.kind();
@@ -127,12 +124,12 @@ void update_file_dialog(AppState& state) {
       apply(state, SaveFile{*chosen});
       break;
     case FileDialog::Kind::folder:
-      state.ui.exporting.wish.folder = *chosen;
+      state.ui.exporting.choices.folder = *chosen;
       break;
   }
 }
 
-/// The solid is larger than the pot on screen.
+/// The view keeps the pot as it is on the wheel; the solid in the file is larger.
 glm::dvec2 on_pot(const solid::ProfilePoint& place, double shrinkage) {
   return glm::dvec2(place.rho, place.y) / solid::enlargement(shrinkage);
 }
@@ -176,8 +173,8 @@ void take_files(AppState& state, Exporter::Outcome outcome) {
   }
   for (const std::string& path : outcome.paths) state.log("exported: " + path);
   if (!state.ui.shows<ExportDialog>()) note(state, Grade::note, exporting.result, kExportNoteS);
-  state.settings.folder = outcome.wish.folder;
-  state.settings.process = outcome.wish.process;
+  state.settings.folder = outcome.choices.folder;
+  state.settings.process = outcome.choices.process;
 }
 
 void take_preview(AppState& state, Exporter::Outcome outcome) {
@@ -190,29 +187,29 @@ void take_preview(AppState& state, Exporter::Outcome outcome) {
   }
   mark_problems(state, outcome);
   exporting.preview = std::move(*outcome.done);
-  state.log(fmt::format("export rehearsed: {} triangles", exporting.preview->size.triangles));
+  state.log(fmt::format("export previewed: {} triangles", exporting.preview->size.triangles));
 }
 
 /// The choices that change the solid.
-ExportWish solid_choices(ExportWish wish) {
-  wish.folder.clear();
-  wish.section = wish.pot = false;
-  return wish;
+ExportChoices solid_choices(ExportChoices choices) {
+  choices.folder.clear();
+  choices.section = choices.pot = false;
+  return choices;
 }
 
-/// While its dialog is open, an export is previewed after every change of the choices.
+/// While the dialog is open, an export is previewed after every change of the choices.
 void update_export(AppState& state) {
   ExportState& exporting = state.ui.exporting;
   auto* dialog = std::get_if<ExportDialog>(&state.ui.dialog);
   const bool writing = state.exporter.running() == Exporter::Kind::files;
-  if (dialog != nullptr && !writing && dialog->previewed != solid_choices(exporting.wish)) {
-    dialog->previewed = solid_choices(exporting.wish);
+  if (dialog != nullptr && !writing && dialog->previewed != solid_choices(exporting.choices)) {
+    dialog->previewed = solid_choices(exporting.choices);
     exporting.preview.reset();
     exporting.problem.clear();
-    if (exporting.wish.stl || exporting.wish.obj || exporting.wish.drc)
-      state.exporter.rehearse(state.document.shared_pot(), exporting.wish);
+    if (exporting.choices.stl || exporting.choices.obj || exporting.choices.drc)
+      state.exporter.preview(state.document.shared_pot(), exporting.choices);
   }
-  if (!state.host.real_time()) state.exporter.wait();  // the frames of a script are reproducible
+  if (!state.host.real_time()) state.exporter.wait();  // frames of a script are reproducible
   auto outcome = state.exporter.take();
   if (!outcome) return;
   if (outcome->kind == Exporter::Kind::files)
@@ -229,7 +226,7 @@ void update(AppState& state) {
   update_file_dialog(state);
   update_export(state);
   state.stroke.advance(now_ns);
-  state.host.clock().sleep_until_ns(now_ns);  // where no servo has moved it
+  state.host.clock().sleep_until_ns(now_ns);  // in case no servo has advanced it
   update_strokes(state);
   update_arm_notice(state);
   update_fall(state);

@@ -1,6 +1,6 @@
 #pragma once
-// What panels, the scene view and commands read: the state of the window in one frame, all of it
-// const.
+// The view model: the state of the window in one frame, all of it const. Panels, the scene view and
+// commands read it.
 
 #include "app/history/recovery.hpp"
 #include "app/studio/document.hpp"
@@ -28,23 +28,23 @@ struct ViewModel {
       recoverable;  ///< works of crashed programs, newest first
   std::optional<Exporter::Kind> export_running;
   std::string export_stage;  ///< of the running export
-  double now_s = 0.0;        ///< of the host's clock
+  double now_s = 0.0;        ///< on the host's clock
   bool real_time = false;    ///< false in scripts: no figure may depend on the machine
 
   [[nodiscard]] const Palette& colours() const { return palette(settings.theme); }
   [[nodiscard]] bool at_rest() const { return document.has_work() && !stroke.throwing(); }
-  /// No stroke, or that of a device, which may be ended at any time.
+  /// True if there is no stroke, or a stroke of a device, which may be ended at any time.
   [[nodiscard]] bool between_strokes() const { return at_rest() || stroke.has_device(); }
   [[nodiscard]] bool writing() const { return export_running == Exporter::Kind::files; }
-  /// Problems of the last export or preview that belong to the pot on screen.
+  /// Problems of the last export or preview, if they belong to the pot on screen.
   [[nodiscard]] bool has_marks() const;
-  /// State and needs of an arm in use; empty without motors.
+  /// State and requests of an arm in use; empty without motors.
   [[nodiscard]] std::string arm_text() const;
-  /// The guard keeps the force at zero until it is re-armed.
+  /// The guard holds the force at zero until it is re-armed.
   [[nodiscard]] bool waits_for_rearm() const;
 };
 
-/// A scene gives its removal rate for this wheel speed; the rate is proportional to the speed.
+/// The removal rate for this wheel speed; the rate is proportional to the speed.
 inline constexpr double kNominalRpm = 120.0;
 [[nodiscard]] double removal_rate_per_s(const ViewModel& view);
 

@@ -172,7 +172,7 @@ Result<CollapsedSolid> collapsed_solid(const CollapsedParts& parts, const Collap
                                              "; ask for a larger tolerance or fewer segments");
   return Union(parts, collapse, segments, tolerance_mm).run();
 } catch (const std::exception& e) {
-  return failure(ErrorKind::io, std::string("union given up: ") + e.what());
+  return failure(ErrorKind::io, std::string("union failed: ") + e.what());
 }
 
 }  // namespace clay::solid::inline fallen

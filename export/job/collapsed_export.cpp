@@ -25,9 +25,8 @@ namespace {
 
 Result<void> check_options(const ExportOptions& options) {
   const auto refuse = [](std::string_view option) {
-    return failure(
-        ErrorKind::bad_input,
-        std::string(option).append(": expected a pot that stands, found a collapsed one"));
+    return failure(ErrorKind::bad_input,
+                   std::string(option).append(": expected a standing pot, found a collapsed one"));
   };
   if (options.normals) return refuse("normals");
   if (options.wall_spacing_mm) return refuse("field of walls");
@@ -95,7 +94,7 @@ class CollapsedExport {
                       lower.axis_segments + upper.axis_segments};
     section.smoothing = parts_.smoothing;
     section.no_smoothing =
-        options_.smoothing == Smoothing::none ? "not asked for" : parts_.no_smoothing;
+        options_.smoothing == Smoothing::none ? "not requested" : parts_.no_smoothing;
     section.smoothed.section = {parts_.together(), parts_.lower.shapes};
     std::vector<PieceShape>& shapes = section.smoothed.section.shapes;
     shapes.insert(shapes.end(), parts_.upper.shapes.begin(), parts_.upper.shapes.end());
@@ -133,7 +132,7 @@ class CollapsedExport {
         std::abs(volume_mm3 - solid.pockets_mm3 + solid.overlap_mm3 - counted_mm3) / counted_mm3};
   }
 
-  /// There is no profile of the whole to make coarser: the mesh is decimated, and checked again.
+  /// The whole has no profile to revolve more coarsely, so the mesh is decimated and checked again.
   Result<void> meet_budget() {
     if (!options_.max_triangles || mesh_.triangles.size() <= *options_.max_triangles) return {};
     return stages_.run("decimate", [&] { return decimate(mesh_, *options_.max_triangles); })
@@ -175,7 +174,8 @@ class CollapsedExport {
     });
   }
 
-  /// Ever finer grids until the mesh as decoded is sound, or the last reason why not.
+  /// Encodes on finer and finer grids until the decoded mesh is sound. Returns the last problem if
+  /// none is.
   Result<FileReport> write_drc(FileStore& store) {
     const double allowed = std::max(options_.tolerance_mm, float_rounding_mm(mesh_));
     DracoSettings settings;
@@ -204,7 +204,8 @@ class CollapsedExport {
             .and_then([&] { return read_again(store, bytes); });
     if (!again) return tl::make_unexpected(again.error());
     if (*again != bytes)
-      return failure(ErrorKind::io, as_written(format) + ": found bytes other than those written");
+      return failure(ErrorKind::io,
+                     as_written(format) + ": the bytes read back differ from those written");
     FileReport report;
     report.format = format;
     report.bytes = bytes.size();

@@ -3,8 +3,8 @@
 
 namespace clay::solid::inline job {
 
-/// `run_export` for a collapsed pot. What asks for a profile (normals, a field of walls) is an
-/// error.
+/// `run_export` for a collapsed pot. Options that need a profile (normals, a field of walls) are
+/// errors.
 Result<ExportReport> export_collapsed(const PreparedPot& prepared,
                                       const std::vector<Output>& outputs,
                                       const ExportOptions& options,

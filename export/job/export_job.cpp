@@ -1,4 +1,4 @@
-// The job as its callers see it: one pot to meshes in stores, to files, or to a report alone.
+// The entry points of the job: one pot to meshes in stores, to files, or to a report alone.
 
 #include "claystack/export/job.hpp"
 
@@ -35,24 +35,24 @@ Result<ExportReport> run_prepared(const PreparedPot& pot, const std::vector<Outp
                           : export_revolved(pot, outputs, options, progress);
 }
 
-/// What `work` returns, or why it was given up.
+/// The result of `work`, or the error of a cancelled job.
 template <class Work>
 auto guarded(const ExportOptions& options, Work work) -> decltype(work()) {
   const CancelScope scope(options.cancelled ? &options.cancelled : nullptr);
-  const auto given_up = [&](const std::string& why) {
-    return named(decltype(work())(failure(ErrorKind::io, "export given up: " + why)),
+  const auto stopped = [&](const std::string& why) {
+    return named(decltype(work())(failure(ErrorKind::io, "export stopped: " + why)),
                  options.source);
   };
   try {
     return work();
   } catch (const Cancelled&) {
-    return given_up("cancelled");
+    return stopped("cancelled");
   } catch (const std::exception& e) {
-    return given_up(e.what());
+    return stopped(e.what());
   }
 }
 
-/// A file under construction that the exporters write to and read again.
+/// A file under construction: the exporters write to it and read it back.
 class FileOnDisk final : public FileStore {
  public:
   explicit FileOnDisk(AtomicFile file) : file_(std::move(file)) {}
@@ -73,7 +73,7 @@ Result<std::unique_ptr<FileOnDisk>> open_file(const std::string& path) {
       [](AtomicFile created) { return std::make_unique<FileOnDisk>(std::move(created)); });
 }
 
-/// All files of a request, opened before any work: what cannot be written is known at once.
+/// All files of a request, opened before any work, so that an unwritable file is reported at once.
 class FilesExport {
  public:
   FilesExport(const Pot& pot, const ExportRequest& request, const Progress& progress)
@@ -99,7 +99,7 @@ class FilesExport {
     if (!request_.certificates || !pot_.collapse) return {};
     return named(
         Result<void>(failure(ErrorKind::bad_input,
-                             "--certificate: expected a pot that stands, found a collapsed one")),
+                             "--certificate: expected a standing pot, found a collapsed one")),
         options_.source);
   }
 
@@ -200,8 +200,8 @@ class FilesExport {
     return {};
   }
 
-  /// The report is a file of the export like the others, and all are on the disk before the first
-  /// gets its name.
+  /// The report is written like the other files: all files are on the disk before the first gets
+  /// its name.
   Result<void> publish() {
     stop_if_cancelled();
     std::vector<AtomicFile*> files;
@@ -256,8 +256,8 @@ Result<ExportReport> export_files(const Pot& pot, const ExportRequest& request,
   return guarded(request.options, [&] { return FilesExport(pot, request, progress).run(); });
 }
 
-Result<ExportReport> rehearse_export(const Pot& pot, const ExportRequest& request,
-                                     const Progress& progress) {
+Result<ExportReport> preview_export(const Pot& pot, const ExportRequest& request,
+                                    const Progress& progress) {
   std::vector<MemoryStore> stores(request.files.size());
   std::vector<Output> outputs;
   for (std::size_t i = 0; i < stores.size(); ++i)

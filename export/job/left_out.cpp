@@ -15,7 +15,7 @@ double seconds_of(Work work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// Encoding alone; nothing is written.
+/// Measures encoding only; nothing is written.
 double encoding_seconds(MeshFormat format, const TriangleMesh& mesh, const ExportOptions& options) {
   return seconds_of([&] {
     switch (format) {
@@ -66,9 +66,9 @@ std::vector<SkippedStage> left_out(const ClayStack& stack, const std::string& no
   add(!stack.hollow(), "inner shell", "no ring has a bore");
   add(!no_smoothing.empty(), "smoothing", no_smoothing);
   add(true, "union", "the pot has not collapsed");
-  add(!options.max_triangles, "budget", "no number of triangles asked for");
-  add(!made_mesh, "mesh in memory", "nothing asked for needs one");
-  add(!options.full_verification, "full verification", "the certificate covers it; not asked for");
+  add(!options.max_triangles, "budget", "no limit of triangles requested");
+  add(!made_mesh, "mesh in memory", "no requested file needs one");
+  add(!options.full_verification, "full verification", "the certificate covers it; not requested");
   add_formats_left_out(outputs, list);
   if (options.measure_left_out) measure(list, stack, rule, options);
   return list;
@@ -78,7 +78,7 @@ void add_formats_left_out(const std::vector<Output>& outputs, std::vector<Skippe
   for (const MeshFormat format : kMeshFormats)
     if (std::none_of(outputs.begin(), outputs.end(),
                      [&](const Output& output) { return output.format == format; }))
-      list.push_back({std::string(name_of(format)), "not asked for", std::nullopt});
+      list.push_back({std::string(name_of(format)), "not requested", std::nullopt});
 }
 
 }  // namespace clay::solid::inline job

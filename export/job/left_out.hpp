@@ -1,5 +1,5 @@
 #pragma once
-// What an export did not need to do, why, and (where asked for) what doing it would have cost.
+// Skipped stages of an export: the reason, and (if requested) the time that each would have taken.
 
 #include "claystack/export/job.hpp"
 #include "export/solid/revolve_layout.hpp"
@@ -9,13 +9,13 @@
 
 namespace clay::solid::inline job {
 
-/// Of a pot that stands. `no_smoothing` is the reason why there was none; empty where there was.
+/// For a standing pot. `no_smoothing`: why it was not smoothed; empty if it was.
 std::vector<SkippedStage> left_out(const ClayStack& stack, const std::string& no_smoothing,
                                    const RevolveLayout& rule, bool made_mesh,
                                    const std::vector<Output>& outputs,
                                    const ExportOptions& options);
 
-/// Adds the formats that no output has.
+/// Adds the formats that were not requested.
 void add_formats_left_out(const std::vector<Output>& outputs, std::vector<SkippedStage>& list);
 
 }  // namespace clay::solid::inline job

@@ -16,21 +16,21 @@ Quanta times(Quanta count, double factor) {
   return static_cast<Quanta>(std::llround(factor * static_cast<double>(count)));
 }
 
-/// Of one ring; a wall of a few quanta stays one.
+/// Scales one ring; a wall of a few quanta keeps at least one.
 Ring times(const Ring& ring, double factor) {
   Ring larger{times(ring.outer2, factor), times(ring.inner2, factor)};
   if (larger.inner2 >= larger.outer2) larger.inner2 = larger.outer2 - 1;
   return larger;
 }
 
-/// The part of a ring that the crown has does not change, whatever rounding did to that ring.
+/// The crown keeps its fraction of a ring, however that ring was rounded.
 WideQuanta crown_of(const ClayStack& stack, const Ring& larger_top) {
   const double part =
       static_cast<double>(stack.crown()) / static_cast<double>(stack.rings().back().volume());
   return std::min(times(larger_top.volume(), part), larger_top.volume() - 1);
 }
 
-/// Rings below the bottom of the uppermost closed cavity; 0 where there is none.
+/// Number of rings below the bottom of the uppermost closed cavity; 0 if there is none.
 std::size_t rings_to_drill(const ClayStack& stack) {
   std::size_t rings = 0;
   for (const PieceShape& shape : shapes_of(stack))
@@ -49,7 +49,7 @@ Result<Pot> enlarged(const Pot& pot, double shrinkage) {
   const double factor = enlargement(shrinkage);
   std::vector<Ring> rings;
   rings.reserve(pot.stack.size());
-  // A double holds no radius of more than 362 mm to the quantum; nor does any file.
+  // A double, and so every file, holds radii of at most 362 mm to the quantum.
   for (const Ring& ring : pot.stack.rings()) rings.push_back(times(ring, factor * factor));
   const WideQuanta crown = crown_of(pot.stack, rings.back());
   return ClayStack::from_rings(pot.stack.ring_height_mm() * factor, std::move(rings), crown,
@@ -96,8 +96,7 @@ Result<DrainedStack> drain(const ClayStack& stack, double diameter_mm) {
 
 Result<PreparedPot> prepare(const Pot& pot, const ExportOptions& options) {
   if (options.drain_mm && pot.collapse)
-    return failure(ErrorKind::bad_input,
-                   "drain: expected a pot that stands, found a collapsed one");
+    return failure(ErrorKind::bad_input, "drain: expected a standing pot, found a collapsed one");
   return enlarged(pot, options.shrinkage)
       .and_then([&](Pot larger) -> Result<PreparedPot> {
         PreparedPot prepared{std::move(larger), {options.shrinkage, 0.0, 0.0}, std::nullopt};

@@ -1,5 +1,5 @@
 #pragma once
-// The first stage of every export: the pot in the size of its files, with its drain.
+// The first stage of every export: scales the pot to the size of its files and drills its drain.
 
 #include "claystack/core/result.hpp"
 #include "claystack/export/job.hpp"
@@ -10,25 +10,25 @@ namespace clay::solid::inline job {
 
 struct DrainedStack {
   ClayStack stack;
-  double drilled_mm3 = 0.0;  ///< clay that the drill took
+  double drilled_mm3 = 0.0;  ///< clay removed by the drill
 };
 
-/// The stack with a hole of this diameter along the axis, from its foot up into the uppermost
-/// closed cavity, so that no cavity stays closed; through floors in the way as well. Errors
-/// (bad_input): no cavity to drain; a hole that leaves a ring, named, without a wall.
+/// Drills a hole of this diameter along the axis, from the foot up into the uppermost closed
+/// cavity, through all floors between, so that no cavity remains closed. Errors (bad_input): no
+/// cavity to drain; a hole that leaves a ring without a wall (the message names the ring).
 Result<DrainedStack> drain(const ClayStack& stack, double diameter_mm);
 
 struct PreparedPot {
   Pot pot;
   Preparation done;
-  std::optional<WallLimit> limit;  ///< asked of a solid of about this size
+  std::optional<WallLimit> limit;  ///< the limit for a solid of about this size
 };
 
-/// Enlarged and drained as the options ask. Errors: as `enlarged` and `drain`; a collapsed pot
-/// cannot be drained.
+/// Enlarges and drains the pot as the options request. Errors: as for `enlarged` and `drain`; a
+/// collapsed pot cannot be drained.
 Result<PreparedPot> prepare(const Pot& pot, const ExportOptions& options);
 
-/// The error with `name` before it, unless it begins with it.
+/// Puts `name` in front of the error unless the error begins with it.
 template <class T>
 Result<T> named(Result<T> result, const std::string& name) {
   if (result || name.empty() || result.error().message.starts_with(name)) return result;

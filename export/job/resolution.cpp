@@ -12,7 +12,7 @@ namespace {
 
 struct Extent {
   double radius = 0.0;
-  double reach = 0.0;  ///< from the origin
+  double reach = 0.0;  ///< distance from the origin
 };
 
 Extent extent_of(const Profile& profile) {
@@ -34,7 +34,7 @@ Result<std::size_t> forced_segments(std::size_t segments) {
 
 Result<std::size_t> segments_within(const Profile& profile, double tolerance_mm, double reach_mm) {
   const Extent extent = extent_of(profile);
-  // The vertices stand out a little beyond the radius; the factor 2 covers that and more.
+  // The vertices lie slightly outside the radius; the factor 2 covers that.
   const double rounding = std::ldexp(2.0 * std::max(extent.reach, reach_mm), -24);
   const double budget = tolerance_mm - rounding;
   const std::size_t segments = segments_for(extent.radius, budget);
@@ -54,11 +54,11 @@ Result<std::size_t> choose_segments(const Profile& profile, double tolerance_mm,
       .and_then([&](std::size_t segments) -> Result<std::size_t> {
         const std::size_t triangles = triangle_count(profile, segments);
         if (triangles <= kMaxTriangles || options.max_triangles) return segments;
-        return failure(ErrorKind::bad_input,
-                       "expected a mesh of at most " + std::to_string(kMaxTriangles) +
-                           " triangles, found that " + std::to_string(segments) +
-                           " segments make " + std::to_string(triangles) +
-                           "; ask for a larger tolerance or fewer segments");
+        return failure(ErrorKind::bad_input, "expected a mesh of at most " +
+                                                 std::to_string(kMaxTriangles) +
+                                                 " triangles, but " + std::to_string(segments) +
+                                                 " segments make " + std::to_string(triangles) +
+                                                 "; use a larger tolerance or fewer segments");
       });
 }
 
@@ -68,7 +68,7 @@ Result<void> check_pieces(const std::vector<PieceShape>& shapes, bool allow_piec
                  "expected a pot in one piece, found " + std::to_string(shapes.size()) +
                      " that do not touch: rings " + std::to_string(shapes[0].last_ring) + " and " +
                      std::to_string(shapes[1].first_ring) +
-                     " are the first that part; ask for pieces to be exported together (--pieces)");
+                     " are the first that do not touch; use --pieces to export several pieces");
 }
 
 }  // namespace clay::solid::inline job

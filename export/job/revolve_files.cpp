@@ -42,7 +42,7 @@ const TriangleMesh& RevolveFiles::mesh() {
   return *mesh_;
 }
 
-/// Margins where they cover the rounding; the exact test of the mesh in float32 where not.
+/// The margins, if they cover the rounding; otherwise the exact test of the mesh in float32.
 Result<Proof> RevolveFiles::prove_rounded(double rounding_mm) {
   if (rounding_mm < claims_.margins.safe_rounding_mm()) return Proof::margins;
   if (!exact_) {
@@ -73,8 +73,8 @@ Result<FileReport> RevolveFiles::stream(FileStore& store) {
   return finish(kFormat, std::move(certificate), store);
 }
 
-/// The digits read back as the same float32. To readers that take them for doubles they are another
-/// half unit of the last place off, at most.
+/// The printed digits read back as the same float32. A reader that uses doubles gets up to half a
+/// unit in the last place more error.
 Result<FileReport> RevolveFiles::write_text(MeshFormat format, FileStore& store) {
   const double rounding = 2.0 * float_rounding_mm(rule_);
   return prove_rounded(rounding).and_then([&](Proof proof) {
@@ -88,9 +88,9 @@ Result<FileReport> RevolveFiles::write_text(MeshFormat format, FileStore& store)
   });
 }
 
-/// On the coarsest grid that the tolerance allows and the margins cover. Where no grid is fine
-/// enough for the margins, ever finer ones until the mesh as decoded passes the exact test, or the
-/// last reason why not.
+/// Encodes on the coarsest grid that the tolerance permits and the margins cover. If no grid is
+/// fine enough for the margins, tries finer grids until the decoded mesh passes the exact test, or
+/// returns the last problem.
 Result<FileReport> RevolveFiles::write_drc(FileStore& store) {
   constexpr auto kFormat = MeshFormat::drc;
   const double allowed = std::max(options_.tolerance_mm, float_rounding_mm(rule_));
@@ -136,7 +136,8 @@ Result<FileReport> RevolveFiles::store_drc(const std::string& bytes, double reac
   return certify_bytes(MeshFormat::drc, reach_mm, Proof::margins, bytes, store);
 }
 
-/// `rounding_mm` bounds the move of every vertex; Draco's is measured on the file as read again.
+/// `rounding_mm` bounds the displacement of every vertex; for Draco it is measured on the file as
+/// read back.
 Result<FileReport> RevolveFiles::certify_bytes(MeshFormat format, double rounding_mm, Proof proof,
                                                const std::string& bytes, FileStore& store) {
   const std::string name = as_written(format);

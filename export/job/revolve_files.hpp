@@ -1,5 +1,5 @@
 #pragma once
-// One certified revolve, written in any format, read again, and certified as written.
+// One certified revolve, written in any format, read back, and certified as written.
 
 #include "claystack/core/result.hpp"
 #include "claystack/export/formats.hpp"
@@ -14,14 +14,14 @@ namespace clay::solid::inline job {
 
 class RevolveFiles {
  public:
-  /// `claims` are those before any rounding.
+  /// `claims`: before any rounding.
   RevolveFiles(const RevolveLayout& rule, const SolidCertificate& claims,
                const ExportOptions& options, Stages& stages)
       : rule_(rule), claims_(claims), options_(options), stages_(stages) {}
 
   Result<FileReport> write(MeshFormat format, FileStore& store);
 
-  /// False as long as every file could be streamed.
+  /// False if all files can be streamed.
   [[nodiscard]] bool made_mesh() const noexcept { return mesh_.has_value(); }
 
  private:
@@ -41,7 +41,7 @@ class RevolveFiles {
   const ExportOptions& options_;
   Stages& stages_;
   std::optional<TriangleMesh> mesh_;
-  std::optional<Result<void>> exact_;  ///< verdict on the mesh in float32, once asked for
+  std::optional<Result<void>> exact_;  ///< verdict on the mesh in float32, once needed
 };
 
 }  // namespace clay::solid::inline job

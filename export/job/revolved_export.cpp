@@ -17,12 +17,12 @@
 namespace clay::solid::inline job {
 namespace {
 
-/// Steps that a file's float32 cannot hold apart with a margin.
+/// Steps too narrow for float32 to separate with a margin.
 double min_step_mm(const ClayStack& stack) {
   return std::ldexp(std::hypot(largest_radius_mm(stack), stack.height_mm()), -19);
 }
 
-/// No step but floors and lids.
+/// True if the only steps are floors and lids.
 bool has_straight_walls(const ClayStack& stack) {
   const auto rings = stack.rings();
   for (std::size_t i = 1; i < rings.size(); ++i) {
@@ -33,7 +33,7 @@ bool has_straight_walls(const ClayStack& stack) {
   return true;
 }
 
-/// A section that has been proved, and how it is revolved.
+/// A proved section and its revolve.
 struct Design {
   ProvedSection section;
   SolidSize size;
@@ -57,7 +57,7 @@ class RevolvedExport {
   }
 
  private:
-  /// Once, whatever the tolerance.
+  /// Computed once; does not depend on the tolerance.
   Result<void> take_section() {
     return stages_.run("profile", [&] { return profile_of(stack_, min_step_mm(stack_)); })
         .map([&](StackProfile steps) {
@@ -67,7 +67,8 @@ class RevolvedExport {
         });
   }
 
-  /// As fine as asked for; with a budget of triangles, at the least tolerance that meets it.
+  /// At the requested resolution; with a limit of triangles, at the smallest tolerance that meets
+  /// it.
   Result<Design> design() {
     auto finest = design_at(options_.tolerance_mm);
     if (!finest || !options_.max_triangles || finest->size.triangles <= *options_.max_triangles)
@@ -119,7 +120,7 @@ class RevolvedExport {
 
   Result<void> smooth(ProvedSection& section, double tolerance_mm) {
     if (options_.smoothing == Smoothing::none && options_.lip_fillet_mm == 0.0)
-      section.no_smoothing = "not asked for";
+      section.no_smoothing = "not requested";
     else if (has_straight_walls(stack_) && options_.lip_fillet_mm == 0.0)
       section.no_smoothing = "the walls are straight";
     if (!section.no_smoothing.empty()) {

@@ -7,7 +7,7 @@
 
 namespace clay::solid::inline job {
 
-/// `run_export` for a pot that stands: its section, revolved.
+/// `run_export` for a standing pot: revolves its section.
 Result<ExportReport> export_revolved(const PreparedPot& prepared,
                                      const std::vector<Output>& outputs,
                                      const ExportOptions& options,

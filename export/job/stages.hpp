@@ -12,8 +12,8 @@
 
 namespace clay::solid::inline job {
 
-/// Runs stages, tells of each as it begins and adds up its time under its name. A stage does not
-/// begin once the job is no longer wanted.
+/// Runs stages, reports each at its start and adds up its time under its name. No stage starts
+/// after the job was cancelled.
 class Stages {
  public:
   Stages(std::vector<StageTime>& times, const std::function<void(std::string_view)>& progress)

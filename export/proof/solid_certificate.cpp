@@ -130,7 +130,7 @@ Result<Margins> same_claims(const SolidCertificate& stated, std::string_view fil
       .and_then([&] {
         return same_number(file, "chord", stated.margins.chord_mm, found.margins.chord_mm);
       })
-      .and_then([&] { return same("least wall", &SolidCertificate::wall_lower_mm); })
+      .and_then([&] { return same("minimum wall", &SolidCertificate::wall_lower_mm); })
       .and_then([&] { return same("wall's upper bound", &SolidCertificate::wall_upper_mm); })
       .and_then([&] { return same("volume", &SolidCertificate::volume_mm3); })
       .and_then([&] { return same("volume bound", &SolidCertificate::volume_bound_mm3); })
@@ -218,7 +218,7 @@ Result<void> verify_certificate(const SolidCertificate& certificate, std::string
       .and_then(
           [&](const TriangleMesh& decoded) { return same_mesh(certificate, decoded, file_name); });
 } catch (const std::exception& e) {
-  return failure(ErrorKind::io, std::string(file_name) + ": verification given up: " + e.what());
+  return failure(ErrorKind::io, std::string(file_name) + ": verification failed: " + e.what());
 }
 
 }  // namespace clay::solid::inline proof

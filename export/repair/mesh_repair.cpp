@@ -63,7 +63,7 @@ class HalfEdgeRepair {
 
   Result<TriangleMesh> run() {
     note_touching();
-    if (!make_surface()) return failure(ErrorKind::unsound, "repair gave up: no surface found");
+    if (!make_surface()) return failure(ErrorKind::unsound, "repair failed: no surface found");
     pmp::stitch_borders(surface_, CGAL::parameters::apply_per_connected_component(true));
     pmp::stitch_borders(surface_);
     pmp::duplicate_non_manifold_vertices(surface_);
@@ -223,7 +223,7 @@ Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh) try {
                                            std::to_string(mesh.triangles.size()));
   return repair_unsound(mesh);
 } catch (const std::exception& e) {
-  return failure(ErrorKind::unsound, std::string("repair gave up: ") + e.what());
+  return failure(ErrorKind::unsound, std::string("repair failed: ") + e.what());
 }
 
 }  // namespace clay::solid::inline repair

@@ -13,7 +13,7 @@ namespace clay::solid::inline smoothing {
 namespace {
 
 constexpr std::size_t kFrusta = 4;
-/// How many rings back a new cut can change the ends of runs.
+/// A new cut can change the ends of runs up to this many rings back.
 constexpr std::size_t kCutReach = 3;
 
 using RingLine = std::array<ProfilePoint, kFrusta + 1>;
@@ -95,12 +95,12 @@ class ExactWallMaker {
     return widest;
   }
 
-  /// The radius of the ring that would go on below (or above) ring `i`, the last of its run.
+  /// The radius of a hypothetical ring below (or above) ring `i`, the last of its run.
   double virtual_radius(std::size_t i, bool below) const {
     const double own = wall_.radius[i];
     const bool ends_piece = below ? i == 0 : i + 1 == piece_.size();
     if (ends_piece && (below ? piece_.stands_on_piece : piece_.carries_piece)) return own;
-    // The interfaces on the other side of the ring and of the one beyond it.
+    // The interfaces on the other side of the ring and of its neighbour.
     const std::size_t near = below ? i + 1 : i;
     if (cut_[near] != 0) return own;
     const std::size_t next = below ? i + 1 : i - 1, far = below ? i + 2 : i - 1;
@@ -134,7 +134,7 @@ class ExactWallMaker {
                      piece_.height_mm(k));
     if (virtual_radius(i, below) == wall_.radius[i]) return wall_.square[i];
     if (k == 0 || k == piece_.size()) return end_square(i, below);
-    // The two ends of a cut may come so close that no tread is left: then neither goes on.
+    // The two ends of a cut may come so close that no tread remains: then neither is extrapolated.
     const double lower = end_square(k - 1, false), upper = end_square(k, true);
     if (std::abs(std::sqrt(lower) - std::sqrt(upper)) < piece_.least_step_mm)
       return wall_.square[i];

@@ -1,5 +1,5 @@
 #pragma once
-// Straight from middle to middle, and scaled to the volume of the rings.
+// Straight lines between the middles of rings, scaled to the volume of the rings.
 
 #include "claystack/export/section.hpp"
 #include "export/smoothing/piece_walls.hpp"
@@ -8,26 +8,26 @@
 
 namespace clay::solid::inline smoothing {
 
-/// A wall from the bottom up: within every run straight to the middle of its first ring, from
-/// middle to middle, and straight to its end, so that at each height the radius is a mean of two
-/// rings' own, with the same weights for both walls. Middles that the line can spare within their
-/// ring's tolerance are left out (`simplified`).
+/// A wall from the bottom up. In every run it is straight to the middle of the first ring, from
+/// middle to middle, and straight to the end; at each height the radius is a mean of two rings'
+/// radii, with the same weights for both walls. Middles within their ring's tolerance of the line
+/// without them are omitted (`simplified`).
 [[nodiscard]] Polygon fair_wall(const PieceWalls& piece, const WallRings& wall, const CutFlags& cut,
                                 const std::vector<double>& tolerances_mm);
 
-/// The steps as they are.
+/// The unsmoothed steps.
 [[nodiscard]] Polygon stepped_wall(const PieceWalls& piece, const WallRings& wall);
 
-/// Integral of rho^2 dy along a line from the bottom up [mm^3]: the volume it sweeps, over pi.
+/// Integral of rho^2 dy along a line from the bottom up [mm^3]: the volume of revolution divided by
+/// pi.
 [[nodiscard]] double swept_over_pi(const Polygon& line) noexcept;
 
-/// The share of itself that each radius of `line` must gain (or lose) for the line to sweep
-/// `wanted_over_pi` [mm^3], times its weight; the quadratic is solved as it stands. 0 where the
-/// weights leave nothing to move.
+/// The relative change, times its weight, of each radius of `line` that gives the line the volume
+/// `wanted_over_pi` [mm^3]; solves the quadratic directly. 0 if all weights are 0.
 [[nodiscard]] double scale_for(const Polygon& line, const std::vector<double>& weights,
                                double wanted_over_pi) noexcept;
 
-/// rho (1 + weight share) for every point; the largest move [mm] is returned.
+/// Scales every rho by 1 + weight share. Returns the largest displacement [mm].
 double scale(Polygon& line, const std::vector<double>& weights, double share) noexcept;
 
 }  // namespace clay::solid::inline smoothing

@@ -8,19 +8,19 @@
 namespace clay::solid::inline smoothing {
 namespace {
 
-constexpr double kShrink = 0.9;      ///< of the radius, until the arcs fit
-constexpr double kLeastFlat = 1e-3;  ///< between the arcs, in radii
-constexpr double kHalf = 0.499;      ///< what leaves a flat
+constexpr double kShrink = 0.9;      ///< factor on the radius until the arcs fit
+constexpr double kLeastFlat = 1e-3;  ///< minimum flat between the arcs, in radii
+constexpr double kHalf = 0.499;      ///< slightly below a half, so that a flat remains
 
-/// A circle under the top that touches the wall from within the clay.
+/// A circle inside the clay that touches the top and the wall.
 struct Fillet {
   double centre_rho = std::numeric_limits<double>::max();
   ProfilePoint touch;
   std::size_t below = 0;  ///< points of the line from the bottom to the touch
 };
 
-/// The circle nearest to the clay's side of all those that touch an edge or a bend. Radii are
-/// measured toward the open air, so that clay always lies at the smaller ones.
+/// Of all circles that touch an edge or a bend, the one deepest in the clay. Radii are measured
+/// towards the air, so that the clay is always at smaller radii.
 class FilletSearch {
  public:
   FilletSearch(const Polygon& line, double radius_mm)

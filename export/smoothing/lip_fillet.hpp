@@ -3,18 +3,18 @@
 
 namespace clay::solid::inline smoothing {
 
-/// Both edges of the lip rounded by arcs that touch the top and the wall (at a bend of the wall,
-/// the bend), sampled so that no chord strays from its arc by more than `tolerance_mm`. The radius
-/// is at most `largest_fillet_mm`; where arcs of leaning walls would still meet, less.
+/// Rounds both edges of the lip by arcs that touch the top and the wall (or a bend of the wall).
+/// The chords are within `tolerance_mm` of the arcs. The radius is at most `largest_fillet_mm`; it
+/// is smaller if the arcs of inclined walls would meet.
 struct FilletedLip {
   WallLines lines;
-  double radius_mm = 0.0;  ///< as made
+  double radius_mm = 0.0;  ///< radius as made
 };
 [[nodiscard]] FilletedLip with_lip_fillet(const WallLines& lines, double radius_mm,
                                           double tolerance_mm);
 
-/// Half the width of the lip (of a lip without a bore, half its radius), and half the height of
-/// the last run below it.
+/// Half the width of the lip (half its radius if there is no bore), or half the height of the last
+/// run below it, whichever is smaller.
 [[nodiscard]] double largest_fillet_mm(const PieceWalls& piece, const Cuts& cuts,
                                        const WallLines& lines);
 

@@ -12,7 +12,7 @@ constexpr double kFeatureRatio = 6.0;
 constexpr double kFeatureHeights = 0.5;
 constexpr std::size_t kFeatureReach = 3;
 
-/// One more ring: its radius and the square of it.
+/// Appends a ring: its radius and the square of the radius.
 void add_ring(WallRings& wall, Quanta square) {
   wall.radius.push_back(radius_from_quanta(square));
   wall.square.push_back(mm2_from_quanta(square));
@@ -22,7 +22,7 @@ double tread_mm(const WallRings& wall, std::size_t interface) {
   return std::abs(wall.radius[interface] - wall.radius[interface - 1]);
 }
 
-/// The two widest steps met so far.
+/// The two widest steps so far.
 struct Widest {
   double first = 0.0, second = 0.0;
   std::size_t steps = 0;
@@ -38,7 +38,7 @@ struct Widest {
   }
 };
 
-/// `ends` holds where the wall begins and ends: steps beyond are another wall's.
+/// `ends` marks where the wall begins and ends; steps beyond belong to another wall.
 bool is_feature(const PieceWalls& piece, const WallRings& wall, const CutFlags& ends,
                 std::size_t interface) {
   const double tread = tread_mm(wall, interface);
@@ -49,8 +49,8 @@ bool is_feature(const PieceWalls& piece, const WallRings& wall, const CutFlags& 
   for (std::size_t k = interface + 1; k <= interface + kFeatureReach && ends[k] == 0; ++k)
     others.add(tread_mm(wall, k));
   if (others.steps < 2) return false;
-  // A flange or a groove has a second edge; where few steps are left to compare, none is passed
-  // over.
+  // A flange or a groove has a second edge, so the widest other step is ignored, unless there are
+  // too few steps.
   return tread > kFeatureRatio * (others.steps < 4 ? others.first : others.second);
 }
 

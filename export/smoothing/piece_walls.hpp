@@ -1,5 +1,5 @@
 #pragma once
-// The two walls of a piece ring by ring, and the corners that smoothing leaves in them.
+// The two walls of a piece, ring by ring, and the corners that smoothing keeps.
 
 #include "export/section/stack_section.hpp"
 
@@ -10,18 +10,19 @@ namespace clay::solid::inline smoothing {
 
 /// One wall of a piece, ring by ring from the bottom.
 struct WallRings {
-  std::vector<double> radius;  ///< [mm]; 0 where there is no bore
-  std::vector<double> square;  ///< of the radius [mm^2]
+  std::vector<double> radius;  ///< [mm]; 0 without a bore
+  std::vector<double> square;  ///< square of the radius [mm^2]
 };
 
-/// The top ring of the stack counts with the crown as one taller ring.
+/// The top ring of the stack and the crown count as one taller ring.
 struct PieceWalls {
   std::vector<double> level;  ///< [mm] ring i spans level[i] to level[i + 1]
   double ring_height_mm = 0.0;
-  double top_height_mm = 0.0;  ///< of the last ring
+  double top_height_mm = 0.0;  ///< height of the last ring
   WallRings outer, bore;
-  double clay_over_pi = 0.0;     ///< counted volume / pi [mm^3]
-  double least_step_mm = 0.0;    ///< narrower treads do not survive float32: they are never cut
+  double clay_over_pi = 0.0;  ///< counted volume / pi [mm^3]
+  double least_step_mm =
+      0.0;  ///< narrower treads cannot be represented in float32: they are never cut
   bool stands_on_piece = false;  ///< another piece ends at its foot,
   bool carries_piece = false;    ///< or begins at its top
 
@@ -33,23 +34,23 @@ struct PieceWalls {
 [[nodiscard]] PieceWalls walls_of(const ClayStack& stack, RingRange piece);
 
 /// A flag for each interface of a piece: [k] is the level below ring k. Foot and lip, [0] and
-/// [size()], are always set. A wall that is cut there keeps the level tread between its two radii;
-/// between cuts it is smoothed. Cut everywhere, it is the steps as they are.
+/// [size()], are always set. A cut wall keeps the level tread between its two radii; between cuts
+/// it is smoothed. If all interfaces are cut, the wall consists of the steps.
 using CutFlags = std::vector<char>;
 
 struct Cuts {
   CutFlags outer, bore;
 };
 
-/// Where no smoothing should cut a corner: foot, lip, where a bore begins or ends (in the bore
-/// only), and features. A feature is a tread of half a ring's height or more that is over six
-/// times as wide as the second widest of the three steps below it and the three above (where there
-/// are fewer than four, the widest): a ledge, a gallery, or a flange, whose own other edge may be
-/// the widest. Even slopes have no such tread and noise hardly ever; a wall of fewer than four
-/// rings tells too little to have one.
+/// Corners that smoothing must keep: foot, lip, the ends of a bore (in the bore only), and
+/// features. A feature is a tread of at least half a ring's height that is over six times as wide
+/// as the second widest of the three steps below it and the three above (the widest, if there are
+/// fewer than four steps): a ledge, a gallery, or a flange, whose other edge may be the widest
+/// step. Even slopes have no such tread, and noise hardly ever; a wall of fewer than four rings is
+/// too short to show one.
 [[nodiscard]] Cuts corners_of(const PieceWalls& piece);
 
-/// Calls `visit(first, end)` for every stretch of rings between two cuts.
+/// Calls `visit(first, end)` for every run of rings between two cuts.
 template <class Visit>
 void for_each_run(const CutFlags& cut, Visit visit) {
   for (std::size_t first = 0, end = 1; end < cut.size(); ++end)

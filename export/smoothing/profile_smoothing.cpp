@@ -46,7 +46,7 @@ class PieceSmoother {
   PieceSmoother(const PieceWalls& piece, const SmoothingOptions& options)
       : piece_(piece),
         options_(options),
-        // Never 0, so that walls that would meet are found here and corrected.
+        // Never 0, so that the guard finds and corrects walls that would meet.
         limit_(options.min_wall_mm ? std::max(*options.min_wall_mm, piece.least_step_mm)
                                    : least_own_wall_mm(piece)),
         plan_(piece),
@@ -85,7 +85,7 @@ class PieceSmoother {
     return std::move(made.line);
   }
 
-  /// Whether the guard found walls too thin, and something to take back there.
+  /// True if the guard found walls too thin and could undo some smoothing there.
   bool guard_found_more() {
     if (!thinner_than(piece_, lines_, limit_)) return false;
     const RingFlags suspects = rings_near_thin(piece_, lines_, limit_);
@@ -100,13 +100,13 @@ class PieceSmoother {
 
   struct Correction {
     WallLines lines;
-    double lacking_over_pi = 0.0;  ///< what was given, below 0 taken [mm^3]
-    double moved_mm = 0.0;         ///< the farthest that a wall has moved
+    double lacking_over_pi = 0.0;  ///< volume added, negative if removed [mm^3]
+    double moved_mm = 0.0;         ///< largest displacement of a wall
     double fillet_mm = 0.0;
   };
 
-  /// Gives back (or takes) what chords, simplification and fillet have changed. False when that
-  /// would move the walls too far, and jumps were cut or the simplification left out instead.
+  /// Compensates the volume changed by chords, simplification and fillet. False if that would move
+  /// the walls too far; then jumps were cut or the simplification was undone instead.
   bool volume_kept() {
     RingFlags rings(piece_.size(), 1);
     Correction correction = corrected(rings, 0.0);
@@ -142,8 +142,8 @@ class PieceSmoother {
     lines_ = std::move(correction.lines);
   }
 
-  /// A fillet is cut into the scaled wall, so that its arcs stay round; what it then takes
-  /// changes the scale a little. The last round scales what little is left as it stands.
+  /// The fillet is applied after scaling, so that its arcs stay round; the clay that it removes
+  /// changes the scale a little. The last round only scales the small remainder.
   Correction corrected(const RingFlags& rings, double fillet_mm) const {
     Correction made;
     WallLines scaled = lines_;
@@ -165,7 +165,7 @@ class PieceSmoother {
     }
   }
 
-  /// 1 for the points whose edges lie in flagged rings only, else 0.
+  /// 1 for points whose edges all lie in flagged rings, else 0.
   std::vector<double> weights_of(const Polygon& line, const RingFlags& rings) const {
     std::vector<double> weights(line.size(), 1.0);
     std::size_t first = 0;
@@ -178,13 +178,13 @@ class PieceSmoother {
     return weights;
   }
 
-  /// How far the volume correction may move a wall: no more than simplification does, or than
-  /// what is invisible beside the rings.
+  /// The largest displacement of a wall by the volume correction: that of the simplification, or an
+  /// invisible fraction of a ring.
   double allowed_move_mm() const {
     return std::max(options_.tolerance_mm, kInvisibleHeights * piece_.ring_height_mm);
   }
 
-  /// Rings that can spare such a move without coming near what the guard promises.
+  /// Rings that can be moved that far without approaching the limit of the guard.
   RingFlags thick_rings() const {
     const double spare = 2.0 * allowed_move_mm();  // across a solid both sides move
     const RingFlags all(piece_.size(), 1);
@@ -226,7 +226,7 @@ SmoothedPiece smooth_piece(const PieceWalls& piece, const SmoothingOptions& opti
   return PieceSmoother(piece, options).run();
 }
 
-/// The error, or nothing.
+/// The error, if any.
 Result<void> check_range(const std::string& option, double value, bool zero_allowed) {
   if (std::isfinite(value) && (value > 0.0 || (zero_allowed && value == 0.0))) return {};
   return failure(ErrorKind::bad_input, option + ": expected " +
@@ -236,19 +236,19 @@ Result<void> check_range(const std::string& option, double value, bool zero_allo
 
 Result<void> check(const SmoothingOptions& options) {
   return check_range("tolerance", options.tolerance_mm, false)
-      .and_then([&] { return check_range("least wall", options.min_wall_mm.value_or(0.0), true); })
+      .and_then(
+          [&] { return check_range("minimum wall", options.min_wall_mm.value_or(0.0), true); })
       .and_then([&] { return check_range("lip fillet", options.lip_fillet_mm, true); })
       .and_then([&] {
         return check_range("overshoot limit", options.overshoot_limit_mm.value_or(0.0), true);
       })
       .and_then([&]() -> Result<void> {
         if (options.mode == Smoothing::fair || options.lip_fillet_mm == 0.0) return {};
-        return failure(ErrorKind::bad_input,
-                       "lip fillet: expected fair smoothing, found " +
-                           std::string(name_of(options.mode)) +
-                           (options.mode == Smoothing::exact
-                                ? ", in which the top rings keep the clay that a fillet takes"
-                                : ", which keeps the steps as they are"));
+        return failure(
+            ErrorKind::bad_input,
+            "lip fillet: expected fair smoothing, found " + std::string(name_of(options.mode)) +
+                (options.mode == Smoothing::exact ? ", in which the top rings keep all their clay"
+                                                  : ", which keeps the steps"));
       });
 }
 
@@ -268,8 +268,8 @@ void smooth_pieces(const ClayStack& stack, const SmoothingOptions& options,
   }
 }
 
-/// Each piece is certified alone. What is left is that a scaled wall meets the next piece at the
-/// level where it begins: then both keep their steps.
+/// Each piece is certified alone. A scaled wall may still meet the next piece at the level where
+/// that begins: then both keep their steps.
 void keep_pieces_apart(const ClayStack& stack, SmoothedProfile& result) {
   std::vector<Polygon>& pieces = result.section.profile.pieces;
   if (pieces.size() < 2 || certify(result.section.profile)) return;

@@ -3,7 +3,7 @@
 
 namespace clay::solid::inline smoothing {
 
-/// `smooth_profile_of` where the steps of the stack are known already.
+/// `smooth_profile_of` for a stack whose steps are known already.
 Result<SmoothedProfile> smoothed_profile(const ClayStack& stack, StackProfile steps,
                                          const SmoothingOptions& options);
 

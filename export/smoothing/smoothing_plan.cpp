@@ -68,7 +68,7 @@ std::vector<double> SmoothingPlan::tolerances(double share_mm) const {
   return result;
 }
 
-/// What makes a wall thin is no farther away than the wall is thick: in rings.
+/// The cause of a thin wall is at most as far away as the wall is thick; in rings.
 std::size_t SmoothingPlan::reach_of(double wall_mm) const {
   const double rings = wall_mm / piece_.ring_height_mm + 2.0;
   return rings < static_cast<double>(piece_.size()) ? static_cast<std::size_t>(rings)
@@ -103,7 +103,7 @@ bool SmoothingPlan::open(std::size_t k) const {
   return open(piece_.outer, cuts_.outer, k) || open(piece_.bore, cuts_.bore, k);
 }
 
-/// The first open interface from k on, or the top. Shortens the way for the next search.
+/// The first open interface from k on, or the top. Compresses the path for the next search.
 std::size_t SmoothingPlan::next_open(std::size_t k) {
   std::size_t end = k;
   while (end < piece_.size() && (next_[end] != end || !open(end))) {
@@ -146,8 +146,8 @@ bool SmoothingPlan::keep_steps(const std::vector<ThinRing>& thin) {
   return more;
 }
 
-/// What the chords between two middles lose against the steps, over pi: a step of R costs h/6 of
-/// its square, and one of the bore gains that.
+/// The volume that the chords between two middles lose against the steps, over pi: a step of R
+/// costs h/6 of its square, and a step of the bore gains that.
 double SmoothingPlan::chord_loss(std::size_t k) const {
   const auto step2 = [k](const WallRings& wall, const CutFlags& cut) {
     const double step = cut[k] == 0 ? wall.radius[k] - wall.radius[k - 1] : 0.0;

@@ -7,12 +7,12 @@
 
 namespace clay::solid::inline smoothing {
 
-/// The interfaces of a piece that became cuts for one reason, gathered into stretches.
+/// The interfaces of a piece that became cuts for one reason, grouped into stretches.
 class KeptStretches {
  public:
   explicit KeptStretches(const PieceWalls& piece) : piece_(piece) {}
 
-  /// An interface, and the figure that was the reason; of several the least counts.
+  /// Adds an interface with the value that caused the cut; the smallest of several is kept.
   void add(std::size_t interface, double figure);
 
   [[nodiscard]] bool empty() const noexcept { return least_.empty(); }
@@ -20,24 +20,24 @@ class KeptStretches {
   /// A flag for each ring beside one of these interfaces.
   [[nodiscard]] std::vector<char> rings() const;
 
-  /// Appends a report for each stretch. `walls_mm`, by ring, is what is there now, or empty.
+  /// Appends a report for each stretch. `walls_mm`: current wall by ring, or empty.
   void report(KeptFor reason, const std::vector<double>& walls_mm,
               std::vector<KeptSteps>& reports) const;
 
  private:
   const PieceWalls& piece_;
-  std::vector<double> least_;  ///< by interface; infinite where nothing was kept
+  std::vector<double> least_;  ///< by interface; infinite if not cut
 };
 
-/// A ring whose smoothed wall is thinner than it may be.
+/// A ring whose smoothed wall is too thin.
 struct ThinRing {
   std::size_t ring = 0;
   double wall_mm = 0.0;
 };
 
-/// What is smoothed where, and how the wall guard takes it back, step by step: first the
-/// simplification, then the smoothing. Every step takes something back for good, so that in the end
-/// nothing is left but the steps as they are.
+/// The current extent of smoothing. The wall guard undoes it step by step: first the
+/// simplification, then the smoothing. Every undo is permanent, so in the worst case only the steps
+/// remain.
 class SmoothingPlan {
  public:
   explicit SmoothingPlan(const PieceWalls& piece);
@@ -46,21 +46,21 @@ class SmoothingPlan {
   [[nodiscard]] CutFlags& bore_cuts() noexcept { return cuts_.bore; }
   [[nodiscard]] const Cuts& cuts() const noexcept { return cuts_; }
 
-  /// For each ring, where `share_mm` is what is allowed at first.
+  /// The tolerance of each ring; `share_mm`: the initial one.
   [[nodiscard]] std::vector<double> tolerances(double share_mm) const;
 
-  /// Smaller tolerances about thin rings, given from the bottom up; in the end 0. False where
-  /// there was none left to take back.
+  /// Reduces the tolerances around thin rings, given from the bottom up, finally to 0. False if
+  /// they all are 0 already.
   bool refine(const std::vector<ThinRing>& thin);
   bool refine_everywhere();
 
-  /// Cuts the interfaces of thin rings in both walls, and where these are cut already, the nearest
-  /// of those about them. False when all are cut.
+  /// Cuts the interfaces of thin rings in both walls, or the nearest uncut ones around them. False
+  /// if all are cut.
   bool keep_steps(const std::vector<ThinRing>& thin);
 
   /// Cuts the jumps whose chords change the volume most, until they account for `excess_over_pi`
-  /// [mm^3] that smoothing has lost (below 0: gained). `moved_mm` is what giving it back by scaling
-  /// would move, for the report. False when there are none.
+  /// [mm^3] that smoothing has lost (negative: gained). `moved_mm`: displacement that compensation
+  /// by scaling would need, for the report. False if there are no such jumps.
   bool keep_jumps(double excess_over_pi, double moved_mm);
 
   [[nodiscard]] const KeptStretches& kept_for_wall() const noexcept { return thinned_; }
@@ -77,8 +77,8 @@ class SmoothingPlan {
 
   const PieceWalls& piece_;
   Cuts cuts_;
-  std::vector<char> refinement_;   ///< of each ring's tolerance: how many times
-  std::vector<std::size_t> next_;  ///< from each interface toward the next open one
+  std::vector<char> refinement_;   ///< how often each ring's tolerance was reduced
+  std::vector<std::size_t> next_;  ///< for each interface, a link towards the next open one
   KeptStretches thinned_, jumps_;
 };
 

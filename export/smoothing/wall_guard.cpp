@@ -35,7 +35,7 @@ ProfilePoint point_at(const LineEdge& edge, double y) {
   return {edge.from.rho + t * (edge.to.rho - edge.from.rho), y};
 }
 
-/// The part of an edge between two heights. False when only an end of a rising edge touches them.
+/// The part of an edge between two heights. False if a rising edge only touches them with its end.
 bool clip(LineEdge& edge, double bottom, double top) {
   if (edge.from.y == edge.to.y) return bottom <= edge.from.y && edge.from.y <= top;
   if (edge.to.y <= bottom || top <= edge.from.y) return false;
@@ -43,8 +43,8 @@ bool clip(LineEdge& edge, double bottom, double top) {
   return true;
 }
 
-/// Calls `visit(first, end, edge)` for every edge of a wall and the rings whose heights it meets.
-/// Edges along the axis are no wall.
+/// Calls `visit(first, end, edge)` for every edge of a wall and the rings at its heights. Edges
+/// along the axis are not part of a wall.
 template <class Visit>
 void for_each_edge(const PieceWalls& piece, const Polygon& line, Visit visit) {
   std::size_t first = 0;
@@ -71,7 +71,7 @@ void for_each_clipped(const PieceWalls& piece, const Polygon& line, const RingFl
 
 void keep_least(double& least, double found) { least = std::min(least, found); }
 
-/// Twice the least radius of the outer wall where clay reaches the axis.
+/// Twice the smallest radius of the outer wall where clay reaches the axis.
 double least_across(const PieceWalls& piece, const Polygon& outer, double least) {
   const std::vector<SolidStretch> stretches = solid_stretches(piece);
   auto begin = stretches.begin();
@@ -88,7 +88,7 @@ double through_clay(const LineTree& outer, const LineTree& bore, double bound) {
   return std::sqrt(outer.nearest2(bore, bound * bound));
 }
 
-/// What the search for the least wall starts from: the walls along the radius, treads included.
+/// Start value of the search for the minimum wall: the walls along the radius, treads included.
 double least_radial(const PieceWalls& piece) {
   const auto &outer = piece.outer.radius, &bore = piece.bore.radius;
   double least = std::numeric_limits<double>::max();

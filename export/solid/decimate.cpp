@@ -118,7 +118,7 @@ Result<DecimatedMesh> decimate(const TriangleMesh& sound_mesh, std::size_t max_t
   if (sound_mesh.triangles.size() <= max_triangles) return DecimatedMesh{sound_mesh, 0.0};
   return decimate_closed(sound_mesh, max_triangles);
 } catch (const std::exception& e) {
-  return failure(ErrorKind::unsound, std::string("decimation gave up: ") + e.what());
+  return failure(ErrorKind::unsound, std::string("decimation failed: ") + e.what());
 }
 
 }  // namespace clay::solid

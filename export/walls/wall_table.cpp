@@ -40,7 +40,7 @@ std::vector<Stretch> thin_stretches(const Profile& profile, double min_wall_mm) 
 }  // namespace
 
 std::string wall_text(double thinnest_mm, const WallLimit& limit) {
-  return fmt::format("{:.3f} mm, expected {:.3f} mm at least ({})", thinnest_mm, limit.min_wall_mm,
+  return fmt::format("{:.3f} mm, expected at least {:.3f} mm ({})", thinnest_mm, limit.min_wall_mm,
                      limit.asked_by());
 }
 

@@ -6,7 +6,7 @@
 namespace clay::falcon::inline safety {
 namespace {
 
-// With g t <= 1/4 and k t^2 <= 1/16 the terms left out are below 2^-53 of the first.
+// With g t <= 1/4 and k t^2 <= 1/16 the omitted terms are below 2^-53 of the first.
 constexpr int kTerms = 16;
 constexpr double kShort = 0.25;
 constexpr int kMostDoublings = 200;
@@ -62,7 +62,7 @@ ArmResponse short_response(double decay, double spring, double t) noexcept {
   return r;
 }
 
-/// The same response once more, from where the first one ended.
+/// The response over twice the time.
 ArmResponse twice(const ArmResponse& r) noexcept {
   const auto after = [&r](const glm::dvec2& factors) {
     return factors.x * r.velocity + factors.y * r.acceleration;

@@ -8,7 +8,7 @@
 
 namespace clay::falcon::inline safety {
 
-/// What a velocity w and an acceleration a become: pairs are the factors of (w, a).
+/// The later velocity and acceleration as linear functions of (w, a): pairs of factors.
 struct ArmResponse {
   glm::dvec2 path{0.0, 0.0};
   glm::dvec2 velocity{1.0, 0.0};

@@ -33,7 +33,7 @@ bool EnergyObserver::observe(double dt_s, const glm::dvec3& held_n, const glm::d
   const bool asks = glm::length(asked_n) > 0.0;
   quiet_ticks_ = asks ? 0 : quiet_ticks_ + 1;
   if (asks && !in_contact_) begin_contact(dt_s, way_m);
-  // The last forces of a contact are on their way when it has ceased to ask for any.
+  // When a contact stops requesting force, its last forces are still delayed.
   const bool ends = in_contact_ && quiet_ticks_ >= drain_ticks_;
   if (ends) end_contact();
   return ends;
@@ -81,8 +81,8 @@ void EnergyObserver::follow_stroke(double dt_s, double held_n, double inward_m) 
   credit_stroke();
 }
 
-/// The spring may have stored no less than the smaller force along the way deeper, and have given
-/// no more than the larger one along the way out.
+/// The spring has stored at least the smaller force times the distance inward, and has released at
+/// most the larger force times the distance outward.
 void EnergyObserver::close_loop() noexcept {
   const Turn turn{injected_, stroke_.furthest_m, stroke_.force_n};
   if (last_turn_) {
@@ -95,8 +95,9 @@ void EnergyObserver::close_loop() noexcept {
   last_turn_ = turn;
 }
 
-/// The arm's own damping takes at least b L^2 / t out of a way L in the time t (Cauchy, Schwarz),
-/// and an encoder knows L to a step. Pieces of some steps lose little by either.
+/// The arm's damping dissipates at least b L^2 / t over a distance L in the time t (Cauchy,
+/// Schwarz), and an encoder measures L to one step. Pieces of several steps lose little by either
+/// bound.
 void EnergyObserver::credit_stroke() noexcept {
   Stroke& s = stroke_;
   const double length = std::abs(s.furthest_m - s.from_m), sure = std::max(0.0, length - step_m_);

@@ -1,6 +1,6 @@
 #pragma once
-// The guard as a template over its rules: force_guard.cpp compiles the one that has them all, and
-// tests compile guards that lack one and show what gets through.
+// The guard as a template over its rules: force_guard.cpp compiles the one with all rules; tests
+// compile guards that lack one, to show its effect.
 
 #include "claystack/falcon/guard.hpp"
 #include "core/limit_norm.hpp"
@@ -37,24 +37,24 @@ struct NamedGuardRule {
 };
 
 inline constexpr NamedGuardRule kGuardRules[] = {
-    {kRuleFinite, "finite or zero"},
-    {kRuleNotFiniteLatch, "three not finite are SAFE"},
+    {kRuleFinite, "finite force"},
+    {kRuleNotFiniteLatch, "SAFE after three invalid values"},
     {kRuleLimit, "limit of the norm"},
     {kRuleSlew, "slew"},
     {kRuleSmallForce, "small force first"},
     {kRuleRamp, "ramp"},
     {kRuleReady, "ready or zero"},
     {kRuleStaleFrames, "stale frames fade"},
-    {kRulePause, "after a pause, again"},
+    {kRulePause, "re-engagement after a pause"},
     {kRuleJump, "jumps"},
     {kRuleStep, "step within bounds"},
     {kRuleLate, "late tick is zero"},
-    {kRuleOverrun, "overrun is SAFE"},
+    {kRuleOverrun, "SAFE after an overrun"},
     {kRuleOldClay, "old clay fades"},
-    {kRulePassive, "passive or SAFE"},
+    {kRulePassive, "SAFE if not passive"},
     {kRuleHeat, "heat"},
     {kRuleLatch, "SAFE holds"},
-    {kRuleStop, "stop is for good"},
+    {kRuleStop, "stop is permanent"},
 };
 
 [[nodiscard]] constexpr bool clears_itself(SafeCause cause) noexcept {
@@ -98,7 +98,7 @@ bool BasicForceGuard<rules>::is_new_frame(const GuardSample& sample) noexcept {
   return true;
 }
 
-/// Whether the frame is plausible, and so shows the hand.
+/// True if the frame is plausible.
 template <std::uint32_t rules>
 bool BasicForceGuard<rules>::take_frame(std::int64_t now_us, const GuardSample& sample,
                                         Admission& admission) noexcept {
@@ -187,7 +187,7 @@ glm::dvec3 BasicForceGuard<rules>::limit(const glm::dvec3& wanted_n) noexcept {
   return on(kRuleLimit) ? limit_norm(wanted_n, settings_.force_limit_n) : wanted_n;
 }
 
-/// What is left of the force while frames, clay or motors say to let go, 0 to 1.
+/// Remaining fraction of the force while it fades because of frames, clay or motors, 0 to 1.
 template <std::uint32_t rules>
 double BasicForceGuard<rules>::let_go(const TickTime& time, std::int64_t now_us) noexcept {
   const double frame_s = frame_age_.at(now_us), clay_s = clay_age_.at(now_us);
@@ -219,7 +219,7 @@ glm::dvec3 BasicForceGuard<rules>::rise(const glm::dvec3& force_n, double growin
   if (!on(kRuleSlew)) return force_n;
   const glm::dvec3 risen = limit_rise(force_n, sent_n_, settings_.slew_n_per_s * growing_s);
   if (risen != force_n) flags_ |= kGuardSlewed;
-  // On the way between two forces that keep the limit, but for rounding.
+  // Between two forces within the limit, apart from rounding.
   return on(kRuleLimit) ? limit_norm(risen, settings_.force_limit_n) : risen;
 }
 

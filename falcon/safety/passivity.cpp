@@ -10,7 +10,8 @@
 namespace clay::falcon::inline safety {
 namespace {
 
-// One debt may be a slip; a few, with no good while between them, are a rattle.
+// A single debt may be accidental; several without a quiet interval between them are an
+// oscillation.
 constexpr int kMostDebts = 3;
 constexpr double kGoodWhileS = 2.0;
 constexpr double kYield = 0.5;
@@ -128,7 +129,7 @@ glm::dvec3 PassivityController::answer(double dt_s, const glm::dvec3& way_m,
   return state_ == PassivityState::damping ? force + damping(dt_s, way_m) : force;
 }
 
-/// Equation (10) of the paper: as much as takes the debt back within a period.
+/// Equation (10) of the paper: the damping that removes the debt within a period.
 glm::dvec3 PassivityController::damping(double dt_s, const glm::dvec3& way_m) const noexcept {
   const double square = glm::dot(way_m, way_m);
   if (!(square > 0.0)) return glm::dvec3(0.0);
@@ -137,9 +138,9 @@ glm::dvec3 PassivityController::damping(double dt_s, const glm::dvec3& way_m) co
   return -amount / dt_s * way_m;
 }
 
-/// The smaller of two springs: the one asked for, and one as stiff as may be, from where the
-/// contact began. A contact softer than that passes unchanged; what a contact that lets go has lost
-/// is to be earned again by moving in.
+/// The smaller of two forces: the requested one, and that of a spring of the accepted stiffness
+/// from the start of the contact. A softer contact passes unchanged. Force that a yielding contact
+/// has lost must be built up again by moving inward.
 glm::dvec3 PassivityController::earned(const glm::dvec3& way_m,
                                        const glm::dvec3& asked_n) noexcept {
   const double asked = glm::length(asked_n);
@@ -151,7 +152,7 @@ glm::dvec3 PassivityController::earned(const glm::dvec3& way_m,
   const double stiffness = (state_ == PassivityState::yielding ? kYield : 1.0) * stiffness_;
   const glm::dvec3 direction = asked_n / asked;
   const double out_m = glm::dot(way_m, direction);
-  // A spring does not fall while it is pressed: that much has given way, and is gone.
+  // The force of a spring does not fall while it is pressed, so this part of it has yielded.
   const double yielded = out_m <= 0.0 ? std::max(0.0, before - asked) : 0.0;
   earned_n_ = std::max(0.0, earned_n_ - stiffness * out_m - yielded);
   return earned_n_ < asked ? earned_n_ * direction : asked_n;

@@ -20,7 +20,7 @@ struct Polynomial {
   std::size_t degree = 0;
 };
 
-/// The held force's way to position: (c1 z + c0) / ((z - 1)(z - p)).
+/// Transfer function from held force to position: (c1 z + c0) / ((z - 1)(z - p)).
 struct HeldArm {
   double p, c1, c0;
 };
@@ -63,7 +63,8 @@ bool all_within(Polynomial q) noexcept {
   return true;
 }
 
-/// The border of what holds from 0 on, by doubling and halving; 0 when it does not hold at all.
+/// The upper border of the interval from 0 in which a condition holds, by doubling and bisection; 0
+/// if it never holds.
 template <class Holds>
 double border_of(double first, Holds holds) noexcept {
   double inside = first;
@@ -104,8 +105,8 @@ double passive_damping_at(const SampledLoop& loop, const VirtualWall& wall,
 }
 
 double passive_damping(const SampledLoop& loop, const VirtualWall& wall) noexcept {
-  // Between two points of the grid lies less than 1/100 of the fastest cosine's wave, so that the
-  // best of them has a summit beside it: narrowed down by thirds.
+  // The grid spacing is less than 1/100 of the fastest cosine's wavelength, so the maximum is
+  // beside the best grid point: refined by ternary search.
   const int points = 200 * (loop.delay_ticks + 1);
   const double step = std::numbers::pi / points;
   const auto at = [&](double angle) { return passive_damping_at(loop, wall, angle); };

@@ -55,7 +55,7 @@ struct Wide {
   }
 };
 
-TEST(Snapshot, IsNeverTornAndNeverGoesBack) {
+TEST(Snapshot, IsNeverTornOrOutdated) {
   constexpr std::uint64_t kWrites = 20'000;
   Snapshot<Wide> snapshot;
   std::atomic<std::uint64_t> begun{0}, done{0};

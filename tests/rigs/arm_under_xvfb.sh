@@ -16,7 +16,7 @@ ask() { : >"$folder/$1"; }
 # press_by_mouse: from beside the lump into it, and holds there.
 press_by_mouse() {
   xdotool mousemove --window "$window" 930 420 mousedown 1
-  until_line "stroke begun" "$1"
+  until_line "stroke started" "$1"
   # The tool goes no faster than a hand: a drag that is over at once has not got to the clay.
   for x in 900 880 860 840 820 800; do
     xdotool mousemove --window "$window" $x 420 sleep 0.2

@@ -49,7 +49,7 @@ Outcome sigma_infinite_is_linear(Who who) {
     const Exact share = (square_of(trial.subject().ring(35 + j).outer_mm) - 900) / gained;
     // 40 bits of fraction in the table; the radius is the root of a count, to half an ulp.
     const double off = abs(Exact(share - Exact(j, 78))).convert_to<double>();
-    trial.require(off < 0x1p-39, fmt::format("share {} is {:.2g} off", j, off));
+    trial.require(off < 0x1p-39, fmt::format("share {} has an error of {:.2g}", j, off));
   }
   return trial.done();
 }
@@ -66,7 +66,7 @@ Outcome sigma_0_is_the_limit(Who who) {
   int gained = 0;
   for (std::size_t i = 0; i < trial.subject().rings(); ++i)
     if (trial.subject().ring(i).outer_mm > 30.0) ++gained;
-  trial.require(gained == 1, fmt::format("{} rings gained", gained));
+  trial.require(gained == 1, fmt::format("{} rings received clay", gained));
   return trial.done();
 }
 
@@ -96,7 +96,7 @@ Outcome never_moved(Who who) {
   Trial trial(who, small_pot());
   for (int k = 0; k < 50; ++k) trial.at({36, 30, 0});
   trial.require(trial.touched(), "no contact");
-  return trial.done("clay went up");
+  return trial.done("clay moved up");
 }
 
 /// A hand at rest keeps its direction: after an upward motion no clay goes below the tool, after a
@@ -114,7 +114,7 @@ Outcome hand_at_rest(Who who) {
     };
     const double before = gained();
     for (int k = 0; k < 20; ++k) trial.at(to);
-    trial.require(gained() == before, "a hand at rest turned the clay about");
+    trial.require(gained() == before, "a hand at rest reversed the clay");
   };
   rest({40, 28, 0}, {36, 30, 0}, false);
   rest({36, 31, 0}, {35, 29, 0}, true);
@@ -122,7 +122,7 @@ Outcome hand_at_rest(Who who) {
   return trial.done();
 }
 
-/// Cuts the top to the thinnest rings; then more clay rises than they can count.
+/// Cuts the top to the thinnest rings; then more clay rises than they can hold.
 Outcome growth_onto_an_empty_top(Who who) {
   SceneSpec scene = small_pot();
   scene.tool.shape = RibSpec{12.0, 40.0};
@@ -134,7 +134,7 @@ Outcome growth_onto_an_empty_top(Who who) {
   trial.stroke({20, 60, 0}, {20, 59.9, 0}, 20, true);
   trial.stroke({200, 54, 0}, {200, 54.5, 0}, 2);
   trial.stroke({20, 54.6, 0}, {20, 54.7, 0}, 200);
-  trial.require(trial.last().ring_limit, "the limit is not said");
+  trial.require(trial.last().ring_limit, "the limit is not reported");
   trial.require(trial.subject().rings() == 5'000, "not grown to the limit");
   return trial.done(fmt::format("{} rings", trial.subject().rings()));
 }
@@ -168,13 +168,13 @@ Outcome all_clay_cut_away(Who who) {
 
 /// At max_rings, rising clay waits above the top and is counted.
 Outcome no_room_above(Who who) {
-  if (who == Who::literal) return {Verdict::not_in_print, "no limit of N is printed"};
+  if (who == Who::literal) return {Verdict::not_in_print, "the paper states no limit of N"};
   SceneSpec scene = small_pot();
   scene.lump.max_rings = 60;
   Trial trial(who, scene);
   trial.stroke({40, 50, 0}, {36, 52, 0}, 40);
   trial.stroke({36, 52, 0}, {30, 58, 0}, 2'000);
-  trial.require(trial.last().ring_limit, "the limit is not said");
+  trial.require(trial.last().ring_limit, "the limit is not reported");
   trial.require(trial.subject().rings() == 60, "grown beyond the limit");
   return trial.done();
 }
@@ -198,46 +198,47 @@ Outcome fraction_above_1(Who who) {
 }
 
 constexpr Case kFlowCases[] = {
-    {"sigma_0", "sigma = 0", "clay kept, no 0/0", "exact rationals", Verdict::failed, sigma_0},
-    {"sigma_0_is_the_limit", "sigma = 0, one tick", "one ring gains: the nearest", "the limit",
+    {"sigma_0", "sigma = 0", "clay conserved, no 0/0", "exact rationals", Verdict::failed, sigma_0},
+    {"sigma_0_is_the_limit", "sigma = 0, one tick", "the nearest ring receives all", "the limit",
      Verdict::failed, sigma_0_is_the_limit},
-    {"sigma_underflows", "h / sigma = 50: every weight underflows", "clay kept, no 0/0",
+    {"sigma_underflows", "h / sigma = 50: every weight underflows", "clay conserved, no 0/0",
      "exact rationals", Verdict::failed, sigma_underflows},
-    {"sigma_1e200", "sigma^2 overflows", "clay kept", "exact rationals", Verdict::failed,
+    {"sigma_1e200", "sigma^2 overflows", "clay conserved", "exact rationals", Verdict::failed,
      sigma_1e200},
-    {"sigma_infinite", "sigma = inf", "clay kept", "exact rationals", Verdict::failed,
+    {"sigma_infinite", "sigma = inf", "clay conserved", "exact rationals", Verdict::failed,
      sigma_infinite},
     {"sigma_infinite_is_linear", "sigma = inf, one tick", "shares as 1 : 2 : .. : L1",
      "rationals of the limit", Verdict::failed, sigma_infinite_is_linear},
-    {"reach_0", "L1 = 0", "clay kept, as height", "exact rationals", Verdict::failed, reach_0},
-    {"reach_beyond_the_pot", "L1 = 5000 on 60 rings", "clay kept", "exact rationals",
+    {"reach_0", "L1 = 0", "clay conserved, as height", "exact rationals", Verdict::failed, reach_0},
+    {"reach_beyond_the_pot", "L1 = 5000 on 60 rings", "clay conserved", "exact rationals",
      Verdict::failed, reach_beyond_the_pot},
-    {"alpha_1", "all to the inside, bore of 1 mm", "clay kept, r >= 0, the rest outside",
+    {"alpha_1", "all to the inside, bore of 1 mm", "clay conserved, r >= 0, the rest outside",
      "exact rationals, invariants", Verdict::failed, alpha_1},
-    {"alpha_0", "nothing to the inside, bore of 1 mm", "clay kept", "exact rationals",
+    {"alpha_0", "nothing to the inside, bore of 1 mm", "clay conserved", "exact rationals",
      Verdict::passed, alpha_0},
     {"one_ring_without_bore", "clay pressed down across the floor of a bore",
-     "clay kept, r >= 0 ring by ring", "exact rationals, invariants", Verdict::failed,
+     "clay conserved, r >= 0 ring by ring", "exact rationals, invariants", Verdict::failed,
      one_ring_without_bore},
-    {"never_moved", "velocity zero from the first sample, for ever", "clay kept: a default",
+    {"never_moved", "velocity zero from the first sample on", "clay conserved: a default",
      "exact rationals", Verdict::failed, never_moved},
-    {"hand_at_rest", "velocity zero after a way up, and after one down", "the last direction stays",
-     "rings on the other side, to the bit", Verdict::passed, hand_at_rest},
-    {"growth_onto_an_empty_top", "excess onto a top ring of next to nothing",
-     "the tick ends; clay kept", "exact rationals, count of rings", Verdict::failed,
+    {"hand_at_rest", "velocity zero after a motion up, and after one down",
+     "the last direction is kept", "rings on the other side, to the bit", Verdict::passed,
+     hand_at_rest},
+    {"growth_onto_an_empty_top", "excess onto an almost empty top ring",
+     "the tick ends; clay conserved", "exact rationals, count of rings", Verdict::failed,
      growth_onto_an_empty_top},
-    {"rim_upward", "a stroke up over the rim", "clay kept", "exact rationals", Verdict::failed,
+    {"rim_upward", "a stroke up over the rim", "clay conserved", "exact rationals", Verdict::failed,
      rim_upward},
-    {"base_downward", "a stroke down onto the wheel head", "clay kept", "exact rationals",
+    {"base_downward", "a stroke down onto the wheel head", "clay conserved", "exact rationals",
      Verdict::passed, base_downward},
     {"all_clay_cut_away", "a tool larger than the pot, k = 1", "the tick ends; clay accounted for",
      "exact rationals, count of rings", Verdict::failed, all_clay_cut_away},
-    {"no_room_above", "growth with max_rings reached", "clay kept and the limit said",
+    {"no_room_above", "growth with max_rings reached", "clay conserved and the limit reported",
      "exact rationals", Verdict::not_in_print, no_room_above},
-    {"rate_far_beyond_the_tick", "kappa dt = 1000; k = 1", "clay kept, r < R",
+    {"rate_far_beyond_the_tick", "kappa dt = 1000; k = 1", "clay conserved, r < R",
      "exact rationals, invariants", Verdict::failed, rate_far_beyond_the_tick},
-    {"fraction_above_1", "k = 1.5", "refused: it turns walls inside out", "invariants",
-     Verdict::failed, fraction_above_1},
+    {"fraction_above_1", "k = 1.5", "refused: it would invert walls", "invariants", Verdict::failed,
+     fraction_above_1},
 };
 
 }  // namespace

@@ -63,11 +63,12 @@ Outcome minus_gradient(Who who) {
         largest = std::max(largest, glm::length(expected));
         if (!(off <= kTolerance * 0.01))  // N; the largest is above 0.01 N, see below
           return {Verdict::failed,
-                  fmt::format("{:.3g} N off at {:.3g} N, {}", off, glm::length(expected),
+                  fmt::format("error {:.3g} N at {:.3g} N, {}", off, glm::length(expected),
                               outside ? "outside" : "inside")};
       }
-  if (largest < 0.01) return {Verdict::failed, "no contact to speak of"};
-  return {Verdict::passed, fmt::format("at most {:.2g} N off, at up to {:.2g} N", worst, largest)};
+  if (largest < 0.01) return {Verdict::failed, "too little contact"};
+  return {Verdict::passed,
+          fmt::format("error at most {:.2g} N, at up to {:.2g} N", worst, largest)};
 }
 
 Outcome azimuths(Who who) {
@@ -84,7 +85,7 @@ Outcome azimuths(Who who) {
                 fmt::format("pulled into the clay {} at {:.0f} degrees: {:+.3g} N",
                             outside ? "outside" : "inside", azimuth * 57.29578, radial)};
       const double across = glm::dot(force, glm::dvec3(-out.z, 0.0, out.x));
-      if (std::abs(across) > 1e-12) return {Verdict::failed, "aside without friction"};
+      if (std::abs(across) > 1e-12) return {Verdict::failed, "sideways without friction"};
     }
   return {Verdict::passed, "64 azimuths, both sides"};
 }
@@ -97,7 +98,7 @@ Outcome hip_on_the_axis(Who who) {
   for (int k = 0; k < 40; ++k) {
     const Tick tick = trial.at({0, 66.9 - 0.05 * k, 0});
     trial.require(tick.contact, "no contact");
-    trial.require(tick.force_n.x == 0.0 && tick.force_n.z == 0.0, "aside on the axis");
+    trial.require(tick.force_n.x == 0.0 && tick.force_n.z == 0.0, "sideways on the axis");
     trial.require(tick.force_n.y > 0.0, "not pushed up");
   }
   return trial.done();
@@ -125,7 +126,7 @@ Outcome stiffness_1e6(Who who) {
   scene.force->paper_stiffness_n_per_mm = 1e3;  // 10^6 N/m
   Trial trial(who, scene);
   trial.stroke({40, 24, 0}, {34, 28, 3}, 60);
-  trial.require(trial.largest_force_n() > 4.999, "no contact to speak of");
+  trial.require(trial.largest_force_n() > 4.999, "too little contact");
   trial.require(trial.largest_force_n() <= 5.0, fmt::format("{:.3g} N", trial.largest_force_n()));
   const glm::dvec3 out = glm::normalize(glm::dvec3(34, 0, 3));
   trial.require(glm::dot(trial.last().force_n, out) > 0.0, "pulled into the clay");
@@ -139,14 +140,15 @@ Outcome friction_2(Who who) {
   scene.force->friction = 2.0;
   Trial trial(who, scene);
   trial.stroke({40, 24, 0}, {34, 28, 0}, 60);
-  trial.require(trial.largest_force_n() > 4.999, "no contact to speak of");
+  trial.require(trial.largest_force_n() > 4.999, "too little contact");
   trial.require(trial.largest_force_n() <= 5.0, fmt::format("{:.3g} N", trial.largest_force_n()));
   return trial.done();
 }
 
 /// A half-profile that rises by 4 mm within 1e-308 mm: its slope overflows.
 Outcome tool_with_a_step(Who who) {
-  if (who == Who::literal) return {Verdict::not_in_print, "f_h is said to be continuous"};
+  if (who == Who::literal)
+    return {Verdict::not_in_print, "the paper assumes that f_h is continuous"};
   SceneSpec scene = small_pot();
   scene.tool.shape = SampledSpec{{-8.0, 0.0, 1e-308, 8.0}, {1.0, 2.0, 6.0, 7.0}};
   Trial trial(who, scene);
@@ -163,14 +165,14 @@ constexpr Case kForceCases[] = {
      Verdict::failed, minus_gradient},
     {"azimuths", "64 azimuths, both sides", "outward outside, inward inside", "sign",
      Verdict::failed, azimuths},
-    {"hip_on_the_axis", "d = 0", "finite, no part aside", "invariants", Verdict::failed,
+    {"hip_on_the_axis", "d = 0", "finite, no sideways part", "invariants", Verdict::failed,
      hip_on_the_axis},
     {"force_as_rings_thin", "h and h/500", "force changes by less than 2 %", "interval",
      Verdict::failed, force_as_rings_thin},
     {"stiffness_1e6", "10^6 N/m a ring", "at most 5 N, outward", "interval", Verdict::failed,
      stiffness_1e6},
     {"friction_2", "mu = 2", "at most 5 N in all", "interval", Verdict::failed, friction_2},
-    {"tool_with_a_step", "a profile whose slope overflows", "finite, at most 5 N, clay kept",
+    {"tool_with_a_step", "a profile whose slope overflows", "finite, at most 5 N, clay conserved",
      "interval, exact rationals", Verdict::not_in_print, tool_with_a_step},
 };
 

@@ -28,7 +28,7 @@ Outcome dropped(Who who, const std::vector<glm::dvec3>& bad) {
     const std::string before = trial.subject().bytes();
     const Tick tick = trial.at(pose);
     trial.require(trial.subject().bytes() == before, "the clay has moved");
-    trial.require(tick.force_n == glm::dvec3(0.0), "a force from a pose that is none");
+    trial.require(tick.force_n == glm::dvec3(0.0), "a force from an invalid pose");
   }
   // Deeper at the same height: the flow now depends only on the last valid pose, its time, and the
   // direction before it.
@@ -38,7 +38,7 @@ Outcome dropped(Who who, const std::vector<glm::dvec3>& bad) {
   undisturbed.stroke({36, 28, 0}, {36, 34, 0}, 60);
   trial.require(trial.touched(), "no contact");
   trial.require(trial.subject().bytes() == undisturbed.subject().bytes(),
-                "a bad pose changed what came after it");
+                "an invalid pose changed a later result");
   return trial.done(fmt::format("{} poses dropped", bad.size()));
 }
 
@@ -93,7 +93,7 @@ struct Clocked {
 };
 
 Outcome at_times(Who who, const std::vector<Clocked>& times) {
-  if (who == Who::literal) return {Verdict::not_in_print, "the printed model has no time"};
+  if (who == Who::literal) return {Verdict::not_in_print, "the paper's model has no time"};
   const auto subject = std::move(put_on_wheel(who, small_pot()).value());
   const Exact clay = subject->clay().value();
   double x = 37.0;
@@ -104,7 +104,8 @@ Outcome at_times(Who who, const std::vector<Clocked>& times) {
       return {Verdict::failed,
               fmt::format("time {}: {}", clock.time_us, clock.refused ? "believed" : "refused")};
     if (tick.refused && (subject->bytes() != before || tick.force_n != glm::dvec3(0.0)))
-      return {Verdict::failed, fmt::format("time {}: refused, yet it acted", clock.time_us)};
+      return {Verdict::failed,
+              fmt::format("time {}: refused, but it had an effect", clock.time_us)};
     if (!subject->fault().empty()) return {Verdict::failed, subject->fault()};
   }
   if (*subject->clay() != clay) return {Verdict::failed, "clay lost"};
@@ -125,7 +126,7 @@ Outcome time_leaps(Who who) {
 
 /// A long pause counts as 50 ms: the same clay as after exactly 50 ms.
 Outcome long_pause(Who who) {
-  if (who == Who::literal) return {Verdict::not_in_print, "the printed model has no time"};
+  if (who == Who::literal) return {Verdict::not_in_print, "the paper's model has no time"};
   const auto after = [&](std::int64_t pause_us, Tick& tick) {
     Trial trial(who, small_pot());
     start(trial);
@@ -137,33 +138,33 @@ Outcome long_pause(Who who) {
   const bool same = after(50'001, beyond) == expected && after(kLatest / 2, far_beyond) == expected;
   const bool said = !at_limit.long_step && beyond.long_step && far_beyond.long_step;
   if (!same) return {Verdict::failed, "a pause of more than 50 ms moves more clay"};
-  if (!said) return {Verdict::failed, "a long step is not said"};
+  if (!said) return {Verdict::failed, "a long step is not reported"};
   return {Verdict::passed, "50 ms at most"};
 }
 
 constexpr Case kInputCases[] = {
-    {"nan_pose", "NaN in each coordinate", "no force, state to the bit, forgotten", "bytes",
+    {"nan_pose", "NaN in each coordinate", "no force, state unchanged to the bit", "bytes",
      Verdict::failed, nan_pose},
     {"nan_velocity", "one NaN height in a stroke", "the direction of motion is kept", "bytes",
      Verdict::failed, nan_velocity},
-    {"first_pose_nan", "the first height is NaN", "clay kept", "exact rationals", Verdict::failed,
-     first_pose_nan},
-    {"infinite_pose", "+-inf in each coordinate", "no force, state to the bit, forgotten", "bytes",
+    {"first_pose_nan", "the first height is NaN", "clay conserved", "exact rationals",
+     Verdict::failed, first_pose_nan},
+    {"infinite_pose", "+-inf in each coordinate", "no force, state unchanged to the bit", "bytes",
      Verdict::failed, infinite_pose},
-    {"pose_1e300", "+-1e300 mm in each coordinate", "no force, state to the bit, forgotten",
-     "bytes", Verdict::failed, pose_1e300},
+    {"pose_1e300", "+-1e300 mm in each coordinate", "no force, state unchanged to the bit", "bytes",
+     Verdict::failed, pose_1e300},
     {"minus_zero", "height swaps between 0 and -0", "no motion", "bytes", Verdict::passed,
      minus_zero},
-    {"denormal_pose", "1e-100 mm to the smallest denormal off the axis", "finite, clay kept",
+    {"denormal_pose", "1e-100 mm to the smallest denormal off the axis", "finite, clay conserved",
      "invariants, exact rationals", Verdict::failed, denormal_pose},
-    {"time_stands_still", "dt = 0", "refused, state to the bit", "bytes", Verdict::not_in_print,
-     time_stands_still},
-    {"time_runs_back", "dt < 0", "refused, state to the bit", "bytes", Verdict::not_in_print,
-     time_runs_back},
-    {"time_leaps", "from the least int64 to the greatest", "no overflow, clay kept",
+    {"time_stands_still", "dt = 0", "refused, state unchanged to the bit", "bytes",
+     Verdict::not_in_print, time_stands_still},
+    {"time_runs_back", "dt < 0", "refused, state unchanged to the bit", "bytes",
+     Verdict::not_in_print, time_runs_back},
+    {"time_leaps", "from the smallest int64 to the largest", "no overflow, clay conserved",
      "exact rationals, UBSan", Verdict::not_in_print, time_leaps},
-    {"long_pause", "dt of 50 ms, a little more, 146 000 years", "the same clay, and said", "bytes",
-     Verdict::not_in_print, long_pause},
+    {"long_pause", "dt of 50 ms, a little more, 146 000 years", "the same clay, and reported",
+     "bytes", Verdict::not_in_print, long_pause},
 };
 
 }  // namespace

@@ -39,9 +39,9 @@ Outcome wall_of_a_quantum(Who who) {
   SceneSpec scene = small_pot();
   scene.lump.inner_radius_mm = inner_mm;
   Trial trial(who, scene);
-  trial.require(!trial.refused() && trial.subject().ring(0).inner_mm < 30.0, "no such wall");
+  trial.require(!trial.refused() && trial.subject().ring(0).inner_mm < 30.0, "wall not found");
   if (const Wheel* wheel = trial.subject().wheel())
-    trial.require(count_clay(*wheel) == 60, "not a quantum a ring");
+    trial.require(count_clay(*wheel) == 60, "not one quantum per ring");
   trial.stroke({40, 20, 0}, {34, 40, 0}, 100);
   trial.stroke({10, 20, 0}, {24, 40, 0}, 100);
   return trial.done();
@@ -88,7 +88,7 @@ Outcome nothing_happens(Who who, const SceneSpec& scene, const std::vector<glm::
   for (const glm::dvec3& place : places) {
     trial.stroke(place, place + glm::dvec3(0, 0.5, 0), 3);
     trial.require(trial.subject().bytes() == before, "the clay has moved");
-    trial.require(trial.largest_force_n() == 0.0, "a force from nothing");
+    trial.require(trial.largest_force_n() == 0.0, "a force without contact");
   }
   return trial.done();
 }
@@ -192,7 +192,7 @@ Outcome work_of_a_tick(Who who) {
 Outcome million_rings(Who who) { return many_rings(who, 1'000'000); }
 Outcome most_rings(Who who) { return many_rings(who, kMaxRings); }
 Outcome too_many_rings(Who who) {
-  if (who == Who::literal) return {Verdict::not_in_print, "no limit is printed"};
+  if (who == Who::literal) return {Verdict::not_in_print, "the paper states no limit"};
   SceneSpec scene = small_pot();
   scene.lump.rings = kMaxRings + 1;
   Trial trial(who, scene);
@@ -227,43 +227,44 @@ Outcome largest_radius(Who who) {
 }
 
 constexpr Case kShapeCases[] = {
-    {"reference_stroke", "an ordinary stroke, up and down", "clay kept", "exact rationals",
+    {"reference_stroke", "an ordinary stroke, up and down", "clay conserved", "exact rationals",
      Verdict::passed, reference_stroke},
-    {"wall_1e-12", "R - r = 1e-12 mm, pressed from both sides", "clay kept, no NaN",
+    {"wall_1e-12", "R - r = 1e-12 mm, pressed from both sides", "clay conserved, no NaN",
      "exact rationals, absolute", Verdict::passed, wall_1e_12},
-    {"wall_of_a_quantum", "R^2 - r^2 = 2^-36 mm^2 in every ring", "clay kept, r < R",
+    {"wall_of_a_quantum", "R^2 - r^2 = 2^-36 mm^2 in every ring", "clay conserved, r < R",
      "exact rationals, invariants", Verdict::passed, wall_of_a_quantum},
-    {"wall_of_nothing", "r = R", "refused, or r < R and a stress that is a number", "invariants",
+    {"wall_of_nothing", "r = R", "refused, or r < R and a finite stress", "invariants",
      Verdict::failed, wall_of_nothing},
     {"beyond_the_tool", "a rib of 10 mm height", "rings below it stay to the bit", "geometry",
      Verdict::failed, beyond_the_tool},
-    {"tool_wider_than_the_pot", "a sphere of 500 mm on a pot of 30 mm", "clay kept, at most 5 N",
-     "exact rationals, interval", Verdict::failed, tool_wider_than_the_pot},
-    {"tool_above", "poses above the rim, to 100 m", "no contact, state to the bit", "bytes",
-     Verdict::passed, tool_above},
-    {"tool_below", "poses below the wheel head, to 100 m", "no contact, state to the bit", "bytes",
-     Verdict::passed, tool_below},
-    {"tool_in_a_free_bore", "a tool inside that touches nothing", "no contact, state to the bit",
-     "bytes", Verdict::passed, tool_in_a_free_bore},
+    {"tool_wider_than_the_pot", "a sphere of 500 mm on a pot of 30 mm",
+     "clay conserved, at most 5 N", "exact rationals, interval", Verdict::failed,
+     tool_wider_than_the_pot},
+    {"tool_above", "poses above the rim, to 100 m", "no contact, state unchanged to the bit",
+     "bytes", Verdict::passed, tool_above},
+    {"tool_below", "poses below the wheel head, to 100 m", "no contact, state unchanged to the bit",
+     "bytes", Verdict::passed, tool_below},
+    {"tool_in_a_free_bore", "a tool inside that touches nothing",
+     "no contact, state unchanged to the bit", "bytes", Verdict::passed, tool_in_a_free_bore},
     {"index_beyond_int", "h = 1e-9 mm, y = 1 m", "refused, or no index beyond its type", "limits",
      Verdict::failed, index_beyond_int},
-    {"rings_of_a_micrometre", "h = 1e-3 mm", "clay kept", "exact rationals", Verdict::passed,
+    {"rings_of_a_micrometre", "h = 1e-3 mm", "clay conserved", "exact rationals", Verdict::passed,
      rings_of_a_micrometre},
-    {"rings_of_a_metre", "h = 1e3 mm, sigma = 4 mm", "clay kept, no 0/0 of weights",
+    {"rings_of_a_metre", "h = 1e3 mm, sigma = 4 mm", "clay conserved, no 0/0 of weights",
      "exact rationals", Verdict::failed, rings_of_a_metre},
-    {"one_ring", "N = 1", "clay kept", "exact rationals", Verdict::failed, one_ring},
-    {"million_rings", "N = 10^6", "clay kept; running sum = sum", "exact rationals",
+    {"one_ring", "N = 1", "clay conserved", "exact rationals", Verdict::failed, one_ring},
+    {"million_rings", "N = 10^6", "clay conserved; running sum = sum", "exact rationals",
      Verdict::passed, million_rings},
-    {"work_of_a_tick", "N = 10^6, stress looked at", "no page of rings is read but those near",
+    {"work_of_a_tick", "N = 10^6, stress monitored", "reads only pages of nearby rings",
      "pages opened, by protecting all", Verdict::failed, work_of_a_tick},
-    {"most_rings", "N = 2^24", "clay kept; running sum = sum", "exact rationals", Verdict::passed,
-     most_rings},
+    {"most_rings", "N = 2^24", "clay conserved; running sum = sum", "exact rationals",
+     Verdict::passed, most_rings},
     {"too_many_rings", "N = 2^24 + 1", "refused", "limits", Verdict::not_in_print, too_many_rings},
     {"radius_1e300", "R = 1e300 mm", "refused, or finite", "invariants", Verdict::failed,
      radius_1e300},
-    {"radius_1e-160", "R = 1e-160 mm", "refused, or clay kept", "exact rationals", Verdict::failed,
-     radius_1e_160},
-    {"largest_radius", "R = 5000 mm, the largest there is", "clay kept, R <= 5000 mm",
+    {"radius_1e-160", "R = 1e-160 mm", "refused, or clay conserved", "exact rationals",
+     Verdict::failed, radius_1e_160},
+    {"largest_radius", "R = 5000 mm, the maximum", "clay conserved, R <= 5000 mm",
      "exact rationals, invariants", Verdict::failed, largest_radius},
 };
 

@@ -82,8 +82,8 @@ Outcome threshold_of_the_engine() {
   const std::size_t below = tick_of_collapse(std::nextafter(largest_kpa, 0.0), poses);
   if (below != when)
     return {Verdict::failed,
-            fmt::format("an ulp above: collapse at tick {}, expected {}", below, when)};
-  return {Verdict::passed, fmt::format("holds at {:.17g} kPa, not an ulp above", largest_kpa)};
+            fmt::format("one ulp above: collapse at tick {}, expected {}", below, when)};
+  return {Verdict::passed, fmt::format("holds at {:.17g} kPa, not one ulp above", largest_kpa)};
 }
 
 /// beta_i with M_i summed as printed, from ring i + 1 upward.
@@ -125,7 +125,7 @@ Outcome threshold_as_printed() {
   }
   if (collapses(largest)) return {Verdict::failed, "collapsed at the threshold"};
   if (!collapses(std::nextafter(largest, 0.0))) return {Verdict::failed, "held above it"};
-  return {Verdict::passed, fmt::format("holds at {:.17g} kg/mm^2, not an ulp above", largest)};
+  return {Verdict::passed, fmt::format("holds at {:.17g} kg/mm^2, not one ulp above", largest)};
 }
 
 Outcome threshold_to_the_ulp(Who who) {
@@ -138,7 +138,7 @@ Outcome lump_too_heavy(Who who) {
   Trial trial(who, scene);
   if (trial.refused()) return trial.done();
   trial.stroke({40, 80, 0}, {40, 81, 0}, 5);
-  trial.require(trial.last().collapsed, "stands, though it cannot");
+  trial.require(trial.last().collapsed, "did not collapse, expected a collapse");
   return trial.done();
 }
 
@@ -158,9 +158,9 @@ Outcome collapse_at(Who who, std::size_t i) {
     const Collapse fallen = pot.collapse.value_or(Collapse{});
     trial.require(pot.collapse.has_value(), "no collapse in the pot");
     trial.require(fallen.failed_ring == i, "another ring failed");
-    trial.require(std::abs(fallen.angle_rad) <= 2.0 * std::numbers::pi, "an angle that is none");
+    trial.require(std::abs(fallen.angle_rad) <= 2.0 * std::numbers::pi, "an invalid angle");
     trial.require(std::isfinite(fallen.shift_mm.x + fallen.shift_mm.y + fallen.shift_mm.z),
-                  "a shift that is none");
+                  "an invalid shift");
     trial.require(fallen.energy_lost_mj >= 0.0 && fallen.plastic_work_mj >= 0.0 &&
                       fallen.plastic_work_mj <= fallen.energy_lost_mj,
                   fmt::format("{:.3g} mJ lost, {:.3g} mJ spent", fallen.energy_lost_mj,
@@ -168,7 +168,7 @@ Outcome collapse_at(Who who, std::size_t i) {
     const std::string before = trial.subject().bytes();
     trial.stroke({36, 10, 0}, {20, 20, 0}, 20);
     trial.require(trial.subject().bytes() == before, "a fallen stack was pressed");
-    trial.require(trial.last().force_n == glm::dvec3(0.0), "a fallen stack pushes");
+    trial.require(trial.last().force_n == glm::dvec3(0.0), "a fallen stack exerts a force");
   }
   return trial.done(fmt::format("ring {} fails", i));
 }
@@ -176,7 +176,7 @@ Outcome collapse_at(Who who, std::size_t i) {
 Outcome collapse_at_the_base(Who who) { return collapse_at(who, 0); }
 Outcome collapse_below_the_top(Who who) { return collapse_at(who, 58); }
 
-/// No load on the top ring: it may be cut to a thread.
+/// No load on the top ring: it may be cut to almost nothing.
 Outcome top_never_fails(Who who) {
   SceneSpec scene = small_pot();
   scene.tool.shape = RibSpec{1.2, 6.0};
@@ -188,7 +188,7 @@ Outcome top_never_fails(Who who) {
   // Downward, so that nothing grows on it.
   for (int k = 0; k < 600; ++k) trial.at({37.0 - 0.05 * k, y - 1e-5 * k, 0});
   trial.require(trial.touched(), "no contact");
-  trial.require(!trial.last().collapsed, "collapsed under nothing");
+  trial.require(!trial.last().collapsed, "collapsed without load");
   return trial.done(fmt::format("top ring of {:.3g} mm", trial.subject().ring(top).outer_mm));
 }
 
@@ -196,15 +196,15 @@ constexpr Case kStabilityCases[] = {
     {"threshold_to_the_ulp", "stress at the threshold, and one ulp above",
      "holds; collapses, at that very tick", "M summed again from the top; 50 digits",
      Verdict::passed, threshold_to_the_ulp},
-    {"lump_too_heavy", "a lump that cannot carry itself", "refused, or collapsed at once",
+    {"lump_too_heavy", "a lump that cannot carry its own weight", "refused, or collapsed at once",
      "rho g h (N - 1)", Verdict::failed, lump_too_heavy},
     {"collapse_at_the_base", "the lowest ring is cut until it fails",
-     "clay kept, no energy won, at rest", "exact rationals, bytes", Verdict::passed,
+     "clay conserved, no energy gained, at rest", "exact rationals, bytes", Verdict::passed,
      collapse_at_the_base},
     {"collapse_below_the_top", "the last ring but one is cut until it fails",
-     "clay kept, no energy won, at rest", "exact rationals, bytes", Verdict::failed,
+     "clay conserved, no energy gained, at rest", "exact rationals, bytes", Verdict::failed,
      collapse_below_the_top},
-    {"top_never_fails", "the top ring is cut to a thread", "stands: it bears nothing",
+    {"top_never_fails", "the top ring is cut to almost nothing", "stands: it carries no load",
      "M = 0, exact rationals", Verdict::passed, top_never_fails},
 };
 

@@ -128,15 +128,15 @@ Outcome side_by_side(Who who) {
   for (std::thread& thread : threads) thread.join();
   for (const Player& player : players) in_turn.push_back(player.played().hash);
   if (in_turn != alone || in_threads != alone)
-    return {Verdict::failed, "another pot beside it changes a pot"};
+    return {Verdict::failed, "a pot changes if another is thrown at the same time"};
   return {Verdict::passed, fmt::format("{} pots, {} ticks each", kPots, kTicks)};
 }
 
 constexpr Case kStepCases[] = {
     {"one_step_again", "random ticks, pots, tools and kernels", "each ring within the bound",
      "removal and shares in 50 digits", Verdict::passed, one_step_again},
-    {"drift", "10^6 ticks of a restless hand (10^7 in the full run)",
-     "clay kept; the same hash twice", "exact rationals, hash", Verdict::failed, drift},
+    {"drift", "10^6 ticks of an erratic hand (10^7 in the full run)",
+     "clay conserved; the same hash twice", "exact rationals, hash", Verdict::failed, drift},
     {"side_by_side", "four pots, in turn and in threads", "the same hashes as alone", "hash",
      Verdict::passed, side_by_side},
 };

@@ -46,8 +46,8 @@ class OnTheEngine final : public Subject {
     for (std::size_t i = 0; i < rings.size(); ++i)
       if (!(rings[i].inner2 >= 0 && rings[i].inner2 < rings[i].outer2))
         return fmt::format("ring {}: {} and {} quanta", i, rings[i].outer2, rings[i].inner2);
-    if (stack.crown() < 0) return "a crown of less than nothing";
-    if (stack.volume() != stack.recount()) return "the running sum is not the sum";
+    if (stack.crown() < 0) return "a negative crown";
+    if (stack.volume() != stack.recount()) return "the running sum differs from the sum";
     return {};
   }
   std::string bytes() const override {

@@ -1,5 +1,5 @@
 #pragma once
-// Whether a thrown pot is a pot: walls, steps, roughness, closed cavities.
+// Quality of a thrown pot: walls, steps, roughness, closed cavities.
 
 #include "claystack/engine/clay.hpp"
 
@@ -13,9 +13,9 @@ struct PotMeasures {
   double roughness_um = 0.0;  ///< RMS against a Gaussian of 5 mm cut-off (ISO 16610-21)
   int ledges = 0;             ///< steps of more than 1 mm, steeper than 3
   double ledge_mm = 0.0;      ///< the largest
-  double ledge_up_mm = 0.0;   ///< where
+  double ledge_up_mm = 0.0;   ///< height of the largest
   int cavities = 0;           ///< closed bores
-  double neck_mm = 0.0;       ///< least outer width above half of the height
+  double neck_mm = 0.0;       ///< minimum outer width above half of the height
   /// No closed cavity, no wall below 2 mm, no ledge of 2 mm.
   [[nodiscard]] bool printable() const {
     return cavities == 0 && thinnest_mm >= 2.0 && ledge_mm < 2.0;

@@ -134,7 +134,7 @@ void Potter::pull(double gap_mm, double target_mm) {
   rise({middle_at(from + 2.0) + off, from}, to + off_above, part, floor, v, gap);
 }
 
-// Upward to the rim, wherever that is by now, toward `to_out` there.
+// Upward to the current rim, toward `to_out` there.
 void Potter::rise(Place from, double to_out, double part, double floor_mm, double speed_mm_s,
                   double gap_mm) {
   constexpr int kTicksOfEvent = 17, kMostTicks = 30'000;
@@ -158,7 +158,8 @@ void Potter::rise(Place from, double to_out, double part, double floor_mm, doubl
   time_s_ += gone_s;
 }
 
-// A shape aimed at: the surface as it was, moved by depth * bump, in passes that see the pot.
+// Approaches a target shape: the original surface moved by depth * bump, in passes that measure the
+// pot.
 void Potter::aim(const Aim& aim) {
   const double h = wheel_.stack().ring_height_mm(), was_height = height(), floor = floor_mm();
   const double a = tool_mm();

@@ -11,26 +11,26 @@
 
 namespace clay::bench {
 
-/// A place of the hand: distance from the axis, height [mm].
+/// A position of the hand: distance from the axis, height [mm].
 struct Place {
   double out = 0.0, up = 0.0;
 };
 
-/// How well a hand is steered. A tremor of 0.3 mm (RMS) at 7 to 9 Hz, strokes at 20 to 60 mm/s,
-/// depth misjudged by 30 % of what remains, pulls that end at 80 to 102 % of the way to the rim and
-/// stand off the middle by 15 % of the wall. The program gets 60 events a second, as of a mouse,
-/// joined by straight ways, and ticks at 1 kHz.
+/// Errors of the hand: tremor of 0.3 mm (RMS) at 7 to 9 Hz, strokes at 20 to 60 mm/s, depth
+/// misjudged by 30 % of the remainder, pulls that end at 80 to 102 % of the way to the rim and miss
+/// the middle of the wall by 15 % of its thickness. The program gets 60 events per second, as from
+/// a mouse, connected by straight lines, and ticks at 1 kHz.
 class Potter {
  public:
   Potter(Wheel& wheel, std::uint64_t seed);
 
-  /// Goes on with another wheel, as another potter who takes over.
+  /// Continues with another wheel.
   Potter(Wheel& wheel, std::uint64_t seed, double time_s);
 
-  /// Drives a ball into the lump, down to a floor of so much.
+  /// Opens the lump with a ball, down to a floor of this thickness.
   void open(double floor_mm = 8.0);
   void widen(double most_mm = 25.0);                 ///< in two passes
-  void pull(double gap_mm, double target_mm = 0.0);  ///< between two fingers; 0: where the wall is
+  void pull(double gap_mm, double target_mm = 0.0);  ///< gap of the fingers; target 0: the wall
   void belly(double depth_mm);
   void collar(double depth_mm, int passes = 4);
   void flare(double depth_mm);
@@ -45,8 +45,9 @@ class Potter {
     double depth_mm = 0.0;
     int passes = 0;
     bool from_outside = false;
-    double start = 0.0, end_low = 0.0, end_high = 0.0;  ///< in parts of the height above the floor
-    std::function<double(double)> bump;                 ///< depth over that, 0 to 1
+    double start = 0.0, end_low = 0.0,
+           end_high = 0.0;               ///< in fractions of the height above the floor
+    std::function<double(double)> bump;  ///< depth over that, 0 to 1
   };
 
   void stroke(const std::vector<Place>& way, double speed_mm_s, double gap_mm);

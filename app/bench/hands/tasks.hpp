@@ -1,5 +1,5 @@
 #pragma once
-// What the simulated potters throw, and what comes of it.
+// Tasks for the simulated potters, and their results.
 
 #include "app/bench/hands/pot_measures.hpp"
 #include "claystack/engine/clay.hpp"
@@ -19,25 +19,25 @@ inline constexpr std::array kTasks{Task::open, Task::cylinder, Task::belly, Task
 struct TaskFacts {
   std::string_view name;
   std::string_view strokes;
-  double width_mm;         ///< that the hand asks for
+  double width_mm;         ///< target of the hand
   double least_printable;  ///< share of pots that must be printable with the clay rules
 };
 [[nodiscard]] const TaskFacts& facts_of(Task task);
 
-/// 1 kg of clay, a ball of 10 mm, rings of `ring_height_mm`; two fingers allowed. A plate begins
-/// from a flat lump, all else from one as high as it is wide.
+/// 1 kg of clay, a ball of 10 mm, rings of `ring_height_mm`; two fingers permitted. A plate begins
+/// with a flat lump, everything else with one as high as it is wide.
 [[nodiscard]] SceneSpec hands_scene(Task task, const std::optional<ClaySpec>& clay,
                                     double ring_height_mm = 0.335063);
 
 struct ThrownPot {
   ClayStack stack;
   PotMeasures measures;
-  double wheel_s = 0.0;  ///< at the wheel
-  double tick_us = 0.0;  ///< of the computer's time, of the mean tick in contact
+  double wheel_s = 0.0;  ///< session time
+  double tick_us = 0.0;  ///< mean CPU time of a tick in contact
   WideQuanta volume_error = 0;
 };
 
-/// A whole pot by one potter, from the lump.
+/// Throws a whole pot from the lump.
 [[nodiscard]] ThrownPot throw_pot(Task task, const SceneSpec& scene, std::uint64_t seed);
 
 }  // namespace clay::bench

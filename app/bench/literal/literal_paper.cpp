@@ -166,7 +166,7 @@ double LiteralPaper::give_down(double inside, double outside, std::size_t bottom
   return given * (inside + outside);
 }
 
-/// Steps (a), (b). The remainder after the loop is left out of the body, as printed.
+/// Steps (a), (b). The remainder after the loop is not part of the body, as printed.
 void LiteralPaper::grow(double excess, LiteralReport& report) {
   double top = squared_wall(rings_.back());
   while (excess > top) {

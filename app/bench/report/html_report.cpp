@@ -19,7 +19,7 @@ std::string note_of(const std::string& note) {
 
 std::string verdict_of(bool sound) {
   return fmt::format("<span class=\"verdict {}\">{}</span>", sound ? "yes" : "no",
-                     sound ? "all that must hold holds" : "something that must hold does not");
+                     sound ? "all requirements met" : "a requirement is not met");
 }
 
 std::string cell_of(const Cell& cell) {
@@ -102,13 +102,14 @@ std::string html_of(const Section& section) {
 std::string header_of(const Report& report) {
   const Machine& m = report.machine;
   std::string html = fmt::format(
-      "<header>\n<h1>Claystack, measured</h1>\n<dl>\n<dt>command</dt><dd><code>{}</code></dd>\n"
+      "<header>\n<h1>Claystack benchmark</h1>\n<dl>\n<dt>command</dt><dd><code>{}</code></dd>\n"
       "<dt>machine</dt><dd>{}, {} cores, {}</dd>\n<dt>compiler</dt><dd>{}; <code>{}</code></dd>\n"
       "<dt>version</dt><dd>{}</dd>\n</dl>\n"
-      "<p class=\"note\">Times are medians of repetitions, run by turns in an order that changes; "
-      "the spread is the interquartile range, the middle half of them. Ratios are taken round by "
+      "<p class=\"note\">Times are medians of repetitions, run alternately in a varying order; "
+      "the spread is the interquartile range, the middle half of them. Ratios are computed round "
+      "by "
       "round. Ticks are measured in CPU time, exports in wall-clock time. A "
-      "requirement on a time is missed where three quarters of the rounds miss it.</p>\n"
+      "requirement on a time is missed if three quarters of the rounds miss it.</p>\n"
       "<nav>",
       escaped(report.command), escaped(m.cpu), m.cores, escaped(m.system), escaped(m.compiler),
       escaped(m.flags), escaped(m.version));
@@ -125,7 +126,7 @@ std::string html_of(const Report& report) {
       "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n"
       "<meta charset=\"utf-8\"/>\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-      "<title>Claystack, measured</title>\n<style>";
+      "<title>Claystack benchmark</title>\n<style>";
   html.append(kPageStyle).append(chart::style()).append("</style>\n</head>\n<body>\n");
   html += header_of(report);
   for (const Section& section : report.sections) html += html_of(section);

@@ -3,7 +3,7 @@
 
 namespace clay::bench {
 
-/// CSS of the page, for light and dark, screen and paper; the drawings bring their own.
+/// CSS of the page, for light and dark themes, screen and print; the drawings have their own.
 inline constexpr std::string_view kPageStyle = R"css(
 :root { color-scheme: light dark; --ink: #24211e; --soft: #5e5850; --rule: #d8d2c8; --page: #ffffff;
   --head: #f6f3ee; --bad: #b3261e; --good: #1c6b3c; --accent: #9a4a1c; }

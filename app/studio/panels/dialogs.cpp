@@ -19,7 +19,7 @@ void draw_look_settings(const ViewModel& model, Actions& actions) {
       choice_row("##theme", kThemes, settings.theme == Theme::dark ? 0 : 1, model.colours());
   if (theme >= 0) actions.emplace_back(SetTheme{theme == 0 ? Theme::dark : Theme::light});
   form_row("Text scale");
-  // Applied when the mouse is released: the slider would move away under it.
+  // Applied when the mouse is released; otherwise the slider would move under the pointer.
   ImGuiStorage& kept = *ImGui::GetStateStorage();
   const ImGuiID id = ImGui::GetID("scale");
   float scale = ImGui::IsAnyItemActive() ? kept.GetFloat(id, settings.scale) : settings.scale;
@@ -52,7 +52,7 @@ void draw_work_settings(const ViewModel& model, Actions& actions) {
   if (ImGui::Checkbox("Show below the pot", &hints)) actions.emplace_back(SetHints{hints});
 }
 
-/// The field for a name; Enter or the button gives `done`.
+/// A field for a file name. Enter or the button emits `done`.
 template <class Done>
 void draw_path(const std::string& path, const char* help, const char* button,
                const ViewModel& model, Actions& actions) {

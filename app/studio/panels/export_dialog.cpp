@@ -1,4 +1,4 @@
-// What an export would write, and what it has written.
+// The export dialog: choices, preview and results.
 
 #include "app/studio/commands.hpp"
 #include "app/studio/panels/panels.hpp"
@@ -16,12 +16,12 @@
 namespace clay::studio {
 namespace {
 
-/// Each function changes its own choices of `wish`.
-void draw_formats(ExportWish& wish) {
+/// Each function edits its own part of `choices`.
+void draw_formats(ExportChoices& choices) {
   form_row("Files");
-  const std::array boxes = {std::pair{"STL", &wish.stl}, std::pair{"OBJ", &wish.obj},
-                            std::pair{"Draco", &wish.drc}, std::pair{"Section", &wish.section},
-                            std::pair{"Pot", &wish.pot}};
+  const std::array boxes = {std::pair{"STL", &choices.stl}, std::pair{"OBJ", &choices.obj},
+                            std::pair{"Draco", &choices.drc},
+                            std::pair{"Section", &choices.section}, std::pair{"Pot", &choices.pot}};
   bool first = true;
   for (const auto& [title, wanted] : boxes) {
     if (!first) ImGui::SameLine();
@@ -30,38 +30,39 @@ void draw_formats(ExportWish& wish) {
   }
 }
 
-void draw_places(ExportWish& wish, Actions& actions) {
+void draw_places(ExportChoices& choices, Actions& actions) {
   form_row("Name");
-  ImGui::InputText("##name", &wish.name);
+  ImGui::InputText("##name", &choices.name);
   form_row("Folder");
   const float button = ImGui::CalcTextSize("Choose...").x + 3.0f * ImGui::GetStyle().FramePadding.x;
   ImGui::SetNextItemWidth(-button - ImGui::GetStyle().ItemSpacing.x);
-  ImGui::InputText("##folder", &wish.folder);
+  ImGui::InputText("##folder", &choices.folder);
   ImGui::SameLine();
   if (ImGui::Button("Choose...")) actions.emplace_back(ChooseExportFolder{});
 }
 
-void draw_choices(const ViewModel& model, ExportWish& wish, Actions& actions) {
+void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actions) {
   const Palette& colours = model.colours();
-  form_length("Tolerance", wish.tolerance_mm, kFinestMm, kCoarsestMm, LengthUnit::mm);
+  form_length("Tolerance", choices.tolerance_mm, kFinestMm, kCoarsestMm, LengthUnit::mm);
   constexpr std::array kSmooth = {solid::Smoothing::fair, solid::Smoothing::exact,
                                   solid::Smoothing::none};
   constexpr std::array kSmoothTitles = {"Fair", "Exact", "None"};
   const auto smooth =
-      static_cast<int>(std::ranges::find(kSmooth, wish.smoothing) - kSmooth.begin());
+      static_cast<int>(std::ranges::find(kSmooth, choices.smoothing) - kSmooth.begin());
   form_row("Smoothing");
   if (const int chosen = choice_row("##smooth", kSmoothTitles, smooth, colours); chosen >= 0)
-    wish.smoothing = kSmooth[static_cast<std::size_t>(chosen)];
+    choices.smoothing = kSmooth[static_cast<std::size_t>(chosen)];
   form_row("Process");
-  (void)choose_process(model, "None", wish.process, actions);
-  form_length("Minimum wall", wish.min_wall_mm, 0.0, kThickestDemandMm, model.settings.unit,
-              wish.process.empty() ? "no limit" : "as the process requires");
+  (void)choose_process(model, "None", choices.process, actions);
+  form_length("Minimum wall", choices.min_wall_mm, 0.0, kThickestDemandMm, model.settings.unit,
+              choices.process.empty() ? "no limit" : "as the process requires");
   form_row("Shrinkage");
-  float percent = static_cast<float>(wish.shrinkage_percent);
+  float percent = static_cast<float>(choices.shrinkage_percent);
   if (ImGui::SliderFloat("##shrinkage", &percent, 0.0f, 25.0f, percent > 0.0f ? "%.1f %%" : "none",
                          ImGuiSliderFlags_AlwaysClamp))
-    // In tenths, as shown, so that the command line makes the same file from the same number.
-    wish.shrinkage_percent = std::round(10.0 * static_cast<double>(percent)) / 10.0;
+    // Rounded to tenths, as shown, so that the command line gives the same file for the same
+    // number.
+    choices.shrinkage_percent = std::round(10.0 * static_cast<double>(percent)) / 10.0;
 }
 
 const char* title_of(solid::MeshFormat format) {
@@ -101,7 +102,7 @@ void draw_figures(const ViewModel& model, const solid::ExportReport& report) {
   ImGui::PopStyleColor();
 }
 
-/// Progress, figures or the problem, in a part of fixed height, so that the dialog keeps its
+/// Progress, figures or the problem, in an area of fixed height, so that the dialog keeps its
 /// height.
 void draw_preview(const ViewModel& model) {
   const ExportState& exporting = model.ui.exporting;
@@ -124,7 +125,7 @@ void draw_buttons(const ViewModel& model, Actions& actions) {
   const ExportState& exporting = model.ui.exporting;
   const bool writes = model.writing();
   const std::vector<std::string> standing = exporting.written.empty() && !writes
-                                                ? standing_files(exporting.wish)
+                                                ? standing_files(exporting.choices)
                                                 : std::vector<std::string>();
   if (!exporting.result.empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, model.colours().good);
@@ -158,11 +159,11 @@ void draw_buttons(const ViewModel& model, Actions& actions) {
 void draw(const ExportDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect) {
   begin_dialog("##export", rect, 38.0f);
   dialog_title(model, "Export");
-  ExportWish wish = model.ui.exporting.wish;
-  draw_formats(wish);
-  draw_places(wish, actions);
-  draw_choices(model, wish, actions);
-  if (wish != model.ui.exporting.wish) actions.emplace_back(EditExport{wish});
+  ExportChoices choices = model.ui.exporting.choices;
+  draw_formats(choices);
+  draw_places(choices, actions);
+  draw_choices(model, choices, actions);
+  if (choices != model.ui.exporting.choices) actions.emplace_back(EditExport{choices});
   ImGui::Spacing();
   draw_preview(model);
   draw_buttons(model, actions);

@@ -30,7 +30,7 @@ const render::PotView& section_of(const Sample& sample) {
   return *made[index];
 }
 
-/// A button with picture, title and text; whether it was clicked.
+/// A button with picture, title and text. Returns true on a click.
 bool draw_sample(const Sample& sample, float width, const Palette& colours, ImFont* title) {
   const float em = ImGui::GetFontSize();
   ImGui::BeginGroup();
@@ -51,7 +51,7 @@ bool draw_sample(const Sample& sample, float width, const Palette& colours, ImFo
 }
 
 void draw_lump(const ViewModel& model, Actions& actions) {
-  // The sliders keep their values while the dialog is closed.
+  // Static, so that the sliders keep their values while the dialog is closed.
   ImGuiStorage& kept = *ImGui::GetStateStorage();
   const ImGuiID kg_id = ImGui::GetID("kg"), radius_id = ImGui::GetID("radius");
   float kg = kept.GetFloat(kg_id, 1.0f);
@@ -76,7 +76,7 @@ void draw_lump(const ViewModel& model, Actions& actions) {
   ImGui::Columns(1);
 }
 
-/// Any file, and the recent ones by name.
+/// Button for any file, and a list of recent files.
 void draw_files(const ViewModel& model, Actions& actions) {
   if (ImGui::Button("Open...")) actions.emplace_back(RunCommand{"file.open"});
   for (const std::string& path : model.settings.recent) {
@@ -103,7 +103,7 @@ std::string text_of(const history::Recoverable& work) {
                      work.running ? ", the last one incomplete" : "");
 }
 
-/// Unsaved works of programs that crashed.
+/// Unsaved works left by programs that crashed.
 void draw_recoverable(const ViewModel& model, Actions& actions) {
   if (model.recoverable.empty()) return;
   const std::size_t shown = std::min(model.recoverable.size(), kMostWorksShown);
@@ -126,7 +126,7 @@ void draw_recoverable(const ViewModel& model, Actions& actions) {
   ImGui::EndChild();
 }
 
-/// As many in a row as there is room for.
+/// As many per row as fit.
 void draw_samples(const ViewModel& model, Actions& actions) {
   const float room = ImGui::GetContentRegionAvail().x;
   const float gap = ImGui::GetStyle().ItemSpacing.x, least = kLeastCardEm * ImGui::GetFontSize();

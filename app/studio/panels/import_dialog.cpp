@@ -1,4 +1,4 @@
-// A drawing of a section, before it becomes clay.
+// The import dialog: settings and preview of a drawing.
 
 #include "app/studio/commands.hpp"
 #include "app/studio/panels/panels.hpp"

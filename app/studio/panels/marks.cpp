@@ -1,5 +1,5 @@
-// Over the view: results of the checks and problems of an export, at their places on the pot, and
-// the scale of the wall map.
+// Marks over the view: results of the checks and problems of an export, at their places on the pot,
+// and the scale of the wall map.
 
 #include "app/render/legend.hpp"
 #include "app/studio/panels/panels.hpp"
@@ -13,7 +13,7 @@
 namespace clay::studio {
 namespace {
 
-constexpr float kLeastViewEm = 18.0f;  // height of the view that the scale needs
+constexpr float kLeastViewEm = 18.0f;  // minimum height of the view for the scale
 constexpr int kSteps = 5;
 
 void shaded_text(ImDrawList* draw, ImVec2 at, const std::string& text, const ImVec4& colour) {
@@ -24,7 +24,7 @@ void shaded_text(ImDrawList* draw, ImVec2 at, const std::string& text, const ImV
   draw->AddText(at, ImGui::GetColorU32(colour), text.c_str());
 }
 
-/// The scale of the wall map: the same range for every pot, with the limit.
+/// The scale of the wall map: the same range for every pot, with the limit marked.
 void draw_scale(const PotCheck& check, const ViewRect& rect, LengthUnit unit) {
   const float em = ImGui::GetFontSize();
   if (rect.size_px.y < kLeastViewEm * em) return;
@@ -56,7 +56,7 @@ void draw_scale(const PotCheck& check, const ViewRect& rect, LengthUnit unit) {
                 ink);
 }
 
-/// A circle around the thinnest place, and its thickness.
+/// A circle around the thinnest place, with its thickness.
 void mark_thinnest(const ViewModel& model, const PotCheck& check, ImDrawList* draw) {
   const float em = ImGui::GetFontSize();
   const glm::dvec2 middle = 0.5 * (glm::abs(check.thinnest_from) + glm::abs(check.thinnest_to));
@@ -69,7 +69,7 @@ void mark_thinnest(const ViewModel& model, const PotCheck& check, ImDrawList* dr
               length_text(check.thinnest_mm, model.settings.unit), colour);
 }
 
-/// The level at which the pot is in two parts.
+/// The height at which the pot consists of two parts.
 void mark_fault(const ViewModel& model, double y_mm, ImDrawList* draw) {
   const ImVec4 colour = model.colours().fault;
   float widest = 0.0f;
@@ -103,12 +103,12 @@ void draw_marks(const ViewModel& model, const ViewRect& rect) {
 
 namespace {
 
-/// A circle around the place, and a line from it to the text, within the view.
+/// A circle around the place and a line to its text, kept within the view.
 void draw_mark(const ViewModel& model, const ViewRect& rect, const Mark& mark, glm::vec2 at,
                float top) {
   const float em = ImGui::GetFontSize();
   const float wrap = std::min(16.0f * em, 0.45f * rect.size_px.x);
-  // The problem only; the dialog has its source and further places.
+  // Only the problem; the dialog lists its source and further places.
   const std::string text = mark.text.substr(0, std::min(mark.text.find(';'), mark.text.find(" (")));
   const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
   const float right = rect.corner_px.x + rect.size_px.x;

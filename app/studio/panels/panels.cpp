@@ -14,10 +14,10 @@ namespace clay::studio {
 namespace {
 
 struct Panel {
-  const char* id;     ///< in the settings
-  const char* title;  ///< of its header, which folds it
+  const char* id;     ///< key in the settings
+  const char* title;  ///< title of the header, which folds the panel
   Column column;
-  bool open;  ///< where the settings do not name it
+  bool open;  ///< default, if the settings do not contain the panel
   void (*draw)(const ViewModel& model, Actions& actions);
 };
 const std::array kPanels = {

@@ -1,7 +1,7 @@
 #pragma once
 // The parts of the window around the view. A panel is a function that draws itself into a column
-// from a const view model, and adds actions for what the user does. To add a panel, write the
-// function and name it in the table of panels.cpp.
+// from a const view model and emits actions. To add a panel, write the function and add it to the
+// table in panels.cpp.
 
 #include "app/studio/action.hpp"
 #include "app/studio/scene_view.hpp"
@@ -13,9 +13,9 @@ namespace clay::studio {
 
 enum class Column { left, right };
 
-/// Unfolded or not; false for an unknown id.
+/// Whether the panel is unfolded; false for an unknown id.
 [[nodiscard]] bool panel_open(const Settings& settings, std::string_view id);
-/// What the open panels need.
+/// Data that the open panels need.
 [[nodiscard]] Wanted wanted_of(const Settings& settings);
 
 /// All panels of a column, in one window.
@@ -28,9 +28,10 @@ float draw_menu(const ViewModel& model, Actions& actions);
 void draw_status_bar(const ViewModel& model, glm::vec2 corner_px, glm::vec2 size_px);
 void draw_banner(const ViewModel& model, Actions& actions, const ViewRect& rect);
 void draw_hint(const ViewModel& model, Actions& actions, const ViewRect& rect);
-/// Over the view: results of the checks at their places on the pot, and the scale of the wall map.
+/// Draws over the view: results of the checks at their places on the pot, and the scale of the wall
+/// map.
 void draw_marks(const ViewModel& model, const ViewRect& rect);
-/// Over the view: problems of the last export at their places.
+/// Draws over the view: problems of the last export at their places.
 void draw_export_marks(const ViewModel& model, const ViewRect& rect);
 
 // The panels.
@@ -45,9 +46,9 @@ void draw_ledger(const ViewModel& model, Actions& actions);
 void draw_stress(const ViewModel& model, Actions& actions);
 void draw_servo(const ViewModel& model, Actions& actions);
 
-/// The dialog that is open, if there is one.
+/// Draws the open dialog, if there is one.
 void draw_dialog(const ViewModel& model, Actions& actions, const ViewRect& rect);
-// One for each alternative of Dialog.
+// One function for each alternative of Dialog.
 void draw(const NoDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
 void draw(const GalleryDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
 void draw(const ShortcutsDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);

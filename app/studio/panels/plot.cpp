@@ -9,7 +9,7 @@ float part_of(double value, double top) {
   return static_cast<float>(std::clamp(value / top, 0.0, 1.0));
 }
 
-/// Widened to touch its neighbour, so that a curve has no gaps.
+/// Extended to touch its neighbour, so that a curve has no gaps.
 MinMax joined(const MinMax& part, const std::optional<MinMax>& before) {
   if (!before) return part;
   return {std::min(part.least, before->most), std::max(part.most, before->least)};

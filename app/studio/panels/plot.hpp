@@ -1,5 +1,5 @@
 #pragma once
-// Plots of a column's width: a frame, curves with nothing lost between pixels, words in corners.
+// Plots as wide as a column: a frame, curves that show every peak, labels in the corners.
 
 #include "app/studio/readings/curves.hpp"
 #include "app/studio/style.hpp"
@@ -10,20 +10,20 @@
 
 namespace clay::studio {
 
-/// What is drawn on [px].
+/// Drawing area [px].
 struct PlotArea {
   ImVec2 low, high;
   [[nodiscard]] float width() const { return high.x - low.x; }
   [[nodiscard]] float height() const { return high.y - low.y; }
 };
 
-/// A frame as wide as the column, and room taken for it.
+/// Draws a frame as wide as the column and reserves its space.
 PlotArea begin_plot(float height_em);
 
-/// Values upwards from 0 to `top`; a column of pixels each, joined to the one before it.
+/// Values upwards from 0 to `top`, one pixel column each, connected to the previous one.
 void plot_columns(const PlotArea& area, std::span<const std::optional<MinMax>> columns, double top,
                   const ImVec4& colour);
-/// The same lying: values to the right, a row of pixels each, from the bottom up.
+/// The same with horizontal values: to the right, one pixel row each, from the bottom up.
 void plot_rows(const PlotArea& area, std::span<const std::optional<MinMax>> rows, double top,
                const ImVec4& colour);
 

@@ -12,7 +12,7 @@ namespace clay::studio {
 namespace {
 
 constexpr float kStressHeightEm = 9.0f;
-constexpr double kNear = 0.8;  // of the limit: shown in another colour
+constexpr double kNear = 0.8;  // fraction of the limit above which the colour changes
 
 std::vector<CurvePoint> points_of(const StressCurve& curve) {
   std::vector<CurvePoint> points;
@@ -22,7 +22,7 @@ std::vector<CurvePoint> points_of(const StressCurve& curve) {
   return points;
 }
 
-/// With fewer rings than pixels, a pixel without a ring has the value of the one below it.
+/// If there are fewer rings than pixels, a pixel without a ring takes the value below it.
 void fill_gaps(std::vector<std::optional<MinMax>>& rows) {
   for (std::size_t i = 1; i < rows.size(); ++i)
     if (!rows[i]) rows[i] = rows[i - 1];

@@ -142,7 +142,7 @@ void draw_certificate(const ViewModel& model, Actions&) {
                                    .c_str());
   }
   remarks(*check, colours, model.settings.unit);
-  // The pictures of a script are reproducible.
+  // Omitted in scripts, because their pictures must be reproducible.
   if (model.real_time)
     value_row(colours, "Run time", fmt::format("{:.1f} ms", 1e3 * check->seconds));
 }

@@ -1,4 +1,4 @@
-// The section of the pot with its dimensions, as fine as there are pixels.
+// The section of the pot with its dimensions, at the resolution of the screen.
 
 #include "app/render/legend.hpp"
 #include "app/render/pot_view.hpp"
@@ -20,7 +20,7 @@ constexpr std::array kParts = {"Half", "Full"};
 
 /// From the profile's plane (rho, y) [mm] to pixels.
 struct Sheet {
-  ImVec2 foot;  ///< of the axis
+  ImVec2 foot;  ///< position of the foot of the axis
   float px_per_mm = 1.0f;
   [[nodiscard]] ImVec2 at(double rho_mm, double y_mm) const {
     return {foot.x + px_per_mm * static_cast<float>(rho_mm),
@@ -28,7 +28,7 @@ struct Sheet {
   }
 };
 
-/// Leaves room for the dimensions: height above and at the left, width below.
+/// Reserves space for the dimensions: height above and at the left, width below.
 Sheet sheet_for(const PlotArea& area, double widest, double height, bool full) {
   const float em = ImGui::GetFontSize();
   const ImVec2 low(area.low.x + 1.4f * em, area.low.y + 1.6f * em);
@@ -50,7 +50,7 @@ ImU32 colour_at(const PotCheck* check, double y_mm, const ImVec4& clay) {
   return IM_COL32(swatch.red, swatch.green, swatch.blue, 255);
 }
 
-/// Clay of all rings of a row is opaque, clay of only some is faint.
+/// Opaque where all rings of a row hold clay, faint where only some do.
 void draw_clay(const ViewModel& model, const Sheet& sheet, double height, bool full,
                const PotCheck* check) {
   const std::size_t rows = whole_px(sheet.px_per_mm * static_cast<float>(height));
@@ -125,7 +125,7 @@ void draw_tool_at(const render::ToolView& tool, const Sheet& sheet, const Palett
   draw_outline(tool.half_profile_mm, sheet, place - reach, colour);
 }
 
-/// Where it is thinnest, where it is too thin, and where nothing could be proved.
+/// Marks the thinnest place, walls that are too thin, and places without a proof.
 void draw_faults(const PlotArea& area, const Sheet& sheet, const PotCheck& check,
                  const Palette& colours) {
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -147,7 +147,7 @@ void draw_faults(const PlotArea& area, const Sheet& sheet, const PotCheck& check
   for (const ImVec2& end : {from, to}) draw->AddCircleFilled(end, 0.18f * em, ink);
 }
 
-/// Values under the pointer, as text.
+/// Values at the pointer, as text.
 std::string read_out(const PlotArea& area, const Sheet& sheet, double height, bool full,
                      const PotCheck* check, LengthUnit unit) {
   if (!ImGui::IsMouseHoveringRect(area.low, area.high)) return "Point here to read values";
@@ -170,7 +170,7 @@ std::string read_out(const PlotArea& area, const Sheet& sheet, double height, bo
   return text + u.name;
 }
 
-/// As high as wide, or the rest of the column, so that nothing scrolls without need.
+/// As high as wide, or the rest of the column, so that the column scrolls only if it must.
 float plot_height_em(bool fallen) {
   const float em = ImGui::GetFontSize(), below = ImGui::GetTextLineHeightWithSpacing();
   const float room = ImGui::GetContentRegionAvail().y - (fallen ? 2.0f : 1.0f) * below -

@@ -1,4 +1,4 @@
-// The list of keys and of mouse buttons, from the table of commands.
+// The list of keys and mouse buttons, from the table of commands.
 
 #include "app/studio/commands.hpp"
 #include "app/studio/panels/panels.hpp"
@@ -29,7 +29,7 @@ Section mouse_section() {
            {"Wheel", "Zoom"}}};
 }
 
-/// Commands in no menu belong to a dialog.
+/// Commands that are in no menu belong to a dialog.
 Section section_of(const Menu* menu) {
   Section section{menu != nullptr ? menu->title : "Dialogs", {}};
   for (const Command& command : commands()) {

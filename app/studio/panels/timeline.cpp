@@ -13,8 +13,8 @@
 namespace clay::studio {
 namespace {
 
-/// Nodes on the way that undo and redo take: up from where the work is, and on to the last branch
-/// that was taken.
+/// Nodes on the path of undo and redo: the ancestors of the current node, and the descendants along
+/// the latest branch.
 std::vector<char> main_line(const history::Work& work) {
   std::vector<char> on(work.size(), 0);
   const auto& nodes = work.record().nodes;
@@ -33,9 +33,9 @@ Timeline timeline_of(const history::Work& work) {
     done[node] = 1;
   Timeline timeline;
   std::vector<TimelineBlock> of(work.size());
-  std::vector<char> row_goes_on(work.size(), 0);  // a child has its row already
+  std::vector<char> row_goes_on(work.size(), 0);  // a child has taken over this row
   row_goes_on[0] = 1;
-  for (history::NodeId node = 1; node < work.size(); ++node) {  // parents come first
+  for (history::NodeId node = 1; node < work.size(); ++node) {  // parents precede their children
     const history::NodeView view = work.view(node);
     TimelineBlock& block = of[node];
     block.node = node;
@@ -68,9 +68,9 @@ std::optional<TimelineBlock> block_at(const Timeline& timeline, double seconds, 
 namespace {
 
 constexpr float kRowEm = 1.6f, kStartEm = 3.6f, kNarrowestEm = 1.0f;
-constexpr float kAroundEm = kStartEm + 1.2f;  // width beside the blocks
+constexpr float kAroundEm = kStartEm + 1.2f;  // width of the margins beside the blocks
 constexpr std::size_t kMostRowsShown = 3;
-constexpr float kLeastRoomEm = 26.0f;  // height of the view that the timeline needs
+constexpr float kLeastRoomEm = 26.0f;  // minimum height of the view for the timeline
 constexpr float kDragPx = 4.0f;        // a shorter movement is a click
 
 std::string tooltip_of(const history::NodeView& stroke, const TimelineBlock& block) {
@@ -141,7 +141,7 @@ void draw_block(const ViewModel& model, const TimelineBlock& block, const Scale&
                 ImGui::GetColorU32(ink_on(face)), number.c_str());
 }
 
-/// The pot before all strokes; whether it was clicked.
+/// The pot before all strokes. Returns true on a click.
 bool draw_start(const ViewModel& model, const Scale& scale) {
   const float em = ImGui::GetFontSize();
   const bool here = model.document.work().at() == 0;
@@ -162,7 +162,7 @@ float scale_px_per_s(const Timeline& timeline, float width_px) {
   return std::clamp(fitting, kNarrowestEm * em / static_cast<float>(kShortestBlockS), 8.0f * em);
 }
 
-/// The stroke that the mouse holds; ImGui keeps it with the window of the timeline.
+/// The stroke under the held mouse; ImGui stores it with the window of the timeline.
 struct Held {
   history::NodeId node = 0;  ///< 0: none
   float from_px = 0.0f;
@@ -181,7 +181,7 @@ struct Held {
   }
 };
 
-/// The moment of the stroke at the mouse.
+/// The moment within the stroke at the mouse position.
 Scrub moment_at_mouse(const ViewModel& model, const TimelineBlock& block, const Scale& scale) {
   const float low = scale.low(block).x, high = scale.high(block).x;
   const double part =
@@ -189,7 +189,7 @@ Scrub moment_at_mouse(const ViewModel& model, const TimelineBlock& block, const 
   return {block.node, part * model.document.work().view(block.node).seconds};
 }
 
-/// A line at the moment that the view shows.
+/// A line at the moment shown in the view.
 void draw_moment(const ViewModel& model, const Timeline& timeline, const Scale& scale) {
   const auto& moment = model.document.moment();
   if (!moment) return;
@@ -211,7 +211,7 @@ std::optional<TimelineBlock> block_under_mouse(const Timeline& timeline, const S
   return block_at(timeline, s, static_cast<std::size_t>(row));
 }
 
-/// A click goes to the end of a stroke, a drag shows a moment in the middle of it.
+/// A click selects the end of a stroke; a drag shows a moment within it.
 void handle_mouse(const ViewModel& model, const Timeline& timeline, const Scale& scale,
                   Actions& actions) {
   Held held = Held::load();
@@ -267,7 +267,7 @@ void draw_timeline(const ViewModel& model, Actions& actions, glm::vec2 corner_px
   const float start_px = kStartEm * em;
   const float px_per_s = scale_px_per_s(timeline, size_px.x);
   const Scale scale{ImGui::GetCursorScreenPos(), px_per_s, kRowEm * em, start_px};
-  // Nothing changes behind a dialog.
+  // Disabled while a dialog is open.
   const bool live = model.ui.shows<NoDialog>();
   if (draw_start(model, scale) && live) actions.emplace_back(GoToStroke{0});
   for (const TimelineBlock& block : timeline.blocks) draw_block(model, block, scale);
@@ -276,7 +276,7 @@ void draw_timeline(const ViewModel& model, Actions& actions, glm::vec2 corner_px
   ImGui::SetCursorScreenPos(
       {scale.origin.x, scale.origin.y + scale.row_px * static_cast<float>(timeline.rows) - 1.0f});
   ImGui::Dummy({start_px + px_per_s * static_cast<float>(timeline.seconds), 1.0f});
-  // The newest stroke is scrolled into view.
+  // Scrolls to the newest stroke.
   ImGuiStorage& kept = *ImGui::GetStateStorage();
   const int strokes = static_cast<int>(model.document.work().size());
   if (kept.GetInt(ImGui::GetID("strokes")) != strokes) ImGui::SetScrollX(ImGui::GetScrollMaxX());

@@ -29,7 +29,7 @@ const char* help_text(ToolMode mode) {
   return "Presses from both sides of the wall: drag up to pull it.";
 }
 
-/// The sliders of the present shape; whether one has moved.
+/// Sliders of the selected shape. Returns true if one has moved.
 bool draw_sizes(ToolChoice& tool, LengthUnit unit, const Palette& colours) {
   const auto size = [&](const char* label, double& mm) {
     return length_slider(label, mm, kSmallestToolMm, kLargestToolMm, unit);
@@ -56,7 +56,7 @@ bool draw_sizes(ToolChoice& tool, LengthUnit unit, const Palette& colours) {
   return changed;
 }
 
-/// A bar of the force, with its value in readable ink on either ground.
+/// Bar of the force, with its value readable on both backgrounds.
 void draw_bar(float part, const std::string& text, const ImVec4& colour) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetFrameHeight();

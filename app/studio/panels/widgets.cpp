@@ -104,8 +104,8 @@ void value_row(const Palette& colours, const char* name, const std::string& valu
 
 namespace {
 
-/// Dims everything around the dialog except menu and status bar. The dialog draws it, so that it
-/// covers the columns too.
+/// Dims everything around the dialog except the menu and the status bar. The dialog draws it, so
+/// that it covers the columns as well.
 void dim_around(float top, float bottom) {
   const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
   const float right = corner.x + size.x, foot = corner.y + size.y;
@@ -120,7 +120,7 @@ void dim_around(float top, float bottom) {
   draw->PopClipRect();
 }
 
-/// A row of pixels at y; those at its ends in proportion to their coverage.
+/// One row of pixels at y; the pixels at both ends are blended by their coverage.
 void fill_row(float y, float from, float to, ImVec4 colour) {
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const auto fill = [&](float begin, float end, float part) {
@@ -141,12 +141,12 @@ void begin_dialog(const char* id, const ViewRect& rect, float width_em) {
   const float em = ImGui::GetFontSize();
   const ImVec2 low(rect.corner_px.x, rect.corner_px.y);
   const ImVec2 high(low.x + rect.size_px.x, low.y + rect.size_px.y);
-  // In a narrow view a dialog covers the columns too, so that no text is cut off.
+  // In a narrow view a dialog covers the columns as well, so that no text is cut off.
   const float room = ImGui::GetIO().DisplaySize.x;
   const float width = std::min(width_em * em, room);
   const float middle = width > rect.size_px.x ? 0.5f * room : 0.5f * (low.x + high.x);
   ImGui::SetNextWindowPos({middle, 0.5f * (low.y + high.y)}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSize({width, 0.0f});  // as high as its content, up to the view
+  ImGui::SetNextWindowSize({width, 0.0f});  // as high as its content, at most as the view
   ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, rect.size_px.y});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(1.3f * em, 1.1f * em));

@@ -1,5 +1,5 @@
 #pragma once
-// Controls that more than one panel or dialog uses.
+// Controls that several panels or dialogs use.
 
 #include "app/studio/action.hpp"
 #include "app/studio/scene_view.hpp"
@@ -11,12 +11,12 @@
 
 namespace clay::studio {
 
-/// A row of buttons of equal width, one of which is chosen. Returns the one that was clicked, or
-/// -1.
+/// A row of buttons of equal width, one of which is selected. Returns the index of a clicked
+/// button, or -1.
 int choice_row(const char* id, std::span<const char* const> titles, int chosen,
                const Palette& colours);
 
-/// A labelled slider for a length in mm, shown in `unit`; whether it has moved.
+/// A labelled slider for a length in mm, shown in `unit`. Returns true if it has moved.
 bool length_slider(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit);
 
 /// The default button of a dialog.
@@ -24,25 +24,26 @@ bool main_button(const char* text, const Palette& colours);
 
 void dialog_title(const ViewModel& model, const char* text);
 
-/// A label at the left; the next control takes the rest of the line.
+/// A label at the left; the next control fills the rest of the line.
 inline constexpr float kFormEm = 9.0f;
 void form_row(const char* label);
 /// A slider in such a line; `none`: text shown for 0.
 bool form_length(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit,
                  const char* none = nullptr);
 
-/// The pot from the side, its right half in section, in a square.
+/// The pot from the side in a square; the right half is cut open.
 void draw_half_section(const render::PotView& pot, ImVec2 corner, float side,
                        const Palette& colours);
 
 void faint_text(const Palette& colours, const std::string& text);
-/// Name on the left, value at the right edge of the column.
+/// Name at the left, value at the right edge of the column.
 void value_row(const Palette& colours, const char* name, const std::string& value);
 
-/// Begins a window in the middle of the dimmed view, as high as its content; ImGui::End() ends it.
+/// Begins a window in the middle of the dimmed view, as high as its content. Call ImGui::End() to
+/// end it.
 void begin_dialog(const char* id, const ViewRect& rect, float width_em);
 
-/// A list to choose `process` from; whether it has changed. `none`: title of no process.
+/// A list for choosing `process`. Returns true if it has changed. `none`: label for no process.
 bool choose_process(const ViewModel& model, const char* none, std::string& process,
                     Actions& actions);
 

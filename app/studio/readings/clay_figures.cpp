@@ -85,7 +85,7 @@ std::vector<SectionRow> section_rows(const ClayStack& stack, std::size_t rows) {
   const auto ring_at = [&](double y_mm) {
     return static_cast<std::size_t>(std::clamp(y_mm / stack.ring_height_mm(), 0.0, last));
   };
-  // A ring that only touches the edge of a row is not in it.
+  // A ring that only touches the edge of a row does not count.
   const double edge = 1e-9 * stack.ring_height_mm();
   for (std::size_t row = 0; row < rows; ++row) {
     const double low = row_mm * static_cast<double>(row);

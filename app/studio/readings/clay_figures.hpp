@@ -1,6 +1,6 @@
 #pragma once
-// Figures of the clay: where its mass is, how near it is to falling, and its section in rows of
-// pixels.
+// Figures of the clay: the ledger, the stress in proportion to its limit, and the section in rows
+// of pixels.
 
 #include "app/render/picture.hpp"
 #include "app/servo/live_view.hpp"
@@ -25,8 +25,8 @@ struct ClayAccount {
 };
 
 [[nodiscard]] ClayAccount account_of(const Pot& pot);
-/// During a stroke, from the ledger figures of the servo; `stack` gives the capacity. `before`: the
-/// account at the start of the stroke.
+/// During a stroke: from the ledger figures of the servo; `stack` gives the capacity. `before`: the
+/// ledger at the start of the stroke.
 [[nodiscard]] ClayAccount account_of(const servo::LiveStatus& status, const ClayStack& stack,
                                      double density_g_cm3, const ClayAccount& before);
 
@@ -49,18 +49,18 @@ struct StressCurve {
 [[nodiscard]] std::string stress_text(const StressCurve& curve, LengthUnit unit);
 
 /// Extremes of the rings in one row of pixels. Between inner_most and outer_least all of these
-/// rings hold clay, between inner_least and outer_most some do.
+/// rings hold clay; between inner_least and outer_most some do.
 struct SectionRow {
   float inner_least_mm = 0.0f, inner_most_mm = 0.0f;
   float outer_least_mm = 0.0f, outer_most_mm = 0.0f;
   friend bool operator==(const SectionRow&, const SectionRow&) = default;
 };
 
-/// `rows` equal parts of the stack's height, bottom to top; the crown is a ring of its own.
+/// `rows` equal parts of the height of the stack, bottom to top; the crown counts as a ring.
 /// O(rings + rows).
 [[nodiscard]] std::vector<SectionRow> section_rows(const ClayStack& stack, std::size_t rows);
 
-/// Wall thickness at a height [mm], the smaller one of both faces; infinite where unknown.
+/// Wall thickness at a height [mm]: the smaller of the values of both faces; infinite if unknown.
 [[nodiscard]] double wall_at_height(std::span<const render::RowWall> walls, double height_mm,
                                     double y_mm);
 

@@ -30,9 +30,9 @@ double round_up(double value) {
 
 namespace {
 
-constexpr std::size_t kMost = 65'536;  // of a servo at more than 6 kHz the last of the seconds
+constexpr std::size_t kMost = 65'536;  // limit of memory; above 6 kHz fewer seconds are kept
 
-/// Reorders.
+/// Changes the order of the elements.
 double percentile(std::vector<float>& values, double part) {
   const auto number =
       static_cast<std::ptrdiff_t>(std::ceil(part * static_cast<double>(values.size()))) - 1;

@@ -1,6 +1,6 @@
 #pragma once
-// Curves for plots: the last seconds of the servo, and any number of points in as many columns as
-// there are pixels, so that no peak is lost.
+// Curves for plots: the last seconds of the servo, and any number of points reduced to one column
+// per pixel without losing a peak.
 
 #include "app/servo/tick_trace.hpp"
 
@@ -21,13 +21,13 @@ struct MinMax {
   friend bool operator==(const MinMax&, const MinMax&) = default;
 };
 
-/// Extremes in `columns` equal parts of from..to; empty where no point lies. Points outside are
-/// left out.
+/// Extremes in `columns` equal parts of from..to; empty where there is no point. Points outside are
+/// ignored.
 [[nodiscard]] std::vector<std::optional<MinMax>> min_max_of(std::span<const CurvePoint> points,
                                                             double from, double to,
                                                             std::size_t columns);
 
-/// The smallest of 1, 2, 5, 10, 20, ... that is at least `value` > 0: the top of an axis.
+/// The smallest of 1, 2, 5, 10, 20, ... that is at least `value` > 0: the end of an axis.
 [[nodiscard]] double round_up(double value);
 
 inline constexpr double kHistoryS = 10.0;
@@ -41,15 +41,15 @@ struct TickFigures {
 
 class TickHistory {
  public:
-  /// Takes all samples of the trace; drops those older than kHistoryS before the newest.
+  /// Reads all samples of the trace and drops those older than kHistoryS before the newest.
   void take(servo::TickTrace& trace);
   void add(const servo::TickSample& sample);
 
   [[nodiscard]] bool empty() const noexcept { return samples_.empty(); }
   [[nodiscard]] const std::deque<servo::TickSample>& samples() const noexcept { return samples_; }
-  /// Figures of all samples kept. Percentile p of n sorted ticks: number ceil(p n).
+  /// Figures of all samples kept. Percentile p of n sorted ticks is number ceil(p n).
   [[nodiscard]] TickFigures figures() const;
-  /// A value against the time relative to the newest tick, from -kHistoryS to 0 [s].
+  /// A value over the time relative to the newest tick, from -kHistoryS to 0 [s].
   [[nodiscard]] std::vector<CurvePoint> curve(float servo::TickSample::*value) const;
 
  private:

@@ -31,7 +31,8 @@ std::optional<solid::WallLimit> limit_of(const std::string& process, const ClayS
   return limits->wall_for(4.0 * largest_radius_mm(stack) + stack.height_mm());
 }
 
-/// The lowest level at which the rings above and below share no clay, as in a pot in pieces.
+/// The lowest level at which the rings above and below share no clay: the pot is in two parts
+/// there.
 std::optional<double> parting_mm(const ClayStack& stack) {
   const auto rings = stack.rings();
   for (std::size_t i = 1; i < rings.size(); ++i)

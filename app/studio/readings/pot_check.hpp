@@ -1,6 +1,6 @@
 #pragma once
-// What the export reports of a pot: proved or not, where and why, and its wall thickness. A value
-// that any thread can make; all figures are those of solid::run_export.
+// The export's verdict on a pot: proved or not, where and why, and its wall thickness. Plain values
+// that any thread can compute; all figures are those of solid::run_export.
 
 #include "app/history/work.hpp"
 #include "app/render/picture.hpp"
@@ -17,10 +17,10 @@
 
 namespace clay::studio {
 
-/// The clay that panels describe: the pot at rest, to the quantum, or its outline during a stroke.
+/// The clay that the panels describe: the exact pot at rest, or its outline during a stroke.
 struct Subject {
   history::SharedPot pot;   ///< at rest; null during a stroke
-  render::PotView outline;  ///< as shown on screen
+  render::PotView outline;  ///< outline as shown on screen
   double density_g_cm3 = 1.9;
   double crown_mm = 0.0;  ///< height of the crown above the rows of the outline
   [[nodiscard]] bool live() const noexcept { return pot == nullptr; }
@@ -66,15 +66,15 @@ struct PotCheck {
 
 [[nodiscard]] std::vector<std::string> process_names();
 
-/// `cancelled` as ExportOptions::cancelled: the result of a cancelled check is meaningless.
+/// `cancelled` as in ExportOptions::cancelled. The result of a cancelled check is meaningless.
 [[nodiscard]] PotCheck check_pot(const PotQuestion& question,
                                  const std::function<bool()>& cancelled = {});
 
-/// Walls resampled by height for an outline of `rows` rows and `height_mm`.
+/// Walls resampled by height for an outline of `rows` rows and a height of `height_mm`.
 [[nodiscard]] std::vector<render::RowWall> walls_for(const PotCheck& check, std::size_t rows,
                                                      double height_mm);
 
-/// Colours from 0 to 10 mm for every pot; walls below the limit of the process are hatched.
+/// Colours cover 0 to 10 mm for every pot; walls below the limit of the process are hatched.
 [[nodiscard]] render::WallMap wall_map_of(const PotCheck& check);
 
 /// Heights at which walls are thinner than the process requires [mm], bottom to top.
@@ -83,8 +83,8 @@ struct PotCheck {
 /// "Thinnest wall 2.1 mm, at a height of 34.0 mm; porcelain requires 3.0 mm: too thin".
 [[nodiscard]] std::string wall_text(const PotCheck& check, LengthUnit unit);
 
-/// A stack whose rings are the rows of an outline, with radii to float precision, and the crown.
-/// Empty where the rows hold no clay.
+/// A stack whose rings are the rows of an outline, with radii at float precision, and the crown.
+/// Empty if the rows hold no clay.
 [[nodiscard]] std::optional<ClayStack> stack_of(const render::PotView& outline, double crown_mm);
 
 }  // namespace clay::studio

@@ -30,7 +30,7 @@ void Readings::update(const Document& document, StrokeController& stroke, const 
   }
 }
 
-/// The pot at rest, or during a stroke the outline that the servo provides.
+/// The pot at rest, or the outline from the servo during a stroke.
 void Readings::read(const Document& document, const StrokeController& stroke) {
   const bool live = stroke.throwing();
   const bool same = live ? subject_.live() && subject_.outline == stroke.view()

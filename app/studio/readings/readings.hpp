@@ -1,6 +1,6 @@
 #pragma once
-// What panels show of the clay on the wheel: computed in a frame where something has changed, and
-// in the background where that takes long.
+// Readings for the panels: computed in frames in which the clay has changed, and in the background
+// if that takes long.
 
 #include "app/studio/document.hpp"
 #include "app/studio/readings/clay_figures.hpp"
@@ -17,10 +17,10 @@
 
 namespace clay::studio {
 
-/// What the open panels need; nothing else is computed.
+/// Data that the open panels need; the rest is not computed.
 struct Wanted {
   bool check = false, ticks = false;
-  std::string process;  ///< as PotQuestion has it
+  std::string process;  ///< as in PotQuestion
 };
 
 class Readings {
@@ -28,7 +28,7 @@ class Readings {
   /// Without `threads` checks run within `update`, so that scripts are reproducible.
   explicit Readings(bool threads) : checker_(&check_pot, threads) {}
 
-  /// Once a frame, with the time of the servo's clock. Checks of pots at rest are logged.
+  /// Call once a frame, with the time of the servo's clock. Checks of pots at rest are logged.
   void update(const Document& document, StrokeController& stroke, const Wanted& wanted,
               std::int64_t now_ns, const std::function<void(std::string_view)>& log);
 
@@ -58,9 +58,9 @@ class Readings {
   StressCurve stress_;
   TickHistory ticks_;
   std::optional<PotCheck> check_;
-  std::optional<std::string> asked_;  // the process of the last question
+  std::optional<std::string> asked_;  // process of the last check
   std::int64_t asked_ns_ = 0;
-  bool changed_ = false;  // since the last question
+  bool changed_ = false;  // since the last check
   mutable std::vector<SectionRow> section_;
   mutable std::size_t section_size_ = 0;
   NewestWorker<PotQuestion, PotCheck> checker_;

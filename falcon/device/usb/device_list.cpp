@@ -13,12 +13,11 @@
 namespace clay::falcon::inline device {
 namespace {
 
-constexpr const char* kNone = "plug one in; a Falcon shows up on USB even without its power supply";
+constexpr const char* kNone = "connect one; a Falcon appears on USB even without its power supply";
 
 tl::unexpected<DeviceError> usb_is_out(int code) {
-  return device_failure(
-      DeviceFault::transfer_failed,
-      std::string("USB: could not be asked for devices: ") + libusb_strerror(code));
+  return device_failure(DeviceFault::transfer_failed,
+                        std::string("USB: could not list devices: ") + libusb_strerror(code));
 }
 
 DeviceResult<void> list_falcons(std::vector<ListedDevice>& found) {
@@ -132,8 +131,8 @@ DeviceResult<std::unique_ptr<HapticDevice>> open_device(std::string_view which,
   if (chosen == found->end()) chosen = std::find_if(found->begin(), found->end(), fits);
   if (chosen == found->end())
     return device_failure(DeviceFault::not_found,
-                          which == "auto" ? std::string("no device is plugged in")
-                                          : std::string(which) + ": no such device is plugged in",
+                          which == "auto" ? std::string("no device is connected")
+                                          : std::string(which) + ": no such device is connected",
                           kNone);
   if (!chosen->usable) return tl::make_unexpected(*chosen->problem);
   auto device = make_device(*chosen, settings);

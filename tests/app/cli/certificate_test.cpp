@@ -80,7 +80,7 @@ TEST_F(CertifiedVase, ReportsAFalseClaim) {
   write_text(stl + ".certificate.json", text);
   const Ran run = check(stl, stl + ".certificate.json");
   EXPECT_EQ(run.status, 1);
-  EXPECT_NE((run.out + run.err).find("least wall"), std::string::npos) << run.out << run.err;
+  EXPECT_NE((run.out + run.err).find("minimum wall"), std::string::npos) << run.out << run.err;
 }
 
 TEST_F(CertifiedVase, RefusesAFileThatIsNotACertificate) {

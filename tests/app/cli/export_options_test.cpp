@@ -21,10 +21,10 @@ class ExportOptions : public ThrownBowl {
   std::string stl = folder.file("bowl.stl");
 };
 
-TEST_F(ExportOptions, AThinWallExitsOneWithTheFigureAndItsSource) {
+TEST_F(ExportOptions, ThinWallExitsOneWithTheLimitAndItsSource) {
   const Ran demand = run("--min-wall 40");
   EXPECT_EQ(demand.status, 1);
-  EXPECT_NE(demand.err.find("expected 40.000 mm at least (--min-wall)"), std::string::npos)
+  EXPECT_NE(demand.err.find("expected at least 40.000 mm (--min-wall)"), std::string::npos)
       << demand.err;
   EXPECT_TRUE(std::filesystem::exists(stl));
   const Ran process = run("--process " + sample("workshop.process.json"));
@@ -33,7 +33,7 @@ TEST_F(ExportOptions, AThinWallExitsOneWithTheFigureAndItsSource) {
   EXPECT_EQ(run("--process porcelain").status, 0);
 }
 
-TEST_F(ExportOptions, UnknownProcessesAreNamedBeforeAnythingIsWritten) {
+TEST_F(ExportOptions, ReportsUnknownProcessesBeforeWriting) {
   const Ran unknown = run("--process bronze");
   EXPECT_EQ(unknown.status, 2);
   EXPECT_NE(unknown.err.find("earthenware"), std::string::npos) << unknown.err;
@@ -64,7 +64,7 @@ TEST_F(ExportOptions, TrianglesStayWithinTheBudget) {
   EXPECT_NE(impossible.err.find("max triangles: expected at least"), std::string::npos);
 }
 
-TEST_F(ExportOptions, FullVerificationChecksTheFileAsAStrangers) {
+TEST_F(ExportOptions, FullVerificationChecksTheFileLikeAForeignMesh) {
   const auto json = run("--json --verify full").json();
   EXPECT_TRUE(json.at("files").at(0).at("full_verification").at("sound"));
   EXPECT_EQ(json.at("files").at(0).at("full_verification").at("self_intersections"), 0);
@@ -89,7 +89,7 @@ TEST_F(ExportOptions, AShrinkageMakesTheFilesLarger) {
   ASSERT_NE(size_z, std::string::npos) << info;
   EXPECT_NEAR(std::stod(info.substr(size_z + 9)), larger.at("height_mm").get<double>(), 1e-3);
   EXPECT_EQ(claystack("check " + stl).status, 0);
-  EXPECT_NE(claystack("export " + pot + " " + stl + " --shrinkage 12%").out.find("to come out"),
+  EXPECT_NE(claystack("export " + pot + " " + stl + " --shrinkage 12%").out.find("after firing"),
             std::string::npos);
 }
 
@@ -111,7 +111,7 @@ TEST_F(ExportOptions, NormalsAreForObj) {
   EXPECT_EQ(claystack("check " + obj).status, 0);
 }
 
-TEST_F(ExportOptions, TheTableOfWallsHasTheLeastOfThem) {
+TEST_F(ExportOptions, WallTableContainsTheMinimum) {
   const std::string csv = folder.file("walls.csv");
   const auto json = run(csv + " --json").json();
   std::istringstream rows(read_text(csv));
@@ -137,7 +137,7 @@ TEST_F(ExportOptions, TheTableOfWallsHasTheLeastOfThem) {
   EXPECT_EQ(claystack("export -q " + pot + " " + csv).status, 0);  // needs no mesh
 }
 
-TEST_F(ExportOptions, ALipFilletAndExactWallsAreSaid) {
+TEST_F(ExportOptions, ReportsALipFilletAndExactWalls) {
   const auto filleted = run("--json --lip-fillet 1.5").json();
   EXPECT_NEAR(filleted.at("lip_fillet_mm"), 1.5, 1e-12);
   EXPECT_LT(filleted.at("volume_error_relative"), 1e-12);
@@ -149,7 +149,7 @@ TEST_F(ExportOptions, ALipFilletAndExactWallsAreSaid) {
   EXPECT_NE(both.err.find("fillet"), std::string::npos) << both.err;
 }
 
-TEST_F(ExportOptions, WhatIsLeftOutIsMeasuredOnRequest) {
+TEST_F(ExportOptions, MeasuresSkippedStagesOnRequest) {
   const auto plain = run("--json").json(), measured = run("--json --measure-left-out").json();
   for (const auto& item : plain.at("left_out")) EXPECT_FALSE(item.contains("saved_s"));
   bool checked = false;
@@ -161,7 +161,7 @@ TEST_F(ExportOptions, WhatIsLeftOutIsMeasuredOnRequest) {
   EXPECT_TRUE(checked);
 }
 
-TEST_F(ExportOptions, OptionsThatWouldDoNothingAreRefused) {
+TEST_F(ExportOptions, RefusesOptionsWithoutEffect) {
   for (const char* option : {"--ascii", "--normals", "--certificate", "--precision 0.001",
                              "--min-wall 3", "--process sla"}) {
     const Ran nothing =
@@ -171,7 +171,7 @@ TEST_F(ExportOptions, OptionsThatWouldDoNothingAreRefused) {
   }
 }
 
-TEST_F(ExportOptions, PipesCannotBeReadAgainAndTheReportSaysSo) {
+TEST_F(ExportOptions, ReportsThatPipesCannotBeReadBack) {
   const std::string pipe = folder.file("pipe.stl");
   const Ran run = shell("mkfifo " + pipe + " && cat " + pipe + " > " + stl + " & sleep 0.2; " +
                         CLAYSTACK_PROGRAM " export --json " + pot + " " + pipe + "; wait");
@@ -191,7 +191,7 @@ constexpr const char* kBox = R"({"schema": "claystack-pot-1", "written_by": "tes
  "ledger": {"initial": "158054796492800", "added": "0", "trimmed": "0", "outside": "0"},
  "collapse": null})";
 
-TEST(ExportDrain, OpensACavityAndSaysWhatItTook) {
+TEST(ExportDrain, OpensACavityAndReportsTheRemovedClay) {
   const ScratchFolder folder;
   const std::string pot = folder.file("box.pot.json"), stl = folder.file("box.stl");
   write_text(pot, kBox);
@@ -208,7 +208,7 @@ TEST(ExportDrain, OpensACavityAndSaysWhatItTook) {
   EXPECT_EQ(claystack("check " + stl).status, 0);
 }
 
-TEST_F(ExportOptions, NothingIsWrittenWhereOneFileCannotBe) {
+TEST_F(ExportOptions, WritesNothingIfOneFileCannotBeWritten) {
   const Ran report = run("--report " + folder.file("none/report.json"));
   EXPECT_EQ(report.status, 3) << report.err;
   std::filesystem::create_directory(stl + ".certificate.json");
@@ -217,7 +217,7 @@ TEST_F(ExportOptions, NothingIsWrittenWhereOneFileCannotBe) {
   EXPECT_FALSE(std::filesystem::exists(stl));
 }
 
-TEST_F(ExportOptions, ADrawingAloneProvesNothing) {
+TEST_F(ExportOptions, DrawingAloneProvesNothing) {
   const auto json = claystack("export --json " + pot + " " + folder.file("b.svg")).json();
   EXPECT_EQ(json.at("files").size(), 1u);
   for (const char* claim : {"certificate", "volume_mm3", "min_wall_mm", "wall_demand"})
@@ -234,7 +234,7 @@ TEST_F(ExportOptions, AFilletWithoutSmoothingIsRefused) {
       << run_none.err;
 }
 
-TEST_F(ExportOptions, JsonHoldsNamesThatAreNoText) {
+TEST_F(ExportOptions, JsonReplacesInvalidUtf8InNames) {
   const std::string odd = folder.file("\xff.stl");
   ASSERT_EQ(claystack("export -q " + pot + " " + odd).status, 0);
   const Ran check = claystack("check --json " + odd);

@@ -70,7 +70,7 @@ TEST_P(ExportedSample, StlHoldsTheCountedClay) {
   EXPECT_NEAR(stl_volume(bytes) / counted, 1.0, 1e-6);
 }
 
-TEST_P(ExportedSample, AdmeshFindsNothingToMend) {
+TEST_P(ExportedSample, AdmeshFindsNothingToRepair) {
   const Ran run = shell("admesh --exact " + stl);
   ASSERT_EQ(run.status, 0) << run.err;
   for (const char* fault : {"Total disconnected facets", "Degenerate facets", "Edges fixed",
@@ -91,7 +91,7 @@ TEST_P(ExportedSample, PrusaSlicerFindsAManifold) {
   }
 }
 
-TEST_P(ExportedSample, DracoDecoderGivesBackAClosedMesh) {
+TEST_P(ExportedSample, DracoDecoderReturnsAClosedMesh) {
   const std::string decoded = folder.file("decoded.obj");
   ASSERT_EQ(shell("draco_decoder -i " + drc + " -o " + decoded).status, 0);
   const auto json = claystack("check --json " + decoded).json();
@@ -249,7 +249,7 @@ TEST_F(ExportCollapsed, IsOneSoundFileThatHoldsTheUnion) {
     EXPECT_EQ(prusa.out.find(fault), std::string::npos) << prusa.out;
 }
 
-TEST_F(ExportCollapsed, TellsTheVolumesAndIsTheSameEveryTime) {
+TEST_F(ExportCollapsed, ReportsTheVolumesAndIsDeterministic) {
   const Ran run = claystack("export " + pot + " " + stl);
   ASSERT_EQ(run.status, 0) << run.err;
   for (const char* words : {"overlap by", "cm3 fell"})
@@ -258,7 +258,7 @@ TEST_F(ExportCollapsed, TellsTheVolumesAndIsTheSameEveryTime) {
   EXPECT_EQ(read_text(stl), read_text(folder.file("again.stl")));
 }
 
-TEST_F(ExportCollapsed, WarnsOfAirThatItTraps) {
+TEST_F(ExportCollapsed, WarnsAboutTrappedAir) {
   // Turned all the way down through the standing part, as a file from before falls were settled has
   // it.
   auto file = nlohmann::json::parse(read_text(pot));

@@ -107,18 +107,18 @@ TEST(LiveKeys, KeysPauseReleaseRearmAndQuit) {
   const ScratchFolder folder;
   InATerminal terminal(folder);
   ASSERT_TRUE(terminal.shows("keys: space pauses"));
-  ASSERT_TRUE(terminal.shows("force grows"));
+  ASSERT_TRUE(terminal.shows("force ramps up"));
   EXPECT_EQ(terminal.modes() & (ICANON | ECHO), 0u);
   EXPECT_NE(terminal.modes() & ISIG, 0u);
   terminal.type(" ");
   ASSERT_TRUE(terminal.shows("paused"));
   const std::size_t paused = terminal.poses().size();
   terminal.type(" ");
-  ASSERT_TRUE(terminal.shows("force grows"));
+  ASSERT_TRUE(terminal.shows("force ramps up"));
   terminal.type("z");
-  ASSERT_TRUE(terminal.shows("no force: as asked; r"));
+  ASSERT_TRUE(terminal.shows("no force: on request; press r"));
   terminal.type("xr");  // one key without a function, and one with
-  ASSERT_TRUE(terminal.shows("force grows"));
+  ASSERT_TRUE(terminal.shows("force ramps up"));
   terminal.type("q");
   ASSERT_TRUE(terminal.shows("ended: stopped"));
   EXPECT_EQ(terminal.wait(), 0);
@@ -135,9 +135,9 @@ TEST(LiveKeys, KeysPauseReleaseRearmAndQuit) {
 TEST(LiveKeys, CtrlCEndsAndCtrlZIsIgnored) {
   const ScratchFolder folder;
   InATerminal terminal(folder);
-  ASSERT_TRUE(terminal.shows("force grows"));
+  ASSERT_TRUE(terminal.shows("force ramps up"));
   terminal.type("\x1A");  // Ctrl-Z
-  ASSERT_TRUE(terminal.shows("force grows"));
+  ASSERT_TRUE(terminal.shows("force ramps up"));
   terminal.type("\x03");  // Ctrl-C
   ASSERT_TRUE(terminal.shows("ended: stopped"));
   EXPECT_EQ(terminal.wait(), 0);
@@ -147,7 +147,7 @@ TEST(LiveKeys, CtrlCEndsAndCtrlZIsIgnored) {
 TEST(LiveKeys, KeepsPotAndSessionWhenTheTerminalCloses) {
   const ScratchFolder folder;
   InATerminal terminal(folder);
-  ASSERT_TRUE(terminal.shows("force grows"));
+  ASSERT_TRUE(terminal.shows("force ramps up"));
   terminal.hang_up();
   EXPECT_EQ(terminal.wait(), 3) << "its summary could not be printed";
   EXPECT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -s " + folder.file("s.session") +
@@ -162,7 +162,7 @@ TEST(LiveKeys, RestoresTheTerminalAfterEveryCatchableSignal) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT, SIGSEGV, SIGABRT}) {
     const ScratchFolder folder;
     InATerminal terminal(folder);
-    ASSERT_TRUE(terminal.shows("force grows"));
+    ASSERT_TRUE(terminal.shows("force ramps up"));
     EXPECT_NE(terminal.modes(), terminal.modes_before());
     terminal.send(signal);
     const int ended = terminal.wait();

@@ -78,7 +78,7 @@ TEST(LiveThrow, ItsRecordedSessionReplaysToThePot) {
   EXPECT_TRUE(again.pot() == embedded.wheel.pot());
 }
 
-TEST(LiveThrow, GoesOnWithADeviceThatCameBack) {
+TEST(LiveThrow, ContinuesWithAReconnectedDevice) {
   Embedded embedded;
   embedded.throw_until_force();
   embedded.log.gone = true;
@@ -91,7 +91,7 @@ TEST(LiveThrow, GoesOnWithADeviceThatCameBack) {
   EXPECT_EQ(embedded.stop(), Ending::stopped);
 }
 
-TEST(LiveThrow, EndsTheForceFromOutsideForGood) {
+TEST(LiveThrow, EndsTheForceFromOutsidePermanently) {
   Embedded embedded;
   embedded.throw_until_force();
   LiveThrow::end_force();
@@ -120,7 +120,7 @@ TEST(LiveThrow, RefusesAContactThatTheArmCannotRenderUntilItIsSoftened) {
   EXPECT_EQ(soften(scene, settings).value(), 1.0);
 }
 
-TEST(LiveThrow, NamesTheSettingAndTheSessionThatItRefuses) {
+TEST(LiveThrow, NamesARefusedSettingOrSession) {
   WireLog log;
   ScriptedDevice device(log);
   const SceneSpec scene = rib_scene();

@@ -46,7 +46,7 @@ TEST(LiveLoop, TheRecordedSessionReplaysToTheSamePot) {
   }
 }
 
-TEST(LiveLoop, TheForcePushesTheHandOutAsTheClayDoes) {
+TEST(LiveLoop, ForcePushesTheHandOutOfTheClay) {
   VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
   double most_n = 0.0, before_n = 0.0;
   for (int i = 0; i < 3200; ++i) {
@@ -68,7 +68,7 @@ TEST(LiveLoop, TheForcePushesTheHandOutAsTheClayDoes) {
   EXPECT_EQ(live.status().guard, GuardState::engaged);
 }
 
-TEST(LiveLoop, TheDeviceIsToldWhatTheGuardLetsThroughAndNoMore) {
+TEST(LiveLoop, DeviceReceivesOnlyTheGuardedForce) {
   // In the clay long before the force is earned.
   const HandAt late = press_to(2.0);
   VirtualThrow live(rib_scene(), one_to_one(), [=](double t) { return late(t + 2.0); });
@@ -85,7 +85,7 @@ TEST(LiveLoop, TheDeviceIsToldWhatTheGuardLetsThroughAndNoMore) {
 
 // In at a fifth of the force, out at all of it: that is more than the hand put in, and the
 // controller, which damps what it sees given, has to know of the ramp.
-TEST(LiveLoop, ARampInMidContactIsSeenByThePassivityController) {
+TEST(LiveLoop, PassivityControllerCountsARampDuringContact) {
   SceneSpec scene = rib_scene();
   scene.removal.rate_per_s = 1e-9;
   scene.force->friction = 0.0;
@@ -113,7 +113,7 @@ TEST(LiveLoop, AllocatesNothing) {
   EXPECT_GT(live.status().poses, 2500u);
 }
 
-TEST(LiveLoop, TheHandFeelsTheStiffnessOfTheMapping) {
+TEST(LiveLoop, ForceHasTheStiffnessOfTheMapping) {
   // A clay that does not give way: what the hand feels is the spring alone.
   SceneSpec scene = rib_scene();
   scene.removal.rate_per_s = 1e-9;
@@ -135,7 +135,7 @@ TEST(LiveLoop, TheHandFeelsTheStiffnessOfTheMapping) {
   }
 }
 
-TEST(LiveLoop, TheClutchMovesTheHandAndNotTheTool) {
+TEST(LiveLoop, ClutchMovesTheHandButNotTheTool) {
   VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
   live.run(3.2);
   ASSERT_GT(glm::length(live.status().force_n), 0.1);
@@ -175,7 +175,7 @@ TEST(LiveLoop, PausesAndEndsByCommand) {
   EXPECT_EQ(live.tick(), Ending::stopped);
 }
 
-TEST(LiveLoop, TakesTheForceAwayByCommandAndGivesItBack) {
+TEST(LiveLoop, ZeroesAndRestoresTheForceByCommand) {
   VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
   live.run(3.2);
   ASSERT_GT(glm::length(live.status().force_n), 0.1);
@@ -201,7 +201,7 @@ TEST(LiveLoop, TakesTheForceAwayByCommandAndGivesItBack) {
   EXPECT_EQ(live.status().guard, GuardState::safe);
 }
 
-TEST(LiveLoop, WhereSecondsAreSetADeviceThatNobodyHomesIsNotWaitedForForEver) {
+TEST(LiveLoop, StopsWaitingForHomingIfSecondsAreSet) {
   falcon::FalconModelSettings never = VirtualThrow::homed();
   never.homed = false;
   never.homing_frames = 1 << 30;
@@ -223,7 +223,7 @@ TEST(LiveLoop, WhereSecondsAreSetADeviceThatNobodyHomesIsNotWaitedForForEver) {
   EXPECT_EQ(longer.run(1.0), Ending::time_up);
 }
 
-TEST(LiveLoop, SecondsGoOnWhileItIsPaused) {
+TEST(LiveLoop, SecondsCountDuringAPause) {
   LiveSettings settings = one_to_one();
   settings.seconds = 2.0;
   VirtualThrow live(rib_scene(), settings, press_to(2.0));
@@ -233,7 +233,7 @@ TEST(LiveLoop, SecondsGoOnWhileItIsPaused) {
   EXPECT_EQ(live.run(0.2), Ending::time_up);
 }
 
-TEST(LiveLoop, AClayRateDeformsLessOftenAndIsFeltInBetween) {
+TEST(LiveLoop, ClayRateDeformsLessOftenAndRendersForceInBetween) {
   LiveSettings settings = one_to_one();
   settings.clay_rate_hz = 50.0;
   const test::ScratchFolder folder;
@@ -260,7 +260,7 @@ TEST(LiveLoop, AClayRateDeformsLessOftenAndIsFeltInBetween) {
   EXPECT_EQ(live.wheel.pot(), replayed(rib_scene(), folder.file("s.session")));
 }
 
-TEST(LiveLoop, EndsAfterTheSecondsAskedForAndWithACollapse) {
+TEST(LiveLoop, EndsAfterTheRequestedSecondsAndOnACollapse) {
   LiveSettings settings = one_to_one();
   settings.seconds = 1.0;
   VirtualThrow brief(rib_scene(), settings, press_to(2.0));
@@ -275,7 +275,7 @@ TEST(LiveLoop, EndsAfterTheSecondsAskedForAndWithACollapse) {
   EXPECT_EQ(glm::length(falls.status().force_n), 0.0);
 }
 
-TEST(LiveLoop, ShowsTheClayInOutline) {
+TEST(LiveLoop, ProvidesTheOutlineOfTheClay) {
   VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
   live.run(3.5);
   ASSERT_TRUE(live.commands.push({CommandKind::stop, 0.0}));

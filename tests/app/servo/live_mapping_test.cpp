@@ -62,7 +62,7 @@ TEST(Mapping, ByDefaultAFalconReachesAPotOf150Mm) {
   EXPECT_DOUBLE_EQ(mapping.stiffness_gain(), 1.0);
 }
 
-TEST(Mapping, HandsWorkOnTheSideThatTheySay) {
+TEST(Mapping, HandsWorkOnTheChosenSide) {
   EXPECT_EQ(Mapping::build({.side = Side::right})->to_clay({}), glm::dvec3(60, 75, 0));
   EXPECT_EQ(Mapping::build({.side = Side::left})->to_clay({}), glm::dvec3(-60, 75, 0));
   EXPECT_EQ(Mapping::build({.side = Side::front})->to_clay({}), glm::dvec3(0, 75, 60));
@@ -71,7 +71,7 @@ TEST(Mapping, HandsWorkOnTheSideThatTheySay) {
   EXPECT_EQ(flipped.force_to_device({1.6, 3.2, 0}), glm::dvec3(-1, 2, 0));
 }
 
-TEST(Mapping, RefusesWhatNoHandCanUse) {
+TEST(Mapping, RefusesUnusableSettings) {
   for (const double scale : {0.0, -1.0, 11.0, std::numeric_limits<double>::quiet_NaN()}) {
     const auto refused = Mapping::build({.scale = scale});
     ASSERT_FALSE(refused);
@@ -83,7 +83,7 @@ TEST(Mapping, RefusesWhatNoHandCanUse) {
 }
 
 // Friction that drives the hand at 1 m/s gives 1 J a second. As a spring force it is damped.
-TEST(HandForce, OnlyTheSpringIsHeldToBePassive) {
+TEST(HandForce, OnlyTheSpringIsMadePassive) {
   const Mapping mapping = Mapping::build({.scale = 1.0}).value();
   const auto most_removed_n = [&](bool as_spring) {
     HandForce hand(falcon::PassivityController::build({.loop = {}, .step_m = 5e-5}).value());
@@ -120,7 +120,7 @@ TEST(Controls, ButtonsHoldAndStep) {
   EXPECT_EQ(controls.gap_mm(), 0.0);
 }
 
-TEST(Controls, AButtonThatIsHeldStepsOn) {
+TEST(Controls, HeldButtonRepeats) {
   Commands commands;
   Controls controls(kFalconButtons, true, 5.0);
   // Pressed at 1 s and held for 1 s: the press, one step at 0.4 s and twelve of 50 ms after that.
@@ -131,7 +131,7 @@ TEST(Controls, AButtonThatIsHeldStepsOn) {
   EXPECT_DOUBLE_EQ(controls.gap_mm(), 5.0 + kGapStepMm * (1 + 1 + 12 - 1));
 }
 
-TEST(Controls, CommandsHoldUntilTheyLetGo) {
+TEST(Controls, CommandsHoldUntilReleased) {
   Commands commands;
   Controls controls(kTwoButtons, false, 5.0);
   EXPECT_EQ(controls.gap_mm(), 0.0) << "the scene lets no pose pinch";
@@ -152,7 +152,7 @@ TEST(Controls, CommandsHoldUntilTheyLetGo) {
   EXPECT_TRUE(controls.stopped());
 }
 
-TEST(Controls, ANumberThatIsNoneChangesNoGap) {
+TEST(Controls, NanDoesNotChangeTheGap) {
   Commands commands;
   Controls controls(kFalconButtons, true, 5.0);
   for (const double mm : {std::numeric_limits<double>::quiet_NaN(), -3.0}) {

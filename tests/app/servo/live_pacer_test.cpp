@@ -33,7 +33,7 @@ RC_GTEST_PROP(Pacer, LatenessDoesNotAddUp, ()) {
   }
 }
 
-TEST(Pacer, AfterAHoldUpNoTickIsMadeUpFor) {
+TEST(Pacer, DoesNotRepeatMissedTicks) {
   SleepyClock clock;
   Pacer pacer(kPeriodNs);
   pacer.start(0);
@@ -50,7 +50,7 @@ TEST(Pacer, AfterAHoldUpNoTickIsMadeUpFor) {
   }
 }
 
-TEST(MonotonicClock, WakesNeverEarlyAndSaysWhatTheSleepWasLateBy) {
+TEST(MonotonicClock, NeverWakesEarlyAndReportsTheDelay) {
   MonotonicClock clock;
   for (int i = 0; i < 200; ++i) {
     const std::int64_t due_ns = clock.now_ns() + 300'000;
@@ -65,7 +65,7 @@ TEST(MonotonicClock, WakesNeverEarlyAndSaysWhatTheSleepWasLateBy) {
   EXPECT_EQ(clock.wake_at_ns(past_ns), 0);
 }
 
-TEST(Pacer, ADeviceThatIsSlowerSetsThePace) {
+TEST(Pacer, SlowerDeviceSetsThePace) {
   SleepyClock clock;
   Pacer pacer(kPeriodNs);
   pacer.start(0);

@@ -88,7 +88,7 @@ TEST(SimulatedPotter, ThrowsAPotLikeTheOneOfTheSession) {
   }
 }
 
-TEST(SimulatedPotter, PressesTheButtonAndSpreadsTheFingersAsTheSessionDoes) {
+TEST(SimulatedPotter, RepeatsButtonAndGapOfTheSession) {
   const std::vector<Pose> poses = {{0, {60, 50, 0}, false, 0.0},
                                    {10'000, {60, 50, 0}, true, 0.0},
                                    {20'000, {60, 50, 0}, true, 12.5},
@@ -103,7 +103,7 @@ TEST(SimulatedPotter, PressesTheButtonAndSpreadsTheFingersAsTheSessionDoes) {
   EXPECT_FALSE(hand_fingers({}));
 }
 
-TEST(SimulatedPotter, HasTheWholeStrokeWithinReach) {
+TEST(SimulatedPotter, KeepsTheWholeStrokeWithinReach) {
   for (const char* name : {"bowl", "vase", "bottle", "cylinder", "collapse"}) {
     const std::vector<Pose> stroke = sample_stroke(name);
     const auto mapping = Mapping::build(fitted({}, stroke, kReachMm)).value();

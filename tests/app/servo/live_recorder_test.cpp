@@ -34,7 +34,7 @@ Session session_of(const std::string& path) {
   return session.value_or(Session());
 }
 
-TEST(Recorder, WritesAllThatItTook) {
+TEST(Recorder, WritesAllPoses) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("s.session");
   auto recorder = Recorder::create(path, "a scene", 42).value();
@@ -49,7 +49,7 @@ TEST(Recorder, WritesAllThatItTook) {
     ASSERT_EQ(session.poses[static_cast<std::size_t>(i)], pose_at(1000 * i));
 }
 
-TEST(Recorder, TheOldSessionStaysUntilTheNewOneIsComplete) {
+TEST(Recorder, KeepsTheOldSessionUntilTheNewOneIsComplete) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("s.session"), aside = path + ".recording";
   test::write_text(path, "the old one");
@@ -94,7 +94,7 @@ TEST(Recorder, OneAtATime) {
   EXPECT_EQ(session_of(path).poses.size(), 2u);
 }
 
-TEST(Recorder, WhatADeadOneLeftIsNotOverwritten) {
+TEST(Recorder, KeepsAnUnfinishedRecording) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("s.session"), aside = path + ".recording";
   const std::string left =
@@ -102,7 +102,7 @@ TEST(Recorder, WhatADeadOneLeftIsNotOverwritten) {
   test::write_text(aside, left);
   const auto refused = Recorder::create(path, "a scene", 0);
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message.find(aside + ": holds a recording that was never finished"),
+  EXPECT_NE(refused.error().message.find(aside + ": holds an unfinished recording"),
             std::string::npos)
       << refused.error().message;
   EXPECT_EQ(test::read_text(aside), left);
@@ -111,7 +111,7 @@ TEST(Recorder, WhatADeadOneLeftIsNotOverwritten) {
   EXPECT_TRUE(Recorder::create(path, "a scene", 0));
 }
 
-TEST(Recorder, OverflowIsToldAndLeavesABeginningWithoutHoles) {
+TEST(Recorder, OverflowIsReportedAndLeavesNoGap) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("s.session");
   auto recorder = Recorder::create(path, "a scene", 0).value();
@@ -127,7 +127,7 @@ TEST(Recorder, OverflowIsToldAndLeavesABeginningWithoutHoles) {
   EXPECT_EQ(session.poses.back(), pose_at(1000 * (i - 1)));
 }
 
-TEST(Recorder, ADiskThatRefusesIsAnErrorAtTheEndAndTheBeginningIsGood) {
+TEST(Recorder, FullDiskIsReportedAtTheEndAndTheBeginningIsValid) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("s.session");
   std::signal(SIGXFSZ, SIG_IGN);
@@ -191,7 +191,7 @@ void kill_one(std::int64_t& lost_us) {
 
 /// It is bounded by how often the recorder looks, not by this machine: where that is busy, one of
 /// several times it must be seen to hold.
-TEST(Recorder, KilledItHasLostNoMoreThanTheLast100Ms) {
+TEST(Recorder, LosesAtMostTheLast100MsWhenKilled) {
   std::int64_t lost_us = 0;
   const auto loses_little = [&] {
     kill_one(lost_us);

@@ -67,7 +67,7 @@ struct Threads {
   Servo servo{bench(), loop, false};
 };
 
-TEST(Servo, EndsByCommandWithAStopAsTheLastWord) {
+TEST(Servo, EndsByCommandWithAFinalStop) {
   WireLog log;
   Threads threads(log);
   threads.wait_for_writes(50);
@@ -89,7 +89,7 @@ TEST(Servo, ItsDestructorEndsTheForceToo) {
   EXPECT_EQ(log.last_n, 0.0);
 }
 
-TEST(Servo, AHangEndsTheForceFromOutsideAndItComesBackByTheRamp) {
+TEST(Servo, WatchdogEndsTheForceOfAHangAndItRampsUpAgain) {
   WireLog log;
   Threads threads(log);
   threads.wait_for_force();
@@ -103,7 +103,7 @@ TEST(Servo, AHangEndsTheForceFromOutsideAndItComesBackByTheRamp) {
   EXPECT_GE(threads.loop.events().watchdog, 1u);
 }
 
-TEST(Servo, ReadersSeeWholeValuesThatGoForward) {
+TEST(Servo, ReadersGetCompleteValuesInOrder) {
   WireLog log;
   Threads threads(log);
   std::uint64_t ticks = 0;
@@ -145,9 +145,9 @@ TEST(Servo, AnUnpluggedDeviceEndsIt) {
   EXPECT_EQ(again.join(), Ending::stopped);
 }
 
-TEST(Servo, RealTimeIsGivenOrSaidToBeMissing) {
+TEST(Servo, ReportsMissingRealTime) {
   Realtime realtime;
-  std::thread([&] { realtime = ask_for_realtime(kServoPriority); }).join();
+  std::thread([&] { realtime = request_realtime(kServoPriority); }).join();
   EXPECT_TRUE(realtime.asked);
   EXPECT_EQ(realtime.missing.empty(),
             realtime.fifo && realtime.memory_locked && realtime.exact_sleep)
@@ -176,7 +176,7 @@ TEST(Servo, TheHandlerItselfWritesZeroWhileTheServoHangs) {
   }
 }
 
-TEST(Servo, NoSignalOfJobControlStopsTheProcessUnderForce) {
+TEST(Servo, IgnoresJobControlUnderForce) {
   WireLog log;
   const ForceSignals signals;
   Threads threads(log);
@@ -226,7 +226,7 @@ class LastPacket : public testing::Test {
   WireLog* log_ = nullptr;
 };
 
-TEST_F(LastPacket, IsZeroAfterASignalThatAsksToStop) {
+TEST_F(LastPacket, IsZeroAfterAStopSignal) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
     EXPECT_EQ(end_by([=] { kill(getpid(), signal); }), signal);
     expect_no_force();
@@ -234,7 +234,7 @@ TEST_F(LastPacket, IsZeroAfterASignalThatAsksToStop) {
   }
 }
 
-TEST_F(LastPacket, IsZeroAfterASignalThatKills) {
+TEST_F(LastPacket, IsZeroAfterAFatalSignal) {
   // Every signal of the system that would end it, but for SIGKILL and those that ask.
   for (const int signal :
        {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT, SIGTRAP, SIGSYS, SIGXCPU, SIGALRM,
@@ -245,7 +245,7 @@ TEST_F(LastPacket, IsZeroAfterASignalThatKills) {
   }
 }
 
-TEST_F(LastPacket, IsZeroAfterAnExceptionThatNobodyCatches) {
+TEST_F(LastPacket, IsZeroAfterAnUncaughtException) {
   const int status = end_by([] {
     std::set_terminate([] { std::abort(); });  // without its message
     std::thread([] { throw std::runtime_error("uncaught"); }).join();

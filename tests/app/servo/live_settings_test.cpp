@@ -8,7 +8,7 @@
 namespace clay::servo {
 namespace {
 
-TEST(LiveSettings, NamesTheSettingThatIsOutOfItsRange) {
+TEST(LiveSettings, NamesASettingOutOfRange) {
   const auto refused = [](auto change) {
     LiveSettings settings;
     change(settings);

@@ -11,14 +11,14 @@ namespace {
 
 TickSample at(std::int64_t time_ns) { return {.time_ns = time_ns, .clay_n = 1.0f}; }
 
-TEST(TickTrace, TakesNothingWhereNobodyWantsIt) {
+TEST(TickTrace, CollectsNothingWhileOff) {
   TickTrace trace;
   trace.add(at(1));
   EXPECT_FALSE(trace.take());
   EXPECT_EQ(trace.dropped(), 0u);
 }
 
-TEST(TickTrace, DropsAndCountsWhatFindsNoRoom) {
+TEST(TickTrace, DropsAndCountsSamplesThatDoNotFit) {
   TickTrace trace;
   trace.want(true);
   for (std::int64_t i = 0; i < std::int64_t{TickTrace::kRoom} + 3; ++i) trace.add(at(i));
@@ -33,7 +33,7 @@ TEST(TickTrace, DropsAndCountsWhatFindsNoRoom) {
   EXPECT_EQ(trace.take().value().time_ns, 7);
 }
 
-TEST(TickTrace, GivesAnotherThreadWholeSamplesInTheirOrder) {
+TEST(TickTrace, PassesCompleteSamplesInOrder) {
   TickTrace trace;
   trace.want(true);
   constexpr std::int64_t kCount = 100'000;

@@ -13,7 +13,7 @@ namespace {
 using falcon::GuardState;
 using falcon::WireFault;
 
-TEST(LiveWire, WithoutFramesTheClayStandsAndTheForceIsGoneIn10Ms) {
+TEST(LiveWire, WithoutFramesTheClayStandsAndTheForceEndsIn10Ms) {
   VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
   live.run(3.2);
   ASSERT_GT(glm::length(live.status().force_n), 0.1);
@@ -34,7 +34,7 @@ TEST(LiveWire, WithoutFramesTheClayStandsAndTheForceIsGoneIn10Ms) {
   EXPECT_NE(live.wheel.pot(), before) << "and then it goes on";
 }
 
-TEST(LiveWire, AFrameThatLeapsIntoTheClayCutsNothing) {
+TEST(LiveWire, JumpIntoTheClayRemovesNothing) {
   VirtualThrow live(rib_scene(), one_to_one(), [](double t) {
     return glm::dvec3(t > 2.0 && t < 2.0015 ? -20.0 : 2.0, 0.0, 0.0);
   });
@@ -44,7 +44,7 @@ TEST(LiveWire, AFrameThatLeapsIntoTheClayCutsNothing) {
   EXPECT_EQ(live.wheel.pot(), Wheel::build(rib_scene())->pot());
 }
 
-TEST(LiveWire, HomingLostIsNoForceInTheSameTickAndNoClay) {
+TEST(LiveWire, LostHomingZeroesTheForceInTheSameTick) {
   VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
   live.run(3.2);
   live.fault(WireFault::homing_lost);
@@ -58,7 +58,7 @@ TEST(LiveWire, HomingLostIsNoForceInTheSameTickAndNoClay) {
   EXPECT_NE(live.status().guard, GuardState::engaged);
 }
 
-TEST(LiveWire, UnpluggedIsTheEnd) {
+TEST(LiveWire, UnpluggingEndsTheThrow) {
   VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
   live.run(3.0);
   live.fault(WireFault::unplugged);

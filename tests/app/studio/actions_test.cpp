@@ -57,7 +57,7 @@ TEST_F(ActionsTest, WithoutAWorkTheGalleryStays) {
   EXPECT_TRUE(empty.ui.shows<GalleryDialog>());
 }
 
-TEST_F(ActionsTest, EachActionThatReplacesAnUnsavedWorkAsksFirst) {
+TEST_F(ActionsTest, ActionsThatReplaceAnUnsavedWorkAskFirst) {
   change();
   state.recoverable.emplace_back();
   const Action replacing[] = {BeginWork{small_scene(), nullptr, {}}, BeginSample{0},
@@ -73,7 +73,7 @@ TEST_F(ActionsTest, EachActionThatReplacesAnUnsavedWorkAsksFirst) {
   }
 }
 
-TEST_F(ActionsTest, DiscardingGoesOnAndAFailedOpenKeepsTheWork) {
+TEST_F(ActionsTest, DiscardingContinuesAndAFailedOpenKeepsTheWork) {
   change();
   apply(state, OpenFile{folder.file("none.work")});
   apply(state, DiscardAndContinue{});
@@ -90,7 +90,7 @@ TEST_F(ActionsTest, DiscardingGoesOnAndAFailedOpenKeepsTheWork) {
   EXPECT_TRUE(state.done);
 }
 
-TEST_F(ActionsTest, SavingAsksForANameAndGoesOnOnlyWithAWork) {
+TEST_F(ActionsTest, SavingRequestsANameAndContinuesOnlyWithAWork) {
   change();
   apply(state, Quit{});
   apply(state, SaveAndContinue{});
@@ -106,7 +106,7 @@ TEST_F(ActionsTest, SavingAsksForANameAndGoesOnOnlyWithAWork) {
   EXPECT_TRUE(state.done);
 }
 
-TEST_F(ActionsTest, SavingFromTheMenuDuringTheQuestionDoesNotGoOn) {
+TEST_F(ActionsTest, SavingFromTheMenuDuringTheQuestionDoesNotContinue) {
   change();
   ASSERT_TRUE(state.document.save(folder.file("a.work")));
   apply(state, Undo{});
@@ -146,7 +146,7 @@ TEST_F(ActionsTest, SettingsChangeByTheirActions) {
   EXPECT_TRUE(state.settings.wall_map);
 }
 
-TEST_F(ActionsTest, ADrawingOpensItsDialogAndAsksWhenItIsTaken) {
+TEST_F(ActionsTest, ADrawingOpensItsDialogAndAsksBeforeImport) {
   change();
   apply(state, OpenFile{test::sample("drawings/jug.svg")});
   ASSERT_TRUE(state.ui.shows<ImportDialog>());

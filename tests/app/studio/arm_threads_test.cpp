@@ -25,7 +25,7 @@ DevicePointer wait_for_device(DeviceWatch& watch) {
   return device;
 }
 
-TEST(DeviceWatch, OpensWhatIsPluggedInLaterAndThenLooksNoMore) {
+TEST(DeviceWatch, OpensALaterDeviceAndStopsSearching) {
   Socket socket;
   servo::WireLog wire;
   DeviceWatch watch(socket.look(), 1ms);
@@ -41,7 +41,7 @@ TEST(DeviceWatch, OpensWhatIsPluggedInLaterAndThenLooksNoMore) {
   EXPECT_TRUE(wait_for_device(watch));
 }
 
-TEST(DeviceWatch, TellsEachReasonOnceForWhatIsPluggedIn) {
+TEST(DeviceWatch, ReportsEachProblemOncePerDevice) {
   Socket socket;
   socket.say("no power");
   DeviceWatch watch(socket.look(), 1ms);
@@ -60,7 +60,7 @@ TEST(DeviceWatch, TellsEachReasonOnceForWhatIsPluggedIn) {
   EXPECT_EQ(told(), "no firmware");
 }
 
-TEST(StrokeController, AnArmOfThreadsThatIsLostLeavesAStrokeAndNoForce) {
+TEST(StrokeController, LostArmLeavesAStrokeAndNoForce) {
   servo::WireLog wire;
   servo::MonotonicClock clock;
   Document document;

@@ -75,7 +75,7 @@ constexpr const char* kMousePresses =
     "key 1\npoint 65 18\npress left\nexpect throwing yes\npoint 56 18 over 0.4\nwait 0.2\n"
     "expect contact yes\n";
 
-TEST_F(Arms, OneThatAppearsThrowsInPlaceOfTheMouse) {
+TEST_F(Arms, ConnectedArmReplacesTheMouse) {
   ArmScript& arm = arms_.emplace_back();
   play("expect device Mouse\nexpect throwing no\n");
   plug_and_earn(arm);
@@ -88,7 +88,7 @@ TEST_F(Arms, OneThatAppearsThrowsInPlaceOfTheMouse) {
   play("key Ctrl+Z\nexpect strokes 1\n");
 }
 
-TEST_F(Arms, OneThatIsLostInMidStrokeGivesTheClayToTheMouseAndIsFoundAgain) {
+TEST_F(Arms, LostArmIsReplacedByTheMouseAndFoundAgain) {
   ArmScript& arm = arms_.emplace_back();
   plug_and_earn(arm);
   arm.goal_mm = 52.0;
@@ -109,7 +109,7 @@ TEST_F(Arms, OneThatIsLostInMidStrokeGivesTheClayToTheMouseAndIsFoundAgain) {
   play("expect device \"Clocked arm\"\n");
 }
 
-TEST_F(Arms, TheMouseKeepsTheClayUntilItLetsGo) {
+TEST_F(Arms, MouseKeepsTheClayUntilReleased) {
   ArmScript& arm = arms_.emplace_back();
   play(kMousePresses);
   plug(arm);
@@ -118,7 +118,7 @@ TEST_F(Arms, TheMouseKeepsTheClayUntilItLetsGo) {
   play("expect device \"Clocked arm\"\nexpect strokes 1\n");
 }
 
-TEST_F(Arms, OneThatGoesBeforeItEverThrewIsToldAndLookedForAgain) {
+TEST_F(Arms, ReportsAnArmLostBeforeItsFirstStrokeAndSearchesAgain) {
   ArmScript& arm = arms_.emplace_back();
   arm.opens = false;
   play(kMousePresses);
@@ -130,7 +130,7 @@ TEST_F(Arms, OneThatGoesBeforeItEverThrewIsToldAndLookedForAgain) {
   plug_and_earn(arm);
 }
 
-TEST_F(Arms, ForceComesBackFromSafeOnlyWhenAskedForAndOnlyOffTheClay) {
+TEST_F(Arms, ForceReturnsFromSafeOnlyOnRequestAndOffTheClay) {
   ArmScript& arm = arms_.emplace_back();
   plug_and_earn(arm);
   const Command& rearm = *find_command("wheel.rearm");
@@ -158,7 +158,7 @@ TEST_F(Arms, ForceComesBackFromSafeOnlyWhenAskedForAndOnlyOffTheClay) {
   EXPECT_GT(arm.told_n, 0.1);
 }
 
-TEST_F(Arms, EscIsZeroForceWhateverIsOpenAndNeverBringsItBack) {
+TEST_F(Arms, EscSetsZeroForceInAnyDialogAndNeverRestoresIt) {
   ArmScript& arm = arms_.emplace_back();
   plug_and_earn(arm);
   arm.goal_mm = 52.0;
@@ -175,7 +175,7 @@ TEST_F(Arms, EscIsZeroForceWhateverIsOpenAndNeverBringsItBack) {
   play("key Space\nexpect paused no\nwait 3\nexpect force engaged\n");
 }
 
-TEST_F(Arms, APauseOutlastsTheStroke) {
+TEST_F(Arms, PauseContinuesAfterTheStroke) {
   ArmScript& arm = arms_.emplace_back();
   plug_and_earn(arm);
   arm.goal_mm = 52.0;
@@ -196,7 +196,7 @@ TEST_F(Arms, APauseOutlastsTheStroke) {
   play("wait 0.3\nkey Space\nwait 3\nexpect force engaged\n");
 }
 
-TEST_F(Arms, OneThatIsNotHomedSaysWhatToDoUntilItIs) {
+TEST_F(Arms, BannerExplainsHomingUntilItIsDone) {
   ArmScript& arm = arms_.emplace_back();
   arm.state = falcon::DeviceState::needs_homing;
   plug(arm);

@@ -11,7 +11,7 @@
 namespace clay::studio {
 namespace {
 
-TEST(Commands, EachIdAndEachChordIsGivenOnce) {
+TEST(Commands, IdsAndChordsAreUnique) {
   std::set<std::string_view> ids;
   std::set<std::string> chords;
   for (const Command& command : commands()) {
@@ -23,7 +23,7 @@ TEST(Commands, EachIdAndEachChordIsGivenOnce) {
   }
 }
 
-TEST(Commands, EachIsFoundByItsIdAndItsChord) {
+TEST(Commands, AreFoundByIdAndChord) {
   for (const Command& command : commands()) {
     EXPECT_EQ(find_command(command.id), &command);
     if (command.chord.key == 0) continue;
@@ -33,14 +33,14 @@ TEST(Commands, EachIsFoundByItsIdAndItsChord) {
   EXPECT_EQ(command_for({}), nullptr);
 }
 
-TEST(Commands, EachMenuHasSome) {
+TEST(Commands, EveryMenuHasCommands) {
   for (const Menu& menu : menus())
     EXPECT_TRUE(std::ranges::any_of(commands(), [&](const Command& command) {
       return command.id.starts_with(menu.prefix);
     })) << menu.title;
 }
 
-TEST(Commands, WhatUsersExpectIsWhereTheyExpectIt) {
+TEST(Commands, UseTheUsualShortcuts) {
   const auto id_of = [](std::string_view chord) {
     const Command* command = command_for(chord_of(chord).value());
     return command != nullptr ? command->id : "none";
@@ -66,7 +66,7 @@ TEST(Commands, WhatUsersExpectIsWhereTheyExpectIt) {
   EXPECT_EQ(id_of("?"), "help.keys");
 }
 
-TEST(Keys, TextAndChordAreEachOthersInverse) {
+TEST(Keys, TextAndChordAreInverse) {
   for (const Command& command : commands()) {
     if (command.chord.key == 0) continue;
     const auto back = chord_of(text_of(command.chord));

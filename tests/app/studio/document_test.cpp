@@ -56,7 +56,7 @@ TEST_F(DocumentTest, DiscardedChangesCountAgainWithTheNextStroke) {
   EXPECT_TRUE(document.unsaved());
 }
 
-TEST_F(DocumentTest, UndoAndRedoWalkTheStrokes) {
+TEST_F(DocumentTest, UndoAndRedoFollowTheStrokes) {
   const std::string lump = pot();
   EXPECT_FALSE(document.can_undo());
   stroke(1);
@@ -75,7 +75,7 @@ TEST_F(DocumentTest, UndoAndRedoWalkTheStrokes) {
   EXPECT_EQ(pot(), one);
 }
 
-TEST_F(DocumentTest, AScrubbedMomentIsShownAndBecomesABranch) {
+TEST_F(DocumentTest, ScrubbedMomentIsShownAndBecomesABranch) {
   stroke(1);
   const double half_s = 0.5 * document.work().view(1).seconds;
   const render::PotView whole = document.view();
@@ -92,7 +92,7 @@ TEST_F(DocumentTest, AScrubbedMomentIsShownAndBecomesABranch) {
   EXPECT_EQ(document.view(), shown);
 }
 
-TEST_F(DocumentTest, AFileThatFailsToOpenChangesNothing) {
+TEST_F(DocumentTest, FailedOpenChangesNothing) {
   stroke(1);
   const std::string before = pot();
   EXPECT_EQ(document.open(folder.file("none.work")).error().kind, ErrorKind::io);
@@ -122,7 +122,7 @@ TEST_F(DocumentTest, SavesAndOpensEachKindOfFile) {
   EXPECT_EQ(document.save("/nonexistent/a.work").error().kind, ErrorKind::io);
 }
 
-TEST_F(DocumentTest, RemarksThatTheLastLineOfAWorkIsIncomplete) {
+TEST_F(DocumentTest, ReportsAnIncompleteLastLineOfAWork) {
   stroke(1);
   ASSERT_TRUE(document.save(folder.file("a.work")));
   const std::string text = read_text(folder.file("a.work"));

@@ -44,23 +44,23 @@ class Exporting : public ::testing::Test {
   }
   ScratchFolder folder;
   history::SharedPot pot = thrown();
-  ExportWish wish{.stl = true,
-                  .obj = true,
-                  .drc = false,
-                  .section = true,
-                  .pot = true,
-                  .folder = folder.path().string(),
-                  .name = "two",
-                  .tolerance_mm = 0.05,
-                  .smoothing = solid::Smoothing::fair,
-                  .process = "porcelain",
-                  .min_wall_mm = 0.0,
-                  .shrinkage_percent = 12.0};
+  ExportChoices choices{.stl = true,
+                        .obj = true,
+                        .drc = false,
+                        .section = true,
+                        .pot = true,
+                        .folder = folder.path().string(),
+                        .name = "two",
+                        .tolerance_mm = 0.05,
+                        .smoothing = solid::Smoothing::fair,
+                        .process = "porcelain",
+                        .min_wall_mm = 0.0,
+                        .shrinkage_percent = 12.0};
   Exporter exporter;
 };
 
-TEST_F(Exporting, TheBytesAreThoseOfTheCommand) {
-  exporter.write(pot, wish);
+TEST_F(Exporting, WritesTheBytesOfTheCommand) {
+  exporter.write(pot, choices);
   const auto done = outcome();
   ASSERT_TRUE(done.done) << done.done.error().message;
   EXPECT_EQ(done.paths.size(), 4u);
@@ -79,32 +79,32 @@ TEST_F(Exporting, TheBytesAreThoseOfTheCommand) {
   EXPECT_EQ(claystack("check " + folder.file("two.stl")).status, 0);
 }
 
-TEST_F(Exporting, ARehearsalTellsWhatTheFilesWillBe) {
-  wish.section = wish.pot = false;
-  exporter.rehearse(pot, wish);
-  const auto rehearsed = outcome();
-  ASSERT_TRUE(rehearsed.done) << rehearsed.done.error().message;
+TEST_F(Exporting, PreviewReportsTheFilesInAdvance) {
+  choices.section = choices.pot = false;
+  exporter.preview(pot, choices);
+  const auto previewed = outcome();
+  ASSERT_TRUE(previewed.done) << previewed.done.error().message;
   EXPECT_EQ(files(), 0u);
-  exporter.write(pot, wish);
+  exporter.write(pot, choices);
   ASSERT_TRUE(outcome().done);
-  const auto& reports = rehearsed.done->files;
+  const auto& reports = previewed.done->files;
   ASSERT_EQ(reports.size(), 2u);
   EXPECT_EQ(reports[0].bytes, std::filesystem::file_size(folder.file("two.stl")));
   EXPECT_EQ(reports[1].bytes, std::filesystem::file_size(folder.file("two.obj")));
 }
 
-TEST_F(Exporting, TheNewestRehearsalWins) {
+TEST_F(Exporting, NewestPreviewWins) {
   for (int i = 1; i <= 20; ++i) {
-    wish.tolerance_mm = 0.01 * i;
-    exporter.rehearse(pot, wish);
+    choices.tolerance_mm = 0.01 * i;
+    exporter.preview(pot, choices);
   }
-  EXPECT_EQ(outcome().wish.tolerance_mm, wish.tolerance_mm);
+  EXPECT_EQ(outcome().choices.tolerance_mm, choices.tolerance_mm);
   EXPECT_FALSE(exporter.take());
 }
 
-TEST_F(Exporting, OneThatIsCancelledLeavesNoFile) {
-  wish.tolerance_mm = 0.001;
-  exporter.write(pot, wish);
+TEST_F(Exporting, CancelledExportLeavesNoFile) {
+  choices.tolerance_mm = 0.001;
+  exporter.write(pot, choices);
   // Once it is at work: the files are open then, and have no names yet.
   while (exporter.stage().empty() && exporter.busy()) std::this_thread::yield();
   exporter.cancel();
@@ -114,8 +114,8 @@ TEST_F(Exporting, OneThatIsCancelledLeavesNoFile) {
   EXPECT_EQ(files(), 0u);
 }
 
-TEST_F(Exporting, CancelledAtAnyQuestionItLeavesAllFilesOrNone) {
-  solid::ExportRequest request = request_of(wish, *pot).value();
+TEST_F(Exporting, LeavesAllFilesOrNoneAtEveryCancellationPoint) {
+  solid::ExportRequest request = request_of(choices, *pot).value();
   std::size_t asked = 0, all = 0;
   std::mutex mutex;
   for (std::size_t until = 0; all == 0; ++until) {
@@ -131,9 +131,9 @@ TEST_F(Exporting, CancelledAtAnyQuestionItLeavesAllFilesOrNone) {
   EXPECT_GT(all, 10u);
 }
 
-TEST_F(Exporting, WhatCannotBeWrittenIsSaid) {
-  wish.folder = folder.file("nowhere");
-  exporter.write(pot, wish);
+TEST_F(Exporting, ReportsAnUnwritableFile) {
+  choices.folder = folder.file("nowhere");
+  exporter.write(pot, choices);
   const auto failed = outcome();
   ASSERT_FALSE(failed.done);
   EXPECT_FALSE(failed.cancelled);
@@ -141,13 +141,13 @@ TEST_F(Exporting, WhatCannotBeWrittenIsSaid) {
   EXPECT_NE(failed.done.error().message.find("nowhere"), std::string::npos);
 }
 
-TEST_F(Exporting, AThinWallIsAProblemWithAPlace) {
-  wish.min_wall_mm = 500.0;
-  wish.shrinkage_percent = 0.0;
-  exporter.rehearse(pot, wish);
-  const auto rehearsed = outcome();
-  ASSERT_TRUE(rehearsed.done) << rehearsed.done.error().message;
-  const auto problems = solid::problems_of(*rehearsed.done);
+TEST_F(Exporting, ReportsAThinWallWithItsPlace) {
+  choices.min_wall_mm = 500.0;
+  choices.shrinkage_percent = 0.0;
+  exporter.preview(pot, choices);
+  const auto previewed = outcome();
+  ASSERT_TRUE(previewed.done) << previewed.done.error().message;
+  const auto problems = solid::problems_of(*previewed.done);
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_NE(problems[0].text.find("thin wall"), std::string::npos);
   ASSERT_TRUE(problems[0].at);
@@ -155,10 +155,10 @@ TEST_F(Exporting, AThinWallIsAProblemWithAPlace) {
   EXPECT_LE(problems[0].at->y, pot->stack.height_mm() + 1e-9);
 }
 
-TEST_F(Exporting, FilesThatStandAlreadyAreNamed) {
-  EXPECT_TRUE(standing_files(wish).empty());
+TEST_F(Exporting, ListsExistingFiles) {
+  EXPECT_TRUE(standing_files(choices).empty());
   write_text(folder.file("two.obj"), "old");
-  EXPECT_EQ(standing_files(wish), std::vector{folder.file("two.obj")});
+  EXPECT_EQ(standing_files(choices), std::vector{folder.file("two.obj")});
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ class Desktop : public ::testing::Test {
   std::string before = std::getenv("PATH");
 };
 
-TEST_F(Desktop, WithoutADialogTheBoxIsLeft) {
+TEST_F(Desktop, FallsBackToATextFieldWithoutADialog) {
   FileDialog dialog;
   EXPECT_FALSE(dialog.begin(FileDialog::Kind::open, "/tmp/"));
   EXPECT_FALSE(dialog.open());
@@ -40,7 +40,7 @@ TEST_F(Desktop, WithoutADialogTheBoxIsLeft) {
   EXPECT_FALSE(show_folder("/tmp"));
 }
 
-TEST_F(Desktop, ZenityTellsWhatWasChosen) {
+TEST_F(Desktop, ReadsTheChoiceFromZenity) {
   install("zenity", "printf '%s\\n' \"$*\" >" + folder.file("asked") +
                         "\nprintf '/a place/my pot.work\\n'\n");
   FileDialog dialog;
@@ -53,7 +53,7 @@ TEST_F(Desktop, ZenityTellsWhatWasChosen) {
             "--file-selection --filename=/here/bowl.work --save --confirm-overwrite\n");
 }
 
-TEST_F(Desktop, ADialogThatIsClosedChoosesNothing) {
+TEST_F(Desktop, ClosedDialogChoosesNothing) {
   install("zenity", "echo /half/a/name; exit 1\n");
   FileDialog dialog;
   ASSERT_TRUE(dialog.begin(FileDialog::Kind::folder, "/"));
@@ -61,7 +61,7 @@ TEST_F(Desktop, ADialogThatIsClosedChoosesNothing) {
   ASSERT_TRUE(dialog.begin(FileDialog::Kind::folder, "/"));
 }
 
-TEST_F(Desktop, KdialogWhereThereIsNoZenity) {
+TEST_F(Desktop, UsesKdialogWithoutZenity) {
   install("kdialog", "echo \"$1 $2\"\n");
   FileDialog dialog;
   ASSERT_TRUE(dialog.begin(FileDialog::Kind::open, "/x/"));

@@ -27,7 +27,7 @@ double depth_mm(const render::PotView& pot, double radius_mm, glm::dvec2 at) {
   return radius_mm - std::hypot(dx, dy);
 }
 
-TEST(FreePlace, BesideTheClayItIsThePlaceItself) {
+TEST(FreePlace, IsThePlaceItselfBesideTheClay) {
   const auto pot = tube(40.0f, 30.0f, 60.0, 120);
   EXPECT_EQ(free_place(pot, sphere(5.0), {60.0, 30.0}), glm::dvec2(60.0, 30.0));
   EXPECT_EQ(free_place(pot, sphere(5.0), {-60.0, 30.0}), glm::dvec2(-60.0, 30.0));
@@ -35,7 +35,7 @@ TEST(FreePlace, BesideTheClayItIsThePlaceItself) {
   EXPECT_EQ(free_place(pot, sphere(5.0), {35.0, 70.0}), glm::dvec2(35.0, 70.0));
 }
 
-TEST(FreePlace, InTheWallItIsTheNearerSide) {
+TEST(FreePlace, IsTheNearerSideOfTheWall) {
   const auto pot = tube(40.0f, 30.0f, 60.0, 120);
   const glm::dvec2 outside = free_place(pot, sphere(5.0), {37.0, 30.0});
   EXPECT_NEAR(outside.x, 45.0 + kClearanceMm, 1e-6);
@@ -46,7 +46,7 @@ TEST(FreePlace, InTheWallItIsTheNearerSide) {
   EXPECT_NEAR(left.x, -45.0 - kClearanceMm, 1e-6);
 }
 
-TEST(FreePlace, NearTheTopOfALumpItIsAbove) {
+TEST(FreePlace, IsAboveNearTheTopOfALump) {
   const auto lump = tube(40.0f, 0.0f, 60.0, 120);
   const glm::dvec2 above = free_place(lump, sphere(5.0), {5.0, 55.0});
   EXPECT_EQ(above.x, 5.0);
@@ -66,7 +66,7 @@ RC_GTEST_PROP(FreePlace, IsNeverInTheClayAndNeverBelowTheWheel, ()) {
   RC_ASSERT(depth_mm(pot, radius, place) <= 1e-4);  // radii of rows are floats
 }
 
-TEST(WallAt, IsWhatTwoToolsHaveToSpan) {
+TEST(WallAt, IsTheThicknessThatTwoToolsSpan) {
   const auto pot = tube(40.0f, 30.0f, 60.0, 120);
   const auto wall = wall_at(pot, sphere(5.0), 30.0);
   ASSERT_TRUE(wall);

@@ -38,7 +38,7 @@ TEST(Importing, IsThePotOfTheCommand) {
   }
 }
 
-TEST(Importing, WhatIsWrongIsSaidInTheCard) {
+TEST(Importing, ErrorsAppearInTheDialog) {
   ImportCard card;
   card.path = "odd.csv";
   card.bytes = "this is no table\n1,\n";
@@ -47,7 +47,7 @@ TEST(Importing, WhatIsWrongIsSaidInTheCard) {
   EXPECT_NE(card.problem.find("odd.csv"), std::string::npos) << card.problem;
 }
 
-TEST(Importing, DrawingsAreKnownByTheirEndings) {
+TEST(Importing, DrawingsAreRecognisedByExtension) {
   for (const char* name : {"a.svg", "b.dxf", "c.csv"}) EXPECT_TRUE(is_drawing(name)) << name;
   for (const char* name : {"a.work", "a.pot.json", "svg", "a.svg.gz"})
     EXPECT_FALSE(is_drawing(name)) << name;

@@ -12,7 +12,7 @@ size() { wc -c <"$journal"; }
 begun=$(size)
 grew() { [ "$(size)" -gt $((begun + 2000)) ]; }
 xdotool mousemove --window "$window" 930 420 mousedown 1
-until_line "stroke begun" 2
+until_line "stroke started" 2
 for x in 900 880 860 850 845 840 835 830; do
   xdotool mousemove --window "$window" $x 420 sleep 0.1
 done

@@ -20,13 +20,13 @@ struct Hand {
   }
 };
 
-TEST(MouseHand, StandsWhereItBegan) {
+TEST(MouseHand, StaysAtItsStart) {
   Hand hand;
   hand.device.begin_at({50.0, 20.0, 0.0});
   for (int i = 0; i < 100; ++i) EXPECT_EQ(hand.tick().position_mm, glm::dvec3(50.0, 20.0, 0.0));
 }
 
-TEST(MouseHand, NeverGoesFasterThanItIsTold) {
+TEST(MouseHand, RespectsItsSpeedLimit) {
   Hand hand;
   hand.device.begin_at({50.0, 20.0, 0.0});
   hand.tick();
@@ -39,7 +39,7 @@ TEST(MouseHand, NeverGoesFasterThanItIsTold) {
   }
 }
 
-TEST(MouseHand, ArrivesWithoutSwingingPast) {
+TEST(MouseHand, ArrivesWithoutOvershoot) {
   Hand hand;
   hand.device.begin_at({50.0, 0.0, 0.0});
   hand.tick();
@@ -54,7 +54,7 @@ TEST(MouseHand, ArrivesWithoutSwingingPast) {
   EXPECT_NEAR(x, 40.0, 1e-3);
 }
 
-TEST(MouseHand, APauseOfTheServoIsNoLeap) {
+TEST(MouseHand, ServoPauseCausesNoJump) {
   Hand hand;
   hand.device.begin_at({50.0, 0.0, 0.0});
   hand.tick();

@@ -78,7 +78,7 @@ class Panels : public ::testing::Test {
   ImGuiContext* context_;
 };
 
-TEST_F(Panels, DrawingGivesNoAction) {
+TEST_F(Panels, DrawingEmitsNoAction) {
   const auto all = [](const ViewModel& model, Actions& actions) {
     draw_menu(model, actions);
     draw_column(model, actions, Column::left, {0.0f, 20.0f}, {240.0f, 660.0f});
@@ -118,7 +118,7 @@ TEST_F(Panels, AHeaderFoldsItsPanel) {
   EXPECT_FALSE(panel_open(state.settings, "tool"));
 }
 
-TEST_F(Panels, EnterSavesWhatWasTyped) {
+TEST_F(Panels, EnterSavesUnderTheTypedName) {
   state.ui.dialog = SaveDialog{"a.work", {}};
   const auto dialog = [](const ViewModel& model, Actions& actions) {
     draw_dialog(model, actions, kView);

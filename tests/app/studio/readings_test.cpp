@@ -37,7 +37,7 @@ PotQuestion question_of(const history::SharedPot& pot, const std::string& proces
   return {{pot, render::view_of(*pot), pot->density_g_cm3}, process};
 }
 
-TEST(ClayAccount, WeighsWhatTheLedgerCounts) {
+TEST(ClayAccount, WeighsTheClayOfTheLedger) {
   const Quanta trimmed = quanta_from_mm2(100.0);
   const ClayAccount account = account_of(*pot_of(cup_rings(), trimmed));
   // 2 g/cm^3; a disc of 10 mm and a ring of 50 mm.
@@ -49,13 +49,13 @@ TEST(ClayAccount, WeighsWhatTheLedgerCounts) {
   EXPECT_NEAR(account.capacity_mm3, kPi * 35.0 * 35.0 * 50.0, 1e-6);
 }
 
-TEST(ClayAccount, TellsAQuantumThatIsNotThere) {
+TEST(ClayAccount, ReportsAMissingQuantum) {
   Pot pot = *pot_of(cup_rings());
   pot.ledger.initial += 1;
   EXPECT_EQ(account_of(pot).unaccounted, "-1");
 }
 
-TEST(ClayAccount, InMidStrokeIsTheServosLedger) {
+TEST(ClayAccount, UsesTheServosLedgerDuringAStroke) {
   const auto pot = pot_of(cup_rings());
   const ClayAccount before = account_of(*pot);
   servo::LiveStatus status;
@@ -69,7 +69,7 @@ TEST(ClayAccount, InMidStrokeIsTheServosLedger) {
   EXPECT_EQ(account.capacity_mm3, before.capacity_mm3);
 }
 
-TEST(StressCurve, IsTheEnginesAndSaysWhere) {
+TEST(StressCurve, MatchesTheEngineAndReportsTheHeight) {
   const auto pot = pot_of(cup_rings());
   const StressCurve curve = stress_of(pot->stack, 2.0, 2.0);
   EXPECT_EQ(curve.kpa, stresses_kpa(pot->stack, 2.0));
@@ -80,7 +80,7 @@ TEST(StressCurve, IsTheEnginesAndSaysWhere) {
             "Maximum 0.97 kPa, at a height of 1.02 cm; no limit is set");
 }
 
-TEST(SectionRows, LoseNothingOfTenThousandRingsAPixel) {
+TEST(SectionRows, KeepExtremesOfTenThousandRingsPerPixel) {
   std::vector<Ring> rings(100'000, Ring{quanta_from_radius(40.0), quanta_from_radius(30.0)});
   rings[50'123] = {quanta_from_radius(45.0), quanta_from_radius(20.0)};
   const ClayStack stack = ClayStack::from_rings(0.001, std::move(rings), 0).value();
@@ -91,7 +91,7 @@ TEST(SectionRows, LoseNothingOfTenThousandRingsAPixel) {
   EXPECT_EQ(rows[51], rows[0]);
 }
 
-TEST(SectionRows, GiveARingAsManyRowsAsItIsHigh) {
+TEST(SectionRows, GiveARingRowsInProportionToItsHeight) {
   const ClayStack stack =
       ClayStack::from_rings(1.0, {{quanta_from_radius(10), 0}, {quanta_from_radius(20), 0}}, 0)
           .value();
@@ -99,7 +99,7 @@ TEST(SectionRows, GiveARingAsManyRowsAsItIsHigh) {
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(rows[i].outer_most_mm, i < 3 ? 10.0f : 20.0f) << i;
 }
 
-TEST(MinMax, KeepsWhatStandsOut) {
+TEST(MinMax, KeepsExtremes) {
   std::vector<CurvePoint> points;
   for (int i = 0; i < 10'000; ++i) points.push_back({i * 1e-3, i == 5'432 ? 7.0 : 1.0});
   const auto parts = min_max_of(points, 0.0, 10.0, 100);
@@ -111,7 +111,7 @@ TEST(MinMax, KeepsWhatStandsOut) {
   EXPECT_EQ(round_up(201.0), 500.0);
 }
 
-TEST(TickHistory, RemembersTenSecondsAndTheirPercentiles) {
+TEST(TickHistory, KeepsTenSecondsAndTheirPercentiles) {
   TickHistory ticks;
   for (int i = 0; i < 20'000; ++i)  // 20 s at 1 kHz; 2 in 100 are late by 500 us
     ticks.add({std::int64_t{i} * 1'000'000, 0.5f, 0.0f, i % 50 == 0 ? 500.0f : 20.0f, 3.0f,
@@ -159,7 +159,7 @@ TEST(PotCheck, HasTheFiguresOfTheCup) {
   EXPECT_EQ(wall_text(check, LengthUnit::mm).substr(0, 20), "Thinnest wall 5.0 mm");
 }
 
-TEST(PotCheck, SaysAThinWallWithItsHeight) {
+TEST(PotCheck, ReportsAThinWallWithItsHeight) {
   auto rings = cup_rings();
   for (std::size_t i = 66; i < 70; ++i) rings[i].inner2 = quanta_from_radius(38.4);  // 33 to 35 mm
   const PotCheck check = check_pot(question_of(pot_of(std::move(rings)), "porcelain"));
@@ -193,7 +193,7 @@ TEST(PotCheck, ComparesWallsWithAProcessFile) {
   EXPECT_NE(gone.remarks[0].text.find("/none.process.json"), std::string::npos);
 }
 
-TEST(PotCheck, SaysWhyNotAndWhere) {
+TEST(PotCheck, ReportsTheReasonAndThePlace) {
   auto rings = cup_rings();
   for (std::size_t i = 80; i < rings.size(); ++i)  // a ring that stands apart, from 40 mm up
     rings[i] = {quanta_from_radius(30.0), quanta_from_radius(25.0)};

@@ -27,7 +27,7 @@ class OnAScreen : public ::testing::Test {
   }
 };
 
-TEST_F(OnAScreen, FromTheGalleryToAFileThatPrints) {
+TEST_F(OnAScreen, WorksFromTheGalleryToAPrintableFile) {
   const ScratchFolder folder;
   const Ran ran = run("under_xvfb.sh", folder);
   ASSERT_EQ(ran.status, 0) << ran.err << ran.out;
@@ -38,7 +38,7 @@ TEST_F(OnAScreen, FromTheGalleryToAFileThatPrints) {
   EXPECT_NE(info.find("manifold = yes"), std::string::npos) << info;
 }
 
-TEST_F(OnAScreen, WhatIsNotRecoveredIsOfferedAgainUntilItIsDiscarded) {
+TEST_F(OnAScreen, OffersAnUnrecoveredWorkUntilItIsDiscarded) {
   const ScratchFolder folder;
   test::write_text(folder.file("lump.scene.json"), read_text(test::sample("vase.scene.json")));
   const Ran ran = run("declined_under_xvfb.sh", folder);
@@ -46,7 +46,7 @@ TEST_F(OnAScreen, WhatIsNotRecoveredIsOfferedAgainUntilItIsDiscarded) {
 }
 
 /// How little that is less than what was thrown is tested with the journal itself.
-TEST_F(OnAScreen, KilledInMidStrokeOffersWhatTheJournalHad) {
+TEST_F(OnAScreen, OffersTheJournalOfAKilledWindow) {
   const ScratchFolder folder;
   const Ran ran = run("killed_under_xvfb.sh", folder);
   ASSERT_EQ(ran.status, 0) << ran.err << ran.out;

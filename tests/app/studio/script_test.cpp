@@ -19,11 +19,11 @@ TEST(Script, ReadsWordsQuotesAndComments) {
   EXPECT_EQ((*lines)[1].words, (std::vector<std::string>{"wait", "1"}));
 }
 
-TEST(Script, NamesTheLineOfWhatIsWrong) {
+TEST(Script, ErrorsNameTheLine) {
   EXPECT_EQ(error_of("wait 1\ndance\n"), "s:2: expected a command, found dance");
   EXPECT_EQ(error_of("\nmove 3\n"), "s:2: expected move X Y [over SECONDS], found 1 arguments");
   EXPECT_EQ(error_of("close now"), "s:1: expected close, found 1 arguments");
-  EXPECT_EQ(error_of("type \"open"), "s:1: expected a quote that closes, found none");
+  EXPECT_EQ(error_of("type \"open"), "s:1: expected a closing quote, found none");
   EXPECT_EQ(error_of(""), "none");
 }
 

@@ -13,7 +13,7 @@ namespace {
 using test::claystack;
 using test::Ran;
 
-TEST(ServoReport, TellsHowServoAndWindowKeptTheirTimeAndEndsByIt) {
+TEST(ServoReport, ReportsTimingsAndSetsTheExitStatus) {
   ASSERT_EQ(test::shell("command -v Xvfb").status, 0) << "needs Xvfb (tests/run.sh installs it)";
   const test::ScratchFolder folder;
   Ran ran;
@@ -44,7 +44,7 @@ TEST(ServoReport, TellsHowServoAndWindowKeptTheirTimeAndEndsByIt) {
   EXPECT_EQ(ran.err.find("servo report: expected ") != std::string::npos, !kept) << ran.err;
 }
 
-TEST(ServoReport, RefusesWhatItCannotMeasure) {
+TEST(ServoReport, RefusesUnsupportedMeasurements) {
   Ran ran = claystack("studio --servo-report 3");
   EXPECT_EQ(ran.status, 2);
   EXPECT_NE(ran.err.find("expected a scene"), std::string::npos) << ran.err;

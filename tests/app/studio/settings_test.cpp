@@ -31,7 +31,7 @@ Settings changed() {
   return settings;
 }
 
-TEST(Settings, ComeBackAsTheyWere) {
+TEST(Settings, RoundTrip) {
   const std::string text = write_settings(changed());
   const auto back = parse_settings(text, "studio.json");
   ASSERT_TRUE(back) << back.error().message;
@@ -40,7 +40,7 @@ TEST(Settings, ComeBackAsTheyWere) {
   EXPECT_EQ(back->theme, Theme::light);
 }
 
-TEST(Settings, HaveEveryScaleAndUnitThatIsOffered) {
+TEST(Settings, SupportEveryScaleAndUnit) {
   for (const float scale : {0.5f, 1.1f, 3.0f})
     for (const LengthUnit unit : {LengthUnit::mm, LengthUnit::cm, LengthUnit::in}) {
       Settings settings;
@@ -58,13 +58,13 @@ TEST(Settings, HaveEveryScaleAndUnitThatIsOffered) {
   }
 }
 
-TEST(LengthText, IsInTheUnitThatIsChosen) {
+TEST(LengthText, UsesTheChosenUnit) {
   EXPECT_EQ(length_text(50.8, LengthUnit::mm), "50.8 mm");
   EXPECT_EQ(length_text(50.8, LengthUnit::cm), "5.08 cm");
   EXPECT_EQ(length_text(50.8, LengthUnit::in), "2.00 in");
 }
 
-TEST(Settings, AProcessOfOnesOwnIsRemembered) {
+TEST(Settings, CustomProcessIsRemembered) {
   Settings settings;
   for (const char* name : {"/a", "/b", "/c", "/d", "/e", "/b"})
     remember_process(settings, std::string(name) + ".process.json");
@@ -76,7 +76,7 @@ TEST(Settings, AProcessOfOnesOwnIsRemembered) {
   EXPECT_EQ(back->processes, settings.processes);
 }
 
-TEST(Settings, WhatIsWrongIsNamed) {
+TEST(Settings, ErrorsNameTheField) {
   const auto error_of = [](const std::string& field) {
     const auto read = parse_settings("{\"schema\": \"claystack-studio-1\", " + field + "}", "s");
     return read ? std::string("none") : read.error().message;
@@ -92,7 +92,7 @@ TEST(Settings, WhatIsWrongIsNamed) {
 }
 
 // The message repeated what it had found, level by level, until the stack was full.
-TEST(Settings, AFileNestedDeepIsRefused) {
+TEST(Settings, RefuseADeeplyNestedFile) {
   std::string deep = "{\"schema\": \"claystack-studio-1\", \"scale\": ";
   deep.append(100'000, '[').append(100'000, ']').append("}");
   const auto read = parse_settings(deep, "s");
@@ -116,7 +116,7 @@ TEST(Settings, APipeIsNeitherReadNorWritten) {
   EXPECT_EQ(saved.error().kind, ErrorKind::io);
 }
 
-TEST(Settings, WithoutHomeTheyAreInTheHomeOfThePasswordFile) {
+TEST(Settings, UseThePasswordFileWithoutHome) {
   setenv("XDG_CONFIG_HOME", "relative", 1);
   unsetenv("HOME");
   EXPECT_EQ(settings_path(),
@@ -128,7 +128,7 @@ TEST(Settings, WithoutHomeTheyAreInTheHomeOfThePasswordFile) {
   EXPECT_EQ(settings_path(), "/etc/xdg/claystack/studio.json");
 }
 
-TEST(Settings, ABrokenFileIsKeptAside) {
+TEST(Settings, BrokenFileIsRenamed) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("studio.json");
   test::write_text(path, "{ not json");
@@ -139,7 +139,7 @@ TEST(Settings, ABrokenFileIsKeptAside) {
   EXPECT_EQ(write_settings(loaded.settings), write_settings(Settings()));
 }
 
-TEST(Settings, NoFileIsNoFault) {
+TEST(Settings, MissingFileIsNoError) {
   const test::ScratchFolder folder;
   EXPECT_EQ(load_settings(folder.file("none.json")).note, "");
   ASSERT_TRUE(save_settings(changed(), folder.file("deep/er/studio.json")));

@@ -41,7 +41,7 @@ TEST(Timeline, StrokesInARowAreOneRow) {
   EXPECT_EQ(timeline.seconds, end_s);
 }
 
-TEST(Timeline, WhatIsUndoneStaysInItsRowUntilAnotherWayIsTaken) {
+TEST(Timeline, UndoneStrokesKeepTheirRowUntilABranch) {
   Timeline timeline = timeline_of(work_of({1, 1, -1}));
   EXPECT_EQ(timeline.rows, 1u);
   EXPECT_TRUE(timeline.blocks[0].done);

@@ -20,7 +20,7 @@ until_line "action: edit.redo" 5
 # An export by its shortcut: the name is the sample's, the folder that of the last file, here the
 # one that the window was started in.
 xdotool key --window "$window" ctrl+e
-until_line "export rehearsed"
+until_line "export previewed"
 xdotool key --window "$window" ctrl+Return
 until_line "exported: .*bowl.stl"
 [ -s bowl.stl ] || fail "expected bowl.stl"
@@ -31,7 +31,7 @@ until_line "action: wheel.zero_force"
 xdotool mousemove --window "$window" 27 13 click 1
 xdotool mousemove --window "$window" 60 240 sleep 0.2 click 1
 until_line "action: file.export" 2
-until_line "export rehearsed" 2
+until_line "export previewed" 2
 xdotool key --window "$window" ctrl+Return
 until_line "exported: .*bowl.stl" 2
 cmp bowl.stl by_key.stl || fail "expected the same bytes by menu and by key"

@@ -55,9 +55,9 @@ start_window() {
 
 # throw_a_stroke: from beside the lump into it.
 throw_a_stroke() {
-  strokes=$(grep -c "stroke begun" "$log")
+  strokes=$(grep -c "stroke started" "$log")
   xdotool mousemove --window "$window" 930 420 mousedown 1
-  until_line "stroke begun" $((strokes + 1))
+  until_line "stroke started" $((strokes + 1))
   for x in 900 880 860 850 845 840; do xdotool mousemove --window "$window" $x 420; done
   xdotool mouseup 1
   until_line "stroke ended" $((strokes + 1))
@@ -67,7 +67,7 @@ throw_a_stroke() {
 throw_the_bowl() {
   start_window
   xdotool mousemove --window "$window" 370 360 click 1
-  until_line "work begun: bowl"
+  until_line "work started: bowl"
   throw_a_stroke
 }
 

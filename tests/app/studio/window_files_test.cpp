@@ -16,7 +16,7 @@ using test::read_text;
 using test::shell;
 using test::Window;
 
-TEST_F(Window, AStrokeUndoneAndRedoneIsThePotThatThrowMakes) {
+TEST_F(Window, UndoneAndRedoneStrokeEqualsThrow) {
   const Ran ran = run(std::string(kPress) +
                       "expect strokes 1\nexpect volume_error 0\nsave FOLDER/one.pot.json\n"
                       "key Ctrl+Z\nexpect can_undo no\nsave FOLDER/none.pot.json\n"
@@ -39,7 +39,7 @@ TEST_F(Window, AScriptGivesTheSameBytesEveryTime) {
   EXPECT_EQ(read_text(folder.file("a.work")), read_text(folder.file("b.work")));
 }
 
-TEST_F(Window, QuittingAsksOnceThereIsSomethingToLose) {
+TEST_F(Window, QuittingAsksAboutUnsavedChanges) {
   Ran ran = run("close\nexpect closed yes\n");
   EXPECT_EQ(ran.status, 0) << ran.err;
   ran = run(std::string(kPress) +
@@ -48,7 +48,7 @@ TEST_F(Window, QuittingAsksOnceThereIsSomethingToLose) {
   EXPECT_EQ(ran.status, 0) << ran.err;
 }
 
-TEST_F(Window, TheExportIsThatOfTheCommandLineOnTheSameStrokes) {
+TEST_F(Window, ExportEqualsThatOfTheCommand) {
   // The name and the folder of the work are those of its files.
   const Ran ran = run(std::string(kPress) +
                       "save FOLDER/mine.work\n"
@@ -64,7 +64,7 @@ TEST_F(Window, TheExportIsThatOfTheCommandLineOnTheSameStrokes) {
 }
 
 /// The whole way of a pot: what the window leaves is what the two commands make of its strokes.
-TEST_F(Window, AThrownUndoneRedoneAndTrimmedPotIsThatOfTheCommands) {
+TEST_F(Window, EditedPotEqualsThatOfTheCommands) {
   const Ran ran = run(std::string(kPress) +
                       "save FOLDER/pressed.pot.json\nkey Ctrl+Z\nexpect node 0\n"
                       "save FOLDER/undone.pot.json\nkey Ctrl+Shift+Z\nexpect node 1\n"
@@ -99,7 +99,7 @@ TEST_F(Window, AThrownUndoneRedoneAndTrimmedPotIsThatOfTheCommands) {
   EXPECT_NE(ledger["trimmed"], "0") << ledger;
 }
 
-TEST_F(Window, AFallenPotIsShownAndExportedAndNotThrown) {
+TEST_F(Window, FallenPotIsShownAndExportedButNotThrown) {
   const std::string fallen = folder.file("fallen.pot.json");
   const Ran thrown = claystack("throw -q " + test::sample("collapse.scene.json") + " -s " +
                                test::sample("collapse.session") + " -o " + fallen);
@@ -119,7 +119,7 @@ TEST_F(Window, AFallenPotIsShownAndExportedAndNotThrown) {
   EXPECT_EQ(read_text(folder.file("fallen.stl")), read_text(folder.file("cli.stl")));
 }
 
-TEST_F(Window, AProcessOfOnesOwnIsDropped) {
+TEST_F(Window, AcceptsADroppedProcess) {
   const std::string process = test::sample("workshop.process.json");
   Ran ran =
       run("open " + process + "\nexpect process " + process +
@@ -141,7 +141,7 @@ TEST_F(Window, AProcessOfOnesOwnIsDropped) {
   EXPECT_NE(ran.out.find("error: "), std::string::npos) << ran.out;
 }
 
-TEST_F(Window, ADrawingIsPutOnTheWheelAndTheWorkBeforeIsAskedFor) {
+TEST_F(Window, ImportAsksAboutAnUnsavedWork) {
   const std::string jug = test::sample("drawings/jug.svg");
   const Ran ran =
       run(std::string(kPress) + "open " + jug +
@@ -157,7 +157,7 @@ TEST_F(Window, ADrawingIsPutOnTheWheelAndTheWorkBeforeIsAskedFor) {
   EXPECT_EQ(read_text(folder.file("jug.pot.json")), read_text(folder.file("cli.pot.json")));
 }
 
-TEST_F(Window, AnUnsavedWorkIsAskedForBeforeAnotherOpens) {
+TEST_F(Window, OpeningAsksAboutAnUnsavedWork) {
   const std::string vase = test::sample("vase.scene.json");
   const Ran ran = run(std::string(kPress) + "open " + vase +
                       "\nexpect overlay quit\nkey Esc\nexpect strokes 1\n"
@@ -169,7 +169,7 @@ TEST_F(Window, AnUnsavedWorkIsAskedForBeforeAnotherOpens) {
   EXPECT_EQ(ran.status, 0) << ran.err;
 }
 
-TEST_F(Window, WhatIsWrongIsSaidWithItsLine) {
+TEST_F(Window, ScriptErrorsNameTheLine) {
   Ran ran = run("wait 0.1\nexpect contact yes\n");
   EXPECT_EQ(ran.status, 1);
   EXPECT_NE(ran.err.find("s:2: contact: expected yes, found no"), std::string::npos) << ran.err;

@@ -38,13 +38,13 @@ TEST_F(Window, BracketsAndFChangeTheSize) {
   EXPECT_EQ(ran.status, 0) << ran.err;
 }
 
-TEST_F(Window, EachShapeHasASizeOfItsOwn) {
+TEST_F(Window, EachShapeKeepsItsSize) {
   const Ran ran = run("key R\nexpect tool_mm above 0\nkey S\nkey ]\n" + about("tool_mm", 11.0) +
                       "key E\nkey ]\nkey S\n" + about("tool_mm", 11.0));
   EXPECT_EQ(ran.status, 0) << ran.err;
 }
 
-TEST_F(Window, ShiftFChangesTheStrengthAndNotTheClay) {
+TEST_F(Window, ShiftFChangesTheStiffnessButNotTheClay) {
   const std::string drag = "move 400 300\nkey Shift+F\nmove 500 300 over 0.2\n";
   const std::string dragged = about("stiffness", 0.03 * kDragged);
   const Ran ran =
@@ -53,7 +53,7 @@ TEST_F(Window, ShiftFChangesTheStrengthAndNotTheClay) {
   EXPECT_EQ(ran.status, 0) << ran.err;
 }
 
-TEST_F(Window, SpacePausesAndGoesOn) {
+TEST_F(Window, SpacePausesAndResumes) {
   const Ran ran =
       run("key 1\nkey Space\nexpect paused yes\npoint 65 18\npress left\nexpect throwing no\n"
           "point 50 18 over 0.3\nrelease left\nexpect strokes 0\n"
@@ -62,7 +62,7 @@ TEST_F(Window, SpacePausesAndGoesOn) {
   EXPECT_EQ(ran.status, 0) << ran.err;
 }
 
-TEST_F(Window, SpaceInMidStrokeLeavesTheClayAsItIs) {
+TEST_F(Window, SpaceDuringAStrokeLeavesTheClayUnchanged) {
   const Ran ran =
       run("key 1\npoint 65 18\npress left\npoint 56 18 over 0.4\nwait 0.2\nkey Space\n"
           "save FOLDER/paused.pot.json\n");
@@ -75,7 +75,7 @@ TEST_F(Window, SpaceInMidStrokeLeavesTheClayAsItIs) {
             test::read_text(folder.file("later.pot.json")));
 }
 
-TEST_F(Window, EscLetsGoOfTheClay) {
+TEST_F(Window, EscReleasesTheClay) {
   const Ran ran =
       run("key 1\npoint 65 18\npress left\npoint 56 18 over 0.4\nwait 0.2\nexpect contact yes\n"
           "expect force_n above 0\nkey Esc\nexpect throwing no\nexpect strokes 1\n"
@@ -83,7 +83,7 @@ TEST_F(Window, EscLetsGoOfTheClay) {
   EXPECT_EQ(ran.status, 0) << ran.err;
 }
 
-TEST_F(Window, CardsOpenByTheirKeysAndCloseByEsc) {
+TEST_F(Window, DialogsOpenByTheirKeysAndCloseByEsc) {
   std::string script;
   const auto card = [&](const std::string& chord, const std::string& overlay) {
     script += "key " + chord + "\nexpect overlay " + overlay + "\nkey Esc\nexpect overlay none\n";
@@ -100,7 +100,7 @@ TEST_F(Window, CardsOpenByTheirKeysAndCloseByEsc) {
   EXPECT_EQ(ran.status, 0) << ran.err;
 }
 
-TEST_F(Window, AFileThatIsDroppedOpens) {
+TEST_F(Window, OpensADroppedFile) {
   const Ran ran = run(std::string(kPress) + "save FOLDER/mine.pot.json\nsave FOLDER/mine.work\n" +
                       "do edit.to_start\nsave FOLDER/mine.work\nopen FOLDER/mine.pot.json\n"
                       "expect strokes 0\nexpect unsaved no\nsave FOLDER/again.pot.json\n"

@@ -48,7 +48,7 @@ class Look : public test::Window {
   std::map<std::string, std::string> read_;
 };
 
-TEST_F(Look, TheClayIsWhereGeometryHasIt) {
+TEST_F(Look, ClayIsDrawnWhereGeometryPlacesIt) {
   // From the front the lump's edge is a straight line: clay on one side, background on the other.
   const Ran ran =
       run("key 1\npoint 47 15\nscreenshot FOLDER/in.png\npoint 80 60\nscreenshot FOLDER/out.png\n");
@@ -88,7 +88,7 @@ TEST_F(Look, BothThemesAndScalesAreDrawn) {
   }
 }
 
-TEST_F(Look, TheViewTurnsShiftsAndNearsByTheMouse) {
+TEST_F(Look, MouseRotatesShiftsAndZoomsTheView) {
   const std::string drag = "move 480 300\npress BUTTON\nmove 520 220 over 0.2\nrelease BUTTON\n";
   const auto by = [&](const std::string& button) {
     std::string text = drag;
@@ -132,7 +132,7 @@ TEST_F(Look, FromAboveARoundLumpIsAsHighAsWide) {
   EXPECT_EQ(extent("side.png", 4, 0), extent("front.png", 4, 0));
 }
 
-TEST_F(Look, IsAsInThePicturesThatWereLookedAt) {
+TEST_F(Look, MatchesTheReferencePictures) {
   ASSERT_EQ(shell("sh " CLAYSTACK_STUDIO_TESTS "/references.sh " CLAYSTACK_PROGRAM " " +
                   folder.path().string())
                 .status,

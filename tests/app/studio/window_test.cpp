@@ -15,7 +15,7 @@ using test::Ran;
 using test::read_text;
 using test::Window;
 
-TEST_F(Window, AClickNeverBites) {
+TEST_F(Window, ClickRemovesNothing) {
   const Ran ran =
       run("save FOLDER/before.pot.json\nkey 1\n"
           "point 40 15\npress left\npoint 40.5 15\nwait 1\nexpect contact no\nrelease left\n"
@@ -80,7 +80,7 @@ TEST_F(Window, TheTimelineIsClickedAndDragged) {
 }
 
 /// The marks of the drag are pixels of the strip; what is at them the work itself tells.
-TEST_F(Window, AMomentOfAStrokeBecomesABranchThatThrowGivesToo) {
+TEST_F(Window, BranchWithinAStrokeEqualsThatOfThrow) {
   const std::string drag = "move 400 597\npress left\nmove 340 597 over 0.3\nrelease left\n";
   const Ran ran = run(std::string(kPress) + drag +
                       "expect scrubbing yes\nexpect node 1\ndo edit.branch\n"
@@ -105,7 +105,7 @@ TEST_F(Window, AMomentOfAStrokeBecomesABranchThatThrowGivesToo) {
   EXPECT_EQ(read_text(folder.file("again.pot.json")), read_text(folder.file("mine.pot.json")));
 }
 
-TEST_F(Window, SixtyFourStrokesAreTakenBackOneByOne) {
+TEST_F(Window, UndoesSixtyFourStrokesOneByOne) {
   std::string script = "key 1\n";
   for (int i = 0; i < 64; ++i)
     script += "point 65 18\npress left\npoint 50 18 over 0.2\npoint 65 18 over 0.2\nrelease left\n";
@@ -135,7 +135,7 @@ TEST_F(Window, AFallIsShownAndUndone) {
   EXPECT_NE(read_text(folder.file("stands.png")), read_text(folder.file("fell.png")));
 }
 
-TEST_F(Window, ChecksTheClayAsItIsAndPlotsEveryTick) {
+TEST_F(Window, ChecksTheCurrentClayAndPlotsEveryTick) {
   const Ran ran = run(std::string("wait 0.1\nexpect proved yes\nexpect thinnest_mm above 29.79\n"
                                   "expect thinnest_mm below 29.81\nexpect plotted_ticks 0\n") +
                       kPress +

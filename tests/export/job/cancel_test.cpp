@@ -1,4 +1,4 @@
-// A job that is given up: at whichever of its questions, it is cancelled or it is whole.
+// A cancelled job leaves no result, at whichever check it is cancelled.
 
 #include "claystack/export/job.hpp"
 
@@ -57,7 +57,7 @@ void expect_cancelled_or_whole(Job job) {
       EXPECT_EQ(*result, *whole);
     } else {
       EXPECT_EQ(result.error().kind, ErrorKind::io);
-      EXPECT_EQ(result.error().message, "export given up: cancelled") << until << " of " << all;
+      EXPECT_EQ(result.error().message, "export stopped: cancelled") << until << " of " << all;
     }
   }
 }
@@ -70,7 +70,7 @@ std::vector<MeshFormat> built_formats() {
   return formats;
 }
 
-TEST(Cancel, AStandingPotIsGivenUpAtAnyQuestion) {
+TEST(Cancel, CancelsAStandingPotAtEveryCheck) {
   ExportOptions options;
   options.tolerance_mm = 0.3;
   options.wall_spacing_mm = 1.0;
@@ -81,7 +81,7 @@ TEST(Cancel, AStandingPotIsGivenUpAtAnyQuestion) {
   }
 }
 
-TEST(Cancel, AFallenPotIsGivenUpAtAnyQuestion) {
+TEST(Cancel, CancelsAFallenPotAtEveryCheck) {
   Pot pot = pot_of(shapes::vase(60));
   pot.collapse = Collapse{20, {50, 70, 0}, {0, 0, 1}, 1.0, 12.0};
   ExportOptions options;
@@ -91,7 +91,7 @@ TEST(Cancel, AFallenPotIsGivenUpAtAnyQuestion) {
 }
 
 /// What a window waits for when it is closed.
-TEST(Cancel, LongStagesAskAllTheTime) {
+TEST(Cancel, LongStagesCheckContinuously) {
   constexpr std::size_t kRings = 40'000;
   Job job{pot_of(shapes::vase(kRings)), {}, {MeshFormat::stl_binary, MeshFormat::obj}};
   std::string stage;
@@ -119,7 +119,7 @@ TEST(Cancel, LongStagesAskAllTheTime) {
     EXPECT_GE(asked[each], report->size.triangles / (2 * 1024)) << each;
 }
 
-TEST(Cancel, NoStageBeginsAfterIt) {
+TEST(Cancel, NoStageBeginsAfterCancellation) {
   const Pot pot = pot_of(shapes::vase(200));
   std::atomic<bool> given_up{false};
   ExportOptions options;
@@ -141,7 +141,7 @@ TEST(Cancel, NoStageBeginsAfterIt) {
   EXPECT_FALSE(never);
 }
 
-TEST(Cancel, ThreadsThatHelpAreAskedToo) {
+TEST(Cancel, HelperThreadsCheckToo) {
   std::atomic<bool> given_up{false};
   const CancelScope::Question question = [&] { return given_up.load(); };
   const CancelScope scope(&question);

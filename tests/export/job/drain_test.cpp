@@ -25,7 +25,7 @@ TEST(Drain, OpensEveryCavityDownward) {
   EXPECT_EQ(drained->stack.rings()[2], stack.rings()[2]);
 }
 
-TEST(Drain, ABoreFromBelowIsKept) {
+TEST(Drain, KeepsABoreFromBelow) {
   const ClayStack stack = stack_of(2.0, {{30, 25}, {30, 0}, {30, 20}, {30, 0}});
   const auto drained = drain(stack, 6.0);
   ASSERT_TRUE(drained);
@@ -33,7 +33,7 @@ TEST(Drain, ABoreFromBelowIsKept) {
   EXPECT_NEAR(drained->stack.rings()[1].inner_mm(), 3.0, 1e-9);
 }
 
-TEST(Drain, RefusesWhatItCannotDo) {
+TEST(Drain, RefusesUnsupportedRequests) {
   const auto nothing = drain(stack_of(2.0, {{30, 0}, {30, 20}}), 5.0);
   ASSERT_FALSE(nothing);
   EXPECT_NE(nothing.error().message.find("closed cavity, found none"), std::string::npos);

@@ -112,7 +112,7 @@ TEST_F(ExportFiles, ADrawingShowsTheDrain) {
   EXPECT_EQ(read_file(path("a.svg")).value(), section_svg(drained));
 }
 
-TEST_F(ExportFiles, NoneIsLeftWhereOneCannotBeWritten) {
+TEST_F(ExportFiles, WritesNoneIfOneCannotBeWritten) {
   ExportRequest request;
   request.files.push_back(file_request(path("a.stl")).value());
   request.files.push_back(file_request(path("nowhere/a.obj")).value());
@@ -138,7 +138,7 @@ TEST_F(ExportFiles, AFallenPotHasNoCertificateAndNoDrain) {
   EXPECT_FALSE(std::filesystem::exists(path("a.stl")));
 }
 
-TEST(FileRequests, FollowTheEndOfTheName) {
+TEST(FileRequests, FollowTheExtension) {
   EXPECT_EQ(file_request("a.drc")->format, MeshFormat::drc);
   EXPECT_EQ(file_request("a.svg")->kind, FileKind::section);
   EXPECT_EQ(file_request("a.csv")->kind, FileKind::wall_table);

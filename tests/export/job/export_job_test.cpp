@@ -52,7 +52,7 @@ TEST(RunExport, VaseInEveryFormat) {
   }
 }
 
-TEST(RunExport, TellsItsStagesInOrder) {
+TEST(RunExport, ReportsItsStagesInOrder) {
   std::vector<std::string> told;
   const auto result = exported(pot_of(shapes::vase(100)), {MeshFormat::obj}, {},
                                [&](std::string_view stage) { told.emplace_back(stage); });
@@ -67,7 +67,7 @@ TEST(RunExport, TellsItsStagesInOrder) {
   }
 }
 
-TEST(RunExport, TellsWhatItLeftOut) {
+TEST(RunExport, ReportsSkippedStages) {
   ExportOptions options;
   options.smoothing = Smoothing::none;
   const auto result = exported(pot_of(stack_of(5.0, {{20, 0}})), {MeshFormat::stl_binary}, options);

@@ -46,7 +46,7 @@ RC_GTEST_PROP(Shrinkage, OfAnyStackEveryRadiusGrowsAlike, ()) {
   }
 }
 
-TEST(Shrinkage, OfNothingIsThePotItself) {
+TEST(Shrinkage, ZeroKeepsThePot) {
   const Pot pot = pot_of(shapes::vase(50));
   EXPECT_EQ(enlarged(pot, 0.0).value(), pot);
 }
@@ -61,7 +61,7 @@ TEST(Shrinkage, TheFilesAreLarger) {
   EXPECT_LT(larger->volume.error_relative, 1e-9);
 }
 
-TEST(Shrinkage, WhatFellLiesWhereItWouldInThatSize) {
+TEST(Shrinkage, FallenPartIsScaledWithThePot) {
   const Pot pot = shapes::fallen(shapes::vase(60), 30, {40.0, 20.0, 0.0}, 0.7);
   const auto larger = enlarged(pot, 0.2);
   ASSERT_TRUE(larger) << larger.error().message;
@@ -71,7 +71,7 @@ TEST(Shrinkage, WhatFellLiesWhereItWouldInThatSize) {
   }
 }
 
-TEST(Shrinkage, WhatIsBeyondTheLimitsIsRefused) {
+TEST(Shrinkage, RefusesResultsBeyondTheLimits) {
   const Pot pot = pot_of(shapes::vase(20));
   for (const double bad : {-0.01, 0.51, 1.0, std::nan("")}) {
     const auto refused = report_of(pot, bad);

@@ -60,7 +60,7 @@ TEST(SolidCertificate, ReportsEveryFalseClaim) {
   expect([](auto& c) { c.content_hash[5] ^= 1; }, "content hash");
   expect([](auto& c) { c.profile_hash[5] ^= 1; }, "profile hash");
   expect([](auto& c) { c.profile.pieces[0][9].rho += 1e-3; }, "profile hash");
-  expect([](auto& c) { c.wall_lower_mm += 1e-6; }, "least wall");
+  expect([](auto& c) { c.wall_lower_mm += 1e-6; }, "minimum wall");
   expect([](auto& c) { c.wall_upper_mm -= 1e-6; }, "wall's upper bound");
   expect([](auto& c) { c.volume_mm3 *= 1.00001; }, "volume");
   expect([](auto& c) { c.volume_bound_mm3 *= 0.5; }, "volume bound");

@@ -65,7 +65,7 @@ TEST(ProfileSmoothing, AConeInStepsBecomesACone) {
   }
 }
 
-TEST(ProfileSmoothing, ExactGoesOnAsTheWallDoesAtItsEnds) {
+TEST(ProfileSmoothing, ExactExtrapolatesTheWallAtItsEnds) {
   SmoothingOptions options = options_for(Smoothing::exact);
   options.min_wall_mm = 1.0;
   const Polygon polygon = smooth(cone(100, 1.0, 0.0), options).section.profile.pieces.at(0);
@@ -77,7 +77,7 @@ TEST(ProfileSmoothing, ExactGoesOnAsTheWallDoesAtItsEnds) {
   }
 }
 
-TEST(ProfileSmoothing, FloorsAndLidsStayWhereTheyAre) {
+TEST(ProfileSmoothing, KeepsFloorsAndLids) {
   std::vector<Radii> radii(30, {40.0, 25.0});
   for (const std::size_t i : {0u, 1u, 2u, 3u, 27u, 28u, 29u}) radii[i].inner_mm = 0.0;
   for (const Smoothing mode : {Smoothing::fair, Smoothing::exact}) {
@@ -169,7 +169,7 @@ TEST(ProfileSmoothing, AJumpOvershootsNoFurtherThanAllowedAndIsReported) {
   EXPECT_GT(smooth(stack_of(2.0, radii), options).overshoot_mm, 0.1);
 }
 
-TEST(ProfileSmoothing, TellsWhereTheWallHadToStay) {
+TEST(ProfileSmoothing, ReportsKeptSteps) {
   // The bore widens to its very end, so its last ring has to bulge to stay exact: a theorem.
   std::vector<Radii> radii;
   for (int i = 0; i < 20; ++i) radii.push_back({40.0, 36.0 + 0.05 * i});
@@ -186,7 +186,7 @@ TEST(ProfileSmoothing, TellsWhereTheWallHadToStay) {
   EXPECT_TRUE(smooth(stack, options).guard.empty());
 }
 
-TEST(ProfileSmoothing, TellsWhatItTookFromWallsAtTheirLimit) {
+TEST(ProfileSmoothing, ReportsClayRemovedFromWallsAtTheirLimit) {
   // Chords fill half of the bore's ripple, so clay has to be taken, and every ring of the outer
   // wall stands before a place at the limit.
   std::vector<Radii> radii;
@@ -198,7 +198,7 @@ TEST(ProfileSmoothing, TellsWhatItTookFromWallsAtTheirLimit) {
   EXPECT_NEAR(min_wall_mm(made.section.profile), 2.9 - made.taken_mm, 1e-9);
 }
 
-TEST(ProfileSmoothing, RefusesWhatItCannotDo) {
+TEST(ProfileSmoothing, RefusesUnsupportedRequests) {
   const ClayStack stack = shapes::vase(20);
   const auto refused = [&](SmoothingOptions options, const char* name) {
     const auto made = smooth_profile_of(stack, options);
@@ -216,7 +216,7 @@ TEST(ProfileSmoothing, RefusesWhatItCannotDo) {
   EXPECT_TRUE(refused(options, "tolerance"));
   options = options_for(Smoothing::fair);
   options.min_wall_mm = std::nan("");
-  EXPECT_TRUE(refused(options, "least wall"));
+  EXPECT_TRUE(refused(options, "minimum wall"));
   options = options_for(Smoothing::exact);
   options.overshoot_limit_mm = -0.1;
   EXPECT_TRUE(refused(options, "overshoot limit"));

@@ -5,7 +5,7 @@
 namespace clay::falcon {
 namespace {
 
-TEST(EnergyObserver, SumsForceTimesWayLessWhatTheArmHasDissipated) {
+TEST(EnergyObserver, SumsForceTimesDistanceMinusDissipation) {
   EnergyObserver observer(kLoop, 0.0, 0.1);
   observer.observe(kTickS, along(0), along(0), along(1));
   double work = 0.0, damped = 0.0;
@@ -17,7 +17,7 @@ TEST(EnergyObserver, SumsForceTimesWayLessWhatTheArmHasDissipated) {
   EXPECT_NEAR(observer.injected_j(), work - damped, 1e-18);
 }
 
-TEST(EnergyObserver, CreditEndsWithTheContactAndADebtStays) {
+TEST(EnergyObserver, CreditEndsWithTheContactAndDebtRemains) {
   EnergyObserver observer({1000, 0.1, 0.0, 0}, 0.0, 0.1);
   const auto contact = [&observer](double way_in, double force_in, double force_out) {
     observer.observe(kTickS, along(0), along(0), along(force_in));
@@ -39,7 +39,7 @@ TEST(EnergyObserver, CreditEndsWithTheContactAndADebtStays) {
   EXPECT_NEAR(observer.injected_j(), 3.5e-3, 1e-18);
 }
 
-TEST(EnergyObserver, SeesLoopsBehindTheCreditOfALongPress) {
+TEST(EnergyObserver, DetectsLoopsDespiteTheCreditOfALongPress) {
   // 5 mm at 4 N are 20 mJ of credit; then loops of 1 mm that give 1 N mm each.
   EnergyObserver observer({1000, 0.1, 0.0, 0}, 0.0, 0.1);
   observer.observe(kTickS, along(0), along(0), along(4));
@@ -53,7 +53,7 @@ TEST(EnergyObserver, SeesLoopsBehindTheCreditOfALongPress) {
   EXPECT_EQ(observer.debt_j(), observer.looped_j());
 }
 
-TEST(EnergyObserver, AFlickerOfTheEncoderIsNoEnergy) {
+TEST(EnergyObserver, EncoderFlickerCountsNoEnergy) {
   const double step = 5e-5, k = 1000.0;
   EnergyObserver observer(kLoop, step, 0.1);
   observer.observe(kTickS, along(0), along(0), along(1));

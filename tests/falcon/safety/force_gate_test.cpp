@@ -116,7 +116,7 @@ struct Wire {
   static void write_zero(void* wire) noexcept { static_cast<Wire*>(wire)->last.store(kZero); }
 };
 
-TEST(EmergencyStop, IsTheLastThatTheDeviceHears) {
+TEST(EmergencyStop, IsTheLastPacketToTheDevice) {
   for (int round = 0; round < 200; ++round) {
     ForceGate gate;
     Wire wire;
@@ -142,7 +142,7 @@ TEST(EmergencyStop, IsTheLastThatTheDeviceHears) {
 EmergencyStop signalled;
 void on_signal(int) { signalled.fire(); }
 
-TEST(EmergencyStop, IsWrittenFromASignalInTheMidstOfAPacket) {
+TEST(EmergencyStop, IsWrittenFromASignalDuringAPacket) {
   ForceGate gate;
   Wire wire;
   signalled.arm(gate, &Wire::write_zero, &wire);
@@ -160,7 +160,7 @@ TEST(EmergencyStop, IsWrittenFromASignalInTheMidstOfAPacket) {
   std::signal(SIGTERM, before);
 }
 
-TEST(Watchdog, BitesAfterTenMilliseconds) {
+TEST(Watchdog, ActsAfterTenMilliseconds) {
   EXPECT_FALSE(Watchdog::must_zero(1'000'000, 1'000'000));
   EXPECT_FALSE(Watchdog::must_zero(1'000'000, 1'009'999));
   EXPECT_TRUE(Watchdog::must_zero(1'000'000, 1'010'000));
@@ -170,7 +170,7 @@ TEST(Watchdog, BitesAfterTenMilliseconds) {
   EXPECT_TRUE(Watchdog::must_zero(INT64_MAX, INT64_MIN));
 }
 
-TEST(Watchdog, LooksInTime) {
+TEST(Watchdog, ChecksInTime) {
   for (const std::int64_t beat : {INT64_MIN, std::int64_t{0}, std::int64_t{123}}) {
     EXPECT_TRUE(Watchdog::must_zero(beat, Watchdog::next_look_us(beat)));
     EXPECT_FALSE(Watchdog::must_zero(beat, Watchdog::next_look_us(beat) - 1));

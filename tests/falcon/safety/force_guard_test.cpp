@@ -74,7 +74,7 @@ std::string row_without(const NamedGuardRule& rule) {
   return std::string("| ").append(rule.name).append(" | ").append(faults).append(" |");
 }
 
-TEST(ForceGuardRules, EachHoldsFaultsThatNoOtherDoes) {
+TEST(ForceGuardRules, EachStopsFaultsThatNoOtherRuleStops) {
   std::set<std::string> lines;
   std::ifstream page(CLAYSTACK_DOCS "/force-guard.md");
   for (std::string line; std::getline(page, line);) lines.insert(line);
@@ -168,7 +168,7 @@ RC_GTEST_PROP(ForceGuardStorm, DoesNoHarm, ()) {
   RC_ASSERT(trial.violations() == std::vector<std::string>());
 }
 
-TEST(ForceGuard, SaysWhatItMet) {
+TEST(ForceGuard, ReportsItsEvents) {
   Trial trial;
   const auto flags = [&](const Tick& tick) {
     trial.tick(tick);
@@ -219,7 +219,7 @@ TEST(ForceGuard, RestsATenthOfASecondAfterAJump) {
   EXPECT_TRUE(trial.violations().empty()) << told(trial);
 }
 
-TEST(ForceGuard, ALesserCauseDoesNotUnlatchAGreater) {
+TEST(ForceGuard, MinorCauseDoesNotUnlatchAMajorOne) {
   Trial trial;
   trial.engage({3.0, 0.0, 0.0});
   trial.tick({.passive = false});
@@ -232,7 +232,7 @@ TEST(ForceGuard, ALesserCauseDoesNotUnlatchAGreater) {
 }
 
 /// Without admit() there is no hand: what was engaged lets go.
-TEST(ForceGuard, LetsGoWhenNobodyAdmits) {
+TEST(ForceGuard, FadesWithoutAdmittedSamples) {
   ForceGuard guard = ForceGuard::make({}).value();
   auto tick = [&guard, now = std::int64_t{0}](bool admits, double wanted_n) mutable {
     now += 1000;
@@ -246,7 +246,7 @@ TEST(ForceGuard, LetsGoWhenNobodyAdmits) {
   EXPECT_EQ(tick(false, 3.0), 0.0);
 }
 
-TEST(ForceGuard, RisesFromZeroWhereTheWatchdogWas) {
+TEST(ForceGuard, RisesFromZeroAfterTheWatchdog) {
   ForceGuard guard = ForceGuard::make({}).value();
   std::int64_t now = 0;
   const auto tick = [&guard, &now](double wanted_n) {

@@ -74,7 +74,7 @@ TEST(GuardLoop, RendersAWallThatIsSoftEnough) {
   EXPECT_EQ(swing.state, GuardState::engaged);
 }
 
-TEST(GuardLoop, TheLimitAloneBoundsTheBlowAndNotTheBuzz) {
+TEST(GuardLoop, LimitAloneBoundsTheImpactButNotTheVibration) {
   const Swing swing = Loop(false).press(1e6);
   EXPECT_LE(swing.most_n, 5.0);
   EXPECT_GT(swing.mm, 1.0);

@@ -60,7 +60,7 @@ TEST(LimitNorm, HoldsTheLargestNumbers) {
 }
 
 // 3-4-5 triangles: the answers are known.
-TEST(LimitRise, LetsGoForNothing) {
+TEST(LimitRise, FallsWithoutLimit) {
   const glm::dvec3 before(3.0, 4.0, 0.0);
   EXPECT_EQ(limit_rise(glm::dvec3(0.0), before, 0.0), glm::dvec3(0.0));
   EXPECT_EQ(limit_rise(0.5 * before, before, 0.0), 0.5 * before);
@@ -86,14 +86,14 @@ TEST(Fade, IsALineBetweenItsEnds) {
   EXPECT_EQ(fade(1e9, 5.0, 10.0), 0.0);
 }
 
-TEST(Elapsed, NeverRunsOver) {
+TEST(Elapsed, NeverOverflows) {
   EXPECT_EQ(elapsed_s(1'000, 3'500), 0.0025);
   EXPECT_EQ(elapsed_s(3'500, 1'000), 0.0);
   EXPECT_EQ(elapsed_s(INT64_MIN, INT64_MAX), 1000.0);
   EXPECT_EQ(elapsed_s(INT64_MAX, INT64_MIN), 0.0);
 }
 
-TEST(TickClock, CountsGrowthShortAndFadingLong) {
+TEST(TickClock, RoundsGrowthDownAndFadingUp) {
   TickClock clock;
   const auto tick = [&](std::int64_t now_us) {
     const TickTime time = clock.advance(now_us, 0.001);
@@ -107,7 +107,7 @@ TEST(TickClock, CountsGrowthShortAndFadingLong) {
   EXPECT_EQ(tick(1'000'100), glm::dvec3(0.0001, 0.0001, 0.0002));
 }
 
-TEST(Age, IsTheMoreOfStampAndTicks) {
+TEST(Age, IsTheMaximumOfStampAndTicks) {
   Age age;
   EXPECT_FALSE(age.any());
   age.see(1'000'000, 1'002'000);
@@ -133,7 +133,7 @@ TEST(JumpFilter, FollowsAFastHand) {
   }
 }
 
-TEST(JumpFilter, DropsOneFrameAndBelievesTheHandAgain) {
+TEST(JumpFilter, DropsOneFrameAndAcceptsTheNext) {
   using enum JumpFilter::Verdict;
   JumpFilter filter;
   EXPECT_EQ(filter.take({0, 0, 0}, 2.0), plausible);
@@ -143,7 +143,7 @@ TEST(JumpFilter, DropsOneFrameAndBelievesTheHandAgain) {
   EXPECT_EQ(filter.take({2, 0, 0}, 4.0), plausible);
 }
 
-TEST(JumpFilter, TellsAJumpThatStays) {
+TEST(JumpFilter, ReportsAPersistentJump) {
   using enum JumpFilter::Verdict;
   JumpFilter filter;
   // 3 mm is within the 4 mm that two ticks allow, and yet it is where the suspect was.
@@ -157,7 +157,7 @@ TEST(JumpFilter, TellsAJumpThatStays) {
   EXPECT_EQ(filter.take({1e308, -1e308, 1e308}, 2.0), dropped);
 }
 
-TEST(Engagement, WaitsForSmallForcesInARow) {
+TEST(Engagement, WaitsForConsecutiveSmallForces) {
   Engagement engagement;
   for (int i = 0; i < 4; ++i) engagement.want(0.1, 0.2, 5);
   engagement.want(0.2, 0.2, 5);  // not less

@@ -85,7 +85,7 @@ TEST(Passivity, CountsTheForceThatIsDisplayed) {
   EXPECT_EQ(less.worst, PassivityState::watching);
 }
 
-TEST(Passivity, WhatIsDisplayedMustBeANumber) {
+TEST(Passivity, IgnoresANonFiniteDisplayedForce) {
   PassivityController told = controller_of(kLoop), untold = controller_of(kLoop);
   for (int k = 0; k < 100; ++k) {
     const glm::dvec3 at = along(-1e-5 * k), asked = along(4e-3 * k);
@@ -121,7 +121,7 @@ RC_GTEST_PROP(Passivity, AnAcceptedSpringPassesUnchanged, ()) {
   RC_CLASSIFY(touched, "in contact");
 }
 
-TEST(Passivity, AStiffContactIsDisplayedAsStiffAsIsAccepted) {
+TEST(Passivity, DisplaysAStiffContactAtTheAcceptedStiffness) {
   PassivityController controller = controller_of(kLoop);  // accepted: b / T = 2000 N/m
   const auto path = [](double t) { return 1e-4 - 0.01 * t; };
   double at = 0.0;
@@ -134,7 +134,7 @@ TEST(Passivity, AStiffContactIsDisplayedAsStiffAsIsAccepted) {
   });
 }
 
-TEST(Passivity, ForceIsEarnedByTheWayIn) {
+TEST(Passivity, ForceBuildsUpByInwardMotion) {
   PassivityController controller = controller_of(kLoop);
   std::int64_t time_us = 0;
   const auto sent = [&](double x, double asked) {
@@ -159,7 +159,7 @@ void give(PassivityController& controller, std::int64_t& time_us, double gain_j)
   tick(-19e-3, 0.0);
 }
 
-TEST(Passivity, DampingTakesBackWhatWasGivenToTheLastDigit) {
+TEST(Passivity, DampingRemovesTheInjectedEnergyExactly) {
   PassivityController controller = controller_of(kLoop);
   std::int64_t time_us = 0;
   give(controller, time_us, 2e-3);
@@ -190,7 +190,7 @@ TEST(Passivity, BoundOfTheDampingFollowsFromTheSampleTime) {
   EXPECT_NEAR(controller_of(fast, 5e-5).most_damping_ns_per_m(), 0.25 * kTickS / 5e-5, 1e-12);
 }
 
-TEST(Passivity, TooMuchInAWhileYieldsThenEnds) {
+TEST(Passivity, TooMuchEnergyYieldsThenEndsTheForce) {
   PassivityController controller = controller_of(kLoop);
   std::int64_t time_us = 0;
   give(controller, time_us, 11e-3);
@@ -208,14 +208,14 @@ TEST(Passivity, TooMuchInAWhileYieldsThenEnds) {
   EXPECT_EQ(controller.tick(1000, along(-1e-3), along(1)).force_n, along(1));
 }
 
-TEST(Passivity, LittleDoesNot) {
+TEST(Passivity, LittleEnergyDoesNotYield) {
   PassivityController controller = controller_of(kLoop);
   std::int64_t time_us = 0;
   give(controller, time_us, 2e-3);
   EXPECT_EQ(controller.state(), PassivityState::damping);
 }
 
-TEST(Passivity, AForceThatRattlesIsTakenForOne) {
+TEST(Passivity, OscillatingForceYields) {
   for (const double swing : {0.9, 1.1}) {
     for (const int half_period_ticks : {6, 8}) {  // 8 swings in 42 and in 56 ms
       PassivityController controller = controller_of(kLoop);
@@ -230,7 +230,7 @@ TEST(Passivity, AForceThatRattlesIsTakenForOne) {
   }
 }
 
-TEST(Passivity, WhatIsNotATickIsNoForceAndChangesNothing) {
+TEST(Passivity, InvalidTickGivesNoForceAndChangesNothing) {
   PassivityController controller = controller_of(kLoop);
   const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
   (void)controller.tick(0, along(0), along(0));
@@ -244,7 +244,7 @@ TEST(Passivity, WhatIsNotATickIsNoForceAndChangesNothing) {
   EXPECT_EQ(controller.tick(3000, along(-1e-3), along(1)).force_n, along(1));
 }
 
-TEST(Passivity, RefusesByTheNameOfTheSetting) {
+TEST(Passivity, NamesARefusedSetting) {
   const auto refused = [](auto change) {
     PassivitySpec spec;
     change(spec);

@@ -100,14 +100,14 @@ TEST(StableStiffness, IsNoneWithoutDamping) {
     EXPECT_LT(stable_stiffness({1000, 0.1, 0.0, delay}), 1e-6) << delay;
 }
 
-TEST(StableDamping, OfAFreeMassIsWhatItsDifferenceEquationBears) {
+TEST(StableDamping, OfAFreeMassMatchesItsDifferenceEquation) {
   // v' = v - a (v + v_before)/2: a < 2. One tick late, z^3 - z^2 + a (z + 1)/2: a < 2 sqrt(2) - 2.
   const double m = 0.1, rate = 1000;
   EXPECT_NEAR(stable_damping({rate, m, 1e-4, 0}, 1e-3), 2.0 * m * rate, 0.01);
   EXPECT_NEAR(stable_damping({rate, m, 1e-4, 1}, 1e-3), (std::sqrt(8.0) - 2.0) * m * rate, 0.01);
 }
 
-TEST(CheckStiffness, RefusesAboveHalfOfThePassiveAndSaysBothWaysOut) {
+TEST(CheckStiffness, RefusesAboveHalfOfThePassiveLimitAndNamesBothRemedies) {
   const SampledLoop loop{1000, 0.1, 2.0, 1};  // passive: 2 b / 3 T = 1333.3 N/m
   EXPECT_TRUE(check_stiffness(loop, 0.0));
   EXPECT_TRUE(check_stiffness(loop, 666.6));
@@ -126,7 +126,7 @@ TEST(CheckStiffness, RefusesAboveHalfOfThePassiveAndSaysBothWaysOut) {
   EXPECT_FALSE(check_stiffness(punctual, 2000.1));
 }
 
-TEST(CheckStiffness, RefusesWhatIsNoStiffness) {
+TEST(CheckStiffness, RefusesInvalidStiffness) {
   EXPECT_FALSE(check_stiffness({}, std::nan("")));
   EXPECT_FALSE(check_stiffness({}, -1.0));
   const auto undamped = check_stiffness({1000, 0.1, 0.0, 1}, 1.0);

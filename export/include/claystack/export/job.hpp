@@ -1,6 +1,6 @@
 #pragma once
-// One path for a pot: scale and drain it once, take its section once, smooth it, prove it, and make
-// of that the meshes, the drawing, the table of walls and the certificates.
+// One path for a pot: scale and drain it, compute its section, smooth it, prove it, and write
+// meshes, the drawing, the wall table and certificates from the result. Each stage runs once.
 
 #include "claystack/core/result.hpp"
 #include "claystack/engine/clay.hpp"
@@ -22,43 +22,45 @@
 namespace clay::solid::inline job {
 
 // ---- shrinkage -----------------------------------------------------------------------
-// Clay shrinks as it dries and is fired: what shall come out at a size is made larger.
+// Clay shrinks in drying and firing, so the files are enlarged to give the piece its final size.
 
-/// Nothing shrinks by more, and still is a pot.
+/// The largest accepted shrinkage, as a fraction of each length.
 inline constexpr double kMostShrinkage = 0.5;
 
-/// Lengths grow by this where a piece loses the part `shrinkage` of each: 1 / (1 - s).
+/// The factor on lengths that compensates a shrinkage s: 1 / (1 - s).
 [[nodiscard]] constexpr double enlargement(double shrinkage) noexcept {
   return 1.0 / (1.0 - shrinkage);
 }
 
-/// `pot` in such a size that it has its own once it has shrunk: heights, radii and the way that a
-/// collapsed part fell times 1 / (1 - s), so that clay grows by 1 / (1 - s)^3. Radii squared are
-/// rounded to the nearest quantum; the ledger begins with what the result holds.
-/// Errors of kind `bad_input`: a shrinkage outside 0 to kMostShrinkage, a result beyond the limits
-/// of ClayStack.
+/// Scales `pot` so that it has its present size after shrinking: heights, radii and the
+/// displacement of a collapsed part by 1 / (1 - s), and so the volume by 1 / (1 - s)^3. Squared
+/// radii are rounded to the nearest quantum; the ledger begins with the clay of the result. Errors
+/// of kind `bad_input`: a shrinkage outside 0 to kMostShrinkage, a result beyond the limits of
+/// ClayStack.
 Result<Pot> enlarged(const Pot& pot, double shrinkage);
 
 // ---- request -------------------------------------------------------------------------
 
 struct ExportOptions {
-  double tolerance_mm = 0.02;  ///< chordal error along and around; vertex error of Draco
+  /// Maximum chordal error along the profile and around the axis, and vertex error of Draco.
+  double tolerance_mm = 0.02;
   Smoothing smoothing = Smoothing::fair;
-  /// Smoothing leaves walls no thinner than this asks, see `SmoothingOptions`; the report compares
-  /// the walls with it.
+  /// The limit that smoothing respects (see `SmoothingOptions`) and with which the report compares
+  /// the walls.
   WallDemand walls;
   double lip_fillet_mm = 0.0;
-  std::optional<std::size_t> segments;       ///< force the number around
-  std::optional<std::size_t> max_triangles;  ///< a coarser tolerance where the asked one needs more
+  std::optional<std::size_t> segments;  ///< number of segments around the axis
+  /// Limit of triangles; overrides the tolerance if necessary.
+  std::optional<std::size_t> max_triangles;
   std::optional<double> drain_mm;  ///< diameter of a hole along the axis that opens closed cavities
-  std::optional<double> wall_spacing_mm;  ///< measure the whole field of walls, see `wall_field`
-  /// Part of each length that drying and firing take, see `enlarged`: the files are so much larger,
-  /// and so are all lengths and volumes of the report.
+  std::optional<double> wall_spacing_mm;  ///< spacing of the `wall_field`; empty: no field
+  /// Fraction of each length lost in drying and firing, see `enlarged`. The files are enlarged
+  /// accordingly, as are all lengths and volumes of the report.
   double shrinkage = 0.0;
-  bool normals = false;            ///< for shading, in formats that have them (obj)
-  bool allow_pieces = false;       ///< several pieces that do not touch, in one file
-  bool measure_left_out = false;   ///< run the skipped stages too, and report what that saves
-  bool full_verification = false;  ///< read every file back whole and check it like a foreign mesh
+  bool normals = false;            ///< write normals for shading (obj only)
+  bool allow_pieces = false;       ///< accept pieces that do not touch
+  bool measure_left_out = false;   ///< run the skipped stages as well, and report the time saved
+  bool full_verification = false;  ///< also check every file like a foreign mesh
   std::string name = "pot";        ///< solid or object name inside the file
   std::string source;              ///< name of the pot in messages; empty: none
   /// Called before each stage and every few milliseconds, also by several threads at once. If it
@@ -187,8 +189,7 @@ struct ExportReport {
   [[nodiscard]] double thinnest_mm() const noexcept;
 };
 
-/// A problem to know of before printing, with its place on the section of the written solid, if it
-/// has one.
+/// A problem for printing, with its place on the section of the written solid, if it has one.
 struct Problem {
   std::string text;
   std::optional<ProfilePoint> at;
@@ -228,7 +229,7 @@ Result<ExportReport> export_files(const Pot& pot, const ExportRequest& request,
                                   const std::function<void(std::string_view)>& progress = {});
 
 /// The same job with the meshes in memory, for a preview; no file is opened.
-Result<ExportReport> rehearse_export(const Pot& pot, const ExportRequest& request,
-                                     const std::function<void(std::string_view)>& progress = {});
+Result<ExportReport> preview_export(const Pot& pot, const ExportRequest& request,
+                                    const std::function<void(std::string_view)>& progress = {});
 
 }  // namespace clay::solid::inline job

@@ -125,7 +125,7 @@ struct WallDemand {
   [[nodiscard]] std::optional<WallLimit> for_size(double size_sum_mm) const;
 };
 
-/// "3.440 mm, expected 3.000 mm at least (SOURCE)".
+/// "3.440 mm, expected at least 3.000 mm (SOURCE)".
 [[nodiscard]] std::string wall_text(double thinnest_mm, const WallLimit& limit);
 
 /// The same with the first few parts of the section's faces that are too thin: "...; thinner: bore

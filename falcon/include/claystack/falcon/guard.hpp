@@ -9,74 +9,75 @@
 namespace clay::falcon::inline safety {
 
 // ---- guard settings ------------------------------------------------------------------
-// What the guard lets through and when it lets go. Sources: CHAI3D 3.3.0 has the small force and
-// the rise over 2 s (there off by default) and 8 N as the Falcon's force; a hand left alone with
-// a 0.1 kg handle and 5 N is at 0.5 m/s and 2.5 mm after 10 ms, at 1.6 m/s and 26 mm after the
-// 32 ms of CHAI3D's watchdog: hence 10 ms. The rest is our judgement, and says so.
+// Limits and times of the guard. Sources: CHAI3D 3.3.0 uses the small force and the ramp of 2 s
+// (off by default there), and 8 N as the Falcon's force. A free 0.1 kg handle under 5 N reaches 0.5
+// m/s and 2.5 mm after 10 ms, 1.6 m/s and 26 mm after the 32 ms of CHAI3D's watchdog: hence 10 ms.
+// Values without a source are marked as our judgement.
 
-/// What no setting may loosen.
-inline constexpr double kMostForceN = 8.0;        ///< what the Falcon gives in all directions
+/// Limits that no setting can exceed.
+inline constexpr double kMostForceN = 8.0;        ///< force of a Falcon in every direction
 inline constexpr double kLongestToZeroS = 0.010;  ///< from a fault to force 0
-inline constexpr double kShortestStepS = 0.0002;  ///< a velocity is never divided by less
-inline constexpr double kLongestStepS = 0.005;    ///< nor does a frame count for more
+inline constexpr double kShortestStepS = 0.0002;  ///< minimum time step for velocities
+inline constexpr double kLongestStepS = 0.005;    ///< maximum time step of a frame
 
 struct GuardSettings {
-  /// Of the servo: a late tick gets no more rise than one on time. 0.1 to 2.5 ms; slower than
-  /// 400 Hz, frames could not be told from stale ones in time.
+  /// Period of the servo, 0.1 to 2.5 ms. A late tick gets no more rise than one on time. Below
+  /// 400 Hz, stale frames could not be detected in time.
   double period_s = 0.001;
 
-  double force_limit_n = 5.0;   ///< most force, above 0 up to kMostForceN
-  double slew_n_per_s = 500.0;  ///< fastest rise, 1 to 5000; falls are not held up. Our judgement
+  double force_limit_n = 5.0;   ///< maximum force, above 0 up to kMostForceN
+  double slew_n_per_s = 500.0;  ///< maximum rise, 1 to 5000; falls are not limited. Our judgement
 
-  double small_force_n = 0.2;  ///< to engage, less is wanted than this (CHAI3D); below the limit
+  double small_force_n = 0.2;  ///< to engage, the requested force is below this (CHAI3D)
   int small_force_ticks = 5;   ///< for this number of ticks, 1 to 1000 (CHAI3D: > 3)
-  double ramp_s = 2.0;         ///< then the force grows to its whole, 0.1 to 60 s (CHAI3D)
+  double ramp_s = 2.0;         ///< then the force ramps up within this, 0.1 to 60 s (CHAI3D)
 
-  /// Age of the newest frame from which force fades: two periods or more. Our judgement.
+  /// Age of the newest frame at which the force starts to fade: two periods or more. Our judgement.
   double stale_fade_s = 0.005;
-  double stale_zero_s = 0.010;  ///< and from which it is 0: after the fade, to kLongestToZeroS
-  double late_zero_s = 0.010;   ///< a tick so late sends 0: two periods to kLongestToZeroS
+  double stale_zero_s = 0.010;  ///< age at which it is 0: up to kLongestToZeroS
+  double late_zero_s = 0.010;   ///< a tick this late sends 0: two periods to kLongestToZeroS
   double pause_s = 0.050;       ///< a longer gap in ticks or frames is a pause: re-engage. To 1 s
 
-  /// Faster than a hand: such frames are dropped, 100 to 10 000 (2 m/s is 2 mm in a tick of 1 ms).
+  /// Frames with a faster motion are dropped; 100 to 10 000 (2 m/s is 2 mm in a tick of 1 ms).
   double jump_mm_per_s = 2000.0;
 
-  double clay_fade_s = 0.100;  ///< the same for the clay that the force was computed from: to 1 s
-  double clay_zero_s = 0.150;  ///< after the fade, to 2 s
+  double clay_fade_s = 0.100;  ///< age of the clay state at which the force starts to fade: to 1 s
+  double clay_zero_s = 0.150;  ///< age at which it is 0: to 2 s
 
-  double hot_force_n = 4.0;  ///< more than this warms the motors: above 0 to force_limit_n
-  double hot_time_s = 10.0;  ///< so long it may last, 0.1 to 60
-  double hot_fade_s = 1.0;   ///< then force fades within this, 0.05 to 10
+  double hot_force_n = 4.0;  ///< larger forces heat the motors: above 0 to force_limit_n
+  double hot_time_s = 10.0;  ///< permitted duration of such forces, 0.1 to 60
+  double hot_fade_s = 1.0;   ///< then the force fades within this, 0.05 to 10
 
-  int not_finite_ticks = 3;  ///< ticks in a row with a NaN or infinity until SAFE, 1 to 10
-  double safe_rest_s = 0.1;  ///< good frames before a SAFE that clears itself ends, 0.01 to 10
+  int not_finite_ticks = 3;  ///< consecutive ticks with NaN or infinity that lead to SAFE, 1 to 10
+  double safe_rest_s =
+      0.1;  ///< duration of valid frames that ends a self-clearing SAFE, 0.01 to 10
 };
 
-/// The first setting that is no number or out of its range, which other settings may bound.
+/// Returns the first setting that is NaN or out of range; some ranges depend on other settings.
 [[nodiscard]] tl::expected<void, OutOfRange> check(const GuardSettings& settings) noexcept;
 
 // ---- guard rules ---------------------------------------------------------------------
-// The rules of the guard, each a unit of its own. Time that lets force grow is counted short,
-// time that takes it away is counted long: so a clock that stands, leaps or runs backwards can
-// take force away and never give any.
+// The rules of the guard, each a separate unit. Time that increases the force is rounded down, and
+// time that decreases it is rounded up, so that a clock that stops, jumps or runs backwards can
+// only reduce the force.
 
-/// Seconds from one reading of the clock to a later one; 0 when the clock went back. At most 1000.
+/// Seconds from one reading of the clock to a later one; 0 if the clock went back. At most 1000.
 [[nodiscard]] double elapsed_s(std::int64_t from_us, std::int64_t to_us) noexcept;
 
-/// The way from `before` to `wanted`, in one tick: to let go costs nothing, so the force may first
-/// shrink to any part of `before`; from there it goes `rise` at most. A force that turns
-/// about thus begins again at 0.
+/// The force of this tick on the way from `before` to `wanted`. It may first shrink freely to any
+/// fraction of `before`; from there it changes by `rise` at most. A force that reverses its
+/// direction thus starts from 0.
 [[nodiscard]] glm::dvec3 limit_rise(const glm::dvec3& wanted, const glm::dvec3& before,
                                     double rise) noexcept;
 
-/// 1 up to `from`, 0 from `zero` on, a line between.
+/// 1 up to `from`, 0 from `zero` on, linear between.
 [[nodiscard]] double fade(double age, double from, double zero) noexcept;
 
-/// How long the last tick was.
+/// Duration of the last tick.
 struct TickTime {
   double real_s = 0.0;     ///< by the clock
-  double growing_s = 0.0;  ///< counted short: at most a period
-  double fading_s = 0.0;   ///< counted long: at least kShortestStepS
+  double growing_s = 0.0;  ///< rounded down: at most a period
+  double fading_s = 0.0;   ///< rounded up: at least kShortestStepS
 };
 
 class TickClock {
@@ -88,11 +89,11 @@ class TickClock {
   bool started_ = false;
 };
 
-/// How old the newest of a stream of stamped things is: by its stamp and by our own ticks,
-/// whichever says more.
+/// Age of the newest item of a time-stamped stream: by its stamp or by the ticks since then,
+/// whichever is larger.
 class Age {
  public:
-  /// A thing with this stamp is there, unless it is the last one again.
+  /// Registers an item with this stamp, unless it repeats the last one.
   void see(std::int64_t stamp_us, std::int64_t now_us) noexcept;
   void pass(double fading_s) noexcept { passed_s_ += fading_s; }
   [[nodiscard]] double at(std::int64_t now_us) const noexcept;
@@ -107,14 +108,14 @@ class Age {
   bool any_ = false;
 };
 
-/// Positions faster than a hand. One frame alone is dropped; where the next stands by it, or is as
-/// far elsewhere, the jump stays.
+/// Detects positions that imply a motion faster than a hand. A single such frame is dropped. If the
+/// next frame is near it, or again out of reach, the jump is real.
 class JumpFilter {
  public:
   enum class Verdict { plausible, dropped, stays };
 
-  /// `reach_mm`: how far a hand gets since the last plausible frame. A jump that stays is believed
-  /// from the next frame on.
+  /// `reach_mm`: the farthest a hand can move since the last plausible frame. The position after a
+  /// real jump is accepted from the next frame on.
   [[nodiscard]] Verdict take(const glm::dvec3& position_mm, double reach_mm) noexcept;
   void forget() noexcept { *this = {}; }
 
@@ -123,13 +124,13 @@ class JumpFilter {
   bool any_ = false, suspected_ = false;
 };
 
-/// Force is earned: little has to be wanted for some ticks, then it grows in a line.
+/// Engages the force: after some ticks with a small requested force, it ramps up linearly.
 class Engagement {
  public:
   enum class Phase { waiting, ramping, engaged };
 
   void restart() noexcept { *this = {}; }
-  /// A tick of waiting in which this much was wanted [N].
+  /// A tick of waiting with this requested force [N].
   void want(double wanted_n, double small_n, int ticks) noexcept;
   void grow(double growing_s, double ramp_s) noexcept;
   [[nodiscard]] double gain() const noexcept { return gain_; }
@@ -141,13 +142,13 @@ class Engagement {
   double gain_ = 0.0;
 };
 
-/// Motors that pushed hard for long. What cools counts as much as what warms.
+/// Limits long, large forces. Cooling counts at the same rate as heating.
 class HeatLimit {
  public:
-  /// The force held in the last tick.
+  /// `force_n`: displayed in the last tick.
   void hold(double force_n, double hot_n, const TickTime& time, double most_s) noexcept;
-  /// Once hot, fades within `fade_s`. True when it has come to 0, once: then force is to be
-  /// earned anew.
+  /// Once hot, fades within `fade_s`. Returns true once, when the force has reached 0: then it must
+  /// ramp up again.
   [[nodiscard]] bool fade_out(double fading_s, double fade_s) noexcept;
   [[nodiscard]] double gain() const noexcept { return gain_; }
   [[nodiscard]] bool fading() const noexcept { return fading_; }
@@ -158,29 +159,28 @@ class HeatLimit {
 };
 
 // ---- force guard ---------------------------------------------------------------------
-// Between every force and every device. A state machine on a clock that it is told: no thread, no
-// clock of its own, no allocation, no exception, so that each fault is a test. Each tick, in order:
+// Stands between every force and every device. A state machine whose caller supplies the time: no
+// thread, clock, allocation or exception, so that every fault can be tested. Each tick, in order:
 //
-//   const Admission admission = guard.admit(now_us, sample);  // the hand's position, or not
-//   ... where admission.may_deform, deform the clay; compute the force wanted ...
+//   const Admission admission = guard.admit(now_us, sample);  // accept the position or not
+//   ... if admission.may_deform, deform the clay; compute the requested force ...
 //   device.write(guard.force(now_us, wanted).force_n);        // now_us read again before this
 //
-// docs/force-guard.md has the faults it must survive and which rule answers each.
+// docs/force-guard.md lists the faults and the rule for each.
 
-/// What the device says of the hand.
+/// A sample of the device.
 struct GuardSample {
-  std::int64_t time_us = 0;     ///< when the frame came, on the clock of `now_us`
+  std::int64_t time_us = 0;     ///< arrival of the frame, on the clock of `now_us`
   glm::dvec3 position_mm{0.0};  ///< in the device's frame
-  bool fresh = false;  ///< a new frame; with the stamp of the last one it is that one again
-  bool ready = false;  ///< homed, powered, plugged in, no fault
+  bool fresh = false;           ///< a new frame, unless it has the stamp of the last one
+  bool ready = false;           ///< homed, powered, plugged in, no fault
 };
 
-/// The force that the clay asks for.
+/// The requested force.
 struct WantedForce {
-  glm::dvec3 force_n{0.0};        ///< anything: NaN, infinite, huge
-  std::int64_t clay_time_us = 0;  ///< of the state of the clay that it was computed from
-  bool passive =
-      true;  ///< false: the loop gave energy and could not be made passive (passivity.hpp)
+  glm::dvec3 force_n{0.0};        ///< any value, even NaN or infinite
+  std::int64_t clay_time_us = 0;  ///< time of the clay state from which it was computed
+  bool passive = true;            ///< false: the loop could not be made passive (passivity.hpp)
 };
 
 enum class GuardState {
@@ -188,33 +188,33 @@ enum class GuardState {
   waiting,  ///< for a small force
   ramping,
   engaged,
-  fading,  ///< ramping or engaged, and letting go: stale frames, old clay, hot motors
-  safe,    ///< 0 until rearm(), or after a rest where the cause clears itself
+  fading,  ///< reducing the force: stale frames, old clay, hot motors
+  safe,    ///< force 0 until rearm(), or for a while if the cause clears itself
 };
 
-/// Why the guard is safe.
+/// The cause of the state `safe`.
 enum class SafeCause {
   none,
   not_finite,   ///< force or position, not_finite_ticks in a row
   not_passive,  ///< the loop is unstable: lower the stiffness
-  jumped,       ///< the position leapt and stays; clears itself
+  jumped,       ///< the position jumped and stays there; clears itself
   overrun,      ///< a tick came later than pause_s; clears itself
-  paused,       ///< asked for
-  stopped,      ///< asked for, and for good
+  paused,       ///< by pause()
+  stopped,      ///< by stop(), permanently
 };
 
-/// What a tick met, all of it.
+/// Events of a tick.
 enum GuardFlag : std::uint32_t {
   kGuardNotReady = 1u << 0,
-  kGuardNotFinite = 1u << 1,  ///< position or force; 0 this tick
-  kGuardLimited = 1u << 2,    ///< more than the limit was wanted
-  kGuardSlewed = 1u << 3,     ///< the force rises slower than wanted
-  kGuardJump = 1u << 4,       ///< a frame dropped as faster than a hand
+  kGuardNotFinite = 1u << 1,  ///< position or force; force 0 in this tick
+  kGuardLimited = 1u << 2,    ///< the requested force exceeded the limit
+  kGuardSlewed = 1u << 3,     ///< the rise of the force was limited
+  kGuardJump = 1u << 4,       ///< dropped a frame with a motion faster than a hand
   kGuardStale = 1u << 5,      ///< frames older than stale_fade_s
-  kGuardLate = 1u << 6,       ///< the tick came late_zero_s late or more; 0 this tick
+  kGuardLate = 1u << 6,       ///< the tick came late_zero_s late or more; force 0 in this tick
   kGuardOldClay = 1u << 7,    ///< clay older than clay_fade_s
   kGuardHot = 1u << 8,        ///< motors hot: fading
-  kGuardClock = 1u << 9,      ///< the clock went back or stood
+  kGuardClock = 1u << 9,      ///< the clock went back or stopped
 };
 
 struct Admission {
@@ -225,35 +225,34 @@ struct Admission {
 };
 
 struct GuardedForce {
-  glm::dvec3 force_n{0.0};  ///< what may be sent: finite, at most force_limit_n
-  double gain = 0.0;        ///< part of the wanted force that is earned, 0 to 1: the ramp
+  glm::dvec3 force_n{0.0};  ///< to be sent: finite, at most force_limit_n
+  double gain = 0.0;        ///< gain of the ramp, 0 to 1
   GuardState state = GuardState::idle;
   SafeCause cause = SafeCause::none;
   std::uint32_t flags = 0;  ///< of GuardFlag
 };
 
-/// Rules are bits of falcon/safety/force_guard.hpp. Every program uses ForceGuard, which has all of
-/// them; the tests compile guards that lack one, to show what that rule holds back.
+/// `rules`: bits of falcon/safety/force_guard.hpp. Programs use ForceGuard, which has all rules;
+/// the tests compile guards without one of them, to show the effect of that rule.
 template <std::uint32_t rules>
 class BasicForceGuard {
  public:
   [[nodiscard]] static tl::expected<BasicForceGuard, OutOfRange> make(
       const GuardSettings& settings) noexcept;
 
-  /// First half of a tick: is this sample to be believed?
+  /// First half of a tick: decides whether the sample is accepted.
   [[nodiscard]] Admission admit(std::int64_t now_us, const GuardSample& sample) noexcept;
 
-  /// Second half: what may be sent of the force wanted. Without admit() before it, frames age.
+  /// Second half: limits the requested force. Without admit() before it, the frames age.
   [[nodiscard]] GuardedForce force(std::int64_t now_us, const WantedForce& wanted) noexcept;
 
-  /// Zero until rearm().
+  /// Force zero until rearm().
   void pause() noexcept { latch(SafeCause::paused); }
-  /// Zero for good.
+  /// Force zero permanently.
   void stop() noexcept { latch(SafeCause::stopped); }
-  /// The force last given was not sent, or not kept: the watchdog was at the device. It rises from
-  /// 0.
+  /// Call if the last force was not sent, or was replaced by zero: the next one rises from 0.
   void was_zeroed() noexcept { sent_n_ = glm::dvec3(0.0); }
-  /// Leaves SAFE or a pause; force is then earned anew. False when stopped.
+  /// Leaves SAFE or a pause; the force then ramps up again. False after stop().
   bool rearm() noexcept;
 
   [[nodiscard]] const GuardSettings& settings() const noexcept { return settings_; }
@@ -298,38 +297,37 @@ extern template class BasicForceGuard<kAllGuardRules>;
 using ForceGuard = BasicForceGuard<kAllGuardRules>;
 
 // ---- force gate ----------------------------------------------------------------------
-// One owner of the force, and a last packet that is zero. The servo passes the gate for each packet
-// it writes. Whoever has to end the force (the watchdog, a signal, an exception, the end of the
-// program) closes the gate and then writes zero himself; a servo that was inside meanwhile is told
-// on its way out, and writes zero once more. So in every order of events the last whole packet
-// is a zero, and no two threads command a force.
+// Ensures that one thread at a time commands a force, and that the last packet is zero. The servo
+// enters the gate for each packet that it writes. The watchdog, a signal handler, or the end of the
+// program shuts the gate and then writes zero. A servo that was inside meanwhile finds out when it
+// leaves, and writes zero once more. So for every order of events the last whole packet is zero.
 
 class ForceGate {
  public:
-  /// The servo, before it writes a force. False: it must not, since the gate is shut or another
-  /// thread is inside.
+  /// For the servo, before it writes a force. False: it must not write, because the gate is shut or
+  /// another thread is inside.
   [[nodiscard]] bool enter() noexcept {
     std::uint32_t open = 0;
     return state_.compare_exchange_strong(open, kInside, std::memory_order_acquire,
                                           std::memory_order_relaxed);
   }
 
-  /// After it has written. False: the gate was shut meanwhile, so zero has to be written again.
+  /// After writing. False: the gate was shut meanwhile, so the servo must write zero again.
   [[nodiscard]] bool leave() noexcept {
     return (state_.fetch_and(~kInside, std::memory_order_release) & kShut) == 0;
   }
 
-  /// No force from now on: to be called before writing zero. Safe in a signal handler.
+  /// Blocks forces from now on; call before writing zero. Async-signal-safe.
   void shut() noexcept { state_.fetch_or(kShut, std::memory_order_acq_rel); }
 
-  /// Lets forces through again. Only the servo may, when it is alive again after the watchdog shut
-  /// the gate, and its guard has seen the late tick. False when shut for good.
+  /// Permits forces again. Only for the servo, when it runs again after the watchdog has shut the
+  /// gate and its guard has processed the late tick. False if shut permanently.
   bool open() noexcept {
     std::uint32_t shut = kShut;
     return state_.compare_exchange_strong(shut, 0, std::memory_order_acq_rel) || shut == 0;
   }
 
-  /// As shut(), for ever: open() fails from now on. Safe in a signal handler.
+  /// Like shut(), but permanent: open() fails from now on. Async-signal-safe.
   void shut_for_good() noexcept { state_.fetch_or(kShut | kForGood, std::memory_order_acq_rel); }
 
   [[nodiscard]] bool is_shut() const noexcept {
@@ -346,15 +344,15 @@ class ForceGate {
   std::atomic<std::uint32_t> state_{0};
 };
 
-/// What a signal handler calls: shuts the gate for good, then writes zero. The function is the
-/// device's, and must be async-signal-safe (one write(2) of a frame made beforehand, no lock, no
-/// allocation). Install one in a static place before the force engages.
+/// For signal handlers: shuts the gate permanently, then writes zero by a function of the device.
+/// That function must be async-signal-safe (one write(2) of a frame made beforehand, no lock, no
+/// allocation). Give it static storage, and arm it before the force engages.
 class EmergencyStop {
  public:
   using WriteZero = void (*)(void* device) noexcept;
 
-  /// `gate` and `device` must outlive every call of fire(). Not safe in a signal handler. nullptr
-  /// as `write_zero` disarms.
+  /// `gate` and `device` must outlive every call of fire(). Not for signal handlers. nullptr as
+  /// `write_zero` disarms.
   void arm(ForceGate& gate, WriteZero write_zero, void* device) noexcept {
     write_zero_.store(nullptr, std::memory_order_release);
     gate_.store(&gate, std::memory_order_relaxed);
@@ -362,7 +360,7 @@ class EmergencyStop {
     write_zero_.store(write_zero, std::memory_order_release);
   }
 
-  /// From a signal handler, std::terminate, a destructor; again and again if need be.
+  /// For a signal handler, std::terminate, a destructor. May be called repeatedly.
   void fire() noexcept {
     const WriteZero write_zero = write_zero_.load(std::memory_order_acquire);
     if (write_zero == nullptr) return;
@@ -380,16 +378,17 @@ class EmergencyStop {
 };
 
 // ---- watchdog ------------------------------------------------------------------------
-// For a thread of its own, since a servo that hangs can't watch itself. Pure: both times are told.
+// Runs on a separate thread, because a hanging servo cannot supervise itself. Pure functions of two
+// times.
 
-/// The servo leaves the time of each tick where the watchdog finds it (an atomic); the watchdog
-/// sleeps until next_look_us and closes the gate (force_gate.hpp) for a while when it must.
+/// The servo stores the time of each tick in an atomic. The watchdog sleeps until next_look_us and
+/// shuts the gate temporarily if must_zero is true.
 class Watchdog {
  public:
   static constexpr std::int64_t kPatienceUs = 10'000;
 
-  /// Is the last heartbeat 10 ms old, or so far ahead that one of the clocks is wrong? A
-  /// heartbeat a little ahead is one that came after `now_us` was read.
+  /// True if the last heartbeat is 10 ms old, or so far ahead that one of the clocks is wrong. A
+  /// heartbeat slightly ahead arrived after `now_us` was read.
   [[nodiscard]] static constexpr bool must_zero(std::int64_t heartbeat_us,
                                                 std::int64_t now_us) noexcept {
     const auto apart =
@@ -397,14 +396,14 @@ class Watchdog {
     return apart >= static_cast<std::uint64_t>(kPatienceUs);
   }
 
-  /// When this heartbeat will have been the last for too long.
+  /// The time at which this heartbeat becomes too old.
   [[nodiscard]] static constexpr std::int64_t next_look_us(std::int64_t heartbeat_us) noexcept {
     constexpr std::int64_t kLast = INT64_MAX - kPatienceUs;
     return heartbeat_us > kLast ? INT64_MAX : heartbeat_us + kPatienceUs;
   }
 
  private:
-  /// Of two signed numbers, which may not fit one.
+  /// Unsigned, because the difference of two signed numbers can overflow.
   static constexpr std::uint64_t distance(std::int64_t low, std::int64_t high) noexcept {
     return static_cast<std::uint64_t>(high) - static_cast<std::uint64_t>(low);
   }

@@ -12,15 +12,15 @@
 namespace clay::falcon::inline safety {
 
 // ---- sampled bound -------------------------------------------------------------------
-// How stiff a wall can be that a sampled arm renders. A wall read once a period and held for the
-// next is late, and what is late gives back more than it took; the arm's own damping has to eat
-// the difference. Sources: J. E. Colgate, G. G. Schenkel, "Passivity of a class of sampled-data
-// systems: application to haptic interfaces", J. Robotic Systems 14(1), 1997; E. I. Jury, "Theory
-// and Application of the z-Transform Method", 1964 (the stability of a sampled loop).
+// The stiffness of a wall that a sampled arm can render. A wall that is read once per period and
+// held for the next responds late, and so returns more energy than it absorbed; the arm's damping
+// must dissipate the difference. Sources: J. E. Colgate, G. G. Schenkel, "Passivity of a class of
+// sampled-data systems: application to haptic interfaces", J. Robotic Systems 14(1), 1997; E. I.
+// Jury, "Theory and Application of the z-Transform Method", 1964 (the stability of a sampled loop).
 //
 // SI units throughout: m, s, kg, N. T = 1 / rate is the period, n the ticks of delay.
 
-/// What of an arm and its servo decides how stiff a wall may be.
+/// The properties of an arm and its servo that limit the stiffness of a wall.
 struct SampledLoop {
   double rate_hz = 1000.0;
   double mass_kg = 0.25;          ///< m: of the handle, as the hand feels it
@@ -39,109 +39,109 @@ struct VirtualWall {
   double damping_ns_per_m = 0.0;   ///< B, of either sign
 };
 
-/// Damping [N s/m] that an arm needs so that, whatever passive hand holds it, the wall gives no
-/// energy away. Colgate and Schenkel's integral for this wall is a sum of cosines,
+/// Damping [N s/m] that an arm needs so that the wall is passive for every passive hand. Colgate
+/// and Schenkel's integral for this wall is a sum of cosines,
 ///
 ///   b > max over w of  K T/2 (1 + 2 cos wT + ... + 2 cos nwT) - B cos((n + 1) wT),
 ///
 /// and K T/2 + |B| without delay, (2n + 1) K T/2 for a spring alone.
 [[nodiscard]] double passive_damping(const SampledLoop& loop, const VirtualWall& wall) noexcept;
-/// The same at one angle w T [rad], 0 to pi: what a motion of that frequency asks for.
+/// The same at one angle w T [rad], 0 to pi: the damping required at that frequency.
 [[nodiscard]] double passive_damping_at(const SampledLoop& loop, const VirtualWall& wall,
                                         double angle_rad) noexcept;
 
 /// Stiffest spring [N/m] that is passive: 2b / ((2n + 1) T).
 [[nodiscard]] double passive_stiffness(const SampledLoop& loop) noexcept;
 
-/// Does the free arm come to rest against the wall, held there? By Jury's test of
+/// True if the free arm comes to rest against a two-sided wall. By Jury's test of
 ///
 ///   z^(n+1) (z - 1)(z - p) + (K z + B (z - 1)/T)(c1 z + c0),    p = e^(-bT/m),
 ///
-/// where (c1 z + c0) / ((z - 1)(z - p)) takes held force to position, exactly.
+/// where (c1 z + c0) / ((z - 1)(z - p)) is the exact transfer function from held force to position.
 [[nodiscard]] bool is_stable(const SampledLoop& loop, const VirtualWall& wall) noexcept;
 
-/// The border of the stable springs [N/m], to 1e-9 of it: stable below, not above. 0 when none is.
+/// The border of the stable springs [N/m], to 1e-9 of it: stable below, not above. 0 if none is.
 /// `wall_damping_ns_per_m` is B.
 [[nodiscard]] double stable_stiffness(const SampledLoop& loop,
                                       double wall_damping_ns_per_m = 0.0) noexcept;
 
-/// Most damping B [N s/m] that the servo may add to a spring before the loop is unstable; to 1e-9
+/// Maximum damping B [N s/m] that the servo may add to a spring while the loop is stable; to 1e-9
 /// of it.
 [[nodiscard]] double stable_damping(const SampledLoop& loop, double stiffness_n_per_m) noexcept;
 
-/// Stiffest contact that is let through: half of what is passive. The other half is for what the
-/// theory leaves out: encoder steps, late ticks, a damping known to a factor.
+/// Maximum accepted stiffness of a contact: half of the passive bound. The margin covers effects
+/// that the theory ignores: encoder steps, late ticks, a damping known only to a factor.
 [[nodiscard]] double accepted_stiffness(const SampledLoop& loop) noexcept;
 
-/// Why a stiffness is refused, and the two ways out.
+/// A refused stiffness, and the two remedies.
 struct StiffnessTooHigh {
   double found_n_per_m;
   double highest_n_per_m;  ///< the accepted stiffness at this rate
   double lowest_rate_hz;   ///< the rate from which the stiffness found is accepted
 };
 
-/// Refuses what is above accepted_stiffness, and what is not a number.
+/// Refuses NaN and values above accepted_stiffness.
 [[nodiscard]] tl::expected<void, StiffnessTooHigh> check_stiffness(
     const SampledLoop& loop, double stiffness_n_per_m) noexcept;
 
 // ---- energy observer -----------------------------------------------------------------
-// The passivity observer: what the servo has given the hand beyond what it took. After B.
+// The passivity observer: the net energy that the servo has given to the hand. After B.
 // Hannaford, J.-H. Ryu, "Time-domain passivity control of haptic interfaces", IEEE Trans. Robotics
-// and Automation 18(1), 2002. Work is counted by positions: the force held over a period times the
-// way gone in it is exact, but for the encoder's steps. A spring that an encoder reads seems to
-// give K step^2 whenever a still hand makes it flicker, so that loops of up to two steps count
-// nothing.
+// and Automation 18(1), 2002. Work is the force held over a period
+// times the displacement, which is exact except for encoder steps. A spring read by an encoder
+// seems to release K step^2 whenever the reading of a resting hand flickers, so loops of up to two
+// steps do not count.
 
-/// Energy of one contact after the other, and of the last while.
+/// Energy of each contact, and of a recent window of time.
 class EnergyObserver {
  public:
-  /// `loop` as `check` lets it through; its damping is what the arm has for sure. `step_m`: of the
-  /// encoders. `window_s` > 0: the last while.
+  /// `loop` must pass `check`; its damping is the guaranteed minimum of the arm. `step_m`: of the
+  /// encoders. `window_s` > 0: the window of recent_j().
   EnergyObserver(const SampledLoop& loop, double step_m, double window_s) noexcept;
 
   /// A period of `dt_s` in which `held_n` was displayed and the reading moved by `way_m`; at its
-  /// end the contact asks for `asked_n`. True when a contact has ended with it.
+  /// end the contact requests `asked_n`. True if a contact has ended with it.
   bool observe(double dt_s, const glm::dvec3& held_n, const glm::dvec3& way_m,
                const glm::dvec3& asked_n) noexcept;
 
-  /// Work displayed [J] less what the arm's own damping has dissipated for sure in contact.
-  /// Negative while a contact has credit. Credit ends with its contact, a debt stays.
+  /// Work displayed [J] minus the guaranteed dissipation by the arm's damping in contact. Negative
+  /// while a contact has credit. Credit ends with its contact; a debt remains.
   [[nodiscard]] double injected_j() const noexcept { return injected_; }
-  /// The same for oscillations within a contact, which may have the credit of a long press: the
+  /// The same for oscillations within a contact, which a long press would hide by its credit: the
   /// sum over the loops from one deepest point to the next, closed by any spring whose force grows
-  /// with depth; from zero again when it would fall below.
+  /// with depth. It never falls below zero.
   [[nodiscard]] double looped_j() const noexcept { return looped_; }
   [[nodiscard]] double debt_j() const noexcept { return std::max(injected_, looped_); }
-  /// What these may be off by for the encoder's steps: half a step times all that the force
-  /// changed by, up and down, in this contact or the last.
+  /// Error bound of these values due to encoder steps: half a step times the total variation of the
+  /// force in this contact or the last.
   [[nodiscard]] double tolerance_j() const noexcept {
     return step_m_ * std::max(peak_n_, last_peak_n_) + kRounding;
   }
-  /// Of the contact that has just ended: what it added to the debt.
+  /// Energy that the last contact added to the debt.
   [[nodiscard]] double last_contact_j() const noexcept { return last_contact_; }
-  /// Given in the last while: by contacts that ended with a gain, and by the present one as far as
-  /// it is above zero.
+  /// Energy given within the window: by contacts that ended with a gain, and by the current one if
+  /// positive.
   [[nodiscard]] double recent_j() const noexcept;
   [[nodiscard]] bool in_contact() const noexcept { return in_contact_; }
 
-  /// The debt is forgiven; what is going on goes on.
+  /// Clears the debt; the current contact continues.
   void forgive() noexcept;
 
  private:
   static constexpr std::size_t kBuckets = 16;
   static constexpr double kRounding = 1e-9;
 
-  /// A way in one direction, into the contact or out of it. Depths count from where it began.
+  /// A motion in one direction, into the contact or out of it. Depths count from its start.
   struct Stroke {
     double sign = 0.0;  // +1 into the contact, -1 out of it
     double from_m = 0.0;
-    double depth_m = 0.0;     // where the arm is,
-    double furthest_m = 0.0;  // the furthest it was,
-    double force_n = 0.0;     // the force there
-    double doubtful_j = 0.0;  // and the work and time since
+    double depth_m = 0.0;     // of the arm now
+    double furthest_m = 0.0;  // maximum
+    double force_n = 0.0;     // at the maximum
+    double doubtful_j = 0.0;  // work and time since the maximum
     double doubtful_s = 0.0;
     double time_s = 0.0;
-    double credit_j = 0.0;  // dissipated for sure by the arm
+    double credit_j = 0.0;  // guaranteed dissipation by the arm
   };
   /// A deepest point of the contact, where the arm turned back.
   struct Turn {
@@ -162,7 +162,7 @@ class EnergyObserver {
   double peak_n_ = 0.0, last_peak_n_ = 0.0;
   double gains_ = 0.0;  // of all contacts that ended
   bool in_contact_ = false;
-  int quiet_ticks_ = 0;  // since the contact last asked for a force
+  int quiet_ticks_ = 0;  // since the contact last requested a force
   Stroke stroke_;
   std::optional<Turn> last_turn_;
   double looped_ = 0.0;
@@ -172,38 +172,38 @@ class EnergyObserver {
 };
 
 // ---- passivity -----------------------------------------------------------------------
-// Keeps a servo from feeding the hand energy: the passivity controller of Hannaford and Ryu (see
-// energy_observer.hpp) adds damping that takes back what the observer saw given. Before it stands a
-// bound, after J.-P. Kim, J. Ryu, "Robustly stable haptic interaction control using an
-// energy-bounding algorithm", Int. J. Robotics Research 29(6), 2010: force has to be earned by the
-// way into the contact, at accepted_stiffness at most. A contact as soft as that passes unchanged.
-// Behind it, for what no damping saves (a force later than was said), the
-// bound is halved, and then there is no force.
+// Prevents a servo from feeding energy to the hand. The passivity controller of Hannaford and Ryu
+// (see EnergyObserver) adds damping that removes the energy found by the observer. Before it stands
+// a bound, after J.-P. Kim, J. Ryu, "Robustly stable haptic interaction control using an
+// energy-bounding algorithm", Int. J. Robotics Research 29(6), 2010: force builds up only by
+// motion into the contact, at accepted_stiffness at most. A softer contact passes unchanged. After
+// it, for cases in which damping does not help (a larger delay than stated), the bound is halved,
+// and finally the force is switched off.
 //
-//   watching <-> damping     earned at accepted_stiffness; damping while there is a debt
+//   watching <-> damping     builds up at accepted_stiffness; damping while there is a debt
 //       +-----+-----+
-//          yielding          earned at half of it, until reset
+//          yielding          builds up at half of it, until reset
 //             |
 //            safe            no force, until reset
 //
-// It knows no clock: time comes with the readings. The turning wheel's friction drags the hand
-// along and does work on it by right: pass the contact's spring force, and add friction after.
+// It has no clock: time comes with the readings. Friction of the turning wheel may do work on the
+// hand: pass the spring force of the contact only, and add friction afterwards.
 
 struct PassivitySpec {
-  SampledLoop loop;     ///< mass: the least, damping: what the arm has for sure
+  SampledLoop loop;     ///< mass and damping: guaranteed minima
   double step_m = 0.0;  ///< of the encoders
   double energy_limit_j = 5e-3;
-  double energy_window_s = 0.1;     ///< no patience when more than the limit was given in this time
+  double energy_window_s = 0.1;     ///< escalates if more than the limit was given in this time
   int reversal_limit = 8;           ///< 2 to 16
-  double reversal_window_s = 0.05;  ///< nor when the force swung so often in this time
-  double reversal_force_n = 1.0;    ///< least swing that counts, from one turn to the next
+  double reversal_window_s = 0.05;  ///< escalates after that many swings of the force in this time
+  double reversal_force_n = 1.0;    ///< minimum swing that counts, from one turn to the next
 };
 
-/// Counts how often a force turns back, whatever its direction.
+/// Counts reversals of a force in any direction.
 class SwingCounter {
  public:
   SwingCounter(int limit, double window_s, double least_n) noexcept;
-  /// The force at a time [s] that rises; true when `limit` swings ended within the window.
+  /// The force at an increasing time [s]. True if `limit` swings ended within the window.
   bool swings_too_often(double time_s, const glm::dvec3& force_n) noexcept;
 
  private:
@@ -227,23 +227,23 @@ class PassivityController {
   /// above 0, or windows above 10 s.
   static tl::expected<PassivityController, OutOfRange> build(const PassivitySpec& spec) noexcept;
 
-  /// The force [N] to send for the one that the contact asks for at this reading. Zero, and the
-  /// tick is not counted, when an argument is not finite or time does not advance.
+  /// The force [N] to send for the force that the contact requests at this reading. Zero, without
+  /// counting the tick, if an argument is not finite or time does not advance.
   [[nodiscard]] PassiveForce tick(std::int64_t time_us, const glm::dvec3& reading_m,
                                   const glm::dvec3& force_n) noexcept;
 
-  /// What is displayed [N] in place of the force that the last tick returned, where a guard behind
-  /// it lets through less: the account is of this one. Not counted when it is not finite.
+  /// Call with the force [N] that was displayed instead of the last result, if a guard reduced it:
+  /// the energy account uses this one. Ignored if not finite.
   void displayed(const glm::dvec3& force_n) noexcept;
 
-  /// As new: the next reading is the first.
+  /// Restores the initial state: the next reading is the first.
   void reset() noexcept { *this = PassivityController(spec_); }
 
   [[nodiscard]] const EnergyObserver& observer() const noexcept { return observer_; }
   [[nodiscard]] PassivityState state() const noexcept { return state_; }
-  /// Most damping that the controller adds [N s/m]: half of what the loop bears on top of the
-  /// accepted stiffness, and so little that one encoder step in a period moves the force by a
-  /// quarter of `reversal_force_n` at most.
+  /// Maximum damping that the controller adds [N s/m]: half of the stable maximum on top of the
+  /// accepted stiffness, and small enough that one encoder step per period changes the force by at
+  /// most a quarter of `reversal_force_n`.
   [[nodiscard]] double most_damping_ns_per_m() const noexcept { return most_damping_; }
 
  private:
@@ -264,9 +264,9 @@ class PassivityController {
   EnergyObserver observer_;
   SwingCounter swings_;
   PassivityState state_ = PassivityState::watching;
-  double earned_n_ = 0.0;      // most force that the way into the contact allows
+  double earned_n_ = 0.0;      // maximum force permitted by the motion into the contact
   double last_asked_n_ = 0.0;  // in this contact
-  int debts_ = 0;              // since the last good while
+  int debts_ = 0;              // since the last quiet interval
   double last_debt_s_ = 0.0;
 
   struct Reading {
