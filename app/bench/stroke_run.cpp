@@ -62,7 +62,7 @@ glm::dvec3 literal_hip(glm::dvec3 hip_mm, const LiteralScene& scene) {
 }
 
 LiteralScene literal_scene(const Fineness& fineness) {
-  return literal_of(stroke_scene(fineness, Model::paper), LiteralWriting::eased);
+  return literal_of(stroke_scene(fineness, Variant::paper), LiteralWriting::eased);
 }
 
 }  // namespace
@@ -76,9 +76,11 @@ glm::dvec3 stroke_mm(double t) {
   return {kOuterMm + kStrokeBallMm + 2.0 - 8.0 * in, 50.0 + 50.0 * up, 0.0};
 }
 
-SceneSpec stroke_scene(const Fineness& fineness, Model model) {
+SceneSpec stroke_scene(const Fineness& fineness, Variant variant) {
   SceneSpec scene;
-  scene.model = model;
+  const bool paper = variant != Variant::conserving && variant != Variant::clay_rules;
+  scene.model = paper ? Model::paper : Model::conserving;
+  if (variant == Variant::clay_rules) scene.clay = ClaySpec{};
   scene.lump.rings = fineness.rings;
   scene.lump.ring_height_mm = kLumpMm / static_cast<double>(fineness.rings);
   scene.lump.outer_radius_mm = kOuterMm;
@@ -89,13 +91,19 @@ SceneSpec stroke_scene(const Fineness& fineness, Model model) {
   // runs.
   scene.force->paper_stiffness_n_per_mm = scene.force->stiffness_n_per_mm2 * kLumpMm / 200.0;
   scene.removal.paper_fraction = scene.removal.rate_per_s / kPaperRateHz;
+  if (variant == Variant::paper_scaled) {
+    scene.force->paper_stiffness_n_per_mm.reset();
+    scene.removal.paper_fraction = -std::expm1(-scene.removal.rate_per_s / fineness.rate_hz);
+  }
   scene.stability = StabilitySpec{1e6};
   return scene;
 }
 
-Outcome play_engine(const Fineness& fineness, Model model) {
+namespace {
+
+Outcome play_engine(const Fineness& fineness, Variant variant) {
   Outcome outcome;
-  Wheel wheel = Wheel::build(stroke_scene(fineness, model)).value();
+  Wheel wheel = Wheel::build(stroke_scene(fineness, variant)).value();
   const int every = static_cast<int>(std::lround(kSampleS * fineness.rate_hz));
   const double initial = static_cast<double>(wheel.ledger().initial);
   for (int tick = 0; tick <= ticks_of(fineness.rate_hz); ++tick) {
@@ -140,8 +148,8 @@ Outcome play_literal(const Fineness& fineness) {
   return outcome;
 }
 
-double time_engine(const Fineness& fineness, Model model) {
-  Wheel wheel = Wheel::build(stroke_scene(fineness, model)).value();
+double time_engine(const Fineness& fineness, Variant variant) {
+  Wheel wheel = Wheel::build(stroke_scene(fineness, variant)).value();
   const auto poses = poses_at(fineness.rate_hz);
   return work_seconds_of([&] {
     for (const Pose& pose : poses) wheel.step(pose);
@@ -155,6 +163,27 @@ double time_literal(const Fineness& fineness) {
   return work_seconds_of([&] {
     for (const Pose& pose : poses) paper.step(literal_hip(pose.position_mm, scene));
   });
+}
+
+}  // namespace
+
+Outcome play(const Fineness& fineness, Variant variant) {
+  return variant == Variant::literal ? play_literal(fineness) : play_engine(fineness, variant);
+}
+
+double time_of(const Fineness& fineness, Variant variant) {
+  return variant == Variant::literal ? time_literal(fineness) : time_engine(fineness, variant);
+}
+
+Outcome extrapolated(const Outcome& fine, const Outcome& half) {
+  Outcome limit = fine;
+  const auto toward = [](auto& values, const auto& coarse) {
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] += values[k] - coarse[k];
+  };
+  toward(limit.outer_mm, half.outer_mm);
+  toward(limit.inner_mm, half.inner_mm);
+  toward(limit.force_n, half.force_n);
+  return limit;
 }
 
 Deviation deviation(const Outcome& outcome, const Outcome& reference) {

@@ -1,6 +1,6 @@
 #pragma once
 // One stroke, played by the engine and by the paper as printed, at any fineness: the resulting pot
-// and forces, for comparison with a finer run.
+// and forces, for comparison with the limit of ever finer runs.
 
 #include "app/bench/literal/literal_paper.hpp"
 #include "claystack/engine/scene.hpp"
@@ -25,7 +25,13 @@ struct Fineness {
   int rate_hz = 1000;
   double reach_mm = 30.0;
 };
-[[nodiscard]] SceneSpec stroke_scene(const Fineness& fineness, Model model);
+
+/// What plays the stroke. `paper_scaled` is the paper's model with a stiffness per mm of height and
+/// a rate per second, so that it has a limit; `paper` and `literal` keep its K per ring and its k
+/// per tick.
+enum class Variant { conserving, clay_rules, paper_scaled, paper, literal };
+
+[[nodiscard]] SceneSpec stroke_scene(const Fineness& fineness, Variant variant);
 
 /// The result of a stroke, at positions and times common to all finenesses.
 struct Outcome {
@@ -35,11 +41,13 @@ struct Outcome {
   bool collapsed = false;
 };
 
-[[nodiscard]] Outcome play_engine(const Fineness& fineness, Model model);
-[[nodiscard]] Outcome play_literal(const Fineness& fineness);
+[[nodiscard]] Outcome play(const Fineness& fineness, Variant variant);
 /// Duration [s] of the same ticks without recording.
-[[nodiscard]] double time_engine(const Fineness& fineness, Model model);
-[[nodiscard]] double time_literal(const Fineness& fineness);
+[[nodiscard]] double time_of(const Fineness& fineness, Variant variant);
+
+/// The limit of ever finer runs, from a run and one of half its fineness: Richardson's
+/// extrapolation for an error of first order.
+[[nodiscard]] Outcome extrapolated(const Outcome& fine, const Outcome& half);
 
 /// Over both surfaces, and of the length of the force's difference. The ball leaves a ledge, a jump
 /// of the profile: there the maximum error cannot fall below half the jump, but the mean error can.

@@ -72,6 +72,12 @@ PotView view_of(const Pot& pot) {
   return view;
 }
 
+PotView turned(PotView view) {
+  std::ranges::reverse(view.rows);
+  std::ranges::reverse(view.wall_mm);
+  return view;
+}
+
 FallenView fallen_view(const Collapse& collapse, const PotView& view, const ClayStack& stack) {
   const double split = stack.ring_height_mm() * static_cast<double>(collapse.failed_ring + 1);
   const auto count = static_cast<double>(view.rows.size());

@@ -16,6 +16,9 @@ inline constexpr std::size_t kMaxRows = 2048;
 /// With the fallen part at its resting place.
 [[nodiscard]] PotView view_of(const Pot& pot);
 
+/// The same pot standing upside down.
+[[nodiscard]] PotView turned(PotView view);
+
 /// The rows of a view above the failed ring of `pot`.
 [[nodiscard]] FallenView fallen_view(const Collapse& collapse, const PotView& view,
                                      const ClayStack& stack);

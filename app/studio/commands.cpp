@@ -48,6 +48,10 @@ bool can_import(View view) {
   const auto* import = std::get_if<ImportDialog>(&view.ui.dialog);
   return import != nullptr && import->made;
 }
+/// Smoothing is a clay rule; works thrown without the rules have none.
+bool has_rules(View view) {
+  return view.document.has_work() && view.document.scene().clay.has_value();
+}
 bool pinching(View view) { return view.settings.tool.mode == ToolMode::pinch; }
 bool rearmable(View view) { return view.waits_for_rearm(); }
 
@@ -117,6 +121,10 @@ const std::array kCommands = {
     C{"tool.press", "Press", key(GLFW_KEY_P), kNone, SetToolMode{ToolMode::press}, always, is_mode<ToolMode::press>},
     C{"tool.trim", "Trim", key(GLFW_KEY_T), kNone, SetToolMode{ToolMode::trim}, always, is_mode<ToolMode::trim>},
     C{"tool.pinch", "Pinch", key(GLFW_KEY_H), kNone, SetToolMode{ToolMode::pinch}, always, is_mode<ToolMode::pinch>},
+    C{"tool.smooth", "Smooth", key(GLFW_KEY_M), kNone, SetToolMode{ToolMode::smooth}, has_rules, is_mode<ToolMode::smooth>},
+    C{"tool.needle", "Level the rim", key(GLFW_KEY_L), kNone, SetToolMode{ToolMode::needle}, always, is_mode<ToolMode::needle>},
+    C{"tool.wire", "Cut off the wheel", key(GLFW_KEY_K), kNone, SetToolMode{ToolMode::wire}, always, is_mode<ToolMode::wire>},
+    C{"tool.trim_foot", "Trim the foot", key(GLFW_KEY_U), kNone, SetToolMode{ToolMode::trim_foot}, always, is_mode<ToolMode::trim_foot>},
     C{"tool.sphere", "Sphere", key(GLFW_KEY_S), kNone, SetToolShape{Shape::sphere}, always, is_shape<Shape::sphere>},
     C{"tool.ellipse", "Ellipse", key(GLFW_KEY_E), kNone, SetToolShape{Shape::ellipse}, always, is_shape<Shape::ellipse>},
     C{"tool.rib", "Rib", key(GLFW_KEY_R), kNone, SetToolShape{Shape::rib}, always, is_shape<Shape::rib>},

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 
 namespace clay::studio {
 namespace {
@@ -20,6 +21,12 @@ std::optional<Tool> chosen_tool(const ViewModel& view) {
   auto tool = Tool::build(tool_of(view.settings.tool).shape);
   if (!tool) return std::nullopt;
   return std::move(*tool);
+}
+
+/// The pot as it stands: upside down while its foot is trimmed.
+render::PotView shown_pot(const ViewModel& view) {
+  const render::PotView& pot = view.stroke.view();
+  return view.settings.tool.mode == ToolMode::trim_foot ? render::turned(pot) : pot;
 }
 
 /// The middle of a wall, on the side of the pointer.
@@ -147,7 +154,7 @@ void SceneView::press(const ViewModel& view, bool inverted, Actions& actions) {
       view.stroke.paused())
     return;
   const ToolSpec spec = tool_of(view.settings.tool, inverted);
-  const render::PotView& pot = view.stroke.view();
+  const render::PotView pot = shown_pot(view);
   glm::dvec2 start = free_place(pot, *tool, *pointed);
   double gap_mm = 0.0;
   if (spec.mode == ToolMode::pinch) {
@@ -205,7 +212,7 @@ std::optional<render::ToolView> SceneView::tool_view(const ViewModel& view) cons
   const ToolChoice& choice = view.settings.tool;
   if (choice.mode == ToolMode::pinch)
     shown.gap_mm = status.gap_mm > 0.0 ? status.gap_mm : choice.gap_mm;
-  shown.inside = inside(view.stroke.view(), status.tool_mm);
+  shown.inside = inside(shown_pot(view), status.tool_mm);
   return shown;
 }
 
@@ -214,7 +221,7 @@ std::optional<render::ToolView> SceneView::hovering_tool(const ViewModel& view,
   if (!view.ui.shows<NoDialog>() || turning() || !rect_.holds(pointer_px_)) return std::nullopt;
   const auto pointed = pointed_mm();
   if (!pointed) return std::nullopt;
-  const render::PotView& pot = view.stroke.view();
+  const render::PotView pot = shown_pot(view);
   render::ToolView shown;
   shown.half_profile_mm = render::half_profile_of(tool);
   glm::dvec2 place = free_place(pot, tool, *pointed);
@@ -238,6 +245,8 @@ render::Picture SceneView::picture(const ViewModel& view) const {
     picture.pot.wall_mm = walls_for(*check, picture.pot.rows.size(), picture.pot.height_mm);
     picture.wall_map = wall_map_of(*check);
   }
+  if (view.settings.tool.mode == ToolMode::trim_foot)
+    picture.pot = render::turned(std::move(picture.pot));
   picture.camera = camera_;
   picture.theme = view.settings.theme;
   picture.cut = cut;

@@ -23,8 +23,10 @@ constexpr std::array kUnitValues = {LengthUnit::mm, LengthUnit::cm, LengthUnit::
 // A custom shape belongs to a scene; it is stored as the first of these shapes.
 constexpr std::array kShapes = {"sphere", "ellipse", "rib"};
 constexpr std::array kShapeValues = {Shape::sphere, Shape::ellipse, Shape::rib};
-constexpr std::array kModes = {"press", "trim", "pinch"};
-constexpr std::array kModeValues = {ToolMode::press, ToolMode::trim, ToolMode::pinch};
+constexpr std::array kModes = {"press", "trim", "pinch", "smooth", "needle", "wire", "trim_foot"};
+constexpr std::array kModeValues = {ToolMode::press,    ToolMode::trim,   ToolMode::pinch,
+                                    ToolMode::smooth,   ToolMode::needle, ToolMode::wire,
+                                    ToolMode::trim_foot};
 
 template <class Io, class E, std::size_t N>
 void choice(Io& io, const char* name, E& value, const std::array<const char*, N>& names,

@@ -1,5 +1,7 @@
 #include "app/studio/tool_choice.hpp"
 
+#include "claystack/engine/tick.hpp"
+
 #include <algorithm>
 
 namespace clay::studio {
@@ -46,11 +48,36 @@ struct Chooser {
 
 }  // namespace
 
+const char* name_of(ToolMode mode) noexcept {
+  switch (mode) {
+    case ToolMode::press:
+      return "Press";
+    case ToolMode::trim:
+      return "Trim";
+    case ToolMode::pinch:
+      return "Pinch";
+    case ToolMode::smooth:
+      return "Smooth";
+    case ToolMode::needle:
+      return "Needle";
+    case ToolMode::wire:
+      return "Wire";
+    case ToolMode::trim_foot:
+      break;
+  }
+  return "Trim the foot";
+}
+
 ToolSpec tool_of(const ToolChoice& choice, bool inverted) {
   ToolSpec tool;
   tool.shape = shape_of(choice);
   tool.mode = choice.mode;
-  if (inverted) tool.mode = tool.mode == ToolMode::trim ? ToolMode::press : ToolMode::trim;
+  if (cuts_level(tool.mode)) {
+    tool.shape = SphereSpec{kSmallestToolMm};
+    return tool;
+  }
+  if (inverted && tool.mode != ToolMode::trim_foot)
+    tool.mode = tool.mode == ToolMode::trim ? ToolMode::press : ToolMode::trim;
   if (tool.mode == ToolMode::pinch) tool.gap_mm = choice.gap_mm;
   return tool;
 }

@@ -24,7 +24,11 @@ struct ToolChoice {
 inline constexpr double kSmallestToolMm = 0.5, kLargestToolMm = 60.0;
 inline constexpr double kNarrowestGapMm = 0.5, kWidestPinchMm = 40.0;
 
-/// The tool for a scene. `inverted`: press instead of trim, and trim instead of the other modes.
+/// How the window names a mode.
+[[nodiscard]] const char* name_of(ToolMode mode) noexcept;
+
+/// The tool for a scene. A needle and a wire are as thin as tools can be. `inverted`: press instead
+/// of trim, and trim instead of the other modes.
 [[nodiscard]] ToolSpec tool_of(const ToolChoice& choice, bool inverted = false);
 
 /// The tool of a scene; shapes that the scene does not use keep their sizes.

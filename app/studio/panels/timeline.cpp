@@ -1,4 +1,5 @@
 #include "app/studio/panels/timeline.hpp"
+#include "app/studio/tool_choice.hpp"
 
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/panels/widgets.hpp"
@@ -74,11 +75,10 @@ constexpr float kLeastRoomEm = 26.0f;  // minimum height of the view for the tim
 constexpr float kDragPx = 4.0f;        // a shorter movement is a click
 
 std::string tooltip_of(const history::NodeView& stroke, const TimelineBlock& block) {
-  constexpr std::array kModes = {"Press", "Trim", "Pinch"};
   constexpr std::array kShapes = {"sphere", "ellipse", "rib", "custom tool"};
   const ToolSpec& tool = stroke.scene->tool;
   return fmt::format(
-      "Stroke {}: {}, {}, {:.1f} s{}{}{}", block.node, kModes[static_cast<std::size_t>(tool.mode)],
+      "Stroke {}: {}, {}, {:.1f} s{}{}{}", block.node, name_of(tool.mode),
       kShapes[tool.shape.index()], stroke.seconds,
       stroke.volume_mm3 ? fmt::format(", {:.1f} ml", 1e-3 * *stroke.volume_mm3) : std::string(),
       stroke.changed == false ? ", no contact" : "",
@@ -89,10 +89,14 @@ std::string tooltip_of(const history::NodeView& stroke, const TimelineBlock& blo
 ImVec4 colour_of(const history::NodeView& stroke, const Palette& colours) {
   switch (stroke.scene->tool.mode) {
     case ToolMode::trim:
+    case ToolMode::trim_foot:
+    case ToolMode::needle:
+    case ToolMode::wire:
       return colours.warning;
     case ToolMode::pinch:
       return colours.good;
     case ToolMode::press:
+    case ToolMode::smooth:
       break;
   }
   return colours.accent;

@@ -2,17 +2,23 @@
 
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/panels/widgets.hpp"
+#include "app/studio/tool_choice.hpp"
+#include "claystack/engine/tick.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
+#include <optional>
 
 namespace clay::studio {
 namespace {
 
-constexpr std::array kModes = {"Press", "Trim", "Pinch"};
+// In rows: the hands and the knife, what finishes a pot, and the pot upside down.
+constexpr std::array kHandModes = {ToolMode::press, ToolMode::trim, ToolMode::pinch};
+constexpr std::array kFinishModes = {ToolMode::smooth, ToolMode::needle, ToolMode::wire};
+constexpr std::array kFootModes = {ToolMode::trim_foot};
 constexpr std::array kShapes = {"Sphere", "Ellipse", "Rib", "Custom"};
 constexpr double kSoftest = 1e-3, kStiffest = 1.0;  // N/mm2
 constexpr double kUsualLimitN = 5.0;
@@ -24,9 +30,30 @@ const char* help_text(ToolMode mode) {
     case ToolMode::trim:
       return "Removes clay. Hold Ctrl to press.";
     case ToolMode::pinch:
+      return "Presses from both sides of the wall: drag up to pull it.";
+    case ToolMode::smooth:
+      return "A wet sponge: evens out the surface and cuts nothing.";
+    case ToolMode::needle:
+      return "Drag the needle through the wall: what is above it comes off.";
+    case ToolMode::wire:
+      return "Drag the wire through the pot to the axis: the pot comes off the wheel there.";
+    case ToolMode::trim_foot:
       break;
   }
-  return "Presses from both sides of the wall: drag up to pull it.";
+  return "The pot stands upside down: removes clay from its foot.";
+}
+
+/// A row of buttons for some modes; the mode that was clicked.
+template <std::size_t count>
+std::optional<ToolMode> mode_row(const char* id, const std::array<ToolMode, count>& modes,
+                                 ToolMode chosen, const Palette& colours) {
+  std::array<const char*, count> names{};
+  std::ranges::transform(modes, names.begin(), name_of);
+  const auto found = std::ranges::find(modes, chosen);
+  const int at = found == modes.end() ? -1 : static_cast<int>(found - modes.begin());
+  const int clicked = choice_row(id, names, at, colours);
+  if (clicked < 0) return std::nullopt;
+  return modes[static_cast<std::size_t>(clicked)];
 }
 
 /// Sliders of the selected shape. Returns true if one has moved.
@@ -82,9 +109,15 @@ void draw_bar(float part, const std::string& text, const ImVec4& colour) {
 
 void draw_tool(const ViewModel& model, Actions& actions) {
   ToolChoice tool = model.settings.tool;
-  const int mode = choice_row("mode", kModes, static_cast<int>(tool.mode), model.colours());
-  if (mode >= 0) actions.emplace_back(SetToolMode{static_cast<ToolMode>(mode)});
+  const bool has_rules = !model.document.has_work() || model.document.scene().clay.has_value();
+  const auto choose_mode = [&](std::optional<ToolMode> mode) {
+    if (mode && (has_rules || *mode != ToolMode::smooth)) actions.emplace_back(SetToolMode{*mode});
+  };
+  choose_mode(mode_row("mode", kHandModes, tool.mode, model.colours()));
+  choose_mode(mode_row("finish", kFinishModes, tool.mode, model.colours()));
+  choose_mode(mode_row("foot", kFootModes, tool.mode, model.colours()));
   faint_text(model.colours(), help_text(tool.mode));
+  if (cuts_level(tool.mode)) return;
   const std::size_t shapes = tool.own.t_mm.empty() ? 3 : 4;
   const int shape = choice_row("shape", std::span(kShapes).first(shapes),
                                static_cast<int>(tool.shape), model.colours());

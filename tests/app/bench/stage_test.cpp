@@ -109,8 +109,8 @@ TEST(Presser, TouchesTheStatedNumberOfRings) {
 }
 
 TEST(StrokeRun, DeviationIsZeroOnlyFromItself) {
-  const auto coarse = bench::play_engine({100, 500, 30.0}, Model::conserving);
-  const auto fine = bench::play_engine({400, 1000, 30.0}, Model::conserving);
+  const auto coarse = bench::play({100, 500, 30.0}, bench::Variant::conserving);
+  const auto fine = bench::play({400, 1000, 30.0}, bench::Variant::conserving);
   const auto same = bench::deviation(coarse, coarse);
   EXPECT_EQ(same.profile_max_mm, 0.0);
   EXPECT_EQ(same.force_max_n, 0.0);
@@ -125,7 +125,7 @@ TEST(StrokeRun, DeviationIsZeroOnlyFromItself) {
 }
 
 TEST(StrokeRun, DeviationFromNanIsNan) {
-  auto broken = bench::play_engine({100, 500, 30.0}, Model::conserving);
+  auto broken = bench::play({100, 500, 30.0}, bench::Variant::conserving);
   const auto sound = broken;
   broken.outer_mm[7] = std::nan("");
   EXPECT_TRUE(std::isnan(bench::deviation(broken, sound).profile_max_mm));
