@@ -130,7 +130,9 @@ TEST(SceneFile, ErrorsNameTheLineOfOtherValues) {
   expect_error("\"vase\"", "null", "name: expected a text, found null");
   expect_error("\"paper\"", "\"papal\"",
                "model: expected one of conserving, paper, found \"papal\"");
-  expect_error("\"trim\"", "true", "tool.mode: expected one of press, trim, pinch, smooth, needle, wire, trim_foot, found true");
+  expect_error(
+      "\"trim\"", "true",
+      "tool.mode: expected one of press, trim, pinch, smooth, needle, wire, trim_foot, found true");
   expect_error("{\"sigma_mm\": 3, \"reach_mm\": 12, \"inside_share\": 0.5}", "3",
                "flow: expected an object, found 3");
   expect_error("[1, 2, 0]", "1", "tool.shape.sampled.f_mm: expected an array, found 1");
