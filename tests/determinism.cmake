@@ -14,7 +14,8 @@ foreach(compiler g++ clang++)
       -DCLAYSTACK_EXPORT=OFF -DCLAYSTACK_APP=OFF -DCLAYSTACK_TESTS=OFF)
     run(${CMAKE_COMMAND} --build ${build} --target replay_pot)
     set(all "")
-    foreach(sample bowl vase bottle cylinder collapse)
+    foreach(sample bowl vase bottle cylinder collapse
+            paper/bowl paper/vase paper/bottle paper/cylinder paper/collapse)
       foreach(model "" paper)
         execute_process(
           COMMAND ${build}/samples/replay_pot ${SOURCE}/samples/${sample}.scene.json

@@ -2,6 +2,7 @@
 
 #include "app/studio/app_state.hpp"
 #include "app/studio/commands.hpp"
+#include "app/studio/new_scene.hpp"
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/samples.hpp"
 #include "claystack/core/atomic_file.hpp"

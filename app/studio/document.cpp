@@ -1,6 +1,7 @@
 #include "app/studio/document.hpp"
 
 #include "app/render/pot_view.hpp"
+#include "app/studio/new_scene.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
 
@@ -23,27 +24,6 @@ SceneSpec current_scene(const WorkRecord& record) {
 }
 
 }  // namespace
-
-SceneSpec scene_for(const Pot& pot, const std::string& name) {
-  const double height_mm = std::max(1.0, pot.stack.height_mm());
-  double widest_mm = 1.0;
-  for (const Ring& ring : pot.stack.rings()) widest_mm = std::max(widest_mm, ring.outer_mm());
-  SceneSpec scene;
-  scene.name = name;
-  scene.model = pot.model;
-  scene.lump = {.rings = pot.stack.size(),
-                .ring_height_mm = pot.stack.ring_height_mm(),
-                .outer_radius_mm = widest_mm,
-                .inner_radius_mm = 0.0,
-                .max_rings = 0,
-                .density_g_cm3 = pot.density_g_cm3};
-  scene.removal.yield_depth_mm = 2.0;
-  scene.removal.min_wall_mm = 3.0;
-  scene.flow = {.sigma_mm = 0.12 * height_mm, .reach_mm = 0.5 * height_mm, .inside_share = 0.25};
-  scene.force->stiffness_n_per_mm2 = 0.03;
-  scene.force->friction = 0.2;
-  return scene;
-}
 
 Result<void> Document::begin(const SceneSpec& scene) {
   return history::Work::begin(scene).map(

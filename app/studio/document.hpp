@@ -21,9 +21,6 @@ struct Moment {
   double seconds = 0.0;
 };
 
-/// A scene with settings in proportion to a pot that has no scene.
-[[nodiscard]] SceneSpec scene_for(const Pot& pot, const std::string& name);
-
 /// Not thread-safe. Functions that read the work or its pot require has_work().
 class Document {
  public:

@@ -5,8 +5,6 @@
 #include "claystack/engine/wheel.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 // Generated from the files of samples/ by the build.
 namespace clay::studio::embedded {
@@ -17,12 +15,6 @@ extern const std::string_view cylinder_scene_json, cylinder_session;
 }  // namespace clay::studio::embedded
 
 namespace clay::studio {
-namespace {
-
-constexpr double kDensity = 1.9;  // g/cm3, wet stoneware
-constexpr std::size_t kRings = 200;
-
-}  // namespace
 
 const std::array<Sample, 4>& samples() {
   static const std::array<Sample, 4> all = {
@@ -55,28 +47,6 @@ Result<render::PotView> finished(const Sample& sample) {
   if (!wheel) return tl::make_unexpected(wheel.error());
   for (const Pose& pose : session->poses) wheel->step(pose);
   return render::view_of(wheel->pot());
-}
-
-double lump_height_mm(double clay_kg, double radius_mm) {
-  return 1e6 * clay_kg / kDensity / (std::numbers::pi * radius_mm * radius_mm);
-}
-
-SceneSpec lump_of(double clay_kg, double radius_mm) {
-  const double height_mm = lump_height_mm(clay_kg, radius_mm);
-  SceneSpec scene;
-  scene.name = "lump";
-  scene.lump.rings = kRings;
-  scene.lump.ring_height_mm = height_mm / static_cast<double>(kRings);
-  scene.lump.outer_radius_mm = radius_mm;
-  scene.lump.density_g_cm3 = kDensity;
-  scene.lump.max_rings = 8 * kRings;
-  scene.removal.yield_depth_mm = 2.0;
-  scene.removal.min_wall_mm = 3.0;
-  scene.flow = {.sigma_mm = 0.12 * height_mm, .reach_mm = 0.5 * height_mm, .inside_share = 0.25};
-  scene.force->stiffness_n_per_mm2 = 0.03;
-  scene.force->friction = 0.2;
-  scene.stability = StabilitySpec{15.0};
-  return scene;
 }
 
 }  // namespace clay::studio

@@ -24,9 +24,4 @@ Result<SceneSpec> scene_of(const Sample& sample);
 /// The pot that the session of the sample makes; takes about 20 ms.
 Result<render::PotView> finished(const Sample& sample);
 
-/// A cylinder of clay of this radius, with settings in proportion to it.
-inline constexpr double kLeastClayKg = 0.1, kMostClayKg = 20.0;
-[[nodiscard]] SceneSpec lump_of(double clay_kg, double radius_mm);
-[[nodiscard]] double lump_height_mm(double clay_kg, double radius_mm);
-
 }  // namespace clay::studio

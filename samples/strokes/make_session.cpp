@@ -6,6 +6,8 @@
 
 #include <cstdio>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -24,8 +26,10 @@ Result<void> make_session(const std::string& scene_path, const std::string& stro
         return samples::parse_strokes(text, strokes_path);
       });
   if (!script) return tl::make_unexpected(script.error());
-  return publish(out_path,
-                 write_session({scene->name, hash_of(*scene), samples::play(*script), false}));
+  return samples::play(*script, *scene).and_then([&](std::vector<Pose>&& poses) {
+    return publish(out_path,
+                   write_session({scene->name, hash_of(*scene), std::move(poses), false}));
+  });
 }
 
 }  // namespace

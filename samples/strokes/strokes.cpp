@@ -1,142 +1,12 @@
 #include "samples/strokes/strokes.hpp"
 
-#include "claystack/engine/files.hpp"
+#include "samples/strokes/hand.hpp"
+#include "samples/strokes/planned.hpp"
 
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <random>
 #include <utility>
 
 namespace clay::samples {
 namespace {
-
-/// A point of the hand's path, and the gap of its tools.
-struct Place {
-  glm::dvec2 at{0.0};
-  double gap_mm = 0.0;
-};
-using Path = std::vector<Place>;
-
-/// Uniform in [-1, 1).
-double noise(std::mt19937_64& random) {
-  return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0;
-}
-
-/// Band-limited noise of unit root mean square: a resonator at 9 Hz driven by white noise.
-class Tremor {
- public:
-  explicit Tremor(double rate_hz) {
-    const double w = 2.0 * std::numbers::pi * 9.0 / rate_hz, damping = 3.0 / rate_hz;
-    const double radius = 1.0 - 2.0 * std::numbers::pi * damping;
-    const double cosine = 1.0 - w * w / 2.0 + w * w * w * w / 24.0;
-    a1_ = 2.0 * radius * cosine;
-    a2_ = -radius * radius;
-    // Variance of a second-order recursion driven by variance 1/3.
-    const double variance =
-        (1.0 - a2_) / ((1.0 + a2_) * ((1.0 - a2_) * (1.0 - a2_) - a1_ * a1_)) / 3.0;
-    gain_ = 1.0 / std::sqrt(variance);
-  }
-  double next(std::mt19937_64& random) {
-    const double y = a1_ * y1_ + a2_ * y2_ + gain_ * noise(random);
-    y2_ = y1_;
-    return y1_ = y;
-  }
-
- private:
-  double a1_ = 0.0, a2_ = 0.0, gain_ = 1.0, y1_ = 0.0, y2_ = 0.0;
-};
-
-/// A centripetal Catmull-Rom spline by Barry and Goldman's pyramid (SIGGRAPH 1988): unlike the
-/// uniform one it does not overshoot where long and short spans meet. Gaps are interpolated
-/// linearly, because a curve would undershoot the given values.
-Path spline(const Path& through) {
-  constexpr int kPieces = 32;
-  const auto lerp = [](glm::dvec2 a, double ta, glm::dvec2 b, double tb, double t) {
-    return (a * (tb - t) + b * (t - ta)) / (tb - ta);
-  };
-  Path path{through.front()};
-  for (std::size_t k = 0; k + 1 < through.size(); ++k) {
-    // The path is extrapolated beyond its ends.
-    const glm::dvec2 p1 = through[k].at, p2 = through[k + 1].at;
-    const glm::dvec2 p0 = k > 0 ? through[k - 1].at : 2.0 * p1 - p2;
-    const glm::dvec2 p3 = k + 2 < through.size() ? through[k + 2].at : 2.0 * p2 - p1;
-    const double gap1 = through[k].gap_mm, gap2 = through[k + 1].gap_mm;
-    const double t1 = std::sqrt(glm::distance(p0, p1));
-    const double t2 = t1 + std::sqrt(glm::distance(p1, p2));
-    const double t3 = t2 + std::sqrt(glm::distance(p2, p3));
-    for (int piece = 1; piece <= kPieces; ++piece) {
-      const double t = t1 + (t2 - t1) * piece / kPieces;
-      const glm::dvec2 a1 = lerp(p0, 0.0, p1, t1, t), a2 = lerp(p1, t1, p2, t2, t);
-      const glm::dvec2 a3 = lerp(p2, t2, p3, t3, t);
-      path.push_back({lerp(lerp(a1, 0.0, a2, t2, t), t1, lerp(a2, t1, a3, t3, t), t2, t),
-                      gap1 + (gap2 - gap1) * piece / kPieces});
-    }
-  }
-  return path;
-}
-
-/// The hand: its position and the poses so far.
-class Hand {
- public:
-  explicit Hand(const StrokeScript& script)
-      : script_(script),
-        random_(script.seed),
-        here_{script.start_mm, 0.0},
-        radial_(script.rate_hz),
-        vertical_(script.rate_hz),
-        sideways_(script.rate_hz) {}
-
-  /// Moves along a path in minimum-jerk time (Flash and Hogan, J. Neurosci. 5(7) 1985), with a peak
-  /// speed of 15/8 of the mean.
-  void move(const Path& path, double speed_mm_s, bool trim) {
-    std::vector<double> length{0.0};
-    for (std::size_t k = 1; k < path.size(); ++k)
-      length.push_back(length.back() + glm::distance(path[k - 1].at, path[k].at));
-    // Strokes of a hand vary in speed.
-    const double speed = speed_mm_s * (0.95 + 0.05 * noise(random_));
-    const auto ticks =
-        static_cast<std::int64_t>(length.back() * 1.875 / speed * script_.rate_hz) + 1;
-    std::size_t k = 0;
-    for (std::int64_t n = 1; n <= ticks; ++n) {
-      const double u = static_cast<double>(n) / static_cast<double>(ticks);
-      const double s = length.back() * u * u * u * (10.0 + u * (6.0 * u - 15.0));
-      while (k + 2 < path.size() && length[k + 1] < s) ++k;
-      const double piece = length[k + 1] - length[k];
-      emit(piece > 0.0 ? between(path[k], path[k + 1], (s - length[k]) / piece) : path[k], trim);
-    }
-  }
-  void hold(double seconds, bool trim) {
-    const auto ticks = static_cast<int>(seconds * script_.rate_hz);
-    for (int n = 0; n < ticks; ++n) emit(here_, trim);
-  }
-  [[nodiscard]] glm::dvec2 at() const { return here_.at; }
-  std::vector<Pose> take() { return std::move(poses_); }
-
- private:
-  static Place between(const Place& a, const Place& b, double part) {
-    return {a.at + (b.at - a.at) * part, a.gap_mm + (b.gap_mm - a.gap_mm) * part};
-  }
-  void emit(const Place& place, bool trim) {
-    here_ = place;
-    // In separate statements, because compilers differ in the order of evaluating arguments.
-    glm::dvec3 hip(place.at, 0.0);
-    hip.x += script_.tremor_mm * radial_.next(random_);
-    hip.y += script_.tremor_mm * vertical_.next(random_);
-    hip.z += script_.tremor_mm * sideways_.next(random_);
-    const auto time =
-        static_cast<std::int64_t>(static_cast<double>(poses_.size()) * 1e6 / script_.rate_hz);
-    poses_.push_back(quantized({time, hip, trim, place.gap_mm}));
-  }
-
-  const StrokeScript& script_;
-  std::mt19937_64 random_;
-  Place here_;
-  Tremor radial_, vertical_, sideways_;
-  std::vector<Pose> poses_;
-};
 
 Path points_of(const Stroke& stroke, int pass) {
   Path points;
@@ -149,21 +19,38 @@ Path points_of(const Stroke& stroke, int pass) {
   return points;
 }
 
+void follow(Hand& hand, const Stroke& stroke, int pass) {
+  const StrokeScript& script = hand.script();
+  const Path through = points_of(stroke, pass);
+  if (hand.here().at != script.start_mm)
+    hand.move({{hand.here().at}, {script.start_mm}}, script.travel_mm_s, false);
+  hand.move({{script.start_mm}, {through.front().at}}, script.travel_mm_s, false);
+  hand.move(spline(through), stroke.speed_mm_s, stroke.trim);
+  hand.hold(stroke.hold_s, stroke.trim);
+}
+
+void perform(Hand& hand, const Stroke& stroke, int pass) {
+  switch (stroke.kind) {
+    case StrokeKind::path:
+      return follow(hand, stroke, pass);
+    case StrokeKind::shape:
+      return shape(hand, stroke, pass);
+    case StrokeKind::pull:
+      return pull(hand, stroke);
+    case StrokeKind::lip:
+      return round_lip(hand, stroke);
+  }
+}
+
 }  // namespace
 
-std::vector<Pose> play(const StrokeScript& script) {
-  Hand hand(script);
-  for (const Stroke& stroke : script.strokes) {
-    for (int pass = 0; pass < stroke.passes; ++pass) {
-      const Path through = points_of(stroke, pass);
-      if (hand.at() != script.start_mm)
-        hand.move({{hand.at()}, {script.start_mm}}, script.travel_mm_s, false);
-      hand.move({{script.start_mm}, {through.front().at}}, script.travel_mm_s, false);
-      hand.move(spline(through), stroke.speed_mm_s, stroke.trim);
-      hand.hold(stroke.hold_s, stroke.trim);
-    }
-  }
-  return hand.take();
+Result<std::vector<Pose>> play(const StrokeScript& script, const SceneSpec& scene) {
+  return Wheel::build(scene).map([&](Wheel&& wheel) {
+    Hand hand(script, std::move(wheel));
+    for (const Stroke& stroke : script.strokes)
+      for (int pass = 0; pass < stroke.passes; ++pass) perform(hand, stroke, pass);
+    return hand.take();
+  });
 }
 
 }  // namespace clay::samples

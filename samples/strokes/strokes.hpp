@@ -1,8 +1,9 @@
 #pragma once
 // Simulates a potter's hand from a script: strokes along smooth paths, at human speeds, with
-// tremor.
+// tremor. Some strokes are planned on the pot as it is when they begin.
 
 #include "claystack/core/result.hpp"
+#include "claystack/engine/scene.hpp"
 #include "claystack/engine/tool.hpp"
 
 #include <cstdint>
@@ -12,19 +13,37 @@
 
 namespace clay::samples {
 
-/// One stroke, repeated. The path is a smooth curve through points (distance from the axis, height)
-/// in mm; pass k is shifted by k * step. Before each pass the hand moves in straight lines to the
-/// script's start and on to the first point: both lines must be clear of the clay.
+/// path: through fixed points. shape: leads the tool's surface along an outline, in passes that
+/// each take an equal part of the way that remains from the pot's surface. pull: two tools rise
+/// from the floor over the rim, wherever the rim is by then. lip: rounds the rim, from the outside
+/// over the top to the inside.
+enum class StrokeKind { path, shape, pull, lip };
+
+/// One stroke, repeated. Before each pass the hand moves in straight lines to the script's start
+/// and on to the first point: both lines must be clear of the clay.
 struct Stroke {
-  std::vector<glm::dvec2> through_mm;  ///< at least two, no equal neighbours
-  double speed_mm_s = 40.0;            ///< maximum speed, without tremor
+  StrokeKind kind = StrokeKind::path;
+  /// path: a smooth curve through points (distance from the axis, height) in mm: at least two, no
+  /// equal neighbours; pass k is shifted by k * step.
+  std::vector<glm::dvec2> through_mm;
+  /// shape: the surface aimed at; pull: the middle of the wall aimed at. Points (distance from the
+  /// axis in mm, height); at least two, heights strictly ascending or descending. Heights are
+  /// shares of the pot's height, or mm with `outline_in_mm`. A shape follows the order of its
+  /// points.
+  std::vector<glm::dvec2> outline;
+  bool outline_in_mm = false;
+  bool inside = false;       ///< shape: press the wall from the inside
+  double speed_mm_s = 40.0;  ///< maximum speed, without tremor
   int passes = 1;
   glm::dvec2 step_mm{0.0};
   double hold_s = 0.0;  ///< rest at the end of each pass
   bool trim = false;    ///< button pressed along the path
-  /// Gap between the two tools of a pinch: empty for one tool; one value for the whole path; or one
-  /// per point. Between the script's start and the path the hand is one tool.
+  /// Gap between the two tools of a pinch: empty for one tool; one value for the whole stroke; or,
+  /// for a path, one per point, and for a pull, two: at the wheel and at the rim. Between the
+  /// script's start and the stroke the hand is one tool.
   std::vector<double> gap_mm;
+  double from_mm = 0.0;  ///< pull: height of the HIP at the beginning
+  double ease_mm = 0.0;  ///< pull: the tools reach gap and outline after rising by this
 };
 
 struct StrokeScript {
@@ -36,15 +55,15 @@ struct StrokeScript {
   std::vector<Stroke> strokes;
 };
 
-/// `*.strokes.json`: one object with the fields of StrokeScript; start_mm and strokes are required,
-/// and through_mm in each stroke; gap_mm may be a number. Errors read "NAME: strokes[2].speed_mm_s:
-/// what was expected, what was found". Unknown fields are errors, and so are strokes with more
-/// poses than a session holds (kMaxPoses).
+/// `*.strokes.json`: one object with the fields of StrokeScript; start_mm and strokes are required;
+/// so is through_mm in each path, and outline or outline_mm in each shape and pull; gap_mm may be a
+/// number. Errors read "NAME: strokes[2].speed_mm_s: what was expected, what was found". Unknown
+/// fields are errors, and so are strokes with more poses than a session holds (kMaxPoses).
 Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name);
 
-/// Poses in a vertical plane through the axis, at the script's rate, quantized as in a session. The
-/// same bits on every platform: uses no libm except the square root, and no distribution of the
-/// standard library.
-std::vector<Pose> play(const StrokeScript& script);
+/// Poses in a vertical plane through the axis, at the script's rate, quantized as in a session, on
+/// the scene's wheel. The same bits on every platform: uses no libm except the square root, and no
+/// distribution of the standard library. Fails where Wheel::build refuses the scene.
+Result<std::vector<Pose>> play(const StrokeScript& script, const SceneSpec& scene);
 
 }  // namespace clay::samples

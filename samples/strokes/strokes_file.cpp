@@ -6,9 +6,9 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <concepts>
-#include <initializer_list>
 #include <limits>
 #include <string>
 #include <utility>
@@ -33,7 +33,7 @@ struct Range {
   double low, high;
 };
 constexpr Range kPositionMm{-1000.0, 1000.0}, kSpeedMmS{1.0, 10000.0}, kRateHz{200.0, 10000.0},
-    kTremorMm{0.0, 10.0}, kHoldS{0.0, 60.0}, kGapMm{0.0, 1000.0};
+    kTremorMm{0.0, 10.0}, kHoldS{0.0, 60.0}, kGapMm{0.0, 1000.0}, kHeightMm{0.0, 1000.0};
 struct IntegerRange {
   std::uint64_t low, high;
 };
@@ -68,6 +68,13 @@ void read(const Json& json, const std::string& place, glm::dvec2& value) {
          value[axis], kPositionMm);
 }
 
+void read(const Json& json, const std::string& place, StrokeKind& kind) {
+  constexpr std::array kNames = {"path", "shape", "pull", "lip"};
+  const auto found = std::ranges::find(kNames, json);
+  if (found == kNames.end()) refuse(place, "path, shape, pull or lip", json);
+  kind = static_cast<StrokeKind>(found - kNames.begin());
+}
+
 /// One gap for a whole stroke, or one per point.
 void read(const Json& json, const std::string& place, std::vector<double>& gap_mm) {
   gap_mm.assign(json.is_array() ? json.size() : 1, 0.0);
@@ -91,7 +98,7 @@ void read(const Json& json, const std::string& place, std::vector<T>& values, st
 /// The members of an object: all of `required`, and no others than those named by the calls.
 class Members {
  public:
-  Members(const Json& object, std::string place, std::initializer_list<const char*> required)
+  Members(const Json& object, std::string place, const std::vector<const char*>& required)
       : object_(object), place_(std::move(place)) {
     if (!object.is_object()) refuse(place_, "an object", object);
     for (const char* name : required)
@@ -123,16 +130,23 @@ class Members {
   std::vector<std::string> known_;
 };
 
-void read(const Json& json, const std::string& place, Stroke& stroke) {
-  Members(json, place, {"through_mm"})
-      .field("through_mm", stroke.through_mm, std::size_t{2})
-      .field("speed_mm_s", stroke.speed_mm_s, kSpeedMmS)
-      .field("passes", stroke.passes, kPasses)
-      .field("step_mm", stroke.step_mm)
-      .field("hold_s", stroke.hold_s, kHoldS)
-      .field("trim", stroke.trim)
-      .field("gap_mm", stroke.gap_mm)
-      .refuse_others();
+/// The fields that a stroke of a kind needs.
+std::vector<const char*> required_of(const Json& json, const Stroke& stroke) {
+  const char* outline = json.contains("outline_mm") ? "outline_mm" : "outline";
+  switch (stroke.kind) {
+    case StrokeKind::path:
+      return {"through_mm"};
+    case StrokeKind::shape:
+      return {outline};
+    case StrokeKind::pull:
+      return {outline, "gap_mm", "from_mm"};
+    case StrokeKind::lip:
+      return {};
+  }
+  return {};
+}
+
+void check_path(const Json& json, const std::string& place, const Stroke& stroke) {
   // A spline has no direction between equal points.
   if (std::ranges::adjacent_find(stroke.through_mm) != stroke.through_mm.end())
     throw Refusal{place + ".through_mm: expected neighbours apart, found two equal"};
@@ -140,6 +154,41 @@ void read(const Json& json, const std::string& place, Stroke& stroke) {
       json.contains("gap_mm") && json["gap_mm"].is_array() && gaps != points)
     throw Refusal{place + ".gap_mm: expected a number or an array of " + std::to_string(points) +
                   ", as many as through_mm, found an array of " + std::to_string(gaps)};
+}
+
+void check_outline(const Json& json, const std::string& place, const Stroke& stroke) {
+  const auto& outline = stroke.outline;
+  const double way = outline.back().y - outline.front().y;
+  for (std::size_t k = 1; k < outline.size(); ++k)
+    if (!((outline[k].y - outline[k - 1].y) * way > 0.0))
+      throw Refusal{place + (stroke.outline_in_mm ? ".outline_mm" : ".outline") +
+                    ": expected heights in strictly ascending or descending order, found " +
+                    Json(outline[k - 1].y).dump() + " before " + Json(outline[k].y).dump()};
+  if (stroke.kind == StrokeKind::pull && stroke.gap_mm.size() > 2)
+    throw Refusal{place + ".gap_mm: expected a number or an array of 2, found an array of " +
+                  std::to_string(json["gap_mm"].size())};
+}
+
+void read(const Json& json, const std::string& place, Stroke& stroke) {
+  if (json.is_object() && json.contains("kind")) read(json["kind"], place + ".kind", stroke.kind);
+  stroke.outline_in_mm = json.is_object() && json.contains("outline_mm");
+  Members(json, place, required_of(json, stroke))
+      .field("kind", stroke.kind)
+      .field("through_mm", stroke.through_mm, std::size_t{2})
+      .field(stroke.outline_in_mm ? "outline_mm" : "outline", stroke.outline, std::size_t{2})
+      .field("inside", stroke.inside)
+      .field("from_mm", stroke.from_mm, kHeightMm)
+      .field("ease_mm", stroke.ease_mm, kHeightMm)
+      .field("speed_mm_s", stroke.speed_mm_s, kSpeedMmS)
+      .field("passes", stroke.passes, kPasses)
+      .field("step_mm", stroke.step_mm)
+      .field("hold_s", stroke.hold_s, kHoldS)
+      .field("trim", stroke.trim)
+      .field("gap_mm", stroke.gap_mm)
+      .refuse_others();
+  if (stroke.kind == StrokeKind::path) check_path(json, place, stroke);
+  if (stroke.kind == StrokeKind::shape || stroke.kind == StrokeKind::pull)
+    check_outline(json, place, stroke);
 }
 
 void read(const Json& json, StrokeScript& script) {
@@ -154,9 +203,14 @@ void read(const Json& json, StrokeScript& script) {
 }
 
 /// Estimated maximum of the poses of a stroke, from the distances between its points; the hand's
-/// mean speed is 8/15 of its peak, and varies by a tenth.
+/// mean speed is 8/15 of its peak, and varies by a tenth. The length of a stroke that is planned on
+/// the pot is not known yet: a metre, and another between strokes.
 double poses_of(const StrokeScript& script, const Stroke& stroke) {
-  constexpr double kSlowest = 1.875 / 0.9;
+  constexpr double kSlowest = 1.875 / 0.9, kPlannedMm = 1000.0;
+  if (stroke.kind != StrokeKind::path)
+    return script.rate_hz * stroke.passes *
+           (kSlowest * kPlannedMm * (1.0 / stroke.speed_mm_s + 1.0 / script.travel_mm_s) +
+            stroke.hold_s);
   const auto shift = [&](int pass) { return static_cast<double>(pass) * stroke.step_mm; };
   double path_mm = 0.0, poses = 0.0;
   for (std::size_t k = 1; k < stroke.through_mm.size(); ++k)

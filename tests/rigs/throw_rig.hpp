@@ -36,7 +36,7 @@ inline constexpr std::uint64_t kLeadFrames = 800;
 /// The bowl's stroke, in the frame of Kinematics. Two poses per frame, because emulated frames are
 /// slow.
 inline Trajectory bowl_stroke() {
-  const std::string path = test::sample("bowl.session");
+  const std::string path = test::sample("paper/bowl.session");
   const Session session = parse_session(read_file(path).value(), path).value();
   const auto mapping = servo::Mapping::build({}).value();
   std::vector<glm::dvec3> places;
@@ -73,7 +73,7 @@ class Backend {
 class ThrowRig : public testing::Test {
  protected:
   std::string bowl_on(const std::string& device, const std::string& more) {
-    return "throw " + test::sample("bowl.scene.json") + " --device " + device +
+    return "throw " + test::sample("paper/bowl.scene.json") + " --device " + device +
            " --json --record " + folder_.file("s.session") + " -o " +
            folder_.file("live.pot.json") + " " + more;
   }
@@ -133,7 +133,7 @@ class ThrowRig : public testing::Test {
   /// The pot of the recorded session, without any device.
   std::string replayed() {
     const auto run =
-        claystack("throw -q " + test::sample("bowl.scene.json") + " -s " +
+        claystack("throw -q " + test::sample("paper/bowl.scene.json") + " -s " +
                   folder_.file("s.session") + " -o " + folder_.file("replay.pot.json"));
     EXPECT_EQ(run.status, 0) << run.err;
     return test::read_text(folder_.file("replay.pot.json"));
@@ -167,7 +167,7 @@ class ThrowRig : public testing::Test {
   /// the direction of the replayed clay's force. The magnitude is up to the guard if a loaded
   /// machine delayed the servo.
   void expect_felt(const Ran& run, const std::vector<FrameLog>& log) {
-    const std::string scene_path = test::sample("bowl.scene.json");
+    const std::string scene_path = test::sample("paper/bowl.scene.json");
     Wheel wheel =
         Wheel::build(parse_scene(test::read_text(scene_path), scene_path).value()).value();
     const std::string path = folder_.file("s.session");

@@ -1,4 +1,4 @@
-// The sample pots do not depend on the ring height or on the pose rate.
+// The pots of samples/paper do not depend on the ring height or on the pose rate.
 
 #include "app/bench/convergence_experiments.hpp"
 #include "samples/strokes/strokes.hpp"
@@ -23,9 +23,10 @@ auto parse_file(const std::string& path, Parse parse) {
 class ThrownPot : public testing::TestWithParam<const char*> {};
 
 TEST_P(ThrownPot, IsIndependentOfRingHeightAndRate) {
-  const std::string folder = CLAYSTACK_SAMPLES "/", name = GetParam();
+  const std::string folder = CLAYSTACK_SAMPLES "/paper/", name = GetParam();
   const SceneSpec scene = parse_file(folder + name + ".scene.json", parse_scene);
-  const auto poses = play(parse_file(folder + "strokes/" + name + ".strokes.json", parse_strokes));
+  const auto poses =
+      play(parse_file(folder + "strokes/" + name + ".strokes.json", parse_strokes), scene).value();
   const double percent = 100.0 / scene.lump.outer_radius_mm;
 
   const auto pot = bench::played(scene, poses);

@@ -20,7 +20,11 @@ TEST(StrokeFile, ReadsEveryField) {
           "strokes": [{"through_mm": [[1, 2], [3, 4]], "speed_mm_s": 30, "passes": 2,
                        "step_mm": [0, -1], "hold_s": 0.5, "trim": true, "gap_mm": 4.5},
                       {"through_mm": [[5, 6], [7, 8]]},
-                      {"through_mm": [[5, 6], [7, 8]], "gap_mm": [9, 3]}]})",
+                      {"through_mm": [[5, 6], [7, 8]], "gap_mm": [9, 3]},
+                      {"kind": "shape", "outline": [[40, 0.9], [30, 0.1]], "inside": true},
+                      {"kind": "pull", "outline_mm": [[40, 10], [30, 90]], "gap_mm": [6, 5],
+                       "from_mm": 15, "ease_mm": 20},
+                      {"kind": "lip"}]})",
       "pot.strokes.json");
   ASSERT_TRUE(script) << script.error().message;
   EXPECT_EQ(script->seed, 5u);
@@ -28,7 +32,7 @@ TEST(StrokeFile, ReadsEveryField) {
   EXPECT_EQ(script->tremor_mm, 0.1);
   EXPECT_EQ(script->travel_mm_s, 250.0);
   EXPECT_EQ(script->start_mm, glm::dvec2(90.0, 120.0));
-  ASSERT_EQ(script->strokes.size(), 3u);
+  ASSERT_EQ(script->strokes.size(), 6u);
   const Stroke& stroke = script->strokes[0];
   EXPECT_EQ(stroke.through_mm, (std::vector<glm::dvec2>{{1.0, 2.0}, {3.0, 4.0}}));
   EXPECT_EQ(stroke.speed_mm_s, 30.0);
@@ -40,6 +44,19 @@ TEST(StrokeFile, ReadsEveryField) {
   EXPECT_EQ(script->strokes[1].passes, 1);
   EXPECT_TRUE(script->strokes[1].gap_mm.empty());
   EXPECT_EQ(script->strokes[2].gap_mm, (std::vector<double>{9.0, 3.0}));
+  EXPECT_EQ(script->strokes[2].kind, StrokeKind::path);
+  const Stroke& shape = script->strokes[3];
+  EXPECT_EQ(shape.kind, StrokeKind::shape);
+  EXPECT_EQ(shape.outline, (std::vector<glm::dvec2>{{40.0, 0.9}, {30.0, 0.1}}));
+  EXPECT_FALSE(shape.outline_in_mm);
+  EXPECT_TRUE(shape.inside);
+  const Stroke& pull = script->strokes[4];
+  EXPECT_EQ(pull.kind, StrokeKind::pull);
+  EXPECT_TRUE(pull.outline_in_mm);
+  EXPECT_EQ(pull.gap_mm, (std::vector<double>{6.0, 5.0}));
+  EXPECT_EQ(pull.from_mm, 15.0);
+  EXPECT_EQ(pull.ease_mm, 20.0);
+  EXPECT_EQ(script->strokes[5].kind, StrokeKind::lip);
 }
 
 TEST(StrokeFile, ErrorsNameFieldAndPlace) {
@@ -79,6 +96,20 @@ TEST(StrokeFile, ErrorsNameFieldAndPlace) {
   EXPECT_EQ(with(R"({"through_mm": [[1, 2], [3, 4], [5, 6]], "gap_mm": [5, 1]})"),
             "pot.strokes.json: strokes[1].gap_mm: expected a number or an array of 3, as many as "
             "through_mm, found an array of 2");
+  EXPECT_EQ(
+      with(R"({"kind": "press"})"),
+      R"(pot.strokes.json: strokes[1].kind: expected path, shape, pull or lip, found "press")");
+  EXPECT_EQ(with(R"({"kind": "shape"})"),
+            "pot.strokes.json: strokes[1].outline: expected a field, found none");
+  EXPECT_EQ(with(R"({"kind": "pull", "outline": [[4, 0], [4, 1]], "gap_mm": 5})"),
+            "pot.strokes.json: strokes[1].from_mm: expected a field, found none");
+  EXPECT_EQ(with(R"({"kind": "shape", "outline_mm": [[4, 1], [5, 3], [6, 3]]})"),
+            "pot.strokes.json: strokes[1].outline_mm: expected heights in strictly ascending or "
+            "descending order, found 3.0 before 3.0");
+  EXPECT_EQ(with(R"({"kind": "pull", "outline": [[4, 0], [4, 1]], "gap_mm": [5, 4, 3],
+                     "from_mm": 9})"),
+            "pot.strokes.json: strokes[1].gap_mm: expected a number or an array of 2, found an "
+            "array of 3");
   EXPECT_EQ(with("7"), "pot.strokes.json: strokes[1]: expected an object, found 7");
 }
 

@@ -17,6 +17,14 @@
 namespace clay::samples {
 namespace {
 
+/// On a lump that the strokes of these tests may touch or not: their poses do not depend on it.
+std::vector<Pose> play(const StrokeScript& script) {
+  SceneSpec scene;
+  scene.lump = {.rings = 10, .ring_height_mm = 1.0, .outer_radius_mm = 5.0};
+  scene.tool.gap_mm = 4.0;
+  return samples::play(script, scene).value();
+}
+
 /// One stroke that begins at the hand's start; without tremor unless set.
 StrokeScript script_through(std::vector<glm::dvec2> through_mm, double tremor_mm = 0.0) {
   StrokeScript script;

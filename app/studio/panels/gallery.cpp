@@ -1,6 +1,7 @@
 // The first screen: a sample, a custom lump, a file, or an unsaved work.
 
 #include "app/studio/commands.hpp"
+#include "app/studio/new_scene.hpp"
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/panels/widgets.hpp"
 #include "app/studio/samples.hpp"

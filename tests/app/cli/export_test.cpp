@@ -116,13 +116,13 @@ TEST_P(ExportedSample, PassesItsOwnCheckInEveryFormat) {
 TEST(ExportCylinder, IsCertifiedAndNowhereMuchThinnerThanItsGap) {
   const ScratchFolder folder;
   const std::string pot = folder.file("c.pot.json"), stl = folder.file("c.stl");
-  const std::string thinnest = " --min-wall 3.6 ";  // the gap of 4 mm less 10 %
+  const std::string thinnest = " --min-wall 4.05 ";  // the gap of 4.5 mm less 10 %
   ASSERT_EQ(claystack("throw -q " + sample("cylinder.scene.json") + " -o " + pot).status, 0);
   ASSERT_EQ(claystack("export -q" + thinnest + "--certificate " + pot + " " + stl).status, 0);
   EXPECT_EQ(claystack("check -q" + thinnest + pot).status, 0);
   EXPECT_EQ(claystack("check -q" + thinnest + stl).status, 0);
   EXPECT_EQ(claystack("check -q --certificate " + stl + ".certificate.json " + stl).status, 0);
-  EXPECT_EQ(claystack("check -q --min-wall 4.4 " + pot).status, 1);
+  EXPECT_EQ(claystack("check -q --min-wall 5.0 " + pot).status, 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Export, ExportedSample,

@@ -28,7 +28,7 @@ class InATerminal {
   explicit InATerminal(const ScratchFolder& folder) : folder_(folder) {
     EXPECT_EQ(openpty(&ours_, &theirs_, nullptr, nullptr, nullptr), 0);
     EXPECT_EQ(tcgetattr(theirs_, &before_), 0);
-    const std::string scene = sample("bowl.scene.json"), session = folder.file("s.session"),
+    const std::string scene = sample("paper/bowl.scene.json"), session = folder.file("s.session"),
                       pot = folder.file("a.pot.json");
     program_ = fork();
     if (program_ == 0) {
@@ -125,7 +125,7 @@ TEST(LiveKeys, KeysPauseReleaseRearmAndQuit) {
   EXPECT_EQ(terminal.modes(), terminal.modes_before());
   // The clay does not move during a pause: a gap in time, but no poses in the record.
   EXPECT_GT(terminal.poses().size(), paused);
-  EXPECT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -s " + folder.file("s.session") +
+  EXPECT_EQ(claystack("throw -q " + sample("paper/bowl.scene.json") + " -s " + folder.file("s.session") +
                       " -o " + folder.file("b.pot.json"))
                 .status,
             0);
@@ -150,7 +150,7 @@ TEST(LiveKeys, KeepsPotAndSessionWhenTheTerminalCloses) {
   ASSERT_TRUE(terminal.shows("force ramps up"));
   terminal.hang_up();
   EXPECT_EQ(terminal.wait(), 3) << "its summary could not be printed";
-  EXPECT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -s " + folder.file("s.session") +
+  EXPECT_EQ(claystack("throw -q " + sample("paper/bowl.scene.json") + " -s " + folder.file("s.session") +
                       " -o " + folder.file("b.pot.json"))
                 .status,
             0);

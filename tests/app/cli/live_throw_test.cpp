@@ -10,7 +10,7 @@
 namespace clay::test {
 namespace {
 
-const std::string kBowl = "throw " + sample("bowl.scene.json");
+const std::string kBowl = "throw " + sample("paper/bowl.scene.json");
 
 /// Starts `throw --device simulated` with additional options, runs `then` when its recording in
 /// `folder` holds some blocks, and waits for its end. Returns the program's exit status, or 124 if
@@ -47,7 +47,7 @@ std::string only_file_in(const std::string& folder) {
 
 TEST(LiveThrow, RunsWithoutHardwareAndReplaysToTheSameBytes) {
   const ScratchFolder folder;
-  const auto run = claystack("throw " + sample("bowl.scene.json") +
+  const auto run = claystack("throw " + sample("paper/bowl.scene.json") +
                              " --device simulated --seconds 1.5 --json --record " +
                              folder.file("s.session") + " -o " + folder.file("a.pot.json"));
   ASSERT_EQ(run.status, 0) << run.err;
@@ -164,7 +164,7 @@ TEST(LiveThrow, KeepsThePotWhenStdoutCloses) {
 
 TEST(LiveThrow, RefusesAStiffSceneUnlessSoftened) {
   const ScratchFolder folder;
-  auto scene = nlohmann::json::parse(read_text(sample("bowl.scene.json")));
+  auto scene = nlohmann::json::parse(read_text(sample("paper/bowl.scene.json")));
   scene["force"]["stiffness_n_per_mm2"] = 0.2;
   const std::string path = folder.file("stiff.scene.json");
   write_text(path, scene.dump());
@@ -185,7 +185,7 @@ TEST(LiveThrow, RefusesAStiffSceneUnlessSoftened) {
 }
 
 TEST(LiveThrow, ReportsUnsupportedRequests) {
-  const std::string live = "throw " + sample("bowl.scene.json") + " --device ";
+  const std::string live = "throw " + sample("paper/bowl.scene.json") + " --device ";
   EXPECT_EQ(claystack(live + "hand").status, 2);
   EXPECT_EQ(claystack(live + "simulated --rate 50").status, 2);
   EXPECT_EQ(claystack(live + "simulated --flip w").status, 2);

@@ -114,7 +114,7 @@ TEST_F(PotCopy, RefusesUnroundablePotsAndWritesNothing) {
 TEST(PotCopyCollapsed, IsCopiedAndRounded) {
   const ScratchFolder folder;
   const std::string pot = folder.file("c.pot.json"), copy = folder.file("d.pot.json");
-  ASSERT_EQ(claystack("throw -q " + sample("collapse.scene.json") + " -o " + pot).status, 0);
+  ASSERT_EQ(claystack("throw -q " + sample("paper/collapse.scene.json") + " -o " + pot).status, 0);
   ASSERT_EQ(claystack("export -q --precision 0.001 " + pot + " " + copy).status, 0);
   const auto before = nlohmann::json::parse(read_text(pot));
   const auto after = nlohmann::json::parse(read_text(copy));

@@ -70,12 +70,12 @@ TEST(Render, ShowsTheLumpOfAScene) {
 
 TEST(Render, PrintsTheMappedWalls) {
   const ScratchFolder folder;
-  const Ran run = claystack("render --json " + vase() + " --size 64x64 --min-wall 4.5 -o " +
+  const Ran run = claystack("render --json " + vase() + " --size 64x64 --min-wall 5.5 -o " +
                             folder.file("v.png"));
   ASSERT_EQ(run.status, 0) << run.err;
   const auto map = run.json().at("wall_map");
-  EXPECT_DOUBLE_EQ(map.at("limit_mm").get<double>(), 4.5);
-  const Ran checked = claystack("check --json --min-wall 4.5 " + vase());
+  EXPECT_DOUBLE_EQ(map.at("limit_mm").get<double>(), 5.5);
+  const Ran checked = claystack("check --json --min-wall 5.5 " + vase());
   EXPECT_EQ(checked.status, 1);
   EXPECT_NEAR(map.at("thinnest_mm").get<double>(), checked.json().at("min_wall_mm").get<double>(),
               1e-9);

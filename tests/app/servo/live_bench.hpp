@@ -30,13 +30,13 @@ class LineClock final : public Clock {
 
 inline SceneSpec sample_scene(const std::string& name) {
   const std::string path =
-      std::string(CLAYSTACK_SAMPLES).append("/").append(name).append(".scene.json");
+      std::string(CLAYSTACK_SAMPLES).append("/paper/").append(name).append(".scene.json");
   return parse_scene(read_file(path).value(), path).value();
 }
 
 inline std::vector<Pose> sample_stroke(const std::string& name) {
   const std::string path =
-      std::string(CLAYSTACK_SAMPLES).append("/").append(name).append(".session");
+      std::string(CLAYSTACK_SAMPLES).append("/paper/").append(name).append(".session");
   return parse_session(read_file(path).value(), path).value().poses;
 }
 

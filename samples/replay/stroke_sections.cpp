@@ -1,0 +1,112 @@
+// stroke_sections WORK OUT.svg NODE...: sections of the pots after these strokes of a work, above
+// as thrown without the clay rules, below by the same strokes with them.
+
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
+#include "samples/replay/recorded_strokes.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace clay;
+
+constexpr double kHalfWidthMm = 110.0, kHeightMm = 160.0, kTitleMm = 12.0, kFootMm = 10.0;
+constexpr double kPixelsPerMm = 1.2;
+
+/// A number with one decimal place, without the locale.
+std::string number(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, 1).ptr;
+  return {text, end};
+}
+
+void add_half(std::string& svg, const ClayStack& stack, double axis, double ground, double side) {
+  const auto rings = stack.rings();
+  const double h = stack.ring_height_mm();
+  const auto point = [&](double radius, double up) {
+    svg += number(axis + side * std::min(radius, kHalfWidthMm)) + ',' + number(ground - up) + ' ';
+  };
+  svg += "<path d=\"M";
+  point(0.0, 0.0);
+  for (std::size_t i = 0; i < rings.size(); ++i)
+    for (const double part : {0.0, 1.0})
+      point(rings[i].outer_mm(), (static_cast<double>(i) + part) * h);
+  for (std::size_t i = rings.size(); i-- > 0;)
+    for (const double part : {1.0, 0.0})
+      point(rings[i].inner_mm(), (static_cast<double>(i) + part) * h);
+  svg += "z\"/>\n";
+}
+
+void add_row(std::string& svg, const std::vector<Pot>& pots, const std::vector<std::size_t>& nodes,
+             const std::string& rules, double ground) {
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const double axis = kHalfWidthMm * (2.0 * static_cast<double>(k) + 1.0);
+    for (const double side : {-1.0, 1.0}) add_half(svg, pots[nodes[k]].stack, axis, ground, side);
+    svg += "<text x=\"" + number(axis) + "\" y=\"" + number(ground - kHeightMm - 3.0) +
+           "\">stroke " + std::to_string(nodes[k]) + ", " + rules + "</text>\n";
+  }
+}
+
+std::string drawing(const std::vector<Pot>& plain, const std::vector<Pot>& ruled,
+                    const std::vector<std::size_t>& nodes) {
+  const double width = 2.0 * kHalfWidthMm * static_cast<double>(nodes.size());
+  const double row = kTitleMm + kHeightMm + kFootMm;
+  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" +
+                    number(kPixelsPerMm * width) + "\" height=\"" +
+                    number(kPixelsPerMm * 2.0 * row) + "\" viewBox=\"0 0 " + number(width) + ' ' +
+                    number(2.0 * row) +
+                    "\">\n<style>path{fill:#c48a63;stroke:none}text{font:8px sans-serif;"
+                    "text-anchor:middle;fill:#333}</style>\n<rect width=\"100%\" height=\"100%\" "
+                    "fill=\"#fff\"/>\n";
+  add_row(svg, plain, nodes, "no rules", kTitleMm + kHeightMm);
+  add_row(svg, ruled, nodes, "clay rules", row + kTitleMm + kHeightMm);
+  return svg + "</svg>\n";
+}
+
+Result<void> draw(const char* work_path, const char* out_path,
+                  const std::vector<std::size_t>& nodes) {
+  const auto read = read_file(work_path).and_then(
+      [&](const std::string& text) { return parse_work(text, work_path); });
+  if (!read) return tl::make_unexpected(read.error());
+  for (const std::size_t node : nodes)
+    if (node >= read->work.nodes.size())
+      return failure(ErrorKind::bad_input, std::string(work_path) + ": expected a node from 0 to " +
+                                               std::to_string(read->work.nodes.size() - 1) +
+                                               ", found " + std::to_string(node));
+  const auto plain = samples::thrown_again(read->work, std::nullopt);
+  if (!plain) return tl::make_unexpected(plain.error());
+  const auto ruled = samples::thrown_again(read->work, ClaySpec{});
+  if (!ruled) return tl::make_unexpected(ruled.error());
+  return publish(out_path, drawing(*plain, *ruled, nodes));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<std::size_t> nodes;
+  for (int k = 3; k < argc; ++k) {
+    const char* end = argv[k] + std::strlen(argv[k]);
+    std::size_t node = 0;
+    if (const auto [stop, problem] = std::from_chars(argv[k], end, node);
+        problem != std::errc() || stop != end) {
+      nodes.clear();
+      break;
+    }
+    nodes.push_back(node);
+  }
+  if (nodes.empty()) {
+    std::fputs("usage: stroke_sections NAME.work OUT.svg NODE...\n", stderr);
+    return 2;
+  }
+  if (const auto done = draw(argv[1], argv[2], nodes); !done) {
+    std::fprintf(stderr, "stroke_sections: %s\n", done.error().message.c_str());
+    return done.error().kind == ErrorKind::io ? 3 : 2;
+  }
+  return 0;
+}

@@ -1,0 +1,62 @@
+#pragma once
+// A hand that moves a tool over a wheel, and records its poses.
+
+#include "claystack/engine/wheel.hpp"
+#include "samples/strokes/strokes.hpp"
+
+#include <glm/vec2.hpp>
+
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace clay::samples {
+
+/// A point of the hand's path, and the gap of its tools.
+struct Place {
+  glm::dvec2 at{0.0};
+  double gap_mm = 0.0;
+};
+using Path = std::vector<Place>;
+
+/// A centripetal Catmull-Rom spline by Barry and Goldman's pyramid (SIGGRAPH 1988): unlike the
+/// uniform one it does not overshoot where long and short spans meet. Gaps are interpolated
+/// linearly, because a curve would undershoot the given values.
+[[nodiscard]] Path spline(const Path& through);
+
+/// Band-limited noise of unit root mean square: a resonator at 9 Hz driven by white noise.
+class Tremor {
+ public:
+  explicit Tremor(double rate_hz);
+  double next(std::mt19937_64& random);
+
+ private:
+  double a1_ = 0.0, a2_ = 0.0, gain_ = 1.0, y1_ = 0.0, y2_ = 0.0;
+};
+
+class Hand {
+ public:
+  Hand(const StrokeScript& script, Wheel wheel);
+
+  /// Moves along a path in minimum-jerk time (Flash and Hogan, J. Neurosci. 5(7) 1985), with a peak
+  /// speed of 15/8 of the mean.
+  void move(const Path& path, double speed_mm_s, bool trim);
+  void hold(double seconds, bool trim);
+  /// One pose.
+  void emit(const Place& place, bool trim);
+
+  [[nodiscard]] const Place& here() const { return here_; }
+  [[nodiscard]] const Wheel& wheel() const { return wheel_; }
+  [[nodiscard]] const StrokeScript& script() const { return script_; }
+  std::vector<Pose> take() { return std::move(poses_); }
+
+ private:
+  const StrokeScript& script_;
+  Wheel wheel_;
+  std::mt19937_64 random_;
+  Place here_;
+  Tremor radial_, vertical_, sideways_;
+  std::vector<Pose> poses_;
+};
+
+}  // namespace clay::samples
