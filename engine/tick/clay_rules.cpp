@@ -30,11 +30,11 @@ struct Pinched {
 
 /// Until both tools push back alike: the overlap with both loses energy all the way. A wall that
 /// is pushed in by u keeps its clay, so its inner surface moves by u R / r.
-Pinched pinched(const RulePress& press, const ClayStack& stack, std::span<const ToolRemoval> bites,
-                std::size_t i) noexcept {
+Pinched pinched(const RulePress& press, const ClayStack& stack,
+                std::span<const ToolRemoval> removals, std::size_t i) noexcept {
   double depth[2];
   for (std::size_t side = 0; side < 2; ++side) {
-    const Contact& contact = bites[side].contact;
+    const Contact& contact = removals[side].contact;
     depth[side] = contact.rings.get(i).depth_mm;
     if (!(depth[side] > 0.0))
       depth[side] = signed_depth(press.plan.tool, stack, press.tool.hip_mm.y, i, contact);
@@ -51,18 +51,18 @@ Pinched pinched(const RulePress& press, const ClayStack& stack, std::span<const 
 }
 
 /// The ring that one of two tools would have to push over most, its band in both contacts.
-bool find_push(const RulePress& press, const ClayStack& stack, std::span<const ToolRemoval> bites,
-               Band& band, bool& outward) noexcept {
+bool find_push(const RulePress& press, const ClayStack& stack,
+               std::span<const ToolRemoval> removals, Band& band, bool& outward) noexcept {
   band.give_mm = 0.0;
   Peak peak;
   for (const bool from_outside : {true, false}) {
-    const TouchedRings& rings = bites[from_outside ? 0 : 1].contact.rings;
+    const TouchedRings& rings = removals[from_outside ? 0 : 1].contact.rings;
     Peak side;
     double most = 0.0;
     for (std::size_t i = rings.from(); i < rings.to(); ++i) {
       const double give = rings.give(i);
       if (!(give > 0.0) || stack.rings()[i].inner2 == 0) continue;
-      const Pinched ring = pinched(press, stack, bites, i);
+      const Pinched ring = pinched(press, stack, removals, i);
       const double push = std::min(give, from_outside ? ring.inward_mm : ring.outward_mm);
       if (!(push > 0.0)) continue;
       most = std::max(most, push);
@@ -78,17 +78,17 @@ bool find_push(const RulePress& press, const ClayStack& stack, std::span<const T
 }
 
 /// A wall that one of two tools is deeper in is pushed over to the other, never past the middle.
-void centre(const RulePress& press, const ClayStack& stack, std::span<ToolRemoval> bites, bool hoop,
-            RuleWork& work) noexcept {
+void centre(const RulePress& press, const ClayStack& stack, std::span<ToolRemoval> removals,
+            bool hoop, RuleWork& work) noexcept {
   Band band;
   band.low_mm = 1e300;
   for (std::size_t side = 0; side < 2; ++side) {
-    if (bites[side].contact.rings.empty()) continue;
+    if (removals[side].contact.rings.empty()) continue;
     band.low_mm = std::min(band.low_mm, work.bands[side].low_mm);
     band.high_mm = std::max(band.high_mm, work.bands[side].high_mm);
   }
   bool outward = false;
-  if (!find_push(press, stack, bites, band, outward)) return;
+  if (!find_push(press, stack, removals, band, outward)) return;
   const double min_wall = press.plan.removal.min_wall_mm;
   // Where two tools hold the wall, it is not their way that bends it.
   const Shell shell = shell_at(stack, band, min_wall, 0.0, 0.0);
@@ -96,13 +96,13 @@ void centre(const RulePress& press, const ClayStack& stack, std::span<ToolRemova
   work.shift.lay(stack, band, shell, {outward, hoop, min_wall},
                  [&](std::size_t first, std::span<double> by) {
                    for (std::size_t k = 0; k < by.size(); ++k) {
-                     const Pinched ring = pinched(press, stack, bites, first + k);
+                     const Pinched ring = pinched(press, stack, removals, first + k);
                      if (!ring.beside) continue;
                      by[k] = std::min(by[k], outward ? ring.outward_mm : ring.inward_mm);
                    }
                  });
   for (std::size_t k = 0; k < 2; ++k) {
-    TouchedRings& rings = bites[k].contact.rings;
+    TouchedRings& rings = removals[k].contact.rings;
     for (std::size_t i = rings.from(); i < rings.to(); ++i) {
       double& depth = rings.depth(i);
       if (!(depth > 0.0)) continue;
@@ -120,9 +120,9 @@ constexpr bool kTwoToolBand = (rules & (kShift | kSmear)) != 0 || !(rules & kLif
 
 /// Rings that the flow may change.
 template <unsigned rules>
-void reach_of(const RulePress& press, const ClayStack& stack, std::span<const ToolRemoval> bites,
+void reach_of(const RulePress& press, const ClayStack& stack, std::span<const ToolRemoval> removals,
               RuleWork& work) noexcept {
-  const Contact& contact = bites.front().contact;
+  const Contact& contact = removals.front().contact;
   const std::size_t top = stack.size() - 1;
   work.lowest = contact.bottom;
   work.highest = contact.top;
@@ -138,10 +138,10 @@ void reach_of(const RulePress& press, const ClayStack& stack, std::span<const To
     work.lowest = std::min(work.lowest, work.shift.from());
     work.highest = std::max(work.highest, work.shift.to() - 1);
   }
-  const bool lifts = (rules & kLift) && bites.size() == 2;
-  for (std::size_t k = 0; k < bites.size(); ++k) {
+  const bool lifts = (rules & kLift) && removals.size() == 2;
+  for (std::size_t k = 0; k < removals.size(); ++k) {
     const Band& band = work.bands[k];
-    if (bites[k].contact.rings.empty()) continue;
+    if (removals[k].contact.rings.empty()) continue;
     const double c = band.height_mm();
     if constexpr (rules & kSmear) widen(band.low_mm - c, band.high_mm + c);
     if constexpr (rules & kHeave) {
@@ -157,7 +157,7 @@ void reach_of(const RulePress& press, const ClayStack& stack, std::span<const To
 }
 
 template <unsigned rules>
-void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRemoval> bites,
+void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRemoval> removals,
                 RuleWork& work) noexcept {
   const StepPlan& plan = press.plan;
   const double hip_y = press.tool.hip_mm.y, dt_s = press.tool.dt_s;
@@ -165,20 +165,20 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
   constexpr bool hoop = (rules & kHoop) != 0;
   work.shift.clear();
   const Squeeze squeeze{min_wall, plan.clay.floor_rings, (rules & kShift) ? &work.shift : nullptr};
-  const bool two = bites.size() == 2;
+  const bool two = removals.size() == 2;
   if (!two || kTwoToolBand<rules>)
-    for (std::size_t k = 0; k < bites.size(); ++k) {
-      Contact& contact = bites[k].contact;
+    for (std::size_t k = 0; k < removals.size(); ++k) {
+      Contact& contact = removals[k].contact;
       if (contact.rings.empty()) continue;
       give_way(plan.removal, stack, dt_s, contact);
       if (two || kOneToolBand<rules>) work.bands[k] = band_of(plan.tool, stack, hip_y, contact);
     }
   if (two) {
-    if ((rules & kShift) && !press.trim) centre(press, stack, bites, hoop, work);
-    compute_pinch_removal<Model::conserving>(plan.removal, stack, press.tool.gap_mm, dt_s, bites[0],
-                                             bites[1], &squeeze);
+    if ((rules & kShift) && !press.trim) centre(press, stack, removals, hoop, work);
+    compute_pinch_removal<Model::conserving>(plan.removal, stack, press.tool.gap_mm, dt_s,
+                                             removals[0], removals[1], &squeeze);
   } else {
-    Contact& contact = bites[0].contact;
+    Contact& contact = removals[0].contact;
     if ((rules & kShift) && !press.trim) {
       const Band& band = work.bands[0];
       const Shell shell = shell_at(stack, band, min_wall, press.motion.upward_mm_s,
@@ -193,9 +193,9 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
                            by[i - first] = std::max(by[i - first], shell.share * rings.give(i));
                        });
     }
-    squeeze_out(squeeze, stack, contact, bites[0].removed);
+    squeeze_out(squeeze, stack, contact, removals[0].removed);
   }
-  reach_of<rules>(press, stack, bites, work);
+  reach_of<rules>(press, stack, removals, work);
 }
 
 /// The part of an amount that flows up, continuous in the speed.
@@ -207,11 +207,11 @@ WideQuanta upward_part(WideQuanta amount, const Motion& motion) noexcept {
 
 /// Lays what one tool squeezed aside beside it. Returns what becomes height.
 template <unsigned rules>
-WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> bites,
+WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removals,
                     const RuleWork& work, WideQuanta amount, ClayStack& stack, Rim* rim) noexcept {
   const StepPlan& plan = press.plan;
-  const std::size_t at = bites[0].contact.rings.empty() ? bites.size() - 1 : 0;
-  const Contact& contact = bites[at].contact;
+  const std::size_t at = removals[0].contact.rings.empty() ? removals.size() - 1 : 0;
+  const Contact& contact = removals[at].contact;
   const auto flow = [&](WideQuanta part, bool up) {
     if (part == 0) return part;
     if constexpr (rules & kHeave) {
@@ -228,7 +228,7 @@ WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> bites,
       }
       return rest;
     } else {
-      return flow_by_kernel(plan, part, up, bites.front().contact, rim, stack);
+      return flow_by_kernel(plan, part, up, removals.front().contact, rim, stack);
     }
   };
   const WideQuanta up = upward_part(amount, press.motion);
@@ -236,7 +236,7 @@ WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> bites,
 }
 
 template <unsigned rules>
-Flow move_clay(const RulePress& press, std::span<const ToolRemoval> bites, const RuleWork& work,
+Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, const RuleWork& work,
                ClayStack& stack, Ledger& ledger, Rim& all_rim) noexcept {
   const StepPlan& plan = press.plan;
   Rim* const rim = (rules & kRim) ? nullptr : &all_rim;
@@ -246,18 +246,18 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> bites, const
                 work.shift.raised());
     writer.put_on_crown(work.shift.raised());
   }
-  const WideQuanta removed = take_bites(bites, stack, rim);
+  const WideQuanta removed = remove_clay(removals, stack, rim);
   if (press.trim)
     ledger.trimmed += removed;
-  else if ((rules & kLift) && bites.size() == 2)
+  else if ((rules & kLift) && removals.size() == 2)
     writer.put_on_crown(removed);
   else
-    writer.put_on_crown(displace<rules>(press, bites, work, removed, stack, rim));
+    writer.put_on_crown(displace<rules>(press, removals, work, removed, stack, rim));
   if constexpr (rules & kSmear)
     if (!press.trim)
-      for (std::size_t k = 0; k < bites.size(); ++k)
-        if (!bites[k].contact.rings.empty())
-          smear(plan.tool, stack, press.tool.hip_mm.y, press.tool.dt_s, bites[k].contact,
+      for (std::size_t k = 0; k < removals.size(); ++k)
+        if (!removals[k].contact.rings.empty())
+          smear(plan.tool, stack, press.tool.hip_mm.y, press.tool.dt_s, removals[k].contact,
                 work.bands[k],
                 {plan.clay.surface_per_s, plan.removal.yield_depth_mm, plan.removal.min_wall_mm},
                 writer);
@@ -267,27 +267,27 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> bites, const
   if (stack.crown() < 0)
     sink_rim(flow, stack, writer);
   else
-    grow_rim(flow, plan.tool, press.tool.hip_mm.y, bites, stack, rim, writer);
+    grow_rim(flow, plan.tool, press.tool.hip_mm.y, removals, stack, rim, writer);
   return flow;
 }
 
-void yield_to_sponge(const RulePress& press, const ClayStack& stack, std::span<ToolRemoval> bites,
-                     RuleWork& work) noexcept {
+void yield_to_sponge(const RulePress& press, const ClayStack& stack,
+                     std::span<ToolRemoval> removals, RuleWork& work) noexcept {
   work.shift.clear();
-  Contact& contact = bites[0].contact;
-  bites[0].removed.assign(contact.rings.size(), 0);
+  Contact& contact = removals[0].contact;
+  removals[0].removed.assign(contact.rings.size(), 0);
   contact.rings.each_slice([](const TouchedRings::Slice& slice) {
     for (std::size_t k = slice.begin; k < slice.end; ++k) slice.rows.give[k] = 0.0;
   });
   work.bands[0] = band_of(press.plan.tool, stack, press.tool.hip_mm.y, contact);
-  reach_of<kSmear | kLift>(press, stack, bites, work);
+  reach_of<kSmear | kLift>(press, stack, removals, work);
 }
 
-Flow smooth_clay(const RulePress& press, std::span<const ToolRemoval> bites, const RuleWork& work,
-                 ClayStack& stack, Ledger&, Rim&) noexcept {
+Flow smooth_clay(const RulePress& press, std::span<const ToolRemoval> removals,
+                 const RuleWork& work, ClayStack& stack, Ledger&, Rim&) noexcept {
   const StepPlan& plan = press.plan;
   StackWriter writer(stack);
-  smear(plan.tool, stack, press.tool.hip_mm.y, press.tool.dt_s, bites[0].contact, work.bands[0],
+  smear(plan.tool, stack, press.tool.hip_mm.y, press.tool.dt_s, removals[0].contact, work.bands[0],
         {plan.clay.surface_per_s, plan.removal.yield_depth_mm, plan.removal.min_wall_mm, true},
         writer);
   Flow flow;

@@ -19,7 +19,7 @@ namespace clay {
 /// The tool's mean motion goes on by a tick.
 void follow(Motion& motion, const ToolState& tool) noexcept;
 
-/// What the stages of one part of a tick leave to each other. Storage is reserved once.
+/// Data that the stages of one part of a tick pass on. Storage is reserved once.
 struct RuleWork {
   Shift shift;
   std::array<Band, 2> bands;            ///< of each tool
@@ -38,8 +38,8 @@ struct RulePress {
 
 /// The two stages for a set of rules. A rule that is off is not in their code.
 struct RuleSteps {
-  /// How far the clay gives way, and what of that the wall does by moving; leaves to the contacts
-  /// the depths that are left. Writes no clay.
+  /// How far the clay gives way, and how much of that is a motion of the wall. Sets the depths of
+  /// the contacts to what remains. Writes no clay.
   void (*yield)(const RulePress&, const ClayStack&, std::span<ToolRemoval>,
                 RuleWork&) noexcept = nullptr;
   /// Moves the clay.

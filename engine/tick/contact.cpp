@@ -55,7 +55,7 @@ bool meet(const Profile& profile, const Tool& tool, const Ring& ring, double mid
   return true;
 }
 
-/// A ring at an end of the tool, or the crown, as far as the tool covers it. Says whether it
+/// A ring at an end of the tool, or the crown, as far as the tool covers it. Returns whether it
 /// touches.
 template <class Profile>
 bool meet_part(const Profile& profile, const Tool& tool, const ClayStack& stack, double middle,

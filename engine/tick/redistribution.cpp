@@ -17,10 +17,10 @@ constexpr std::size_t kMostGrowthPerTick = 64;
 // Of a rim's thickness over its height.
 constexpr double kTaper = 0.5;
 
-WideQuanta take(std::span<const ToolRemoval> bites, ClayStack& stack) noexcept {
+WideQuanta take(std::span<const ToolRemoval> removals, ClayStack& stack) noexcept {
   StackWriter writer(stack);
   WideQuanta total = 0;
-  for (const auto& [contact, removed] : bites) {
+  for (const auto& [contact, removed] : removals) {
     for (std::size_t k = 0; k < removed.size(); ++k) {
       if (contact.side == Side::compressive)
         writer.take_outside(contact.rings.from() + k, removed[k]);
@@ -53,22 +53,23 @@ Amount place(std::size_t ring, Amount inside, Amount outside, StackWriter& write
 /// Gives `count` rings their shares, the j-th of them being ring_of(j). Returns what is left over.
 /// With a rim the last of them is the top ring: the rim notes what one above would have got more.
 template <class Amount, class RingOf>
-Amount deal(const RayleighKernel& kernel, double offset, Amount clay_inside, Amount clay_outside,
-            std::size_t count, RingOf ring_of, Rim* rim, ClayStack& stack) noexcept {
+Amount distribute(const RayleighKernel& kernel, double offset, Amount clay_inside,
+                  Amount clay_outside, std::size_t count, RingOf ring_of, Rim* rim,
+                  ClayStack& stack) noexcept {
   StackWriter writer(stack);
   Amount rest = clay_inside + clay_outside;
-  RayleighKernel::ShareCursor dealer(kernel, offset);
+  RayleighKernel::ShareCursor cursor(kernel, offset);
   RayleighKernel::Shares<Amount> insides(clay_inside), outsides(clay_outside);
   Amount inside = 0, outside = 0;
   for (std::size_t j = 1; j <= count; ++j) {
-    const std::int64_t part = dealer.next();
+    const std::int64_t part = cursor.next();
     inside = clay_inside > 0 ? insides.next(part) : 0;
     outside = outsides.next(part);
     rest -= place(ring_of(j), inside, outside, writer);
   }
   writer.gain(clay_inside + clay_outside - rest);
   if (rim != nullptr && count > 0) {
-    const std::int64_t part = dealer.next();
+    const std::int64_t part = cursor.next();
     rim->inside += insides.next(part) - inside;
     rim->outside += outsides.next(part) - outside;
   }
@@ -80,9 +81,9 @@ template <class RingOf>
 WideQuanta spread(const RayleighKernel& kernel, double offset, Split clay, std::size_t count,
                   RingOf ring_of, Rim* rim, ClayStack& stack) noexcept {
   if (clay.inside + clay.outside <= std::numeric_limits<Quanta>::max())
-    return deal(kernel, offset, static_cast<Quanta>(clay.inside), static_cast<Quanta>(clay.outside),
-                count, ring_of, rim, stack);
-  return deal(kernel, offset, clay.inside, clay.outside, count, ring_of, rim, stack);
+    return distribute(kernel, offset, static_cast<Quanta>(clay.inside),
+                      static_cast<Quanta>(clay.outside), count, ring_of, rim, stack);
+  return distribute(kernel, offset, clay.inside, clay.outside, count, ring_of, rim, stack);
 }
 
 /// Equations (5), (6): rings top+1 .. min(top+L1, N).
@@ -103,9 +104,9 @@ WideQuanta flow_down(const RayleighKernel& kernel, Split clay, const Contact& co
 }
 
 /// A tool presses the crown with the top ring, and so makes both alike.
-void level(Rim* rim, std::span<const ToolRemoval> bites, std::size_t count) noexcept {
+void level(Rim* rim, std::span<const ToolRemoval> removals, std::size_t count) noexcept {
   if (rim == nullptr) return;
-  for (const auto& [contact, removed] : bites)
+  for (const auto& [contact, removed] : removals)
     if (!contact.rings.empty() && contact.rings.to() == count)
       (contact.side == Side::compressive ? rim->outside : rim->inside) = 0;
 }
@@ -132,7 +133,7 @@ template <Model model, class NextRing>
 void grow(Flow& flow, ClayStack& stack, Ledger& ledger, StackWriter& writer, Rim* rim,
           NextRing next) noexcept {
   const auto excess = [&] { return model == Model::paper ? ledger.outside : stack.crown(); };
-  // Less than half of the top ring is not worth a look: no ring above it is smaller.
+  // With less than half of the top ring no ring can grow: none above it is smaller.
   while (2 * excess() >= stack.rings().back().volume()) {
     const Ring ring = next();
     if (ring.volume() <= 0 || excess() < ring.volume()) return;
@@ -174,12 +175,12 @@ Ring copied_rim(const ClayStack& stack) noexcept {
 
 /// What of a ring above the rim the tools leave room for: no wall where there is not half of it.
 Ring beside_tools(const Ring& next, const ClayStack& stack, const Tool& tool, double hip_y,
-                  std::span<const ToolRemoval> bites) noexcept {
+                  std::span<const ToolRemoval> removals) noexcept {
   Ring ring = next;
   const double t = (static_cast<double>(stack.size()) + 0.5) * stack.ring_height_mm() - hip_y;
   if (!(t >= tool.low() && t <= tool.high())) return ring;
   const double f = tool.radius(t);
-  for (const auto& [contact, removed] : bites) {
+  for (const auto& [contact, removed] : removals) {
     if (!(depth_of(ring, f, contact) > 0.0)) continue;
     const double d = contact.axis_distance_mm;
     if (contact.side == Side::compressive)
@@ -193,15 +194,15 @@ Ring beside_tools(const Ring& next, const ClayStack& stack, const Tool& tool, do
 }  // namespace
 
 template <Model model>
-Flow press_clay(const StepPlan& plan, std::span<const ToolRemoval> bites, bool upward,
+Flow press_clay(const StepPlan& plan, std::span<const ToolRemoval> removals, bool upward,
                 ClayStack& stack, Ledger& ledger, Rim* rim) noexcept {
   StackWriter writer(stack);
-  const Contact& contact = bites.front().contact;
+  const Contact& contact = removals.front().contact;
   const std::size_t count = stack.size();
   const auto portions = [&](WideQuanta amount) { return split(amount, plan.inside_share, stack); };
 
-  WideQuanta rest = take(bites, stack);
-  level(rim, bites, count);
+  WideQuanta rest = take(removals, stack);
+  level(rim, removals, count);
   if (!upward) rest = flow_down(plan.kernel, portions(rest), contact, stack);
   if (rest > 0) rest = flow_up(plan.kernel, portions(rest), contact, count, rim, stack);
   if constexpr (model == Model::paper)
@@ -218,22 +219,22 @@ Flow press_clay(const StepPlan& plan, std::span<const ToolRemoval> bites, bool u
 }
 
 template <Model model>
-Flow trim_clay(std::span<const ToolRemoval> bites, ClayStack& stack, Ledger& ledger,
+Flow trim_clay(std::span<const ToolRemoval> removals, ClayStack& stack, Ledger& ledger,
                Rim* rim) noexcept {
   StackWriter writer(stack);
-  ledger.trimmed += take(bites, stack);
-  level(rim, bites, stack.size());
+  ledger.trimmed += take(removals, stack);
+  level(rim, removals, stack.size());
   Flow flow;
-  flow.lowest = bites.front().contact.bottom;
-  flow.highest = bites.front().contact.top;
+  flow.lowest = removals.front().contact.bottom;
+  flow.highest = removals.front().contact.top;
   grow<model>(flow, stack, ledger, rim,
               writer);  // a thinner top ring may be worth less than the excess
   return flow;
 }
 
-WideQuanta take_bites(std::span<const ToolRemoval> bites, ClayStack& stack, Rim* rim) noexcept {
-  level(rim, bites, stack.size());
-  return take(bites, stack);
+WideQuanta remove_clay(std::span<const ToolRemoval> removals, ClayStack& stack, Rim* rim) noexcept {
+  level(rim, removals, stack.size());
+  return take(removals, stack);
 }
 
 WideQuanta inside_part(WideQuanta amount, std::int64_t inside_share,
@@ -248,12 +249,12 @@ WideQuanta flow_by_kernel(const StepPlan& plan, WideQuanta amount, bool up, cons
             : flow_down(plan.kernel, clay, contact, stack);
 }
 
-void grow_rim(Flow& flow, const Tool& tool, double hip_y, std::span<const ToolRemoval> bites,
+void grow_rim(Flow& flow, const Tool& tool, double hip_y, std::span<const ToolRemoval> removals,
               ClayStack& stack, Rim* rim, StackWriter& writer) noexcept {
   Ledger none;
   grow<Model::conserving>(flow, stack, none, writer, rim, [&] {
     const Ring next = rim != nullptr ? next_ring(stack.rings().back(), rim) : copied_rim(stack);
-    return beside_tools(next, stack, tool, hip_y, bites);
+    return beside_tools(next, stack, tool, hip_y, removals);
   });
 }
 

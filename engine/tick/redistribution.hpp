@@ -27,27 +27,27 @@ struct Flow {
   return kernel.effective_length() + 1;
 }
 
-/// Takes what the tools bite off and spreads it, all of it at once, by the Rayleigh kernel: upward
-/// from above the candidate range by (5), (6) when the tool moves up, downward from below it by
-/// (7), (8) when it moves down. One bite, or the two of a pinch, which have one candidate range.
+/// Takes what the tools removal off and spreads it, all of it at once, by the Rayleigh kernel:
+/// upward from above the candidate range by (5), (6) when the tool moves up, downward from below it
+/// by (7), (8) when it moves down. One tool, or the two of a pinch, which have one candidate range.
 /// alpha goes inside as far as each bore has room (r_j^2 >= share), the rest outside. What finds no
 /// ring below goes up; what finds none above becomes height.
 ///
 /// `conserving` lays the kernel to the tool's ends, not to the ends of their rings (Contact's
 /// offsets), and gives new rings what `rim` has counted; without a rim they are copies.
 template <Model model>
-Flow press_clay(const StepPlan& plan, std::span<const ToolRemoval> bites, bool upward,
+Flow press_clay(const StepPlan& plan, std::span<const ToolRemoval> removals, bool upward,
                 ClayStack& stack, Ledger& ledger, Rim* rim = nullptr) noexcept;
 
 /// The paper's chiselling (section 8): what is bitten off leaves the pot and is booked as trimmed.
 template <Model model>
-Flow trim_clay(std::span<const ToolRemoval> bites, ClayStack& stack, Ledger& ledger,
+Flow trim_clay(std::span<const ToolRemoval> removals, ClayStack& stack, Ledger& ledger,
                Rim* rim = nullptr) noexcept;
 
 // Parts of these, for the clay rules.
 
-/// Takes what the tools bite off.
-WideQuanta take_bites(std::span<const ToolRemoval> bites, ClayStack& stack, Rim* rim) noexcept;
+/// Takes what the tools removal off.
+WideQuanta remove_clay(std::span<const ToolRemoval> removals, ClayStack& stack, Rim* rim) noexcept;
 /// alpha of an amount, as long as some ring has a bore.
 [[nodiscard]] WideQuanta inside_part(WideQuanta amount, std::int64_t inside_share,
                                      const ClayStack& stack) noexcept;
@@ -57,9 +57,9 @@ WideQuanta flow_by_kernel(const StepPlan& plan, WideQuanta amount, bool up, cons
 /// Whole rings from the crown: with a rim as `press_clay` makes them, without one as copies of the
 /// rim that taper to the wall below where the rim is thicker. A ring rises beside the tools, not
 /// into them; where they leave it less than half of its clay, the crown waits.
-void grow_rim(Flow& flow, const Tool& tool, double hip_y, std::span<const ToolRemoval> bites,
+void grow_rim(Flow& flow, const Tool& tool, double hip_y, std::span<const ToolRemoval> removals,
               ClayStack& stack, Rim* rim, StackWriter& writer) noexcept;
-/// The top rings make good what a crown below 0 lacks. There is so much clay in them.
+/// Takes top rings out until the crown is no longer below 0. Expects that they hold enough clay.
 void sink_rim(Flow& flow, ClayStack& stack, StackWriter& writer) noexcept;
 
 }  // namespace clay

@@ -10,8 +10,8 @@
 
 namespace clay {
 
-/// One tool's contact, and what it takes from each ring of it this tick [quanta]. Storage is
-/// reserved once.
+/// One tool's contact, and the clay that it removes from each of its rings in this tick [quanta].
+/// Storage is reserved once.
 struct ToolRemoval {
   Contact contact;
   std::vector<Quanta> removed;
@@ -22,7 +22,7 @@ struct ToolRemoval {
 ///
 /// `paper`: eps = k (R - r).
 /// `conserving`: as yielding.hpp says, never past the tool's surface and never through the minimum
-/// wall; leaves to the contact the depths that are left. Two half steps remove what one step does.
+/// wall. Sets the contact's depths to what remains. Two half steps remove what one step does.
 template <Model model>
 void compute_removal(const RemovalPlan& plan, const ClayStack& stack, double dt_s, Contact& contact,
                      std::vector<Quanta>& removed) noexcept;
@@ -38,12 +38,12 @@ struct Squeeze {
   }
 };
 
-/// Clay rules, first half of `compute_removal`: leaves to the contact how far each ring gives way
+/// Clay rules, first half of `compute_removal`: writes to the contact how far each ring gives way
 /// (`TouchedRings::give`), by a shift or by being squeezed.
 void give_way(const RemovalPlan& plan, const ClayStack& stack, double dt_s,
               Contact& contact) noexcept;
 /// Second half: what of that the shift has not moved is removed, as far as minimum wall and floor
-/// allow. Leaves to the contact the depths that are left.
+/// allow. Sets the contact's depths to what remains.
 void squeeze_out(const Squeeze& rules, const ClayStack& stack, Contact& contact,
                  std::vector<Quanta>& removed) noexcept;
 

@@ -32,8 +32,8 @@ struct Wheel::State {
   Rim rim;
   bool touching = false;  // at the last pose
   StabilityWatch watch;
-  std::array<ToolRemoval, 2> bites;  // scratch, reserved once; the second is for pinches alone
-  Motion motion;                     // of scenes with clay rules, as these two
+  std::array<ToolRemoval, 2> removals;  // scratch, reserved once; the second is for pinches alone
+  Motion motion;                        // of scenes with clay rules, as these two
   RuleWork work;
   RuleSteps rules;
   std::optional<double> turned_mm;  // height of a pot that stands upside down
@@ -57,19 +57,19 @@ template <unsigned stages, class State>
 std::span<ToolRemoval> touch(State& s, const ToolState& tool) noexcept {
   if constexpr (stages & kPinch) {
     if (tool.gap_mm > 0.0) {
-      find_pinch<kModel<stages>>(s.plan.tool, s.stack, tool.hip_mm, tool.gap_mm, s.bites[0].contact,
-                                 s.bites[1].contact, tool.moved_mm);
-      return s.bites;
+      find_pinch<kModel<stages>>(s.plan.tool, s.stack, tool.hip_mm, tool.gap_mm,
+                                 s.removals[0].contact, s.removals[1].contact, tool.moved_mm);
+      return s.removals;
     }
   }
-  find_contact<kModel<stages>>(s.plan.tool, s.stack, tool.hip_mm, s.bites[0].contact,
+  find_contact<kModel<stages>>(s.plan.tool, s.stack, tool.hip_mm, s.removals[0].contact,
                                tool.moved_mm);
-  return std::span(s.bites).first(1);
+  return std::span(s.removals).first(1);
 }
 
-std::uint32_t rings_of(std::span<const ToolRemoval> bites) noexcept {
+std::uint32_t rings_of(std::span<const ToolRemoval> removals) noexcept {
   std::size_t rings = 0;
-  for (const ToolRemoval& bite : bites) rings += bite.contact.rings.touched();
+  for (const ToolRemoval& removal : removals) rings += removal.contact.rings.touched();
   return static_cast<std::uint32_t>(rings);
 }
 
@@ -83,14 +83,14 @@ int parts_of(const ToolState& tool) noexcept {
 }
 
 template <unsigned stages, class State>
-void remove(State& s, const ToolState& tool, std::span<ToolRemoval> bites) noexcept {
+void remove(State& s, const ToolState& tool, std::span<ToolRemoval> removals) noexcept {
   if constexpr (stages & kPinch) {
-    if (bites.size() == 2)
+    if (removals.size() == 2)
       return compute_pinch_removal<kModel<stages>>(s.plan.removal, s.stack, tool.gap_mm, tool.dt_s,
-                                                   bites[0], bites[1]);
+                                                   removals[0], removals[1]);
   }
-  compute_removal<kModel<stages>>(s.plan.removal, s.stack, tool.dt_s, bites[0].contact,
-                                  bites[0].removed);
+  compute_removal<kModel<stages>>(s.plan.removal, s.stack, tool.dt_s, removals[0].contact,
+                                  removals[0].removed);
 }
 
 template <class State>
@@ -105,14 +105,14 @@ RulePress rule_press(const State& s, const ToolState& tool) noexcept {
 
 /// How far the clay gives way, for the stack and for the force.
 template <unsigned stages, class State>
-void yield(State& s, const ToolState& tool, std::span<ToolRemoval> bites) noexcept {
+void yield(State& s, const ToolState& tool, std::span<ToolRemoval> removals) noexcept {
   if constexpr (stages & kRules)
-    s.rules.yield(rule_press(s, tool), s.stack, bites, s.work);
+    s.rules.yield(rule_press(s, tool), s.stack, removals, s.work);
   else
-    remove<stages>(s, tool, bites);
+    remove<stages>(s, tool, removals);
   if constexpr ((stages & kForce) && kModel<stages> == Model::conserving)
-    for (ToolRemoval& bite : bites)
-      feel_front(s.plan, s.stack, tool.hip_mm.y, tool.dt_s, bite.contact);
+    for (ToolRemoval& removal : removals)
+      feel_front(s.plan, s.stack, tool.hip_mm.y, tool.dt_s, removal.contact);
 }
 
 /// Whether the stack still stands after a flow; the flags of both.
@@ -128,17 +128,18 @@ std::uint32_t settle_flow(State& s, const Flow& flow, const ToolState& tool) noe
 
 /// Moves the clay that is displaced, and sees whether the stack still stands.
 template <unsigned stages, class State>
-std::uint32_t deform(State& s, const ToolState& tool, std::span<const ToolRemoval> bites) noexcept {
+std::uint32_t deform(State& s, const ToolState& tool,
+                     std::span<const ToolRemoval> removals) noexcept {
   const Flow flow = [&] {
     if constexpr (stages & kRules) {
       if constexpr (stages & kStability) s.watch.move_to(s.stack, s.work.highest);
-      return s.rules.move(rule_press(s, tool), bites, s.work, s.stack, s.ledger, s.rim);
+      return s.rules.move(rule_press(s, tool), removals, s.work, s.stack, s.ledger, s.rim);
     } else {
       const std::size_t reach = flow_reach(s.plan.kernel);
       if constexpr (stages & kStability)
-        s.watch.move_to(s.stack, std::min(bites[0].contact.top + reach, s.stack.size() - 1));
-      return trims(s, tool) ? trim_clay<kModel<stages>>(bites, s.stack, s.ledger, &s.rim)
-                            : press_clay<kModel<stages>>(s.plan, bites, tool.upward, s.stack,
+        s.watch.move_to(s.stack, std::min(removals[0].contact.top + reach, s.stack.size() - 1));
+      return trims(s, tool) ? trim_clay<kModel<stages>>(removals, s.stack, s.ledger, &s.rim)
+                            : press_clay<kModel<stages>>(s.plan, removals, tool.upward, s.stack,
                                                          s.ledger, &s.rim);
     }
   }();
@@ -162,32 +163,32 @@ std::uint32_t raise_crown(State& s, const ToolState& tool) noexcept {
 /// Clay leaves the touched rings on the tool's way, not at its end: the flow begins from the
 /// middle.
 template <unsigned stages, class State>
-void press(State& s, const ToolState& tool, std::span<ToolRemoval> bites,
+void press(State& s, const ToolState& tool, std::span<ToolRemoval> removals,
            StepReport& report) noexcept {
-  const std::uint32_t touched = rings_of(bites);
+  const std::uint32_t touched = rings_of(removals);
   if (touched == 0) return;
   report.flags |= kContact;
   report.rings_touched = touched;
   if constexpr (kModel<stages> == Model::conserving) {
     const double half_way = 0.5 * tool.moved_mm.y / s.stack.ring_height_mm();
-    bites[0].contact.up_offset += std::max(half_way, 0.0);
-    bites[0].contact.down_offset += std::max(-half_way, 0.0);
+    removals[0].contact.up_offset += std::max(half_way, 0.0);
+    removals[0].contact.down_offset += std::max(-half_way, 0.0);
   }
-  yield<stages>(s, tool, bites);
-  report.flags |= deform<stages>(s, tool, bites);
+  yield<stages>(s, tool, removals);
+  report.flags |= deform<stages>(s, tool, removals);
 }
 
 template <unsigned stages>
-void add_force(const ForcePlan& plan, std::span<const ToolRemoval> bites,
+void add_force(const ForcePlan& plan, std::span<const ToolRemoval> removals,
                StepReport& report) noexcept {
   const auto add = [&](const Contact& contact) {
     const glm::dvec3 spring = spring_force<kModel<stages>>(plan, contact);
     report.spring_n += spring;
     if constexpr (stages & kFriction) report.friction_n += friction_force(plan, contact, spring);
   };
-  add(bites[0].contact);
+  add(removals[0].contact);
   if constexpr (stages & kPinch)
-    if (bites.size() == 2) add(bites[1].contact);
+    if (removals.size() == 2) add(removals[1].contact);
   limit_sum(report.spring_n, report.friction_n, plan.limit_n);
 }
 
@@ -212,8 +213,8 @@ StepReport tick(State& s, const Pose& pose) noexcept {
   }
   ToolState tool = track_tool<stages>(s.plan, s.tracker, pose, report);
   if (!tool.valid) return report;
-  std::span<ToolRemoval> bites = touch<stages>(s, tool);
-  const bool touches = rings_of(bites) > 0;
+  std::span<ToolRemoval> removals = touch<stages>(s, tool);
+  const bool touches = rings_of(removals) > 0;
   if constexpr (stages & kRules) follow(s.motion, tool);
   if constexpr (stages & kRules)
     if (!touches) report.flags |= raise_crown<stages>(s, tool);
@@ -224,12 +225,12 @@ StepReport tick(State& s, const Pose& pose) noexcept {
   for (int part = 1; part <= parts && !s.failure; ++part) {
     ToolState there = tool;
     there.hip_mm -= static_cast<double>(parts - part) * tool.moved_mm;
-    if (parts > 1) bites = touch<stages>(s, there);
-    press<stages>(s, there, bites, report);
+    if (parts > 1) removals = touch<stages>(s, there);
+    press<stages>(s, there, removals, report);
   }
   if constexpr (stages & kForce)
     // After a collapse nothing is left to push against.
-    if (!s.failure && rings_of(bites) > 0) add_force<stages>(s.plan.force, bites, report);
+    if (!s.failure && rings_of(removals) > 0) add_force<stages>(s.plan.force, removals, report);
   return report;
 }
 
@@ -248,18 +249,18 @@ StepReport feel(State& s, const Pose& pose) noexcept {
   const int parts = parts_of<kModel<stages>>(tool);
   tool.dt_s /= parts;
   tool.moved_mm /= parts;
-  const std::span<ToolRemoval> bites = touch<stages>(s, tool);
-  report.rings_touched = rings_of(bites);
+  const std::span<ToolRemoval> removals = touch<stages>(s, tool);
+  report.rings_touched = rings_of(removals);
   if (report.rings_touched == 0) return report;
   report.flags |= kContact;
   if constexpr (stages & kForce) {
     if constexpr (kModel<stages> == Model::conserving) {
       const Motion before = s.motion;
       if constexpr (stages & kRules) follow(s.motion, whole);
-      yield<stages>(s, tool, bites);
+      yield<stages>(s, tool, removals);
       s.motion = before;
     }
-    add_force<stages>(s.plan.force, bites, report);
+    add_force<stages>(s.plan.force, removals, report);
   }
   return report;
 }
@@ -376,9 +377,9 @@ Result<Wheel> Wheel::assemble(StepPlan plan, ClayStack stack, const Ledger& ledg
   state->ledger = ledger;
   state->rim = rim;
   const std::size_t tools = (state->plan.stages & kPinch) ? 2 : 1;
-  for (ToolRemoval& bite : std::span(state->bites).first(tools)) {
-    bite.contact.rings.reserve(touches);
-    bite.removed.reserve(touches);
+  for (ToolRemoval& removal : std::span(state->removals).first(tools)) {
+    removal.contact.rings.reserve(touches);
+    removal.removed.reserve(touches);
   }
   static constexpr auto kTicks = tick_table<State>(std::make_index_sequence<kStageSets>{});
   static constexpr auto kFeels = feel_table<State>(std::make_index_sequence<kStageSets>{});

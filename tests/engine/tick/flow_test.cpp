@@ -19,10 +19,10 @@ template <class RingOf>
 WideQuanta literal_flow(const RayleighKernel& kernel, double offset, WideQuanta inside,
                         WideQuanta outside, std::size_t count, RingOf ring_of,
                         std::vector<Ring>& rings) {
-  RayleighKernel::ShareCursor dealer(kernel, offset);
+  RayleighKernel::ShareCursor cursor(kernel, offset);
   WideQuanta rest = inside + outside, inside_dealt = 0, outside_dealt = 0;
   for (std::size_t j = 1; j <= std::min(kernel.length() + 1, count); ++j) {
-    const WideQuanta part = dealer.next();
+    const WideQuanta part = cursor.next();
     const WideQuanta in = ((inside * part) >> 40) - inside_dealt;
     const WideQuanta out = ((outside * part) >> 40) - outside_dealt;
     inside_dealt += in;
@@ -54,13 +54,13 @@ RC_GTEST_PROP(Flow, AgreesInLowAndHighPrecision, ()) {
   Contact contact = contact_on(bottom, bottom + 19);
   contact.up_offset = contact.down_offset = samples::uniform(random) - 0.5;
   ClayStack stack = ClayStack::from_rings(1.0, rings, 0, 80).value();
-  ToolRemoval bite{contact, {}};
+  ToolRemoval removal{contact, {}};
   WideQuanta rest = 0;
   for (std::size_t i = bottom; i < bottom + 20; ++i) {
-    bite.removed.push_back(static_cast<Quanta>(size * samples::uniform(random) *
-                                               static_cast<double>(rings[i].volume())));
-    rings[i].outer2 -= bite.removed.back();
-    rest += bite.removed.back();
+    removal.removed.push_back(static_cast<Quanta>(size * samples::uniform(random) *
+                                                  static_cast<double>(rings[i].volume())));
+    rings[i].outer2 -= removal.removed.back();
+    rest += removal.removed.back();
   }
   RC_CLASSIFY(rest >> 63 != 0, "more than 63 bits");
   const auto inside = [&] { return (rest * plan.inside_share) >> 30; };
@@ -73,7 +73,7 @@ RC_GTEST_PROP(Flow, AgreesInLowAndHighPrecision, ()) {
       plan.kernel, contact.up_offset, inside(), rest - inside(), 79 - contact.top,
       [&](std::size_t j) { return contact.top + j; }, rings);
   Ledger ledger;
-  press_clay<Model::paper>(plan, {&bite, 1}, up, stack, ledger);
+  press_clay<Model::paper>(plan, {&removal, 1}, up, stack, ledger);
   RC_ASSERT(std::equal(rings.begin(), rings.end(), stack.rings().begin(), stack.rings().end()));
   RC_ASSERT(ledger.outside == rest);
   RC_ASSERT(stack.recount() == stack.volume());

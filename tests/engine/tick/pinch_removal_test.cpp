@@ -33,8 +33,8 @@ Wall pinched(Wall wall, double gap_mm, double dt_s, const RemovalPlan& plan = kP
   ToolRemoval outer = bite_of(Side::compressive, wall.from_out);
   ToolRemoval inner = bite_of(Side::expansive, wall.from_in);
   compute_pinch_removal<model>(plan, stack, gap_mm, dt_s, outer, inner);
-  const auto taken = [](const ToolRemoval& bite) {
-    return bite.removed.empty() ? 0.0 : mm2_from_quanta(bite.removed.at(0));
+  const auto taken = [](const ToolRemoval& removal) {
+    return removal.removed.empty() ? 0.0 : mm2_from_quanta(removal.removed.at(0));
   };
   Wall after;
   after.outer = std::sqrt(wall.outer * wall.outer - taken(outer));
@@ -129,28 +129,28 @@ RC_GTEST_PROP(PinchRemoval, NeverEmptiesARingAndBalances, ()) {
   ClayStack stack = samples::stack(random, 20);
   const RemovalPlan plan{.rate_per_s = 1e6, .min_wall_mm = 0.001, .paper_fraction = 1.0 - 1e-9};
   const double gap = *rc::gen::element(1e-300, 1e-6, 1.0);
-  ToolRemoval bites[2] = {{samples::contact_on(0, 19, Side::compressive, 1e6), {}},
-                          {samples::contact_on(0, 19, Side::expansive, 1e6), {}}};
-  for (ToolRemoval& bite : bites) {
+  ToolRemoval removals[2] = {{samples::contact_on(0, 19, Side::compressive, 1e6), {}},
+                             {samples::contact_on(0, 19, Side::expansive, 1e6), {}}};
+  for (ToolRemoval& removal : removals) {
     for (std::size_t i = 0; i < 20; ++i)
-      if (samples::uniform(random) > 0.8) bite.contact.rings.depth(i) = 0.0;
-    bite.contact.rings.trim();
+      if (samples::uniform(random) > 0.8) removal.contact.rings.depth(i) = 0.0;
+    removal.contact.rings.trim();
   }
   if (*rc::gen::arbitrary<bool>())
-    compute_pinch_removal<Model::paper>(plan, stack, gap, 1.0, bites[0], bites[1]);
+    compute_pinch_removal<Model::paper>(plan, stack, gap, 1.0, removals[0], removals[1]);
   else
-    compute_pinch_removal<Model::conserving>(plan, stack, gap, 1.0, bites[0], bites[1]);
-  for (const ToolRemoval& bite : bites) {
-    RC_ASSERT(bite.removed.size() == bite.contact.rings.size());
-    for (const Quanta amount : bite.removed) RC_ASSERT(amount >= 0);
+    compute_pinch_removal<Model::conserving>(plan, stack, gap, 1.0, removals[0], removals[1]);
+  for (const ToolRemoval& removal : removals) {
+    RC_ASSERT(removal.removed.size() == removal.contact.rings.size());
+    for (const Quanta amount : removal.removed) RC_ASSERT(amount >= 0);
   }
   Ledger ledger;
   ledger.initial = stack.volume();
   const StepPlan flow = StepPlan::build({}).value();
   if (*rc::gen::arbitrary<bool>())
-    press_clay<Model::conserving>(flow, bites, *rc::gen::arbitrary<bool>(), stack, ledger);
+    press_clay<Model::conserving>(flow, removals, *rc::gen::arbitrary<bool>(), stack, ledger);
   else
-    trim_clay<Model::conserving>(bites, stack, ledger);
+    trim_clay<Model::conserving>(removals, stack, ledger);
   RC_ASSERT(ledger.imbalance(stack.recount()) == 0);
   RC_ASSERT(stack.recount() == stack.volume());
   for (const Ring& ring : stack.rings()) RC_ASSERT(ring.inner2 >= 0 && ring.outer2 > ring.inner2);
@@ -160,13 +160,13 @@ TEST(PinchRemoval, RemovedClayOfBothToolsFlowsAsOneAmount) {
   constexpr Quanta kMm2 = Quanta{1} << 36;
   const auto flowed = [&](std::vector<std::pair<Side, Quanta>> takes) {
     ClayStack stack = ClayStack::cylinder(60, 1.0, 50.0, 40.0, 60).value();
-    std::vector<ToolRemoval> bites;
+    std::vector<ToolRemoval> removals;
     for (const auto& [side, amount] : takes) {
-      bites.push_back(bite_of(side, 1.0, 30));
-      bites.back().removed = {amount * kMm2};
+      removals.push_back(bite_of(side, 1.0, 30));
+      removals.back().removed = {amount * kMm2};
     }
     Ledger ledger;
-    press_clay<Model::conserving>(StepPlan::build({}).value(), bites, true, stack, ledger);
+    press_clay<Model::conserving>(StepPlan::build({}).value(), removals, true, stack, ledger);
     return stack;
   };
   const ClayStack both = flowed({{Side::compressive, 40}, {Side::expansive, 60}});

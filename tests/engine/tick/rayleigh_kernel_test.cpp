@@ -28,11 +28,11 @@ RC_GTEST_PROP(RayleighKernel, SharesAddUpToTheAmount, ()) {
   const RayleighKernel kernel(sigma, reach, 0.5, 4000);
   const WideQuanta amount = WideQuanta{*rc::gen::inRange<Quanta>(0, Quanta{1} << 61)}
                             << *rc::gen::inRange(0, 24);  // up to 2^24 rings of 2^61
-  RayleighKernel::ShareCursor dealer(kernel);
+  RayleighKernel::ShareCursor cursor(kernel);
   RayleighKernel::Shares shares(amount);
   WideQuanta sum = 0;
   for (std::size_t j = 1; j <= kernel.length(); ++j) {
-    const WideQuanta share = shares.next(dealer.next());
+    const WideQuanta share = shares.next(cursor.next());
     RC_ASSERT(share >= 0);
     sum += share;
   }

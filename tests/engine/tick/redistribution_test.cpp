@@ -41,8 +41,8 @@ std::vector<double> weights(double sigma, double h, std::size_t length) {
 template <Model model>
 Flow press_one(const StepPlan& plan, const Contact& contact, std::vector<Quanta> removed,
                bool upward, ClayStack& stack, Ledger& ledger) {
-  const ToolRemoval bite{contact, std::move(removed)};
-  return press_clay<model>(plan, {&bite, 1}, upward, stack, ledger);
+  const ToolRemoval removal{contact, std::move(removed)};
+  return press_clay<model>(plan, {&removal, 1}, upward, stack, ledger);
 }
 
 constexpr Quanta kMm2 = Quanta{1} << 36;
@@ -77,9 +77,9 @@ TEST(Redistribution, KernelStartsAtTheToolsEnds) {
     ClayStack stack = ClayStack::cylinder(60, 1.0, 50.0, 0.0, 60).value();
     Contact contact = contact_on(28, 30);
     contact.up_offset = offset;
-    const ToolRemoval bite{contact, {0, 120 * kMm2, 0}};
+    const ToolRemoval removal{contact, {0, 120 * kMm2, 0}};
     Ledger ledger;
-    press_clay<Model::conserving>(plan_of(4.0, 12.0, 0.0), {&bite, 1}, true, stack, ledger);
+    press_clay<Model::conserving>(plan_of(4.0, 12.0, 0.0), {&removal, 1}, true, stack, ledger);
     // The value of a table, linear between its rings, at x ring heights.
     const auto dealt = [&](double x) {
       double sum = 0.0;
@@ -105,13 +105,13 @@ TEST(Redistribution, NewRingContinuesTheRim) {
   Rim rim;
   const StepPlan plan = plan_of(4.0, 3.0, 0.25);
   const auto w = weights(4.0, 1.0, 3);
-  const ToolRemoval bite{contact_on(7, 7), {20 * kMm2}};
-  press_clay<Model::conserving>(plan, {&bite, 1}, true, stack, ledger, &rim);
+  const ToolRemoval removal{contact_on(7, 7), {20 * kMm2}};
+  press_clay<Model::conserving>(plan, {&removal, 1}, true, stack, ledger, &rim);
   EXPECT_NEAR(mm2_from_quanta(rim.outside), 15 * (w[2] - w[1]), 1e-7);
   EXPECT_NEAR(mm2_from_quanta(rim.inside), 5 * (w[2] - w[1]), 1e-7);
   Flow flow;
   while (flow.grown == 0)
-    flow = press_clay<Model::conserving>(plan, {&bite, 1}, true, stack, ledger, &rim);
+    flow = press_clay<Model::conserving>(plan, {&removal, 1}, true, stack, ledger, &rim);
   ASSERT_EQ(stack.size(), 11u);
   EXPECT_TRUE(rim.outside == 0 && rim.inside == 0);
   EXPECT_GT(outer2(stack, 10), outer2(stack, 9));  // it received three shares, the top ring two
@@ -122,8 +122,8 @@ TEST(Redistribution, TouchedRimIsLevel) {
   ClayStack stack = ClayStack::cylinder(10, 1.0, 10.0, 6.0, 40).value();
   Ledger ledger;
   Rim rim{kMm2, kMm2};
-  const ToolRemoval bite{contact_on(9, 9), {kMm2}};
-  press_clay<Model::conserving>(plan_of(4.0, 3.0, 0.25), {&bite, 1}, true, stack, ledger, &rim);
+  const ToolRemoval removal{contact_on(9, 9), {kMm2}};
+  press_clay<Model::conserving>(plan_of(4.0, 3.0, 0.25), {&removal, 1}, true, stack, ledger, &rim);
   EXPECT_TRUE(rim.outside == 0);
   EXPECT_TRUE(rim.inside == kMm2);
 }
@@ -206,8 +206,8 @@ TEST(Redistribution, BooksTrimmedClay) {
   ClayStack stack = ClayStack::cylinder(10, 1.0, 10.0, 0.0, 10).value();
   Ledger ledger;
   ledger.initial = stack.volume();
-  const ToolRemoval bite{contact_on(4, 5), {10 * kMm2, 20 * kMm2}};
-  trim_clay<Model::conserving>({&bite, 1}, stack, ledger);
+  const ToolRemoval removal{contact_on(4, 5), {10 * kMm2, 20 * kMm2}};
+  trim_clay<Model::conserving>({&removal, 1}, stack, ledger);
   EXPECT_TRUE(ledger.trimmed == 30 * kMm2);
   EXPECT_TRUE(ledger.imbalance(stack.recount()) == 0);
   EXPECT_EQ(outer2(stack, 5), 80);

@@ -74,9 +74,9 @@ TEST(Stability, NewRingOfPaperLoadsAllRingsBelow) {
   StabilityWatch watch(stack);
   Ledger ledger;
   ledger.outside = ring - 1;  // clay missing from the body since the foot was last checked
-  const ToolRemoval bite{samples::contact_on(499, 499), {1000}};
+  const ToolRemoval removal{samples::contact_on(499, 499), {1000}};
   watch.move_to(stack, 499);
-  const Flow flow = press_clay<Model::paper>(plan, {&bite, 1}, true, stack, ledger);
+  const Flow flow = press_clay<Model::paper>(plan, {&removal, 1}, true, stack, ledger);
   ASSERT_EQ(flow.grown, 1u);
   const auto failure = watch.check(plan.stability, stack, flow);
   ASSERT_TRUE(failure);
@@ -110,8 +110,8 @@ RC_GTEST_PROP(Stability, WatchedRangeMatchesTheFullSum, ()) {
   for (int step = 0; step < 60; ++step) {
     const auto bottom =
         static_cast<std::size_t>(samples::uniform(random) * static_cast<double>(stack.size()));
-    ToolRemoval bite{samples::contact_on(bottom, std::min(bottom + 3, stack.size() - 1)), {}};
-    auto& [contact, removed] = bite;
+    ToolRemoval removal{samples::contact_on(bottom, std::min(bottom + 3, stack.size() - 1)), {}};
+    auto& [contact, removed] = removal;
     for (std::size_t i = contact.bottom; i <= contact.top; ++i) {
       removed.push_back(static_cast<Quanta>(0.4 * samples::uniform(random) *
                                             static_cast<double>(stack.rings()[i].volume())));
@@ -119,8 +119,8 @@ RC_GTEST_PROP(Stability, WatchedRangeMatchesTheFullSum, ()) {
     watch.move_to(stack, std::min(contact.top + flow_reach(plan.kernel), stack.size() - 1));
     const bool trim = samples::uniform(random) < 0.1;
     const bool up = samples::uniform(random) < 0.5;
-    const Flow flow = trim ? trim_clay<Model::conserving>({&bite, 1}, stack, ledger)
-                           : press_clay<Model::conserving>(plan, {&bite, 1}, up, stack, ledger);
+    const Flow flow = trim ? trim_clay<Model::conserving>({&removal, 1}, stack, ledger)
+                           : press_clay<Model::conserving>(plan, {&removal, 1}, up, stack, ledger);
     const auto seen = watch.check(plan.stability, stack, flow);
     const auto expected = literal(plan.stability, stack);
     RC_ASSERT(seen.has_value() == expected.has_value());
@@ -158,9 +158,9 @@ TEST(Stability, NewTopRingsLoadTheRingsBetween) {
   Ledger ledger;
   std::size_t grown = 0;
   for (const std::size_t at : {50u, 40u}) {
-    const ToolRemoval bite{samples::contact_on(at, at), {ring.volume() / 2}};
+    const ToolRemoval removal{samples::contact_on(at, at), {ring.volume() / 2}};
     watch.move_to(stack, at);
-    const Flow flow = trim_clay<Model::conserving>({&bite, 1}, stack, ledger);
+    const Flow flow = trim_clay<Model::conserving>({&removal, 1}, stack, ledger);
     grown += flow.grown;
     if (at == 40) plan.max_stress_kpa = largest_stress(plan, stack) * (1.0 - 1e-6);
     EXPECT_EQ(watch.check(plan, stack, flow).has_value(), at == 40);
@@ -184,12 +184,12 @@ ClayStack random_stack(std::mt19937_64& random, std::size_t count) {
 ToolRemoval random_bite(std::mt19937_64& random, const ClayStack& stack) {
   const auto bottom =
       static_cast<std::size_t>(samples::uniform(random) * static_cast<double>(stack.size()));
-  ToolRemoval bite{samples::contact_on(bottom, std::min(bottom + 5, stack.size() - 1)), {}};
-  for (std::size_t i = bottom; i <= bite.contact.top; ++i) {
-    bite.removed.push_back(static_cast<Quanta>(0.2 * samples::uniform(random) *
-                                               static_cast<double>(stack.rings()[i].volume())));
+  ToolRemoval removal{samples::contact_on(bottom, std::min(bottom + 5, stack.size() - 1)), {}};
+  for (std::size_t i = bottom; i <= removal.contact.top; ++i) {
+    removal.removed.push_back(static_cast<Quanta>(0.2 * samples::uniform(random) *
+                                                  static_cast<double>(stack.rings()[i].volume())));
   }
-  return bite;
+  return removal;
 }
 
 /// Jumps over stacks of one and of two levels of sums, clay that flows to the top from far below
@@ -210,14 +210,14 @@ void leaps_see_what_the_running_sum_sees() {
   StabilityWatch watch(stack);
   bool failed = false;
   for (int step = 0; step < 40 && !failed; ++step) {
-    const ToolRemoval bite = random_bite(random, stack);
+    const ToolRemoval removal = random_bite(random, stack);
     const std::size_t highest =
-        std::min(bite.contact.top + flow_reach(plan.kernel), stack.size() - 1);
+        std::min(removal.contact.top + flow_reach(plan.kernel), stack.size() - 1);
     watch.move_to(stack, highest);
     const bool trim = samples::uniform(random) < 0.1;
     const bool up = samples::uniform(random) < 0.5;
-    const Flow flow = trim ? trim_clay<model>({&bite, 1}, stack, ledger)
-                           : press_clay<model>(plan, {&bite, 1}, up, stack, ledger);
+    const Flow flow = trim ? trim_clay<model>({&removal, 1}, stack, ledger)
+                           : press_clay<model>(plan, {&removal, 1}, up, stack, ledger);
     const auto seen = watch.check(plan.stability, stack, flow);
     const auto expected = running(plan.stability, stack);
     RC_ASSERT(seen.has_value() == expected.has_value());
