@@ -48,9 +48,9 @@ void add_falcon_options(CLI::App& command, falcon::FalconSettings& settings) {
       ->check(CLI::IsMember({"libnifalcon", "martin-hillier"}))
       ->default_str("libnifalcon");
   command
-      .add_option("--motor-counts", settings.motor_counts_per_nm,
-                  "Falcon motor counts for 1 N m at an arm; more gives a larger force")
-      ->check(CLI::Validator(in_range(1.0, 1e6), ""))
+      .add_option("--motor-counts", settings.motor_counts_per_nmm,
+                  "Falcon motor counts for 1 N mm at an arm; more gives a larger force")
+      ->check(CLI::Validator(in_range(1e-3, 1e3), ""))
       ->capture_default_str();
 }
 

@@ -8,9 +8,9 @@ namespace clay::servo {
 
 /// A scene's contact as an arm feels it.
 struct ServoContact {
-  double height_mm = 0.0;          ///< most that the tool can touch at once, in whole rings
-  double stiffness_n_per_m = 0.0;  ///< radial: K' times that height
-  double accepted_n_per_m = 0.0;   ///< half of what is passive at the arm's rate and damping
+  double height_mm = 0.0;           ///< most that the tool can touch at once, in whole rings
+  double stiffness_n_per_mm = 0.0;  ///< radial: K' times that height
+  double accepted_n_per_mm = 0.0;   ///< half of what is passive at the arm's rate and damping
 };
 
 /// What an arm would have to render. `stiffness_gain`: of the mapping between tool and hand. A

@@ -18,28 +18,31 @@ namespace clay::falcon::inline safety {
 // systems: application to haptic interfaces", J. Robotic Systems 14(1), 1997; E. I. Jury, "Theory
 // and Application of the z-Transform Method", 1964 (the stability of a sampled loop).
 //
-// SI units throughout: m, s, kg, N. T = 1 / rate is the period, n the ticks of delay.
+// Units as everywhere in falcon: mm, s, N, and so mJ = N mm. T = 1 / rate is the period, n the
+// ticks of delay.
 
 /// What of an arm and its servo decides how stiff a wall may be.
 struct SampledLoop {
   double rate_hz = 1000.0;
-  double mass_kg = 0.25;          ///< m: of the handle, as the hand feels it
-  double damping_ns_per_m = 2.0;  ///< b: of the arm itself, without the hand
-  int delay_ticks = 1;            ///< n: periods between a reading and the force that answers it
+  double mass_kg = 0.25;             ///< m: of the handle, as the hand feels it
+  double damping_ns_per_mm = 0.002;  ///< b: of the arm itself, without the hand
+  int delay_ticks = 1;               ///< n: periods between a reading and the force that answers it
 
   [[nodiscard]] double period_s() const noexcept { return 1.0 / rate_hz; }
+  /// The mass as force per acceleration [N s^2/mm]: the only conversion of units in falcon.
+  [[nodiscard]] double inertia_ns2_per_mm() const noexcept { return 1e-3 * mass_kg; }
 };
 
-/// Rates of 10 to 100 000 Hz, masses of 1 g to 100 kg, damping of 0 to 1000 N s/m, 0 to 8 ticks.
+/// Rates of 10 to 100 000 Hz, masses of 1 g to 100 kg, damping of 0 to 1 N s/mm, 0 to 8 ticks.
 [[nodiscard]] tl::expected<void, OutOfRange> check(const SampledLoop& loop) noexcept;
 
 /// A wall of the servo: a spring, and a damper on the difference of the last two readings.
 struct VirtualWall {
-  double stiffness_n_per_m = 0.0;  ///< K >= 0
-  double damping_ns_per_m = 0.0;   ///< B, of either sign
+  double stiffness_n_per_mm = 0.0;  ///< K >= 0
+  double damping_ns_per_mm = 0.0;   ///< B, of either sign
 };
 
-/// Damping [N s/m] that an arm needs so that, whatever passive hand holds it, the wall gives no
+/// Damping [N s/mm] that an arm needs so that, whatever passive hand holds it, the wall gives no
 /// energy away. Colgate and Schenkel's integral for this wall is a sum of cosines,
 ///
 ///   b > max over w of  K T/2 (1 + 2 cos wT + ... + 2 cos nwT) - B cos((n + 1) wT),
@@ -50,7 +53,7 @@ struct VirtualWall {
 [[nodiscard]] double passive_damping_at(const SampledLoop& loop, const VirtualWall& wall,
                                         double angle_rad) noexcept;
 
-/// Stiffest spring [N/m] that is passive: 2b / ((2n + 1) T).
+/// Stiffest spring [N/mm] that is passive: 2b / ((2n + 1) T).
 [[nodiscard]] double passive_stiffness(const SampledLoop& loop) noexcept;
 
 /// Does the free arm come to rest against the wall, held there? By Jury's test of
@@ -60,14 +63,14 @@ struct VirtualWall {
 /// where (c1 z + c0) / ((z - 1)(z - p)) takes held force to position, exactly.
 [[nodiscard]] bool is_stable(const SampledLoop& loop, const VirtualWall& wall) noexcept;
 
-/// The border of the stable springs [N/m], to 1e-9 of it: stable below, not above. 0 when none is.
-/// `wall_damping_ns_per_m` is B.
+/// The border of the stable springs [N/mm], to 1e-9 of it: stable below, not above. 0 when none is.
+/// `wall_damping_ns_per_mm` is B.
 [[nodiscard]] double stable_stiffness(const SampledLoop& loop,
-                                      double wall_damping_ns_per_m = 0.0) noexcept;
+                                      double wall_damping_ns_per_mm = 0.0) noexcept;
 
-/// Most damping B [N s/m] that the servo may add to a spring before the loop is unstable; to 1e-9
+/// Most damping B [N s/mm] that the servo may add to a spring before the loop is unstable; to 1e-9
 /// of it.
-[[nodiscard]] double stable_damping(const SampledLoop& loop, double stiffness_n_per_m) noexcept;
+[[nodiscard]] double stable_damping(const SampledLoop& loop, double stiffness_n_per_mm) noexcept;
 
 /// Stiffest contact that is let through: half of what is passive. The other half is for what the
 /// theory leaves out: encoder steps, late ticks, a damping known to a factor.
@@ -75,14 +78,14 @@ struct VirtualWall {
 
 /// Why a stiffness is refused, and the two ways out.
 struct StiffnessTooHigh {
-  double found_n_per_m;
-  double highest_n_per_m;  ///< the accepted stiffness at this rate
-  double lowest_rate_hz;   ///< the rate from which the stiffness found is accepted
+  double found_n_per_mm;
+  double highest_n_per_mm;  ///< the accepted stiffness at this rate
+  double lowest_rate_hz;    ///< the rate from which the stiffness found is accepted
 };
 
 /// Refuses what is above accepted_stiffness, and what is not a number.
 [[nodiscard]] tl::expected<void, StiffnessTooHigh> check_stiffness(
-    const SampledLoop& loop, double stiffness_n_per_m) noexcept;
+    const SampledLoop& loop, double stiffness_n_per_mm) noexcept;
 
 // ---- energy observer -----------------------------------------------------------------
 // The passivity observer: what the servo has given the hand beyond what it took. After B.
@@ -95,33 +98,33 @@ struct StiffnessTooHigh {
 /// Energy of one contact after the other, and of the last while.
 class EnergyObserver {
  public:
-  /// `loop` as `check` lets it through; its damping is what the arm has for sure. `step_m`: of the
+  /// `loop` as `check` lets it through; its damping is what the arm has for sure. `step_mm`: of the
   /// encoders. `window_s` > 0: the last while.
-  EnergyObserver(const SampledLoop& loop, double step_m, double window_s) noexcept;
+  EnergyObserver(const SampledLoop& loop, double step_mm, double window_s) noexcept;
 
-  /// A period of `dt_s` in which `held_n` was displayed and the reading moved by `way_m`; at its
+  /// A period of `dt_s` in which `held_n` was displayed and the reading moved by `way_mm`; at its
   /// end the contact asks for `asked_n`. True when a contact has ended with it.
-  bool observe(double dt_s, const glm::dvec3& held_n, const glm::dvec3& way_m,
+  bool observe(double dt_s, const glm::dvec3& held_n, const glm::dvec3& way_mm,
                const glm::dvec3& asked_n) noexcept;
 
-  /// Work displayed [J] less what the arm's own damping has dissipated for sure in contact.
+  /// Work displayed [mJ] less what the arm's own damping has dissipated for sure in contact.
   /// Negative while a contact has credit. Credit ends with its contact, a debt stays.
-  [[nodiscard]] double injected_j() const noexcept { return injected_; }
+  [[nodiscard]] double injected_mj() const noexcept { return injected_; }
   /// The same for oscillations within a contact, which may have the credit of a long press: the
   /// sum over the loops from one deepest point to the next, closed by any spring whose force grows
   /// with depth; from zero again when it would fall below.
-  [[nodiscard]] double looped_j() const noexcept { return looped_; }
-  [[nodiscard]] double debt_j() const noexcept { return std::max(injected_, looped_); }
+  [[nodiscard]] double looped_mj() const noexcept { return looped_; }
+  [[nodiscard]] double debt_mj() const noexcept { return std::max(injected_, looped_); }
   /// What these may be off by for the encoder's steps: half a step times all that the force
   /// changed by, up and down, in this contact or the last.
-  [[nodiscard]] double tolerance_j() const noexcept {
-    return step_m_ * std::max(peak_n_, last_peak_n_) + kRounding;
+  [[nodiscard]] double tolerance_mj() const noexcept {
+    return step_mm_ * std::max(peak_n_, last_peak_n_) + kRounding;
   }
   /// Of the contact that has just ended: what it added to the debt.
-  [[nodiscard]] double last_contact_j() const noexcept { return last_contact_; }
+  [[nodiscard]] double last_contact_mj() const noexcept { return last_contact_; }
   /// Given in the last while: by contacts that ended with a gain, and by the present one as far as
   /// it is above zero.
-  [[nodiscard]] double recent_j() const noexcept;
+  [[nodiscard]] double recent_mj() const noexcept;
   [[nodiscard]] bool in_contact() const noexcept { return in_contact_; }
 
   /// The debt is forgiven; what is going on goes on.
@@ -129,34 +132,34 @@ class EnergyObserver {
 
  private:
   static constexpr std::size_t kBuckets = 16;
-  static constexpr double kRounding = 1e-9;
+  static constexpr double kRounding = 1e-6;  // mJ
 
   /// A way in one direction, into the contact or out of it. Depths count from where it began.
   struct Stroke {
     double sign = 0.0;  // +1 into the contact, -1 out of it
-    double from_m = 0.0;
-    double depth_m = 0.0;     // where the arm is,
-    double furthest_m = 0.0;  // the furthest it was,
-    double force_n = 0.0;     // the force there
-    double doubtful_j = 0.0;  // and the work and time since
+    double from_mm = 0.0;
+    double depth_mm = 0.0;     // where the arm is,
+    double furthest_mm = 0.0;  // the furthest it was,
+    double force_n = 0.0;      // the force there
+    double doubtful_mj = 0.0;  // and the work and time since
     double doubtful_s = 0.0;
     double time_s = 0.0;
-    double credit_j = 0.0;  // dissipated for sure by the arm
+    double credit_mj = 0.0;  // dissipated for sure by the arm
   };
   /// A deepest point of the contact, where the arm turned back.
   struct Turn {
-    double injected_j, depth_m, force_n;
+    double injected_mj, depth_mm, force_n;
   };
 
-  void begin_contact(double dt_s, const glm::dvec3& way_m) noexcept;
-  void follow_stroke(double dt_s, double held_n, double inward_m) noexcept;
+  void begin_contact(double dt_s, const glm::dvec3& way_mm) noexcept;
+  void follow_stroke(double dt_s, double held_n, double inward_mm) noexcept;
   void credit_stroke() noexcept;
   void close_loop() noexcept;
   void end_contact() noexcept;
   [[nodiscard]] double given() const noexcept;
   void pass_time(double dt_s) noexcept;
 
-  double damping_, step_m_, mark_s_;
+  double damping_, step_mm_, mark_s_;
   int drain_ticks_;
   double injected_ = 0.0, before_contact_ = 0.0, last_contact_ = 0.0;
   double peak_n_ = 0.0, last_peak_n_ = 0.0;
@@ -190,9 +193,9 @@ class EnergyObserver {
 // along and does work on it by right: pass the contact's spring force, and add friction after.
 
 struct PassivitySpec {
-  SampledLoop loop;     ///< mass: the least, damping: what the arm has for sure
-  double step_m = 0.0;  ///< of the encoders
-  double energy_limit_j = 5e-3;
+  SampledLoop loop;      ///< mass: the least, damping: what the arm has for sure
+  double step_mm = 0.0;  ///< of the encoders
+  double energy_limit_mj = 5.0;
   double energy_window_s = 0.1;     ///< no patience when more than the limit was given in this time
   int reversal_limit = 8;           ///< 2 to 16
   double reversal_window_s = 0.05;  ///< nor when the force swung so often in this time
@@ -223,13 +226,13 @@ struct PassiveForce {
 
 class PassivityController {
  public:
-  /// Refuses what `check` of the loop refuses; a step outside 0 to 0.01 m; limits that are not
+  /// Refuses what `check` of the loop refuses; a step outside 0 to 10 mm; limits that are not
   /// above 0, or windows above 10 s.
   static tl::expected<PassivityController, OutOfRange> build(const PassivitySpec& spec) noexcept;
 
   /// The force [N] to send for the one that the contact asks for at this reading. Zero, and the
   /// tick is not counted, when an argument is not finite or time does not advance.
-  [[nodiscard]] PassiveForce tick(std::int64_t time_us, const glm::dvec3& reading_m,
+  [[nodiscard]] PassiveForce tick(std::int64_t time_us, const glm::dvec3& reading_mm,
                                   const glm::dvec3& force_n) noexcept;
 
   /// What is displayed [N] in place of the force that the last tick returned, where a guard behind
@@ -241,10 +244,10 @@ class PassivityController {
 
   [[nodiscard]] const EnergyObserver& observer() const noexcept { return observer_; }
   [[nodiscard]] PassivityState state() const noexcept { return state_; }
-  /// Most damping that the controller adds [N s/m]: half of what the loop bears on top of the
+  /// Most damping that the controller adds [N s/mm]: half of what the loop bears on top of the
   /// accepted stiffness, and so little that one encoder step in a period moves the force by a
   /// quarter of `reversal_force_n` at most.
-  [[nodiscard]] double most_damping_ns_per_m() const noexcept { return most_damping_; }
+  [[nodiscard]] double most_damping_ns_per_mm() const noexcept { return most_damping_; }
 
  private:
   static constexpr std::size_t kMostSent = 9;
@@ -253,10 +256,10 @@ class PassivityController {
   void judge(bool contact_ended, const glm::dvec3& asked_n) noexcept;
   void count_debt() noexcept;
   void escalate() noexcept;
-  [[nodiscard]] glm::dvec3 answer(double dt_s, const glm::dvec3& way_m,
+  [[nodiscard]] glm::dvec3 answer(double dt_s, const glm::dvec3& way_mm,
                                   const glm::dvec3& asked_n) noexcept;
-  [[nodiscard]] glm::dvec3 earned(const glm::dvec3& way_m, const glm::dvec3& asked_n) noexcept;
-  [[nodiscard]] glm::dvec3 damping(double dt_s, const glm::dvec3& way_m) const noexcept;
+  [[nodiscard]] glm::dvec3 earned(const glm::dvec3& way_mm, const glm::dvec3& asked_n) noexcept;
+  [[nodiscard]] glm::dvec3 damping(double dt_s, const glm::dvec3& way_mm) const noexcept;
   void send(const glm::dvec3& force_n) noexcept;
 
   PassivitySpec spec_;
@@ -271,7 +274,7 @@ class PassivityController {
 
   struct Reading {
     std::int64_t time_us;
-    glm::dvec3 at_m;
+    glm::dvec3 at_mm;
   };
   std::optional<Reading> last_;
   double now_s_ = 0.0;                        // since the first reading

@@ -63,8 +63,8 @@ struct LiveSettings {
   ButtonMap buttons = kFalconButtons;
   falcon::GuardSettings guard;  ///< its period is set from rate_hz
   /// Model of the arm for the passivity controller; its rate is set from rate_hz.
-  falcon::SampledLoop arm{1000.0, 0.1, 2.0, 1};
-  double encoder_step_m = 5e-5;  ///< of the Falcon in the middle of its workspace
+  falcon::SampledLoop arm{1000.0, 0.1, 0.002, 1};
+  double encoder_step_mm = 0.05;  ///< of the Falcon in the middle of its workspace
 };
 
 /// Errors name the setting. Mapping, guard and arm are checked when they are built.
