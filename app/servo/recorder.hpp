@@ -4,11 +4,11 @@
 // at a time: a process that is killed loses at most the last 100 ms. (The machine's own end is not
 // guarded against until `finish` has synced the file.)
 
-#include "app/history/pose_sink.hpp"
 #include "claystack/core/result.hpp"
-#include "claystack/engine/tool.hpp"
+#include "claystack/engine/files.hpp"
 #include "core/spsc_queue.hpp"
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -26,15 +26,16 @@ class Recorder {
                                                   std::string_view scene_name,
                                                   std::uint64_t scene_hash);
   /// For any sink, which outlives it.
-  static std::unique_ptr<Recorder> create(history::PoseSink& sink);
+  static std::unique_ptr<Recorder> create(PoseSink& sink);
   /// Ends the recording; who wants to know how it went calls finish() first.
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// From the servo: a quantised pose, later than the last. No waiting, no allocation. False: it is
-  /// not recorded, nor is any after it, since a session with a hole would replay to another pot.
-  bool take(const Pose& pose) noexcept;
+  /// From the servo: a quantised pose, later than the last, and whether the tool was in the clay.
+  /// No waiting, no allocation. False: it is not recorded, nor is any after it, since a session
+  /// with a hole would replay to another pot.
+  bool take(const Pose& pose, bool contact) noexcept;
 
   /// After the last take: waits until all is in the sink, and the sink has finished. The error is
   /// of the first write that failed.
@@ -45,18 +46,23 @@ class Recorder {
   [[nodiscard]] std::uint64_t taken() const noexcept { return taken_.load(); }
 
  private:
-  explicit Recorder(history::PoseSink& sink);
+  explicit Recorder(PoseSink& sink);
   void run();
   void hand_on();
 
   static constexpr std::size_t kWaiting = 8192;  // poses: 8 s at 1 kHz
-  std::unique_ptr<history::PoseSink> own_sink_;
-  history::PoseSink& sink_;
-  SpscQueue<Pose, kWaiting> queue_;
+  std::unique_ptr<PoseSink> own_sink_;
+  PoseSink& sink_;
+  struct Played {
+    Pose pose;
+    bool contact;
+  };
+  SpscQueue<Played, kWaiting> queue_;
   std::atomic<std::uint64_t> lost_{0}, taken_{0};
   std::atomic<bool> closing_{false}, failed_{false};
-  std::vector<Pose> block_;  // the thread's
-  Error error_;              // the thread's, until it has ended
+  std::vector<Pose> block_;                     // the thread's
+  std::array<bool, kPosesPerBlock> contact_{};  // of its poses
+  Error error_;                                 // the thread's, until it has ended
   std::thread thread_;
 };
 

@@ -58,20 +58,28 @@ falcon::EmergencyStop& last_zero() noexcept {
   return last;
 }
 
-Servo::~Servo() {
+Servo::~Servo() { stop(); }
+
+Ending Servo::stop() {
   // Without room for the command the gate says it too.
   if (!command({CommandKind::stop, 0.0})) gate_.shut_for_good();
-  join();
+  return join();
 }
 
 void Servo::start() {
   running_.store(true);
   last_zero().arm(gate_, &stop_device, &bench_.device);
+  if (pace_ == Pace::stepped) return loop_.start();
   watchdog_ = std::thread([this] { watch(); });
   servo_ = std::thread([this] { run(); });
 }
 
+void Servo::advance(std::int64_t until_ns) noexcept {
+  while (pace_ == Pace::stepped && running() && bench_.clock.now_ns() < until_ns) tick();
+}
+
 Ending Servo::join() {
+  while (pace_ == Pace::stepped && running()) tick();
   if (servo_.joinable()) servo_.join();
   if (watchdog_.joinable()) {
     watchdog_.join();
@@ -81,10 +89,16 @@ Ending Servo::join() {
 }
 
 void Servo::run() noexcept {
-  if (ask_realtime_) realtime_ = ask_for_realtime(kServoPriority);
+  if (pace_ == Pace::real_time) realtime_ = ask_for_realtime(kServoPriority);
   loop_.start();
-  while (loop_.tick(gate_, commands_, view_, heartbeat_us_) == Ending::none) {
-  }
+  while (running()) tick();
+}
+
+void Servo::tick() noexcept {
+  if (loop_.tick(gate_, commands_, view_, heartbeat_us_) != Ending::none) end();
+}
+
+void Servo::end() noexcept {
   // No signal reaches for the device from here on: its last word is said.
   gate_.shut_for_good();
   bench_.device.stop();
@@ -95,7 +109,7 @@ void Servo::run() noexcept {
 /// The servo can't watch itself. A heartbeat that stands for 10 ms ends the force once; the servo
 /// opens the gate again when it is alive, and its guard has seen how late it is.
 void Servo::watch() noexcept {
-  if (ask_realtime_) (void)ask_for_realtime(kWatchdogPriority);
+  if (pace_ == Pace::real_time) (void)ask_for_realtime(kWatchdogPriority);
   std::int64_t ended_us = -1;  // the heartbeat after which it was
   while (running()) {
     const std::int64_t beat_us = heartbeat_us_.load(std::memory_order_acquire);

@@ -22,15 +22,18 @@ inline constexpr int kServoPriority = 70, kWatchdogPriority = 80;
 
 class Servo {
  public:
-  /// `bench` and `loop` outlive it. `realtime`: ask the system for it.
-  Servo(const Bench& bench, ServoLoop& loop, bool realtime) noexcept
-      : bench_(bench), loop_(loop), ask_realtime_(realtime) {}
+  /// `bench` and `loop` outlive it.
+  Servo(const Bench& bench, ServoLoop& loop, Pace pace) noexcept
+      : bench_(bench), loop_(loop), pace_(pace) {}
   ~Servo();
   Servo(const Servo&) = delete;
   Servo& operator=(const Servo&) = delete;
 
   /// Ticks until the loop ends. The device is open. Once.
   void start();
+
+  /// Pace::stepped: ticks until the clock reaches `until_ns`, or to the end.
+  void advance(std::int64_t until_ns) noexcept;
 
   /// From one other thread. False: too many wait already.
   bool command(const Command& command) noexcept { return commands_.push(command); }
@@ -41,17 +44,21 @@ class Servo {
 
   /// Waits for the end. The device was told to give no force, as its last word.
   Ending join();
+  /// Ends it, whether or not the queue has room, and waits like join().
+  Ending stop();
 
   /// After join().
   [[nodiscard]] const Realtime& realtime() const noexcept { return realtime_; }
 
  private:
   void run() noexcept;
+  void tick() noexcept;
+  void end() noexcept;
   void watch() noexcept;
 
   Bench bench_;
   ServoLoop& loop_;
-  bool ask_realtime_;
+  Pace pace_;
   Commands commands_;
   LiveView view_;
   falcon::ForceGate gate_;

@@ -33,7 +33,7 @@ StepReport LiveClay::meet(const Pose& measured) noexcept {
   // Periods that were missed are not made up for.
   due_us_ = std::max(due_us_ + period_us_, pose.time_us + period_us_ / 2);
   ++poses_;
-  if (recorder_ != nullptr) (void)recorder_->take(pose);
+  if (recorder_ != nullptr) (void)recorder_->take(pose, (report.flags & kContact) != 0);
   return report;
 }
 

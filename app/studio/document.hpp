@@ -1,7 +1,6 @@
 #pragma once
 // The document of the window: a work with its file, the pot it shows, and whether it is saved.
 
-#include "app/history/pose_sink.hpp"
 #include "app/history/work.hpp"
 #include "app/render/picture.hpp"
 #include "claystack/core/result.hpp"
@@ -85,10 +84,11 @@ class Document {
   /// Removal rate that the scene had when the work began [1/s].
   [[nodiscard]] double nominal_rate_per_s() const noexcept { return nominal_rate_per_s_; }
 
-  /// A stroke begins on the current pot. The sink is the recorder's.
-  Result<history::PoseSink*> begin_stroke(const SceneSpec& scene);
-  /// The recorder has finished. `thrown`: the pot that the servo left. Shows the new pot.
-  Result<void> end_stroke(const Pot* thrown);
+  /// A stroke begins on the current pot.
+  Result<history::Begun> begin_stroke(const SceneSpec& scene);
+  /// The recorder has finished. `thrown`: the pot that exactly the recorded poses left on the
+  /// wheel; empty: they are replayed. Shows the new pot.
+  Result<void> end_stroke(std::optional<Pot> thrown);
 
   // --- The tree of strokes. Not during a stroke.
   // ----------------------------------------------------

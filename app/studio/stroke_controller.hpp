@@ -3,10 +3,11 @@
 // the strokes make is the document.
 
 #include "app/render/picture.hpp"
-#include "app/servo/recorder.hpp"
+#include "app/servo/tick_trace.hpp"
 #include "app/studio/document.hpp"
 #include "app/studio/mouse_hand.hpp"
-#include "app/studio/stroke_session.hpp"
+#include "claystack/engine/wheel.hpp"
+#include "claystack/servo/servo.hpp"
 
 #include <memory>
 #include <optional>
@@ -67,7 +68,7 @@ class StrokeController {
   void begin_work() noexcept;
   /// No device begins a stroke until `resume`.
   void hold_back() noexcept { device_waits_ = false; }
-  [[nodiscard]] bool throwing() const noexcept { return session_ != nullptr; }
+  [[nodiscard]] bool throwing() const noexcept { return live_.has_value(); }
 
   // --- Devices.
   // -------------------------------------------------------------------------------------
@@ -89,10 +90,10 @@ class StrokeController {
   [[nodiscard]] StrokeNews take_news() { return std::exchange(news_, {}); }
   /// The pot on screen: the clay under the tool, or at rest what the document shows.
   [[nodiscard]] const render::PotView& view() const noexcept {
-    return session_ ? view_ : document_.view();
+    return live_ ? view_ : document_.view();
   }
   /// Part of the height of `view` that the crown has; 0 at rest, where rows include it [mm].
-  [[nodiscard]] double crown_mm() const noexcept { return session_ ? crown_mm_ : 0.0; }
+  [[nodiscard]] double crown_mm() const noexcept { return live_ ? crown_mm_ : 0.0; }
   /// Of the current stroke, or of the last one.
   [[nodiscard]] const servo::LiveStatus& status() const noexcept { return status_; }
   /// Of the stroke that ended last.
@@ -122,8 +123,8 @@ class StrokeController {
   servo::LiveSettings device_settings_;
   bool device_waits_ = false;  // it begins a stroke as soon as it can
   servo::TickTrace trace_;
-  std::unique_ptr<servo::Recorder> recorder_;
-  std::unique_ptr<StrokeSession> session_;
+  std::optional<Wheel> wheel_;            // of the stroke in progress
+  std::optional<servo::LiveThrow> live_;  // the same
   servo::LiveStatus status_;
   ServoRecord servo_;
   render::PotView view_;  // during a stroke
