@@ -162,7 +162,7 @@ Result<int> export_pot(ExportCommand& command, const Console& console) {
                                [&](std::string_view stage) { progress.stage(stage); });
   }();
   if (!report) return tl::make_unexpected(report.error());
-  if (console.json) console.print(export_json(*report, *copies));
+  if (console.json) print_json(export_json(*report, *copies));
   tell_export(console, *report, *copies);
   return tell_thin_wall(console, *report) ? kUnsound : kDone;
 }
@@ -239,7 +239,7 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
       "  claystack export bowl.pot.json bowl.pot.cbor --precision 0.001");
   sub->callback([command, &console, &exit] {
     const auto done = export_pot(*command, console);
-    if (!done && console.json) console.print({{"error", done.error().message}});
+    if (!done && console.json) print_json({{"error", done.error().message}});
     exit = done ? *done : report(done.error());
   });
 }

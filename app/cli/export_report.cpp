@@ -24,6 +24,18 @@ std::string_view proof_of(const ExportReport& report) {
   return "closed and embedded: the profile is strictly simple and meets the axis in segments only";
 }
 
+Json copy_json(const PotCopy& copy, const std::string& path) {
+  Json json = {{"path", path},
+               {"format", copy.encoding == PotEncoding::cbor ? "pot.cbor" : "pot.json"},
+               {"bytes", copy.bytes}};
+  if (copy.rounded_to_mm) {
+    json["rounded_to_mm"] = *copy.rounded_to_mm;
+    json["volume_change_mm3"] = copy.change_mm3;
+    json["volume_change_relative"] = copy.change_relative;
+  }
+  return json;
+}
+
 Json file_json(const FileReport& file) {
   Json json = {{"path", file.path},
                {"format", solid::name_of(file.format)},

@@ -2,6 +2,7 @@
 // What an export did, for scripts and for people.
 
 #include "app/cli/console.hpp"
+#include "app/cli/json_output.hpp"
 #include "app/cli/pot_copy.hpp"
 #include "claystack/export/job.hpp"
 

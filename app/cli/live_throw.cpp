@@ -277,7 +277,7 @@ Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console
                {"recording", recording_json(options, stage)},
                {"servo", servo_json(live.timing(), live.events(), live.realtime())}};
   json.update(clay_json(*stage.wheel, pot));
-  if (console.json) console.print(json);
+  if (console.json) print_json(json);
   tell(job, options, console, json, kept);
   if (auto all = first_error(kept, console); !all) return all;
   if (ending == Ending::device_lost) return tl::make_unexpected(stage.device->problem());

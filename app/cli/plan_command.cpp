@@ -1,5 +1,6 @@
 #include "app/bench/stage_cost.hpp"
 #include "app/cli/commands.hpp"
+#include "app/cli/json_output.hpp"
 #include "app/cli/replay.hpp"
 #ifdef CLAYSTACK_FALCON
 #include "app/servo/servo_check.hpp"
@@ -91,7 +92,7 @@ Result<void> plan_scene(const PlanOptions& options, const Console& console) {
   if (options.rate_hz)
     if (auto done = plan_servo(*scene, wheel->plan(), options, console, json); !done) return done;
 #endif
-  if (console.json) console.print(json);
+  if (console.json) print_json(json);
   return {};
 }
 

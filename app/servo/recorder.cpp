@@ -25,16 +25,13 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path,
 
 std::unique_ptr<Recorder> Recorder::create(PoseSink& sink) {
   std::unique_ptr<Recorder> recorder(new Recorder(sink));
-  recorder->thread_ = std::thread([&self = *recorder] { self.run(); });
+  recorder->worker_.emplace([&self = *recorder](bool) { self.hand_on(); }, kPause);
   return recorder;
 }
 
 Recorder::Recorder(PoseSink& sink) : sink_(sink) { block_.reserve(kPosesPerBlock); }
 
-Recorder::~Recorder() {
-  closing_.store(true);
-  if (thread_.joinable()) thread_.join();
-}
+Recorder::~Recorder() = default;
 
 bool Recorder::take(const Pose& pose, bool contact) noexcept {
   const bool whole = lost_.load(std::memory_order_relaxed) == 0;
@@ -47,18 +44,9 @@ bool Recorder::take(const Pose& pose, bool contact) noexcept {
 }
 
 Result<void> Recorder::finish() {
-  closing_.store(true);
-  if (thread_.joinable()) thread_.join();
+  worker_->close();
   if (failed_) return tl::make_unexpected(error_);
   return sink_.finish();
-}
-
-void Recorder::run() {
-  while (!closing_.load()) {
-    hand_on();
-    std::this_thread::sleep_for(kPause);
-  }
-  hand_on();
 }
 
 void Recorder::hand_on() {

@@ -7,14 +7,15 @@
 #include "claystack/core/result.hpp"
 #include "claystack/engine/files.hpp"
 #include "core/spsc_queue.hpp"
+#include "core/worker.hpp"
 
 #include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <vector>
 
 namespace clay::servo {
@@ -47,7 +48,6 @@ class Recorder {
 
  private:
   explicit Recorder(PoseSink& sink);
-  void run();
   void hand_on();
 
   static constexpr std::size_t kWaiting = 8192;  // poses: 8 s at 1 kHz
@@ -59,11 +59,11 @@ class Recorder {
   };
   SpscQueue<Played, kWaiting> queue_;
   std::atomic<std::uint64_t> lost_{0}, taken_{0};
-  std::atomic<bool> closing_{false}, failed_{false};
+  std::atomic<bool> failed_{false};
   std::vector<Pose> block_;                     // the thread's
   std::array<bool, kPosesPerBlock> contact_{};  // of its poses
   Error error_;                                 // the thread's, until it has ended
-  std::thread thread_;
+  std::optional<PeriodicWorker> worker_;        // last: it uses all members above
 };
 
 }  // namespace clay::servo
