@@ -153,6 +153,24 @@ void tell_solid(const Console& console, const ExportReport& report) {
     if (saved) console.say(fmt::format("left out: {} ({}), saved {:.2g} s", what, why, *saved));
 }
 
+Json shrinkage_json(const ExportReport& report) {
+  const double fired = 1.0 - report.prepared.shrinkage;
+  return {{"part", report.prepared.shrinkage},
+          {"fired_diameter_mm", fired * report.size.diameter_mm},
+          {"fired_height_mm", fired * report.size.height_mm},
+          {"fired_volume_mm3", fired * fired * fired * report.volume.solid_mm3}};
+}
+
+Json cavities_json(const std::vector<solid::PieceShape>& shapes) {
+  Json json = Json::array();
+  for (const auto& shape : shapes)
+    for (const auto& cavity : shape.cavities)
+      json.push_back({{"bottom_mm", cavity.bottom_mm},
+                      {"top_mm", cavity.top_mm},
+                      {"volume_mm3", cavity.volume_mm3}});
+  return json;
+}
+
 /// What was made and proved.
 Json solid_json(const ExportReport& report) {
   Json json = {
@@ -178,22 +196,11 @@ Json solid_json(const ExportReport& report) {
         {"axis_segments", report.section.planar.axis_segments}}},
       {"overshoot_mm", report.section.smoothed.overshoot_mm},
       {"kept_steps", Json::array()},
-      {"cavities", Json::array()},
+      {"cavities", cavities_json(report.section.shapes())},
   };
-  for (const auto& shape : report.section.shapes())
-    for (const auto& cavity : shape.cavities)
-      json["cavities"].push_back({{"bottom_mm", cavity.bottom_mm},
-                                  {"top_mm", cavity.top_mm},
-                                  {"volume_mm3", cavity.volume_mm3}});
   for (const auto& kept : report.section.smoothed.guard)
     json["kept_steps"].push_back(kept_json(kept));
-  if (report.prepared.shrinkage > 0.0) {
-    const double fired = 1.0 - report.prepared.shrinkage;
-    json["shrinkage"] = {{"part", report.prepared.shrinkage},
-                         {"fired_diameter_mm", fired * report.size.diameter_mm},
-                         {"fired_height_mm", fired * report.size.height_mm},
-                         {"fired_volume_mm3", fired * fired * fired * report.volume.solid_mm3}};
-  }
+  if (report.prepared.shrinkage > 0.0) json["shrinkage"] = shrinkage_json(report);
   if (report.collapsed) json["collapsed"] = collapsed_json(*report.collapsed);
   if (report.prepared.drilled_mm3 > 0.0) json["drilled_mm3"] = report.prepared.drilled_mm3;
   if (report.section.smoothing == solid::Smoothing::exact)
