@@ -136,6 +136,21 @@ void compare_tenfold(const Experiment& e, Worst& worst) {
   worst.force_rate = std::max(worst.force_rate, rate.force);
 }
 
+std::vector<Value> values_of(const Worst& worst) {
+  return {{"force_change_percent_h10", worst.force_h10, 0.0,
+           "root mean square change of the force with 10 times finer rings, of the largest force"},
+          {"profile_change_percent_h10", worst.profile_h10, 0.0, "of the profile, of R"},
+          {"profile_change_percent_1k_4k", worst.profile_rate, 0.0,
+           "of the profile from 1 kHz to 4 kHz, of R"},
+          {"force_change_percent_1k_4k", worst.force_rate, 0.0,
+           "of the force from 1 kHz to 4 kHz, of the largest force"}};
+}
+
+bool is_sound(const Worst& worst) {
+  return worst.force_h10 < kMostForcePercent && worst.profile_h10 < kMostProfilePercent &&
+         worst.profile_rate < kMostRatePercent && worst.force_rate < kMostForceRatePercent;
+}
+
 }  // namespace
 
 Section convergence_section(const Effort& effort) {
@@ -169,16 +184,8 @@ Section convergence_section(const Effort& effort) {
     add_rows(rates, rate_profile, rate_force, e.name, over_rate(e, periods));
     compare_tenfold(e, worst);
   }
-  section.values = {
-      {"force_change_percent_h10", worst.force_h10, 0.0,
-       "root mean square change of the force with 10 times finer rings, relative to its maximum"},
-      {"profile_change_percent_h10", worst.profile_h10, 0.0, "of the profile, relative to R"},
-      {"profile_change_percent_1k_4k", worst.profile_rate, 0.0,
-       "of the profile from 1 kHz to 4 kHz, relative to R"},
-      {"force_change_percent_1k_4k", worst.force_rate, 0.0,
-       "of the force from 1 kHz to 4 kHz, relative to its maximum"}};
-  section.sound = worst.force_h10 < kMostForcePercent && worst.profile_h10 < kMostProfilePercent &&
-                  worst.profile_rate < kMostRatePercent && worst.force_rate < kMostForceRatePercent;
+  section.values = values_of(worst);
+  section.sound = is_sound(worst);
   section.tables = {std::move(rings), std::move(rates), exact_table(section.sound)};
   section.plots = {std::move(ring_profile), std::move(ring_force), std::move(rate_profile),
                    std::move(rate_force)};

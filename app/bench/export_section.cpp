@@ -219,6 +219,41 @@ std::optional<Table> draco_table(const Pot& pot, const Effort& effort) {
   return table;
 }
 
+std::vector<Plot> plots_of(const std::vector<Run>& runs) {
+  const auto ms = [](const Run& r) { return 1e3 * r.seconds.median; };
+  const auto kilobytes = [](const Run& r) { return 1e-3 * r.bytes; };
+  const auto surface = [](const Run& r) { return r.surface_mm; };
+  const auto wall = [](const Run& r) { return r.wall_width_mm; };
+  const auto volume = [](const Run& r) { return r.volume; };
+  const char *const mm = "largest error of the surface [mm]", *const time = "run time [ms]";
+  return {
+      plot_of(runs, "export_surface", "Surface against run time", time, mm, ms, surface),
+      plot_of(runs, "export_bytes", "Surface against size", "size [kB]", mm, kilobytes, surface),
+      plot_of(runs, "export_wall", "What is proved of the wall against run time", time,
+              "between the bounds of the wall [mm]", ms, wall),
+      plot_of(runs, "export_volume", "Volume against run time", time,
+              "error of the file's volume, relative", ms, volume)};
+}
+
+/// The largest errors of all files.
+struct Worst {
+  double surface_share = 0.0;  ///< of the sum of tolerances
+  double volume = 0.0, drc_volume = 0.0;
+};
+
+Worst worst_of(const std::vector<Run>& runs) {
+  Worst worst;
+  for (const Run& run : runs) {
+    const bool drc = run.format == MeshFormat::drc;
+    double& error = drc ? worst.drc_volume : worst.volume;
+    error = std::max(error, run.volume);
+    if (run.along == "tolerance")
+      worst.surface_share = std::max(worst.surface_share,
+                                     run.surface_mm / run.options.tolerance_mm / (drc ? 3.0 : 2.0));
+  }
+  return worst;
+}
+
 }  // namespace
 
 Section export_section(const Effort& effort) {
@@ -232,19 +267,7 @@ Section export_section(const Effort& effort) {
 #endif
   effort.progress("exports");
   bool sound = measure(pot, runs, effort);
-  const auto ms = [](const Run& r) { return 1e3 * r.seconds.median; };
-  const auto kilobytes = [](const Run& r) { return 1e-3 * r.bytes; };
-  const auto surface = [](const Run& r) { return r.surface_mm; };
-  const auto wall = [](const Run& r) { return r.wall_width_mm; };
-  const auto volume = [](const Run& r) { return r.volume; };
-  const char *const mm = "largest error of the surface [mm]", *const time = "run time [ms]";
-  section.plots = {
-      plot_of(runs, "export_surface", "Surface against run time", time, mm, ms, surface),
-      plot_of(runs, "export_bytes", "Surface against size", "size [kB]", mm, kilobytes, surface),
-      plot_of(runs, "export_wall", "Certified wall bounds against run time", time,
-              "difference of the wall bounds [mm]", ms, wall),
-      plot_of(runs, "export_volume", "Volume against run time", time,
-              "error of the file's volume, relative", ms, volume)};
+  section.plots = plots_of(runs);
   section.tables = {table_of(runs)};
 #ifdef CLAYSTACK_DRACO
   effort.progress("Draco");
@@ -253,27 +276,20 @@ Section export_section(const Effort& effort) {
   else
     sound = false;
 #endif
-  double worst = 0.0, volume_error = 0.0, volume_error_drc = 0.0;
-  for (const Run& run : runs) {
-    const bool drc = run.format == MeshFormat::drc;
-    double& error = drc ? volume_error_drc : volume_error;
-    error = std::max(error, run.volume);
-    if (run.along == "tolerance")
-      worst = std::max(worst, run.surface_mm / run.options.tolerance_mm / (drc ? 3.0 : 2.0));
-  }
+  const Worst worst = worst_of(runs);
   section.values = {
-      {"export_surface_share", worst, 0.0,
+      {"export_surface_share", worst.surface_share, 0.0,
        "relative to the sum of tolerances, maximum over all files"},
-      {"export_volume_error", volume_error, 0.0, "relative, maximum over STL and OBJ"},
-      {"export_drc_volume_error", volume_error_drc, 0.0, "relative, maximum over Draco files"}};
-  sound = sound && worst <= 1.0;
+      {"export_volume_error", worst.volume, 0.0, "relative, maximum over STL and OBJ"},
+      {"export_drc_volume_error", worst.drc_volume, 0.0, "relative, maximum over Draco files"}};
+  sound = sound && worst.surface_share <= 1.0;
   section.sound = sound;
   section.summary = fmt::format(
       "Cost of finer files. A bellied pot of 200 rings with throwing marks is smoothed, "
       "proved, written to memory, read back and verified. The surface error of a file is at most "
       "{:.2f} of the sum of its tolerances; the volume of STL and OBJ is within {:.1e} of "
       "the counted clay.",
-      worst, volume_error);
+      worst.surface_share, worst.volume);
   return section;
 }
 

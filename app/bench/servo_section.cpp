@@ -22,43 +22,43 @@ using falcon::SampledLoop;
 constexpr double kAllowedBorderErrorPercent = 15.0;
 
 /// The arm of the docs: a light handle, and one tick of delay.
-SampledLoop arm_at(double rate_hz, double damping_ns_per_m = 2.0) {
-  return {rate_hz, 0.1, damping_ns_per_m, 1};
+SampledLoop arm_at(double rate_hz, double damping_ns_per_mm = 0.002) {
+  return {rate_hz, 0.1, damping_ns_per_mm, 1};
 }
 
 std::vector<double> stiffnesses(bool quick) {
   std::vector<double> k;
   const int per_decade = quick ? 3 : 6;
   for (int n = 0; n <= 4 * per_decade; ++n)
-    k.push_back(std::pow(10.0, 2.0 + static_cast<double>(n) / per_decade));
+    k.push_back(std::pow(10.0, -1.0 + static_cast<double>(n) / per_decade));
   return k;
 }
 
-Outcome at_wall(const SampledLoop& loop, double stiffness, double step_m, bool controlled) {
-  closed_loop::Experiment e = closed_loop::wall_experiment(loop, stiffness, step_m);
+Outcome at_wall(const SampledLoop& loop, double stiffness, double step_mm, bool controlled) {
+  closed_loop::Experiment e = closed_loop::wall_experiment(loop, stiffness, step_mm);
   e.controlled = controlled;
   const auto wall = closed_loop::make_wall({stiffness, 5.0, true});
   return run(e, *wall);
 }
 
 Outcome at_clay(const SampledLoop& loop, double stiffness, double rate_per_s, bool controlled) {
-  closed_loop::Experiment e = closed_loop::clay_experiment(loop, closed_loop::kFalconStepM);
+  closed_loop::Experiment e = closed_loop::clay_experiment(loop, closed_loop::kFalconStepMm);
   e.controlled = controlled;
   const auto clay = closed_loop::make_clay({stiffness, rate_per_s, 20.0});
   return run(e, *clay);
 }
 
 /// 0 without a limit cycle, otherwise from 0.4 at the limit to 1 at a hundred times that.
-double badness(double swing_m) {
-  if (swing_m <= closed_loop::kMostSwingM) return 0.0;
-  return std::min(1.0, 0.4 + 0.3 * std::log10(swing_m / closed_loop::kMostSwingM));
+double badness(double swing_mm) {
+  if (swing_mm <= closed_loop::kMostSwingMm) return 0.0;
+  return std::min(1.0, 0.4 + 0.3 * std::log10(swing_mm / closed_loop::kMostSwingMm));
 }
 
 struct Verdict {
   double border_error_percent = 0.0;
   double passivity_error_percent = 0.0;
-  double worst_controlled_m = 0.0;
-  double worst_stable_cycle_j = -std::numeric_limits<double>::infinity();
+  double worst_controlled_mm = 0.0;
+  double worst_stable_cycle_mj = -std::numeric_limits<double>::infinity();
   int stable_cells = 0, buzzing_cells = 0;
 };
 
@@ -68,11 +68,11 @@ Table borders(const Effort& effort, Verdict& verdict) {
   Table table{"servo_borders",
               "Borders of a linear wall, predicted and measured",
               {{"rate", "Hz"},
-               {"damping", "N s/m"},
+               {"damping", "N s/mm"},
                {"delay", "ticks"},
-               {"passive", "N/m"},
-               {"stable", "N/m"},
-               {"measured", "N/m"},
+               {"passive", "N/mm"},
+               {"stable", "N/mm"},
+               {"measured", "N/mm"},
                {"error", "%"},
                {"passivity_error", "%"}},
               {},
@@ -83,7 +83,7 @@ Table borders(const Effort& effort, Verdict& verdict) {
       effort.quick ? std::vector<double>{100, 1000, 8000}
                    : std::vector<double>{100, 250, 500, 1000, 2000, 4000, 8000};
   for (const double rate : rates)
-    for (const double damping : {1.0, 2.0, 10.0})
+    for (const double damping : {0.001, 0.002, 0.01})
       for (const int delay : {0, 1, 2}) {
         SampledLoop loop = arm_at(rate, damping);
         loop.delay_ticks = delay;
@@ -112,7 +112,7 @@ Map lined_map(std::string id, std::string title, Axis x, std::vector<double> x_v
   Map map{std::move(id),
           std::move(title),
           std::move(x),
-          {"contact stiffness [N/m]", true},
+          {"contact stiffness [N/mm]", true},
           {},
           k_values,
           {},
@@ -157,9 +157,9 @@ void add_wall_maps(Section& section, const std::string& id, const Axis& x,
         std::string("Wall, by ") + id + (controlled ? ", with the passivity controller" : ", bare"),
         x, x_values, k_values, loop_at);
     fill(map, [&](double at, double k) {
-      const double swing = at_wall(loop_at(at), k, closed_loop::kFalconStepM, controlled).swing_m;
-      if (controlled) verdict.worst_controlled_m = std::max(verdict.worst_controlled_m, swing);
-      if (!controlled) verdict.buzzing_cells += swing > closed_loop::kMostSwingM;
+      const double swing = at_wall(loop_at(at), k, closed_loop::kFalconStepMm, controlled).swing_mm;
+      if (controlled) verdict.worst_controlled_mm = std::max(verdict.worst_controlled_mm, swing);
+      if (!controlled) verdict.buzzing_cells += swing > closed_loop::kMostSwingMm;
       return badness(swing);
     });
     section.maps.push_back(std::move(map));
@@ -176,8 +176,8 @@ void add_clay_maps(Section& section, const std::vector<double>& rates,
                   {"rate [Hz]", true}, rates, k_values, [](double rate) { return arm_at(rate); });
     map.note = "The lines are those of an elastic wall. " + map.note;
     fill(map, [&](double rate, double k) {
-      const double swing = at_clay(arm_at(rate), k, 20.0, controlled).swing_m;
-      if (controlled) verdict.worst_controlled_m = std::max(verdict.worst_controlled_m, swing);
+      const double swing = at_clay(arm_at(rate), k, 20.0, controlled).swing_mm;
+      if (controlled) verdict.worst_controlled_mm = std::max(verdict.worst_controlled_mm, swing);
       return badness(swing);
     });
     section.maps.push_back(std::move(map));
@@ -202,12 +202,12 @@ Plot energy_plot(const std::vector<double>& rates, Verdict& verdict) {
       const Outcome o = run(closed_loop::energy_experiment(loop, k), *wall);
       if (part < 1.0) {
         ++verdict.stable_cells;
-        verdict.worst_stable_cycle_j = std::max(verdict.worst_stable_cycle_j, o.mean_cycle_j);
+        verdict.worst_stable_cycle_mj = std::max(verdict.worst_stable_cycle_mj, o.mean_cycle_mj);
         if (k < passive_stiffness(loop))
-          verdict.worst_stable_cycle_j = std::max(verdict.worst_stable_cycle_j, o.worst_cycle_j);
+          verdict.worst_stable_cycle_mj = std::max(verdict.worst_stable_cycle_mj, o.worst_cycle_mj);
       }
       curve.x.push_back(part);
-      curve.y.push_back(o.mean_cycle_j / (0.5 * 0.5 * 0.5 / k));
+      curve.y.push_back(o.mean_cycle_mj / (0.5 * 0.5 * 0.5 / k));
     }
     plot.curves.push_back(std::move(curve));
   }
@@ -218,7 +218,7 @@ Plot energy_plot(const std::vector<double>& rates, Verdict& verdict) {
 double stiffest_calm_clay(double rate, double removal, const std::vector<double>& k_values) {
   double calm = std::numeric_limits<double>::quiet_NaN();
   for (const double k : k_values) {
-    if (at_clay(arm_at(rate), k, removal, false).swing_m > closed_loop::kMostSwingM) break;
+    if (at_clay(arm_at(rate), k, removal, false).swing_mm > closed_loop::kMostSwingMm) break;
     calm = k;
   }
   return calm;
@@ -230,12 +230,12 @@ Table clay_table(const std::vector<double>& k_values) {
       "Stable stiffness of clay beyond the elastic border",
       {{"rate", "Hz"},
        {"removal", "1/s"},
-       {"stable_elastic", "N/m"},
-       {"calm_up_to", "N/m"},
+       {"stable_elastic", "N/mm"},
+       {"stable_up_to", "N/mm"},
        {"gain", ""}},
       {},
       "Bare loop. Stable: no swing above 0.2 mm in a stroke of 3 mm/s. The last stiffness of "
-      "the scan is 1e6 N/m: a gain that reaches it is a lower bound."};
+      "the scan is 1000 N/mm: a gain that reaches it is a lower bound."};
   for (const double rate : {100.0, 1000.0, 4000.0})
     for (const double removal : {0.0, 1.0, 20.0, 100.0}) {
       const double border = stable_stiffness(arm_at(rate));
@@ -256,16 +256,16 @@ void conclude(Section& section, const Verdict& v) {
       counted("passivity_error_percent", v.passivity_error_percent,
               "maximum, relative to the required damping"),
       counted("stable_cells", v.stable_cells, "of the energy plot"),
-      counted("worst_stable_cycle_j", v.worst_stable_cycle_j,
+      counted("worst_stable_cycle_mj", v.worst_stable_cycle_mj,
               "maximum energy injected in one of them, minus its tolerance"),
       counted("buzzing_cells_bare", v.buzzing_cells, "limit cycle above 0.2 mm without controller"),
-      counted("worst_swing_controlled_mm", 1e3 * v.worst_controlled_m,
+      counted("worst_swing_controlled_mm", v.worst_controlled_mm,
               "largest limit cycle with it, peak to peak"),
   };
   section.sound = v.border_error_percent <= kAllowedBorderErrorPercent &&
                   v.passivity_error_percent <= kAllowedBorderErrorPercent &&
-                  v.worst_stable_cycle_j <= 0.0 && v.buzzing_cells > 0 &&
-                  v.worst_controlled_m <= closed_loop::kMostSwingM;
+                  v.worst_stable_cycle_mj <= 0.0 && v.buzzing_cells > 0 &&
+                  v.worst_controlled_mm <= closed_loop::kMostSwingMm;
 }
 
 }  // namespace
@@ -275,7 +275,8 @@ Section servo_section(const Effort& effort) {
   section.id = "servo";
   section.title = "The stiff closed loop";
   section.summary =
-      "A simulated arm of 0.1 kg, 2 N s/m and a tick of delay against a wall and against the clay, "
+      "A simulated arm of 0.1 kg, 0.002 N s/mm and a tick of delay against a wall and against the "
+      "clay, "
       "over stiffness, rate and damping: where it is stable, what energy it injects, and what the "
       "passivity controller does with the rest.";
   Verdict verdict;
@@ -290,7 +291,8 @@ Section servo_section(const Effort& effort) {
       section, "rate", {"rate [Hz]", true}, rates, k_values,
       [](double rate) { return arm_at(rate); }, verdict);
   add_wall_maps(
-      section, "damping", {"damping of the arm [N s/m]", true}, {0.5, 1, 2, 5, 10, 20}, k_values,
+      section, "damping", {"damping of the arm [N s/mm]", true},
+      {0.0005, 0.001, 0.002, 0.005, 0.01, 0.02}, k_values,
       [](double damping) { return arm_at(1000, damping); }, verdict);
   effort.progress("clay");
   add_clay_maps(section, rates, k_values, verdict);

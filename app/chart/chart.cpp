@@ -1,7 +1,5 @@
 #include "app/chart/chart.hpp"
 
-#include "app/chart/xml_text.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,14 +26,18 @@ constexpr const char* kMarks[] = {"M-3.6 0a3.6 3.6 0 1 0 7.2 0a3.6 3.6 0 1 0 -7.
                                   "M-4.6 -3.2L0 -1 4.6 -3.2 0 4.6Z"};
 constexpr const char* kZeroMark = "M0 1L4.6 -7H-4.6Z";
 
-std::string mark(const char* shape, double x, double y, const std::string& classes) {
-  return fmt::format("<path class='{}' transform='translate({:.1f} {:.1f})' d='{}'/>\n", classes, x,
-                     y, shape);
+std::string px(double length) { return fixed(length, 1); }
+
+std::string moved(double x, double y) { return fmt::format("translate({:.1f} {:.1f})", x, y); }
+
+const char* dashes(bool dashed) { return dashed ? "6 4" : ""; }
+
+void mark(SvgWriter& svg, const char* shape, double x, double y, const std::string& classes) {
+  svg.element("path", {{"class", classes}, {"transform", moved(x, y)}, {"d", shape}});
 }
 
-std::string text(double x, double y, const char* anchor, std::string_view words) {
-  return fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='{}'>{}</text>\n", x, y, anchor,
-                     escaped(words));
+void text(SvgWriter& svg, double x, double y, const char* anchor, std::string_view words) {
+  svg.element("text", {{"x", px(x)}, {"y", px(y)}, {"text-anchor", anchor}}, words);
 }
 
 std::size_t letters(std::string_view text) {
@@ -68,23 +70,26 @@ Chart::Chart(std::string_view title, const Axis& x_axis, const Axis& y_axis, Axi
 void Chart::grid() {
   for (const Tick& tick : x_.ticks()) {
     const double at = x_.at(tick.value);
-    add(fmt::format("<path class='{}' d='M{:.1f} {:.1f}V{:.1f}'/>\n",
-                    tick.label.empty() ? "minor" : "grid", at, top_, bottom_));
-    if (!tick.label.empty()) add(text(at, bottom_ + 19.0, "middle", tick.label));
+    body_.element("path", {{"class", tick.label.empty() ? "minor" : "grid"},
+                           {"d", fmt::format("M{:.1f} {:.1f}V{:.1f}", at, top_, bottom_)}});
+    if (!tick.label.empty()) text(body_, at, bottom_ + 19.0, "middle", tick.label);
   }
   for (const Tick& tick : y_.ticks()) {
     const double at = y_.at(tick.value);
-    add(fmt::format("<path class='{}' d='M{:.1f} {:.1f}H{:.1f}'/>\n",
-                    tick.label.empty() ? "minor" : "grid", left_, at, right_));
-    if (!tick.label.empty()) add(text(left_ - 8.0, at + 4.5, "end", tick.label));
+    body_.element("path", {{"class", tick.label.empty() ? "minor" : "grid"},
+                           {"d", fmt::format("M{:.1f} {:.1f}H{:.1f}", left_, at, right_)}});
+    if (!tick.label.empty()) text(body_, left_ - 8.0, at + 4.5, "end", tick.label);
   }
-  add(fmt::format("<rect class='box' x='{:.1f}' y='{:.1f}' width='{:.1f}' height='{:.1f}'/>\n",
-                  left_, top_, right_ - left_, bottom_ - top_));
-  add(text(0.5 * (left_ + right_), bottom_ + 42.0, "middle", x_label_));
-  add(
-      fmt::format("<text transform='translate(18 {:.1f}) rotate(-90)' "
-                  "text-anchor='middle'>{}</text>\n",
-                  0.5 * (top_ + bottom_), escaped(y_label_)));
+  body_.element("rect", {{"class", "box"},
+                         {"x", px(left_)},
+                         {"y", px(top_)},
+                         {"width", px(right_ - left_)},
+                         {"height", px(bottom_ - top_)}});
+  text(body_, 0.5 * (left_ + right_), bottom_ + 42.0, "middle", x_label_);
+  body_.element("text",
+                {{"transform", moved(18.0, 0.5 * (top_ + bottom_)) + " rotate(-90)"},
+                 {"text-anchor", "middle"}},
+                y_label_);
 }
 
 std::vector<Chart::Point> Chart::points_of(const Curve& curve, const std::vector<double>& y) const {
@@ -123,7 +128,7 @@ void Chart::spread(const Curve& curve, std::size_t number) {
       bars += fmt::format("M{0:.1f} {1:.1f}h6m-3 0V{2:.1f}m-3 0h6", low[k].x - 3.0, low[k].y,
                           high[k].y);
   if (!bars.empty() && count <= kMostMarks)
-    add(fmt::format("<path class='bar s{}' d='{}'/>\n", number % kColours, bars));
+    body_.element("path", {{"class", fmt::format("bar s{}", number % kColours)}, {"d", bars}});
 }
 
 void Chart::line(const std::vector<Point>& points, const std::string& classes, bool dashed) {
@@ -135,8 +140,8 @@ void Chart::line(const std::vector<Point>& points, const std::string& classes, b
     down = drawn;
   }
   if (!path.empty())
-    add(fmt::format("<path class='line {}'{} d='{}'/>\n", classes,
-                    dashed ? " stroke-dasharray='6 4'" : "", path));
+    body_.element(
+        "path", {{"class", "line " + classes}, {"stroke-dasharray", dashes(dashed)}, {"d", path}});
 }
 
 void Chart::marks(const std::vector<Point>& points, std::size_t number, bool on_map) {
@@ -144,10 +149,10 @@ void Chart::marks(const std::vector<Point>& points, std::size_t number, bool on_
     if (!std::isfinite(p.x)) continue;
     zeros_ = zeros_ || p.zero;
     if (p.zero)
-      add(mark(kZeroMark, p.x, p.y, "zero " + colour(number, on_map, "s")));
+      mark(body_, kZeroMark, p.x, p.y, "zero " + colour(number, on_map, "s"));
     else
-      add(mark(kMarks[number % std::size(kMarks)], p.x, p.y,
-               "mark " + colour(number, on_map, "f")));
+      mark(body_, kMarks[number % std::size(kMarks)], p.x, p.y,
+           "mark " + colour(number, on_map, "f"));
   }
 }
 
@@ -155,25 +160,32 @@ void Chart::curve(const Curve& curve, std::size_t number, bool on_map) {
   const auto points = points_of(curve, curve.y);
   const std::string stroke = colour(number, on_map, "s");
   // A nested SVG clips at its frame without needing an id.
-  add(
-      fmt::format("<svg x='{0:.1f}' y='{1:.1f}' width='{2:.1f}' height='{3:.1f}' "
-                  "viewBox='{0:.1f} {1:.1f} {2:.1f} {3:.1f}'>\n",
-                  left_, top_, right_ - left_, bottom_ - top_));
+  const double width = right_ - left_, height = bottom_ - top_;
+  body_.open("svg",
+             {{"x", px(left_)},
+              {"y", px(top_)},
+              {"width", px(width)},
+              {"height", px(height)},
+              {"viewBox", fmt::format("{:.1f} {:.1f} {:.1f} {:.1f}", left_, top_, width, height)}});
   if (!on_map) spread(curve, number);
   if (curve.line && on_map) line(points, "under", false);
   if (curve.line) line(points, stroke, curve.dashed);
-  add("</svg>\n");
+  body_.close("svg");
   const bool marked = !curve.line || (!on_map && !curve.dashed && points.size() <= kMostMarks);
   if (marked) marks(points, number, on_map);
   if (curve.name.empty()) return;
   // On a map, black is drawn on a pale background here as well.
-  std::string symbol = on_map ? "<rect class='pale' x='-15' y='-8' width='30' height='16'/>" : "";
+  SvgWriter symbol;
+  if (on_map)
+    symbol.element(
+        "rect", {{"class", "pale"}, {"x", "-15"}, {"y", "-8"}, {"width", "30"}, {"height", "16"}});
   if (curve.line)
-    symbol += fmt::format("<path class='line {}'{} d='M-13 0H13'/>", stroke,
-                          curve.dashed ? " stroke-dasharray='6 4'" : "");
+    symbol.element("path", {{"class", "line " + stroke},
+                            {"stroke-dasharray", dashes(curve.dashed)},
+                            {"d", "M-13 0H13"}});
   if (marked)
-    symbol += mark(kMarks[number % std::size(kMarks)], 0, 0, "mark " + colour(number, on_map, "f"));
-  legend_entry(symbol, curve.name);
+    mark(symbol, kMarks[number % std::size(kMarks)], 0, 0, "mark " + colour(number, on_map, "f"));
+  legend_entry(symbol.take(), curve.name);
 }
 
 void Chart::legend_entry(const std::string& symbol, const std::string& words) {
@@ -181,7 +193,11 @@ void Chart::legend_entry(const std::string& symbol, const std::string& words) {
 }
 
 std::string Chart::finish() {
-  if (zeros_) legend_entry(mark(kZeroMark, 0, 3, "zero s5"), "on the axis: exactly 0");
+  if (zeros_) {
+    SvgWriter symbol;
+    mark(symbol, kZeroMark, 0, 3, "zero s5");
+    legend_entry(symbol.take(), "on the axis: exactly 0");
+  }
   double x = left_, y = bottom_ + 68.0;
   for (const auto& [symbol, words] : legend_) {
     const double width = 40.0 + kPxPerLetter * static_cast<double>(letters(words));
@@ -189,23 +205,35 @@ std::string Chart::finish() {
       x = left_;
       y += kRow;
     }
-    add(fmt::format("<g transform='translate({:.1f} {:.1f})'>{}</g>\n", x + 13.0, y - 4.5, symbol));
-    add(text(x + 32.0, y, "start", words));
+    body_.open("g", {{"transform", moved(x + 13.0, y - 4.5)}});
+    body_.raw(symbol);
+    body_.close("g");
+    text(body_, x + 32.0, y, "start", words);
     x += width + 12.0;
   }
   const double height = legend_.empty() ? bottom_ + 54.0 : y + 14.0;
-  const bool alone = place_ == Place::alone;
-  std::string svg = fmt::format(
-      "<svg class='plot' xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1:.0f}' "
-      "width='{0}' height='{1:.0f}' role='img' aria-label='{2}'>\n",
-      kWidth, height, escaped(title_));
-  if (alone) svg.append("<style>").append(style()).append("</style>\n");
-  if (alone)
-    svg += fmt::format(
-        "<rect class='back' width='{}' height='{:.0f}'/>\n<text class='name' x='{:.0f}' "
-        "y='24'>{}</text>\n",
-        kWidth, height, left_, escaped(title_));
-  return svg + body_ + "</svg>\n";
+  return page(height);
+}
+
+/// The whole drawing, with its own style if it stands alone.
+std::string Chart::page(double height) {
+  const std::string width = fixed(kWidth, 0), high = fixed(height, 0);
+  SvgWriter svg;
+  svg.open("svg", {{"class", "plot"},
+                   {"xmlns", "http://www.w3.org/2000/svg"},
+                   {"viewBox", "0 0 " + width + " " + high},
+                   {"width", width},
+                   {"height", high},
+                   {"role", "img"},
+                   {"aria-label", title_}});
+  if (place_ == Place::alone) {
+    svg.raw(std::string("<style>").append(style()).append("</style>\n"));
+    svg.element("rect", {{"class", "back"}, {"width", width}, {"height", high}});
+    svg.element("text", {{"class", "name"}, {"x", fixed(left_, 0)}, {"y", "24"}}, title_);
+  }
+  svg.raw(body_.take());
+  svg.close("svg");
+  return svg.take();
 }
 
 }  // namespace clay::chart

@@ -3,6 +3,7 @@
 
 #include "app/chart/axis_scale.hpp"
 #include "app/chart/plot.hpp"
+#include "core/svg_writer.hpp"
 
 #include <cstddef>
 #include <string>
@@ -21,7 +22,7 @@ class Chart {
 
   [[nodiscard]] const AxisScale& x() const { return x_; }
   [[nodiscard]] const AxisScale& y() const { return y_; }
-  void add(std::string_view svg) { body_ += svg; }
+  void add(std::string_view svg) { body_.raw(svg); }
 
   void grid();
   /// In the colour and with the mark of its number; on a map in black on white.
@@ -37,12 +38,14 @@ class Chart {
   };
   [[nodiscard]] std::vector<Point> points_of(const Curve& curve,
                                              const std::vector<double>& y) const;
+  [[nodiscard]] std::string page(double height);
   void spread(const Curve& curve, std::size_t number);
   void line(const std::vector<Point>& points, const std::string& classes, bool dashed);
   void marks(const std::vector<Point>& points, std::size_t number, bool on_map);
 
   AxisScale x_, y_;
-  std::string x_label_, y_label_, title_, body_;
+  std::string x_label_, y_label_, title_;
+  SvgWriter body_;
   std::vector<std::pair<std::string, std::string>> legend_;
   Place place_;
   double top_, left_ = 78.0, right_ = 738.0, bottom_;

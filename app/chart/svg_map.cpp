@@ -36,23 +36,35 @@ std::string cell_colour(double bad) {
   return fmt::format("#{:02x}{:02x}{:02x}", mix(0), mix(1), mix(2));
 }
 
+std::string rectangle(const char* style, double x, double y, double width, double height,
+                      const std::string& colour) {
+  SvgWriter svg;
+  svg.element("rect", {{"class", style},
+                       {"x", fixed(x, 1)},
+                       {"y", fixed(y, 1)},
+                       {"width", fixed(width, 1)},
+                       {"height", fixed(height, 1)},
+                       {"fill", colour}});
+  return svg.take();
+}
+
 std::string cell_svg(double x0, double y0, double x1, double y1, double bad) {
   const double left = std::min(x0, x1), top = std::min(y0, y1);
   const double width = std::abs(x1 - x0), height = std::abs(y1 - y0);
   if (!std::isfinite(bad))
-    return fmt::format(
-        "<rect class='none' x='{:.1f}' y='{:.1f}' width='{:.1f}' height='{:.1f}'/>\n", left + 2.0,
-        top + 2.0, std::max(width - 4.0, 0.5), std::max(height - 4.0, 0.5));
+    return rectangle("none", left + 2.0, top + 2.0, std::max(width - 4.0, 0.5),
+                     std::max(height - 4.0, 0.5), {});
   bad = std::clamp(bad, 0.0, 1.0);
-  std::string svg = fmt::format(
-      "<rect class='cell' x='{:.1f}' y='{:.1f}' width='{:.1f}' height='{:.1f}' fill='{}'/>\n", left,
-      top, width, height, cell_colour(bad));
+  SvgWriter svg;
+  svg.raw(rectangle("cell", left, top, width, height, cell_colour(bad)));
   // The area also encodes the value, for reading in grey.
   const double radius = 0.32 * std::min(width, height) * std::sqrt(bad);
   if (radius > 0.4)
-    svg += fmt::format("<circle class='cell-dot' cx='{:.1f}' cy='{:.1f}' r='{:.1f}'/>\n",
-                       left + 0.5 * width, top + 0.5 * height, radius);
-  return svg;
+    svg.element("circle", {{"class", "cell-dot"},
+                           {"cx", fixed(left + 0.5 * width, 1)},
+                           {"cy", fixed(top + 0.5 * height, 1)},
+                           {"r", fixed(radius, 1)}});
+  return svg.take();
 }
 
 void legend(Chart& chart) {

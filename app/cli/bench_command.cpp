@@ -1,4 +1,5 @@
 #include "app/cli/commands.hpp"
+#include "app/cli/json_output.hpp"
 
 #include "app/bench/registered_sections.hpp"
 #include "app/bench/report/report.hpp"
@@ -116,7 +117,7 @@ Result<int> run_bench(BenchOptions options, Console console) {
   measure(report, *chosen, options, console);
   if (auto published = publish_report(report, options, std::move(page)); !published)
     return tl::make_unexpected(published.error());
-  if (console.json) console.print(bench::json_of(report));
+  if (console.json) print_json(bench::json_of(report));
   for (const bench::Section& section : report.sections) console.say(bench::text_of(section));
   return report.sound() ? kDone : kUnsound;
 }

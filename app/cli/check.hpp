@@ -2,6 +2,7 @@
 // The stages of `claystack check`: examine a pot or a mesh, then print the verdict.
 
 #include "app/cli/console.hpp"
+#include "app/cli/json_output.hpp"
 #include "app/cli/wall_options.hpp"
 
 #include "claystack/export/check.hpp"

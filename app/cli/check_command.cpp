@@ -63,10 +63,10 @@ int check(CheckCommand& command, const Console& console) {
   if (!verdict) {
     const Error& error = verdict.error();
     if (console.json)
-      console.print(verdict_json(command.file, unsound(what_failed(error.kind), error.message)));
+      print_json(verdict_json(command.file, unsound(what_failed(error.kind), error.message)));
     return report(error);
   }
-  if (console.json) console.print(verdict_json(command.file, *verdict));
+  if (console.json) print_json(verdict_json(command.file, *verdict));
   tell(console, command.file, *verdict);
   return verdict->mesh.sound() ? kDone : kUnsound;
 }

@@ -2,6 +2,7 @@
 // A summary of the clay after throwing, for people and for scripts.
 
 #include "app/cli/console.hpp"
+#include "app/cli/json_output.hpp"
 #include "claystack/engine/wheel.hpp"
 
 namespace clay::cli {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -55,12 +54,6 @@ bool flush_out() noexcept { return std::fflush(stdout) == 0 && std::ferror(stdou
 void put_err(std::string_view text) noexcept {
   (void)std::fwrite(text.data(), 1, text.size(), stderr);
 }
-
-std::string pretty(const Json& data) {
-  return data.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-void Console::print(const Json& data) const { put_out(pretty(data)); }
 
 void Console::say(std::string_view line) const {
   if (!json && !quiet) put_out(std::string(line) + "\n");
@@ -138,12 +131,6 @@ int run_program(int (*run)(int argc, char** argv), int argc, char** argv) noexce
   } catch (...) {
     return unexpected("an unknown exception");
   }
-}
-
-Json json_count(WideQuanta count) {
-  using Limits = std::numeric_limits<std::int64_t>;
-  if (count < Limits::min() || count > Limits::max()) return to_string(count);
-  return static_cast<std::int64_t>(count);
 }
 
 StatusLine::StatusLine(const Console& console)

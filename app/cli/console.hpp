@@ -1,13 +1,11 @@
 #pragma once
-// Shared by all commands: errors, progress, JSON, exit status.
+// Shared by all commands: errors, progress, output, exit status.
 
 #include "claystack/core/result.hpp"
-#include "claystack/engine/clay.hpp"
 
 #include <chrono>
 #include <cstddef>
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,14 +17,8 @@ class ParseError;
 
 namespace clay::cli {
 
-using Json = nlohmann::ordered_json;
-
 /// Exit statuses of all programs.
 enum Exit { kDone = 0, kUnsound = 1, kBadInput = 2, kIoFailed = 3, kDeviceFailed = 4 };
-
-/// A whole JSON document for a file or a script. Invalid UTF-8 in file names is replaced, because
-/// JSON cannot hold it.
-[[nodiscard]] std::string pretty(const Json& data);
 
 /// Writes text to standard output, in the order of calls. Never throws; a failure is recorded and
 /// makes the exit status 3 at the end. Nothing else in the programs writes there.
@@ -40,7 +32,6 @@ struct Console {
   bool json = false;   ///< data as JSON on stdout
   bool quiet = false;  ///< no progress, no summary: errors and requested data only
 
-  void print(const Json& data) const;      ///< one JSON document, pretty
   void say(std::string_view line) const;   ///< to stdout, for people; silent with json or quiet
   void warn(std::string_view line) const;  ///< to stderr
 };
@@ -64,9 +55,6 @@ int report(const CLI::App& app, const CLI::ParseError& error);
 /// so that no file takes their number. A file that exceeds its size limit is an error, not a
 /// signal.
 int run_program(int (*run)(int argc, char** argv), int argc, char** argv) noexcept;
-
-/// A count for JSON: a number if it fits into 64 bits, otherwise decimal digits in a string.
-[[nodiscard]] Json json_count(WideQuanta count);
 
 /// One line on stderr that is overwritten; only on a terminal.
 class StatusLine {

@@ -50,9 +50,9 @@ void add_falcon_options(CLI::App& command, falcon::FalconSettings& settings) {
       ->default_str("libnifalcon");
   command
       .add_option(
-          "--motor-counts", settings.motor_counts_per_nm,
-          "Motor counts of a Falcon per 1 N m at an arm; a larger number gives a larger force")
-      ->check(CLI::Validator(in_range(1.0, 1e6), ""))
+          "--motor-counts", settings.motor_counts_per_nmm,
+          "Motor counts of a Falcon per 1 N mm at an arm; a larger number gives a larger force")
+      ->check(CLI::Validator(in_range(1e-3, 1e3), ""))
       ->capture_default_str();
 }
 

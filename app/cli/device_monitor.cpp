@@ -1,4 +1,5 @@
 #include "app/cli/device_monitor.hpp"
+#include "app/cli/json_output.hpp"
 
 #include <fmt/format.h>
 #include <signal.h>

@@ -1,6 +1,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/device_choice.hpp"
 #include "app/cli/device_monitor.hpp"
+#include "app/cli/json_output.hpp"
 #include "app/cli/live_throw.hpp"
 #include "app/servo/words.hpp"
 #include "claystack/falcon/usb.hpp"
@@ -80,7 +81,7 @@ Result<void> list(const falcon::DeviceSettings& settings, const Console& console
   }
   if (found->empty())
     console.say("no device is connected; a Falcon is listed even without its power supply");
-  if (console.json) console.print(json);
+  if (console.json) print_json(json);
   return {};
 }
 
@@ -103,13 +104,13 @@ Result<void> show(const DevicesOptions& options, const falcon::DeviceSettings& s
   console.say(fmt::format("{} at {}: {}", info.name, info.place, name_of(state)));
   if (state == falcon::DeviceState::needs_homing) console.say(servo::kHomingAdvice);
   if (console.json)
-    console.print({{"name", info.name},
-                   {"place", info.place},
-                   {"state", name_of(state)},
-                   {"can_push", info.can_push},
-                   {"force_limit_n", info.force_limit_n},
-                   {"half_workspace_mm", info.half_workspace_mm.x},
-                   {"rate_hz", info.rate_hz}});
+    print_json({{"name", info.name},
+                {"place", info.place},
+                {"state", name_of(state)},
+                {"can_push", info.can_push},
+                {"force_limit_n", info.force_limit_n},
+                {"half_workspace_mm", info.half_workspace_mm.x},
+                {"rate_hz", info.rate_hz}});
   return {};
 }
 

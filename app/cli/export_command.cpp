@@ -162,23 +162,15 @@ Result<int> export_pot(ExportCommand& command, const Console& console) {
                                [&](std::string_view stage) { progress.stage(stage); });
   }();
   if (!report) return tl::make_unexpected(report.error());
-  if (console.json) console.print(export_json(*report, *copies));
+  if (console.json) print_json(export_json(*report, *copies));
   print_export(console, *report, *copies);
   return print_thin_wall(console, *report) ? kUnsound : kDone;
 }
 
-}  // namespace
+using SharedCommand = std::shared_ptr<ExportCommand>;
 
-void add_export_command(CLI::App& app, Console& console, int& exit) {
-  auto command = std::make_shared<ExportCommand>();
-  CLI::App* sub = app.add_subcommand(
-      "export", "Write a pot as a printable solid, with a proof that it is sound");
-  sub->add_option("pot", command->pot, "NAME.pot.json or .pot.cbor, or - for standard input")
-      ->required();
-  sub->add_option("out", command->outputs,
-                  "Files to write: .stl, .obj, .drc; .svg for the section, .csv for its walls; "
-                  ".pot.json or .pot.cbor for the pot")
-      ->required();
+/// What the solid is like.
+void add_solid_options(CLI::App* sub, const SharedCommand& command) {
   sub->add_option("--tolerance", command->request.options.tolerance_mm,
                   "Maximum chordal error, and maximum vertex error in .drc [mm]")
       ->check(in_range(1e-5, 10.0))
@@ -213,6 +205,10 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
         const auto parsed = shrinkage_of(text);
         return parsed ? std::string() : parsed.error().message;
       });
+}
+
+/// What is required of it, and what is written beside it.
+void add_file_options(CLI::App* sub, const SharedCommand& command) {
   command->walls.add_to(*sub);
   sub->add_flag("--measure-left-out", command->request.options.measure_left_out,
                 "Also run the skipped stages, and report the time [s] that skipping saves");
@@ -234,6 +230,22 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
                 "Write .obj with normals, for shading");
   sub->add_flag("--pieces", command->request.options.allow_pieces,
                 "Accept a pot of several pieces that do not touch");
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& app, Console& console, int& exit) {
+  auto command = std::make_shared<ExportCommand>();
+  CLI::App* sub = app.add_subcommand(
+      "export", "Write a pot as a printable solid, with a proof that it is sound");
+  sub->add_option("pot", command->pot, "NAME.pot.json or .pot.cbor, or - for standard input")
+      ->required();
+  sub->add_option("out", command->outputs,
+                  "Files to write: .stl, .obj, .drc; .svg for the section, .csv for its walls; "
+                  ".pot.json or .pot.cbor for the pot")
+      ->required();
+  add_solid_options(sub, command);
+  add_file_options(sub, command);
   sub->footer(
       "\nExamples:\n  claystack export bowl.pot.json bowl.stl bowl.obj bowl.drc bowl.svg\n"
       "  claystack export bowl.pot.json bowl.stl --tolerance 0.005 --process stoneware\n"
@@ -242,7 +254,7 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
       "  claystack export bowl.pot.json bowl.pot.cbor --precision 0.001");
   sub->callback([command, &console, &exit] {
     const auto done = export_pot(*command, console);
-    if (!done && console.json) console.print({{"error", done.error().message}});
+    if (!done && console.json) print_json({{"error", done.error().message}});
     exit = done ? *done : report(done.error());
   });
 }

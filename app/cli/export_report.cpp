@@ -25,6 +25,18 @@ std::string_view proof_of(const ExportReport& report) {
   return "closed and embedded: the profile is strictly simple and meets the axis in segments only";
 }
 
+Json copy_json(const PotCopy& copy, const std::string& path) {
+  Json json = {{"path", path},
+               {"format", copy.encoding == PotEncoding::cbor ? "pot.cbor" : "pot.json"},
+               {"bytes", copy.bytes}};
+  if (copy.rounded_to_mm) {
+    json["rounded_to_mm"] = *copy.rounded_to_mm;
+    json["volume_change_mm3"] = copy.change_mm3;
+    json["volume_change_relative"] = copy.change_relative;
+  }
+  return json;
+}
+
 Json file_json(const FileReport& file) {
   Json json = {{"path", file.path},
                {"format", solid::name_of(file.format)},
@@ -143,6 +155,24 @@ void print_solid(const Console& console, const ExportReport& report) {
     if (saved) console.say(fmt::format("skipped: {} ({}), saved {:.2g} s", what, why, *saved));
 }
 
+Json shrinkage_json(const ExportReport& report) {
+  const double fired = 1.0 - report.prepared.shrinkage;
+  return {{"part", report.prepared.shrinkage},
+          {"fired_diameter_mm", fired * report.size.diameter_mm},
+          {"fired_height_mm", fired * report.size.height_mm},
+          {"fired_volume_mm3", fired * fired * fired * report.volume.solid_mm3}};
+}
+
+Json cavities_json(const std::vector<solid::PieceShape>& shapes) {
+  Json json = Json::array();
+  for (const auto& shape : shapes)
+    for (const auto& cavity : shape.cavities)
+      json.push_back({{"bottom_mm", cavity.bottom_mm},
+                      {"top_mm", cavity.top_mm},
+                      {"volume_mm3", cavity.volume_mm3}});
+  return json;
+}
+
 /// The solid and its proof.
 Json solid_json(const ExportReport& report) {
   Json json = {
@@ -168,22 +198,11 @@ Json solid_json(const ExportReport& report) {
         {"axis_segments", report.section.planar.axis_segments}}},
       {"overshoot_mm", report.section.smoothed.overshoot_mm},
       {"kept_steps", Json::array()},
-      {"cavities", Json::array()},
+      {"cavities", cavities_json(report.section.shapes())},
   };
-  for (const auto& shape : report.section.shapes())
-    for (const auto& cavity : shape.cavities)
-      json["cavities"].push_back({{"bottom_mm", cavity.bottom_mm},
-                                  {"top_mm", cavity.top_mm},
-                                  {"volume_mm3", cavity.volume_mm3}});
   for (const auto& kept : report.section.smoothed.guard)
     json["kept_steps"].push_back(kept_json(kept));
-  if (report.prepared.shrinkage > 0.0) {
-    const double fired = 1.0 - report.prepared.shrinkage;
-    json["shrinkage"] = {{"part", report.prepared.shrinkage},
-                         {"fired_diameter_mm", fired * report.size.diameter_mm},
-                         {"fired_height_mm", fired * report.size.height_mm},
-                         {"fired_volume_mm3", fired * fired * fired * report.volume.solid_mm3}};
-  }
+  if (report.prepared.shrinkage > 0.0) json["shrinkage"] = shrinkage_json(report);
   if (report.collapsed) json["collapsed"] = collapsed_json(*report.collapsed);
   if (report.prepared.drilled_mm3 > 0.0) json["drilled_mm3"] = report.prepared.drilled_mm3;
   if (report.section.smoothing == solid::Smoothing::exact)

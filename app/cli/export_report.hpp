@@ -2,6 +2,7 @@
 // The report of an export, as JSON and as text.
 
 #include "app/cli/console.hpp"
+#include "app/cli/json_output.hpp"
 #include "app/cli/pot_copy.hpp"
 #include "claystack/export/job.hpp"
 

@@ -1,4 +1,5 @@
 #include "app/cli/commands.hpp"
+#include "app/cli/json_output.hpp"
 #include "app/cli/pot_copy.hpp"
 #include "app/import/drawn_pot.hpp"
 
@@ -79,7 +80,7 @@ Result<void> import_drawing(ImportOptions options, Console console) {
   const PotEncoding encoding = pot_encoding_of(options.pot).value_or(PotEncoding::json);
   if (auto done = publish(options.pot, write_pot(*pot, encoding)); !done) return done;
   const Json json = summary(options, *section, *pot);
-  if (console.json) console.print(json);
+  if (console.json) print_json(json);
   tell(console, json);
   console.say("pot: " + options.pot);
   return {};

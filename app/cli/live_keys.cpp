@@ -40,30 +40,30 @@ LiveKeys::~LiveKeys() {
   servo::ForceSignals::at_the_end(nullptr);
 }
 
-void LiveKeys::serve(servo::Servo& servo, std::chrono::milliseconds time) {
+void LiveKeys::serve(servo::LiveThrow& live, std::chrono::milliseconds time) {
   if (!on_) return std::this_thread::sleep_for(time);
   pollfd input{STDIN_FILENO, POLLIN, 0};
   if (poll(&input, 1, static_cast<int>(time.count())) <= 0) return;
   char key = 0;
-  if (read(STDIN_FILENO, &key, 1) == 1) return press(key, servo);
+  if (read(STDIN_FILENO, &key, 1) == 1) return press(key, live);
   std::this_thread::sleep_for(time);  // the terminal was closed
 }
 
-void LiveKeys::press(char key, servo::Servo& servo) {
+void LiveKeys::press(char key, servo::LiveThrow& live) {
   using servo::CommandKind;
   switch (key) {
     case ' ':
       paused_ = !paused_;
-      servo.command({CommandKind::pause, paused_ ? 1.0 : 0.0});
+      live.command({CommandKind::pause, paused_ ? 1.0 : 0.0});
       break;
     case 'z':
-      servo.command({CommandKind::zero, 0.0});
+      live.command({CommandKind::zero, 0.0});
       break;
     case 'r':
-      servo.command({CommandKind::rearm, 0.0});
+      live.command({CommandKind::rearm, 0.0});
       break;
     case 'q':
-      servo.command({CommandKind::stop, 0.0});
+      live.command({CommandKind::stop, 0.0});
       break;
     default:
       break;

@@ -2,7 +2,7 @@
 // Keys of the terminal while throwing: space pauses and resumes, z sets the force to zero, r lets
 // it ramp up again, q ends.
 
-#include "app/servo/servo.hpp"
+#include "claystack/servo/servo.hpp"
 
 #include <chrono>
 
@@ -22,10 +22,10 @@ class LiveKeys {
   [[nodiscard]] bool on() const noexcept { return on_; }
 
   /// Passes keys to the servo for the given time, or until a signal arrives.
-  void serve(servo::Servo& servo, std::chrono::milliseconds time);
+  void serve(servo::LiveThrow& live, std::chrono::milliseconds time);
 
  private:
-  void press(char key, servo::Servo& servo);
+  void press(char key, servo::LiveThrow& live);
 
   bool on_ = false;
   bool paused_ = false;

@@ -74,7 +74,7 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
   command.add_option(
       "--gap", settings.gap_mm,
       "Gap of a pinch [mm] (default: that of the scene); the keys + and - change it");
-  command.add_option("--damping", settings.arm.damping_ns_per_m, "Damping of the arm [N s/m]")
+  command.add_option("--damping", settings.arm.damping_ns_per_mm, "Damping of the arm [N s/mm]")
       ->capture_default_str();
   command.add_flag("--soften", options.soften,
                    "Lower force.stiffness_n_per_mm2 to what the arm can render");

@@ -2,7 +2,9 @@
 // Reports of a live throw: one line while it runs, a summary at the end.
 
 #include "app/cli/console.hpp"
-#include "app/servo/servo.hpp"
+#include "app/cli/json_output.hpp"
+#include "app/servo/tick_trace.hpp"
+#include "claystack/servo/servo.hpp"
 
 #include <string>
 

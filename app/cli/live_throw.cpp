@@ -7,8 +7,8 @@
 #include "app/cli/replay.hpp"
 #include "app/cli/rescue.hpp"
 #include "app/servo/scene_hand.hpp"
-#include "app/servo/servo_check.hpp"
 #include "app/servo/signals.hpp"
+#include "app/servo/tick_trace.hpp"
 #include "app/servo/words.hpp"
 
 #include "claystack/core/atomic_file.hpp"
@@ -34,19 +34,15 @@ constexpr auto kLook = 20ms;  // polling period for the servo's end
 constexpr auto kReopen = 500ms;
 
 /// Refuses a scene that is too stiff for the arm, or softens it.
-Result<void> fit_stiffness(SceneSpec& scene, const StepPlan& plan, const LiveOptions& options,
-                           double gain, const Console& console) {
-  falcon::SampledLoop arm = options.settings.arm;
-  arm.rate_hz = options.settings.rate_hz;
-  const auto contact = servo::servo_contact(scene, plan, arm, gain);
-  if (!contact) return tl::make_unexpected(contact.error());
+Result<void> fit_stiffness(SceneSpec& scene, const LiveOptions& options, const Console& console) {
   if (!options.soften) {
-    const auto checked = servo::check_servo(scene, plan, arm, gain);
+    const auto checked = servo::check_stiffness(scene, options.settings);
     if (checked) return {};
     return failure(checked.error().kind, checked.error().message + "; or --soften");
   }
-  if (const double part = servo::soften(scene, *contact); part < 1.0)
-    console.say(fmt::format("stiffness lowered to {:.3g} of the scene's", part));
+  const auto part = servo::soften(scene, options.settings);
+  if (!part) return tl::make_unexpected(part.error());
+  if (*part < 1.0) console.say(fmt::format("stiffness lowered to {:.3g} of the scene's", *part));
   return {};
 }
 
@@ -57,10 +53,8 @@ struct Stage {
   std::uint64_t scene_hash = 0;
   std::optional<Wheel> wheel;
   std::optional<AtomicFile> pot_file;
-  std::unique_ptr<servo::Recorder> recorder;
   std::unique_ptr<falcon::HapticDevice> device;
-  servo::MonotonicClock clock;
-  std::optional<servo::ServoLoop> loop;
+  std::optional<servo::LiveThrow> live;
 };
 
 /// The simulated hand's stroke: sets duration and workspace unless given.
@@ -97,16 +91,11 @@ Result<AtomicFile> open_pot_file(const LiveJob& job, const Pot& pot) {
 }
 
 /// Before throwing: an unwritable output found later would lose the pot.
-Result<void> open_outputs(const LiveJob& job, const LiveOptions& options, Stage& stage) {
-  if (!job.pot_path.empty()) {
-    auto file = open_pot_file(job, stage.wheel->pot());
-    if (!file) return tl::make_unexpected(file.error());
-    stage.pot_file.emplace(std::move(*file));
-  }
-  if (options.record.empty()) return {};
-  auto recorder = servo::Recorder::create(options.record, stage.scene.name, stage.scene_hash);
-  if (!recorder) return tl::make_unexpected(recorder.error());
-  stage.recorder = std::move(*recorder);
+Result<void> open_pot(const LiveJob& job, Stage& stage) {
+  if (job.pot_path.empty()) return {};
+  auto file = open_pot_file(job, stage.wheel->pot());
+  if (!file) return tl::make_unexpected(file.error());
+  stage.pot_file.emplace(std::move(*file));
   return {};
 }
 
@@ -137,33 +126,33 @@ Result<void> build(const LiveJob& job, LiveOptions& options, const Console& cons
   const auto named = [&](const Error& error) {
     return failure(error.kind, job.scene_path + ": " + error.message);
   };
-  const auto plan = StepPlan::build(stage.scene);
-  if (!plan) return named(plan.error());
-  if (auto fits = fit_stiffness(stage.scene, *plan, options, mapping->stiffness_gain(), console);
-      !fits)
-    return named(fits.error());
+  if (auto fits = fit_stiffness(stage.scene, options, console); !fits) return named(fits.error());
   auto wheel = build_wheel(stage.scene, job.scene_path, job.from_path);
   if (!wheel) return tl::make_unexpected(wheel.error());
   stage.wheel.emplace(std::move(*wheel));
 
-  if (auto opened = open_outputs(job, options, stage); !opened) return opened;
+  if (auto opened = open_pot(job, stage); !opened) return opened;
   if (auto opened = open_device(options, *mapping, stage); !opened) return opened;
-  auto loop = servo::ServoLoop::build(
-      {*stage.wheel, *stage.device, stage.clock, stage.recorder.get()}, options.settings);
-  if (!loop) return tl::make_unexpected(loop.error());
-  stage.loop.emplace(std::move(*loop));
+  auto live = servo::LiveThrow::build({.wheel = *stage.wheel,
+                                       .device = *stage.device,
+                                       .scene = stage.scene,
+                                       .session_path = options.record,
+                                       .scene_hash = stage.scene_hash},
+                                      options.settings);
+  if (!live) return tl::make_unexpected(live.error());
+  stage.live.emplace(std::move(*live));
   return {};
 }
 
 /// Shows the servo's state until it ends.
-void watch(servo::Servo& servo, LiveKeys& keys, StatusLine& line) {
+void watch(servo::LiveThrow& live, LiveKeys& keys, StatusLine& line) {
   std::uint64_t ticks = 0;
   auto since = std::chrono::steady_clock::now();
   double rate_hz = 0.0;
-  while (servo.running()) {
-    keys.serve(servo, kLook);
+  while (live.running()) {
+    keys.serve(live, kLook);
     if (!line.due()) continue;
-    const servo::LiveStatus& status = servo.view().status.newest();
+    const servo::LiveStatus& status = live.status();
     const auto now = std::chrono::steady_clock::now();
     rate_hz = static_cast<double>(status.ticks - ticks) /
               std::chrono::duration<double>(now - since).count();
@@ -183,20 +172,17 @@ bool comes_back(falcon::HapticDevice& device) {
 }
 
 /// Ends with zero force. Use within the scope of a servo::ForceSignals.
-Ending run(Stage& stage, const LiveOptions& options, const Console& console,
-           servo::Realtime& realtime) {
+Ending run(Stage& stage, const LiveOptions& options, const Console& console) {
   LiveKeys keys;
   if (keys.on()) console.say(kKeysInWords);
   StatusLine line(console);
   for (;;) {
-    servo::Servo servo({*stage.wheel, *stage.device, stage.clock, stage.recorder.get()},
-                       *stage.loop, true);
-    servo.start();
+    stage.live->start();
     // An earlier signal found no servo to stop.
-    if (servo::ForceSignals::asked_to_stop() != 0) servo.command({servo::CommandKind::stop, 0.0});
-    watch(servo, keys, line);
-    const Ending ending = servo.join();
-    realtime = servo.realtime();
+    if (servo::ForceSignals::asked_to_stop() != 0)
+      stage.live->command({servo::CommandKind::stop, 0.0});
+    watch(*stage.live, keys, line);
+    const Ending ending = stage.live->join();
     if (ending != Ending::device_lost || !options.wait) return ending;
     line.clear();
     console.warn(stage.device->problem().message + "; waiting for it");
@@ -212,10 +198,9 @@ Json frames_json(const falcon::DeviceCounters& counters) {
 }
 
 Json recording_json(const LiveOptions& options, const Stage& stage) {
-  if (!stage.recorder) return nullptr;
-  return {{"path", options.record},
-          {"poses", stage.recorder->taken()},
-          {"lost", stage.recorder->lost()}};
+  if (options.record.empty()) return nullptr;
+  const servo::Recorded recorded = stage.live->recorded();
+  return {{"path", options.record}, {"poses", recorded.poses}, {"lost", recorded.lost}};
 }
 
 struct Kept {
@@ -223,13 +208,12 @@ struct Kept {
 };
 
 Result<void> keep_session(const LiveOptions& options, const Console& console, Stage& stage) {
-  if (!stage.recorder) return {};
-  auto kept = stage.recorder->finish();
-  if (kept && stage.recorder->lost() > 0)
+  auto kept = stage.live->finish_recording();
+  if (const auto lost = stage.live->recorded().lost; kept && lost > 0)
     console.warn(
         fmt::format("{}: the disk was too slow: the last {} poses are missing, and the session "
                     "replays to the pot before them",
-                    options.record, stage.recorder->lost()));
+                    options.record, lost));
   return kept;
 }
 
@@ -276,15 +260,15 @@ Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console
   if (job.pot_path == "-") console.quiet = true;
   Stage stage;
   if (auto built = build(job, options, console, stage); !built) return built;
-  servo::Realtime realtime;
   // Until pot and session are saved: a closing terminal may send its signal twice.
   std::optional<servo::ForceSignals> signals(std::in_place);
-  const Ending ending = run(stage, options, console, realtime);
+  const Ending ending = run(stage, options, console);
   const Pot pot = stage.wheel->pot();
   const Kept kept = {keep_session(options, console, stage), keep_pot(job, stage, pot)};
   signals.reset();
 
-  const servo::LiveStatus& status = stage.loop->status();
+  servo::LiveThrow& live = *stage.live;
+  const servo::LiveStatus& status = live.status();
   Json json = {{"scene", stage.scene.name},
                {"device", stage.device->info().name},
                {"ended", name_of(ending)},
@@ -292,9 +276,9 @@ Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console
                {"poses", status.poses},
                {"frames", frames_json(stage.device->counters())},
                {"recording", recording_json(options, stage)},
-               {"servo", servo_json(stage.loop->timing(), stage.loop->events(), realtime)}};
+               {"servo", servo_json(live.timing(), live.events(), live.realtime())}};
   json.update(clay_json(*stage.wheel, pot));
-  if (console.json) console.print(json);
+  if (console.json) print_json(json);
   tell(job, options, console, json, kept);
   if (auto all = first_error(kept, console); !all) return all;
   if (ending == Ending::device_lost) return tl::make_unexpected(stage.device->problem());

@@ -38,18 +38,9 @@ void handle_signals() {
     if (std::signal(signal, on_end) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
-int run(int argc, char** argv) {
-  using namespace clay::cli;
-  CLI::App app("Throw a pot on a virtual wheel, and export a file that prints.", "claystack");
-  app.set_version_flag("--version", version_text());
-  app.footer(kExamples);
-  app.require_subcommand(1);
-  app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return std::string("claystack: ") + error.what() + "\nrun claystack --help for usage\n";
-  });
+using namespace clay::cli;
 
-  Console console;
-  int exit = kDone;
+void add_commands(CLI::App& app, Console& console, int& exit) {
   add_throw_command(app, console, exit);
 #ifdef CLAYSTACK_EXPORT
   add_export_command(app, console, exit);
@@ -71,26 +62,47 @@ int run(int argc, char** argv) {
 #ifdef CLAYSTACK_STUDIO
   add_studio_command(app, exit);
 #endif
-  const auto commands = app.get_subcommands({});
-  for (CLI::App* command : commands) {
+  for (CLI::App* command : app.get_subcommands({})) {
     if (command->get_name() == "studio") continue;  // passes all its arguments to another program
     command->add_flag("--json", console.json, "Print data as JSON on standard output");
     command->add_flag("-q,--quiet", console.quiet, "Print errors only");
   }
-  const bool known = argc < 2 || argv[1][0] == '-' ||
+}
+
+/// The parser would name an option that is missing instead of the unknown command.
+clay::Result<void> check_command_name(CLI::App& app, std::string_view name) {
+  const auto commands = app.get_subcommands({});
+  const bool known = name.starts_with('-') ||
                      std::any_of(commands.begin(), commands.end(), [&](const CLI::App* command) {
-                       return command->check_name(argv[1]);
+                       return command->check_name(std::string(name));
                      });
+  if (known) return {};
 #ifndef CLAYSTACK_BENCH
-  if (argc > 1 && std::string_view(argv[1]) == "bench")
-    return report({clay::ErrorKind::bad_input,
-                   "bench: expected a program built with its measurements (cmake --preset release "
-                   "-DCLAYSTACK_BENCH=ON), found one without"});
+  if (name == "bench")
+    return clay::failure(
+        clay::ErrorKind::bad_input,
+        "bench: expected a program built with its measurements (cmake --preset release "
+        "-DCLAYSTACK_BENCH=ON), found one without");
 #endif
-  if (!known)
-    return report(
-        {clay::ErrorKind::bad_input,
-         std::string("expected a command (claystack --help lists them), found ") + argv[1]});
+  return clay::failure(
+      clay::ErrorKind::bad_input,
+      std::string("expected a command (claystack --help lists them), found ").append(name));
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Throw a pot on a virtual wheel, and export a file that prints.", "claystack");
+  app.set_version_flag("--version", version_text());
+  app.footer(kExamples);
+  app.require_subcommand(1);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string("claystack: ") + error.what() + "\nrun claystack --help for usage\n";
+  });
+
+  Console console;
+  int exit = kDone;
+  add_commands(app, console, exit);
+  if (argc > 1)
+    if (const auto named = check_command_name(app, argv[1]); !named) return report(named.error());
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

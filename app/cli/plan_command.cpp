@@ -1,5 +1,6 @@
 #include "app/bench/stage_cost.hpp"
 #include "app/cli/commands.hpp"
+#include "app/cli/json_output.hpp"
 #include "app/cli/replay.hpp"
 #ifdef CLAYSTACK_FALCON
 #include "app/servo/servo_check.hpp"
@@ -37,7 +38,7 @@ std::string line_text(const PlanLine& line, const StageCost* saved) {
 struct PlanOptions {
   std::string scene;
   std::optional<double> rate_hz;  ///< of a servo; empty: no arm is checked
-  double damping_ns_per_m = 2.0;
+  double damping_ns_per_mm = 0.002;
   int delay_ticks = 1;
 };
 
@@ -46,16 +47,16 @@ Result<void> plan_servo(const SceneSpec& scene, const StepPlan& plan, const Plan
                         const Console& console, Json& json) {
   falcon::SampledLoop loop;
   loop.rate_hz = *options.rate_hz;
-  loop.damping_ns_per_m = options.damping_ns_per_m;
+  loop.damping_ns_per_mm = options.damping_ns_per_mm;
   loop.delay_ticks = options.delay_ticks;
   const auto contact = servo::check_servo(scene, plan, loop);
   if (!contact)
     return failure(contact.error().kind, options.scene + ": " + contact.error().message);
   json["servo"] = {{"contact_height_mm", contact->height_mm},
-                   {"stiffness_n_per_m", contact->stiffness_n_per_m},
-                   {"accepted_n_per_m", contact->accepted_n_per_m}};
-  console.say(fmt::format("{:<19}{:.4g} N/m, at most {:.4g} N/m accepted at {:.6g} Hz", "contact",
-                          contact->stiffness_n_per_m, contact->accepted_n_per_m, loop.rate_hz));
+                   {"stiffness_n_per_mm", contact->stiffness_n_per_mm},
+                   {"accepted_n_per_mm", contact->accepted_n_per_mm}};
+  console.say(fmt::format("{:<19}{:.4g} N/mm, at most {:.4g} N/mm accepted at {:.6g} Hz", "contact",
+                          contact->stiffness_n_per_mm, contact->accepted_n_per_mm, loop.rate_hz));
   return {};
 }
 
@@ -63,7 +64,7 @@ void add_servo_options(CLI::App& command, PlanOptions& options) {
   command.add_option(
       "--rate", options.rate_hz,
       "Servo rate at which to check whether an arm can render the scene's contact [Hz]");
-  command.add_option("--damping", options.damping_ns_per_m, "Damping of the arm [N s/m]")
+  command.add_option("--damping", options.damping_ns_per_mm, "Damping of the arm [N s/mm]")
       ->capture_default_str();
   command.add_option("--delay", options.delay_ticks, "Delay from a reading to its force [ticks]")
       ->capture_default_str();
@@ -92,7 +93,7 @@ Result<void> plan_scene(const PlanOptions& options, const Console& console) {
   if (options.rate_hz)
     if (auto done = plan_servo(*scene, wheel->plan(), options, console, json); !done) return done;
 #endif
-  if (console.json) console.print(json);
+  if (console.json) print_json(json);
   return {};
 }
 

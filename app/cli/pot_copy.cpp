@@ -3,7 +3,6 @@
 #include "claystack/engine/clay.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace clay::cli {
 
@@ -22,18 +21,6 @@ PotCopy describe_copy(const Pot& pot, PotEncoding encoding, std::size_t bytes) {
   copy.change_mm3 = volume_change_mm3(pot);
   copy.change_relative = exact_mm3 > 0.0 ? copy.change_mm3 / exact_mm3 : 0.0;
   return copy;
-}
-
-Json copy_json(const PotCopy& copy, const std::string& path) {
-  Json json = {{"path", path},
-               {"format", copy.encoding == PotEncoding::cbor ? "pot.cbor" : "pot.json"},
-               {"bytes", copy.bytes}};
-  if (copy.rounded_to_mm) {
-    json["rounded_to_mm"] = *copy.rounded_to_mm;
-    json["volume_change_mm3"] = copy.change_mm3;
-    json["volume_change_relative"] = copy.change_relative;
-  }
-  return json;
 }
 
 std::string copy_text(const PotCopy& copy, const std::string& path) {

@@ -1,7 +1,6 @@
 #pragma once
 // Pots as output files: conversion between encodings, exact or rounded.
 
-#include "app/cli/console.hpp"
 #include "claystack/engine/files.hpp"
 
 #include <cstddef>
@@ -24,7 +23,6 @@ struct PotCopy {
 };
 
 [[nodiscard]] PotCopy describe_copy(const Pot& pot, PotEncoding encoding, std::size_t bytes);
-[[nodiscard]] Json copy_json(const PotCopy& copy, const std::string& path);
 [[nodiscard]] std::string copy_text(const PotCopy& copy, const std::string& path);
 
 }  // namespace clay::cli

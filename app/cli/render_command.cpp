@@ -1,4 +1,5 @@
 #include "app/cli/commands.hpp"
+#include "app/cli/json_output.hpp"
 #include "app/cli/render_job.hpp"
 
 #include "app/render/offscreen.hpp"
@@ -81,7 +82,7 @@ int run(RenderCommand& command, Console console) {
 #endif
   const auto done = render(command, console);
   if (!done) return report(done.error());
-  if (console.json) console.print(rendered_json(command, *done));
+  if (console.json) print_json(rendered_json(command, *done));
   if (command.out == "-" || command.turntable == "-") console.quiet = true;
   tell(console, command, *done);
   return kDone;

@@ -135,6 +135,50 @@ Result<double> median_ms(render::Offscreen& screen, const render::Picture& pictu
   return times[kTimedFrames / 2];
 }
 
+/// Empty if no picture is wanted.
+Result<std::string> made_png(render::Offscreen& screen, const render::Picture& picture,
+                             const RenderCommand& command) {
+  if (command.out.empty()) return std::string();
+  return drawn(screen, picture, command.size).map(render::png_of);
+}
+
+/// Written and not yet published; empty if no turntable is wanted.
+Result<std::optional<AtomicFile>> made_gif(render::Offscreen& screen,
+                                           const render::Picture& picture,
+                                           const RenderCommand& command, const Console& console,
+                                           Rendered& done) {
+  if (command.turntable.empty()) return std::nullopt;
+  auto file = AtomicFile::create(command.turntable);
+  if (!file) return tl::make_unexpected(file.error());
+  const auto turned = turn(screen, picture, command, console, *file);
+  if (!turned) return tl::make_unexpected(turned.error());
+  done.gif_bytes = *turned;
+  return std::move(*file);
+}
+
+Result<FrameTime> frame_time(render::Offscreen& screen, const render::Picture& picture,
+                             const RenderCommand& command) {
+  const auto plain = median_ms(screen, picture, command.size, 0);
+  const auto smooth = median_ms(screen, picture, command.size, render::kSamples);
+  if (!plain || !smooth) return tl::make_unexpected((plain ? smooth : plain).error());
+  return FrameTime{*plain, *smooth};
+}
+
+/// Publishes both files, or none.
+Result<void> publish_images(const std::string& path, const std::string& png,
+                            std::optional<AtomicFile>& gif) {
+  std::vector<AtomicFile*> files;
+  std::optional<AtomicFile> out;
+  if (!path.empty()) {
+    auto created = AtomicFile::create(path);
+    if (!created) return tl::make_unexpected(created.error());
+    if (auto written = created->write(png); !written) return written;
+    files.push_back(&out.emplace(std::move(*created)));
+  }
+  if (gif) files.push_back(&*gif);
+  return commit_all(files);
+}
+
 }  // namespace
 
 Result<Rendered> render(const RenderCommand& command, const Console& console) {
@@ -145,39 +189,18 @@ Result<Rendered> render(const RenderCommand& command, const Console& console) {
   auto screen = render::Offscreen::create();
   if (!screen) return tl::make_unexpected(screen.error());
   done.renderer = screen->renderer();
-  std::string png;  // picture and animation are both made before either is published
-  if (!command.out.empty()) {
-    const auto image = drawn(*screen, *picture, command.size);
-    if (!image) return tl::make_unexpected(image.error());
-    png = render::png_of(*image);
-  }
-  std::optional<AtomicFile> gif;
-  if (!command.turntable.empty()) {
-    auto created = AtomicFile::create(command.turntable);
-    if (!created) return tl::make_unexpected(created.error());
-    gif.emplace(std::move(*created));
-    const auto turned = turn(*screen, *picture, command, console, *gif);
-    if (!turned) return tl::make_unexpected(turned.error());
-    done.gif_bytes = *turned;
-  }
+  // Picture and animation are both made before either is published.
+  const auto png = made_png(*screen, *picture, command);
+  if (!png) return tl::make_unexpected(png.error());
+  done.png_bytes = png->size();
+  auto gif = made_gif(*screen, *picture, command, console, done);
+  if (!gif) return tl::make_unexpected(gif.error());
   if (command.time) {
-    const auto plain = median_ms(*screen, *picture, command.size, 0);
-    const auto smooth = median_ms(*screen, *picture, command.size, render::kSamples);
-    if (!plain || !smooth) return tl::make_unexpected((plain ? smooth : plain).error());
-    done.frame = FrameTime{*plain, *smooth};
+    const auto time = frame_time(*screen, *picture, command);
+    if (!time) return tl::make_unexpected(time.error());
+    done.frame = *time;
   }
-  done.png_bytes = png.size();
-  std::optional<AtomicFile> out;
-  if (!command.out.empty()) {
-    auto created = AtomicFile::create(command.out);
-    if (!created) return tl::make_unexpected(created.error());
-    if (auto written = created->write(png); !written) return tl::make_unexpected(written.error());
-    out.emplace(std::move(*created));
-  }
-  std::vector<AtomicFile*> files;
-  for (std::optional<AtomicFile>* file : {&out, &gif})
-    if (*file) files.push_back(&**file);
-  return commit_all(files).map([&] { return done; });
+  return publish_images(command.out, *png, *gif).map([&] { return done; });
 }
 
 }  // namespace clay::cli

@@ -237,7 +237,7 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
     return written;
 
   const Json json = summary(*wheel, stats, *session, pot);
-  if (console.json) console.print(json);
+  if (console.json) print_json(json);
   tell(console, json);
   if (!options.pot.empty()) console.say("pot: " + options.pot);
   return {};

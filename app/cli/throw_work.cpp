@@ -1,4 +1,5 @@
 #include "app/cli/throw_work.hpp"
+#include "app/cli/json_output.hpp"
 
 #include "app/history/work.hpp"
 
@@ -93,7 +94,7 @@ Result<void> throw_work(const WorkJob& job, Console console) {
         job.pot_path.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
     if (auto written = publish(job.pot_path, write_pot(**pot, encoding)); !written) return written;
   }
-  if (console.json) console.print(json);
+  if (console.json) print_json(json);
   console.say(fmt::format(
       "node {} of {}: {} rings, {:.1f} mm high, {:.1f} cm3 of clay; volume "
       "error: {} quanta",

@@ -1,4 +1,5 @@
 #include "app/cli/window_report.hpp"
+#include "app/cli/json_output.hpp"
 
 #include "app/cli/live_report.hpp"
 
@@ -17,7 +18,7 @@ void print_window_report(const servo::ServoTiming& timing, const servo::GuardEve
     const Json frame_ms = {
         {"p50", frames.median_ms}, {"p99", frames.p99_ms}, {"max", frames.longest_ms}};
     const Json window = {{"frames", frames.frames}, {"fps", frames.fps}, {"frame_ms", frame_ms}};
-    console.print({{"servo", servo}, {"window", window}});
+    print_json({{"servo", servo}, {"window", window}});
   }
   print_servo(console, servo);
   console.say(std::string("scheduling: ") +

@@ -1,7 +1,8 @@
 #pragma once
 // The report of `claystack studio --servo-report`: timings of the servo and of the window.
 
-#include "app/servo/servo.hpp"
+#include "app/servo/tick_trace.hpp"
+#include "claystack/servo/servo.hpp"
 
 #include <cstdint>
 

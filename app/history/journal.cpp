@@ -120,15 +120,12 @@ Result<std::unique_ptr<Journal>> Journal::take_over(const fs::path& path, WorkRe
 }
 
 Journal::Journal(fs::path path, int descriptor)
-    : path_(std::move(path)), descriptor_(descriptor), thread_([this] { run(); }) {}
+    : path_(std::move(path)),
+      descriptor_(descriptor),
+      worker_([this](bool) { sync_changes(); }, kSyncEvery) {}
 
 Journal::~Journal() {
-  {
-    const std::lock_guard lock(mutex_);
-    closing_ = true;
-  }
-  wake_.notify_one();
-  thread_.join();
+  worker_.close();
   (void)close(descriptor_);
 }
 
@@ -144,13 +141,7 @@ void Journal::append(std::string_view lines) {
   }
 }
 
-void Journal::sync_soon() {
-  {
-    const std::lock_guard lock(mutex_);
-    asked_ = true;
-  }
-  wake_.notify_one();
-}
+void Journal::sync_soon() { worker_.wake(); }
 
 Result<void> Journal::sync() {
   {
@@ -173,18 +164,15 @@ std::optional<Error> Journal::trouble() const {
 }
 
 /// Syncs without holding the mutex, so that appending continues.
-void Journal::run() {
-  std::unique_lock lock(mutex_);
-  while (!closing_ || dirty_) {
-    wake_.wait_for(lock, kSyncEvery, [this] { return asked_ || closing_; });
-    asked_ = false;
-    if (!std::exchange(dirty_, false)) continue;
-    lock.unlock();
-    const bool synced = fsync(descriptor_) == 0;
-    const Error error = synced ? Error{} : system_error(path_, "sync");
-    lock.lock();
-    if (!synced && !trouble_) trouble_ = error;
+void Journal::sync_changes() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!std::exchange(dirty_, false)) return;
   }
+  if (fsync(descriptor_) == 0) return;
+  const Error error = system_error(path_, "sync");
+  const std::lock_guard lock(mutex_);
+  if (!trouble_) trouble_ = error;
 }
 
 }  // namespace clay::history

@@ -5,9 +5,9 @@
 #include "claystack/core/result.hpp"
 #include "claystack/engine/files.hpp"
 #include "claystack/engine/tool.hpp"
+#include "core/worker.hpp"
 
 #include <atomic>
-#include <condition_variable>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -15,7 +15,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <thread>
 
 namespace clay::history {
 
@@ -51,15 +50,14 @@ class Journal {
 
  private:
   Journal(std::filesystem::path path, int descriptor);
-  void run();
+  void sync_changes();
 
   std::filesystem::path path_;
   int descriptor_;
-  mutable std::mutex mutex_;  // protects the members below
-  std::condition_variable wake_;
+  mutable std::mutex mutex_;  // protects the next two members
   std::optional<Error> trouble_;
-  bool dirty_ = false, asked_ = false, closing_ = false;
-  std::thread thread_;
+  bool dirty_ = false;
+  PeriodicWorker worker_;  // last: it uses all members above
 };
 
 }  // namespace clay::history

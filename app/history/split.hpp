@@ -13,7 +13,7 @@
 
 namespace clay::history {
 
-/// A replayed recording as one or more strokes.
+/// A recording as one or more strokes.
 struct Split {
   std::vector<std::size_t> begins;  ///< first pose of each stroke except the first
   std::vector<Pot> pots;            ///< after each stroke

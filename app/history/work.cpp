@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <iterator>
 #include <span>
@@ -41,25 +42,25 @@ Result<Pot> root_of(const SceneSpec& scene, const std::optional<Pot>& start) {
 
 /// The stroke in progress. Poses arrive on the recorder's thread until it has finished.
 struct Work::Running final : PoseSink {
-  explicit Running(Wheel wheel) : again(std::move(wheel)) {}
-
   NodeId node = 0;
   std::size_t scene = 0;
   std::size_t room = 0;  // poses that the work can still hold
   std::string begin_line;
   std::vector<Pose> poses;
+  std::vector<bool> touching;  // for each of them
   Journal* journal = nullptr;
-  Replay again;
 
   /// The stroke's line is written with its first poses: a stroke without poses leaves no line.
-  Result<void> append(std::span<const Pose> more) override {
+  Result<void> append(const PoseBlock& block) override {
+    const std::span<const Pose> more = block.poses;
+    assert(block.contact.size() == more.size());
     if (more.size() > room - poses.size()) return tl::make_unexpected(full());
     if (journal != nullptr) {
       if (poses.empty()) journal->append(begin_line);
       journal->append(session_block(more));
     }
     poses.insert(poses.end(), more.begin(), more.end());
-    again.append(more);
+    touching.insert(touching.end(), block.contact.begin(), block.contact.end());
     return {};
   }
   Result<void> finish() override { return {}; }
@@ -124,48 +125,55 @@ std::size_t Work::room() const noexcept {
   return kMaxPoses - std::min(held, kMaxPoses);
 }
 
-Result<PoseSink*> Work::begin_stroke(const SceneSpec& scene) {
+Result<Begun> Work::begin_stroke(const SceneSpec& scene) {
   assert(!running_);
   if (room() == 0) return tl::make_unexpected(full());
   const auto before = pot();
   if (!before) return tl::make_unexpected(before.error());
   auto wheel = Wheel::build(scene, **before);
   if (!wheel) return tl::make_unexpected(wheel.error());
-  running_ = std::make_unique<Running>(std::move(*wheel));
+  running_ = std::make_unique<Running>();
   running_->node = record_.nodes.size();
   running_->scene = index_of(scene);
   running_->room = room();
   running_->begin_line = work_stroke_line(running_->node, at(), running_->scene, scene);
   running_->journal = journal_.get();
-  return running_.get();
+  return Begun{running_.get(), std::move(*wheel)};
 }
 
 bool Work::in_stroke() const noexcept { return running_ != nullptr; }
 
-Result<Added> Work::end_stroke(const Pot* shown) { return finish_stroke(true, shown); }
+Result<Added> Work::end_stroke(std::optional<Pot> thrown) {
+  return finish_stroke(true, std::move(thrown));
+}
 
-Result<Added> Work::add(const SceneSpec& scene, std::vector<Pose> poses, const Pot* shown) {
+Result<Added> Work::add(const SceneSpec& scene, std::vector<Pose> poses) {
   if (poses.size() > room()) return tl::make_unexpected(full());
   auto begun = begin_stroke(scene);
   if (!begun) return tl::make_unexpected(begun.error());
+  constexpr std::array<bool, kPosesPerBlock> kUnknown{};  // only a split needs the contacts
   for (std::span<const Pose> rest = poses; !rest.empty();) {
     const auto block = rest.first(std::min(rest.size(), kPosesPerBlock));
-    (void)(*begun)->append(block);
+    (void)begun->sink->append({block, std::span(kUnknown).first(block.size())});
     rest = rest.subspan(block.size());
   }
-  return finish_stroke(false, shown);
+  return finish_stroke(false, std::nullopt);
 }
 
-Result<Added> Work::finish_stroke(bool may_split, const Pot* shown) {
+Result<Added> Work::finish_stroke(bool may_split, std::optional<Pot> thrown) {
   assert(running_);
   const std::unique_ptr<Running> stroke = std::move(running_);
-  if (stroke->poses.empty()) return Added{at(), 0, true};
+  if (stroke->poses.empty()) return Added{at(), 0};
   const auto before = pot();
   if (!before) return tl::make_unexpected(before.error());
   const SceneSpec scene = record_.scenes[stroke->scene];
-  Thrown whole = stroke->again.finish();
-  Split parts = may_split ? split(scene, **before, stroke->poses, std::move(whole))
-                          : as_one(std::move(whole));
+  auto whole = thrown ? Result<Thrown>(Thrown{std::move(*thrown), std::move(stroke->touching)})
+                      : Wheel::build(scene, **before).map([&](Wheel&& wheel) {
+                          return replay(std::move(wheel), stroke->poses);
+                        });
+  if (!whole) return tl::make_unexpected(whole.error());
+  Split parts = may_split ? split(scene, **before, stroke->poses, std::move(*whole))
+                          : as_one(std::move(*whole));
   if (stroke->journal != nullptr) {
     stroke->journal->append(work_end_line(stroke->poses.size(), parts.begins));
     stroke->journal->sync_soon();
@@ -177,7 +185,7 @@ Result<Added> Work::finish_stroke(bool may_split, const Pot* shown) {
            std::move(parts.pots[part]));
     begin = end;
   }
-  return Added{at(), parts.pots.size(), shown == nullptr || *shown == **pot()};
+  return Added{at(), parts.pots.size()};
 }
 
 void Work::append(std::size_t scene, std::vector<Pose> poses, Pot pot_after) {
@@ -267,7 +275,7 @@ Result<Added> Work::branch(NodeId node, double seconds) {
   const std::vector<Pose> poses(stroke.poses.begin(),
                                 stroke.poses.begin() + static_cast<std::ptrdiff_t>(until));
   go_to(from);
-  if (from == node || poses.empty()) return Added{at(), 0, true};
+  if (from == node || poses.empty()) return Added{at(), 0};
   auto added = add(scene, poses);
   if (!added) go_to(left);
   return added;

@@ -4,7 +4,6 @@
 // bits; pots are cached only to save time. Not thread-safe.
 
 #include "app/history/journal.hpp"
-#include "app/history/pose_sink.hpp"
 #include "app/history/pot_cache.hpp"
 #include "claystack/engine/files.hpp"
 #include "claystack/engine/wheel.hpp"
@@ -33,11 +32,18 @@ struct NodeView {
   std::optional<bool> changed;  ///< whether the clay changed; false: the tool stayed in free air
 };
 
+/// A stroke that begins. The sink is for the recorder; it keeps the poses and passes them to the
+/// journal immediately. The journal's trouble() reports a full disk; the sink fails only if the
+/// work would hold more than kMaxPoses.
+struct Begun {
+  PoseSink* sink;
+  Wheel wheel;  ///< with the current pot: what the poses are played on
+};
+
 /// The result of adding a stroke.
 struct Added {
   NodeId node = 0;          ///< the new current node; of several strokes the last
   std::size_t strokes = 0;  ///< 0: there were no poses, and nothing was added
-  bool as_felt = true;      ///< the replay equals the pot displayed during the stroke
 };
 
 class Work {
@@ -53,17 +59,16 @@ class Work {
   ~Work();
 
   // --- Strokes -------------------------------------------------------------------------------
-  /// Begins a stroke on the current pot, until end_stroke. The sink is for the recorder; it keeps
-  /// the poses and passes them to the journal immediately. The journal's trouble() reports a full
-  /// disk; the sink fails only if the work would hold more than kMaxPoses. Errors as for
-  /// Wheel::build, and a full work.
-  Result<PoseSink*> begin_stroke(const SceneSpec& scene);
-  /// Call after the recorder has finished. Replays the stroke, splits it where the tool was in free
-  /// air long enough (split.hpp), and makes it current. `shown`: the pot from the servo, compared
-  /// with the replay; the tree keeps the replay. Errors as for Wheel::build.
-  Result<Added> end_stroke(const Pot* shown = nullptr);
-  /// Both in one call, for existing poses. Not split.
-  Result<Added> add(const SceneSpec& scene, std::vector<Pose> poses, const Pot* shown = nullptr);
+  /// Begins a stroke on the current pot, until end_stroke. Errors as for Wheel::build, and a full
+  /// work.
+  Result<Begun> begin_stroke(const SceneSpec& scene);
+  /// Call after the recorder has finished. Splits the stroke where the tool was in free air long
+  /// enough (split.hpp), and makes it current. `thrown`: the pot that these poses, all of them and
+  /// no others, made of the wheel of begin_stroke; it is kept without playing them again. Without
+  /// it the poses are replayed. Errors as for Wheel::build.
+  Result<Added> end_stroke(std::optional<Pot> thrown = std::nullopt);
+  /// Both in one call, for existing poses, which are replayed. Not split.
+  Result<Added> add(const SceneSpec& scene, std::vector<Pose> poses);
   [[nodiscard]] bool in_stroke() const noexcept;
 
   // --- Navigation in the tree; false if there is no such node. Not during a stroke. --------------
@@ -110,7 +115,7 @@ class Work {
 
   [[nodiscard]] std::size_t room() const noexcept;  ///< poses that it can still hold
   std::size_t index_of(const SceneSpec& scene);
-  Result<Added> finish_stroke(bool may_split, const Pot* shown);
+  Result<Added> finish_stroke(bool may_split, std::optional<Pot> thrown);
   void append(std::size_t scene, std::vector<Pose> poses, Pot pot);
   void learn(NodeId node, const Pot& before, SharedPot pot);
   [[nodiscard]] Error named(NodeId node, const Error& error) const;

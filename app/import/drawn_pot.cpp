@@ -52,6 +52,38 @@ void hollow(std::vector<Ring>& rings, double ring_mm, double wall_mm) {
   }
 }
 
+/// Squares of the radii over the height of each ring.
+struct RingSums {
+  std::vector<Squares> rings;
+  bool bored = false;  ///< the drawing has an inside
+};
+
+RingSums sums_of(const HalfSection& section, double ring_mm, std::size_t count) {
+  RingSums sums{std::vector<Squares>(count)};
+  for_each_part(section, ring_mm, count, [&](std::size_t ring, const Slab& part) {
+    const double height = part.to_mm - part.from_mm;
+    sums.rings[ring].outer += squares(height, part.outer_from_mm, part.outer_to_mm);
+    sums.rings[ring].inner += squares(height, part.inner_from_mm, part.inner_to_mm);
+    sums.bored = sums.bored || part.inner_from_mm > 0.0 || part.inner_to_mm > 0.0;
+  });
+  return sums;
+}
+
+Result<std::vector<Ring>> rings_of(const RingSums& sums, double ring_mm, const std::string& name) {
+  std::vector<Ring> rings;
+  for (const Squares& sum : sums.rings) {
+    const double outer2 = sum.outer / ring_mm, inner2 = sum.inner / ring_mm;
+    if (!(outer2 <= kMaxRadiusMm * kMaxRadiusMm))
+      return failure(ErrorKind::bad_input,
+                     fmt::format("{}: {:.3f} mm above the foot: expected a radius up to {:g} mm, "
+                                 "found {:g}",
+                                 name, static_cast<double>(rings.size()) * ring_mm, kMaxRadiusMm,
+                                 std::sqrt(outer2)));
+    rings.push_back({quanta_from_mm2(outer2), quanta_from_mm2(inner2)});
+  }
+  return rings;
+}
+
 }  // namespace
 
 Result<Pot> drawn_pot(const HalfSection& section, const DrawnPotSettings& settings,
@@ -64,30 +96,14 @@ Result<Pot> drawn_pot(const HalfSection& section, const DrawnPotSettings& settin
                                name, kMaxRings, section.height_mm, settings.ring_height_mm));
   const auto count = static_cast<std::size_t>(rings_wanted);
   const double ring_mm = section.height_mm / rings_wanted;
-  std::vector<Squares> sums(count);
-  bool bored = false;
-  for_each_part(section, ring_mm, count, [&](std::size_t ring, const Slab& part) {
-    const double height = part.to_mm - part.from_mm;
-    sums[ring].outer += squares(height, part.outer_from_mm, part.outer_to_mm);
-    sums[ring].inner += squares(height, part.inner_from_mm, part.inner_to_mm);
-    bored = bored || part.inner_from_mm > 0.0 || part.inner_to_mm > 0.0;
-  });
-  if (bored && settings.wall_mm)
+  const RingSums sums = sums_of(section, ring_mm, count);
+  if (sums.bored && settings.wall_mm)
     return failure(ErrorKind::bad_input,
                    name + ": --wall: expected a drawing of the outside alone, found a bore in it");
-  std::vector<Ring> rings;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double outer2 = sums[i].outer / ring_mm, inner2 = sums[i].inner / ring_mm;
-    if (!(outer2 <= kMaxRadiusMm * kMaxRadiusMm))
-      return failure(
-          ErrorKind::bad_input,
-          fmt::format("{}: {:.3f} mm above the foot: expected a radius up to {:g} mm, "
-                      "found {:g}",
-                      name, static_cast<double>(i) * ring_mm, kMaxRadiusMm, std::sqrt(outer2)));
-    rings.push_back({quanta_from_mm2(outer2), quanta_from_mm2(inner2)});
-  }
-  if (settings.wall_mm) hollow(rings, ring_mm, *settings.wall_mm);
-  auto stack = ClayStack::from_rings(ring_mm, std::move(rings), 0);
+  auto rings = rings_of(sums, ring_mm, name);
+  if (!rings) return tl::make_unexpected(rings.error());
+  if (settings.wall_mm) hollow(*rings, ring_mm, *settings.wall_mm);
+  auto stack = ClayStack::from_rings(ring_mm, std::move(*rings), 0);
   if (!stack)
     return failure(stack.error().kind, fmt::format("{}: {}", name, stack.error().message));
   Pot pot;

@@ -1,32 +1,12 @@
 #pragma once
-// The only time source of the servo, so that tests can use a clock of their own.
+// The clock of the machine, and the times of the servo's ticks on any clock.
+
+#include "claystack/servo/servo.hpp"
 
 #include <algorithm>
 #include <cstdint>
 
 namespace clay::servo {
-
-class Clock {
- public:
-  Clock() = default;
-  Clock(const Clock&) = delete;
-  Clock& operator=(const Clock&) = delete;
-  virtual ~Clock() = default;
-
-  /// Monotonic time [ns]. Whole microseconds are the times of the device's samples.
-  [[nodiscard]] virtual std::int64_t now_ns() noexcept = 0;
-  [[nodiscard]] std::int64_t now_us() noexcept { return now_ns() / 1000; }
-
-  /// Returns at once if that time has passed.
-  virtual void sleep_until_ns(std::int64_t time_ns) noexcept = 0;
-
-  /// Sleeps as exactly as possible; for one thread. Returns by how much the system ended the sleep
-  /// late [ns].
-  virtual std::int64_t wake_at_ns(std::int64_t time_ns) noexcept {
-    sleep_until_ns(time_ns);
-    return 0;
-  }
-};
 
 /// CLOCK_MONOTONIC with absolute deadlines, so that delays of sleeps do not accumulate.
 class MonotonicClock final : public Clock {

@@ -19,6 +19,26 @@ falcon::SampledLoop arm_of(const LiveSettings& settings) {
   return arm;
 }
 
+using ContactOf = Result<ServoContact>(const SceneSpec&, const StepPlan&,
+                                       const falcon::SampledLoop&, double stiffness_gain);
+
+Result<ServoContact> with_plan(const SceneSpec& scene, const LiveSettings& settings,
+                               ContactOf& contact_of) {
+  const auto mapping = Mapping::build(settings.mapping);
+  if (!mapping) return tl::make_unexpected(mapping.error());
+  const auto plan = StepPlan::build(scene);
+  if (!plan) return tl::make_unexpected(plan.error());
+  return contact_of(scene, *plan, arm_of(settings), mapping->stiffness_gain());
+}
+
+/// Null if nothing is to be recorded.
+Result<std::unique_ptr<Recorder>> recorder_of(const ThrowParts& parts) {
+  if (parts.sink != nullptr) return Recorder::create(*parts.sink);
+  if (parts.session_path.empty()) return nullptr;
+  const std::uint64_t hash = parts.scene_hash != 0 ? parts.scene_hash : hash_of(parts.scene);
+  return Recorder::create(parts.session_path, parts.scene.name, hash);
+}
+
 }  // namespace
 
 Result<void> check(const LiveSettings& settings) {
@@ -32,24 +52,31 @@ Result<void> check(const LiveSettings& settings) {
       .and_then([&] { return check_range("gap_mm", settings.gap_mm, 0.0, kWidestGapMm); });
 }
 
+Result<void> check_stiffness(const SceneSpec& scene, const LiveSettings& settings) {
+  return with_plan(scene, settings, check_servo).map([](const ServoContact&) {});
+}
+
 Result<double> soften(SceneSpec& scene, const LiveSettings& settings) {
-  const auto mapping = Mapping::build(settings.mapping);
-  if (!mapping) return tl::make_unexpected(mapping.error());
-  const auto plan = StepPlan::build(scene);
-  if (!plan) return tl::make_unexpected(plan.error());
-  return servo_contact(scene, *plan, arm_of(settings), mapping->stiffness_gain())
-      .map([&](const ServoContact& contact) { return soften(scene, contact); });
+  return with_plan(scene, settings, servo_contact).map([&](const ServoContact& contact) {
+    return soften(scene, contact);
+  });
 }
 
 /// Declared so that the servo's thread ends before the loop that it runs, and the loop before the
 /// recorder that it feeds.
 struct LiveThrow::State {
-  explicit State(const ThrowParts& parts) : wheel(parts.wheel), device(parts.device) {}
-  [[nodiscard]] Bench bench() noexcept { return {wheel, device, clock, recorder.get()}; }
+  explicit State(const ThrowParts& parts)
+      : wheel(parts.wheel),
+        device(parts.device),
+        clock(parts.clock != nullptr ? *parts.clock : machine_clock),
+        trace(parts.trace) {}
+  [[nodiscard]] Bench bench() noexcept { return {wheel, device, clock, recorder.get(), trace}; }
 
   Wheel& wheel;
   falcon::HapticDevice& device;
-  MonotonicClock clock;
+  MonotonicClock machine_clock;
+  Clock& clock;
+  TickTrace* trace;
   std::unique_ptr<Recorder> recorder;
   std::optional<ServoLoop> loop;
   std::optional<Servo> servo;
@@ -57,19 +84,14 @@ struct LiveThrow::State {
 
 Result<LiveThrow> LiveThrow::build(const ThrowParts& parts, const LiveSettings& settings) {
   if (auto checked = check(settings); !checked) return tl::make_unexpected(checked.error());
-  const auto mapping = Mapping::build(settings.mapping);
-  if (!mapping) return tl::make_unexpected(mapping.error());
-  if (parts.device.info().can_push) {
-    const auto fits =
-        check_servo(parts.scene, parts.wheel.plan(), arm_of(settings), mapping->stiffness_gain());
-    if (!fits) return tl::make_unexpected(fits.error());
-  }
+  if (parts.device.info().can_push)
+    if (auto fits = check_stiffness(parts.scene, settings); !fits)
+      return tl::make_unexpected(fits.error());
   auto state = std::make_unique<State>(parts);
-  if (!parts.session_path.empty()) {
-    auto recorder = Recorder::create(parts.session_path, parts.scene.name, hash_of(parts.scene));
-    if (!recorder) return tl::make_unexpected(recorder.error());
+  if (auto recorder = recorder_of(parts))
     state->recorder = std::move(*recorder);
-  }
+  else
+    return tl::make_unexpected(recorder.error());
   auto loop = ServoLoop::build(state->bench(), settings);
   if (!loop) return tl::make_unexpected(loop.error());
   state->loop.emplace(std::move(*loop));
@@ -81,9 +103,13 @@ LiveThrow::LiveThrow(LiveThrow&&) noexcept = default;
 LiveThrow& LiveThrow::operator=(LiveThrow&&) noexcept = default;
 LiveThrow::~LiveThrow() = default;
 
-void LiveThrow::start(bool realtime) {
+void LiveThrow::start(Pace pace) {
   state_->servo.reset();
-  state_->servo.emplace(state_->bench(), *state_->loop, realtime).start();
+  state_->servo.emplace(state_->bench(), *state_->loop, pace).start();
+}
+
+void LiveThrow::advance(std::int64_t until_ns) noexcept {
+  if (state_->servo) state_->servo->advance(until_ns);
 }
 
 bool LiveThrow::command(const Command& command) noexcept {
@@ -99,9 +125,16 @@ const LiveProfile& LiveThrow::profile() noexcept {
   return state_->servo ? state_->servo->view().profile.newest() : kNone;
 }
 
+const LiveProfile* LiveThrow::new_profile() noexcept {
+  if (!state_->servo || !state_->servo->view().profile.has_new()) return nullptr;
+  return &state_->servo->view().profile.newest();
+}
+
 bool LiveThrow::running() const noexcept { return state_->servo && state_->servo->running(); }
 
 Ending LiveThrow::join() { return state_->servo ? state_->servo->join() : Ending::none; }
+
+Ending LiveThrow::stop() { return state_->servo ? state_->servo->stop() : Ending::none; }
 
 const Realtime& LiveThrow::realtime() const noexcept {
   static const Realtime kNone;
@@ -110,12 +143,17 @@ const Realtime& LiveThrow::realtime() const noexcept {
 
 Result<void> LiveThrow::finish_recording() {
   if (!state_->recorder) return {};
-  if (auto finished = state_->recorder->finish(); !finished) return finished;
-  if (state_->recorder->lost() == 0) return {};
-  return failure(ErrorKind::io, "the disk was too slow: the last " +
-                                    std::to_string(state_->recorder->lost()) +
-                                    " poses are not in the session");
+  return state_->recorder->finish();
 }
+
+Recorded LiveThrow::recorded() const noexcept {
+  if (!state_->recorder) return {};
+  return {state_->recorder->taken(), state_->recorder->lost()};
+}
+
+const ServoTiming& LiveThrow::timing() const noexcept { return state_->loop->timing(); }
+
+const GuardEvents& LiveThrow::events() const noexcept { return state_->loop->events(); }
 
 void LiveThrow::end_force() noexcept { emergency_stop().fire(); }
 

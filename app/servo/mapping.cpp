@@ -7,8 +7,6 @@
 namespace clay::servo {
 namespace {
 
-constexpr double kMPerMm = 1e-3;
-
 glm::dvec3 middle_mm(const MappingSettings& settings) {
   const double reach = settings.reach_mm;
   switch (settings.side) {
@@ -66,7 +64,7 @@ void Mapping::recentre(const glm::dvec3& device_mm, const glm::dvec3& clay_mm) n
 HandForce::Wanted HandForce::answer(std::int64_t now_us, const glm::dvec3& device_mm,
                                     const Mapping& mapping, const StepReport& clay) noexcept {
   const falcon::PassiveForce passive =
-      controller_.tick(now_us, kMPerMm * device_mm, mapping.force_to_device(clay.spring_n));
+      controller_.tick(now_us, device_mm, mapping.force_to_device(clay.spring_n));
   spring_n_ = whole_n_ = {};
   if (passive.state == falcon::PassivityState::safe) return {{}, false};
   spring_n_ = passive.force_n;

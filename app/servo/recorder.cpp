@@ -1,7 +1,6 @@
 #include "app/servo/recorder.hpp"
 
 #include "app/servo/session_recording.hpp"
-#include "claystack/engine/files.hpp"
 
 #include <chrono>
 #include <utility>
@@ -24,22 +23,19 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path,
   return recorder;
 }
 
-std::unique_ptr<Recorder> Recorder::create(history::PoseSink& sink) {
+std::unique_ptr<Recorder> Recorder::create(PoseSink& sink) {
   std::unique_ptr<Recorder> recorder(new Recorder(sink));
-  recorder->thread_ = std::thread([&self = *recorder] { self.run(); });
+  recorder->worker_.emplace([&self = *recorder](bool) { self.hand_on(); }, kPause);
   return recorder;
 }
 
-Recorder::Recorder(history::PoseSink& sink) : sink_(sink) { block_.reserve(kPosesPerBlock); }
+Recorder::Recorder(PoseSink& sink) : sink_(sink) { block_.reserve(kPosesPerBlock); }
 
-Recorder::~Recorder() {
-  closing_.store(true);
-  if (thread_.joinable()) thread_.join();
-}
+Recorder::~Recorder() = default;
 
-bool Recorder::take(const Pose& pose) noexcept {
+bool Recorder::take(const Pose& pose, bool contact) noexcept {
   const bool whole = lost_.load(std::memory_order_relaxed) == 0;
-  if (whole && !failed_.load(std::memory_order_relaxed) && queue_.push(pose)) {
+  if (whole && !failed_.load(std::memory_order_relaxed) && queue_.push({pose, contact})) {
     taken_.fetch_add(1, std::memory_order_relaxed);
     return true;
   }
@@ -48,29 +44,22 @@ bool Recorder::take(const Pose& pose) noexcept {
 }
 
 Result<void> Recorder::finish() {
-  closing_.store(true);
-  if (thread_.joinable()) thread_.join();
+  worker_->close();
   if (failed_) return tl::make_unexpected(error_);
   return sink_.finish();
-}
-
-void Recorder::run() {
-  while (!closing_.load()) {
-    hand_on();
-    std::this_thread::sleep_for(kPause);
-  }
-  hand_on();
 }
 
 void Recorder::hand_on() {
   for (;;) {
     while (block_.size() < kPosesPerBlock) {
-      const auto pose = queue_.pop();
-      if (!pose) break;
-      block_.push_back(*pose);
+      const auto played = queue_.pop();
+      if (!played) break;
+      contact_[block_.size()] = played->contact;
+      block_.push_back(played->pose);
     }
     if (block_.empty()) return;
-    if (auto appended = failed_ ? Result<void>() : sink_.append(block_); !appended) {
+    const PoseBlock block{block_, std::span(contact_).first(block_.size())};
+    if (auto appended = failed_ ? Result<void>() : sink_.append(block); !appended) {
       error_ = appended.error();
       failed_ = true;
     }

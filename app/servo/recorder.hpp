@@ -4,17 +4,18 @@
 // second later. A process that is killed loses at most the last 100 ms. A power failure may lose
 // more until `finish` has synced the file.
 
-#include "app/history/pose_sink.hpp"
 #include "claystack/core/result.hpp"
-#include "claystack/engine/tool.hpp"
+#include "claystack/engine/files.hpp"
 #include "core/spsc_queue.hpp"
+#include "core/worker.hpp"
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <vector>
 
 namespace clay::servo {
@@ -26,16 +27,16 @@ class Recorder {
                                                   std::string_view scene_name,
                                                   std::uint64_t scene_hash);
   /// Records to any sink, which must outlive this object.
-  static std::unique_ptr<Recorder> create(history::PoseSink& sink);
+  static std::unique_ptr<Recorder> create(PoseSink& sink);
   /// Ends the recording. Call finish() first to learn whether it succeeded.
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Called by the servo with a quantised pose, later than the last. Does not wait or allocate.
-  /// False: neither this pose nor any later one is recorded, because a session with a gap would
-  /// replay to another pot.
-  bool take(const Pose& pose) noexcept;
+  /// Called by the servo with a quantised pose, later than the last, and whether the tool was in
+  /// the clay. Does not wait or allocate. False: neither this pose nor any later one is recorded,
+  /// because a session with a gap would replay to another pot.
+  bool take(const Pose& pose, bool contact) noexcept;
 
   /// After the last pose: waits until all poses are in the sink and the sink has finished. Returns
   /// the first error.
@@ -46,19 +47,23 @@ class Recorder {
   [[nodiscard]] std::uint64_t taken() const noexcept { return taken_.load(); }
 
  private:
-  explicit Recorder(history::PoseSink& sink);
-  void run();
+  explicit Recorder(PoseSink& sink);
   void hand_on();
 
   static constexpr std::size_t kWaiting = 8192;  // poses: 8 s at 1 kHz
-  std::unique_ptr<history::PoseSink> own_sink_;
-  history::PoseSink& sink_;
-  SpscQueue<Pose, kWaiting> queue_;
+  std::unique_ptr<PoseSink> own_sink_;
+  PoseSink& sink_;
+  struct Played {
+    Pose pose;
+    bool contact;
+  };
+  SpscQueue<Played, kWaiting> queue_;
   std::atomic<std::uint64_t> lost_{0}, taken_{0};
-  std::atomic<bool> closing_{false}, failed_{false};
-  std::vector<Pose> block_;  // used by the recorder's thread
-  Error error_;              // used by the recorder's thread until it has ended
-  std::thread thread_;
+  std::atomic<bool> failed_{false};
+  std::vector<Pose> block_;                     // used by the worker
+  std::array<bool, kPosesPerBlock> contact_{};  // of its poses
+  Error error_;                                 // used by the worker until it has ended
+  std::optional<PeriodicWorker> worker_;        // last: it uses all members above
 };
 
 }  // namespace clay::servo

@@ -12,7 +12,7 @@ namespace clay::servo {
 namespace {
 
 constexpr double kSPerUs = 1e-6;
-constexpr double kHandStiffness = 200'000.0, kHandDamping = 300.0;  // N/m, N s/m
+constexpr double kHandStiffness = 200.0, kHandDamping = 0.3;  // N/mm, N s/mm
 
 struct Place {
   double time_s;
@@ -92,8 +92,8 @@ falcon::SimulatedSettings simulated_potter(const std::vector<Pose>& poses, const
   falcon::SimulatedSettings settings = falcon::simulated_and_loaded();
   settings.path = hand_path(poses, mapping);
   settings.fingers = hand_fingers(poses);
-  settings.hand.stiffness_n_per_m = glm::dvec3(kHandStiffness);
-  settings.hand.damping_ns_per_m = glm::dvec3(kHandDamping);
+  settings.hand.stiffness_n_per_mm = glm::dvec3(kHandStiffness);
+  settings.hand.damping_ns_per_mm = glm::dvec3(kHandDamping);
   return settings;
 }
 

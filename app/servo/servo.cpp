@@ -60,20 +60,28 @@ falcon::EmergencyStop& emergency_stop() noexcept {
   return last;
 }
 
-Servo::~Servo() {
+Servo::~Servo() { stop(); }
+
+Ending Servo::stop() {
   // If the command queue is full, the gate ends the force instead.
   if (!command({CommandKind::stop, 0.0})) gate_.shut_for_good();
-  join();
+  return join();
 }
 
 void Servo::start() {
   running_.store(true);
   emergency_stop().arm(gate_, &stop_device, &bench_.device);
+  if (pace_ == Pace::stepped) return loop_.start();
   watchdog_ = std::thread([this] { watch(); });
   servo_ = std::thread([this] { run(); });
 }
 
+void Servo::advance(std::int64_t until_ns) noexcept {
+  while (pace_ == Pace::stepped && running() && bench_.clock.now_ns() < until_ns) tick();
+}
+
 Ending Servo::join() {
+  while (pace_ == Pace::stepped && running()) tick();
   if (servo_.joinable()) servo_.join();
   if (watchdog_.joinable()) {
     watchdog_.join();
@@ -83,10 +91,16 @@ Ending Servo::join() {
 }
 
 void Servo::run() noexcept {
-  if (want_realtime_) realtime_ = request_realtime(kServoPriority);
+  if (pace_ == Pace::real_time) realtime_ = request_realtime(kServoPriority);
   loop_.start();
-  while (loop_.tick(gate_, commands_, view_, heartbeat_us_) == Ending::none) {
-  }
+  while (running()) tick();
+}
+
+void Servo::tick() noexcept {
+  if (loop_.tick(gate_, commands_, view_, heartbeat_us_) != Ending::none) end();
+}
+
+void Servo::end() noexcept {
   // From here on signal handlers do not use the device: it has received its last force.
   gate_.shut_for_good();
   bench_.device.stop();
@@ -97,7 +111,7 @@ void Servo::run() noexcept {
 /// Supervises the servo from another thread. If the heartbeat stops for 10 ms, ends the force once.
 /// The servo opens the gate again when it runs, after its guard has seen the delay.
 void Servo::watch() noexcept {
-  if (want_realtime_) (void)request_realtime(kWatchdogPriority);
+  if (pace_ == Pace::real_time) (void)request_realtime(kWatchdogPriority);
   std::int64_t ended_us = -1;  // heartbeat at which the force was ended
   while (running()) {
     const std::int64_t beat_us = heartbeat_us_.load(std::memory_order_acquire);

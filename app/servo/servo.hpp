@@ -23,15 +23,18 @@ inline constexpr int kServoPriority = 70, kWatchdogPriority = 80;
 
 class Servo {
  public:
-  /// `bench` and `loop` must outlive it. `realtime`: request real-time scheduling.
-  Servo(const Bench& bench, ServoLoop& loop, bool realtime) noexcept
-      : bench_(bench), loop_(loop), want_realtime_(realtime) {}
+  /// `bench` and `loop` must outlive it.
+  Servo(const Bench& bench, ServoLoop& loop, Pace pace) noexcept
+      : bench_(bench), loop_(loop), pace_(pace) {}
   ~Servo();
   Servo(const Servo&) = delete;
   Servo& operator=(const Servo&) = delete;
 
   /// Ticks until the loop ends. The device is open. Call once.
   void start();
+
+  /// Pace::stepped: ticks until the clock reaches `until_ns`, or to the end.
+  void advance(std::int64_t until_ns) noexcept;
 
   /// For one other thread. False: the queue is full.
   bool command(const Command& command) noexcept { return commands_.push(command); }
@@ -42,17 +45,21 @@ class Servo {
 
   /// Waits for the end. The last force sent to the device is zero.
   Ending join();
+  /// Ends it, whether or not the queue has room, and waits like join().
+  Ending stop();
 
   /// After join().
   [[nodiscard]] const Realtime& realtime() const noexcept { return realtime_; }
 
  private:
   void run() noexcept;
+  void tick() noexcept;
+  void end() noexcept;
   void watch() noexcept;
 
   Bench bench_;
   ServoLoop& loop_;
-  bool want_realtime_;
+  Pace pace_;
   Commands commands_;
   LiveView view_;
   falcon::ForceGate gate_;

@@ -8,8 +8,6 @@
 namespace clay::servo {
 namespace {
 
-constexpr double kMmPerM = 1000.0;
-
 /// The maximum number of rings whose middles lie within the tool's reach: one more than the number
 /// of steps between them.
 double most_rings_touched(const SceneSpec& scene, const Tool& tool) {
@@ -28,12 +26,12 @@ Error refusal(const SceneSpec& scene, const ServoContact& contact, const falcon:
   const double found =
       per_ring ? *scene.force->paper_stiffness_n_per_mm : scene.force->stiffness_n_per_mm2;
   const char* setting = per_ring ? "force.paper_stiffness_n_per_mm" : "force.stiffness_n_per_mm2";
-  const double highest = found * (why.highest_n_per_m / why.found_n_per_m);
+  const double highest = found * (why.highest_n_per_mm / why.found_n_per_mm);
   return {
       ErrorKind::bad_input,
-      fmt::format("{}: expected at most {} for a contact of {:.4g} mm and an arm of {:.4g} N s/m "
+      fmt::format("{}: expected at most {} for a contact of {:.4g} mm and an arm of {:.4g} N s/mm "
                   "at {:.6g} Hz, found {:.6g}; or a rate of at least {:.0f} Hz",
-                  setting, rounded_down(highest), contact.height_mm, loop.damping_ns_per_m,
+                  setting, rounded_down(highest), contact.height_mm, loop.damping_ns_per_mm,
                   loop.rate_hz, found, std::ceil(why.lowest_rate_hz))};
 }
 
@@ -46,11 +44,10 @@ Result<ServoContact> servo_contact(const SceneSpec& scene, const StepPlan& plan,
   const double rings = most_rings_touched(scene, plan.tool);
   ServoContact contact;
   contact.height_mm = rings * scene.lump.ring_height_mm;
-  contact.accepted_n_per_m = accepted_stiffness(loop);
+  contact.accepted_n_per_mm = accepted_stiffness(loop);
   const double tools = (plan.stages & kPinch) ? 2.0 : 1.0;
   if (scene.force)
-    contact.stiffness_n_per_m =
-        stiffness_gain * tools * kMmPerM * plan.force.stiffness_n_per_mm * rings;
+    contact.stiffness_n_per_mm = stiffness_gain * tools * plan.force.stiffness_n_per_mm * rings;
   return contact;
 }
 
@@ -58,14 +55,15 @@ Result<ServoContact> check_servo(const SceneSpec& scene, const StepPlan& plan,
                                  const falcon::SampledLoop& loop, double stiffness_gain) {
   const auto contact = servo_contact(scene, plan, loop, stiffness_gain);
   if (!contact || !scene.force) return contact;
-  if (const auto soft = check_stiffness(loop, contact->stiffness_n_per_m); !soft)
+  if (const auto soft = check_stiffness(loop, contact->stiffness_n_per_mm); !soft)
     return tl::make_unexpected(refusal(scene, *contact, loop, soft.error()));
   return contact;
 }
 
 double soften(SceneSpec& scene, const ServoContact& contact) {
-  if (!scene.force || contact.stiffness_n_per_m <= contact.accepted_n_per_m) return 1.0;
-  const double part = contact.accepted_n_per_m / contact.stiffness_n_per_m;
+  if (!scene.force || contact.stiffness_n_per_mm <= contact.accepted_n_per_mm) return 1.0;
+  // A hair less, so that rounding does not put it above the limit.
+  const double part = (1.0 - 1e-12) * contact.accepted_n_per_mm / contact.stiffness_n_per_mm;
   scene.force->stiffness_n_per_mm2 *= part;
   if (scene.force->paper_stiffness_n_per_mm) *scene.force->paper_stiffness_n_per_mm *= part;
   return part;

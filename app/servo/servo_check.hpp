@@ -8,9 +8,9 @@ namespace clay::servo {
 
 /// Stiffness of a scene's contact as seen by an arm.
 struct ServoContact {
-  double height_mm = 0.0;          ///< maximum height of contact, in whole rings
-  double stiffness_n_per_m = 0.0;  ///< radial: K' times that height
-  double accepted_n_per_m = 0.0;   ///< half of the passive limit at the arm's rate and damping
+  double height_mm = 0.0;           ///< maximum height of contact, in whole rings
+  double stiffness_n_per_mm = 0.0;  ///< radial: K' times that height
+  double accepted_n_per_mm = 0.0;   ///< half of the passive limit at the arm's rate and damping
 };
 
 /// The contact that an arm would have to render. `stiffness_gain`: of the mapping between tool and

@@ -33,7 +33,7 @@ StepReport LiveClay::meet(const Pose& measured) noexcept {
   // Missed periods are not repeated.
   due_us_ = std::max(due_us_ + period_us_, pose.time_us + period_us_ / 2);
   ++poses_;
-  if (recorder_ != nullptr) (void)recorder_->take(pose);
+  if (recorder_ != nullptr) (void)recorder_->take(pose, (report.flags & kContact) != 0);
   return report;
 }
 
@@ -45,7 +45,7 @@ Result<ServoLoop> ServoLoop::build(const Bench& bench, const LiveSettings& setti
   guard_settings.period_s = 1.0 / settings.rate_hz;
   const auto guard = falcon::ForceGuard::make(guard_settings);
   if (!guard) return tl::make_unexpected(falcon::error_of(guard.error()));
-  falcon::PassivitySpec spec{.loop = settings.arm, .step_m = settings.encoder_step_m};
+  falcon::PassivitySpec spec{.loop = settings.arm, .step_mm = settings.encoder_step_mm};
   spec.loop.rate_hz = settings.rate_hz;
   const auto controller = falcon::PassivityController::build(spec);
   if (!controller) return tl::make_unexpected(falcon::error_of(controller.error()));

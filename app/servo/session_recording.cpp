@@ -102,7 +102,8 @@ Result<void> SessionRecording::clear_aside() {
   return {};
 }
 
-Result<void> SessionRecording::append(std::span<const Pose> poses) {
+Result<void> SessionRecording::append(const PoseBlock& block) {
+  const std::span<const Pose> poses = block.poses;
   if (poses.size() > kMaxPoses - poses_)
     return failure(ErrorKind::bad_input,
                    path_ + ": expected at most " + std::to_string(kMaxPoses) +

@@ -1,6 +1,6 @@
 #pragma once
-#include "app/history/pose_sink.hpp"
 #include "claystack/core/result.hpp"
+#include "claystack/engine/files.hpp"
 
 #include <sys/types.h>
 
@@ -17,7 +17,7 @@ namespace clay::servo {
 /// step in `finish`: until then the session that had the name stays as it is. A program that dies
 /// leaves NAME.recording, which can be played like any session. A recording without a pose leaves
 /// nothing and replaces nothing. Pipes and devices have no NAME.recording: lines go straight there.
-class SessionRecording final : public history::PoseSink {
+class SessionRecording final : public PoseSink {
  public:
   /// Refused while another program records to this name, and if NAME.recording holds poses of an
   /// unfinished recording. `scene_hash`: hash_of the scene file.
@@ -28,7 +28,7 @@ class SessionRecording final : public history::PoseSink {
   SessionRecording(const SessionRecording&) = delete;
   SessionRecording& operator=(const SessionRecording&) = delete;
 
-  Result<void> append(std::span<const Pose> poses) override;
+  Result<void> append(const PoseBlock& block) override;
   Result<void> finish() override;
 
  private:

@@ -33,16 +33,12 @@ LookForDevice look_for(std::string which, falcon::FalconSettings settings) {
 }
 
 DeviceWatch::DeviceWatch(LookForDevice look, std::chrono::milliseconds between)
-    : look_for_(std::move(look)), between_(between), thread_([this] { run(); }) {}
-
-DeviceWatch::~DeviceWatch() {
-  {
-    const std::lock_guard lock(mutex_);
-    closing_ = true;
-  }
-  wake_.notify_one();
-  thread_.join();
-}
+    : look_for_(std::move(look)),
+      worker_(
+          [this](bool last) {
+            if (!last) this->look();
+          },
+          between) {}
 
 std::unique_ptr<falcon::HapticDevice> DeviceWatch::take() {
   const std::lock_guard lock(mutex_);
@@ -60,19 +56,11 @@ std::string DeviceWatch::take_problem() {
   return std::exchange(problem_, {});
 }
 
-void DeviceWatch::run() {
-  std::unique_lock lock(mutex_);
-  while (!closing_) {
-    if (looking_) {
-      lock.unlock();
-      look();
-      lock.lock();
-    }
-    wake_.wait_for(lock, between_, [this] { return closing_; });
-  }
-}
-
 void DeviceWatch::look() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!looking_) return;
+  }
   auto device = look_for_();
   const std::lock_guard lock(mutex_);
   if (!device) {

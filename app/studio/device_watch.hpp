@@ -5,14 +5,13 @@
 #include "claystack/core/result.hpp"
 #include "claystack/falcon/device.hpp"
 #include "claystack/falcon/falcon_device.hpp"
+#include "core/worker.hpp"
 
 #include <chrono>
-#include <condition_variable>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
-#include <thread>
 
 namespace clay::studio {
 
@@ -28,7 +27,6 @@ class DeviceWatch {
  public:
   explicit DeviceWatch(LookForDevice look,
                        std::chrono::milliseconds between = std::chrono::seconds(1));
-  ~DeviceWatch();
   DeviceWatch(const DeviceWatch&) = delete;
   DeviceWatch& operator=(const DeviceWatch&) = delete;
 
@@ -40,17 +38,14 @@ class DeviceWatch {
   [[nodiscard]] std::string take_problem();
 
  private:
-  void run();
   void look();
 
   LookForDevice look_for_;
-  std::chrono::milliseconds between_;
-  std::mutex mutex_;  // protects the members below
-  std::condition_variable wake_;
+  std::mutex mutex_;  // protects the next three members
   std::unique_ptr<falcon::HapticDevice> found_;
-  std::string problem_, reported_;
-  bool looking_ = true, closing_ = false;
-  std::thread thread_;
+  std::string problem_, told_;
+  bool looking_ = true;
+  PeriodicWorker worker_;  // last: it uses all members above
 };
 
 }  // namespace clay::studio

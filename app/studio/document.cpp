@@ -121,14 +121,14 @@ Result<void> Document::show_pot() {
   return {};
 }
 
-Result<history::PoseSink*> Document::begin_stroke(const SceneSpec& scene) {
-  auto sink = work_->begin_stroke(scene);
-  if (sink) changes_discarded_ = false;
-  return sink;
+Result<history::Begun> Document::begin_stroke(const SceneSpec& scene) {
+  auto begun = work_->begin_stroke(scene);
+  if (begun) changes_discarded_ = false;
+  return begun;
 }
 
-Result<void> Document::end_stroke(const Pot* thrown) {
-  const auto added = work_->end_stroke(thrown);
+Result<void> Document::end_stroke(std::optional<Pot> thrown) {
+  const auto added = work_->end_stroke(std::move(thrown));
   auto shown = show_pot();
   if (!added) return tl::make_unexpected(added.error());
   return shown;

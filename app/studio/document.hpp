@@ -1,7 +1,6 @@
 #pragma once
 // The document of the window: a work, its file, the pot on screen, and whether it is saved.
 
-#include "app/history/pose_sink.hpp"
 #include "app/history/work.hpp"
 #include "app/render/picture.hpp"
 #include "claystack/core/result.hpp"
@@ -79,9 +78,10 @@ class Document {
   [[nodiscard]] double nominal_rate_per_s() const noexcept { return nominal_rate_per_s_; }
 
   /// Begins a stroke on the current pot. The recorder writes to the sink.
-  Result<history::PoseSink*> begin_stroke(const SceneSpec& scene);
-  /// Call after the recorder has finished. `thrown`: the pot at the end of the stroke; it is shown.
-  Result<void> end_stroke(const Pot* thrown);
+  Result<history::Begun> begin_stroke(const SceneSpec& scene);
+  /// Call after the recorder has finished. `thrown`: the pot that exactly the recorded poses left
+  /// on the wheel; empty: they are replayed. Shows the new pot.
+  Result<void> end_stroke(std::optional<Pot> thrown);
 
   // --- The tree of strokes. Not during a stroke. -------------------------------------------------
   [[nodiscard]] bool can_undo() const noexcept { return work_ && work_->can_undo(); }

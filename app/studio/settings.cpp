@@ -16,21 +16,22 @@ namespace {
 constexpr const char* kSchema = "claystack-studio-1";
 constexpr std::size_t kMostBytes = 1 << 20, kMostValues = 1000;
 
-constexpr std::array kThemes = {"dark", "light"};
+constexpr std::array<std::string_view, 2> kThemes = {"dark", "light"};
 constexpr std::array kThemeValues = {Theme::dark, Theme::light};
-constexpr std::array kUnits = {"mm", "cm", "in"};
+constexpr std::array<std::string_view, 3> kUnits = {"mm", "cm", "in"};
 constexpr std::array kUnitValues = {LengthUnit::mm, LengthUnit::cm, LengthUnit::in};
 // A custom shape belongs to a scene; it is stored as the first of these shapes.
-constexpr std::array kShapes = {"sphere", "ellipse", "rib"};
+constexpr std::array<std::string_view, 3> kShapes = {"sphere", "ellipse", "rib"};
 constexpr std::array kShapeValues = {Shape::sphere, Shape::ellipse, Shape::rib};
-constexpr std::array kModes = {"press", "trim", "pinch", "smooth", "needle", "wire", "trim_foot"};
+constexpr std::array<std::string_view, 7> kModes = {"press",  "trim", "pinch",    "smooth",
+                                                    "needle", "wire", "trim_foot"};
 constexpr std::array kModeValues = {ToolMode::press,    ToolMode::trim,   ToolMode::pinch,
                                     ToolMode::smooth,   ToolMode::needle, ToolMode::wire,
                                     ToolMode::trim_foot};
 
-template <class Io, class E, std::size_t N>
-void choice(Io& io, const char* name, E& value, const std::array<const char*, N>& names,
-            const std::array<E, N>& values) {
+template <class E, std::size_t N>
+void choice(PlainFields& io, std::string_view name, E& value,
+            const std::array<std::string_view, N>& names, const std::array<E, N>& values) {
   const auto* found = std::ranges::find(values, value);
   std::size_t index = found == values.end() ? 0 : static_cast<std::size_t>(found - values.begin());
   const std::size_t before = index;
@@ -39,8 +40,7 @@ void choice(Io& io, const char* name, E& value, const std::array<const char*, N>
 }
 
 /// The fields of the file in their order, for both reader and writer.
-template <class Io>
-void describe(Io& io, Settings& s) {
+void describe(PlainFields& io, Settings& s) {
   choice(io, "theme", s.theme, kThemes, kThemeValues);
   double scale = static_cast<double>(s.scale);
   io.number("scale", scale, kSmallestScale, kLargestScale);
@@ -106,18 +106,15 @@ std::filesystem::path settings_path() {
 }
 
 Result<Settings> parse_settings(std::string_view text, std::string_view name) {
-  auto reader = PlainReader::parse(text, name, kSchema, kMostValues);
-  if (!reader) return tl::make_unexpected(reader.error());
   Settings settings;
-  describe(*reader, settings);
-  return reader->finish().map([&] { return settings; });
+  return read_fields(text, name, kSchema, kMostValues,
+                     [&](PlainFields& io) { describe(io, settings); })
+      .map([&] { return settings; });
 }
 
 std::string write_settings(const Settings& settings) {
-  PlainWriter writer(kSchema);
   Settings copy = settings;
-  describe(writer, copy);
-  return writer.finish();
+  return write_fields(kSchema, [&](PlainFields& io) { describe(io, copy); });
 }
 
 LoadedSettings load_settings(const std::filesystem::path& path) {

@@ -62,28 +62,29 @@ Result<void> StrokeController::begin_session(const SceneSpec& scene, falcon::Hap
 
 Result<void> StrokeController::start_servo(const SceneSpec& scene, falcon::HapticDevice& device,
                                            const servo::LiveSettings& settings) {
-  auto wheel = Wheel::build(scene, document_.pot());
-  if (!wheel) return tl::make_unexpected(wheel.error());
-  auto sink = document_.begin_stroke(scene);
-  if (!sink) return tl::make_unexpected(sink.error());
-  auto recorder = servo::Recorder::create(**sink);
-  const Pace pace = !threads_                ? Pace::stepped
-                    : device.info().can_push ? Pace::real_time
-                                             : Pace::thread;
-  auto session = StrokeSession::begin(std::move(*wheel), device, clock_, recorder.get(), &trace_,
-                                      settings, pace);
-  if (!session) {
-    (void)recorder->finish();
-    (void)document_.end_stroke(nullptr);  // without a pose no stroke is added
-    return tl::make_unexpected(session.error());
+  auto begun = document_.begin_stroke(scene);
+  if (!begun) return tl::make_unexpected(begun.error());
+  wheel_.emplace(std::move(begun->wheel));
+  auto live = servo::LiveThrow::build({.wheel = *wheel_,
+                                       .device = device,
+                                       .scene = scene,
+                                       .sink = begun->sink,
+                                       .clock = &clock_,
+                                       .trace = &trace_},
+                                      settings);
+  if (!live) {
+    (void)document_.end_stroke(std::nullopt);  // without a pose no stroke is added
+    return tl::make_unexpected(live.error());
   }
-  recorder_ = std::move(recorder);
-  session_ = std::move(*session);
+  live_.emplace(std::move(*live));
+  live_->start(!threads_                ? servo::Pace::stepped
+               : device.info().can_push ? servo::Pace::real_time
+                                        : servo::Pace::thread);
   return {};
 }
 
 void StrokeController::command(const servo::Command& command) noexcept {
-  if (session_) (void)session_->command(command);
+  if (live_) (void)live_->command(command);
 }
 
 void StrokeController::pause(bool on) noexcept {
@@ -92,23 +93,26 @@ void StrokeController::pause(bool on) noexcept {
 }
 
 void StrokeController::release() {
-  if (!session_) return;
+  if (!live_) return;
   news_.stroke_ended = true;
-  news_.ending = session_->end();
-  status_ = session_->status();
+  news_.ending = live_->stop();
+  status_ = live_->status();
   news_.poses = status_.poses;
   news_.ticks = status_.ticks;
   news_.ring_limit = status_.ring_limit;
-  servo_ = {session_->loop().timing(), session_->loop().events(), session_->realtime()};
-  const Pot thrown = session_->wheel().pot();
-  if (auto kept = recorder_->finish(); !kept)
+  servo_ = {live_->timing(), live_->events(), live_->realtime()};
+  // Where poses are missing, the pot is what the recorded ones replay to.
+  std::optional<Pot> thrown;
+  if (auto kept = live_->finish_recording(); !kept)
     news_.error = kept.error();
-  else if (recorder_->lost() > 0)
+  else if (live_->recorded().lost > 0)
     news_.error = Error{ErrorKind::io,
                         "The end of the stroke is lost: the machine was too slow to record it"};
-  if (auto added = document_.end_stroke(&thrown); !added) news_.error = added.error();
-  session_.reset();
-  recorder_.reset();
+  else
+    thrown = wheel_->pot();
+  if (auto added = document_.end_stroke(std::move(thrown)); !added) news_.error = added.error();
+  live_.reset();
+  wheel_.reset();
   if (news_.ending == servo::Ending::device_lost) lose_device();
   device_waits_ = device_ != nullptr && news_.ending != servo::Ending::collapsed;
 }
@@ -155,24 +159,24 @@ void StrokeController::begin_with_device() {
 }
 
 void StrokeController::advance(std::int64_t now_ns) {
-  if (!session_ && device_waits_ && document_.has_work() && !document_.pot().collapse)
+  if (!live_ && device_waits_ && document_.has_work() && !document_.pot().collapse)
     begin_with_device();
-  if (!session_) return;
+  if (!live_) return;
   if (gap_mm_ > closed_gap_mm_) {
     const double elapsed_s = 1e-9 * static_cast<double>(now_ns - last_ns_);
     gap_mm_ = std::max(closed_gap_mm_, gap_mm_ - kClosingMmPerS * elapsed_s);
     command({servo::CommandKind::gap, gap_mm_});
   }
   last_ns_ = now_ns;
-  session_->advance(now_ns);
+  live_->advance(now_ns);
   read_servo();
   measure_rate(now_ns);
-  if (!session_->running()) release();
+  if (!live_->running()) release();
 }
 
 void StrokeController::read_servo() {
-  status_ = session_->status();
-  const servo::LiveProfile* profile = session_->new_profile();
+  status_ = live_->status();
+  const servo::LiveProfile* profile = live_->new_profile();
   if (profile == nullptr) return;
   view_ = view_of(*profile);
   crown_mm_ = profile->crown_mm;

@@ -3,10 +3,11 @@
 // the results.
 
 #include "app/render/picture.hpp"
-#include "app/servo/recorder.hpp"
+#include "app/servo/tick_trace.hpp"
 #include "app/studio/document.hpp"
 #include "app/studio/mouse_hand.hpp"
-#include "app/studio/stroke_session.hpp"
+#include "claystack/engine/wheel.hpp"
+#include "claystack/servo/servo.hpp"
 
 #include <memory>
 #include <optional>
@@ -67,7 +68,7 @@ class StrokeController {
   void begin_work() noexcept;
   /// Devices begin no stroke until `resume`.
   void hold_back() noexcept { device_waits_ = false; }
-  [[nodiscard]] bool throwing() const noexcept { return session_ != nullptr; }
+  [[nodiscard]] bool throwing() const noexcept { return live_.has_value(); }
 
   // --- Devices. ----------------------------------------------------------------------------------
   /// An open device replaces the mouse until it is lost. Its strokes follow each other; undo and a
@@ -87,11 +88,11 @@ class StrokeController {
   [[nodiscard]] StrokeNews take_news() { return std::exchange(news_, {}); }
   /// The pot on screen: during a stroke the clay under the tool, otherwise the pot of the document.
   [[nodiscard]] const render::PotView& view() const noexcept {
-    return session_ ? view_ : document_.view();
+    return live_ ? view_ : document_.view();
   }
   /// Height of the crown above the rows of `view`; 0 at rest, because the rows include it then
   /// [mm].
-  [[nodiscard]] double crown_mm() const noexcept { return session_ ? crown_mm_ : 0.0; }
+  [[nodiscard]] double crown_mm() const noexcept { return live_ ? crown_mm_ : 0.0; }
   /// Figures of the current stroke, or of the last one.
   [[nodiscard]] const servo::LiveStatus& status() const noexcept { return status_; }
   /// Figures of the last finished stroke.
@@ -121,8 +122,8 @@ class StrokeController {
   servo::LiveSettings device_settings_;
   bool device_waits_ = false;  // it begins a stroke as soon as possible
   servo::TickTrace trace_;
-  std::unique_ptr<servo::Recorder> recorder_;
-  std::unique_ptr<StrokeSession> session_;
+  std::optional<Wheel> wheel_;            // of the stroke in progress
+  std::optional<servo::LiveThrow> live_;  // the same
   servo::LiveStatus status_;
   ServoRecord servo_;
   render::PotView view_;  // during a stroke

@@ -86,6 +86,37 @@ void ObjectReader::text(std::string_view name, std::string& value) {
   });
 }
 
+void ObjectReader::texts(std::string_view name, std::vector<std::string>& values,
+                         std::size_t most) {
+  at(name, [&](const Json& found) {
+    if (!found.is_array() || found.size() > most)
+      return expected("an array of at most " + std::to_string(most) + " texts", found);
+    std::vector<std::string> read;
+    each_element(found, [&](const Json& element) {
+      if (const auto* text = element.get_ptr<const std::string*>())
+        read.push_back(*text);
+      else
+        expected("a text", element);
+    });
+    values = std::move(read);
+  });
+}
+
+void ObjectReader::flag(std::string_view name, bool& value) {
+  at(name, [&](const Json& found) { value = flag_in(found).value_or(value); });
+}
+
+void ObjectReader::flags(std::string_view name, std::map<std::string, bool>& values) {
+  at(name, [&](const Json& found) {
+    if (!is_object(found)) return;
+    for (const auto& [key, member] : found.items()) {
+      context_.path.emplace_back(std::string_view(key));
+      if (const auto read = flag_in(member)) values[key] = *read;
+      context_.path.pop_back();
+    }
+  });
+}
+
 void ObjectReader::number(std::string_view name, double& value, const Range& range) {
   at(name, [&](const Json& found) { value = number_in(found, range).value_or(value); });
 }
@@ -140,6 +171,12 @@ void ObjectReader::expect_element(bool holds, std::string_view name, std::size_t
     expected(what, found.at(index));
     context_.path.pop_back();
   });
+}
+
+std::optional<bool> ObjectReader::flag_in(const Json& value) {
+  if (value.is_boolean()) return value.get<bool>();
+  expected("true or false", value);
+  return std::nullopt;
 }
 
 std::optional<double> ObjectReader::number_in(const Json& value, const Range& range) {

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 #include <initializer_list>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -45,6 +46,10 @@ class ObjectReader {
   /// The program that wrote the file: any text.
   void written_by();
   void text(std::string_view name, std::string& value);
+  void texts(std::string_view name, std::vector<std::string>& values, std::size_t most);
+  void flag(std::string_view name, bool& value);
+  /// An object of flags with any names; those that are absent stay unchanged.
+  void flags(std::string_view name, std::map<std::string, bool>& values);
   void number(std::string_view name, double& value, const Range& range);
   void number(std::string_view name, std::optional<double>& value, const Range& range);
   void numbers(std::string_view name, std::vector<double>& values, const Range& range);
@@ -109,6 +114,7 @@ class ObjectReader {
   std::vector<double> numbers_in(const Json& value, const Range& range);
   std::vector<std::int64_t> integers_in(const Json& value, std::int64_t low, std::int64_t high);
   std::optional<std::size_t> choice_in(const Json& value, Names names);
+  std::optional<bool> flag_in(const Json& value);
   [[nodiscard]] bool is_object(const Json& value);
 
   void expected(std::string_view what, const Json& found);

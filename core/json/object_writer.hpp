@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <initializer_list>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -36,6 +37,13 @@ class ObjectWriter {
   void constant(std::string_view name, std::string_view value) { member(name) = value; }
   void written_by() { member("written_by") = kWrittenBy; }
   void text(std::string_view name, const std::string& value) { member(name) = value; }
+  void texts(std::string_view name, const std::vector<std::string>& values, std::size_t) {
+    member(name) = values;
+  }
+  void flag(std::string_view name, bool value) { member(name) = value; }
+  void flags(std::string_view name, const std::map<std::string, bool>& values) {
+    member(name) = values;
+  }
   void number(std::string_view name, double value, const Range&) { member(name) = value; }
   void number(std::string_view name, const std::optional<double>& value, const Range&) {
     if (value) member(name) = *value;

@@ -1,12 +1,12 @@
 #pragma once
-// A JSON object of plain fields, such as a file of settings, without a JSON type in this header:
-// one table of fields serves reading and writing.
+// A JSON object of plain fields, such as a file of settings, without a JSON type in this header. It
+// is read and written by ObjectReader and ObjectWriter, as strictly as any other file.
 
 #include "claystack/core/result.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <map>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,54 +14,25 @@
 
 namespace clay::inline json {
 
-/// Reads fields into their targets. A field that is absent leaves its target unchanged; the first
-/// wrong one becomes the problem.
-class PlainReader {
+/// One table of fields serves reading and writing. An absent field leaves its value unchanged.
+class PlainFields {
  public:
-  /// Errors: malformed JSON, more than `max_values` values, no object, another schema.
-  static Result<PlainReader> parse(std::string_view text, std::string_view name,
-                                   std::string_view schema, std::size_t max_values);
-  PlainReader(PlainReader&&) noexcept;
-  PlainReader& operator=(PlainReader&&) noexcept;
-  ~PlainReader();
-
-  void number(const char* name, double& target, double low, double high);
-  void flag(const char* name, bool& target);
-  void text(const char* name, std::string& target);
-  void texts(const char* name, std::vector<std::string>& target, std::size_t most);
+  virtual ~PlainFields() = default;
+  virtual void number(std::string_view name, double& value, double low, double high) = 0;
+  virtual void flag(std::string_view name, bool& value) = 0;
+  virtual void text(std::string_view name, std::string& value) = 0;
+  virtual void texts(std::string_view name, std::vector<std::string>& values, std::size_t most) = 0;
   /// One of `names`, by its index.
-  void choice(const char* name, std::size_t& target, std::span<const char* const> names);
-  void flags(const char* name, std::map<std::string, bool>& target);
-
-  /// "NAME: FIELD: expected ..., found ..."; an unknown field is a problem too.
-  [[nodiscard]] Result<void> finish() const;
-
- private:
-  struct State;
-  explicit PlainReader(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+  virtual void choice(std::string_view name, std::size_t& value,
+                      std::span<const std::string_view> names) = 0;
+  virtual void flags(std::string_view name, std::map<std::string, bool>& values) = 0;
 };
+using DescribeFields = std::function<void(PlainFields&)>;
 
-/// Writes the same fields in their order.
-class PlainWriter {
- public:
-  explicit PlainWriter(std::string_view schema);
-  ~PlainWriter();
-  PlainWriter(const PlainWriter&) = delete;
-  PlainWriter& operator=(const PlainWriter&) = delete;
-
-  void number(const char* name, double value, double, double);
-  void flag(const char* name, bool value);
-  void text(const char* name, const std::string& value);
-  void texts(const char* name, const std::vector<std::string>& value, std::size_t);
-  void choice(const char* name, std::size_t value, std::span<const char* const> names);
-  void flags(const char* name, const std::map<std::string, bool>& value);
-
-  [[nodiscard]] std::string finish() const;
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
+/// Errors as ObjectReader::read, and more than `max_values` values.
+Result<void> read_fields(std::string_view text, std::string_view name, std::string_view schema,
+                         std::size_t max_values, const DescribeFields& describe_fields);
+[[nodiscard]] std::string write_fields(std::string_view schema,
+                                       const DescribeFields& describe_fields);
 
 }  // namespace clay::inline json

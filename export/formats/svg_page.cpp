@@ -1,7 +1,6 @@
 #include "export/formats/svg_page.hpp"
 
 #include <array>
-#include <charconv>
 #include <glm/geometric.hpp>
 
 namespace clay::solid::inline formats {
@@ -34,25 +33,21 @@ std::string at(glm::dvec2 p) { return px(p.x) + " " + px(p.y); }
 
 }  // namespace
 
-std::string fixed(double number, int digits) {
-  std::array<char, 400> text{};  // enough for the largest double
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), number,
-                                 std::chars_format::fixed, digits);
-  return {text.data(), end.ptr};
-}
-
 SvgPage::SvgPage(glm::dvec2 size, std::string_view title) {
   const std::string width = fixed(size.x, 0), height = fixed(size.y, 0);
-  svg_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + "\" height=\"" + height +
-         "\" viewBox=\"0 0 " + width + " " + height + "\" role=\"img\">\n";
-  element("title", {}, title);
-  svg_ += kStyle;
-  element("rect", {{"class", "paper"},
-                   {"x", "0.5"},
-                   {"y", "0.5"},
-                   {"rx", "10"},
-                   {"width", px(size.x - 1.0)},
-                   {"height", px(size.y - 1.0)}});
+  svg_.open("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
+                    {"width", width},
+                    {"height", height},
+                    {"viewBox", "0 0 " + width + " " + height},
+                    {"role", "img"}});
+  svg_.element("title", {}, title);
+  svg_.raw(kStyle);
+  svg_.element("rect", {{"class", "paper"},
+                        {"x", "0.5"},
+                        {"y", "0.5"},
+                        {"rx", "10"},
+                        {"width", px(size.x - 1.0)},
+                        {"height", px(size.y - 1.0)}});
 }
 
 void SvgPage::fill(std::string_view style, const std::vector<std::vector<glm::dvec2>>& outlines) {
@@ -67,52 +62,46 @@ void SvgPage::fill(std::string_view style, const std::vector<std::vector<glm::dv
     }
     d += "Z";
   }
-  element("path", {{"class", style}, {"d", d}});
+  svg_.element("path", {{"class", style}, {"d", d}});
 }
 
 void SvgPage::rectangle(std::string_view style, glm::dvec2 corner, glm::dvec2 size) {
-  element("rect", {{"class", style},
-                   {"x", px(corner.x)},
-                   {"y", px(corner.y)},
-                   {"width", px(size.x)},
-                   {"height", px(size.y)}});
+  svg_.element("rect", {{"class", style},
+                        {"x", px(corner.x)},
+                        {"y", px(corner.y)},
+                        {"width", px(size.x)},
+                        {"height", px(size.y)}});
 }
 
 void SvgPage::line(std::string_view style, glm::dvec2 from, glm::dvec2 to) {
-  element("line", {{"class", style},
-                   {"x1", px(from.x)},
-                   {"y1", px(from.y)},
-                   {"x2", px(to.x)},
-                   {"y2", px(to.y)}});
+  svg_.element("line", {{"class", style},
+                        {"x1", px(from.x)},
+                        {"y1", px(from.y)},
+                        {"x2", px(to.x)},
+                        {"y2", px(to.y)}});
 }
 
 void SvgPage::dimension(glm::dvec2 from, glm::dvec2 to) { line("arrows", from, to); }
 
 void SvgPage::text(glm::dvec2 where, std::string_view words, Anchor anchor) {
   constexpr std::array<std::string_view, 3> kAnchors{"start", "middle", "end"};
-  element("text",
-          {{"x", px(where.x)},
-           {"y", px(where.y)},
-           {"text-anchor", kAnchors[static_cast<std::size_t>(anchor)]}},
-          words);
+  svg_.element("text",
+               {{"x", px(where.x)},
+                {"y", px(where.y)},
+                {"text-anchor", kAnchors[static_cast<std::size_t>(anchor)]}},
+               words);
 }
 
 void SvgPage::upright_text(glm::dvec2 where, std::string_view words) {
-  element("text",
-          {{"text-anchor", "middle"}, {"transform", "translate(" + at(where) + ") rotate(-90)"}},
-          words);
+  svg_.element(
+      "text",
+      {{"text-anchor", "middle"}, {"transform", "translate(" + at(where) + ") rotate(-90)"}},
+      words);
 }
 
-std::string SvgPage::finish() { return std::move(svg_) + "</svg>\n"; }
-
-void SvgPage::element(std::string_view name, Attributes attributes, std::string_view content) {
-  svg_.append("<").append(name);
-  for (const auto& [key, value] : attributes)
-    svg_.append(" ").append(key).append("=\"").append(value).append("\"");
-  if (content.empty())
-    svg_ += "/>\n";
-  else
-    svg_.append(">").append(content).append("</").append(name).append(">\n");
+std::string SvgPage::finish() {
+  svg_.close("svg");
+  return svg_.take();
 }
 
 }  // namespace clay::solid::inline formats

@@ -1,17 +1,14 @@
 #pragma once
 // A page of SVG: elements in px, y down, in the colours of section drawings.
 
+#include "core/svg_writer.hpp"
+
 #include <glm/vec2.hpp>
-#include <initializer_list>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace clay::solid::inline formats {
-
-/// `number` with that many decimals, independent of the locale.
-[[nodiscard]] std::string fixed(double number, int digits);
 
 class SvgPage {
  public:
@@ -34,10 +31,7 @@ class SvgPage {
   [[nodiscard]] std::string finish();
 
  private:
-  using Attributes = std::initializer_list<std::pair<std::string_view, std::string_view>>;
-  void element(std::string_view name, Attributes attributes, std::string_view content = {});
-
-  std::string svg_;
+  SvgWriter svg_;
 };
 
 }  // namespace clay::solid::inline formats

@@ -9,7 +9,6 @@
 namespace clay::falcon::inline device {
 namespace {
 
-constexpr double kMmPerM = 1e3;
 constexpr double kStatedForceN = 8.9;  // 2 lbf, as printed on Novint's box
 constexpr double kWorkspaceMm = 48.0;  // largest ball within the range of all encoders
 // Motors 0, lights off. A constant, so that a signal handler can send it.
@@ -34,7 +33,7 @@ FalconDevice::FalconDevice(std::unique_ptr<Transport> line, const FalconSettings
       settings_(settings),
       kinematics_(settings.geometry),
       info_(info_of(*line_, settings)),
-      position_m_(settings.centre_m) {}
+      position_mm_(settings.centre_mm) {}
 
 FalconDevice::~FalconDevice() {
   stop();
@@ -45,13 +44,13 @@ DeviceResult<void> FalconDevice::check_settings() const {
   const auto refuse = [](const char* setting) {
     return device_failure(DeviceFault::bad_setting, std::string("falcon: expected ") + setting);
   };
-  if (!within(settings_.motor_counts_per_nm, 1.0, 1e6))
-    return refuse("motor_counts_per_nm from 1 to 1e6");
+  if (!within(settings_.motor_counts_per_nmm, 1e-3, 1e3))
+    return refuse("motor_counts_per_nmm from 0.001 to 1000");
   if (!within(settings_.force_limit_n, 0.0, kStatedForceN))
     return refuse("force_limit_n from 0 to 8.9");
   if (settings_.silence_us < 10'000) return refuse("silence_us of at least 10000");
-  if (!kinematics_.jacobian(settings_.centre_m))
-    return refuse("centre_m that the arms of this geometry reach");
+  if (!kinematics_.jacobian(settings_.centre_mm))
+    return refuse("centre_mm that the arms of this geometry reach");
   return {};
 }
 
@@ -59,7 +58,7 @@ DeviceResult<void> FalconDevice::open() {
   line_->close();
   reader_ = FrameReader();
   counters_ = {};
-  position_m_ = settings_.centre_m;
+  position_mm_ = settings_.centre_mm;
   unanswered_since_us_ = 0;
   sample_ = {};
   motors_ = {};
@@ -140,14 +139,14 @@ void FalconDevice::accept(const StateFrame& frame, std::int64_t time_us) noexcep
   // Homing moves the origin: the last position is no longer a good start.
   const bool moved = was_ready != frame.all_homed();
   const glm::dvec3 angles = kinematics_.angles_of(frame.encoders);
-  auto position = kinematics_.forward(angles, moved ? settings_.centre_m : position_m_);
-  if (!position) position = kinematics_.forward(angles, settings_.centre_m);
+  auto position = kinematics_.forward(angles, moved ? settings_.centre_mm : position_mm_);
+  if (!position) position = kinematics_.forward(angles, settings_.centre_mm);
   if (!position) {
     ++counters_.without_pose;
     return;
   }
-  position_m_ = *position;
-  sample_.position_mm = kMmPerM * (position_m_ - settings_.centre_m);
+  position_mm_ = *position;
+  sample_.position_mm = position_mm_ - settings_.centre_mm;
   sample_.buttons = frame.buttons;
   sample_.time_us = time_us;
   sample_.fresh = true;
@@ -180,8 +179,8 @@ DeviceSample FalconDevice::read(std::int64_t wait_us) noexcept {
 LegCounts FalconDevice::motors_for(const glm::dvec3& force_n) const noexcept {
   if (sample_.state != DeviceState::ready) return {};
   const auto torques =
-      kinematics_.torques(position_m_, limit_norm(force_n, settings_.force_limit_n));
-  return torques ? motor_counts(*torques, settings_.motor_counts_per_nm).counts : LegCounts{};
+      kinematics_.torques(position_mm_, limit_norm(force_n, settings_.force_limit_n));
+  return torques ? motor_counts(*torques, settings_.motor_counts_per_nmm).counts : LegCounts{};
 }
 
 void FalconDevice::write(const glm::dvec3& force_n) noexcept {

@@ -154,8 +154,8 @@ void FalconModel::home(bool asked) noexcept {
 /// Virtual work: force = J^T torques.
 glm::dvec3 FalconModel::force_of(const LegCounts& motors) const noexcept {
   const glm::dvec3 torques =
-      -1.0 / settings_.motor_counts_per_nm * glm::dvec3(motors[0], motors[1], motors[2]);
-  const auto jacobian = kinematics_.jacobian(position_m_);
+      -1.0 / settings_.motor_counts_per_nmm * glm::dvec3(motors[0], motors[1], motors[2]);
+  const auto jacobian = kinematics_.jacobian(position_mm_);
   return jacobian ? torques * *jacobian : glm::dvec3(0.0);
 }
 
@@ -180,11 +180,11 @@ std::array<std::uint8_t, kFrameBytes> FalconModel::state_frame() const {
 void FalconModel::answer_frame(double dt_s, Answer& answer) {
   const std::uint64_t now = frames_++;
   force_n_ = force_of(motors_);
-  position_m_ = grip_(force_n_, dt_s);
+  position_mm_ = grip_(force_n_, dt_s);
   if (thumb_) press(thumb_());
   // A grip out of reach leaves the encoders unchanged.
   counts_ =
-      kinematics_.inverse(position_m_)
+      kinematics_.inverse(position_mm_)
           .and_then([this](const glm::dvec3& angles) { return kinematics_.counts_of(angles); })
           .value_or(counts_);
   const auto whole = state_frame();

@@ -19,8 +19,8 @@ constexpr double kPayWithinS = 0.5;  // or it counts again
 
 double most_damping(const PassivitySpec& spec, double stiffness) noexcept {
   const double borne = 0.5 * stable_damping(spec.loop, stiffness);
-  if (!(spec.step_m > 0.0)) return borne;
-  return std::min(borne, 0.25 * spec.reversal_force_n / (spec.step_m * spec.loop.rate_hz));
+  if (!(spec.step_mm > 0.0)) return borne;
+  return std::min(borne, 0.25 * spec.reversal_force_n / (spec.step_mm * spec.loop.rate_hz));
 }
 
 }  // namespace
@@ -49,8 +49,8 @@ tl::expected<PassivityController, OutOfRange> PassivityController::build(
     const PassivitySpec& spec) noexcept {
   if (auto checked = check(spec.loop); !checked) return tl::make_unexpected(checked.error());
   const OutOfRange settings[] = {
-      {"step_m", 0.0, 0.01, spec.step_m},
-      {"energy_limit_j", 1e-9, 1e3, spec.energy_limit_j},
+      {"step_mm", 0.0, 10.0, spec.step_mm},
+      {"energy_limit_mj", 1e-6, 1e6, spec.energy_limit_mj},
       {"energy_window_s", 1e-3, 10.0, spec.energy_window_s},
       {"reversal_limit", 2.0, 16.0, static_cast<double>(spec.reversal_limit)},
       {"reversal_window_s", 1e-3, 10.0, spec.reversal_window_s},
@@ -65,22 +65,22 @@ PassivityController::PassivityController(const PassivitySpec& spec) noexcept
     : spec_(spec),
       stiffness_(accepted_stiffness(spec.loop)),
       most_damping_(most_damping(spec, stiffness_)),
-      observer_(spec.loop, spec.step_m, spec.energy_window_s),
+      observer_(spec.loop, spec.step_mm, spec.energy_window_s),
       swings_(spec.reversal_limit, spec.reversal_window_s, spec.reversal_force_n) {}
 
-PassiveForce PassivityController::tick(std::int64_t time_us, const glm::dvec3& reading_m,
+PassiveForce PassivityController::tick(std::int64_t time_us, const glm::dvec3& reading_mm,
                                        const glm::dvec3& force_n) noexcept {
   const bool advances = !last_ || time_us > last_->time_us;
-  if (!advances || !is_finite(reading_m) || !is_finite(force_n)) {
+  if (!advances || !is_finite(reading_mm) || !is_finite(force_n)) {
     send(glm::dvec3(0.0));
     return {glm::dvec3(0.0), state_};
   }
-  const Reading before = last_.value_or(Reading{time_us, reading_m});
+  const Reading before = last_.value_or(Reading{time_us, reading_mm});
   // Unsigned: the difference of two signed extremes must not overflow.
   const double dt_s = 1e-6 * static_cast<double>(static_cast<std::uint64_t>(time_us) -
                                                  static_cast<std::uint64_t>(before.time_us));
-  const glm::dvec3 way = reading_m - before.at_m;
-  last_ = Reading{time_us, reading_m};
+  const glm::dvec3 way = reading_mm - before.at_mm;
+  last_ = Reading{time_us, reading_mm};
   now_s_ += dt_s;
 
   judge(observer_.observe(dt_s, sent_[oldest_], way, force_n), force_n);
@@ -98,12 +98,12 @@ void PassivityController::judge(bool contact_ended, const glm::dvec3& asked_n) n
   const bool yields = state_ == PassivityState::yielding;
   const glm::dvec3& swinging = yields ? last_sent_ : asked_n;
   const bool rattles = swings_.swings_too_often(now_s_, swinging);
-  if (rattles || observer_.recent_j() > spec_.energy_limit_j) return escalate();
+  if (rattles || observer_.recent_mj() > spec_.energy_limit_mj) return escalate();
   if (yields) return;
 
-  const bool owes = observer_.debt_j() > observer_.tolerance_j();
+  const bool owes = observer_.debt_mj() > observer_.tolerance_mj();
   const bool again = state_ == PassivityState::watching || now_s_ - last_debt_s_ > kPayWithinS ||
-                     (contact_ended && observer_.last_contact_j() > 0.0);
+                     (contact_ended && observer_.last_contact_mj() > 0.0);
   if (owes && again) count_debt();
   if (debts_ >= kMostDebts) return escalate();
   state_ = owes ? PassivityState::damping : PassivityState::watching;
@@ -122,26 +122,26 @@ void PassivityController::escalate() noexcept {
   swings_ = SwingCounter(spec_.reversal_limit, spec_.reversal_window_s, spec_.reversal_force_n);
 }
 
-glm::dvec3 PassivityController::answer(double dt_s, const glm::dvec3& way_m,
+glm::dvec3 PassivityController::answer(double dt_s, const glm::dvec3& way_mm,
                                        const glm::dvec3& asked_n) noexcept {
   if (state_ == PassivityState::safe) return glm::dvec3(0.0);
-  const glm::dvec3 force = earned(way_m, asked_n);
-  return state_ == PassivityState::damping ? force + damping(dt_s, way_m) : force;
+  const glm::dvec3 force = earned(way_mm, asked_n);
+  return state_ == PassivityState::damping ? force + damping(dt_s, way_mm) : force;
 }
 
 /// Equation (10) of the paper: the damping that removes the debt within a period.
-glm::dvec3 PassivityController::damping(double dt_s, const glm::dvec3& way_m) const noexcept {
-  const double square = glm::dot(way_m, way_m);
+glm::dvec3 PassivityController::damping(double dt_s, const glm::dvec3& way_mm) const noexcept {
+  const double square = glm::dot(way_mm, way_mm);
   if (!(square > 0.0)) return glm::dvec3(0.0);
-  const double debt = observer_.debt_j() - observer_.tolerance_j();
+  const double debt = observer_.debt_mj() - observer_.tolerance_mj();
   const double amount = std::min(debt * dt_s / square, most_damping_);
-  return -amount / dt_s * way_m;
+  return -amount / dt_s * way_mm;
 }
 
 /// The smaller of two forces: the requested one, and that of a spring of the accepted stiffness
 /// from the start of the contact. A softer contact passes unchanged. Force that a yielding contact
 /// has lost must be built up again by moving inward.
-glm::dvec3 PassivityController::earned(const glm::dvec3& way_m,
+glm::dvec3 PassivityController::earned(const glm::dvec3& way_mm,
                                        const glm::dvec3& asked_n) noexcept {
   const double asked = glm::length(asked_n);
   const double before = std::exchange(last_asked_n_, asked);
@@ -151,10 +151,10 @@ glm::dvec3 PassivityController::earned(const glm::dvec3& way_m,
   }
   const double stiffness = (state_ == PassivityState::yielding ? kYield : 1.0) * stiffness_;
   const glm::dvec3 direction = asked_n / asked;
-  const double out_m = glm::dot(way_m, direction);
+  const double out_mm = glm::dot(way_mm, direction);
   // The force of a spring does not fall while it is pressed, so this part of it has yielded.
-  const double yielded = out_m <= 0.0 ? std::max(0.0, before - asked) : 0.0;
-  earned_n_ = std::max(0.0, earned_n_ - stiffness * out_m - yielded);
+  const double yielded = out_mm <= 0.0 ? std::max(0.0, before - asked) : 0.0;
+  earned_n_ = std::max(0.0, earned_n_ - stiffness * out_mm - yielded);
   return earned_n_ < asked ? earned_n_ * direction : asked_n;
 }
 

@@ -28,23 +28,23 @@ struct HeldArm {
 HeldArm held_arm(const SampledLoop& loop) noexcept {
   // In a period a velocity v becomes p v and covers s v; a force from rest gives the velocity u
   // and covers d. Then c1 = d and c0 = u s - p d, which is free of cancellation as b -> 0.
-  const ArmResponse r = arm_response(loop.damping_ns_per_m / loop.mass_kg, 0.0, loop.period_s());
-  const double decay = loop.damping_ns_per_m / loop.mass_kg;
+  const double inertia = loop.inertia_ns2_per_mm(), decay = loop.damping_ns_per_mm / inertia;
+  const ArmResponse r = arm_response(decay, 0.0, loop.period_s());
   const double p = r.velocity.x - decay * r.velocity.y, s = r.path.x - decay * r.path.y;
-  const double u = r.velocity.y / loop.mass_kg, d = r.path.y / loop.mass_kg;
+  const double u = r.velocity.y / inertia, d = r.path.y / inertia;
   return {p, d, u * s - p * d};
 }
 
 Polynomial characteristic(const SampledLoop& loop, const VirtualWall& wall) noexcept {
   const HeldArm arm = held_arm(loop);
-  const double slope = wall.damping_ns_per_m * loop.rate_hz;
+  const double slope = wall.damping_ns_per_mm * loop.rate_hz;
   const auto n = static_cast<std::size_t>(loop.delay_ticks);
   Polynomial q;
   q.degree = n + 3;
   q.a[n + 3] = 1.0;
   q.a[n + 2] = -(1.0 + arm.p);
   q.a[n + 1] = arm.p;
-  const double now = wall.stiffness_n_per_m + slope, before = -slope;
+  const double now = wall.stiffness_n_per_mm + slope, before = -slope;
   q.a[2] += now * arm.c1;
   q.a[1] += now * arm.c0 + before * arm.c1;
   q.a[0] += before * arm.c0;
@@ -88,7 +88,7 @@ tl::expected<void, OutOfRange> check(const SampledLoop& loop) noexcept {
   const OutOfRange settings[] = {
       {"rate_hz", 10.0, 1e5, loop.rate_hz},
       {"mass_kg", 1e-3, 100.0, loop.mass_kg},
-      {"damping_ns_per_m", 0.0, 1000.0, loop.damping_ns_per_m},
+      {"damping_ns_per_mm", 0.0, 1.0, loop.damping_ns_per_mm},
       {"delay_ticks", 0.0, kMostDelay, static_cast<double>(loop.delay_ticks)},
   };
   for (const OutOfRange& s : settings)
@@ -100,8 +100,8 @@ double passive_damping_at(const SampledLoop& loop, const VirtualWall& wall,
                           double angle_rad) noexcept {
   double cosines = 1.0;
   for (int k = 1; k <= loop.delay_ticks; ++k) cosines += 2.0 * std::cos(k * angle_rad);
-  return 0.5 * wall.stiffness_n_per_m * loop.period_s() * cosines -
-         wall.damping_ns_per_m * std::cos((loop.delay_ticks + 1) * angle_rad);
+  return 0.5 * wall.stiffness_n_per_mm * loop.period_s() * cosines -
+         wall.damping_ns_per_mm * std::cos((loop.delay_ticks + 1) * angle_rad);
 }
 
 double passive_damping(const SampledLoop& loop, const VirtualWall& wall) noexcept {
@@ -124,22 +124,22 @@ double passive_damping(const SampledLoop& loop, const VirtualWall& wall) noexcep
 }
 
 double passive_stiffness(const SampledLoop& loop) noexcept {
-  return 2.0 * loop.damping_ns_per_m * loop.rate_hz / (2 * loop.delay_ticks + 1);
+  return 2.0 * loop.damping_ns_per_mm * loop.rate_hz / (2 * loop.delay_ticks + 1);
 }
 
 bool is_stable(const SampledLoop& loop, const VirtualWall& wall) noexcept {
   return all_within(characteristic(loop, wall));
 }
 
-double stable_stiffness(const SampledLoop& loop, double wall_damping_ns_per_m) noexcept {
-  return border_of(loop.mass_kg * loop.rate_hz * loop.rate_hz, [&](double stiffness) {
-    return is_stable(loop, {stiffness, wall_damping_ns_per_m});
+double stable_stiffness(const SampledLoop& loop, double wall_damping_ns_per_mm) noexcept {
+  return border_of(loop.inertia_ns2_per_mm() * loop.rate_hz * loop.rate_hz, [&](double stiffness) {
+    return is_stable(loop, {stiffness, wall_damping_ns_per_mm});
   });
 }
 
-double stable_damping(const SampledLoop& loop, double stiffness_n_per_m) noexcept {
-  return border_of(loop.mass_kg * loop.rate_hz, [&](double damping) {
-    return is_stable(loop, {stiffness_n_per_m, damping});
+double stable_damping(const SampledLoop& loop, double stiffness_n_per_mm) noexcept {
+  return border_of(loop.inertia_ns2_per_mm() * loop.rate_hz, [&](double damping) {
+    return is_stable(loop, {stiffness_n_per_mm, damping});
   });
 }
 
@@ -148,13 +148,13 @@ double accepted_stiffness(const SampledLoop& loop) noexcept {
 }
 
 tl::expected<void, StiffnessTooHigh> check_stiffness(const SampledLoop& loop,
-                                                     double stiffness_n_per_m) noexcept {
+                                                     double stiffness_n_per_mm) noexcept {
   const double highest = accepted_stiffness(loop);
-  if (stiffness_n_per_m >= 0.0 && stiffness_n_per_m <= highest) return {};
+  if (stiffness_n_per_mm >= 0.0 && stiffness_n_per_mm <= highest) return {};
   const double per_hertz = highest / loop.rate_hz;
   const double rate =
-      per_hertz > 0.0 ? stiffness_n_per_m / per_hertz : std::numeric_limits<double>::infinity();
-  return tl::make_unexpected(StiffnessTooHigh{stiffness_n_per_m, highest, rate});
+      per_hertz > 0.0 ? stiffness_n_per_mm / per_hertz : std::numeric_limits<double>::infinity();
+  return tl::make_unexpected(StiffnessTooHigh{stiffness_n_per_mm, highest, rate});
 }
 
 }  // namespace clay::falcon::inline safety

@@ -19,7 +19,7 @@ struct SimulatedArm::Coefficients {
 
 namespace {
 
-constexpr double kFarthestM = 10.0;
+constexpr double kFarthestMm = 10'000.0;
 
 /// The first component out of range, by the name of the setting. Not (x < low): NaN must fail.
 std::optional<OutOfRange> outside(const char* setting, double low, double high,
@@ -33,40 +33,40 @@ std::optional<OutOfRange> outside(const char* setting, double low, double high,
 }  // namespace
 
 tl::expected<SimulatedArm, OutOfRange> SimulatedArm::build(const ArmSpec& arm, const HandSpec& hand,
-                                                           const glm::dvec3& start_m) noexcept {
+                                                           const glm::dvec3& start_mm) noexcept {
   if (auto checked = check(arm.loop); !checked) return tl::make_unexpected(checked.error());
   const std::optional<OutOfRange> faults[] = {
       outside("friction_n", 0.0, 100.0, glm::dvec3(arm.friction_n)),
-      outside("step_m", 0.0, 0.01, glm::dvec3(arm.step_m)),
+      outside("step_mm", 0.0, 10.0, glm::dvec3(arm.step_mm)),
       outside("push_n", -100.0, 100.0, hand.push_n),
-      outside("stiffness_n_per_m", 0.0, 1e6, hand.stiffness_n_per_m),
-      outside("damping_ns_per_m", 0.0, 1e4, hand.damping_ns_per_m),
-      outside("start_m", -kFarthestM, kFarthestM, start_m),
+      outside("stiffness_n_per_mm", 0.0, 1e3, hand.stiffness_n_per_mm),
+      outside("damping_ns_per_mm", 0.0, 10.0, hand.damping_ns_per_mm),
+      outside("start_mm", -kFarthestMm, kFarthestMm, start_mm),
   };
   for (const auto& fault : faults)
     if (fault) return tl::make_unexpected(*fault);
-  return SimulatedArm(arm, hand, start_m);
+  return SimulatedArm(arm, hand, start_mm);
 }
 
 SimulatedArm::SimulatedArm(const ArmSpec& arm, const HandSpec& hand,
-                           const glm::dvec3& start_m) noexcept
-    : spec_(arm), hand_(hand), position_(start_m), intended_(start_m) {
+                           const glm::dvec3& start_mm) noexcept
+    : spec_(arm), hand_(hand), position_(start_mm), intended_(start_mm) {
   Coefficients tick;
   for (int axis = 0; axis < 3; ++axis) {
     ArmAxis& a = tick.axes[static_cast<std::size_t>(axis)];
-    a.mass_kg = arm.loop.mass_kg;
-    a.damping_ns_per_m = arm.loop.damping_ns_per_m;
+    a.inertia_ns2_per_mm = arm.loop.inertia_ns2_per_mm();
+    a.damping_ns_per_mm = arm.loop.damping_ns_per_mm;
     a.friction_n = arm.friction_n;
-    a.hand_stiffness_n_per_m = hand.stiffness_n_per_m[axis];
-    a.hand_damping_ns_per_m = hand.damping_ns_per_m[axis];
+    a.hand_stiffness_n_per_mm = hand.stiffness_n_per_mm[axis];
+    a.hand_damping_ns_per_mm = hand.damping_ns_per_mm[axis];
     a.period_s = arm.loop.period_s();
     a.response = a.response_over(a.period_s);
   }
   tick_ = std::make_shared<const Coefficients>(tick);
 }
 
-glm::dvec3 SimulatedArm::reading_m() const noexcept {
-  return spec_.step_m > 0.0 ? glm::round(position_ / spec_.step_m) * spec_.step_m : position_;
+glm::dvec3 SimulatedArm::reading_mm() const noexcept {
+  return spec_.step_mm > 0.0 ? glm::round(position_ / spec_.step_mm) * spec_.step_mm : position_;
 }
 
 glm::dvec3 SimulatedArm::late(const glm::dvec3& force_n) noexcept {
@@ -77,44 +77,44 @@ glm::dvec3 SimulatedArm::late(const glm::dvec3& force_n) noexcept {
   return held;
 }
 
-void SimulatedArm::advance(const glm::dvec3& force_n, const glm::dvec3& intended_m) noexcept {
+void SimulatedArm::advance(const glm::dvec3& force_n, const glm::dvec3& intended_mm) noexcept {
   const glm::dvec3 held = late(force_n), from = position_;
-  const glm::dvec3 speed = (intended_m - intended_) * spec_.loop.rate_hz;
-  const double kinetic = kinetic_energy_j();
+  const glm::dvec3 speed = (intended_mm - intended_) * spec_.loop.rate_hz;
+  const double kinetic = kinetic_energy_mj();
   double damped = 0.0, rubbed = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     AxisState state{position_[axis], velocity_[axis], intended_[axis], 0.0, 0.0};
     move(tick_->axes[static_cast<std::size_t>(axis)], held[axis] + hand_.push_n[axis], speed[axis],
          state);
-    position_[axis] = state.position_m;
-    velocity_[axis] = state.velocity_m_s;
-    damped += state.damped_j;
-    rubbed += state.rubbed_j;
+    position_[axis] = state.position_mm;
+    velocity_[axis] = state.velocity_mm_s;
+    damped += state.damped_mj;
+    rubbed += state.rubbed_mj;
   }
-  intended_ = intended_m;
+  intended_ = intended_mm;
   const double displayed = glm::dot(held, position_ - from);
   energy_.displayed += displayed;
   energy_.damped += damped;
   energy_.rubbed += rubbed;
-  energy_.hand += kinetic_energy_j() - kinetic - displayed + damped + rubbed;
+  energy_.hand += kinetic_energy_mj() - kinetic - displayed + damped + rubbed;
 }
 
-void SimulatedArm::carry(const glm::dvec3& force_n, const glm::dvec3& position_m) noexcept {
-  const glm::dvec3 held = late(force_n), way = position_m - position_;
-  const double kinetic = kinetic_energy_j();
+void SimulatedArm::carry(const glm::dvec3& force_n, const glm::dvec3& position_mm) noexcept {
+  const glm::dvec3 held = late(force_n), way = position_mm - position_;
+  const double kinetic = kinetic_energy_mj();
   velocity_ = way * spec_.loop.rate_hz;
-  position_ = intended_ = position_m;
+  position_ = intended_ = position_mm;
   const double displayed = glm::dot(held, way);
-  const double damped = spec_.loop.damping_ns_per_m * glm::dot(velocity_, way);
+  const double damped = spec_.loop.damping_ns_per_mm * glm::dot(velocity_, way);
   const double rubbed = spec_.friction_n * (std::abs(way.x) + std::abs(way.y) + std::abs(way.z));
   energy_.displayed += displayed;
   energy_.damped += damped;
   energy_.rubbed += rubbed;
-  energy_.hand += kinetic_energy_j() - kinetic - displayed + damped + rubbed;
+  energy_.hand += kinetic_energy_mj() - kinetic - displayed + damped + rubbed;
 }
 
-double SimulatedArm::kinetic_energy_j() const noexcept {
-  return 0.5 * spec_.loop.mass_kg * glm::dot(velocity_, velocity_);
+double SimulatedArm::kinetic_energy_mj() const noexcept {
+  return 0.5 * spec_.loop.inertia_ns2_per_mm() * glm::dot(velocity_, velocity_);
 }
 
 }  // namespace clay::falcon::inline sim

@@ -8,7 +8,6 @@
 namespace clay::falcon::inline sim {
 namespace {
 
-constexpr double kMPerMm = 1e-3;
 constexpr double kMostPauseS = 0.05;
 
 /// An arm held by a hand, ticked as time passes.
@@ -18,7 +17,7 @@ class HeldArm {
       : arm_(std::move(arm)),
         path_(settings.path),
         fingers_(settings.fingers),
-        centre_m_(settings.falcon.centre_m) {}
+        centre_mm_(settings.falcon.centre_mm) {}
 
   glm::dvec3 move(const glm::dvec3& force_n, double dt_s) {
     const double period_s = arm_.spec().loop.period_s();
@@ -26,9 +25,9 @@ class HeldArm {
     // Half a tick of tolerance, so that periodic frames do not beat against the ticks.
     for (; due_s_ > 0.5 * period_s; due_s_ -= period_s) {
       time_s_ += period_s;
-      arm_.advance(force_n, centre_m_ + kMPerMm * path_(time_s_));
+      arm_.advance(force_n, centre_mm_ + path_(time_s_));
     }
-    return arm_.reading_m();
+    return arm_.reading_mm();
   }
 
   [[nodiscard]] Fingers fingers() const { return fingers_ ? fingers_(time_s_) : Fingers{}; }
@@ -37,7 +36,7 @@ class HeldArm {
   SimulatedArm arm_;
   HandPath path_;
   HandFingers fingers_;
-  glm::dvec3 centre_m_;
+  glm::dvec3 centre_mm_;
   double due_s_ = 0.0, time_s_ = 0.0;
 };
 
@@ -80,9 +79,8 @@ SimulatedSettings simulated_and_loaded() {
 }
 
 DeviceResult<SimulatedFalcon> make_simulated_falcon(const SimulatedSettings& settings) {
-  const glm::dvec3& centre = settings.falcon.centre_m;
-  auto arm =
-      SimulatedArm::build(settings.arm, settings.hand, centre + kMPerMm * settings.path(0.0));
+  const glm::dvec3& centre = settings.falcon.centre_mm;
+  auto arm = SimulatedArm::build(settings.arm, settings.hand, centre + settings.path(0.0));
   if (!arm)
     return device_failure(DeviceFault::bad_setting,
                           std::string("simulated: expected ") + arm.error().setting + " from " +

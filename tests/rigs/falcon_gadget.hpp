@@ -12,12 +12,12 @@
 
 namespace clay::rig {
 
-/// The grip position set by the hand at each frame [m], in the frame of Kinematics.
+/// The grip position set by the hand at each frame [mm], in the frame of Kinematics.
 using Trajectory = std::function<glm::dvec3(std::uint64_t frame)>;
 
 /// The commands to the device, frame by frame.
 struct FrameLog {
-  glm::dvec3 position_m;
+  glm::dvec3 position_mm;
   glm::dvec3 force_n;
   falcon::LegCounts motors;
 };

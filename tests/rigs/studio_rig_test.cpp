@@ -41,7 +41,7 @@ class Hand {
   [[nodiscard]] bool there() const { return x_mm_ == goal_mm_; }
   glm::dvec3 next() {
     x_mm_ += std::clamp(goal_mm_ - x_mm_, -step_mm_, step_mm_);
-    return Kinematics::kCentreM + 1e-3 * mapping_.to_device({x_mm_, kHeightMm, 0.0});
+    return Kinematics::kCentreMm + mapping_.to_device({x_mm_, kHeightMm, 0.0});
   }
 
  private:

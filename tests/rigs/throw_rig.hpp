@@ -41,7 +41,7 @@ inline Trajectory bowl_stroke() {
   const auto mapping = servo::Mapping::build({}).value();
   std::vector<glm::dvec3> places;
   for (const Pose& pose : session.poses)
-    places.push_back(Kinematics::kCentreM + 1e-3 * mapping.to_device(pose.position_mm));
+    places.push_back(Kinematics::kCentreMm + mapping.to_device(pose.position_mm));
   return [places](std::uint64_t frame) {
     const std::uint64_t at = frame > kLeadFrames ? 2 * (frame - kLeadFrames) : 0;
     return places[std::min<std::uint64_t>(at, places.size() - 1)];
@@ -156,10 +156,11 @@ class ThrowRig : public testing::Test {
     ASSERT_GT(session.poses.size(), 100u);
     const auto mapping = servo::Mapping::build({}).value();
     for (const Pose& pose : session.poses) {
-      const glm::dvec3 place_m = Kinematics::kCentreM + 1e-3 * mapping.to_device(pose.position_mm);
-      const auto at = std::ranges::min_element(
-          log, {}, [&](const FrameLog& frame) { return glm::distance(frame.position_m, place_m); });
-      ASSERT_LT(1e3 * glm::distance(at->position_m, place_m), 0.07) << pose.time_us;
+      const glm::dvec3 place_mm = Kinematics::kCentreMm + mapping.to_device(pose.position_mm);
+      const auto at = std::ranges::min_element(log, {}, [&](const FrameLog& frame) {
+        return glm::distance(frame.position_mm, place_mm);
+      });
+      ASSERT_LT(glm::distance(at->position_mm, place_mm), 0.07) << pose.time_us;
     }
   }
 
@@ -176,10 +177,11 @@ class ThrowRig : public testing::Test {
     const auto mapping = servo::Mapping::build({}).value();
     double farthest_mm = 0.0, along = 0.0, lengths = 0.0, felt_ns = 0.0, clay_ns = 0.0;
     for (const Pose& pose : session.poses) {
-      const glm::dvec3 place_m = Kinematics::kCentreM + 1e-3 * mapping.to_device(pose.position_mm);
-      const auto at = std::ranges::min_element(
-          log, {}, [&](const FrameLog& frame) { return glm::distance(frame.position_m, place_m); });
-      farthest_mm = std::max(farthest_mm, 1e3 * glm::distance(at->position_m, place_m));
+      const glm::dvec3 place_mm = Kinematics::kCentreMm + mapping.to_device(pose.position_mm);
+      const auto at = std::ranges::min_element(log, {}, [&](const FrameLog& frame) {
+        return glm::distance(frame.position_mm, place_mm);
+      });
+      farthest_mm = std::max(farthest_mm, glm::distance(at->position_mm, place_mm));
       const glm::dvec3 clay_n = wheel.step(pose).force_n();
       if (at + 1 == log.end()) continue;
       const glm::dvec3& felt_n = (at + 1)->force_n;

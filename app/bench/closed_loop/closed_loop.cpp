@@ -16,9 +16,9 @@ using falcon::SimulatedArm;
 
 /// The injected energy so far, and its uncertainty.
 struct Account {
-  double injected_j = 0.0;
-  double tolerance_j = 0.0;
-  double rounding_j = 0.0;  // of the sums so far
+  double injected_mj = 0.0;
+  double tolerance_mj = 0.0;
+  double rounding_mj = 0.0;  // of the sums so far
 };
 
 class Bookkeeper {
@@ -26,61 +26,61 @@ class Bookkeeper {
   Bookkeeper(const SimulatedArm& arm, const Surface& surface)
       : arm_(arm),
         surface_(surface),
-        began_j_(total_j()),
+        began_mj_(total_mj()),
         // A reading has an error of half a step, and the force one of K times that.
-        force_error_n_(0.5 * surface.stiffness_n_per_m() * arm.spec().step_m),
-        last_m_(arm.position_m()) {}
+        force_error_n_(0.5 * surface.stiffness_n_per_mm() * arm.spec().step_mm),
+        last_mm_(arm.position_mm()) {}
 
   void look() {
-    const glm::dvec3 at = arm_.position_m();
-    if (surface_.stored_j(at) > 0.0) tolerance_j_ += force_error_n_ * std::abs(at.x - last_m_.x);
-    last_m_ = at;
+    const glm::dvec3 at = arm_.position_mm();
+    if (surface_.stored_mj(at) > 0.0) tolerance_mj_ += force_error_n_ * std::abs(at.x - last_mm_.x);
+    last_mm_ = at;
   }
   [[nodiscard]] Account account() const {
-    const double gained = total_j() - began_j_;
-    return {gained - arm_.energy().hand, tolerance_j_, kRounding * throughput_j()};
+    const double gained = total_mj() - began_mj_;
+    return {gained - arm_.energy().hand, tolerance_mj_, kRounding * throughput_mj()};
   }
 
  private:
   // A few additions per tick, of energies that grow with the throughput.
   static constexpr double kRounding = 1e-13;
-  [[nodiscard]] double total_j() const {
-    return arm_.kinetic_energy_j() + surface_.stored_j(arm_.position_m());
+  [[nodiscard]] double total_mj() const {
+    return arm_.kinetic_energy_mj() + surface_.stored_mj(arm_.position_mm());
   }
-  [[nodiscard]] double throughput_j() const {
+  [[nodiscard]] double throughput_mj() const {
     const ArmEnergy& e = arm_.energy();
     return std::abs(e.displayed) + std::abs(e.hand) + e.damped + e.rubbed;
   }
   const SimulatedArm& arm_;
   const Surface& surface_;
-  double began_j_, force_error_n_, tolerance_j_ = 0.0;
-  glm::dvec3 last_m_;
+  double began_mj_, force_error_n_, tolerance_mj_ = 0.0;
+  glm::dvec3 last_mm_;
 };
 
 /// Deepest points: where the arm reverses outward while in contact.
 class CycleWatch {
  public:
   void look(const SimulatedArm& arm, const Surface& surface, const Account& now, Outcome& outcome) {
-    const double speed = arm.velocity_m_s().x;
+    const double speed = arm.velocity_mm_s().x;
     const bool deepest =
-        last_speed_ < 0.0 && speed >= 0.0 && surface.stored_j(arm.position_m()) > 0;
+        last_speed_ < 0.0 && speed >= 0.0 && surface.stored_mj(arm.position_mm()) > 0;
     last_speed_ = speed;
     if (!deepest) return;
     if (began_) {
-      const double injected = now.injected_j - began_->injected_j;
-      const double tolerance = now.tolerance_j - began_->tolerance_j + now.rounding_j;
-      outcome.worst_cycle_j = outcome.cycles == 0
-                                  ? injected - tolerance
-                                  : std::max(outcome.worst_cycle_j, injected - tolerance);
+      const double injected = now.injected_mj - began_->injected_mj;
+      const double tolerance = now.tolerance_mj - began_->tolerance_mj + now.rounding_mj;
+      outcome.worst_cycle_mj = outcome.cycles == 0
+                                   ? injected - tolerance
+                                   : std::max(outcome.worst_cycle_mj, injected - tolerance);
       ++outcome.cycles;
-      sum_j_ += injected - tolerance;
-      outcome.mean_cycle_j = sum_j_ / outcome.cycles;
+      sum_mj_ += injected - tolerance;
+      outcome.mean_cycle_mj = sum_mj_ / outcome.cycles;
     }
     began_ = now;
   }
 
  private:
-  double last_speed_ = 0.0, sum_j_ = 0.0;
+  double last_speed_ = 0.0, sum_mj_ = 0.0;
   std::optional<Account> began_;
 };
 
@@ -107,14 +107,14 @@ std::optional<PassivityController> controller_of(const Experiment& e) {
   if (!e.controlled) return std::nullopt;
   falcon::PassivitySpec spec;
   spec.loop = e.arm.loop;
-  spec.step_m = e.arm.step_m;
+  spec.step_mm = e.arm.step_mm;
   return PassivityController::build(spec).value();
 }
 
 }  // namespace
 
 Outcome run(const Experiment& e, Surface& surface) {
-  SimulatedArm arm = SimulatedArm::build(e.arm, e.hand, e.start_m).value();
+  SimulatedArm arm = SimulatedArm::build(e.arm, e.hand, e.start_mm).value();
   auto controller = controller_of(e);
   Bookkeeper book(arm, surface);
   CycleWatch cycles;
@@ -128,22 +128,23 @@ Outcome run(const Experiment& e, Surface& surface) {
   for (std::int64_t k = 0; k < ticks; ++k) {
     const double time_s = static_cast<double>(k) / rate;
     const auto time_us = static_cast<std::int64_t>(std::llround(1e6 * time_s));
-    glm::dvec3 force = surface.press(time_us, arm.reading_m());
-    if (controller) force = controller->tick(time_us, arm.reading_m(), force).force_n;
-    arm.advance(force, e.intended ? e.intended(time_s + 1.0 / rate) : e.start_m);
+    glm::dvec3 force = surface.press(time_us, arm.reading_mm());
+    if (controller) force = controller->tick(time_us, arm.reading_mm(), force).force_n;
+    arm.advance(force, e.intended ? e.intended(time_s + 1.0 / rate) : e.start_mm);
     book.look();
     const Account now = book.account();
     cycles.look(arm, surface, now, outcome);
     if (k == settled) then = now;
-    if (k >= settled) positions.push_back(arm.position_m().x);
+    if (k >= settled) positions.push_back(arm.position_mm().x);
     outcome.final_force_n = force.x;
   }
   const Account now = book.account();
-  outcome.swing_m = swing_about_trend(positions);
-  outcome.injected_j = now.injected_j;
-  outcome.tolerance_j = now.tolerance_j + now.rounding_j;
-  outcome.settled_w = (now.injected_j - then.injected_j) / e.settled_s;
-  outcome.settled_tolerance_w = (now.tolerance_j - then.tolerance_j + now.rounding_j) / e.settled_s;
+  outcome.swing_mm = swing_about_trend(positions);
+  outcome.injected_mj = now.injected_mj;
+  outcome.tolerance_mj = now.tolerance_mj + now.rounding_mj;
+  outcome.settled_mw = (now.injected_mj - then.injected_mj) / e.settled_s;
+  outcome.settled_tolerance_mw =
+      (now.tolerance_mj - then.tolerance_mj + now.rounding_mj) / e.settled_s;
   if (controller) outcome.state = controller->state();
   return outcome;
 }
@@ -153,16 +154,16 @@ namespace {
 /// Whether a free swing in a linear wall grows: compares the largest |x| of a later interval with
 /// an earlier one.
 bool grows(const falcon::SampledLoop& loop, double stiffness) {
-  SimulatedArm arm = SimulatedArm::build({loop, 0.0, 0.0}, {}, {1e-3, 0.0, 0.0}).value();
-  const double swing_s = 2.0 * std::numbers::pi * std::sqrt(loop.mass_kg / stiffness);
+  SimulatedArm arm = SimulatedArm::build({loop, 0.0, 0.0}, {}, {1.0, 0.0, 0.0}).value();
+  const double swing_s = 2.0 * std::numbers::pi * std::sqrt(loop.inertia_ns2_per_mm() / stiffness);
   // Some swings for the transient; then intervals of many swings.
   const auto stretch =
       static_cast<int>(20.0 * std::max(swing_s, 4.0 / loop.rate_hz) * loop.rate_hz);
   double largest[4] = {};
   for (int part = 0; part < 4; ++part)
     for (int k = 0; k < stretch; ++k) {
-      arm.advance({-stiffness * arm.reading_m().x, 0.0, 0.0});
-      largest[part] = std::max(largest[part], std::abs(arm.position_m().x));
+      arm.advance({-stiffness * arm.reading_mm().x, 0.0, 0.0});
+      largest[part] = std::max(largest[part], std::abs(arm.position_mm().x));
     }
   return largest[3] > largest[1];
 }
@@ -172,7 +173,7 @@ bool grows(const falcon::SampledLoop& loop, double stiffness) {
 double measured_stable_stiffness(const falcon::SampledLoop& loop, double tolerance) {
   // Starts at a stiffness whose swing takes a thousand periods or more, which all these arms can
   // hold.
-  double low = 2e-5 * loop.mass_kg * loop.rate_hz * loop.rate_hz, high = low;
+  double low = 2e-5 * loop.inertia_ns2_per_mm() * loop.rate_hz * loop.rate_hz, high = low;
   while (!grows(loop, high)) high *= 2.0;
   low = 0.5 * high;
   while (high - low > tolerance * high) {
@@ -186,14 +187,14 @@ double measured_passive_damping(const falcon::SampledLoop& loop, const falcon::V
                                 int waves, int samples) {
   SimulatedArm arm = SimulatedArm::build({loop, 0.0, 0.0}).value();
   const double angle = 2.0 * std::numbers::pi * waves / samples;
-  const auto place = [&](int k) { return 1e-3 * std::sin(angle * k + 0.3); };
+  const auto place = [&](int k) { return std::sin(angle * k + 0.3); };
   double before = place(-2), way2 = 0.0;
   const auto tick = [&](int k) {
-    const double x = arm.reading_m().x;
+    const double x = arm.reading_mm().x;
     const double speed = (x - before) * loop.rate_hz;
     before = x;
     way2 += (place(k) - x) * (place(k) - x);
-    arm.carry({-wall.stiffness_n_per_m * x - wall.damping_ns_per_m * speed, 0.0, 0.0},
+    arm.carry({-wall.stiffness_n_per_mm * x - wall.damping_ns_per_mm * speed, 0.0, 0.0},
               {place(k), 0.0, 0.0});
   };
   // Until the delay line holds forces of the motion.
@@ -204,39 +205,41 @@ double measured_passive_damping(const falcon::SampledLoop& loop, const falcon::V
   return (arm.energy().displayed - begun.displayed) / (way2 * loop.rate_hz);
 }
 
-Experiment wall_experiment(const falcon::SampledLoop& loop, double stiffness_n_per_m,
-                           double step_m) {
+Experiment wall_experiment(const falcon::SampledLoop& loop, double stiffness_n_per_mm,
+                           double step_mm) {
   Experiment e;
-  e.arm = {loop, 0.0, step_m};
+  e.arm = {loop, 0.0, step_mm};
   e.hand.push_n = {-0.5, 0.0, 0.0};
-  e.start_m = {1e-3, 0.0, 0.0};
+  e.start_mm = {1.0, 0.0, 0.0};
   // The damping left by the wall sets the decay time of a swing: at most half of it under the
   // controller; infinite at the border.
-  const double left = std::abs(1.0 - stiffness_n_per_m / falcon::stable_stiffness(loop));
-  const double decay_s = 2.0 * loop.mass_kg / loop.damping_ns_per_m / std::clamp(left, 0.02, 0.25);
+  const double left = std::abs(1.0 - stiffness_n_per_mm / falcon::stable_stiffness(loop));
+  const double decay_s =
+      2.0 * loop.inertia_ns2_per_mm() / loop.damping_ns_per_mm / std::clamp(left, 0.02, 0.25);
   e.seconds = 1.0 + 8.0 * decay_s;
   return e;
 }
 
-Experiment energy_experiment(const falcon::SampledLoop& loop, double stiffness_n_per_m) {
+Experiment energy_experiment(const falcon::SampledLoop& loop, double stiffness_n_per_mm) {
   Experiment e;
   e.arm.loop = loop;
   e.hand.push_n = {-0.5, 0.0, 0.0};
-  e.start_m = {-1.1 * 0.5 / stiffness_n_per_m, 0.0, 0.0};
-  const double swing_s = 2.0 * std::numbers::pi * std::sqrt(loop.mass_kg / stiffness_n_per_m);
+  e.start_mm = {-1.1 * 0.5 / stiffness_n_per_mm, 0.0, 0.0};
+  const double swing_s =
+      2.0 * std::numbers::pi * std::sqrt(loop.inertia_ns2_per_mm() / stiffness_n_per_mm);
   e.seconds = 20.0 * std::max(swing_s, 8.0 / loop.rate_hz);
   e.settled_s = 0.5 * e.seconds;
   return e;
 }
 
-Experiment clay_experiment(const falcon::SampledLoop& loop, double step_m) {
+Experiment clay_experiment(const falcon::SampledLoop& loop, double step_mm) {
   Experiment e;
-  e.arm = {loop, 0.0, step_m};
-  e.hand.stiffness_n_per_m = {200.0, 0.0, 0.0};
-  e.start_m = {1e-3, 0.0, 0.0};
+  e.arm = {loop, 0.0, step_mm};
+  e.hand.stiffness_n_per_mm = {0.2, 0.0, 0.0};
+  e.start_mm = {1.0, 0.0, 0.0};
   e.seconds = 5.0;
   e.settled_s = 2.0;
-  e.intended = [](double time_s) { return glm::dvec3(1e-3 - 3e-3 * time_s, 0.0, 0.0); };
+  e.intended = [](double time_s) { return glm::dvec3(1.0 - 3.0 * time_s, 0.0, 0.0); };
   return e;
 }
 

@@ -13,7 +13,7 @@ namespace clay::closed_loop {
 struct Experiment {
   falcon::ArmSpec arm;
   falcon::HandSpec hand;
-  glm::dvec3 start_m{0.0};
+  glm::dvec3 start_mm{0.0};
   double seconds = 2.0;
   double settled_s = 0.5;   ///< the end of the run, which is searched for a cycle
   bool controlled = false;  ///< with the passivity controller
@@ -26,15 +26,15 @@ struct Experiment {
 /// damping. By the arm's energy balance this equals the gain in kinetic and stored energy minus the
 /// hand's work.
 struct Outcome {
-  double swing_m = 0.0;     ///< peak to peak of x about its trend, in the settled part
-  double injected_j = 0.0;  ///< over the whole run
-  double tolerance_j =
-      0.0;         ///< of injected_j: half an encoder step of force times the path in contact
+  double swing_mm = 0.0;     ///< peak to peak of x about its trend, in the settled part
+  double injected_mj = 0.0;  ///< over the whole run
+  double tolerance_mj =
+      0.0;         ///< of injected_mj: half an encoder step of force times the path in contact
   int cycles = 0;  ///< from one deepest point to the next
-  double mean_cycle_j = 0.0;   ///< mean per cycle, minus its tolerance
-  double worst_cycle_j = 0.0;  ///< maximum per cycle, minus its tolerance
-  double settled_w = 0.0;      ///< mean power injected in the settled part
-  double settled_tolerance_w = 0.0;
+  double mean_cycle_mj = 0.0;   ///< mean per cycle, minus its tolerance
+  double worst_cycle_mj = 0.0;  ///< maximum per cycle, minus its tolerance
+  double settled_mw = 0.0;      ///< mean power injected in the settled part
+  double settled_tolerance_mw = 0.0;
   double final_force_n = 0.0;
   falcon::PassivityState state = falcon::PassivityState::watching;
 };
@@ -43,23 +43,23 @@ Outcome run(const Experiment& experiment, Surface& surface);
 
 /// A hand that pushes 0.5 N into a wall, from 1 mm in front of it, until decaying swings have
 /// decayed.
-Experiment wall_experiment(const falcon::SampledLoop& loop, double stiffness_n_per_m,
-                           double step_m);
+Experiment wall_experiment(const falcon::SampledLoop& loop, double stiffness_n_per_mm,
+                           double step_mm);
 /// A hand that rests 0.5 N on a wall, a tenth off balance, for about twenty swings; exact encoders.
-Experiment energy_experiment(const falcon::SampledLoop& loop, double stiffness_n_per_m);
-/// A potter's stroke: a hand of 200 N/m that enters the clay at 3 mm/s, for 5 s.
-Experiment clay_experiment(const falcon::SampledLoop& loop, double step_m);
+Experiment energy_experiment(const falcon::SampledLoop& loop, double stiffness_n_per_mm);
+/// A potter's stroke: a hand of 0.2 N/mm that enters the clay at 3 mm/s, for 5 s.
+Experiment clay_experiment(const falcon::SampledLoop& loop, double step_mm);
 
 /// The guaranteed bound: no limit cycle above this, peak to peak.
-inline constexpr double kMostSwingM = 2e-4;
+inline constexpr double kMostSwingMm = 0.2;
 /// The Falcon's encoders, in the middle of its workspace.
-inline constexpr double kFalconStepM = 5e-5;
+inline constexpr double kFalconStepMm = 0.05;
 
-/// Stiffness [N/m] at which a linear wall, held from both sides, changes from decay to growth:
+/// Stiffness [N/mm] at which a linear wall, held from both sides, changes from decay to growth:
 /// bisected on the growth of a free swing, to the relative `tolerance`.
 double measured_stable_stiffness(const falcon::SampledLoop& loop, double tolerance);
 
-/// Damping [N s/m] at which a forced motion of one frequency, linear between its samples, absorbs
+/// Damping [N s/mm] at which a forced motion of one frequency, linear between its samples, absorbs
 /// as much energy from the hand as it returns: the requirement of passivity at that frequency. The
 /// motion repeats after `samples` ticks, in which it swings `waves` times; waves <= samples / 2.
 double measured_passive_damping(const falcon::SampledLoop& loop, const falcon::VirtualWall& wall,

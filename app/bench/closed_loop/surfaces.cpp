@@ -7,25 +7,23 @@
 namespace clay::closed_loop {
 namespace {
 
-constexpr double kMmPerM = 1000.0;
-
 class Wall final : public Surface {
  public:
   explicit Wall(const WallSpec& spec) : spec_(spec) {}
 
-  glm::dvec3 press(std::int64_t, const glm::dvec3& reading_m) override {
-    const double force = -spec_.stiffness_n_per_m * depth(reading_m.x);
+  glm::dvec3 press(std::int64_t, const glm::dvec3& reading_mm) override {
+    const double force = -spec_.stiffness_n_per_mm * depth(reading_mm.x);
     return {std::clamp(force, -spec_.limit_n, spec_.limit_n), 0.0, 0.0};
   }
-  [[nodiscard]] double stored_j(const glm::dvec3& position_m) const override {
-    const double d = std::abs(depth(position_m.x));
+  [[nodiscard]] double stored_mj(const glm::dvec3& position_mm) const override {
+    const double d = std::abs(depth(position_mm.x));
     // Beyond the limit the force is constant, so the energy grows linearly.
-    const double full = spec_.limit_n / spec_.stiffness_n_per_m;
+    const double full = spec_.limit_n / spec_.stiffness_n_per_mm;
     if (d > full) return spec_.limit_n * (d - 0.5 * full);
-    return 0.5 * spec_.stiffness_n_per_m * d * d;
+    return 0.5 * spec_.stiffness_n_per_mm * d * d;
   }
-  [[nodiscard]] double stiffness_n_per_m() const override { return spec_.stiffness_n_per_m; }
-  [[nodiscard]] double face_m() const override { return 0.0; }
+  [[nodiscard]] double stiffness_n_per_mm() const override { return spec_.stiffness_n_per_mm; }
+  [[nodiscard]] double face_mm() const override { return 0.0; }
 
  private:
   [[nodiscard]] double depth(double x) const { return spec_.one_sided ? std::min(x, 0.0) : x; }
@@ -39,33 +37,33 @@ class Clay final : public Surface {
  public:
   Clay(const ClaySpec& spec, Wheel wheel) : wheel_(std::move(wheel)), spec_(spec) {}
 
-  glm::dvec3 press(std::int64_t time_us, const glm::dvec3& reading_m) override {
-    return wheel_.step({time_us, hip_mm(reading_m), false}).force_n();
+  glm::dvec3 press(std::int64_t time_us, const glm::dvec3& reading_mm) override {
+    return wheel_.step({time_us, hip_mm(reading_mm), false}).force_n();
   }
   /// The overlap energy E = sum K' h depth^2 / 2, from the stack itself.
-  [[nodiscard]] double stored_j(const glm::dvec3& position_m) const override {
-    const double reach = hip_mm(position_m).x - kRibRadiusMm;
+  [[nodiscard]] double stored_mj(const glm::dvec3& position_mm) const override {
+    const double reach = hip_mm(position_mm).x - kRibRadiusMm;
     double sum = 0.0;
     std::size_t rings = 0;
     for_touched([&](const Ring& ring) {
-      const double depth = std::max(0.0, ring.outer_mm() - reach) / kMmPerM;
+      const double depth = std::max(0.0, ring.outer_mm() - reach);
       sum += depth * depth;
       ++rings;
     });
-    return 0.5 * spec_.stiffness_n_per_m * sum / static_cast<double>(rings);
+    return 0.5 * spec_.stiffness_n_per_mm * sum / static_cast<double>(rings);
   }
-  [[nodiscard]] double stiffness_n_per_m() const override { return spec_.stiffness_n_per_m; }
-  [[nodiscard]] double face_m() const override {
+  [[nodiscard]] double stiffness_n_per_mm() const override { return spec_.stiffness_n_per_mm; }
+  [[nodiscard]] double face_mm() const override {
     double highest = 0.0;
     for_touched([&](const Ring& ring) { highest = std::max(highest, ring.outer_mm()); });
-    return (highest - kRadiusMm) / kMmPerM;
+    return highest - kRadiusMm;
   }
 
  private:
   static constexpr double kMiddleMm = 0.5 * kRingMm * static_cast<double>(kRings);
 
-  static glm::dvec3 hip_mm(const glm::dvec3& at_m) {
-    return {kRadiusMm + kRibRadiusMm + kMmPerM * at_m.x, kMiddleMm, 0.0};
+  static glm::dvec3 hip_mm(const glm::dvec3& at_mm) {
+    return {kRadiusMm + kRibRadiusMm + at_mm.x, kMiddleMm, 0.0};
   }
   template <class Visit>
   void for_touched(Visit visit) const {
@@ -96,8 +94,7 @@ SceneSpec clay_scene(const ClaySpec& clay) {
                 .density_g_cm3 = 1.9};
   scene.tool.shape = RibSpec{clay.rib_height_mm, kRibRadiusMm};
   scene.removal = {.rate_per_s = clay.rate_per_s, .min_wall_mm = 1.0, .paper_fraction = {}};
-  // N/m over mm of height is N/mm over mm, a thousandth.
-  scene.force->stiffness_n_per_mm2 = clay.stiffness_n_per_m / kMmPerM / clay.rib_height_mm;
+  scene.force->stiffness_n_per_mm2 = clay.stiffness_n_per_mm / clay.rib_height_mm;
   return scene;
 }
 

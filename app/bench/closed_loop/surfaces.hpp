@@ -14,24 +14,24 @@ class Surface {
  public:
   virtual ~Surface() = default;
   /// The force [N] for a reading.
-  virtual glm::dvec3 press(std::int64_t time_us, const glm::dvec3& reading_m) = 0;
-  /// Energy [J] stored in the spring with the arm at this position.
-  [[nodiscard]] virtual double stored_j(const glm::dvec3& position_m) const = 0;
-  [[nodiscard]] virtual double stiffness_n_per_m() const = 0;
-  /// Current position of the undeformed surface [m].
-  [[nodiscard]] virtual double face_m() const = 0;
+  virtual glm::dvec3 press(std::int64_t time_us, const glm::dvec3& reading_mm) = 0;
+  /// Energy [mJ] stored in the spring with the arm at this position.
+  [[nodiscard]] virtual double stored_mj(const glm::dvec3& position_mm) const = 0;
+  [[nodiscard]] virtual double stiffness_n_per_mm() const = 0;
+  /// Current position of the undeformed surface [mm].
+  [[nodiscard]] virtual double face_mm() const = 0;
 };
 
 struct WallSpec {
-  double stiffness_n_per_m = 0.0;
+  double stiffness_n_per_mm = 0.0;
   double limit_n = 5.0;   ///< of the force; infinite for a linear wall
   bool one_sided = true;  ///< false: a two-sided spring to x = 0
 };
 std::unique_ptr<Surface> make_wall(const WallSpec& wall);
 
 struct ClaySpec {
-  double stiffness_n_per_m = 0.0;  ///< of the whole contact: K' times its height
-  double rate_per_s = 20.0;        ///< of removal; 0: the clay is a spring
+  double stiffness_n_per_mm = 0.0;  ///< of the whole contact: K' times its height
+  double rate_per_s = 20.0;         ///< of removal; 0: the clay is a spring
   double rib_height_mm = 20.0;
 };
 /// A solid cylinder of 45 mm under a vertical rib. The height of contact is the rib's.

@@ -1,6 +1,6 @@
 #include "app/bench/report/html_style.hpp"
 #include "app/bench/report/report.hpp"
-#include "app/chart/xml_text.hpp"
+#include "core/svg_writer.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,6 @@
 
 namespace clay::bench {
 namespace {
-
-using chart::escaped;
 
 constexpr std::size_t kManyColumns = 9;
 

@@ -7,7 +7,7 @@
 #include "app/studio/readings/curves.hpp"
 #include "app/studio/readings/pot_check.hpp"
 #include "app/studio/stroke_controller.hpp"
-#include "core/newest_worker.hpp"
+#include "core/worker.hpp"
 
 #include <cstdint>
 #include <functional>

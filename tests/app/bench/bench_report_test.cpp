@@ -5,7 +5,7 @@
 #include "app/bench/statistics.hpp"
 #include "app/bench/timing.hpp"
 #include "app/chart/axis_scale.hpp"
-#include "app/chart/xml_text.hpp"
+#include "core/svg_writer.hpp"
 #include "tests/support/run_program.hpp"
 
 #include <gtest/gtest.h>
@@ -244,7 +244,7 @@ TEST(BenchHtml, IsWellFormedForAnyNames) {
     EXPECT_EQ(rest.find(outside), std::string::npos) << outside;
   }
   for (const char* number : {"nan", "inf"})
-    EXPECT_EQ(html.find(std::string("='") + number), std::string::npos);
+    EXPECT_EQ(html.find(std::string("=\"") + number), std::string::npos);
   EXPECT_EQ(html, html_of(odd_report()));
 }
 

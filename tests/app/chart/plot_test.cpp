@@ -2,7 +2,7 @@
 
 #include "app/chart/plot.hpp"
 #include "app/chart/axis_scale.hpp"
-#include "app/chart/xml_text.hpp"
+#include "core/svg_writer.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -100,8 +100,8 @@ TEST(Plot, DrawsEveryPointOnTheAxesAndZerosAtTheEdge) {
       {"c", {1.0, 10.0, 100.0, 1000.0, -1.0}, {1.0, 0.0, kNan, 3.0, 1.0}, {}, {}});
   const std::string svg = svg_of(plot, Place::page);
   // Two points and the mark in the legend; one zero and its mark in the legend.
-  EXPECT_EQ(count(svg, "class='mark f0'"), 3u);
-  EXPECT_EQ(count(svg, "class='zero"), 2u);
+  EXPECT_EQ(count(svg, "class=\"mark f0\""), 3u);
+  EXPECT_EQ(count(svg, "class=\"zero"), 2u);
   EXPECT_NE(svg.find("exactly 0"), std::string::npos);
 }
 
@@ -129,9 +129,9 @@ TEST(PlotMap, DrawsACellPerNumberAndMarksMissingOnes) {
   Map map{"m", "", {"x", true}, {"y", false}, {1.0, 10.0, 100.0}, {0.0, 1.0}, {}, {}, ""};
   map.cells = {{0.0, 1.0, 0.5}, {kNan, 0.25, 0.0}};
   const std::string svg = svg_of(map, Place::page);
-  EXPECT_EQ(count(svg, "class='cell'"), 5u + 3u);      // plus three in the legend
-  EXPECT_EQ(count(svg, "class='cell-dot'"), 3u + 2u);  // none where the value is 0
-  EXPECT_EQ(count(svg, "class='none'"), 1u + 1u);
+  EXPECT_EQ(count(svg, "class=\"cell\""), 5u + 3u);      // plus three in the legend
+  EXPECT_EQ(count(svg, "class=\"cell-dot\""), 3u + 2u);  // none where the value is 0
+  EXPECT_EQ(count(svg, "class=\"none\""), 1u + 1u);
 }
 
 TEST(XmlText, EscapesMarkupAndReplacesInvalidCharacters) {

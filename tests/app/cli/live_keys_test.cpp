@@ -125,8 +125,8 @@ TEST(LiveKeys, KeysPauseReleaseRearmAndQuit) {
   EXPECT_EQ(terminal.modes(), terminal.modes_before());
   // The clay does not move during a pause: a gap in time, but no poses in the record.
   EXPECT_GT(terminal.poses().size(), paused);
-  EXPECT_EQ(claystack("throw -q " + sample("paper/bowl.scene.json") + " -s " + folder.file("s.session") +
-                      " -o " + folder.file("b.pot.json"))
+  EXPECT_EQ(claystack("throw -q " + sample("paper/bowl.scene.json") + " -s " +
+                      folder.file("s.session") + " -o " + folder.file("b.pot.json"))
                 .status,
             0);
   EXPECT_EQ(read_text(folder.file("b.pot.json")), read_text(folder.file("a.pot.json")));
@@ -150,8 +150,8 @@ TEST(LiveKeys, KeepsPotAndSessionWhenTheTerminalCloses) {
   ASSERT_TRUE(terminal.shows("force ramps up"));
   terminal.hang_up();
   EXPECT_EQ(terminal.wait(), 3) << "its summary could not be printed";
-  EXPECT_EQ(claystack("throw -q " + sample("paper/bowl.scene.json") + " -s " + folder.file("s.session") +
-                      " -o " + folder.file("b.pot.json"))
+  EXPECT_EQ(claystack("throw -q " + sample("paper/bowl.scene.json") + " -s " +
+                      folder.file("s.session") + " -o " + folder.file("b.pot.json"))
                 .status,
             0);
   EXPECT_FALSE(read_text(folder.file("a.pot.json")).empty());

@@ -57,13 +57,14 @@ TEST(Plan, KeepsAllNeededStages) {
 TEST(Plan, ReportsWhetherAnArmCanRenderTheContact) {
   const ScratchFolder folder;
   write_text(folder.file("s.scene.json"), kSolidFrictionless);
-  // 41 rings of 0.5 mm under the sphere, 0.02 N/mm2: 410 N/m. Accepted: b / 3T.
-  const auto calm = claystack("plan --json --rate 1000 --damping 2 " + folder.file("s.scene.json"));
+  // 41 rings of 0.5 mm under the sphere, 0.02 N/mm2: 0.41 N/mm. Accepted: b / 3T.
+  const auto calm =
+      claystack("plan --json --rate 1000 --damping 0.002 " + folder.file("s.scene.json"));
   ASSERT_EQ(calm.status, 0) << calm.err;
   const auto servo = calm.json().at("servo");
-  EXPECT_NEAR(servo.at("stiffness_n_per_m").get<double>(), 410.0, 1e-9);
+  EXPECT_NEAR(servo.at("stiffness_n_per_mm").get<double>(), 0.41, 1e-12);
   EXPECT_NEAR(servo.at("contact_height_mm").get<double>(), 20.5, 1e-12);
-  EXPECT_NEAR(servo.at("accepted_n_per_m").get<double>(), 2.0 * 1000 / 3, 1e-9);
+  EXPECT_NEAR(servo.at("accepted_n_per_mm").get<double>(), 0.002 * 1000 / 3, 1e-12);
 
   const auto stiff = claystack("plan --rate 500 " + folder.file("s.scene.json"));
   EXPECT_EQ(stiff.status, 2);

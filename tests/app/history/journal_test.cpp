@@ -145,7 +145,7 @@ void kill_one(double& lost_us) {
     alarm(60);
     Work work = kept_work(folder);
     (void)work.add(small_scene(), press_stroke(1)).value();
-    PoseSink* sink = work.begin_stroke(small_scene(5.0)).value();
+    PoseSink* sink = work.begin_stroke(small_scene(5.0)).value().sink;
     const auto recorder = servo::Recorder::create(*sink);
     const auto start = std::chrono::steady_clock::now();
     for (std::int64_t last_us = -1;;) {
@@ -156,7 +156,7 @@ void kill_one(double& lost_us) {
       if (now_us <= last_us) continue;
       last_us = now_us;
       const double t = 1e-6 * static_cast<double>(now_us);
-      if (recorder->take(quantized({now_us, {40.0 - 5.0 * t, 10.0 + t, 0.0}, false, 0.0})))
+      if (recorder->take(quantized({now_us, {40.0 - 5.0 * t, 10.0 + t, 0.0}, false, 0.0}), true))
         taken_us->store(now_us);
     }
   }

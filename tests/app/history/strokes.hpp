@@ -9,6 +9,7 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -50,10 +51,12 @@ inline std::vector<Pose> press_stroke(std::uint64_t seed) {
 }
 
 /// As a recorder does, in blocks.
-inline void record(const std::vector<Pose>& poses, history::PoseSink& sink) {
-  for (std::size_t at = 0; at < poses.size(); at += kPosesPerBlock)
-    ASSERT_TRUE(
-        sink.append(std::span(poses).subspan(at, std::min(kPosesPerBlock, poses.size() - at))));
+inline void record(const std::vector<Pose>& poses, PoseSink& sink) {
+  const std::array<bool, kPosesPerBlock> contact{};
+  for (std::size_t at = 0; at < poses.size(); at += kPosesPerBlock) {
+    const auto block = std::span(poses).subspan(at, std::min(kPosesPerBlock, poses.size() - at));
+    ASSERT_TRUE(sink.append({block, std::span(contact).first(block.size())}));
+  }
   ASSERT_TRUE(sink.finish());
 }
 

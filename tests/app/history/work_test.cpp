@@ -9,6 +9,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace clay::history {
@@ -18,6 +19,26 @@ using test::arbitrary_work;
 using test::plainly_thrown;
 using test::press_stroke;
 using test::small_scene;
+
+/// Presses, separated by this time in free air.
+std::vector<Pose> recording(int presses, double air_s, bool level = false) {
+  std::vector<Pose> poses;
+  std::int64_t time_us = 5000;
+  for (int press = 0; press < presses; ++press) {
+    for (Pose pose : press_stroke(static_cast<std::uint64_t>(10 + press))) {
+      if (level) pose.position_mm.y = 15.0;
+      pose.time_us = time_us += 1000;
+      poses.push_back(pose);
+    }
+    for (int i = 0; i < static_cast<int>(1000.0 * air_s); ++i) {
+      Pose pose = poses.back();
+      pose.time_us = time_us += 1000;
+      if (!level) pose.position_mm.y += 1.0 / 1024.0;
+      poses.push_back(pose);
+    }
+  }
+  return poses;
+}
 
 RC_GTEST_PROP(Work, EveryPotEqualsTheReplayOfItsStrokes, ()) {
   Work work = arbitrary_work(*rc::gen::inRange(1, 20));
@@ -44,9 +65,10 @@ TEST(Work, RefusesMorePosesThanAFileHolds) {
   refused(added.error());
   EXPECT_EQ(work.size(), 2u);
 
-  PoseSink& sink = **work.begin_stroke(small_scene());
-  EXPECT_TRUE(sink.append(std::span(poses).first(50)));
-  const auto more = sink.append(std::span(poses).subspan(50, 1));
+  PoseSink& sink = *work.begin_stroke(small_scene()).value().sink;
+  const std::array<bool, 50> contact{};
+  EXPECT_TRUE(sink.append({std::span(poses).first(50), contact}));
+  const auto more = sink.append({std::span(poses).subspan(50, 1), std::span(contact).first(1)});
   ASSERT_FALSE(more);
   refused(more.error());
   EXPECT_EQ(work.end_stroke().value().strokes, 1u);
@@ -146,14 +168,34 @@ TEST(Work, ListsItsStrokes) {
   EXPECT_DOUBLE_EQ(work.view(3).seconds, 1.0);
 }
 
-TEST(Work, ReportsWhenPosesDifferFromTheDisplayedPot) {
+TEST(Work, KeepsThePotOfTheWheelWithoutPlayingThePosesAgain) {
   Work work = Work::begin(small_scene()).value();
-  const Pot shown = plainly_thrown(small_scene(), **work.pot(), press_stroke(1));
-  EXPECT_TRUE(work.add(small_scene(), press_stroke(1), &shown).value().as_felt);
+  Begun begun = work.begin_stroke(small_scene()).value();
+  test::record(press_stroke(1), *begun.sink);
+  for (const Pose& pose : press_stroke(1)) begun.wheel.step(pose);
+  EXPECT_EQ(work.end_stroke(begun.wheel.pot()).value().strokes, 1u);
+  EXPECT_EQ(**work.pot(), plainly_thrown(work.record(), 1)) << "the wheel is the replay's";
+
+  // A pot that the poses do not make would be kept as well.
   work.undo();
-  auto short_of_it = press_stroke(1);
-  short_of_it.resize(80);
-  EXPECT_FALSE(work.add(small_scene(), short_of_it, &shown).value().as_felt);
+  test::record(press_stroke(2), *work.begin_stroke(small_scene()).value().sink);
+  const Pot other = begun.wheel.pot();
+  EXPECT_TRUE(work.end_stroke(other));
+  EXPECT_EQ(**work.pot(), other);
+}
+
+TEST(Work, SplitsByTheContactsThatTheServoReports) {
+  const auto poses = recording(3, 0.4);
+  Work work = Work::begin(small_scene()).value();
+  Begun begun = work.begin_stroke(small_scene()).value();
+  for (const Pose& pose : poses) {
+    const bool contact = (begun.wheel.step(pose).flags & kContact) != 0;
+    ASSERT_TRUE(begun.sink->append({std::span(&pose, 1), std::span(&contact, 1)}));
+  }
+  EXPECT_EQ(work.end_stroke(begun.wheel.pot()).value().strokes, 3u);
+  EXPECT_EQ(**work.pot(), begun.wheel.pot());
+  for (NodeId node = 1; node < work.size(); ++node)
+    EXPECT_EQ(*work.pot(node).value(), plainly_thrown(work.record(), node)) << node;
 }
 
 TEST(Work, IgnoresAStrokeWithoutPoses) {
@@ -206,35 +248,9 @@ TEST(Work, StartsFromAPot) {
   EXPECT_EQ(read.work.start, second.record().start);
 }
 
-/// Presses, separated by this time in free air.
-std::vector<Pose> recording(int presses, double air_s, bool level = false) {
-  std::vector<Pose> poses;
-  std::int64_t time_us = 5000;
-  for (int press = 0; press < presses; ++press) {
-    for (Pose pose : press_stroke(static_cast<std::uint64_t>(10 + press))) {
-      if (level) pose.position_mm.y = 15.0;
-      pose.time_us = time_us += 1000;
-      poses.push_back(pose);
-    }
-    for (int i = 0; i < static_cast<int>(1000.0 * air_s); ++i) {
-      Pose pose = poses.back();
-      pose.time_us = time_us += 1000;
-      if (!level) pose.position_mm.y += 1.0 / 1024.0;
-      poses.push_back(pose);
-    }
-  }
-  return poses;
-}
-
-/// A few poses at a time, as during recording.
 Split cut(const Pot& before, const std::vector<Pose>& poses) {
-  Replay again(Wheel::build(small_scene(), before).value());
-  for (std::span<const Pose> rest = poses; !rest.empty();) {
-    const auto block = rest.first(std::min<std::size_t>(rest.size(), 37));
-    again.append(block);
-    rest = rest.subspan(block.size());
-  }
-  return split(small_scene(), before, poses, again.finish());
+  Wheel wheel = Wheel::build(small_scene(), before).value();
+  return split(small_scene(), before, poses, replay(std::move(wheel), poses));
 }
 
 TEST(Split, SplitsARecordingInFreeAir) {

@@ -10,8 +10,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace clay::servo {
 namespace {
@@ -32,7 +36,7 @@ struct Embedded {
             .value());
   }
   void throw_until_force() {
-    live->start(false);
+    live->start(Pace::thread);
     wait_for([&] { return log.last_n > 0.0; }, "a force");
   }
   Ending stop() {
@@ -78,6 +82,59 @@ TEST(LiveThrow, ItsRecordedSessionReplaysToThePot) {
   EXPECT_TRUE(again.pot() == embedded.wheel.pot());
 }
 
+/// Keeps what it receives.
+class KeptPoses final : public PoseSink {
+ public:
+  Result<void> append(const PoseBlock& block) override {
+    poses.insert(poses.end(), block.poses.begin(), block.poses.end());
+    contact.insert(contact.end(), block.contact.begin(), block.contact.end());
+    return {};
+  }
+  Result<void> finish() override { return {}; }
+
+  std::vector<Pose> poses;
+  std::vector<bool> contact;
+};
+
+TEST(LiveThrow, TicksOnAGivenClockAndRecordsContactFlags) {
+  double time_s = 0.0;
+  auto model = std::make_shared<falcon::FalconModel>(
+      VirtualThrow::homed(), [&](const glm::dvec3&, double dt_s) {
+        time_s += dt_s;
+        return falcon::Kinematics::kCentreMm + press_to(2.0)(time_s);
+      });
+  auto line = std::make_unique<falcon::LoopbackTransport>(model, falcon::Pace::virtual_);
+  LineClock clock(*line);
+  falcon::FalconDevice arm(std::move(line), {});
+  ASSERT_TRUE(arm.open());
+  KeptPoses kept;
+  const SceneSpec scene = rib_scene();
+  Wheel wheel = Wheel::build(scene).value();
+  auto live = LiveThrow::build(
+                  {.wheel = wheel, .device = arm, .scene = scene, .sink = &kept, .clock = &clock},
+                  one_to_one())
+                  .value();
+  live.start(Pace::stepped);
+  live.advance(clock.now_ns() + 4'000'000'000);
+  EXPECT_TRUE(live.running());
+  EXPECT_NEAR(live.status().time_s, 4.0, 0.01);
+  EXPECT_NE(live.new_profile(), nullptr);
+  EXPECT_EQ(live.new_profile(), nullptr) << "nothing new since";
+  EXPECT_EQ(live.stop(), Ending::stopped);
+  ASSERT_TRUE(live.finish_recording());
+  EXPECT_EQ(live.recorded().poses, kept.poses.size());
+  EXPECT_EQ(live.recorded().lost, 0u);
+  EXPECT_EQ(live.status().poses, kept.poses.size());
+
+  Wheel again = Wheel::build(scene).value();
+  std::vector<bool> contact;
+  for (const Pose& pose : kept.poses) contact.push_back((again.step(pose).flags & kContact) != 0);
+  EXPECT_EQ(contact, kept.contact);
+  EXPECT_GT(std::ranges::count(contact, true), 0);
+  EXPECT_GT(std::ranges::count(contact, false), 0);
+  EXPECT_EQ(again.pot(), wheel.pot());
+}
+
 TEST(LiveThrow, ContinuesWithAReconnectedDevice) {
   Embedded embedded;
   embedded.throw_until_force();
@@ -86,7 +143,7 @@ TEST(LiveThrow, ContinuesWithAReconnectedDevice) {
   EXPECT_EQ(embedded.log.last_n, 0.0);
   const std::uint64_t poses = embedded.live->status().poses;
   embedded.log.gone = false;
-  embedded.live->start(false);
+  embedded.live->start(Pace::thread);
   wait_for([&] { return embedded.live->status().poses > poses + 20; }, "more poses");
   EXPECT_EQ(embedded.stop(), Ending::stopped);
 }

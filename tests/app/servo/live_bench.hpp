@@ -60,8 +60,8 @@ struct VirtualThrow {
         model(std::make_shared<falcon::FalconModel>(model_settings,
                                                     [this](const glm::dvec3&, double dt_s) {
                                                       time_s += dt_s;
-                                                      return falcon::Kinematics::kCentreM +
-                                                             1e-3 * hand(time_s);
+                                                      return falcon::Kinematics::kCentreMm +
+                                                             hand(time_s);
                                                     })),
         device(make_line(), falcon::FalconSettings{}),
         clock(*line) {

@@ -86,7 +86,7 @@ TEST(Mapping, RefusesUnusableSettings) {
 TEST(HandForce, OnlyTheSpringIsMadePassive) {
   const Mapping mapping = Mapping::build({.scale = 1.0}).value();
   const auto most_removed_n = [&](bool as_spring) {
-    HandForce hand(falcon::PassivityController::build({.loop = {}, .step_m = 5e-5}).value());
+    HandForce hand(falcon::PassivityController::build({.loop = {}, .step_mm = 0.05}).value());
     double most = 0.0;
     for (int k = 0; k < 100; ++k) {
       StepReport clay;

@@ -111,7 +111,7 @@ TEST(SimulatedPotter, KeepsTheWholeStrokeWithinReach) {
     for (const Pose& pose : stroke) {
       const glm::dvec3 at_mm = mapping.to_device(pose.position_mm);
       ASSERT_LE(glm::length(at_mm), kReachMm + 1e-9) << name;
-      ASSERT_TRUE(arm.inverse(falcon::Kinematics::kCentreM + 1e-3 * at_mm)) << name;
+      ASSERT_TRUE(arm.inverse(falcon::Kinematics::kCentreMm + at_mm)) << name;
     }
   }
   EXPECT_EQ(fitted({}, {}, kReachMm), MappingSettings{});

@@ -38,7 +38,7 @@ TEST(Recorder, WritesAllPoses) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("s.session");
   auto recorder = Recorder::create(path, "a scene", 42).value();
-  for (std::int64_t i = 0; i < 5000; ++i) ASSERT_TRUE(recorder->take(pose_at(1000 * i)));
+  for (std::int64_t i = 0; i < 5000; ++i) ASSERT_TRUE(recorder->take(pose_at(1000 * i), false));
   ASSERT_TRUE(recorder->finish());
   const Session session = session_of(path);
   EXPECT_EQ(session.scene_name, "a scene");
@@ -55,7 +55,7 @@ TEST(Recorder, KeepsTheOldSessionUntilTheNewOneIsComplete) {
   test::write_text(path, "the old one");
   std::filesystem::permissions(path, std::filesystem::perms(0640));
   auto recorder = Recorder::create(path, "a scene", 0).value();
-  ASSERT_TRUE(recorder->take(pose_at(0)));
+  ASSERT_TRUE(recorder->take(pose_at(0), false));
   EXPECT_EQ(test::read_text(path), "the old one");
   ASSERT_TRUE(recorder->finish());
   EXPECT_EQ(session_of(path).poses.size(), 1u);
@@ -79,7 +79,7 @@ TEST(Recorder, OneAtATime) {
   test::write_text(path, "the old one");
   std::filesystem::create_symlink(path, link);
   auto first = Recorder::create(path, "a scene", 0).value();
-  ASSERT_TRUE(first->take(pose_at(0)));
+  ASSERT_TRUE(first->take(pose_at(0), false));
   for (const std::string& name : {path, link}) {
     const auto second = Recorder::create(name, "a scene", 0);
     ASSERT_FALSE(second);
@@ -88,7 +88,7 @@ TEST(Recorder, OneAtATime) {
   }
   ASSERT_TRUE(first->finish());
   auto second = Recorder::create(link, "a scene", 0).value();
-  ASSERT_TRUE(second->take(pose_at(0)) && second->take(pose_at(1000)));
+  ASSERT_TRUE(second->take(pose_at(0), false) && second->take(pose_at(1000), false));
   ASSERT_TRUE(second->finish());
   EXPECT_TRUE(std::filesystem::is_symlink(link));
   EXPECT_EQ(session_of(path).poses.size(), 2u);
@@ -116,10 +116,11 @@ TEST(Recorder, OverflowIsReportedAndLeavesNoGap) {
   const std::string path = folder.file("s.session");
   auto recorder = Recorder::create(path, "a scene", 0).value();
   std::int64_t i = 0;
-  while (recorder->take(pose_at(1000 * i))) ++i;  // faster than any disk
+  while (recorder->take(pose_at(1000 * i), false)) ++i;  // faster than any disk
   EXPECT_EQ(recorder->lost(), 1u);
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  EXPECT_FALSE(recorder->take(pose_at(1000 * (i + 1)))) << "there is room again, but a hole before";
+  EXPECT_FALSE(recorder->take(pose_at(1000 * (i + 1)), false))
+      << "there is room again, but a hole before";
   ASSERT_TRUE(recorder->finish());
   EXPECT_EQ(recorder->lost(), 2u);
   const Session session = session_of(path);
@@ -136,7 +137,7 @@ TEST(Recorder, FullDiskIsReportedAtTheEndAndTheBeginningIsValid) {
   const rlimit small{20'000, before.rlim_max};
   setrlimit(RLIMIT_FSIZE, &small);
   auto recorder = Recorder::create(path, "a scene", 0).value();
-  for (std::int64_t i = 0; i < 5000; ++i) (void)recorder->take(pose_at(1000 * i));
+  for (std::int64_t i = 0; i < 5000; ++i) (void)recorder->take(pose_at(1000 * i), false);
   const auto finished = recorder->finish();
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, SIG_DFL);
@@ -176,7 +177,7 @@ void kill_one(std::int64_t& lost_us) {
       const std::int64_t now_us = falcon::monotonic_us() - start_us;
       if (now_us <= last_us) continue;
       last_us = now_us;
-      if (recorder->take(pose_at(now_us))) taken_us->store(now_us);
+      if (recorder->take(pose_at(now_us), false)) taken_us->store(now_us);
     }
   }
   test::wait_until([&] { return taken_us->load() >= 700'000; }, test::kDeadline, "poses");

@@ -64,7 +64,7 @@ struct Threads {
   Wheel wheel = Wheel::build(rib_scene()).value();
   MonotonicClock clock;
   ServoLoop loop;
-  Servo servo{bench(), loop, false};
+  Servo servo{bench(), loop, Pace::thread};
 };
 
 TEST(Servo, EndsByCommandWithAFinalStop) {
@@ -137,7 +137,7 @@ TEST(Servo, AnUnpluggedDeviceEndsIt) {
   // As after a reconnection: another servo, the same loop and wheel.
   log.gone = false;
   const std::uint64_t poses = threads.loop.status().poses;
-  Servo again(threads.bench(), threads.loop, false);
+  Servo again(threads.bench(), threads.loop, Pace::thread);
   again.start();
   wait_for([&] { return again.view().status.newest().poses > poses + 20; }, "poses");
   ASSERT_TRUE(again.command({CommandKind::stop, 0.0}));

@@ -21,10 +21,10 @@ class ActionsTest : public ::testing::Test {
   ActionsTest() { apply(state, BeginWork{small_scene(), nullptr, {}}); }
   /// A stroke, so that there is something to lose.
   void change() {
-    auto sink = state.document.begin_stroke(small_scene());
-    ASSERT_TRUE(sink);
-    test::record(test::press_stroke(1), **sink);
-    ASSERT_TRUE(state.document.end_stroke(nullptr));
+    auto begun = state.document.begin_stroke(small_scene());
+    ASSERT_TRUE(begun);
+    test::record(test::press_stroke(1), *begun->sink);
+    ASSERT_TRUE(state.document.end_stroke(std::nullopt));
   }
   [[nodiscard]] std::size_t strokes() const { return state.document.work().size() - 1; }
 

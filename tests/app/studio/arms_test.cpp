@@ -3,6 +3,7 @@
 
 #include "app/studio/commands.hpp"
 #include "app/studio/script.hpp"
+#include "claystack/engine/files.hpp"
 #include "tests/app/servo/live_bench.hpp"
 #include "tests/app/studio/clocked_arm.hpp"
 #include "tests/app/studio/socket.hpp"
@@ -86,6 +87,26 @@ TEST_F(Arms, ConnectedArmReplacesTheMouse) {
   play("wait 0.5\nexpect contact yes\nexpect force engaged\n");
   EXPECT_GT(arm.told_n, 0.1);
   play("key Ctrl+Z\nexpect strokes 1\n");
+}
+
+/// The pots are those of the servo's wheel; nothing was thrown twice.
+TEST_F(Arms, EveryPotIsWhatTheRecordedPosesReplayTo) {
+  play(std::string(kMousePresses) + "release left\nexpect strokes 1\n");
+  ArmScript& arm = arms_.emplace_back();
+  plug_and_earn(arm);
+  for (int press = 0; press < 2; ++press) {
+    arm.goal_mm = 52.0 - press;
+    play("wait 0.6\nexpect contact yes\n");
+    arm.goal_mm = 80.0;
+    play("wait 0.6\nexpect contact no\n");
+  }
+  state().stroke.release();
+  history::Work again = history::Work::open(state().document.work().record()).value();
+  ASSERT_GT(again.at(), 1u);
+  EXPECT_EQ(write_pot(state().document.pot(), PotEncoding::cbor),
+            write_pot(*again.pot().value(), PotEncoding::cbor));
+  EXPECT_NE(*again.pot().value(), *again.pot(1).value());
+  EXPECT_NE(*again.pot(1).value(), *again.pot(0).value());
 }
 
 TEST_F(Arms, LostArmIsReplacedByTheMouseAndFoundAgain) {

@@ -21,10 +21,10 @@ class DocumentTest : public ::testing::Test {
   DocumentTest() { EXPECT_TRUE(document.begin(small_scene())); }
   /// One stroke through the functions that a servo's recorder uses.
   void stroke(std::uint64_t seed) {
-    auto sink = document.begin_stroke(small_scene());
-    ASSERT_TRUE(sink) << sink.error().message;
-    test::record(press_stroke(seed), **sink);
-    ASSERT_TRUE(document.end_stroke(nullptr));
+    auto begun = document.begin_stroke(small_scene());
+    ASSERT_TRUE(begun) << begun.error().message;
+    test::record(press_stroke(seed), *begun->sink);
+    ASSERT_TRUE(document.end_stroke(std::nullopt));
   }
   [[nodiscard]] std::string pot() const { return write_pot(document.pot(), PotEncoding::json); }
   Document document;

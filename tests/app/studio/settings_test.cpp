@@ -81,14 +81,16 @@ TEST(Settings, ErrorsNameTheField) {
     const auto read = parse_settings("{\"schema\": \"claystack-studio-1\", " + field + "}", "s");
     return read ? std::string("none") : read.error().message;
   };
-  EXPECT_EQ(error_of("\"scale\": 9"), "s: scale: expected a number from 0.5 to 3, found 9");
+  EXPECT_EQ(error_of("\"scale\": 9"), "s:1: scale: expected a number from 0.5 to 3, found 9");
   EXPECT_EQ(error_of("\"theme\": \"pink\""),
-            "s: theme: expected one of dark light, found \"pink\"");
-  EXPECT_EQ(error_of("\"hints\": 1"), "s: hints: expected true or false, found 1");
-  EXPECT_EQ(error_of("\"colour\": 1"), "s: colour: expected no such field");
-  EXPECT_EQ(error_of("\"open\": {\"tool\": 3}"), "s: open.tool: expected true or false, found 3");
-  EXPECT_EQ(parse_settings("[]", "s").error().message, "s: expected a JSON object");
-  EXPECT_EQ(parse_settings("{}", "s").error().message, "s: schema: expected claystack-studio-1");
+            "s:1: theme: expected one of dark, light, found \"pink\"");
+  EXPECT_EQ(error_of("\"hints\": 1"), "s:1: hints: expected true or false, found 1");
+  EXPECT_EQ(error_of("\"colour\": 1").find("s:1: unknown field \"colour\"; expected one of"), 0u);
+  EXPECT_EQ(error_of("\"open\": {\"tool\": 3}"), "s:1: open.tool: expected true or false, found 3");
+  EXPECT_EQ(parse_settings("[]", "s").error().message,
+            "s:1: expected an object, found an array of 0");
+  EXPECT_EQ(parse_settings("{}", "s").error().message,
+            "s:1: expected a field \"schema\", found none");
 }
 
 // The message repeated what it had found, level by level, until the stack was full.

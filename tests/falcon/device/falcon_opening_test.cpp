@@ -72,11 +72,11 @@ TEST(FalconOpening, RefusesInvalidSettings) {
   std::vector<FalconSettings> nonsense(7);
   nonsense[0].force_limit_n = 9.0;
   nonsense[1].force_limit_n = nan;
-  nonsense[2].motor_counts_per_nm = 0.0;
-  nonsense[3].motor_counts_per_nm = nan;
+  nonsense[2].motor_counts_per_nmm = 0.0;
+  nonsense[3].motor_counts_per_nmm = nan;
   nonsense[4].silence_us = 0;
-  nonsense[5].centre_m = {0, 0, 0.5};
-  nonsense[6].centre_m = {nan, 0, 0};
+  nonsense[5].centre_mm = {0, 0, 500.0};
+  nonsense[6].centre_mm = {nan, 0, 0};
   for (const FalconSettings& settings : nonsense) {
     FalconBench bench(ready_model(), settings);
     const auto opened = bench.device->open();

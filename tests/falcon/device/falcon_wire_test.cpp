@@ -31,8 +31,8 @@ TEST_P(FaultyWire, LosesAtMostTwoFramesAndAcceptsNoWrongOne) {
       const DeviceSample sample = bench.tick({1, 0, 0});
       ASSERT_EQ(sample.state, DeviceState::ready);
       // The current frame, or after a fault the previous one: 1/8 mm apart.
-      const glm::dvec3 now = 1e3 * (on_circle(bench.frame - 1) - Kinematics::kCentreM);
-      const glm::dvec3 before = 1e3 * (on_circle(bench.frame - 2) - Kinematics::kCentreM);
+      const glm::dvec3 now = (on_circle(bench.frame - 1) - Kinematics::kCentreMm);
+      const glm::dvec3 before = (on_circle(bench.frame - 2) - Kinematics::kCentreMm);
       if (!sample.fresh) ++missing;
       ASSERT_LT(glm::distance(sample.position_mm,
                               sample.fresh && fault != WireFault::stale_frame ? now : before),

@@ -15,7 +15,7 @@ namespace clay::falcon {
 namespace {
 
 Grip still() {
-  return [](const glm::dvec3&, double) { return Kinematics::kCentreM; };
+  return [](const glm::dvec3&, double) { return Kinematics::kCentreMm; };
 }
 
 DeviceFault fault_of(const std::vector<std::uint8_t>& bytes) {

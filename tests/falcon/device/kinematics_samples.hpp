@@ -10,7 +10,7 @@
 
 namespace clay::falcon {
 
-inline constexpr double kWorkspaceRadiusM = 0.048;
+inline constexpr double kWorkspaceRadiusMm = 48.0;
 inline constexpr double kPi = std::numbers::pi;
 inline constexpr glm::dvec3 kAxes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
@@ -26,10 +26,10 @@ inline glm::dvec3 any_vector(double size) {
 
 inline glm::dvec3 anywhere_within(double radius) {
   const glm::dvec3 v = any_vector(radius);
-  return Kinematics::kCentreM + v * std::min(1.0, radius / (glm::length(v) + 1e-12));
+  return Kinematics::kCentreMm + v * std::min(1.0, radius / (glm::length(v) + 1e-9));
 }
 
-inline glm::dvec3 anywhere() { return anywhere_within(kWorkspaceRadiusM); }
+inline glm::dvec3 anywhere() { return anywhere_within(kWorkspaceRadiusMm); }
 
 template <class T>
 [[nodiscard]] bool fails_with(const Solved<T>& solved, KinematicsError error) {

@@ -28,11 +28,11 @@ glm::dvec3 end_of(const Geometry& g, int leg, const Chain& t) {
   const auto in_plane = [&](double angle) {
     return std::cos(angle) * along + std::sin(angle) * glm::dvec3(0, 0, 1);
   };
-  return g.base_radial_m * along + g.base_lateral_m * aside + g.thigh_m * in_plane(t.thigh) +
-         g.shin_ends_m * in_plane(t.shin) +
-         g.shin_m *
+  return g.base_radial_mm * along + g.base_lateral_mm * aside + g.thigh_mm * in_plane(t.thigh) +
+         g.shin_ends_mm * in_plane(t.shin) +
+         g.shin_mm *
              (std::sin(t.parallelogram) * in_plane(t.shin) + std::cos(t.parallelogram) * aside) -
-         g.grip_radial_m * along - g.grip_lateral_m * aside;
+         g.grip_radial_mm * along - g.grip_lateral_mm * aside;
 }
 
 RC_GTEST_PROP(ThighAngle, InvertsTheChainOfLinks, ()) {
@@ -53,7 +53,7 @@ TEST(Inverse, NamesTheLegThatCannotReach) {
   for (int leg = 0; leg < 3; ++leg) {
     // Out and over to the other side: beyond the reach of this leg, and within that of the others.
     const double phi = kLegDirectionsRad[leg];
-    const glm::dvec3 far(-0.06 * std::cos(phi), -0.06 * std::sin(phi), 0.165);
+    const glm::dvec3 far(-60.0 * std::cos(phi), -60.0 * std::sin(phi), 165.0);
     EXPECT_FALSE(device.thigh_angle(leg, far));
     EXPECT_TRUE(fails_with(device.inverse(far), errors[leg])) << leg;
     EXPECT_TRUE(fails_with(device.jacobian(far), errors[leg])) << leg;
@@ -64,35 +64,35 @@ TEST(Inverse, NamesTheLegThatCannotReach) {
 TEST(Inverse, RefusesFarAndInvalidPositions) {
   const Kinematics device(kLibnifalconGeometry);
   const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
-  for (const double bad : {0.3, -0.3, nan, inf, -inf, 1e300})
+  for (const double bad : {300.0, -300.0, nan, inf, -inf, 1e300})
     for (const glm::dvec3& axis : kAxes)
-      EXPECT_FALSE(device.inverse(glm::mix(Kinematics::kCentreM, glm::dvec3(bad), axis))) << bad;
+      EXPECT_FALSE(device.inverse(glm::mix(Kinematics::kCentreMm, glm::dvec3(bad), axis))) << bad;
 }
 
 TEST(Inverse, RefusesAFlatShin) {
   Geometry g = kLibnifalconGeometry;
-  g.base_lateral_m = 0.0;
-  g.grip_lateral_m = g.shin_m;
+  g.base_lateral_mm = 0.0;
+  g.grip_lateral_mm = g.shin_mm;
   EXPECT_TRUE(
-      fails_with(Kinematics(g).jacobian({0, 0, 0.06}), KinematicsError::top_leg_unreachable));
-  g.grip_lateral_m *= 0.999;
-  EXPECT_TRUE(Kinematics(g).jacobian({0, 0, 0.06}));
+      fails_with(Kinematics(g).jacobian({0, 0, 60.0}), KinematicsError::top_leg_unreachable));
+  g.grip_lateral_mm *= 0.999;
+  EXPECT_TRUE(Kinematics(g).jacobian({0, 0, 60.0}));
 }
 
 TEST(Forward, AtCountZeroMatchesTheTriangles) {
   // On the axis all legs are equal: the height is a sin t1 plus a leg of the shin's right triangle.
   const auto height = [](const Geometry& g) {
-    const double v = g.grip_lateral_m - g.base_lateral_m, u = g.grip_radial_m - g.base_radial_m;
-    const double shin = g.shin_ends_m + std::sqrt(g.shin_m * g.shin_m - v * v);
-    const double base = u - g.thigh_m * std::cos(g.zero_angle_rad);
-    return g.thigh_m * std::sin(g.zero_angle_rad) + std::sqrt(shin * shin - base * base);
+    const double v = g.grip_lateral_mm - g.base_lateral_mm, u = g.grip_radial_mm - g.base_radial_mm;
+    const double shin = g.shin_ends_mm + std::sqrt(g.shin_mm * g.shin_mm - v * v);
+    const double base = u - g.thigh_mm * std::cos(g.zero_angle_rad);
+    return g.thigh_mm * std::sin(g.zero_angle_rad) + std::sqrt(shin * shin - base * base);
   };
-  EXPECT_NEAR(height(kLibnifalconGeometry), 0.1346, 5e-5);    // published for these sizes
-  EXPECT_NEAR(height(kMartinHillierGeometry), 0.1448, 5e-5);  // by the same triangles, by hand
+  EXPECT_NEAR(height(kLibnifalconGeometry), 134.6, 0.05);    // published for these sizes
+  EXPECT_NEAR(height(kMartinHillierGeometry), 144.8, 0.05);  // by the same triangles, by hand
   for (const Geometry& g : {kLibnifalconGeometry, kMartinHillierGeometry}) {
     const Kinematics device(g);
     const glm::dvec3 position = device.forward(device.angles_of({0, 0, 0})).value();
-    EXPECT_LT(glm::distance(position, {0, 0, height(g)}), 1e-14);
+    EXPECT_LT(glm::distance(position, {0, 0, height(g)}), 1e-11);
   }
 }
 
@@ -101,7 +101,7 @@ RC_GTEST_PROP(Forward, InvertsInverseFromAColdStart, ()) {
   const glm::dvec3 position = anywhere();
   const auto found = device.forward(device.inverse(position).value());
   RC_ASSERT(found.has_value());
-  RC_ASSERT(glm::distance(*found, position) < 1e-14);
+  RC_ASSERT(glm::distance(*found, position) < 1e-11);
 }
 
 RC_GTEST_PROP(Forward, InvertsInverseFromAnyStartInTheWorkspace, ()) {
@@ -109,7 +109,7 @@ RC_GTEST_PROP(Forward, InvertsInverseFromAnyStartInTheWorkspace, ()) {
   const glm::dvec3 position = anywhere();
   const auto found = device.forward(device.inverse(position).value(), anywhere());
   RC_ASSERT(found.has_value());
-  RC_ASSERT(glm::distance(*found, position) < 1e-14);
+  RC_ASSERT(glm::distance(*found, position) < 1e-11);
 }
 
 // Far outside the ball, where a leg is nearly straight or the shins nearly flat.
@@ -129,7 +129,7 @@ RC_GTEST_PROP(Forward, NeverReturnsAFalsePose, ()) {
   const Kinematics& device = any_device();
   const auto counts = *rc::gen::container<LegCounts>(rc::gen::arbitrary<std::int16_t>());
   const glm::dvec3 angles = device.angles_of(counts);
-  const auto found = device.forward(angles, anywhere_within(0.1));
+  const auto found = device.forward(angles, anywhere_within(100.0));
   if (fails_with(found, KinematicsError::not_converged)) return;
   const auto back = device.inverse(*found);
   RC_ASSERT(back.has_value());
@@ -146,7 +146,7 @@ TEST(Forward, ReportsAnglesWithoutAPose) {
     EXPECT_TRUE(fails_with(device.forward(angles), KinematicsError::not_converged));
   }
   EXPECT_FALSE(device.forward(glm::dvec3(0.6), glm::dvec3(nan)));
-  EXPECT_FALSE(device.forward(glm::dvec3(0.6), glm::dvec3(1.0)));
+  EXPECT_FALSE(device.forward(glm::dvec3(0.6), glm::dvec3(1000.0)));
 }
 
 TEST(Kinematics, NamesTheLegsAsTheUserSeesThem) {
@@ -170,7 +170,7 @@ RC_GTEST_PROP(Jacobian, EqualsTheSlopeOfTheAngles, ()) {
   const Kinematics& device = any_device();
   const glm::dvec3 position = anywhere();
   const glm::dmat3 jacobian = device.jacobian(position).value();
-  const double step = 1e-5;
+  const double step = 1e-2;
   for (const glm::dvec3& axis : kAxes) {
     const glm::dvec3 slope = angle_change(device, position, step * axis) / step;
     RC_ASSERT(glm::distance(jacobian * axis, slope) < 1e-6 * glm::length(slope));
@@ -182,21 +182,21 @@ RC_GTEST_PROP(Torques, DoTheWorkOfTheForce, ()) {
   const Kinematics& device = any_device();
   const glm::dvec3 position = anywhere(), force = any_vector(8.0), way = any_vector(1.0);
   RC_PRE(glm::length(way) > 0.1);
-  const glm::dvec3 step = 2e-5 * glm::normalize(way);
+  const glm::dvec3 step = 2e-2 * glm::normalize(way);
   const glm::dvec3 change =
       (8.0 * angle_change(device, position, 0.5 * step) - angle_change(device, position, step)) /
       3.0;
   const double work = glm::dot(device.torques(position, force).value(), change);
-  RC_ASSERT(std::abs(work - glm::dot(force, step)) <= 1e-9 * glm::length(force) * 2e-5);
+  RC_ASSERT(std::abs(work - glm::dot(force, step)) <= 1e-9 * glm::length(force) * 2e-2);
 }
 
 RC_GTEST_PROP(Torques, EqualThePowerOfTheHand, ()) {
   const Kinematics& device = any_device();
-  const glm::dvec3 position = anywhere(), force = any_vector(8.0), velocity = any_vector(1.0);
+  const glm::dvec3 position = anywhere(), force = any_vector(8.0), velocity = any_vector(1000.0);
   const glm::dvec3 torques = device.torques(position, force).value();
   const glm::dvec3 turning = device.jacobian(position).value() * velocity;
   RC_ASSERT(std::abs(glm::dot(torques, turning) - glm::dot(force, velocity)) <=
-            1e-12 * (glm::length(torques) * glm::length(turning) + 1e-3));
+            1e-12 * (glm::length(torques) * glm::length(turning) + 1.0));
 }
 
 // The force that torques make, by slopes of the angles taken numerically: F = J^T torques.
@@ -206,7 +206,7 @@ RC_GTEST_PROP(Torques, PushInTheRequestedDirection, ()) {
   RC_PRE(glm::length(force) > 1e-3);
   const glm::dvec3 torques = device.torques(position, force).value();
   glm::dvec3 felt(0.0);
-  const double step = 1e-5;
+  const double step = 1e-2;
   for (int axis = 0; axis < 3; ++axis)
     felt[axis] = glm::dot(torques, angle_change(device, position, step * kAxes[axis])) / step;
   const double sine = glm::length(glm::cross(felt, force)) / glm::length(felt) / glm::length(force);
@@ -223,7 +223,7 @@ RC_GTEST_PROP(Torques, InWholeCountsKeepTheDirectionWithinACount, ()) {
   const MotorCounts motors = motor_counts(device.torques(position, force).value());
   const glm::dmat3 jacobian = device.jacobian(position).value();
   const auto force_of = [&jacobian](const glm::dvec3& counts) {
-    return -1.0 / kMotorCountsPerNm * counts * jacobian;
+    return -1.0 / kMotorCountsPerNmm * counts * jacobian;
   };
   const glm::dvec3 felt = force_of({motors.counts[0], motors.counts[1], motors.counts[2]});
   double off = 1e-9;
@@ -236,13 +236,13 @@ TEST(Torques, ReportALegWithFlatShins) {
   // z.
   Geometry g = kLibnifalconGeometry;
   const double thigh = kPi / 4;
-  g.grip_lateral_m = g.base_lateral_m;
-  g.grip_radial_m = g.base_radial_m + g.thigh_m * std::cos(thigh) - g.shin_ends_m - g.shin_m;
+  g.grip_lateral_mm = g.base_lateral_mm;
+  g.grip_radial_mm = g.base_radial_mm + g.thigh_mm * std::cos(thigh) - g.shin_ends_mm - g.shin_mm;
   const Kinematics device(g);
-  const glm::dvec3 position(0, 0, g.thigh_m * std::sin(thigh));
+  const glm::dvec3 position(0, 0, g.thigh_mm * std::sin(thigh));
   ASSERT_TRUE(device.jacobian(position));
   EXPECT_TRUE(fails_with(device.torques(position, {0, 0, 1}), KinematicsError::singular));
-  EXPECT_TRUE(device.torques(position + glm::dvec3(0, 0, 1e-3), {0, 0, 1}));
+  EXPECT_TRUE(device.torques(position + glm::dvec3(0, 0, 1.0), {0, 0, 1}));
 }
 
 }  // namespace

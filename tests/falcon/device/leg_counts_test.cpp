@@ -52,15 +52,15 @@ RC_GTEST_PROP(Encoder, CoversTheWorkspaceWithin1600Counts, ()) {
 }
 
 TEST(MotorCounts, AreTheNegatedTorques) {
-  const MotorCounts motors = motor_counts({0.1, -0.2, 0.00026}, 10000.0);
+  const MotorCounts motors = motor_counts({100.0, -200.0, 0.26}, 10.0);
   EXPECT_EQ(motors.counts, (LegCounts{-1000, 2000, -3}));
   EXPECT_EQ(motors.rendered, 1.0);
-  EXPECT_EQ(motor_counts({1.9835e-5 * 7.62 * 100, 0, 0}).counts, (LegCounts{-100, 0, 0}));
+  EXPECT_EQ(motor_counts({0.019835 * 7.62 * 100, 0, 0}).counts, (LegCounts{-100, 0, 0}));
 }
 
 RC_GTEST_PROP(MotorCounts, KeepTheDirectionWhenAMotorSaturates, ()) {
-  const glm::dvec3 torques = any_vector(5.0);
-  const double scale = 10000.0;
+  const glm::dvec3 torques = any_vector(5000.0);
+  const double scale = 10.0;
   const MotorCounts motors = motor_counts(torques, scale);
   const double peak = std::max({std::abs(torques.x), std::abs(torques.y), std::abs(torques.z)});
   RC_ASSERT(std::abs(motors.rendered * std::max(1.0, peak * scale / 4095) - 1.0) < 1e-12);
@@ -89,7 +89,7 @@ TEST(MotorCounts, GiveTheStatedForceInEveryDirection) {
   const auto most_newtons = [&](const glm::dvec3& direction) {
     const double probe_n = 1000.0;
     return probe_n *
-           motor_counts(device.torques({0, 0, 0.125}, probe_n * direction).value()).rendered;
+           motor_counts(device.torques({0, 0, 125.0}, probe_n * direction).value()).rendered;
   };
   double weakest = std::numeric_limits<double>::infinity();
   for (double polar = 0.0; polar <= kPi; polar += 0.05)

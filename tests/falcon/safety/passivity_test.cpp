@@ -17,10 +17,10 @@
 namespace clay::falcon {
 namespace {
 
-PassivityController controller_of(const SampledLoop& loop, double step_m = 0.0) {
+PassivityController controller_of(const SampledLoop& loop, double step_mm = 0.0) {
   PassivitySpec spec;
   spec.loop = loop;
-  spec.step_m = step_m;
+  spec.step_mm = step_mm;
   return PassivityController::build(spec).value();
 }
 
@@ -39,25 +39,25 @@ void play(PassivityController& controller, double stiffness, int ticks,
 /// In by 5 mm at a part of the force, out at another: what the hand was given, by forces times
 /// ways, and what the controller came to.
 struct PressAndLeave {
-  double given_j = 0.0, debt_j = 0.0;
+  double given_mj = 0.0, debt_mj = 0.0;
   PassivityState worst = PassivityState::watching;
 };
 PressAndLeave press_and_leave(double part_in, double part_out, bool told) {
-  constexpr double kStiffness = 400.0, kDepthM = 5e-3;
-  PassivityController controller = controller_of({1000, 0.1, 0.5, 0});
+  constexpr double kStiffness = 0.4, kDepthMm = 5.0;
+  PassivityController controller = controller_of({1000, 0.1, 0.0005, 0});
   PressAndLeave run;
-  double before_m = 0.0, held_n = 0.0;
+  double before_mm = 0.0, held_n = 0.0;
   for (int k = 0; k <= 1000; ++k) {
     const bool in = k <= 500;
-    const double x_m = 1e-6 - kDepthM * (in ? k : 1000 - k) / 500.0;
-    run.given_j += held_n * (x_m - before_m);
-    before_m = x_m;
-    const glm::dvec3 asked = along(kStiffness * std::max(0.0, -x_m));
-    const PassiveForce answer = controller.tick(1000 * k, along(x_m), asked);
+    const double x_mm = 1e-3 - kDepthMm * (in ? k : 1000 - k) / 500.0;
+    run.given_mj += held_n * (x_mm - before_mm);
+    before_mm = x_mm;
+    const glm::dvec3 asked = along(kStiffness * std::max(0.0, -x_mm));
+    const PassiveForce answer = controller.tick(1000 * k, along(x_mm), asked);
     const glm::dvec3 shown = (in ? part_in : part_out) * answer.force_n;
     if (told) controller.displayed(shown);
     held_n = shown.x;
-    run.debt_j = std::max(run.debt_j, controller.observer().debt_j());
+    run.debt_mj = std::max(run.debt_mj, controller.observer().debt_mj());
     run.worst = std::max(run.worst, answer.state);
   }
   return run;
@@ -66,44 +66,44 @@ PressAndLeave press_and_leave(double part_in, double part_out, bool told) {
 // A guard's ramp that grows in the middle of a contact gives the hand more on its way out than it
 // took on its way in: at most F^2 / 2K, and the controller sees it when it is told what was shown.
 TEST(Passivity, CountsTheForceThatIsDisplayed) {
-  const double stored_j = 0.5 * 400.0 * 25e-6;
+  const double stored_mj = 0.5 * 0.4 * 25.0;
   const PressAndLeave steady = press_and_leave(1.0, 1.0, true);
-  EXPECT_NEAR(steady.given_j, 0.0, 0.01 * stored_j);
+  EXPECT_NEAR(steady.given_mj, 0.0, 0.01 * stored_mj);
   EXPECT_EQ(steady.worst, PassivityState::watching);
 
   const PressAndLeave untold = press_and_leave(0.1, 1.0, false);
-  EXPECT_NEAR(untold.given_j, 0.9 * stored_j, 0.01 * stored_j);
+  EXPECT_NEAR(untold.given_mj, 0.9 * stored_mj, 0.01 * stored_mj);
   EXPECT_EQ(untold.worst, PassivityState::watching) << "it believes in credit that there is not";
 
   const PressAndLeave told = press_and_leave(0.1, 1.0, true);
   EXPECT_EQ(told.worst, PassivityState::damping);
-  EXPECT_LT(told.given_j, 0.95 * untold.given_j);
-  EXPECT_GT(told.debt_j, 0.0);
+  EXPECT_LT(told.given_mj, 0.95 * untold.given_mj);
+  EXPECT_GT(told.debt_mj, 0.0);
 
   const PressAndLeave less = press_and_leave(1.0, 0.1, true);
-  EXPECT_LT(less.given_j, 0.0) << "a force that fades takes energy";
+  EXPECT_LT(less.given_mj, 0.0) << "a force that fades takes energy";
   EXPECT_EQ(less.worst, PassivityState::watching);
 }
 
 TEST(Passivity, IgnoresANonFiniteDisplayedForce) {
   PassivityController told = controller_of(kLoop), untold = controller_of(kLoop);
   for (int k = 0; k < 100; ++k) {
-    const glm::dvec3 at = along(-1e-5 * k), asked = along(4e-3 * k);
+    const glm::dvec3 at = along(-1e-2 * k), asked = along(4e-3 * k);
     EXPECT_EQ(told.tick(1000 * k, at, asked).force_n, untold.tick(1000 * k, at, asked).force_n);
     told.displayed(along(std::nan("")));
   }
-  EXPECT_EQ(told.observer().injected_j(), untold.observer().injected_j());
+  EXPECT_EQ(told.observer().injected_mj(), untold.observer().injected_mj());
 }
 
 RC_GTEST_PROP(Passivity, AnAcceptedSpringPassesUnchanged, ()) {
   SampledLoop loop = kLoop;
   loop.delay_ticks = *rc::gen::inRange(0, 4);
-  loop.damping_ns_per_m = within(0.5, 10.0);
+  loop.damping_ns_per_mm = within(0.0005, 0.01);
   PassivityController controller = controller_of(loop);
   // Whatever passive hand: swings of any frequency up to 30 Hz, in and out of the contact.
   std::vector<glm::dvec3> waves;
-  for (int n = 0; n < 4; ++n) waves.push_back({within(0, 4e-4), within(1, 30), within(0, 6)});
-  const double offset = within(-2e-3, 0.0);
+  for (int n = 0; n < 4; ++n) waves.push_back({within(0, 0.4), within(1, 30), within(0, 6)});
+  const double offset = within(-2.0, 0.0);
   const auto path = [&](double t) {
     double x = offset * t;  // it starts outside
     for (const auto& w : waves)
@@ -122,15 +122,15 @@ RC_GTEST_PROP(Passivity, AnAcceptedSpringPassesUnchanged, ()) {
 }
 
 TEST(Passivity, DisplaysAStiffContactAtTheAcceptedStiffness) {
-  PassivityController controller = controller_of(kLoop);  // accepted: b / T = 2000 N/m
-  const auto path = [](double t) { return 1e-4 - 0.01 * t; };
+  PassivityController controller = controller_of(kLoop);  // accepted: b / T = 2 N/mm
+  const auto path = [](double t) { return 0.1 - 10.0 * t; };
   double at = 0.0;
-  play(controller, 1e6, 200, path, [&](const PassiveForce& sent, const glm::dvec3& asked) {
+  play(controller, 1e3, 200, path, [&](const PassiveForce& sent, const glm::dvec3& asked) {
     const double x = path(kTickS * at++);
-    const double earned = asked.x > 0.0 ? -2000.0 * x : 0.0;
+    const double earned = asked.x > 0.0 ? -2.0 * x : 0.0;
     // From the last reading outside, at most one tick's way before the surface.
     EXPECT_GE(sent.force_n.x, earned - 1e-12);
-    EXPECT_LE(sent.force_n.x, earned + 2000.0 * 1.1e-5);
+    EXPECT_LE(sent.force_n.x, earned + 2.0 * 1.1e-2);
   });
 }
 
@@ -140,78 +140,78 @@ TEST(Passivity, ForceBuildsUpByInwardMotion) {
   const auto sent = [&](double x, double asked) {
     return controller.tick(time_us += 1000, along(x), along(asked)).force_n.x;
   };
-  EXPECT_EQ(sent(-1.0e-3, 5), 0.0);  // begins within
-  EXPECT_NEAR(sent(-1.5e-3, 5), 1.0, 1e-12);
-  EXPECT_NEAR(sent(-2.0e-3, 5), 2.0, 1e-12);
-  EXPECT_NEAR(sent(-1.8e-3, 5), 1.6, 1e-12);
-  EXPECT_EQ(sent(-1.7e-3, 0), 0.0);  // lets go
-  EXPECT_NEAR(sent(-1.8e-3, 5), 0.2, 1e-12);
+  EXPECT_EQ(sent(-1.0, 5), 0.0);  // begins within
+  EXPECT_NEAR(sent(-1.5, 5), 1.0, 1e-12);
+  EXPECT_NEAR(sent(-2.0, 5), 2.0, 1e-12);
+  EXPECT_NEAR(sent(-1.8, 5), 1.6, 1e-12);
+  EXPECT_EQ(sent(-1.7, 0), 0.0);  // lets go
+  EXPECT_NEAR(sent(-1.8, 5), 0.2, 1e-12);
 }
 
-/// A contact that takes next to nothing on 20 mm in, and gives `gain_j` on 1 mm out.
-void give(PassivityController& controller, std::int64_t& time_us, double gain_j) {
+/// A contact that takes next to nothing on 20 mm in, and gives `gain_mj` on 1 mm out.
+void give(PassivityController& controller, std::int64_t& time_us, double gain_mj) {
   const auto tick = [&](double x, double force) {
     (void)controller.tick(time_us += 1000, along(x), along(force));
   };
-  for (int k = 0; k <= 2000; ++k) tick(-1e-5 * k, k > 0 ? 1e-6 : 0.0);
-  for (int k = 0; k < 20; ++k) tick(-2e-2 + 5e-5 * k, gain_j / 1e-3);
-  tick(-19e-3, 0.0);
-  tick(-19e-3, 0.0);
+  for (int k = 0; k <= 2000; ++k) tick(-1e-2 * k, k > 0 ? 1e-6 : 0.0);
+  for (int k = 0; k < 20; ++k) tick(-20.0 + 0.05 * k, gain_mj / 1.0);
+  tick(-19.0, 0.0);
+  tick(-19.0, 0.0);
 }
 
 TEST(Passivity, DampingRemovesTheInjectedEnergyExactly) {
   PassivityController controller = controller_of(kLoop);
   std::int64_t time_us = 0;
-  give(controller, time_us, 2e-3);
-  const double debt = controller.observer().injected_j();
-  ASSERT_GT(debt, 1e-5);
+  give(controller, time_us, 2.0);
+  const double debt = controller.observer().injected_mj();
+  ASSERT_GT(debt, 1e-2);
   ASSERT_EQ(controller.state(), PassivityState::damping);
   // The hand moves on at 50 mm/s, free. Each tick pays, none more than the bound.
-  double x = -19e-3, owed = debt;
-  const double way = 5e-5, most = controller.most_damping_ns_per_m();
+  double x = -19.0, owed = debt;
+  const double way = 0.05, most = controller.most_damping_ns_per_mm();
   for (int k = 0; k < 1000 && controller.state() == PassivityState::damping; ++k) {
     x += way;
     const PassiveForce sent = controller.tick(time_us += 1000, along(x), along(0));
     EXPECT_LE(-sent.force_n.x, most * way / kTickS * (1 + 1e-12));
     EXPECT_LE(sent.force_n.x, 0.0);
-    EXPECT_LE(controller.observer().injected_j(), owed);
-    owed = controller.observer().injected_j();
+    EXPECT_LE(controller.observer().injected_mj(), owed);
+    owed = controller.observer().injected_mj();
   }
   EXPECT_EQ(controller.state(), PassivityState::watching);
-  EXPECT_NEAR(controller.observer().injected_j(), controller.observer().tolerance_j(), 1e-12);
+  EXPECT_NEAR(controller.observer().injected_mj(), controller.observer().tolerance_mj(), 1e-9);
 }
 
 TEST(Passivity, BoundOfTheDampingFollowsFromTheSampleTime) {
-  const SampledLoop slow{100, 0.1, 1e-3, 1}, fast{1000, 0.1, 1e-3, 1};
+  const SampledLoop slow{100, 0.1, 1e-6, 1}, fast{1000, 0.1, 1e-6, 1};
   // Half of what a free mass bears: (sqrt 8 - 2) m / 2T, to the little that the spring takes.
-  EXPECT_NEAR(controller_of(slow).most_damping_ns_per_m(), (std::sqrt(8.0) - 2.0) * 5.0, 0.02);
-  EXPECT_NEAR(controller_of(fast).most_damping_ns_per_m(), (std::sqrt(8.0) - 2.0) * 50.0, 0.2);
+  EXPECT_NEAR(controller_of(slow).most_damping_ns_per_mm(), (std::sqrt(8.0) - 2.0) * 0.005, 2e-5);
+  EXPECT_NEAR(controller_of(fast).most_damping_ns_per_mm(), (std::sqrt(8.0) - 2.0) * 0.05, 2e-4);
   // And where the encoder is coarse, a step in a tick is a quarter of 1 N.
-  EXPECT_NEAR(controller_of(fast, 5e-5).most_damping_ns_per_m(), 0.25 * kTickS / 5e-5, 1e-12);
+  EXPECT_NEAR(controller_of(fast, 0.05).most_damping_ns_per_mm(), 0.25 * kTickS / 0.05, 1e-15);
 }
 
 TEST(Passivity, TooMuchEnergyYieldsThenEndsTheForce) {
   PassivityController controller = controller_of(kLoop);
   std::int64_t time_us = 0;
-  give(controller, time_us, 11e-3);
+  give(controller, time_us, 11.0);
   EXPECT_EQ(controller.state(), PassivityState::yielding);
   // Half of b / T from now on.
-  EXPECT_NEAR(controller.tick(time_us += 1000, along(-19.5e-3), along(5)).force_n.x, 0.5, 1e-12);
+  EXPECT_NEAR(controller.tick(time_us += 1000, along(-19.5), along(5)).force_n.x, 0.5, 1e-12);
   (void)controller.tick(time_us += 1000, along(0), along(0));
-  give(controller, time_us, 11e-3);
+  give(controller, time_us, 11.0);
   EXPECT_EQ(controller.state(), PassivityState::safe);
-  EXPECT_EQ(controller.tick(time_us += 1000, along(-1e-2), along(5)).force_n, along(0));
-  EXPECT_EQ(controller.tick(time_us += 1000, along(-2e-2), along(5)).force_n, along(0));
+  EXPECT_EQ(controller.tick(time_us += 1000, along(-10.0), along(5)).force_n, along(0));
+  EXPECT_EQ(controller.tick(time_us += 1000, along(-20.0), along(5)).force_n, along(0));
   controller.reset();
   EXPECT_EQ(controller.state(), PassivityState::watching);
   (void)controller.tick(0, along(0), along(0));
-  EXPECT_EQ(controller.tick(1000, along(-1e-3), along(1)).force_n, along(1));
+  EXPECT_EQ(controller.tick(1000, along(-1.0), along(1)).force_n, along(1));
 }
 
 TEST(Passivity, LittleEnergyDoesNotYield) {
   PassivityController controller = controller_of(kLoop);
   std::int64_t time_us = 0;
-  give(controller, time_us, 2e-3);
+  give(controller, time_us, 2.0);
   EXPECT_EQ(controller.state(), PassivityState::damping);
 }
 
@@ -221,7 +221,7 @@ TEST(Passivity, OscillatingForceYields) {
       PassivityController controller = controller_of(kLoop);
       for (int k = 0; k < 200; ++k) {
         const double force = 2.0 + (k / half_period_ticks % 2) * swing;
-        (void)controller.tick(k * 1000, along(-1e-2), along(k < 20 ? 2.0 : force));
+        (void)controller.tick(k * 1000, along(-10.0), along(k < 20 ? 2.0 : force));
       }
       EXPECT_EQ(controller.state() != PassivityState::watching,
                 swing > 1.0 && half_period_ticks == 6)
@@ -234,14 +234,14 @@ TEST(Passivity, InvalidTickGivesNoForceAndChangesNothing) {
   PassivityController controller = controller_of(kLoop);
   const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
   (void)controller.tick(0, along(0), along(0));
-  (void)controller.tick(1000, along(-1e-3), along(1));
-  const double before = controller.observer().injected_j();
+  (void)controller.tick(1000, along(-1.0), along(1));
+  const double before = controller.observer().injected_mj();
   EXPECT_EQ(controller.tick(2000, along(nan), along(1)).force_n, along(0));
-  EXPECT_EQ(controller.tick(2000, along(-1e-3), {0, inf, 0}).force_n, along(0));
-  EXPECT_EQ(controller.tick(1000, along(-1e-3), along(1)).force_n, along(0));  // time stands
-  EXPECT_EQ(controller.tick(-5, along(-1e-3), along(1)).force_n, along(0));    // runs back
-  EXPECT_EQ(controller.observer().injected_j(), before);
-  EXPECT_EQ(controller.tick(3000, along(-1e-3), along(1)).force_n, along(1));
+  EXPECT_EQ(controller.tick(2000, along(-1.0), {0, inf, 0}).force_n, along(0));
+  EXPECT_EQ(controller.tick(1000, along(-1.0), along(1)).force_n, along(0));  // time stands
+  EXPECT_EQ(controller.tick(-5, along(-1.0), along(1)).force_n, along(0));    // runs back
+  EXPECT_EQ(controller.observer().injected_mj(), before);
+  EXPECT_EQ(controller.tick(3000, along(-1.0), along(1)).force_n, along(1));
 }
 
 TEST(Passivity, NamesARefusedSetting) {
@@ -253,8 +253,8 @@ TEST(Passivity, NamesARefusedSetting) {
   };
   EXPECT_EQ(refused([](PassivitySpec&) {}), "");
   EXPECT_EQ(refused([](PassivitySpec& s) { s.loop.rate_hz = 0; }), "rate_hz");
-  EXPECT_EQ(refused([](PassivitySpec& s) { s.step_m = -1; }), "step_m");
-  EXPECT_EQ(refused([](PassivitySpec& s) { s.energy_limit_j = 0; }), "energy_limit_j");
+  EXPECT_EQ(refused([](PassivitySpec& s) { s.step_mm = -1; }), "step_mm");
+  EXPECT_EQ(refused([](PassivitySpec& s) { s.energy_limit_mj = 0; }), "energy_limit_mj");
   EXPECT_EQ(refused([](PassivitySpec& s) { s.energy_window_s = 11; }), "energy_window_s");
   EXPECT_EQ(refused([](PassivitySpec& s) { s.reversal_limit = 17; }), "reversal_limit");
   EXPECT_EQ(refused([](PassivitySpec& s) { s.reversal_window_s = std::nan(""); }),

@@ -13,44 +13,44 @@ namespace clay::falcon {
 namespace {
 
 SampledLoop any_loop(int delay) {
-  return {std::pow(10.0, within(2.0, 3.9)), within(0.1, 0.5), within(0.2, 20.0), delay};
+  return {std::pow(10.0, within(2.0, 3.9)), within(0.1, 0.5), within(2e-4, 0.02), delay};
 }
 
 RC_GTEST_PROP(PassiveDamping, WithoutDelayIsColgateAndSchenkels, ()) {
   const SampledLoop loop = any_loop(0);
-  const VirtualWall wall{within(0.0, 1e4), within(-10.0, 10.0)};
+  const VirtualWall wall{within(0.0, 10.0), within(-0.01, 0.01)};
   const double expected =
-      0.5 * wall.stiffness_n_per_m / loop.rate_hz + std::abs(wall.damping_ns_per_m);
+      0.5 * wall.stiffness_n_per_mm / loop.rate_hz + std::abs(wall.damping_ns_per_mm);
   RC_ASSERT(std::abs(passive_damping(loop, wall) - expected) <= 1e-9 * expected);
 }
 
 RC_GTEST_PROP(PassiveDamping, AtAnAngleIsTheIntegrandOfTheTheorem, ()) {
   // T/2 Re{(1 - e^-jwT) H(e^jwT)} / (1 - cos wT), H = (K + B (z - 1)/(T z)) z^-n.
   const SampledLoop loop = any_loop(*rc::gen::inRange(0, 9));
-  const VirtualWall wall{within(0.0, 1e4), within(-10.0, 10.0)};
+  const VirtualWall wall{within(0.0, 10.0), within(-0.01, 0.01)};
   const double angle = within(0.01, std::numbers::pi), period = loop.period_s();
   const std::complex<double> back = std::polar(1.0, -angle);
-  const auto h = (wall.stiffness_n_per_m + wall.damping_ns_per_m * (1.0 - back) / period) *
+  const auto h = (wall.stiffness_n_per_mm + wall.damping_ns_per_mm * (1.0 - back) / period) *
                  std::pow(back, loop.delay_ticks);
   const double expected = 0.5 * period * ((1.0 - back) * h).real() / (1.0 - std::cos(angle));
   const double found = passive_damping_at(loop, wall, angle);
-  RC_ASSERT(std::abs(found - expected) <= 1e-7 * (1.0 + std::abs(expected)));
-  RC_ASSERT(found <= passive_damping(loop, wall) + 1e-12);
+  RC_ASSERT(std::abs(found - expected) <= 1e-7 * (1e-3 + std::abs(expected)));
+  RC_ASSERT(found <= passive_damping(loop, wall) + 1e-15);
 }
 
 RC_GTEST_PROP(PassiveDamping, IsMetBySomeMotion, ()) {
   const SampledLoop loop = any_loop(*rc::gen::inRange(0, 9));
-  const VirtualWall wall{within(0.0, 1e4), within(-10.0, 10.0)};
+  const VirtualWall wall{within(0.0, 10.0), within(-0.01, 0.01)};
   double most = -1e300;
   for (int k = 0; k <= 20000; ++k)
     most = std::max(most, passive_damping_at(loop, wall, std::numbers::pi * k / 20000));
-  RC_ASSERT(std::abs(passive_damping(loop, wall) - most) <= 1e-5 * (1.0 + std::abs(most)));
+  RC_ASSERT(std::abs(passive_damping(loop, wall) - most) <= 1e-5 * (1e-3 + std::abs(most)));
 }
 
 RC_GTEST_PROP(PassiveStiffness, NeedsAllTheDampingThereIs, ()) {
   const SampledLoop loop = any_loop(*rc::gen::inRange(0, 9));
   const double needed = passive_damping(loop, {passive_stiffness(loop), 0.0});
-  RC_ASSERT(std::abs(needed - loop.damping_ns_per_m) <= 1e-12 * needed);
+  RC_ASSERT(std::abs(needed - loop.damping_ns_per_mm) <= 1e-12 * needed);
 }
 
 /// From held force to position, by the textbook's exponentials.
@@ -58,7 +58,7 @@ struct Held {
   double p, c1, c0;
 };
 Held held(const SampledLoop& loop) {
-  const long double b = loop.damping_ns_per_m, m = loop.mass_kg, t = 1.0L / loop.rate_hz;
+  const long double b = loop.damping_ns_per_mm, m = 1e-3L * loop.mass_kg, t = 1.0L / loop.rate_hz;
   const long double p = std::exp(-b * t / m), gone = -std::expm1(-b * t / m);
   return {static_cast<double>(p), static_cast<double>((t - m / b * gone) / b),
           static_cast<double>((m / b * gone - t * p) / b)};
@@ -91,39 +91,39 @@ RC_GTEST_PROP(StableStiffness, IsNotBelowWhatIsPassive, ()) {
 }
 
 TEST(StableStiffness, OfTheArmOfTheDocs) {
-  // 0.1 kg, 2 N s/m, 1 kHz, one tick late; by hand from the quadratic.
-  EXPECT_NEAR(stable_stiffness({1000, 0.1, 2.0, 1}), 1340.7, 0.05);
+  // 0.1 kg, 0.002 N s/mm, 1 kHz, one tick late; by hand from the quadratic.
+  EXPECT_NEAR(stable_stiffness({1000, 0.1, 0.002, 1}), 1.3407, 5e-5);
 }
 
 TEST(StableStiffness, IsNoneWithoutDamping) {
   for (int delay = 0; delay <= 3; ++delay)
-    EXPECT_LT(stable_stiffness({1000, 0.1, 0.0, delay}), 1e-6) << delay;
+    EXPECT_LT(stable_stiffness({1000, 0.1, 0.0, delay}), 1e-9) << delay;
 }
 
 TEST(StableDamping, OfAFreeMassMatchesItsDifferenceEquation) {
   // v' = v - a (v + v_before)/2: a < 2. One tick late, z^3 - z^2 + a (z + 1)/2: a < 2 sqrt(2) - 2.
-  const double m = 0.1, rate = 1000;
-  EXPECT_NEAR(stable_damping({rate, m, 1e-4, 0}, 1e-3), 2.0 * m * rate, 0.01);
-  EXPECT_NEAR(stable_damping({rate, m, 1e-4, 1}, 1e-3), (std::sqrt(8.0) - 2.0) * m * rate, 0.01);
+  const double m = 1e-4, rate = 1000;
+  EXPECT_NEAR(stable_damping({rate, 0.1, 1e-7, 0}, 1e-6), 2.0 * m * rate, 1e-5);
+  EXPECT_NEAR(stable_damping({rate, 0.1, 1e-7, 1}, 1e-6), (std::sqrt(8.0) - 2.0) * m * rate, 1e-5);
 }
 
 TEST(CheckStiffness, RefusesAboveHalfOfThePassiveLimitAndNamesBothRemedies) {
-  const SampledLoop loop{1000, 0.1, 2.0, 1};  // passive: 2 b / 3 T = 1333.3 N/m
+  const SampledLoop loop{1000, 0.1, 0.002, 1};  // passive: 2 b / 3 T = 1.3333 N/mm
   EXPECT_TRUE(check_stiffness(loop, 0.0));
-  EXPECT_TRUE(check_stiffness(loop, 666.6));
-  const auto refused = check_stiffness(loop, 1000.0);
+  EXPECT_TRUE(check_stiffness(loop, 0.6666));
+  const auto refused = check_stiffness(loop, 1.0);
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().found_n_per_m, 1000.0);
-  EXPECT_NEAR(refused.error().highest_n_per_m, 666.667, 1e-3);
+  EXPECT_EQ(refused.error().found_n_per_mm, 1.0);
+  EXPECT_NEAR(refused.error().highest_n_per_mm, 0.666667, 1e-6);
   EXPECT_NEAR(refused.error().lowest_rate_hz, 1500.0, 1e-9);
-  EXPECT_TRUE(check_stiffness(loop, refused.error().highest_n_per_m));
+  EXPECT_TRUE(check_stiffness(loop, refused.error().highest_n_per_mm));
   SampledLoop faster = loop;
   faster.rate_hz = refused.error().lowest_rate_hz * (1.0 + 1e-12);
-  EXPECT_TRUE(check_stiffness(faster, 1000.0));
+  EXPECT_TRUE(check_stiffness(faster, 1.0));
   SampledLoop punctual = loop;
   punctual.delay_ticks = 0;  // half of 2 b / T
-  EXPECT_TRUE(check_stiffness(punctual, 2000.0));
-  EXPECT_FALSE(check_stiffness(punctual, 2000.1));
+  EXPECT_TRUE(check_stiffness(punctual, 2.0));
+  EXPECT_FALSE(check_stiffness(punctual, 2.0001));
 }
 
 TEST(CheckStiffness, RefusesInvalidStiffness) {

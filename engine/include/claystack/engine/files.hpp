@@ -49,6 +49,23 @@ struct Session {
 
 inline constexpr std::size_t kPosesPerBlock = 100;
 
+/// Poses that were played, in order.
+struct PoseBlock {
+  std::span<const Pose> poses;    ///< at most kPosesPerBlock, quantized, later than all before them
+  std::span<const bool> contact;  ///< for each pose: whether the tool was in the clay
+};
+
+/// Receives the poses of a stroke as they are played: a session or a journal. Called from one
+/// thread at a time.
+class PoseSink {
+ public:
+  virtual ~PoseSink() = default;
+  /// After an error nothing more is appended.
+  virtual Result<void> append(const PoseBlock& block) = 0;
+  /// The end of the poses. An error: not all of them were stored.
+  virtual Result<void> finish() = 0;
+};
+
 /// The most poses of a session, and of all strokes of a work together: 2.7 hours at 1 kHz, 460 MiB
 /// in memory.
 inline constexpr std::size_t kMaxPoses = 10'000'000;

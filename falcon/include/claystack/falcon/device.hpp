@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
+#include <type_traits>
 #include <utility>
 
 namespace clay::falcon::inline device {
@@ -30,9 +31,8 @@ enum class DeviceFault {
   bad_setting,
 };
 
-/// An error of core with its fault: it can be returned as it is where a Result is expected. A fault
-/// of the user's files or settings is bad input, any other is the device's. The message has the
-/// fault and its remedy.
+/// An Error of core with its fault. A fault of the user's files or settings is bad input, any other
+/// is the device's. The message has the fault and its remedy.
 struct DeviceError : Error {
   DeviceError() : DeviceError(DeviceFault::transfer_failed, {}) {}
   DeviceError(DeviceFault device_fault, std::string found, std::string help = {});
@@ -42,8 +42,13 @@ struct DeviceError : Error {
   std::string remedy;  ///< the action that may help; empty if none is known
 };
 
+/// The Result of core, which it converts to, with the fault kept: a program reacts to it, for
+/// example to no_firmware by loading some. Result itself cannot carry it, because core knows no
+/// devices. Everything in falcon that a user can cause returns one of the two; only settings and
+/// kinematics, which must not allocate, return OutOfRange and KinematicsError instead.
 template <class T>
 using DeviceResult = tl::expected<T, DeviceError>;
+static_assert(std::is_convertible_v<DeviceResult<int>, Result<int>>);
 
 [[nodiscard]] inline tl::unexpected<DeviceError> device_failure(DeviceFault fault, std::string what,
                                                                 std::string remedy = {}) {

@@ -21,7 +21,7 @@
 namespace clay::falcon::inline device {
 
 // ---- geometry ------------------------------------------------------------------------
-// Dimensions of the Novint Falcon in SI units. No accurate measurement is published: the two
+// Dimensions of the Novint Falcon. No accurate measurement is published: the two
 // published sets differ by up to 10 mm in the grip's z, so absolute position is uncertain by that
 // much. Motion relative to a start is not.
 
@@ -31,26 +31,26 @@ inline constexpr double kLegDirectionsRad[] = {std::numbers::pi * 7 / 12, -std::
 
 /// One leg (all three are equal); letters as in Stamper's thesis (see Kinematics).
 struct Geometry {
-  double thigh_m;         ///< a: hip to knee
-  double shin_m;          ///< b: side of the shin's parallelogram
-  double shin_ends_m;     ///< d + e: from knee and grip to the parallelogram's corners
-  double base_radial_m;   ///< r: centre to hip, along the leg's direction
-  double base_lateral_m;  ///< s: the same, perpendicular to it
-  double grip_radial_m;   ///< c: grip centre to its joint, along the leg's direction
-  double grip_lateral_m;  ///< f: the same, perpendicular to it
-  double gear_ratio;      ///< motor turns per turn of the thigh
-  double zero_angle_rad;  ///< thigh angle at encoder count 0
+  double thigh_mm;         ///< a: hip to knee
+  double shin_mm;          ///< b: side of the shin's parallelogram
+  double shin_ends_mm;     ///< d + e: from knee and grip to the parallelogram's corners
+  double base_radial_mm;   ///< r: centre to hip, along the leg's direction
+  double base_lateral_mm;  ///< s: the same, perpendicular to it
+  double grip_radial_mm;   ///< c: grip centre to its joint, along the leg's direction
+  double grip_lateral_mm;  ///< f: the same, perpendicular to it
+  double gear_ratio;       ///< motor turns per turn of the thigh
+  double zero_angle_rad;   ///< thigh angle at encoder count 0
 };
 
 /// libnifalcon, FalconGeometry.h.
 inline constexpr Geometry kLibnifalconGeometry = {
-    .thigh_m = 0.060,
-    .shin_m = 0.1025,
-    .shin_ends_m = 2 * 0.01125,
-    .base_radial_m = 0.0400,
-    .base_lateral_m = -0.02309,
-    .grip_radial_m = 0.01443,
-    .grip_lateral_m = -0.025,
+    .thigh_mm = 60.0,
+    .shin_mm = 102.5,
+    .shin_ends_mm = 2 * 11.25,
+    .base_radial_mm = 40.0,
+    .base_lateral_mm = -23.09,
+    .grip_radial_mm = 14.43,
+    .grip_lateral_mm = -25.0,
     .gear_ratio = 0.110 / 0.01425,
     .zero_angle_rad = std::numbers::pi * 35 / 180,
 };
@@ -58,13 +58,13 @@ inline constexpr Geometry kLibnifalconGeometry = {
 /// Martin and Hillier, "Characterisation of the Novint Falcon haptic device for application as a
 /// robot manipulator", ACRA 2009. The zero angle is the one reported by users of this set.
 inline constexpr Geometry kMartinHillierGeometry = {
-    .thigh_m = 0.060,
-    .shin_m = 0.1025,
-    .shin_ends_m = 2 * 0.0115,
-    .base_radial_m = 0.0366,
-    .base_lateral_m = 0.0272,
-    .grip_radial_m = 0.0157,
-    .grip_lateral_m = 0.0262,
+    .thigh_mm = 60.0,
+    .shin_mm = 102.5,
+    .shin_ends_mm = 2 * 11.5,
+    .base_radial_mm = 36.6,
+    .base_lateral_mm = 27.2,
+    .grip_radial_mm = 15.7,
+    .grip_lateral_mm = 26.2,
     .gear_ratio = 7.62,
     .zero_angle_rad = std::numbers::pi * 40 / 180,
 };
@@ -72,9 +72,9 @@ inline constexpr Geometry kMartinHillierGeometry = {
 /// 320 slots of the encoder wheel, each counted four times in quadrature.
 inline constexpr double kCountsPerMotorTurn = 320 * 4;
 
-/// Motor counts for 1 N m at the thigh: Martin and Hillier measured 1.9835e-5 N m per count at the
-/// motor, which agrees with the force Novint states. libnifalcon's 10000 renders 1.5 times as much.
-inline constexpr double kMotorCountsPerNm = 1.0 / (1.9835e-5 * 7.62);
+/// Motor counts for 1 N mm at the thigh: Martin and Hillier measured 0.019835 N mm per count at the
+/// motor, which agrees with the force Novint states. libnifalcon's 10 renders 1.5 times as much.
+inline constexpr double kMotorCountsPerNmm = 1.0 / (0.019835 * 7.62);
 
 // ---- frame ---------------------------------------------------------------------------
 // The Falcon's run-time frame, 16 bytes out and 16 back:
@@ -180,30 +180,30 @@ using Solved = tl::expected<T, KinematicsError>;
 class Kinematics {
  public:
   /// Middle of the workspace, a ball of 48 mm about it.
-  static constexpr glm::dvec3 kCentreM{0.0, 0.0, 0.13};
+  static constexpr glm::dvec3 kCentreMm{0.0, 0.0, 130.0};
 
   explicit Kinematics(const Geometry& geometry) noexcept;
 
   /// Thigh angle t1 [rad] of one leg, 0 to 2, in closed form; empty if out of reach.
   [[nodiscard]] std::optional<double> thigh_angle(int leg,
-                                                  const glm::dvec3& position_m) const noexcept;
+                                                  const glm::dvec3& position_mm) const noexcept;
 
   /// All three. The error names the first leg that cannot reach.
-  [[nodiscard]] Solved<glm::dvec3> inverse(const glm::dvec3& position_m) const noexcept;
+  [[nodiscard]] Solved<glm::dvec3> inverse(const glm::dvec3& position_mm) const noexcept;
 
-  /// Position [m] of the grip at these thigh angles [rad], to rounding. Newton's method from
-  /// `start_m`, at most 16 steps: start at the last position when following the hand, at the centre
-  /// when nothing is known. Outside the workspace some angles allow two poses, and the start
+  /// Position [mm] of the grip at these thigh angles [rad], to rounding. Newton's method from
+  /// `start_mm`, at most 16 steps: start at the last position when following the hand, at the
+  /// centre when nothing is known. Outside the workspace some angles allow two poses, and the start
   /// selects one. Also `not_converged` if the pose found has a knee turned inward.
   [[nodiscard]] Solved<glm::dvec3> forward(const glm::dvec3& angles_rad,
-                                           const glm::dvec3& start_m = kCentreM) const noexcept;
+                                           const glm::dvec3& start_mm = kCentreMm) const noexcept;
 
-  /// J [rad/m] with d angles = J d position, in closed form. Column-major as in GLM: J[axis][leg].
-  [[nodiscard]] Solved<glm::dmat3> jacobian(const glm::dvec3& position_m) const noexcept;
+  /// J [rad/mm] with d angles = J d position, in closed form. Column-major as in GLM: J[axis][leg].
+  [[nodiscard]] Solved<glm::dmat3> jacobian(const glm::dvec3& position_mm) const noexcept;
 
-  /// Torques [N m] about the hips that push the hand with `force_n` [N]: the solution of
+  /// Torques [N mm] about the hips that push the hand with `force_n` [N]: the solution of
   /// J^T torques = force (virtual work).
-  [[nodiscard]] Solved<glm::dvec3> torques(const glm::dvec3& position_m,
+  [[nodiscard]] Solved<glm::dvec3> torques(const glm::dvec3& position_mm,
                                            const glm::dvec3& force_n) const noexcept;
 
   /// Thigh angles [rad] of encoder counts.
@@ -223,8 +223,8 @@ struct MotorCounts {
 
 /// A positive count drives a thigh to smaller angles. If a motor would exceed its limit, all three
 /// are scaled alike, which keeps the direction of the force; torques that are not finite give 0.
-[[nodiscard]] MotorCounts motor_counts(const glm::dvec3& torques_nm,
-                                       double counts_per_nm = kMotorCountsPerNm) noexcept;
+[[nodiscard]] MotorCounts motor_counts(const glm::dvec3& torques_nmm,
+                                       double counts_per_nmm = kMotorCountsPerNmm) noexcept;
 
 // ---- falcon model --------------------------------------------------------------------
 // A byte-exact simulation of a Falcon: boot loader, homing, frames, a moving grip, and faults on
@@ -232,7 +232,7 @@ struct MotorCounts {
 // the same notes as the driver, so its fidelity is limited to docs/devices.md.
 
 /// Moves the modelled grip. Called once per frame with the commanded force [N] and the time [s]
-/// since the last frame; returns the position [m] in the frame of Kinematics.
+/// since the last frame; returns the position [mm] in the frame of Kinematics.
 using Grip = std::function<glm::dvec3(const glm::dvec3& force_n, double dt_s)>;
 /// Presses its buttons: called once per frame, after Grip; returns their bits.
 using Thumb = std::function<std::uint8_t()>;
@@ -258,7 +258,7 @@ struct PlannedFault {
 
 struct FalconModelSettings {
   Geometry geometry = kLibnifalconGeometry;
-  double motor_counts_per_nm = kMotorCountsPerNm;
+  double motor_counts_per_nmm = kMotorCountsPerNmm;
   bool power = true;    ///< false: USB enumerates, but the device does not answer
   bool loaded = false;  ///< firmware is present from an earlier start
   bool homed = false;
@@ -311,7 +311,7 @@ class FalconModel {
   /// The last motor command, and its force [N].
   [[nodiscard]] const LegCounts& motors() const noexcept { return motors_; }
   [[nodiscard]] const glm::dvec3& force_n() const noexcept { return force_n_; }
-  [[nodiscard]] const glm::dvec3& position_m() const noexcept { return position_m_; }
+  [[nodiscard]] const glm::dvec3& position_mm() const noexcept { return position_mm_; }
 
  private:
   enum class Stage { waiting, greeted, loading, running };
@@ -343,7 +343,7 @@ class FalconModel {
   int homing_ = 0;
   int homed_legs_ = 0;
   LegCounts motors_{}, counts_{};
-  glm::dvec3 force_n_{0.0}, position_m_{Kinematics::kCentreM};
+  glm::dvec3 force_n_{0.0}, position_mm_{Kinematics::kCentreMm};
 };
 
 // ---- falcon device -------------------------------------------------------------------
@@ -356,9 +356,9 @@ class FalconModel {
 
 struct FalconSettings {
   Geometry geometry = kLibnifalconGeometry;
-  double motor_counts_per_nm = kMotorCountsPerNm;  ///< 1 to 1e6; more gives a larger force
-  glm::dvec3 centre_m =
-      Kinematics::kCentreM;           ///< the origin of samples, in the frame of Kinematics
+  double motor_counts_per_nmm = kMotorCountsPerNmm;  ///< 0.001 to 1000; more gives a larger force
+  glm::dvec3 centre_mm =
+      Kinematics::kCentreMm;          ///< the origin of samples, in the frame of Kinematics
   double force_limit_n = 8.0;         ///< 0 to 8.9, the limit that Novint states
   std::int64_t silence_us = 500'000;  ///< without a frame for this time: fault
   std::string firmware_path;          ///< empty: the firmware must be loaded already
@@ -398,7 +398,7 @@ class FalconDevice final : public HapticDevice {
   DeviceFault fault_ = DeviceFault::no_answer;
   FrameReader reader_;
   DeviceSample sample_;
-  glm::dvec3 position_m_;                 // in the frame of the kinematics
+  glm::dvec3 position_mm_;                // in the frame of the kinematics
   std::int64_t unanswered_since_us_ = 0;  // the first write after the last frame; 0: none
   LegCounts motors_{};
   DeviceCounters counters_;

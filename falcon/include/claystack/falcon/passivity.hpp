@@ -18,28 +18,31 @@ namespace clay::falcon::inline safety {
 // sampled-data systems: application to haptic interfaces", J. Robotic Systems 14(1), 1997; E. I.
 // Jury, "Theory and Application of the z-Transform Method", 1964 (the stability of a sampled loop).
 //
-// SI units throughout: m, s, kg, N. T = 1 / rate is the period, n the ticks of delay.
+// Units as everywhere in falcon: mm, s, N, and so mJ = N mm. T = 1 / rate is the period, n the
+// ticks of delay.
 
 /// The properties of an arm and its servo that limit the stiffness of a wall.
 struct SampledLoop {
   double rate_hz = 1000.0;
-  double mass_kg = 0.25;          ///< m: of the handle, as the hand feels it
-  double damping_ns_per_m = 2.0;  ///< b: of the arm itself, without the hand
-  int delay_ticks = 1;            ///< n: periods between a reading and the force that answers it
+  double mass_kg = 0.25;             ///< m: of the handle, as the hand feels it
+  double damping_ns_per_mm = 0.002;  ///< b: of the arm itself, without the hand
+  int delay_ticks = 1;               ///< n: periods between a reading and the force that answers it
 
   [[nodiscard]] double period_s() const noexcept { return 1.0 / rate_hz; }
+  /// The mass as force per acceleration [N s^2/mm]: the only conversion of units in falcon.
+  [[nodiscard]] double inertia_ns2_per_mm() const noexcept { return 1e-3 * mass_kg; }
 };
 
-/// Rates of 10 to 100 000 Hz, masses of 1 g to 100 kg, damping of 0 to 1000 N s/m, 0 to 8 ticks.
+/// Rates of 10 to 100 000 Hz, masses of 1 g to 100 kg, damping of 0 to 1 N s/mm, 0 to 8 ticks.
 [[nodiscard]] tl::expected<void, OutOfRange> check(const SampledLoop& loop) noexcept;
 
 /// A wall of the servo: a spring, and a damper on the difference of the last two readings.
 struct VirtualWall {
-  double stiffness_n_per_m = 0.0;  ///< K >= 0
-  double damping_ns_per_m = 0.0;   ///< B, of either sign
+  double stiffness_n_per_mm = 0.0;  ///< K >= 0
+  double damping_ns_per_mm = 0.0;   ///< B, of either sign
 };
 
-/// Damping [N s/m] that an arm needs so that the wall is passive for every passive hand. Colgate
+/// Damping [N s/mm] that an arm needs so that the wall is passive for every passive hand. Colgate
 /// and Schenkel's integral for this wall is a sum of cosines,
 ///
 ///   b > max over w of  K T/2 (1 + 2 cos wT + ... + 2 cos nwT) - B cos((n + 1) wT),
@@ -50,7 +53,7 @@ struct VirtualWall {
 [[nodiscard]] double passive_damping_at(const SampledLoop& loop, const VirtualWall& wall,
                                         double angle_rad) noexcept;
 
-/// Stiffest spring [N/m] that is passive: 2b / ((2n + 1) T).
+/// Stiffest spring [N/mm] that is passive: 2b / ((2n + 1) T).
 [[nodiscard]] double passive_stiffness(const SampledLoop& loop) noexcept;
 
 /// True if the free arm comes to rest against a two-sided wall. By Jury's test of
@@ -60,14 +63,14 @@ struct VirtualWall {
 /// where (c1 z + c0) / ((z - 1)(z - p)) is the exact transfer function from held force to position.
 [[nodiscard]] bool is_stable(const SampledLoop& loop, const VirtualWall& wall) noexcept;
 
-/// The border of the stable springs [N/m], to 1e-9 of it: stable below, not above. 0 if none is.
-/// `wall_damping_ns_per_m` is B.
+/// The border of the stable springs [N/mm], to 1e-9 of it: stable below, not above. 0 if none is.
+/// `wall_damping_ns_per_mm` is B.
 [[nodiscard]] double stable_stiffness(const SampledLoop& loop,
-                                      double wall_damping_ns_per_m = 0.0) noexcept;
+                                      double wall_damping_ns_per_mm = 0.0) noexcept;
 
-/// Maximum damping B [N s/m] that the servo may add to a spring while the loop is stable; to 1e-9
+/// Maximum damping B [N s/mm] that the servo may add to a spring while the loop is stable; to 1e-9
 /// of it.
-[[nodiscard]] double stable_damping(const SampledLoop& loop, double stiffness_n_per_m) noexcept;
+[[nodiscard]] double stable_damping(const SampledLoop& loop, double stiffness_n_per_mm) noexcept;
 
 /// Maximum accepted stiffness of a contact: half of the passive bound. The margin covers effects
 /// that the theory ignores: encoder steps, late ticks, a damping known only to a factor.
@@ -75,14 +78,14 @@ struct VirtualWall {
 
 /// A refused stiffness, and the two remedies.
 struct StiffnessTooHigh {
-  double found_n_per_m;
-  double highest_n_per_m;  ///< the accepted stiffness at this rate
-  double lowest_rate_hz;   ///< the rate from which the stiffness found is accepted
+  double found_n_per_mm;
+  double highest_n_per_mm;  ///< the accepted stiffness at this rate
+  double lowest_rate_hz;    ///< the rate from which the stiffness found is accepted
 };
 
 /// Refuses NaN and values above accepted_stiffness.
 [[nodiscard]] tl::expected<void, StiffnessTooHigh> check_stiffness(
-    const SampledLoop& loop, double stiffness_n_per_m) noexcept;
+    const SampledLoop& loop, double stiffness_n_per_mm) noexcept;
 
 // ---- energy observer -----------------------------------------------------------------
 // The passivity observer: the net energy that the servo has given to the hand. After B.
@@ -95,33 +98,33 @@ struct StiffnessTooHigh {
 /// Energy of each contact, and of a recent window of time.
 class EnergyObserver {
  public:
-  /// `loop` must pass `check`; its damping is the guaranteed minimum of the arm. `step_m`: of the
-  /// encoders. `window_s` > 0: the window of recent_j().
-  EnergyObserver(const SampledLoop& loop, double step_m, double window_s) noexcept;
+  /// `loop` must pass `check`; its damping is the guaranteed minimum of the arm. `step_mm`: of the
+  /// encoders. `window_s` > 0: the window of recent_mj().
+  EnergyObserver(const SampledLoop& loop, double step_mm, double window_s) noexcept;
 
-  /// A period of `dt_s` in which `held_n` was displayed and the reading moved by `way_m`; at its
+  /// A period of `dt_s` in which `held_n` was displayed and the reading moved by `way_mm`; at its
   /// end the contact requests `asked_n`. True if a contact has ended with it.
-  bool observe(double dt_s, const glm::dvec3& held_n, const glm::dvec3& way_m,
+  bool observe(double dt_s, const glm::dvec3& held_n, const glm::dvec3& way_mm,
                const glm::dvec3& asked_n) noexcept;
 
-  /// Work displayed [J] minus the guaranteed dissipation by the arm's damping in contact. Negative
+  /// Work displayed [mJ] minus the guaranteed dissipation by the arm's damping in contact. Negative
   /// while a contact has credit. Credit ends with its contact; a debt remains.
-  [[nodiscard]] double injected_j() const noexcept { return injected_; }
+  [[nodiscard]] double injected_mj() const noexcept { return injected_; }
   /// The same for oscillations within a contact, which a long press would hide by its credit: the
   /// sum over the loops from one deepest point to the next, closed by any spring whose force grows
   /// with depth. It never falls below zero.
-  [[nodiscard]] double looped_j() const noexcept { return looped_; }
-  [[nodiscard]] double debt_j() const noexcept { return std::max(injected_, looped_); }
+  [[nodiscard]] double looped_mj() const noexcept { return looped_; }
+  [[nodiscard]] double debt_mj() const noexcept { return std::max(injected_, looped_); }
   /// Error bound of these values due to encoder steps: half a step times the total variation of the
   /// force in this contact or the last.
-  [[nodiscard]] double tolerance_j() const noexcept {
-    return step_m_ * std::max(peak_n_, last_peak_n_) + kRounding;
+  [[nodiscard]] double tolerance_mj() const noexcept {
+    return step_mm_ * std::max(peak_n_, last_peak_n_) + kRounding;
   }
   /// Energy that the last contact added to the debt.
-  [[nodiscard]] double last_contact_j() const noexcept { return last_contact_; }
+  [[nodiscard]] double last_contact_mj() const noexcept { return last_contact_; }
   /// Energy given within the window: by contacts that ended with a gain, and by the current one if
   /// positive.
-  [[nodiscard]] double recent_j() const noexcept;
+  [[nodiscard]] double recent_mj() const noexcept;
   [[nodiscard]] bool in_contact() const noexcept { return in_contact_; }
 
   /// Clears the debt; the current contact continues.
@@ -129,34 +132,34 @@ class EnergyObserver {
 
  private:
   static constexpr std::size_t kBuckets = 16;
-  static constexpr double kRounding = 1e-9;
+  static constexpr double kRounding = 1e-6;  // mJ
 
   /// A motion in one direction, into the contact or out of it. Depths count from its start.
   struct Stroke {
     double sign = 0.0;  // +1 into the contact, -1 out of it
-    double from_m = 0.0;
-    double depth_m = 0.0;     // of the arm now
-    double furthest_m = 0.0;  // maximum
-    double force_n = 0.0;     // at the maximum
-    double doubtful_j = 0.0;  // work and time since the maximum
+    double from_mm = 0.0;
+    double depth_mm = 0.0;     // of the arm now
+    double furthest_mm = 0.0;  // maximum
+    double force_n = 0.0;      // at the maximum
+    double doubtful_mj = 0.0;  // work and time since the maximum
     double doubtful_s = 0.0;
     double time_s = 0.0;
-    double credit_j = 0.0;  // guaranteed dissipation by the arm
+    double credit_mj = 0.0;  // guaranteed dissipation by the arm
   };
   /// A deepest point of the contact, where the arm turned back.
   struct Turn {
-    double injected_j, depth_m, force_n;
+    double injected_mj, depth_mm, force_n;
   };
 
-  void begin_contact(double dt_s, const glm::dvec3& way_m) noexcept;
-  void follow_stroke(double dt_s, double held_n, double inward_m) noexcept;
+  void begin_contact(double dt_s, const glm::dvec3& way_mm) noexcept;
+  void follow_stroke(double dt_s, double held_n, double inward_mm) noexcept;
   void credit_stroke() noexcept;
   void close_loop() noexcept;
   void end_contact() noexcept;
   [[nodiscard]] double given() const noexcept;
   void pass_time(double dt_s) noexcept;
 
-  double damping_, step_m_, mark_s_;
+  double damping_, step_mm_, mark_s_;
   int drain_ticks_;
   double injected_ = 0.0, before_contact_ = 0.0, last_contact_ = 0.0;
   double peak_n_ = 0.0, last_peak_n_ = 0.0;
@@ -190,9 +193,9 @@ class EnergyObserver {
 // hand: pass the spring force of the contact only, and add friction afterwards.
 
 struct PassivitySpec {
-  SampledLoop loop;     ///< mass and damping: guaranteed minima
-  double step_m = 0.0;  ///< of the encoders
-  double energy_limit_j = 5e-3;
+  SampledLoop loop;      ///< mass and damping: guaranteed minima
+  double step_mm = 0.0;  ///< of the encoders
+  double energy_limit_mj = 5.0;
   double energy_window_s = 0.1;     ///< escalates if more than the limit was given in this time
   int reversal_limit = 8;           ///< 2 to 16
   double reversal_window_s = 0.05;  ///< escalates after that many swings of the force in this time
@@ -223,13 +226,13 @@ struct PassiveForce {
 
 class PassivityController {
  public:
-  /// Refuses what `check` of the loop refuses; a step outside 0 to 0.01 m; limits that are not
+  /// Refuses what `check` of the loop refuses; a step outside 0 to 10 mm; limits that are not
   /// above 0, or windows above 10 s.
   static tl::expected<PassivityController, OutOfRange> build(const PassivitySpec& spec) noexcept;
 
   /// The force [N] to send for the force that the contact requests at this reading. Zero, without
   /// counting the tick, if an argument is not finite or time does not advance.
-  [[nodiscard]] PassiveForce tick(std::int64_t time_us, const glm::dvec3& reading_m,
+  [[nodiscard]] PassiveForce tick(std::int64_t time_us, const glm::dvec3& reading_mm,
                                   const glm::dvec3& force_n) noexcept;
 
   /// Call with the force [N] that was displayed instead of the last result, if a guard reduced it:
@@ -241,10 +244,10 @@ class PassivityController {
 
   [[nodiscard]] const EnergyObserver& observer() const noexcept { return observer_; }
   [[nodiscard]] PassivityState state() const noexcept { return state_; }
-  /// Maximum damping that the controller adds [N s/m]: half of the stable maximum on top of the
+  /// Maximum damping that the controller adds [N s/mm]: half of the stable maximum on top of the
   /// accepted stiffness, and small enough that one encoder step per period changes the force by at
   /// most a quarter of `reversal_force_n`.
-  [[nodiscard]] double most_damping_ns_per_m() const noexcept { return most_damping_; }
+  [[nodiscard]] double most_damping_ns_per_mm() const noexcept { return most_damping_; }
 
  private:
   static constexpr std::size_t kMostSent = 9;
@@ -253,10 +256,10 @@ class PassivityController {
   void judge(bool contact_ended, const glm::dvec3& asked_n) noexcept;
   void count_debt() noexcept;
   void escalate() noexcept;
-  [[nodiscard]] glm::dvec3 answer(double dt_s, const glm::dvec3& way_m,
+  [[nodiscard]] glm::dvec3 answer(double dt_s, const glm::dvec3& way_mm,
                                   const glm::dvec3& asked_n) noexcept;
-  [[nodiscard]] glm::dvec3 earned(const glm::dvec3& way_m, const glm::dvec3& asked_n) noexcept;
-  [[nodiscard]] glm::dvec3 damping(double dt_s, const glm::dvec3& way_m) const noexcept;
+  [[nodiscard]] glm::dvec3 earned(const glm::dvec3& way_mm, const glm::dvec3& asked_n) noexcept;
+  [[nodiscard]] glm::dvec3 damping(double dt_s, const glm::dvec3& way_mm) const noexcept;
   void send(const glm::dvec3& force_n) noexcept;
 
   PassivitySpec spec_;
@@ -271,7 +274,7 @@ class PassivityController {
 
   struct Reading {
     std::int64_t time_us;
-    glm::dvec3 at_m;
+    glm::dvec3 at_mm;
   };
   std::optional<Reading> last_;
   double now_s_ = 0.0;                        // since the first reading

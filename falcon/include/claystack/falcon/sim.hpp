@@ -65,22 +65,22 @@ class LoopbackTransport final : public Transport {
 //
 //   m x'' = F_held - b x' - f sign(x') + hand,     hand = push + k_h (s - x) + b_h (s' - x')
 //
-// SI units throughout: m, s, kg, N, J.
+// Units: mm, s, N, mJ; the mass alone is in kg.
 
 struct ArmSpec {
   SampledLoop loop;         ///< rate, m, b and delay
   double friction_n = 0.0;  ///< f, Coulomb: of each axis
-  double step_m = 0.0;      ///< encoder step: readings are whole multiples; 0: continuous
+  double step_mm = 0.0;     ///< encoder step: readings are whole multiples; 0: continuous
 };
 
 /// A hand pulls towards its intended point s, and pushes.
 struct HandSpec {
   glm::dvec3 push_n{0.0};
-  glm::dvec3 stiffness_n_per_m{0.0};  ///< k_h, of each axis
-  glm::dvec3 damping_ns_per_m{0.0};   ///< b_h
+  glm::dvec3 stiffness_n_per_mm{0.0};  ///< k_h, of each axis
+  glm::dvec3 damping_ns_per_mm{0.0};   ///< b_h
 };
 
-/// Work since the start, summed over the axes [J]. Balance: kinetic energy gained = displayed +
+/// Work since the start, summed over the axes [mJ]. Balance: kinetic energy gained = displayed +
 /// hand - damped - rubbed.
 struct ArmEnergy {
   double displayed = 0.0;  ///< done on the arm by the held force
@@ -91,27 +91,27 @@ struct ArmEnergy {
 
 class SimulatedArm {
  public:
-  /// Starts at rest at `start_m`. Refuses what `check` of the loop refuses, friction outside 0 to
-  /// 100 N, steps outside 0 to 0.01 m, a hand stiffer than 1e6 N/m, damped more than 1e4 N s/m or
+  /// Starts at rest at `start_mm`. Refuses what `check` of the loop refuses, friction outside 0 to
+  /// 100 N, steps outside 0 to 10 mm, a hand stiffer than 1000 N/mm, damped more than 10 N s/mm or
   /// pushing more than 100 N, and a start beyond 10 m.
   static tl::expected<SimulatedArm, OutOfRange> build(const ArmSpec& arm, const HandSpec& hand = {},
-                                                      const glm::dvec3& start_m = {}) noexcept;
+                                                      const glm::dvec3& start_mm = {}) noexcept;
 
-  /// The current encoder readings [m].
-  [[nodiscard]] glm::dvec3 reading_m() const noexcept;
+  /// The current encoder readings [mm].
+  [[nodiscard]] glm::dvec3 reading_mm() const noexcept;
 
   /// Applies the force [N] that answers this reading for one period, while the hand's point moves
-  /// to `intended_m` at constant speed. An invalid force (not finite) counts as zero.
-  void advance(const glm::dvec3& force_n, const glm::dvec3& intended_m) noexcept;
+  /// to `intended_mm` at constant speed. An invalid force (not finite) counts as zero.
+  void advance(const glm::dvec3& force_n, const glm::dvec3& intended_mm) noexcept;
   /// The same with the hand's point at rest.
   void advance(const glm::dvec3& force_n) noexcept { advance(force_n, intended_); }
 
-  /// The same with an unyielding hand: the arm goes to `position_m` at constant speed.
-  void carry(const glm::dvec3& force_n, const glm::dvec3& position_m) noexcept;
+  /// The same with an unyielding hand: the arm goes to `position_mm` at constant speed.
+  void carry(const glm::dvec3& force_n, const glm::dvec3& position_mm) noexcept;
 
-  [[nodiscard]] const glm::dvec3& position_m() const noexcept { return position_; }
-  [[nodiscard]] const glm::dvec3& velocity_m_s() const noexcept { return velocity_; }
-  [[nodiscard]] double kinetic_energy_j() const noexcept;
+  [[nodiscard]] const glm::dvec3& position_mm() const noexcept { return position_; }
+  [[nodiscard]] const glm::dvec3& velocity_mm_s() const noexcept { return velocity_; }
+  [[nodiscard]] double kinetic_energy_mj() const noexcept;
   [[nodiscard]] const ArmEnergy& energy() const noexcept { return energy_; }
   [[nodiscard]] const ArmSpec& spec() const noexcept { return spec_; }
 
@@ -119,7 +119,7 @@ class SimulatedArm {
   struct Coefficients;
   static constexpr int kMostDelay = 8;
 
-  SimulatedArm(const ArmSpec& arm, const HandSpec& hand, const glm::dvec3& start_m) noexcept;
+  SimulatedArm(const ArmSpec& arm, const HandSpec& hand, const glm::dvec3& start_mm) noexcept;
   [[nodiscard]] glm::dvec3 late(const glm::dvec3& force_n) noexcept;
 
   ArmSpec spec_;
@@ -153,7 +153,7 @@ using HandFingers = std::function<Fingers(double time_s)>;
 
 struct SimulatedSettings {
   ArmSpec arm;
-  HandSpec hand{glm::dvec3(0.0), glm::dvec3(300.0), glm::dvec3(3.0)};
+  HandSpec hand{glm::dvec3(0.0), glm::dvec3(0.3), glm::dvec3(0.003)};
   HandPath path = idle_circle_mm;
   HandFingers fingers;
   FalconModelSettings model;  ///< faults; `loaded`: its firmware is present

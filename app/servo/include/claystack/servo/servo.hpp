@@ -10,6 +10,7 @@
 //   const clay::servo::Ending ending = live->join();
 
 #include "claystack/core/result.hpp"
+#include "claystack/engine/files.hpp"
 #include "claystack/engine/wheel.hpp"
 #include "claystack/falcon/device.hpp"
 #include "claystack/falcon/guard.hpp"
@@ -63,12 +64,16 @@ struct LiveSettings {
   ButtonMap buttons = kFalconButtons;
   falcon::GuardSettings guard;  ///< its period is set from rate_hz
   /// Model of the arm for the passivity controller; its rate is set from rate_hz.
-  falcon::SampledLoop arm{1000.0, 0.1, 2.0, 1};
-  double encoder_step_m = 5e-5;  ///< of the Falcon in the middle of its workspace
+  falcon::SampledLoop arm{1000.0, 0.1, 0.002, 1};
+  double encoder_step_mm = 0.05;  ///< of the Falcon in the middle of its workspace
 };
 
 /// Errors name the setting. Mapping, guard and arm are checked when they are built.
 Result<void> check(const LiveSettings& settings);
+
+/// Refuses a scene whose contact is stiffer than the arm of `settings` can render safely; names the
+/// setting and what would do.
+Result<void> check_stiffness(const SceneSpec& scene, const LiveSettings& settings);
 
 /// Lowers the stiffness of the scene's contact to what the arm of `settings` can render safely;
 /// returns the remaining fraction, 1 if it was soft enough. The pot does not depend on it: a
@@ -149,7 +154,37 @@ struct Realtime {
   std::string missing;       ///< what was not granted, why, and the remedy; empty: nothing
 };
 
+// ---- clock ---------------------------------------------------------------------------
+
+/// The servo's only source of time, so that a program can run it on a clock of its own.
+class Clock {
+ public:
+  Clock() = default;
+  Clock(const Clock&) = delete;
+  Clock& operator=(const Clock&) = delete;
+  virtual ~Clock() = default;
+
+  /// [ns]; in whole microseconds the time of the device's samples.
+  [[nodiscard]] virtual std::int64_t now_ns() noexcept = 0;
+  [[nodiscard]] std::int64_t now_us() noexcept { return now_ns() / 1000; }
+
+  /// Returns at once if that time has passed.
+  virtual void sleep_until_ns(std::int64_t time_ns) noexcept = 0;
+
+  /// The same as exactly as possible, for one thread. Returns how much later than requested the
+  /// sleep within it ended [ns].
+  virtual std::int64_t wake_at_ns(std::int64_t time_ns) noexcept {
+    sleep_until_ns(time_ns);
+    return 0;
+  }
+};
+
 // ---- live throw ----------------------------------------------------------------------
+
+// Measurements for the reports and plots of this project's own programs (app/servo/tick_trace.hpp).
+struct ServoTiming;
+struct GuardEvents;
+class TickTrace;
 
 /// The parts of a live throw. All must outlive it.
 struct ThrowParts {
@@ -158,6 +193,25 @@ struct ThrowParts {
   const SceneSpec& scene;        ///< the scene of the wheel; read by build() only
   /// A session file to record the poses to, which replays to the same pot; empty: none.
   std::string session_path = {};
+  /// hash_of() the scene as its file has it, for the session; 0: of `scene`. soften() changes the
+  /// hash of a scene, but not what the session replays to.
+  std::uint64_t scene_hash = 0;
+  PoseSink* sink = nullptr;    ///< receives the poses instead of a session file
+  Clock* clock = nullptr;      ///< null: CLOCK_MONOTONIC
+  TickTrace* trace = nullptr;  ///< null: the ticks are not plotted
+};
+
+/// The thread that ticks.
+enum class Pace {
+  real_time,  ///< its own, with SCHED_FIFO and locked memory requested: for devices with motors
+  thread,     ///< its own, scheduled like any other
+  stepped,    ///< the caller's, within advance() and join(); without a watchdog
+};
+
+/// Of a recording.
+struct Recorded {
+  std::uint64_t poses = 0;
+  std::uint64_t lost = 0;  ///< the last ones, if the disk was too slow: the recording ends before
 };
 
 /// The servo thread, its watchdog and the force guard. Every force passes the guard: it is finite,
@@ -174,9 +228,11 @@ class LiveThrow {
   ~LiveThrow();
 
   /// Starts the servo. After join() returned device_lost and the device was opened again,
-  /// continues, with the force ramped up from zero. `realtime`: request SCHED_FIFO and locked
-  /// memory.
-  void start(bool realtime = true);
+  /// continues, with the force ramped up from zero.
+  void start(Pace pace = Pace::real_time);
+
+  /// Pace::stepped: ticks until the clock reaches `until_ns`, or to the end. Otherwise nothing.
+  void advance(std::int64_t until_ns) noexcept;
 
   /// For one other thread. False: the queue is full.
   bool command(const Command& command) noexcept;
@@ -184,16 +240,25 @@ class LiveThrow {
   /// The newest complete values, without a lock. For one thread; valid until the next call.
   [[nodiscard]] const LiveStatus& status() noexcept;
   [[nodiscard]] const LiveProfile& profile() noexcept;
+  /// Null if there is none since the last call of this or of profile().
+  [[nodiscard]] const LiveProfile* new_profile() noexcept;
   [[nodiscard]] bool running() const noexcept;
 
   /// Waits for the end: time, `stop`, a lost device or a collapse. The device then has zero force,
   /// and the wheel may be read.
   Ending join();
+  /// Ends it, whether or not the command queue has room, and waits like join().
+  Ending stop();
   /// After join().
   [[nodiscard]] const Realtime& realtime() const noexcept;
+  [[nodiscard]] const ServoTiming& timing() const noexcept;
+  [[nodiscard]] const GuardEvents& events() const noexcept;
   /// After the last join(): completes the recorded session under its name; does nothing without a
-  /// recording. Errors: the disk was too slow, full or removed.
+  /// recording. Errors: the disk was full or removed, or those of the sink. See recorded().lost
+  /// too.
   Result<void> finish_recording();
+  /// Nothing without a recording.
+  [[nodiscard]] Recorded recorded() const noexcept;
 
   /// Ends the force of the running servo immediately and permanently. Async-signal-safe: for
   /// handlers of SIGINT, SIGSEGV and std::terminate.

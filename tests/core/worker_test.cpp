@@ -1,10 +1,11 @@
-#include "core/newest_worker.hpp"
+#include "core/worker.hpp"
 
 #include "tests/support/wait_until.hpp"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <semaphore>
 #include <vector>
 
@@ -99,6 +100,46 @@ TEST(NewestWorker, DropsTheWaitingQuestionOnDestruction) {
     worker.ask(2);
   }
   EXPECT_LE(worked, 2);
+}
+
+TEST(PeriodicWorker, WorksAtOnceOnRequestAndALastTime) {
+  std::atomic<int> calls{0}, last_calls{0};
+  PeriodicWorker worker(
+      [&](bool last) {
+        ++calls;
+        last_calls += last ? 1 : 0;
+      },
+      std::chrono::hours(1));
+  test::wait_until([&] { return calls == 1; }, test::kDeadline, "the first call");
+  worker.wake();
+  test::wait_until([&] { return calls == 2; }, test::kDeadline, "the call on request");
+  worker.close();
+  worker.close();
+  EXPECT_EQ(calls, 3);
+  EXPECT_EQ(last_calls, 1);
+}
+
+TEST(PeriodicWorker, WorksOncePerPeriod) {
+  std::atomic<int> calls{0};
+  PeriodicWorker worker([&](bool) { ++calls; }, std::chrono::milliseconds(1));
+  test::wait_until([&] { return calls >= 5; }, test::kDeadline, "five calls");
+}
+
+/// A request during the work is not lost.
+TEST(PeriodicWorker, WorksAgainForARequestDuringTheWork) {
+  std::atomic<int> calls{0};
+  PeriodicWorker* self = nullptr;
+  std::binary_semaphore made(0);
+  PeriodicWorker worker(
+      [&](bool) {
+        if (++calls > 1) return;
+        made.acquire();
+        self->wake();
+      },
+      std::chrono::hours(1));
+  self = &worker;
+  made.release();
+  test::wait_until([&] { return calls == 2; }, test::kDeadline, "the second call");
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
-#include "app/chart/xml_text.hpp"
+#include "core/svg_writer.hpp"
 
 #include <array>
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
 
-namespace clay::chart {
+namespace clay {
 namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
@@ -71,4 +72,33 @@ std::string escaped(std::string_view text) {
   return safe;
 }
 
-}  // namespace clay::chart
+std::string fixed(double number, int digits) {
+  std::array<char, 400> text{};  // enough for the largest double
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), number,
+                                 std::chars_format::fixed, digits);
+  return {text.data(), end.ptr};
+}
+
+void SvgWriter::element(std::string_view name, Attributes attributes, std::string_view text) {
+  begin(name, attributes);
+  if (text.empty())
+    svg_ += "/>\n";
+  else
+    svg_.append(">").append(escaped(text)).append("</").append(name).append(">\n");
+}
+
+void SvgWriter::open(std::string_view name, Attributes attributes) {
+  begin(name, attributes);
+  svg_ += ">\n";
+}
+
+void SvgWriter::close(std::string_view name) { svg_.append("</").append(name).append(">\n"); }
+
+void SvgWriter::begin(std::string_view name, Attributes attributes) {
+  svg_.append("<").append(name);
+  for (const auto& [key, value] : attributes)
+    if (!value.empty())
+      svg_.append(" ").append(key).append("=\"").append(escaped(value)).append("\"");
+}
+
+}  // namespace clay

@@ -1,7 +1,7 @@
 #pragma once
-// A thread that works on the newest question only: a new question replaces a waiting one and
-// cancels the current work.
+// Threads that work for another one: on the newest question, or again and again.
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -12,7 +12,12 @@
 
 namespace clay {
 
+<<<<<<< HEAD:core/newest_worker.hpp
 /// For one thread that puts the questions and reads the answers. Both are values; the lock is
+=======
+/// Works on the newest question only: a new question replaces a waiting one and cancels the current
+/// work. For one thread that puts the questions and reads the answers. Both are values; the lock is
+>>>>>>> house:core/worker.hpp
 /// internal.
 template <class Question, class Answer>
 class NewestWorker {
@@ -92,6 +97,58 @@ class NewestWorker {
   std::optional<Answer> answer_;
   bool working_ = false, over_ = false;
   std::uint64_t dropped_ = 0;
+  std::thread thread_;  // last: it uses all members above
+};
+
+/// Calls its work at once, then once per period and after each wake(). The work is never called by
+/// two threads at a time.
+class PeriodicWorker {
+ public:
+  /// `last`: the call that close() asks for; none follows.
+  using Work = std::function<void(bool last)>;
+
+  PeriodicWorker(Work work, std::chrono::milliseconds period)
+      : work_(std::move(work)), period_(period), thread_([this] { run(); }) {}
+  ~PeriodicWorker() { close(); }
+  PeriodicWorker(const PeriodicWorker&) = delete;
+  PeriodicWorker& operator=(const PeriodicWorker&) = delete;
+
+  /// Does not wait.
+  void wake() {
+    {
+      const std::lock_guard lock(mutex_);
+      woken_ = true;
+    }
+    wake_.notify_one();
+  }
+  /// Waits for the last call. For one thread.
+  void close() {
+    {
+      const std::lock_guard lock(mutex_);
+      closing_ = true;
+    }
+    wake_.notify_one();
+    if (thread_.joinable()) thread_.join();
+  }
+
+ private:
+  void run() {
+    std::unique_lock lock(mutex_);
+    for (bool last = false; !last;) {
+      last = closing_;
+      woken_ = false;
+      lock.unlock();
+      work_(last);
+      lock.lock();
+      wake_.wait_for(lock, period_, [this] { return woken_ || closing_; });
+    }
+  }
+
+  Work work_;
+  std::chrono::milliseconds period_;
+  std::mutex mutex_;  // of what follows
+  std::condition_variable wake_;
+  bool woken_ = false, closing_ = false;
   std::thread thread_;  // last: it uses all members above
 };
 

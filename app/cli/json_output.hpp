@@ -1,0 +1,23 @@
+#pragma once
+// Output as JSON, for scripts.
+
+#include "claystack/engine/clay.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace clay::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// A whole JSON document for a file or a script. Invalid UTF-8 in file names is replaced, because
+/// JSON cannot hold it.
+[[nodiscard]] std::string pretty(const Json& data);
+
+/// One JSON document to standard output, pretty.
+void print_json(const Json& data);
+
+/// A count for JSON: a number if it fits into 64 bits, otherwise decimal digits in a string.
+[[nodiscard]] Json json_count(WideQuanta count);
+
+}  // namespace clay::cli
