@@ -21,10 +21,6 @@ ViewModel view_model(AppState& state) {
           .real_time = state.host.real_time()};
 }
 
-double removal_rate_per_s(const ViewModel& view) {
-  return view.document.nominal_rate_per_s() * view.settings.wheel_rpm / kNominalRpm;
-}
-
 bool ViewModel::has_marks() const {
   return !stroke.throwing() && !document.scrubbing() && !ui.marks.empty() &&
          ui.marked == document.shared_pot();

@@ -99,9 +99,12 @@ std::string Document::name() const {
   return file_.empty() ? scene_.name : file_.filename().string();
 }
 
-void Document::set_tool(const ToolSpec& tool, double removal_rate_per_s) {
-  scene_.tool = tool;
-  scene_.removal.rate_per_s = removal_rate_per_s;
+SceneSpec Document::scene_with(const ToolSpec& tool, double wheel_rpm) const {
+  SceneSpec scene = scene_;
+  scene.tool = tool;
+  scene.removal.rate_per_s = nominal_rate_per_s_ * wheel_rpm / kNominalRpm;
+  if (scene.clay) scene.clay->wheel_rpm = wheel_rpm;
+  return scene;
 }
 
 void Document::set_stiffness(double n_per_mm2) {

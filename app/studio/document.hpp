@@ -21,6 +21,9 @@ struct Moment {
 };
 
 /// Not thread-safe. Functions that read the work or its pot require has_work().
+/// Wheel speed at which clay yields at the rate of its scene.
+inline constexpr double kNominalRpm = 120.0;
+
 class Document {
  public:
   /// Keeps a journal of every work from now on, so that a crash loses no stroke.
@@ -69,13 +72,14 @@ class Document {
 
   // --- The next stroke. --------------------------------------------------------------------------
   [[nodiscard]] const SceneSpec& scene() const noexcept { return scene_; }
-  void set_tool(const ToolSpec& tool, double removal_rate_per_s);
+  /// The scene of a stroke with this tool. The wheel's speed scales the removal rate, which the
+  /// work has at kNominalRpm, and is that of the clay rules.
+  [[nodiscard]] SceneSpec scene_with(const ToolSpec& tool, double wheel_rpm) const;
+  void set_scene(const SceneSpec& scene) { scene_ = scene; }
   /// Stiffness of the contact [N/mm^2].
   void set_stiffness(double n_per_mm2);
   /// Stiffness of the contact [N/mm^2]; 0 in a scene without force.
   [[nodiscard]] double stiffness() const noexcept;
-  /// Removal rate of the scene when the work began [1/s].
-  [[nodiscard]] double nominal_rate_per_s() const noexcept { return nominal_rate_per_s_; }
 
   /// Begins a stroke on the current pot. The recorder writes to the sink.
   Result<history::Begun> begin_stroke(const SceneSpec& scene);

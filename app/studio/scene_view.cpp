@@ -171,7 +171,7 @@ void SceneView::press(const ViewModel& view, bool inverted, Actions& actions) {
   }
   offset_mm_ = start - *pointed;
   drag_ = Drag::shape;
-  actions.emplace_back(PressClay{{spec, removal_rate_per_s(view), on_wheel(start), gap_mm}});
+  actions.emplace_back(PressClay{{spec, view.settings.wheel_rpm, on_wheel(start), gap_mm}});
 }
 
 bool SceneView::scrolled(float steps) {

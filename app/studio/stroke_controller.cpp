@@ -28,16 +28,14 @@ Result<void> StrokeController::press(const MousePress& press) {
   if (device_) return {};  // a device is already in use
   release();
   device_waits_ = false;
-  SceneSpec scene = document_.scene();
-  scene.tool = press.tool;
-  scene.removal.rate_per_s = press.rate_per_s;
+  const SceneSpec scene = document_.scene_with(press.tool, press.wheel_rpm);
   servo::LiveSettings settings = MouseDevice::servo_settings();
   closed_gap_mm_ = press.tool.mode == ToolMode::pinch ? press.tool.gap_mm.value_or(0.0) : 0.0;
   gap_mm_ = std::max(closed_gap_mm_, press.gap_mm);
   settings.gap_mm = gap_mm_;
   mouse_.begin_at(press.place_mm);
   auto begun = begin_session(scene, mouse_, settings);
-  if (begun) document_.set_tool(press.tool, press.rate_per_s);
+  if (begun) document_.set_scene(scene);
   return begun;
 }
 
@@ -138,12 +136,12 @@ void StrokeController::lose_device() {
   device_.reset();
 }
 
-void StrokeController::hold(const ToolSpec& tool, double rate_per_s) {
+void StrokeController::hold(const ToolSpec& tool, double wheel_rpm) {
   if (!device_ || !document_.has_work()) return;
-  const SceneSpec& scene = document_.scene();
-  if (tool == scene.tool && rate_per_s == scene.removal.rate_per_s) return;
+  const SceneSpec scene = document_.scene_with(tool, wheel_rpm);
+  if (scene == document_.scene()) return;
   release();
-  document_.set_tool(tool, rate_per_s);
+  document_.set_scene(scene);
 }
 
 /// After its servo has ended, a device must be opened again before it can exert force.

@@ -37,7 +37,7 @@ struct ServoRecord {
 /// Start of a stroke by the mouse.
 struct MousePress {
   ToolSpec tool;
-  double rate_per_s = 20.0;  ///< removal rate
+  double wheel_rpm = 120.0;
   glm::dvec3 place_mm{0.0};  ///< start position on the wheel, clear of the clay
   double gap_mm =
       0.0;  ///< gap at the start of a pinch, as wide as the wall; it closes to the gap of the tool
@@ -78,7 +78,7 @@ class StrokeController {
   /// The device can exert force.
   [[nodiscard]] bool has_motors() const noexcept { return device_ && device_->info().can_push; }
   /// Sets the tool of the device from the next frame on.
-  void hold(const ToolSpec& tool, double rate_per_s);
+  void hold(const ToolSpec& tool, double wheel_rpm);
   [[nodiscard]] std::string device_name() const {
     return device_ ? device_->info().name : mouse_.info().name;
   }

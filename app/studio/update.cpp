@@ -35,7 +35,7 @@ void update_devices(AppState& state) {
   auto device = state.devices->take();
   if (!device) {
     if (!ImGui::IsMouseDown(ImGuiMouseButton_Left))  // not while a slider is dragged
-      state.stroke.hold(tool_of(state.settings.tool), removal_rate_per_s(view_model(state)));
+      state.stroke.hold(tool_of(state.settings.tool), state.settings.wheel_rpm);
     return;
   }
   const falcon::DeviceInfo& info = device->info();

@@ -44,8 +44,4 @@ struct ViewModel {
   [[nodiscard]] bool waits_for_rearm() const;
 };
 
-/// The removal rate for this wheel speed; the rate is proportional to the speed.
-inline constexpr double kNominalRpm = 120.0;
-[[nodiscard]] double removal_rate_per_s(const ViewModel& view);
-
 }  // namespace clay::studio

@@ -132,7 +132,7 @@ void draw_wheel(const ViewModel& model, Actions& actions) {
   if (ImGui::SliderFloat("##rpm", &rpm, static_cast<float>(kSlowestRpm),
                          static_cast<float>(kFastestRpm), "%.0f rpm", ImGuiSliderFlags_AlwaysClamp))
     actions.emplace_back(SetWheelSpeed{static_cast<double>(rpm)});
-  faint_text(model.colours(), "The clay yields faster at a higher speed.");
+  faint_text(model.colours(), "The clay yields and smooths faster at a higher speed.");
   if (!model.document.has_work() || !model.document.scene().force) return;
   ImGui::TextUnformatted("Stiffness");
   float stiffness = static_cast<float>(model.document.stiffness());

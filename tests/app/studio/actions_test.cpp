@@ -135,8 +135,8 @@ TEST_F(ActionsTest, SettingsChangeByTheirActions) {
   EXPECT_FALSE(state.ui.restyle);
   EXPECT_EQ(state.settings.wheel_rpm, 90.0);
   EXPECT_EQ(state.settings.tool.shape, Shape::rib);
-  EXPECT_EQ(removal_rate_per_s(view_model(state)),
-            state.document.nominal_rate_per_s() * 90.0 / 120.0);
+  const double rate = state.document.scene_with({}, kNominalRpm).removal.rate_per_s;
+  EXPECT_EQ(state.document.scene_with({}, 90.0).removal.rate_per_s, 0.75 * rate);
   apply(state, ToggleTheme{});
   EXPECT_EQ(state.settings.theme, Theme::light);
   EXPECT_TRUE(state.ui.restyle);
