@@ -4,6 +4,6 @@
 set -eu
 cd "$(dirname "$0")/.."
 [ $# -gt 0 ] || set -- core engine falcon
-cmake --preset clang -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DCLAYSTACK_BENCH=OFF > /dev/null
+cmake --preset clang -B build/tidy -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DCLAYSTACK_BENCH=OFF >/dev/null
 find "$@" -name '*.cpp' -print0 |
-  xargs -0 -n 4 -P 2 clang-tidy-14 -p build/clang --quiet --warnings-as-errors='*'
+  xargs -0 -n 1 -P 2 clang-tidy-14 -p build/tidy --quiet --warnings-as-errors='*'
