@@ -12,12 +12,8 @@
 
 namespace clay {
 
-<<<<<<< HEAD:core/newest_worker.hpp
-/// For one thread that puts the questions and reads the answers. Both are values; the lock is
-=======
 /// Works on the newest question only: a new question replaces a waiting one and cancels the current
 /// work. For one thread that puts the questions and reads the answers. Both are values; the lock is
->>>>>>> house:core/worker.hpp
 /// internal.
 template <class Question, class Answer>
 class NewestWorker {
