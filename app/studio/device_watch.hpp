@@ -43,7 +43,7 @@ class DeviceWatch {
   LookForDevice look_for_;
   std::mutex mutex_;  // protects the next three members
   std::unique_ptr<falcon::HapticDevice> found_;
-  std::string problem_, told_;
+  std::string problem_, reported_;
   bool looking_ = true;
   PeriodicWorker worker_;  // last: it uses all members above
 };
