@@ -21,7 +21,7 @@ struct Sample {
 [[nodiscard]] const Sample* find_sample(std::string_view name);
 
 Result<SceneSpec> scene_of(const Sample& sample);
-/// The pot that the session of the sample makes; takes about 20 ms.
+/// The pot that the session of the sample makes; takes about 0.1 s.
 Result<render::PotView> finished(const Sample& sample);
 
 }  // namespace clay::studio
