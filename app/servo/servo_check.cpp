@@ -32,7 +32,7 @@ Error refusal(const SceneSpec& scene, const ServoContact& contact, const falcon:
       fmt::format("{}: expected at most {} for a contact of {:.4g} mm and an arm of {:.4g} N s/mm "
                   "at {:.6g} Hz, found {:.6g}; or a rate of at least {:.0f} Hz",
                   setting, rounded_down(highest), contact.height_mm, loop.damping_ns_per_mm,
-                  loop.rate_hz, found, std::ceil(why.lowest_rate_hz))};
+                  loop.rate_hz, found, std::ceil(why.lowest_rate_hz * (1.0 - 1e-12)))};
 }
 
 }  // namespace

@@ -150,7 +150,9 @@ double accepted_stiffness(const SampledLoop& loop) noexcept {
 tl::expected<void, StiffnessTooHigh> check_stiffness(const SampledLoop& loop,
                                                      double stiffness_n_per_mm) noexcept {
   const double highest = accepted_stiffness(loop);
-  if (stiffness_n_per_mm >= 0.0 && stiffness_n_per_mm <= highest) return {};
+  // A stiffness that is the limit but for rounding is accepted.
+  constexpr double kRounding = 1e-12;
+  if (stiffness_n_per_mm >= 0.0 && stiffness_n_per_mm <= highest * (1.0 + kRounding)) return {};
   const double per_hertz = highest / loop.rate_hz;
   const double rate =
       per_hertz > 0.0 ? stiffness_n_per_mm / per_hertz : std::numeric_limits<double>::infinity();

@@ -68,7 +68,7 @@ class StudioRig : public testing::Test {
   void SetUp() override {
     ASSERT_EQ(test::shell("command -v Xvfb && command -v xdotool").status, 0)
         << "needs Xvfb and xdotool (tests/run.sh installs them)";
-    auto scene = nlohmann::json::parse(test::read_text(test::sample("bowl.scene.json")));
+    auto scene = nlohmann::json::parse(test::read_text(test::sample("paper/bowl.scene.json")));
     // Clay this stiff yields slowly when pressed, so the force lasts.
     scene["removal"]["rate_per_s"] = 0.1;
     test::write_text(folder_.file("bowl.scene.json"), scene.dump());

@@ -72,7 +72,7 @@ TEST(Throw, ReportsACollapse) {
   const auto& fall = json.at("collapse");
   const std::string words = std::string("collapsed: ring ").append(fall.at("ring").dump());
   EXPECT_NE(run.out.find(words), std::string::npos) << run.out;
-  EXPECT_NE(run.out.find(", more than 3.300;"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find(", more than the limit of 3.300 kPa;"), std::string::npos) << run.out;
   EXPECT_EQ(fall.at("threshold_kpa"),
             nlohmann::json::parse(read_text(sample("collapse.scene.json")))
                 .at("stability")

@@ -167,7 +167,7 @@ TEST_F(Arms, ForceReturnsFromSafeOnlyOnRequestAndOffTheClay) {
   arm.goal_mm = 40.0;  // where more than the little that may be earned in is felt
   play(
       "wait 2\nexpect force safe\n"
-      "expect banner \"no force: invalid force (NaN); Shift+R or the clutch to go on\"\n");
+      "expect banner \"no force: invalid force (NaN); press Shift+R or the clutch to continue\"\n");
   // In the clay that is not enough.
   play("key Shift+R\nwait 0.5\nexpect force waiting\nexpect banner \"\"\n");
   EXPECT_EQ(arm.most_n, 0.0);

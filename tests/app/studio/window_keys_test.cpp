@@ -46,9 +46,9 @@ TEST_F(Window, EachShapeKeepsItsSize) {
 
 TEST_F(Window, ShiftFChangesTheStiffnessButNotTheClay) {
   const std::string drag = "move 400 300\nkey Shift+F\nmove 500 300 over 0.2\n";
-  const std::string dragged = about("stiffness", 0.03 * kDragged);
+  const std::string dragged = about("stiffness", 0.015 * kDragged);
   const Ran ran =
-      run(about("stiffness", 0.03) + drag + dragged + "key Esc\n" + about("stiffness", 0.03) +
+      run(about("stiffness", 0.015) + drag + dragged + "key Esc\n" + about("stiffness", 0.015) +
           drag + dragged + click("left") + dragged + about("tool_mm", 10.0) + "expect strokes 0\n");
   EXPECT_EQ(ran.status, 0) << ran.err;
 }

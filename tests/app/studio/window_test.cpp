@@ -22,7 +22,13 @@ TEST_F(Window, ClickRemovesNothing) {
           "point 0 15\npress left\nwait 1\nexpect contact no\nrelease left\n"
           "save FOLDER/after.pot.json\n");
   ASSERT_EQ(ran.status, 0) << ran.err;
-  EXPECT_EQ(read_text(folder.file("before.pot.json")), read_text(folder.file("after.pot.json")));
+  // Only the motion of the tool, which the next stroke may continue, is new.
+  const auto clay = [&](const char* name) {
+    auto pot = nlohmann::json::parse(read_text(folder.file(name)));
+    pot.erase("motion");
+    return pot;
+  };
+  EXPECT_EQ(clay("before.pot.json"), clay("after.pot.json"));
 }
 
 TEST_F(Window, CtrlTrimsAndPressKeepsTheClay) {
@@ -41,7 +47,7 @@ TEST_F(Window, CtrlTrimsAndPressKeepsTheClay) {
 
 TEST_F(Window, APinchByTheMouseThinsTheWallAndKeepsTheClay) {
   const std::string pot = folder.file("cylinder.pot.json");
-  ASSERT_EQ(claystack("throw -q " + test::sample("cylinder.scene.json") + " -o " + pot).status, 0);
+  ASSERT_EQ(claystack("throw -q " + test::sample("paper/cylinder.scene.json") + " -o " + pot).status, 0);
   const Ran ran = run("open " + pot +
                       "\nwait 0.1\nexpect thinnest_mm above 3.9\ndo tool.pinch\n"
                       // From a gap of 6 mm to one of 3.
@@ -136,11 +142,11 @@ TEST_F(Window, AFallIsShownAndUndone) {
 }
 
 TEST_F(Window, ChecksTheCurrentClayAndPlotsEveryTick) {
-  const Ran ran = run(std::string("wait 0.1\nexpect proved yes\nexpect thinnest_mm above 29.79\n"
-                                  "expect thinnest_mm below 29.81\nexpect plotted_ticks 0\n") +
+  const Ran ran = run(std::string("wait 0.1\nexpect proved yes\nexpect thinnest_mm above 39.99\n"
+                                  "expect thinnest_mm below 40.01\nexpect plotted_ticks 0\n") +
                       kPress +
                       "wait 0.1\nexpect proved yes\nexpect thin no\nexpect stress_part above 0.01\n"
-                      "expect stress_part below 1\nexpect thinnest_mm below 29\n"
+                      "expect stress_part below 1\nexpect thinnest_mm below 39.9\n"
                       "expect plotted_ticks 0\nkey Ctrl+Z\ndo view.servo\n" +
                       kPress + "wait 0.1\nexpect plotted_ticks above 800\n");
   EXPECT_EQ(ran.status, 0) << ran.err;
