@@ -5,7 +5,7 @@ set -eu
 cd "$(dirname "$0")/.."
 sh samples/install_packages.sh clang clang-tidy-14 clang-format-14 admesh draco prusa-slicer openscad \
   librsvg2-bin libbenchmark-dev libxml2-utils imagemagick umockdev libumockdev-dev xvfb xdotool
-sh tests/tidy.sh engine
+sh tests/tidy.sh
 cmake --preset debug -DCLAYSTACK_BENCH=OFF
 cmake --build --preset debug --target claystack claystack-studio debug_tests
 ctest --preset debug -L debug
