@@ -9,8 +9,8 @@ namespace {
 constexpr std::string_view kGreeting = "\x0A\x43\x0D";
 constexpr std::string_view kGreetingAnswer = "\x0A\x44\x2C\x0D";
 constexpr int kGreetingBaud = 9600, kLoadingBaud = 142'857, kRunningBaud = 1'500'000;
-constexpr std::size_t kHeaderBytes = 2 * (1 + 8 + 2);
-constexpr std::size_t kBlockHeadBytes = 2 * 2;  // the address; the size precedes it
+constexpr std::size_t kHeaderBytes = std::size_t{2} * (1 + 8 + 2);
+constexpr std::size_t kBlockHeadBytes = std::size_t{2} * 2;  // the address; the size precedes it
 constexpr std::size_t kMiddle = kFrameBytes / 2;
 
 /// Whether a boot stream is complete: follows the blocks by their sizes.

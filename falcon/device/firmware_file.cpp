@@ -15,7 +15,7 @@ constexpr std::uint32_t kKeyOfBytes = 0x08AA;
 constexpr int kReservedWords = 8;
 // The C28x has 22 address lines.
 constexpr std::uint32_t kAddresses = 1u << 22;
-constexpr std::size_t kMostBytes = 128 * 1024;
+constexpr std::size_t kMostBytes = std::size_t{128} * 1024;
 
 class WordReader {
  public:

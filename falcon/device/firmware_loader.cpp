@@ -93,7 +93,7 @@ DeviceResult<void> load_once(Transport& line, const Firmware& firmware) {
   const std::span<const std::uint8_t> bytes(firmware.bytes);
   for (std::size_t at = 0; at < bytes.size(); at += kMostWritten) {
     const auto piece = bytes.subspan(at, std::min(kMostWritten, bytes.size() - at));
-    const auto sent = send_echoed(line, piece, "the firmware from byte " + std::to_string(at));
+    auto sent = send_echoed(line, piece, "the firmware from byte " + std::to_string(at));
     if (!sent) return sent;
   }
   return line.set_mode(LineMode::running);
