@@ -138,6 +138,8 @@ TEST_F(ExportOptions, WallTableContainsTheMinimum) {
 }
 
 TEST_F(ExportOptions, ReportsALipFilletAndExactWalls) {
+  // A lip that no finger has rounded.
+  ASSERT_EQ(claystack("throw -q " + sample("paper/bowl.scene.json") + " -o " + pot).status, 0);
   const auto filleted = run("--json --lip-fillet 1.5").json();
   EXPECT_NEAR(filleted.at("lip_fillet_mm"), 1.5, 1e-12);
   EXPECT_LT(filleted.at("volume_error_relative"), 1e-12);
