@@ -10,27 +10,12 @@ if(CLAYSTACK_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 # Two types of one name with different members are undefined behaviour that neither compiler nor
-# linker sees; GCC's link-time optimisation compares them. Objects are fat, so that only the programs
-# of claystack_check_definitions pay for it.
+# linker sees; GCC's link-time optimisation compares them. The preset `odr` builds the programs so.
 option(CLAYSTACK_ODR_CHECK "Compare definitions across files where programs are linked (GCC)" OFF)
 if(CLAYSTACK_ODR_CHECK)
-  add_compile_options(-flto -ffat-lto-objects)
+  add_compile_options(-flto -fno-fat-lto-objects)
+  add_link_options(-flto=2 -Wodr -Werror=odr -Werror=lto-type-mismatch)
 endif()
-function(claystack_check_definitions target)
-  if(CLAYSTACK_ODR_CHECK)
-    target_link_options(${target} PRIVATE -flto=2 -Wodr -Werror=odr -Werror=lto-type-mismatch)
-  endif()
-endfunction()
-
-# For a folder whose programs are linked without the check; with fat objects, GCC would otherwise
-# optimise them at every link. libfmt comes first, because `ar` also lists functions that only the
-# intermediate code has: looking for one of fmt's, the linker would take an object a second time.
-macro(claystack_leave_definitions)
-  if(CLAYSTACK_ODR_CHECK)
-    add_compile_options(-fno-lto)
-    add_link_options(-fno-lto "SHELL:-Wl,--push-state,--no-as-needed -lfmt -Wl,--pop-state")
-  endif()
-endmacro()
 
 function(claystack_compile_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)

@@ -1,13 +1,15 @@
 #!/bin/sh
-# Installs the programs that the checks use; then clang-tidy, the Debug build with its link that
-# compares types, and last the Release build with every test. CONTRIBUTING.md lists what runs where.
+# Installs the programs that the checks use; then clang-tidy, a link that compares types, the Debug
+# build, and last the Release build with every test. CONTRIBUTING.md lists what runs where.
 set -eu
 cd "$(dirname "$0")/.."
 sh samples/install_packages.sh clang clang-tidy-14 clang-format-14 admesh draco prusa-slicer openscad \
   librsvg2-bin libbenchmark-dev libxml2-utils imagemagick umockdev libumockdev-dev xvfb xdotool
 sh tests/tidy.sh
+cmake --preset odr
+cmake --build --preset odr
 cmake --preset debug -DCLAYSTACK_BENCH=OFF
-cmake --build --preset debug --target claystack claystack-studio debug_tests
+cmake --build --preset debug --target debug_tests
 ctest --preset debug -L debug
 cmake --preset release -DCLAYSTACK_BENCH=ON
 cmake --build --preset release
