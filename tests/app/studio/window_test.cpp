@@ -47,7 +47,8 @@ TEST_F(Window, CtrlTrimsAndPressKeepsTheClay) {
 
 TEST_F(Window, APinchByTheMouseThinsTheWallAndKeepsTheClay) {
   const std::string pot = folder.file("cylinder.pot.json");
-  ASSERT_EQ(claystack("throw -q " + test::sample("paper/cylinder.scene.json") + " -o " + pot).status, 0);
+  ASSERT_EQ(
+      claystack("throw -q " + test::sample("paper/cylinder.scene.json") + " -o " + pot).status, 0);
   const Ran ran = run("open " + pot +
                       "\nwait 0.1\nexpect thinnest_mm above 3.9\ndo tool.pinch\n"
                       // From a gap of 6 mm to one of 3.
