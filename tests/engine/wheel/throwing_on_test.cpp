@@ -6,6 +6,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace clay {
@@ -53,8 +54,11 @@ std::vector<Pose> arbitrary_stroke(std::int64_t time_us) {
   return poses;
 }
 
-void play(Wheel& wheel, const std::vector<Pose>& poses) {
-  for (const Pose& pose : poses) wheel.step(pose);
+/// Returns whether the tool touches clay at the end.
+bool play(Wheel& wheel, const std::vector<Pose>& poses) {
+  std::uint32_t flags = 0;
+  for (const Pose& pose : poses) flags = wheel.step(pose).flags;
+  return (flags & kContact) != 0;
 }
 
 RC_GTEST_PROP(ThrowingOn, GivesTheSameBitsAsAnUninterruptedThrow, ()) {
@@ -66,14 +70,15 @@ RC_GTEST_PROP(ThrowingOn, GivesTheSameBitsAsAnUninterruptedThrow, ()) {
   std::int64_t time_us = 0;
   for (int stroke = 0; stroke < 3; ++stroke) {
     const auto poses = arbitrary_stroke(time_us);
-    play(whole, poses);
+    const bool touches = play(whole, poses);
     time_us = poses.back().time_us + 1000;
     auto part = before ? Wheel::build(scene, *before) : Wheel::build(scene);
     RC_ASSERT(part.has_value());
     play(*part, poses);
     RC_ASSERT(part->pot() == whole.pot());
     RC_ASSERT(part->ledger().imbalance(part->stack().recount()) == 0);
-    if (whole.collapsed()) return;
+    // A wide flange can reach the place in free air; the next stroke would begin in the clay.
+    if (whole.collapsed() || touches) return;
     before = part->pot();
   }
   RC_CLASSIFY(whole.stack().size() > scene.lump.rings, "grew");
