@@ -7,6 +7,7 @@
 #include "claystack/engine/tick.hpp"
 #include "claystack/engine/wheel.hpp"
 #include "samples/strokes/strokes.hpp"
+#include "tests/samples/sample_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,13 +24,6 @@ namespace clay::samples {
 namespace {
 
 const std::string kFolder = CLAYSTACK_SAMPLES "/paper/";
-
-template <class Parse>
-auto parse_file(const std::string& path, Parse parse) {
-  return read_file(path)
-      .and_then([&](const std::string& text) { return parse(text, path); })
-      .value();
-}
 
 SceneSpec scene_of(const std::string& sample) {
   return parse_file(kFolder + sample + ".scene.json", parse_scene);

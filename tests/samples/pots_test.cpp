@@ -3,6 +3,7 @@
 
 #include "app/bench/hands/pot_measures.hpp"
 #include "samples/strokes/strokes.hpp"
+#include "tests/samples/sample_files.hpp"
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/clay.hpp"
@@ -26,13 +27,6 @@ namespace clay::samples {
 namespace {
 
 const std::string kFolder = CLAYSTACK_SAMPLES "/";
-
-template <class Parse>
-auto parse_file(const std::string& path, Parse parse) {
-  return read_file(path)
-      .and_then([&](const std::string& text) { return parse(text, path); })
-      .value();
-}
 
 SceneSpec scene_of(const std::string& sample) {
   return parse_file(kFolder + sample + ".scene.json", parse_scene);
