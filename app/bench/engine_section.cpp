@@ -169,32 +169,45 @@ Table table_of(const std::vector<Series>& all) {
   return table;
 }
 
-/// Errors halve where run time doubles: as a guide for the eye, through the first point of a curve.
+/// A triangle whose long side halves the error where run time doubles, below the first curve.
 Curve order_1(const Curve& curve) {
+  constexpr double kBelow = 0.5, kFactor = 8.0;
+  const double x = curve.x.front(), y = kBelow * curve.y.front();
   Curve guide{"order 1: half the error for twice the time", {}, {}, {}, {}, true, true};
-  for (const double factor : {1.0, 16.0}) {
-    guide.x.push_back(curve.x.front() * factor);
-    guide.y.push_back(curve.y.front() / factor);
-  }
+  guide.x = {x, kFactor * x, x, x};
+  guide.y = {y, y / kFactor, y / kFactor, y};
   return guide;
+}
+
+/// What differs between the runs of a series, for their points.
+std::string label_of(const Run& run, const std::string& along) {
+  if (along == "rings") return fmt::format("{}", run.fineness.rings);
+  if (along == "rate") return fmt::format("{} Hz", run.fineness.rate_hz);
+  return fmt::format("{:g} mm", run.fineness.reach_mm);
 }
 
 /// Work-precision diagram: run time over error, as usual in the literature on solvers.
 template <class Error>
 Plot plot_of(const std::vector<Series>& all, const std::string& along, const std::string& id,
              const char* title, const char* label, Error error) {
-  Plot plot{id,
-            title,
-            {"run time for 1 ms of throwing [ns] (at 1 kHz: of one tick)", true},
-            {label, true},
-            {},
-            "Each curve goes from coarse to fine. The spread of the run times is in the table."};
+  Plot plot{
+      id,
+      title,
+      {"run time for 1 ms of throwing [ns] (at 1 kHz: of one tick)", true},
+      {label, true},
+      {},
+      "Each curve goes from coarse to fine; the points state the rings, the rate or the reach. "
+      "Bars: quartiles of the run time."};
   for (const Series& series : all) {
     if (series.along != along) continue;
     Curve curve;
     curve.name = series.name;
     for (const Run& run : series.runs) {
-      curve.x.push_back(run.ns_per_ms().median);
+      const Spread ns = run.ns_per_ms();
+      curve.x.push_back(ns.median);
+      curve.x_low.push_back(ns.low);
+      curve.x_high.push_back(ns.high);
+      curve.labels.push_back(label_of(run, along));
       curve.y.push_back(error(run));
     }
     plot.curves.push_back(std::move(curve));

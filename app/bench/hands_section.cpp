@@ -132,6 +132,41 @@ bool holds(const TaskFacts& task, const Outcome& outcome) {
          outcome.volume_error == 0 && outcome.width <= kWidest * task.width_mm;
 }
 
+/// Throws the pots of one task by each set of rules. Returns whether those with all rules meet the
+/// requirements.
+bool measure_task(Task task, const Effort& effort, Table& table, Section& section) {
+  const TaskFacts& facts = facts_of(task);
+  Plot plot{"hands_" + std::string(facts.name),
+            "Section: " + std::string(facts.name),
+            {"radius [mm]", false},
+            {"height [mm]", false},
+            {},
+            std::string(facts.strokes)};
+  bool met = false;
+  for (const RuleSet& rules : rule_sets(effort.quick)) {
+    effort.progress(fmt::format("{}, {}", facts.name, rules.name));
+    const SceneSpec scene = hands_scene(task, rules.clay);
+    const bool all = rules.name == "all";
+    Outcome outcome;
+    for (int k = 0; k < (effort.quick ? kPottersQuick : kPotters); ++k) {
+      const ThrownPot pot = throw_pot(task, scene, static_cast<std::uint64_t>(k));
+      if (k == 0 && (rules.name == "none" || all))
+        plot.curves.push_back(section_curve(pot.stack, all ? "clay rules" : "no rules", !all));
+      outcome.add(pot);
+      if (all && !effort.quick)
+        outcome.add(throw_pot(task, scene, kOtherSeeds + static_cast<std::uint64_t>(k)));
+    }
+    table.rows.push_back(row_of(task, rules, outcome));
+    if (!all) continue;
+    met = holds(facts, outcome);
+    section.values.push_back({"printable_" + std::string(facts.name), outcome.share(), 0.0,
+                              fmt::format("share of {} pots, with all rules; required: at least {}",
+                                          outcome.pots, facts.least_printable)});
+  }
+  section.plots.push_back(std::move(plot));
+  return met;
+}
+
 }  // namespace
 
 Section hands_section(const Effort& effort) {
@@ -140,46 +175,13 @@ Section hands_section(const Effort& effort) {
   section.title = "Pots thrown by simulated hands";
   section.summary =
       "Quality of pots thrown by hand. Simulated potters with tremor, misjudged depth and strokes "
-      "that "
-      "end early throw from 1 kg of clay, without the clay rules, with all of them, and with each "
-      "omitted in turn. ";
+      "that end early throw from 1 kg of clay, without the clay rules, with all of them, and with "
+      "each omitted in turn. ";
   Table table = empty_table();
-  const int potters = effort.quick ? kPottersQuick : kPotters;
-  int asked = 0, met = 0;
-  for (const Task task : kTasks) {
-    const TaskFacts& facts = facts_of(task);
-    Plot plot{"hands_" + std::string(facts.name),
-              "Section: " + std::string(facts.name),
-              {"radius [mm]", false},
-              {"height [mm]", false},
-              {},
-              std::string(facts.strokes)};
-    for (const RuleSet& rules : rule_sets(effort.quick)) {
-      effort.progress(fmt::format("{}, {}", facts.name, rules.name));
-      const SceneSpec scene = hands_scene(task, rules.clay);
-      Outcome outcome;
-      for (int k = 0; k < potters; ++k) {
-        const ThrownPot pot = throw_pot(task, scene, static_cast<std::uint64_t>(k));
-        if (k == 0 && (rules.name == "none" || rules.name == "all"))
-          plot.curves.push_back(section_curve(
-              pot.stack, rules.name == "all" ? "clay rules" : "no rules", rules.name == "none"));
-        outcome.add(pot);
-        if (rules.name == "all" && !effort.quick)
-          outcome.add(throw_pot(task, scene, kOtherSeeds + static_cast<std::uint64_t>(k)));
-      }
-      table.rows.push_back(row_of(task, rules, outcome));
-      if (rules.name != "all") continue;
-      ++asked;
-      met += holds(facts, outcome) ? 1 : 0;
-      section.values.push_back(
-          {"printable_" + std::string(facts.name), outcome.share(), 0.0,
-           fmt::format("share of {} pots, with all rules; required: at least {} "
-                       "for",
-                       outcome.pots, facts.least_printable)});
-    }
-    section.plots.push_back(std::move(plot));
-  }
+  int met = 0;
+  for (const Task task : kTasks) met += measure_task(task, effort, table, section) ? 1 : 0;
   section.tables.push_back(std::move(table));
+  const int asked = static_cast<int>(std::size(kTasks));
   section.sound = met == asked;
   section.summary +=
       fmt::format("With all rules {} of {} tasks meet the requirements.", met, asked);

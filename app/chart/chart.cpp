@@ -92,13 +92,14 @@ void Chart::grid() {
                 y_label_);
 }
 
-std::vector<Chart::Point> Chart::points_of(const Curve& curve, const std::vector<double>& y) const {
+std::vector<Chart::Point> Chart::points_of(const std::vector<double>& x,
+                                           const std::vector<double>& y) const {
   std::vector<Point> points;
-  const std::size_t count = std::min(curve.x.size(), y.size());
+  const std::size_t count = std::min(x.size(), y.size());
   for (std::size_t k = 0; k < count; ++k) {
     const bool zero = y_.logarithmic() && y[k] == 0.0;
-    if (x_.shows(curve.x[k]) && (zero || y_.shows(y[k])))
-      points.push_back({x_.at(curve.x[k]), zero ? bottom_ : y_.at(y[k]), zero});
+    if (x_.shows(x[k]) && (zero || y_.shows(y[k])))
+      points.push_back({x_.at(x[k]), zero ? bottom_ : y_.at(y[k]), zero});
     else
       points.push_back({std::nan(""), 0.0, false});  // a gap in the line
   }
@@ -120,15 +121,33 @@ std::vector<Chart::Point> Chart::points_of(const Curve& curve, const std::vector
 }
 
 void Chart::spread(const Curve& curve, std::size_t number) {
-  const auto low = points_of(curve, curve.low), high = points_of(curve, curve.high);
-  const std::size_t count = std::min(low.size(), high.size());
   std::string bars;
-  for (std::size_t k = 0; k < count; ++k)
-    if (std::isfinite(low[k].x) && std::isfinite(high[k].x))
-      bars += fmt::format("M{0:.1f} {1:.1f}h6m-3 0V{2:.1f}m-3 0h6", low[k].x - 3.0, low[k].y,
-                          high[k].y);
+  std::size_t count = 0;
+  const auto add = [&](const std::vector<Point>& low, const std::vector<Point>& high, auto bar) {
+    for (std::size_t k = 0; k < std::min(low.size(), high.size()); ++k)
+      if (std::isfinite(low[k].x) && std::isfinite(high[k].x))
+        bars += bar(low[k], high[k]), ++count;
+  };
+  add(points_of(curve.x, curve.low), points_of(curve.x, curve.high),
+      [](const Point& low, const Point& high) {
+        return fmt::format("M{:.1f} {:.1f}h6m-3 0V{:.1f}m-3 0h6", low.x - 3.0, low.y, high.y);
+      });
+  add(points_of(curve.x_low, curve.y), points_of(curve.x_high, curve.y),
+      [](const Point& low, const Point& high) {
+        return fmt::format("M{:.1f} {:.1f}v6m0 -3H{:.1f}m0 -3v6", low.x, low.y - 3.0, high.x);
+      });
   if (!bars.empty() && count <= kMostMarks)
     body_.element("path", {{"class", fmt::format("bar s{}", number % kColours)}, {"d", bars}});
+}
+
+void Chart::labels(const Curve& curve, const std::vector<Point>& points, std::size_t number) {
+  for (std::size_t k = 0; k < std::min(points.size(), curve.labels.size()); ++k)
+    if (std::isfinite(points[k].x))
+      body_.element("text",
+                    {{"class", fmt::format("label f{}", number % kColours)},
+                     {"x", px(points[k].x + 6.0)},
+                     {"y", px(points[k].y - 5.0)}},
+                    curve.labels[k]);
 }
 
 void Chart::line(const std::vector<Point>& points, const std::string& classes, bool dashed) {
@@ -157,7 +176,7 @@ void Chart::marks(const std::vector<Point>& points, std::size_t number, bool on_
 }
 
 void Chart::curve(const Curve& curve, std::size_t number, bool on_map) {
-  const auto points = points_of(curve, curve.y);
+  const auto points = points_of(curve.x, curve.y);
   const std::string stroke = colour(number, on_map, "s");
   // A nested SVG clips at its frame without needing an id.
   const double width = right_ - left_, height = bottom_ - top_;
@@ -173,6 +192,7 @@ void Chart::curve(const Curve& curve, std::size_t number, bool on_map) {
   body_.close("svg");
   const bool marked = !curve.line || (!on_map && !curve.dashed && points.size() <= kMostMarks);
   if (marked) marks(points, number, on_map);
+  labels(curve, points, number);
   if (curve.name.empty()) return;
   // On a map, black is drawn on a pale background here as well.
   SvgWriter symbol;

@@ -36,10 +36,11 @@ class Chart {
     double x, y;
     bool zero;  ///< y is 0 on a logarithmic axis: drawn at its lower end
   };
-  [[nodiscard]] std::vector<Point> points_of(const Curve& curve,
+  [[nodiscard]] std::vector<Point> points_of(const std::vector<double>& x,
                                              const std::vector<double>& y) const;
   [[nodiscard]] std::string page(double height);
   void spread(const Curve& curve, std::size_t number);
+  void labels(const Curve& curve, const std::vector<Point>& points, std::size_t number);
   void line(const std::vector<Point>& points, const std::string& classes, bool dashed);
   void marks(const std::vector<Point>& points, std::size_t number, bool on_map);
 

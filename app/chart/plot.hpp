@@ -15,9 +15,11 @@ struct Axis {
 struct Curve {
   std::string name;
   std::vector<double> x, y;
-  std::vector<double> low, high;  ///< spread of y, if measured
-  bool line = true;               ///< false: points only
-  bool dashed = false;            ///< for theory and bounds
+  std::vector<double> low, high;                ///< spread of y, if measured
+  bool line = true;                             ///< false: points only
+  bool dashed = false;                          ///< for theory and bounds
+  std::vector<double> x_low = {}, x_high = {};  ///< spread of x, if measured
+  std::vector<std::string> labels = {};         ///< beside the points, if any
 };
 
 struct Plot {

@@ -15,6 +15,7 @@ std::string_view style() {
 .plot .none { fill: none; stroke: #b5b5b5; stroke-dasharray: 2 3; }
 .plot .line { fill: none; stroke-width: 1.8; stroke-linejoin: round; }
 .plot .band { stroke: none; fill-opacity: 0.16; } .plot .bar { fill: none; stroke-width: 1.1; }
+.plot .label { font-size: 10px; }
 .plot .mark { stroke-width: 1; } .plot .zero { fill: #ffffff; stroke-width: 1.6; }
 .plot .s0 { stroke: #0072b2; } .plot .f0 { fill: #0072b2; }
 .plot .s1 { stroke: #d55e00; } .plot .f1 { fill: #d55e00; }

@@ -118,7 +118,7 @@ Result<int> run_bench(BenchOptions options, Console console) {
   if (auto published = publish_report(report, options, std::move(page)); !published)
     return tl::make_unexpected(published.error());
   if (console.json) print_json(bench::json_of(report));
-  for (const bench::Section& section : report.sections) console.say(bench::text_of(section));
+  for (const bench::Section& section : report.sections) console.print(bench::text_of(section));
   return report.sound() ? kDone : kUnsound;
 }
 

@@ -55,7 +55,7 @@ Json certificate_json(const solid::SolidCertificate& certificate, bool holds) {
 }
 
 void print_certificate(const Console& console, const solid::SolidCertificate& certificate) {
-  console.say(fmt::format(
+  console.print(fmt::format(
       "  certificate holds: closed and embedded, wall {:.4f} to {:.4f} mm at its thinnest, volume "
       "{:.3f} cm3 within {:.2g} mm3",
       certificate.wall_lower_mm, certificate.wall_upper_mm, certificate.volume_mm3 / 1000.0,
@@ -64,25 +64,25 @@ void print_certificate(const Console& console, const solid::SolidCertificate& ce
 
 void print_wall(const Console& console, const solid::SampledWall& wall) {
   if (!std::isinf(wall.least_mm))
-    console.say(
+    console.print(
         fmt::format("  thinnest sample {:.2f} mm at ({:.6g}, {:.6g}, {:.6g}), {} rays; a sampled "
                     "value, not a bound",
                     wall.least_mm, wall.place.x, wall.place.y, wall.place.z, wall.rays));
   if (wall.escaped > 0)
-    console.say(fmt::format("  {} of {} rays left through an opening", wall.escaped, wall.rays));
+    console.print(fmt::format("  {} of {} rays left through an opening", wall.escaped, wall.rays));
 }
 
 void print_repair(const Console& console, const RepairSummary& summary, const Verdict& verdict) {
   for (const auto& problem : summary.found)
-    console.say(fmt::format("  found: {} ({}): {}", problem.what, problem.count, problem.where));
+    console.print(fmt::format("  found: {} ({}): {}", problem.what, problem.count, problem.where));
   for (const auto& [what, count] : summary.repaired)
-    console.say(fmt::format("  repaired: {} ({})", what, count));
+    console.print(fmt::format("  repaired: {} ({})", what, count));
   if (summary.decimation_error_mm)
-    console.say(fmt::format("  decimated: {} to {} triangles; vertices within {:.2g} mm",
-                            summary.triangles_before, verdict.mesh.triangles,
-                            *summary.decimation_error_mm));
-  console.say(fmt::format("  written: {}, {} bytes, {}", summary.path, summary.bytes,
-                          verdict.mesh.sound() ? "sound" : "NOT SOUND"));
+    console.print(fmt::format("  decimated: {} to {} triangles; vertices within {:.2g} mm",
+                              summary.triangles_before, verdict.mesh.triangles,
+                              *summary.decimation_error_mm));
+  console.print(fmt::format("  written: {}, {} bytes, {}", summary.path, summary.bytes,
+                            verdict.mesh.sound() ? "sound" : "NOT SOUND"));
 }
 
 }  // namespace
@@ -123,25 +123,25 @@ void tell(const Console& console, const std::string& file, const Verdict& verdic
   const solid::MeshReport& mesh = verdict.mesh;
   const bool was_repaired = verdict.repair_summary.has_value();
   const bool sound = was_repaired ? verdict.repair_summary->found.empty() : mesh.sound();
-  console.say(fmt::format("{}: {}", file, sound ? "sound" : "NOT SOUND"));
+  console.print(fmt::format("{}: {}", file, sound ? "sound" : "NOT SOUND"));
   if (was_repaired) print_repair(console, *verdict.repair_summary, verdict);
   const auto yes = [](bool value) { return value ? "yes" : "no"; };
   if (verdict.examined) {
-    console.say(fmt::format(
+    console.print(fmt::format(
         "  closed {}, manifold {}, oriented {}, bounds a volume {}, self-intersections {}",
         yes(mesh.closed), yes(mesh.manifold), yes(mesh.oriented), yes(mesh.bounds_volume),
         mesh.self_intersections));
-    console.say(fmt::format("  {} triangles, {} component(s), {:.3f} cm3", mesh.triangles,
-                            mesh.components, mesh.volume_mm3 / 1000.0));
+    console.print(fmt::format("  {} triangles, {} component(s), {:.3f} cm3", mesh.triangles,
+                              mesh.components, mesh.volume_mm3 / 1000.0));
   }
-  if (verdict.wall_mm) console.say(fmt::format("  thinnest {:.3f} mm", *verdict.wall_mm));
+  if (verdict.wall_mm) console.print(fmt::format("  thinnest {:.3f} mm", *verdict.wall_mm));
   if (verdict.wall_sampled) print_wall(console, *verdict.wall_sampled);
   if (verdict.certificate_holds) print_certificate(console, *verdict.certificate);
-  for (const std::string& note : verdict.notes) console.say("  note: " + note);
+  for (const std::string& note : verdict.notes) console.print("  note: " + note);
   for (const auto& problem : mesh.problems)
-    console.say(fmt::format("  {}{} ({}{}): {}", was_repaired ? "remaining: " : "", problem.what,
-                            problem.count == kCountingStops ? "at least " : "", problem.count,
-                            problem.where));
+    console.print(fmt::format("  {}{} ({}{}): {}", was_repaired ? "remaining: " : "", problem.what,
+                              problem.count == kCountingStops ? "at least " : "", problem.count,
+                              problem.where));
 }
 
 }  // namespace clay::cli

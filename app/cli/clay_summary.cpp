@@ -44,7 +44,7 @@ Json clay_json(const Wheel& wheel, const Pot& pot) {
 void print_collapse(const Console& console, const Json& summary) {
   if (!summary["collapsed"].get<bool>()) return;
   const Json& fall = summary["collapse"];
-  console.say(fmt::format(
+  console.print(fmt::format(
       "collapsed: ring {} carried {:.3f} kPa, more than the limit of {:.3f} kPa; the part above "
       "came to rest at {:.0f} degrees and lost {:.1f} mJ, {:.1f} of them by deforming the clay "
       "below",

@@ -55,7 +55,7 @@ void put_err(std::string_view text) noexcept {
   (void)std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
-void Console::say(std::string_view line) const {
+void Console::print(std::string_view line) const {
   if (!json && !quiet) put_out(std::string(line) + "\n");
 }
 

@@ -32,8 +32,8 @@ struct Console {
   bool json = false;   ///< data as JSON on stdout
   bool quiet = false;  ///< no progress, no summary: errors and requested data only
 
-  void say(std::string_view line) const;   ///< to stdout, for people; silent with json or quiet
-  void warn(std::string_view line) const;  ///< to stderr
+  void print(std::string_view line) const;  ///< to stdout, for people; silent with json or quiet
+  void warn(std::string_view line) const;   ///< to stderr
 };
 
 /// Refuses, before any work, output files that are equal to each other or to an input. Ignores "-"

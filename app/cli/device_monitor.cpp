@@ -77,7 +77,7 @@ bool show(const View& view, const Console& console, bool terminal) {
   } else if (!console.quiet && terminal) {
     put_out("\r\033[K" + view_text(view));
   } else {
-    console.say(view_text(view));
+    console.print(view_text(view));
   }
   return flush_out();
 }

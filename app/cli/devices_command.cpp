@@ -63,11 +63,11 @@ void print_entry(const Entry& entry, const Console& console) {
                       : entry.state == falcon::DeviceState::ready        ? "ready"
                       : entry.state == falcon::DeviceState::needs_homing ? "needs homing"
                                                                          : "open";
-  console.say(
+  console.print(
       fmt::format("{:<11}{:<16}{}: {}", name_of(device.kind), device.place, device.name, state));
-  if (device.problem) console.say("  " + device.problem->message);
+  if (device.problem) console.print("  " + device.problem->message);
   if (entry.state == falcon::DeviceState::needs_homing)
-    console.say(std::string("  ") + servo::kHomingAdvice);
+    console.print(std::string("  ") + servo::kHomingAdvice);
 }
 
 Result<void> list(const falcon::DeviceSettings& settings, const Console& console) {
@@ -80,7 +80,7 @@ Result<void> list(const falcon::DeviceSettings& settings, const Console& console
     print_entry(entry, console);
   }
   if (found->empty())
-    console.say("no device is connected; a Falcon is listed even without its power supply");
+    console.print("no device is connected; a Falcon is listed even without its power supply");
   if (console.json) print_json(json);
   return {};
 }
@@ -101,8 +101,8 @@ Result<void> show(const DevicesOptions& options, const falcon::DeviceSettings& s
   open.write({});
   const falcon::DeviceState state = open.read(100'000).state;
   const falcon::DeviceInfo& info = open.info();
-  console.say(fmt::format("{} at {}: {}", info.name, info.place, name_of(state)));
-  if (state == falcon::DeviceState::needs_homing) console.say(servo::kHomingAdvice);
+  console.print(fmt::format("{} at {}: {}", info.name, info.place, name_of(state)));
+  if (state == falcon::DeviceState::needs_homing) console.print(servo::kHomingAdvice);
   if (console.json)
     print_json({{"name", info.name},
                 {"place", info.place},

@@ -44,7 +44,7 @@ Json file_json(const FileReport& file) {
                {"content_hash", file.content_hash},
                {"max_error_mm", file.max_error_mm},
                {"proof", file.proof == solid::Proof::margins ? "margins" : "exact_test"},
-               {"read_again", file.read_again}};
+               {"read_back", file.read_back}};
   if (const auto& c = file.certificate) {
     json["safe_rounding_mm"] = c->margins.safe_rounding_mm();
     json["wall_mm"] = {c->wall_lower_mm, c->wall_upper_mm};
@@ -74,18 +74,19 @@ Json collapsed_json(const solid::CollapsedSolid& collapsed) {
 }
 
 void print_file(const Console& console, const FileReport& file) {
-  console.say(fmt::format("{}: {}, {} bytes; vertices within {:.2g} mm; {}{}{}", file.path,
-                          solid::name_of(file.format), file.bytes, file.max_error_mm,
-                          proof_of(file), file.read_again ? "; read back" : "",
-                          file.full_verification ? "; fully checked" : ""));
+  console.print(fmt::format("{}: {}, {} bytes; vertices within {:.2g} mm; {}{}{}", file.path,
+                            solid::name_of(file.format), file.bytes, file.max_error_mm,
+                            proof_of(file), file.read_back ? "; read back" : "",
+                            file.full_verification ? "; fully checked" : ""));
   if (const auto& c = file.certificate)
-    console.say(fmt::format("  minimum wall between {:.4f} and {:.4f} mm, volume within {:.2g} mm3",
-                            c->wall_lower_mm, c->wall_upper_mm, c->volume_bound_mm3));
+    console.print(
+        fmt::format("  minimum wall between {:.4f} and {:.4f} mm, volume within {:.2g} mm3",
+                    c->wall_lower_mm, c->wall_upper_mm, c->volume_bound_mm3));
 }
 
 void print_collapse(const Console& console, const solid::CollapsedSolid& collapsed) {
   const auto cm3 = [](double mm3) { return mm3 / 1000.0; };
-  console.say(fmt::format(
+  console.print(fmt::format(
       "collapsed: {:.3f} cm3 standing, {:.3f} cm3 fallen; they overlap by {:.3f} cm3, so the "
       "union holds {:.3f} cm3",
       cm3(collapsed.lower_mm3), cm3(collapsed.upper_mm3), cm3(collapsed.overlap_mm3),
@@ -105,7 +106,7 @@ void print_smoothing(const Console& console, const ExportReport& report) {
     const auto first = std::find_if(report.section.smoothed.guard.begin(),
                                     report.section.smoothed.guard.end(), is);
     if (first == report.section.smoothed.guard.end()) continue;
-    console.say(fmt::format(
+    console.print(fmt::format(
         "steps kept for {}: {} stretch(es), the first from {:.2f} to {:.2f} mm ({:.3f} mm if "
         "smoothed)",
         solid::name_of(reason),
@@ -128,7 +129,7 @@ void print_smoothing(const Console& console, const ExportReport& report) {
 void print_shrinkage(const Console& console, const ExportReport& report) {
   if (report.prepared.shrinkage == 0.0) return;
   const double fired = 1.0 - report.prepared.shrinkage;
-  console.say(fmt::format(
+  console.print(fmt::format(
       "enlarged for a shrinkage of {:g} %: {:.2f} mm wide and {:.2f} mm high in the files, "
       "{:.2f} mm wide and {:.2f} mm high after firing",
       100.0 * report.prepared.shrinkage, report.size.diameter_mm, report.size.height_mm,
@@ -136,12 +137,12 @@ void print_shrinkage(const Console& console, const ExportReport& report) {
 }
 
 void print_solid(const Console& console, const ExportReport& report) {
-  console.say(
+  console.print(
       fmt::format("proved: {}closed and embedded, from {} profile vertices; {} triangles in "
                   "{} shell(s)",
                   report.collapsed ? "each part before the fall " : "",
                   report.section.planar.vertices, report.size.triangles, report.size.shells));
-  console.say(
+  console.print(
       fmt::format("volume {:.3f} cm3, relative difference {}to the counted clay {:.1e}; minimum "
                   "wall {:.2f} mm at "
                   "height {:.1f} mm; chordal error {:.3g} mm",
@@ -152,7 +153,7 @@ void print_solid(const Console& console, const ExportReport& report) {
   if (report.collapsed) print_collapse(console, *report.collapsed);
   print_smoothing(console, report);
   for (const auto& [what, why, saved] : report.left_out)
-    if (saved) console.say(fmt::format("skipped: {} ({}), saved {:.2g} s", what, why, *saved));
+    if (saved) console.print(fmt::format("skipped: {} ({}), saved {:.2g} s", what, why, *saved));
 }
 
 Json shrinkage_json(const ExportReport& report) {
@@ -253,8 +254,8 @@ void print_export(const Console& console, const ExportReport& report,
                   const std::vector<PotCopy>& copies) {
   if (report.has_mesh()) print_solid(console, report);
   if (report.prepared.drilled_mm3 > 0.0)
-    console.say(fmt::format("drain hole: {:.3f} cm3 of clay removed",
-                            report.prepared.drilled_mm3 / 1000.0));
+    console.print(fmt::format("drain hole: {:.3f} cm3 of clay removed",
+                              report.prepared.drilled_mm3 / 1000.0));
   for (const auto& shape : report.section.shapes())
     for (const auto& cavity : shape.cavities) console.warn(solid::text_of(cavity));
   auto copy = copies.begin();
@@ -264,13 +265,13 @@ void print_export(const Console& console, const ExportReport& report,
         print_file(console, file);
         break;
       case FileKind::section:
-        console.say(file.path + ": section");
+        console.print(file.path + ": section");
         break;
       case FileKind::wall_table:
-        console.say(file.path + ": walls along the section");
+        console.print(file.path + ": walls along the section");
         break;
       case FileKind::given:
-        console.say(copy_text(*copy++, file.path));
+        console.print(copy_text(*copy++, file.path));
         break;
     }
   }
@@ -282,7 +283,7 @@ bool print_thin_wall(const Console& console, const ExportReport& report) {
     console.warn(*thin);
     return true;
   }
-  console.say("walls: " + solid::wall_text(report.thinnest_mm(), *report.walls.limit));
+  console.print("walls: " + solid::wall_text(report.thinnest_mm(), *report.walls.limit));
   return false;
 }
 

@@ -56,9 +56,9 @@ Json summary(const ImportOptions& options, const HalfSection& section, const Pot
 }
 
 void tell(const Console& console, const Json& json) {
-  console.say(fmt::format("axis at x = {:.3f} mm of the drawing ({})",
-                          json["axis_mm"].get<double>(), json["axis"].get<std::string>()));
-  console.say(fmt::format(
+  console.print(fmt::format("axis at x = {:.3f} mm of the drawing ({})",
+                            json["axis_mm"].get<double>(), json["axis"].get<std::string>()));
+  console.print(fmt::format(
       "{} rings of {:.4g} mm: {:.1f} mm high, {:.1f} cm3 of clay ({:.1f} cm3 in the drawing)",
       json["rings"].get<std::size_t>(), json["ring_height_mm"].get<double>(),
       json["height_mm"].get<double>(), json["volume_mm3"].get<double>() / 1e3,
@@ -82,7 +82,7 @@ Result<void> import_drawing(ImportOptions options, Console console) {
   const Json json = summary(options, *section, *pot);
   if (console.json) print_json(json);
   tell(console, json);
-  console.say("pot: " + options.pot);
+  console.print("pot: " + options.pot);
   return {};
 }
 

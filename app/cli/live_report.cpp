@@ -107,19 +107,19 @@ Json servo_json(const servo::ServoTiming& timing, const servo::GuardEvents& even
 }
 
 void print_servo(const Console& console, const Json& servo) {
-  console.say(fmt::format(
+  console.print(fmt::format(
       "servo: {} ticks at {:.1f} Hz, {:.2g} % load, {} missed, "
       "{} without a fresh sample",
       servo["ticks"].get<std::uint64_t>(), servo["rate_hz"].get<double>(),
       servo["work_share_percent"].get<double>(), servo["missed_ticks"].get<std::uint64_t>(),
       servo["stale_ticks"].get<std::uint64_t>()));
-  console.say("lateness: " + spread(servo["lateness_us"]));
-  console.say("wake-up delay of the system: " + spread(servo["oversleep_us"]));
-  console.say("work: " + spread(servo["work_us"]));
-  console.say("age of samples: " + spread(servo["sample_age_us"]));
-  console.say("guard: " + events_in_words(servo["guard"]));
+  console.print("lateness: " + spread(servo["lateness_us"]));
+  console.print("wake-up delay of the system: " + spread(servo["oversleep_us"]));
+  console.print("work: " + spread(servo["work_us"]));
+  console.print("age of samples: " + spread(servo["sample_age_us"]));
+  console.print("guard: " + events_in_words(servo["guard"]));
   const auto missing = servo["realtime"]["missing"].get<std::string>();
-  if (!missing.empty()) console.say("real time: " + missing);
+  if (!missing.empty()) console.print("real time: " + missing);
 }
 
 }  // namespace clay::cli

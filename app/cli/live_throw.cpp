@@ -42,7 +42,7 @@ Result<void> fit_stiffness(SceneSpec& scene, const LiveOptions& options, const C
   }
   const auto part = servo::soften(scene, options.settings);
   if (!part) return tl::make_unexpected(part.error());
-  if (*part < 1.0) console.say(fmt::format("stiffness lowered to {:.3g} of the scene's", *part));
+  if (*part < 1.0) console.print(fmt::format("stiffness lowered to {:.3g} of the scene's", *part));
   return {};
 }
 
@@ -174,7 +174,7 @@ bool comes_back(falcon::HapticDevice& device) {
 /// Ends with zero force. Use within the scope of a servo::ForceSignals.
 Ending run(Stage& stage, const LiveOptions& options, const Console& console) {
   LiveKeys keys;
-  if (keys.on()) console.say(kKeysInWords);
+  if (keys.on()) console.print(kKeysInWords);
   StatusLine line(console);
   for (;;) {
     stage.live->start();
@@ -239,19 +239,19 @@ Result<void> first_error(const Kept& kept, const Console& console) {
 
 void tell(const LiveJob& job, const LiveOptions& options, const Console& console, const Json& json,
           const Kept& kept) {
-  console.say(fmt::format("{:.1f} s on the wheel, {} poses, ended: {}",
-                          json["seconds"].get<double>(), json["poses"].get<std::uint64_t>(),
-                          json["ended"].get<std::string>()));
-  console.say(fmt::format("{} rings, {:.1f} mm high, {:.1f} cm3 of clay; volume error: {} quanta",
-                          json["rings"].get<std::size_t>(), json["height_mm"].get<double>(),
-                          json["volume_mm3"].get<double>() / 1000.0,
-                          json["volume_error_quanta"].dump()));
+  console.print(fmt::format("{:.1f} s on the wheel, {} poses, ended: {}",
+                            json["seconds"].get<double>(), json["poses"].get<std::uint64_t>(),
+                            json["ended"].get<std::string>()));
+  console.print(fmt::format("{} rings, {:.1f} mm high, {:.1f} cm3 of clay; volume error: {} quanta",
+                            json["rings"].get<std::size_t>(), json["height_mm"].get<double>(),
+                            json["volume_mm3"].get<double>() / 1000.0,
+                            json["volume_error_quanta"].dump()));
   print_collapse(console, json);
   print_servo(console, json["servo"]);
-  if (!job.pot_path.empty() && kept.pot) console.say("pot: " + job.pot_path);
+  if (!job.pot_path.empty() && kept.pot) console.print("pot: " + job.pot_path);
   if (options.record.empty() || !kept.session) return;
   const bool empty = json["recording"]["poses"].get<std::uint64_t>() == 0;
-  console.say("session: " + (empty ? "not written, since no pose was recorded" : options.record));
+  console.print("session: " + (empty ? "not written, since no pose was recorded" : options.record));
 }
 
 }  // namespace

@@ -55,8 +55,9 @@ Result<void> plan_servo(const SceneSpec& scene, const StepPlan& plan, const Plan
   json["servo"] = {{"contact_height_mm", contact->height_mm},
                    {"stiffness_n_per_mm", contact->stiffness_n_per_mm},
                    {"accepted_n_per_mm", contact->accepted_n_per_mm}};
-  console.say(fmt::format("{:<19}{:.4g} N/mm, at most {:.4g} N/mm accepted at {:.6g} Hz", "contact",
-                          contact->stiffness_n_per_mm, contact->accepted_n_per_mm, loop.rate_hz));
+  console.print(fmt::format("{:<19}{:.4g} N/mm, at most {:.4g} N/mm accepted at {:.6g} Hz",
+                            "contact", contact->stiffness_n_per_mm, contact->accepted_n_per_mm,
+                            loop.rate_hz));
   return {};
 }
 
@@ -83,10 +84,10 @@ Result<void> plan_scene(const PlanOptions& options, const Console& console) {
     const auto cost = line.in ? std::nullopt : cost_of(*scene, line.stage);
     const StageCost* saved = cost ? &*cost : nullptr;
     json[line.in ? "in" : "left_out"].push_back(line_json(line, saved));
-    console.say(line_text(line, saved));
+    console.print(line_text(line, saved));
   }
   if (!timed_stroke(*scene, kFirmMm))
-    console.say(
+    console.print(
         fmt::format("times not measured: a tick may reach {:.0f} rings, expected at most {}",
                     rings_in_reach(*scene), kMostRingsInReach));
 #ifdef CLAYSTACK_FALCON

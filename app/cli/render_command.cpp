@@ -42,19 +42,19 @@ void add_size(CLI::App& sub, RenderCommand& command) {
 void tell(const Console& console, const RenderCommand& command, const Rendered& done) {
   const std::string size = fmt::format("{} x {} px", command.size.width_px, command.size.height_px);
   if (!command.out.empty() && command.out != "-")
-    console.say(fmt::format("{}: {}, {} bytes", command.out, size, done.png_bytes));
+    console.print(fmt::format("{}: {}, {} bytes", command.out, size, done.png_bytes));
   if (!command.turntable.empty() && command.turntable != "-")
-    console.say(fmt::format("{}: {} frames of {}, {} bytes", command.turntable, command.frames,
-                            size, done.gif_bytes));
+    console.print(fmt::format("{}: {} frames of {}, {} bytes", command.turntable, command.frames,
+                              size, done.gif_bytes));
   if (done.map)
-    console.say(fmt::format(
+    console.print(fmt::format(
         "walls: dark blue 0 mm to yellow {:g} mm{}; thinnest {:.3f} mm", done.map->top_mm,
         done.map->limit_mm > 0.0 ? fmt::format(", hatched red below {:.3f} mm", done.map->limit_mm)
                                  : std::string(),
         *done.thinnest_mm));
   if (done.frame)
-    console.say(fmt::format("{:.1f} ms a frame of {}, {:.1f} ms anti-aliased, on {}",
-                            done.frame->ms, size, done.frame->anti_aliased_ms, done.renderer));
+    console.print(fmt::format("{:.1f} ms a frame of {}, {:.1f} ms anti-aliased, on {}",
+                              done.frame->ms, size, done.frame->anti_aliased_ms, done.renderer));
 }
 
 Json rendered_json(const RenderCommand& command, const Rendered& done) {

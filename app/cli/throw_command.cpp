@@ -54,19 +54,20 @@ Json summary(const Wheel& wheel, const ReplayStats& stats, const Session& sessio
 }
 
 void tell(const Console& console, const Json& s) {
-  console.say(fmt::format(
+  console.print(fmt::format(
       "{} ticks, model {}: {} rings, {:.1f} mm high, {:.1f} cm3 of clay, thinnest {:.2f} mm",
       s["ticks"].get<std::size_t>(), s["model"].get<std::string>(), s["rings"].get<std::size_t>(),
       s["height_mm"].get<double>(), s["volume_mm3"].get<double>() / 1000.0,
       s["min_wall_mm"].get<double>()));
-  console.say(fmt::format("volume error: {} quanta (maximum during the session: {:.4g} %)",
-                          s["volume_error_quanta"].dump(),
-                          s["max_volume_error_percent"].get<double>()));
-  console.say(fmt::format("tick: median {:.0f} ns, 99.9 % within {:.0f} ns; maximum force {:.2f} N",
-                          s["tick_ns_median"].get<double>(), s["tick_ns_p999"].get<double>(),
-                          s["max_force_n"].get<double>()));
+  console.print(fmt::format("volume error: {} quanta (maximum during the session: {:.4g} %)",
+                            s["volume_error_quanta"].dump(),
+                            s["max_volume_error_percent"].get<double>()));
+  console.print(
+      fmt::format("tick: median {:.0f} ns, 99.9 % within {:.0f} ns; maximum force {:.2f} N",
+                  s["tick_ns_median"].get<double>(), s["tick_ns_p999"].get<double>(),
+                  s["max_force_n"].get<double>()));
   if (s["trimmed_mm3"].get<double>() > 0.0)
-    console.say(fmt::format("trimmed: {:.1f} cm3", s["trimmed_mm3"].get<double>() / 1000.0));
+    console.print(fmt::format("trimmed: {:.1f} cm3", s["trimmed_mm3"].get<double>() / 1000.0));
   print_collapse(console, s);
 }
 
@@ -239,7 +240,7 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
   const Json json = summary(*wheel, stats, *session, pot);
   if (console.json) print_json(json);
   tell(console, json);
-  if (!options.pot.empty()) console.say("pot: " + options.pot);
+  if (!options.pot.empty()) console.print("pot: " + options.pot);
   return {};
 }
 

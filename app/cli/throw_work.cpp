@@ -50,7 +50,7 @@ Result<Json> tree_of(history::Work& work, const Console& console) {
   Json nodes = Json::array();
   for (history::NodeId node = 0; node < work.size(); ++node) {
     nodes.push_back(node_json(work, node));
-    console.say(line_of(nodes.back()));
+    console.print(line_of(nodes.back()));
   }
   return nodes;
 }
@@ -95,12 +95,12 @@ Result<void> throw_work(const WorkJob& job, Console console) {
     if (auto written = publish(job.pot_path, write_pot(**pot, encoding)); !written) return written;
   }
   if (console.json) print_json(json);
-  console.say(fmt::format(
+  console.print(fmt::format(
       "node {} of {}: {} rings, {:.1f} mm high, {:.1f} cm3 of clay; volume "
       "error: {} quanta",
       node, work.size() - 1, json["rings"].get<std::size_t>(), json["height_mm"].get<double>(),
       json["volume_mm3"].get<double>() / 1000.0, json["volume_error_quanta"].dump()));
-  if (!job.pot_path.empty()) console.say("pot: " + job.pot_path);
+  if (!job.pot_path.empty()) console.print("pot: " + job.pot_path);
   return {};
 }
 

@@ -21,9 +21,9 @@ void print_window_report(const servo::ServoTiming& timing, const servo::GuardEve
     print_json({{"servo", servo}, {"window", window}});
   }
   print_servo(console, servo);
-  console.say(std::string("scheduling: ") +
-              (realtime.fifo ? "SCHED_FIFO" : "that of every other program"));
-  console.say(fmt::format(
+  console.print(std::string("scheduling: ") +
+                (realtime.fifo ? "SCHED_FIFO" : "that of every other program"));
+  console.print(fmt::format(
       "window: {} frames, {:.1f} per second; each: median {:.3g} ms, 99 % within {:.3g}, "
       "at most {:.3g}",
       frames.frames, frames.fps, frames.median_ms, frames.p99_ms, frames.longest_ms));

@@ -7,7 +7,7 @@ namespace clay::servo {
 void Controls::update(std::int64_t now_us, unsigned buttons, Commands& commands,
                       std::optional<double> grip_mm) noexcept {
   zero_ = rearm_ = false;
-  while (const auto command = commands.pop()) obey(*command);
+  while (const auto command = commands.pop()) apply(*command);
   clutch_held_ = (buttons & map_.clutch) != 0;
   trim_held_ = (buttons & map_.trim) != 0;
   step_gap(now_us, buttons);
@@ -27,14 +27,14 @@ void Controls::step_gap(std::int64_t now_us, unsigned buttons) noexcept {
   if ((moves & map_.narrower) != 0) set_gap(gap_mm_ - kGapStepMm);
 }
 
-void Controls::obey(const Command& command) noexcept {
+void Controls::apply(const Command& command) noexcept {
   const bool on = command.value != 0.0;
   switch (command.kind) {
     case CommandKind::clutch:
-      clutch_asked_ = on;
+      clutch_requested_ = on;
       break;
     case CommandKind::trim:
-      trim_asked_ = on;
+      trim_requested_ = on;
       break;
     case CommandKind::pause:
       paused_ = on;

@@ -25,9 +25,9 @@ class Controls {
   void update(std::int64_t now_us, unsigned buttons, Commands& commands,
               std::optional<double> grip_mm = std::nullopt) noexcept;
 
-  [[nodiscard]] bool clutched() const noexcept { return clutch_held_ || clutch_asked_; }
+  [[nodiscard]] bool clutched() const noexcept { return clutch_held_ || clutch_requested_; }
   [[nodiscard]] bool paused() const noexcept { return paused_; }
-  [[nodiscard]] bool trim() const noexcept { return trim_held_ || trim_asked_; }
+  [[nodiscard]] bool trim() const noexcept { return trim_held_ || trim_requested_; }
   [[nodiscard]] double gap_mm() const noexcept { return gap_mm_; }
   [[nodiscard]] bool stopped() const noexcept { return stopped_; }
   /// In this tick, the most recent request.
@@ -35,7 +35,7 @@ class Controls {
   [[nodiscard]] bool rearm() const noexcept { return rearm_; }
 
  private:
-  void obey(const Command& command) noexcept;
+  void apply(const Command& command) noexcept;
   void step_gap(std::int64_t now_us, unsigned buttons) noexcept;
   void set_gap(double mm) noexcept;
 
@@ -44,8 +44,8 @@ class Controls {
   double gap_mm_;
   unsigned before_ = 0;          // buttons of the previous tick
   std::int64_t gap_due_us_ = 0;  // time at which a held button repeats
-  bool clutch_held_ = false, clutch_asked_ = false;
-  bool trim_held_ = false, trim_asked_ = false;
+  bool clutch_held_ = false, clutch_requested_ = false;
+  bool trim_held_ = false, trim_requested_ = false;
   bool paused_ = false, stopped_ = false, zero_ = false, rearm_ = false;
 };
 

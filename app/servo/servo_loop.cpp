@@ -26,7 +26,7 @@ std::int64_t clay_period_us(const LiveSettings& settings) {
 StepReport LiveClay::meet(const Pose& measured) noexcept {
   const Pose pose = quantized(measured);
   if (pose.time_us <= last_us_) return {.flags = kRefused};
-  if (pose.time_us < due_us_) return wheel_.feel(pose);
+  if (pose.time_us < due_us_) return wheel_.probe(pose);
   const StepReport report = wheel_.step(pose);
   if ((report.flags & kRefused) != 0) return report;
   last_us_ = pose.time_us;
@@ -81,7 +81,7 @@ Ending ServoLoop::tick(falcon::ForceGate& gate, Commands& commands, LiveView& vi
   pacer_.sampled(begun_ns);
   heartbeat_us.store(now_us, std::memory_order_release);
 
-  obey(sample, now_us, commands);
+  apply(sample, now_us, commands);
   follow(sample, now_us);
   send(gate);
   hand_.displayed(guarded_.force_n);
@@ -95,8 +95,8 @@ Ending ServoLoop::tick(falcon::ForceGate& gate, Commands& commands, LiveView& vi
 }
 
 /// Applies buttons and commands. While the clutch is held, the hand moves and the tool stays.
-void ServoLoop::obey(const falcon::DeviceSample& sample, std::int64_t now_us,
-                     Commands& commands) noexcept {
+void ServoLoop::apply(const falcon::DeviceSample& sample, std::int64_t now_us,
+                      Commands& commands) noexcept {
   const bool ready = sample.state == DeviceState::ready;
   controls_.update(now_us, ready ? sample.buttons : 0u, commands,
                    ready ? sample.grip_mm : std::nullopt);

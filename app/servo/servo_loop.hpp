@@ -79,7 +79,7 @@ class ServoLoop {
   ServoLoop(const Bench& bench, const LiveSettings& settings, const Mapping& mapping,
             const falcon::ForceGuard& guard, const falcon::PassivityController& controller);
 
-  void obey(const falcon::DeviceSample& sample, std::int64_t now_us, Commands& commands) noexcept;
+  void apply(const falcon::DeviceSample& sample, std::int64_t now_us, Commands& commands) noexcept;
   void follow(const falcon::DeviceSample& sample, std::int64_t now_us) noexcept;
   void send(falcon::ForceGate& gate) noexcept;
   void count_events() noexcept;

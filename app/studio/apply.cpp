@@ -40,7 +40,8 @@ std::filesystem::path start_folder(const AppState& state) {
 }
 
 /// Opens the desktop's file dialog, if it is installed. Not used in scripts.
-bool ask_desktop(AppState& state, FileDialog::Kind kind, const std::filesystem::path& start) {
+bool open_desktop_dialog(AppState& state, FileDialog::Kind kind,
+                         const std::filesystem::path& start) {
   return state.host.real_time() && state.file_dialog.begin(kind, start);
 }
 
@@ -158,7 +159,7 @@ struct Performer {
         state.ui.dialog = SettingsDialog{};
         break;
       case DialogKind::open_file:
-        if (!ask_desktop(state, FileDialog::Kind::open, start_folder(state)))
+        if (!open_desktop_dialog(state, FileDialog::Kind::open, start_folder(state)))
           state.ui.dialog = OpenDialog{start_folder(state).string()};
         break;
       case DialogKind::save_file:
@@ -213,12 +214,12 @@ struct Performer {
   }
   void operator()(const ChooseExportFolder&) const {
     const auto start = std::filesystem::path(state.ui.exporting.choices.folder) / "";
-    if (!ask_desktop(state, FileDialog::Kind::folder, start))
+    if (!open_desktop_dialog(state, FileDialog::Kind::folder, start))
       note(state, Grade::warning,
            "No file dialog is installed (zenity, kdialog): type the name of the folder", kNoteS);
   }
   void operator()(const ChooseProcessFile&) const {
-    if (!ask_desktop(state, FileDialog::Kind::process, start_folder(state)))
+    if (!open_desktop_dialog(state, FileDialog::Kind::process, start_folder(state)))
       note(state, Grade::warning,
            "No file dialog is installed (zenity, kdialog): drop a .process.json file on the "
            "window, or open it by name (Ctrl+O)",
@@ -236,7 +237,7 @@ struct Performer {
     auto* import = std::get_if<ImportDialog>(&state.ui.dialog);
     if (import == nullptr) return;
     import->settings = edit.settings;
-    read_again(*import);
+    reload(*import);
   }
   void operator()(const TakeImport&) const {
     const auto* import = std::get_if<ImportDialog>(&state.ui.dialog);
@@ -358,14 +359,14 @@ struct Performer {
     ImportDialog import;
     import.path = path;
     import.bytes = std::move(*bytes);
-    read_again(import);
+    reload(import);
     state.ui.dialog = std::move(import);
     state.log("drawing: " + path.string());
   }
   void ask_for_name(std::optional<Action> next) const {
     const std::filesystem::path path =
         start_folder(state) / (state.document.scene().name + ".work");
-    if (!ask_desktop(state, FileDialog::Kind::save, path))
+    if (!open_desktop_dialog(state, FileDialog::Kind::save, path))
       state.ui.dialog = SaveDialog{path.string(), std::move(next)};
   }
   void show_export() const {

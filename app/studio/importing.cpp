@@ -48,7 +48,7 @@ Result<Imported> import_drawing(const std::string&, const std::string& name,
 
 #endif
 
-void read_again(ImportCard& card) {
+void reload(ImportCard& card) {
   auto made = import_drawing(card.bytes, card.path.string(), card.settings);
   card.made.reset();
   card.view = {};

@@ -45,6 +45,6 @@ struct ImportCard {
   std::string problem;  ///< why no pot was made
 };
 /// Repeats the import after a change of settings.
-void read_again(ImportCard& card);
+void reload(ImportCard& card);
 
 }  // namespace clay::studio

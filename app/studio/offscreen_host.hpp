@@ -40,7 +40,7 @@ class OffscreenHost final : public Host {
   [[nodiscard]] bool real_time() const override { return false; }
   [[nodiscard]] std::int64_t frame_ns() override { return frame_ns_; }
   /// Sets the time of the next frame.
-  void let_pass(std::int64_t ns) noexcept { frame_ns_ += ns; }
+  void advance(std::int64_t ns) noexcept { frame_ns_ += ns; }
   void set_title(const std::string&) override {}
   void set_clipboard(const std::string& text) override { clipboard_ = text; }
   [[nodiscard]] std::string clipboard() override { return clipboard_; }

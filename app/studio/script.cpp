@@ -125,7 +125,7 @@ Result<void> ScriptRunner::run(const std::vector<ScriptLine>& lines, std::string
 
 void ScriptRunner::frames(int count) {
   for (int i = 0; i < count && !studio_.done(); ++i) {
-    host_.let_pass(kFrameNs);
+    host_.advance(kFrameNs);
     studio_.frame(false);
   }
 }
@@ -173,7 +173,7 @@ Result<void> ScriptRunner::act(const Words& words) {
       {"open", &ScriptRunner::open},
       {"save", &ScriptRunner::save},
       {"close", &ScriptRunner::close},
-      {"wait", &ScriptRunner::let_pass},
+      {"wait", &ScriptRunner::wait},
       {"screenshot", &ScriptRunner::picture},
       {"expect", &ScriptRunner::expect},
   }};
@@ -239,7 +239,7 @@ Result<void> ScriptRunner::scroll(const Words& words) {
   return {};
 }
 
-Result<void> ScriptRunner::let_pass(const Words& words) {
+Result<void> ScriptRunner::wait(const Words& words) {
   const auto seconds = number_of(words[1]);
   if (!seconds || std::abs(*seconds) > kLongestWaitS)
     return bad(fmt::format("expected a number, found {}", words[1]));

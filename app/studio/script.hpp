@@ -49,7 +49,7 @@ class ScriptRunner {
   Result<void> open(const Words& words);
   Result<void> save(const Words& words);
   Result<void> close(const Words& words);
-  Result<void> let_pass(const Words& words);
+  Result<void> wait(const Words& words);
   Result<void> picture(const Words& words) { return screenshot(words[1]); }
   Result<void> expect(const Words& words);
   void frames(int count);

@@ -78,7 +78,7 @@ void Studio::frame(bool paint_it) {
   // remains under the mouse for two more ImGui frames.
   do {
     const int passes = input_.empty() ? 1 : kFramesAfterInput;
-    take_input();
+    handle_input();
     for (int pass = 0; pass < passes && !state_.done; ++pass)
       build_frame(elapsed_s / static_cast<double>(passes));
   } while (!input_.empty() && !state_.done);

@@ -95,7 +95,7 @@ class Studio {
  private:
   Studio(Host& host, Settings settings, std::function<void(std::string_view)> log_line);
   [[nodiscard]] bool moving() const noexcept;
-  void take_input();
+  void handle_input();
   void restyle();
   void build_frame(double elapsed_s);
   void apply(const Input& input);

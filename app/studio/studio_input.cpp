@@ -70,7 +70,7 @@ void connect_imgui(Host& host) {
 
 /// A button or key changes at most once per frame, and a button only after the pointer has been at
 /// its place for a frame, so that ImGui registers every click, however short.
-void Studio::take_input() {
+void Studio::handle_input() {
   bool moved = false, pressed = false;
   while (!input_.empty()) {
     const Input& next = input_.front();

@@ -64,8 +64,8 @@ bool find_lead(const StepPlan& plan, const ClayStack& stack, double hip_y, doubl
 }
 
 template <class Profile>
-void feel_lead(const Profile& profile, const StepPlan& plan, const ClayStack& stack,
-               const Lead& lead, Contact& contact) noexcept {
+void measure_lead(const Profile& profile, const StepPlan& plan, const ClayStack& stack,
+                  const Lead& lead, Contact& contact) noexcept {
   const bool up = contact.rise_mm > 0.0;
   const double h = stack.ring_height_mm(), end = up ? plan.tool.high() : plan.tool.low();
   const double at_end = profile.radius(end), all = lead.covered_mm + h;
@@ -153,13 +153,13 @@ void feel_ends(const Tool& tool, const ClayStack& stack, double hip_y, Contact& 
 
 }  // namespace
 
-void feel_front(const StepPlan& plan, const ClayStack& stack, double hip_y, double dt_s,
-                Contact& contact) noexcept {
+void measure_front(const StepPlan& plan, const ClayStack& stack, double hip_y, double dt_s,
+                   Contact& contact) noexcept {
   if (dt_s > 0.0) {
     level_edges(contact);
     Lead lead;
     if (contact.rise_mm != 0.0 && find_lead(plan, stack, hip_y, dt_s, contact, lead))
-      std::visit([&](const auto& p) { feel_lead(p, plan, stack, lead, contact); },
+      std::visit([&](const auto& p) { measure_lead(p, plan, stack, lead, contact); },
                  plan.tool.profile());
   }
   feel_ends(plan.tool, stack, hip_y, contact);

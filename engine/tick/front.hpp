@@ -5,7 +5,7 @@
 
 namespace clay {
 
-/// What the force needs to know of clay within a ring; `conserving`, after the removal of a tick of
+/// Measures the clay within a ring for the force; `conserving`, after the removal of a tick of
 /// `dt_s`. Moves no clay.
 ///
 /// Rings yield as a whole, once the tool's end has passed their middle. Clay yields from when the
@@ -13,7 +13,7 @@ namespace clay {
 /// second since, from that of the clay ahead to that of the clay that has yielded. The ring of the
 /// leading end and the one behind it are felt so, by `contact.front`; the parts of rings at either
 /// end that have not yielded are felt as deep as their neighbours.
-void feel_front(const StepPlan& plan, const ClayStack& stack, double hip_y, double dt_s,
-                Contact& contact) noexcept;
+void measure_front(const StepPlan& plan, const ClayStack& stack, double hip_y, double dt_s,
+                   Contact& contact) noexcept;
 
 }  // namespace clay

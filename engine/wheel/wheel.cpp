@@ -40,7 +40,7 @@ struct Wheel::State {
   std::optional<Failure> failure;
   glm::dvec3 failure_hip{0.0};
   StepReport (*tick)(State&, const Pose&) noexcept = nullptr;
-  StepReport (*feel)(State&, const Pose&) noexcept = nullptr;
+  StepReport (*probe)(State&, const Pose&) noexcept = nullptr;
 };
 
 namespace {
@@ -112,7 +112,7 @@ void yield(State& s, const ToolState& tool, std::span<ToolRemoval> removals) noe
     remove<stages>(s, tool, removals);
   if constexpr ((stages & kForce) && kModel<stages> == Model::conserving)
     for (ToolRemoval& removal : removals)
-      feel_front(s.plan, s.stack, tool.hip_mm.y, tool.dt_s, removal.contact);
+      measure_front(s.plan, s.stack, tool.hip_mm.y, tool.dt_s, removal.contact);
 }
 
 /// Whether the stack still stands after a flow; the flags of both.
@@ -236,7 +236,7 @@ StepReport tick(State& s, const Pose& pose) noexcept {
 
 /// The force of a tick and no more: contact as the last part of its way would find it.
 template <unsigned stages, class State>
-StepReport feel(State& s, const Pose& pose) noexcept {
+StepReport probe(State& s, const Pose& pose) noexcept {
   StepReport report;
   if (s.failure) {
     report.flags = kCollapsed;
@@ -317,8 +317,8 @@ constexpr auto tick_table(std::index_sequence<sets...>) {
 }
 
 template <class State, std::size_t... sets>
-constexpr auto feel_table(std::index_sequence<sets...>) {
-  return std::array{&feel<static_cast<unsigned>(sets), State>...};
+constexpr auto probe_table(std::index_sequence<sets...>) {
+  return std::array{&probe<static_cast<unsigned>(sets), State>...};
 }
 
 }  // namespace
@@ -382,17 +382,17 @@ Result<Wheel> Wheel::assemble(StepPlan plan, ClayStack stack, const Ledger& ledg
     removal.removed.reserve(touches);
   }
   static constexpr auto kTicks = tick_table<State>(std::make_index_sequence<kStageSets>{});
-  static constexpr auto kFeels = feel_table<State>(std::make_index_sequence<kStageSets>{});
+  static constexpr auto kProbes = probe_table<State>(std::make_index_sequence<kStageSets>{});
   if (state->plan.stages & kRules) {
     state->work.reserve(state->plan.tool, state->stack);
     state->rules =
         state->plan.mode == ToolMode::smooth ? sponge_steps() : rule_steps(state->plan.clay.rules);
   }
   state->tick = kTicks[state->plan.stages];
-  state->feel = kFeels[state->plan.stages];
+  state->probe = kProbes[state->plan.stages];
   if (cuts_level(state->plan.mode)) {
     state->tick = &cut_tick<State>;
-    state->feel = [](State&, const Pose&) noexcept { return StepReport{}; };
+    state->probe = [](State&, const Pose&) noexcept { return StepReport{}; };
   }
   if (state->plan.mode == ToolMode::trim_foot) state->turned_mm = state->stack.height_mm();
   return Wheel(std::move(state));
@@ -402,9 +402,9 @@ StepReport Wheel::step(const Pose& pose) noexcept {
   State& s = *state_;
   return s.turned_mm ? turned(s.tick(s, turned(pose, *s.turned_mm))) : s.tick(s, pose);
 }
-StepReport Wheel::feel(const Pose& pose) noexcept {
+StepReport Wheel::probe(const Pose& pose) noexcept {
   State& s = *state_;
-  return s.turned_mm ? turned(s.feel(s, turned(pose, *s.turned_mm))) : s.feel(s, pose);
+  return s.turned_mm ? turned(s.probe(s, turned(pose, *s.turned_mm))) : s.probe(s, pose);
 }
 
 const StepPlan& Wheel::plan() const noexcept { return state_->plan; }

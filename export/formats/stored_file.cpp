@@ -28,7 +28,7 @@ Result<void> write_in_parts(FileStore& store, const std::string& bytes) {
                   [&](std::span<const std::byte> part, std::size_t) { return store.write(part); });
 }
 
-Result<std::string> read_again(const FileStore& store, const std::string& written) {
+Result<std::string> read_back(const FileStore& store, const std::string& written) {
   if (!store.rereadable()) return written;
   return read_whole(store, written.size());
 }

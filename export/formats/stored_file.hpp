@@ -28,7 +28,7 @@ namespace clay::solid::inline formats {
 Result<void> write_in_parts(FileStore& store, const std::string& bytes);
 
 /// The bytes in the store; if that cannot be read back, the bytes passed to it.
-Result<std::string> read_again(const FileStore& store, const std::string& written);
+Result<std::string> read_back(const FileStore& store, const std::string& written);
 
 /// The first `bytes` bytes of the store, read back.
 Result<std::string> read_whole(const FileStore& store, std::uint64_t bytes);

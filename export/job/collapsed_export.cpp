@@ -201,7 +201,7 @@ class CollapsedExport {
                              FileStore& store) {
     const auto again =
         stages_.run(stage_name("store", format), [&] { return write_in_parts(store, bytes); })
-            .and_then([&] { return read_again(store, bytes); });
+            .and_then([&] { return read_back(store, bytes); });
     if (!again) return tl::make_unexpected(again.error());
     if (*again != bytes)
       return failure(ErrorKind::io,
@@ -212,8 +212,8 @@ class CollapsedExport {
     report.content_hash = hash_of(bytes_of(bytes));
     report.max_error_mm = moved;
     report.proof = Proof::exact_test;
-    report.read_again = store.rereadable();
-    if (!options_.full_verification || !report.read_again) return report;
+    report.read_back = store.rereadable();
+    if (!options_.full_verification || !report.read_back) return report;
     return stages_
         .run("full_verification", [&] { return check_stored(store, report.bytes, format); })
         .map([&](MeshReport check) {

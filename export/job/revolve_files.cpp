@@ -146,7 +146,7 @@ Result<FileReport> RevolveFiles::certify_bytes(MeshFormat format, double roundin
       !written)
     return tl::make_unexpected(written.error());
   const auto farthest = stages_.run(stage_name("verify", format), [&] {
-    return read_again(store, bytes)
+    return read_back(store, bytes)
         .and_then([&](const std::string& again) { return decode_mesh(again, format, name); })
         .and_then([&](const TriangleMesh& decoded) {
           return match_revolve(decoded, rule_, rounding_mm, name);
@@ -170,9 +170,9 @@ Result<FileReport> RevolveFiles::finish(MeshFormat format, SolidCertificate cert
   report.content_hash = certificate.content_hash;
   report.max_error_mm = certificate.rounding_mm;
   report.proof = certificate.proof;
-  report.read_again = store.rereadable();
+  report.read_back = store.rereadable();
   report.certificate = std::move(certificate);
-  if (!options_.full_verification || !report.read_again) return report;
+  if (!options_.full_verification || !report.read_back) return report;
   const auto checked =
       stages_.run("full_verification", [&] { return check_stored(store, report.bytes, format); });
   if (!checked) return tl::make_unexpected(checked.error());

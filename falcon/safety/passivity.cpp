@@ -144,7 +144,7 @@ glm::dvec3 PassivityController::damping(double dt_s, const glm::dvec3& way_mm) c
 glm::dvec3 PassivityController::earned(const glm::dvec3& way_mm,
                                        const glm::dvec3& asked_n) noexcept {
   const double asked = glm::length(asked_n);
-  const double before = std::exchange(last_asked_n_, asked);
+  const double before = std::exchange(last_requested_n_, asked);
   if (!(asked > 0.0)) {
     earned_n_ = 0.0;
     return glm::dvec3(0.0);

@@ -105,6 +105,25 @@ TEST(Plot, DrawsEveryPointOnTheAxesAndZerosAtTheEdge) {
   EXPECT_NE(svg.find("exactly 0"), std::string::npos);
 }
 
+TEST(Plot, DrawsLabelsAndSpreadsOfBothAxesAtTheirPoints) {
+  // The frame is 660 px wide, from 78, and two decades of x; 5 % of its range lie beyond each end.
+  Plot plot{"p", "", {"x", true}, {"y", true}, {}, ""};
+  Curve curve{"c", {1.0, 10.0, 100.0}, {1.0, 1.0, 100.0}, {}, {}};
+  curve.x_low = {1.0, kNan, 50.0};
+  curve.x_high = {10.0, 20.0, 100.0};
+  curve.labels = {"50", "100", "<200>"};
+  plot.curves.push_back(curve);
+  const std::string svg = svg_of(plot, Place::page);
+  EXPECT_EQ(count(svg, "class=\"label f0\""), 3u);
+  EXPECT_NE(svg.find(">&lt;200&gt;</text>"), std::string::npos);
+  std::smatch match;
+  ASSERT_TRUE(
+      std::regex_search(svg, match, std::regex(R"(M([0-9.]+) [0-9.]+v6m0 -3H([0-9.]+)m0 -3v6M)")));
+  EXPECT_NEAR(std::stod(match[1]), 78.0 + 660.0 * 0.05 / 1.1, 0.1);
+  EXPECT_NEAR(std::stod(match[2]), 78.0 + 660.0 * 0.55 / 1.1, 0.1);
+  EXPECT_EQ(count(svg, "v6m0 -3H"), 2u);  // one low end is missing
+}
+
 TEST(Plot, ThinningKeepsSinglePointSpikes) {
   Plot plot{"p", "", {"x", false}, {"y", false}, {Curve{}}, ""};
   for (int k = 0; k < 100'000; ++k) {

@@ -178,7 +178,7 @@ TEST_F(ExportOptions, ReportsThatPipesCannotBeReadBack) {
   const Ran run = shell("mkfifo " + pipe + " && cat " + pipe + " > " + stl + " & sleep 0.2; " +
                         CLAYSTACK_PROGRAM " export --json " + pot + " " + pipe + "; wait");
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_FALSE(run.json().at("files").at(0).at("read_again"));
+  EXPECT_FALSE(run.json().at("files").at(0).at("read_back"));
   EXPECT_EQ(std::filesystem::file_size(stl), run.json().at("files").at(0).at("bytes"));
 }
 

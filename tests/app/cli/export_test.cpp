@@ -58,7 +58,7 @@ TEST_P(ExportedSample, ReportsWhatItDid) {
     EXPECT_EQ(std::filesystem::file_size(file.at("path").get<std::string>()), file.at("bytes"));
     EXPECT_LE(file.at("max_error_mm"), 0.02);
     EXPECT_EQ(file.at("proof"), "margins");
-    EXPECT_TRUE(file.at("read_again"));
+    EXPECT_TRUE(file.at("read_back"));
   }
   EXPECT_FALSE(json.at("left_out").empty());
   EXPECT_FALSE(json.at("stages").empty());

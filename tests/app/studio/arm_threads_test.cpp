@@ -43,7 +43,7 @@ TEST(DeviceWatch, OpensALaterDeviceAndStopsSearching) {
 
 TEST(DeviceWatch, ReportsEachProblemOncePerDevice) {
   Socket socket;
-  socket.say("no power");
+  socket.print("no power");
   DeviceWatch watch(socket.look(), 1ms);
   const auto told = [&] {
     socket.wait_for_looks(2);
@@ -51,12 +51,12 @@ TEST(DeviceWatch, ReportsEachProblemOncePerDevice) {
   };
   EXPECT_EQ(told(), "no power");
   EXPECT_EQ(told(), "");
-  socket.say("no firmware");
+  socket.print("no firmware");
   EXPECT_EQ(told(), "no firmware");
   EXPECT_EQ(told(), "");
-  socket.say("");  // pulled out
+  socket.print("");  // pulled out
   EXPECT_EQ(told(), "");
-  socket.say("no firmware");
+  socket.print("no firmware");
   EXPECT_EQ(told(), "no firmware");
 }
 

@@ -42,7 +42,7 @@ TEST(Importing, ErrorsAppearInTheDialog) {
   ImportCard card;
   card.path = "odd.csv";
   card.bytes = "this is no table\n1,\n";
-  read_again(card);
+  reload(card);
   EXPECT_FALSE(card.made);
   EXPECT_NE(card.problem.find("odd.csv"), std::string::npos) << card.problem;
 }

@@ -40,7 +40,7 @@ class Front : public testing::TestWithParam<double> {
     stack = ClayStack::from_rings(kRingMm, std::move(rings), 0).value();
     Contact contact;
     find_contact(plan.tool, stack, {kAxis, level_mm - 10.0, 0.0}, contact, {0.0, kRise, 0.0});
-    feel_front(plan, stack, level_mm - 10.0, kDt, contact);
+    measure_front(plan, stack, level_mm - 10.0, kDt, contact);
     return contact;
   }
   ClayStack stack = ClayStack::cylinder(1, 1, 1, 0, 1).value();
@@ -72,7 +72,7 @@ TEST_F(Front, IsAbsentForAStandingTool) {
   behind_end_at(30.05);
   Contact contact;
   find_contact(plan.tool, stack, {kAxis, 20.05, 0.0}, contact);
-  feel_front(plan, stack, 20.05, kDt, contact);
+  measure_front(plan, stack, 20.05, kDt, contact);
   EXPECT_FALSE(contact.has_front);
   // A part of a ring that has not yielded yet equals its neighbour.
   for (std::size_t k = 0; k < contact.edge_count; ++k) EXPECT_LT(contact.edges[k].depth_mm, 0.1);

@@ -217,12 +217,12 @@ TEST(ClayRules, FeelIsWhatStepSays) {
     return std::max(std::abs(way.x), std::abs(way.y)) < 0.05;
   };
   for (const Pose& pose : random_poses(9, 2000)) {
-    const StepReport felt = wheel.feel(pose);
+    const StepReport felt = wheel.probe(pose);
     const ClayStack before = wheel.stack();
-    EXPECT_EQ(wheel.feel(pose).force_n(), felt.force_n());
+    EXPECT_EQ(wheel.probe(pose).force_n(), felt.force_n());
     EXPECT_EQ(wheel.stack(), before);
     const StepReport report = wheel.step(pose);
-    // A leap is cut into parts, which feel does not take.
+    // A leap is cut into parts, which probe() does not do.
     if (!(report.flags & kGrew) && short_of(pose)) {
       EXPECT_EQ(report.force_n(), felt.force_n());
     }

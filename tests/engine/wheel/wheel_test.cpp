@@ -266,8 +266,8 @@ TEST(Wheel, FeelMatchesStepWithoutChangingTheClay) {
     int compared = 0;
     for (int i = 0; i < 20'000; ++i) {
       const Pose pose = hand.next(plain.stack());
-      const StepReport before = felt.feel(pose);
-      (void)felt.feel({pose.time_us, {30.0, 10.0, 0.0}});
+      const StepReport before = felt.probe(pose);
+      (void)felt.probe({pose.time_us, {30.0, 10.0, 0.0}});
       const StepReport after = felt.step(pose);
       ASSERT_EQ(plain.step(pose).force_n(), after.force_n()) << i;
       // A longer motion is played in parts, and the clay yields between them.

@@ -38,7 +38,7 @@ TEST(RunExport, VaseInEveryFormat) {
   for (std::size_t i = 0; i < report.files.size(); ++i) {
     const FileReport& file = report.files[i];
     EXPECT_EQ(file.format, every_format()[i]);
-    EXPECT_TRUE(file.read_again);
+    EXPECT_TRUE(file.read_back);
     EXPECT_EQ(file.proof, Proof::margins);
     EXPECT_EQ(file.bytes, result->files[i].size());
     const auto decoded = decode_mesh(result->files[i], file.format, "file");

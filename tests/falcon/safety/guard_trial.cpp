@@ -52,7 +52,7 @@ class GuardOf final : public TriedGuard {
   GuardedForce force(std::int64_t now_us, const WantedForce& wanted) override {
     return guard_.force(now_us, wanted);
   }
-  void obey(Tick::Command command) override {
+  void apply(Tick::Command command) override {
     if (command == Tick::Command::pause) guard_.pause();
     if (command == Tick::Command::stop) guard_.stop();
     if (command == Tick::Command::rearm) guard_.rearm();
@@ -82,7 +82,7 @@ std::unique_ptr<TriedGuard> guard_without(std::uint32_t rule) {
   return nullptr;
 }
 
-void Allowance::obey(Tick::Command command) {
+void Allowance::apply(Tick::Command command) {
   if (command == Tick::Command::rearm) {
     latched_ = stopped_;
     lose();
@@ -136,7 +136,7 @@ void Allowance::earn(const Tick& tick, double growing_s) {
 
 Allowance::Verdict Allowance::after(const Tick& tick, double told_s, const GuardSample& sample) {
   zero_ = false;
-  obey(tick.command);
+  apply(tick.command);
   const bool was_latched = latched_;
   const bool odd = !finite(tick.wanted_n) || (tick.ready && !finite(sample.position_mm));
   odd_ticks_ = odd ? odd_ticks_ + 1 : 0;
@@ -167,7 +167,7 @@ void Trial::tick(const Tick& tick) {
   true_us_ += tick.gap_us;
   told_us_ = sum(told_us_, sum(tick.clock_stands ? 0 : tick.gap_us, tick.clock_leap_us));
   if (tick.clay_new) clay_us_ = told_us_;
-  guard_->obey(tick.command);
+  guard_->apply(tick.command);
 
   const GuardSample sample = sample_of(tick);
   const double told_s = told_us_ > before_us

@@ -35,7 +35,7 @@ class TriedGuard {
   virtual ~TriedGuard() = default;
   virtual Admission admit(std::int64_t now_us, const GuardSample& sample) = 0;
   virtual GuardedForce force(std::int64_t now_us, const WantedForce& wanted) = 0;
-  virtual void obey(Tick::Command command) = 0;
+  virtual void apply(Tick::Command command) = 0;
 };
 
 /// One of kGuardRules, or 0 for the guard that programs use.
@@ -63,7 +63,7 @@ class Allowance {
   Verdict after(const Tick& tick, double told_s, const GuardSample& sample);
 
  private:
-  void obey(Tick::Command command);
+  void apply(Tick::Command command);
   bool believable(const Tick& tick, const GuardSample& sample);
   void follow_ages(const Tick& tick, double told_s, bool good);
   void earn(const Tick& tick, double growing_s);

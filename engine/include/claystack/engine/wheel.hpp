@@ -56,7 +56,7 @@ class Wheel {
 
   /// The report that step() would return at this pose, without changing the clay or the state. For
   /// a force rate above the rate of the clay.
-  [[nodiscard]] StepReport feel(const Pose& pose) noexcept;
+  [[nodiscard]] StepReport probe(const Pose& pose) noexcept;
 
   [[nodiscard]] const StepPlan& plan() const noexcept;
   [[nodiscard]] const ClayStack& stack() const noexcept;

@@ -156,7 +156,7 @@ struct FileReport {
   std::string content_hash;   ///< XXH3-128
   double max_error_mm = 0.0;  ///< largest distance of a vertex in the file from its exact position
   Proof proof = Proof::margins;
-  bool read_again = false;  ///< false for pipes only
+  bool read_back = false;  ///< false for pipes only
   std::optional<SolidCertificate>
       certificate;  ///< for a body of revolution, which is a standing pot
   std::optional<MeshReport> full_verification;

@@ -267,9 +267,9 @@ class PassivityController {
   EnergyObserver observer_;
   SwingCounter swings_;
   PassivityState state_ = PassivityState::watching;
-  double earned_n_ = 0.0;      // maximum force permitted by the motion into the contact
-  double last_asked_n_ = 0.0;  // in this contact
-  int debts_ = 0;              // since the last quiet interval
+  double earned_n_ = 0.0;          // maximum force permitted by the motion into the contact
+  double last_requested_n_ = 0.0;  // in this contact
+  int debts_ = 0;                  // since the last quiet interval
   double last_debt_s_ = 0.0;
 
   struct Reading {
