@@ -2,6 +2,7 @@
 
 #include "app/bench/convergence_experiments.hpp"
 #include "samples/strokes/strokes.hpp"
+#include "tests/samples/sample_files.hpp"
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
@@ -12,13 +13,6 @@
 
 namespace clay::samples {
 namespace {
-
-template <class Parse>
-auto parse_file(const std::string& path, Parse parse) {
-  return read_file(path)
-      .and_then([&](const std::string& text) { return parse(text, path); })
-      .value();
-}
 
 class ThrownPot : public testing::TestWithParam<const char*> {};
 

@@ -20,7 +20,7 @@
 #include <variant>
 #include <vector>
 
-namespace clay::samples {
+namespace clay::samples::paper {
 namespace {
 
 const std::string kFolder = CLAYSTACK_SAMPLES "/paper/";
@@ -205,4 +205,4 @@ INSTANTIATE_TEST_SUITE_P(Models, FallingPaperPot, testing::Values(Model::conserv
                          });
 
 }  // namespace
-}  // namespace clay::samples
+}  // namespace clay::samples::paper

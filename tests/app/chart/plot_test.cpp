@@ -16,7 +16,7 @@ namespace {
 
 using namespace chart;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<std::string> labels(const AxisScale& axis) {
   std::vector<std::string> texts;
@@ -58,7 +58,7 @@ TEST(PlotAxis, PlacesValuesByTheirLogarithm) {
   EXPECT_NEAR(axis.at(1e4), 300.0, 1e-9);
   EXPECT_FALSE(axis.shows(0.0));
   EXPECT_FALSE(axis.shows(-1.0));
-  EXPECT_FALSE(axis.shows(kNan));
+  EXPECT_FALSE(axis.shows(kMissing));
 }
 
 RC_GTEST_PROP(PlotAxis, TicksAscendAndAreFew, (bool logarithmic)) {
@@ -88,7 +88,7 @@ TEST(PlotAxis, GivesEmptyAndSingleValueRangesALength) {
       const AxisScale axis = extent.scale(0.05);
       EXPECT_LT(axis.low(), axis.high());
       extent.add(3.0);
-      extent.add(kNan);
+      extent.add(kMissing);
       extent.add(std::numeric_limits<double>::infinity());
     }
   }
@@ -97,7 +97,7 @@ TEST(PlotAxis, GivesEmptyAndSingleValueRangesALength) {
 TEST(Plot, DrawsEveryPointOnTheAxesAndZerosAtTheEdge) {
   Plot plot{"p", "", {"x", true}, {"y", true}, {}, ""};
   plot.curves.push_back(
-      {"c", {1.0, 10.0, 100.0, 1000.0, -1.0}, {1.0, 0.0, kNan, 3.0, 1.0}, {}, {}});
+      {"c", {1.0, 10.0, 100.0, 1000.0, -1.0}, {1.0, 0.0, kMissing, 3.0, 1.0}, {}, {}});
   const std::string svg = svg_of(plot, Place::page);
   // Two points and the mark in the legend; one zero and its mark in the legend.
   EXPECT_EQ(count(svg, "class=\"mark f0\""), 3u);
@@ -109,7 +109,7 @@ TEST(Plot, DrawsLabelsAndSpreadsOfBothAxesAtTheirPoints) {
   // The frame is 660 px wide, from 78, and two decades of x; 5 % of its range lie beyond each end.
   Plot plot{"p", "", {"x", true}, {"y", true}, {}, ""};
   Curve curve{"c", {1.0, 10.0, 100.0}, {1.0, 1.0, 100.0}, {}, {}};
-  curve.x_low = {1.0, kNan, 50.0};
+  curve.x_low = {1.0, kMissing, 50.0};
   curve.x_high = {10.0, 20.0, 100.0};
   curve.labels = {"50", "100", "<200>"};
   plot.curves.push_back(curve);
@@ -146,7 +146,7 @@ TEST(Plot, ThinningKeepsSinglePointSpikes) {
 
 TEST(PlotMap, DrawsACellPerNumberAndMarksMissingOnes) {
   Map map{"m", "", {"x", true}, {"y", false}, {1.0, 10.0, 100.0}, {0.0, 1.0}, {}, {}, ""};
-  map.cells = {{0.0, 1.0, 0.5}, {kNan, 0.25, 0.0}};
+  map.cells = {{0.0, 1.0, 0.5}, {kMissing, 0.25, 0.0}};
   const std::string svg = svg_of(map, Place::page);
   EXPECT_EQ(count(svg, "class=\"cell\""), 5u + 3u);      // plus three in the legend
   EXPECT_EQ(count(svg, "class=\"cell-dot\""), 3u + 2u);  // none where the value is 0

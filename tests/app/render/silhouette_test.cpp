@@ -50,14 +50,14 @@ void expect_silhouette(const std::function<double(double)>& radius, double wall_
 }
 
 double cylinder(double) { return 45.0; }
-double cone(double part) { return 20.0 + 50.0 * part; }
+double silhouette_cone(double part) { return 20.0 + 50.0 * part; }
 double ball(double part) {
   return std::sqrt(60.5 * 60.5 - 120.0 * 120.0 * (part - 0.5) * (part - 0.5));
 }
 
 TEST(Silhouette, OutlinesASolidCylinder) { expect_silhouette(cylinder, 0.0, 0.4); }
 TEST(Silhouette, OutlinesACylinderWithABore) { expect_silhouette(cylinder, 6.0, 0.7); }
-TEST(Silhouette, OutlinesAConeThatOpensUpwards) { expect_silhouette(cone, 5.0, 0.9); }
+TEST(Silhouette, OutlinesAConeThatOpensUpwards) { expect_silhouette(silhouette_cone, 5.0, 0.9); }
 TEST(Silhouette, ShowsAClosedFloorFromAbove) { expect_silhouette(cylinder, 5.0, 1.5); }
 TEST(Silhouette, OutlinesABall) { expect_silhouette(ball, 0.0, 0.3); }
 TEST(Silhouette, ShowsAClosedFootFromBelow) { expect_silhouette(cylinder, 6.0, -0.6); }

@@ -22,7 +22,7 @@ namespace clay::servo {
 namespace {
 
 template <class Condition>
-void wait_for(Condition condition, const std::string& what) {
+void wait_until(Condition condition, const std::string& what) {
   test::wait_until(condition, test::kDeadline, what);
 }
 
@@ -48,13 +48,13 @@ struct Threads {
 
   Bench bench() { return {wheel, device, clock, nullptr}; }
   void wait_for_force() {
-    wait_for([&] { return log.last_n > 0.0; }, "a force");
+    wait_until([&] { return log.last_n > 0.0; }, "a force");
   }
   void wait_for_writes(std::uint64_t more) {
-    wait_for([&, end = log.writes + more] { return log.writes > end; }, "forces to be written");
+    wait_until([&, end = log.writes + more] { return log.writes > end; }, "forces to be written");
   }
   Ending end() {
-    wait_for([&] { return !servo.running(); }, "the servo's end");
+    wait_until([&] { return !servo.running(); }, "the servo's end");
     return servo.join();
   }
   Ending stop() { return servo.command({CommandKind::stop, 0.0}) ? end() : Ending::none; }
@@ -95,7 +95,7 @@ TEST(Servo, WatchdogEndsTheForceOfAHangAndItRampsUpAgain) {
   threads.wait_for_force();
   const std::uint64_t zeros = log.zeros;
   log.hang = true;
-  wait_for([&] { return log.zeros > zeros; }, "the watchdog to end the force");
+  wait_until([&] { return log.zeros > zeros; }, "the watchdog to end the force");
   EXPECT_EQ(log.last_n, 0.0) << "nobody writes a force meanwhile";
   log.hang = false;
   threads.wait_for_writes(20);
@@ -123,7 +123,7 @@ TEST(Servo, ReadersGetCompleteValuesInOrder) {
     for (int i = 0; i < 1000; ++i) read();
     return ticks >= 300 || testing::Test::HasFailure();
   };
-  wait_for(read_often, "300 ticks");
+  wait_until(read_often, "300 ticks");
   EXPECT_EQ(threads.stop(), Ending::stopped);
 }
 
@@ -139,9 +139,9 @@ TEST(Servo, AnUnpluggedDeviceEndsIt) {
   const std::uint64_t poses = threads.loop.status().poses;
   Servo again(threads.bench(), threads.loop, Pace::thread);
   again.start();
-  wait_for([&] { return again.view().status.newest().poses > poses + 20; }, "poses");
+  wait_until([&] { return again.view().status.newest().poses > poses + 20; }, "poses");
   ASSERT_TRUE(again.command({CommandKind::stop, 0.0}));
-  wait_for([&] { return !again.running(); }, "the other servo's end");
+  wait_until([&] { return !again.running(); }, "the other servo's end");
   EXPECT_EQ(again.join(), Ending::stopped);
 }
 
@@ -166,7 +166,7 @@ TEST(Servo, TheHandlerItselfWritesZeroWhileTheServoHangs) {
     EXPECT_EQ(log.stops, 0u);
     raise(signal);
     // Handled before it returns, but for the thread sanitizer, which waits for a sleep.
-    wait_for([&] { return log.stops > 0; }, "the handler to tell the device to stop");
+    wait_until([&] { return log.stops > 0; }, "the handler to tell the device to stop");
     EXPECT_EQ(log.stops, 1u) << "nobody else tells a device to stop while the servo hangs";
     EXPECT_EQ(ForceSignals::asked_to_stop(), signal);
     log.hang = false;

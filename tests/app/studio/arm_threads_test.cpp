@@ -43,7 +43,7 @@ TEST(DeviceWatch, OpensALaterDeviceAndStopsSearching) {
 
 TEST(DeviceWatch, ReportsEachProblemOncePerDevice) {
   Socket socket;
-  socket.print("no power");
+  socket.send("no power");
   DeviceWatch watch(socket.look(), 1ms);
   const auto told = [&] {
     socket.wait_for_looks(2);
@@ -51,12 +51,12 @@ TEST(DeviceWatch, ReportsEachProblemOncePerDevice) {
   };
   EXPECT_EQ(told(), "no power");
   EXPECT_EQ(told(), "");
-  socket.print("no firmware");
+  socket.send("no firmware");
   EXPECT_EQ(told(), "no firmware");
   EXPECT_EQ(told(), "");
-  socket.print("");  // pulled out
+  socket.send("");  // pulled out
   EXPECT_EQ(told(), "");
-  socket.print("no firmware");
+  socket.send("no firmware");
   EXPECT_EQ(told(), "no firmware");
 }
 

@@ -39,7 +39,7 @@ struct Socket {
     };
     test::wait_until(opened, test::kDeadline, "the watch to open the device");
   }
-  void say(const std::string& what) {
+  void send(const std::string& what) {
     const std::lock_guard lock(mutex);
     problem = what;
   }

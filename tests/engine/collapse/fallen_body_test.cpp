@@ -12,12 +12,10 @@
 namespace clay {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 TEST(FallenBody, MeasuresOfACylinder) {
   const ClayStack stack = ClayStack::cylinder(50, 2.0, 20.0, 0.0, 50).value();
   const FallenBody body(stack, 9);  // 80 mm from 20 mm up
-  EXPECT_NEAR(body.volume_mm3(), kPi * 400 * 80, 1e-6);
+  EXPECT_NEAR(body.volume_mm3(), std::numbers::pi * 400 * 80, 1e-6);
   EXPECT_NEAR(body.centre_height_mm(), 60.0, 1e-12);
   EXPECT_NEAR(body.gyration_mm(), std::sqrt(400.0 / 4 + 80.0 * 80 / 12), 1e-10);
   EXPECT_NEAR(body.reach_mm(), std::hypot(20, 40), 1e-12);
@@ -32,11 +30,11 @@ TEST(FallenBody, MeasuresOfATubeWithACrown) {
   const ClayStack stack =
       ClayStack::from_rings(4.0, {ring, ring, ring, ring}, ring.volume() / 2).value();
   const FallenBody body(stack, 0);
-  EXPECT_NEAR(body.volume_mm3(), kPi * (400 - 256) * 14, 1e-6);
+  EXPECT_NEAR(body.volume_mm3(), std::numbers::pi * (400 - 256) * 14, 1e-6);
   EXPECT_NEAR(body.centre_height_mm(), 4 + 7, 1e-9);
   EXPECT_NEAR(body.gyration_mm(), std::sqrt((400.0 + 256) / 4 + 14.0 * 14 / 12), 1e-9);
   const FallenBody crown(stack, 3);
-  EXPECT_NEAR(crown.volume_mm3(), kPi * (400 - 256) * 2, 1e-6);
+  EXPECT_NEAR(crown.volume_mm3(), std::numbers::pi * (400 - 256) * 2, 1e-6);
   EXPECT_NEAR(crown.centre_height_mm(), 17, 1e-9);
   EXPECT_NEAR(crown.lowest(0.0).y, -1.0, 1e-9);
 }

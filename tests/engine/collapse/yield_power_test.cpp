@@ -12,8 +12,6 @@
 namespace clay {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Twist any_twist(std::mt19937_64& random) {
   const auto one = [&] { return 2.0 * samples::uniform(random) - 1.0; };
   return {one(), one(), one()};
@@ -32,7 +30,8 @@ TEST(YieldPower, AtTheFailedRingEqualsTheCriterionOfSectionSeven) {
   const ClayStack stack = ClayStack::from_rings(2.0, rings, 0).value();
   const FallenBody body(stack, 8);
   const PlanePose stood{{0.0, body.centre_height_mm()}, 0.0};
-  const double weight = 3.0, threshold = 2.5, borne = 1e-3 * threshold * kPi * (144 - 25);
+  const double weight = 3.0, threshold = 2.5,
+               borne = 1e-3 * threshold * std::numbers::pi * (144 - 25);
   YieldPower power(stack, 8, body, weight, threshold);
   power.place(stood);
   EXPECT_NEAR(power.net({0, -1, 0}), 1.0 - borne / weight, 1e-12);

@@ -48,7 +48,7 @@ Pot collapsed_pot() {
   return pot;
 }
 
-void expect_error(std::string_view from, std::string_view to, const std::string& message) {
+void expect_pot_error(std::string_view from, std::string_view to, const std::string& message) {
   SCOPED_TRACE(to);
   const std::string text = write_pot(collapsed_pot(), PotEncoding::json);
   test::expect_refused(parse_pot(test::replaced(text, from, to), "p.json"),
@@ -134,25 +134,26 @@ TEST(PotFile, RefusesALedgerOffByOneQuantum) {
 }
 
 TEST(PotFile, ErrorsNameTheRingAndItsLine) {
-  expect_error("1.414214", "1.414",
-               "rings.outer_mm[3]: expected the radius that the count of ring "
-               "3 gives, 1.4142135623730951 mm, found 1.414");
-  expect_error("[10, 11, 12, 1.414214]", "[10, 11, 12]",
-               "rings.outer_mm: expected one radius for each of 4 rings, found an array of 3");
-  expect_error("[0, 9, 10, 1]", "[0, 9.00002, 10, 1]",
-               "rings.inner_mm[1]: expected the radius that the count of ring 1 gives, 9 mm, found "
-               "9.00002");
-  expect_error("[0, 5566277615616,", "[0, 8315056685056,",
-               "rings.inner2[1]: expected less than the outer count of the ring, found "
-               "8315056685056");
-  expect_error("[0, 5566277615616,", "[0,",
-               "rings.inner2: expected one count for each of 4 rings, found an array of 3");
-  expect_error("[6871947673600,", "[68718,",
-               "rings.outer2[0]: expected an integer from 68719 to 1717986918400000000, found "
-               "68718");
-  expect_error("[6871947673600,", "[6871947673600.0,",
-               "rings.outer2[0]: expected an integer from 68719 to 1717986918400000000, found "
-               "6871947673600.0");
+  expect_pot_error("1.414214", "1.414",
+                   "rings.outer_mm[3]: expected the radius that the count of ring "
+                   "3 gives, 1.4142135623730951 mm, found 1.414");
+  expect_pot_error("[10, 11, 12, 1.414214]", "[10, 11, 12]",
+                   "rings.outer_mm: expected one radius for each of 4 rings, found an array of 3");
+  expect_pot_error(
+      "[0, 9, 10, 1]", "[0, 9.00002, 10, 1]",
+      "rings.inner_mm[1]: expected the radius that the count of ring 1 gives, 9 mm, found "
+      "9.00002");
+  expect_pot_error("[0, 5566277615616,", "[0, 8315056685056,",
+                   "rings.inner2[1]: expected less than the outer count of the ring, found "
+                   "8315056685056");
+  expect_pot_error("[0, 5566277615616,", "[0,",
+                   "rings.inner2: expected one count for each of 4 rings, found an array of 3");
+  expect_pot_error("[6871947673600,", "[68718,",
+                   "rings.outer2[0]: expected an integer from 68719 to 1717986918400000000, found "
+                   "68718");
+  expect_pot_error("[6871947673600,", "[6871947673600.0,",
+                   "rings.outer2[0]: expected an integer from 68719 to 1717986918400000000, found "
+                   "6871947673600.0");
 }
 
 TEST(PotFile, AcceptsRadiiRoundedByAPerson) {
@@ -161,28 +162,29 @@ TEST(PotFile, AcceptsRadiiRoundedByAPerson) {
 }
 
 TEST(PotFile, ErrorsNameTheLineOfEveryOtherField) {
-  expect_error("\"17\"", "17", "crown: expected a text of 1 to 30 decimal digits, found 17");
-  expect_error("\"17\"", "\"017\"",
-               "crown: expected a text of 1 to 30 decimal digits, found \"017\"");
-  expect_error("\"17\"", "\"-1\"",
-               "crown: expected a text of 1 to 30 decimal digits, found \"-1\"");
-  expect_error("\"17\"", "\"\"", "crown: expected a text of 1 to 30 decimal digits, found \"\"");
-  expect_error("\"17\"", "\"1000000000000000000000000000000\"",
-               "crown: expected a text of 1 to 30 decimal digits, found "
-               "\"1000000000000000000000000000000\"");
-  expect_error("\"max_rings\": 16", "\"max_rings\": 3",
-               "max_rings: expected at least the number of rings, 4, found 3");
-  expect_error("[0.6, 0, -0.8]", "[0.6, 0, -0.7]",
-               "collapse.axis: expected a horizontal axis of length 1, found an array of 3");
-  expect_error("[0.6, 0, -0.8]", "[0.6, 0.8, 0]",
-               "collapse.axis: expected a horizontal axis of length 1, found an array of 3");
-  expect_error("[0.6, 0, -0.8]", "[0.6, 0]",
-               "collapse.axis: expected an array of 3 numbers, found an array of 2");
-  expect_error(
+  expect_pot_error("\"17\"", "17", "crown: expected a text of 1 to 30 decimal digits, found 17");
+  expect_pot_error("\"17\"", "\"017\"",
+                   "crown: expected a text of 1 to 30 decimal digits, found \"017\"");
+  expect_pot_error("\"17\"", "\"-1\"",
+                   "crown: expected a text of 1 to 30 decimal digits, found \"-1\"");
+  expect_pot_error("\"17\"", "\"\"",
+                   "crown: expected a text of 1 to 30 decimal digits, found \"\"");
+  expect_pot_error("\"17\"", "\"1000000000000000000000000000000\"",
+                   "crown: expected a text of 1 to 30 decimal digits, found "
+                   "\"1000000000000000000000000000000\"");
+  expect_pot_error("\"max_rings\": 16", "\"max_rings\": 3",
+                   "max_rings: expected at least the number of rings, 4, found 3");
+  expect_pot_error("[0.6, 0, -0.8]", "[0.6, 0, -0.7]",
+                   "collapse.axis: expected a horizontal axis of length 1, found an array of 3");
+  expect_pot_error("[0.6, 0, -0.8]", "[0.6, 0.8, 0]",
+                   "collapse.axis: expected a horizontal axis of length 1, found an array of 3");
+  expect_pot_error("[0.6, 0, -0.8]", "[0.6, 0]",
+                   "collapse.axis: expected an array of 3 numbers, found an array of 2");
+  expect_pot_error(
       "\"collapse\": {\n    \"failed_ring\": 2", "\"collapse\": {\n    \"failed_ring\": 4",
       "collapse: expected a failed_ring below the number of rings, 4, found an object with "
       "9 fields");
-  expect_error(
+  expect_pot_error(
       "\"density_g_cm3\": 2.1", "\"density_g_cm3\": 2.1, \"density\": 2",
       "unknown field \"density\"; expected one of schema, written_by, model, "
       "density_g_cm3, ring_height_mm, max_rings, quantum_mm2, rings, rounded_rings, crown, "

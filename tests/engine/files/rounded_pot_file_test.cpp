@@ -16,7 +16,7 @@ namespace {
 using test::Json;
 
 /// Radii outside 10, 10.002, 10.005, 10.005 and inside 0, 0, 9, 9.001 mm, and a hair.
-Pot small_pot() {
+Pot small_rounded_pot() {
   std::vector<Ring> rings;
   const double outer[] = {10.0, 10.002, 10.005, 10.005};
   const double inner[] = {0.0, 0.0, 9.0, 9.001};
@@ -29,11 +29,11 @@ Pot small_pot() {
   return rounded_pot(pot, 0.001).value();
 }
 
-std::string small_text() { return write_pot(small_pot(), PotEncoding::json); }
+std::string small_rounded_text() { return write_pot(small_rounded_pot(), PotEncoding::json); }
 
-void expect_error(std::string_view from, std::string_view to, const std::string& message) {
+void expect_rounded_error(std::string_view from, std::string_view to, const std::string& message) {
   SCOPED_TRACE(to);
-  const std::string text = small_text();
+  const std::string text = small_rounded_text();
   test::expect_refused(
       parse_pot(test::replaced(text, from, to), "p.json"),
       "p.json:" + std::to_string(test::line_of(text, from)) + ": rounded_rings." + message);
@@ -48,13 +48,13 @@ void expect_sound(const Pot& pot) {
 }
 
 TEST(RoundedPotFile, StoresSecondDifferencesAndRadii) {
-  const Json rings = Json::parse(small_text())["rounded_rings"];
+  const Json rings = Json::parse(small_rounded_text())["rounded_rings"];
   EXPECT_EQ(rings["rounded_to_mm"], 0.001);
   EXPECT_EQ(rings["outer_differences"], Json({10000, -9998, 1, -3}));
   EXPECT_EQ(rings["inner_differences"], Json({0, 0, 9000, -8999}));
   EXPECT_EQ(rings["outer_mm"], Json({10, 10.002, 10.005, 10.005}));
   EXPECT_EQ(rings["inner_mm"], Json({0, 0, 9, 9.001}));
-  EXPECT_EQ(rings["exact_volume"], to_string(small_pot().rounding->exact_volume));
+  EXPECT_EQ(rings["exact_volume"], to_string(small_rounded_pot().rounding->exact_volume));
 }
 
 RC_GTEST_PROP(RoundedPotFile, RoundTrips, ()) {
@@ -79,7 +79,7 @@ RC_GTEST_PROP(RoundedPotFile, CborHoldsTheFieldsOfJsonExceptRadii, ()) {
 }
 
 TEST(RoundedPotFile, WritesAPotWithFalseRoundingExactly) {
-  Pot pot = small_pot();
+  Pot pot = small_rounded_pot();
   std::vector<Ring> rings(pot.stack.rings().begin(), pot.stack.rings().end());
   ++rings[1].outer2;
   pot.stack = ClayStack::from_rings(0.75, std::move(rings), 17, 16).value();
@@ -91,45 +91,53 @@ TEST(RoundedPotFile, WritesAPotWithFalseRoundingExactly) {
 }
 
 TEST(RoundedPotFile, ErrorsNameTheRingAndItsLine) {
-  expect_error("[10000, -9998,", "[0, -9998,",
-               "outer_differences[0]: expected a difference that gives an outer radius from 0.001 "
-               "to 5000 mm, found 0");
-  expect_error("[10000, -9998,", "[10000, -20000,",
-               "outer_differences[1]: expected a difference that gives an outer radius from 0.001 "
-               "to 5000 mm, found -20000");
-  expect_error("[10000, -9998,", "[10000, 4980001,",
-               "outer_differences[1]: expected a difference that gives an outer radius from 0.001 "
-               "to 5000 mm, found 4980001");
-  expect_error("[10000, -9998,", "[10000, 1000000001,",
-               "outer_differences[1]: expected an integer from -1000000000 to 1000000000, found "
-               "1000000001");
-  expect_error("[10000, -9998,", "[10000, -9998.0,",
-               "outer_differences[1]: expected an integer from -1000000000 to 1000000000, found "
-               "-9998.0");
-  expect_error("[0, 0, 9000,", "[0, -1, 9000,",
-               "inner_differences[1]: expected a difference that gives an inner radius from 0 to "
-               "5000 mm, found -1");
-  expect_error("[0, 0, 9000,", "[0, 0, 10005,",
-               "inner_differences[2]: expected a difference that gives an inner radius below the "
-               "outer one, found 10005");
-  expect_error("[0, 0, 9000, -8999]", "[0, 0, 9000]",
-               "inner_differences: expected one count for each of 4 rings, found an array of 3");
-  expect_error("[10000, -9998, 1, -3]", "[]",
-               "outer_differences: expected 1 to 16777216 rings, found an array of 0");
-  expect_error("[0, 0, 9, 9.001]", "[0, 0, 9, 9.002]",
-               "inner_mm[3]: expected the radius that the count of ring 3 gives, "
-               "9.001000000000223 mm, found 9.002");
+  expect_rounded_error(
+      "[10000, -9998,", "[0, -9998,",
+      "outer_differences[0]: expected a difference that gives an outer radius from 0.001 "
+      "to 5000 mm, found 0");
+  expect_rounded_error(
+      "[10000, -9998,", "[10000, -20000,",
+      "outer_differences[1]: expected a difference that gives an outer radius from 0.001 "
+      "to 5000 mm, found -20000");
+  expect_rounded_error(
+      "[10000, -9998,", "[10000, 4980001,",
+      "outer_differences[1]: expected a difference that gives an outer radius from 0.001 "
+      "to 5000 mm, found 4980001");
+  expect_rounded_error(
+      "[10000, -9998,", "[10000, 1000000001,",
+      "outer_differences[1]: expected an integer from -1000000000 to 1000000000, found "
+      "1000000001");
+  expect_rounded_error(
+      "[10000, -9998,", "[10000, -9998.0,",
+      "outer_differences[1]: expected an integer from -1000000000 to 1000000000, found "
+      "-9998.0");
+  expect_rounded_error(
+      "[0, 0, 9000,", "[0, -1, 9000,",
+      "inner_differences[1]: expected a difference that gives an inner radius from 0 to "
+      "5000 mm, found -1");
+  expect_rounded_error(
+      "[0, 0, 9000,", "[0, 0, 10005,",
+      "inner_differences[2]: expected a difference that gives an inner radius below the "
+      "outer one, found 10005");
+  expect_rounded_error(
+      "[0, 0, 9000, -8999]", "[0, 0, 9000]",
+      "inner_differences: expected one count for each of 4 rings, found an array of 3");
+  expect_rounded_error("[10000, -9998, 1, -3]", "[]",
+                       "outer_differences: expected 1 to 16777216 rings, found an array of 0");
+  expect_rounded_error("[0, 0, 9, 9.001]", "[0, 0, 9, 9.002]",
+                       "inner_mm[3]: expected the radius that the count of ring 3 gives, "
+                       "9.001000000000223 mm, found 9.002");
 }
 
 TEST(RoundedPotFile, ErrorsNameTheLineOfEveryOtherField) {
-  expect_error("\"rounded_to_mm\": 0.001", "\"rounded_to_mm\": 0.0010001",
-               "rounded_to_mm: expected a whole number of nanometres, found 0.0010001");
-  expect_error("\"rounded_to_mm\": 0.001", "\"rounded_to_mm\": 2",
-               "rounded_to_mm: expected a number from 1e-05 to 1, found 2");
-  expect_error("\"exact_volume\": \"", "\"exact_volume\": \"-",
-               "exact_volume: expected a text of 1 to 30 decimal digits, found \"-" +
-                   to_string(small_pot().rounding->exact_volume) + "\"");
-  const std::string text = small_text();
+  expect_rounded_error("\"rounded_to_mm\": 0.001", "\"rounded_to_mm\": 0.0010001",
+                       "rounded_to_mm: expected a whole number of nanometres, found 0.0010001");
+  expect_rounded_error("\"rounded_to_mm\": 0.001", "\"rounded_to_mm\": 2",
+                       "rounded_to_mm: expected a number from 1e-05 to 1, found 2");
+  expect_rounded_error("\"exact_volume\": \"", "\"exact_volume\": \"-",
+                       "exact_volume: expected a text of 1 to 30 decimal digits, found \"-" +
+                           to_string(small_rounded_pot().rounding->exact_volume) + "\"");
+  const std::string text = small_rounded_text();
   test::expect_refused(parse_pot(test::replaced(text, "rounded_rings", "rounded_ring"), "p"),
                        "p:1: expected a field \"rings\", found none");
   Json both = Json::parse(text);
@@ -141,7 +149,7 @@ TEST(RoundedPotFile, ErrorsNameTheLineOfEveryOtherField) {
 }
 
 TEST(RoundedPotFile, RefusesALedgerOffByOneQuantum) {
-  Pot pot = small_pot();
+  Pot pot = small_rounded_pot();
   pot.ledger.added += 1;
   test::expect_refused(parse_pot(write_pot(pot, PotEncoding::cbor), "p"),
                        "p: ledger: expected every quantum accounted for, found -1 too many (in "
@@ -149,13 +157,13 @@ TEST(RoundedPotFile, RefusesALedgerOffByOneQuantum) {
 }
 
 TEST(RoundedPotFile, RefusesEveryTruncation) {
-  const std::string bytes = write_pot(small_pot(), PotEncoding::cbor);
+  const std::string bytes = write_pot(small_rounded_pot(), PotEncoding::cbor);
   for (std::size_t n = 0; n < bytes.size(); ++n) EXPECT_FALSE(parse_pot(bytes.substr(0, n), "cut"));
   EXPECT_FALSE(parse_pot(bytes + '\0', "trailing"));
 }
 
 TEST(RoundedPotFile, NoEditedByteGivesAnUnsoundPot) {
-  const std::string bytes = write_pot(small_pot(), PotEncoding::cbor);
+  const std::string bytes = write_pot(small_rounded_pot(), PotEncoding::cbor);
   std::size_t refused = 0;
   for (std::size_t at = 0; at < bytes.size(); ++at)
     for (unsigned value = 1; value < 256; value = value < 16 ? value + 1 : value * 2 - 1) {
@@ -171,7 +179,7 @@ TEST(RoundedPotFile, NoEditedByteGivesAnUnsoundPot) {
 
 TEST(RoundedPotFile, RefusesSumsThatOverflow) {
   // 2^18 differences of 10^9: their double sum would overflow 64 bits.
-  Json file = Json::parse(small_text());
+  Json file = Json::parse(small_rounded_text());
   file["max_rings"] = kMaxRings;
   for (const std::int64_t difference : {1'000'000'000, -1'000'000'000}) {
     for (const char* name : {"outer_differences", "inner_differences"}) {
@@ -183,7 +191,7 @@ TEST(RoundedPotFile, RefusesSumsThatOverflow) {
 }
 
 TEST(RoundedPotSchema, NamesTheWrittenFields) {
-  const auto written = test::member_paths(Json::parse(small_text()));
+  const auto written = test::member_paths(Json::parse(small_rounded_text()));
   auto described = test::property_paths(test::load_schema("pot"));
   std::erase_if(described, [](const std::string& path) {
     return path.starts_with("/rings") || path.starts_with("/rim") || path.starts_with("/motion") ||
@@ -194,7 +202,7 @@ TEST(RoundedPotSchema, NamesTheWrittenFields) {
 
 TEST(RoundedPotSchema, AgreesWithTheReader) {
   const Json schema = test::load_schema("pot");
-  const Json file = Json::parse(small_text());
+  const Json file = Json::parse(small_rounded_text());
   EXPECT_EQ(test::violation(schema, file), "");
   std::size_t compared = 0;
   for (const auto& [what, edited] : test::edits(schema, file)) {

@@ -61,7 +61,7 @@ constexpr std::string_view kText = R"({
 )";
 
 /// Replaces `from` by `to`; the message must name the line of `from`.
-void expect_error(std::string_view from, std::string_view to, const std::string& message) {
+void expect_scene_error(std::string_view from, std::string_view to, const std::string& message) {
   SCOPED_TRACE(to);
   test::expect_refused(
       parse_scene(test::replaced(std::string(kText), from, to), "vase.scene.json"),
@@ -107,44 +107,51 @@ TEST(SceneFile, ReadsEveryToolShape) {
 }
 
 TEST(SceneFile, ErrorsNameTheLineOfANumber) {
-  expect_error("300", "0", "lump.rings: expected an integer from 1 to 16777216, found 0");
-  expect_error("300", "300.5", "lump.rings: expected an integer from 1 to 16777216, found 300.5");
-  expect_error("300", "18446744073709551615",
-               "lump.rings: expected an integer from 1 to 16777216, found 18446744073709551615");
-  expect_error("0.5,", "2000,",
-               "lump.ring_height_mm: expected a number from 0.001 to 1000, found 2000");
-  expect_error("35.5", "\"35.5\"",
-               "lump.inner_radius_mm: expected a number from 0 to below 5000, found \"35.5\"");
-  expect_error("0.25", "1", "removal.paper_fraction: expected a number from 0 to below 1, found 1");
-  expect_error("4.5", "0", "tool.gap_mm: expected a number from 0.001 to 1000, found 0");
-  expect_error("8}", "0}", "stability.max_stress_kpa: expected a number above 0 to 1e+06, found 0");
-  expect_error("2.5]", "[]]",
-               "tool.shape.sampled.t_mm[2]: expected a number from -5000 to 5000, found an array "
-               "of 0");
+  expect_scene_error("300", "0", "lump.rings: expected an integer from 1 to 16777216, found 0");
+  expect_scene_error("300", "300.5",
+                     "lump.rings: expected an integer from 1 to 16777216, found 300.5");
+  expect_scene_error(
+      "300", "18446744073709551615",
+      "lump.rings: expected an integer from 1 to 16777216, found 18446744073709551615");
+  expect_scene_error("0.5,", "2000,",
+                     "lump.ring_height_mm: expected a number from 0.001 to 1000, found 2000");
+  expect_scene_error(
+      "35.5", "\"35.5\"",
+      "lump.inner_radius_mm: expected a number from 0 to below 5000, found \"35.5\"");
+  expect_scene_error("0.25", "1",
+                     "removal.paper_fraction: expected a number from 0 to below 1, found 1");
+  expect_scene_error("4.5", "0", "tool.gap_mm: expected a number from 0.001 to 1000, found 0");
+  expect_scene_error("8}", "0}",
+                     "stability.max_stress_kpa: expected a number above 0 to 1e+06, found 0");
+  expect_scene_error(
+      "2.5]", "[]]",
+      "tool.shape.sampled.t_mm[2]: expected a number from -5000 to 5000, found an array "
+      "of 0");
 }
 
 TEST(SceneFile, ErrorsNameTheLineOfOtherValues) {
-  expect_error("\"claystack-scene-1\"", "\"claystack-scene-2\"",
-               "schema: expected \"claystack-scene-1\", found \"claystack-scene-2\"");
-  expect_error("\"a hand\"", "1", "written_by: expected a text, found 1");
-  expect_error("\"vase\"", "null", "name: expected a text, found null");
-  expect_error("\"paper\"", "\"papal\"",
-               "model: expected one of conserving, paper, found \"papal\"");
-  expect_error(
+  expect_scene_error("\"claystack-scene-1\"", "\"claystack-scene-2\"",
+                     "schema: expected \"claystack-scene-1\", found \"claystack-scene-2\"");
+  expect_scene_error("\"a hand\"", "1", "written_by: expected a text, found 1");
+  expect_scene_error("\"vase\"", "null", "name: expected a text, found null");
+  expect_scene_error("\"paper\"", "\"papal\"",
+                     "model: expected one of conserving, paper, found \"papal\"");
+  expect_scene_error(
       "\"trim\"", "true",
       "tool.mode: expected one of press, trim, pinch, smooth, needle, wire, trim_foot, found true");
-  expect_error("{\"sigma_mm\": 3, \"reach_mm\": 12, \"inside_share\": 0.5}", "3",
-               "flow: expected an object, found 3");
-  expect_error("[1, 2, 0]", "1", "tool.shape.sampled.f_mm: expected an array, found 1");
+  expect_scene_error("{\"sigma_mm\": 3, \"reach_mm\": 12, \"inside_share\": 0.5}", "3",
+                     "flow: expected an object, found 3");
+  expect_scene_error("[1, 2, 0]", "1", "tool.shape.sampled.f_mm: expected an array, found 1");
 }
 
 TEST(SceneFile, ErrorsBetweenFieldsNameTheLineOfOne) {
-  expect_error("35.5", "40",
-               "lump.inner_radius_mm: expected less than outer_radius_mm, 40, found 40");
-  expect_error("900", "299", "lump.max_rings: expected 0 or at least rings, 300, found 299");
-  expect_error("2.5]", "0]", "tool.shape.sampled.t_mm[2]: expected more than 0, found 0");
-  expect_error("[1, 2, 0]", "[1, 2]",
-               "tool.shape.sampled.f_mm: expected as many numbers as t_mm, 3, found an array of 2");
+  expect_scene_error("35.5", "40",
+                     "lump.inner_radius_mm: expected less than outer_radius_mm, 40, found 40");
+  expect_scene_error("900", "299", "lump.max_rings: expected 0 or at least rings, 300, found 299");
+  expect_scene_error("2.5]", "0]", "tool.shape.sampled.t_mm[2]: expected more than 0, found 0");
+  expect_scene_error(
+      "[1, 2, 0]", "[1, 2]",
+      "tool.shape.sampled.f_mm: expected as many numbers as t_mm, 3, found an array of 2");
   test::expect_refused(
       parse_scene(R"({"schema": "claystack-scene-1", "lump": {},
                       "tool": {"shape": {"sampled":
@@ -154,23 +161,27 @@ TEST(SceneFile, ErrorsBetweenFieldsNameTheLineOfOne) {
 }
 
 TEST(SceneFile, ErrorsNameUnknownFields) {
-  expect_error("\"trim\"", "\"trim\", \"colour\": 3",
-               "unknown field \"colour\" in tool; expected one of shape, mode, gap_mm");
-  expect_error("\"friction\"", "\"fricton\"",
-               "unknown field \"fricton\" in force; expected one of stiffness_n_per_mm2, limit_n, "
-               "friction, wheel, paper_stiffness_n_per_mm; is \"friction\" meant?");
-  expect_error("\"limit_n\"", "\"limti_n\"",
-               "unknown field \"limti_n\" in force; expected one of stiffness_n_per_mm2, limit_n, "
-               "friction, wheel, paper_stiffness_n_per_mm; is \"limit_n\" meant?");
-  expect_error("\"stability\"", "\"colour\"",
-               "unknown field \"colour\"; expected one of schema, written_by, name, model, lump, "
-               "tool, removal, flow, force, stability, clay");
-  expect_error("\"friction\": 0.3", "\"limit_n\": 3", "duplicate field \"limit_n\"");
+  expect_scene_error("\"trim\"", "\"trim\", \"colour\": 3",
+                     "unknown field \"colour\" in tool; expected one of shape, mode, gap_mm");
+  expect_scene_error(
+      "\"friction\"", "\"fricton\"",
+      "unknown field \"fricton\" in force; expected one of stiffness_n_per_mm2, limit_n, "
+      "friction, wheel, paper_stiffness_n_per_mm; is \"friction\" meant?");
+  expect_scene_error(
+      "\"limit_n\"", "\"limti_n\"",
+      "unknown field \"limti_n\" in force; expected one of stiffness_n_per_mm2, limit_n, "
+      "friction, wheel, paper_stiffness_n_per_mm; is \"limit_n\" meant?");
+  expect_scene_error(
+      "\"stability\"", "\"colour\"",
+      "unknown field \"colour\"; expected one of schema, written_by, name, model, lump, "
+      "tool, removal, flow, force, stability, clay");
+  expect_scene_error("\"friction\": 0.3", "\"limit_n\": 3", "duplicate field \"limit_n\"");
 }
 
 TEST(SceneFile, ErrorsNameMissingFields) {
-  expect_error("\"sampled\": {\n        \"t_mm\"", "\"sampled\": {\n        \"tmm\"",
-               "tool.shape.sampled: expected a field \"t_mm\", found none; is \"tmm\" meant?");
+  expect_scene_error(
+      "\"sampled\": {\n        \"t_mm\"", "\"sampled\": {\n        \"tmm\"",
+      "tool.shape.sampled: expected a field \"t_mm\", found none; is \"tmm\" meant?");
   test::expect_refused(parse_scene(R"({"schema": "claystack-scene-1", "lump": {},
                                        "tool": {"mode": "pinch"}})",
                                    "pinch"),

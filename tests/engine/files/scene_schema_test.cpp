@@ -39,7 +39,7 @@ TEST(SceneSchema, NamesTheWrittenFields) {
 }
 
 /// A schema cannot compare two fields: only there the reader is stricter.
-bool is_rule_between_fields(const std::string& message) {
+bool is_scene_rule(const std::string& message) {
   constexpr std::array kRules = {"less than outer_radius_mm", "at least rings", "more than",
                                  "as many numbers as"};
   return std::ranges::any_of(
@@ -55,7 +55,7 @@ TEST(SceneSchema, AgreesWithTheReader) {
     scene.tool.shape = shape;
     for (const auto& [what, file] : test::edits(schema, Json::parse(write_scene(scene)))) {
       const auto read = parse_scene(file.dump(), "edited");
-      if (!read && is_rule_between_fields(read.error().message)) continue;
+      if (!read && is_scene_rule(read.error().message)) continue;
       EXPECT_EQ(read.has_value(), test::violation(schema, file).empty())
           << what << ": " << (read ? "read" : read.error().message);
     }

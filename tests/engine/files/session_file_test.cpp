@@ -177,8 +177,8 @@ TEST(SessionFile, DetectsEveryFlippedBit) {
 }
 
 /// Replaces `from` by `to` in a session of a header and two blocks.
-void expect_error(std::string_view from, std::string_view to, std::size_t line,
-                  const std::string& message) {
+void expect_session_error(std::string_view from, std::string_view to, std::size_t line,
+                          const std::string& message) {
   SCOPED_TRACE(to);
   const auto text = std::string(kHeader).append(kOnePose).append(kThreePoses);
   test::expect_refused(parse_session(test::replaced(text, from, to), "s"),
@@ -188,47 +188,53 @@ void expect_error(std::string_view from, std::string_view to, std::size_t line,
 TEST(SessionFile, ErrorsNameTheLineOfTheHeader) {
   test::expect_refused(parse_session("", "s"),
                        "s:1: expected a whole header line, found 0 bytes without a newline");
-  expect_error("session-1", "session-9", 1,
-               "schema: expected \"claystack-session-1\", found \"claystack-session-9\"");
-  expect_error("0123456789abcdef", "0123456789ABCDEF", 1,
-               "scene_hash: expected 16 lower-case hexadecimal digits, found \"0123456789ABCDEF\"");
-  expect_error("\"scene\":\"vase\",", "", 1, "expected a field \"scene\", found none");
-  expect_error("2^-16", "2^-17", 1, "position_quantum_mm: expected \"2^-16\", found \"2^-17\"");
+  expect_session_error("session-1", "session-9", 1,
+                       "schema: expected \"claystack-session-1\", found \"claystack-session-9\"");
+  expect_session_error(
+      "0123456789abcdef", "0123456789ABCDEF", 1,
+      "scene_hash: expected 16 lower-case hexadecimal digits, found \"0123456789ABCDEF\"");
+  expect_session_error("\"scene\":\"vase\",", "", 1, "expected a field \"scene\", found none");
+  expect_session_error("2^-16", "2^-17", 1,
+                       "position_quantum_mm: expected \"2^-16\", found \"2^-17\"");
 }
 
 TEST(SessionFile, ErrorsNameTheLineOfABlock) {
-  expect_error("\"n\":1", "\"n\":0", 2, "n: expected an integer from 1 to 100, found 0");
-  expect_error("\"n\":3", "\"n\":101", 3, "n: expected an integer from 1 to 100, found 101");
-  expect_error("\"n\":3", "\"n\":4", 3,
-               "dt_us: expected one integer or an array of 3, found an array of 2");
-  expect_error("\"dt_us\":[1000,1500],", "", 3, "expected a field \"dt_us\", found none");
-  expect_error("[1000,1500]", "[1000,0]", 3,
-               "dt_us[1]: expected an integer from 1 to 9007199254740992, found 0");
-  expect_error("[1000,1500]", "9007199254740992", 3,
-               "dt_us: expected times up to 9007199254740992, found later ones");
-  expect_error("[65536,1,2]", "[65536,1]", 3,
-               "x: expected one integer or an array of 3, found an array of 2");
-  expect_error("[65536,1,2]", "[65536000001,0,0]", 3,
-               "x: expected positions within 1e6 mm of the origin, found one beyond");
-  expect_error("[65536,1,2]", "[65536000000,1,0]", 3,
-               "x: expected positions within 1e6 mm of the origin, found one beyond");
-  expect_error("\"y\":-3", "\"y\":-65536000001", 3,
-               "y: expected positions within 1e6 mm of the origin, found one beyond");
-  expect_error("[65536,1,2]", "[65536,1,2.5]", 3,
-               "x[2]: expected an integer from -262144000000 to 262144000000, found 2.5");
+  expect_session_error("\"n\":1", "\"n\":0", 2, "n: expected an integer from 1 to 100, found 0");
+  expect_session_error("\"n\":3", "\"n\":101", 3,
+                       "n: expected an integer from 1 to 100, found 101");
+  expect_session_error("\"n\":3", "\"n\":4", 3,
+                       "dt_us: expected one integer or an array of 3, found an array of 2");
+  expect_session_error("\"dt_us\":[1000,1500],", "", 3, "expected a field \"dt_us\", found none");
+  expect_session_error("[1000,1500]", "[1000,0]", 3,
+                       "dt_us[1]: expected an integer from 1 to 9007199254740992, found 0");
+  expect_session_error("[1000,1500]", "9007199254740992", 3,
+                       "dt_us: expected times up to 9007199254740992, found later ones");
+  expect_session_error("[65536,1,2]", "[65536,1]", 3,
+                       "x: expected one integer or an array of 3, found an array of 2");
+  expect_session_error("[65536,1,2]", "[65536000001,0,0]", 3,
+                       "x: expected positions within 1e6 mm of the origin, found one beyond");
+  expect_session_error("[65536,1,2]", "[65536000000,1,0]", 3,
+                       "x: expected positions within 1e6 mm of the origin, found one beyond");
+  expect_session_error("\"y\":-3", "\"y\":-65536000001", 3,
+                       "y: expected positions within 1e6 mm of the origin, found one beyond");
+  expect_session_error("[65536,1,2]", "[65536,1,2.5]", 3,
+                       "x[2]: expected an integer from -262144000000 to 262144000000, found 2.5");
   // 2^64 - 3: as a signed integer it would be -3.
-  expect_error("\"y\":-3", "\"y\":18446744073709551613", 3,
-               "y: expected an integer from -262144000000 to 262144000000, found "
-               "18446744073709551613");
-  expect_error("[0,0,1]", "[0,0,2]", 3, "trim[2]: expected an integer from 0 to 1, found 2");
-  expect_error("\"y\":-3", "\"y\":-4", 3,
-               "check: expected 02eb587a9fadcabc for these poses, found dafff0894e3655ed: the line "
-               "is damaged");
-  expect_error("\"y\":-3", "\"Y\":-3", 3, "expected a field \"y\", found none");
-  expect_error("\"y\":-3", "\"y\":-3,\"w\":1", 3,
-               "unknown field \"w\"; expected one of n, t_us, dt_us, x, y, z, trim, gap, check");
-  expect_error("\"y\":-3", "\"y\":-3}", 3,
-               "syntax error while parsing value - unexpected ','; expected end of input");
+  expect_session_error("\"y\":-3", "\"y\":18446744073709551613", 3,
+                       "y: expected an integer from -262144000000 to 262144000000, found "
+                       "18446744073709551613");
+  expect_session_error("[0,0,1]", "[0,0,2]", 3,
+                       "trim[2]: expected an integer from 0 to 1, found 2");
+  expect_session_error(
+      "\"y\":-3", "\"y\":-4", 3,
+      "check: expected 02eb587a9fadcabc for these poses, found dafff0894e3655ed: the line "
+      "is damaged");
+  expect_session_error("\"y\":-3", "\"Y\":-3", 3, "expected a field \"y\", found none");
+  expect_session_error(
+      "\"y\":-3", "\"y\":-3,\"w\":1", 3,
+      "unknown field \"w\"; expected one of n, t_us, dt_us, x, y, z, trim, gap, check");
+  expect_session_error("\"y\":-3", "\"y\":-3}", 3,
+                       "syntax error while parsing value - unexpected ','; expected end of input");
 }
 
 TEST(SessionFile, ErrorsNameTheLineOfAGap) {

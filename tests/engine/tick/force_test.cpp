@@ -13,7 +13,8 @@
 namespace clay {
 namespace {
 
-constexpr ForcePlan kPlan{.stiffness_n_per_mm = 0.04, .limit_n = 5.0, .friction = 0.3, .turn = 1.0};
+constexpr ForcePlan kForcePlan{
+    .stiffness_n_per_mm = 0.04, .limit_n = 5.0, .friction = 0.3, .turn = 1.0};
 
 Contact touch(const Tool& tool, const ClayStack& stack, glm::dvec3 hip) {
   Contact contact;
@@ -90,12 +91,12 @@ TEST(PaperForce, EqualsKTimesDepthAlongTheUnitNormal) {
   contact.rings.lay_out(0, 1);
   contact.rings.put(
       {.ring = 0, .depth_mm = 2.0, .slope = 0.75});  // tan phi = 3/4: cos phi = 0.8, sin phi = 0.6
-  const auto outside = spring_force<Model::paper>(kPlan, contact);
+  const auto outside = spring_force<Model::paper>(kForcePlan, contact);
   EXPECT_NEAR(outside.x, 0.04 * 2.0 * 0.8 * 0.6, 1e-15);
   EXPECT_NEAR(outside.y, 0.04 * 2.0 * 0.6, 1e-15);
   EXPECT_NEAR(outside.z, 0.04 * 2.0 * 0.8 * 0.8, 1e-15);
   contact.side = Side::expansive;
-  const auto inside = spring_force<Model::paper>(kPlan, contact);
+  const auto inside = spring_force<Model::paper>(kForcePlan, contact);
   EXPECT_NEAR(inside.x, -outside.x, 1e-15);
   EXPECT_NEAR(inside.y, outside.y, 1e-15);
 }
@@ -105,9 +106,10 @@ TEST(Friction, EqualsMuTimesTheSpringForceAlongTheRotation) {
   contact.radial_x = 1.0;
   const glm::dvec3 spring(3.0, 4.0, 0.0);
   // A wheel turning counterclockwise seen from above (y toward the viewer) moves +x toward -z.
-  EXPECT_NEAR(glm::distance(friction_force(kPlan, contact, spring), glm::dvec3(0, 0, -0.3 * 5.0)),
-              0, 1e-15);
-  ForcePlan clockwise = kPlan;
+  EXPECT_NEAR(
+      glm::distance(friction_force(kForcePlan, contact, spring), glm::dvec3(0, 0, -0.3 * 5.0)), 0,
+      1e-15);
+  ForcePlan clockwise = kForcePlan;
   clockwise.turn = -1.0;
   EXPECT_GT(friction_force(clockwise, contact, spring).z, 0.0);
 }
@@ -116,11 +118,11 @@ TEST(Force, OnTheAxisIsFiniteAndHasNoRadialPart) {
   const Tool tool = Tool::build(SphereSpec{12}).value();
   const Contact contact = touch(tool, ClayStack::cylinder(50, 1.0, 40, 0, 50).value(), {0, 50, 0});
   ASSERT_FALSE(contact.rings.empty());
-  const auto spring = spring_force<Model::conserving>(kPlan, contact);
+  const auto spring = spring_force<Model::conserving>(kForcePlan, contact);
   EXPECT_EQ(spring.x, 0.0);
   EXPECT_EQ(spring.z, 0.0);
   EXPECT_GT(spring.y, 0.0);  // pressed down into a lump, the hand is pushed up
-  EXPECT_EQ(glm::length(friction_force(kPlan, contact, spring)), 0.0);
+  EXPECT_EQ(glm::length(friction_force(kForcePlan, contact, spring)), 0.0);
 }
 
 RC_GTEST_PROP(Force, LimitKeepsDirectionAndIsNeverExceeded, ()) {

@@ -13,7 +13,7 @@
 namespace clay {
 namespace {
 
-constexpr RemovalPlan kPlan{.rate_per_s = 20.0, .min_wall_mm = 1.0, .paper_fraction = 0.02};
+constexpr RemovalPlan kPinchRemoval{.rate_per_s = 20.0, .min_wall_mm = 1.0, .paper_fraction = 0.02};
 
 /// A wall between two tools: its radii, and the depth of each tool.
 struct Wall {
@@ -28,7 +28,7 @@ ToolRemoval bite_of(Side side, double depth_mm, std::size_t ring = 0) {
 
 /// The wall after one tick.
 template <Model model>
-Wall pinched(Wall wall, double gap_mm, double dt_s, const RemovalPlan& plan = kPlan) {
+Wall pinched(Wall wall, double gap_mm, double dt_s, const RemovalPlan& plan = kPinchRemoval) {
   const ClayStack stack = ClayStack::cylinder(1, 1.0, wall.outer, wall.inner, 1).value();
   ToolRemoval outer = bite_of(Side::compressive, wall.from_out);
   ToolRemoval inner = bite_of(Side::expansive, wall.from_in);
@@ -84,7 +84,7 @@ RC_GTEST_PROP(PinchRemoval, SolvesTheEquationsOfBothSurfaces, ()) {
   wall.from_in = *rc::gen::element(0.0, 1.0) * below(12.0);
   const double gap = 0.5 + below(6.0), dt_s = below(0.05);
   const Wall found = pinched<Model::conserving>(wall, gap, dt_s);
-  const Wall expected = integrated(wall, std::max(gap, kPlan.min_wall_mm), dt_s);
+  const Wall expected = integrated(wall, std::max(gap, kPinchRemoval.min_wall_mm), dt_s);
   // Euler's error: the wall times (kappa dt)^2 over the steps.
   RC_ASSERT(std::abs(found.outer - expected.outer) < 5e-3);
   RC_ASSERT(std::abs(found.inner - expected.inner) < 5e-3);

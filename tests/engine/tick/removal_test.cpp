@@ -10,7 +10,7 @@
 namespace clay {
 namespace {
 
-constexpr RemovalPlan kPlan{
+constexpr RemovalPlan kRemovalPlan{
     .rate_per_s = 20.0, .yield_depth_mm = 0.25, .min_wall_mm = 1.0, .paper_fraction = 0.02};
 
 Contact deep_contact(const ClayStack& stack, Side side, double depth_mm) {
@@ -29,7 +29,7 @@ Contact deep_contact(const ClayStack& stack, Side side, double depth_mm) {
 
 template <Model model>
 double removed_mm2(const ClayStack& stack, Side side, double depth_mm, double dt_s,
-                   const RemovalPlan& plan = kPlan) {
+                   const RemovalPlan& plan = kRemovalPlan) {
   std::vector<Quanta> removed;
   Contact contact = deep_contact(stack, side, depth_mm);
   compute_removal<model>(plan, stack, dt_s, contact, removed);
@@ -70,7 +70,7 @@ TEST(Removal, PassesTheRemainingDepthToTheForce) {
   for (const Side side : {Side::compressive, Side::expansive}) {
     Contact contact = deep_contact(stack, side, 3.0);
     std::vector<Quanta> removed;
-    compute_removal<Model::conserving>(kPlan, stack, 0.004, contact, removed);
+    compute_removal<Model::conserving>(kRemovalPlan, stack, 0.004, contact, removed);
     EXPECT_NEAR(contact.rings.get(0).depth_mm, 3.0 + 10.0 * std::expm1(-20.0 * 0.004), 1e-12);
   }
 }

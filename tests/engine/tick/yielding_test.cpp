@@ -13,7 +13,7 @@
 namespace clay {
 namespace {
 
-constexpr RemovalPlan kPlan{
+constexpr RemovalPlan kYieldingPlan{
     .rate_per_s = 20.0, .yield_depth_mm = 0.25, .min_wall_mm = 0.5, .paper_fraction = 0.0};
 
 /// A tool in a wall, at the start of a tick.
@@ -29,7 +29,7 @@ Press yielded(Press at, double advance, double dt_s) {
   one.advance[0] = advance;
   one.since[0] = 1.0;
   one.target[0] = at.wall - one.depth[0];
-  yield(kPlan, dt_s, one, 1);
+  yield(kYieldingPlan, dt_s, one, 1);
   return {at.wall - (one.depth[0] - one.left[0]), one.left[0]};
 }
 
@@ -38,7 +38,8 @@ Press integrated(Press at, double advance, double dt_s) {
   constexpr int kSteps = 4000;
   const double step = dt_s / kSteps, speed = advance / dt_s;
   const auto rate = [](double wall, double depth) {
-    return kPlan.rate_per_s * wall * std::clamp(depth / kPlan.yield_depth_mm, 0.0, 1.0);
+    return kYieldingPlan.rate_per_s * wall *
+           std::clamp(depth / kYieldingPlan.yield_depth_mm, 0.0, 1.0);
   };
   for (int k = 0; k < kSteps; ++k) {
     const double half = 0.5 * step * rate(at.wall, at.depth);
@@ -80,7 +81,8 @@ RC_GTEST_PROP(Yielding, SolvesTheEquationOfAMovingTool, ()) {
   const double advance = 0.05 * (2.0 * samples::uniform(random) - 1.0);
   RC_PRE(at.depth + advance > 0.0);
   const Press found = yielded(at, advance, 0.001), expected = integrated(at, advance, 0.001);
-  RC_ASSERT(std::abs(found.depth - std::max(expected.depth, 0.0)) < 0.01 * kPlan.yield_depth_mm);
+  RC_ASSERT(std::abs(found.depth - std::max(expected.depth, 0.0)) <
+            0.01 * kYieldingPlan.yield_depth_mm);
 }
 
 /// v delta / (kappa w), up to the ratio of depth to wall: the depth for a slow hand.
@@ -103,7 +105,7 @@ TEST(Yielding, ToolPressesFromItsFirstContactWithinATick) {
   one.advance[0] = 0.04;
   one.since[0] = 1.0;
   one.target[0] = 9.98;
-  yield(kPlan, 0.001, one, 1);
+  yield(kYieldingPlan, 0.001, one, 1);
   EXPECT_NEAR(one.left[0], yielded({10.0, 0.0}, 0.02, 0.0005).depth, 1e-12);
 }
 
@@ -117,7 +119,7 @@ TEST(Yielding, NeverPassesTheToolOrPushesClayIntoIt) {
         one.advance[0] = advance;
         one.since[0] = 1.0;
         one.target[0] = 10.0 - depth;
-        yield(kPlan, dt_s, one, 1);
+        yield(kYieldingPlan, dt_s, one, 1);
         EXPECT_GE(one.left[0], 0.0) << advance << " " << depth << " " << dt_s;
         EXPECT_LE(one.left[0], depth) << advance << " " << depth << " " << dt_s;
         EXPECT_TRUE(dt_s > 0.0 || one.left[0] == depth);

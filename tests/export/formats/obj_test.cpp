@@ -16,7 +16,7 @@ const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 const std::vector<glm::dvec3> kSquarePoints = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-std::string message_of(const std::string& text) {
+std::string obj_message(const std::string& text) {
   const auto mesh = decode_obj(text, "pot.obj");
   return mesh ? "no error" : mesh.error().message;
 }
@@ -90,7 +90,7 @@ TEST(Obj, CommentsEndAtTheirLine) {
 
 TEST(Obj, BackslashContinuesALine) {
   EXPECT_EQ(triangles_of(kSquare + "f 1 2\\\n 3 \\\r\n4\n"), (Triangles{{0, 1, 2}, {0, 2, 3}}));
-  EXPECT_EQ(message_of(kSquare + "f 1 \\\n2 \\\n0\n"),
+  EXPECT_EQ(obj_message(kSquare + "f 1 \\\n2 \\\n0\n"),
             "pot.obj:7: expected the number of one of 4 v, found 0");
 }
 
@@ -99,7 +99,7 @@ TEST(Obj, KeepsPointsThatCoincide) {
   EXPECT_EQ(triangles_of(text), (Triangles{{0, 1, 2}, {0, 0, 2}}));
 }
 
-struct BadText {
+struct BadObj {
   std::string text;
   std::string says;
 };
@@ -107,7 +107,7 @@ struct BadText {
 TEST(Obj, ErrorsNameTheLine) {
   std::string corners = "f";
   for (int i = 0; i < 4097; ++i) corners += " 1";
-  for (const BadText& bad : std::vector<BadText>{
+  for (const BadObj& bad : std::vector<BadObj>{
            {"", "pot.obj: expected 1 to 20000000 triangles, found 0"},
            {kSquare, "pot.obj: expected 1 to 20000000 triangles, found 0"},
            {kSquare + "f 1 2 0\n", "pot.obj:5: expected the number of one of 4 v, found 0"},
@@ -157,8 +157,8 @@ TEST(Obj, ErrorsNameTheLine) {
            {std::string("#\n#").append(70'000, 'x'),
             "pot.obj:2: expected a line of at most 64 KiB"},
        }) {
-    EXPECT_EQ(message_of(bad.text).rfind(bad.says, 0), 0u)
-        << "wanted: " << bad.says << "\nfound:  " << message_of(bad.text);
+    EXPECT_EQ(obj_message(bad.text).rfind(bad.says, 0), 0u)
+        << "wanted: " << bad.says << "\nfound:  " << obj_message(bad.text);
   }
 }
 

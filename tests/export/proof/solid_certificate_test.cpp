@@ -13,12 +13,13 @@
 namespace clay::solid {
 namespace {
 
-struct Certified {
+struct CertifiedExport {
   SolidCertificate certificate;
   std::string file;
 };
 
-Certified certified(const ClayStack& stack, MeshFormat format, const ExportOptions& options = {}) {
+CertifiedExport certified(const ClayStack& stack, MeshFormat format,
+                          const ExportOptions& options = {}) {
   MemoryStore store;
   const auto report = run_export(shapes::pot_of(stack), {{format, &store}}, options);
   EXPECT_TRUE(report) << report.error().message;
@@ -39,7 +40,7 @@ TEST(SolidCertificate, HoldsForEveryFormat) {
 #ifndef CLAYSTACK_DRACO
     if (format == MeshFormat::drc) continue;
 #endif
-    const Certified pot = certified(shapes::vase(60), format);
+    const CertifiedExport pot = certified(shapes::vase(60), format);
     EXPECT_EQ(pot.certificate.format, name_of(format));
     const auto verdict = verify_certificate(pot.certificate, pot.file, "pot");
     EXPECT_TRUE(verdict) << verdict.error().message;

@@ -57,8 +57,8 @@ TEST(Clearance, CountsEdgesOnTheAxis) {
 
 /// Every vertex against every edge, in long double.
 long double least_distance(const Profile& profile, long double scale) {
-  using Real = long double;
-  Real least = std::numeric_limits<Real>::infinity();
+  using Exact = long double;
+  Exact least = std::numeric_limits<Exact>::infinity();
   for (const Polygon& of_vertex : profile.pieces)
     for (std::size_t v = 0; v < of_vertex.size(); ++v)
       for (const Polygon& polygon : profile.pieces)
@@ -66,9 +66,9 @@ long double least_distance(const Profile& profile, long double scale) {
           const std::size_t next = (e + 1) % polygon.size();
           if (&polygon == &of_vertex && (v == e || v == next)) continue;
           const ProfilePoint &p = of_vertex[v], &a = polygon[e], &b = polygon[next];
-          const Real x = scale * (Real(b.rho) - a.rho), y = Real(b.y) - a.y;
-          const Real px = scale * (Real(p.rho) - a.rho), py = Real(p.y) - a.y;
-          const Real t = std::clamp((px * x + py * y) / (x * x + y * y), Real(0), Real(1));
+          const Exact x = scale * (Exact(b.rho) - a.rho), y = Exact(b.y) - a.y;
+          const Exact px = scale * (Exact(p.rho) - a.rho), py = Exact(p.y) - a.y;
+          const Exact t = std::clamp((px * x + py * y) / (x * x + y * y), Exact(0), Exact(1));
           least = std::min(least, std::hypot(px - t * x, py - t * y));
         }
   return least;
