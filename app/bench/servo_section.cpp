@@ -41,10 +41,10 @@ Outcome at_wall(const SampledLoop& loop, double stiffness, double step_mm, bool 
   return run(e, *wall);
 }
 
-Outcome at_clay(const SampledLoop& loop, double stiffness, double rate_per_s, bool controlled) {
+Outcome at_clay(const SampledLoop& loop, const closed_loop::PressedClay& pressed, bool controlled) {
   closed_loop::Experiment e = closed_loop::clay_experiment(loop, closed_loop::kFalconStepMm);
   e.controlled = controlled;
-  const auto clay = closed_loop::make_clay({stiffness, rate_per_s, 20.0});
+  const auto clay = closed_loop::make_clay(pressed);
   return run(e, *clay);
 }
 
@@ -166,22 +166,33 @@ void add_wall_maps(Section& section, const std::string& id, const Axis& x,
   }
 }
 
+struct ClayMap {
+  const char *id, *title;
+  double wall_mm;  ///< 0: solid
+  bool rules;
+};
+constexpr ClayMap kClayMaps[] = {
+    {"servo_clay", "Clay that flows at 20/s", 0.0, false},
+    {"servo_clay_rules", "Solid clay with the clay rules", 0.0, true},
+    {"servo_wall_rules", "A clay wall of 8 mm that bends by the clay rules", 8.0, true}};
+
 void add_clay_maps(Section& section, const std::vector<double>& rates,
                    const std::vector<double>& k_values, Verdict& verdict) {
-  for (const bool controlled : {false, true}) {
-    Map map =
-        lined_map(std::string("servo_clay") + (controlled ? "_controlled" : ""),
-                  std::string("Clay that flows at 20/s") +
-                      (controlled ? ", with the passivity controller" : ", bare"),
-                  {"rate [Hz]", true}, rates, k_values, [](double rate) { return arm_at(rate); });
-    map.note = "The lines are those of an elastic wall. " + map.note;
-    fill(map, [&](double rate, double k) {
-      const double swing = at_clay(arm_at(rate), k, 20.0, controlled).swing_mm;
-      if (controlled) verdict.worst_controlled_mm = std::max(verdict.worst_controlled_mm, swing);
-      return badness(swing);
-    });
-    section.maps.push_back(std::move(map));
-  }
+  for (const auto& [id, title, wall_mm, rules] : kClayMaps)
+    for (const bool controlled : {false, true}) {
+      Map map = lined_map(
+          std::string(id) + (controlled ? "_controlled" : ""),
+          std::string(title) + (controlled ? ", with the passivity controller" : ", bare"),
+          {"rate [Hz]", true}, rates, k_values, [](double rate) { return arm_at(rate); });
+      map.note = "The lines are those of an elastic wall. " + map.note;
+      fill(map, [&](double rate, double k) {
+        const double swing =
+            at_clay(arm_at(rate), {k, 20.0, 20.0, wall_mm, rules}, controlled).swing_mm;
+        if (controlled) verdict.worst_controlled_mm = std::max(verdict.worst_controlled_mm, swing);
+        return badness(swing);
+      });
+      section.maps.push_back(std::move(map));
+    }
 }
 
 /// Energy injected per cycle over the stiffness, relative to the energy stored in the wall at rest.
@@ -218,7 +229,8 @@ Plot energy_plot(const std::vector<double>& rates, Verdict& verdict) {
 double stiffest_calm_clay(double rate, double removal, const std::vector<double>& k_values) {
   double calm = std::numeric_limits<double>::quiet_NaN();
   for (const double k : k_values) {
-    if (at_clay(arm_at(rate), k, removal, false).swing_mm > closed_loop::kMostSwingMm) break;
+    if (at_clay(arm_at(rate), {k, removal, 20.0}, false).swing_mm > closed_loop::kMostSwingMm)
+      break;
     calm = k;
   }
   return calm;
@@ -275,9 +287,9 @@ Section servo_section(const Effort& effort) {
   section.id = "servo";
   section.title = "The stiff closed loop";
   section.summary =
-      "A simulated arm of 0.1 kg, 0.002 N s/mm and a tick of delay against a wall and against the "
-      "clay, "
-      "over stiffness, rate and damping: where it is stable, what energy it injects, and what the "
+      "A simulated arm of 0.1 kg, 0.002 N s/mm and a tick of delay against a wall and against "
+      "clay, over stiffness, rate and damping: where it is stable, what energy it injects, and "
+      "what the "
       "passivity controller does with the rest.";
   Verdict verdict;
   const std::vector<double> k_values = stiffnesses(effort.quick);

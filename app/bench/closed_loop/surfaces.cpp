@@ -35,7 +35,7 @@ constexpr std::size_t kRings = 160;
 
 class Clay final : public Surface {
  public:
-  Clay(const ClaySpec& spec, Wheel wheel) : wheel_(std::move(wheel)), spec_(spec) {}
+  Clay(const PressedClay& spec, Wheel wheel) : wheel_(std::move(wheel)), spec_(spec) {}
 
   glm::dvec3 press(std::int64_t time_us, const glm::dvec3& reading_mm) override {
     return wheel_.step({time_us, hip_mm(reading_mm), false}).force_n();
@@ -76,29 +76,30 @@ class Clay final : public Surface {
   }
 
   Wheel wheel_;
-  ClaySpec spec_;
+  PressedClay spec_;
 };
 
 }  // namespace
 
 std::unique_ptr<Surface> make_wall(const WallSpec& wall) { return std::make_unique<Wall>(wall); }
 
-SceneSpec clay_scene(const ClaySpec& clay) {
+SceneSpec clay_scene(const PressedClay& pressed) {
   SceneSpec scene;
   scene.name = "a cylinder under a rib";
   scene.lump = {.rings = kRings,
                 .ring_height_mm = kRingMm,
                 .outer_radius_mm = kRadiusMm,
-                .inner_radius_mm = 0.0,
+                .inner_radius_mm = pressed.wall_mm > 0.0 ? kRadiusMm - pressed.wall_mm : 0.0,
                 .max_rings = 4 * kRings,
                 .density_g_cm3 = 1.9};
-  scene.tool.shape = RibSpec{clay.rib_height_mm, kRibRadiusMm};
-  scene.removal = {.rate_per_s = clay.rate_per_s, .min_wall_mm = 1.0, .paper_fraction = {}};
-  scene.force->stiffness_n_per_mm2 = clay.stiffness_n_per_mm / clay.rib_height_mm;
+  scene.tool.shape = RibSpec{pressed.rib_height_mm, kRibRadiusMm};
+  scene.removal = {.rate_per_s = pressed.rate_per_s, .min_wall_mm = 1.0, .paper_fraction = {}};
+  scene.force->stiffness_n_per_mm2 = pressed.stiffness_n_per_mm / pressed.rib_height_mm;
+  if (pressed.rules) scene.clay = ClaySpec{};
   return scene;
 }
 
-std::unique_ptr<Surface> make_clay(const ClaySpec& clay) {
+std::unique_ptr<Surface> make_clay(const PressedClay& clay) {
   return std::make_unique<Clay>(clay, Wheel::build(clay_scene(clay)).value());
 }
 

@@ -29,14 +29,16 @@ struct WallSpec {
 };
 std::unique_ptr<Surface> make_wall(const WallSpec& wall);
 
-struct ClaySpec {
+struct PressedClay {
   double stiffness_n_per_mm = 0.0;  ///< of the whole contact: K' times its height
   double rate_per_s = 20.0;         ///< of removal; 0: the clay is a spring
   double rib_height_mm = 20.0;
+  double wall_mm = 0.0;  ///< of a hollow cylinder; 0: solid
+  bool rules = false;    ///< with all clay rules
 };
-/// A solid cylinder of 45 mm under a vertical rib. The height of contact is the rib's.
-SceneSpec clay_scene(const ClaySpec& clay);
+/// A cylinder of 45 mm radius under a vertical rib. The height of contact is the rib's.
+SceneSpec clay_scene(const PressedClay& clay);
 /// Expects a scene that Wheel::build accepts.
-std::unique_ptr<Surface> make_clay(const ClaySpec& clay);
+std::unique_ptr<Surface> make_clay(const PressedClay& clay);
 
 }  // namespace clay::closed_loop

@@ -19,7 +19,7 @@ Outcome at_wall(const SampledLoop& loop, double stiffness, double step_mm, bool 
   return run(e, *wall);
 }
 
-Outcome at_clay(const SampledLoop& loop, const ClaySpec& spec, bool controlled) {
+Outcome at_clay(const SampledLoop& loop, const PressedClay& spec, bool controlled) {
   Experiment e = clay_experiment(loop, kFalconStepMm);
   e.controlled = controlled;
   const auto clay = make_clay(spec);
@@ -157,6 +157,40 @@ TEST(Clay, IsMadePassiveAtAnyStiffness) {
         const SampledLoop loop{rate, 0.1, 0.002, 1};
         EXPECT_LT(at_clay(loop, {stiffness, removal, 20.0}, true).swing_mm, kMostSwingMm)
             << rate << " " << removal << " " << stiffness;
+      }
+}
+
+/// A wall that bends away under the tool is softer than clay that is pushed aside.
+TEST(Clay, WithRulesIsMadePassiveAtAnyStiffness) {
+  int moved = 0;
+  for (const double wall_mm : {0.0, 8.0})
+    for (const double rate : {100.0, 1000.0, 4000.0})
+      for (const double stiffness : {0.1, 1.0, 10.0, 100.0, 1000.0}) {
+        const SampledLoop loop{rate, 0.1, 0.002, 1};
+        Experiment e = clay_experiment(loop, kFalconStepMm);
+        e.controlled = true;
+        const auto clay = make_clay({stiffness, 20.0, 20.0, wall_mm, true});
+        EXPECT_LT(run(e, *clay).swing_mm, kMostSwingMm)
+            << wall_mm << " mm, " << rate << " Hz, " << stiffness << " N/mm";
+        moved += clay->face_mm() < -1.0;
+      }
+  EXPECT_GT(moved, 15);  // of 30: the hand of 0.2 N/mm went into the clay
+}
+
+/// The change of clay adds no energy to the hand: below the accepted stiffness the bare loop takes
+/// energy, with the rules as without.
+TEST(Clay, WithRulesInjectsNoEnergyBelowTheAcceptedStiffness) {
+  for (const double wall_mm : {0.0, 8.0})
+    for (const double rate : {100.0, 1000.0, 4000.0})
+      for (const double part : {0.1, 0.5, 0.99}) {
+        const SampledLoop loop{rate, 0.1, 0.002, 1};
+        Experiment e = clay_experiment(loop, kFalconStepMm);
+        const auto clay = make_clay({part * accepted_stiffness(loop), 20.0, 20.0, wall_mm, true});
+        const Outcome o = run(e, *clay);
+        SCOPED_TRACE(std::to_string(wall_mm) + " " + std::to_string(rate) + " " +
+                     std::to_string(part));
+        EXPECT_LT(o.swing_mm, kMostSwingMm);
+        EXPECT_LE(o.injected_mj, o.tolerance_mj);
       }
 }
 
