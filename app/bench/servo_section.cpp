@@ -178,16 +178,16 @@ constexpr ClayMap kClayMaps[] = {
 
 void add_clay_maps(Section& section, const std::vector<double>& rates,
                    const std::vector<double>& k_values, Verdict& verdict) {
-  for (const auto& [id, title, wall_mm, rules] : kClayMaps)
+  for (const ClayMap& shown : kClayMaps)
     for (const bool controlled : {false, true}) {
       Map map = lined_map(
-          std::string(id) + (controlled ? "_controlled" : ""),
-          std::string(title) + (controlled ? ", with the passivity controller" : ", bare"),
+          std::string(shown.id) + (controlled ? "_controlled" : ""),
+          std::string(shown.title) + (controlled ? ", with the passivity controller" : ", bare"),
           {"rate [Hz]", true}, rates, k_values, [](double rate) { return arm_at(rate); });
       map.note = "The lines are those of an elastic wall. " + map.note;
       fill(map, [&](double rate, double k) {
         const double swing =
-            at_clay(arm_at(rate), {k, 20.0, 20.0, wall_mm, rules}, controlled).swing_mm;
+            at_clay(arm_at(rate), {k, 20.0, 20.0, shown.wall_mm, shown.rules}, controlled).swing_mm;
         if (controlled) verdict.worst_controlled_mm = std::max(verdict.worst_controlled_mm, swing);
         return badness(swing);
       });

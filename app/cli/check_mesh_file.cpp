@@ -30,7 +30,8 @@ Result<void> expect_memory(std::string_view triangles, std::uint64_t bytes,
 }
 
 /// Reads the mesh of a file with little of the file in memory.
-Result<TriangleMesh> read_mesh(FileReader& file, MeshFormat format, const std::string& name) {
+Result<TriangleMesh> read_mesh(FileReader& file, MeshFormat format, const std::string& name,
+                               const solid::ReadOptions& options) {
   const solid::ByteSource source{
       [&](std::span<char> part) { return file.read(part); }, *file.size(),
       [&](std::uint64_t triangles) {
@@ -44,7 +45,8 @@ Result<TriangleMesh> read_mesh(FileReader& file, MeshFormat format, const std::s
               return Error{e.kind, name + ": " + e.message};
             });
       }};
-  return format == MeshFormat::obj ? solid::read_obj(source, name) : solid::read_stl(source, name);
+  return format == MeshFormat::obj ? solid::read_obj(source, name, options)
+                                   : solid::read_stl(source, name, options);
 }
 
 Result<solid::MeshReport> checked(const TriangleMesh& mesh) {
@@ -224,8 +226,9 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
   const bool whole = verdict.certificate || format == MeshFormat::drc || !file->size();
   const auto bytes = whole ? read_file(command.file) : std::string();
   if (!bytes) return tl::make_unexpected(bytes.error());
-  auto mesh = whole ? solid::decode_mesh(*bytes, format, command.file)
-                    : read_mesh(*file, format, command.file);
+  const solid::ReadOptions options{command.repair, &verdict.notes};
+  auto mesh = whole ? solid::decode_mesh(*bytes, format, command.file, options)
+                    : read_mesh(*file, format, command.file, options);
   if (!mesh && verdict.certificate) {
     // The file no longer matches its certificate.
     verify(*bytes, format, command, verdict);

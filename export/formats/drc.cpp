@@ -23,6 +23,8 @@ namespace {
 constexpr int kMaxEntropyCodedBits = 24;
 constexpr int kLeastSpeedWithoutCounters = 2;
 constexpr std::string_view kMagic = "DRACO";
+constexpr std::size_t kVersionAt = 5;  // two bytes, the major one first
+constexpr int kOldestVersion = 0x0100, kVersion = 0x0202, kVersionWithMetadata = 0x0103;
 
 Result<void> check_settings(const DracoSettings& settings) {
   const bool good = settings.max_error_mm > 0.0 && settings.min_bits >= 1 &&
@@ -88,19 +90,24 @@ Result<std::string> encode_on_grid(const TriangleMesh& mesh, const std::vector<g
   return std::string(buffer.data(), buffer.size());
 }
 
+int version_of(std::string_view bytes) {
+  const auto byte = [bytes](std::size_t at) { return int{static_cast<unsigned char>(bytes[at])}; };
+  return 256 * byte(kVersionAt) + byte(kVersionAt + 1);
+}
+
 /// Refuses point clouds: decoding a few hundred bytes may take gigabytes.
 Result<void> check_header(std::string_view bytes, std::string_view name) {
   if (!bytes.starts_with(kMagic))
     return bad_file(name, "expected a Draco file, which begins with DRACO");
   if (bytes.size() < kDracoHeaderBytes) return bad_file(name, "the Draco header ends early");
   const auto byte = [bytes](std::size_t at) { return int{static_cast<unsigned char>(bytes[at])}; };
-  const int major = byte(5), minor = byte(6), type = byte(7), method = byte(8);
+  const int version = version_of(bytes), type = byte(7), method = byte(8);
   if (type != draco::TRIANGULAR_MESH) {
     return bad_file(name, "expected a triangle mesh, found Draco geometry " + std::to_string(type));
   }
-  if (major != 2 || minor != 2) {
-    return bad_file(name, "expected Draco version 2.2, found " + std::to_string(major) + "." +
-                              std::to_string(minor));
+  if (version < kOldestVersion || version > kVersion) {
+    return bad_file(name, "expected Draco version 1.0 to 2.2, found " +
+                              std::to_string(version / 256) + "." + std::to_string(version % 256));
   }
   if (method != draco::MESH_SEQUENTIAL_ENCODING && method != draco::MESH_EDGEBREAKER_ENCODING) {
     return bad_file(name, "expected Draco mesh method 0 or 1, found " + std::to_string(method));
@@ -111,7 +118,10 @@ Result<void> check_header(std::string_view bytes, std::string_view name) {
 Result<std::optional<DracoMetadata>> read_metadata(std::string_view bytes, std::string_view name) {
   return check_file_size(bytes, name)
       .and_then([&] { return check_header(bytes, name); })
-      .and_then([&] { return read_draco_metadata(bytes, name); });
+      .and_then([&]() -> Result<std::optional<DracoMetadata>> {
+        if (version_of(bytes) < kVersionWithMetadata) return std::nullopt;
+        return read_draco_metadata(bytes, name);
+      });
 }
 
 /// Decodes a file without metadata.

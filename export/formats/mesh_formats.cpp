@@ -36,13 +36,14 @@ std::string_view name_of(MeshFormat format) noexcept {
   return "unknown";
 }
 
-Result<TriangleMesh> decode_mesh(std::string_view bytes, MeshFormat format, std::string_view name) {
+Result<TriangleMesh> decode_mesh(std::string_view bytes, MeshFormat format, std::string_view name,
+                                 const ReadOptions& options) {
   switch (format) {
     case MeshFormat::stl_binary:
     case MeshFormat::stl_ascii:
-      return decode_stl(bytes, name);
+      return decode_stl(bytes, name, options);
     case MeshFormat::obj:
-      return decode_obj(bytes, name);
+      return decode_obj(bytes, name, options);
     case MeshFormat::drc:
       return decode_drc(bytes, name);
   }

@@ -24,9 +24,11 @@ struct VertexList {
   std::size_t count = 0;
   std::size_t highest_used = 0;
   std::size_t line_of_highest = 0;
+  std::size_t bad_line = 0;  ///< the first that names one which cannot be; 0: none
 };
 
-/// A face's corner: "v", "v/vt", "v//vn" or "v/vt/vn".
+/// A face's corner: "v", "v/vt", "v//vn" or "v/vt/vn". Some programs write the strokes without the
+/// numbers.
 struct CornerWords {
   std::string_view point;
   std::optional<std::string_view> texture;
@@ -39,22 +41,27 @@ CornerWords split_corner(std::string_view word) {
   if (first == word.npos) return words;
   const std::string_view rest = word.substr(first + 1);
   const std::size_t second = rest.find('/');
-  if (second != 0) words.texture = rest.substr(0, second);
-  if (second != rest.npos) words.normal = rest.substr(second + 1);
+  const auto given = [](std::string_view number) {
+    return number.empty() ? std::optional<std::string_view>() : number;
+  };
+  words.texture = given(rest.substr(0, second));
+  if (second != rest.npos) words.normal = given(rest.substr(second + 1));
   return words;
 }
 
 class ObjReader {
  public:
-  ObjReader(ByteStream& text, std::string_view name)
-      : scanner_(text, name, LineRule::backslash_continues), name_(name) {}
+  ObjReader(ByteStream& text, std::string_view name, const ReadOptions& options)
+      : scanner_(text, name, LineRule::backslash_continues), name_(name), notes_(options.notes) {}
 
   Result<TriangleMesh> read() {
     for (auto keyword = scanner_.word(); !keyword.empty(); keyword = scanner_.word()) {
       read_statement(keyword);
     }
-    for (const VertexList* list : {&points_, &textures_, &normals_}) check_highest(*list);
+    if (points_.highest_used > points_.count)
+      refuse_number(static_cast<long long>(points_.highest_used), points_.line_of_highest);
     if (scanner_.fault()) return tl::make_unexpected(*scanner_.fault());
+    note_faults();
     return check_facet_count(mesh_.triangles.size(), name_).map([&] { return std::move(mesh_); });
   }
 
@@ -79,8 +86,16 @@ class ObjReader {
     } else if (std::ranges::find(kPassedOver, keyword) != kPassedOver.end()) {
       scanner_.skip_line();
     } else {
-      scanner_.fail_expected("a statement of a polygon mesh", keyword);
+      read_unknown(keyword);
     }
+  }
+
+  /// Lines of text that a program put before the mesh.
+  void read_unknown(std::string_view keyword) {
+    if (points_.count + textures_.count + normals_.count + mesh_.triangles.size() > 0)
+      return scanner_.fail_expected("a statement of a polygon mesh", keyword);
+    if (header_lines_++ == 0) header_line_ = scanner_.line();
+    scanner_.skip_line();
   }
 
   /// "v x y z", optionally followed by w, or by red, green and blue, which are ignored.
@@ -113,9 +128,9 @@ class ObjReader {
     corners_.clear();
     for (auto word = scanner_.word_in_line(); !word.empty(); word = scanner_.word_in_line()) {
       const CornerWords words = split_corner(word);
-      corners_.push_back(resolve(words.point, points_));
-      if (words.texture) resolve(*words.texture, textures_);
-      if (words.normal) resolve(*words.normal, normals_);
+      corners_.push_back(resolve_point(words.point));
+      if (words.texture) (void)resolve(*words.texture, textures_);
+      if (words.normal) (void)resolve(*words.normal, normals_);
       if (corners_.size() > kMaxFaceCorners)
         scanner_.fail("expected a face of at most 4096 corners");
     }
@@ -130,14 +145,20 @@ class ObjReader {
     }
   }
 
+  std::uint32_t resolve_point(std::string_view word) {
+    const auto index = resolve(word, points_);
+    if (!index) refuse_number(scanner_.whole_number(word), scanner_.line());
+    return index.value_or(0);
+  }
+
   /// Converts to an index from 0. In the file indices count from 1; negative ones count back from
   /// the latest vertex.
-  std::uint32_t resolve(std::string_view word, VertexList& list) {
+  std::optional<std::uint32_t> resolve(std::string_view word, VertexList& list) {
     const long long number = scanner_.whole_number(word);
     const auto known = static_cast<long long>(list.count);
     if (number == 0 || number < -known || number > static_cast<long long>(kMaxPoints)) {
-      refuse_number(number, list, scanner_.line());
-      return 0;
+      if (list.bad_line == 0) list.bad_line = scanner_.line();
+      return std::nullopt;
     }
     if (number < 0) return static_cast<std::uint32_t>(known + number);
     const auto used = static_cast<std::size_t>(number);
@@ -148,18 +169,30 @@ class ObjReader {
     return static_cast<std::uint32_t>(used - 1);
   }
 
-  void check_highest(const VertexList& list) {
-    if (list.highest_used <= list.count) return;
-    refuse_number(static_cast<long long>(list.highest_used), list, list.line_of_highest);
+  void refuse_number(long long number, std::size_t line) {
+    scanner_.fail_at(line, "expected the number of one of " + std::to_string(points_.count) +
+                               " v, found " + std::to_string(number));
   }
 
-  void refuse_number(long long number, const VertexList& list, std::size_t line) {
-    scanner_.fail_at(line, "expected the number of one of " + std::to_string(list.count) + " " +
-                               std::string(list.keyword) + ", found " + std::to_string(number));
+  void note_faults() {
+    if (notes_ == nullptr) return;
+    const auto note = [this](std::size_t line, std::string what) {
+      notes_->push_back("line " + std::to_string(line) + ": " + std::move(what));
+    };
+    if (header_lines_ > 0)
+      note(header_line_, std::to_string(header_lines_) + " lines before the mesh were not read");
+    for (const VertexList* list : {&textures_, &normals_}) {
+      const bool beyond = list->highest_used > list->count;
+      if (list->bad_line == 0 && !beyond) continue;
+      note(list->bad_line > 0 ? list->bad_line : list->line_of_highest,
+           "a face names a " + std::string(list->keyword) + " that the file does not define");
+    }
   }
 
   TextScanner scanner_;
   std::string_view name_;
+  std::vector<std::string>* notes_;
+  std::size_t header_lines_ = 0, header_line_ = 0;  ///< unknown statements; the first
   VertexList points_{"v"};
   VertexList textures_{"vt"};
   VertexList normals_{"vn"};
@@ -190,19 +223,23 @@ std::string encode_obj(const TriangleMesh& mesh, std::string_view object_name) {
   return text;
 }
 
-Result<TriangleMesh> read_obj(const ByteSource& source, std::string_view name) {
+Result<TriangleMesh> read_obj(const ByteSource& source, std::string_view name,
+                              const ReadOptions& options) {
   // A closed mesh has half as many points as triangles.
   constexpr std::size_t kUsualBytes = kUsualTriangleBytes + kUsualPointBytes / 2;
   return guarded(name, [&] {
     return check_text_size(source, kUsualBytes, name).and_then([&] {
       ByteStream stream(source);
-      return ObjReader(stream, name).read();
+      return ObjReader(stream, name, options).read();
     });
   });
 }
 
-Result<TriangleMesh> decode_obj(std::string_view bytes, std::string_view name) {
-  return check_file_size(bytes, name).and_then([&] { return read_obj(source_of(bytes), name); });
+Result<TriangleMesh> decode_obj(std::string_view bytes, std::string_view name,
+                                const ReadOptions& options) {
+  return check_file_size(bytes, name).and_then([&] {
+    return read_obj(source_of(bytes), name, options);
+  });
 }
 
 }  // namespace clay::solid::inline formats

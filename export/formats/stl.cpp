@@ -144,10 +144,22 @@ tl::unexpected<Error> no_stl(std::string_view head, std::uint64_t bytes, std::st
   if (head.size() < kPrologueBytes)
     return bad_file(name, "expected an STL file: the word solid, or at least 84 bytes, found " +
                               std::to_string(head.size()) + " bytes");
-  return wrong_size(bytes, load_u32(head.data() + kHeaderBytes), name);
+  auto wrong = wrong_size(bytes, load_u32(head.data() + kHeaderBytes), name);
+  if (bytes >= stl::file_bytes(1))
+    wrong.value().message += "; --repair reads the whole facets that are there";
+  return wrong;
 }
 
-Result<TriangleMesh> read_either(const ByteSource& source, std::string_view name) {
+/// The whole facets of a file whose size and count disagree: at most as many as it counts, unless
+/// what follows the prologue is nothing but facets.
+std::size_t facets_there(std::uint64_t bytes, std::uint64_t counted) {
+  const std::uint64_t whole = (bytes - kPrologueBytes) / kFacetBytes;
+  const bool only_facets = (bytes - kPrologueBytes) % kFacetBytes == 0;
+  return static_cast<std::size_t>(only_facets || counted == 0 ? whole : std::min(whole, counted));
+}
+
+Result<TriangleMesh> read_either(const ByteSource& source, std::string_view name,
+                                 const ReadOptions& options) {
   ByteStream stream(source);
   stream.fill(ByteStream::kStretch);
   if (stream.fault()) return tl::make_unexpected(*stream.fault());
@@ -156,7 +168,16 @@ Result<TriangleMesh> read_either(const ByteSource& source, std::string_view name
       head.size() < kPrologueBytes ? 0 : load_u32(head.data() + kHeaderBytes);
   if (head.size() >= kPrologueBytes && source.size == stl::file_bytes(facets))
     return read_binary(source, stream, facets, name);
-  if (!begins_with_solid(head)) return no_stl(head, source.size, name);
+  if (!begins_with_solid(head)) {
+    if (!options.repair || source.size < stl::file_bytes(1) || !known_kind(head).empty())
+      return no_stl(head, source.size, name);
+    const std::size_t there = facets_there(source.size, facets);
+    if (options.notes != nullptr)
+      options.notes->push_back("the file counts " + std::to_string(facets) + " facets; its " +
+                               std::to_string(source.size) + " bytes hold " +
+                               std::to_string(there) + ", which were read");
+    return read_binary(source, stream, there, name);
+  }
   return check_text_size(source, kUsualTextFacetBytes, name).and_then([&] {
     return StlTextReader(stream, name).read();
   });
@@ -192,12 +213,16 @@ std::string encode_stl_ascii(const TriangleMesh& mesh, std::string_view solid_na
   return text.append("end").append(solid);
 }
 
-Result<TriangleMesh> read_stl(const ByteSource& source, std::string_view name) {
-  return guarded(name, [&] { return read_either(source, name); });
+Result<TriangleMesh> read_stl(const ByteSource& source, std::string_view name,
+                              const ReadOptions& options) {
+  return guarded(name, [&] { return read_either(source, name, options); });
 }
 
-Result<TriangleMesh> decode_stl(std::string_view bytes, std::string_view name) {
-  return check_file_size(bytes, name).and_then([&] { return read_stl(source_of(bytes), name); });
+Result<TriangleMesh> decode_stl(std::string_view bytes, std::string_view name,
+                                const ReadOptions& options) {
+  return check_file_size(bytes, name).and_then([&] {
+    return read_stl(source_of(bytes), name, options);
+  });
 }
 
 }  // namespace clay::solid::inline formats

@@ -159,7 +159,8 @@ void shape(Hand& hand, const Stroke& stroke, int pass) {
   const Section section(hand.wheel().stack());
   const Tool& tool = hand.wheel().plan().tool;
   const auto goal = curve_of(stroke, section.height());
-  const auto [low, high] = std::minmax(goal.front().y, goal.back().y);
+  const double low = std::min(goal.front().y, goal.back().y);
+  const double high = std::max(goal.front().y, goal.back().y);
   const double part = 1.0 / (stroke.passes - pass), inward = stroke.inside ? 1.0 : -1.0;
   const Surface surface = [&](double up) {
     const double now = section.surface(stroke.inside, up);

@@ -6,6 +6,9 @@
 #include <draco/compression/expert_encode.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
+#include <utility>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -48,11 +51,61 @@ TEST(ReadDrc, ErrorsNameTheFaultInTheHeader) {
     return message_of(decode_drc(bytes, "pot.drc"));
   };
   EXPECT_EQ(with(0, 'd'), "pot.drc: expected a Draco file, which begins with DRACO");
-  EXPECT_EQ(with(5, 1), "pot.drc: expected Draco version 2.2, found 1.2");
-  EXPECT_EQ(with(6, 255), "pot.drc: expected Draco version 2.2, found 2.255");
+  EXPECT_EQ(with(5, 0), "pot.drc: expected Draco version 1.0 to 2.2, found 0.2");
+  EXPECT_EQ(with(5, 3), "pot.drc: expected Draco version 1.0 to 2.2, found 3.2");
+  EXPECT_EQ(with(6, 255), "pot.drc: expected Draco version 1.0 to 2.2, found 2.255");
   EXPECT_EQ(with(7, 0), "pot.drc: expected a triangle mesh, found Draco geometry 0");
   EXPECT_EQ(with(8, 2), "pot.drc: expected Draco mesh method 0 or 1, found 2");
   EXPECT_EQ(message_of(decode_drc("DRACO\2\2", "pot.drc")), "pot.drc: the Draco header ends early");
+}
+
+/// A tetrahedron in the sequential encoding, uncompressed, as the versions lay it out. Draco writes
+/// its newest version only.
+std::string old_file(int major, int minor) {
+  const int version = 256 * major + minor;
+  std::string bytes = "DRACO";
+  const auto byte = [&](int value) { bytes += static_cast<char>(value); };
+  const auto whole = [&](std::uint32_t value) {
+    for (int shift = 0; shift < 32; shift += 8) byte(static_cast<int>(value >> shift & 0xFF));
+  };
+  byte(major), byte(minor);
+  byte(1), byte(0);  // a mesh, sequential
+  byte(0), byte(0);  // flags
+  if (version < 0x0202)
+    whole(4), whole(4);  // triangles, points
+  else
+    byte(4), byte(4);
+  byte(1);  // indices as they are
+  for (const int index : {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2}) byte(index);
+  byte(1);  // one decoder of attributes
+  if (version < 0x0200)
+    whole(1);
+  else
+    byte(1);                           // one attribute:
+  byte(0), byte(9), byte(3), byte(0);  // positions of 3 float32, not normalised
+  byte(0);
+  if (version < 0x0103) byte(0);  // its id
+  byte(0);                        // as they are
+  for (const float value : {0.F, 0.F, 0.F, 10.F, 0.F, 0.F, 0.F, 10.F, 0.F, 0.F, 0.F, 10.F}) {
+    char raw[4];
+    std::memcpy(raw, &value, 4);
+    bytes.append(raw, 4);
+  }
+  return bytes;
+}
+
+TEST(ReadDrc, ReadsOlderVersions) {
+  for (const auto& [major, minor] :
+       {std::pair{1, 0}, {1, 1}, {1, 2}, {1, 3}, {2, 0}, {2, 1}, {2, 2}}) {
+    const auto mesh = decode_drc(old_file(major, minor), "pot.drc");
+    ASSERT_TRUE(mesh) << major << "." << minor << ": " << mesh.error().message;
+    EXPECT_EQ(mesh->points,
+              (std::vector<glm::dvec3>{{0, 0, 0}, {10, 0, 0}, {0, 10, 0}, {0, 0, 10}}));
+    EXPECT_EQ(mesh->triangles, (std::vector<std::array<std::uint32_t, 3>>{
+                                   {0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}));
+    EXPECT_FALSE(decode_drc(old_file(major, minor) + "x", "pot.drc"));
+  }
+  EXPECT_FALSE(decode_drc(old_file(0, 9), "pot.drc"));
 }
 
 /// A mesh made by Draco itself, with the properties that the test sets.
@@ -108,7 +161,14 @@ TEST(ReadDrc, RefusesMeshesWithoutUsablePositions) {
 /// Draco 1.5 returns the indices of a sequential mesh unchecked.
 TEST(ReadDrc, FlippedBytesNeverGiveAnIndexOutOfRange) {
   bool named = false;
-  for (const std::string& good : {DracoFile{}.encode(), encode_drc(torus(5, 4), {}).value()}) {
+  std::vector<std::string> files{DracoFile{}.encode(), encode_drc(torus(5, 4), {}).value()};
+  for (const int minor : {0, 1, 2, 3}) files.push_back(old_file(1, minor));
+  for (const int minor : {0, 1}) {
+    files.push_back(old_file(2, minor));
+    files.push_back(files[1]);  // read by the rules of that version, mostly nonsense
+    files.back()[6] = static_cast<char>(minor);
+  }
+  for (const std::string& good : files) {
     for (std::size_t at = 0; at < good.size(); ++at) {
       for (int bit = 0; bit < 8; ++bit) {
         std::string bytes = good;

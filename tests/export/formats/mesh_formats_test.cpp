@@ -41,7 +41,7 @@ TEST(MeshFormats, RefuseLargeCountsBeforeAllocating) {
             "big: expected 1 to 20000000 triangles, found 20000001");
   const HugeFile bytes((std::size_t{1} << 30) + 1);
   for (const auto decode : {decode_stl, decode_obj}) {
-    EXPECT_EQ(decode(bytes.bytes(), "big").error().message,
+    EXPECT_EQ(decode(bytes.bytes(), "big", {}).error().message,
               "big: expected at most 1073741824 bytes, found 1073741825");
   }
 }

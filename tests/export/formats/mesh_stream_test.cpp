@@ -151,7 +151,7 @@ TEST(MeshStream, ReportsAFileThatShrinksOrFailsDuringReading) {
                              {}};
     for (const auto read : {read_stl, read_obj}) {
       begun = false;
-      const auto mesh = read(failing, "x");
+      const auto mesh = read(failing, "x", {});
       EXPECT_EQ(mesh.error().kind, ErrorKind::io);
       EXPECT_EQ(mesh.error().message, "disk on fire");
     }
@@ -170,7 +170,7 @@ TEST(MeshStream, AnnouncesTheTrianglesBeforeReading) {
       triangles = found;
       return failure(ErrorKind::io, "too many for me");
     };
-    EXPECT_EQ(read(source, "x").error().message, "too many for me");
+    EXPECT_EQ(read(source, "x", {}).error().message, "too many for me");
     return static_cast<double>(triangles);
   };
   EXPECT_EQ(announced(binary, read_stl), 400.0);

@@ -121,19 +121,9 @@ TEST(Obj, ErrorsNameTheLine) {
            {kSquare + "f 1 2 99999999999999999999\n", "pot.obj:5: expected a whole number"},
            {kSquare + "f 1 2 -9223372036854775808\n",
             "pot.obj:5: expected the number of one of 4 v"},
-           {kSquare + "f 1/1 2/1 3/1\n", "pot.obj:5: expected the number of one of 0 vt, found 1"},
-           {kSquare + "f 1//1 2//1 3//1\n",
-            "pot.obj:5: expected the number of one of 0 vn, found 1"},
-           {kSquare + "vt 0\nf 1/0 2/1 3/1\n",
-            "pot.obj:6: expected the number of one of 1 vt, found 0"},
-           {kSquare + "vn 0 0 1\nf 1//2 2//1 3//1\n",
-            "pot.obj:6: expected the number of one of 1 vn, found 2"},
            {kSquare + "f 1 2\n", "pot.obj:5: expected a face of at least 3 corners, found 2"},
            {kSquare + "f\n", "pot.obj:5: expected a face of at least 3 corners, found 0"},
            {kSquare + "f /1 /2 /3\n", "pot.obj:5: expected a whole number"},
-           {kSquare + "f 1/ 2/ 3/\n", "pot.obj:5: expected a whole number"},
-           {kSquare + "f 1// 2// 3//\n", "pot.obj:5: expected a whole number"},
-           {kSquare + "vt 0\nf 1/1/ 2/1/ 3/1/\n", "pot.obj:6: expected a whole number"},
            {kSquare + "vt 0\nvn 0 0 1\nf 1/1/1/1 2 3\n",
             "pot.obj:7: expected a whole number, found '1/1'"},
            {kSquare + "f 1.5 2 3\n", "pot.obj:5: expected a whole number, found '1.5'"},
@@ -150,8 +140,13 @@ TEST(Obj, ErrorsNameTheLine) {
            {"vt nan\n", "pot.obj:1: expected a finite number, found 'nan'"},
            {"vt 0 0 0 0\n", "pot.obj:1: expected the end of the line, found '0'"},
            {"vn 0 0\n", "pot.obj:1: expected a number, found the end of the line or file"},
-           {"curv 0 1\n", "pot.obj:1: expected a statement of a polygon mesh, found 'curv'"},
-           {"V 0 0 0\n", "pot.obj:1: expected a statement of a polygon mesh, found 'V'"},
+           {"v 0 0 0\ncurv 0 1\n",
+            "pot.obj:2: expected a statement of a polygon mesh, found 'curv'"},
+           {kSquare + "f 1 2 3\nF 2 3 4\n",
+            "pot.obj:6: expected a statement of a polygon mesh, found 'F'"},
+           {"vn 0 0 1\nhello\n", "pot.obj:2: expected a statement of a polygon mesh"},
+           {"hello\n", "pot.obj: expected 1 to 20000000 triangles, found 0"},
+           {kSquare + "f 1/x 2 3\n", "pot.obj:5: expected a whole number, found 'x'"},
            {kSquare + "f 1 2 3\\", "pot.obj:5: expected a whole number"},
            {kSquare + std::string("f 1 2\0 3\n", 9), "pot.obj:5: expected text, found a NUL byte"},
            {std::string("#\n#").append(70'000, 'x'),
@@ -159,6 +154,36 @@ TEST(Obj, ErrorsNameTheLine) {
        }) {
     EXPECT_EQ(obj_message(bad.text).rfind(bad.says, 0), 0u)
         << "wanted: " << bad.says << "\nfound:  " << obj_message(bad.text);
+  }
+}
+
+/// Faults that do not change the surface, as programs write them.
+TEST(Obj, PassesOverWhatIsNoPartOfTheSurfaceWithANote) {
+  struct Case {
+    std::string text;
+    std::vector<std::string> notes;
+  };
+  const std::string no_vt = "a face names a vt that the file does not define";
+  const std::string no_vn = "a face names a vn that the file does not define";
+  for (const Case& c : std::vector<Case>{
+           {kSquare + "f 1/ 2/ 3/\n", {}},
+           {kSquare + "f 1// 2// 3//\n", {}},
+           {kSquare + "vt 0\nf 1/1/ 2/1/ 3/1/\n", {}},
+           {kSquare + "f 1/1 2/1 3/1\n", {"line 5: " + no_vt}},
+           {kSquare + "f 1//1 2//1 3//1\nvn 0 0 1\n", {}},
+           {kSquare + "f 1//1 2//1 3//1\n", {"line 5: " + no_vn}},
+           {kSquare + "vt 0\nf 1/1 2/0 3/1\nf 1/-2 1 1\n", {"line 6: " + no_vt}},
+           {kSquare + "vn 0 0 1\nf 1/9/2 2//1 3//1\n", {"line 6: " + no_vt, "line 6: " + no_vn}},
+           {"# a\nMade by hand\n\nVersion 1.0 \\\n f\n" + kSquare + "f 1 2 3\n",
+            {"line 2: 2 lines before the mesh were not read"}},
+       }) {
+    std::vector<std::string> notes;
+    const auto mesh = decode_obj(c.text, "pot.obj", {false, &notes});
+    ASSERT_TRUE(mesh) << mesh.error().message << "\n" << c.text;
+    EXPECT_EQ(mesh->triangles.front(), (std::array<std::uint32_t, 3>{0, 1, 2})) << c.text;
+    EXPECT_EQ(mesh->points, kSquarePoints) << c.text;
+    EXPECT_EQ(notes, c.notes) << c.text;
+    EXPECT_TRUE(decode_obj(c.text, "pot.obj"));
   }
 }
 

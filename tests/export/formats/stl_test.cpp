@@ -252,6 +252,46 @@ TEST(Stl, ErrorsNameTheFacetInBinary) {
   }
 }
 
+TEST(Stl, RepairReadsTheWholeFacetsThatAreThere) {
+  const TriangleMesh mesh = tetrahedron();
+  const std::string whole = encode_stl_binary(mesh);
+  struct Case {
+    std::size_t bytes;    // of the file, or with zeros after it
+    std::uint32_t count;  // as stated
+    std::size_t read;     // facets
+  };
+  for (const Case& c : std::vector<Case>{{284, 0, 4},
+                                         {284, 3, 4},
+                                         {284, 5, 4},
+                                         {284, 0xFFFFFFFFu, 4},
+                                         {285, 4, 4},
+                                         {333, 4, 4},
+                                         {283, 4, 3},
+                                         {134, 4, 1}}) {
+    std::string bytes = whole;
+    bytes.resize(c.bytes, '\0');
+    overwrite(bytes, 80, c.count);
+    std::vector<std::string> notes;
+    const auto read = decode_stl(bytes, "pot.stl", {true, &notes});
+    ASSERT_TRUE(read) << read.error().message;
+    const TriangleMesh first = decode_stl(encode_stl_binary([&] {
+                                            TriangleMesh part = mesh;
+                                            part.triangles.resize(c.read);
+                                            return part;
+                                          }()),
+                                          "x")
+                                   .value();
+    EXPECT_EQ(*read, first) << c.bytes << " " << c.count;
+    EXPECT_EQ(notes,
+              std::vector<std::string>{"the file counts " + std::to_string(c.count) +
+                                       " facets; its " + std::to_string(c.bytes) + " bytes hold " +
+                                       std::to_string(c.read) + ", which were read"});
+    EXPECT_FALSE(decode_stl(bytes, "pot.stl"));
+  }
+  EXPECT_FALSE(decode_stl(whole.substr(0, 133), "pot.stl", {true, nullptr}));  // no whole facet
+  EXPECT_FALSE(decode_stl("\x89PNG\r\n\x1a\n" + whole, "pot.stl", {true, nullptr}));
+}
+
 TEST(Stl, RefusesBinaryOfAnyOtherSize) {
   const std::string whole = encode_stl_binary(tetrahedron());
   for (std::size_t size = 0; size < whole.size(); ++size) {
@@ -260,7 +300,8 @@ TEST(Stl, RefusesBinaryOfAnyOtherSize) {
   }
   EXPECT_EQ(
       message_of(whole + "x"),
-      "pot.stl: expected 284 bytes of binary STL for the 4 facets it counts, found 285 bytes");
+      "pot.stl: expected 284 bytes of binary STL for the 4 facets it counts, found 285 bytes; "
+      "--repair reads the whole facets that are there");
   for (const std::uint32_t count : {0u, 3u, 5u, 0xFFFFFFFFu}) {
     std::string bytes = whole;
     overwrite(bytes, 80, count);

@@ -59,11 +59,21 @@ std::string encode_obj(const TriangleMesh& mesh, std::string_view object_name);
 Result<std::string> encode_drc(const TriangleMesh& mesh, const DracoSettings& settings,
                                const DracoClaims* claims = nullptr);
 
+/// What a reader accepts beyond its format.
+struct ReadOptions {
+  /// Binary STL whose size differs from what its count requires: the whole facets that are there.
+  bool repair = false;
+  /// Gets a line for each kind of fault that was passed over, none of which changes the surface.
+  /// May be null.
+  std::vector<std::string>* notes = nullptr;
+};
+
 /// The mesh as the file states it, without repairs: 1 to 20 million triangles, float32 points
 /// within 1e6 mm (-0 read as 0), indices in range. A file is at most 1 GiB. Errors are of kind
 /// `bad_input`, or `io` if there is not enough memory; each begins with `name`: "NAME: facet 12:
 /// ...", "NAME:34: ..."; facets, faces and lines count from 1.
-Result<TriangleMesh> decode_mesh(std::string_view bytes, MeshFormat format, std::string_view name);
+Result<TriangleMesh> decode_mesh(std::string_view bytes, MeshFormat format, std::string_view name,
+                                 const ReadOptions& options = {});
 
 /// A file that is read sequentially.
 struct ByteSource {
@@ -80,23 +90,29 @@ inline constexpr std::uint64_t kMaxTextBytes = std::uint64_t{8} << 30;
 
 /// Read an STL or OBJ file like `decode_stl` and `decode_obj`, but hold only one or two megabytes
 /// of it in memory; text may have up to kMaxTextBytes. Errors of the source are passed on.
-Result<TriangleMesh> read_stl(const ByteSource& source, std::string_view name);
-Result<TriangleMesh> read_obj(const ByteSource& source, std::string_view name);
+Result<TriangleMesh> read_stl(const ByteSource& source, std::string_view name,
+                              const ReadOptions& options = {});
+Result<TriangleMesh> read_obj(const ByteSource& source, std::string_view name,
+                              const ReadOptions& options = {});
 
 /// A file of exactly the size that its count requires is binary, whatever its first word; any other
 /// file must be complete text from "solid" to "endsolid". The solids of a text file make one mesh.
 /// Corners with equal float32 coordinates are welded. Normals are not used: binary ones and
 /// attributes are ignored, text ones must be finite.
-Result<TriangleMesh> decode_stl(std::string_view bytes, std::string_view name);
+Result<TriangleMesh> decode_stl(std::string_view bytes, std::string_view name,
+                                const ReadOptions& options = {});
 
 /// Reads v, vt, vn and f, with polygons (up to 4096 corners) as fans; ignores o, g, s, mtllib,
-/// usemtl, l, p and comments, and opens no other file; any other statement is an error. Indices are
-/// kept: coincident points stay separate.
-Result<TriangleMesh> decode_obj(std::string_view bytes, std::string_view name);
+/// usemtl, l, p and comments, and opens no other file. Indices are kept: coincident points stay
+/// separate. Passed over with a note: texture coordinates and normals that a face names and the
+/// file does not define ("f 1/ 2/ 3/" names none), and unknown statements before the first v, vt,
+/// vn or f; any later one is an error.
+Result<TriangleMesh> decode_obj(std::string_view bytes, std::string_view name,
+                                const ReadOptions& options = {});
 
-/// Triangle meshes of Draco 2.2; point clouds are refused. The format has no checksum: a damaged
-/// file may decode to another mesh. Files with claims of Claystack (`drc_claims`) have one, and are
-/// refused if it does not match.
+/// Triangle meshes of Draco 1.0 to 2.2; point clouds are refused. The format has no checksum: a
+/// damaged file may decode to another mesh. Files with claims of Claystack (`drc_claims`) have one,
+/// and are refused if it does not match.
 Result<TriangleMesh> decode_drc(std::string_view bytes, std::string_view name);
 
 /// The mesh with coordinates rounded to float32, as files store it.
