@@ -107,6 +107,7 @@ class Work {
   /// From now on events also go to the journal, which already holds the earlier ones.
   void keep(std::unique_ptr<Journal> journal);
   [[nodiscard]] Journal* journal() noexcept { return journal_.get(); }
+  [[nodiscard]] const Journal* journal() const noexcept { return journal_.get(); }
 
  private:
   struct Running;

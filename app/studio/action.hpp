@@ -47,8 +47,10 @@ struct Quit {};
 struct DiscardRecoverable {
   std::size_t index = 0;
 };
+/// Completes the extension. Asks first if it would replace another file, unless `replace`.
 struct SaveFile {
   std::filesystem::path path;
+  bool replace = false;
 };
 /// Saves to the file of the document, or opens a dialog for a name.
 struct Save {};
@@ -82,7 +84,13 @@ struct DiscardAndContinue {};
 struct EditExport {
   ExportChoices choices;
 };
-struct WriteExport {};
+/// Asks first if it would replace files that are not of the last export, unless `replace`.
+struct WriteExport {
+  bool replace = false;
+};
+/// The answers to the question about files that would be replaced.
+struct ReplaceFiles {};
+struct KeepFiles {};
 struct CancelExport {};
 struct ShowExportFolder {};
 struct ChooseExportFolder {};
@@ -182,13 +190,13 @@ using ToggleHints = Toggle<&Settings::hints>;
 using Action = std::variant<
     RunCommand, BeginWork, BeginSample, OpenFile, RecoverWork, Quit, DiscardRecoverable, SaveFile,
     Save, Undo, Redo, GoToStroke, OtherBranch, Scrub, EndScrub, BranchHere, ShowDialog, CloseDialog,
-    EditPath, SaveAndContinue, DiscardAndContinue, EditExport, WriteExport, CancelExport,
-    ShowExportFolder, ChooseExportFolder, ChooseProcessFile, UseProcess, EditImport, TakeImport,
-    ShowWarning, CloseNotice, SetToolMode, SetToolShape, ScaleTool, ChangeGap, SetStiffness,
-    DragToolSize, DragStiffness, TogglePause, Rearm, Back, PressClay, AimTool, ReleaseTool,
-    LookFrom, ToggleCut, TogglePanel, FoldPanel, ToggleTheme, ScaleText, SetTheme, SetScale,
-    SetUnit, SetWheelSpeed, SetTool, SetProcess, SetHints, SetFolder, SetHandSpeed, SetWallMap,
-    SetFullSection, ToggleWallMap, ToggleHints>;
+    EditPath, SaveAndContinue, DiscardAndContinue, EditExport, WriteExport, ReplaceFiles, KeepFiles,
+    CancelExport, ShowExportFolder, ChooseExportFolder, ChooseProcessFile, UseProcess, EditImport,
+    TakeImport, ShowWarning, CloseNotice, SetToolMode, SetToolShape, ScaleTool, ChangeGap,
+    SetStiffness, DragToolSize, DragStiffness, TogglePause, Rearm, Back, PressClay, AimTool,
+    ReleaseTool, LookFrom, ToggleCut, TogglePanel, FoldPanel, ToggleTheme, ScaleText, SetTheme,
+    SetScale, SetUnit, SetWheelSpeed, SetTool, SetProcess, SetHints, SetFolder, SetHandSpeed,
+    SetWallMap, SetFullSection, ToggleWallMap, ToggleHints>;
 
 /// In the order of creation.
 using Actions = std::vector<Action>;

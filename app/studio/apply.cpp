@@ -45,6 +45,30 @@ bool open_desktop_dialog(AppState& state, FileDialog::Kind kind,
   return state.host.real_time() && state.file_dialog.begin(kind, start);
 }
 
+/// A name without an extension is that of a work.
+std::filesystem::path with_extension(std::filesystem::path path) {
+  if (path.has_filename() && !path.has_extension()) path += ".work";
+  return path;
+}
+
+/// NAME.work in the folder, or NAME-2.work and so on: the first that is free.
+std::filesystem::path unused_name(const std::filesystem::path& folder, const std::string& name) {
+  std::string stem = std::filesystem::path(name).stem().string();
+  if (stem.empty()) stem = "pot";
+  std::error_code ignored;
+  for (int n = 1;; ++n) {
+    const auto path = folder / (n == 1 ? stem + ".work" : fmt::format("{}-{}.work", stem, n));
+    if (!std::filesystem::exists(path, ignored)) return path;
+  }
+}
+
+std::string replace_question(const std::vector<std::string>& files) {
+  std::string names;
+  for (const std::string& file : files)
+    names.append(names.empty() ? "" : ", ").append(std::filesystem::path(file).filename().string());
+  return names + (files.size() == 1 ? " exists in the folder." : " exist in the folder.");
+}
+
 void close_dialog(AppState& state) {
   if (state.document.has_work())
     state.ui.dialog = NoDialog{};
@@ -103,10 +127,39 @@ struct Performer {
   }
   void operator()(const Quit&) const { state.done = true; }
   void operator()(const SaveFile& save) const {
-    if (!save_document(state, save.path)) return;
-    const std::optional<Action> next = waits_for_save();
+    const std::filesystem::path path = with_extension(save.path);
+    const std::optional<Action> next = after_saving();
+    const bool confirmed = save.replace && path == save.path;
+    if (!confirmed && state.document.replaces_other(path)) {
+      state.log("prompt: replace");
+      state.ui.dialog =
+          ReplaceDialog{path == state.document.file()
+                            ? path.filename().string() + " was changed by another program."
+                            : path.filename().string() + " exists. It holds another work or pot.",
+                        SaveDialog{path.string(), next}};
+      return;
+    }
+    if (!save_document(state, path)) {
+      if (state.ui.shows<ReplaceDialog>()) (*this)(KeepFiles{});
+      return;
+    }
     close_dialog(state);
-    if (next) apply(state, *next);
+    // Not if only a pot was saved, because a pot file keeps no strokes.
+    if (next && !state.document.unsaved()) apply(state, *next);
+  }
+  void operator()(const ReplaceFiles&) const {
+    const auto* asked = std::get_if<ReplaceDialog>(&state.ui.dialog);
+    if (asked == nullptr) return;
+    if (asked->save) return (*this)(SaveFile{asked->save->path, true});
+    state.ui.dialog = ExportDialog{};
+    (*this)(WriteExport{true});
+  }
+  void operator()(const KeepFiles&) const {
+    const auto* asked = std::get_if<ReplaceDialog>(&state.ui.dialog);
+    if (asked == nullptr) return;
+    Dialog before = ExportDialog{};
+    if (asked->save) before = *asked->save;
+    state.ui.dialog = std::move(before);
   }
   void operator()(const Save&) const {
     if (state.document.file().empty())
@@ -170,7 +223,10 @@ struct Performer {
         break;
     }
   }
-  void operator()(const CloseDialog&) const { close_dialog(state); }
+  void operator()(const CloseDialog&) const {
+    if (state.ui.shows<ReplaceDialog>()) return (*this)(KeepFiles{});
+    close_dialog(state);
+  }
   void operator()(const EditPath& edit) const {
     if (auto* open = std::get_if<OpenDialog>(&state.ui.dialog)) open->path = edit.path;
     if (auto* save = std::get_if<SaveDialog>(&state.ui.dialog)) save->path = edit.path;
@@ -195,8 +251,18 @@ struct Performer {
     if (!state.done) state.document.keep_changes();
   }
   void operator()(const EditExport& edit) const { state.ui.exporting.choices = edit.choices; }
-  void operator()(const WriteExport&) const {
+  void operator()(const WriteExport& write) const {
     ExportState& exporting = state.ui.exporting;
+    std::vector<std::string> standing = standing_files(exporting.choices);
+    // Those of the last export are the user's own, of this pot.
+    std::erase_if(standing, [&](const std::string& path) {
+      return std::ranges::find(exporting.written, path) != exporting.written.end();
+    });
+    if (!write.replace && !standing.empty()) {
+      state.log("prompt: replace");
+      state.ui.dialog = ReplaceDialog{replace_question(standing), std::nullopt};
+      return;
+    }
     exporting.written.clear();
     exporting.problem.clear();
     exporting.result.clear();
@@ -274,7 +340,7 @@ struct Performer {
       state.scene.cancel(undone);
       return apply_all(state, undone);
     }
-    if (!state.ui.shows<NoDialog>()) return close_dialog(state);
+    if (!state.ui.shows<NoDialog>()) return (*this)(CloseDialog{});
     if (state.document.scrubbing())
       return change_document([](Document& document) { return document.show_present(); });
     if (state.stroke.throwing() && !state.stroke.has_device()) return state.stroke.release();
@@ -342,11 +408,11 @@ struct Performer {
     state.ui.exporting.written.clear();
     state.log("work started: " + state.document.scene().name);
   }
-  /// The action to run after saving; none if only a pot was saved, because a pot file keeps no
-  /// strokes.
-  [[nodiscard]] std::optional<Action> waits_for_save() const {
-    if (state.document.unsaved()) return std::nullopt;
+  /// The action to run after saving.
+  [[nodiscard]] std::optional<Action> after_saving() const {
     if (const auto* save = std::get_if<SaveDialog>(&state.ui.dialog)) return save->next;
+    if (const auto* asked = std::get_if<ReplaceDialog>(&state.ui.dialog); asked && asked->save)
+      return asked->save->next;
     const auto* unsaved = std::get_if<UnsavedDialog>(&state.ui.dialog);
     return unsaved != nullptr && unsaved->saving ? std::optional(unsaved->next) : std::nullopt;
   }
@@ -364,8 +430,7 @@ struct Performer {
     state.log("drawing: " + path.string());
   }
   void ask_for_name(std::optional<Action> next) const {
-    const std::filesystem::path path =
-        start_folder(state) / (state.document.scene().name + ".work");
+    const std::filesystem::path path = unused_name(start_folder(state), state.document.name());
     if (!open_desktop_dialog(state, FileDialog::Kind::save, path))
       state.ui.dialog = SaveDialog{path.string(), std::move(next)};
   }

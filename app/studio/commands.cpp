@@ -36,6 +36,7 @@ bool can_switch(View view) {
 }
 bool scrubbing(View view) { return view.document.scrubbing(); }
 bool asks(View view) { return view.ui.shows<UnsavedDialog>(); }
+bool asks_to_replace(View view) { return view.ui.shows<ReplaceDialog>(); }
 bool recoverable(View view) { return !view.recoverable.empty(); }
 bool can_export(View view) {
   const ExportChoices& choices = view.ui.exporting.choices;
@@ -111,6 +112,8 @@ const std::array kCommands = {
     C{"quit.save", "Save first", key(GLFW_KEY_ENTER), kNone, SaveAndContinue{}, asks},
     C{"quit.discard", "Discard changes", key(GLFW_KEY_D, kCtrl), kNone, DiscardAndContinue{}, asks},
     C{"quit.cancel", "Cancel", kNone, kNone, CloseDialog{}, asks},
+    C{"replace.confirm", "Replace", key(GLFW_KEY_R, kCtrlShift), kNone, ReplaceFiles{}, asks_to_replace},
+    C{"replace.cancel", "Cancel", kNone, kNone, KeepFiles{}, asks_to_replace},
     C{"recover.take", "Recover the unsaved work", key(GLFW_KEY_R, kCtrl), kNone, RecoverWork{0}, recoverable},
     C{"recover.discard", "Discard the unsaved work", kNone, kNone, DiscardRecoverable{0}, recoverable},
     C{"export.write", "Export the files", key(GLFW_KEY_ENTER, kCtrl), kNone, WriteExport{}, can_export},

@@ -25,6 +25,14 @@ SceneSpec current_scene(const WorkRecord& record) {
 
 }  // namespace
 
+std::optional<FileStamp> FileStamp::of(const std::filesystem::path& path) {
+  std::error_code missing;
+  const auto changed = std::filesystem::last_write_time(path, missing);
+  const auto bytes = missing ? 0 : std::filesystem::file_size(path, missing);
+  if (missing) return std::nullopt;
+  return FileStamp{changed, bytes};
+}
+
 Result<void> Document::begin(const SceneSpec& scene) {
   return history::Work::begin(scene).map(
       [&](history::Work&& work) { replace(scene, std::move(work)); });
@@ -49,11 +57,23 @@ void Document::replace(const SceneSpec& scene, history::Work work) {
   nominal_rate_per_s_ = scene.removal.rate_per_s;
   work_.emplace(std::move(work));
   if (auto shown = show_pot(); !shown) problem_ = shown.error();
-  if (!journals_ || work_->journal() != nullptr) return;
-  if (auto journal = history::Journal::begin(work_->record()))
-    work_->keep(std::move(*journal));
-  else
-    problem_ = journal.error();
+  journal_error_.reset();
+  if (journals_ && work_->journal() == nullptr) renew_journal();
+}
+
+std::optional<Error> Document::journal_problem() const {
+  if (!journals_ || !work_) return std::nullopt;
+  return work_->journal() != nullptr ? work_->journal()->trouble() : journal_error_;
+}
+
+void Document::renew_journal() {
+  auto journal = history::Journal::begin(work_->record());
+  if (!journal) {
+    journal_error_ = journal.error();
+    return;
+  }
+  if (work_->journal() != nullptr) work_->journal()->discard();
+  work_->keep(std::move(*journal));
 }
 
 void Document::close() {
@@ -64,7 +84,7 @@ Result<Document::Remark> Document::open_work(const std::string& name) {
   auto loaded = history::load(name);
   if (!loaded) return tl::make_unexpected(loaded.error());
   begin(std::move(loaded->work));
-  file_ = name;
+  keep_file(name);
   if (!loaded->torn) return Remark();
   return fmt::format("{}: the last line was cut off; all lines before it were read", name);
 }
@@ -86,13 +106,23 @@ Result<Document::Remark> Document::open(const std::filesystem::path& path) {
 
 Result<void> Document::save(const std::filesystem::path& path) {
   const std::string name = path.string();
-  if (is_work(name)) return work_->save(name).map([&] { file_ = path; });
+  if (is_work(name)) return work_->save(name).map([&] { keep_file(path); });
   if (!is_pot(name))
     return failure(
         ErrorKind::bad_input,
         fmt::format("{}: expected a name that ends in .work, .pot.json or .pot.cbor", name));
   const auto encoding = name.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
   return publish(path, write_pot(*pot_, encoding));
+}
+
+void Document::keep_file(const std::filesystem::path& path) {
+  file_ = path;
+  stamp_ = FileStamp::of(path).value_or(FileStamp{});
+}
+
+bool Document::replaces_other(const std::filesystem::path& path) const {
+  const auto found = FileStamp::of(path);
+  return found && !(path == file_ && *found == stamp_);
 }
 
 std::string Document::name() const {
@@ -117,6 +147,7 @@ double Document::stiffness() const noexcept {
 
 Result<void> Document::show_pot() {
   moment_.reset();
+  moment_pot_.reset();
   auto pot = work_->pot();
   if (!pot) return tl::make_unexpected(pot.error());
   pot_ = std::move(*pot);
@@ -160,7 +191,8 @@ std::optional<history::NodeId> Document::other_branch() const {
 Result<void> Document::scrub(history::NodeId node, double seconds) {
   auto pot = work_->scrub(node, seconds);
   if (!pot) return tl::make_unexpected(pot.error());
-  view_ = render::view_of(*pot);
+  moment_pot_ = std::make_shared<const Pot>(std::move(*pot));
+  view_ = render::view_of(*moment_pot_);
   moment_ = Moment{node, seconds};
   return {};
 }

@@ -7,6 +7,7 @@
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/scene.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -20,10 +21,19 @@ struct Moment {
   double seconds = 0.0;
 };
 
-/// Not thread-safe. Functions that read the work or its pot require has_work().
 /// Wheel speed at which clay yields at the rate of its scene.
 inline constexpr double kNominalRpm = 120.0;
 
+/// Tells whether a file is still the one that was read or written.
+struct FileStamp {
+  std::filesystem::file_time_type changed{};
+  std::uintmax_t bytes = 0;
+  /// Empty: there is no such file.
+  [[nodiscard]] static std::optional<FileStamp> of(const std::filesystem::path& path);
+  friend bool operator==(const FileStamp&, const FileStamp&) = default;
+};
+
+/// Not thread-safe. Functions that read the work or its pot require has_work().
 class Document {
  public:
   /// Keeps a journal of every work from now on, so that a crash loses no stroke.
@@ -35,7 +45,11 @@ class Document {
   Result<void> begin(const SceneSpec& scene, const Pot& pot);
   /// Continues a recovered work with its journal.
   void begin(history::Work work);
-  /// The error of the journal or the pot after a work has begun. Returned once.
+  /// Why a crash would lose strokes; empty: it would not, or no journals are kept.
+  [[nodiscard]] std::optional<Error> journal_problem() const;
+  /// Tries to write the whole work into a new journal. Not during a stroke.
+  void renew_journal();
+  /// The error of the pot after a work has begun. Returned once.
   [[nodiscard]] std::optional<Error> take_problem() { return std::exchange(problem_, {}); }
   /// The user ends the program: deletes the journal, which is not needed any more.
   void close();
@@ -47,6 +61,9 @@ class Document {
   Result<Remark> open(const std::filesystem::path& path);
   /// Writes .work, .pot.json or .pot.cbor. Only a .work saves the document and becomes its file.
   Result<void> save(const std::filesystem::path& path);
+  /// Whether a file of that name exists that this document has neither read nor written last:
+  /// another one, or its own after another program has changed it.
+  [[nodiscard]] bool replaces_other(const std::filesystem::path& path) const;
   /// The file of the work; empty: none yet.
   [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
   /// The name of the file, or of the scene.
@@ -66,6 +83,10 @@ class Document {
   /// Null before there is a work. During a stroke: the pot at its start.
   [[nodiscard]] const history::SharedPot& shared_pot() const noexcept { return pot_; }
   /// The pot on screen between strokes: the current pot, or the pot at `moment`.
+  [[nodiscard]] const history::SharedPot& shown_pot() const noexcept {
+    return moment_ ? moment_pot_ : pot_;
+  }
+  /// `shown_pot` as the view draws it.
   [[nodiscard]] const render::PotView& view() const noexcept { return view_; }
   /// Moves the fallen part of the pot on screen to this place.
   void show_fall(const render::FallenView& fallen) { view_.fallen = fallen; }
@@ -108,18 +129,21 @@ class Document {
  private:
   void replace(const SceneSpec& scene, history::Work work);
   Result<Remark> open_work(const std::string& name);
+  void keep_file(const std::filesystem::path& path);
   Result<void> show_pot();
 
   bool journals_ = false;
   bool changes_discarded_ = false;
   std::filesystem::path file_;
+  FileStamp stamp_;  ///< of file_, when it was read or written
   SceneSpec scene_;
   double nominal_rate_per_s_ = 20.0;
   std::optional<history::Work> work_;
   history::SharedPot pot_;
   std::optional<Moment> moment_;
+  history::SharedPot moment_pot_;
   render::PotView view_;
-  std::optional<Error> problem_;
+  std::optional<Error> problem_, journal_error_;
 };
 
 }  // namespace clay::studio

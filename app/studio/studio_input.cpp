@@ -52,8 +52,8 @@ void connect_clipboard(ImGuiIO& io, Host& host) {
 
 /// Commands that are enabled while a dialog is open.
 bool in_dialogs(const Command& command) {
-  constexpr std::array kPrefixes = {"file.",   "view.",    "help.",  "quit.",
-                                    "export.", "recover.", "import."};
+  constexpr std::array kPrefixes = {"file.",   "view.",    "help.",   "quit.",
+                                    "export.", "recover.", "import.", "replace."};
   return std::ranges::any_of(kPrefixes,
                              [&](const char* prefix) { return command.id.starts_with(prefix); });
 }

@@ -60,6 +60,11 @@ struct SaveDialog {
   std::string path;
   std::optional<Action> next;
 };
+/// Asks whether to replace files.
+struct ReplaceDialog {
+  std::string question;
+  std::optional<SaveDialog> save;  ///< what is asked for; empty: the export
+};
 struct ExportDialog {
   std::optional<ExportChoices> previewed;  ///< choices of the current preview
 };
@@ -67,7 +72,7 @@ struct ExportDialog {
 using ImportDialog = ImportCard;
 
 using Dialog = std::variant<NoDialog, GalleryDialog, ShortcutsDialog, UnsavedDialog, OpenDialog,
-                            SaveDialog, ExportDialog, ImportDialog, SettingsDialog>;
+                            SaveDialog, ExportDialog, ImportDialog, SettingsDialog, ReplaceDialog>;
 
 /// Choices and results of an export. They outlive the dialog, because an export continues after it
 /// is closed.
@@ -92,11 +97,18 @@ struct ArmReport {
   std::string guard;      ///< last reported state of the force guard
 };
 
+/// The banner about a journal that could not be written.
+struct JournalWatch {
+  std::string shown;     ///< its text; empty: the journal is written
+  double retry_s = 0.0;  ///< time of the next attempt, on the host's clock
+};
+
 struct UiState {
   Dialog dialog = GalleryDialog{};
   Notices notices;
   ExportState exporting;
   ArmReport arm;
+  JournalWatch journal;
   std::vector<Mark> marks;    ///< marks on the pot `marked`
   history::SharedPot marked;  ///< pot of the last export or preview
   std::string reveal;         ///< id of a panel to scroll to in this frame

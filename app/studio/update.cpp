@@ -14,7 +14,7 @@
 namespace clay::studio {
 namespace {
 
-constexpr double kDeviceNoteS = 6.0, kExportNoteS = 6.0;
+constexpr double kDeviceNoteS = 6.0, kExportNoteS = 6.0, kJournalNoteS = 6.0;
 // A homed device reports its state with its first frames.
 constexpr std::uint64_t kTicksUntilHomed = 250;
 
@@ -107,6 +107,32 @@ void update_fall(AppState& state) {
     apply(state, GoToStroke{state.document.work().at()});
 }
 
+// --- Crash protection. ---------------------------------------------------------------------------
+
+constexpr double kJournalRetryS = 5.0;
+
+/// A full disk ends the journal. The banner stays until a new one could be written.
+void update_journal(AppState& state) {
+  JournalWatch& watch = state.ui.journal;
+  const auto problem = state.document.journal_problem();
+  if (problem && watch.shown.empty()) {
+    watch.shown = "A crash would lose strokes: " + problem->message +
+                  ". Save the work (Ctrl+S), to another disk if this one is full.";
+    watch.retry_s = state.now_s() + kJournalRetryS;
+    state.log("error: " + watch.shown);
+  }
+  if (watch.shown.empty()) return;
+  if (problem && state.now_s() > watch.retry_s && !state.document.work().in_stroke()) {
+    state.document.renew_journal();
+    watch.retry_s = state.now_s() + kJournalRetryS;
+    return;
+  }
+  state.ui.notices.withdraw(watch.shown);
+  if (problem) return state.ui.notices.show(Grade::fault, watch.shown);
+  watch.shown.clear();
+  note(state, Grade::note, "Every stroke is protected against a crash again", kJournalNoteS);
+}
+
 // --- Files. --------------------------------------------------------------------------------------
 
 void update_file_dialog(AppState& state) {
@@ -121,7 +147,7 @@ void update_file_dialog(AppState& state) {
       apply(state, UseProcess{*chosen});
       break;
     case FileDialog::Kind::save:
-      apply(state, SaveFile{*chosen});
+      apply(state, SaveFile{*chosen, true});  // the desktop has asked
       break;
     case FileDialog::Kind::folder:
       state.ui.exporting.choices.folder = *chosen;
@@ -228,6 +254,7 @@ void update(AppState& state) {
   state.stroke.advance(now_ns);
   state.host.clock().sleep_until_ns(now_ns);  // in case no servo has advanced it
   update_strokes(state);
+  update_journal(state);
   update_arm_notice(state);
   update_fall(state);
 }

@@ -109,6 +109,18 @@ void draw(const SaveDialog& dialog, const ViewModel& model, Actions& actions,
   ImGui::End();
 }
 
+void draw(const ReplaceDialog& dialog, const ViewModel& model, Actions& actions,
+          const ViewRect& rect) {
+  begin_dialog("##replace", rect, 38.0f);
+  dialog_title(model, "Replace?");
+  ImGui::TextWrapped("%s", dialog.question.c_str());
+  ImGui::Spacing();
+  if (main_button("Cancel (Esc)", model.colours())) actions.emplace_back(KeepFiles{});
+  ImGui::SameLine();
+  if (ImGui::Button("Replace (Ctrl+Shift+R)")) actions.emplace_back(RunCommand{"replace.confirm"});
+  ImGui::End();
+}
+
 void draw(const SettingsDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect) {
   begin_dialog("##settings", rect, 34.0f);
   dialog_title(model, "Settings");

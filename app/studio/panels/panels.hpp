@@ -52,6 +52,7 @@ void draw_dialog(const ViewModel& model, Actions& actions, const ViewRect& rect)
 void draw(const NoDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
 void draw(const GalleryDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
 void draw(const ShortcutsDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
+void draw(const ReplaceDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
 void draw(const UnsavedDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
 void draw(const OpenDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
 void draw(const SaveDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);

@@ -9,42 +9,20 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 namespace clay::studio {
-namespace {
-
-struct Measures {
-  double diameter_mm = 0.0, grams = 0.0;
-};
-
-Measures measures_of(const ViewModel& model) {
-  const render::PotView& pot = model.stroke.view();
-  Measures m;
-  double sum_mm2 = 0.0;
-  for (const render::Row& row : pot.rows) {
-    const double outer = row.outer_mm, inner = row.inner_mm;
-    m.diameter_mm = std::max(m.diameter_mm, 2.0 * outer);
-    sum_mm2 += outer * outer - inner * inner;
-  }
-  if (!pot.rows.empty())
-    m.grams = 1e-3 * model.document.scene().lump.density_g_cm3 * std::numbers::pi * sum_mm2 *
-              pot.height_mm / static_cast<double>(pot.rows.size());
-  return m;
-}
-
-}  // namespace
 
 void draw_pot(const ViewModel& model, Actions&) {
-  if (!model.document.has_work()) return faint_text(model.colours(), "No clay on the wheel");
-  const Measures m = measures_of(model);
+  const Readings& readings = model.readings;
+  if (readings.stack() == nullptr) return faint_text(model.colours(), "No clay on the wheel");
+  const double grams = readings.account().in_stack_g;
   const LengthUnit unit = model.settings.unit;
   const Palette& colours = model.colours();
   value_row(colours, "Height", length_text(model.stroke.view().height_mm, unit));
-  value_row(colours, "Largest diameter", length_text(m.diameter_mm, unit));
-  value_row(colours, "Clay mass",
-            m.grams < 1000.0 ? fmt::format("{:.0f} g", m.grams)
-                             : fmt::format("{:.2f} kg", 1e-3 * m.grams));
+  value_row(colours, "Largest diameter", length_text(2.0 * readings.widest_mm(), unit));
+  value_row(
+      colours, "Clay mass",
+      grams < 1000.0 ? fmt::format("{:.0f} g", grams) : fmt::format("{:.2f} kg", 1e-3 * grams));
 }
 
 namespace {

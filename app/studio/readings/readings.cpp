@@ -34,12 +34,12 @@ void Readings::update(const Document& document, StrokeController& stroke, const 
 void Readings::read(const Document& document, const StrokeController& stroke) {
   const bool live = stroke.throwing();
   const bool same = live ? subject_.live() && subject_.outline == stroke.view()
-                         : subject_.pot == document.shared_pot();
+                         : subject_.pot == document.shown_pot();
   const SceneSpec& scene = document.scene();
   const auto limit_kpa =
       scene.stability ? std::optional(scene.stability->max_stress_kpa) : std::nullopt;
   if (!same) {
-    subject_ = {live ? nullptr : document.shared_pot(), stroke.view(), scene.lump.density_g_cm3,
+    subject_ = {live ? nullptr : document.shown_pot(), stroke.view(), scene.lump.density_g_cm3,
                 stroke.crown_mm()};
     outline_stack_ = live ? stack_of(subject_.outline, subject_.crown_mm) : std::nullopt;
     section_size_ = 0;

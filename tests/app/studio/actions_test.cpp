@@ -6,8 +6,15 @@
 #include "tests/app/studio/still_host.hpp"
 #include "tests/support/run_program.hpp"
 
+#include "app/history/journal.hpp"
+
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <iterator>
 #include <string>
 
 namespace clay::studio {
@@ -104,6 +111,123 @@ TEST_F(ActionsTest, SavingRequestsANameAndContinuesOnlyWithAWork) {
   apply(state, SaveAndContinue{});
   apply(state, SaveFile{folder.file("a.work")});
   EXPECT_TRUE(state.done);
+}
+
+TEST_F(ActionsTest, SavingOverAnotherFileAsksFirst) {
+  const std::string name = folder.file("other.work");
+  test::write_text(name, "someone else's work");
+  change();
+  apply(state, Quit{});
+  apply(state, SaveAndContinue{});
+  apply(state, SaveFile{folder.file("other")});  // the extension is completed
+  ASSERT_TRUE(state.ui.shows<ReplaceDialog>());
+  EXPECT_NE(std::get<ReplaceDialog>(state.ui.dialog).question.find("other.work exists"),
+            std::string::npos);
+  apply(state, Back{});
+  ASSERT_TRUE(state.ui.shows<SaveDialog>());
+  EXPECT_EQ(std::get<SaveDialog>(state.ui.dialog).path, name);
+  EXPECT_EQ(test::read_text(name), "someone else's work");
+  EXPECT_FALSE(state.done);
+  apply(state, SaveFile{name});
+  apply(state, RunCommand{"replace.confirm"});
+  EXPECT_TRUE(history::load(name));
+  EXPECT_TRUE(state.done) << "the question before continues";
+}
+
+TEST_F(ActionsTest, SavingAgainAsksOnlyIfAnotherProgramChangedTheFile) {
+  const std::string name = folder.file("mine.work");
+  change();
+  apply(state, SaveFile{name});
+  EXPECT_TRUE(state.ui.shows<NoDialog>());
+  change();
+  apply(state, Save{});
+  EXPECT_FALSE(state.document.unsaved());
+  test::write_text(name, test::read_text(name) + "\n");
+  const std::string theirs = test::read_text(name);
+  change();
+  apply(state, Save{});
+  ASSERT_TRUE(state.ui.shows<ReplaceDialog>());
+  EXPECT_NE(std::get<ReplaceDialog>(state.ui.dialog).question.find("changed by another program"),
+            std::string::npos);
+  EXPECT_EQ(test::read_text(name), theirs);
+  EXPECT_TRUE(state.document.unsaved());
+  apply(state, ReplaceFiles{});
+  EXPECT_FALSE(state.document.unsaved());
+  EXPECT_TRUE(state.ui.shows<NoDialog>());
+}
+
+TEST_F(ActionsTest, TheDesktopsDialogHasAskedOnlyAboutTheNameItReturns) {
+  change();
+  test::write_text(folder.file("a.work"), "x");
+  apply(state, SaveFile{folder.file("a"), true});
+  EXPECT_TRUE(state.ui.shows<ReplaceDialog>());
+  apply(state, KeepFiles{});
+  apply(state, SaveFile{folder.file("a.work"), true});
+  EXPECT_FALSE(state.document.unsaved());
+}
+
+TEST_F(ActionsTest, AFailedReplacementReturnsToTheName) {
+  change();
+  std::filesystem::create_directory(folder.file("a.work"));
+  apply(state, SaveFile{folder.file("a.work")});
+  if (state.ui.shows<ReplaceDialog>()) apply(state, ReplaceFiles{});
+  EXPECT_TRUE(state.document.unsaved());
+  EXPECT_TRUE(std::filesystem::is_directory(folder.file("a.work")));
+}
+
+TEST_F(ActionsTest, ProposesAFreeName) {
+  state.settings.folder = folder.file("");
+  change();
+  for (const char* expected : {"small.work", "small-2.work", "small-3.work"}) {
+    apply(state, ShowDialog{DialogKind::save_file});
+    const std::string path = std::get<SaveDialog>(state.ui.dialog).path;
+    EXPECT_EQ(std::filesystem::path(path).filename(),
+              std::string(expected).replace(0, 5, state.document.scene().name));
+    test::write_text(path, "x");
+  }
+}
+
+TEST_F(ActionsTest, AFullDiskShowsABannerUntilStrokesAreProtectedAgain) {
+  setenv("XDG_STATE_HOME", folder.path().c_str(), 1);
+  state.document.keep_journals();
+  apply(state, BeginWork{small_scene(), nullptr, {}});
+  update(state);
+  EXPECT_FALSE(state.ui.notices.shown());
+
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{200, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);  // as on a full disk
+  const auto wait = [this](double seconds) {
+    host.clock().sleep_until_ns(host.clock().now_ns() + static_cast<std::int64_t>(1e9 * seconds));
+    update(state);
+  };
+  change();
+  wait(0.1);
+  ASSERT_TRUE(state.ui.notices.shown());
+  EXPECT_EQ(state.ui.notices.shown()->grade, Grade::fault);
+  EXPECT_NE(state.ui.notices.shown()->text.find("A crash would lose strokes"), std::string::npos);
+  wait(10.0);
+  wait(0.1);
+  EXPECT_TRUE(state.document.journal_problem()) << "the disk is still full";
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, SIG_DFL);
+
+  wait(10.0);
+  wait(0.1);
+  EXPECT_FALSE(state.document.journal_problem());
+  ASSERT_TRUE(state.ui.notices.shown());
+  EXPECT_EQ(state.ui.notices.shown()->grade, Grade::note);
+  const auto journals = history::recovery_folder();
+  ASSERT_EQ(std::distance(std::filesystem::directory_iterator(journals),
+                          std::filesystem::directory_iterator()),
+            1);
+  ASSERT_TRUE(state.document.work().journal()->path().parent_path() == journals);
+  const auto kept = history::load(state.document.work().journal()->path().string());
+  ASSERT_TRUE(kept) << kept.error().message;
+  EXPECT_EQ(kept->work.size(), 2u) << "the stroke is in the new journal";
+  unsetenv("XDG_STATE_HOME");
 }
 
 TEST_F(ActionsTest, SavingFromTheMenuDuringTheQuestionDoesNotContinue) {

@@ -5,6 +5,8 @@
 
 #include "claystack/engine/files.hpp"
 
+#include "app/render/pot_view.hpp"
+
 #include <gtest/gtest.h>
 
 namespace clay::studio {
@@ -82,7 +84,10 @@ TEST_F(DocumentTest, ScrubbedMomentIsShownAndBecomesABranch) {
   ASSERT_TRUE(document.scrub(1, half_s));
   EXPECT_TRUE(document.scrubbing());
   EXPECT_NE(document.view(), whole);
+  EXPECT_EQ(render::view_of(*document.shown_pot()), document.view()) << "what the panels measure";
+  EXPECT_NE(document.shown_pot(), document.shared_pot());
   ASSERT_TRUE(document.show_present());
+  EXPECT_EQ(document.shown_pot(), document.shared_pot());
   EXPECT_FALSE(document.scrubbing());
   EXPECT_EQ(document.view(), whole);
   ASSERT_TRUE(document.scrub(1, half_s));

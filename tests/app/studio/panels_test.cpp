@@ -87,9 +87,9 @@ TEST_F(Panels, DrawingEmitsNoAction) {
     draw_dialog(model, actions, kView);
     draw_banner(model, actions, kView);
   };
-  const Dialog dialogs[] = {NoDialog{},      GalleryDialog{}, ShortcutsDialog{},
-                            UnsavedDialog{}, OpenDialog{},    SaveDialog{},
-                            ExportDialog{},  ImportDialog{},  SettingsDialog{}};
+  const Dialog dialogs[] = {NoDialog{},       GalleryDialog{}, ShortcutsDialog{}, UnsavedDialog{},
+                            OpenDialog{},     SaveDialog{},    ExportDialog{},    ImportDialog{},
+                            SettingsDialog{}, ReplaceDialog{}};
   for (const Dialog& dialog : dialogs) {
     state.ui.dialog = dialog;
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(frame(all).empty()) << dialog.index();
