@@ -50,7 +50,8 @@ Section extremes_section(const Effort& effort) {
   Tally tally;
   for (const Case& c : extreme::cases()) {
     effort.progress(c.name);
-    const Outcome engine = c.run(extreme::Who::conserving), literal = c.run(extreme::Who::literal);
+    const Outcome engine = c.run(extreme::Model::conserving),
+                  literal = c.run(extreme::Model::literal);
     tally.add(c, engine.verdict, literal.verdict);
     table.rows.push_back({std::string(c.name), cell_of(engine.verdict), cell_of(literal.verdict),
                           std::string(c.oracle), note_of(engine, literal)});

@@ -16,28 +16,28 @@ void press_the_middle(Trial& trial) {
   trial.require(trial.touched(), "no contact");
 }
 
-Outcome with_flow(Who who, double sigma_mm, double reach_mm) {
+Outcome with_flow(Model model, double sigma_mm, double reach_mm) {
   SceneSpec scene = small_pot();
   scene.flow.sigma_mm = sigma_mm;
   scene.flow.reach_mm = reach_mm;
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   press_the_middle(trial);
   return trial.done();
 }
 
-Outcome sigma_0(Who who) { return with_flow(who, 0.0, 12.0); }
-Outcome sigma_underflows(Who who) { return with_flow(who, 0.02, 12.0); }
-Outcome sigma_1e200(Who who) { return with_flow(who, 1e200, 12.0); }
-Outcome sigma_infinite(Who who) { return with_flow(who, kInfinity, 12.0); }
-Outcome reach_0(Who who) { return with_flow(who, 4.0, 0.0); }
-Outcome reach_beyond_the_pot(Who who) { return with_flow(who, 400.0, 5'000.0); }
+Outcome sigma_0(Model model) { return with_flow(model, 0.0, 12.0); }
+Outcome sigma_underflows(Model model) { return with_flow(model, 0.02, 12.0); }
+Outcome sigma_1e200(Model model) { return with_flow(model, 1e200, 12.0); }
+Outcome sigma_infinite(Model model) { return with_flow(model, kInfinity, 12.0); }
+Outcome reach_0(Model model) { return with_flow(model, 4.0, 0.0); }
+Outcome reach_beyond_the_pot(Model model) { return with_flow(model, 400.0, 5'000.0); }
 
 /// Q_p(x) -> x / sigma^2: ring j gets j / (1 + 2 + .. + L1), a limit that needs no exp.
-Outcome sigma_infinite_is_linear(Who who) {
+Outcome sigma_infinite_is_linear(Model model) {
   SceneSpec scene = small_pot();
   scene.flow.sigma_mm = kInfinity;
   scene.tool.shape = RibSpec{10.0, 6.0};
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   // At rest, with its end in the middle of a ring, where the kernel starts.
   trial.stroke({45, 30.4, 0}, {45, 30.5, 0}, 2);
   trial.at({34, 30.5, 0});
@@ -55,11 +55,11 @@ Outcome sigma_infinite_is_linear(Who who) {
 }
 
 /// Everything goes to the nearest ring, the limit of the kernel for sigma -> 0.
-Outcome sigma_0_is_the_limit(Who who) {
+Outcome sigma_0_is_the_limit(Model model) {
   SceneSpec scene = small_pot();
   scene.flow.sigma_mm = 0.0;
   scene.tool.shape = RibSpec{10.0, 6.0};
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   trial.stroke({45, 29.9, 0}, {45, 30.1, 0}, 2);
   trial.at({34, 30.2, 0});
   // The rib ends at 35.2: the middle of ring 34 is level with it; ring 35 contains its upper end.
@@ -70,21 +70,21 @@ Outcome sigma_0_is_the_limit(Who who) {
   return trial.done();
 }
 
-Outcome narrow_bore(Who who, double inside_share) {
+Outcome narrow_bore(Model model, double inside_share) {
   SceneSpec scene = small_pot();
   scene.lump.inner_radius_mm = 1.0;
   scene.flow.inside_share = inside_share;
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   press_the_middle(trial);
   return trial.done();
 }
 
-Outcome alpha_1(Who who) { return narrow_bore(who, 1.0); }
-Outcome alpha_0(Who who) { return narrow_bore(who, 0.0); }
+Outcome alpha_1(Model model) { return narrow_bore(model, 1.0); }
+Outcome alpha_0(Model model) { return narrow_bore(model, 0.0); }
 
 /// Opens a bore from above, then presses clay down across its floor.
-Outcome one_ring_without_bore(Who who) {
-  Trial trial(who, small_pot());
+Outcome one_ring_without_bore(Model model) {
+  Trial trial(model, small_pot());
   trial.stroke({0, 70, 0}, {0, 45, 0}, 100);
   trial.stroke({45, 45, 0}, {37, 44, 0}, 20);
   trial.stroke({37, 44, 0}, {34, 36, 0}, 100);
@@ -92,8 +92,8 @@ Outcome one_ring_without_bore(Who who) {
   return trial.done();
 }
 
-Outcome never_moved(Who who) {
-  Trial trial(who, small_pot());
+Outcome never_moved(Model model) {
+  Trial trial(model, small_pot());
   for (int k = 0; k < 50; ++k) trial.at({36, 30, 0});
   trial.require(trial.touched(), "no contact");
   return trial.done("clay moved up");
@@ -101,8 +101,8 @@ Outcome never_moved(Who who) {
 
 /// A hand at rest keeps its direction: after an upward motion no clay goes below the tool, after a
 /// downward motion none above it.
-Outcome hand_at_rest(Who who) {
-  Trial trial(who, small_pot());
+Outcome hand_at_rest(Model model) {
+  Trial trial(model, small_pot());
   const auto rest = [&](const glm::dvec3& from, const glm::dvec3& to, bool above) {
     trial.stroke(from, to, 10);
     const double edge = to.y + (above ? 8.0 : -10.0);  // the printed range starts a ring lower
@@ -123,14 +123,14 @@ Outcome hand_at_rest(Who who) {
 }
 
 /// Cuts the top to the thinnest rings; then more clay rises than they can hold.
-Outcome growth_onto_an_empty_top(Who who) {
+Outcome growth_onto_an_empty_top(Model model) {
   SceneSpec scene = small_pot();
   scene.tool.shape = RibSpec{12.0, 40.0};
   scene.removal.min_wall_mm = kMinRadiusMm;
   scene.removal.rate_per_s = 1e6;
   scene.removal.paper_fraction = 1.0 - 1e-9;
   scene.lump.max_rings = 5'000;
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   trial.stroke({20, 60, 0}, {20, 59.9, 0}, 20, true);
   trial.stroke({200, 54, 0}, {200, 54.5, 0}, 2);
   trial.stroke({20, 54.6, 0}, {20, 54.7, 0}, 200);
@@ -139,27 +139,27 @@ Outcome growth_onto_an_empty_top(Who who) {
   return trial.done(fmt::format("{} rings", trial.subject().rings()));
 }
 
-Outcome rim_upward(Who who) {
-  Trial trial(who, small_pot());
+Outcome rim_upward(Model model) {
+  Trial trial(model, small_pot());
   trial.stroke({40, 50, 0}, {36, 52, 0}, 40);
   trial.stroke({36, 52, 0}, {34, 62, 0}, 200);
   return trial.done(fmt::format("{} rings", trial.subject().rings()));
 }
 
-Outcome base_downward(Who who) {
-  Trial trial(who, small_pot());
+Outcome base_downward(Model model) {
+  Trial trial(model, small_pot());
   trial.stroke({40, 12, 0}, {36, 8, 0}, 40);
   trial.stroke({36, 8, 0}, {34, -2, 0}, 200);
   return trial.done();
 }
 
-Outcome all_clay_cut_away(Who who) {
+Outcome all_clay_cut_away(Model model) {
   SceneSpec scene = small_pot();
   scene.tool.shape = RibSpec{300.0, 200.0};
   scene.removal.min_wall_mm = kMinRadiusMm;
   scene.removal.rate_per_s = 1e6;
   scene.removal.paper_fraction = 1.0 - 1e-9;
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   trial.stroke({40, 29, 0}, {40, 31, 0}, 200, true);
   trial.stroke({0, 31, 0}, {0, 29, 0}, 200, true);
   trial.require(trial.touched(), "no contact");
@@ -167,11 +167,11 @@ Outcome all_clay_cut_away(Who who) {
 }
 
 /// At max_rings, rising clay waits above the top and is counted.
-Outcome no_room_above(Who who) {
-  if (who == Who::literal) return {Verdict::not_in_print, "the paper states no limit of N"};
+Outcome no_room_above(Model model) {
+  if (model == Model::literal) return {Verdict::not_in_print, "the paper states no limit of N"};
   SceneSpec scene = small_pot();
   scene.lump.max_rings = 60;
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   trial.stroke({40, 50, 0}, {36, 52, 0}, 40);
   trial.stroke({36, 52, 0}, {30, 58, 0}, 2'000);
   trial.require(trial.last().ring_limit, "the limit is not reported");
@@ -179,19 +179,19 @@ Outcome no_room_above(Who who) {
   return trial.done();
 }
 
-Outcome rate_far_beyond_the_tick(Who who) {
+Outcome rate_far_beyond_the_tick(Model model) {
   SceneSpec scene = small_pot();
   scene.removal.rate_per_s = 1e6;  // times 1 ms: e^-1000
-  if (who == Who::literal) scene.removal.paper_fraction = 1.0;
-  Trial trial(who, scene);
+  if (model == Model::literal) scene.removal.paper_fraction = 1.0;
+  Trial trial(model, scene);
   press_the_middle(trial);
   return trial.done();
 }
 
-Outcome fraction_above_1(Who who) {
+Outcome fraction_above_1(Model model) {
   SceneSpec scene = small_pot();
   scene.removal.paper_fraction = 1.5;
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   trial.stroke({40, 25, 0}, {36, 30, 0}, 50);
   trial.require(trial.refused(), "accepted");
   return trial.done();

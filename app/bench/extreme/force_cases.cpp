@@ -40,7 +40,7 @@ glm::dvec3 place_near_wall(Hand& hand, const ToolShapeSpec& shape, bool outside)
 /// The first tick of a scene has dt = 0 and moves no clay in the engine; in both models the force
 /// is that of the rings before it. Rings are thin, so that their sum approximates the integral,
 /// with an error of second order in h.
-Outcome minus_gradient(Who who) {
+Outcome minus_gradient(Model model) {
   constexpr double kRingMm = 1.0 / 16.0, kTolerance = 1e-4;  // of the largest force
   Hand hand(17);
   double worst = 0.0, largest = 0.0;
@@ -54,7 +54,7 @@ Outcome minus_gradient(Who who) {
         scene.lump.rings = 960;
         scene.lump.max_rings = 0;
         scene.force->paper_stiffness_n_per_mm = kSoftNPerMm * kRingMm;
-        Trial trial(who, scene);
+        Trial trial(model, scene);
         const OverlapEnergy energy(shape, section_of(trial.subject()), kSoftNPerMm, outside);
         const glm::dvec3 hip = place_near_wall(hand, shape, outside),
                          expected = energy.force_n(hip);
@@ -71,12 +71,12 @@ Outcome minus_gradient(Who who) {
           fmt::format("error at most {:.2g} N, at up to {:.2g} N", worst, largest)};
 }
 
-Outcome azimuths(Who who) {
+Outcome azimuths(Model model) {
   for (const bool outside : {true, false})
     for (int k = 0; k < 64; ++k) {
       const double azimuth = 2.0 * 3.141592653589793 * k / 64.0 + 0.01;
       const double d = outside ? 36.0 : 12.0;
-      Trial trial(who, soft_pot(SphereSpec{8}, 18.0));
+      Trial trial(model, soft_pot(SphereSpec{8}, 18.0));
       const glm::dvec3 out(std::cos(azimuth), 0.0, std::sin(azimuth));
       const glm::dvec3 force = trial.at(d * out + glm::dvec3(0, 30.2, 0)).force_n;
       const double radial = glm::dot(force, out);
@@ -90,10 +90,10 @@ Outcome azimuths(Who who) {
   return {Verdict::passed, "64 azimuths, both sides"};
 }
 
-Outcome hip_on_the_axis(Who who) {
+Outcome hip_on_the_axis(Model model) {
   SceneSpec scene = small_pot();
   scene.force->friction = 0.3;
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   trial.at({0, 67, 0});
   for (int k = 0; k < 40; ++k) {
     const Tick tick = trial.at({0, 66.9 - 0.05 * k, 0});
@@ -104,27 +104,27 @@ Outcome hip_on_the_axis(Who who) {
   return trial.done();
 }
 
-double force_at_height(Who who, double h) {
+double force_at_height(Model model, double h) {
   SceneSpec scene = soft_pot(SphereSpec{8}, 0.0);
   scene.lump.rings = static_cast<std::size_t>(std::lround(60.0 / h));
   scene.lump.ring_height_mm = h;
   scene.lump.max_rings = 0;
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   return glm::length(trial.at({35.0, 30.0 + 0.25 * h, 0}).force_n);
 }
 
-Outcome force_as_rings_thin(Who who) {
-  const double coarse = force_at_height(who, 1.0), fine = force_at_height(who, 1.0 / 500.0);
+Outcome force_as_rings_thin(Model model) {
+  const double coarse = force_at_height(model, 1.0), fine = force_at_height(model, 1.0 / 500.0);
   const bool same = std::abs(fine / coarse - 1.0) < 0.02;
   return {same ? Verdict::passed : Verdict::failed,
           fmt::format("{:.3g} N, {:.3g} N at h/500", coarse, fine)};
 }
 
-Outcome stiffness_1e6(Who who) {
+Outcome stiffness_1e6(Model model) {
   SceneSpec scene = small_pot();
   scene.force->stiffness_n_per_mm2 = 1e3;
   scene.force->paper_stiffness_n_per_mm = 1e3;  // 10^6 N/m
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   trial.stroke({40, 24, 0}, {34, 28, 3}, 60);
   trial.require(trial.largest_force_n() > 4.999, "too little contact");
   trial.require(trial.largest_force_n() <= 5.0, fmt::format("{:.3g} N", trial.largest_force_n()));
@@ -133,12 +133,12 @@ Outcome stiffness_1e6(Who who) {
   return trial.done();
 }
 
-Outcome friction_2(Who who) {
+Outcome friction_2(Model model) {
   SceneSpec scene = small_pot();
   scene.force->stiffness_n_per_mm2 = 10.0;
   scene.force->paper_stiffness_n_per_mm = 10.0;
   scene.force->friction = 2.0;
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   trial.stroke({40, 24, 0}, {34, 28, 0}, 60);
   trial.require(trial.largest_force_n() > 4.999, "too little contact");
   trial.require(trial.largest_force_n() <= 5.0, fmt::format("{:.3g} N", trial.largest_force_n()));
@@ -146,12 +146,12 @@ Outcome friction_2(Who who) {
 }
 
 /// A half-profile that rises by 4 mm within 1e-308 mm: its slope overflows.
-Outcome tool_with_a_step(Who who) {
-  if (who == Who::literal)
+Outcome tool_with_a_step(Model model) {
+  if (model == Model::literal)
     return {Verdict::not_in_print, "the paper assumes that f_h is continuous"};
   SceneSpec scene = small_pot();
   scene.tool.shape = SampledSpec{{-8.0, 0.0, 1e-308, 8.0}, {1.0, 2.0, 6.0, 7.0}};
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   trial.stroke({40, 20, 0}, {34, 25.5, 0}, 50);
   for (int k = 0; k < 50; ++k) trial.at({34, 25.5 + 0.5 * k, 0});
   trial.require(trial.touched(), "no contact");

@@ -20,8 +20,8 @@ void start(Trial& trial) { trial.stroke({40, 24, 0}, {36, 28, 0}, 40); }
 
 /// Each invalid pose leaves the state unchanged to the bit and gives no force; the stroke then
 /// continues as if it had not occurred.
-Outcome dropped(Who who, const std::vector<glm::dvec3>& bad) {
-  Trial trial(who, small_pot()), undisturbed(who, small_pot());
+Outcome dropped(Model model, const std::vector<glm::dvec3>& bad) {
+  Trial trial(model, small_pot()), undisturbed(model, small_pot());
   start(trial);
   start(undisturbed);
   for (const glm::dvec3& pose : bad) {
@@ -42,18 +42,20 @@ Outcome dropped(Who who, const std::vector<glm::dvec3>& bad) {
   return trial.done(fmt::format("{} poses dropped", bad.size()));
 }
 
-Outcome nan_pose(Who who) { return dropped(who, {{kNan, 28, 0}, {36, kNan, 0}, {36, 28, kNan}}); }
-Outcome nan_velocity(Who who) { return dropped(who, {{36, kNan, 0}}); }
-Outcome infinite_pose(Who who) {
-  return dropped(
-      who, {{kInfinity, 28, 0}, {36, kInfinity, 0}, {36, -kInfinity, 0}, {36, 28, -kInfinity}});
+Outcome nan_pose(Model model) {
+  return dropped(model, {{kNan, 28, 0}, {36, kNan, 0}, {36, 28, kNan}});
 }
-Outcome pose_1e300(Who who) {
-  return dropped(who, {{1e300, 28, 0}, {36, 1e300, 0}, {36, -1e300, 0}, {-1e300, 28, 1e300}});
+Outcome nan_velocity(Model model) { return dropped(model, {{36, kNan, 0}}); }
+Outcome infinite_pose(Model model) {
+  return dropped(
+      model, {{kInfinity, 28, 0}, {36, kInfinity, 0}, {36, -kInfinity, 0}, {36, 28, -kInfinity}});
+}
+Outcome pose_1e300(Model model) {
+  return dropped(model, {{1e300, 28, 0}, {36, 1e300, 0}, {36, -1e300, 0}, {-1e300, 28, 1e300}});
 }
 
-Outcome first_pose_nan(Who who) {
-  Trial trial(who, small_pot());
+Outcome first_pose_nan(Model model) {
+  Trial trial(model, small_pot());
   trial.at({36, kNan, 0});
   start(trial);
   trial.require(trial.touched(), "no contact");
@@ -61,8 +63,8 @@ Outcome first_pose_nan(Who who) {
 }
 
 /// From +0 to -0 is no motion: the direction is unchanged.
-Outcome minus_zero(Who who) {
-  Trial trial(who, small_pot()), plain(who, small_pot());
+Outcome minus_zero(Model model) {
+  Trial trial(model, small_pot()), plain(model, small_pot());
   for (Trial* t : {&trial, &plain}) t->stroke({45, -6, 0}, {36, 0.0, 0}, 40);
   for (int k = 0; k < 20; ++k) {
     trial.at({36, k % 2 == 0 ? -0.0 : 0.0, -0.0});
@@ -73,9 +75,9 @@ Outcome minus_zero(Who who) {
   return trial.done();
 }
 
-Outcome denormal_pose(Who who) {
+Outcome denormal_pose(Model model) {
   SceneSpec scene = small_pot();
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   trial.stroke({0, 70, 0}, {5e-324, 66, 5e-324}, 20);
   for (const double d : {5e-324, 1e-310, 1e-200, 1e-160, 1e-100})
     for (const double y : {66.0, 65.9}) {
@@ -92,9 +94,9 @@ struct Clocked {
   bool refused;
 };
 
-Outcome at_times(Who who, const std::vector<Clocked>& times) {
-  if (who == Who::literal) return {Verdict::not_in_print, "the paper's model has no time"};
-  const auto subject = std::move(put_on_wheel(who, small_pot()).value());
+Outcome at_times(Model model, const std::vector<Clocked>& times) {
+  if (model == Model::literal) return {Verdict::not_in_print, "the paper's model has no time"};
+  const auto subject = std::move(put_on_wheel(model, small_pot()).value());
   const Exact clay = subject->clay().value();
   double x = 37.0;
   for (const Clocked& clock : times) {
@@ -112,23 +114,23 @@ Outcome at_times(Who who, const std::vector<Clocked>& times) {
   return {Verdict::passed, fmt::format("{} ticks, 0 quanta", times.size())};
 }
 
-Outcome time_stands_still(Who who) {
-  return at_times(who, {{0, false}, {1000, false}, {1000, true}, {1000, true}, {2000, false}});
+Outcome time_stands_still(Model model) {
+  return at_times(model, {{0, false}, {1000, false}, {1000, true}, {1000, true}, {2000, false}});
 }
-Outcome time_runs_back(Who who) {
-  return at_times(who,
+Outcome time_runs_back(Model model) {
+  return at_times(model,
                   {{5000, false}, {4000, true}, {4999, true}, {kEarliest, true}, {5001, false}});
 }
-Outcome time_leaps(Who who) {
+Outcome time_leaps(Model model) {
   return at_times(
-      who, {{kEarliest, false}, {kLatest, false}, {kLatest, true}, {kEarliest, true}, {0, true}});
+      model, {{kEarliest, false}, {kLatest, false}, {kLatest, true}, {kEarliest, true}, {0, true}});
 }
 
 /// A long pause counts as 50 ms: the same clay as after exactly 50 ms.
-Outcome long_pause(Who who) {
-  if (who == Who::literal) return {Verdict::not_in_print, "the paper's model has no time"};
+Outcome long_pause(Model model) {
+  if (model == Model::literal) return {Verdict::not_in_print, "the paper's model has no time"};
   const auto after = [&](std::int64_t pause_us, Tick& tick) {
-    Trial trial(who, small_pot());
+    Trial trial(model, small_pot());
     start(trial);
     tick = trial.at({35.5, 28.5, 0}, false, pause_us);
     return trial.subject().bytes();

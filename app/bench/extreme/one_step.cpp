@@ -41,8 +41,8 @@ double miss(const Fifty& expected, double found_mm, bool counted) {
 }
 
 /// The largest deviation of a ring, as a multiple of its bound.
-double worst_of(const Recomputed& step, const Subject& subject, Who who) {
-  const bool counted = who == Who::conserving;
+double worst_of(const Recomputed& step, const Subject& subject, Model model) {
+  const bool counted = model == Model::conserving;
   double worst = 0.0;
   for (std::size_t i = 0; i < step.rings().size(); ++i) {
     const Expected& ring = step.rings()[i];
@@ -59,13 +59,13 @@ double worst_of(const Recomputed& step, const Subject& subject, Who who) {
 
 }  // namespace
 
-Outcome one_step_again(Who who) {
+Outcome one_step_again(Model model) {
   Hand hand(2026);
   double worst = 0.0;
   int compared = 0;
   for (int pot = 0; pot < 40; ++pot) {
     const SceneSpec scene = random_scene(hand);
-    const auto subject = std::move(put_on_wheel(who, scene).value());
+    const auto subject = std::move(put_on_wheel(model, scene).value());
     Pose pose = hand.next();
     subject->step(pose);
     for (int k = 0; k < 20; ++k) {
@@ -81,12 +81,12 @@ Outcome one_step_again(Who who) {
               false};
       const glm::dvec3 moved = pose.position_mm - from;
       const std::size_t rings = subject->rings();
-      const Recomputed step(who, scene, section_of(*subject), pose.position_mm, moved);
+      const Recomputed step(model, scene, section_of(*subject), pose.position_mm, moved);
       subject->step(pose);
       if (!step.pressed() || subject->rings() != rings) continue;
       if (!subject->fault().empty()) break;  // the paper's own faults are tested in other cases
       ++compared;
-      worst = std::max(worst, worst_of(step, *subject, who));
+      worst = std::max(worst, worst_of(step, *subject, model));
       if (!(worst <= 1.0))
         return {Verdict::failed,
                 fmt::format("{:.3g} times the bound, pot {}, tick {}", worst, pot, k)};

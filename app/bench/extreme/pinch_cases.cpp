@@ -28,9 +28,10 @@ SceneSpec pinched_pot(double bore_mm) {
 
 /// A stroke up and down the wall with this gap. Requires that the thinnest ring stays above
 /// `least_wall_mm`.
-Outcome pinched(Who who, const SceneSpec& scene, double d, double gap_mm, double least_wall_mm) {
-  if (who == Who::literal) return kOneTool;
-  Trial trial(who, scene);
+Outcome pinched(Model model, const SceneSpec& scene, double d, double gap_mm,
+                double least_wall_mm) {
+  if (model == Model::literal) return kOneTool;
+  Trial trial(model, scene);
   trial.pinch(gap_mm);
   trial.stroke({d, 12, 0}, {d, 48, 0}, 300);
   trial.stroke({d, 48, 0}, {d, 20, 0}, 300);
@@ -44,29 +45,33 @@ Outcome pinched(Who who, const SceneSpec& scene, double d, double gap_mm, double
   return trial.done(fmt::format("thinnest ring {:.6g} mm", wall));
 }
 
-Outcome gap_of_nothing(Who who) {
-  return pinched(who, pinched_pot(24.0), 27.0, std::numeric_limits<double>::denorm_min(), 0.5);
+Outcome gap_of_nothing(Model model) {
+  return pinched(model, pinched_pot(24.0), 27.0, std::numeric_limits<double>::denorm_min(), 0.5);
 }
-Outcome gap_of_a_picometre(Who who) { return pinched(who, pinched_pot(24.0), 27.0, 1e-9, 0.5); }
-Outcome gap_below_the_wall(Who who) {
+Outcome gap_of_a_picometre(Model model) {
+  return pinched(model, pinched_pot(24.0), 27.0, 1e-9, 0.5);
+}
+Outcome gap_below_the_wall(Model model) {
   SceneSpec scene = pinched_pot(24.0);
   scene.removal.rate_per_s = 1e6;  // e^-1000: at the end of the first tick in contact
-  return pinched(who, scene, 27.0, 2.0, 2.0);
+  return pinched(model, scene, 27.0, 2.0, 2.0);
 }
-Outcome bore_narrower_than_the_tool(Who who) {
-  return pinched(who, pinched_pot(2.0), 20.0, 6.0, 0.5);
+Outcome bore_narrower_than_the_tool(Model model) {
+  return pinched(model, pinched_pot(2.0), 20.0, 6.0, 0.5);
 }
-Outcome pinch_without_bore(Who who) { return pinched(who, pinched_pot(0.0), 15.0, 10.0, 0.5); }
-Outcome pinch_on_the_axis(Who who) { return pinched(who, pinched_pot(6.0), 0.0, 3.0, 0.5); }
-Outcome pinch_of_a_quantum(Who who) {
+Outcome pinch_without_bore(Model model) {
+  return pinched(model, pinched_pot(0.0), 15.0, 10.0, 0.5);
+}
+Outcome pinch_on_the_axis(Model model) { return pinched(model, pinched_pot(6.0), 0.0, 3.0, 0.5); }
+Outcome pinch_of_a_quantum(Model model) {
   SceneSpec scene = pinched_pot(std::sqrt(mm2_from_quanta(quanta_from_radius(30.0) - 1)));
-  return pinched(who, scene, 30.1, 1e-3, 0.0);
+  return pinched(model, scene, 30.1, 1e-3, 0.0);
 }
 
 /// Both tools are clear of the wall: bore 24 mm, outside 30 mm.
-Outcome nothing_pinched(Who who, const std::vector<glm::dvec2>& distances_and_gaps) {
-  if (who == Who::literal) return kOneTool;
-  Trial trial(who, pinched_pot(24.0));
+Outcome nothing_pinched(Model model, const std::vector<glm::dvec2>& distances_and_gaps) {
+  if (model == Model::literal) return kOneTool;
+  Trial trial(model, pinched_pot(24.0));
   const std::string before = trial.subject().bytes();
   for (const glm::dvec2& at : distances_and_gaps) {
     trial.pinch(at.y);
@@ -78,17 +83,19 @@ Outcome nothing_pinched(Who who, const std::vector<glm::dvec2>& distances_and_ga
   return trial.done();
 }
 
-Outcome gap_wider_than_the_pot(Who who) {
-  return nothing_pinched(who, {{27, 60}, {27, 200}, {27, 1e3}, {0, 1e3}, {27, 1e6}});
+Outcome gap_wider_than_the_pot(Model model) {
+  return nothing_pinched(model, {{27, 60}, {27, 200}, {27, 1e3}, {0, 1e3}, {27, 1e6}});
 }
-Outcome pinch_beside_the_pot(Who who) {
-  return nothing_pinched(who, {{50, 1}, {100, 100}, {1e3, 1}, {9e5, 1}});
+Outcome pinch_beside_the_pot(Model model) {
+  return nothing_pinched(model, {{50, 1}, {100, 100}, {1e3, 1}, {9e5, 1}});
 }
-Outcome pinch_in_a_free_bore(Who who) { return nothing_pinched(who, {{0, 1}, {5, 3}, {-7, 1}}); }
+Outcome pinch_in_a_free_bore(Model model) {
+  return nothing_pinched(model, {{0, 1}, {5, 3}, {-7, 1}});
+}
 
-Outcome gaps_that_are_none(Who who) {
-  if (who == Who::literal) return kOneTool;
-  Trial trial(who, pinched_pot(24.0));
+Outcome gaps_that_are_none(Model model) {
+  if (model == Model::literal) return kOneTool;
+  Trial trial(model, pinched_pot(24.0));
   trial.stroke({40, 24, 0}, {36, 28, 0}, 40);
   const std::string before = trial.subject().bytes();
   for (const double gap : {std::nan(""), kInfinity, -kInfinity, -1.0, -1e-300, 1e300, 1.1e6}) {
@@ -103,9 +110,9 @@ Outcome gaps_that_are_none(Who who) {
   return trial.done();
 }
 
-Outcome gap_not_in_the_scene(Who who) {
-  if (who == Who::literal) return kOneTool;
-  Trial trial(who, small_pot());
+Outcome gap_not_in_the_scene(Model model) {
+  if (model == Model::literal) return kOneTool;
+  Trial trial(model, small_pot());
   trial.pinch(4.0);
   trial.require(trial.at({27, 28, 0}).refused, "believed");
   return trial.done();
@@ -113,8 +120,8 @@ Outcome gap_not_in_the_scene(Who who) {
 
 /// As minus_gradient. The axes of both tools stay outside the wall: otherwise a pole, where f' is
 /// unbounded, is in the clay.
-Outcome minus_gradient_of_both(Who who) {
-  if (who == Who::literal) return kOneTool;
+Outcome minus_gradient_of_both(Model model) {
+  if (model == Model::literal) return kOneTool;
   constexpr double kSoftNPerMm2 = 5e-4, kRingMm = 1.0 / 32.0, kTolerance = 1e-4;
   Hand hand(23);
   double worst = 0.0, largest = 0.0;
@@ -125,7 +132,7 @@ Outcome minus_gradient_of_both(Who who) {
     scene.lump.rings = 1920;
     scene.lump.max_rings = 0;
     scene.force->stiffness_n_per_mm2 = kSoftNPerMm2;
-    Trial trial(who, scene);
+    Trial trial(model, scene);
     const double gap = 0.5 + 7.0 * hand.uniform(), azimuth = 6.28 * hand.uniform();
     const double d = 24.0 + 4.0 * hand.uniform();
     const glm::dvec3 hip(d * std::cos(azimuth), -3.0 + 66.0 * hand.uniform(),

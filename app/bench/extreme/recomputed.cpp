@@ -6,9 +6,9 @@
 
 namespace clay::extreme {
 
-Recomputed::Recomputed(Who who, const SceneSpec& scene, Section before, const glm::dvec3& hip,
+Recomputed::Recomputed(Model model, const SceneSpec& scene, Section before, const glm::dvec3& hip,
                        const glm::dvec3& moved)
-    : counted_(who == Who::conserving),
+    : counted_(model == Model::conserving),
       scene_(scene),
       section_(std::move(before)),
       hip_(hip),

@@ -23,7 +23,7 @@ struct Expected {
 /// One tick in 50 digits. All indices count from 0.
 class Recomputed {
  public:
-  Recomputed(Who who, const SceneSpec& scene, Section before, const glm::dvec3& hip,
+  Recomputed(Model model, const SceneSpec& scene, Section before, const glm::dvec3& hip,
              const glm::dvec3& moved);
 
   [[nodiscard]] const std::vector<Expected>& rings() const { return rings_; }

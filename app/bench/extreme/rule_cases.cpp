@@ -34,9 +34,9 @@ double thinnest_mm(const Wheel& wheel) {
 /// Plays a hand on a scene. In addition to what every trial requires, no wall becomes thinner than
 /// the minimum, or than it was.
 template <class Play>
-Outcome with_rules(Who who, const SceneSpec& scene, Play play) {
-  if (who == Who::literal) return {Verdict::not_in_print, "the paper has no such rules"};
-  Trial trial(who, scene);
+Outcome with_rules(Model model, const SceneSpec& scene, Play play) {
+  if (model == Model::literal) return {Verdict::not_in_print, "the paper has no such rules"};
+  Trial trial(model, scene);
   trial.require(!trial.refused(), trial.why());
   if (!trial.going_well()) return trial.done();
   const Wheel& wheel = *trial.subject().wheel();
@@ -65,49 +65,49 @@ void pull(Trial& trial, double middle, double gap, double height = 60.0) {
   trial.pinch(0.0);
 }
 
-Outcome tool_across_the_axis(Who who) {
-  return with_rules(who, ruled_pot(), [](Trial& trial) {
+Outcome tool_across_the_axis(Model model) {
+  return with_rules(model, ruled_pot(), [](Trial& trial) {
     trial.stroke({15, 30, 0}, {-15, 34, 0}, 200);
     trial.stroke({0, 30, -15}, {0, 34, 15}, 200);
   });
 }
 
-Outcome fingers_across_the_axis(Who who) {
-  return with_rules(who, ruled_pot(), [](Trial& trial) {
+Outcome fingers_across_the_axis(Model model) {
+  return with_rules(model, ruled_pot(), [](Trial& trial) {
     trial.pinch(30.0);
     trial.stroke({20, 30, 0}, {-6, 34, 0}, 300);
   });
 }
 
-Outcome fingers_wider_than_the_pot(Who who) {
-  return with_rules(who, ruled_pot(), [](Trial& trial) {
+Outcome fingers_wider_than_the_pot(Model model) {
+  return with_rules(model, ruled_pot(), [](Trial& trial) {
     trial.pinch(200.0);
     trial.stroke({80, 30, 0}, {0, 34, 0}, 100);
     pull(trial, 25.0, 6.0);
   });
 }
 
-Outcome wall_of_one_quantum(Who who) {
+Outcome wall_of_one_quantum(Model model) {
   SceneSpec scene = ruled_pot(29.9999999999998);
-  return with_rules(who, scene, [](Trial& trial) { press_all(trial, 30.0, 30.0); });
+  return with_rules(model, scene, [](Trial& trial) { press_all(trial, 30.0, 30.0); });
 }
 
 /// Thickness of the wall from the radius to a thousandth of it.
 template <int over>
-Outcome slender(Who who) {
+Outcome slender(Model model) {
   const double wall = 30.0 / over;
   SceneSpec scene = ruled_pot(std::max(30.0 - wall, 0.0));
   scene.removal.min_wall_mm = std::min(0.5, 0.5 * wall);
-  return with_rules(who, scene, [wall](Trial& trial) {
+  return with_rules(model, scene, [wall](Trial& trial) {
     press_all(trial, 30.0, 30.0 - wall);
     pull(trial, 30.0 - 0.5 * wall, 0.7 * wall);
   });
 }
 
-Outcome floor_of_one_ring(Who who) {
+Outcome floor_of_one_ring(Model model) {
   SceneSpec scene = ruled_pot(0.0);
   scene.clay->floor_mm = 1.0;
-  return with_rules(who, scene, [](Trial& trial) {
+  return with_rules(model, scene, [](Trial& trial) {
     trial.stroke({1, 70, 0}, {1, 0, 0}, 400);
     trial.stroke({1, 0, 0}, {14, 0, 0}, 200);
     trial.require(trial.subject().ring(0).inner_mm == 0.0, "the floor is open");
@@ -115,10 +115,10 @@ Outcome floor_of_one_ring(Who who) {
   });
 }
 
-Outcome floor_above_the_rim(Who who) {
+Outcome floor_above_the_rim(Model model) {
   SceneSpec scene = ruled_pot(0.0);
   scene.clay->floor_mm = 1e6;
-  return with_rules(who, scene, [](Trial& trial) {
+  return with_rules(model, scene, [](Trial& trial) {
     trial.stroke({1, 70, 0}, {1, 20, 0}, 200);
     trial.stroke({40, 20, 0}, {34, 30, 0}, 100);
     for (std::size_t i = 0; i < 60; ++i)
@@ -126,8 +126,8 @@ Outcome floor_above_the_rim(Who who) {
   });
 }
 
-Outcome rim_between_the_fingers(Who who) {
-  return with_rules(who, ruled_pot(), [](Trial& trial) {
+Outcome rim_between_the_fingers(Model model) {
+  return with_rules(model, ruled_pot(), [](Trial& trial) {
     trial.pinch(5.0);
     trial.stroke({25, 60, 0}, {25, 66, 0}, 500);
     trial.stroke({25, 66, 0}, {25, 58, 0}, 500);
@@ -135,8 +135,8 @@ Outcome rim_between_the_fingers(Who who) {
 }
 
 /// The tool stands over the rim; what a press below it pushes up must not rise into it.
-Outcome tool_above_the_rim(Who who) {
-  return with_rules(who, ruled_pot(), [](Trial& trial) {
+Outcome tool_above_the_rim(Model model) {
+  return with_rules(model, ruled_pot(), [](Trial& trial) {
     trial.stroke({36, 66, 0}, {30, 62, 0}, 300);
     trial.stroke({30, 62, 0}, {26, 58, 0}, 600);
   });
@@ -144,7 +144,7 @@ Outcome tool_above_the_rim(Who who) {
 
 /// Rings from a micrometre to the height of the tool's contact, in a pot of 10 to 300 mm.
 template <int per_mm, int rings>
-Outcome ring_height(Who who) {
+Outcome ring_height(Model model) {
   SceneSpec scene = ruled_pot();
   scene.lump.ring_height_mm = per_mm > 0 ? 1.0 / per_mm : 50.0;
   scene.lump.rings = rings;
@@ -152,7 +152,7 @@ Outcome ring_height(Who who) {
   scene.flow.sigma_mm = 4.0 * scene.lump.ring_height_mm;
   scene.flow.reach_mm = 12.0 * scene.lump.ring_height_mm;
   const double height = rings * scene.lump.ring_height_mm;
-  return with_rules(who, scene, [height](Trial& trial) {
+  return with_rules(model, scene, [height](Trial& trial) {
     trial.stroke({40, 0.5 * height, 0}, {35, 0.5 * height, 0}, 20);
     trial.stroke({35, 0.5 * height, 0}, {35, 0.9 * height, 0}, 20);
     trial.pinch(7.0);
@@ -161,8 +161,8 @@ Outcome ring_height(Who who) {
 }
 
 template <int dt_us>
-Outcome tick_of(Who who) {
-  return with_rules(who, ruled_pot(), [](Trial& trial) {
+Outcome tick_of(Model model) {
+  return with_rules(model, ruled_pot(), [](Trial& trial) {
     for (int k = 0; k < 400; ++k) {
       const double part = k / 400.0;
       trial.at({39.0 - 6.0 * part, 25.0 + 10.0 * part, 0}, false, dt_us);
@@ -172,8 +172,8 @@ Outcome tick_of(Who who) {
   });
 }
 
-Outcome leaps(Who who) {
-  return with_rules(who, ruled_pot(), [](Trial& trial) {
+Outcome leaps(Model model) {
+  return with_rules(model, ruled_pot(), [](Trial& trial) {
     for (int k = 0; k < 200; ++k) trial.at({k % 2 ? 33.0 : 8.0, (k * 37) % 70 - 5.0, 0});
     for (int k = 0; k < 200; ++k) {
       trial.pinch(k % 3 ? 0.0 : 5.0);
@@ -182,22 +182,22 @@ Outcome leaps(Who who) {
   });
 }
 
-Outcome fast_wheel(Who who) {
+Outcome fast_wheel(Model model) {
   SceneSpec scene = ruled_pot();
   scene.clay->wheel_rpm = 1000.0;
-  return with_rules(who, scene, [](Trial& trial) { press_all(trial); });
+  return with_rules(model, scene, [](Trial& trial) { press_all(trial); });
 }
 
-Outcome wheel_at_rest(Who who) {
+Outcome wheel_at_rest(Model model) {
   SceneSpec scene = ruled_pot();
   scene.clay->wheel_rpm = 0.0;
-  return with_rules(who, scene, [](Trial& trial) { press_all(trial); });
+  return with_rules(model, scene, [](Trial& trial) { press_all(trial); });
 }
 
-Outcome lift_without_room(Who who) {
+Outcome lift_without_room(Model model) {
   SceneSpec scene = ruled_pot();
   scene.lump.max_rings = 60;
-  return with_rules(who, scene, [](Trial& trial) {
+  return with_rules(model, scene, [](Trial& trial) {
     trial.pinch(4.0);
     trial.stroke({25, 9, 0}, {25, 50, 0}, 1000);
     trial.require(trial.last().ring_limit, "the limit is not reported");
@@ -206,51 +206,51 @@ Outcome lift_without_room(Who who) {
 }
 
 /// Every ring is pushed outward until nothing moves: the rim sinks, rings are taken out.
-Outcome bellied_to_the_end(Who who) {
+Outcome bellied_to_the_end(Model model) {
   SceneSpec scene = ruled_pot(26.0);
   scene.tool.shape = RibSpec{40.0, 8.0};
-  return with_rules(who, scene, [](Trial& trial) {
+  return with_rules(model, scene, [](Trial& trial) {
     trial.stroke({17, 30, 0}, {60, 30, 0}, 2000);
     trial.require(trial.subject().rings() < 60, "no ring was taken out");
   });
 }
 
-Outcome collared_to_a_closed_neck(Who who) {
-  return with_rules(who, ruled_pot(26.0), [](Trial& trial) {
+Outcome collared_to_a_closed_neck(Model model) {
+  return with_rules(model, ruled_pot(26.0), [](Trial& trial) {
     for (int pass = 0; pass < 6; ++pass)
       trial.stroke({38.0 - 5.0 * pass, 45, 0}, {33.0 - 5.0 * pass, 55, 0}, 200);
   });
 }
 
-Outcome clay_like_water(Who who) {
+Outcome clay_like_water(Model model) {
   SceneSpec scene = ruled_pot();
   scene.removal.rate_per_s = 1e6;
   scene.removal.yield_depth_mm = 1e-6;
-  return with_rules(who, scene, [](Trial& trial) { press_all(trial); });
+  return with_rules(model, scene, [](Trial& trial) { press_all(trial); });
 }
 
-Outcome rib_as_high_as_the_pot(Who who) {
+Outcome rib_as_high_as_the_pot(Model model) {
   SceneSpec scene = ruled_pot();
   scene.tool.shape = RibSpec{80.0, 8.0};
-  return with_rules(who, scene, [](Trial& trial) {
+  return with_rules(model, scene, [](Trial& trial) {
     trial.stroke({40, 30, 0}, {33, 31, 0}, 300);
     trial.stroke({9, 30, 0}, {16, 29, 0}, 300);
   });
 }
 
-Outcome pot_of_five_metres(Who who) {
+Outcome pot_of_five_metres(Model model) {
   SceneSpec scene = ruled_pot(4980.0);
   scene.lump.outer_radius_mm = 4999.0;
   scene.lump.ring_height_mm = 10.0;
-  return with_rules(who, scene, [](Trial& trial) {
+  return with_rules(model, scene, [](Trial& trial) {
     trial.stroke({5009, 300, 0}, {5000, 305, 0}, 200);
     trial.stroke({4970, 300, 0}, {5005, 305, 0}, 400);
   });
 }
 
 /// A tool that stays still in the clay: the clay comes to rest.
-Outcome still_tool(Who who) {
-  return with_rules(who, ruled_pot(), [](Trial& trial) {
+Outcome still_tool(Model model) {
+  return with_rules(model, ruled_pot(), [](Trial& trial) {
     trial.stroke({40, 30, 0}, {34, 30, 0}, 100);
     trial.stroke({34, 30, 0}, {34, 30, 0}, 20'000);
     const Radii before = trial.subject().ring(30);
@@ -260,16 +260,16 @@ Outcome still_tool(Who who) {
   });
 }
 
-Outcome twice_the_same(Who who) {
-  if (who == Who::literal) return {Verdict::not_in_print, "the paper has no such rules"};
+Outcome twice_the_same(Model model) {
+  if (model == Model::literal) return {Verdict::not_in_print, "the paper has no such rules"};
   std::string bytes[2];
   for (std::string& end : bytes) {
-    Trial trial(who, ruled_pot());
+    Trial trial(model, ruled_pot());
     press_all(trial);
     pull(trial, 25.0, 6.0);
     end = trial.subject().bytes();
   }
-  Trial trial(who, ruled_pot());
+  Trial trial(model, ruled_pot());
   trial.require(bytes[0] == bytes[1], "two runs differ");
   return trial.done();
 }
@@ -277,7 +277,7 @@ Outcome twice_the_same(Who who) {
 constexpr const char* kSound = "clay kept, walls at least the minimum, finite force";
 constexpr const char* kExact = "exact rationals, invariants";
 
-constexpr Case rule_case(std::string_view name, std::string_view what, Outcome (*run)(Who)) {
+constexpr Case rule_case(std::string_view name, std::string_view what, Outcome (*run)(Model)) {
   return {name, what, kSound, kExact, Verdict::not_in_print, run};
 }
 

@@ -12,8 +12,8 @@
 namespace clay::extreme {
 namespace {
 
-Outcome reference_stroke(Who who) {
-  Trial trial(who, small_pot());
+Outcome reference_stroke(Model model) {
+  Trial trial(model, small_pot());
   trial.stroke({40, 20, 0}, {36, 24, 0}, 40);
   trial.stroke({36, 24, 0}, {36, 36, 0}, 120);
   trial.stroke({36, 36, 0}, {36, 24, 0}, 120);
@@ -21,24 +21,24 @@ Outcome reference_stroke(Who who) {
   return trial.done();
 }
 
-Outcome wall_of(Who who, double wall_mm) {
+Outcome wall_of(Model model, double wall_mm) {
   SceneSpec scene = small_pot();
   scene.lump.inner_radius_mm = 30.0 - wall_mm;
   scene.removal.min_wall_mm = 1e-3;
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   trial.stroke({40, 20, 0}, {34, 40, 0}, 100);
   trial.stroke({10, 20, 0}, {24, 40, 0}, 100);
   return trial.done();
 }
 
-Outcome wall_1e_12(Who who) { return wall_of(who, 1e-12); }
+Outcome wall_1e_12(Model model) { return wall_of(model, 1e-12); }
 
 /// The thinnest wall that the engine counts: one quantum, found by bisection over the radius.
-Outcome wall_of_a_quantum(Who who) {
+Outcome wall_of_a_quantum(Model model) {
   const double inner_mm = std::sqrt(mm2_from_quanta(quanta_from_radius(30.0) - 1));
   SceneSpec scene = small_pot();
   scene.lump.inner_radius_mm = inner_mm;
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   trial.require(!trial.refused() && trial.subject().ring(0).inner_mm < 30.0, "wall not found");
   if (const Wheel* wheel = trial.subject().wheel())
     trial.require(count_clay(*wheel) == 60, "not one quantum per ring");
@@ -47,20 +47,20 @@ Outcome wall_of_a_quantum(Who who) {
   return trial.done();
 }
 
-Outcome wall_of_nothing(Who who) {
+Outcome wall_of_nothing(Model model) {
   SceneSpec scene = small_pot();
   scene.lump.inner_radius_mm = 30.0;
   scene.stability = StabilitySpec{10.0};
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   return trial.done();
 }
 
 /// Rings whose middle is not level with the tool must not be touched; clay goes up, so rings below
 /// must stay unchanged.
-Outcome beyond_the_tool(Who who) {
+Outcome beyond_the_tool(Model model) {
   SceneSpec scene = small_pot();
   scene.tool.shape = RibSpec{10.0, 6.0};
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   trial.stroke({45, 29.8, 0}, {45, 30.2, 0}, 3);
   trial.stroke({34, 30.21, 0}, {34, 30.4, 0}, 20);
   trial.require(trial.touched(), "no contact");
@@ -71,10 +71,10 @@ Outcome beyond_the_tool(Who who) {
   return trial.done();
 }
 
-Outcome tool_wider_than_the_pot(Who who) {
+Outcome tool_wider_than_the_pot(Model model) {
   SceneSpec scene = small_pot();
   scene.tool.shape = SphereSpec{500.0};
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   trial.stroke({540, 20, 0}, {510, 40, 0}, 100);
   trial.stroke({400, 40, 0}, {200, 20, 0}, 100);
   trial.require(trial.touched(), "no contact");
@@ -82,8 +82,9 @@ Outcome tool_wider_than_the_pot(Who who) {
   return trial.done();
 }
 
-Outcome nothing_happens(Who who, const SceneSpec& scene, const std::vector<glm::dvec3>& places) {
-  Trial trial(who, scene);
+Outcome nothing_happens(Model model, const SceneSpec& scene,
+                        const std::vector<glm::dvec3>& places) {
+  Trial trial(model, scene);
   const std::string before = trial.subject().bytes();
   for (const glm::dvec3& place : places) {
     trial.stroke(place, place + glm::dvec3(0, 0.5, 0), 3);
@@ -93,26 +94,26 @@ Outcome nothing_happens(Who who, const SceneSpec& scene, const std::vector<glm::
   return trial.done();
 }
 
-Outcome tool_above(Who who) {
-  return nothing_happens(who, small_pot(), {{0, 80, 0}, {25, 68.6, 0}, {10, 99'999, 0}});
+Outcome tool_above(Model model) {
+  return nothing_happens(model, small_pot(), {{0, 80, 0}, {25, 68.6, 0}, {10, 99'999, 0}});
 }
-Outcome tool_below(Who who) {
-  return nothing_happens(who, small_pot(), {{0, -40, 0}, {25, -9, 0}, {10, -99'999, 0}});
+Outcome tool_below(Model model) {
+  return nothing_happens(model, small_pot(), {{0, -40, 0}, {25, -9, 0}, {10, -99'999, 0}});
 }
-Outcome tool_in_a_free_bore(Who who) {
+Outcome tool_in_a_free_bore(Model model) {
   SceneSpec scene = small_pot();
   scene.lump.inner_radius_mm = 20.0;
-  return nothing_happens(who, scene, {{0, 30, 0}, {8, 20, 8}, {11.5, 40, 0}});
+  return nothing_happens(model, scene, {{0, 30, 0}, {8, 20, 8}, {11.5, 40, 0}});
 }
 
-Outcome index_beyond_int(Who who) {
+Outcome index_beyond_int(Model model) {
   SceneSpec scene = small_pot();
   scene.lump.ring_height_mm = 1e-9;
   scene.flow.reach_mm = 12e-9;
-  return refused_or_sound(who, scene, {36, 1e3, 0}, {36, 1e3 + 1, 0}, 3);
+  return refused_or_sound(model, scene, {36, 1e3, 0}, {36, 1e3 + 1, 0}, 3);
 }
 
-Outcome rings_of_a_micrometre(Who who) {
+Outcome rings_of_a_micrometre(Model model) {
   SceneSpec scene = small_pot();
   scene.lump.rings = 20'000;  // 20 mm
   scene.lump.ring_height_mm = 1e-3;
@@ -120,30 +121,30 @@ Outcome rings_of_a_micrometre(Who who) {
   scene.flow.sigma_mm = 1.0;
   scene.flow.reach_mm = 4.0;
   scene.lump.max_rings = 40'000;
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   trial.stroke({34, 8, 0}, {31, 9, 0}, 20);
   trial.require(trial.touched(), "no contact");
   return trial.done(fmt::format("{} rings", trial.subject().rings()));
 }
 
-Outcome rings_of_a_metre(Who who) {
+Outcome rings_of_a_metre(Model model) {
   SceneSpec scene = small_pot();
   scene.lump.rings = 5;
   scene.lump.ring_height_mm = 1e3;
   scene.tool.shape = SphereSpec{600.0};
   scene.flow.reach_mm = 3e3;
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   // The middles of rings are at 500, 1500 .. mm here, at 0, 1000 .. in print.
   trial.stroke({620, 900, 0}, {620, 1600, 0}, 200);
   trial.require(trial.touched(), "no contact");
   return trial.done();
 }
 
-Outcome one_ring(Who who) {
+Outcome one_ring(Model model) {
   SceneSpec scene = small_pot();
   scene.lump.rings = 1;
   scene.lump.max_rings = 100;
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   trial.stroke({45, -1, 0}, {37, 0.2, 0}, 20);
   trial.stroke({37, 0.2, 0}, {35, 0.8, 0}, 20);
   trial.require(trial.touched(), "no contact");
@@ -151,14 +152,14 @@ Outcome one_ring(Who who) {
 }
 
 /// A stroke on very many rings; three ticks, because the suite examines every ring after each.
-Outcome many_rings(Who who, std::size_t rings) {
+Outcome many_rings(Model model, std::size_t rings) {
   SceneSpec scene = small_pot();
   scene.lump.rings = rings;
   scene.lump.max_rings = rings;
   scene.lump.ring_height_mm = 0.01;
   scene.tool.shape = SphereSpec{5.0};
   const double middle_mm = 0.005 * static_cast<double>(rings);
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   trial.stroke({40, middle_mm, 0}, {34, middle_mm + 1, 0}, 2);
   trial.at({34, middle_mm, 0});
   trial.require(trial.touched(), "no contact");
@@ -167,15 +168,15 @@ Outcome many_rings(Who who, std::size_t rings) {
 
 /// Protects every page of the rings, and counts those that the tick opens. The engine has a million
 /// rings, the paper fewer, because of its N^2 / 2 additions for the stress.
-Outcome work_of_a_tick(Who who) {
+Outcome work_of_a_tick(Model model) {
   SceneSpec scene = small_pot();
-  scene.lump.rings = who == Who::conserving ? 1'000'000 : 10'000;
+  scene.lump.rings = model == Model::conserving ? 1'000'000 : 10'000;
   scene.lump.max_rings = scene.lump.rings;
   scene.lump.ring_height_mm = 0.3;
   scene.tool.shape = SphereSpec{5.0};
   scene.stability = StabilitySpec{1e6};
   const double y = 0.15 * static_cast<double>(scene.lump.rings);
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   trial.stroke({37, y, 0}, {34, y + 1, 0}, 5);
   const std::span<const std::byte> rings = trial.subject().ring_bytes();
   std::size_t opened = 0;
@@ -189,34 +190,34 @@ Outcome work_of_a_tick(Who who) {
   return trial.done(fmt::format("{} of {} pages read", opened, all));
 }
 
-Outcome million_rings(Who who) { return many_rings(who, 1'000'000); }
-Outcome most_rings(Who who) { return many_rings(who, kMaxRings); }
-Outcome too_many_rings(Who who) {
-  if (who == Who::literal) return {Verdict::not_in_print, "the paper states no limit"};
+Outcome million_rings(Model model) { return many_rings(model, 1'000'000); }
+Outcome most_rings(Model model) { return many_rings(model, kMaxRings); }
+Outcome too_many_rings(Model model) {
+  if (model == Model::literal) return {Verdict::not_in_print, "the paper states no limit"};
   SceneSpec scene = small_pot();
   scene.lump.rings = kMaxRings + 1;
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   trial.require(trial.refused(), "accepted");
   return trial.done();
 }
 
-Outcome radius_1e300(Who who) {
+Outcome radius_1e300(Model model) {
   SceneSpec scene = small_pot();
   scene.lump.outer_radius_mm = 1e300;
-  return refused_or_sound(who, scene, {1e300, 30, 0}, {1e300, 31, 0}, 3);
+  return refused_or_sound(model, scene, {1e300, 30, 0}, {1e300, 31, 0}, 3);
 }
 
-Outcome radius_1e_160(Who who) {
+Outcome radius_1e_160(Model model) {
   SceneSpec scene = small_pot();
   scene.lump.outer_radius_mm = 1e-160;
-  return refused_or_sound(who, scene, {8, 29, 0}, {7.9, 31, 0}, 20);
+  return refused_or_sound(model, scene, {8, 29, 0}, {7.9, 31, 0}, 20);
 }
 
 /// Pressed at the largest radius: rings near it have no room outside.
-Outcome largest_radius(Who who) {
+Outcome largest_radius(Model model) {
   SceneSpec scene = small_pot();
   scene.lump.outer_radius_mm = 5000.0;
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   trial.stroke({5008, 20, 0}, {5002, 24, 0}, 30);
   trial.stroke({5002, 24, 0}, {5002, 36, 0}, 100);
   trial.require(trial.touched(), "no contact");

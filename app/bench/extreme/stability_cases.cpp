@@ -128,14 +128,14 @@ Outcome threshold_as_printed() {
   return {Verdict::passed, fmt::format("holds at {:.17g} kg/mm^2, not one ulp above", largest)};
 }
 
-Outcome threshold_to_the_ulp(Who who) {
-  return who == Who::conserving ? threshold_of_the_engine() : threshold_as_printed();
+Outcome threshold_to_the_ulp(Model model) {
+  return model == Model::conserving ? threshold_of_the_engine() : threshold_as_printed();
 }
 
-Outcome lump_too_heavy(Who who) {
+Outcome lump_too_heavy(Model model) {
   SceneSpec scene = small_pot();
   scene.stability = StabilitySpec{1.0};  // the lowest ring bears rho g h 59 = 1.1 kPa
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   if (trial.refused()) return trial.done();
   trial.stroke({40, 80, 0}, {40, 81, 0}, 5);
   trial.require(trial.last().collapsed, "did not collapse, expected a collapse");
@@ -143,12 +143,12 @@ Outcome lump_too_heavy(Who who) {
 }
 
 /// Cuts ring `i` with a rib that reaches no other ring until the stack fails there.
-Outcome collapse_at(Who who, std::size_t i) {
+Outcome collapse_at(Model model, std::size_t i) {
   SceneSpec scene = small_pot();
   scene.tool.shape = RibSpec{1.2, 6.0};
   scene.removal.rate_per_s = 200.0;
   scene.stability = StabilitySpec{10.0};
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   const double y = trial.subject().centre_mm(i);
   for (int k = 0; k < 600 && trial.going_well() && !trial.last().collapsed; ++k)
     trial.at({37.0 - 0.05 * k, y + 1e-5 * k, 0});
@@ -173,16 +173,16 @@ Outcome collapse_at(Who who, std::size_t i) {
   return trial.done(fmt::format("ring {} fails", i));
 }
 
-Outcome collapse_at_the_base(Who who) { return collapse_at(who, 0); }
-Outcome collapse_below_the_top(Who who) { return collapse_at(who, 58); }
+Outcome collapse_at_the_base(Model model) { return collapse_at(model, 0); }
+Outcome collapse_below_the_top(Model model) { return collapse_at(model, 58); }
 
 /// No load on the top ring: it may be cut to almost nothing.
-Outcome top_never_fails(Who who) {
+Outcome top_never_fails(Model model) {
   SceneSpec scene = small_pot();
   scene.tool.shape = RibSpec{1.2, 6.0};
   scene.removal.rate_per_s = 200.0;
   scene.stability = StabilitySpec{10.0};
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   const std::size_t top = trial.subject().rings() - 1;
   const double y = trial.subject().centre_mm(top);
   // Downward, so that nothing grows on it.

@@ -48,10 +48,11 @@ struct Played {
 /// thousand times and at the end.
 class Player {
  public:
-  Player(Who who, std::size_t ticks, std::uint64_t seed) : who_(who), ticks_(ticks), hand_(seed) {
+  Player(Model model, std::size_t ticks, std::uint64_t seed)
+      : model_(model), ticks_(ticks), hand_(seed) {
     SceneSpec scene = small_pot();
     scene.force->friction = 0.2;
-    subject_ = std::move(put_on_wheel(who, scene).value());
+    subject_ = std::move(put_on_wheel(model, scene).value());
     before_ = subject_->clay().value();
   }
 
@@ -76,12 +77,12 @@ class Player {
     const auto clay = subject_->clay();
     if (!clay) return;
     played_.worst = std::max(played_.worst, Exact(abs(*clay - before_)));
-    if (who_ == Who::literal && played_.worst > before_ / 1'000'000'000)
+    if (model_ == Model::literal && played_.worst > before_ / 1'000'000'000)
       played_.fault = fmt::format("clay off by {:.3g} % after {} ticks",
                                   Exact(100 * played_.worst / before_).convert_to<double>(), tick_);
   }
 
-  Who who_;
+  Model model_;
   std::size_t ticks_, tick_ = 0;
   Hand hand_;
   std::unique_ptr<Subject> subject_;
@@ -90,21 +91,21 @@ class Player {
   Played played_;
 };
 
-Played play(Who who, std::size_t ticks, std::uint64_t seed) {
-  Player player(who, ticks, seed);
+Played play(Model model, std::size_t ticks, std::uint64_t seed) {
+  Player player(model, ticks, seed);
   while (player.tick()) {
   }
   return player.played();
 }
 
-Outcome drift(Who who) {
-  const std::size_t ticks = who == Who::conserving ? drift_ticks.load() : 100'000;
+Outcome drift(Model model) {
+  const std::size_t ticks = model == Model::conserving ? drift_ticks.load() : 100'000;
   Played first, second;
-  std::thread other([&] { second = play(who, ticks, 7); });
-  first = play(who, ticks, 7);
+  std::thread other([&] { second = play(model, ticks, 7); });
+  first = play(model, ticks, 7);
   other.join();
   if (!first.fault.empty()) return {Verdict::failed, first.fault};
-  if (first.worst != 0 && who == Who::conserving) return {Verdict::failed, "quanta lost"};
+  if (first.worst != 0 && model == Model::conserving) return {Verdict::failed, "quanta lost"};
   if (first.hash != second.hash) return {Verdict::failed, "two runs differ"};
   if (first.contacts < ticks / 10) return {Verdict::failed, "too little contact"};
   return {Verdict::passed, fmt::format("{} ticks twice, {} in contact, 0 quanta, hash {:016x}",
@@ -113,15 +114,15 @@ Outcome drift(Who who) {
 
 /// Pots thrown in parallel, tick by tick in turn and in separate threads, give the same results as
 /// alone.
-Outcome side_by_side(Who who) {
+Outcome side_by_side(Model model) {
   constexpr std::size_t kTicks = 2'000, kPots = 4;
   std::vector<std::uint64_t> alone, in_turn, in_threads(kPots);
   std::vector<Player> players;
   std::vector<std::thread> threads;
   for (std::size_t k = 0; k < kPots; ++k) {
-    alone.push_back(play(who, kTicks, k + 1).hash);
-    players.emplace_back(who, kTicks, k + 1);
-    threads.emplace_back([&, k] { in_threads[k] = play(who, kTicks, k + 1).hash; });
+    alone.push_back(play(model, kTicks, k + 1).hash);
+    players.emplace_back(model, kTicks, k + 1);
+    threads.emplace_back([&, k] { in_threads[k] = play(model, kTicks, k + 1).hash; });
   }
   for (std::size_t tick = 0; tick < kTicks; ++tick)
     for (Player& player : players) player.tick();

@@ -172,8 +172,8 @@ bench::LiteralScene literal_scene(const SceneSpec& scene) {
 
 }  // namespace
 
-Result<std::unique_ptr<Subject>> put_on_wheel(Who who, const SceneSpec& scene) {
-  if (who == Who::literal) return std::make_unique<AsPrinted>(literal_scene(scene));
+Result<std::unique_ptr<Subject>> put_on_wheel(Model model, const SceneSpec& scene) {
+  if (model == Model::literal) return std::make_unique<AsPrinted>(literal_scene(scene));
   auto wheel = Wheel::build(scene);
   if (!wheel) return tl::make_unexpected(wheel.error());
   return std::make_unique<OnTheEngine>(std::move(*wheel));

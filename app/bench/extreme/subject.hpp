@@ -23,7 +23,7 @@ class LiteralPaper;
 
 namespace clay::extreme {
 
-enum class Who { conserving, literal };
+enum class Model { conserving, literal };
 
 struct Tick {
   glm::dvec3 force_n{0.0};
@@ -66,7 +66,7 @@ class Subject {
 /// Both read the same scene; K of the paper is force.paper_stiffness_n_per_mm or 0.05 N/mm, its k
 /// is removal.paper_fraction or rate / 1000, its L_1 is reach / h, rounded. The literal paper
 /// refuses nothing.
-Result<std::unique_ptr<Subject>> put_on_wheel(Who who, const SceneSpec& scene);
+Result<std::unique_ptr<Subject>> put_on_wheel(Model model, const SceneSpec& scene);
 
 /// Clay in `wheel`'s rings and crown and in its ledger's other columns, summed by Boost.
 [[nodiscard]] Count count_clay(const Wheel& wheel);

@@ -24,7 +24,7 @@ struct Case {
   std::string_view required;  ///< the result that passes
   std::string_view oracle;    ///< the method of judging
   Verdict literal;            ///< expected result of the paper as printed
-  Outcome (*run)(Who who);
+  Outcome (*run)(Model model);
 };
 
 // The parts of the table, in its order.

@@ -22,8 +22,8 @@ SceneSpec small_pot() {
   return scene;
 }
 
-Trial::Trial(Who who, const SceneSpec& scene) : exact_(who == Who::conserving) {
-  auto subject = put_on_wheel(who, scene);
+Trial::Trial(Model model, const SceneSpec& scene) : exact_(model == Model::conserving) {
+  auto subject = put_on_wheel(model, scene);
   if (!subject) {
     why_ = subject.error().message;
     return;
@@ -89,9 +89,9 @@ Outcome Trial::done(const std::string& extra) {
   return {Verdict::passed, note};
 }
 
-Outcome refused_or_sound(Who who, const SceneSpec& scene, const glm::dvec3& from_mm,
+Outcome refused_or_sound(Model model, const SceneSpec& scene, const glm::dvec3& from_mm,
                          const glm::dvec3& to_mm, int ticks) {
-  Trial trial(who, scene);
+  Trial trial(model, scene);
   trial.stroke(from_mm, to_mm, ticks);
   return trial.done();
 }

@@ -18,7 +18,7 @@ SceneSpec small_pot();
 /// finite, no endless loop, nothing undefined; at the end no clay lost. Keeps the first failure.
 class Trial {
  public:
-  Trial(Who who, const SceneSpec& scene);
+  Trial(Model model, const SceneSpec& scene);
 
   /// The scene was refused; `why` holds the engine's message.
   [[nodiscard]] bool refused() const { return !subject_; }
@@ -58,7 +58,7 @@ class Trial {
 };
 
 /// Passes if the scene is refused; otherwise plays a stroke and judges it.
-Outcome refused_or_sound(Who who, const SceneSpec& scene, const glm::dvec3& from_mm,
+Outcome refused_or_sound(Model model, const SceneSpec& scene, const glm::dvec3& from_mm,
                          const glm::dvec3& to_mm, int ticks);
 
 }  // namespace clay::extreme
