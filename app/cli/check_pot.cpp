@@ -1,9 +1,8 @@
 #include "app/cli/check.hpp"
 
 #include "claystack/engine/files.hpp"
-#include "claystack/engine/tick.hpp"
+#include "claystack/export/job.hpp"
 #include "claystack/export/proof.hpp"
-#include "claystack/export/smoothing.hpp"
 #include "claystack/export/solid.hpp"
 #include "claystack/export/walls.hpp"
 
@@ -25,30 +24,27 @@ std::size_t check_segments(const solid::Profile& profile) {
   return std::clamp(kQuickTriangles / each, kFewestSegments, kMostSegments);
 }
 
-/// Checks a section that proves a solid, and its mesh.
-Verdict check_section(const solid::StackProfile& section,
-                      const std::optional<solid::WallLimit>& limit) {
+Verdict verdict_on(const solid::ExportReport& report) {
+  const solid::Profile& profile = report.section.profile();
   Verdict verdict;
-  if (solid::triangle_count(section.profile, kFewestSegments) <= solid::kMaxTriangles)
-    verdict.mesh =
-        solid::check_mesh(solid::revolve(section.profile, check_segments(section.profile)));
+  if (solid::triangle_count(profile, kFewestSegments) <= solid::kMaxTriangles)
+    verdict.mesh = solid::check_mesh(solid::revolve(profile, check_segments(profile)));
   else
     verdict.examined = false;
-  verdict.wall_mm = solid::min_wall_mm(section.profile);
-  for (const solid::PieceShape& shape : section.shapes)
+  verdict.wall_mm = report.walls.min_wall_mm;
+  const auto& shapes = report.section.shapes();
+  for (const solid::PieceShape& shape : shapes)
     for (const solid::Cavity& cavity : shape.cavities)
-      verdict.notes.push_back(fmt::format(
-          "closed cavity from {:.2f} to {:.2f} mm, {:.1f} mm3 trapped: it needs a drain hole",
-          cavity.bottom_mm, cavity.top_mm, cavity.volume_mm3));
-  if (section.shapes.size() > 1)
-    verdict.mesh.problems.push_back(
-        {"pieces that do not touch",
-         fmt::format("{} pieces; ring {} is the first of the second", section.shapes.size(),
-                     section.shapes[1].first_ring),
-         section.shapes.size()});
+      verdict.notes.push_back(solid::text_of(cavity));
+  if (shapes.size() > 1)
+    verdict.mesh.problems.push_back({"pieces that do not touch",
+                                     fmt::format("{} pieces; ring {} is the first of the second",
+                                                 shapes.size(), shapes[1].first_ring),
+                                     shapes.size()});
+  const auto& limit = report.walls.limit;
   if (limit && *verdict.wall_mm < limit->min_wall_mm)
     verdict.mesh.problems.push_back(
-        {"thin wall", solid::thin_wall_text(section.profile, *verdict.wall_mm, *limit), 1});
+        {"thin wall", solid::thin_wall_text(profile, *verdict.wall_mm, *limit), 1});
   else if (limit)
     verdict.notes.push_back("walls: " + solid::wall_text(*verdict.wall_mm, *limit));
   return verdict;
@@ -69,16 +65,13 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command) {
   if (pot->collapse)
     return unsound("collapsed", fmt::format("ring {} yielded at {:g} kPa",
                                             pot->collapse->failed_ring, pot->collapse->stress_kpa));
-  // The default of `export`.
-  const auto limit =
-      command.walls.demand().for_size(4.0 * largest_radius_mm(pot->stack) + pot->stack.height_mm());
-  solid::SmoothingOptions how;
-  if (limit) how.min_wall_mm = limit->min_wall_mm;
-  const auto smoothed = solid::smooth_profile_of(pot->stack, how);
-  if (!smoothed) return unsound("no solid", smoothed.error().message);
-  if (const auto certificate = solid::certify(smoothed->section.profile); !certificate)
-    return unsound("no certificate", certificate.error().message);
-  Verdict verdict = check_section(smoothed->section, limit);
+  // The export with its defaults, without a file.
+  solid::ExportOptions options;
+  options.walls = command.walls.demand();
+  options.allow_pieces = true;
+  const auto report = solid::run_export(*pot, {}, options);
+  if (!report) return unsound("no solid", report.error().message);
+  Verdict verdict = verdict_on(*report);
   if (pot->rounding)
     verdict.notes.push_back(fmt::format("radii rounded to {} mm", pot->rounding->to_mm));
   return verdict;

@@ -134,7 +134,7 @@ void tell(const Console& console, const std::string& file, const Verdict& verdic
     console.print(fmt::format("  {} triangles, {} component(s), {:.3f} cm3", mesh.triangles,
                               mesh.components, mesh.volume_mm3 / 1000.0));
   }
-  if (verdict.wall_mm) console.print(fmt::format("  thinnest {:.3f} mm", *verdict.wall_mm));
+  if (verdict.wall_mm) console.print(fmt::format("  minimum wall {:.3f} mm", *verdict.wall_mm));
   if (verdict.wall_sampled) print_wall(console, *verdict.wall_sampled);
   if (verdict.certificate_holds) print_certificate(console, *verdict.certificate);
   for (const std::string& note : verdict.notes) console.print("  note: " + note);

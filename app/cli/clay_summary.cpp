@@ -1,6 +1,8 @@
 #include "app/cli/clay_summary.hpp"
 
-#include "claystack/engine/tick.hpp"
+#ifdef CLAYSTACK_EXPORT
+#include "claystack/export/job.hpp"
+#endif
 
 #include <fmt/format.h>
 
@@ -20,21 +22,27 @@ Json collapse_json(const Collapse& fall) {
           {"plastic_work_mj", fall.plastic_work_mj}};
 }
 
+Json wall_json([[maybe_unused]] const Pot& pot) {
+#ifdef CLAYSTACK_EXPORT
+  if (!pot.collapse)
+    if (const auto report = solid::run_export(pot, {}, {})) return report->walls.min_wall_mm;
+#endif
+  return nullptr;
+}
+
 }  // namespace
 
 const char* name_of(Model model) { return model == Model::paper ? "paper" : "conserving"; }
 
 Json clay_json(const Wheel& wheel, const Pot& pot) {
   const ClayStack& stack = wheel.stack();
-  const WallMinimum wall = min_wall(stack);
   Json json = {
       {"rings", stack.size()},
       {"height_mm", stack.height_mm()},
       {"volume_mm3", stack.volume_mm3()},
       {"trimmed_mm3", static_cast<double>(wheel.ledger().trimmed) * stack.mm3_per_quantum()},
       {"volume_error_quanta", json_count(wheel.ledger().volume_error(stack.recount()))},
-      {"min_wall_mm", wall.thickness_mm},
-      {"min_wall_ring", wall.ring},
+      {"min_wall_mm", wall_json(pot)},
       {"collapsed", pot.collapse.has_value()},
   };
   if (pot.collapse) json["collapse"] = collapse_json(*pot.collapse);

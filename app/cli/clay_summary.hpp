@@ -9,7 +9,8 @@ namespace clay::cli {
 
 [[nodiscard]] const char* name_of(Model model);
 
-/// Rings, height, volume and its error, thinnest wall, collapse.
+/// Rings, height, volume and its error, minimum wall, collapse. The wall is that of the default
+/// export; null for a pot that collapsed or cannot be exported.
 [[nodiscard]] Json clay_json(const Wheel& wheel, const Pot& pot);
 
 /// `summary` has the fields of clay_json.

@@ -55,10 +55,12 @@ Json summary(const Wheel& wheel, const ReplayStats& stats, const Session& sessio
 
 void tell(const Console& console, const Json& s) {
   console.print(fmt::format(
-      "{} ticks, model {}: {} rings, {:.1f} mm high, {:.1f} cm3 of clay, thinnest {:.2f} mm",
+      "{} ticks, model {}: {} rings, {:.1f} mm high, {:.1f} cm3 of clay{}",
       s["ticks"].get<std::size_t>(), s["model"].get<std::string>(), s["rings"].get<std::size_t>(),
       s["height_mm"].get<double>(), s["volume_mm3"].get<double>() / 1000.0,
-      s["min_wall_mm"].get<double>()));
+      s["min_wall_mm"].is_null()
+          ? std::string()
+          : fmt::format(", minimum wall {:.2f} mm", s["min_wall_mm"].get<double>())));
   console.print(fmt::format("volume error: {} quanta (maximum during the session: {:.4g} %)",
                             s["volume_error_quanta"].dump(),
                             s["max_volume_error_percent"].get<double>()));

@@ -80,23 +80,40 @@ class SurfaceSampling {
   std::vector<double> area_up_to_;
 };
 
+struct Shortest {
+  double mm = std::numeric_limits<double>::infinity();
+  glm::dvec3 place{0.0};
+  std::uint32_t triangle = 0;
+  std::size_t sample = std::numeric_limits<std::size_t>::max();
+
+  void add(const Shortest& other) {
+    if (other.mm < mm || (other.mm == mm && other.sample < sample)) *this = other;
+  }
+};
+
 /// The result of some of the rays.
 struct Found {
-  SampledWall wall;
-  std::size_t sample = 0;  ///< index of the shortest ray
+  SampledWall wall;  ///< only its counts
+  Shortest least;
+  Shortest at_an_end;  ///< with the end of the clay close on one side
 
   void add(const Found& other) {
     const SampledWall& found = other.wall;
-    if (found.least_mm < wall.least_mm ||
-        (found.least_mm == wall.least_mm && other.sample < sample)) {
-      wall.least_mm = found.least_mm;
-      wall.place = found.place;
-      wall.triangle = found.triangle;
-      sample = other.sample;
-    }
+    least.add(other.least);
+    at_an_end.add(other.at_an_end);
     wall.rays += found.rays;
     wall.oblique += found.oblique;
     wall.escaped += found.escaped;
+  }
+
+  /// A compact body ends close to every ray. It is as thick as they are long.
+  [[nodiscard]] SampledWall result() const {
+    const Shortest& shortest = std::isinf(least.mm) ? at_an_end : least;
+    SampledWall result = wall;
+    result.least_mm = shortest.mm;
+    result.place = shortest.place;
+    result.triangle = shortest.triangle;
+    return result;
   }
 };
 
@@ -235,15 +252,40 @@ class WallProbe {
     one.wall.escaped = hit ? 0 : 1;
     one.wall.oblique = hit && hit->facing < std::numbers::sqrt2 / 2.0 ? 1 : 0;
     if (hit && one.wall.oblique == 0 && hit->mm) {
-      one.wall.least_mm = *hit->mm;
-      one.wall.place = begin;
-      one.wall.triangle = triangle;
-      one.sample = sample;
+      const Shortest ray{*hit->mm, begin, triangle, sample};
+      // The sides are worth looking at only where the wall would be the thinnest.
+      if (ray.mm < found.least.mm && ends_beside(begin, inward, ray.mm, steps)) {
+        one.wall.oblique = 1;
+        one.at_an_end = ray;
+      } else {
+        one.least = ray;
+      }
     }
     found.add(one);
   }
 
  private:
+  /// Whether the clay ends within one thickness of the middle of a wall, on one side of it only, as
+  /// it does at the end of a lip or of a flange. A rod ends on both sides alike.
+  [[nodiscard]] bool ends_beside(const glm::dvec3& begin, const glm::dvec3& inward,
+                                 double thickness_mm, std::size_t& steps) const {
+    const glm::dvec3 middle = begin + 0.5 * thickness_mm * inward;
+    const glm::dvec3 aside = std::abs(inward.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 u = glm::normalize(glm::cross(inward, aside)), v = glm::cross(inward, u);
+    const auto way = [&](const glm::dvec3& direction) {
+      const auto hit = WallRay(mesh_, middle, direction).first_hit(tree_, steps);
+      return hit && hit->mm ? *hit->mm : std::numeric_limits<double>::infinity();
+    };
+    constexpr int kLines = 4;
+    for (int k = 0; k < kLines; ++k) {
+      const double angle = std::numbers::pi * k / kLines;
+      const glm::dvec3 direction = std::cos(angle) * u + std::sin(angle) * v;
+      const double one = way(direction), other = way(-direction);
+      if (std::min(one, other) < thickness_mm && std::max(one, other) >= thickness_mm) return true;
+    }
+    return false;
+  }
+
   const TriangleMesh& mesh_;
   BoxTree tree_;
   const SurfaceSampling& sampling_;
@@ -273,9 +315,8 @@ class WallSearch {
     std::vector<Found> parts((samples_ + kPartRays - 1) / kPartRays);
     for_each_part(parts.size(), [&](std::size_t part) { run_part(part, parts[part]); });
     Found all;
-    all.sample = samples_;
     for (const Found& part : parts) all.add(part);
-    return all.wall;
+    return all.result();
   }
 
  private:
@@ -286,7 +327,6 @@ class WallSearch {
     const std::size_t begin = part * kPartRays, rays = std::min(samples_ - begin, kPartRays);
     const EvenOrder order(rays);
     std::size_t steps = most_steps_ / samples_ * rays;
-    found.sample = samples_;
     std::size_t reported = 0;
     for (std::size_t i = 0; i < rays && steps > 0; ++i) {
       step_of_loop();

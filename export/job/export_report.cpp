@@ -35,9 +35,9 @@ std::string text_of(const Cavity& cavity) {
 std::vector<Problem> problems_of(const ExportReport& report) {
   std::vector<Problem> problems;
   if (auto thin = thin_wall_of(report)) {
-    const auto& [thickness, from, to] = report.walls.thinnest;
-    const bool placed = !report.collapsed && thickness > 0.0;
-    problems.push_back({std::move(*thin), placed ? std::optional(from) : std::nullopt});
+    const Wall& wall = report.walls.thinnest;
+    const bool placed = !report.collapsed && wall.thickness_mm > 0.0;
+    problems.push_back({std::move(*thin), placed ? std::optional(wall.from) : std::nullopt});
   }
   for (const PieceShape& shape : report.section.shapes())
     for (const Cavity& cavity : shape.cavities)

@@ -6,6 +6,7 @@
 #include "export/job/resolution.hpp"
 #include "export/job/revolve_files.hpp"
 #include "export/job/stages.hpp"
+#include "export/proof/rounded_claims.hpp"
 #include "export/smoothing/profile_smoothing.hpp"
 #include "export/solid/revolve_layout.hpp"
 
@@ -146,7 +147,8 @@ class RevolvedExport {
     report_.size = measured(design.size, rule);
     report_.volume = {claims.volume_mm3, std::abs(claims.volume_mm3 - claims.counted_volume_mm3) /
                                              claims.counted_volume_mm3};
-    measure_walls(claims.wall_lower_mm);
+    // As rounded in a binary STL, so that a pot has one wall before and after it is written.
+    measure_walls(with_rounding(claims, rule, float_rounding_mm(rule)).wall_lower_mm);
     RevolveFiles files(rule, claims, options_, stages_);
     for (const Output& output : outputs_) {
       auto file = named(files.write(output.format, *output.store),

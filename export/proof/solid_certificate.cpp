@@ -180,14 +180,14 @@ Margins margins_of(const Profile& profile, std::size_t segments) {
 
 SolidCertificate claims_of(const Profile& profile, std::size_t segments, double rounding_mm) {
   const double at_facets = scale_at_facets(segments);
-  const double wall = min_wall(profile, at_facets).thickness_mm;
+  const WallBounds wall = wall_bounds(profile, at_facets, equal_area_factor(segments));
   SolidCertificate claims;
   claims.profile = profile;
   claims.profile_hash = hash_of_profile(profile);
   claims.segments = segments;
   claims.margins = margins_of(profile, segments);
-  claims.wall_lower_mm = wall;
-  claims.wall_upper_mm = wall * equal_area_factor(segments) / at_facets;
+  claims.wall_lower_mm = wall.lower_mm;
+  claims.wall_upper_mm = wall.upper_mm;
   claims.volume_mm3 = volume_of(profile);
   claims.counted_volume_mm3 = claims.volume_mm3;
   return with_rounding(std::move(claims), RevolveLayout(profile, segments), rounding_mm);

@@ -108,7 +108,8 @@ double least_distance(const EdgeNode& a, const EdgeNode& b) noexcept {
   return std::max(least_distance_along(a, b), least_distance_along(b, a));
 }
 
-EdgeTree::EdgeTree(const Profile& profile, double rho_scale) {
+EdgeTree::EdgeTree(const Profile& profile, double rho_scale, double arc_scale)
+    : arc_per_rho_(arc_scale / rho_scale) {
   std::size_t count = 0;
   for (const Polygon& polygon : profile.pieces) count += polygon.size();
   points_.reserve(count);
@@ -122,7 +123,7 @@ EdgeTree::EdgeTree(const Profile& profile, double rho_scale) {
     }
   }
   begins_.push_back(static_cast<std::uint32_t>(points_.size()));
-  axis_arc_ = 8.0 * (high.x + high.y - low.y);
+  axis_arc_ = 8.0 * (std::max(1.0, arc_per_rho_) * high.x + high.y - low.y);
   std::vector<EdgeNode> leaves;
   make_leaves(leaves);
   nodes_.reserve(2 * leaves.size() - 1);

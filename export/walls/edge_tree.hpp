@@ -51,8 +51,10 @@ class EdgeTree {
  public:
   static constexpr std::size_t kLeafEdges = 8;
 
-  /// Requires at least one edge. Every rho is multiplied by `rho_scale`.
-  EdgeTree(const Profile& profile, double rho_scale);
+  /// Requires at least one edge. Every rho is multiplied by `rho_scale`; arc lengths are those of
+  /// the profile with every rho multiplied by `arc_scale`.
+  EdgeTree(const Profile& profile, double rho_scale, double arc_scale);
+  EdgeTree(const Profile& profile, double rho_scale) : EdgeTree(profile, rho_scale, rho_scale) {}
 
   [[nodiscard]] const std::vector<EdgeNode>& nodes() const { return nodes_; }
   /// Requires a node of two or more leaves. The root is node 0.
@@ -80,8 +82,10 @@ class EdgeTree {
   /// as longer than all others together.
   [[nodiscard]] double perimeter(std::uint32_t piece) const { return perimeters_[piece]; }
   [[nodiscard]] double arc_length(const Edge& edge) const {
-    return edge.on_axis() ? axis_arc_ : glm::length(edge.to - edge.from);
+    const Vec2 along = edge.to - edge.from;
+    return edge.on_axis() ? axis_arc_ : glm::length(Vec2{along.x * arc_per_rho_, along.y});
   }
+  [[nodiscard]] double axis_arc() const { return axis_arc_; }
 
  private:
   static std::size_t left_leaves(std::size_t leaves) { return (leaves + 1) / 2; }
@@ -94,7 +98,7 @@ class EdgeTree {
   std::vector<Vec2> points_;           ///< of all pieces
   std::vector<std::uint32_t> begins_;  ///< first point of each piece, and their number
   std::vector<double> perimeters_;
-  double axis_arc_ = 0.0;
+  double axis_arc_ = 0.0, arc_per_rho_ = 1.0;
   std::vector<EdgeNode> nodes_;  ///< preorder: node, left half, right half
 };
 

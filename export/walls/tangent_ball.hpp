@@ -16,7 +16,6 @@ namespace clay::solid::inline walls {
 struct Ball {
   double diameter = std::numeric_limits<double>::infinity();
   Vec2 from{0.0}, to{0.0};  ///< points of contact
-  bool at_corner = false;   ///< a reentrant corner at either end
 };
 
 /// A corner where the clay fills more than a half-plane: a ball may touch it from every direction
@@ -30,30 +29,6 @@ struct ReentrantCorner {
   }
 };
 
-/// Balls between two faces, each minimal for its kind of contact.
-class Balls {
- public:
-  /// Keeps only balls smaller than `limit`.
-  explicit Balls(double limit) : limit_(limit) {}
-  void keep(const Ball& ball) {
-    if (ball.diameter >= limit_) return;
-    balls_[count_] = ball;
-    if (swapped_) std::swap(balls_[count_].from, balls_[count_].to);
-    ++count_;
-  }
-  /// From now on the faces are given in reverse order.
-  void swap() { swapped_ = !swapped_; }
-  [[nodiscard]] const Ball* begin() const { return balls_.data(); }
-  [[nodiscard]] const Ball* end() const { return balls_.data() + count_; }
-
- private:
-  /// Eight between the edges; for each of two corners, twice, one edge and two corners.
-  std::array<Ball, 20> balls_;
-  std::size_t count_ = 0;
-  double limit_;
-  bool swapped_ = false;
-};
-
 /// An edge off the axis and its place along the polygon.
 struct Face {
   Edge edge;
@@ -64,10 +39,11 @@ struct Face {
   Vec2 before{0.0};  ///< inward normal of the previous edge; on the axis, of the mirror image
 
   [[nodiscard]] bool has_corners() const { return begins_reentrant || ends_reentrant; }
+  /// Calls `visit(corner, place)`.
   template <class Visit>
   void each_corner(Visit visit) const {
-    if (begins_reentrant) visit(ReentrantCorner{edge.from, before, edge.inward});
-    if (ends_reentrant) visit(ReentrantCorner{edge.to, edge.inward, mirrored(edge.inward)});
+    if (begins_reentrant) visit(ReentrantCorner{edge.from, before, edge.inward}, 0.0);
+    if (ends_reentrant) visit(ReentrantCorner{edge.to, edge.inward, mirrored(edge.inward)}, 1.0);
   }
 };
 
@@ -83,12 +59,16 @@ class LeafFaces {
   std::size_t count_ = 0;
 };
 
-/// Faces are opposite if the angle between their inward normals exceeds this [rad].
-inline constexpr double kOpposite = 150.0 / 180.0 * std::numbers::pi;
-inline const double kMinusCosOpposite = -std::cos(kOpposite);
+/// The inward normals of opposite faces are more than 90 degrees apart. That keeps the search away
+/// from neighbouring faces; what is a wall is decided by `kSpan`.
+inline constexpr double kOpposite = std::numbers::pi / 2.0;  ///< [rad]
 [[nodiscard]] inline bool opposite(const Vec2& normal, const Vec2& other) {
-  return glm::dot(normal, other) < -kMinusCosOpposite;
+  return glm::dot(normal, other) < 0.0;
 }
+
+/// A ball spans a wall if the boundary between its points of contact is at least this many
+/// diameters long, either way round. Less is an edge, a ridge or a rounded end.
+inline constexpr double kSpan = 3.0;
 
 /// Lower bound of the distance between the two.
 [[nodiscard]] inline double least_distance(const Edge& a, const Edge& b) {
@@ -100,39 +80,40 @@ inline const double kMinusCosOpposite = -std::cos(kOpposite);
   return std::max(gap(a, b), gap(b, a));
 }
 
-/// The minimum length of the boundary on the shorter way between two places, and a little beyond,
-/// as a multiple of the thickness between them. Half a circle has pi / 2, the chords around it
-/// slightly less.
-inline constexpr double kRidge = 1.5;
+/// The smallest ball that spans a wall between two faces of one piece, by the definition of
+/// `min_wall`; empty if there is none with less than `limit` as its diameter.
+[[nodiscard]] Ball least_ball(const Face& a, const Face& b, double perimeter, double limit);
 
-/// Whether the clay between `ball.from` on `a` and `ball.to` on `b` is more than a ridge. Beyond
-/// these points edges count as far as both continue, up to half the thickness, so that a lip is as
-/// thin as its end; at a reentrant corner an edge does not continue.
-[[nodiscard]] bool is_wall(const Face& a, const Face& b, const Ball& ball, double perimeter);
+/// The same of the balls that touch `a` at a place from 0 (its begin) to 1 (its end).
+[[nodiscard]] Ball least_ball_at(const Face& a, double place, const Face& b, double perimeter,
+                                 double limit);
 
-/// The smallest balls between two faces of one piece, by the definition of `min_wall`, including
-/// ridges.
-[[nodiscard]] Balls balls_between(const Face& a, const Face& b, double limit);
-
-/// The smallest ball that touches `a` at `p` and passes through `b`; empty if there is none.
-[[nodiscard]] Ball ball_at(const Vec2& p, const Face& a, const Face& b);
-
-/// The parts of a piece on the axis.
+/// The parts of a piece on the axis. A ball centred there touches a face and its mirror image; the
+/// boundary between the two runs to the axis and back.
 class AxisClay {
  public:
   AxisClay(const EdgeTree& tree, std::uint32_t piece);
-  /// The smallest ball centred on the axis, in clay, that touches the face.
+  /// The smallest ball centred on the axis, in clay, that touches the face and spans a wall.
   [[nodiscard]] Ball least_ball(const Face& face) const;
-  /// The ball centred on the axis that touches the face at `p`.
-  [[nodiscard]] Ball ball_at(const Vec2& p, const Face& face) const;
-  /// Lower bound of the diameter of any such ball for a node's faces.
-  [[nodiscard]] double bound(const EdgeNode& node) const;
+  /// The same at a place from 0 (the face's begin) to 1 (its end).
+  [[nodiscard]] Ball ball_at(const Face& face, double place) const;
+  /// Lower bound of the diameter of any such ball for a node's faces; infinite if every such ball
+  /// is larger than `limit`.
+  [[nodiscard]] double bound(const EdgeNode& node, double limit) const;
 
  private:
   struct Stretch {
     double low = 0.0, high = 0.0;
   };
+  /// The boundary between two stretches [mm of arc].
+  struct Run {
+    double begin = 0.0, end = 0.0;
+  };
+  [[nodiscard]] Ball least_ball(const Face& face, double from, double to) const;
+  [[nodiscard]] bool has_clay(double y) const;
+
   std::vector<Stretch> stretches_;  ///< from the bottom up
+  std::vector<Run> runs_;           ///< by arc
 };
 
 }  // namespace clay::solid::inline walls

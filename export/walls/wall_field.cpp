@@ -86,15 +86,16 @@ class Field {
     for (std::size_t k = 0; k < count; ++k) {
       if (met_++ % stride_ != 0) continue;
       const double t = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
-      add_sample(face, face.edge.from + t * along, axis);
+      add_sample(face, t, axis);
       samples_.back().arc_mm = arc_mm_ + t * glm::length(along);
       samples_.back().face = names.of(face.edge, face.edge.index - tree_.first_edge(face.piece));
     }
     arc_mm_ += glm::length(along);
   }
 
-  void add_sample(const Face& face, const Vec2& at, const AxisClay& axis) {
-    const Ball ball = PlaceSearch(tree_, face, at).run(axis);
+  void add_sample(const Face& face, double t, const AxisClay& axis) {
+    const Ball ball = PlaceSearch(tree_, face, t).run(axis);
+    const Vec2 at = face.edge.from + t * (face.edge.to - face.edge.from);
     const bool found = std::isfinite(ball.diameter);
     samples_.push_back(
         {ball.diameter, place(at), place(found ? ball.to : at), 0.0, face.piece, WallFace::outer});

@@ -15,11 +15,11 @@ double arc_around(const EdgeNode& a, const EdgeNode& b, double perimeter) {
   return std::min(end - begin, perimeter - between);
 }
 
-/// True for nodes that, at distance `distance`, cannot contain opposite faces of one piece with
-/// more than a ridge between them.
+/// True for nodes that, at distance `distance`, cannot contain opposite faces of one piece that
+/// span a wall.
 bool no_wall_between(const EdgeTree& tree, const EdgeNode& a, const EdgeNode& b, double distance) {
   if (a.first_piece != a.last_piece || b.first_piece != b.last_piece) return false;
-  return arc_around(a, b, tree.perimeter(a.first_piece)) < kRidge * distance;
+  return arc_around(a, b, tree.perimeter(a.first_piece)) < kSpan * distance;
 }
 
 bool no_opposites(const EdgeNode& a, const EdgeNode& b) {
@@ -39,8 +39,8 @@ double WallSearch::bound(const EdgeNode& a, const EdgeNode& b) const {
 void WallSearch::compare(const Face& a, const Face& b) {
   if (!opposite(a.edge.inward, b.edge.inward) && !a.has_corners() && !b.has_corners()) return;
   if (least_distance(a.edge, b.edge) >= best()) return;
-  for (const Ball& ball : balls_between(a, b, best()))
-    if (ball.diameter < best() && is_wall(a, b, ball, tree_.perimeter(a.piece))) least_ = ball;
+  const Ball ball = least_ball(a, b, tree_.perimeter(a.piece), best());
+  if (ball.diameter < best()) least_ = ball;
 }
 
 void WallSearch::leaves(const EdgeNode& a, const EdgeNode& b) {
@@ -52,7 +52,8 @@ void WallSearch::leaves(const EdgeNode& a, const EdgeNode& b) {
 
 void WallSearch::across(const AxisClay& axis, std::uint32_t piece, std::size_t node) {
   const EdgeNode& here = tree_.nodes()[node];
-  if (piece < here.first_piece || piece > here.last_piece || axis.bound(here) >= best()) return;
+  if (piece < here.first_piece || piece > here.last_piece || axis.bound(here, best()) >= best())
+    return;
   if (here.leaves > 1) {
     across(axis, piece, EdgeTree::left(node));
     across(axis, piece, tree_.right(node));
@@ -65,12 +66,12 @@ void WallSearch::across(const AxisClay& axis, std::uint32_t piece, std::size_t n
 }
 
 Ball PlaceSearch::run(const AxisClay& axis) {
-  least_ = axis.ball_at(at_, face_);
+  least_ = axis.ball_at(face_, place_);
   EdgeNode place;
   place.centre = at_;
   place.normal_angle = std::atan2(face_.edge.inward.y, face_.edge.inward.x);
   place.normal_spread = 0.0;
-  place.arc_begin = face_.arc_begin, place.arc_end = face_.arc_end;
+  place.arc_begin = place.arc_end = face_.arc_begin + place_ * (face_.arc_end - face_.arc_begin);
   place.first_piece = place.last_piece = face_.piece;
   search_from(tree_, place, *this);
   return least_;
@@ -91,9 +92,8 @@ double PlaceSearch::bound(const EdgeNode& place, const EdgeNode& node) const {
 void PlaceSearch::leaves(const EdgeNode&, const EdgeNode& leaf) {
   for (const Face& other : LeafFaces(tree_, leaf)) {
     if (other.edge.index == face_.edge.index) continue;
-    const Ball ball = ball_at(at_, face_, other);
-    if (ball.diameter < best() && is_wall(face_, other, ball, tree_.perimeter(face_.piece)))
-      least_ = ball;
+    const Ball ball = least_ball_at(face_, place_, other, tree_.perimeter(face_.piece), best());
+    if (ball.diameter < best()) least_ = ball;
   }
 }
 

@@ -25,11 +25,14 @@ class WallSearch {
   Ball least_;
 };
 
-/// Searches the balls that touch a face at a given point.
+/// Searches the balls that touch a face at a place from 0 (its begin) to 1 (its end).
 class PlaceSearch {
  public:
-  PlaceSearch(const EdgeTree& tree, const Face& face, const Vec2& at)
-      : tree_(tree), face_(face), at_(at) {}
+  PlaceSearch(const EdgeTree& tree, const Face& face, double place)
+      : tree_(tree),
+        face_(face),
+        place_(place),
+        at_(face.edge.from + place * (face.edge.to - face.edge.from)) {}
 
   [[nodiscard]] Ball run(const AxisClay& axis);
 
@@ -40,6 +43,7 @@ class PlaceSearch {
  private:
   const EdgeTree& tree_;
   const Face& face_;
+  double place_;
   Vec2 at_;
   Ball least_;
 };

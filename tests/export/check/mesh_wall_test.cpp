@@ -45,7 +45,6 @@ TEST(SampledWall, EqualsTheSideOfACube) {
   EXPECT_DOUBLE_EQ(wall.least_mm, 2.0);
   EXPECT_EQ(wall.rays, 10'000u);
   EXPECT_EQ(wall.escaped, 0u);
-  EXPECT_EQ(wall.oblique, 0u);
 }
 
 TEST(SampledWall, IsInvariantUnderTranslationAndScale) {
@@ -110,6 +109,30 @@ TEST(SampledWall, FindsTheThinnestPlace) {
   const auto& [a, b, c] = dented.triangles[wall.triangle];
   const double z = (dented.points[a].z + dented.points[b].z + dented.points[c].z) / 3.0;
   EXPECT_NEAR(z, wall.place.z, 1e-9);
+}
+
+TEST(SampledWall, IgnoresTheEndOfALip) {
+  // A tube of 4 mm whose lip is rounded to 2 mm over the last 1.5 mm, and one that stays at 2 mm
+  // for another 8 mm.
+  const auto lip = [](double narrow) {
+    return wall_of(revolve({{{{36, 0},
+                              {40, 0},
+                              {40, 40},
+                              {39, 41.5},
+                              {39, 41.6 + narrow},
+                              {37, 41.6 + narrow},
+                              {37, 41.5},
+                              {36, 40}}}},
+                           kSegments));
+  };
+  // The middle of a facet is nearer to the axis than its sides.
+  EXPECT_NEAR(lip(0.0).least_mm, 4.0, 4.0 * 0.02);
+  EXPECT_NEAR(lip(8.0).least_mm, 2.0, 2.0 * 0.02);
+}
+
+TEST(SampledWall, OfARodIsItsDiameter) {
+  const SampledWall rod = wall_of(revolve({{{{0, 0}, {3, 0}, {3, 40}, {0, 40}}}}, kSegments));
+  EXPECT_NEAR(rod.least_mm, 6.0, 6.0 * 0.02);
 }
 
 TEST(SampledWall, CountsRaysThatEscapeThroughAHole) {

@@ -129,7 +129,9 @@ TEST(RunExport, ThinWallsAreSmoothedNoThinner) {
   EXPECT_EQ(result->report.section.smoothing, Smoothing::fair);
   const double facets =
       std::cos(std::numbers::pi / static_cast<double>(result->report.size.segments));
-  EXPECT_GE(result->report.walls.min_wall_mm, min_wall(stack).thickness_mm * facets * (1.0 - 1e-9));
+  // Of the steps, at the bulge: from the bore of a ring to the outside of its neighbour.
+  const double steps = (40.0 + 3.9 * 0.995) - (39.7 + 4.1);
+  EXPECT_GE(result->report.walls.min_wall_mm, steps * facets * (1.0 - 1e-9));
 }
 
 TEST(RunExport, WallIsThatOfTheFacets) {
@@ -138,8 +140,10 @@ TEST(RunExport, WallIsThatOfTheFacets) {
   const auto result = exported(pot_of(stack_of(30.0, {{40, 0}, {40, 35}})), {}, options);
   // A dodecagon of the area of the unit circle has this radius.
   const double factor = std::sqrt(std::numbers::pi / (6.0 * std::sin(std::numbers::pi / 6)));
-  EXPECT_NEAR(result->report.walls.min_wall_mm, 5.0 * factor * std::cos(std::numbers::pi / 12),
-              1e-9);
+  // Less twice the rounding of float32 at 41 mm from the origin, with heights up to 60 mm.
+  const double wall = 5.0 * factor * std::cos(std::numbers::pi / 12);
+  EXPECT_LT(result->report.walls.min_wall_mm, wall);
+  EXPECT_GT(result->report.walls.min_wall_mm, wall - 2.0 * std::ldexp(std::hypot(41.0, 60.0), -24));
 }
 
 TEST(RunExport, PiecesOnlyWhenAllowed) {

@@ -17,7 +17,9 @@ struct SampledWall {
   glm::dvec3 place{0.0};       ///< the start of that ray on the surface [mm]
   std::uint32_t triangle = 0;  ///< the triangle it started on
   std::size_t rays = 0;        ///< rays followed to their ends
-  std::size_t oblique = 0;  ///< hit a surface turned by more than 45 degrees: an edge, not a wall
+  /// At an edge, not a wall: hit a surface turned by more than 45 degrees; or thinner than all
+  /// before, with the end of the clay close on one side.
+  std::size_t oblique = 0;
   std::size_t escaped = 0;  ///< hit nothing: the mesh is open there
 };
 
@@ -32,7 +34,9 @@ inline constexpr std::size_t kMostWallSamples = 10'000'000;
 /// The points are evenly distributed by area (strata in the order of the triangles, Halton points
 /// within them; deterministic). Front faces are passed: the ray's own triangle, and neighbours that
 /// rounding puts in its way. If the back face is turned by more than 45 degrees against the ray, as
-/// beside the edge of a rim, the distance is not a wall thickness and is not counted.
+/// beside the edge of a rim, the distance is not a wall thickness and is not counted. Neither is it
+/// where the clay ends within one thickness of the ray's middle on one side only: the ends of lips
+/// and flanges are no walls for `min_wall` either.
 ///
 /// If the work exceeds `most_steps`, fewer rays are followed, still evenly distributed; `rays`
 /// holds their number. `progress` is called with the number of rays done or skipped, up to

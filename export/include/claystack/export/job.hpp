@@ -134,8 +134,9 @@ struct SolidSize {
 };
 
 struct WallReport {
-  double min_wall_mm = 0.0;  ///< lower bound for the solid before rounding
-  Wall thinnest;             ///< the thinnest place of the section
+  /// Lower bound for the solid with its facets, rounded as in a binary STL: the wall of the pot.
+  double min_wall_mm = 0.0;
+  Wall thinnest;  ///< the thinnest place of the section
   /// Smoothing `exact`: the minimum wall of the steps, if overshoot made a thinner edge.
   std::optional<double> as_steps_mm;
   std::vector<WallSample> field;   ///< of the section, if requested

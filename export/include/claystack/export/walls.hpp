@@ -20,26 +20,28 @@ namespace clay::solid::inline walls {
 struct Wall {
   double thickness_mm = 0.0;
   ProfilePoint from, to;
+  bool compact = false;  ///< the clay has no wall: this is the largest disc in it
 };
 
-/// Minimum wall thickness [mm] of the solid of revolution of a certified profile. Exact for the
-/// profile's edges up to rounding (and, at the limit of the ridge rule below, up to the length of
-/// an edge).
+/// Minimum wall thickness [mm] of the solid of revolution of a certified profile.
 ///
-/// Two points of a piece are opposite if the inward normals of their edges are more than 150
-/// degrees apart and the segment between them lies in clay at both ends; faces at 30 degrees or
-/// more to each other meet in an edge and are no wall. The thickness between opposite points is the
-/// diameter of the smallest ball that touches the face at one point and passes through the other:
-/// |d|^2 / (d n) for the segment d and the normal n. At a reentrant corner the ball may touch in
-/// any direction between the two normals: there the thickness is the distance. Where clay reaches
-/// the axis, balls centred on the axis that touch an outside leaning by at most 30 degrees also
-/// count (2R).
+/// A wall is the clay between two points of the boundary that a disc in the section connects: it
+/// touches the face at one point and passes through the other, and its diameter is the thickness,
+/// |d|^2 / (d n) for the segment d between the points and the inward normal n. The segment lies in
+/// clay at both ends, and the inward normals are more than 90 degrees apart. At a reentrant corner
+/// the disc may touch in any direction between the two normals: there the thickness is the
+/// distance. Across the axis, clay continues as its mirror image.
 ///
-/// A flange is as thick as it is high. What protrudes less than a quarter of that, such as a step
-/// of a stack, is a ridge and not a wall: the boundary between two opposite points must be at least
-/// 1.5 times as long as the thickness (half a circle has pi / 2). Where both edges continue beyond
-/// the points, up to half the thickness of them counts as well, so that a lip is as thin as its
-/// end.
+/// The boundary between the two points must be at least three diameters long, either way round.
+/// So the clay continues on both sides of the disc: a flange counts where it is longer than it is
+/// thick, and so does a lip. What protrudes less is an edge, a step or a rounded end. No angle
+/// decides: two faces that meet in a wedge of 2 atan(1/3) = 37 degrees or less are thin where they
+/// meet, and a blunter wedge is thin nowhere. A piece of clay in which no disc has that much
+/// boundary, such as a round hoop, is as thick as the largest disc in it (to 0.1 %): the thickness
+/// is never infinite.
+///
+/// For a polygon this minimum is exact up to rounding: for each pair of edges the disc is a convex
+/// function of both places, and the length of the boundary a linear one.
 ///
 /// Every rho is first multiplied by `rho_scale`: cos(pi / n) gives the wall of the n-gon revolve,
 /// whose sectors are prisms over the scaled profile. The places are those of the unscaled profile.
@@ -47,6 +49,17 @@ struct Wall {
 
 /// `min_wall(profile).thickness_mm`.
 [[nodiscard]] double min_wall_mm(const Profile& profile);
+
+struct WallBounds {
+  double lower_mm = 0.0, upper_mm = 0.0;
+};
+
+/// Bounds of the minimum wall of a solid whose sections are the profile with rho multiplied by
+/// factors from `least_scale` to `greatest_scale`. A disc in a section is contained in a wider
+/// one, and has more boundary there. So the lower bound is that of the narrowest section with the
+/// boundary of the widest, and the upper bound is that of the widest section.
+[[nodiscard]] WallBounds wall_bounds(const Profile& profile, double least_scale,
+                                     double greatest_scale);
 
 /// The kind of a boundary point, in the order of the polygon: the outer wall rises from the foot to
 /// the rim, the rest belongs to the bore. Floors face up and lids face down, within 45 degrees.

@@ -1,0 +1,97 @@
+// One wall for one pot, whichever command states it. CLAYSTACK_WALL_POTS=500 throws 500 pots.
+
+#include "claystack/engine/files.hpp"
+#include "tests/support/run_program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iomanip>
+#include <random>
+#include <sstream>
+
+namespace clay::test {
+namespace {
+
+std::size_t pots() {
+  const char* const text = std::getenv("CLAYSTACK_WALL_POTS");
+  return text ? std::strtoul(text, nullptr, 10) : 8;
+}
+
+/// A hollow lump and one press of a ball against it, from outside or from inside, upwards or
+/// downwards.
+void throw_at_random(std::mt19937_64& random, const std::string& scene_path,
+                     const std::string& session_path) {
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  SceneSpec scene;
+  scene.name = "pot";
+  scene.lump.rings = static_cast<std::size_t>(uniform(40, 160));
+  scene.lump.max_rings = 2 * scene.lump.rings;
+  scene.lump.ring_height_mm = uniform(0.3, 1.0);
+  scene.lump.outer_radius_mm = uniform(25, 60);
+  const double wall = uniform(3, 15);
+  scene.lump.inner_radius_mm = scene.lump.outer_radius_mm - wall;
+  const double ball = uniform(3, 12);
+  scene.tool.shape = SphereSpec{ball};
+  if (uniform(0, 1) < 0.7) scene.clay = ClaySpec{};
+  const bool inside = uniform(0, 1) < 0.4 && scene.lump.inner_radius_mm > ball + 1.0;
+  const double depth = uniform(0.2, 0.9) * wall;
+  const double height = static_cast<double>(scene.lump.rings) * scene.lump.ring_height_mm;
+  const double from = uniform(0, height), to = uniform(0, 1.2 * height);
+  Session session{scene.name, hash_of(scene), {}, false};
+  for (int k = 0; k <= 400; ++k) {
+    const double part = k / 400.0, in = depth * std::min(1.0, 2.0 * part);
+    const double d =
+        inside ? scene.lump.inner_radius_mm - ball + in : scene.lump.outer_radius_mm + ball - in;
+    session.poses.push_back(quantized({1000 * k, {d, from + part * (to - from), 0.0}}));
+  }
+  write_text(scene_path, write_scene(scene));
+  write_text(session_path, write_session(session));
+}
+
+TEST(WallVerdict, IsTheSameOfThrowExportCheckAndCertificate) {
+  std::mt19937_64 random(20'261'123);
+  std::size_t passed = 0, failed = 0;
+  for (std::size_t k = 0; k < pots(); ++k) {
+    const ScratchFolder folder;
+    const std::string scene = folder.file("p.scene.json"), pot = folder.file("p.pot.json"),
+                      stl = folder.file("p.stl");
+    throw_at_random(random, scene, folder.file("p.session"));
+    const Ran thrown = claystack("throw --json " + scene + " -o " + pot);
+    ASSERT_EQ(thrown.status, 0) << thrown.err;
+    if (thrown.json().at("min_wall_mm").is_null()) continue;
+    const double wall = thrown.json().at("min_wall_mm");
+    const Ran plain = claystack("export --json " + pot + " " + stl);
+    EXPECT_EQ(plain.json().at("min_wall_mm"), wall);
+    EXPECT_EQ(claystack("check --json " + pot).json().at("min_wall_mm"), wall);
+    // Smoothing respects a limit, so a wall near it may differ within the tolerance. Asks for a little
+    // less or a little more than there is.
+    for (const double asked : {wall * (1.0 - 1e-9), wall * (1.0 + 1e-9)}) {
+      std::ostringstream limit_text;
+      limit_text << " --min-wall " << std::setprecision(17) << asked << ' ';
+      const std::string limit = limit_text.str();
+      const Ran exported = claystack("export --json --certificate" + limit + pot + " " + stl);
+      const Ran checked = claystack("check --json" + limit + pot);
+      const int expected = exported.json().at("min_wall_mm") >= asked ? 0 : 1;
+      EXPECT_EQ(exported.status, expected) << exported.out << exported.err;
+      EXPECT_EQ(checked.status, expected) << checked.out;
+      ++(expected == 0 ? passed : failed);
+      EXPECT_EQ(exported.json().at("min_wall_mm"), checked.json().at("min_wall_mm"));
+      const Ran proved =
+          claystack("check --json --certificate " + stl + ".certificate.json " + stl);
+      EXPECT_EQ(proved.status, 0) << proved.out;
+      const auto bounds = proved.json().at("certificate").at("wall_mm");
+      EXPECT_EQ(bounds.at(0), exported.json().at("min_wall_mm"));
+      EXPECT_GE(bounds.at(1), bounds.at(0));
+      EXPECT_NEAR(exported.json().at("min_wall_mm"), wall, 0.02);
+    }
+  }
+  EXPECT_GE(2 * passed, pots());
+  EXPECT_GE(2 * failed, pots());
+}
+
+}  // namespace
+}  // namespace clay::test
