@@ -28,7 +28,7 @@ int print(const std::string& only) {
   int failed = 0, literal_failed = 0, literal_ran = 0, count = 0;
   for (const Case& c : cases()) {
     if (!only.empty() && only != c.name) continue;
-    const Outcome engine = c.run(Who::conserving), literal = c.run(Who::literal);
+    const Outcome engine = c.run(Model::conserving), literal = c.run(Model::literal);
     fmt::print("{:<26} {:<4}  {:<4}  {}\n{:<26} {:<4}  {:<4}  {}\n", c.name, word(engine.verdict),
                word(literal.verdict), engine.note, "", "", "", literal.note);
     std::fflush(stdout);  // shows progress

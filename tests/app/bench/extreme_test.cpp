@@ -20,13 +20,13 @@ namespace {
 class Extreme : public testing::TestWithParam<Case> {};
 
 TEST_P(Extreme, EngineMeetsEveryRequiredResult) {
-  const Outcome outcome = GetParam().run(Who::conserving);
+  const Outcome outcome = GetParam().run(Model::conserving);
   EXPECT_EQ(outcome.verdict, Verdict::passed) << outcome.note;
 }
 
 /// A suite that the paper as printed passes would not test anything.
 TEST_P(Extreme, LiteralPaperGivesItsExpectedResult) {
-  const Outcome outcome = GetParam().run(Who::literal);
+  const Outcome outcome = GetParam().run(Model::literal);
   EXPECT_EQ(outcome.verdict, GetParam().literal) << outcome.note;
 }
 

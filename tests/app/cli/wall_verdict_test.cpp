@@ -67,8 +67,8 @@ TEST(WallVerdict, IsTheSameOfThrowExportCheckAndCertificate) {
     const Ran plain = claystack("export --json " + pot + " " + stl);
     EXPECT_EQ(plain.json().at("min_wall_mm"), wall);
     EXPECT_EQ(claystack("check --json " + pot).json().at("min_wall_mm"), wall);
-    // Smoothing respects a limit, so a wall near it may differ within the tolerance. Asks for a little
-    // less or a little more than there is.
+    // Smoothing respects a limit, so a wall near it may differ within the tolerance. Asks for a
+    // little less or a little more than there is.
     for (const double asked : {wall * (1.0 - 1e-9), wall * (1.0 + 1e-9)}) {
       std::ostringstream limit_text;
       limit_text << " --min-wall " << std::setprecision(17) << asked << ' ';
