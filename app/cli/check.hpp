@@ -61,6 +61,6 @@ Result<Verdict> check_mesh_file(solid::MeshFormat format, const CheckCommand& co
                                 const Console& console);
 
 Json verdict_json(const std::string& file, const Verdict& verdict);
-void tell(const Console& console, const std::string& file, const Verdict& verdict);
+void print_verdict(const Console& console, const std::string& file, const Verdict& verdict);
 
 }  // namespace clay::cli

@@ -67,7 +67,7 @@ int check(CheckCommand& command, const Console& console) {
     return report(error);
   }
   if (console.json) print_json(verdict_json(command.file, *verdict));
-  tell(console, command.file, *verdict);
+  print_verdict(console, command.file, *verdict);
   return verdict->mesh.sound() ? kDone : kUnsound;
 }
 

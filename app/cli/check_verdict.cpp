@@ -119,7 +119,7 @@ Json verdict_json(const std::string& file, const Verdict& verdict) {
   return json;
 }
 
-void tell(const Console& console, const std::string& file, const Verdict& verdict) {
+void print_verdict(const Console& console, const std::string& file, const Verdict& verdict) {
   const solid::MeshReport& mesh = verdict.mesh;
   const bool was_repaired = verdict.repair_summary.has_value();
   const bool sound = was_repaired ? verdict.repair_summary->found.empty() : mesh.sound();

@@ -237,8 +237,8 @@ Result<void> first_error(const Kept& kept, const Console& console) {
   return kept.session ? kept.pot : kept.session;
 }
 
-void tell(const LiveJob& job, const LiveOptions& options, const Console& console, const Json& json,
-          const Kept& kept) {
+void print_result(const LiveJob& job, const LiveOptions& options, const Console& console,
+                  const Json& json, const Kept& kept) {
   console.print(fmt::format("{:.1f} s on the wheel, {} poses, ended: {}",
                             json["seconds"].get<double>(), json["poses"].get<std::uint64_t>(),
                             json["ended"].get<std::string>()));
@@ -279,7 +279,7 @@ Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console
                {"servo", servo_json(live.timing(), live.events(), live.realtime())}};
   json.update(clay_json(*stage.wheel, pot));
   if (console.json) print_json(json);
-  tell(job, options, console, json, kept);
+  print_result(job, options, console, json, kept);
   if (auto all = first_error(kept, console); !all) return all;
   if (ending == Ending::device_lost) return tl::make_unexpected(stage.device->problem());
   if (ending == Ending::time_up && status.poses == 0)

@@ -39,7 +39,7 @@ void add_size(CLI::App& sub, RenderCommand& command) {
       ->default_str("1280x720");
 }
 
-void tell(const Console& console, const RenderCommand& command, const Rendered& done) {
+void print_picture(const Console& console, const RenderCommand& command, const Rendered& done) {
   const std::string size = fmt::format("{} x {} px", command.size.width_px, command.size.height_px);
   if (!command.out.empty() && command.out != "-")
     console.print(fmt::format("{}: {}, {} bytes", command.out, size, done.png_bytes));
@@ -84,7 +84,7 @@ int run(RenderCommand& command, Console console) {
   if (!done) return report(done.error());
   if (console.json) print_json(rendered_json(command, *done));
   if (command.out == "-" || command.turntable == "-") console.quiet = true;
-  tell(console, command, *done);
+  print_picture(console, command, *done);
   return kDone;
 }
 

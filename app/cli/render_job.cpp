@@ -62,16 +62,13 @@ Result<Pot> clay_of(const std::string& path) {
 #ifdef CLAYSTACK_EXPORT
 Result<void> map_walls(const RenderCommand& command, const Pot& pot, render::Picture& picture,
                        Rendered& done) {
-  const auto demand =
-      command.walls.demand().for_size(4.0 * largest_radius_mm(pot.stack) + pot.stack.height_mm());
-  const double limit = demand ? demand->min_wall_mm : 0.0;
-  const auto profile =
-      render::wall_profile(pot, demand ? std::optional(limit) : std::optional<double>());
-  if (!profile) return tl::make_unexpected(profile.error());
-  picture.pot.wall_mm = render::row_walls(*profile, picture.pot.rows.size(), picture.pot.height_mm);
-  picture.wall_map = done.map = render::WallMap{limit, kMapTopMm};
-  done.thinnest_mm = solid::min_wall_mm(*profile);
-  return {};
+  return render::map_walls(pot, command.walls.demand(), picture.pot.rows.size())
+      .map([&](render::MappedWalls walls) {
+        picture.pot.wall_mm = std::move(walls.rows);
+        const double limit_mm = walls.limit ? walls.limit->min_wall_mm : 0.0;
+        picture.wall_map = done.map = render::WallMap{limit_mm, kMapTopMm};
+        done.thinnest_mm = walls.min_wall_mm;
+      });
 }
 #endif
 

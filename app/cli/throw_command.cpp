@@ -53,7 +53,7 @@ Json summary(const Wheel& wheel, const ReplayStats& stats, const Session& sessio
   return json;
 }
 
-void tell(const Console& console, const Json& s) {
+void print_result(const Console& console, const Json& s) {
   console.print(fmt::format(
       "{} ticks, model {}: {} rings, {:.1f} mm high, {:.1f} cm3 of clay{}",
       s["ticks"].get<std::size_t>(), s["model"].get<std::string>(), s["rings"].get<std::size_t>(),
@@ -241,7 +241,7 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
 
   const Json json = summary(*wheel, stats, *session, pot);
   if (console.json) print_json(json);
-  tell(console, json);
+  print_result(console, json);
   if (!options.pot.empty()) console.print("pot: " + options.pot);
   return {};
 }

@@ -1,7 +1,8 @@
 #include "app/render/wall_rows.hpp"
 
+#include "claystack/engine/tick.hpp"
 #include "claystack/export/fallen.hpp"
-#include "claystack/export/smoothing.hpp"
+#include "claystack/export/job.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,7 @@
 namespace clay::render {
 namespace {
 
-constexpr double kTolerance = 0.02;  // [mm], the default of `claystack export`
+constexpr double kToleranceMm = 0.02;  // [mm], the default of `claystack export`
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
 /// Rows between samples take the thickness of the nearest row with one.
@@ -31,21 +32,25 @@ void fill_gaps(std::vector<RowWall>& walls, float RowWall::*face, std::vector<bo
 
 }  // namespace
 
-Result<solid::Profile> wall_profile(const Pot& pot, std::optional<double> min_wall_mm) {
+Result<MappedWalls> map_walls(const Pot& pot, const solid::WallDemand& demand, std::size_t rows) {
+  const double height_mm = pot.stack.height_mm();
+  const double spacing_mm = 0.5 * height_mm / static_cast<double>(std::max<std::size_t>(rows, 1));
   if (pot.collapse)
-    return solid::collapsed_parts(pot, solid::Smoothing::fair, kTolerance)
-        .map([](const solid::CollapsedParts& parts) { return parts.together(); });
-  solid::SmoothingOptions how;
-  how.min_wall_mm = min_wall_mm;
-  return solid::smooth_profile_of(pot.stack, how).map([](solid::SmoothedProfile smoothed) {
-    return std::move(smoothed.section.profile);
+    return solid::collapsed_parts(pot, solid::Smoothing::fair, kToleranceMm)
+        .map([&](const solid::CollapsedParts& parts) {
+          const solid::Profile profile = parts.together();
+          return MappedWalls{row_walls(solid::wall_field(profile, spacing_mm), rows, height_mm),
+                             solid::min_wall_mm(profile),
+                             demand.for_size(4.0 * largest_radius_mm(pot.stack) + height_mm)};
+        });
+  solid::ExportOptions options;
+  options.walls = demand;
+  options.allow_pieces = true;
+  options.wall_spacing_mm = spacing_mm;
+  return solid::run_export(pot, {}, options).map([&](const solid::ExportReport& report) {
+    return MappedWalls{row_walls(report.walls.field, rows, height_mm), report.walls.min_wall_mm,
+                       report.walls.limit};
   });
-}
-
-std::vector<RowWall> row_walls(const solid::Profile& profile, std::size_t rows, double height_mm) {
-  if (rows == 0) return {};
-  const double spacing_mm = 0.5 * height_mm / static_cast<double>(rows);
-  return row_walls(solid::wall_field(profile, spacing_mm), rows, height_mm);
 }
 
 std::vector<RowWall> row_walls(std::span<const solid::WallSample> field, std::size_t rows,

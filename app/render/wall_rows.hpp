@@ -4,25 +4,29 @@
 #include "app/render/picture.hpp"
 #include "claystack/core/result.hpp"
 #include "claystack/engine/clay.hpp"
-#include "claystack/export/section.hpp"
 #include "claystack/export/walls.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace clay::render {
 
-/// The section on which walls are measured: the smoothed profile of `claystack export`; for a
-/// collapsed pot both parts before the collapse. `min_wall_mm`: as in SmoothingOptions. Errors as
-/// for solid::smooth_profile_of and solid::collapsed_parts.
-Result<solid::Profile> wall_profile(const Pot& pot, std::optional<double> min_wall_mm = {});
+/// The walls of a pot, as a picture shows them.
+struct MappedWalls {
+  std::vector<RowWall> rows;
+  double min_wall_mm = 0.0;               ///< the wall that `claystack export` reports
+  std::optional<solid::WallLimit> limit;  ///< for a pot of this size
+};
 
-/// For each of `rows` equal parts of `height_mm`, the minimum thickness of solid::wall_field on the
-/// outside and on the bore.
-[[nodiscard]] std::vector<RowWall> row_walls(const solid::Profile& profile, std::size_t rows,
-                                             double height_mm);
-/// The same for an existing field.
+/// The walls in `rows` equal parts of the height of `pot`, by the export's job without a file. For
+/// a collapsed pot, those of the section of both parts before the collapse. Errors as for
+/// solid::run_export and solid::collapsed_parts.
+Result<MappedWalls> map_walls(const Pot& pot, const solid::WallDemand& demand, std::size_t rows);
+
+/// For each of `rows` equal parts of `height_mm`, the minimum thickness of the field on the outside
+/// and on the bore.
 [[nodiscard]] std::vector<RowWall> row_walls(std::span<const solid::WallSample> field,
                                              std::size_t rows, double height_mm);
 

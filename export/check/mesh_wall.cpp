@@ -332,14 +332,14 @@ class WallSearch {
       step_of_loop();
       probe_.probe(begin + order[i], steps, found);
       if (i % kFewRays == 0) {
-        tell(i + 1 - reported);
+        report_cast(i + 1 - reported);
         reported = i + 1;
       }
     }
-    tell(rays - reported);
+    report_cast(rays - reported);
   }
 
-  void tell(std::size_t more) {
+  void report_cast(std::size_t more) {
     if (!progress_ || more == 0) return;
     const std::lock_guard lock(progress_mutex_);
     progress_(done_ += more);

@@ -106,9 +106,10 @@ TEST(WallMap, RowsUseTheWallsOfTheSection) {
   ASSERT_TRUE(stack);
   Pot pot;
   pot.stack = *stack;
-  const auto profile = render::wall_profile(pot);
-  ASSERT_TRUE(profile) << profile.error().message;
-  const auto walls = render::row_walls(*profile, 100, 100.0);
+  const auto mapped = render::map_walls(pot, {}, 100);
+  ASSERT_TRUE(mapped) << mapped.error().message;
+  EXPECT_NEAR(mapped->min_wall_mm, 5.0, 0.02);
+  const std::vector<render::RowWall>& walls = mapped->rows;
   ASSERT_EQ(walls.size(), 100u);
   for (std::size_t row = 20; row < 95; ++row) {
     EXPECT_NEAR(walls[row].outer_mm, 5.0, 0.02) << row;
