@@ -71,7 +71,11 @@ class BallSearch {
   BallSearch(double perimeter, double limit) : perimeter_(perimeter) { least_.diameter = limit; }
 
   /// Empty if none is smaller than the limit.
-  [[nodiscard]] Ball least() const { return found_ ? least_ : Ball{}; }
+  [[nodiscard]] Ball least() const {
+    Ball ball = found_ ? least_ : Ball{};
+    ball.excluded = excluded_;
+    return ball;
+  }
 
   void edges(const Face& a, const Face& b) {
     if (!opposite(a.edge.inward, b.edge.inward) || meet(a, b) || meet(b, a)) return;
@@ -146,7 +150,8 @@ class BallSearch {
     const double cosine = -glm::dot(a.edge.inward, b.edge.inward);
     if (cross(a.edge.inward, b.edge.inward) > 0.0 && cosine >= std::cos(kSharp)) {
       found_ = true;
-      least_ = {0.0, a.edge.to, a.edge.to};
+      least_.diameter = 0.0;
+      least_.from = least_.to = a.edge.to;
     }
     return true;
   }
@@ -154,9 +159,13 @@ class BallSearch {
   void keep(const Line& a, double u, const Line& b, double v, double diameter) {
     if (!(diameter < least_.diameter)) return;
     const double around = std::abs(b.arc_at(v) - a.arc_at(u));
-    if (std::min(around, perimeter_ - around) < kSpan * diameter * (1.0 - kRounding)) return;
+    if (std::min(around, perimeter_ - around) < kSpan * diameter * (1.0 - kRounding)) {
+      excluded_ = std::min(excluded_, diameter);
+      return;
+    }
     found_ = true;
-    least_ = {diameter, a.at(u), b.at(v)};
+    least_.diameter = diameter;
+    least_.from = a.at(u), least_.to = b.at(v);
     if (swapped_) std::swap(least_.from, least_.to);
   }
 
@@ -232,7 +241,7 @@ class BallSearch {
     each_root(across, -2.0 * along, -across, solve);
   }
 
-  double perimeter_;
+  double perimeter_, excluded_ = Ball{}.excluded;
   Ball least_;
   bool found_ = false, swapped_ = false;
 };
@@ -327,7 +336,7 @@ Ball AxisClay::least_ball(const Face& face, double from, double to) const {
     const double diameter = 2.0 * p.x / slant;
     if (diameter < best.diameter &&
         half_way(u) >= 0.5 * kSpan * diameter * (1.0 - kRounding) - kRounding)
-      best = {diameter, p, mirrored(p)};
+      best.diameter = diameter, best.from = p, best.to = mirrored(p);
   };
   face.each_corner([&](const ReentrantCorner& corner, double u) {
     if (u >= from && u <= to && corner.faces({-1.0, 0.0}) && has_clay(corner.at.y)) touch(u, 1.0);

@@ -16,6 +16,8 @@ namespace clay::solid::inline walls {
 struct Ball {
   double diameter = std::numeric_limits<double>::infinity();
   Vec2 from{0.0}, to{0.0};  ///< points of contact
+  /// Diameter of the smallest ball that was met and has too little boundary, see `kSpan`.
+  double excluded = std::numeric_limits<double>::infinity();
 };
 
 /// A corner where the clay fills more than a half-plane: a ball may touch it from every direction

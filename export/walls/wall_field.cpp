@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace clay::solid::inline walls {
 namespace {
@@ -59,6 +61,7 @@ class Field {
         if (leaf.first_piece != piece) break;
         for (const Face& face : LeafFaces(tree_, leaf)) add_samples(face, axis, names);
       }
+      fill_ends();
     }
     return std::move(samples_);
   }
@@ -93,8 +96,31 @@ class Field {
     arc_mm_ += glm::length(along);
   }
 
+  /// A sample at an end of a wall, where a smaller ball has too little boundary, gets the thickness
+  /// of the nearest sample of its piece that is not at an end.
+  void fill_ends() {
+    const std::size_t end = samples_.size(), none = end;
+    std::vector<std::size_t> below(end - piece_begin_, none);
+    for (std::size_t i = piece_begin_, last = none; i < end; ++i)
+      below[i - piece_begin_] = last = at_end_[i] ? last : i;
+    for (std::size_t i = end, above = none; i-- > piece_begin_;) {
+      if (!at_end_[i]) above = i;
+      const std::size_t low = below[i - piece_begin_];
+      if (!at_end_[i] || (low == none && above == none)) continue;
+      const auto distance = [&](std::size_t j) {
+        return j == none ? std::numeric_limits<double>::infinity()
+                         : std::abs(samples_[j].arc_mm - samples_[i].arc_mm);
+      };
+      const WallSample& nearest = samples_[distance(low) <= distance(above) ? low : above];
+      samples_[i].thickness_mm = nearest.thickness_mm;
+      samples_[i].opposite = nearest.opposite;
+    }
+    piece_begin_ = end;
+  }
+
   void add_sample(const Face& face, double t, const AxisClay& axis) {
     const Ball ball = PlaceSearch(tree_, face, t).run(axis);
+    at_end_.push_back(ball.excluded < ball.diameter);
     const Vec2 at = face.edge.from + t * (face.edge.to - face.edge.from);
     const bool found = std::isfinite(ball.diameter);
     samples_.push_back(
@@ -109,6 +135,8 @@ class Field {
   std::size_t stride_ = 1, met_ = 0;
   double arc_mm_ = 0.0;
   std::vector<WallSample> samples_;
+  std::vector<bool> at_end_;     ///< of each sample
+  std::size_t piece_begin_ = 0;  ///< the first sample of the present piece
 };
 
 }  // namespace

@@ -85,7 +85,6 @@ double PlaceSearch::bound(const EdgeNode& place, const EdgeNode& node) const {
                          node.half_width * std::abs(cross(node.along, normal));
   if (highest <= 0.0) return kNone;
   const double distance = least_distance(place, node);
-  if (no_wall_between(tree_, place, node, distance)) return kNone;
   return distance * std::max(1.0, distance / highest);
 }
 
@@ -93,7 +92,9 @@ void PlaceSearch::leaves(const EdgeNode&, const EdgeNode& leaf) {
   for (const Face& other : LeafFaces(tree_, leaf)) {
     if (other.edge.index == face_.edge.index) continue;
     const Ball ball = least_ball_at(face_, place_, other, tree_.perimeter(face_.piece), best());
+    const double excluded = std::min(least_.excluded, ball.excluded);
     if (ball.diameter < best()) least_ = ball;
+    least_.excluded = excluded;
   }
 }
 

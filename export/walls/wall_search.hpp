@@ -25,7 +25,8 @@ class WallSearch {
   Ball least_;
 };
 
-/// Searches the balls that touch a face at a place from 0 (its begin) to 1 (its end).
+/// Searches the balls that touch a face at a place from 0 (its begin) to 1 (its end), also those
+/// that have too little boundary and are smaller.
 class PlaceSearch {
  public:
   PlaceSearch(const EdgeTree& tree, const Face& face, double place)

@@ -40,6 +40,18 @@ TEST(WallField, RespectsSpacingAndLimit) {
   EXPECT_GT(many.size(), kMaxWallSamples / 2);
 }
 
+TEST(WallField, ContinuesAWallToItsLip) {
+  // Near the lip, the boundary between two opposite points is shorter than three diameters.
+  const Polygon pot{{0, 0}, {40, 0}, {40, 60}, {35, 60}, {35, 9}, {0, 9}};
+  std::size_t samples = 0;
+  for (const WallSample& sample : wall_field({{pot}}, 0.5)) {
+    if (sample.face == WallFace::floor || sample.at.y < 15.0) continue;
+    EXPECT_NEAR(sample.thickness_mm, 5.0, 1e-9) << sample.at.rho << ", " << sample.at.y;
+    ++samples;
+  }
+  EXPECT_GT(samples, 180u);
+}
+
 RC_GTEST_PROP(WallField, ConvergesToTheMinimumWall, ()) {
   auto random = *samples::random_engine();
   // Walls that change slowly, without sharp edges.

@@ -79,7 +79,8 @@ inline constexpr std::size_t kMaxWallSamples = 100'000;
 /// Thickness along every face, at the middles of equal parts of its edges, each at most
 /// `spacing_mm` > 0 long. Above `kMaxWallSamples`, only every second, third, ... sample is kept. No
 /// sample is thinner than `min_wall`, to its accuracy; as the spacing shrinks, the thinnest
-/// converges to it.
+/// converges to it. Where a wall ends, as at a lip, the discs have too little boundary: samples
+/// there have the thickness of the nearest sample that is not at an end.
 [[nodiscard]] std::vector<WallSample> wall_field(const Profile& profile, double spacing_mm);
 
 /// "outer", "bore", ...
