@@ -61,11 +61,13 @@ class LeafFaces {
   std::size_t count_ = 0;
 };
 
-/// The inward normals of opposite faces are more than 90 degrees apart. That keeps the search away
-/// from neighbouring faces; what is a wall is decided by `kSpan`.
-inline constexpr double kOpposite = std::numbers::pi / 2.0;  ///< [rad]
+/// The inward normals of opposite faces are more than 90 degrees apart, by more than rounding: the
+/// faces of a step are not opposite. That keeps the search away from neighbouring faces; what is a
+/// wall is decided by `kSpan`.
+inline constexpr double kTurnSlack = 1e-9;                                ///< [rad]
+inline constexpr double kOpposite = std::numbers::pi / 2.0 + kTurnSlack;  ///< [rad]
 [[nodiscard]] inline bool opposite(const Vec2& normal, const Vec2& other) {
-  return glm::dot(normal, other) < 0.0;
+  return glm::dot(normal, other) < -kTurnSlack;
 }
 
 /// A ball spans a wall if the boundary between its points of contact is at least this many

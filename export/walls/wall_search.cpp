@@ -77,7 +77,7 @@ Ball PlaceSearch::run(const AxisClay& axis) {
   return least_;
 }
 
-double PlaceSearch::bound(const EdgeNode& place, const EdgeNode& node) const {
+double PlaceSearch::bound(const EdgeNode& place, const EdgeNode& node) {
   if (no_opposites(place, node)) return kNone;
   const Vec2& normal = face_.edge.inward;
   const double highest = glm::dot(node.centre - at_, normal) +
@@ -85,7 +85,10 @@ double PlaceSearch::bound(const EdgeNode& place, const EdgeNode& node) const {
                          node.half_width * std::abs(cross(node.along, normal));
   if (highest <= 0.0) return kNone;
   const double distance = least_distance(place, node);
-  return distance * std::max(1.0, distance / highest);
+  const double diameter = distance * std::max(1.0, distance / highest);
+  if (!no_wall_between(tree_, place, node, distance)) return diameter;
+  least_.excluded = std::min(least_.excluded, diameter);
+  return kNone;
 }
 
 void PlaceSearch::leaves(const EdgeNode&, const EdgeNode& leaf) {

@@ -25,8 +25,8 @@ class WallSearch {
   Ball least_;
 };
 
-/// Searches the balls that touch a face at a place from 0 (its begin) to 1 (its end), also those
-/// that have too little boundary and are smaller.
+/// Searches the balls that touch a face at a place from 0 (its begin) to 1 (its end). `excluded` of
+/// the result is the diameter of a smaller ball with too little boundary, or a lower bound of it.
 class PlaceSearch {
  public:
   PlaceSearch(const EdgeTree& tree, const Face& face, double place)
@@ -37,7 +37,7 @@ class PlaceSearch {
 
   [[nodiscard]] Ball run(const AxisClay& axis);
 
-  [[nodiscard]] double bound(const EdgeNode& place, const EdgeNode& node) const;
+  [[nodiscard]] double bound(const EdgeNode& place, const EdgeNode& node);
   [[nodiscard]] double best() const { return least_.diameter; }
   void leaves(const EdgeNode& place, const EdgeNode& leaf);
 
