@@ -48,22 +48,31 @@ struct Work::Running final : PoseSink {
   std::string begin_line;
   std::vector<Pose> poses;
   std::vector<bool> touching;  // for each of them
+  bool touched = false;        // any of them
   Journal* journal = nullptr;
+  std::size_t written = 0;  // poses in the journal
 
-  /// The stroke's line is written with its first poses: a stroke without poses leaves no line.
   Result<void> append(const PoseBlock& block) override {
-    const std::span<const Pose> more = block.poses;
-    assert(block.contact.size() == more.size());
-    if (more.size() > room - poses.size()) return tl::make_unexpected(full());
-    if (journal != nullptr) {
-      if (poses.empty()) journal->append(begin_line);
-      journal->append(session_block(more));
-    }
-    poses.insert(poses.end(), more.begin(), more.end());
+    assert(block.contact.size() == block.poses.size());
+    if (block.poses.size() > room - poses.size()) return tl::make_unexpected(full());
+    poses.insert(poses.end(), block.poses.begin(), block.poses.end());
     touching.insert(touching.end(), block.contact.begin(), block.contact.end());
+    touched = touched || std::ranges::find(block.contact, true) != block.contact.end();
+    if (touched) write();
     return {};
   }
   Result<void> finish() override { return {}; }
+
+  /// The journal gets the stroke with its first contact: a stroke in free air leaves no line.
+  void write() {
+    if (journal == nullptr) return;
+    if (written == 0) journal->append(begin_line);
+    while (written < poses.size()) {
+      const std::size_t count = std::min(poses.size() - written, kPosesPerBlock);
+      journal->append(session_block(std::span(poses).subspan(written, count)));
+      written += count;
+    }
+  }
 };
 
 /// A wheel in the middle of a stroke.
@@ -143,8 +152,11 @@ Result<Begun> Work::begin_stroke(const SceneSpec& scene) {
 
 bool Work::in_stroke() const noexcept { return running_ != nullptr; }
 
-Result<Added> Work::end_stroke(std::optional<Pot> thrown) {
-  return finish_stroke(true, std::move(thrown));
+Result<Added> Work::end_stroke(std::optional<Pot> thrown, Recording recording) {
+  assert(running_);
+  if (running_->touched) return finish_stroke(recording, std::move(thrown));
+  running_.reset();
+  return Added{at(), 0};
 }
 
 Result<Added> Work::add(const SceneSpec& scene, std::vector<Pose> poses) {
@@ -157,13 +169,13 @@ Result<Added> Work::add(const SceneSpec& scene, std::vector<Pose> poses) {
     (void)begun->sink->append({block, std::span(kUnknown).first(block.size())});
     rest = rest.subspan(block.size());
   }
-  return finish_stroke(false, std::nullopt);
+  return finish_stroke(Recording::one_stroke, std::nullopt);
 }
 
-Result<Added> Work::finish_stroke(bool may_split, std::optional<Pot> thrown) {
-  assert(running_);
+Result<Added> Work::finish_stroke(Recording recording, std::optional<Pot> thrown) {
   const std::unique_ptr<Running> stroke = std::move(running_);
   if (stroke->poses.empty()) return Added{at(), 0};
+  stroke->write();
   const auto before = pot();
   if (!before) return tl::make_unexpected(before.error());
   const SceneSpec scene = record_.scenes[stroke->scene];
@@ -172,8 +184,9 @@ Result<Added> Work::finish_stroke(bool may_split, std::optional<Pot> thrown) {
                           return replay(std::move(wheel), stroke->poses);
                         });
   if (!whole) return tl::make_unexpected(whole.error());
-  Split parts = may_split ? split(scene, **before, stroke->poses, std::move(*whole))
-                          : as_one(std::move(*whole));
+  Split parts = recording == Recording::several_strokes
+                    ? split(scene, **before, stroke->poses, std::move(*whole))
+                    : as_one(std::move(*whole));
   if (stroke->journal != nullptr) {
     stroke->journal->append(work_end_line(stroke->poses.size(), parts.begins));
     stroke->journal->sync_soon();

@@ -43,8 +43,12 @@ struct Begun {
 /// The result of adding a stroke.
 struct Added {
   NodeId node = 0;          ///< the new current node; of several strokes the last
-  std::size_t strokes = 0;  ///< 0: there were no poses, and nothing was added
+  std::size_t strokes = 0;  ///< 0: nothing was added, and redo is still possible
 };
+
+/// Whether a recording may become several strokes (split.hpp). A press of the mouse is one stroke;
+/// an arm is held all the time.
+enum class Recording { one_stroke, several_strokes };
 
 class Work {
  public:
@@ -62,11 +66,12 @@ class Work {
   /// Begins a stroke on the current pot, until end_stroke. Errors as for Wheel::build, and a full
   /// work.
   Result<Begun> begin_stroke(const SceneSpec& scene);
-  /// Call after the recorder has finished. Splits the stroke where the tool was in free air long
-  /// enough (split.hpp), and makes it current. `thrown`: the pot that these poses, all of them and
-  /// no others, made of the wheel of begin_stroke; it is kept without playing them again. Without
-  /// it the poses are replayed. Errors as for Wheel::build.
-  Result<Added> end_stroke(std::optional<Pot> thrown = std::nullopt);
+  /// Call after the recorder has finished. Makes the stroke current. A stroke in which the tool
+  /// touched nothing is not added. `thrown`: the pot that these poses, all of them and no others,
+  /// made of the wheel of begin_stroke; it is kept without playing them again. Without it the poses
+  /// are replayed. Errors as for Wheel::build.
+  Result<Added> end_stroke(std::optional<Pot> thrown = std::nullopt,
+                           Recording recording = Recording::several_strokes);
   /// Both in one call, for existing poses, which are replayed. Not split.
   Result<Added> add(const SceneSpec& scene, std::vector<Pose> poses);
   [[nodiscard]] bool in_stroke() const noexcept;
@@ -116,7 +121,7 @@ class Work {
 
   [[nodiscard]] std::size_t room() const noexcept;  ///< poses that it can still hold
   std::size_t index_of(const SceneSpec& scene);
-  Result<Added> finish_stroke(bool may_split, std::optional<Pot> thrown);
+  Result<Added> finish_stroke(Recording recording, std::optional<Pot> thrown);
   void append(std::size_t scene, std::vector<Pose> poses, Pot pot);
   void learn(NodeId node, const Pot& before, SharedPot pot);
   [[nodiscard]] Error named(NodeId node, const Error& error) const;

@@ -161,8 +161,8 @@ Result<history::Begun> Document::begin_stroke(const SceneSpec& scene) {
   return begun;
 }
 
-Result<void> Document::end_stroke(std::optional<Pot> thrown) {
-  const auto added = work_->end_stroke(std::move(thrown));
+Result<void> Document::end_stroke(std::optional<Pot> thrown, history::Recording recording) {
+  const auto added = work_->end_stroke(std::move(thrown), recording);
   auto shown = show_pot();
   if (!added) return tl::make_unexpected(added.error());
   return shown;

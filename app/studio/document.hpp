@@ -106,7 +106,7 @@ class Document {
   Result<history::Begun> begin_stroke(const SceneSpec& scene);
   /// Call after the recorder has finished. `thrown`: the pot that exactly the recorded poses left
   /// on the wheel; empty: they are replayed. Shows the new pot.
-  Result<void> end_stroke(std::optional<Pot> thrown);
+  Result<void> end_stroke(std::optional<Pot> thrown, history::Recording recording);
 
   // --- The tree of strokes. Not during a stroke. -------------------------------------------------
   [[nodiscard]] bool can_undo() const noexcept { return work_ && work_->can_undo(); }

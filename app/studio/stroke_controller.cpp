@@ -71,7 +71,7 @@ Result<void> StrokeController::start_servo(const SceneSpec& scene, falcon::Hapti
                                        .trace = &trace_},
                                       settings);
   if (!live) {
-    (void)document_.end_stroke(std::nullopt);  // without a pose no stroke is added
+    (void)document_.end_stroke(std::nullopt, history::Recording::one_stroke);  // adds none
     return tl::make_unexpected(live.error());
   }
   live_.emplace(std::move(*live));
@@ -108,7 +108,10 @@ void StrokeController::release() {
                         "The end of the stroke is lost: the machine was too slow to record it"};
   else
     thrown = wheel_->pot();
-  if (auto added = document_.end_stroke(std::move(thrown)); !added) news_.error = added.error();
+  const auto recording =
+      device_ ? history::Recording::several_strokes : history::Recording::one_stroke;
+  if (auto added = document_.end_stroke(std::move(thrown), recording); !added)
+    news_.error = added.error();
   live_.reset();
   wheel_.reset();
   if (news_.ending == servo::Ending::device_lost) lose_device();

@@ -10,32 +10,48 @@
 namespace clay::solid::inline walls {
 namespace {
 
-/// The boundary's point nearest to a point.
-class NearestPoint {
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
+/// The point of an edge nearest to `at`.
+Vec2 nearest_on(const Edge& edge, const Vec2& at) {
+  const Vec2 along = edge.to - edge.from;
+  const double place = glm::dot(at - edge.from, along) / glm::dot(along, along);
+  return edge.from + std::clamp(place, 0.0, 1.0) * along;
+}
+
+/// The edge nearest to a point; with `toward`, of those whose nearest point lies in that direction.
+class NearestEdge {
  public:
-  NearestPoint(const EdgeTree& tree, const Vec2& at) : tree_(tree), at_(at) {}
+  NearestEdge(const EdgeTree& tree, const Vec2& at, const Vec2& toward = Vec2{0.0})
+      : tree_(tree), at_(at), toward_(toward), any_(toward == Vec2{0.0}) {
+    EdgeNode place;
+    place.centre = at;
+    search_from(tree, place, *this);
+  }
 
   [[nodiscard]] double bound(const EdgeNode& place, const EdgeNode& node) const {
     return least_distance(place, node);
   }
   [[nodiscard]] double best() const { return distance_; }
   [[nodiscard]] const Vec2& point() const { return point_; }
+  [[nodiscard]] const Edge& edge() const { return edge_; }
   void leaves(const EdgeNode&, const EdgeNode& leaf) {
     for (std::uint32_t i = leaf.first; i < leaf.end; ++i) {
       const Edge edge = tree_.edge(i, leaf.first_piece);
       if (edge.on_axis()) continue;
-      const Vec2 along = edge.to - edge.from;
-      const double place = glm::dot(at_ - edge.from, along) / glm::dot(along, along);
-      const Vec2 point = edge.from + std::clamp(place, 0.0, 1.0) * along;
+      const Vec2 point = nearest_on(edge, at_);
       const double distance = glm::length(point - at_);
-      if (distance < distance_) distance_ = distance, point_ = point;
+      if (distance < distance_ && (any_ || glm::dot(point - at_, toward_) > 0.0))
+        distance_ = distance, point_ = point, edge_ = edge;
     }
   }
 
  private:
   const EdgeTree& tree_;
-  Vec2 at_, point_{0.0};
-  double distance_ = std::numeric_limits<double>::infinity();
+  Vec2 at_, toward_, point_{0.0};
+  bool any_;
+  Edge edge_;
+  double distance_ = kNone;
 };
 
 /// Whether a ray from the point outwards crosses the boundary an odd number of times.
@@ -86,14 +102,33 @@ class DiscSearch {
  private:
   void add(const Vec2& centre, double half) {
     // On this side of the axis the mirror image is never nearer than the boundary itself.
-    EdgeNode place;
-    place.centre = {std::abs(centre.x), centre.y};
-    NearestPoint nearest(tree_, place.centre);
-    search_from(tree_, place, nearest);
-    const double radius = in_clay(tree_, place.centre) ? nearest.best() : -nearest.best();
-    if (radius > best_.radius) best_ = {place.centre, nearest.point(), radius};
-    const double most = radius + half * std::numbers::sqrt2;
-    if (most > best_.radius * (1.0 + kDiscTolerance)) open_.push({centre, half, most});
+    const Vec2 at{std::abs(centre.x), centre.y};
+    const NearestEdge nearest(tree_, at);
+    const double radius = in_clay(tree_, at) ? nearest.best() : -nearest.best();
+    if (radius > best_.radius) best_ = {at, nearest.point(), radius};
+    double most = radius + half * std::numbers::sqrt2;
+    const double enough = best_.radius * (1.0 + kDiscTolerance);
+    if (radius > 0.0 && most > enough) most = std::min(most, between(at, half, nearest));
+    if (most > enough) open_.push({centre, half, most});
+  }
+
+  /// Upper bound of the radius for centres in a square. A disc reaches no further than to the
+  /// nearest edge and to the nearest one on the other side. Both distances are convex, so their
+  /// mean is greatest at a corner. In clay of even thickness it is the same everywhere.
+  double between(const Vec2& at, double half, const NearestEdge& nearest) const {
+    const Vec2 toward = at - nearest.point();
+    const NearestEdge other(tree_, at, toward), image(tree_, mirrored(at), mirrored(toward));
+    const bool across = image.best() < other.best();
+    if (!std::isfinite(std::min(image.best(), other.best()))) return kNone;
+    Edge opposite = across ? image.edge() : other.edge();
+    if (across) opposite.from = mirrored(opposite.from), opposite.to = mirrored(opposite.to);
+    double most = 0.0;
+    for (const Vec2 corner : {Vec2{-1, -1}, Vec2{-1, 1}, Vec2{1, -1}, Vec2{1, 1}}) {
+      const Vec2 c = at + half * corner;
+      most = std::max(most, 0.5 * (glm::length(nearest_on(nearest.edge(), c) - c) +
+                                   glm::length(nearest_on(opposite, c) - c)));
+    }
+    return most;
   }
 
   const EdgeTree& tree_;

@@ -242,6 +242,25 @@ void handle_mouse(const ViewModel& model, const Timeline& timeline, const Scale&
   Held{}.store();
 }
 
+/// Brings the current stroke into sight when it changes, or when its row or the scale does.
+void scroll_to_present(const ViewModel& model, const Timeline& timeline, const Scale& scale) {
+  const history::NodeId at = model.document.work().at();
+  const auto block = std::ranges::find(timeline.blocks, at, &TimelineBlock::node);
+  const ImVec2 middle = block == timeline.blocks.end()
+                            ? scale.origin
+                            : ImVec2{0.5f * (scale.low(*block).x + scale.high(*block).x),
+                                     0.5f * (scale.low(*block).y + scale.high(*block).y)};
+  const float left = middle.x - scale.origin.x, top = middle.y - scale.origin.y;
+  ImGuiStorage& kept = *ImGui::GetStateStorage();
+  const ImGuiID x = ImGui::GetID("present x"), y = ImGui::GetID("present y");
+  if (kept.GetFloat(x, -1.0f) != left)
+    ImGui::SetScrollFromPosX(middle.x - ImGui::GetWindowPos().x, 0.5f);
+  if (kept.GetFloat(y, -1.0f) != top)
+    ImGui::SetScrollFromPosY(middle.y - ImGui::GetWindowPos().y, 0.5f);
+  kept.SetFloat(x, left);
+  kept.SetFloat(y, top);
+}
+
 }  // namespace
 
 float timeline_height(const ViewModel& model, glm::vec2 room_px) {
@@ -280,11 +299,7 @@ void draw_timeline(const ViewModel& model, Actions& actions, glm::vec2 corner_px
   ImGui::SetCursorScreenPos(
       {scale.origin.x, scale.origin.y + scale.row_px * static_cast<float>(timeline.rows) - 1.0f});
   ImGui::Dummy({start_px + px_per_s * static_cast<float>(timeline.seconds), 1.0f});
-  // Scrolls to the newest stroke.
-  ImGuiStorage& kept = *ImGui::GetStateStorage();
-  const int strokes = static_cast<int>(model.document.work().size());
-  if (kept.GetInt(ImGui::GetID("strokes")) != strokes) ImGui::SetScrollX(ImGui::GetScrollMaxX());
-  kept.SetInt(ImGui::GetID("strokes"), strokes);
+  scroll_to_present(model, timeline, scale);
   ImGui::End();
   ImGui::PopStyleVar();
 }

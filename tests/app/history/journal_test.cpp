@@ -70,6 +70,26 @@ TEST(Journal, RecordsEveryEvent) {
   EXPECT_TRUE(work.unsaved());
 }
 
+TEST(Journal, HoldsAStrokeFromItsFirstContactWithEarlierPoses) {
+  const Folder folder;
+  std::filesystem::path path;
+  const auto poses = press_stroke(2);
+  {
+    Work work = kept_work(folder);
+    path = work.journal()->path();
+    (void)work.add(small_scene(), press_stroke(1)).value();
+    test::record(press_stroke(3), *work.begin_stroke(small_scene()).value().sink, false);
+    (void)work.end_stroke().value();
+    PoseSink& sink = *work.begin_stroke(small_scene()).value().sink;
+    test::record({poses.begin(), poses.begin() + 100}, sink, false);
+    test::record({poses.begin() + 100, poses.end()}, sink);
+    EXPECT_TRUE(work.journal()->sync());
+  }
+  Work work = recover(path).value();
+  ASSERT_EQ(work.size(), 3u);
+  EXPECT_EQ(work.record().nodes[2].poses, poses);
+}
+
 TEST(Journal, ContinuesAfterARecovery) {
   const Folder folder;
   {

@@ -51,8 +51,9 @@ inline std::vector<Pose> press_stroke(std::uint64_t seed) {
 }
 
 /// As a recorder does, in blocks.
-inline void record(const std::vector<Pose>& poses, PoseSink& sink) {
-  const std::array<bool, kPosesPerBlock> contact{};
+inline void record(const std::vector<Pose>& poses, PoseSink& sink, bool touching = true) {
+  std::array<bool, kPosesPerBlock> contact{};
+  contact.fill(touching);
   for (std::size_t at = 0; at < poses.size(); at += kPosesPerBlock) {
     const auto block = std::span(poses).subspan(at, std::min(kPosesPerBlock, poses.size() - at));
     ASSERT_TRUE(sink.append({block, std::span(contact).first(block.size())}));

@@ -66,7 +66,8 @@ TEST(Work, RefusesMorePosesThanAFileHolds) {
   EXPECT_EQ(work.size(), 2u);
 
   PoseSink& sink = *work.begin_stroke(small_scene()).value().sink;
-  const std::array<bool, 50> contact{};
+  std::array<bool, 50> contact{};
+  contact.fill(true);
   EXPECT_TRUE(sink.append({std::span(poses).first(50), contact}));
   const auto more = sink.append({std::span(poses).subspan(50, 1), std::span(contact).first(1)});
   ASSERT_FALSE(more);
@@ -196,6 +197,29 @@ TEST(Work, SplitsByTheContactsThatTheServoReports) {
   EXPECT_EQ(**work.pot(), begun.wheel.pot());
   for (NodeId node = 1; node < work.size(); ++node)
     EXPECT_EQ(*work.pot(node).value(), plainly_thrown(work.record(), node)) << node;
+}
+
+TEST(Work, KeepsAPressOfTheMouseAsOneStroke) {
+  Work work = Work::begin(small_scene()).value();
+  Begun begun = work.begin_stroke(small_scene()).value();
+  for (const Pose& pose : recording(3, 0.4)) {
+    const bool contact = (begun.wheel.step(pose).flags & kContact) != 0;
+    ASSERT_TRUE(begun.sink->append({std::span(&pose, 1), std::span(&contact, 1)}));
+  }
+  EXPECT_EQ(work.end_stroke(begun.wheel.pot(), Recording::one_stroke).value().strokes, 1u);
+  EXPECT_EQ(**work.pot(), begun.wheel.pot());
+}
+
+TEST(Work, IgnoresAStrokeInFreeAirAndCanStillRedo) {
+  Work work = Work::begin(small_scene()).value();
+  (void)work.add(small_scene(), press_stroke(1)).value();
+  work.undo();
+  test::record(press_stroke(2), *work.begin_stroke(small_scene()).value().sink, false);
+  EXPECT_EQ(work.end_stroke().value().strokes, 0u);
+  EXPECT_FALSE(work.in_stroke());
+  EXPECT_EQ(work.size(), 2u);
+  ASSERT_TRUE(work.redo());
+  EXPECT_EQ(work.at(), 1u);
 }
 
 TEST(Work, IgnoresAStrokeWithoutPoses) {

@@ -31,7 +31,7 @@ class ActionsTest : public ::testing::Test {
     auto begun = state.document.begin_stroke(small_scene());
     ASSERT_TRUE(begun);
     test::record(test::press_stroke(1), *begun->sink);
-    ASSERT_TRUE(state.document.end_stroke(std::nullopt));
+    ASSERT_TRUE(state.document.end_stroke(std::nullopt, history::Recording::one_stroke));
   }
   [[nodiscard]] std::size_t strokes() const { return state.document.work().size() - 1; }
 

@@ -26,7 +26,7 @@ class DocumentTest : public ::testing::Test {
     auto begun = document.begin_stroke(small_scene());
     ASSERT_TRUE(begun) << begun.error().message;
     test::record(press_stroke(seed), *begun->sink);
-    ASSERT_TRUE(document.end_stroke(std::nullopt));
+    ASSERT_TRUE(document.end_stroke(std::nullopt, history::Recording::one_stroke));
   }
   [[nodiscard]] std::string pot() const { return write_pot(document.pot(), PotEncoding::json); }
   Document document;
