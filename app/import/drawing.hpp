@@ -28,8 +28,7 @@ struct Drawing {
 inline constexpr double kFlatMm = 1e-3;
 /// Far above the needs of a pot; larger drawings are refused.
 inline constexpr std::size_t kMostPoints = 1'000'000;
-/// Limit of unconnected lines, because each is compared with all others.
-inline constexpr std::size_t kMostLines = 10'000;
+inline constexpr std::size_t kMostLines = 200'000;
 inline constexpr std::size_t kMostBytes = 32u << 20;
 
 /// Selects the format by the extension of `name`:
