@@ -50,7 +50,8 @@ std::string PointLimits::problem_with(std::span<const glm::dvec2> points_mm) {
   return {};
 }
 
-Result<Drawing> read_drawing(std::string_view bytes, const std::string& name) {
+Result<Drawing> read_drawing(std::string_view bytes, const std::string& name,
+                             const std::string& layer) {
   const bool svg = name.ends_with(".svg"), dxf = name.ends_with(".dxf");
   if (!svg && !dxf && !name.ends_with(".csv"))
     return failure(ErrorKind::bad_input,
@@ -58,7 +59,14 @@ Result<Drawing> read_drawing(std::string_view bytes, const std::string& name) {
   if (bytes.size() > kMostBytes)
     return failure(ErrorKind::bad_input, fmt::format("{}: expected at most {} MiB, found {}", name,
                                                      kMostBytes >> 20, bytes.size() >> 20));
-  auto read = svg ? read_svg(bytes, name) : dxf ? read_dxf(bytes, name, "") : read_csv(bytes, name);
+  if (!svg && !dxf && !layer.empty())
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}: expected a drawing with layers, SVG or DXF, for the layer "
+                               "\"{}\", found a table",
+                               name, layer));
+  auto read = svg   ? read_svg(bytes, name, layer)
+              : dxf ? read_dxf(bytes, name, layer)
+                    : read_csv(bytes, name);
   return std::move(read).and_then(
       [&](Drawing&& drawing) { return checked(std::move(drawing), name); });
 }

@@ -25,7 +25,7 @@ class PointLimits {
 std::string_view trimmed(std::string_view text);
 
 /// `layer`: the only layer to read; empty: all that are shown.
-Result<Drawing> read_svg(std::string_view bytes, const std::string& name);
+Result<Drawing> read_svg(std::string_view bytes, const std::string& name, const std::string& layer);
 Result<Drawing> read_dxf(std::string_view bytes, const std::string& name, const std::string& layer);
 Result<Drawing> read_csv(std::string_view text, const std::string& name);
 

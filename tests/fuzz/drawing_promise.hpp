@@ -46,10 +46,11 @@ inline std::vector<std::string> good_drawings(std::string_view format) {
         "<svg xmlns='http://www.w3.org/2000/svg' width='90mm' height='90mm' viewBox='0 0 90 90'>"
         "<style>.a{display:inline} .b{display:none}</style><defs><symbol id='s' viewBox='0 0 9 9'>"
         "<rect width='4' height='9' rx='1'/></symbol></defs><g transform='translate(5 3) scale(2)'>"
-        "<path class='a' transform='scale(1 -1)' d='M 0 0 H 30 C 32 10 33 20 30 30 q 2 5 0 9 A 9 5 3 "
+        "<path class='a' transform='scale(1 -1)' d='M 0 0 H 30 C 32 10 33 20 30 30 q 2 5 0 9 A 9 5 "
+        "3 "
         "0 1 "
         "20 40 L 0 40 z m 1 1'/></g><use href='#s' x='3' class='b'/><circle cx='5' cy='5' r='0.5' "
-        "display='none'/></svg>",
+        "visibility='hidden'/></svg>",
         "<svg xmlns='http://www.w3.org/2000/svg'><polygon points='0,0 30,0 25,60 0,60'/></svg>"};
   return {
       dxf_of(
