@@ -20,7 +20,7 @@ namespace {
 using namespace importing;
 
 struct ImportOptions {
-  std::string drawing, pot, axis;
+  std::string drawing, pot, axis, layer;
   HalfSectionSettings section;
   DrawnPotSettings pot_settings;
 };
@@ -47,6 +47,7 @@ Json summary(const ImportOptions& options, const HalfSection& section, const Pot
           {"axis_mm", section.axis_mm},
           {"axis", section.axis == AxisRule::middle ? "middle"
                    : section.axis == AxisRule::left ? "left"
+                   : section.axis == AxisRule::line ? "line"
                                                     : "at"},
           {"rings", pot.stack.size()},
           {"ring_height_mm", pot.stack.ring_height_mm()},
@@ -71,7 +72,7 @@ Result<void> import_drawing(ImportOptions options, Console console) {
   if (auto distinct = check_distinct({options.pot}, {options.drawing}); !distinct) return distinct;
   const auto bytes = read_file(options.drawing);
   if (!bytes) return tl::make_unexpected(bytes.error());
-  auto drawing = read_drawing(*bytes, options.drawing);
+  auto drawing = read_drawing(*bytes, options.drawing, options.layer);
   if (!drawing) return tl::make_unexpected(drawing.error());
   const auto section = half_section(std::move(*drawing), options.section, options.drawing);
   if (!section) return tl::make_unexpected(section.error());
@@ -97,7 +98,10 @@ void add_import_command(CLI::App& app, Console& console, int& exit) {
   command->add_option(
       "--axis", options->axis,
       "Axis of the pot in the drawing: left, middle, or its x position [mm]; default: "
-      "the middle of a symmetric drawing, otherwise its left end");
+      "a separate vertical line, the middle of a symmetric drawing, or its left end");
+  command->add_option("--layer", options->layer,
+                      "The only layer of an SVG or DXF drawing to read, by its name (default: all "
+                      "that are shown)");
   command
       ->add_option("--height", options->section.height_mm,
                    "Height of the pot: scales the drawing [mm] (default: as drawn)")

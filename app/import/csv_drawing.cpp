@@ -11,14 +11,7 @@
 namespace clay::importing {
 namespace {
 
-constexpr std::string_view kBlank = " \t\r";
 constexpr std::string_view kBetween = " \t,;";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
 
 /// Removes a number, and the separator after it, from the front.
 std::optional<double> take_number(std::string_view& text) {

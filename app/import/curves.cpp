@@ -64,16 +64,11 @@ void append_arc(std::vector<glm::dvec2>& points, glm::dvec2 centre, glm::dvec2 u
   }
 }
 
-void append_bulge(std::vector<glm::dvec2>& points, glm::dvec2 from, glm::dvec2 to, double bulge) {
-  if (bulge != 0.0 && std::isfinite(bulge)) {
-    const glm::dvec2 chord = to - from, left{-chord.y, chord.x};
-    const glm::dvec2 centre = 0.5 * (from + to) + left * ((1.0 - bulge * bulge) / (4.0 * bulge));
-    const glm::dvec2 u = from - centre, v{-u.y, u.x};
-    append_arc(points, centre, u, v, 0.0, 4.0 * std::atan(bulge));
-    points.back() = to;
-    return;
-  }
-  points.push_back(to);
+BulgeArc bulge_arc(glm::dvec2 from, glm::dvec2 to, double bulge) {
+  const glm::dvec2 chord = to - from, left{-chord.y, chord.x};
+  const glm::dvec2 centre = 0.5 * (from + to) + left * ((1.0 - bulge * bulge) / (4.0 * bulge));
+  const glm::dvec2 u = from - centre;
+  return {centre, u, {-u.y, u.x}, 4.0 * std::atan(bulge)};
 }
 
 std::vector<glm::dvec2> spline_points(std::size_t degree, std::span<const glm::dvec3> control,

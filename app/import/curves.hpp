@@ -18,9 +18,15 @@ void append_cubic(std::vector<glm::dvec2>& points, glm::dvec2 a, glm::dvec2 b, g
 void append_arc(std::vector<glm::dvec2>& points, glm::dvec2 centre, glm::dvec2 u, glm::dvec2 v,
                 double from, double to);
 
-/// The circular arc of a polyline's bulge: the tangent of a quarter of its angle, positive to the
-/// left.
-void append_bulge(std::vector<glm::dvec2>& points, glm::dvec2 from, glm::dvec2 to, double bulge);
+/// A circular arc: centre + cos(t) u + sin(t) v, t from 0 to `turn` [rad].
+struct BulgeArc {
+  glm::dvec2 centre{0.0}, u{0.0}, v{0.0};
+  double turn = 0.0;
+};
+
+/// The arc of a polyline's bulge: the tangent of a quarter of its angle, positive to the left; not
+/// zero.
+[[nodiscard]] BulgeArc bulge_arc(glm::dvec2 from, glm::dvec2 to, double bulge);
 
 /// A rational B-spline: control points (x, y, weight), degree + points + 1 non-decreasing knots.
 [[nodiscard]] std::vector<glm::dvec2> spline_points(std::size_t degree,

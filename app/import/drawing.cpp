@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 namespace clay::importing {
 namespace {
@@ -26,6 +27,13 @@ Result<Drawing> checked(Drawing drawing, const std::string& name) {
 
 }  // namespace
 
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r";
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
 std::string PointLimits::out_of_bounds(std::span<const glm::dvec2> points_mm) {
   for (const glm::dvec2& p : points_mm)
     if (!(std::abs(p.x) <= kFarthestMm && std::abs(p.y) <= kFarthestMm))
@@ -42,20 +50,25 @@ std::string PointLimits::problem_with(std::span<const glm::dvec2> points_mm) {
   return {};
 }
 
-Result<Drawing> read_drawing(std::string_view bytes, const std::string& name) {
-  const auto reader = name.ends_with(".svg")   ? read_svg
-                      : name.ends_with(".dxf") ? read_dxf
-                      : name.ends_with(".csv") ? read_csv
-                                               : nullptr;
-  if (reader == nullptr)
+Result<Drawing> read_drawing(std::string_view bytes, const std::string& name,
+                             const std::string& layer) {
+  const bool svg = name.ends_with(".svg"), dxf = name.ends_with(".dxf");
+  if (!svg && !dxf && !name.ends_with(".csv"))
     return failure(ErrorKind::bad_input,
                    name + ": expected a drawing NAME.svg, NAME.dxf or NAME.csv");
   if (bytes.size() > kMostBytes)
     return failure(ErrorKind::bad_input, fmt::format("{}: expected at most {} MiB, found {}", name,
                                                      kMostBytes >> 20, bytes.size() >> 20));
-  return reader(bytes, name).and_then([&](Drawing&& drawing) {
-    return checked(std::move(drawing), name);
-  });
+  if (!svg && !dxf && !layer.empty())
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}: expected a drawing with layers, SVG or DXF, for the layer "
+                               "\"{}\", found a table",
+                               name, layer));
+  auto read = svg   ? read_svg(bytes, name, layer)
+              : dxf ? read_dxf(bytes, name, layer)
+                    : read_csv(bytes, name);
+  return std::move(read).and_then(
+      [&](Drawing&& drawing) { return checked(std::move(drawing), name); });
 }
 
 }  // namespace clay::importing

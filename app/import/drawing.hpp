@@ -28,17 +28,20 @@ struct Drawing {
 inline constexpr double kFlatMm = 1e-3;
 /// Far above the needs of a pot; larger drawings are refused.
 inline constexpr std::size_t kMostPoints = 1'000'000;
-/// Limit of unconnected lines, because each is compared with all others.
-inline constexpr std::size_t kMostLines = 10'000;
+inline constexpr std::size_t kMostLines = 200'000;
 inline constexpr std::size_t kMostBytes = 32u << 20;
 
 /// Selects the format by the extension of `name`:
-/// - .svg: all visible shapes, in CSS units (1 px = 1/96 in), with transforms and view box;
-/// - .dxf: lines, polylines with bulges, arcs, circles, ellipses and splines of the model, in its
-///   units ($INSUNITS), by default mm;
+/// - .svg: all visible shapes, in CSS units (1 px = 1/96 in), with transforms, view boxes, uses of
+///   symbols, and style sheets as far as they hide shapes;
+/// - .dxf: lines, polylines with bulges, arcs, circles, ellipses and splines of the model, with
+///   inserted blocks, in its units ($INSUNITS), by default mm. Layers that are frozen, off, not
+///   plotted or for construction are ignored;
 /// - .csv: radius and height in mm per line; an empty line begins a new line of the drawing; text
 ///   after # and a first row of words are ignored. The axis is at radius 0.
+/// `layer`: the only layer to read, by its name (SVG: label or id); empty: all that are shown.
 /// Errors read "NAME: what was expected, what was found", with the line if there is one.
-Result<Drawing> read_drawing(std::string_view bytes, const std::string& name);
+Result<Drawing> read_drawing(std::string_view bytes, const std::string& name,
+                             const std::string& layer = {});
 
 }  // namespace clay::importing

@@ -1,27 +1,26 @@
-#include "app/import/curves.hpp"
+#include "app/import/dxf_shapes.hpp"
 #include "app/import/readers.hpp"
 
-#include <dxflib/dl_creationadapter.h>
-#include <dxflib/dl_dxf.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <exception>
+#include <map>
 #include <numbers>
 #include <optional>
-#include <span>
-#include <sstream>
-#include <stdexcept>
+#include <set>
 
 namespace clay::importing {
 namespace {
 
-constexpr int kClosed = 1;  // bit of a polyline's or spline's flags
-constexpr unsigned kHighestDegree = 10;
+constexpr long kFrozen = 1;                       // bit of a layer's flags
+constexpr int kDeepest = 16;                      // blocks within blocks
+constexpr std::size_t kMostEntities = 1'000'000;  // counted again at each insertion
 
 /// Length in mm of a unit by its number in $INSUNITS; empty for units that are not used for pots.
-std::optional<double> mm_of_unit(int unit) {
+std::optional<double> mm_of_unit(long unit) {
   switch (unit) {
     case 0:  // no unit given
     case 4:
@@ -39,172 +38,240 @@ std::optional<double> mm_of_unit(int unit) {
   }
 }
 
-double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
 
-/// Collects what the library reports. Ignores blocks, which are parts to be inserted.
-class Collector final : public DL_CreationAdapter {
+/// DXF names are equal in either case.
+using Name = std::string;
+
+struct Block {
+  DxfGroups content;
+  glm::dvec2 base{0.0};
+};
+
+/// One insertion: what its content is placed by, and the layer of entities on layer 0.
+struct Insertion {
+  DxfPlacement placement;
+  Name layer = "0";
+  int depth = 0;
+};
+
+/// Reads a DXF file section by section.
+class Reader {
  public:
-  std::vector<Line> lines;  // in mm
-  std::string problem;
+  Reader(const std::string& name, const std::string& layer) : name_(name), layer_(lower(layer)) {}
 
-  void addBlock(const DL_BlockData&) override { in_block_ = true; }
-  void endBlock() override { in_block_ = false; }
-  void setVariableInt(const std::string& key, int value, int) override {
-    if (key != "$INSUNITS") return;
-    if (const auto mm = mm_of_unit(value))
-      unit_mm_ = *mm;
-    else
-      problem = fmt::format("$INSUNITS: expected mm, cm, m, inches or feet, found unit {}", value);
-  }
-
-  void addLine(const DL_LineData& line) override {
-    add({{at(line.x1, line.y1), at(line.x2, line.y2)}, false});
-  }
-  void addArc(const DL_ArcData& arc) override {
-    double turn = arc.angle2 - arc.angle1;
-    if (turn <= 0.0) turn += 360.0;
-    add_arc(at(arc.cx, arc.cy), at(arc.radius, 0.0), at(0.0, arc.radius), radians(arc.angle1),
-            radians(turn));
-  }
-  void addCircle(const DL_CircleData& circle) override {
-    add_arc(at(circle.cx, circle.cy), at(circle.radius, 0.0), at(0.0, circle.radius), 0.0,
-            2.0 * std::numbers::pi);
-  }
-  void addEllipse(const DL_EllipseData& ellipse) override {
-    double turn = ellipse.angle2 - ellipse.angle1;
-    if (turn <= 0.0) turn += 2.0 * std::numbers::pi;
-    const glm::dvec2 major = at(ellipse.mx, ellipse.my);
-    add_arc(at(ellipse.cx, ellipse.cy), major, ellipse.ratio * glm::dvec2{-major.y, major.x},
-            ellipse.angle1, turn);
-  }
-
-  void addPolyline(const DL_PolylineData& polyline) override {
-    finish();
-    polyline_ = {{}, (polyline.flags & kClosed) != 0};
-    checked_ = 0;
-  }
-  void addVertex(const DL_VertexData& vertex) override {
-    if (!polyline_) return;
-    const glm::dvec2 point = at(vertex.x, vertex.y);
-    if (polyline_->points_mm.empty())
-      first_ = point;
-    else
-      append_bulge(polyline_->points_mm, last_, point, bulge_);
-    if (polyline_->points_mm.empty()) polyline_->points_mm.push_back(point);
-    check(polyline_->points_mm, checked_);
-    checked_ = polyline_->points_mm.size();
-    last_ = point;
-    bulge_ = vertex.bulge;
-  }
-
-  void addSpline(const DL_SplineData& spline) override {
-    finish();
-    spline_.emplace(Spline{spline.degree, {}, {}});
-  }
-  void addControlPoint(const DL_ControlPointData& p) override {
-    const glm::dvec2 point = at(p.x, p.y);
-    refuse(PointLimits::out_of_bounds({&point, 1}));
-    if (spline_) spline_->control.emplace_back(point, p.w);
-  }
-  void addKnot(const DL_KnotData& knot) override {
-    if (spline_) spline_->knots.push_back(knot.k);
-  }
-
-  void endEntity() override { finish(); }
-  void endSequence() override { finish(); }
-
-  /// Completes the last entity: the library does not always report its end.
-  void finish() {
-    if (polyline_ && !polyline_->points_mm.empty()) {
-      if (polyline_->closed) {
-        append_bulge(polyline_->points_mm, last_, first_, bulge_);
-        polyline_->points_mm.pop_back();
-      }
-      add(std::move(*polyline_), checked_);
+  Result<Drawing> read(DxfGroups groups) {
+    while (true) {
+      const auto entity = take_dxf_entity(groups, name_);
+      if (!entity) return tl::make_unexpected(entity.error());
+      if (entity->type == "EOF") break;
+      if (entity->type != "SECTION") continue;
+      if (auto done = section(*entity, groups); !done) return tl::make_unexpected(done.error());
     }
-    polyline_.reset();
-    if (spline_) add_spline(*spline_);
-    spline_.reset();
+    if (!layer_.empty() && !seen_layers_.contains(layer_))
+      return failure(ErrorKind::bad_input,
+                     fmt::format("{}: expected a layer \"{}\", found {}", name_, layer_,
+                                 fmt::join(seen_layers_, ", ")));
+    return Drawing{std::move(lines_), false};
   }
 
  private:
-  struct Spline {
-    std::size_t degree;
-    std::vector<glm::dvec3> control;
-    std::vector<double> knots;
+  Result<void> section(const DxfEntity& start, DxfGroups& groups) {
+    const std::string_view kind = start.text(2);
+    if (kind == "HEADER") return header(start);
+    if (kind == "ENTITIES") {
+      Insertion page;
+      page.placement.turn *= unit_mm_;
+      return entities(groups, page, "ENDSEC");
+    }
+    while (true) {
+      const auto entity = take_dxf_entity(groups, name_);
+      if (!entity) return tl::make_unexpected(entity.error());
+      if (entity->type == "EOF")
+        return failure(ErrorKind::bad_input,
+                       fmt::format("{}:{}: expected the end of section {}, found the end of the "
+                                   "drawing",
+                                   name_, entity->line, kind));
+      if (entity->type == "ENDSEC") return {};
+      auto done = kind == "TABLES" && entity->type == "LAYER"   ? layer(*entity)
+                  : kind == "BLOCKS" && entity->type == "BLOCK" ? block(*entity, groups)
+                                                                : Result<void>();
+      if (!done) return done;
+    }
+  }
+
+  Result<void> header(const DxfEntity& start) {
+    std::string_view variable;
+    for (const DxfGroup& group : start.groups) {
+      if (group.code == 9) variable = group.value;
+      if (group.code != 70 || variable != "$INSUNITS") continue;
+      const auto unit = dxf_integer(group, name_);
+      if (!unit) return tl::make_unexpected(unit.error());
+      const auto mm = mm_of_unit(*unit);
+      if (!mm)
+        return failure(ErrorKind::bad_input,
+                       fmt::format("{}:{}: $INSUNITS: expected mm, cm, m, inches or feet, found "
+                                   "unit {}",
+                                   name_, group.line + 1, *unit));
+      unit_mm_ = *mm;
+    }
+    return {};
+  }
+
+  /// Layers that are frozen, off, not plotted, or for construction draw nothing.
+  Result<void> layer(const DxfEntity& entity) {
+    const auto flags = dxf_count(entity, 70, 0, name_);
+    const auto colour = dxf_count(entity, 62, 7, name_);
+    const auto plotted = dxf_count(entity, 290, 1, name_);
+    for (const auto* number : {&flags, &colour, &plotted})
+      if (!*number) return tl::make_unexpected(number->error());
+    bool construction = false;  // as LibreCAD marks it
+    for (std::size_t i = 1; i < entity.groups.size(); ++i)
+      construction =
+          construction || (entity.groups[i - 1].value == "LibreCad" &&
+                           entity.groups[i].code == 1070 && entity.groups[i].value == "1");
+    if ((*flags & kFrozen) != 0 || *colour < 0 || *plotted == 0 || construction)
+      ignored_.insert(lower(entity.text(2)));
+    return {};
+  }
+
+  Result<void> block(const DxfEntity& entity, DxfGroups& groups) {
+    const auto x = dxf_value(entity, 10, 0.0, name_), y = dxf_value(entity, 20, 0.0, name_);
+    if (!x) return tl::make_unexpected(x.error());
+    if (!y) return tl::make_unexpected(y.error());
+    blocks_.insert_or_assign(lower(entity.text(2)), Block{groups, {*x, *y}});
+    while (true) {
+      const auto inside = take_dxf_entity(groups, name_);
+      if (!inside) return tl::make_unexpected(inside.error());
+      if (inside->type == "ENDBLK") return {};
+      if (inside->type == "EOF" || inside->type == "ENDSEC")
+        return failure(ErrorKind::bad_input,
+                       fmt::format("{}:{}: expected the end of block {}, found {}", name_,
+                                   inside->line, entity.text(2), inside->type));
+    }
+  }
+
+  Result<void> entities(DxfGroups& groups, const Insertion& within, std::string_view end) {
+    while (true) {
+      const auto entity = take_dxf_entity(groups, name_);
+      if (!entity) return tl::make_unexpected(entity.error());
+      if (entity->type == end) return {};
+      if (entity->type == "EOF")
+        return failure(ErrorKind::bad_input,
+                       fmt::format("{}:{}: expected {}, found the end of the drawing", name_,
+                                   entity->line, end));
+      if (++entities_ > kMostEntities)
+        return failure(ErrorKind::bad_input,
+                       fmt::format("{}: expected at most {} entities with all insertions, found "
+                                   "more",
+                                   name_, kMostEntities));
+      if (auto done = draw(*entity, groups, within); !done) return done;
+    }
+  }
+
+  Result<void> draw(const DxfEntity& entity, DxfGroups& groups, const Insertion& within) {
+    Name layer = lower(entity.text(8));
+    if (layer.empty() || layer == "0") layer = within.layer;
+    const bool shown = entity.text(60) != "1" && entity.text(67) != "1" && layer != "defpoints" &&
+                       !ignored_.contains(layer);
+    if (entity.type == "INSERT") return shown ? insert(entity, within, layer) : Result<void>();
+    auto line = dxf_line(entity, groups, within.placement, limits_, name_);
+    if (!line) return tl::make_unexpected(line.error());
+    if (!*line || (*line)->points_mm.size() < 2 || !shown) return {};
+    seen_layers_.insert(layer);
+    if (layer_.empty() || layer == layer_) lines_.push_back(std::move(**line));
+    return {};
+  }
+
+  /// Draws the content of a block at each place of an array of insertions.
+  Result<void> insert(const DxfEntity& entity, const Insertion& within, const Name& layer) {
+    const auto found = blocks_.find(lower(entity.text(2)));
+    if (found == blocks_.end())
+      return refusal(
+          entity,
+          fmt::format("expected the name of a block of the drawing, found \"{}\"", entity.text(2)));
+    if (within.depth == kDeepest)
+      return refusal(entity, fmt::format("expected blocks at most {} deep, found more", kDeepest));
+    const auto grid = grid_of(entity);
+    if (!grid) return tl::make_unexpected(grid.error());
+    const auto plane = dxf_plane(entity, name_);
+    if (!plane) return tl::make_unexpected(plane.error());
+    const Block& block = found->second;
+    for (long i = 0; i < grid->columns * grid->rows; ++i) {
+      const glm::dvec2 beside{static_cast<double>(i % grid->columns) * grid->step.x,
+                              static_cast<double>(i / grid->columns) * grid->step.y};
+      const DxfPlacement own{grid->turn * glm::dmat2{grid->scale.x, 0.0, 0.0, grid->scale.y},
+                             grid->at + grid->turn * beside};
+      DxfPlacement placement = within.placement.after(*plane).after(own);
+      placement.shift = placement.at(-block.base);
+      DxfGroups content = block.content;
+      auto done = entities(content, {placement, layer, within.depth + 1}, "ENDBLK");
+      if (!done) return done;
+    }
+    return {};
+  }
+
+  struct Grid {
+    glm::dvec2 at{0.0}, scale{1.0}, step{0.0};
+    glm::dmat2 turn{1.0};
+    long columns = 1, rows = 1;
   };
 
-  [[nodiscard]] glm::dvec2 at(double x, double y) const { return unit_mm_ * glm::dvec2{x, y}; }
-
-  /// `checked`: number of points already checked.
-  void add(Line line, std::size_t checked = 0) {
-    check(line.points_mm, checked);
-    if (!in_block_) lines.push_back(std::move(line));
-  }
-
-  /// The library can be stopped only by an exception.
-  void check(const std::vector<glm::dvec2>& points, std::size_t from) {
-    refuse(limits_.problem_with(std::span(points).subspan(std::min(from, points.size()))));
-  }
-  void refuse(const std::string& found) {
-    if (found.empty()) return;
-    problem = found;
-    throw std::runtime_error(found);
-  }
-
-  void add_arc(glm::dvec2 centre, glm::dvec2 u, glm::dvec2 v, double from, double turn) {
-    Line line{{centre + std::cos(from) * u + std::sin(from) * v}, false};
-    append_arc(line.points_mm, centre, u, v, from, from + turn);
-    line.closed = std::abs(turn - 2.0 * std::numbers::pi) < 1e-9;
-    if (line.closed) line.points_mm.pop_back();
-    add(std::move(line));
-  }
-
-  void add_spline(const Spline& spline) {
-    const bool whole = spline.degree >= 1 && spline.degree <= kHighestDegree &&
-                       spline.control.size() > spline.degree &&
-                       spline.knots.size() == spline.control.size() + spline.degree + 1;
-    bool sound = whole;
-    for (std::size_t i = 1; sound && i < spline.knots.size(); ++i)
-      sound = spline.knots[i] >= spline.knots[i - 1];
-    for (const glm::dvec3& p : spline.control) sound = sound && p.z > 0.0;
-    if (!sound) {
-      problem = fmt::format(
-          "expected splines of degree 1 to {} with a knot for each control point and degree + 1 "
-          "more, rising, and positive weights; found degree {}, {} control points, {} knots",
-          kHighestDegree, spline.degree, spline.control.size(), spline.knots.size());
-      return;
+  Result<Grid> grid_of(const DxfEntity& entity) {
+    Grid grid;
+    double degrees = 0.0;
+    for (const auto& [code, target] : {std::pair{10, &grid.at.x},
+                                       {20, &grid.at.y},
+                                       {41, &grid.scale.x},
+                                       {42, &grid.scale.y},
+                                       {44, &grid.step.x},
+                                       {45, &grid.step.y},
+                                       {50, &degrees}}) {
+      const auto value = dxf_value(entity, code, *target, name_);
+      if (!value) return tl::make_unexpected(value.error());
+      *target = *value;
     }
-    add({spline_points(spline.degree, spline.control, spline.knots), false});
+    for (const auto& [code, target] : {std::pair{70, &grid.columns}, {71, &grid.rows}}) {
+      const auto count = dxf_count(entity, code, 1, name_);
+      if (!count) return tl::make_unexpected(count.error());
+      *target = std::max(*count, 1L);
+    }
+    const auto most = static_cast<long>(kMostLines);
+    if (grid.columns > most || grid.rows > most || grid.columns * grid.rows > most)
+      return refusal(entity, fmt::format("expected at most {} insertions, found {} x {}", most,
+                                         grid.columns, grid.rows));
+    const double angle = degrees * std::numbers::pi / 180.0;
+    grid.turn = {std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle)};
+    return grid;
   }
 
+  [[nodiscard]] tl::unexpected<Error> refusal(const DxfEntity& entity,
+                                              const std::string& problem) const {
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}:{}: {}: {}", name_, entity.line, entity.type, problem));
+  }
+
+  const std::string& name_;
+  const Name layer_;  ///< the only one to be drawn; empty: all
   double unit_mm_ = 1.0;
-  bool in_block_ = false;
+  std::set<Name> ignored_, seen_layers_;
+  std::map<Name, Block> blocks_;
+  std::size_t entities_ = 0;
   PointLimits limits_;
-  std::optional<Line> polyline_;
-  std::size_t checked_ = 0;  ///< points of the polyline
-  glm::dvec2 first_{0.0}, last_{0.0};
-  double bulge_ = 0.0;
-  std::optional<Spline> spline_;
+  std::vector<Line> lines_;
 };
 
 }  // namespace
 
-Result<Drawing> read_dxf(std::string_view bytes, const std::string& name) {
-  Collector collector;
-  try {
-    std::istringstream stream{std::string(bytes)};
-    DL_Dxf reader;
-    reader.in(stream, &collector);
-    collector.finish();
-  } catch (const std::exception& error) {
-    if (collector.problem.empty())
-      return failure(ErrorKind::bad_input,
-                     fmt::format("{}: expected a DXF drawing, found: {}", name, error.what()));
-  }
-  if (!collector.problem.empty())
-    return failure(ErrorKind::bad_input, name + ": " + collector.problem);
-  return Drawing{std::move(collector.lines), false};
+Result<Drawing> read_dxf(std::string_view bytes, const std::string& name,
+                         const std::string& layer) {
+  auto groups = DxfGroups::open(bytes, name);
+  if (!groups) return tl::make_unexpected(groups.error());
+  return Reader(name, layer).read(*groups);
 }
 
 }  // namespace clay::importing

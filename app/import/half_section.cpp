@@ -66,11 +66,38 @@ bool mirrored(const std::vector<Line>& lines, double middle) {
   });
 }
 
-AxisRule rule_of(const Drawing& drawing, const Bounds& bounds, AxisRule asked) {
-  if (asked != AxisRule::by_itself) return asked;
-  if (drawing.axis_at_zero) return AxisRule::at;
-  return mirrored(drawing.lines, 0.5 * (bounds.low.x + bounds.high.x)) ? AxisRule::middle
-                                                                       : AxisRule::left;
+/// A straight vertical line.
+std::optional<double> upright(const Line& line) {
+  if (line.closed) return std::nullopt;
+  const glm::dvec2 first = line.points_mm.front();
+  for (const glm::dvec2& p : line.points_mm)
+    if (std::abs(p.x - first.x) > kSamePointMm) return std::nullopt;
+  return first.x;
+}
+
+/// Removes axis lines, which are straight, vertical, and connected to no other line, and returns
+/// where they are. `asked`: the axis, if it is given.
+Result<std::optional<double>> take_axis_lines(std::vector<Line>& lines, std::optional<double> asked,
+                                              const std::string& name) {
+  std::vector<double> found;
+  for (const Line& line : lines)
+    if (const auto x = upright(line)) found.push_back(*x);
+  if (found.empty() || lines.size() == 1) return std::nullopt;
+  std::sort(found.begin(), found.end());
+  // Among upright lines alone, the others are outlines.
+  if (found.size() == lines.size()) found.resize(1);
+  if (!asked && std::abs(found.front() - found.back()) > kSamePointMm)
+    return failure(
+        ErrorKind::bad_input,
+        fmt::format("{}: expected one axis line, found unconnected vertical lines at x = "
+                    "{:g} and {:g} mm; --axis chooses the axis",
+                    name, found.front(), found.back()));
+  const double axis = asked.value_or(found.front());
+  std::erase_if(lines, [&](const Line& line) {
+    const auto x = upright(line);
+    return x && std::abs(*x - axis) <= kSamePointMm;
+  });
+  return axis;
 }
 
 std::string ends_of(const Line& line) {
@@ -174,6 +201,31 @@ Result<std::vector<Slab>> slabs_of(const std::vector<Edge>& edges, const std::st
   return slabs;
 }
 
+/// Sets the axis of the section, and removes axis lines from the drawing.
+Result<void> place_axis(HalfSection& section, Drawing& drawing, const HalfSectionSettings& settings,
+                        const std::string& name) {
+  const Bounds bounds = bounds_of(drawing.lines);
+  const double middle = 0.5 * (bounds.low.x + bounds.high.x);
+  section.axis =
+      settings.axis == AxisRule::by_itself && drawing.axis_at_zero ? AxisRule::at : settings.axis;
+  std::optional<double> asked;
+  if (section.axis == AxisRule::at)
+    asked = settings.axis == AxisRule::at ? settings.axis_mm : 0.0;
+  else if (section.axis != AxisRule::by_itself)
+    asked = section.axis == AxisRule::left ? bounds.low.x : middle;
+  const auto line = take_axis_lines(drawing.lines, asked, name);
+  if (!line) return tl::make_unexpected(line.error());
+  if (section.axis == AxisRule::by_itself)
+    section.axis = *line                             ? AxisRule::line
+                   : mirrored(drawing.lines, middle) ? AxisRule::middle
+                                                     : AxisRule::left;
+  section.axis_mm = asked                              ? *asked
+                    : section.axis == AxisRule::line   ? **line
+                    : section.axis == AxisRule::middle ? middle
+                                                       : bounds.low.x;
+  return {};
+}
+
 }  // namespace
 
 double HalfSection::volume_mm3() const noexcept {
@@ -188,13 +240,10 @@ double HalfSection::volume_mm3() const noexcept {
 Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& settings,
                                  const std::string& name) {
   drawing.lines = joined(std::move(drawing.lines));
-  const Bounds bounds = bounds_of(drawing.lines);
   HalfSection section;
-  section.axis = rule_of(drawing, bounds, settings.axis);
-  section.axis_mm = section.axis == AxisRule::left     ? bounds.low.x
-                    : section.axis == AxisRule::middle ? 0.5 * (bounds.low.x + bounds.high.x)
-                    : settings.axis == AxisRule::at    ? settings.axis_mm
-                                                       : 0.0;
+  if (auto placed = place_axis(section, drawing, settings, name); !placed)
+    return tl::make_unexpected(placed.error());
+  const Bounds bounds = bounds_of(drawing.lines);
   const double drawn_mm = bounds.high.y - bounds.low.y;
   if (!(drawn_mm > 0.0) || !(bounds.high.x > section.axis_mm))
     return failure(ErrorKind::bad_input,

@@ -12,11 +12,12 @@ namespace clay::importing {
 
 /// Where the pot's axis is in the drawing.
 enum class AxisRule {
-  by_itself,  ///< the file's zero if it has one; the mirror line of a symmetric drawing;
-              ///< otherwise the left end
+  by_itself,  ///< the file's zero if it has one; the axis line of the drawing; the mirror line of
+              ///< a symmetric drawing; otherwise the left end
   left,       ///< the left end of the drawing
   middle,     ///< the middle between its ends; the left half is ignored
   at,         ///< HalfSectionSettings::axis_mm
+  line,       ///< of a result: a straight vertical line that no other line meets at its ends
 };
 
 struct HalfSectionSettings {

@@ -21,8 +21,12 @@ class PointLimits {
   std::size_t count_ = 0;
 };
 
-Result<Drawing> read_svg(std::string_view bytes, const std::string& name);
-Result<Drawing> read_dxf(std::string_view bytes, const std::string& name);
+/// The text without blanks at its ends.
+std::string_view trimmed(std::string_view text);
+
+/// `layer`: the only layer to read; empty: all that are shown.
+Result<Drawing> read_svg(std::string_view bytes, const std::string& name, const std::string& layer);
+Result<Drawing> read_dxf(std::string_view bytes, const std::string& name, const std::string& layer);
 Result<Drawing> read_csv(std::string_view text, const std::string& name);
 
 }  // namespace clay::importing

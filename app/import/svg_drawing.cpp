@@ -1,5 +1,6 @@
 #include "app/import/curves.hpp"
 #include "app/import/readers.hpp"
+#include "app/import/svg_shapes.hpp"
 
 #include <fmt/format.h>
 #include <libxml/parser.h>
@@ -27,6 +28,7 @@ namespace clay::importing {
 namespace {
 
 constexpr double kMmPerPx = 25.4 / 96.0;
+constexpr std::ptrdiff_t kMostNodes = 1'000'000;  // the tree of each takes some 200 bytes
 
 /// Derives from the library's exception class, so that the library adds the element.
 struct Refusal : boost::exception, std::runtime_error {
@@ -82,9 +84,6 @@ class Collector {
   void set_viewport(double, double, double, double) {}
   void set_viewbox_size(double, double) {}
   void disable_rendering() { states_.back().shown = false; }
-  void set(svgpp::tag::attribute::display, svgpp::tag::value::none) { disable_rendering(); }
-  template <class Tag>
-  void set(svgpp::tag::attribute::display, Tag) {}
 
   void path_move_to(double x, double y, svgpp::tag::coordinate::absolute) {
     end_line();
@@ -175,17 +174,15 @@ class Collector {
   glm::dvec2 pen_{0.0}, restart_{0.0};  // in the shape's coordinates
 };
 
-using Elements =
-    boost::mpl::fold<svgpp::traits::shape_elements,
-                     boost::mpl::set<svgpp::tag::element::svg, svgpp::tag::element::g,
-                                     svgpp::tag::element::a, svgpp::tag::element::switch_>,
-                     boost::mpl::insert<boost::mpl::_1, boost::mpl::_2>>::type;
+using Elements = boost::mpl::fold<svgpp::traits::shape_elements,
+                                  boost::mpl::set<svgpp::tag::element::svg, svgpp::tag::element::g>,
+                                  boost::mpl::insert<boost::mpl::_1, boost::mpl::_2>>::type;
 
-using Attributes = boost::mpl::fold<
-    boost::mpl::joint_view<svgpp::traits::shapes_attributes_by_element,
-                           svgpp::traits::viewport_attributes>,
-    boost::mpl::set<svgpp::tag::attribute::transform, svgpp::tag::attribute::display>,
-    boost::mpl::insert<boost::mpl::_1, boost::mpl::_2>>::type;
+using Attributes =
+    boost::mpl::fold<boost::mpl::joint_view<svgpp::traits::shapes_attributes_by_element,
+                                            svgpp::traits::viewport_attributes>,
+                     boost::mpl::set<svgpp::tag::attribute::transform>,
+                     boost::mpl::insert<boost::mpl::_1, boost::mpl::_2>>::type;
 
 using Traversal = svgpp::document_traversal<
     svgpp::processed_elements<Elements>, svgpp::processed_attributes<Attributes>,
@@ -218,14 +215,24 @@ std::string line_of(const boost::exception& error) {
 
 }  // namespace
 
-Result<Drawing> read_svg(std::string_view bytes, const std::string& name) {
+Result<Drawing> read_svg(std::string_view bytes, const std::string& name,
+                         const std::string& layer) {
+  const auto nodes =
+      std::count_if(bytes.begin(), bytes.end(), [](char c) { return c == '<' || c == '='; });
+  if (nodes > kMostNodes)
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}: expected at most {} tags and attributes, found {}", name,
+                               kMostNodes, nodes));
   // Fetches nothing and expands no entities: only the file itself is read.
-  const std::unique_ptr<xmlDoc, decltype(&xmlFreeDoc)> document(
+  const XmlDocument document(
       xmlReadMemory(bytes.data(), static_cast<int>(bytes.size()), nullptr, nullptr,
-                    XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING),
+                    XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING | XML_PARSE_HUGE),
       &xmlFreeDoc);
-  xmlNode* root = document ? xmlDocGetRootElement(document.get()) : nullptr;
-  if (root == nullptr) return failure(ErrorKind::bad_input, libxml_problem(name));
+  if (!document || xmlDocGetRootElement(document.get()) == nullptr)
+    return failure(ErrorKind::bad_input, libxml_problem(name));
+  const auto shapes = svg_shapes(*document, layer, name);
+  if (!shapes) return tl::make_unexpected(shapes.error());
+  xmlNode* root = xmlDocGetRootElement(shapes->get());
   Collector collector;
   try {
     Traversal::load_document(root, collector);

@@ -43,7 +43,8 @@ TEST(CsvDrawing, SkipsAByteOrderMark) {
 TEST(CsvDrawing, RefusesTooManyLines) {
   std::string rows;
   for (std::size_t i = 0; i <= kMostLines; ++i) rows += "10,0\n10,1\n\n";
-  EXPECT_THAT(refusal_of(read_drawing(rows, "cup.csv")), HasSubstr("expected at most 10000 lines"));
+  EXPECT_THAT(refusal_of(read_drawing(rows, "cup.csv")),
+              HasSubstr("expected at most 200000 lines"));
 }
 
 TEST(CsvDrawing, RefusesAnEmptyDrawing) {

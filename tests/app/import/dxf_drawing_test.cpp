@@ -130,8 +130,9 @@ TEST(DxfDrawing, RefusesBrokenSplinesAndOtherFiles) {
                               {10, "3"},
                               {20, "4"}});
   EXPECT_THAT(refusal_of(read_drawing(file(spline), "pot.dxf")), HasSubstr("expected splines"));
-  EXPECT_THAT(refusal_of(read_drawing("no drawing\n", "pot.dxf")), HasSubstr("no line in it"));
-  EXPECT_THAT(refusal_of(read_drawing("", "pot.dxf")), HasSubstr("no line in it"));
+  EXPECT_THAT(refusal_of(read_drawing("no drawing\n", "pot.dxf")),
+              HasSubstr("pot.dxf:1: expected a DXF group code, found \"no drawing\""));
+  EXPECT_THAT(refusal_of(read_drawing("", "pot.dxf")), HasSubstr("found the end of the file"));
 }
 
 }  // namespace

@@ -34,6 +34,31 @@ TEST(HalfSection, ErrorsNameThePlace) {
   EXPECT_THAT(refused("5,0\n25,20\n5,20\n25,0\n5,0\n"), HasSubstr("cross itself"));
 }
 
+TEST(HalfSection, RecognisesAnAxisLineAnywhere) {
+  const std::vector<glm::dvec2> cone{{40, 0}, {20, 90}};
+  const double volume = std::numbers::pi * 90.0 / 3.0 * (1600.0 + 800.0 + 400.0);
+  const auto lines_with = [&](std::vector<glm::dvec2> outline, double axis) {
+    for (glm::dvec2& p : outline) p.x += axis;
+    return Drawing{{{outline, false}, {{{axis, -15}, {axis, 40}, {axis, 120}}, false}}, false};
+  };
+  for (const double axis : {0.0, 13.5, -200.0}) {
+    const auto half = half_section(lines_with(cone, axis), {}, "pot");
+    ASSERT_TRUE(half) << refusal_of(half);
+    EXPECT_EQ(half->axis, AxisRule::line);
+    EXPECT_EQ(half->axis_mm, axis);
+    EXPECT_NEAR(half->height_mm, 90.0, 1e-9);
+    EXPECT_NEAR(half->volume_mm3(), volume, 1e-6);
+    Drawing both = lines_with({{-20, 90}, {-40, 0}, {40, 0}, {20, 90}}, axis);
+    both.lines[0].closed = true;
+    const auto closed = half_section(both, {}, "pot");
+    ASSERT_TRUE(closed) << refusal_of(closed);
+    EXPECT_NEAR(closed->volume_mm3(), volume, 1e-6);
+  }
+  Drawing two = lines_with(cone, 0.0);
+  two.lines.push_back({{{70, 0}, {70, 10}}, false});
+  EXPECT_THAT(refusal_of(half_section(two, {}, "pot")), HasSubstr("expected one axis line"));
+}
+
 TEST(HalfSection, HeightOptionScalesUniformly) {
   const auto cone = section_of("40,10\n20,100\n", "pot.csv", {AxisRule::by_itself, 0.0, 45.0});
   ASSERT_TRUE(cone) << refusal_of(cone);

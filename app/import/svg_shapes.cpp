@@ -1,0 +1,254 @@
+#include "app/import/svg_shapes.hpp"
+
+#include "app/import/svg_style.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <set>
+#include <string_view>
+#include <vector>
+
+namespace clay::importing {
+namespace {
+
+constexpr int kDeepest = 200;                   // elements within elements
+constexpr std::size_t kMostElements = 200'000;  // counted again at each use
+constexpr std::string_view kSvgSpace = "http://www.w3.org/2000/svg";
+
+/// The attributes of each shape that are its geometry.
+const std::map<std::string_view, std::vector<const char*>> kShapes = {
+    {"path", {"d"}},
+    {"polygon", {"points"}},
+    {"polyline", {"points"}},
+    {"line", {"x1", "y1", "x2", "y2"}},
+    {"rect", {"x", "y", "width", "height", "rx", "ry"}},
+    {"circle", {"cx", "cy", "r"}},
+    {"ellipse", {"cx", "cy", "rx", "ry"}}};
+constexpr std::array<const char*, 6> kViewport = {"x",      "y",       "width",
+                                                  "height", "viewBox", "preserveAspectRatio"};
+
+std::string_view name_of(const xmlNode* node) { return reinterpret_cast<const char*>(node->name); }
+
+bool of_svg(const xmlNode* node) {
+  return node->type == XML_ELEMENT_NODE &&
+         (node->ns == nullptr ||
+          std::string_view(reinterpret_cast<const char*>(node->ns->href)) == kSvgSpace);
+}
+
+/// What children take over from their parents.
+struct Inherited {
+  bool visible = true;
+  bool filled = true, stroked = false;
+  bool in_layer = true;
+  int depth = 0;
+};
+
+/// Walks the drawing, and adds what it shows to a new document.
+class Copier {
+ public:
+  Copier(xmlDoc& drawing, const std::string& layer, const std::string& name)
+      : name_(name), layer_(layer), result_(xmlNewDoc(nullptr), &xmlFreeDoc) {
+    index(xmlDocGetRootElement(&drawing));
+  }
+
+  Result<XmlDocument> copy(xmlNode* root) {
+    Inherited page;
+    page.in_layer = layer_.empty();
+    if (auto done = element(root, nullptr, page); !done) return tl::make_unexpected(done.error());
+    if (!layer_.empty() && !found_layer_)
+      return failure(
+          ErrorKind::bad_input,
+          fmt::format("{}: expected a layer \"{}\", found {}", name_, layer_,
+                      layers_.empty() ? "no layers" : fmt::format("{}", fmt::join(layers_, ", "))));
+    return std::move(result_);
+  }
+
+ private:
+  /// Finds ids and style sheets, without recursion: the depth is not yet limited.
+  void index(xmlNode* root) {
+    for (xmlNode* node = root; node != nullptr;) {
+      if (node->type == XML_ELEMENT_NODE) {
+        if (const std::string id = svg_attribute(node, "id"); !id.empty()) ids_.emplace(id, node);
+        if (of_svg(node) && name_of(node) == "style") {
+          xmlChar* css = xmlNodeGetContent(node);
+          if (css != nullptr) styles_.add(reinterpret_cast<const char*>(css));
+          xmlFree(css);
+        }
+      }
+      if (node->children != nullptr && node->type == XML_ELEMENT_NODE) {
+        node = node->children;
+        continue;
+      }
+      while (node != root && node->next == nullptr) node = node->parent;
+      if (node == root) return;
+      node = node->next;
+    }
+  }
+
+  Result<void> element(xmlNode* node, xmlNode* parent, Inherited state) {
+    if (!of_svg(node)) return {};
+    const std::string_view kind = name_of(node);
+    const auto shape = kShapes.find(kind);
+    const bool group = kind == "g" || kind == "a" || kind == "switch" || kind == "svg";
+    if (shape == kShapes.end() && !group && kind != "use") return {};
+    if (++state.depth > kDeepest)
+      return refusal(node, fmt::format("expected elements at most {} deep, found more", kDeepest));
+    if (++count_ > kMostElements)
+      return refusal(node, fmt::format("expected at most {} elements with all uses, found more",
+                                       kMostElements));
+    const auto values = styles_.of(node);
+    if (!values) return refusal(node, values.error().message);
+    const auto value = [&](SvgProperty property) -> const std::optional<std::string>& {
+      return (*values)[static_cast<std::size_t>(property)];
+    };
+    if (value(SvgProperty::display) == "none") return {};
+    inherit(state.visible, value(SvgProperty::visibility), "visible");
+    inherit(state.filled, value(SvgProperty::fill), nullptr);
+    inherit(state.stroked, value(SvgProperty::stroke), nullptr);
+    if (kind == "g" && !enter_layer(node, state)) return {};
+    if (const auto& transform = value(SvgProperty::transform);
+        transform && *transform != "none" && parent != nullptr) {
+      parent = add(node, parent, "g");
+      set(parent, "transform", *transform);
+    }
+    if (kind == "use") return use(node, parent, state);
+    if (kind == "svg") return viewport(node, node, parent, state);
+    if (kind == "switch") return chosen(node, parent, state);
+    if (group) return children(node, parent, state);
+    if (state.visible && state.in_layer && (state.filled || state.stroked)) {
+      xmlNode* copied = add(node, parent, kind);
+      for (const char* attribute : shape->second) copy_attribute(node, copied, attribute);
+    }
+    return {};
+  }
+
+  /// `on`: the value that switches on; null: every value but "none" does.
+  static void inherit(bool& state, const std::optional<std::string>& value, const char* on) {
+    if (!value || *value == "inherit") return;
+    state = on == nullptr ? *value != "none" && *value != "transparent" : *value == on;
+  }
+
+  /// Returns false for layers that are not drawn.
+  bool enter_layer(xmlNode* node, Inherited& state) {
+    std::string label, mode;
+    for (const xmlAttr* at = node->properties; at != nullptr; at = at->next) {
+      if (at->ns == nullptr || at->children == nullptr || at->children->content == nullptr)
+        continue;
+      const std::string_view name = reinterpret_cast<const char*>(at->name);
+      const auto* text = reinterpret_cast<const char*>(at->children->content);
+      if (name == "label") label = text;
+      if (name == "groupmode") mode = text;
+    }
+    const std::string id = svg_attribute(node, "id");
+    if (mode == "layer") layers_.insert(label.empty() ? id : label);
+    if (!layer_.empty() && (label == layer_ || id == layer_)) found_layer_ = state.in_layer = true;
+    std::string lower = label.empty() ? id : label;
+    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return !lower.starts_with("construction") || (!layer_.empty() && state.in_layer);
+  }
+
+  Result<void> children(xmlNode* node, xmlNode* parent, const Inherited& state) {
+    for (xmlNode* child = node->children; child != nullptr; child = child->next)
+      if (auto done = element(child, parent, state); !done) return done;
+    return {};
+  }
+
+  /// The first child that this program can draw.
+  Result<void> chosen(xmlNode* node, xmlNode* parent, const Inherited& state) {
+    for (xmlNode* child = node->children; child != nullptr; child = child->next) {
+      if (of_svg(child) && svg_attribute(child, "requiredExtensions").empty())
+        return element(child, parent, state);
+    }
+    return {};
+  }
+
+  Result<void> use(xmlNode* node, xmlNode* parent, const Inherited& state) {
+    const std::string href = svg_attribute(node, "href");
+    const auto target = href.starts_with('#') ? ids_.find(href.substr(1)) : ids_.end();
+    if (target == ids_.end())
+      return refusal(node, fmt::format("use: expected the id of an element of the drawing, found "
+                                       "\"{}\"",
+                                       href.substr(0, 40)));
+    xmlNode* place = add(node, parent, "svg");
+    for (const char* attribute : {"x", "y"}) copy_attribute(node, place, attribute);
+    const std::string_view kind = name_of(target->second);
+    if (kind != "symbol" && kind != "svg") return element(target->second, place, state);
+    return viewport(target->second, node, place, state);
+  }
+
+  /// The content of an svg or a symbol; the size is that of `sized`, if it has one.
+  Result<void> viewport(xmlNode* node, xmlNode* sized, xmlNode* parent, const Inherited& state) {
+    if (state.depth + 1 > kDeepest)
+      return refusal(node, fmt::format("expected elements at most {} deep, found more", kDeepest));
+    xmlNode* copied = add(node, parent, "svg");
+    for (const char* attribute : kViewport) copy_attribute(node, copied, attribute);
+    for (const char* attribute : {"width", "height"}) {
+      if (sized != node && !svg_attribute(sized, attribute).empty())
+        set(copied, attribute, svg_attribute(sized, attribute));
+      // A page in percent has no size of its own.
+      if (parent == nullptr && svg_attribute(node, attribute).ends_with('%'))
+        xmlUnsetProp(copied, reinterpret_cast<const xmlChar*>(attribute));
+    }
+    Inherited inside = state;
+    ++inside.depth;
+    return children(node, copied, inside);
+  }
+
+  xmlNode* add(const xmlNode* source, xmlNode* parent, std::string_view kind) {
+    xmlNode* node =
+        xmlNewDocNode(result_.get(), nullptr,
+                      reinterpret_cast<const xmlChar*>(std::string(kind).c_str()), nullptr);
+    node->line = source->line;
+    if (parent == nullptr) {
+      xmlDocSetRootElement(result_.get(), node);
+      space_ = xmlNewNs(node, reinterpret_cast<const xmlChar*>(kSvgSpace.data()), nullptr);
+    } else {
+      xmlAddChild(parent, node);
+    }
+    xmlSetNs(node, space_);
+    return node;
+  }
+
+  static void set(xmlNode* node, const char* attribute, const std::string& value) {
+    xmlSetProp(node, reinterpret_cast<const xmlChar*>(attribute),
+               reinterpret_cast<const xmlChar*>(value.c_str()));
+  }
+
+  static void copy_attribute(xmlNode* from, xmlNode* to, const char* attribute) {
+    const std::string value = svg_attribute(from, attribute);
+    if (!value.empty() && value != "auto") set(to, attribute, value);
+  }
+
+  [[nodiscard]] tl::unexpected<Error> refusal(xmlNode* node, const std::string& problem) const {
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}:{}: {}", name_, xmlGetLineNo(node), problem));
+  }
+
+  const std::string& name_;
+  const std::string& layer_;
+  XmlDocument result_;
+  xmlNs* space_ = nullptr;  ///< of the result
+  SvgStyles styles_;
+  std::map<std::string, xmlNode*> ids_;
+  std::set<std::string> layers_;
+  bool found_layer_ = false;
+  std::size_t count_ = 0;
+};
+
+}  // namespace
+
+Result<XmlDocument> svg_shapes(xmlDoc& drawing, const std::string& layer, const std::string& name) {
+  xmlNode* root = xmlDocGetRootElement(&drawing);
+  if (!of_svg(root) || name_of(root) != "svg")
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}:{}: expected an SVG drawing, found the element \"{}\"", name,
+                               xmlGetLineNo(root), name_of(root).substr(0, 40)));
+  return Copier(drawing, layer, name).copy(root);
+}
+
+}  // namespace clay::importing

@@ -1,0 +1,22 @@
+#pragma once
+// What an SVG drawing shows, as a plain drawing: groups and shapes with their geometry alone.
+
+#include "claystack/core/result.hpp"
+
+#include <libxml/tree.h>
+
+#include <memory>
+#include <string>
+
+namespace clay::importing {
+
+using XmlDocument = std::unique_ptr<xmlDoc, decltype(&xmlFreeDoc)>;
+
+/// Copies the shapes that are drawn: `use` and `symbol` become groups, style sheets and style
+/// attributes are applied, and elements that are not displayed, not visible, or painted with
+/// neither fill nor stroke are left out, as are layers named "construction". `layer`: the label or
+/// id of the only layer to copy; empty: all. Each transform is on a group of its own, so that it is
+/// known before the shape.
+Result<XmlDocument> svg_shapes(xmlDoc& drawing, const std::string& layer, const std::string& name);
+
+}  // namespace clay::importing

@@ -1,0 +1,60 @@
+#pragma once
+// The style sheets of an SVG drawing, as far as they decide what is drawn.
+
+#include "claystack/core/result.hpp"
+
+#include <libxml/tree.h>
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace clay::importing {
+
+enum class SvgProperty { display, visibility, fill, stroke, transform };
+inline constexpr std::size_t kSvgProperties = 5;
+
+/// The values of one element, where they are set.
+using SvgValues = std::array<std::optional<std::string>, kSvgProperties>;
+
+/// An attribute of the element without namespace, or of xlink; empty if there is none.
+[[nodiscard]] std::string svg_attribute(xmlNode* node, const char* name);
+
+/// All style elements of a document. Selectors may combine a type, classes and an id, by descent
+/// (blank) or as a child (>). Rules with other selectors, and rules within @media, are ignored.
+class SvgStyles {
+ public:
+  /// Adds the rules of a style element.
+  void add(std::string_view css);
+
+  /// What presentation attributes, rules and the style attribute of `node` set, each before the
+  /// next. Refuses drawings that need too many comparisons.
+  Result<SvgValues> of(xmlNode* node);
+
+ private:
+  /// type.class#id; `child`: of the part before it, otherwise anywhere within.
+  struct Part {
+    std::string type, id;
+    std::vector<std::string> classes;
+    bool child = false;
+  };
+  struct Rule {
+    std::vector<Part> parts;
+    SvgValues values;
+    int rank = 0;  ///< specificity
+  };
+
+  static std::optional<std::vector<Part>> parts_of(std::string_view selector);
+  static bool matches(const Part& part, xmlNode* node);
+  bool matches(const Rule& rule, xmlNode* node);
+
+  std::vector<Rule> rules_;
+  std::map<std::string, std::vector<std::size_t>> by_key_;  ///< of the last part: #id, .class, type
+  std::size_t comparisons_ = 0;
+};
+
+}  // namespace clay::importing
