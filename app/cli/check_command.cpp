@@ -22,7 +22,7 @@ Result<void> check_usage(const CheckCommand& command) {
                        ? "expected -o FILE for the result of --repair or --max-triangles"
                        : "-o: expected --repair or --max-triangles with it");
   if (command.changes_mesh() && !is_pot(command.file))
-    if (const auto format = solid::mesh_format_of(command.out); !format)
+    if (const auto format = solid::mesh_format_of(command.out, solid::FormatUse::write); !format)
       return tl::make_unexpected(format.error());
   if (command.changes_mesh() && !command.certificate.empty())
     return failure(ErrorKind::bad_input,
@@ -77,7 +77,9 @@ void add_check_command(CLI::App& app, Console& console, int& exit) {
   auto command = std::make_shared<CheckCommand>();
   CLI::App* sub =
       app.add_subcommand("check", "Check a pot or a mesh, and report each fault with its place");
-  sub->add_option("file", command->file, ".stl, .obj, .drc, .pot.json or .pot.cbor")->required();
+  sub->add_option("file", command->file,
+                  solid::format_endings(solid::FormatUse::read, ", ") + ", .pot.json or .pot.cbor")
+      ->required();
   command->walls.add_to(*sub);
   sub->add_option("--wall-samples", command->wall_samples,
                   "Number of rays that sample the walls of a mesh; they may "
@@ -93,8 +95,9 @@ void add_check_command(CLI::App& app, Console& console, int& exit) {
       ->check(CLI::Range(solid::kFewestTriangles, solid::kMaxTriangles));
   sub->add_option(
       "-o,--out", command->out,
-      "File for the repaired or decimated mesh: .stl, .obj or .drc. Written even if nothing "
-      "had to be changed or problems remain; verdict and exit status are those of the result");
+      "File for the repaired or decimated mesh: " + solid::format_endings(solid::FormatUse::write) +
+          ". Written even if nothing had to be changed or problems remain; verdict and exit status "
+          "are those of the result");
   sub->footer(
       "\nExamples:\n  claystack check bowl.stl --certificate bowl.stl.certificate.json\n"
       "  claystack check bowl.pot.json --min-wall 3 "

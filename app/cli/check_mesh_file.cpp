@@ -45,8 +45,7 @@ Result<TriangleMesh> read_mesh(FileReader& file, MeshFormat format, const std::s
               return Error{e.kind, name + ": " + e.message};
             });
       }};
-  return format == MeshFormat::obj ? solid::read_obj(source, name, options)
-                                   : solid::read_stl(source, name, options);
+  return solid::read_mesh(source, format, name, options);
 }
 
 Result<solid::MeshReport> checked(const TriangleMesh& mesh) {
@@ -86,24 +85,11 @@ Result<TriangleMesh> repaired_mesh(TriangleMesh mesh, const CheckCommand& comman
   return mesh;
 }
 
-Result<std::string> encoded(const TriangleMesh& mesh, MeshFormat format) {
-  switch (format) {
-    case MeshFormat::obj:
-      return solid::encode_obj(mesh, "repaired");
-    case MeshFormat::drc:
-      return solid::encode_drc(mesh, {});
-    case MeshFormat::stl_binary:
-    case MeshFormat::stl_ascii:
-      break;
-  }
-  return solid::encode_stl_binary(mesh);
-}
-
 /// The verdict is on the contents of the output file, so the bytes are decoded again before
 /// writing.
 Result<TriangleMesh> written(const TriangleMesh& mesh, const CheckCommand& command,
                              RepairSummary& summary) {
-  const auto bytes = encoded(mesh, summary.format);
+  const auto bytes = solid::encode_mesh(mesh, summary.format, {.name = "repaired"});
   if (!bytes) return tl::make_unexpected(bytes.error());
   auto reread = solid::decode_mesh(*bytes, summary.format, command.out);
   if (!reread) return reread;
@@ -163,7 +149,7 @@ Result<void> measure_wall(const TriangleMesh& mesh, const solid::WallLimit& limi
 
 Result<TriangleMesh> repair_and_write(TriangleMesh mesh, const CheckCommand& command,
                                       RepairSummary& summary) {
-  const auto format = solid::mesh_format_of(command.out);
+  const auto format = solid::mesh_format_of(command.out, solid::FormatUse::write);
   if (!format) return tl::make_unexpected(format.error());
   summary.format = *format;
   return repaired_mesh(std::move(mesh), command, summary).and_then([&](const TriangleMesh& result) {
@@ -223,7 +209,7 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
   Verdict verdict;
   verdict.certificate = std::move(*certificate);
   // Certificates and Draco checksums cover all bytes, and a pipe has no known size.
-  const bool whole = verdict.certificate || format == MeshFormat::drc || !file->size();
+  const bool whole = verdict.certificate || !solid::facts_of(format).streamed || !file->size();
   const auto bytes = whole ? read_file(command.file) : std::string();
   if (!bytes) return tl::make_unexpected(bytes.error());
   const solid::ReadOptions options{command.repair, &verdict.notes};

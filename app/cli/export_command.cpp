@@ -241,8 +241,9 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
   sub->add_option("pot", command->pot, "NAME.pot.json or .pot.cbor, or - for standard input")
       ->required();
   sub->add_option("out", command->outputs,
-                  "Files to write: .stl, .obj, .drc; .svg for the section, .csv for its walls; "
-                  ".pot.json or .pot.cbor for the pot")
+                  "Files to write: " + solid::format_endings(solid::FormatUse::write) +
+                      "; .svg for the section, .csv for its walls; .pot.json or .pot.cbor for the "
+                      "pot")
       ->required();
   add_solid_options(sub, command);
   add_file_options(sub, command);

@@ -3,29 +3,20 @@
 #include "app/cli/pot_copy.hpp"
 
 #include <algorithm>
-#include <array>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 namespace clay::studio {
-namespace {
-
-struct Ending {
-  bool ExportChoices::*wanted;
-  const char* text;
-};
-constexpr std::array kEndings = {
-    Ending{&ExportChoices::stl, ".stl"}, Ending{&ExportChoices::obj, ".obj"},
-    Ending{&ExportChoices::drc, ".drc"}, Ending{&ExportChoices::section, ".svg"},
-    Ending{&ExportChoices::pot, ".pot.json"}};
-
-}  // namespace
-
 std::vector<std::string> paths_of(const ExportChoices& choices) {
   std::vector<std::string> paths;
-  for (const auto& [wanted, ending] : kEndings)
-    if (choices.*wanted)
-      paths.push_back((std::filesystem::path(choices.folder) / (choices.name + ending)).string());
+  const auto add = [&](std::string_view ending) {
+    const std::filesystem::path name = choices.name + std::string(ending);
+    paths.push_back((std::filesystem::path(choices.folder) / name).string());
+  };
+  for (const solid::MeshFormat format : choices.meshes) add(solid::facts_of(format).ending);
+  if (choices.section) add(".svg");
+  if (choices.pot) add(".pot.json");
   return paths;
 }
 
@@ -45,7 +36,7 @@ Result<solid::ExportRequest> request_of(const ExportChoices& choices, const Pot&
   options.tolerance_mm = choices.tolerance_mm;
   options.smoothing = choices.smoothing;
   options.name = options.source = choices.name;
-  const bool mesh = choices.stl || choices.obj || choices.drc;
+  const bool mesh = !choices.meshes.empty();
   if (mesh || choices.section) options.shrinkage = 0.01 * choices.shrinkage_percent;
   if (!mesh) return request;
   if (choices.min_wall_mm > 0.0) options.walls.min_wall_mm = choices.min_wall_mm;

@@ -21,7 +21,8 @@ inline constexpr double kThickestDemandMm = 20.0;
 
 /// The settings of the export dialog.
 struct ExportChoices {
-  bool stl = true, obj = false, drc = false, section = false, pot = false;
+  std::vector<solid::MeshFormat> meshes = {solid::MeshFormat::stl_binary};
+  bool section = false, pot = false;
   std::string folder, name;
   double tolerance_mm = 0.02;
   solid::Smoothing smoothing = solid::Smoothing::fair;

@@ -232,7 +232,7 @@ void update_export(AppState& state) {
     dialog->previewed = solid_choices(exporting.choices);
     exporting.preview.reset();
     exporting.problem.clear();
-    if (exporting.choices.stl || exporting.choices.obj || exporting.choices.drc)
+    if (!exporting.choices.meshes.empty())
       state.exporter.preview(state.document.shared_pot(), exporting.choices);
   }
   if (!state.host.real_time()) state.exporter.wait();  // frames of a script are reproducible

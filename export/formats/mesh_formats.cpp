@@ -3,37 +3,65 @@
 #include "export/formats/file_floats.hpp"
 #include "export/formats/text_scanner.hpp"
 
+#include <algorithm>
+#include <vector>
+
 namespace clay::solid::inline formats {
 
-Result<MeshFormat> mesh_format_of(std::string_view path) {
+static_assert([] {
+  for (std::size_t i = 0; i < kFormatFacts.size(); ++i)
+    if (static_cast<std::size_t>(kFormatFacts[i].format) != i) return false;
+  return true;
+}());
+
+std::string format_endings(FormatUse use, std::string_view last) {
+  std::vector<std::string_view> endings;
+  for (const FormatFacts& facts : kFormatFacts)
+    if ((use == FormatUse::read || facts.written) &&
+        std::ranges::find(endings, facts.ending) == endings.end())
+      endings.push_back(facts.ending);
+  std::string text(endings.front());
+  for (std::size_t i = 1; i < endings.size(); ++i)
+    text.append(i + 1 < endings.size() ? ", " : last).append(endings[i]);
+  return text;
+}
+
+Result<MeshFormat> mesh_format_of(std::string_view path, FormatUse use) {
   const std::size_t dot = path.rfind('.');
   const std::string_view ending = dot == path.npos ? "" : path.substr(dot);
-  if (equal_ignoring_case(ending, ".stl")) return MeshFormat::stl_binary;
-  if (equal_ignoring_case(ending, ".obj")) return MeshFormat::obj;
-  if (equal_ignoring_case(ending, ".drc")) return MeshFormat::drc;
-  return failure(ErrorKind::bad_input,
-                 std::string(path).append(": expected a name that ends in .stl, .obj or .drc"));
+  for (const FormatFacts& facts : kFormatFacts)
+    if ((use == FormatUse::read || facts.written) && equal_ignoring_case(ending, facts.ending))
+      return facts.format;
+  return failure(
+      ErrorKind::bad_input,
+      std::string(path).append(": expected a name that ends in ").append(format_endings(use)));
 }
 
 Result<MeshFormat> mesh_format_named(std::string_view name) {
-  for (const MeshFormat format : kMeshFormats)
-    if (name_of(format) == name) return format;
+  for (const FormatFacts& facts : kFormatFacts)
+    if (facts.name == name) return facts.format;
   return failure(ErrorKind::bad_input,
                  std::string("expected the name of a mesh format, found ").append(name));
 }
 
-std::string_view name_of(MeshFormat format) noexcept {
+Result<std::string> encode_mesh(const TriangleMesh& mesh, MeshFormat format,
+                                const FileContents& contents) {
   switch (format) {
     case MeshFormat::stl_binary:
-      return "stl_binary";
+      return encode_stl_binary(mesh);
     case MeshFormat::stl_ascii:
-      return "stl_ascii";
+      return encode_stl_ascii(mesh, contents.name);
     case MeshFormat::obj:
-      return "obj";
+      return encode_obj(mesh, contents.name);
     case MeshFormat::drc:
-      return "drc";
+      return encode_drc(mesh, contents.draco);
+    case MeshFormat::ply:
+      return encode_ply(mesh, contents.name, contents.wall_mm);
+    case MeshFormat::off:
+      break;
   }
-  return "unknown";
+  return failure(ErrorKind::bad_input,
+                 std::string("cannot write ").append(facts_of(format).ending));
 }
 
 Result<TriangleMesh> decode_mesh(std::string_view bytes, MeshFormat format, std::string_view name,
@@ -46,8 +74,18 @@ Result<TriangleMesh> decode_mesh(std::string_view bytes, MeshFormat format, std:
       return decode_obj(bytes, name, options);
     case MeshFormat::drc:
       return decode_drc(bytes, name);
+    case MeshFormat::ply:
+      return decode_ply(bytes, name);
+    case MeshFormat::off:
+      return decode_off(bytes, name);
   }
   return failure(ErrorKind::bad_input, std::string(name).append(": unknown mesh format"));
+}
+
+Result<TriangleMesh> read_mesh(const ByteSource& source, MeshFormat streamed, std::string_view name,
+                               const ReadOptions& options) {
+  return streamed == MeshFormat::obj ? read_obj(source, name, options)
+                                     : read_stl(source, name, options);
 }
 
 TriangleMesh rounded_to_float(const TriangleMesh& mesh) {

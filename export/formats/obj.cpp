@@ -13,7 +13,6 @@
 namespace clay::solid::inline formats {
 namespace {
 
-constexpr std::size_t kMaxFaceCorners = 4096;
 constexpr std::size_t kUsualPointBytes = 36;
 constexpr std::size_t kUsualTriangleBytes = 26;
 

@@ -164,14 +164,14 @@ class CollapsedExport {
   }
 
   Result<FileReport> write_exact(MeshFormat format, FileStore& store) {
-    const std::string bytes = stages_.run(stage_name("encode", format), [&] {
-      if (format == MeshFormat::obj) return encode_obj(mesh_, options_.name);
-      return format == MeshFormat::stl_ascii ? encode_stl_ascii(mesh_, options_.name)
-                                             : encode_stl_binary(mesh_);
-    });
-    return verify(bytes, format, float_rounding_mm(mesh_)).and_then([&](double moved) {
-      return written(bytes, format, moved, store);
-    });
+    return stages_
+        .run(stage_name("encode", format),
+             [&] { return encode_mesh(mesh_, format, {.name = options_.name}); })
+        .and_then([&](const std::string& bytes) {
+          return verify(bytes, format, float_rounding_mm(mesh_)).and_then([&](double moved) {
+            return written(bytes, format, moved, store);
+          });
+        });
   }
 
   /// Encodes on finer and finer grids until the decoded mesh is sound. Returns the last problem if

@@ -236,7 +236,7 @@ class FilesExport {
 Result<FileRequest> file_request(const std::string& path) {
   if (path.ends_with(".svg")) return FileRequest{path, FileKind::section};
   if (path.ends_with(".csv")) return FileRequest{path, FileKind::wall_table};
-  const auto format = mesh_format_of(path);
+  const auto format = mesh_format_of(path, FormatUse::write);
   if (format) return FileRequest{path, FileKind::mesh, *format};
   return failure(ErrorKind::bad_input,
                  format.error().message + "; or .svg for the section, .csv for its walls");

@@ -17,21 +17,9 @@ double seconds_of(Work work) {
 
 /// Measures encoding only; nothing is written.
 double encoding_seconds(MeshFormat format, const TriangleMesh& mesh, const ExportOptions& options) {
-  return seconds_of([&] {
-    switch (format) {
-      case MeshFormat::stl_binary:
-        return void(encode_stl_binary(mesh));
-      case MeshFormat::stl_ascii:
-        return void(encode_stl_ascii(mesh, options.name));
-      case MeshFormat::obj:
-        return void(encode_obj(mesh, options.name));
-      case MeshFormat::drc: {
-        DracoSettings settings;
-        settings.max_error_mm = options.tolerance_mm;
-        return void(encode_drc(mesh, settings));
-      }
-    }
-  });
+  FileContents contents{.name = options.name};
+  contents.draco.max_error_mm = options.tolerance_mm;
+  return seconds_of([&] { (void)encode_mesh(mesh, format, contents); });
 }
 
 void measure(std::vector<SkippedStage>& list, const ClayStack& stack, const RevolveLayout& rule,
@@ -75,10 +63,11 @@ std::vector<SkippedStage> left_out(const ClayStack& stack, const std::string& no
 }
 
 void add_formats_left_out(const std::vector<Output>& outputs, std::vector<SkippedStage>& list) {
-  for (const MeshFormat format : kMeshFormats)
-    if (std::none_of(outputs.begin(), outputs.end(),
-                     [&](const Output& output) { return output.format == format; }))
-      list.push_back({std::string(name_of(format)), "not requested", std::nullopt});
+  for (const FormatFacts& facts : kFormatFacts)
+    if (facts.written && std::none_of(outputs.begin(), outputs.end(), [&](const Output& output) {
+          return output.format == facts.format;
+        }))
+      list.push_back({std::string(facts.name), "not requested", std::nullopt});
 }
 
 }  // namespace clay::solid::inline job

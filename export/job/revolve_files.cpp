@@ -1,5 +1,7 @@
 #include "export/job/revolve_files.hpp"
 
+#include "export/job/point_walls.hpp"
+
 #include "claystack/export/solid.hpp"
 #include "export/formats/draco_bits.hpp"
 #include "export/formats/shaded_obj.hpp"
@@ -33,7 +35,7 @@ Result<FileReport> RevolveFiles::write(MeshFormat format, FileStore& store) {
     case MeshFormat::drc:
       return write_drc(store);
     default:
-      return write_text(format, store);
+      return write_whole(format, store);
   }
 }
 
@@ -73,18 +75,32 @@ Result<FileReport> RevolveFiles::stream(FileStore& store) {
   return finish(kFormat, std::move(certificate), store);
 }
 
-/// The printed digits read back as the same float32. A reader that uses doubles gets up to half a
-/// unit in the last place more error.
-Result<FileReport> RevolveFiles::write_text(MeshFormat format, FileStore& store) {
-  const double rounding = 2.0 * float_rounding_mm(rule_);
+FileContents RevolveFiles::contents_of(MeshFormat format) {
+  FileContents contents{.name = options_.name};
+  if (format != MeshFormat::ply) return contents;
+  if (!wall_mm_)
+    wall_mm_ = stages_.run("vertex_walls", [&] { return walls_of_points(rule_, claims_.profile); });
+  contents.wall_mm = *wall_mm_;
+  return contents;
+}
+
+/// Printed digits read back as the same float32. A reader that uses doubles gets up to half a unit
+/// in the last place more error; binary numbers have no more than their own.
+Result<FileReport> RevolveFiles::write_whole(MeshFormat format, FileStore& store) {
+  const double rounding = (facts_of(format).decimal ? 2.0 : 1.0) * float_rounding_mm(rule_);
   return prove_rounded(rounding).and_then([&](Proof proof) {
     const TriangleMesh& solid = mesh();
-    const std::string bytes = stages_.run(stage_name("encode", format), [&] {
-      if (format == MeshFormat::stl_ascii) return encode_stl_ascii(solid, options_.name);
-      return options_.normals ? encode_shaded_obj(rule_, solid, options_.name)
-                              : encode_obj(solid, options_.name);
-    });
-    return certify_bytes(format, rounding, proof, bytes, store);
+    const FileContents contents = contents_of(format);
+    return stages_
+        .run(stage_name("encode", format),
+             [&]() -> Result<std::string> {
+               if (format == MeshFormat::obj && options_.normals)
+                 return encode_shaded_obj(rule_, solid, options_.name);
+               return encode_mesh(solid, format, contents);
+             })
+        .and_then([&](const std::string& bytes) {
+          return certify_bytes(format, rounding, proof, bytes, store);
+        });
   });
 }
 

@@ -26,8 +26,10 @@ class RevolveFiles {
 
  private:
   const TriangleMesh& mesh();
+  /// What a file of this format holds beside the surface.
+  [[nodiscard]] FileContents contents_of(MeshFormat format);
   Result<FileReport> stream(FileStore& store);
-  Result<FileReport> write_text(MeshFormat format, FileStore& store);
+  Result<FileReport> write_whole(MeshFormat format, FileStore& store);
   Result<FileReport> write_drc(FileStore& store);
   [[nodiscard]] DracoClaims draco_claims(double reach_mm) const;
   Result<FileReport> store_drc(const std::string& bytes, double reach_mm, FileStore& store);
@@ -41,7 +43,8 @@ class RevolveFiles {
   const ExportOptions& options_;
   Stages& stages_;
   std::optional<TriangleMesh> mesh_;
-  std::optional<Result<void>> exact_;  ///< verdict on the mesh in float32, once needed
+  std::optional<std::vector<float>> wall_mm_;  ///< at each point of the mesh, once needed
+  std::optional<Result<void>> exact_;          ///< verdict on the mesh in float32, once needed
 };
 
 }  // namespace clay::solid::inline job

@@ -12,8 +12,8 @@ int main(int argc, char** argv) {
     std::cerr << "usage: make_corpus FOLDER\n";
     return 2;
   }
-  for (const auto format :
-       {MeshFormat::stl_binary, MeshFormat::stl_ascii, MeshFormat::obj, MeshFormat::drc}) {
+  for (const FormatFacts& facts : kFormatFacts) {
+    const MeshFormat format = facts.format;
     const auto folder = std::filesystem::path(argv[1]) / name_of(format);
     std::filesystem::create_directories(folder);
     int number = 0;

@@ -55,12 +55,33 @@ inline std::vector<std::string> good_files(MeshFormat format) {
         }
         files.push_back(encode_drc(mesh, {}, &claims).value_or(std::string()));
         break;
+      case MeshFormat::ply:
+        files.push_back(encode_ply(mesh, "pot", std::vector<float>(mesh.points.size(), 3.0F)));
+        break;
+      case MeshFormat::off:
+        break;
     }
   }
   if (format == MeshFormat::obj) {
     files.emplace_back(
         "v 0 0 0 1\nv 1 0 0 1 1 1\nv 0 1 0\nv 1 1 0\nvt 0 0\nvn 0 0 1\ng a\\\nb\n"
         "s 1\nusemtl c\nmtllib d\nf 1/1/1 2/1/1 4/1/1 3/1/1\nf -1//-1 -2 -3/1\n");
+  }
+  const std::string points = "0 0 0 1\n1 0 0 1\n1 1 0 1\n0 1 0 1\n", faces = "4 0 1 2 3\n3 2 1 0\n";
+  if (format == MeshFormat::ply)
+    for (const char* encoding : {"ascii", "binary_big_endian"})
+      files.push_back(std::string("ply\nformat ") + encoding +
+                      " 1.0\nelement vertex 4\nproperty char x\nproperty char y\n"
+                      "property char z\nproperty char v\nelement face 2\n"
+                      "property list char uint8 vertex_index\nelement edge 1\n"
+                      "property list uchar float parts\nend_header\n" +
+                      (encoding[0] == 'a' ? points + faces + "2 0 1\n"
+                                          : std::string("\0\0\0\1\1\0\0\1\1\1\0\1\0\1\0\1\4\0\1"
+                                                        "\2\3\3\2\1\0\1\0\0\0\0",
+                                                        30)));
+  if (format == MeshFormat::off) {
+    files.push_back("OFF\n4 2 0\n" + points + faces);
+    files.push_back("STCOFF # comment\n4 2 5\n" + points + "4 0 1 2 3 255 0 0\n3 2 1 0 0.5\n");
   }
   return files;
 }

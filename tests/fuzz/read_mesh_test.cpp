@@ -49,20 +49,22 @@ TEST_P(ReadMesh, MutatedFilesGiveAMeshOrAnError) {
 }
 
 RC_GTEST_PROP(ReadMeshAtAll, AnyBytesGiveAMeshOrAnError, (const std::string& bytes)) {
-  for (const std::string_view start :
-       {"", "solid\n", "v 0 0 0\nf ", "DRACO\2\2\1\1", "DRACO\2\2\1"}) {
-    for (const auto format : {MeshFormat::stl_binary, MeshFormat::obj, MeshFormat::drc}) {
-      RC_ASSERT(samples::broken_promise(std::string(start) + bytes, format) == std::nullopt);
+  for (const std::string_view start : {"", "solid\n", "v 0 0 0\nf ", "DRACO\2\2\1\1", "DRACO\2\2\1",
+                                       "ply\nformat ascii 1.0\n", "OFF\n1 1 0\n"}) {
+    for (const FormatFacts& facts : kFormatFacts) {
+      RC_ASSERT(samples::broken_promise(std::string(start) + bytes, facts.format) == std::nullopt);
     }
   }
 }
 
 std::vector<MeshFormat> formats_of_this_build() {
-  std::vector<MeshFormat> formats = {MeshFormat::stl_binary, MeshFormat::stl_ascii,
-                                     MeshFormat::obj};
-#ifdef CLAYSTACK_DRACO
-  formats.push_back(MeshFormat::drc);
+  std::vector<MeshFormat> formats;
+  for (const FormatFacts& facts : kFormatFacts) {
+#ifndef CLAYSTACK_DRACO
+    if (facts.format == MeshFormat::drc) continue;
 #endif
+    formats.push_back(facts.format);
+  }
   return formats;
 }
 

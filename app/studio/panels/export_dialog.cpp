@@ -16,18 +16,33 @@
 namespace clay::studio {
 namespace {
 
+/// A box for each ending that can be written, in the order of the table of formats; they wrap.
+void draw_meshes(ExportChoices& choices) {
+  bool first = true;
+  std::string_view last_ending;
+  for (const solid::FormatFacts& facts : solid::kFormatFacts) {
+    if (!facts.written || facts.ending == last_ending) continue;
+    last_ending = facts.ending;
+    const auto at = std::ranges::find(choices.meshes, facts.format);
+    bool wanted = at != choices.meshes.end();
+    if (!first) ImGui::SameLine();
+    first = false;
+    if (!ImGui::Checkbox(std::string(facts.title).c_str(), &wanted)) continue;
+    if (wanted)
+      choices.meshes.insert(std::ranges::lower_bound(choices.meshes, facts.format), facts.format);
+    else
+      choices.meshes.erase(at);
+  }
+}
+
 /// Each function edits its own part of `choices`.
 void draw_formats(ExportChoices& choices) {
   form_row("Files");
-  const std::array boxes = {std::pair{"STL", &choices.stl}, std::pair{"OBJ", &choices.obj},
-                            std::pair{"Draco", &choices.drc},
-                            std::pair{"Section", &choices.section}, std::pair{"Pot", &choices.pot}};
-  bool first = true;
-  for (const auto& [title, wanted] : boxes) {
-    if (!first) ImGui::SameLine();
-    ImGui::Checkbox(title, wanted);
-    first = false;
-  }
+  draw_meshes(choices);
+  form_row("Also");
+  ImGui::Checkbox("Section", &choices.section);
+  ImGui::SameLine();
+  ImGui::Checkbox("Pot", &choices.pot);
 }
 
 void draw_places(ExportChoices& choices, Actions& actions) {
@@ -65,17 +80,6 @@ void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actio
     choices.shrinkage_percent = std::round(10.0 * static_cast<double>(percent)) / 10.0;
 }
 
-const char* title_of(solid::MeshFormat format) {
-  switch (format) {
-    case solid::MeshFormat::obj:
-      return "OBJ";
-    case solid::MeshFormat::drc:
-      return "Draco";
-    default:
-      return "STL";
-  }
-}
-
 std::string size_text(const solid::ExportReport& report, double factor, LengthUnit unit) {
   return fmt::format("{} wide, {} high", length_text(factor * report.size.diameter_mm, unit),
                      length_text(factor * report.size.height_mm, unit));
@@ -87,7 +91,7 @@ void draw_figures(const ViewModel& model, const solid::ExportReport& report) {
   value_row(colours, "Triangles", fmt::format("{}", report.size.triangles));
   for (const solid::FileReport& file : report.files)
     if (file.kind == solid::FileKind::mesh)
-      value_row(colours, title_of(file.format),
+      value_row(colours, std::string(solid::facts_of(file.format).title).c_str(),
                 fmt::format("{:.3f} MB", 1e-6 * static_cast<double>(file.bytes)));
   value_row(colours, "Size in the file", size_text(report, 1.0, unit));
   if (report.prepared.shrinkage > 0.0)

@@ -1,5 +1,6 @@
 // Certificates as files: written by export, verified by check.
 
+#include "claystack/export/formats.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/schema_check.hpp"
 
@@ -15,7 +16,7 @@ class CertifiedVase : public testing::Test {
   void SetUp() override {
     ASSERT_EQ(claystack("throw -q " + sample("vase.scene.json") + " -o " + pot).status, 0);
     const Ran run = claystack(std::string("export -q --certificate ") + pot + " " + stl + " " +
-                              obj + " " + drc);
+                              obj + " " + drc + " " + ply);
     ASSERT_EQ(run.status, 0) << run.err;
   }
   static Ran check(const std::string& file, const std::string& certificate) {
@@ -24,10 +25,11 @@ class CertifiedVase : public testing::Test {
   ScratchFolder folder;
   std::string pot = folder.file("v.pot.json");
   std::string stl = folder.file("v.stl"), obj = folder.file("v.obj"), drc = folder.file("v.drc");
+  std::string ply = folder.file("v.PLY");
 };
 
 TEST_F(CertifiedVase, IsVerifiedInEveryFormat) {
-  for (const std::string& file : {stl, obj, drc}) {
+  for (const std::string& file : {stl, obj, drc, ply}) {
     const Ran run = check(file, file + ".certificate.json");
     EXPECT_EQ(run.status, 0) << run.out << run.err;
     EXPECT_NE(run.out.find("certificate holds"), std::string::npos) << run.out;
@@ -40,10 +42,17 @@ TEST_F(CertifiedVase, IsVerifiedInEveryFormat) {
 
 TEST_F(CertifiedVase, ConformsToItsSchema) {
   const Json schema = load_schema("certificate");
-  for (const std::string& file : {stl, obj, drc})
+  for (const std::string& file : {stl, obj, drc, ply})
     EXPECT_EQ(violation(schema, Json::parse(read_text(file + ".certificate.json"))), "");
   const Json process = Json::parse(read_text(sample("workshop.process.json")));
   EXPECT_EQ(violation(load_schema("process"), process), "");
+}
+
+TEST(CertificateSchema, NamesEveryWrittenFormat) {
+  std::vector<std::string> names;
+  for (const solid::FormatFacts& facts : solid::kFormatFacts)
+    if (facts.written) names.emplace_back(facts.name);
+  EXPECT_EQ(load_schema("certificate").at("properties").at("format").at("enum"), Json(names));
 }
 
 TEST_F(CertifiedVase, ReportsASwappedCertificate) {

@@ -44,9 +44,7 @@ class Exporting : public ::testing::Test {
   }
   ScratchFolder folder;
   history::SharedPot pot = thrown();
-  ExportChoices choices{.stl = true,
-                        .obj = true,
-                        .drc = false,
+  ExportChoices choices{.meshes = {solid::MeshFormat::stl_binary, solid::MeshFormat::obj},
                         .section = true,
                         .pot = true,
                         .folder = folder.path().string(),

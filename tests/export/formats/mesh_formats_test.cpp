@@ -59,8 +59,23 @@ TEST(MeshFormats, AreChosenByExtension) {
   EXPECT_EQ(mesh_format_of("pot.v2.OBJ").value(), MeshFormat::obj);
   EXPECT_EQ(mesh_format_of(".drc").value(), MeshFormat::drc);
   for (const char* other : {"pot", "pot.step", "pot.stl.gz", "stl", ""}) {
-    EXPECT_EQ(mesh_format_of(other).error().message,
-              std::string(other) + ": expected a name that ends in .stl, .obj or .drc");
+    EXPECT_EQ(
+        mesh_format_of(other).error().message,
+        std::string(other) + ": expected a name that ends in " + format_endings(FormatUse::read));
+  }
+}
+
+TEST(MeshFormats, HaveOneTable) {
+  EXPECT_TRUE(format_endings(FormatUse::write).starts_with(".stl, .obj, .drc"));
+  EXPECT_TRUE(format_endings(FormatUse::read).ends_with(" or .off"));
+  for (const FormatFacts& facts : kFormatFacts) {
+    EXPECT_EQ(mesh_format_named(facts.name).value(), facts.format);
+    EXPECT_EQ(facts_of(facts.format).name, facts.name);
+    std::string capitals(facts.ending);
+    for (char& c : capitals) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    EXPECT_EQ(facts_of(mesh_format_of("pot" + capitals).value()).ending, facts.ending);
+    EXPECT_EQ(mesh_format_of("pot" + capitals, FormatUse::write).has_value(), facts.written);
+    EXPECT_EQ(encode_mesh(torus(4, 3), facts.format).has_value(), facts.written);
   }
 }
 

@@ -142,7 +142,9 @@ TEST(FileRequests, FollowTheExtension) {
   EXPECT_EQ(file_request("a.drc")->format, MeshFormat::drc);
   EXPECT_EQ(file_request("a.svg")->kind, FileKind::section);
   EXPECT_EQ(file_request("a.csv")->kind, FileKind::wall_table);
-  EXPECT_TRUE(refused(file_request("a.ply"), ErrorKind::bad_input, ".svg"));
+  EXPECT_EQ(file_request("a.PLY")->format, MeshFormat::ply);
+  for (const char* path : {"a.off", "a.blend"})
+    EXPECT_TRUE(refused(file_request(path), ErrorKind::bad_input, ".svg"));
 }
 
 }  // namespace

@@ -11,11 +11,15 @@
 
 namespace clay::solid::samples {
 
+/// Every format that this build writes.
 inline std::vector<MeshFormat> every_format() {
-  std::vector<MeshFormat> formats{MeshFormat::stl_binary, MeshFormat::stl_ascii, MeshFormat::obj};
-#ifdef CLAYSTACK_DRACO
-  formats.push_back(MeshFormat::drc);
+  std::vector<MeshFormat> formats;
+  for (const FormatFacts& facts : kFormatFacts) {
+#ifndef CLAYSTACK_DRACO
+    if (facts.format == MeshFormat::drc) continue;
 #endif
+    if (facts.written) formats.push_back(facts.format);
+  }
   return formats;
 }
 

@@ -1,6 +1,7 @@
 #include "claystack/export/proof.hpp"
 
 #include "claystack/export/job.hpp"
+#include "tests/export/job/exported.hpp"
 #include "tests/export/solid/shapes.hpp"
 
 #include <gtest/gtest.h>
@@ -36,10 +37,7 @@ CertifiedExport certified(const ClayStack& stack, MeshFormat format,
 }
 
 TEST(SolidCertificate, HoldsForEveryFormat) {
-  for (const MeshFormat format : kMeshFormats) {
-#ifndef CLAYSTACK_DRACO
-    if (format == MeshFormat::drc) continue;
-#endif
+  for (const MeshFormat format : samples::every_format()) {
     const CertifiedExport pot = certified(shapes::vase(60), format);
     EXPECT_EQ(pot.certificate.format, name_of(format));
     const auto verdict = verify_certificate(pot.certificate, pot.file, "pot");

@@ -17,21 +17,48 @@ namespace clay::solid::inline formats {
 
 // ---- mesh formats --------------------------------------------------------------------
 // The only readers and writers of mesh files. Encoders write to memory; the caller publishes.
-// Decoders treat input as untrusted: own decoders for STL and OBJ, Draco's decoder behind checks.
+// Decoders treat input as untrusted: own decoders for STL, OBJ, PLY and OFF, Draco's decoder behind
+// checks.
 
 struct DracoClaims;  // drc_claims.hpp
 
-enum class MeshFormat { stl_binary, stl_ascii, obj, drc };
-inline constexpr std::array kMeshFormats{MeshFormat::stl_binary, MeshFormat::stl_ascii,
-                                         MeshFormat::obj, MeshFormat::drc};
+enum class MeshFormat { stl_binary, stl_ascii, obj, drc, ply, off };
 
-/// By the file name's extension, ignoring case: .stl (binary), .obj, .drc; any other is an error
-/// that lists them.
-Result<MeshFormat> mesh_format_of(std::string_view path);
-/// By the name that `name_of` returns.
+struct FormatFacts {
+  MeshFormat format;
+  std::string_view name;    ///< in reports, certificates and schemas
+  std::string_view title;   ///< for people
+  std::string_view ending;  ///< of file names, in lower case; the first format with it is chosen
+  bool written;             ///< false: only read
+  bool streamed;            ///< read with a part of the file in memory, by `read_mesh`
+  bool decimal;             ///< coordinates are decimal digits
+};
+
+/// The formats: every list of them in messages, help, schemas and tests is made from this one.
+inline constexpr std::array kFormatFacts{
+    FormatFacts{MeshFormat::stl_binary, "stl_binary", "STL", ".stl", true, true, false},
+    FormatFacts{MeshFormat::stl_ascii, "stl_ascii", "STL", ".stl", true, true, true},
+    FormatFacts{MeshFormat::obj, "obj", "OBJ", ".obj", true, true, true},
+    FormatFacts{MeshFormat::drc, "drc", "Draco", ".drc", true, false, false},
+    FormatFacts{MeshFormat::ply, "ply", "PLY", ".ply", true, false, false},
+    FormatFacts{MeshFormat::off, "off", "OFF", ".off", false, false, true}};
+
+[[nodiscard]] constexpr const FormatFacts& facts_of(MeshFormat format) noexcept {
+  return kFormatFacts[static_cast<std::size_t>(format)];
+}
+
+enum class FormatUse { read, write };
+/// The endings of the formats for this use: ".stl, .obj or .drc" with " or " as `last`.
+[[nodiscard]] std::string format_endings(FormatUse use, std::string_view last = " or ");
+
+/// By the file name's extension, ignoring case (.stl: binary); any other is an error that lists the
+/// endings for this use.
+Result<MeshFormat> mesh_format_of(std::string_view path, FormatUse use = FormatUse::read);
+/// By the name in `FormatFacts`.
 Result<MeshFormat> mesh_format_named(std::string_view name);
-/// The enumerator's name.
-[[nodiscard]] std::string_view name_of(MeshFormat format) noexcept;
+[[nodiscard]] constexpr std::string_view name_of(MeshFormat format) noexcept {
+  return facts_of(format).name;
+}
 
 /// Limits on the positions for Draco's encoder.
 struct DracoSettings {
@@ -58,6 +85,23 @@ std::string encode_obj(const TriangleMesh& mesh, std::string_view object_name);
 /// a vertex twice, a coordinate or index out of range).
 Result<std::string> encode_drc(const TriangleMesh& mesh, const DracoSettings& settings,
                                const DracoClaims* claims = nullptr);
+
+/// Binary, little-endian: points as float32 x, y, z, faces as lists of 3 int32. With `wall_mm`, one
+/// number for each point, every vertex also has a property `thickness`: the wall there [mm].
+std::string encode_ply(const TriangleMesh& mesh, std::string_view object_name,
+                       std::span<const float> wall_mm = {});
+
+/// What a file holds beside the surface; each format takes what it has a place for.
+struct FileContents {
+  std::string_view name = "pot";        ///< of the solid or object
+  std::span<const float> wall_mm = {};  ///< thickness at each point [mm]; empty: unknown
+  DracoSettings draco = {};
+};
+
+/// The mesh in any format that can be written, with the defaults of its encoder. Errors as for
+/// `encode_drc`; `bad_input` for a format that is only read.
+Result<std::string> encode_mesh(const TriangleMesh& mesh, MeshFormat format,
+                                const FileContents& contents = {});
 
 /// What a reader accepts beyond its format.
 struct ReadOptions {
@@ -90,6 +134,9 @@ inline constexpr std::uint64_t kMaxTextBytes = std::uint64_t{8} << 30;
 
 /// Read an STL or OBJ file like `decode_stl` and `decode_obj`, but hold only one or two megabytes
 /// of it in memory; text may have up to kMaxTextBytes. Errors of the source are passed on.
+/// `read_mesh` takes either format.
+Result<TriangleMesh> read_mesh(const ByteSource& source, MeshFormat streamed, std::string_view name,
+                               const ReadOptions& options = {});
 Result<TriangleMesh> read_stl(const ByteSource& source, std::string_view name,
                               const ReadOptions& options = {});
 Result<TriangleMesh> read_obj(const ByteSource& source, std::string_view name,
@@ -114,6 +161,16 @@ Result<TriangleMesh> decode_obj(std::string_view bytes, std::string_view name,
 /// damaged file may decode to another mesh. Files with claims of Claystack (`drc_claims`) have one,
 /// and are refused if it does not match.
 Result<TriangleMesh> decode_drc(std::string_view bytes, std::string_view name);
+
+/// PLY 1.0 as text or binary of either byte order. Vertices need the properties x, y and z of any
+/// number type; faces a list `vertex_indices` or `vertex_index`, of up to 4096 corners, which
+/// become fans. Other properties and elements are passed over. Every count is compared with the
+/// size of the file before memory is allocated.
+Result<TriangleMesh> decode_ply(std::string_view bytes, std::string_view name);
+
+/// OFF as text, also with colours, normals or texture coordinates (COFF, NOFF, STOFF and their
+/// combinations), which are passed over. Binary OFF, and points of 4 or n dimensions, are refused.
+Result<TriangleMesh> decode_off(std::string_view bytes, std::string_view name);
 
 /// The mesh with coordinates rounded to float32, as files store it.
 [[nodiscard]] TriangleMesh rounded_to_float(const TriangleMesh& mesh);

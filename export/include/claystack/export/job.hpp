@@ -83,8 +83,8 @@ struct FileRequest {
   std::string bytes = {};                      ///< of a given file
 };
 
-/// The kind of file by its extension: .stl (binary), .obj, .drc, .svg (the section) or .csv (its
-/// walls). Any other extension is an error that lists these.
+/// The kind of file by its extension: that of a mesh (`mesh_format_of`), .svg (the section) or .csv
+/// (its walls). Any other extension is an error that lists these.
 Result<FileRequest> file_request(const std::string& path);
 
 struct ExportReport;

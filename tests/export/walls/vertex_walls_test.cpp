@@ -1,0 +1,51 @@
+#include "export/walls/vertex_walls.hpp"
+
+#include "claystack/export/walls.hpp"
+#include "tests/engine/clay/stack_samples.hpp"
+#include "tests/export/section/cup_section.hpp"
+#include "tests/export/solid/shapes.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace clay::solid {
+namespace {
+
+TEST(VertexWalls, AreThoseOfTheFacesThatMeet) {
+  // A wall of 5 mm with extra vertices in the middle, a floor of 8 mm.
+  const Polygon pot{{0, 0}, {40, 0}, {40, 30}, {40, 60}, {35, 60}, {35, 30}, {35, 8}, {0, 8}};
+  const auto walls = vertex_walls({{pot}}).at(0);
+  ASSERT_EQ(walls.size(), pot.size());
+  EXPECT_NEAR(walls[2], 5.0, 1e-9);
+  EXPECT_NEAR(walls[5], 5.0, 1e-9);
+  EXPECT_NEAR(walls[0], 8.0, 1e-9);
+  EXPECT_NEAR(walls[7], 8.0, 1e-9);
+  // The lip is no wall; the nearest vertices with one are those in the middle of the wall.
+  EXPECT_NEAR(walls[3], 5.0, 1e-9);
+  EXPECT_NEAR(walls[4], 5.0, 1e-9);
+}
+
+TEST(VertexWalls, OfAPieceWithoutAWallAreItsLargestDisc) {
+  const Profile square{{{{30, 0}, {40, 0}, {40, 10}, {30, 10}}}};
+  const auto walls = vertex_walls(square);
+  for (const double wall : walls.at(0)) EXPECT_NEAR(wall, min_wall_mm(square), 1e-9);
+}
+
+RC_GTEST_PROP(VertexWalls, AreFiniteAndNoThinnerThanTheMinimum, ()) {
+  auto random = *samples::random_engine();
+  const auto section = profile_of(samples::stack(random, 20));
+  RC_PRE(section.has_value());
+  const double least = min_wall_mm(section->profile);
+  const auto walls = vertex_walls(section->profile);
+  for (const auto& piece : walls)
+    for (const double wall : piece) {
+      RC_ASSERT(std::isfinite(wall));
+      RC_ASSERT(wall >= least * (1.0 - 1e-9));
+    }
+}
+
+}  // namespace
+}  // namespace clay::solid
