@@ -92,7 +92,7 @@ foreach(component core engine export falcon app)
   endforeach()
 endforeach()
 if(seen LESS 1000)
-  message(FATAL_ERROR "found ${seen} includes only: this check sees too little")
+  message(FATAL_ERROR "found only ${seen} includes: expected at least 1000")
 endif()
 
 # External libraries, by the rooms that may use them.
@@ -117,5 +117,5 @@ forbid("core;engine;export;falcon/safety;falcon/sim" ${devices} "only falcon/dev
 forbid("core;engine;export;falcon;app/cli;app/servo;app/history" ${windows} "only app/render and app/studio draw")
 forbid("core/include;engine/include;export/include;falcon/include;app/servo/include"
   "(CGAL|OpenMesh|draco|nlohmann|libusb|hidapi|ftdi|fmt|CLI)"
-  "a public header names no library of the inside")
+  "a public header may not include a library")
 forbid("engine/clay;engine/tool;engine/tick;engine/collapse;engine/wheel" "nlohmann" "JSON stays in files")
