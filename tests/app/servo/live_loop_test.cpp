@@ -136,7 +136,7 @@ TEST(LiveLoop, ForceHasTheStiffnessOfTheMapping) {
   }
 }
 
-TEST(LiveLoop, ClutchMovesTheHandButNotTheTool) {
+TEST(LiveLoop, ClutchDecouplesTheToolFromTheHand) {
   VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
   live.run(3.2);
   ASSERT_GT(glm::length(live.status().force_n), 0.1);
@@ -234,7 +234,7 @@ TEST(LiveLoop, SecondsCountDuringAPause) {
   EXPECT_EQ(live.run(0.2), Ending::time_up);
 }
 
-TEST(LiveLoop, ClayRateDeformsLessOftenAndRendersForceInBetween) {
+TEST(LiveLoop, ReducedClayRateKeepsTheForceRate) {
   LiveSettings settings = one_to_one();
   settings.clay_rate_hz = 50.0;
   const test::ScratchFolder folder;

@@ -83,7 +83,7 @@ TEST(Mapping, RefusesUnusableSettings) {
 }
 
 // Friction of 1 N at 1 m/s injects 1 J per second. As a spring force it is damped.
-TEST(HandForce, OnlyTheSpringIsMadePassive) {
+TEST(HandForce, PassivityAppliesOnlyToTheSpring) {
   const Mapping mapping = Mapping::build({.scale = 1.0}).value();
   const auto max_removed_n = [&](bool as_spring) {
     HandForce hand(falcon::PassivityController::build({.loop = {}, .step_mm = 0.05}).value());

@@ -63,7 +63,7 @@ TEST(Recorder, KeepsTheOldSessionUntilTheNewOneIsComplete) {
   EXPECT_FALSE(std::filesystem::exists(temporary));
 }
 
-TEST(Recorder, WithoutPosesItKeepsTheFileAndLeavesNoOther) {
+TEST(Recorder, KeepsTheOldSessionWithoutPoses) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("s.session");
   test::write_text(path, "the old one");

@@ -127,7 +127,7 @@ TEST(Servo, ReadersGetCompleteValuesInOrder) {
   EXPECT_EQ(threads.stop(), Ending::stopped);
 }
 
-TEST(Servo, UnpluggingEndsIt) {
+TEST(Servo, UnpluggingEndsTheServo) {
   WireLog log;
   Threads threads(log);
   threads.wait_for_force();

@@ -25,7 +25,7 @@ DevicePointer wait_for_device(DeviceWatch& watch) {
   return device;
 }
 
-TEST(DeviceWatch, OpensALaterDeviceAndStopsSearching) {
+TEST(DeviceWatch, OpensADeviceConnectedLaterAndStopsSearching) {
   Socket socket;
   servo::WireLog wire;
   DeviceWatch watch(socket.look(), 1ms);

@@ -48,7 +48,7 @@ class Look : public test::Window {
   std::map<std::string, std::string> read_;
 };
 
-TEST_F(Look, ClayIsDrawnWhereGeometryPlacesIt) {
+TEST_F(Look, DrawsClayAtItsPosition) {
   // Seen from the front: clay on the axis, background above the lump.
   const Ran ran =
       run("key 1\npoint 47 15\nscreenshot FOLDER/in.png\npoint 80 60\nscreenshot FOLDER/out.png\n");
@@ -59,7 +59,7 @@ TEST_F(Look, ClayIsDrawnWhereGeometryPlacesIt) {
       << "background above the lump";
 }
 
-TEST_F(Look, TheWallMapPaintsThickClayYellow) {
+TEST_F(Look, WallMapShowsThickClayYellow) {
   // The whole lump is thicker than the range of the map.
   const Ran ran =
       run("key 1\nkey W\nmove 480 30\nwait 0.2\nscreenshot FOLDER/map.png\nkey W\nwait 0.2\n"

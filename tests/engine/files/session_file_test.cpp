@@ -286,7 +286,7 @@ TEST(SessionFile, ReadsTheLargestSessionInOneGibibyte) {
   EXPECT_GT(kMaxSessionBytes, 2 * (text_of(wandering(10'000)).size() / 10'000) * kMaxPoses);
 }
 
-TEST(SessionFile, RefusesTooManyPosesInAdvance) {
+TEST(SessionFile, RefusesTooManyPosesBeforeReadingThem) {
   std::string text(kHeader);
   for (std::size_t block = 0; block <= kMaxPoses / kPosesPerBlock; ++block)
     text += R"({"n":100,"t_us":0})"

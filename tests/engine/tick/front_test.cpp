@@ -48,7 +48,7 @@ class Front : public testing::TestWithParam<double> {
 
 /// The exact integral behind the pole of the ball: the depth is 4 mm plus the radius of the ball
 /// there, minus the yielded part, w (1 - exp(-kappa s / v)).
-TEST_P(Front, ForceIsContinuousAsTheToolsEndCrossesARing) {
+TEST_P(Front, ForceIsContinuousAsTheEndOfTheToolCrossesARing) {
   const Contact contact = behind_end_at(30.0 + GetParam() * kRingMm);
   double expected = 0.0;
   constexpr int kParts = 100'000;

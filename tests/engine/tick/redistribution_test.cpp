@@ -71,7 +71,7 @@ TEST_P(Upward, FollowsEquationsFiveToEight) {
 }
 INSTANTIATE_TEST_SUITE_P(Redistribution, Upward, testing::Bool());
 
-TEST(Redistribution, KernelStartsAtTheToolsEnds) {
+TEST(Redistribution, KernelStartsAtTheEndsOfTheTool) {
   const auto w = weights(4.0, 1.0, 12);
   for (const double offset : {-0.5, -0.25, 0.25, 0.5}) {
     ClayStack stack = ClayStack::cylinder(60, 1.0, 50.0, 0.0, 60).value();

@@ -65,7 +65,7 @@ TEST(Wire, CutsThePotOffAndLowersIt) {
   EXPECT_EQ(wheel.stack().size(), 7u);
 }
 
-TEST(Wire, NeverTakesTheWholePot) {
+TEST(Wire, NeverRemovesTheWholePot) {
   for (const ToolMode mode : {ToolMode::wire, ToolMode::needle}) {
     Wheel wheel = Wheel::build(scene_with(mode)).value();
     std::int64_t time_us = 0;

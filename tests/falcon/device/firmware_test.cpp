@@ -42,7 +42,7 @@ TEST(Firmware, RefusesEveryTruncation) {
   EXPECT_EQ(fault_of(longer), DeviceFault::bad_firmware);
 }
 
-TEST(Firmware, RefusesAnotherHeader) {
+TEST(Firmware, RefusesAWrongHeader) {
   for (std::size_t at = 0; at < 2 * (1 + 8); ++at) {
     auto bytes = dummy_firmware();
     bytes[at] ^= 1;

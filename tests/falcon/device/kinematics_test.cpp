@@ -125,7 +125,7 @@ RC_GTEST_PROP(Forward, FindsThePoseOfReachableCounts, ()) {
 
 // Counts far out of reach, as encoders may read before homing, give a pose with these angles or an
 // error. (If a leg is almost straight, a small motion changes its angle a lot.)
-RC_GTEST_PROP(Forward, NeverReturnsAFalsePose, ()) {
+RC_GTEST_PROP(Forward, NeverReturnsAWrongPose, ()) {
   const Kinematics& device = any_device();
   const auto counts = *rc::gen::container<LegCounts>(rc::gen::arbitrary<std::int16_t>());
   const glm::dvec3 angles = device.angles_of(counts);

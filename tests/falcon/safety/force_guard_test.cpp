@@ -80,7 +80,7 @@ TEST(ForceGuardRules, EachStopsFaultsThatNoOtherRuleStops) {
   for (std::string line; std::getline(page, line);) lines.insert(line);
   for (const NamedGuardRule& rule : kGuardRules) {
     const std::string row = row_without(rule);
-    EXPECT_EQ(row.find("|  |"), std::string::npos) << "nothing tests: " << row;
+    EXPECT_EQ(row.find("|  |"), std::string::npos) << "no fault tests the rule: " << row;
     EXPECT_TRUE(lines.contains(row)) << "docs/force-guard.md lacks: " << row;
   }
 }

@@ -143,7 +143,7 @@ void hand_frozen(Trial& trial) {
   }
 }
 
-void position_leaps(Trial& trial) {
+void position_jumps(Trial& trial) {
   trial.engage(kPush);
   const Tick elsewhere{.wanted_n = kPush, .jump_mm = {0.0, 15.0, 0.0}};
   after(trial, elsewhere, 0.001);
@@ -260,7 +260,7 @@ std::span<const GuardFault> guard_faults() {
       {6, "unplugged", unplugged},
       {7, "frames stale", frames_stale},
       {8, "hand frozen", hand_frozen},
-      {9, "position leaps", position_leaps},
+      {9, "position jumps", position_jumps},
       {10, "bytes lost", bytes_lost},
       {11, "servo late", servo_late},
       {12, "clay starved", clay_starved},

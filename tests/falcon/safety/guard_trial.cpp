@@ -107,7 +107,7 @@ bool Allowance::accepts_position(const Tick& tick, const GuardSample& sample) {
     suspected_ = !suspected_;
     return false;
   }
-  // After three frames in one place the guard knows the position, whatever it knew before.
+  // After three frames in one place the guard has accepted that position in any case.
   if (unsure_frames_ > 0) unsure_frames_ = (tick.jump_mm != accepted_mm_ ? 3 : unsure_frames_) - 1;
   position_known_ = any_frame_ = true;
   accepted_mm_ = tick.jump_mm;

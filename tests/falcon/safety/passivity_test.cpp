@@ -65,7 +65,7 @@ PressAndLeave press_and_leave(double fraction_in, double fraction_out, bool repo
 
 // A guard's ramp that grows during a contact gives the hand more energy on the way out than it took
 // on the way in: at most F^2 / 2K. The controller detects it if the displayed force is reported.
-TEST(Passivity, CountsTheForceThatIsDisplayed) {
+TEST(Passivity, CountsTheDisplayedForce) {
   const double stored_mj = 0.5 * 0.4 * 25.0;
   const PressAndLeave steady = press_and_leave(1.0, 1.0, true);
   EXPECT_NEAR(steady.given_mj, 0.0, 0.01 * stored_mj);
@@ -193,7 +193,7 @@ TEST(Passivity, BoundOfTheDampingFollowsFromTheSampleTime) {
   EXPECT_NEAR(controller_of(fast, 0.05).most_damping_ns_per_mm(), 0.25 * kTickS / 0.05, 1e-15);
 }
 
-TEST(Passivity, TooMuchEnergyYieldsThenEndsTheForce) {
+TEST(Passivity, TooMuchEnergyReducesThenEndsTheForce) {
   PassivityController controller = controller_of(kLoop);
   std::int64_t time_us = 0;
   inject(controller, time_us, 11.0);
@@ -211,14 +211,14 @@ TEST(Passivity, TooMuchEnergyYieldsThenEndsTheForce) {
   EXPECT_EQ(controller.tick(1000, along(-1.0), along(1)).force_n, along(1));
 }
 
-TEST(Passivity, LittleEnergyDoesNotYield) {
+TEST(Passivity, LittleEnergyIsOnlyDamped) {
   PassivityController controller = controller_of(kLoop);
   std::int64_t time_us = 0;
   inject(controller, time_us, 2.0);
   EXPECT_EQ(controller.state(), PassivityState::damping);
 }
 
-TEST(Passivity, OscillatingForceYields) {
+TEST(Passivity, OscillationReducesTheForce) {
   for (const double swing : {0.9, 1.1}) {
     for (const int half_period_ticks : {6, 8}) {  // 8 swings in 42 and in 56 ms
       PassivityController controller = controller_of(kLoop);
