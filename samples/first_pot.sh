@@ -1,6 +1,6 @@
 #!/bin/sh
-# From a fresh Debian 12 to a file that prints: installs what the build needs, builds, throws
-# the sample bowl from its recorded session and exports it. Falcon and screen are not needed.
+# From a fresh Debian 12 to a printable file: installs what the build needs, builds, throws the
+# sample bowl from its recorded session and exports it. Needs neither a Falcon nor a screen.
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -12,7 +12,7 @@ packages="g++ cmake ninja-build ccache libglm-dev libexpected-dev nlohmann-json3
 # shellcheck disable=SC2086  # a list of words
 sh samples/install_packages.sh $packages
 
-cmake --preset release -DCLAYSTACK_BENCH=OFF   # the measurements come with tests/run.sh
+cmake --preset release -DCLAYSTACK_BENCH=OFF   # tests/run.sh builds the benchmarks
 cmake --build --preset release --target claystack claystack-studio
 
 claystack=build/release/app/claystack

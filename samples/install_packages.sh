@@ -1,5 +1,5 @@
 #!/bin/sh
-# Installs the Debian packages named, those that are not there yet.
+# Installs those of the named Debian packages that are missing.
 set -eu
 missing=""
 for package in "$@"; do

@@ -1,12 +1,12 @@
 # cmake -DSOURCE=... -DBUILD=... -DWORK=... [-DCXX=...] -P consumer.cmake: installs, then builds
-# separate programs with the installed copy, with CMake and with pkg-config; and the engine alone,
-# which must not need heavy libraries.
+# separate programs against the installed copy with CMake and with pkg-config. Then installs the
+# engine alone, which must not need heavy libraries.
 
 function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-# Everything, from the build under test.
+# All components, from the build under test.
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/full)
 run(${CMAKE_COMMAND} -S ${SOURCE}/samples/consumer -B ${WORK}/consumer -G Ninja
   -DCMAKE_PREFIX_PATH=${WORK}/full -DCMAKE_BUILD_TYPE=Release)
@@ -43,7 +43,7 @@ run(${WORK}/pkgconfig/run_servo)
 file(SHA256 ${WORK}/cmake.stl by_cmake)
 file(SHA256 ${WORK}/pkgconfig.stl by_pkgconfig)
 if(NOT by_cmake STREQUAL by_pkgconfig)
-  message(FATAL_ERROR "CMake and pkg-config make programs that export different files")
+  message(FATAL_ERROR "the programs built with CMake and with pkg-config export different files")
 endif()
 
 # The engine alone.
@@ -59,10 +59,10 @@ run(${WORK}/engine-consumer/press_once)
 
 execute_process(COMMAND ldd ${WORK}/engine-consumer/press_once
   OUTPUT_VARIABLE libraries COMMAND_ERROR_IS_FATAL ANY)
-message(STATUS "the engine alone links\n${libraries}")
+message(STATUS "libraries of the engine alone:\n${libraries}")
 if(libraries MATCHES "CGAL|gmp|mpfr|usb|hidapi|ftdi|libGL|libEGL|OpenMesh|draco")
-  message(FATAL_ERROR "the engine brings along what it does not need")
+  message(FATAL_ERROR "the engine links libraries that it does not need")
 endif()
 if(NOT libraries MATCHES "libstdc")
-  message(FATAL_ERROR "ldd printed no library at all: this check sees nothing")
+  message(FATAL_ERROR "expected libstdc++ in the output of ldd")
 endif()

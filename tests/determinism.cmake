@@ -1,5 +1,5 @@
-# cmake -DSOURCE=... -DWORK=... -P determinism.cmake: one session, two compilers, two optimisation
-# levels: the pot files must be identical.
+# cmake -DSOURCE=... -DWORK=... -P determinism.cmake: replays the sample sessions with
+# two compilers and two optimisation levels; the pots must be identical.
 
 function(run)
   execute_process(COMMAND ${ARGV} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)

@@ -9,7 +9,7 @@ if [ "${1-}" = --fix ]; then
   sources | xargs -0 clang-format-14 -i
   exit
 fi
-# Not --dry-run: version 14 reports the end of every `namespace a::inline b`, and changes nothing.
+# Not --dry-run: version 14 wrongly reports the end of every `namespace a::inline b`.
 sources | xargs -0 -n 50 -P 2 bash -c '
   cmp -s <(cat "$@") <(clang-format-14 "$@") && exit
   for file; do

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installs the programs that the checks use; then clang-tidy, a link that compares types, the Debug
-# build, and last the Release build with every test. CONTRIBUTING.md lists what runs where.
+# Installs the programs that the checks use. Then runs clang-tidy, a link that compares types, the
+# tests of the Debug build and all tests of the Release build. CONTRIBUTING.md lists them.
 set -eu
 cd "$(dirname "$0")/.."
 sh samples/install_packages.sh clang clang-tidy-14 clang-format-14 admesh draco prusa-slicer openscad \

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Checks the sources of components with clang-tidy 14 (.clang-tidy has the rules; each is an error).
-# usage: tests/tidy.sh [FOLDER...]    FOLDER: core, engine/tick, ...; without one: core engine falcon
+# Checks sources with clang-tidy 14. The rules are in .clang-tidy; each finding is an error.
+# usage: tests/tidy.sh [FOLDER...]    FOLDER: core, engine/tick, ...; default: core engine falcon
 set -eu
 cd "$(dirname "$0")/.."
 [ $# -gt 0 ] || set -- core engine falcon

@@ -14,8 +14,8 @@ namespace {
 
 /// The same number of parts as in the engine.
 int parts_of(const ToolState& tool) noexcept {
-  const glm::dvec3 way = glm::abs(tool.moved_mm);
-  const double parts = std::max({way.x, way.y, way.z}) / 0.05;
+  const glm::dvec3 motion = glm::abs(tool.moved_mm);
+  const double parts = std::max({motion.x, motion.y, motion.z}) / 0.05;
   return parts < 32 ? static_cast<int>(parts) + 1 : 32;
 }
 
@@ -53,9 +53,9 @@ void BareWheel::step(const Pose& pose) noexcept {
 
 void BareWheel::press(const ToolState& tool) noexcept {
   ToolRemoval& removal = removals_[0];
-  const double half_way = 0.5 * tool.moved_mm.y / stack_.ring_height_mm();
-  removal.contact.up_offset += std::max(half_way, 0.0);
-  removal.contact.down_offset += std::max(-half_way, 0.0);
+  const double half_rise = 0.5 * tool.moved_mm.y / stack_.ring_height_mm();
+  removal.contact.up_offset += std::max(half_rise, 0.0);
+  removal.contact.down_offset += std::max(-half_rise, 0.0);
   compute_removal<Model::conserving>(plan_.removal, stack_, tool.dt_s, removal.contact,
                                      removal.removed);
   press_clay<Model::conserving>(plan_, removals_, tool.upward, stack_, ledger_, &rim_);

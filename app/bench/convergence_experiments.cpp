@@ -11,7 +11,7 @@
 namespace clay::bench {
 namespace {
 
-/// A hand along straight lines in minimum-jerk time (Flash and Hogan, J. Neurosci. 5(7) 1985).
+/// A hand that moves on straight lines with minimum jerk (Flash and Hogan, J. Neurosci. 5(7) 1985).
 class Hand {
  public:
   explicit Hand(glm::dvec3 start_mm) : poses_{{0, start_mm, false}} {}
@@ -65,11 +65,11 @@ std::vector<glm::dvec2> outline(const ClayStack& stack) {
 }
 
 double distance2(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
-  const glm::dvec2 way = b - a;
-  const double length2 = glm::dot(way, way);
-  const double u = length2 > 0.0 ? std::clamp(glm::dot(p - a, way) / length2, 0.0, 1.0) : 0.0;
-  const glm::dvec2 off = p - (a + u * way);
-  return glm::dot(off, off);
+  const glm::dvec2 edge = b - a;
+  const double length2 = glm::dot(edge, edge);
+  const double u = length2 > 0.0 ? std::clamp(glm::dot(p - a, edge) / length2, 0.0, 1.0) : 0.0;
+  const glm::dvec2 offset = p - (a + u * edge);
+  return glm::dot(offset, offset);
 }
 
 double farthest2(const std::vector<glm::dvec2>& line, const std::vector<glm::dvec2>& from) {
@@ -156,36 +156,36 @@ ForceDifference force_difference(const Played& run, const Played& reference) {
   for (const glm::dvec3& force : reference.force_n)
     result.largest_n = std::max(result.largest_n, glm::length(force));
   std::size_t j = 0, common = 0;
-  double sum = 0.0, most = 0.0;
+  double sum = 0.0, largest = 0.0;
   for (std::size_t i = 0; i < run.time_us.size(); ++i) {
     while (j < reference.time_us.size() && reference.time_us[j] < run.time_us[i]) ++j;
     if (j == reference.time_us.size()) break;
     if (reference.time_us[j] != run.time_us[i]) continue;
-    const double off = glm::distance(run.force_n[i], reference.force_n[j]);
-    sum += off * off;
-    most = std::max(most, off);
+    const double difference = glm::distance(run.force_n[i], reference.force_n[j]);
+    sum += difference * difference;
+    largest = std::max(largest, difference);
     ++common;
   }
   result.rms_percent = 100.0 * std::sqrt(sum / static_cast<double>(common)) / result.largest_n;
-  result.most_percent = 100.0 * most / result.largest_n;
+  result.most_percent = 100.0 * largest / result.largest_n;
   return result;
 }
 
-StandingRib standing_rib(double ring_height_mm, double rate_hz) {
-  StandingRib rib;
+RestingRib resting_rib(double ring_height_mm, double rate_hz) {
+  RestingRib rib;
   rib.scene = lump(40, 30, 60, RibSpec{20, 6});
   rib.scene.lump.rings = static_cast<std::size_t>(std::lround(60.0 / ring_height_mm));
   rib.scene.lump.ring_height_mm = ring_height_mm;
   rib.scene.lump.max_rings = 2 * rib.scene.lump.rings;
-  rib.leap_mm = 4.0;
+  rib.jump_mm = 4.0;
   for (int k = 0; k <= static_cast<int>(0.1 * rate_hz); ++k)
-    rib.poses.push_back({std::lround(1e6 * k / rate_hz), {46.0 - rib.leap_mm, 30.0, 0.0}, false});
+    rib.poses.push_back({std::lround(1e6 * k / rate_hz), {46.0 - rib.jump_mm, 30.0, 0.0}, false});
   return rib;
 }
 
-double StandingRib::wall_mm(double t_s) const {
+double RestingRib::wall_mm(double t_s) const {
   const double wall = scene.lump.outer_radius_mm - scene.lump.inner_radius_mm;
-  const double knee = scene.removal.yield_depth_mm, behind = wall - leap_mm;
+  const double knee = scene.removal.yield_depth_mm, behind = wall - jump_mm;
   const double rate = scene.removal.rate_per_s,
                since = t_s - std::log(wall / (behind + knee)) / rate;
   if (since < 0.0) return wall * std::exp(-rate * t_s);
@@ -193,9 +193,9 @@ double StandingRib::wall_mm(double t_s) const {
   return behind + behind * knee * left / (behind + knee * (1.0 - left));
 }
 
-double StandingRib::force_n(double t_s) const {
+double RestingRib::force_n(double t_s) const {
   const double wall = scene.lump.outer_radius_mm - scene.lump.inner_radius_mm;
-  const double depth = leap_mm - (wall - wall_mm(t_s));
+  const double depth = jump_mm - (wall - wall_mm(t_s));
   return scene.force->stiffness_n_per_mm2 * std::get<RibSpec>(scene.tool.shape).height_mm * depth;
 }
 

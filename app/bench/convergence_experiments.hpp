@@ -49,16 +49,16 @@ struct ForceDifference {
 };
 ForceDifference force_difference(const Played& run, const Played& reference);
 
-/// A rib jumps `leap_mm` deep into a cylinder and stands still: up to the yield depth from its
-/// surface, the wall w decays as w e^(-kappa t), then as the logistic curve to the surface. The
-/// force is K' L times the remaining depth.
-struct StandingRib {
+/// A rib jumps `jump_mm` deep into a cylinder and rests there. The wall w decays as w e^(-kappa t)
+/// until the remaining depth is the yield depth, then on the logistic curve. The force is K' L
+/// times the remaining depth.
+struct RestingRib {
   SceneSpec scene;
   std::vector<Pose> poses;
-  double leap_mm = 0.0;
+  double jump_mm = 0.0;
   [[nodiscard]] double wall_mm(double t_s) const;
   [[nodiscard]] double force_n(double t_s) const;  ///< at the end of the tick
 };
-StandingRib standing_rib(double ring_height_mm, double rate_hz);
+RestingRib resting_rib(double ring_height_mm, double rate_hz);
 
 }  // namespace clay::bench

@@ -12,8 +12,8 @@
 namespace clay::bench {
 namespace {
 
-constexpr double kMostForcePercent = 1.0, kMostProfilePercent = 0.5, kMostRatePercent = 0.2,
-                 kMostForceRatePercent = 1.0;
+constexpr double kMaxForcePercent = 1.0, kMaxProfilePercent = 0.5, kMaxRatePercent = 0.2,
+                 kMaxForceRatePercent = 1.0;
 
 struct Errors {
   double step = 0.0;  ///< ring height [mm], or period of the poses [us]
@@ -99,19 +99,19 @@ Plot plot_of(std::string id, std::string title, std::string step, std::string er
 Table exact_table(bool& sound) {
   Table table;
   table.id = "convergence_exact";
-  table.title = "A standing rib against its exact solution";
+  table.title = "A rib at rest compared with its exact solution";
   table.columns = {
       {"ring_height", "mm"}, {"rate", "Hz"}, {"wall_error", "mm"}, {"force_error", "N"}};
   for (const auto& [h, rate_hz] :
        {std::pair{1.0, 250.0}, {0.5, 1000.0}, {0.1, 1000.0}, {0.5, 8000.0}}) {
-    const StandingRib rib = standing_rib(h, rate_hz);
+    const RestingRib rib = resting_rib(h, rate_hz);
     Wheel wheel = Wheel::build(rib.scene).value();
     double wall = 0.0, force = 0.0;
     for (const Pose& pose : rib.poses) {
       const double t_s = 1e-6 * static_cast<double>(pose.time_us);
-      const double felt = wheel.step(pose).force_n().x;
+      const double force_n = wheel.step(pose).force_n().x;
       const Ring& ring = wheel.stack().rings()[static_cast<std::size_t>(30.0 / h)];
-      force = std::max(force, std::abs(felt - rib.force_n(t_s)));
+      force = std::max(force, std::abs(force_n - rib.force_n(t_s)));
       wall = std::max(wall, std::abs(ring.outer_mm() - ring.inner_mm() - rib.wall_mm(t_s)));
     }
     sound = sound && wall < 1e-6 && force < 1e-6;
@@ -147,8 +147,8 @@ std::vector<Value> values_of(const Worst& worst) {
 }
 
 bool is_sound(const Worst& worst) {
-  return worst.force_h10 < kMostForcePercent && worst.profile_h10 < kMostProfilePercent &&
-         worst.profile_rate < kMostRatePercent && worst.force_rate < kMostForceRatePercent;
+  return worst.force_h10 < kMaxForcePercent && worst.profile_h10 < kMaxProfilePercent &&
+         worst.profile_rate < kMaxRatePercent && worst.force_rate < kMaxForceRatePercent;
 }
 
 }  // namespace
@@ -156,7 +156,7 @@ bool is_sound(const Worst& worst) {
 Section convergence_section(const Effort& effort) {
   Section section;
   section.id = "convergence";
-  section.title = "Convergence in the height of a ring and in the rate of the poses";
+  section.title = "Convergence in ring height and pose rate";
   section.summary =
       "The same strokes on finer rings and at other rates, compared with the finest run and, if "
       "there "
@@ -168,7 +168,7 @@ Section convergence_section(const Effort& effort) {
   const auto periods = effort.quick ? Periods{4000, 2000, 1000, 500, 50}
                                     : Periods{4000, 2000, 1000, 500, 250, 125, 25};
   Table rings = table_of("convergence_rings", "Finer rings", {"ring_height", "mm"});
-  Table rates = table_of("convergence_rate", "Poses more often", {"period", "us"});
+  Table rates = table_of("convergence_rate", "Higher pose rates", {"period", "us"});
   Plot ring_profile = plot_of("convergence_rings_profile", "Profile against ring height",
                               "ring height [mm]", "error [% of R]");
   Plot ring_force = plot_of("convergence_rings_force", "Force against ring height",

@@ -79,8 +79,8 @@ std::vector<Series> all_series() {
   return all;
 }
 
-/// The limit of a variant: the paper as printed has none of its own, so it is compared with the
-/// paper's model that has.
+/// The variant that has the limit. The paper as printed has none, so it is compared with its scaled
+/// model.
 Variant limit_of(Variant variant) {
   return variant == Variant::paper || variant == Variant::literal ? Variant::paper_scaled : variant;
 }
@@ -169,7 +169,7 @@ Table table_of(const std::vector<Series>& all) {
   return table;
 }
 
-/// A triangle whose long side halves the error where run time doubles, below the first curve.
+/// A triangle below the first curve; its long side halves the error when the run time doubles.
 Curve order_1(const Curve& curve) {
   constexpr double kBelow = 0.5, kFactor = 8.0;
   const double x = curve.x.front(), y = kBelow * curve.y.front();
@@ -179,7 +179,7 @@ Curve order_1(const Curve& curve) {
   return guide;
 }
 
-/// What differs between the runs of a series, for their points.
+/// The label of a point: the setting that differs in its series.
 std::string label_of(const Run& run, const std::string& along) {
   if (along == "rings") return fmt::format("{}", run.fineness.rings);
   if (along == "rate") return fmt::format("{} Hz", run.fineness.rate_hz);

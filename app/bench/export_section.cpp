@@ -20,7 +20,7 @@ using solid::Smoothing;
 
 constexpr double kWallMm = 4.0;
 constexpr double kFineMm = 1e-5;  ///< tolerance of the reference section
-constexpr std::size_t kMostSamples = 6000;
+constexpr std::size_t kMaxSamples = 6000;
 
 /// The settings and results of one export.
 struct Run {
@@ -43,26 +43,26 @@ double distance(const solid::Profile& section, glm::dvec2 at) {
       const auto& p = polygon[i];
       const auto& q = polygon[(i + 1) % polygon.size()];
       if (p.rho == 0.0 && q.rho == 0.0) continue;
-      const glm::dvec2 a(p.rho, p.y), way = glm::dvec2(q.rho, q.y) - a;
-      const double t = std::clamp(glm::dot(at - a, way) / glm::dot(way, way), 0.0, 1.0);
-      least = std::min(least, glm::length(at - a - t * way));
+      const glm::dvec2 a(p.rho, p.y), edge = glm::dvec2(q.rho, q.y) - a;
+      const double t = std::clamp(glm::dot(at - a, edge) / glm::dot(edge, edge), 0.0, 1.0);
+      least = std::min(least, glm::length(at - a - t * edge));
     }
   return least;
 }
 
-/// Measured at corners and in the middle of edges, where a facet is farthest from the circle.
+/// Measured at corners and at edge midpoints, where a facet is farthest from the circle.
 double surface_error(const solid::TriangleMesh& mesh, const solid::Profile& section) {
-  const std::size_t stride = std::max<std::size_t>(1, 6 * mesh.triangles.size() / kMostSamples);
+  const std::size_t stride = std::max<std::size_t>(1, 6 * mesh.triangles.size() / kMaxSamples);
   double worst = 0.0;
-  const auto look = [&](const glm::dvec3& p) {
+  const auto measure_at = [&](const glm::dvec3& p) {
     worst = std::max(worst, distance(section, {std::hypot(p.x, p.y), p.z}));
   };
   for (std::size_t i = 0; i < mesh.triangles.size(); i += stride)
     for (std::size_t k = 0; k < 3; ++k) {
       const glm::dvec3& a = mesh.points[mesh.triangles[i][k]];
       const glm::dvec3& b = mesh.points[mesh.triangles[i][(k + 1) % 3]];
-      look(a);
-      look(0.5 * (a + b));
+      measure_at(a);
+      measure_at(0.5 * (a + b));
     }
   return worst;
 }
@@ -229,7 +229,7 @@ std::vector<Plot> plots_of(const std::vector<Run>& runs) {
   return {
       plot_of(runs, "export_surface", "Surface against run time", time, mm, ms, surface),
       plot_of(runs, "export_bytes", "Surface against size", "size [kB]", mm, kilobytes, surface),
-      plot_of(runs, "export_wall", "What is proved of the wall against run time", time,
+      plot_of(runs, "export_wall", "Proved wall bounds against run time", time,
               "between the bounds of the wall [mm]", ms, wall),
       plot_of(runs, "export_volume", "Volume against run time", time,
               "error of the file's volume, relative", ms, volume)};

@@ -25,13 +25,13 @@ std::string note_of(const Outcome& engine, const Outcome& literal) {
 }
 
 struct Tally {
-  int failed = 0, literal_failed = 0, literal_ran = 0, surprises = 0;
+  int failed = 0, literal_failed = 0, literal_ran = 0, unexpected = 0;
 
   void add(const Case& c, Verdict engine, Verdict literal) {
     failed += engine != Verdict::passed;
     literal_failed += literal == Verdict::failed;
     literal_ran += literal != Verdict::not_in_print;
-    surprises += literal != c.literal;
+    unexpected += literal != c.literal;
   }
 };
 
@@ -41,7 +41,7 @@ Section extremes_section(const Effort& effort) {
   extreme::set_drift_ticks(effort.quick ? kQuickDrift : kFullDrift);
   Section section;
   section.id = "extremes";
-  section.title = "At the limits";
+  section.title = "Extreme cases";
   Table table{"extremes",
               "Extreme cases",
               {{"case", ""}, {"pass", ""}, {"literal_pass", ""}, {"oracle", ""}, {"note", ""}},
@@ -62,7 +62,7 @@ Section extremes_section(const Effort& effort) {
       {"failed", static_cast<double>(tally.failed), 0.0, "of the engine"},
       {"literal_failed", static_cast<double>(tally.literal_failed), 0.0, "of the paper as printed"},
       {"literal_ran", static_cast<double>(tally.literal_ran), 0.0, "that the paper defines"}};
-  section.sound = tally.failed == 0 && tally.surprises == 0;
+  section.sound = tally.failed == 0 && tally.unexpected == 0;
   section.summary = fmt::format(
       "Each case has a requirement and an oracle outside the engine. The same case judges the "
       "paper "

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kPotters = 20, kPottersQuick = 3;
 constexpr std::uint64_t kOtherSeeds = 7000;  // a second set, not used for tuning the rules
-constexpr double kWidest = 1.3;              // relative to the target of the hand
+constexpr double kMaxWidth = 1.3;            // relative to the intended width
 
 struct RuleSet {
   std::string name;
@@ -78,7 +78,7 @@ Table empty_table() {
        {"wall_cv", ""},
        {"thinnest_mm", "mm"},
        {"roughness_um", "um"},
-       {"ledges", "a pot"},
+       {"ledges", "per pot"},
        {"ledge_mm", "mm"},
        {"cavities", ""},
        {"width_mm", "mm"},
@@ -129,7 +129,7 @@ Curve section_curve(const ClayStack& stack, const std::string& name, bool dashed
 
 bool holds(const TaskFacts& task, const Outcome& outcome) {
   return outcome.share() >= task.least_printable && outcome.cavities == 0 &&
-         outcome.volume_error == 0 && outcome.width <= kWidest * task.width_mm;
+         outcome.volume_error == 0 && outcome.width <= kMaxWidth * task.width_mm;
 }
 
 /// Throws the pots of one task by each set of rules. Returns whether those with all rules meet the
@@ -181,10 +181,10 @@ Section hands_section(const Effort& effort) {
   int met = 0;
   for (const Task task : kTasks) met += measure_task(task, effort, table, section) ? 1 : 0;
   section.tables.push_back(std::move(table));
-  const int asked = static_cast<int>(std::size(kTasks));
-  section.sound = met == asked;
+  const int tasks = static_cast<int>(std::size(kTasks));
+  section.sound = met == tasks;
   section.summary +=
-      fmt::format("With all rules {} of {} tasks meet the requirements.", met, asked);
+      fmt::format("With all rules {} of {} tasks meet the requirements.", met, tasks);
   return section;
 }
 

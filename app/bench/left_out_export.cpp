@@ -85,7 +85,7 @@ Table empty_table() {
                   kBelliedRings)};
 }
 
-/// The part of the job's time that no stage accounts for.
+/// The share of the job's time outside its stages [%].
 Samples unaccounted(const Job& job, int rounds) {
   Samples shares;
   for (int k = 0; k < rounds; ++k) {
@@ -101,7 +101,7 @@ Samples unaccounted(const Job& job, int rounds) {
 }
 
 /// Measured by the job itself, as by `claystack export --measure-left-out`.
-Table own_word(Job job) {
+Table measured_by_the_job(Job job) {
   Table table{"left_out_export_saved",
               "Stages that the job skipped, and the time saved",
               {{"what", ""}, {"why", ""}, {"saved_ms", "ms"}},
@@ -137,7 +137,7 @@ void measure_export_stages(Section& section, const Effort& effort) {
       fmt::format("An export lists the stages that it runs; {:.1f} % of its time is outside them.",
                   rest.median);
   section.tables.push_back(std::move(table));
-  section.tables.push_back(own_word(all[0].out));
+  section.tables.push_back(measured_by_the_job(all[0].out));
 }
 
 }  // namespace clay::bench

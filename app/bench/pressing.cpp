@@ -8,7 +8,7 @@
 namespace clay::bench {
 namespace {
 
-constexpr double kApartMm = 126.0;  // distance of presses: beyond the reach of the flow
+constexpr double kApartMm = 126.0;  // distance between presses, beyond the reach of the flow
 constexpr double kFirstDepthMm = 6.0;
 constexpr double kBallMm = 12.0;
 constexpr double kRibMm = 6.0;
@@ -23,7 +23,7 @@ double height(const ToolSpec& tool) {
   return rib ? rib->height_mm : 2.0 * kBallMm;
 }
 
-/// Places on a lump that do not influence each other.
+/// Number of places on a lump that do not influence each other.
 std::size_t places_on(const SceneSpec& scene) {
   const double lump_mm = static_cast<double>(scene.lump.rings) * scene.lump.ring_height_mm;
   return std::max<std::size_t>(1,
@@ -34,7 +34,7 @@ double first_distance(const SceneSpec& scene) {
   return scene.lump.outer_radius_mm + widest(scene.tool) - kFirstDepthMm;
 }
 
-/// From the middle of the first place, with the tool in the plane z = 0.
+/// The position of the tool in a tick of a press, in the plane z = 0.
 glm::dvec3 place_of(double first_distance_mm, double middle_mm, int tick,
                     double rise_mm = kPressMm) {
   const double part = static_cast<double>(tick) / kPressTicks;
@@ -50,9 +50,9 @@ SceneSpec press_scene(std::size_t rings) {
   scene.lump.inner_radius_mm = 20.0;
   scene.tool.shape = SphereSpec{kBallMm};
   scene.force->friction = 0.2;
-  // The paper's clay yields exactly as fast as the tool advances, so it is always in contact.
+  // The clay of the paper yields as fast as the tool advances, so the tool stays in contact.
   scene.removal.paper_fraction = 2e-4;
-  // High enough for the tallest lump: only the cost of the check matters.
+  // High enough for the tallest lump, because only the cost of the check matters.
   scene.stability = StabilitySpec{1e6};
   return scene;
 }

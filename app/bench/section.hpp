@@ -17,8 +17,8 @@ namespace clay::bench {
 struct Value {
   std::string name;  ///< key in JSON, with its unit: n200_ns
   double median = 0.0;
-  double spread = 0.0;  ///< interquartile range; 0 for counted values, which are shown without it
-  std::string about;    ///< for people
+  double spread = 0.0;  ///< interquartile range; 0 for counted values, which have none
+  std::string about;    ///< description
 };
 
 /// Nothing, a verdict, a count, a number, or text.
@@ -26,7 +26,7 @@ using Cell = std::variant<std::monostate, bool, std::int64_t, double, std::strin
 
 struct Column {
   std::string name;  ///< key in JSON
-  std::string unit;  ///< empty if there is none
+  std::string unit;  ///< may be empty
 };
 
 struct Table {
@@ -43,7 +43,7 @@ using chart::Map;
 using chart::Plot;
 
 struct Section {
-  std::string id;  ///< the word for --only
+  std::string id;  ///< the name for --only
   std::string title;
   std::string summary;  ///< question, method and result
   std::vector<Value> values;
@@ -53,7 +53,7 @@ struct Section {
   bool sound = true;  ///< false if a requirement failed
 };
 
-/// The time to spend. `quick`: all sections together within 3 minutes on 2 cores.
+/// The effort of a measurement. `quick`: all sections together take at most 3 minutes on 2 cores.
 struct Effort {
   bool quick = false;
   std::function<void(std::string_view stage)> progress = [](std::string_view) {};

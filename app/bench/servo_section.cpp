@@ -19,9 +19,9 @@ namespace {
 using closed_loop::Outcome;
 using falcon::SampledLoop;
 
-constexpr double kAllowedBorderErrorPercent = 15.0;
+constexpr double kMaxBorderErrorPercent = 15.0;
 
-/// The arm of the docs: a light handle, and one tick of delay.
+/// The arm of docs/haptics.md: a light handle and one tick of delay.
 SampledLoop arm_at(double rate_hz, double damping_ns_per_mm = 0.002) {
   return {rate_hz, 0.1, damping_ns_per_mm, 1};
 }
@@ -48,8 +48,8 @@ Outcome at_clay(const SampledLoop& loop, const closed_loop::PressedClay& pressed
   return run(e, *clay);
 }
 
-/// 0 without a limit cycle, otherwise from 0.4 at the limit to 1 at a hundred times that.
-double badness(double swing_mm) {
+/// 0 without a limit cycle; otherwise 0.4 at the limit, up to 1 at 100 times the limit.
+double severity(double swing_mm) {
   if (swing_mm <= closed_loop::kMostSwingMm) return 0.0;
   return std::min(1.0, 0.4 + 0.3 * std::log10(swing_mm / closed_loop::kMostSwingMm));
 }
@@ -90,11 +90,12 @@ Table borders(const Effort& effort, Verdict& verdict) {
         const double predicted = stable_stiffness(loop);
         const double measured = closed_loop::measured_stable_stiffness(loop, 1e-3);
         const falcon::VirtualWall wall{passive_stiffness(loop), 0.3 * damping};
-        double asked = 0.0;
+        double required = 0.0;
         for (int waves = 1; waves <= 100; ++waves)
-          asked = std::max(asked, closed_loop::measured_passive_damping(loop, wall, waves, 200));
+          required =
+              std::max(required, closed_loop::measured_passive_damping(loop, wall, waves, 200));
         const double error = 100.0 * (measured / predicted - 1.0);
-        const double passivity_error = 100.0 * (asked / passive_damping(loop, wall) - 1.0);
+        const double passivity_error = 100.0 * (required / passive_damping(loop, wall) - 1.0);
         verdict.border_error_percent = std::max(verdict.border_error_percent, std::abs(error));
         verdict.passivity_error_percent =
             std::max(verdict.passivity_error_percent, std::abs(passivity_error));
@@ -160,7 +161,7 @@ void add_wall_maps(Section& section, const std::string& id, const Axis& x,
       const double swing = at_wall(loop_at(at), k, closed_loop::kFalconStepMm, controlled).swing_mm;
       if (controlled) verdict.worst_controlled_mm = std::max(verdict.worst_controlled_mm, swing);
       if (!controlled) verdict.buzzing_cells += swing > closed_loop::kMostSwingMm;
-      return badness(swing);
+      return severity(swing);
     });
     section.maps.push_back(std::move(map));
   }
@@ -189,7 +190,7 @@ void add_clay_maps(Section& section, const std::vector<double>& rates,
         const double swing =
             at_clay(arm_at(rate), {k, 20.0, 20.0, shown.wall_mm, shown.rules}, controlled).swing_mm;
         if (controlled) verdict.worst_controlled_mm = std::max(verdict.worst_controlled_mm, swing);
-        return badness(swing);
+        return severity(swing);
       });
       section.maps.push_back(std::move(map));
     }
@@ -225,21 +226,21 @@ Plot energy_plot(const std::vector<double>& rates, Verdict& verdict) {
   return plot;
 }
 
-/// The stiffest clay that comes to rest, searched from soft to stiff.
-double stiffest_calm_clay(double rate, double removal, const std::vector<double>& k_values) {
-  double calm = std::numeric_limits<double>::quiet_NaN();
+/// The largest stiffness of clay before the first limit cycle, searched upward.
+double max_stable_clay(double rate, double removal, const std::vector<double>& k_values) {
+  double stable = std::numeric_limits<double>::quiet_NaN();
   for (const double k : k_values) {
     if (at_clay(arm_at(rate), {k, removal, 20.0}, false).swing_mm > closed_loop::kMostSwingMm)
       break;
-    calm = k;
+    stable = k;
   }
-  return calm;
+  return stable;
 }
 
 Table clay_table(const std::vector<double>& k_values) {
   Table table{
       "servo_clay_gain",
-      "Stable stiffness of clay beyond the elastic border",
+      "Stable stiffness of clay compared with an elastic wall",
       {{"rate", "Hz"},
        {"removal", "1/s"},
        {"stable_elastic", "N/mm"},
@@ -247,12 +248,12 @@ Table clay_table(const std::vector<double>& k_values) {
        {"gain", ""}},
       {},
       "Bare loop. Stable: no swing above 0.2 mm in a stroke of 3 mm/s. The last stiffness of "
-      "the scan is 1000 N/mm: a gain that reaches it is a lower bound."};
+      "the scan is 1000 N/mm: a gain at that stiffness is a lower bound."};
   for (const double rate : {100.0, 1000.0, 4000.0})
     for (const double removal : {0.0, 1.0, 20.0, 100.0}) {
       const double border = stable_stiffness(arm_at(rate));
-      const double calm = stiffest_calm_clay(rate, removal, k_values);
-      table.rows.push_back({rate, removal, border, calm, calm / border});
+      const double stable = max_stable_clay(rate, removal, k_values);
+      table.rows.push_back({rate, removal, border, stable, stable / border});
     }
   return table;
 }
@@ -274,8 +275,8 @@ void conclude(Section& section, const Verdict& v) {
       counted("worst_swing_controlled_mm", v.worst_controlled_mm,
               "largest limit cycle with it, peak to peak"),
   };
-  section.sound = v.border_error_percent <= kAllowedBorderErrorPercent &&
-                  v.passivity_error_percent <= kAllowedBorderErrorPercent &&
+  section.sound = v.border_error_percent <= kMaxBorderErrorPercent &&
+                  v.passivity_error_percent <= kMaxBorderErrorPercent &&
                   v.worst_stable_cycle_mj <= 0.0 && v.buzzing_cells > 0 &&
                   v.worst_controlled_mm <= closed_loop::kMostSwingMm;
 }
@@ -288,9 +289,8 @@ Section servo_section(const Effort& effort) {
   section.title = "The stiff closed loop";
   section.summary =
       "A simulated arm of 0.1 kg, 0.002 N s/mm and a tick of delay against a wall and against "
-      "clay, over stiffness, rate and damping: where it is stable, what energy it injects, and "
-      "what the "
-      "passivity controller does with the rest.";
+      "clay, over stiffness, rate and damping: stability, injected energy, and the effect of the "
+      "passivity controller.";
   Verdict verdict;
   const std::vector<double> k_values = stiffnesses(effort.quick);
   const std::vector<double> rates{100, 250, 500, 1000, 2000, 4000, 8000};

@@ -12,7 +12,7 @@
 namespace clay::cli {
 namespace {
 
-constexpr int kRounds = 9;  // odd: the median is one of them
+constexpr int kRounds = 9;  // odd, so that the median is a sample
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -20,7 +20,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Of those, the rule alone where the scene has none.
+/// Adds a clay rule to the scene, or the rule alone if the scene has none.
 std::optional<SceneSpec> with_rule(SceneSpec scene, std::string_view rule) {
   if (!scene.clay) scene.clay = ClaySpec{false, false, false, false, false, false, 120.0, 0.0};
   ClaySpec& clay = *scene.clay;

@@ -15,7 +15,7 @@ namespace clay::cli {
 /// The scene with the stage included; empty for stages that no setting includes.
 std::optional<SceneSpec> with_stage(SceneSpec scene, std::string_view stage);
 
-inline constexpr double kFirmMm = 1.0;  ///< depth of a firm hand
+inline constexpr double kFirmMm = 1.0;  ///< depth of a firm press
 inline constexpr int kStrokeTicks = 4000;
 
 /// A stroke from the wheel to the top in kStrokeTicks of 1 ms: up the outside of the scene's lump,
@@ -23,9 +23,8 @@ inline constexpr int kStrokeTicks = 4000;
 /// in free air. Empty for an invalid tool.
 std::vector<Pose> stroke_poses(const SceneSpec& scene, double depth_mm);
 
-/// The stroke that is timed: all of it; with many rings, on a shorter lump; with very fine rings,
-/// only its middle. The time of a tick depends on the rings within reach of the tool, not on their
-/// total.
+/// The stroke that is timed: with many rings, on a shorter lump; with very fine rings, only its
+/// middle. The time of a tick depends on the rings within reach of the tool, not on their total.
 struct TimedStroke {
   SceneSpec scene;
   std::vector<Pose> poses;
@@ -36,8 +35,8 @@ inline constexpr std::size_t kMostRingVisits = std::size_t{1} << 19;    ///< in 
 
 /// Rings that a tick may touch, and to which its clay may flow.
 [[nodiscard]] double rings_in_reach(const SceneSpec& scene);
-/// Empty for an invalid tool, and if more than kMostRingsInReach are within reach: a stroke of a
-/// few ticks would take minutes.
+/// Empty for an invalid tool, and if more than kMostRingsInReach rings are within reach, because
+/// even a few ticks would take minutes.
 [[nodiscard]] std::optional<TimedStroke> timed_stroke(const SceneSpec& scene, double depth_mm);
 
 /// Mean time [ns] of the ticks of a timed stroke, without making the lump. NaN if there is none,
@@ -50,9 +49,9 @@ struct StageCost {
   double without_ns = 0.0;
 };
 
-/// Measured now, on this machine, on this scene: the stroke alternately with and without the stage.
-/// An included pinch is not used, because a second tool would be another stroke. Empty for stages
-/// that no setting includes, and without a timed stroke.
+/// Measures the stroke alternately with and without the stage. An included pinch is not used,
+/// because a second tool would make a different stroke. Empty for stages that no setting includes,
+/// and without a timed stroke.
 std::optional<StageCost> cost_of(const SceneSpec& scene, std::string_view stage);
 
 }  // namespace clay::cli

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kLumpMm = 150.0, kOuterMm = 45.0, kInnerMm = 25.0, kStrokeBallMm = 10.0;
 constexpr double kSampleS = 0.008;
-constexpr double kLowMm = 5.0, kHighMm = 140.0;  // the range of comparison: the lip may rise
+constexpr double kLowMm = 5.0, kHighMm = 140.0;  // the compared range; the lip may rise
 constexpr std::size_t kHeights = 541;            // 0.25 mm apart
 
 /// Rises from 0 to 1 while `time` goes from `begin` to `end`, with zero velocity at both.
@@ -71,7 +71,7 @@ int ticks_of(int rate_hz) { return static_cast<int>(std::lround(kStrokeS * rate_
 
 glm::dvec3 stroke_mm(double t) {
   const double in = eased(t, 0.1, 0.7) - eased(t, 2.0, 2.3);
-  // Rises from the start: before any vertical motion the paper has no direction for the clay.
+  // Rises from the start, because the paper's clay has no direction before any vertical motion.
   const double up = eased(t, 0.0, 2.0);
   return {kOuterMm + kStrokeBallMm + 2.0 - 8.0 * in, 50.0 + 50.0 * up, 0.0};
 }
@@ -191,17 +191,18 @@ Deviation deviation(const Outcome& outcome, const Outcome& reference) {
   double sum_mm = 0.0, squares = 0.0;
   for (const auto surface : {&Outcome::outer_mm, &Outcome::inner_mm})
     for (std::size_t k = 0; k < kHeights; ++k) {
-      const double off = std::abs((outcome.*surface)[k] - (reference.*surface)[k]);
+      const double difference = std::abs((outcome.*surface)[k] - (reference.*surface)[k]);
       // Not max: a NaN must be kept and shown.
-      if (std::isnan(off) || off > worst.profile_max_mm) worst.profile_max_mm = off;
-      sum_mm += off;
+      if (std::isnan(difference) || difference > worst.profile_max_mm)
+        worst.profile_max_mm = difference;
+      sum_mm += difference;
     }
   worst.profile_mean_mm = sum_mm / (2.0 * kHeights);
   const std::size_t count = std::min(outcome.force_n.size(), reference.force_n.size());
   for (std::size_t k = 0; k < count; ++k) {
-    const double off = glm::distance(outcome.force_n[k], reference.force_n[k]);
-    if (std::isnan(off) || off > worst.force_max_n) worst.force_max_n = off;
-    squares += off * off;
+    const double difference = glm::distance(outcome.force_n[k], reference.force_n[k]);
+    if (std::isnan(difference) || difference > worst.force_max_n) worst.force_max_n = difference;
+    squares += difference * difference;
   }
   worst.force_rms_n = std::sqrt(squares / static_cast<double>(count));
   return worst;

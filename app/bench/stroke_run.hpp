@@ -1,6 +1,6 @@
 #pragma once
-// One stroke, played by the engine and by the paper as printed, at any fineness: the resulting pot
-// and forces, for comparison with the limit of ever finer runs.
+// One stroke, played by the engine or by the paper as printed, at any fineness: the resulting pot
+// and forces, for comparison with the limit of finer runs.
 
 #include "app/bench/literal/literal_paper.hpp"
 #include "claystack/engine/scene.hpp"
@@ -26,9 +26,9 @@ struct Fineness {
   double reach_mm = 30.0;
 };
 
-/// What plays the stroke. `paper_scaled` is the paper's model with a stiffness per mm of height and
-/// a rate per second, so that it has a limit; `paper` and `literal` keep its K per ring and its k
-/// per tick.
+/// The model that plays the stroke. `paper_scaled` is the paper's model with a stiffness per mm of
+/// height and a rate per second, so that it has a limit; `paper` and `literal` keep its K per ring
+/// and its k per tick.
 enum class Variant { conserving, clay_rules, paper_scaled, paper, literal };
 
 [[nodiscard]] SceneSpec stroke_scene(const Fineness& fineness, Variant variant);
@@ -45,12 +45,12 @@ struct Outcome {
 /// Duration [s] of the same ticks without recording.
 [[nodiscard]] double time_of(const Fineness& fineness, Variant variant);
 
-/// The limit of ever finer runs, from a run and one of half its fineness: Richardson's
-/// extrapolation for an error of first order.
+/// The limit of finer runs, extrapolated from a run and one of half its fineness (Richardson, first
+/// order).
 [[nodiscard]] Outcome extrapolated(const Outcome& fine, const Outcome& half);
 
-/// Over both surfaces, and of the length of the force's difference. The ball leaves a ledge, a jump
-/// of the profile: there the maximum error cannot fall below half the jump, but the mean error can.
+/// Of both surfaces, and of the force vector. The ball leaves a ledge, a jump of the profile, where
+/// the maximum error cannot fall below half the jump; the mean error can.
 struct Deviation {
   double profile_max_mm = 0.0, profile_mean_mm = 0.0;
   double force_max_n = 0.0, force_rms_n = 0.0;

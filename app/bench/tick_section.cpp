@@ -11,9 +11,9 @@
 namespace clay::bench {
 namespace {
 
-constexpr double kLeastSpeedUp = 5.0;  // over the paper as printed
-constexpr double kMostGrowth = 1.5;    // from 200 rings to a million
-constexpr int kFewTicks = 20;          // enough where each takes 100 us
+constexpr double kMinSpeedUp = 5.0;  // over the paper as printed
+constexpr double kMaxGrowth = 1.5;   // from 200 rings to a million
+constexpr int kFewTicks = 20;        // enough for ticks of 100 us
 
 /// A presser with its functions for time and contact.
 struct Contender {
@@ -33,9 +33,9 @@ Contender engine_at(std::string name, std::string about, const SceneSpec& scene,
 /// With rings processed two at a time, as on a machine without AVX2.
 Contender in_two_lanes(Contender contender) {
   contender.press = [press = std::move(contender.press)] {
-    const bool machine = std::exchange(four_lanes, false);
+    const bool supported = std::exchange(four_lanes, false);
     const double seconds = press();
-    four_lanes = machine;
+    four_lanes = supported;
     return seconds;
   };
   return contender;
@@ -101,7 +101,7 @@ void measure_sizes(Section& section, const Effort& effort) {
       value_of("rules_over_none_n200", ratio_of(ns[7], ns[0]), "ratio; cost of the clay rules"));
   section.values.push_back(
       value_of("rules_n1000000_over_n200", rules_growth, "ratio; required: at most 1.5"));
-  const Spread least = spread_of(ns[0]), speed_up = ratio_of(ns[3], ns[0]),
+  const Spread smallest = spread_of(ns[0]), speed_up = ratio_of(ns[3], ns[0]),
                growth = ratio_of(ns[2], ns[0]);
   section.values.push_back(
       value_of("literal_over_engine_n200", speed_up, "ratio; required: at least 5"));
@@ -110,12 +110,12 @@ void measure_sizes(Section& section, const Effort& effort) {
   section.values.push_back(value_of("n1000000_over_n200", growth, "ratio; required: at most 1.5"));
   section.values.push_back(value_of("two_lanes_over_four", ratio_of(ns[6], ns[0]),
                                     "ratio; 1 on a machine without AVX2"));
-  section.sound = !falls_short(speed_up, kLeastSpeedUp) && !exceeds(growth, kMostGrowth) &&
-                  !exceeds(rules_growth, kMostGrowth);
+  section.sound = !falls_short(speed_up, kMinSpeedUp) && !exceeds(growth, kMaxGrowth) &&
+                  !exceeds(rules_growth, kMaxGrowth);
   section.summary += fmt::format(
       "With 200 rings a tick takes {:.0f} ns, {:.1f} times less than the paper as printed; with a "
       "million rings, {:.2f} times as long.",
-      least.median, speed_up.median, growth.median);
+      smallest.median, speed_up.median, growth.median);
 }
 
 /// Ribs of all heights, compared with the paper.
@@ -131,7 +131,7 @@ void measure_ribs(Section& section, const Effort& effort) {
                {"literal_iqr_ns", "ns"},
                {"literal_over_engine", ""}},
               {},
-              "An upright rib against 800 rings; the paper with a running sum for the stress."};
+              "A vertical rib on 800 rings; the paper with a running sum for the stress."};
   Plot plot{"tick_rings_plot",
             "Duration of a tick over the number of rings touched",
             {"rings touched", true},
@@ -148,10 +148,12 @@ void measure_ribs(Section& section, const Effort& effort) {
       literal{"the paper, running sum", {}, {}, {}, {}};
   for (std::size_t i = 0; i < ns.size(); i += 2) {
     const double touched = contenders[i].touched();
-    const Spread ours = spread_of(ns[i]), theirs = spread_of(ns[i + 1]);
-    table.rows.push_back({touched, ours.median, ours.range(), ours.median / touched, theirs.median,
-                          theirs.range(), ratio_of(ns[i + 1], ns[i]).median});
-    for (const auto& [curve, spread] : {std::pair{&engine, ours}, std::pair{&literal, theirs}}) {
+    const Spread engine_ns = spread_of(ns[i]), literal_ns = spread_of(ns[i + 1]);
+    table.rows.push_back({touched, engine_ns.median, engine_ns.range(), engine_ns.median / touched,
+                          literal_ns.median, literal_ns.range(),
+                          ratio_of(ns[i + 1], ns[i]).median});
+    for (const auto& [curve, spread] :
+         {std::pair{&engine, engine_ns}, std::pair{&literal, literal_ns}}) {
       curve->x.push_back(touched);
       curve->y.push_back(spread.median);
       curve->low.push_back(spread.low);
@@ -163,7 +165,7 @@ void measure_ribs(Section& section, const Effort& effort) {
   section.plots.push_back(std::move(plot));
 }
 
-/// The tick of a fast hand is played in parts: its cost over the speed of the hand.
+/// The cost of a tick over the speed of the hand; a fast motion is played in parts.
 void measure_speeds(Section& section, const Effort& effort) {
   effort.progress("speeds");
   Table table{"tick_speed",
@@ -171,7 +173,7 @@ void measure_speeds(Section& section, const Effort& effort) {
               {{"speed_mm_s", "mm/s"}, {"rings", ""}, {"engine_ns", "ns"}, {"iqr_ns", "ns"}},
               {},
               "The ball rises along 800 rings while it is pressed, at 1 kHz."};
-  constexpr std::array kSpeeds{6.0, 25.0, 50.0, 100.0, 200.0, 400.0};  // of a press of 1 s
+  constexpr std::array kSpeeds{6.0, 25.0, 50.0, 100.0, 200.0, 400.0};  // mm/s, in a press of 1 s
   std::vector<Contender> contenders;
   for (const double speed : kSpeeds)
     contenders.push_back(engine_at("engine", "", press_scene(800), speed));
@@ -183,7 +185,7 @@ void measure_speeds(Section& section, const Effort& effort) {
   section.tables.push_back(std::move(table));
 }
 
-/// From the top to the bottom between two poses: the maximum cost of a tick.
+/// A jump from the top to the bottom between two poses, the most expensive tick.
 void measure_jump(Section& section, const Effort& effort) {
   effort.progress("jumps");
   std::vector<Work> works;

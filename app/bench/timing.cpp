@@ -14,7 +14,7 @@
 namespace clay::bench {
 namespace {
 
-/// Keeps the runs instead of printing them.
+/// Stores the runs instead of printing them.
 class Collector final : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context&) override { return true; }
@@ -35,7 +35,7 @@ Timed time_once(const Work& work, benchmark::IterationCount repetitions, double 
       benchmark::RegisterBenchmark(work.name.c_str(), [&work](benchmark::State& state) {
         for (auto _ : state) {
           const double seconds = work.once();
-          // Without this the library would repeat it for ever.
+          // Otherwise the library would repeat it forever.
           if (!std::isfinite(seconds)) state.SkipWithError("failed");
           state.SetIterationTime(seconds);
         }
@@ -62,7 +62,7 @@ Rounds rounds_of(const Effort& effort) {
 
 std::vector<Samples> time_rounds(const std::vector<Work>& works, const Rounds& rounds) {
   std::vector<benchmark::IterationCount> repetitions;
-  // The first run determines the number of repetitions; it also warms up, and is not counted.
+  // The first run determines the number of repetitions; it also warms up and is not counted.
   for (const Work& work : works)
     repetitions.push_back(
         std::max<benchmark::IterationCount>(1, time_once(work, 0, rounds.least_s).repetitions));

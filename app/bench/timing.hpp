@@ -1,5 +1,5 @@
 #pragma once
-// Times several workloads against each other in one run, on Google Benchmark.
+// Compares the times of several workloads in one run, with Google Benchmark.
 
 #include "app/bench/section.hpp"
 #include "app/bench/statistics.hpp"
@@ -12,8 +12,8 @@
 
 namespace clay::bench {
 
-/// Runs the workload once and returns the measured seconds, without preparation. NaN on failure:
-/// then its samples are NaN.
+/// Runs the workload once and returns the measured seconds, without preparation. On failure NaN,
+/// which makes its samples NaN.
 struct Work {
   std::string name;
   std::function<double()> once;
@@ -37,7 +37,7 @@ using Samples = std::vector<double>;
 struct Duel {
   Spread a, b, ratio;
 };
-/// The two alone, in direct succession: for differences near the noise.
+/// Times the two in direct succession, for differences near the noise.
 [[nodiscard]] Duel duel(const Work& a, const Work& b, const Rounds& rounds);
 
 /// CPU time [s] of a call in this thread, without waiting for other programs.

@@ -1,7 +1,7 @@
 #!/bin/sh
-# sh samples/window/pictures.sh PROGRAM FOLDER [NAME...]: every panel and card of the window in both
-# themes, small, usual and at twice the scale, as FOLDER/NAME-THEME-SIZE.png; all of them, or those
-# named. To be looked at: a picture that nobody has looked at has tested nothing.
+# sh samples/window/pictures.sh PROGRAM FOLDER [NAME...]: renders the panels and dialogs of the window
+# in both themes, in a small, a normal and a double-scale size, as FOLDER/NAME-THEME-SIZE.png; all
+# pictures, or those named. They are for inspection by eye; no test compares them.
 set -eu
 [ $# -ge 2 ] || { sed -n '2,4s/^# //p' "$0" >&2; exit 2; }
 program=$(realpath "$1")
@@ -17,7 +17,7 @@ for sample in bowl vase bottle cylinder collapse; do
   [ -e "$pots/$sample.pot.json" ] ||
     "$program" throw -q "samples/$sample.scene.json" -o "$pots/$sample.pot.json"
 done
-# As fine as rings come: a lump of 100 000.
+# The finest rings: a lump of 100 000.
 sed -e 's/"rings": [0-9]*/"rings": 100000/' -e 's/"ring_height_mm": [0-9.]*/"ring_height_mm": 0.001/' \
   -e 's/"max_rings": [0-9]*/"max_rings": 0/' samples/vase.scene.json >"$pots/fine.scene.json"
 # One ring, as flat as a plate.
@@ -30,7 +30,7 @@ picture() {
   for theme in dark light; do
     for look in "1280x720 1" "1280x800 1" "2560x1440 2"; do
       size=${look% *} scale=${look#* }
-      # Places in the window are those of scale 1.
+      # The scripts use window coordinates at scale 1.
       awk -v s="$scale" '$1 == "move" { $2 *= s; $3 *= s } 1' "samples/window/$2.script" >"$out/script"
       "$program" studio ${3:+"$3"} --script "$out/script" --screenshot "$out/$1-$theme-$size.png" \
         --theme "$theme" --size "$size" --scale "$scale" || echo "$1-$theme-$size: failed" >&2

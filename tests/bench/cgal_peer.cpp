@@ -10,7 +10,7 @@ namespace clay::bench {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
 
-bool cgal_finds_fault(const solid::TriangleMesh& mesh) {
+bool cgal_finds_defect(const solid::TriangleMesh& mesh) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   std::vector<Kernel::Point_3> points;
   points.reserve(mesh.points.size());

@@ -3,8 +3,8 @@
 
 namespace clay::bench {
 
-/// CGAL's soup-to-mesh and self-intersection test, with exact predicates. False on sound meshes;
-/// callers use the result, so that the compiler cannot remove the work.
-bool cgal_finds_fault(const solid::TriangleMesh& mesh);
+/// CGAL's soup-to-mesh and self-intersection test, with exact predicates. False for sound meshes.
+/// Callers must use the result, so that the compiler cannot remove the work.
+bool cgal_finds_defect(const solid::TriangleMesh& mesh);
 
 }  // namespace clay::bench

@@ -2,10 +2,10 @@
 // interleaved so that a busy machine slows both.
 //
 //   check_bench [TRIANGLES [SHELLS [ROUNDS]]]     default 1000000 1 5; at most 20 million triangles
-//   check_bench fans [SEGMENTS]     a cylinder and a cone, whose ends are fans about one vertex,
-//   and
-//                                   a tube, whose ends are rings of long triangles; default 30000.
-//                                   CGAL takes the square of that: it has its turn up to 30000
+//   check_bench fans [SEGMENTS]                   default 30000
+//
+// `fans` uses a cylinder and a cone, whose ends are fans about one vertex, and a tube, whose ends
+// are rings of long triangles. The time of CGAL is quadratic, so it runs only up to 30000 segments.
 
 #include "tests/bench/cgal_peer.hpp"
 
@@ -27,11 +27,11 @@
 namespace {
 
 using namespace clay::solid;
-using clay::bench::cgal_finds_fault;
+using clay::bench::cgal_finds_defect;
 
 struct Seconds {
   double wall = 0.0;
-  double cpu = 0.0;  ///< of all threads
+  double cpu = 0.0;  ///< summed over all threads
 };
 
 template <class Work>
@@ -50,7 +50,7 @@ Seconds timed(const Work& work) {
 
 /// A bellied vase, 200 mm high, with a floor and a 3 mm wall.
 TriangleMesh vase(std::size_t triangles) {
-  // Two walls of `rings` bands with two triangles a step, and half as many steps as bands.
+  // Two walls of `rings` bands with two triangles per step, and half as many steps as bands.
   const auto rings = static_cast<std::size_t>(std::sqrt(static_cast<double>(triangles) / 2.0));
   const auto outer = [&](double t) { return 50.0 + 18.0 * std::sin(6.9 * t - 0.6) - 8.0 * t; };
   const auto at = [&](std::size_t i) {
@@ -86,7 +86,7 @@ Seconds median(std::vector<Seconds> all) {
   return *middle;
 }
 
-void tell(const char* what, const Seconds& s) {
+void print_times(const char* what, const Seconds& s) {
   std::printf("%-44s %8.3f s wall %8.3f s cpu\n", what, s.wall, s.cpu);
 }
 
@@ -113,31 +113,32 @@ void compare(std::size_t shells, std::size_t triangles, std::size_t rounds) {
     bool sound = false;
     check.push_back(timed([&] { sound = check_mesh(mesh).sound(); }));
     if (round == 0) check_peak_gb = peak_gb();
-    if (!sound) fail("check_mesh finds fault with a sound mesh");
+    if (!sound) fail("check_mesh reports a defect in a sound mesh");
     bool fault = true;
-    cgal.push_back(timed([&] { fault = cgal_finds_fault(mesh); }));
-    if (fault) fail("CGAL finds fault with a sound mesh");
+    cgal.push_back(timed([&] { fault = cgal_finds_defect(mesh); }));
+    if (fault) fail("CGAL reports a defect in a sound mesh");
   }
   std::printf("%zu triangles, %zu shell(s), median of %zu; peak memory before CGAL %.2f GB\n",
               found, shells, rounds, check_peak_gb);
-  tell("decode_stl", median(decode));
-  tell("check_mesh", median(check));
-  tell("CGAL soup to mesh + does_self_intersect", median(cgal));
+  print_times("decode_stl", median(decode));
+  print_times("check_mesh", median(check));
+  print_times("CGAL soup to mesh + does_self_intersect", median(cgal));
   std::printf("check_mesh / CGAL: %.2f wall, %.2f cpu\n", median(check).wall / median(cgal).wall,
               median(check).cpu / median(cgal).cpu);
 }
 
 void compare_fans(const char* what, const Profile& profile, std::size_t segments) {
-  constexpr std::size_t kMostForCgal = 30'000;
+  constexpr std::size_t kMaxForCgal = 30'000;
   const TriangleMesh mesh = revolve(profile, segments);
   std::printf("%s of %zu segments, %zu triangles\n", what, segments, mesh.triangles.size());
   bool sound = false;
-  tell("check_mesh", timed([&] { sound = check_mesh(mesh).sound(); }));
-  if (!sound) fail("check_mesh finds fault with a sound mesh");
-  if (segments > kMostForCgal) return;
+  print_times("check_mesh", timed([&] { sound = check_mesh(mesh).sound(); }));
+  if (!sound) fail("check_mesh reports a defect in a sound mesh");
+  if (segments > kMaxForCgal) return;
   bool fault = true;
-  tell("CGAL soup to mesh + does_self_intersect", timed([&] { fault = cgal_finds_fault(mesh); }));
-  if (fault) fail("CGAL finds fault with a sound mesh");
+  print_times("CGAL soup to mesh + does_self_intersect",
+              timed([&] { fault = cgal_finds_defect(mesh); }));
+  if (fault) fail("CGAL reports a defect in a sound mesh");
 }
 
 void compare_fans(std::size_t segments) {
@@ -159,6 +160,8 @@ int main(int argc, char** argv) {
   const std::size_t shells = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 1;
   const std::size_t rounds = argc > 3 ? std::strtoul(argv[3], nullptr, 10) : 5;
   if (shells == 0 || triangles / shells < 1000 || triangles > kMaxTriangles || rounds == 0)
-    fail("expected 1000 triangles a shell at least, 20000000 in all at most, and a round");
+    fail(
+        "expected at least 1000 triangles per shell, at most 20000000 in total, and at least 1 "
+        "round");
   compare(shells, triangles, rounds);
 }

@@ -1,5 +1,5 @@
-// Draco's speeds on the sample pots: bytes, and the time to write and to read. The default of
-// DracoSettings::speed is the smallest of this table.
+// Draco's speeds on the sample pots: bytes, encoding and decoding time. The default of
+// DracoSettings::speed gives the smallest files of this table.
 
 #include "claystack/export/job.hpp"
 #include "tests/export/job/sample_pots.hpp"

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A bellied vase with throwing marks: no two rings are equal.
+/// A bellied vase with throwing marks, so that no two rings are equal.
 Pot rippled_vase(std::size_t rings) {
   std::vector<Ring> stack;
   const double height_mm = 200.0;
@@ -36,7 +36,7 @@ Pot rippled_vase(std::size_t rings) {
   return pot;
 }
 
-/// The reference: write(2) of as many bytes, with sync and rename.
+/// The reference: writes as many bytes, syncs and renames.
 int only_write(const std::string& path, std::size_t bytes, bool sync) {
   const std::vector<char> block(1 << 20, 'x');
   const std::string temporary = path + ".part";
@@ -78,7 +78,7 @@ void compare(std::size_t rings, std::size_t segments, int rounds, const fs::path
   std::vector<Contestant> contestants{
       {"write, sync and rename only", {self, "--write", name + ".raw", bytes, "sync"}},
       {"write and rename only", {self, "--write", name + ".raw", bytes, "no"}},
-      {"claystack export (proved, read again)", exporting}};
+      {"claystack export (proved, read back)", exporting}};
   if (installed("openscad") && rings <= 200) {
     write_openscad(name + ".scad", pot, segments);
     contestants.push_back({"openscad rotate_extrude (outside only)",

@@ -62,22 +62,22 @@ std::vector<Measured> race(const std::vector<Contestant>& contestants, int round
       if (done.status != 0 && results[i].status == 0) results[i].status = done.status;
     }
   for (std::size_t i = 0; i < contestants.size(); ++i) {
-    const auto [least, most] = std::minmax_element(seconds[i].begin(), seconds[i].end());
+    const auto [min, max] = std::minmax_element(seconds[i].begin(), seconds[i].end());
     results[i].name = contestants[i].name;
     results[i].median_s = median(seconds[i]);
-    results[i].least_s = *least;
-    results[i].most_s = *most;
+    results[i].min_s = *min;
+    results[i].max_s = *max;
     results[i].median_ratio = median(ratios[i]);
   }
   return results;
 }
 
 void print(const std::string& title, const std::vector<Measured>& results) {
-  std::printf("\n%s\n%-44s %10s %22s %8s %9s\n", title.c_str(), "", "median s", "least - most s",
+  std::printf("\n%s\n%-44s %10s %22s %8s %9s\n", title.c_str(), "", "median s", "min - max s",
               "ratio", "peak MB");
   for (const Measured& m : results)
-    std::printf("%-44s %10.4f %10.4f - %9.4f %8.2f %9.1f%s\n", m.name.c_str(), m.median_s,
-                m.least_s, m.most_s, m.median_ratio, m.peak_mb, m.status ? "  FAILED" : "");
+    std::printf("%-44s %10.4f %10.4f - %9.4f %8.2f %9.1f%s\n", m.name.c_str(), m.median_s, m.min_s,
+                m.max_s, m.median_ratio, m.peak_mb, m.status ? "  FAILED" : "");
 }
 
 bool installed(const std::string& program) {

@@ -13,7 +13,7 @@ struct Contestant {
 
 struct Measured {
   std::string name;
-  double median_s = 0.0, least_s = 0.0, most_s = 0.0;
+  double median_s = 0.0, min_s = 0.0, max_s = 0.0;
   double median_ratio = 0.0;  ///< to the first contestant, round by round
   double peak_mb = 0.0;
   int status = 0;  ///< of the first run that failed

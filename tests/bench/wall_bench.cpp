@@ -28,15 +28,15 @@ double radius(double y) { return 50.0 + 20.0 * std::sin(0.018 * y - 0.6); }
 Profile bowl(std::size_t rings, double noise_mm, bool hollow) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform(-noise_mm, noise_mm);
-  const auto stray = [&](double y) {
+  const auto noise_at = [&](double y) {
     const bool near_corner = y < 1.0 || y > kHeight - 1.0 || std::abs(y - kFloor) < 1.0;
     return near_corner ? 0.0 : uniform(random);
   };
   Polygon outer, bore;
   for (std::size_t i = 0; i <= rings; ++i) {
     const double y = kHeight * static_cast<double>(i) / static_cast<double>(rings);
-    outer.push_back({radius(y) + stray(y), y});
-    if (hollow && y >= kFloor) bore.push_back({radius(y) - 3.0 + stray(y), y});
+    outer.push_back({radius(y) + noise_at(y), y});
+    if (hollow && y >= kFloor) bore.push_back({radius(y) - 3.0 + noise_at(y), y});
   }
   bore.insert(bore.begin(), {0.0, hollow ? bore.front().y : kHeight});
   bore.insert(bore.begin(), {0.0, 0.0});
@@ -44,7 +44,7 @@ Profile bowl(std::size_t rings, double noise_mm, bool hollow) {
   return {{outer}};
 }
 
-/// The same bowl in steps.
+/// The same bowl as steps of rings.
 Profile steps(std::size_t rings) {
   Polygon outer, bore;
   const double h = kHeight / static_cast<double>(rings);
@@ -99,11 +99,11 @@ void compare_with_cgal(const Profile& profile, std::size_t segments, int runs) {
     (void)certify(profile);
     (void)min_wall_mm(profile);
   });
-  const double cgal_ms = median_ms(runs, [&] { fault = clay::bench::cgal_finds_fault(mesh); });
+  const double cgal_ms = median_ms(runs, [&] { fault = clay::bench::cgal_finds_defect(mesh); });
   std::printf(
-      "%zu triangles: certificate and least wall %.3f ms; CGAL soup to mesh and "
+      "%zu triangles: certificate and minimum wall %.3f ms; CGAL soup to mesh and "
       "self-intersection %.0f ms%s\n",
-      mesh.triangles.size(), plane_ms, cgal_ms, fault ? ", which finds fault" : "");
+      mesh.triangles.size(), plane_ms, cgal_ms, fault ? ", which reports a defect" : "");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Killed writers, full disks and failing system calls: the old file stays.
+// The old file survives killed writers, full disks and failing system calls.
 
 #include "tests/engine/files/atomic_folder.hpp"
 #include "tests/engine/files/system_call_fault.hpp"
@@ -143,13 +143,14 @@ int status_as_nobody(Work work) {
 
 TEST_F(AtomicFileFailures, PublishesInAFolderThatCannotBeRead) {
   ASSERT_EQ(::chmod(folder_.c_str(), 0777), 0);
-  const fs::path mute = folder_ / "mute";
+  const fs::path unreadable = folder_ / "unreadable";
   EXPECT_EQ(status_as_nobody([&] {
-              return ::mkdir(mute.c_str(), 0777) == 0 && ::chmod(mute.c_str(), 0333) == 0 &&
-                     publish(mute / "pot", "new").has_value();
+              return ::mkdir(unreadable.c_str(), 0777) == 0 &&
+                     ::chmod(unreadable.c_str(), 0333) == 0 &&
+                     publish(unreadable / "pot", "new").has_value();
             }),
             0);
-  EXPECT_EQ(bytes_in(mute / "pot"), "new");
+  EXPECT_EQ(bytes_in(unreadable / "pot"), "new");
 }
 
 TEST_F(AtomicFileFailures, PublishesAllFilesOrNone) {
@@ -172,7 +173,7 @@ TEST_F(AtomicFileFailures, PublishesAllFilesOrNone) {
   EXPECT_EQ(names(), (std::set<std::string>{"blocked", "kiln", "old"}));
   EXPECT_FALSE(old.commit());  // a failed file is not published later
 
-  // Fails before any file has its name, and then without a fault.
+  // Fails before any file gets its name; then succeeds without a fault.
   auto orphan = AtomicFile::create(kiln / "pot").value();
   auto first = AtomicFile::create(folder_ / "old").value();
   ASSERT_TRUE(first.write("new"));
@@ -202,7 +203,7 @@ TEST_F(AtomicFileFailures, UsesATemporaryNameWithoutUnnamedFiles) {
   EXPECT_EQ(names(), std::set<std::string>{"pot"});
 }
 
-/// The leftovers of a writer of `path` that ends by a signal.
+/// The exit status of a writer of `path` that a signal ends; it leaves a temporary file.
 int status_of_writer(const fs::path& path, int signal) {
   return status_under(kNoUnnamedFiles, [&] {
     auto file = AtomicFile::create(path);
@@ -220,7 +221,7 @@ TEST_F(AtomicFileFailures, NextWriterRemovesFilesOfAKilledWriter) {
     ASSERT_TRUE(WIFSIGNALED(status_of_writer(folder_ / "cup", SIGKILL)));
     ASSERT_EQ(names().size(), 3u);
     ASSERT_TRUE(publish(folder_ / "cup", "new"));
-    ASSERT_EQ(names().size(), 3u);  // not a leftover of the cup
+    ASSERT_EQ(names().size(), 3u);  // the file of another target stays
     ASSERT_TRUE(publish(path, "new"));
     EXPECT_EQ(names(), (std::set<std::string>{"cup", name}));
     fs::remove(folder_ / "cup");

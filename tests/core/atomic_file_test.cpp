@@ -16,9 +16,9 @@ using test::status_of_child;
 
 class AtomicFileTest : public test::AtomicFileFolder {};
 
-void expect_says(const Result<void>& result, std::string_view says) {
+void expect_message(const Result<void>& result, std::string_view part) {
   ASSERT_FALSE(result);
-  EXPECT_NE(result.error().message.find(says), std::string::npos) << result.error().message;
+  EXPECT_NE(result.error().message.find(part), std::string::npos) << result.error().message;
 }
 
 TEST_F(AtomicFileTest, PublishesAndReadsBack) {
@@ -58,7 +58,7 @@ TEST_F(AtomicFileTest, WrittenBytesAreReadableBeforeCommit) {
   std::string again(5, ' ');
   ASSERT_TRUE(file.read_at(9, std::as_writable_bytes(std::span(again))));
   EXPECT_EQ(again, "water");
-  expect_says(file.read_at(10, std::as_writable_bytes(std::span(again))), "ends early");
+  expect_message(file.read_at(10, std::as_writable_bytes(std::span(again))), "ends early");
   ASSERT_TRUE(file.write(std::string_view("!")));  // reading has not moved the write position
   ASSERT_TRUE(file.commit());
   EXPECT_EQ(bytes_in(folder_ / "pot"), "clay and water!");
@@ -68,10 +68,10 @@ TEST_F(AtomicFileTest, DevicesAreNotRereadable) {
   auto file = AtomicFile::create("/dev/null").value();
   EXPECT_FALSE(file.rereadable());
   std::string again(1, ' ');
-  expect_says(file.read_at(0, std::as_writable_bytes(std::span(again))), "cannot be read again");
+  expect_message(file.read_at(0, std::as_writable_bytes(std::span(again))), "cannot be read again");
 }
 
-TEST_F(AtomicFileTest, LeavesNothingWithoutCommit) {
+TEST_F(AtomicFileTest, LeavesNoFileWithoutCommit) {
   { ASSERT_TRUE(AtomicFile::create(folder_ / "pot")->write("x")); }
   EXPECT_TRUE(names().empty());
 }
@@ -136,7 +136,7 @@ TEST_F(AtomicFileTest, WritesDirectlyToPipesAndDevices) {
   expect_io_error(publish("/dev/full", "x"), "/dev/full", ENOSPC);
 }
 
-TEST_F(AtomicFileTest, AcceptsADashForTheStandardStreams) {
+TEST_F(AtomicFileTest, ADashMeansTheStandardStreams) {
   put(folder_ / "in", "through");
   const int status = status_of_child([&] {
     ::dup2(::open((folder_ / "in").c_str(), O_RDONLY), STDIN_FILENO);
@@ -155,7 +155,7 @@ TEST_F(AtomicFileTest, ReadFileRefusesMissingAndLargeFiles) {
             (folder_ / "ten").string() + ": expected at most 9 bytes, found 10");
   EXPECT_EQ(read_file("/dev/zero", 1000).error().message,
             "/dev/zero: expected at most 1000 bytes, found more");
-  // Reports no size before it is read.
+  // A file that reports no size before it is read.
   EXPECT_TRUE(read_file("/proc/self/status", 1'000'000));
   EXPECT_FALSE(read_file("/proc/self/status", 10));
   EXPECT_EQ(read_file(folder_).error().message,

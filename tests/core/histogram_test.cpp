@@ -36,9 +36,8 @@ RC_GTEST_PROP(Histogram, ReturnsQuantilesWithinItsError, ()) {
   RC_ASSERT(histogram.least_ns() == times.front());
   RC_ASSERT(histogram.most_ns() == times.back());
   for (const double part : {0.0, 0.25, 0.5, 0.9, 0.99, 1.0}) {
-    const auto place =
-        static_cast<std::size_t>(std::ceil(part * static_cast<double>(times.size())));
-    const std::int64_t true_ns = times[std::max<std::size_t>(place, 1) - 1];
+    const auto rank = static_cast<std::size_t>(std::ceil(part * static_cast<double>(times.size())));
+    const std::int64_t true_ns = times[std::max<std::size_t>(rank, 1) - 1];
     const std::int64_t reported = histogram.quantile_ns(part);
     RC_ASSERT(reported >= true_ns);
     RC_ASSERT(static_cast<double>(reported - true_ns) <=
@@ -87,7 +86,7 @@ TEST(Histogram, CountsTimesFromABound) {
   Histogram histogram;
   for (std::int64_t ns = 1; ns <= 1000; ++ns) histogram.add(ns * 1'000'000);
   EXPECT_EQ(histogram.count_from(0), 1000u);
-  // 512 ms is no power of two in ns; its bucket begins up to a 32nd lower.
+  // 512 ms is not a power of two in ns; its bucket begins up to 1/32 lower.
   EXPECT_GE(histogram.count_from(512'000'000), 489u);
   EXPECT_LE(histogram.count_from(512'000'000), 489u + 16u);
   EXPECT_EQ(histogram.count_from(2'000'000'000), 0u);

@@ -12,21 +12,21 @@
 namespace clay::falcon {
 namespace {
 
-TEST(Snapshot, ShowsTheFirstValueUntilOneIsPublished) {
-  Snapshot<int> made;
-  EXPECT_FALSE(made.has_new());
-  EXPECT_EQ(made.newest(), 0);
-  Snapshot<int> given(7);
-  given.draft() = 8;
-  EXPECT_EQ(given.newest(), 7);
-  given.publish();
-  EXPECT_TRUE(given.has_new());
-  EXPECT_EQ(given.newest(), 8);
-  EXPECT_FALSE(given.has_new());
-  EXPECT_EQ(given.newest(), 8);
+TEST(Snapshot, ShowsTheInitialValueUntilThePublication) {
+  Snapshot<int> by_default;
+  EXPECT_FALSE(by_default.has_new());
+  EXPECT_EQ(by_default.newest(), 0);
+  Snapshot<int> initialised(7);
+  initialised.draft() = 8;
+  EXPECT_EQ(initialised.newest(), 7);
+  initialised.publish();
+  EXPECT_TRUE(initialised.has_new());
+  EXPECT_EQ(initialised.newest(), 8);
+  EXPECT_FALSE(initialised.has_new());
+  EXPECT_EQ(initialised.newest(), 8);
 }
 
-// All orders in which calls of the two sides can be interleaved.
+// Random interleavings of the calls of both sides.
 RC_GTEST_PROP(Snapshot, ReturnsTheLastPublishedInEveryOrderOfCalls, ()) {
   Snapshot<int> snapshot;
   int published = 0;
@@ -34,7 +34,7 @@ RC_GTEST_PROP(Snapshot, ReturnsTheLastPublishedInEveryOrderOfCalls, ()) {
   int kept = *shown;
   for (const int call : *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 4))) {
     if (call == 0) snapshot.write(++published);
-    if (call == 1) snapshot.draft() = -1;  // begun, never published
+    if (call == 1) snapshot.draft() = -1;  // drafted, not published
     if (call == 2) RC_ASSERT(snapshot.has_new() == (kept != published));
     if (call == 3) {
       shown = &snapshot.newest();
@@ -45,10 +45,10 @@ RC_GTEST_PROP(Snapshot, ReturnsTheLastPublishedInEveryOrderOfCalls, ()) {
   }
 }
 
-/// Large enough that a torn value would be visible.
+/// Large enough that a torn value would show.
 struct Wide {
   std::array<std::uint64_t, 64> words{};
-  bool whole() const {
+  bool is_whole() const {
     for (const auto word : words)
       if (word != words[0]) return false;
     return true;
@@ -58,10 +58,10 @@ struct Wide {
 TEST(Snapshot, IsNeverTornOrOutdated) {
   constexpr std::uint64_t kWrites = 20'000;
   Snapshot<Wide> snapshot;
-  std::atomic<std::uint64_t> begun{0}, done{0};
+  std::atomic<std::uint64_t> started{0}, done{0};
   std::thread writer([&] {
     for (std::uint64_t n = 1; n <= kWrites; ++n) {
-      begun.store(n);
+      started.store(n);
       snapshot.draft().words.fill(n);
       snapshot.publish();
       done.store(n);
@@ -72,10 +72,10 @@ TEST(Snapshot, IsNeverTornOrOutdated) {
     const std::uint64_t done_before = done.load();
     const Wide& value = snapshot.newest();
     const std::uint64_t n = value.words[0];
-    if (!value.whole()) ++torn;
+    if (!value.is_whole()) ++torn;
     if (n < last) ++backward;
     if (n < done_before) ++old;
-    if (n > begun.load()) ++early;
+    if (n > started.load()) ++early;
     last = n;
   }
   writer.join();

@@ -17,9 +17,9 @@ RC_GTEST_PROP(SpscQueue, KeepsOrderAndRefusesWhenFull, ()) {
   int next = 0;
   for (const bool push : *rc::gen::container<std::vector<bool>>(rc::gen::arbitrary<bool>())) {
     if (push) {
-      const bool taken = queue.push(++next);
-      RC_ASSERT(taken == (model.size() < 4));
-      if (taken) model.push_back(next);
+      const bool pushed = queue.push(++next);
+      RC_ASSERT(pushed == (model.size() < 4));
+      if (pushed) model.push_back(next);
     } else {
       const auto command = queue.pop();
       RC_ASSERT(command.has_value() == !model.empty());
@@ -42,7 +42,7 @@ struct Command {
   std::array<std::uint32_t, 32> words{};
 };
 
-/// Number of items that differ from the pushed ones.
+/// Number of words that differ from the pushed ones.
 template <std::size_t Capacity>
 std::uint32_t wrong_words(std::uint32_t commands) {
   SpscQueue<Command, Capacity> queue;
@@ -50,15 +50,15 @@ std::uint32_t wrong_words(std::uint32_t commands) {
     for (std::uint32_t n = 1; n <= commands; ++n) {
       Command command;
       command.words.fill(n);
-      for (int tries = 1; !queue.push(command); ++tries)
-        if (tries % 1000 == 0) std::this_thread::yield();
+      for (int attempts = 1; !queue.push(command); ++attempts)
+        if (attempts % 1000 == 0) std::this_thread::yield();
     }
   });
   std::uint32_t wrong = 0;
   for (std::uint32_t n = 1; n <= commands; ++n) {
     auto command = queue.pop();
-    for (int tries = 1; !command; ++tries, command = queue.pop())
-      if (tries % 1000 == 0) std::this_thread::yield();
+    for (int attempts = 1; !command; ++attempts, command = queue.pop())
+      if (attempts % 1000 == 0) std::this_thread::yield();
     for (const std::uint32_t word : command->words)
       if (word != n) ++wrong;
   }
@@ -66,7 +66,7 @@ std::uint32_t wrong_words(std::uint32_t commands) {
   return wrong + (queue.pop() ? 1 : 0);
 }
 
-// In the smallest ring each slot is reused as soon as it is free.
+// With the smallest capacity, each slot is reused as soon as it is free.
 TEST(SpscQueue, KeepsEveryItemInOrderBetweenThreads) {
   EXPECT_EQ(wrong_words<1>(5'000), 0u);
   EXPECT_EQ(wrong_words<8>(20'000), 0u);

@@ -12,29 +12,29 @@
 namespace clay::studio {
 namespace {
 
-void wait_for(std::binary_semaphore& begun) {
-  test::wait_until([&] { return begun.try_acquire(); }, test::kDeadline, "the work to begin");
+void wait_for(std::binary_semaphore& started) {
+  test::wait_until([&] { return started.try_acquire(); }, test::kDeadline, "the work to start");
 }
 
 TEST(NewestWorker, DropsReplacedQuestions) {
-  std::binary_semaphore begun(0), go(0);
+  std::binary_semaphore started(0), resume(0);
   std::vector<int> worked;
   NewestWorker<int, int> worker(
       [&](const int& question, const auto&) {
         worked.push_back(question);
         if (question == 1) {
-          begun.release();
-          go.acquire();
+          started.release();
+          resume.acquire();
         }
         return 10 * question;
       },
       true);
   worker.ask(1);
-  wait_for(begun);  // works on the first question; the others arrive meanwhile
+  wait_for(started);  // works on the first question while the others arrive
   for (int question = 2; question <= 5; ++question) worker.ask(question);
   EXPECT_TRUE(worker.busy());
   EXPECT_EQ(worker.dropped(), 3u);
-  go.release();
+  resume.release();
   std::optional<int> newest;
   const auto answered = [&] {
     if (const auto answer = worker.take()) newest = answer;
@@ -42,7 +42,7 @@ TEST(NewestWorker, DropsReplacedQuestions) {
   };
   test::wait_until(answered, test::kDeadline, "the answer to the newest question");
   EXPECT_FALSE(worker.busy());
-  EXPECT_FALSE(worker.take()) << "each answer once";
+  EXPECT_FALSE(worker.take()) << "an answer was returned twice";
   EXPECT_EQ(worked, (std::vector<int>{1, 5}));
 }
 
@@ -55,29 +55,29 @@ TEST(NewestWorker, AnswersImmediatelyWithoutAThread) {
   EXPECT_FALSE(worker.busy());
 }
 
-/// Each question would take for ever.
+/// The work of these questions ends only when cancelled.
 TEST(NewestWorker, CancelsForANewerQuestionAndOnDestruction) {
   std::atomic<int> worked{0};
   {
-    std::binary_semaphore begun(0);
+    std::binary_semaphore started(0);
     NewestWorker<int, int> worker(
         [&](const int& question, const auto& given_up) {
           ++worked;
           if (question == 2) return question;
-          begun.release();
+          started.release();
           while (!given_up()) std::this_thread::yield();
           return question;
         },
         true);
     worker.ask(1);
-    wait_for(begun);
+    wait_for(started);
     worker.ask(2);
     std::optional<int> answer;
     const auto answered = [&] { return (answer = worker.take()).has_value(); };
     test::wait_until(answered, test::kDeadline, "the answer to the newer question");
-    EXPECT_EQ(*answer, 2) << "of the first there is none";
+    EXPECT_EQ(*answer, 2) << "the first question has no answer";
     worker.ask(3);
-    wait_for(begun);
+    wait_for(started);
   }
   EXPECT_EQ(worked, 3);
 }
@@ -85,24 +85,24 @@ TEST(NewestWorker, CancelsForANewerQuestionAndOnDestruction) {
 TEST(NewestWorker, DropsTheWaitingQuestionOnDestruction) {
   std::atomic<int> worked{0};
   {
-    std::binary_semaphore begun(0);
+    std::binary_semaphore started(0);
     NewestWorker<int, int> worker(
         [&](const int&, const auto& given_up) {
           ++worked;
-          begun.release();
+          started.release();
           while (!given_up()) std::this_thread::yield();
           std::this_thread::sleep_for(std::chrono::milliseconds(20));
           return 0;
         },
         true);
     worker.ask(1);
-    wait_for(begun);
+    wait_for(started);
     worker.ask(2);
   }
   EXPECT_LE(worked, 2);
 }
 
-TEST(PeriodicWorker, WorksAtOnceOnRequestAndALastTime) {
+TEST(PeriodicWorker, WorksAtOnceOnRequestAndOnClose) {
   std::atomic<int> calls{0}, last_calls{0};
   PeriodicWorker worker(
       [&](bool last) {
@@ -125,20 +125,20 @@ TEST(PeriodicWorker, WorksOncePerPeriod) {
   test::wait_until([&] { return calls >= 5; }, test::kDeadline, "five calls");
 }
 
-/// A request during the work is not lost.
+/// A request during the work must not be lost.
 TEST(PeriodicWorker, WorksAgainForARequestDuringTheWork) {
   std::atomic<int> calls{0};
   PeriodicWorker* self = nullptr;
-  std::binary_semaphore made(0);
+  std::binary_semaphore ready(0);
   PeriodicWorker worker(
       [&](bool) {
         if (++calls > 1) return;
-        made.acquire();
+        ready.acquire();
         self->wake();
       },
       std::chrono::hours(1));
   self = &worker;
-  made.release();
+  ready.release();
   test::wait_until([&] { return calls == 2; }, test::kDeadline, "the second call");
 }
 

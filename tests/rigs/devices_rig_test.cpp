@@ -87,11 +87,11 @@ TEST_F(DevicesRig, ReportsAFalconDuringItsStart) {
     return falcon_->device.model.homed();
   };
   monitored("", homed, "the grip to be homed");
-  EXPECT_EQ(only_one().at("state"), "ready") << "homed while it was monitored";
+  EXPECT_EQ(only_one().at("state"), "ready") << "homed during --monitor";
   EXPECT_EQ(falcon_->device.log.back().motors, LegCounts{});
 }
 
-/// The final grip position of --monitor, in the plane facing the user and along z.
+/// Compares the last position printed by --monitor.
 TEST_F(DevicesRig, UsesTheGivenGeometryAndMapping) {
   FalconModelSettings model;
   model.loaded = model.homed = true;
@@ -110,7 +110,8 @@ TEST_F(DevicesRig, UsesTheGivenGeometryAndMapping) {
   EXPECT_NEAR(right.at("position_mm")[2], 0.0, 0.07);
   EXPECT_NEAR(right.at("tool_mm")[0], -50.0 - 2.0 * 10.0, 0.15);
   EXPECT_NEAR(right.at("tool_mm")[1], 75.0 - 2.0 * 20.0, 0.15);
-  EXPECT_GT(std::abs(last("").at("position_mm")[2].get<double>()), 1.0) << "the other set";
+  EXPECT_GT(std::abs(last("").at("position_mm")[2].get<double>()), 1.0)
+      << "the default geometry must differ";
 }
 
 TEST_F(DevicesRig, ReportsABoundDriverAndAnotherProgram) {
@@ -133,14 +134,14 @@ TEST_F(DevicesRig, ReportsMissingPermission) {
   SpaceMouseGadget mouse;
   const HidrawNode mouse_node(testbed_.get(), mouse, 3);
   gchar* root = umockdev_testbed_get_root_dir(testbed_.get());
-  // umockdev creates sockets there, and connects to its own even if opening the node fails.
+  // umockdev creates sockets there and connects to them even if opening the node fails.
   for (const auto& entry :
        std::filesystem::recursive_directory_iterator(std::string(root) + "/ioctl"))
     std::filesystem::permissions(entry.path(), std::filesystem::perms::all);
   std::filesystem::permissions(root, std::filesystem::perms::all);
   std::filesystem::permissions(root + plug_->node(), std::filesystem::perms::none);
   std::filesystem::permissions(root + mouse_node.node(), std::filesystem::perms::none);
-  // In a folder that user nobody can read, wherever the program was built.
+  // A copy in a folder that user nobody can read.
   const std::string program = std::string(root) + "/claystack";
   std::filesystem::copy_file(CLAYSTACK_PROGRAM, program);
   g_free(root);

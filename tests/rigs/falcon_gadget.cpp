@@ -79,8 +79,8 @@ std::optional<Bytes> FalconGadget::control(const Setup& setup, std::span<const s
 
 void FalconGadget::out(std::span<const std::uint8_t> bytes) {
   const falcon::Answer answer = device.model.receive(bytes, kFrameS);
-  const auto said = answer.span();
-  fifo_.insert(fifo_.end(), said.begin(), said.end());
+  const auto sent = answer.span();
+  fifo_.insert(fifo_.end(), sent.begin(), sent.end());
 }
 
 std::optional<Bytes> FalconGadget::in(std::size_t room, std::chrono::microseconds waited) {

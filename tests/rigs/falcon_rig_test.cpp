@@ -20,7 +20,7 @@ namespace {
 using namespace clay::falcon;
 
 constexpr double kEncoderMm = 0.07;  // half a count on each leg, within 40 mm of the centre
-constexpr std::int64_t kPatienceUs = 20'000'000;  // for a machine under load
+constexpr std::int64_t kPatienceUs = 20'000'000;  // for a loaded machine
 
 glm::dvec3 on_circle(std::uint64_t frame) {
   const double turn = 2e-3 * 3.14159265358979 * static_cast<double>(frame);
@@ -76,7 +76,7 @@ class FalconRig : public testing::Test {
   DeviceSettings settings_;
 };
 
-TEST_F(FalconRig, LoadsFirmwareHomesAndRuns5000FramesWithNoBadOne) {
+TEST_F(FalconRig, LoadsFirmwareHomesAndRuns5000GoodFrames) {
   plug();
   auto opened = open_device("falcon", settings_);
   ASSERT_TRUE(opened) << opened.error().message;
@@ -101,8 +101,8 @@ TEST_F(FalconRig, LoadsFirmwareHomesAndRuns5000FramesWithNoBadOne) {
     ASSERT_TRUE(sample.fresh) << frame;
     ASSERT_LT(glm::distance(sample.position_mm, mm_of(on_circle(frame))), kEncoderMm) << frame;
     // The force belongs to the position of the previous frame: 0.13 mm away.
-    const glm::dvec3 felt = locked([](auto& d) { return d.log.back().force_n; });
-    ASSERT_LT(glm::distance(felt, force_at(frame)), 0.05) << frame;
+    const glm::dvec3 displayed_n = locked([](auto& d) { return d.log.back().force_n; });
+    ASSERT_LT(glm::distance(displayed_n, force_at(frame)), 0.05) << frame;
   }
   EXPECT_EQ(locked([](auto& d) { return d.log.size(); }), first + 5000);
   EXPECT_EQ(device.counters().bytes_discarded, 0u);
@@ -141,7 +141,7 @@ TEST_F(FalconRig, LosesAtMostTwoFramesPerWireFault) {
       });
       for (int i = 0; i < 8; ++i) {
         device.write({1, 0, 0});
-        // A lost frame does not arrive: waits long enough for one that is not lost.
+        // Long enough for every frame that is not lost.
         const DeviceSample sample = device.read(50'000);
         ASSERT_EQ(sample.state, DeviceState::ready);
         if (!sample.fresh) continue;
@@ -165,12 +165,12 @@ TEST_F(FalconRig, ReportsLostHomingAndSendsNoForceUntilHomed) {
   locked([](auto& d) { d.model.plan({WireFault::homing_lost, 0}); });
   DeviceSample sample = tick(**opened, {2, 0, 0});
   EXPECT_EQ(sample.state, DeviceState::needs_homing);
-  const auto back = [&] {
+  const auto homed_again = [&] {
     sample = tick(**opened, {2, 0, 0});
     EXPECT_EQ(locked([](auto& d) { return d.model.motors(); }), LegCounts{});
     return sample.state != DeviceState::needs_homing;
   };
-  test::wait_until(back, test::kDeadline, "the homing to be back");
+  test::wait_until(homed_again, test::kDeadline, "the device to be homed again");
   EXPECT_EQ(sample.state, DeviceState::ready);
 }
 
@@ -199,15 +199,15 @@ TEST_F(FalconRig, ReportsUnpluggingAndReconnects) {
   }
 }
 
-TEST_F(FalconRig, RetriesAWrongEchoAndFinallyReportsIt) {
+TEST_F(FalconRig, RetriesAWrongEchoThenReportsIt) {
   FalconModelSettings model;
   model.faults = {{WireFault::echo_error, 500}};
   plug(model);
-  EXPECT_TRUE(open_device("falcon", settings_)) << "one fault, and then it goes";
+  EXPECT_TRUE(open_device("falcon", settings_)) << "one fault must not prevent the upload";
   locked([](auto& d) {
     d.model.unplug();
     d.model.replug();
-    // Enough for every remaining byte of the piece, ten times over.
+    // Enough for the remaining bytes of the piece in ten attempts.
     for (int i = 0; i < 1000; ++i) d.model.plan({WireFault::echo_error, 500});
   });
   const auto opened = open_device("falcon", settings_);
@@ -223,20 +223,20 @@ TEST_F(FalconRig, DistinguishesMissingPowerFromMissingFirmware) {
   plug(model);
   for (const std::string& path : {firmware_path_, std::string()}) {
     settings_.falcon.firmware_path = path;
-    const auto dark = open_device("falcon", settings_);
-    ASSERT_FALSE(dark);
-    EXPECT_EQ(dark.error().fault, DeviceFault::no_answer);
-    EXPECT_NE(dark.error().remedy.find("power supply"), std::string::npos);
+    const auto unpowered = open_device("falcon", settings_);
+    ASSERT_FALSE(unpowered);
+    EXPECT_EQ(unpowered.error().fault, DeviceFault::no_answer);
+    EXPECT_NE(unpowered.error().remedy.find("power supply"), std::string::npos);
   }
   locked([](auto& d) { d.model.switch_power(true); });
-  const auto bare = open_device("falcon", settings_);
-  ASSERT_FALSE(bare);
-  EXPECT_EQ(bare.error().fault, DeviceFault::no_firmware);
+  const auto without_firmware = open_device("falcon", settings_);
+  ASSERT_FALSE(without_firmware);
+  EXPECT_EQ(without_firmware.error().fault, DeviceFault::no_firmware);
   settings_.falcon.firmware_path = firmware_path_;
   EXPECT_TRUE(open_device("falcon", settings_));
 }
 
-TEST_F(FalconRig, TakesOverFromAKernelDriverButNotFromAProgram) {
+TEST_F(FalconRig, DetachesAKernelDriverButRefusesABusyDevice) {
   plug_ready();
   plug_->manners.kernel_driver = true;
   auto listed = list_devices();

@@ -38,7 +38,7 @@ glm::dvec3 on_circle(std::uint64_t frame) {
   return Kinematics::kCentreMm + 20.0 * glm::dvec3(std::cos(turn), std::sin(turn), 0.0);
 }
 
-/// hidapi keeps its state for the process, and the next test has another /dev.
+/// hidapi keeps its state until hid_exit(), but each test has another /dev.
 class HidRig : public testing::Test {
  protected:
   ~HidRig() override { hid_exit(); }
@@ -76,7 +76,7 @@ class BridgeRig : public HidRig {
   DeviceSettings settings_;
 };
 
-TEST_F(BridgeRig, HomesAndRuns5000FramesWithNoBadOne) {
+TEST_F(BridgeRig, HomesAndRuns5000GoodFrames) {
   auto opened = open_device("bridge", settings_);
   ASSERT_TRUE(opened) << opened.error().message;
   HapticDevice& device = **opened;
@@ -185,7 +185,7 @@ TEST_F(BridgeRig, LibraryThreadsReceiveNoSignal) {
   }
 }
 
-HapticDevice* met = nullptr;
+HapticDevice* interrupted_device = nullptr;
 std::atomic<int> stops{0};
 
 /// A signal handler that stops the device repeatedly, interrupting the writing thread anywhere. If
@@ -193,14 +193,14 @@ std::atomic<int> stops{0};
 TEST_F(BridgeRig, LastPacketNeverWaitsForTheInterruptedThread) {
   auto opened = open_device("bridge", settings_);
   ASSERT_TRUE(opened) << opened.error().message;
-  met = opened->get();
-  home(*met);
+  interrupted_device = opened->get();
+  home(*interrupted_device);
   const auto before = std::signal(SIGUSR1, [](int) {
-    met->zero();
+    interrupted_device->zero();
     ++stops;
   });
   std::atomic<bool> done{false};
-  std::thread hand([&, writer = pthread_self()] {
+  std::thread signaller([&, writer = pthread_self()] {
     using Clock = std::chrono::steady_clock;
     auto sent = Clock::now(), next = sent;
     int seen = stops;
@@ -219,17 +219,17 @@ TEST_F(BridgeRig, LastPacketNeverWaitsForTheInterruptedThread) {
       }
       return done.load();
     };
-    test::wait_until(ended, test::kDeadline, "300 frames, and 300 stops between them");
+    test::wait_until(ended, test::kDeadline, "300 frames and 300 stops");
   });
   for (int i = 0; i < 300 || stops < 300; ++i) {
-    met->write({1, 0, 0});
-    met->read(200'000);
+    interrupted_device->write({1, 0, 0});
+    interrupted_device->read(200'000);
   }
   done = true;
-  hand.join();
+  signaller.join();
   std::signal(SIGUSR1, before);
-  met->stop();
-  tick(*met, {1, 0, 0});
+  interrupted_device->stop();
+  tick(*interrupted_device, {1, 0, 0});
   EXPECT_EQ(locked([](auto& d) { return d.model.motors(); }), LegCounts{});
 }
 
@@ -243,13 +243,13 @@ TEST_F(BridgeRig, ReportsASilentFalconBehindTheBridge) {
 
 class SpaceMouseRig : public HidRig {
  protected:
-  void say(const Bytes& report) {
+  void send(const Bytes& report) {
     const std::scoped_lock held(gadget_.lock);
     gadget_.reports.push_back(report);
     plugged_.pump();
   }
-  /// Like a deflected cap: sends the next report after the last was read.
-  void go_on_saying(const Bytes& report) {
+  /// Like a deflected cap: sends the next report once the last has been read.
+  void keep_sending(const Bytes& report) {
     const std::scoped_lock held(gadget_.lock);
     if (gadget_.reports.empty()) gadget_.reports.push_back(report);
     plugged_.pump();
@@ -272,16 +272,16 @@ TEST_F(SpaceMouseRig, ReportsPositionsAndSwitchesItsLight) {
   EXPECT_EQ(device.info().name, "SpaceMouse Compact");
   EXPECT_FALSE(device.info().can_push);
   EXPECT_EQ(device.read(0).position_mm, glm::dvec3(0.0));
-  say({1, 0x5E, 0x01, 0, 0, 0, 0});                    // x full to the right
-  say({1, 0x5E, 0x01, 0, 0, 0, 0, 9, 9, 9, 9, 9, 9});  // the same from a wireless model
-  say({2, 1, 0, 1, 0, 1, 0});
-  say({3, 0x02, 0x00});
+  send({1, 0x5E, 0x01, 0, 0, 0, 0});                    // x full to the right
+  send({1, 0x5E, 0x01, 0, 0, 0, 0, 9, 9, 9, 9, 9, 9});  // the same from a wireless model
+  send({2, 1, 0, 1, 0, 1, 0});
+  send({3, 0x02, 0x00});
   DeviceSample sample;
   const auto moved = [&] {
     sample = device.read(0);
     EXPECT_EQ(sample.state, DeviceState::ready);
     EXPECT_TRUE(sample.fresh);
-    go_on_saying({1, 0x5E, 0x01, 0, 0, 0, 0});
+    keep_sending({1, 0x5E, 0x01, 0, 0, 0, 0});
     return sample.buttons != 0 && sample.position_mm.x >= 1.0;
   };
   test::wait_until(moved, test::kDeadline, "a button, and 1 mm to the right");
@@ -298,18 +298,19 @@ TEST_F(SpaceMouseRig, StopsWhenSilentAndReportsUnplugging) {
   ASSERT_TRUE(opened) << opened.error().message;
   HapticDevice& device = **opened;
   const auto moved = [&] {
-    go_on_saying({1, 0x5E, 0x01, 0, 0, 0, 0});
+    keep_sending({1, 0x5E, 0x01, 0, 0, 0, 0});
     return device.read(0).position_mm.x > 0.0;
   };
-  test::wait_until(moved, test::kDeadline, "the cap to move the tool");
-  const auto stands = [&] {
+  test::wait_until(moved, test::kDeadline, "the cap to move the position");
+  const auto rests = [&] {
     const double x_mm = device.read(0).position_mm.x;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     return device.read(0).position_mm.x == x_mm;
   };
-  test::wait_until(stands, test::kDeadline, "the tool to stand still");
+  test::wait_until(rests, test::kDeadline, "the position to rest");
   const double x_mm = device.read(0).position_mm.x;
-  EXPECT_LT(x_mm, device.info().half_workspace_mm.x) << "not held up by the end of its way";
+  EXPECT_LT(x_mm, device.info().half_workspace_mm.x)
+      << "not stopped by the border of the workspace";
   for (int i = 0; i < 100; ++i) EXPECT_EQ(device.read(0).position_mm.x, x_mm);
   {
     const std::scoped_lock held(gadget_.lock);

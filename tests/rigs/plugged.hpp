@@ -1,6 +1,6 @@
 #pragma once
-// A HID gadget for the backend of hidapi under test: a kernel node for hidraw, a USB device for
-// libusb (CLAYSTACK_HIDAPI_LIBUSB).
+// Connects a HID gadget for the tested backend of hidapi: as a kernel node for hidraw, as a USB
+// device for libusb (CLAYSTACK_HIDAPI_LIBUSB).
 
 #include "tests/rigs/hid_gadget.hpp"
 

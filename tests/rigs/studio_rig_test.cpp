@@ -1,6 +1,6 @@
-// The window as users have it, on a screen, with an arm that is connected while it runs and
-// disconnected during a stroke: unmodified libftdi1 and libusb with an emulated Falcon, and real
-// mouse events. arm_under_xvfb.sh acts as the user; this file moves the arm.
+// The window on a virtual screen, with an arm that is connected while it runs and disconnected
+// during a stroke: unmodified libftdi1 and libusb with an emulated Falcon, and real mouse events.
+// arm_under_xvfb.sh acts as the user; this file moves the arm.
 
 #include "app/servo/mapping.hpp"
 #include "tests/rigs/falcon_gadget.hpp"
@@ -25,20 +25,20 @@ namespace {
 
 using namespace clay::falcon;
 
-// On the wheel [mm]. The lump is 49.1 mm wide, the tool a ball of 10 mm.
+// On the wheel [mm]. The lump has 49.1 mm radius; the tool is a ball of 10 mm radius.
 constexpr double kOffClayMm = 62.0, kInClayMm = 54.0, kDeepMm = 35.0, kHeightMm = 15.0;
-constexpr double kPressingMm = 0.05, kMovingMm = 0.4;  // a frame
+constexpr double kPressingMm = 0.05, kMovingMm = 0.4;  // per frame
 constexpr std::size_t kEnoughFrames = 100;
 
-/// Moves straight to its target, no faster than a hand. Under the gadget's lock.
+/// Moves to its goal by a step per frame. Called under the gadget's lock.
 class Hand {
  public:
-  void go(double x_mm, double step_mm) {
+  void move_to(double x_mm, double step_mm) {
     goal_mm_ = x_mm;
     step_mm_ = step_mm;
   }
-  void stand(double x_mm) { x_mm_ = goal_mm_ = x_mm; }
-  [[nodiscard]] bool there() const { return x_mm_ == goal_mm_; }
+  void place_at(double x_mm) { x_mm_ = goal_mm_ = x_mm; }
+  [[nodiscard]] bool at_goal() const { return x_mm_ == goal_mm_; }
   glm::dvec3 next() {
     x_mm_ += std::clamp(goal_mm_ - x_mm_, -step_mm_, step_mm_);
     return Kinematics::kCentreMm + mapping_.to_device({x_mm_, kHeightMm, 0.0});
@@ -55,7 +55,7 @@ FalconModelSettings ready() {
   return model;
 }
 
-/// A frame whose motor commands are all 0, with any lights: '<' and four letters for each motor.
+/// A frame with zero motor commands and any lights: '<' and four letters for each motor.
 bool is_no_force(const Bytes& frame) {
   constexpr std::size_t kMotorBytes = 13;
   const auto zero = encode({}).bytes;
@@ -80,11 +80,11 @@ class StudioRig : public testing::Test {
     const std::scoped_lock held(gadget_.lock);
     return action();
   }
-  [[nodiscard]] bool asked(const char* what) const {
+  [[nodiscard]] bool requested(const char* what) const {
     return std::filesystem::exists(folder_.file(what));
   }
   void answer(const char* what) { test::write_text(folder_.file(what), ""); }
-  /// Throws if the user's script ends earlier, with its output.
+  /// Throws with the script's errors if the script ends first.
   template <class Condition>
   void until(Condition condition, const std::string& what, bool presses = false) {
     const auto done = [&] {
@@ -95,8 +95,9 @@ class StudioRig : public testing::Test {
     };
     test::wait_until(done, test::kProgramDeadline, what);
   }
-  void until_asked(const char* what, bool presses = false) {
-    until([&] { return asked(what); }, std::string("the script to ask: ") + what, presses);
+  void until_requested(const char* what, bool presses = false) {
+    until([&] { return requested(what); }, std::string("a request of the script: ") + what,
+          presses);
   }
 
   /// The last guard state printed by the window.
@@ -107,21 +108,21 @@ class StudioRig : public testing::Test {
       if (line.starts_with("force: ")) last = line.substr(7);
     return last;
   }
-  /// Like a potter: into the clay while there is force, however small, and off it to ramp up again.
-  /// On a loaded machine the servo may never reach full force.
+  /// Presses in while there is any force, otherwise leaves the clay so that the force ramps up
+  /// again. On a loaded machine the servo may never reach full force.
   void press() {
     const std::string state = force();
-    const bool given = state == "ramping" || state == "engaged" || state == "fading";
+    const bool has_force = state == "ramping" || state == "engaged" || state == "fading";
     locked([&] {
-      if (given && hand_.there()) hand_.go(press_to_mm_, kPressingMm);
-      if (!given) hand_.go(kOffClayMm, kMovingMm);
+      if (has_force && hand_.at_goal()) hand_.move_to(press_to_mm_, kPressingMm);
+      if (!has_force) hand_.move_to(kOffClayMm, kMovingMm);
     });
   }
   [[nodiscard]] std::size_t frames() {
     return locked([&] { return gadget_.device.log.size(); });
   }
-  /// Number of frames from there on with nonzero force.
-  [[nodiscard]] std::size_t felt(std::size_t from) {
+  /// Number of frames with non-zero force, starting at `from`.
+  [[nodiscard]] std::size_t frames_with_force(std::size_t from) {
     return locked([&] {
       const auto& log = gadget_.device.log;
       return static_cast<std::size_t>(
@@ -130,16 +131,16 @@ class StudioRig : public testing::Test {
     });
   }
 
-  void comes_and_throws() {
-    until_asked("plug");
+  void connect_and_throw() {
+    until_requested("plug");
     plug();
-    until_asked("press");
-    EXPECT_EQ(felt(0), 0u) << "off the clay";
-    until([&] { return felt(0) > kEnoughFrames; }, "the hand to feel the clay", true);
-    answer("felt");
+    until_requested("press");
+    EXPECT_EQ(frames_with_force(0), 0u) << "off the clay";
+    until([&] { return frames_with_force(0) > kEnoughFrames; }, "force on the hand", true);
+    answer("force_displayed");
   }
   /// Disconnects the arm while the motors push.
-  void is_pulled_out() {
+  void unplug_under_force() {
     const auto pushed = [&] {
       return locked([&] {
         if (gadget_.device.log.back().motors == LegCounts{}) return false;
@@ -147,29 +148,31 @@ class StudioRig : public testing::Test {
         return true;
       });
     };
-    until_asked("pull", true);
-    until(pushed, "a frame that pushes", true);
+    until_requested("pull", true);
+    until(pushed, "a frame with force", true);
     plugs_.back()->pull();
   }
-  /// Reconnects with the grip in the clay: no force for any time. Then off the clay, and in again.
-  void comes_back() {
-    until_asked("again");
+  /// Reconnects with the grip in the clay, where the force stays zero. Then leaves it and presses
+  /// again.
+  void reconnect_in_the_clay() {
+    until_requested("reconnect");
     const std::size_t before = frames();
-    EXPECT_EQ(before, lost_at_) << "nothing reaches an arm that is gone";
+    EXPECT_EQ(before, lost_at_) << "frames reached a disconnected arm";
     locked([&] {
-      hand_.stand(kDeepMm);
+      hand_.place_at(kDeepMm);
       gadget_.device.model.replug();
     });
     plug();
-    until([&] { return frames() > before; }, "a frame of the arm that is back");
+    until([&] { return frames() > before; }, "a frame of the reconnected arm");
     answer("opened");
     until([&] { return frames() > before + 10 * kEnoughFrames; }, "frames without force");
-    EXPECT_EQ(felt(before), 0u);
-    answer("held");
-    until_asked("away");
+    EXPECT_EQ(frames_with_force(before), 0u);
+    answer("no_force");
+    until_requested("retract");
     press_to_mm_ = kDeepMm - 5.0;  // beyond the clay already displaced
-    until([&] { return felt(before) > kEnoughFrames; }, "the hand to feel the clay again", true);
-    answer("felt_again");
+    until([&] { return frames_with_force(before) > kEnoughFrames; },
+          "force on the hand after the reconnection", true);
+    answer("force_displayed_again");
   }
 
   test::ScratchFolder folder_;
@@ -185,13 +188,14 @@ class StudioRig : public testing::Test {
 TEST_F(StudioRig, SwitchesBetweenAReconnectedArmAndTheMouse) {
   user_.emplace("sh " CLAYSTACK_RIGS "/arm_under_xvfb.sh " CLAYSTACK_PROGRAM " " +
                 folder_.path().string());
-  comes_and_throws();
-  is_pulled_out();
+  connect_and_throw();
+  unplug_under_force();
   lost_at_ = frames();
-  comes_back();
+  reconnect_in_the_clay();
   const auto ran = user_->wait();
   ASSERT_EQ(ran.status, 0) << ran.err << ran.out;
-  EXPECT_EQ(locked([&] { return gadget_.device.model.motors(); }), LegCounts{}) << "the last word";
+  EXPECT_EQ(locked([&] { return gadget_.device.model.motors(); }), LegCounts{})
+      << "the last command";
   // The packet that detects the loss was made before; all following packets have zero force.
   for (std::size_t i = 1; i < gadget_.refused.size(); ++i)
     EXPECT_TRUE(is_no_force(gadget_.refused[i])) << i << ": " << hexadecimal(gadget_.refused[i]);

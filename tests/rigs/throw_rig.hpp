@@ -30,7 +30,7 @@ using test::claystack;
 using test::Program;
 using test::Ran;
 
-// Frames with the hand off the clay: at their end most of the force has ramped up.
+// Frames with the hand off the clay; after them most of the force has ramped up.
 inline constexpr std::uint64_t kLeadFrames = 800;
 
 /// The bowl's stroke, in the frame of Kinematics. Two poses per frame, because emulated frames are
@@ -39,12 +39,12 @@ inline Trajectory bowl_stroke() {
   const std::string path = test::sample("paper/bowl.session");
   const Session session = parse_session(read_file(path).value(), path).value();
   const auto mapping = servo::Mapping::build({}).value();
-  std::vector<glm::dvec3> places;
+  std::vector<glm::dvec3> positions;
   for (const Pose& pose : session.poses)
-    places.push_back(Kinematics::kCentreMm + mapping.to_device(pose.position_mm));
-  return [places](std::uint64_t frame) {
+    positions.push_back(Kinematics::kCentreMm + mapping.to_device(pose.position_mm));
+  return [positions](std::uint64_t frame) {
     const std::uint64_t at = frame > kLeadFrames ? 2 * (frame - kLeadFrames) : 0;
-    return places[std::min<std::uint64_t>(at, places.size() - 1)];
+    return positions[std::min<std::uint64_t>(at, positions.size() - 1)];
   };
 }
 
@@ -54,7 +54,7 @@ inline FalconModelSettings ready() {
   return model;
 }
 
-/// During its scope, programs load this backend of hidapi before the linked one.
+/// In its scope, programs preload this backend of hidapi.
 class Backend {
  public:
 #ifdef CLAYSTACK_HIDAPI_LIBUSB
@@ -93,13 +93,13 @@ class ThrowRig : public testing::Test {
   }
   template <class Gadget>
   static void wait_for_frames(Program& program, Gadget& gadget, std::size_t frames) {
-    const auto full = [&] {
+    const auto received = [&] {
       const std::scoped_lock held(gadget.lock);
       return gadget.device.log.size() >= frames;
     };
-    until(program, full, "frame " + std::to_string(frames) + " of the device");
+    until(program, received, "frame " + std::to_string(frames) + " of the device");
   }
-  /// Requests a stop.
+  /// Stops the throw with SIGINT.
   static Ran stop(Program& program) {
     program.send(SIGINT);
     return program.wait();
@@ -150,24 +150,24 @@ class ThrowRig : public testing::Test {
   }
 
   /// Each recorded pose is a position of the hand, within half an encoder step on each leg.
-  void expect_true_places(const std::vector<FrameLog>& log) {
+  void expect_true_positions(const std::vector<FrameLog>& log) {
     const std::string path = folder_.file("s.session");
     const Session session = parse_session(test::read_text(path), path).value();
     ASSERT_GT(session.poses.size(), 100u);
     const auto mapping = servo::Mapping::build({}).value();
     for (const Pose& pose : session.poses) {
-      const glm::dvec3 place_mm = Kinematics::kCentreMm + mapping.to_device(pose.position_mm);
+      const glm::dvec3 position_mm = Kinematics::kCentreMm + mapping.to_device(pose.position_mm);
       const auto at = std::ranges::min_element(log, {}, [&](const FrameLog& frame) {
-        return glm::distance(frame.position_mm, place_mm);
+        return glm::distance(frame.position_mm, position_mm);
       });
-      ASSERT_LT(glm::distance(at->position_mm, place_mm), 0.07) << pose.time_us;
+      ASSERT_LT(glm::distance(at->position_mm, position_mm), 0.07) << pose.time_us;
     }
   }
 
   /// Each recorded pose is a position of the hand, and the motor torque in the next frame points in
-  /// the direction of the replayed clay's force. The magnitude is up to the guard if a loaded
-  /// machine delayed the servo.
-  void expect_felt(const Ran& run, const std::vector<FrameLog>& log) {
+  /// the direction of the replayed clay's force. If a loaded machine delayed the servo, the guard
+  /// decides the magnitude.
+  void expect_displayed_force(const Ran& run, const std::vector<FrameLog>& log) {
     const std::string scene_path = test::sample("paper/bowl.scene.json");
     Wheel wheel =
         Wheel::build(parse_scene(test::read_text(scene_path), scene_path).value()).value();
@@ -175,32 +175,33 @@ class ThrowRig : public testing::Test {
     const Session session = parse_session(test::read_text(path), path).value();
     ASSERT_GT(session.poses.size(), 100u);
     const auto mapping = servo::Mapping::build({}).value();
-    double farthest_mm = 0.0, along = 0.0, lengths = 0.0, felt_ns = 0.0, clay_ns = 0.0;
+    double farthest_mm = 0.0, along = 0.0, lengths = 0.0, displayed_ns = 0.0, clay_ns = 0.0;
     for (const Pose& pose : session.poses) {
-      const glm::dvec3 place_mm = Kinematics::kCentreMm + mapping.to_device(pose.position_mm);
+      const glm::dvec3 position_mm = Kinematics::kCentreMm + mapping.to_device(pose.position_mm);
       const auto at = std::ranges::min_element(log, {}, [&](const FrameLog& frame) {
-        return glm::distance(frame.position_mm, place_mm);
+        return glm::distance(frame.position_mm, position_mm);
       });
-      farthest_mm = std::max(farthest_mm, glm::distance(at->position_mm, place_mm));
+      farthest_mm = std::max(farthest_mm, glm::distance(at->position_mm, position_mm));
       const glm::dvec3 clay_n = wheel.step(pose).force_n();
       if (at + 1 == log.end()) continue;
-      const glm::dvec3& felt_n = (at + 1)->force_n;
-      along += glm::dot(felt_n, clay_n);
-      lengths += glm::length(felt_n) * glm::length(clay_n);
-      felt_ns += 1e-3 * glm::length(felt_n);
+      const glm::dvec3& displayed_n = (at + 1)->force_n;
+      along += glm::dot(displayed_n, clay_n);
+      lengths += glm::length(displayed_n) * glm::length(clay_n);
+      displayed_ns += 1e-3 * glm::length(displayed_n);
       clay_ns += 1e-3 * glm::length(mapping.force_to_device(clay_n));
     }
     EXPECT_LT(farthest_mm, 0.07) << "half an encoder's step on each leg";
     EXPECT_GT(clay_ns, 0.0);
     EXPECT_GE(along, 0.95 * lengths);
-    double most_n = 0.0;
-    for (const FrameLog& frame : log) most_n = std::max(most_n, glm::length(frame.force_n));
+    double max_force_n = 0.0;
+    for (const FrameLog& frame : log)
+      max_force_n = std::max(max_force_n, glm::length(frame.force_n));
     if (!run.json().at("servo").at("guard").at("safe").contains("overrun")) {
-      EXPECT_GT(felt_ns, 0.2 * clay_ns) << "all of it, but for what was not earned yet";
-      EXPECT_GT(most_n, 0.1);
+      EXPECT_GT(displayed_ns, 0.2 * clay_ns) << "the full force, except during the ramp";
+      EXPECT_GT(max_force_n, 0.1);
     }
-    EXPECT_LT(most_n, 5.1) << "the limit, and the motors' steps";
-    EXPECT_EQ(log.back().motors, LegCounts{}) << "the last word";
+    EXPECT_LT(max_force_n, 5.1) << "the limit plus motor rounding";
+    EXPECT_EQ(log.back().motors, LegCounts{}) << "the last command";
   }
 
   test::ScratchFolder folder_;

@@ -10,7 +10,7 @@
 namespace clay::rig {
 namespace {
 
-#ifndef CLAYSTACK_HIDAPI_LIBUSB  // no hidapi in these
+#ifndef CLAYSTACK_HIDAPI_LIBUSB  // these do not use hidapi
 
 TEST_F(ThrowRig, StockFalconThrowsTheSampleWithoutFirmwareLoaded) {
   FalconGadget gadget({}, bowl_stroke());
@@ -25,7 +25,7 @@ TEST_F(ThrowRig, StockFalconThrowsTheSampleWithoutFirmwareLoaded) {
   SCOPED_TRACE(run.json().dump());
   expect_no_bad_frame(run, kFrames);
   EXPECT_EQ(gadget.device.model.firmware(), dummy_firmware());
-  expect_felt(run, gadget.device.log);
+  expect_displayed_force(run, gadget.device.log);
 }
 
 TEST_F(ThrowRig, StopsWaitingForHoming) {
@@ -43,7 +43,7 @@ TEST_F(ThrowRig, StopsWaitingForHoming) {
   for (const FrameLog& frame : gadget.device.log) ASSERT_EQ(frame.motors, LegCounts{});
 }
 
-TEST_F(ThrowRig, AcceptsNoWireFault) {
+TEST_F(ThrowRig, AcceptsNoDamagedFrame) {
   FalconModelSettings model = ready();
   constexpr std::uint64_t kLost = 1900;
   model.faults = {{WireFault::lost_byte, 1300},   {WireFault::extra_byte, 1400},
@@ -60,8 +60,8 @@ TEST_F(ThrowRig, AcceptsNoWireFault) {
   EXPECT_GE(run.json().at("frames").at("taken").get<std::size_t>() + 2 * model.faults.size(),
             log.size());
   EXPECT_GT(run.json().at("frames").at("bytes_discarded"), 0);
-  expect_true_places(log);
-  // Ten ticks are 10 ms; it is homed after sixty frames.
+  expect_true_positions(log);
+  // The force must be zero after ten ticks; homing takes sixty frames.
   for (std::uint64_t frame = kLost + 10; frame < kLost + 50; ++frame)
     ASSERT_EQ(log.at(frame).motors, LegCounts{}) << frame;
 }
@@ -70,7 +70,7 @@ TEST_F(ThrowRig, AcceptsNoWireFault) {
 
 TEST_F(ThrowRig, BridgedFalconThrowsTheSamePot) {
   FalconModelSettings model;
-  model.loaded = true;  // a bridge loads it itself
+  model.loaded = true;  // a bridge loads the firmware
   BridgeGadget gadget(model, bowl_stroke());
   const Plugged plugged(testbed_.get(), gadget);
   const auto run = throw_frames(gadget, kFrames + kHomingFrames, "bridge", "");
@@ -79,7 +79,7 @@ TEST_F(ThrowRig, BridgedFalconThrowsTheSamePot) {
   const std::scoped_lock held(gadget.lock);
   SCOPED_TRACE(run.json().dump());
   expect_no_bad_frame(run, kFrames);
-  expect_felt(run, gadget.device.log);
+  expect_displayed_force(run, gadget.device.log);
   EXPECT_EQ(gadget.bad_reports, 0u);
 }
 
@@ -117,10 +117,10 @@ TEST_F(ThrowRig, WaitsForReconnectionIfRequested) {
   FalconGadget gadget(model, bowl_stroke());
   const UsbPlug plug(testbed_.get(), gadget);
   Program program = begin("falcon", "--wait");
-  // A faster hand must not be missed.
+  // Replugs only after the throw has noticed the loss.
   until(
       program, [&] { return program.err().find("waiting for it") != std::string::npos; },
-      "the throw to miss the device");
+      "the throw to notice the loss of the device");
   const std::size_t before = [&] {
     const std::scoped_lock held(gadget.lock);
     gadget.device.model.replug();  // its firmware stays loaded, because it has its own power supply
@@ -140,7 +140,8 @@ TEST_F(ThrowRig, WaitsForReconnectionIfRequested) {
 TEST_F(ThrowRig, SpaceMouseMovesTheToolWithoutForce) {
   SpaceMouseGadget gadget;
   Plugged plugged(testbed_.get(), gadget);
-  // A cap deflected to the left until the tool is in the lump of 49 mm, or has pushed it over.
+  // The cap stays deflected to the left until the tool is in the lump of 49 mm radius, or the throw
+  // ends.
   const auto pressed = [&] {
     {
       const std::scoped_lock held(gadget.lock);
@@ -150,7 +151,7 @@ TEST_F(ThrowRig, SpaceMouseMovesTheToolWithoutForce) {
     return tool_mm() < 45.0;
   };
   Program program = begin("spacemouse", "--height 15");
-  until(program, pressed, "the tool to be in the clay");
+  until(program, pressed, "the tool to reach the clay");
   const auto run = stop(program);
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.json().at("volume_error_quanta"), 0);

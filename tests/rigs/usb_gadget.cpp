@@ -13,7 +13,7 @@
 namespace clay::rig {
 namespace {
 
-// Emulated nodes are always ready to poll: without a pause libusb would loop.
+// Emulated nodes always poll as ready, so libusb would spin without a pause.
 constexpr auto kHold = std::chrono::microseconds(50);
 constexpr std::uint32_t kCapabilities = USBDEVFS_CAP_ZERO_PACKET | USBDEVFS_CAP_BULK_CONTINUATION |
                                         USBDEVFS_CAP_NO_PACKET_SIZE_LIM |
@@ -272,7 +272,7 @@ void UsbPlug::discard(UMockdevIoctlClient* client) {
   umockdev_ioctl_client_complete(client, 0, 0);
 }
 
-/// The pending call; written to only.
+/// The synchronous call, which libraries use for writing only.
 void UsbPlug::bulk(UMockdevIoctlClient* client, UMockdevIoctlData* data) {
   const auto& transfer = *reinterpret_cast<usbdevfs_bulktransfer*>(data->data);
   UMockdevIoctlData* bytes = resolve(data, offsetof(usbdevfs_bulktransfer, data), transfer.len);

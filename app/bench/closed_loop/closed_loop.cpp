@@ -21,28 +21,28 @@ struct Account {
   double rounding_mj = 0.0;  // of the sums so far
 };
 
-class Bookkeeper {
+class EnergyBalance {
  public:
-  Bookkeeper(const SimulatedArm& arm, const Surface& surface)
+  EnergyBalance(const SimulatedArm& arm, const Surface& surface)
       : arm_(arm),
         surface_(surface),
-        began_mj_(total_mj()),
-        // A reading has an error of half a step, and the force one of K times that.
+        initial_mj_(total_mj()),
+        // A reading is off by up to half a step, the force by K times that.
         force_error_n_(0.5 * surface.stiffness_n_per_mm() * arm.spec().step_mm),
         last_mm_(arm.position_mm()) {}
 
-  void look() {
+  void update() {
     const glm::dvec3 at = arm_.position_mm();
     if (surface_.stored_mj(at) > 0.0) tolerance_mj_ += force_error_n_ * std::abs(at.x - last_mm_.x);
     last_mm_ = at;
   }
   [[nodiscard]] Account account() const {
-    const double gained = total_mj() - began_mj_;
+    const double gained = total_mj() - initial_mj_;
     return {gained - arm_.energy().hand, tolerance_mj_, kRounding * throughput_mj()};
   }
 
  private:
-  // A few additions per tick, of energies that grow with the throughput.
+  // Rounding of a few additions per tick; the energies grow with the throughput.
   static constexpr double kRounding = 1e-13;
   [[nodiscard]] double total_mj() const {
     return arm_.kinetic_energy_mj() + surface_.stored_mj(arm_.position_mm());
@@ -53,22 +53,23 @@ class Bookkeeper {
   }
   const SimulatedArm& arm_;
   const Surface& surface_;
-  double began_mj_, force_error_n_, tolerance_mj_ = 0.0;
+  double initial_mj_, force_error_n_, tolerance_mj_ = 0.0;
   glm::dvec3 last_mm_;
 };
 
-/// Deepest points: where the arm reverses outward while in contact.
+/// Finds the deepest points, where the arm reverses outward in contact.
 class CycleWatch {
  public:
-  void look(const SimulatedArm& arm, const Surface& surface, const Account& now, Outcome& outcome) {
+  void update(const SimulatedArm& arm, const Surface& surface, const Account& now,
+              Outcome& outcome) {
     const double speed = arm.velocity_mm_s().x;
     const bool deepest =
         last_speed_ < 0.0 && speed >= 0.0 && surface.stored_mj(arm.position_mm()) > 0;
     last_speed_ = speed;
     if (!deepest) return;
-    if (began_) {
-      const double injected = now.injected_mj - began_->injected_mj;
-      const double tolerance = now.tolerance_mj - began_->tolerance_mj + now.rounding_mj;
+    if (cycle_start_) {
+      const double injected = now.injected_mj - cycle_start_->injected_mj;
+      const double tolerance = now.tolerance_mj - cycle_start_->tolerance_mj + now.rounding_mj;
       outcome.worst_cycle_mj = outcome.cycles == 0
                                    ? injected - tolerance
                                    : std::max(outcome.worst_cycle_mj, injected - tolerance);
@@ -76,12 +77,12 @@ class CycleWatch {
       sum_mj_ += injected - tolerance;
       outcome.mean_cycle_mj = sum_mj_ / outcome.cycles;
     }
-    began_ = now;
+    cycle_start_ = now;
   }
 
  private:
   double last_speed_ = 0.0, sum_mj_ = 0.0;
-  std::optional<Account> began_;
+  std::optional<Account> cycle_start_;
 };
 
 /// Peak to peak about the regression line.
@@ -116,7 +117,7 @@ std::optional<PassivityController> controller_of(const Experiment& e) {
 Outcome run(const Experiment& e, Surface& surface) {
   SimulatedArm arm = SimulatedArm::build(e.arm, e.hand, e.start_mm).value();
   auto controller = controller_of(e);
-  Bookkeeper book(arm, surface);
+  EnergyBalance balance(arm, surface);
   CycleWatch cycles;
   Outcome outcome;
   const double rate = e.arm.loop.rate_hz;
@@ -131,14 +132,14 @@ Outcome run(const Experiment& e, Surface& surface) {
     glm::dvec3 force = surface.press(time_us, arm.reading_mm());
     if (controller) force = controller->tick(time_us, arm.reading_mm(), force).force_n;
     arm.advance(force, e.intended ? e.intended(time_s + 1.0 / rate) : e.start_mm);
-    book.look();
-    const Account now = book.account();
-    cycles.look(arm, surface, now, outcome);
+    balance.update();
+    const Account now = balance.account();
+    cycles.update(arm, surface, now, outcome);
     if (k == settled) then = now;
     if (k >= settled) positions.push_back(arm.position_mm().x);
     outcome.final_force_n = force.x;
   }
-  const Account now = book.account();
+  const Account now = balance.account();
   outcome.swing_mm = swing_about_trend(positions);
   outcome.injected_mj = now.injected_mj;
   outcome.tolerance_mj = now.tolerance_mj + now.rounding_mj;
@@ -156,12 +157,12 @@ namespace {
 bool grows(const falcon::SampledLoop& loop, double stiffness) {
   SimulatedArm arm = SimulatedArm::build({loop, 0.0, 0.0}, {}, {1.0, 0.0, 0.0}).value();
   const double swing_s = 2.0 * std::numbers::pi * std::sqrt(loop.inertia_ns2_per_mm() / stiffness);
-  // Some swings for the transient; then intervals of many swings.
-  const auto stretch =
+  // First some swings for the transient, then intervals of many swings.
+  const auto interval_ticks =
       static_cast<int>(20.0 * std::max(swing_s, 4.0 / loop.rate_hz) * loop.rate_hz);
   double largest[4] = {};
   for (int part = 0; part < 4; ++part)
-    for (int k = 0; k < stretch; ++k) {
+    for (int k = 0; k < interval_ticks; ++k) {
       arm.advance({-stiffness * arm.reading_mm().x, 0.0, 0.0});
       largest[part] = std::max(largest[part], std::abs(arm.position_mm().x));
     }
@@ -171,8 +172,8 @@ bool grows(const falcon::SampledLoop& loop, double stiffness) {
 }  // namespace
 
 double measured_stable_stiffness(const falcon::SampledLoop& loop, double tolerance) {
-  // Starts at a stiffness whose swing takes a thousand periods or more, which all these arms can
-  // hold.
+  // Starts at a stiffness whose swing takes at least a thousand periods; all these arms are stable
+  // there.
   double low = 2e-5 * loop.inertia_ns2_per_mm() * loop.rate_hz * loop.rate_hz, high = low;
   while (!grows(loop, high)) high *= 2.0;
   low = 0.5 * high;
@@ -187,22 +188,22 @@ double measured_passive_damping(const falcon::SampledLoop& loop, const falcon::V
                                 int waves, int samples) {
   SimulatedArm arm = SimulatedArm::build({loop, 0.0, 0.0}).value();
   const double angle = 2.0 * std::numbers::pi * waves / samples;
-  const auto place = [&](int k) { return std::sin(angle * k + 0.3); };
-  double before = place(-2), way2 = 0.0;
+  const auto position_at = [&](int k) { return std::sin(angle * k + 0.3); };
+  double before = position_at(-2), squared_steps = 0.0;
   const auto tick = [&](int k) {
     const double x = arm.reading_mm().x;
     const double speed = (x - before) * loop.rate_hz;
     before = x;
-    way2 += (place(k) - x) * (place(k) - x);
+    squared_steps += (position_at(k) - x) * (position_at(k) - x);
     arm.carry({-wall.stiffness_n_per_mm * x - wall.damping_ns_per_mm * speed, 0.0, 0.0},
-              {place(k), 0.0, 0.0});
+              {position_at(k), 0.0, 0.0});
   };
-  // Until the delay line holds forces of the motion.
+  // Fills the delay line with forces of the motion.
   for (int k = 0; k < samples; ++k) tick(k);
-  const ArmEnergy begun = arm.energy();
-  way2 = 0.0;
+  const ArmEnergy initial = arm.energy();
+  squared_steps = 0.0;
   for (int k = samples; k < 2 * samples; ++k) tick(k);
-  return (arm.energy().displayed - begun.displayed) / (way2 * loop.rate_hz);
+  return (arm.energy().displayed - initial.displayed) / (squared_steps * loop.rate_hz);
 }
 
 Experiment wall_experiment(const falcon::SampledLoop& loop, double stiffness_n_per_mm,

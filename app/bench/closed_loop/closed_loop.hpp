@@ -1,6 +1,6 @@
 #pragma once
-// The simulated arm against a wall or the clay, tick by tick: the energy balance of the loop, and
-// whether it comes to rest.
+// The simulated arm on a wall or on clay, tick by tick: the energy balance of the loop and its
+// limit cycles.
 
 #include "app/bench/closed_loop/surfaces.hpp"
 #include "claystack/falcon/passivity.hpp"
@@ -15,9 +15,9 @@ struct Experiment {
   falcon::HandSpec hand;
   glm::dvec3 start_mm{0.0};
   double seconds = 2.0;
-  double settled_s = 0.5;   ///< the end of the run, which is searched for a cycle
+  double settled_s = 0.5;   ///< length of the last part of the run, which is searched for a cycle
   bool controlled = false;  ///< with the passivity controller
-  /// The hand's intended point at a time [s]; empty: the start.
+  /// The point that the hand aims at, at a time [s]; empty: the start.
   std::function<glm::dvec3(double time_s)> intended;
 };
 
@@ -41,11 +41,12 @@ struct Outcome {
 
 Outcome run(const Experiment& experiment, Surface& surface);
 
-/// A hand that pushes 0.5 N into a wall, from 1 mm in front of it, until decaying swings have
+/// A hand that pushes into a wall with 0.5 N, from 1 mm in front of it, until stable swings have
 /// decayed.
 Experiment wall_experiment(const falcon::SampledLoop& loop, double stiffness_n_per_mm,
                            double step_mm);
-/// A hand that rests 0.5 N on a wall, a tenth off balance, for about twenty swings; exact encoders.
+/// A hand that rests on a wall with 0.5 N, 10 % off balance, for about twenty swings; exact
+/// encoders.
 Experiment energy_experiment(const falcon::SampledLoop& loop, double stiffness_n_per_mm);
 /// A potter's stroke: a hand of 0.2 N/mm that enters the clay at 3 mm/s, for 5 s.
 Experiment clay_experiment(const falcon::SampledLoop& loop, double step_mm);

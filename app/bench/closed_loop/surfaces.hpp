@@ -1,5 +1,5 @@
 #pragma once
-// The surfaces for the closed-loop experiments: along x, from x > 0. In metres, like the arm.
+// The surfaces of the closed-loop experiments. The arm presses along x, from x > 0.
 
 #include "claystack/engine/scene.hpp"
 #include "claystack/engine/wheel.hpp"

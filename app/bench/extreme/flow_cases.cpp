@@ -1,4 +1,4 @@
-// The distribution of displaced clay: kernels, shares and growth at the limits of their ranges.
+// Distribution of displaced clay: kernels, shares and growth at the limits of their ranges.
 
 #include "app/bench/extreme/trial.hpp"
 
@@ -38,23 +38,23 @@ Outcome sigma_infinite_is_linear(Model model) {
   scene.flow.sigma_mm = kInfinity;
   scene.tool.shape = RibSpec{10.0, 6.0};
   Trial trial(model, scene);
-  // At rest, with its end in the middle of a ring, where the kernel starts.
+  // The tool rests with its end in the middle of a ring, where the kernel starts.
   trial.stroke({45, 30.4, 0}, {45, 30.5, 0}, 2);
   trial.at({34, 30.5, 0});
-  if (!trial.going_well()) return trial.done();
+  if (!trial.has_no_fault()) return trial.done();
   Exact gained = 0;
   for (std::size_t j = 1; j <= 12; ++j)
     gained += square_of(trial.subject().ring(35 + j).outer_mm) - 900;
   for (std::size_t j = 1; j <= 12; ++j) {
     const Exact share = (square_of(trial.subject().ring(35 + j).outer_mm) - 900) / gained;
-    // 40 bits of fraction in the table; the radius is the root of a count, to half an ulp.
-    const double off = abs(Exact(share - Exact(j, 78))).convert_to<double>();
-    trial.require(off < 0x1p-39, fmt::format("share {} has an error of {:.2g}", j, off));
+    // The table has 40 fractional bits; the radius is the root of a count, to half an ulp.
+    const double error = abs(Exact(share - Exact(j, 78))).convert_to<double>();
+    trial.require(error < 0x1p-39, fmt::format("share {} has an error of {:.2g}", j, error));
   }
   return trial.done();
 }
 
-/// Everything goes to the nearest ring, the limit of the kernel for sigma -> 0.
+/// All clay goes to the nearest ring, the limit of the kernel for sigma -> 0.
 Outcome sigma_0_is_the_limit(Model model) {
   SceneSpec scene = small_pot();
   scene.flow.sigma_mm = 0.0;
@@ -82,7 +82,7 @@ Outcome narrow_bore(Model model, double inside_share) {
 Outcome alpha_1(Model model) { return narrow_bore(model, 1.0); }
 Outcome alpha_0(Model model) { return narrow_bore(model, 0.0); }
 
-/// Opens a bore from above, then presses clay down across its floor.
+/// Opens a bore from above, then presses clay down past its floor.
 Outcome one_ring_without_bore(Model model) {
   Trial trial(model, small_pot());
   trial.stroke({0, 70, 0}, {0, 45, 0}, 100);
@@ -166,7 +166,7 @@ Outcome all_clay_cut_away(Model model) {
   return trial.done();
 }
 
-/// At max_rings, rising clay waits above the top and is counted.
+/// At max_rings, rising clay stays in the crown and is counted.
 Outcome no_room_above(Model model) {
   if (model == Model::literal) return {Verdict::not_in_print, "the paper states no limit of N"};
   SceneSpec scene = small_pot();
@@ -212,16 +212,16 @@ constexpr Case kFlowCases[] = {
     {"reach_0", "L1 = 0", "clay conserved, as height", "exact rationals", Verdict::failed, reach_0},
     {"reach_beyond_the_pot", "L1 = 5000 on 60 rings", "clay conserved", "exact rationals",
      Verdict::failed, reach_beyond_the_pot},
-    {"alpha_1", "all to the inside, bore of 1 mm", "clay conserved, r >= 0, the rest outside",
+    {"alpha_1", "all clay to the inside, bore of 1 mm", "clay conserved, r >= 0, the rest outside",
      "exact rationals, invariants", Verdict::failed, alpha_1},
-    {"alpha_0", "nothing to the inside, bore of 1 mm", "clay conserved", "exact rationals",
+    {"alpha_0", "no clay to the inside, bore of 1 mm", "clay conserved", "exact rationals",
      Verdict::passed, alpha_0},
     {"one_ring_without_bore", "clay pressed down across the floor of a bore",
      "clay conserved, r >= 0 ring by ring", "exact rationals, invariants", Verdict::failed,
      one_ring_without_bore},
-    {"never_moved", "velocity zero from the first sample on", "clay conserved: a default",
+    {"never_moved", "zero velocity from the first sample", "clay conserved, in a default direction",
      "exact rationals", Verdict::failed, never_moved},
-    {"hand_at_rest", "velocity zero after a motion up, and after one down",
+    {"hand_at_rest", "zero velocity after an upward and after a downward motion",
      "the last direction is kept", "rings on the other side, to the bit", Verdict::passed,
      hand_at_rest},
     {"growth_onto_an_empty_top", "excess onto an almost empty top ring",

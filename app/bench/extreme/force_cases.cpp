@@ -1,4 +1,4 @@
-// The force: direction, magnitude, and the energy of which it is the gradient.
+// The force: direction, magnitude, and the energy whose gradient it is.
 
 #include "app/bench/extreme/hand.hpp"
 #include "app/bench/extreme/overlap_energy.hpp"
@@ -13,7 +13,7 @@
 namespace clay::extreme {
 namespace {
 
-/// Soft enough to stay below the limit of 5 N; K of one ring is the same in both models, h = 1.
+/// Soft enough to stay below 5 N. With h = 1, K of a ring is the same in both models.
 constexpr double kSoftNPerMm = 5e-4;
 
 SceneSpec soft_pot(const ToolShapeSpec& shape, double bore_mm) {
@@ -30,16 +30,16 @@ glm::dvec3 place_near_wall(Hand& hand, const ToolShapeSpec& shape, bool outside)
   const double f = half_profile(shape, 0).convert_to<double>();
   const double depth = 3.0 * hand.uniform() - 0.5, azimuth = 6.28 * hand.uniform();
   const double d = outside ? 30.0 + f - depth : std::max(0.5, 18.0 - f + depth);
-  // Over both ends of the stack, where the force has a vertical part; but a rib's flat ends, which
-  // have no f', stay within it.
+  // Includes both ends of the stack, where the force has a vertical part. The flat ends of a rib,
+  // which have no f', stay inside the stack.
   const bool rib = std::holds_alternative<RibSpec>(shape);
   const double y = rib ? 10.0 + 40.0 * hand.uniform() : -3.0 + 66.0 * hand.uniform();
   return {d * std::cos(azimuth), y, d * std::sin(azimuth)};
 }
 
 /// The first tick of a scene has dt = 0 and moves no clay in the engine; in both models the force
-/// is that of the rings before it. Rings are thin, so that their sum approximates the integral,
-/// with an error of second order in h.
+/// is that of the rings before it. The rings are thin, so that their sum approximates the integral;
+/// its error is of second order in h.
 Outcome minus_gradient(Model model) {
   constexpr double kRingMm = 1.0 / 16.0, kTolerance = 1e-4;  // of the largest force
   Hand hand(17);
@@ -58,12 +58,12 @@ Outcome minus_gradient(Model model) {
         const OverlapEnergy energy(shape, section_of(trial.subject()), kSoftNPerMm, outside);
         const glm::dvec3 hip = place_near_wall(hand, shape, outside),
                          expected = energy.force_n(hip);
-        const double off = glm::length(trial.at(hip).force_n - expected);
-        worst = std::max(worst, off);
+        const double error_n = glm::length(trial.at(hip).force_n - expected);
+        worst = std::max(worst, error_n);
         largest = std::max(largest, glm::length(expected));
-        if (!(off <= kTolerance * 0.01))  // N; the largest is above 0.01 N, see below
+        if (!(error_n <= kTolerance * 0.01))  // N; the largest is above 0.01 N, see below
           return {Verdict::failed,
-                  fmt::format("error {:.3g} N at {:.3g} N, {}", off, glm::length(expected),
+                  fmt::format("error {:.3g} N at {:.3g} N, {}", error_n, glm::length(expected),
                               outside ? "outside" : "inside")};
       }
   if (largest < 0.01) return {Verdict::failed, "too little contact"};
@@ -169,9 +169,9 @@ constexpr Case kForceCases[] = {
      hip_on_the_axis},
     {"force_as_rings_thin", "h and h/500", "force changes by less than 2 %", "interval",
      Verdict::failed, force_as_rings_thin},
-    {"stiffness_1e6", "10^6 N/m a ring", "at most 5 N, outward", "interval", Verdict::failed,
+    {"stiffness_1e6", "10^6 N/m per ring", "at most 5 N, outward", "interval", Verdict::failed,
      stiffness_1e6},
-    {"friction_2", "mu = 2", "at most 5 N in all", "interval", Verdict::failed, friction_2},
+    {"friction_2", "mu = 2", "at most 5 N in total", "interval", Verdict::failed, friction_2},
     {"tool_with_a_step", "a profile whose slope overflows", "finite, at most 5 N, clay conserved",
      "interval, exact rationals", Verdict::not_in_print, tool_with_a_step},
 };

@@ -7,9 +7,9 @@
 
 namespace clay::extreme {
 
-/// A hand that moves over and into the small pot, inside and outside, over rim and base, with
-/// occasional jumps. The same poses on every platform: uses the standard's engine, but none of its
-/// distributions.
+/// A hand that moves over and into the small pot, inside and outside, past rim and base, with
+/// occasional jumps. It gives the same poses on every platform: it uses the random
+/// engine of the standard, but none of its distributions.
 class Hand {
  public:
   explicit Hand(std::uint64_t seed) : random_(seed) {}
@@ -19,7 +19,7 @@ class Hand {
   Pose next() {
     if (uniform() < 0.002) choose();
     const double speed = uniform() < 0.01 ? 5.0 : 0.1;
-    const bool level = uniform() < 0.5;  // a slow hand: most heights are measured as before
+    const bool level = uniform() < 0.5;  // a slow hand, whose height often does not change
     for (int axis = 0; axis < 3; ++axis) {
       if (axis == 1 && level) continue;
       at_[axis] += std::clamp(goal_[axis] - at_[axis], -speed, speed) + 0.02 * (uniform() - 0.5);

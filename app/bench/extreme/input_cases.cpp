@@ -27,10 +27,10 @@ Outcome dropped(Model model, const std::vector<glm::dvec3>& bad) {
   for (const glm::dvec3& pose : bad) {
     const std::string before = trial.subject().bytes();
     const Tick tick = trial.at(pose);
-    trial.require(trial.subject().bytes() == before, "the clay has moved");
+    trial.require(trial.subject().bytes() == before, "the clay changed");
     trial.require(tick.force_n == glm::dvec3(0.0), "a force from an invalid pose");
   }
-  // Deeper at the same height: the flow now depends only on the last valid pose, its time, and the
+  // Deeper at the same height, the flow depends only on the last valid pose, its time and the
   // direction before it.
   trial.at({34, 28, 0}, false, 1000);
   undisturbed.at({34, 28, 0}, false, 1000 * (static_cast<std::int64_t>(bad.size()) + 1));
@@ -88,7 +88,7 @@ Outcome denormal_pose(Model model) {
   return trial.done();
 }
 
-/// Only the engine has times; the printed model has none.
+/// Times of poses; only the engine uses them.
 struct Clocked {
   std::int64_t time_us;
   bool refused;
@@ -96,7 +96,7 @@ struct Clocked {
 
 Outcome at_times(Model model, const std::vector<Clocked>& times) {
   if (model == Model::literal) return {Verdict::not_in_print, "the paper's model has no time"};
-  const auto subject = std::move(put_on_wheel(model, small_pot()).value());
+  const auto subject = std::move(make_subject(model, small_pot()).value());
   const Exact clay = subject->clay().value();
   double x = 37.0;
   for (const Clocked& clock : times) {
@@ -104,7 +104,7 @@ Outcome at_times(Model model, const std::vector<Clocked>& times) {
     const Tick tick = subject->step({clock.time_us, {x -= 0.05, 30, 0}, false});
     if (tick.refused != clock.refused)
       return {Verdict::failed,
-              fmt::format("time {}: {}", clock.time_us, clock.refused ? "believed" : "refused")};
+              fmt::format("time {}: {}", clock.time_us, clock.refused ? "accepted" : "refused")};
     if (tick.refused && (subject->bytes() != before || tick.force_n != glm::dvec3(0.0)))
       return {Verdict::failed,
               fmt::format("time {}: refused, but it had an effect", clock.time_us)};
@@ -138,9 +138,9 @@ Outcome long_pause(Model model) {
   Tick at_limit, beyond, far_beyond;
   const std::string expected = after(50'000, at_limit);
   const bool same = after(50'001, beyond) == expected && after(kLatest / 2, far_beyond) == expected;
-  const bool said = !at_limit.long_step && beyond.long_step && far_beyond.long_step;
+  const bool reported = !at_limit.long_step && beyond.long_step && far_beyond.long_step;
   if (!same) return {Verdict::failed, "a pause of more than 50 ms moves more clay"};
-  if (!said) return {Verdict::failed, "a long step is not reported"};
+  if (!reported) return {Verdict::failed, "a long step is not reported"};
   return {Verdict::passed, "50 ms at most"};
 }
 

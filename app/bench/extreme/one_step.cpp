@@ -14,7 +14,7 @@
 namespace clay::extreme {
 namespace {
 
-/// On a grid of 1/256 mm, so that offsets of the kernel (20 fractional bits) are exact.
+/// Rounds to 1/256 mm, so that offsets of the kernel (20 fractional bits) are exact.
 double on_grid(double mm) { return std::round(256.0 * mm) / 256.0; }
 
 SceneSpec random_scene(Hand& hand) {
@@ -33,8 +33,8 @@ SceneSpec random_scene(Hand& hand) {
   return scene;
 }
 
-/// R^2 or r^2 of a double, or of a count.
-double miss(const Fifty& expected, double found_mm, bool counted) {
+/// The error of R^2 or r^2 [mm^2]; `counted` radii are roots of counts.
+double deviation(const Fifty& expected, double found_mm, bool counted) {
   Fifty found = Fifty(found_mm) * found_mm;
   if (counted) found = round(Fifty(found / kQuantum)) * kQuantum;
   return abs(Fifty(found - expected)).convert_to<double>();
@@ -47,11 +47,11 @@ double worst_of(const Recomputed& step, const Subject& subject, Model model) {
   for (std::size_t i = 0; i < step.rings().size(); ++i) {
     const Expected& ring = step.rings()[i];
     const Radii found = subject.ring(i);
-    // Doubles hold radii: their squares are within 4 half ulps of what is stored.
+    // The subject stores radii as doubles, so their squares are off by up to 4 half ulps.
     const auto stored = [&](double mm) { return counted ? 0.0 : 4.0 * kUlp * mm * mm; };
-    worst = std::max(worst, miss(ring.outer2, found.outer_mm, counted) /
+    worst = std::max(worst, deviation(ring.outer2, found.outer_mm, counted) /
                                 (ring.outer_slack + stored(found.outer_mm) + 1e-30));
-    worst = std::max(worst, miss(ring.inner2, found.inner_mm, counted) /
+    worst = std::max(worst, deviation(ring.inner2, found.inner_mm, counted) /
                                 (ring.inner_slack + stored(found.inner_mm) + 1e-30));
   }
   return worst;
@@ -65,11 +65,11 @@ Outcome one_step_again(Model model) {
   int compared = 0;
   for (int pot = 0; pot < 40; ++pot) {
     const SceneSpec scene = random_scene(hand);
-    const auto subject = std::move(put_on_wheel(model, scene).value());
+    const auto subject = std::move(make_subject(model, scene).value());
     Pose pose = hand.next();
     subject->step(pose);
     for (int k = 0; k < 20; ++k) {
-      for (int wild = 0; wild < 8; ++wild) subject->step(pose = hand.next());
+      for (int i = 0; i < 8; ++i) subject->step(pose = hand.next());
       // At most 0.2 mm from here on, which is a tick in one part; first rounded to the grid.
       pose = {pose.time_us + 400, pose.position_mm, false};
       pose.position_mm.y = on_grid(pose.position_mm.y);

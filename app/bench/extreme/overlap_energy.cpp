@@ -77,7 +77,7 @@ double OverlapEnergy::of_ring(std::size_t i, double hip_y, double d, bool outsid
 
 double OverlapEnergy::at(const glm::dvec3& hip_mm) const {
   double sum = 0.0;
-  for (const Standing& tool : tools_) {
+  for (const PlacedTool& tool : tools_) {
     const double d = std::abs(std::hypot(hip_mm.x, hip_mm.z) + tool.from_hip_mm);
     for (std::size_t i = 0; i < section_.rings.size(); ++i)
       sum += of_ring(i, hip_mm.y, d, tool.outside);

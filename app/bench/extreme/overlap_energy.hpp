@@ -1,6 +1,6 @@
 #pragma once
-// The energy of which the force must be the gradient, written from the model's definition without
-// code of the engine.
+// The energy whose gradient the force must be, from the definition of the model and without code of
+// the engine.
 
 #include "app/bench/extreme/subject.hpp"
 
@@ -28,9 +28,9 @@ class OverlapEnergy {
   [[nodiscard]] glm::dvec3 force_n(const glm::dvec3& hip_mm) const;
 
  private:
-  struct Standing {
+  struct PlacedTool {
     bool outside;
-    double from_hip_mm;  ///< along the HIP's radius
+    double from_hip_mm;  ///< along the radius of the HIP
   };
   [[nodiscard]] double at(const glm::dvec3& hip_mm) const;
   [[nodiscard]] double of_ring(std::size_t i, double hip_y, double d, bool outside) const;
@@ -38,7 +38,7 @@ class OverlapEnergy {
   ToolShapeSpec shape_;
   Section section_;
   double stiffness_, ring_height_;
-  std::vector<Standing> tools_;
+  std::vector<PlacedTool> tools_;
 };
 
 /// Half the height of a tool, for shapes that are even in t.

@@ -53,7 +53,7 @@ Outcome gap_of_a_picometre(Model model) {
 }
 Outcome gap_below_the_wall(Model model) {
   SceneSpec scene = pinched_pot(24.0);
-  scene.removal.rate_per_s = 1e6;  // e^-1000: at the end of the first tick in contact
+  scene.removal.rate_per_s = 1e6;  // e^-1000: the wall reaches the gap in one tick
   return pinched(model, scene, 27.0, 2.0, 2.0);
 }
 Outcome bore_narrower_than_the_tool(Model model) {
@@ -68,7 +68,7 @@ Outcome pinch_of_a_quantum(Model model) {
   return pinched(model, scene, 30.1, 1e-3, 0.0);
 }
 
-/// Both tools are clear of the wall: bore 24 mm, outside 30 mm.
+/// Neither tool touches the wall, of 24 mm inner and 30 mm outer radius.
 Outcome nothing_pinched(Model model, const std::vector<glm::dvec2>& distances_and_gaps) {
   if (model == Model::literal) return kOneTool;
   Trial trial(model, pinched_pot(24.0));
@@ -78,7 +78,7 @@ Outcome nothing_pinched(Model model, const std::vector<glm::dvec2>& distances_an
     trial.stroke({at.x, 12, 0}, {at.x, 48, 0}, 50);
     trial.require(!trial.touched(), fmt::format("contact at d = {}, gap {} mm", at.x, at.y));
     trial.require(trial.largest_force_n() == 0.0, "a force without contact");
-    trial.require(trial.subject().bytes() == before, "the clay has moved");
+    trial.require(trial.subject().bytes() == before, "the clay changed");
   }
   return trial.done();
 }
@@ -103,7 +103,7 @@ Outcome gaps_that_are_none(Model model) {
     const Tick tick = trial.at({27, 28, 0});
     trial.require(tick.refused && tick.force_n == glm::dvec3(0.0),
                   fmt::format("a gap of {} mm was accepted", gap));
-    trial.require(trial.subject().bytes() == before, "the clay has moved");
+    trial.require(trial.subject().bytes() == before, "the clay changed");
   }
   trial.pinch(-0.0);
   trial.require(!trial.at({36, 28, 0}).refused, "-0 is 0: one tool");
@@ -114,12 +114,12 @@ Outcome gap_not_in_the_scene(Model model) {
   if (model == Model::literal) return kOneTool;
   Trial trial(model, small_pot());
   trial.pinch(4.0);
-  trial.require(trial.at({27, 28, 0}).refused, "believed");
+  trial.require(trial.at({27, 28, 0}).refused, "accepted");
   return trial.done();
 }
 
-/// As minus_gradient. The axes of both tools stay outside the wall: otherwise a pole, where f' is
-/// unbounded, is in the clay.
+/// Like minus_gradient. The axes of both tools stay outside the wall, because f' is unbounded at a
+/// pole in the clay.
 Outcome minus_gradient_of_both(Model model) {
   if (model == Model::literal) return kOneTool;
   constexpr double kSoftNPerMm2 = 5e-4, kRingMm = 1.0 / 32.0, kTolerance = 1e-4;
@@ -140,12 +140,12 @@ Outcome minus_gradient_of_both(Model model) {
     const OverlapEnergy energy(scene.tool.shape, section_of(trial.subject()), kSoftNPerMm2, gap);
     trial.pinch(gap);
     const glm::dvec3 expected = energy.force_n(hip);
-    const double off = glm::length(trial.at(hip).force_n - expected);
-    worst = std::max(worst, off);
+    const double error_n = glm::length(trial.at(hip).force_n - expected);
+    worst = std::max(worst, error_n);
     largest = std::max(largest, glm::length(expected));
-    if (!(off <= kTolerance * 0.02))  // N; the largest is above 0.02 N, see below
+    if (!(error_n <= kTolerance * 0.02))  // N; the largest is above 0.02 N, see below
       return {Verdict::failed,
-              fmt::format("error {:.3g} N at {:.3g} N", off, glm::length(expected))};
+              fmt::format("error {:.3g} N at {:.3g} N", error_n, glm::length(expected))};
   }
   if (largest < 0.02) return {Verdict::failed, "too little contact"};
   return {Verdict::passed,
@@ -153,16 +153,16 @@ Outcome minus_gradient_of_both(Model model) {
 }
 
 constexpr Case kPinchCases[] = {
-    {"gap_of_nothing", "a gap of the smallest denormal", "clay conserved, no wall below the least",
-     "exact rationals, interval", Verdict::not_in_print, gap_of_nothing},
-    {"gap_of_a_picometre", "a gap of 1e-9 mm", "clay conserved, no wall below the least",
+    {"gap_of_nothing", "a gap of the smallest denormal",
+     "clay conserved, no wall below the minimum", "exact rationals, interval",
+     Verdict::not_in_print, gap_of_nothing},
+    {"gap_of_a_picometre", "a gap of 1e-9 mm", "clay conserved, no wall below the minimum",
      "exact rationals, interval", Verdict::not_in_print, gap_of_a_picometre},
     {"gap_below_the_wall", "a gap of 2 mm, kappa dt = 1000",
      "clay conserved, no wall below the gap", "exact rationals, interval", Verdict::not_in_print,
      gap_below_the_wall},
-    {"bore_narrower_than_the_tool", "the inner tool stands beyond the axis",
-     "clay conserved, finite", "exact rationals, interval", Verdict::not_in_print,
-     bore_narrower_than_the_tool},
+    {"bore_narrower_than_the_tool", "the inner tool is beyond the axis", "clay conserved, finite",
+     "exact rationals, interval", Verdict::not_in_print, bore_narrower_than_the_tool},
     {"pinch_without_bore", "a pinch in solid clay", "clay conserved, finite",
      "exact rationals, interval", Verdict::not_in_print, pinch_without_bore},
     {"pinch_on_the_axis", "d = 0 with two tools", "clay conserved, finite",
@@ -174,7 +174,7 @@ constexpr Case kPinchCases[] = {
     {"pinch_beside_the_pot", "both tools outside, to 900 m",
      "no contact, state unchanged to the bit", "bytes", Verdict::not_in_print,
      pinch_beside_the_pot},
-    {"pinch_in_a_free_bore", "both tools inside, touching nothing",
+    {"pinch_in_a_free_bore", "both tools in the bore, without contact",
      "no contact, state unchanged to the bit", "bytes", Verdict::not_in_print,
      pinch_in_a_free_bore},
     {"gaps_that_are_none", "NaN, inf, negative, 1e300", "refused, state unchanged to the bit",

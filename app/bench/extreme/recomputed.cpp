@@ -21,13 +21,13 @@ Recomputed::Recomputed(Model model, const SceneSpec& scene, Section before, cons
   if (counted_) use_counts();
   find_range();
   if (none_) return;
-  take();
+  remove();
   if (removed_ == 0) return;
   Fifty rest = removed_;
   double slack = slack_;
-  if (!upward) rest -= give(rest, slack, -1);
+  if (!upward) rest -= distribute(rest, slack, -1);
   // As printed, clay continues upward only if the kernel was cut at the base.
-  if (upward || counted_ || bottom_ < reach()) give(rest, slack, +1);
+  if (upward || counted_ || bottom_ < reach()) distribute(rest, slack, +1);
 }
 
 /// Radii of the engine are roots of counts; only the counts are exact.
@@ -71,25 +71,26 @@ std::size_t Recomputed::ring_at_centre() const {
 }
 
 /// Equations (3), (4), with the additions of docs/model.md.
-void Recomputed::take() {
+void Recomputed::remove() {
   const Fifty d = sqrt(Fifty(Fifty(hip_.x) * hip_.x + Fifty(hip_.z) * hip_.z));
   const Expected& middle = rings_[ring_at_centre()];
   outside_ = d > (sqrt(middle.outer2) + sqrt(middle.inner2)) / 2;
   hollow_ = !outside_;
   for (const Expected& ring : rings_) hollow_ = hollow_ || ring.inner2 > 0;
   const Fifty x = Fifty(hip_.x) - moved_.x, z = Fifty(hip_.z) - moved_.z;
-  const Fifty way = sqrt(Fifty(x * x + z * z)) - d;
-  for (std::size_t i = bottom_; i <= top_; ++i) take_from(i, d, outside_ ? way : Fifty(-way));
+  const Fifty radial_motion = sqrt(Fifty(x * x + z * z)) - d;
+  for (std::size_t i = bottom_; i <= top_; ++i)
+    remove_from(i, d, outside_ ? radial_motion : Fifty(-radial_motion));
 }
 
-/// f at a height, clamped to the tool's ends.
+/// f at a height, clamped to the ends of the tool.
 Fifty Recomputed::profile_at(const Fifty& t) const {
   const Fifty half = half_height_mm(scene_.tool.shape);
   return half_profile(scene_.tool.shape, std::clamp(t, Fifty(-half), half));
 }
 
-/// docs/model.md, "How clay yields", for a tool that is `depth` in a wall after it has advanced by
-/// `advance` in a part of the time `whole`, times kappa.
+/// docs/model.md, "How clay yields", for a tool at `depth` in a wall after advancing by `advance`
+/// in `part` of the tick; `whole` is the tick times kappa.
 Fifty Recomputed::depth_left(const Fifty& wall, const Fifty& depth, Fifty advance, Fifty part,
                              const Fifty& whole) {
   const Fifty knee = scene_.removal.yield_depth_mm, thinnest = scene_.removal.min_wall_mm;
@@ -117,7 +118,7 @@ Fifty Recomputed::depth_left(const Fifty& wall, const Fifty& depth, Fifty advanc
   return std::clamp(std::max(relaxed, Fifty(depth - at_most)), Fifty(0), depth);
 }
 
-void Recomputed::take_from(std::size_t i, const Fifty& d, const Fifty& way) {
+void Recomputed::remove_from(std::size_t i, const Fifty& d, const Fifty& radial_motion) {
   Fifty t = section_.centres_mm[i] - Fifty(hip_.y);
   const Fifty middle = t, moved = moved_.y;
   const Fifty half = half_height_mm(scene_.tool.shape), half_ring = scene_.lump.ring_height_mm / 2;
@@ -135,7 +136,7 @@ void Recomputed::take_from(std::size_t i, const Fifty& d, const Fifty& way) {
   if (counted_) {
     const Fifty before = std::clamp(Fifty(middle + moved), Fifty(-half), half);
     const Fifty since = before != middle + moved ? Fifty((before - middle) / moved) : Fifty(1);
-    const Fifty advance = since * way + f - profile_at(t + since * moved);
+    const Fifty advance = since * radial_motion + f - profile_at(t + since * moved);
     const Fifty kappa_dt = Fifty(scene_.removal.rate_per_s) / 2500;  // 0.4 ms
     const Fifty spare = outer - inner - scene_.removal.min_wall_mm;
     eps = std::min(Fifty(depth - depth_left(outer - inner, depth, advance, since, kappa_dt)),
@@ -180,7 +181,7 @@ std::vector<Fifty> Recomputed::sums_of_weights() const {
 }
 
 /// Equations (5)-(8), from the tool's end. Returns the distributed amount.
-Fifty Recomputed::give(const Fifty& amount, double slack, int direction) {
+Fifty Recomputed::distribute(const Fifty& amount, double slack, int direction) {
   const std::vector<Fifty> sums = sums_of_weights();
   const Fifty offset = direction > 0 ? up_offset_ : down_offset_;
   const Fifty alpha = hollow_ ? Fifty(scene_.flow.inside_share) : Fifty(0);

@@ -34,15 +34,15 @@ class Recomputed {
   [[nodiscard]] std::size_t reach() const;
   void find_range();
   [[nodiscard]] std::size_t ring_at_centre() const;
-  void take();
+  void remove();
   [[nodiscard]] Fifty profile_at(const Fifty& t) const;
   Fifty depth_left(const Fifty& wall, const Fifty& depth, Fifty advance, Fifty part,
                    const Fifty& whole);
-  void take_from(std::size_t i, const Fifty& d, const Fifty& way);
+  void remove_from(std::size_t i, const Fifty& d, const Fifty& radial_motion);
   double slack_of(const Fifty& outer, const Fifty& f, const Fifty& d) const;
   [[nodiscard]] Fifty distributed(const std::vector<Fifty>& sums, const Fifty& x) const;
   [[nodiscard]] std::vector<Fifty> sums_of_weights() const;
-  Fifty give(const Fifty& amount, double slack, int direction);
+  Fifty distribute(const Fifty& amount, double slack, int direction);
 
   bool counted_;
   const SceneSpec& scene_;

@@ -1,5 +1,5 @@
-// The clay rules at their limits: walls and floors of next to nothing, slender and thick shells,
-// tiny and huge rings, ticks of a microsecond and of 50 ms.
+// The clay rules at their limits: very thin walls and floors, slender and thick shells, very low
+// and very high rings, ticks of 1 us to 10 s.
 
 #include "app/bench/extreme/trial.hpp"
 #include "claystack/engine/wheel.hpp"
@@ -31,14 +31,14 @@ double thinnest_mm(const Wheel& wheel) {
   return least;
 }
 
-/// Plays a hand on a scene. In addition to what every trial requires, no wall becomes thinner than
-/// the minimum, or than it was.
+/// Plays a hand on a scene. In addition to the checks of every trial, no wall may become thinner
+/// than the minimum, or than before.
 template <class Play>
 Outcome with_rules(Model model, const SceneSpec& scene, Play play) {
   if (model == Model::literal) return {Verdict::not_in_print, "the paper has no such rules"};
   Trial trial(model, scene);
   trial.require(!trial.refused(), trial.why());
-  if (!trial.going_well()) return trial.done();
+  if (!trial.has_no_fault()) return trial.done();
   const Wheel& wheel = *trial.subject().wheel();
   const double least = std::min(scene.removal.min_wall_mm, thinnest_mm(wheel)) - kRoundingMm;
   play(trial);
@@ -48,7 +48,7 @@ Outcome with_rules(Model model, const SceneSpec& scene, Play play) {
   return trial.done();
 }
 
-/// Into the middle of the pot from outside, up, and down over the foot; then from inside.
+/// Presses into the middle of the pot from outside, up, and down past the foot; then from inside.
 void press_all(Trial& trial, double R = 30.0, double r = 20.0, double height = 60.0) {
   const double y = 0.5 * height, a = 8.0;
   trial.stroke({R + a + 2.0, y, 0}, {R + a - 3.0, y, 0}, 60);
@@ -58,7 +58,7 @@ void press_all(Trial& trial, double R = 30.0, double r = 20.0, double height = 6
   trial.stroke({r - a + 3.0, y, 0}, {r - a + 3.0, height + 2.0, 0}, 150);
 }
 
-/// A pull between two fingers from the foot to the rim.
+/// A pull between two tools from the foot to the rim.
 void pull(Trial& trial, double middle, double gap, double height = 60.0) {
   trial.pinch(gap);
   trial.stroke({middle, 9.0, 0}, {middle, height + 12.0, 0}, 400);
@@ -92,7 +92,7 @@ Outcome wall_of_one_quantum(Model model) {
   return with_rules(model, scene, [](Trial& trial) { press_all(trial, 30.0, 30.0); });
 }
 
-/// Thickness of the wall from the radius to a thousandth of it.
+/// Walls from the full radius to a thousandth of it.
 template <int over>
 Outcome slender(Model model) {
   const double wall = 30.0 / over;
@@ -134,7 +134,7 @@ Outcome rim_between_the_fingers(Model model) {
   });
 }
 
-/// The tool stands over the rim; what a press below it pushes up must not rise into it.
+/// The tool is over the rim; clay pushed up from below must not rise into it.
 Outcome tool_above_the_rim(Model model) {
   return with_rules(model, ruled_pot(), [](Trial& trial) {
     trial.stroke({36, 66, 0}, {30, 62, 0}, 300);
@@ -142,7 +142,7 @@ Outcome tool_above_the_rim(Model model) {
   });
 }
 
-/// Rings from a micrometre to the height of the tool's contact, in a pot of 10 to 300 mm.
+/// Rings from 1 um to 50 mm height, in a pot of 10 to 300 mm.
 template <int per_mm, int rings>
 Outcome ring_height(Model model) {
   SceneSpec scene = ruled_pot();
@@ -205,13 +205,13 @@ Outcome lift_without_room(Model model) {
   });
 }
 
-/// Every ring is pushed outward until nothing moves: the rim sinks, rings are taken out.
+/// Pushes every ring outward until the clay is at rest; the rim sinks and rings are removed.
 Outcome bellied_to_the_end(Model model) {
   SceneSpec scene = ruled_pot(26.0);
   scene.tool.shape = RibSpec{40.0, 8.0};
   return with_rules(model, scene, [](Trial& trial) {
     trial.stroke({17, 30, 0}, {60, 30, 0}, 2000);
-    trial.require(trial.subject().rings() < 60, "no ring was taken out");
+    trial.require(trial.subject().rings() < 60, "no ring was removed");
   });
 }
 
@@ -248,7 +248,7 @@ Outcome pot_of_five_metres(Model model) {
   });
 }
 
-/// A tool that stays still in the clay: the clay comes to rest.
+/// Under a tool at rest the clay comes to rest.
 Outcome still_tool(Model model) {
   return with_rules(model, ruled_pot(), [](Trial& trial) {
     trial.stroke({40, 30, 0}, {34, 30, 0}, 100);
@@ -274,7 +274,7 @@ Outcome twice_the_same(Model model) {
   return trial.done();
 }
 
-constexpr const char* kSound = "clay kept, walls at least the minimum, finite force";
+constexpr const char* kSound = "clay conserved, walls at least the minimum, finite force";
 constexpr const char* kExact = "exact rationals, invariants";
 
 constexpr Case rule_case(std::string_view name, std::string_view what, Outcome (*run)(Model)) {
@@ -284,7 +284,7 @@ constexpr Case rule_case(std::string_view name, std::string_view what, Outcome (
 constexpr Case kRuleCases[] = {
     rule_case("rules_tool_across_the_axis", "a tool in the bore, across the axis and back",
               tool_across_the_axis),
-    rule_case("rules_fingers_across_the_axis", "two fingers, the inner one beyond the axis",
+    rule_case("rules_fingers_across_the_axis", "two tools, the inner one beyond the axis",
               fingers_across_the_axis),
     rule_case("rules_fingers_wider_than_the_pot", "a gap of 200 mm, then a pull",
               fingers_wider_than_the_pot),
@@ -306,9 +306,9 @@ constexpr Case kRuleCases[] = {
     rule_case("rules_dt_1_us", "ticks of 1 us", tick_of<1>),
     rule_case("rules_dt_50_ms", "ticks of 50 ms", tick_of<50'000>),
     rule_case("rules_dt_10_s", "ticks of 10 s", tick_of<10'000'000>),
-    rule_case("rules_leaps", "leaps from side to side, one and two fingers", leaps),
-    rule_case("rules_fast_wheel", "1000 turns a minute", fast_wheel),
-    rule_case("rules_wheel_at_rest", "the wheel stands still", wheel_at_rest),
+    rule_case("rules_leaps", "jumps from side to side, one and two tools", leaps),
+    rule_case("rules_fast_wheel", "1000 rpm", fast_wheel),
+    rule_case("rules_wheel_at_rest", "the wheel does not turn", wheel_at_rest),
     rule_case("rules_lift_without_room", "a pull with max_rings reached", lift_without_room),
     rule_case("rules_bellied_to_the_end", "a rib pushes the whole wall outward",
               bellied_to_the_end),
@@ -318,7 +318,7 @@ constexpr Case kRuleCases[] = {
     rule_case("rules_rib_as_high_as_the_pot", "a rib over the whole wall, from both sides",
               rib_as_high_as_the_pot),
     rule_case("rules_pot_of_five_metres", "R = 4999 mm", pot_of_five_metres),
-    rule_case("rules_still_tool", "a tool still in the clay for 20 s", still_tool),
+    rule_case("rules_still_tool", "a tool at rest in the clay for 20 s", still_tool),
     rule_case("rules_twice_the_same", "the same strokes twice", twice_the_same),
 };
 

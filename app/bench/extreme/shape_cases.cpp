@@ -55,8 +55,8 @@ Outcome wall_of_nothing(Model model) {
   return trial.done();
 }
 
-/// Rings whose middle is not level with the tool must not be touched; clay goes up, so rings below
-/// must stay unchanged.
+/// Rings whose middle is not level with the tool must not be touched. The clay goes up, so rings
+/// below must not change.
 Outcome beyond_the_tool(Model model) {
   SceneSpec scene = small_pot();
   scene.tool.shape = RibSpec{10.0, 6.0};
@@ -88,7 +88,7 @@ Outcome nothing_happens(Model model, const SceneSpec& scene,
   const std::string before = trial.subject().bytes();
   for (const glm::dvec3& place : places) {
     trial.stroke(place, place + glm::dvec3(0, 0.5, 0), 3);
-    trial.require(trial.subject().bytes() == before, "the clay has moved");
+    trial.require(trial.subject().bytes() == before, "the clay changed");
     trial.require(trial.largest_force_n() == 0.0, "a force without contact");
   }
   return trial.done();
@@ -134,7 +134,7 @@ Outcome rings_of_a_metre(Model model) {
   scene.tool.shape = SphereSpec{600.0};
   scene.flow.reach_mm = 3e3;
   Trial trial(model, scene);
-  // The middles of rings are at 500, 1500 .. mm here, at 0, 1000 .. in print.
+  // Ring centres are at 500, 1500 .. mm in the engine, at 0, 1000 .. mm in the paper.
   trial.stroke({620, 900, 0}, {620, 1600, 0}, 200);
   trial.require(trial.touched(), "no contact");
   return trial.done();
@@ -166,8 +166,8 @@ Outcome many_rings(Model model, std::size_t rings) {
   return trial.done();
 }
 
-/// Protects every page of the rings, and counts those that the tick opens. The engine has a million
-/// rings, the paper fewer, because of its N^2 / 2 additions for the stress.
+/// Protects every page of the rings and counts those that the tick accesses. The engine has a
+/// million rings; the paper has fewer, because its stress takes N^2 / 2 additions.
 Outcome work_of_a_tick(Model model) {
   SceneSpec scene = small_pot();
   scene.lump.rings = model == Model::conserving ? 1'000'000 : 10'000;
@@ -181,11 +181,11 @@ Outcome work_of_a_tick(Model model) {
   const std::span<const std::byte> rings = trial.subject().ring_bytes();
   std::size_t opened = 0;
   const std::size_t all = pages_in(rings);
-  for (int k = 0; k < 20 && trial.going_well(); ++k) {
+  for (int k = 0; k < 20 && trial.has_no_fault(); ++k) {
     const Pose pose{10'000 + 1000 * k, {33.9, y + 1 + 0.01 * k, 0}, false};
     opened = std::max(opened, pages_opened(rings, [&] { trial.subject().step(pose); }));
   }
-  // Contact and kernel reach 10 mm + 2 x 12 mm, 114 rings: 24 bytes each at most, and two ends.
+  // Contact and kernel reach 10 mm + 2 x 12 mm, or 114 rings of at most 24 bytes; plus both ends.
   trial.require(opened >= 1 && opened <= 3, fmt::format("{} of {} pages read", opened, all));
   return trial.done(fmt::format("{} of {} pages read", opened, all));
 }
@@ -213,7 +213,7 @@ Outcome radius_1e_160(Model model) {
   return refused_or_sound(model, scene, {8, 29, 0}, {7.9, 31, 0}, 20);
 }
 
-/// Pressed at the largest radius: rings near it have no room outside.
+/// Presses at the largest radius, where rings have no room outside.
 Outcome largest_radius(Model model) {
   SceneSpec scene = small_pot();
   scene.lump.outer_radius_mm = 5000.0;
@@ -236,7 +236,7 @@ constexpr Case kShapeCases[] = {
      "exact rationals, invariants", Verdict::passed, wall_of_a_quantum},
     {"wall_of_nothing", "r = R", "refused, or r < R and a finite stress", "invariants",
      Verdict::failed, wall_of_nothing},
-    {"beyond_the_tool", "a rib of 10 mm height", "rings below it stay to the bit", "geometry",
+    {"beyond_the_tool", "a rib of 10 mm height", "rings below it unchanged to the bit", "geometry",
      Verdict::failed, beyond_the_tool},
     {"tool_wider_than_the_pot", "a sphere of 500 mm on a pot of 30 mm",
      "clay conserved, at most 5 N", "exact rationals, interval", Verdict::failed,
@@ -245,9 +245,9 @@ constexpr Case kShapeCases[] = {
      "bytes", Verdict::passed, tool_above},
     {"tool_below", "poses below the wheel head, to 100 m", "no contact, state unchanged to the bit",
      "bytes", Verdict::passed, tool_below},
-    {"tool_in_a_free_bore", "a tool inside that touches nothing",
+    {"tool_in_a_free_bore", "a tool in the bore without contact",
      "no contact, state unchanged to the bit", "bytes", Verdict::passed, tool_in_a_free_bore},
-    {"index_beyond_int", "h = 1e-9 mm, y = 1 m", "refused, or no index beyond its type", "limits",
+    {"index_beyond_int", "h = 1e-9 mm, y = 1 m", "refused, or no index out of range", "limits",
      Verdict::failed, index_beyond_int},
     {"rings_of_a_micrometre", "h = 1e-3 mm", "clay conserved", "exact rationals", Verdict::passed,
      rings_of_a_micrometre},
@@ -257,7 +257,7 @@ constexpr Case kShapeCases[] = {
     {"million_rings", "N = 10^6", "clay conserved; running sum = sum", "exact rationals",
      Verdict::passed, million_rings},
     {"work_of_a_tick", "N = 10^6, stress monitored", "reads only pages of nearby rings",
-     "pages opened, by protecting all", Verdict::failed, work_of_a_tick},
+     "count of accessed pages", Verdict::failed, work_of_a_tick},
     {"most_rings", "N = 2^24", "clay conserved; running sum = sum", "exact rationals",
      Verdict::passed, most_rings},
     {"too_many_rings", "N = 2^24 + 1", "refused", "limits", Verdict::not_in_print, too_many_rings},

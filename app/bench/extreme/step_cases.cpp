@@ -1,4 +1,4 @@
-// One step recomputed, very many steps, and the same steps twice.
+// One step recomputed, very many steps, and repeated runs.
 
 #include "app/bench/extreme/hand.hpp"
 #include "app/bench/extreme/one_step.hpp"
@@ -44,7 +44,7 @@ struct Played {
   std::string fault;
 };
 
-/// A pot under random strokes. Hashes force and contact of every tick; checks the volume ten
+/// Plays random strokes on a pot. Hashes force and contact of every tick; checks the volume ten
 /// thousand times and at the end.
 class Player {
  public:
@@ -52,11 +52,11 @@ class Player {
       : model_(model), ticks_(ticks), hand_(seed) {
     SceneSpec scene = small_pot();
     scene.force->friction = 0.2;
-    subject_ = std::move(put_on_wheel(model, scene).value());
+    subject_ = std::move(make_subject(model, scene).value());
     before_ = subject_->clay().value();
   }
 
-  /// False when all ticks are played, or the clay has a fault.
+  /// False once all ticks are played or the clay has a fault.
   bool tick() {
     if (tick_ == ticks_ || !played_.fault.empty()) return false;
     ++tick_;

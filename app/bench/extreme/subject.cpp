@@ -19,9 +19,9 @@ void append_bytes(std::string& bytes, const T& value) {
   std::memcpy(bytes.data() + at, &value, sizeof(T));
 }
 
-class OnTheEngine final : public Subject {
+class EngineSubject final : public Subject {
  public:
-  explicit OnTheEngine(Wheel wheel) : wheel_(std::move(wheel)) {}
+  explicit EngineSubject(Wheel wheel) : wheel_(std::move(wheel)) {}
 
   Tick step(const Pose& pose) override {
     const StepReport report = wheel_.step(pose);
@@ -71,9 +71,9 @@ class OnTheEngine final : public Subject {
   Wheel wheel_;
 };
 
-class AsPrinted final : public Subject {
+class PaperSubject final : public Subject {
  public:
-  explicit AsPrinted(const bench::LiteralScene& scene) : paper_(scene) {}
+  explicit PaperSubject(const bench::LiteralScene& scene) : paper_(scene) {}
 
   Tick step(const Pose& pose) override {
     const bench::LiteralReport report = paper_.step(pose.position_mm);
@@ -172,11 +172,11 @@ bench::LiteralScene literal_scene(const SceneSpec& scene) {
 
 }  // namespace
 
-Result<std::unique_ptr<Subject>> put_on_wheel(Model model, const SceneSpec& scene) {
-  if (model == Model::literal) return std::make_unique<AsPrinted>(literal_scene(scene));
+Result<std::unique_ptr<Subject>> make_subject(Model model, const SceneSpec& scene) {
+  if (model == Model::literal) return std::make_unique<PaperSubject>(literal_scene(scene));
   auto wheel = Wheel::build(scene);
   if (!wheel) return tl::make_unexpected(wheel.error());
-  return std::make_unique<OnTheEngine>(std::move(*wheel));
+  return std::make_unique<EngineSubject>(std::move(*wheel));
 }
 
 Count count_clay(const Wheel& wheel) {

@@ -48,8 +48,8 @@ class Subject {
   /// Total clay as the sum of R^2 - r^2 [mm^2], counted exactly from all rings. Empty if a radius
   /// is not finite.
   [[nodiscard]] virtual std::optional<Exact> clay() const = 0;
-  /// Permitted change of `clay`: 0 where clay is counted; for doubles 8 u times the sum of R^2 +
-  /// r^2 per tick, u = 2^-53.
+  /// Permitted change of `clay`: 0 if clay is counted; for doubles 8 u times the sum of R^2 + r^2
+  /// per tick, u = 2^-53.
   [[nodiscard]] virtual Exact allowance() const = 0;
   /// The violated invariant, if any: 0 <= r < R and finite in every ring.
   [[nodiscard]] virtual std::string fault() const = 0;
@@ -66,9 +66,9 @@ class Subject {
 /// Both read the same scene; K of the paper is force.paper_stiffness_n_per_mm or 0.05 N/mm, its k
 /// is removal.paper_fraction or rate / 1000, its L_1 is reach / h, rounded. The literal paper
 /// refuses nothing.
-Result<std::unique_ptr<Subject>> put_on_wheel(Model model, const SceneSpec& scene);
+Result<std::unique_ptr<Subject>> make_subject(Model model, const SceneSpec& scene);
 
-/// Clay in `wheel`'s rings and crown and in its ledger's other columns, summed by Boost.
+/// Clay in the rings, the crown and the other columns of the ledger, summed with Boost.
 [[nodiscard]] Count count_clay(const Wheel& wheel);
 
 }  // namespace clay::extreme

@@ -22,7 +22,7 @@ struct Case {
   std::string_view name;
   std::string_view what;      ///< the input
   std::string_view required;  ///< the result that passes
-  std::string_view oracle;    ///< the method of judging
+  std::string_view oracle;    ///< source of the expected result
   Verdict literal;            ///< expected result of the paper as printed
   Outcome (*run)(Model model);
 };
@@ -35,7 +35,7 @@ std::span<const Case> force_cases();      ///< direction, size, energy
 std::span<const Case> stability_cases();  ///< the threshold to the ulp, collapse
 std::span<const Case> pinch_cases();      ///< two tools at once
 std::span<const Case> rule_cases();       ///< the clay rules at their limits
-std::span<const Case> step_cases();       ///< one step recomputed; many steps; the same twice
+std::span<const Case> step_cases();       ///< one step recomputed; many steps; repeated runs
 
 /// All cases, in the order of the table.
 std::span<const Case> cases();

@@ -23,7 +23,7 @@ SceneSpec small_pot() {
 }
 
 Trial::Trial(Model model, const SceneSpec& scene) : exact_(model == Model::conserving) {
-  auto subject = put_on_wheel(model, scene);
+  auto subject = make_subject(model, scene);
   if (!subject) {
     why_ = subject.error().message;
     return;
@@ -34,18 +34,18 @@ Trial::Trial(Model model, const SceneSpec& scene) : exact_(model == Model::conse
 }
 
 Tick Trial::at(const glm::dvec3& hip_mm, bool trim, std::int64_t dt_us) {
-  if (!subject_ || !going_well()) return {};
+  if (!subject_ || !has_no_fault()) return {};
   time_us_ += dt_us;
   ++ticks_;
   last_ = subject_->step({time_us_, hip_mm, trim, gap_mm_});
   touched_ = touched_ || last_.contact;
-  look();
+  check_tick();
   return last_;
 }
 
-void Trial::look() {
+void Trial::check_tick() {
   const glm::dvec3& f = last_.force_n;
-  if (last_.undefined) fault_ = "an index out of range: undefined in C++";
+  if (last_.undefined) fault_ = "an index out of range, undefined in C++";
   if (last_.endless)
     fault_ = fmt::format("the growth loop does not end: {} rings", subject_->rings());
   if (!(std::isfinite(f.x) && std::isfinite(f.y) && std::isfinite(f.z)))
@@ -63,15 +63,15 @@ void Trial::stroke(const glm::dvec3& from_mm, const glm::dvec3& to_mm, int ticks
   }
 }
 
-void Trial::require(bool holds, const std::string& otherwise) {
-  if (going_well() && !holds) fault_ = otherwise;
+void Trial::require(bool holds, const std::string& failure) {
+  if (has_no_fault() && !holds) fault_ = failure;
 }
 
 void Trial::weigh() {
-  if (!subject_ || !going_well()) return;
+  if (!subject_ || !has_no_fault()) return;
   const auto now = subject_->clay();
   if (!now) {
-    fault_ = "a radius that is not finite";
+    fault_ = "a non-finite radius";
     return;
   }
   const Exact change = *now - before_;
@@ -83,7 +83,7 @@ void Trial::weigh() {
 Outcome Trial::done(const std::string& extra) {
   if (!subject_) return {Verdict::passed, "refused: " + why_};
   weigh();
-  if (!going_well()) return {Verdict::failed, fault_};
+  if (!has_no_fault()) return {Verdict::failed, fault_};
   std::string note = fmt::format("{} ticks, {}", ticks_, exact_ ? "0 quanta" : "within rounding");
   if (!extra.empty()) note += "; " + extra;
   return {Verdict::passed, note};

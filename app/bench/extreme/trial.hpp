@@ -14,8 +14,9 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// 60 solid rings of 1 mm height and 30 mm radius, a sphere of 8 mm, kernel of 12 mm.
 SceneSpec small_pot();
 
-/// Plays one subject tick by tick. Checks after every tick: 0 <= r < R and all finite, force
-/// finite, no endless loop, nothing undefined; at the end no clay lost. Keeps the first failure.
+/// Plays one subject tick by tick. After every tick 0 <= r < R must hold, radii and force must be
+/// finite, and no loop endless or formula undefined; at the end no clay may be lost. Stores the
+/// first failure.
 class Trial {
  public:
   Trial(Model model, const SceneSpec& scene);
@@ -25,7 +26,7 @@ class Trial {
   [[nodiscard]] const std::string& why() const { return why_; }
 
   Subject& subject() { return *subject_; }
-  [[nodiscard]] bool going_well() const { return fault_.empty(); }
+  [[nodiscard]] bool has_no_fault() const { return fault_.empty(); }
 
   /// Gap of all following poses; 0: one tool.
   void pinch(double gap_mm) { gap_mm_ = gap_mm; }
@@ -34,7 +35,8 @@ class Trial {
   /// `ticks` ticks on the straight line between two points, both included.
   void stroke(const glm::dvec3& from_mm, const glm::dvec3& to_mm, int ticks, bool trim = false);
 
-  void require(bool holds, const std::string& otherwise);
+  /// Stores `failure` unless the condition holds.
+  void require(bool holds, const std::string& failure);
   /// Checks the volume now, exactly; also done at the end.
   void weigh();
   /// The verdict. `extra` is appended to the note.
@@ -45,7 +47,7 @@ class Trial {
   [[nodiscard]] const Tick& last() const { return last_; }
 
  private:
-  void look();
+  void check_tick();
 
   std::unique_ptr<Subject> subject_;
   std::string why_, fault_;

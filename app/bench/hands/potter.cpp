@@ -36,7 +36,7 @@ Potter::Potter(Wheel& wheel, std::uint64_t seed, double time_s)
 
 double Potter::tool_mm() const { return wheel_.plan().tool.widest(); }
 
-Place Potter::shaken(Place place, double at_s) const {
+Place Potter::with_tremor(Place place, double at_s) const {
   const double each = kTremorMm * std::sqrt(2.0 / 3.0);
   for (std::size_t k = 0; k < 3; ++k) {
     place.out += each * std::sin(kTurn * tremor_hz_[k] * at_s + phase_out_[k]);
@@ -71,21 +71,21 @@ double Potter::floor_mm() const {
   return 0.0;
 }
 
-void Potter::stroke(const std::vector<Place>& way, double speed_mm_s, double gap_mm) {
+void Potter::stroke(const std::vector<Place>& path, double speed_mm_s, double gap_mm) {
   std::vector<double> length{0.0};
-  for (std::size_t k = 1; k < way.size(); ++k)
+  for (std::size_t k = 1; k < path.size(); ++k)
     length.push_back(length.back() +
-                     std::hypot(way[k].out - way[k - 1].out, way[k].up - way[k - 1].up));
+                     std::hypot(path[k].out - path[k - 1].out, path[k].up - path[k - 1].up));
   const double all_s = length.back() / speed_mm_s;
   const auto at = [&](double s) {
-    const double gone = std::min(s, all_s) * speed_mm_s;
+    const double travelled = std::min(s, all_s) * speed_mm_s;
     std::size_t k = 1;
-    while (k + 1 < way.size() && length[k] < gone) ++k;
+    while (k + 1 < path.size() && length[k] < travelled) ++k;
     const double piece = length[k] - length[k - 1];
-    const double f = piece > 0.0 ? std::clamp((gone - length[k - 1]) / piece, 0.0, 1.0) : 1.0;
-    return shaken({way[k - 1].out + f * (way[k].out - way[k - 1].out),
-                   way[k - 1].up + f * (way[k].up - way[k - 1].up)},
-                  time_s_ + s);
+    const double f = piece > 0.0 ? std::clamp((travelled - length[k - 1]) / piece, 0.0, 1.0) : 1.0;
+    return with_tremor({path[k - 1].out + f * (path[k].out - path[k - 1].out),
+                        path[k - 1].up + f * (path[k].up - path[k - 1].up)},
+                       time_s_ + s);
   };
   const int ticks = static_cast<int>(all_s / kTickS) + 1;
   for (int k = 1; k <= ticks; ++k) {
@@ -97,7 +97,7 @@ void Potter::stroke(const std::vector<Place>& way, double speed_mm_s, double gap
 }
 
 void Potter::open(double floor_mm) {
-  const double top = height(), bottom = floor_mm * misjudged() + tool_mm(), v = speed();
+  const double top = height(), bottom = floor_mm * depth_error() + tool_mm(), v = speed();
   stroke({{1.0, top + 12.0},
           {1.0, bottom},
           {14.0, bottom + dice_.between(-1.0, 1.0)},
@@ -134,13 +134,13 @@ void Potter::pull(double gap_mm, double target_mm) {
   rise({middle_at(from + 2.0) + off, from}, to + off_above, part, floor, v, gap);
 }
 
-// Upward to the current rim, toward `to_out` there.
+// Moves up to the current rim, and toward `to_out` there.
 void Potter::rise(Place from, double to_out, double part, double floor_mm, double speed_mm_s,
                   double gap_mm) {
-  constexpr int kTicksOfEvent = 17, kMostTicks = 30'000;
-  Place last = shaken(from, time_s_), next = last, at = from;
-  double gone_s = 0.0;
-  for (int n = 0; n < kMostTicks; ++n) {
+  constexpr int kTicksOfEvent = 17, kMaxTicks = 30'000;
+  Place last = with_tremor(from, time_s_), next = last, at = from;
+  double elapsed_s = 0.0;
+  for (int n = 0; n < kMaxTicks; ++n) {
     const int phase = n % kTicksOfEvent;
     if (phase == 0) {
       last = next;
@@ -149,46 +149,46 @@ void Potter::rise(Place from, double to_out, double part, double floor_mm, doubl
       at.up = std::min(end + 0.01, at.up + speed_mm_s * kEventS);
       const double f = std::min(1.0, (at.up - from.up) / std::max(20.0, end - from.up));
       at.out = from.out + f * (to_out - from.out);
-      next = shaken(at, time_s_ + gone_s + kEventS);
+      next = with_tremor(at, time_s_ + elapsed_s + kEventS);
     }
     const double f = static_cast<double>(phase + 1) / kTicksOfEvent;
     tick({last.out + f * (next.out - last.out), last.up + f * (next.up - last.up)}, gap_mm);
-    gone_s += kTickS;
+    elapsed_s += kTickS;
   }
-  time_s_ += gone_s;
+  time_s_ += elapsed_s;
 }
 
 // Approaches a target shape: the original surface moved by depth * bump, in passes that measure the
 // pot.
 void Potter::aim(const Aim& aim) {
-  const double h = wheel_.stack().ring_height_mm(), was_height = height(), floor = floor_mm();
+  const double h = wheel_.stack().ring_height_mm(), original_height = height(), floor = floor_mm();
   const double a = tool_mm();
   const auto surface = [&](const Ring& ring) {
     return aim.from_outside ? ring.outer_mm() : ring.inner_mm();
   };
   const double inward = aim.from_outside ? -1.0 : 1.0;
-  std::vector<double> was;
-  for (const Ring& ring : wheel_.stack().rings()) was.push_back(surface(ring));
+  std::vector<double> original;
+  for (const Ring& ring : wheel_.stack().rings()) original.push_back(surface(ring));
   for (int pass = 1; pass <= aim.passes; ++pass) {
     const double tall = height();
-    const double low = floor + aim.start * (was_height - floor) + dice_.between(-3.0, 3.0);
+    const double low = floor + aim.start * (original_height - floor) + dice_.between(-3.0, 3.0);
     const double high = floor + (tall - floor) * dice_.between(aim.end_low, aim.end_high);
-    const double error = misjudged(), v = speed();
-    std::vector<Place> way;
+    const double error = depth_error(), v = speed();
+    std::vector<Place> path;
     constexpr int kPoints = 16;
     for (int q = 0; q <= kPoints; ++q) {
       const double up = low + (high - low) * q / kPoints, f = (up - floor) / (tall - floor);
-      const double old = (std::max(0.0, f) * (was_height - floor) + floor) / h;
-      const double goal = was[std::min(was.size() - 1, static_cast<std::size_t>(old))] +
+      const double old = (std::max(0.0, f) * (original_height - floor) + floor) / h;
+      const double goal = original[std::min(original.size() - 1, static_cast<std::size_t>(old))] +
                           inward * aim.depth_mm * aim.bump(f) * pass / aim.passes;
       const double now = surface(ring_at(up)), left = inward * (goal - now);
       const double by = left > 0.0 ? left * error : -std::min(2.0, -left);
-      way.push_back({now + inward * (by - a), up});
+      path.push_back({now + inward * (by - a), up});
     }
     const double away = aim.from_outside ? 8.0 : -8.0;
-    way.insert(way.begin(), {way.front().out + away, low});
-    way.push_back({way.back().out + away, high});
-    stroke(way, v, 0.0);
+    path.insert(path.begin(), {path.front().out + away, low});
+    path.push_back({path.back().out + away, high});
+    stroke(path, v, 0.0);
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A simulated potter with human error, who throws on a wheel of the engine.
+// A simulated potter with human errors on a wheel of the engine.
 
 #include "app/bench/hands/dice.hpp"
 #include "claystack/engine/wheel.hpp"
@@ -18,8 +18,8 @@ struct Place {
 
 /// Errors of the hand: tremor of 0.3 mm (RMS) at 7 to 9 Hz, strokes at 20 to 60 mm/s, depth
 /// misjudged by 30 % of the remainder, pulls that end at 80 to 102 % of the way to the rim and miss
-/// the middle of the wall by 15 % of its thickness. The program gets 60 events per second, as from
-/// a mouse, connected by straight lines, and ticks at 1 kHz.
+/// the middle of the wall by 15 % of its thickness. The hand sends 60 events per second, as a mouse
+/// does; straight lines connect them, and the wheel ticks at 1 kHz.
 class Potter {
  public:
   Potter(Wheel& wheel, std::uint64_t seed);
@@ -50,17 +50,17 @@ class Potter {
     std::function<double(double)> bump;  ///< depth over that, 0 to 1
   };
 
-  void stroke(const std::vector<Place>& way, double speed_mm_s, double gap_mm);
+  void stroke(const std::vector<Place>& path, double speed_mm_s, double gap_mm);
   void rise(Place from, double to_out, double part, double floor_mm, double speed_mm_s,
             double gap_mm);
   void aim(const Aim& aim);
   void tick(Place place, double gap_mm);
-  [[nodiscard]] Place shaken(Place place, double at_s) const;
+  [[nodiscard]] Place with_tremor(Place place, double at_s) const;
   [[nodiscard]] double height() const { return wheel_.stack().height_mm(); }
   [[nodiscard]] const Ring& ring_at(double up) const;
   [[nodiscard]] double middle_at(double up) const;
   [[nodiscard]] double floor_mm() const;
-  double misjudged() { return dice_.between(0.7, 1.3); }
+  double depth_error() { return dice_.between(0.7, 1.3); }
   double speed() { return dice_.between(20.0, 60.0); }
 
   Wheel& wheel_;

@@ -19,13 +19,13 @@ inline constexpr std::array kTasks{Task::open, Task::cylinder, Task::belly, Task
 struct TaskFacts {
   std::string_view name;
   std::string_view strokes;
-  double width_mm;         ///< target of the hand
+  double width_mm;         ///< intended width
   double least_printable;  ///< share of pots that must be printable with the clay rules
 };
 [[nodiscard]] const TaskFacts& facts_of(Task task);
 
-/// 1 kg of clay, a ball of 10 mm, rings of `ring_height_mm`; two fingers permitted. A plate begins
-/// with a flat lump, everything else with one as high as it is wide.
+/// 1 kg of clay, a ball of 10 mm, rings of `ring_height_mm`; pinches are permitted. A plate starts
+/// from a flat lump, all others from one about as high as wide.
 [[nodiscard]] SceneSpec hands_scene(Task task, const std::optional<ClaySpec>& clay,
                                     double ring_height_mm = 0.335063);
 

@@ -139,31 +139,31 @@ glm::dvec3 LiteralPaper::force(const Contact& contact, const glm::dvec3& hip) co
 }
 
 /// Equations (5), (6). Returns the distributed amount.
-double LiteralPaper::give_up(double inside, double outside, std::size_t top) {
-  double given = 0.0;
+double LiteralPaper::distribute_up(double inside, double outside, std::size_t top) {
+  double distributed = 0.0;
   const std::size_t last = std::min(top + weights_.size(), rings_.size());
   for (std::size_t j = top + 1; j <= last; ++j) {
     LiteralRing& ring = rings_[j - 1];
     const double share = weights_[j - top - 1];
     ring.outer_mm = std::sqrt(ring.outer_mm * ring.outer_mm + share * outside);
     if (hollow_) ring.inner_mm = std::sqrt(ring.inner_mm * ring.inner_mm - share * inside);
-    given += share;
+    distributed += share;
   }
-  return given * (inside + outside);
+  return distributed * (inside + outside);
 }
 
 /// Equations (7), (8). Returns the distributed amount.
-double LiteralPaper::give_down(double inside, double outside, std::size_t bottom) {
-  double given = 0.0;
+double LiteralPaper::distribute_down(double inside, double outside, std::size_t bottom) {
+  double distributed = 0.0;
   const std::size_t first = bottom > weights_.size() ? bottom - weights_.size() : 1;
   for (std::size_t j = first; j < bottom; ++j) {
     LiteralRing& ring = rings_[j - 1];
     const double share = weights_[bottom - j - 1];
     ring.outer_mm = std::sqrt(ring.outer_mm * ring.outer_mm + share * outside);
     if (hollow_) ring.inner_mm = std::sqrt(ring.inner_mm * ring.inner_mm - share * inside);
-    given += share;
+    distributed += share;
   }
-  return given * (inside + outside);
+  return distributed * (inside + outside);
 }
 
 /// Steps (a), (b). The remainder after the loop is not part of the body, as printed.
@@ -190,11 +190,11 @@ void LiteralPaper::redistribute(const Contact& contact, LiteralReport& report) {
   const auto inside = [&] { return alpha * rest; };
   const auto outside = [&] { return (1.0 - alpha) * rest; };
   if (rise_mm_ < 0.0) {
-    rest -= give_down(inside(), outside(), contact.bottom);
+    rest -= distribute_down(inside(), outside(), contact.bottom);
     // "max(1, bottom - L_1) = 1": the distribution below is not complete.
     if (contact.bottom > weights_.size() + 1) return;
   }
-  rest -= give_up(inside(), outside(), contact.top);
+  rest -= distribute_up(inside(), outside(), contact.top);
   // "top + L_1 greater than N": clay without a ring above becomes height.
   if (contact.top + weights_.size() > rings_.size()) grow(rest, report);
 }

@@ -1,6 +1,6 @@
 #pragma once
 // The paper's equations as printed, in floating point and without checks: a reference for speed,
-// and the proof that the extreme suite can fail. Not for use.
+// and for showing that the extreme suite can fail. Not for other uses.
 
 #include <cstddef>
 #include <glm/vec3.hpp>
@@ -21,8 +21,8 @@ struct LiteralRib {
 };
 using LiteralTool = std::variant<LiteralEllipse, LiteralRib>;
 
-/// Equal to rounding, except for a ring level with a pole of the tool, where f_h' is infinite; in
-/// two versions.
+/// Two versions of the same equations. They agree to rounding, except for a ring level with a pole
+/// of the tool, where f_h' is infinite.
 enum class LiteralWriting {
   /// M_i summed again for every ring, which is O(N^2); angles by atan, normals by sin and cos.
   as_printed,
@@ -59,10 +59,10 @@ struct LiteralReport {
   glm::dvec3 force_n{0.0};  ///< with the paper's sign, unlimited
   std::size_t rings_touched = 0;
   bool collapsed =
-      false;  ///< beta_i > beta_T somewhere; the rotation that follows has no end in print
+      false;  ///< beta_i > beta_T somewhere; the paper does not say where the rotation ends
   bool endless = false;  ///< the growth loop had to be stopped
-  /// The printed formula is undefined in C++: equation (1) or (2) leaves the range of an index. The
-  /// tick did nothing.
+  /// Equation (1) or (2) leaves the range of an index, so the formula is undefined in C++; the tick
+  /// did nothing.
   bool undefined = false;
 };
 
@@ -88,8 +88,8 @@ class LiteralPaper {
   void touch(const Profile& profile, const glm::dvec3& hip_mm, Contact& contact);
   [[nodiscard]] glm::dvec3 force(const Contact& contact, const glm::dvec3& hip_mm) const;
   void redistribute(const Contact& contact, LiteralReport& report);
-  double give_up(double inside, double outside, std::size_t top);
-  double give_down(double inside, double outside, std::size_t bottom);
+  double distribute_up(double inside, double outside, std::size_t top);
+  double distribute_down(double inside, double outside, std::size_t bottom);
   void grow(double excess, LiteralReport& report);
   template <LiteralWriting writing>
   [[nodiscard]] bool overstressed() const;

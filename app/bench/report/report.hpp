@@ -1,5 +1,5 @@
 #pragma once
-// Writers of the results. None writes a date: the same figures give the same bytes.
+// Writers of the results. They write no date, so the same figures give the same bytes.
 
 #include "app/bench/machine.hpp"
 #include "app/bench/section.hpp"
@@ -23,8 +23,8 @@ struct Report {
 /// "machine", "compiler", "command", "sound" and "sections" (description, parts and units of each);
 /// then each part under its id:
 ///
-/// - a section's values as {"NAME": median, "NAME_iqr": interquartile range where timed}. Where a
-///   table has the section's name, they stand under "ID_values".
+/// - a section's values as {"NAME": median, "NAME_iqr": interquartile range where timed}. If a
+///   table has the section's name, they are under "ID_values".
 /// - a table as an array of {"COLUMN": cell};
 /// - a plot as {"x", "y", "curves": [{"name", "x", "y", "low", "high"}]};
 /// - a map as {"x", "y", "x_values", "y_values", "cells", "curves"}.
@@ -45,9 +45,9 @@ struct Report {
 /// For a terminal.
 [[nodiscard]] std::string text_of(const Section& section);
 
-/// A number for people: four significant digits.
+/// A readable number: four significant digits.
 [[nodiscard]] std::string short_number(double value);
-/// A cell for people; a dash if empty.
+/// A readable cell; a dash if empty.
 [[nodiscard]] std::string short_text(const Cell& cell);
 /// Whether the cell is right-aligned.
 [[nodiscard]] bool is_number(const Cell& cell);

@@ -1,4 +1,4 @@
-// The public component: what a program sees that embeds the servo.
+// The public component, as a program uses it that embeds the servo.
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
@@ -37,7 +37,7 @@ struct Embedded {
   }
   void throw_until_force() {
     live->start(Pace::thread);
-    wait_for([&] { return log.last_n > 0.0; }, "a force");
+    wait_for([&] { return log.last_force_n > 0.0; }, "a force");
   }
   Ending stop() {
     wait_for([&] { return live->command({CommandKind::stop}); }, "room for a command");
@@ -51,7 +51,7 @@ struct Embedded {
   std::optional<LiveThrow> live;
 };
 
-TEST(LiveThrow, DisplaysAForceUntilItIsStopped) {
+TEST(LiveThrow, DisplaysAForceUntilStopped) {
   Embedded embedded;
   EXPECT_FALSE(embedded.live->running());
   embedded.throw_until_force();
@@ -60,13 +60,13 @@ TEST(LiveThrow, DisplaysAForceUntilItIsStopped) {
   wait_for([&] { return embedded.live->profile().size > 0; }, "a profile");
   EXPECT_EQ(embedded.live->profile().size, embedded.scene.lump.rings);
   EXPECT_EQ(embedded.stop(), Ending::stopped);
-  EXPECT_EQ(embedded.log.last_n, 0.0);
+  EXPECT_EQ(embedded.log.last_force_n, 0.0);
   EXPECT_EQ(embedded.log.stops, 1u);
-  EXPECT_LE(embedded.log.most_n, 5.0);
+  EXPECT_LE(embedded.log.max_force_n, 5.0);
   EXPECT_EQ(embedded.live->status().ending, Ending::stopped);
 }
 
-TEST(LiveThrow, ItsRecordedSessionReplaysToThePot) {
+TEST(LiveThrow, RecordedSessionReplaysToThePot) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("a.session");
   Embedded embedded(path);
@@ -82,8 +82,8 @@ TEST(LiveThrow, ItsRecordedSessionReplaysToThePot) {
   EXPECT_TRUE(again.pot() == embedded.wheel.pot());
 }
 
-/// Keeps what it receives.
-class KeptPoses final : public PoseSink {
+/// Stores the poses and flags that it receives.
+class StoredPoses final : public PoseSink {
  public:
   Result<void> append(const PoseBlock& block) override {
     poses.insert(poses.end(), block.poses.begin(), block.poses.end());
@@ -107,11 +107,11 @@ TEST(LiveThrow, TicksOnAGivenClockAndRecordsContactFlags) {
   LineClock clock(*line);
   falcon::FalconDevice arm(std::move(line), {});
   ASSERT_TRUE(arm.open());
-  KeptPoses kept;
+  StoredPoses stored;
   const SceneSpec scene = rib_scene();
   Wheel wheel = Wheel::build(scene).value();
   auto live = LiveThrow::build(
-                  {.wheel = wheel, .device = arm, .scene = scene, .sink = &kept, .clock = &clock},
+                  {.wheel = wheel, .device = arm, .scene = scene, .sink = &stored, .clock = &clock},
                   one_to_one())
                   .value();
   live.start(Pace::stepped);
@@ -119,17 +119,17 @@ TEST(LiveThrow, TicksOnAGivenClockAndRecordsContactFlags) {
   EXPECT_TRUE(live.running());
   EXPECT_NEAR(live.status().time_s, 4.0, 0.01);
   EXPECT_NE(live.new_profile(), nullptr);
-  EXPECT_EQ(live.new_profile(), nullptr) << "nothing new since";
+  EXPECT_EQ(live.new_profile(), nullptr) << "no new profile since the last call";
   EXPECT_EQ(live.stop(), Ending::stopped);
   ASSERT_TRUE(live.finish_recording());
-  EXPECT_EQ(live.recorded().poses, kept.poses.size());
+  EXPECT_EQ(live.recorded().poses, stored.poses.size());
   EXPECT_EQ(live.recorded().lost, 0u);
-  EXPECT_EQ(live.status().poses, kept.poses.size());
+  EXPECT_EQ(live.status().poses, stored.poses.size());
 
   Wheel again = Wheel::build(scene).value();
   std::vector<bool> contact;
-  for (const Pose& pose : kept.poses) contact.push_back((again.step(pose).flags & kContact) != 0);
-  EXPECT_EQ(contact, kept.contact);
+  for (const Pose& pose : stored.poses) contact.push_back((again.step(pose).flags & kContact) != 0);
+  EXPECT_EQ(contact, stored.contact);
   EXPECT_GT(std::ranges::count(contact, true), 0);
   EXPECT_GT(std::ranges::count(contact, false), 0);
   EXPECT_EQ(again.pot(), wheel.pot());
@@ -140,7 +140,7 @@ TEST(LiveThrow, ContinuesWithAReconnectedDevice) {
   embedded.throw_until_force();
   embedded.log.gone = true;
   EXPECT_EQ(embedded.live->join(), Ending::device_lost);
-  EXPECT_EQ(embedded.log.last_n, 0.0);
+  EXPECT_EQ(embedded.log.last_force_n, 0.0);
   const std::uint64_t poses = embedded.live->status().poses;
   embedded.log.gone = false;
   embedded.live->start(Pace::thread);
@@ -148,15 +148,15 @@ TEST(LiveThrow, ContinuesWithAReconnectedDevice) {
   EXPECT_EQ(embedded.stop(), Ending::stopped);
 }
 
-TEST(LiveThrow, EndsTheForceFromOutsidePermanently) {
+TEST(LiveThrow, EndForceEndsTheForcePermanently) {
   Embedded embedded;
   embedded.throw_until_force();
   LiveThrow::end_force();
   EXPECT_EQ(embedded.live->join(), Ending::stopped);
-  EXPECT_EQ(embedded.log.last_n, 0.0);
+  EXPECT_EQ(embedded.log.last_force_n, 0.0);
 }
 
-TEST(LiveThrow, RefusesAContactThatTheArmCannotRenderUntilItIsSoftened) {
+TEST(LiveThrow, RefusesAContactTooStiffForTheArm) {
   WireLog log;
   ScriptedDevice device(log);
   SceneSpec scene = rib_scene();
@@ -168,16 +168,16 @@ TEST(LiveThrow, RefusesAContactThatTheArmCannotRenderUntilItIsSoftened) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, ErrorKind::bad_input);
   EXPECT_EQ(refused.error().message.find("force.stiffness_n_per_mm2: "), 0u);
-  const auto part = soften(scene, settings);
-  ASSERT_TRUE(part);
-  EXPECT_LT(*part, 1.0);
-  EXPECT_DOUBLE_EQ(scene.force->stiffness_n_per_mm2, 10.0 * *part);
+  const auto factor = soften(scene, settings);
+  ASSERT_TRUE(factor);
+  EXPECT_LT(*factor, 1.0);
+  EXPECT_DOUBLE_EQ(scene.force->stiffness_n_per_mm2, 10.0 * *factor);
   Wheel softer = Wheel::build(scene).value();
   EXPECT_TRUE(LiveThrow::build({.wheel = softer, .device = device, .scene = scene}, settings));
   EXPECT_EQ(soften(scene, settings).value(), 1.0);
 }
 
-TEST(LiveThrow, NamesARefusedSettingOrSession) {
+TEST(LiveThrow, ErrorsNameTheSettingOrSession) {
   WireLog log;
   ScriptedDevice device(log);
   const SceneSpec scene = rib_scene();

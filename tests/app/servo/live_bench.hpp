@@ -1,5 +1,5 @@
 #pragma once
-// A whole live throw on a clock that only the device's answers move: minutes in a second.
+// A live throw on a virtual clock, which only the device's answers advance.
 
 #include "app/servo/scene_hand.hpp"
 #include "app/servo/servo_loop.hpp"
@@ -17,7 +17,7 @@
 
 namespace clay::servo {
 
-/// The clock of a LoopbackTransport that runs in virtual time. Nobody sleeps on it: reading waits.
+/// The clock of a LoopbackTransport in virtual time. Sleeping does nothing, because reading waits.
 class LineClock final : public Clock {
  public:
   explicit LineClock(const falcon::Transport& line) : line_(line) {}
@@ -40,7 +40,7 @@ inline std::vector<Pose> sample_stroke(const std::string& name) {
   return parse_session(read_file(path).value(), path).value().poses;
 }
 
-/// In the device's frame [mm], at a time [s] since the first frame.
+/// The hand in the device's frame [mm], at a time [s] since the first frame.
 using HandAt = std::function<glm::dvec3(double)>;
 
 struct VirtualThrow {
@@ -50,7 +50,7 @@ struct VirtualThrow {
     return settings;
   }
 
-  /// A hand that can't be resisted, so that a test knows where it is.
+  /// The force does not move the hand, so a test knows its position.
   VirtualThrow(const SceneSpec& scene, LiveSettings live_settings, HandAt hand_at,
                Recorder* recorder = nullptr,
                const falcon::FalconModelSettings& model_settings = homed())
@@ -73,7 +73,7 @@ struct VirtualThrow {
   }
 
   Ending tick() { return loop->tick(gate, commands, view, heartbeat_us); }
-  /// Ticks for so long, or to the end.
+  /// Ticks for `seconds`, or until the throw ends.
   Ending run(double seconds) {
     const std::int64_t end_us = clock.now_us() + static_cast<std::int64_t>(1e6 * seconds);
     Ending ending = Ending::none;
@@ -108,9 +108,8 @@ struct VirtualThrow {
   }
 };
 
-/// A solid lump of 40 mm under a rib that is 20 mm high, a mapping of 1 to 1: the tool touches it
-/// at 46 mm from the axis. The clay gives way by 0.02 of its 40 mm a second, so a hand that stands
-/// is felt for seconds.
+/// A solid lump of 40 mm radius and a rib 20 mm high; the tool touches the lump at 46 mm from the
+/// axis. The clay yields slowly, so a resting hand meets a force for seconds.
 inline SceneSpec rib_scene() {
   SceneSpec scene;
   scene.lump = {.rings = 120, .ring_height_mm = 0.5, .outer_radius_mm = 40.0};
@@ -129,11 +128,11 @@ inline LiveSettings one_to_one() {
   return settings;
 }
 
-/// Off the clay until the force is earned, then pressed in to a depth [mm] within half a second.
+/// Off the clay until the force has ramped up, then pressed to a depth [mm] in 0.5 s.
 inline HandAt press_to(double depth_mm) {
   return [=](double t) {
-    const double way = std::clamp((t - 2.5) / 0.5, 0.0, 1.0);
-    return glm::dvec3(2.0 - way * (2.0 + depth_mm), 0.0, 0.0);
+    const double part = std::clamp((t - 2.5) / 0.5, 0.0, 1.0);
+    return glm::dvec3(2.0 - part * (2.0 + depth_mm), 0.0, 0.0);
   };
 }
 

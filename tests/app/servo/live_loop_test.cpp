@@ -1,4 +1,4 @@
-// The body of the servo on a virtual clock: every fault is exact.
+// The servo loop on a virtual clock, so that every fault is exactly repeatable.
 
 #include "tests/app/servo/live_bench.hpp"
 #include "tests/support/allocation_counter.hpp"
@@ -16,7 +16,7 @@ namespace {
 using falcon::GuardState;
 
 constexpr double kLimitN = 5.0;
-constexpr double kRisePerTickN = 0.5 * 1.05;  // 500 N/s for a tick; frames come within 5 % of 1 ms
+constexpr double kRisePerTickN = 0.5 * 1.05;  // 500 N/s; frames arrive within 5 % of 1 ms
 
 Pot replayed(const SceneSpec& scene, const std::string& session) {
   Wheel wheel = Wheel::build(scene).value();
@@ -25,7 +25,7 @@ Pot replayed(const SceneSpec& scene, const std::string& session) {
   return wheel.pot();
 }
 
-TEST(LiveLoop, TheRecordedSessionReplaysToTheSamePot) {
+TEST(LiveLoop, RecordedSessionReplaysToTheSamePot) {
   const test::ScratchFolder folder;
   for (const char* name : {"bowl", "cylinder", "collapse"}) {
     const SceneSpec scene = sample_scene(name);
@@ -34,7 +34,7 @@ TEST(LiveLoop, TheRecordedSessionReplaysToTheSamePot) {
         Recorder::create(folder.file("s.session"), scene.name, hash_of(scene)).value();
     const auto path = hand_path(sample_stroke(name), mapping);
     VirtualThrow live(scene, {}, path, recorder.get());
-    // The recorder empties its queue by the machine's clock.
+    // The recorder empties its queue in real time, so the number of ticks is limited.
     for (int i = 0; i < 4000 && live.tick() == Ending::none; ++i) {
     }
     ASSERT_TRUE(recorder->finish());
@@ -48,7 +48,7 @@ TEST(LiveLoop, TheRecordedSessionReplaysToTheSamePot) {
 
 TEST(LiveLoop, ForcePushesTheHandOutOfTheClay) {
   VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
-  double most_n = 0.0, before_n = 0.0;
+  double max_force_n = 0.0, before_n = 0.0;
   for (int i = 0; i < 3200; ++i) {
     live.tick();
     const glm::dvec3 sent = live.status().force_n;
@@ -56,43 +56,43 @@ TEST(LiveLoop, ForcePushesTheHandOutOfTheClay) {
     ASSERT_LE(n, kLimitN);
     ASSERT_LE(n - before_n, kRisePerTickN) << i;
     ASSERT_GE(sent.x, 0.0);
-    // Friction: a fifth of the spring, along the turn: at x > 0 seen from above, to -z. The tool is
-    // off that line by an encoder's step of 0.05 mm in 40 at most.
+    // Friction is a fifth of the spring force, in the direction of rotation: -z at x > 0. The tool
+    // is off the x axis by at most an encoder step, 0.05 mm in 40.
     ASSERT_NEAR(sent.z, -0.2 * sent.x, 2e-3 * sent.x);
-    most_n = std::max(most_n, n);
+    max_force_n = std::max(max_force_n, n);
     before_n = n;
   }
-  // 41 rings of 0.5 mm, 0.02 N/mm2, less than 2 mm deep: clay gave way.
-  EXPECT_GT(most_n, 0.1);
-  EXPECT_LT(most_n, 0.02 * 20.5 * 2.0 * std::hypot(1.0, 0.2));
+  // 41 rings of 0.5 mm, 0.02 N/mm2, less than 2 mm deep because the clay yields.
+  EXPECT_GT(max_force_n, 0.1);
+  EXPECT_LT(max_force_n, 0.02 * 20.5 * 2.0 * std::hypot(1.0, 0.2));
   EXPECT_EQ(live.status().guard, GuardState::engaged);
 }
 
 TEST(LiveLoop, DeviceReceivesOnlyTheGuardedForce) {
-  // In the clay long before the force is earned.
+  // In the clay long before the force has ramped up.
   const HandAt late = press_to(2.0);
   VirtualThrow live(rib_scene(), one_to_one(), [=](double t) { return late(t + 2.0); });
-  double most_n = 0.0;
+  double max_force_n = 0.0;
   for (int i = 0; i < 1800; ++i) {
     live.tick();
     ASSERT_LT(glm::distance(live.model->force_n(), live.status().force_n), 0.05) << i;
-    most_n = std::max(most_n, glm::length(live.model->force_n()));
-    ASSERT_LE(most_n, live.status().force_gain * 0.9 + 0.05)
+    max_force_n = std::max(max_force_n, glm::length(live.model->force_n()));
+    ASSERT_LE(max_force_n, live.status().force_gain * 0.9 + 0.05)
         << "0.02 N/mm2, 20.5 mm, 2 mm; friction";
   }
-  EXPECT_GT(most_n, 0.1);
+  EXPECT_GT(max_force_n, 0.1);
 }
 
-// In at a fifth of the force, out at all of it: that is more than the hand put in, and the
-// controller, which damps what it sees given, has to know of the ramp.
+// In at a fifth of the force, out at the full force: the hand gets more energy than it gave. The
+// controller must know of the ramp to damp it.
 TEST(LiveLoop, PassivityControllerCountsARampDuringContact) {
   SceneSpec scene = rib_scene();
   scene.removal.rate_per_s = 1e-9;
   scene.force->friction = 0.0;
-  const auto damped_when_in_at = [&](double in_s) {
+  const auto damped_ticks_entering_at = [&](double in_s) {
     const HandAt in_and_out = [=](double t) {
-      const double way = std::clamp(std::min(t - in_s, in_s + 3.0 - t) / 0.4, 0.0, 1.0);
-      return glm::dvec3(2.0 - 7.0 * way, 0.0, 0.0);
+      const double part = std::clamp(std::min(t - in_s, in_s + 3.0 - t) / 0.4, 0.0, 1.0);
+      return glm::dvec3(2.0 - 7.0 * part, 0.0, 0.0);
     };
     VirtualThrow live(scene, one_to_one(), in_and_out);
     live.run(in_s + 4.0);
@@ -100,8 +100,9 @@ TEST(LiveLoop, PassivityControllerCountsARampDuringContact) {
               0u);
     return live.loop->events().damped;
   };
-  EXPECT_GT(damped_when_in_at(0.3), 0u);
-  EXPECT_EQ(damped_when_in_at(2.5), 0u) << "with the ramp behind it the spring gives what it took";
+  EXPECT_GT(damped_ticks_entering_at(0.3), 0u);
+  EXPECT_EQ(damped_ticks_entering_at(2.5), 0u)
+      << "after the ramp the spring returns only what it took";
 }
 
 TEST(LiveLoop, AllocatesNothing) {
@@ -114,7 +115,7 @@ TEST(LiveLoop, AllocatesNothing) {
 }
 
 TEST(LiveLoop, ForceHasTheStiffnessOfTheMapping) {
-  // A clay that does not give way: what the hand feels is the spring alone.
+  // The clay does not yield, so the force is that of the spring alone.
   SceneSpec scene = rib_scene();
   scene.removal.rate_per_s = 1e-9;
   scene.force->friction = 0.0;
@@ -122,20 +123,20 @@ TEST(LiveLoop, ForceHasTheStiffnessOfTheMapping) {
     LiveSettings settings = one_to_one();
     settings.mapping.scale = scale;
     settings.mapping.force_gain = gain;
-    double felt_n[2] = {};
+    double sent_n[2] = {};
     for (const double depth : {0.5, 1.0}) {
       VirtualThrow live(scene, settings, press_to(depth));
       live.run(3.5);
-      felt_n[depth > 0.6 ? 1 : 0] = live.status().force_n.x;
+      sent_n[depth > 0.6 ? 1 : 0] = live.status().force_n.x;
     }
-    const double stiffness = (felt_n[1] - felt_n[0]) / 0.5;
+    const double stiffness = (sent_n[1] - sent_n[0]) / 0.5;
     const double rings = 41.0, mapped = gain == 0.0 ? 1.0 : gain * scale;
-    // An encoder step is 0.05 mm: of 0.5 mm, a tenth.
+    // An encoder step, 0.05 mm, is a tenth of 0.5 mm.
     EXPECT_NEAR(stiffness, mapped * 0.02 * 0.5 * rings, 0.15 * stiffness) << scale << " " << gain;
   }
 }
 
-TEST(LiveLoop, ClutchMovesTheHandButNotTheTool) {
+TEST(LiveLoop, ClutchDecouplesTheToolFromTheHand) {
   VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
   live.run(3.2);
   ASSERT_GT(glm::length(live.status().force_n), 0.1);
@@ -144,7 +145,7 @@ TEST(LiveLoop, ClutchMovesTheHandButNotTheTool) {
   const double from_s = live.time_s;
   live.hand = [=](double t) { return glm::dvec3(-2.0, 20.0 * (t - from_s), 0.0); };
   live.model->press(kFalconButtons.clutch);
-  live.tick(), live.tick();  // the frame with the button is on its way
+  live.tick(), live.tick();  // the frame with the button is in transit
   const Pot clutched = live.wheel.pot();
   live.run(1.0);
   EXPECT_TRUE(live.status().clutched);
@@ -154,8 +155,8 @@ TEST(LiveLoop, ClutchMovesTheHandButNotTheTool) {
   live.model->press(0);
   live.tick(), live.tick();
   EXPECT_FALSE(live.status().clutched);
-  EXPECT_LT(glm::distance(live.status().tool_mm, tool), 0.2) << "moved on by two ticks at most";
-  EXPECT_EQ(glm::length(live.status().force_n), 0.0) << "it is earned anew";
+  EXPECT_LT(glm::distance(live.status().tool_mm, tool), 0.2) << "moved by at most two ticks";
+  EXPECT_EQ(glm::length(live.status().force_n), 0.0) << "the ramp starts again";
   EXPECT_NE(live.status().guard, GuardState::engaged);
 }
 
@@ -164,7 +165,7 @@ TEST(LiveLoop, PausesAndEndsByCommand) {
   live.run(3.2);
   ASSERT_TRUE(live.commands.push({CommandKind::pause, 1.0}));
   live.tick();
-  EXPECT_EQ(glm::length(live.status().force_n), 0.0) << "in the very tick";
+  EXPECT_EQ(glm::length(live.status().force_n), 0.0) << "in the same tick";
   const Pot paused = live.wheel.pot();
   live.run(0.2);
   EXPECT_EQ(live.wheel.pot(), paused);
@@ -181,20 +182,20 @@ TEST(LiveLoop, ZeroesAndRestoresTheForceByCommand) {
   ASSERT_GT(glm::length(live.status().force_n), 0.1);
   ASSERT_TRUE(live.commands.push({CommandKind::zero, 0.0}));
   live.tick();
-  EXPECT_EQ(glm::length(live.status().force_n), 0.0) << "in the very tick";
+  EXPECT_EQ(glm::length(live.status().force_n), 0.0) << "in the same tick";
   const Pot before = live.wheel.pot();
   live.run(3.0);
-  EXPECT_EQ(glm::length(live.status().force_n), 0.0) << "and for good";
+  EXPECT_EQ(glm::length(live.status().force_n), 0.0) << "until a rearm";
   EXPECT_EQ(live.status().cause, falcon::SafeCause::paused);
   EXPECT_EQ(live.wheel.pot(), before);
   ASSERT_TRUE(live.commands.push({CommandKind::rearm, 0.0}));
   live.tick();
   EXPECT_NE(live.status().guard, GuardState::safe);
-  // Off the clay, and then in again.
+  // Off the clay, then in again.
   live.hand = [from_s = live.time_s](double t) { return press_to(4.0)(t - from_s); };
   live.run(3.2);
   EXPECT_GT(glm::length(live.status().force_n), 0.1);
-  // The last of the two counts.
+  // The later command wins.
   ASSERT_TRUE(live.commands.push({CommandKind::rearm, 0.0}));
   ASSERT_TRUE(live.commands.push({CommandKind::zero, 0.0}));
   live.tick();
@@ -202,24 +203,24 @@ TEST(LiveLoop, ZeroesAndRestoresTheForceByCommand) {
 }
 
 TEST(LiveLoop, StopsWaitingForHomingIfSecondsAreSet) {
-  falcon::FalconModelSettings never = VirtualThrow::homed();
-  never.homed = false;
-  never.homing_frames = 1 << 30;
+  falcon::FalconModelSettings unhomed = VirtualThrow::homed();
+  unhomed.homed = false;
+  unhomed.homing_frames = 1 << 30;
   LiveSettings settings = one_to_one();
   settings.seconds = 2.0;
-  VirtualThrow live(rib_scene(), settings, press_to(2.0), nullptr, never);
-  EXPECT_EQ(live.run(59.9), Ending::none) << "a hand takes its time";
+  VirtualThrow live(rib_scene(), settings, press_to(2.0), nullptr, unhomed);
+  EXPECT_EQ(live.run(59.9), Ending::none) << "homing by hand takes time";
   EXPECT_EQ(live.run(1.0), Ending::time_up);
   EXPECT_EQ(live.status().poses, 0u);
   EXPECT_EQ(live.status().device, falcon::DeviceState::needs_homing);
 
   settings.seconds = 0.0;
-  VirtualThrow patient(rib_scene(), settings, press_to(2.0), nullptr, never);
-  EXPECT_EQ(patient.run(200.0), Ending::none);
+  VirtualThrow unlimited(rib_scene(), settings, press_to(2.0), nullptr, unhomed);
+  EXPECT_EQ(unlimited.run(200.0), Ending::none);
 
   settings.seconds = 90.0;
-  VirtualThrow longer(rib_scene(), settings, press_to(2.0), nullptr, never);
-  EXPECT_EQ(longer.run(89.9), Ending::none) << "never sooner than asked for";
+  VirtualThrow longer(rib_scene(), settings, press_to(2.0), nullptr, unhomed);
+  EXPECT_EQ(longer.run(89.9), Ending::none) << "not before the requested time";
   EXPECT_EQ(longer.run(1.0), Ending::time_up);
 }
 
@@ -233,12 +234,12 @@ TEST(LiveLoop, SecondsCountDuringAPause) {
   EXPECT_EQ(live.run(0.2), Ending::time_up);
 }
 
-TEST(LiveLoop, ClayRateDeformsLessOftenAndRendersForceInBetween) {
+TEST(LiveLoop, ReducedClayRateKeepsTheForceRate) {
   LiveSettings settings = one_to_one();
   settings.clay_rate_hz = 50.0;
   const test::ScratchFolder folder;
   const auto recorder = Recorder::create(folder.file("s.session"), "rib", 0).value();
-  // 16 mm/s: an encoder's step in three ticks or less.
+  // 16 mm/s: at most three ticks per encoder step.
   VirtualThrow live(rib_scene(), settings, press_to(6.0), recorder.get());
   live.run(2.65);
   int changed = 0, deformed = 0;
@@ -251,7 +252,7 @@ TEST(LiveLoop, ClayRateDeformsLessOftenAndRendersForceInBetween) {
     changed += !moved && live.status().force_n != force;
   }
   EXPECT_NEAR(deformed, 300 / 20, 1);
-  EXPECT_GT(changed, 100) << "the force follows the hand between the clay's steps";
+  EXPECT_GT(changed, 100) << "the force follows the hand between steps of the clay";
   ASSERT_TRUE(recorder->finish());
   const auto poses = parse_session(test::read_text(folder.file("s.session")), "s").value().poses;
   EXPECT_EQ(poses.size(), live.status().poses);
@@ -263,16 +264,16 @@ TEST(LiveLoop, ClayRateDeformsLessOftenAndRendersForceInBetween) {
 TEST(LiveLoop, EndsAfterTheRequestedSecondsAndOnACollapse) {
   LiveSettings settings = one_to_one();
   settings.seconds = 1.0;
-  VirtualThrow brief(rib_scene(), settings, press_to(2.0));
-  EXPECT_EQ(brief.run(5.0), Ending::time_up);
-  EXPECT_NEAR(brief.status().time_s, 1.0, 0.002);
+  VirtualThrow short_throw(rib_scene(), settings, press_to(2.0));
+  EXPECT_EQ(short_throw.run(5.0), Ending::time_up);
+  EXPECT_NEAR(short_throw.status().time_s, 1.0, 0.002);
 
   SceneSpec scene = sample_scene("collapse");
   const auto path = hand_path(sample_stroke("collapse"), Mapping::build({}).value());
-  VirtualThrow falls(scene, {}, path);
-  EXPECT_EQ(falls.run(60.0), Ending::collapsed);
-  EXPECT_TRUE(falls.wheel.pot().collapse.has_value());
-  EXPECT_EQ(glm::length(falls.status().force_n), 0.0);
+  VirtualThrow collapsing(scene, {}, path);
+  EXPECT_EQ(collapsing.run(60.0), Ending::collapsed);
+  EXPECT_TRUE(collapsing.wheel.pot().collapse.has_value());
+  EXPECT_EQ(glm::length(collapsing.status().force_n), 0.0);
 }
 
 TEST(LiveLoop, ProvidesTheOutlineOfTheClay) {
@@ -285,7 +286,7 @@ TEST(LiveLoop, ProvidesTheOutlineOfTheClay) {
   ASSERT_EQ(profile.size, rings.size());
   for (std::size_t i = 0; i < rings.size(); ++i)
     EXPECT_FLOAT_EQ(profile.rows[i].outer_mm, static_cast<float>(rings[i].outer_mm()));
-  EXPECT_LT(profile.rows[60].outer_mm, 40.0f) << "pressed in the middle";
+  EXPECT_LT(profile.rows[60].outer_mm, 40.0f) << "pressed in at mid-height";
 }
 
 }  // namespace

@@ -30,31 +30,31 @@ MappingSettings any_settings() {
   return s;
 }
 
-RC_GTEST_PROP(Mapping, GoesThereAndBack, ()) {
+RC_GTEST_PROP(Mapping, ToDeviceInvertsToClay, ()) {
   const Mapping mapping = Mapping::build(any_settings()).value();
   const glm::dvec3 at = any_vector(50.0);
   RC_ASSERT(glm::distance(mapping.to_device(mapping.to_clay(at)), at) < 1e-11);
 }
 
-RC_GTEST_PROP(Mapping, ForcesDoTheStatedShareOfTheToolsWork, ()) {
+RC_GTEST_PROP(Mapping, ForcesDoTheStatedShareOfTheWorkOfTheTool, ()) {
   const MappingSettings s = any_settings();
   const Mapping mapping = Mapping::build(s).value();
-  const glm::dvec3 at = any_vector(50.0), way = any_vector(1.0), force = any_vector(5.0);
-  const double tool = glm::dot(force, mapping.to_clay(at + way) - mapping.to_clay(at));
-  const double hand = glm::dot(mapping.force_to_device(force), way);
+  const glm::dvec3 at = any_vector(50.0), motion = any_vector(1.0), force = any_vector(5.0);
+  const double tool = glm::dot(force, mapping.to_clay(at + motion) - mapping.to_clay(at));
+  const double hand = glm::dot(mapping.force_to_device(force), motion);
   RC_ASSERT(std::abs(hand - s.force_gain / s.scale * tool) < 1e-9);
 }
 
-RC_GTEST_PROP(Mapping, TheClutchLeavesTheToolWhereItIs, ()) {
+RC_GTEST_PROP(Mapping, ClutchLeavesTheToolInPlace, ()) {
   Mapping mapping = Mapping::build(any_settings()).value();
-  const glm::dvec3 tool = any_vector(100.0), hand = any_vector(50.0), way = any_vector(5.0);
-  const glm::dvec3 before = mapping.to_clay(hand + way) - mapping.to_clay(hand);
+  const glm::dvec3 tool = any_vector(100.0), hand = any_vector(50.0), motion = any_vector(5.0);
+  const glm::dvec3 before = mapping.to_clay(hand + motion) - mapping.to_clay(hand);
   mapping.recentre(hand, tool);
   RC_ASSERT(glm::distance(mapping.to_clay(hand), tool) < 1e-11);
-  RC_ASSERT(glm::distance(mapping.to_clay(hand + way) - tool, before) < 1e-11);
+  RC_ASSERT(glm::distance(mapping.to_clay(hand + motion) - tool, before) < 1e-11);
 }
 
-TEST(Mapping, ByDefaultAFalconReachesAPotOf150Mm) {
+TEST(Mapping, DefaultLetsAFalconReachAPotOf150Mm) {
   const Mapping mapping = Mapping::build({}).value();
   EXPECT_LE(mapping.to_clay({0, -48, 0}).y, 0.0);
   EXPECT_GE(mapping.to_clay({0, 48, 0}).y, 150.0);
@@ -62,7 +62,7 @@ TEST(Mapping, ByDefaultAFalconReachesAPotOf150Mm) {
   EXPECT_DOUBLE_EQ(mapping.stiffness_gain(), 1.0);
 }
 
-TEST(Mapping, HandsWorkOnTheChosenSide) {
+TEST(Mapping, MapsToTheChosenSide) {
   EXPECT_EQ(Mapping::build({.side = Side::right})->to_clay({}), glm::dvec3(60, 75, 0));
   EXPECT_EQ(Mapping::build({.side = Side::left})->to_clay({}), glm::dvec3(-60, 75, 0));
   EXPECT_EQ(Mapping::build({.side = Side::front})->to_clay({}), glm::dvec3(0, 75, 60));
@@ -82,23 +82,23 @@ TEST(Mapping, RefusesUnusableSettings) {
   EXPECT_FALSE(Mapping::build({.reach_mm = -1.0}));
 }
 
-// Friction that drives the hand at 1 m/s gives 1 J a second. As a spring force it is damped.
-TEST(HandForce, OnlyTheSpringIsMadePassive) {
+// Friction of 1 N at 1 m/s injects 1 J per second. As a spring force it is damped.
+TEST(HandForce, PassivityAppliesOnlyToTheSpring) {
   const Mapping mapping = Mapping::build({.scale = 1.0}).value();
-  const auto most_removed_n = [&](bool as_spring) {
+  const auto max_removed_n = [&](bool as_spring) {
     HandForce hand(falcon::PassivityController::build({.loop = {}, .step_mm = 0.05}).value());
-    double most = 0.0;
+    double max_n = 0.0;
     for (int k = 0; k < 100; ++k) {
       StepReport clay;
       (as_spring ? clay.spring_n : clay.friction_n) = {0.0, 0.0, 1.0};
       const auto wanted = hand.answer(1000 * k, {0.0, 0.0, 1.0 * k}, mapping, clay);
-      most = std::max(most, glm::distance(wanted.force_n, {0.0, 0.0, 1.0}));
+      max_n = std::max(max_n, glm::distance(wanted.force_n, {0.0, 0.0, 1.0}));
       hand.displayed(wanted.force_n);
     }
-    return most;
+    return max_n;
   };
-  EXPECT_EQ(most_removed_n(false), 0.0);
-  EXPECT_GT(most_removed_n(true), 0.5);
+  EXPECT_EQ(max_removed_n(false), 0.0);
+  EXPECT_GT(max_removed_n(true), 0.5);
 }
 
 TEST(Controls, ButtonsHoldAndStep) {
@@ -111,7 +111,7 @@ TEST(Controls, ButtonsHoldAndStep) {
   EXPECT_TRUE(controls.trim());
   EXPECT_EQ(controls.gap_mm(), 5.5);
   controls.update(0, 1, commands);
-  EXPECT_EQ(controls.gap_mm(), 5.5) << "once a press";
+  EXPECT_EQ(controls.gap_mm(), 5.5) << "one step per press";
   controls.update(0, 0, commands);
   for (int i = 0; i < 20; ++i) {
     controls.update(0, 8, commands);
@@ -123,7 +123,7 @@ TEST(Controls, ButtonsHoldAndStep) {
 TEST(Controls, HeldButtonRepeats) {
   Commands commands;
   Controls controls(kFalconButtons, true, 5.0);
-  // Pressed at 1 s and held for 1 s: the press, one step at 0.4 s and twelve of 50 ms after that.
+  // Pressed at 1 s and held for 1 s: a step for the press, one after 0.4 s, then twelve at 50 ms.
   for (std::int64_t us = 1'000'000; us <= 2'000'000; us += 1000) controls.update(us, 1, commands);
   EXPECT_DOUBLE_EQ(controls.gap_mm(), 5.0 + kGapStepMm * (1 + 1 + 12));
   controls.update(2'001'000, 0, commands);
@@ -134,7 +134,7 @@ TEST(Controls, HeldButtonRepeats) {
 TEST(Controls, CommandsHoldUntilReleased) {
   Commands commands;
   Controls controls(kTwoButtons, false, 5.0);
-  EXPECT_EQ(controls.gap_mm(), 0.0) << "the scene lets no pose pinch";
+  EXPECT_EQ(controls.gap_mm(), 0.0) << "the scene does not allow a pinch";
   ASSERT_TRUE(commands.push({CommandKind::clutch, 1.0}));
   ASSERT_TRUE(commands.push({CommandKind::trim, 1.0}));
   ASSERT_TRUE(commands.push({CommandKind::gap, 3.0}));

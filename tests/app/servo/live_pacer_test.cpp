@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::int64_t kPeriodNs = 1'000'000;
 
-/// Wakes late by what it is told.
-class SleepyClock final : public Clock {
+/// Wakes late by `late`.
+class LateClock final : public Clock {
  public:
   std::int64_t now_ns() noexcept override { return now; }
   void sleep_until_ns(std::int64_t time_ns) noexcept override {
@@ -21,8 +21,8 @@ class SleepyClock final : public Clock {
   std::int64_t now = 0, late = 0;
 };
 
-RC_GTEST_PROP(Pacer, LatenessDoesNotAddUp, ()) {
-  SleepyClock clock;
+RC_GTEST_PROP(Pacer, DelaysDoNotAccumulate, ()) {
+  LateClock clock;
   Pacer pacer(kPeriodNs);
   pacer.start(0);
   for (std::int64_t tick = 0; tick < 100; ++tick) {
@@ -34,7 +34,7 @@ RC_GTEST_PROP(Pacer, LatenessDoesNotAddUp, ()) {
 }
 
 TEST(Pacer, DoesNotRepeatMissedTicks) {
-  SleepyClock clock;
+  LateClock clock;
   Pacer pacer(kPeriodNs);
   pacer.start(0);
   (void)pacer.wait(clock);
@@ -50,7 +50,7 @@ TEST(Pacer, DoesNotRepeatMissedTicks) {
   }
 }
 
-TEST(MonotonicClock, NeverWakesEarlyAndReportsTheDelay) {
+TEST(MonotonicClock, NeverWakesEarlyAndReportsItsDelay) {
   MonotonicClock clock;
   for (int i = 0; i < 200; ++i) {
     const std::int64_t due_ns = clock.now_ns() + 300'000;
@@ -58,24 +58,25 @@ TEST(MonotonicClock, NeverWakesEarlyAndReportsTheDelay) {
     const std::int64_t woke_ns = clock.now_ns();
     ASSERT_GE(woke_ns, due_ns);
     ASSERT_GE(overslept_ns, 0);
-    // It slept until at most so long before, and was late by no more than what there is now.
+    // It sleeps until at most kLongestLookNs early and then polls; the delay counts from there.
     ASSERT_LE(overslept_ns, woke_ns - due_ns + MonotonicClock::kLongestLookNs);
   }
   const std::int64_t past_ns = clock.now_ns() - 1;
   EXPECT_EQ(clock.wake_at_ns(past_ns), 0);
 }
 
-TEST(Pacer, SlowerDeviceSetsThePace) {
-  SleepyClock clock;
+TEST(Pacer, FollowsASlowerDevice) {
+  LateClock clock;
   Pacer pacer(kPeriodNs);
   pacer.start(0);
   const std::int64_t answer_ns = 1'040'000;
   for (int tick = 0; tick < 100; ++tick) {
-    const std::int64_t asked = clock.now;
+    const std::int64_t requested_ns = clock.now;
     (void)pacer.wait(clock);
-    EXPECT_LE(clock.now, asked + answer_ns) << "before its answer";
-    EXPECT_GE(1000 * pacer.patience_us(clock.now), asked + answer_ns - clock.now) << "and to it";
-    clock.now = asked + answer_ns;
+    EXPECT_LE(clock.now, requested_ns + answer_ns) << "later than the answer";
+    EXPECT_GE(1000 * pacer.patience_us(clock.now), requested_ns + answer_ns - clock.now)
+        << "it waits until the answer";
+    clock.now = requested_ns + answer_ns;
     pacer.sampled(clock.now);
   }
 }

@@ -1,5 +1,5 @@
-// The simulated hand, as `throw --device simulated` has it, on a virtual clock: what it throws is
-// the pot of the session that it plays.
+// The simulated hand of `throw --device simulated` on a virtual clock. It must throw the pot of the
+// session that it plays.
 
 #include "tests/app/servo/live_bench.hpp"
 
@@ -18,7 +18,7 @@ constexpr double kEncoderStepMm = 0.05;  // in the middle of the workspace
 
 double scale_of(const std::string& name) { return fitted({}, sample_stroke(name), kReachMm).scale; }
 
-/// A sample of clay that gives way at once: it holds no hand back from the session's way.
+/// A sample whose clay yields at once, so that it does not hold the hand back.
 SceneSpec soft_scene(const std::string& name) {
   SceneSpec scene = sample_scene(name);
   scene.removal.yield_depth_mm = 0.25;
@@ -57,8 +57,8 @@ Wheel replayed(const std::string& name) {
   return wheel;
 }
 
-/// Root mean square over the rings that both have, of the outer and the inner radius.
-double apart_mm(const Wheel& a, const Wheel& b) {
+/// Root mean square difference of the outer and inner radii of the rings that both have.
+double difference_mm(const Wheel& a, const Wheel& b) {
   const auto rings_a = a.stack().rings(), rings_b = b.stack().rings();
   const std::size_t size = std::min(rings_a.size(), rings_b.size());
   double sum = 0.0;
@@ -68,19 +68,19 @@ double apart_mm(const Wheel& a, const Wheel& b) {
   return std::sqrt(sum / (2.0 * static_cast<double>(size)));
 }
 
-TEST(SimulatedPotter, ThrowsAPotLikeTheOneOfTheSession) {
-  // Vase and cylinder are trimmed, the cylinder is pinched too.
+TEST(SimulatedPotter, ThrowsThePotOfTheSession) {
+  // The vase and the cylinder are trimmed; the cylinder is also pinched.
   for (const char* name : {"bowl", "vase", "bottle", "cylinder"}) {
     const Wheel live = thrown(name), recorded = replayed(name);
-    EXPECT_LT(apart_mm(live, recorded), 1.0) << name;
+    EXPECT_LT(difference_mm(live, recorded), 1.0) << name;
     EXPECT_NEAR(live.stack().height_mm(), recorded.stack().height_mm(),
                 0.02 * recorded.stack().height_mm())
         << name;
     const auto trimmed = [](const Wheel& wheel) {
       return wheel.stack().mm3_per_quantum() * static_cast<double>(wheel.ledger().trimmed);
     };
-    // A tool whose place is known to a step cuts a skin of a step more, or less, and so did the
-    // strokes before it; the trimmed foot of either pot is 50 mm wide and 41 mm high at most.
+    // An encoder step in the tool position changes the cut by a skin one step thick, and so do the
+    // earlier strokes. The trimmed foot of either pot has at most 50 mm radius and 41 mm height.
     const double skin_mm3 =
         2.0 * kEncoderStepMm * scale_of(name) * 2.0 * std::numbers::pi * 50.0 * 41.0;
     EXPECT_NEAR(trimmed(live), trimmed(recorded), trimmed(recorded) > 0.0 ? skin_mm3 : 0.0) << name;
@@ -88,7 +88,7 @@ TEST(SimulatedPotter, ThrowsAPotLikeTheOneOfTheSession) {
   }
 }
 
-TEST(SimulatedPotter, RepeatsButtonAndGapOfTheSession) {
+TEST(SimulatedPotter, PlaysButtonAndGapOfTheSession) {
   const std::vector<Pose> poses = {{0, {60, 50, 0}, false, 0.0},
                                    {10'000, {60, 50, 0}, true, 0.0},
                                    {20'000, {60, 50, 0}, true, 12.5},
@@ -116,7 +116,7 @@ TEST(SimulatedPotter, KeepsTheWholeStrokeWithinReach) {
   }
   EXPECT_EQ(fitted({}, {}, kReachMm), MappingSettings{});
   const std::vector<Pose> small = {{0, {59, 74, 0}}, {1000, {61, 76, 0}}};
-  EXPECT_EQ(fitted({}, small, kReachMm), MappingSettings{}) << "the usual mapping will do";
+  EXPECT_EQ(fitted({}, small, kReachMm), MappingSettings{}) << "the default mapping is enough";
 }
 
 }  // namespace

@@ -22,7 +22,7 @@
 namespace clay::servo {
 namespace {
 
-/// A tool on its way: what a hand does in a millisecond.
+/// A pose on the path of a moving tool.
 Pose pose_at(std::int64_t time_us) {
   const double t = 1e-6 * static_cast<double>(time_us);
   return quantized({time_us, {50.0 + 10.0 * std::sin(3.0 * t), 20.0 * t, 0.0}, false, 0.0});
@@ -51,7 +51,7 @@ TEST(Recorder, WritesAllPoses) {
 
 TEST(Recorder, KeepsTheOldSessionUntilTheNewOneIsComplete) {
   const test::ScratchFolder folder;
-  const std::string path = folder.file("s.session"), aside = path + ".recording";
+  const std::string path = folder.file("s.session"), temporary = path + ".recording";
   test::write_text(path, "the old one");
   std::filesystem::permissions(path, std::filesystem::perms(0640));
   auto recorder = Recorder::create(path, "a scene", 0).value();
@@ -60,20 +60,20 @@ TEST(Recorder, KeepsTheOldSessionUntilTheNewOneIsComplete) {
   ASSERT_TRUE(recorder->finish());
   EXPECT_EQ(session_of(path).poses.size(), 1u);
   EXPECT_EQ(std::filesystem::status(path).permissions(), std::filesystem::perms(0640));
-  EXPECT_FALSE(std::filesystem::exists(aside));
+  EXPECT_FALSE(std::filesystem::exists(temporary));
 }
 
-TEST(Recorder, WithoutAPoseItReplacesNothingAndLeavesNothing) {
+TEST(Recorder, KeepsTheOldSessionWithoutPoses) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("s.session");
   test::write_text(path, "the old one");
   ASSERT_TRUE(Recorder::create(path, "a scene", 0).value()->finish());
-  Recorder::create(path, "a scene", 0).value().reset();  // given up
+  Recorder::create(path, "a scene", 0).value().reset();  // abandoned
   EXPECT_EQ(test::read_text(path), "the old one");
   EXPECT_FALSE(std::filesystem::exists(path + ".recording"));
 }
 
-TEST(Recorder, OneAtATime) {
+TEST(Recorder, RefusesASecondRecorderOfTheSameFile) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("s.session"), link = folder.file("link.session");
   test::write_text(path, "the old one");
@@ -96,22 +96,22 @@ TEST(Recorder, OneAtATime) {
 
 TEST(Recorder, KeepsAnUnfinishedRecording) {
   const test::ScratchFolder folder;
-  const std::string path = folder.file("s.session"), aside = path + ".recording";
-  const std::string left =
+  const std::string path = folder.file("s.session"), temporary = path + ".recording";
+  const std::string unfinished =
       session_header("a scene", 0) + session_block(std::vector<Pose>{pose_at(0)});
-  test::write_text(aside, left);
+  test::write_text(temporary, unfinished);
   const auto refused = Recorder::create(path, "a scene", 0);
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message.find(aside + ": holds an unfinished recording"),
+  EXPECT_NE(refused.error().message.find(temporary + ": holds an unfinished recording"),
             std::string::npos)
       << refused.error().message;
-  EXPECT_EQ(test::read_text(aside), left);
-  // Without a pose there is nothing to lose.
-  test::write_text(aside, session_header("a scene", 0));
+  EXPECT_EQ(test::read_text(temporary), unfinished);
+  // A recording without poses may be replaced.
+  test::write_text(temporary, session_header("a scene", 0));
   EXPECT_TRUE(Recorder::create(path, "a scene", 0));
 }
 
-TEST(Recorder, OverflowIsReportedAndLeavesNoGap) {
+TEST(Recorder, ReportsOverflowAndLeavesNoGap) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("s.session");
   auto recorder = Recorder::create(path, "a scene", 0).value();
@@ -120,7 +120,7 @@ TEST(Recorder, OverflowIsReportedAndLeavesNoGap) {
   EXPECT_EQ(recorder->lost(), 1u);
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   EXPECT_FALSE(recorder->take(pose_at(1000 * (i + 1)), false))
-      << "there is room again, but a hole before";
+      << "there is room again, but a pose is missing before";
   ASSERT_TRUE(recorder->finish());
   EXPECT_EQ(recorder->lost(), 2u);
   const Session session = session_of(path);
@@ -128,7 +128,7 @@ TEST(Recorder, OverflowIsReportedAndLeavesNoGap) {
   EXPECT_EQ(session.poses.back(), pose_at(1000 * (i - 1)));
 }
 
-TEST(Recorder, FullDiskIsReportedAtTheEndAndTheBeginningIsValid) {
+TEST(Recorder, ReportsAFullDiskAndKeepsAValidBeginning) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("s.session");
   std::signal(SIGXFSZ, SIG_IGN);
@@ -159,7 +159,7 @@ TEST(Recorder, RefusesAFileThatCannotBeWritten) {
   }
 }
 
-/// A recorder that is killed: how much of what it took is not in the file [us].
+/// Kills a recorder; `lost_us` is how much of the accepted time is missing in the file [us].
 void kill_one(std::int64_t& lost_us) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("s.session");
@@ -169,7 +169,7 @@ void kill_one(std::int64_t& lost_us) {
   Time* taken_us = new (shared) Time(0);
   const pid_t child = fork();
   if (child == 0) {
-    alarm(60);  // no orphan, whatever befalls the parent
+    alarm(60);  // leaves no orphan if the parent dies
     auto recorder = Recorder::create(path, "a scene", 0).value();
     const std::int64_t start_us = falcon::monotonic_us();
     for (std::int64_t last_us = 0;;) {
@@ -190,15 +190,15 @@ void kill_one(std::int64_t& lost_us) {
   munmap(shared, sizeof(Time));
 }
 
-/// It is bounded by how often the recorder looks, not by this machine: where that is busy, one of
-/// several times it must be seen to hold.
+/// The recorder's interval sets the bound. A busy machine may exceed it, so one of several attempts
+/// must meet it.
 TEST(Recorder, LosesAtMostTheLast100MsWhenKilled) {
   std::int64_t lost_us = 0;
   const auto loses_little = [&] {
     kill_one(lost_us);
     return lost_us <= 100'000 || HasFailure();
   };
-  test::wait_until(loses_little, test::kDeadline, "a recorder that loses no more than 100 ms");
+  test::wait_until(loses_little, test::kDeadline, "a recorder that loses at most 100 ms");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Servo, watchdog and readers as threads. No limits in time but deadlines: a machine may be busy.
+// Servo, watchdog and readers as threads. Nothing is timed, because the machine may be busy.
 
 #include "app/servo/servo.hpp"
 #include "app/servo/signals.hpp"
@@ -26,11 +26,11 @@ void wait_until(Condition condition, const std::string& what) {
   test::wait_until(condition, test::kDeadline, what);
 }
 
-/// Force comes soon: after a ramp of a tenth of a second.
+/// The force ramps up in 0.1 s.
 LiveSettings quick() {
   LiveSettings settings = one_to_one();
   settings.guard.ramp_s = 0.1;
-  // A busy machine's late ticks are not what is tested here.
+  // Late ticks of a busy machine should not matter here.
   settings.guard.safe_rest_s = 0.01;
   return settings;
 }
@@ -41,14 +41,14 @@ struct Threads {
       : log(wire), device(wire), loop(ServoLoop::build(bench(), quick()).value()) {
     servo.start();
   }
-  /// A servo that hangs does not end.
+  /// A hanging servo would not end.
   ~Threads() { log.hang = false; }
   Threads(const Threads&) = delete;
   Threads& operator=(const Threads&) = delete;
 
   Bench bench() { return {wheel, device, clock, nullptr}; }
   void wait_for_force() {
-    wait_until([&] { return log.last_n > 0.0; }, "a force");
+    wait_until([&] { return log.last_force_n > 0.0; }, "a force");
   }
   void wait_for_writes(std::uint64_t more) {
     wait_until([&, end = log.writes + more] { return log.writes > end; }, "forces to be written");
@@ -74,29 +74,29 @@ TEST(Servo, EndsByCommandWithAFinalStop) {
   EXPECT_EQ(threads.stop(), Ending::stopped);
   EXPECT_FALSE(threads.servo.running());
   EXPECT_EQ(log.stops, 1u);
-  EXPECT_EQ(log.last_n, 0.0);
+  EXPECT_EQ(log.last_force_n, 0.0);
   EXPECT_EQ(threads.loop.timing().ticks, log.writes);
   EXPECT_EQ(threads.loop.timing().lateness.count(), threads.loop.timing().ticks);
 }
 
-TEST(Servo, ItsDestructorEndsTheForceToo) {
+TEST(Servo, DestructorEndsTheForce) {
   WireLog log;
   {
     Threads threads(log);
     threads.wait_for_force();
   }
   EXPECT_EQ(log.stops, 1u);
-  EXPECT_EQ(log.last_n, 0.0);
+  EXPECT_EQ(log.last_force_n, 0.0);
 }
 
-TEST(Servo, WatchdogEndsTheForceOfAHangAndItRampsUpAgain) {
+TEST(Servo, WatchdogEndsTheForceDuringAHang) {
   WireLog log;
   Threads threads(log);
   threads.wait_for_force();
   const std::uint64_t zeros = log.zeros;
   log.hang = true;
   wait_until([&] { return log.zeros > zeros; }, "the watchdog to end the force");
-  EXPECT_EQ(log.last_n, 0.0) << "nobody writes a force meanwhile";
+  EXPECT_EQ(log.last_force_n, 0.0) << "a force was written during the hang";
   log.hang = false;
   threads.wait_for_writes(20);
   EXPECT_EQ(threads.stop(), Ending::stopped);
@@ -127,14 +127,14 @@ TEST(Servo, ReadersGetCompleteValuesInOrder) {
   EXPECT_EQ(threads.stop(), Ending::stopped);
 }
 
-TEST(Servo, AnUnpluggedDeviceEndsIt) {
+TEST(Servo, UnpluggingEndsTheServo) {
   WireLog log;
   Threads threads(log);
   threads.wait_for_force();
   log.gone = true;
   EXPECT_EQ(threads.end(), Ending::device_lost);
-  EXPECT_EQ(log.last_n, 0.0);
-  // As after a reconnection: another servo, the same loop and wheel.
+  EXPECT_EQ(log.last_force_n, 0.0);
+  // After a reconnection: another servo with the same loop and wheel.
   log.gone = false;
   const std::uint64_t poses = threads.loop.status().poses;
   Servo again(threads.bench(), threads.loop, Pace::thread);
@@ -156,7 +156,7 @@ TEST(Servo, ReportsMissingRealTime) {
   munlockall();
 }
 
-TEST(Servo, TheHandlerItselfWritesZeroWhileTheServoHangs) {
+TEST(Servo, SignalHandlerWritesZeroWhileTheServoHangs) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
     WireLog log;
     const ForceSignals signals;
@@ -165,14 +165,14 @@ TEST(Servo, TheHandlerItselfWritesZeroWhileTheServoHangs) {
     log.hang = true;
     EXPECT_EQ(log.stops, 0u);
     raise(signal);
-    // Handled before it returns, but for the thread sanitizer, which waits for a sleep.
-    wait_until([&] { return log.stops > 0; }, "the handler to tell the device to stop");
-    EXPECT_EQ(log.stops, 1u) << "nobody else tells a device to stop while the servo hangs";
+    // raise() returns after the handler, except under ThreadSanitizer, which defers it to a sleep.
+    wait_until([&] { return log.stops > 0; }, "the handler to stop the device");
+    EXPECT_EQ(log.stops, 1u) << "only the handler stops the device while the servo hangs";
     EXPECT_EQ(ForceSignals::asked_to_stop(), signal);
     log.hang = false;
     (void)threads.servo.command({CommandKind::stop, 0.0});
     EXPECT_EQ(threads.end(), Ending::stopped);
-    EXPECT_EQ(log.last_n, 0.0);
+    EXPECT_EQ(log.last_force_n, 0.0);
   }
 }
 
@@ -186,7 +186,7 @@ TEST(Servo, IgnoresJobControlUnderForce) {
   EXPECT_EQ(threads.stop(), Ending::stopped);
 }
 
-/// A process of its own that throws until this befalls it; how it ended.
+/// Runs a throw in a child process and ends it by an action.
 class LastPacket : public testing::Test {
  protected:
   LastPacket() {
@@ -196,14 +196,15 @@ class LastPacket : public testing::Test {
   }
   ~LastPacket() override { munmap(log_, sizeof(WireLog)); }
 
+  /// The exit status, or 128 + the signal.
   template <class Action>
   int end_by(Action action) {
     const pid_t child = fork();
     if (child == 0) {
       const rlimit no_core{0, 0};
       setrlimit(RLIMIT_CORE, &no_core);
-      alarm(static_cast<unsigned>(test::kDeadline.count()));  // one that does not end is no orphan,
-                                                              // and SIGALRM is its status
+      // A child that hangs ends with SIGALRM.
+      alarm(static_cast<unsigned>(test::kDeadline.count()));
       const ForceSignals signals;
       Threads threads(*log_);
       threads.wait_for_force();
@@ -216,10 +217,10 @@ class LastPacket : public testing::Test {
     return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
   }
 
-  /// Force there was, and the last word is none.
+  /// The force was non-zero before and is zero at the end.
   void expect_no_force() {
-    EXPECT_GT(log_->most_n, 0.0);
-    EXPECT_EQ(log_->last_n, 0.0);
+    EXPECT_GT(log_->max_force_n, 0.0);
+    EXPECT_EQ(log_->last_force_n, 0.0);
     EXPECT_GE(log_->stops, 1u);
   }
 
@@ -235,7 +236,7 @@ TEST_F(LastPacket, IsZeroAfterAStopSignal) {
 }
 
 TEST_F(LastPacket, IsZeroAfterAFatalSignal) {
-  // Every signal of the system that would end it, but for SIGKILL and those that ask.
+  // Every signal that ends a process, except SIGKILL and the stop signals above.
   for (const int signal :
        {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT, SIGTRAP, SIGSYS, SIGXCPU, SIGALRM,
         SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2, SIGSTKFLT, SIGPOLL, SIGPWR}) {

@@ -8,7 +8,7 @@
 namespace clay::servo {
 namespace {
 
-TEST(LiveSettings, NamesASettingOutOfRange) {
+TEST(LiveSettings, ErrorsNameTheSetting) {
   const auto refused = [](auto change) {
     LiveSettings settings;
     change(settings);

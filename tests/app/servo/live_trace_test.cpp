@@ -1,4 +1,4 @@
-// What the servo leaves behind of every tick.
+// The record of each tick of the servo.
 
 #include "tests/app/servo/live_bench.hpp"
 
@@ -26,7 +26,7 @@ TEST(TickTrace, DropsAndCountsSamplesThatDoNotFit) {
   for (std::int64_t i = 0; i < std::int64_t{TickTrace::kRoom}; ++i) {
     const auto sample = trace.take();
     ASSERT_TRUE(sample);
-    ASSERT_EQ(sample->time_ns, i) << "the oldest are kept, in their order";
+    ASSERT_EQ(sample->time_ns, i) << "the oldest are kept, in order";
   }
   EXPECT_FALSE(trace.take());
   trace.add(at(7));
@@ -58,14 +58,14 @@ TEST(TickTrace, PassesCompleteSamplesInOrder) {
 TEST(TickTrace, HasEveryTickOfTheServo) {
   VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
   live.run(3.2);
-  EXPECT_FALSE(live.trace.take()) << "off until it is wanted";
+  EXPECT_FALSE(live.trace.take()) << "off until requested";
   live.trace.want(true);
   std::int64_t last_ns = 0;
   for (int i = 0; i < 100; ++i) {
     live.tick();
     const auto sample = live.trace.take();
     ASSERT_TRUE(sample);
-    EXPECT_FALSE(live.trace.take()) << "one a tick";
+    EXPECT_FALSE(live.trace.take()) << "one sample per tick";
     EXPECT_GT(sample->time_ns, last_ns);
     EXPECT_EQ(sample->clay_n, static_cast<float>(glm::length(live.status().clay_n)));
     EXPECT_EQ(sample->sent_n, static_cast<float>(glm::length(live.status().force_n)));

@@ -1,4 +1,4 @@
-// What a servo does when its wire fails, on a virtual clock: every fault is exact.
+// Wire faults during a throw, on a virtual clock, so that every fault is exactly repeatable.
 
 #include "tests/app/servo/live_bench.hpp"
 
@@ -13,12 +13,12 @@ namespace {
 using falcon::GuardState;
 using falcon::WireFault;
 
-TEST(LiveWire, WithoutFramesTheClayStandsAndTheForceEndsIn10Ms) {
+TEST(LiveWire, WithoutFramesTheClayRestsAndTheForceEndsIn10Ms) {
   VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
   live.run(3.2);
   ASSERT_GT(glm::length(live.status().force_n), 0.1);
   live.fault(WireFault::no_frame, 40);
-  live.tick();  // the answer that was on its way
+  live.tick();  // the answer in transit
   const Pot before = live.wheel.pot();
   const std::int64_t last_us = live.clock.now_us();
   double n = glm::length(live.status().force_n);
@@ -31,7 +31,7 @@ TEST(LiveWire, WithoutFramesTheClayStandsAndTheForceEndsIn10Ms) {
   }
   EXPECT_EQ(n, 0.0);
   live.run(3.0);
-  EXPECT_NE(live.wheel.pot(), before) << "and then it goes on";
+  EXPECT_NE(live.wheel.pot(), before) << "the throw continues afterwards";
 }
 
 TEST(LiveWire, JumpIntoTheClayRemovesNothing) {
@@ -40,7 +40,7 @@ TEST(LiveWire, JumpIntoTheClayRemovesNothing) {
   });
   live.run(2.5);
   EXPECT_GE(live.loop->events().flags[std::countr_zero(unsigned{falcon::kGuardJump})], 1u)
-      << "a jump";
+      << "no jump was detected";
   EXPECT_EQ(live.wheel.pot(), Wheel::build(rib_scene())->pot());
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// A device for tests with threads: it can hang, and remembers what it was told last. All of it is
-// atomic, and may lie in memory that two processes share.
+// A device for tests with threads: it can hang, and logs the last command. The log is atomic, and
+// two processes may share its memory.
 
 #include "claystack/falcon/device.hpp"
 
@@ -13,9 +13,9 @@ namespace clay::servo {
 
 struct WireLog {
   std::atomic<std::uint64_t> writes{0}, zeros{0}, stops{0};
-  std::atomic<double> last_n{0.0};  ///< length of the force told last
-  std::atomic<double> most_n{0.0};
-  std::atomic<bool> hang{false};  ///< reads do not come back
+  std::atomic<double> last_force_n{0.0};  ///< magnitude of the last commanded force
+  std::atomic<double> max_force_n{0.0};
+  std::atomic<bool> hang{false};  ///< reads do not return
   std::atomic<bool> gone{false};  ///< unplugged
 };
 
@@ -38,18 +38,18 @@ class ScriptedDevice final : public falcon::HapticDevice {
     if (stopped_.load()) return;
     const double n =
         std::sqrt(force_n.x * force_n.x + force_n.y * force_n.y + force_n.z * force_n.z);
-    log_.last_n.store(n);
-    if (n > log_.most_n.load()) log_.most_n.store(n);
+    log_.last_force_n.store(n);
+    if (n > log_.max_force_n.load()) log_.max_force_n.store(n);
     ++log_.writes;
-    if (stopped_.load()) log_.last_n.store(0.0);
+    if (stopped_.load()) log_.last_force_n.store(0.0);
   }
   void zero() noexcept override {
-    log_.last_n.store(0.0);
+    log_.last_force_n.store(0.0);
     ++log_.zeros;
   }
   void stop() noexcept override {
     stopped_.store(true);
-    log_.last_n.store(0.0);
+    log_.last_force_n.store(0.0);
     ++log_.stops;
   }
   [[nodiscard]] falcon::DeviceError problem() const override {
@@ -58,8 +58,8 @@ class ScriptedDevice final : public falcon::HapticDevice {
   [[nodiscard]] falcon::DeviceCounters counters() const noexcept override { return {}; }
 
  private:
-  /// Off the clay for a moment, then further and further in: 10 mm/s. Every three seconds off it
-  /// again: where a busy machine held the servo up, its guard waits for that.
+  /// Starts off the clay, then presses in at 10 mm/s. Leaves the clay every three seconds, because
+  /// the guard waits for that after a delay on a busy machine.
   static glm::dvec3 position_mm(double time_s) {
     const double t = std::fmod(time_s, 3.0);
     if (t > 2.5) return {std::fmin(2.0, -20.0 + 100.0 * (t - 2.5)), 0.0, 0.0};

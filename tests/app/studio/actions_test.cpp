@@ -1,4 +1,4 @@
-// Actions on the state of the window, without a window: what each changes, and what is asked first.
+// Actions on the state of the window, without a window: what each changes and when it asks first.
 
 #include "app/studio/app_state.hpp"
 #include "app/studio/commands.hpp"
@@ -26,7 +26,7 @@ using test::small_scene;
 class ActionsTest : public ::testing::Test {
  protected:
   ActionsTest() { apply(state, BeginWork{small_scene(), nullptr, {}}); }
-  /// A stroke, so that there is something to lose.
+  /// A stroke, as an unsaved change.
   void change() {
     auto begun = state.document.begin_stroke(small_scene());
     ASSERT_TRUE(begun);
@@ -42,7 +42,7 @@ class ActionsTest : public ::testing::Test {
   ScratchFolder folder;
 };
 
-TEST_F(ActionsTest, ADialogReplacesTheOneBefore) {
+TEST_F(ActionsTest, ADialogReplacesThePreviousOne) {
   EXPECT_TRUE(state.ui.shows<NoDialog>());
   apply(state, ShowDialog{DialogKind::settings});
   EXPECT_TRUE(state.ui.shows<SettingsDialog>());
@@ -56,7 +56,7 @@ TEST_F(ActionsTest, ADialogReplacesTheOneBefore) {
   EXPECT_TRUE(state.ui.shows<NoDialog>());
 }
 
-TEST_F(ActionsTest, WithoutAWorkTheGalleryStays) {
+TEST_F(ActionsTest, GalleryStaysOpenWithoutAWork) {
   AppState empty{host, Settings{}, [](std::string_view) {}};
   EXPECT_TRUE(empty.ui.shows<GalleryDialog>());
   apply(empty, ShowDialog{DialogKind::shortcuts});
@@ -106,7 +106,7 @@ TEST_F(ActionsTest, SavingRequestsANameAndContinuesOnlyWithAWork) {
   EXPECT_TRUE(state.ui.shows<SaveDialog>()) << "not saved";
   EXPECT_FALSE(state.done);
   apply(state, SaveFile{folder.file("a.pot.json")});
-  EXPECT_FALSE(state.done) << "a pot keeps no strokes";
+  EXPECT_FALSE(state.done) << "a pot file has no strokes";
   apply(state, Quit{});
   apply(state, SaveAndContinue{});
   apply(state, SaveFile{folder.file("a.work")});
@@ -115,7 +115,7 @@ TEST_F(ActionsTest, SavingRequestsANameAndContinuesOnlyWithAWork) {
 
 TEST_F(ActionsTest, SavingOverAnotherFileAsksFirst) {
   const std::string name = folder.file("other.work");
-  test::write_text(name, "someone else's work");
+  test::write_text(name, "another work");
   change();
   apply(state, Quit{});
   apply(state, SaveAndContinue{});
@@ -126,12 +126,12 @@ TEST_F(ActionsTest, SavingOverAnotherFileAsksFirst) {
   apply(state, Back{});
   ASSERT_TRUE(state.ui.shows<SaveDialog>());
   EXPECT_EQ(std::get<SaveDialog>(state.ui.dialog).path, name);
-  EXPECT_EQ(test::read_text(name), "someone else's work");
+  EXPECT_EQ(test::read_text(name), "another work");
   EXPECT_FALSE(state.done);
   apply(state, SaveFile{name});
   apply(state, RunCommand{"replace.confirm"});
   EXPECT_TRUE(history::load(name));
-  EXPECT_TRUE(state.done) << "the question before continues";
+  EXPECT_TRUE(state.done) << "the earlier question continues";
 }
 
 TEST_F(ActionsTest, SavingAgainAsksOnlyIfAnotherProgramChangedTheFile) {
@@ -143,20 +143,20 @@ TEST_F(ActionsTest, SavingAgainAsksOnlyIfAnotherProgramChangedTheFile) {
   apply(state, Save{});
   EXPECT_FALSE(state.document.unsaved());
   test::write_text(name, test::read_text(name) + "\n");
-  const std::string theirs = test::read_text(name);
+  const std::string changed = test::read_text(name);
   change();
   apply(state, Save{});
   ASSERT_TRUE(state.ui.shows<ReplaceDialog>());
   EXPECT_NE(std::get<ReplaceDialog>(state.ui.dialog).question.find("changed by another program"),
             std::string::npos);
-  EXPECT_EQ(test::read_text(name), theirs);
+  EXPECT_EQ(test::read_text(name), changed);
   EXPECT_TRUE(state.document.unsaved());
   apply(state, ReplaceFiles{});
   EXPECT_FALSE(state.document.unsaved());
   EXPECT_TRUE(state.ui.shows<NoDialog>());
 }
 
-TEST_F(ActionsTest, TheDesktopsDialogHasAskedOnlyAboutTheNameItReturns) {
+TEST_F(ActionsTest, DesktopDialogConfirmsOnlyTheNameItReturns) {
   change();
   test::write_text(folder.file("a.work"), "x");
   apply(state, SaveFile{folder.file("a"), true});
@@ -166,7 +166,7 @@ TEST_F(ActionsTest, TheDesktopsDialogHasAskedOnlyAboutTheNameItReturns) {
   EXPECT_FALSE(state.document.unsaved());
 }
 
-TEST_F(ActionsTest, AFailedReplacementReturnsToTheName) {
+TEST_F(ActionsTest, SavingOverAFolderFails) {
   change();
   std::filesystem::create_directory(folder.file("a.work"));
   apply(state, SaveFile{folder.file("a.work")});
@@ -241,7 +241,7 @@ TEST_F(ActionsTest, SavingFromTheMenuDuringTheQuestionDoesNotContinue) {
   EXPECT_FALSE(state.document.unsaved());
 }
 
-TEST_F(ActionsTest, UndoAndRedoAreThoseOfTheDocument) {
+TEST_F(ActionsTest, UndoAndRedoChangeTheDocument) {
   change();
   const auto pot = state.document.shared_pot();
   apply(state, RunCommand{"edit.undo"});
@@ -252,7 +252,7 @@ TEST_F(ActionsTest, UndoAndRedoAreThoseOfTheDocument) {
   EXPECT_NE(log.find("action: edit.undo\n"), std::string::npos);
 }
 
-TEST_F(ActionsTest, SettingsChangeByTheirActions) {
+TEST_F(ActionsTest, ActionsChangeSettings) {
   state.ui.restyle = false;
   apply(state, SetWheelSpeed{90.0});
   apply(state, SetToolShape{Shape::rib});

@@ -1,4 +1,4 @@
-// What comes and goes by itself, with the threads that a window on a screen has.
+// Devices that appear and disappear, with the threads of a window on screen.
 
 #include "app/studio/stroke_controller.hpp"
 #include "tests/app/servo/live_bench.hpp"
@@ -21,21 +21,21 @@ DevicePointer wait_for_device(DeviceWatch& watch) {
     device = watch.take();
     return device != nullptr;
   };
-  test::wait_until(taken, test::kDeadline, "a device that is open");
+  test::wait_until(taken, test::kDeadline, "an open device");
   return device;
 }
 
-TEST(DeviceWatch, OpensALaterDeviceAndStopsSearching) {
+TEST(DeviceWatch, OpensADeviceConnectedLaterAndStopsSearching) {
   Socket socket;
   servo::WireLog wire;
   DeviceWatch watch(socket.look(), 1ms);
-  socket.wait_for_looks(3);
+  socket.wait_for_searches(3);
   EXPECT_FALSE(watch.take());
   socket.plug(std::make_unique<servo::ScriptedDevice>(wire));
   EXPECT_EQ(wait_for_device(watch)->info().name, "scripted");
-  const int looks = socket.looks;
+  const int searches = socket.searches;
   std::this_thread::sleep_for(50ms);
-  EXPECT_EQ(socket.looks, looks);
+  EXPECT_EQ(socket.searches, searches);
   socket.plug(std::make_unique<servo::ScriptedDevice>(wire));
   watch.look_again();
   EXPECT_TRUE(wait_for_device(watch));
@@ -43,24 +43,24 @@ TEST(DeviceWatch, OpensALaterDeviceAndStopsSearching) {
 
 TEST(DeviceWatch, ReportsEachProblemOncePerDevice) {
   Socket socket;
-  socket.send("no power");
+  socket.report("no power");
   DeviceWatch watch(socket.look(), 1ms);
-  const auto told = [&] {
-    socket.wait_for_looks(2);
+  const auto next_problem = [&] {
+    socket.wait_for_searches(2);
     return watch.take_problem();
   };
-  EXPECT_EQ(told(), "no power");
-  EXPECT_EQ(told(), "");
-  socket.send("no firmware");
-  EXPECT_EQ(told(), "no firmware");
-  EXPECT_EQ(told(), "");
-  socket.send("");  // pulled out
-  EXPECT_EQ(told(), "");
-  socket.send("no firmware");
-  EXPECT_EQ(told(), "no firmware");
+  EXPECT_EQ(next_problem(), "no power");
+  EXPECT_EQ(next_problem(), "");
+  socket.report("no firmware");
+  EXPECT_EQ(next_problem(), "no firmware");
+  EXPECT_EQ(next_problem(), "");
+  socket.report("");  // unplugged
+  EXPECT_EQ(next_problem(), "");
+  socket.report("no firmware");
+  EXPECT_EQ(next_problem(), "no firmware");
 }
 
-TEST(StrokeController, LostArmLeavesAStrokeAndNoForce) {
+TEST(StrokeController, LosingTheArmEndsTheStrokeAndTheForce) {
   servo::WireLog wire;
   servo::MonotonicClock clock;
   Document document;
@@ -68,7 +68,7 @@ TEST(StrokeController, LostArmLeavesAStrokeAndNoForce) {
   ASSERT_TRUE(document.begin(servo::rib_scene()));
   servo::LiveSettings settings = servo::one_to_one();
   settings.guard.ramp_s = 0.1;
-  settings.guard.safe_rest_s = 0.01;  // a busy machine's late ticks are not what is tested here
+  settings.guard.safe_rest_s = 0.01;  // late ticks of a busy machine should not matter here
   stroke.take(std::make_unique<servo::ScriptedDevice>(wire), settings);
   const auto frames_until = [&](auto condition, const std::string& what) {
     const auto frame = [&] {
@@ -77,7 +77,7 @@ TEST(StrokeController, LostArmLeavesAStrokeAndNoForce) {
     };
     test::wait_until(frame, test::kDeadline, what);
   };
-  frames_until([&] { return wire.last_n > 0.0 && stroke.status().contact; }, "a force");
+  frames_until([&] { return wire.last_force_n > 0.0 && stroke.status().contact; }, "a force");
   wire.gone = true;
   frames_until([&] { return !stroke.has_device(); }, "the loss of the device");
   const StrokeNews news = stroke.take_news();
@@ -86,7 +86,7 @@ TEST(StrokeController, LostArmLeavesAStrokeAndNoForce) {
   ASSERT_TRUE(news.error);
   EXPECT_EQ(news.error->message, "nowhere: unplugged; plug it in again");
   EXPECT_GT(news.poses, 0u);
-  EXPECT_EQ(wire.last_n, 0.0);
+  EXPECT_EQ(wire.last_force_n, 0.0);
   EXPECT_EQ(stroke.servo().timing.ticks, news.ticks);
 
   const std::uint64_t writes = wire.writes;

@@ -1,5 +1,5 @@
-// Arms at the window: they come, throw, need something, go and come back. On the studio's own clock
-// with an arm that does as it is told.
+// Arms in the window: connecting, throwing, faults, disconnecting and reconnecting. On the studio's
+// clock, with a scripted arm.
 
 #include "app/studio/commands.hpp"
 #include "app/studio/script.hpp"
@@ -19,7 +19,7 @@
 namespace clay::studio {
 namespace {
 
-/// The sample bowl's lump, of a clay that gives way so slowly that it is felt for long.
+/// The lump of the sample bowl; its clay yields so slowly that the contact force lasts.
 SceneSpec slow_clay() {
   SceneSpec scene = servo::sample_scene("bowl");
   scene.removal.rate_per_s = 0.1;
@@ -46,17 +46,17 @@ class Arms : public testing::Test {
     const auto done = runner_->run(parse_script(text, "s").value(), "s");
     ASSERT_TRUE(done) << done.error().message << "\n" << log_;
   }
-  /// An arm is plugged in and opened; whether it is taken is the window's to say.
+  /// Plugs an arm in and waits until it is open. The window decides when to use it.
   void plug(ArmScript& script) {
     socket_.plug(std::make_unique<ClockedArm>(host_->clock(), script));
     socket_.wait_until_opened();
   }
-  void until_taken() {
+  void wait_until_in_use() {
     while (!state().stroke.has_device()) play("wait 0.02");
   }
-  void plug_and_earn(ArmScript& script) {
+  void plug_and_engage(ArmScript& script) {
     plug(script);
-    until_taken();
+    wait_until_in_use();
     play("wait 3\nexpect force engaged\n");
   }
   [[nodiscard]] std::string banner() const {
@@ -79,21 +79,21 @@ constexpr const char* kMousePresses =
 TEST_F(Arms, ConnectedArmReplacesTheMouse) {
   ArmScript& arm = arms_.emplace_back();
   play("expect device Mouse\nexpect throwing no\n");
-  plug_and_earn(arm);
+  plug_and_engage(arm);
   play("expect device \"Clocked arm\"\nexpect throwing yes\nexpect contact no\n");
   EXPECT_NE(log_.find("device: Clocked arm"), std::string::npos);
-  EXPECT_EQ(arm.most_n, 0.0) << "off the clay";
+  EXPECT_EQ(arm.max_force_n, 0.0) << "off the clay";
   arm.goal_mm = 52.0;
   play("wait 0.5\nexpect contact yes\nexpect force engaged\n");
-  EXPECT_GT(arm.told_n, 0.1);
+  EXPECT_GT(arm.last_force_n, 0.1);
   play("key Ctrl+Z\nexpect strokes 1\n");
 }
 
-/// The pots are those of the servo's wheel; nothing was thrown twice.
-TEST_F(Arms, EveryPotIsWhatTheRecordedPosesReplayTo) {
+/// The servo's wheel made the pots; no stroke was applied twice.
+TEST_F(Arms, RecordedPosesReplayToEveryPot) {
   play(std::string(kMousePresses) + "release left\nexpect strokes 1\n");
   ArmScript& arm = arms_.emplace_back();
-  plug_and_earn(arm);
+  plug_and_engage(arm);
   for (int press = 0; press < 2; ++press) {
     arm.goal_mm = 52.0 - press;
     play("wait 0.6\nexpect contact yes\n");
@@ -109,23 +109,23 @@ TEST_F(Arms, EveryPotIsWhatTheRecordedPosesReplayTo) {
   EXPECT_NE(*again.pot(1).value(), *again.pot(0).value());
 }
 
-TEST_F(Arms, LostArmIsReplacedByTheMouseAndFoundAgain) {
+TEST_F(Arms, MouseReplacesALostArmUntilItReturns) {
   ArmScript& arm = arms_.emplace_back();
-  plug_and_earn(arm);
+  plug_and_engage(arm);
   arm.goal_mm = 52.0;
   play("wait 0.5\nexpect contact yes\n");
-  ASSERT_GT(arm.told_n, 0.1);
+  ASSERT_GT(arm.last_force_n, 0.1);
   arm.state = falcon::DeviceState::fault;
   play("wait 0.1\nexpect device Mouse\nexpect throwing no\nexpect strokes 1\nexpect force none\n");
-  EXPECT_EQ(arm.told_n, 0.0);
-  const std::string why = "nowhere: unplugged; plug it in again; the mouse is in use now";
-  EXPECT_EQ(banner(), why);
+  EXPECT_EQ(arm.last_force_n, 0.0);
+  const std::string message = "nowhere: unplugged; plug it in again; the mouse is in use now";
+  EXPECT_EQ(banner(), message);
   const std::uint64_t writes = arm.writes;
   play(std::string(kMousePresses) + "release left\nexpect strokes 2\n");
   EXPECT_EQ(arm.writes, writes);
-  EXPECT_EQ(banner(), why) << "until it is no longer so";
+  EXPECT_EQ(banner(), message) << "shown until an arm is found";
   ArmScript& another = arms_.emplace_back();
-  plug_and_earn(another);
+  plug_and_engage(another);
   EXPECT_EQ(banner().find("unplugged"), std::string::npos);
   play("expect device \"Clocked arm\"\n");
 }
@@ -135,7 +135,7 @@ TEST_F(Arms, MouseKeepsTheClayUntilReleased) {
   play(kMousePresses);
   plug(arm);
   play("wait 0.5\nexpect device Mouse\nexpect throwing yes\nrelease left\n");
-  until_taken();
+  wait_until_in_use();
   play("expect device \"Clocked arm\"\nexpect strokes 1\n");
 }
 
@@ -148,69 +148,69 @@ TEST_F(Arms, ReportsAnArmLostBeforeItsFirstStrokeAndSearchesAgain) {
   while (banner().find("unplugged") == std::string::npos) play("wait 0.02");
   play("expect device Mouse\n");
   arm.opens = true;
-  plug_and_earn(arm);
+  plug_and_engage(arm);
 }
 
 TEST_F(Arms, ForceReturnsFromSafeOnlyOnRequestAndOffTheClay) {
   ArmScript& arm = arms_.emplace_back();
-  plug_and_earn(arm);
+  plug_and_engage(arm);
   const Command& rearm = *find_command("wheel.rearm");
   EXPECT_FALSE(rearm.enabled(view_model(state())));
   arm.goal_mm = 52.0;
   play("wait 0.5\nexpect contact yes\n");
-  ASSERT_GT(arm.told_n, 0.1);
-  arm.makes_sense = false;
+  ASSERT_GT(arm.last_force_n, 0.1);
+  arm.position_valid = false;
   play("wait 0.1\nexpect force safe\n");
-  EXPECT_EQ(arm.told_n, 0.0);
-  arm.makes_sense = true;
-  arm.most_n = 0.0;
-  arm.goal_mm = 40.0;  // where more than the little that may be earned in is felt
+  EXPECT_EQ(arm.last_force_n, 0.0);
+  arm.position_valid = true;
+  arm.max_force_n = 0.0;
+  arm.goal_mm = 40.0;  // deep enough for more than the small force of the guard
   play(
       "wait 2\nexpect force safe\n"
       "expect banner \"no force: invalid force (NaN); press Shift+R or the clutch to continue\"\n");
-  // In the clay that is not enough.
+  // In the clay, a rearm is not enough.
   play("key Shift+R\nwait 0.5\nexpect force waiting\nexpect banner \"\"\n");
-  EXPECT_EQ(arm.most_n, 0.0);
+  EXPECT_EQ(arm.max_force_n, 0.0);
   EXPECT_FALSE(rearm.enabled(view_model(state())));
   arm.goal_mm = 80.0;
   play("wait 0.3\nexpect force ramping\nwait 2\nexpect force engaged\n");
   arm.goal_mm = 38.0;
   play("wait 0.5\nexpect contact yes\n");
-  EXPECT_GT(arm.told_n, 0.1);
+  EXPECT_GT(arm.last_force_n, 0.1);
 }
 
-TEST_F(Arms, EscSetsZeroForceInAnyDialogAndNeverRestoresIt) {
+TEST_F(Arms, EscZeroesTheForceInAnyDialogAndNeverRestoresIt) {
   ArmScript& arm = arms_.emplace_back();
-  plug_and_earn(arm);
+  plug_and_engage(arm);
   arm.goal_mm = 52.0;
   play("wait 0.5\nexpect contact yes\n");
-  ASSERT_GT(arm.told_n, 0.1);
+  ASSERT_GT(arm.last_force_n, 0.1);
   play("do help.keys\nexpect overlay shortcuts\n");
-  ASSERT_GT(arm.told_n, 0.1);
+  ASSERT_GT(arm.last_force_n, 0.1);
   play("key Esc\nexpect overlay none\nexpect paused yes\n");
-  EXPECT_EQ(arm.told_n, 0.0);
-  arm.most_n = 0.0;
+  EXPECT_EQ(arm.last_force_n, 0.0);
+  arm.max_force_n = 0.0;
   play("key Esc\nwait 0.5\nkey Esc\nwait 0.5\nexpect paused yes\n");
-  EXPECT_EQ(arm.most_n, 0.0);
+  EXPECT_EQ(arm.max_force_n, 0.0);
   arm.goal_mm = 80.0;
   play("key Space\nexpect paused no\nwait 3\nexpect force engaged\n");
 }
 
 TEST_F(Arms, PauseContinuesAfterTheStroke) {
   ArmScript& arm = arms_.emplace_back();
-  plug_and_earn(arm);
+  plug_and_engage(arm);
   arm.goal_mm = 52.0;
   play("wait 0.5\nexpect contact yes\n");
-  ASSERT_GT(arm.told_n, 0.1);
+  ASSERT_GT(arm.last_force_n, 0.1);
   play("key Space\nexpect paused yes\n");
-  arm.most_n = 0.0;
-  // Each begins a stroke anew, with all that force needs: off the clay for a while, and then in.
+  arm.max_force_n = 0.0;
+  // Each starts a new stroke with what the force needs: off the clay for a while, then in.
   for (const char* what : {"key ]", "key T", "key Ctrl+Z", "do file.new_vase\nkey Ctrl+D"}) {
     arm.goal_mm = 80.0;
     play(std::string(what) + "\nwait 3\n");
     arm.goal_mm = 40.0;
     play("wait 1\nexpect paused yes\nexpect throwing yes\nexpect contact no\n");
-    EXPECT_EQ(arm.most_n, 0.0) << what;
+    EXPECT_EQ(arm.max_force_n, 0.0) << what;
   }
   play("expect strokes 0\n");
   arm.goal_mm = 80.0;
@@ -221,10 +221,10 @@ TEST_F(Arms, BannerExplainsHomingUntilItIsDone) {
   ArmScript& arm = arms_.emplace_back();
   arm.state = falcon::DeviceState::needs_homing;
   plug(arm);
-  until_taken();
+  wait_until_in_use();
   play("wait 0.5\nexpect throwing yes\n");
   EXPECT_EQ(banner(), "home it: pull the grip all the way out, then push it all the way in");
-  EXPECT_EQ(arm.most_n, 0.0);
+  EXPECT_EQ(arm.max_force_n, 0.0);
   arm.state = falcon::DeviceState::ready;
   play("wait 0.1\nexpect banner \"\"\n");
 }

@@ -1,6 +1,6 @@
 #pragma once
-// An arm on the studio's own clock: a hand that goes where the test says, no faster than a hand
-// does, and every fault at a word. It remembers what force it was told.
+// An arm on the studio's clock. Its hand moves to the goal of the test at 0.4 mm per sample, its
+// faults are settings, and it records the commanded force.
 
 #include "app/servo/clock.hpp"
 #include "app/servo/mapping.hpp"
@@ -13,15 +13,15 @@
 
 namespace clay::studio {
 
-/// Outlives the arm. Changed only between frames: without threads nothing ticks then.
+/// Outlives the arm. Tests change it only between frames; without threads nothing ticks then.
 struct ArmScript {
   double goal_mm = 80.0;  ///< from the wheel's axis, 15 mm high
   falcon::DeviceState state = falcon::DeviceState::ready;
-  bool opens = true;         ///< `open` succeeds
-  bool makes_sense = true;   ///< its position is a number
-  double told_n = 0.0;       ///< length of the force told last
-  double most_n = 0.0;       ///< of all
-  std::uint64_t writes = 0;  ///< forces told
+  bool opens = true;           ///< `open` succeeds
+  bool position_valid = true;  ///< otherwise its position is NaN
+  double last_force_n = 0.0;   ///< magnitude of the last commanded force
+  double max_force_n = 0.0;    ///< largest commanded force
+  std::uint64_t writes = 0;    ///< commanded forces
 };
 
 class ClockedArm final : public falcon::HapticDevice {
@@ -39,21 +39,21 @@ class ClockedArm final : public falcon::HapticDevice {
   falcon::DeviceSample read(std::int64_t) noexcept override {
     constexpr double kStepMm = 0.4;
     at_mm_ += std::clamp(script_.goal_mm - at_mm_, -kStepMm, kStepMm);
-    glm::dvec3 place_mm = mapping_.to_device({at_mm_, 15.0, 0.0});
-    if (!script_.makes_sense) place_mm.x = std::numeric_limits<double>::quiet_NaN();
+    glm::dvec3 position_mm = mapping_.to_device({at_mm_, 15.0, 0.0});
+    if (!script_.position_valid) position_mm.x = std::numeric_limits<double>::quiet_NaN();
     const std::int64_t now_us = clock_.now_us();
     const bool fresh = now_us > last_us_;
     last_us_ = now_us;
-    return {now_us, place_mm, 0u, script_.state, fresh};
+    return {now_us, position_mm, 0u, script_.state, fresh};
   }
   void write(const glm::dvec3& force_n) noexcept override {
     if (stopped_) return;
-    tell(glm::length(force_n));
+    record(glm::length(force_n));
     ++script_.writes;
   }
-  void zero() noexcept override { tell(0.0); }
+  void zero() noexcept override { record(0.0); }
   void stop() noexcept override {
-    tell(0.0);
+    record(0.0);
     stopped_ = true;
   }
   [[nodiscard]] falcon::DeviceError problem() const override {
@@ -62,9 +62,9 @@ class ClockedArm final : public falcon::HapticDevice {
   [[nodiscard]] falcon::DeviceCounters counters() const noexcept override { return {}; }
 
  private:
-  void tell(double newtons) noexcept {
-    script_.told_n = newtons;
-    script_.most_n = std::max(script_.most_n, newtons);
+  void record(double newtons) noexcept {
+    script_.last_force_n = newtons;
+    script_.max_force_n = std::max(script_.max_force_n, newtons);
   }
 
   servo::Clock& clock_;

@@ -23,7 +23,7 @@ TEST(Commands, IdsAndChordsAreUnique) {
   }
 }
 
-TEST(Commands, AreFoundByIdAndChord) {
+TEST(Commands, CanBeFoundByIdAndChord) {
   for (const Command& command : commands()) {
     EXPECT_EQ(find_command(command.id), &command);
     if (command.chord.key == 0) continue;

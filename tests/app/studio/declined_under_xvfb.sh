@@ -1,6 +1,6 @@
 #!/bin/sh
-# declined_under_xvfb.sh PROGRAM FOLDER: what a window that was killed has left is not taken. Left
-# alone it stays and is offered again; discarded by its button it is gone for good.
+# declined_under_xvfb.sh PROGRAM FOLDER: the journal of a killed window is not recovered. If it is
+# ignored, it stays and is offered again; its button discards it permanently.
 set -u
 . "$(dirname "$0")/under_xvfb_start.sh"
 journals() { ls "$folder/state/claystack/recovery"; }
@@ -17,12 +17,12 @@ left=$(journals)
 [ "$(echo "$left" | wc -l)" -eq 1 ] || fail "expected one journal, found: $left"
 cp "$folder/state/claystack/recovery/$left" "$folder/before"
 
-# With another work: the one that was left is neither taken nor touched.
+# Another work leaves the journal unchanged.
 start_window "$folder/lump.scene.json"
 grep -q "recovery offered: 1" "$log" || fail "expected an offer to recover"
 close_window
 [ "$(journals)" = "$left" ] || fail "expected $left alone, found: $(journals)"
-cmp "$folder/state/claystack/recovery/$left" "$folder/before" || fail "expected it as it was"
+cmp "$folder/state/claystack/recovery/$left" "$folder/before" || fail "expected $left unchanged"
 
 start_window
 grep -q "recovery offered: 1" "$log" || fail "expected the offer again"
@@ -33,5 +33,5 @@ close_window
 
 start_window
 close_window
-grep -q "recovery offered" "$log" && fail "expected no offer of what was discarded"
+grep -q "recovery offered" "$log" && fail "expected no offer of a discarded work"
 exit 0

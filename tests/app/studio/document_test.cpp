@@ -38,7 +38,7 @@ TEST_F(DocumentTest, IsUnsavedFromAStrokeUntilAWorkIsSaved) {
   stroke(1);
   EXPECT_TRUE(document.unsaved());
   ASSERT_TRUE(document.save(folder.file("a.pot.json")));
-  EXPECT_TRUE(document.unsaved()) << "a pot keeps no strokes";
+  EXPECT_TRUE(document.unsaved()) << "a pot file has no strokes";
   EXPECT_TRUE(document.file().empty());
   ASSERT_TRUE(document.save(folder.file("a.work")));
   EXPECT_FALSE(document.unsaved());
@@ -47,7 +47,7 @@ TEST_F(DocumentTest, IsUnsavedFromAStrokeUntilAWorkIsSaved) {
   EXPECT_TRUE(document.unsaved());
 }
 
-TEST_F(DocumentTest, DiscardedChangesCountAgainWithTheNextStroke) {
+TEST_F(DocumentTest, DiscardedChangesAreUnsavedAgainAfterAStroke) {
   stroke(1);
   document.discard_changes();
   EXPECT_FALSE(document.unsaved());
@@ -77,14 +77,15 @@ TEST_F(DocumentTest, UndoAndRedoFollowTheStrokes) {
   EXPECT_EQ(pot(), one);
 }
 
-TEST_F(DocumentTest, ScrubbedMomentIsShownAndBecomesABranch) {
+TEST_F(DocumentTest, ShowsAScrubbedMomentAndBranchesThere) {
   stroke(1);
   const double half_s = 0.5 * document.work().view(1).seconds;
   const render::PotView whole = document.view();
   ASSERT_TRUE(document.scrub(1, half_s));
   EXPECT_TRUE(document.scrubbing());
   EXPECT_NE(document.view(), whole);
-  EXPECT_EQ(render::view_of(*document.shown_pot()), document.view()) << "what the panels measure";
+  EXPECT_EQ(render::view_of(*document.shown_pot()), document.view())
+      << "the panels measure the moment shown";
   EXPECT_NE(document.shown_pot(), document.shared_pot());
   ASSERT_TRUE(document.show_present());
   EXPECT_EQ(document.shown_pot(), document.shared_pot());

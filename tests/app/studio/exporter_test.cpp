@@ -18,7 +18,7 @@ using test::read_text;
 using test::ScratchFolder;
 using test::write_text;
 
-/// A work of two strokes: its pot.
+/// The pot of a work of two strokes.
 history::SharedPot thrown() {
   auto work = history::Work::begin(test::small_scene()).value();
   for (const std::uint64_t seed : {3u, 4u})
@@ -63,17 +63,17 @@ TEST_F(Exporting, WritesTheBytesOfTheCommand) {
   ASSERT_TRUE(done.done) << done.done.error().message;
   EXPECT_EQ(done.paths.size(), 4u);
   std::filesystem::create_directory(folder.path() / "command");
-  const std::string given = folder.file("command/two.pot.json");
-  write_text(given, write_pot(*pot, PotEncoding::json));
-  const std::string mine = folder.file("command/two");
-  const auto ran = claystack("export -q " + given + " " + mine + ".stl " + mine + ".obj " + mine +
-                             ".svg --tolerance 0.05 --process porcelain --shrinkage 12%");
-  // Its wall is thinner than porcelain asks: written, and said.
+  const std::string pot_path = folder.file("command/two.pot.json");
+  write_text(pot_path, write_pot(*pot, PotEncoding::json));
+  const std::string base = folder.file("command/two");
+  const auto ran = claystack("export -q " + pot_path + " " + base + ".stl " + base + ".obj " +
+                             base + ".svg --tolerance 0.05 --process porcelain --shrinkage 12%");
+  // Its wall is too thin for porcelain: the command writes the files and reports the fault.
   ASSERT_EQ(ran.status, 1) << ran.err;
   ASSERT_EQ(solid::problems_of(*done.done).size(), 1u);
   EXPECT_NE(ran.err.find(solid::problems_of(*done.done)[0].text), std::string::npos);
   for (const char* ending : {".stl", ".obj", ".svg", ".pot.json"})
-    EXPECT_EQ(read_text(folder.file("two") + ending), read_text(mine + ending)) << ending;
+    EXPECT_EQ(read_text(folder.file("two") + ending), read_text(base + ending)) << ending;
   EXPECT_EQ(claystack("check " + folder.file("two.stl")).status, 0);
 }
 
@@ -103,7 +103,7 @@ TEST_F(Exporting, NewestPreviewWins) {
 TEST_F(Exporting, CancelledExportLeavesNoFile) {
   choices.tolerance_mm = 0.001;
   exporter.write(pot, choices);
-  // Once it is at work: the files are open then, and have no names yet.
+  // The first stage shows that the export runs; its files are open but not yet named.
   while (exporter.stage().empty() && exporter.busy()) std::this_thread::yield();
   exporter.cancel();
   const auto cancelled = outcome();
@@ -114,17 +114,17 @@ TEST_F(Exporting, CancelledExportLeavesNoFile) {
 
 TEST_F(Exporting, LeavesAllFilesOrNoneAtEveryCancellationPoint) {
   solid::ExportRequest request = request_of(choices, *pot).value();
-  std::size_t asked = 0, all = 0;
+  std::size_t checks = 0, all = 0;
   std::mutex mutex;
-  for (std::size_t until = 0; all == 0; ++until) {
-    asked = 0;
+  for (std::size_t limit = 0; all == 0; ++limit) {
+    checks = 0;
     request.options.cancelled = [&] {
       const std::lock_guard lock(mutex);
-      return ++asked > until;
+      return ++checks > limit;
     };
     const auto done = solid::export_files(*pot, request);
-    EXPECT_EQ(files(), done ? 4u : 0u) << until;
-    if (done) all = asked;
+    EXPECT_EQ(files(), done ? 4u : 0u) << limit;
+    if (done) all = checks;
   }
   EXPECT_GT(all, 10u);
 }

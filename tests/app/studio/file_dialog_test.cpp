@@ -15,7 +15,7 @@ using test::read_text;
 using test::ScratchFolder;
 using test::write_text;
 
-/// A desktop with this program and no other.
+/// A PATH with only the installed programs.
 class Desktop : public ::testing::Test {
  protected:
   void SetUp() override { setenv("PATH", folder.path().c_str(), 1); }

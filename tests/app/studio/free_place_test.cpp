@@ -17,8 +17,7 @@ render::PotView tube(float outer_mm, float inner_mm, double height_mm, std::size
 
 Tool sphere(double radius_mm) { return Tool::build(SphereSpec{radius_mm}).value(); }
 
-/// By the definition of distance, and not by rows: how deep a sphere is in a tube that stands on
-/// the wheel.
+/// How deep a sphere is in a tube on the wheel, from the distance itself instead of rows.
 double depth_mm(const render::PotView& pot, double radius_mm, glm::dvec2 at) {
   const double outer = pot.rows[0].outer_mm, inner = pot.rows[0].inner_mm;
   const double rho = std::abs(at.x);
@@ -27,7 +26,7 @@ double depth_mm(const render::PotView& pot, double radius_mm, glm::dvec2 at) {
   return radius_mm - std::hypot(dx, dy);
 }
 
-TEST(FreePlace, IsThePlaceItselfBesideTheClay) {
+TEST(FreePlace, KeepsAPlaceBesideTheClay) {
   const auto pot = tube(40.0f, 30.0f, 60.0, 120);
   EXPECT_EQ(free_place(pot, sphere(5.0), {60.0, 30.0}), glm::dvec2(60.0, 30.0));
   EXPECT_EQ(free_place(pot, sphere(5.0), {-60.0, 30.0}), glm::dvec2(-60.0, 30.0));
@@ -35,7 +34,7 @@ TEST(FreePlace, IsThePlaceItselfBesideTheClay) {
   EXPECT_EQ(free_place(pot, sphere(5.0), {35.0, 70.0}), glm::dvec2(35.0, 70.0));
 }
 
-TEST(FreePlace, IsTheNearerSideOfTheWall) {
+TEST(FreePlace, ChoosesTheNearerSideOfTheWall) {
   const auto pot = tube(40.0f, 30.0f, 60.0, 120);
   const glm::dvec2 outside = free_place(pot, sphere(5.0), {37.0, 30.0});
   EXPECT_NEAR(outside.x, 45.0 + kClearanceMm, 1e-6);
@@ -46,12 +45,12 @@ TEST(FreePlace, IsTheNearerSideOfTheWall) {
   EXPECT_NEAR(left.x, -45.0 - kClearanceMm, 1e-6);
 }
 
-TEST(FreePlace, IsAboveNearTheTopOfALump) {
+TEST(FreePlace, IsAboveALumpNearItsTop) {
   const auto lump = tube(40.0f, 0.0f, 60.0, 120);
   const glm::dvec2 above = free_place(lump, sphere(5.0), {5.0, 55.0});
   EXPECT_EQ(above.x, 5.0);
   EXPECT_GE(above.y, 65.0);
-  EXPECT_LE(above.y, 65.0 + 0.5 + kClearanceMm);  // a row
+  EXPECT_LE(above.y, 65.0 + 0.5 + kClearanceMm);  // one row
 }
 
 RC_GTEST_PROP(FreePlace, IsNeverInTheClayAndNeverBelowTheWheel, ()) {
@@ -66,7 +65,7 @@ RC_GTEST_PROP(FreePlace, IsNeverInTheClayAndNeverBelowTheWheel, ()) {
   RC_ASSERT(depth_mm(pot, radius, place) <= 1e-4);  // radii of rows are floats
 }
 
-TEST(WallAt, IsTheThicknessThatTwoToolsSpan) {
+TEST(WallAt, IsTheGapOfTwoToolsOnTheWall) {
   const auto pot = tube(40.0f, 30.0f, 60.0, 120);
   const auto wall = wall_at(pot, sphere(5.0), 30.0);
   ASSERT_TRUE(wall);

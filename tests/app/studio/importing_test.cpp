@@ -13,7 +13,7 @@ using test::claystack;
 using test::read_text;
 using test::ScratchFolder;
 
-TEST(Importing, IsThePotOfTheCommand) {
+TEST(Importing, MatchesTheCommand) {
   const ScratchFolder folder;
   struct Case {
     const char* file;
@@ -41,13 +41,13 @@ TEST(Importing, IsThePotOfTheCommand) {
 TEST(Importing, ErrorsAppearInTheDialog) {
   ImportCard card;
   card.path = "odd.csv";
-  card.bytes = "this is no table\n1,\n";
+  card.bytes = "not a table\n1,\n";
   reload(card);
   EXPECT_FALSE(card.made);
   EXPECT_NE(card.problem.find("odd.csv"), std::string::npos) << card.problem;
 }
 
-TEST(Importing, DrawingsAreRecognisedByExtension) {
+TEST(Importing, RecognisesDrawingsByExtension) {
   for (const char* name : {"a.svg", "b.dxf", "c.csv"}) EXPECT_TRUE(is_drawing(name)) << name;
   for (const char* name : {"a.work", "a.pot.json", "svg", "a.svg.gz"})
     EXPECT_FALSE(is_drawing(name)) << name;

@@ -1,12 +1,11 @@
 #!/bin/sh
-# killed_under_xvfb.sh PROGRAM FOLDER: the window is killed in mid-stroke, and what its journal had
-# until then is offered to the next one. Leaves the journal as it was before (before.work), and what
-# was recovered (tree.json).
+# killed_under_xvfb.sh PROGRAM FOLDER: kills the window during a stroke; the next window offers to
+# recover its journal. Leaves a copy of it (before.work) and the recovered tree (tree.json).
 set -u
 . "$(dirname "$0")/under_xvfb_start.sh"
 
 throw_the_bowl
-# One that does not end.
+# A stroke that is not completed.
 journal=$(ls "$folder"/state/claystack/recovery/*)
 size() { wc -c <"$journal"; }
 begun=$(size)
@@ -16,7 +15,7 @@ until_line "stroke started" 2
 for x in 900 880 860 850 845 840 835 830; do
   xdotool mousemove --window "$window" $x 420 sleep 0.1
 done
-wait_until "the journal to have some of the stroke that goes on" grew
+wait_until "the journal to contain part of the unfinished stroke" grew
 cp "$journal" "$folder/before.work"
 kill -9 "$studio"
 wait "$studio" 2>/dev/null
@@ -31,7 +30,7 @@ xdotool key --window "$window" ctrl+z
 until_line "action: edit.undo"
 xdotool key --window "$window" ctrl+shift+z
 until_line "action: edit.redo"
-# The journal is a work file: what is in it is told by the command.
+# The journal is a work file, so the command lists its contents.
 journal=$(sed -n 's/^recovered: //p' "$log")
 "$program" throw "$journal" --list --json >"$folder/tree.json" || fail "expected a work: $journal"
 xdotool key --window "$window" ctrl+q

@@ -54,7 +54,7 @@ TEST(MouseHand, ArrivesWithoutOvershoot) {
   EXPECT_NEAR(x, 40.0, 1e-3);
 }
 
-TEST(MouseHand, ServoPauseCausesNoJump) {
+TEST(MouseHand, APausedServoCausesNoJump) {
   Hand hand;
   hand.device.begin_at({50.0, 0.0, 0.0});
   hand.tick();

@@ -1,5 +1,4 @@
-// Panels in an ImGui context without a window: which actions a click gives, and that drawing alone
-// gives none.
+// Panels in an ImGui context without a window: a click emits its action, and drawing emits none.
 
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/app_state.hpp"
@@ -31,7 +30,7 @@ class Panels : public ::testing::Test {
   Panels(const Panels&) = delete;
   Panels& operator=(const Panels&) = delete;
 
-  /// One frame of a function that draws.
+  /// One frame drawn by `draw`; its actions.
   template <class Draw>
   Actions frame(Draw draw) {
     Actions actions;
@@ -40,8 +39,7 @@ class Panels : public ::testing::Test {
     ImGui::Render();
     return actions;
   }
-  /// The action of a click on the control that is `at` of the panel's size from its corner: the
-  /// mouse moves there, is pressed and released.
+  /// The actions of a click at `at` [px]: the mouse moves there, is pressed and released.
   template <class Draw>
   Actions click(Draw draw, ImVec2 at) {
     Actions all;
@@ -58,7 +56,7 @@ class Panels : public ::testing::Test {
     collect();
     return all;
   }
-  /// A panel in a window of its own.
+  /// A panel in a separate window.
   template <class Panel>
   static auto in_window(Panel panel) {
     return [panel](const ViewModel& model, Actions& actions) {
@@ -123,7 +121,7 @@ TEST_F(Panels, EnterSavesUnderTheTypedName) {
   const auto dialog = [](const ViewModel& model, Actions& actions) {
     draw_dialog(model, actions, kView);
   };
-  for (int i = 0; i < 3; ++i) (void)frame(dialog);  // the field gets the keyboard
+  for (int i = 0; i < 3; ++i) (void)frame(dialog);  // the field gets the keyboard focus
   ImGuiIO& io = ImGui::GetIO();
   io.KeyMap[ImGuiKey_Enter] = 257;
   io.KeyMap[ImGuiKey_End] = 269;

@@ -1,4 +1,4 @@
-// What panels tell of known pots: the engine's and the export's own figures, without a window.
+// Figures that the panels show for known pots; they must be those of the engine and the export.
 
 #include "app/studio/readings/readings.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// A cup of upright walls: floor 10 mm, wall 5 mm, 60 mm high, 40 mm in radius; rings of 0.5 mm.
+/// A cup with vertical walls: floor 10 mm, wall 5 mm, height 60 mm, radius 40 mm; rings of 0.5 mm.
 std::vector<Ring> cup_rings(double wall_mm = 5.0) {
   std::vector<Ring> rings(120, Ring{quanta_from_radius(40.0), 0});
   for (std::size_t i = 20; i < rings.size(); ++i)
@@ -40,7 +40,7 @@ PotQuestion question_of(const history::SharedPot& pot, const std::string& proces
 TEST(ClayAccount, WeighsTheClayOfTheLedger) {
   const Quanta trimmed = quanta_from_mm2(100.0);
   const ClayAccount account = account_of(*pot_of(cup_rings(), trimmed));
-  // 2 g/cm^3; a disc of 10 mm and a ring of 50 mm.
+  // 2 g/cm^3; a disc 10 mm high and a tube 50 mm high.
   const double cup_mm3 = kPi * (1600.0 * 10.0 + (1600.0 - 35.0 * 35.0) * 50.0);
   EXPECT_NEAR(account.in_stack_g, 2e-3 * cup_mm3, 1e-6);
   EXPECT_NEAR(account.trimmed_g, 2e-3 * kPi * 0.5 * 100.0, 1e-9);
@@ -73,14 +73,14 @@ TEST(StressCurve, MatchesTheEngineAndReportsTheHeight) {
   const auto pot = pot_of(cup_rings());
   const StressCurve curve = stress_of(pot->stack, 2.0, 2.0);
   EXPECT_EQ(curve.kpa, stresses_kpa(pot->stack, 2.0));
-  // The lowest ring of the wall bears the 49.5 mm above it.
+  // The lowest ring of the wall carries the 49.5 mm above it.
   EXPECT_NEAR(curve.most_kpa, 2000.0 * 9.80665 * 0.0495 * 1e-3, 1e-9);
   EXPECT_EQ(stress_text(curve, LengthUnit::mm), "49 % of the limit, at a height of 10.2 mm");
   EXPECT_EQ(stress_text(stress_of(pot->stack, 2.0, std::nullopt), LengthUnit::cm),
             "Maximum 0.97 kPa, at a height of 1.02 cm; no limit is set");
 }
 
-TEST(SectionRows, KeepExtremesOfTenThousandRingsPerPixel) {
+TEST(SectionRows, KeepExtremesOfManyRingsPerPixel) {
   std::vector<Ring> rings(100'000, Ring{quanta_from_radius(40.0), quanta_from_radius(30.0)});
   rings[50'123] = {quanta_from_radius(45.0), quanta_from_radius(20.0)};
   const ClayStack stack = ClayStack::from_rings(0.001, std::move(rings), 0).value();
@@ -91,7 +91,7 @@ TEST(SectionRows, KeepExtremesOfTenThousandRingsPerPixel) {
   EXPECT_EQ(rows[51], rows[0]);
 }
 
-TEST(SectionRows, GiveARingRowsInProportionToItsHeight) {
+TEST(SectionRows, GiveEachRingRowsInProportionToItsHeight) {
   const ClayStack stack =
       ClayStack::from_rings(1.0, {{quanta_from_radius(10), 0}, {quanta_from_radius(20), 0}}, 0)
           .value();
@@ -145,7 +145,7 @@ TEST(Subject, OfAnOutlineKeepsTheCrown) {
   EXPECT_FALSE(stack_of({}, 0.0));
 }
 
-TEST(PotCheck, HasTheFiguresOfTheCup) {
+TEST(PotCheck, MatchesTheCup) {
   const PotCheck check = check_pot(question_of(pot_of(cup_rings())));
   ASSERT_TRUE(check.proved) << check.why_not;
   EXPECT_FALSE(check.live);
@@ -184,7 +184,7 @@ TEST(PotCheck, ComparesWallsWithAProcessFile) {
   const std::string file = std::string(CLAYSTACK_SAMPLES).append("/workshop.process.json");
   const PotCheck check = check_pot(question_of(pot_of(cup_rings()), file));
   ASSERT_TRUE(check.limit);
-  EXPECT_EQ(check.limit->min_wall_mm, 4.0) << "up to 400 mm of size";
+  EXPECT_EQ(check.limit->min_wall_mm, 4.0) << "for sizes up to 400 mm";
   EXPECT_EQ(check.limit->process, "workshop printer, 4 mm nozzle");
   const PotCheck gone = check_pot(question_of(pot_of(cup_rings()), "/none.process.json"));
   EXPECT_TRUE(gone.proved);
@@ -195,7 +195,7 @@ TEST(PotCheck, ComparesWallsWithAProcessFile) {
 
 TEST(PotCheck, ReportsTheReasonAndThePlace) {
   auto rings = cup_rings();
-  for (std::size_t i = 80; i < rings.size(); ++i)  // a ring that stands apart, from 40 mm up
+  for (std::size_t i = 80; i < rings.size(); ++i)  // a detached ring from 40 mm up
     rings[i] = {quanta_from_radius(30.0), quanta_from_radius(25.0)};
   const PotCheck check = check_pot(question_of(pot_of(std::move(rings))));
   EXPECT_FALSE(check.proved);
@@ -204,7 +204,7 @@ TEST(PotCheck, ReportsTheReasonAndThePlace) {
   EXPECT_EQ(*check.fault_mm, 40.0);
 }
 
-TEST(PotCheck, OfAnOutlineIsThatOfThePotToFloats) {
+TEST(PotCheck, OfAnOutlineMatchesThePotInFloatPrecision) {
   const auto pot = pot_of(cup_rings());
   const PotCheck exact = check_pot(question_of(pot));
   PotQuestion question = question_of(pot);

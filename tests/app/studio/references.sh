@@ -1,6 +1,6 @@
 #!/bin/sh
-# sh tests/app/studio/references.sh PROGRAM FOLDER: the pictures that reference_test.cpp compares; with
-# tests/app/studio/references as FOLDER it makes them anew. Look at them then.
+# sh tests/app/studio/references.sh PROGRAM FOLDER: renders the pictures that window_look_test.cpp
+# compares. Use tests/app/studio/references as FOLDER to renew them; then inspect them.
 set -eu
 program=$(realpath "$1") folder=$(realpath "$2")
 cd "$(dirname "$0")/../../.."
@@ -9,8 +9,7 @@ trap 'rm -rf "$pots"' EXIT
 for sample in bowl vase; do
   "$program" throw -q "samples/$sample.scene.json" -o "$pots/$sample.pot.json"
 done
-# picture SCRIPT POT THEME: of the window at half its size the view, in few colours, so that it is
-# small.
+# picture SCRIPT POT THEME: the view of a half-size window, in few colours to keep it small.
 picture() {
   "$program" studio "$2" --script "samples/window/$1.script" \
     --screenshot "$pots/whole.png" --theme "$3" --size 640x400 --scale 0.5

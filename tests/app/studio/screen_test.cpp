@@ -1,4 +1,4 @@
-// The window with real events, on a screen of its own.
+// The window with real events on a virtual screen.
 
 #include "tests/support/run_program.hpp"
 
@@ -15,7 +15,7 @@ using test::read_text;
 using test::ScratchFolder;
 using test::shell;
 
-class OnAScreen : public ::testing::Test {
+class OnScreen : public ::testing::Test {
  protected:
   void SetUp() override {
     ASSERT_EQ(shell("command -v Xvfb && command -v xdotool").status, 0)
@@ -27,7 +27,7 @@ class OnAScreen : public ::testing::Test {
   }
 };
 
-TEST_F(OnAScreen, WorksFromTheGalleryToAPrintableFile) {
+TEST_F(OnScreen, WorksFromTheGalleryToAPrintableFile) {
   const ScratchFolder folder;
   const Ran ran = run("under_xvfb.sh", folder);
   ASSERT_EQ(ran.status, 0) << ran.err << ran.out;
@@ -38,15 +38,15 @@ TEST_F(OnAScreen, WorksFromTheGalleryToAPrintableFile) {
   EXPECT_NE(info.find("manifold = yes"), std::string::npos) << info;
 }
 
-TEST_F(OnAScreen, OffersAnUnrecoveredWorkUntilItIsDiscarded) {
+TEST_F(OnScreen, OffersAnUnrecoveredWorkUntilItIsDiscarded) {
   const ScratchFolder folder;
   test::write_text(folder.file("lump.scene.json"), read_text(test::sample("vase.scene.json")));
   const Ran ran = run("declined_under_xvfb.sh", folder);
   EXPECT_EQ(ran.status, 0) << ran.err << ran.out;
 }
 
-/// How little that is less than what was thrown is tested with the journal itself.
-TEST_F(OnAScreen, OffersTheJournalOfAKilledWindow) {
+/// The tests of the journal bound how much of the stroke is lost.
+TEST_F(OnScreen, OffersTheJournalOfAKilledWindow) {
   const ScratchFolder folder;
   const Ran ran = run("killed_under_xvfb.sh", folder);
   ASSERT_EQ(ran.status, 0) << ran.err << ran.out;

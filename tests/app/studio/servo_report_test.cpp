@@ -1,5 +1,5 @@
-// `claystack studio SCENE --servo-report SECONDS`. How good the figures are is the machine's
-// affair; that they are there, and that the exit status is by them, is ours.
+// `claystack studio SCENE --servo-report SECONDS`. The figures depend on the machine. Tested are
+// that they exist and that they decide the exit status.
 
 #include "tests/support/run_program.hpp"
 
@@ -33,7 +33,7 @@ TEST(ServoReport, ReportsTimingsAndSetsTheExitStatus) {
   EXPECT_LE(servo.at("lateness_us").at("p50"), servo.at("lateness_us").at("p99"));
   EXPECT_LE(servo.at("lateness_us").at("p99"), servo.at("lateness_us").at("max"));
   EXPECT_GT(window.at("frames"), 2);
-  // Each frame takes its part of the time there was.
+  // The frame times fit into the measured time.
   const double fps = window.at("fps");
   EXPECT_GT(fps, 0.0);
   EXPECT_LT(fps, 61.0);

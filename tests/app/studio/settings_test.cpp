@@ -40,7 +40,7 @@ TEST(Settings, RoundTrip) {
   EXPECT_EQ(back->theme, Theme::light);
 }
 
-TEST(Settings, SupportEveryScaleAndUnit) {
+TEST(Settings, RoundTripEveryScaleAndUnit) {
   for (const float scale : {0.5f, 1.1f, 3.0f})
     for (const LengthUnit unit : {LengthUnit::mm, LengthUnit::cm, LengthUnit::in}) {
       Settings settings;
@@ -64,7 +64,7 @@ TEST(LengthText, UsesTheChosenUnit) {
   EXPECT_EQ(length_text(50.8, LengthUnit::in), "2.00 in");
 }
 
-TEST(Settings, CustomProcessIsRemembered) {
+TEST(Settings, RemembersCustomProcesses) {
   Settings settings;
   for (const char* name : {"/a", "/b", "/c", "/d", "/e", "/b"})
     remember_process(settings, std::string(name) + ".process.json");
@@ -93,7 +93,7 @@ TEST(Settings, ErrorsNameTheField) {
             "s:1: expected a field \"schema\", found none");
 }
 
-// The message repeated what it had found, level by level, until the stack was full.
+// The error message once repeated the value level by level until the stack overflowed.
 TEST(Settings, RefuseADeeplyNestedFile) {
   std::string deep = "{\"schema\": \"claystack-studio-1\", \"scale\": ";
   deep.append(100'000, '[').append(100'000, ']').append("}");
@@ -108,7 +108,7 @@ TEST(Settings, RefuseADeeplyNestedFile) {
       300u);
 }
 
-TEST(Settings, APipeIsNeitherReadNorWritten) {
+TEST(Settings, RefusesAPipe) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("studio.json");
   ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
@@ -130,7 +130,7 @@ TEST(Settings, UseThePasswordFileWithoutHome) {
   EXPECT_EQ(settings_path(), "/etc/xdg/claystack/studio.json");
 }
 
-TEST(Settings, BrokenFileIsRenamed) {
+TEST(Settings, RenamesABrokenFile) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("studio.json");
   test::write_text(path, "{ not json");
@@ -141,7 +141,7 @@ TEST(Settings, BrokenFileIsRenamed) {
   EXPECT_EQ(write_settings(loaded.settings), write_settings(Settings()));
 }
 
-TEST(Settings, MissingFileIsNoError) {
+TEST(Settings, AMissingFileIsNotAnError) {
   const test::ScratchFolder folder;
   EXPECT_EQ(load_settings(folder.file("none.json")).note, "");
   ASSERT_TRUE(save_settings(changed(), folder.file("deep/er/studio.json")));

@@ -1,5 +1,5 @@
 #pragma once
-// What is plugged in, for the thread of a DeviceWatch.
+// The connected device, as the thread of a DeviceWatch finds it.
 
 #include "app/studio/device_watch.hpp"
 #include "tests/support/wait_until.hpp"
@@ -15,15 +15,15 @@ namespace clay::studio {
 using DevicePointer = std::unique_ptr<falcon::HapticDevice>;
 
 struct Socket {
-  std::mutex mutex;  // of what follows
+  std::mutex mutex;  // guards device and problem
   DevicePointer device;
   std::string problem;
-  std::atomic<int> looks{0};
+  std::atomic<int> searches{0};
 
   LookForDevice look() {
     return [this]() -> Result<DevicePointer> {
       const std::lock_guard lock(mutex);
-      ++looks;
+      ++searches;
       if (!problem.empty()) return failure(ErrorKind::device, std::string(problem));
       return std::move(device);
     };
@@ -39,14 +39,14 @@ struct Socket {
     };
     test::wait_until(opened, test::kDeadline, "the watch to open the device");
   }
-  void send(const std::string& what) {
+  void report(const std::string& what) {
     const std::lock_guard lock(mutex);
     problem = what;
   }
-  void wait_for_looks(int more) {
-    const int before = looks;
-    test::wait_until([&] { return looks >= before + more; }, test::kDeadline,
-                     "the watch to look for a device");
+  void wait_for_searches(int more) {
+    const int before = searches;
+    test::wait_until([&] { return searches >= before + more; }, test::kDeadline,
+                     "the watch to search for a device");
   }
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// A host without window, screen or OpenGL: for tests of the state and of panels.
+// A host without window, screen or OpenGL, for tests of the state and the panels.
 
 #include "app/studio/offscreen_host.hpp"
 

@@ -25,7 +25,7 @@ history::Work work_of(const std::vector<int>& moves) {
   return work;
 }
 
-TEST(Timeline, StrokesInARowAreOneRow) {
+TEST(Timeline, ConsecutiveStrokesShareARow) {
   const history::Work work = work_of({1, 1, 1});
   const Timeline timeline = timeline_of(work);
   ASSERT_EQ(timeline.blocks.size(), 3u);
@@ -54,7 +54,7 @@ TEST(Timeline, UndoneStrokesKeepTheirRowUntilABranch) {
   EXPECT_EQ(timeline.blocks[1].from_s, timeline.blocks[2].from_s);
 }
 
-RC_GTEST_PROP(Timeline, NoTwoBlocksLieOnEachOtherAndEachIsFoundWhereItLies, ()) {
+RC_GTEST_PROP(Timeline, BlocksDoNotOverlapAndEachIsFoundAtItsPlace, ()) {
   const auto moves = *rc::gen::container<std::vector<int>>(12, rc::gen::element(1, 1, -1));
   const history::Work work = work_of(moves);
   const Timeline timeline = timeline_of(work);

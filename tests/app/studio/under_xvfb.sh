@@ -1,24 +1,24 @@
 #!/bin/sh
-# under_xvfb.sh PROGRAM FOLDER: the window on a screen of its own, with real events: from the gallery
-# to files that print. Prints the log.
+# under_xvfb.sh PROGRAM FOLDER: the window on a virtual screen with real events, from the
+# gallery to a printable file. Prints the log.
 set -u
 . "$(dirname "$0")/under_xvfb_start.sh"
 
-# What the title says: the name, and a star while it is not saved.
+# The title is the name, with a star while it is not saved.
 has_title() { [ "$(xdotool getwindowname "$window")" = "$1" ]; }
 until_title() { wait_until "the title $1" has_title "$1"; }
 
 throw_the_bowl
 until_title "*bowl - Claystack"
-# Ten short taps are ten undos and redos: none is lost.
+# Ten key taps without delay: none is lost.
 for i in 1 2 3 4 5; do
   xdotool key --window "$window" --delay 0 ctrl+z
   xdotool key --window "$window" --delay 0 ctrl+shift+z
 done
 until_line "action: edit.redo" 5
 [ "$(grep -c "action: edit.undo" "$log")" -eq 5 ] || fail "expected 5 undos"
-# An export by its shortcut: the name is the sample's, the folder that of the last file, here the
-# one that the window was started in.
+# Export by shortcut. The name is that of the sample; the folder is that of the last file, here the
+# working folder.
 xdotool key --window "$window" ctrl+e
 until_line "export previewed"
 xdotool key --window "$window" ctrl+Return
@@ -27,7 +27,7 @@ until_line "exported: .*bowl.stl"
 mv bowl.stl by_key.stl
 xdotool key --window "$window" Escape
 until_line "action: wheel.zero_force"
-# The same by the menu: File, then Export.
+# Export by the menu: File, then Export.
 xdotool mousemove --window "$window" 27 13 click 1
 xdotool mousemove --window "$window" 60 240 sleep 0.2 click 1
 until_line "action: file.export" 2
@@ -37,14 +37,14 @@ until_line "exported: .*bowl.stl" 2
 cmp bowl.stl by_key.stl || fail "expected the same bytes by menu and by key"
 xdotool key --window "$window" Escape
 until_line "action: wheel.zero_force" 2
-# Larger text is kept: the test looks at the file.
+# The larger text is saved; the test checks the settings file.
 xdotool key --window "$window" ctrl+equal
 until_line "action: view.larger"
 xdotool key --window "$window" ctrl+q
 until_line "prompt: quit"
 xdotool key --window "$window" Escape
 until_line "action: wheel.zero_force" 3
-# The window's own way out asks again.
+# Quitting again asks again.
 xdotool key --window "$window" ctrl+q
 until_line "prompt: quit" 2
 xdotool key --window "$window" ctrl+d

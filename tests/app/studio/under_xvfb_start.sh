@@ -1,10 +1,10 @@
-# Sourced by scripts: a screen of its own, and the window on it. Sets folder, log, program; waits on
-# the program's log, never on time alone, and never without a deadline.
+# Sourced by scripts: starts a virtual screen and the window on it. Sets folder, log, program. Waits
+# for lines of the log, always with a deadline, never for a fixed time.
 program=$1
 folder=$2
 export XDG_CONFIG_HOME="$folder/config" XDG_STATE_HOME="$folder/state"
 unset WAYLAND_DISPLAY
-# Where devices are emulated, they are for the program: not for the screen, nor for the hand.
+# Emulated devices are for the program only, not for Xvfb and xdotool.
 emulation=${LD_PRELOAD:-}
 unset LD_PRELOAD
 log=$folder/log
@@ -15,7 +15,7 @@ fail() {
   cat "$log" >&2
   exit 1
 }
-# wait_until WHAT COMMAND...: until the command succeeds; after the deadline WHAT is the error.
+# wait_until WHAT COMMAND...: waits until the command succeeds; fails with WHAT at the deadline.
 deadline_s=120
 wait_until() {
   what=$1
@@ -28,20 +28,19 @@ wait_until() {
 }
 has_line() { [ "$(grep -c -- "$1" "$log")" -ge "$2" ]; }
 ended() { ! kill -0 "$studio" 2>/dev/null; }
-# until_line TEXT [COUNT]: so many lines of the log have it.
+# until_line TEXT [COUNT]: waits until COUNT lines of the log contain TEXT.
 has_line_or_ended() { has_line "$@" || ended; }
 until_line() {
   wait_until "a line with: $1" has_line_or_ended "$1" "${2:-1}"
   has_line "$1" "${2:-1}" || fail "the window ended without a line with: $1"
 }
-# until_ended: with exit status 0.
+# until_ended: waits for the window to end with exit status 0.
 until_ended() {
   wait_until "the window's end" ended
   wait "$studio" || fail "expected exit status 0"
 }
 
-# start_window [ARGUMENT...]: in $window, its process in $studio. Looks for no device, but for
-# $device.
+# start_window [ARGUMENT...]: sets $window and the process $studio. Uses no device but $device.
 start_window() {
   : >"$log"
   LD_PRELOAD=$emulation "$program" studio --log --device "${device:-none}" --size 1280x800 "$@" >"$log" 2>&1 &
@@ -50,10 +49,10 @@ start_window() {
   window=$(timeout $deadline_s xdotool search --sync --onlyvisible --name Claystack | head -1)
   [ -n "$window" ] || fail "waited $deadline_s s for the window to be visible"
   timeout $deadline_s xdotool windowfocus --sync "$window" ||
-    fail "waited $deadline_s s for the window to have the keys"
+    fail "waited $deadline_s s for the window to have the focus"
 }
 
-# throw_a_stroke: from beside the lump into it.
+# throw_a_stroke: moves from beside the lump into it.
 throw_a_stroke() {
   strokes=$(grep -c "stroke started" "$log")
   xdotool mousemove --window "$window" 930 420 mousedown 1
@@ -63,7 +62,7 @@ throw_a_stroke() {
   until_line "stroke ended" $((strokes + 1))
 }
 
-# throw_the_bowl: the window on the first card of the gallery, and a stroke.
+# throw_the_bowl: opens the first card of the gallery and throws a stroke.
 throw_the_bowl() {
   start_window
   xdotool mousemove --window "$window" 370 360 click 1
@@ -71,7 +70,7 @@ throw_the_bowl() {
   throw_a_stroke
 }
 
-# The server picks a number that is free, and tells it when it is ready.
+# The server picks a free display number and writes it when it is ready.
 Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp -noreset 3>"$folder/display" 2>/dev/null &
 server=$!
 studio=

@@ -1,5 +1,5 @@
 #pragma once
-// The window as its users meet it, without a screen: driven by scripts.
+// The window without a screen, driven by scripts.
 
 #include "tests/support/run_program.hpp"
 
@@ -11,7 +11,7 @@ namespace clay::test {
 
 class Window : public ::testing::Test {
  protected:
-  /// Runs a script on the sample bowl; FOLDER in it is this test's own.
+  /// Runs a script on the sample bowl; FOLDER in it is the folder of this test.
   Ran run(std::string script, const std::string& options = "--size 960x640") {
     for (auto at = script.find("FOLDER"); at != std::string::npos; at = script.find("FOLDER"))
       script.replace(at, 6, folder.path().string());
@@ -19,7 +19,7 @@ class Window : public ::testing::Test {
     return claystack("studio " + test::sample("bowl.scene.json") + " --script " + folder.file("s") +
                      " " + options);
   }
-  /// Colour of a pixel of a picture, as an independent program reads it: "r g b".
+  /// Colour of a pixel as ImageMagick reads it: "r g b".
   std::string pixel(const std::string& picture, int x, int y) {
     const std::string at = "p{" + std::to_string(x) + "," + std::to_string(y) + "}";
     return shell("convert " + folder.file(picture) + " -format \"%[fx:round(255*" + at +
@@ -35,7 +35,7 @@ inline constexpr const char* kPress =
     "point 56 18 over 0.4\nwait 0.2\nexpect contact yes\n"
     "point 65 18 over 0.3\nwait 0.2\nrelease left\nexpect throwing no\n";
 
-/// Farther in than the groove that kPress leaves.
+/// Deeper than the groove of kPress.
 inline constexpr const char* kDeeper =
     "point 65 18\npress left\npoint 48 18 over 0.4\nwait 0.2\nexpect contact yes\n"
     "point 65 18 over 0.3\nwait 0.2\nrelease left\n";

@@ -1,4 +1,4 @@
-// What comes out of the window is what the commands make.
+// The files of the window are those of the commands.
 
 #include "tests/app/studio/window.hpp"
 
@@ -32,7 +32,7 @@ TEST_F(Window, UndoneAndRedoneStrokeEqualsThrow) {
   EXPECT_EQ(one, read_text(folder.file("thrown.pot.json")));
 }
 
-TEST_F(Window, AScriptGivesTheSameBytesEveryTime) {
+TEST_F(Window, AScriptAlwaysGivesTheSameBytes) {
   ASSERT_EQ(run(std::string(kPress) + "save FOLDER/a.pot.json\nsave FOLDER/a.work\n").status, 0);
   ASSERT_EQ(run(std::string(kPress) + "save FOLDER/b.pot.json\nsave FOLDER/b.work\n").status, 0);
   EXPECT_EQ(read_text(folder.file("a.pot.json")), read_text(folder.file("b.pot.json")));
@@ -48,8 +48,8 @@ TEST_F(Window, QuittingAsksAboutUnsavedChanges) {
   EXPECT_EQ(ran.status, 0) << ran.err;
 }
 
-TEST_F(Window, ExportEqualsThatOfTheCommand) {
-  // The name and the folder of the work are those of its files.
+TEST_F(Window, ExportMatchesTheCommand) {
+  // The files take name and folder of the work.
   const Ran ran = run(std::string(kPress) +
                       "save FOLDER/mine.work\n"
                       "key Ctrl+E\nwait 0.1\nexpect overlay export\nexpect triangles above 100\n"
@@ -63,8 +63,8 @@ TEST_F(Window, ExportEqualsThatOfTheCommand) {
   EXPECT_EQ(claystack("check " + folder.file("mine.stl")).status, 0);
 }
 
-/// The whole way of a pot: what the window leaves is what the two commands make of its strokes.
-TEST_F(Window, EditedPotEqualsThatOfTheCommands) {
+/// From strokes to export: the commands make the same files from the saved work.
+TEST_F(Window, EditedPotMatchesTheCommands) {
   const Ran ran = run(std::string(kPress) +
                       "save FOLDER/pressed.pot.json\nkey Ctrl+Z\nexpect node 0\n"
                       "save FOLDER/undone.pot.json\nkey Ctrl+Shift+Z\nexpect node 1\n"
@@ -125,8 +125,7 @@ TEST_F(Window, AcceptsADroppedProcess) {
       run("open " + process + "\nexpect process " + process +
           "\nwait 0.1\nexpect thin no\ndo file.export\nwait 0.1\nexpect process " + process + "\n");
   EXPECT_EQ(ran.status, 0) << ran.err;
-  // Into the card; then a wall that the process does not bear is written and told, as by the
-  // command.
+  // Dropped on the export dialog, the process applies to the export, as in the command.
   ran = run("save FOLDER/mine.work\nsave FOLDER/lump.pot.json\ndo file.export\nopen " + process +
             "\nwait 0.1\nexpect process " + process +
             "\ndo export.write\nwait 0.1\nexpect exported 1\n");

@@ -1,4 +1,4 @@
-// Keys that hands know from other windows do here what they do there.
+// Keys do what they do in other programs.
 
 #include "tests/app/studio/window.hpp"
 
@@ -12,16 +12,16 @@ using test::kPress;
 using test::Ran;
 using test::Window;
 
-/// Lines of a script: the fact is the number, to a thousandth.
+/// Lines of a script that expect a value to within 0.1 %.
 std::string about(const std::string& fact, double value) {
   return "expect " + fact + " above " + std::to_string(0.999 * value) + "\nexpect " + fact +
          " below " + std::to_string(1.001 * value) + "\n";
 }
 
-// A drag of the mouse by 100 px makes it e^0.6 times as large.
+// A drag of 100 px multiplies a value by e^0.6.
 const double kDragged = std::exp(0.6);
 
-/// What the mouse does after it is no part of the drag.
+/// A click, and a move that must not count as part of the drag.
 std::string click(const std::string& button) {
   return "press " + button + "\nrelease " + button + "\nmove 450 300 over 0.1\n";
 }
@@ -83,7 +83,7 @@ TEST_F(Window, EscReleasesTheClay) {
   EXPECT_EQ(ran.status, 0) << ran.err;
 }
 
-TEST_F(Window, DialogsOpenByTheirKeysAndCloseByEsc) {
+TEST_F(Window, KeysOpenDialogsAndEscClosesThem) {
   std::string script;
   const auto card = [&](const std::string& chord, const std::string& overlay) {
     script += "key " + chord + "\nexpect overlay " + overlay + "\nkey Esc\nexpect overlay none\n";
@@ -104,7 +104,7 @@ TEST_F(Window, OpensADroppedFile) {
   const Ran ran = run(std::string(kPress) + "save FOLDER/mine.pot.json\nsave FOLDER/mine.work\n" +
                       "do edit.to_start\nsave FOLDER/mine.work\nopen FOLDER/mine.pot.json\n"
                       "expect strokes 0\nexpect unsaved no\nsave FOLDER/again.pot.json\n"
-                      // What is no file of ours takes nothing off the wheel.
+                      // An unknown file leaves the pot on the wheel.
                       "open FOLDER/s\nsave FOLDER/still.pot.json\n");
   ASSERT_EQ(ran.status, 0) << ran.err;
   const std::string mine = test::read_text(folder.file("mine.pot.json"));

@@ -1,4 +1,4 @@
-// What the window looks like: by geometry, by colour, and against pictures that were looked at.
+// The look of the window: by geometry, by colour, and against inspected reference pictures.
 
 #include "tests/app/studio/window.hpp"
 
@@ -14,7 +14,7 @@ using test::Ran;
 using test::read_text;
 using test::shell;
 
-/// Of a pixel, 0 to 255.
+/// A pixel, 0 to 255 per channel.
 struct Colour {
   int red = 0, green = 0, blue = 0;
   [[nodiscard]] bool clay() const { return red > blue + 30; }
@@ -22,7 +22,7 @@ struct Colour {
 
 class Look : public test::Window {
  protected:
-  /// As an independent program reads it.
+  /// The colour of a pixel as ImageMagick reads it.
   Colour at(const char* picture, int x, int y) {
     std::string& bytes = read_[picture];
     if (bytes.empty()) {
@@ -48,18 +48,19 @@ class Look : public test::Window {
   std::map<std::string, std::string> read_;
 };
 
-TEST_F(Look, ClayIsDrawnWhereGeometryPlacesIt) {
-  // From the front the lump's edge is a straight line: clay on one side, background on the other.
+TEST_F(Look, DrawsClayAtItsPosition) {
+  // Seen from the front: clay on the axis, background above the lump.
   const Ran ran =
       run("key 1\npoint 47 15\nscreenshot FOLDER/in.png\npoint 80 60\nscreenshot FOLDER/out.png\n");
   ASSERT_EQ(ran.status, 0) << ran.err;
-  // The middle of the view, between two columns of 240 px: on the axis, in the lump.
+  // The middle of the view lies between two columns of 240 px, on the axis and in the lump.
   EXPECT_TRUE(at("out.png", 480, 330).clay());
-  EXPECT_LT(at("out.png", 480, 60).red, at("out.png", 480, 60).blue + 10) << "above it is nothing";
+  EXPECT_LT(at("out.png", 480, 60).red, at("out.png", 480, 60).blue + 10)
+      << "background above the lump";
 }
 
-TEST_F(Look, TheWallMapPaintsThickClayYellow) {
-  // Nothing of a lump is thinner than the top of the range.
+TEST_F(Look, WallMapShowsThickClayYellow) {
+  // The whole lump is thicker than the range of the map.
   const Ran ran =
       run("key 1\nkey W\nmove 480 30\nwait 0.2\nscreenshot FOLDER/map.png\nkey W\nwait 0.2\n"
           "screenshot FOLDER/clay.png\n");
@@ -88,7 +89,7 @@ TEST_F(Look, BothThemesAndScalesAreDrawn) {
   }
 }
 
-TEST_F(Look, MouseRotatesShiftsAndZoomsTheView) {
+TEST_F(Look, MouseRotatesPansAndZoomsTheView) {
   const std::string drag = "move 480 300\npress BUTTON\nmove 520 220 over 0.2\nrelease BUTTON\n";
   const auto by = [&](const std::string& button) {
     std::string text = drag;
@@ -103,9 +104,9 @@ TEST_F(Look, MouseRotatesShiftsAndZoomsTheView) {
           "key Num1\n" + shot("again.png"));
   ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_FALSE(same("home.png", "middle.png"));
-  EXPECT_TRUE(same("middle.png", "right.png")) << "either button turns";
+  EXPECT_TRUE(same("middle.png", "right.png")) << "either button rotates";
   EXPECT_TRUE(same("front.png", "again.png"));
-  // The middle of the lump goes with the mouse, 40 px to the right and 80 px up.
+  // The lump moves with the mouse, 40 px to the right and 80 px up.
   const auto left_edge = [&](const char* picture, int y) {
     for (int x = 245; x < 715; ++x)
       if (at(picture, x, y).clay()) return x;
@@ -117,7 +118,7 @@ TEST_F(Look, MouseRotatesShiftsAndZoomsTheView) {
   EXPECT_LT(left_edge("near.png", 330), edge - 10);
 }
 
-TEST_F(Look, FromAboveARoundLumpIsAsHighAsWide) {
+TEST_F(Look, ARoundLumpIsRoundFromAbove) {
   const Ran ran = run("key 1\n" + shot("front.png") + "key 7\n" + shot("top.png") + "key 3\n" +
                       shot("side.png"));
   ASSERT_EQ(ran.status, 0) << ran.err;
@@ -138,14 +139,14 @@ TEST_F(Look, MatchesTheReferencePictures) {
                 .status,
             0);
   for (const char* name : {"throw", "walls", "top", "front", "fallen"}) {
-    // Edges fall otherwise on every driver; a tool is some 300 pixels.
+    // Edges differ between drivers; a tool covers about 300 pixels.
     const Ran differ =
         shell(std::string("compare -metric AE -fuzz 7% " CLAYSTACK_STUDIO_TESTS "/references/") +
               name + ".png " + folder.file(std::string(name) + ".png") + " null:");
     ASSERT_LE(differ.status, 1) << name << ": " << differ.err;
     EXPECT_LT(std::stod(differ.err), 150.0) << name
-                                            << ": of 126 720 pixels; references.sh makes "
-                                               "the pictures anew";
+                                            << ": of 126 720 pixels; references.sh "
+                                               "renews the pictures";
   }
 }
 

@@ -22,7 +22,7 @@ TEST_F(Window, ClickRemovesNothing) {
           "point 0 15\npress left\nwait 1\nexpect contact no\nrelease left\n"
           "save FOLDER/after.pot.json\n");
   ASSERT_EQ(ran.status, 0) << ran.err;
-  // Only the motion of the tool, which the next stroke may continue, is new.
+  // Only the motion of the tool may differ; the next stroke may continue it.
   const auto clay = [&](const char* name) {
     auto pot = nlohmann::json::parse(read_text(folder.file(name)));
     pot.erase("motion");
@@ -45,7 +45,7 @@ TEST_F(Window, CtrlTrimsAndPressKeepsTheClay) {
   EXPECT_NE(ledger("trim.pot.json")["trimmed"], "0") << ledger("trim.pot.json");
 }
 
-TEST_F(Window, APinchByTheMouseThinsTheWallAndKeepsTheClay) {
+TEST_F(Window, AMousePinchThinsTheWallAndKeepsTheClay) {
   const std::string pot = folder.file("cylinder.pot.json");
   ASSERT_EQ(
       claystack("throw -q " + test::sample("paper/cylinder.scene.json") + " -o " + pot).status, 0);
@@ -72,8 +72,8 @@ TEST_F(Window, AStrokeFromAnEarlierPotIsABranch) {
   EXPECT_EQ(read_text(folder.file("two.pot.json")), read_text(folder.file("again.pot.json")));
 }
 
-TEST_F(Window, TheTimelineIsClickedAndDragged) {
-  // The strip is the last thing above the status bar; its blocks begin beside "Start".
+TEST_F(Window, TheTimelineCanBeClickedAndDragged) {
+  // The timeline is above the status bar; its blocks begin beside "Start".
   const Ran ran = run(std::string(kPress) + kDeeper +
                       "save FOLDER/two.pot.json\n"
                       "move 270 597\npress left\nrelease left\nexpect node 0\n"
@@ -86,8 +86,8 @@ TEST_F(Window, TheTimelineIsClickedAndDragged) {
   EXPECT_EQ(read_text(folder.file("two.pot.json")), read_text(folder.file("again.pot.json")));
 }
 
-/// The marks of the drag are pixels of the strip; what is at them the work itself tells.
-TEST_F(Window, BranchWithinAStrokeEqualsThatOfThrow) {
+/// The drag ends at a pixel of the timeline; the saved work holds the time of that pixel.
+TEST_F(Window, BranchWithinAStrokeMatchesThrow) {
   const std::string drag = "move 400 597\npress left\nmove 340 597 over 0.3\nrelease left\n";
   const Ran ran = run(std::string(kPress) + drag +
                       "expect scrubbing yes\nexpect node 1\ndo edit.branch\n"
@@ -104,7 +104,7 @@ TEST_F(Window, BranchWithinAStrokeEqualsThatOfThrow) {
     EXPECT_EQ(read_text(thrown), read_text(folder.file(std::string(name) + ".pot.json"))) << name;
   }
   EXPECT_NE(read_text(folder.file("whole.pot.json")), read_text(folder.file("mine.pot.json")));
-  // A press on what is shown goes on from it too.
+  // A stroke on the moment shown also branches there.
   const Ran pressed = run(std::string(kPress) + drag + "expect scrubbing yes\n" + kDeeper +
                           "expect strokes 3\nexpect node 3\ndo edit.undo\nexpect node 2\n"
                           "save FOLDER/again.pot.json\n");
@@ -129,7 +129,7 @@ TEST_F(Window, AFallIsShownAndUndone) {
       "open " + test::sample("collapse.scene.json") +
       "\nkey 1\nsave FOLDER/stands.pot.json\nscreenshot FOLDER/stands.png\nhold Ctrl\n"
       "point 55 22\npress left\npoint 13 22 over 2\n";
-  // Until the neck gives way.
+  // Until the neck fails.
   for (int i = 0; i < 40; ++i) script += "wait 0.05\n";
   script +=
       "release left\nhold\nexpect fallen yes\nwait 0.1\nexpect proved yes\nexpect thin no\nkey "

@@ -29,7 +29,7 @@ TEST(ClayStack, CrownIsAFractionOfTheTopRing) {
 
 TEST(ClayStack, RadiusRoundTripsThroughQuanta) {
   for (const double mm : {0.001, 0.37, 1.0, 50.0, 4999.0}) {
-    // Half a quantum of R^2 is half a quantum / 2R of R.
+    // Half a quantum of R^2 is 1/2R times half a quantum in R.
     EXPECT_NEAR(radius_from_quanta(quanta_from_radius(mm)), mm,
                 kMm2PerQuantum / (2.0 * mm) + 1e-15 * mm);
   }

@@ -18,13 +18,13 @@ long double ulps(double found, long double expected) {
   return std::abs(expected - static_cast<long double>(found)) / static_cast<long double>(ulp);
 }
 
-// A long double has 11 more bits: a nearest double is within half an ulp and 2^-11 of its value.
+// A long double has 11 more bits, so the nearest double is within 0.5 + 2^-11 ulp of it.
 constexpr long double kNearest = 0.5L + 0x1p-11L;
 
 TEST(PortableTrig, ReturnsTheNearestDouble) {
   std::mt19937_64 random(7);
-  for (const double most : {1e-7, 1e-3, 3.5, 50.0, kMostRad}) {
-    std::uniform_real_distribution<double> angles(-most, most);
+  for (const double limit : {1e-7, 1e-3, 3.5, 50.0, kMostRad}) {
+    std::uniform_real_distribution<double> angles(-limit, limit);
     for (int k = 0; k < 20'000; ++k) {
       const double angle = angles(random), other = angles(random);
       const auto [cosine, sine] = cos_sin(angle);

@@ -27,21 +27,21 @@ std::size_t index_below(std::mt19937_64& random, std::size_t end) {
                   static_cast<std::size_t>(samples::uniform(random) * static_cast<double>(end)));
 }
 
-/// One ring, the ends of stretches at every level, and values between them.
+/// One ring, the block sizes of every level and their neighbours, and sizes between them.
 const auto kCounts = rc::gen::element<std::size_t>(1, 2, 63, 64, 65, 200, 4095, 4096, 4097, 9000);
 
 RC_GTEST_PROP(RingSums, EqualTheSumsOfTheRings, ()) {
   auto random = *samples::random_engine();
   auto rings = random_rings(random, *kCounts);
-  const std::size_t most = rings.size() + 150;
-  RingSums sums(ClayStack::from_rings(1.0, rings, 0, most).value());
+  const std::size_t max_rings = rings.size() + 150;
+  RingSums sums(ClayStack::from_rings(1.0, rings, 0, max_rings).value());
   for (int round = 0; round < 4; ++round) {
     const std::size_t first = index_below(random, rings.size());
     const std::size_t last = std::min(first + index_below(random, 200), rings.size() - 1);
     for (std::size_t i = first; i <= last; ++i) rings[i] = random_ring(random);
     sums.refresh(rings, first, last);
     const std::size_t old_size = rings.size();
-    while (rings.size() < most && samples::uniform(random) < 0.97)
+    while (rings.size() < max_rings && samples::uniform(random) < 0.97)
       rings.push_back(random_ring(random));
     if (rings.size() > old_size) sums.refresh(rings, old_size, rings.size() - 1);
 

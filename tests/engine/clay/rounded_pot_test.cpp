@@ -33,7 +33,7 @@ void expect_refused(const Pot& pot, double precision_mm, const std::string& mess
   EXPECT_EQ(rounded.error().message, message);
 }
 
-/// A precision of any number of nanometres that is allowed.
+/// Any allowed precision, a whole number of nanometres.
 double arbitrary_precision() { return *rc::gen::inRange(10, 1'000'001) / 1e6; }
 
 bool touch(const Ring& a, const Ring& b) { return a.inner2 < b.outer2 && b.inner2 < a.outer2; }
@@ -44,8 +44,7 @@ RC_GTEST_PROP(RoundedPot, RadiiAreTheNearestMultiples, ()) {
   const auto rounded = rounded_pot(pot, precision);
   RC_PRE(rounded.has_value());
   const auto is_multiple = [&](Quanta square) {
-    // In long double the square has an error of a few quanta at most; a wrong multiple differs by
-    // many more.
+    // In long double the square is off by at most a few quanta, a wrong multiple by many more.
     const long double steps = std::round(radius_from_quanta(square) / precision);
     const long double mm = steps * std::round(precision * 1e6L) / 1e6L;
     return std::abs(mm * mm * 0x1p36L - static_cast<long double>(square)) <= 2.0L;
@@ -116,7 +115,7 @@ TEST(RoundedPot, KeepsTheOriginalExactVolume) {
                  "0.001 mm");
 }
 
-TEST(RoundedPot, KeepsABore) {
+TEST(RoundedPot, KeepsANarrowBore) {
   const auto rounded = rounded_pot(pot_of({{10.0, 0.0}, {10.0, 0.0003}}), 0.001);
   ASSERT_TRUE(rounded);
   EXPECT_EQ(rounded->stack.rings()[0].inner2, 0);
@@ -136,7 +135,7 @@ TEST(RoundedPot, RefusesAChangeOfTopology) {
   expect_refused(pot_of({{0.25, 0.0}}), 1.0,
                  "ring 0: expected radii that can be rounded to 1 mm, found a wall that would "
                  "vanish, from 0 mm to 0.25 mm");
-  // Apart before, apart after.
+  // Rings that did not touch before need not touch after.
   EXPECT_TRUE(rounded_pot(pot_of({{20.0, 10.0}, {25.0, 20.0004}}), 0.001));
 }
 

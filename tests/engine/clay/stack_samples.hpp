@@ -1,5 +1,5 @@
 #pragma once
-// Random stacks for properties, and a scene to throw on.
+// Random stacks for property tests, and a scene.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/scene.hpp"
@@ -17,7 +17,7 @@ inline double uniform(std::mt19937_64& random) {
   return static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-/// Rings of 20..60 mm outside, with walls from a quantum to solid.
+/// Rings of 20 to 60 mm outer radius, with walls from one quantum to solid.
 inline ClayStack stack(std::mt19937_64& random, std::size_t count, double ring_height_mm = 1.0) {
   std::vector<Ring> rings;
   for (std::size_t i = 0; i < count; ++i) {
@@ -33,7 +33,7 @@ inline ClayStack stack(std::mt19937_64& random, std::size_t count, double ring_h
   return ClayStack::from_rings(ring_height_mm, std::move(rings), 0).value();
 }
 
-/// A solid lump of 40 rings under a ball of 8 mm, with all but stability on.
+/// A solid lump of 40 rings and a ball of 8 mm; all stages but stability are on.
 inline SceneSpec scene_of(Model model) {
   SceneSpec scene;
   scene.model = model;

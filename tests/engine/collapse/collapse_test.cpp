@@ -27,7 +27,7 @@ ClayStack stack_of(double h, std::vector<Ring> rings, WideQuanta crown = 0) {
   return ClayStack::from_rings(h, std::move(rings), crown).value();
 }
 
-/// The settled pot after the failure of a ring that bears `stress_kpa`.
+/// The settled pot after the failure of ring `failed` at twice the threshold.
 Pot fallen(ClayStack stack, std::size_t failed, glm::dvec3 hip_mm, double threshold_kpa) {
   Pot pot = falls::pot_of(std::move(stack));
   pot.collapse = settle(pot.stack, 1.9, {failed, 2.0 * threshold_kpa}, hip_mm, threshold_kpa);
@@ -43,7 +43,7 @@ double centre_mm(const Pot& pot) { return falls::potential_mj(pot, *pot.collapse
 double lowest_mm(const Pot& pot) { return falls::lowest_mm(pot, *pot.collapse); }
 
 TEST(Collapse, ColumnSinksStraightDownToTheWheel) {
-  // The same face throughout: half the weight is carried, half of the energy is damped.
+  // The contact face stays the same, so half the weight is carried and half the energy is damped.
   std::vector<Ring> rings(10, ring_of(20, 12));
   rings.resize(40, ring_of(19, 13));
   const Pot pot = fallen(stack_of(2.0, rings), 9, {0, 20, 0}, 0.5 * 1.9e-3 * 9.80665 * 60.0);
@@ -63,9 +63,9 @@ TEST(Collapse, NarrowTubeFallsFreelyIntoAWideOne) {
   EXPECT_EQ(pot.collapse->plastic_work_mj, 0.0);
 }
 
-TEST(Collapse, SolidNeckRestsWhereItIsWideEnough) {
-  // An hourglass that widens by 1 mm per ring both ways, with rings of 2 mm. Sunk by just over m
-  // rings, the parts meet in a disc of the neck's radius and floor(m / 2) mm.
+TEST(Collapse, SolidNeckComesToRestWhereItIsWideEnough) {
+  // An hourglass with rings of 2 mm that widens by 1 mm per ring both ways. Sunk by just over m
+  // rings, the parts meet in a disc whose radius is that of the neck plus floor(m / 2) mm.
   std::vector<Ring> rings;
   for (int i = 20; i >= 0; --i) rings.push_back(ring_of(15.0 + i));
   for (int i = 0; i <= 20; ++i) rings.push_back(ring_of(15.0 + i));
@@ -79,14 +79,14 @@ TEST(Collapse, SolidNeckRestsWhereItIsWideEnough) {
   EXPECT_NEAR(rests_at(15.5), 4.0, 1e-3);
   EXPECT_NEAR(rests_at(16.5), 8.0, 1e-3);
   EXPECT_NEAR(rests_at(18.5), 16.0, 1e-3);
-  // Nearly carried during the fall, then stopped by a wider face: the plastic work does not exceed
+  // Nearly carried during the fall, then stopped by a wider face. The plastic work must not exceed
   // the energy lost.
   const Collapse slow = fall(15.0001);
   EXPECT_LE(slow.plastic_work_mj, slow.energy_lost_mj);
   EXPECT_NEAR(slow.plastic_work_mj / slow.energy_lost_mj, 1.0, 1e-3);
 }
 
-/// A cylinder on a small foot without strength, pressed far out: it lands on its edge.
+/// A cylinder on a small foot without strength, pressed far out. It lands on its edge.
 Pot tipped_cylinder(double radius, double height, double hip_x) {
   std::vector<Ring> rings(static_cast<std::size_t>(height / 2.0) + 1, ring_of(radius));
   rings[0] = ring_of(1.0);
@@ -94,11 +94,11 @@ Pot tipped_cylinder(double radius, double height, double hip_x) {
 }
 
 TEST(Collapse, SlenderCylinderComesToRestOnItsSide) {
-  // Lands where the HIP, 2 mm up and 2.5 mm out, lets its far edge down; leans by more than R / (H
-  // / 2).
+  // It turns about the HIP, 2 mm up and 2.5 mm out, until its far edge lands. It then leans
+  // by more than R / (H / 2).
   const Pot pot = tipped_cylinder(8.0, 160.0, 2.5);
-  const double lands = std::asin(2.0 / 10.5);
-  ASSERT_GT(std::tan(lands), 8.0 / 80.0);
+  const double landing_rad = std::asin(2.0 / 10.5);
+  ASSERT_GT(std::tan(landing_rad), 8.0 / 80.0);
   EXPECT_NEAR(pot.collapse->angle_rad, kPi / 2, 1e-6);
   EXPECT_NEAR(centre_mm(pot), 8.0, 1e-5);
   EXPECT_NEAR(lowest_mm(pot), 0.0, 1e-9);
@@ -108,7 +108,7 @@ TEST(Collapse, SquatCylinderRocksBackOntoItsFoot) {
   const Pot pot = tipped_cylinder(30.0, 60.0, 35.0);
   EXPECT_NEAR(pot.collapse->angle_rad, 0.0, 1e-8);
   EXPECT_NEAR(centre_mm(pot), 30.0, 1e-6);
-  EXPECT_LT(fall_frames(pot).size(), 1000u);  // and stays there
+  EXPECT_LT(fall_frames(pot).size(), 1000u);  // it does not rock on
   EXPECT_NEAR(lowest_mm(pot), 0.0, 1e-9);
 }
 
@@ -116,16 +116,16 @@ TEST(Collapse, RollsWithoutSlipping) {
   // It rotates about the HIP until its edge touches, then about that edge.
   const double radius = 8.0, hip = 2.5;
   const Pot pot = tipped_cylinder(radius, 160.0, hip);
-  const double lands = std::asin(2.0 / (hip + radius));
-  const double edge = hip - (hip + radius) * std::cos(lands);
+  const double landing_rad = std::asin(2.0 / (hip + radius));
+  const double edge = hip - (hip + radius) * std::cos(landing_rad);
   const glm::dvec3 foot = falls::moved(*pot.collapse, {-radius, 2.0, 0.0});
   EXPECT_NEAR(foot.x, edge, 1e-3);
   EXPECT_NEAR(foot.y, 0.0, 1e-5);
 }
 
 TEST(Collapse, ConeComesToRestOnItsSide) {
-  // Wider at the top, by half a millimetre per ring of 2 mm: it falls onto the far side of the rim,
-  // and rests on the line through the tops of its rings.
+  // It widens by 0.5 mm per ring of 2 mm. It falls onto the far side of the rim and rests on the
+  // line through the tops of its rings.
   std::vector<Ring> rings{ring_of(1.0)};
   for (int i = 0; i < 60; ++i) rings.push_back(ring_of(4.0 + 0.5 * i));
   const Pot pot = fallen(stack_of(2.0, rings), 0, {2.5, 2.0, 0.0}, kSoft);
@@ -137,12 +137,12 @@ TEST(Collapse, OnlyTheCrownFalls) {
   const Ring top = ring_of(20, 15);
   const ClayStack stack = stack_of(4.0, {ring_of(20), top}, top.volume() / 4);
   const Pot pot = fallen(stack, 1, {0, 8, 0}, kSoft);
-  // Flat to the 1e-10 rad within which a foot counts as flat.
+  // A foot counts as flat within 1e-10 rad.
   EXPECT_NEAR(pot.collapse->shift_mm.y, -8.0, 1e-8);
   EXPECT_NEAR(pot.collapse->energy_lost_mj, 1.9e-6 * 9.80665 * kPi * (400 - 225) * 8.0, 1e-9);
 }
 
-TEST(Collapse, OneRingHasNothingToFall) {
+TEST(Collapse, OneRingCannotFall) {
   for (const double x : {0.0, 10.0}) {
     const Pot pot = fallen(stack_of(4.0, {ring_of(20)}), 0, {x, 2, 0}, 1.0);
     EXPECT_EQ(pot.collapse->angle_rad, 0.0);
@@ -179,7 +179,7 @@ TEST(Collapse, IsRotationallySymmetric) {
   EXPECT_NEAR(glm::length(one.shift_mm), glm::length(other.shift_mm), 1e-5);
 }
 
-/// Any vessel, failing at any ring, pressed from anywhere.
+/// A random vessel that fails at a random ring, pressed from a random position.
 Pot any_fall(std::mt19937_64& random) {
   const auto uniform = [&] { return samples::uniform(random); };
   const auto pick = [&](std::size_t from, std::size_t end) {
@@ -207,7 +207,7 @@ Pot any_fall(std::mt19937_64& random) {
 
 class AnyFall : public testing::TestWithParam<std::uint64_t> {};
 
-TEST_P(AnyFall, EnergyDecreasesAndNothingEntersTheWheel) {
+TEST_P(AnyFall, EnergyDecreasesAndClayStaysAboveTheWheel) {
   std::mt19937_64 random(GetParam());
   const Pot pot = any_fall(random);
   const auto frames = fall_frames(pot);
@@ -232,16 +232,16 @@ TEST_P(AnyFall, EnergyDecreasesAndNothingEntersTheWheel) {
   EXPECT_EQ(pot.collapse->plastic_work_mj, spent);
 }
 
-/// The ends of the contact with the wheel, along `outward`: left, right. NaN without contact.
+/// The left and right ends of the contact with the wheel along `outward`; NaN without contact.
 std::pair<double, double> footing(const Pot& pot, const glm::dvec3& outward) {
   std::pair<double, double> ends{std::nan(""), std::nan("")};
   const double h = pot.stack.ring_height_mm();
   for (std::size_t i = pot.collapse->failed_ring + 1; i < pot.stack.size(); ++i)
     for (const double side : {-1.0, 1.0})
       for (const double level : {0.0, 1.0}) {
-        const glm::dvec3 stood = side * pot.stack.rings()[i].outer_mm() * outward +
-                                 glm::dvec3{0.0, h * (static_cast<double>(i) + level), 0.0};
-        const glm::dvec3 p = falls::moved(*pot.collapse, stood);
+        const glm::dvec3 before = side * pot.stack.rings()[i].outer_mm() * outward +
+                                  glm::dvec3{0.0, h * (static_cast<double>(i) + level), 0.0};
+        const glm::dvec3 p = falls::moved(*pot.collapse, before);
         if (p.y > 1e-5) continue;
         ends.first = std::fmin(ends.first, glm::dot(p, outward));
         ends.second = std::fmax(ends.second, glm::dot(p, outward));
@@ -249,42 +249,42 @@ std::pair<double, double> footing(const Pot& pot, const glm::dvec3& outward) {
   return ends;
 }
 
-/// The largest net power over the weight [mm/s] of motions whose fastest point moves at about 1
-/// mm/s.
-double most_won(const Pot& pot, std::mt19937_64& random) {
+/// The largest ratio of net power to weight [mm/s] over motions whose fastest point moves at about
+/// 1 mm/s.
+double max_net_power(const Pot& pot, std::mt19937_64& random) {
   const Collapse& c = *pot.collapse;
   const falls::Weight weight = falls::weight_above(pot, c.failed_ring);
   const glm::dvec3 centre = falls::moved(c, {0.0, weight.centre_mm, 0.0});
   const glm::dvec3 outward{c.axis.z, 0.0, -c.axis.x};
   const double reach = 0.5 * pot.stack.height_mm() + largest_radius_mm(pot.stack);
-  double most = 0.0;
+  double max_mm_s = 0.0;
   const auto in_clay = falls::touches(pot, c, kCell, kSlack);
   const auto try_turn = [&](const glm::dvec3& about, const glm::dvec3& v, double omega) {
     const auto velocity = [&](const glm::dvec3& p) {
       return v + omega * glm::cross(c.axis, p - about);
     };
     const double fastest = glm::length(velocity(centre)) + std::abs(omega) * reach;
-    most = std::max(
-        most, falls::net_power_mw(pot, c, in_clay, velocity) / (9.80665 * weight.kg * fastest));
+    max_mm_s = std::max(
+        max_mm_s, falls::net_power_mw(pot, c, in_clay, velocity) / (9.80665 * weight.kg * fastest));
   };
   const auto [left, right] = footing(pot, outward);
-  if (!std::isnan(left)) {  // it may only roll
+  if (!std::isnan(left)) {  // only rolling is possible
     try_turn(left * outward, {}, 1.0);
     try_turn(right * outward, {}, -1.0);
-    return most;
+    return max_mm_s;
   }
   const auto any = [&] { return 2.0 * samples::uniform(random) - 1.0; };
   try_turn(centre, {0.0, -1.0, 0.0}, 0.0);
   for (int k = 0; k < 40; ++k)
     try_turn(centre, any() * outward + glm::dvec3{0.0, any(), 0.0}, 2.0 * any() / reach);
-  return most;
+  return max_mm_s;
 }
 
 TEST_P(AnyFall, RestsWhereNoMotionGainsPower) {
   std::mt19937_64 random(GetParam());
   const Pot pot = any_fall(random);
-  // Both sample the surface, at different points.
-  EXPECT_LT(most_won(pot, random), 0.02);
+  // The engine and this test sample the surface at different points.
+  EXPECT_LT(max_net_power(pot, random), 0.02);
 }
 
 INSTANTIATE_TEST_SUITE_P(Collapse, AnyFall, testing::Range<std::uint64_t>(0, 24));

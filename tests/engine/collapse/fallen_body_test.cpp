@@ -26,7 +26,7 @@ TEST(FallenBody, MeasuresOfACylinder) {
 
 TEST(FallenBody, MeasuresOfATubeWithACrown) {
   const Ring ring{quanta_from_radius(20), quanta_from_radius(16)};
-  // Three rings and a half.
+  // Three and a half rings.
   const ClayStack stack =
       ClayStack::from_rings(4.0, {ring, ring, ring, ring}, ring.volume() / 2).value();
   const FallenBody body(stack, 0);
@@ -64,8 +64,8 @@ RC_GTEST_PROP(FallenBody, LowestPointIsTheMinimumOfAllCorners, ()) {
 }
 
 RC_GTEST_PROP(FallenBody, SamplesFormAClosedSurface, ()) {
-  // Gauss: over a closed surface the normal sums to nothing, and x n_x, y n_y and z n_z each to the
-  // volume.
+  // Gauss: over a closed surface the normal integrates to zero, and each of x n_x, y n_y and z n_z
+  // to the volume.
   auto random = *samples::random_engine();
   const auto count = *rc::gen::inRange<std::size_t>(2, 300);
   const ClayStack plain = samples::stack(random, count, 1.0);

@@ -1,6 +1,6 @@
 #pragma once
-// An independent analysis of a collapse, in space and ring by ring: positions of points, and the
-// power of motions from there. Shares only the resting place with the engine.
+// An independent analysis of a collapse in space, ring by ring: positions of points and the power
+// of motions. It takes only the resting position from the engine.
 
 #include "claystack/engine/collapse.hpp"
 
@@ -55,7 +55,7 @@ inline double potential_mj(const Pot& pot, const Collapse& c) {
   return weight.kg * 9.80665 * moved(c, {0.0, weight.centre_mm, 0.0}).y;
 }
 
-/// Over every corner of every fallen ring, in the plane of the collapse.
+/// The lowest corner of all fallen rings, in the plane of the collapse.
 inline double lowest_mm(const Pot& pot, const Collapse& c) {
   const ClayStack& stack = pot.stack;
   const glm::dvec3 outward{c.axis.z, 0.0, -c.axis.x};
@@ -82,10 +82,10 @@ inline bool in_standing_clay(const Pot& pot, const Collapse& c, const glm::dvec3
          radius >= pot.stack.rings()[level].inner_mm() - slack_mm;
 }
 
-/// Calls use(place before the collapse, unit normal, area) for surface elements of the fallen
+/// Calls use(position before the collapse, unit normal, area) for surface elements of the fallen
 /// rings, at most `cell_mm` large. Requires a pot without a crown.
 template <class Use>
-void each_bit(const Pot& pot, std::size_t failed, double cell_mm, Use use) {
+void for_each_element(const Pot& pot, std::size_t failed, double cell_mm, Use use) {
   const auto rings = pot.stack.rings();
   const double h = pot.stack.ring_height_mm();
   const auto round = [&](double radius, double y, double area, auto normal_at) {
@@ -117,8 +117,7 @@ void each_bit(const Pot& pot, std::size_t failed, double cell_mm, Use use) {
     const double inner = rings[i].inner_mm(), outer = rings[i].outer_mm();
     wall(outer, bottom, 1.0);
     if (inner > 0.0) wall(inner, bottom, -1.0);
-    // Parts covered by a neighbour are no surface: uses the parts of an annulus inside and outside
-    // of it.
+    // Skips the part covered by a neighbour: uses the annuli inside and outside of it.
     const auto face = [&](bool covered, const Ring& by, double y, double up) {
       if (!covered) return tread(inner, outer, y, up);
       tread(inner, std::min(outer, by.inner_mm()), y, up);
@@ -131,18 +130,18 @@ void each_bit(const Pot& pot, std::size_t failed, double cell_mm, Use use) {
 
 /// An element of the fallen surface in the standing clay, or within `slack_mm` of it.
 struct Touch {
-  glm::dvec3 place_mm, normal;
+  glm::dvec3 position_mm, normal;
   double area_mm2;
 };
 inline std::vector<Touch> touches(const Pot& pot, const Collapse& c, double cell_mm,
                                   double slack_mm) {
   std::vector<Touch> found;
-  each_bit(pot, c.failed_ring, cell_mm,
-           [&](const glm::dvec3& stood, const glm::dvec3& n, double area) {
-             const glm::dvec3 p = moved(c, stood);
-             if (in_standing_clay(pot, c, p, slack_mm))
-               found.push_back({p, glm::angleAxis(c.angle_rad, c.axis) * n, area});
-           });
+  for_each_element(pot, c.failed_ring, cell_mm,
+                   [&](const glm::dvec3& before, const glm::dvec3& n, double area) {
+                     const glm::dvec3 p = moved(c, before);
+                     if (in_standing_clay(pot, c, p, slack_mm))
+                       found.push_back({p, glm::angleAxis(c.angle_rad, c.axis) * n, area});
+                   });
   return found;
 }
 
@@ -155,7 +154,7 @@ double net_power_mw(const Pot& pot, const Collapse& c, const std::vector<Touch>&
   double power = -weight.kg * 9.80665 * velocity(centre).y;
   for (const Touch& touch : in_clay)
     power -= 1e-3 * c.threshold_kpa * touch.area_mm2 *
-             std::max(0.0, glm::dot(touch.normal, velocity(touch.place_mm)));
+             std::max(0.0, glm::dot(touch.normal, velocity(touch.position_mm)));
   return power;
 }
 

@@ -23,35 +23,34 @@ Twist about(glm::dvec2 centre, const PlanePose& pose, double gyration) {
   return {-arm.y, arm.x, gyration};
 }
 
-TEST(YieldPower, AtTheFailedRingEqualsTheCriterionOfSectionSeven) {
-  // A neck of 12 mm with a bore of 5 under a wide part: the neck's face bears the load.
+TEST(YieldPower, AtTheFailedRingMatchesSectionSevenOfThePaper) {
+  // A neck of 12 mm with a bore of 5 mm under a wide part; the face of the neck carries the load.
   std::vector<Ring> rings(30, Ring{quanta_from_radius(30), quanta_from_radius(3)});
   rings[8] = {quanta_from_radius(12), quanta_from_radius(5)};
   const ClayStack stack = ClayStack::from_rings(2.0, rings, 0).value();
   const FallenBody body(stack, 8);
-  const PlanePose stood{{0.0, body.centre_height_mm()}, 0.0};
+  const PlanePose before{{0.0, body.centre_height_mm()}, 0.0};
   const double weight = 3.0, threshold = 2.5,
-               borne = 1e-3 * threshold * std::numbers::pi * (144 - 25);
+               carried = 1e-3 * threshold * std::numbers::pi * (144 - 25);
   YieldPower power(stack, 8, body, weight, threshold);
-  power.place(stood);
-  EXPECT_NEAR(power.net({0, -1, 0}), 1.0 - borne / weight, 1e-12);
+  power.place(before);
+  EXPECT_NEAR(power.net({0, -1, 0}), 1.0 - carried / weight, 1e-12);
   EXPECT_NEAR(power.net({0, 1, 0}), -1.0, 1e-12);
   // About a point beyond the neck, weight and clay have the same lever.
-  EXPECT_NEAR(power.net(about({40, 18}, stood, body.gyration_mm())), 40 * (1.0 - borne / weight),
+  EXPECT_NEAR(power.net(about({40, 18}, before, body.gyration_mm())), 40 * (1.0 - carried / weight),
               1e-9);
 }
 
-TEST(YieldPower, ClayOnlyPushes) {
+TEST(YieldPower, ClayResistsOnlyCompression) {
   const ClayStack stack = ClayStack::cylinder(20, 2.0, 20.0, 0.0, 20).value();
   const FallenBody body(stack, 4);
-  const PlanePose stood{{0.0, body.centre_height_mm()}, 0.0};
+  const PlanePose before{{0.0, body.centre_height_mm()}, 0.0};
   YieldPower power(stack, 4, body, 1.0, 1e3);
-  power.place(stood);
-  // About a point of the face itself, the part to the right lifts off without cost. Where the face
-  // moves down, the integral of
-  // |x| over the half disc is 2 R^3 / 3.
+  power.place(before);
+  // In a rotation about a point of the face, the right half lifts off without resistance. On the
+  // left half, which moves down, the integral of |x| is 2 R^3 / 3.
   const double expected = -(2.0 / 3) * 8000;
-  EXPECT_NEAR(power.net(about({0, 10}, stood, body.gyration_mm())) / expected, 1.0, 5e-3);
+  EXPECT_NEAR(power.net(about({0, 10}, before, body.gyration_mm())) / expected, 1.0, 5e-3);
 }
 
 RC_GTEST_PROP(YieldPower, ReturnsTheSteepestMotionOrNone, ()) {
@@ -67,11 +66,11 @@ RC_GTEST_PROP(YieldPower, ReturnsTheSteepestMotionOrNone, ()) {
                3.0 * samples::uniform(random)});
   const Twist best = power.steepest();
   const bool rests = best == Twist{0.0};
-  const double won = rests ? 0.0 : power.net(best) / glm::length(best);
-  RC_ASSERT(rests || won > 0.0);
+  const double best_power = rests ? 0.0 : power.net(best) / glm::length(best);
+  RC_ASSERT(rests || best_power > 0.0);
   for (int k = 0; k < 300; ++k) {
     const Twist other = any_twist(random);
-    RC_ASSERT(power.net(other) / glm::length(other) <= (rests ? 1e-6 : 2.0 * won) + 1e-12);
+    RC_ASSERT(power.net(other) / glm::length(other) <= (rests ? 1e-6 : 2.0 * best_power) + 1e-12);
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Arbitrary values for properties of the files, including the limits of every range.
+// Arbitrary values for property tests of the files, including the limits of each range.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/scene.hpp"
@@ -120,13 +120,13 @@ inline Pot arbitrary_pot() {
   pot.density_g_cm3 = *number_in(0.1, 25);
   pot.collapse = maybe<Collapse>([&] {
     const double heading = *number_in(-3, 3);
-    const auto place = [] { return *number_in(-1e6, 1e6); };
+    const auto position = [] { return *number_in(-1e6, 1e6); };
     return Collapse{*rc::gen::inRange<std::size_t>(0, count),
-                    {place(), place(), place()},
+                    {position(), position(), position()},
                     {std::sin(heading), 0.0, std::cos(heading)},
                     *number_in(-2 * std::numbers::pi, 2 * std::numbers::pi),
                     *number_in(0, 1e4),
-                    {place(), place(), place()},
+                    {position(), position(), position()},
                     *number_in(0, 1e4),
                     *number_in(0, 1e9),
                     *number_in(0, 1e9)};

@@ -1,5 +1,5 @@
 #pragma once
-// A folder for publishing files, and its contents as seen from outside.
+// A folder for published files, and its contents.
 
 #include "claystack/core/atomic_file.hpp"
 
@@ -51,7 +51,7 @@ class AtomicFileFolder : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-/// The message says which file and why.
+/// The message must name the file and the reason.
 inline void expect_io_error(const Result<void>& result, const std::filesystem::path& path,
                             int error) {
   ASSERT_FALSE(result);

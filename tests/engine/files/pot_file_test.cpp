@@ -55,7 +55,7 @@ void expect_pot_error(std::string_view from, std::string_view to, const std::str
                        "p.json:" + std::to_string(test::line_of(text, from)) + ": " + message);
 }
 
-TEST(PotFile, WritesRadiiForPeople) {
+TEST(PotFile, AlsoWritesReadableRadii) {
   const Json file = Json::parse(write_pot(collapsed_pot(), PotEncoding::json));
   EXPECT_EQ(file["schema"], "claystack-pot-1");
   EXPECT_EQ(file["rings"]["outer2"], Json({100 * kMm2, 121 * kMm2, 144 * kMm2 + 1, 2 * kMm2}));
@@ -98,7 +98,7 @@ RC_GTEST_PROP(PotFile, CborHoldsTheFieldsOfJsonExceptRadii, ()) {
 }
 
 TEST(PotFile, TwoHundredRingsFitIntoFourKilobytes) {
-  // All radii differ, low bits are used, and clay is trimmed, so that no size is saved by chance.
+  // All radii differ, low bits are used, and clay is trimmed, so that no part is short by chance.
   std::vector<Ring> rings;
   for (int i = 0; i < 200; ++i)
     rings.push_back({quanta_from_radius(45.0 + 0.0123 * i), quanta_from_radius(40.0 + 0.0071 * i)});
@@ -156,7 +156,7 @@ TEST(PotFile, ErrorsNameTheRingAndItsLine) {
                    "6871947673600.0");
 }
 
-TEST(PotFile, AcceptsRadiiRoundedByAPerson) {
+TEST(PotFile, AcceptsRoundedRadii) {
   const std::string text = write_pot(small_pot(), PotEncoding::json);
   EXPECT_TRUE(parse_pot(test::replaced(text, "1.414214", "1.41421"), "rounded"));
 }
@@ -210,7 +210,7 @@ TEST(PotFile, RefusesFilesThatAreNotPots) {
   EXPECT_FALSE(parse_pot(bytes + '\0', "trailing"));
 }
 
-TEST(PotFile, NoFlippedBitGivesAnUnbalancedPot) {
+TEST(PotFile, AFlippedBitNeverGivesAnUnbalancedPot) {
   const std::string bytes = write_pot(collapsed_pot(), PotEncoding::cbor);
   for (std::size_t at = 0; at < bytes.size(); ++at)
     for (unsigned bit = 0; bit < 8; ++bit) {
@@ -231,8 +231,8 @@ TEST(PotSchema, NamesTheWrittenFields) {
   EXPECT_EQ(std::set(written.begin(), written.end()), std::set(described.begin(), described.end()));
 }
 
-/// Edited counts no longer agree with the ledger and the radii, nor indices with the stack: only
-/// there the reader is stricter than the schema.
+/// The reader is stricter than the schema only where fields depend on each other: counts on ledger
+/// and radii, indices on the stack.
 bool is_rule_between_fields(const std::string& edit) {
   constexpr std::array kRules = {"/rings/", "/failed_ring: ", "/axis/", "/max_rings: at minimum",
                                  "/max_rings: above minimum"};

@@ -15,7 +15,7 @@ namespace {
 
 using test::Json;
 
-/// Radii outside 10, 10.002, 10.005, 10.005 and inside 0, 0, 9, 9.001 mm, and a hair.
+/// Outer radii 10, 10.002, 10.005, 10.005 and inner radii 0, 0, 9, 9.001 mm, slightly off.
 Pot small_rounded_pot() {
   std::vector<Ring> rings;
   const double outer[] = {10.0, 10.002, 10.005, 10.005};
@@ -40,7 +40,7 @@ void expect_rounded_error(std::string_view from, std::string_view to, const std:
 }
 
 /// After any edit, an accepted pot can be written and read.
-void expect_sound(const Pot& pot) {
+void expect_valid(const Pot& pot) {
   EXPECT_EQ(to_string(pot.ledger.imbalance(pot.stack.recount())), "0");
   const auto again = parse_pot(write_pot(pot, PotEncoding::cbor), "again");
   ASSERT_TRUE(again) << again.error().message;
@@ -78,7 +78,7 @@ RC_GTEST_PROP(RoundedPotFile, CborHoldsTheFieldsOfJsonExceptRadii, ()) {
   RC_ASSERT(Json::from_cbor(write_pot(*pot, PotEncoding::cbor)) == file);
 }
 
-TEST(RoundedPotFile, WritesAPotWithFalseRoundingExactly) {
+TEST(RoundedPotFile, WritesAPotWithWrongRoundingExactly) {
   Pot pot = small_rounded_pot();
   std::vector<Ring> rings(pot.stack.rings().begin(), pot.stack.rings().end());
   ++rings[1].outer2;
@@ -162,7 +162,7 @@ TEST(RoundedPotFile, RefusesEveryTruncation) {
   EXPECT_FALSE(parse_pot(bytes + '\0', "trailing"));
 }
 
-TEST(RoundedPotFile, NoEditedByteGivesAnUnsoundPot) {
+TEST(RoundedPotFile, AnEditedByteNeverGivesAnInvalidPot) {
   const std::string bytes = write_pot(small_rounded_pot(), PotEncoding::cbor);
   std::size_t refused = 0;
   for (std::size_t at = 0; at < bytes.size(); ++at)
@@ -170,7 +170,7 @@ TEST(RoundedPotFile, NoEditedByteGivesAnUnsoundPot) {
       std::string edited = bytes;
       edited[at] = static_cast<char>(static_cast<unsigned char>(bytes[at]) ^ value);
       if (const auto pot = parse_pot(edited, "edited"))
-        expect_sound(*pot);
+        expect_valid(*pot);
       else
         ++refused;
     }

@@ -17,7 +17,7 @@ std::uint64_t fnv1a(std::string_view text) {
 }
 
 TEST(SceneHash, IgnoresTheWritingVersion) {
-  ASSERT_EQ(fnv1a("foobar"), 0x85944171f73967e8u);  // the authors' test vector
+  ASSERT_EQ(fnv1a("foobar"), 0x85944171f73967e8u);  // test vector of the FNV authors
   const SceneSpec scene;
   std::string text = write_scene(scene);
   const auto stamp = text.find("  \"written_by\"");

@@ -38,7 +38,7 @@ TEST(SceneSchema, NamesTheWrittenFields) {
   EXPECT_EQ(written, std::set<std::string>(described.begin(), described.end()));
 }
 
-/// A schema cannot compare two fields: only there the reader is stricter.
+/// A schema cannot compare two fields, so the reader is stricter there.
 bool is_scene_rule(const std::string& message) {
   constexpr std::array kRules = {"less than outer_radius_mm", "at least rings", "more than",
                                  "as many numbers as"};
@@ -78,7 +78,7 @@ TEST(SceneSchema, AcceptsEverySample) {
 }
 
 TEST(SceneSchema, StatesTheDefaultsOfTheReader) {
-  // A file with all defaults written out is the same scene as a file without them.
+  // A file that states all defaults must be the same scene as a file without them.
   const auto filled = [](const auto& self, const Json& schema) -> Json {
     if (schema.contains("default") && !schema["default"].is_object()) return schema["default"];
     Json object = Json::object();

@@ -23,7 +23,7 @@ Pose pose_of(std::int64_t time_us, glm::dvec3 counts, bool trim = false, double 
   return {time_us, counts * kQuantumMm, trim, gap * kQuantumMm};
 }
 
-/// A moving hand with occasional button presses, which pinches after its first block.
+/// A moving hand with occasional button presses that pinches after the first block.
 std::vector<Pose> wandering(std::size_t count) {
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < count; ++i) {
@@ -168,7 +168,7 @@ TEST(SessionFile, DetectsEveryFlippedBit) {
       flipped[at] = static_cast<char>(static_cast<unsigned char>(text[at]) ^ (1u << bit));
       const auto session = parse_session(flipped, "flipped");
       if (!session) continue;
-      // Only an end that looks truncated may be accepted, and then the whole block is dropped.
+      // Only an end that looks truncated may be accepted; then the reader drops the whole block.
       EXPECT_GE(at, last_block) << "bit " << bit << " of byte " << at;
       EXPECT_TRUE(session->torn);
       EXPECT_EQ(session->poses.size(), 200u);
@@ -259,7 +259,7 @@ TEST(SessionFile, RefusesTimesThatDecreaseBetweenBlocks) {
   test::expect_refused(parse_session(text, "s"), "s:3: t_us: expected a time after 3500, found 0");
 }
 
-/// A header, and blocks of poses at rest: the most poses per byte.
+/// A header and blocks of poses at rest, which gives the most poses per byte.
 std::string still_session(std::size_t blocks) {
   std::string text(kHeader);
   std::vector<Pose> poses(kPosesPerBlock);
@@ -286,7 +286,7 @@ TEST(SessionFile, ReadsTheLargestSessionInOneGibibyte) {
   EXPECT_GT(kMaxSessionBytes, 2 * (text_of(wandering(10'000)).size() / 10'000) * kMaxPoses);
 }
 
-TEST(SessionFile, RefusesTooManyPosesInAdvance) {
+TEST(SessionFile, RefusesTooManyPosesBeforeReadingThem) {
   std::string text(kHeader);
   for (std::size_t block = 0; block <= kMaxPoses / kPosesPerBlock; ++block)
     text += R"({"n":100,"t_us":0})"
@@ -306,7 +306,7 @@ TEST(SessionFile, RefusesABlockBeyondTheLimitAtItsLine) {
                        "s:7: n: expected at most 10000000 poses in all, found more");
   EXPECT_TRUE(poses.empty());
   EXPECT_TRUE(files::append_block(line.value(), poses, 3));
-  // With a layout in which no announced count is found, a block is read nevertheless.
+  // A block is read even if its layout hides the announced count.
   EXPECT_EQ(files::announced_poses(kThreePoses), 3u);
   EXPECT_EQ(files::announced_poses(" " + std::string(kThreePoses)), 0u);
   EXPECT_EQ(parse_session(std::string(kHeader) + " " + std::string(kThreePoses), "s").value().poses,
@@ -329,7 +329,7 @@ TEST(SessionSchema, DescribesEveryLine) {
   EXPECT_EQ(written, described);
 }
 
-TEST(SessionSchema, RefusesOnlyWhatTheReaderRefuses) {
+TEST(SessionSchema, RefusesNothingThatTheReaderAccepts) {
   const Json schema = test::load_schema("session");
   const std::string block(kThreeGaps);
   for (const auto& [what, line] : test::edits(schema, Json::parse(kHeader))) {

@@ -1,5 +1,5 @@
 #pragma once
-// Failing system calls by a seccomp filter: the kernel returns the error, so the code under test
+// Makes system calls fail by a seccomp filter: the kernel returns the error, so the code under test
 // needs no hooks.
 
 #include <fcntl.h>

@@ -21,7 +21,7 @@ Contact contact_of(const Tool& tool, const ClayStack& stack, glm::dvec3 hip) {
   return contact;
 }
 
-/// Section 4 without its first stage: tests every ring.
+/// Section 4 of the paper without its first stage: tests every ring.
 RC_GTEST_PROP(Contact, TwoStageSearchMatchesTestingEveryRing, ()) {
   auto random = *samples::random_engine();
   const auto count = *rc::gen::inRange<std::size_t>(1, 60);
@@ -82,7 +82,7 @@ TEST_F(ContactOnCylinder, CandidatesFollowEquationsOneAndTwo) {
   EXPECT_EQ(contact.edge_count, 0u);
 }
 
-TEST_F(ContactOnCylinder, RangeEndsAtTheRingsOfTheToolsEnds) {
+TEST_F(ContactOnCylinder, RangeEndsAtTheEndsOfTheTool) {
   const Contact contact = contact_of(sphere, cup, {55, 50.2, 0});
   EXPECT_EQ(contact.top, 60u);     // 60.2
   EXPECT_EQ(contact.bottom, 40u);  // 40.2
@@ -92,7 +92,7 @@ TEST_F(ContactOnCylinder, RangeEndsAtTheRingsOfTheToolsEnds) {
 
 TEST_F(ContactOnCylinder, PartlyCoveredRingsGiveForceButDoNotYield) {
   const Tool rib = Tool::build(RibSpec{20.0, 6.0}).value();
-  // From 40.3 to 60.3: 0.7 of ring 40, whose middle it covers, and 0.3 of ring 60.
+  // From 40.3 to 60.3 mm: it covers 0.7 of ring 40, including its middle, and 0.3 of ring 60.
   const Contact contact = contact_of(rib, cup, {54, 50.3, 0});
   const auto rings = samples::touched(contact);
   ASSERT_EQ(rings.size(), 20u);
@@ -119,7 +119,7 @@ TEST_F(ContactOnCylinder, CrownGivesForce) {
   EXPECT_NEAR(contact.edges[0].coverage, 0.25, 1e-9);
 }
 
-TEST_F(ContactOnCylinder, FindsNothingAboveBelowOrBeside) {
+TEST_F(ContactOnCylinder, FindsNoContactAboveBelowOrBeside) {
   for (const glm::dvec3 hip : {glm::dvec3{50, 110.1, 0},
                                {50, -10.1, 0},
                                {60.001, 50, 0},

@@ -24,9 +24,9 @@ class Convergence : public testing::TestWithParam<Experiment> {
 TEST_P(Convergence, TenTimesFinerRingsKeepTheProfile) {
   const auto coarse = bench::played(e.scene, e.poses);
   const auto fine = bench::played(bench::refined(e.scene, 10), e.poses);
-  const auto off = bench::profile_difference(coarse.stack, fine.stack);
-  EXPECT_LT(percent_of_radius(off.rms_mm), 0.5);
-  EXPECT_LT(percent_of_radius(off.outline_mm), 0.5);
+  const auto difference = bench::profile_difference(coarse.stack, fine.stack);
+  EXPECT_LT(percent_of_radius(difference.rms_mm), 0.5);
+  EXPECT_LT(percent_of_radius(difference.outline_mm), 0.5);
 }
 
 TEST_P(Convergence, TenTimesFinerRingsKeepTheForce) {
@@ -39,9 +39,9 @@ TEST_P(Convergence, OneAndFourKilohertzGiveTheSamePotAndForce) {
   const auto slow = bench::played(e.scene, e.poses);
   const auto fast = bench::played(e.scene, bench::resampled(e.poses, 250));
   EXPECT_LT(bench::force_difference(slow, fast).rms_percent, 1.0);
-  const auto off = bench::profile_difference(slow.stack, fast.stack);
-  EXPECT_LT(percent_of_radius(off.rms_mm), 0.2);
-  EXPECT_LT(percent_of_radius(off.outline_mm), 0.2);
+  const auto difference = bench::profile_difference(slow.stack, fast.stack);
+  EXPECT_LT(percent_of_radius(difference.rms_mm), 0.2);
+  EXPECT_LT(percent_of_radius(difference.outline_mm), 0.2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Strokes, Convergence, testing::ValuesIn(bench::convergence_experiments()),
@@ -51,12 +51,12 @@ INSTANTIATE_TEST_SUITE_P(Strokes, Convergence, testing::ValuesIn(bench::converge
                            return name;
                          });
 
-class StandingRib : public testing::TestWithParam<std::pair<double, double>> {};
+class RestingRib : public testing::TestWithParam<std::pair<double, double>> {};
 
-/// The exact solution, for any ring height that divides the rib and for any rate.
-TEST_P(StandingRib, FollowsTheExactSolution) {
+/// The exact solution holds for any ring height that divides the rib and for any rate.
+TEST_P(RestingRib, FollowsTheExactSolution) {
   const auto [h, rate_hz] = GetParam();
-  const bench::StandingRib rib = bench::standing_rib(h, rate_hz);
+  const bench::RestingRib rib = bench::resting_rib(h, rate_hz);
   Wheel wheel = Wheel::build(rib.scene).value();
   const auto under = static_cast<std::size_t>(30.0 / h);
   for (const Pose& pose : rib.poses) {
@@ -68,18 +68,18 @@ TEST_P(StandingRib, FollowsTheExactSolution) {
   }
   EXPECT_LT(rib.force_n(0.1), 1e-12);  // the clay has yielded completely
 }
-INSTANTIATE_TEST_SUITE_P(AnyGridAnyRate, StandingRib,
+INSTANTIATE_TEST_SUITE_P(AnyGridAnyRate, RestingRib,
                          testing::Values(std::pair{1.0, 250.0}, std::pair{0.5, 1000.0},
                                          std::pair{0.1, 1000.0}, std::pair{0.5, 8000.0}));
 
-TEST(StandingRib, DisplacesTheExactVolume) {
-  const bench::StandingRib rib = bench::standing_rib(0.5, 1000.0);
+TEST(RestingRib, DisplacesTheExactVolume) {
+  const bench::RestingRib rib = bench::resting_rib(0.5, 1000.0);
   SceneSpec scene = rib.scene;
   scene.tool.mode = ToolMode::trim;
   Wheel wheel = Wheel::build(scene).value();
   for (const Pose& pose : rib.poses) wheel.step(pose);
   const double cut = static_cast<double>(wheel.ledger().trimmed) * wheel.stack().mm3_per_quantum();
-  // The rib's 20 mm, from a radius of 40 to one of 36.
+  // 20 mm high, from 40 mm radius to 36 mm.
   EXPECT_NEAR(cut, std::numbers::pi * 20.0 * (40.0 * 40.0 - 36.0 * 36.0), 1e-4);
 }
 

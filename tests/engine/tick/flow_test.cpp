@@ -14,7 +14,7 @@ namespace {
 using samples::contact_on;
 using samples::plan_of;
 
-/// (5)-(8) over the whole kernel, in 128 bits. Returns the remainder.
+/// Equations (5) to (8) over the whole kernel, in 128 bits. Returns the remainder.
 template <class RingOf>
 WideQuanta literal_flow(const RayleighKernel& kernel, double offset, WideQuanta inside,
                         WideQuanta outside, std::size_t count, RingOf ring_of,
@@ -38,8 +38,8 @@ WideQuanta literal_flow(const RayleighKernel& kernel, double offset, WideQuanta 
   return rest;
 }
 
-/// Small removals, which flow in 64 bits, and some above 2^63 quanta, which do not.
-RC_GTEST_PROP(Flow, AgreesInLowAndHighPrecision, ()) {
+/// Small removals, which flow in 64 bits, and some above 2^63 quanta, which flow in 128 bits.
+RC_GTEST_PROP(Flow, AgreesIn64And128Bits, ()) {
   auto random = *samples::random_engine();
   std::vector<Ring> rings;
   for (int i = 0; i < 80; ++i) {

@@ -22,7 +22,7 @@ Contact touch(const Tool& tool, const ClayStack& stack, glm::dvec3 hip) {
   return contact;
 }
 
-// Rings thin enough for the energy to be the integral, even where f' is unbounded at a pole.
+// Rings so thin that the sum is the integral of the energy, even where f' is unbounded at a pole.
 constexpr double kRingMm = 0.005;
 constexpr ForcePlan kThinPlan{
     .stiffness_n_per_mm = 0.04 * kRingMm, .limit_n = 5.0, .friction = 0.3, .turn = 1.0};
@@ -125,7 +125,7 @@ TEST(Force, OnTheAxisIsFiniteAndHasNoRadialPart) {
   EXPECT_EQ(glm::length(friction_force(kForcePlan, contact, spring)), 0.0);
 }
 
-RC_GTEST_PROP(Force, LimitKeepsDirectionAndIsNeverExceeded, ()) {
+RC_GTEST_PROP(Force, RespectsTheLimitAndKeepsTheDirection, ()) {
   auto random = *samples::random_engine();
   const auto component = [&] {
     return std::pow(10.0, 12 * samples::uniform(random) - 4) *
@@ -133,14 +133,15 @@ RC_GTEST_PROP(Force, LimitKeepsDirectionAndIsNeverExceeded, ()) {
   };
   const glm::dvec3 spring(component(), component(), 0.0), friction(0.0, 0.0, component());
   const glm::dvec3 force = spring + friction;
-  glm::dvec3 kept_spring = spring, kept_friction = friction;
-  limit_sum(kept_spring, kept_friction, 5.0);
-  const glm::dvec3 kept = kept_spring + kept_friction;
-  RC_ASSERT(glm::length(kept) <= 5.0);
-  RC_ASSERT(glm::length(glm::cross(kept, force)) <= 1e-14 * glm::length(kept) * glm::length(force));
-  RC_ASSERT(kept_spring.z == 0.0);
-  RC_ASSERT(kept_friction.x == 0.0);
-  if (glm::length(force) <= 5.0) RC_ASSERT(kept == force);
+  glm::dvec3 limited_spring = spring, limited_friction = friction;
+  limit_sum(limited_spring, limited_friction, 5.0);
+  const glm::dvec3 limited = limited_spring + limited_friction;
+  RC_ASSERT(glm::length(limited) <= 5.0);
+  RC_ASSERT(glm::length(glm::cross(limited, force)) <=
+            1e-14 * glm::length(limited) * glm::length(force));
+  RC_ASSERT(limited_spring.z == 0.0);
+  RC_ASSERT(limited_friction.x == 0.0);
+  if (glm::length(force) <= 5.0) RC_ASSERT(limited == force);
 }
 
 TEST(Force, NonFiniteForceBecomesZero) {

@@ -1,4 +1,4 @@
-// The force within a ring, at the front of the tool.
+// The force of a partly covered ring at the front of the tool.
 
 #include "engine/tick/front.hpp"
 
@@ -17,8 +17,8 @@
 namespace clay {
 namespace {
 
-/// A ball of 10 mm that rises by 0.02 mm per millisecond under clay 4 mm above its axis, with no
-/// clay left behind it.
+/// A ball of 10 mm radius that rises by 0.02 mm per millisecond into clay, 4 mm deep at its axis;
+/// it leaves no clay behind.
 class Front : public testing::TestWithParam<double> {
  protected:
   static constexpr double kRingMm = 0.2, kRise = 0.02, kDt = 0.001, kAxis = 46.0, kOuter = 50.0;
@@ -32,7 +32,7 @@ class Front : public testing::TestWithParam<double> {
   Contact behind_end_at(double level_mm) {
     std::vector<Ring> rings;
     for (int i = 0; i < 200; ++i) {
-      // The clay as the ball leaves it: down to its surface along its path.
+      // The clay that the ball has left: down to the surface along its path.
       const double t = (i + 0.5) * kRingMm - (level_mm - 10.0);
       const double outer = t < 10.0 && t > 0.0 ? kAxis - std::sqrt(100.0 - t * t) : kOuter;
       rings.push_back({quanta_from_radius(outer), 0});
@@ -46,9 +46,9 @@ class Front : public testing::TestWithParam<double> {
   ClayStack stack = ClayStack::cylinder(1, 1, 1, 0, 1).value();
 };
 
-/// The exact integral behind the ball's pole: the depth there is 8 mm plus the widening of the
-/// ball, minus the yielded part, w (1 - exp(-kappa s / v)).
-TEST_P(Front, ForceIsContinuousAsTheToolsEndCrossesARing) {
+/// The exact integral behind the pole of the ball: the depth is 4 mm plus the radius of the ball
+/// there, minus the yielded part, w (1 - exp(-kappa s / v)).
+TEST_P(Front, ForceIsContinuousAsTheEndOfTheToolCrossesARing) {
   const Contact contact = behind_end_at(30.0 + GetParam() * kRingMm);
   double expected = 0.0;
   constexpr int kParts = 100'000;
@@ -59,27 +59,28 @@ TEST_P(Front, ForceIsContinuousAsTheToolsEndCrossesARing) {
     // -dE/dy of (depth cos theta)^2 / 2, cos theta = f / 10.
     expected += (depth * f * f / 100.0 * (-t / f) - depth * depth * t / 100.0) / kParts;
   }
-  double felt = 0.0;
+  double found = 0.0;
   for (const RingContact& piece : contact.front)
-    felt += piece.coverage * kRingMm * piece.depth_mm *
-            (piece.facing.lean + 0.5 * piece.depth_mm * piece.facing.turn);
+    found += piece.coverage * kRingMm * piece.depth_mm *
+             (piece.facing.lean + 0.5 * piece.depth_mm * piece.facing.turn);
   ASSERT_TRUE(contact.has_front);
-  EXPECT_NEAR(felt, expected, 0.03 * std::abs(expected));
+  EXPECT_NEAR(found, expected, 0.03 * std::abs(expected));
 }
 INSTANTIATE_TEST_SUITE_P(Places, Front, testing::Values(0.05, 0.3, 0.45, 0.55, 0.7, 0.95));
 
-TEST_F(Front, IsAbsentForAStandingTool) {
+TEST_F(Front, IsAbsentForAToolAtRest) {
   behind_end_at(30.05);
   Contact contact;
   find_contact(plan.tool, stack, {kAxis, 20.05, 0.0}, contact);
   measure_front(plan, stack, 20.05, kDt, contact);
   EXPECT_FALSE(contact.has_front);
-  // A part of a ring that has not yielded yet equals its neighbour.
+  // A partly covered ring has the depth of its neighbour.
   for (std::size_t k = 0; k < contact.edge_count; ++k) EXPECT_LT(contact.edges[k].depth_mm, 0.1);
 }
 
-/// Over the rim and back along another way, through clay that does not give way: a force that is
-/// minus a gradient does no work. Without the end term a rib injects 63 % of what it goes through.
+/// Over the rim and back on another path, through clay that does not yield: the force is a
+/// gradient, so it does no net work. Without the end term a rib injects 63 % of the work on its
+/// path.
 TEST(FlatEnds, DoNoWorkOverTheRim) {
   for (const ToolShapeSpec& shape :
        {ToolShapeSpec{RibSpec{20.0, 6.0}}, ToolShapeSpec{SampledSpec{{-8, 0, 9}, {3, 6, 2}}}})
@@ -95,7 +96,7 @@ TEST(FlatEnds, DoNoWorkOverTheRim) {
       Wheel wheel = Wheel::build(scene).value();
       const std::vector<glm::dvec3> loop{{47, 75, 0}, {44, 75, 0}, {44, 55, 0},
                                          {45, 50, 0}, {47, 65, 0}, {47, 75, 0}};
-      double work = 0.0, gone_through = 0.0;
+      double work = 0.0, absolute_work = 0.0;
       std::int64_t time_us = 0;
       glm::dvec3 at = loop.front(), force = wheel.step({0, at, false, 0.0}).force_n();
       for (std::size_t k = 1; k < loop.size(); ++k)
@@ -104,13 +105,13 @@ TEST(FlatEnds, DoNoWorkOverTheRim) {
           const glm::dvec3 now = wheel.step({time_us += 1000, next, false, 0.0}).force_n();
           const double step = 0.5 * glm::dot(force + now, next - at);
           work += step;
-          gone_through += std::abs(step);
+          absolute_work += std::abs(step);
           force = now;
           at = next;
         }
-      EXPECT_GT(gone_through, 1.0);
-      // A ring is felt once its middle is covered: what is left is of the ring's height.
-      EXPECT_LT(std::abs(work), 0.02 * h * gone_through) << h;
+      EXPECT_GT(absolute_work, 1.0);
+      // A ring counts once its middle is covered, so the error is proportional to the ring height.
+      EXPECT_LT(std::abs(work), 0.02 * h * absolute_work) << h;
     }
 }
 

@@ -1,4 +1,4 @@
-// Processing rings four at a time, where the machine can, and two at a time gives the same bits.
+// Processing rings four at a time, if the machine can, or two at a time gives the same bits.
 
 #include "engine/tick/lanes.hpp"
 
@@ -21,9 +21,9 @@ struct Thrown {
   friend bool operator==(const Thrown&, const Thrown&) = default;
 };
 
-/// A tool that moves up and down a wall, into it, and back out to the start.
+/// A tool that moves up and down along a wall, into it, and back to the start.
 Thrown throw_with(const ToolShapeSpec& shape, bool four, std::optional<ClaySpec> clay = {}) {
-  const bool machine = std::exchange(four_lanes, four);
+  const bool supported = std::exchange(four_lanes, four);
   SceneSpec scene;
   scene.lump.ring_height_mm = 0.3;
   scene.lump.inner_radius_mm = 15.0;
@@ -39,7 +39,7 @@ Thrown throw_with(const ToolShapeSpec& shape, bool four, std::optional<ClaySpec>
                          2.0 * part);
     thrown.forces_n.push_back(wheel.step({1000 * (k + 1), hip, false}).force_n());
   }
-  four_lanes = machine;
+  four_lanes = supported;
   thrown.rings.assign(wheel.stack().rings().begin(), wheel.stack().rings().end());
   return thrown;
 }

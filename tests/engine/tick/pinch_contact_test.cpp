@@ -1,4 +1,4 @@
-// The positions of the two tools of a pinch, and the force on the hand.
+// The positions of the two tools of a pinch, and the force.
 
 #include "claystack/engine/wheel.hpp"
 #include "engine/tick/contact.hpp"
@@ -51,13 +51,13 @@ RC_GTEST_PROP(PinchContact, PutsEachToolOnItsSideOfTheGap, ()) {
     // The middle of the covered part of the ring.
     const double covered = 0.5 * (std::max(t - 0.5 * h, -size) + std::min(t + 0.5 * h, size));
     const double f = std::sqrt(size * size - covered * covered);
-    // The side of each tool that faces the clay, from the axis; an inner tool beyond the axis
-    // reaches as far as its other side.
+    // Distance from the axis to the side of each tool that faces the clay. An inner tool beyond the
+    // axis touches with its far side.
     const double surface_out = d + gap / 2 + (size - f);
     const double surface_in = std::abs(d - gap / 2 - size) + f;
     const double from_out = stack.rings()[i].outer_mm() - surface_out;
     const double from_in = surface_in - stack.rings()[i].inner_mm();
-    // Clear of the ring: the outer tool inside the bore, the inner one beyond the outside.
+    // No contact: the outer tool is in the bore, or the inner tool is outside.
     const double past_bore = d + gap / 2 + size + f - stack.rings()[i].inner_mm();
     const double past_outside = stack.rings()[i].outer_mm() - (surface_in - 2.0 * f);
     RC_PRE(std::abs(past_bore) > 1e-9 && std::abs(past_outside) > 1e-9);
@@ -81,7 +81,7 @@ RC_GTEST_PROP(PinchContact, PutsEachToolOnItsSideOfTheGap, ()) {
 TEST(PinchContact, ToolWiderThanTheBoreIsBeyondTheAxis) {
   const Tool tool = Tool::build(SphereSpec{kToolMm}).value();
   const ClayStack stack = ClayStack::cylinder(100, 0.5, 10.0, 3.0, 100).value();
-  // Its centre is at 5 - 2 - 8 = -5: it reaches 13 mm on the far side, 10 beyond the bore.
+  // Its centre is at 5 - 2 - 8 = -5 mm, so it reaches 13 mm on the far side, 10 mm beyond the bore.
   const auto [outer, inner] = pinch_of(tool, stack, {3.0, 25.25, -4.0}, 4.0);
   EXPECT_DOUBLE_EQ(inner.axis_distance_mm, 5.0);
   EXPECT_DOUBLE_EQ(inner.radial_x, -0.6);
@@ -103,8 +103,8 @@ TEST(PinchContact, HasNoDirectionOnTheAxis) {
   }
 }
 
-/// E_out + E_in of a tube, from its geometry: the integral over the height of the squared depth
-/// along the ball's normal, by the midpoints of slices far thinner than a ring.
+/// E_out + E_in of a tube from its geometry: the integral over the height of the squared depth
+/// along the normal of the ball, by the midpoint rule with slices far thinner than a ring.
 double energy(const SceneSpec& scene, glm::dvec3 hip, double gap_mm) {
   const LumpSpec& lump = scene.lump;
   const double d = std::hypot(hip.x, hip.z), reach = gap_mm / 2 + kToolMm;
@@ -150,8 +150,8 @@ TEST(PinchForce, EqualsMinusTheGradientOfBothOverlapEnergies) {
           plus[axis] += step;
           minus[axis] -= step;
           const double slope = (energy(tube, plus, 4.0) - energy(tube, minus, 4.0)) / (2 * step);
-          // The engine's rings are coarser than the slices: some per cent for a grazing contact,
-          // and for an unbounded f' where a pole is in the clay.
+          // The rings are coarser than the slices, which gives a few per cent for a grazing contact
+          // and for the unbounded f' of a pole in the clay.
           EXPECT_NEAR(force[axis], -slope, 0.03 * glm::length(force) + 1e-5)
               << axis << " at " << d << ", " << y;
         }
@@ -175,7 +175,7 @@ TEST(PinchForce, FrictionOfBothToolsAddsUp) {
     tube.lump.inner_radius_mm = inner_mm;
     return std::abs(force_at(tube, {45.0, 25.0, 0.0}, 4.0).x);
   };
-  // Thinner tubes touched by one tool only, at the same depth as in the whole wall.
+  // Thinner tubes that only one tool touches, at the same depth as in the whole wall.
   const double springs = alone(50.0, 43.5) + alone(46.5, 40.0);
   scene.force->friction = 0.3;
   const glm::dvec3 force = force_at(scene, {45.0, 25.0, 0.0}, 4.0);

@@ -22,7 +22,7 @@ struct Wall {
   [[nodiscard]] double thickness() const { return outer - inner; }
 };
 
-ToolRemoval bite_of(Side side, double depth_mm, std::size_t ring = 0) {
+ToolRemoval removal_on(Side side, double depth_mm, std::size_t ring = 0) {
   return {samples::contact_on(ring, ring, side, depth_mm), {}};
 }
 
@@ -30,8 +30,8 @@ ToolRemoval bite_of(Side side, double depth_mm, std::size_t ring = 0) {
 template <Model model>
 Wall pinched(Wall wall, double gap_mm, double dt_s, const RemovalPlan& plan = kPinchRemoval) {
   const ClayStack stack = ClayStack::cylinder(1, 1.0, wall.outer, wall.inner, 1).value();
-  ToolRemoval outer = bite_of(Side::compressive, wall.from_out);
-  ToolRemoval inner = bite_of(Side::expansive, wall.from_in);
+  ToolRemoval outer = removal_on(Side::compressive, wall.from_out);
+  ToolRemoval inner = removal_on(Side::expansive, wall.from_in);
   compute_pinch_removal<model>(plan, stack, gap_mm, dt_s, outer, inner);
   const auto taken = [](const ToolRemoval& removal) {
     return removal.removed.empty() ? 0.0 : mm2_from_quanta(removal.removed.at(0));
@@ -44,8 +44,8 @@ Wall pinched(Wall wall, double gap_mm, double dt_s, const RemovalPlan& plan = kP
   return after;
 }
 
-/// dR/dt = -kappa (R - r), dr/dt = kappa (R - r), in small steps: each while its tool touches, both
-/// while the wall is thick enough.
+/// dR/dt = -kappa (R - r), dr/dt = kappa (R - r), in small steps. Each holds while its tool touches
+/// and while the wall is thick enough.
 Wall integrated(Wall wall, double least_mm, double dt_s) {
   constexpr int kSteps = 20'000;
   const double step = dt_s / kSteps;
@@ -85,7 +85,7 @@ RC_GTEST_PROP(PinchRemoval, SolvesTheEquationsOfBothSurfaces, ()) {
   const double gap = 0.5 + below(6.0), dt_s = below(0.05);
   const Wall found = pinched<Model::conserving>(wall, gap, dt_s);
   const Wall expected = integrated(wall, std::max(gap, kPinchRemoval.min_wall_mm), dt_s);
-  // Euler's error: the wall times (kappa dt)^2 over the steps.
+  // The error of Euler's method: the wall times (kappa dt)^2 over the number of steps.
   RC_ASSERT(std::abs(found.outer - expected.outer) < 5e-3);
   RC_ASSERT(std::abs(found.inner - expected.inner) < 5e-3);
 }
@@ -114,8 +114,8 @@ RC_GTEST_PROP(PinchRemoval, LeavesTheGapAndTheMinimumWall, ()) {
   RC_ASSERT(conserving.thickness() >= least - 1e-9);
   RC_ASSERT(paper.thickness() >= std::min(wall.thickness(), gap) - 1e-9);
   // The amount that the tools remove at this rate.
-  const double wanted = wall.thickness() - wall.from_out - wall.from_in;
-  RC_ASSERT(std::abs(conserving.thickness() - std::max(least, wanted)) < 1e-9);
+  const double unlimited = wall.thickness() - wall.from_out - wall.from_in;
+  RC_ASSERT(std::abs(conserving.thickness() - std::max(least, unlimited)) < 1e-9);
 }
 
 TEST(PinchRemoval, PaperRemovesAFractionOnEitherSide) {
@@ -158,11 +158,11 @@ RC_GTEST_PROP(PinchRemoval, NeverEmptiesARingAndBalances, ()) {
 
 TEST(PinchRemoval, RemovedClayOfBothToolsFlowsAsOneAmount) {
   constexpr Quanta kMm2 = Quanta{1} << 36;
-  const auto flowed = [&](std::vector<std::pair<Side, Quanta>> takes) {
+  const auto flowed = [&](std::vector<std::pair<Side, Quanta>> amounts) {
     ClayStack stack = ClayStack::cylinder(60, 1.0, 50.0, 40.0, 60).value();
     std::vector<ToolRemoval> removals;
-    for (const auto& [side, amount] : takes) {
-      removals.push_back(bite_of(side, 1.0, 30));
+    for (const auto& [side, amount] : amounts) {
+      removals.push_back(removal_on(side, 1.0, 30));
       removals.back().removed = {amount * kMm2};
     }
     Ledger ledger;

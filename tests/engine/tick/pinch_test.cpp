@@ -1,4 +1,4 @@
-// The wall left by two tools, and the input that the wheel refuses.
+// The wall between two tools, and the input that the wheel refuses.
 
 #include "claystack/engine/wheel.hpp"
 #include "tests/engine/tick/pinch_samples.hpp"
@@ -25,7 +25,7 @@ Wheel held(const SceneSpec& scene, glm::dvec3 hip, double gap_mm) {
   return wheel;
 }
 
-/// A wall pulled up at 20 mm/s: the force half a second later.
+/// The force after pulling up a wall at 20 mm/s for 0.5 s.
 glm::dvec3 pulled(std::int64_t period_us) {
   SceneSpec scene = tube_scene(40.0, 30.0);
   scene.force->friction = 0.3;
@@ -44,13 +44,13 @@ TEST(Pinch, ForceIsIndependentOfTheRate) {
     EXPECT_LT(glm::distance(pulled(period_us), fast), 0.05 * glm::length(fast)) << period_us;
 }
 
-TEST(Pinch, LeavesTheGapAroundTheHandsPosition) {
+TEST(Pinch, LeavesTheGapAroundTheHandPosition) {
   for (const Model model : {Model::conserving, Model::paper}) {
     SceneSpec scene = tube_scene(50.0, 40.0);
     scene.model = model;
     const Wheel wheel = held(scene, {0.0, 25.25, -45.5}, 5.0);
     const Ring& ring = wheel.stack().rings()[50];  // its middle is at 25.25 mm
-    // The paper's removal does not stop at the surface: its last tick may exceed it by k (R - r).
+    // The removal of the paper does not stop at the tool; its last tick may overshoot by k (R - r).
     const double slack = model == Model::paper ? 0.04 * 10.0 : 1e-6;
     EXPECT_NEAR(ring.outer_mm(), 48.0, slack);
     EXPECT_NEAR(ring.inner_mm(), 43.0, slack);
@@ -86,7 +86,7 @@ TEST(Pinch, TrimCutsOnBothSides) {
 TEST(Pinch, ToolTooWideForANeckOpensItAndKeepsTheWall) {
   const Wheel wheel = held(tube_scene(12.0, 3.0), {7.0, 25.25, 0.0}, 4.0);
   const Ring& ring = wheel.stack().rings()[50];
-  // The outer tool stops at 9, the inner one would reach 11: a wall of 9 mm stays 4 mm thick.
+  // The outer tool stops at 9 mm and the inner one would reach 11 mm; the wall keeps 4 mm.
   EXPECT_NEAR(ring.outer_mm() - ring.inner_mm(), 4.0, 1e-6);
   EXPECT_GT(ring.inner_mm(), 3.0);
   EXPECT_TRUE(wheel.ledger().imbalance(wheel.stack().recount()) == 0);
@@ -126,7 +126,7 @@ TEST(Pinch, ChecksSettings) {
   }
 }
 
-TEST(Pinch, PressesTheSameWithAnUnusedGapSetting) {
+TEST(Pinch, AnUnusedGapDoesNotChangeAPress) {
   const auto play = [](std::optional<double> gap) {
     SceneSpec scene = tube_scene(50.0, 40.0);
     scene.tool.gap_mm = gap;
@@ -153,7 +153,7 @@ TEST(Pinch, PullingUpRaisesAWallAsThickAsTheGap) {
   const auto rings = wheel.stack().rings();
   EXPECT_TRUE(wheel.ledger().imbalance(wheel.stack().recount()) == 0);
   EXPECT_GT(wheel.stack().height_mm(), 1.5 * 50.0);
-  // From the start of the pull to the rim.
+  // From the start of the pull up to the rim.
   for (std::size_t i = 20; i < rings.size(); ++i)
     EXPECT_NEAR(rings[i].outer_mm() - rings[i].inner_mm(), 4.0, 0.1) << i;
 }

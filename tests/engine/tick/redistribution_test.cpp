@@ -37,7 +37,7 @@ std::vector<double> weights(double sigma, double h, std::size_t length) {
   return w;
 }
 
-/// With one tool.
+/// press_clay() with one tool.
 template <Model model>
 Flow press_one(const StepPlan& plan, const Contact& contact, std::vector<Quanta> removed,
                bool upward, ClayStack& stack, Ledger& ledger) {
@@ -65,13 +65,13 @@ TEST_P(Upward, FollowsEquationsFiveToEight) {
   EXPECT_NEAR(outer2(stack, 29), 2500 - 40, 1e-9);
   EXPECT_EQ(outer2(stack, up ? 27 : 31), 2500);
   EXPECT_EQ(outer2(stack, up ? 43 : 15), 2500);
-  // One ring beyond the kernel's length: the tool's end may lie between rings.
+  // One ring more than the kernel, because the end of the tool may lie between rings.
   EXPECT_EQ(flow.lowest, up ? 28u : 15u);
   EXPECT_EQ(flow.highest, 43u);
 }
 INSTANTIATE_TEST_SUITE_P(Redistribution, Upward, testing::Bool());
 
-TEST(Redistribution, KernelStartsAtTheToolsEnds) {
+TEST(Redistribution, KernelStartsAtTheEndsOfTheTool) {
   const auto w = weights(4.0, 1.0, 12);
   for (const double offset : {-0.5, -0.25, 0.25, 0.5}) {
     ClayStack stack = ClayStack::cylinder(60, 1.0, 50.0, 0.0, 60).value();
@@ -80,8 +80,8 @@ TEST(Redistribution, KernelStartsAtTheToolsEnds) {
     const ToolRemoval removal{contact, {0, 120 * kMm2, 0}};
     Ledger ledger;
     press_clay<Model::conserving>(plan_of(4.0, 12.0, 0.0), {&removal, 1}, true, stack, ledger);
-    // The value of a table, linear between its rings, at x ring heights.
-    const auto dealt = [&](double x) {
+    // The cumulated weights at x ring heights, linear between rings.
+    const auto cumulated = [&](double x) {
       double sum = 0.0;
       for (std::size_t k = 0; k < w.size(); ++k)
         sum += w[k] * std::clamp(x - static_cast<double>(k), 0.0, 1.0);
@@ -89,7 +89,7 @@ TEST(Redistribution, KernelStartsAtTheToolsEnds) {
     };
     for (std::size_t j = 1; j <= 13; ++j) {
       const double end = static_cast<double>(j) + offset;
-      const double share = dealt(end) - (j == 1 ? 0.0 : dealt(end - 1.0));
+      const double share = cumulated(end) - (j == 1 ? 0.0 : cumulated(end - 1.0));
       EXPECT_NEAR(outer2(stack, 30 + j), 2500 + 120 * share, 1e-3) << offset << " " << j;
     }
     EXPECT_TRUE(stack.crown() == 0);
@@ -99,7 +99,7 @@ TEST(Redistribution, KernelStartsAtTheToolsEnds) {
 TEST(Redistribution, NewRingContinuesTheRim) {
   // Two rings above the tool and a kernel of three: the third share goes to the crown.
   std::vector<Ring> rings(10, {400 * kMm2, 225 * kMm2});
-  rings[7].outer2 = 4000 * kMm2;  // enough for all removals
+  rings[7].outer2 = 4000 * kMm2;  // enough clay for all removals
   ClayStack stack = ClayStack::from_rings(1.0, std::move(rings), 150 * kMm2, 40).value();
   Ledger ledger;
   Rim rim;
@@ -114,11 +114,11 @@ TEST(Redistribution, NewRingContinuesTheRim) {
     flow = press_clay<Model::conserving>(plan, {&removal, 1}, true, stack, ledger, &rim);
   ASSERT_EQ(stack.size(), 11u);
   EXPECT_TRUE(rim.outside == 0 && rim.inside == 0);
-  EXPECT_GT(outer2(stack, 10), outer2(stack, 9));  // it received three shares, the top ring two
+  EXPECT_GT(outer2(stack, 10), outer2(stack, 9));  // it received three shares, the ring below two
   EXPECT_LT(inner2(stack, 10), inner2(stack, 9));
 }
 
-TEST(Redistribution, TouchedRimIsLevel) {
+TEST(Redistribution, TouchingTheRimLevelsIt) {
   ClayStack stack = ClayStack::cylinder(10, 1.0, 10.0, 6.0, 40).value();
   Ledger ledger;
   Rim rim{kMm2, kMm2};
@@ -134,7 +134,7 @@ TEST(Redistribution, ExpansionWidensTheBore) {
   press_one<Model::conserving>(plan_of(2.0, 3.0, 0.25), contact_on(5, 5, Side::expansive),
                                {9 * kMm2}, false, stack, ledger);
   EXPECT_EQ(stack.rings()[5].inner_mm(), 3.0);
-  // The neighbours have no bore: everything goes outside.
+  // The neighbours have no bore, so all clay goes outside.
   EXPECT_NEAR(outer2(stack, 4) + outer2(stack, 3) + outer2(stack, 2), 3 * 2500 + 9, 1e-9);
 }
 
@@ -142,7 +142,7 @@ TEST(Redistribution, SendsTheExcessOfASmallBoreOutside) {
   const Ring wide{2500 * kMm2, 1600 * kMm2}, narrow{2500 * kMm2, 1 * kMm2};
   ClayStack stack = ClayStack::from_rings(1.0, {wide, narrow, wide}, 0, 3).value();
   Ledger ledger;
-  // Reach of one ring: ring 1 is offered 30 mm^2 inside, and has room for 1.
+  // The reach is one ring: ring 1 receives 30 mm^2 inside but has room for 1 mm^2.
   press_one<Model::conserving>(plan_of(4.0, 1.0, 0.3), contact_on(0, 0), {100 * kMm2}, true, stack,
                                ledger);
   EXPECT_EQ(stack.rings()[1].inner2, 0);
@@ -167,7 +167,7 @@ TEST(Redistribution, ExcessBelowFlowsUp) {
 TEST(Redistribution, ExcessAboveBecomesHeight) {
   ClayStack stack = ClayStack::cylinder(10, 1.0, 10.0, 0.0, 40).value();
   Ledger ledger;
-  // No ring above the top: 50 mm^2 remain for half a ring, twice.
+  // There is no ring above the top: 40 of the 60 mm^2 of a ring go to the crown, twice.
   const auto press = [&] {
     return press_one<Model::conserving>(plan_of(4.0, 5.0, 0.25), contact_on(9, 9), {40 * kMm2},
                                         true, stack, ledger);
@@ -202,7 +202,7 @@ TEST(Redistribution, AtTheRingLimitClayStaysInTheCrown) {
   EXPECT_TRUE(stack.crown() == 80 * kMm2);
 }
 
-TEST(Redistribution, BooksTrimmedClay) {
+TEST(Redistribution, CountsTrimmedClay) {
   ClayStack stack = ClayStack::cylinder(10, 1.0, 10.0, 0.0, 10).value();
   Ledger ledger;
   ledger.initial = stack.volume();

@@ -26,7 +26,7 @@ StepPlan plan_of(double max_stress_kpa, double h = 1.0) {
 TEST(Stability, StressEqualsWeightOverArea) {
   const StepPlan plan = plan_of(100.0, 0.5);
   const ClayStack stack = ClayStack::cylinder(200, 0.5, 40.0, 30.0, 200).value();
-  // SI, section 7 with g: 99.5 mm of 1900 kg/m^3 stand on ring 0.
+  // Section 7 with g, in SI units: ring 0 carries 99.5 mm of clay of 1900 kg/m^3.
   const double area = std::numbers::pi * (0.04 * 0.04 - 0.03 * 0.03);
   const double mass = 1900.0 * area * 0.0995;
   const double expected = mass * 9.80665 / area * 1e-3;
@@ -73,7 +73,7 @@ TEST(Stability, NewRingOfPaperLoadsAllRingsBelow) {
   plan.stability.max_stress_kpa = stress_kpa(plan.stability, stack.volume() - ring / 2, ring);
   StabilityWatch watch(stack);
   Ledger ledger;
-  ledger.outside = ring - 1;  // clay missing from the body since the foot was last checked
+  ledger.outside = ring - 1;  // clay outside the stack since the foot was last checked
   const ToolRemoval removal{samples::contact_on(499, 499), {1000}};
   watch.move_to(stack, 499);
   const Flow flow = press_clay<Model::paper>(plan, {&removal, 1}, true, stack, ledger);
@@ -84,7 +84,7 @@ TEST(Stability, NewRingOfPaperLoadsAllRingsBelow) {
 }
 
 /// The literal sum of section 7 over every ring.
-std::optional<Failure> literal(const StabilityPlan& plan, const ClayStack& stack) {
+std::optional<Failure> direct_sum(const StabilityPlan& plan, const ClayStack& stack) {
   std::optional<Failure> worst;
   for (std::size_t i = 0; i < stack.size(); ++i) {
     WideQuanta above = stack.crown();
@@ -104,7 +104,7 @@ RC_GTEST_PROP(Stability, WatchedRangeMatchesTheFullSum, ()) {
   scene.flow = {2.0, 6.0, 0.27};
   scene.stability = StabilitySpec{1.2 + 2.0 * samples::uniform(random)};
   const StepPlan plan = StepPlan::build(scene).value();
-  RC_PRE(!literal(plan.stability, stack));
+  RC_PRE(!direct_sum(plan.stability, stack));
   Ledger ledger;
   StabilityWatch watch(stack);
   for (int step = 0; step < 60; ++step) {
@@ -121,17 +121,17 @@ RC_GTEST_PROP(Stability, WatchedRangeMatchesTheFullSum, ()) {
     const bool up = samples::uniform(random) < 0.5;
     const Flow flow = trim ? trim_clay<Model::conserving>({&removal, 1}, stack, ledger)
                            : press_clay<Model::conserving>(plan, {&removal, 1}, up, stack, ledger);
-    const auto seen = watch.check(plan.stability, stack, flow);
-    const auto expected = literal(plan.stability, stack);
-    RC_ASSERT(seen.has_value() == expected.has_value());
-    if (!seen) continue;
-    RC_ASSERT(seen->stress_kpa == expected->stress_kpa);
+    const auto found = watch.check(plan.stability, stack, flow);
+    const auto expected = direct_sum(plan.stability, stack);
+    RC_ASSERT(found.has_value() == expected.has_value());
+    if (!found) continue;
+    RC_ASSERT(found->stress_kpa == expected->stress_kpa);
     return;
   }
 }
 
-/// The same with a running sum, for tall stacks.
-std::optional<Failure> running(const StabilityPlan& plan, const ClayStack& stack) {
+/// The same sum in linear time, for tall stacks.
+std::optional<Failure> running_sum(const StabilityPlan& plan, const ClayStack& stack) {
   std::optional<Failure> worst;
   WideQuanta above = stack.crown();
   for (std::size_t i = stack.size(); i-- > 0; above += stack.rings()[i].volume()) {
@@ -145,10 +145,10 @@ std::optional<Failure> running(const StabilityPlan& plan, const ClayStack& stack
 double largest_stress(const StabilityPlan& plan, const ClayStack& stack) {
   StabilityPlan any = plan;
   any.max_stress_kpa = 0.0;
-  return running(any, stack)->stress_kpa;
+  return running_sum(any, stack)->stress_kpa;
 }
 
-/// The crown becomes rings while the tool is far below, and the tool then moves a little further.
+/// The crown becomes rings while the tool is far below; then the tool moves a little.
 TEST(Stability, NewTopRingsLoadTheRingsBetween) {
   const Ring ring{quanta_from_radius(30.0), 0};
   ClayStack stack =
@@ -168,8 +168,8 @@ TEST(Stability, NewTopRingsLoadTheRingsBetween) {
   EXPECT_EQ(grown, 3u);
 }
 
-/// Walls from a tenth of the radius to solid; sometimes a nearly empty top ring, so that the clay
-/// above it becomes many rings.
+/// Walls from a tenth of the radius to solid. Some stacks have a nearly empty top ring, so that the
+/// crown becomes many rings.
 ClayStack random_stack(std::mt19937_64& random, std::size_t count) {
   std::vector<Ring> rings;
   while (rings.size() < count) {
@@ -181,7 +181,7 @@ ClayStack random_stack(std::mt19937_64& random, std::size_t count) {
   return ClayStack::from_rings(1.0, std::move(rings), 0, count + 300).value();
 }
 
-ToolRemoval random_bite(std::mt19937_64& random, const ClayStack& stack) {
+ToolRemoval random_removal(std::mt19937_64& random, const ClayStack& stack) {
   const auto bottom =
       static_cast<std::size_t>(samples::uniform(random) * static_cast<double>(stack.size()));
   ToolRemoval removal{samples::contact_on(bottom, std::min(bottom + 5, stack.size() - 1)), {}};
@@ -192,10 +192,10 @@ ToolRemoval random_bite(std::mt19937_64& random, const ClayStack& stack) {
   return removal;
 }
 
-/// Jumps over stacks of one and of two levels of sums, clay that flows to the top from far below
-/// (reach 0), and growth that a tick leaves to the next ones (a thin ring on top).
+/// The tool jumps over stacks with one and two levels of sums. Clay may flow to the top from far
+/// below (reach 0), and growth may take several ticks (a thin ring on top).
 template <Model model>
-void leaps_see_what_the_running_sum_sees() {
+void check_jumps_against_the_running_sum() {
   auto random = *samples::random_engine();
   const auto count = *rc::gen::element<std::size_t>(50, 700, 6000);
   ClayStack stack = random_stack(random, count);
@@ -210,7 +210,7 @@ void leaps_see_what_the_running_sum_sees() {
   StabilityWatch watch(stack);
   bool failed = false;
   for (int step = 0; step < 40 && !failed; ++step) {
-    const ToolRemoval removal = random_bite(random, stack);
+    const ToolRemoval removal = random_removal(random, stack);
     const std::size_t highest =
         std::min(removal.contact.top + flow_reach(plan.kernel), stack.size() - 1);
     watch.move_to(stack, highest);
@@ -218,22 +218,22 @@ void leaps_see_what_the_running_sum_sees() {
     const bool up = samples::uniform(random) < 0.5;
     const Flow flow = trim ? trim_clay<model>({&removal, 1}, stack, ledger)
                            : press_clay<model>(plan, {&removal, 1}, up, stack, ledger);
-    const auto seen = watch.check(plan.stability, stack, flow);
-    const auto expected = running(plan.stability, stack);
-    RC_ASSERT(seen.has_value() == expected.has_value());
-    if (!seen) continue;
-    RC_ASSERT(seen->ring == expected->ring);
-    RC_ASSERT(seen->stress_kpa == expected->stress_kpa);
+    const auto found = watch.check(plan.stability, stack, flow);
+    const auto expected = running_sum(plan.stability, stack);
+    RC_ASSERT(found.has_value() == expected.has_value());
+    if (!found) continue;
+    RC_ASSERT(found->ring == expected->ring);
+    RC_ASSERT(found->stress_kpa == expected->stress_kpa);
     failed = true;
   }
   RC_CLASSIFY(failed, "failed");
 }
 
 RC_GTEST_PROP(Stability, JumpsMatchTheRunningSum, ()) {
-  leaps_see_what_the_running_sum_sees<Model::conserving>();
+  check_jumps_against_the_running_sum<Model::conserving>();
 }
 RC_GTEST_PROP(Stability, JumpsMatchTheRunningSumInPaper, ()) {
-  leaps_see_what_the_running_sum_sees<Model::paper>();
+  check_jumps_against_the_running_sum<Model::paper>();
 }
 
 }  // namespace

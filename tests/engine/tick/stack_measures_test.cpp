@@ -20,10 +20,10 @@ ClayStack stack_of(double h, std::initializer_list<std::pair<double, double>> ra
 }
 
 TEST(Stresses, EqualWeightOverArea) {
-  // SI: a column of 2000 kg/m^3 on rings of 20 and 10 mm; the top one bears no load.
+  // SI units: clay of 2000 kg/m^3 in rings of 20 and 10 mm radius; the top ring carries no load.
   const auto stresses = stresses_kpa(stack_of(5, {{20, 0}, {10, 0}, {20, 0}}), 2.0);
   ASSERT_EQ(stresses.size(), 3u);
-  const double of_one = 2000.0 * 9.80665 * 0.005 * 1e-3;  // kPa under 5 mm of its own width
+  const double of_one = 2000.0 * 9.80665 * 0.005 * 1e-3;  // kPa under 5 mm of equal width
   EXPECT_NEAR(stresses[0], of_one * (400.0 + 100.0) / 400.0, 1e-9);
   EXPECT_NEAR(stresses[1], of_one * 400.0 / 100.0, 1e-9);
   EXPECT_EQ(stresses[2], 0.0);

@@ -55,8 +55,8 @@ TEST(ExpNeg, MatchesTheExponential) {
   EXPECT_EQ(exp_neg(1e12), 0.0);
 }
 
-/// At every depth and rate: the exponential, the logistic curve and the transition between them.
-RC_GTEST_PROP(Yielding, SolvesTheEquationOfAStandingTool, ()) {
+/// At every depth and rate, on the exponential, on the logistic curve and in the transition.
+RC_GTEST_PROP(Yielding, SolvesTheEquationOfAToolAtRest, ()) {
   auto random = *samples::random_engine();
   const Press at{2.0 + 8.0 * samples::uniform(random), 1.5 * samples::uniform(random)};
   const double dt_s = *rc::gen::element(0.000125, 0.001, 0.004);
@@ -74,7 +74,7 @@ RC_GTEST_PROP(Yielding, TwoHalfStepsEqualOneStep, ()) {
   RC_ASSERT(std::abs(once.depth - twice.depth) < 1e-10);
 }
 
-/// Within a hundredth of the yield depth, in ticks of a millisecond, at a hand's speeds.
+/// Within 1 % of the yield depth, with ticks of 1 ms and the speeds of a hand.
 RC_GTEST_PROP(Yielding, SolvesTheEquationOfAMovingTool, ()) {
   auto random = *samples::random_engine();
   const Press at{4.0 + 6.0 * samples::uniform(random), 1.0 * samples::uniform(random)};
@@ -97,8 +97,8 @@ TEST(Yielding, DepthAtConstantSpeedIsIndependentOfTheRate) {
   }
 }
 
-TEST(Yielding, ToolPressesFromItsFirstContactWithinATick) {
-  // Half of the motion is in front of the clay: equal to a tick of half the time from its surface.
+TEST(Yielding, PressingStartsAtTheFirstContactWithinATick) {
+  // Half of the motion is outside the clay: equal to a tick of half the time from the surface.
   Yielding one;
   one.wall[0] = 10.0;
   one.depth[0] = 0.02;

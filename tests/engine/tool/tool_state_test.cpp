@@ -33,7 +33,7 @@ TEST(ToolTracker, RefusesInvalidPoses) {
   ASSERT_TRUE(tracker.advance(at(0, 5)).valid);
   ASSERT_TRUE(tracker.advance(at(1000, 6)).valid);
   EXPECT_FALSE(tracker.advance(at(1000, 7)).valid);  // time stands still
-  EXPECT_FALSE(tracker.advance(at(0, 7)).valid);     // time runs back
+  EXPECT_FALSE(tracker.advance(at(0, 7)).valid);     // time runs backwards
   EXPECT_FALSE(tracker.advance(at(std::numeric_limits<std::int64_t>::min(), 7)).valid);
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e300, 1.0001e6})
     for (int axis = 0; axis < 3; ++axis) {
@@ -41,7 +41,7 @@ TEST(ToolTracker, RefusesInvalidPoses) {
       pose.position_mm[axis] = bad;
       EXPECT_FALSE(tracker.advance(pose).valid);
     }
-  // None of them moved the tool down from 6 or up to 7, or took time.
+  // None of them moved the tool or advanced the time.
   const ToolState next = tracker.advance(at(2000, 6));
   EXPECT_TRUE(next.valid && next.upward);
   EXPECT_NEAR(next.dt_s, 1e-3, 1e-15);

@@ -54,7 +54,7 @@ TEST(Tool, IsZeroBeyondItsEndsAndFiniteAtThem) {
   EXPECT_EQ(tool.radius(-1e300), 0.0);
   EXPECT_EQ(tool.slope(11.0), 0.0);
   EXPECT_EQ(tool.radius(std::nan("")), 0.0);
-  // tan of the steepest angle kept: u / sqrt(1 - u^2), u = 127/128.
+  // The largest slope is u / sqrt(1 - u^2) with u = 127/128.
   EXPECT_NEAR(tool.slope(-10.0), (127.0 / 128) / std::sqrt(1 - std::pow(127.0 / 128, 2)), 1e-12);
   EXPECT_EQ(Tool::build(RibSpec{20, 6}).value().radius(10.0), 6.0);
 }

@@ -1,4 +1,4 @@
-// What must hold after every tick with clay rules, whatever the hand does. A long run:
+// Invariants after every tick with clay rules, for any motion of the hand. For a long run:
 // CLAYSTACK_AUDIT_TICKS=100000 engine_tests --gtest_filter=ClayAudit.*
 
 #include "claystack/engine/wheel.hpp"
@@ -22,7 +22,7 @@ int ticks() {
   return text != nullptr ? std::max(std::atoi(text), 1) : 3000;
 }
 
-TEST(ClayAudit, EveryQuantumIsAccountedForAfterEveryTick) {
+TEST(ClayAudit, AccountsForEveryQuantumAfterEveryTick) {
   for (unsigned rules = 0; rules < kRuleSets; rules += 7) {
     SceneSpec scene = small_scene();
     scene.clay = ClaySpec{(rules & kLift) != 0,
@@ -44,7 +44,7 @@ TEST(ClayAudit, EveryQuantumIsAccountedForAfterEveryTick) {
                 std::ranges::any_of(wheel.stack().rings(),
                                     [](const Ring& ring) { return ring.inner2 > 0; }));
     }
-    // With the hand away, clay that it kept from rising rises.
+    // Once the hand is away, the clay under it can rise.
     for (int k = 1; k <= 20; ++k)
       wheel.step({1000 * (ticks() + k), {500.0, 500.0, 0.0}, false, 0.0});
     if (wheel.stack().size() < wheel.stack().max_rings()) {
@@ -58,7 +58,7 @@ TEST(ClayAudit, EveryQuantumIsAccountedForAfterEveryTick) {
   }
 }
 
-/// How deep a tool at this height is in a ring; below 0 where it is clear of it.
+/// How deep a tool at this height is in a ring; negative without contact.
 double depth_in(const Ring& ring, std::size_t i, const SceneSpec& scene, const Tool& tool,
                 double hip_y, const Contact& contact) {
   const double t = (static_cast<double>(i) + 0.5) * scene.lump.ring_height_mm - hip_y;
@@ -66,8 +66,8 @@ double depth_in(const Ring& ring, std::size_t i, const SceneSpec& scene, const T
   return depth_of(ring, tool.radius(t), contact);
 }
 
-/// With the tool held still the energy of the overlap only falls: of no ring does it rise, and a
-/// new ring has none. So the change of clay gives no energy to the hand.
+/// With the tool at rest the overlap energy of no ring rises, and a new ring has none. So the clay
+/// gives no energy to the hand.
 TEST(ClayAudit, ClayNeverMovesIntoTheTool) {
   const SceneSpec scene = [] {
     SceneSpec small = small_scene();
@@ -90,12 +90,13 @@ TEST(ClayAudit, ClayNeverMovesIntoTheTool) {
     else
       find_contact(tool, before, pose.position_mm, outer);
     wheel.step(pose);
-    const glm::dvec3 way = pose.position_mm - last;
+    const glm::dvec3 motion = pose.position_mm - last;
     last = pose.position_mm;
-    if (std::max(std::abs(way.x), std::abs(way.y)) > 0.05) continue;  // a leap is cut into parts
+    if (std::max(std::abs(motion.x), std::abs(motion.y)) > 0.05)
+      continue;  // a longer motion is played in parts
     ++seen;
     const std::size_t top = before.size() - 1;
-    // Of a ring, the sum over both tools: a wall between them may move from one to the other.
+    // Summed over both tools, because the wall between them may move from one to the other.
     const auto energy = [&](const Ring& ring, std::size_t i) {
       double sum = 0.0;
       for (const Contact* contact : {&outer, &inner}) {

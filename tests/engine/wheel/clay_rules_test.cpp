@@ -1,4 +1,4 @@
-// The clay rules on the wheel: against closed forms, and what must hold after every tick.
+// The clay rules on the wheel, compared with closed forms, and their invariants.
 
 #include "claystack/engine/wheel.hpp"
 #include "tests/engine/wheel/rule_samples.hpp"
@@ -17,9 +17,9 @@ namespace {
 class Hand {
  public:
   explicit Hand(Wheel& wheel) : wheel_(wheel) {}
-  void go(double x, double y, double mm_s, double gap_mm = 0.0) {
-    const double way = std::hypot(x - x_, y - y_);
-    const int ticks = std::max(1, static_cast<int>(way / mm_s * 1000.0));
+  void move_to(double x, double y, double mm_s, double gap_mm = 0.0) {
+    const double distance = std::hypot(x - x_, y - y_);
+    const int ticks = std::max(1, static_cast<int>(distance / mm_s * 1000.0));
     const double from_x = x_, from_y = y_;
     for (int k = 1; k <= ticks; ++k) {
       x_ = from_x + (x - from_x) * k / ticks;
@@ -27,7 +27,7 @@ class Hand {
       wheel_.step({time_us_ += 1000, {x_, y_, 0.0}, false, gap_mm});
     }
   }
-  void stand(double x, double y) {
+  void place_at(double x, double y) {
     x_ = x;
     y_ = y;
     wheel_.step({time_us_ += 1000, {x, y, 0.0}, false, 0.0});
@@ -44,17 +44,17 @@ const Ring& ring_at(const Wheel& wheel, double y) {
 }
 double middle_of(const Ring& ring) { return 0.5 * (ring.outer_mm() + ring.inner_mm()); }
 /// Hoop strain splits evenly over thickness and height: w ~ 1 / sqrt(m).
-TEST(ClayRules, CollaringThickensTheWallByHalfOfTheHoopStrain) {
+TEST(ClayRules, CollaringThickensTheWallByHalfTheHoopStrain) {
   ClaySpec clay = no_rules();
   clay.shift = clay.hoop = clay.rim = true;
   SceneSpec scene = cylinder_scene(clay);
-  scene.removal.min_wall_mm = 5.5;  // nothing is squeezed out
+  scene.removal.min_wall_mm = 5.5;  // no clay is squeezed out
   Wheel wheel = Wheel::build(scene).value();
   const double height = wheel.stack().height_mm();
   Hand hand(wheel);
-  hand.stand(56.0, 60.0);
-  hand.go(49.0, 60.0, 5.0);
-  hand.go(56.0, 60.0, 50.0);
+  hand.place_at(56.0, 60.0);
+  hand.move_to(49.0, 60.0, 5.0);
+  hand.move_to(56.0, 60.0, 50.0);
   const Ring& ring = ring_at(wheel, 60.1);
   EXPECT_LT(middle_of(ring), 38.0);
   const double thicker = 5.0 * std::sqrt(42.5 / middle_of(ring)) - 5.0;
@@ -69,9 +69,9 @@ TEST(ClayRules, WithoutHoopAShiftKeepsTheClayOfEachRing) {
   clay.shift = clay.heave = true;
   Wheel wheel = Wheel::build(cylinder_scene(clay)).value();
   Hand hand(wheel);
-  hand.stand(56.0, 60.0);
-  hand.go(49.0, 60.0, 5.0);
-  const Ring& ring = ring_at(wheel, 49.0);  // beside the contact nothing is squeezed or laid
+  hand.place_at(56.0, 60.0);
+  hand.move_to(49.0, 60.0, 5.0);
+  const Ring& ring = ring_at(wheel, 49.0);  // beside the contact no clay is removed or added
   EXPECT_LT(middle_of(ring), 42.2);
   const Ring& still = wheel.stack().rings().front();
   EXPECT_NEAR(mm2_from_quanta(ring.volume()), mm2_from_quanta(still.volume()), 2.0);
@@ -86,12 +86,12 @@ TEST(ClayRules, BellyingThinsTheWallAndLowersTheRim) {
   Wheel wheel = Wheel::build(scene).value();
   const double height = wheel.stack().height_mm();
   Hand hand(wheel);
-  hand.stand(28.0, 60.0);
-  hand.go(36.0, 60.0, 5.0);
-  hand.go(28.0, 60.0, 50.0);
+  hand.place_at(28.0, 60.0);
+  hand.move_to(36.0, 60.0, 5.0);
+  hand.move_to(28.0, 60.0, 50.0);
   EXPECT_GT(middle_of(ring_at(wheel, 60.0)), 46.0);
   EXPECT_LT(wall_of(ring_at(wheel, 60.0)), 1.9);
-  // The other half of every ring's strain.
+  // The other half of the strain of each ring.
   double lower = 0.0;
   for (const Ring& ring : wheel.stack().rings())
     lower += kH * 0.5 * std::log(middle_of(ring) / 41.0);
@@ -101,21 +101,21 @@ TEST(ClayRules, BellyingThinsTheWallAndLowersTheRim) {
   expect_balanced(wheel);
 }
 
-/// A rolling mill: the wall comes in at w0 and leaves at w1; what is above is pushed up whole.
-TEST(ClayRules, APinchLiftsTheRimAsARollingMillDoes) {
+/// A rolling mill: the wall enters at w0 and leaves at w1; the wall above rises unchanged.
+TEST(ClayRules, APinchLiftsTheRimLikeARollingMill) {
   ClaySpec clay = no_rules();
   clay.lift = clay.rim = true;
   SceneSpec scene = cylinder_scene(clay);
   scene.removal = {200.0, 0.25, 1.0, {}};
   Wheel wheel = Wheel::build(scene).value();
   Hand hand(wheel);
-  hand.stand(42.5, 25.0);
+  hand.place_at(42.5, 25.0);
   constexpr double kSpeed = 20.0, kGap = 4.0;
-  hand.go(42.5, 45.0, kSpeed, kGap);
+  hand.move_to(42.5, 45.0, kSpeed, kGap);
   const double start = wheel.stack().height_mm();
-  hand.go(42.5, 85.0, kSpeed, kGap);
+  hand.move_to(42.5, 85.0, kSpeed, kGap);
   const double seconds = 40.0 / kSpeed, wall = wall_of(ring_at(wheel, 65.0));
-  // As clay: volumes, for the wall is not quite thin.
+  // By volume, because the wall is not quite thin.
   const Ring& thinned = ring_at(wheel, 65.0);
   const double part = 1.0 - static_cast<double>(thinned.volume()) /
                                 static_cast<double>(wheel.stack().rings().front().volume());
@@ -123,7 +123,7 @@ TEST(ClayRules, APinchLiftsTheRimAsARollingMillDoes) {
   EXPECT_NEAR((wheel.stack().height_mm() - start) / seconds, kSpeed * (1.0 - kGap / 5.0),
               0.02 * kSpeed * (1.0 - kGap / 5.0));
   EXPECT_NEAR((wheel.stack().height_mm() - start) / 40.0, part, 0.02 * part);
-  // Nothing was piled up in front of the fingers.
+  // No clay piles up in front of the tools.
   EXPECT_EQ(ring_at(wheel, 110.0), wheel.stack().rings().back());
   expect_balanced(wheel);
 }
@@ -133,16 +133,16 @@ TEST(ClayRules, APinchBesideTheWallCentresIt) {
   clay.lift = clay.shift = clay.rim = true;
   Wheel wheel = Wheel::build(cylinder_scene(clay)).value();
   Hand hand(wheel);
-  hand.stand(44.0, 40.0);
-  hand.go(44.0, 80.0, 20.0, 6.0);
+  hand.place_at(44.0, 40.0);
+  hand.move_to(44.0, 80.0, 20.0, 6.0);
   const Ring& ring = ring_at(wheel, 60.0);
   EXPECT_GT(middle_of(ring), 43.2);
   EXPECT_LT(middle_of(ring), 44.6);
   EXPECT_NEAR(wall_of(ring), 5.0 * 42.5 / middle_of(ring), 0.05);
 }
 
-/// A lump without a bore cannot move as a shell: the tool squeezes out what it always did.
-TEST(ClayRules, ASolidLumpGivesWayAsWithoutThem) {
+/// A lump without a bore cannot move as a shell, so it yields as without the rules.
+TEST(ClayRules, ASolidLumpYieldsAsWithoutRules) {
   SceneSpec plain = cylinder_scene(no_rules());
   plain.lump.inner_radius_mm = 0.0;
   plain.clay.reset();
@@ -151,24 +151,24 @@ TEST(ClayRules, ASolidLumpGivesWayAsWithoutThem) {
   Wheel old_wheel = Wheel::build(plain).value(), new_wheel = Wheel::build(ruled).value();
   for (Wheel* wheel : {&old_wheel, &new_wheel}) {
     Hand hand(*wheel);
-    hand.stand(53.0, 60.0);
-    hand.stand(53.0, 60.0);
+    hand.place_at(53.0, 60.0);
+    hand.place_at(53.0, 60.0);
   }
-  const Ring was = Wheel::build(plain)->stack().rings()[300];
-  EXPECT_LT(ring_at(new_wheel, 60.0).outer2, was.outer2);
+  const Ring before = Wheel::build(plain)->stack().rings()[300];
+  EXPECT_LT(ring_at(new_wheel, 60.0).outer2, before.outer2);
   EXPECT_EQ(ring_at(new_wheel, 60.0), ring_at(old_wheel, 60.0));
   expect_balanced(new_wheel);
 }
 
-/// A wall at its minimum bends away from the tool, and is not thinned.
+/// A wall at its minimum bends away from the tool without getting thinner.
 TEST(ClayRules, AWallAtItsMinimumBends) {
   ClaySpec clay;
   SceneSpec scene = cylinder_scene(clay);
   scene.removal.min_wall_mm = 5.0;
   Wheel wheel = Wheel::build(scene).value();
   Hand hand(wheel);
-  hand.stand(56.0, 60.0);
-  hand.go(50.0, 60.0, 5.0);
+  hand.place_at(56.0, 60.0);
+  hand.move_to(50.0, 60.0, 5.0);
   EXPECT_LT(middle_of(ring_at(wheel, 60.0)), 39.0);
   for (const Ring& ring : wheel.stack().rings()) EXPECT_GT(wall_of(ring), 5.0 - 1e-9);
 }
@@ -179,52 +179,53 @@ TEST(ClayRules, NoToolOpensTheFloor) {
   scene.clay->floor_mm = 7.0;
   Wheel wheel = Wheel::build(scene).value();
   Hand hand(wheel);
-  hand.stand(1.0, 135.0);
-  hand.go(1.0, 8.0, 60.0);
-  hand.go(15.0, 8.0, 60.0);
+  hand.place_at(1.0, 135.0);
+  hand.move_to(1.0, 8.0, 60.0);
+  hand.move_to(15.0, 8.0, 60.0);
   std::size_t solid = 0;
   while (wheel.stack().rings()[solid].inner2 == 0) ++solid;
   EXPECT_EQ(solid, 35u);
   expect_balanced(wheel);
 }
 
-/// One position quantum up or down at the first tick of a level press: with a sign, 1 mm of clay.
-TEST(ClayRules, TheDirectionOfTheFlowHasNoCliff) {
+/// One position quantum up or down in the first tick of a level press. If only the sign of the
+/// motion counted, the pots would differ by 1 mm.
+TEST(ClayRules, FlowIsContinuousInTheDirectionOfMotion) {
   const auto pressed = [](double first_dy) {
     SceneSpec scene = cylinder_scene({});
     scene.lump.inner_radius_mm = 20.0;
     Wheel wheel = Wheel::build(scene).value();
     Hand hand(wheel);
-    hand.stand(56.0, 60.1);
-    hand.stand(56.0, 60.1 + first_dy);
-    hand.go(48.0, 60.1 + first_dy, 10.0);
+    hand.place_at(56.0, 60.1);
+    hand.place_at(56.0, 60.1 + first_dy);
+    hand.move_to(48.0, 60.1 + first_dy, 10.0);
     return wheel.pot();
   };
   const double quantum = 0x1p-16;
   const Pot up = pressed(quantum), down = pressed(-quantum);
-  double most = 0.0;
+  double max_mm = 0.0;
   for (std::size_t i = 0; i < std::min(up.stack.size(), down.stack.size()); ++i)
-    most =
-        std::max(most, std::abs(up.stack.rings()[i].outer_mm() - down.stack.rings()[i].outer_mm()));
-  EXPECT_LT(most, 1e-3);
+    max_mm = std::max(max_mm,
+                      std::abs(up.stack.rings()[i].outer_mm() - down.stack.rings()[i].outer_mm()));
+  EXPECT_LT(max_mm, 1e-3);
 }
 
-TEST(ClayRules, FeelIsWhatStepSays) {
+TEST(ClayRules, ProbeMatchesStep) {
   Wheel wheel = Wheel::build(small_scene()).value();
   glm::dvec3 last{0.0};
-  const auto short_of = [&](const Pose& pose) {
-    const glm::dvec3 way = pose.position_mm - last;
-    return std::max(std::abs(way.x), std::abs(way.y)) < 0.05;
+  const auto is_short = [&](const Pose& pose) {
+    const glm::dvec3 motion = pose.position_mm - last;
+    return std::max(std::abs(motion.x), std::abs(motion.y)) < 0.05;
   };
   for (const Pose& pose : random_poses(9, 2000)) {
-    const StepReport felt = wheel.probe(pose);
+    const StepReport probed = wheel.probe(pose);
     const ClayStack before = wheel.stack();
-    EXPECT_EQ(wheel.probe(pose).force_n(), felt.force_n());
+    EXPECT_EQ(wheel.probe(pose).force_n(), probed.force_n());
     EXPECT_EQ(wheel.stack(), before);
     const StepReport report = wheel.step(pose);
-    // A leap is cut into parts, which probe() does not do.
-    if (!(report.flags & kGrew) && short_of(pose)) {
-      EXPECT_EQ(report.force_n(), felt.force_n());
+    // step() plays a longer motion in parts; probe() does not.
+    if (!(report.flags & kGrew) && is_short(pose)) {
+      EXPECT_EQ(report.force_n(), probed.force_n());
     }
     last = pose.position_mm;
   }
@@ -238,8 +239,8 @@ TEST(ClayRules, ATickAllocatesNothing) {
   EXPECT_EQ(allocation_count(), before);
 }
 
-/// Cut anywhere, in clay or in air: the second half begins where the hand is.
-TEST(ClayRules, APotGoesOnBitForBitAfterAnyCut) {
+/// Cut anywhere, in clay or in air; the second half starts at the position of the hand.
+TEST(ClayRules, ASavedPotContinuesWithTheSameBits) {
   const SceneSpec scene = small_scene();
   const auto poses = random_poses(3, 4000);
   Wheel whole = Wheel::build(scene).value();
@@ -253,7 +254,7 @@ TEST(ClayRules, APotGoesOnBitForBitAfterAnyCut) {
   }
 }
 
-TEST(ClayRules, ThePapersModelHasNone) {
+TEST(ClayRules, PaperModelHasNoRules) {
   SceneSpec scene = small_scene();
   scene.model = Model::paper;
   Wheel ruled = Wheel::build(scene).value();

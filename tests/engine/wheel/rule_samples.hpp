@@ -1,5 +1,5 @@
 #pragma once
-// Scenes with clay rules, hands that try all that a hand can do, and what must hold.
+// Scenes with clay rules, random motions of a hand, and invariants.
 
 #include "app/bench/hands/dice.hpp"
 #include "claystack/engine/wheel.hpp"
@@ -16,7 +16,7 @@ inline constexpr double kH = 0.2;
 
 inline ClaySpec no_rules() { return {false, false, false, false, false, false, 120.0, 0.0}; }
 
-/// A thin wall of 5 mm around a bore of 40 mm, 120 mm high.
+/// A thin wall of 5 mm around a bore of 40 mm radius, 120 mm high.
 inline SceneSpec cylinder_scene(ClaySpec clay) {
   SceneSpec scene;
   scene.lump = {.rings = 600,
@@ -39,7 +39,7 @@ inline void expect_balanced(const Wheel& wheel) {
   ASSERT_EQ(wheel.stack().recount(), wheel.stack().volume());
 }
 
-/// A tremor about the wall with all that a hand can do; both ends and thin walls in it.
+/// A random walk about the wall with pinches, trims and jumps, past both ends of the wall.
 inline std::vector<Pose> random_poses(std::uint64_t seed, int count) {
   bench::Dice dice(seed);
   std::vector<Pose> poses;
@@ -51,9 +51,9 @@ inline std::vector<Pose> random_poses(std::uint64_t seed, int count) {
       gap = dice.unit() < 0.4 ? dice.between(0.5, 40.0) : 0.0;
       speed = dice.unit() < 0.1 ? 5.0 : dice.between(0.01, 0.3);
     }
-    const glm::dvec3 way = goal - at;
-    const double length = std::sqrt(way.x * way.x + way.y * way.y);
-    if (length > speed) at += way * (speed / length);
+    const glm::dvec3 motion = goal - at;
+    const double length = std::sqrt(motion.x * motion.x + motion.y * motion.y);
+    if (length > speed) at += motion * (speed / length);
     poses.push_back({1000 * (k + 1), at, k % 300 > 270, gap});
   }
   return poses;

@@ -14,8 +14,8 @@ namespace {
 
 using samples::scene_of;
 
-/// A moving hand that prefers difficult places: the base, the rim, the axis, deep in the wall,
-/// jumps, and the trim button; with occasional pinches if enabled.
+/// A random hand that prefers difficult cases: the base, the rim, the axis, deep in the wall, jumps
+/// and trimming; with occasional pinches if enabled.
 class RestlessHand {
  public:
   explicit RestlessHand(std::uint64_t seed, bool pinches = false)
@@ -85,13 +85,13 @@ Outcome play_a_million(Model model, Check check) {
   return outcome;
 }
 
-bool rings_are_sound(const ClayStack& stack) {
+bool rings_are_valid(const ClayStack& stack) {
   for (const Ring& ring : stack.rings())
     if (!(ring.inner2 >= 0 && ring.outer2 > ring.inner2)) return false;
   return stack.recount() == stack.volume() && stack.crown() >= 0;
 }
 
-void expect_all_was_met(const Outcome& outcome) {
+void expect_coverage(const Outcome& outcome) {
   EXPECT_GT(outcome.contacts, 300'000);
   EXPECT_GT(outcome.grown, 100);
   EXPECT_GT(outcome.trims, 10);
@@ -100,21 +100,21 @@ void expect_all_was_met(const Outcome& outcome) {
 }
 
 TEST(Wheel, ConservingBalancesToTheQuantumAfterEveryTick) {
-  expect_all_was_met(play_a_million(Model::conserving, [](const Wheel& wheel) {
+  expect_coverage(play_a_million(Model::conserving, [](const Wheel& wheel) {
     const WideQuanta counted = wheel.stack().recount();
     return wheel.ledger().imbalance(counted) == 0 && wheel.ledger().volume_error(counted) == 0 &&
-           rings_are_sound(wheel.stack());
+           rings_are_valid(wheel.stack());
   }));
 }
 
 TEST(Wheel, PaperErrorIsBelowItsTopRingAfterEveryTick) {
-  expect_all_was_met(play_a_million(Model::paper, [](const Wheel& wheel) {
+  expect_coverage(play_a_million(Model::paper, [](const Wheel& wheel) {
     const WideQuanta counted = wheel.stack().recount(),
                      missing = -wheel.ledger().volume_error(counted);
     const bool room = wheel.stack().size() < wheel.stack().max_rings();
     return wheel.ledger().imbalance(counted) == 0 && missing >= 0 &&
            (!room || missing < wheel.stack().rings().back().volume()) &&
-           rings_are_sound(wheel.stack());
+           rings_are_valid(wheel.stack());
   }));
 }
 
@@ -136,8 +136,7 @@ TEST(Wheel, PaperErrorHalvesAsTheRingsDouble) {
     return worst;
   };
   const double coarse = worst_percent(200), fine = worst_percent(400);
-  EXPECT_GT(coarse,
-            0.5);  // the raised clay has made the top ring wider than the others
+  EXPECT_GT(coarse, 0.5);  // the raised clay has made the top ring wider
   EXPECT_NEAR(fine / coarse, 0.5, 0.1);
 }
 
@@ -202,31 +201,31 @@ TEST(Wheel, ForceStaysWithinItsLimit) {
   scene.force->stiffness_n_per_mm2 = 1e6;
   Wheel wheel = Wheel::build(scene).value();
   RestlessHand hand(5);
-  double greatest = 0.0;
+  double largest = 0.0;
   for (int k = 0; k < 5000; ++k)
-    greatest = std::max(greatest, glm::length(wheel.step(hand.next(wheel.stack())).force_n()));
-  EXPECT_LE(greatest, 5.0);
-  EXPECT_GT(greatest, 4.99);
+    largest = std::max(largest, glm::length(wheel.step(hand.next(wheel.stack())).force_n()));
+  EXPECT_LE(largest, 5.0);
+  EXPECT_GT(largest, 4.99);
 }
 
-TEST(Wheel, FrictionRunsAlongTheTurnAndTheSpringDoesNot) {
+TEST(Wheel, FrictionIsAlongTheRotationAndTheSpringIsNot) {
   for (const Model model : {Model::conserving, Model::paper}) {
-    SceneSpec scene = scene_of(model), bare = scene;
-    bare.force->friction = 0.0;
-    Wheel wheel = Wheel::build(scene).value(), without = Wheel::build(bare).value();
+    SceneSpec scene = scene_of(model), frictionless = scene;
+    frictionless.force->friction = 0.0;
+    Wheel wheel = Wheel::build(scene).value(), without = Wheel::build(frictionless).value();
     RestlessHand hand(13);
     int compared = 0;
     for (int k = 0; k < 5000; ++k) {
       const Pose pose = hand.next(wheel.stack());
       const StepReport report = wheel.step(pose), spring = without.step(pose);
       const glm::dvec3 along(pose.position_mm.z, 0.0, -pose.position_mm.x);
-      const double off = 1e-9 * glm::length(along);
+      const double tolerance = 1e-9 * glm::length(along);
       ASSERT_EQ(spring.friction_n, glm::dvec3(0.0));
-      ASSERT_NEAR(glm::dot(report.spring_n, along), 0.0, off) << k;
+      ASSERT_NEAR(glm::dot(report.spring_n, along), 0.0, tolerance) << k;
       ASSERT_NEAR(glm::length(report.friction_n),
                   scene.force->friction * glm::length(report.spring_n), 1e-9)
           << k;
-      ASSERT_LE(glm::length(glm::cross(report.friction_n, along)), off) << k;
+      ASSERT_LE(glm::length(glm::cross(report.friction_n, along)), tolerance) << k;
       if (glm::length(report.force_n()) >= 4.99) continue;
       ASSERT_EQ(report.spring_n, spring.spring_n) << k;
       compared += (report.flags & kContact) != 0;
@@ -257,29 +256,29 @@ TEST(Wheel, CollapsesAtACutNeckAndThenStops) {
   EXPECT_TRUE(pot.ledger.imbalance(pot.stack.recount()) == 0);
 }
 
-TEST(Wheel, FeelMatchesStepWithoutChangingTheClay) {
+TEST(Wheel, ProbeMatchesStepWithoutChangingTheClay) {
   for (const Model model : {Model::conserving, Model::paper}) {
-    Wheel felt = Wheel::build(scene_of(model)).value(),
+    Wheel probed = Wheel::build(scene_of(model)).value(),
           plain = Wheel::build(scene_of(model)).value();
     RestlessHand hand(7);
     Pose last{};
     int compared = 0;
     for (int i = 0; i < 20'000; ++i) {
       const Pose pose = hand.next(plain.stack());
-      const StepReport before = felt.probe(pose);
-      (void)felt.probe({pose.time_us, {30.0, 10.0, 0.0}});
-      const StepReport after = felt.step(pose);
+      const StepReport before = probed.probe(pose);
+      (void)probed.probe({pose.time_us, {30.0, 10.0, 0.0}});
+      const StepReport after = probed.step(pose);
       ASSERT_EQ(plain.step(pose).force_n(), after.force_n()) << i;
       // A longer motion is played in parts, and the clay yields between them.
-      const glm::dvec3 way = glm::abs(pose.position_mm - last.position_mm);
+      const glm::dvec3 motion = glm::abs(pose.position_mm - last.position_mm);
       last = pose;
-      if (std::max({way.x, way.y, way.z}) >= 0.05) continue;
+      if (std::max({motion.x, motion.y, motion.z}) >= 0.05) continue;
       ASSERT_EQ(before.force_n(), after.force_n()) << i;
       ASSERT_EQ(before.rings_touched, after.rings_touched) << i;
       compared += (before.flags & kContact) != 0;
     }
     EXPECT_GT(compared, 500);
-    EXPECT_EQ(felt.pot(), plain.pot());
+    EXPECT_EQ(probed.pot(), plain.pot());
   }
 }
 

@@ -20,10 +20,10 @@
 namespace clay::falcon {
 
 inline constexpr std::int64_t kTickUs = 1'000;
-// An encoder's count is 67 um at most within 40 mm of the centre; half of one on each leg.
+// Within 40 mm of the centre, one encoder count is at most 67 um; each leg is off by half a count.
 inline constexpr double kEncoderMm = 0.07;
 
-/// The grip of the model at each frame [mm]: a circle, 20 mm about the centre, 1 turn/s.
+/// The grip of the model at each frame [mm]: a circle of radius 20 mm about the centre, 1 turn/s.
 inline glm::dvec3 on_circle(std::uint64_t frame) {
   const double turn = 2e-3 * 3.14159265358979 * static_cast<double>(frame);
   return Kinematics::kCentreMm + 20.0 * glm::dvec3(std::cos(turn), std::sin(turn), 0.0);

@@ -24,7 +24,7 @@ TEST(FalconDevice, ReportsTheGripPosition) {
   for (int i = 0; i < 1000; ++i) {
     const DeviceSample sample = bench.tick();
     ASSERT_TRUE(sample.fresh);
-    const glm::dvec3 true_mm = (on_circle(bench.frame - 1) - Kinematics::kCentreMm);
+    const glm::dvec3 true_mm = on_circle(bench.frame - 1) - Kinematics::kCentreMm;
     ASSERT_LT(glm::distance(sample.position_mm, true_mm), kEncoderMm) << i;
     EXPECT_EQ(sample.buttons, unsigned{kButtonForward | kButtonMinus});
     EXPECT_GT(sample.time_us, last_us);
@@ -42,7 +42,8 @@ TEST(FalconDevice, RendersTheRequestedForce) {
     bench.grip = [](std::uint64_t) { return Kinematics::kCentreMm; };
     bench.tick();
     bench.tick(force);
-    // One count of each motor is 1.5e-4 N m; at the shortest lever, 60 mm, 2.5 mN: half of three.
+    // One motor count is 1.5e-4 N m, or 2.5 mN at the shortest lever, 60 mm; three motors are each
+    // off by half a count.
     EXPECT_LT(glm::distance(bench.model->force_n(), force), 0.01);
   }
 }
@@ -79,7 +80,7 @@ TEST(FalconDevice, LastPacketIsZeroAfterStop) {
   bench.tick({4, 0, 0});
   EXPECT_NE(bench.model->motors(), LegCounts{});
   bench.device.reset();
-  EXPECT_EQ(bench.model->motors(), LegCounts{}) << "closed with a force on";
+  EXPECT_EQ(bench.model->motors(), LegCounts{}) << "closed while a force was on";
 }
 
 TEST(FalconDevice, SendsZeroFromTheFrameThatLosesHoming) {
@@ -101,9 +102,9 @@ TEST(FalconDevice, ReadsTheNewestOfManyFrames) {
   FalconBench bench(ready_model());
   ASSERT_TRUE(bench.device->open());
   bench.tick();
-  for (int i = 0; i < 60; ++i) bench.device->write({});  // 960 bytes come at once
+  for (int i = 0; i < 60; ++i) bench.device->write({});  // 960 bytes arrive at once
   const DeviceSample sample = bench.device->read(kTickUs);
-  const glm::dvec3 newest = (on_circle(bench.frame - 1) - Kinematics::kCentreMm);
+  const glm::dvec3 newest = on_circle(bench.frame - 1) - Kinematics::kCentreMm;
   EXPECT_LT(glm::distance(sample.position_mm, newest), kEncoderMm);
   EXPECT_FALSE(bench.device->read(0).fresh);
 }

@@ -33,7 +33,7 @@ TEST(FalconOpening, GoesFromPowerUpToReady) {
 TEST(FalconOpening, KeepsLoadedFirmware) {
   FalconBench bench(ready_model());
   ASSERT_TRUE(bench.device->open());
-  EXPECT_TRUE(bench.model->firmware().empty()) << "loaded though it ran already";
+  EXPECT_TRUE(bench.model->firmware().empty()) << "uploaded although it was already running";
   EXPECT_EQ(bench.tick().state, DeviceState::ready);
 }
 
@@ -48,9 +48,9 @@ TEST(FalconOpening, ReportsMissingFirmware) {
 }
 
 TEST(FalconOpening, DistinguishesMissingPowerFromMissingFirmware) {
-  FalconModelSettings dark;
-  dark.power = false;
-  FalconBench bench(dark);
+  FalconModelSettings unpowered;
+  unpowered.power = false;
+  FalconBench bench(unpowered);
   const auto opened = bench.device->open();
   ASSERT_FALSE(opened);
   EXPECT_EQ(opened.error().fault, DeviceFault::no_answer);
@@ -69,15 +69,15 @@ TEST(FalconOpening, RefusesABadFileBeforeSendingIt) {
 
 TEST(FalconOpening, RefusesInvalidSettings) {
   const double nan = std::nan("");
-  std::vector<FalconSettings> nonsense(7);
-  nonsense[0].force_limit_n = 9.0;
-  nonsense[1].force_limit_n = nan;
-  nonsense[2].motor_counts_per_nmm = 0.0;
-  nonsense[3].motor_counts_per_nmm = nan;
-  nonsense[4].silence_us = 0;
-  nonsense[5].centre_mm = {0, 0, 500.0};
-  nonsense[6].centre_mm = {nan, 0, 0};
-  for (const FalconSettings& settings : nonsense) {
+  std::vector<FalconSettings> invalid(7);
+  invalid[0].force_limit_n = 9.0;
+  invalid[1].force_limit_n = nan;
+  invalid[2].motor_counts_per_nmm = 0.0;
+  invalid[3].motor_counts_per_nmm = nan;
+  invalid[4].silence_us = 0;
+  invalid[5].centre_mm = {0, 0, 500.0};
+  invalid[6].centre_mm = {nan, 0, 0};
+  for (const FalconSettings& settings : invalid) {
     FalconBench bench(ready_model(), settings);
     const auto opened = bench.device->open();
     ASSERT_FALSE(opened);

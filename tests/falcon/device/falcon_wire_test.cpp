@@ -1,4 +1,4 @@
-// Faults of the wire, and silence.
+// Wire faults and silence.
 
 #include "tests/falcon/device/falcon_bench.hpp"
 
@@ -13,12 +13,12 @@ namespace {
 
 struct WireCase {
   WireFault fault;
-  std::uint64_t lost;  // frames that are lost
+  std::uint64_t lost;  // frames lost per fault
 };
 
 class FaultyWire : public testing::TestWithParam<WireCase> {};
 
-TEST_P(FaultyWire, LosesAtMostTwoFramesAndAcceptsNoWrongOne) {
+TEST_P(FaultyWire, LosesAtMostTwoFramesAndAcceptsNoWrongFrame) {
   const auto& [fault, lost] = GetParam();
   FalconBench bench(ready_model());
   ASSERT_TRUE(bench.device->open());
@@ -61,11 +61,11 @@ TEST(FalconWire, ReportsUnpluggingAndReconnects) {
   EXPECT_EQ(sample.state, DeviceState::fault);
   EXPECT_FALSE(sample.fresh);
   EXPECT_EQ(bench.device->problem().fault, DeviceFault::unplugged);
-  bench.tick({2, 0, 0});  // harmless
+  bench.tick({2, 0, 0});  // must have no effect
   EXPECT_FALSE(bench.device->open());
   bench.model->replug();
   ASSERT_TRUE(bench.device->open());
-  EXPECT_EQ(bench.tick().state, DeviceState::needs_homing) << "homing is for this power-up only";
+  EXPECT_EQ(bench.tick().state, DeviceState::needs_homing) << "homing holds for one power-up only";
   EXPECT_EQ(bench.model->motors(), LegCounts{});
 }
 

@@ -42,25 +42,25 @@ TEST(Firmware, RefusesEveryTruncation) {
   EXPECT_EQ(fault_of(longer), DeviceFault::bad_firmware);
 }
 
-TEST(Firmware, RefusesAnotherHeader) {
+TEST(Firmware, RefusesAWrongHeader) {
   for (std::size_t at = 0; at < 2 * (1 + 8); ++at) {
     auto bytes = dummy_firmware();
     bytes[at] ^= 1;
     EXPECT_EQ(fault_of(bytes), DeviceFault::bad_firmware) << at;
   }
-  for (const std::size_t at : {18u, 24u}) {  // high words: of the entry point, of the first block
+  for (const std::size_t at : {18u, 24u}) {  // high words of the entry point and of the first block
     auto bytes = dummy_firmware();
     bytes[at] = 0x40;
     EXPECT_EQ(fault_of(bytes), DeviceFault::bad_firmware) << at;
   }
   auto outside = dummy_firmware(10, 1);
-  outside[20] = 0x0A;  // entry point 003F:800A, one word behind the block
+  outside[20] = 0x0A;  // entry point 003F:800A, one word past the block
   EXPECT_EQ(fault_of(outside), DeviceFault::bad_firmware);
   outside[20] = 0x09;
   EXPECT_TRUE(parse_firmware(outside, "f"));
 }
 
-/// The dummy with the address of its block `block` replaced; blocks of 20 words.
+/// The error for the dummy with `address` in block `block`, of 20 words; empty if it is accepted.
 std::string refusal_at(std::size_t block, std::uint32_t address) {
   auto bytes = dummy_firmware(20, 3);
   const std::size_t at = 2 * (1 + 8 + 2) + block * 2 * (3 + 20) + 2;
@@ -72,7 +72,7 @@ std::string refusal_at(std::size_t block, std::uint32_t address) {
 }
 
 TEST(Firmware, RefusesBlocksOutsideTheMemory) {
-  EXPECT_EQ(refusal_at(2, 0x3FFFECu), "");  // its last word is the last there is
+  EXPECT_EQ(refusal_at(2, 0x3FFFECu), "");  // its last word has the highest address
   const std::string place = "f: expected a TI C28x boot stream; at byte 120 of 162: ";
   for (const auto& [address, text] :
        {std::pair{0x3FFFEDu, "3FFFED"}, {0x400000u, "400000"}, {0xFFFFFFF0u, "FFFFFFF0"}})
@@ -123,11 +123,11 @@ TEST(LoadFirmware, SendsTheFileUnchanged) {
   EXPECT_EQ(model->firmware(), firmware.bytes);
 }
 
-TEST(LoadFirmware, RestartsOnAWrongEchoAndFinallyReportsIt) {
+TEST(LoadFirmware, RestartsOnAWrongEchoThenReportsIt) {
   const Firmware firmware = parse_firmware(dummy_firmware(), "f").value();
   for (const int attempts : {2, 3}) {
     FalconModelSettings settings;
-    // Every piece of 62 bytes is compared: one fault in the first, one in the last.
+    // Each piece of 62 bytes is compared: one fault in the first, one in the last.
     settings.faults = {{WireFault::echo_error, 3},
                        {WireFault::echo_error, firmware.bytes.size() - 2}};
     const auto model = std::make_shared<FalconModel>(settings, still());
@@ -141,7 +141,7 @@ TEST(LoadFirmware, RestartsOnAWrongEchoAndFinallyReportsIt) {
   }
 }
 
-TEST(LoadFirmware, ReportsThePowerSupplyWithoutAnyAnswer) {
+TEST(LoadFirmware, NamesThePowerSupplyWithoutAnAnswer) {
   FalconModelSettings settings;
   settings.power = false;
   LoopbackTransport line(std::make_shared<FalconModel>(settings, still()), Pace::virtual_);
@@ -152,7 +152,7 @@ TEST(LoadFirmware, ReportsThePowerSupplyWithoutAnyAnswer) {
   EXPECT_NE(loaded.error().remedy.find("power supply"), std::string::npos);
 }
 
-/// A line on which a byte 0 precedes the greeting's answer, as with some devices.
+/// A line that sends a zero byte before the answer to the greeting, as some devices do.
 class ZeroFirst final : public Transport {
  public:
   explicit ZeroFirst(std::shared_ptr<FalconModel> model)

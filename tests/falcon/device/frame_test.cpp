@@ -19,7 +19,7 @@ using Bytes = std::vector<std::uint8_t>;
 static_assert(std::is_trivially_copyable_v<FrameReader>, "it owns no memory");
 static_assert(noexcept(encode({})));
 
-/// A frame by the format's description; 'A' + 3 represents 3.
+/// A frame as the format describes it: 'A' + 3 stands for 3.
 std::string frame_text(const LegCounts& counts, int status = 0) {
   std::string text = "<";
   for (const std::int16_t count : counts) {
@@ -172,70 +172,70 @@ RC_GTEST_PROP(FrameReader, CountsEveryByteOfNoise, ()) {
 }
 
 /// A fault in a sequence of four frames, and the frames that stay whole.
-struct Faulty {
+struct FaultySequence {
   Bytes bytes;
   std::array<bool, 4> whole = {true, true, true, true};
 };
 
-void lose(Faulty& stretch, std::size_t at, std::size_t count) {
-  for (std::size_t lost = at; lost < at + count; ++lost) stretch.whole[lost / kFrameBytes] = false;
-  const auto from = stretch.bytes.begin() + static_cast<std::ptrdiff_t>(at);
-  stretch.bytes.erase(from, from + static_cast<std::ptrdiff_t>(count));
+void lose(FaultySequence& sequence, std::size_t at, std::size_t count) {
+  for (std::size_t lost = at; lost < at + count; ++lost) sequence.whole[lost / kFrameBytes] = false;
+  const auto from = sequence.bytes.begin() + static_cast<std::ptrdiff_t>(at);
+  sequence.bytes.erase(from, from + static_cast<std::ptrdiff_t>(count));
 }
 
-void insert(Faulty& stretch, std::size_t at, const Bytes& extra) {
-  if (at % kFrameBytes != 0) stretch.whole[at / kFrameBytes] = false;
-  stretch.bytes.insert(stretch.bytes.begin() + static_cast<std::ptrdiff_t>(at), extra.begin(),
-                       extra.end());
+void insert(FaultySequence& sequence, std::size_t at, const Bytes& extra) {
+  if (at % kFrameBytes != 0) sequence.whole[at / kFrameBytes] = false;
+  sequence.bytes.insert(sequence.bytes.begin() + static_cast<std::ptrdiff_t>(at), extra.begin(),
+                        extra.end());
 }
 
-void spoil(Faulty& stretch, std::size_t at, std::uint8_t byte) {
-  if (stretch.bytes[at] == byte) return;
-  stretch.whole[at / kFrameBytes] = false;
-  stretch.bytes[at] = byte;
+void damage(FaultySequence& sequence, std::size_t at, std::uint8_t byte) {
+  if (sequence.bytes[at] == byte) return;
+  sequence.whole[at / kFrameBytes] = false;
+  sequence.bytes[at] = byte;
 }
 
-void plant_fault(Faulty& stretch) {
-  const auto size = stretch.bytes.size();
+void plant_fault(FaultySequence& sequence) {
+  const auto size = sequence.bytes.size();
   const auto at = *rc::gen::inRange<std::size_t>(0, size);
   switch (*rc::gen::inRange(0, 5)) {
     case 0:
-      return lose(stretch, at, 1);
+      return lose(sequence, at, 1);
     case 1: {
       // Losing a multiple of 16 bytes within a frame joins two halves, which cannot be detected.
       auto count = *rc::gen::inRange<std::size_t>(1, 18);
       count = std::min(count, size - at);
-      return lose(stretch, at, count % kFrameBytes == 0 ? count - 1 : count);
+      return lose(sequence, at, count % kFrameBytes == 0 ? count - 1 : count);
     }
     case 2:
-      return insert(stretch, at, {*rc::gen::arbitrary<std::uint8_t>()});
+      return insert(sequence, at, {*rc::gen::arbitrary<std::uint8_t>()});
     case 3: {
       const auto nibbles = rc::gen::inRange<std::uint8_t>('A', 'P' + 1);
-      return insert(stretch, at, *rc::gen::container<Bytes>(nibbles));
+      return insert(sequence, at, *rc::gen::container<Bytes>(nibbles));
     }
     default:
-      return spoil(stretch, at, *rc::gen::element<std::uint8_t>('<', '>', 0x00, 0xFF));
+      return damage(sequence, at, *rc::gen::element<std::uint8_t>('<', '>', 0x00, 0xFF));
   }
 }
 
-// One fault in each four frames. A frame touched by a fault may be accepted if its contents are
-// unharmed; every other must be accepted, and nothing that was never sent.
-RC_GTEST_PROP(FrameReader, LosesOnlyTheFramesOfAFault, ()) {
+// One fault in every four frames. A damaged frame may be accepted if its contents are intact. Every
+// other frame must be accepted, and no frame that was never sent.
+RC_GTEST_PROP(FrameReader, LosesOnlyDamagedFrames, ()) {
   FrameReader reader;
   std::int16_t number = 0;
   std::size_t lost = 0, faults = 0;
   std::vector<StateFrame> sent, read;
   std::vector<bool> whole;
   for (; faults < 25; ++faults) {
-    Faulty stretch;
-    for (std::size_t i = 0; i < stretch.whole.size(); ++i) {
+    FaultySequence sequence;
+    for (std::size_t i = 0; i < sequence.whole.size(); ++i) {
       sent.push_back({.encoders = {number++, -1447, 4095}});
       const Bytes bytes = bytes_of(sent.back());
-      stretch.bytes.insert(stretch.bytes.end(), bytes.begin(), bytes.end());
+      sequence.bytes.insert(sequence.bytes.end(), bytes.begin(), bytes.end());
     }
-    plant_fault(stretch);
-    whole.insert(whole.end(), stretch.whole.begin(), stretch.whole.end());
-    std::ranges::copy(read_all(reader, stretch.bytes), std::back_inserter(read));
+    plant_fault(sequence);
+    whole.insert(whole.end(), sequence.whole.begin(), sequence.whole.end());
+    std::ranges::copy(read_all(reader, sequence.bytes), std::back_inserter(read));
   }
   auto next = read.begin();
   for (std::size_t i = 0; i < sent.size(); ++i) {

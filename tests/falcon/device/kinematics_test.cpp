@@ -51,7 +51,7 @@ TEST(Inverse, NamesTheLegThatCannotReach) {
                                     KinematicsError::right_leg_unreachable,
                                     KinematicsError::left_leg_unreachable};
   for (int leg = 0; leg < 3; ++leg) {
-    // Out and over to the other side: beyond the reach of this leg, and within that of the others.
+    // Beyond the axis: out of reach of this leg, within reach of the others.
     const double phi = kLegDirectionsRad[leg];
     const glm::dvec3 far(-60.0 * std::cos(phi), -60.0 * std::sin(phi), 165.0);
     EXPECT_FALSE(device.thigh_angle(leg, far));
@@ -88,7 +88,7 @@ TEST(Forward, AtCountZeroMatchesTheTriangles) {
     return g.thigh_mm * std::sin(g.zero_angle_rad) + std::sqrt(shin * shin - base * base);
   };
   EXPECT_NEAR(height(kLibnifalconGeometry), 134.6, 0.05);    // published for these sizes
-  EXPECT_NEAR(height(kMartinHillierGeometry), 144.8, 0.05);  // by the same triangles, by hand
+  EXPECT_NEAR(height(kMartinHillierGeometry), 144.8, 0.05);  // by hand, same triangles
   for (const Geometry& g : {kLibnifalconGeometry, kMartinHillierGeometry}) {
     const Kinematics device(g);
     const glm::dvec3 position = device.forward(device.angles_of({0, 0, 0})).value();
@@ -113,7 +113,7 @@ RC_GTEST_PROP(Forward, InvertsInverseFromAnyStartInTheWorkspace, ()) {
 }
 
 // Far outside the ball, where a leg is nearly straight or the shins nearly flat.
-RC_GTEST_PROP(Forward, FindsThePoseOfAnyCountsTheArmsReach, ()) {
+RC_GTEST_PROP(Forward, FindsThePoseOfReachableCounts, ()) {
   const Kinematics device(kLibnifalconGeometry);
   const auto count = [] { return static_cast<std::int16_t>(within(-1500, 1500)); };
   const LegCounts counts = {count(), count(), count()};
@@ -123,9 +123,9 @@ RC_GTEST_PROP(Forward, FindsThePoseOfAnyCountsTheArmsReach, ()) {
   RC_ASSERT(back == counts);
 }
 
-// Far beyond the reach of the arms, as encoders read before homing: a pose with these angles, or an
-// error. (Where a leg is almost straight, its angle changes much for a small motion.)
-RC_GTEST_PROP(Forward, NeverReturnsAFalsePose, ()) {
+// Counts far out of reach, as encoders may read before homing, give a pose with these angles or an
+// error. (If a leg is almost straight, a small motion changes its angle a lot.)
+RC_GTEST_PROP(Forward, NeverReturnsAWrongPose, ()) {
   const Kinematics& device = any_device();
   const auto counts = *rc::gen::container<LegCounts>(rc::gen::arbitrary<std::int16_t>());
   const glm::dvec3 angles = device.angles_of(counts);
@@ -180,9 +180,9 @@ RC_GTEST_PROP(Jacobian, EqualsTheSlopeOfTheAngles, ()) {
 // Central differences have an error of order 3; combining two, one twice as long, gives order 5.
 RC_GTEST_PROP(Torques, DoTheWorkOfTheForce, ()) {
   const Kinematics& device = any_device();
-  const glm::dvec3 position = anywhere(), force = any_vector(8.0), way = any_vector(1.0);
-  RC_PRE(glm::length(way) > 0.1);
-  const glm::dvec3 step = 2e-2 * glm::normalize(way);
+  const glm::dvec3 position = anywhere(), force = any_vector(8.0), direction = any_vector(1.0);
+  RC_PRE(glm::length(direction) > 0.1);
+  const glm::dvec3 step = 2e-2 * glm::normalize(direction);
   const glm::dvec3 change =
       (8.0 * angle_change(device, position, 0.5 * step) - angle_change(device, position, step)) /
       3.0;
@@ -190,7 +190,7 @@ RC_GTEST_PROP(Torques, DoTheWorkOfTheForce, ()) {
   RC_ASSERT(std::abs(work - glm::dot(force, step)) <= 1e-9 * glm::length(force) * 2e-2);
 }
 
-RC_GTEST_PROP(Torques, EqualThePowerOfTheHand, ()) {
+RC_GTEST_PROP(Torques, MatchTheMechanicalPower, ()) {
   const Kinematics& device = any_device();
   const glm::dvec3 position = anywhere(), force = any_vector(8.0), velocity = any_vector(1000.0);
   const glm::dvec3 torques = device.torques(position, force).value();
@@ -199,36 +199,37 @@ RC_GTEST_PROP(Torques, EqualThePowerOfTheHand, ()) {
             1e-12 * (glm::length(torques) * glm::length(turning) + 1.0));
 }
 
-// The force that torques make, by slopes of the angles taken numerically: F = J^T torques.
+// The force of torques is J^T torques; J comes from numerical slopes of the angles.
 RC_GTEST_PROP(Torques, PushInTheRequestedDirection, ()) {
   const Kinematics& device = any_device();
   const glm::dvec3 position = anywhere(), force = any_vector(8.0);
   RC_PRE(glm::length(force) > 1e-3);
   const glm::dvec3 torques = device.torques(position, force).value();
-  glm::dvec3 felt(0.0);
+  glm::dvec3 produced(0.0);
   const double step = 1e-2;
   for (int axis = 0; axis < 3; ++axis)
-    felt[axis] = glm::dot(torques, angle_change(device, position, step * kAxes[axis])) / step;
-  const double sine = glm::length(glm::cross(felt, force)) / glm::length(felt) / glm::length(force);
-  RC_ASSERT(glm::dot(felt, force) > 0.0);
+    produced[axis] = glm::dot(torques, angle_change(device, position, step * kAxes[axis])) / step;
+  const double sine =
+      glm::length(glm::cross(produced, force)) / glm::length(produced) / glm::length(force);
+  RC_ASSERT(glm::dot(produced, force) > 0.0);
   RC_ASSERT(std::asin(std::min(sine, 1.0)) < 0.01 * kPi / 180);
-  RC_ASSERT(std::abs(glm::length(felt) / glm::length(force) - 1.0) < 1e-6);
+  RC_ASSERT(std::abs(glm::length(produced) / glm::length(force) - 1.0) < 1e-6);
 }
 
-// Whole counts rotate it slightly: each torque is off by at most half a count, and the three forces
-// of one count each bound the effect.
+// Rounding to whole counts turns the force slightly. Each torque is off by at most half a count;
+// the forces of one count of each motor bound the effect.
 RC_GTEST_PROP(Torques, InWholeCountsKeepTheDirectionWithinACount, ()) {
   const Kinematics& device = any_device();
-  const glm::dvec3 position = anywhere(), force = any_vector(20.0);  // often beyond the motors
+  const glm::dvec3 position = anywhere(), force = any_vector(20.0);  // often above the limit
   const MotorCounts motors = motor_counts(device.torques(position, force).value());
   const glm::dmat3 jacobian = device.jacobian(position).value();
   const auto force_of = [&jacobian](const glm::dvec3& counts) {
     return -1.0 / kMotorCountsPerNmm * counts * jacobian;
   };
-  const glm::dvec3 felt = force_of({motors.counts[0], motors.counts[1], motors.counts[2]});
-  double off = 1e-9;
-  for (const glm::dvec3& motor : kAxes) off += 0.5 * glm::length(force_of(motor));
-  RC_ASSERT(glm::distance(felt, motors.rendered * force) <= off);
+  const glm::dvec3 produced = force_of({motors.counts[0], motors.counts[1], motors.counts[2]});
+  double bound = 1e-9;
+  for (const glm::dvec3& motor : kAxes) bound += 0.5 * glm::length(force_of(motor));
+  RC_ASSERT(glm::distance(produced, motors.rendered * force) <= bound);
 }
 
 TEST(Torques, ReportALegWithFlatShins) {

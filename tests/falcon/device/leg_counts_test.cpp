@@ -83,10 +83,10 @@ TEST(MotorCounts, AreZeroForTorquesThatAreNotFinite) {
   EXPECT_EQ(motor_counts({0, 0, 0}).rendered, 1.0);
 }
 
-// The scale of the motors is chosen because it agrees with Novint's statement: above 2 lbf.
+// The motor scale was chosen to agree with Novint's figure, more than 2 lbf.
 TEST(MotorCounts, GiveTheStatedForceInEveryDirection) {
   const Kinematics device(kLibnifalconGeometry);
-  const auto most_newtons = [&](const glm::dvec3& direction) {
+  const auto max_newtons = [&](const glm::dvec3& direction) {
     const double probe_n = 1000.0;
     return probe_n *
            motor_counts(device.torques({0, 0, 125.0}, probe_n * direction).value()).rendered;
@@ -94,11 +94,10 @@ TEST(MotorCounts, GiveTheStatedForceInEveryDirection) {
   double weakest = std::numeric_limits<double>::infinity();
   for (double polar = 0.0; polar <= kPi; polar += 0.05)
     for (double turn = 0.0; turn < 2 * kPi; turn += 0.05)
-      weakest =
-          std::min(weakest, most_newtons({std::sin(polar) * std::cos(turn),
-                                          std::sin(polar) * std::sin(turn), std::cos(polar)}));
+      weakest = std::min(weakest, max_newtons({std::sin(polar) * std::cos(turn),
+                                               std::sin(polar) * std::sin(turn), std::cos(polar)}));
   EXPECT_NEAR(weakest, 9.2, 0.05);
-  EXPECT_NEAR(most_newtons({0, 0, 1}), 24.5, 0.05);
+  EXPECT_NEAR(max_newtons({0, 0, 1}), 24.5, 0.05);
 }
 
 }  // namespace

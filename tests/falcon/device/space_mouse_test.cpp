@@ -13,7 +13,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// As the device sends it: number, then int16 low byte first.
+/// A report as the device sends it: its number, then int16 values, low byte first.
 Bytes report(std::uint8_t number, const std::vector<int>& values) {
   Bytes bytes = {number};
   for (const int value : values) {
@@ -96,7 +96,7 @@ TEST(RateControl, MovesAtTheSetSpeed) {
   EXPECT_EQ(control.position_mm().y, 0.0);
 }
 
-TEST(RateControl, IsStillInTheDeadZoneAndContinuousBeyond) {
+TEST(RateControl, StaysStillInTheDeadZoneAndIsContinuousBeyond) {
   RateControl control({});
   control.advance({0, 0.05, 0}, 1);
   for (int i = 0; i < 1000; ++i) control.advance({0, 0.05, 0}, 1 + 1000 * i);
@@ -125,12 +125,12 @@ RC_GTEST_PROP(RateControl, StaysInItsWorkspaceAndMovesNoFasterThanSet, ()) {
 
 TEST(SpaceMouseSettings, AreRefusedOutsideTheirRanges) {
   EXPECT_TRUE(check(SpaceMouseSettings{}));
-  std::vector<SpaceMouseSettings> nonsense(4);
-  nonsense[0].speed_mm_s = 0.0;
-  nonsense[1].dead_zone = std::nan("");
-  nonsense[2].half_workspace_mm = 1e6;
-  nonsense[3].silence_us = 0;
-  for (const auto& settings : nonsense) EXPECT_FALSE(check(settings));
+  std::vector<SpaceMouseSettings> invalid(4);
+  invalid[0].speed_mm_s = 0.0;
+  invalid[1].dead_zone = std::nan("");
+  invalid[2].half_workspace_mm = 1e6;
+  invalid[3].silence_us = 0;
+  for (const auto& settings : invalid) EXPECT_FALSE(check(settings));
 }
 
 }  // namespace

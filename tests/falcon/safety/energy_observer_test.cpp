@@ -9,20 +9,20 @@ TEST(EnergyObserver, SumsForceTimesDistanceMinusDissipation) {
   EnergyObserver observer(kLoop, 0.0, 0.1);
   observer.observe(kTickS, along(0), along(0), along(1));
   double work = 0.0, damped = 0.0;
-  for (const double way : {-0.1, -0.2, -0.2, 0.1, 0.3}) {
-    observer.observe(kTickS, along(1.5), along(way), along(1));
-    work += 1.5 * way;
-    damped += 0.002 * way * way / kTickS;  // at constant speed in each tick
+  for (const double distance : {-0.1, -0.2, -0.2, 0.1, 0.3}) {
+    observer.observe(kTickS, along(1.5), along(distance), along(1));
+    work += 1.5 * distance;
+    damped += 0.002 * distance * distance / kTickS;  // at constant speed in each tick
   }
   EXPECT_NEAR(observer.injected_mj(), work - damped, 1e-15);
 }
 
-TEST(EnergyObserver, CreditEndsWithTheContactAndDebtRemains) {
+TEST(EnergyObserver, DropsCreditAfterTheContactAndKeepsDebt) {
   EnergyObserver observer({1000, 0.1, 0.0, 0}, 0.0, 0.1);
-  const auto contact = [&observer](double way_in, double force_in, double force_out) {
-    observer.observe(kTickS, along(0), along(0), along(force_in));
-    observer.observe(kTickS, along(force_in), along(-way_in), along(force_out));
-    const bool ended = observer.observe(kTickS, along(force_out), along(way_in), along(0));
+  const auto contact = [&observer](double in_mm, double in_n, double out_n) {
+    observer.observe(kTickS, along(0), along(0), along(in_n));
+    observer.observe(kTickS, along(in_n), along(-in_mm), along(out_n));
+    const bool ended = observer.observe(kTickS, along(out_n), along(in_mm), along(0));
     EXPECT_TRUE(ended);
     EXPECT_FALSE(observer.in_contact());
   };
@@ -53,13 +53,13 @@ TEST(EnergyObserver, DetectsLoopsDespiteTheCreditOfALongPress) {
   EXPECT_EQ(observer.debt_mj(), observer.looped_mj());
 }
 
-TEST(EnergyObserver, EncoderFlickerCountsNoEnergy) {
+TEST(EnergyObserver, CountsNoEnergyForEncoderFlicker) {
   const double step = 0.05, k = 1.0;
   EnergyObserver observer(kLoop, step, 0.1);
   observer.observe(kTickS, along(0), along(0), along(1));
   observer.observe(kTickS, along(1), along(-20 * step), along(1));
   const double before = observer.injected_mj();
-  for (int n = 0; n < 100; ++n) {  // each flicker seems to give k step^2
+  for (int n = 0; n < 100; ++n) {  // each flicker appears to give k step^2
     observer.observe(kTickS, along(1), along(-step), along(1));
     observer.observe(kTickS, along(1 + k * step), along(step), along(1));
   }

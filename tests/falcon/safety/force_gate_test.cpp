@@ -13,11 +13,11 @@ namespace {
 
 constexpr int kZero = 0, kForce = 1;
 
-/// A servo that writes forces, one step of it at a time.
+/// A servo that writes forces, one step at a time.
 struct Servo {
-  enum class Step { enter, write, leave, mend } step = Step::enter;
+  enum class Step { enter, write, leave, write_zero } step = Step::enter;
 
-  void go(ForceGate& gate, std::vector<int>& wire) {
+  void advance(ForceGate& gate, std::vector<int>& wire) {
     switch (step) {
       case Step::enter:
         if (gate.enter()) step = Step::write;
@@ -27,48 +27,48 @@ struct Servo {
         step = Step::leave;
         return;
       case Step::leave:
-        step = gate.leave() ? Step::enter : Step::mend;
+        step = gate.leave() ? Step::enter : Step::write_zero;
         return;
-      case Step::mend:
+      case Step::write_zero:
         wire.push_back(kZero);
         step = Step::enter;
     }
   }
 };
 
-/// Who ends the force: shuts, then writes zero.
-struct Ender {
+/// Ends the force: shuts the gate, then writes zero.
+struct Stopper {
   int step = 0;
-  void go(ForceGate& gate, std::vector<int>& wire) {
+  void advance(ForceGate& gate, std::vector<int>& wire) {
     if (step == 0) gate.shut_for_good();
     if (step == 1) wire.push_back(kZero);
     ++step;
   }
 };
 
-// Every order of 12 steps of a servo and two enders, each step one atomic operation or one packet.
+// Every order of 12 steps of a servo and two stoppers; a step is one atomic action or packet.
 TEST(ForceGate, EndsInZeroInEveryOrderOfSteps) {
   constexpr int kSteps = 12;
-  int ended = 0;
+  int stopped = 0;
   for (int order = 0; order < 531'441; ++order) {  // 3^12
     ForceGate gate;
     Servo servo;
-    Ender enders[2];
+    Stopper stoppers[2];
     std::vector<int> wire;
     for (int step = 0, rest = order; step < kSteps; ++step, rest /= 3)
-      rest % 3 == 0 ? servo.go(gate, wire) : enders[rest % 3 - 1].go(gate, wire);
-    if (enders[0].step < 2) continue;
-    ++ended;
-    // The servo goes on until it is outside again; then it is over.
-    for (int i = 0; i < 4; ++i) servo.go(gate, wire);
+      rest % 3 == 0 ? servo.advance(gate, wire) : stoppers[rest % 3 - 1].advance(gate, wire);
+    if (stoppers[0].step < 2) continue;
+    ++stopped;
+    // The servo continues until it has left the gate.
+    for (int i = 0; i < 4; ++i) servo.advance(gate, wire);
     ASSERT_EQ(wire.back(), kZero) << order;
     ASSERT_FALSE(gate.enter());
     ASSERT_FALSE(gate.open());
   }
-  EXPECT_GT(ended, 400'000);
+  EXPECT_GT(stopped, 400'000);
 }
 
-TEST(ForceGate, HasOneOwner) {
+TEST(ForceGate, HasOneOwnerAtATime) {
   ForceGate gate;
   EXPECT_TRUE(gate.enter());
   EXPECT_FALSE(gate.enter());
@@ -81,7 +81,7 @@ TEST(ForceGate, OpensAgainAfterTheWatchdog) {
   ASSERT_TRUE(gate.enter());
   gate.shut();
   EXPECT_TRUE(gate.is_shut());
-  EXPECT_FALSE(gate.open()) << "not from inside";
+  EXPECT_FALSE(gate.open()) << "opened while a thread is inside";
   EXPECT_FALSE(gate.leave());
   EXPECT_FALSE(gate.enter());
   EXPECT_TRUE(gate.open());
@@ -91,7 +91,7 @@ TEST(ForceGate, OpensAgainAfterTheWatchdog) {
   EXPECT_FALSE(gate.open());
 }
 
-TEST(ForceGate, LetsOnlyOneOfManyThreadsCommand) {
+TEST(ForceGate, AdmitsOneOfTwoThreadsAtATime) {
   ForceGate gate;
   std::atomic<int> inside{0}, together{0}, passed{0};
   const auto command = [&] {
@@ -110,7 +110,7 @@ TEST(ForceGate, LetsOnlyOneOfManyThreadsCommand) {
   EXPECT_GT(passed, 0);
 }
 
-/// A device of one packet, as a signal handler may write it.
+/// A device that stores one packet; a signal handler may write it.
 struct Wire {
   std::atomic<int> last{kForce};
   static void write_zero(void* wire) noexcept { static_cast<Wire*>(wire)->last.store(kZero); }
@@ -150,7 +150,7 @@ TEST(EmergencyStop, IsWrittenFromASignalDuringAPacket) {
   ASSERT_TRUE(gate.enter());
   std::raise(SIGTERM);
   EXPECT_EQ(wire.last, kZero);
-  wire.last = kForce;  // the packet that was under way
+  wire.last = kForce;  // the packet in flight
   EXPECT_FALSE(gate.leave());
   EXPECT_FALSE(gate.enter());
   signalled.arm(gate, nullptr, nullptr);
@@ -165,8 +165,8 @@ TEST(Watchdog, ActsAfterTenMilliseconds) {
   EXPECT_FALSE(Watchdog::must_zero(1'000'000, 1'009'999));
   EXPECT_TRUE(Watchdog::must_zero(1'000'000, 1'010'000));
   EXPECT_TRUE(Watchdog::must_zero(INT64_MIN, INT64_MAX));
-  EXPECT_FALSE(Watchdog::must_zero(1'000'100, 1'000'000)) << "a beat that came meanwhile";
-  EXPECT_TRUE(Watchdog::must_zero(1'010'000, 1'000'000)) << "a clock that is wrong";
+  EXPECT_FALSE(Watchdog::must_zero(1'000'100, 1'000'000)) << "a beat newer than the clock reading";
+  EXPECT_TRUE(Watchdog::must_zero(1'010'000, 1'000'000)) << "a wrong clock";
   EXPECT_TRUE(Watchdog::must_zero(INT64_MAX, INT64_MIN));
 }
 

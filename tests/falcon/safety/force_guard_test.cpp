@@ -24,15 +24,15 @@ static_assert(std::is_trivially_copyable_v<ForceGuard>, "it owns no memory");
 static_assert(noexcept(std::declval<ForceGuard&>().admit(0, std::declval<const GuardSample&>())));
 static_assert(noexcept(std::declval<ForceGuard&>().force(0, std::declval<const WantedForce&>())));
 
-/// The first violations, with what was sent around them.
-std::string told(const Trial& trial) {
+/// The first five violations, one per line.
+std::string first_violations(const Trial& trial) {
   std::string text;
   for (std::size_t i = 0; i < trial.violations().size() && i < 5; ++i)
     text.append(trial.violations()[i]).append("\n");
   return text;
 }
 
-/// t, |F|, how far it rose, ramp and state of every tick, where CLAYSTACK_GUARD_LOG names a folder.
+/// Writes a CSV line per tick if CLAYSTACK_GUARD_LOG names a folder.
 void keep_log(const Trial& trial, const GuardFault& fault) {
   const char* folder = std::getenv("CLAYSTACK_GUARD_LOG");
   if (folder == nullptr) return;
@@ -48,9 +48,9 @@ class Fault : public testing::TestWithParam<GuardFault> {};
 
 TEST_P(Fault, DoesNoHarm) {
   Trial trial;
-  GetParam().happen(trial);
+  GetParam().run(trial);
   keep_log(trial, GetParam());
-  EXPECT_TRUE(trial.violations().empty()) << told(trial);
+  EXPECT_TRUE(trial.violations().empty()) << first_violations(trial);
 }
 
 INSTANTIATE_TEST_SUITE_P(ForceGuard, Fault,
@@ -62,12 +62,12 @@ INSTANTIATE_TEST_SUITE_P(ForceGuard, Fault,
                            return name;
                          });
 
-/// "| rule | 1, 2 |", the faults that get through a guard without the rule.
+/// "| rule | 1, 2 |", the faults that pass a guard without the rule.
 std::string row_without(const NamedGuardRule& rule) {
   std::string faults;
   for (const GuardFault& fault : guard_faults()) {
     Trial trial(rule.rule);
-    fault.happen(trial);
+    fault.run(trial);
     if (trial.violations().empty()) continue;
     faults.append(faults.empty() ? "" : ", ").append(std::to_string(fault.number));
   }
@@ -80,7 +80,7 @@ TEST(ForceGuardRules, EachStopsFaultsThatNoOtherRuleStops) {
   for (std::string line; std::getline(page, line);) lines.insert(line);
   for (const NamedGuardRule& rule : kGuardRules) {
     const std::string row = row_without(rule);
-    EXPECT_EQ(row.find("|  |"), std::string::npos) << "nothing tests: " << row;
+    EXPECT_EQ(row.find("|  |"), std::string::npos) << "no fault tests the rule: " << row;
     EXPECT_TRUE(lines.contains(row)) << "docs/force-guard.md lacks: " << row;
   }
 }
@@ -91,30 +91,30 @@ glm::dvec3 any_force() {
                                             : glm::dvec3(part(), part(), part());
 }
 
-/// For a force any of them; for a leap those that are one.
-double any_wild_number(bool leap) {
+/// A jump is 0 or at least 12 mm, so -5e-324 is for forces only.
+double any_extreme_number(bool jump) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
-  return leap ? *rc::gen::element(nan, inf, -inf, 1e308, 50.0)
+  return jump ? *rc::gen::element(nan, inf, -inf, 1e308, 50.0)
               : *rc::gen::element(nan, inf, -inf, 1e308, -5e-324, 50.0);
 }
 
-/// A tick in which up to three things go wrong.
+/// A tick with up to three faults.
 Tick any_tick() {
   Tick tick{.wanted_n = any_force()};
   const int faults = *rc::gen::element(0, 0, 1, 1, 2, 3);
   for (int i = 0; i < faults; ++i) switch (*rc::gen::inRange(0, 12)) {
       case 0:
-        tick.wanted_n[*rc::gen::inRange(0, 3)] = any_wild_number(false);
+        tick.wanted_n[*rc::gen::inRange(0, 3)] = any_extreme_number(false);
         break;
       case 1:
         tick.gap_us = *rc::gen::element(0, 1, 100, 250, 2'000, 9'000, 10'000, 11'000, 60'000);
         break;
       case 2:
-        tick.clock_leap_us = *rc::gen::inRange(-100'000, 100'000);
+        tick.clock_jump_us = *rc::gen::inRange(-100'000, 100'000);
         break;
       case 3:
-        tick.clock_stands = true;
+        tick.clock_stopped = true;
         break;
       case 4:
       case 5:
@@ -127,10 +127,10 @@ Tick any_tick() {
         tick.ready = *rc::gen::inRange(0, 4) != 0;
         break;
       case 8:
-        tick.leap_mm[*rc::gen::inRange(0, 2)] = *rc::gen::element(15.0, 30.0);
+        tick.jump_mm[*rc::gen::inRange(0, 2)] = *rc::gen::element(15.0, 30.0);
         break;
       case 9:
-        tick.leap_mm.z = any_wild_number(true);
+        tick.jump_mm.z = any_extreme_number(true);
         break;
       case 10:
         tick.clay_new = false;
@@ -144,10 +144,10 @@ Tick any_tick() {
 std::string describe(const Tick& t, int times) {
   const auto v = [](const glm::dvec3& p) { return fmt::format("({}, {}, {})", p.x, p.y, p.z); };
   return fmt::format(
-      "{} x wanted {} gap {} leap {} stands {} frame {} age {} ready {} off {} clay {} passive "
+      "{} x wanted {} gap {} jump {} stopped {} frame {} age {} ready {} offset {} clay {} passive "
       "{}\n",
-      times, v(t.wanted_n), t.gap_us, t.clock_leap_us, t.clock_stands, t.frame, t.frame_age_us,
-      t.ready, v(t.leap_mm), t.clay_new, t.passive);
+      times, v(t.wanted_n), t.gap_us, t.clock_jump_us, t.clock_stopped, t.frame, t.frame_age_us,
+      t.ready, v(t.jump_mm), t.clay_new, t.passive);
 }
 
 RC_GTEST_PROP(ForceGuardStorm, DoesNoHarm, ()) {
@@ -179,7 +179,7 @@ TEST(ForceGuard, ReportsItsEvents) {
   EXPECT_EQ(flags({.wanted_n = push}), 0u);
   EXPECT_EQ(flags({.wanted_n = {std::nan(""), 0, 0}}), kGuardNotFinite);
   EXPECT_EQ(flags({.wanted_n = 2.0 * push}), kGuardLimited);
-  EXPECT_EQ(flags({.wanted_n = push, .leap_mm = {20, 0, 0}}), kGuardJump);
+  EXPECT_EQ(flags({.wanted_n = push, .jump_mm = {20, 0, 0}}), kGuardJump);
   EXPECT_EQ(flags({.wanted_n = push, .frame_age_us = 6'000}), kGuardStale);
   EXPECT_EQ(flags({.wanted_n = push, .gap_us = 12'000}), kGuardLate);
   EXPECT_EQ(flags({.wanted_n = push, .gap_us = 0}), kGuardClock);
@@ -200,7 +200,7 @@ TEST(ForceGuard, NamesTheCauseOfSafe) {
   EXPECT_EQ(cause({.wanted_n = {std::nan(""), 0, 0}}, 2), SafeCause::none);
   EXPECT_EQ(cause({.wanted_n = {std::nan(""), 0, 0}}, 3), SafeCause::not_finite);
   EXPECT_EQ(cause({.passive = false}, 1), SafeCause::not_passive);
-  EXPECT_EQ(cause({.leap_mm = {20, 0, 0}}, 2), SafeCause::jumped);
+  EXPECT_EQ(cause({.jump_mm = {20, 0, 0}}, 2), SafeCause::jumped);
   EXPECT_EQ(cause({.gap_us = 51'000}, 1), SafeCause::overrun);
   EXPECT_EQ(cause({.command = Tick::Command::pause}, 1), SafeCause::paused);
   EXPECT_EQ(cause({.command = Tick::Command::stop}, 1), SafeCause::stopped);
@@ -209,14 +209,14 @@ TEST(ForceGuard, NamesTheCauseOfSafe) {
 TEST(ForceGuard, RestsATenthOfASecondAfterAJump) {
   Trial trial;
   trial.engage({3.0, 0.0, 0.0});
-  const Tick elsewhere{.leap_mm = {20.0, 0.0, 0.0}};
+  const Tick elsewhere{.jump_mm = {20.0, 0.0, 0.0}};
   trial.tick(elsewhere);
   trial.tick(elsewhere);
   trial.run(0.099, elsewhere);
   trial.expect_state(GuardState::safe);
   trial.run(0.002, elsewhere);
   trial.expect_state(GuardState::waiting);
-  EXPECT_TRUE(trial.violations().empty()) << told(trial);
+  EXPECT_TRUE(trial.violations().empty()) << first_violations(trial);
 }
 
 TEST(ForceGuard, MinorCauseDoesNotUnlatchAMajorOne) {
@@ -231,7 +231,7 @@ TEST(ForceGuard, MinorCauseDoesNotUnlatchAMajorOne) {
   EXPECT_EQ(trial.log().back().out.cause, SafeCause::stopped);
 }
 
-/// Without admit() there is no hand: what was engaged lets go.
+/// Without admit() the hand position is unknown, so an engaged force fades.
 TEST(ForceGuard, FadesWithoutAdmittedSamples) {
   ForceGuard guard = ForceGuard::make({}).value();
   auto tick = [&guard, now = std::int64_t{0}](bool admits, double wanted_n) mutable {

@@ -21,7 +21,7 @@ void after(Trial& trial, const Tick& fault, double seconds) {
   trial.run(0.05, kPushing);
 }
 
-/// It is over, and stays so: force only after a small one and a ramp.
+/// The force stays zero until a rearm; then it takes a small force and a ramp.
 void expect_latched(Trial& trial) {
   trial.expect_state(GuardState::safe);
   trial.run(0.3, kAtRest);
@@ -31,8 +31,8 @@ void expect_latched(Trial& trial) {
   trial.engage(kPush);
 }
 
-/// It begins again by itself, with a small force and a ramp.
-void expect_begun_again(Trial& trial) {
+/// The force returns without a rearm, after a small force and a ramp.
+void expect_restart(Trial& trial) {
   trial.expect_force(glm::dvec3(0.0));
   trial.engage(kPush);
 }
@@ -41,7 +41,7 @@ void position_not_finite(Trial& trial) {
   trial.engage(kPush);
   for (const double bad : {kNan, kInf, -kInf}) {
     Tick fault = kPushing;
-    fault.leap_mm.y = bad;
+    fault.jump_mm.y = bad;
     after(trial, fault, 0.002);
     trial.expect_force(kPush);
     trial.run(0.003, fault);
@@ -100,22 +100,22 @@ void homing_lost(Trial& trial) {
   trial.expect_state(GuardState::idle);
   trial.engage(kPush);
   trial.tick({.wanted_n = kPush, .ready = false});
-  // The origin moves at homing: that is no jump.
-  const Tick elsewhere{.wanted_n = kPush, .leap_mm = {30.0, 0.0, 0.0}};
+  // Homing moves the origin; that is not a jump.
+  const Tick elsewhere{.wanted_n = kPush, .jump_mm = {30.0, 0.0, 0.0}};
   trial.tick(elsewhere);
-  trial.expect(trial.log().back().admission.may_deform, "the first frame after homing is believed");
+  trial.expect(trial.log().back().admission.may_deform, "the first frame after homing is accepted");
   trial.run(0.5, elsewhere);
   trial.expect_state(GuardState::waiting);
   trial.tick({.ready = false});
-  expect_begun_again(trial);
+  expect_restart(trial);
 }
 
 void unplugged(Trial& trial) {
   trial.engage(kPush);
   trial.run(0.5, {.wanted_n = kPush, .frame = false, .ready = false});
-  trial.run(0.5, {.wanted_n = kPush, .ready = false, .leap_mm = {30.0, 0.0, 0.0}});
+  trial.run(0.5, {.wanted_n = kPush, .ready = false, .jump_mm = {30.0, 0.0, 0.0}});
   trial.run(0.1, kPushing);
-  expect_begun_again(trial);
+  expect_restart(trial);
 }
 
 void frames_stale(Trial& trial) {
@@ -124,14 +124,14 @@ void frames_stale(Trial& trial) {
   trial.run(0.004, none);
   trial.expect_force(kPush);
   trial.run(0.004, none);
-  trial.expect_force(0.4 * kPush);  // 8 ms: two fifths of the way from 10 back to 5
+  trial.expect_force(0.4 * kPush);  // 8 ms; the fade runs from 1 at 5 ms to 0 at 10 ms
   trial.expect_state(GuardState::fading);
   after(trial, none, 0.02);
   trial.expect_force(kPush);
   after(trial, {.wanted_n = kPush, .frame_age_us = 12'000}, 0.03);
   trial.expect_force(kPush);
   after(trial, none, 0.06);
-  expect_begun_again(trial);
+  expect_restart(trial);
 }
 
 void hand_frozen(Trial& trial) {
@@ -139,29 +139,28 @@ void hand_frozen(Trial& trial) {
   for (int i = 0; i < 1000; ++i) {
     trial.tick({.wanted_n = kPush, .frozen = true});
     trial.expect_force(kPush);
-    trial.expect(trial.log().back().admission.may_deform, "a still hand is a hand");
+    trial.expect(trial.log().back().admission.may_deform, "a hand at rest may deform the clay");
   }
 }
 
-void position_leaps(Trial& trial) {
+void position_jumps(Trial& trial) {
   trial.engage(kPush);
-  const Tick elsewhere{.wanted_n = kPush, .leap_mm = {0.0, 15.0, 0.0}};
+  const Tick elsewhere{.wanted_n = kPush, .jump_mm = {0.0, 15.0, 0.0}};
   after(trial, elsewhere, 0.001);
   trial.expect_force(kPush);
   trial.run(0.002, elsewhere);
   trial.expect_state(GuardState::safe);
   trial.run(0.3, elsewhere);
-  expect_begun_again(trial);
-  // Two places, both wrong.
+  expect_restart(trial);
+  // Two wrong positions.
   trial.tick(elsewhere);
-  trial.tick({.wanted_n = kPush, .leap_mm = {0.0, -15.0, 0.0}});
+  trial.tick({.wanted_n = kPush, .jump_mm = {0.0, -15.0, 0.0}});
   trial.expect_state(GuardState::safe);
   after(trial, kPushing, 0.3);
-  expect_begun_again(trial);
+  expect_restart(trial);
 }
 
-/// A byte of the stream lost or one too many, every 50 ticks: the codec says which ticks have a
-/// frame.
+/// Every 50 ticks a byte is lost or inserted; the codec decides which ticks have a frame.
 void bytes_lost(Trial& trial) {
   trial.engage(kPush);
   FrameReader reader;
@@ -177,7 +176,7 @@ void bytes_lost(Trial& trial) {
     trial.tick({.wanted_n = kPush, .frame = frame.has_value()});
     trial.expect_force(kPush);
   }
-  trial.expect(missed > 0 && missed <= 40, "two frames to a fault, at most");
+  trial.expect(missed > 0 && missed <= 40, "more than two frames lost per fault");
 }
 
 void servo_late(Trial& trial) {
@@ -190,7 +189,7 @@ void servo_late(Trial& trial) {
   trial.tick({.wanted_n = kPush, .gap_us = 100'000});
   trial.expect_state(GuardState::safe);
   trial.run(0.3, kPushing);
-  expect_begun_again(trial);
+  expect_restart(trial);
 }
 
 void clay_starved(Trial& trial) {
@@ -202,21 +201,21 @@ void clay_starved(Trial& trial) {
   trial.expect_force(0.5 * kPush);
   trial.run(1.0, starved);
   trial.run(0.1, kPushing);
-  expect_begun_again(trial);
+  expect_restart(trial);
 }
 
 void clock_wrong(Trial& trial) {
   trial.engage(kPush);
-  for (const std::int64_t leap : {-kHourUs, std::int64_t{-500}, std::int64_t{-3'000}}) {
-    after(trial, {.wanted_n = kPush, .clock_leap_us = leap}, 0.001);
+  for (const std::int64_t jump : {-kHourUs, std::int64_t{-500}, std::int64_t{-3'000}}) {
+    after(trial, {.wanted_n = kPush, .clock_jump_us = jump}, 0.001);
     trial.expect_force(kPush);
   }
-  after(trial, {.wanted_n = 2.0 * kPush, .clock_stands = true}, 0.004);
+  after(trial, {.wanted_n = 2.0 * kPush, .clock_stopped = true}, 0.004);
   trial.expect_force(kPush);
-  after(trial, {.wanted_n = kPush, .clock_stands = true, .frame = false}, 0.1);
+  after(trial, {.wanted_n = kPush, .clock_stopped = true, .frame = false}, 0.1);
   trial.expect_force(kPush);
-  for (const std::int64_t leap : {kHourUs, INT64_MAX, INT64_MAX}) {
-    trial.tick({.wanted_n = kPush, .clock_leap_us = leap});
+  for (const std::int64_t jump : {kHourUs, INT64_MAX, INT64_MAX}) {
+    trial.tick({.wanted_n = kPush, .clock_jump_us = jump});
     trial.run(0.3, kPushing);
     trial.engage(kPush);
   }
@@ -261,7 +260,7 @@ std::span<const GuardFault> guard_faults() {
       {6, "unplugged", unplugged},
       {7, "frames stale", frames_stale},
       {8, "hand frozen", hand_frozen},
-      {9, "position leaps", position_leaps},
+      {9, "position jumps", position_jumps},
       {10, "bytes lost", bytes_lost},
       {11, "servo late", servo_late},
       {12, "clay starved", clay_starved},

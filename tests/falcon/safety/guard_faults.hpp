@@ -1,5 +1,5 @@
 #pragma once
-// The faults that a haptic loop meets, each a story that a trial goes through.
+// The faults of a haptic loop, each a sequence of ticks.
 
 #include "tests/falcon/safety/guard_trial.hpp"
 
@@ -10,7 +10,7 @@ namespace clay::falcon {
 struct GuardFault {
   int number;  ///< as in docs/force-guard.md
   const char* name;
-  void (*happen)(Trial& trial);
+  void (*run)(Trial& trial);
 };
 
 [[nodiscard]] std::span<const GuardFault> guard_faults();

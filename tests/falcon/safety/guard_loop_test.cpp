@@ -1,4 +1,4 @@
-// The guard where it belongs: between a wall that is far too stiff and an arm.
+// The guard in a closed loop, between an arm and a wall that is far too stiff.
 
 #include "claystack/falcon/guard.hpp"
 #include "claystack/falcon/passivity.hpp"
@@ -16,12 +16,12 @@ constexpr std::int64_t kPeriodUs = 1000;
 constexpr double kStepMm = 0.05;
 
 struct Swing {
-  double mm = 0.0;      ///< of the last second, peak to peak
-  double most_n = 0.0;  ///< ever sent
+  double mm = 0.0;     ///< peak to peak, in the last second
+  double max_n = 0.0;  ///< largest force sent
   GuardState state = GuardState::idle;
 };
 
-/// A hand that means to be 5 mm inside a wall at z = 0, once the force is earned outside.
+/// A hand that aims 5 mm inside a wall at z = 0, after the force has ramped up outside.
 class Loop {
  public:
   explicit Loop(bool with_controller) : with_controller_(with_controller) {}
@@ -32,7 +32,7 @@ class Loop {
     for (int i = 0; i < 6000; ++i) {
       const GuardedForce out = tick(stiffness_n_per_mm);
       arm_.advance(out.force_n, {0.0, 0.0, i < 2500 ? 10.0 : -5.0});
-      swing.most_n = std::max(swing.most_n, glm::length(out.force_n));
+      swing.max_n = std::max(swing.max_n, glm::length(out.force_n));
       swing.state = out.state;
       if (i < 5000) continue;
       low = std::min(low, arm_.position_mm().z);
@@ -67,23 +67,23 @@ class Loop {
   PassivityController controller_ = PassivityController::build({kLoop, kStepMm}).value();
 };
 
-TEST(GuardLoop, RendersAWallThatIsSoftEnough) {
+TEST(GuardLoop, RendersASoftWall) {
   const Swing swing = Loop(true).press(0.5);
   EXPECT_LT(swing.mm, 0.2);
-  EXPECT_GT(swing.most_n, 0.3);
+  EXPECT_GT(swing.max_n, 0.3);
   EXPECT_EQ(swing.state, GuardState::engaged);
 }
 
 TEST(GuardLoop, LimitAloneBoundsTheImpactButNotTheVibration) {
   const Swing swing = Loop(false).press(1e3);
-  EXPECT_LE(swing.most_n, 5.0);
+  EXPECT_LE(swing.max_n, 5.0);
   EXPECT_GT(swing.mm, 1.0);
 }
 
-TEST(GuardLoop, IsStillWithTheController) {
+TEST(GuardLoop, ControllerStopsTheVibration) {
   for (const double stiffness : {2.0, 10.0, 100.0, 1000.0}) {
     const Swing swing = Loop(true).press(stiffness);
-    EXPECT_LE(swing.most_n, 5.0);
+    EXPECT_LE(swing.max_n, 5.0);
     EXPECT_LT(swing.mm, 0.2) << stiffness;
   }
 }

@@ -14,8 +14,8 @@ namespace {
 
 using Exact = boost::multiprecision::cpp_bin_float_100;
 
-constexpr double kMost = std::numeric_limits<double>::max();
-constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+constexpr double kMax = std::numeric_limits<double>::max();
+constexpr double kMin = std::numeric_limits<double>::denorm_min();
 
 double any_number() {
   const double mantissa = *rc::gen::inRange(-1'000'000, 1'000'001) / 1e6;
@@ -33,33 +33,33 @@ Exact dot(const glm::dvec3& a, const glm::dvec3& b) {
   return Exact(a.x) * b.x + Exact(a.y) * b.y + Exact(a.z) * b.z;
 }
 
-RC_GTEST_PROP(LimitNorm, KeepsTheLimitExactlyAndTheDirection, ()) {
+RC_GTEST_PROP(LimitNorm, RespectsTheLimitExactlyAndKeepsTheDirection, ()) {
   const bool near = *rc::gen::arbitrary<bool>();
   const auto part = [near] { return near ? near_five() : any_number(); };
   const glm::dvec3 v(part(), part(), part());
   RC_PRE(is_finite(v));
-  const glm::dvec3 kept = limit_norm(v, 5.0);
-  RC_ASSERT(square(kept) <= 25);
-  if (square(v) <= 24.999) RC_ASSERT(kept == v);
+  const glm::dvec3 limited = limit_norm(v, 5.0);
+  RC_ASSERT(square(limited) <= 25);
+  if (square(v) <= 24.999) RC_ASSERT(limited == v);
   if (square(v) > 25) {
-    RC_ASSERT(square(kept) >= 25 * (1 - Exact(std::ldexp(1.0, -47))));
-    const Exact along = dot(kept, v);
+    RC_ASSERT(square(limited) >= 25 * (1 - Exact(std::ldexp(1.0, -47))));
+    const Exact along = dot(limited, v);
     // cos^2 of the angle between them, 1 to rounding
     RC_ASSERT(along > 0);
-    RC_ASSERT(along * along >= square(kept) * square(v) * (1 - Exact(1e-30)));
+    RC_ASSERT(along * along >= square(limited) * square(v) * (1 - Exact(1e-30)));
   }
 }
 
-TEST(LimitNorm, HoldsTheLargestNumbers) {
-  for (const glm::dvec3& v : {glm::dvec3(kMost), glm::dvec3(-kMost, 0, kLeast)}) {
+TEST(LimitNorm, LimitsTheLargestNumbers) {
+  for (const glm::dvec3& v : {glm::dvec3(kMax), glm::dvec3(-kMax, 0, kMin)}) {
     EXPECT_LE(square(limit_norm(v, 5.0)), 25);
     EXPECT_GE(square(limit_norm(v, 5.0)), 24.9999999);
   }
   EXPECT_EQ(limit_norm(glm::dvec3(0.0), 5.0), glm::dvec3(0.0));
-  EXPECT_EQ(limit_norm(glm::dvec3(kLeast), 5.0), glm::dvec3(kLeast));
+  EXPECT_EQ(limit_norm(glm::dvec3(kMin), 5.0), glm::dvec3(kMin));
 }
 
-// 3-4-5 triangles: the answers are known.
+// The 3-4-5 triangles give exact answers.
 TEST(LimitRise, FallsWithoutLimit) {
   const glm::dvec3 before(3.0, 4.0, 0.0);
   EXPECT_EQ(limit_rise(glm::dvec3(0.0), before, 0.0), glm::dvec3(0.0));
@@ -116,7 +116,7 @@ TEST(Age, IsTheMaximumOfStampAndTicks) {
   age.pass(0.004);
   EXPECT_EQ(age.at(1'003'000), 0.006);
   EXPECT_EQ(age.at(500'000), 0.006);
-  age.see(1'000'000, 1'000'000);  // the same again is nothing new
+  age.see(1'000'000, 1'000'000);  // the same stamp is not a new sample
   EXPECT_EQ(age.at(1'003'000), 0.006);
   age.see(900'000, 800'000);
   EXPECT_EQ(age.at(800'000), 0.0);
@@ -146,7 +146,7 @@ TEST(JumpFilter, DropsOneFrameAndAcceptsTheNext) {
 TEST(JumpFilter, ReportsAPersistentJump) {
   using enum JumpFilter::Verdict;
   JumpFilter filter;
-  // 3 mm is within the 4 mm that two ticks allow, and yet it is where the suspect was.
+  // 3 mm is within the 4 mm that two ticks allow, but it repeats the dropped position.
   EXPECT_EQ(filter.take({0, 0, 0}, 2.0), plausible);
   EXPECT_EQ(filter.take({3, 0, 0}, 2.0), dropped);
   EXPECT_EQ(filter.take({3, 0, 0}, 4.0), stays);
@@ -160,7 +160,7 @@ TEST(JumpFilter, ReportsAPersistentJump) {
 TEST(Engagement, WaitsForConsecutiveSmallForces) {
   Engagement engagement;
   for (int i = 0; i < 4; ++i) engagement.want(0.1, 0.2, 5);
-  engagement.want(0.2, 0.2, 5);  // not less
+  engagement.want(0.2, 0.2, 5);  // not below the threshold
   for (int i = 0; i < 4; ++i) engagement.want(0.1, 0.2, 5);
   EXPECT_EQ(engagement.phase(), Engagement::Phase::waiting);
   engagement.grow(1.0, 2.0);
@@ -176,7 +176,7 @@ TEST(Engagement, WaitsForConsecutiveSmallForces) {
   EXPECT_EQ(engagement.phase(), Engagement::Phase::engaged);
 }
 
-TEST(HeatLimit, CoolsAsItWarms) {
+TEST(HeatLimit, CoolsAsFastAsItWarms) {
   const TickTime second{1.0, 1.0, 1.0};
   HeatLimit heat;
   for (int i = 0; i < 9; ++i) heat.hold(4.5, 4.0, second, 10.0);

@@ -8,16 +8,16 @@
 namespace clay::falcon {
 namespace {
 
-struct Nonsense {
+struct InvalidSetting {
   const char* setting;
   double GuardSettings::*number;
   double low, high;  ///< just outside
 };
 
-TEST(GuardSettings, RefusesNonsenseByName) {
+TEST(GuardSettings, ErrorsNameTheInvalidSetting) {
   const GuardSettings sound;
   ASSERT_TRUE(check(sound));
-  const Nonsense cases[] = {
+  const InvalidSetting cases[] = {
       {"period_s", &GuardSettings::period_s, 0.00009, 0.0026},
       {"force_limit_n", &GuardSettings::force_limit_n, 0.0, 8.1},
       {"slew_n_per_s", &GuardSettings::slew_n_per_s, 0.9, 5001.0},
@@ -35,15 +35,15 @@ TEST(GuardSettings, RefusesNonsenseByName) {
       {"hot_fade_s", &GuardSettings::hot_fade_s, 0.04, 11.0},
       {"safe_rest_s", &GuardSettings::safe_rest_s, 0.009, 11.0},
   };
-  for (const Nonsense& nonsense : cases)
+  for (const InvalidSetting& invalid : cases)
     for (const double value :
-         {nonsense.low, nonsense.high, std::nan(""), std::numeric_limits<double>::infinity()}) {
+         {invalid.low, invalid.high, std::nan(""), std::numeric_limits<double>::infinity()}) {
       GuardSettings settings;
-      settings.*nonsense.number = value;
+      settings.*invalid.number = value;
       const auto guard = ForceGuard::make(settings);
-      ASSERT_FALSE(guard) << nonsense.setting << " = " << value;
-      // A limit that is no number bounds others first or last: the name is that of the culprit.
-      EXPECT_STREQ(guard.error().setting, nonsense.setting) << value;
+      ASSERT_FALSE(guard) << invalid.setting << " = " << value;
+      // A NaN limit also bounds other settings; the error must name the NaN.
+      EXPECT_STREQ(guard.error().setting, invalid.setting) << value;
       EXPECT_TRUE(guard.error().found == value || std::isnan(value));
       EXPECT_FALSE(value >= guard.error().low && value <= guard.error().high);
     }

@@ -23,13 +23,13 @@ bool finite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Squares of doubles of 53 bits, summed in 64: exact enough to tell one ulp.
+/// Squares of doubles of 53 bits, summed in 64: exact enough to detect one ulp.
 bool within_limit(const glm::dvec3& v) {
   const auto square = [](double x) { return static_cast<long double>(x) * x; };
   return square(v.x) + square(v.y) + square(v.z) <= square(kLimitN);
 }
 
-/// Distance from `force` to the nearest part of `before`.
+/// Distance from `force` to the segment from 0 to `before`.
 double beyond(const glm::dvec3& force, const glm::dvec3& before) {
   const double length = glm::length(before);
   if (length == 0.0) return glm::length(force);
@@ -85,77 +85,77 @@ std::unique_ptr<TriedGuard> guard_without(std::uint32_t rule) {
 void Allowance::apply(Tick::Command command) {
   if (command == Tick::Command::rearm) {
     latched_ = stopped_;
-    lose();
+    reset_ramp();
   } else if (command != Tick::Command::none) {
     latched_ = true;
     stopped_ = stopped_ || command == Tick::Command::stop;
   }
 }
 
-/// Whether the frame shows where the hand is; two in a row that do not are a jump that stays.
-bool Allowance::believable(const Tick& tick, const GuardSample& sample) {
+/// Whether the position of the frame is accepted; two rejected jumps in a row are a lasting one.
+bool Allowance::accepts_position(const Tick& tick, const GuardSample& sample) {
   const bool again = sample.time_us == stamp_us_;
   stamp_us_ = sample.time_us;
-  if (!tick.ready) place_known_ = suspected_ = any_frame_ = false;
+  if (!tick.ready) position_known_ = suspected_ = any_frame_ = false;
   if (!tick.ready || !tick.frame || again || !finite(sample.position_mm)) return false;
-  if (place_known_ && unsure_frames_ == 0 && tick.leap_mm != believed_mm_) {
+  if (position_known_ && unsure_frames_ == 0 && tick.jump_mm != accepted_mm_) {
     if (suspected_) {
       zero_ = true;
-      place_known_ = false;
-      lose();
+      position_known_ = false;
+      reset_ramp();
     }
     suspected_ = !suspected_;
     return false;
   }
-  // Three frames in one place: whatever the guard knew, now it knows this.
-  if (unsure_frames_ > 0) unsure_frames_ = (tick.leap_mm != believed_mm_ ? 3 : unsure_frames_) - 1;
-  place_known_ = any_frame_ = true;
-  believed_mm_ = tick.leap_mm;
+  // After three frames in one place the guard has accepted that position in any case.
+  if (unsure_frames_ > 0) unsure_frames_ = (tick.jump_mm != accepted_mm_ ? 3 : unsure_frames_) - 1;
+  position_known_ = any_frame_ = true;
+  accepted_mm_ = tick.jump_mm;
   suspected_ = false;
   return true;
 }
 
-void Allowance::follow_ages(const Tick& tick, double told_s, bool good) {
-  const double passed = std::max(told_s, kShortestStepS);
+void Allowance::follow_ages(const Tick& tick, double clock_s, bool good) {
+  const double passed = std::max(clock_s, kShortestStepS);
   frame_age_s_ = good ? static_cast<double>(tick.frame_age_us) / 1e6 : frame_age_s_ + passed;
   clay_age_s_ = tick.clay_new ? 0.0 : clay_age_s_ + passed;
   if (frame_age_s_ >= kZeroS + kRoundingS || clay_age_s_ >= kClayZeroS + kRoundingS) zero_ = true;
-  if (frame_age_s_ > 0.8 * kPauseS) unsure_frames_ = 3;  // the guard may have forgotten, or not
-  if (frame_age_s_ > kPauseS + kRoundingS || clay_age_s_ >= kClayZeroS + kRoundingS) lose();
-  if (told_s >= kZeroS) zero_ = true;
-  if (told_s > kPauseS) lose();
+  if (frame_age_s_ > 0.8 * kPauseS) unsure_frames_ = 3;  // the guard may have dropped the position
+  if (frame_age_s_ > kPauseS + kRoundingS || clay_age_s_ >= kClayZeroS + kRoundingS) reset_ramp();
+  if (clock_s >= kZeroS) zero_ = true;
+  if (clock_s > kPauseS) reset_ramp();
 }
 
-void Allowance::earn(const Tick& tick, double growing_s) {
-  if (latched_ || !tick.ready || !any_frame_) return lose();
+void Allowance::follow_ramp(const Tick& tick, double growing_s) {
+  if (latched_ || !tick.ready || !any_frame_) return reset_ramp();
   const bool small = finite(tick.wanted_n) && glm::length(tick.wanted_n) < kSmallN;
   if (!ramping_) small_ticks_ = small ? small_ticks_ + 1 : 0;
   ramping_ = ramping_ || small_ticks_ >= kSmallTicks;
-  if (ramping_) earned_s_ += growing_s;
+  if (ramping_) ramp_s_ += growing_s;
 }
 
-Allowance::Verdict Allowance::after(const Tick& tick, double told_s, const GuardSample& sample) {
+Allowance::Verdict Allowance::after(const Tick& tick, double clock_s, const GuardSample& sample) {
   zero_ = false;
   apply(tick.command);
   const bool was_latched = latched_;
   const bool odd = !finite(tick.wanted_n) || (tick.ready && !finite(sample.position_mm));
   odd_ticks_ = odd ? odd_ticks_ + 1 : 0;
   if (odd_ticks_ >= kOddTicks || !tick.passive) latched_ = true;
-  const bool good = believable(tick, sample);
-  follow_ages(tick, told_s, good);
-  const double growing = std::clamp(told_s, 0.0, kPeriodS);
-  earn(tick, growing);
+  const bool good = accepts_position(tick, sample);
+  follow_ages(tick, clock_s, good);
+  const double growing = std::clamp(clock_s, 0.0, kPeriodS);
+  follow_ramp(tick, growing);
   return {zero_ || odd || latched_ || !tick.ready,
           good && !was_latched && frame_age_s_ < kOldFrameS,
-          kLimitN * std::min(1.0, earned_s_ / kRampS), kSlewNPerS * growing};
+          kLimitN * std::min(1.0, ramp_s_ / kRampS), kSlewNPerS * growing};
 }
 
 GuardSample Trial::sample_of(const Tick& tick) {
   if (!tick.frozen) hand_us_ += tick.gap_us;
   const double angle = std::numbers::pi * static_cast<double>(hand_us_) / 1e6;
   if (tick.frame)
-    last_sample_ = {sum(told_us_, -tick.frame_age_us),
-                    glm::dvec3(0.0, 0.0, 10.0 * std::sin(angle)) + tick.leap_mm, true, tick.ready};
+    last_sample_ = {sum(clock_us_, -tick.frame_age_us),
+                    glm::dvec3(0.0, 0.0, 10.0 * std::sin(angle)) + tick.jump_mm, true, tick.ready};
   GuardSample sample = last_sample_;
   sample.fresh = tick.frame;
   sample.ready = tick.ready;
@@ -163,63 +163,64 @@ GuardSample Trial::sample_of(const Tick& tick) {
 }
 
 void Trial::tick(const Tick& tick) {
-  const std::int64_t before_us = told_us_;
+  const std::int64_t before_us = clock_us_;
   true_us_ += tick.gap_us;
-  told_us_ = sum(told_us_, sum(tick.clock_stands ? 0 : tick.gap_us, tick.clock_leap_us));
-  if (tick.clay_new) clay_us_ = told_us_;
+  clock_us_ = sum(clock_us_, sum(tick.clock_stopped ? 0 : tick.gap_us, tick.clock_jump_us));
+  if (tick.clay_new) clay_us_ = clock_us_;
   guard_->apply(tick.command);
 
   const GuardSample sample = sample_of(tick);
-  const double told_s = told_us_ > before_us
-                            ? static_cast<double>(static_cast<std::uint64_t>(told_us_) -
-                                                  static_cast<std::uint64_t>(before_us)) /
-                                  1e6
-                            : 0.0;
-  const auto allowed = allowance_.after(tick, log_.empty() ? 0.0 : told_s, sample);
+  const double clock_s = clock_us_ > before_us
+                             ? static_cast<double>(static_cast<std::uint64_t>(clock_us_) -
+                                                   static_cast<std::uint64_t>(before_us)) /
+                                   1e6
+                             : 0.0;
+  const auto allowed = allowance_.after(tick, log_.empty() ? 0.0 : clock_s, sample);
 
-  watchdog_looks(before_us);
+  run_watchdog(before_us);
   LogEntry entry{};
   entry.time_s = static_cast<double>(true_us_) / 1e6;
-  entry.admission = guard_->admit(told_us_, sample);
-  entry.out = guard_->force(told_us_, {tick.wanted_n, clay_us_, tick.passive});
+  entry.admission = guard_->admit(clock_us_, sample);
+  entry.out = guard_->force(clock_us_, {tick.wanted_n, clay_us_, tick.passive});
   entry.sent_n = entry.out.force_n;
   entry.rise_n = beyond(entry.sent_n, sent_n_);
-  hold_against(allowed, entry);
-  hold_heat(glm::length(entry.sent_n), told_s);
+  check_bounds(allowed, entry);
+  check_heat(glm::length(entry.sent_n), clock_s);
   sent_n_ = entry.sent_n;
   gain_ = entry.out.gain;
   log_.push_back(entry);
 }
 
-/// Between two ticks the device holds what was sent last, unless the watchdog thinks of it.
-void Trial::watchdog_looks(std::int64_t beat_us) {
+/// Between two ticks the device holds the last force, unless the watchdog zeroes it.
+void Trial::run_watchdog(std::int64_t beat_us) {
   const std::int64_t look_us = Watchdog::next_look_us(beat_us);
-  const bool bites = look_us <= told_us_ && Watchdog::must_zero(beat_us, look_us);
-  if (bites) sent_n_ = glm::dvec3(0.0);
-  expect(bites || told_us_ < beat_us || told_us_ - beat_us < 10'000, "held longer than 10 ms");
+  const bool fires = look_us <= clock_us_ && Watchdog::must_zero(beat_us, look_us);
+  if (fires) sent_n_ = glm::dvec3(0.0);
+  expect(fires || clock_us_ < beat_us || clock_us_ - beat_us < 10'000, "held longer than 10 ms");
 }
 
-void Trial::hold_against(const Allowance::Verdict& allowed, const LogEntry& entry) {
+void Trial::check_bounds(const Allowance::Verdict& allowed, const LogEntry& entry) {
   const double sent = glm::length(entry.sent_n), gain = entry.out.gain;
   expect(finite(entry.sent_n), "force is not finite");
   expect(within_limit(entry.sent_n), "force above the limit");
   expect(entry.rise_n <= allowed.rise_n + kRoundingN, "force rises too fast");
-  expect(sent <= allowed.most_n + kRoundingN, "force not earned");
+  expect(sent <= allowed.max_n + kRoundingN, "force above the ramp");
   expect(!allowed.zero || sent == 0.0, "force must be zero");
-  expect(allowed.deform || !entry.admission.may_deform, "clay deformed by a hand that isn't there");
+  expect(allowed.deform || !entry.admission.may_deform,
+         "clay deformed without a valid hand position");
   const double step = entry.admission.step_s;
   expect(step >= kShortestStepS && step <= kLongestStepS, "step out of bounds");
-  // The ramp never goes back, but to begin again.
+  // The ramp falls only to zero.
   expect(gain >= gain_ || gain == 0.0, "ramp falls");
-  expect(gain - gain_ <= allowed.rise_n / kSlewNPerS / kRampS + kRoundingN, "ramp leaps");
-  const bool rests = entry.out.state == GuardState::idle || entry.out.state == GuardState::safe ||
-                     entry.out.state == GuardState::waiting;
-  expect(!rests || sent == 0.0, "force in a state of rest");
+  expect(gain - gain_ <= allowed.rise_n / kSlewNPerS / kRampS + kRoundingN, "ramp rises too fast");
+  const bool resting = entry.out.state == GuardState::idle || entry.out.state == GuardState::safe ||
+                       entry.out.state == GuardState::waiting;
+  expect(!resting || sent == 0.0, "force in a resting state");
 }
 
-void Trial::hold_heat(double sent_n, double told_s) {
-  hot_s_ = sent_n > kHotN ? hot_s_ + std::clamp(told_s, 0.0, kPeriodS) : 0.0;
-  expect(hot_s_ <= kHotS, "motors held hot");
+void Trial::check_heat(double sent_n, double clock_s) {
+  hot_s_ = sent_n > kHotN ? hot_s_ + std::clamp(clock_s, 0.0, kPeriodS) : 0.0;
+  expect(hot_s_ <= kHotS, "motors hot for too long");
 }
 
 void Trial::run(double seconds, const Tick& tick) {
@@ -234,11 +235,11 @@ void Trial::engage(const glm::dvec3& wanted_n) {
 }
 
 void Trial::expect_force(const glm::dvec3& force_n) {
-  expect(glm::length(sent_n_ - force_n) <= 1e-9, "force is not what is wanted");
+  expect(glm::length(sent_n_ - force_n) <= 1e-9, "unexpected force");
 }
 
 void Trial::expect_state(GuardState state) {
-  expect(log_.back().out.state == state, "state is not what it must be");
+  expect(log_.back().out.state == state, "unexpected state");
 }
 
 void Trial::expect(bool held, const std::string& what) {

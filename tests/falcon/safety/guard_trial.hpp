@@ -1,7 +1,7 @@
 #pragma once
-// A servo on a virtual clock, with a hand that moves, a device, clay and a watchdog, that goes
-// through any sequence of faults. Each tick is logged and held against what must be true of the
-// force whatever the guard thinks: the bounds are counted here anew from the faults alone.
+// A servo on a virtual clock, with a moving hand, a device, clay and a watchdog, that runs any
+// sequence of faults. Each tick is logged and checked against bounds on the force. The bounds are
+// computed from the faults alone, independently of the guard.
 
 #include "claystack/falcon/guard.hpp"
 
@@ -13,23 +13,23 @@
 
 namespace clay::falcon::inline safety {
 
-/// All that can happen in a tick; as it stands, all is well and nothing is wanted.
+/// The input of one tick. The defaults are a tick without a fault and without a requested force.
 struct Tick {
   glm::dvec3 wanted_n{0.0};
-  std::int64_t gap_us = 1000;      ///< since the last tick, in truth
-  std::int64_t clock_leap_us = 0;  ///< the clock says so much more
-  bool clock_stands = false;       ///< or the same as before
-  bool frame = true;               ///< a new frame came
-  std::int64_t frame_age_us = 0;   ///< so long ago
+  std::int64_t gap_us = 1000;      ///< true time since the last tick
+  std::int64_t clock_jump_us = 0;  ///< added to the clock reading
+  bool clock_stopped = false;      ///< the clock reads the same as before
+  bool frame = true;               ///< a new frame arrived
+  std::int64_t frame_age_us = 0;   ///< age of the frame
   bool ready = true;
   bool frozen = false;      ///< the hand does not move
-  glm::dvec3 leap_mm{0.0};  ///< the frame puts the hand so far off: 0, or 12 mm or more
+  glm::dvec3 jump_mm{0.0};  ///< position error of the frame: 0, or at least 12 mm
   bool clay_new = true;
   bool passive = true;
   enum class Command { none, pause, stop, rearm } command = Command::none;
 };
 
-/// A guard of which rules may be left out.
+/// A guard from which one rule can be removed.
 class TriedGuard {
  public:
   virtual ~TriedGuard() = default;
@@ -44,41 +44,41 @@ class TriedGuard {
 struct LogEntry {
   double time_s;
   glm::dvec3 sent_n;
-  double rise_n;  ///< how far the force went beyond letting go
+  double rise_n;  ///< how far the force rose; see beyond()
   GuardedForce out;
   Admission admission;
 };
 
-/// What the faults so far allow. Never stricter than the rules are: where a fault makes their
-/// outcome depend on rounding, it allows both.
+/// The bounds after the faults so far. Never stricter than the rules: if rounding decides the
+/// outcome, both outcomes are allowed.
 class Allowance {
  public:
   struct Verdict {
     bool zero = false;    ///< the force must be 0 in this tick
     bool deform = true;   ///< the clay may be deformed
-    double most_n = 0.0;  ///< what can have been earned
-    double rise_n = 0.0;  ///< what it may grow by
+    double max_n = 0.0;   ///< the largest force of the ramp
+    double rise_n = 0.0;  ///< the largest rise
   };
-  /// `told_s`: how much later the clock is than before.
-  Verdict after(const Tick& tick, double told_s, const GuardSample& sample);
+  /// `clock_s`: time since the last tick by the clock.
+  Verdict after(const Tick& tick, double clock_s, const GuardSample& sample);
 
  private:
   void apply(Tick::Command command);
-  bool believable(const Tick& tick, const GuardSample& sample);
-  void follow_ages(const Tick& tick, double told_s, bool good);
-  void earn(const Tick& tick, double growing_s);
-  void lose() { small_ticks_ = 0, earned_s_ = 0.0, ramping_ = false; }
+  bool accepts_position(const Tick& tick, const GuardSample& sample);
+  void follow_ages(const Tick& tick, double clock_s, bool good);
+  void follow_ramp(const Tick& tick, double growing_s);
+  void reset_ramp() { small_ticks_ = 0, ramp_s_ = 0.0, ramping_ = false; }
 
   bool latched_ = false, stopped_ = false, zero_ = false;
   int odd_ticks_ = 0;
-  bool place_known_ = false, suspected_ = false, any_frame_ = false;
+  bool position_known_ = false, suspected_ = false, any_frame_ = false;
   int unsure_frames_ = 0;
   std::int64_t stamp_us_ = 0;
-  glm::dvec3 believed_mm_{0.0};
+  glm::dvec3 accepted_mm_{0.0};
   double frame_age_s_ = 0.0, clay_age_s_ = 0.0;
   int small_ticks_ = 0;
   bool ramping_ = false;
-  double earned_s_ = 0.0;
+  double ramp_s_ = 0.0;
 };
 
 class Trial {
@@ -87,11 +87,11 @@ class Trial {
 
   void tick(const Tick& tick);
   void run(double seconds, const Tick& tick);
-  /// The hand comes with nothing in its way, then this is wanted until it is all earned.
+  /// Approaches without force, then requests this force until the ramp is complete.
   void engage(const glm::dvec3& wanted_n);
   void rearm() { tick({.command = Tick::Command::rearm}); }
 
-  /// Holds the last tick against this.
+  /// Checks the last tick.
   void expect_force(const glm::dvec3& force_n);
   void expect_state(GuardState state);
   void expect(bool held, const std::string& what);
@@ -101,13 +101,13 @@ class Trial {
 
  private:
   GuardSample sample_of(const Tick& tick);
-  void watchdog_looks(std::int64_t beat_us);
-  void hold_against(const Allowance::Verdict& allowed, const LogEntry& entry);
-  void hold_heat(double sent_n, double told_s);
+  void run_watchdog(std::int64_t beat_us);
+  void check_bounds(const Allowance::Verdict& allowed, const LogEntry& entry);
+  void check_heat(double sent_n, double clock_s);
 
   std::unique_ptr<TriedGuard> guard_;
   Allowance allowance_;
-  std::int64_t true_us_ = 0, told_us_ = 1'000'000, clay_us_ = 0;
+  std::int64_t true_us_ = 0, clock_us_ = 1'000'000, clay_us_ = 0;
   std::int64_t hand_us_ = 0;
   GuardSample last_sample_;
   glm::dvec3 sent_n_{0.0};

@@ -24,25 +24,25 @@ PassivityController controller_of(const SampledLoop& loop, double step_mm = 0.0)
   return PassivityController::build(spec).value();
 }
 
-/// A hand moved along a path against a spring beyond x = 0; `each` sees the answer, the force
-/// asked.
+/// Moves a hand along a path against a spring at x < 0; `each` gets the answer and the requested
+/// force.
 template <class Each>
 void play(PassivityController& controller, double stiffness, int ticks,
           const std::function<double(double)>& path, Each each) {
   for (int k = 0; k < ticks; ++k) {
     const glm::dvec3 at = along(path(k * kTickS));
-    const glm::dvec3 asked = along(stiffness * std::max(0.0, -at.x));
-    each(controller.tick(k * 1000, at, asked), asked);
+    const glm::dvec3 requested = along(stiffness * std::max(0.0, -at.x));
+    each(controller.tick(k * 1000, at, requested), requested);
   }
 }
 
-/// In by 5 mm at a part of the force, out at another: what the hand was given, by forces times
-/// ways, and what the controller came to.
+/// A press of 5 mm with one fraction of the force on the way in and another on the way out: energy
+/// given to the hand, largest debt and worst state of the controller.
 struct PressAndLeave {
   double given_mj = 0.0, debt_mj = 0.0;
   PassivityState worst = PassivityState::watching;
 };
-PressAndLeave press_and_leave(double part_in, double part_out, bool told) {
+PressAndLeave press_and_leave(double fraction_in, double fraction_out, bool reports_displayed) {
   constexpr double kStiffness = 0.4, kDepthMm = 5.0;
   PassivityController controller = controller_of({1000, 0.1, 0.0005, 0});
   PressAndLeave run;
@@ -52,10 +52,10 @@ PressAndLeave press_and_leave(double part_in, double part_out, bool told) {
     const double x_mm = 1e-3 - kDepthMm * (in ? k : 1000 - k) / 500.0;
     run.given_mj += held_n * (x_mm - before_mm);
     before_mm = x_mm;
-    const glm::dvec3 asked = along(kStiffness * std::max(0.0, -x_mm));
-    const PassiveForce answer = controller.tick(1000 * k, along(x_mm), asked);
-    const glm::dvec3 shown = (in ? part_in : part_out) * answer.force_n;
-    if (told) controller.displayed(shown);
+    const glm::dvec3 requested = along(kStiffness * std::max(0.0, -x_mm));
+    const PassiveForce answer = controller.tick(1000 * k, along(x_mm), requested);
+    const glm::dvec3 shown = (in ? fraction_in : fraction_out) * answer.force_n;
+    if (reports_displayed) controller.displayed(shown);
     held_n = shown.x;
     run.debt_mj = std::max(run.debt_mj, controller.observer().debt_mj());
     run.worst = std::max(run.worst, answer.state);
@@ -63,22 +63,22 @@ PressAndLeave press_and_leave(double part_in, double part_out, bool told) {
   return run;
 }
 
-// A guard's ramp that grows in the middle of a contact gives the hand more on its way out than it
-// took on its way in: at most F^2 / 2K, and the controller sees it when it is told what was shown.
-TEST(Passivity, CountsTheForceThatIsDisplayed) {
+// A guard's ramp that grows during a contact gives the hand more energy on the way out than it took
+// on the way in: at most F^2 / 2K. The controller detects it if the displayed force is reported.
+TEST(Passivity, CountsTheDisplayedForce) {
   const double stored_mj = 0.5 * 0.4 * 25.0;
   const PressAndLeave steady = press_and_leave(1.0, 1.0, true);
   EXPECT_NEAR(steady.given_mj, 0.0, 0.01 * stored_mj);
   EXPECT_EQ(steady.worst, PassivityState::watching);
 
-  const PressAndLeave untold = press_and_leave(0.1, 1.0, false);
-  EXPECT_NEAR(untold.given_mj, 0.9 * stored_mj, 0.01 * stored_mj);
-  EXPECT_EQ(untold.worst, PassivityState::watching) << "it believes in credit that there is not";
+  const PressAndLeave unreported = press_and_leave(0.1, 1.0, false);
+  EXPECT_NEAR(unreported.given_mj, 0.9 * stored_mj, 0.01 * stored_mj);
+  EXPECT_EQ(unreported.worst, PassivityState::watching) << "it counts credit that does not exist";
 
-  const PressAndLeave told = press_and_leave(0.1, 1.0, true);
-  EXPECT_EQ(told.worst, PassivityState::damping);
-  EXPECT_LT(told.given_mj, 0.95 * untold.given_mj);
-  EXPECT_GT(told.debt_mj, 0.0);
+  const PressAndLeave reported = press_and_leave(0.1, 1.0, true);
+  EXPECT_EQ(reported.worst, PassivityState::damping);
+  EXPECT_LT(reported.given_mj, 0.95 * unreported.given_mj);
+  EXPECT_GT(reported.debt_mj, 0.0);
 
   const PressAndLeave less = press_and_leave(1.0, 0.1, true);
   EXPECT_LT(less.given_mj, 0.0) << "a force that fades takes energy";
@@ -86,21 +86,22 @@ TEST(Passivity, CountsTheForceThatIsDisplayed) {
 }
 
 TEST(Passivity, IgnoresANonFiniteDisplayedForce) {
-  PassivityController told = controller_of(kLoop), untold = controller_of(kLoop);
+  PassivityController reported = controller_of(kLoop), unreported = controller_of(kLoop);
   for (int k = 0; k < 100; ++k) {
-    const glm::dvec3 at = along(-1e-2 * k), asked = along(4e-3 * k);
-    EXPECT_EQ(told.tick(1000 * k, at, asked).force_n, untold.tick(1000 * k, at, asked).force_n);
-    told.displayed(along(std::nan("")));
+    const glm::dvec3 at = along(-1e-2 * k), requested = along(4e-3 * k);
+    EXPECT_EQ(reported.tick(1000 * k, at, requested).force_n,
+              unreported.tick(1000 * k, at, requested).force_n);
+    reported.displayed(along(std::nan("")));
   }
-  EXPECT_EQ(told.observer().injected_mj(), untold.observer().injected_mj());
+  EXPECT_EQ(reported.observer().injected_mj(), unreported.observer().injected_mj());
 }
 
-RC_GTEST_PROP(Passivity, AnAcceptedSpringPassesUnchanged, ()) {
+RC_GTEST_PROP(Passivity, PassesAnAcceptedSpringUnchanged, ()) {
   SampledLoop loop = kLoop;
   loop.delay_ticks = *rc::gen::inRange(0, 4);
   loop.damping_ns_per_mm = within(0.0005, 0.01);
   PassivityController controller = controller_of(loop);
-  // Whatever passive hand: swings of any frequency up to 30 Hz, in and out of the contact.
+  // Any passive hand: swings of any frequency up to 30 Hz, in and out of the contact.
   std::vector<glm::dvec3> waves;
   for (int n = 0; n < 4; ++n) waves.push_back({within(0, 0.4), within(1, 30), within(0, 6)});
   const double offset = within(-2.0, 0.0);
@@ -113,11 +114,12 @@ RC_GTEST_PROP(Passivity, AnAcceptedSpringPassesUnchanged, ()) {
   };
   const double stiffness = within(0.0, 1.0) * accepted_stiffness(loop);
   bool touched = false;
-  play(controller, stiffness, 1000, path, [&](const PassiveForce& sent, const glm::dvec3& asked) {
-    touched = touched || asked.x > 0.0;
-    RC_ASSERT(sent.state == PassivityState::watching);
-    RC_ASSERT(sent.force_n == asked);
-  });
+  play(controller, stiffness, 1000, path,
+       [&](const PassiveForce& sent, const glm::dvec3& requested) {
+         touched = touched || requested.x > 0.0;
+         RC_ASSERT(sent.state == PassivityState::watching);
+         RC_ASSERT(sent.force_n == requested);
+       });
   RC_CLASSIFY(touched, "in contact");
 }
 
@@ -125,31 +127,31 @@ TEST(Passivity, DisplaysAStiffContactAtTheAcceptedStiffness) {
   PassivityController controller = controller_of(kLoop);  // accepted: b / T = 2 N/mm
   const auto path = [](double t) { return 0.1 - 10.0 * t; };
   double at = 0.0;
-  play(controller, 1e3, 200, path, [&](const PassiveForce& sent, const glm::dvec3& asked) {
+  play(controller, 1e3, 200, path, [&](const PassiveForce& sent, const glm::dvec3& requested) {
     const double x = path(kTickS * at++);
-    const double earned = asked.x > 0.0 ? -2.0 * x : 0.0;
-    // From the last reading outside, at most one tick's way before the surface.
-    EXPECT_GE(sent.force_n.x, earned - 1e-12);
-    EXPECT_LE(sent.force_n.x, earned + 2.0 * 1.1e-2);
+    const double expected = requested.x > 0.0 ? -2.0 * x : 0.0;
+    // The spring starts at the last reading outside, at most one tick's motion before the surface.
+    EXPECT_GE(sent.force_n.x, expected - 1e-12);
+    EXPECT_LE(sent.force_n.x, expected + 2.0 * 1.1e-2);
   });
 }
 
-TEST(Passivity, ForceBuildsUpByInwardMotion) {
+TEST(Passivity, InwardMotionBuildsUpTheForce) {
   PassivityController controller = controller_of(kLoop);
   std::int64_t time_us = 0;
-  const auto sent = [&](double x, double asked) {
-    return controller.tick(time_us += 1000, along(x), along(asked)).force_n.x;
+  const auto sent = [&](double x, double requested) {
+    return controller.tick(time_us += 1000, along(x), along(requested)).force_n.x;
   };
-  EXPECT_EQ(sent(-1.0, 5), 0.0);  // begins within
+  EXPECT_EQ(sent(-1.0, 5), 0.0);  // starts inside
   EXPECT_NEAR(sent(-1.5, 5), 1.0, 1e-12);
   EXPECT_NEAR(sent(-2.0, 5), 2.0, 1e-12);
   EXPECT_NEAR(sent(-1.8, 5), 1.6, 1e-12);
-  EXPECT_EQ(sent(-1.7, 0), 0.0);  // lets go
+  EXPECT_EQ(sent(-1.7, 0), 0.0);  // released
   EXPECT_NEAR(sent(-1.8, 5), 0.2, 1e-12);
 }
 
-/// A contact that takes next to nothing on 20 mm in, and gives `gain_mj` on 1 mm out.
-void give(PassivityController& controller, std::int64_t& time_us, double gain_mj) {
+/// A contact that takes almost no energy on 20 mm in, and gives `gain_mj` on 1 mm out.
+void inject(PassivityController& controller, std::int64_t& time_us, double gain_mj) {
   const auto tick = [&](double x, double force) {
     (void)controller.tick(time_us += 1000, along(x), along(force));
   };
@@ -162,20 +164,21 @@ void give(PassivityController& controller, std::int64_t& time_us, double gain_mj
 TEST(Passivity, DampingRemovesTheInjectedEnergyExactly) {
   PassivityController controller = controller_of(kLoop);
   std::int64_t time_us = 0;
-  give(controller, time_us, 2.0);
-  const double debt = controller.observer().injected_mj();
-  ASSERT_GT(debt, 1e-2);
+  inject(controller, time_us, 2.0);
+  const double injected = controller.observer().injected_mj();
+  ASSERT_GT(injected, 1e-2);
   ASSERT_EQ(controller.state(), PassivityState::damping);
-  // The hand moves on at 50 mm/s, free. Each tick pays, none more than the bound.
-  double x = -19.0, owed = debt;
-  const double way = 0.05, most = controller.most_damping_ns_per_mm();
+  // The free hand moves on at 50 mm/s. Each tick reduces the debt, with at most the
+  // largest damping.
+  double x = -19.0, remaining = injected;
+  const double way_mm = 0.05, largest = controller.most_damping_ns_per_mm();
   for (int k = 0; k < 1000 && controller.state() == PassivityState::damping; ++k) {
-    x += way;
+    x += way_mm;
     const PassiveForce sent = controller.tick(time_us += 1000, along(x), along(0));
-    EXPECT_LE(-sent.force_n.x, most * way / kTickS * (1 + 1e-12));
+    EXPECT_LE(-sent.force_n.x, largest * way_mm / kTickS * (1 + 1e-12));
     EXPECT_LE(sent.force_n.x, 0.0);
-    EXPECT_LE(controller.observer().injected_mj(), owed);
-    owed = controller.observer().injected_mj();
+    EXPECT_LE(controller.observer().injected_mj(), remaining);
+    remaining = controller.observer().injected_mj();
   }
   EXPECT_EQ(controller.state(), PassivityState::watching);
   EXPECT_NEAR(controller.observer().injected_mj(), controller.observer().tolerance_mj(), 1e-9);
@@ -183,22 +186,22 @@ TEST(Passivity, DampingRemovesTheInjectedEnergyExactly) {
 
 TEST(Passivity, BoundOfTheDampingFollowsFromTheSampleTime) {
   const SampledLoop slow{100, 0.1, 1e-6, 1}, fast{1000, 0.1, 1e-6, 1};
-  // Half of what a free mass bears: (sqrt 8 - 2) m / 2T, to the little that the spring takes.
+  // Half the stable damping of a free mass: (sqrt 8 - 2) m / 2T, less the spring's share.
   EXPECT_NEAR(controller_of(slow).most_damping_ns_per_mm(), (std::sqrt(8.0) - 2.0) * 0.005, 2e-5);
   EXPECT_NEAR(controller_of(fast).most_damping_ns_per_mm(), (std::sqrt(8.0) - 2.0) * 0.05, 2e-4);
-  // And where the encoder is coarse, a step in a tick is a quarter of 1 N.
+  // With a coarse encoder, one step in a tick gives 0.25 N.
   EXPECT_NEAR(controller_of(fast, 0.05).most_damping_ns_per_mm(), 0.25 * kTickS / 0.05, 1e-15);
 }
 
-TEST(Passivity, TooMuchEnergyYieldsThenEndsTheForce) {
+TEST(Passivity, TooMuchEnergyReducesThenEndsTheForce) {
   PassivityController controller = controller_of(kLoop);
   std::int64_t time_us = 0;
-  give(controller, time_us, 11.0);
+  inject(controller, time_us, 11.0);
   EXPECT_EQ(controller.state(), PassivityState::yielding);
   // Half of b / T from now on.
   EXPECT_NEAR(controller.tick(time_us += 1000, along(-19.5), along(5)).force_n.x, 0.5, 1e-12);
   (void)controller.tick(time_us += 1000, along(0), along(0));
-  give(controller, time_us, 11.0);
+  inject(controller, time_us, 11.0);
   EXPECT_EQ(controller.state(), PassivityState::safe);
   EXPECT_EQ(controller.tick(time_us += 1000, along(-10.0), along(5)).force_n, along(0));
   EXPECT_EQ(controller.tick(time_us += 1000, along(-20.0), along(5)).force_n, along(0));
@@ -208,14 +211,14 @@ TEST(Passivity, TooMuchEnergyYieldsThenEndsTheForce) {
   EXPECT_EQ(controller.tick(1000, along(-1.0), along(1)).force_n, along(1));
 }
 
-TEST(Passivity, LittleEnergyDoesNotYield) {
+TEST(Passivity, LittleEnergyIsOnlyDamped) {
   PassivityController controller = controller_of(kLoop);
   std::int64_t time_us = 0;
-  give(controller, time_us, 2.0);
+  inject(controller, time_us, 2.0);
   EXPECT_EQ(controller.state(), PassivityState::damping);
 }
 
-TEST(Passivity, OscillatingForceYields) {
+TEST(Passivity, OscillationReducesTheForce) {
   for (const double swing : {0.9, 1.1}) {
     for (const int half_period_ticks : {6, 8}) {  // 8 swings in 42 and in 56 ms
       PassivityController controller = controller_of(kLoop);
@@ -238,13 +241,13 @@ TEST(Passivity, InvalidTickGivesNoForceAndChangesNothing) {
   const double before = controller.observer().injected_mj();
   EXPECT_EQ(controller.tick(2000, along(nan), along(1)).force_n, along(0));
   EXPECT_EQ(controller.tick(2000, along(-1.0), {0, inf, 0}).force_n, along(0));
-  EXPECT_EQ(controller.tick(1000, along(-1.0), along(1)).force_n, along(0));  // time stands
-  EXPECT_EQ(controller.tick(-5, along(-1.0), along(1)).force_n, along(0));    // runs back
+  EXPECT_EQ(controller.tick(1000, along(-1.0), along(1)).force_n, along(0));  // time stands still
+  EXPECT_EQ(controller.tick(-5, along(-1.0), along(1)).force_n, along(0));    // runs backwards
   EXPECT_EQ(controller.observer().injected_mj(), before);
   EXPECT_EQ(controller.tick(3000, along(-1.0), along(1)).force_n, along(1));
 }
 
-TEST(Passivity, NamesARefusedSetting) {
+TEST(Passivity, ErrorsNameTheSetting) {
   const auto refused = [](auto change) {
     PassivitySpec spec;
     change(spec);

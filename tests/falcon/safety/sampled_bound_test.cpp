@@ -16,7 +16,7 @@ SampledLoop any_loop(int delay) {
   return {std::pow(10.0, within(2.0, 3.9)), within(0.1, 0.5), within(2e-4, 0.02), delay};
 }
 
-RC_GTEST_PROP(PassiveDamping, WithoutDelayIsColgateAndSchenkels, ()) {
+RC_GTEST_PROP(PassiveDamping, WithoutDelayEqualsColgateAndSchenkel, ()) {
   const SampledLoop loop = any_loop(0);
   const VirtualWall wall{within(0.0, 10.0), within(-0.01, 0.01)};
   const double expected =
@@ -24,7 +24,7 @@ RC_GTEST_PROP(PassiveDamping, WithoutDelayIsColgateAndSchenkels, ()) {
   RC_ASSERT(std::abs(passive_damping(loop, wall) - expected) <= 1e-9 * expected);
 }
 
-RC_GTEST_PROP(PassiveDamping, AtAnAngleIsTheIntegrandOfTheTheorem, ()) {
+RC_GTEST_PROP(PassiveDamping, AtAnAngleEqualsTheIntegrandOfTheTheorem, ()) {
   // T/2 Re{(1 - e^-jwT) H(e^jwT)} / (1 - cos wT), H = (K + B (z - 1)/(T z)) z^-n.
   const SampledLoop loop = any_loop(*rc::gen::inRange(0, 9));
   const VirtualWall wall{within(0.0, 10.0), within(-0.01, 0.01)};
@@ -38,7 +38,7 @@ RC_GTEST_PROP(PassiveDamping, AtAnAngleIsTheIntegrandOfTheTheorem, ()) {
   RC_ASSERT(found <= passive_damping(loop, wall) + 1e-15);
 }
 
-RC_GTEST_PROP(PassiveDamping, IsMetBySomeMotion, ()) {
+RC_GTEST_PROP(PassiveDamping, IsTheMaximumOverAllAngles, ()) {
   const SampledLoop loop = any_loop(*rc::gen::inRange(0, 9));
   const VirtualWall wall{within(0.0, 10.0), within(-0.01, 0.01)};
   double most = -1e300;
@@ -47,13 +47,13 @@ RC_GTEST_PROP(PassiveDamping, IsMetBySomeMotion, ()) {
   RC_ASSERT(std::abs(passive_damping(loop, wall) - most) <= 1e-5 * (1e-3 + std::abs(most)));
 }
 
-RC_GTEST_PROP(PassiveStiffness, NeedsAllTheDampingThereIs, ()) {
+RC_GTEST_PROP(PassiveStiffness, NeedsAllTheDamping, ()) {
   const SampledLoop loop = any_loop(*rc::gen::inRange(0, 9));
   const double needed = passive_damping(loop, {passive_stiffness(loop), 0.0});
   RC_ASSERT(std::abs(needed - loop.damping_ns_per_mm) <= 1e-12 * needed);
 }
 
-/// From held force to position, by the textbook's exponentials.
+/// Coefficients from held force to position (zero-order hold).
 struct Held {
   double p, c1, c0;
 };
@@ -64,7 +64,7 @@ Held held(const SampledLoop& loop) {
           static_cast<double>((m / b * gone - t * p) / b)};
 }
 
-RC_GTEST_PROP(StableStiffness, WithoutDelayIsWhereTheProductOfTheRootsIsOne, ()) {
+RC_GTEST_PROP(StableStiffness, WithoutDelayMakesTheProductOfTheRootsOne, ()) {
   const SampledLoop loop = any_loop(0);
   const Held arm = held(loop);  // (z - 1)(z - p) + K (c1 z + c0): p + K c0 = 1
   const double expected = (1.0 - arm.p) / arm.c0;
@@ -83,25 +83,26 @@ RC_GTEST_PROP(StableStiffness, WithATickOfDelaySolvesJurysQuadratic, ()) {
   RC_ASSERT(std::abs(stable_stiffness(loop) - expected) <= 1e-6 * expected);
 }
 
-RC_GTEST_PROP(StableStiffness, IsNotBelowWhatIsPassive, ()) {
+RC_GTEST_PROP(StableStiffness, IsAtLeastThePassiveStiffness, ()) {
   const SampledLoop loop = any_loop(*rc::gen::inRange(0, 9));
   RC_ASSERT(stable_stiffness(loop) >= passive_stiffness(loop));
   RC_ASSERT(is_stable(loop, {within(1e-3, 0.999) * passive_stiffness(loop), 0.0}));
   RC_ASSERT(!is_stable(loop, {1.001 * stable_stiffness(loop), 0.0}));
 }
 
-TEST(StableStiffness, OfTheArmOfTheDocs) {
-  // 0.1 kg, 0.002 N s/mm, 1 kHz, one tick late; by hand from the quadratic.
+TEST(StableStiffness, MatchesTheExampleOfTheDocs) {
+  // 0.1 kg, 0.002 N s/mm, 1 kHz, one tick of delay; computed by hand from the quadratic.
   EXPECT_NEAR(stable_stiffness({1000, 0.1, 0.002, 1}), 1.3407, 5e-5);
 }
 
-TEST(StableStiffness, IsNoneWithoutDamping) {
+TEST(StableStiffness, IsZeroWithoutDamping) {
   for (int delay = 0; delay <= 3; ++delay)
     EXPECT_LT(stable_stiffness({1000, 0.1, 0.0, delay}), 1e-9) << delay;
 }
 
-TEST(StableDamping, OfAFreeMassMatchesItsDifferenceEquation) {
-  // v' = v - a (v + v_before)/2: a < 2. One tick late, z^3 - z^2 + a (z + 1)/2: a < 2 sqrt(2) - 2.
+TEST(StableDamping, MatchesTheDifferenceEquationOfAFreeMass) {
+  // v' = v - a (v + v_before)/2: a < 2.
+  // With one tick of delay, z^3 - z^2 + a (z + 1)/2: a < 2 sqrt(2) - 2.
   const double m = 1e-4, rate = 1000;
   EXPECT_NEAR(stable_damping({rate, 0.1, 1e-7, 0}, 1e-6), 2.0 * m * rate, 1e-5);
   EXPECT_NEAR(stable_damping({rate, 0.1, 1e-7, 1}, 1e-6), (std::sqrt(8.0) - 2.0) * m * rate, 1e-5);
@@ -120,10 +121,10 @@ TEST(CheckStiffness, RefusesAboveHalfOfThePassiveLimitAndNamesBothRemedies) {
   SampledLoop faster = loop;
   faster.rate_hz = refused.error().lowest_rate_hz * (1.0 + 1e-12);
   EXPECT_TRUE(check_stiffness(faster, 1.0));
-  SampledLoop punctual = loop;
-  punctual.delay_ticks = 0;  // half of 2 b / T
-  EXPECT_TRUE(check_stiffness(punctual, 2.0));
-  EXPECT_FALSE(check_stiffness(punctual, 2.0001));
+  SampledLoop no_delay = loop;
+  no_delay.delay_ticks = 0;  // half of 2 b / T
+  EXPECT_TRUE(check_stiffness(no_delay, 2.0));
+  EXPECT_FALSE(check_stiffness(no_delay, 2.0001));
 }
 
 TEST(CheckStiffness, RefusesInvalidStiffness) {

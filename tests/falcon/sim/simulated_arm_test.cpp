@@ -186,13 +186,13 @@ TEST(Friction, ReleasesWhenTheHandPullsHarder) {
   }
 }
 
-TEST(SimulatedArm, CarryFollowsTheHandAndCountsItsWork) {
+TEST(SimulatedArm, CarryMovesTheArmAndCountsTheWork) {
   ArmSpec spec = undelayed(1000, 0.2, 0.003);
   SimulatedArm arm = built(spec);
   arm.carry({1.5, 0, 0}, {1.0, 0, 0});
   EXPECT_EQ(arm.position_mm().x, 1.0);
   EXPECT_NEAR(arm.energy().displayed, 1.5, 1e-15);
-  EXPECT_NEAR(arm.energy().damped, 0.003 * 1000.0 * 1.0, 1e-14);  // b v times the way, at 1 m/s
+  EXPECT_NEAR(arm.energy().damped, 0.003 * 1000.0 * 1.0, 1e-14);  // b v x, at 1 m/s
   EXPECT_NEAR(arm.energy().hand, 0.5 * 0.2e-3 * 1e6 - 1.5 + 3.0, 1e-13);
 }
 

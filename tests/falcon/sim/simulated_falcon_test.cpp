@@ -70,7 +70,7 @@ TEST(SimulatedFalcon, KeepsItsTimeWhenFramesAreLate) {
     device.write({});
     while (!(sample = device.read(3 * kTickUs)).fresh) {
     }
-    // A frame is answered in 1 ms: 2 ms more pass.
+    // The answer takes 1 ms; then 2 ms more pass.
     (void)device.read(2 * kTickUs);
   }
   const double seconds = 1e-6 * static_cast<double>(sample.time_us - before.time_us);

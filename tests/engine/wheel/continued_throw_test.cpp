@@ -23,7 +23,7 @@ SceneSpec arbitrary_scene() {
   return scene;
 }
 
-constexpr glm::dvec3 kFree{90.0, 10.0, 0.0};  // in free air for all these tools
+constexpr glm::dvec3 kFree{90.0, 10.0, 0.0};  // clear of the clay for all these tools
 
 /// From free air to the clay, some motion, and back.
 std::vector<Pose> arbitrary_stroke(std::int64_t time_us) {
@@ -33,7 +33,7 @@ std::vector<Pose> arbitrary_stroke(std::int64_t time_us) {
   };
   std::vector<Pose> poses;
   glm::dvec3 at = kFree;
-  const auto go = [&](glm::dvec3 goal, double seconds) {
+  const auto move_to = [&](glm::dvec3 goal, double seconds) {
     const int ticks = static_cast<int>(seconds * 1000.0);
     const glm::dvec3 step = (goal - at) / static_cast<double>(ticks);
     for (int i = 0; i < ticks; ++i) {
@@ -42,15 +42,14 @@ std::vector<Pose> arbitrary_stroke(std::int64_t time_us) {
     }
   };
   poses.push_back({time_us, kFree, false, 0.0});
-  // The first motion is up or down, because a stroke must not inherit the direction of the one
-  // before.
-  go({90.0, uniform(0.0, 50.0), 0.0}, 0.05);
+  // The first motion is up or down, so that no stroke inherits the previous direction.
+  move_to({90.0, uniform(0.0, 50.0), 0.0}, 0.05);
   const int places = *rc::gen::inRange(1, 4);
-  go({uniform(34.0, 45.0), at.y, 0.0}, 0.05);
-  for (int i = 0; i < places; ++i) go({uniform(0.0, 40.0), uniform(0.0, 60.0), 0.0}, 0.25);
-  go({at.x, 90.0, 0.0}, 0.1);
-  go({90.0, 90.0, 0.0}, 0.05);
-  go(kFree, 0.05);
+  move_to({uniform(34.0, 45.0), at.y, 0.0}, 0.05);
+  for (int i = 0; i < places; ++i) move_to({uniform(0.0, 40.0), uniform(0.0, 60.0), 0.0}, 0.25);
+  move_to({at.x, 90.0, 0.0}, 0.1);
+  move_to({90.0, 90.0, 0.0}, 0.05);
+  move_to(kFree, 0.05);
   return poses;
 }
 
@@ -61,7 +60,7 @@ bool play(Wheel& wheel, const std::vector<Pose>& poses) {
   return (flags & kContact) != 0;
 }
 
-RC_GTEST_PROP(ThrowingOn, GivesTheSameBitsAsAnUninterruptedThrow, ()) {
+RC_GTEST_PROP(ContinuedThrow, GivesTheSameBitsAsAnUninterruptedThrow, ()) {
   const SceneSpec scene = arbitrary_scene();
   auto built = Wheel::build(scene);
   RC_PRE(built.has_value());
@@ -77,16 +76,16 @@ RC_GTEST_PROP(ThrowingOn, GivesTheSameBitsAsAnUninterruptedThrow, ()) {
     play(*part, poses);
     RC_ASSERT(part->pot() == whole.pot());
     RC_ASSERT(part->ledger().imbalance(part->stack().recount()) == 0);
-    // A wide flange can reach the place in free air; the next stroke would begin in the clay.
+    // A wide flange can reach kFree; then the next stroke would start in the clay.
     if (whole.collapsed() || touches) return;
     before = part->pot();
   }
   RC_CLASSIFY(whole.stack().size() > scene.lump.rings, "grew");
 }
 
-/// A crown that leans, and a ring that grows from it later: the state of the rim is not part of the
+/// A ring that grows from a leaning crown depends on the state of the rim, which is not part of the
 /// rings.
-TEST(ThrowingOn, KeepsALeaningRim) {
+TEST(ContinuedThrow, KeepsALeaningRim) {
   const SceneSpec scene = scene_of(Model::conserving);
   const auto poses = [](double x) {
     std::vector<Pose> stroke = {{0, {90.0, 38.0, 0.0}, false, 0.0}};
@@ -101,7 +100,7 @@ TEST(ThrowingOn, KeepsALeaningRim) {
   EXPECT_NE(leaning.rim, Rim{});
   Pot level = leaning;
   level.rim = {};
-  const auto thrown_on = [&](const Pot& pot) {
+  const auto continued = [&](const Pot& pot) {
     Wheel next = Wheel::build(scene, pot).value();
     for (int i = 0; i < 10; ++i) {
       play(next, poses(34.0 - 0.5 * i));
@@ -109,23 +108,23 @@ TEST(ThrowingOn, KeepsALeaningRim) {
     }
     return next.pot();
   };
-  EXPECT_GT(thrown_on(leaning).stack.size(), leaning.stack.size());
-  EXPECT_NE(thrown_on(leaning).stack, thrown_on(level).stack);
+  EXPECT_GT(continued(leaning).stack.size(), leaning.stack.size());
+  EXPECT_NE(continued(leaning).stack, continued(level).stack);
 }
 
-TEST(ThrowingOn, LumpAsAPotEqualsTheLump) {
+TEST(ContinuedThrow, LumpAsAPotEqualsTheLump) {
   for (const Model model : {Model::conserving, Model::paper})
-    for (const std::size_t most : {std::size_t{0}, std::size_t{100}}) {
+    for (const std::size_t max_rings : {std::size_t{0}, std::size_t{100}}) {
       SceneSpec scene = scene_of(model);
-      scene.lump.max_rings = most;
+      scene.lump.max_rings = max_rings;
       const Pot lump = Wheel::build(scene).value().pot();
       const Wheel again = Wheel::build(scene, lump).value();
       EXPECT_EQ(again.pot(), lump);
-      EXPECT_EQ(again.stack().max_rings(), most == 0 ? 160u : most);
+      EXPECT_EQ(again.stack().max_rings(), max_rings == 0 ? 160u : max_rings);
     }
 }
 
-TEST(ThrowingOn, UsesTheRingsOfThePot) {
+TEST(ContinuedThrow, UsesTheRingsOfThePot) {
   Pot pot = Wheel::build(scene_of(Model::conserving)).value().pot();
   SceneSpec other = scene_of(Model::conserving);
   other.lump = {.rings = 7,
@@ -136,11 +135,11 @@ TEST(ThrowingOn, UsesTheRingsOfThePot) {
                 .density_g_cm3 = 1.9};
   const Wheel wheel = Wheel::build(other, pot).value();
   EXPECT_EQ(wheel.pot(), pot);
-  // 0.05 N/mm of depth and mm of height, in rings of 1 mm.
+  // 0.05 N per mm of depth and mm of height, for rings of 1 mm.
   EXPECT_DOUBLE_EQ(wheel.plan().force.stiffness_n_per_mm, 0.05);
 }
 
-TEST(ThrowingOn, RefusesAPotThatDoesNotFitTheScene) {
+TEST(ContinuedThrow, RefusesAPotThatDoesNotFitTheScene) {
   const SceneSpec scene = scene_of(Model::conserving);
   const Pot pot = Wheel::build(scene).value().pot();
   const auto refused = [&](const SceneSpec& on, const Pot& start, const std::string& message) {

@@ -1,4 +1,4 @@
-// Sponge, needle, wire, and trimming the foot of a pot that stands upside down.
+// Sponge, needle, wire, and trimming the foot of an inverted pot.
 
 #include "claystack/engine/wheel.hpp"
 #include "tests/engine/wheel/rule_samples.hpp"
@@ -18,8 +18,8 @@ SceneSpec scene_with(ToolMode mode) {
   return scene;
 }
 
-void go(Wheel& wheel, std::int64_t& time_us, const glm::dvec3& from, const glm::dvec3& to,
-        int ticks = 50) {
+void move(Wheel& wheel, std::int64_t& time_us, const glm::dvec3& from, const glm::dvec3& to,
+          int ticks = 50) {
   for (int k = 0; k <= ticks; ++k)
     wheel.step({time_us += 1000, from + (static_cast<double>(k) / ticks) * (to - from), false});
 }
@@ -28,84 +28,83 @@ TEST(Needle, LevelsTheRimAtItsHeight) {
   Wheel wheel = Wheel::build(scene_with(ToolMode::needle)).value();
   const Quanta ring = wheel.stack().rings()[0].volume();
   std::int64_t time_us = 0;
-  // Into the wall, but not through it: nothing happens.
-  go(wheel, time_us, {60, 100.04, 0}, {42, 100.04, 0});
+  // A needle that does not pass through the wall cuts nothing.
+  move(wheel, time_us, {60, 100.04, 0}, {42, 100.04, 0});
   EXPECT_EQ(wheel.stack().size(), 600u);
-  go(wheel, time_us, {42, 100.04, 0}, {38, 100.04, 0});
+  move(wheel, time_us, {42, 100.04, 0}, {38, 100.04, 0});
   EXPECT_EQ(wheel.stack().size(), 500u);
   EXPECT_EQ(wheel.ledger().trimmed, WideQuanta{100} * ring);
   EXPECT_EQ(wheel.stack().crown(), 0);
   expect_balanced(wheel);
-  // Out and in again above the new rim.
-  go(wheel, time_us, {38, 100.04, 0}, {60, 100.04, 0});
-  go(wheel, time_us, {60, 100.04, 0}, {38, 100.04, 0});
+  // Out and in again above the new rim cuts nothing.
+  move(wheel, time_us, {38, 100.04, 0}, {60, 100.04, 0});
+  move(wheel, time_us, {60, 100.04, 0}, {38, 100.04, 0});
   EXPECT_EQ(wheel.stack().size(), 500u);
 }
 
-TEST(Wire, CutsThePotOffAndSetsItDown) {
+TEST(Wire, CutsThePotOffAndLowersIt) {
   SceneSpec scene = scene_with(ToolMode::wire);
   scene.lump.inner_radius_mm = 0.0;
   ClayStack stack = ClayStack::cylinder(10, 1.0, 45.0, 0.0, 40).value();
   std::vector<Ring> rings(stack.rings().begin(), stack.rings().end());
   for (std::size_t i = 0; i < rings.size(); ++i)
-    rings[i].outer2 -= static_cast<Quanta>(i) << 36;  // each ring is known again
+    rings[i].outer2 -= static_cast<Quanta>(i) << 36;  // makes the rings distinguishable
   stack = ClayStack::from_rings(1.0, rings, 12345, 40).value();
   Pot pot{stack, {}, Model::conserving, 1.9, {}, {}, {}, {}};
   pot.ledger.initial = stack.volume();
   Wheel wheel = Wheel::build(scene, pot).value();
   std::int64_t time_us = 0;
-  go(wheel, time_us, {60, 3.1, 0}, {0.5, 3.1, 0});
+  move(wheel, time_us, {60, 3.1, 0}, {0.5, 3.1, 0});
   ASSERT_EQ(wheel.stack().size(), 7u);
   for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(wheel.stack().rings()[i], rings[i + 3]);
   EXPECT_EQ(wheel.stack().crown(), 12345);
   EXPECT_EQ(wheel.ledger().trimmed, rings[0].volume() + rings[1].volume() + rings[2].volume());
   expect_balanced(wheel);
-  // A second wire that stands in the pot has not gone through its wall: it cuts nothing.
-  go(wheel, time_us, {0.5, 3.1, 0}, {0.4, 3.1, 0});
+  // A wire that starts inside the pot has not passed through the wall and cuts nothing.
+  move(wheel, time_us, {0.5, 3.1, 0}, {0.4, 3.1, 0});
   EXPECT_EQ(wheel.stack().size(), 7u);
 }
 
-TEST(Wire, NeverTakesTheWholePot) {
+TEST(Wire, NeverRemovesTheWholePot) {
   for (const ToolMode mode : {ToolMode::wire, ToolMode::needle}) {
     Wheel wheel = Wheel::build(scene_with(mode)).value();
     std::int64_t time_us = 0;
     for (const double y : {0.01, 119.99, -3.0, 500.0}) {
-      go(wheel, time_us, {60, y, 0}, {0, y, 0});
-      go(wheel, time_us, {0, 900, 0}, {60, 900, 0});
+      move(wheel, time_us, {60, y, 0}, {0, y, 0});
+      move(wheel, time_us, {0, 900, 0}, {60, 900, 0});
     }
     EXPECT_EQ(wheel.stack().size(), 600u);
   }
 }
 
-/// A pot upside down, trimmed at its foot, is what the mirrored pot is when it is trimmed at the
-/// rim, ring for ring.
-TEST(TrimFoot, IsTrimmingTheMirroredPot) {
+/// Trimming the foot of an inverted pot gives, ring by ring, the mirror image of trimming the rim.
+TEST(TrimFoot, MirrorsTrimmingTheRim) {
   SceneSpec scene = scene_with(ToolMode::trim_foot);
   const SampledSpec knife{{-9, -3, 4, 9}, {1, 6, 7, 2}};
   scene.tool.shape = knife;
   SceneSpec upright = scene;
   upright.tool.mode = ToolMode::trim;
-  Wheel turned = Wheel::build(scene).value(), plain = Wheel::build(upright).value();
+  Wheel inverted = Wheel::build(scene).value(), plain = Wheel::build(upright).value();
   std::int64_t time_us = 0;
   for (int k = 0; k < 400; ++k) {
     const glm::dvec3 hip(50.0 - 0.01 * k, 115.0 - 0.1 * k, 0.003 * k);
     time_us += 1000;
-    const StepReport a = turned.step({time_us, hip, false});
+    const StepReport a = inverted.step({time_us, hip, false});
     const StepReport b = plain.step({time_us, hip, false});
     EXPECT_NEAR(a.force_n().y, b.force_n().y, 1e-9);
     EXPECT_NEAR(a.force_n().x, b.force_n().x, 1e-9);
   }
-  const auto foot = turned.stack().rings(), rim = plain.stack().rings();
+  const auto foot = inverted.stack().rings(), rim = plain.stack().rings();
   ASSERT_EQ(foot.size(), rim.size());
-  EXPECT_GT(turned.ledger().trimmed, 0);
+  EXPECT_GT(inverted.ledger().trimmed, 0);
   double worst = 0.0;
   for (std::size_t i = 0; i < foot.size(); ++i)
     worst = std::max(worst, std::abs(foot[i].outer_mm() - rim[rim.size() - 1 - i].outer_mm()));
   EXPECT_LT(worst, 1e-9);
-  expect_balanced(turned);
+  expect_balanced(inverted);
 }
 
-/// A wall with waves of 8 mm and 0.3 mm of depth.
+/// A wall with waves 8 mm long and 0.3 mm deep.
 Pot waved_pot(const SceneSpec& scene) {
   std::vector<Ring> rings;
   for (std::size_t i = 0; i < scene.lump.rings; ++i) {
@@ -134,7 +133,7 @@ double waves_mm(const Wheel& wheel) {
   return high - low;
 }
 
-TEST(Sponge, EvensOutAndCutsNothing) {
+TEST(Sponge, SmoothsAndRemovesNothing) {
   SceneSpec scene = scene_with(ToolMode::smooth);
   scene.tool.shape = RibSpec{40.0, 8.0};
   Wheel wheel = Wheel::build(scene, waved_pot(scene)).value();
@@ -144,13 +143,13 @@ TEST(Sponge, EvensOutAndCutsNothing) {
     for (const Ring& ring : wheel.stack().rings()) radii.push_back(ring.inner2);
     return radii;
   };
-  const auto was = bore();
+  const auto bore_before = bore();
   const WideQuanta clay = wheel.stack().volume();
   std::int64_t time_us = 0;
-  go(wheel, time_us, {54, 60, 0}, {52.8, 60, 0}, 500);
-  go(wheel, time_us, {52.8, 60, 0}, {52.8, 62, 0}, 2500);
+  move(wheel, time_us, {54, 60, 0}, {52.8, 60, 0}, 500);
+  move(wheel, time_us, {52.8, 60, 0}, {52.8, 62, 0}, 2500);
   EXPECT_LT(waves_mm(wheel), 0.4 * before);
-  EXPECT_EQ(bore(), was);
+  EXPECT_EQ(bore(), bore_before);
   EXPECT_EQ(wheel.stack().volume(), clay);
   EXPECT_EQ(wheel.stack().size(), 600u);
   expect_balanced(wheel);
@@ -164,13 +163,13 @@ TEST(Sponge, NeedsClayRules) {
   EXPECT_EQ(wheel.error().kind, ErrorKind::bad_input);
 }
 
-/// A press on the same wall displaces clay; the sponge's energy only falls.
+/// The overlap energy of a sponge at rest only falls.
 TEST(Sponge, NeverPushesTheHand) {
   SceneSpec scene = scene_with(ToolMode::smooth);
   scene.tool.shape = RibSpec{40.0, 8.0};
   Wheel wheel = Wheel::build(scene, waved_pot(scene)).value();
   std::int64_t time_us = 0;
-  go(wheel, time_us, {54, 60, 0}, {52.8, 60, 0}, 200);
+  move(wheel, time_us, {54, 60, 0}, {52.8, 60, 0}, 200);
   double last = 1e300;
   for (int k = 0; k < 500; ++k) {
     double energy = 0.0;
