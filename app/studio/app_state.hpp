@@ -30,6 +30,7 @@ struct AppState {
 
   Host& host;
   Settings settings;
+  SettingsFile settings_file;  ///< by default, settings are not saved
   Document document;
   StrokeController stroke;
   Readings readings;

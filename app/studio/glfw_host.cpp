@@ -6,6 +6,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace clay::studio {
 namespace {
@@ -87,6 +88,8 @@ void GlfwHost::connect() {
   glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
     host_of(window).studio_->take(FilesDropped{std::vector<std::string>(paths, paths + count)});
   });
+  glfwSetWindowRefreshCallback(window_,
+                               [](GLFWwindow* window) { host_of(window).damaged_ = true; });
   glfwSetWindowCloseCallback(window_, [](GLFWwindow* window) {
     glfwSetWindowShouldClose(window, GLFW_FALSE);
     host_of(window).studio_->take(CloseAsked{});
@@ -109,8 +112,8 @@ void GlfwHost::run(Studio& studio, double seconds) {
       glfwWaitEventsTimeout(kIdleS);
     const glm::ivec2 size = size_px();
     if (size.x > 0 && size.y > 0) {
-      studio.frame(true);
-      glfwSwapBuffers(window_);
+      const bool damaged = std::exchange(damaged_, false) || size != std::exchange(shown_, size);
+      if (studio.frame(damaged ? Painting::always : Painting::if_changed)) glfwSwapBuffers(window_);
     }
     // Without vertical sync, frames that the screen never shows would compete with the servo for
     // the processor.

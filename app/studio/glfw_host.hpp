@@ -18,7 +18,8 @@ class GlfwHost final : public Host {
   ~GlfwHost() override;
 
   /// Draws frames until the studio ends or a signal requests the end (servo::ForceSignals): at most
-  /// sixty frames a second, and none while nothing moves. `seconds`: maximum duration; 0: no limit.
+  /// sixty frames a second, and none that equals the one on the screen. `seconds`: maximum
+  /// duration; 0: no limit.
   void run(Studio& studio, double seconds = 0.0);
 
   [[nodiscard]] glm::ivec2 size_px() const override;
@@ -37,6 +38,8 @@ class GlfwHost final : public Host {
   GLFWwindow* window_;
   servo::MonotonicClock clock_;
   Studio* studio_ = nullptr;
+  bool damaged_ = true;  // the screen has lost the last frame
+  glm::ivec2 shown_{0};  // size of the last frame
 };
 
 }  // namespace clay::studio

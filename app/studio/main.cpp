@@ -54,8 +54,7 @@ Result<void> run_script(const StudioOptions& options, const LogLine& log) {
   if (!options.file.empty()) {
     AppState& state = (*studio)->state();
     apply(state, OpenFile{options.file});
-    if (const auto& notice = state.ui.notices.shown())
-      return failure(ErrorKind::bad_input, notice->text);
+    if (auto error = opening_error(state, options.file)) return tl::make_unexpected(*error);
   }
   if (auto done = runner.run(lines, options.script); !done) return done;
   if (!options.screenshot.empty()) return runner.screenshot(options.screenshot);
@@ -71,6 +70,7 @@ Result<void> run_window(const StudioOptions& options, const LogLine& log) {
   auto studio = Studio::create(**host, loaded.settings, log);
   if (!studio) return tl::make_unexpected(studio.error());
   AppState& state = (*studio)->state();
+  state.settings_file = SettingsFile(settings_path(), state.settings);
   state.document.keep_journals();
   state.recoverable = history::recoverable();
   if (options.device != "none")
@@ -90,7 +90,7 @@ Result<void> run_window(const StudioOptions& options, const LogLine& log) {
   state.stroke.release();
   if (state.done) state.document.close();
   log("window closed");
-  return save_settings(state.settings, settings_path());
+  return state.settings_file.save(state.settings);
 }
 
 /// A simulated hand plays the session beside the scene, as for `claystack throw --device
@@ -158,8 +158,7 @@ Result<void> run_servo_report(const StudioOptions& options, const LogLine& log) 
   if (!studio) return tl::make_unexpected(studio.error());
   AppState& state = (*studio)->state();
   apply(state, OpenFile{options.file});
-  if (const auto& notice = state.ui.notices.shown())
-    return failure(ErrorKind::bad_input, notice->text);
+  if (auto error = opening_error(state, options.file)) return tl::make_unexpected(*error);
   if (options.device == "auto") {
     if (auto seated = take_simulated_hand(state, options.file); !seated) return seated;
   } else if (options.device != "none") {

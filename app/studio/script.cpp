@@ -5,11 +5,13 @@
 #include "claystack/core/atomic_file.hpp"
 
 #include <fmt/format.h>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -35,7 +37,7 @@ constexpr std::array kForms = {
     Form{"key", 1, 1, "key CHORD"},
     Form{"type", 1, 1, "type TEXT"},
     Form{"do", 1, 1, "do ACTION"},
-    Form{"open", 1, 1, "open FILE"},
+    Form{"open", 1, 2, "open FILE [fails]"},
     Form{"save", 1, 1, "save FILE"},
     Form{"close", 0, 0, "close"},
     Form{"wait", 1, 1, "wait SECONDS"},
@@ -55,6 +57,13 @@ std::optional<MouseButton> button_of(std::string_view text) {
   if (text == "left") return MouseButton::left;
   if (text == "right") return MouseButton::right;
   if (text == "middle") return MouseButton::middle;
+  return std::nullopt;
+}
+
+std::optional<unsigned> modifier_of(std::string_view text) {
+  if (text == "Ctrl") return kControl;
+  if (text == "Shift") return kShift;
+  if (text == "Alt") return kAlt;
   return std::nullopt;
 }
 
@@ -85,6 +94,41 @@ std::optional<std::vector<std::string>> words_of(std::string_view line) {
   return words;
 }
 
+bool is_number(std::string_view text, double least) {
+  const auto number = number_of(text);
+  return number && *number >= least && *number <= kLongestWaitS;
+}
+
+/// What is wrong with the arguments of a command; empty: nothing. Their number is right.
+std::string fault_of(const std::vector<std::string>& words) {
+  const std::string_view command = words[0];
+  const auto expected = [&](std::string_view what, std::size_t word = 1) {
+    return fmt::format("expected {}, found {}", what, words[word]);
+  };
+  if (command == "move" || command == "point") {
+    if (!number_of(words[1]) || !number_of(words[2]))
+      return fmt::format("expected two numbers, found {} {}", words[1], words[2]);
+    const bool over = words.size() == 5 && words[3] == "over" && is_number(words[4], 0.0);
+    if (words.size() > 3 && !over) return expected("over SECONDS", 3);
+  }
+  if ((command == "press" || command == "release") && !button_of(words[1]))
+    return expected("left, right or middle");
+  if (command == "hold")
+    for (std::size_t i = 1; i < words.size(); ++i)
+      if (!modifier_of(words[i])) return expected("Ctrl, Shift or Alt", i);
+  if (command == "scroll" && !is_number(words[1], -kLongestWaitS)) return expected("a number");
+  if (command == "wait" && !is_number(words[1], 0.0)) return expected("a number of seconds");
+  if (command == "key" && !chord_of(words[1])) return expected("a key");
+  if (command == "do" && find_command(words[1]) == nullptr) return expected("an action");
+  if (command == "open" && words.size() == 3 && words[2] != "fails") return expected("fails", 2);
+  if (command != "expect") return {};
+  if (!is_fact(words[1])) return expected("a fact");
+  const bool limit = words.size() == 4;
+  if (limit && ((words[2] != "below" && words[2] != "above") || !number_of(words[3])))
+    return "expected below NUMBER or above NUMBER";
+  return {};
+}
+
 }  // namespace
 
 Result<std::vector<ScriptLine>> parse_script(std::string_view text, std::string_view name) {
@@ -105,9 +149,19 @@ Result<std::vector<ScriptLine>> parse_script(std::string_view text, std::string_
     if (arguments < command->fewest || arguments > command->most)
       return bad(fmt::format("{}:{}: expected {}, found {} arguments", name, number, command->form,
                              arguments));
+    if (const std::string fault = fault_of(*words); !fault.empty())
+      return bad(fmt::format("{}:{}: {}", name, number, fault));
     lines.push_back({number, *words});
   }
   return lines;
+}
+
+std::optional<Error> opening_error(const AppState& state, const std::string& path) {
+  const auto& notice = state.ui.notices.shown();
+  if (!notice || notice->grade != Grade::fault) return std::nullopt;
+  std::error_code ignored;
+  const bool exists = std::filesystem::exists(path, ignored);
+  return Error{exists ? ErrorKind::bad_input : ErrorKind::io, notice->text};
 }
 
 Result<void> ScriptRunner::run(const std::vector<ScriptLine>& lines, std::string_view name) {
@@ -126,16 +180,21 @@ Result<void> ScriptRunner::run(const std::vector<ScriptLine>& lines, std::string
 void ScriptRunner::frames(int count) {
   for (int i = 0; i < count && !studio_.done(); ++i) {
     host_.advance(kFrameNs);
-    studio_.frame(false);
+    studio_.frame(Painting::none);
   }
 }
 
+/// Arguments have been checked by parse_script, here and below.
 Result<glm::vec2> ScriptRunner::place_of(const Words& words) const {
-  const auto x = number_of(words[1]), y = number_of(words[2]);
-  if (!x || !y) return bad(fmt::format("expected two numbers, found {} {}", words[1], words[2]));
-  if (words[0] == "move") return glm::vec2(static_cast<float>(*x), static_cast<float>(*y));
-  const auto pixel = studio_.state().scene.pixel_of({*x, *y});
-  if (!pixel) return bad("expected a place before the camera");
+  const glm::dvec2 place(*number_of(words[1]), *number_of(words[2]));
+  if (words[0] == "move") return glm::vec2(place);
+  const auto pixel = studio_.state().scene.pixel_of(place);
+  const ViewRect& view = studio_.state().scene.rect();
+  if (!pixel || glm::any(glm::lessThan(*pixel, view.corner_px)) ||
+      glm::any(glm::greaterThan(*pixel, view.corner_px + view.size_px)))
+    return failure(ErrorKind::unsound,
+                   fmt::format("expected a place in the view, found ({} mm, {} mm) outside it",
+                               words[1], words[2]));
   return *pixel;
 }
 
@@ -153,7 +212,7 @@ Result<void> ScriptRunner::move(glm::vec2 to_px, double seconds) {
 
 Result<void> ScriptRunner::screenshot(const std::string& path) {
   host_.bind();
-  studio_.frame(true);
+  studio_.frame(Painting::always);
   host_.bind();
   return publish(path, render::png_of(host_.read()));
 }
@@ -183,42 +242,33 @@ Result<void> ScriptRunner::act(const Words& words) {
 }
 
 Result<void> ScriptRunner::point(const Words& words) {
-  double seconds = 0.0;
-  if (words.size() > 3) {
-    const auto given = words.size() == 5 && words[3] == "over" ? number_of(words[4]) : std::nullopt;
-    if (!given || *given < 0.0 || *given > kLongestWaitS) return bad("expected over SECONDS");
-    seconds = *given;
-  }
+  const double seconds = words.size() > 3 ? *number_of(words[4]) : 0.0;
   return place_of(words).and_then([&](glm::vec2 to) { return move(to, seconds); });
 }
 
 Result<void> ScriptRunner::button(const Words& words) {
-  const auto button = button_of(words[1]);
-  if (!button) return bad(fmt::format("expected left, right or middle, found {}", words[1]));
-  studio_.take(ButtonChanged{*button, words[0] == "press", mods_});
+  const glm::vec2 size(host_.size_px());
+  const bool press = words[0] == "press";
+  if (press && (glm::any(glm::lessThan(pointer_px_, glm::vec2(0.0f))) ||
+                glm::any(glm::greaterThanEqual(pointer_px_, size))))
+    return failure(ErrorKind::unsound,
+                   fmt::format("expected the pointer in the window, found it at {} {}",
+                               pointer_px_.x, pointer_px_.y));
+  studio_.take(ButtonChanged{*button_of(words[1]), press, mods_});
   frames(1);
   return {};
 }
 
 Result<void> ScriptRunner::hold(const Words& words) {
-  unsigned mods = kNoMods;
-  for (std::size_t i = 1; i < words.size(); ++i) {
-    const auto mod = words[i] == "Ctrl"    ? kControl
-                     : words[i] == "Shift" ? kShift
-                     : words[i] == "Alt"   ? kAlt
-                                           : kNoMods;
-    if (mod == kNoMods) return bad(fmt::format("expected Ctrl, Shift or Alt, found {}", words[i]));
-    mods |= mod;
-  }
-  mods_ = mods;
+  mods_ = kNoMods;
+  for (std::size_t i = 1; i < words.size(); ++i) mods_ |= *modifier_of(words[i]);
   return {};
 }
 
 Result<void> ScriptRunner::key(const Words& words) {
-  const auto chord = chord_of(words[1]);
-  if (!chord) return bad(fmt::format("expected a key, found {}", words[1]));
-  studio_.take(KeyChanged{chord->key, true, false, chord->mods});
-  studio_.take(KeyChanged{chord->key, false, false, chord->mods});
+  const auto chord = *chord_of(words[1]);
+  studio_.take(KeyChanged{chord.key, true, false, chord.mods});
+  studio_.take(KeyChanged{chord.key, false, false, chord.mods});
   frames(1);
   return {};
 }
@@ -231,26 +281,18 @@ Result<void> ScriptRunner::type(const Words& words) {
 }
 
 Result<void> ScriptRunner::scroll(const Words& words) {
-  const auto steps = number_of(words[1]);
-  if (!steps || std::abs(*steps) > kLongestWaitS)
-    return bad(fmt::format("expected a number, found {}", words[1]));
-  studio_.take(Scrolled{static_cast<float>(*steps)});
+  studio_.take(Scrolled{static_cast<float>(*number_of(words[1]))});
   frames(1);
   return {};
 }
 
 Result<void> ScriptRunner::wait(const Words& words) {
-  const auto seconds = number_of(words[1]);
-  if (!seconds || std::abs(*seconds) > kLongestWaitS)
-    return bad(fmt::format("expected a number, found {}", words[1]));
-  frames(static_cast<int>(std::lround(*seconds / kFrameS)));
+  frames(static_cast<int>(std::lround(*number_of(words[1]) / kFrameS)));
   return {};
 }
 
 Result<void> ScriptRunner::run_command(const Words& words) {
-  const Command* command = find_command(words[1]);
-  if (command == nullptr) return bad(fmt::format("expected an action, found {}", words[1]));
-  if (!clay::studio::run(*command, studio_.state()))
+  if (!clay::studio::run(*find_command(words[1]), studio_.state()))
     return failure(ErrorKind::unsound,
                    fmt::format("expected {} to be enabled, found it disabled", words[1]));
   frames(1);
@@ -258,8 +300,15 @@ Result<void> ScriptRunner::run_command(const Words& words) {
 }
 
 Result<void> ScriptRunner::open(const Words& words) {
+  Notices& notices = studio_.state().ui.notices;
+  notices.close();  // then a fault afterwards is about this file
   studio_.take(FilesDropped{{words[1]}});
   frames(1);
+  const auto error = opening_error(studio_.state(), words[1]);
+  const bool expected = words.size() == 3;
+  if (error && !expected) return tl::make_unexpected(*error);
+  if (!error && expected)
+    return failure(ErrorKind::unsound, fmt::format("{}: expected an error, found none", words[1]));
   return {};
 }
 
@@ -279,20 +328,18 @@ Result<void> ScriptRunner::close(const Words&) {
 }
 
 Result<void> ScriptRunner::expect(const Words& words) {
-  const auto found = fact(studio_.state(), words[1]);
-  if (!found) return bad(fmt::format("expected a fact, found {}", words[1]));
+  const std::string found = *fact(studio_.state(), words[1]);
   const auto fails = [&](std::string_view expected) {
     return failure(ErrorKind::unsound,
-                   fmt::format("{}: expected {}, found {}", words[1], expected, *found));
+                   fmt::format("{}: expected {}, found {}", words[1], expected, found));
   };
   if (words.size() == 3) {
-    if (*found != words[2]) return fails(words[2]);
+    if (found != words[2]) return fails(words[2]);
     return {};
   }
-  const auto limit = number_of(words[3]), value = number_of(*found);
-  if (!limit || (words[2] != "below" && words[2] != "above"))
-    return bad("expected below NUMBER or above NUMBER");
-  if (!value || (words[2] == "below" ? *value >= *limit : *value <= *limit))
+  const double limit = *number_of(words[3]);
+  const auto value = number_of(found);
+  if (!value || (words[2] == "below" ? *value >= limit : *value <= limit))
     return fails(fmt::format("{} {}", words[2], words[3]));
   return {};
 }

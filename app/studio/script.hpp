@@ -19,13 +19,17 @@ struct ScriptLine {
 };
 
 /// One command per line; "#" begins a comment; arguments with blanks are in double quotes. Errors
-/// begin with NAME:LINE. Commands and their numbers of arguments are checked before the first one
-/// runs.
+/// begin with NAME:LINE. Commands and their arguments are checked before the first one runs.
 Result<std::vector<ScriptLine>> parse_script(std::string_view text, std::string_view name);
 
 /// A fact about the window as text; numbers in the shortest form that reads back. Empty for a name
 /// that is not in docs/studio.md.
 [[nodiscard]] std::optional<std::string> fact(const AppState& state, std::string_view name);
+[[nodiscard]] bool is_fact(std::string_view name);
+
+/// The error that the window shows after `path` was opened; of kind `io` if there is no such file.
+/// Empty: no error.
+[[nodiscard]] std::optional<Error> opening_error(const AppState& state, const std::string& path);
 
 class ScriptRunner {
  public:

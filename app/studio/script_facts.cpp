@@ -127,4 +127,8 @@ std::optional<std::string> fact(const AppState& state, std::string_view name) {
   return found->read(state);
 }
 
+bool is_fact(std::string_view name) {
+  return std::ranges::find(kFacts, name, &Fact::name) != kFacts.end();
+}
+
 }  // namespace clay::studio

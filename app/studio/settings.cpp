@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 
 namespace clay::studio {
 namespace {
@@ -141,6 +142,23 @@ Result<void> save_settings(const Settings& settings, const std::filesystem::path
     return failure(ErrorKind::io, fmt::format("{}: could not create: {}",
                                               path.parent_path().string(), failed.message()));
   return publish(path, write_settings(settings));
+}
+
+SettingsFile::SettingsFile(std::filesystem::path path, const Settings& stored)
+    : path_(std::move(path)), stored_(write_settings(stored)) {}
+
+Result<void> SettingsFile::update(const Settings& settings, double now_s) {
+  if (path_.empty() || now_s < next_s_) return {};
+  next_s_ = now_s + kSettingsDelayS;
+  auto saved = save(settings);
+  const bool reported = std::exchange(failed_, !saved);
+  return saved || reported ? Result<void>() : saved;
+}
+
+Result<void> SettingsFile::save(const Settings& settings) {
+  std::string text = write_settings(settings);
+  if (text == stored_) return {};
+  return save_settings(settings, path_).map([&] { stored_ = std::move(text); });
 }
 
 }  // namespace clay::studio

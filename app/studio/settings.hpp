@@ -56,4 +56,27 @@ struct LoadedSettings {
 [[nodiscard]] LoadedSettings load_settings(const std::filesystem::path& path);
 Result<void> save_settings(const Settings& settings, const std::filesystem::path& path);
 
+inline constexpr double kSettingsDelayS = 1.0;
+
+/// Saves settings soon after they change, so that a window that is killed loses only the changes of
+/// its last second.
+class SettingsFile {
+ public:
+  /// Saves nothing.
+  SettingsFile() = default;
+  /// `stored`: what the file holds, or would hold if it existed.
+  SettingsFile(std::filesystem::path path, const Settings& stored);
+  /// To be called every frame; saves at most once in kSettingsDelayS. An error is returned for the
+  /// first of several failures only.
+  Result<void> update(const Settings& settings, double now_s);
+  /// Saves now, if they have changed.
+  Result<void> save(const Settings& settings);
+
+ private:
+  std::filesystem::path path_;
+  std::string stored_;
+  double next_s_ = 0.0;
+  bool failed_ = false;
+};
+
 }  // namespace clay::studio

@@ -12,7 +12,10 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <string_view>
+#include <utility>
 
 namespace clay::studio {
 namespace {
@@ -20,12 +23,31 @@ namespace {
 constexpr float kColumnEm = 16.0f, kNarrowestViewEm = 20.0f;
 constexpr double kSpinUpS = 0.6;  // time of the wheel between rest and full speed
 constexpr double kLongestFrameS = 0.1;
+constexpr double kSettledS = 0.15;  // after this time without a change, the view is at rest
 
 std::int64_t steady_ns() {
   return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
 }
 
 double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
+
+std::size_t hash_of(const ImDrawData& panels) {
+  std::size_t hash = 0;
+  const auto add = [&](const void* bytes, int count) {
+    const std::string_view text(static_cast<const char*>(bytes), static_cast<std::size_t>(count));
+    hash = 31 * hash + std::hash<std::string_view>()(text);
+  };
+  for (int i = 0; i < panels.CmdListsCount; ++i) {
+    const ImDrawList& list = *panels.CmdLists[i];
+    add(list.VtxBuffer.Data, list.VtxBuffer.size_in_bytes());
+    add(list.IdxBuffer.Data, list.IdxBuffer.size_in_bytes());
+    for (const ImDrawCmd& command : list.CmdBuffer) {
+      add(&command.ClipRect, sizeof command.ClipRect);
+      add(&command.ElemCount, sizeof command.ElemCount);
+    }
+  }
+  return hash;
+}
 
 }  // namespace
 
@@ -54,7 +76,7 @@ Studio::~Studio() {
 }
 
 bool Studio::wakeful() const noexcept {
-  return moving() || coarse_ || awake_frames_ > 0 || state_.readings.checking() ||
+  return moving() || fine_ != kFineness[0] || awake_frames_ > 0 || state_.readings.checking() ||
          state_.exporter.busy() || state_.file_dialog.open();
 }
 
@@ -64,7 +86,7 @@ bool Studio::moving() const noexcept {
          (state_.document.scrubbing() && ImGui::IsMouseDown(ImGuiMouseButton_Left));
 }
 
-void Studio::frame(bool paint_it) {
+bool Studio::frame(Painting painting) {
   const std::int64_t now_ns = state_.host.frame_ns();
   const double now_s = seconds(now_ns);
   const double elapsed_s = std::clamp(now_s - last_s_, 1e-4, kLongestFrameS);
@@ -85,7 +107,10 @@ void Studio::frame(bool paint_it) {
   update(state_);
   name_window();
   turn_wheel(elapsed_s);
-  if (paint_it) paint();
+  if (painting == Painting::none) return false;
+  if (!needs_paint() && painting == Painting::if_changed) return false;
+  paint();
+  return true;
 }
 
 void Studio::restyle() {
@@ -158,47 +183,79 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   draw_banner(model, actions, view);
 }
 
+/// Compares the view and the panels with those on the screen, and chooses the resolution of the
+/// view: it is reduced while the view changes.
+bool Studio::needs_paint() {
+  render::Picture picture = state_.scene.picture(view_model(state_));
+  const bool changed = picture != picture_;
+  if (changed) {
+    picture_ = std::move(picture);
+    changed_s_ = last_s_;
+  }
+  const bool changing = state_.host.real_time() && last_s_ - changed_s_ < kSettledS;
+  const Fineness fine = quality_.fineness(changing);
+  redraw_ = redraw_ || changed || fine != fine_;
+  fine_ = fine;
+  const std::size_t panels = hash_of(*ImGui::GetDrawData());
+  return std::exchange(panels_, panels) != panels || redraw_;
+}
+
 void Studio::paint() {
   GLint target = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
   const std::int64_t begun_ns = steady_ns();
+  const bool drawn = update_canvas();
   draw_view(static_cast<unsigned>(target));
   const glm::ivec2 size = state_.host.size_px();
   glViewport(0, 0, size.x, size.y);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  if (!state_.host.real_time() || !moving()) return;
+  if (!state_.host.real_time() || !drawn || last_s_ - changed_s_ >= kSettledS) return;
   glFinish();  // waits until the frame is drawn
-  times_.last_ns = steady_ns();
+  const std::int64_t now_ns = steady_ns();
+  quality_.took(seconds(now_ns - begun_ns));
+  if (!moving()) return;
+  times_.last_ns = now_ns;
   if (times_.drawing.count() == 0) times_.first_ns = times_.last_ns;
   times_.drawing.add(times_.last_ns - begun_ns);
-  quality_.took(seconds(times_.last_ns - begun_ns));
 }
 
-/// Paints into a separate canvas, because the painter fills its whole target, and copies it to the
-/// window.
-void Studio::draw_view(unsigned target) {
-  const glm::ivec2 size = state_.host.size_px();
-  const ViewRect& rect = state_.scene.rect();
+/// Draws the picture into a separate canvas, because the painter fills its whole target. Returns
+/// whether it was necessary.
+bool Studio::update_canvas() {
   const render::Viewport view = state_.scene.viewport();
-  const Fineness fine = quality_.fineness(state_.host.real_time() && moving());
-  coarse_ = fine.divisor > 1 || fine.samples < kFineness[0].samples;
-  const int width = std::max(1, view.width_px / fine.divisor);
-  const int height = std::max(1, view.height_px / fine.divisor);
+  const int width = std::max(1, view.width_px / fine_.divisor);
+  const int height = std::max(1, view.height_px / fine_.divisor);
   if (!canvas_ || !canvas_->is(width, height, 0)) {
     canvas_.reset();
     auto made = render::Canvas::create(width, height, 0);
-    if (!made) return report(state_, made.error());
+    if (!made) {
+      report(state_, made.error());
+      return false;
+    }
     canvas_.emplace(std::move(*made));
+    redraw_ = true;
   }
+  if (!redraw_) return false;
   glBindFramebuffer(GL_FRAMEBUFFER, canvas_->framebuffer());
-  painter_->paint(state_.scene.picture(view_model(state_)), width, height, fine.samples);
+  painter_->paint(picture_, width, height, fine_.samples);
+  redraw_ = false;
+  return true;
+}
+
+/// Copies the canvas to the window.
+void Studio::draw_view(unsigned target) {
+  if (!canvas_) return;
+  const glm::ivec2 size = state_.host.size_px();
+  const ViewRect& rect = state_.scene.rect();
+  const render::Viewport view = state_.scene.viewport();
   glBindFramebuffer(GL_READ_FRAMEBUFFER, canvas_->framebuffer());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target);
   // OpenGL counts rows from the bottom.
   const int left = static_cast<int>(rect.corner_px.x);
   const int top = size.y - static_cast<int>(rect.corner_px.y);
-  glBlitFramebuffer(0, 0, width, height, left, top - view.height_px, left + view.width_px, top,
-                    GL_COLOR_BUFFER_BIT, fine.divisor > 1 ? GL_LINEAR : GL_NEAREST);
+  glBlitFramebuffer(0, 0, canvas_->width_px(), canvas_->height_px(), left, top - view.height_px,
+                    left + view.width_px, top, GL_COLOR_BUFFER_BIT,
+                    fine_.divisor > 1 ? GL_LINEAR : GL_NEAREST);
   glBindFramebuffer(GL_FRAMEBUFFER, target);
 }
 

@@ -20,17 +20,18 @@ namespace clay::studio {
 struct Fineness {
   int samples;  ///< samples per pixel
   int divisor;  ///< divisor of width and height
+  friend bool operator==(const Fineness&, const Fineness&) = default;
 };
 inline constexpr std::array<Fineness, 4> kFineness = {{{4, 1}, {1, 1}, {1, 2}, {1, 3}}};
 
-/// Resolution of the view. Without a graphics card a moving pot is drawn with fewer pixels, and
-/// with all of them at rest.
+/// Resolution of the view. Without a graphics card a view that changes, because the pot or the
+/// pointer moves, is drawn with fewer pixels, and with all of them at rest.
 class Quality {
  public:
-  [[nodiscard]] Fineness fineness(bool moving) const noexcept {
-    return kFineness[moving ? level_ : 0];
+  [[nodiscard]] Fineness fineness(bool changing) const noexcept {
+    return kFineness[changing ? level_ : 0];
   }
-  /// Reports the drawing time of a frame with a moving pot.
+  /// Reports the drawing time of a frame of a changing view.
   void took(double seconds) noexcept {
     smooth_s_ = smooth_s_ > 0.0 ? 0.7 * smooth_s_ + 0.3 * seconds : seconds;
     // A pot that lags behind the hand is worse than a coarse one, so the resolution falls at once
@@ -67,6 +68,10 @@ struct FrameTimes {
   }
 };
 
+/// What a frame does with the screen. Frames that differ from the last painted one are painted
+/// anyway, except with `none`.
+enum class Painting { none, if_changed, always };
+
 /// Keys and clipboard of the current ImGui context. The host must outlive it.
 void connect_imgui(Host& host);
 
@@ -82,8 +87,8 @@ class Studio {
 
   /// Queues input for the next frame.
   void take(Input input) { input_.push_back(std::move(input)); }
-  /// Draws one frame at the current time of the clock. Without `paint` it only updates.
-  void frame(bool paint);
+  /// Updates everything to the current time of the clock. Returns whether it has painted a frame.
+  bool frame(Painting painting);
 
   [[nodiscard]] AppState& state() noexcept { return state_; }
   [[nodiscard]] const AppState& state() const noexcept { return state_; }
@@ -103,9 +108,10 @@ class Studio {
   void name_window();
   void turn_wheel(double elapsed_s);
   void lay_out(const ViewModel& model, Actions& actions);
+  [[nodiscard]] bool needs_paint();
   void paint();
-
   void draw_view(unsigned target);
+  bool update_canvas();
 
   static constexpr int kFramesAfterInput = 3;  // frames until an ImGui window has settled
 
@@ -119,8 +125,13 @@ class Studio {
   double spin_ = 0.0;  // speed of the wheel: 0 at rest, 1 at full speed
   Quality quality_;
   FrameTimes times_;
-  bool coarse_ = false;   // the last frame had a reduced resolution
-  int awake_frames_ = 0;  // ImGui needs some frames after an input
+  // The view: its picture, the resolution of the canvas, and the time of the last change.
+  render::Picture picture_;
+  Fineness fine_ = kFineness[0];
+  double changed_s_ = -1.0;
+  bool redraw_ = true;      // the canvas does not show picture_
+  std::size_t panels_ = 0;  // hash of the painted panels
+  int awake_frames_ = 0;    // ImGui needs some frames after an input
 };
 
 }  // namespace clay::studio

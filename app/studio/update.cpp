@@ -257,6 +257,7 @@ void update(AppState& state) {
   update_journal(state);
   update_arm_notice(state);
   update_fall(state);
+  (void)succeeded(state, state.settings_file.update(state.settings, state.now_s()));
 }
 
 }  // namespace clay::studio

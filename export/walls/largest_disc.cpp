@@ -10,7 +10,8 @@
 namespace clay::solid::inline walls {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::infinity();
+constexpr double kSizeRounding = 1e-13;  // of the size of the profile
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 /// The point of an edge nearest to `at`.
 Vec2 nearest_on(const Edge& edge, const Vec2& at) {
@@ -51,7 +52,7 @@ class NearestEdge {
   Vec2 at_, toward_, point_{0.0};
   bool any_;
   Edge edge_;
-  double distance_ = kNone;
+  double distance_ = kUnlimited;
 };
 
 /// Whether a ray from the point outwards crosses the boundary an odd number of times.
@@ -87,8 +88,9 @@ class DiscSearch {
     const EdgeNode& all = tree_.nodes().front();
     const Vec2 along = glm::abs(all.along);
     const Vec2 reach = all.half_length * along + all.half_width * Vec2{along.y, along.x};
+    rounding_ = kSizeRounding * glm::length(all.centre + reach);
     add(all.centre, std::max(reach.x, reach.y));
-    while (!open_.empty() && open_.top().most > best_.radius * (1.0 + kDiscTolerance)) {
+    while (!open_.empty() && open_.top().most > enough()) {
       step_of_loop();
       const Square square = open_.top();
       open_.pop();
@@ -107,10 +109,11 @@ class DiscSearch {
     const double radius = in_clay(tree_, at) ? nearest.best() : -nearest.best();
     if (radius > best_.radius) best_ = {at, nearest.point(), radius};
     double most = radius + half * std::numbers::sqrt2;
-    const double enough = best_.radius * (1.0 + kDiscTolerance);
-    if (radius > 0.0 && most > enough) most = std::min(most, between(at, half, nearest));
-    if (most > enough) open_.push({centre, half, most});
+    if (radius > 0.0 && most > enough()) most = std::min(most, between(at, half, nearest));
+    if (most > enough()) open_.push({centre, half, most});
   }
+
+  [[nodiscard]] double enough() const { return best_.radius * (1.0 + kDiscTolerance) + rounding_; }
 
   /// Upper bound of the radius for centres in a square. A disc reaches no further than to the
   /// nearest edge and to the nearest one on the other side. Both distances are convex, so their
@@ -119,7 +122,7 @@ class DiscSearch {
     const Vec2 toward = at - nearest.point();
     const NearestEdge other(tree_, at, toward), image(tree_, mirrored(at), mirrored(toward));
     const bool across = image.best() < other.best();
-    if (!std::isfinite(std::min(image.best(), other.best()))) return kNone;
+    if (!std::isfinite(std::min(image.best(), other.best()))) return kUnlimited;
     Edge opposite = across ? image.edge() : other.edge();
     if (across) opposite.from = mirrored(opposite.from), opposite.to = mirrored(opposite.to);
     double most = 0.0;
@@ -132,6 +135,7 @@ class DiscSearch {
   }
 
   const EdgeTree& tree_;
+  double rounding_ = 0.0;  ///< [mm]
   Disc best_;
   std::priority_queue<Square> open_;
 };

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace clay::solid::inline walls {
 namespace {
 
 constexpr double kRounding = 1e-9;  // of a length of boundary
+constexpr double kArcRounding = 16.0 * std::numeric_limits<double>::epsilon();  // of the perimeter
 // Two edges that meet at this angle or less have balls at the corner itself: with edges of lengths
 // x and z x, the ratio of diameter and boundary is least at z = 2 cos(angle / 2) - 1, where it is
 // 2 tan(angle / 4).
@@ -159,7 +161,8 @@ class BallSearch {
   void keep(const Line& a, double u, const Line& b, double v, double diameter) {
     if (!(diameter < least_.diameter)) return;
     const double around = std::abs(b.arc_at(v) - a.arc_at(u));
-    if (std::min(around, perimeter_ - around) < kSpan * diameter * (1.0 - kRounding)) {
+    if (std::min(around, perimeter_ - around) + kArcRounding * perimeter_ <
+        kSpan * diameter * (1.0 - kRounding)) {
       excluded_ = std::min(excluded_, diameter);
       return;
     }

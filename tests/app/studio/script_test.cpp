@@ -24,6 +24,12 @@ TEST(Script, ErrorsNameTheLine) {
   EXPECT_EQ(error_of("\nmove 3\n"), "s:2: expected move X Y [over SECONDS], found 1 arguments");
   EXPECT_EQ(error_of("close now"), "s:1: expected close, found 1 arguments");
   EXPECT_EQ(error_of("type \"open"), "s:1: expected a closing quote, found none");
+  EXPECT_EQ(error_of("wait 1\nkey Hyper+X"), "s:2: expected a key, found Hyper+X");
+  EXPECT_EQ(error_of("expect colour red"), "s:1: expected a fact, found colour");
+  EXPECT_EQ(error_of("do edit.fly"), "s:1: expected an action, found edit.fly");
+  EXPECT_EQ(error_of("expect node over 3"), "s:1: expected below NUMBER or above NUMBER");
+  EXPECT_EQ(error_of("press both"), "s:1: expected left, right or middle, found both");
+  EXPECT_EQ(error_of("move 1 2 over soon"), "s:1: expected over SECONDS, found over");
   EXPECT_EQ(error_of(""), "none");
 }
 

@@ -149,5 +149,28 @@ TEST(Settings, AMissingFileIsNotAnError) {
             write_settings(changed()));
 }
 
+TEST(SettingsFile, SavesChangesAtMostOnceASecond) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("studio.json");
+  Settings settings;
+  SettingsFile file(path, settings);
+  ASSERT_TRUE(file.update(settings, 0.0));
+  EXPECT_FALSE(std::filesystem::exists(path)) << "nothing has changed";
+  settings = changed();
+  ASSERT_TRUE(file.update(settings, 0.5));
+  EXPECT_FALSE(std::filesystem::exists(path)) << "less than a second later";
+  ASSERT_TRUE(file.update(settings, 1.5));
+  EXPECT_EQ(test::read_text(path), write_settings(changed()));
+}
+
+TEST(SettingsFile, ReportsAFailureOnce) {
+  const test::ScratchFolder folder;
+  test::write_text(folder.file("file"), "");
+  SettingsFile file(folder.file("file") + "/studio.json", Settings());
+  EXPECT_FALSE(file.update(changed(), 0.0));
+  EXPECT_TRUE(file.update(changed(), 10.0)) << "already reported";
+  EXPECT_FALSE(file.save(changed()));
+}
+
 }  // namespace
 }  // namespace clay::studio

@@ -135,7 +135,7 @@ TEST_F(Window, AcceptsADroppedProcess) {
   ASSERT_EQ(command.status, 0) << command.err;
   EXPECT_EQ(read_text(folder.file("mine.stl")), read_text(folder.file("cli.stl")));
   test::write_text(folder.file("bad.process.json"), "{}");
-  ran = run("open FOLDER/bad.process.json\nexpect process \"\"\n", "--log --size 960x640");
+  ran = run("open FOLDER/bad.process.json fails\nexpect process \"\"\n", "--log --size 960x640");
   EXPECT_EQ(ran.status, 0) << ran.err;
   EXPECT_NE(ran.out.find("error: "), std::string::npos) << ran.out;
 }
@@ -179,7 +179,16 @@ TEST_F(Window, ScriptErrorsNameTheLine) {
   ran = run("save FOLDER/pot.txt\n");
   EXPECT_EQ(ran.status, 3) << ran.err;
   EXPECT_EQ(claystack("studio --script /nonexistent").status, 3);
-  EXPECT_EQ(claystack("studio nothing.scene.json --screenshot x.png").status, 2);
+  EXPECT_EQ(claystack("studio nothing.scene.json --screenshot x.png").status, 3);
+  ran = run("open nothing.pot.json\n");
+  EXPECT_EQ(ran.status, 3) << ran.err;
+  EXPECT_NE(ran.err.find("s:1: nothing.pot.json"), std::string::npos) << ran.err;
+  ran = run("open " + test::sample("vase.scene.json") + " fails\n");
+  EXPECT_EQ(ran.status, 1) << ran.err;
+  ran = run("point 5000 10\npress left\n");
+  EXPECT_EQ(ran.status, 1) << "outside the view";
+  ran = run("move 9999 10\npress left\n");
+  EXPECT_EQ(ran.status, 1) << "outside the window";
   EXPECT_EQ(claystack("studio --size 3x3 --screenshot x.png").status, 2);
 }
 

@@ -105,7 +105,7 @@ TEST_F(Window, OpensADroppedFile) {
                       "do edit.to_start\nsave FOLDER/mine.work\nopen FOLDER/mine.pot.json\n"
                       "expect strokes 0\nexpect unsaved no\nsave FOLDER/again.pot.json\n"
                       // An unknown file leaves the pot on the wheel.
-                      "open FOLDER/s\nsave FOLDER/still.pot.json\n");
+                      "open FOLDER/s fails\nsave FOLDER/still.pot.json\n");
   ASSERT_EQ(ran.status, 0) << ran.err;
   const std::string mine = test::read_text(folder.file("mine.pot.json"));
   EXPECT_EQ(test::read_text(folder.file("again.pot.json")), mine);

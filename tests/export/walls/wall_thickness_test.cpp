@@ -201,6 +201,21 @@ TEST(WallThickness, IsMeasuredOnTheAxisAboveAPointedCavity) {
               5.0, 1e-12);
 }
 
+TEST(WallThickness, OfAHoopAsThinAsRoundingIsFound) {
+  // 25 units in the last place of the radius, as of a ring that spans one quantum.
+  const double outer = 41.230601953380798, inner = 41.230601953380621;
+  const Polygon hoop{{inner, 0}, {outer, 0}, {outer, 20}, {inner, 20}};
+  const Wall wall = min_wall({{hoop}});
+  EXPECT_FALSE(wall.compact);
+  EXPECT_NEAR(wall.thickness_mm, outer - inner, 1e-14);
+}
+
+TEST(WallThickness, OfABluntEdgeIsNotThatOfItsBevel) {
+  // A roof of 60 degrees whose ridge is 10 nm wide.
+  const Polygon roof{{30, 0}, {40, 0}, {35 + 5e-6, 8.66}, {35 - 5e-6, 8.66}};
+  EXPECT_GT(min_wall_mm({{roof}}), 1.0);
+}
+
 TEST(WallThickness, IsTheMinimumOverPieces) {
   const Polygon low{{20, 0}, {30, 0}, {30, 10}, {20, 10}},
       high{{20, 11}, {27, 11}, {27, 20}, {20, 20}};
