@@ -11,6 +11,7 @@
 namespace clay::cli {
 
 void add_throw_command(CLI::App& app, Console& console, int& exit);
+void add_strokes_command(CLI::App& app, Console& console, int& exit);
 void add_plan_command(CLI::App& app, Console& console, int& exit);
 #ifdef CLAYSTACK_EXPORT
 void add_export_command(CLI::App& app, Console& console, int& exit);

@@ -1,5 +1,6 @@
 #include "app/cli/commands.hpp"
 
+#include "app/cli/suggestion.hpp"
 #include "claystack/core/atomic_file.hpp"
 
 #include <CLI/CLI.hpp>
@@ -8,6 +9,8 @@
 #include <csignal>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -20,6 +23,7 @@ Examples:
   claystack plan samples/bowl.scene.json
   claystack studio
   claystack bench --quick --report bench.html
+  claystack help export
 
 Exit status: 0 done and sound; 1 done, but the pot or mesh fails a check;
 2 bad usage or bad input; 3 could not read or write; 4 a device failed.)";
@@ -46,6 +50,7 @@ void add_commands(CLI::App& app, Console& console, int& exit) {
   add_export_command(app, console, exit);
   add_check_command(app, console, exit);
 #endif
+  add_strokes_command(app, console, exit);
   add_plan_command(app, console, exit);
 #ifdef CLAYSTACK_DRAWINGS
   add_import_command(app, console, exit);
@@ -69,14 +74,16 @@ void add_commands(CLI::App& app, Console& console, int& exit) {
   }
 }
 
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
 /// The parser would name an option that is missing instead of the unknown command.
-clay::Result<void> check_command_name(CLI::App& app, std::string_view name) {
-  const auto commands = app.get_subcommands({});
-  const bool known = name.starts_with('-') ||
-                     std::any_of(commands.begin(), commands.end(), [&](const CLI::App* command) {
-                       return command->check_name(std::string(name));
-                     });
-  if (known) return {};
+clay::Result<void> check_command_name(const CLI::App& app, std::string_view name) {
+  const auto names = command_names(app);
+  if (name.starts_with('-') || std::ranges::find(names, name) != names.end()) return {};
 #ifndef CLAYSTACK_BENCH
   if (name == "bench")
     return clay::failure(
@@ -84,9 +91,33 @@ clay::Result<void> check_command_name(CLI::App& app, std::string_view name) {
         "bench: expected a program built with its measurements (cmake --preset release "
         "-DCLAYSTACK_BENCH=ON), found one without");
 #endif
-  return clay::failure(
-      clay::ErrorKind::bad_input,
-      std::string("expected a command (claystack --help lists them), found ").append(name));
+  return clay::failure(clay::ErrorKind::bad_input,
+                       std::string("expected a command (claystack --help lists them), found ")
+                           .append(name)
+                           .append(suggestion(name, names)));
+}
+
+/// The long options of the command, for one that was mistyped.
+std::string option_suggestion(const CLI::App& app, const CLI::Error& error) {
+  const std::string_view text = error.what();
+  const std::size_t begin = text.find("--");
+  const auto parsed = app.get_subcommands();
+  if (error.get_name() != "ExtrasError" || begin == std::string_view::npos || parsed.empty())
+    return {};
+  const std::string_view word = text.substr(begin, text.find_first_of("=, ]", begin) - begin);
+  std::vector<std::string> names;
+  for (const CLI::Option* option : parsed.front()->get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return suggestion(word, names);
+}
+
+/// `claystack help COMMAND` is `claystack COMMAND --help`.
+std::vector<std::string> arguments_of(int argc, char** argv) {
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (words.empty() || words.front() != "help") return words;
+  words.erase(words.begin());
+  words.emplace_back("--help");
+  return words;
 }
 
 int run(int argc, char** argv) {
@@ -94,17 +125,21 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", version_text());
   app.footer(kExamples);
   app.require_subcommand(1);
-  app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return std::string("claystack: ") + error.what() + "\nrun claystack --help for usage\n";
+  app.failure_message([](const CLI::App* app, const CLI::Error& error) {
+    return std::string("claystack: ") + error.what() + option_suggestion(*app, error) +
+           "\nrun claystack --help for usage\n";
   });
 
   Console console;
   int exit = kDone;
   add_commands(app, console, exit);
-  if (argc > 1)
-    if (const auto named = check_command_name(app, argv[1]); !named) return report(named.error());
+  std::vector<std::string> words = arguments_of(argc, argv);
+  if (!words.empty())
+    if (const auto named = check_command_name(app, words.front()); !named)
+      return report(named.error());
   try {
-    app.parse(argc, argv);
+    std::ranges::reverse(words);  // as the parser wants them
+    app.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     return report(app, error);
   }

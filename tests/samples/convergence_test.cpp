@@ -1,7 +1,7 @@
 // The pots of samples/paper do not depend on the ring height or on the pose rate.
 
 #include "app/bench/convergence_experiments.hpp"
-#include "samples/strokes/strokes.hpp"
+#include "app/strokes/strokes.hpp"
 #include "tests/samples/sample_files.hpp"
 
 #include "claystack/core/atomic_file.hpp"
@@ -13,6 +13,9 @@
 
 namespace clay::samples {
 namespace {
+
+using strokes::parse_strokes;
+using strokes::play;
 
 class ThrownPot : public testing::TestWithParam<const char*> {};
 

@@ -1,12 +1,12 @@
 // The properties of the samples of the paper's rules (samples/paper): sessions that match their
 // scripts, and usable pots.
 
+#include "app/strokes/strokes.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/files.hpp"
 #include "claystack/engine/tick.hpp"
 #include "claystack/engine/wheel.hpp"
-#include "samples/strokes/strokes.hpp"
 #include "tests/samples/sample_files.hpp"
 
 #include <gtest/gtest.h>
@@ -22,6 +22,9 @@
 
 namespace clay::samples::paper {
 namespace {
+
+using strokes::parse_strokes;
+using strokes::play;
 
 const std::string kFolder = CLAYSTACK_SAMPLES "/paper/";
 

@@ -2,7 +2,7 @@
 // speed of a hand, and pots that a potter would keep.
 
 #include "app/bench/hands/pot_measures.hpp"
-#include "samples/strokes/strokes.hpp"
+#include "app/strokes/strokes.hpp"
 #include "tests/samples/sample_files.hpp"
 
 #include "claystack/core/atomic_file.hpp"
@@ -25,6 +25,10 @@
 
 namespace clay::samples {
 namespace {
+
+using strokes::parse_strokes;
+using strokes::play;
+using strokes::StrokeScript;
 
 const std::string kFolder = CLAYSTACK_SAMPLES "/";
 

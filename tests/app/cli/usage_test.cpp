@@ -63,5 +63,21 @@ TEST(Usage, ReturnsThreeForAMissingFolder) {
   EXPECT_NE(run.err.find("/no/such/folder"), std::string::npos) << run.err;
 }
 
+TEST(Usage, HelpCommandPrintsTheHelpOfTheCommand) {
+  const auto help = claystack("help export"), option = claystack("export --help");
+  EXPECT_EQ(help.status, 0);
+  EXPECT_EQ(help.out, option.out);
+  EXPECT_NE(help.out.find("--tolerance"), std::string::npos);
+  EXPECT_EQ(claystack("help").out, claystack("--help").out);
+}
+
+TEST(Usage, SuggestsTheNearestCommandAndOption) {
+  EXPECT_NE(claystack("exprot pot.json").err.find("did you mean export?"), std::string::npos);
+  EXPECT_NE(
+      claystack("export a.pot.json a.stl --tolerence 1").err.find("did you mean --tolerance?"),
+      std::string::npos);
+  EXPECT_EQ(claystack("zzzz").err.find("did you mean"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace clay::test

@@ -1,5 +1,5 @@
+#include "app/strokes/strokes.hpp"
 #include "core/json/located_json.hpp"
-#include "samples/strokes/strokes.hpp"
 
 #include "claystack/engine/files.hpp"
 
@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::samples {
+namespace clay::strokes {
 namespace {
 
 /// The reason for refusing a script; does not leave parse_strokes.
@@ -255,4 +255,4 @@ Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name)
   }
 }
 
-}  // namespace clay::samples
+}  // namespace clay::strokes

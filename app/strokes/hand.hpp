@@ -1,8 +1,8 @@
 #pragma once
 // A hand that moves a tool over a wheel, and records its poses.
 
+#include "app/strokes/strokes.hpp"
 #include "claystack/engine/wheel.hpp"
-#include "samples/strokes/strokes.hpp"
 
 #include <glm/vec2.hpp>
 
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::samples {
+namespace clay::strokes {
 
 /// A point of the hand's path, and the gap of its tools.
 struct Place {
@@ -59,4 +59,4 @@ class Hand {
   std::vector<Pose> poses_;
 };
 
-}  // namespace clay::samples
+}  // namespace clay::strokes

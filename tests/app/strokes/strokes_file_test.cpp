@@ -1,4 +1,4 @@
-#include "samples/strokes/strokes.hpp"
+#include "app/strokes/strokes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clay::samples {
+namespace clay::strokes {
 namespace {
 
 std::string message_of(std::string_view text) {
@@ -159,4 +159,4 @@ TEST(StrokeFile, RefusesMorePosesThanASessionHolds) {
 }
 
 }  // namespace
-}  // namespace clay::samples
+}  // namespace clay::strokes

@@ -1,11 +1,11 @@
-#include "samples/strokes/strokes.hpp"
+#include "app/strokes/strokes.hpp"
 
-#include "samples/strokes/hand.hpp"
-#include "samples/strokes/planned.hpp"
+#include "app/strokes/hand.hpp"
+#include "app/strokes/planned.hpp"
 
 #include <utility>
 
-namespace clay::samples {
+namespace clay::strokes {
 namespace {
 
 Path points_of(const Stroke& stroke, int pass) {
@@ -53,4 +53,4 @@ Result<std::vector<Pose>> play(const StrokeScript& script, const SceneSpec& scen
   });
 }
 
-}  // namespace clay::samples
+}  // namespace clay::strokes

@@ -1,14 +1,14 @@
 #pragma once
 // Strokes that are planned on the pot as the potter sees it.
 
-#include "samples/strokes/hand.hpp"
-#include "samples/strokes/strokes.hpp"
+#include "app/strokes/hand.hpp"
+#include "app/strokes/strokes.hpp"
 
-namespace clay::samples {
+namespace clay::strokes {
 
 /// Pass `pass` of a stroke of kind shape, with the way to it and away from it.
 void shape(Hand& hand, const Stroke& stroke, int pass);
 void pull(Hand& hand, const Stroke& stroke);
 void round_lip(Hand& hand, const Stroke& stroke);
 
-}  // namespace clay::samples
+}  // namespace clay::strokes

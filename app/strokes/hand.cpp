@@ -1,4 +1,4 @@
-#include "samples/strokes/hand.hpp"
+#include "app/strokes/hand.hpp"
 
 #include "claystack/engine/files.hpp"
 
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-namespace clay::samples {
+namespace clay::strokes {
 namespace {
 
 /// Uniform in [-1, 1).
@@ -111,4 +111,4 @@ void Hand::emit(const Place& place, bool trim) {
   wheel_.step(poses_.back());
 }
 
-}  // namespace clay::samples
+}  // namespace clay::strokes

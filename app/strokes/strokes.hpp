@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clay::samples {
+namespace clay::strokes {
 
 /// path: through fixed points. shape: leads the tool's surface along an outline, in passes that
 /// each take an equal part of the way that remains from the pot's surface. pull: two tools rise
@@ -66,4 +66,4 @@ Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name)
 /// distribution of the standard library. Fails where Wheel::build refuses the scene.
 Result<std::vector<Pose>> play(const StrokeScript& script, const SceneSpec& scene);
 
-}  // namespace clay::samples
+}  // namespace clay::strokes

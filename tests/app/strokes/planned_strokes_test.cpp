@@ -1,6 +1,6 @@
 // Strokes that are planned on the pot: where the tool goes, from the geometry of tool and clay.
 
-#include "samples/strokes/strokes.hpp"
+#include "app/strokes/strokes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace clay::samples {
+namespace clay::strokes {
 namespace {
 
 constexpr double kToolMm = 10.0, kRadiusMm = 40.0, kHeightMm = 60.0, kBoreMm = 30.0;
@@ -134,4 +134,4 @@ TEST(Lip, RollsTheToolAroundASemicircle) {
 }
 
 }  // namespace
-}  // namespace clay::samples
+}  // namespace clay::strokes

@@ -1,4 +1,4 @@
-#include "samples/strokes/planned.hpp"
+#include "app/strokes/planned.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace clay::samples {
+namespace clay::strokes {
 namespace {
 
 constexpr double kStepMm = 0.5;   // between the points of a planned path
@@ -234,4 +234,4 @@ void round_lip(Hand& hand, const Stroke& stroke) {
   }
 }
 
-}  // namespace clay::samples
+}  // namespace clay::strokes

@@ -1,4 +1,4 @@
-#include "samples/strokes/strokes.hpp"
+#include "app/strokes/strokes.hpp"
 
 #include "claystack/engine/files.hpp"
 
@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace clay::samples {
+namespace clay::strokes {
 namespace {
 
 /// On a lump that the strokes of these tests may touch or not: their poses do not depend on it.
@@ -22,7 +22,7 @@ std::vector<Pose> play(const StrokeScript& script) {
   SceneSpec scene;
   scene.lump = {.rings = 10, .ring_height_mm = 1.0, .outer_radius_mm = 5.0};
   scene.tool.gap_mm = 4.0;
-  return samples::play(script, scene).value();
+  return strokes::play(script, scene).value();
 }
 
 /// One stroke that begins at the hand's start; without tremor unless set.
@@ -234,4 +234,4 @@ TEST(Strokes, QuantizesPosesLikeASession) {
 }
 
 }  // namespace
-}  // namespace clay::samples
+}  // namespace clay::strokes

@@ -1,0 +1,74 @@
+#include "app/cli/commands.hpp"
+
+#include "app/cli/json_output.hpp"
+#include "app/cli/replay.hpp"
+#include "app/strokes/strokes.hpp"
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace clay::cli {
+namespace {
+
+constexpr std::size_t kMaxScriptBytes = std::size_t{1} << 24;
+
+struct StrokesOptions {
+  std::string scene, script, session;
+};
+
+Result<std::vector<Pose>> poses_of(const StrokesOptions& options, const SceneSpec& scene) {
+  return read_file(options.script, kMaxScriptBytes)
+      .and_then(
+          [&](const std::string& text) { return strokes::parse_strokes(text, options.script); })
+      .and_then([&](const strokes::StrokeScript& script) { return strokes::play(script, scene); });
+}
+
+Result<void> make_session(const StrokesOptions& options, const Console& console) {
+  if (!options.session.ends_with(".session"))
+    return failure(ErrorKind::bad_input,
+                   options.session + ": expected a name that ends in .session");
+  const auto scene = load_scene(options.scene);
+  if (!scene) return tl::make_unexpected(scene.error());
+  auto poses = poses_of(options, *scene);
+  if (!poses) return tl::make_unexpected(poses.error());
+  const std::size_t count = poses->size();
+  const double seconds = count > 0 ? 1e-6 * static_cast<double>(poses->back().time_us) : 0.0;
+  const Session session{scene->name, hash_of(*scene), std::move(*poses), false};
+  if (auto done = publish(options.session, write_session(session)); !done) return done;
+  console.print(fmt::format("session: {}, {:.1f} s, {} poses", options.session, seconds, count));
+  if (console.json)
+    print_json({{"session", options.session}, {"seconds", seconds}, {"poses", count}});
+  return {};
+}
+
+}  // namespace
+
+void add_strokes_command(CLI::App& app, Console& console, int& exit) {
+  auto options = std::make_shared<StrokesOptions>();
+  CLI::App* command = app.add_subcommand(
+      "strokes", "Make a session from a stroke script, with a simulated hand on the scene's wheel");
+  command->add_option("scene", options->scene, "NAME.scene.json, or - for standard input")
+      ->required();
+  command->add_option("script", options->script, "NAME.strokes.json (docs/files.md)")->required();
+  command->add_option("-o,--output", options->session, "Session file to write, NAME.session")
+      ->required();
+  command->footer(
+      "\nExamples:\n"
+      "  claystack strokes samples/vase.scene.json samples/strokes/vase.strokes.json -o "
+      "my.session\n"
+      "  claystack throw samples/vase.scene.json -s my.session -o my.pot.json");
+  command->callback([options, &console, &exit] {
+    const auto done = make_session(*options, console);
+    exit = done ? kDone : report(done.error());
+  });
+}
+
+}  // namespace clay::cli

@@ -1,0 +1,47 @@
+// claystack strokes, run as a program.
+
+#include "claystack/engine/files.hpp"
+#include "tests/support/run_program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+namespace clay::strokes {
+namespace {
+
+using test::claystack;
+using test::read_text;
+using test::sample;
+using test::ScratchFolder;
+
+std::string strokes(const std::string& script, const std::string& session) {
+  return "strokes " + sample("cylinder.scene.json") + " " + script + " -o " + session;
+}
+
+TEST(StrokesCommand, MakesTheSampleSessionAgain) {
+  const ScratchFolder folder;
+  const auto made = claystack(
+      strokes(sample("strokes/cylinder.strokes.json"), folder.file("c.session")) + " --json");
+  ASSERT_EQ(made.status, 0) << made.err;
+  const std::string text = read_text(folder.file("c.session"));
+  EXPECT_EQ(text, read_text(sample("cylinder.session")));
+  EXPECT_EQ(made.json().at("poses").get<std::size_t>(), parse_session(text, "c")->poses.size());
+}
+
+TEST(StrokesCommand, NamesTheFileAndThePlaceOfAFault) {
+  const ScratchFolder folder;
+  test::write_text(folder.file("s.strokes.json"),
+                   R"({"start_mm": [80, 100], "strokes": [{"kind": "pull"}]})");
+  const auto refused = claystack(strokes(folder.file("s.strokes.json"), folder.file("c.session")));
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("s.strokes.json: strokes[0].outline: expected"), std::string::npos)
+      << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("c.session")));
+  EXPECT_EQ(claystack(strokes(folder.file("none"), folder.file("c.session"))).status, 3);
+  EXPECT_EQ(claystack(strokes(folder.file("s.strokes.json"), folder.file("c.stl"))).status, 2);
+}
+
+}  // namespace
+}  // namespace clay::strokes
