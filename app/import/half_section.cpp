@@ -37,13 +37,6 @@ Bounds bounds_of(const std::vector<Line>& lines) {
   return bounds;
 }
 
-/// A square of side kSamePointMm: its column and its row.
-using Cell = std::pair<std::int64_t, std::int64_t>;
-
-Cell cell_of(glm::dvec2 p) {
-  return {std::llround(p.x / kSamePointMm), std::llround(p.y / kSamePointMm)};
-}
-
 /// Whether every corner has a mirror image among the corners, in its cell or a neighbouring one: a
 /// drawing of both halves.
 bool mirrored(const std::vector<Line>& lines, double middle) {

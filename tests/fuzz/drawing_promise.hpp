@@ -18,14 +18,13 @@ inline std::optional<std::string> broken_promise(std::string_view bytes, const s
   const auto pot =
       read_drawing(bytes, name)
           .and_then([&](Drawing&& drawing) { return half_section(std::move(drawing), {}, name); })
-          .and_then([&](HalfSection&& section) {
-            return drawn_pot(section, {section.height_mm / 50.0, {}, 1.9}, name);
-          });
+          .and_then([&](HalfSection&& section) { return drawn_pot(section, {}, name); });
   if (!pot)
     return pot.error().message.starts_with(name)
                ? std::nullopt
                : std::optional("unnamed error: " + pot.error().message);
-  if (pot->stack.recount() != pot->ledger.initial) return "a pot whose ledger does not balance";
+  if (pot->pot.stack.recount() != pot->pot.ledger.initial)
+    return "a pot whose ledger does not balance";
   return std::nullopt;
 }
 
