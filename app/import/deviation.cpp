@@ -54,7 +54,12 @@ std::vector<Segment> outline_of(std::span<const Slab> slabs) {
   return outline;
 }
 
-/// An outline by height, for nearest points.
+struct Nearest {
+  double mm = 1e300;
+  const Segment* segment = nullptr;
+};
+
+/// An outline by height, for nearest points. The outline must outlive it.
 class Levels {
  public:
   explicit Levels(const std::vector<Segment>& outline) {
@@ -66,14 +71,15 @@ class Levels {
     row_mm_ = std::max((high_ - low_) / static_cast<double>(rows_.size()), 1e-9);
     for (const Segment& s : outline)
       for (std::size_t row = row_at(s.from.y); row <= row_at(s.to.y); ++row)
-        rows_[row].push_back(s);
+        rows_[row].push_back(&s);
   }
 
-  [[nodiscard]] double nearest(glm::dvec2 p) const {
-    double best = 1e300;
+  [[nodiscard]] Nearest nearest(glm::dvec2 p) const {
+    Nearest best;
     const std::size_t start = row_at(p.y);
-    for (std::size_t i = start; i < rows_.size() && bottom(i) - p.y < best; ++i) search(i, p, best);
-    for (std::size_t i = start; i > 0 && p.y - bottom(i) < best; --i) search(i - 1, p, best);
+    for (std::size_t i = start; i < rows_.size() && bottom(i) - p.y < best.mm; ++i)
+      search(i, p, best);
+    for (std::size_t i = start; i > 0 && p.y - bottom(i) < best.mm; --i) search(i - 1, p, best);
     return best;
   }
 
@@ -85,25 +91,36 @@ class Levels {
     const double row = std::clamp((y - low_) / row_mm_, 0.0, static_cast<double>(rows_.size() - 1));
     return static_cast<std::size_t>(row);
   }
-  void search(std::size_t row, glm::dvec2 p, double& best) const {
-    for (const Segment& s : rows_[row]) best = std::min(best, distance(s, p));
+  void search(std::size_t row, glm::dvec2 p, Nearest& best) const {
+    for (const Segment* s : rows_[row])
+      if (const double mm = distance(*s, p); mm < best.mm) best = {mm, s};
   }
 
   double low_ = 1e300, high_ = -1e300, row_mm_ = 1.0;
-  std::vector<std::vector<Segment>> rows_;
+  std::vector<std::vector<const Segment*>> rows_;
 };
 
-/// Finds the largest distance from `outline` to `other`. A distance changes by at most the way
-/// along a segment, which bounds it between two points.
+/// A part of an outline, with the nearest segments of the other outline to its ends.
+struct Part {
+  Segment segment;
+  Nearest from, to;
+};
+
+/// No point of the part is farther from the other outline. The distance to one segment is convex
+/// along a line, and the nearest one changes by at most the way.
+double farthest_in(const Part& part) {
+  const auto& [segment, from, to] = part;
+  const double both = std::min(std::max(from.mm, distance(*from.segment, segment.to)),
+                               std::max(to.mm, distance(*to.segment, segment.from)));
+  return std::min(both, 0.5 * (from.mm + to.mm + glm::length(segment.to - segment.from)));
+}
+
+/// Finds the largest distance from `outline` to `other`.
 void widen(Deviation& worst, const std::vector<Segment>& outline, const Levels& other) {
-  struct Part {
-    Segment segment;
-    double from_mm, to_mm;
-  };
   const auto measure = [&](glm::dvec2 p) {
-    const double mm = other.nearest(p);
-    if (mm > worst.mm) worst = {mm, p.x, p.y};
-    return mm;
+    const Nearest nearest = other.nearest(p);
+    if (nearest.mm > worst.mm) worst = {nearest.mm, p.x, p.y};
+    return nearest;
   };
   std::vector<Part> parts;
   for (const Segment& segment : outline) {
@@ -111,12 +128,11 @@ void widen(Deviation& worst, const std::vector<Segment>& outline, const Levels& 
     while (!parts.empty()) {
       const Part part = parts.back();
       parts.pop_back();
-      const double length = glm::length(part.segment.to - part.segment.from);
-      if (0.5 * (part.from_mm + part.to_mm + length) <= worst.mm + kDeviationStepMm) continue;
+      if (farthest_in(part) <= worst.mm + kDeviationStepMm) continue;
       const glm::dvec2 middle = 0.5 * (part.segment.from + part.segment.to);
-      const double mm = measure(middle);
-      parts.push_back({{part.segment.from, middle}, part.from_mm, mm});
-      parts.push_back({{middle, part.segment.to}, mm, part.to_mm});
+      const Nearest nearest = measure(middle);
+      parts.push_back({{part.segment.from, middle}, part.from, nearest});
+      parts.push_back({{middle, part.segment.to}, nearest, part.to});
     }
   }
 }
@@ -127,8 +143,9 @@ Deviation deviation_between(std::span<const Slab> a, std::span<const Slab> b) {
   const std::vector<Segment> first = outline_of(a), second = outline_of(b);
   Deviation worst;
   if (first.empty() || second.empty()) return worst;
-  widen(worst, first, Levels(second));
-  widen(worst, second, Levels(first));
+  const Levels in_first(first), in_second(second);
+  widen(worst, first, in_second);
+  widen(worst, second, in_first);
   return worst;
 }
 

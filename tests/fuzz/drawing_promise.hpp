@@ -97,7 +97,7 @@ inline std::vector<std::string_view> hostile_words(std::string_view format) {
 }
 
 /// The first of `count` mutants that breaks the promise; empty if all keep it. `before` is called
-/// ahead of each.
+/// with each first.
 template <class Before>
 std::optional<std::string> first_broken(const std::string& format, unsigned seed, std::size_t count,
                                         Before before) {
@@ -106,7 +106,7 @@ std::optional<std::string> first_broken(const std::string& format, unsigned seed
   test::Mutator mutator(seed, words);
   for (std::size_t run = 0; run < count; ++run) {
     const std::string bytes = mutator.mutate(good[mutator.below(good.size())]);
-    before();
+    before(bytes);
     if (auto broken = broken_promise(bytes, "mutant." + format))
       return *broken + " in run " + std::to_string(run) + ":\n" + bytes;
   }
