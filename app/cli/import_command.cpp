@@ -77,6 +77,7 @@ void tell(const Console& console, const Json& json) {
 
 Result<void> import_drawing(ImportOptions options, Console console) {
   if (options.pot == "-") console.quiet = true;
+  if (auto named = check_pot_name(options.pot); !named) return named;
   if (auto axis = set_axis(options); !axis) return axis;
   if (auto distinct = check_distinct({options.pot}, {options.drawing}); !distinct) return distinct;
   const auto bytes = read_file(options.drawing);

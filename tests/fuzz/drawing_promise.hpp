@@ -39,6 +39,7 @@ inline std::string dxf_of(std::string_view words) {
 inline std::vector<std::string> good_drawings(std::string_view format) {
   if (format == "csv")
     return {"radius_mm,height_mm\n30,0\n32,4\n33.5,40\n36,80\n", "0,0\n30,0\n30,60\n26,60\n26,5\n",
+            "Height (cm);Note;Radius (in)\n0;a;1,5\n5,5;b;1,25\n",
             "# two\n0;0\n40;0\n\n40;0\n35;70 # rim\n"};
   if (format == "svg")
     return {

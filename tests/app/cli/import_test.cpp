@@ -63,6 +63,10 @@ TEST(Import, ReportsErrorsAndLeavesNoFile) {
   write_text(drawing, "10,0\n10,20\n");
   EXPECT_EQ(claystack("import " + drawing + " -o " + pot + " --axis up").status, 2);
   EXPECT_EQ(claystack("import " + drawing + " -o " + drawing).status, 2);
+  const auto mesh = claystack("import " + drawing + " -o " + folder.file("x.stl"));
+  EXPECT_EQ(mesh.status, 2);
+  EXPECT_THAT(mesh.err, HasSubstr("x.stl: expected a name that ends in .pot.json or .pot.cbor"));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("x.stl")));
   EXPECT_FALSE(std::filesystem::exists(pot));
   EXPECT_EQ(claystack("import -q " + drawing + " -o " + pot).status, 0);
   EXPECT_TRUE(std::filesystem::exists(pot));
