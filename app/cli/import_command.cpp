@@ -42,7 +42,9 @@ Result<void> set_axis(ImportOptions& options) {
   return {};
 }
 
-Json summary(const ImportOptions& options, const HalfSection& section, const Pot& pot) {
+Json summary(const ImportOptions& options, const HalfSection& section, const DrawnPot& drawn) {
+  const Pot& pot = drawn.pot;
+  const Deviation& deviation = drawn.deviation;
   return {{"drawing", options.drawing},
           {"axis_mm", section.axis_mm},
           {"axis", section.axis == AxisRule::middle ? "middle"
@@ -53,7 +55,9 @@ Json summary(const ImportOptions& options, const HalfSection& section, const Pot
           {"ring_height_mm", pot.stack.ring_height_mm()},
           {"height_mm", pot.stack.height_mm()},
           {"drawn_mm3", section.volume_mm3()},
-          {"volume_mm3", pot.stack.volume_mm3()}};
+          {"volume_mm3", pot.stack.volume_mm3()},
+          {"deviation_mm", deviation.mm},
+          {"deviation_at_mm", {deviation.radius_mm, deviation.height_mm}}};
 }
 
 void tell(const Console& console, const Json& json) {
@@ -64,10 +68,16 @@ void tell(const Console& console, const Json& json) {
       json["rings"].get<std::size_t>(), json["ring_height_mm"].get<double>(),
       json["height_mm"].get<double>(), json["volume_mm3"].get<double>() / 1e3,
       json["drawn_mm3"].get<double>() / 1e3));
+  console.print(fmt::format(
+      "largest deviation from the drawing: {:.3f} mm, {:.2f} mm from the axis and {:.2f} mm above "
+      "the foot",
+      json["deviation_mm"].get<double>(), json["deviation_at_mm"][0].get<double>(),
+      json["deviation_at_mm"][1].get<double>()));
 }
 
 Result<void> import_drawing(ImportOptions options, Console console) {
   if (options.pot == "-") console.quiet = true;
+  if (auto named = check_pot_name(options.pot); !named) return named;
   if (auto axis = set_axis(options); !axis) return axis;
   if (auto distinct = check_distinct({options.pot}, {options.drawing}); !distinct) return distinct;
   const auto bytes = read_file(options.drawing);
@@ -79,7 +89,7 @@ Result<void> import_drawing(ImportOptions options, Console console) {
   const auto pot = drawn_pot(*section, options.pot_settings, options.drawing);
   if (!pot) return tl::make_unexpected(pot.error());
   const PotEncoding encoding = pot_encoding_of(options.pot).value_or(PotEncoding::json);
-  if (auto done = publish(options.pot, write_pot(*pot, encoding)); !done) return done;
+  if (auto done = publish(options.pot, write_pot(pot->pot, encoding)); !done) return done;
   const Json json = summary(options, *section, *pot);
   if (console.json) print_json(json);
   tell(console, json);
@@ -112,9 +122,10 @@ void add_import_command(CLI::App& app, Console& console, int& exit) {
                    "(default: solid)")
       ->check(in_range(0.01, 1000.0));
   command
-      ->add_option("--ring-height", options->pot_settings.ring_height_mm, "Target ring height [mm]")
-      ->check(in_range(1e-3, 1e3))
-      ->capture_default_str();
+      ->add_option("--ring-height", options->pot_settings.ring_height_mm,
+                   "Maximum ring height [mm] (default: 0.75, or less where the rings would deviate "
+                   "by more than 0.02 mm from the drawing)")
+      ->check(in_range(1e-3, 1e3));
   command
       ->add_option("--density", options->pot_settings.density_g_cm3, "Density of the clay [g/cm3]")
       ->check(in_range(0.1, 20.0))

@@ -12,6 +12,12 @@ std::optional<PotEncoding> pot_encoding_of(std::string_view path) {
   return std::nullopt;
 }
 
+Result<void> check_pot_name(const std::string& path) {
+  if (path.empty() || path == "-" || pot_encoding_of(path)) return {};
+  return failure(ErrorKind::bad_input,
+                 path + ": expected a name that ends in .pot.json or .pot.cbor");
+}
+
 PotCopy describe_copy(const Pot& pot, PotEncoding encoding, std::size_t bytes) {
   PotCopy copy{encoding, bytes, std::nullopt};
   if (!pot.rounding) return copy;

@@ -13,6 +13,9 @@ namespace clay::cli {
 /// The encoding by file name; empty for files that hold no pots.
 [[nodiscard]] std::optional<PotEncoding> pot_encoding_of(std::string_view path);
 
+/// Refuses names of outputs that hold no pot; none and - are allowed.
+[[nodiscard]] Result<void> check_pot_name(const std::string& path);
+
 /// The written copy, for the report.
 struct PotCopy {
   PotEncoding encoding = PotEncoding::json;

@@ -4,6 +4,7 @@
 #ifdef CLAYSTACK_FALCON
 #include "app/cli/live_throw.hpp"
 #endif
+#include "app/cli/pot_copy.hpp"
 #include "app/cli/replay.hpp"
 #include "app/cli/throw_work.hpp"
 
@@ -35,6 +36,7 @@ struct ThrowOptions {
   bool list = false;
 #ifdef CLAYSTACK_FALCON
   LiveOptions live;
+  std::vector<const CLI::Option*> live_only;  ///< without effect if no device is given
 #endif
 };
 
@@ -189,13 +191,6 @@ Result<void> write_outputs(Outputs& outputs, const Pot& pot, PotEncoding encodin
   return commit_all(files);
 }
 
-Result<void> check_pot_name(const std::string& pot) {
-  if (pot.empty() || pot == "-" || pot.ends_with(".pot.json") || pot.ends_with(".pot.cbor"))
-    return {};
-  return failure(ErrorKind::bad_input,
-                 pot + ": expected a name that ends in .pot.json or .pot.cbor");
-}
-
 /// Refuses invalid names before anything is read or played.
 Result<void> check_names(const ThrowOptions& options, const Console& console) {
   if (options.session.empty())
@@ -262,7 +257,23 @@ Result<void> throw_work_file(const ThrowOptions& options, const Console& console
   return throw_work({options.scene, options.pot, options.at, options.list}, console);
 }
 
+/// Refuses options of a device when none is given.
+Result<void> check_effects(const ThrowOptions& options) {
+#ifdef CLAYSTACK_FALCON
+  if (!options.live.device.empty()) return {};
+  for (const CLI::Option* option : options.live_only)
+    if (option->count() > 0)
+      return failure(
+          ErrorKind::bad_input,
+          option->get_name() + ": expected --device too; without it the option has no effect");
+#else
+  static_cast<void>(options);
+#endif
+  return {};
+}
+
 Result<void> throw_pot(const ThrowOptions& options, const Console& console) {
+  if (auto effects = check_effects(options); !effects) return effects;
   if (options.scene.ends_with(".work")) return throw_work_file(options, console);
   if (options.at || options.list)
     return failure(ErrorKind::bad_input,
@@ -316,7 +327,12 @@ void add_throw_command(CLI::App& app, Console& console, int& exit) {
   command->add_option("--error-plot", options->error_plot,
                       "SVG plot of the volume error over time, for both models");
 #ifdef CLAYSTACK_FALCON
+  const std::size_t others = command->get_options().size();
   add_live_options(*command, options->live);
+  for (const CLI::Option* option : command->get_options()) options->live_only.push_back(option);
+  options->live_only.erase(options->live_only.begin(),
+                           options->live_only.begin() + static_cast<std::ptrdiff_t>(others));
+  std::erase(options->live_only, command->get_option("--device"));
 #endif
   command->footer(
       "\nExamples:\n  claystack throw samples/vase.scene.json -o vase.pot.json\n"

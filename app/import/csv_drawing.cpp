@@ -1,76 +1,99 @@
+#include "app/import/csv_columns.hpp"
 #include "app/import/readers.hpp"
+
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <optional>
-#include <utility>
 
 namespace clay::importing {
 namespace {
 
-constexpr std::string_view kBetween = " \t,;";
-
-/// Removes a number, and the separator after it, from the front.
-std::optional<double> take_number(std::string_view& text) {
+/// The whole field as a number. A comma is a decimal comma: it separates nothing here.
+std::optional<double> number_of(std::string field) {
+  std::replace(field.begin(), field.end(), ',', '.');
+  std::string_view text = field;
+  if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0.0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc()) return std::nullopt;
-  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-  const std::size_t rest = text.find_first_not_of(kBetween);
-  if (rest == 0) return std::nullopt;
-  text.remove_prefix(std::min(rest, text.size()));
+  const char* end = text.data() + text.size();
+  const auto [stop, problem] = std::from_chars(text.data(), end, value);
+  if (problem != std::errc() || stop != end) return std::nullopt;
   return value;
 }
 
-std::optional<glm::dvec2> point_of(std::string_view row) {
-  const auto radius = take_number(row);
-  const auto height = radius ? take_number(row) : std::nullopt;
-  if (!height || !row.empty()) return std::nullopt;
-  return glm::dvec2{*radius, *height};
-}
+/// Reads a table row by row.
+class Table {
+ public:
+  explicit Table(const std::string& name) : name_(name) {}
+
+  Result<void> row(std::string_view text, std::size_t number) {
+    text = trimmed(text.substr(0, text.find('#')));
+    if (text.empty()) {
+      open_ = false;
+      return {};
+    }
+    const std::vector<std::string> fields = csv_fields(text);
+    if (!began_ && !number_of(fields.front())) {
+      began_ = true;
+      const auto columns = csv_columns(fields);
+      if (!columns) return refusal(number, columns.error().message);
+      columns_ = *columns;
+      return {};
+    }
+    began_ = true;
+    const auto radius = value(fields, columns_.radius), height = value(fields, columns_.height);
+    if (fields.size() != columns_.count || !radius || !height)
+      return refusal(number, fmt::format("expected a radius and a height in mm, or the columns of "
+                                         "the first row, found \"{}\"",
+                                         text.substr(0, 40)));
+    if (*radius < 0.0)
+      return refusal(number, fmt::format("expected a radius of 0 mm or more, found {:g}", *radius));
+    const glm::dvec2 point{*radius, *height};
+    if (const std::string problem = limits_.problem_with({&point, 1}); !problem.empty())
+      return refusal(number, problem);
+    if (!open_) drawing_.lines.emplace_back();
+    open_ = true;
+    drawing_.lines.back().points_mm.push_back(point);
+    return {};
+  }
+
+  Drawing take() { return std::move(drawing_); }
+
+ private:
+  static std::optional<double> value(const std::vector<std::string>& fields,
+                                     const CsvColumn& column) {
+    if (column.index >= fields.size()) return std::nullopt;
+    const auto number = number_of(fields[column.index]);
+    return number ? std::optional(column.mm * *number) : std::nullopt;
+  }
+
+  [[nodiscard]] tl::unexpected<Error> refusal(std::size_t line, const std::string& problem) const {
+    return failure(ErrorKind::bad_input, fmt::format("{}:{}: {}", name_, line, problem));
+  }
+
+  const std::string& name_;
+  Drawing drawing_{{}, true};
+  PointLimits limits_;
+  CsvColumns columns_;
+  bool began_ = false;  ///< a row of names or numbers has been read
+  bool open_ = false;   ///< the last line may continue
+};
 
 }  // namespace
 
 Result<Drawing> read_csv(std::string_view text, const std::string& name) {
-  // Spreadsheets write a byte order mark in UTF-8 tables.
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  Drawing drawing{{}, true};
-  PointLimits limits;
-  bool open = false;    // the last line may continue
-  bool titled = false;  // the row before the first point was treated as column names
-  std::size_t number = 0;
-  while (!text.empty()) {
-    ++number;
+  text = without_byte_order_mark(text);
+  Table table(name);
+  for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view row = text.substr(0, end);
+    if (auto done = table.row(text.substr(0, end), number); !done)
+      return tl::make_unexpected(done.error());
     text.remove_prefix(std::min(end + 1, text.size()));
-    row = trimmed(row.substr(0, row.find('#')));
-    if (row.empty()) {
-      open = false;
-      continue;
-    }
-    const auto point = point_of(row);
-    if (!point && drawing.lines.empty() && !std::exchange(titled, true) &&
-        std::isalpha(static_cast<unsigned char>(row[0])) != 0)
-      continue;
-    if (!point)
-      return failure(ErrorKind::bad_input,
-                     fmt::format("{}:{}: expected a radius and a height in mm, found \"{}\"", name,
-                                 number, row.substr(0, 40)));
-    if (point->x < 0.0)
-      return failure(ErrorKind::bad_input,
-                     fmt::format("{}:{}: expected a radius of 0 mm or more, found {:g}", name,
-                                 number, point->x));
-    if (const std::string problem = limits.problem_with({&*point, 1}); !problem.empty())
-      return failure(ErrorKind::bad_input, fmt::format("{}:{}: {}", name, number, problem));
-    if (!open) drawing.lines.emplace_back();
-    open = true;
-    drawing.lines.back().points_mm.push_back(*point);
   }
-  return drawing;
+  return table.take();
 }
 
 }  // namespace clay::importing

@@ -1,5 +1,7 @@
 #include "app/import/drawn_pot.hpp"
 
+#include "app/import/ring_levels.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,9 +25,9 @@ Slab part_of(const Slab& slab, double from, double to) {
 
 /// Calls `use(ring, part)` for each part of a slab that lies within one ring, bottom to top.
 template <class Use>
-void for_each_part(const HalfSection& section, double ring_mm, std::size_t count, Use use) {
+void for_each_part(const std::vector<Slab>& slabs, double ring_mm, std::size_t count, Use use) {
   std::size_t ring = 0;
-  for (const Slab& slab : section.slabs) {
+  for (const Slab& slab : slabs) {
     double from = slab.from_mm;
     while (from < slab.to_mm) {
       const double top = ring + 1 < count ? static_cast<double>(ring + 1) * ring_mm : slab.to_mm;
@@ -44,34 +46,22 @@ struct Squares {
   double outer = 0.0, inner = 0.0;
 };
 
-void hollow(std::vector<Ring>& rings, double ring_mm, double wall_mm) {
-  for (std::size_t i = 0; i < rings.size(); ++i) {
-    const double bore = rings[i].outer_mm() - wall_mm;
-    if (static_cast<double>(i) * ring_mm >= wall_mm && bore > 0.0)
-      rings[i].inner2 = quanta_from_radius(bore);
-  }
-}
-
 /// Squares of the radii over the height of each ring.
-struct RingSums {
-  std::vector<Squares> rings;
-  bool bored = false;  ///< the drawing has an inside
-};
+using RingSums = std::vector<Squares>;
 
-RingSums sums_of(const HalfSection& section, double ring_mm, std::size_t count) {
-  RingSums sums{std::vector<Squares>(count)};
-  for_each_part(section, ring_mm, count, [&](std::size_t ring, const Slab& part) {
+RingSums sums_of(const std::vector<Slab>& slabs, double ring_mm, std::size_t count) {
+  RingSums sums(count);
+  for_each_part(slabs, ring_mm, count, [&](std::size_t ring, const Slab& part) {
     const double height = part.to_mm - part.from_mm;
-    sums.rings[ring].outer += squares(height, part.outer_from_mm, part.outer_to_mm);
-    sums.rings[ring].inner += squares(height, part.inner_from_mm, part.inner_to_mm);
-    sums.bored = sums.bored || part.inner_from_mm > 0.0 || part.inner_to_mm > 0.0;
+    sums[ring].outer += squares(height, part.outer_from_mm, part.outer_to_mm);
+    sums[ring].inner += squares(height, part.inner_from_mm, part.inner_to_mm);
   });
   return sums;
 }
 
 Result<std::vector<Ring>> rings_of(const RingSums& sums, double ring_mm, const std::string& name) {
   std::vector<Ring> rings;
-  for (const Squares& sum : sums.rings) {
+  for (const Squares& sum : sums) {
     const double outer2 = sum.outer / ring_mm, inner2 = sum.inner / ring_mm;
     if (!(outer2 <= kMaxRadiusMm * kMaxRadiusMm))
       return failure(ErrorKind::bad_input,
@@ -84,33 +74,102 @@ Result<std::vector<Ring>> rings_of(const RingSums& sums, double ring_mm, const s
   return rings;
 }
 
-}  // namespace
+/// The section with a bore: a wall of constant radial thickness above a floor of the same height.
+Result<HalfSection> hollowed(const HalfSection& solid, double wall_mm, const std::string& name) {
+  HalfSection section = solid;
+  section.slabs.clear();
+  for (const Slab& slab : solid.slabs) {
+    if (slab.inner_from_mm > 0.0 || slab.inner_to_mm > 0.0)
+      return failure(
+          ErrorKind::bad_input,
+          name + ": --wall: expected a drawing of the outside alone, found a bore in it");
+    const double floor = std::clamp(wall_mm, slab.from_mm, slab.to_mm);
+    if (floor > slab.from_mm) section.slabs.push_back(part_of(slab, slab.from_mm, floor));
+    if (floor >= slab.to_mm) continue;
+    Slab wall = part_of(slab, floor, slab.to_mm);
+    const bool low = wall.outer_from_mm < wall.outer_to_mm;
+    const double radius = low ? wall.outer_from_mm : wall.outer_to_mm;
+    if (!(radius > wall_mm))
+      return failure(ErrorKind::bad_input,
+                     fmt::format("{}: --wall: expected less than the radius, found {:g} mm; the "
+                                 "radius is {:g} mm at {:g} mm above the foot",
+                                 name, wall_mm, radius, low ? wall.from_mm : wall.to_mm));
+    wall.inner_from_mm = wall.outer_from_mm - wall_mm;
+    wall.inner_to_mm = wall.outer_to_mm - wall_mm;
+    section.slabs.push_back(wall);
+  }
+  if (!(wall_mm < section.height_mm))
+    return failure(
+        ErrorKind::bad_input,
+        fmt::format("{}: --wall: expected less than the height of {:g} mm, found {:g} mm", name,
+                    section.height_mm, wall_mm));
+  return section;
+}
 
-Result<Pot> drawn_pot(const HalfSection& section, const DrawnPotSettings& settings,
-                      const std::string& name) {
-  const double rings_wanted =
-      std::max(1.0, std::round(section.height_mm / settings.ring_height_mm));
-  if (!(rings_wanted <= static_cast<double>(kMaxRings)))
+std::vector<Slab> slabs_of(const std::vector<Ring>& rings, double ring_mm) {
+  std::vector<Slab> slabs;
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    const double outer = rings[i].outer_mm(), inner = rings[i].inner_mm();
+    slabs.push_back({static_cast<double>(i) * ring_mm, static_cast<double>(i + 1) * ring_mm, outer,
+                     outer, inner, inner});
+  }
+  return slabs;
+}
+
+struct DrawnRings {
+  std::vector<Ring> rings;
+  double ring_mm = 0.0;
+  Deviation deviation;
+};
+
+/// Rings of at most this height.
+Result<DrawnRings> drawn_rings(const HalfSection& section, const std::vector<double>& levels,
+                               double highest_mm, const std::string& name) {
+  // A height that is a multiple up to rounding needs no ring more.
+  const double wanted = std::max(1.0, std::ceil(section.height_mm / highest_mm - 1e-9));
+  if (!(wanted <= static_cast<double>(kMaxRings)))
     return failure(ErrorKind::bad_input,
                    fmt::format("{}: expected at most {} rings, found {:g} mm in rings of {:g} mm",
-                               name, kMaxRings, section.height_mm, settings.ring_height_mm));
-  const auto count = static_cast<std::size_t>(rings_wanted);
-  const double ring_mm = section.height_mm / rings_wanted;
-  const RingSums sums = sums_of(section, ring_mm, count);
-  if (sums.bored && settings.wall_mm)
-    return failure(ErrorKind::bad_input,
-                   name + ": --wall: expected a drawing of the outside alone, found a bore in it");
-  auto rings = rings_of(sums, ring_mm, name);
+                               name, kMaxRings, section.height_mm, highest_mm));
+  const std::size_t count =
+      std::min(fitting_ring_count(levels, static_cast<std::size_t>(wanted)), kMaxRings);
+  const double ring_mm = section.height_mm / static_cast<double>(count);
+  const std::vector<Slab> slabs = on_ring_bounds(section, levels, count);
+  auto rings = rings_of(sums_of(slabs, ring_mm, count), ring_mm, name);
   if (!rings) return tl::make_unexpected(rings.error());
-  if (settings.wall_mm) hollow(*rings, ring_mm, *settings.wall_mm);
-  auto stack = ClayStack::from_rings(ring_mm, std::move(*rings), 0);
+  const Deviation deviation = deviation_between(section.slabs, slabs_of(*rings, ring_mm));
+  return DrawnRings{std::move(*rings), ring_mm, deviation};
+}
+
+}  // namespace
+
+Result<DrawnPot> drawn_pot(const HalfSection& drawn, const DrawnPotSettings& settings,
+                           const std::string& name) {
+  constexpr std::size_t kMostByItself = 100'000;
+  const auto section =
+      settings.wall_mm ? hollowed(drawn, *settings.wall_mm, name) : Result<HalfSection>(drawn);
+  if (!section) return tl::make_unexpected(section.error());
+  const std::vector<double> levels = drawn_levels(*section);
+  const double lowest_mm = section->height_mm / static_cast<double>(kMostByItself);
+  double ring_mm = settings.ring_height_mm.value_or(std::max(kHighestRingMm, lowest_mm));
+  auto made = drawn_rings(*section, levels, ring_mm, name);
+  // The deviation of steps is proportional to their height.
+  while (made && !settings.ring_height_mm && ring_mm > lowest_mm &&
+         made->deviation.mm > kDrawnDeviationMm - kDeviationStepMm) {
+    const double part = 0.9 * kDrawnDeviationMm / made->deviation.mm;
+    ring_mm = std::max(lowest_mm, made->ring_mm * std::clamp(part, 0.1, 0.9));
+    made = drawn_rings(*section, levels, ring_mm, name);
+  }
+  if (!made) return tl::make_unexpected(made.error());
+  auto stack = ClayStack::from_rings(made->ring_mm, std::move(made->rings), 0);
   if (!stack)
     return failure(stack.error().kind, fmt::format("{}: {}", name, stack.error().message));
-  Pot pot;
-  pot.density_g_cm3 = settings.density_g_cm3;
-  pot.ledger.initial = stack->volume();
-  pot.stack = std::move(*stack);
-  return pot;
+  DrawnPot result;
+  result.deviation = made->deviation;
+  result.pot.density_g_cm3 = settings.density_g_cm3;
+  result.pot.ledger.initial = stack->volume();
+  result.pot.stack = std::move(*stack);
+  return result;
 }
 
 }  // namespace clay::importing

@@ -1,6 +1,7 @@
 #pragma once
 // Makes a pot from a half section: rings with the drawing's volume.
 
+#include "app/import/deviation.hpp"
 #include "app/import/half_section.hpp"
 
 #include "claystack/engine/clay.hpp"
@@ -10,16 +11,28 @@
 namespace clay::importing {
 
 struct DrawnPotSettings {
-  double ring_height_mm = 0.75;   ///< approximate: the height is divided into whole rings
+  /// At most; empty: as low as kDrawnDeviationMm needs, up to kHighestRingMm.
+  std::optional<double> ring_height_mm;
   std::optional<double> wall_mm;  ///< hollows a solid drawing: radial wall thickness, and floor
                                   ///< height
   double density_g_cm3 = 1.9;
 };
 
-/// Each ring's R^2 and r^2 are the means of the drawing's over the ring's height, so every ring
-/// holds the clay drawn there, to the nearest quantum. The ledger begins with it. Refuses more than
-/// 2^24 rings, and everything that ClayStack refuses.
-Result<Pot> drawn_pot(const HalfSection& section, const DrawnPotSettings& settings,
-                      const std::string& name);
+inline constexpr double kDrawnDeviationMm = 0.02;
+inline constexpr double kHighestRingMm = 0.75;
+
+struct DrawnPot {
+  Pot pot;
+  Deviation deviation;  ///< of the rings from the drawing; from the hollowed drawing with a wall
+};
+
+/// The height is divided into whole rings whose bounds meet the level lines of the drawing, which
+/// move to them by less than half a ring where they do not. Each ring's R^2 and r^2 are the means
+/// of the drawing's over the ring's height, so every ring holds the clay drawn there, to the
+/// nearest quantum. The ledger begins with it. Without a ring height, rings become lower until none
+/// deviates by more than kDrawnDeviationMm, or there are 100,000. Refuses walls that do not fit,
+/// more than 2^24 rings, and everything that ClayStack refuses.
+Result<DrawnPot> drawn_pot(const HalfSection& section, const DrawnPotSettings& settings,
+                           const std::string& name);
 
 }  // namespace clay::importing

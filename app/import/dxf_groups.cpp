@@ -2,6 +2,8 @@
 
 #include "app/import/readers.hpp"
 
+#include "core/text.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -48,7 +50,7 @@ Result<DxfGroups> DxfGroups::open(std::string_view bytes, const std::string& nam
                        "ASCII DXF");
   if (bytes.find('\0') != std::string_view::npos)
     return failure(ErrorKind::bad_input, name + ": expected a DXF drawing, found binary data");
-  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
+  bytes = without_byte_order_mark(bytes);
   DxfGroups groups;
   groups.rest_ = bytes;
   groups.name_ = name;

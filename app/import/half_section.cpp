@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <glm/common.hpp>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 namespace clay::importing {
@@ -35,13 +36,6 @@ Bounds bounds_of(const std::vector<Line>& lines) {
     }
   }
   return bounds;
-}
-
-/// A square of side kSamePointMm: its column and its row.
-using Cell = std::pair<std::int64_t, std::int64_t>;
-
-Cell cell_of(glm::dvec2 p) {
-  return {std::llround(p.x / kSamePointMm), std::llround(p.y / kSamePointMm)};
 }
 
 /// Whether every corner has a mirror image among the corners, in its cell or a neighbouring one: a
@@ -155,6 +149,49 @@ std::vector<double> levels_of(const std::vector<Edge>& edges) {
   return levels;
 }
 
+tl::unexpected<Error> crossing(double radius, double y, const std::string& name) {
+  return failure(
+      ErrorKind::bad_input,
+      fmt::format("{}: {:.3f} mm from the axis and {:.3f} mm above the foot: expected an "
+                  "outline that does not cross or touch itself, found one that does",
+                  name, radius, y));
+}
+
+/// Level parts of one line must not run over each other.
+Result<void> check_treads(const std::vector<Line>& lines, const std::string& name) {
+  struct Tread {
+    double y, from, to;
+  };
+  for (const Line& line : lines) {
+    std::vector<Tread> treads;
+    for (std::size_t i = 0; i < line.points_mm.size(); ++i) {
+      const glm::dvec2 a = line.points_mm[i], b = line.points_mm[(i + 1) % line.points_mm.size()];
+      const double from = std::max(0.0, std::min(a.x, b.x)), to = std::max(a.x, b.x);
+      if (a.y == b.y && to > from) treads.push_back({a.y, from, to});
+    }
+    std::sort(treads.begin(), treads.end(), [](const Tread& a, const Tread& b) {
+      return std::tie(a.y, a.from) < std::tie(b.y, b.from);
+    });
+    for (std::size_t i = 1; i < treads.size(); ++i) {
+      const Tread &before = treads[i - 1], &tread = treads[i];
+      if (tread.y == before.y && tread.from < std::min(before.to, tread.to) - kSamePointMm)
+        return crossing(tread.from, tread.y, name);
+    }
+  }
+  return {};
+}
+
+/// Clay above and below a level must have more than a circle in common.
+Result<void> check_contacts(const std::vector<Slab>& slabs, const std::string& name) {
+  for (std::size_t i = 1; i < slabs.size(); ++i) {
+    const Slab &below = slabs[i - 1], &above = slabs[i];
+    const double inner = std::max(below.inner_to_mm, above.inner_from_mm);
+    if (inner >= std::min(below.outer_to_mm, above.outer_from_mm))
+      return crossing(inner, above.from_mm, name);
+  }
+  return {};
+}
+
 /// No edge begins or ends between the two levels. `edges`: those that span both.
 Result<Slab> slab_between(double from, double to, std::vector<const Edge*>& edges,
                           const std::string& name) {
@@ -174,12 +211,14 @@ Result<Slab> slab_between(double from, double to, std::vector<const Edge*>& edge
   if (edges.size() == 1) return slab;
   slab.inner_from_mm = edges[1]->radius_at(from);
   slab.inner_to_mm = edges[1]->radius_at(to);
-  if (slab.inner_from_mm > slab.outer_from_mm + kSamePointMm ||
-      slab.inner_to_mm > slab.outer_to_mm + kSamePointMm)
-    return failure(ErrorKind::bad_input,
-                   fmt::format("{}: {:.3f} mm above the foot: expected an outline that does not "
-                               "cross itself, found one that does",
-                               name, middle));
+  // Negative where the two have changed places.
+  const double first = slab.outer_from_mm - slab.inner_from_mm;
+  const double last = slab.outer_to_mm - slab.inner_to_mm;
+  if (std::min(first, last) < -kSamePointMm) {
+    const double part = std::clamp(first / (first - last), 0.0, 1.0);
+    const double y = from + part * (to - from);
+    return crossing(edges[0]->radius_at(y), y, name);
+  }
   slab.inner_from_mm = std::min(slab.inner_from_mm, slab.outer_from_mm);
   slab.inner_to_mm = std::min(slab.inner_to_mm, slab.outer_to_mm);
   return slab;
@@ -257,6 +296,8 @@ Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& set
   if (auto closed = close(drawing.lines, name); !closed) return tl::make_unexpected(closed.error());
   auto slabs = slabs_of(edges_of(drawing.lines), name);
   if (!slabs) return tl::make_unexpected(slabs.error());
+  for (const auto& checked : {check_treads(drawing.lines, name), check_contacts(*slabs, name)})
+    if (!checked) return tl::make_unexpected(checked.error());
   if (slabs->empty())
     return failure(ErrorKind::bad_input, name +
                                              ": expected an outline with clay in it, found "

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <map>
@@ -13,13 +12,6 @@ namespace clay::importing {
 namespace {
 
 bool same(glm::dvec2 a, glm::dvec2 b) { return glm::length(a - b) <= kSamePointMm; }
-
-/// A square of side kSamePointMm: its column and its row.
-using Cell = std::pair<std::int64_t, std::int64_t>;
-
-Cell cell_of(glm::dvec2 p) {
-  return {std::llround(p.x / kSamePointMm), std::llround(p.y / kSamePointMm)};
-}
 
 /// One end of an open line.
 struct End {
@@ -110,6 +102,10 @@ bool a_point(const Line& line) {
 }
 
 }  // namespace
+
+Cell cell_of(glm::dvec2 p) {
+  return {std::llround(p.x / kSamePointMm), std::llround(p.y / kSamePointMm)};
+}
 
 std::vector<Line> joined(std::vector<Line> lines) {
   std::vector<Line> whole, open;

@@ -1,10 +1,17 @@
 #pragma once
 #include "app/import/drawing.hpp"
 
+#include <cstdint>
+#include <utility>
+
 namespace clay::importing {
 
 /// Ends closer than this are one point: smaller gaps are drawing errors.
 inline constexpr double kSamePointMm = 0.01;
+
+/// A square of side kSamePointMm: its column and its row.
+using Cell = std::pair<std::int64_t, std::int64_t>;
+[[nodiscard]] Cell cell_of(glm::dvec2 p);
 
 /// Joins open lines end to end, in either direction; closes those whose ends meet.
 [[nodiscard]] std::vector<Line> joined(std::vector<Line> lines);

@@ -32,8 +32,8 @@ Result<Imported> import_drawing(const std::string& bytes, const std::string& nam
     return importing::half_section(std::move(drawing), how, name);
   });
   if (!section) return tl::make_unexpected(section.error());
-  return importing::drawn_pot(*section, pot_settings, name).map([&](Pot&& pot) {
-    return Imported{std::move(pot), section->volume_mm3(), section->axis_mm};
+  return importing::drawn_pot(*section, pot_settings, name).map([&](importing::DrawnPot&& drawn) {
+    return Imported{std::move(drawn.pot), section->volume_mm3(), section->axis_mm};
   });
 }
 

@@ -37,6 +37,21 @@ TEST(Import, MakesAPrintablePot) {
   EXPECT_NEAR(revolved / drawn, 1.0, 1e-3);
 }
 
+TEST(Import, SampleDrawingsAreTrueAndPassStoneware) {
+  const ScratchFolder folder;
+  for (const char* drawing : {"jug.svg", "bowl.dxf", "tumbler.csv --wall 6"}) {
+    const std::string pot = folder.file("a.pot.cbor"), stl = folder.file("a.stl");
+    const auto run =
+        claystack("import --json " + sample(std::string("drawings/") + drawing) + " -o " + pot);
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_LE(run.json().at("deviation_mm").get<double>(), 0.02) << drawing;
+    EXPECT_EQ(run.json().at("deviation_at_mm").size(), 2u);
+    const auto done = claystack("export " + pot + " " + stl + " --process stoneware");
+    EXPECT_EQ(done.status, 0) << drawing << done.out << done.err;
+    EXPECT_EQ(claystack("check -q " + pot + " --process stoneware").status, 0) << drawing;
+  }
+}
+
 TEST(Import, ReportsErrorsAndLeavesNoFile) {
   const ScratchFolder folder;
   const std::string pot = folder.file("x.pot.json"), drawing = folder.file("x.csv");
@@ -48,6 +63,10 @@ TEST(Import, ReportsErrorsAndLeavesNoFile) {
   write_text(drawing, "10,0\n10,20\n");
   EXPECT_EQ(claystack("import " + drawing + " -o " + pot + " --axis up").status, 2);
   EXPECT_EQ(claystack("import " + drawing + " -o " + drawing).status, 2);
+  const auto mesh = claystack("import " + drawing + " -o " + folder.file("x.stl"));
+  EXPECT_EQ(mesh.status, 2);
+  EXPECT_THAT(mesh.err, HasSubstr("x.stl: expected a name that ends in .pot.json or .pot.cbor"));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("x.stl")));
   EXPECT_FALSE(std::filesystem::exists(pot));
   EXPECT_EQ(claystack("import -q " + drawing + " -o " + pot).status, 0);
   EXPECT_TRUE(std::filesystem::exists(pot));

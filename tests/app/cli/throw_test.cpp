@@ -8,6 +8,24 @@
 namespace clay::test {
 namespace {
 
+#ifdef CLAYSTACK_FALCON
+TEST(Throw, RefusesOptionsOfADeviceWithoutOne) {
+  const ScratchFolder folder;
+  const std::string begin =
+      "throw " + sample("bowl.scene.json") + " -o " + folder.file("a.pot.json");
+  for (const std::string& option :
+       {"--record " + folder.file("a.session"), std::string("--seconds 3"),
+        std::string("--rate 500"), std::string("--force-limit 1"), std::string("--wait")}) {
+    const auto run = claystack(begin + " " + option);
+    EXPECT_EQ(run.status, 2) << option;
+    EXPECT_NE(run.err.find(option.substr(0, option.find(' ')) + ": expected --device"),
+              std::string::npos)
+        << run.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.pot.json")));
+}
+#endif
+
 class Samples : public testing::TestWithParam<const char*> {
  protected:
   std::string scene = sample(std::string(GetParam()) + ".scene.json");

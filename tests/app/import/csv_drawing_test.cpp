@@ -23,7 +23,7 @@ TEST(CsvDrawing, ErrorsNameTheLine) {
   EXPECT_THAT(refusal_of(read_drawing("10,0\n10,x\n", "cup.csv")), HasSubstr("cup.csv:2: "));
   EXPECT_THAT(refusal_of(read_drawing("10,0\n10\n", "cup.csv")), HasSubstr("cup.csv:2: "));
   EXPECT_THAT(refusal_of(read_drawing("radius\nheight\n10,0\n", "cup.csv")),
-              HasSubstr("cup.csv:2: "));
+              HasSubstr("cup.csv:1: expected columns named radius and height"));
   EXPECT_THAT(refusal_of(read_drawing("10,0,1\n", "cup.csv")), HasSubstr("cup.csv:1: "));
   EXPECT_THAT(refusal_of(read_drawing("10,0\n-1,5\n", "cup.csv")), HasSubstr("found -1"));
   EXPECT_THAT(refusal_of(read_drawing("10,0\nnan,5\n", "cup.csv")), HasSubstr("cup.csv"));
@@ -38,6 +38,42 @@ TEST(CsvDrawing, SkipsAByteOrderMark) {
     ASSERT_TRUE(drawing) << refusal_of(drawing);
     EXPECT_EQ(drawing->lines.at(0).points_mm, (std::vector<glm::dvec2>{{10, 0}, {5, 20}}));
   }
+}
+
+std::vector<glm::dvec2> points_of(const std::string& csv) {
+  const auto drawing = read_drawing(csv, "cup.csv");
+  EXPECT_TRUE(drawing) << refusal_of(drawing);
+  return drawing ? drawing->lines.at(0).points_mm : std::vector<glm::dvec2>();
+}
+
+TEST(CsvDrawing, ReadsColumnsByTheirNames) {
+  const std::vector<glm::dvec2> points{{25.4, 0}, {12.7, 50.8}};
+  for (const char* csv :
+       {"radius_mm,height_mm\n25.4,0\n12.7,50.8\n", "height_mm,radius_mm\n0,25.4\n50.8,12.7\n",
+        "Height [in], Radius [in]\n0,1\n2,0.5\n",
+        "note;y (cm);r (mm)\nfoot;0;25,4\nrim;5,08;12,7\n",
+        "\xEF\xBB\xBF\"diameter_in\"\t\"height_in\"\r\n2\t0\r\n1\t2\r\n",
+        "x;y\n25,4;0\n12,7;50,8\n", "25,4;0\n+12,7;50,8\n", "25,4\t0\n12,7\t50,8\n"}) {
+    const auto found = points_of(csv);
+    ASSERT_EQ(found.size(), 2u) << csv;
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_NEAR(found[i].x, points[i].x, 1e-12) << csv;
+      EXPECT_NEAR(found[i].y, points[i].y, 1e-12) << csv;
+    }
+  }
+}
+
+TEST(CsvDrawing, RefusesAmbiguousColumns) {
+  for (const char* csv : {"radius,diameter,height\n1,2,3\n", "height,height_mm\n1,2\n",
+                          "radius_mm\n1\n", "radius_px,height\n1,2\n", "outer radius,height\n1,2\n",
+                          "radius mm cm,height\n1,2\n", "a,b\n1,2\n", "radius,depth\n1,2\n"})
+    EXPECT_THAT(refusal_of(read_drawing(csv, "cup.csv")),
+                HasSubstr("cup.csv:1: expected columns named radius and height"))
+        << csv;
+  // Decimal commas between commas are not numbers of two columns.
+  EXPECT_THAT(refusal_of(read_drawing("10,5,20,3\n", "cup.csv")), HasSubstr("cup.csv:1: expected"));
+  EXPECT_THAT(refusal_of(read_drawing("r,h\n1.000,5;3\n", "cup.csv")), HasSubstr("cup.csv:2: "));
+  EXPECT_THAT(refusal_of(read_drawing("r,h\n10,5,2\n", "cup.csv")), HasSubstr("cup.csv:2: "));
 }
 
 TEST(CsvDrawing, RefusesTooManyLines) {

@@ -18,7 +18,7 @@ TEST_P(DrawingMutants, GoodDrawingsMakePots) {
 }
 
 TEST_P(DrawingMutants, GiveAPotOrAnError) {
-  const auto broken = samples::first_broken(GetParam(), 1, 1000, [] {});
+  const auto broken = samples::first_broken(GetParam(), 1, 1000, [](const std::string&) {});
   EXPECT_FALSE(broken) << *broken;
 }
 

@@ -2,6 +2,7 @@
 
 #include "tests/app/import/solids.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -15,7 +16,7 @@ using testing::HasSubstr;
 
 Result<Pot> pot_of(const std::string& csv, const DrawnPotSettings& settings = {}) {
   return section_of(csv, "pot.csv").and_then([&](HalfSection&& section) {
-    return drawn_pot(section, settings, "pot.csv");
+    return drawn_pot(section, settings, "pot.csv").map([](DrawnPot&& drawn) { return drawn.pot; });
   });
 }
 
@@ -32,23 +33,51 @@ TEST(DrawnPot, EachRingHoldsItsSliceOfACone) {
   EXPECT_EQ(pot->ledger.imbalance(pot->stack.volume()), 0);
 }
 
-TEST(DrawnPot, FillsAPartOfARingBelowAFloor) {
-  // Rings of 2 mm, a floor of 3: the second ring is solid in its lower half.
-  const auto pot = pot_of("0,0\n30,0\n30,10\n20,10\n20,3\n0,3\n", {2.0, {}, 1.9});
+TEST(DrawnPot, RingBoundsMeetAFloor) {
+  // A floor at 3 of 10 mm: rings of at most 2 mm meet it when they are 1 mm high.
+  const std::string cup = "0,0\n30,0\n30,10\n20,10\n20,3\n0,3\n";
+  const auto pot = pot_of(cup, {2.0, {}, 1.9});
   ASSERT_TRUE(pot) << refusal_of(pot);
-  const auto rings = pot->stack.rings();
-  ASSERT_EQ(rings.size(), 5u);
-  EXPECT_EQ(rings[0].inner2, 0);
-  EXPECT_EQ(rings[1].inner2, quanta_from_mm2(200.0));
-  EXPECT_EQ(rings[2].inner2, quanta_from_mm2(400.0));
+  ASSERT_EQ(pot->stack.size(), 10u);
+  for (std::size_t i = 0; i < 10; ++i)
+    EXPECT_EQ(pot->stack.rings()[i].inner2, i < 3 ? 0 : quanta_from_mm2(400.0)) << i;
+  EXPECT_EQ(pot->stack.crown(), 0);
 }
 
-TEST(DrawnPot, RoundsTheHeightToWholeRings) {
-  const auto pot = pot_of("10,0\n10,10\n", {3.0, {}, 1.9});
-  ASSERT_TRUE(pot) << refusal_of(pot);
-  EXPECT_EQ(pot->stack.size(), 3u);
-  EXPECT_NEAR(pot->stack.height_mm(), 10.0, 1e-12);
-  EXPECT_EQ(pot->stack.crown(), 0);
+TEST(DrawnPot, FloorsOfAnyHeightAreLevel) {
+  for (const double floor : {5.0, 6.0, 4.51, 3.14159, 7.77, 0.3}) {
+    for (const double height : {60.0, 61.803, 172.0}) {
+      const auto section = section_of(
+          fmt::format("0,0\n30,0\n32,{0}\n28,{0}\n26,{1}\n0,{1}\n", height, floor), "pot.csv");
+      ASSERT_TRUE(section) << refusal_of(section);
+      const auto drawn = drawn_pot(*section, {}, "pot.csv");
+      ASSERT_TRUE(drawn) << refusal_of(drawn);
+      EXPECT_LE(drawn->deviation.mm, kDrawnDeviationMm) << floor << " of " << height;
+      const ClayStack& stack = drawn->pot.stack;
+      std::size_t solid = 0;
+      while (stack.rings()[solid].inner2 == 0) ++solid;
+      EXPECT_NEAR(static_cast<double>(solid) * stack.ring_height_mm(), floor, kDrawnDeviationMm);
+      // No ring is partly floor: that would be a pit in it.
+      EXPECT_NEAR(stack.rings()[solid].inner_mm(), 26.0, 0.05) << floor << " of " << height;
+    }
+  }
+}
+
+TEST(DrawnPot, DeviationIsThatOfTheSteps) {
+  // The rim is drawn to 60 mm; the highest step has the mean square radius of its 2 mm.
+  const auto section = section_of("20,0\n60,40\n", "pot.csv");
+  ASSERT_TRUE(section) << refusal_of(section);
+  const auto coarse = drawn_pot(*section, {2.0, {}, 1.9}, "pot.csv");
+  ASSERT_TRUE(coarse) << refusal_of(coarse);
+  EXPECT_NEAR(coarse->deviation.mm, 60.0 - std::sqrt((58.0 * 58.0 + 58.0 * 60.0 + 3600.0) / 3.0),
+              kDeviationStepMm);
+  EXPECT_EQ(coarse->deviation.height_mm, 40.0);
+  const auto fine = drawn_pot(*section, {}, "pot.csv");
+  ASSERT_TRUE(fine) << refusal_of(fine);
+  EXPECT_LE(fine->deviation.mm, kDrawnDeviationMm);
+  EXPECT_GT(fine->deviation.mm, 0.5 * kDrawnDeviationMm) << "no more rings than it needs";
+  const auto straight = section_of("20,0\n20,40\n", "pot.csv");
+  EXPECT_NEAR(drawn_pot(*straight, {}, "pot.csv")->deviation.mm, 0.0, 1e-9);
 }
 
 TEST(DrawnPot, WallOptionHollowsTheOutline) {
@@ -57,7 +86,13 @@ TEST(DrawnPot, WallOptionHollowsTheOutline) {
   for (std::size_t i = 0; i < 30; ++i)
     EXPECT_NEAR(pot->stack.rings()[i].inner_mm(), i < 3 ? 0.0 : 24.0, 1e-9) << i;
   EXPECT_THAT(refusal_of(pot_of("20,0\n30,0\n30,10\n20,10\n20,0\n", {2.0, 6.0, 1.9})),
-              HasSubstr("--wall"));
+              HasSubstr("found a bore in it"));
+  EXPECT_THAT(
+      refusal_of(pot_of("30,0\n25,60\n", {2.0, 40.0, 1.9})),
+      HasSubstr("--wall: expected less than the radius, found 40 mm; the radius is 25 mm at "
+                "60 mm above the foot"));
+  EXPECT_THAT(refusal_of(pot_of("90,0\n90,40\n", {2.0, 40.0, 1.9})),
+              HasSubstr("--wall: expected less than the height of 40 mm"));
 }
 
 TEST(DrawnPot, RefusesShapesThatNoStackCanRepresent) {
@@ -79,10 +114,11 @@ RC_GTEST_PROP(DrawnPot, HoldsTheDrawnVolume, ()) {
   const auto pot = drawn_pot(*section, {0.01 * *rc::gen::inRange(1, 500), {}, 1.9}, "pot");
   RC_ASSERT(pot.has_value());
   // Half a quantum per bound and ring, plus the rounding of the sums.
-  const double slack = 1e-12 * section->volume_mm3() +
-                       static_cast<double>(pot->stack.size()) * pot->stack.mm3_per_quantum();
-  RC_ASSERT(std::abs(pot->stack.volume_mm3() - section->volume_mm3()) < slack);
-  RC_ASSERT(pot->stack.recount() == pot->stack.volume());
+  const double slack = 1e-12 * section->volume_mm3() + static_cast<double>(pot->pot.stack.size()) *
+                                                           pot->pot.stack.mm3_per_quantum();
+  const ClayStack& stack = pot->pot.stack;
+  RC_ASSERT(std::abs(stack.volume_mm3() - section->volume_mm3()) < slack);
+  RC_ASSERT(stack.recount() == stack.volume());
 }
 
 }  // namespace

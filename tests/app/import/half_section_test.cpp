@@ -31,7 +31,25 @@ TEST(HalfSection, ErrorsNameThePlace) {
               HasSubstr("6.500 mm above the foot: expected clay at every height"));
   EXPECT_THAT(refused("10,0\n10,5\n\n20,7\n20,9\n"), HasSubstr("a single open one"));
   EXPECT_THAT(refused("10,5\n20,5\n"), HasSubstr("expected an outline right of the axis"));
-  EXPECT_THAT(refused("5,0\n25,20\n5,20\n25,0\n5,0\n"), HasSubstr("cross itself"));
+}
+
+TEST(HalfSection, RefusesOutlinesThatCrossThemselvesAndNamesThePlace) {
+  // A crossing between corners, a corner on a corner, a corner on an edge, a level line over
+  // another, and a level line across an edge.
+  EXPECT_THAT(refused("5,0\n25,20\n5,20\n25,0\n5,0\n"),
+              HasSubstr("15.000 mm from the axis and 10.000 mm above the foot: expected an outline "
+                        "that does not cross"));
+  for (const char* csv : {"10,0\n30,0\n20,10\n30,20\n10,20\n20,10\n10,0\n",
+                          "0,0\n20,0\n20,20\n30,20\n30,10\n20,10\n20,10\n0,10\n",
+                          "0,0\n30,0\n30,10\n10,10\n20,10\n20,20\n0,20\n",
+                          "20,0\n30,0\n30,10\n10,10\n10,20\n20,20\n20,0\n"})
+    EXPECT_THAT(refused(csv),
+                testing::AnyOf(HasSubstr("10.000 mm above the foot: expected an outline "
+                                         "that does not cross or touch itself"),
+                               HasSubstr("expected clay in one place")))
+        << csv;
+  EXPECT_THAT(refused("10,0\n30,0\n20,10\n30,20\n10,20\n20,10\n10,0\n"),
+              HasSubstr("20.000 mm from the axis and 10.000 mm above the foot"));
 }
 
 TEST(HalfSection, RecognisesAnAxisLineAnywhere) {

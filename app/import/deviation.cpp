@@ -1,0 +1,152 @@
+#include "app/import/deviation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <utility>
+#include <vector>
+
+namespace clay::importing {
+namespace {
+
+struct Segment {
+  glm::dvec2 from, to;
+};
+
+double distance(const Segment& segment, glm::dvec2 p) {
+  const glm::dvec2 along = segment.to - segment.from;
+  const double square = glm::dot(along, along);
+  const double part =
+      square > 0.0 ? std::clamp(glm::dot(p - segment.from, along) / square, 0.0, 1.0) : 0.0;
+  return glm::length(p - segment.from - part * along);
+}
+
+/// The clay at one level, from the bore to the outer bound; none if they are equal.
+using Width = std::pair<double, double>;
+
+/// The level parts of the outline: where there is clay on one side only.
+void add_treads(std::vector<Segment>& outline, double y, Width below, Width above) {
+  const auto add = [&](double from, double to) {
+    if (to > from) outline.push_back({{from, y}, {to, y}});
+  };
+  if (std::max(below.first, above.first) >= std::min(below.second, above.second)) {
+    add(below.first, below.second);
+    add(above.first, above.second);
+    return;
+  }
+  add(std::min(below.first, above.first), std::max(below.first, above.first));
+  add(std::min(below.second, above.second), std::max(below.second, above.second));
+}
+
+std::vector<Segment> outline_of(std::span<const Slab> slabs) {
+  std::vector<Segment> outline;
+  Width below{0.0, 0.0};
+  for (const Slab& slab : slabs) {
+    add_treads(outline, slab.from_mm, below, {slab.inner_from_mm, slab.outer_from_mm});
+    outline.push_back({{slab.outer_from_mm, slab.from_mm}, {slab.outer_to_mm, slab.to_mm}});
+    if (slab.inner_from_mm > 0.0 || slab.inner_to_mm > 0.0)
+      outline.push_back({{slab.inner_from_mm, slab.from_mm}, {slab.inner_to_mm, slab.to_mm}});
+    below = {slab.inner_to_mm, slab.outer_to_mm};
+  }
+  if (!slabs.empty()) add_treads(outline, slabs.back().to_mm, below, {0.0, 0.0});
+  return outline;
+}
+
+struct Nearest {
+  double mm = 1e300;
+  const Segment* segment = nullptr;
+};
+
+/// An outline by height, for nearest points. The outline must outlive it.
+class Levels {
+ public:
+  explicit Levels(const std::vector<Segment>& outline) {
+    for (const Segment& s : outline) {
+      low_ = std::min(low_, s.from.y);
+      high_ = std::max(high_, s.to.y);
+    }
+    rows_.resize(std::clamp<std::size_t>(outline.size(), 1, 100'000));
+    row_mm_ = std::max((high_ - low_) / static_cast<double>(rows_.size()), 1e-9);
+    for (const Segment& s : outline)
+      for (std::size_t row = row_at(s.from.y); row <= row_at(s.to.y); ++row)
+        rows_[row].push_back(&s);
+  }
+
+  [[nodiscard]] Nearest nearest(glm::dvec2 p) const {
+    Nearest best;
+    const std::size_t start = row_at(p.y);
+    for (std::size_t i = start; i < rows_.size() && bottom(i) - p.y < best.mm; ++i)
+      search(i, p, best);
+    for (std::size_t i = start; i > 0 && p.y - bottom(i) < best.mm; --i) search(i - 1, p, best);
+    return best;
+  }
+
+ private:
+  [[nodiscard]] double bottom(std::size_t row) const {
+    return low_ + static_cast<double>(row) * row_mm_;
+  }
+  [[nodiscard]] std::size_t row_at(double y) const {
+    const double row = std::clamp((y - low_) / row_mm_, 0.0, static_cast<double>(rows_.size() - 1));
+    return static_cast<std::size_t>(row);
+  }
+  void search(std::size_t row, glm::dvec2 p, Nearest& best) const {
+    for (const Segment* s : rows_[row])
+      if (const double mm = distance(*s, p); mm < best.mm) best = {mm, s};
+  }
+
+  double low_ = 1e300, high_ = -1e300, row_mm_ = 1.0;
+  std::vector<std::vector<const Segment*>> rows_;
+};
+
+/// A part of an outline, with the nearest segments of the other outline to its ends.
+struct Part {
+  Segment segment;
+  Nearest from, to;
+};
+
+/// No point of the part is farther from the other outline. The distance to one segment is convex
+/// along a line, and the nearest one changes by at most the way.
+double farthest_in(const Part& part) {
+  const auto& [segment, from, to] = part;
+  const double both = std::min(std::max(from.mm, distance(*from.segment, segment.to)),
+                               std::max(to.mm, distance(*to.segment, segment.from)));
+  return std::min(both, 0.5 * (from.mm + to.mm + glm::length(segment.to - segment.from)));
+}
+
+/// Finds the largest distance from `outline` to `other`.
+void widen(Deviation& worst, const std::vector<Segment>& outline, const Levels& other) {
+  const auto measure = [&](glm::dvec2 p) {
+    const Nearest nearest = other.nearest(p);
+    if (nearest.mm > worst.mm) worst = {nearest.mm, p.x, p.y};
+    return nearest;
+  };
+  std::vector<Part> parts;
+  for (const Segment& segment : outline) {
+    parts.push_back({segment, measure(segment.from), measure(segment.to)});
+    while (!parts.empty()) {
+      const Part part = parts.back();
+      parts.pop_back();
+      if (farthest_in(part) <= worst.mm + kDeviationStepMm) continue;
+      const glm::dvec2 middle = 0.5 * (part.segment.from + part.segment.to);
+      const Nearest nearest = measure(middle);
+      parts.push_back({{part.segment.from, middle}, part.from, nearest});
+      parts.push_back({{middle, part.segment.to}, nearest, part.to});
+    }
+  }
+}
+
+}  // namespace
+
+Deviation deviation_between(std::span<const Slab> a, std::span<const Slab> b) {
+  const std::vector<Segment> first = outline_of(a), second = outline_of(b);
+  Deviation worst;
+  if (first.empty() || second.empty()) return worst;
+  const Levels in_first(first), in_second(second);
+  widen(worst, first, in_second);
+  widen(worst, second, in_first);
+  return worst;
+}
+
+}  // namespace clay::importing
