@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstddef>
+#include <cstdint>
 
 namespace clay {
 namespace {
@@ -10,18 +12,32 @@ namespace {
 struct Beginning {
   std::string_view bytes, kind;
 };
-constexpr Beginning kBeginnings[] = {{"DRACO", "a Draco mesh"},
-                                     {"PK\x03\x04", "a zip archive, as 3MF is"},
-                                     {"glTF", "a binary glTF model"},
-                                     {"ply\n", "a PLY mesh"},
-                                     {"ply\r", "a PLY mesh"},
-                                     {"<svg", "an SVG drawing"},
-                                     {"<?xml", "an XML document"},
-                                     {"solid ", "an STL mesh in text"},
-                                     {"%PDF", "a PDF document"},
-                                     {"ISO-10303-21", "a STEP model"},
-                                     {"{", "a JSON file"},
-                                     {"\x89PNG", "a PNG picture"}};
+constexpr Beginning kBeginnings[] = {
+    {"DRACO", "a Draco mesh"},        {"PK\x03\x04", "a zip archive, as 3MF is"},
+    {"glTF", "a binary glTF model"},  {"ply\n", "a PLY mesh"},
+    {"ply\r", "a PLY mesh"},          {"<svg", "an SVG drawing"},
+    {"<?xml", "an XML document"},     {"solid ", "an STL mesh in text"},
+    {"OFF", "an OFF mesh"},           {"%PDF", "a PDF document"},
+    {"ISO-10303-21", "a STEP model"}, {"\x89PNG", "a PNG picture"},
+    {"GIF8", "a GIF picture"}};
+// The schemas of the project's own files, JSON or CBOR, stand in their first bytes.
+constexpr Beginning kSchemas[] = {{"claystack-pot-1", "a pot"},
+                                  {"claystack-scene-1", "a scene"},
+                                  {"claystack-session-1", "a session"},
+                                  {"claystack-work-1", "a work"},
+                                  {"claystack-certificate-1", "a certificate"},
+                                  {"claystack-process-1", "a process"},
+                                  {"claystack-studio-1", "a settings file"}};
+constexpr std::size_t kSchemaBytes = 4096;
+
+/// A header of 80 bytes, the number of triangles, and 50 bytes for each.
+bool is_binary_stl(std::string_view bytes) {
+  if (bytes.size() < 84) return false;
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    count |= std::uint64_t{static_cast<unsigned char>(bytes[80 + i])} << (8 * i);
+  return bytes.size() == 84 + 50 * count;
+}
 
 bool is_text(char c) { return (c >= ' ' && c <= '~') || c == '\t' || c == '\r' || c == '\n'; }
 
@@ -47,7 +63,11 @@ std::string_view without_byte_order_mark(std::string_view text) noexcept {
 std::string_view known_kind(std::string_view bytes) {
   for (const auto& [beginning, kind] : kBeginnings)
     if (bytes.starts_with(beginning)) return kind;
-  return {};
+  if (is_binary_stl(bytes)) return "an STL mesh";
+  const std::string_view first = bytes.substr(0, kSchemaBytes);
+  for (const auto& [schema, kind] : kSchemas)
+    if (first.find(schema) != std::string_view::npos) return kind;
+  return bytes.starts_with("{") ? "a JSON file" : std::string_view();
 }
 
 std::string kind_of_file(std::string_view bytes) {
@@ -58,6 +78,15 @@ std::string kind_of_file(std::string_view bytes) {
   if (!std::all_of(first.begin(), first.end(), is_text)) return "binary data";
   return "text that begins with '" +
          std::string(first.substr(0, std::min(first.find_first_of("\r\n"), first.size()))) + "'";
+}
+
+Error kind_error(Error error, std::string_view bytes, std::string_view name,
+                 std::string_view expected) {
+  const std::string_view kind = known_kind(bytes);
+  const bool same = kind.empty() || kind == "a JSON file" || expected.starts_with(kind);
+  if (same || error.kind != ErrorKind::bad_input) return error;
+  return {ErrorKind::bad_input,
+          std::string(name).append(": expected ").append(expected).append(", found ").append(kind)};
 }
 
 }  // namespace clay

@@ -1,5 +1,7 @@
 #pragma once
 // Formats numbers and kinds of files for messages.
+#include "claystack/core/result.hpp"
+
 #include <string>
 #include <string_view>
 
@@ -13,10 +15,15 @@ namespace clay {
 /// Nine significant digits: enough to distinguish neighbouring float32 values.
 [[nodiscard]] std::string in_mm(double mm);
 
-/// The kind of a file by its first bytes, such as "a Draco mesh"; empty if unknown.
+/// The kind of a file by its first bytes, such as "a Draco mesh" or "a pot"; empty if unknown.
 [[nodiscard]] std::string_view known_kind(std::string_view bytes);
 /// The same for a message; if unknown, "text that begins with 'abc'" or "binary data".
 [[nodiscard]] std::string kind_of_file(std::string_view bytes);
+/// The error of a reader that expected another kind of file: "NAME: expected a pot (.pot.json),
+/// found an STL mesh". `expected` begins with the kind as known_kind names it; if the file is of
+/// that kind, or of an unknown one, the reader's own error.
+[[nodiscard]] Error kind_error(Error error, std::string_view bytes, std::string_view name,
+                               std::string_view expected);
 /// The text without a leading UTF-8 byte order mark.
 [[nodiscard]] std::string_view without_byte_order_mark(std::string_view text) noexcept;
 

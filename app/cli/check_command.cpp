@@ -38,9 +38,13 @@ Result<Verdict> check_file(const CheckCommand& command, const Console& console) 
       return check_pot(bytes, command);
     });
   const auto format = solid::mesh_format_of(command.file);
-  if (!format)
-    return failure(ErrorKind::bad_input,
-                   format.error().message + ", or a pot: .pot.json, .pot.cbor");
+  if (!format) {
+    const auto bytes = read_file(command.file);
+    if (!bytes) return tl::make_unexpected(bytes.error());
+    return failure(ErrorKind::bad_input, format.error().message +
+                                             ", or a pot: .pot.json, .pot.cbor; the file is " +
+                                             kind_of_file(*bytes));
+  }
   return check_mesh_file(*format, command, console);
 }
 
@@ -62,9 +66,8 @@ int check(CheckCommand& command, const Console& console) {
   const auto verdict = check_file(command, console);
   if (!verdict) {
     const Error& error = verdict.error();
-    if (console.json)
-      print_json(verdict_json(command.file, unsound(what_failed(error.kind), error.message)));
-    return report(error);
+    return report(error,
+                  verdict_json(command.file, unsound(what_failed(error.kind), error.message)));
   }
   if (console.json) print_json(verdict_json(command.file, *verdict));
   print_verdict(console, command.file, *verdict);

@@ -1,4 +1,5 @@
 #include "app/cli/console.hpp"
+#include "app/cli/json_output.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include <filesystem>
 #include <limits>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
 
@@ -94,19 +96,45 @@ std::function<std::string(const std::string&)> in_range(double low, double high)
   };
 }
 
-int report(const Error& error) {
-  put_err(fmt::format("claystack: {}\n", error.message));
-  switch (error.kind) {
+namespace {
+
+bool json_errors = false;
+
+struct KindText {
+  const char* name;
+  Exit exit;
+};
+KindText text_of(ErrorKind kind) {
+  switch (kind) {
     case ErrorKind::unsound:
-      return kUnsound;
+      return {"unsound", kUnsound};
     case ErrorKind::bad_input:
-      return kBadInput;
+      return {"bad_input", kBadInput};
     case ErrorKind::io:
-      return kIoFailed;
+      return {"io", kIoFailed};
     case ErrorKind::device:
-      return kDeviceFailed;
+      return {"device", kDeviceFailed};
   }
-  return kBadInput;
+  return {"bad_input", kBadInput};
+}
+
+int report_as(const KindText& kind, const std::string& message, Json fields) {
+  fields["error"] = message;
+  fields["kind"] = kind.name;
+  fields["status"] = static_cast<int>(kind.exit);
+  if (json_errors) print_json(fields);
+  return kind.exit;
+}
+
+}  // namespace
+
+void print_errors_as_json() noexcept { json_errors = true; }
+
+int report(const Error& error) { return report(error, Json::object()); }
+
+int report(const Error& error, Json fields) {
+  put_err(fmt::format("claystack: {}\n", error.message));
+  return report_as(text_of(error.kind), error.message, std::move(fields));
 }
 
 int report(const CLI::App& app, const CLI::ParseError& error) {
@@ -114,7 +142,8 @@ int report(const CLI::App& app, const CLI::ParseError& error) {
   const int status = app.exit(error, out, err);
   put_out(out.str());
   put_err(err.str());
-  return status == 0 ? kDone : kBadInput;
+  return status == 0 ? kDone
+                     : report_as(text_of(ErrorKind::bad_input), error.what(), Json::object());
 }
 
 int run_program(int (*run)(int argc, char** argv), int argc, char** argv) noexcept {

@@ -44,8 +44,11 @@ Result<void> check_distinct(const std::vector<std::string>& outputs,
 /// For CLI options: accepts a finite number within the range; errors show the bounds in short form.
 [[nodiscard]] std::function<std::string(const std::string&)> in_range(double low, double high);
 
-/// "claystack: MESSAGE" on stderr; the exit status of the error's kind.
+/// "claystack: MESSAGE" on stderr; the exit status of the error's kind. With `print_errors_as_json`
+/// also an object on stdout, samples/schema/error.schema.json.
 int report(const Error& error);
+/// For `--json`, from now on.
+void print_errors_as_json() noexcept;
 
 /// Prints the parser's output: help, version or a usage error.
 int report(const CLI::App& app, const CLI::ParseError& error);

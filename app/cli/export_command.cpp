@@ -255,7 +255,6 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
       "  claystack export bowl.pot.json bowl.pot.cbor --precision 0.001");
   sub->callback([command, &console, &exit] {
     const auto done = export_pot(*command, console);
-    if (!done && console.json) print_json({{"error", done.error().message}});
     exit = done ? *done : report(done.error());
   });
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Output as JSON, for scripts.
 
+#include "claystack/core/result.hpp"
 #include "claystack/engine/clay.hpp"
 
 #include <nlohmann/json_fwd.hpp>
@@ -16,6 +17,8 @@ using Json = nlohmann::ordered_json;
 
 /// One JSON document to standard output, pretty.
 void print_json(const Json& data);
+/// As `report(error)`; the object on stdout also has these fields.
+int report(const Error& error, Json fields);
 
 /// A count for JSON: a number if it fits into 64 bits, otherwise decimal digits in a string.
 [[nodiscard]] Json json_count(WideQuanta count);

@@ -125,8 +125,8 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", version_text());
   app.footer(kExamples);
   app.require_subcommand(1);
-  app.failure_message([](const CLI::App* app, const CLI::Error& error) {
-    return std::string("claystack: ") + error.what() + option_suggestion(*app, error) +
+  app.failure_message([](const CLI::App* failed, const CLI::Error& error) {
+    return std::string("claystack: ") + error.what() + option_suggestion(*failed, error) +
            "\nrun claystack --help for usage\n";
   });
 
@@ -134,6 +134,7 @@ int run(int argc, char** argv) {
   int exit = kDone;
   add_commands(app, console, exit);
   std::vector<std::string> words = arguments_of(argc, argv);
+  if (std::ranges::find(words, "--json") != words.end()) print_errors_as_json();
   if (!words.empty())
     if (const auto named = check_command_name(app, words.front()); !named)
       return report(named.error());

@@ -3,6 +3,7 @@
 #include "core/json/json_text.hpp"
 #include "core/json/object_reader.hpp"
 #include "core/json/object_writer.hpp"
+#include "core/text.hpp"
 #include "engine/clay/radius_grid.hpp"
 #include "engine/files/pot_json.hpp"
 #include "engine/files/ring_arrays.hpp"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace clay {
 
@@ -187,9 +189,11 @@ Result<Pot> parse_pot(std::string_view bytes, std::string_view name) {
                      : [](std::string_view text, std::string_view file, std::size_t max_values) {
                          return LocatedJson::from_json(text, file, max_values);
                        };
-  return parse(bytes, name, kMaxPotValues).and_then([](const LocatedJson& document) {
-    return files::pot_of(document);
-  });
+  return parse(bytes, name, kMaxPotValues)
+      .and_then([](const LocatedJson& document) { return files::pot_of(document); })
+      .map_error([&](Error error) {
+        return kind_error(std::move(error), bytes, name, "a pot (.pot.json, .pot.cbor)");
+      });
 }
 
 std::string write_pot(const Pot& pot, PotEncoding encoding) {

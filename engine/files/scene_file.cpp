@@ -4,10 +4,12 @@
 #include "core/json/json_text.hpp"
 #include "core/json/object_reader.hpp"
 #include "core/json/object_writer.hpp"
+#include "core/text.hpp"
 #include "engine/files/scene_json.hpp"
 
 #include <array>
 #include <string_view>
+#include <utility>
 
 namespace clay {
 namespace {
@@ -138,7 +140,11 @@ Result<SceneSpec> files::scene_of(const LocatedJson& document) {
 }
 
 Result<SceneSpec> parse_scene(std::string_view text, std::string_view name) {
-  return LocatedJson::from_json(text, name, kMaxValues).and_then(scene_of);
+  return LocatedJson::from_json(text, name, kMaxValues)
+      .and_then(scene_of)
+      .map_error([&](Error error) {
+        return kind_error(std::move(error), text, name, "a scene (.scene.json)");
+      });
 }
 
 std::string write_scene(const SceneSpec& scene) { return json_text(scene_json(scene)); }

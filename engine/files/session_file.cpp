@@ -5,6 +5,7 @@
 #include "core/json/object_reader.hpp"
 #include "core/json/object_writer.hpp"
 #include "core/line_reader.hpp"
+#include "core/text.hpp"
 #include "engine/files/scene_json.hpp"
 #include "engine/files/session_json.hpp"
 #include "engine/files/text_codes.hpp"
@@ -251,14 +252,17 @@ Result<Session> parse_session(std::string_view text, std::string_view name) {
   const auto document = [&](std::string_view line) {
     return LocatedJson::from_json(line, name, kMaxBlockValues, lines.number());
   };
+  const auto refused = [&](const Error& error) {
+    return tl::make_unexpected(kind_error(error, text, name, "a session (.session)"));
+  };
   const auto first = lines.next();
   if (!first)
-    return failure(ErrorKind::bad_input,
-                   std::string(name) + ":1: expected a whole header line, found " +
-                       std::to_string(text.size()) + " bytes without a newline");
+    return refused(
+        {ErrorKind::bad_input, std::string(name) + ":1: expected a whole header line, found " +
+                                   std::to_string(text.size()) + " bytes without a newline"});
   auto header = document(*first).and_then(
       [](const LocatedJson& line) { return ObjectReader::read(line, Header{}); });
-  if (!header) return tl::make_unexpected(header.error());
+  if (!header) return refused(header.error());
 
   const auto announced = count_announced(lines.rest(), name);
   if (!announced) return tl::make_unexpected(announced.error());

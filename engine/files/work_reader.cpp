@@ -1,5 +1,6 @@
 #include "claystack/engine/files.hpp"
 #include "core/line_reader.hpp"
+#include "core/text.hpp"
 #include "engine/files/scene_json.hpp"
 #include "engine/files/session_json.hpp"
 #include "engine/files/work_lines.hpp"
@@ -246,7 +247,9 @@ Result<WorkReading> read_work(std::string_view text, std::string_view name, bool
 }  // namespace
 
 Result<WorkReading> parse_work(std::string_view text, std::string_view name) {
-  return read_work(text, name, false);
+  return read_work(text, name, false).map_error([&](Error error) {
+    return kind_error(std::move(error), text, name, "a work (.work)");
+  });
 }
 
 Result<WorkReading> salvage_work(std::string_view text, std::string_view name) {
