@@ -93,6 +93,11 @@ Result<void> import_drawing(ImportOptions options, Console console) {
   const Json json = summary(options, *section, *pot);
   if (console.json) print_json(json);
   tell(console, json);
+  if (!options.pot_settings.ring_height_mm && pot->deviation.mm > kDrawnDeviationMm)
+    console.warn(
+        fmt::format("{}: the rings deviate from the drawing by {:.3f} mm, although they are "
+                    "{:g} mm high",
+                    options.drawing, pot->deviation.mm, pot->pot.stack.ring_height_mm()));
   console.print("pot: " + options.pot);
   return {};
 }

@@ -145,12 +145,12 @@ Result<DrawnRings> drawn_rings(const HalfSection& section, const std::vector<dou
 
 Result<DrawnPot> drawn_pot(const HalfSection& drawn, const DrawnPotSettings& settings,
                            const std::string& name) {
-  constexpr std::size_t kMostByItself = 100'000;
+  constexpr double kMostByItself = 30'000.0, kLowestMm = 1e-3;
   const auto section =
       settings.wall_mm ? hollowed(drawn, *settings.wall_mm, name) : Result<HalfSection>(drawn);
   if (!section) return tl::make_unexpected(section.error());
   const std::vector<double> levels = drawn_levels(*section);
-  const double lowest_mm = section->height_mm / static_cast<double>(kMostByItself);
+  const double lowest_mm = std::max(kLowestMm, section->height_mm / kMostByItself);
   double ring_mm = settings.ring_height_mm.value_or(std::max(kHighestRingMm, lowest_mm));
   auto made = drawn_rings(*section, levels, ring_mm, name);
   // The deviation of steps is proportional to their height.

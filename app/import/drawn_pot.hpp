@@ -30,7 +30,7 @@ struct DrawnPot {
 /// move to them by less than half a ring where they do not. Each ring's R^2 and r^2 are the means
 /// of the drawing's over the ring's height, so every ring holds the clay drawn there, to the
 /// nearest quantum. The ledger begins with it. Without a ring height, rings become lower until none
-/// deviates by more than kDrawnDeviationMm, or there are 100,000. Refuses walls that do not fit,
+/// deviates by more than kDrawnDeviationMm, or there are 30,000. Refuses walls that do not fit,
 /// more than 2^24 rings, and everything that ClayStack refuses.
 Result<DrawnPot> drawn_pot(const HalfSection& section, const DrawnPotSettings& settings,
                            const std::string& name);
