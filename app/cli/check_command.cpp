@@ -1,5 +1,6 @@
 #include "app/cli/check.hpp"
 #include "app/cli/commands.hpp"
+#include "core/text.hpp"
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/export/repair.hpp"

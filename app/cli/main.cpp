@@ -102,11 +102,11 @@ std::string option_suggestion(const CLI::App& app, const CLI::Error& error) {
   const std::string_view text = error.what();
   const std::size_t begin = text.find("--");
   const auto parsed = app.get_subcommands();
-  if (error.get_name() != "ExtrasError" || begin == std::string_view::npos || parsed.empty())
-    return {};
+  if (error.get_name() != "ExtrasError" || begin == std::string_view::npos) return {};
+  const CLI::App& command = parsed.empty() ? app : *parsed.front();
   const std::string_view word = text.substr(begin, text.find_first_of("=, ]", begin) - begin);
   std::vector<std::string> names;
-  for (const CLI::Option* option : parsed.front()->get_options())
+  for (const CLI::Option* option : command.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   return suggestion(word, names);
 }

@@ -1,11 +1,9 @@
 #include "app/history/recovery.hpp"
 
+#include "app/history/file_lock.hpp"
 #include "claystack/core/atomic_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,39 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The lock of a journal, held by its running program. A pipe or device of that name is not a
-/// journal; opening it does not block.
-class Lock {
- public:
-  /// `kind`: LOCK_SH to read, LOCK_EX to remove.
-  Lock(const fs::path& path, int kind)
-      : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
-    struct stat status {};
-    const bool regular =
-        descriptor_ >= 0 && fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
-    held_ = regular && flock(descriptor_, kind | LOCK_NB) == 0;
-  }
-  ~Lock() {
-    if (descriptor_ >= 0) (void)close(descriptor_);
-  }
-  Lock(const Lock&) = delete;
-  Lock& operator=(const Lock&) = delete;
-  [[nodiscard]] bool opened() const noexcept { return descriptor_ >= 0; }
-  [[nodiscard]] bool held() const noexcept { return held_; }
-  [[nodiscard]] std::chrono::system_clock::time_point written() const noexcept {
-    struct stat status {};
-    (void)fstat(descriptor_, &status);
-    return std::chrono::system_clock::from_time_t(status.st_mtime);
-  }
-
- private:
-  int descriptor_;
-  bool held_ = false;
-};
-
 /// The work that a journal offers; empty if none. `needless`: set if the journal can be deleted.
 std::optional<Recoverable> look_at(const fs::path& path, bool& needless) {
-  const Lock lock(path, LOCK_SH);
+  const FileLock lock(path, FileLock::Kind::shared);
   if (!lock.held()) return std::nullopt;
   Recoverable found;
   found.path = path;
@@ -101,7 +69,7 @@ Result<Work> recover(const fs::path& path) {
 }
 
 Result<void> discard(const fs::path& path) {
-  const Lock lock(path, LOCK_EX);
+  const FileLock lock(path, FileLock::Kind::exclusive);
   if (lock.opened() && !lock.held())
     return failure(ErrorKind::io,
                    fmt::format("{}: in use by a program that is running", path.string()));

@@ -132,11 +132,12 @@ struct Performer {
     const bool confirmed = save.replace && path == save.path;
     if (!confirmed && state.document.replaces_other(path)) {
       state.log("prompt: replace");
+      const std::string reason =
+          path != state.document.file()  ? " exists. It holds another work or pot."
+          : state.document.file_in_use() ? " is open in another window."
+                                         : " was changed by another program.";
       state.ui.dialog =
-          ReplaceDialog{path == state.document.file()
-                            ? path.filename().string() + " was changed by another program."
-                            : path.filename().string() + " exists. It holds another work or pot.",
-                        SaveDialog{path.string(), next}};
+          ReplaceDialog{path.filename().string() + reason, SaveDialog{path.string(), next}};
       return;
     }
     if (!save_document(state, path)) {

@@ -53,6 +53,7 @@ void Document::replace(const SceneSpec& scene, history::Work work) {
   if (work_ && !unsaved() && work_->journal() != nullptr) work_->journal()->discard();
   changes_discarded_ = false;
   file_.clear();
+  lock_.reset();
   scene_ = scene;
   nominal_rate_per_s_ = scene.removal.rate_per_s;
   work_.emplace(std::move(work));
@@ -85,8 +86,12 @@ Result<Document::Remark> Document::open_work(const std::string& name) {
   if (!loaded) return tl::make_unexpected(loaded.error());
   begin(std::move(loaded->work));
   keep_file(name);
-  if (!loaded->torn) return Remark();
-  return fmt::format("{}: the last line was cut off; all lines before it were read", name);
+  if (loaded->torn)
+    return fmt::format("{}: the last line was cut off; all lines before it were read", name);
+  if (file_in_use())
+    return fmt::format("{} is open in another window. Save under another name to keep both works",
+                       name);
+  return Remark();
 }
 
 Result<Document::Remark> Document::open(const std::filesystem::path& path) {
@@ -117,12 +122,14 @@ Result<void> Document::save(const std::filesystem::path& path) {
 
 void Document::keep_file(const std::filesystem::path& path) {
   file_ = path;
+  lock_.reset();
+  lock_ = std::make_unique<history::FileLock>(path, history::FileLock::Kind::exclusive);
   stamp_ = FileStamp::of(path).value_or(FileStamp{});
 }
 
 bool Document::replaces_other(const std::filesystem::path& path) const {
   const auto found = FileStamp::of(path);
-  return found && !(path == file_ && *found == stamp_);
+  return found && (path != file_ || *found != stamp_ || file_in_use());
 }
 
 std::string Document::name() const {

@@ -1,6 +1,7 @@
 #pragma once
 // The document of the window: a work, its file, the pot on screen, and whether it is saved.
 
+#include "app/history/file_lock.hpp"
 #include "app/history/work.hpp"
 #include "app/render/picture.hpp"
 #include "claystack/core/result.hpp"
@@ -9,6 +10,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -55,15 +57,18 @@ class Document {
   void close();
 
   // --- Files. The extension selects the kind. ----------------------------------------------------
-  /// A remark about a file that was read, such as a cut-off last line; empty: none.
+  /// A remark about a file that was read, such as a cut-off last line or its use by another window;
+  /// empty: none.
   using Remark = std::string;
   /// Reads a scene, a pot or a work. On an error the document is unchanged.
   Result<Remark> open(const std::filesystem::path& path);
   /// Writes .work, .pot.json or .pot.cbor. Only a .work saves the document and becomes its file.
   Result<void> save(const std::filesystem::path& path);
   /// Whether a file of that name exists that this document has neither read nor written last:
-  /// another one, or its own after another program has changed it.
+  /// another one, or its own if another program has changed it or has it open.
   [[nodiscard]] bool replaces_other(const std::filesystem::path& path) const;
+  /// Whether another window has the file open.
+  [[nodiscard]] bool file_in_use() const noexcept { return lock_ && lock_->in_use(); }
   /// The file of the work; empty: none yet.
   [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
   /// The name of the file, or of the scene.
@@ -135,7 +140,8 @@ class Document {
   bool journals_ = false;
   bool changes_discarded_ = false;
   std::filesystem::path file_;
-  FileStamp stamp_;  ///< of file_, when it was read or written
+  FileStamp stamp_;                          ///< of file_, when it was read or written
+  std::unique_ptr<history::FileLock> lock_;  ///< on file_, so that other windows see its use
   SceneSpec scene_;
   double nominal_rate_per_s_ = 20.0;
   std::optional<history::Work> work_;

@@ -139,5 +139,30 @@ TEST_F(DocumentTest, ReportsAnIncompleteLastLineOfAWork) {
   EXPECT_NE(*opened, "");
 }
 
+TEST_F(DocumentTest, AWorkOpenInTwoWindowsIsNotReplacedSilently) {
+  const std::string path = folder.file("a.work");
+  stroke(1);
+  ASSERT_TRUE(document.save(path));
+  EXPECT_FALSE(document.replaces_other(path));
+  Document second;
+  const auto remark = second.open(path);
+  ASSERT_TRUE(remark);
+  EXPECT_NE(remark->find("is open in another window"), std::string::npos) << *remark;
+  EXPECT_TRUE(second.replaces_other(path));
+  EXPECT_FALSE(document.replaces_other(path)) << "the first window has it";
+  ASSERT_TRUE(second.save(path));
+  EXPECT_TRUE(document.replaces_other(path)) << "another window has changed it";
+  EXPECT_FALSE(second.replaces_other(path)) << "now the second window has it";
+}
+
+TEST_F(DocumentTest, AWorkOpenedAgainInItsWindowIsNotInUse) {
+  const std::string path = folder.file("a.work");
+  ASSERT_TRUE(document.save(path));
+  const auto remark = document.open(path);
+  ASSERT_TRUE(remark);
+  EXPECT_EQ(*remark, "");
+  EXPECT_FALSE(document.replaces_other(path));
+}
+
 }  // namespace
 }  // namespace clay::studio
