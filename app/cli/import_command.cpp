@@ -2,6 +2,10 @@
 #include "app/cli/json_output.hpp"
 #include "app/cli/pot_copy.hpp"
 #include "app/import/drawn_pot.hpp"
+#ifdef CLAYSTACK_EXPORT
+#include "app/cli/import_mesh.hpp"
+#include "claystack/export/formats.hpp"
+#endif
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
@@ -13,6 +17,7 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace clay::cli {
 namespace {
@@ -80,6 +85,19 @@ Result<void> import_drawing(ImportOptions options, Console console) {
   if (auto named = check_pot_name(options.pot); !named) return named;
   if (auto axis = set_axis(options); !axis) return axis;
   if (auto distinct = check_distinct({options.pot}, {options.drawing}); !distinct) return distinct;
+#ifdef CLAYSTACK_EXPORT
+  if (solid::mesh_format_of(options.drawing)) {
+    for (const auto& [option, given] : {std::pair("--axis", !options.axis.empty()),
+                                        {"--layer", !options.layer.empty()},
+                                        {"--wall", options.pot_settings.wall_mm.has_value()}})
+      if (given)
+        return failure(
+            ErrorKind::bad_input,
+            fmt::format("{}: expected a drawing, found the mesh {}", option, options.drawing));
+    return import_mesh(options.drawing, options.pot,
+                       {options.section.height_mm, options.pot_settings}, console);
+  }
+#endif
   const auto bytes = read_file(options.drawing);
   if (!bytes) return tl::make_unexpected(bytes.error());
   auto drawing = read_drawing(*bytes, options.drawing, options.layer);
@@ -107,8 +125,13 @@ Result<void> import_drawing(ImportOptions options, Console console) {
 void add_import_command(CLI::App& app, Console& console, int& exit) {
   auto options = std::make_shared<ImportOptions>();
   CLI::App* command = app.add_subcommand(
-      "import", "Make a pot from a drawing of its section, to throw on or to print");
-  command->add_option("drawing", options->drawing, "NAME.svg, NAME.dxf or NAME.csv")->required();
+      "import",
+      "Make a pot from a drawing of its section, or from a mesh, to throw on or to print");
+  command
+      ->add_option(
+          "drawing", options->drawing,
+          "NAME.svg, NAME.dxf or NAME.csv; or a mesh of a pot: NAME.stl, NAME.obj or NAME.drc")
+      ->required();
   command->add_option("-o,--output", options->pot, "NAME.pot.json or NAME.pot.cbor")->required();
   command->add_option(
       "--axis", options->axis,
@@ -119,7 +142,7 @@ void add_import_command(CLI::App& app, Console& console, int& exit) {
                       "that are shown)");
   command
       ->add_option("--height", options->section.height_mm,
-                   "Height of the pot: scales the drawing [mm] (default: as drawn)")
+                   "Height of the pot: scales the drawing or mesh [mm] (default: as it is)")
       ->check(in_range(0.01, 1e5));
   command
       ->add_option("--wall", options->pot_settings.wall_mm,
@@ -138,6 +161,7 @@ void add_import_command(CLI::App& app, Console& console, int& exit) {
   command->footer(
       "\nExamples:\n  claystack import vase.svg -o vase.pot.json --height 180\n"
       "  claystack import outline.csv --wall 6 -o lump.pot.json\n"
+      "  claystack import scan.stl -o scan.pot.json\n"
       "  claystack throw samples/bowl.scene.json --from lump.pot.json --device auto -o "
       "mine.pot.json");
   command->callback([options, &console, &exit] {

@@ -11,10 +11,6 @@
 namespace clay::importing {
 namespace {
 
-struct Segment {
-  glm::dvec2 from, to;
-};
-
 double distance(const Segment& segment, glm::dvec2 p) {
   const glm::dvec2 along = segment.to - segment.from;
   const double square = glm::dot(along, along);
@@ -40,20 +36,6 @@ void add_treads(std::vector<Segment>& outline, double y, Width below, Width abov
   add(std::min(below.second, above.second), std::max(below.second, above.second));
 }
 
-std::vector<Segment> outline_of(std::span<const Slab> slabs) {
-  std::vector<Segment> outline;
-  Width below{0.0, 0.0};
-  for (const Slab& slab : slabs) {
-    add_treads(outline, slab.from_mm, below, {slab.inner_from_mm, slab.outer_from_mm});
-    outline.push_back({{slab.outer_from_mm, slab.from_mm}, {slab.outer_to_mm, slab.to_mm}});
-    if (slab.inner_from_mm > 0.0 || slab.inner_to_mm > 0.0)
-      outline.push_back({{slab.inner_from_mm, slab.from_mm}, {slab.inner_to_mm, slab.to_mm}});
-    below = {slab.inner_to_mm, slab.outer_to_mm};
-  }
-  if (!slabs.empty()) add_treads(outline, slabs.back().to_mm, below, {0.0, 0.0});
-  return outline;
-}
-
 struct Nearest {
   double mm = 1e300;
   const Segment* segment = nullptr;
@@ -64,13 +46,14 @@ class Levels {
  public:
   explicit Levels(const std::vector<Segment>& outline) {
     for (const Segment& s : outline) {
-      low_ = std::min(low_, s.from.y);
-      high_ = std::max(high_, s.to.y);
+      low_ = std::min({low_, s.from.y, s.to.y});
+      high_ = std::max({high_, s.from.y, s.to.y});
     }
     rows_.resize(std::clamp<std::size_t>(outline.size(), 1, 100'000));
     row_mm_ = std::max((high_ - low_) / static_cast<double>(rows_.size()), 1e-9);
     for (const Segment& s : outline)
-      for (std::size_t row = row_at(s.from.y); row <= row_at(s.to.y); ++row)
+      for (std::size_t row = row_at(std::min(s.from.y, s.to.y));
+           row <= row_at(std::max(s.from.y, s.to.y)); ++row)
         rows_[row].push_back(&s);
   }
 
@@ -139,14 +122,37 @@ void widen(Deviation& worst, const std::vector<Segment>& outline, const Levels& 
 
 }  // namespace
 
-Deviation deviation_between(std::span<const Slab> a, std::span<const Slab> b) {
-  const std::vector<Segment> first = outline_of(a), second = outline_of(b);
+std::vector<Segment> outline_of(std::span<const Slab> slabs) {
+  std::vector<Segment> outline;
+  Width below{0.0, 0.0};
+  for (const Slab& slab : slabs) {
+    add_treads(outline, slab.from_mm, below, {slab.inner_from_mm, slab.outer_from_mm});
+    outline.push_back({{slab.outer_from_mm, slab.from_mm}, {slab.outer_to_mm, slab.to_mm}});
+    if (slab.inner_from_mm > 0.0 || slab.inner_to_mm > 0.0)
+      outline.push_back({{slab.inner_from_mm, slab.from_mm}, {slab.inner_to_mm, slab.to_mm}});
+    below = {slab.inner_to_mm, slab.outer_to_mm};
+  }
+  if (!slabs.empty()) add_treads(outline, slabs.back().to_mm, below, {0.0, 0.0});
+  return outline;
+}
+
+Deviation deviation_from(const std::vector<Segment>& outline, const std::vector<Segment>& other) {
   Deviation worst;
-  if (first.empty() || second.empty()) return worst;
-  const Levels in_first(first), in_second(second);
-  widen(worst, first, in_second);
-  widen(worst, second, in_first);
+  if (!outline.empty() && !other.empty()) widen(worst, outline, Levels(other));
   return worst;
+}
+
+Deviation deviation_between(const std::vector<Segment>& a, const std::vector<Segment>& b) {
+  Deviation worst;
+  if (a.empty() || b.empty()) return worst;
+  const Levels in_a(a), in_b(b);
+  widen(worst, a, in_b);
+  widen(worst, b, in_a);
+  return worst;
+}
+
+Deviation deviation_between(std::span<const Slab> a, std::span<const Slab> b) {
+  return deviation_between(outline_of(a), outline_of(b));
 }
 
 }  // namespace clay::importing

@@ -3,7 +3,9 @@
 
 #include "app/import/half_section.hpp"
 
+#include <glm/vec2.hpp>
 #include <span>
+#include <vector>
 
 namespace clay::importing {
 
@@ -17,6 +19,20 @@ struct Deviation {
 
 inline constexpr double kDeviationStepMm = 1e-3;
 
+/// A piece of an outline: (distance from the axis, height) [mm].
+struct Segment {
+  glm::dvec2 from{0.0}, to{0.0};
+};
+
+/// The outline of the clay, without the axis.
+[[nodiscard]] std::vector<Segment> outline_of(std::span<const Slab> slabs);
+
+[[nodiscard]] Deviation deviation_between(const std::vector<Segment>& a,
+                                          const std::vector<Segment>& b);
 [[nodiscard]] Deviation deviation_between(std::span<const Slab> a, std::span<const Slab> b);
+
+/// From points of `outline` to the nearest of `other`, in this direction alone.
+[[nodiscard]] Deviation deviation_from(const std::vector<Segment>& outline,
+                                       const std::vector<Segment>& other);
 
 }  // namespace clay::importing

@@ -106,7 +106,7 @@ Result<HalfSection> hollowed(const HalfSection& solid, double wall_mm, const std
   return section;
 }
 
-std::vector<Slab> slabs_of(const std::vector<Ring>& rings, double ring_mm) {
+std::vector<Slab> slabs_of_rings(std::span<const Ring> rings, double ring_mm) {
   std::vector<Slab> slabs;
   for (std::size_t i = 0; i < rings.size(); ++i) {
     const double outer = rings[i].outer_mm(), inner = rings[i].inner_mm();
@@ -137,11 +137,15 @@ Result<DrawnRings> drawn_rings(const HalfSection& section, const std::vector<dou
   const std::vector<Slab> slabs = on_ring_bounds(section, levels, count);
   auto rings = rings_of(sums_of(slabs, ring_mm, count), ring_mm, name);
   if (!rings) return tl::make_unexpected(rings.error());
-  const Deviation deviation = deviation_between(section.slabs, slabs_of(*rings, ring_mm));
+  const Deviation deviation = deviation_between(section.slabs, slabs_of_rings(*rings, ring_mm));
   return DrawnRings{std::move(*rings), ring_mm, deviation};
 }
 
 }  // namespace
+
+std::vector<Slab> slabs_of(const ClayStack& stack) {
+  return slabs_of_rings(stack.rings(), stack.ring_height_mm());
+}
 
 Result<DrawnPot> drawn_pot(const HalfSection& drawn, const DrawnPotSettings& settings,
                            const std::string& name) {

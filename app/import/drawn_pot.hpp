@@ -26,6 +26,9 @@ struct DrawnPot {
   Deviation deviation;  ///< of the rings from the drawing; from the hollowed drawing with a wall
 };
 
+/// The clay of a stack as slabs of constant radii.
+[[nodiscard]] std::vector<Slab> slabs_of(const ClayStack& stack);
+
 /// The height is divided into whole rings whose bounds meet the level lines of the drawing, which
 /// move to them by less than half a ring where they do not. Each ring's R^2 and r^2 are the means
 /// of the drawing's over the ring's height, so every ring holds the clay drawn there, to the

@@ -1,0 +1,88 @@
+#include "app/cli/import_mesh.hpp"
+
+#include "app/cli/json_output.hpp"
+#include "app/cli/pot_copy.hpp"
+
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
+#include "claystack/export/formats.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace clay::cli {
+namespace {
+
+using namespace importing;
+
+Json vector_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+Json summary(const std::string& name, const solid::TriangleMesh& mesh, double mesh_mm3,
+             const MeshPot& made) {
+  Json parts = Json::array();
+  for (const MeshPart& part : made.parts)
+    parts.push_back({{"azimuth_deg", {part.from_deg, part.to_deg}},
+                     {"height_mm", {part.low_mm, part.high_mm}},
+                     {"off_mm", part.off_mm}});
+  const ClayStack& stack = made.pot.stack;
+  return {{"mesh", name},
+          {"triangles", mesh.triangles.size()},
+          {"mesh_mm3", mesh_mm3},
+          {"foot_mm", vector_json(made.axis.through)},
+          {"axis", vector_json(made.axis.direction)},
+          {"rings", stack.size()},
+          {"ring_height_mm", stack.ring_height_mm()},
+          {"height_mm", stack.height_mm()},
+          {"volume_mm3", stack.volume_mm3()},
+          {"deviation_mm", made.deviation.mm},
+          {"deviation_at_mm", {made.deviation.radius_mm, made.deviation.height_mm}},
+          {"not_of_revolution", std::move(parts)}};
+}
+
+void tell(const Console& console, const MeshPot& made, double mesh_mm3) {
+  const glm::dvec3 &foot = made.axis.through, &up = made.axis.direction;
+  const ClayStack& stack = made.pot.stack;
+  console.print(
+      fmt::format("axis through ({:.3f}, {:.3f}, {:.3f}) mm along ({:.5f}, {:.5f}, {:.5f})", foot.x,
+                  foot.y, foot.z, up.x, up.y, up.z));
+  console.print(fmt::format(
+      "{} rings of {:.4g} mm: {:.1f} mm high, {:.1f} cm3 of clay ({:.1f} cm3 in the mesh)",
+      stack.size(), stack.ring_height_mm(), stack.height_mm(), stack.volume_mm3() / 1e3,
+      mesh_mm3 / 1e3));
+  console.print(fmt::format(
+      "largest deviation from the mesh: {:.3f} mm, {:.2f} mm from the axis and {:.2f} mm above the "
+      "foot",
+      made.deviation.mm, made.deviation.radius_mm, made.deviation.height_mm));
+  for (const MeshPart& part : made.parts)
+    console.print(fmt::format(
+        "not of revolution, left out: azimuth {:.0f} to {:.0f} degrees, {:.1f} to {:.1f} mm above "
+        "the foot, up to {:.1f} mm off",
+        part.from_deg, part.to_deg, part.low_mm, part.high_mm, part.off_mm));
+}
+
+}  // namespace
+
+Result<void> import_mesh(const std::string& path, const std::string& pot,
+                         const MeshPotSettings& settings, const Console& console) {
+  constexpr std::size_t kMostMeshBytes = std::size_t{1} << 30;
+  const auto format = solid::mesh_format_of(path);
+  if (!format) return tl::make_unexpected(format.error());
+  auto mesh = read_file(path, kMostMeshBytes).and_then([&](const std::string& bytes) {
+    return solid::decode_mesh(bytes, *format, path);
+  });
+  if (!mesh) return tl::make_unexpected(mesh.error());
+  const auto made = mesh_pot(*mesh, settings, path);
+  if (!made) return tl::make_unexpected(made.error());
+  const PotEncoding encoding = pot_encoding_of(pot).value_or(PotEncoding::json);
+  if (auto done = publish(pot, write_pot(made->pot, encoding)); !done) return done;
+  const double mesh_mm3 = solid::signed_volume(*mesh);
+  if (console.json) print_json(summary(path, *mesh, mesh_mm3, *made));
+  tell(console, *made, mesh_mm3);
+  console.print("pot: " + pot);
+  return {};
+}
+
+}  // namespace clay::cli

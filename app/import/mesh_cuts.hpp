@@ -1,0 +1,32 @@
+#pragma once
+// A mesh cut by half-planes through its axis.
+
+#include "app/import/deviation.hpp"
+
+#include "claystack/export/solid.hpp"
+
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace clay::importing {
+
+/// Half-planes at equal azimuths. They avoid the azimuths at which meshes have their points.
+inline constexpr std::size_t kMeshCuts = 64;
+[[nodiscard]] double azimuth_of_cut(std::size_t cut) noexcept;  ///< [rad]
+
+/// The segments in which each half-plane meets the triangles: (distance from the axis, height).
+/// `points` are those of the mesh with the axis as z.
+[[nodiscard]] std::vector<std::vector<Segment>> mesh_cuts(const solid::TriangleMesh& mesh,
+                                                          std::span<const glm::dvec3> points);
+
+/// The innermost clay at one height of one cut; none if `outer_mm` is 0.
+struct Wall {
+  double inner_mm = 0.0, outer_mm = 0.0;
+};
+
+/// At each of the ascending heights. Heights of segments' ends count as just above.
+[[nodiscard]] std::vector<Wall> walls_of(const std::vector<Segment>& cut,
+                                         std::span<const double> heights_mm);
+
+}  // namespace clay::importing

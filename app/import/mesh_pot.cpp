@@ -1,0 +1,144 @@
+#include "app/import/mesh_pot.hpp"
+
+#include "app/import/mesh_section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace clay::importing {
+namespace {
+
+/// A mesh about its axis, with what its cuts have in common.
+struct Revolved {
+  std::vector<std::vector<Segment>> cuts;  ///< heights from the foot
+  HalfSection section;
+  double foot_mm = 0.0;  ///< along the axis
+};
+
+Result<Revolved> revolved(const solid::TriangleMesh& mesh, const MeshAxis& axis,
+                          const std::string& name) {
+  const auto points = about_axis(mesh, axis);
+  Revolved result{mesh_cuts(mesh, points), {}, 0.0};
+  auto common = revolved_section(points, result.cuts, name);
+  if (!common) return tl::make_unexpected(common.error());
+  result.section = std::move(common->section);
+  result.foot_mm = common->foot_mm;
+  for (std::vector<Segment>& cut : result.cuts)
+    for (Segment& s : cut) {
+      s.from.y -= result.foot_mm;
+      s.to.y -= result.foot_mm;
+    }
+  return result;
+}
+
+/// The largest distance of each cut from the section, and its heights beyond `limit_mm`.
+struct CutOff {
+  double mm = 0.0, low_mm = 1e300, high_mm = -1e300;
+};
+
+std::vector<CutOff> offsets(const Revolved& pot, double limit_mm) {
+  const std::vector<Segment> outline = outline_of(pot.section.slabs);
+  std::vector<CutOff> result;
+  for (const std::vector<Segment>& cut : pot.cuts) {
+    CutOff off;
+    off.mm = deviation_from(cut, outline).mm;
+    if (off.mm > limit_mm) {
+      for (const Segment& s : cut) {
+        if (deviation_from({s}, outline).mm <= limit_mm) continue;
+        off.low_mm = std::min({off.low_mm, s.from.y, s.to.y});
+        off.high_mm = std::max({off.high_mm, s.from.y, s.to.y});
+      }
+    }
+    result.push_back(off);
+  }
+  return result;
+}
+
+/// Neighbouring cuts beyond the limit, around the axis.
+std::vector<MeshPart> parts_of(const std::vector<CutOff>& cuts, double limit_mm) {
+  const auto beyond = [&](std::size_t i) { return cuts[i % cuts.size()].mm > limit_mm; };
+  constexpr double kStepDeg = 360.0 / static_cast<double>(kMeshCuts);
+  std::vector<MeshPart> parts;
+  for (std::size_t first = 0; first < cuts.size(); ++first) {
+    if (!beyond(first) || beyond(first + cuts.size() - 1)) continue;
+    MeshPart part;
+    part.low_mm = 1e300, part.high_mm = -1e300;
+    std::size_t end = first;
+    for (; beyond(end); ++end) {
+      const CutOff& cut = cuts[end % cuts.size()];
+      part.off_mm = std::max(part.off_mm, cut.mm);
+      part.low_mm = std::min(part.low_mm, cut.low_mm);
+      part.high_mm = std::max(part.high_mm, cut.high_mm);
+    }
+    part.from_deg = azimuth_of_cut(first) * 180.0 / std::numbers::pi - 0.5 * kStepDeg;
+    part.to_deg = part.from_deg + static_cast<double>(end - first) * kStepDeg;
+    parts.push_back(part);
+  }
+  return parts;
+}
+
+bool opens_below(const HalfSection& section) {
+  return section.slabs.front().inner_from_mm > 0.0 && !(section.slabs.back().inner_to_mm > 0.0);
+}
+
+double largest_radius(const HalfSection& section) {
+  double largest = 0.0;
+  for (const Slab& slab : section.slabs)
+    largest = std::max({largest, slab.outer_from_mm, slab.outer_to_mm});
+  return largest;
+}
+
+Result<void> check_size(const solid::TriangleMesh& mesh, const std::string& name) {
+  if (mesh.triangles.size() >= 4) return {};
+  return failure(
+      ErrorKind::bad_input,
+      fmt::format("{}: expected a mesh of a pot, found {} triangles", name, mesh.triangles.size()));
+}
+
+}  // namespace
+
+Result<MeshPot> mesh_pot(solid::TriangleMesh mesh, const MeshPotSettings& settings,
+                         const std::string& name) {
+  if (auto sized = check_size(mesh, name); !sized) return tl::make_unexpected(sized.error());
+  MeshPot result;
+  result.axis = refined_axis(mesh, fitted_axis(mesh));
+  auto pot = revolved(mesh, result.axis, name);
+  if (pot && opens_below(pot->section)) {
+    result.axis.direction = -result.axis.direction;
+    pot = revolved(mesh, result.axis, name);
+  }
+  if (pot && settings.height_mm) {
+    const double scale = *settings.height_mm / pot->section.height_mm;
+    for (glm::dvec3& p : mesh.points) p *= scale;
+    result.axis.through *= scale;
+    pot = revolved(mesh, result.axis, name);
+  }
+  if (!pot) return tl::make_unexpected(pot.error());
+  const double limit = std::max(kPartMm, 0.01 * largest_radius(pot->section));
+  const std::vector<CutOff> cuts = offsets(*pot, limit);
+  const auto off =
+      std::count_if(cuts.begin(), cuts.end(), [&](const CutOff& cut) { return cut.mm > limit; });
+  if (2 * static_cast<std::size_t>(off) > kMeshCuts)
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}: expected a pot that is nearly of revolution, found a mesh that "
+                               "is more than {:.3g} mm from it at {} of {} azimuths",
+                               name, limit, off, kMeshCuts));
+  auto drawn = drawn_pot(pot->section, settings.rings, name);
+  if (!drawn) return tl::make_unexpected(drawn.error());
+  result.pot = std::move(drawn->pot);
+  result.axis.through += pot->foot_mm * result.axis.direction;
+  result.section_mm3 = pot->section.volume_mm3();
+  result.parts = parts_of(cuts, limit);
+  const std::vector<Segment> rings = outline_of(slabs_of(result.pot.stack));
+  for (std::size_t i = 0; i < kMeshCuts; ++i) {
+    if (cuts[i].mm > limit) continue;
+    const Deviation deviation = deviation_between(pot->cuts[i], rings);
+    if (deviation.mm > result.deviation.mm) result.deviation = deviation;
+  }
+  return result;
+}
+
+}  // namespace clay::importing

@@ -1,0 +1,44 @@
+#pragma once
+// Makes a pot from a mesh that is nearly a solid of revolution.
+
+#include "app/import/drawn_pot.hpp"
+#include "app/import/mesh_axis.hpp"
+
+#include <string>
+#include <vector>
+
+namespace clay::importing {
+
+/// Something that is not of revolution, such as a handle or a spout.
+struct MeshPart {
+  double from_deg = 0.0, to_deg = 0.0;  ///< azimuths about the axis, counterclockwise from x
+  double low_mm = 0.0, high_mm = 0.0;   ///< heights above the foot
+  double off_mm = 0.0;                  ///< its largest distance from the revolved section
+};
+
+struct MeshPot {
+  Pot pot;
+  MeshAxis axis;             ///< through the middle of the foot
+  double section_mm3 = 0.0;  ///< volume of the revolved section
+  /// Of the rings from the mesh in half-planes through the axis, in both directions, at azimuths
+  /// without parts.
+  Deviation deviation;
+  std::vector<MeshPart> parts;
+};
+
+/// Points farther than this from the revolved section, or a hundredth of the largest radius, are
+/// not of revolution.
+inline constexpr double kPartMm = 0.5;
+
+struct MeshPotSettings {
+  std::optional<double> height_mm;  ///< scales the mesh to this height
+  DrawnPotSettings rings;           ///< without a wall
+};
+
+/// Fits the axis, revolves the mean of the section over all azimuths that agree with the middle
+/// one, and makes rings of it. The end with the opening is up. Refuses meshes of which more than
+/// half of the azimuths are not of revolution, and everything that drawn_pot refuses.
+Result<MeshPot> mesh_pot(solid::TriangleMesh mesh, const MeshPotSettings& settings,
+                         const std::string& name);
+
+}  // namespace clay::importing
