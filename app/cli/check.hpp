@@ -23,6 +23,8 @@ struct CheckCommand {
   std::string certificate;  ///< empty: no certificate is checked
   std::size_t wall_samples = 10'000;
   bool repair = false;
+  solid::RepairOptions repair_options;
+  bool dry_run = false;
   std::optional<std::size_t> max_triangles;
   std::string out;  ///< empty: nothing is written
 
@@ -33,9 +35,11 @@ struct CheckCommand {
 struct RepairSummary {
   std::vector<solid::MeshProblem> found;  ///< in the input file
   std::vector<solid::Repair> repaired;
+  std::vector<solid::FilledHole> holes;
+  double volume_before_mm3 = 0.0;             ///< of the input file; meaningless for an open mesh
   std::size_t triangles_before = 0;           ///< before decimation
   std::optional<double> decimation_error_mm;  ///< set if the mesh was decimated
-  std::string path;
+  std::string path;                           ///< empty: nothing was written
   solid::MeshFormat format = solid::MeshFormat::stl_binary;
   std::size_t bytes = 0;
 };

@@ -17,12 +17,17 @@ bool is_pot(std::string_view path) { return path.ends_with(".json") || path.ends
 
 /// Checks combinations of options.
 Result<void> check_usage(const CheckCommand& command) {
-  if (command.changes_mesh() == command.out.empty())
+  if (command.dry_run && !command.changes_mesh())
+    return failure(ErrorKind::bad_input, "--dry-run: expected --repair or --max-triangles with it");
+  if ((command.repair_options.weld_mm || command.repair_options.cap_openings) && !command.repair)
+    return failure(ErrorKind::bad_input, "--weld, --cap: expected --repair with them");
+  if (command.changes_mesh() == command.out.empty() && !command.dry_run)
     return failure(ErrorKind::bad_input,
                    command.changes_mesh()
-                       ? "expected -o FILE for the result of --repair or --max-triangles"
+                       ? "expected -o FILE for the result of --repair or --max-triangles, or "
+                         "--dry-run"
                        : "-o: expected --repair or --max-triangles with it");
-  if (command.changes_mesh() && !is_pot(command.file))
+  if (command.changes_mesh() && !command.out.empty() && !is_pot(command.file))
     if (const auto format = solid::mesh_format_of(command.out, solid::FormatUse::write); !format)
       return tl::make_unexpected(format.error());
   if (command.changes_mesh() && !command.certificate.empty())
@@ -92,7 +97,16 @@ void add_check_command(CLI::App& app, Console& console, int& exit) {
       ->capture_default_str();
   sub->add_option("--certificate", command->certificate,
                   "Certificate of the file, to be verified against its bytes");
-  sub->add_flag("--repair", command->repair, "Repair the mesh, and report what was repaired");
+  sub->add_flag("--repair", command->repair,
+                "Repair the mesh until it is sound, and report what was repaired; where that is "
+                "not possible, report the reason and write nothing");
+  sub->add_option("--weld", command->repair_options.weld_mm,
+                  "With --repair: width of the cracks that are welded [mm]; default: a quarter of "
+                  "the shortest edge at a border, at most 1/1000 of the size of the mesh")
+      ->check(CLI::Range(0.0, 1e6));
+  sub->add_flag("--cap", command->repair_options.cap_openings,
+                "With --repair: close wide openings by caps instead of refusing them");
+  sub->add_flag("--dry-run", command->dry_run, "Report the changes without writing a file");
   sub->add_option("--max-triangles", command->max_triangles,
                   "Maximum number of triangles: decimates a closed mesh after any repair, and "
                   "measures the error")
@@ -100,12 +114,13 @@ void add_check_command(CLI::App& app, Console& console, int& exit) {
   sub->add_option(
       "-o,--out", command->out,
       "File for the repaired or decimated mesh: " + solid::format_endings(solid::FormatUse::write) +
-          ". Written even if nothing had to be changed or problems remain; verdict and exit status "
-          "are those of the result");
+          ". Written even if nothing had to be changed; verdict and exit status are those of the "
+          "result");
   sub->footer(
       "\nExamples:\n  claystack check bowl.stl --certificate bowl.stl.certificate.json\n"
       "  claystack check bowl.pot.json --min-wall 3 "
-      "--json\n  claystack check found.stl --repair -o repaired.stl\n"
+      "--json\n  claystack check found.stl --repair --dry-run\n"
+      "  claystack check found.stl --repair -o repaired.stl\n"
       "  claystack check scan.obj --repair --max-triangles 100000 -o small.stl --min-wall 2");
   sub->callback([command, &console, &exit] { exit = check(*command, console); });
 }

@@ -69,11 +69,13 @@ Result<TriangleMesh> repaired_mesh(TriangleMesh mesh, const CheckCommand& comman
   auto found = checked(mesh);
   if (!found) return tl::make_unexpected(found.error());
   summary.found = std::move(found->problems);
+  summary.volume_before_mm3 = found->volume_mm3;
   if (command.repair && !summary.found.empty()) {
-    auto repaired = solid::repair_mesh(mesh);
+    auto repaired = solid::repair_mesh(mesh, command.repair_options);
     if (!repaired) return tl::make_unexpected(repaired.error());
     mesh = std::move(repaired->mesh);
     summary.repaired = std::move(repaired->repaired);
+    summary.holes = std::move(repaired->holes);
   }
   summary.triangles_before = mesh.triangles.size();
   if (command.max_triangles && mesh.triangles.size() > *command.max_triangles) {
@@ -93,10 +95,11 @@ Result<TriangleMesh> written(const TriangleMesh& mesh, const CheckCommand& comma
   if (!bytes) return tl::make_unexpected(bytes.error());
   auto reread = solid::decode_mesh(*bytes, summary.format, command.out);
   if (!reread) return reread;
+  summary.bytes = bytes->size();
+  if (command.dry_run) return reread;
   if (const auto done = publish(command.out, *bytes); !done)
     return tl::make_unexpected(done.error());
   summary.path = command.out;
-  summary.bytes = bytes->size();
   return reread;
 }
 
@@ -149,7 +152,10 @@ Result<void> measure_wall(const TriangleMesh& mesh, const solid::WallLimit& limi
 
 Result<TriangleMesh> repair_and_write(TriangleMesh mesh, const CheckCommand& command,
                                       RepairSummary& summary) {
-  const auto format = solid::mesh_format_of(command.out, solid::FormatUse::write);
+  // Without a name, a dry run takes the format of the input, if it can be written.
+  auto format = solid::mesh_format_of(command.out.empty() ? command.file : command.out,
+                                      solid::FormatUse::write);
+  if (!format && command.out.empty()) format = solid::MeshFormat::stl_binary;
   if (!format) return tl::make_unexpected(format.error());
   summary.format = *format;
   return repaired_mesh(std::move(mesh), command, summary).and_then([&](const TriangleMesh& result) {

@@ -37,13 +37,23 @@ void add_repair(Json& json, const RepairSummary& summary, const Verdict& verdict
   json["repaired"] = Json::array();
   for (const auto& [what, count] : summary.repaired)
     json["repaired"].push_back({{"what", what}, {"count", count}});
+  json["holes"] = Json::array();
+  for (const solid::FilledHole& hole : summary.holes)
+    json["holes"].push_back({{"edges", hole.edges},
+                             {"extent_mm", hole.extent_mm},
+                             {"area_mm2", hole.area_mm2},
+                             {"at_mm", {hole.place.x, hole.place.y, hole.place.z}}});
+  json["volume_before_mm3"] = summary.volume_before_mm3;
   json["remaining"] = problems_json(verdict.mesh.problems);
   if (summary.decimation_error_mm)
     json["decimated"] = {{"from_triangles", summary.triangles_before},
                          {"to_triangles", verdict.mesh.triangles},
                          {"max_error_mm", *summary.decimation_error_mm}};
-  json["written"] = {
-      {"path", summary.path}, {"format", solid::name_of(summary.format)}, {"bytes", summary.bytes}};
+  json["written"] = nullptr;
+  if (!summary.path.empty())
+    json["written"] = {{"path", summary.path},
+                       {"format", solid::name_of(summary.format)},
+                       {"bytes", summary.bytes}};
 }
 
 Json certificate_json(const solid::SolidCertificate& certificate, bool holds) {
@@ -81,8 +91,17 @@ void print_repair(const Console& console, const RepairSummary& summary, const Ve
     console.print(fmt::format("  decimated: {} to {} triangles; vertices within {:.2g} mm",
                               summary.triangles_before, verdict.mesh.triangles,
                               *summary.decimation_error_mm));
-  console.print(fmt::format("  written: {}, {} bytes, {}", summary.path, summary.bytes,
-                            verdict.mesh.sound() ? "sound" : "NOT SOUND"));
+  for (const solid::FilledHole& hole : summary.holes)
+    console.print(fmt::format(
+        "  filled: hole of {} edges, {:.4g} mm wide, {:.4g} mm2, at ({:.6g}, {:.6g}, {:.6g}) mm",
+        hole.edges, hole.extent_mm, hole.area_mm2, hole.place.x, hole.place.y, hole.place.z));
+  console.print(fmt::format("  volume: {:.6g} cm3 before, {:.6g} cm3 after",
+                            summary.volume_before_mm3 / 1000.0, verdict.mesh.volume_mm3 / 1000.0));
+  const char* const state = verdict.mesh.sound() ? "sound" : "NOT SOUND";
+  console.print(
+      summary.path.empty()
+          ? fmt::format("  not written (dry run): {} bytes, {}", summary.bytes, state)
+          : fmt::format("  written: {}, {} bytes, {}", summary.path, summary.bytes, state));
 }
 
 }  // namespace

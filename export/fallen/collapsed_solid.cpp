@@ -5,9 +5,9 @@
 #include "claystack/export/solid.hpp"
 #include "export/fallen/mesh_union.hpp"
 #include "export/fallen/pockets.hpp"
-#include "export/fallen/seam_cure.hpp"
 #include "export/proof/describe.hpp"
 #include "export/proof/verify_file.hpp"
+#include "export/repair/seam_cure.hpp"
 
 #include <algorithm>
 #include <array>

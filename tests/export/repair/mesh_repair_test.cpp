@@ -46,7 +46,8 @@ void expect_repaired(const TriangleMesh& broken, double volume_mm3, const std::v
   ASSERT_TRUE(result) << result.error().message;
   const MeshReport report = check_mesh(result->mesh);
   EXPECT_TRUE(report.sound()) << names(*result);
-  EXPECT_NEAR(report.volume_mm3, volume_mm3, 1e-9 * std::abs(volume_mm3)) << names(*result);
+  // Points are rounded to float32.
+  EXPECT_NEAR(report.volume_mm3, volume_mm3, 1e-6 * std::abs(volume_mm3)) << names(*result);
   EXPECT_EQ(result->repaired.size(), as.size()) << names(*result);
   for (const Repair& expected : as)
     EXPECT_EQ(times(*result, expected.what), expected.count)
@@ -77,14 +78,81 @@ TEST(Repair, FillsAHole) {
   expect_repaired(mesh, 8.0, {{"hole filled", 1}});
 }
 
-TEST(Repair, FillsTwoHolesOfManyEdges) {
-  // A tube of 400 sides without its two end rings.
+TEST(Repair, CapsWideOpeningsOnRequestOnly) {
+  // A tube of 400 sides without its two ends.
   TriangleMesh tube = revolve({{{{0, 0}, {30, 0}, {30, 50}, {0, 50}}}}, 400);
   const double volume = signed_volume(tube);
   std::erase_if(tube.triangles, [&](const auto& t) {
     return tube.points[t[0]].z == tube.points[t[1]].z && tube.points[t[1]].z == tube.points[t[2]].z;
   });
-  expect_repaired(tube, volume, {{"hole filled", 2}});
+  const auto refused = repair_mesh(tube);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::unsound);
+  EXPECT_NE(refused.error().message.find("opening"), std::string::npos) << refused.error().message;
+  const auto capped = repair_mesh(tube, {.weld_mm = {}, .cap_openings = true});
+  ASSERT_TRUE(capped) << capped.error().message;
+  EXPECT_NEAR(signed_volume(capped->mesh), volume, 1e-6 * volume);
+  ASSERT_EQ(capped->holes.size(), 2u);
+  for (const FilledHole& hole : capped->holes) {
+    EXPECT_EQ(hole.edges, 400u);
+    EXPECT_NEAR(hole.area_mm2, volume / 50.0, 1e-3);
+    EXPECT_NEAR(hole.place.x, 0.0, 1e-3);
+  }
+}
+
+TEST(Repair, FillsAPatchOfEightTrianglesWithoutIntersections) {
+  // Curved in both directions; a fill in the plane of the border would fold.
+  TriangleMesh mesh =
+      revolve({{{{0, 0}, {20, 0}, {28, 8}, {30, 20}, {28, 32}, {20, 40}, {0, 40}}}}, 24);
+  const double volume = signed_volume(mesh);
+  const glm::dvec3 place(30, 0, 20);
+  std::sort(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& a, const auto& b) {
+    const auto far = [&](const auto& t) {
+      return glm::distance((mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]]) / 3.0,
+                           place);
+    };
+    return far(a) < far(b);
+  });
+  mesh.triangles.erase(mesh.triangles.begin(), mesh.triangles.begin() + 8);
+  const auto result = repair_mesh(mesh);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_TRUE(check_mesh(result->mesh).sound()) << names(*result);
+  EXPECT_EQ(times(*result, "hole filled"), 1u) << names(*result);
+  EXPECT_NEAR(signed_volume(result->mesh), volume, 0.01 * volume);
+}
+
+TEST(Repair, WeldsPointsJitteredByAMicrometre) {
+  // Every triangle has corners of its own, each displaced by up to 1 um.
+  const TriangleMesh good = ball(20.0);
+  TriangleMesh soup;
+  double phase = 0.0;
+  for (const auto& t : good.triangles) {
+    const auto first = static_cast<std::uint32_t>(soup.points.size());
+    for (const std::uint32_t v : t) {
+      phase += 1.0;
+      soup.points.push_back(good.points[v] + 0.001 / std::sqrt(3.0) *
+                                                 glm::dvec3(std::sin(17.0 * phase),
+                                                            std::sin(29.0 * phase),
+                                                            std::sin(41.0 * phase)));
+    }
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  const auto result = repair_mesh(soup);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->mesh.triangles.size(), good.triangles.size());
+  EXPECT_NEAR(signed_volume(result->mesh), signed_volume(good), 0.002 * surface_mm2(good));
+  EXPECT_FALSE(repair_mesh(soup, {.weld_mm = 1e-6}));
+}
+
+TEST(Repair, ClosesTJunctions) {
+  // Edge 0-1 of the cube has a vertex in the middle on one side only, off the edge by 2 um.
+  TriangleMesh mesh = cube(2.0);
+  mesh.points.push_back({1, 0.002, 0});
+  std::erase(mesh.triangles, (std::array<std::uint32_t, 3>{0, 1, 5}));
+  mesh.triangles.insert(mesh.triangles.end(), {{0, 8, 5}, {8, 1, 5}});
+  const auto result = repair_mesh(mesh);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_NEAR(signed_volume(result->mesh), 8.0, 0.01);
 }
 
 TEST(Repair, ReorientsAFlippedFace) {
@@ -152,25 +220,33 @@ TEST(Repair, RemovesFins) {
   expect_repaired(mesh, 8.0, {{"triangle of a fin removed", 2}, {"hole filled", 1}});
 }
 
-TEST(Repair, SplitsAVertexButLeavesTheSolidsTouching) {
-  TriangleMesh mesh = together(cube(2.0), moved(cube(2.0), {2, 2, 2}));
-  const auto result = repair_mesh(mesh);
-  ASSERT_TRUE(result);
-  EXPECT_EQ(times(*result, "non-manifold vertex split"), 1u) << names(*result);
-  const MeshReport report = check_mesh(result->mesh);
-  EXPECT_TRUE(report.closed && report.manifold && report.oriented) << names(*result);
-  EXPECT_GT(report.self_intersections, 0u);
-  EXPECT_NEAR(report.volume_mm3, 16.0, 1e-12);
+TEST(Repair, PullsSolidsApartThatTouchInAVertex) {
+  const auto result = repair_mesh(together(cube(2.0), moved(cube(2.0), {2, 2, 2})));
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(times(*result, "vertex pulled apart where surfaces touch"), 1u) << names(*result);
+  EXPECT_EQ(check_mesh(result->mesh).components, 2u);
+  EXPECT_NEAR(signed_volume(result->mesh), 16.0, 1e-3);
 }
 
-TEST(Repair, SplitsAnEdgeWhereSolidsTouch) {
+TEST(Repair, PullsSolidsApartThatTouchInAnEdge) {
   const auto result = repair_mesh(together(cube(2.0), moved(cube(2.0), {2, 2, 0})));
-  ASSERT_TRUE(result);
-  EXPECT_EQ(times(*result, "non-manifold edge cut apart"), 1u) << names(*result);
-  const MeshReport report = check_mesh(result->mesh);
-  EXPECT_TRUE(report.closed && report.manifold && report.oriented) << names(*result);
-  EXPECT_EQ(report.components, 2u);
-  EXPECT_NEAR(report.volume_mm3, 16.0, 1e-12);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(times(*result, "vertex pulled apart where surfaces touch"), 2u) << names(*result);
+  EXPECT_EQ(check_mesh(result->mesh).components, 2u);
+  EXPECT_NEAR(signed_volume(result->mesh), 16.0, 1e-3);
+}
+
+TEST(Repair, OpensAPinchedEdge) {
+  // Two prisms share an edge that ends inside the clay of a plate above and one below.
+  const TriangleMesh a = cube(2.0), b = moved(cube(2.0), {2, 2, 0});
+  TriangleMesh plate = cube(6.0);
+  for (glm::dvec3& p : plate.points) p.z /= 6.0;
+  const auto result = repair_mesh(
+      together(together(a, b), together(moved(plate, {-1, -1, -1}), moved(plate, {-1, -1, 2}))));
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_TRUE(check_mesh(result->mesh).sound()) << names(*result);
+  EXPECT_EQ(check_mesh(result->mesh).components, 1u);
+  EXPECT_NEAR(signed_volume(result->mesh), 2 * 8.0 + 2 * 36.0, 0.01);
 }
 
 TEST(Repair, RemovesASliver) {
@@ -195,12 +271,47 @@ TEST(Repair, DropsInvalidTriangles) {
   EXPECT_EQ(times(*lost_corner, "hole filled"), 1u);
 }
 
-TEST(Repair, LeavesSelfIntersections) {
+TEST(Repair, UnitesOverlappingBodies) {
   const TriangleMesh mesh = together(cube(2.0), moved(cube(2.0), {1, 1, 1}));
   const auto result = repair_mesh(mesh);
-  ASSERT_TRUE(result);
-  EXPECT_TRUE(result->repaired.empty()) << names(*result);
-  EXPECT_EQ(check_mesh(result->mesh).self_intersections, check_mesh(mesh).self_intersections);
+  ASSERT_TRUE(result) << result.error().message;
+  const MeshReport report = check_mesh(result->mesh);
+  EXPECT_TRUE(report.sound()) << names(*result);
+  EXPECT_EQ(report.components, 1u);
+  EXPECT_NEAR(report.volume_mm3, 15.0, 1e-12);
+  EXPECT_EQ(times(*result, "pair of intersecting triangles resolved"),
+            check_mesh(mesh).self_intersections);
+}
+
+TEST(Repair, UnitesBodiesThatShareCoplanarFaces) {
+  const auto result = repair_mesh(together(cube(2.0), moved(cube(2.0), {1, 0, 0})));
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_NEAR(signed_volume(result->mesh), 12.0, 1e-12);
+}
+
+TEST(Repair, UnitesRotatedBallsAsInclusionAndExclusion) {
+  // The overlap of two balls is computed by cutting one with the planes of the other, apart from
+  // the code under test: the union of a ball with itself, moved within a hair, stays in its hull.
+  const TriangleMesh a = ball(10.0);
+  TriangleMesh b = ball(10.0);
+  for (glm::dvec3& p : b.points)
+    p = {0.8 * p.x - 0.6 * p.y + 3.0, 0.6 * p.x + 0.8 * p.y, p.z + 2.0};
+  const auto result = repair_mesh(together(a, b));
+  ASSERT_TRUE(result) << result.error().message;
+  const double volume = signed_volume(result->mesh);
+  EXPECT_GT(volume, signed_volume(a));
+  EXPECT_LT(volume, signed_volume(a) + signed_volume(b));
+}
+
+TEST(Repair, KeepsThePointsOfTrianglesThatMeetNoOther) {
+  const TriangleMesh apart = moved(ball(10.0), {60, 0, 0});
+  const auto result =
+      repair_mesh(together(together(cube(2.0), moved(cube(2.0), {1, 1, 1})), apart));
+  ASSERT_TRUE(result) << result.error().message;
+  for (const glm::dvec3& p : apart.points)
+    EXPECT_NE(
+        std::find(result->mesh.points.begin(), result->mesh.points.end(), glm::dvec3(glm::vec3(p))),
+        result->mesh.points.end());
 }
 
 TEST(Repair, ReportsWhenNothingIsLeft) {
@@ -249,11 +360,7 @@ RC_GTEST_PROP(Repair, RepairsOrRefusesAnySoupDeterministically, ()) {
   RC_ASSERT(once->mesh == again->mesh);
   const MeshReport report = check_mesh(once->mesh);
   RC_LOG() << names(*once);
-  RC_ASSERT(report.manifold);
-  for (const MeshProblem& p : report.problems)
-    RC_ASSERT(p.what != "edge between faces of opposite orientation");
-  for (const auto& p : once->mesh.points)
-    RC_ASSERT(std::find(mesh.points.begin(), mesh.points.end(), p) != mesh.points.end());
+  RC_ASSERT(report.sound());
 }
 
 }  // namespace

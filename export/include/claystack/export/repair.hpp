@@ -3,6 +3,7 @@
 #include "claystack/export/solid.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,24 +18,43 @@ struct Repair {
   std::size_t count = 0;
 };
 
+/// A hole that was filled.
+struct FilledHole {
+  std::size_t edges = 0;   ///< of its border
+  double extent_mm = 0.0;  ///< diagonal of the box around its border
+  double area_mm2 = 0.0;   ///< of the new triangles
+  glm::dvec3 place{0.0};   ///< the middle of that box [mm]
+};
+
+struct RepairOptions {
+  /// Border points within this distance become one. Unset: a quarter of the shortest edge at a
+  /// border, at most a thousandth of the size of the mesh.
+  std::optional<double> weld_mm;
+  /// Close wide openings by caps instead of refusing them.
+  bool cap_openings = false;
+};
+
 struct RepairedMesh {
   TriangleMesh mesh;
   std::vector<Repair> repaired;  ///< in the order of the work; empty for a sound mesh
+  std::vector<FilledHole> holes;
 };
 
-/// Repairs defects that have one sensible answer; only vertices of cracks are moved:
-/// - triangles with an index out of range, a point that is not finite, or zero area;
-/// - duplicate points; border points within 4 units in the last place of float32 at the largest
-///   coordinate (cracks); triangles on the same vertices, of which one is kept, or none where two
-///   lie back to back;
-/// - open sheets on an edge of three triangles (fins); edges and vertices where surfaces touch;
-/// - triangles oriented against their neighbours, holes of up to kMaxHoleEdges edges, and shells
-///   oriented against those that enclose them.
-/// Intersecting or touching surfaces are left, because the intent is unknown; check_mesh reports
-/// what remains. A sound mesh is returned unchanged. Deterministic. Soup and holes use CGAL's
-/// Polygon Mesh Processing. Error (kind `unsound`): nothing is left to repair, or the library
-/// failed.
-Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh);
+/// Repairs a mesh, or explains why it cannot; the result is sound by check_mesh. In this order:
+/// - triangles with an index out of range or a point that is not finite are removed, points are
+///   rounded to float32 (which files hold) and merged, cracks are welded, duplicates and fins are
+///   removed;
+/// - triangles are oriented like their neighbours, and sheets that touch are cut apart;
+/// - holes of up to kMaxHoleEdges edges are filled; wide openings are refused: a cup given as a
+///   surface has no clay;
+/// - shells are oriented against those that enclose them;
+/// - intersections are resolved: triangles are cut where they meet, and the boundary of all points
+///   with a winding number of at least 1 is kept. Overlapping bodies are united. Parts that touch
+///   in an edge or a point are pulled apart.
+/// Triangles that take part in none of this keep their points. A sound mesh is returned unchanged.
+/// Deterministic. Half-edges, holes and exact numbers are CGAL's. Error (kind `unsound`): the
+/// reason why no sound mesh was found, or the library failed.
+Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions& options = {});
 
 /// The longest border of a hole that is filled: above it, the search for a patch takes too long.
 inline constexpr std::size_t kMaxHoleEdges = 10'000;

@@ -1,4 +1,4 @@
-#include "export/fallen/seam_cure.hpp"
+#include "export/repair/seam_cure.hpp"
 
 #include "export/solid/mesh_topology.hpp"
 
@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-namespace clay::solid::inline fallen {
+namespace clay::solid::inline repair {
 namespace {
 
 using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>;
@@ -192,11 +192,11 @@ class Cure {
 Result<CuredMesh> cure_seam(const TriangleMesh& mesh, const std::vector<bool>& on_seam,
                             double shortest_mm) {
   const MeshTopology topology = topology_of(mesh.points.size(), mesh.triangles);
-  if (!topology.closed() || !topology.manifold())
+  if (!topology.closed() || !topology.manifold() || !topology.oriented())
     return failure(ErrorKind::unsound,
                    "expected parts that share a seam of closed curves, found "
                    "that it branches or ends");
   return Cure(mesh, on_seam, shortest_mm).run();
 }
 
-}  // namespace clay::solid::inline fallen
+}  // namespace clay::solid::inline repair

@@ -1,0 +1,115 @@
+#include "export/repair/crack_welding.hpp"
+
+#include "export/repair/soup_edges.hpp"
+#include "export/repair/soup_repair.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <map>
+
+namespace clay::solid::inline repair {
+namespace {
+
+/// Border points in cells as wide as a crack. Only the first point of a cell is stored, so no file
+/// can make the search slow.
+class CrackCells {
+ public:
+  CrackCells(const std::vector<glm::dvec3>& points, double crack_mm)
+      : points_(points), crack_mm_(crack_mm) {}
+
+  /// An earlier point within a crack's width; otherwise this one, which is stored.
+  std::uint32_t first_near(std::uint32_t vertex) {
+    const Cell home = cell_of(points_[vertex]);
+    for (int x = -1; x <= 1; ++x)
+      for (int y = -1; y <= 1; ++y)
+        for (int z = -1; z <= 1; ++z) {
+          const auto found = first_.find({home[0] + x, home[1] + y, home[2] + z});
+          if (found != first_.end() && near(found->second, vertex)) return found->second;
+        }
+    first_.emplace(home, vertex);
+    return vertex;
+  }
+
+ private:
+  using Cell = std::array<std::int64_t, 3>;
+  Cell cell_of(const glm::dvec3& p) const {
+    const auto cell = [&](double x) {
+      return static_cast<std::int64_t>(std::floor(x / crack_mm_));
+    };
+    return {cell(p.x), cell(p.y), cell(p.z)};
+  }
+  bool near(std::uint32_t a, std::uint32_t b) const {
+    return glm::distance(points_[a], points_[b]) <= crack_mm_;
+  }
+
+  const std::vector<glm::dvec3>& points_;
+  double crack_mm_;
+  std::map<Cell, std::uint32_t> first_;
+};
+
+double largest_coordinate(const TriangleMesh& mesh) {
+  double largest = 0.0;
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t)
+      for (int axis = 0; axis < 3; ++axis)
+        largest = std::max(largest, std::abs(mesh.points[v][axis]));
+  return largest;
+}
+
+struct Border {
+  std::vector<bool> points;       ///< whether a point is on it
+  double shortest_mm = INFINITY;  ///< of the edges of triangles at it
+};
+
+Border border_of(const TriangleMesh& mesh, double least_mm) {
+  Border border{std::vector<bool>(mesh.points.size(), false)};
+  std::vector<bool> at_border(mesh.triangles.size(), false);
+  for_each_edge(mesh, [&](std::span<const SoupEdge> edges) {
+    if (edges.size() != 1) return;
+    border.points[edges[0].low] = border.points[edges[0].high] = true;
+    at_border[edges[0].triangle] = true;
+  });
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!at_border[t]) continue;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double length = glm::distance(mesh.points[mesh.triangles[t].at(c)],
+                                          mesh.points[mesh.triangles[t].at((c + 1) % 3)]);
+      if (length > least_mm) border.shortest_mm = std::min(border.shortest_mm, length);
+    }
+  }
+  return border;
+}
+
+double size_of(const TriangleMesh& mesh) {
+  glm::dvec3 low(INFINITY), high(-INFINITY);
+  for (const glm::dvec3& p : mesh.points) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  return glm::distance(low, high);
+}
+
+}  // namespace
+
+std::size_t weld_cracks(TriangleMesh& mesh, std::optional<double> weld_mm) {
+  // Rounding to float32 alone may open a crack this wide.
+  const double least_mm = 4.0 * std::numeric_limits<float>::epsilon() * largest_coordinate(mesh);
+  const Border border = border_of(mesh, least_mm);
+  if (std::isinf(border.shortest_mm)) return 0;
+  const double crack_mm = std::max(
+      least_mm, weld_mm.value_or(std::min(0.25 * border.shortest_mm, 1e-3 * size_of(mesh))));
+  CrackCells cells(mesh.points, crack_mm);
+  std::vector<std::uint32_t> number(mesh.points.size());
+  std::size_t welded = 0;
+  for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
+    number[v] = border.points[v] ? cells.first_near(v) : v;
+    welded += number[v] == v ? 0 : 1;
+  }
+  renumber(mesh, number);
+  return welded;
+}
+
+}  // namespace clay::solid::inline repair

@@ -1,0 +1,38 @@
+#pragma once
+// Triangles that meet only in whole edges and vertices, on exact points. Requires CGAL's headers:
+// for the sources of this room only.
+
+#include "export/solid/mesh_topology.hpp"
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <vector>
+
+namespace clay::solid::inline repair {
+
+using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using ExactPoint = ExactKernel::Point_3;
+
+inline ExactPoint exact_point(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
+
+/// The interval of a lazy number may be as wide as 1e-5 of it, so evaluate it exactly first.
+inline glm::dvec3 nearest_double(const ExactPoint& point) {
+  const auto& p = point.exact();
+  return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
+}
+
+struct ExactSoup {
+  std::vector<glm::dvec3> points;  ///< those of the input, then the new ones, nearest doubles
+  std::size_t first_new = 0;
+  std::vector<ExactPoint> exact;  ///< of the new points
+  std::vector<Triangle> triangles;
+  /// By triangle, at least 1: how many sheets of the input cover it in its direction, less those
+  /// that cover it in the opposite one.
+  std::vector<int> sheets;
+  std::vector<bool> at_cut;  ///< by point of the input: whether a triangle that was cut uses it
+
+  [[nodiscard]] ExactPoint point(std::uint32_t v) const {
+    return v < first_new ? exact_point(points[v]) : exact[v - first_new];
+  }
+};
+
+}  // namespace clay::solid::inline repair

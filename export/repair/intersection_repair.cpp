@@ -1,0 +1,126 @@
+#include "export/repair/intersection_repair.hpp"
+
+#include "claystack/export/proof.hpp"
+#include "export/formats/file_floats.hpp"
+#include "export/repair/exact_refinement.hpp"
+#include "export/repair/outer_skin.hpp"
+#include "export/repair/seam_cure.hpp"
+#include "export/repair/sheet_count.hpp"
+#include "export/repair/soup_repair.hpp"
+#include "export/repair/touching_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace clay::solid::inline repair {
+namespace {
+
+/// One unit in the last place of float32, at the largest coordinate.
+double last_place_mm(const TriangleMesh& mesh) {
+  double largest = std::numeric_limits<float>::min();
+  for (const glm::dvec3& p : mesh.points)
+    for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(p[axis]));
+  return std::ldexp(1.0, std::ilogb(largest) - std::numeric_limits<float>::digits + 1);
+}
+
+void round_to_files(TriangleMesh& mesh) {
+  for (glm::dvec3& p : mesh.points) p = file_point(p);
+}
+
+/// Rounding lays some triangles back to back.
+void cancel_sheets(TriangleMesh& mesh) {
+  const SheetCount counted = count_sheets(mesh);
+  if (counted.triangles.size() == mesh.triangles.size()) return;
+  std::vector<Triangle> triangles;
+  for (std::size_t t = 0; t < counted.triangles.size(); ++t)
+    triangles.insert(triangles.end(), static_cast<std::size_t>(counted.sheets[t]),
+                     counted.triangles[t]);
+  mesh.triangles = std::move(triangles);
+}
+
+/// A surface on exact points, and which of them lie at cuts.
+struct Cut {
+  TriangleMesh mesh;
+  std::vector<bool> on_seam;
+  std::size_t inner = 0;
+};
+
+Result<Cut> cut_and_select(const TriangleMesh& mesh) {
+  auto soup = refine(mesh);
+  if (!soup) return tl::make_unexpected(soup.error());
+  auto skin = outer_skin(*soup, mesh);
+  if (!skin) return tl::make_unexpected(skin.error());
+  if (skin->triangles.empty())
+    return failure(ErrorKind::unsound, "expected a surface that encloses clay, found none");
+  Cut cut{{std::move(soup->points), std::move(skin->triangles)}, soup->at_cut, skin->inner};
+  cut.on_seam.resize(cut.mesh.points.size(), true);
+  return cut;
+}
+
+struct Rounded {
+  TriangleMesh mesh;
+  std::size_t pulled = 0;
+};
+
+/// Triangles lower than `shortest_mm` are removed first, so that rounding cannot turn them over.
+Rounded rounded(Cut cut, double shortest_mm, double gap_mm) {
+  Rounded result;
+  result.pulled = pull_apart(cut.mesh, gap_mm);
+  cut.on_seam.resize(cut.mesh.points.size(), true);
+  if (auto cured = cure_seam(cut.mesh, cut.on_seam, shortest_mm)) cut.mesh = std::move(cured->mesh);
+  result.mesh = std::move(cut.mesh);
+  round_to_files(result.mesh);
+  drop_unused_points(result.mesh);
+  merge_equal_points(result.mesh);
+  drop_collapsed(result.mesh);
+  cancel_sheets(result.mesh);
+  drop_unused_points(result.mesh);
+  return result;
+}
+
+std::size_t faults_of(const MeshReport& report) {
+  std::size_t faults = 0;
+  for (const MeshProblem& problem : report.problems) faults += problem.count;
+  return faults;
+}
+
+}  // namespace
+
+Result<TriangleMesh> resolve_intersections(const TriangleMesh& closed,
+                                           std::vector<Repair>& repaired) {
+  constexpr int kMostSteps = 7;
+  TriangleMesh mesh = closed;
+  merge_equal_points(mesh);
+  const double unit_mm = last_place_mm(mesh);
+  MeshReport report = check_mesh(mesh);
+  note_repair(repaired, "pair of intersecting triangles resolved", report.self_intersections);
+  for (int round = 0; round < kMostRounds && !report.sound(); ++round) {
+    const auto cut = cut_and_select(mesh);
+    if (!cut) return tl::make_unexpected(cut.error());
+    note_repair(repaired, "triangle inside the solid removed", round == 0 ? cut->inner : 0);
+    std::optional<std::size_t> fewest;
+    for (int step = 0; step < kMostSteps && !report.sound(); ++step) {
+      Rounded next =
+          rounded(*cut, std::ldexp(unit_mm, 2 * step + 1), std::ldexp(unit_mm, 2 * step + 6));
+      MeshReport of_next = check_mesh(next.mesh);
+      const std::size_t faults = faults_of(of_next);
+      if (fewest && *fewest <= faults) continue;
+      fewest = faults;
+      mesh = std::move(next.mesh);
+      report = std::move(of_next);
+      if (report.sound())
+        note_repair(repaired, "vertex pulled apart where surfaces touch", next.pulled);
+    }
+  }
+  if (report.sound()) return mesh;
+  return failure(ErrorKind::unsound,
+                 "expected a sound mesh after " + std::to_string(kMostRounds) +
+                     " rounds of cutting and rounding, found: " + report.problems.front().what +
+                     " (" + std::to_string(report.problems.front().count) + ") at " +
+                     report.problems.front().where);
+}
+
+}  // namespace clay::solid::inline repair

@@ -1,0 +1,19 @@
+#pragma once
+#include "claystack/core/result.hpp"
+#include "claystack/export/repair.hpp"
+
+namespace clay::solid::inline repair {
+
+/// For closed sheets of float32 points, in any position: the boundary of what they enclose, rounded
+/// to float32, and sound by check_mesh. The sheets are cut where they meet, and the outer skin is
+/// kept; where parts touch in an edge or a vertex, they are pulled apart by a few units of the last
+/// place. Low triangles at the cuts are removed before rounding, in steps up to 2^13 units of the
+/// last place until the result is sound; if none is, the best one is cut again. Triangles that meet
+/// no other keep their points. An error (`unsound`) if the sheets are not closed, enclose nothing,
+/// or are not sound after kMostRounds.
+Result<TriangleMesh> resolve_intersections(const TriangleMesh& closed,
+                                           std::vector<Repair>& repaired);
+
+inline constexpr int kMostRounds = 4;
+
+}  // namespace clay::solid::inline repair

@@ -1,0 +1,121 @@
+#include "export/repair/shell_turning.hpp"
+
+#include "export/repair/intersecting_pairs.hpp"
+#include "export/repair/surface_making.hpp"
+#include "export/repair/winding_ray.hpp"
+
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <numeric>
+
+namespace clay::solid::inline repair {
+namespace {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+
+/// Shells that intersect others or themselves: only their volumes show their orientation.
+class TangledShells {
+ public:
+  TangledShells(TriangleMesh mesh, const Shells& shells)
+      : mesh_(std::move(mesh)), shells_(shells), volumes_(shells.count, 0.0) {
+    const glm::dvec3 origin = mesh_.points[mesh_.triangles.front()[0]];
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto& [a, b, c] = mesh_.triangles[t];
+      volumes_[shells.of_face[t]] += glm::dot(
+          mesh_.points[a] - origin, glm::cross(mesh_.points[b] - origin, mesh_.points[c] - origin));
+    }
+  }
+
+  std::vector<bool> to_turn() {
+    const bool all = std::accumulate(volumes_.begin(), volumes_.end(), 0.0) < 0.0;
+    std::vector<bool> turn(shells_.count, all);
+    if (all) reverse_all();
+    if (shells_.count == 1) return turn;
+    const WindingRay ray(mesh_);
+    const std::vector<std::uint32_t> tops = top_triangles();
+    for (std::size_t shell = 0; shell < shells_.count; ++shell)
+      if (volumes_[shell] < 0.0 && winding_behind(ray, tops[shell]) <= 0) turn[shell] = !all;
+    return turn;
+  }
+
+ private:
+  void reverse_all() {
+    for (Triangle& t : mesh_.triangles) std::swap(t[1], t[2]);
+    for (double& volume : volumes_) volume = -volume;
+  }
+
+  /// For each shell, the triangle at its highest vertex that is seen best from above.
+  std::vector<std::uint32_t> top_triangles() const {
+    std::vector<std::uint32_t> tops(shells_.count, 0);
+    std::vector<std::pair<double, double>> best(shells_.count, {-INFINITY, -INFINITY});
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto& [i, j, k] = mesh_.triangles[t];
+      const glm::dvec3 &a = mesh_.points[i], &b = mesh_.points[j], &c = mesh_.points[k];
+      const glm::dvec3 normal = glm::cross(b - a, c - a);
+      const double length = glm::length(normal);
+      if (!(length > 0.0)) continue;
+      const std::pair rank(std::max({a.z, b.z, c.z}), std::abs(normal.z) / length);
+      if (rank <= best[shells_.of_face[t]]) continue;
+      best[shells_.of_face[t]] = rank;
+      tops[shells_.of_face[t]] = t;
+    }
+    return tops;
+  }
+
+  /// The winding number behind a triangle of a reversed shell, outside of which it lies.
+  int winding_behind(const WindingRay& ray, std::uint32_t t) const {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    const auto count = ray.from_middle_of(
+        {exact_point(mesh_.points[a]), exact_point(mesh_.points[b]), exact_point(mesh_.points[c])});
+    return count.front ? count.winding + 1 : count.winding;
+  }
+
+  TriangleMesh mesh_;
+  const Shells& shells_;
+  std::vector<double> volumes_;  ///< six times
+};
+
+std::size_t turn_tangled(Surface& surface, TriangleMesh mesh) {
+  const Shells shells(surface);
+  const std::vector<bool> turn = TangledShells(std::move(mesh), shells).to_turn();
+  std::vector<Surface::Face_index> faces;
+  for (const auto face : surface.faces())
+    if (turn[shells.of_face[face]]) faces.push_back(face);
+  pmp::reverse_face_orientations(faces, surface);
+  return static_cast<std::size_t>(std::count(turn.begin(), turn.end(), true));
+}
+
+std::size_t turn_nested(Surface& surface) {
+  const Shells shells(surface);
+  std::vector<Surface::Face_index> first(shells.count, Surface::null_face());
+  for (const auto face : surface.faces())
+    if (auto& of_shell = first[shells.of_face[face]]; of_shell == Surface::null_face())
+      of_shell = face;
+  const auto target_of = [&](Surface::Face_index face, Surface::Vertex_index from) {
+    for (const auto h : surface.halfedges_around_face(surface.halfedge(face)))
+      if (surface.source(h) == from) return surface.target(h);
+    return Surface::null_vertex();
+  };
+  std::vector<std::pair<Surface::Vertex_index, Surface::Vertex_index>> before;
+  for (const auto face : first) {
+    const auto h = surface.halfedge(face);
+    before.emplace_back(surface.source(h), surface.target(h));
+  }
+  pmp::orient_to_bound_a_volume(surface);
+  std::size_t turned = 0;
+  for (std::size_t shell = 0; shell < shells.count; ++shell)
+    turned += target_of(first[shell], before[shell].first) == before[shell].second ? 0 : 1;
+  return turned;
+}
+
+}  // namespace
+
+std::size_t turn_shells(Surface& surface) {
+  if (surface.is_empty() || !CGAL::is_closed(surface)) return 0;
+  TriangleMesh mesh = mesh_of(surface);
+  if (intersecting_pairs(mesh, 1).empty()) return turn_nested(surface);
+  return turn_tangled(surface, std::move(mesh));
+}
+
+}  // namespace clay::solid::inline repair
