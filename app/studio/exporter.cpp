@@ -1,5 +1,6 @@
 #include "app/studio/exporter.hpp"
 
+#include "app/cli/packed_pot.hpp"
 #include "app/cli/pot_copy.hpp"
 
 #include <algorithm>
@@ -148,6 +149,7 @@ Exporter::Outcome Exporter::done(const Job& job) {
   };
   auto result = request_of(job.choices, *job.pot).and_then([&](solid::ExportRequest request) {
     request.options.cancelled = [token = job.stop.get_token()] { return token.stop_requested(); };
+    if (job.kind == Kind::files) cli::pack_pot(*job.pot, request);
     return job.kind == Kind::files ? solid::export_files(*job.pot, request, show)
                                    : solid::preview_export(*job.pot, request, show);
   });

@@ -21,7 +21,7 @@ inline constexpr double kThickestDemandMm = 20.0;
 
 /// The settings of the export dialog.
 struct ExportChoices {
-  std::vector<solid::MeshFormat> meshes = {solid::MeshFormat::stl_binary};
+  std::vector<solid::MeshFormat> meshes = {solid::MeshFormat::three_mf};
   bool section = false, pot = false;
   std::string folder, name;
   double tolerance_mm = 0.02;
