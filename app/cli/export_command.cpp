@@ -153,7 +153,8 @@ Result<int> export_pot(ExportCommand& command, const Console& console) {
     return tl::make_unexpected(complete.error());
   const auto copies = add_copies(*pot, command);
   if (!copies) return tl::make_unexpected(copies.error());
-  pack_pot(*pot, command.request);
+  std::optional<std::string> thumbnail;
+  pack_pot(*pot, command.request, thumbnail);
   command.request.report_text = [&](const solid::ExportReport& report) {
     return pretty(export_json(report, *copies));
   };

@@ -30,13 +30,15 @@ std::string thumbnail_of([[maybe_unused]] const Pot& pot) {
 
 }  // namespace
 
-void pack_pot(const Pot& pot, solid::ExportRequest& request) {
+void pack_pot(const Pot& pot, solid::ExportRequest& request,
+              std::optional<std::string>& thumbnail) {
   const bool wanted = std::ranges::any_of(request.files, [](const solid::FileRequest& file) {
     return file.kind == solid::FileKind::mesh && file.format == solid::MeshFormat::three_mf;
   });
   if (!wanted) return;
   request.options.pot_file = write_pot(pot, PotEncoding::cbor);
-  request.options.thumbnail_png = thumbnail_of(pot);
+  if (!thumbnail) thumbnail = thumbnail_of(pot);
+  request.options.thumbnail_png = *thumbnail;
 }
 
 }  // namespace clay::cli

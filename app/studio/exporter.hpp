@@ -89,6 +89,9 @@ class Exporter {
   std::string stage_;
   std::optional<Outcome> outcome_;
   bool closing_ = false;
+  // Used by the thread alone: the picture of a pot serves all its previews.
+  history::SharedPot pictured_;
+  std::optional<std::string> thumbnail_;
   std::thread thread_;
 };
 
