@@ -4,7 +4,8 @@
 set -eu
 cd "$(dirname "$0")/.."
 sh samples/install_packages.sh clang clang-tidy-14 clang-format-14 admesh draco prusa-slicer openscad \
-  librsvg2-bin libbenchmark-dev libxml2-utils imagemagick umockdev libumockdev-dev xvfb xdotool
+  librsvg2-bin libbenchmark-dev libxml2-utils imagemagick umockdev libumockdev-dev xvfb xdotool \
+  assimp-utils python3-savitar
 sh tests/tidy.sh
 cmake --preset odr
 cmake --build --preset odr

@@ -2,6 +2,7 @@
 #include "app/cli/memory_room.hpp"
 
 #include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
 #include "claystack/export/formats.hpp"
 #include "claystack/export/repair.hpp"
 #include "core/file_reader.hpp"
@@ -172,6 +173,30 @@ void check_claims(std::string_view bytes, const TriangleMesh& mesh, Verdict& ver
     verdict.mesh.problems.push_back(std::move(problem));
 }
 
+/// The pot and the certificate that a 3MF by Claystack carries. The certificate is that of its
+/// model part.
+void check_packed(std::string_view bytes, const std::string& file, Verdict& verdict) {
+  const auto report = [&](const Result<void>& found, std::string_view what) {
+    if (!found) verdict.mesh.problems.push_back({std::string(what), found.error().message, 1});
+    return found.has_value();
+  };
+  const auto parts = solid::parts_in_3mf(bytes, file);
+  if (!parts) return (void)report(failure(parts.error().kind, parts.error().message), "parts");
+  if (!parts->pot.empty() &&
+      report(parse_pot(parts->pot, file).map([](const Pot&) {}), "the pot inside"))
+    verdict.notes.emplace_back("carries the pot, to be thrown on with throw --from");
+  if (parts->certificate.empty()) return;
+  const auto verified =
+      solid::parse_certificate(parts->certificate, file)
+          .and_then([&](const SolidCertificate& certificate) {
+            return solid::model_in_3mf(bytes, file).and_then([&](const std::string& model) {
+              return solid::verify_certificate(certificate, model, file);
+            });
+          });
+  if (report(verified, "the certificate inside does not hold"))
+    verdict.notes.emplace_back("the certificate inside holds");
+}
+
 /// Empty if no certificate is checked.
 Result<std::optional<SolidCertificate>> read_certificate(const CheckCommand& command) {
   if (command.certificate.empty()) return std::nullopt;
@@ -240,6 +265,8 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
         fmt::format("{} closed cavities, {:.4g} cm3 trapped: they need drain holes",
                     verdict.mesh.cavities, verdict.mesh.trapped_mm3 / 1000.0));
   if (format == MeshFormat::drc && !command.changes_mesh()) check_claims(*bytes, *mesh, verdict);
+  if (format == MeshFormat::three_mf && !command.changes_mesh())
+    check_packed(*bytes, command.file, verdict);
   if (const auto limit = command.walls.demand().for_size(size_sum_mm(*mesh)))
     if (auto done = measure_wall(*mesh, *limit, command, console, verdict); !done)
       return tl::make_unexpected(done.error());

@@ -1,6 +1,8 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/export_report.hpp"
+#include "app/cli/packed_pot.hpp"
 #include "app/cli/pot_copy.hpp"
+#include "app/cli/pot_input.hpp"
 #include "app/cli/wall_options.hpp"
 
 #include "claystack/core/atomic_file.hpp"
@@ -145,14 +147,14 @@ Result<std::vector<PotCopy>> add_copies(const Pot& pot, ExportCommand& command) 
 
 /// The exit status: done, or unsound if a wall is below the requested minimum.
 Result<int> export_pot(ExportCommand& command, const Console& console) {
-  const auto pot = read_file(command.pot).and_then([&](const std::string& bytes) {
-    return parse_pot(bytes, command.pot);
-  });
+  const auto pot = read_pot(command.pot);
   if (!pot) return tl::make_unexpected(pot.error());
   if (auto complete = complete_request(command); !complete)
     return tl::make_unexpected(complete.error());
   const auto copies = add_copies(*pot, command);
   if (!copies) return tl::make_unexpected(copies.error());
+  std::optional<std::string> thumbnail;
+  pack_pot(*pot, command.request, thumbnail);
   command.request.report_text = [&](const solid::ExportReport& report) {
     return pretty(export_json(report, *copies));
   };
@@ -238,7 +240,8 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
   auto command = std::make_shared<ExportCommand>();
   CLI::App* sub = app.add_subcommand(
       "export", "Write a pot as a printable solid, with a proof that it is sound");
-  sub->add_option("pot", command->pot, "NAME.pot.json or .pot.cbor, or - for standard input")
+  sub->add_option("pot", command->pot,
+                  std::string("NAME") + std::string(kPotInputs) + ", or - for standard input")
       ->required();
   sub->add_option("out", command->outputs,
                   "Files to write: " + solid::format_endings(solid::FormatUse::write) +

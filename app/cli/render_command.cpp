@@ -1,5 +1,6 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/json_output.hpp"
+#include "app/cli/pot_input.hpp"
 #include "app/cli/render_job.hpp"
 
 #include "app/render/offscreen.hpp"
@@ -95,7 +96,7 @@ void add_render_command(CLI::App& app, Console& console, int& exit) {
   CLI::App* sub =
       app.add_subcommand("render", "Draw a pot without a screen, as a picture or a turntable");
   sub->add_option("pot", command->pot,
-                  ".pot.json or .pot.cbor; for a NAME.scene.json its lump is drawn")
+                  std::string(kPotInputs) + "; for a NAME.scene.json its lump is drawn")
       ->required();
   sub->add_option("-o,--out", command->out, "File for the picture, .png");
   sub->add_option("--turntable", command->turntable, "File for an animation of one turn, .gif");

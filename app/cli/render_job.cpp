@@ -1,4 +1,5 @@
 #include "app/cli/render_job.hpp"
+#include "app/cli/pot_input.hpp"
 
 #include "app/render/image_file.hpp"
 #include "app/render/legend.hpp"
@@ -48,7 +49,7 @@ Result<void> check_usage(const RenderCommand& command, const Console& console) {
 Result<Pot> clay_of(const std::string& path) {
   const auto bytes = read_file(path);
   if (!bytes) return tl::make_unexpected(bytes.error());
-  if (!path.ends_with(".scene.json")) return parse_pot(*bytes, path);
+  if (!path.ends_with(".scene.json")) return pot_from(*bytes, path);
   return parse_scene(*bytes, path).and_then([](const SceneSpec& scene) {
     const LumpSpec& lump = scene.lump;
     return ClayStack::cylinder(lump.rings, lump.ring_height_mm, lump.outer_radius_mm,

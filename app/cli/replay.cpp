@@ -1,4 +1,5 @@
 #include "app/cli/replay.hpp"
+#include "app/cli/pot_input.hpp"
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
@@ -89,8 +90,7 @@ Result<Wheel> build_wheel(const SceneSpec& scene, const std::string& scene_path,
     if (!wheel) return named(wheel.error());
     return wheel;
   }
-  const auto pot = read_file(pot_path).and_then(
-      [&](const std::string& bytes) { return parse_pot(bytes, pot_path); });
+  const auto pot = read_pot(pot_path);
   if (!pot) return tl::make_unexpected(pot.error());
   auto wheel = Wheel::build(scene, *pot);
   if (!wheel) return named(wheel.error());

@@ -5,6 +5,7 @@
 #include "app/cli/live_throw.hpp"
 #endif
 #include "app/cli/pot_copy.hpp"
+#include "app/cli/pot_input.hpp"
 #include "app/cli/replay.hpp"
 #include "app/cli/throw_work.hpp"
 
@@ -314,7 +315,8 @@ void add_throw_command(CLI::App& app, Console& console, int& exit) {
                       "Poses to play (default: NAME.session beside the scene)");
   command->add_option("-o,--output", options->pot,
                       "Pot to write: .pot.json, or .pot.cbor (compact)");
-  command->add_option("--from", options->from, "Pot to start from, instead of the scene's lump");
+  command->add_option("--from", options->from,
+                      "Pot to start from, instead of the scene's lump: " + std::string(kPotInputs));
   command->add_option("--at", options->at, "Node of the work (default: the current one)");
   command->add_flag("--list", options->list, "List the strokes of a work, including undone ones");
   command

@@ -1,5 +1,6 @@
 #include "app/studio/document.hpp"
 
+#include "app/cli/pot_input.hpp"
 #include "app/render/pot_view.hpp"
 #include "app/studio/new_scene.hpp"
 #include "claystack/core/atomic_file.hpp"
@@ -100,8 +101,8 @@ Result<Document::Remark> Document::open(const std::filesystem::path& path) {
   const auto text = read_file(path);
   if (!text) return tl::make_unexpected(text.error());
   auto begun =
-      is_pot(name)
-          ? parse_pot(*text, name).and_then([&](Pot&& pot) {
+      is_pot(name) || cli::is_3mf(name)
+          ? cli::pot_from(*text, name).and_then([&](Pot&& pot) {
               return begin(scene_for(pot, path.stem().stem().string()), pot);
             })
           : parse_scene(*text, name).and_then([&](SceneSpec&& scene) { return begin(scene); });

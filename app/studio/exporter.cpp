@@ -1,5 +1,6 @@
 #include "app/studio/exporter.hpp"
 
+#include "app/cli/packed_pot.hpp"
 #include "app/cli/pot_copy.hpp"
 
 #include <algorithm>
@@ -146,8 +147,11 @@ Exporter::Outcome Exporter::done(const Job& job) {
     const std::lock_guard lock(mutex_);
     stage_ = stage;
   };
+  if (pictured_ != job.pot) thumbnail_.reset();
+  pictured_ = job.pot;
   auto result = request_of(job.choices, *job.pot).and_then([&](solid::ExportRequest request) {
     request.options.cancelled = [token = job.stop.get_token()] { return token.stop_requested(); };
+    cli::pack_pot(*job.pot, request, thumbnail_);
     return job.kind == Kind::files ? solid::export_files(*job.pot, request, show)
                                    : solid::preview_export(*job.pot, request, show);
   });

@@ -21,7 +21,7 @@ inline constexpr double kThickestDemandMm = 20.0;
 
 /// The settings of the export dialog.
 struct ExportChoices {
-  std::vector<solid::MeshFormat> meshes = {solid::MeshFormat::stl_binary};
+  std::vector<solid::MeshFormat> meshes = {solid::MeshFormat::three_mf};
   bool section = false, pot = false;
   std::string folder, name;
   double tolerance_mm = 0.02;
@@ -89,6 +89,9 @@ class Exporter {
   std::string stage_;
   std::optional<Outcome> outcome_;
   bool closing_ = false;
+  // Used by the thread alone: the picture of a pot serves all its previews.
+  history::SharedPot pictured_;
+  std::optional<std::string> thumbnail_;
   std::thread thread_;
 };
 

@@ -17,7 +17,7 @@ static_assert([] {
 std::string format_endings(FormatUse use, std::string_view last) {
   std::vector<std::string_view> endings;
   for (const FormatFacts& facts : kFormatFacts)
-    if ((use == FormatUse::read || facts.written) &&
+    if (!facts.ending.empty() && (use == FormatUse::read || facts.written) &&
         std::ranges::find(endings, facts.ending) == endings.end())
       endings.push_back(facts.ending);
   std::string text(endings.front());
@@ -30,7 +30,8 @@ Result<MeshFormat> mesh_format_of(std::string_view path, FormatUse use) {
   const std::size_t dot = path.rfind('.');
   const std::string_view ending = dot == path.npos ? "" : path.substr(dot);
   for (const FormatFacts& facts : kFormatFacts)
-    if ((use == FormatUse::read || facts.written) && equal_ignoring_case(ending, facts.ending))
+    if (!facts.ending.empty() && (use == FormatUse::read || facts.written) &&
+        equal_ignoring_case(ending, facts.ending))
       return facts.format;
   return failure(
       ErrorKind::bad_input,
@@ -57,7 +58,10 @@ Result<std::string> encode_mesh(const TriangleMesh& mesh, MeshFormat format,
       return encode_drc(mesh, contents.draco);
     case MeshFormat::ply:
       return encode_ply(mesh, contents.name, contents.wall_mm);
+    case MeshFormat::three_mf:
+      return pack_3mf(encode_3mf_model(mesh, contents), contents);
     case MeshFormat::off:
+    case MeshFormat::three_mf_model:
       break;
   }
   return failure(ErrorKind::bad_input,
@@ -78,6 +82,10 @@ Result<TriangleMesh> decode_mesh(std::string_view bytes, MeshFormat format, std:
       return decode_ply(bytes, name);
     case MeshFormat::off:
       return decode_off(bytes, name);
+    case MeshFormat::three_mf:
+      return decode_3mf(bytes, name, options);
+    case MeshFormat::three_mf_model:
+      return decode_3mf_model(bytes, name, options);
   }
   return failure(ErrorKind::bad_input, std::string(name).append(": unknown mesh format"));
 }

@@ -40,6 +40,8 @@ std::optional<Number> parse(std::string_view word) noexcept {
   return value;
 }
 
+}  // namespace
+
 /// Parses directly to float32, because a detour by double may round twice. Values too small for
 /// float32 are out of range for from_chars, and become 0.
 std::optional<float> parse_float(std::string_view word) noexcept {
@@ -48,8 +50,6 @@ std::optional<float> parse_float(std::string_view word) noexcept {
   if (wide && std::abs(*wide) < 1.0) return 0.0F;
   return std::nullopt;
 }
-
-}  // namespace
 
 bool equal_ignoring_case(std::string_view word, std::string_view lower) noexcept {
   return std::equal(word.begin(), word.end(), lower.begin(), lower.end(),

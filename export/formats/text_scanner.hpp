@@ -62,6 +62,9 @@ class TextScanner {
   std::optional<Error> fault_;
 };
 
+/// float32 by the shortest way; values too small for it are 0. Empty: not a number, or too large.
+[[nodiscard]] std::optional<float> parse_float(std::string_view word) noexcept;
+
 /// ASCII only, independent of the locale.
 [[nodiscard]] bool equal_ignoring_case(std::string_view word, std::string_view lower) noexcept;
 

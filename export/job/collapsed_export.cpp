@@ -8,6 +8,7 @@
 #include "export/formats/stored_file.hpp"
 #include "export/job/left_out.hpp"
 #include "export/job/resolution.hpp"
+#include "export/job/solid_contents.hpp"
 #include "export/job/stages.hpp"
 #include "export/proof/describe.hpp"
 #include "export/proof/verify_file.hpp"
@@ -166,7 +167,7 @@ class CollapsedExport {
   Result<FileReport> write_exact(MeshFormat format, FileStore& store) {
     return stages_
         .run(stage_name("encode", format),
-             [&] { return encode_mesh(mesh_, format, {.name = options_.name}); })
+             [&] { return encode_mesh(mesh_, format, solid_contents(options_)); })
         .and_then([&](const std::string& bytes) {
           return verify(bytes, format, float_rounding_mm(mesh_)).and_then([&](double moved) {
             return written(bytes, format, moved, store);

@@ -1,6 +1,7 @@
 #include "export/job/left_out.hpp"
 
 #include "claystack/export/proof.hpp"
+#include "export/job/solid_contents.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -17,8 +18,7 @@ double seconds_of(Work work) {
 
 /// Measures encoding only; nothing is written.
 double encoding_seconds(MeshFormat format, const TriangleMesh& mesh, const ExportOptions& options) {
-  FileContents contents{.name = options.name};
-  contents.draco.max_error_mm = options.tolerance_mm;
+  const FileContents contents = solid_contents(options);
   return seconds_of([&] { (void)encode_mesh(mesh, format, contents); });
 }
 

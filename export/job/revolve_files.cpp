@@ -1,6 +1,7 @@
 #include "export/job/revolve_files.hpp"
 
 #include "export/job/point_walls.hpp"
+#include "export/job/solid_contents.hpp"
 
 #include "claystack/export/solid.hpp"
 #include "export/formats/draco_bits.hpp"
@@ -34,6 +35,8 @@ Result<FileReport> RevolveFiles::write(MeshFormat format, FileStore& store) {
       return stream(store);
     case MeshFormat::drc:
       return write_drc(store);
+    case MeshFormat::three_mf:
+      return write_3mf(store);
     default:
       return write_whole(format, store);
   }
@@ -76,7 +79,8 @@ Result<FileReport> RevolveFiles::stream(FileStore& store) {
 }
 
 FileContents RevolveFiles::contents_of(MeshFormat format) {
-  FileContents contents{.name = options_.name};
+  FileContents contents = solid_contents(options_);
+  contents.one_body = rule_.shells().size() == 1;
   if (format != MeshFormat::ply) return contents;
   if (!wall_mm_)
     wall_mm_ = stages_.run("vertex_walls", [&] { return walls_of_points(rule_, claims_.profile); });
@@ -137,6 +141,28 @@ Result<FileReport> RevolveFiles::write_drc(FileStore& store) {
     if (verdict) return certify_bytes(kFormat, allowed, Proof::exact_test, *bytes, store);
   }
   return tl::make_unexpected(verdict.error());
+}
+
+/// The package carries a certificate of its model part, which the part itself cannot hold.
+Result<FileReport> RevolveFiles::write_3mf(FileStore& store) {
+  constexpr auto kFormat = MeshFormat::three_mf, kPart = MeshFormat::three_mf_model;
+  const double rounding = 2.0 * float_rounding_mm(rule_);
+  return prove_rounded(rounding).and_then([&](Proof proof) {
+    FileContents contents = contents_of(kFormat);
+    const ModelPart model = stages_.run(stage_name("encode", kPart),
+                                        [&] { return encode_3mf_model(mesh(), contents); });
+    SolidCertificate certificate = with_rounding(claims_, rule_, rounding);
+    certificate.proof = proof;
+    certificate.bytes = model.xml.size();
+    certificate.content_hash = hash_of(bytes_of(model.xml));
+    certificate.format = name_of(kPart);
+    const std::string text = write_certificate(certificate);
+    contents.certificate = text;
+    return stages_.run(stage_name("encode", kFormat), [&] { return pack_3mf(model, contents); })
+        .and_then([&](const std::string& bytes) {
+          return certify_bytes(kFormat, rounding, proof, bytes, store);
+        });
+  });
 }
 
 DracoClaims RevolveFiles::draco_claims(double reach_mm) const {

@@ -31,6 +31,7 @@ class RevolveFiles {
   Result<FileReport> stream(FileStore& store);
   Result<FileReport> write_whole(MeshFormat format, FileStore& store);
   Result<FileReport> write_drc(FileStore& store);
+  Result<FileReport> write_3mf(FileStore& store);
   [[nodiscard]] DracoClaims draco_claims(double reach_mm) const;
   Result<FileReport> store_drc(const std::string& bytes, double reach_mm, FileStore& store);
   Result<Proof> prove_rounded(double rounding_mm);

@@ -60,6 +60,16 @@ inline std::vector<std::string> good_files(MeshFormat format) {
         break;
       case MeshFormat::off:
         break;
+      case MeshFormat::three_mf:
+      case MeshFormat::three_mf_model: {
+        const FileContents contents{
+            .notes = {{"process", "sla"}}, .pot = "pot", .certificate = "{}"};
+        const ModelPart model = encode_3mf_model(mesh, contents);
+        files.push_back(format == MeshFormat::three_mf_model
+                            ? model.xml
+                            : pack_3mf(model, contents).value_or(std::string()));
+        break;
+      }
     }
   }
   if (format == MeshFormat::obj) {

@@ -16,7 +16,7 @@ class CertifiedVase : public testing::Test {
   void SetUp() override {
     ASSERT_EQ(claystack("throw -q " + sample("vase.scene.json") + " -o " + pot).status, 0);
     const Ran run = claystack(std::string("export -q --certificate ") + pot + " " + stl + " " +
-                              obj + " " + drc + " " + ply);
+                              obj + " " + drc + " " + ply + " " + three_mf);
     ASSERT_EQ(run.status, 0) << run.err;
   }
   static Ran check(const std::string& file, const std::string& certificate) {
@@ -25,11 +25,11 @@ class CertifiedVase : public testing::Test {
   ScratchFolder folder;
   std::string pot = folder.file("v.pot.json");
   std::string stl = folder.file("v.stl"), obj = folder.file("v.obj"), drc = folder.file("v.drc");
-  std::string ply = folder.file("v.PLY");
+  std::string ply = folder.file("v.PLY"), three_mf = folder.file("v.3MF");
 };
 
 TEST_F(CertifiedVase, IsVerifiedInEveryFormat) {
-  for (const std::string& file : {stl, obj, drc, ply}) {
+  for (const std::string& file : {stl, obj, drc, ply, three_mf}) {
     const Ran run = check(file, file + ".certificate.json");
     EXPECT_EQ(run.status, 0) << run.out << run.err;
     EXPECT_NE(run.out.find("certificate holds"), std::string::npos) << run.out;
@@ -42,7 +42,7 @@ TEST_F(CertifiedVase, IsVerifiedInEveryFormat) {
 
 TEST_F(CertifiedVase, ConformsToItsSchema) {
   const Json schema = load_schema("certificate");
-  for (const std::string& file : {stl, obj, drc, ply})
+  for (const std::string& file : {stl, obj, drc, ply, three_mf})
     EXPECT_EQ(violation(schema, Json::parse(read_text(file + ".certificate.json"))), "");
   const Json process = Json::parse(read_text(sample("workshop.process.json")));
   EXPECT_EQ(violation(load_schema("process"), process), "");
@@ -51,7 +51,7 @@ TEST_F(CertifiedVase, ConformsToItsSchema) {
 TEST(CertificateSchema, NamesEveryWrittenFormat) {
   std::vector<std::string> names;
   for (const solid::FormatFacts& facts : solid::kFormatFacts)
-    if (facts.written) names.emplace_back(facts.name);
+    if (facts.written || facts.ending.empty()) names.emplace_back(facts.name);
   EXPECT_EQ(load_schema("certificate").at("properties").at("format").at("enum"), Json(names));
 }
 

@@ -38,13 +38,13 @@ class ExportedSample : public testing::TestWithParam<const char*> {
     thrown = claystack("throw " + scene + " --json -o " + folder.file("p.pot.json"));
     ASSERT_EQ(thrown.status, 0) << thrown.err;
     exported = claystack("export --json " + folder.file("p.pot.json") + " " + stl + " " + obj +
-                         " " + drc + " " + ply);
+                         " " + drc + " " + ply + " " + three_mf);
     ASSERT_EQ(exported.status, 0) << exported.err;
     counted = thrown.json().at("volume_mm3");
   }
   ScratchFolder folder;
   std::string stl = folder.file("p.stl"), obj = folder.file("p.obj"), drc = folder.file("p.drc"),
-              ply = folder.file("p.ply");
+              ply = folder.file("p.ply"), three_mf = folder.file("p.3mf");
   Ran thrown, exported;
   double counted = 0.0;
 };
@@ -54,7 +54,7 @@ TEST_P(ExportedSample, ReportsWhatItDid) {
   EXPECT_LT(json.at("volume_error_relative"), 1e-9);
   EXPECT_GT(json.at("min_wall_mm"), 0.0);
   EXPECT_GT(json.at("certificate").at("vertices"), 50);
-  ASSERT_EQ(json.at("files").size(), 4u);
+  ASSERT_EQ(json.at("files").size(), 5u);
   for (const auto& file : json.at("files")) {
     EXPECT_EQ(std::filesystem::file_size(file.at("path").get<std::string>()), file.at("bytes"));
     EXPECT_LE(file.at("max_error_mm"), 0.02);
@@ -81,7 +81,7 @@ TEST_P(ExportedSample, AdmeshFindsNothingToRepair) {
 }
 
 TEST_P(ExportedSample, PrusaSlicerFindsAManifold) {
-  for (const std::string& file : {stl, obj}) {
+  for (const std::string& file : {stl, obj, three_mf}) {
     const Ran run = shell("prusa-slicer --info " + file);
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_NE(run.out.find("manifold = yes"), std::string::npos) << run.out;
@@ -103,7 +103,7 @@ TEST_P(ExportedSample, DracoDecoderReturnsAClosedMesh) {
 }
 
 TEST_P(ExportedSample, PassesItsOwnCheckInEveryFormat) {
-  for (const std::string& file : {stl, obj, drc, ply, folder.file("p.pot.json")}) {
+  for (const std::string& file : {stl, obj, drc, ply, three_mf, folder.file("p.pot.json")}) {
     const Ran run = claystack("check --json " + file);
     EXPECT_EQ(run.status, 0) << file << run.out;
     const auto json = run.json();

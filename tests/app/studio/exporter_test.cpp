@@ -44,7 +44,8 @@ class Exporting : public ::testing::Test {
   }
   ScratchFolder folder;
   history::SharedPot pot = thrown();
-  ExportChoices choices{.meshes = {solid::MeshFormat::stl_binary, solid::MeshFormat::obj},
+  ExportChoices choices{.meshes = {solid::MeshFormat::stl_binary, solid::MeshFormat::obj,
+                                   solid::MeshFormat::three_mf},
                         .section = true,
                         .pot = true,
                         .folder = folder.path().string(),
@@ -61,18 +62,19 @@ TEST_F(Exporting, WritesTheBytesOfTheCommand) {
   exporter.write(pot, choices);
   const auto done = outcome();
   ASSERT_TRUE(done.done) << done.done.error().message;
-  EXPECT_EQ(done.paths.size(), 4u);
+  EXPECT_EQ(done.paths.size(), 5u);
   std::filesystem::create_directory(folder.path() / "command");
   const std::string pot_path = folder.file("command/two.pot.json");
   write_text(pot_path, write_pot(*pot, PotEncoding::json));
   const std::string base = folder.file("command/two");
-  const auto ran = claystack("export -q " + pot_path + " " + base + ".stl " + base + ".obj " +
-                             base + ".svg --tolerance 0.05 --process porcelain --shrinkage 12%");
+  const auto ran =
+      claystack("export -q " + pot_path + " " + base + ".stl " + base + ".obj " + base + ".3mf " +
+                base + ".svg --tolerance 0.05 --process porcelain --shrinkage 12%");
   // Its wall is too thin for porcelain: the command writes the files and reports the fault.
   ASSERT_EQ(ran.status, 1) << ran.err;
   ASSERT_EQ(solid::problems_of(*done.done).size(), 1u);
   EXPECT_NE(ran.err.find(solid::problems_of(*done.done)[0].text), std::string::npos);
-  for (const char* ending : {".stl", ".obj", ".svg", ".pot.json"})
+  for (const char* ending : {".stl", ".obj", ".3mf", ".svg", ".pot.json"})
     EXPECT_EQ(read_text(folder.file("two") + ending), read_text(base + ending)) << ending;
   EXPECT_EQ(claystack("check " + folder.file("two.stl")).status, 0);
 }
@@ -86,9 +88,10 @@ TEST_F(Exporting, PreviewReportsTheFilesInAdvance) {
   exporter.write(pot, choices);
   ASSERT_TRUE(outcome().done);
   const auto& reports = previewed.done->files;
-  ASSERT_EQ(reports.size(), 2u);
+  ASSERT_EQ(reports.size(), 3u);
   EXPECT_EQ(reports[0].bytes, std::filesystem::file_size(folder.file("two.stl")));
   EXPECT_EQ(reports[1].bytes, std::filesystem::file_size(folder.file("two.obj")));
+  EXPECT_EQ(reports[2].bytes, std::filesystem::file_size(folder.file("two.3mf")));
 }
 
 TEST_F(Exporting, NewestPreviewWins) {

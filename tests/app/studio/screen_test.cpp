@@ -33,8 +33,8 @@ TEST_F(OnScreen, WorksFromTheGalleryToAPrintableFile) {
   ASSERT_EQ(ran.status, 0) << ran.err << ran.out;
   const auto kept = nlohmann::json::parse(read_text(folder.file("config/claystack/studio.json")));
   EXPECT_NEAR(kept.at("scale"), 1.1, 1e-6) << "one step larger";
-  EXPECT_EQ(claystack("check " + folder.file("bowl.stl")).status, 0);
-  const std::string info = shell("prusa-slicer --info " + folder.file("bowl.stl")).out;
+  EXPECT_EQ(claystack("check " + folder.file("bowl.3mf")).status, 0);
+  const std::string info = shell("prusa-slicer --info " + folder.file("bowl.3mf")).out;
   EXPECT_NE(info.find("manifold = yes"), std::string::npos) << info;
 }
 

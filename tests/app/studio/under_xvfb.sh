@@ -22,9 +22,9 @@ until_line "action: edit.redo" 5
 xdotool key --window "$window" ctrl+e
 until_line "export previewed"
 xdotool key --window "$window" ctrl+Return
-until_line "exported: .*bowl.stl"
-[ -s bowl.stl ] || fail "expected bowl.stl"
-mv bowl.stl by_key.stl
+until_line "exported: .*bowl.3mf"
+[ -s bowl.3mf ] || fail "expected bowl.3mf"
+mv bowl.3mf by_key.3mf
 xdotool key --window "$window" Escape
 until_line "action: wheel.zero_force"
 # Export by the menu: File, then Export.
@@ -33,8 +33,8 @@ xdotool mousemove --window "$window" 60 240 sleep 0.2 click 1
 until_line "action: file.export" 2
 until_line "export previewed" 2
 xdotool key --window "$window" ctrl+Return
-until_line "exported: .*bowl.stl" 2
-cmp bowl.stl by_key.stl || fail "expected the same bytes by menu and by key"
+until_line "exported: .*bowl.3mf" 2
+cmp bowl.3mf by_key.3mf || fail "expected the same bytes by menu and by key"
 xdotool key --window "$window" Escape
 until_line "action: wheel.zero_force" 2
 # The larger text is saved; the test checks the settings file.

@@ -56,11 +56,11 @@ TEST_F(Window, ExportMatchesTheCommand) {
                       "key Ctrl+Enter\nwait 0.1\nexpect exported 1\n");
   ASSERT_EQ(ran.status, 0) << ran.err;
   std::filesystem::create_directory(folder.path() / "cli");
-  const std::string pot = folder.file("cli/mine.pot.json"), stl = folder.file("cli/mine.stl");
+  const std::string pot = folder.file("cli/mine.pot.json"), print = folder.file("cli/mine.3mf");
   ASSERT_EQ(claystack("throw -q " + folder.file("mine.work") + " -o " + pot).status, 0);
-  ASSERT_EQ(claystack("export -q " + pot + " " + stl).status, 0);
-  EXPECT_EQ(read_text(folder.file("mine.stl")), read_text(stl));
-  EXPECT_EQ(claystack("check " + folder.file("mine.stl")).status, 0);
+  ASSERT_EQ(claystack("export -q " + pot + " " + print).status, 0);
+  EXPECT_EQ(read_text(folder.file("mine.3mf")), read_text(print));
+  EXPECT_EQ(claystack("check " + folder.file("mine.3mf")).status, 0);
 }
 
 /// From strokes to export: the commands make the same files from the saved work.
@@ -87,10 +87,10 @@ TEST_F(Window, EditedPotMatchesTheCommands) {
   ASSERT_EQ(thrown(" --at 1", "pressed.pot.json"), 0);
   ASSERT_EQ(thrown("", "mine.pot.json"), 0);
   ASSERT_EQ(
-      claystack("export -q " + folder.file("cli/mine.pot.json") + " " + folder.file("cli/mine.stl"))
+      claystack("export -q " + folder.file("cli/mine.pot.json") + " " + folder.file("cli/mine.3mf"))
           .status,
       0);
-  for (const char* name : {"undone.pot.json", "pressed.pot.json", "mine.pot.json", "mine.stl"})
+  for (const char* name : {"undone.pot.json", "pressed.pot.json", "mine.pot.json", "mine.3mf"})
     EXPECT_TRUE(same(name)) << name;
   EXPECT_FALSE(
       shell("cmp " + folder.file("pressed.pot.json") + " " + folder.file("mine.pot.json")).status ==
@@ -115,8 +115,8 @@ TEST_F(Window, FallenPotIsShownAndExportedButNotThrown) {
           "open FOLDER/fallen.work\nexpect fallen yes\nsave FOLDER/again.pot.json\n");
   ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_EQ(read_text(fallen), read_text(folder.file("again.pot.json")));
-  ASSERT_LE(claystack("export -q " + fallen + " " + folder.file("cli.stl")).status, 1);
-  EXPECT_EQ(read_text(folder.file("fallen.stl")), read_text(folder.file("cli.stl")));
+  ASSERT_LE(claystack("export -q " + fallen + " " + folder.file("cli.3mf")).status, 1);
+  EXPECT_EQ(read_text(folder.file("fallen.3mf")), read_text(folder.file("cli.3mf")));
 }
 
 TEST_F(Window, AcceptsADroppedProcess) {
@@ -131,9 +131,9 @@ TEST_F(Window, AcceptsADroppedProcess) {
             "\ndo export.write\nwait 0.1\nexpect exported 1\n");
   ASSERT_EQ(ran.status, 0) << ran.err;
   const Ran command = claystack("export -q " + folder.file("lump.pot.json") + " " +
-                                folder.file("cli.stl") + " --process " + process);
+                                folder.file("cli.3mf") + " --process " + process);
   ASSERT_EQ(command.status, 0) << command.err;
-  EXPECT_EQ(read_text(folder.file("mine.stl")), read_text(folder.file("cli.stl")));
+  EXPECT_EQ(read_text(folder.file("mine.3mf")), read_text(folder.file("cli.3mf")));
   test::write_text(folder.file("bad.process.json"), "{}");
   ran = run("open FOLDER/bad.process.json fails\nexpect process \"\"\n", "--log --size 960x640");
   EXPECT_EQ(ran.status, 0) << ran.err;

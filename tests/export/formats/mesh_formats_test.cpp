@@ -67,10 +67,12 @@ TEST(MeshFormats, AreChosenByExtension) {
 
 TEST(MeshFormats, HaveOneTable) {
   EXPECT_TRUE(format_endings(FormatUse::write).starts_with(".stl, .obj, .drc"));
-  EXPECT_TRUE(format_endings(FormatUse::read).ends_with(" or .off"));
+  EXPECT_NE(format_endings(FormatUse::read).find(".off"), std::string::npos);
+  EXPECT_EQ(format_endings(FormatUse::write).find(".off"), std::string::npos);
   for (const FormatFacts& facts : kFormatFacts) {
     EXPECT_EQ(mesh_format_named(facts.name).value(), facts.format);
     EXPECT_EQ(facts_of(facts.format).name, facts.name);
+    if (facts.ending.empty()) continue;
     std::string capitals(facts.ending);
     for (char& c : capitals) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
     EXPECT_EQ(facts_of(mesh_format_of("pot" + capitals).value()).ending, facts.ending);

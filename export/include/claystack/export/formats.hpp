@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace clay::solid::inline formats {
@@ -22,16 +23,17 @@ namespace clay::solid::inline formats {
 
 struct DracoClaims;  // drc_claims.hpp
 
-enum class MeshFormat { stl_binary, stl_ascii, obj, drc, ply, off };
+enum class MeshFormat { stl_binary, stl_ascii, obj, drc, ply, off, three_mf, three_mf_model };
 
 struct FormatFacts {
   MeshFormat format;
-  std::string_view name;    ///< in reports, certificates and schemas
-  std::string_view title;   ///< for people
-  std::string_view ending;  ///< of file names, in lower case; the first format with it is chosen
-  bool written;             ///< false: only read
-  bool streamed;            ///< read with a part of the file in memory, by `read_mesh`
-  bool decimal;             ///< coordinates are decimal digits
+  std::string_view name;   ///< in reports, certificates and schemas
+  std::string_view title;  ///< for people
+  /// Of file names, in lower case; the first format with it is chosen. Empty: a part of a file.
+  std::string_view ending;
+  bool written;   ///< false: only read
+  bool streamed;  ///< read with a part of the file in memory, by `read_mesh`
+  bool decimal;   ///< coordinates are decimal digits
 };
 
 /// The formats: every list of them in messages, help, schemas and tests is made from this one.
@@ -41,7 +43,9 @@ inline constexpr std::array kFormatFacts{
     FormatFacts{MeshFormat::obj, "obj", "OBJ", ".obj", true, true, true},
     FormatFacts{MeshFormat::drc, "drc", "Draco", ".drc", true, false, false},
     FormatFacts{MeshFormat::ply, "ply", "PLY", ".ply", true, false, false},
-    FormatFacts{MeshFormat::off, "off", "OFF", ".off", false, false, true}};
+    FormatFacts{MeshFormat::off, "off", "OFF", ".off", false, false, true},
+    FormatFacts{MeshFormat::three_mf, "3mf", "3MF", ".3mf", true, false, true},
+    FormatFacts{MeshFormat::three_mf_model, "3mf_model", "3MF model", "", false, false, true}};
 
 [[nodiscard]] constexpr const FormatFacts& facts_of(MeshFormat format) noexcept {
   return kFormatFacts[static_cast<std::size_t>(format)];
@@ -96,12 +100,30 @@ struct FileContents {
   std::string_view name = "pot";        ///< of the solid or object
   std::span<const float> wall_mm = {};  ///< thickness at each point [mm]; empty: unknown
   DracoSettings draco = {};
+  bool one_body = false;  ///< the mesh has one shell; spares the search for several (3MF)
+  /// Metadata of the 3MF model, as `claystack:KEY`.
+  std::vector<std::pair<std::string, std::string>> notes = {};
+  std::string_view pot = {};            ///< a pot file, CBOR (3MF)
+  std::string_view thumbnail_png = {};  ///< (3MF)
+  std::string_view certificate = {};    ///< of the model part, JSON (3MF)
 };
 
 /// The mesh in any format that can be written, with the defaults of its encoder. Errors as for
 /// `encode_drc`; `bad_input` for a format that is only read.
 Result<std::string> encode_mesh(const TriangleMesh& mesh, MeshFormat format,
                                 const FileContents& contents = {});
+
+/// The part 3D/3dmodel.model of a 3MF package: mm, an object for each body, with `notes` and a copy
+/// of the pot (base64, of up to 4 MB) as metadata. Equal contents give equal bytes.
+struct ModelPart {
+  std::string xml;
+  std::vector<std::size_t> bodies;  ///< triangles of each; their objects have the ids 1, 2, ...
+};
+ModelPart encode_3mf_model(const TriangleMesh& mesh, const FileContents& contents);
+/// The package around that part: thumbnail, pot and certificate as parts of their own, and the pot
+/// once more as a note of each object, which PrusaSlicer keeps where it keeps no metadata. No other
+/// setting. No dates, no random ids: equal contents give equal bytes.
+Result<std::string> pack_3mf(const ModelPart& model, const FileContents& contents);
 
 /// What a reader accepts beyond its format.
 struct ReadOptions {
@@ -171,6 +193,28 @@ Result<TriangleMesh> decode_ply(std::string_view bytes, std::string_view name);
 /// OFF as text, also with colours, normals or texture coordinates (COFF, NOFF, STOFF and their
 /// combinations), which are passed over. Binary OFF, and points of 4 or n dimensions, are refused.
 Result<TriangleMesh> decode_off(std::string_view bytes, std::string_view name);
+
+/// The build of a 3MF package (core specification 1.3), with all items, components and transforms,
+/// in mm. Strict: refuses what the specification forbids, other start parts than one model, DTDs,
+/// required extensions other than materials, references to objects that are not defined before, and
+/// triangles that use a vertex twice. An archive that unpacks to more than 100 times its size
+/// (above 32 MiB), has more than 10 000 entries, components nested more than 32 deep, or a build of
+/// more than 64 times the triangles in the file (above a million) is refused. Other namespaces are
+/// passed over. An object of type `support` is not part of the mesh; a note says so.
+Result<TriangleMesh> decode_3mf(std::string_view bytes, std::string_view name,
+                                const ReadOptions& options = {});
+/// The same of the model part alone.
+Result<TriangleMesh> decode_3mf_model(std::string_view xml, std::string_view name,
+                                      const ReadOptions& options = {});
+
+/// What Claystack put into a 3MF beside the mesh; empty: not there.
+struct PackedParts {
+  std::string pot;          ///< a pot file; from the metadata or a note if a slicer kept only that
+  std::string certificate;  ///< of the model part
+};
+Result<PackedParts> parts_in_3mf(std::string_view bytes, std::string_view name);
+/// The model part, of at most 1 GiB.
+Result<std::string> model_in_3mf(std::string_view bytes, std::string_view name);
 
 /// The mesh with coordinates rounded to float32, as files store it.
 [[nodiscard]] TriangleMesh rounded_to_float(const TriangleMesh& mesh);

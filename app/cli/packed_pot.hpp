@@ -1,0 +1,17 @@
+#pragma once
+// What a 3MF carries beside its mesh: the pot and a picture of it.
+
+#include "claystack/engine/clay.hpp"
+#include "claystack/export/job.hpp"
+
+#include <optional>
+#include <string>
+
+namespace clay::cli {
+
+/// If a 3MF is among the files, sets the pot file, exact, and the thumbnail. Without a renderer (a
+/// build without one, or no OpenGL on this machine) there is no thumbnail. `thumbnail` keeps the
+/// picture of this pot for the next call.
+void pack_pot(const Pot& pot, solid::ExportRequest& request, std::optional<std::string>& thumbnail);
+
+}  // namespace clay::cli

@@ -1,0 +1,417 @@
+#include "export/formats/three_mf_model.hpp"
+
+#include "core/cancel.hpp"
+#include "export/formats/mesh_limits.hpp"
+#include "export/formats/text_scanner.hpp"
+#include "export/formats/three_mf.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace clay::solid::inline formats::three_mf {
+namespace {
+
+constexpr std::size_t kMaxDepth = 32;
+constexpr std::size_t kMaxPlaced = 1'000'000;
+constexpr std::size_t kMaxMetadata = 1000, kMaxPotText = std::size_t{8} << 20;
+constexpr std::uint32_t kMaxId = 0x7FFFFFFF;
+
+constexpr std::string_view kMaterials =
+    "http://schemas.microsoft.com/3dmanufacturing/material/2015/02";
+// Its ids need no support; its paths to other model parts are refused.
+constexpr std::string_view kProduction =
+    "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
+
+struct Rule {
+  std::string_view name;
+  Place place, parent;
+};
+constexpr std::array<Rule, 17> kRules{{{"model", Place::model, Place::outside},
+                                       {"metadata", Place::metadata, Place::model},
+                                       {"resources", Place::resources, Place::model},
+                                       {"build", Place::build, Place::model},
+                                       {"basematerials", Place::materials, Place::resources},
+                                       {"base", Place::base, Place::materials},
+                                       {"object", Place::object, Place::resources},
+                                       {"metadatagroup", Place::metadata_group, Place::object},
+                                       {"metadatagroup", Place::metadata_group, Place::item},
+                                       {"metadata", Place::metadata, Place::metadata_group},
+                                       {"mesh", Place::mesh, Place::object},
+                                       {"vertices", Place::vertices, Place::mesh},
+                                       {"vertex", Place::vertex, Place::vertices},
+                                       {"triangles", Place::triangles, Place::mesh},
+                                       {"triangle", Place::triangle, Place::triangles},
+                                       {"components", Place::components, Place::object},
+                                       {"component", Place::component, Place::components}}};
+constexpr Rule kItem{"item", Place::item, Place::build};
+
+std::optional<Place> place_of(std::string_view name, Place parent) {
+  if (parent == Place::vertices)
+    return name == "vertex" ? std::optional(Place::vertex) : std::nullopt;
+  if (parent == Place::triangles)
+    return name == "triangle" ? std::optional(Place::triangle) : std::nullopt;
+  if (parent == kItem.parent && name == kItem.name) return kItem.place;
+  for (const Rule& rule : kRules)
+    if (rule.parent == parent && rule.name == name) return rule.place;
+  return std::nullopt;
+}
+
+std::string quoted(std::string_view text) {
+  std::string shown = "'";
+  for (const char c : text.substr(0, 40)) shown += c >= ' ' && c <= '~' ? c : '?';
+  return shown + (text.size() > 40 ? "...'" : "'");
+}
+
+template <class Number>
+std::optional<Number> whole(std::optional<std::string_view> text, Number least, Number most) {
+  if (!text) return std::nullopt;
+  Number value{};
+  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
+  if (error != std::errc() || end != text->data() + text->size()) return std::nullopt;
+  return value >= least && value <= most ? std::optional(value) : std::nullopt;
+}
+
+std::string found(std::optional<std::string_view> text) {
+  return ", found " + (text ? quoted(*text) : std::string("none"));
+}
+
+std::optional<Transform> transform_from(std::string_view text) {
+  Transform matrix{};
+  for (double& value : matrix) {
+    text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+    const std::string_view word = text.substr(0, text.find(' '));
+    const auto number = parse_float(word);
+    if (!number || !std::isfinite(*number)) return std::nullopt;
+    value = double{*number};
+    text.remove_prefix(word.size());
+  }
+  if (text.find_first_not_of(' ') != text.npos) return std::nullopt;
+  return matrix;
+}
+
+double determinant(const Transform& m) {
+  return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) +
+         m[2] * (m[3] * m[7] - m[4] * m[6]);
+}
+
+/// First `inner`, then `outer`.
+Transform composed(const Transform& inner, const Transform& outer) {
+  Transform product{};
+  for (std::size_t row = 0; row < 4; ++row)
+    for (std::size_t column = 0; column < 3; ++column) {
+      double sum = row == 3 ? outer[9 + column] : 0.0;
+      for (std::size_t i = 0; i < 3; ++i) sum += inner[3 * row + i] * outer[3 * i + column];
+      product[3 * row + column] = sum;
+    }
+  return product;
+}
+
+std::uint64_t bounded(std::uint64_t count) { return std::min<std::uint64_t>(count, 1ULL << 40); }
+
+}  // namespace
+
+void ModelReader::begin(XmlReader& reader, const XmlElement& element) {
+  step_of_loop();
+  if (foreign_depth_ > 0 || element.space != kCore) {
+    if (foreign_depth_++ == 0 && places_.back() == Place::outside)
+      return reader.fail("expected a 3MF model, found the element " + quoted(element.name));
+    // Property groups of other namespaces have ids, too.
+    if (foreign_depth_ == 1 && places_.back() == Place::resources && element.value_of("id"))
+      add_resource(reader, element);
+    return;
+  }
+  const auto place = place_of(element.name, places_.back());
+  if (!place) return reader.fail("expected another element, found " + quoted(element.name));
+  places_.push_back(*place);
+  enter(reader, *place, element);
+}
+
+void ModelReader::enter(XmlReader& reader, Place place, const XmlElement& element) {
+  switch (place) {
+    case Place::model:
+      return begin_model(reader, element);
+    case Place::metadata:
+      return begin_metadata(reader, element);
+    case Place::resources:
+      if (has_resources_ || has_build_) reader.fail("expected resources once, before build");
+      has_resources_ = true;
+      return;
+    case Place::build:
+      if (has_build_ || !has_resources_) reader.fail("expected build once, after resources");
+      has_build_ = true;
+      return;
+    case Place::materials:
+      return add_resource(reader, element);
+    case Place::object:
+      return begin_object(reader, element);
+    case Place::mesh:
+    case Place::components:
+      if (has_mesh_ || has_components_)
+        reader.fail("expected one mesh or one list of components in an object");
+      (place == Place::mesh ? has_mesh_ : has_components_) = true;
+      return;
+    case Place::vertex:
+      return add_vertex(reader, element);
+    case Place::triangle:
+      return add_triangle(reader, element);
+    case Place::component:
+      return add_placed(reader, element, objects_.back().components);
+    case Place::item:
+      return add_placed(reader, element, items_);
+    default:
+      return;
+  }
+}
+
+void ModelReader::end(XmlReader& reader) {
+  if (foreign_depth_ > 0) {
+    --foreign_depth_;
+    return;
+  }
+  if (places_.back() == Place::object) end_object(reader);
+  reads_pot_ = false;
+  places_.pop_back();
+}
+
+void ModelReader::text(XmlReader& reader, std::string_view piece) {
+  if (!reads_pot_ || foreign_depth_ > 0) return;
+  if (pot_text_.size() + piece.size() > kMaxPotText)
+    return reader.fail("expected a pot of at most 8 MiB in the metadata, found more");
+  pot_text_ += piece;
+}
+
+void ModelReader::begin_model(XmlReader& reader, const XmlElement& element) {
+  static constexpr std::array<std::pair<std::string_view, double>, 6> kUnits{{{"micron", 0.001},
+                                                                              {"millimeter", 1.0},
+                                                                              {"centimeter", 10.0},
+                                                                              {"inch", 25.4},
+                                                                              {"foot", 304.8},
+                                                                              {"meter", 1000.0}}};
+  const std::string_view unit = element.value_of("unit").value_or("millimeter");
+  const auto known = std::ranges::find(kUnits, unit, &std::pair<std::string_view, double>::first);
+  if (known == kUnits.end())
+    return reader.fail(
+        "unit: expected micron, millimeter, centimeter, inch, foot or meter, found " +
+        quoted(unit));
+  unit_mm_ = known->second;
+  std::string_view required = element.value_of("requiredextensions").value_or("");
+  while (!required.empty()) {
+    const std::string_view prefix = required.substr(0, required.find(' '));
+    required.remove_prefix(std::min(prefix.size() + 1, required.size()));
+    if (prefix.empty()) continue;
+    const auto space = std::ranges::find(element.namespaces, prefix, &XmlAttribute::name);
+    const std::string_view uri = space == element.namespaces.end() ? "" : space->value;
+    if (uri != kMaterials && uri != kProduction)
+      return reader.fail("expected no required extension but materials, found " +
+                         quoted(uri.empty() ? prefix : uri));
+  }
+}
+
+void ModelReader::begin_metadata(XmlReader& reader, const XmlElement& element) {
+  const auto name = element.value_of("name");
+  if (!name || name->empty()) return reader.fail("metadata: expected a name, found none");
+  if (places_[places_.size() - 2] != Place::model) return;
+  if (metadata_.size() == kMaxMetadata || !metadata_.emplace(*name).second)
+    return reader.fail("expected at most " + std::to_string(kMaxMetadata) +
+                       " metadata of different names, found " + quoted(*name));
+  reads_pot_ = *name == kPotMetadata;
+}
+
+void ModelReader::add_resource(XmlReader& reader, const XmlElement& element) {
+  const auto id = whole<std::uint32_t>(element.value_of("id"), 1, kMaxId);
+  if (!id)
+    return reader.fail("expected an id from 1 to 2147483647" + found(element.value_of("id")));
+  if (!resources_.insert(*id).second)
+    return reader.fail("expected id " + std::to_string(*id) + " once, found it twice");
+  if (places_.back() != Place::object) properties_.insert(*id);
+}
+
+void ModelReader::check_property(XmlReader& reader, const XmlElement& element) {
+  const auto text = element.value_of("pid");
+  if (!text) return;
+  const auto pid = whole<std::uint32_t>(text, 1, kMaxId);
+  if (!pid || !properties_.contains(*pid))
+    reader.fail("pid: expected the id of a property group before it" + found(text));
+}
+
+void ModelReader::begin_object(XmlReader& reader, const XmlElement& element) {
+  add_resource(reader, element);
+  check_property(reader, element);
+  static constexpr std::array<std::string_view, 5> kObjectTypes{"model", "solidsupport", "support",
+                                                                "surface", "other"};
+  const std::string_view type = element.value_of("type").value_or("model");
+  if (std::ranges::find(kObjectTypes, type) == kObjectTypes.end())
+    return reader.fail("type: expected model, solidsupport, support, surface or other, found " +
+                       quoted(type));
+  id_ = whole<std::uint32_t>(element.value_of("id"), 1, kMaxId).value_or(0);
+  has_mesh_ = has_components_ = false;
+  objects_.emplace_back().type = type;
+}
+
+void ModelReader::end_object(XmlReader& reader) {
+  Object& object = objects_.back();
+  if (has_mesh_ ? object.triangles.empty() : object.components.empty())
+    return reader.fail("expected an object with triangles or components, found neither");
+  object.all_points = object.points.size();
+  object.all_triangles = object.triangles.size();
+  for (const Placed& component : object.components) {
+    const Object& part = objects_[component.object];
+    object.all_points = bounded(object.all_points + part.all_points);
+    object.all_triangles = bounded(object.all_triangles + part.all_triangles);
+    object.depth = std::max(object.depth, part.depth + 1);
+  }
+  if (object.depth > kMaxDepth)
+    return reader.fail("expected components nested at most " + std::to_string(kMaxDepth) +
+                       " deep, found deeper ones");
+  object_of_[id_] = static_cast<std::uint32_t>(objects_.size() - 1);
+}
+
+void ModelReader::add_vertex(XmlReader& reader, const XmlElement& element) {
+  glm::vec3 point{0.0F};
+  for (int axis = 0; axis < 3; ++axis) {
+    const char name = static_cast<char>('x' + axis);
+    const auto text = element.value_of({&name, 1});
+    const auto value = text ? parse_float(*text) : std::optional<float>();
+    if (!value || !is_coordinate(*value))
+      return reader.fail(std::string(1, name) + ": expected " + std::string(kCoordinateRule) +
+                         found(text));
+    point[axis] = *value + 0.0F;  // -0 + 0 is 0
+  }
+  if (++stored_points_ > kMaxPoints) return reader.fail("expected at most 60000000 vertices");
+  objects_.back().points.push_back(point);
+}
+
+void ModelReader::add_triangle(XmlReader& reader, const XmlElement& element) {
+  Object& object = objects_.back();
+  if (object.points.empty()) return reader.fail("expected vertices before triangles, found none");
+  static constexpr std::array<std::string_view, 3> kNames{"v1", "v2", "v3"};
+  std::array<std::uint32_t, 3> corners{};
+  const auto last = static_cast<std::uint32_t>(object.points.size() - 1);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto text = element.value_of(kNames[i]);
+    const auto index = whole<std::uint32_t>(text, 0, last);
+    if (!index)
+      return reader.fail(std::string(kNames[i]) + ": expected the number of one of " +
+                         std::to_string(object.points.size()) + " vertices from 0" + found(text));
+    corners[i] = *index;
+  }
+  if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
+    return reader.fail("expected a triangle of three vertices, found one that uses a vertex twice");
+  if (element.attributes.size() > 3) check_property(reader, element);
+  if (++stored_triangles_ > kMaxTriangles)
+    return reader.fail("expected at most 20000000 triangles");
+  object.triangles.push_back(corners);
+}
+
+void ModelReader::add_placed(XmlReader& reader, const XmlElement& element,
+                             std::vector<Placed>& list) {
+  const bool elsewhere = std::ranges::any_of(element.attributes, [](const XmlAttribute& a) {
+    return a.space == kProduction && a.name == "path";
+  });
+  if (elsewhere) return reader.fail("expected an object of this model part, found one of another");
+  const auto text = element.value_of("objectid");
+  const auto id = whole<std::uint32_t>(text, 1, kMaxId);
+  const auto known = id ? object_of_.find(*id) : object_of_.end();
+  if (known == object_of_.end())
+    return reader.fail("objectid: expected an object defined before it" + found(text));
+  Placed placed{known->second, kStill};
+  if (const auto matrix = element.value_of("transform")) {
+    const auto transform = transform_from(*matrix);
+    if (!transform || std::abs(determinant(*transform)) < 1e-30)
+      return reader.fail("transform: expected 12 numbers of an invertible matrix, found " +
+                         quoted(*matrix));
+    placed.transform = *transform;
+  }
+  if (places_.back() == Place::item && objects_[placed.object].type == "other")
+    return reader.fail("expected an object to build, found one of type other");
+  if (list.size() == kMaxPlaced)
+    return reader.fail("expected at most " + std::to_string(kMaxPlaced) + " components or items");
+  list.push_back(placed);
+}
+
+// ---- build
+
+namespace {
+
+class Builder {
+ public:
+  Builder(const std::vector<Object>& objects, double unit_mm, TriangleMesh& mesh)
+      : objects_(objects), unit_mm_(unit_mm), mesh_(mesh) {}
+
+  /// False if a coordinate is out of range.
+  [[nodiscard]] bool add(const Placed& placed, const Transform& outer) {
+    const Transform matrix = composed(placed.transform, outer);
+    const Object& object = objects_[placed.object];
+    for (const Placed& component : object.components)
+      if (!add(component, matrix)) return false;
+    const auto first = static_cast<std::uint32_t>(mesh_.points.size());
+    for (const glm::vec3& point : object.points) {
+      step_of_loop();
+      const glm::vec3 place = placed_point(point, matrix);
+      for (int axis = 0; axis < 3; ++axis)
+        if (!is_coordinate(place[axis])) return false;
+      mesh_.points.emplace_back(place + 0.0F);  // -0 + 0 is 0
+    }
+    const bool mirrored = determinant(matrix) < 0.0;
+    for (auto [a, b, c] : object.triangles) {
+      if (mirrored) std::swap(b, c);
+      mesh_.triangles.push_back({first + a, first + b, first + c});
+    }
+    return true;
+  }
+
+ private:
+  [[nodiscard]] glm::vec3 placed_point(const glm::vec3& point, const Transform& m) const {
+    if (m == kStill && unit_mm_ == 1.0) return point;
+    const glm::dvec3 p(point);
+    glm::vec3 place;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      place[axis] =
+          static_cast<float>(unit_mm_ * (p.x * m[i] + p.y * m[3 + i] + p.z * m[6 + i] + m[9 + i]));
+    }
+    return place;
+  }
+
+  const std::vector<Object>& objects_;
+  double unit_mm_;
+  TriangleMesh& mesh_;
+};
+
+}  // namespace
+
+Result<TriangleMesh> ModelReader::build(std::string_view name) const {
+  if (!has_build_) return bad_file(name, "expected a 3MF model with resources and build");
+  std::uint64_t points = 0, triangles = 0;
+  std::size_t supports = 0;
+  for (const Placed& item : items_) {
+    const Object& object = objects_[item.object];
+    supports += object.type == "support";
+    if (object.type == "support") continue;
+    points += object.all_points;
+    triangles += object.all_triangles;
+  }
+  constexpr std::uint64_t kFree = 1'000'000, kMostCopies = 64;
+  if (triangles > std::max(kFree, kMostCopies * stored_triangles_) ||
+      points > std::max(3 * kFree, kMostCopies * stored_points_) || points > kMaxPoints)
+    return bad_file(name, "expected a build of at most " + std::to_string(kMostCopies) +
+                              " times the " + std::to_string(stored_triangles_) +
+                              " triangles in the file, found " + std::to_string(triangles));
+  if (auto counted = check_facet_count(triangles, name); !counted)
+    return tl::make_unexpected(counted.error());
+  TriangleMesh mesh;
+  mesh.points.reserve(points);
+  mesh.triangles.reserve(triangles);
+  Builder builder(objects_, unit_mm_, mesh);
+  for (const Placed& item : items_)
+    if (objects_[item.object].type != "support" && !builder.add(item, kStill))
+      return bad_file(name, std::string("expected ").append(kCoordinateRule) +
+                                " after the transforms of its items");
+  if (supports > 0 && options_.notes != nullptr)
+    options_.notes->push_back(std::to_string(supports) + " items are supports and were not read");
+  return mesh;
+}
+
+}  // namespace clay::solid::inline formats::three_mf

@@ -1,0 +1,101 @@
+#pragma once
+// The model part of a 3MF package: read by the events of its XML, then built into one mesh.
+
+#include "claystack/core/result.hpp"
+#include "claystack/export/formats.hpp"
+#include "export/formats/xml_reader.hpp"
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace clay::solid::inline formats::three_mf {
+
+/// A matrix of 4 x 3: (x, y, z, 1) times it is the new place.
+using Transform = std::array<double, 12>;
+inline constexpr Transform kStill{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+
+struct Placed {
+  std::uint32_t object = 0;  ///< index
+  Transform transform = kStill;
+};
+
+struct Object {
+  std::string type = "model";
+  std::vector<glm::vec3> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Placed> components;
+  // With all components:
+  std::uint64_t all_points = 0, all_triangles = 0;
+  std::size_t depth = 0;
+};
+
+enum class Place : std::uint8_t {
+  outside,
+  model,
+  metadata,
+  metadata_group,
+  resources,
+  materials,
+  base,
+  object,
+  mesh,
+  vertices,
+  vertex,
+  triangles,
+  triangle,
+  components,
+  component,
+  build,
+  item,
+};
+
+class ModelReader final : public XmlReader::Events {
+ public:
+  explicit ModelReader(const ReadOptions& options) : options_(options) {}
+
+  void begin(XmlReader& reader, const XmlElement& element) override;
+  void end(XmlReader& reader) override;
+  void text(XmlReader& reader, std::string_view piece) override;
+
+  /// After the end of the XML: all items in one mesh, in mm.
+  [[nodiscard]] Result<TriangleMesh> build(std::string_view name) const;
+  /// The text of the metadata `claystack:pot`; empty: there is none.
+  [[nodiscard]] const std::string& pot_text() const noexcept { return pot_text_; }
+
+ private:
+  void enter(XmlReader& reader, Place place, const XmlElement& element);
+  void begin_model(XmlReader& reader, const XmlElement& element);
+  void begin_metadata(XmlReader& reader, const XmlElement& element);
+  void begin_object(XmlReader& reader, const XmlElement& element);
+  void end_object(XmlReader& reader);
+  void add_vertex(XmlReader& reader, const XmlElement& element);
+  void add_triangle(XmlReader& reader, const XmlElement& element);
+  void add_placed(XmlReader& reader, const XmlElement& element, std::vector<Placed>& list);
+  void add_resource(XmlReader& reader, const XmlElement& element);
+  void check_property(XmlReader& reader, const XmlElement& element);
+
+  ReadOptions options_;
+  std::vector<Place> places_{Place::outside};
+  std::size_t foreign_depth_ = 0;  ///< within an element of another namespace
+  double unit_mm_ = 1.0;
+  std::set<std::uint32_t> resources_;  ///< ids of all kinds
+  std::set<std::uint32_t> properties_;
+  std::map<std::uint32_t, std::uint32_t> object_of_;  ///< index by id
+  std::vector<Object> objects_;
+  std::uint32_t id_ = 0;  ///< of the object that is read
+  bool has_mesh_ = false, has_components_ = false;
+  std::vector<Placed> items_;
+  std::set<std::string, std::less<>> metadata_;
+  bool reads_pot_ = false;
+  std::string pot_text_;
+  std::uint64_t stored_points_ = 0, stored_triangles_ = 0;
+  bool has_resources_ = false, has_build_ = false;
+};
+
+}  // namespace clay::solid::inline formats::three_mf

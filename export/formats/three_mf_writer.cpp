@@ -1,0 +1,227 @@
+#include "claystack/export/formats.hpp"
+#include "claystack/version.hpp"
+#include "core/cancel.hpp"
+#include "export/formats/base64.hpp"
+#include "export/formats/file_floats.hpp"
+#include "export/formats/three_mf.hpp"
+#include "export/formats/zip_package.hpp"
+#include "export/solid/mesh_bodies.hpp"
+
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace clay::solid::inline formats {
+namespace {
+
+using namespace three_mf;
+
+constexpr std::string_view kDeclaration = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+
+/// For attributes and text.
+std::string escaped(std::string_view text) {
+  std::string xml;
+  for (const char c : one_line(text)) switch (c) {
+      case '&':
+        xml += "&amp;";
+        break;
+      case '<':
+        xml += "&lt;";
+        break;
+      case '>':
+        xml += "&gt;";
+        break;
+      case '"':
+        xml += "&quot;";
+        break;
+      default:
+        xml += c;
+    }
+  return xml;
+}
+
+class ModelWriter {
+ public:
+  ModelWriter(const TriangleMesh& mesh, const FileContents& contents)
+      : mesh_(mesh), contents_(contents), name_(escaped(contents.name)) {}
+
+  ModelPart write() {
+    text_.reserve(48 * mesh_.points.size() + 44 * mesh_.triangles.size() + 4096);
+    text_.append(kDeclaration)
+        .append("<model unit=\"millimeter\" xml:lang=\"en-US\" xmlns=\"")
+        .append(kCore)
+        .append("\" xmlns:claystack=\"")
+        .append(kOwn)
+        .append("\">\n");
+    add_metadata();
+    text_ += "<resources>\n";
+    const std::size_t built = add_objects();
+    text_.append("</resources>\n<build>\n<item objectid=\"")
+        .append(std::to_string(built))
+        .append("\"/>\n</build>\n</model>\n");
+    return {std::move(text_), std::move(sizes_)};
+  }
+
+ private:
+  void add_metadata() {
+    add_metadatum("Title", name_);
+    add_metadatum("Application", "claystack " CLAYSTACK_VERSION);
+    for (const auto& [key, value] : contents_.notes)
+      add_metadatum(std::string(kOwnPrefix) + key, escaped(value));
+    if (!contents_.pot.empty() && contents_.pot.size() <= kMostCopiedPotBytes)
+      add_metadatum(kPotMetadata, to_base64(contents_.pot));
+  }
+
+  void add_metadatum(std::string_view key, std::string_view value) {
+    text_.append("<metadata name=\"").append(key).append("\"");
+    if (key.starts_with(kOwnPrefix)) text_ += " preserve=\"1\"";
+    text_.append(">").append(value).append("</metadata>\n");
+  }
+
+  /// Returns the id of the object to build.
+  std::size_t add_objects() {
+    if (contents_.one_body) {
+      std::vector<std::uint32_t> all(mesh_.triangles.size());
+      std::iota(all.begin(), all.end(), 0U);
+      add_object(1, name_, all);
+      return 1;
+    }
+    const std::vector<std::vector<std::uint32_t>> bodies = bodies_of(mesh_);
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      add_object(i + 1, bodies.size() == 1 ? name_ : name_ + " part " + std::to_string(i + 1),
+                 bodies[i]);
+    if (bodies.size() == 1) return 1;
+    const std::size_t whole = bodies.size() + 1;
+    begin_object(whole, name_);
+    text_ += "<components>\n";
+    for (std::size_t i = 1; i < whole; ++i)
+      text_ += "<component objectid=\"" + std::to_string(i) + "\"/>\n";
+    text_ += "</components>\n</object>\n";
+    return whole;
+  }
+
+  void begin_object(std::size_t id, const std::string& name) {
+    text_ += "<object id=\"" + std::to_string(id) + "\" type=\"model\" name=\"" + name + "\">\n";
+  }
+
+  void add_object(std::size_t id, const std::string& name,
+                  const std::vector<std::uint32_t>& triangles) {
+    begin_object(id, name);
+    sizes_.push_back(triangles.size());
+    text_ += "<mesh>\n<vertices>\n";
+    const std::vector<std::uint32_t> number = add_vertices(triangles);
+    text_ += "</vertices>\n<triangles>\n";
+    for (const std::uint32_t t : triangles) {
+      step_of_loop();
+      text_ += "<triangle";
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        text_.append(" v").append(1, static_cast<char>('1' + corner)).append("=\"");
+        append_number(text_, number[mesh_.triangles[t][corner]]);
+        text_ += '"';
+      }
+      text_ += "/>\n";
+    }
+    text_ += "</triangles>\n</mesh>\n</object>\n";
+  }
+
+  /// Returns the number in the object of each point that the triangles use.
+  std::vector<std::uint32_t> add_vertices(const std::vector<std::uint32_t>& triangles) {
+    std::vector<bool> used(mesh_.points.size(), false);
+    for (const std::uint32_t t : triangles)
+      for (const std::uint32_t point : mesh_.triangles[t]) used[point] = true;
+    std::vector<std::uint32_t> number(mesh_.points.size(), 0);
+    std::uint32_t next = 0;
+    for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
+      step_of_loop();
+      if (!used[i]) continue;
+      number[i] = next++;
+      const glm::vec3 point = file_point(mesh_.points[i]);
+      text_ += "<vertex";
+      for (int axis = 0; axis < 3; ++axis) {
+        text_.append(" ").append(1, static_cast<char>('x' + axis)).append("=\"");
+        append_number(text_, point[axis]);
+        text_ += '"';
+      }
+      text_ += "/>\n";
+    }
+    return number;
+  }
+
+  const TriangleMesh& mesh_;
+  const FileContents& contents_;
+  std::string name_, text_;
+  std::vector<std::size_t> sizes_;
+};
+
+std::string types_xml() {
+  std::string text(kDeclaration);
+  text.append("<Types xmlns=\"").append(kTypes).append("\">\n");
+  for (const auto& [ending, type] :
+       {std::pair{"rels", kRelationType}, std::pair{"model", kModelType},
+        std::pair{"png", std::string_view("image/png")},
+        std::pair{"json", std::string_view("application/json")},
+        std::pair{"cbor", std::string_view("application/cbor")},
+        std::pair{"config", std::string_view("application/xml")}})
+    text.append("<Default Extension=\"")
+        .append(ending)
+        .append("\" ContentType=\"")
+        .append(type)
+        .append("\"/>\n");
+  return text + "</Types>\n";
+}
+
+std::string relations_xml(bool thumbnail) {
+  std::string text(kDeclaration);
+  text.append("<Relationships xmlns=\"").append(kRelations).append("\">\n");
+  const auto add = [&](std::string_view id, std::string_view path, std::string_view type) {
+    text.append("<Relationship Id=\"").append(id).append("\" Target=\"/").append(path);
+    text.append("\" Type=\"").append(type).append("\"/>\n");
+  };
+  add("model", kModelPath, kModelRelation);
+  if (thumbnail) add("thumbnail", kThumbnailPath, kThumbnailRelation);
+  return text + "</Relationships>\n";
+}
+
+/// PrusaSlicer needs the volumes of an object of which it reads a setting.
+std::string notes_xml(const ModelPart& model, const FileContents& contents) {
+  if (contents.pot.empty() || contents.pot.size() > kMostCopiedPotBytes) return {};
+  const std::string note = std::string(kPotNote) + to_base64(contents.pot);
+  const std::string name = escaped(contents.name);
+  std::string text = std::string(kDeclaration) + "<config>\n";
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const std::string own_name =
+        model.bodies.size() == 1 ? name : name + " part " + std::to_string(i + 1);
+    const auto add = [&](std::string_view type, std::string_view key, std::string_view value) {
+      text.append("<metadata type=\"").append(type).append("\" key=\"").append(key);
+      text.append("\" value=\"").append(value).append("\"/>\n");
+    };
+    text += "<object id=\"" + std::to_string(i + 1) + "\" instances_count=\"1\">\n";
+    add("object", "name", own_name);
+    add("object", "notes", note);
+    text += "<volume firstid=\"0\" lastid=\"" + std::to_string(model.bodies[i] - 1) + "\">\n";
+    add("volume", "name", own_name);
+    text += "</volume>\n</object>\n";
+  }
+  return text + "</config>\n";
+}
+
+}  // namespace
+
+ModelPart encode_3mf_model(const TriangleMesh& mesh, const FileContents& contents) {
+  return ModelWriter(mesh, contents).write();
+}
+
+Result<std::string> pack_3mf(const ModelPart& model, const FileContents& contents) {
+  const std::string types = types_xml(), relations = relations_xml(!contents.thumbnail_png.empty());
+  std::vector<ZipEntry> entries{
+      {kTypesPath, types}, {kRelationsPath, relations}, {kModelPath, model.xml}};
+  if (!contents.thumbnail_png.empty())
+    entries.push_back({kThumbnailPath, contents.thumbnail_png, false});
+  if (!contents.pot.empty()) entries.push_back({kPotPath, contents.pot});
+  const std::string notes = notes_xml(model, contents);
+  if (!notes.empty()) entries.push_back({kNotesPath, notes});
+  if (!contents.certificate.empty()) entries.push_back({kCertificatePath, contents.certificate});
+  return zipped(entries);
+}
+
+}  // namespace clay::solid::inline formats

@@ -1,0 +1,19 @@
+#include "export/job/solid_contents.hpp"
+
+#include "core/text.hpp"
+
+namespace clay::solid::inline job {
+
+FileContents solid_contents(const ExportOptions& options) {
+  FileContents contents{.name = options.name};
+  contents.draco.max_error_mm = options.tolerance_mm;
+  if (const auto& process = options.walls.process)
+    contents.notes.emplace_back("process", process->name);
+  if (options.shrinkage > 0.0)
+    contents.notes.emplace_back("shrinkage", number_text(options.shrinkage));
+  contents.pot = options.pot_file;
+  contents.thumbnail_png = options.thumbnail_png;
+  return contents;
+}
+
+}  // namespace clay::solid::inline job

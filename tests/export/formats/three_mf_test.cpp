@@ -1,0 +1,264 @@
+#include "claystack/export/formats.hpp"
+#include "export/formats/base64.hpp"
+#include "export/formats/zip_package.hpp"
+#include "tests/export/formats/refused.hpp"
+#include "tests/export/solid/mesh_generators.hpp"
+#include "tests/fuzz/sample_meshes.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+namespace clay::solid {
+namespace {
+
+using samples::refused;
+using samples::tetrahedron;
+
+const std::string kModelStart =
+    R"(<?xml version="1.0"?><model unit="millimeter" )"
+    R"(xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" )"
+    R"(xmlns:m="http://schemas.microsoft.com/3dmanufacturing/material/2015/02" )"
+    R"(xmlns:x="urn:x" requiredextensions="m"><metadata name="Title">t</metadata><resources>)";
+const std::string kMesh =
+    R"(<mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="10" y="0" z="0"/>)"
+    R"(<vertex x="0" y="10" z="0"/><vertex x="0" y="0" z="10"/></vertices><triangles>)"
+    R"(<triangle v1="0" v2="2" v3="1"/><triangle v1="0" v2="1" v3="3"/>)"
+    R"(<triangle v1="1" v2="2" v3="3"/><triangle v1="0" v2="3" v3="2"/></triangles></mesh>)";
+const std::string kObject = R"(<object id="1" name="a">)" + kMesh + "</object>";
+const std::string kBuild = R"(</resources><build><item objectid="1"/></build></model>)";
+const std::string kModel = kModelStart + kObject + kBuild;
+
+std::string changed(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, text.npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TriangleMesh read_model_part(const std::string& xml) {
+  const auto mesh = decode_3mf_model(xml, "m");
+  EXPECT_TRUE(mesh) << mesh.error().message;
+  return mesh.value_or(TriangleMesh());
+}
+
+const std::string kTypesPart =
+    R"(<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">)"
+    R"(<Default Extension="rels" ContentType="application/vnd.openxmlformats-package.)"
+    R"(relationships+xml"/><Default Extension="model" ContentType="application/vnd.ms-package.)"
+    R"(3dmanufacturing-3dmodel+xml"/></Types>)";
+const std::string kRelationsPart =
+    R"(<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">)"
+    R"(<Relationship Id="r" Target="/3D/3dmodel.model" )"
+    R"(Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>)";
+
+std::string package_of(const std::string& model, const std::string& relations = kRelationsPart,
+                       const std::string& types = kTypesPart) {
+  return zipped({{"[Content_Types].xml", types},
+                 {"_rels/.rels", relations},
+                 {"3D/3dmodel.model", model}})
+      .value();
+}
+
+// ---- writing
+
+RC_GTEST_PROP(ThreeMf, KeepsEveryBit, ()) {
+  TriangleMesh mesh = *samples::any_mesh();
+  mesh.points.resize(std::max<std::size_t>(mesh.points.size(), 3));
+  mesh.triangles.push_back({0, 1, 2});
+  std::erase_if(mesh.triangles,
+                [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+  const FileContents contents{.name = "<any> & \"name\"", .one_body = true, .pot = "pot"};
+  const auto read = decode_mesh(encode_mesh(mesh, MeshFormat::three_mf, contents).value(),
+                                MeshFormat::three_mf, "x")
+                        .value();
+  RC_ASSERT(samples::corners_of(read) == samples::corners_of(rounded_to_float(mesh)));
+  RC_ASSERT(!samples::has_negative_zero(read));
+}
+
+TEST(ThreeMf, IsDeterministicAndCarriesItsParts) {
+  const FileContents contents{.notes = {{"process", "porcelain"}},
+                              .pot = std::string_view("\xa0\0pot", 5),
+                              .thumbnail_png = "png",
+                              .certificate = "{}"};
+  const std::string bytes = encode_mesh(tetrahedron(), MeshFormat::three_mf, contents).value();
+  EXPECT_EQ(bytes, encode_mesh(tetrahedron(), MeshFormat::three_mf, contents).value());
+  const PackedParts parts = parts_in_3mf(bytes, "x").value();
+  EXPECT_EQ(parts.pot, contents.pot);
+  EXPECT_EQ(parts.certificate, "{}");
+  const std::string model = model_in_3mf(bytes, "x").value();
+  EXPECT_NE(model.find("unit=\"millimeter\""), model.npos);
+  EXPECT_NE(model.find("name=\"claystack:process\" preserve=\"1\">porcelain<"), model.npos);
+  // A slicer that keeps only the model and its metadata keeps the pot.
+  EXPECT_EQ(parts_in_3mf(package_of(model), "x").value().pot, contents.pot);
+  // PrusaSlicer keeps neither, but a note.
+  const std::string notes =
+      ZipPackage::open(bytes, "x")->read("Metadata/Slic3r_PE_model.config", 10'000).value();
+  const std::string saved = zipped({{"[Content_Types].xml", kTypesPart},
+                                    {"_rels/.rels", kRelationsPart},
+                                    {"3D/3dmodel.model", kModel},
+                                    {"Metadata/Slic3r_PE_model.config", notes}})
+                                .value();
+  EXPECT_EQ(parts_in_3mf(saved, "x").value().pot, contents.pot);
+  EXPECT_EQ(parts_in_3mf(package_of(kModel), "x").value().pot, "");
+  EXPECT_EQ(ZipPackage::open(bytes, "x")->read("Metadata/thumb.png", 10).value(), "png");
+}
+
+TEST(ThreeMf, WritesAnObjectForEachBody) {
+  // Two tetrahedra; a cavity in the larger one.
+  TriangleMesh mesh = tetrahedron();
+  const auto add = [&](double scale, const glm::dvec3& shift, bool inward) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    for (const glm::dvec3& p : tetrahedron().points) mesh.points.push_back(scale * p + shift);
+    for (auto [a, b, c] : tetrahedron().triangles) {
+      if (inward) std::swap(b, c);
+      mesh.triangles.push_back({first + a, first + b, first + c});
+    }
+  };
+  add(0.1, glm::dvec3(1.0), true);
+  add(1.0, glm::dvec3(50.0, 0.0, 0.0), false);
+  const std::string model = encode_3mf_model(mesh, {.name = "pot"}).xml;
+  std::size_t objects = 0;
+  for (std::size_t at = model.find("<object "); at != model.npos;
+       at = model.find("<object ", at + 1))
+    ++objects;
+  EXPECT_EQ(objects, 3u);  // two bodies and the whole
+  for (const char* name : {"name=\"pot part 1\"", "name=\"pot part 2\"", "name=\"pot\""})
+    EXPECT_NE(model.find(name), model.npos) << name;
+  const TriangleMesh read = read_model_part(model);
+  EXPECT_EQ(read.triangles.size(), 12u);
+  EXPECT_NEAR(signed_volume(read), (2.0 - 0.001) * 1000.0 / 6.0, 1e-6);
+}
+
+TEST(Base64, AgreesWithItsStandard) {
+  // RFC 4648, section 10.
+  for (const auto& [text, code] :
+       {std::pair{"", ""}, std::pair{"f", "Zg=="}, std::pair{"fo", "Zm8="},
+        std::pair{"foo", "Zm9v"}, std::pair{"foob", "Zm9vYg=="}, std::pair{"foobar", "Zm9vYmFy"}}) {
+    EXPECT_EQ(to_base64(text), code);
+    EXPECT_EQ(from_base64(code), text);
+  }
+  EXPECT_EQ(from_base64("Zm 9v\nYg=="), "foob");
+  for (const char* bad : {"Zg", "Zg=", "Z===", "Zg==Zg==", "Zm9*"})
+    EXPECT_EQ(from_base64(bad), std::nullopt) << bad;
+}
+
+// ---- reading
+
+TEST(ThreeMf, ReadsUnitsComponentsAndTransforms) {
+  EXPECT_EQ(read_model_part(kModel), tetrahedron());
+  const double volume = 1000.0 / 6.0;
+  EXPECT_NEAR(signed_volume(read_model_part(changed(kModel, "millimeter", "inch"))),
+              volume * 25.4 * 25.4 * 25.4, 1.0);
+  const std::string twice =
+      kModelStart + kObject +
+      R"(<object id="2"><components><component objectid="1"/>)"
+      R"(<component objectid="1" transform="-2 0 0 0 1 0 0 0 1 -5 0 0"/></components></object>)" +
+      changed(kBuild, R"(objectid="1")", R"(objectid="2" transform="1 0 0 0 1 0 0 0 1 0 0 7")");
+  const TriangleMesh read = read_model_part(twice);
+  EXPECT_NEAR(signed_volume(read), 3.0 * volume, 1e-9);  // the mirror image faces outward, too
+  EXPECT_EQ(read.points[4], glm::dvec3(-5.0, 0.0, 7.0));
+  EXPECT_EQ(read.points[5], glm::dvec3(-25.0, 0.0, 7.0));
+}
+
+TEST(ThreeMf, PassesOverOtherNamespaces) {
+  const std::string file =
+      changed(changed(kModel, "<object",
+                      R"(<m:colorgroup id="5"><m:color color="#FFF"/></m:colorgroup>)"
+                      R"(<basematerials id="6"><base name="a" displaycolor="#FFF"/>)"
+                      R"(</basematerials><object pid="6" pindex="0" x:any="1")"),
+              R"(v2="2" v3="1")", R"(v2="2" v3="1" pid="5" p1="0" x:paint="4")");
+  EXPECT_EQ(read_model_part(file), tetrahedron());
+}
+
+TEST(ThreeMf, RefusesWhatTheSpecificationForbids) {
+  const auto expect = [](const std::string& from, const std::string& to,
+                         const std::string& because) {
+    EXPECT_TRUE(
+        refused(decode_3mf_model(changed(kModel, from, to), "m"), ErrorKind::bad_input, because))
+        << to;
+  };
+  expect("millimeter", "league", "unit: expected micron");
+  expect("v3=\"1\"", "v3=\"4\"", "v3: expected the number of one of 4 vertices");
+  expect("v3=\"1\"", "v3=\"-1\"", "found '-1'");
+  expect("v3=\"1\"", "v3=\"2\"", "uses a vertex twice");
+  expect(" v3=\"1\"", "", "v3: expected");
+  expect("x=\"10\"", "x=\"1,5\"", "x: expected a coordinate");
+  expect("x=\"10\"", "x=\"nan\"", "x: expected a coordinate");
+  expect("x=\"10\"", "x=\"1e39\"", "x: expected a coordinate");
+  expect("id=\"1\"", "id=\"0\"", "expected an id from 1");
+  expect("<object", "<basematerials id=\"1\"/><object", "id 1 once, found it twice");
+  expect("objectid=\"1\"", "objectid=\"2\"", "an object defined before it");
+  expect("id=\"1\" ", "id=\"1\" pid=\"3\" ", "pid: expected the id of a property group");
+  expect("<item objectid=\"1\"/>", "", "triangles, found 0");
+  expect("id=\"1\" ", "id=\"1\" type=\"pot\" ", "type: expected model");
+  expect("id=\"1\" ", "id=\"1\" type=\"other\" ", "found one of type other");
+  expect("\"m\"", "\"x\"", "expected no required extension but materials");
+  expect("<mesh>", "<mesh><lattice/>", "found 'lattice'");
+  expect("</mesh>", "</mesh><components/>", "one mesh or one list of components");
+  expect("<?xml version=\"1.0\"?>", "<!DOCTYPE model [<!ENTITY a \"b\">]>", "no document type");
+  expect("</build>", "", "expected XML, found");
+  expect("objectid=\"1\"", "objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 0 0 0 0\"",
+         "an invertible matrix");
+  expect("objectid=\"1\"", "objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 0 0\"", "12 numbers");
+  expect("name=\"Title\">t</metadata>", "name=\"T\"/><metadata name=\"T\"/>", "different names");
+  expect(kBuild,
+         R"(<object id="2"><components><component objectid="2"/></components></object>)" + kBuild,
+         "an object defined before it");  // a cycle
+}
+
+TEST(ThreeMf, RefusesPackagesWithoutAModel) {
+  const auto expect = [](const std::string& bytes, const std::string& because) {
+    EXPECT_TRUE(refused(decode_3mf(bytes, "p.3mf"), ErrorKind::bad_input, because));
+  };
+  expect("PK nothing", "expected a zip archive");
+  expect(zipped({{"_rels/.rels", kRelationsPart}}).value(), "expected the part of the 3D model");
+  expect(package_of(kModel, changed(kRelationsPart, "2013/01/3dmodel", "2013/01/4dmodel")),
+         "found no relationship to one");
+  expect(
+      package_of(
+          kModel,
+          changed(
+              kRelationsPart, "</Rel",
+              R"(<Relationship Id="s" )"
+              R"(Target="/3D/2.model" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/)"
+              R"(3dmodel"/></Rel)")),
+      "expected one 3D model");
+  expect(package_of(kModel, kRelationsPart, changed(kTypesPart, "\"model\"", "\"mdl\"")),
+         "expected the content type");
+  const std::string good = package_of(kModel);
+  EXPECT_EQ(decode_3mf(good, "x").value(), tetrahedron());
+  expect(good.substr(0, good.size() - 30), "expected a zip archive");
+  EXPECT_TRUE(refused(
+      Result<std::string>(zipped({{"a", "1"}, {"A", "2"}})).and_then([](const std::string& zip) {
+        return ZipPackage::open(zip, "z").map([](const ZipPackage&) {});
+      }),
+      ErrorKind::bad_input, "found twice"));
+}
+
+TEST(ThreeMf, RefusesBombs) {
+  // A model that unpacks to a thousand times its size.
+  const std::string blanks(std::size_t{40} << 20, ' ');
+  EXPECT_TRUE(refused(decode_3mf(package_of(kModel + blanks), "p"), ErrorKind::bad_input,
+                      "expected to unpack to at most 100 times"));
+  // 2^31 triangles by components that double.
+  std::string doubled = kModelStart + kObject;
+  for (int id = 2; id < 31; ++id) {
+    const std::string part = "<component objectid=\"" + std::to_string(id - 1) + "\"/>";
+    doubled += "<object id=\"" + std::to_string(id) + "\"><components>" + part + part +
+               "</components></object>";
+  }
+  EXPECT_TRUE(refused(decode_3mf_model(doubled + changed(kBuild, "\"1\"", "\"30\""), "p"),
+                      ErrorKind::bad_input, "expected a build of at most 64 times the 4"));
+  // A chain of components.
+  std::string chain = kModelStart + kObject;
+  for (int id = 2; id < 100; ++id)
+    chain += "<object id=\"" + std::to_string(id) + "\"><components><component objectid=\"" +
+             std::to_string(id - 1) + "\"/></components></object>";
+  EXPECT_TRUE(refused(decode_3mf_model(chain + kBuild, "p"), ErrorKind::bad_input,
+                      "nested at most 32 deep"));
+}
+
+}  // namespace
+}  // namespace clay::solid

@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+"""judges.py CLAYSTACK SCENE [FOLDER]: exports a pot in every format that other programs read, and
+compares the volume that they find with the STL's. Programs that are not installed are named and
+passed over. Exit status 1 if a program finds another volume or refuses a file."""
+import json
+import pathlib
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+
+CLAYSTACK, SCENE = sys.argv[1], sys.argv[2]
+FOLDER = pathlib.Path(sys.argv[3] if len(sys.argv) > 3 else tempfile.mkdtemp())
+FOLDER.mkdir(parents=True, exist_ok=True)
+failed = []
+
+
+def run(*words, timeout=200):
+    done = subprocess.run([str(w) for w in words], capture_output=True, text=True, timeout=timeout)
+    return done.returncode, done.stdout + done.stderr
+
+
+def verdict(program, file, volume, expected, bound=1e-4):
+    good = volume is not None and abs(volume / expected - 1.0) <= bound
+    print(f"{'ok  ' if good else 'FAIL'} {program}: {pathlib.Path(file).name}: {volume} mm3")
+    if not good:
+        failed.append((program, file))
+
+
+def volume_in_stl(path):
+    """By the divergence theorem, from a binary or text STL."""
+    data = pathlib.Path(path).read_bytes()
+    if len(data) >= 84 and len(data) == 84 + 50 * struct.unpack_from("<I", data, 80)[0]:
+        count = struct.unpack_from("<I", data, 80)[0]
+        corners = [struct.unpack_from("<9f", data, 84 + 50 * i + 12) for i in range(count)]
+    else:
+        numbers = [float(n) for line in re.findall(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", data) for n in line]
+        corners = [numbers[i:i + 9] for i in range(0, len(numbers), 9)]
+    return sum(a * (e * k - f * h) - b * (d * k - f * g) + c * (d * h - e * g)
+               for a, b, c, d, e, f, g, h, k in corners) / 6.0
+
+
+def by_prusa_slicer(file, expected):
+    code, out = run("prusa-slicer", "--info", file)
+    found = re.search(r"volume = ([\d.]+)", out)
+    verdict("prusa-slicer", file, float(found[1]) if found and "manifold = yes" in out else None, expected)
+
+
+def by_openscad(file, expected):
+    script, stl = FOLDER / "import.scad", FOLDER / "openscad.stl"
+    script.write_text(f'import("{file}");')
+    code, out = run("openscad", "-o", stl, script)
+    verdict("openscad", file, volume_in_stl(stl) if code == 0 else None, expected)
+
+
+def by_assimp(file, expected, scale=1.0):
+    stl = FOLDER / "assimp.stl"
+    stl.unlink(missing_ok=True)
+    code, out = run("assimp", "export", file, stl, "-fstlb")
+    good = code == 0 and stl.exists()
+    verdict("assimp", file, volume_in_stl(stl) * scale if good else None, expected)
+
+
+def by_libsavitar(file, expected):
+    program = """
+import sys, zipfile, Savitar, struct
+scene = Savitar.ThreeMFParser().parse(zipfile.ZipFile(sys.argv[1]).open('3D/3dmodel.model').read())
+total = 0.0
+for node in scene.getSceneNodes():
+    for part in [node] + list(node.getChildren()):
+        mesh = part.getMeshData()
+        v = list(struct.iter_unpack('<3f', mesh.getVerticesAsBytes()))
+        for i, j, k in struct.iter_unpack('<3i', mesh.getFacesAsBytes()):
+            (a, b, c), (d, e, f), (g, h, l) = v[i], v[j], v[k]
+            total += a * (e * l - f * h) - b * (d * l - f * g) + c * (d * h - e * g)
+print(total / 6.0)
+"""
+    code, out = run("/usr/bin/python3", "-c", program, file)
+    verdict("libSavitar (Cura)", file, float(out) if code == 0 else None, expected)
+
+
+def kept_by_prusa_slicer(file, pot):
+    """Opened, saved and sliced; then the pot is still there, to the byte."""
+    saved, code_file = FOLDER / "saved.3mf", FOLDER / "sliced.gcode"
+    for path in (saved, code_file):
+        path.unlink(missing_ok=True)
+    run("prusa-slicer", "--export-3mf", file, "-o", saved)
+    run("prusa-slicer", "--export-gcode", "--scale", "0.5", "--center", "100,100", saved, "-o", code_file)
+    again = FOLDER / "again.pot.json"
+    code, out = run(CLAYSTACK, "export", "-q", saved, again)
+    same = code == 0 and again.read_bytes() == pathlib.Path(pot).read_bytes()
+    sliced = code_file.exists() and b"G1 X" in code_file.read_bytes()
+    print(f"{'ok  ' if same and sliced else 'FAIL'} prusa-slicer: opened, saved and sliced; the pot "
+          f"{'is unchanged' if same else 'is lost: ' + out}{'' if sliced else '; not sliced'}")
+    if not (same and sliced):
+        failed.append(("prusa-slicer saved", file))
+
+
+def main():
+    pot, stl = FOLDER / "pot.pot.json", FOLDER / "pot.stl"
+    files = {ending: FOLDER / f"pot{ending}" for ending in (".ply", ".3mf")}
+    code, out = run(CLAYSTACK, "throw", "-q", SCENE, "-o", pot)
+    assert code == 0, out
+    code, out = run(CLAYSTACK, "export", "--json", pot, stl, *files.values())
+    assert code == 0, out
+    expected = volume_in_stl(stl)
+    print(f"     STL: {expected} mm3, {json.loads(out)['triangles']} triangles")
+    judges = [("prusa-slicer", lambda: (by_prusa_slicer(files[".3mf"], expected),
+                                        kept_by_prusa_slicer(files[".3mf"], pot))),
+              ("openscad", lambda: by_openscad(files[".3mf"], expected)),
+              ("assimp", lambda: [by_assimp(files[e], expected) for e in (".3mf", ".ply")])]
+    for program, judge in judges:
+        if shutil.which(program):
+            judge()
+        else:
+            print(f"     {program} is not installed")
+    if run("/usr/bin/python3", "-c", "import Savitar")[0] == 0:
+        by_libsavitar(files[".3mf"], expected)
+    else:
+        print("     python3-savitar is not installed")
+    sys.exit(1 if failed else 0)
+
+
+main()
