@@ -33,9 +33,12 @@ Verdict verdict_on(const solid::ExportReport& report) {
     verdict.examined = false;
   verdict.wall_mm = report.walls.min_wall_mm;
   const auto& shapes = report.section.shapes();
-  for (const solid::PieceShape& shape : shapes)
-    for (const solid::Cavity& cavity : shape.cavities)
-      verdict.notes.push_back(solid::text_of(cavity));
+  for (const solid::Problem& problem : solid::problems_of(report)) {
+    if (problem.fails)
+      verdict.mesh.problems.push_back({"process", problem.text, 1});
+    else
+      verdict.notes.push_back(problem.text);
+  }
   if (shapes.size() > 1)
     verdict.mesh.problems.push_back({"pieces that do not touch",
                                      fmt::format("{} pieces; ring {} is the first of the second",

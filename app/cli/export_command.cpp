@@ -166,7 +166,7 @@ Result<int> export_pot(ExportCommand& command, const Console& console) {
   if (!report) return tl::make_unexpected(report.error());
   if (console.json) print_json(export_json(*report, *copies));
   print_export(console, *report, *copies);
-  return print_thin_wall(console, *report) ? kUnsound : kDone;
+  return print_problems(console, *report) ? kUnsound : kDone;
 }
 
 using SharedCommand = std::shared_ptr<ExportCommand>;

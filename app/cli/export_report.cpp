@@ -217,6 +217,29 @@ Json solid_json(const ExportReport& report) {
 
 }  // namespace
 
+namespace {
+
+Json problems_json(const ExportReport& report) {
+  Json json = Json::array();
+  for (const solid::Problem& problem : solid::problems_of(report)) {
+    json.push_back({{"text", problem.text}, {"fails", problem.fails}});
+    if (problem.at) json.back()["at_mm"] = {problem.at->rho, problem.at->y};
+  }
+  return json;
+}
+
+Json overhang_json(const solid::ProcessReport& process) {
+  const solid::OverhangLimit& limit = *process.limits->overhang;
+  const solid::Overhang& overhang = *process.overhang;
+  return {{"angle_deg", overhang.angle_deg},
+          {"at_mm", {overhang.from.rho, overhang.from.y}},
+          {"limit_deg", limit.max_deg},
+          {"source", limit.source},
+          {"passes", overhang.angle_deg <= limit.max_deg}};
+}
+
+}  // namespace
+
 Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies) {
   Json json = report.has_mesh() ? solid_json(report) : Json::object();
   for (const char* list : {"files", "left_out", "stages"}) json[list] = Json::array();
@@ -224,6 +247,8 @@ Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies)
     json["wall_demand"] = {{"min_wall_mm", limit->min_wall_mm},
                            {"source", limit->asked_by()},
                            {"passes", report.thinnest_mm() >= limit->min_wall_mm}};
+  if (report.process.overhang) json["overhang"] = overhang_json(report.process);
+  json["problems"] = problems_json(report);
   auto copy = copies.begin();
   for (const FileReport& file : report.files) {
     switch (file.kind) {
@@ -256,8 +281,6 @@ void print_export(const Console& console, const ExportReport& report,
   if (report.prepared.drilled_mm3 > 0.0)
     console.print(fmt::format("drain hole: {:.3f} cm3 of clay removed",
                               report.prepared.drilled_mm3 / 1000.0));
-  for (const auto& shape : report.section.shapes())
-    for (const auto& cavity : shape.cavities) console.warn(solid::text_of(cavity));
   auto copy = copies.begin();
   for (const FileReport& file : report.files) {
     switch (file.kind) {
@@ -277,14 +300,15 @@ void print_export(const Console& console, const ExportReport& report,
   }
 }
 
-bool print_thin_wall(const Console& console, const ExportReport& report) {
-  if (!report.walls.limit || !report.has_mesh()) return false;
-  if (const auto thin = solid::thin_wall_of(report)) {
-    console.warn(*thin);
-    return true;
+bool print_problems(const Console& console, const ExportReport& report) {
+  bool fails = false;
+  for (const solid::Problem& problem : solid::problems_of(report)) {
+    console.warn(problem.text);
+    fails = fails || problem.fails;
   }
-  console.print("walls: " + solid::wall_text(report.thinnest_mm(), *report.walls.limit));
-  return false;
+  if (report.walls.limit && report.has_mesh() && !solid::thin_wall_of(report))
+    console.print("walls: " + solid::wall_text(report.thinnest_mm(), *report.walls.limit));
+  return fails;
 }
 
 }  // namespace clay::cli

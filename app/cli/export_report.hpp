@@ -17,7 +17,7 @@ namespace clay::cli {
 void print_export(const Console& console, const solid::ExportReport& report,
                   const std::vector<PotCopy>& copies);
 
-/// Warns if a file may be thinner than requested, and by how much. Returns true in that case.
-bool print_thin_wall(const Console& console, const solid::ExportReport& report);
+/// Prints the walls that were asked for, and warns of problems. Returns true if one of them fails.
+bool print_problems(const Console& console, const solid::ExportReport& report);
 
 }  // namespace clay::cli

@@ -121,6 +121,7 @@ class CollapsedExport {
     report_.size.shells = solid.check.components;
     report_.walls.limit =
         options_.walls.for_size(2.0 * report_.size.diameter_mm + report_.size.height_mm);
+    report_.process.limits = options_.walls.process;
     report_.collapsed = std::move(solid);
     describe_volume(report_.collapsed->volume_mm3);
   }

@@ -32,21 +32,54 @@ std::string text_of(const Cavity& cavity) {
                      cavity.bottom_mm, cavity.top_mm, cavity.volume_mm3 / 1000.0);
 }
 
+namespace {
+
+std::optional<Problem> steep_overhang(const ProcessReport& process) {
+  const auto& overhang = process.overhang;
+  if (!overhang || overhang->angle_deg <= process.limits->overhang->max_deg) return std::nullopt;
+  return Problem{
+      fmt::format("overhang of {:.0f} degrees at a height of {:.1f} mm; {}: at most {:g} without "
+                  "support ({})",
+                  overhang->angle_deg, overhang->from.y, process.limits->name,
+                  process.limits->overhang->max_deg, process.limits->overhang->source),
+      overhang->from, false};
+}
+
+std::optional<Problem> too_large(const ExportReport& report) {
+  const auto& limits = report.process.limits;
+  if (!limits || !limits->size) return std::nullopt;
+  const SizeLimit& most = *limits->size;
+  const double width = report.size.diameter_mm, height = report.size.height_mm;
+  if (width <= std::min(most.width_mm, most.depth_mm) && height <= most.height_mm)
+    return std::nullopt;
+  return Problem{
+      fmt::format("too large: {:.1f} mm wide and {:.1f} mm high; {}: at most {:g} x {:g} "
+                  "mm and {:g} mm high ({})",
+                  width, height, limits->name, most.width_mm, most.depth_mm, most.height_mm,
+                  most.source),
+      std::nullopt, true};
+}
+
+}  // namespace
+
 std::vector<Problem> problems_of(const ExportReport& report) {
   std::vector<Problem> problems;
   if (auto thin = thin_wall_of(report)) {
     const Wall& wall = report.walls.thinnest;
     const bool placed = !report.collapsed && wall.thickness_mm > 0.0;
-    problems.push_back({std::move(*thin), placed ? std::optional(wall.from) : std::nullopt});
+    problems.push_back({std::move(*thin), placed ? std::optional(wall.from) : std::nullopt, true});
   }
+  if (auto size = too_large(report)) problems.push_back(std::move(*size));
+  const bool fired = report.process.limits && report.process.limits->fired;
   for (const PieceShape& shape : report.section.shapes())
     for (const Cavity& cavity : shape.cavities)
       problems.push_back(
-          {text_of(cavity), ProfilePoint{0.0, 0.5 * (cavity.bottom_mm + cavity.top_mm)}});
+          {text_of(cavity), ProfilePoint{0.0, 0.5 * (cavity.bottom_mm + cavity.top_mm)}, fired});
+  if (auto steep = steep_overhang(report.process)) problems.push_back(std::move(*steep));
   if (report.collapsed && report.collapsed->pieces > 1)
     problems.push_back(
         {fmt::format("the file holds {} bodies that do not touch", report.collapsed->pieces),
-         std::nullopt});
+         std::nullopt, false});
   return problems;
 }
 

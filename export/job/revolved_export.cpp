@@ -184,6 +184,9 @@ class RevolvedExport {
       walls.field =
           stages_.run("wall_field", [&] { return wall_field(profile, *options_.wall_spacing_mm); });
     walls.limit = options_.walls.for_size(2.0 * report_.size.diameter_mm + report_.size.height_mm);
+    report_.process.limits = options_.walls.process;
+    if (report_.process.limits && report_.process.limits->overhang)
+      report_.process.overhang = steepest_overhang(profile);
   }
 
   const PreparedPot& prepared_;

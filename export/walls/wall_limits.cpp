@@ -5,22 +5,35 @@
 #include "core/text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 namespace clay::solid::inline walls {
 namespace {
 
+constexpr std::array<std::string_view, 2> kNoYes = {"no", "yes"};
 constexpr double kAnySize = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMaxProcessBytes = std::size_t{1} << 20;
 constexpr std::size_t kMaxValues = 10'000;  // of a process file: fields of some thousand walls
 constexpr Range kWallMm = above(0.0).to(1e4), kSizeSumMm = above(0.0).to(1e7);
+constexpr Range kOverhangDeg = from(0.0).to(90.0), kSizeMm = above(0.0).to(1e5);
 
 std::vector<ProcessLimits> with_names(std::vector<ProcessLimits> processes) {
   for (ProcessLimits& process : processes)
     for (WallLimit& wall : process.walls) wall.process = process.name;
   return processes;
+}
+
+/// A clay that a printer lays in beads of the wall's width.
+ProcessLimits clay(const char* name, double bead_mm, double overhang_deg) {
+  return {name,
+          {{kAnySize, bead_mm, "CCL_Clay3DP, ClayPresets.cs: one bead, laboratory preset", {}}},
+          true,
+          OverhangLimit{overhang_deg, "CCL_Clay3DP, ClayPresets.cs: laboratory preset"},
+          {}};
 }
 
 const std::vector<ProcessLimits>& built_in() {
@@ -29,17 +42,20 @@ const std::vector<ProcessLimits>& built_in() {
        {{kAnySize,
          0.8,
          "design guides of Hycubeworks, Layer-One and Neway: 0.8 mm at least, 1.2 mm usual",
-         {}}}},
+         {}}},
+       false,
+       OverhangLimit{45.0, "design guides of Hycubeworks, Layer-One and Neway"},
+       {}},
       {"sla",
        {{200.0, 1.0, "i.materialise, resin: up to 200 mm of width + depth + height", {}},
         {400.0, 2.0, "i.materialise, resin: 200 to 400 mm of width + depth + height", {}},
-        {kAnySize, 3.0, "i.materialise, resin: above 400 mm of width + depth + height", {}}}},
-      {"earthenware",
-       {{kAnySize, 5.0, "CCL_Clay3DP, ClayPresets.cs: one bead, laboratory preset", {}}}},
-      {"stoneware",
-       {{kAnySize, 3.0, "CCL_Clay3DP, ClayPresets.cs: one bead, laboratory preset", {}}}},
-      {"porcelain",
-       {{kAnySize, 2.0, "CCL_Clay3DP, ClayPresets.cs: one bead, laboratory preset", {}}}},
+        {kAnySize, 3.0, "i.materialise, resin: above 400 mm of width + depth + height", {}}},
+       false,
+       {},
+       {}},
+      clay("earthenware", 5.0, 25.0),
+      clay("stoneware", 3.0, 20.0),
+      clay("porcelain", 2.0, 15.0),
   });
   return processes;
 }
@@ -53,11 +69,28 @@ static void describe(auto& io, Is<WallLimit> auto& wall) {
   io.text("source", wall.source);
 }
 
+static void describe(auto& io, Is<OverhangLimit> auto& overhang) {
+  io.require({"max_deg", "source"});
+  io.number("max_deg", overhang.max_deg, kOverhangDeg);
+  io.text("source", overhang.source);
+}
+
+static void describe(auto& io, Is<SizeLimit> auto& size) {
+  io.require({"width_mm", "depth_mm", "height_mm", "source"});
+  io.number("width_mm", size.width_mm, kSizeMm);
+  io.number("depth_mm", size.depth_mm, kSizeMm);
+  io.number("height_mm", size.height_mm, kSizeMm);
+  io.text("source", size.source);
+}
+
 static void describe(auto& io, Is<ProcessLimits> auto& process) {
   io.require({"schema", "name", "walls"});
   io.constant("schema", "claystack-process-1");
   io.text("name", process.name);
   io.parts("walls", process.walls);
+  io.choice("fired", process.fired, kNoYes);
+  io.part("overhang", process.overhang);
+  io.part("size", process.size);
   io.check([&](auto& reader) {
     reader.expect(!process.walls.empty(), "walls", "at least one wall");
     for (std::size_t i = 1; i < process.walls.size(); ++i)

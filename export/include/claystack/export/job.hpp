@@ -145,6 +145,12 @@ struct WallReport {
   std::optional<WallLimit> limit;  ///< the requested limit for a solid of this size
 };
 
+/// The limits of the requested process apart from walls.
+struct ProcessReport {
+  std::optional<ProcessLimits> limits;
+  std::optional<Overhang> overhang;  ///< the steepest, if the process limits it
+};
+
 struct VolumeReport {
   double solid_mm3 = 0.0;       ///< before rounding
   double error_relative = 0.0;  ///< relative to the counted clay, without the overlap in a collapse
@@ -181,6 +187,7 @@ struct ExportReport {
   ProvedSection section;
   SolidSize size;
   WallReport walls;
+  ProcessReport process;
   VolumeReport volume;
   std::optional<CollapsedSolid> collapsed;  ///< without its mesh
   std::vector<FileReport> files;            ///< one for each requested file, in that order
@@ -196,9 +203,11 @@ struct ExportReport {
 struct Problem {
   std::string text;
   std::optional<ProfilePoint> at;
+  bool fails = true;  ///< else a warning
 };
 
-/// A wall below the limit, cavities without a drain hole, pieces that do not touch.
+/// Fails: a wall below the limit, a size above it, a closed cavity in a fired process. Warnings:
+/// other closed cavities, overhangs above the limit, several bodies.
 [[nodiscard]] std::vector<Problem> problems_of(const ExportReport& report);
 /// Empty if the wall meets the limit, or if there is no limit.
 [[nodiscard]] std::optional<std::string> thin_wall_of(const ExportReport& report);

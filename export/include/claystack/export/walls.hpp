@@ -109,10 +109,25 @@ struct WallLimit {
   [[nodiscard]] std::string asked_by() const;
 };
 
+/// The steepest underside that a process makes without support, from the vertical [deg].
+struct OverhangLimit {
+  double max_deg = 90.0;
+  std::string source;
+};
+
+/// The largest object that a machine, a kiln or a service takes.
+struct SizeLimit {
+  double width_mm = 0.0, depth_mm = 0.0, height_mm = 0.0;
+  std::string source;
+};
+
 struct ProcessLimits {
   std::string name;
   std::vector<WallLimit>
-      walls;  ///< by increasing size; the last also applies to all larger objects
+      walls;           ///< by increasing size; the last also applies to all larger objects
+  bool fired = false;  ///< in a kiln, where a closed cavity bursts
+  std::optional<OverhangLimit> overhang;
+  std::optional<SizeLimit> size;
 
   [[nodiscard]] const WallLimit& wall_for(double size_sum_mm) const noexcept;
 };
@@ -138,6 +153,21 @@ struct WallDemand {
   /// without requirements.
   [[nodiscard]] std::optional<WallLimit> for_size(double size_sum_mm) const;
 };
+
+// ---- overhang ------------------------------------------------------------------------
+
+/// An underside of a section, printed upright.
+struct Overhang {
+  double angle_deg = 0.0;  ///< from the vertical: 0 for a wall, 90 for a ceiling
+  ProfilePoint from, to;
+};
+
+/// Boundary over which the angle of an underside is the mean: steps and rounded edges below this
+/// length do not count [mm].
+inline constexpr double kOverhangLengthMm = 2.0;
+
+/// The steepest underside of the profile, apart from that on the bed, its lowest level.
+[[nodiscard]] Overhang steepest_overhang(const Profile& profile);
 
 /// "3.440 mm, expected at least 3.000 mm (SOURCE)".
 [[nodiscard]] std::string wall_text(double thinnest_mm, const WallLimit& limit);
