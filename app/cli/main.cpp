@@ -102,7 +102,8 @@ std::string option_suggestion(const CLI::App& app, const CLI::Error& error) {
   const std::string_view text = error.what();
   const std::size_t begin = text.find("--");
   const auto parsed = app.get_subcommands();
-  if (error.get_name() != "ExtrasError" || begin == std::string_view::npos) return {};
+  const bool unexpected = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+  if (!unexpected || begin == std::string_view::npos) return {};
   const CLI::App& command = parsed.empty() ? app : *parsed.front();
   const std::string_view word = text.substr(begin, text.find_first_of("=, ]", begin) - begin);
   std::vector<std::string> names;
