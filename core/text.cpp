@@ -36,7 +36,7 @@ bool is_binary_stl(std::string_view bytes) {
   std::uint64_t count = 0;
   for (std::size_t i = 0; i < 4; ++i)
     count |= std::uint64_t{static_cast<unsigned char>(bytes[80 + i])} << (8 * i);
-  return bytes.size() == 84 + 50 * count;
+  return count > 0 && bytes.size() == 84 + 50 * count;
 }
 
 bool is_text(char c) { return (c >= ' ' && c <= '~') || c == '\t' || c == '\r' || c == '\n'; }

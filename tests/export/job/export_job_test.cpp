@@ -76,7 +76,7 @@ TEST(RunExport, ReportsSkippedStages) {
   for (const SkippedStage& item : result->report.left_out) out.push_back(item.what);
   EXPECT_EQ(out, (std::vector<std::string>{"inner shell", "smoothing", "union", "budget",
                                            "mesh in memory", "full verification", "stl_ascii",
-                                           "obj", "drc"}));
+                                           "obj", "drc", "ply", "3mf"}));
   const auto hollow = exported(pot_of(shapes::vase(100)), {}, {});
   EXPECT_EQ(hollow->report.section.smoothing, Smoothing::fair);
   EXPECT_EQ(hollow->report.left_out.front().what, "union");
