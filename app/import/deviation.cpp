@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -136,10 +137,14 @@ std::vector<Segment> outline_of(std::span<const Slab> slabs) {
   return outline;
 }
 
-Deviation deviation_from(const std::vector<Segment>& outline, const std::vector<Segment>& other) {
-  Deviation worst;
-  if (!outline.empty() && !other.empty()) widen(worst, outline, Levels(other));
-  return worst;
+std::vector<double> distances_from(const std::vector<Segment>& outline,
+                                   std::span<const glm::dvec2> points) {
+  std::vector<double> distances(points.size(), std::numeric_limits<double>::infinity());
+  if (outline.empty()) return distances;
+  const Levels levels(outline);
+  std::transform(points.begin(), points.end(), distances.begin(),
+                 [&](glm::dvec2 p) { return levels.nearest(p).mm; });
+  return distances;
 }
 
 Deviation deviation_between(const std::vector<Segment>& a, const std::vector<Segment>& b) {

@@ -90,12 +90,14 @@ Levels levels_of(std::span<const glm::dvec3> points) {
   return levels;
 }
 
-/// The slab between two levels, straight through its walls at a quarter and three quarters.
-Slab slab_through(double from, double to, const Wall& low, const Wall& high) {
-  const auto ends = [](double a, double b) {
+/// The slab between two levels, straight through its walls at a quarter and three quarters. Those
+/// of a scan are too noisy to be continued.
+Slab slab_through(double from, double to, const Wall& low, const Wall& high, bool scanned) {
+  const auto ends = [&](double a, double b) {
     const bool bored = a > 0.0 && b > 0.0;
-    return bored ? std::pair{std::max(0.0, a - 0.5 * (b - a)), std::max(0.0, b + 0.5 * (b - a))}
-                 : std::pair{a, b};
+    return bored && !scanned
+               ? std::pair{std::max(0.0, a - 0.5 * (b - a)), std::max(0.0, b + 0.5 * (b - a))}
+               : std::pair{a, b};
   };
   const auto [outer_from, outer_to] = ends(low.outer_mm, high.outer_mm);
   const auto [inner_from, inner_to] = ends(low.inner_mm, high.inner_mm);
@@ -172,6 +174,7 @@ MeshAxis refined_axis(const solid::TriangleMesh& mesh, MeshAxis axis) {
     const glm::dmat3 frame = frame_of(axis);
     axis.through += frame * glm::dvec3(off.at_zero, 0.0);
     axis.direction = glm::normalize(frame * glm::dvec3(off.per_mm, 1.0));
+    if (glm::length(off.at_zero) < 1e-7 && glm::length(off.per_mm) < 1e-10) break;
   }
   return axis;
 }
@@ -198,7 +201,7 @@ Result<RevolvedSection> revolved_section(std::span<const glm::dvec3> points,
                       "{:.3f} to {:.3f} mm above the foot",
                       name, slabs.back().to_mm - slabs.front().from_mm,
                       from - slabs.front().from_mm));
-    slabs.push_back(slab_through(from, to, *low, *high));
+    slabs.push_back(slab_through(from, to, *low, *high, levels.scanned));
   }
   if (slabs.empty())
     return failure(ErrorKind::bad_input,

@@ -11,6 +11,8 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <numbers>
+#include <random>
+#include <tuple>
 
 namespace clay::importing {
 namespace {
@@ -114,6 +116,22 @@ TEST(MeshPot, LeavesAHandleOutAndReportsIt) {
   EXPECT_NEAR(handle.low_mm, 50.0, 1.0);
   EXPECT_NEAR(handle.high_mm, 110.0, 1.0);
   EXPECT_GT(handle.off_mm, 20.0);
+}
+
+TEST(MeshPot, RevolvesANoisyScan) {
+  const Exported sample("vase");
+  TriangleMesh scan = placed(sample.mesh, 0.2, 0.7, 1.0, {30.0, 50.0, -20.0});
+  std::mt19937 random(3);
+  for (glm::dvec3& p : scan.points)
+    for (int i = 0; i < 3; ++i) p[i] += 0.2 * (static_cast<double>(random()) / 4294967296.0 - 0.5);
+  const auto pot = mesh_pot(scan, {}, "scan.stl");
+  ASSERT_TRUE(pot) << pot.error().message;
+  // The noise of 0.1 mm each way moves a point by up to 0.18 mm.
+  EXPECT_LE(pot->deviation.mm, 0.4);
+  EXPECT_GE(pot->deviation.mm, 0.05);
+  EXPECT_NEAR(pot->pot.stack.volume_mm3() / solid::signed_volume(scan), 1.0, 3e-3);
+  const glm::dvec3 up{std::sin(0.2) * std::cos(0.7), std::sin(0.2) * std::sin(0.7), std::cos(0.2)};
+  EXPECT_NEAR(glm::dot(pot->axis.direction, up), 1.0, 1e-7);
 }
 
 TEST(MeshPot, RefusesWhatIsNotOfRevolution) {
