@@ -125,6 +125,7 @@ void widen(Deviation& worst, const std::vector<Segment>& outline, const Levels& 
 
 std::vector<Segment> outline_of(std::span<const Slab> slabs) {
   std::vector<Segment> outline;
+  outline.reserve(4 * slabs.size() + 1);
   Width below{0.0, 0.0};
   for (const Slab& slab : slabs) {
     add_treads(outline, slab.from_mm, below, {slab.inner_from_mm, slab.outer_from_mm});

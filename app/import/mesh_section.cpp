@@ -113,6 +113,24 @@ void join(double& below, double& above, double tread_mm) {
   if (std::abs(below - above) <= tread_mm) below = above = 0.5 * (below + above);
 }
 
+/// The centre of the outside at one height, by the first harmonic of the radii that agree; empty if
+/// they are too few.
+std::optional<glm::dvec2> centre_of(const std::vector<std::vector<Wall>>& walls, std::size_t height,
+                                    const Agreement& agreed) {
+  glm::dmat3 normal(0.0);
+  glm::dvec3 sums(0.0);
+  for (std::size_t cut = 0; cut < walls.size(); ++cut) {
+    const double radius = walls[cut][height].outer_mm;
+    if (!(radius > 0.0) || !agreed.accepts(radius)) continue;
+    const glm::dvec3 waves{1.0, std::cos(azimuth_of_cut(cut)), std::sin(azimuth_of_cut(cut))};
+    normal += glm::outerProduct(waves, waves);
+    sums += (radius - agreed.middle) * waves;
+  }
+  if (!(std::abs(glm::determinant(normal)) > 1.0)) return std::nullopt;
+  const glm::dvec3 wave = glm::inverse(normal) * sums;
+  return glm::dvec2{wave.y, wave.z};
+}
+
 /// How far the outside is from being centred: along x and y at height 0, and per mm of height.
 struct Decentring {
   glm::dvec2 at_zero{0.0}, per_mm{0.0};
@@ -140,21 +158,11 @@ Decentring decentring(const std::vector<std::vector<Segment>>& cuts, double low,
         (agreed[h + 1]->middle - agreed[h - 1]->middle) / (heights[h + 1] - heights[h - 1]);
     if (std::abs(slope) > 3.0) continue;
     const glm::dvec2 known{1.0, heights[h] + agreed[h]->middle * slope};
-    // The first harmonic of the radii that agree, beside their mean.
-    glm::dmat3 harmonic(0.0);
-    glm::dvec3 sums(0.0);
-    for (std::size_t cut = 0; cut < cuts.size(); ++cut) {
-      const double radius = walls[cut][h].outer_mm;
-      if (!(radius > 0.0) || !agreed[h]->accepts(radius)) continue;
-      const glm::dvec3 waves{1.0, std::cos(azimuth_of_cut(cut)), std::sin(azimuth_of_cut(cut))};
-      harmonic += glm::outerProduct(waves, waves);
-      sums += (radius - agreed[h]->middle) * waves;
-    }
-    if (!(std::abs(glm::determinant(harmonic)) > 1.0)) continue;
-    const glm::dvec3 wave = glm::inverse(harmonic) * sums;
+    const auto centre = centre_of(walls, h, *agreed[h]);
+    if (!centre) continue;
     normal += glm::outerProduct(known, known);
-    along_x += wave.y * known;
-    along_y += wave.z * known;
+    along_x += centre->x * known;
+    along_y += centre->y * known;
   }
   if (!(std::abs(glm::determinant(normal)) > 1e-9)) return {};
   const glm::dmat2 solve = glm::inverse(normal);
