@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -124,6 +125,7 @@ void widen(Deviation& worst, const std::vector<Segment>& outline, const Levels& 
 
 std::vector<Segment> outline_of(std::span<const Slab> slabs) {
   std::vector<Segment> outline;
+  outline.reserve(4 * slabs.size() + 1);
   Width below{0.0, 0.0};
   for (const Slab& slab : slabs) {
     add_treads(outline, slab.from_mm, below, {slab.inner_from_mm, slab.outer_from_mm});
@@ -136,10 +138,14 @@ std::vector<Segment> outline_of(std::span<const Slab> slabs) {
   return outline;
 }
 
-Deviation deviation_from(const std::vector<Segment>& outline, const std::vector<Segment>& other) {
-  Deviation worst;
-  if (!outline.empty() && !other.empty()) widen(worst, outline, Levels(other));
-  return worst;
+std::vector<double> distances_from(const std::vector<Segment>& outline,
+                                   std::span<const glm::dvec2> points) {
+  std::vector<double> distances(points.size(), std::numeric_limits<double>::infinity());
+  if (outline.empty()) return distances;
+  const Levels levels(outline);
+  std::transform(points.begin(), points.end(), distances.begin(),
+                 [&](glm::dvec2 p) { return levels.nearest(p).mm; });
+  return distances;
 }
 
 Deviation deviation_between(const std::vector<Segment>& a, const std::vector<Segment>& b) {

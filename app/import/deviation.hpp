@@ -31,8 +31,8 @@ struct Segment {
                                           const std::vector<Segment>& b);
 [[nodiscard]] Deviation deviation_between(std::span<const Slab> a, std::span<const Slab> b);
 
-/// From points of `outline` to the nearest of `other`, in this direction alone.
-[[nodiscard]] Deviation deviation_from(const std::vector<Segment>& outline,
-                                       const std::vector<Segment>& other);
+/// The distance of each point from the outline; infinite from an empty one.
+[[nodiscard]] std::vector<double> distances_from(const std::vector<Segment>& outline,
+                                                 std::span<const glm::dvec2> points);
 
 }  // namespace clay::importing

@@ -108,6 +108,7 @@ Result<HalfSection> hollowed(const HalfSection& solid, double wall_mm, const std
 
 std::vector<Slab> slabs_of_rings(std::span<const Ring> rings, double ring_mm) {
   std::vector<Slab> slabs;
+  slabs.reserve(rings.size());
   for (std::size_t i = 0; i < rings.size(); ++i) {
     const double outer = rings[i].outer_mm(), inner = rings[i].inner_mm();
     slabs.push_back({static_cast<double>(i) * ring_mm, static_cast<double>(i + 1) * ring_mm, outer,

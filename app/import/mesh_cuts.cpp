@@ -9,7 +9,8 @@ namespace clay::importing {
 namespace {
 
 constexpr double kStep = 2.0 * std::numbers::pi / static_cast<double>(kMeshCuts);
-constexpr double kFirst = 0.381966;  // of a step
+constexpr double kFirst = 0.381966;        // of a step
+constexpr std::size_t kMostSurfaces = 64;  // at one height of a cut
 
 /// The segment of a triangle in the half-plane; empty (from = to) if there is none.
 Segment cut_of(const std::array<glm::dvec3, 3>& p, std::size_t cut) {
@@ -33,6 +34,23 @@ Segment cut_of(const std::array<glm::dvec3, 3>& p, std::size_t cut) {
   return {ends[0], ends[1]};
 }
 
+/// The clay of the largest area between the surfaces of one height.
+Wall largest_wall(std::vector<double>& radii) {
+  if (radii.size() > kMostSurfaces) return {};
+  // An odd number: there is clay at the axis.
+  if (radii.size() % 2 == 1) radii.push_back(0.0);
+  std::sort(radii.begin(), radii.end());
+  Wall largest;
+  double area = 0.0;
+  for (std::size_t i = 0; i < radii.size(); i += 2) {
+    const double own = radii[i + 1] * radii[i + 1] - radii[i] * radii[i];
+    if (own <= area) continue;
+    area = own;
+    largest = {radii[i], radii[i + 1]};
+  }
+  return largest;
+}
+
 }  // namespace
 
 double azimuth_of_cut(std::size_t cut) noexcept {
@@ -43,7 +61,9 @@ std::vector<std::vector<Segment>> mesh_cuts(const solid::TriangleMesh& mesh,
                                             std::span<const glm::dvec3> points) {
   std::vector<std::vector<Segment>> cuts(kMeshCuts);
   constexpr auto kCount = static_cast<long>(kMeshCuts);
+  std::size_t count = 0;
   for (const auto& triangle : mesh.triangles) {
+    if (count >= kMostCutSegments) break;
     std::array<glm::dvec3, 3> p{};
     for (std::size_t i = 0; i < 3; ++i) p[i] = points[triangle[i]];
     const double start = std::atan2(p[0].y, p[0].x);
@@ -62,29 +82,27 @@ std::vector<std::vector<Segment>> mesh_cuts(const solid::TriangleMesh& mesh,
     for (long i = first; i <= last; ++i) {
       const auto cut = static_cast<std::size_t>(((i % kCount) + kCount) % kCount);
       const Segment segment = cut_of(p, cut);
-      if (segment.from != segment.to) cuts[cut].push_back(segment);
+      if (segment.from == segment.to) continue;
+      cuts[cut].push_back(segment);
+      ++count;
     }
   }
   return cuts;
 }
 
 std::vector<Wall> walls_of(const std::vector<Segment>& cut, std::span<const double> heights_mm) {
-  std::vector<std::vector<double>> radii(heights_mm.size());
+  std::vector<std::vector<double>> rows(heights_mm.size());
   for (const Segment& s : cut) {
     const auto [low, high] = std::minmax(s.from.y, s.to.y);
     auto at = std::lower_bound(heights_mm.begin(), heights_mm.end(), low);
-    for (; at != heights_mm.end() && *at < high; ++at)
-      radii[static_cast<std::size_t>(at - heights_mm.begin())].push_back(
-          s.from.x + (s.to.x - s.from.x) * ((*at - s.from.y) / (s.to.y - s.from.y)));
+    for (; at != heights_mm.end() && *at < high; ++at) {
+      std::vector<double>& row = rows[static_cast<std::size_t>(at - heights_mm.begin())];
+      if (row.size() <= kMostSurfaces)
+        row.push_back(s.from.x + (s.to.x - s.from.x) * ((*at - s.from.y) / (s.to.y - s.from.y)));
+    }
   }
   std::vector<Wall> walls;
-  for (std::vector<double>& row : radii) {
-    std::sort(row.begin(), row.end());
-    // An odd number of surfaces: there is clay at the axis.
-    walls.push_back(row.empty()           ? Wall{}
-                    : row.size() % 2 == 1 ? Wall{0.0, row[0]}
-                                          : Wall{row[0], row[1]});
-  }
+  for (std::vector<double>& row : rows) walls.push_back(largest_wall(row));
   return walls;
 }
 

@@ -15,12 +15,15 @@ namespace clay::importing {
 inline constexpr std::size_t kMeshCuts = 64;
 [[nodiscard]] double azimuth_of_cut(std::size_t cut) noexcept;  ///< [rad]
 
+/// Some times as many as the finest scan has. mesh_cuts stops there.
+inline constexpr std::size_t kMostCutSegments = 2'000'000;
+
 /// The segments in which each half-plane meets the triangles: (distance from the axis, height).
 /// `points` are those of the mesh with the axis as z.
 [[nodiscard]] std::vector<std::vector<Segment>> mesh_cuts(const solid::TriangleMesh& mesh,
                                                           std::span<const glm::dvec3> points);
 
-/// The innermost clay at one height of one cut; none if `outer_mm` is 0.
+/// The clay of the largest area at one height of one cut; none if `outer_mm` is 0.
 struct Wall {
   double inner_mm = 0.0, outer_mm = 0.0;
 };

@@ -22,6 +22,14 @@ Result<Revolved> revolved(const solid::TriangleMesh& mesh, const MeshAxis& axis,
                           const std::string& name) {
   const auto points = about_axis(mesh, axis);
   Revolved result{mesh_cuts(mesh, points), {}, 0.0};
+  std::size_t segments = 0;
+  for (const std::vector<Segment>& cut : result.cuts) segments += cut.size();
+  if (segments >= kMostCutSegments)
+    return failure(
+        ErrorKind::bad_input,
+        fmt::format("{}: expected fewer than {} edges in {} cuts through the axis, found "
+                    "more",
+                    name, kMostCutSegments, kMeshCuts));
   auto common = revolved_section(points, result.cuts, name);
   if (!common) return tl::make_unexpected(common.error());
   result.section = std::move(common->section);
@@ -43,16 +51,17 @@ std::vector<CutOff> offsets(const Revolved& pot, double limit_mm) {
   const std::vector<Segment> outline = outline_of(pot.section.slabs);
   std::vector<CutOff> result;
   for (const std::vector<Segment>& cut : pot.cuts) {
-    CutOff off;
-    off.mm = deviation_from(cut, outline).mm;
-    if (off.mm > limit_mm) {
-      for (const Segment& s : cut) {
-        if (deviation_from({s}, outline).mm <= limit_mm) continue;
-        off.low_mm = std::min({off.low_mm, s.from.y, s.to.y});
-        off.high_mm = std::max({off.high_mm, s.from.y, s.to.y});
-      }
+    std::vector<glm::dvec2> points;
+    for (const Segment& s : cut)
+      for (const glm::dvec2& p : {s.from, 0.5 * (s.from + s.to), s.to}) points.push_back(p);
+    const std::vector<double> distances = distances_from(outline, points);
+    CutOff& off = result.emplace_back();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      off.mm = std::max(off.mm, distances[i]);
+      if (distances[i] <= limit_mm) continue;
+      off.low_mm = std::min(off.low_mm, points[i].y);
+      off.high_mm = std::max(off.high_mm, points[i].y);
     }
-    result.push_back(off);
   }
   return result;
 }

@@ -90,12 +90,14 @@ Levels levels_of(std::span<const glm::dvec3> points) {
   return levels;
 }
 
-/// The slab between two levels, straight through its walls at a quarter and three quarters.
-Slab slab_through(double from, double to, const Wall& low, const Wall& high) {
-  const auto ends = [](double a, double b) {
+/// The slab between two levels, straight through its walls at a quarter and three quarters. Those
+/// of a scan are too noisy to be continued.
+Slab slab_through(double from, double to, const Wall& low, const Wall& high, bool scanned) {
+  const auto ends = [&](double a, double b) {
     const bool bored = a > 0.0 && b > 0.0;
-    return bored ? std::pair{std::max(0.0, a - 0.5 * (b - a)), std::max(0.0, b + 0.5 * (b - a))}
-                 : std::pair{a, b};
+    return bored && !scanned
+               ? std::pair{std::max(0.0, a - 0.5 * (b - a)), std::max(0.0, b + 0.5 * (b - a))}
+               : std::pair{a, b};
   };
   const auto [outer_from, outer_to] = ends(low.outer_mm, high.outer_mm);
   const auto [inner_from, inner_to] = ends(low.inner_mm, high.inner_mm);
@@ -109,6 +111,24 @@ Slab slab_through(double from, double to, const Wall& low, const Wall& high) {
 
 void join(double& below, double& above, double tread_mm) {
   if (std::abs(below - above) <= tread_mm) below = above = 0.5 * (below + above);
+}
+
+/// The centre of the outside at one height, by the first harmonic of the radii that agree; empty if
+/// they are too few.
+std::optional<glm::dvec2> centre_of(const std::vector<std::vector<Wall>>& walls, std::size_t height,
+                                    const Agreement& agreed) {
+  glm::dmat3 normal(0.0);
+  glm::dvec3 sums(0.0);
+  for (std::size_t cut = 0; cut < walls.size(); ++cut) {
+    const double radius = walls[cut][height].outer_mm;
+    if (!(radius > 0.0) || !agreed.accepts(radius)) continue;
+    const glm::dvec3 waves{1.0, std::cos(azimuth_of_cut(cut)), std::sin(azimuth_of_cut(cut))};
+    normal += glm::outerProduct(waves, waves);
+    sums += (radius - agreed.middle) * waves;
+  }
+  if (!(std::abs(glm::determinant(normal)) > 1.0)) return std::nullopt;
+  const glm::dvec3 wave = glm::inverse(normal) * sums;
+  return glm::dvec2{wave.y, wave.z};
 }
 
 /// How far the outside is from being centred: along x and y at height 0, and per mm of height.
@@ -138,21 +158,11 @@ Decentring decentring(const std::vector<std::vector<Segment>>& cuts, double low,
         (agreed[h + 1]->middle - agreed[h - 1]->middle) / (heights[h + 1] - heights[h - 1]);
     if (std::abs(slope) > 3.0) continue;
     const glm::dvec2 known{1.0, heights[h] + agreed[h]->middle * slope};
-    // The first harmonic of the radii that agree, beside their mean.
-    glm::dmat3 harmonic(0.0);
-    glm::dvec3 sums(0.0);
-    for (std::size_t cut = 0; cut < cuts.size(); ++cut) {
-      const double radius = walls[cut][h].outer_mm;
-      if (!(radius > 0.0) || !agreed[h]->accepts(radius)) continue;
-      const glm::dvec3 waves{1.0, std::cos(azimuth_of_cut(cut)), std::sin(azimuth_of_cut(cut))};
-      harmonic += glm::outerProduct(waves, waves);
-      sums += (radius - agreed[h]->middle) * waves;
-    }
-    if (!(std::abs(glm::determinant(harmonic)) > 1.0)) continue;
-    const glm::dvec3 wave = glm::inverse(harmonic) * sums;
+    const auto centre = centre_of(walls, h, *agreed[h]);
+    if (!centre) continue;
     normal += glm::outerProduct(known, known);
-    along_x += wave.y * known;
-    along_y += wave.z * known;
+    along_x += centre->x * known;
+    along_y += centre->y * known;
   }
   if (!(std::abs(glm::determinant(normal)) > 1e-9)) return {};
   const glm::dmat2 solve = glm::inverse(normal);
@@ -172,6 +182,7 @@ MeshAxis refined_axis(const solid::TriangleMesh& mesh, MeshAxis axis) {
     const glm::dmat3 frame = frame_of(axis);
     axis.through += frame * glm::dvec3(off.at_zero, 0.0);
     axis.direction = glm::normalize(frame * glm::dvec3(off.per_mm, 1.0));
+    if (glm::length(off.at_zero) < 1e-7 && glm::length(off.per_mm) < 1e-10) break;
   }
   return axis;
 }
@@ -198,7 +209,7 @@ Result<RevolvedSection> revolved_section(std::span<const glm::dvec3> points,
                       "{:.3f} to {:.3f} mm above the foot",
                       name, slabs.back().to_mm - slabs.front().from_mm,
                       from - slabs.front().from_mm));
-    slabs.push_back(slab_through(from, to, *low, *high));
+    slabs.push_back(slab_through(from, to, *low, *high, levels.scanned));
   }
   if (slabs.empty())
     return failure(ErrorKind::bad_input,

@@ -223,10 +223,13 @@ Result<Drawing> read_svg(std::string_view bytes, const std::string& name,
     return failure(ErrorKind::bad_input,
                    fmt::format("{}: expected at most {} tags and attributes, found {}", name,
                                kMostNodes, nodes));
-  // Fetches nothing and expands no entities: only the file itself is read.
+  // Fetches nothing and expands no entities: only the file itself is read. Long attributes are
+  // allowed where there are no entities, because the option also lifts the limit of their growth.
+  const bool entities = bytes.find("<!ENTITY") != std::string_view::npos;
   const XmlDocument document(
       xmlReadMemory(bytes.data(), static_cast<int>(bytes.size()), nullptr, nullptr,
-                    XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING | XML_PARSE_HUGE),
+                    XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING |
+                        (entities ? 0 : XML_PARSE_HUGE)),
       &xmlFreeDoc);
   if (!document || xmlDocGetRootElement(document.get()) == nullptr)
     return failure(ErrorKind::bad_input, libxml_problem(name));

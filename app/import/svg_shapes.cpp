@@ -34,10 +34,19 @@ constexpr std::array<const char*, 6> kViewport = {"x",      "y",       "width",
 
 std::string_view name_of(const xmlNode* node) { return reinterpret_cast<const char*>(node->name); }
 
+/// The name of a namespace; Adobe Illustrator writes it as an entity, which stays one.
+std::string_view address_of(const xmlNode* node) {
+  const std::string_view address = reinterpret_cast<const char*>(node->ns->href);
+  if (!address.starts_with('&') || !address.ends_with(';')) return address;
+  const std::string name(address.substr(1, address.size() - 2));
+  const xmlEntity* entity =
+      xmlGetDocEntity(node->doc, reinterpret_cast<const xmlChar*>(name.c_str()));
+  if (entity == nullptr || entity->content == nullptr) return address;
+  return reinterpret_cast<const char*>(entity->content);
+}
+
 bool of_svg(const xmlNode* node) {
-  return node->type == XML_ELEMENT_NODE &&
-         (node->ns == nullptr ||
-          std::string_view(reinterpret_cast<const char*>(node->ns->href)) == kSvgSpace);
+  return node->type == XML_ELEMENT_NODE && (node->ns == nullptr || address_of(node) == kSvgSpace);
 }
 
 /// What children take over from their parents.
@@ -74,11 +83,8 @@ class Copier {
     for (xmlNode* node = root; node != nullptr;) {
       if (node->type == XML_ELEMENT_NODE) {
         if (const std::string id = svg_attribute(node, "id"); !id.empty()) ids_.emplace(id, node);
-        if (of_svg(node) && name_of(node) == "style") {
-          xmlChar* css = xmlNodeGetContent(node);
-          if (css != nullptr) styles_.add(reinterpret_cast<const char*>(css));
-          xmlFree(css);
-        }
+        if (of_svg(node) && name_of(node) == "style")
+          styles_.add(svg_text(node->doc, node->children));
       }
       if (node->children != nullptr && node->type == XML_ELEMENT_NODE) {
         node = node->children;

@@ -87,6 +87,23 @@ bool name_char(char c) {
 
 }  // namespace
 
+std::string svg_text(xmlDoc* document, const xmlNode* children) {
+  constexpr std::size_t kLongestEntity = 4096, kLongest = 32u << 20;
+  std::string text;
+  for (; children != nullptr && text.size() < kLongest; children = children->next) {
+    const bool reference = children->type == XML_ENTITY_REF_NODE;
+    if (!reference && children->type != XML_TEXT_NODE && children->type != XML_CDATA_SECTION_NODE)
+      continue;
+    const xmlEntity* entity = reference ? xmlGetDocEntity(document, children->name) : nullptr;
+    const xmlChar* content = entity == nullptr ? children->content : entity->content;
+    if (content == nullptr || (reference && entity == nullptr)) continue;
+    const std::string_view part = reinterpret_cast<const char*>(content);
+    const bool grows = part.size() > kLongestEntity || part.find('&') != std::string_view::npos;
+    if (!reference || !grows) text += part;
+  }
+  return text;
+}
+
 std::string svg_attribute(xmlNode* node, const char* name) {
   for (const xmlAttr* at = node->properties; at != nullptr; at = at->next) {
     const std::string_view own = reinterpret_cast<const char*>(at->name);
@@ -94,10 +111,7 @@ std::string svg_attribute(xmlNode* node, const char* name) {
                        std::string_view(reinterpret_cast<const char*>(at->ns->href)) == kXlink;
     // A file that does not declare the prefix has it in the name.
     if (!plain || (own != name && own != std::string("xlink:") + name)) continue;
-    xmlChar* text = xmlNodeListGetString(node->doc, at->children, 1);
-    std::string value = text == nullptr ? "" : reinterpret_cast<const char*>(text);
-    xmlFree(text);
-    return value;
+    return svg_text(node->doc, at->children);
   }
   return {};
 }

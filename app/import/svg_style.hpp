@@ -21,6 +21,10 @@ inline constexpr std::size_t kSvgProperties = 5;
 /// The values of one element, where they are set.
 using SvgValues = std::array<std::optional<std::string>, kSvgProperties>;
 
+/// The text of an attribute's or element's children. Entities are replaced only if their content is
+/// short and names no others: nested ones can grow without bound.
+[[nodiscard]] std::string svg_text(xmlDoc* document, const xmlNode* children);
+
 /// An attribute of the element without namespace, or of xlink; empty if there is none.
 [[nodiscard]] std::string svg_attribute(xmlNode* node, const char* name);
 

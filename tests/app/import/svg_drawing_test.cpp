@@ -112,6 +112,40 @@ TEST(SvgDrawing, RefusesFilesThatAreNotDrawings) {
   EXPECT_THAT(refused(std::string(3, '\0')), HasSubstr("pot.svg"));
 }
 
+TEST(SvgDrawing, ReplacesEntitiesOnceOnly) {
+  // As Adobe Illustrator writes them.
+  const std::string start =
+      "<?xml version='1.0'?><!DOCTYPE svg [<!ENTITY ns 'http://www.w3.org/2000/svg'>"
+      "<!ENTITY st0 'display:none'>";
+  const auto pot = section_of(start +
+                                  "]><svg xmlns='&ns;'><path d='M 0 0 H 96 V 96 H 0 Z'/>"
+                                  "<path style='&st0;' d='M 0 0 H 99 V 99 H 0 Z'/></svg>",
+                              "pot.svg", {AxisRule::left, 0.0, {}});
+  ASSERT_TRUE(pot) << refusal_of(pot);
+  EXPECT_NEAR(pot->volume_mm3(), kPi * 25.4 * 25.4 * 25.4, 1e-6);
+  std::string bomb = start + "<!ENTITY l0 'lol'>";
+  for (int i = 1; i < 12; ++i) {
+    bomb += "<!ENTITY l" + std::to_string(i) + " '";
+    for (int k = 0; k < 10; ++k) bomb += "&l" + std::to_string(i - 1) + ";";
+    bomb += "'>";
+  }
+  for (const char* use : {"<path d='&l11;'/>", "<style>&l11;</style>", "<g id='&l11;'>&l11;</g>"})
+    EXPECT_THAT(refusal_of(read_drawing(bomb + "]><svg xmlns='&ns;'>" + use + "</svg>", "pot.svg")),
+                HasSubstr("pot.svg"));
+}
+
+TEST(SvgDrawing, ReadsLongAttributes) {
+  std::string points = "0,0 ";
+  for (int i = 0; i < 400'000; ++i)
+    points += "96.000000000000000000000," + std::to_string(i * 0.001) + " ";
+  ASSERT_GT(points.size(), 10'000'000u);
+  const auto pot = section_of(
+      "<svg xmlns='http://www.w3.org/2000/svg'><polygon points='" + points + "0,399.999'/></svg>",
+      "pot.svg", {AxisRule::left, 0.0, {}});
+  ASSERT_TRUE(pot) << refusal_of(pot);
+  EXPECT_NEAR(pot->volume_mm3() / (kPi * 25.4 * 25.4 * 399.999 * 25.4 / 96.0), 1.0, 1e-9);
+}
+
 TEST(SvgDrawing, MessagesShortenALongPath) {
   const std::string says = refusal_of(
       read_drawing(page("<path d='M 0 0 L 1 x" + std::string(100'000, '7') + "'/>"), "pot.svg"));

@@ -1,0 +1,166 @@
+#include "app/import/mesh_pot.hpp"
+
+#include "tests/support/run_program.hpp"
+
+#include "claystack/export/formats.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <numbers>
+#include <random>
+#include <tuple>
+
+namespace clay::importing {
+namespace {
+
+using solid::TriangleMesh;
+using testing::HasSubstr;
+constexpr double kToleranceMm = 0.02;  // of an export
+
+/// A sample as the program throws and exports it, to the bytes of its file and back.
+struct Exported {
+  test::ScratchFolder folder;
+  TriangleMesh mesh;
+  double volume_mm3 = 0.0;
+  std::string stl = folder.file("pot.stl");
+
+  explicit Exported(const std::string& name) {
+    const std::string pot = folder.file("pot.pot.cbor");
+    EXPECT_EQ(
+        test::claystack("throw -q " + test::sample(name + ".scene.json") + " -o " + pot).status, 0);
+    EXPECT_EQ(test::claystack("export -q " + pot + " " + stl).status, 0);
+    auto read = solid::decode_mesh(test::read_text(stl), solid::MeshFormat::stl_binary, stl);
+    EXPECT_TRUE(read) << read.error().message;
+    if (read) mesh = std::move(*read);
+    volume_mm3 = solid::signed_volume(mesh);
+  }
+};
+
+/// Turned, scaled and moved, then rounded to float32 as files are.
+TriangleMesh placed(TriangleMesh mesh, double tilt, double turn, double scale, glm::dvec3 shift) {
+  const double a = std::cos(tilt), b = std::sin(tilt), c = std::cos(turn), d = std::sin(turn);
+  const glm::dmat3 lean{a, 0.0, -b, 0.0, 1.0, 0.0, b, 0.0, a},
+      spin{c, d, 0.0, -d, c, 0.0, 0.0, 0.0, 1.0};
+  for (glm::dvec3& p : mesh.points) p = scale * (spin * lean * p) + shift;
+  return solid::rounded_to_float(mesh);
+}
+
+/// A box with these corners.
+void add_box(TriangleMesh& mesh, glm::dvec3 low, glm::dvec3 high) {
+  const auto first = static_cast<std::uint32_t>(mesh.points.size());
+  for (int i = 0; i < 8; ++i)
+    mesh.points.emplace_back((i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y,
+                             (i & 4) != 0 ? high.z : low.z);
+  constexpr std::array<std::array<std::uint32_t, 4>, 6> kFaces = {
+      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+  for (const auto& f : kFaces) {
+    mesh.triangles.push_back({first + f[0], first + f[1], first + f[2]});
+    mesh.triangles.push_back({first + f[0], first + f[2], first + f[3]});
+  }
+}
+
+class MeshPots : public testing::TestWithParam<const char*> {};
+
+TEST_P(MeshPots, ExportedSamplesComeBack) {
+  const Exported sample(GetParam());
+  const auto pot = mesh_pot(sample.mesh, {}, "pot.stl");
+  ASSERT_TRUE(pot) << pot.error().message;
+  EXPECT_LE(pot->deviation.mm, kToleranceMm + 0.01);
+  EXPECT_NEAR(pot->pot.stack.volume_mm3() / sample.volume_mm3, 1.0, 1e-3);
+  EXPECT_TRUE(pot->parts.empty());
+  EXPECT_NEAR(glm::length(pot->axis.through), 0.0, 1e-3);
+  EXPECT_NEAR(pot->axis.direction.z, 1.0, 1e-9);
+}
+
+TEST_P(MeshPots, ComeBackTiltedScaledAndOffTheAxis) {
+  const Exported sample(GetParam());
+  for (const auto& [tilt, turn, scale] :
+       {std::tuple{0.4, 1.1, 0.7}, {0.01, 2.5, 1.3}, {2.9, -0.8, 1.0}, {1.5, 0.3, 1.0}}) {
+    const auto pot =
+        mesh_pot(placed(sample.mesh, tilt, turn, scale, {120.0, -45.0, 33.0}), {}, "pot.stl");
+    ASSERT_TRUE(pot) << pot.error().message;
+    EXPECT_LE(pot->deviation.mm, scale * kToleranceMm + 0.01) << tilt;
+    EXPECT_NEAR(pot->pot.stack.volume_mm3() / (sample.volume_mm3 * scale * scale * scale), 1.0,
+                1e-3)
+        << tilt;
+    EXPECT_TRUE(pot->parts.empty()) << tilt;
+    // The axis of the sample is z through the origin, and it opens upward.
+    const glm::dvec3 up{std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn),
+                        std::cos(tilt)};
+    EXPECT_NEAR(glm::dot(pot->axis.direction, up), 1.0, 1e-7) << tilt;
+    EXPECT_NEAR(glm::length(pot->axis.through - glm::dvec3(120.0, -45.0, 33.0)), 0.0, 0.01) << tilt;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Samples, MeshPots, testing::Values("bowl", "vase", "cylinder", "bottle"));
+
+TEST(MeshPot, LeavesAHandleOutAndReportsIt) {
+  const Exported sample("cylinder");
+  TriangleMesh mug = sample.mesh;
+  const double radius = 38.0;
+  add_box(mug, {-8.0, radius, 50.0}, {8.0, radius + 30.0, 60.0});
+  add_box(mug, {-8.0, radius, 100.0}, {8.0, radius + 30.0, 110.0});
+  add_box(mug, {-8.0, radius + 20.0, 60.0}, {8.0, radius + 30.0, 100.0});
+  const auto pot = mesh_pot(mug, {}, "mug.stl");
+  ASSERT_TRUE(pot) << pot.error().message;
+  EXPECT_NEAR(pot->pot.stack.volume_mm3() / sample.volume_mm3, 1.0, 1e-3);
+  EXPECT_LE(pot->deviation.mm, kToleranceMm + 0.01);
+  ASSERT_EQ(pot->parts.size(), 1u);
+  const MeshPart& handle = pot->parts.front();
+  EXPECT_NEAR(handle.from_deg, 90.0 - 11.0, 8.0);
+  EXPECT_NEAR(handle.to_deg, 90.0 + 11.0, 8.0);
+  EXPECT_NEAR(handle.low_mm, 50.0, 1.0);
+  EXPECT_NEAR(handle.high_mm, 110.0, 1.0);
+  EXPECT_GT(handle.off_mm, 20.0);
+}
+
+TEST(MeshPot, RevolvesANoisyScan) {
+  const Exported sample("vase");
+  TriangleMesh scan = placed(sample.mesh, 0.2, 0.7, 1.0, {30.0, 50.0, -20.0});
+  std::mt19937 random(3);
+  for (glm::dvec3& p : scan.points)
+    for (int i = 0; i < 3; ++i) p[i] += 0.2 * (static_cast<double>(random()) / 4294967296.0 - 0.5);
+  const auto pot = mesh_pot(scan, {}, "scan.stl");
+  ASSERT_TRUE(pot) << pot.error().message;
+  // The noise of 0.1 mm each way moves a point by up to 0.18 mm.
+  EXPECT_LE(pot->deviation.mm, 0.4);
+  EXPECT_GE(pot->deviation.mm, 0.05);
+  EXPECT_NEAR(pot->pot.stack.volume_mm3() / solid::signed_volume(scan), 1.0, 3e-3);
+  const glm::dvec3 up{std::sin(0.2) * std::cos(0.7), std::sin(0.2) * std::sin(0.7), std::cos(0.2)};
+  EXPECT_NEAR(glm::dot(pot->axis.direction, up), 1.0, 1e-7);
+}
+
+TEST(MeshPot, RefusesWhatIsNotOfRevolution) {
+  TriangleMesh box;
+  add_box(box, {0.0, 0.0, 0.0}, {80.0, 50.0, 30.0});
+  const auto found = mesh_pot(box, {}, "box.stl");
+  ASSERT_FALSE(found);
+  EXPECT_THAT(found.error().message,
+              HasSubstr("box.stl: expected a pot that is nearly of revolution"));
+  const auto none = mesh_pot({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}, {}, "face.stl");
+  ASSERT_FALSE(none);
+  EXPECT_THAT(none.error().message, HasSubstr("expected a mesh of a pot"));
+}
+
+TEST(MeshPot, CommandReportsAxisAndDeviationAndRefusesOptionsOfDrawings) {
+  const Exported sample("bowl");
+  const std::string pot = sample.folder.file("again.pot.json");
+  const auto run = test::claystack("import --json --height 50 " + sample.stl + " -o " + pot);
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NEAR(run.json().at("height_mm").get<double>(), 50.0, 0.01);
+  EXPECT_LE(run.json().at("deviation_mm").get<double>(), kToleranceMm + 0.01);
+  EXPECT_EQ(run.json().at("not_of_revolution").size(), 0u);
+  EXPECT_EQ(test::claystack("export -q " + pot + " " + sample.folder.file("b.stl")).status, 0);
+  for (const char* option : {"--wall 5", "--axis left", "--layer a"}) {
+    const auto refused = test::claystack("import " + sample.stl + " -o " + pot + " " + option);
+    EXPECT_EQ(refused.status, 2) << option;
+    EXPECT_THAT(refused.err, HasSubstr("expected a drawing, found the mesh"));
+  }
+}
+
+}  // namespace
+}  // namespace clay::importing
