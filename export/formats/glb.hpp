@@ -13,7 +13,7 @@ namespace clay::solid::inline formats::glb {
 
 inline constexpr std::uint32_t kMagic = 0x46546C67, kVersion = 2;
 inline constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
-inline constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
+inline constexpr std::size_t kGlbHeaderBytes = 12, kChunkHeaderBytes = 8;
 
 inline constexpr int kUint8 = 5121, kUint16 = 5123, kUint32 = 5125, kFloat32 = 5126;
 inline constexpr int kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6;

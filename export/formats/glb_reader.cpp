@@ -38,7 +38,7 @@ struct Chunks {
 };
 
 Chunks chunks_of(std::string_view file) {
-  if (file.size() < kHeaderBytes + kChunkHeaderBytes || load_u32(file.data()) != kMagic)
+  if (file.size() < kGlbHeaderBytes + kChunkHeaderBytes || load_u32(file.data()) != kMagic)
     throw BadGlb("expected a GLB file, which begins with glTF");
   if (load_u32(file.data() + 4) != kVersion)
     throw BadGlb("expected version 2, found " + std::to_string(load_u32(file.data() + 4)));
@@ -46,11 +46,11 @@ Chunks chunks_of(std::string_view file) {
     throw BadGlb("expected " + std::to_string(load_u32(file.data() + 8)) +
                  " bytes by the header, found " + std::to_string(file.size()));
   Chunks chunks;
-  for (std::size_t at = kHeaderBytes; at < file.size();) {
+  for (std::size_t at = kGlbHeaderBytes; at < file.size();) {
     if (file.size() - at < kChunkHeaderBytes) throw BadGlb("the file ends within a chunk");
     const std::size_t size = load_u32(file.data() + at);
     const std::uint32_t type = load_u32(file.data() + at + 4);
-    const bool first = at == kHeaderBytes;
+    const bool first = at == kGlbHeaderBytes;
     at += kChunkHeaderBytes;
     if (size > file.size() - at || size % 4 != 0) throw BadGlb("the file ends within a chunk");
     if (first != (type == kJsonChunk)) throw BadGlb("expected one JSON chunk, and that first");

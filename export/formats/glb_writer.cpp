@@ -145,7 +145,7 @@ void append_chunk(std::string& file, std::uint32_t type, std::string bytes, char
 Result<std::string> encode_glb(const TriangleMesh& mesh, const FileContents& contents) {
   return packed(in_metres(mesh), contents.draco)
       .and_then([&](const Packed& packed) -> Result<std::string> {
-        std::string file(kHeaderBytes, '\0');
+        std::string file(kGlbHeaderBytes, '\0');
         append_chunk(
             file, kJsonChunk,
             document(packed, contents).dump(-1, ' ', false, OrderedJson::error_handler_t::replace),
