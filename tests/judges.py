@@ -3,6 +3,7 @@
 compares the volume that they find with the STL's. Programs that are not installed are named and
 passed over. Exit status 1 if a program finds another volume or refuses a file."""
 import json
+import os
 import pathlib
 import re
 import shutil
@@ -81,6 +82,21 @@ print(total / 6.0)
     verdict("libSavitar (Cura)", file, float(out) if code == 0 else None, expected)
 
 
+def by_gltf_validator(file):
+    """The Khronos validator, from npm, where GLTF_VALIDATOR names its folder."""
+    folder = os.environ.get("GLTF_VALIDATOR")
+    if not folder:
+        return print("     gltf-validator: set GLTF_VALIDATOR to node_modules/gltf-validator")
+    script = ("const v = require(process.argv[1]), fs = require('fs');"
+              "v.validateBytes(new Uint8Array(fs.readFileSync(process.argv[2])))"
+              ".then(r => console.log(JSON.stringify(r.issues)))")
+    code, out = run("node", "-e", script, folder, file)
+    errors = json.loads(out)["numErrors"] if code == 0 else out
+    print(f"{'ok  ' if errors == 0 else 'FAIL'} gltf-validator: {file.name}: {errors} errors")
+    if errors != 0:
+        failed.append(("gltf-validator", file))
+
+
 def kept_by_prusa_slicer(file, pot):
     """Opened, saved and sliced; then the pot is still there, to the byte."""
     saved, code_file = FOLDER / "saved.3mf", FOLDER / "sliced.gcode"
@@ -100,7 +116,7 @@ def kept_by_prusa_slicer(file, pot):
 
 def main():
     pot, stl = FOLDER / "pot.pot.json", FOLDER / "pot.stl"
-    files = {ending: FOLDER / f"pot{ending}" for ending in (".ply", ".3mf")}
+    files = {ending: FOLDER / f"pot{ending}" for ending in (".ply", ".3mf", ".glb")}
     code, out = run(CLAYSTACK, "throw", "-q", SCENE, "-o", pot)
     assert code == 0, out
     code, out = run(CLAYSTACK, "export", "--json", pot, stl, *files.values())
@@ -110,12 +126,14 @@ def main():
     judges = [("prusa-slicer", lambda: (by_prusa_slicer(files[".3mf"], expected),
                                         kept_by_prusa_slicer(files[".3mf"], pot))),
               ("openscad", lambda: by_openscad(files[".3mf"], expected)),
-              ("assimp", lambda: [by_assimp(files[e], expected) for e in (".3mf", ".ply")])]
+              ("assimp", lambda: [by_assimp(files[".3mf"], expected),
+                                  by_assimp(files[".ply"], expected)])]
     for program, judge in judges:
         if shutil.which(program):
             judge()
         else:
             print(f"     {program} is not installed")
+    by_gltf_validator(files[".glb"])
     if run("/usr/bin/python3", "-c", "import Savitar")[0] == 0:
         by_libsavitar(files[".3mf"], expected)
     else:

@@ -2,11 +2,14 @@
 // Converts meshes to and from Draco's.
 
 #include "claystack/core/result.hpp"
+#include "claystack/export/formats.hpp"
 #include "claystack/export/solid.hpp"
 
 #include <draco/mesh/mesh.h>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -15,6 +18,15 @@ namespace clay::solid::inline formats {
 /// The triangles of `mesh` on `points`, its points as float32; indices are in range.
 [[nodiscard]] std::unique_ptr<draco::Mesh> to_draco(const TriangleMesh& mesh,
                                                     const std::vector<glm::vec3>& points);
+
+/// A stream as `encode_drc` makes it without claims, with what the decoded mesh holds.
+struct EncodedDraco {
+  std::string bytes;
+  std::size_t points = 0, triangles = 0;
+  glm::vec3 low{0.0F}, high{0.0F};  ///< of the decoded points
+};
+[[nodiscard]] Result<EncodedDraco> encode_draco(const TriangleMesh& mesh,
+                                                const DracoSettings& settings);
 
 /// Checks everything: Draco's decoder returns sizes, maps and indices as the file states them.
 /// Corners share a point if Draco maps them to one position.

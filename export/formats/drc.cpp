@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <glm/common.hpp>
 #include <optional>
 #include <utility>
 
@@ -65,8 +66,8 @@ Result<void> check_mesh_for_draco(const TriangleMesh& mesh, const std::vector<gl
   return {};
 }
 
-Result<std::string> encode_on_grid(const TriangleMesh& mesh, const std::vector<glm::vec3>& points,
-                                   const DracoGrid& grid, int speed) {
+Result<EncodedDraco> encode_on_grid(const TriangleMesh& mesh, const std::vector<glm::vec3>& points,
+                                    const DracoGrid& grid, int speed) {
   const auto input = to_draco(mesh, points);
   draco::ExpertEncoder encoder(*input);
   encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
@@ -87,7 +88,11 @@ Result<std::string> encode_on_grid(const TriangleMesh& mesh, const std::vector<g
     return failure(ErrorKind::unsound, "cannot write .drc: " + std::to_string(dropped) +
                                            " triangles use a vertex twice");
   }
-  return std::string(buffer.data(), buffer.size());
+  return EncodedDraco{std::string(buffer.data(), buffer.size()),
+                      encoder.num_encoded_points(),
+                      encoder.num_encoded_faces(),
+                      {},
+                      {}};
 }
 
 int version_of(std::string_view bytes) {
@@ -149,11 +154,33 @@ Result<std::string> encode_drc(const TriangleMesh& mesh, const DracoSettings& se
       .and_then([&] { return choose_grid(points, settings); })
       .and_then(
           [&](const DracoGrid& grid) { return encode_on_grid(mesh, points, grid, settings.speed); })
-      .map([&](std::string plain) {
-        return claims == nullptr ? std::move(plain) : with_claims(plain, *claims);
+      .map([&](EncodedDraco plain) {
+        return claims == nullptr ? std::move(plain.bytes) : with_claims(plain.bytes, *claims);
       });
 } catch (const std::exception& error) {
   return failure(ErrorKind::unsound, std::string("cannot write .drc: ") + error.what());
+}
+
+Result<EncodedDraco> encode_draco(const TriangleMesh& mesh, const DracoSettings& settings) try {
+  const std::vector<glm::vec3> points = file_points(mesh.points);
+  return check_settings(settings)
+      .and_then([&] { return check_mesh_for_draco(mesh, points); })
+      .and_then([&] { return choose_grid(points, settings); })
+      .and_then(
+          [&](const DracoGrid& grid) { return encode_on_grid(mesh, points, grid, settings.speed); })
+      .and_then([](EncodedDraco encoded) {
+        return decode_plain(encoded.bytes, "draco as encoded")
+            .map([&](const TriangleMesh& decoded) {
+              encoded.low = encoded.high = glm::vec3(decoded.points.front());
+              for (const glm::dvec3& point : decoded.points) {
+                encoded.low = glm::min(encoded.low, glm::vec3(point));
+                encoded.high = glm::max(encoded.high, glm::vec3(point));
+              }
+              return std::move(encoded);
+            });
+      });
+} catch (const std::exception& error) {
+  return failure(ErrorKind::unsound, std::string("cannot encode with Draco: ") + error.what());
 }
 
 Result<TriangleMesh> decode_drc(std::string_view bytes, std::string_view name) {

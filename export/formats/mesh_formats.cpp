@@ -60,6 +60,8 @@ Result<std::string> encode_mesh(const TriangleMesh& mesh, MeshFormat format,
       return encode_ply(mesh, contents.name, contents.wall_mm);
     case MeshFormat::three_mf:
       return pack_3mf(encode_3mf_model(mesh, contents), contents);
+    case MeshFormat::glb:
+      return encode_glb(mesh, contents);
     case MeshFormat::off:
     case MeshFormat::three_mf_model:
       break;
@@ -86,6 +88,8 @@ Result<TriangleMesh> decode_mesh(std::string_view bytes, MeshFormat format, std:
       return decode_3mf(bytes, name, options);
     case MeshFormat::three_mf_model:
       return decode_3mf_model(bytes, name, options);
+    case MeshFormat::glb:
+      return decode_glb(bytes, name);
   }
   return failure(ErrorKind::bad_input, std::string(name).append(": unknown mesh format"));
 }

@@ -47,7 +47,9 @@ struct XmlReader::Parser {
         r.events_.text(r, {reinterpret_cast<const char*>(text), static_cast<std::size_t>(length)});
     };
     events.internalSubset = [](void* self, const xmlChar*, const xmlChar*, const xmlChar*) {
-      static_cast<Parser*>(self)->reader.fail("expected no document type, found one");
+      Parser& parser = *static_cast<Parser*>(self);
+      parser.reader.fail("expected no document type, found one");
+      xmlStopParser(parser.context);  // before it reads the entities
     };
     context = xmlCreatePushParserCtxt(&events, this, nullptr, 0, nullptr);
     if (context == nullptr) throw std::bad_alloc();
@@ -119,7 +121,6 @@ void XmlReader::fail(std::string_view what) {
   fault_ =
       Error{ErrorKind::bad_input,
             std::string(name_).append(":").append(std::to_string(line)).append(": ").append(what)};
-  xmlStopParser(context);
 }
 
 }  // namespace clay::solid::inline formats

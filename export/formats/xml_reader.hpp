@@ -47,7 +47,8 @@ class XmlReader {
   Result<void> read(std::string_view piece);
   /// After the last byte.
   Result<void> finish();
-  /// An error "NAME:LINE: WHAT"; the first one counts.
+  /// An error "NAME:LINE: WHAT"; the first one counts. Events stop at once. The parser stops at the
+  /// end of the piece: to stop it earlier frees the text that the caller may still use.
   void fail(std::string_view what);
 
  private:

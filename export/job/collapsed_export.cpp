@@ -155,10 +155,10 @@ class CollapsedExport {
 
   Result<void> write_all() {
     for (const Output& output : outputs_) {
-      auto file =
-          named(output.format == MeshFormat::drc ? write_drc(*output.store)
-                                                 : write_exact(output.format, *output.store),
-                output.name.empty() ? options_.source : output.name);
+      auto file = named(output.format == MeshFormat::drc || output.format == MeshFormat::glb
+                            ? write_on_grid(output.format, *output.store)
+                            : write_exact(output.format, *output.store),
+                        output.name.empty() ? options_.source : output.name);
       if (!file) return tl::make_unexpected(file.error());
       report_.files.push_back(std::move(*file));
     }
@@ -178,18 +178,19 @@ class CollapsedExport {
 
   /// Encodes on finer and finer grids until the decoded mesh is sound. Returns the last problem if
   /// none is.
-  Result<FileReport> write_drc(FileStore& store) {
+  Result<FileReport> write_on_grid(MeshFormat format, FileStore& store) {
     const double allowed = std::max(options_.tolerance_mm, float_rounding_mm(mesh_));
-    DracoSettings settings;
+    FileContents contents = solid_contents(options_);
+    DracoSettings& settings = contents.draco;
     settings.max_error_mm = allowed;
     Result<double> moved;
     for (int bits = least_draco_bits(mesh_); bits <= kMaxDracoBits; bits += kDracoBitsStep) {
       settings.min_bits = bits;
-      const auto bytes = stages_.run(stage_name("encode", MeshFormat::drc),
-                                     [&] { return encode_drc(mesh_, settings); });
+      const auto bytes = stages_.run(stage_name("encode", format),
+                                     [&] { return encode_mesh(mesh_, format, contents); });
       if (!bytes) return tl::make_unexpected(bytes.error());
-      moved = verify(*bytes, MeshFormat::drc, allowed + float_rounding_mm(mesh_));
-      if (moved) return written(*bytes, MeshFormat::drc, *moved, store);
+      moved = verify(*bytes, format, allowed + float_rounding_mm(mesh_));
+      if (moved) return written(*bytes, format, *moved, store);
     }
     return tl::make_unexpected(moved.error());
   }

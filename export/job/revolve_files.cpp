@@ -34,7 +34,8 @@ Result<FileReport> RevolveFiles::write(MeshFormat format, FileStore& store) {
     case MeshFormat::stl_binary:
       return stream(store);
     case MeshFormat::drc:
-      return write_drc(store);
+    case MeshFormat::glb:
+      return write_on_grid(format, store);
     case MeshFormat::three_mf:
       return write_3mf(store);
     default:
@@ -111,21 +112,23 @@ Result<FileReport> RevolveFiles::write_whole(MeshFormat format, FileStore& store
 /// Encodes on the coarsest grid that the tolerance permits and the margins cover. If no grid is
 /// fine enough for the margins, tries finer grids until the decoded mesh passes the exact test, or
 /// returns the last problem.
-Result<FileReport> RevolveFiles::write_drc(FileStore& store) {
-  constexpr auto kFormat = MeshFormat::drc;
+Result<FileReport> RevolveFiles::write_on_grid(MeshFormat format, FileStore& store) {
   const double allowed = std::max(options_.tolerance_mm, float_rounding_mm(rule_));
   const double safe = claims_.margins.safe_rounding_mm();
   const TriangleMesh& solid = mesh();
   const auto encode = [&](const DracoSettings& settings) {
-    return stages_.run(stage_name("encode", kFormat), [&] {
+    return stages_.run(stage_name("encode", format), [&]() -> Result<std::string> {
       const DracoClaims claims = draco_claims(settings.max_error_mm);
-      return encode_drc(solid, settings, &claims);
+      if (format == MeshFormat::drc) return encode_drc(solid, settings, &claims);
+      FileContents contents = contents_of(format);
+      contents.draco = settings;
+      return encode_glb(solid, contents);
     });
   };
   DracoSettings settings;
   settings.max_error_mm = std::min(allowed, safe);
   const auto covered = encode(settings);
-  if (covered) return store_drc(*covered, settings.max_error_mm, store);
+  if (covered) return certify_bytes(format, settings.max_error_mm, Proof::margins, *covered, store);
 
   settings.max_error_mm = allowed;
   Result<void> verdict = tl::make_unexpected(covered.error());
@@ -134,11 +137,12 @@ Result<FileReport> RevolveFiles::write_drc(FileStore& store) {
     const auto bytes = encode(settings);
     if (!bytes) return tl::make_unexpected(bytes.error());
     verdict = stages_.run("exact_test", [&] {
-      return decode_drc(*bytes, as_written(kFormat)).and_then([&](const TriangleMesh& decoded) {
-        return check_sound(decoded, as_written(kFormat));
-      });
+      return decode_mesh(*bytes, format, as_written(format))
+          .and_then([&](const TriangleMesh& decoded) {
+            return check_sound(decoded, as_written(format));
+          });
     });
-    if (verdict) return certify_bytes(kFormat, allowed, Proof::exact_test, *bytes, store);
+    if (verdict) return certify_bytes(format, allowed, Proof::exact_test, *bytes, store);
   }
   return tl::make_unexpected(verdict.error());
 }
@@ -173,13 +177,8 @@ DracoClaims RevolveFiles::draco_claims(double reach_mm) const {
           .vertex_error_mm = reach_mm};
 }
 
-Result<FileReport> RevolveFiles::store_drc(const std::string& bytes, double reach_mm,
-                                           FileStore& store) {
-  return certify_bytes(MeshFormat::drc, reach_mm, Proof::margins, bytes, store);
-}
-
-/// `rounding_mm` bounds the displacement of every vertex; for Draco it is measured on the file as
-/// read back.
+/// `rounding_mm` bounds the displacement of every vertex; on a grid it is measured on the file
+/// as read back.
 Result<FileReport> RevolveFiles::certify_bytes(MeshFormat format, double rounding_mm, Proof proof,
                                                const std::string& bytes, FileStore& store) {
   const std::string name = as_written(format);
@@ -195,7 +194,7 @@ Result<FileReport> RevolveFiles::certify_bytes(MeshFormat format, double roundin
         });
   });
   if (!farthest) return tl::make_unexpected(farthest.error());
-  const bool measured = format == MeshFormat::drc;
+  const bool measured = format == MeshFormat::drc || format == MeshFormat::glb;
   SolidCertificate certificate = with_rounding(claims_, rule_, measured ? *farthest : rounding_mm);
   certificate.proof = proof;
   certificate.bytes = bytes.size();

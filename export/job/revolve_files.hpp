@@ -30,10 +30,10 @@ class RevolveFiles {
   [[nodiscard]] FileContents contents_of(MeshFormat format);
   Result<FileReport> stream(FileStore& store);
   Result<FileReport> write_whole(MeshFormat format, FileStore& store);
-  Result<FileReport> write_drc(FileStore& store);
+  /// DRC and GLB.
+  Result<FileReport> write_on_grid(MeshFormat format, FileStore& store);
   Result<FileReport> write_3mf(FileStore& store);
   [[nodiscard]] DracoClaims draco_claims(double reach_mm) const;
-  Result<FileReport> store_drc(const std::string& bytes, double reach_mm, FileStore& store);
   Result<Proof> prove_rounded(double rounding_mm);
   Result<FileReport> certify_bytes(MeshFormat format, double rounding_mm, Proof proof,
                                    const std::string& bytes, FileStore& store);

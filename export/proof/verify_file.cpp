@@ -42,7 +42,8 @@ Result<double> verify_file(std::string_view bytes, MeshFormat format, const Tria
   if (decoded->triangles.size() != mesh.triangles.size())
     return wrong("expected " + std::to_string(mesh.triangles.size()) + " triangles, found " +
                  std::to_string(decoded->triangles.size()));
-  const bool reordered = format == MeshFormat::drc || format == MeshFormat::three_mf;
+  const bool reordered =
+      format == MeshFormat::drc || format == MeshFormat::three_mf || format == MeshFormat::glb;
   const double moved =
       reordered ? vertex_distance(mesh, *decoded) : corner_distance(mesh, *decoded);
   if (moved > allowed_mm)

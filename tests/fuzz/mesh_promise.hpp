@@ -60,6 +60,9 @@ inline std::vector<std::string> good_files(MeshFormat format) {
         break;
       case MeshFormat::off:
         break;
+      case MeshFormat::glb:
+        files.push_back(encode_glb(mesh, {.notes = {{"process", "sla"}}}).value_or(std::string()));
+        break;
       case MeshFormat::three_mf:
       case MeshFormat::three_mf_model: {
         const FileContents contents{

@@ -16,7 +16,7 @@ class CertifiedVase : public testing::Test {
   void SetUp() override {
     ASSERT_EQ(claystack("throw -q " + sample("vase.scene.json") + " -o " + pot).status, 0);
     const Ran run = claystack(std::string("export -q --certificate ") + pot + " " + stl + " " +
-                              obj + " " + drc + " " + ply + " " + three_mf);
+                              obj + " " + drc + " " + ply + " " + three_mf + " " + glb);
     ASSERT_EQ(run.status, 0) << run.err;
   }
   static Ran check(const std::string& file, const std::string& certificate) {
@@ -25,11 +25,12 @@ class CertifiedVase : public testing::Test {
   ScratchFolder folder;
   std::string pot = folder.file("v.pot.json");
   std::string stl = folder.file("v.stl"), obj = folder.file("v.obj"), drc = folder.file("v.drc");
-  std::string ply = folder.file("v.PLY"), three_mf = folder.file("v.3MF");
+  std::string ply = folder.file("v.PLY"), three_mf = folder.file("v.3MF"),
+              glb = folder.file("v.GLB");
 };
 
 TEST_F(CertifiedVase, IsVerifiedInEveryFormat) {
-  for (const std::string& file : {stl, obj, drc, ply, three_mf}) {
+  for (const std::string& file : {stl, obj, drc, ply, three_mf, glb}) {
     const Ran run = check(file, file + ".certificate.json");
     EXPECT_EQ(run.status, 0) << run.out << run.err;
     EXPECT_NE(run.out.find("certificate holds"), std::string::npos) << run.out;
@@ -42,7 +43,7 @@ TEST_F(CertifiedVase, IsVerifiedInEveryFormat) {
 
 TEST_F(CertifiedVase, ConformsToItsSchema) {
   const Json schema = load_schema("certificate");
-  for (const std::string& file : {stl, obj, drc, ply, three_mf})
+  for (const std::string& file : {stl, obj, drc, ply, three_mf, glb})
     EXPECT_EQ(violation(schema, Json::parse(read_text(file + ".certificate.json"))), "");
   const Json process = Json::parse(read_text(sample("workshop.process.json")));
   EXPECT_EQ(violation(load_schema("process"), process), "");

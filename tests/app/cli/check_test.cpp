@@ -198,7 +198,7 @@ TEST(Check, ListsKnownExtensionsForAnUnknownOne) {
   write_text(folder.file("pot.blend"), "x");
   const Ran run = claystack("check " + folder.file("pot.blend"));
   EXPECT_EQ(run.status, 2);
-  for (const char* ending : {".stl", ".obj", ".drc", ".ply", ".3mf", ".off", ".pot.json"})
+  for (const char* ending : {".stl", ".obj", ".drc", ".ply", ".3mf", ".glb", ".off", ".pot.json"})
     EXPECT_NE(run.err.find(ending), std::string::npos) << run.err;
 }
 

@@ -38,13 +38,14 @@ class ExportedSample : public testing::TestWithParam<const char*> {
     thrown = claystack("throw " + scene + " --json -o " + folder.file("p.pot.json"));
     ASSERT_EQ(thrown.status, 0) << thrown.err;
     exported = claystack("export --json " + folder.file("p.pot.json") + " " + stl + " " + obj +
-                         " " + drc + " " + ply + " " + three_mf);
+                         " " + drc + " " + ply + " " + three_mf + " " + glb);
     ASSERT_EQ(exported.status, 0) << exported.err;
     counted = thrown.json().at("volume_mm3");
   }
   ScratchFolder folder;
   std::string stl = folder.file("p.stl"), obj = folder.file("p.obj"), drc = folder.file("p.drc"),
-              ply = folder.file("p.ply"), three_mf = folder.file("p.3mf");
+              ply = folder.file("p.ply"), three_mf = folder.file("p.3mf"),
+              glb = folder.file("p.glb");
   Ran thrown, exported;
   double counted = 0.0;
 };
@@ -54,7 +55,7 @@ TEST_P(ExportedSample, ReportsWhatItDid) {
   EXPECT_LT(json.at("volume_error_relative"), 1e-9);
   EXPECT_GT(json.at("min_wall_mm"), 0.0);
   EXPECT_GT(json.at("certificate").at("vertices"), 50);
-  ASSERT_EQ(json.at("files").size(), 5u);
+  ASSERT_EQ(json.at("files").size(), 6u);
   for (const auto& file : json.at("files")) {
     EXPECT_EQ(std::filesystem::file_size(file.at("path").get<std::string>()), file.at("bytes"));
     EXPECT_LE(file.at("max_error_mm"), 0.02);
@@ -103,7 +104,7 @@ TEST_P(ExportedSample, DracoDecoderReturnsAClosedMesh) {
 }
 
 TEST_P(ExportedSample, PassesItsOwnCheckInEveryFormat) {
-  for (const std::string& file : {stl, obj, drc, ply, three_mf, folder.file("p.pot.json")}) {
+  for (const std::string& file : {stl, obj, drc, ply, three_mf, glb, folder.file("p.pot.json")}) {
     const Ran run = claystack("check --json " + file);
     EXPECT_EQ(run.status, 0) << file << run.out;
     const auto json = run.json();
@@ -176,7 +177,7 @@ TEST_F(ExportBowl, RefusesAndWritesNothing) {
     EXPECT_EQ(run.status, status) << arguments;
     EXPECT_NE(run.err.find(says), std::string::npos) << run.err;
   };
-  expect(pot + " " + folder.file("x.stl") + " " + folder.file("x.ply"), 2, "x.ply");
+  expect(pot + " " + folder.file("x.stl") + " " + folder.file("x.off"), 2, "x.off");
   expect(pot + " " + folder.file("x.stl") + " " + folder.file("./x.stl"), 2,
          "./x.stl: expected a separate output file");
   expect(pot + " " + folder.file("x.stl") + " " + pot, 2,

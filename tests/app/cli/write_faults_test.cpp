@@ -131,8 +131,8 @@ TEST_P(WriteFaults, WriteAllOrNothing) {
 
 // Pots and meshes written again have the same bytes; reports do not, because they contain times.
 const std::string kExport =
-    "export -q --segments 16 @/a.pot.json #/a.stl #/b.obj #/c.drc #/d.ply #/e.3mf";
-const std::vector<std::string> kMeshes = {"a.stl", "b.obj", "c.drc", "d.ply", "e.3mf"};
+    "export -q --segments 16 @/a.pot.json #/a.stl #/b.obj #/c.drc #/d.ply #/e.3mf #/f.glb";
+const std::vector<std::string> kMeshes = {"a.stl", "b.obj", "c.drc", "d.ply", "e.3mf", "f.glb"};
 const std::string kThrow = "throw -q @/a.scene.json -o #/a.pot.json --trace #/trace.csv";
 const std::vector<std::string> kPot = {"a.pot.json", "trace.csv"};
 const std::string kStick = "tmpfile,links";  // FAT, as on USB drives

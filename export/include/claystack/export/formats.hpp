@@ -23,7 +23,7 @@ namespace clay::solid::inline formats {
 
 struct DracoClaims;  // drc_claims.hpp
 
-enum class MeshFormat { stl_binary, stl_ascii, obj, drc, ply, off, three_mf, three_mf_model };
+enum class MeshFormat { stl_binary, stl_ascii, obj, drc, ply, off, three_mf, three_mf_model, glb };
 
 struct FormatFacts {
   MeshFormat format;
@@ -45,7 +45,8 @@ inline constexpr std::array kFormatFacts{
     FormatFacts{MeshFormat::ply, "ply", "PLY", ".ply", true, false, false},
     FormatFacts{MeshFormat::off, "off", "OFF", ".off", false, false, true},
     FormatFacts{MeshFormat::three_mf, "3mf", "3MF", ".3mf", true, false, true},
-    FormatFacts{MeshFormat::three_mf_model, "3mf_model", "3MF model", "", false, false, true}};
+    FormatFacts{MeshFormat::three_mf_model, "3mf_model", "3MF model", "", false, false, true},
+    FormatFacts{MeshFormat::glb, "glb", "GLB", ".glb", true, false, false}};
 
 [[nodiscard]] constexpr const FormatFacts& facts_of(MeshFormat format) noexcept {
   return kFormatFacts[static_cast<std::size_t>(format)];
@@ -124,6 +125,13 @@ ModelPart encode_3mf_model(const TriangleMesh& mesh, const FileContents& content
 /// once more as a note of each object, which PrusaSlicer keeps where it keeps no metadata. No other
 /// setting. No dates, no random ids: equal contents give equal bytes.
 Result<std::string> pack_3mf(const ModelPart& model, const FileContents& contents);
+
+/// glTF 2.0 in one binary file: metres, y up, a clay material, `notes` in the asset's extras. With
+/// Draco in this build the mesh is compressed (KHR_draco_mesh_compression), on the coarsest grid
+/// that keeps `draco.max_error_mm` with all roundings, and the accessors state the counts and
+/// bounds of the decoded mesh. Without it: float32 points and uint32 indices. Errors as for
+/// `encode_drc`.
+Result<std::string> encode_glb(const TriangleMesh& mesh, const FileContents& contents);
 
 /// What a reader accepts beyond its format.
 struct ReadOptions {
@@ -206,6 +214,14 @@ Result<TriangleMesh> decode_3mf(std::string_view bytes, std::string_view name,
 /// The same of the model part alone.
 Result<TriangleMesh> decode_3mf_model(std::string_view xml, std::string_view name,
                                       const ReadOptions& options = {});
+
+/// glTF 2.0 in one binary file: the triangles (lists, strips, fans) of all nodes of its scene, in
+/// mm and z up; equal corners are welded. Points are float32, indices of any type, or both
+/// compressed by Draco. Refused: required extensions other than Draco and those of materials and
+/// textures, sparse or normalised points, other buffers than the file's own, nodes in a cycle or
+/// nested more than 32 deep, JSON of more than 16 MiB or 32 levels, and a scene of more than 64
+/// times the triangles in the file (above a million).
+Result<TriangleMesh> decode_glb(std::string_view bytes, std::string_view name);
 
 /// What Claystack put into a 3MF beside the mesh; empty: not there.
 struct PackedParts {

@@ -1,0 +1,386 @@
+#include "claystack/export/formats.hpp"
+#include "core/cancel.hpp"
+#include "core/little_endian.hpp"
+#include "export/formats/file_floats.hpp"
+#include "export/formats/glb.hpp"
+#include "export/formats/mesh_limits.hpp"
+#include "export/solid/vertex_welder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+namespace clay::solid::inline formats {
+namespace {
+
+using namespace glb;
+using Json = nlohmann::json;
+
+constexpr std::size_t kMaxJsonBytes = std::size_t{16} << 20;
+constexpr int kMaxJsonDepth = 32;
+constexpr std::size_t kMaxNodeDepth = 32;
+
+/// Thrown within this file; `guarded` makes an error of it.
+struct BadGlb : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct Chunks {
+  std::string_view json, binary;
+};
+
+Chunks chunks_of(std::string_view file) {
+  if (file.size() < kGlbHeaderBytes + kChunkHeaderBytes || load_u32(file.data()) != kMagic)
+    throw BadGlb("expected a GLB file, which begins with glTF");
+  if (load_u32(file.data() + 4) != kVersion)
+    throw BadGlb("expected version 2, found " + std::to_string(load_u32(file.data() + 4)));
+  if (load_u32(file.data() + 8) != file.size())
+    throw BadGlb("expected " + std::to_string(load_u32(file.data() + 8)) +
+                 " bytes by the header, found " + std::to_string(file.size()));
+  Chunks chunks;
+  for (std::size_t at = kGlbHeaderBytes; at < file.size();) {
+    if (file.size() - at < kChunkHeaderBytes) throw BadGlb("the file ends within a chunk");
+    const std::size_t size = load_u32(file.data() + at);
+    const std::uint32_t type = load_u32(file.data() + at + 4);
+    const bool first = at == kGlbHeaderBytes;
+    at += kChunkHeaderBytes;
+    if (size > file.size() - at || size % 4 != 0) throw BadGlb("the file ends within a chunk");
+    if (first != (type == kJsonChunk)) throw BadGlb("expected one JSON chunk, and that first");
+    if (first) chunks.json = file.substr(at, size);
+    if (type == kBinaryChunk && chunks.binary.data() == nullptr)
+      chunks.binary = file.substr(at, size);
+    at += size;
+  }
+  if (chunks.json.size() > kMaxJsonBytes)
+    throw BadGlb("expected JSON of at most " + std::to_string(kMaxJsonBytes) + " bytes");
+  return chunks;
+}
+
+Json parsed(std::string_view text) {
+  const auto limit = [](int depth, Json::parse_event_t, const Json&) {
+    if (depth > kMaxJsonDepth) throw BadGlb("expected JSON nested at most 32 deep, found deeper");
+    return true;
+  };
+  Json json = Json::parse(text, limit);
+  if (!json.is_object()) throw BadGlb("expected a JSON object");
+  return json;
+}
+
+// ---- fields
+
+std::size_t count_in(const Json& json, const char* key, std::optional<std::size_t> absent = {}) {
+  const auto found = json.find(key);
+  if (found == json.end() && absent) return *absent;
+  if (found == json.end() || !found->is_number_unsigned())
+    throw BadGlb(std::string(key) + ": expected a whole number of 0 or more");
+  return found->get<std::size_t>();
+}
+
+/// Element `index` of a list of objects.
+const Json& object_at(const Json& json, const char* list, std::size_t index) {
+  const auto found = json.find(list);
+  const std::size_t count = found != json.end() && found->is_array() ? found->size() : 0;
+  if (index >= count || !(*found)[index].is_object())
+    throw BadGlb(std::string(list) + ": expected the number of one of " + std::to_string(count) +
+                 ", found " + std::to_string(index));
+  return (*found)[index];
+}
+
+std::vector<double> numbers_in(const Json& json, const char* key, std::vector<double> absent) {
+  const auto found = json.find(key);
+  if (found == json.end()) return absent;
+  const auto bad = [&] {
+    return BadGlb(std::string(key) + ": expected " + std::to_string(absent.size()) + " numbers");
+  };
+  if (!found->is_array() || found->size() != absent.size()) throw bad();
+  for (std::size_t i = 0; i < absent.size(); ++i) {
+    if (!(*found)[i].is_number()) throw bad();
+    absent[i] = (*found)[i].get<double>();
+    if (!std::isfinite(absent[i])) throw bad();
+  }
+  return absent;
+}
+
+// ---- meshes
+
+class GlbReader {
+ public:
+  GlbReader(std::string_view file, std::string_view name)
+      : chunks_(chunks_of(file)), json_(parsed(chunks_.json)), name_(name) {}
+
+  Result<TriangleMesh> read() {
+    check_extensions();
+    const Json& scene = object_at(json_, "scenes", count_in(json_, "scene", 0));
+    for (const std::size_t node : nodes_in(scene, "nodes")) visit(node, glm::dmat4(1.0), 0);
+    check_limit();
+    for (const auto& [mesh, matrix] : placed_) place(meshes_.at(mesh), matrix);
+    if (fault_) return tl::make_unexpected(*fault_);
+    return check_facet_count(mesh_.triangles.size(), name_).map([&] { return std::move(mesh_); });
+  }
+
+ private:
+  void check_extensions() const {
+    const auto required = json_.find("extensionsRequired");
+    if (required == json_.end()) return;
+    for (const Json& extension : *required) {
+      const std::string text = extension.is_string() ? extension.get<std::string>() : "";
+      if (text != kDraco && !text.starts_with("KHR_materials_") &&
+          !text.starts_with("KHR_texture_"))
+        throw BadGlb("expected no required extension but " + std::string(kDraco) +
+                     " and those of materials, found '" + one_line(text.substr(0, 60)) + "'");
+    }
+  }
+
+  [[nodiscard]] static std::vector<std::size_t> nodes_in(const Json& json, const char* key) {
+    std::vector<std::size_t> nodes;
+    const auto found = json.find(key);
+    if (found == json.end()) return nodes;
+    if (!found->is_array()) throw BadGlb(std::string(key) + ": expected a list of nodes");
+    for (const Json& node : *found) {
+      if (!node.is_number_unsigned()) throw BadGlb(std::string(key) + ": expected numbers");
+      nodes.push_back(node.get<std::size_t>());
+    }
+    return nodes;
+  }
+
+  /// Every node has one parent: a second visit is a cycle or a fault.
+  void visit(std::size_t index, const glm::dmat4& outer, std::size_t depth) {
+    const Json& node = object_at(json_, "nodes", index);
+    if (depth > kMaxNodeDepth || visited_.contains(index))
+      throw BadGlb("expected a tree of nodes at most 32 deep, found node " + std::to_string(index) +
+                   " twice or deeper");
+    visited_[index] = true;
+    const glm::dmat4 matrix = outer * matrix_of(node);
+    if (node.contains("mesh")) {
+      const std::size_t mesh = count_in(node, "mesh");
+      load(mesh);
+      placed_.emplace_back(mesh, matrix);
+    }
+    for (const std::size_t child : nodes_in(node, "children")) visit(child, matrix, depth + 1);
+  }
+
+  [[nodiscard]] static glm::dmat4 matrix_of(const Json& node) {
+    const auto m = numbers_in(node, "matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+    glm::dmat4 matrix(1.0);
+    for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = m[static_cast<std::size_t>(i)];
+    const auto t = numbers_in(node, "translation", {0, 0, 0});
+    const auto q = numbers_in(node, "rotation", {0, 0, 0, 1});
+    const auto s = numbers_in(node, "scale", {1, 1, 1});
+    const double x = q[0], y = q[1], z = q[2], w = q[3];
+    const glm::dmat4 turned(
+        glm::dvec4(1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0) * s[0],
+        glm::dvec4(2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0) * s[1],
+        glm::dvec4(2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0) * s[2],
+        glm::dvec4(t[0], t[1], t[2], 1));
+    return matrix * turned;
+  }
+
+  /// Reads a mesh once, in metres and y up, without transforms.
+  void load(std::size_t index) {
+    if (meshes_.contains(index)) return;
+    TriangleMesh& mesh = meshes_[index];
+    const Json& json = object_at(json_, "meshes", index);
+    const auto primitives = json.find("primitives");
+    if (primitives == json.end() || !primitives->is_array())
+      throw BadGlb("primitives: expected a list");
+    for (std::size_t i = 0; i < primitives->size(); ++i)
+      add_primitive(object_at(json, "primitives", i), mesh);
+    stored_ += mesh.triangles.size();
+    if (stored_ > kMaxTriangles) throw BadGlb("expected at most 20000000 triangles");
+  }
+
+  void add_primitive(const Json& primitive, TriangleMesh& mesh) {
+    const std::size_t mode = count_in(primitive, "mode", kTriangles);
+    if (mode < kTriangles) return;  // points and lines
+    if (mode > kTriangleFan) throw BadGlb("mode: expected 0 to 6, found " + std::to_string(mode));
+    const auto attributes = primitive.find("attributes");
+    if (attributes == primitive.end() || !attributes->is_object())
+      throw BadGlb("attributes: expected an object");
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    const auto extensions = primitive.find("extensions");
+    if (extensions != primitive.end() && extensions->is_object() && extensions->contains(kDraco))
+      return add_draco((*extensions)[std::string(kDraco)], mesh);
+    add_points(count_in(*attributes, "POSITION"), mesh.points);
+    const auto count = static_cast<std::uint32_t>(mesh.points.size() - first);
+    std::vector<std::uint32_t> corners;
+    if (primitive.contains("indices")) {
+      corners = indices_of(count_in(primitive, "indices"), count);
+    } else {
+      corners.resize(count);
+      for (std::uint32_t i = 0; i < count; ++i) corners[i] = i;
+    }
+    add_triangles(corners, mode, first, mesh);
+  }
+
+  static void add_triangles(const std::vector<std::uint32_t>& c, std::size_t mode,
+                            std::uint32_t first, TriangleMesh& mesh) {
+    if (mode == kTriangles && c.size() % 3 != 0)
+      throw BadGlb("expected 3 corners for each triangle, found " + std::to_string(c.size()));
+    const std::size_t step = mode == kTriangles ? 3 : 1;
+    for (std::size_t i = 0; i + 2 < c.size(); i += step) {
+      const std::size_t odd = mode == kTriangleStrip ? i % 2 : 0;
+      mesh.triangles.push_back({first + c[mode == kTriangleFan ? 0 : i], first + c[i + 1 + odd],
+                                first + c[i + 2 - odd]});
+    }
+  }
+
+  void add_draco(const Json& draco, TriangleMesh& mesh) {
+    if (!draco.is_object()) throw BadGlb(std::string(kDraco) + ": expected an object");
+    const std::string_view bytes = view(count_in(draco, "bufferView"));
+    auto decoded = decode_drc(bytes, name_);
+    if (!decoded) {
+      if (!fault_) fault_ = decoded.error();
+      throw BadGlb("");
+    }
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.points.insert(mesh.points.end(), decoded->points.begin(), decoded->points.end());
+    for (const auto& [a, b, c] : decoded->triangles)
+      mesh.triangles.push_back({first + a, first + b, first + c});
+  }
+
+  // ---- buffers
+
+  [[nodiscard]] std::string_view view(std::size_t index) const {
+    const Json& view = object_at(json_, "bufferViews", index);
+    const Json& buffer = object_at(json_, "buffers", count_in(view, "buffer"));
+    if (count_in(view, "buffer") != 0 || buffer.contains("uri"))
+      throw BadGlb("expected the buffer of the file itself, found another");
+    const std::size_t offset = count_in(view, "byteOffset", 0), size = count_in(view, "byteLength");
+    if (offset > chunks_.binary.size() || size > chunks_.binary.size() - offset)
+      throw BadGlb("bufferView " + std::to_string(index) + ": expected it within the " +
+                   std::to_string(chunks_.binary.size()) + " bytes of the buffer");
+    return chunks_.binary.substr(offset, size);
+  }
+
+  struct Values {
+    std::string_view bytes;
+    std::size_t count = 0, stride = 0;
+    [[nodiscard]] const char* at(std::size_t i) const { return bytes.data() + i * stride; }
+  };
+
+  /// The values of an accessor, of `size` bytes each, all within its view.
+  [[nodiscard]] Values values(const Json& accessor, std::size_t size) const {
+    if (accessor.contains("sparse")) throw BadGlb("expected no sparse accessor, found one");
+    const std::size_t number = count_in(accessor, "bufferView");
+    const Json& json = object_at(json_, "bufferViews", number);
+    const std::string_view whole = view(number);
+    const std::size_t offset = count_in(accessor, "byteOffset", 0);
+    const Values found{whole.substr(std::min(offset, whole.size())), count_in(accessor, "count"),
+                       count_in(json, "byteStride", size)};
+    const std::size_t room = found.bytes.size();
+    if (found.count == 0 || found.stride < size || found.stride > 252 || room < size ||
+        (found.count - 1) > (room - size) / found.stride)
+      throw BadGlb("expected " + std::to_string(found.count) + " values within bufferView " +
+                   std::to_string(number));
+    return found;
+  }
+
+  void add_points(std::size_t index, std::vector<glm::dvec3>& points) const {
+    const Json& accessor = object_at(json_, "accessors", index);
+    if (count_in(accessor, "componentType") != kFloat32 || accessor.value("type", "") != "VEC3")
+      throw BadGlb("POSITION: expected 3 float32");
+    const Values found = values(accessor, 12);
+    if (points.size() + found.count > kMaxPoints)
+      throw BadGlb("expected at most 60000000 vertices");
+    for (std::size_t i = 0; i < found.count; ++i) {
+      step_of_loop();
+      const char* const at = found.at(i);
+      const glm::vec3 point(load_f32(at), load_f32(at + 4), load_f32(at + 8));
+      if (const auto bad = find_bad_coordinate(point))
+        throw BadGlb("position " + std::to_string(i + 1) + ": " + *bad);
+      points.emplace_back(point);
+    }
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> indices_of(std::size_t index,
+                                                      std::uint32_t points) const {
+    const Json& accessor = object_at(json_, "accessors", index);
+    const std::size_t type = count_in(accessor, "componentType");
+    const std::size_t size = type == kUint8 ? 1 : type == kUint16 ? 2 : type == kUint32 ? 4 : 0;
+    if (size == 0 || accessor.value("type", "") != "SCALAR")
+      throw BadGlb("indices: expected whole numbers of 8, 16 or 32 bits");
+    const Values found = values(accessor, size);
+    if (found.count > 3 * kMaxTriangles) throw BadGlb("expected at most 20000000 triangles");
+    std::vector<std::uint32_t> corners(found.count);
+    for (std::size_t i = 0; i < found.count; ++i) {
+      step_of_loop();
+      char bytes[4] = {};
+      std::copy_n(found.at(i), size, bytes);
+      corners[i] = load_u32(bytes);
+      if (corners[i] >= points)
+        throw BadGlb("index " + std::to_string(i + 1) + ": expected the number of one of " +
+                     std::to_string(points) + " points, found " + std::to_string(corners[i]));
+    }
+    return corners;
+  }
+
+  // ---- build
+
+  void check_limit() const {
+    constexpr std::uint64_t kFree = 1'000'000, kMostCopies = 64;
+    std::uint64_t triangles = 0;
+    for (const auto& [mesh, matrix] : placed_) triangles += meshes_.at(mesh).triangles.size();
+    if (triangles > std::max<std::uint64_t>(kFree, kMostCopies * stored_))
+      throw BadGlb("expected a scene of at most " + std::to_string(kMostCopies) + " times the " +
+                   std::to_string(stored_) + " triangles in the file, found " +
+                   std::to_string(triangles));
+  }
+
+  void place(const TriangleMesh& mesh, const glm::dmat4& matrix) {
+    const bool mirrored = glm::determinant(glm::dmat3(matrix)) < 0.0;
+    std::vector<std::uint32_t> number(mesh.points.size());
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+      step_of_loop();
+      const glm::vec3 point = to_mm(glm::dvec3(matrix * glm::dvec4(mesh.points[i], 1.0)));
+      if (const auto bad = find_bad_coordinate(point)) throw BadGlb("in mm: " + *bad);
+      number[i] = welder_.index_of(point);
+    }
+    for (auto [a, b, c] : mesh.triangles) {
+      if (mirrored) std::swap(b, c);
+      mesh_.triangles.push_back({number[a], number[b], number[c]});
+    }
+  }
+
+  Chunks chunks_;
+  Json json_;
+  std::string_view name_;
+  std::map<std::size_t, TriangleMesh> meshes_;
+  std::map<std::size_t, bool> visited_;
+  std::vector<std::pair<std::size_t, glm::dmat4>> placed_;
+  std::uint64_t stored_ = 0;
+  TriangleMesh mesh_;
+  VertexWelder welder_{mesh_.points, 0};
+
+ public:
+  std::optional<Error> fault_;  ///< of the Draco stream
+};
+
+}  // namespace
+
+Result<TriangleMesh> decode_glb(std::string_view bytes, std::string_view name) {
+  return check_file_size(bytes, name).and_then([&] {
+    return guarded(name, [&]() -> Result<TriangleMesh> {
+      try {
+        GlbReader reader(bytes, name);
+        try {
+          return reader.read();
+        } catch (const BadGlb&) {
+          if (reader.fault_) return tl::make_unexpected(*reader.fault_);
+          throw;
+        }
+      } catch (const BadGlb& error) {
+        return bad_file(name, error.what());
+      }
+    });
+  });
+}
+
+}  // namespace clay::solid::inline formats
