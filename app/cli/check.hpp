@@ -36,6 +36,8 @@ struct RepairSummary {
   std::vector<solid::MeshProblem> found;  ///< in the input file
   std::vector<solid::Repair> repaired;
   std::vector<solid::FilledHole> holes;
+  solid::SurfaceChange change;
+  std::optional<double> wrapped_mm;
   double volume_before_mm3 = 0.0;             ///< of the input file; meaningless for an open mesh
   std::size_t triangles_before = 0;           ///< before decimation
   std::optional<double> decimation_error_mm;  ///< set if the mesh was decimated

@@ -19,8 +19,11 @@ bool is_pot(std::string_view path) { return path.ends_with(".json") || path.ends
 Result<void> check_usage(const CheckCommand& command) {
   if (command.dry_run && !command.changes_mesh())
     return failure(ErrorKind::bad_input, "--dry-run: expected --repair or --max-triangles with it");
-  if ((command.repair_options.weld_mm || command.repair_options.cap_openings) && !command.repair)
-    return failure(ErrorKind::bad_input, "--weld, --cap: expected --repair with them");
+  const solid::RepairOptions& repair = command.repair_options;
+  if ((repair.weld_mm || repair.thicken_mm || repair.wrap_mm || repair.cap_openings) &&
+      !command.repair)
+    return failure(ErrorKind::bad_input,
+                   "--weld, --cap, --thicken, --wrap: expected --repair with them");
   if (command.changes_mesh() == command.out.empty() && !command.dry_run)
     return failure(ErrorKind::bad_input,
                    command.changes_mesh()
@@ -106,6 +109,15 @@ void add_check_command(CLI::App& app, Console& console, int& exit) {
       ->check(CLI::Range(0.0, 1e6));
   sub->add_flag("--cap", command->repair_options.cap_openings,
                 "With --repair: close wide openings by caps instead of refusing them");
+  sub->add_option("--thicken", command->repair_options.thicken_mm,
+                  "With --repair: thickness of the wall that a surface with a wide opening gets, "
+                  "half on each side [mm]; default: such a surface is refused")
+      ->check(CLI::Range(1e-3, 1e6));
+  sub->add_option(
+         "--wrap", command->repair_options.wrap_mm,
+         "With --repair, if all else fails: replace the surface by a wrap at this distance "
+         "around it [mm], which loses smaller details; default: such a mesh is refused")
+      ->check(CLI::Range(1e-3, 1e6));
   sub->add_flag("--dry-run", command->dry_run, "Report the changes without writing a file");
   sub->add_option("--max-triangles", command->max_triangles,
                   "Maximum number of triangles: decimates a closed mesh after any repair, and "

@@ -77,6 +77,8 @@ Result<TriangleMesh> repaired_mesh(TriangleMesh mesh, const CheckCommand& comman
     mesh = std::move(repaired->mesh);
     summary.repaired = std::move(repaired->repaired);
     summary.holes = std::move(repaired->holes);
+    summary.change = repaired->change;
+    summary.wrapped_mm = repaired->wrapped_mm;
   }
   summary.triangles_before = mesh.triangles.size();
   if (command.max_triangles && mesh.triangles.size() > *command.max_triangles) {

@@ -43,6 +43,10 @@ void add_repair(Json& json, const RepairSummary& summary, const Verdict& verdict
                              {"extent_mm", hole.extent_mm},
                              {"area_mm2", hole.area_mm2},
                              {"at_mm", {hole.place.x, hole.place.y, hole.place.z}}});
+  json["change"] = {{"added_mm", summary.change.added_mm},
+                    {"removed_mm", summary.change.removed_mm},
+                    {"bound", true}};
+  if (summary.wrapped_mm) json["wrapped_mm"] = *summary.wrapped_mm;
   json["volume_before_mm3"] = summary.volume_before_mm3;
   json["remaining"] = problems_json(verdict.mesh.problems);
   if (summary.decimation_error_mm)
@@ -95,6 +99,14 @@ void print_repair(const Console& console, const RepairSummary& summary, const Ve
     console.print(fmt::format(
         "  filled: hole of {} edges, {:.4g} mm wide, {:.4g} mm2, at ({:.6g}, {:.6g}, {:.6g}) mm",
         hole.edges, hole.extent_mm, hole.area_mm2, hole.place.x, hole.place.y, hole.place.z));
+  if (summary.wrapped_mm)
+    console.print(fmt::format("  wrapped: a new surface {:.4g} mm outside of the old one",
+                              *summary.wrapped_mm));
+  if (!summary.repaired.empty())
+    console.print(
+        fmt::format("  change: the new surface within {:.3g} mm of the old one, the old one within "
+                    "{:.3g} mm of the new one",
+                    summary.change.added_mm, summary.change.removed_mm));
   console.print(fmt::format("  volume: {:.6g} cm3 before, {:.6g} cm3 after",
                             summary.volume_before_mm3 / 1000.0, verdict.mesh.volume_mm3 / 1000.0));
   const char* const state = verdict.mesh.sound() ? "sound" : "NOT SOUND";

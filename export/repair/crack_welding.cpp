@@ -2,10 +2,10 @@
 
 #include "export/repair/soup_edges.hpp"
 #include "export/repair/soup_repair.hpp"
+#include "export/solid/mesh_extent.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <map>
@@ -83,15 +83,6 @@ Border border_of(const TriangleMesh& mesh, double least_mm) {
   return border;
 }
 
-double size_of(const TriangleMesh& mesh) {
-  glm::dvec3 low(INFINITY), high(-INFINITY);
-  for (const glm::dvec3& p : mesh.points) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  return glm::distance(low, high);
-}
-
 }  // namespace
 
 std::size_t weld_cracks(TriangleMesh& mesh, std::optional<double> weld_mm) {
@@ -100,7 +91,8 @@ std::size_t weld_cracks(TriangleMesh& mesh, std::optional<double> weld_mm) {
   const Border border = border_of(mesh, least_mm);
   if (std::isinf(border.shortest_mm)) return 0;
   const double crack_mm = std::max(
-      least_mm, weld_mm.value_or(std::min(0.25 * border.shortest_mm, 1e-3 * size_of(mesh))));
+      least_mm,
+      weld_mm.value_or(std::min(0.25 * border.shortest_mm, 1e-3 * glm::length(extent_of(mesh)))));
   CrackCells cells(mesh.points, crack_mm);
   std::vector<std::uint32_t> number(mesh.points.size());
   std::size_t welded = 0;

@@ -74,11 +74,12 @@ Patch fill(Surface& surface, HalfEdge start) {
 }
 
 tl::unexpected<Error> wide_opening(const FilledHole& hole) {
-  return failure(ErrorKind::unsound,
-                 "expected small holes, found an opening " + in_mm(hole.extent_mm) +
-                     " mm wide at (" + in_mm(hole.place.x) + ", " + in_mm(hole.place.y) + ", " +
-                     in_mm(hole.place.z) +
-                     ") mm: the mesh may be a surface without a wall. --cap closes it by a cap");
+  return failure(ErrorKind::unsound, "expected small holes, found an opening " +
+                                         in_mm(hole.extent_mm) + " mm wide at (" +
+                                         in_mm(hole.place.x) + ", " + in_mm(hole.place.y) + ", " +
+                                         in_mm(hole.place.z) +
+                                         ") mm: the mesh may be a surface without a wall. "
+                                         "--thicken MM gives it one, --cap closes it by a cap");
 }
 
 }  // namespace

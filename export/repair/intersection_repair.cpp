@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -87,40 +88,92 @@ std::size_t faults_of(const MeshReport& report) {
   return faults;
 }
 
-}  // namespace
+/// The points at cuts on a grid, so that sheets that nearly coincide do so exactly.
+TriangleMesh snapped(const TriangleMesh& mesh, const std::vector<bool>& at_cut, double step_mm) {
+  TriangleMesh result = mesh;
+  for (std::size_t v = 0; v < result.points.size(); ++v)
+    if (at_cut[v]) result.points[v] = file_point(glm::round(result.points[v] / step_mm) * step_mm);
+  merge_equal_points(result);
+  drop_collapsed(result);
+  return result;
+}
 
-Result<TriangleMesh> resolve_intersections(const TriangleMesh& closed,
-                                           std::vector<Repair>& repaired) {
-  constexpr int kMostSteps = 7;
-  TriangleMesh mesh = closed;
-  merge_equal_points(mesh);
-  const double unit_mm = last_place_mm(mesh);
-  MeshReport report = check_mesh(mesh);
-  note_repair(repaired, "pair of intersecting triangles resolved", report.self_intersections);
-  for (int round = 0; round < kMostRounds && !report.sound(); ++round) {
-    const auto cut = cut_and_select(mesh);
-    if (!cut) return tl::make_unexpected(cut.error());
-    note_repair(repaired, "triangle inside the solid removed", round == 0 ? cut->inner : 0);
+class Resolution {
+ public:
+  Resolution(TriangleMesh mesh, std::vector<Repair>& repaired)
+      : input_(std::move(mesh)), unit_mm_(last_place_mm(input_)), repaired_(repaired) {}
+
+  Result<TriangleMesh> run() {
+    report_ = check_mesh(input_);
+    note_repair(repaired_, "pair of intersecting triangles resolved", report_.self_intersections);
+    if (report_.sound()) return input_;
+    for (int round = 0; round < kMostRounds; ++round) {
+      if (round > 0)
+        mesh_ = snapped(input_, at_cut_, std::ldexp(unit_mm_, 3 * (round + 1)));
+      else
+        mesh_ = input_;
+      if (auto done = cut_repeatedly(round == 0); !done && round == 0)
+        return tl::make_unexpected(done.error());
+      if (report_.sound()) return mesh_;
+    }
+    return failure(ErrorKind::unsound,
+                   "expected a sound mesh after " + std::to_string(kMostRounds) +
+                       " rounds of cutting and rounding, found: " + report_.problems.front().what +
+                       " (" + std::to_string(report_.problems.front().count) + ") at " +
+                       report_.problems.front().where);
+  }
+
+ private:
+  /// Cuts the best mesh again as long as few faults are left.
+  Result<void> cut_repeatedly(bool first) {
+    constexpr int kMostPasses = 3;
+    constexpr std::size_t kFewFaults = 200;
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+      const auto cut = cut_and_select(mesh_);
+      if (!cut) return tl::make_unexpected(cut.error());
+      if (first && pass == 0) {
+        at_cut_ = cut->on_seam;
+        note_repair(repaired_, "triangle inside the solid removed", cut->inner);
+      }
+      if (round_in_steps(*cut) == 0 || faults_of(report_) > kFewFaults) return {};
+    }
+    return {};
+  }
+
+  /// Keeps the result with the fewest faults. Returns their number.
+  std::size_t round_in_steps(const Cut& cut) {
+    constexpr int kMostSteps = 7;
     std::optional<std::size_t> fewest;
-    for (int step = 0; step < kMostSteps && !report.sound(); ++step) {
+    for (int step = 0; step < kMostSteps && fewest != 0U; ++step) {
       Rounded next =
-          rounded(*cut, std::ldexp(unit_mm, 2 * step + 1), std::ldexp(unit_mm, 2 * step + 6));
+          rounded(cut, std::ldexp(unit_mm_, 2 * step + 1), std::ldexp(unit_mm_, 2 * step + 6));
       MeshReport of_next = check_mesh(next.mesh);
       const std::size_t faults = faults_of(of_next);
       if (fewest && *fewest <= faults) continue;
       fewest = faults;
-      mesh = std::move(next.mesh);
-      report = std::move(of_next);
-      if (report.sound())
-        note_repair(repaired, "vertex pulled apart where surfaces touch", next.pulled);
+      mesh_ = std::move(next.mesh);
+      report_ = std::move(of_next);
+      if (report_.sound())
+        note_repair(repaired_, "vertex pulled apart where surfaces touch", next.pulled);
     }
+    return *fewest;
   }
-  if (report.sound()) return mesh;
-  return failure(ErrorKind::unsound,
-                 "expected a sound mesh after " + std::to_string(kMostRounds) +
-                     " rounds of cutting and rounding, found: " + report.problems.front().what +
-                     " (" + std::to_string(report.problems.front().count) + ") at " +
-                     report.problems.front().where);
+
+  TriangleMesh input_;
+  double unit_mm_;
+  std::vector<Repair>& repaired_;
+  std::vector<bool> at_cut_;  ///< by point of the input
+  TriangleMesh mesh_;         ///< the best one of the last cut
+  MeshReport report_;         ///< on it
+};
+
+}  // namespace
+
+Result<TriangleMesh> resolve_intersections(const TriangleMesh& closed,
+                                           std::vector<Repair>& repaired) {
+  TriangleMesh mesh = closed;
+  merge_equal_points(mesh);
+  return Resolution(std::move(mesh), repaired).run();
 }
 
 }  // namespace clay::solid::inline repair

@@ -9,11 +9,13 @@ namespace clay::solid::inline repair {
 /// kept; where parts touch in an edge or a vertex, they are pulled apart by a few units of the last
 /// place. Low triangles at the cuts are removed before rounding, in steps up to 2^13 units of the
 /// last place until the result is sound; if none is, the best one is cut again. Triangles that meet
-/// no other keep their points. An error (`unsound`) if the sheets are not closed, enclose nothing,
-/// or are not sound after kMostRounds.
+/// no other keep their points. In later rounds, the points at cuts are first rounded to a coarser
+/// grid, up to 2^15 units of the last place, so that sheets that nearly coincide do so exactly. An
+/// error (`unsound`) if the sheets are not closed, enclose nothing, or are not sound after
+/// kMostRounds.
 Result<TriangleMesh> resolve_intersections(const TriangleMesh& closed,
                                            std::vector<Repair>& repaired);
 
-inline constexpr int kMostRounds = 4;
+inline constexpr int kMostRounds = 5;
 
 }  // namespace clay::solid::inline repair

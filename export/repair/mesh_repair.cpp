@@ -3,44 +3,90 @@
 #include "claystack/export/proof.hpp"
 #include "export/repair/hole_filling.hpp"
 #include "export/repair/intersection_repair.hpp"
+#include "export/repair/repair_distance.hpp"
 #include "export/repair/shell_turning.hpp"
 #include "export/repair/soup_repair.hpp"
 #include "export/repair/surface_making.hpp"
+#include "export/repair/wrapping.hpp"
+#include "export/solid/mesh_extent.hpp"
 
 #include <exception>
+#include <glm/geometric.hpp>
 
 namespace clay::solid::inline repair {
 namespace {
+
+/// Of the reported distances, in sizes of the mesh.
+constexpr double kDistanceTolerance = 1e-4;
+
+/// Openings that a wrap enters, in offsets: a wall needs a closer fit than a last resort.
+constexpr double kWrapAlpha = 10.0, kThickenAlpha = 2.0;
 
 tl::unexpected<Error> nothing_left() {
   return failure(ErrorKind::unsound, "repair leaves nothing: no triangle is part of a surface");
 }
 
+Result<TriangleMesh> wrapped_or_error(const TriangleMesh& soup, double offset_mm,
+                                      double alpha_per_offset, const Error& reason) {
+  TriangleMesh mesh = wrapped(soup, offset_mm, alpha_per_offset);
+  const MeshReport report = check_mesh(mesh);
+  if (report.sound()) return mesh;
+  return failure(ErrorKind::unsound, reason.message + "; wrapped: expected a sound mesh, found " +
+                                         report.problems.front().what);
+}
+
 /// The stages in their order.
+Result<TriangleMesh> repaired(const TriangleMesh& soup, const RepairOptions& options,
+                              RepairedMesh& report) {
+  auto surface = make_surface(soup, report.repaired);
+  if (!surface) return tl::make_unexpected(surface.error());
+  auto holes = fill_holes(*surface, options.cap_openings);
+  if (!holes && options.thicken_mm) {
+    note_repair(report.repaired, "wall made around an open surface", 1);
+    return wrapped_or_error(soup, 0.5 * *options.thicken_mm, kThickenAlpha, holes.error());
+  }
+  if (!holes) return tl::make_unexpected(holes.error());
+  report.holes = std::move(*holes);
+  note_repair(report.repaired, "hole filled", report.holes.size());
+  note_repair(report.repaired, "shell turned", turn_shells(*surface));
+  const TriangleMesh closed = mesh_of(*surface);
+  if (closed.triangles.empty()) return nothing_left();
+  return resolve_intersections(closed, report.repaired);
+}
+
+/// Exceptions of the library become errors.
+Result<TriangleMesh> repaired_or_error(const TriangleMesh& soup, const RepairOptions& options,
+                                       RepairedMesh& report) try {
+  return repaired(soup, options, report);
+} catch (const std::exception& e) {
+  return failure(ErrorKind::unsound, std::string("repair failed: ") + e.what());
+}
+
 Result<RepairedMesh> repair_unsound(const TriangleMesh& mesh, const RepairOptions& options) {
   RepairedMesh result;
   TriangleMesh soup = mesh;
   clean_soup(soup, options.weld_mm, result.repaired);
   if (soup.triangles.empty()) return nothing_left();
-  auto surface = make_surface(soup, result.repaired);
-  if (!surface) return tl::make_unexpected(surface.error());
-  auto holes = fill_holes(*surface, options.cap_openings);
-  if (!holes) return tl::make_unexpected(holes.error());
-  result.holes = std::move(*holes);
-  note_repair(result.repaired, "hole filled", result.holes.size());
-  note_repair(result.repaired, "shell turned", turn_shells(*surface));
-  result.mesh = mesh_of(*surface);
-  if (result.mesh.triangles.empty()) return nothing_left();
-  auto resolved = resolve_intersections(result.mesh, result.repaired);
-  if (!resolved) return tl::make_unexpected(resolved.error());
-  result.mesh = std::move(*resolved);
+  auto sound = repaired_or_error(soup, options, result);
+  if (!sound && options.wrap_mm) {
+    result = {};
+    result.wrapped_mm = options.wrap_mm;
+    note_repair(result.repaired, "surface replaced by a wrap", 1);
+    sound = wrapped_or_error(soup, *options.wrap_mm, kWrapAlpha, sound.error());
+  }
+  if (!sound) return tl::make_unexpected(sound.error());
+  result.mesh = std::move(*sound);
+  soup = mesh;
+  drop_unusable(soup);
+  result.change =
+      surface_change(soup, result.mesh, kDistanceTolerance * glm::length(extent_of(result.mesh)));
   return result;
 }
 
 }  // namespace
 
 Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions& options) try {
-  if (check_mesh(mesh).sound()) return RepairedMesh{mesh, {}, {}};
+  if (check_mesh(mesh).sound()) return RepairedMesh{mesh, {}, {}, {}};
   if (mesh.triangles.empty() || mesh.triangles.size() > kMaxTriangles)
     return failure(ErrorKind::unsound, "expected 1 to " + std::to_string(kMaxTriangles) +
                                            " triangles to repair, found " +

@@ -19,16 +19,6 @@ bool finite(const glm::dvec3& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-void drop_unusable(TriangleMesh& mesh, std::vector<Repair>& repaired) {
-  const auto no_place = [&](std::uint32_t v) {
-    return v >= mesh.points.size() || !finite(mesh.points[v]);
-  };
-  note_repair(repaired, "triangle without a place removed",
-              std::erase_if(mesh.triangles, [&](const Triangle& t) {
-                return std::any_of(t.begin(), t.end(), no_place);
-              }));
-}
-
 /// Files hold float32.
 void round_to_files(TriangleMesh& mesh) {
   for (glm::dvec3& p : mesh.points) p = file_point(p);
@@ -150,6 +140,14 @@ void note_repair(std::vector<Repair>& repaired, std::string_view what, std::size
     known->count += count;
 }
 
+std::size_t drop_unusable(TriangleMesh& mesh) {
+  const auto no_place = [&](std::uint32_t v) {
+    return v >= mesh.points.size() || !finite(mesh.points[v]);
+  };
+  return std::erase_if(
+      mesh.triangles, [&](const Triangle& t) { return std::any_of(t.begin(), t.end(), no_place); });
+}
+
 void renumber(TriangleMesh& mesh, const std::vector<std::uint32_t>& number) {
   for (Triangle& t : mesh.triangles)
     for (std::uint32_t& v : t) v = number[v];
@@ -160,7 +158,7 @@ std::size_t merge_equal_points(TriangleMesh& mesh) { return merge_points(mesh); 
 std::size_t drop_collapsed(TriangleMesh& mesh) { return std::erase_if(mesh.triangles, collapsed); }
 
 void clean_soup(TriangleMesh& mesh, std::optional<double> weld_mm, std::vector<Repair>& repaired) {
-  drop_unusable(mesh, repaired);
+  note_repair(repaired, "triangle without a place removed", drop_unusable(mesh));
   round_to_files(mesh);
   drop_unused_points(mesh);
   note_repair(repaired, "points of one place merged", merge_equal_points(mesh));

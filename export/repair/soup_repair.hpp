@@ -11,6 +11,10 @@ namespace clay::solid::inline repair {
 /// Adds one entry for each kind; none for a count of 0.
 void note_repair(std::vector<Repair>& repaired, std::string_view what, std::size_t count);
 
+/// Removes triangles with an index out of range or a point that is not finite. Returns their
+/// number.
+std::size_t drop_unusable(TriangleMesh& mesh);
+
 /// Replaces vertices in all triangles.
 void renumber(TriangleMesh& mesh, const std::vector<std::uint32_t>& number);
 

@@ -250,6 +250,35 @@ TEST_F(CheckRepair, RefusesAnOpenCupUnlessItMayCapIt) {
   EXPECT_EQ(claystack("check --cap " + in).status, 2);
 }
 
+TEST_F(CheckRepair, MakesAWallAroundAnOpenSurface) {
+  TriangleMesh cup = cube(20.0);  // without its lid
+  std::erase_if(cup.triangles, [&](const auto& t) {
+    return cup.points[t[0]].z + cup.points[t[1]].z + cup.points[t[2]].z == 60.0;
+  });
+  const std::string in = write("cup.stl", cup), out = folder.file("out.stl");
+  const Ran run = claystack("check --json --repair --thicken 2 " + in + " -o " + out);
+  EXPECT_EQ(run.status, 0) << run.err;
+  // Five sides of 400 mm2, 2 mm thick, less the corners inside and more at the edges.
+  EXPECT_NEAR(run.json().at("volume_mm3"), 4000.0, 400.0);
+  // 1 mm, and up to 3 sqrt(3) - 2 mm in the corners inside, which a ball of 2 mm radius rounds off
+  // between three faces.
+  EXPECT_GE(run.json().at("change").at("added_mm"), 0.99);
+  EXPECT_LE(run.json().at("change").at("added_mm"), 3.0 * std::sqrt(3.0) - 2.0 + 0.05);
+}
+
+TEST_F(CheckRepair, WrapsWhatItCannotRepairOtherwise) {
+  // Two triangles that share nothing enclose no clay.
+  const TriangleMesh sheets{{{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {0, 0, 5}, {9, 0, 5}, {0, 9, 5}},
+                            {{0, 1, 2}, {3, 4, 5}}};
+  const std::string in = write("sheets.stl", sheets), out = folder.file("out.stl");
+  EXPECT_EQ(claystack("check --repair " + in + " -o " + out).status, 1);
+  const Ran run = claystack("check --json --repair --wrap 0.5 " + in + " -o " + out);
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.json().at("wrapped_mm"), 0.5);
+  EXPECT_EQ(run.json().at("repaired").at(0).at("what"), "surface replaced by a wrap");
+  EXPECT_GE(run.json().at("change").at("added_mm"), 0.5);
+}
+
 TEST_F(CheckRepair, DecimatesAfterRepair) {
   TriangleMesh mesh = ball(10.0);
   mesh.triangles.pop_back();

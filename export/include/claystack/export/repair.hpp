@@ -26,18 +26,32 @@ struct FilledHole {
   glm::dvec3 place{0.0};   ///< the middle of that box [mm]
 };
 
+/// Upper bounds of the distances [mm] between the surfaces before and after.
+struct SurfaceChange {
+  double added_mm = 0.0;    ///< from any point of the result to the input
+  double removed_mm = 0.0;  ///< from any point of the input to the result: large for inner sheets
+};
+
 struct RepairOptions {
   /// Border points within this distance become one. Unset: a quarter of the shortest edge at a
   /// border, at most a thousandth of the size of the mesh.
-  std::optional<double> weld_mm;
+  std::optional<double> weld_mm = std::nullopt;
   /// Close wide openings by caps instead of refusing them.
   bool cap_openings = false;
+  /// A mesh with a wide opening gets a wall of this thickness [mm], half on each side of its
+  /// triangles, by a wrap.
+  std::optional<double> thicken_mm = std::nullopt;
+  /// If no sound mesh is found otherwise, make a new surface at this distance [mm] around all
+  /// triangles: closed, but details smaller than that are lost. Unset: that is an error.
+  std::optional<double> wrap_mm = std::nullopt;
 };
 
 struct RepairedMesh {
   TriangleMesh mesh;
   std::vector<Repair> repaired;  ///< in the order of the work; empty for a sound mesh
   std::vector<FilledHole> holes;
+  SurfaceChange change;
+  std::optional<double> wrapped_mm = std::nullopt;  ///< set if the surface was wrapped
 };
 
 /// Repairs a mesh, or explains why it cannot; the result is sound by check_mesh. In this order:
