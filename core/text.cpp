@@ -21,13 +21,13 @@ constexpr Beginning kBeginnings[] = {
     {"ISO-10303-21", "a STEP model"}, {"\x89PNG", "a PNG picture"},
     {"GIF8", "a GIF picture"}};
 // The schemas of the project's own files, JSON or CBOR, stand in their first bytes.
-constexpr Beginning kSchemas[] = {{"claystack-pot-1", "a pot"},
-                                  {"claystack-scene-1", "a scene"},
-                                  {"claystack-session-1", "a session"},
-                                  {"claystack-work-1", "a work"},
-                                  {"claystack-certificate-1", "a certificate"},
-                                  {"claystack-process-1", "a process"},
-                                  {"claystack-studio-1", "a settings file"}};
+constexpr Beginning kSchemas[] = {{"claystack-pot-", "a pot"},
+                                  {"claystack-scene-", "a scene"},
+                                  {"claystack-session-", "a session"},
+                                  {"claystack-work-", "a work"},
+                                  {"claystack-certificate-", "a certificate"},
+                                  {"claystack-process-", "a process"},
+                                  {"claystack-studio-", "a settings file"}};
 constexpr std::size_t kSchemaBytes = 4096;
 
 /// A header of 80 bytes, the number of triangles, and 50 bytes for each.
@@ -65,8 +65,9 @@ std::string_view known_kind(std::string_view bytes) {
     if (bytes.starts_with(beginning)) return kind;
   if (is_binary_stl(bytes)) return "an STL mesh";
   const std::string_view first = bytes.substr(0, kSchemaBytes);
-  for (const auto& [schema, kind] : kSchemas)
-    if (first.find(schema) != std::string_view::npos) return kind;
+  if (const std::size_t at = first.find("claystack-"); at != std::string_view::npos)
+    for (const auto& [schema, kind] : kSchemas)
+      if (first.substr(at).starts_with(schema)) return kind;
   return bytes.starts_with("{") ? "a JSON file" : std::string_view();
 }
 

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -42,6 +43,7 @@ struct AppState {
   std::unique_ptr<DeviceWatch> devices;  ///< null: do not look for devices
   std::vector<history::Recoverable> recoverable;
   std::function<void(std::string_view)> log;  ///< receives events, one line each
+  std::optional<Error> last_error;            ///< the last one that was reported
   bool done = false;                          ///< the window may close
 
   [[nodiscard]] float scale() const { return settings.scale * host.content_scale(); }

@@ -7,6 +7,7 @@
 #include "claystack/engine/files.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <utility>
@@ -27,11 +28,11 @@ SceneSpec current_scene(const WorkRecord& record) {
 }  // namespace
 
 std::optional<FileStamp> FileStamp::of(const std::filesystem::path& path) {
-  std::error_code missing;
-  const auto changed = std::filesystem::last_write_time(path, missing);
-  const auto bytes = missing ? 0 : std::filesystem::file_size(path, missing);
-  if (missing) return std::nullopt;
-  return FileStamp{changed, bytes};
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) return std::nullopt;
+  constexpr std::int64_t kNsPerS = 1'000'000'000;
+  return FileStamp{status.st_mtim.tv_sec * kNsPerS + status.st_mtim.tv_nsec,
+                   static_cast<std::uint64_t>(status.st_size), status.st_ino};
 }
 
 Result<void> Document::begin(const SceneSpec& scene) {

@@ -28,8 +28,8 @@ inline constexpr double kNominalRpm = 120.0;
 
 /// Tells whether a file is still the one that was read or written.
 struct FileStamp {
-  std::filesystem::file_time_type changed{};
-  std::uintmax_t bytes = 0;
+  std::int64_t changed_ns = 0;
+  std::uint64_t bytes = 0, inode = 0;  ///< a file that was replaced has another inode
   /// Empty: there is no such file.
   [[nodiscard]] static std::optional<FileStamp> of(const std::filesystem::path& path);
   friend bool operator==(const FileStamp&, const FileStamp&) = default;

@@ -54,7 +54,7 @@ Result<void> run_script(const StudioOptions& options, const LogLine& log) {
   if (!options.file.empty()) {
     AppState& state = (*studio)->state();
     apply(state, OpenFile{options.file});
-    if (auto error = opening_error(state, options.file)) return tl::make_unexpected(*error);
+    if (state.last_error) return tl::make_unexpected(*state.last_error);
   }
   if (auto done = runner.run(lines, options.script); !done) return done;
   if (!options.screenshot.empty()) return runner.screenshot(options.screenshot);
@@ -158,7 +158,7 @@ Result<void> run_servo_report(const StudioOptions& options, const LogLine& log) 
   if (!studio) return tl::make_unexpected(studio.error());
   AppState& state = (*studio)->state();
   apply(state, OpenFile{options.file});
-  if (auto error = opening_error(state, options.file)) return tl::make_unexpected(*error);
+  if (state.last_error) return tl::make_unexpected(*state.last_error);
   if (options.device == "auto") {
     if (auto seated = take_simulated_hand(state, options.file); !seated) return seated;
   } else if (options.device != "none") {

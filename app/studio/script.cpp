@@ -11,7 +11,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -156,14 +155,6 @@ Result<std::vector<ScriptLine>> parse_script(std::string_view text, std::string_
   return lines;
 }
 
-std::optional<Error> opening_error(const AppState& state, const std::string& path) {
-  const auto& notice = state.ui.notices.shown();
-  if (!notice || notice->grade != Grade::fault) return std::nullopt;
-  std::error_code ignored;
-  const bool exists = std::filesystem::exists(path, ignored);
-  return Error{exists ? ErrorKind::bad_input : ErrorKind::io, notice->text};
-}
-
 Result<void> ScriptRunner::run(const std::vector<ScriptLine>& lines, std::string_view name) {
   frames(2);
   for (const ScriptLine& line : lines) {
@@ -300,11 +291,10 @@ Result<void> ScriptRunner::run_command(const Words& words) {
 }
 
 Result<void> ScriptRunner::open(const Words& words) {
-  Notices& notices = studio_.state().ui.notices;
-  notices.close();  // then a fault afterwards is about this file
+  std::optional<Error>& error = studio_.state().last_error;
+  error.reset();
   studio_.take(FilesDropped{{words[1]}});
   frames(1);
-  const auto error = opening_error(studio_.state(), words[1]);
   const bool expected = words.size() == 3;
   if (error && !expected) return tl::make_unexpected(*error);
   if (!error && expected)

@@ -27,10 +27,6 @@ Result<std::vector<ScriptLine>> parse_script(std::string_view text, std::string_
 [[nodiscard]] std::optional<std::string> fact(const AppState& state, std::string_view name);
 [[nodiscard]] bool is_fact(std::string_view name);
 
-/// The error that the window shows after `path` was opened; of kind `io` if there is no such file.
-/// Empty: no error.
-[[nodiscard]] std::optional<Error> opening_error(const AppState& state, const std::string& path);
-
 class ScriptRunner {
  public:
   ScriptRunner(OffscreenHost& host, Studio& studio) : host_(host), studio_(studio) {}
