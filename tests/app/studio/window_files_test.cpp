@@ -126,11 +126,11 @@ TEST_F(Window, AcceptsADroppedProcess) {
           "\nwait 0.1\nexpect thin no\ndo file.export\nwait 0.1\nexpect process " + process + "\n");
   EXPECT_EQ(ran.status, 0) << ran.err;
   // Dropped on the export dialog, the process applies to the export, as in the command.
-  ran = run("save FOLDER/mine.work\nsave FOLDER/lump.pot.json\ndo file.export\nopen " + process +
+  ran = run("save FOLDER/mine.work\nsave FOLDER/mine.pot.json\ndo file.export\nopen " + process +
             "\nwait 0.1\nexpect process " + process +
             "\ndo export.write\nwait 0.1\nexpect exported 1\n");
   ASSERT_EQ(ran.status, 0) << ran.err;
-  const Ran command = claystack("export -q " + folder.file("lump.pot.json") + " " +
+  const Ran command = claystack("export -q " + folder.file("mine.pot.json") + " " +
                                 folder.file("cli.3mf") + " --process " + process);
   ASSERT_EQ(command.status, 0) << command.err;
   EXPECT_EQ(read_text(folder.file("mine.3mf")), read_text(folder.file("cli.3mf")));
