@@ -7,7 +7,7 @@
 #include "export/fallen/pockets.hpp"
 #include "export/proof/describe.hpp"
 #include "export/proof/verify_file.hpp"
-#include "export/repair/seam_cure.hpp"
+#include "export/solid/seam_cure.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,10 +4,10 @@
 #include "export/formats/file_floats.hpp"
 #include "export/repair/exact_refinement.hpp"
 #include "export/repair/outer_skin.hpp"
-#include "export/repair/seam_cure.hpp"
 #include "export/repair/sheet_count.hpp"
 #include "export/repair/soup_repair.hpp"
 #include "export/repair/touching_parts.hpp"
+#include "export/solid/seam_cure.hpp"
 
 #include <algorithm>
 #include <cmath>

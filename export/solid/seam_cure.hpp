@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace clay::solid::inline repair {
+namespace clay::solid {
 
 struct CuredMesh {
   TriangleMesh mesh;
@@ -21,4 +21,4 @@ struct CuredMesh {
 Result<CuredMesh> cure_seam(const TriangleMesh& mesh, const std::vector<bool>& on_seam,
                             double shortest_mm);
 
-}  // namespace clay::solid::inline repair
+}  // namespace clay::solid

@@ -1,4 +1,4 @@
-#include "export/repair/seam_cure.hpp"
+#include "export/solid/seam_cure.hpp"
 
 #include "export/solid/mesh_topology.hpp"
 
@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-namespace clay::solid::inline repair {
+namespace clay::solid {
 namespace {
 
 using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>;
@@ -199,4 +199,4 @@ Result<CuredMesh> cure_seam(const TriangleMesh& mesh, const std::vector<bool>& o
   return Cure(mesh, on_seam, shortest_mm).run();
 }
 
-}  // namespace clay::solid::inline repair
+}  // namespace clay::solid

@@ -1,4 +1,4 @@
-#include "export/repair/seam_cure.hpp"
+#include "export/solid/seam_cure.hpp"
 
 #include "claystack/export/proof.hpp"
 #include "export/fallen/pockets.hpp"
