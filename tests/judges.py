@@ -12,6 +12,8 @@ import subprocess
 import sys
 import tempfile
 
+if len(sys.argv) < 3:
+    sys.exit(__doc__)
 CLAYSTACK, SCENE = sys.argv[1], sys.argv[2]
 FOLDER = pathlib.Path(sys.argv[3] if len(sys.argv) > 3 else tempfile.mkdtemp())
 FOLDER.mkdir(parents=True, exist_ok=True)
