@@ -118,23 +118,27 @@ KindText text_of(ErrorKind kind) {
   return {"bad_input", kBadInput};
 }
 
-int report_as(const KindText& kind, const std::string& message, Json fields) {
-  fields["error"] = message;
-  fields["kind"] = kind.name;
-  fields["status"] = static_cast<int>(kind.exit);
-  if (json_errors) print_json(fields);
-  return kind.exit;
+/// One JSON document at most: the summary of a command that fails late has the fields already.
+int report_as(const Error& error, Json fields) {
+  fields.update(error_json(error));
+  if (json_errors && !json_printed()) print_json(fields);
+  return text_of(error.kind).exit;
 }
 
 }  // namespace
 
 void print_errors_as_json() noexcept { json_errors = true; }
 
+Json error_json(const Error& error) {
+  const KindText kind = text_of(error.kind);
+  return {{"error", error.message}, {"kind", kind.name}, {"status", static_cast<int>(kind.exit)}};
+}
+
 int report(const Error& error) { return report(error, Json::object()); }
 
 int report(const Error& error, Json fields) {
   put_err(fmt::format("claystack: {}\n", error.message));
-  return report_as(text_of(error.kind), error.message, std::move(fields));
+  return report_as(error, std::move(fields));
 }
 
 int report(const CLI::App& app, const CLI::ParseError& error) {
@@ -142,8 +146,7 @@ int report(const CLI::App& app, const CLI::ParseError& error) {
   const int status = app.exit(error, out, err);
   put_out(out.str());
   put_err(err.str());
-  return status == 0 ? kDone
-                     : report_as(text_of(ErrorKind::bad_input), error.what(), Json::object());
+  return status == 0 ? kDone : report_as({ErrorKind::bad_input, error.what()}, Json::object());
 }
 
 int run_program(int (*run)(int argc, char** argv), int argc, char** argv) noexcept {

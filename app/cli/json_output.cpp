@@ -8,12 +8,22 @@
 #include <nlohmann/json.hpp>
 
 namespace clay::cli {
+namespace {
+
+bool printed = false;
+
+}  // namespace
 
 std::string pretty(const Json& data) {
   return data.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-void print_json(const Json& data) { put_out(pretty(data)); }
+void print_json(const Json& data) {
+  printed = true;
+  put_out(pretty(data));
+}
+
+bool json_printed() noexcept { return printed; }
 
 Json json_count(WideQuanta count) {
   using Limits = std::numeric_limits<std::int64_t>;

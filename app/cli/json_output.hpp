@@ -17,6 +17,9 @@ using Json = nlohmann::ordered_json;
 
 /// One JSON document to standard output, pretty.
 void print_json(const Json& data);
+[[nodiscard]] bool json_printed() noexcept;  ///< whether print_json was called
+/// The fields of samples/schema/error.schema.json, for the summary of a command that fails late.
+[[nodiscard]] Json error_json(const Error& error);
 /// As `report(error)`; the object on stdout also has these fields.
 int report(const Error& error, Json fields);
 

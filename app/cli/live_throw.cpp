@@ -231,10 +231,17 @@ Result<void> keep_pot(const LiveJob& job, Stage& stage, const Pot& pot) {
                    : "; the pot could not be saved elsewhere either: " + rescued.error().message));
 }
 
-/// Continues after an error and returns the first one.
-Result<void> first_error(const Kept& kept, const Console& console) {
+/// The first error: files that were not kept, the device, or a throw without a pose.
+Result<void> outcome_of(const Stage& stage, Ending ending, const Kept& kept,
+                        const Console& console) {
   if (!kept.session && !kept.pot) console.warn(kept.pot.error().message);
-  return kept.session ? kept.pot : kept.session;
+  if (auto all = kept.session ? kept.pot : kept.session; !all) return all;
+  if (ending == Ending::device_lost) return tl::make_unexpected(stage.device->problem());
+  const servo::LiveStatus& status = stage.live->status();
+  if (ending == Ending::time_up && status.poses == 0)
+    return failure(ErrorKind::device, stage.device->info().place + ": nothing was thrown; " +
+                                          servo::words_of(status, kRearmKey));
+  return {};
 }
 
 void print_result(const LiveJob& job, const LiveOptions& options, const Console& console,
@@ -278,14 +285,11 @@ Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console
                {"recording", recording_json(options, stage)},
                {"servo", servo_json(live.timing(), live.events(), live.realtime())}};
   json.update(clay_json(*stage.wheel, pot));
+  const Result<void> outcome = outcome_of(stage, ending, kept, console);
+  if (!outcome) json.update(error_json(outcome.error()));
   if (console.json) print_json(json);
   print_result(job, options, console, json, kept);
-  if (auto all = first_error(kept, console); !all) return all;
-  if (ending == Ending::device_lost) return tl::make_unexpected(stage.device->problem());
-  if (ending == Ending::time_up && status.poses == 0)
-    return failure(ErrorKind::device, stage.device->info().place + ": nothing was thrown; " +
-                                          servo::words_of(status, kRearmKey));
-  return {};
+  return outcome;
 }
 
 }  // namespace clay::cli

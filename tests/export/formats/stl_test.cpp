@@ -180,7 +180,7 @@ TEST(Stl, ErrorsNameTheLineInText) {
             "pot.stl: expected an STL file: the word solid, or at least 84 bytes, found 0 bytes"},
            {"sol", "pot.stl: expected an STL file"},
            {"{\"schema\": \"claystack-pot-1\"" + std::string(100, ' '),
-            "pot.stl: expected an STL file, found a JSON file"},
+            "pot.stl: expected an STL file, found a pot"},
            {std::string("PK\x03\x04") + std::string(200, 'x'),
             "pot.stl: expected an STL file, found a zip archive, as 3MF is"},
            {"solid", "pot.stl:1: expected facet or endsolid, found the end of the line or file"},
