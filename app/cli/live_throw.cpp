@@ -232,8 +232,7 @@ Result<void> keep_pot(const LiveJob& job, Stage& stage, const Pot& pot) {
 }
 
 /// The first error: files that were not kept, the device, or a throw without a pose.
-Result<void> outcome_of(const Stage& stage, Ending ending, const Kept& kept,
-                        const Console& console) {
+Result<void> outcome_of(Stage& stage, Ending ending, const Kept& kept, const Console& console) {
   if (!kept.session && !kept.pot) console.warn(kept.pot.error().message);
   if (auto all = kept.session ? kept.pot : kept.session; !all) return all;
   if (ending == Ending::device_lost) return tl::make_unexpected(stage.device->problem());

@@ -52,12 +52,17 @@ start_window() {
     fail "waited $deadline_s s for the window to have the focus"
 }
 
-# throw_a_stroke: moves from beside the lump into it.
+# throw_a_stroke: moves from beside the lump into it, until the journal holds poses: it has those of
+# a stroke from its first contact on.
+journal_size() { cat "$folder"/state/claystack/recovery/* | wc -c; }
+touched() { [ "$(journal_size)" -gt $((untouched + 500)) ]; }
 throw_a_stroke() {
   strokes=$(grep -c "stroke started" "$log")
+  untouched=$(journal_size)
   xdotool mousemove --window "$window" 930 420 mousedown 1
   until_line "stroke started" $((strokes + 1))
   for x in 900 880 860 850 845 840; do xdotool mousemove --window "$window" $x 420; done
+  wait_until "the tool to touch the clay" touched
   xdotool mouseup 1
   until_line "stroke ended" $((strokes + 1))
 }
