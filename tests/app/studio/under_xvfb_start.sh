@@ -55,7 +55,7 @@ start_window() {
 # throw_a_stroke: moves from beside the lump into it, until the journal holds poses: it has those of
 # a stroke from its first contact on.
 journal_size() { cat "$folder"/state/claystack/recovery/* | wc -c; }
-touched() { [ "$(journal_size)" -gt $((untouched + 500)) ]; }
+touched() { [ "$(journal_size)" -gt $((untouched + 2000)) ]; }  # a scene has fewer bytes
 throw_a_stroke() {
   strokes=$(grep -c "stroke started" "$log")
   untouched=$(journal_size)
