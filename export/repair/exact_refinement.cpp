@@ -28,7 +28,6 @@ using Planar = CGAL::Constrained_Delaunay_triangulation_2<
     ExactKernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
     CGAL::Exact_intersections_tag>;
 
-
 /// Finds equal exact points.
 class PointRegister {
  public:
