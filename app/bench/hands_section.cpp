@@ -4,13 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace clay::bench {
 namespace {
 
-constexpr int kPotters = 20, kPottersQuick = 3;
+constexpr std::uint64_t kPotters = 20, kPottersQuick = 3;
 constexpr std::uint64_t kOtherSeeds = 7000;  // a second set, not used for tuning the rules
 constexpr double kMaxWidth = 1.3;            // relative to the intended width
 
@@ -148,13 +150,19 @@ bool measure_task(Task task, const Effort& effort, Table& table, Section& sectio
     const SceneSpec scene = hands_scene(task, rules.clay);
     const bool all = rules.name == "all";
     Outcome outcome;
-    for (int k = 0; k < (effort.quick ? kPottersQuick : kPotters); ++k) {
-      const ThrownPot pot = throw_pot(task, scene, static_cast<std::uint64_t>(k));
-      if (k == 0 && (rules.name == "none" || all))
+    const auto add = [&](std::uint64_t seed) {
+      const ThrownPot pot = throw_pot(task, scene, seed);
+      if (seed == 0 && (rules.name == "none" || all))
         plot.curves.push_back(section_curve(pot.stack, all ? "clay rules" : "no rules", !all));
       outcome.add(pot);
-      if (all && !effort.quick)
-        outcome.add(throw_pot(task, scene, kOtherSeeds + static_cast<std::uint64_t>(k)));
+    };
+    const std::uint64_t first = effort.quick ? kPottersQuick : kPotters;
+    for (std::uint64_t k = 0; k < first; ++k) add(k);
+    // A few pots cannot tell 85 % from less. So a task that misses its requirement in a quick run
+    // is thrown by all potters, and judged as in the full run.
+    if (all && (!effort.quick || !holds(facts, outcome))) {
+      for (std::uint64_t k = first; k < kPotters; ++k) add(k);
+      for (std::uint64_t k = 0; k < kPotters; ++k) add(kOtherSeeds + k);
     }
     table.rows.push_back(row_of(task, rules, outcome));
     if (!all) continue;
