@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 namespace clay {
@@ -171,6 +172,32 @@ TEST(ClayRules, AWallAtItsMinimumBends) {
   hand.move_to(50.0, 60.0, 5.0);
   EXPECT_LT(middle_of(ring_at(wheel, 60.0)), 39.0);
   for (const Ring& ring : wheel.stack().rings()) EXPECT_GT(wall_of(ring), 5.0 - 1e-9);
+}
+
+/// The wall of one ring carries what stands above it until it is too thin: w = g M / (2 pi r beta).
+TEST(ClayRules, APotCutInTwoFalls) {
+  constexpr double kThresholdKpa = 200.0;
+  SceneSpec scene = cylinder_scene({});
+  scene.tool.mode = ToolMode::trim;
+  scene.removal.min_wall_mm = 0.01;
+  scene.stability = StabilitySpec{kThresholdKpa};
+  Wheel wheel = Wheel::build(scene).value();
+  Hand hand(wheel);
+  hand.place_at(56.0, 60.0);
+  hand.move_to(51.0, 60.0, 10.0);
+  EXPECT_FALSE(wheel.collapsed());  // 1 mm of the wall of 5 mm is left
+  hand.move_to(46.0, 60.0, 10.0);
+  ASSERT_TRUE(wheel.collapsed());
+  const Pot pot = wheel.pot();
+  ASSERT_TRUE(pot.collapse);
+  const std::size_t failed = pot.collapse->failed_ring;
+  EXPECT_NEAR((static_cast<double>(failed) + 0.5) * kH, 60.0, 2.0);
+  const double above_mm3 = std::numbers::pi * (45.0 * 45.0 - 40.0 * 40.0) * 60.0;
+  const double weight_n = 9.81 * 1.9e-6 * above_mm3;
+  const double thickest_mm = weight_n / (kThresholdKpa * 1e-3) / (2.0 * std::numbers::pi * 40.0);
+  EXPECT_LT(wall_of(pot.stack.rings()[failed]), 1.01 * thickest_mm);
+  EXPECT_NEAR(wall_of(pot.stack.rings()[failed + 100]), 5.0, 0.01);
+  expect_balanced(wheel);
 }
 
 TEST(ClayRules, NoToolOpensTheFloor) {
