@@ -141,7 +141,7 @@ PotRecord record_of(const Pot& pot, bool for_people) {
   return record;
 }
 
-Result<Pot> pot_of(const LocatedJson& document, const PotRecord& record) {
+Result<Pot> pot_from(const LocatedJson& document, const PotRecord& record) {
   const auto& rounded = record.rounded_rings;
   const RingArrays arrays =
       rounded ? exact_rings(*rounded, *RadiusGrid::of(rounded->rounded_to_mm)) : *record.rings;
@@ -179,7 +179,7 @@ Json files::pot_json(const Pot& pot, bool for_people) {
 
 Result<Pot> files::pot_of(const LocatedJson& document) {
   return ObjectReader::read(document, PotRecord{}).and_then([&](const PotRecord& record) {
-    return clay::pot_of(document, record);
+    return pot_from(document, record);
   });
 }
 

@@ -81,7 +81,7 @@ class WorkBuilder {
   Result<void> take_start(const LocatedJson& line) {
     if (has_root() || work_.start)
       return wrong(line, "one pot at most, before node 0; a scene, a node or a place");
-    return pot_of(line).map([&](Pot pot) { work_.start = std::move(pot); });
+    return files::pot_of(line).map([&](Pot pot) { work_.start = std::move(pot); });
   }
 
   Result<void> take_node(const LocatedJson& line) {

@@ -21,6 +21,11 @@ namespace clay::solid::inline formats {
   return rounded;
 }
 
+/// Rounds the points of a mesh to those that a file can hold.
+inline void round_to_file(std::vector<glm::dvec3>& points) noexcept {
+  for (glm::dvec3& point : points) point = file_point(point);
+}
+
 /// Writes the fewest digits that read back as the same number, independent of the locale.
 template <class Number>
 void append_number(std::string& text, Number value) {

@@ -27,10 +27,6 @@ double last_place_mm(const TriangleMesh& mesh) {
   return std::ldexp(1.0, std::ilogb(largest) - std::numeric_limits<float>::digits + 1);
 }
 
-void round_to_files(TriangleMesh& mesh) {
-  for (glm::dvec3& p : mesh.points) p = file_point(p);
-}
-
 /// Rounding lays some triangles back to back.
 void cancel_sheets(TriangleMesh& mesh) {
   const SheetCount counted = count_sheets(mesh);
@@ -73,7 +69,7 @@ Rounded rounded(Cut cut, double shortest_mm, double gap_mm) {
   cut.on_seam.resize(cut.mesh.points.size(), true);
   if (auto cured = cure_seam(cut.mesh, cut.on_seam, shortest_mm)) cut.mesh = std::move(cured->mesh);
   result.mesh = std::move(cut.mesh);
-  round_to_files(result.mesh);
+  round_to_file(result.mesh.points);
   drop_unused_points(result.mesh);
   merge_equal_points(result.mesh);
   drop_collapsed(result.mesh);

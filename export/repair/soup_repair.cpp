@@ -20,10 +20,6 @@ bool finite(const glm::dvec3& p) {
 }
 
 /// Files hold float32.
-void round_to_files(TriangleMesh& mesh) {
-  for (glm::dvec3& p : mesh.points) p = file_point(p);
-}
-
 std::size_t merge_points(TriangleMesh& mesh) {
   const auto place = [&](std::uint32_t v) {
     const glm::dvec3& p = mesh.points[v];
@@ -159,7 +155,7 @@ std::size_t drop_collapsed(TriangleMesh& mesh) { return std::erase_if(mesh.trian
 
 void clean_soup(TriangleMesh& mesh, std::optional<double> weld_mm, std::vector<Repair>& repaired) {
   note_repair(repaired, "triangle without a place removed", drop_unusable(mesh));
-  round_to_files(mesh);
+  round_to_file(mesh.points);
   drop_unused_points(mesh);
   note_repair(repaired, "points of one place merged", merge_equal_points(mesh));
   note_repair(repaired, "points welded across a crack", weld_cracks(mesh, weld_mm));

@@ -15,16 +15,16 @@ namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
 using Face = Surface::Face_index;
-using Corners = std::array<SurfacePoint, 3>;
+using FacePoints = std::array<SurfacePoint, 3>;
 
-Corners corners_of(const Surface& surface, Face face) {
+FacePoints points_of(const Surface& surface, Face face) {
   const auto h = surface.halfedge(face);
   return {surface.point(surface.source(h)), surface.point(surface.target(h)),
           surface.point(surface.target(surface.next(h)))};
 }
 
 /// The same three distinct corners in opposite orientation.
-bool turned(const Corners& before, const Corners& after) {
+bool turned(const FacePoints& before, const FacePoints& after) {
   const auto first = std::find(after.begin(), after.end(), before[0]) - after.begin();
   return after[static_cast<std::size_t>(first + 1) % 3] != before[1];
 }
@@ -56,7 +56,7 @@ class Making {
   }
 
   bool orient() {
-    std::vector<Corners> before;
+    std::vector<FacePoints> before;
     before.reserve(triangles_.size());
     for (const auto& [a, b, c] : triangles_) before.push_back({points_[a], points_[b], points_[c]});
     pmp::orient_polygon_soup(points_, triangles_);
@@ -67,12 +67,12 @@ class Making {
     return true;
   }
 
-  void turn_back(const std::vector<Corners>& before) {
+  void turn_back(const std::vector<FacePoints>& before) {
     const Shells shells(surface_);
     std::vector<std::size_t> sizes(shells.count, 0), turns(shells.count, 0);
     for (const Face face : surface_.faces()) {
       ++sizes[shells.of_face[face]];
-      if (turned(before[face], corners_of(surface_, face))) ++turns[shells.of_face[face]];
+      if (turned(before[face], points_of(surface_, face))) ++turns[shells.of_face[face]];
     }
     std::vector<Face> back;
     for (const Face face : surface_.faces()) {

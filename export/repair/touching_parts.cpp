@@ -17,7 +17,7 @@ namespace clay::solid::inline repair {
 namespace {
 
 /// A triangle at an edge, and the corner where it follows the edge.
-struct Wing {
+struct FanWing {
   std::uint32_t low, high, triangle;
   std::uint32_t corner;  ///< of the start of the edge
   bool rising;           ///< from low to high
@@ -32,8 +32,8 @@ class Fans {
   /// Edges of several pairs of triangles that lie in the same fans at both ends get a new vertex in
   /// the middle. Returns true if there were any.
   bool split_stuck_edges() {
-    std::map<std::uint32_t, std::vector<std::pair<Wing, std::uint32_t>>> cuts;  // by triangle
-    for (const std::vector<Wing>& wings : crowded_) {
+    std::map<std::uint32_t, std::vector<std::pair<FanWing, std::uint32_t>>> cuts;  // by triangle
+    for (const std::vector<FanWing>& wings : crowded_) {
       std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;
       for (std::size_t i = 0; i < wings.size(); i += 2)
         ends.push_back({fan_at(wings[i], true), fan_at(wings[i], false)});
@@ -41,7 +41,7 @@ class Fans {
       if (std::adjacent_find(ends.begin(), ends.end()) == ends.end()) continue;
       const glm::dvec3 middle = 0.5 * (mesh_.points[wings[0].low] + mesh_.points[wings[0].high]);
       mesh_.points.emplace_back(file_point(middle));
-      for (const Wing& wing : wings)
+      for (const FanWing& wing : wings)
         cuts[wing.triangle].emplace_back(wing, static_cast<std::uint32_t>(mesh_.points.size() - 1));
     }
     // One edge of each triangle at a time; the others follow in the next round.
@@ -99,14 +99,14 @@ class Fans {
 
   /// Joins the corners of triangles that are neighbours in the surface of one part.
   void join() {
-    std::vector<Wing> wings;
+    std::vector<FanWing> wings;
     wings.reserve(3 * mesh_.triangles.size());
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
       for (std::uint32_t c = 0; c < 3; ++c) {
         const std::uint32_t a = mesh_.triangles[t].at(c), b = mesh_.triangles[t].at((c + 1) % 3);
         wings.push_back({std::min(a, b), std::max(a, b), t, c, a < b});
       }
-    std::sort(wings.begin(), wings.end(), [](const Wing& a, const Wing& b) {
+    std::sort(wings.begin(), wings.end(), [](const FanWing& a, const FanWing& b) {
       return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
     });
     for (std::size_t begin = 0; begin < wings.size();) {
@@ -120,41 +120,41 @@ class Fans {
     }
   }
 
-  void join_about(std::span<Wing> wings) {
+  void join_about(std::span<FanWing> wings) {
     if (wings.size() == 2) return join_pair(wings[0], wings[1]);
     if (wings.size() < 2 || wings.size() % 2 != 0) return;
     sort_around(wings);
     // The clay lies counterclockwise of a triangle that falls.
     const auto first =
-        std::find_if(wings.begin(), wings.end(), [](const Wing& w) { return !w.rising; });
+        std::find_if(wings.begin(), wings.end(), [](const FanWing& w) { return !w.rising; });
     std::rotate(wings.begin(), first, wings.end());
     for (std::size_t i = 0; i < wings.size(); i += 2) join_pair(wings[i], wings[i + 1]);
     crowded_.emplace_back(wings.begin(), wings.end());
   }
 
-  void join_pair(const Wing& a, const Wing& b) {
+  void join_pair(const FanWing& a, const FanWing& b) {
     fans_.unite(corner_at(a, true), corner_at(b, true));
     fans_.unite(corner_at(a, false), corner_at(b, false));
   }
 
-  static std::uint32_t corner_at(const Wing& wing, bool low) {
+  static std::uint32_t corner_at(const FanWing& wing, bool low) {
     return node(wing.triangle, low == wing.rising ? wing.corner : (wing.corner + 1) % 3);
   }
-  std::uint32_t fan_at(const Wing& wing, bool low) { return fans_.of(corner_at(wing, low)); }
+  std::uint32_t fan_at(const FanWing& wing, bool low) { return fans_.of(corner_at(wing, low)); }
 
-  [[nodiscard]] std::uint32_t apex(const Wing& wing) const {
+  [[nodiscard]] std::uint32_t apex(const FanWing& wing) const {
     return mesh_.triangles[wing.triangle].at((wing.corner + 2) % 3);
   }
 
-  void sort_around(std::span<Wing> wings) const {
+  void sort_around(std::span<FanWing> wings) const {
     const PairTest test(mesh_);
-    const Wing first = wings[0];
-    const auto quarter = [&](const Wing& from, const Wing& to) {
+    const FanWing first = wings[0];
+    const auto quarter = [&](const FanWing& from, const FanWing& to) {
       return from.triangle == to.triangle
                  ? 0
                  : test.quarter(first.low, first.high, apex(from), apex(to));
     };
-    std::sort(wings.begin(), wings.end(), [&](const Wing& a, const Wing& b) {
+    std::sort(wings.begin(), wings.end(), [&](const FanWing& a, const FanWing& b) {
       const int at_a = quarter(first, a), at_b = quarter(first, b);
       return at_a != at_b ? at_a < at_b : quarter(a, b) == 1;
     });
@@ -195,7 +195,7 @@ class Fans {
 
   TriangleMesh& mesh_;
   DisjointSets fans_;
-  std::vector<std::vector<Wing>>
+  std::vector<std::vector<FanWing>>
       crowded_;  ///< paired: two that bound the same clay follow each other
 };
 
