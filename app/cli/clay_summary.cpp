@@ -1,5 +1,6 @@
 #include "app/cli/clay_summary.hpp"
 
+#include "app/cli/maker_table.hpp"
 #ifdef CLAYSTACK_EXPORT
 #include "claystack/export/job.hpp"
 #endif
@@ -22,12 +23,36 @@ Json collapse_json(const Collapse& fall) {
           {"plastic_work_mj", fall.plastic_work_mj}};
 }
 
-Json wall_json([[maybe_unused]] const Pot& pot) {
+void add_export([[maybe_unused]] const Pot& pot, Json& json) {
+  json["min_wall_mm"] = json["maker"] = nullptr;
 #ifdef CLAYSTACK_EXPORT
-  if (!pot.collapse)
-    if (const auto report = solid::run_export(pot, {}, {})) return report->walls.min_wall_mm;
+  if (pot.collapse) return;
+  const auto report = solid::run_export(pot, {}, {});
+  if (!report) return;
+  json["min_wall_mm"] = report->walls.min_wall_mm;
+  json["maker"] = maker_json(*report->maker);
 #endif
-  return nullptr;
+}
+
+void print_collapse(const Console& console, const Json& summary) {
+  if (!summary["collapsed"].get<bool>()) return;
+  const Json& fall = summary["collapse"];
+  console.print(fmt::format(
+      "collapsed: ring {} carried {:.3f} kPa, more than the limit of {:.3f} kPa; the part above "
+      "came to rest at {:.0f} degrees and lost {:.1f} mJ, {:.1f} of them by deforming the clay "
+      "below",
+      fall["ring"].get<std::size_t>(), fall["stress_kpa"].get<double>(),
+      fall["threshold_kpa"].get<double>(), fall["angle_deg"].get<double>(),
+      fall["energy_lost_mj"].get<double>(), fall["plastic_work_mj"].get<double>()));
+}
+
+std::string verdict_of(const Json& summary) {
+  const std::string error =
+      fmt::format("volume error {} quanta", summary["volume_error_quanta"].dump());
+  if (summary["collapsed"].get<bool>()) return "collapsed; " + error;
+  return (summary["maker"].is_null() ? "stands, but cannot be exported in one piece; "
+                                     : "stands; ") +
+         error;
 }
 
 }  // namespace
@@ -42,23 +67,25 @@ Json clay_json(const Wheel& wheel, const Pot& pot) {
       {"volume_mm3", stack.volume_mm3()},
       {"trimmed_mm3", static_cast<double>(wheel.ledger().trimmed) * stack.mm3_per_quantum()},
       {"volume_error_quanta", json_count(wheel.ledger().volume_error(stack.recount()))},
-      {"min_wall_mm", wall_json(pot)},
       {"collapsed", pot.collapse.has_value()},
   };
+  add_export(pot, json);
   if (pot.collapse) json["collapse"] = collapse_json(*pot.collapse);
   return json;
 }
 
-void print_collapse(const Console& console, const Json& summary) {
-  if (!summary["collapsed"].get<bool>()) return;
-  const Json& fall = summary["collapse"];
-  console.print(fmt::format(
-      "collapsed: ring {} carried {:.3f} kPa, more than the limit of {:.3f} kPa; the part above "
-      "came to rest at {:.0f} degrees and lost {:.1f} mJ, {:.1f} of them by deforming the clay "
-      "below",
-      fall["ring"].get<std::size_t>(), fall["stress_kpa"].get<double>(),
-      fall["threshold_kpa"].get<double>(), fall["angle_deg"].get<double>(),
-      fall["energy_lost_mj"].get<double>(), fall["plastic_work_mj"].get<double>()));
+void print_clay(const Console& console, const Json& summary) {
+  const std::string size = fmt::format(
+      "{} rings, {:.2f} mm high, {:.3f} cm3 of clay, {:.3f} cm3 trimmed",
+      summary["rings"].get<std::size_t>(), summary["height_mm"].get<double>(),
+      summary["volume_mm3"].get<double>() / 1000.0, summary["trimmed_mm3"].get<double>() / 1000.0);
+  console.detail(size);
+  print_collapse(console, summary);
+  print_maker_table(console, summary["maker"],
+                    summary["min_wall_mm"].is_null()
+                        ? std::string()
+                        : fmt::format("at least {:.2f} mm", summary["min_wall_mm"].get<double>()),
+                    verdict_of(summary));
 }
 
 }  // namespace clay::cli

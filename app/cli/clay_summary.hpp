@@ -9,11 +9,12 @@ namespace clay::cli {
 
 [[nodiscard]] const char* name_of(Model model);
 
-/// Rings, height, volume and its error, minimum wall, collapse. The wall is that of the default
-/// export; null for a pot that collapsed or cannot be exported.
+/// Rings, height, volume and its error, minimum wall, the numbers of a maker, collapse. Wall and
+/// numbers are those of the default export; null for a pot that collapsed or cannot be exported.
 [[nodiscard]] Json clay_json(const Wheel& wheel, const Pot& pot);
 
-/// `summary` has the fields of clay_json.
-void print_collapse(const Console& console, const Json& summary);
+/// Size, weight, capacity, wall and verdict, and how it fell. `summary` has the fields of
+/// clay_json.
+void print_clay(const Console& console, const Json& summary);
 
 }  // namespace clay::cli

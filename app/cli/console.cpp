@@ -61,6 +61,10 @@ void Console::print(std::string_view line) const {
   if (!json && !quiet) put_out(std::string(line) + "\n");
 }
 
+void Console::detail(std::string_view line) const {
+  if (verbose) print(line);
+}
+
 void Console::warn(std::string_view line) const { put_err(fmt::format("claystack: {}\n", line)); }
 
 Result<void> check_distinct(const std::vector<std::string>& outputs,

@@ -29,11 +29,13 @@ bool flush_out() noexcept;
 void put_err(std::string_view text) noexcept;
 
 struct Console {
-  bool json = false;   ///< data as JSON on stdout
-  bool quiet = false;  ///< no progress, no summary: errors and requested data only
+  bool json = false;     ///< data as JSON on stdout
+  bool quiet = false;    ///< no progress, no summary: errors and requested data only
+  bool verbose = false;  ///< also details for engineers
 
-  void print(std::string_view line) const;  ///< to stdout, for people; silent with json or quiet
-  void warn(std::string_view line) const;   ///< to stderr
+  void print(std::string_view line) const;   ///< to stdout, for people; silent with json or quiet
+  void detail(std::string_view line) const;  ///< as `print`, if verbose
+  void warn(std::string_view line) const;    ///< to stderr
 };
 
 /// Refuses, before any work, output files that are equal to each other or to an input. Ignores "-"

@@ -47,15 +47,14 @@ solid::Smoothing smoothing_of(std::string_view name) {
 }
 
 /// "12%": a part, 0.12. Errors state what was expected.
-Result<double> shrinkage_of(const std::string& text) {
+Result<double> part_of(const std::string& text, double most) {
   double percent = 0.0;
   const char* end = text.data() + text.size();
   const auto [stop, problem] = std::from_chars(text.data(), end, percent);
   const std::string_view rest(stop, static_cast<std::size_t>(end - stop));
-  if (problem != std::errc() || rest != "%" ||
-      !(percent >= 0.0 && percent <= 100.0 * solid::kMostShrinkage))
-    return failure(ErrorKind::bad_input, fmt::format("expected 0% to {:g}%, found {}",
-                                                     100.0 * solid::kMostShrinkage, text));
+  if (problem != std::errc() || rest != "%" || !(percent >= 0.0 && percent <= 100.0 * most))
+    return failure(ErrorKind::bad_input,
+                   fmt::format("expected 0% to {:g}%, found {}", 100.0 * most, text));
   return 0.01 * percent;
 }
 
@@ -166,10 +165,48 @@ Result<int> export_pot(ExportCommand& command, const Console& console) {
   if (!report) return tl::make_unexpected(report.error());
   if (console.json) print_json(export_json(*report, *copies));
   print_export(console, *report, *copies);
-  return print_problems(console, *report) ? kUnsound : kDone;
+  const bool fails = print_problems(console, *report);
+  print_summary(console, *report);
+  return fails ? kUnsound : kDone;
 }
 
 using SharedCommand = std::shared_ptr<ExportCommand>;
+
+/// An option in percent, written "12%".
+template <class Field>
+void add_part(CLI::App* sub, const SharedCommand& command, const std::string& name, double most,
+              const std::string& help, Field field) {
+  sub->add_option_function<std::string>(
+         name,
+         [=](const std::string& text) {
+           field(command->request.options) = part_of(text, most).value_or(0.0);
+         },
+         help)
+      ->check([most](const std::string& text) {
+        const auto parsed = part_of(text, most);
+        return parsed ? std::string() : parsed.error().message;
+      });
+}
+
+/// Figures for weights and capacities.
+void add_clay_options(CLI::App* sub, const SharedCommand& command) {
+  constexpr double kMost = 0.9;
+  add_part(sub, command, "--drying-shrinkage", solid::kMostShrinkage,
+           "Part of --shrinkage that happens in drying, in percent of each length (default: half)",
+           [](solid::ExportOptions& options) -> double& {
+             return options.clay.drying_shrinkage.emplace();
+           });
+  add_part(sub, command, "--water", kMost,
+           "Water that leaves in drying, in percent of the weight as thrown (default: 20%)",
+           [](solid::ExportOptions& options) -> double& { return options.clay.water; });
+  add_part(sub, command, "--ignition-loss", kMost,
+           "Loss in firing, in percent of the dry weight (default: 9%)",
+           [](solid::ExportOptions& options) -> double& { return options.clay.ignition_loss; });
+  sub->add_option("--fill-line", command->request.options.fill_line_mm,
+                  "Fill line for the capacity, below the brim of the fired pot [mm]")
+      ->check(in_range(0.0, 1e4))
+      ->capture_default_str();
+}
 
 /// What the solid is like.
 void add_solid_options(CLI::App* sub, const SharedCommand& command) {
@@ -196,17 +233,10 @@ void add_solid_options(CLI::App* sub, const SharedCommand& command) {
          "--drain", command->request.options.drain_mm,
          "Diameter of a hole along the axis that opens closed cavities [mm] (default: none)")
       ->check(in_range(1e-3, 1e4));
-  sub->add_option_function<std::string>(
-         "--shrinkage",
-         [command](const std::string& text) {
-           command->request.options.shrinkage = shrinkage_of(text).value_or(0.0);
-         },
-         "Shrinkage in drying and firing, in percent of each length, such as 12%: the files are "
-         "enlarged so that the fired piece has the size of the pot (default: 0%)")
-      ->check([](const std::string& text) {
-        const auto parsed = shrinkage_of(text);
-        return parsed ? std::string() : parsed.error().message;
-      });
+  add_part(sub, command, "--shrinkage", solid::kMostShrinkage,
+           "Shrinkage in drying and firing, in percent of each length, such as 12%: the files are "
+           "enlarged so that the fired piece has the size of the pot (default: 0%)",
+           [](solid::ExportOptions& options) -> double& { return options.shrinkage; });
 }
 
 /// What is required of it, and what is written beside it.
@@ -249,6 +279,7 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
                       "pot")
       ->required();
   add_solid_options(sub, command);
+  add_clay_options(sub, command);
   add_file_options(sub, command);
   sub->footer(
       "\nExamples:\n  claystack export bowl.pot.json bowl.stl bowl.obj bowl.drc bowl.svg\n"

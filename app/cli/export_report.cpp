@@ -1,5 +1,7 @@
 #include "app/cli/export_report.hpp"
 
+#include "app/cli/maker_table.hpp"
+
 #include <fmt/format.h>
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -74,12 +76,12 @@ Json collapsed_json(const solid::CollapsedSolid& collapsed) {
 }
 
 void print_file(const Console& console, const FileReport& file) {
-  console.print(fmt::format("{}: {}, {} bytes; vertices within {:.2g} mm; {}{}{}", file.path,
-                            solid::name_of(file.format), file.bytes, file.max_error_mm,
-                            proof_of(file), file.read_back ? "; read back" : "",
-                            file.full_verification ? "; fully checked" : ""));
+  console.print(fmt::format("{}: {} bytes, within {:.2g} mm{}", file.path, file.bytes,
+                            file.max_error_mm, file.read_back ? ", read back" : ""));
+  console.detail(fmt::format("  {}; {}{}", solid::name_of(file.format), proof_of(file),
+                             file.full_verification ? "; fully checked" : ""));
   if (const auto& c = file.certificate)
-    console.print(
+    console.detail(
         fmt::format("  minimum wall between {:.4f} and {:.4f} mm, volume within {:.2g} mm3",
                     c->wall_lower_mm, c->wall_upper_mm, c->volume_bound_mm3));
 }
@@ -106,7 +108,7 @@ void print_smoothing(const Console& console, const ExportReport& report) {
     const auto first = std::find_if(report.section.smoothed.guard.begin(),
                                     report.section.smoothed.guard.end(), is);
     if (first == report.section.smoothed.guard.end()) continue;
-    console.print(fmt::format(
+    console.detail(fmt::format(
         "steps kept for {}: {} stretch(es), the first from {:.2f} to {:.2f} mm ({:.3f} mm if "
         "smoothed)",
         solid::name_of(reason),
@@ -129,7 +131,7 @@ void print_smoothing(const Console& console, const ExportReport& report) {
 void print_shrinkage(const Console& console, const ExportReport& report) {
   if (report.prepared.shrinkage == 0.0) return;
   const double fired = 1.0 - report.prepared.shrinkage;
-  console.print(fmt::format(
+  console.detail(fmt::format(
       "enlarged for a shrinkage of {:g} %: {:.2f} mm wide and {:.2f} mm high in the files, "
       "{:.2f} mm wide and {:.2f} mm high after firing",
       100.0 * report.prepared.shrinkage, report.size.diameter_mm, report.size.height_mm,
@@ -137,12 +139,12 @@ void print_shrinkage(const Console& console, const ExportReport& report) {
 }
 
 void print_solid(const Console& console, const ExportReport& report) {
-  console.print(
+  console.detail(
       fmt::format("proved: {}closed and embedded, from {} profile vertices; {} triangles in "
                   "{} shell(s)",
                   report.collapsed ? "each part before the fall " : "",
                   report.section.planar.vertices, report.size.triangles, report.size.shells));
-  console.print(
+  console.detail(
       fmt::format("volume {:.3f} cm3, relative difference {}to the counted clay {:.1e}; minimum "
                   "wall {:.2f} mm at "
                   "height {:.1f} mm; chordal error {:.3g} mm",
@@ -229,13 +231,43 @@ Json problems_json(const ExportReport& report) {
 }
 
 Json overhang_json(const solid::ProcessReport& process) {
-  const solid::OverhangLimit& limit = *process.limits->overhang;
   const solid::Overhang& overhang = *process.overhang;
-  return {{"angle_deg", overhang.angle_deg},
-          {"at_mm", {overhang.from.rho, overhang.from.y}},
-          {"limit_deg", limit.max_deg},
-          {"source", limit.source},
-          {"passes", overhang.angle_deg <= limit.max_deg}};
+  Json json = {{"angle_deg", overhang.angle_deg}, {"at_mm", {overhang.from.rho, overhang.from.y}}};
+  if (!process.limits || !process.limits->overhang) return json;
+  const solid::OverhangLimit& limit = *process.limits->overhang;
+  json["limit_deg"] = limit.max_deg;
+  json["source"] = limit.source;
+  json["passes"] = overhang.angle_deg <= limit.max_deg;
+  return json;
+}
+
+/// Whether the solid fits into the machine, kiln or service.
+Json process_json(const ExportReport& report, const solid::ProcessLimits& process) {
+  Json json = {{"name", process.name}, {"fired", process.fired}, {"bed", nullptr}};
+  if (!process.size) return json;
+  const solid::SizeLimit& most = *process.size;
+  json["bed"] = {{"width_mm", most.width_mm},
+                 {"depth_mm", most.depth_mm},
+                 {"height_mm", most.height_mm},
+                 {"source", most.source},
+                 {"fits", report.size.diameter_mm <= std::min(most.width_mm, most.depth_mm) &&
+                              report.size.height_mm <= most.height_mm}};
+  return json;
+}
+
+std::string verdict_of(const ExportReport& report) {
+  std::size_t faults = 0, notes = 0;
+  for (const solid::Problem& problem : solid::problems_of(report))
+    ++(problem.fails ? faults : notes);
+  if (faults > 0)
+    return fmt::format("closed and without self-intersections, but {} limit(s) failed", faults);
+  return fmt::format("closed and without self-intersections{}",
+                     notes > 0 ? fmt::format("; {} warning(s)", notes) : std::string());
+}
+
+std::string wall_row(const ExportReport& report) {
+  return fmt::format("at least {:.2f} mm, thinnest at a height of {:.1f} mm", report.thinnest_mm(),
+                     report.walls.thinnest.from.y);
 }
 
 }  // namespace
@@ -248,6 +280,8 @@ Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies)
                            {"source", limit->asked_by()},
                            {"passes", report.thinnest_mm() >= limit->min_wall_mm}};
   if (report.process.overhang) json["overhang"] = overhang_json(report.process);
+  if (const auto& process = report.process.limits) json["process"] = process_json(report, *process);
+  json["maker"] = report.maker ? maker_json(*report.maker) : Json(nullptr);
   json["problems"] = problems_json(report);
   auto copy = copies.begin();
   for (const FileReport& file : report.files) {
@@ -298,6 +332,12 @@ void print_export(const Console& console, const ExportReport& report,
         break;
     }
   }
+}
+
+void print_summary(const Console& console, const ExportReport& report) {
+  if (report.has_mesh())
+    print_maker_table(console, report.maker ? maker_json(*report.maker) : Json(nullptr),
+                      wall_row(report), verdict_of(report));
 }
 
 bool print_problems(const Console& console, const ExportReport& report) {

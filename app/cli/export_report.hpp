@@ -20,4 +20,7 @@ void print_export(const Console& console, const solid::ExportReport& report,
 /// Prints the walls that were asked for, and warns of problems. Returns true if one of them fails.
 bool print_problems(const Console& console, const solid::ExportReport& report);
 
+/// The last lines: size, weight, capacity, wall and verdict. Nothing without a mesh.
+void print_summary(const Console& console, const solid::ExportReport& report);
+
 }  // namespace clay::cli

@@ -248,12 +248,8 @@ void print_result(const LiveJob& job, const LiveOptions& options, const Console&
   console.print(fmt::format("{:.1f} s on the wheel, {} poses, ended: {}",
                             json["seconds"].get<double>(), json["poses"].get<std::uint64_t>(),
                             json["ended"].get<std::string>()));
-  console.print(fmt::format("{} rings, {:.1f} mm high, {:.1f} cm3 of clay; volume error: {} quanta",
-                            json["rings"].get<std::size_t>(), json["height_mm"].get<double>(),
-                            json["volume_mm3"].get<double>() / 1000.0,
-                            json["volume_error_quanta"].dump()));
-  print_collapse(console, json);
-  print_servo(console, json["servo"]);
+  print_clay(console, json);
+  if (console.verbose) print_servo(console, json["servo"]);
   if (!job.pot_path.empty() && kept.pot) console.print("pot: " + job.pot_path);
   if (options.record.empty() || !kept.session) return;
   const bool empty = json["recording"]["poses"].get<std::uint64_t>() == 0;

@@ -71,6 +71,8 @@ void add_commands(CLI::App& app, Console& console, int& exit) {
     if (command->get_name() == "studio") continue;  // passes all its arguments to another program
     command->add_flag("--json", console.json, "Print data as JSON on standard output");
     command->add_flag("-q,--quiet", console.quiet, "Print errors only");
+    if (command->get_name() == "throw" || command->get_name() == "export")
+      command->add_flag("-v,--verbose", console.verbose, "Also print volumes, proofs and timings");
   }
 }
 

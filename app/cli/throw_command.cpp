@@ -57,23 +57,15 @@ Json summary(const Wheel& wheel, const ReplayStats& stats, const Session& sessio
 }
 
 void print_result(const Console& console, const Json& s) {
-  console.print(fmt::format(
-      "{} ticks, model {}: {} rings, {:.1f} mm high, {:.1f} cm3 of clay{}",
-      s["ticks"].get<std::size_t>(), s["model"].get<std::string>(), s["rings"].get<std::size_t>(),
-      s["height_mm"].get<double>(), s["volume_mm3"].get<double>() / 1000.0,
-      s["min_wall_mm"].is_null()
-          ? std::string()
-          : fmt::format(", minimum wall {:.2f} mm", s["min_wall_mm"].get<double>())));
-  console.print(fmt::format("volume error: {} quanta (maximum during the session: {:.4g} %)",
-                            s["volume_error_quanta"].dump(),
-                            s["max_volume_error_percent"].get<double>()));
-  console.print(
+  console.detail(fmt::format("{} ticks, model {}: {} rings", s["ticks"].get<std::size_t>(),
+                             s["model"].get<std::string>(), s["rings"].get<std::size_t>()));
+  console.detail(fmt::format("maximum volume error during the session: {:.4g} %",
+                             s["max_volume_error_percent"].get<double>()));
+  console.detail(
       fmt::format("tick: median {:.0f} ns, 99.9 % within {:.0f} ns; maximum force {:.2f} N",
                   s["tick_ns_median"].get<double>(), s["tick_ns_p999"].get<double>(),
                   s["max_force_n"].get<double>()));
-  if (s["trimmed_mm3"].get<double>() > 0.0)
-    console.print(fmt::format("trimmed: {:.1f} cm3", s["trimmed_mm3"].get<double>() / 1000.0));
-  print_collapse(console, s);
+  print_clay(console, s);
 }
 
 /// Writes a CSV file row by row.

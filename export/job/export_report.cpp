@@ -36,7 +36,9 @@ namespace {
 
 std::optional<Problem> steep_overhang(const ProcessReport& process) {
   const auto& overhang = process.overhang;
-  if (!overhang || overhang->angle_deg <= process.limits->overhang->max_deg) return std::nullopt;
+  if (!overhang || !process.limits || !process.limits->overhang ||
+      overhang->angle_deg <= process.limits->overhang->max_deg)
+    return std::nullopt;
   return Problem{
       fmt::format("overhang of {:.0f} degrees at a height of {:.1f} mm; {}: at most {:g} without "
                   "support ({})",

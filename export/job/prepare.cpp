@@ -97,7 +97,13 @@ Result<DrainedStack> drain(const ClayStack& stack, double diameter_mm) {
 Result<PreparedPot> prepare(const Pot& pot, const ExportOptions& options) {
   if (options.drain_mm && pot.collapse)
     return failure(ErrorKind::bad_input, "drain: expected a standing pot, found a collapsed one");
+  ClayFigures clay = options.clay;
+  clay.shrinkage = options.shrinkage;
   return enlarged(pot, options.shrinkage)
+      .and_then([&](Pot larger) {
+        clay.density_g_cm3 = larger.density_g_cm3;
+        return clay.check().map([&] { return std::move(larger); });
+      })
       .and_then([&](Pot larger) -> Result<PreparedPot> {
         PreparedPot prepared{std::move(larger), {options.shrinkage, 0.0, 0.0}, std::nullopt};
         if (!options.drain_mm) return prepared;

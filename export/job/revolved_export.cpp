@@ -149,6 +149,7 @@ class RevolvedExport {
                                              claims.counted_volume_mm3};
     // As rounded in a binary STL, so that a pot has one wall before and after it is written.
     measure_walls(with_rounding(claims, rule, float_rounding_mm(rule)).wall_lower_mm);
+    report_.maker = numbers();
     RevolveFiles files(rule, claims, options_, stages_);
     for (const Output& output : outputs_) {
       auto file = named(files.write(output.format, *output.store),
@@ -185,8 +186,14 @@ class RevolvedExport {
           stages_.run("wall_field", [&] { return wall_field(profile, *options_.wall_spacing_mm); });
     walls.limit = options_.walls.for_size(2.0 * report_.size.diameter_mm + report_.size.height_mm);
     report_.process.limits = options_.walls.process;
-    if (report_.process.limits && report_.process.limits->overhang)
-      report_.process.overhang = steepest_overhang(profile);
+    report_.process.overhang = steepest_overhang(profile);
+  }
+
+  MakerNumbers numbers() const {
+    ClayFigures clay = options_.clay;
+    clay.density_g_cm3 = prepared_.pot.density_g_cm3;
+    clay.shrinkage = options_.shrinkage;
+    return maker_numbers(report_.section.profile(), clay, options_.fill_line_mm);
   }
 
   const PreparedPot& prepared_;

@@ -6,6 +6,7 @@
 #include "claystack/engine/clay.hpp"
 #include "claystack/export/fallen.hpp"
 #include "claystack/export/formats.hpp"
+#include "claystack/export/maker.hpp"
 #include "claystack/export/proof.hpp"
 #include "claystack/export/section.hpp"
 #include "claystack/export/smoothing.hpp"
@@ -57,11 +58,14 @@ struct ExportOptions {
   /// Fraction of each length lost in drying and firing, see `enlarged`. The files are enlarged
   /// accordingly, as are all lengths and volumes of the report.
   double shrinkage = 0.0;
-  bool normals = false;            ///< write normals for shading (obj only)
-  bool allow_pieces = false;       ///< accept pieces that do not touch
-  bool measure_left_out = false;   ///< run the skipped stages as well, and report the time saved
-  bool full_verification = false;  ///< also check every file like a foreign mesh
-  std::string name = "pot";        ///< solid or object name inside the file
+  /// Figures for `ExportReport::maker`; density and shrinkage come from the pot and from above.
+  ClayFigures clay;
+  double fill_line_mm = kFillLineMm;  ///< below the brim of the pot in use
+  bool normals = false;               ///< write normals for shading (obj only)
+  bool allow_pieces = false;          ///< accept pieces that do not touch
+  bool measure_left_out = false;      ///< run the skipped stages as well, and report the time saved
+  bool full_verification = false;     ///< also check every file like a foreign mesh
+  std::string name = "pot";           ///< solid or object name inside the file
   std::string pot_file;       ///< the pot as a file (CBOR), which a 3MF carries; empty: it does not
   std::string thumbnail_png;  ///< a picture of the pot for a 3MF; empty: none
   std::string source;         ///< name of the pot in messages; empty: none
@@ -148,7 +152,7 @@ struct WallReport {
 /// The limits of the requested process apart from walls.
 struct ProcessReport {
   std::optional<ProcessLimits> limits;
-  std::optional<Overhang> overhang;  ///< the steepest, if the process limits it
+  std::optional<Overhang> overhang;  ///< the steepest; empty for a collapsed pot
 };
 
 struct VolumeReport {
@@ -189,6 +193,7 @@ struct ExportReport {
   WallReport walls;
   ProcessReport process;
   VolumeReport volume;
+  std::optional<MakerNumbers> maker;        ///< of a standing pot
   std::optional<CollapsedSolid> collapsed;  ///< without its mesh
   std::vector<FileReport> files;            ///< one for each requested file, in that order
   std::vector<StageTime> stages;

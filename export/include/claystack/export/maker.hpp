@@ -1,0 +1,89 @@
+#pragma once
+// What a maker asks of a pot: size, weight, capacity, balance; computed from the section alone.
+
+#include "claystack/core/result.hpp"
+#include "claystack/export/section.hpp"
+
+#include <optional>
+
+namespace clay::solid::inline maker {
+
+// ---- clay ----------------------------------------------------------------------------
+
+/// Planning figures of a clay. Clays differ: weigh and measure a test tile.
+struct ClayFigures {
+  double density_g_cm3 = 1.9;  ///< as thrown
+  /// Fraction of each length lost from thrown to fired; 0: not known, or not fired.
+  double shrinkage = 0.0;
+  /// Fraction of each length lost in drying; empty: half of `shrinkage`.
+  std::optional<double> drying_shrinkage;
+  double water = 0.20;          ///< fraction of the thrown weight lost in drying
+  double ignition_loss = 0.09;  ///< fraction of the dry weight lost in firing
+
+  /// Errors (bad_input) name the figure that is out of range, or a drying shrinkage above the
+  /// total.
+  [[nodiscard]] Result<void> check() const;
+};
+
+/// Default distance of the fill line below the brim [mm].
+inline constexpr double kFillLineMm = 10.0;
+/// Density of the contents: water [g/cm3].
+inline constexpr double kContentsDensity = 1.0;
+
+// ---- section as a body ---------------------------------------------------------------
+
+/// Volume of a body of revolution, and the height of its centre of gravity.
+struct Body {
+  double volume_mm3 = 0.0;
+  double centre_mm = 0.0;  ///< height; 0 without volume
+};
+
+/// The clay: exact integrals over the frusta of the profile.
+[[nodiscard]] Body body_of(const Profile& profile) noexcept;
+
+/// The room in the uppermost piece below `depth_mm` under its brim, if it is a cup; else empty. The
+/// brim is the highest level of the piece. Assumes one bore at each height, as in every stack.
+[[nodiscard]] Body room_of(const Profile& profile, double depth_mm = 0.0) noexcept;
+
+// ---- numbers -------------------------------------------------------------------------
+
+struct PotSize {
+  double diameter_mm = 0.0;
+  double height_mm = 0.0;
+  double foot_diameter_mm = 0.0;  ///< of the circle on which it stands
+};
+
+/// The pot as thrown, dry or fired.
+struct PotState {
+  PotSize size;
+  double weight_g = 0.0;
+  double capacity_ml = 0.0;  ///< to the brim
+  double to_line_ml = 0.0;   ///< to the fill line
+};
+
+struct Balance {
+  double centre_mm = 0.0;  ///< height of the centre of gravity above the foot
+  /// Slope of the table at which the pot tips over the edge of its foot [deg]. The contents count
+  /// as rigid: a liquid that flows to the lower side tips it earlier.
+  double tipping_deg = 0.0;
+};
+
+/// All are of the section as written, which is the pot as thrown; shrinkage is even in all
+/// directions.
+struct MakerNumbers {
+  ClayFigures clay;
+  double fill_line_mm = 0.0;  ///< below the brim, of the pot in use
+  PotState thrown;
+  std::optional<PotState> dry, fired;  ///< if the shrinkage is known
+  Balance empty;                       ///< of the pot in use
+  std::optional<Balance> full;         ///< to the brim; empty if it holds nothing
+
+  /// Fired, if the shrinkage is known; else as thrown.
+  [[nodiscard]] const PotState& in_use() const noexcept { return fired ? *fired : thrown; }
+};
+
+/// Requires a profile that is not empty and valid figures.
+[[nodiscard]] MakerNumbers maker_numbers(const Profile& profile, const ClayFigures& clay,
+                                         double fill_line_mm = kFillLineMm);
+
+}  // namespace clay::solid::inline maker

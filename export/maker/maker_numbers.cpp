@@ -1,0 +1,171 @@
+#include "claystack/export/maker.hpp"
+
+#include "core/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+namespace clay::solid::inline maker {
+namespace {
+
+/// Integrals of rho^2 dy and of rho^2 y dy along the straight line from `a` to `b`.
+struct Integrals {
+  double area_height = 0.0;
+  double moment = 0.0;
+
+  void add(const ProfilePoint& a, const ProfilePoint& b) noexcept {
+    const double aa = a.rho * a.rho, ab = a.rho * b.rho, bb = b.rho * b.rho;
+    const double height = b.y - a.y, all = aa + ab + bb;
+    area_height += height * all / 3.0;
+    // y = a.y + t height; the integral of t rho^2 is (aa + 2 ab + 3 bb) / 12.
+    moment += height * (a.y * all / 3.0 + height * (aa + 2.0 * ab + 3.0 * bb) / 12.0);
+  }
+
+  [[nodiscard]] Body body() const noexcept {
+    if (!(area_height > 0.0)) return {};
+    return {std::numbers::pi * area_height, moment / area_height};
+  }
+};
+
+/// The part of the line from `a` to `b` below `level`.
+void add_below(Integrals& sum, ProfilePoint a, ProfilePoint b, double level) noexcept {
+  if (a.y > level && b.y > level) return;
+  const auto cut = [&](const ProfilePoint& above, const ProfilePoint& below) {
+    const double t = (level - below.y) / (above.y - below.y);
+    return ProfilePoint{below.rho + t * (above.rho - below.rho), level};
+  };
+  if (a.y > level)
+    a = cut(a, b);
+  else if (b.y > level)
+    b = cut(b, a);
+  sum.add(a, b);
+}
+
+/// The last vertex on the highest level: there the bore begins.
+std::size_t brim_of(const Polygon& piece) noexcept {
+  std::size_t brim = 0;
+  for (std::size_t i = 1; i < piece.size(); ++i)
+    if (piece[i].y >= piece[brim].y) brim = i;
+  // The polygon may begin in the middle of a flat rim.
+  const auto next = [&](std::size_t i) { return i + 1 == piece.size() ? 0 : i + 1; };
+  for (std::size_t turns = 0; turns < piece.size() && piece[next(brim)].y == piece[brim].y; ++turns)
+    brim = next(brim);
+  return brim;
+}
+
+PotSize size_of(const Profile& profile) noexcept {
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  PotSize size;
+  for (const Polygon& piece : profile.pieces) {
+    for (const ProfilePoint& p : piece) {
+      highest = std::max(highest, p.y);
+      size.diameter_mm = std::max(size.diameter_mm, 2.0 * p.rho);
+      if (p.y > lowest) continue;
+      size.foot_diameter_mm =
+          p.y < lowest ? 2.0 * p.rho : std::max(size.foot_diameter_mm, 2.0 * p.rho);
+      lowest = p.y;
+    }
+  }
+  size.height_mm = highest - lowest;
+  return size;
+}
+
+double foot_level(const Profile& profile) noexcept {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Polygon& piece : profile.pieces)
+    for (const ProfilePoint& p : piece) lowest = std::min(lowest, p.y);
+  return lowest;
+}
+
+PotState scaled(const PotState& thrown, double factor, double weight) noexcept {
+  const double volume = factor * factor * factor;
+  const PotSize& size = thrown.size;
+  return {{factor * size.diameter_mm, factor * size.height_mm, factor * size.foot_diameter_mm},
+          weight * thrown.weight_g,
+          volume * thrown.capacity_ml,
+          volume * thrown.to_line_ml};
+}
+
+Balance balance(double centre_mm, double foot_diameter_mm) noexcept {
+  return {centre_mm, std::atan2(0.5 * foot_diameter_mm, centre_mm) * 180.0 / std::numbers::pi};
+}
+
+Result<void> check_part(std::string_view name, double value, double below) {
+  if (value >= 0.0 && value < below) return {};
+  return failure(ErrorKind::bad_input, std::string(name) + ": expected 0 to below " + in_mm(below) +
+                                           ", found " + in_mm(value));
+}
+
+}  // namespace
+
+Result<void> ClayFigures::check() const {
+  if (!(density_g_cm3 > 0.0 && density_g_cm3 < 100.0))
+    return failure(ErrorKind::bad_input,
+                   "density: expected 0 to 100 g/cm3, found " + in_mm(density_g_cm3));
+  return check_part("shrinkage", shrinkage, 1.0)
+      .and_then([&] { return check_part("water", water, 1.0); })
+      .and_then([&] { return check_part("loss on ignition", ignition_loss, 1.0); })
+      .and_then([&]() -> Result<void> {
+        const double drying = drying_shrinkage.value_or(0.0);
+        if (drying >= 0.0 && drying <= shrinkage) return {};
+        return failure(ErrorKind::bad_input, "drying shrinkage: expected 0 to " + in_mm(shrinkage) +
+                                                 ", the total, found " + in_mm(drying));
+      });
+}
+
+Body body_of(const Profile& profile) noexcept {
+  Integrals sum;
+  for (const Polygon& piece : profile.pieces)
+    for (std::size_t i = 0; i < piece.size(); ++i)
+      sum.add(piece[i], piece[i + 1 == piece.size() ? 0 : i + 1]);
+  return sum.body();
+}
+
+Body room_of(const Profile& profile, double depth_mm) noexcept {
+  if (profile.pieces.empty() || profile.pieces.back().size() < 3) return {};
+  const Polygon& piece = profile.pieces.back();
+  std::size_t at = brim_of(piece);
+  const double level = piece[at].y - depth_mm;
+  Integrals sum;
+  for (std::size_t steps = 0; steps < piece.size() && piece[at].rho > 0.0; ++steps) {
+    const std::size_t next = at + 1 == piece.size() ? 0 : at + 1;
+    // From the bottom up, so that the room is positive.
+    add_below(sum, piece[next], piece[at], level);
+    at = next;
+  }
+  return piece[at].rho > 0.0 ? Body{} : sum.body();
+}
+
+MakerNumbers maker_numbers(const Profile& profile, const ClayFigures& clay, double fill_line_mm) {
+  MakerNumbers numbers;
+  numbers.clay = clay;
+  numbers.fill_line_mm = fill_line_mm;
+  const double fired = 1.0 - clay.shrinkage;
+  const Body body = body_of(profile), room = room_of(profile);
+  constexpr double kPerMl = 1e-3;
+  PotState& thrown = numbers.thrown;
+  thrown.size = size_of(profile);
+  thrown.weight_g = kPerMl * body.volume_mm3 * clay.density_g_cm3;
+  thrown.capacity_ml = kPerMl * room.volume_mm3;
+  thrown.to_line_ml = kPerMl * room_of(profile, fill_line_mm / fired).volume_mm3;
+  if (clay.shrinkage > 0.0) {
+    const double drying = clay.drying_shrinkage.value_or(0.5 * clay.shrinkage);
+    numbers.dry = scaled(thrown, 1.0 - drying, 1.0 - clay.water);
+    numbers.fired = scaled(thrown, fired, (1.0 - clay.water) * (1.0 - clay.ignition_loss));
+  }
+  const PotState& used = numbers.in_use();
+  const double foot = foot_level(profile), centre = fired * (body.centre_mm - foot);
+  numbers.empty = balance(centre, used.size.foot_diameter_mm);
+  if (used.capacity_ml > 0.0) {
+    const double contents_g = kContentsDensity * used.capacity_ml;
+    const double both = (used.weight_g * centre + contents_g * fired * (room.centre_mm - foot)) /
+                        (used.weight_g + contents_g);
+    numbers.full = balance(both, used.size.foot_diameter_mm);
+  }
+  return numbers;
+}
+
+}  // namespace clay::solid::inline maker

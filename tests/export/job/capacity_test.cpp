@@ -1,0 +1,108 @@
+// The capacity against water in the exported mesh, which is cut into slices from the brim down.
+
+#include "tests/export/job/exported.hpp"
+#include "tests/export/solid/shapes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace clay::solid {
+namespace {
+
+using shapes::pot_of;
+
+using Triangle = std::array<glm::dvec3, 3>;
+
+std::vector<Triangle> triangles_of(const TriangleMesh& mesh) {
+  std::vector<Triangle> all;
+  for (const auto& t : mesh.triangles)
+    all.push_back({mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]});
+  return all;
+}
+
+/// Area of the holes of the cut at height `z`: segments on which the clay lies outside.
+double hole_area(const std::vector<Triangle>& mesh, double z) {
+  double doubled = 0.0;
+  for (const Triangle& t : mesh) {
+    std::vector<glm::dvec3> ends;
+    for (int i = 0; i < 3; ++i) {
+      const glm::dvec3 &a = t[i], &b = t[(i + 1) % 3];
+      if ((a.z > z) != (b.z > z)) ends.push_back(a + (z - a.z) / (b.z - a.z) * (b - a));
+    }
+    if (ends.size() != 2) continue;
+    const glm::dvec3 u = t[1] - t[0], v = t[2] - t[0];
+    const double nx = u.y * v.z - u.z * v.y, ny = u.z * v.x - u.x * v.z;
+    if (nx * (ends[0].x + ends[1].x) + ny * (ends[0].y + ends[1].y) >= 0.0) continue;
+    doubled += std::abs(ends[0].x * ends[1].y - ends[1].x * ends[0].y);
+  }
+  return 0.5 * doubled;
+}
+
+/// From the highest point down to the floor, where the hole ends.
+double water_ml(const TriangleMesh& mesh, double below_brim_mm) {
+  double top = -1e9, bottom = 1e9;
+  for (const glm::dvec3& p : mesh.points) {
+    top = std::max(top, p.z);
+    bottom = std::min(bottom, p.z);
+  }
+  const auto triangles = triangles_of(mesh);
+  constexpr int kSlices = 2000;
+  const double slice = (top - bottom) / kSlices;
+  double water = 0.0;
+  for (int i = 0; i < kSlices; ++i) {
+    const double depth = (i + 0.5) * slice;
+    const double area = hole_area(triangles, top - depth);
+    if (area == 0.0) break;
+    if (depth > below_brim_mm) water += area * slice;
+  }
+  return 1e-3 * water;
+}
+
+TEST(Capacity, EqualsWaterInTheWrittenMesh) {
+  // A bellied vase, and a bottle on a hollow foot.
+  const ClayStack bottle = shapes::stack_of(5.0, {{30, 25},
+                                                  {32, 24},
+                                                  {36, 0},
+                                                  {40, 33},
+                                                  {42, 36},
+                                                  {40, 33},
+                                                  {35, 27},
+                                                  {29, 21},
+                                                  {23, 16},
+                                                  {22, 15}});
+  for (const ClayStack& stack : {shapes::vase(150), bottle}) {
+    ExportOptions options;
+    options.tolerance_mm = 0.1;
+    const auto exported = samples::exported(pot_of(stack), {MeshFormat::stl_binary}, options);
+    ASSERT_TRUE(exported) << exported.error().message;
+    ASSERT_TRUE(exported->report.maker);
+    const PotState& pot = exported->report.maker->thrown;
+    const auto mesh = decode_mesh(exported->files[0], MeshFormat::stl_binary, "pot").value();
+    ASSERT_GT(pot.capacity_ml, 20.0);
+    EXPECT_NEAR(pot.capacity_ml, water_ml(mesh, 0.0), 1e-3 * pot.capacity_ml);
+    EXPECT_NEAR(pot.to_line_ml, water_ml(mesh, kFillLineMm), 1e-3 * pot.capacity_ml);
+    EXPECT_LT(pot.to_line_ml, pot.capacity_ml);
+  }
+}
+
+TEST(Capacity, IsOfThePotThatIsWrittenAndFired) {
+  ExportOptions options;
+  options.smoothing = Smoothing::none;  // whose tolerance would not scale with the pot
+  const auto plain = run_export(pot_of(shapes::vase(100)), {}, options);
+  options.shrinkage = 0.1;
+  const auto larger = run_export(pot_of(shapes::vase(100)), {}, options);
+  ASSERT_TRUE(plain && larger);
+  ASSERT_TRUE(larger->maker->fired);
+  const double capacity = plain->maker->thrown.capacity_ml;
+  EXPECT_NEAR(larger->maker->fired->capacity_ml, capacity, 1e-9 * capacity);
+  EXPECT_NEAR(larger->maker->thrown.capacity_ml, capacity / (0.9 * 0.9 * 0.9), 1e-9 * capacity);
+}
+
+}  // namespace
+}  // namespace clay::solid
