@@ -89,7 +89,7 @@ TEST_F(ExportOptions, AShrinkageMakesTheFilesLarger) {
   ASSERT_NE(size_z, std::string::npos) << info;
   EXPECT_NEAR(std::stod(info.substr(size_z + 9)), larger.at("height_mm").get<double>(), 1e-3);
   EXPECT_EQ(claystack("check " + stl).status, 0);
-  EXPECT_NE(claystack("export " + pot + " " + stl + " --shrinkage 12%").out.find("after firing"),
+  EXPECT_NE(claystack("export " + pot + " " + stl + " --shrinkage 12%").out.find(" fired"),
             std::string::npos);
 }
 
