@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -31,7 +32,7 @@ double hole_area(const std::vector<Triangle>& mesh, double z) {
   double doubled = 0.0;
   for (const Triangle& t : mesh) {
     std::vector<glm::dvec3> ends;
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       const glm::dvec3 &a = t[i], &b = t[(i + 1) % 3];
       if ((a.z > z) != (b.z > z)) ends.push_back(a + (z - a.z) / (b.z - a.z) * (b - a));
     }
