@@ -8,7 +8,7 @@ cmake_minimum_required(VERSION 3.25)
 set(rooms
   core core/json
   engine/clay engine/tool engine/tick engine/collapse engine/wheel engine/files
-  export/section export/maker export/solid export/walls export/formats export/proof export/smoothing
+  export/section export/solid export/walls export/formats export/proof export/smoothing
   export/check export/repair export/fallen export/job
   falcon/device falcon/device/usb falcon/safety falcon/sim
   app/chart app/history app/strokes app/servo app/import app/render app/bench app/cli app/studio)

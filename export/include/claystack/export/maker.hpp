@@ -6,7 +6,7 @@
 
 #include <optional>
 
-namespace clay::solid::inline maker {
+namespace clay::solid::inline section {
 
 // ---- clay ----------------------------------------------------------------------------
 
@@ -33,17 +33,17 @@ inline constexpr double kContentsDensity = 1.0;
 // ---- section as a body ---------------------------------------------------------------
 
 /// Volume of a body of revolution, and the height of its centre of gravity.
-struct Body {
+struct RevolvedBody {
   double volume_mm3 = 0.0;
   double centre_mm = 0.0;  ///< height; 0 without volume
 };
 
 /// The clay: exact integrals over the frusta of the profile.
-[[nodiscard]] Body body_of(const Profile& profile) noexcept;
+[[nodiscard]] RevolvedBody revolved_body(const Profile& profile) noexcept;
 
 /// The room in the uppermost piece below `depth_mm` under its brim, if it is a cup; else empty. The
 /// brim is the highest level of the piece. Assumes one bore at each height, as in every stack.
-[[nodiscard]] Body room_of(const Profile& profile, double depth_mm = 0.0) noexcept;
+[[nodiscard]] RevolvedBody room_of(const Profile& profile, double depth_mm = 0.0) noexcept;
 
 // ---- numbers -------------------------------------------------------------------------
 
@@ -86,4 +86,4 @@ struct MakerNumbers {
 [[nodiscard]] MakerNumbers maker_numbers(const Profile& profile, const ClayFigures& clay,
                                          double fill_line_mm = kFillLineMm);
 
-}  // namespace clay::solid::inline maker
+}  // namespace clay::solid::inline section

@@ -84,7 +84,7 @@ TEST(MakerNumbers, OfAConeBelowItsFillLine) {
   EXPECT_NEAR(numbers.thrown.to_line_ml, 1e-3 * filled.volume(), 1e-9);
   const double clay = outer.volume() - room.volume();
   const double centre = (outer.volume() * outer.centre() - room.volume() * room.centre()) / clay;
-  EXPECT_NEAR(body_of(cone).centre_mm, centre + up, 1e-9);
+  EXPECT_NEAR(revolved_body(cone).centre_mm, centre + up, 1e-9);
   EXPECT_NEAR(numbers.empty.centre_mm, centre, 1e-9);
   EXPECT_NEAR(numbers.empty.tipping_deg, std::atan(20.0 / centre) * kPerRadian, 1e-9);
 }
@@ -134,7 +134,7 @@ TEST(MakerNumbers, NothingHoldsWaterWithoutAFloor) {
   const MakerNumbers numbers = maker_numbers(tube, {});
   EXPECT_EQ(numbers.thrown.capacity_ml, 0.0);
   EXPECT_FALSE(numbers.full);
-  EXPECT_NEAR(body_of(tube).volume_mm3, kHalfTurn * 700.0 * 60.0, 1e-6);
+  EXPECT_NEAR(revolved_body(tube).volume_mm3, kHalfTurn * 700.0 * 60.0, 1e-6);
   // A cup upside down, and a block.
   EXPECT_EQ(room_of({{{{30, 0}, {40, 0}, {40, 60}, {0, 60}, {0, 50}, {30, 50}}}}).volume_mm3, 0.0);
   EXPECT_EQ(room_of({{{{0, 0}, {40, 0}, {40, 60}, {0, 60}}}}).volume_mm3, 0.0);

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-namespace clay::solid::inline maker {
+namespace clay::solid::inline section {
 namespace {
 
 /// Integrals of rho^2 dy and of rho^2 y dy along the straight line from `a` to `b`.
@@ -24,7 +24,7 @@ struct Integrals {
     moment += height * (a.y * all / 3.0 + height * (aa + 2.0 * ab + 3.0 * bb) / 12.0);
   }
 
-  [[nodiscard]] Body body() const noexcept {
+  [[nodiscard]] RevolvedBody body() const noexcept {
     if (!(area_height > 0.0)) return {};
     return {std::numbers::pi * area_height, moment / area_height};
   }
@@ -116,7 +116,7 @@ Result<void> ClayFigures::check() const {
       });
 }
 
-Body body_of(const Profile& profile) noexcept {
+RevolvedBody revolved_body(const Profile& profile) noexcept {
   Integrals sum;
   for (const Polygon& piece : profile.pieces)
     for (std::size_t i = 0; i < piece.size(); ++i)
@@ -124,7 +124,7 @@ Body body_of(const Profile& profile) noexcept {
   return sum.body();
 }
 
-Body room_of(const Profile& profile, double depth_mm) noexcept {
+RevolvedBody room_of(const Profile& profile, double depth_mm) noexcept {
   if (profile.pieces.empty() || profile.pieces.back().size() < 3) return {};
   const Polygon& piece = profile.pieces.back();
   std::size_t at = brim_of(piece);
@@ -136,7 +136,7 @@ Body room_of(const Profile& profile, double depth_mm) noexcept {
     add_below(sum, piece[next], piece[at], level);
     at = next;
   }
-  return piece[at].rho > 0.0 ? Body{} : sum.body();
+  return piece[at].rho > 0.0 ? RevolvedBody{} : sum.body();
 }
 
 MakerNumbers maker_numbers(const Profile& profile, const ClayFigures& clay, double fill_line_mm) {
@@ -144,7 +144,7 @@ MakerNumbers maker_numbers(const Profile& profile, const ClayFigures& clay, doub
   numbers.clay = clay;
   numbers.fill_line_mm = fill_line_mm;
   const double fired = 1.0 - clay.shrinkage;
-  const Body body = body_of(profile), room = room_of(profile);
+  const RevolvedBody body = revolved_body(profile), room = room_of(profile);
   constexpr double kPerMl = 1e-3;
   PotState& thrown = numbers.thrown;
   thrown.size = size_of(profile);
@@ -168,4 +168,4 @@ MakerNumbers maker_numbers(const Profile& profile, const ClayFigures& clay, doub
   return numbers;
 }
 
-}  // namespace clay::solid::inline maker
+}  // namespace clay::solid::inline section
