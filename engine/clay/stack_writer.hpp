@@ -50,14 +50,14 @@ class StackWriter {
     return placed;
   }
   void gain(WideQuanta amount) noexcept { gained_ += amount; }
-  /// Rings from `first` on get these amounts, whole quanta, for which they have room without a bore
-  /// closing. The caller reports their sum with `gain`.
-  void thicken(std::size_t first, std::span<const double> outside,
-               std::span<const double> inside) noexcept {
+  /// Rings from `first` on get these amounts, for which they have room without a bore closing. The
+  /// caller reports their sum with `gain`.
+  void thicken(std::size_t first, std::span<const Quanta> outside,
+               std::span<const Quanta> inside) noexcept {
     Ring* const rings = stack_.rings_.data() + first;
     for (std::size_t k = 0; k < outside.size(); ++k) {
-      rings[k].outer2 += static_cast<Quanta>(outside[k]);
-      rings[k].inner2 -= static_cast<Quanta>(inside[k]);
+      rings[k].outer2 += outside[k];
+      rings[k].inner2 -= inside[k];
     }
   }
   /// Rings from `first` on move by these amounts and give up clay from inside [quanta], `total` in
@@ -73,22 +73,19 @@ class StackWriter {
     gained_ -= total;
   }
   /// Clay along a surface, the outer one or that of a bore: amounts from the rings `from` on to the
-  /// rings `to` on [quanta, rounded down in size].
-  void smear(std::size_t from, std::size_t to, std::span<const double> amounts,
+  /// rings `to` on. First what all give, then what all get: a ring that does both would wait for
+  /// itself.
+  void smear(std::size_t from, std::size_t to, std::span<const Quanta> amounts,
              bool outside) noexcept {
     Ring *const low = stack_.rings_.data() + from, *const high = stack_.rings_.data() + to;
-    if (outside)
-      for (std::size_t k = 0; k < amounts.size(); ++k) {
-        const auto amount = static_cast<Quanta>(amounts[k]);
-        low[k].outer2 -= amount;
-        high[k].outer2 += amount;
-      }
-    else
-      for (std::size_t k = 0; k < amounts.size(); ++k) {
-        const auto amount = static_cast<Quanta>(amounts[k]);
-        low[k].inner2 += amount;
-        high[k].inner2 -= amount;
-      }
+    const std::size_t count = amounts.size();
+    if (outside) {
+      for (std::size_t k = 0; k < count; ++k) low[k].outer2 -= amounts[k];
+      for (std::size_t k = 0; k < count; ++k) high[k].outer2 += amounts[k];
+    } else {
+      for (std::size_t k = 0; k < count; ++k) low[k].inner2 += amounts[k];
+      for (std::size_t k = 0; k < count; ++k) high[k].inner2 -= amounts[k];
+    }
   }
   void put_on_crown(WideQuanta amount) noexcept { stack_.crown_ += amount; }
 

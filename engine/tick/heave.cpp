@@ -10,13 +10,85 @@ namespace {
 
 constexpr double kSteepest = 0.5;  // of a ring's growth over its height
 constexpr std::size_t kRows = 64;
+constexpr std::size_t kLanes = 8;  // of floats
 
-/// Up to a distance t of the reach, from 0 to 1: t^3 (10 - 15 t + 6 t^2). Each half from its own
-/// end, so that rounding cannot make it fall.
-CLAYSTACK_INLINE inline double share_up_to(double t) noexcept {
-  const double far = 1.0 - t, s = t < far ? t : far;
-  const double share = s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
-  return t < far ? share : 1.0 - share;
+/// Some neighbouring rings and one more at either end, which has no share. Loops take whole lanes: the
+/// rows after the last ring repeat it, and have no share. Lengths for which single precision is
+/// enough are floats, of which a machine takes twice as many.
+struct Block {
+  static constexpr std::size_t kAll = kRows + kLanes;
+  double outer2[kAll], inner2[kAll];         ///< [quanta]
+  float outer[kAll], inner[kAll];            ///< [mm]
+  float per_outer[kAll], per_inner[kAll];    ///< 1 / R, 1 / r [1/mm]
+  double wall[kAll];                         ///< [mm]
+  double outside_to[kAll], inside_to[kAll];  ///< whole quanta that lie up to a ring's lower face
+  Quanta outside[kAll], inside[kAll];        ///< a ring's share
+  double clear[kAll];                        ///< of the tool [mm]
+  double lack[kAll];                         ///< above 0: does not take its share
+};
+
+CLAYSTACK_INLINE inline void measure(Block& b, std::size_t rows) noexcept {
+  for (std::size_t k = 0; k < rows; ++k) {
+    b.outer[k] = static_cast<float>(b.outer2[k] * kMm2PerQuantum);
+    b.inner[k] = static_cast<float>(b.inner2[k] * kMm2PerQuantum);
+  }
+  for (std::size_t k = 0; k < rows; ++k) {
+    b.outer[k] = std::sqrt(b.outer[k]);
+    b.inner[k] = std::sqrt(b.inner[k]);
+    b.per_outer[k] = 1.0f / b.outer[k];
+    b.per_inner[k] = 1.0f / (b.inner[k] + 1e-30f);
+  }
+  for (std::size_t k = 0; k < rows; ++k)
+    b.wall[k] = static_cast<double>(b.outer[k]) - static_cast<double>(b.inner[k]);
+}
+
+/// What of a heap lies up to each face of a ring, as parts of it: up to a distance t of the reach,
+/// from 0 to 1, t^3 (10 - 15 t + 6 t^2). Each half from its own end, so that rounding cannot make
+/// it fall. `start` and `step`: of the faces, in parts of the reach; below 0 downward.
+///
+/// In small loops: where a loop asks for the same condition twice, GCC does all of it twice.
+CLAYSTACK_INLINE inline void share_out(double* part, std::size_t count, std::size_t faces,
+                                       double start, double step) noexcept {
+  const double last = kLevels[count];
+  double of_half[Block::kAll];
+  for (std::size_t k = 0; k < faces; ++k)
+    part[k] = greater(start + lesser(kLevels[k], last) * step, 0.0);
+  for (std::size_t k = 0; k < faces; ++k) part[k] = lesser(part[k], 1.0);
+  for (std::size_t k = 0; k < faces; ++k) {
+    const double s = lesser(part[k], 1.0 - part[k]);
+    of_half[k] = s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
+  }
+  for (std::size_t k = 0; k < faces; ++k)
+    part[k] = part[k] < 1.0 - part[k] ? of_half[k] : 1.0 - of_half[k];
+}
+
+/// In whole quanta. What a ring gets is the difference of its two faces.
+CLAYSTACK_INLINE inline void divide(Block& b, const double* part, std::size_t faces, double outside,
+                                    double inside) noexcept {
+  for (std::size_t k = 0; k < faces; ++k) {
+    b.inside_to[k] = lane_nearest(inside * part[k]);
+    b.outside_to[k] = lane_nearest(outside * part[k]);
+  }
+}
+
+/// Which rings do not take their share: without a root, by what is more than each surface moves. A
+/// share leaves a bore open.
+CLAYSTACK_INLINE inline void find_lacks(Block& b, std::size_t rows, double sign, double spare,
+                                        double largest2) noexcept {
+  for (std::size_t k = 0; k < rows; ++k) {
+    const double outside = sign * (b.outside_to[k + 1] - b.outside_to[k]);
+    const double inside = sign * (b.inside_to[k + 1] - b.inside_to[k]);
+    b.outside[k] = lane_quanta(outside);
+    b.inside[k] = lane_quanta(inside);
+    const double moved = kMm2PerQuantum * (0.5 * outside * static_cast<double>(b.per_outer[k + 1]) +
+                                           inside * static_cast<double>(b.per_inner[k + 1]));
+    const double slope = lesser(b.wall[k], b.wall[k + 2]) + spare - b.wall[k + 1];
+    const double over = moved - lesser(slope, b.clear[k]);
+    const double bore = inside > 0.0 ? inside + 1.0 - b.inner2[k + 1] : 0.0;
+    const double wide = b.outer2[k + 1] + outside - largest2;
+    const double lacks = greater(over, greater(bore, wide));
+    b.lack[k] = moved > 0.0 ? lacks : 0.0;
+  }
 }
 
 /// One end of a band and the way from there.
@@ -55,18 +127,6 @@ class Heaving {
   struct Portion {
     Quanta inside = 0, outside = 0;
   };
-  /// Some neighbouring rings and one more at either end, which has no share.
-  struct Block {
-    double outer2[kRows + 2], inner2[kRows + 2];                 ///< [quanta]
-    double per_outer[kRows + 2], per_inner[kRows + 2];           ///< 1 / R, 1 / r [1/mm]
-    double outer[kRows + 2], inner[kRows + 2], wall[kRows + 2];  ///< [mm]
-    double share_outside[kRows], share_inside[kRows];            ///< whole quanta
-    double clear[kRows];                                         ///< of the tool [mm]
-    double lack[kRows];  ///< above 0: does not take its share
-    Quanta total;        ///< of the shares
-    bool any_full;
-  };
-
   [[nodiscard]] Quanta carried() const noexcept { return carry_.inside + carry_.outside; }
   /// Rings to the end of the reach; where something is carried, to that of twice the reach.
   [[nodiscard]] std::size_t rings_to_end(std::size_t ring) const noexcept {
@@ -80,79 +140,76 @@ class Heaving {
   }
 
   void lay(std::size_t first, std::size_t count) noexcept {
-    load(first, count);
-    divide(first, count);
-    find_room(first, count);
-    const std::span<const double> outside(block_.share_outside, count);
-    const std::span<const double> inside(block_.share_inside, count);
-    if (carried() == 0 && !block_.any_full) {
-      writer_.thicken(first, outside, inside);
-      placed_ += block_.total;
-      return;
-    }
-    for (std::size_t n = 0; n < count; ++n) {
-      const std::size_t k = heap_.up ? n : count - 1 - n;
-      if (carried() == 0 && !(block_.lack[k] > 0.0)) {
-        writer_.thicken(first + k, outside.subspan(k, 1), inside.subspan(k, 1));
-        placed_ += static_cast<Quanta>(outside[k] + inside[k]);
+    prepare(first, count);
+    for (std::size_t n = 0; n < count;) {
+      const std::size_t even = carried() == 0 ? rings_that_take(n, count) : 0;
+      if (even > 0) {
+        give_shares(first, heap_.up ? n : count - n - even, even);
+        n += even;
         continue;
       }
-      carry_.inside += static_cast<Quanta>(inside[k]);
-      carry_.outside += static_cast<Quanta>(outside[k]);
+      const std::size_t k = heap_.up ? n : count - 1 - n;
+      carry_.inside += block_.inside[k];
+      carry_.outside += block_.outside[k];
       if (carried() > 0) place(first + k, k + 1);
+      ++n;
     }
   }
 
-  /// The block at an end of the stack. Beyond it there is nothing to be compared with: the end ring
-  /// itself.
-  const Ring* copy_end(std::size_t first, std::size_t count) noexcept {
-    const auto rings = stack_.rings();
-    for (std::size_t k = 0; k < count + 2; ++k)
-      end_[k] = rings[std::min(first + k > 0 ? first + k - 1 : 0, rings.size() - 1)];
-    return end_;
+  /// From the n-th ring of the block on its way: how many take their share.
+  [[nodiscard]] std::size_t rings_that_take(std::size_t n, std::size_t count) const noexcept {
+    const std::size_t begin = n;
+    while (n < count && !(block_.lack[heap_.up ? n : count - 1 - n] > 0.0)) ++n;
+    return n - begin;
   }
 
-  void load(std::size_t first, std::size_t count) noexcept {
-    const bool at_end = first == 0 || first + count == stack_.size();
-    const Ring* const from = at_end ? copy_end(first, count) : &stack_.rings()[first - 1];
-    Block& b = block_;
-    in_lanes([&]() CLAYSTACK_INLINE {
-      for (std::size_t k = 0; k < count + 2; ++k) {
-        b.outer2[k] = lane_double(from[k].outer2);
-        b.inner2[k] = lane_double(from[k].inner2);
-        b.outer[k] = rough_root(b.outer2[k] * kMm2PerQuantum);
-        b.inner[k] = rough_root(b.inner2[k] * kMm2PerQuantum);
-        b.wall[k] = b.outer[k] - b.inner[k];
-        b.per_outer[k] = 1.0f / static_cast<float>(b.outer[k]);
-        b.per_inner[k] = 1.0f / static_cast<float>(b.inner[k] + 1e-30);
-      }
-    });
+  void give_shares(std::size_t first, std::size_t k, std::size_t count) noexcept {
+    const Block& b = block_;
+    writer_.thicken(first + k, {b.outside + k, count}, {b.inside + k, count});
+    const double total =
+        b.inside_to[k + count] - b.inside_to[k] + (b.outside_to[k + count] - b.outside_to[k]);
+    placed_ += static_cast<Quanta>(heap_.up ? total : -total);
   }
 
-  /// What of the heap each ring gets: the difference of what lies up to its two faces.
-  void divide(std::size_t first, std::size_t count) noexcept {
+  void prepare(std::size_t first, std::size_t count) noexcept {
+    static const double largest2 = static_cast<double>(quanta_from_radius(kMaxRadiusMm));
+    const std::size_t rows = (count + kLanes - 1) / kLanes * kLanes;
     const double away = heap_.up ? per_reach_ : -per_reach_, step = away * h_;
     const double start = away * (static_cast<double>(first) * h_ - from_mm_);
-    const double inside = static_cast<double>(heap_.inside);
-    const double outside = static_cast<double>(heap_.outside), sign = heap_.up ? 1.0 : -1.0;
-    double in[kRows + 1], out[kRows + 1];
-    Block& b = block_;
-    in_lanes([&]() CLAYSTACK_INLINE {
-      for (std::size_t k = 0; k < count + 1; ++k) {
-        const double x = start + static_cast<double>(static_cast<int>(k)) * step;
-        const double low = x > 0.0 ? x : 0.0, t = low < 1.0 ? low : 1.0;
-        const double share = share_up_to(t);
-        in[k] = lane_nearest(inside * share);
-        out[k] = lane_nearest(outside * share);
-      }
-      for (std::size_t k = 0; k < count; ++k) {
-        b.share_inside[k] = sign * (in[k + 1] - in[k]);
-        b.share_outside[k] = sign * (out[k + 1] - out[k]);
-      }
-    });
-    block_.total = static_cast<Quanta>(sign * (in[count] - in[0] + (out[count] - out[0])));
     const double end = start + (heap_.up ? static_cast<double>(count) * step : 0.0);
     reached_end_ = end >= 1.0;
+    load(first, count, rows + kLanes);
+    in_lanes([=, b = &block_]() CLAYSTACK_INLINE { measure(*b, rows + kLanes); });
+    find_clearance(first, count, rows);
+    in_lanes([=, b = &block_, outside = static_cast<double>(heap_.outside),
+              inside = static_cast<double>(heap_.inside), sign = heap_.up ? 1.0 : -1.0,
+              spare = kSteepest * h_, most = largest2]() CLAYSTACK_INLINE {
+      double part[Block::kAll];
+      share_out(part, count, rows + kLanes, start, step);
+      divide(*b, part, rows + kLanes, outside, inside);
+      find_lacks(*b, rows, sign, spare, most);
+    });
+  }
+
+  void load(std::size_t first, std::size_t count, std::size_t rows) noexcept {
+    // Beyond an end of the stack there is nothing to be compared with: the end ring itself.
+    const std::size_t begin = first == 0 ? 1 : 0;
+    const std::size_t end = first + count == stack_.size() ? count + 1 : count + 2;
+    Block& b = block_;
+    in_lanes([=, to = &b, rings = &stack_.rings()[first + begin - 1]]() CLAYSTACK_INLINE {
+      for (std::size_t k = begin; k < end; ++k) {
+        to->outer2[k] = lane_double(rings[k - begin].outer2);
+        to->inner2[k] = lane_double(rings[k - begin].inner2);
+      }
+    });
+    if (begin > 0) {
+      b.outer2[0] = b.outer2[1];
+      b.inner2[0] = b.inner2[1];
+    }
+    for (std::size_t k = end; k < rows; ++k) {
+      b.outer2[k] = b.outer2[end - 1];
+      b.inner2[k] = b.inner2[end - 1];
+    }
   }
 
   /// How far ring i may grow before it stands in the tool [mm]; of one that is not beside it: a
@@ -164,39 +221,17 @@ class Heaving {
     return std::max(contact_.side == Side::compressive ? d - f - R : r - (d + f), 0.0);
   }
 
-  /// Which rings of the block do not take their share: without a root, by what is more than each
-  /// surface moves. A share leaves a bore open.
-  void find_room(std::size_t first, std::size_t count) noexcept {
-    static const double largest2 = static_cast<double>(quanta_from_radius(kMaxRadiusMm));
+  void find_clearance(std::size_t first, std::size_t count, std::size_t rows) noexcept {
     Block& b = block_;
-    for (std::size_t k = 0; k < count; ++k) b.clear[k] = kFar;
+    std::fill_n(b.clear, rows, kFar);
     const double low = (hip_y_ + tool_.low()) / h_, high = (hip_y_ + tool_.high()) / h_;
     const double from = std::max(low - 1.0, static_cast<double>(first));
     const double to = std::min(high + 1.0, static_cast<double>(first + count));
     if (from < to)
       for (std::size_t k = static_cast<std::size_t>(from) - first;
            k < static_cast<std::size_t>(to) - first; ++k)
-        b.clear[k] = clear_of_tool(first + k, b.outer[k + 1], b.inner[k + 1]);
-    const double spare = kSteepest * h_;
-    in_lanes([&, end = count, most = largest2]() CLAYSTACK_INLINE {
-      std::int64_t any = 0;
-      for (std::size_t k = 0; k < end; ++k) {
-        const double below = b.wall[k], above = b.wall[k + 2];
-        const double least = below < above ? below : above;
-        const double inside = b.share_inside[k], outside = b.share_outside[k];
-        const double moved =
-            kMm2PerQuantum * (0.5 * outside * b.per_outer[k + 1] + inside * b.per_inner[k + 1]);
-        const double slope = least + spare - b.wall[k + 1];
-        const double over = moved - (slope < b.clear[k] ? slope : b.clear[k]);
-        const double bore = inside > 0.0 ? inside + 1.0 - b.inner2[k + 1] : 0.0;
-        const double wide = b.outer2[k + 1] + outside - most;
-        const double worse = bore > wide ? bore : wide;
-        const double lacks = over > worse ? over : worse, lack = moved > 0.0 ? lacks : 0.0;
-        b.lack[k] = lack;
-        any |= lack > 0.0 ? std::int64_t{1} : std::int64_t{0};
-      }
-      b.any_full = any != 0;
-    });
+        b.clear[k] = clear_of_tool(first + k, static_cast<double>(b.outer[k + 1]),
+                                   static_cast<double>(b.inner[k + 1]));
   }
 
   /// As much of what is carried as ring i takes.
@@ -209,7 +244,8 @@ class Heaving {
     const double least = std::min(block_.wall[k - 1], block_.wall[k + 1]);
     const double room = least + kSteepest * h_ - block_.wall[k];
     if (!(room > 0.0)) return;
-    const double R = block_.outer[k], r = block_.inner[k];
+    const double R = static_cast<double>(block_.outer[k]);
+    const double r = static_cast<double>(block_.inner[k]);
     double out = 0.0, in = 0.0;
     const Portion taken = fitting(i, room, R, r, out, in);
     const Quanta inside = writer_.put_inside(i, taken.inside);
@@ -256,7 +292,6 @@ class Heaving {
   Portion carry_;
   Quanta placed_ = 0;
   Block block_;
-  Ring end_[kRows + 2];
 };
 
 }  // namespace

@@ -13,8 +13,6 @@ constexpr std::size_t kMostSunk = 64;
 // A bore keeps half of its radius at least, however far a pose leaps.
 constexpr double kMostOfBore = 0.75;
 
-double lesser(double a, double b) noexcept { return a < b ? a : b; }
-double greater(double a, double b) noexcept { return a > b ? a : b; }
 double smooth(double t) noexcept { return t * t * (3.0 - 2.0 * t); }
 
 /// One ring's change of R^2 and the clay that it gives up [quanta].
