@@ -60,17 +60,16 @@ class StackWriter {
       rings[k].inner2 -= inside[k];
     }
   }
-  /// Rings from `first` on move by these amounts and give up clay from inside [quanta], `total` in
-  /// all; no bore opens or closes.
-  void bend(std::size_t first, std::span<const Quanta> moved, std::span<const Quanta> raised,
-            WideQuanta total) noexcept {
+  /// R^2 and r^2 of the rings from `first` on change by these amounts, by which they give up `raised`
+  /// in all; no bore opens or closes.
+  void bend(std::size_t first, std::span<const Ring> changes, WideQuanta raised) noexcept {
     Ring* const rings = stack_.rings_.data() + first;
-    for (std::size_t k = 0; k < moved.size(); ++k) {
-      rings[k].outer2 += moved[k];
-      rings[k].inner2 += moved[k] + raised[k];
+    for (std::size_t k = 0; k < changes.size(); ++k) {
+      rings[k].outer2 += changes[k].outer2;
+      rings[k].inner2 += changes[k].inner2;
       assert(rings[k].volume() > 0 && rings[k].inner2 >= 0);
     }
-    gained_ -= total;
+    gained_ -= raised;
   }
   /// Clay along a surface, the outer one or that of a bore: amounts from the rings `from` on to the
   /// rings `to` on. First what all give, then what all get: a ring that does both would wait for
