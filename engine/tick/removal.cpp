@@ -1,7 +1,7 @@
 #include "engine/tick/removal.hpp"
 
 #include "engine/clay/portable_math.hpp"
-#include "engine/tick/lanes.hpp"
+#include "engine/clay/lanes.hpp"
 #include "engine/tick/yielding.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 #include "claystack/engine/clay.hpp"
 #include "engine/tick/band.hpp"
-#include "engine/tick/four.hpp"
+#include "engine/clay/four.hpp"
 
 namespace clay {
 

@@ -1,6 +1,6 @@
 #include "engine/tick/shift.hpp"
 
-#include "engine/tick/four.hpp"
+#include "engine/clay/four.hpp"
 
 #include <algorithm>
 #include <cmath>

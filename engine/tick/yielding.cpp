@@ -1,6 +1,6 @@
 #include "engine/tick/yielding.hpp"
 
-#include "engine/tick/lanes.hpp"
+#include "engine/clay/lanes.hpp"
 
 #include <array>
 #include <cstdint>

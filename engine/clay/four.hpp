@@ -4,7 +4,7 @@
 // fused with an addition, and every operation is one of IEEE 754: the same bits as row by row.
 
 #include "claystack/engine/clay.hpp"
-#include "engine/tick/lanes.hpp"
+#include "engine/clay/lanes.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -92,6 +92,12 @@ CLAYSTACK_INLINE inline FourRings load_four(const Ring* rings) noexcept {
   const auto low = load<FourQuanta>(rings), high = load<FourQuanta>(rings + 2);
   return {__builtin_shufflevector(low, high, 0, 2, 4, 6),
           __builtin_shufflevector(low, high, 1, 3, 5, 7)};
+}
+/// With the rings in the order 0, 2, 1, 3, which takes fewer steps.
+CLAYSTACK_INLINE inline FourRings load_four_of_any_order(const Ring* rings) noexcept {
+  const auto low = load<FourQuanta>(rings), high = load<FourQuanta>(rings + 2);
+  return {__builtin_shufflevector(low, high, 0, 4, 2, 6),
+          __builtin_shufflevector(low, high, 1, 5, 3, 7)};
 }
 /// The first `count` of four rings; the others repeat the last of them.
 CLAYSTACK_INLINE inline FourRings load_four(const Ring* rings, std::size_t count) noexcept {
