@@ -20,9 +20,9 @@ namespace clay {
 inline constexpr std::size_t kFour = 4;
 using Four = double __attribute__((vector_size(32)));
 using FourQuanta = std::int64_t __attribute__((vector_size(32)));
+using TwoQuanta = std::int64_t __attribute__((vector_size(16)));
 using FourBits = std::uint64_t __attribute__((vector_size(32)));
 using FourFloats = float __attribute__((vector_size(16)));
-using EightFloats = float __attribute__((vector_size(32)));
 
 /// Rows that loops of fours go over.
 [[nodiscard]] constexpr std::size_t in_fours(std::size_t rows) noexcept {
@@ -53,11 +53,20 @@ CLAYSTACK_INLINE inline Four root(Four x) noexcept {
   for (int k = 0; k < 4; ++k) r[k] = std::sqrt(x[k]);
   return r;
 }
+CLAYSTACK_INLINE inline FourFloats four_floats(Four x) noexcept {
+  return __builtin_convertvector(x, FourFloats);
+}
+/// Not __builtin_convertvector, which GCC does two by two.
+CLAYSTACK_INLINE inline Four four_doubles(FourFloats x) noexcept {
+  Four r{};
+  for (int k = 0; k < 4; ++k) r[k] = static_cast<double>(x[k]);
+  return r;
+}
 /// As `rough_root`.
 CLAYSTACK_INLINE inline Four rough_root(Four x) noexcept {
-  FourFloats r = __builtin_convertvector(x, FourFloats);
+  FourFloats r = four_floats(x);
   for (int k = 0; k < 4; ++k) r[k] = std::sqrt(r[k]);
-  return __builtin_convertvector(r, Four);
+  return four_doubles(r);
 }
 
 /// As `lane_double`, `lane_nearest`, `lane_quanta` and `lane_quanta_below`.
@@ -78,7 +87,10 @@ CLAYSTACK_INLINE inline FourQuanta four_quanta_below(Four x) noexcept {
   return four_quanta(x < 0.0 ? -whole : whole);
 }
 
-inline constexpr std::array<Quanta, kFour> kRowNumbers{0, 1, 2, 3};
+/// first, first + 1, ...
+CLAYSTACK_INLINE inline FourQuanta row_numbers(std::size_t first) noexcept {
+  return FourQuanta{0, 1, 2, 3} + static_cast<Quanta>(first);
+}
 
 /// Whether a condition holds in some row.
 CLAYSTACK_INLINE inline bool any(FourQuanta condition) noexcept {
@@ -88,16 +100,15 @@ CLAYSTACK_INLINE inline bool any(FourQuanta condition) noexcept {
 struct FourRings {
   FourQuanta outer2, inner2;
 };
+/// Ring by ring: a load of two that have just been written apart would wait until both writes are
+/// done.
 CLAYSTACK_INLINE inline FourRings load_four(const Ring* rings) noexcept {
-  const auto low = load<FourQuanta>(rings), high = load<FourQuanta>(rings + 2);
-  return {__builtin_shufflevector(low, high, 0, 2, 4, 6),
-          __builtin_shufflevector(low, high, 1, 3, 5, 7)};
-}
-/// With the rings in the order 0, 2, 1, 3, which takes fewer steps.
-CLAYSTACK_INLINE inline FourRings load_four_of_any_order(const Ring* rings) noexcept {
-  const auto low = load<FourQuanta>(rings), high = load<FourQuanta>(rings + 2);
-  return {__builtin_shufflevector(low, high, 0, 4, 2, 6),
-          __builtin_shufflevector(low, high, 1, 5, 3, 7)};
+  const auto a = load<TwoQuanta>(rings), b = load<TwoQuanta>(rings + 1);
+  const auto c = load<TwoQuanta>(rings + 2), d = load<TwoQuanta>(rings + 3);
+  const FourQuanta even = __builtin_shufflevector(a, c, 0, 1, 2, 3);
+  const FourQuanta odd = __builtin_shufflevector(b, d, 0, 1, 2, 3);
+  return {__builtin_shufflevector(even, odd, 0, 4, 2, 6),
+          __builtin_shufflevector(even, odd, 1, 5, 3, 7)};
 }
 /// The first `count` of four rings; the others repeat the last of them.
 CLAYSTACK_INLINE inline FourRings load_four(const Ring* rings, std::size_t count) noexcept {

@@ -26,7 +26,7 @@ CLAYSTACK_INLINE inline void add_fours(const Ring* rings, std::size_t count,
   FourBits low{}, high{};
   FourQuanta least = all_of(stretch->least);
   for (std::size_t k = 0; k < count; k += kFour) {
-    const FourRings four = load_four_of_any_order(rings + k);
+    const FourRings four = load_four(rings + k);
     const FourQuanta volume = four.outer2 - four.inner2;
     const auto bits = reinterpret_cast<FourBits>(volume);
     low += bits & 0xffffffffu;

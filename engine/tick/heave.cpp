@@ -1,6 +1,6 @@
 #include "engine/tick/heave.hpp"
 
-#include "engine/clay/lanes.hpp"
+#include "engine/clay/four.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,85 +10,115 @@ namespace {
 
 constexpr double kSteepest = 0.5;  // of a ring's growth over its height
 constexpr std::size_t kRows = 64;
-constexpr std::size_t kLanes = 8;  // of floats
 
-/// Some neighbouring rings and one more at either end, which has no share. Loops take whole lanes: the
-/// rows after the last ring repeat it, and have no share. Lengths for which single precision is
-/// enough are floats, of which a machine takes twice as many.
+/// Some neighbouring rings, and one more wall at either end.
 struct Block {
-  static constexpr std::size_t kAll = kRows + kLanes;
-  double outer2[kAll], inner2[kAll];         ///< [quanta]
-  float outer[kAll], inner[kAll];            ///< [mm]
-  float per_outer[kAll], per_inner[kAll];    ///< 1 / R, 1 / r [1/mm]
-  double wall[kAll];                         ///< [mm]
-  double outside_to[kAll], inside_to[kAll];  ///< whole quanta that lie up to a ring's lower face
-  Quanta outside[kAll], inside[kAll];        ///< a ring's share
-  double clear[kAll];                        ///< of the tool [mm]
-  double lack[kAll];                         ///< above 0: does not take its share
+  static constexpr std::size_t kAll = kRows + kFour;
+  double outer[kAll], inner[kAll];            ///< to single precision [mm]
+  double wall[kAll + 2];                      ///< [mm]; from the one before the first ring on
+  double outside_to[kAll], inside_to[kAll];   ///< whole quanta that lie up to a ring's lower face
+  Quanta outside[kAll], inside[kAll];         ///< a ring's share
+  double clear[kAll];                         ///< of the tool [mm]
+  double lack[kAll];                          ///< above 0: does not take its share
 };
 
-CLAYSTACK_INLINE inline void measure(Block& b, std::size_t rows) noexcept {
-  for (std::size_t k = 0; k < rows; ++k) {
-    b.outer[k] = static_cast<float>(b.outer2[k] * kMm2PerQuantum);
-    b.inner[k] = static_cast<float>(b.inner2[k] * kMm2PerQuantum);
-  }
-  for (std::size_t k = 0; k < rows; ++k) {
-    b.outer[k] = std::sqrt(b.outer[k]);
-    b.inner[k] = std::sqrt(b.inner[k]);
-    b.per_outer[k] = 1.0f / b.outer[k];
-    b.per_inner[k] = 1.0f / (b.inner[k] + 1e-30f);
-  }
-  for (std::size_t k = 0; k < rows; ++k)
-    b.wall[k] = static_cast<double>(b.outer[k]) - static_cast<double>(b.inner[k]);
+/// Four rings, with lengths to single precision [quanta, mm, 1/mm].
+struct Measured {
+  Four outer2, inner2, outer, inner, per_outer, per_inner, wall;
+};
+CLAYSTACK_INLINE inline Four per_length(Four mm) noexcept {
+  return four_doubles(1.0f / four_floats(mm));
+}
+CLAYSTACK_INLINE inline Measured measure(const FourRings& rings) noexcept {
+  Measured m;
+  m.outer2 = four_doubles(rings.outer2);
+  m.inner2 = four_doubles(rings.inner2);
+  m.outer = rough_root(m.outer2 * kMm2PerQuantum);
+  m.inner = rough_root(m.inner2 * kMm2PerQuantum);
+  m.per_outer = per_length(m.outer);
+  m.per_inner = per_length(m.inner + 1e-30);
+  m.wall = m.outer - m.inner;
+  return m;
 }
 
-/// What of a heap lies up to each face of a ring, as parts of it: up to a distance t of the reach,
-/// from 0 to 1, t^3 (10 - 15 t + 6 t^2). Each half from its own end, so that rounding cannot make
-/// it fall. `start` and `step`: of the faces, in parts of the reach; below 0 downward.
-///
-/// In small loops: where a loop asks for the same condition twice, GCC does all of it twice.
-CLAYSTACK_INLINE inline void share_out(double* part, std::size_t count, std::size_t faces,
-                                       double start, double step) noexcept {
-  const double last = kLevels[count];
-  double of_half[Block::kAll];
-  for (std::size_t k = 0; k < faces; ++k)
-    part[k] = greater(start + lesser(kLevels[k], last) * step, 0.0);
-  for (std::size_t k = 0; k < faces; ++k) part[k] = lesser(part[k], 1.0);
-  for (std::size_t k = 0; k < faces; ++k) {
-    const double s = lesser(part[k], 1.0 - part[k]);
-    of_half[k] = s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
+/// A heap on its way from the band: what of it lies up to each face of a ring, in whole quanta. Up
+/// to a distance t of the reach, from 0 to 1, it is the part t^3 (10 - 15 t + 6 t^2); each half from
+/// its own end, so that rounding cannot make it fall.
+struct Way {
+  double start, step, last;  ///< of the faces, in parts of the reach: below 0 downward; last face
+  double outside, inside;
+
+  struct Faces {
+    Four outside_to, inside_to;
+  };
+  CLAYSTACK_INLINE Faces faces(std::size_t k) const noexcept {
+    const Four x = start + lesser(load_four(&kLevels[k]), last) * step;
+    const Four t = lesser(greater(x, 0.0), 1.0), far = 1.0 - t, s = lesser(t, far);
+    const Four half = s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
+    const Four part = t < far ? half : 1.0 - half;
+    return {nearest(outside * part), nearest(inside * part)};
   }
-  for (std::size_t k = 0; k < faces; ++k)
-    part[k] = part[k] < 1.0 - part[k] ? of_half[k] : 1.0 - of_half[k];
+};
+
+/// Rows moved by one, the first or the last from their neighbours. In registers: a load of rows that
+/// have just been written apart would wait until the writes are done.
+CLAYSTACK_INLINE inline Four before(Four four, Four previous) noexcept {
+  return __builtin_shufflevector(previous, four, 3, 4, 5, 6);
+}
+CLAYSTACK_INLINE inline Four after(Four four, Four next) noexcept {
+  return __builtin_shufflevector(four, next, 1, 2, 3, 4);
 }
 
-/// In whole quanta. What a ring gets is the difference of its two faces.
-CLAYSTACK_INLINE inline void divide(Block& b, const double* part, std::size_t faces, double outside,
-                                    double inside) noexcept {
-  for (std::size_t k = 0; k < faces; ++k) {
-    b.inside_to[k] = lane_nearest(inside * part[k]);
-    b.outside_to[k] = lane_nearest(outside * part[k]);
+/// Rings that are to be loaded, as far as the stack goes. Beyond an end there is nothing to be
+/// compared with: the end ring itself.
+struct Source {
+  const Ring* rings;
+  std::size_t first, last;  ///< of the block; of the stack, or the one after the block
+  CLAYSTACK_INLINE FourRings operator()(std::size_t k) const noexcept {
+    const std::size_t i = first + k < last ? first + k : last;
+    return load_four(rings + i, last + 1 - i);
   }
-}
+};
 
-/// Which rings do not take their share: without a root, by what is more than each surface moves. A
-/// share leaves a bore open.
-CLAYSTACK_INLINE inline void find_lacks(Block& b, std::size_t rows, double sign, double spare,
-                                        double largest2) noexcept {
-  for (std::size_t k = 0; k < rows; ++k) {
-    const double outside = sign * (b.outside_to[k + 1] - b.outside_to[k]);
-    const double inside = sign * (b.inside_to[k + 1] - b.inside_to[k]);
-    b.outside[k] = lane_quanta(outside);
-    b.inside[k] = lane_quanta(inside);
-    const double moved = kMm2PerQuantum * (0.5 * outside * static_cast<double>(b.per_outer[k + 1]) +
-                                           inside * static_cast<double>(b.per_inner[k + 1]));
-    const double slope = lesser(b.wall[k], b.wall[k + 2]) + spare - b.wall[k + 1];
-    const double over = moved - lesser(slope, b.clear[k]);
-    const double bore = inside > 0.0 ? inside + 1.0 - b.inner2[k + 1] : 0.0;
-    const double wide = b.outer2[k + 1] + outside - largest2;
-    const double lacks = greater(over, greater(bore, wide));
-    b.lack[k] = moved > 0.0 ? lacks : 0.0;
+/// Each ring's share, the difference of its two faces, and which rings do not take it: without a
+/// root, by what is more than each surface moves. A share leaves a bore open.
+CLAYSTACK_INLINE inline void divide(Block& b, std::size_t count, const Source& source,
+                                    const Way& way, double sign, double spare,
+                                    double largest2) noexcept {
+  const std::size_t below = source.first > 0 ? source.first - 1 : 0;
+  Four previous_wall = measure(load_four(source.rings + below, 1)).wall;
+  store(b.wall, previous_wall);
+  Measured m = measure(source(0));
+  Way::Faces faces = way.faces(0);
+  for (std::size_t k = 0; k < count; k += kFour) {
+    const Measured next = measure(source(k + kFour));
+    const Way::Faces next_faces = way.faces(k + kFour);
+    const Four outside = sign * (after(faces.outside_to, next_faces.outside_to) - faces.outside_to);
+    const Four inside = sign * (after(faces.inside_to, next_faces.inside_to) - faces.inside_to);
+    const Four moved =
+        kMm2PerQuantum * (0.5 * outside * m.per_outer + inside * m.per_inner);
+    const Four slope =
+        lesser(before(m.wall, previous_wall), after(m.wall, next.wall)) + spare - m.wall;
+    const Four over = moved - lesser(slope, load_four(b.clear + k));
+    const Four bore = inside > 0.0 ? inside + 1.0 - m.inner2 : Four{};
+    const Four wide = m.outer2 + outside - largest2;
+    const Four lacks = greater(over, greater(bore, wide));
+    store(b.lack + k, moved > 0.0 ? lacks : Four{});
+    store(b.outside + k, four_quanta(outside));
+    store(b.inside + k, four_quanta(inside));
+    store(b.outside_to + k, faces.outside_to);
+    store(b.inside_to + k, faces.inside_to);
+    store(b.outer + k, m.outer);
+    store(b.inner + k, m.inner);
+    store(b.wall + k + 1, m.wall);
+    previous_wall = m.wall;
+    m = next;
+    faces = next_faces;
   }
+  const std::size_t rows = in_fours(count);
+  b.wall[rows + 1] = m.wall[0];
+  b.outside_to[rows] = faces.outside_to[0];
+  b.inside_to[rows] = faces.inside_to[0];
 }
 
 /// One end of a band and the way from there.
@@ -151,7 +181,7 @@ class Heaving {
       const std::size_t k = heap_.up ? n : count - 1 - n;
       carry_.inside += block_.inside[k];
       carry_.outside += block_.outside[k];
-      if (carried() > 0) place(first + k, k + 1);
+      if (carried() > 0) place(first + k, k);
       ++n;
     }
   }
@@ -173,65 +203,46 @@ class Heaving {
 
   void prepare(std::size_t first, std::size_t count) noexcept {
     static const double largest2 = static_cast<double>(quanta_from_radius(kMaxRadiusMm));
-    const std::size_t rows = (count + kLanes - 1) / kLanes * kLanes;
     const double away = heap_.up ? per_reach_ : -per_reach_, step = away * h_;
     const double start = away * (static_cast<double>(first) * h_ - from_mm_);
     const double end = start + (heap_.up ? static_cast<double>(count) * step : 0.0);
     reached_end_ = end >= 1.0;
-    load(first, count, rows + kLanes);
-    in_lanes([=, b = &block_]() CLAYSTACK_INLINE { measure(*b, rows + kLanes); });
-    find_clearance(first, count, rows);
-    in_lanes([=, b = &block_, outside = static_cast<double>(heap_.outside),
-              inside = static_cast<double>(heap_.inside), sign = heap_.up ? 1.0 : -1.0,
-              spare = kSteepest * h_, most = largest2]() CLAYSTACK_INLINE {
-      double part[Block::kAll];
-      share_out(part, count, rows + kLanes, start, step);
-      divide(*b, part, rows + kLanes, outside, inside);
-      find_lacks(*b, rows, sign, spare, most);
+    find_clearance(first, count);
+    const Way way{start,
+                  step,
+                  static_cast<double>(count),
+                  static_cast<double>(heap_.outside),
+                  static_cast<double>(heap_.inside)};
+    const Source source{stack_.rings().data(), first, std::min(first + count, stack_.size() - 1)};
+    in_lanes([=, b = &block_, sign = heap_.up ? 1.0 : -1.0, spare = kSteepest * h_,
+              most = largest2]() CLAYSTACK_INLINE {
+      divide(*b, count, source, way, sign, spare, most);
     });
-  }
-
-  void load(std::size_t first, std::size_t count, std::size_t rows) noexcept {
-    // Beyond an end of the stack there is nothing to be compared with: the end ring itself.
-    const std::size_t begin = first == 0 ? 1 : 0;
-    const std::size_t end = first + count == stack_.size() ? count + 1 : count + 2;
-    Block& b = block_;
-    in_lanes([=, to = &b, rings = &stack_.rings()[first + begin - 1]]() CLAYSTACK_INLINE {
-      for (std::size_t k = begin; k < end; ++k) {
-        to->outer2[k] = lane_double(rings[k - begin].outer2);
-        to->inner2[k] = lane_double(rings[k - begin].inner2);
-      }
-    });
-    if (begin > 0) {
-      b.outer2[0] = b.outer2[1];
-      b.inner2[0] = b.inner2[1];
-    }
-    for (std::size_t k = end; k < rows; ++k) {
-      b.outer2[k] = b.outer2[end - 1];
-      b.inner2[k] = b.inner2[end - 1];
-    }
   }
 
   /// How far ring i may grow before it stands in the tool [mm]; of one that is not beside it: a
   /// long way.
-  [[nodiscard]] double clear_of_tool(std::size_t i, double R, double r) const noexcept {
+  [[nodiscard]] double clear_of_tool(std::size_t i) const noexcept {
     const double t = (static_cast<double>(i) + 0.5) * h_ - hip_y_;
     if (!(t >= tool_.low() && t <= tool_.high())) return kFar;
     const double f = tool_.radius(t), d = contact_.axis_distance_mm;
-    return std::max(contact_.side == Side::compressive ? d - f - R : r - (d + f), 0.0);
+    const Ring& ring = stack_.rings()[i];
+    const double near = contact_.side == Side::compressive
+                            ? d - f - rough_root(mm2_from_quanta(ring.outer2))
+                            : rough_root(mm2_from_quanta(ring.inner2)) - (d + f);
+    return std::max(near, 0.0);
   }
 
-  void find_clearance(std::size_t first, std::size_t count, std::size_t rows) noexcept {
+  void find_clearance(std::size_t first, std::size_t count) noexcept {
     Block& b = block_;
-    std::fill_n(b.clear, rows, kFar);
+    std::fill_n(b.clear, in_fours(count), kFar);
     const double low = (hip_y_ + tool_.low()) / h_, high = (hip_y_ + tool_.high()) / h_;
     const double from = std::max(low - 1.0, static_cast<double>(first));
     const double to = std::min(high + 1.0, static_cast<double>(first + count));
     if (from < to)
       for (std::size_t k = static_cast<std::size_t>(from) - first;
            k < static_cast<std::size_t>(to) - first; ++k)
-        b.clear[k] = clear_of_tool(first + k, static_cast<double>(b.outer[k + 1]),
-                                   static_cast<double>(b.inner[k + 1]));
+        b.clear[k] = clear_of_tool(first + k);
   }
 
   /// As much of what is carried as ring i takes.
@@ -241,27 +252,25 @@ class Heaving {
       carry_.outside += carry_.inside - ring.inner2;
       carry_.inside = ring.inner2;
     }
-    const double least = std::min(block_.wall[k - 1], block_.wall[k + 1]);
-    const double room = least + kSteepest * h_ - block_.wall[k];
+    const double least = std::min(block_.wall[k], block_.wall[k + 2]);
+    const double room = least + kSteepest * h_ - block_.wall[k + 1];
     if (!(room > 0.0)) return;
-    const double R = static_cast<double>(block_.outer[k]);
-    const double r = static_cast<double>(block_.inner[k]);
+    const double R = block_.outer[k], r = block_.inner[k], clear = block_.clear[k];
     double out = 0.0, in = 0.0;
-    const Portion taken = fitting(i, room, R, r, out, in);
+    const Portion taken = fitting(room, clear, R, r, out, in);
     const Quanta inside = writer_.put_inside(i, taken.inside);
     const Quanta outside = writer_.put_outside(i, taken.outside);
     carry_.inside -= inside;
     carry_.outside -= outside;
     placed_ += inside + outside;
-    block_.wall[k] += out + in;
+    block_.wall[k + 1] += out + in;
   }
 
   /// The part of what is carried for which there is room, in the same proportion.
-  [[nodiscard]] Portion fitting(std::size_t i, double room, double R, double r, double& out,
+  [[nodiscard]] Portion fitting(double room, double clear, double R, double r, double& out,
                                 double& in) const noexcept {
     const double outside2 = static_cast<double>(carry_.outside) * kMm2PerQuantum;
     const double inside2 = static_cast<double>(carry_.inside) * kMm2PerQuantum;
-    const double clear = clear_of_tool(i, R, r);
     // No root where there is plenty of room.
     out = 0.5 * outside2 / R;
     in = inside2 > 0.0 ? inside2 / r : 0.0;

@@ -104,8 +104,7 @@ void Shift::move(const ClayStack& stack, const Push& push, std::size_t first, st
                              : push_in(outer2, inner2, u, hoop);
       const FourQuanta moved = four_quanta(m.moved), raised = four_quanta(m.raised);
       store(changes + k, FourRings{moved, moved + raised});
-      const auto row = load<FourQuanta>(kRowNumbers.data()) + static_cast<Quanta>(k);
-      raised_sum += row < static_cast<Quanta>(count) ? raised : FourQuanta{};
+      raised_sum += row_numbers(k) < static_cast<Quanta>(count) ? raised : FourQuanta{};
     }
     *total = raised_sum[0] + raised_sum[1] + raised_sum[2] + raised_sum[3];
   });
