@@ -1,6 +1,6 @@
 #include "app/bench/pressing.hpp"
 #include "app/bench/timing.hpp"
-#include "engine/tick/lanes.hpp"
+#include "engine/clay/lanes.hpp"
 
 #include <fmt/format.h>
 

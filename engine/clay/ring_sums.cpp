@@ -1,5 +1,7 @@
 #include "engine/clay/ring_sums.hpp"
 
+#include "engine/clay/four.hpp"
+
 #include <algorithm>
 
 namespace clay {
@@ -7,17 +9,34 @@ namespace {
 
 WideQuanta volume_of(const Ring& ring) noexcept { return ring.volume(); }
 WideQuanta volume_of(const Stretch& stretch) noexcept { return stretch.volume; }
-Quanta least_of(const Ring& ring) noexcept { return ring.volume(); }
-Quanta least_of(const Stretch& stretch) noexcept { return stretch.least; }
 
-template <class Part>
-Stretch sum(std::span<const Part> parts) noexcept {
-  Stretch stretch{0, least_of(parts.front())};
-  for (const Part& part : parts) {
-    stretch.volume += volume_of(part);
-    stretch.least = std::min(stretch.least, least_of(part));
+Stretch sum(std::span<const Stretch> parts) noexcept {
+  Stretch stretch{0, parts.front().least};
+  for (const Stretch& part : parts) {
+    stretch.volume += part.volume;
+    stretch.least = std::min(stretch.least, part.least);
   }
   return stretch;
+}
+Stretch sum(std::span<const Ring> rings) noexcept { return stretch_of(rings); }
+
+/// Of whole fours. The halves of the volumes are summed apart, so that 64 bits do.
+CLAYSTACK_INLINE inline void add_fours(const Ring* rings, std::size_t count,
+                                       Stretch* stretch) noexcept {
+  FourBits low{}, high{};
+  FourQuanta least = all_of(stretch->least);
+  for (std::size_t k = 0; k < count; k += kFour) {
+    const FourRings four = load_four(rings + k);
+    const FourQuanta volume = four.outer2 - four.inner2;
+    const auto bits = reinterpret_cast<FourBits>(volume);
+    low += bits & 0xffffffffu;
+    high += bits >> 32;
+    least = volume < least ? volume : least;
+  }
+  for (int k = 0; k < 4; ++k) {
+    stretch->volume += (WideQuanta{high[k]} << 32) + WideQuanta{low[k]};
+    stretch->least = std::min(stretch->least, least[k]);
+  }
 }
 
 /// Recomputes the sums of the stretches that contain parts first..last.
@@ -39,6 +58,19 @@ WideQuanta rest_of_stretch(std::span<const Part> parts, std::size_t i) noexcept 
 }
 
 }  // namespace
+
+Stretch stretch_of(std::span<const Ring> rings) noexcept {
+  Stretch stretch{0, rings.front().volume()};
+  const std::size_t fours = rings.size() / kFour * kFour;
+  in_lanes([=, from = rings.data(), to = &stretch]() CLAYSTACK_INLINE {
+    add_fours(from, fours, to);
+  });
+  for (const Ring& ring : rings.subspan(fours)) {
+    stretch.volume += ring.volume();
+    stretch.least = std::min(stretch.least, ring.volume());
+  }
+  return stretch;
+}
 
 RingSums::RingSums(const ClayStack& stack) {
   for (std::size_t parts = stack.max_rings(); levels_.empty() || parts > kFan;)

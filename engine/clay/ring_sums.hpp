@@ -15,6 +15,9 @@ struct Stretch {
   Quanta least = 0;  ///< volume of the smallest ring
 };
 
+/// Of one ring at least.
+[[nodiscard]] Stretch stretch_of(std::span<const Ring> rings) noexcept;
+
 /// Stretches of 64 rings, stretches of 64 such stretches, and so on up to the first level of at
 /// most 64: three levels for the 2^24 rings of the largest stack, half a byte per ring.
 class RingSums {

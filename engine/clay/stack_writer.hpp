@@ -50,45 +50,41 @@ class StackWriter {
     return placed;
   }
   void gain(WideQuanta amount) noexcept { gained_ += amount; }
-  /// Rings from `first` on get these amounts, whole quanta, for which they have room without a bore
-  /// closing. The caller reports their sum with `gain`.
-  void thicken(std::size_t first, std::span<const double> outside,
-               std::span<const double> inside) noexcept {
+  /// Rings from `first` on get these amounts, for which they have room without a bore closing. The
+  /// caller reports their sum with `gain`.
+  void thicken(std::size_t first, std::span<const Quanta> outside,
+               std::span<const Quanta> inside) noexcept {
     Ring* const rings = stack_.rings_.data() + first;
     for (std::size_t k = 0; k < outside.size(); ++k) {
-      rings[k].outer2 += static_cast<Quanta>(outside[k]);
-      rings[k].inner2 -= static_cast<Quanta>(inside[k]);
+      rings[k].outer2 += outside[k];
+      rings[k].inner2 -= inside[k];
     }
   }
-  /// Rings from `first` on move by these amounts and give up clay from inside [quanta], `total` in
-  /// all; no bore opens or closes.
-  void bend(std::size_t first, std::span<const Quanta> moved, std::span<const Quanta> raised,
-            WideQuanta total) noexcept {
+  /// R^2 and r^2 of the rings from `first` on change by these amounts, by which they give up `raised`
+  /// in all; no bore opens or closes.
+  void bend(std::size_t first, std::span<const Ring> changes, WideQuanta raised) noexcept {
     Ring* const rings = stack_.rings_.data() + first;
-    for (std::size_t k = 0; k < moved.size(); ++k) {
-      rings[k].outer2 += moved[k];
-      rings[k].inner2 += moved[k] + raised[k];
+    for (std::size_t k = 0; k < changes.size(); ++k) {
+      rings[k].outer2 += changes[k].outer2;
+      rings[k].inner2 += changes[k].inner2;
       assert(rings[k].volume() > 0 && rings[k].inner2 >= 0);
     }
-    gained_ -= total;
+    gained_ -= raised;
   }
   /// Clay along a surface, the outer one or that of a bore: amounts from the rings `from` on to the
-  /// rings `to` on [quanta, rounded down in size].
-  void smear(std::size_t from, std::size_t to, std::span<const double> amounts,
+  /// rings `to` on. First what all give, then what all get: a ring that does both would wait for
+  /// itself.
+  void smear(std::size_t from, std::size_t to, std::span<const Quanta> amounts,
              bool outside) noexcept {
     Ring *const low = stack_.rings_.data() + from, *const high = stack_.rings_.data() + to;
-    if (outside)
-      for (std::size_t k = 0; k < amounts.size(); ++k) {
-        const auto amount = static_cast<Quanta>(amounts[k]);
-        low[k].outer2 -= amount;
-        high[k].outer2 += amount;
-      }
-    else
-      for (std::size_t k = 0; k < amounts.size(); ++k) {
-        const auto amount = static_cast<Quanta>(amounts[k]);
-        low[k].inner2 += amount;
-        high[k].inner2 -= amount;
-      }
+    const std::size_t count = amounts.size();
+    if (outside) {
+      for (std::size_t k = 0; k < count; ++k) low[k].outer2 -= amounts[k];
+      for (std::size_t k = 0; k < count; ++k) high[k].outer2 += amounts[k];
+    } else {
+      for (std::size_t k = 0; k < count; ++k) low[k].inner2 += amounts[k];
+      for (std::size_t k = 0; k < count; ++k) high[k].inner2 -= amounts[k];
+    }
   }
   void put_on_crown(WideQuanta amount) noexcept { stack_.crown_ += amount; }
 

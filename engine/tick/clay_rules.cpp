@@ -242,8 +242,7 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, co
   Rim* const rim = (rules & kRim) ? nullptr : &all_rim;
   StackWriter writer(stack);
   if constexpr (rules & kShift) {
-    writer.bend(work.shift.from(), work.shift.moved(), work.shift.raised_of_rings(),
-                work.shift.raised());
+    writer.bend(work.shift.from(), work.shift.changes(), work.shift.raised());
     writer.put_on_crown(work.shift.raised());
   }
   const WideQuanta removed = remove_clay(removals, stack, rim);

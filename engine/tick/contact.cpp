@@ -1,6 +1,6 @@
 #include "engine/tick/contact.hpp"
 
-#include "engine/tick/lanes.hpp"
+#include "engine/clay/lanes.hpp"
 
 #include <algorithm>
 #include <cmath>

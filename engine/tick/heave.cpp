@@ -1,6 +1,6 @@
 #include "engine/tick/heave.hpp"
 
-#include "engine/tick/lanes.hpp"
+#include "engine/clay/four.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,12 +11,114 @@ namespace {
 constexpr double kSteepest = 0.5;  // of a ring's growth over its height
 constexpr std::size_t kRows = 64;
 
-/// Up to a distance t of the reach, from 0 to 1: t^3 (10 - 15 t + 6 t^2). Each half from its own
-/// end, so that rounding cannot make it fall.
-CLAYSTACK_INLINE inline double share_up_to(double t) noexcept {
-  const double far = 1.0 - t, s = t < far ? t : far;
-  const double share = s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
-  return t < far ? share : 1.0 - share;
+/// Some neighbouring rings, and one more wall at either end.
+struct Block {
+  static constexpr std::size_t kAll = kRows + kFour;
+  double outer[kAll], inner[kAll];            ///< to single precision [mm]
+  double wall[kAll + 2];                      ///< [mm]; from the one before the first ring on
+  double outside_to[kAll], inside_to[kAll];   ///< whole quanta that lie up to a ring's lower face
+  Quanta outside[kAll], inside[kAll];         ///< a ring's share
+  double clear[kAll];                         ///< of the tool [mm]
+  double lack[kAll];                          ///< above 0: does not take its share
+};
+
+/// Four rings, with lengths to single precision [quanta, mm, 1/mm].
+struct Measured {
+  Four outer2, inner2, outer, inner, per_outer, per_inner, wall;
+};
+CLAYSTACK_INLINE inline Four per_length(Four mm) noexcept {
+  return four_doubles(1.0f / four_floats(mm));
+}
+CLAYSTACK_INLINE inline Measured measure(const FourRings& rings) noexcept {
+  Measured m;
+  m.outer2 = four_doubles(rings.outer2);
+  m.inner2 = four_doubles(rings.inner2);
+  m.outer = rough_root(m.outer2 * kMm2PerQuantum);
+  m.inner = rough_root(m.inner2 * kMm2PerQuantum);
+  m.per_outer = per_length(m.outer);
+  m.per_inner = per_length(m.inner + 1e-30);
+  m.wall = m.outer - m.inner;
+  return m;
+}
+
+/// A heap on its way from the band: what of it lies up to each face of a ring, in whole quanta. Up
+/// to a distance t of the reach, from 0 to 1, it is the part t^3 (10 - 15 t + 6 t^2); each half from
+/// its own end, so that rounding cannot make it fall.
+struct Way {
+  double start, step, last;  ///< of the faces, in parts of the reach: below 0 downward; last face
+  double outside, inside;
+
+  struct Faces {
+    Four outside_to, inside_to;
+  };
+  CLAYSTACK_INLINE Faces faces(std::size_t k) const noexcept {
+    const Four x = start + lesser(load_four(&kLevels[k]), last) * step;
+    const Four t = lesser(greater(x, 0.0), 1.0), far = 1.0 - t, s = lesser(t, far);
+    const Four half = s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
+    const Four part = t < far ? half : 1.0 - half;
+    return {nearest(outside * part), nearest(inside * part)};
+  }
+};
+
+/// Rows moved by one, the first or the last from their neighbours. In registers: a load of rows that
+/// have just been written apart would wait until the writes are done.
+CLAYSTACK_INLINE inline Four before(Four four, Four previous) noexcept {
+  return __builtin_shufflevector(previous, four, 3, 4, 5, 6);
+}
+CLAYSTACK_INLINE inline Four after(Four four, Four next) noexcept {
+  return __builtin_shufflevector(four, next, 1, 2, 3, 4);
+}
+
+/// Rings that are to be loaded, as far as the stack goes. Beyond an end there is nothing to be
+/// compared with: the end ring itself.
+struct Source {
+  const Ring* rings;
+  std::size_t first, last;  ///< of the block; of the stack, or the one after the block
+  CLAYSTACK_INLINE FourRings operator()(std::size_t k) const noexcept {
+    const std::size_t i = first + k < last ? first + k : last;
+    return load_four(rings + i, last + 1 - i);
+  }
+};
+
+/// Each ring's share, the difference of its two faces, and which rings do not take it: without a
+/// root, by what is more than each surface moves. A share leaves a bore open.
+CLAYSTACK_INLINE inline void divide(Block& b, std::size_t count, const Source& source,
+                                    const Way& way, double sign, double spare,
+                                    double largest2) noexcept {
+  const std::size_t below = source.first > 0 ? source.first - 1 : 0;
+  Four previous_wall = measure(load_four(source.rings + below, 1)).wall;
+  store(b.wall, previous_wall);
+  Measured m = measure(source(0));
+  Way::Faces faces = way.faces(0);
+  for (std::size_t k = 0; k < count; k += kFour) {
+    const Measured next = measure(source(k + kFour));
+    const Way::Faces next_faces = way.faces(k + kFour);
+    const Four outside = sign * (after(faces.outside_to, next_faces.outside_to) - faces.outside_to);
+    const Four inside = sign * (after(faces.inside_to, next_faces.inside_to) - faces.inside_to);
+    const Four moved =
+        kMm2PerQuantum * (0.5 * outside * m.per_outer + inside * m.per_inner);
+    const Four slope =
+        lesser(before(m.wall, previous_wall), after(m.wall, next.wall)) + spare - m.wall;
+    const Four over = moved - lesser(slope, load_four(b.clear + k));
+    const Four bore = inside > 0.0 ? inside + 1.0 - m.inner2 : Four{};
+    const Four wide = m.outer2 + outside - largest2;
+    const Four lacks = greater(over, greater(bore, wide));
+    store(b.lack + k, moved > 0.0 ? lacks : Four{});
+    store(b.outside + k, four_quanta(outside));
+    store(b.inside + k, four_quanta(inside));
+    store(b.outside_to + k, faces.outside_to);
+    store(b.inside_to + k, faces.inside_to);
+    store(b.outer + k, m.outer);
+    store(b.inner + k, m.inner);
+    store(b.wall + k + 1, m.wall);
+    previous_wall = m.wall;
+    m = next;
+    faces = next_faces;
+  }
+  const std::size_t rows = in_fours(count);
+  b.wall[rows + 1] = m.wall[0];
+  b.outside_to[rows] = faces.outside_to[0];
+  b.inside_to[rows] = faces.inside_to[0];
 }
 
 /// One end of a band and the way from there.
@@ -55,18 +157,6 @@ class Heaving {
   struct Portion {
     Quanta inside = 0, outside = 0;
   };
-  /// Some neighbouring rings and one more at either end, which has no share.
-  struct Block {
-    double outer2[kRows + 2], inner2[kRows + 2];                 ///< [quanta]
-    double per_outer[kRows + 2], per_inner[kRows + 2];           ///< 1 / R, 1 / r [1/mm]
-    double outer[kRows + 2], inner[kRows + 2], wall[kRows + 2];  ///< [mm]
-    double share_outside[kRows], share_inside[kRows];            ///< whole quanta
-    double clear[kRows];                                         ///< of the tool [mm]
-    double lack[kRows];  ///< above 0: does not take its share
-    Quanta total;        ///< of the shares
-    bool any_full;
-  };
-
   [[nodiscard]] Quanta carried() const noexcept { return carry_.inside + carry_.outside; }
   /// Rings to the end of the reach; where something is carried, to that of twice the reach.
   [[nodiscard]] std::size_t rings_to_end(std::size_t ring) const noexcept {
@@ -80,123 +170,79 @@ class Heaving {
   }
 
   void lay(std::size_t first, std::size_t count) noexcept {
-    load(first, count);
-    divide(first, count);
-    find_room(first, count);
-    const std::span<const double> outside(block_.share_outside, count);
-    const std::span<const double> inside(block_.share_inside, count);
-    if (carried() == 0 && !block_.any_full) {
-      writer_.thicken(first, outside, inside);
-      placed_ += block_.total;
-      return;
-    }
-    for (std::size_t n = 0; n < count; ++n) {
-      const std::size_t k = heap_.up ? n : count - 1 - n;
-      if (carried() == 0 && !(block_.lack[k] > 0.0)) {
-        writer_.thicken(first + k, outside.subspan(k, 1), inside.subspan(k, 1));
-        placed_ += static_cast<Quanta>(outside[k] + inside[k]);
+    prepare(first, count);
+    for (std::size_t n = 0; n < count;) {
+      const std::size_t even = carried() == 0 ? rings_that_take(n, count) : 0;
+      if (even > 0) {
+        give_shares(first, heap_.up ? n : count - n - even, even);
+        n += even;
         continue;
       }
-      carry_.inside += static_cast<Quanta>(inside[k]);
-      carry_.outside += static_cast<Quanta>(outside[k]);
-      if (carried() > 0) place(first + k, k + 1);
+      const std::size_t k = heap_.up ? n : count - 1 - n;
+      carry_.inside += block_.inside[k];
+      carry_.outside += block_.outside[k];
+      if (carried() > 0) place(first + k, k);
+      ++n;
     }
   }
 
-  /// The block at an end of the stack. Beyond it there is nothing to be compared with: the end ring
-  /// itself.
-  const Ring* copy_end(std::size_t first, std::size_t count) noexcept {
-    const auto rings = stack_.rings();
-    for (std::size_t k = 0; k < count + 2; ++k)
-      end_[k] = rings[std::min(first + k > 0 ? first + k - 1 : 0, rings.size() - 1)];
-    return end_;
+  /// From the n-th ring of the block on its way: how many take their share.
+  [[nodiscard]] std::size_t rings_that_take(std::size_t n, std::size_t count) const noexcept {
+    const std::size_t begin = n;
+    while (n < count && !(block_.lack[heap_.up ? n : count - 1 - n] > 0.0)) ++n;
+    return n - begin;
   }
 
-  void load(std::size_t first, std::size_t count) noexcept {
-    const bool at_end = first == 0 || first + count == stack_.size();
-    const Ring* const from = at_end ? copy_end(first, count) : &stack_.rings()[first - 1];
-    Block& b = block_;
-    in_lanes([&]() CLAYSTACK_INLINE {
-      for (std::size_t k = 0; k < count + 2; ++k) {
-        b.outer2[k] = lane_double(from[k].outer2);
-        b.inner2[k] = lane_double(from[k].inner2);
-        b.outer[k] = rough_root(b.outer2[k] * kMm2PerQuantum);
-        b.inner[k] = rough_root(b.inner2[k] * kMm2PerQuantum);
-        b.wall[k] = b.outer[k] - b.inner[k];
-        b.per_outer[k] = 1.0f / static_cast<float>(b.outer[k]);
-        b.per_inner[k] = 1.0f / static_cast<float>(b.inner[k] + 1e-30);
-      }
-    });
+  void give_shares(std::size_t first, std::size_t k, std::size_t count) noexcept {
+    const Block& b = block_;
+    writer_.thicken(first + k, {b.outside + k, count}, {b.inside + k, count});
+    const double total =
+        b.inside_to[k + count] - b.inside_to[k] + (b.outside_to[k + count] - b.outside_to[k]);
+    placed_ += static_cast<Quanta>(heap_.up ? total : -total);
   }
 
-  /// What of the heap each ring gets: the difference of what lies up to its two faces.
-  void divide(std::size_t first, std::size_t count) noexcept {
+  void prepare(std::size_t first, std::size_t count) noexcept {
+    static const double largest2 = static_cast<double>(quanta_from_radius(kMaxRadiusMm));
     const double away = heap_.up ? per_reach_ : -per_reach_, step = away * h_;
     const double start = away * (static_cast<double>(first) * h_ - from_mm_);
-    const double inside = static_cast<double>(heap_.inside);
-    const double outside = static_cast<double>(heap_.outside), sign = heap_.up ? 1.0 : -1.0;
-    double in[kRows + 1], out[kRows + 1];
-    Block& b = block_;
-    in_lanes([&]() CLAYSTACK_INLINE {
-      for (std::size_t k = 0; k < count + 1; ++k) {
-        const double x = start + static_cast<double>(static_cast<int>(k)) * step;
-        const double low = x > 0.0 ? x : 0.0, t = low < 1.0 ? low : 1.0;
-        const double share = share_up_to(t);
-        in[k] = lane_nearest(inside * share);
-        out[k] = lane_nearest(outside * share);
-      }
-      for (std::size_t k = 0; k < count; ++k) {
-        b.share_inside[k] = sign * (in[k + 1] - in[k]);
-        b.share_outside[k] = sign * (out[k + 1] - out[k]);
-      }
-    });
-    block_.total = static_cast<Quanta>(sign * (in[count] - in[0] + (out[count] - out[0])));
     const double end = start + (heap_.up ? static_cast<double>(count) * step : 0.0);
     reached_end_ = end >= 1.0;
+    find_clearance(first, count);
+    const Way way{start,
+                  step,
+                  static_cast<double>(count),
+                  static_cast<double>(heap_.outside),
+                  static_cast<double>(heap_.inside)};
+    const Source source{stack_.rings().data(), first, std::min(first + count, stack_.size() - 1)};
+    in_lanes([=, b = &block_, sign = heap_.up ? 1.0 : -1.0, spare = kSteepest * h_,
+              most = largest2]() CLAYSTACK_INLINE {
+      divide(*b, count, source, way, sign, spare, most);
+    });
   }
 
   /// How far ring i may grow before it stands in the tool [mm]; of one that is not beside it: a
   /// long way.
-  [[nodiscard]] double clear_of_tool(std::size_t i, double R, double r) const noexcept {
+  [[nodiscard]] double clear_of_tool(std::size_t i) const noexcept {
     const double t = (static_cast<double>(i) + 0.5) * h_ - hip_y_;
     if (!(t >= tool_.low() && t <= tool_.high())) return kFar;
     const double f = tool_.radius(t), d = contact_.axis_distance_mm;
-    return std::max(contact_.side == Side::compressive ? d - f - R : r - (d + f), 0.0);
+    const Ring& ring = stack_.rings()[i];
+    const double near = contact_.side == Side::compressive
+                            ? d - f - rough_root(mm2_from_quanta(ring.outer2))
+                            : rough_root(mm2_from_quanta(ring.inner2)) - (d + f);
+    return std::max(near, 0.0);
   }
 
-  /// Which rings of the block do not take their share: without a root, by what is more than each
-  /// surface moves. A share leaves a bore open.
-  void find_room(std::size_t first, std::size_t count) noexcept {
-    static const double largest2 = static_cast<double>(quanta_from_radius(kMaxRadiusMm));
+  void find_clearance(std::size_t first, std::size_t count) noexcept {
     Block& b = block_;
-    for (std::size_t k = 0; k < count; ++k) b.clear[k] = kFar;
+    std::fill_n(b.clear, in_fours(count), kFar);
     const double low = (hip_y_ + tool_.low()) / h_, high = (hip_y_ + tool_.high()) / h_;
     const double from = std::max(low - 1.0, static_cast<double>(first));
     const double to = std::min(high + 1.0, static_cast<double>(first + count));
     if (from < to)
       for (std::size_t k = static_cast<std::size_t>(from) - first;
            k < static_cast<std::size_t>(to) - first; ++k)
-        b.clear[k] = clear_of_tool(first + k, b.outer[k + 1], b.inner[k + 1]);
-    const double spare = kSteepest * h_;
-    in_lanes([&, end = count, most = largest2]() CLAYSTACK_INLINE {
-      std::int64_t any = 0;
-      for (std::size_t k = 0; k < end; ++k) {
-        const double below = b.wall[k], above = b.wall[k + 2];
-        const double least = below < above ? below : above;
-        const double inside = b.share_inside[k], outside = b.share_outside[k];
-        const double moved =
-            kMm2PerQuantum * (0.5 * outside * b.per_outer[k + 1] + inside * b.per_inner[k + 1]);
-        const double slope = least + spare - b.wall[k + 1];
-        const double over = moved - (slope < b.clear[k] ? slope : b.clear[k]);
-        const double bore = inside > 0.0 ? inside + 1.0 - b.inner2[k + 1] : 0.0;
-        const double wide = b.outer2[k + 1] + outside - most;
-        const double worse = bore > wide ? bore : wide;
-        const double lacks = over > worse ? over : worse, lack = moved > 0.0 ? lacks : 0.0;
-        b.lack[k] = lack;
-        any |= lack > 0.0 ? std::int64_t{1} : std::int64_t{0};
-      }
-      b.any_full = any != 0;
-    });
+        b.clear[k] = clear_of_tool(first + k);
   }
 
   /// As much of what is carried as ring i takes.
@@ -206,26 +252,25 @@ class Heaving {
       carry_.outside += carry_.inside - ring.inner2;
       carry_.inside = ring.inner2;
     }
-    const double least = std::min(block_.wall[k - 1], block_.wall[k + 1]);
-    const double room = least + kSteepest * h_ - block_.wall[k];
+    const double least = std::min(block_.wall[k], block_.wall[k + 2]);
+    const double room = least + kSteepest * h_ - block_.wall[k + 1];
     if (!(room > 0.0)) return;
-    const double R = block_.outer[k], r = block_.inner[k];
+    const double R = block_.outer[k], r = block_.inner[k], clear = block_.clear[k];
     double out = 0.0, in = 0.0;
-    const Portion taken = fitting(i, room, R, r, out, in);
+    const Portion taken = fitting(room, clear, R, r, out, in);
     const Quanta inside = writer_.put_inside(i, taken.inside);
     const Quanta outside = writer_.put_outside(i, taken.outside);
     carry_.inside -= inside;
     carry_.outside -= outside;
     placed_ += inside + outside;
-    block_.wall[k] += out + in;
+    block_.wall[k + 1] += out + in;
   }
 
   /// The part of what is carried for which there is room, in the same proportion.
-  [[nodiscard]] Portion fitting(std::size_t i, double room, double R, double r, double& out,
+  [[nodiscard]] Portion fitting(double room, double clear, double R, double r, double& out,
                                 double& in) const noexcept {
     const double outside2 = static_cast<double>(carry_.outside) * kMm2PerQuantum;
     const double inside2 = static_cast<double>(carry_.inside) * kMm2PerQuantum;
-    const double clear = clear_of_tool(i, R, r);
     // No root where there is plenty of room.
     out = 0.5 * outside2 / R;
     in = inside2 > 0.0 ? inside2 / r : 0.0;
@@ -256,7 +301,6 @@ class Heaving {
   Portion carry_;
   Quanta placed_ = 0;
   Block block_;
-  Ring end_[kRows + 2];
 };
 
 }  // namespace

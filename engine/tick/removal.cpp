@@ -1,13 +1,14 @@
 #include "engine/tick/removal.hpp"
 
+#include "engine/clay/four.hpp"
 #include "engine/clay/portable_math.hpp"
-#include "engine/tick/lanes.hpp"
 #include "engine/tick/yielding.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace clay {
 namespace {
@@ -133,39 +134,84 @@ void yield_to_tool(const RemovalPlan& plan, std::span<const Ring> rings, double 
   }
 }
 
+/// Rings of a slice, how far each is squeezed [mm], and what that removes [quanta]. Whole fours.
+struct Squeezed {
+  static constexpr std::size_t kRows = TouchedRings::kBlock;
+  Ring rings[kRows];
+  double surface[kRows], give[kRows], depth[kRows];  ///< of the slice
+  double near[kRows], eps[kRows];
+  Quanta removed[kRows];
+
+  void load(const Squeeze& squeeze, std::span<const Ring> all,
+            const TouchedRings::Slice& slice) noexcept {
+    const std::size_t count = slice.size(), rows = in_fours(count), first = slice.begin;
+    std::copy_n(&all[slice.ring], count, rings);
+    std::copy_n(&slice.rows.surface[first], count, surface);
+    std::copy_n(&slice.rows.give[first], count, give);
+    std::copy_n(&slice.rows.depth[first], count, depth);
+    if (squeeze.shift != nullptr) squeeze.shift->move(slice.ring, {rings, count});
+    for (std::size_t k = count; k < rows; ++k) {
+      rings[k] = rings[count - 1];
+      surface[k] = give[k] = depth[k] = 0.0;
+    }
+  }
+};
+
+CLAYSTACK_INLINE inline void squeeze_rows(Squeezed& s, std::size_t count, bool outside,
+                                          double min_wall) noexcept {
+  const double outward = outside ? 1.0 : -1.0;
+  for (std::size_t k = 0; k < count; k += kFour) {
+    const FourRings four = load_four(s.rings + k);
+    const Four outer = root(four_doubles(four.outer2) * kMm2PerQuantum);
+    const Four inner = root(four_doubles(four.inner2) * kMm2PerQuantum);
+    const Four near = outside ? outer : inner;
+    const Four by = outward * (load_four(s.surface + k) - near);
+    const Four spare = greater(outer - inner - min_wall, 0.0);
+    const Four eps = greater(lesser(load_four(s.give + k) - by, spare), 0.0);
+    store(s.near + k, near);
+    store(s.eps + k, eps);
+    store(s.depth + k, greater(load_four(s.depth + k) - by - eps, 0.0));
+  }
+}
+
+/// `take_outside` or `take_inside` of each row. False if one of them is too much for fours.
+CLAYSTACK_INLINE inline bool take_rows(Squeezed& s, std::size_t count, bool outside,
+                                       Quanta smallest) noexcept {
+  FourQuanta much{};
+  for (std::size_t k = 0; k < count; k += kFour) {
+    const FourRings four = load_four(s.rings + k);
+    const Four eps = load_four(s.eps + k), twice = 2.0 * load_four(s.near + k);
+    const Four asked = eps * (outside ? twice - eps : twice + eps) * kQuantaPerMm2 + 0.5;
+    much |= asked > kMostLaneQuanta;
+    const FourQuanta bore = four.inner2 + 1, least = all_of(outside ? smallest : 0);
+    const FourQuanta spare = four.outer2 - (bore < least ? least : bore);
+    const FourQuanta some = spare > 0 ? spare : FourQuanta{}, all = four_quanta_below(asked);
+    store(s.removed + k, all < some ? all : some);
+  }
+  return !any(much);
+}
+
 /// Of a slice: squeezes out what has given way and was not moved.
 void squeeze(const Squeeze& squeeze, std::span<const Ring> rings, bool outside,
              const TouchedRings::Slice& slice, Quanta* removed) noexcept {
-  const double min_wall = squeeze.min_wall_mm, outward = outside ? 1.0 : -1.0;
-  const std::size_t count = slice.size(), first = slice.begin;
-  TouchedRings::Block& rows = slice.rows;
-  TouchedRings::Row near, eps;
-  std::array<Ring, TouchedRings::kBlock> moved;
-  for (std::size_t k = 0; k < count; ++k) moved[k] = squeeze.ring(slice.ring + k, rings);
-  in_lanes([&, end = count, from = &rows.depth[first]]() CLAYSTACK_INLINE {
-    for (std::size_t k = 0; k < end; ++k) {
-      const double outer2 = lane_double(moved[k].outer2), inner2 = lane_double(moved[k].inner2);
-      const double outer = std::sqrt(outer2 * kMm2PerQuantum);
-      const double inner = std::sqrt(inner2 * kMm2PerQuantum);
-      near[k] = outside ? outer : inner;
-      const double by = outward * (rows.surface[first + k] - near[k]);
-      const double give = rows.give[first + k] - by;
-      const double spare = outer - inner - min_wall;
-      const double most = spare > 0.0 ? spare : 0.0, less = give < most ? give : most;
-      eps[k] = less > 0.0 ? less : 0.0;
-      const double left = from[k] - by - eps[k];
-      from[k] = left > 0.0 ? left : 0.0;
-    }
+  const std::size_t count = slice.size();
+  Squeezed s;
+  s.load(squeeze, rings, slice);
+  in_lanes([=, to = &s, min_wall = squeeze.min_wall_mm]() CLAYSTACK_INLINE {
+    squeeze_rows(*to, count, outside, min_wall);
   });
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = slice.ring + k;
-    const Ring& ring = moved[k];
-    if (!outside && i < squeeze.floor_rings && ring.inner2 == 0) [[unlikely]] {
-      rows.depth[first + k] += eps[k];
-      eps[k] = 0.0;
-    }
-    removed[k] = outside ? take_outside(ring, near[k], eps[k]) : take_inside(ring, near[k], eps[k]);
-  }
+  if (!outside && slice.ring < squeeze.floor_rings) [[unlikely]]
+    for (std::size_t k = 0; k < std::min(count, squeeze.floor_rings - slice.ring); ++k)
+      if (s.rings[k].inner2 == 0) s.depth[k] += std::exchange(s.eps[k], 0.0);
+  bool fits = false;
+  in_lanes([=, from = &s, smallest = kSmallestOuter2, ok = &fits]() CLAYSTACK_INLINE {
+    *ok = take_rows(*from, count, outside, smallest);
+  });
+  for (std::size_t k = 0; k < count && !fits; ++k)
+    s.removed[k] = outside ? take_outside(s.rings[k], s.near[k], s.eps[k])
+                           : take_inside(s.rings[k], s.near[k], s.eps[k]);
+  std::copy_n(s.removed, count, removed);
+  std::copy_n(s.depth, count, &slice.rows.depth[slice.begin]);
 }
 
 }  // namespace

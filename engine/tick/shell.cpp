@@ -1,7 +1,10 @@
 #include "engine/tick/shell.hpp"
 
+#include "engine/clay/lanes.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace clay {
 namespace {
@@ -9,24 +12,56 @@ namespace {
 constexpr double kPunch = 2.570796326794897;  // (2 + pi) / 2: a flat punch on a Tresca half-space
 constexpr double kSlowMmS = 5.0;              // slower than that, a motion has no direction
 
+constexpr std::size_t kRows = 32;
+
+/// What each of these rings adds to a stop: nothing where it is pliant.
+CLAYSTACK_INLINE inline void stops_of(const Ring* rings, std::size_t count, double per_stop,
+                                      double* stops) noexcept {
+  for (std::size_t k = 0; k < count; ++k) {
+    const Ring ring = rings[k];
+    const double pliant = pliancy(lane_double(ring.outer2), lane_double(ring.inner2));
+    const auto outer2 = static_cast<std::uint64_t>(ring.outer2);
+    const auto thin = static_cast<Quanta>((outer2 >> 3) + (outer2 >> 5));
+    stops[k] = ring.inner2 < thin ? per_stop * (1.0 - pliant) : 0.0;
+  }
+}
+
+/// Rings from `first` on, at most `count`, until their stops have come to 1.
+struct Passed {
+  std::size_t rings = 0;
+  bool stopped = false;
+};
+Passed pass(const Ring* rings, std::size_t first, bool up, std::size_t count,
+            double per_stop) noexcept {
+  double stops[kRows], sum = 0.0;
+  for (std::size_t done = 0; done < count; done += kRows) {
+    const std::size_t some = std::min(kRows, count - done);
+    const Ring* const from = rings + (up ? first + done : first + 1 - done - some);
+    in_lanes([=, to = stops]() CLAYSTACK_INLINE { stops_of(from, some, per_stop, to); });
+    for (std::size_t k = 0; k < some; ++k) {
+      sum += stops[up ? k : some - 1 - k];
+      if (sum >= 1.0) return {done + k + 1, true};
+    }
+  }
+  return {count, false};
+}
+
 /// How far the wall is free to bend from an end of the band: to the floor, to a solid part, or
 /// farther than `most`.
 double free_length(const ClayStack& stack, double end_mm, bool up, double most,
                    double stop) noexcept {
-  const double h = stack.ring_height_mm(), per_stop = h / stop;
+  const double h = stack.ring_height_mm(), level = end_mm / h;
   const auto rings = stack.rings();
-  const double level = end_mm / h;
-  std::size_t i =
+  const auto first =
       static_cast<std::size_t>(std::clamp(level, 0.0, static_cast<double>(rings.size() - 1)));
-  double length = 0.0, stopped = 0.0;
-  while (length < most && stopped < 1.0) {
-    const Ring& ring = rings[i];
-    if (ring.inner2 < (ring.outer2 >> 3) + (ring.outer2 >> 5))
-      stopped += per_stop * (1.0 - pliancy(ring));
-    length += h;
-    if (up ? i + 1 == rings.size() : i == 0) return up ? most : std::min(most, length);
-    i = up ? i + 1 : i - 1;
-  }
+  const std::size_t there = up ? rings.size() - first : first + 1;
+  // With a ring to spare for the rounding of the length.
+  const std::size_t count = std::min(there, static_cast<std::size_t>(most / h) + 2);
+  const Passed passed = pass(rings.data(), first, up, count, h / stop);
+  // Nothing above the rim holds the wall.
+  if (up ? !passed.stopped || passed.rings == there : !passed.stopped && count < there) return most;
+  double length = 0.0;
+  for (std::size_t k = 0; k < passed.rings && length < most; ++k) length += h;
   return std::min(most, length);
 }
 

@@ -3,6 +3,7 @@
 
 #include "claystack/engine/clay.hpp"
 #include "engine/tick/band.hpp"
+#include "engine/clay/four.hpp"
 
 namespace clay {
 
@@ -24,11 +25,11 @@ struct Shell {
 
 /// By how much a ring may move as part of a shell: 0 where it is solid or nearly so (r < 0.2 R),
 /// 1 from r = 0.4 R. Its hoops are no longer thin there.
-[[nodiscard]] inline double pliancy(double outer2, double inner2) noexcept {
+template <class Number>
+[[nodiscard]] CLAYSTACK_INLINE inline Number pliancy(Number outer2, Number inner2) noexcept {
   constexpr double kStiff = 0.04, kThin = 0.15625;  // (r / R)^2, so that no root is needed
-  const double fade = (inner2 / outer2 - kStiff) * (1.0 / (kThin - kStiff));
-  const double low = fade > 0.0 ? fade : 0.0;
-  return low < 1.0 ? low : 1.0;
+  const Number fade = (inner2 / outer2 - kStiff) * (1.0 / (kThin - kStiff));
+  return lesser(greater(fade, Number{} + 0.0), Number{} + 1.0);
 }
 [[nodiscard]] inline double pliancy(const Ring& ring) noexcept {
   return pliancy(static_cast<double>(ring.outer2), static_cast<double>(ring.inner2));

@@ -19,9 +19,9 @@ class Shift {
   void reserve(std::size_t rings);
   void clear() noexcept;
 
-  [[nodiscard]] bool empty() const noexcept { return moved_.empty(); }
+  [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
   [[nodiscard]] std::size_t from() const noexcept { return from_; }
-  [[nodiscard]] std::size_t to() const noexcept { return from_ + moved_.size(); }
+  [[nodiscard]] std::size_t to() const noexcept { return from_ + count_; }
 
   /// Clay that the shift pushes up (outward: takes from above, below 0).
   [[nodiscard]] WideQuanta raised() const noexcept { return raised_total_; }
@@ -30,13 +30,22 @@ class Shift {
   /// where it is pushed out; half of the hoop strain q / (R^2 + r^2) becomes height.
   [[nodiscard]] Ring after(std::size_t i, const Ring& ring) const noexcept {
     const std::size_t k = i - from_;
-    if (k >= moved_.size()) return ring;
-    return {ring.outer2 + moved_[k], ring.inner2 + moved_[k] + raised_[k]};
+    if (k >= count_) return ring;
+    return {ring.outer2 + changes_[k].outer2, ring.inner2 + changes_[k].inner2};
+  }
+  /// The same of the rings from `first` on.
+  void move(std::size_t first, std::span<Ring> rings) const noexcept {
+    const std::size_t end = std::min(first + rings.size(), to());
+    for (std::size_t i = std::max(first, from_); i < end; ++i) {
+      rings[i - first].outer2 += changes_[i - from_].outer2;
+      rings[i - first].inner2 += changes_[i - from_].inner2;
+    }
   }
 
-  /// Of R^2 of each ring from() .. to()-1, and the clay that it gives up [quanta].
-  [[nodiscard]] std::span<const Quanta> moved() const noexcept { return moved_; }
-  [[nodiscard]] std::span<const Quanta> raised_of_rings() const noexcept { return raised_; }
+  /// Of R^2 and r^2 of each ring from() .. to()-1 [quanta].
+  [[nodiscard]] std::span<const Ring> changes() const noexcept {
+    return std::span(changes_).first(count_);
+  }
 
   struct Push {
     bool outward = false;
@@ -51,10 +60,10 @@ class Shift {
     begin(stack, band, shell);
     for (std::size_t first = from_; first < to(); first += kRows) {
       double by[kRows];
-      const std::span<double> rows(by, std::min(kRows, to() - first));
-      bend(stack.ring_height_mm(), band, shell, first, rows);
-      limit(first, rows);
-      move(stack, push, first, rows);
+      const std::size_t count = std::min(kRows, to() - first);
+      bend(stack.ring_height_mm(), band, shell, first, count, by);
+      limit(first, std::span<double>(by, count));
+      move(stack, push, first, count, by);
     }
     settle(stack);
   }
@@ -62,15 +71,15 @@ class Shift {
  private:
   static constexpr std::size_t kRows = 32;
   void begin(const ClayStack& stack, const Band& band, const Shell& shell) noexcept;
+  /// To and from whole fours of rows.
   static void bend(double h, const Band& band, const Shell& shell, std::size_t first,
-                   std::span<double> by) noexcept;
-  void move(const ClayStack& stack, const Push& push, std::size_t first,
-            std::span<const double> by) noexcept;
+                   std::size_t count, double* by) noexcept;
+  void move(const ClayStack& stack, const Push& push, std::size_t first, std::size_t count,
+            const double* by) noexcept;
   void settle(const ClayStack& stack) noexcept;
 
-  std::size_t from_ = 0;
-  std::vector<Quanta> moved_;   ///< of R^2; below 0 inward
-  std::vector<Quanta> raised_;  ///< clay that the ring gives up; below 0: that it gets
+  std::size_t from_ = 0, count_ = 0;
+  std::vector<Ring> changes_;  ///< room for whole fours; R^2 below 0: inward
   WideQuanta raised_total_ = 0;
 };
 

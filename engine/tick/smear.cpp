@@ -1,6 +1,6 @@
 #include "engine/tick/smear.hpp"
 
-#include "engine/tick/lanes.hpp"
+#include "engine/clay/lanes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,34 +44,35 @@ class Smear {
 
  private:
   /// Places and how much a ring there may give before it is too thin, and get before it stands in
-  /// the tool's way: half of it, for each ring is of two pairs. [quanta]
+  /// the tool's way: half of it, for each ring is of two pairs. [quanta] The rows from `apart` on are
+  /// the upper places of the pairs; where they overlap the lower ones, a place has one row.
   struct Places {
-    double outer[kRows], inner[kRows], give[kRows], get[kRows];
-    double depth[kRows];  ///< of the tool [mm]
+    double outer[2 * kRows], inner[2 * kRows], give[2 * kRows], get[2 * kRows];
+    double depth[2 * kRows];  ///< of the tool [mm]; for a sponge alone
   };
 
-  void load(std::size_t first, std::size_t count, Places& places) noexcept {
-    in_lanes([&, per_quantum = kMm2PerQuantum, rings_at = stack_.rings().data() + first,
-              end = count, least_wall = min_wall_, outside = outside_]() CLAYSTACK_INLINE {
-      const Ring* const rings = rings_at;
-      for (std::size_t k = 0; k < end; ++k) {
+  /// Rings first..first+count-1, from row `to` on.
+  void load(std::size_t first, std::size_t count, Places& places, std::size_t to) noexcept {
+    in_lanes([=, at = &places, rings = stack_.rings().data() + first, least_wall = min_wall_,
+              outside = outside_]() CLAYSTACK_INLINE {
+      for (std::size_t k = 0; k < count; ++k) {
         const double outer2 = lane_double(rings[k].outer2), inner2 = lane_double(rings[k].inner2);
-        const double thinnest = outside ? std::sqrt(inner2 * per_quantum) + least_wall
-                                        : std::sqrt(outer2 * per_quantum) - least_wall;
+        const double other = std::sqrt((outside ? inner2 : outer2) * kMm2PerQuantum);
+        const double thinnest = outside ? other + least_wall : other - least_wall;
         const double kept = thinnest * thinnest * kQuantaPerMm2;
         const double spare = outside ? outer2 - kept : kept - inner2;
-        places.outer[k] = outer2;
-        places.inner[k] = inner2;
-        places.give[k] = spare > 0.0 ? 0.5 * spare : 0.0;
-        places.get[k] = 1e300;
-        places.depth[k] = 0.0;
+        at->outer[to + k] = outer2;
+        at->inner[to + k] = inner2;
+        at->give[to + k] = spare > 0.0 ? 0.5 * spare : 0.0;
+        at->get[to + k] = 1e300;
       }
     });
-    for (std::size_t i = std::max(first, beside_from_); i < std::min(first + count, beside_to_);
-         ++i) {
-      places.get[i - first] = room_beside_tool(i);
-      places.depth[i - first] = contact_.rings.get(i).depth_mm;
-    }
+    const std::size_t beside = std::max(first, beside_from_);
+    for (std::size_t i = beside; i < std::min(first + count, beside_to_); ++i)
+      places.get[to + i - first] = room_beside_tool(i);
+    if (!sponge_) return;
+    for (std::size_t k = 0; k < count; ++k)
+      places.depth[to + k] = contact_.rings.get(first + k).depth_mm;
   }
 
   [[nodiscard]] double room_beside_tool(std::size_t i) const noexcept {
@@ -86,43 +87,46 @@ class Smear {
   }
 
   void pairs(std::size_t first, std::size_t count, std::size_t stride, double k0) noexcept {
-    Places low, high;
-    load(first, count, low);
-    load(first + stride, count, high);
-    const double h = stack_.ring_height_mm(), per_c = per_c_, sign = outside_ ? 1.0 : -1.0;
-    const double start = (static_cast<double>(2 * first + stride + 1) * 0.5 * h - middle_) * per_c;
-    const bool outside = outside_;
-    double amount[kRows];
-    in_lanes([&]() CLAYSTACK_INLINE {
+    Places places;
+    const std::size_t apart = std::min(stride, kRows);
+    load(first, stride > kRows ? count : count + stride, places, 0);
+    if (stride > kRows) load(first + stride, count, places, kRows);
+    const double h = stack_.ring_height_mm();
+    const double start = (static_cast<double>(2 * first + stride + 1) * 0.5 * h - middle_) * per_c_;
+    double amounts[kRows];
+    Quanta whole[kRows];
+    in_lanes([=, surface = outside_ ? places.outer : places.inner, give = places.give,
+              get = places.get, to = amounts, per_c = per_c_,
+              sign = outside_ ? 1.0 : -1.0]() CLAYSTACK_INLINE {
       for (std::size_t k = 0; k < count; ++k) {
-        const double z = start + static_cast<double>(static_cast<int>(k)) * h * per_c;
+        const double z = start + kLevels[k] * h * per_c;
         const double window = 1.0 - z * z, share = window > 0.0 ? k0 * window : 0.0;
-        const double difference =
-            outside ? low.outer[k] - high.outer[k] : low.inner[k] - high.inner[k];
-        const double up = sign * share * difference;
-        const double most_up = low.give[k] < high.get[k] ? low.give[k] : high.get[k];
-        const double most_down = high.give[k] < low.get[k] ? high.give[k] : low.get[k];
-        const double less = up < most_up ? up : most_up;
-        const double flow = less > -most_down ? less : -most_down;
-        const double most = flow < kMostLaneQuanta ? flow : kMostLaneQuanta;
-        const bool closed = !outside && (low.inner[k] == 0.0 || high.inner[k] == 0.0);
-        amount[k] = closed ? 0.0 : (most > -kMostLaneQuanta ? most : -kMostLaneQuanta);
+        const double low = surface[k], high = surface[k + apart];
+        const double up = sign * share * (low - high);
+        const double most_up = lesser(give[k], get[k + apart]);
+        const double most_down = lesser(give[k + apart], get[k]);
+        const double flow = greater(lesser(up, most_up), -most_down);
+        const double most = greater(lesser(flow, kMostLaneQuanta), -kMostLaneQuanta);
+        to[k] = lesser(low, high) > 0.0 ? most : 0.0;  // nothing into a bore that is closed
       }
     });
-    if (sponge_) level(low, high, {amount, count});
-    writer_.smear(first, first + stride, {amount, count}, outside_);
+    if (sponge_) level(places, apart, {amounts, count});
+    in_lanes([=, from = amounts, to = whole]() CLAYSTACK_INLINE {
+      for (std::size_t k = 0; k < count; ++k) to[k] = lane_quanta_below(from[k]);
+    });
+    writer_.smear(first, first + stride, {whole, count}, outside_);
   }
 
   /// Into what the sponge touches, clay goes only until it is as deep there as where it came from:
   /// the overlap loses energy.
-  void level(const Places& low, const Places& high, std::span<double> amounts) const noexcept {
+  void level(const Places& p, std::size_t apart, std::span<double> amounts) const noexcept {
+    const double* const surface = outside_ ? p.outer : p.inner;
     for (std::size_t k = 0; k < amounts.size(); ++k) {
       const bool up = amounts[k] > 0.0;
-      const Places &from = up ? low : high, &to = up ? high : low;
-      if (!(to.depth[k] > 0.0)) continue;
-      const double surface2 =
-          outside_ ? std::min(from.outer[k], to.outer[k]) : std::min(from.inner[k], to.inner[k]);
-      const double deeper = std::max(from.depth[k] - to.depth[k], 0.0);
+      const std::size_t from = up ? k : k + apart, to = up ? k + apart : k;
+      if (!(p.depth[to] > 0.0)) continue;
+      const double surface2 = std::min(surface[from], surface[to]);
+      const double deeper = std::max(p.depth[from] - p.depth[to], 0.0);
       const double most = 0.25 * deeper * std::sqrt(surface2 * kMm2PerQuantum) * kQuantaPerMm2;
       amounts[k] = std::clamp(amounts[k], -most, most);
     }

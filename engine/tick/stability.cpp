@@ -30,11 +30,14 @@ void note_worse(const StabilityPlan& plan, WideQuanta above, std::span<const Rin
     worst = Failure{i, stress};
 }
 
-/// Rings from..to downward; `above` is what stands on ring `from`. Four rings are passed at a time
-/// where the thinnest of them would carry all four besides: four volumes still fit in 64 bits.
+/// Rings from..to downward; `above` is what stands on ring `from`. All are passed where the thinnest
+/// of them would carry them all besides, which is the rule. Else four are passed at a time where the
+/// thinnest of these would carry all four: four volumes still fit in 64 bits.
 void find_weakest(const StabilityPlan& plan, std::span<const Ring> rings, WideQuanta above,
                   std::size_t from, std::size_t to, std::optional<Failure>& worst) noexcept {
   const Threshold threshold(plan);
+  const Stretch all = stretch_of(rings.subspan(to, from + 1 - to));
+  if (!threshold.near(static_cast<double>(above + all.volume), all.least)) return;
   double about = static_cast<double>(above);
   std::size_t end = from + 1;
   const auto pass = [&](std::size_t count, Quanta sum, Quanta least) {

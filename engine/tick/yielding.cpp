@@ -1,16 +1,12 @@
 #include "engine/tick/yielding.hpp"
 
-#include "engine/tick/lanes.hpp"
+#include "engine/clay/lanes.hpp"
 
 #include <array>
 #include <cstdint>
 
 namespace clay {
 namespace {
-
-// No std::min, whose references keep a loop from being done two at a time.
-double lesser(double a, double b) noexcept { return a < b ? a : b; }
-double greater(double a, double b) noexcept { return a > b ? a : b; }
 
 /// `plain`: the tool has been in each ring all the time, and no deeper than the knee when it came.
 /// So are most rings, and they need half of the divisions.

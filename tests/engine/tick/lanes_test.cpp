@@ -1,6 +1,6 @@
 // Processing rings four at a time, if the machine can, or two at a time gives the same bits.
 
-#include "engine/tick/lanes.hpp"
+#include "engine/clay/lanes.hpp"
 
 #include "claystack/engine/wheel.hpp"
 

@@ -6,11 +6,24 @@
 
 #include "claystack/engine/clay.hpp"
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 
 namespace clay {
+
+// No std::min, whose references keep a loop from being done in lanes.
+CLAYSTACK_INLINE inline double lesser(double a, double b) noexcept { return a < b ? a : b; }
+CLAYSTACK_INLINE inline double greater(double a, double b) noexcept { return a > b ? a : b; }
+
+/// 0, 1, 2, ... as doubles. To convert a counter, a loop would take eight rows at a time, and what
+/// is left of them one by one.
+inline constexpr auto kLevels = [] {
+  std::array<double, 128> levels{};
+  for (std::size_t k = 0; k < levels.size(); ++k) levels[k] = static_cast<double>(k);
+  return levels;
+}();
 
 /// Quanta >= 0 as a double, rounded to nearest like a conversion; unlike one it is done in lanes.
 CLAYSTACK_INLINE inline double lane_double(Quanta q) noexcept {
@@ -26,6 +39,13 @@ inline constexpr double kMostLaneQuanta = 0x1p50;
 CLAYSTACK_INLINE inline double lane_nearest(double x) noexcept { return (x + 0x1.8p52) - 0x1.8p52; }
 CLAYSTACK_INLINE inline Quanta lane_quanta(double x) noexcept {
   return std::bit_cast<Quanta>(x + 0x1.8p52) - std::bit_cast<Quanta>(0x1.8p52);
+}
+
+/// x without its fraction, |x| <= kMostLaneQuanta. (A loop that asks for the sign of x twice is
+/// split in two, and then is done in no lanes.)
+CLAYSTACK_INLINE inline Quanta lane_quanta_below(double x) noexcept {
+  const double size = std::abs(x), near = lane_nearest(size);
+  return lane_quanta(std::copysign(near > size ? near - 1.0 : near, x));
 }
 
 /// A root to single precision: of a length that decides how far clay moves, not how much there is.
