@@ -23,6 +23,7 @@ using FourQuanta = std::int64_t __attribute__((vector_size(32)));
 using TwoQuanta = std::int64_t __attribute__((vector_size(16)));
 using FourBits = std::uint64_t __attribute__((vector_size(32)));
 using FourFloats = float __attribute__((vector_size(16)));
+using EightFloats = float __attribute__((vector_size(32)));  // a root takes as long as of four
 
 /// Rows that loops of fours go over.
 [[nodiscard]] constexpr std::size_t in_fours(std::size_t rows) noexcept {
@@ -48,6 +49,10 @@ CLAYSTACK_INLINE inline Four greater(Four a, Four b) noexcept { return a > b ? a
 CLAYSTACK_INLINE inline Four lesser(Four a, double b) noexcept { return lesser(a, all_of(b)); }
 CLAYSTACK_INLINE inline Four greater(Four a, double b) noexcept { return greater(a, all_of(b)); }
 
+CLAYSTACK_INLINE inline double least_of(Four x) noexcept {
+  return lesser(lesser(x[0], x[1]), lesser(x[2], x[3]));
+}
+
 CLAYSTACK_INLINE inline Four root(Four x) noexcept {
   Four r{};
   for (int k = 0; k < 4; ++k) r[k] = std::sqrt(x[k]);
@@ -60,6 +65,14 @@ CLAYSTACK_INLINE inline FourFloats four_floats(Four x) noexcept {
 CLAYSTACK_INLINE inline Four four_doubles(FourFloats x) noexcept {
   Four r{};
   for (int k = 0; k < 4; ++k) r[k] = static_cast<double>(x[k]);
+  return r;
+}
+CLAYSTACK_INLINE inline EightFloats eight_floats(Four low, Four high) noexcept {
+  return __builtin_shufflevector(four_floats(low), four_floats(high), 0, 1, 2, 3, 4, 5, 6, 7);
+}
+CLAYSTACK_INLINE inline EightFloats root(EightFloats x) noexcept {
+  EightFloats r{};
+  for (int k = 0; k < 8; ++k) r[k] = std::sqrt(x[k]);
   return r;
 }
 /// As `rough_root`.

@@ -50,26 +50,15 @@ class StackWriter {
     return placed;
   }
   void gain(WideQuanta amount) noexcept { gained_ += amount; }
-  /// Rings from `first` on get these amounts, for which they have room without a bore closing. The
-  /// caller reports their sum with `gain`.
-  void thicken(std::size_t first, std::span<const Quanta> outside,
-               std::span<const Quanta> inside) noexcept {
-    Ring* const rings = stack_.rings_.data() + first;
-    for (std::size_t k = 0; k < outside.size(); ++k) {
-      rings[k].outer2 += outside[k];
-      rings[k].inner2 -= inside[k];
-    }
-  }
-  /// R^2 and r^2 of the rings from `first` on change by these amounts, by which they give up `raised`
-  /// in all; no bore opens or closes.
-  void bend(std::size_t first, std::span<const Ring> changes, WideQuanta raised) noexcept {
+  /// R^2 and r^2 of the rings from `first` on change by these amounts; no bore opens or closes, and
+  /// no radius is beyond its limit. The caller reports what they get with `gain`.
+  void change(std::size_t first, std::span<const Ring> changes) noexcept {
     Ring* const rings = stack_.rings_.data() + first;
     for (std::size_t k = 0; k < changes.size(); ++k) {
       rings[k].outer2 += changes[k].outer2;
       rings[k].inner2 += changes[k].inner2;
       assert(rings[k].volume() > 0 && rings[k].inner2 >= 0);
     }
-    gained_ -= raised;
   }
   /// Clay along a surface, the outer one or that of a bore: amounts from the rings `from` on to the
   /// rings `to` on. First what all give, then what all get: a ring that does both would wait for

@@ -242,7 +242,8 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, co
   Rim* const rim = (rules & kRim) ? nullptr : &all_rim;
   StackWriter writer(stack);
   if constexpr (rules & kShift) {
-    writer.bend(work.shift.from(), work.shift.changes(), work.shift.raised());
+    writer.change(work.shift.from(), work.shift.changes());
+    writer.gain(-work.shift.raised());
     writer.put_on_crown(work.shift.raised());
   }
   const WideQuanta removed = remove_clay(removals, stack, rim);

@@ -13,32 +13,50 @@ constexpr std::size_t kRows = 64;
 
 /// Some neighbouring rings, and one more wall at either end.
 struct Block {
-  static constexpr std::size_t kAll = kRows + kFour;
-  double outer[kAll], inner[kAll];            ///< to single precision [mm]
-  double wall[kAll + 2];                      ///< [mm]; from the one before the first ring on
-  double outside_to[kAll], inside_to[kAll];   ///< whole quanta that lie up to a ring's lower face
-  Quanta outside[kAll], inside[kAll];         ///< a ring's share
-  double clear[kAll];                         ///< of the tool [mm]
-  double lack[kAll];                          ///< above 0: does not take its share
+  static constexpr std::size_t kAll = kRows + 2 * kFour;
+  double outer2[kAll], inner2[kAll];         ///< [quanta]
+  float outer[kAll], inner[kAll];            ///< [mm]
+  float per_outer[kAll], per_inner[kAll];    ///< [1/mm]
+  double wall[kAll + 2];                     ///< [mm]; from the one before the first ring on
+  double outside_to[kAll], inside_to[kAll];  ///< whole quanta that lie up to a ring's lower face
+  Ring changes[kAll];                        ///< of R^2 and r^2, by a ring's share
+  double clear[kAll];                        ///< of the tool [mm]
+  double lack[kAll];                         ///< above 0: does not take its share
+  std::size_t first_lack, lacks_end;         ///< outside of these rings all take their shares
+
+  [[nodiscard]] CLAYSTACK_INLINE Four wall_of(std::size_t k) const noexcept {
+    return four_doubles(load<FourFloats>(outer + k)) - four_doubles(load<FourFloats>(inner + k));
+  }
 };
 
-/// Four rings, with lengths to single precision [quanta, mm, 1/mm].
-struct Measured {
-  Four outer2, inner2, outer, inner, per_outer, per_inner, wall;
-};
-CLAYSTACK_INLINE inline Four per_length(Four mm) noexcept {
-  return four_doubles(1.0f / four_floats(mm));
+/// Rings from..last and, beyond the last, the last again.
+CLAYSTACK_INLINE inline FourRings load_up_to(const Ring* rings, std::size_t from,
+                                             std::size_t last) noexcept {
+  const std::size_t i = from < last ? from : last;
+  return load_four(rings + i, last + 1 - i);
 }
-CLAYSTACK_INLINE inline Measured measure(const FourRings& rings) noexcept {
-  Measured m;
-  m.outer2 = four_doubles(rings.outer2);
-  m.inner2 = four_doubles(rings.inner2);
-  m.outer = rough_root(m.outer2 * kMm2PerQuantum);
-  m.inner = rough_root(m.inner2 * kMm2PerQuantum);
-  m.per_outer = per_length(m.outer);
-  m.per_inner = per_length(m.inner + 1e-30);
-  m.wall = m.outer - m.inner;
-  return m;
+
+/// Lengths of the rings from `first` on to single precision, of which a machine takes eight at once.
+CLAYSTACK_INLINE inline void measure(Block& b, const Ring* rings, std::size_t first,
+                                     std::size_t last, std::size_t count) noexcept {
+  for (std::size_t k = 0; k < count; k += 2 * kFour) {
+    const FourRings low = load_up_to(rings, first + k, last);
+    const FourRings high = load_up_to(rings, first + k + kFour, last);
+    const Four low_outer2 = four_doubles(low.outer2), high_outer2 = four_doubles(high.outer2);
+    const Four low_inner2 = four_doubles(low.inner2), high_inner2 = four_doubles(high.inner2);
+    const EightFloats outer =
+        root(eight_floats(low_outer2 * kMm2PerQuantum, high_outer2 * kMm2PerQuantum));
+    const EightFloats inner =
+        root(eight_floats(low_inner2 * kMm2PerQuantum, high_inner2 * kMm2PerQuantum));
+    store(b.outer2 + k, low_outer2);
+    store(b.outer2 + k + kFour, high_outer2);
+    store(b.inner2 + k, low_inner2);
+    store(b.inner2 + k + kFour, high_inner2);
+    store(b.outer + k, outer);
+    store(b.inner + k, inner);
+    store(b.per_outer + k, 1.0f / outer);
+    store(b.per_inner + k, 1.0f / (inner + 1e-30f));
+  }
 }
 
 /// A heap on its way from the band: what of it lies up to each face of a ring, in whole quanta. Up
@@ -69,54 +87,42 @@ CLAYSTACK_INLINE inline Four after(Four four, Four next) noexcept {
   return __builtin_shufflevector(four, next, 1, 2, 3, 4);
 }
 
-/// Rings that are to be loaded, as far as the stack goes. Beyond an end there is nothing to be
-/// compared with: the end ring itself.
-struct Source {
-  const Ring* rings;
-  std::size_t first, last;  ///< of the block; of the stack, or the one after the block
-  CLAYSTACK_INLINE FourRings operator()(std::size_t k) const noexcept {
-    const std::size_t i = first + k < last ? first + k : last;
-    return load_four(rings + i, last + 1 - i);
-  }
-};
-
 /// Each ring's share, the difference of its two faces, and which rings do not take it: without a
 /// root, by what is more than each surface moves. A share leaves a bore open.
-CLAYSTACK_INLINE inline void divide(Block& b, std::size_t count, const Source& source,
-                                    const Way& way, double sign, double spare,
-                                    double largest2) noexcept {
-  const std::size_t below = source.first > 0 ? source.first - 1 : 0;
-  Four previous_wall = measure(load_four(source.rings + below, 1)).wall;
-  store(b.wall, previous_wall);
-  Measured m = measure(source(0));
+CLAYSTACK_INLINE inline void divide(Block& b, std::size_t count, const Way& way, double sign,
+                                    double spare, double largest2) noexcept {
+  Four previous_wall = all_of(b.wall[0]), wall = b.wall_of(0);
   Way::Faces faces = way.faces(0);
+  Four first_lack = all_of(way.last), last_lack = all_of(-1.0);
   for (std::size_t k = 0; k < count; k += kFour) {
-    const Measured next = measure(source(k + kFour));
-    const Way::Faces next_faces = way.faces(k + kFour);
-    const Four outside = sign * (after(faces.outside_to, next_faces.outside_to) - faces.outside_to);
-    const Four inside = sign * (after(faces.inside_to, next_faces.inside_to) - faces.inside_to);
-    const Four moved =
-        kMm2PerQuantum * (0.5 * outside * m.per_outer + inside * m.per_inner);
-    const Four slope =
-        lesser(before(m.wall, previous_wall), after(m.wall, next.wall)) + spare - m.wall;
+    const Four next_wall = b.wall_of(k + kFour);
+    const Way::Faces next = way.faces(k + kFour);
+    const Four outside = sign * (after(faces.outside_to, next.outside_to) - faces.outside_to);
+    const Four inside = sign * (after(faces.inside_to, next.inside_to) - faces.inside_to);
+    const Four per_outer = four_doubles(load<FourFloats>(b.per_outer + k));
+    const Four per_inner = four_doubles(load<FourFloats>(b.per_inner + k));
+    const Four moved = kMm2PerQuantum * (0.5 * outside * per_outer + inside * per_inner);
+    const Four slope = lesser(before(wall, previous_wall), after(wall, next_wall)) + spare - wall;
     const Four over = moved - lesser(slope, load_four(b.clear + k));
-    const Four bore = inside > 0.0 ? inside + 1.0 - m.inner2 : Four{};
-    const Four wide = m.outer2 + outside - largest2;
+    const Four bore = inside > 0.0 ? inside + 1.0 - load_four(b.inner2 + k) : Four{};
+    const Four wide = load_four(b.outer2 + k) + outside - largest2;
     const Four lacks = greater(over, greater(bore, wide));
-    store(b.lack + k, moved > 0.0 ? lacks : Four{});
-    store(b.outside + k, four_quanta(outside));
-    store(b.inside + k, four_quanta(inside));
+    const Four lack = moved > 0.0 ? lacks : Four{}, row = load_four(&kLevels[k]);
+    first_lack = lesser(first_lack, lack > 0.0 ? row : first_lack);
+    last_lack = greater(last_lack, lack > 0.0 ? row : last_lack);
+    store(b.lack + k, lack);
+    store(b.changes + k, FourRings{four_quanta(outside), -four_quanta(inside)});
     store(b.outside_to + k, faces.outside_to);
     store(b.inside_to + k, faces.inside_to);
-    store(b.outer + k, m.outer);
-    store(b.inner + k, m.inner);
-    store(b.wall + k + 1, m.wall);
-    previous_wall = m.wall;
-    m = next;
-    faces = next_faces;
+    store(b.wall + k + 1, wall);
+    previous_wall = wall;
+    wall = next_wall;
+    faces = next;
   }
   const std::size_t rows = in_fours(count);
-  b.wall[rows + 1] = m.wall[0];
+  b.first_lack = static_cast<std::size_t>(least_of(first_lack));
+  b.lacks_end = static_cast<std::size_t>(-least_of(-last_lack) + 1.0);
+  b.wall[rows + 1] = wall[0];
   b.outside_to[rows] = faces.outside_to[0];
   b.inside_to[rows] = faces.inside_to[0];
 }
@@ -179,8 +185,8 @@ class Heaving {
         continue;
       }
       const std::size_t k = heap_.up ? n : count - 1 - n;
-      carry_.inside += block_.inside[k];
-      carry_.outside += block_.outside[k];
+      carry_.inside -= block_.changes[k].inner2;
+      carry_.outside += block_.changes[k].outer2;
       if (carried() > 0) place(first + k, k);
       ++n;
     }
@@ -188,14 +194,18 @@ class Heaving {
 
   /// From the n-th ring of the block on its way: how many take their share.
   [[nodiscard]] std::size_t rings_that_take(std::size_t n, std::size_t count) const noexcept {
+    const Block& b = block_;
+    if (heap_.up ? n >= b.lacks_end : count - n <= b.first_lack) return count - n;
+    if (heap_.up ? n < b.first_lack : count - n > b.lacks_end)
+      return heap_.up ? b.first_lack - n : count - n - b.lacks_end;
     const std::size_t begin = n;
-    while (n < count && !(block_.lack[heap_.up ? n : count - 1 - n] > 0.0)) ++n;
+    while (!(b.lack[heap_.up ? n : count - 1 - n] > 0.0)) ++n;
     return n - begin;
   }
 
   void give_shares(std::size_t first, std::size_t k, std::size_t count) noexcept {
     const Block& b = block_;
-    writer_.thicken(first + k, {b.outside + k, count}, {b.inside + k, count});
+    writer_.change(first + k, {b.changes + k, count});
     const double total =
         b.inside_to[k + count] - b.inside_to[k] + (b.outside_to[k + count] - b.outside_to[k]);
     placed_ += static_cast<Quanta>(heap_.up ? total : -total);
@@ -213,10 +223,16 @@ class Heaving {
                   static_cast<double>(count),
                   static_cast<double>(heap_.outside),
                   static_cast<double>(heap_.inside)};
-    const Source source{stack_.rings().data(), first, std::min(first + count, stack_.size() - 1)};
-    in_lanes([=, b = &block_, sign = heap_.up ? 1.0 : -1.0, spare = kSteepest * h_,
+    // Beyond an end of the stack there is nothing to be compared with: the end ring itself.
+    const Ring* const rings = stack_.rings().data();
+    const Ring& below = rings[first > 0 ? first - 1 : 0];
+    block_.wall[0] = rough_root(mm2_from_quanta(below.outer2)) -
+                     rough_root(mm2_from_quanta(below.inner2));
+    in_lanes([=, b = &block_, last = std::min(first + count, stack_.size() - 1),
+              sign = heap_.up ? 1.0 : -1.0, spare = kSteepest * h_,
               most = largest2]() CLAYSTACK_INLINE {
-      divide(*b, count, source, way, sign, spare, most);
+      measure(*b, rings, first, last, in_fours(count) + 1);
+      divide(*b, count, way, sign, spare, most);
     });
   }
 
@@ -255,7 +271,8 @@ class Heaving {
     const double least = std::min(block_.wall[k], block_.wall[k + 2]);
     const double room = least + kSteepest * h_ - block_.wall[k + 1];
     if (!(room > 0.0)) return;
-    const double R = block_.outer[k], r = block_.inner[k], clear = block_.clear[k];
+    const double R = static_cast<double>(block_.outer[k]);
+    const double r = static_cast<double>(block_.inner[k]), clear = block_.clear[k];
     double out = 0.0, in = 0.0;
     const Portion taken = fitting(room, clear, R, r, out, in);
     const Quanta inside = writer_.put_inside(i, taken.inside);
