@@ -77,10 +77,10 @@ class StackWriter {
   }
   void put_on_crown(WideQuanta amount) noexcept { stack_.crown_ += amount; }
 
-  /// Step (b) of section 5.1: a new ring above the top one. Capacity for max_rings() is reserved
-  /// when the scene is built, so this does not allocate.
-  void grow(const Ring& ring) noexcept {
-    stack_.rings_.push_back(ring);
+  /// Step (b) of section 5.1: a new ring, the i-th; those above it rise. Capacity for max_rings()
+  /// is reserved when the scene is built, so this does not allocate.
+  void grow(std::size_t i, const Ring& ring) noexcept {
+    stack_.rings_.insert(stack_.rings_.begin() + static_cast<std::ptrdiff_t>(i), ring);
     opened_ += ring.inner2 > 0 ? 1u : 0u;
     gained_ += ring.volume();
   }
@@ -91,6 +91,14 @@ class StackWriter {
     gained_ -= top.volume();
     opened_ -= top.inner2 > 0 ? 1u : 0u;
     stack_.rings_.pop_back();
+  }
+  /// Ring i gets these radii; the crown gives or gets the clay. No bore opens or closes.
+  void reshape(std::size_t i, const Ring& ring) noexcept {
+    const Quanta more = ring.volume() - stack_.rings_[i].volume();
+    assert(ring.volume() > 0 && (ring.inner2 > 0) == (stack_.rings_[i].inner2 > 0));
+    stack_.rings_[i] = ring;
+    stack_.crown_ -= more;
+    gained_ += more;
   }
   /// Takes the rings i .. top off, and the crown. Returns their clay.
   WideQuanta cut_above(std::size_t i) noexcept {

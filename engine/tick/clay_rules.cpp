@@ -2,6 +2,7 @@
 
 #include "engine/clay/stack_writer.hpp"
 #include "engine/tick/heave.hpp"
+#include "engine/tick/relief.hpp"
 #include "engine/tick/shell.hpp"
 #include "engine/tick/smear.hpp"
 
@@ -42,12 +43,18 @@ Pinched pinched(const RulePress& press, const ClayStack& stack,
   }
   const Ring& ring = stack.rings()[i];
   const double opening = ring.inner_mm() > 0.0 ? ring.outer_mm() / ring.inner_mm() : 1.0;
-  // As far as the other tool, where neither is in the ring yet.
-  const bool felt = depth[0] > 0.0 || depth[1] > 0.0;
-  const double in =
-      felt ? (depth[0] - opening * depth[1]) / (1.0 + opening * opening) : -depth[1] / opening;
-  const double out = felt ? 0.5 * (depth[1] - depth[0]) : -depth[0];
+  const double in = (depth[0] - opening * depth[1]) / (1.0 + opening * opening);
+  const double out = 0.5 * (depth[1] - depth[0]);
   return {std::max(in, 0.0), std::max(out, 0.0), true};
+}
+
+/// A wall moves less near the solid clay that it stands on.
+void hold_foot(const ClayStack& stack, const Shell& shell, std::size_t first,
+               std::span<double> by) noexcept {
+  const double h = stack.ring_height_mm(), start = (static_cast<double>(first) + 0.5) * h;
+  if (start > shell.foot_mm + shell.root_mm) return;
+  for (std::size_t k = 0; k < by.size(); ++k)
+    by[k] *= shell.hold(start + static_cast<double>(k) * h);
 }
 
 /// The ring that one of two tools would have to push over most, its band in both contacts.
@@ -100,6 +107,7 @@ void centre(const RulePress& press, const ClayStack& stack, std::span<ToolRemova
                      if (!ring.beside) continue;
                      by[k] = std::min(by[k], outward ? ring.outward_mm : ring.inward_mm);
                    }
+                   hold_foot(stack, shell, first, by);
                  });
   for (std::size_t k = 0; k < 2; ++k) {
     TouchedRings& rings = removals[k].contact.rings;
@@ -116,7 +124,12 @@ void centre(const RulePress& press, const ClayStack& stack, std::span<ToolRemova
 template <unsigned rules>
 constexpr bool kOneToolBand = (rules & (kShift | kHeave | kSmear)) != 0;
 template <unsigned rules>
-constexpr bool kTwoToolBand = (rules & (kShift | kSmear)) != 0 || !(rules & kLift);
+constexpr bool kTwoToolBand = (rules & (kShift | kHeave | kSmear)) != 0 || !(rules & kLift);
+
+Overhang overhang_of(const RulePress& press, const RuleWork& work) noexcept {
+  return {press.plan.tool, work.shoulders, press.plan.removal, press.tool.hip_mm.y,
+          press.tool.dt_s};
+}
 
 /// Rings that the flow may change.
 template <unsigned rules>
@@ -144,6 +157,14 @@ void reach_of(const RulePress& press, const ClayStack& stack, std::span<const To
     if (removals[k].contact.rings.empty()) continue;
     const double c = band.height_mm();
     if constexpr (rules & kSmear) widen(band.low_mm - c, band.high_mm + c);
+    if constexpr (rules & kHeave) {
+      const Overhang overhang = overhang_of(press, work);
+      const Contact& there = removals[k].contact;
+      if (overhangs(overhang, stack, band, there, true))
+        widen(band.low_mm, band.high_mm + kReliefMm);
+      if (overhangs(overhang, stack, band, there, false))
+        widen(band.low_mm - kReliefMm, band.high_mm);
+    }
     if constexpr (rules & kHeave) {
       const double reach = 2.0 * heave_reach(press.plan.tool, stack, band);
       if (!lifts) widen(band.low_mm - reach, band.high_mm + reach);
@@ -191,10 +212,16 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
                          const std::size_t end = std::min(first + by.size(), rings.to());
                          for (std::size_t i = std::max(first, rings.from()); i < end; ++i)
                            by[i - first] = std::max(by[i - first], shell.share * rings.give(i));
+                         hold_foot(stack, shell, first, by);
                        });
     }
     squeeze_out(squeeze, stack, contact, removals[0].removed);
   }
+  if constexpr (rules & kHeave)
+    if (!press.trim)
+      for (std::size_t k = 0; k < removals.size(); ++k)
+        if (!removals[k].contact.rings.empty())
+          relieve_touched(overhang_of(press, work), stack, work.bands[k], squeeze, removals, k);
   reach_of<rules>(press, stack, removals, work);
 }
 
@@ -203,6 +230,18 @@ WideQuanta upward_part(WideQuanta amount, const Motion& motion) noexcept {
   const double v = motion.upward_mm_s;
   const double up = 0.5 * (1.0 + v / std::sqrt(v * v + kSlowMmS * kSlowMmS));
   return (amount * static_cast<std::int64_t>(up * 0x1p30)) >> 30;
+}
+
+/// What of the clay that one tool squeezes aside goes inside: the scene's share. Of what a tool
+/// squeezes from outside into a wall that is thicker than the contact is high, less: the flow of a
+/// punch does not reach through.
+std::int64_t inside_share(const StepPlan& plan, const ClayStack& stack, const Contact& contact,
+                          const Band& band) noexcept {
+  if (contact.side == Side::expansive) return plan.inside_share;
+  const double w = wall_mm(stack.rings()[std::min(band.ring, stack.size() - 1)]);
+  const double c = std::max(band.height_mm(), stack.ring_height_mm());
+  const auto through = static_cast<std::int64_t>(c * c / (c * c + w * w) * 0x1p20);
+  return (plan.inside_share * through) >> 20;
 }
 
 /// Lays what one tool squeezed aside beside it. Returns what becomes height.
@@ -219,7 +258,8 @@ WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removal
       WideQuanta rest = 0;
       for (WideQuanta left = part; left > 0;) {
         const auto piece = static_cast<Quanta>(std::min(left, WideQuanta{kLargestHeap}));
-        const auto inside = static_cast<Quanta>(inside_part(piece, plan.inside_share, stack));
+        const auto inside = static_cast<Quanta>(
+            inside_part(piece, inside_share(plan, stack, contact, work.bands[at]), stack));
         const Quanta over = heave(plan.tool, stack, press.tool.hip_mm.y, contact, work.bands[at],
                                   {inside, piece - inside, up}, writer);
         writer.gain(piece - over);
@@ -246,7 +286,13 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, co
     writer.gain(-work.shift.raised());
     writer.put_on_crown(work.shift.raised());
   }
-  const WideQuanta removed = remove_clay(removals, stack, rim);
+  WideQuanta removed = remove_clay(removals, stack, rim);
+  if constexpr (rules & kHeave)
+    if (!press.trim)
+      for (std::size_t k = 0; k < removals.size(); ++k)
+        if (!removals[k].contact.rings.empty())
+          removed += relieve_beyond(overhang_of(press, work), stack, work.bands[k],
+                                    removals[k].contact, writer);
   if (press.trim)
     ledger.trimmed += removed;
   else if ((rules & kLift) && removals.size() == 2)
@@ -265,9 +311,9 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, co
   flow.lowest = work.lowest;
   flow.highest = work.highest;
   if (stack.crown() < 0)
-    sink_rim(flow, stack, writer);
+    sink_rim(flow, plan.tool, press.tool.hip_mm.y, removals, stack, writer);
   else
-    grow_rim(flow, plan.tool, press.tool.hip_mm.y, removals, stack, rim, writer);
+    grow_rim(flow, plan, press.tool.hip_mm.y, removals, stack, rim, writer);
   return flow;
 }
 
@@ -316,6 +362,7 @@ void follow(Motion& motion, const ToolState& tool) noexcept {
 void RuleWork::reserve(const Tool& tool, const ClayStack& stack) {
   const double reach = tool.high() - tool.low() + 3.0 * kLongestShellMm;
   const double rings = reach / stack.ring_height_mm() + 8.0;
+  shoulders = shoulders_of(tool);
   shift.reserve(static_cast<std::size_t>(std::min(rings, static_cast<double>(stack.max_rings()))));
 }
 

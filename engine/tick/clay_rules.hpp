@@ -6,6 +6,7 @@
 #include "claystack/engine/tick.hpp"
 #include "engine/tick/band.hpp"
 #include "engine/tick/redistribution.hpp"
+#include "engine/tick/relief.hpp"
 #include "engine/tick/removal.hpp"
 #include "engine/tick/shift.hpp"
 #include "engine/tool/tool_state.hpp"
@@ -23,6 +24,7 @@ void follow(Motion& motion, const ToolState& tool) noexcept;
 struct RuleWork {
   Shift shift;
   std::array<Band, 2> bands;            ///< of each tool
+  Shoulders shoulders;                  ///< of the tool
   std::size_t lowest = 0, highest = 0;  ///< rings that the flow may change
 
   void reserve(const Tool& tool, const ClayStack& stack);

@@ -41,6 +41,10 @@ struct Contact {
   std::array<double, 2> end_depth2{};
 };
 
+[[nodiscard]] inline double wall_mm(const Ring& ring) noexcept {
+  return ring.outer_mm() - ring.inner_mm();
+}
+
 /// How deep a tool of radius f at its height is in the ring.
 [[nodiscard]] inline double depth_of(const Ring& ring, double f, const Contact& contact) noexcept {
   return contact.side == Side::compressive ? ring.outer_mm() + f - contact.axis_distance_mm

@@ -3,6 +3,7 @@
 #include "engine/clay/stack_writer.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -16,6 +17,11 @@ constexpr std::size_t kMostGrowthPerTick = 64;
 
 // Of a rim's thickness over its height.
 constexpr double kTaper = 0.5;
+
+constexpr double kHighestLipMm = 12.0;  // bounds what a tick moves
+// A lip is rounded, relative to the wall: at the rim, and half of its height below.
+constexpr double kThinRim = 0.7, kThinLip = 0.93;
+constexpr int kLipPasses = 4;  // from the rim down to where the wall is as thick as deep
 
 WideQuanta take(std::span<const ToolRemoval> removals, ClayStack& stack) noexcept {
   StackWriter writer(stack);
@@ -127,6 +133,12 @@ Ring next_ring(const Ring& top, const Rim* rim) noexcept {
   return ring;
 }
 
+/// A ring, and below which ring it rises: the stack's size for one on top.
+struct Growth {
+  Ring ring;
+  std::size_t at;
+};
+
 /// Steps (a), (b): whole rings from the excess. `paper` keeps the remainder outside the body,
 /// below one top ring after every tick; `conserving` shows it as the crown.
 template <Model model, class NextRing>
@@ -135,7 +147,7 @@ void grow(Flow& flow, ClayStack& stack, Ledger& ledger, StackWriter& writer, Rim
   const auto excess = [&] { return model == Model::paper ? ledger.outside : stack.crown(); };
   // With less than half of the top ring no ring can grow: none above it is smaller.
   while (2 * excess() >= stack.rings().back().volume()) {
-    const Ring ring = next();
+    const auto [ring, at] = next();
     if (ring.volume() <= 0 || excess() < ring.volume()) return;
     flow.ring_limit = stack.size() >= stack.max_rings();
     if (flow.ring_limit) return;
@@ -144,15 +156,18 @@ void grow(Flow& flow, ClayStack& stack, Ledger& ledger, StackWriter& writer, Rim
       ledger.outside -= ring.volume();
     else
       writer.put_on_crown(-ring.volume());
-    writer.grow(ring);
+    writer.grow(at, ring);
     if (rim != nullptr) *rim = {};
+    flow.lip = std::min(flow.lip, at);
+    flow.grown_volume += ring.volume();
     ++flow.grown;
   }
 }
 template <Model model>
 void grow(Flow& flow, ClayStack& stack, Ledger& ledger, Rim* rim, StackWriter& writer) noexcept {
   grow<model>(flow, stack, ledger, writer, rim, [&] {
-    return next_ring(stack.rings().back(), model == Model::paper ? nullptr : rim);
+    return Growth{next_ring(stack.rings().back(), model == Model::paper ? nullptr : rim),
+                  stack.size()};
   });
 }
 
@@ -173,9 +188,46 @@ Ring copied_rim(const ClayStack& stack) noexcept {
   return {quanta_from_radius(outer - by), quanta_from_radius(inner + by)};
 }
 
-/// What of a ring above the rim the tools leave room for: no wall where there is not half of it.
-Ring beside_tools(const Ring& next, const ClayStack& stack, const Tool& tool, double hip_y,
+/// Where a lip begins that is thinner than the wall below it: it rises and sinks as it is. It is as
+/// high as that wall is thick, and begins above the tools and above the bottom of the bore. The
+/// stack's size where there is none, or where a tool stands beside it.
+std::size_t lip_of(const ClayStack& stack, const Tool& tool, double hip_y,
+                   std::span<const ToolRemoval> removals) noexcept {
+  const auto rings = stack.rings();
+  const double h = stack.ring_height_mm(), size = static_cast<double>(rings.size());
+  double from = 1.0;
+  for (const auto& [contact, removed] : removals)
+    if (!contact.rings.empty()) from = std::max(from, std::ceil((hip_y + tool.high()) / h));
+  const double top_mm = wall_mm(rings.back());
+  double thickest_mm = top_mm, first = size - 1.0;
+  for (int pass = 0; pass < kLipPasses && first > 0.0; ++pass) {
+    first = std::max(size - std::floor(std::min(0.5 * thickest_mm, kHighestLipMm) / h + 0.5), 1.0);
+    thickest_mm = std::max(thickest_mm, wall_mm(rings[static_cast<std::size_t>(first) - 1]));
+  }
+  const double least = std::max(first, from);
+  const double half_way = std::ceil(0.5 * (size + first));
+  const double half_mm = wall_mm(rings[static_cast<std::size_t>(std::min(half_way, size - 1.0))]);
+  const bool rounded = top_mm < kThinRim * thickest_mm && half_mm > kThinRim * thickest_mm &&
+                       half_mm < kThinLip * thickest_mm;
+  if (!(rounded && least < size)) return rings.size();
+  std::size_t lip = static_cast<std::size_t>(least);
+  while (lip < rings.size() && rings[lip - 1].inner2 == 0) ++lip;
+  return lip;
+}
+
+/// The middle of one wall with the thickness of another.
+Ring as_thick(const Ring& ring, const Ring& other) noexcept {
+  const double middle = 0.5 * (ring.outer_mm() + ring.inner_mm()), half = 0.5 * wall_mm(other);
+  if (ring.inner2 == 0 || !(half < middle)) return ring;
+  const Ring reshaped{quanta_from_radius(middle + half), quanta_from_radius(middle - half)};
+  return reshaped.inner2 > 0 && reshaped.volume() > 0 ? reshaped : ring;
+}
+
+/// What of a ring above the rim the tools leave room for: no wall where there is not half of it, or
+/// less than the minimum wall.
+Ring beside_tools(const Ring& next, const ClayStack& stack, const StepPlan& plan, double hip_y,
                   std::span<const ToolRemoval> removals) noexcept {
+  const Tool& tool = plan.tool;
   Ring ring = next;
   const double t = (static_cast<double>(stack.size()) + 0.5) * stack.ring_height_mm() - hip_y;
   if (!(t >= tool.low() && t <= tool.high())) return ring;
@@ -188,7 +240,8 @@ Ring beside_tools(const Ring& next, const ClayStack& stack, const Tool& tool, do
     else
       ring.inner2 = std::max(ring.inner2, quanta_from_radius(d + f));
   }
-  return 2 * ring.volume() >= next.volume() ? ring : Ring{};
+  const bool thin = ring != next && wall_mm(ring) < plan.removal.min_wall_mm;
+  return 2 * ring.volume() >= next.volume() && !thin ? ring : Ring{};
 }
 
 }  // namespace
@@ -249,21 +302,33 @@ WideQuanta flow_by_kernel(const StepPlan& plan, WideQuanta amount, bool up, cons
             : flow_down(plan.kernel, clay, contact, stack);
 }
 
-void grow_rim(Flow& flow, const Tool& tool, double hip_y, std::span<const ToolRemoval> removals,
+void grow_rim(Flow& flow, const StepPlan& plan, double hip_y, std::span<const ToolRemoval> removals,
               ClayStack& stack, Rim* rim, StackWriter& writer) noexcept {
   Ledger none;
   grow<Model::conserving>(flow, stack, none, writer, rim, [&] {
-    const Ring next = rim != nullptr ? next_ring(stack.rings().back(), rim) : copied_rim(stack);
-    return beside_tools(next, stack, tool, hip_y, removals);
+    const auto rings = stack.rings();
+    if (rim == nullptr)
+      if (const std::size_t lip = lip_of(stack, plan.tool, hip_y, removals); lip < rings.size())
+        return Growth{rings[lip - 1], lip};
+    const Ring top = rim != nullptr ? next_ring(rings.back(), rim) : copied_rim(stack);
+    return Growth{beside_tools(top, stack, plan, hip_y, removals), rings.size()};
   });
 }
 
-void sink_rim(Flow& flow, ClayStack& stack, StackWriter& writer) noexcept {
+void sink_rim(Flow& flow, const Tool& tool, double hip_y, std::span<const ToolRemoval> removals,
+              ClayStack& stack, StackWriter& writer) noexcept {
+  const WideQuanta before = stack.crown();
   while (stack.crown() < 0 && stack.size() > 1) {
-    flow.sunk_volume += stack.rings().back().volume();
+    const auto rings = stack.rings();
+    const std::size_t top = rings.size() - 1, lip = lip_of(stack, tool, hip_y, removals);
+    // On a wall that leans the lip follows the wall.
+    const std::size_t first = lip > top ? top : lip - 1;
+    for (std::size_t i = first; i < top; ++i) writer.reshape(i, as_thick(rings[i], rings[i + 1]));
+    flow.lip = std::min(flow.lip, first);
     ++flow.sunk;
     writer.sink();
   }
+  flow.sunk_volume = stack.crown() - before;
 }
 
 template Flow press_clay<Model::paper>(const StepPlan&, std::span<const ToolRemoval>, bool,

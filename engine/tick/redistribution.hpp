@@ -16,10 +16,11 @@ namespace clay {
 struct Flow {
   std::size_t lowest = 0;  ///< rings lowest..highest may have changed
   std::size_t highest = 0;
-  std::size_t grown = 0;  ///< rings added on top
-  std::size_t sunk = 0;   ///< rings taken out on top; then none is added
-  WideQuanta sunk_volume = 0;
-  bool ring_limit = false;  ///< clay waits for a ring that max_rings does not allow
+  std::size_t grown = 0;  ///< rings added
+  std::size_t sunk = 0;   ///< rings taken out; then none is added
+  WideQuanta grown_volume = 0, sunk_volume = 0;
+  std::size_t lip = SIZE_MAX;  ///< rings from here on have moved up or down by those
+  bool ring_limit = false;     ///< clay waits for a ring that max_rings does not allow
 };
 
 /// Rings above and below the candidate range that a flow may reach.
@@ -54,12 +55,15 @@ WideQuanta remove_clay(std::span<const ToolRemoval> removals, ClayStack& stack, 
 /// Spreads an amount by the kernel; returns what finds no ring.
 WideQuanta flow_by_kernel(const StepPlan& plan, WideQuanta amount, bool up, const Contact& contact,
                           Rim* rim, ClayStack& stack) noexcept;
-/// Whole rings from the crown: with a rim as `press_clay` makes them, without one as copies of the
-/// rim that taper to the wall below where the rim is thicker. A ring rises beside the tools, not
-/// into them; where they leave it less than half of its clay, the crown waits.
-void grow_rim(Flow& flow, const Tool& tool, double hip_y, std::span<const ToolRemoval> removals,
+/// Whole rings from the crown: with a rim as `press_clay` makes them, without one below the lip,
+/// which is lifted as it is. Where a tool stands beside the lip, on top, as copies of the rim that
+/// taper to the wall below where the rim is thicker. A ring rises beside the tools, not into them;
+/// where they leave it less than half of its clay, the crown waits.
+void grow_rim(Flow& flow, const StepPlan& plan, double hip_y, std::span<const ToolRemoval> removals,
               ClayStack& stack, Rim* rim, StackWriter& writer) noexcept;
-/// Takes top rings out until the crown is no longer below 0. Expects that they hold enough clay.
-void sink_rim(Flow& flow, ClayStack& stack, StackWriter& writer) noexcept;
+/// Takes rings out below the lip until the crown is no longer below 0; where a tool stands beside
+/// the lip, on top. Expects that the stack holds enough clay.
+void sink_rim(Flow& flow, const Tool& tool, double hip_y, std::span<const ToolRemoval> removals,
+              ClayStack& stack, StackWriter& writer) noexcept;
 
 }  // namespace clay

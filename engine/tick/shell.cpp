@@ -10,7 +10,24 @@ namespace clay {
 namespace {
 
 constexpr double kPunch = 2.570796326794897;  // (2 + pi) / 2: a flat punch on a Tresca half-space
-constexpr double kSlowMmS = 5.0;              // slower than that, a motion has no direction
+constexpr double kNoFoot = -1e300;
+constexpr double kRoot = 0.5;     // of the wall: how far up what is solid holds it
+constexpr double kSlowMmS = 5.0;  // slower than that, a motion has no direction
+
+/// The wall at a height, between the middles of two rings. [mm]
+struct Wall {
+  double outer, inner;
+};
+Wall wall_at(const ClayStack& stack, double up_mm) noexcept {
+  const auto rings = stack.rings();
+  const double last = static_cast<double>(rings.size() - 1);
+  const double level = std::clamp(up_mm / stack.ring_height_mm() - 0.5, 0.0, last);
+  const auto i = static_cast<std::size_t>(level);
+  const Ring &low = rings[i], &high = rings[std::min(i + 1, rings.size() - 1)];
+  const double part = level - static_cast<double>(i);
+  return {(1.0 - part) * low.outer_mm() + part * high.outer_mm(),
+          (1.0 - part) * low.inner_mm() + part * high.inner_mm()};
+}
 
 constexpr std::size_t kRows = 32;
 
@@ -26,43 +43,44 @@ CLAYSTACK_INLINE inline void stops_of(const Ring* rings, std::size_t count, doub
   }
 }
 
-/// Rings from `first` on, at most `count`, until their stops have come to 1.
-struct Passed {
-  std::size_t rings = 0;
-  bool stopped = false;
-};
-Passed pass(const Ring* rings, std::size_t first, bool up, std::size_t count,
-            double per_stop) noexcept {
-  double stops[kRows], sum = 0.0;
-  for (std::size_t done = 0; done < count; done += kRows) {
-    const std::size_t some = std::min(kRows, count - done);
-    const Ring* const from = rings + (up ? first + done : first + 1 - done - some);
-    in_lanes([=, to = stops]() CLAYSTACK_INLINE { stops_of(from, some, per_stop, to); });
-    for (std::size_t k = 0; k < some; ++k) {
-      sum += stops[up ? k : some - 1 - k];
-      if (sum >= 1.0) return {done + k + 1, true};
-    }
-  }
-  return {count, false};
-}
-
 /// How far the wall is free to bend from an end of the band: to the floor, to a solid part, or
 /// farther than `most`.
 double free_length(const ClayStack& stack, double end_mm, bool up, double most,
                    double stop) noexcept {
-  const double h = stack.ring_height_mm(), level = end_mm / h;
+  const double h = stack.ring_height_mm(), per_stop = 1.0 / stop;
   const auto rings = stack.rings();
-  const auto first =
-      static_cast<std::size_t>(std::clamp(level, 0.0, static_cast<double>(rings.size() - 1)));
+  const double level = std::clamp(end_mm / h, 0.0, static_cast<double>(rings.size()));
+  const std::size_t first = std::min(static_cast<std::size_t>(level), rings.size() - 1);
   const std::size_t there = up ? rings.size() - first : first + 1;
-  // With a ring to spare for the rounding of the length.
-  const std::size_t count = std::min(there, static_cast<std::size_t>(most / h) + 2);
-  const Passed passed = pass(rings.data(), first, up, count, h / stop);
-  // Nothing above the rim holds the wall.
-  if (up ? !passed.stopped || passed.rings == there : !passed.stopped && count < there) return most;
-  double length = 0.0;
-  for (std::size_t k = 0; k < passed.rings && length < most; ++k) length += h;
-  return std::min(most, length);
+  const double within = level - static_cast<double>(first);
+  double piece = h * (up ? 1.0 - within : within);  // of the ring that the end lies in
+  double stops[kRows], length = 0.0, stopped = 0.0;
+  for (std::size_t done = 0; length < most; done += kRows) {
+    if (done >= there) return up ? most : length;  // nothing above the rim holds the wall
+    const std::size_t some = std::min(kRows, there - done);
+    const Ring* const from = rings.data() + (up ? first + done : first + 1 - done - some);
+    in_lanes([=, to = stops]() CLAYSTACK_INLINE { stops_of(from, some, h * per_stop, to); });
+    if (done == 0) stops_of(&rings[first], 1, piece * per_stop, &stops[up ? 0 : some - 1]);
+    for (std::size_t k = 0; k < some && length < most; ++k) {
+      const double by = stops[up ? k : some - 1 - k];
+      if (stopped + by >= 1.0) return std::min(most, length + piece * (1.0 - stopped) / by);
+      stopped += by;
+      length += piece;
+      piece = h;
+    }
+  }
+  return most;
+}
+
+/// Top of the solid clay that a contact reaches down to; far below where it does not.
+double foot_of(const ClayStack& stack, const Band& band) noexcept {
+  const auto rings = stack.rings();
+  const double h = stack.ring_height_mm();
+  auto i = static_cast<std::size_t>(
+      std::clamp(band.low_mm / h, 0.0, static_cast<double>(rings.size() - 1)));
+  if (pliancy(rings[i]) > 0.0) return kNoFoot;
+  while (i < band.ring && !(pliancy(rings[i]) > 0.0)) ++i;
+  return static_cast<double>(i) * h;
 }
 
 /// How much of the wall behind a tool still moves with it. A tool that goes along the wall lays
@@ -79,15 +97,17 @@ double trailing(double along_mm_s, double into_mm_s, double thinness) noexcept {
 Shell shell_at(const ClayStack& stack, const Band& band, double min_wall_mm, double upward_mm_s,
                double into_mm_s) noexcept {
   Shell shell;
-  const Ring& ring = stack.rings()[band.ring];
-  const double pliant = pliancy(ring);
+  const Wall wall = wall_at(stack, band.peak_mm);
+  const double pliant = pliancy(wall.outer * wall.outer, wall.inner * wall.inner);
   if (!(pliant > 0.0 && band.give_mm > 0.0)) return shell;
-  const double h = stack.ring_height_mm(), R = ring.outer_mm(), w = R - ring.inner_mm();
+  const double h = stack.ring_height_mm(), R = wall.outer, w = R - wall.inner;
   const double length = std::min(std::sqrt(R * w), kLongestShellMm);
   const double c = std::max(band.height_mm(), h),
                rim = std::max(stack.height_mm() - band.high_mm, 0.0);
   const double hinge_mm = 0.25 * w;
   const double below = free_length(stack, band.low_mm, false, length, hinge_mm);
+  shell.foot_mm = below < length ? std::max(foot_of(stack, band), band.low_mm - below) : kNoFoot;
+  shell.root_mm = std::max(kRoot * w, h);
   const double above = free_length(stack, band.high_mm, true, length, hinge_mm);
 
   const double thinness = w / R;

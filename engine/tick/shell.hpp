@@ -21,6 +21,14 @@ struct Shell {
   double below_mm = 1.0, above_mm = 1.0;        ///< where the wall stands still again
   double turn = 1.0;                            ///< below 1 near the rim, which turns with the wall
   double trail_below = 1.0, trail_above = 1.0;  ///< less than 1 on the side the tool comes from
+  double foot_mm = -1e300;                      ///< where the wall stands on what is solid
+  double root_mm = 1.0;                         ///< above the foot: so far the solid holds the wall
+
+  /// Less than 1 where the solid below holds the wall.
+  [[nodiscard]] double hold(double up_mm) const noexcept {
+    const double t = (up_mm - foot_mm) / root_mm;
+    return t > 0.0 ? (t < 1.0 ? t * t * (3.0 - 2.0 * t) : 1.0) : 0.0;
+  }
 };
 
 /// By how much a ring may move as part of a shell: 0 where it is solid or nearly so (r < 0.2 R),

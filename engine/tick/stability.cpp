@@ -106,35 +106,28 @@ std::optional<Failure> StabilityWatch::check(const StabilityPlan& plan, const Cl
   const auto rings = stack.rings();
   const std::size_t old_size = rings.size() - flow.grown + flow.sunk;
   const bool at_top = cursor_ + 1 == old_size;
-  if (flow.sunk > 0) note_sunk(rings, flow);
+  if (flow.lip < SIZE_MAX) note_lip(rings, flow, at_top);
   note_change(rings, std::min(flow.lowest, cursor_), cursor_);
-  if (flow.grown > 0) {
-    sums_.refresh(rings, old_size, rings.size() - 1);
-    if (at_top)
-      cursor_ = rings.size() - 1;
-    else
-      for (const Ring& ring : rings.subspan(old_size)) above_cursor_ += ring.volume();
-  }
   // Between the flow and the top, or below the flow, the weight has risen too.
   const bool came_on_top = !at_top && (flow.grown > 0 || stack.crown() != crown_);
   if (came_on_top || stack.volume() > volume_) return search(plan, stack);
   std::optional<Failure> worst;
-  find_weakest(plan, rings, above_cursor_ + stack.crown(), cursor_, std::min(flow.lowest, cursor_),
-               worst);
+  find_weakest(plan, rings, above_cursor_ + stack.crown(), cursor_,
+               std::min({flow.lowest, flow.lip, cursor_}), worst);
   return worst;
 }
 
-void StabilityWatch::note_sunk(std::span<const Ring> rings, const Flow& flow) noexcept {
+/// Rings came or went, and those above them moved.
+void StabilityWatch::note_lip(std::span<const Ring> rings, const Flow& flow, bool at_top) noexcept {
   const std::size_t top = rings.size() - 1;
-  if (cursor_ >= top) {
+  above_cursor_ += flow.grown_volume - flow.sunk_volume;
+  if (at_top || flow.lip <= cursor_) {
     cursor_ = top;
     above_cursor_ = 0;
-  } else {
-    above_cursor_ -= flow.sunk_volume;
   }
   stale_end_ = std::min(stale_end_, rings.size());
   if (stale_first_ >= stale_end_) stale_first_ = stale_end_;
-  sums_.refresh(rings, top, top);
+  sums_.refresh(rings, std::min(flow.lip, top), top);
 }
 
 std::optional<Failure> StabilityWatch::search(const StabilityPlan& plan,

@@ -55,7 +55,7 @@ class StabilityWatch {
 
  private:
   void note_change(std::span<const Ring> rings, std::size_t first, std::size_t last) noexcept;
-  void note_sunk(std::span<const Ring> rings, const Flow& flow) noexcept;
+  void note_lip(std::span<const Ring> rings, const Flow& flow, bool at_top) noexcept;
   void bring_up_to_date(std::span<const Ring> rings) noexcept;
   [[nodiscard]] std::optional<Failure> search(const StabilityPlan& plan,
                                               const ClayStack& stack) noexcept;

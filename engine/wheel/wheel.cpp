@@ -156,7 +156,7 @@ std::uint32_t raise_crown(State& s, const ToolState& tool) noexcept {
   if constexpr (stages & kStability) s.watch.move_to(s.stack, flow.highest);
   StackWriter writer(s.stack);
   Rim* const rim = (s.plan.clay.rules & kRim) ? nullptr : &s.rim;
-  grow_rim(flow, s.plan.tool, tool.hip_mm.y, {}, s.stack, rim, writer);
+  grow_rim(flow, s.plan, tool.hip_mm.y, {}, s.stack, rim, writer);
   return settle_flow<stages>(s, flow, tool);
 }
 

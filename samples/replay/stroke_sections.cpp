@@ -1,6 +1,8 @@
-// stroke_sections WORK OUT.svg NODE...: sections of the pots after these strokes of a work, above
-// as thrown without the clay rules, below by the same strokes with them.
+// stroke_sections WORK: what each stroke of a work leaves with the clay rules, as a table, and how
+// far it depends on the ring height. stroke_sections WORK OUT.svg NODE...: sections of the pots
+// after these strokes, above as thrown without the clay rules, below by the same strokes with them.
 
+#include "app/bench/hands/pot_measures.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
 #include "samples/replay/recorded_strokes.hpp"
@@ -10,6 +12,7 @@
 #include <cstdio>
 #include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -69,19 +72,56 @@ std::string drawing(const std::vector<Pot>& plain, const std::vector<Pot>& ruled
   return svg + "</svg>\n";
 }
 
+Result<WorkRecord> read_work(const char* path) {
+  return read_file(path)
+      .and_then([&](const std::string& text) { return parse_work(text, path); })
+      .map([](auto&& read) { return std::move(read.work); });
+}
+
+/// To the standard output.
+Result<void> print_table(const char* work_path) {
+  const auto work = read_work(work_path);
+  if (!work) return tl::make_unexpected(work.error());
+  std::vector<std::vector<Pot>> pots;
+  for (const int finer : {1, 2, 4}) {
+    auto thrown = samples::thrown_again(*work, ClaySpec{}, finer);
+    if (!thrown) return tl::make_unexpected(thrown.error());
+    pots.push_back(std::move(*thrown));
+  }
+  const auto plain = samples::thrown_again(*work, std::nullopt);
+  if (!plain) return tl::make_unexpected(plain.error());
+  std::puts(
+      "Each stroke with the clay rules; in brackets without them. Lengths in mm. Ledge: the "
+      "largest\n"
+      "step steeper than 3. h: mean difference of the surfaces from those with rings of half the\n"
+      "height; h/2: from half the height to a quarter.\n");
+  std::puts("stroke  kind   height         width          ledge        cavities   h      h/2");
+  for (std::size_t node = 1; node < work->nodes.size(); ++node) {
+    const ClayStack &stack = pots[0][node].stack, &fine = pots[1][node].stack;
+    const bench::PotMeasures pot = bench::measure(stack),
+                             old = bench::measure((*plain)[node].stack);
+    std::printf(
+        "%6zu  %-5s  %5.1f (%5.1f)  %5.1f (%5.1f)  %4.1f (%5.1f)  %d (%d)     %5.2f  %5.2f\n", node,
+        samples::cuts(*work, node) ? "cut" : "press", pot.height_mm, old.height_mm, pot.width_mm,
+        old.width_mm, pot.ledge_mm, old.ledge_mm, pot.cavities, old.cavities,
+        samples::mean_difference_mm(stack, fine),
+        samples::mean_difference_mm(fine, pots[2][node].stack));
+  }
+  return {};
+}
+
 Result<void> draw(const char* work_path, const char* out_path,
                   const std::vector<std::size_t>& nodes) {
-  const auto read = read_file(work_path).and_then(
-      [&](const std::string& text) { return parse_work(text, work_path); });
-  if (!read) return tl::make_unexpected(read.error());
+  const auto work = read_work(work_path);
+  if (!work) return tl::make_unexpected(work.error());
   for (const std::size_t node : nodes)
-    if (node >= read->work.nodes.size())
+    if (node >= work->nodes.size())
       return failure(ErrorKind::bad_input, std::string(work_path) + ": expected a node from 0 to " +
-                                               std::to_string(read->work.nodes.size() - 1) +
-                                               ", found " + std::to_string(node));
-  const auto plain = samples::thrown_again(read->work, std::nullopt);
+                                               std::to_string(work->nodes.size() - 1) + ", found " +
+                                               std::to_string(node));
+  const auto plain = samples::thrown_again(*work, std::nullopt);
   if (!plain) return tl::make_unexpected(plain.error());
-  const auto ruled = samples::thrown_again(read->work, ClaySpec{});
+  const auto ruled = samples::thrown_again(*work, ClaySpec{});
   if (!ruled) return tl::make_unexpected(ruled.error());
   return publish(out_path, drawing(*plain, *ruled, nodes));
 }
@@ -100,11 +140,11 @@ int main(int argc, char** argv) {
     }
     nodes.push_back(node);
   }
-  if (nodes.empty()) {
-    std::fputs("usage: stroke_sections NAME.work OUT.svg NODE...\n", stderr);
+  if (argc != 2 && nodes.empty()) {
+    std::fputs("usage: stroke_sections NAME.work [OUT.svg NODE...]\n", stderr);
     return 2;
   }
-  if (const auto done = draw(argv[1], argv[2], nodes); !done) {
+  if (const auto done = argc == 2 ? print_table(argv[1]) : draw(argv[1], argv[2], nodes); !done) {
     std::fprintf(stderr, "stroke_sections: %s\n", done.error().message.c_str());
     return done.error().kind == ErrorKind::io ? 3 : 2;
   }

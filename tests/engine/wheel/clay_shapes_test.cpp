@@ -1,0 +1,169 @@
+// Shapes that strokes leave with clay rules: lips, undercuts, feet, cuts.
+
+#include "claystack/engine/wheel.hpp"
+#include "tests/engine/wheel/rule_hand.hpp"
+#include "tests/engine/wheel/rule_samples.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace clay {
+namespace {
+
+/// A wheel with a pot of these radii, `outer` and `inner` by the height of a ring's middle.
+Wheel wheel_with(SceneSpec scene, double height_mm, const std::function<double(double)>& outer,
+                 const std::function<double(double)>& inner) {
+  std::vector<Ring> rings;
+  for (double up = 0.5 * kH; up < height_mm; up += kH)
+    rings.push_back({quanta_from_radius(outer(up)), quanta_from_radius(inner(up))});
+  Pot pot{ClayStack::from_rings(kH, rings, 0, 2400).value(),
+          {},
+          Model::conserving,
+          1.9,
+          {},
+          {},
+          {},
+          {}};
+  pot.ledger.initial = pot.stack.volume();
+  return Wheel::build(scene, pot).value();
+}
+
+constexpr double kTallMm = 60.0, kThickMm = 8.0, kMiddleMm = 41.0;
+constexpr std::size_t kLipRings = 20;  // half of the wall's thickness
+
+/// A wall of 8 mm with a lip that is rounded as a half circle.
+Wheel rounded_wall() {
+  const auto half = [](double up) {
+    const double in = std::max(up - (kTallMm - 0.5 * kThickMm), 0.0);
+    return std::sqrt(0.25 * kThickMm * kThickMm - in * in);
+  };
+  SceneSpec scene = cylinder_scene({});
+  scene.removal.min_wall_mm = 1.0;
+  return wheel_with(
+      scene, kTallMm, [&](double up) { return kMiddleMm + half(up); },
+      [&](double up) { return kMiddleMm - half(up); });
+}
+
+std::vector<Ring> lip_of(const Wheel& wheel) {
+  const auto rings = wheel.stack().rings();
+  return {rings.end() - static_cast<std::ptrdiff_t>(kLipRings), rings.end()};
+}
+
+TEST(ClayShapes, AWallGrowsBelowItsLip) {
+  Wheel wheel = rounded_wall();
+  const std::vector<Ring> lip = lip_of(wheel);
+  const std::size_t size = wheel.stack().size();
+  Hand hand(wheel);
+  hand.place_at(kMiddleMm, 18.0, 8.5);
+  hand.move_to(kMiddleMm, 32.0, 20.0, 5.0);
+  EXPECT_GT(wheel.stack().size(), size + 10);
+  EXPECT_EQ(lip_of(wheel), lip);
+  const auto rings = wheel.stack().rings();
+  for (std::size_t i = size - kLipRings; i < rings.size() - kLipRings; ++i)
+    EXPECT_EQ(rings[i], rings[size - kLipRings - 1]) << i;
+  expect_balanced(wheel);
+}
+
+TEST(ClayShapes, AWallSinksBelowItsLip) {
+  Wheel wheel = rounded_wall();
+  const std::vector<Ring> lip = lip_of(wheel);
+  const std::size_t size = wheel.stack().size();
+  Hand hand(wheel);
+  hand.place_at(20.0, 22.0);
+  hand.move_to(36.0, 22.0, 10.0);
+  ASSERT_LT(wheel.stack().size(), size);
+  const std::vector<Ring> lower = lip_of(wheel);
+  for (std::size_t k = 0; k < kLipRings; ++k)
+    EXPECT_NEAR(wall_of(lower[k]), wall_of(lip[k]), 1e-6) << k;
+  expect_balanced(wheel);
+}
+
+/// The largest step of a surface that is steeper than 3.
+double largest_ledge(const Wheel& wheel, double (Ring::*surface)() const) {
+  const auto rings = wheel.stack().rings();
+  double largest = 0.0, ledge = 0.0;
+  for (std::size_t i = 0; i + 1 < rings.size(); ++i) {
+    const double step = (rings[i + 1].*surface)() - (rings[i].*surface)();
+    if (std::abs(step) <= 3.0 * kH) {
+      ledge = 0.0;
+      continue;
+    }
+    ledge = step * ledge > 0.0 ? ledge + step : step;
+    largest = std::max(largest, std::abs(ledge));
+  }
+  return largest;
+}
+
+/// A ball that is pressed into a thick wall by more than its radius, and a pinch that stops there.
+TEST(ClayShapes, NoStrokeLeavesASteepUndercut) {
+  SceneSpec scene = cylinder_scene({});
+  scene.removal = {20.0, 2.0, 3.0, {}};
+  const auto thick = [&] {
+    return wheel_with(
+        scene, 70.0, [](double) { return 55.0; }, [](double) { return 22.0; });
+  };
+  Wheel pressed = thick();
+  Hand finger(pressed);
+  finger.place_at(10.0, 35.0);
+  finger.move_to(29.0, 35.0, 20.0);
+  finger.move_to(29.0, 35.01, 0.05);
+  EXPECT_GT(ring_at(pressed, 35.0).inner_mm(), 36.0);
+  EXPECT_LT(largest_ledge(pressed, &Ring::inner_mm), 1.0);
+  Wheel pinched = thick();
+  Hand fingers(pinched);
+  fingers.place_at(38.5, 20.0, 34.0);
+  fingers.move_to(38.5, 40.0, 20.0, 8.0);
+  EXPECT_LT(largest_ledge(pinched, &Ring::inner_mm), 1.0);
+  EXPECT_LT(largest_ledge(pinched, &Ring::outer_mm), 1.0);
+  expect_balanced(pressed);
+  expect_balanced(pinched);
+}
+
+/// A plate's wall is laid out, and the solid bottom holds it.
+TEST(ClayShapes, AWallKeepsItsFoot) {
+  SceneSpec scene = cylinder_scene({});
+  scene.removal = {20.0, 2.0, 3.0, {}};
+  Wheel wheel = wheel_with(
+      scene, 60.0, [](double) { return 84.0; }, [](double up) { return up < 6.0 ? 0.0 : 70.0; });
+  Hand finger(wheel);
+  for (int pass = 0; pass < 3; ++pass) {
+    const double to = 63.0 + 3.0 * pass;
+    finger.place_at(50.0, 15.5);
+    finger.move_to(to, 15.5, 30.0);
+    finger.move_to(to + 4.0, 40.0, 30.0);
+  }
+  EXPECT_GT(ring_at(wheel, 20.0).outer_mm(), 86.0);
+  EXPECT_LT(largest_ledge(wheel, &Ring::outer_mm), 1.0);
+  expect_balanced(wheel);
+}
+
+/// A cutter takes clay away and bends nothing, at the minimum wall too.
+TEST(ClayShapes, ACutBendsNoWall) {
+  for (const double min_wall : {4.0, 5.0}) {
+    SceneSpec scene = cylinder_scene({});
+    scene.tool.mode = ToolMode::trim;
+    scene.removal.min_wall_mm = min_wall;
+    Wheel wheel = Wheel::build(scene).value();
+    const std::vector<Ring> before(wheel.stack().rings().begin(), wheel.stack().rings().end());
+    Hand hand(wheel);
+    hand.place_at(58.0, 112.0);
+    hand.move_to(52.0, 112.0, 10.0);
+    hand.move_to(52.0, 121.0, 10.0);
+    ASSERT_EQ(wheel.stack().size(), before.size());
+    Quanta most = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      EXPECT_EQ(wheel.stack().rings()[i].inner2, before[i].inner2);
+      most = std::max(most, before[i].outer2 - wheel.stack().rings()[i].outer2);
+    }
+    EXPECT_NEAR(mm2_from_quanta(most), 45.0 * 45.0 - (40.0 + min_wall) * (40.0 + min_wall), 1e-6);
+    expect_balanced(wheel);
+  }
+}
+
+}  // namespace
+}  // namespace clay
