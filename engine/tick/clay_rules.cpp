@@ -126,11 +126,6 @@ constexpr bool kOneToolBand = (rules & (kShift | kHeave | kSmear)) != 0;
 template <unsigned rules>
 constexpr bool kTwoToolBand = (rules & (kShift | kHeave | kSmear)) != 0 || !(rules & kLift);
 
-Overhang overhang_of(const RulePress& press, const RuleWork& work) noexcept {
-  return {press.plan.tool, work.shoulders, press.plan.removal, press.tool.hip_mm.y,
-          press.tool.dt_s};
-}
-
 /// Rings that the flow may change.
 template <unsigned rules>
 void reach_of(const RulePress& press, const ClayStack& stack, std::span<const ToolRemoval> removals,
@@ -158,12 +153,8 @@ void reach_of(const RulePress& press, const ClayStack& stack, std::span<const To
     const double c = band.height_mm();
     if constexpr (rules & kSmear) widen(band.low_mm - c, band.high_mm + c);
     if constexpr (rules & kHeave) {
-      const Overhang overhang = overhang_of(press, work);
-      const Contact& there = removals[k].contact;
-      if (overhangs(overhang, stack, band, there, true))
-        widen(band.low_mm, band.high_mm + kReliefMm);
-      if (overhangs(overhang, stack, band, there, false))
-        widen(band.low_mm - kReliefMm, band.high_mm);
+      if (work.cones[k][0].meets) widen(band.low_mm - kReliefMm, band.high_mm);
+      if (work.cones[k][1].meets) widen(band.low_mm, band.high_mm + kReliefMm);
     }
     if constexpr (rules & kHeave) {
       const double reach = 2.0 * heave_reach(press.plan.tool, stack, band);
@@ -221,7 +212,8 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
     if (!press.trim)
       for (std::size_t k = 0; k < removals.size(); ++k)
         if (!removals[k].contact.rings.empty())
-          relieve_touched(overhang_of(press, work), stack, work.bands[k], squeeze, removals, k);
+          work.cones[k] = relieve_touched(plan, work.shoulders, stack, press.tool, work.bands[k],
+                                          squeeze, removals, k);
   reach_of<rules>(press, stack, removals, work);
 }
 
@@ -291,8 +283,10 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, co
     if (!press.trim)
       for (std::size_t k = 0; k < removals.size(); ++k)
         if (!removals[k].contact.rings.empty())
-          removed += relieve_beyond(overhang_of(press, work), stack, work.bands[k],
-                                    removals[k].contact, writer);
+          for (const Cone& cone : work.cones[k])
+            if (cone.meets)
+              removed +=
+                  relieve_beyond(plan, cone, stack, press.tool.dt_s, removals[k].contact, writer);
   if (press.trim)
     ledger.trimmed += removed;
   else if ((rules & kLift) && removals.size() == 2)

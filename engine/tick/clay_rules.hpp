@@ -23,9 +23,10 @@ void follow(Motion& motion, const ToolState& tool) noexcept;
 /// Data that the stages of one part of a tick pass on. Storage is reserved once.
 struct RuleWork {
   Shift shift;
-  std::array<Band, 2> bands;            ///< of each tool
-  Shoulders shoulders;                  ///< of the tool
-  std::size_t lowest = 0, highest = 0;  ///< rings that the flow may change
+  std::array<Band, 2> bands;                 ///< of each tool
+  Shoulders shoulders;                       ///< of the tool
+  std::array<std::array<Cone, 2>, 2> cones;  ///< of each tool: at its lower end, at its upper end
+  std::size_t lowest = 0, highest = 0;       ///< rings that the flow may change
 
   void reserve(const Tool& tool, const ClayStack& stack);
 };

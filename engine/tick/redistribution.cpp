@@ -307,7 +307,8 @@ void grow_rim(Flow& flow, const StepPlan& plan, double hip_y, std::span<const To
   Ledger none;
   grow<Model::conserving>(flow, stack, none, writer, rim, [&] {
     const auto rings = stack.rings();
-    if (rim == nullptr)
+    // The wall below a lip holds more than the top ring.
+    if (rim == nullptr && stack.crown() >= rings.back().volume())
       if (const std::size_t lip = lip_of(stack, plan.tool, hip_y, removals); lip < rings.size())
         return Growth{rings[lip - 1], lip};
     const Ring top = rim != nullptr ? next_ring(rings.back(), rim) : copied_rim(stack);

@@ -7,7 +7,9 @@
 #include "engine/clay/stack_writer.hpp"
 #include "engine/tick/band.hpp"
 #include "engine/tick/removal.hpp"
+#include "engine/tool/tool_state.hpp"
 
+#include <array>
 #include <cstddef>
 #include <span>
 
@@ -15,6 +17,8 @@ namespace clay {
 
 /// Farthest from a contact that an overhang yields [mm].
 inline constexpr double kReliefMm = 12.0;
+
+inline constexpr double kReliefSlope = 2.0;
 
 /// Where a tool's surface becomes steeper than 2 : 1 toward its ends, measured from the HIP [mm];
 /// of a tool with flat ends: its ends. A shaft that widens from there as a cone stands for the rest
@@ -24,23 +28,31 @@ struct Shoulders {
 };
 [[nodiscard]] Shoulders shoulders_of(const Tool& tool);
 
-/// A tool in the clay, and its contact.
-struct Overhang {
-  const Tool& tool;
-  const Shoulders& shoulders;
-  const RemovalPlan& plan;
-  double hip_y = 0.0, dt_s = 0.0;
+/// The cone at one end of a contact, as the clay's surface lies against the tool. [mm]
+struct Cone {
+  double from_mm = 0.0;    ///< height at which it begins
+  double base_mm = 0.0;    ///< radius of the surface there
+  std::size_t beside = 0;  ///< the last touched ring before it
+  bool outside = true, up = true;
+  bool meets = false;  ///< clay beyond the contact
+
+  /// How far a surface at a height stands out into the cone.
+  [[nodiscard]] double excess(double up_mm, double surface_mm) const noexcept {
+    const double way = up ? up_mm - from_mm : from_mm - up_mm;
+    return (outside ? surface_mm - base_mm : base_mm - surface_mm) - kReliefSlope * way;
+  }
 };
 
-/// Takes more from the rings that a tool touches beyond its shoulders, and lessens their depth.
-void relieve_touched(const Overhang& overhang, const ClayStack& stack, const Band& band,
-                     const Squeeze& squeeze, std::span<ToolRemoval> removals,
-                     std::size_t tool) noexcept;
-/// Whether there is clay in the cone's way beyond an end of the contact.
-[[nodiscard]] bool overhangs(const Overhang& overhang, const ClayStack& stack, const Band& band,
-                             const Contact& contact, bool up) noexcept;
-/// Takes it, never through the minimum wall, nor where there is no bore. Returns the clay.
-WideQuanta relieve_beyond(const Overhang& overhang, const ClayStack& stack, const Band& band,
-                          const Contact& contact, StackWriter& writer) noexcept;
+/// The cones at the lower and the upper end of one of the contacts, which has given way. What
+/// stands in them takes more from the rings that the tool touches, and lessens their depth.
+[[nodiscard]] std::array<Cone, 2> relieve_touched(const StepPlan& plan, const Shoulders& shoulders,
+                                                  const ClayStack& stack, const ToolState& tool,
+                                                  const Band& band, const Squeeze& squeeze,
+                                                  std::span<ToolRemoval> removals,
+                                                  std::size_t which) noexcept;
+/// Takes what stands in a cone beyond the contact, never through the minimum wall, nor where there
+/// is no bore. Returns the clay.
+WideQuanta relieve_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& stack,
+                          double dt_s, const Contact& contact, StackWriter& writer) noexcept;
 
 }  // namespace clay

@@ -24,9 +24,12 @@ Wall wall_at(const ClayStack& stack, double up_mm) noexcept {
   const double level = std::clamp(up_mm / stack.ring_height_mm() - 0.5, 0.0, last);
   const auto i = static_cast<std::size_t>(level);
   const Ring &low = rings[i], &high = rings[std::min(i + 1, rings.size() - 1)];
-  const double part = level - static_cast<double>(i);
-  return {(1.0 - part) * low.outer_mm() + part * high.outer_mm(),
-          (1.0 - part) * low.inner_mm() + part * high.inner_mm()};
+  const double part = (level - static_cast<double>(i)) * kMm2PerQuantum;
+  const double rest = kMm2PerQuantum - part;
+  const auto radius = [&](Quanta below, Quanta above) {
+    return std::sqrt(rest * static_cast<double>(below) + part * static_cast<double>(above));
+  };
+  return {radius(low.outer2, high.outer2), radius(low.inner2, high.inner2)};
 }
 
 constexpr std::size_t kRows = 32;
