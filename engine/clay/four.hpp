@@ -70,6 +70,12 @@ CLAYSTACK_INLINE inline Four four_doubles(FourFloats x) noexcept {
 CLAYSTACK_INLINE inline EightFloats eight_floats(Four low, Four high) noexcept {
   return __builtin_shufflevector(four_floats(low), four_floats(high), 0, 1, 2, 3, 4, 5, 6, 7);
 }
+CLAYSTACK_INLINE inline FourFloats low_half(EightFloats x) noexcept {
+  return __builtin_shufflevector(x, x, 0, 1, 2, 3);
+}
+CLAYSTACK_INLINE inline FourFloats high_half(EightFloats x) noexcept {
+  return __builtin_shufflevector(x, x, 4, 5, 6, 7);
+}
 CLAYSTACK_INLINE inline EightFloats root(EightFloats x) noexcept {
   EightFloats r{};
   for (int k = 0; k < 8; ++k) r[k] = std::sqrt(x[k]);
@@ -82,7 +88,7 @@ CLAYSTACK_INLINE inline Four rough_root(Four x) noexcept {
   return four_doubles(r);
 }
 
-/// As `lane_double`, `lane_nearest`, `lane_quanta` and `lane_quanta_below`.
+/// As `lane_double`, `lane_nearest` and `lane_quanta`; and without the fraction.
 CLAYSTACK_INLINE inline Four four_doubles(FourQuanta q) noexcept {
   constexpr std::uint64_t kExponent = std::bit_cast<std::uint64_t>(0x1p52);
   const auto bits = reinterpret_cast<FourBits>(q);

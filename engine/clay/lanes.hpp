@@ -41,13 +41,6 @@ CLAYSTACK_INLINE inline Quanta lane_quanta(double x) noexcept {
   return std::bit_cast<Quanta>(x + 0x1.8p52) - std::bit_cast<Quanta>(0x1.8p52);
 }
 
-/// x without its fraction, |x| <= kMostLaneQuanta. (A loop that asks for the sign of x twice is
-/// split in two, and then is done in no lanes.)
-CLAYSTACK_INLINE inline Quanta lane_quanta_below(double x) noexcept {
-  const double size = std::abs(x), near = lane_nearest(size);
-  return lane_quanta(std::copysign(near > size ? near - 1.0 : near, x));
-}
-
 /// A root to single precision: of a length that decides how far clay moves, not how much there is.
 CLAYSTACK_INLINE inline double rough_root(double x) noexcept {
   return std::sqrt(static_cast<float>(x));

@@ -15,39 +15,59 @@ constexpr double kMostOfBore = 0.75;
 
 CLAYSTACK_INLINE inline Four smooth(Four t) noexcept { return t * t * (3.0 - 2.0 * t); }
 
-/// Change of R^2 and the clay that a ring gives up [quanta].
-struct Move {
-  Four moved, raised;
+/// Some rings. Loops over them are short: a machine has room for about a hundred operations that
+/// wait for another, and a root or a quotient in a long loop fills it.
+struct Rows {
+  static constexpr std::size_t kMost = 128;  // a multiple of eight
+  double outer2[kMost], inner2[kMost];  ///< [quanta]
+  double by[kMost];                     ///< how far the ring moves, less where it is not thin [mm]
+  double thinness[kMost];               ///< (R^2 - r^2) / (R^2 + r^2): thickness over middle radius
+  double outer[kMost], inner[kMost];    ///< [mm]
 };
 
-/// In the plane of the ring: how far `by` moves it, less where its hoops are not thin, and
-/// (R^2 - r^2) / (R^2 + r^2), the thickness over the middle radius.
-struct Bent {
-  Four by, thinness;
-};
-CLAYSTACK_INLINE inline Bent bend_rings(Four outer2, Four inner2, Four by) noexcept {
-  const Four per_both = 1.0 / (outer2 + inner2);
-  return {by * pliancy(outer2, inner2), (outer2 - inner2) * per_both};
+CLAYSTACK_INLINE inline void load_rows(Rows& rows, const Ring* rings, std::size_t count) noexcept {
+  for (std::size_t k = 0; k < count; k += kFour) {
+    const FourRings four = load_four(rings + k, count - k);
+    store(rows.outer2 + k, four_doubles(four.outer2));
+    store(rows.inner2 + k, four_doubles(four.inner2));
+  }
+  if (const std::size_t end = in_fours(count); end % (2 * kFour) != 0)
+    store(rows.outer2 + end, all_of(1.0));  // roots are taken by eight
+}
+CLAYSTACK_INLINE inline void bend_rows(Rows& rows, const double* by, std::size_t count) noexcept {
+  for (std::size_t k = 0; k < count; k += kFour) {
+    const Four outer2 = load_four(rows.outer2 + k), inner2 = load_four(rows.inner2 + k);
+    store(rows.by + k, load_four(by + k) * pliancy(outer2, inner2));
+  }
+  for (std::size_t k = 0; k < count; k += kFour) {
+    const Four outer2 = load_four(rows.outer2 + k), inner2 = load_four(rows.inner2 + k);
+    const Four per_both = 1.0 / (outer2 + inner2);
+    store(rows.thinness + k, (outer2 - inner2) * per_both);
+  }
 }
 
-CLAYSTACK_INLINE inline Move push_in(Four outer2, Four inner2, Four by, double hoop) noexcept {
-  const Bent bent = bend_rings(outer2, inner2, by);
-  const Four outer = rough_root(outer2 * kMm2PerQuantum), u = lesser(bent.by, outer);
-  const Four q = lesser(u * (2.0 * outer - u) * kQuantaPerMm2, kMostOfBore * inner2);
-  const Four most = lesser(q, kMostLaneQuanta);
-  return {-most, hoop * most * bent.thinness};
+CLAYSTACK_INLINE inline Four pushed_in(const Rows& rows, std::size_t k) noexcept {
+  const Four outer = load_four(rows.outer + k), u = lesser(load_four(rows.by + k), outer);
+  const Four q = u * (2.0 * outer - u) * kQuantaPerMm2;
+  return lesser(lesser(q, kMostOfBore * load_four(rows.inner2 + k)), kMostLaneQuanta);
 }
-
-CLAYSTACK_INLINE inline Move push_out(Four outer2, Four inner2, Four by, double hoop,
-                                      double per_min_wall, double largest2) noexcept {
-  const Bent bent = bend_rings(outer2, inner2, by);
-  const Four outer = root(outer2 * kMm2PerQuantum);
-  const Four inner = root(inner2 * kMm2PerQuantum);
+CLAYSTACK_INLINE inline Four pushed_out(const Rows& rows, std::size_t k, double per_min_wall,
+                                        double largest2) noexcept {
+  const Four outer2 = load_four(rows.outer2 + k), inner2 = load_four(rows.inner2 + k);
+  const Four outer = load_four(rows.outer + k), inner = load_four(rows.inner + k);
   const Four room = 0.5 * ((outer2 - inner2) * kMm2PerQuantum * per_min_wall - outer - inner);
-  const Four u = lesser(bent.by, greater(room, 0.0));
-  const Four q = lesser(u * (2.0 * inner + u) * kQuantaPerMm2, greater(largest2 - outer2, 0.0));
-  const Four most = lesser(q, kMostLaneQuanta);
-  return {most, -hoop * most * bent.thinness};
+  const Four u = lesser(load_four(rows.by + k), greater(room, 0.0));
+  const Four q = u * (2.0 * inner + u) * kQuantaPerMm2;
+  return lesser(lesser(q, greater(largest2 - outer2, 0.0)), kMostLaneQuanta);
+}
+
+/// Four rings' change of R^2 and r^2, q of both and less by the clay that they give up [quanta].
+CLAYSTACK_INLINE inline FourQuanta change_rows(const Rows& rows, std::size_t k, Four q, double hoop,
+                                               Ring* changes) noexcept {
+  const FourQuanta moved = four_quanta(q);
+  const FourQuanta raised = four_quanta(hoop * q * load_four(rows.thinness + k));
+  store(changes + k, FourRings{moved, moved + raised});
+  return raised;
 }
 
 }  // namespace
@@ -91,22 +111,35 @@ void Shift::bend(double h, const Band& band, const Shell& shell, std::size_t fir
 void Shift::move(const ClayStack& stack, const Push& push, std::size_t first, std::size_t count,
                  const double* by) noexcept {
   static const double largest2 = static_cast<double>(quanta_from_radius(kMaxRadiusMm));
-  Quanta sum = 0;  // of 32 rings: fits
-  in_lanes([=, rings = stack.rings().data() + first, changes = &changes_[first - from_],
+  Rows rows;
+  Quanta sum = 0;  // of 128 rings: fits
+  in_lanes([=, r = &rows, rings = stack.rings().data() + first, changes = &changes_[first - from_],
             hoop = push.hoop ? 0.5 : 0.0, per_min_wall = 1.0 / push.min_wall_mm,
             outward = push.outward, most = largest2, total = &sum]() CLAYSTACK_INLINE {
-    FourQuanta raised_sum{};
-    for (std::size_t k = 0; k < count; k += kFour) {
-      const FourRings four = load_four(rings + k, count - k);
-      const Four outer2 = four_doubles(four.outer2), inner2 = four_doubles(four.inner2);
-      const Four u = load_four(by + k);
-      const Move m = outward ? push_out(outer2, inner2, u, hoop, per_min_wall, most)
-                             : push_in(outer2, inner2, u, hoop);
-      const FourQuanta moved = four_quanta(m.moved), raised = four_quanta(m.raised);
-      store(changes + k, FourRings{moved, moved + raised});
-      raised_sum += row_numbers(k) < static_cast<Quanta>(count) ? raised : FourQuanta{};
+    load_rows(*r, rings, count);
+    bend_rows(*r, by, count);
+    FourQuanta raised{};
+    const auto add = [&](std::size_t k, FourQuanta more) CLAYSTACK_INLINE {
+      raised += row_numbers(k) < static_cast<Quanta>(count) ? more : FourQuanta{};
+    };
+    if (outward) {
+      for (std::size_t k = 0; k < count; k += kFour) {
+        store(r->outer + k, root(load_four(r->outer2 + k) * kMm2PerQuantum));
+        store(r->inner + k, root(load_four(r->inner2 + k) * kMm2PerQuantum));
+      }
+      for (std::size_t k = 0; k < count; k += kFour)
+        add(k, change_rows(*r, k, pushed_out(*r, k, per_min_wall, most), -hoop, changes));
+    } else {
+      for (std::size_t k = 0; k < count; k += 2 * kFour) {
+        const EightFloats outer = root(eight_floats(load_four(r->outer2 + k) * kMm2PerQuantum,
+                                                    load_four(r->outer2 + k + kFour) * kMm2PerQuantum));
+        store(r->outer + k, four_doubles(low_half(outer)));
+        store(r->outer + k + kFour, four_doubles(high_half(outer)));
+      }
+      for (std::size_t k = 0; k < count; k += kFour)
+        add(k, change_rows(*r, k, -pushed_in(*r, k), -hoop, changes));
     }
-    *total = raised_sum[0] + raised_sum[1] + raised_sum[2] + raised_sum[3];
+    *total = raised[0] + raised[1] + raised[2] + raised[3];
   });
   raised_total_ += sum;
 }

@@ -1,6 +1,6 @@
 #include "engine/tick/smear.hpp"
 
-#include "engine/clay/lanes.hpp"
+#include "engine/clay/four.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -47,24 +47,25 @@ class Smear {
   /// the tool's way: half of it, for each ring is of two pairs. [quanta] The rows from `apart` on are
   /// the upper places of the pairs; where they overlap the lower ones, a place has one row.
   struct Places {
-    double outer[2 * kRows], inner[2 * kRows], give[2 * kRows], get[2 * kRows];
-    double depth[2 * kRows];  ///< of the tool [mm]; for a sponge alone
+    static constexpr std::size_t kAll = 2 * kRows + kFour;
+    double surface[kAll], give[kAll], get[kAll];
+    double depth[kAll];  ///< of the tool [mm]; for a sponge alone
   };
 
   /// Rings first..first+count-1, from row `to` on.
   void load(std::size_t first, std::size_t count, Places& places, std::size_t to) noexcept {
     in_lanes([=, at = &places, rings = stack_.rings().data() + first, least_wall = min_wall_,
               outside = outside_]() CLAYSTACK_INLINE {
-      for (std::size_t k = 0; k < count; ++k) {
-        const double outer2 = lane_double(rings[k].outer2), inner2 = lane_double(rings[k].inner2);
-        const double other = std::sqrt((outside ? inner2 : outer2) * kMm2PerQuantum);
-        const double thinnest = outside ? other + least_wall : other - least_wall;
-        const double kept = thinnest * thinnest * kQuantaPerMm2;
-        const double spare = outside ? outer2 - kept : kept - inner2;
-        at->outer[to + k] = outer2;
-        at->inner[to + k] = inner2;
-        at->give[to + k] = spare > 0.0 ? 0.5 * spare : 0.0;
-        at->get[to + k] = 1e300;
+      for (std::size_t k = 0; k < count; k += kFour) {
+        const FourRings four = load_four(rings + k, count - k);
+        const Four outer2 = four_doubles(four.outer2), inner2 = four_doubles(four.inner2);
+        const Four other = root((outside ? inner2 : outer2) * kMm2PerQuantum);
+        const Four thinnest = outside ? other + least_wall : other - least_wall;
+        const Four kept = thinnest * thinnest * kQuantaPerMm2;
+        const Four spare = outside ? outer2 - kept : kept - inner2;
+        store(at->surface + to + k, outside ? outer2 : inner2);
+        store(at->give + to + k, spare > 0.0 ? 0.5 * spare : Four{});
+        store(at->get + to + k, all_of(1e300));
       }
     });
     const std::size_t beside = std::max(first, beside_from_);
@@ -95,24 +96,24 @@ class Smear {
     const double start = (static_cast<double>(2 * first + stride + 1) * 0.5 * h - middle_) * per_c_;
     double amounts[kRows];
     Quanta whole[kRows];
-    in_lanes([=, surface = outside_ ? places.outer : places.inner, give = places.give,
-              get = places.get, to = amounts, per_c = per_c_,
+    in_lanes([=, p = &places, to = amounts, per_c = per_c_,
               sign = outside_ ? 1.0 : -1.0]() CLAYSTACK_INLINE {
-      for (std::size_t k = 0; k < count; ++k) {
-        const double z = start + kLevels[k] * h * per_c;
-        const double window = 1.0 - z * z, share = window > 0.0 ? k0 * window : 0.0;
-        const double low = surface[k], high = surface[k + apart];
-        const double up = sign * share * (low - high);
-        const double most_up = lesser(give[k], get[k + apart]);
-        const double most_down = lesser(give[k + apart], get[k]);
-        const double flow = greater(lesser(up, most_up), -most_down);
-        const double most = greater(lesser(flow, kMostLaneQuanta), -kMostLaneQuanta);
-        to[k] = lesser(low, high) > 0.0 ? most : 0.0;  // nothing into a bore that is closed
+      for (std::size_t k = 0; k < count; k += kFour) {
+        const Four z = start + load_four(&kLevels[k]) * h * per_c;
+        const Four window = 1.0 - z * z, share = window > 0.0 ? k0 * window : Four{};
+        const Four low = load_four(p->surface + k), high = load_four(p->surface + k + apart);
+        const Four up = sign * share * (low - high);
+        const Four most_up = lesser(load_four(p->give + k), load_four(p->get + k + apart));
+        const Four most_down = lesser(load_four(p->give + k + apart), load_four(p->get + k));
+        const Four flow = greater(lesser(up, most_up), -most_down);
+        const Four most = greater(lesser(flow, kMostLaneQuanta), -kMostLaneQuanta);
+        store(to + k, lesser(low, high) > 0.0 ? most : Four{});  // none into a closed bore
       }
     });
     if (sponge_) level(places, apart, {amounts, count});
     in_lanes([=, from = amounts, to = whole]() CLAYSTACK_INLINE {
-      for (std::size_t k = 0; k < count; ++k) to[k] = lane_quanta_below(from[k]);
+      for (std::size_t k = 0; k < count; k += kFour)
+        store(to + k, four_quanta_below(load_four(from + k)));
     });
     writer_.smear(first, first + stride, {whole, count}, outside_);
   }
@@ -120,12 +121,11 @@ class Smear {
   /// Into what the sponge touches, clay goes only until it is as deep there as where it came from:
   /// the overlap loses energy.
   void level(const Places& p, std::size_t apart, std::span<double> amounts) const noexcept {
-    const double* const surface = outside_ ? p.outer : p.inner;
     for (std::size_t k = 0; k < amounts.size(); ++k) {
       const bool up = amounts[k] > 0.0;
       const std::size_t from = up ? k : k + apart, to = up ? k + apart : k;
       if (!(p.depth[to] > 0.0)) continue;
-      const double surface2 = std::min(surface[from], surface[to]);
+      const double surface2 = std::min(p.surface[from], p.surface[to]);
       const double deeper = std::max(p.depth[from] - p.depth[to], 0.0);
       const double most = 0.25 * deeper * std::sqrt(surface2 * kMm2PerQuantum) * kQuantaPerMm2;
       amounts[k] = std::clamp(amounts[k], -most, most);
