@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace clay::cli {
@@ -26,13 +27,26 @@ struct CheckCommand {
   solid::RepairOptions repair_options;
   bool dry_run = false;
   std::optional<std::size_t> max_triangles;
-  std::string out;  ///< empty: nothing is written
+  std::string out;             ///< empty: nothing is written
+  bool accept_prints = false;  ///< exit status 0 also for a mesh that prints without being sound
 
   [[nodiscard]] bool changes_mesh() const { return repair || max_triangles; }
 };
 
+/// The verdict on a mesh.
+enum class MeshState {
+  sound,
+  prints,  ///< not sound, but `solid::slicer_unites` it
+  will_not_print,
+  unreadable
+};
+/// "sound", "prints", "will not print" or "unreadable".
+[[nodiscard]] std::string_view name_of(MeshState state);
+[[nodiscard]] MeshState state_of(const solid::TriangleMesh& mesh, const solid::MeshReport& report);
+
 /// Repairs and decimation of a mesh before it was written.
 struct RepairSummary {
+  MeshState before = MeshState::sound;    ///< of the input file
   std::vector<solid::MeshProblem> found;  ///< in the input file
   std::vector<solid::Repair> repaired;
   std::vector<solid::FilledHole> holes;
@@ -46,27 +60,46 @@ struct RepairSummary {
   std::size_t bytes = 0;
 };
 
+enum class Grade { pass, warn, fail };
+[[nodiscard]] std::string_view name_of(Grade grade);
+
+/// A result that is not about the soundness of the mesh.
+struct Finding {
+  std::string check;  ///< "walls", "process", "geometry", "contents" or "certificate"
+  Grade grade = Grade::pass;
+  std::string text;
+};
+
 struct Verdict {
-  solid::MeshReport mesh;         ///< of the written mesh, after repairs
-  bool examined = true;           ///< false: no mesh was made, `mesh` holds only problems
-  std::optional<double> wall_mm;  ///< of pots
+  MeshState state = MeshState::sound;
+  solid::MeshReport mesh;  ///< of the written mesh, after repairs
+  bool examined = true;    ///< false: no mesh was made, `mesh` holds only problems
+  std::vector<Finding> findings;
+  std::optional<double> wall_mm;                   ///< of pots
   std::optional<solid::SampledWall> wall_sampled;  ///< of meshes, if requested
   std::vector<std::string> notes;                  ///< sound, but noteworthy
   std::optional<RepairSummary> repair_summary;
   std::optional<solid::SolidCertificate> certificate;  ///< the certificate that was checked
   bool certificate_holds = false;
+
+  void add(std::string check, Grade grade, std::string text) {
+    findings.push_back({std::move(check), grade, std::move(text)});
+  }
+  /// No finding fails, and the mesh is sound, or accepted because it prints.
+  [[nodiscard]] bool passes(bool accept_prints) const;
 };
 
 /// A verdict of one problem, for input that was not examined.
-Verdict unsound(std::string what, std::string where);
+Verdict not_examined(MeshState state, std::string what, std::string where);
 
 Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command);
-/// Writes `command.out` if set. An error of kind `io`, in advance, for a mesh that needs more
-/// memory than available.
+/// `input`: the file, if it has been read. Writes `command.out` if set. An error of kind `io`, in
+/// advance, for a mesh that needs more memory than available.
 Result<Verdict> check_mesh_file(solid::MeshFormat format, const CheckCommand& command,
-                                const Console& console);
+                                const Console& console, std::optional<std::string> input = {});
 
-Json verdict_json(const std::string& file, const Verdict& verdict);
+/// The object of samples/schema/check.schema.json.
+Json verdict_json(const std::string& file, const Verdict& verdict, bool accept_prints);
 void print_verdict(const Console& console, const std::string& file, const Verdict& verdict);
 
 }  // namespace clay::cli

@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace clay::cli {
 namespace {
@@ -16,7 +17,10 @@ namespace {
 bool is_pot(std::string_view path) { return path.ends_with(".json") || path.ends_with(".cbor"); }
 
 /// Checks combinations of options.
-Result<void> check_usage(const CheckCommand& command) {
+Result<void> check_usage(const CheckCommand& command, const Console& console) {
+  if (command.out == "-" && console.json)
+    return failure(ErrorKind::bad_input,
+                   "-o -: expected no --json with it, because both write to standard output");
   if (command.dry_run && !command.changes_mesh())
     return failure(ErrorKind::bad_input, "--dry-run: expected --repair or --max-triangles with it");
   const solid::RepairOptions& repair = command.repair_options;
@@ -30,7 +34,7 @@ Result<void> check_usage(const CheckCommand& command) {
                        ? "expected -o FILE for the result of --repair or --max-triangles, or "
                          "--dry-run"
                        : "-o: expected --repair or --max-triangles with it");
-  if (command.changes_mesh() && !command.out.empty() && !is_pot(command.file))
+  if (command.changes_mesh() && !command.out.empty() && command.out != "-" && !is_pot(command.file))
     if (const auto format = solid::mesh_format_of(command.out, solid::FormatUse::write); !format)
       return tl::make_unexpected(format.error());
   if (command.changes_mesh() && !command.certificate.empty())
@@ -40,8 +44,30 @@ Result<void> check_usage(const CheckCommand& command) {
   return check_distinct({command.out}, {command.file, command.certificate});
 }
 
+/// Standard input has no name: the ending that its first bytes suggest.
+std::string_view ending_of(std::string_view bytes) {
+  constexpr std::pair<std::string_view, std::string_view> kBegins[] = {
+      {"{", ".json"},    {"PK", ".3mf"},  {"glTF", ".glb"}, {"DRACO", ".drc"},
+      {"solid", ".stl"}, {"ply", ".ply"}, {"OFF", ".off"}};
+  for (const auto& [begin, ending] : kBegins)
+    if (bytes.starts_with(begin)) return ending;
+  // A binary STL begins with any 80 bytes; most of them contain a 0.
+  return bytes.substr(0, 84).find('\0') != std::string_view::npos ? ".stl" : ".obj";
+}
+
+Result<Verdict> check_stream(const CheckCommand& command, const Console& console) {
+  auto bytes = read_file(command.file);
+  if (!bytes) return tl::make_unexpected(bytes.error());
+  const std::string_view ending = ending_of(*bytes);
+  if (ending == ".json") return check_pot(*bytes, command);
+  const auto format = solid::mesh_format_of(std::string("stream").append(ending));
+  if (!format) return tl::make_unexpected(format.error());
+  return check_mesh_file(*format, command, console, std::move(*bytes));
+}
+
 Result<Verdict> check_file(const CheckCommand& command, const Console& console) {
-  if (auto usage = check_usage(command); !usage) return tl::make_unexpected(usage.error());
+  if (auto usage = check_usage(command, console); !usage) return tl::make_unexpected(usage.error());
+  if (command.file == "-") return check_stream(command, console);
   if (is_pot(command.file))
     return read_file(command.file).and_then([&](const std::string& bytes) {
       return check_pot(bytes, command);
@@ -57,30 +83,29 @@ Result<Verdict> check_file(const CheckCommand& command, const Console& console) 
   return check_mesh_file(*format, command, console);
 }
 
-std::string what_failed(ErrorKind kind) {
-  switch (kind) {
+/// For a file that could not be examined or repaired.
+Verdict failed(const Error& error) {
+  switch (error.kind) {
     case ErrorKind::unsound:
-      return "not repaired";
+      return not_examined(MeshState::will_not_print, "not repaired", error.message);
     case ErrorKind::io:
-      return "not read or written";
+      return not_examined(MeshState::unreadable, "not read or written", error.message);
     case ErrorKind::bad_input:
     case ErrorKind::device:
       break;
   }
-  return "unreadable";
+  return not_examined(MeshState::unreadable, "unreadable", error.message);
 }
 
-int check(CheckCommand& command, const Console& console) {
+int check(CheckCommand& command, Console& console) {
+  if (command.out == "-" && !console.json) console.quiet = true;
   if (auto loaded = command.walls.load(); !loaded) return report(loaded.error());
   const auto verdict = check_file(command, console);
-  if (!verdict) {
-    const Error& error = verdict.error();
-    return report(error,
-                  verdict_json(command.file, unsound(what_failed(error.kind), error.message)));
-  }
-  if (console.json) print_json(verdict_json(command.file, *verdict));
+  if (!verdict)
+    return report(verdict.error(), verdict_json(command.file, failed(verdict.error()), false));
+  if (console.json) print_json(verdict_json(command.file, *verdict, command.accept_prints));
   print_verdict(console, command.file, *verdict);
-  return verdict->mesh.sound() ? kDone : kUnsound;
+  return verdict->passes(command.accept_prints) ? kDone : kUnsound;
 }
 
 }  // namespace
@@ -90,7 +115,8 @@ void add_check_command(CLI::App& app, Console& console, int& exit) {
   CLI::App* sub =
       app.add_subcommand("check", "Check a pot or a mesh, and report each fault with its place");
   sub->add_option("file", command->file,
-                  solid::format_endings(solid::FormatUse::read, ", ") + ", .pot.json or .pot.cbor")
+                  solid::format_endings(solid::FormatUse::read, ", ") +
+                      ", .pot.json or .pot.cbor; or - for standard input")
       ->required();
   command->walls.add_to(*sub);
   sub->add_option("--wall-samples", command->wall_samples,
@@ -100,6 +126,13 @@ void add_check_command(CLI::App& app, Console& console, int& exit) {
       ->capture_default_str();
   sub->add_option("--certificate", command->certificate,
                   "Certificate of the file, to be verified against its bytes");
+  sub->add_option_function<std::string>(
+         "--accept",
+         [command](const std::string& state) { command->accept_prints = state == "prints"; },
+         "Exit with status 0 for a mesh that is sound, or also for one that prints: its closed "
+         "shells intersect in a few places or are nested, and a slicer unites them (default: "
+         "sound). Other checks must not fail")
+      ->check(CLI::IsMember({"sound", "prints"}));
   sub->add_flag("--repair", command->repair,
                 "Repair the mesh until it is sound, and report what was repaired; where that is "
                 "not possible, report the reason and write nothing");
@@ -126,12 +159,14 @@ void add_check_command(CLI::App& app, Console& console, int& exit) {
   sub->add_option(
       "-o,--out", command->out,
       "File for the repaired or decimated mesh: " + solid::format_endings(solid::FormatUse::write) +
-          ". Written even if nothing had to be changed; verdict and exit status are those of the "
+          "; or - for a binary STL on standard output. Written even if nothing had to be changed; "
+          "verdict and exit status are those of the "
           "result");
   sub->footer(
       "\nExamples:\n  claystack check bowl.stl --certificate bowl.stl.certificate.json\n"
       "  claystack check bowl.pot.json --min-wall 3 "
-      "--json\n  claystack check found.stl --repair --dry-run\n"
+      "--json\n  claystack check found.stl --accept prints\n  claystack check found.stl --repair "
+      "--dry-run\n"
       "  claystack check found.stl --repair -o repaired.stl\n"
       "  claystack check scan.obj --repair --max-triangles 100000 -o small.stl --min-wall 2");
   sub->callback([command, &console, &exit] { exit = check(*command, console); });

@@ -69,10 +69,11 @@ Result<TriangleMesh> repaired_mesh(TriangleMesh mesh, const CheckCommand& comman
                                    RepairSummary& summary) {
   auto found = checked(mesh);
   if (!found) return tl::make_unexpected(found.error());
+  summary.before = state_of(mesh, *found);
   summary.found = std::move(found->problems);
   summary.volume_before_mm3 = found->volume_mm3;
   if (command.repair && !summary.found.empty()) {
-    auto repaired = solid::repair_mesh(mesh, command.repair_options);
+    auto repaired = solid::repair_unsound_mesh(mesh, command.repair_options);
     if (!repaired) return tl::make_unexpected(repaired.error());
     mesh = std::move(repaired->mesh);
     summary.repaired = std::move(repaired->repaired);
@@ -119,9 +120,6 @@ double size_sum_mm(const TriangleMesh& mesh) {
 
 Result<void> measure_wall(const TriangleMesh& mesh, const solid::WallLimit& limit,
                           const CheckCommand& command, const Console& console, Verdict& verdict) {
-  const auto problem = [&](std::string what, std::string where) {
-    verdict.mesh.problems.push_back({std::move(what), std::move(where), 1});
-  };
   Progress progress(console, "walls", command.wall_samples);
   const auto wall =
       solid::sampled_wall(mesh, command.wall_samples, solid::most_wall_steps(command.wall_samples),
@@ -129,27 +127,28 @@ Result<void> measure_wall(const TriangleMesh& mesh, const solid::WallLimit& limi
   if (!wall && wall.error().kind == ErrorKind::io)
     return failure(ErrorKind::io, command.file + ": " + wall.error().message);
   if (!wall) {
-    problem("wall not measured", wall.error().message);
+    verdict.add("walls", Grade::fail, "not measured: " + wall.error().message);
     return {};
   }
   verdict.wall_sampled = *wall;
   if (wall->rays < command.wall_samples)
-    verdict.notes.push_back(fmt::format(
-        "walls sampled by only {} rays instead of {}: too many triangles lie near each ray",
-        wall->rays, command.wall_samples));
+    verdict.add(
+        "walls", Grade::warn,
+        fmt::format("sampled by only {} rays instead of {}: too many triangles lie near each ray",
+                    wall->rays, command.wall_samples));
   if (std::isinf(wall->least_mm))
-    problem("wall not measured",
-            fmt::format("none of {} rays reached the other side of a wall", wall->rays));
+    verdict.add(
+        "walls", Grade::fail,
+        fmt::format("not measured: none of {} rays reached the other side of a wall", wall->rays));
   else if (wall->least_mm >= limit.min_wall_mm)
-    verdict.notes.push_back("sampled walls: " + solid::wall_text(wall->least_mm, limit));
+    verdict.add("walls", Grade::pass, "sampled: " + solid::wall_text(wall->least_mm, limit));
   else
-    problem(
-        "thin wall (sampled)",
-        fmt::format(
-            "triangle {} at ({:.6g}, {:.6g}, {:.6g}) mm: {:.3f} mm, expected at least {:.3f} mm "
-            "({})",
-            wall->triangle, wall->place.x, wall->place.y, wall->place.z, wall->least_mm,
-            limit.min_wall_mm, limit.asked_by()));
+    verdict.add("walls", Grade::fail,
+                fmt::format("thin wall (sampled): triangle {} at ({:.6g}, {:.6g}, {:.6g}) mm: "
+                            "{:.3f} mm, expected at least {:.3f} mm "
+                            "({})",
+                            wall->triangle, wall->place.x, wall->place.y, wall->place.z,
+                            wall->least_mm, limit.min_wall_mm, limit.asked_by()));
   return {};
 }
 
@@ -158,7 +157,7 @@ Result<TriangleMesh> repair_and_write(TriangleMesh mesh, const CheckCommand& com
   // Without a name, a dry run takes the format of the input, if it can be written.
   auto format = solid::mesh_format_of(command.out.empty() ? command.file : command.out,
                                       solid::FormatUse::write);
-  if (!format && command.out.empty()) format = solid::MeshFormat::stl_binary;
+  if (!format && (command.out.empty() || command.out == "-")) format = MeshFormat::stl_binary;
   if (!format) return tl::make_unexpected(format.error());
   summary.format = *format;
   return repaired_mesh(std::move(mesh), command, summary).and_then([&](const TriangleMesh& result) {
@@ -170,23 +169,24 @@ Result<TriangleMesh> repair_and_write(TriangleMesh mesh, const CheckCommand& com
 void check_claims(std::string_view bytes, const TriangleMesh& mesh, Verdict& verdict) {
   const auto claims = solid::drc_claims(bytes, {}).value_or(std::nullopt);
   if (!claims) return;
-  verdict.notes.push_back("checksum holds");
-  for (auto& problem : solid::compare_with_claims(mesh, *claims))
-    verdict.mesh.problems.push_back(std::move(problem));
+  verdict.add("contents", Grade::pass, "checksum holds");
+  for (const auto& problem : solid::compare_with_claims(mesh, *claims))
+    verdict.add("contents", Grade::fail, problem.what + ": " + problem.where);
 }
 
 /// The pot and the certificate that a 3MF by Claystack carries. The certificate is that of its
 /// model part.
 void check_packed(std::string_view bytes, const std::string& file, Verdict& verdict) {
   const auto report = [&](const Result<void>& found, std::string_view what) {
-    if (!found) verdict.mesh.problems.push_back({std::string(what), found.error().message, 1});
+    if (!found)
+      verdict.add("contents", Grade::fail, std::string(what) + ": " + found.error().message);
     return found.has_value();
   };
   const auto parts = solid::parts_in_3mf(bytes, file);
   if (!parts) return (void)report(failure(parts.error().kind, parts.error().message), "parts");
   if (!parts->pot.empty() &&
       report(parse_pot(parts->pot, file).map([](const Pot&) {}), "the pot inside"))
-    verdict.notes.emplace_back("carries the pot, to be thrown on with throw --from");
+    verdict.add("contents", Grade::pass, "carries the pot, to be thrown on with throw --from");
   if (parts->certificate.empty()) return;
   const auto verified =
       solid::parse_certificate(parts->certificate, file)
@@ -196,7 +196,7 @@ void check_packed(std::string_view bytes, const std::string& file, Verdict& verd
             });
           });
   if (report(verified, "the certificate inside does not hold"))
-    verdict.notes.emplace_back("the certificate inside holds");
+    verdict.add("contents", Grade::pass, "the certificate inside holds");
 }
 
 /// Empty if no certificate is checked.
@@ -228,22 +228,38 @@ void verify(std::string_view bytes, MeshFormat format, const CheckCommand& comma
   });
   verdict.certificate_holds = verified.has_value();
   if (!verified)
-    verdict.mesh.problems.push_back({"certificate does not hold", verified.error().message, 1});
+    verdict.add("certificate", Grade::fail, "does not hold: " + verified.error().message);
+}
+
+/// A closed cavity bursts in a kiln, and traps resin or powder elsewhere.
+void check_cavities(const CheckCommand& command, Verdict& verdict) {
+  if (verdict.mesh.cavities == 0) return;
+  const auto& process = command.walls.demand().process;
+  const bool fired = process && process->fired;
+  verdict.add(fired ? "process" : "geometry", fired ? Grade::fail : Grade::warn,
+              fmt::format("{} closed cavities, {:.4g} cm3 trapped: they need drain holes",
+                          verdict.mesh.cavities, verdict.mesh.trapped_mm3 / 1000.0));
 }
 
 }  // namespace
 
 Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
-                                const Console& console) {
-  auto file = FileReader::open(command.file);
+                                const Console& console, std::optional<std::string> input) {
+  Progress progress(console, "check", 0);
+  progress.stage("reading");
+  // Standard input is read already.
+  auto file = FileReader::open(input ? "/dev/null" : command.file);
   if (!file) return tl::make_unexpected(file.error());
   auto certificate = read_certificate(command);
   if (!certificate) return tl::make_unexpected(certificate.error());
   Verdict verdict;
   verdict.certificate = std::move(*certificate);
   // Certificates and Draco checksums cover all bytes, and a pipe has no known size.
-  const bool whole = verdict.certificate || !solid::facts_of(format).streamed || !file->size();
-  const auto bytes = whole ? read_file(command.file) : std::string();
+  const bool whole =
+      input || verdict.certificate || !solid::facts_of(format).streamed || !file->size();
+  const auto bytes = input   ? Result<std::string>(std::move(*input))
+                     : whole ? read_file(command.file)
+                             : Result<std::string>(std::string());
   if (!bytes) return tl::make_unexpected(bytes.error());
   const solid::ReadOptions options{command.repair, &verdict.notes};
   auto mesh = whole ? solid::decode_mesh(*bytes, format, command.file, options)
@@ -252,23 +268,25 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
     // The file no longer matches its certificate.
     verify(*bytes, format, command, verdict);
     verdict.examined = false;
+    verdict.state = MeshState::unreadable;
     return verdict;
   }
   if (!mesh) return tl::make_unexpected(mesh.error());
+  progress.stage(command.changes_mesh() ? "repairing" : "checking");
   if (command.changes_mesh()) {
     mesh = repair_and_write(std::move(*mesh), command, verdict.repair_summary.emplace());
     if (!mesh) return failure(mesh.error().kind, command.file + ": " + mesh.error().message);
   }
+  progress.stage("checking");
   auto report = checked(*mesh);
   if (!report) return failure(report.error().kind, command.file + ": " + report.error().message);
   verdict.mesh = std::move(*report);
-  if (verdict.mesh.cavities > 0)
-    verdict.notes.push_back(
-        fmt::format("{} closed cavities, {:.4g} cm3 trapped: they need drain holes",
-                    verdict.mesh.cavities, verdict.mesh.trapped_mm3 / 1000.0));
+  verdict.state = state_of(*mesh, verdict.mesh);
+  check_cavities(command, verdict);
   if (format == MeshFormat::drc && !command.changes_mesh()) check_claims(*bytes, *mesh, verdict);
   if (format == MeshFormat::three_mf && !command.changes_mesh())
     check_packed(*bytes, command.file, verdict);
+  progress.clear();
   if (const auto limit = command.walls.demand().for_size(size_sum_mm(*mesh)))
     if (auto done = measure_wall(*mesh, *limit, command, console, verdict); !done)
       return tl::make_unexpected(done.error());

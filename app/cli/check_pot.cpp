@@ -24,32 +24,44 @@ std::size_t check_segments(const solid::Profile& profile) {
   return std::clamp(kQuickTriangles / each, kFewestSegments, kMostSegments);
 }
 
+/// What the limits of the process were compared with.
+std::string process_text(const solid::ExportReport& report) {
+  std::string text = fmt::format("{}: {:.1f} mm wide, {:.1f} mm high", report.process.limits->name,
+                                 report.size.diameter_mm, report.size.height_mm);
+  if (report.process.overhang)
+    text += fmt::format(", overhang of {:.0f} degrees at most", report.process.overhang->angle_deg);
+  return text;
+}
+
+void check_solid(const solid::TriangleMesh& mesh, Verdict& verdict) {
+  verdict.mesh = solid::check_mesh(mesh);
+  verdict.state = state_of(mesh, verdict.mesh);
+}
+
 Verdict verdict_on(const solid::ExportReport& report) {
   const solid::Profile& profile = report.section.profile();
   Verdict verdict;
   if (solid::triangle_count(profile, kFewestSegments) <= solid::kMaxTriangles)
-    verdict.mesh = solid::check_mesh(solid::revolve(profile, check_segments(profile)));
+    check_solid(solid::revolve(profile, check_segments(profile)), verdict);
   else
     verdict.examined = false;
   verdict.wall_mm = report.walls.min_wall_mm;
   const auto& shapes = report.section.shapes();
-  for (const solid::Problem& problem : solid::problems_of(report)) {
-    if (problem.fails)
-      verdict.mesh.problems.push_back({"process", problem.text, 1});
-    else
-      verdict.notes.push_back(problem.text);
-  }
-  if (shapes.size() > 1)
-    verdict.mesh.problems.push_back({"pieces that do not touch",
-                                     fmt::format("{} pieces; ring {} is the first of the second",
-                                                 shapes.size(), shapes[1].first_ring),
-                                     shapes.size()});
   const auto& limit = report.walls.limit;
   if (limit && *verdict.wall_mm < limit->min_wall_mm)
-    verdict.mesh.problems.push_back(
-        {"thin wall", solid::thin_wall_text(profile, *verdict.wall_mm, *limit), 1});
+    verdict.add("walls", Grade::fail,
+                "thin wall: " + solid::thin_wall_text(profile, *verdict.wall_mm, *limit));
   else if (limit)
-    verdict.notes.push_back("walls: " + solid::wall_text(*verdict.wall_mm, *limit));
+    verdict.add("walls", Grade::pass, solid::wall_text(*verdict.wall_mm, *limit));
+  const std::string about = report.process.limits ? "process" : "geometry";
+  for (const solid::Problem& problem : solid::problems_of(report))
+    verdict.add(about, problem.fails ? Grade::fail : Grade::warn, problem.text);
+  if (report.process.limits && solid::problems_of(report).empty())
+    verdict.add("process", Grade::pass, process_text(report));
+  if (shapes.size() > 1)
+    verdict.add("geometry", Grade::fail,
+                fmt::format("{} pieces that do not touch; ring {} is the first of the second",
+                            shapes.size(), shapes[1].first_ring));
   return verdict;
 }
 
@@ -66,14 +78,15 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command) {
   const auto pot = parse_pot(bytes, command.file);
   if (!pot) return tl::make_unexpected(pot.error());
   if (pot->collapse)
-    return unsound("collapsed", fmt::format("ring {} yielded at {:g} kPa",
-                                            pot->collapse->failed_ring, pot->collapse->stress_kpa));
+    return not_examined(MeshState::will_not_print, "collapsed",
+                        fmt::format("ring {} yielded at {:g} kPa", pot->collapse->failed_ring,
+                                    pot->collapse->stress_kpa));
   // The export with its defaults, without a file.
   solid::ExportOptions options;
   options.walls = command.walls.demand();
   options.allow_pieces = true;
   const auto report = solid::run_export(*pot, {}, options);
-  if (!report) return unsound("no solid", report.error().message);
+  if (!report) return not_examined(MeshState::will_not_print, "no solid", report.error().message);
   Verdict verdict = verdict_on(*report);
   if (pot->rounding)
     verdict.notes.push_back(fmt::format("radii rounded to {} mm", pot->rounding->to_mm));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -109,26 +110,78 @@ void print_repair(const Console& console, const RepairSummary& summary, const Ve
                     summary.change.added_mm, summary.change.removed_mm));
   console.print(fmt::format("  volume: {:.6g} cm3 before, {:.6g} cm3 after",
                             summary.volume_before_mm3 / 1000.0, verdict.mesh.volume_mm3 / 1000.0));
-  const char* const state = verdict.mesh.sound() ? "sound" : "NOT SOUND";
+  const std::string_view state = name_of(verdict.state);
   console.print(
       summary.path.empty()
           ? fmt::format("  not written (dry run): {} bytes, {}", summary.bytes, state)
           : fmt::format("  written: {}, {} bytes, {}", summary.path, summary.bytes, state));
 }
 
+Json findings_json(const std::vector<Finding>& findings) {
+  Json json = Json::array();
+  for (const auto& [check, grade, text] : findings)
+    json.push_back({{"check", check}, {"verdict", name_of(grade)}, {"text", text}});
+  return json;
+}
+
+/// "sound", or "sound; walls fail".
+std::string headline(MeshState state, const std::vector<Finding>& findings) {
+  std::string text(name_of(state));
+  if (state == MeshState::prints) text += " (not sound, but a slicer unites its shells)";
+  std::vector<std::string> failed;
+  for (const Finding& finding : findings)
+    if (finding.grade == Grade::fail && std::ranges::find(failed, finding.check) == failed.end()) {
+      failed.push_back(finding.check);
+      text += fmt::format("; {}: fail", finding.check);
+    }
+  return text;
+}
+
 }  // namespace
 
-Verdict unsound(std::string what, std::string where) {
+std::string_view name_of(MeshState state) {
+  switch (state) {
+    case MeshState::sound:
+      return "sound";
+    case MeshState::prints:
+      return "prints";
+    case MeshState::will_not_print:
+      return "will not print";
+    default:
+      return "unreadable";
+  }
+}
+
+MeshState state_of(const solid::TriangleMesh& mesh, const solid::MeshReport& report) {
+  if (report.sound()) return MeshState::sound;
+  return solid::slicer_unites(mesh, report) ? MeshState::prints : MeshState::will_not_print;
+}
+
+std::string_view name_of(Grade grade) {
+  return grade == Grade::pass ? "pass" : grade == Grade::warn ? "warn" : "fail";
+}
+
+bool Verdict::passes(bool accept_prints) const {
+  const bool accepted = state == MeshState::sound || (accept_prints && state == MeshState::prints);
+  return accepted && std::ranges::none_of(findings, [](const Finding& finding) {
+           return finding.grade == Grade::fail;
+         });
+}
+
+Verdict not_examined(MeshState state, std::string what, std::string where) {
   Verdict verdict;
+  verdict.state = state;
   verdict.examined = false;
   verdict.mesh.problems.push_back({std::move(what), std::move(where), 1});
   return verdict;
 }
 
-Json verdict_json(const std::string& file, const Verdict& verdict) {
+Json verdict_json(const std::string& file, const Verdict& verdict, bool accept_prints) {
   const solid::MeshReport& mesh = verdict.mesh;
   Json json = {{"file", file},
-               {"sound", mesh.sound()},
+               {"verdict", name_of(verdict.state)},
+               {"passes", verdict.passes(accept_prints)},
+               {"sound", verdict.state == MeshState::sound},
                {"closed", mesh.closed},
                {"manifold", mesh.manifold},
                {"oriented", mesh.oriented},
@@ -140,7 +193,8 @@ Json verdict_json(const std::string& file, const Verdict& verdict) {
                {"degenerate", mesh.degenerate},
                {"triangles", mesh.triangles},
                {"volume_mm3", mesh.volume_mm3},
-               {"problems", problems_json(mesh.problems)}};
+               {"problems", problems_json(mesh.problems)},
+               {"checks", findings_json(verdict.findings)}};
   if (verdict.wall_mm) json["min_wall_mm"] = *verdict.wall_mm;
   if (verdict.wall_sampled) json["wall_sampled"] = wall_json(*verdict.wall_sampled);
   if (verdict.certificate)
@@ -153,8 +207,8 @@ Json verdict_json(const std::string& file, const Verdict& verdict) {
 void print_verdict(const Console& console, const std::string& file, const Verdict& verdict) {
   const solid::MeshReport& mesh = verdict.mesh;
   const bool was_repaired = verdict.repair_summary.has_value();
-  const bool sound = was_repaired ? verdict.repair_summary->found.empty() : mesh.sound();
-  console.print(fmt::format("{}: {}", file, sound ? "sound" : "NOT SOUND"));
+  const MeshState state = was_repaired ? verdict.repair_summary->before : verdict.state;
+  console.print(fmt::format("{}: {}", file, headline(state, verdict.findings)));
   if (was_repaired) print_repair(console, *verdict.repair_summary, verdict);
   const auto yes = [](bool value) { return value ? "yes" : "no"; };
   if (verdict.examined) {
@@ -168,6 +222,8 @@ void print_verdict(const Console& console, const std::string& file, const Verdic
   if (verdict.wall_mm) console.print(fmt::format("  minimum wall {:.3f} mm", *verdict.wall_mm));
   if (verdict.wall_sampled) print_wall(console, *verdict.wall_sampled);
   if (verdict.certificate_holds) print_certificate(console, *verdict.certificate);
+  for (const auto& [check, grade, text] : verdict.findings)
+    console.print(fmt::format("  {}: {}: {}", check, name_of(grade), text));
   for (const std::string& note : verdict.notes) console.print("  note: " + note);
   for (const auto& problem : mesh.problems)
     console.print(fmt::format("  {}{} ({}{}): {}", was_repaired ? "remaining: " : "", problem.what,

@@ -87,6 +87,7 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
   void update(std::size_t done);
   void stage(std::string_view name);  ///< for work in named stages instead of counts
+  void clear() { line_.clear(); }
 
  private:
   StatusLine line_;

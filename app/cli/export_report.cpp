@@ -119,7 +119,7 @@ void print_smoothing(const Console& console, const ExportReport& report) {
   if (report.walls.as_steps_mm)
     console.warn(fmt::format(
         "exact smoothing gives a wall of {:.3f} mm at height {:.1f} mm, where the "
-        "unsmoothed wall is at least {:.3f} mm; use --smooth fair",
+        "unsmoothed wall is at least {:.3f} mm; --smooth none keeps the steps",
         report.walls.min_wall_mm, report.walls.thinnest.from.y, *report.walls.as_steps_mm));
   if (report.section.smoothed.taken_mm > 0.0)
     console.warn(
@@ -200,6 +200,7 @@ Json solid_json(const ExportReport& report) {
         {"vertices", report.section.planar.vertices},
         {"axis_segments", report.section.planar.axis_segments}}},
       {"overshoot_mm", report.section.smoothed.overshoot_mm},
+      {"extrapolated_mm", report.section.smoothed.extrapolated_mm},
       {"kept_steps", Json::array()},
       {"cavities", cavities_json(report.section.shapes())},
   };

@@ -1,6 +1,7 @@
 #include "export/repair/exact_refinement.hpp"
 
 #include "core/cancel.hpp"
+#include "core/parallel_parts.hpp"
 #include "export/proof/pair_test.hpp"
 #include "export/repair/intersecting_pairs.hpp"
 #include "export/repair/sheet_count.hpp"
@@ -13,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -89,10 +91,13 @@ class Projection {
   int axis_ = 0;
 };
 
+/// What two triangles of different planes have in common: a segment, or a point, twice.
+using Common = std::optional<std::pair<ExactPoint, ExactPoint>>;
+
 /// Coplanar triangles that overlap, with everything that cuts them.
 struct Sheet {
   std::vector<std::uint32_t> triangles;
-  std::vector<std::uint32_t> cut_by;
+  std::vector<std::size_t> cuts;  ///< numbers of pairs
 };
 
 class Refinement {
@@ -112,6 +117,7 @@ class Refinement {
                      "expected fewer than " + std::to_string(kMostCuts) +
                          " pairs of intersecting triangles, found at least as many");
     const std::vector<Sheet> sheets = sheets_of(pairs);
+    find_common(pairs);
     PointRegister known(result_);
     result_.at_cut.assign(result_.first_new, false);
     for (const Sheet& sheet : sheets)
@@ -160,16 +166,27 @@ class Refinement {
     for (const auto& entry : parent) by_root[root(entry.first)].triangles.push_back(entry.first);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       if (flat[i]) continue;
-      by_root[root(pairs[i].first)].cut_by.push_back(pairs[i].second);
-      by_root[root(pairs[i].second)].cut_by.push_back(pairs[i].first);
+      by_root[root(pairs[i].first)].cuts.push_back(i);
+      by_root[root(pairs[i].second)].cuts.push_back(i);
     }
+    flat_ = std::move(flat);
     std::vector<Sheet> sheets;
-    for (auto& [first, sheet] : by_root) {
-      std::sort(sheet.cut_by.begin(), sheet.cut_by.end());
-      sheet.cut_by.erase(std::unique(sheet.cut_by.begin(), sheet.cut_by.end()), sheet.cut_by.end());
-      sheets.push_back(std::move(sheet));
-    }
+    for (auto& [first, sheet] : by_root) sheets.push_back(std::move(sheet));
     return sheets;
+  }
+
+  /// Most of the time goes into these exact points. Pairs that only touch in a shared edge or
+  /// vertex are not listed, and need no cut.
+  void find_common(const std::vector<TrianglePair>& pairs) {
+    constexpr std::size_t kPartPairs = 256;
+    common_.resize(pairs.size());
+    for_each_part((pairs.size() + kPartPairs - 1) / kPartPairs, [&](std::size_t part) {
+      const std::size_t end = std::min(pairs.size(), (part + 1) * kPartPairs);
+      for (std::size_t i = part * kPartPairs; i < end; ++i) {
+        step_of_loop();
+        if (!flat_[i]) common_[i] = common_of(pairs[i].first, pairs[i].second);
+      }
+    });
   }
 
   [[nodiscard]] ExactKernel::Triangle_3 exact(std::uint32_t t) const {
@@ -185,29 +202,27 @@ class Refinement {
       for (std::size_t c = 0; c < 3; ++c) at.at(c) = plane.insert(projection.flat(corner(t, c)));
       for (std::size_t c = 0; c < 3; ++c) plane.insert_constraint(at.at(c), at.at((c + 1) % 3));
     }
-    for (const std::uint32_t t : sheet.triangles)
-      for (const std::uint32_t u : sheet.cut_by) {
-        stop_if_cancelled();
-        add_common(plane, projection, t, u);
-      }
+    for (const std::size_t i : sheet.cuts) {
+      stop_if_cancelled();
+      if (!common_[i]) continue;
+      const auto& [from, to] = *common_[i];
+      if (from == to)
+        plane.insert(projection.flat(from));
+      else
+        plane.insert_constraint(projection.flat(from), projection.flat(to));
+    }
     for (const auto v : plane.finite_vertex_handles())
       v->info() = known.number_of(projection.lifted(v->point()));
     take_faces(plane, projection, sheet);
   }
 
-  /// The part of triangle u that lies in triangle t of another plane: nothing, a point or a
-  /// segment.
-  void add_common(Planar& plane, const Projection& projection, std::uint32_t t,
-                  std::uint32_t u) const {
-    const ExactKernel::Triangle_3 a = exact(t), b = exact(u);
-    if (!CGAL::do_overlap(a.bbox(), b.bbox())) return;
-    const auto common = CGAL::intersection(a, b);
-    if (!common) return;
-    if (const auto* point = boost::get<ExactPoint>(&*common))
-      plane.insert(projection.flat(*point));
-    else if (const auto* segment = boost::get<ExactKernel::Segment_3>(&*common))
-      plane.insert_constraint(projection.flat(segment->source()),
-                              projection.flat(segment->target()));
+  [[nodiscard]] Common common_of(std::uint32_t t, std::uint32_t u) const {
+    const auto common = CGAL::intersection(exact(t), exact(u));
+    if (!common) return std::nullopt;
+    if (const auto* point = boost::get<ExactPoint>(&*common)) return std::pair(*point, *point);
+    if (const auto* segment = boost::get<ExactKernel::Segment_3>(&*common))
+      return std::pair(segment->source(), segment->target());
+    return std::nullopt;
   }
 
   void take_faces(const Planar& plane, const Projection& projection, const Sheet& sheet) {
@@ -215,19 +230,22 @@ class Refinement {
       std::array<Point2, 3> corners;
       CGAL::Orientation turn;
       int sheets;
+      CGAL::Bbox_2 box;
     };
     std::vector<Member> members;
     for (const std::uint32_t t : sheet.triangles) {
       std::array<Point2, 3> at{projection.flat(corner(t, 0)), projection.flat(corner(t, 1)),
                                projection.flat(corner(t, 2))};
-      members.push_back({at, CGAL::orientation(at[0], at[1], at[2]), sheets_[t]});
+      members.push_back({at, CGAL::orientation(at[0], at[1], at[2]), sheets_[t],
+                         at[0].bbox() + at[1].bbox() + at[2].bbox()});
     }
     for (const auto face : plane.finite_face_handles()) {
       const Point2 middle = CGAL::centroid(face->vertex(0)->point(), face->vertex(1)->point(),
                                            face->vertex(2)->point());
+      const CGAL::Bbox_2 near = middle.bbox();
       int sheets = 0;
       for (const Member& m : members) {
-        bool inside = true;
+        bool inside = members.size() == 1 || CGAL::do_overlap(near, m.box);
         for (std::size_t c = 0; c < 3 && inside && members.size() > 1; ++c)
           inside = CGAL::orientation(m.corners.at(c), m.corners.at((c + 1) % 3), middle) == m.turn;
         if (inside) sheets += m.turn == CGAL::LEFT_TURN ? m.sheets : -m.sheets;
@@ -257,6 +275,8 @@ class Refinement {
   TriangleMesh mesh_;
   std::vector<int> sheets_;
   std::vector<bool> touched_;
+  std::vector<bool> flat_;      ///< by pair: both lie in one plane
+  std::vector<Common> common_;  ///< by pair; empty in one plane
   ExactSoup result_;
 };
 

@@ -85,8 +85,13 @@ Result<RepairedMesh> repair_unsound(const TriangleMesh& mesh, const RepairOption
 
 }  // namespace
 
-Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions& options) try {
+Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions& options) {
   if (check_mesh(mesh).sound()) return RepairedMesh{mesh, {}, {}, {}};
+  return repair_unsound_mesh(mesh, options);
+}
+
+Result<RepairedMesh> repair_unsound_mesh(const TriangleMesh& mesh,
+                                         const RepairOptions& options) try {
   if (mesh.triangles.empty() || mesh.triangles.size() > kMaxTriangles)
     return failure(ErrorKind::unsound, "expected 1 to " + std::to_string(kMaxTriangles) +
                                            " triangles to repair, found " +

@@ -1,14 +1,17 @@
 #include "export/repair/repair_distance.hpp"
 
 #include "core/cancel.hpp"
-#include "export/solid/triangle_tree.hpp"
+#include "export/solid/box_tree.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <iterator>
+#include <limits>
 #include <queue>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -44,9 +47,33 @@ struct Piece {
   bool operator<(const Piece& other) const { return most_mm < other.most_mm; }
 };
 
+double squared(const glm::dvec3& v) { return glm::dot(v, v); }
+
+double squared_distance(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
+  const glm::dvec3 way = b - a;
+  const double length2 = squared(way);
+  const double t = length2 > 0.0 ? std::clamp(glm::dot(p - a, way) / length2, 0.0, 1.0) : 0.0;
+  return squared(p - a - t * way);
+}
+
+double squared_distance(const glm::dvec3& p, const Corners& triangle) {
+  const auto& [a, b, c] = triangle;
+  const glm::dvec3 normal = glm::cross(b - a, c - a);
+  const double area2 = squared(normal);
+  const auto within = [&](const glm::dvec3& from, const glm::dvec3& to) {
+    return glm::dot(glm::cross(to - from, p - from), normal) >= 0.0;
+  };
+  if (area2 > 0.0 && within(a, b) && within(b, c) && within(c, a)) {
+    const double height = glm::dot(p - a, normal);
+    return height * height / area2;
+  }
+  return std::min(
+      {squared_distance(p, a, b), squared_distance(p, b, c), squared_distance(p, c, a)});
+}
+
 class Farthest {
  public:
-  explicit Farthest(const TriangleMesh& to) : tree_(to) { tree_.prepare_distances(); }
+  explicit Farthest(const TriangleMesh& to) : to_(to), tree_(to) {}
 
   double bound(const std::vector<Corners>& triangles, double tolerance_mm) {
     constexpr std::size_t kMostPieces = 20'000;
@@ -72,14 +99,33 @@ class Farthest {
   /// The distance changes by no more than the way.
   Piece piece(const Corners& corners) {
     const glm::dvec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
-    const double at_middle = std::sqrt(tree_.boxes().squared_distance(TriangleTree::point(middle)));
+    const double at_middle = distance_mm(middle);
     least_mm_ = std::max(least_mm_, at_middle);
     double way = 0.0;
     for (const glm::dvec3& corner : corners) way = std::max(way, glm::distance(middle, corner));
     return {corners, at_middle + way};
   }
 
-  TriangleTree tree_;
+  [[nodiscard]] double distance_mm(const glm::dvec3& p) const {
+    double nearest2 = std::numeric_limits<double>::max();
+    tree_.for_each_near(
+        [&](const BoxTree::Box& box) {
+          return squared(glm::max(glm::dvec3(0.0), glm::max(box.low - p, p - box.high)));
+        },
+        [&] { return nearest2; },
+        [&](std::span<const std::uint32_t> triangles) {
+          for (const std::uint32_t t : triangles) {
+            const auto& [a, b, c] = to_.triangles[t];
+            nearest2 =
+                std::min(nearest2,
+                         squared_distance(p, Corners{to_.points[a], to_.points[b], to_.points[c]}));
+          }
+        });
+    return std::sqrt(nearest2);
+  }
+
+  const TriangleMesh& to_;
+  BoxTree tree_;
   double least_mm_ = 0.0;  ///< the largest distance found at a point
 };
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace clay::solid::inline smoothing {
 namespace {
@@ -57,6 +58,7 @@ class ExactWallMaker {
       const RingLine line = ring_line(i);
       result_.line.insert(result_.line.end(), line.begin(), line.end());
       result_.overshoot_mm = std::max(result_.overshoot_mm, overshoot(i, line));
+      result_.extrapolated_mm = std::max(result_.extrapolated_mm, extrapolated(i, line));
       const double wanted = 3.0 * wall_.square[i] * piece_.height_mm(i);
       if (wanted > 0.0)
         result_.largest_error =
@@ -163,9 +165,20 @@ class ExactWallMaker {
   double overshoot(std::size_t i, const RingLine& line) const {
     const double below = cut_[i] == 0 ? wall_.radius[i - 1] : virtual_radius(i, true);
     const double above = cut_[i + 1] == 0 ? wall_.radius[i + 1] : virtual_radius(i, false);
-    const auto [low, high] = std::minmax({below, wall_.radius[i], above});
+    return beyond(std::minmax({below, wall_.radius[i], above}), line);
+  }
+
+  /// The distance from the radii of the ring and of those beside it in the piece.
+  double extrapolated(std::size_t i, const RingLine& line) const {
+    const double below = wall_.radius[i == 0 ? i : i - 1];
+    const double above = wall_.radius[std::min(i + 1, piece_.size() - 1)];
+    return beyond(std::minmax({below, wall_.radius[i], above}), line);
+  }
+
+  static double beyond(const std::pair<double, double>& range, const RingLine& line) {
     double most = 0.0;
-    for (const ProfilePoint& p : line) most = std::max({most, low - p.rho, p.rho - high});
+    for (const ProfilePoint& p : line)
+      most = std::max({most, range.first - p.rho, p.rho - range.second});
     return most;
   }
 

@@ -14,8 +14,9 @@ struct OvershootCut {
 
 struct ExactWall {
   Polygon line;
-  double overshoot_mm = 0.0;   ///< largest overshoot that remains
-  double largest_error = 0.0;  ///< largest relative error of a ring's R^2 h
+  double overshoot_mm = 0.0;     ///< largest overshoot that remains
+  double extrapolated_mm = 0.0;  ///< the same without extrapolated rings
+  double largest_error = 0.0;    ///< largest relative error of a ring's R^2 h
   std::vector<OvershootCut> cut;
 };
 

@@ -7,6 +7,7 @@
 #include "export/section/swept_volume.hpp"
 #include "export/smoothing/exact_wall.hpp"
 #include "export/smoothing/fair_wall.hpp"
+#include "export/smoothing/flange_guard.hpp"
 #include "export/smoothing/lip_fillet.hpp"
 #include "export/smoothing/smoothing_plan.hpp"
 #include "export/smoothing/wall_guard.hpp"
@@ -29,17 +30,11 @@ struct SmoothedPiece {
   Polygon section;
   std::vector<KeptSteps> guard;
   double overshoot_mm = 0.0;
+  double extrapolated_mm = 0.0;
   double taken_mm = 0.0;
   double lip_fillet_mm = 0.0;
   double max_ring_error_relative = 0.0;
 };
-
-/// Counterclockwise.
-Polygon outline_of(const WallLines& lines) {
-  Polygon section = lines.outer;
-  section.insert(section.end(), lines.bore.rbegin(), lines.bore.rend());
-  return section;
-}
 
 class PieceSmoother {
  public:
@@ -50,12 +45,13 @@ class PieceSmoother {
         limit_(options.min_wall_mm ? std::max(*options.min_wall_mm, piece.least_step_mm)
                                    : least_own_wall_mm(piece)),
         plan_(piece),
+        flange_guard_(piece, limit_),
         overshot_(piece) {}
 
   SmoothedPiece run() {
     do {
       do build();
-      while (guard_found_more());
+      while (guard_found_more() || flange_guard_found_more());
     } while (options_.mode == Smoothing::fair && !volume_kept());
     result_.section = outline_of(lines_);
     report();
@@ -72,7 +68,7 @@ class PieceSmoother {
                 fair_wall(piece_, piece_.bore, plan_.bore_cuts(), tolerances)};
       return;
     }
-    result_.overshoot_mm = result_.max_ring_error_relative = 0.0;
+    result_.overshoot_mm = result_.extrapolated_mm = result_.max_ring_error_relative = 0.0;
     lines_ = {exactly(piece_.outer, plan_.outer_cuts()), exactly(piece_.bore, plan_.bore_cuts())};
   }
 
@@ -81,6 +77,7 @@ class PieceSmoother {
         exact_wall(piece_, wall, cut, options_.overshoot_limit_mm.value_or(options_.tolerance_mm));
     for (const OvershootCut& at : made.cut) overshot_.add(at.interface, -at.overshoot_mm);
     result_.overshoot_mm = std::max(result_.overshoot_mm, made.overshoot_mm);
+    result_.extrapolated_mm = std::max(result_.extrapolated_mm, made.extrapolated_mm);
     result_.max_ring_error_relative = std::max(result_.max_ring_error_relative, made.largest_error);
     return std::move(made.line);
   }
@@ -96,6 +93,12 @@ class PieceSmoother {
     for (std::size_t i = 0; i < piece_.size(); ++i)
       if (now[i] < own[i] * kWallRounding) thin.push_back({i, now[i]});
     return (options_.mode == Smoothing::fair && plan_.refine(thin)) || plan_.keep_steps(thin);
+  }
+
+  /// The same for flanges: clay between two places of one wall.
+  bool flange_guard_found_more() {
+    const std::vector<ThinRing> thin = flange_guard_.thin_rings(lines_);
+    return !thin.empty() && plan_.keep_steps(thin);
   }
 
   struct Correction {
@@ -216,6 +219,7 @@ class PieceSmoother {
   const SmoothingOptions& options_;
   double limit_;
   SmoothingPlan plan_;
+  FlangeGuard flange_guard_;
   WallLines lines_;
   KeptStretches overshot_;
   SmoothedPiece result_;
@@ -261,6 +265,7 @@ void smooth_pieces(const ClayStack& stack, const SmoothingOptions& options,
     result.section.profile.pieces[k] = std::move(piece.section);
     result.guard.insert(result.guard.end(), piece.guard.begin(), piece.guard.end());
     result.overshoot_mm = std::max(result.overshoot_mm, piece.overshoot_mm);
+    result.extrapolated_mm = std::max(result.extrapolated_mm, piece.extrapolated_mm);
     result.taken_mm = std::max(result.taken_mm, piece.taken_mm);
     result.lip_fillet_mm = std::max(result.lip_fillet_mm, piece.lip_fillet_mm);
     result.max_ring_error_relative =

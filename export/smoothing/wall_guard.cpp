@@ -104,6 +104,12 @@ double least_radial(const PieceWalls& piece) {
 
 }  // namespace
 
+Polygon outline_of(const WallLines& lines) {
+  Polygon section = lines.outer;
+  section.insert(section.end(), lines.bore.rbegin(), lines.bore.rend());
+  return section;
+}
+
 WallLines stepped_lines(const PieceWalls& piece) {
   return {stepped_wall(piece, piece.outer), stepped_wall(piece, piece.bore)};
 }

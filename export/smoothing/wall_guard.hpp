@@ -14,6 +14,9 @@ struct WallLines {
   Polygon outer, bore;
 };
 
+/// As one polygon, counterclockwise.
+[[nodiscard]] Polygon outline_of(const WallLines& lines);
+
 /// The unsmoothed steps of a piece.
 [[nodiscard]] WallLines stepped_lines(const PieceWalls& piece);
 

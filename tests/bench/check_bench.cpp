@@ -3,14 +3,19 @@
 //
 //   check_bench [TRIANGLES [SHELLS [ROUNDS]]]     default 1000000 1 5; at most 20 million triangles
 //   check_bench fans [SEGMENTS]                   default 30000
+//   check_bench repair [TRIANGLES]                default 1000000
 //
 // `fans` uses a cylinder and a cone, whose ends are fans about one vertex, and a tube, whose ends
 // are rings of long triangles. The time of CGAL is quadratic, so it runs only up to 30000 segments.
+//
+// `repair` times repair_mesh on a vase with a hole, a duplicate triangle and a cube through its
+// wall, and decimate of the result to a tenth of its triangles.
 
 #include "tests/bench/cgal_peer.hpp"
 
 #include "claystack/export/formats.hpp"
 #include "claystack/export/proof.hpp"
+#include "claystack/export/repair.hpp"
 #include "claystack/export/solid.hpp"
 
 #include <sys/resource.h>
@@ -22,6 +27,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -147,6 +153,37 @@ void compare_fans(std::size_t segments) {
   compare_fans("tube", {{{{30, 0}, {50, 0}, {40, 80}, {30, 80}}}}, segments);
 }
 
+void plant_faults(TriangleMesh& mesh) {
+  mesh.triangles.push_back(mesh.triangles[mesh.triangles.size() / 3]);
+  mesh.triangles.erase(mesh.triangles.begin() +
+                       static_cast<std::ptrdiff_t>(mesh.triangles.size() / 2));
+  const TriangleMesh cube = revolve({{{{0, 0}, {14, 0}, {14, 20}, {0, 20}}}}, 4);
+  const auto offset = static_cast<std::uint32_t>(mesh.points.size());
+  for (const glm::dvec3& p : cube.points) mesh.points.push_back(p + glm::dvec3(60.1, 0.2, 90.3));
+  for (const auto& [a, b, c] : cube.triangles)
+    mesh.triangles.push_back({a + offset, b + offset, c + offset});
+}
+
+void repair_and_decimate(std::size_t triangles) {
+  TriangleMesh mesh = vase(triangles);
+  plant_faults(mesh);
+  std::printf("%zu triangles with a hole, a duplicate and a cube through the wall\n",
+              mesh.triangles.size());
+  TriangleMesh result;
+  const Seconds repair = timed([&] {
+    auto repaired = repair_mesh(mesh);
+    if (!repaired) fail(repaired.error().message.c_str());
+    result = std::move(repaired->mesh);
+  });
+  print_times("repair_mesh", repair);
+  std::printf("peak memory %.2f GB\n", peak_gb());
+  print_times("decimate to a tenth", timed([&] {
+                if (const auto done = decimate(result, result.triangles.size() / 10); !done)
+                  fail(done.error().message.c_str());
+              }));
+  std::printf("peak memory %.2f GB\n", peak_gb());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -154,6 +191,13 @@ int main(int argc, char** argv) {
     const std::size_t segments = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 30'000;
     if (segments < 3 || segments > kMaxTriangles / 8) fail("expected 3 to 2500000 segments");
     compare_fans(segments);
+    return 0;
+  }
+  if (argc > 1 && std::string(argv[1]) == "repair") {
+    const std::size_t triangles = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 1'000'000;
+    if (triangles < 1000 || triangles > kMaxTriangles / 2)
+      fail("expected 1000 to 10000000 triangles");
+    repair_and_decimate(triangles);
     return 0;
   }
   const std::size_t triangles = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 1'000'000;

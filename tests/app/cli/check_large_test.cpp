@@ -53,7 +53,8 @@ TEST(CheckLarge, ChecksManyNestedShellsInLittleMemory) {
   const Ran run = with_megabytes(kProgram, "check --json " + folder.file("nest.stl"));
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.json().at("components"), 30'000);
-  EXPECT_EQ(run.json().at("notes").dump().substr(0, 24), "[\"15000 closed cavities,");
+  EXPECT_EQ(run.json().at("checks").at(0).at("text").get<std::string>().substr(0, 22),
+            "15000 closed cavities,");
 }
 
 TEST(CheckLarge, StreamsTextFiles) {
@@ -125,8 +126,8 @@ TEST(CheckLarge, ReportsAReducedNumberOfRays) {
   const auto json = run.json();
   EXPECT_LT(json.at("wall_sampled").at("rays"), 10'000);
   EXPECT_GT(json.at("wall_sampled").at("rays"), 1'000);
-  EXPECT_NE(json.at("notes").dump().find("rays instead of 10000"), std::string::npos)
-      << json.at("notes");
+  EXPECT_NE(json.at("checks").dump().find("rays instead of 10000"), std::string::npos)
+      << json.at("checks");
 }
 
 }  // namespace

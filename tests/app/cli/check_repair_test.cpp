@@ -1,4 +1,5 @@
 #include "tests/support/run_program.hpp"
+#include "tests/support/schema_check.hpp"
 
 #include "claystack/export/formats.hpp"
 #include "tests/export/solid/shapes.hpp"
@@ -154,6 +155,7 @@ TEST_P(PlantedFault, IsRepaired) {
   const Ran run = claystack("check --json --repair " + write(folder) + " -o " + out);
   EXPECT_EQ(run.status, 0) << run.out << run.err;
   const auto json = run.json();
+  EXPECT_EQ(violation(load_schema("check"), Json::parse(run.out)), "") << run.out;
   EXPECT_NE(find(json.at("found"), planted.what), nullptr);
   ASSERT_EQ(json.at("repaired").size(), planted.repaired.size()) << json.at("repaired").dump(2);
   for (const auto& [what, count] : planted.repaired) {
@@ -211,9 +213,10 @@ TEST_F(CheckRepair, ReportsWhatItChanged) {
   const std::string in = write("in.stl", together(balls, moved(hole(), {50, 0, 0})));
   const Ran run = claystack("check --repair " + in + " -o " + folder.file("out.obj"));
   EXPECT_EQ(run.status, 0) << run.out << run.err;
-  for (const char* line : {"NOT SOUND", "found: open edge (3)", "repaired: hole filled (1)",
-                           "repaired: pair of intersecting triangles resolved (",
-                           "filled: hole of 3 edges, 28.28 mm", "volume: ", "written: "})
+  for (const char* line :
+       {": will not print\n", "found: open edge (3)", "repaired: hole filled (1)",
+        "repaired: pair of intersecting triangles resolved (", "filled: hole of 3 edges, 28.28 mm",
+        "volume: ", "written: "})
     EXPECT_NE(run.out.find(line), std::string::npos) << line << " in\n" << run.out;
   EXPECT_EQ(run.out.find("remaining"), std::string::npos) << run.out;
 }
@@ -331,7 +334,11 @@ TEST_F(CheckRepair, SamplesTheWallOfAMesh) {
   const Ran thin = claystack("check --json " + in + " --min-wall 2.01 --wall-samples 500");
   EXPECT_EQ(thin.status, 1);
   const auto json = thin.json();
-  EXPECT_NE(find(json.at("problems"), "thin wall (sampled)"), nullptr) << json.dump(2);
+  EXPECT_TRUE(json.at("sound"));
+  EXPECT_EQ(json.at("checks").at(0).at("verdict"), "fail");
+  EXPECT_NE(json.at("checks").at(0).at("text").get<std::string>().find("thin wall (sampled)"),
+            std::string::npos)
+      << json.dump(2);
   const auto wall = json.at("wall_sampled");
   EXPECT_DOUBLE_EQ(wall.at("least_mm"), 2.0);
   EXPECT_EQ(wall.at("rays"), 500);
@@ -343,7 +350,7 @@ TEST_F(CheckRepair, FailsAWallThatNoRayHits) {
   const std::string in = write("sheet.stl", {{{0, 0, 0}, {9, 0, 0}, {0, 9, 0}}, {{0, 1, 2}}});
   const Ran run = claystack("check --json " + in + " --min-wall 1");
   EXPECT_EQ(run.status, 1);
-  EXPECT_NE(find(run.json().at("problems"), "wall not measured"), nullptr) << run.out;
+  EXPECT_NE(run.json().at("checks").dump().find("not measured"), std::string::npos) << run.out;
   EXPECT_TRUE(run.json().at("wall_sampled").at("least_mm").is_null());
 }
 

@@ -1,4 +1,9 @@
+#include "claystack/export/check.hpp"
+#include "claystack/export/formats.hpp"
+#include "claystack/export/proof.hpp"
+#include "tests/export/solid/shapes.hpp"
 #include "tests/support/run_program.hpp"
+#include "tests/support/schema_check.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +42,9 @@ class CheckMesh : public testing::Test {
     const Ran run = claystack("check --json " + folder.file(name));
     EXPECT_EQ(run.status, status) << name << run.out << run.err;
     const auto json = run.json();
+    EXPECT_EQ(violation(load_schema("check"), Json::parse(run.out)), "") << run.out;
     EXPECT_FALSE(json.at("sound")) << name;
+    EXPECT_EQ(json.at("verdict"), status == 2 ? "unreadable" : "will not print") << name;
     EXPECT_NE(json.at("problems").dump().find(says), std::string::npos)
         << json.at("problems").dump(2);
     return json;
@@ -95,7 +102,11 @@ TEST_F(CheckMesh, ReportsAnIntactDracoChecksum) {
   write_text(folder.file("p.drc"), good_drc);
   const Ran run = claystack("check --json " + folder.file("p.drc"));
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_EQ(run.json().at("notes"), nlohmann::json({"checksum holds"}));
+  const auto checks = run.json().at("checks");
+  ASSERT_EQ(checks.size(), 1u);
+  EXPECT_EQ(checks.at(0).at("check"), "contents");
+  EXPECT_EQ(checks.at(0).at("verdict"), "pass");
+  EXPECT_EQ(checks.at(0).at("text"), "checksum holds");
 }
 
 TEST_F(CheckMesh, ReportsAnInsideOutMesh) {
@@ -147,9 +158,31 @@ TEST(CheckPot, MeasuresTheWall) {
   EXPECT_EQ(claystack("check " + pot + " --min-wall " + std::to_string(wall - 0.01)).status, 0);
   const Ran thin = claystack("check --json " + pot + " --min-wall " + std::to_string(wall + 0.01));
   EXPECT_EQ(thin.status, 1);
-  const auto problem = thin.json().at("problems").at(0);
-  EXPECT_EQ(problem.at("what"), "thin wall");
-  EXPECT_NE(problem.at("where").get<std::string>().find("mm of height"), std::string::npos);
+  const auto json = thin.json();
+  EXPECT_EQ(violation(load_schema("check"), Json::parse(thin.out)), "") << thin.out;
+  EXPECT_EQ(json.at("verdict"), "sound");  // of the mesh
+  EXPECT_FALSE(json.at("passes"));
+  EXPECT_TRUE(json.at("problems").empty());
+  const auto walls = json.at("checks").at(0);
+  EXPECT_EQ(walls.at("check"), "walls");
+  EXPECT_EQ(walls.at("verdict"), "fail");
+  const std::string text = walls.at("text");
+  EXPECT_EQ(text.substr(0, 10), "thin wall:") << text;
+  EXPECT_NE(text.find("mm of height"), std::string::npos) << text;
+  const Ran shown = claystack("check " + pot + " --min-wall " + std::to_string(wall + 0.01));
+  EXPECT_NE(shown.out.find(": sound; walls: fail\n"), std::string::npos) << shown.out;
+}
+
+TEST(CheckPot, APassContainsNoWordOfFailure) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("p.pot.json");
+  ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
+  const Ran run = claystack("check --process fdm " + pot);
+  EXPECT_EQ(run.status, 0) << run.out;
+  for (const char* word : {"fail", "NOT", "not ", "problem", "unsound"})
+    EXPECT_EQ(run.out.find(word), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("  walls: pass: "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("  process: "), std::string::npos) << run.out;
 }
 
 TEST(CheckPot, ReportsACollapsedPotAsUnsound) {
@@ -161,7 +194,7 @@ TEST(CheckPot, ReportsACollapsedPotAsUnsound) {
   EXPECT_EQ(run.json().at("problems").at(0).at("what"), "collapsed");
 }
 
-TEST(CheckPot, ReportsAClosedCavityAsSoundWithANote) {
+TEST(CheckPot, WarnsOfAClosedCavity) {
   const ScratchFolder folder;
   const std::string pot = folder.file("p.pot.json");
   ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
@@ -174,7 +207,12 @@ TEST(CheckPot, ReportsAClosedCavityAsSoundWithANote) {
   write_text(pot, json.dump());
   const Ran run = claystack("check --json " + pot);
   EXPECT_EQ(run.status, 0) << run.out << run.err;
-  EXPECT_NE(run.json().at("notes").dump().find("closed cavity"), std::string::npos);
+  const auto check = run.json().at("checks").at(0);
+  EXPECT_EQ(check.at("check"), "geometry");
+  EXPECT_EQ(check.at("verdict"), "warn");
+  EXPECT_NE(check.at("text").get<std::string>().find("closed cavity"), std::string::npos);
+  const Ran fired = claystack("check --process stoneware --json " + pot);
+  EXPECT_EQ(fired.status, 1) << fired.out;
   const Ran exported = claystack("export " + pot + " " + folder.file("p.stl"));
   EXPECT_EQ(exported.status, 0) << exported.err;
   EXPECT_NE(exported.err.find("drain hole"), std::string::npos);
@@ -191,6 +229,69 @@ TEST(CheckPot, DetectsAnEditedQuantumByTheLedger) {
   const Ran run = claystack("check " + pot);
   EXPECT_EQ(run.status, 2);
   EXPECT_NE(run.err.find("ledger"), std::string::npos) << run.err;
+}
+
+/// The verdict on a mesh, with the exit status of each --accept.
+class CheckSeverity : public testing::Test {
+ protected:
+  void expect(const solid::TriangleMesh& mesh, const std::string& verdict, int strict, int accepted,
+              const std::string& options = {}) {
+    const std::string file = folder.file("mesh.obj");
+    write_text(file, solid::encode_obj(mesh, "mesh"));
+    for (const auto& [accept, status] :
+         {std::pair{"", strict}, {"--accept sound ", strict}, {"--accept prints ", accepted}}) {
+      const Ran run = claystack("check --json " + options + accept + file);
+      EXPECT_EQ(run.status, status) << accept << run.out;
+      EXPECT_EQ(run.json().at("verdict"), verdict) << run.out;
+      EXPECT_EQ(run.json().at("passes"), status == 0);
+      EXPECT_EQ(violation(load_schema("check"), Json::parse(run.out)), "") << run.out;
+    }
+  }
+  ScratchFolder folder;
+};
+
+TEST_F(CheckSeverity, AcceptsWhatASlicerUnites) {
+  using solid::shapes::cube, solid::shapes::moved, solid::shapes::together, solid::shapes::inverted;
+  const solid::TriangleMesh good = cube(20.0);
+  expect(good, "sound", 0, 0);
+  expect(together(good, moved(good, {10, 10, 10})), "prints", 1, 0);
+  expect(together(good, moved(cube(10.0), {5, 5, 5})), "prints", 1, 0);
+  // A shell turned inward is no clay, and an open one has no inside.
+  expect(together(good, moved(inverted(good), {10, 10, 10})), "will not print", 1, 1);
+  expect(inverted(good), "will not print", 1, 1);
+  solid::TriangleMesh open = good;
+  open.triangles.pop_back();
+  expect(open, "will not print", 1, 1);
+  // Other checks still count.
+  expect(together(good, moved(good, {10, 10, 10})), "prints", 1, 1, "--min-wall 30 ");
+}
+
+TEST_F(CheckSeverity, ManyIntersectionsDoNotPrint) {
+  using solid::shapes::ball, solid::shapes::moved, solid::shapes::together;
+  solid::TriangleMesh balls = ball(10.0);
+  for (const double k : {1.0, 2.0, 3.0})
+    balls = together(balls, moved(ball(10.0), {3.3 * k, 1.7 * k, 0.9 * k}));
+  ASSERT_GT(solid::check_mesh(balls).self_intersections, solid::kMostUnitedPairs);
+  expect(balls, "will not print", 1, 1);
+}
+
+TEST(Check, ReadsStandardInputAndWritesStandardOutput) {
+  const ScratchFolder folder;
+  solid::TriangleMesh mesh = solid::shapes::cube(20.0);
+  const std::string stl = folder.file("a.stl"), obj = folder.file("a.obj");
+  write_text(stl, solid::encode_stl_binary(mesh));
+  write_text(obj, solid::encode_obj(mesh, "cube"));
+  for (const std::string& file : {stl, obj}) {
+    const Ran run = claystack("check --json - < " + file);
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.json().at("triangles"), 12);
+  }
+  mesh.triangles.pop_back();
+  write_text(obj, solid::encode_obj(mesh, "cube"));
+  const std::string out = folder.file("out.stl");
+  EXPECT_EQ(claystack("check --repair -o - - < " + obj + " > " + out).status, 0);
+  EXPECT_EQ(claystack("check " + out).status, 0);
+  EXPECT_EQ(claystack("check --repair --json -o - - < " + obj).status, 2);
 }
 
 TEST(Check, ListsKnownExtensionsForAnUnknownOne) {

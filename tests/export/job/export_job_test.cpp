@@ -12,6 +12,7 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace clay::solid {
 namespace {
@@ -175,6 +176,34 @@ TEST(RunExport, StepsBelowFloat32AreLevelledAndKeepTheVolume) {
   const auto result = exported(pot, every_format(), {});
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_LT(result->report.volume.error_relative, 1e-9);
+}
+
+/// Walls of about 0.01 mm: on a coarse grid that is sound by itself, close vertices change places.
+TEST(RunExport, DracoKeepsCloseVerticesApartAtAnyTolerance) {
+  const std::vector<Quanta> outer{
+      147430380349435, 147404164000399, 147400449700457, 147446888952018, 147437476531061,
+      147429127346929, 147456287535456, 147470348455588, 147479649958966, 147490328509038,
+      147468197132087, 147475779650955, 147460562502399, 147441945765534, 147449191789362,
+      147457599638561, 147463629653818, 147466382206144, 147487042255806, 147532739521461,
+      147498180515924, 147495270215485, 147476919738964, 147496273260245, 147455149978504,
+      147459389089327, 147454207262492};
+  const std::vector<Quanta> inner{
+      147374135700739, 147323990706571, 147364163805288, 147381915529716, 147365447402062,
+      147356866340634, 147410701771551, 147390199103246, 147389548411650, 147440387585819,
+      147372842715362, 147382435327887, 147428160182607, 147351168746891, 147383773244437,
+      147409739370327, 147405844223245, 147409599223567, 147422974692513, 147472562267298,
+      147407951551034, 147447873905946, 147396982637925, 147455224121571, 147388929933452,
+      147379857223735, 147384889521256};
+  std::vector<Ring> rings;
+  for (std::size_t i = 0; i < outer.size(); ++i) rings.push_back({outer[i], inner[i]});
+  const ClayStack stack = ClayStack::from_rings(0.05, std::move(rings), 0).value();
+  for (const double tolerance : {0.005, 0.02}) {
+    ExportOptions options;
+    options.tolerance_mm = tolerance;
+    options.allow_pieces = true;
+    const auto result = exported(pot_of(stack), every_format(), options);
+    EXPECT_TRUE(result) << result.error().message;
+  }
 }
 
 TEST(RunExport, TouchingRingsAreRefused) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -196,6 +197,36 @@ TEST(ProfileSmoothing, ReportsClayRemovedFromWallsAtTheirLimit) {
   EXPECT_NEAR(made.taken_mm, 0.5 * 0.2 * 0.2 / 6.0 / 40.0, 2e-5);
   EXPECT_LT(made.volume_error_relative, 1e-12);
   EXPECT_NEAR(min_wall_mm(made.section.profile), 2.9 - made.taken_mm, 1e-9);
+}
+
+/// A tube with a plate whose edge is one ring thick and slopes on both sides.
+ClayStack with_sloped_flange(bool at_the_lip) {
+  std::vector<Radii> radii(at_the_lip ? 25 : 40, {30.0, 25.0});
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double wide = 30.0 + 5.0 * static_cast<double>(i + 1);
+    radii[21 + i].outer_mm = wide;
+    if (!at_the_lip) radii[27 - i].outer_mm = wide;
+  }
+  return stack_of(0.5, radii);
+}
+
+TEST(ProfileSmoothing, ASlopedFlangeKeepsItsThickness) {
+  for (const bool at_the_lip : {false, true}) {
+    const ClayStack stack = with_sloped_flange(at_the_lip);
+    const double steps = min_wall_mm(profile_of(stack)->profile);
+    EXPECT_NEAR(steps, 0.5, 1e-9);  // one ring
+    for (const Smoothing mode : {Smoothing::fair, Smoothing::exact})
+      for (const std::optional<double> limit : {std::optional<double>{}, {0.4}, {3.0}}) {
+        SmoothingOptions options = options_for(mode);
+        options.min_wall_mm = limit;
+        options.overshoot_limit_mm = 100.0;
+        const SmoothedProfile made = smooth(stack, options);
+        EXPECT_GE(min_wall_mm(made.section.profile), std::min(limit.value_or(5.0), steps) - 1e-9);
+        EXPECT_TRUE(std::ranges::any_of(made.guard, [](const KeptSteps& kept) {
+          return kept.reason == KeptFor::wall && kept.smoothed_mm < 0.4;
+        }));
+      }
+  }
 }
 
 TEST(ProfileSmoothing, RefusesUnsupportedRequests) {

@@ -1,6 +1,7 @@
 #include "claystack/export/smoothing.hpp"
 
 #include "claystack/export/proof.hpp"
+#include "claystack/export/walls.hpp"
 #include "tests/export/smoothing/smoothed_pieces.hpp"
 
 #include <gtest/gtest.h>
@@ -57,6 +58,60 @@ RC_GTEST_PROP(SmoothingPromises, ExactKeepsBothWallsOfEveryRing, ()) {
       RC_ASSERT(std::abs(oracles::swept_over_pi(walls.outer, low, high) - outer) <= 1e-12L * outer);
       RC_ASSERT(std::abs(oracles::swept_over_pi(walls.bore, low, high) - bore) <= 1e-12L * bore);
     }
+}
+
+RC_GTEST_PROP(SmoothingPromises, ExactStaysWithinTheReportedDistanceOfTheRadiiAboutARing, ()) {
+  const ClayStack stack = shapes::hard_stack(kMostRings);
+  RC_PRE(profile_of(stack).has_value());
+  SmoothingOptions options = shapes::any_options();
+  options.mode = Smoothing::exact;
+  const SmoothedProfile made = smooth(stack, options);
+  const Real spare = std::max(made.overshoot_mm, made.extrapolated_mm) + 1e-9;
+  Real widest = 0;  // of all steps: no wall continues by more
+  for (const auto& [first, last, levels, steps, walls] : pieces_of_both(stack, made))
+    for (std::size_t i = 0; i <= last - first; ++i) {
+      const std::size_t below = first + (i == 0 ? 0 : i - 1), above = std::min(first + i + 1, last);
+      const auto stays = [&](const oracles::Line& line, auto radius_of) {
+        const Real a = radius_of(below), b = radius_of(first + i), c = radius_of(above);
+        widest = std::max({widest, std::abs(a - b), std::abs(b - c)});
+        const auto [least, most] = oracles::radii(line, levels[i], levels[i + 1]);
+        // A level line at the end of a ring may belong to the next one.
+        const Real inside = 1e-6L * (levels[i + 1] - levels[i]);
+        const auto [low, high] = oracles::radii(line, levels[i] + inside, levels[i + 1] - inside);
+        RC_ASSERT(least <= low && high <= most);
+        RC_ASSERT(low >= std::min({a, b, c}) - spare);
+        RC_ASSERT(high <= std::max({a, b, c}) + spare);
+      };
+      stays(walls.outer, [&](std::size_t r) { return Real(stack.rings()[r].outer_mm()); });
+      stays(walls.bore, [&](std::size_t r) { return Real(stack.rings()[r].inner_mm()); });
+    }
+  RC_ASSERT(made.extrapolated_mm <= made.overshoot_mm + widest + 1e-9);
+}
+
+/// By the one definition of a wall, which also measures flanges.
+RC_GTEST_PROP(SmoothingPromises, TheMinimumWallIsAtLeastTheLimitOrThatOfTheSteps, ()) {
+  const ClayStack stack = shapes::hard_stack(kMostRings);
+  const auto steps = profile_of(stack);
+  RC_PRE(steps.has_value());
+  const SmoothingOptions options = shapes::any_options();
+  const SmoothedProfile made = smooth(stack, options);
+  Real largest = 0;
+  for (const Ring& ring : stack.rings()) largest = std::max<Real>(largest, ring.outer_mm());
+  for (std::size_t k = 0; k < made.section.shapes.size(); ++k) {
+    const auto& shape = made.section.shapes[k];
+    const auto own =
+        oracles::walls_by_ring(stack, shape.first_ring, shape.last_ring,
+                               oracles::steps_of(stack, shape.first_ring, shape.last_ring));
+    // What the wall guard compares, and the definition on the steps.
+    const double guarded = static_cast<double>(*std::min_element(own.begin(), own.end()));
+    const double defined = min_wall_mm({{steps->profile.pieces[k]}});
+    const double least = std::min({options.min_wall_mm.value_or(1e300), guarded, defined});
+    const Wall found = min_wall({{made.section.profile.pieces[k]}});
+    if (found.compact) continue;  // a lump without a wall
+    const double slack =
+        2.0 * made.taken_mm + made.overshoot_mm * 1e-9 + static_cast<double>(largest) * 0x1p-19;
+    RC_ASSERT(found.thickness_mm >= least * (1 - 1e-8) - slack);
+  }
 }
 
 RC_GTEST_PROP(SmoothingPromises, FairLeavesTheRadiiAboutARingByTheVolumeCorrectionOnly, ()) {
@@ -144,7 +199,7 @@ ClayStack pot(std::mt19937_64& random, std::size_t count, double h) {
   return stack_of(h, radii);
 }
 
-/// From middle to middle the radial wall is a mean of two rings' own.
+/// From middle to middle the radial wall is a mean of two rings' walls.
 RC_GTEST_PROP(SmoothingPromises, FairKeepsTheRadialWallAMeanOfTwoRings, ()) {
   auto random = *samples::random_engine();
   const ClayStack stack = pot(random, 60, 0.5);
@@ -153,6 +208,16 @@ RC_GTEST_PROP(SmoothingPromises, FairKeepsTheRadialWallAMeanOfTwoRings, ()) {
   RC_PRE(made.guard.empty());
   RC_PRE(treads(walls.outer).empty());
   RC_PRE(treads(walls.bore).size() == 1u);
+  // Beside the floor, the bore has the radius of its ring.
+  const auto beside = [&](Real part) {
+    const Real y = (6 + part) * 0.5L;
+    return oracles::radii(walls.outer, y, y + 1e-12L).first -
+           oracles::radii(walls.bore, y, y + 1e-12L).first;
+  };
+  const Real first_wall = stack.rings()[6].outer_mm() - stack.rings()[6].inner_mm();
+  const Real step = std::abs(stack.rings()[6].outer_mm() - stack.rings()[5].outer_mm());
+  for (const Real part : {0.01L, 0.2L, 0.49L})
+    RC_ASSERT(std::abs(beside(part) - first_wall) <= step / 2 + made.overshoot_mm + 1e-6L);
   for (std::size_t i = 6; i + 1 < stack.size(); ++i)
     for (const Real t : {0.0L, 0.3L, 0.5L, 0.9L}) {
       const Real y = (static_cast<Real>(i) + 0.5L + t) * 0.5L;

@@ -1,7 +1,9 @@
 #pragma once
-// The wall of a mesh that has no profile: sampled at many points, not bounded.
+// What a foreign mesh is good for: whether it prints without being sound, and how thin its walls
+// are.
 
 #include "claystack/core/result.hpp"
+#include "claystack/export/proof.hpp"
 #include "claystack/export/solid.hpp"
 
 #include <cstddef>
@@ -10,6 +12,18 @@
 #include <limits>
 
 namespace clay::solid::inline check {
+
+/// Of the real meshes whose only fault is self-intersection, half have fewer pairs.
+inline constexpr std::size_t kMostUnitedPairs = 200;
+
+/// Whether a slicer makes one body of a mesh that is not sound (`report` is on it): it is closed,
+/// every shell is oriented outward, and its only faults are at most kMostUnitedPairs
+/// self-intersections, shells inside others, vertices shared by two fans, and triangles without
+/// area. A rule, not a proof: more pairs may print, too.
+[[nodiscard]] bool slicer_unites(const TriangleMesh& mesh, const MeshReport& report);
+
+// ---- sampled walls -------------------------------------------------------------------
+// The wall of a mesh that has no profile: sampled at many points, not bounded.
 
 /// The result of the rays: sampled values, not a bound. Between the rays the wall may be thinner.
 struct SampledWall {
@@ -35,7 +49,7 @@ inline constexpr std::size_t kMostWallSamples = 10'000'000;
 /// within them; deterministic). Front faces are passed: the ray's own triangle, and neighbours that
 /// rounding puts in its way. If the back face is turned by more than 45 degrees against the ray, as
 /// beside the edge of a rim, the distance is not a wall thickness and is not counted. Neither is it
-/// where the clay ends within one thickness of the ray's middle on one side only: the ends of lips
+/// where the clay ends within 1.6 thicknesses of the ray's middle on one side only: ends of lips
 /// and flanges are no walls for `min_wall` either.
 ///
 /// If the work exceeds `most_steps`, fewer rays are followed, still evenly distributed; `rays`

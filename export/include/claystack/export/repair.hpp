@@ -69,6 +69,9 @@ struct RepairedMesh {
 /// Deterministic. Half-edges, holes and exact numbers are CGAL's. Error (kind `unsound`): the
 /// reason why no sound mesh was found, or the library failed.
 Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions& options = {});
+/// The same for a mesh that check_mesh found unsound.
+Result<RepairedMesh> repair_unsound_mesh(const TriangleMesh& mesh,
+                                         const RepairOptions& options = {});
 
 /// The longest border of a hole that is filled: above it, the search for a patch takes too long.
 inline constexpr std::size_t kMaxHoleEdges = 10'000;

@@ -23,13 +23,14 @@ struct SmoothingOptions {
   Smoothing mode = Smoothing::fair;
   /// `fair`: maximum simplification of the walls, both together [mm].
   double tolerance_mm = 0.02;
-  /// No place becomes thinner than this or than it was, whichever is smaller [mm]. Empty: the
-  /// minimum wall of the piece's steps.
+  /// No place becomes thinner than this or than it was, whichever is smaller [mm]; a flange, than
+  /// this or the thinnest wall of the steps. Empty: the minimum wall of the piece's steps.
   std::optional<double> min_wall_mm;
   /// Radius of the arcs that round both edges of the lip [mm]; `fair` only. At most half the width
   /// of the lip, and half the height above the last corner of its walls.
   double lip_fillet_mm = 0.0;
-  /// `exact`: maximum distance of a radius from the range of its ring and the two beside it [mm].
+  /// `exact`: maximum distance of a radius from the range of its ring and the two beside it [mm];
+  /// beyond a cut, the ring there counts as a continuation of the wall (see `extrapolated_mm`).
   /// Empty: the tolerance.
   std::optional<double> overshoot_limit_mm;
 };
@@ -59,8 +60,12 @@ struct SmoothedProfile {
   StackProfile section;
   std::vector<KeptSteps> guard;  ///< places with kept steps, by piece, reason and height
   /// Maximum distance of radii from those of the neighbouring rings; in `fair`, due to the volume
-  /// correction.
+  /// correction. In `exact` at most the limit, or 2^-20 of the largest radius if that is more.
   double overshoot_mm = 0.0;
+  /// `exact`: the same where walls continue in their direction at foot, lip and cuts: there a
+  /// radius may lie beyond those of its ring and of the two beside it by up to the smaller of the
+  /// last two steps (outward, by half of it).
+  double extrapolated_mm = 0.0;
   /// Above 0 if `fair` had to remove clay and found no walls clear of the limit: then walls may be
   /// this much thinner than the guard promises, solids twice as much [mm].
   double taken_mm = 0.0;
@@ -77,8 +82,10 @@ struct SmoothedProfile {
 /// it.
 ///
 /// fair   Walls run straight to the middle of the first ring of a run, from middle to middle, and
-///        straight to its end; so the wall R - r is everywhere a mean of two rings' walls. Points
-///        within `tolerance_mm` / 2 of the line without them are omitted. The volume that both
+///        straight to its end; so where neither wall is cut, R - r is a mean of two rings' walls.
+///        Beside a cut of one wall (a floor, a ledge), that wall has the radius of its ring, and
+///        R - r differs from the ring's by at most half a step of the other wall. Points within
+///        `tolerance_mm` / 2 of the line without them are omitted. The volume that both
 ///        change is restored by scaling the outer wall, so that every piece holds its counted clay.
 ///        Clay is removed only where walls are clear of the limit. If that would move a wall by
 ///        more than the tolerance and a hundredth of a ring's height, the jumps that change the
@@ -89,11 +96,13 @@ struct SmoothedProfile {
 ///
 /// Guard, both modes: for every ring the distance from either wall at its heights to the other
 /// wall (twice the radius where there is no bore) is at least what it was, or `min_wall_mm`,
-/// whichever is smaller. Measured exactly, with a slack of 1e-9 for rounding. Where it would fail,
-/// first the simplification and then the smoothing is undone. Treads below 2^-20 of the largest
-/// radius, which float32 cannot hold, never become cuts: walls may lose less than one of them. The
-/// lip fillet is applied afterwards and may thin the lip. Every piece is certified; a piece that
-/// fails keeps its steps.
+/// whichever is smaller. Measured exactly, with a slack of 1e-9 for rounding. Clay between two
+/// places of one wall (a flange, a ledge, the edge of a lip), by the definition of `min_wall`, does
+/// not become thinner than `min_wall_mm` or every wall of the steps, whichever is smaller. Where
+/// either would fail, first the simplification and then the smoothing is undone. Treads below 2^-20
+/// of the largest radius, which float32 cannot hold, never become cuts: walls may lose less than
+/// one of them. The lip fillet is applied afterwards and may thin the lip. Every piece is
+/// certified; a piece that fails keeps its steps.
 ///
 /// Errors: as `profile_of`; `bad_input` for options out of range and for a lip fillet in `exact`,
 /// which removes clay that `exact` promises to a ring.
