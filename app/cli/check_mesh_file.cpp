@@ -1,11 +1,11 @@
 #include "app/cli/check.hpp"
 #include "app/cli/memory_room.hpp"
+#include "app/cli/mesh_input.hpp"
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
 #include "claystack/export/formats.hpp"
 #include "claystack/export/repair.hpp"
-#include "core/file_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -20,47 +20,16 @@ using solid::MeshFormat;
 using solid::SolidCertificate;
 using solid::TriangleMesh;
 
-/// An error if check_mesh needs more memory than available.
-Result<void> expect_memory(std::string_view triangles, std::uint64_t bytes,
-                           const MemoryRoom& room) {
-  if (bytes <= room.bytes) return {};
-  return failure(
-      ErrorKind::io,
-      fmt::format("checking {} triangles needs about {} of memory, found {} left under {}",
-                  triangles, gigabytes(bytes), gigabytes(room.bytes), room.limit));
-}
-
-/// Reads the mesh of a file with little of the file in memory.
-Result<TriangleMesh> read_mesh(FileReader& file, MeshFormat format, const std::string& name,
-                               const solid::ReadOptions& options) {
-  const solid::ByteSource source{
-      [&](std::span<char> part) { return file.read(part); }, *file.size(),
-      [&](std::uint64_t triangles) {
-        // Including the mesh; a closed mesh has half as many points as triangles.
-        const std::uint64_t mesh =
-            triangles *
-            (sizeof(decltype(TriangleMesh::triangles)::value_type) + sizeof(glm::dvec3) / 2);
-        return expect_memory(fmt::format("about {}", triangles),
-                             mesh + solid::check_memory(triangles), memory_room())
-            .map_error([&](const Error& e) {
-              return Error{e.kind, name + ": " + e.message};
-            });
-      }};
-  return solid::read_mesh(source, format, name, options);
-}
-
 Result<solid::MeshReport> checked(const TriangleMesh& mesh) {
-  const std::string triangles = std::to_string(mesh.triangles.size());
-  const std::uint64_t bytes = solid::check_memory(mesh.triangles.size());
+  const std::string job = fmt::format("checking {} triangles", mesh.triangles.size());
   const MemoryRoom room = memory_room();
-  if (auto fits = expect_memory(triangles, bytes, room); !fits)
+  if (auto fits = expect_room(job, solid::check_memory(mesh.triangles.size())); !fits)
     return tl::make_unexpected(fits.error());
   solid::MeshReport report = solid::check_mesh(mesh);
   // The estimate was too low for this mesh.
   if (report.out_of_memory)
-    return failure(ErrorKind::io,
-                   fmt::format("checking {} triangles needs more memory than the {} left under {}",
-                               triangles, gigabytes(room.bytes), room.limit));
+    return failure(ErrorKind::io, fmt::format("{} needs more memory than the {} left under {}", job,
+                                              gigabytes(room.bytes), room.limit));
   return report;
 }
 
@@ -247,26 +216,20 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
                                 const Console& console, std::optional<std::string> input) {
   Progress progress(console, "check", 0);
   progress.stage("reading");
-  // Standard input is read already.
-  auto file = FileReader::open(input ? "/dev/null" : command.file);
-  if (!file) return tl::make_unexpected(file.error());
   auto certificate = read_certificate(command);
   if (!certificate) return tl::make_unexpected(certificate.error());
   Verdict verdict;
   verdict.certificate = std::move(*certificate);
-  // Certificates and Draco checksums cover all bytes, and a pipe has no known size.
-  const bool whole =
-      input || verdict.certificate || !solid::facts_of(format).streamed || !file->size();
-  const auto bytes = input   ? Result<std::string>(std::move(*input))
-                     : whole ? read_file(command.file)
-                             : Result<std::string>(std::string());
-  if (!bytes) return tl::make_unexpected(bytes.error());
-  const solid::ReadOptions options{command.repair, &verdict.notes};
-  auto mesh = whole ? solid::decode_mesh(*bytes, format, command.file, options)
-                    : read_mesh(*file, format, command.file, options);
-  if (!mesh && verdict.certificate) {
+  // Certificates cover all bytes.
+  auto file = input ? Result<MeshFile>(
+                          MeshFile::of_bytes(command.file, format, std::move(*input)))
+                    : MeshFile::open(command.file, format, verdict.certificate.has_value());
+  if (!file) return tl::make_unexpected(file.error());
+  const std::string& bytes = file->bytes();
+  auto mesh = file->read({"checking", solid::check_memory(1)}, {command.repair, &verdict.notes});
+  if (!mesh && mesh.error().kind == ErrorKind::bad_input && verdict.certificate) {
     // The file no longer matches its certificate.
-    verify(*bytes, format, command, verdict);
+    verify(bytes, format, command, verdict);
     verdict.examined = false;
     verdict.state = MeshState::unreadable;
     return verdict;
@@ -283,14 +246,14 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
   verdict.mesh = std::move(*report);
   verdict.state = state_of(*mesh, verdict.mesh);
   check_cavities(command, verdict);
-  if (format == MeshFormat::drc && !command.changes_mesh()) check_claims(*bytes, *mesh, verdict);
+  if (format == MeshFormat::drc && !command.changes_mesh()) check_claims(bytes, *mesh, verdict);
   if (format == MeshFormat::three_mf && !command.changes_mesh())
-    check_packed(*bytes, command.file, verdict);
+    check_packed(bytes, command.file, verdict);
   progress.clear();
   if (const auto limit = command.walls.demand().for_size(size_sum_mm(*mesh)))
     if (auto done = measure_wall(*mesh, *limit, command, console, verdict); !done)
       return tl::make_unexpected(done.error());
-  if (verdict.certificate) verify(*bytes, format, command, verdict);
+  if (verdict.certificate) verify(bytes, format, command, verdict);
   return verdict;
 }
 

@@ -29,6 +29,10 @@ void add_devices_command(CLI::App& app, Console& console, int& exit);
 #ifdef CLAYSTACK_STUDIO
 void add_studio_command(CLI::App& app, int& exit);
 #endif
+void add_doctor_command(CLI::App& app, Console& console, int& exit);
+void add_batch_command(CLI::App& app, Console& console, int& exit);
+/// Hidden: prints manual pages and completions, for packages.
+void add_manual_command(CLI::App& app, int& exit);
 /// Only if CLAYSTACK_BENCH is on.
 void add_bench_command(CLI::App& app, Console& console, int& exit);
 

@@ -1,5 +1,7 @@
 #include "app/cli/console.hpp"
 #include "app/cli/json_output.hpp"
+#include "app/cli/memory_room.hpp"
+#include "claystack/core/atomic_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -7,9 +9,11 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <limits>
@@ -34,8 +38,34 @@ void reserve_standard_streams() noexcept {
 }
 
 int out_of_memory() noexcept {
-  put_err("claystack: out of memory; close other programs, or choose a smaller job\n");
+  if (memory_limit() == 0) {
+    put_err("claystack: out of memory; close other programs, or choose a smaller job\n");
+    return kIoFailed;
+  }
+  std::array<char, 160> text{};  // without an allocation
+  const int size = std::snprintf(
+      text.data(), text.size(),
+      "claystack: out of memory, with a limit of %.2g GB; raise --memory, close other programs, or "
+      "choose a smaller job\n",
+      static_cast<double>(memory_limit()) / 1e9);
+  put_err({text.data(), static_cast<std::size_t>(size)});
   return kIoFailed;
+}
+
+/// For std::terminate: a destructor of the JSON library allocates, and threads have no handler; so
+/// an allocation that failed may end here. Not where a handler of SIGABRT releases a device.
+[[noreturn]] void end_without_memory() noexcept {
+  struct sigaction abort_action {};
+  const bool released =
+      ::sigaction(SIGABRT, nullptr, &abort_action) == 0 && abort_action.sa_handler == SIG_DFL;
+  try {
+    if (released && std::current_exception()) std::rethrow_exception(std::current_exception());
+  } catch (const std::bad_alloc&) {
+    remove_temporary_files();
+    ::_exit(out_of_memory());
+  } catch (...) {
+  }
+  std::abort();
 }
 
 int unexpected(const char* what) noexcept {
@@ -156,6 +186,7 @@ int report(const CLI::App& app, const CLI::ParseError& error) {
 int run_program(int (*run)(int argc, char** argv), int argc, char** argv) noexcept {
   reserve_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN);
+  std::set_terminate(end_without_memory);
   try {
     const int exit = run(argc, argv);
     // Output that could not be printed is a failure.

@@ -1,6 +1,7 @@
 #include "app/cli/import_mesh.hpp"
 
 #include "app/cli/json_output.hpp"
+#include "app/cli/mesh_input.hpp"
 #include "app/cli/pot_copy.hpp"
 
 #include "claystack/core/atomic_file.hpp"
@@ -17,6 +18,9 @@ namespace clay::cli {
 namespace {
 
 using namespace importing;
+
+/// Measured: of mesh_pot, in addition to the mesh.
+constexpr std::uint64_t kImportBytesPerTriangle = 100;
 
 Json vector_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
@@ -67,11 +71,10 @@ void tell(const Console& console, const MeshPot& made, double mesh_mm3) {
 
 Result<void> import_mesh(const std::string& path, const std::string& pot,
                          const MeshPotSettings& settings, const Console& console) {
-  constexpr std::size_t kMostMeshBytes = std::size_t{1} << 30;
   const auto format = solid::mesh_format_of(path);
   if (!format) return tl::make_unexpected(format.error());
-  auto mesh = read_file(path, kMostMeshBytes).and_then([&](const std::string& bytes) {
-    return solid::decode_mesh(bytes, *format, path);
+  const auto mesh = MeshFile::open(path, *format).and_then([](MeshFile file) {
+    return file.read({"importing", kImportBytesPerTriangle});
   });
   if (!mesh) return tl::make_unexpected(mesh.error());
   const auto made = mesh_pot(*mesh, settings, path);

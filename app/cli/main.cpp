@@ -1,5 +1,6 @@
 #include "app/cli/commands.hpp"
 
+#include "app/cli/memory_room.hpp"
 #include "app/cli/suggestion.hpp"
 #include "claystack/core/atomic_file.hpp"
 
@@ -24,6 +25,9 @@ Examples:
   claystack studio
   claystack bench --quick --report bench.html
   claystack help export
+  claystack doctor
+
+Once installed: cp -r )" CLAYSTACK_DATA R"(/samples .
 
 Exit status: 0 done and sound; 1 done, but the pot or mesh fails a check;
 2 bad usage or bad input; 3 could not read or write; 4 a device failed.)";
@@ -43,6 +47,16 @@ void handle_signals() {
 }
 
 using namespace clay::cli;
+
+void add_memory_option(CLI::App& command) {
+  command
+      .add_option_function<std::uint64_t>(
+          "--memory", [](std::uint64_t bytes) { limit_memory(bytes); },
+          "Limit on the memory of this command [bytes, or with a unit: 512MiB, 2GiB]; default: "
+          "4GiB. A job that cannot fit is refused, with exit status 3")
+      ->transform(CLI::AsSizeValue(false).description(""))
+      ->type_name("SIZE");
+}
 
 void add_commands(CLI::App& app, Console& console, int& exit) {
   add_throw_command(app, console, exit);
@@ -67,13 +81,17 @@ void add_commands(CLI::App& app, Console& console, int& exit) {
 #ifdef CLAYSTACK_STUDIO
   add_studio_command(app, exit);
 #endif
+  add_batch_command(app, console, exit);
+  add_doctor_command(app, console, exit);
   for (CLI::App* command : app.get_subcommands({})) {
     if (command->get_name() == "studio") continue;  // passes all its arguments to another program
     command->add_flag("--json", console.json, "Print data as JSON on standard output");
     command->add_flag("-q,--quiet", console.quiet, "Print errors only");
+    add_memory_option(*command);
     if (command->get_name() == "throw" || command->get_name() == "export")
       command->add_flag("-v,--verbose", console.verbose, "Also print volumes, proofs and timings");
   }
+  add_manual_command(app, exit);
 }
 
 std::vector<std::string> command_names(const CLI::App& app) {
@@ -141,6 +159,8 @@ int run(int argc, char** argv) {
   if (!words.empty())
     if (const auto named = check_command_name(app, words.front()); !named)
       return report(named.error());
+  // The window is a program of its own, for which no limit is known in advance.
+  if (words.empty() || words.front() != "studio") limit_memory(kDefaultMemory);
   try {
     std::ranges::reverse(words);  // as the parser wants them
     app.parse(std::move(words));

@@ -1,5 +1,6 @@
 #include "app/cli/packed_pot.hpp"
 
+#include "app/cli/memory_room.hpp"
 #include "claystack/engine/files.hpp"
 #ifdef CLAYSTACK_WINDOW
 #include "app/render/image_file.hpp"
@@ -12,14 +13,16 @@
 namespace clay::cli {
 namespace {
 
-/// PNG; empty without a renderer.
+/// PNG; empty without a renderer, or memory for it.
 std::string thumbnail_of([[maybe_unused]] const Pot& pot) {
 #ifdef CLAYSTACK_WINDOW
-  constexpr render::Viewport kSize{256, 256};
+  constexpr int kSide = 256;
+  constexpr render::Viewport kSize{kSide, kSide};
   render::Picture picture;
   picture.pot = render::view_of(pot);
   picture.camera = render::framed(picture.pot, kSize.aspect());
-  return render::Offscreen::create()
+  return expect_room_to_draw(kSide * kSide)
+      .and_then([] { return render::Offscreen::create(); })
       .and_then([&](render::Offscreen screen) { return screen.draw(picture, kSize); })
       .map(render::png_of)
       .value_or(std::string());

@@ -1,4 +1,5 @@
 #include "app/cli/render_job.hpp"
+#include "app/cli/memory_room.hpp"
 #include "app/cli/pot_input.hpp"
 
 #include "app/render/image_file.hpp"
@@ -184,7 +185,9 @@ Result<Rendered> render(const RenderCommand& command, const Console& console) {
   Rendered done;
   const auto picture = picture_of(command, done);
   if (!picture) return tl::make_unexpected(picture.error());
-  auto screen = render::Offscreen::create();
+  auto screen = expect_room_to_draw(static_cast<std::uint64_t>(command.size.width_px) *
+                                    static_cast<std::uint64_t>(command.size.height_px))
+                    .and_then([] { return render::Offscreen::create(); });
   if (!screen) return tl::make_unexpected(screen.error());
   done.renderer = screen->renderer();
   // Picture and animation are both made before either is published.

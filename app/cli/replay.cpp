@@ -1,4 +1,5 @@
 #include "app/cli/replay.hpp"
+#include "app/cli/memory_room.hpp"
 #include "app/cli/pot_input.hpp"
 
 #include "claystack/core/atomic_file.hpp"
@@ -98,8 +99,11 @@ Result<Wheel> build_wheel(const SceneSpec& scene, const std::string& scene_path,
 }
 
 Result<Session> load_session(const std::string& path) {
+  constexpr std::size_t kUsualBytesPerPose = 20;
   return read_file(path, kMaxSessionBytes).and_then([&](const std::string& text) {
-    return parse_session(text, path);
+    return expect_room(path + ": reading the session",
+                       text.size() / kUsualBytesPerPose * sizeof(Pose))
+        .and_then([&] { return parse_session(text, path); });
   });
 }
 

@@ -47,17 +47,14 @@ void add_report_options(CLI::App& parser, StudioOptions& options) {
 
 }  // namespace
 
-std::optional<int> parse(int argc, char** argv, double smallest_scale, double largest_scale,
-                         StudioOptions& options) {
-  CLI::App parser("The window: throw pots with the mouse or an arm, view, save and export them.",
-                  "claystack studio");
+void add_studio_options(CLI::App& parser, double smallest_scale, double largest_scale,
+                        StudioOptions& options) {
   parser.add_option("file", options.file, "NAME.scene.json, a pot, or NAME.work");
   add_device_options(parser, options);
   parser.add_option("--script", options.script, "Script that drives the window without a screen");
   parser.add_option("--screenshot", options.screenshot,
                     "Picture of the window at the end, a .png file (without a screen)");
-  std::string size = "1280x800";
-  parser.add_option("--size", size, "Size of the window [px] (default 1280x800)");
+  parser.add_option("--size", options.size, "Size of the window [px] (default 1280x800)");
   parser.add_option("--scale", options.scale, "Scale of text and controls (default: as stored)")
       ->check(in_range(smallest_scale, largest_scale));
   parser.add_option("--theme", options.theme, "Theme: dark or light (default: as stored)")
@@ -67,12 +64,19 @@ std::optional<int> parse(int argc, char** argv, double smallest_scale, double la
   parser.footer(
       "\nExamples:\n  claystack studio\n  claystack studio samples/bowl.scene.json\n"
       "  claystack studio vase.pot.json --script samples/window/throw.script");
+}
+
+std::optional<int> parse(int argc, char** argv, double smallest_scale, double largest_scale,
+                         StudioOptions& options) {
+  CLI::App parser("The window: throw pots with the mouse or an arm, view, save and export them.",
+                  "claystack studio");
+  add_studio_options(parser, smallest_scale, largest_scale, options);
   try {
     parser.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return report(parser, error);
   }
-  const auto size_px = size_of(size);
+  const auto size_px = size_of(options.size);
   if (!size_px) return report(size_px.error());
   options.size_px = *size_px;
   return std::nullopt;

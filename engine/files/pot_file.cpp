@@ -143,8 +143,9 @@ PotRecord record_of(const Pot& pot, bool for_people) {
 
 Result<Pot> pot_from(const LocatedJson& document, const PotRecord& record) {
   const auto& rounded = record.rounded_rings;
-  const RingArrays arrays =
-      rounded ? exact_rings(*rounded, *RadiusGrid::of(rounded->rounded_to_mm)) : *record.rings;
+  RingArrays exact;
+  if (rounded) exact = exact_rings(*rounded, *RadiusGrid::of(rounded->rounded_to_mm));
+  const RingArrays& arrays = rounded ? exact : *record.rings;
   std::vector<Ring> rings(arrays.outer2.size());
   for (std::size_t i = 0; i < rings.size(); ++i) rings[i] = {arrays.outer2[i], arrays.inner2[i]};
   auto stack = ClayStack::from_rings(record.ring_height_mm, std::move(rings), record.crown,

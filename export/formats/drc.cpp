@@ -1,5 +1,6 @@
 #include "claystack/export/formats.hpp"
 #include "export/formats/draco_bits.hpp"
+#include "export/formats/draco_counts.hpp"
 #include "export/formats/draco_grid.hpp"
 #include "export/formats/draco_mesh.hpp"
 #include "export/formats/draco_metadata.hpp"
@@ -131,6 +132,8 @@ Result<std::optional<DracoMetadata>> read_metadata(std::string_view bytes, std::
 
 /// Decodes a file without metadata.
 Result<TriangleMesh> decode_plain(std::string_view bytes, std::string_view name) {
+  if (const auto counts = draco_counts(bytes, name); !counts)
+    return tl::make_unexpected(counts.error());
   draco::DecoderBuffer buffer;
   buffer.Init(bytes.data(), bytes.size());
   draco::Decoder decoder;
@@ -189,6 +192,17 @@ Result<TriangleMesh> decode_drc(std::string_view bytes, std::string_view name) {
       return metadata ? decode_plain(without_metadata(bytes, *metadata), name)
                       : decode_plain(bytes, name);
     });
+  });
+}
+
+Result<std::size_t> drc_triangles(std::string_view bytes, std::string_view name) {
+  return guarded(name, [&] {
+    return read_metadata(bytes, name)
+        .and_then([&](const std::optional<DracoMetadata>& metadata) {
+          return metadata ? draco_counts(without_metadata(bytes, *metadata), name)
+                          : draco_counts(bytes, name);
+        })
+        .map([](const DracoCounts& counts) { return std::size_t{counts.triangles}; });
   });
 }
 

@@ -13,6 +13,10 @@ Result<TriangleMesh> decode_drc(std::string_view, std::string_view name) {
   return bad_file(name, "cannot read .drc: this build has no Draco");
 }
 
+Result<std::size_t> drc_triangles(std::string_view, std::string_view name) {
+  return bad_file(name, "cannot read .drc: this build has no Draco");
+}
+
 Result<std::optional<DracoClaims>> drc_claims(std::string_view, std::string_view name) {
   return bad_file(name, "cannot read .drc: this build has no Draco");
 }

@@ -2,7 +2,9 @@
 // Damaged files for tests of readers.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <random>
 #include <span>
 #include <string>
@@ -15,9 +17,10 @@ namespace clay::test {
 /// libraries, so numbers are drawn by remainder.
 class Mutator {
  public:
-  /// `words`: of the format, or hostile to it.
-  Mutator(unsigned seed, std::span<const std::string_view> words)
-      : words_(words.begin(), words.end()), random_(seed) {}
+  /// `words`: of the format, or hostile to it; they replace what is between two `delimiters`.
+  Mutator(unsigned seed, std::span<const std::string_view> words,
+          std::string_view delimiters = " \n")
+      : words_(words.begin(), words.end()), delimiters_(delimiters), random_(seed) {}
 
   std::string mutate(std::string bytes) {
     for (std::size_t left = 1 + below(3); left > 0; --left) mutate_once(bytes);
@@ -31,7 +34,7 @@ class Mutator {
     if (bytes.empty()) bytes = words_.back();
     const std::size_t at = below(bytes.size());
     const std::size_t length = 1 + below(std::min<std::size_t>(bytes.size() - at, 64));
-    switch (below(8)) {
+    switch (below(10)) {
       case 0:
         bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(8)));
         break;
@@ -53,18 +56,35 @@ class Mutator {
       case 6:
         bytes.insert(at, words_[below(words_.size())]);
         break;
+      case 7:
+        replace_count(bytes, at);
+        break;
       default:
         replace_word(bytes, at, words_[below(words_.size())]);
         break;
     }
   }
 
-  static void replace_word(std::string& bytes, std::size_t at, std::string_view word) {
-    const std::size_t end = std::min(bytes.find_first_of(" \n", at), bytes.size());
-    bytes.replace(at, end - at, word);
+  /// As binary formats store counts and offsets: 4 bytes, the lowest first, on a boundary.
+  void replace_count(std::string& bytes, std::size_t at) {
+    constexpr std::array<std::uint32_t, 8> kCounts{0,       1,          3,          0x7FFF,
+                                                   0x10000, 20'000'001, 0x7FFFFFFF, 0xFFFFFFFF};
+    const std::uint32_t count = kCounts[below(kCounts.size())];
+    at -= at % 4;
+    for (std::size_t i = 0; i < 4 && at + i < bytes.size(); ++i)
+      bytes[at + i] = static_cast<char>(count >> (8 * i) & 0xFFU);
+  }
+
+  /// The whole word around `at`.
+  void replace_word(std::string& bytes, std::size_t at, std::string_view word) const {
+    const std::size_t before = bytes.find_last_of(delimiters_, at);
+    const std::size_t begin = before == std::string::npos ? 0 : std::min(before + 1, at);
+    const std::size_t end = std::min(bytes.find_first_of(delimiters_, at), bytes.size());
+    bytes.replace(begin, end - begin, word);
   }
 
   std::vector<std::string_view> words_;
+  std::string_view delimiters_;
   std::mt19937 random_;
 };
 

@@ -95,6 +95,62 @@ TEST(CheckLarge, RefusesAMeshThatNeedsTooMuchMemoryInAdvance) {
       << run.err;
 }
 
+/// A pot of `rings` equal rings, as JSON.
+std::string tall_pot(std::size_t rings) {
+  constexpr std::int64_t kOuter2 = 100LL << 36, kInner2 = 50LL << 36;
+  const auto repeated = [&](std::int64_t value) {
+    std::string list = std::to_string(value);
+    for (std::size_t i = 1; i < rings; ++i) list.append(",").append(std::to_string(value));
+    return list;
+  };
+  const std::string count = std::to_string(rings);
+  return R"({"schema":"claystack-pot-1","written_by":"test","model":"conserving",)"
+         R"("density_g_cm3":1.9,"ring_height_mm":0.001,"max_rings":)" +
+         count + R"(,"quantum_mm2":"2^-36","rings":{"outer2":[)" + repeated(kOuter2) +
+         R"(],"inner2":[)" + repeated(kInner2) + R"(]},"crown":"0","ledger":{"initial":")" +
+         std::to_string((kOuter2 - kInner2) * static_cast<std::int64_t>(rings)) +
+         R"(","added":"0","trimmed":"0","outside":"0"},"collapse":null})";
+}
+
+TEST(MemoryLimit, RefusesAPotThatDoesNotFitInAdvance) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("tall.pot.json");
+  write_text(pot, tall_pot(600'000));
+  const auto copy_with = [&](const std::string& memory) {
+    return claystack("export -q --memory " + memory + " " + pot + " " +
+                     folder.file("copy.pot.cbor"));
+  };
+  const Ran refused = copy_with("60MiB");
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_NE(
+      refused.err.find("tall.pot.json: reading the pot needs about 0.058 GB of memory, found"),
+      std::string::npos)
+      << refused.err;
+  EXPECT_NE(refused.err.find("left under the limit --memory"), std::string::npos) << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("copy.pot.cbor")));
+  const Ran done = copy_with("200MiB");
+  EXPECT_EQ(done.status, 0) << done.err;
+}
+
+TEST(MemoryLimit, EndsWorkThatGrowsBeyondIt) {
+  // The estimate does not cover what an export makes of the pot.
+  const ScratchFolder folder;
+  write_text(folder.file("tall.pot.json"), tall_pot(600'000));
+  const Ran run = claystack("export -q --memory 85MiB " + folder.file("tall.pot.json") + " " +
+                            folder.file("tall.obj"));
+  EXPECT_EQ(run.status, 3) << run.err;
+  EXPECT_NE(run.err.find("out of memory, with a limit of 0.089 GB"), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("tall.obj")));
+}
+
+TEST(MemoryLimit, IsAnOptionOfEveryCommand) {
+  for (const std::string command :
+       {"throw", "export", "check", "strokes", "plan", "batch", "doctor"})
+    EXPECT_NE(claystack(command + " --help").out.find("--memory SIZE "), std::string::npos)
+        << command;
+  EXPECT_EQ(claystack("doctor --memory much").status, 2);
+}
+
 TEST(CheckLarge, RefusesATooLongTextInAdvance) {
   const ScratchFolder folder;
   write_text(folder.file("long.stl"), "solid long\n");

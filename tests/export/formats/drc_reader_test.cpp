@@ -108,6 +108,46 @@ TEST(ReadDrc, ReadsOlderVersions) {
   EXPECT_FALSE(decode_drc(old_file(0, 9), "pot.drc"));
 }
 
+/// Seven bits per byte, the lowest first.
+std::string packed(std::uint32_t value) {
+  std::string bytes;
+  for (; value >= 0x80U; value >>= 7) bytes += static_cast<char>(value | 0x80U);
+  return bytes + static_cast<char>(value);
+}
+
+TEST(ReadDrc, RefusesCountsThatWouldTakeGigabytes) {
+  // Draco allocates by the counts at the start, before it finds that the file ends.
+  const auto edgebreaker = [](std::uint32_t points, std::uint32_t triangles, std::uint32_t splits) {
+    return std::string("DRACO\2\2\1\1\0\0\0", 12) + packed(points) + packed(triangles) + '\0' +
+           packed(4) + packed(splits);
+  };
+  const auto sequential = [](std::uint32_t points, std::uint32_t triangles) {
+    return std::string("DRACO\2\2\1\0\0\0", 11) + packed(triangles) + packed(points);
+  };
+  const std::string triangles = "pot.drc: expected 1 to 20000000 triangles, found ",
+                    points = "pot.drc: expected at most 60000000 points, found ";
+  EXPECT_EQ(message_of(decode_drc(edgebreaker(4, 300'000'000, 0), "pot.drc")),
+            triangles + "300000000");
+  EXPECT_EQ(message_of(decode_drc(edgebreaker(4, 0, 0), "pot.drc")), triangles + "0");
+  EXPECT_EQ(message_of(decode_drc(edgebreaker(400'000'000, 4, 0), "pot.drc")),
+            points + "400000000");
+  EXPECT_EQ(message_of(decode_drc(edgebreaker(4, 4, 400'000'000), "pot.drc")),
+            points + "400000004");
+  EXPECT_EQ(message_of(decode_drc(sequential(4, 20'000'001), "pot.drc")), triangles + "20000001");
+  EXPECT_EQ(message_of(decode_drc(sequential(60'000'001, 4), "pot.drc")), points + "60000001");
+}
+
+TEST(ReadDrc, StatesItsTrianglesBeforeDecoding) {
+  DracoSettings settings;
+  const std::string plain = encode_drc(torus(6, 5), settings).value();
+  EXPECT_EQ(drc_triangles(plain, "pot.drc").value(), 60U);
+  const DracoClaims claims{.volume_mm3 = 1.0, .vertex_error_mm = 0.01};
+  EXPECT_EQ(drc_triangles(encode_drc(torus(6, 5), settings, &claims).value(), "pot.drc").value(),
+            60U);
+  for (const auto& [major, minor] : {std::pair{1, 0}, {2, 1}, {2, 2}})
+    EXPECT_EQ(drc_triangles(old_file(major, minor), "pot.drc").value(), 4U);
+}
+
 /// A mesh made by Draco itself, with the properties that the test sets.
 struct DracoFile {
   int components = 3;

@@ -191,6 +191,9 @@ Result<TriangleMesh> decode_obj(std::string_view bytes, std::string_view name,
 /// damaged file may decode to another mesh. Files with claims of Claystack (`drc_claims`) have one,
 /// and are refused if it does not match.
 Result<TriangleMesh> decode_drc(std::string_view bytes, std::string_view name);
+/// The number of triangles that a Draco file states, 1 to 20 million, before any of it is decoded:
+/// for an estimate of the memory. Errors as for `decode_drc`.
+Result<std::size_t> drc_triangles(std::string_view bytes, std::string_view name);
 
 /// PLY 1.0 as text or binary of either byte order. Vertices need the properties x, y and z of any
 /// number type; faces a list `vertex_indices` or `vertex_index`, of up to 4096 corners, which

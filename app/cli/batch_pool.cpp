@@ -1,0 +1,176 @@
+#include "app/cli/batch_pool.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <list>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+namespace clay::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kMostOutput = std::size_t{1} << 20;
+constexpr int kPollMs = 50;
+
+tl::unexpected<Error> system_failure(const char* what) {
+  return failure(ErrorKind::io,
+                 std::string("batch: ") + what + ": " + std::generic_category().message(errno));
+}
+
+/// The reading end of a pipe from a process; closed with it.
+class Output {
+ public:
+  explicit Output(int descriptor) : descriptor_(descriptor) {}
+  Output(Output&& other) noexcept
+      : descriptor_(std::exchange(other.descriptor_, -1)), text_(std::move(other.text_)) {}
+  Output& operator=(Output&&) = delete;
+  ~Output() {
+    if (descriptor_ != -1) ::close(descriptor_);
+  }
+
+  /// Takes what is there without waiting; what exceeds kMostOutput is dropped.
+  void drain() {
+    std::array<char, 4096> part;
+    for (;;) {
+      const auto count = ::read(descriptor_, part.data(), part.size());
+      if (count <= 0) return;
+      text_.append(part.data(),
+                   std::min(static_cast<std::size_t>(count), kMostOutput - text_.size()));
+    }
+  }
+  [[nodiscard]] pollfd polled() const { return {descriptor_, POLLIN, 0}; }
+  [[nodiscard]] std::string take() { return std::move(text_); }
+
+ private:
+  int descriptor_;
+  std::string text_;
+};
+
+struct Running {
+  std::size_t job;
+  pid_t process;
+  Clock::time_point begin;
+  Output out, err;
+  bool timed_out = false;
+};
+
+/// In the child: never returns.
+[[noreturn]] void become(const std::vector<std::string>& words, int out, int err) {
+  // A group of its own, so that a time limit ends all of its processes; and no job outlives the
+  // batch.
+  (void)::setpgid(0, 0);
+  (void)::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  const int nothing = ::open("/dev/null", O_RDONLY);
+  if (nothing != -1) (void)::dup2(nothing, STDIN_FILENO);
+  (void)::dup2(out, STDOUT_FILENO);
+  (void)::dup2(err, STDERR_FILENO);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE}) ::signal(signal, SIG_DFL);
+  std::vector<char*> pointers;
+  static std::string program = "claystack";
+  pointers.push_back(program.data());
+  for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
+  pointers.push_back(nullptr);
+  ::execv("/proc/self/exe", pointers.data());
+  ::_exit(127);
+}
+
+Result<Running> start(const std::vector<BatchJob>& jobs, std::size_t job) {
+  std::array<int, 2> out{}, err{};
+  if (::pipe2(out.data(), O_CLOEXEC) != 0) return system_failure("cannot make a pipe");
+  Output out_end(out[0]);
+  if (::pipe2(err.data(), O_CLOEXEC) != 0) {
+    ::close(out[1]);
+    return system_failure("cannot make a pipe");
+  }
+  Output err_end(err[0]);
+  const pid_t process = ::fork();
+  if (process == 0) become(jobs[job].words, out[1], err[1]);
+  const int failed = errno;
+  ::close(out[1]);
+  ::close(err[1]);
+  errno = failed;
+  if (process == -1) return system_failure("cannot start a process");
+  for (const int end : {out[0], err[0]}) (void)::fcntl(end, F_SETFL, O_NONBLOCK);
+  return Running{job, process, Clock::now(), std::move(out_end), std::move(err_end)};
+}
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// Empty while it runs.
+std::optional<BatchOutcome> outcome_of(Running& running) {
+  running.out.drain();
+  running.err.drain();
+  int status = 0;
+  if (::waitpid(running.process, &status, WNOHANG) != running.process) return std::nullopt;
+  running.out.drain();
+  running.err.drain();
+  BatchOutcome outcome{running.job,
+                       WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status),
+                       running.timed_out,
+                       seconds_since(running.begin),
+                       {},
+                       {}};
+  outcome.out = running.out.take();
+  outcome.err = running.err.take();
+  return outcome;
+}
+
+void wait_for_any(const std::list<Running>& all) {
+  std::vector<pollfd> ends;
+  for (const Running& running : all) {
+    ends.push_back(running.out.polled());
+    ends.push_back(running.err.polled());
+  }
+  (void)::poll(ends.data(), ends.size(), kPollMs);
+}
+
+}  // namespace
+
+Result<void> run_batch(const std::vector<BatchJob>& jobs, const BatchPool& pool,
+                       const std::function<bool(const BatchOutcome&)>& done) {
+  std::list<Running> all;
+  std::size_t next = 0;
+  Result<void> result;
+  while (!all.empty() || next < jobs.size()) {
+    while (next < jobs.size() && all.size() < pool.processes) {
+      auto started = start(jobs, next++);
+      if (started) {
+        all.push_back(std::move(*started));
+      } else {
+        result = tl::make_unexpected(started.error());
+        next = jobs.size();
+      }
+    }
+    wait_for_any(all);
+    for (auto running = all.begin(); running != all.end();) {
+      const auto outcome = outcome_of(*running);
+      if (outcome) {
+        if (!done(*outcome)) next = jobs.size();
+        running = all.erase(running);
+        continue;
+      }
+      if (pool.time_limit.count() > 0.0 && !running->timed_out &&
+          seconds_since(running->begin) > pool.time_limit.count()) {
+        running->timed_out = true;
+        if (::kill(-running->process, SIGKILL) != 0) (void)::kill(running->process, SIGKILL);
+      }
+      ++running;
+    }
+  }
+  return result;
+}
+
+}  // namespace clay::cli

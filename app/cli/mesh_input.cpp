@@ -1,0 +1,79 @@
+#include "app/cli/mesh_input.hpp"
+
+#include "app/cli/memory_room.hpp"
+#include "claystack/core/atomic_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <span>
+#include <utility>
+
+namespace clay::cli {
+namespace {
+
+using solid::MeshFormat;
+using solid::TriangleMesh;
+
+/// Of a file that states its triangles at no fixed place.
+constexpr std::uint64_t kUsualBytesPerTriangle = 16;
+/// Of Draco's own structures while it decodes.
+constexpr std::uint64_t kDracoBytesPerTriangle = 130;
+/// A closed mesh has half as many points as triangles.
+constexpr std::uint64_t kMeshBytesPerTriangle =
+    sizeof(decltype(TriangleMesh::triangles)::value_type) + sizeof(glm::dvec3) / 2;
+
+Result<void> expect_room_for(std::uint64_t triangles, std::uint64_t bytes_per_triangle,
+                             const MeshWork& work, const std::string& path) {
+  return expect_room(fmt::format("{}: {} about {} triangles", path, work.name, triangles),
+                     triangles * (kMeshBytesPerTriangle + bytes_per_triangle));
+}
+
+}  // namespace
+
+Result<MeshFile> MeshFile::open(const std::string& path, MeshFormat format, bool keep_bytes) {
+  auto reader = FileReader::open(path);
+  if (!reader) return tl::make_unexpected(reader.error());
+  MeshFile file(path, format);
+  if (!keep_bytes && solid::facts_of(format).streamed && reader->size()) {
+    file.stream_ = std::move(*reader);
+    return file;
+  }
+  auto bytes = read_file(path);
+  if (!bytes) return tl::make_unexpected(bytes.error());
+  file.bytes_ = std::move(*bytes);
+  return file;
+}
+
+MeshFile MeshFile::of_bytes(std::string name, MeshFormat format, std::string bytes) {
+  MeshFile file(std::move(name), format);
+  file.bytes_ = std::move(bytes);
+  return file;
+}
+
+Result<std::uint64_t> MeshFile::whole_triangles() const {
+  if (format_ == MeshFormat::drc)
+    return solid::drc_triangles(bytes_, path_).map([](std::size_t n) { return std::uint64_t{n}; });
+  return std::uint64_t{bytes_.size() / kUsualBytesPerTriangle};
+}
+
+Result<TriangleMesh> MeshFile::read(const MeshWork& work, const solid::ReadOptions& options) {
+  if (!stream_)
+    return whole_triangles()
+        .and_then([&](std::uint64_t triangles) {
+          const std::uint64_t decoding = format_ == MeshFormat::drc ? kDracoBytesPerTriangle : 0;
+          return expect_room_for(triangles, std::max(decoding, work.bytes_per_triangle), work,
+                                 path_);
+        })
+        .and_then([&] { return solid::decode_mesh(bytes_, format_, path_, options); });
+  const solid::ByteSource source{
+      [&](std::span<char> part) { return stream_->read(part); }, *stream_->size(),
+      [&](std::uint64_t triangles) {
+        return expect_room_for(triangles, work.bytes_per_triangle, work, path_);
+      }};
+  return solid::read_mesh(source, format_, path_, options);
+}
+
+}  // namespace clay::cli

@@ -1,0 +1,209 @@
+"""Throw pots on a virtual wheel, export them as proved solids, check any mesh.
+
+Lengths are in mm, volumes in mm3, densities in g/cm3. Arrays show the memory of the pot or mesh
+without a copy and cannot be written to. Every failure is an `Error`.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from dataclasses import dataclass, field
+from typing import Optional, Sequence, Union
+
+import numpy as np
+
+from . import _native
+
+__version__: str = _native.version
+__all__ = [
+    "Check", "Error", "Export", "File", "Mesh", "Pot", "Problem", "check", "export",
+    "import_pot", "mesh", "read_mesh", "read_pot", "stack", "throw",
+]
+
+_STATUS = {"unsound": 1, "bad_input": 2, "io": 3, "device": 4}
+_QUANTUM_MM2 = 2.0**-36
+
+
+class Error(Exception):
+    """A failure: `message` as the command line prints it, `file` and `place` (a line, a facet, a
+    field) if it names them, `kind` (unsound, bad_input, io, device) and `code`, the exit status of
+    the command line."""
+
+    def __init__(self, kind: str, message: str):
+        super().__init__(message)
+        self.kind = kind
+        self.message = message
+        self.code = _STATUS[kind]
+        found = re.match(r"([^:\n]+\.\w+): ?(?:(\d+|facet \d+|[\w.\[\]]+): )?", message)
+        self.file: Optional[str] = found.group(1) if found else None
+        self.place: Optional[str] = found.group(2) if found else None
+
+
+def _call(function, *arguments):
+    try:
+        return function(*arguments)
+    except _native.Failure as failure:
+        raise Error(*failure.args) from None
+
+
+@dataclass(frozen=True)
+class Pot:
+    """A stack of rings of one height, the lowest first."""
+
+    ring_height_mm: float
+    height_mm: float
+    volume_mm3: float
+    density_g_cm3: float
+    collapsed: bool
+    quanta: np.ndarray = field(repr=False)  #: R^2 and r^2 of each ring [2^-36 mm2], int64, no copy
+    _native: _native.Pot = field(repr=False, compare=False)
+
+    @property
+    def outer_mm(self) -> np.ndarray:
+        """The outer radius of each ring."""
+        return np.sqrt(self.quanta[:, 0] * _QUANTUM_MM2)
+
+    @property
+    def inner_mm(self) -> np.ndarray:
+        """The inner radius of each ring; 0: it is solid."""
+        return np.sqrt(self.quanta[:, 1] * _QUANTUM_MM2)
+
+    @property
+    def weight_g(self) -> float:
+        """Of the clay as thrown."""
+        return 1e-3 * self.volume_mm3 * self.density_g_cm3
+
+    def write(self, path: Union[str, os.PathLike]) -> None:
+        """Writes a .pot.json or .pot.cbor."""
+        _call(_native.write_pot, self._native, os.fspath(path))
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Triangles of indices into points, counter-clockwise from outside; y is up in meshes of pots,
+    as in the files."""
+
+    points: np.ndarray = field(repr=False)  #: (n, 3) float64 [mm], no copy
+    triangles: np.ndarray = field(repr=False)  #: (m, 3) uint32, no copy
+    _native: _native.Mesh = field(repr=False, compare=False)
+
+
+@dataclass(frozen=True)
+class Problem:
+    what: str
+    where: str
+    fails: bool = True
+
+
+@dataclass(frozen=True)
+class File:
+    path: str
+    bytes: int
+    content_hash: str
+    max_error_mm: float
+
+
+@dataclass(frozen=True)
+class Export:
+    """What was written, and the measures of the solid."""
+
+    triangles: int
+    segments: int
+    diameter_mm: float
+    height_mm: float
+    volume_mm3: float
+    min_wall_mm: float
+    files: tuple[File, ...]
+    problems: tuple[Problem, ...]
+
+    @property
+    def sound(self) -> bool:
+        return not any(problem.fails for problem in self.problems)
+
+
+@dataclass(frozen=True)
+class Check:
+    """The verdict on a mesh."""
+
+    sound: bool
+    closed: bool
+    manifold: bool
+    oriented: bool
+    components: int
+    cavities: int
+    self_intersections: int
+    triangles: int
+    volume_mm3: float
+    problems: tuple[Problem, ...]
+
+
+def _pot(native) -> Pot:
+    return Pot(native.ring_height_mm, native.height_mm, native.volume_mm3, native.density_g_cm3,
+               native.collapsed, native.quanta, native)
+
+
+def _mesh(native) -> Mesh:
+    return Mesh(native.points, native.triangles, native)
+
+
+def _settings(tolerance_mm, smoothing, min_wall_mm, process, shrinkage, certificates=False):
+    return _native.ExportSettings(tolerance_mm, smoothing, min_wall_mm, process, shrinkage,
+                                  certificates)
+
+
+def throw(scene: Union[str, os.PathLike], session: Union[str, os.PathLike, None] = None) -> Pot:
+    """Plays a session on a scene; by default the session beside it, as the command line does."""
+    path = os.fspath(scene)
+    if session is None:
+        ending = ".scene.json"
+        session = (path[: -len(ending)] if path.endswith(ending) else path) + ".session"
+    return _pot(_call(_native.throw_pot, path, os.fspath(session)))
+
+
+def stack(ring_height_mm: float, outer_mm: Sequence[float], inner_mm: Sequence[float],
+          density_g_cm3: float = 1.9) -> Pot:
+    """A pot of given rings, the lowest first; an inner radius of 0 is solid."""
+    return _pot(_call(_native.stacked, ring_height_mm, list(map(float, outer_mm)),
+                      list(map(float, inner_mm)), density_g_cm3))
+
+
+def read_pot(path: Union[str, os.PathLike]) -> Pot:
+    """Reads a .pot.json, a .pot.cbor, or the pot inside a .3mf by Claystack."""
+    return _pot(_call(_native.read_pot, os.fspath(path)))
+
+
+def import_pot(path: Union[str, os.PathLike]) -> Pot:
+    """Makes a pot of a drawing (SVG, DXF, CSV) or of a mesh of revolution."""
+    return _pot(_call(_native.import_pot, os.fspath(path)))
+
+
+def export(pot: Pot, files: Sequence[Union[str, os.PathLike]], *, tolerance_mm: float = 0.02,
+           smoothing: str = "fair", min_wall_mm: Optional[float] = None,
+           process: Optional[str] = None, shrinkage: float = 0.0,
+           certificates: bool = False) -> Export:
+    """Proves the pot and writes all files, or none. The solids are those of `claystack export`."""
+    settings = _settings(tolerance_mm, smoothing, min_wall_mm, process, shrinkage, certificates)
+    report = _call(_native.export_pot, pot._native, [os.fspath(path) for path in files], settings)
+    report["files"] = tuple(File(**one) for one in report["files"])
+    report["problems"] = tuple(Problem(**one) for one in report["problems"])
+    return Export(**report)
+
+
+def mesh(pot: Pot, *, tolerance_mm: float = 0.02, smoothing: str = "fair") -> Mesh:
+    """The solid of a pot, as a binary STL holds it."""
+    return _mesh(_call(_native.mesh_of, pot._native,
+                       _settings(tolerance_mm, smoothing, None, None, 0.0)))
+
+
+def read_mesh(path: Union[str, os.PathLike]) -> Mesh:
+    """Reads STL, OBJ, DRC, PLY, OFF, 3MF or GLB."""
+    return _mesh(_call(_native.read_mesh, os.fspath(path)))
+
+
+def check(what: Union[Mesh, str, os.PathLike]) -> Check:
+    """Checks whether a mesh, or the mesh in a file, is a printable solid."""
+    found = what if isinstance(what, Mesh) else read_mesh(what)
+    report = _call(_native.check_mesh, found._native)
+    report["problems"] = tuple(Problem(**one) for one in report["problems"])
+    return Check(**report)

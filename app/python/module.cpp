@@ -1,0 +1,320 @@
+// The part of the Python package in C++: values and arrays. claystack/__init__.py makes dataclasses
+// of them.
+
+#include "app/cli/pot_copy.hpp"
+#include "app/cli/pot_input.hpp"
+#include "app/import/drawn_pot.hpp"
+#include "app/import/mesh_pot.hpp"
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
+#include "claystack/engine/wheel.hpp"
+#include "claystack/export/formats.hpp"
+#include "claystack/export/job.hpp"
+#include "claystack/export/proof.hpp"
+#include "claystack/version.hpp"
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace py = pybind11;
+
+namespace clay::python {
+namespace {
+
+/// Becomes claystack.Error, with its kind.
+struct Failed {
+  Error error;
+};
+
+template <class T>
+T value_of(Result<T> result) {
+  if (!result) throw Failed{std::move(result.error())};
+  if constexpr (!std::is_void_v<T>) return std::move(*result);
+}
+
+const char* name_of(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::unsound:
+      return "unsound";
+    case ErrorKind::bad_input:
+      return "bad_input";
+    case ErrorKind::io:
+      return "io";
+    case ErrorKind::device:
+      return "device";
+  }
+  return "bad_input";
+}
+
+/// An array that shows `data` without a copy and keeps `owner` alive; it cannot be written to.
+template <class T>
+py::array shown(const T* data, std::vector<py::ssize_t> shape, py::object owner) {
+  py::array_t<T> array(std::move(shape), data, std::move(owner));
+  array.attr("flags").attr("writeable") = false;
+  return std::move(array);
+}
+
+py::array points_of(const std::shared_ptr<solid::TriangleMesh>& mesh) {
+  static_assert(sizeof(glm::dvec3) == 3 * sizeof(double));
+  return shown(mesh->points.empty() ? nullptr : &mesh->points.front().x,
+               {static_cast<py::ssize_t>(mesh->points.size()), 3}, py::cast(mesh));
+}
+
+py::array triangles_of(const std::shared_ptr<solid::TriangleMesh>& mesh) {
+  return shown(mesh->triangles.empty() ? nullptr : mesh->triangles.front().data(),
+               {static_cast<py::ssize_t>(mesh->triangles.size()), 3}, py::cast(mesh));
+}
+
+/// The counts of R^2 and r^2 [2^-36 mm^2], one row per ring: the pot's own memory.
+py::array quanta_of(const std::shared_ptr<Pot>& pot) {
+  static_assert(sizeof(Ring) == 2 * sizeof(Quanta));
+  return shown(&pot->stack.rings().front().outer2, {static_cast<py::ssize_t>(pot->stack.size()), 2},
+               py::cast(pot));
+}
+
+std::shared_ptr<Pot> read_pot(const std::string& path) {
+  return std::make_shared<Pot>(value_of(cli::read_pot(path)));
+}
+
+void write_pot(const Pot& pot, const std::string& path) {
+  const auto encoding = cli::pot_encoding_of(path);
+  if (!encoding)
+    throw Failed{
+        {ErrorKind::bad_input, path + ": expected a name that ends in .pot.json or .pot.cbor"}};
+  value_of(publish(path, clay::write_pot(pot, *encoding)));
+}
+
+std::shared_ptr<Pot> throw_pot(const std::string& scene_path, const std::string& session_path) {
+  const SceneSpec scene = value_of(read_file(scene_path).and_then([&](const std::string& text) {
+    return parse_scene(text, scene_path);
+  }));
+  const Session session =
+      value_of(read_file(session_path, kMaxSessionBytes).and_then([&](const std::string& text) {
+        return parse_session(text, session_path);
+      }));
+  if (session.scene_hash != 0 && session.scene_hash != hash_of(scene))
+    throw Failed{{ErrorKind::bad_input, session_path + ": expected a session of " + scene_path +
+                                            ", found one of another"}};
+  Wheel wheel = value_of(Wheel::build(scene).map_error([&](Error error) {
+    return Error{error.kind, scene_path + ": " + error.message};
+  }));
+  for (const Pose& pose : session.poses) wheel.step(pose);
+  return std::make_shared<Pot>(wheel.pot());
+}
+
+std::shared_ptr<Pot> stacked(double ring_height_mm, const std::vector<double>& outer_mm,
+                             const std::vector<double>& inner_mm, double density_g_cm3) {
+  if (outer_mm.empty() || outer_mm.size() != inner_mm.size())
+    throw Failed{{ErrorKind::bad_input, "inner_mm: expected one radius for each of outer_mm"}};
+  std::vector<Ring> rings;
+  for (std::size_t i = 0; i < outer_mm.size(); ++i) {
+    for (const double radius : {outer_mm[i], inner_mm[i]})
+      if (!(radius >= 0.0 && radius <= kMaxRadiusMm))
+        throw Failed{{ErrorKind::bad_input,
+                      "ring " + std::to_string(i) + ": expected radii from 0 to 5000 mm"}};
+    rings.push_back({quanta_from_radius(outer_mm[i]), quanta_from_radius(inner_mm[i])});
+  }
+  const std::size_t count = rings.size();
+  ClayStack stack = value_of(ClayStack::from_rings(ring_height_mm, std::move(rings), 0, count));
+  const Ledger ledger{.initial = stack.recount()};
+  return std::make_shared<Pot>(
+      Pot{std::move(stack), ledger, Model::conserving, density_g_cm3, {}, {}});
+}
+
+struct ExportSettings {
+  double tolerance_mm;
+  std::string smoothing;
+  std::optional<double> min_wall_mm;
+  std::optional<std::string> process;
+  double shrinkage;
+  bool certificates;
+};
+
+solid::ExportOptions options_of(const ExportSettings& settings) {
+  solid::ExportOptions options;
+  options.tolerance_mm = settings.tolerance_mm;
+  options.smoothing = solid::Smoothing::none;
+  bool known = settings.smoothing == "none";
+  for (const auto mode : {solid::Smoothing::fair, solid::Smoothing::exact})
+    if (solid::name_of(mode) == settings.smoothing) options.smoothing = mode, known = true;
+  if (!known)
+    throw Failed{{ErrorKind::bad_input,
+                  "smoothing: expected fair, exact or none, found " + settings.smoothing}};
+  options.walls.min_wall_mm = settings.min_wall_mm;
+  if (settings.process) options.walls.process = value_of(solid::read_process(*settings.process));
+  options.shrinkage = settings.shrinkage;
+  return options;
+}
+
+py::dict report_of(const solid::ExportReport& report) {
+  py::list files, problems;
+  for (const solid::FileReport& file : report.files) {
+    py::dict one;
+    one["path"] = file.path;
+    one["bytes"] = file.bytes;
+    one["content_hash"] = file.content_hash;
+    one["max_error_mm"] = file.max_error_mm;
+    files.append(one);
+  }
+  for (const solid::Problem& problem : solid::problems_of(report)) {
+    py::dict one;
+    one["what"] = problem.fails ? "process" : "note";
+    one["where"] = problem.text;
+    one["fails"] = problem.fails;
+    problems.append(one);
+  }
+  py::dict dict;
+  dict["triangles"] = report.size.triangles;
+  dict["segments"] = report.size.segments;
+  dict["diameter_mm"] = report.size.diameter_mm;
+  dict["height_mm"] = report.size.height_mm;
+  dict["volume_mm3"] = report.volume.solid_mm3;
+  dict["min_wall_mm"] = report.thinnest_mm();
+  dict["files"] = files;
+  dict["problems"] = problems;
+  return dict;
+}
+
+py::dict export_pot(const Pot& pot, const std::vector<std::string>& paths,
+                    const ExportSettings& settings) {
+  solid::ExportRequest request;
+  request.options = options_of(settings);
+  request.certificates = settings.certificates;
+  for (const std::string& path : paths)
+    request.files.push_back(value_of(solid::file_request(path)));
+  if (!paths.empty()) request.options.name = paths.front();
+  solid::ExportReport report;
+  {
+    py::gil_scoped_release others_run;
+    report = value_of(solid::export_files(pot, request));
+  }
+  return report_of(report);
+}
+
+/// The mesh as a binary STL holds it.
+std::shared_ptr<solid::TriangleMesh> mesh_of(const Pot& pot, const ExportSettings& settings) {
+  const solid::ExportOptions options = options_of(settings);
+  py::gil_scoped_release others_run;
+  solid::MemoryStore store;
+  value_of(solid::run_export(pot, {{solid::MeshFormat::stl_binary, &store}}, options));
+  return std::make_shared<solid::TriangleMesh>(
+      value_of(solid::decode_mesh(store.bytes(), solid::MeshFormat::stl_binary, "mesh")));
+}
+
+std::shared_ptr<solid::TriangleMesh> read_mesh(const std::string& path) {
+  py::gil_scoped_release others_run;
+  const auto format = value_of(solid::mesh_format_of(path));
+  const std::string bytes = value_of(read_file(path));
+  return std::make_shared<solid::TriangleMesh>(value_of(solid::decode_mesh(bytes, format, path)));
+}
+
+py::dict check_mesh(const solid::TriangleMesh& mesh) {
+  solid::MeshReport report;
+  {
+    py::gil_scoped_release others_run;
+    report = solid::check_mesh(mesh);
+  }
+  if (report.out_of_memory) throw Failed{{ErrorKind::io, "not enough memory to check the mesh"}};
+  py::list problems;
+  for (const solid::MeshProblem& problem : report.problems) {
+    py::dict one;
+    one["what"] = problem.what;
+    one["where"] = problem.where;
+    one["fails"] = true;
+    problems.append(one);
+  }
+  py::dict dict;
+  dict["sound"] = report.sound();
+  dict["closed"] = report.closed;
+  dict["manifold"] = report.manifold;
+  dict["oriented"] = report.oriented;
+  dict["components"] = report.components;
+  dict["cavities"] = report.cavities;
+  dict["self_intersections"] = report.self_intersections;
+  dict["triangles"] = report.triangles;
+  dict["volume_mm3"] = report.volume_mm3;
+  dict["problems"] = problems;
+  return dict;
+}
+
+std::shared_ptr<Pot> import_pot(const std::string& path) {
+  py::gil_scoped_release others_run;
+  if (solid::mesh_format_of(path))
+    return std::make_shared<Pot>(
+        value_of(value_of(solid::mesh_format_of(path).and_then([&](solid::MeshFormat format) {
+          return read_file(path)
+              .and_then(
+                  [&](const std::string& bytes) { return solid::decode_mesh(bytes, format, path); })
+              .map([&](solid::TriangleMesh mesh) {
+                return importing::mesh_pot(std::move(mesh), {}, path);
+              });
+        }))).pot);
+  return std::make_shared<Pot>(value_of(read_file(path)
+                                            .and_then([&](const std::string& bytes) {
+                                              return importing::read_drawing(bytes, path);
+                                            })
+                                            .and_then([&](importing::Drawing drawing) {
+                                              return importing::half_section(std::move(drawing), {},
+                                                                             path);
+                                            })
+                                            .and_then([&](const importing::HalfSection& section) {
+                                              return importing::drawn_pot(section, {}, path);
+                                            }))
+                                   .pot);
+}
+
+void add_types(py::module_& module) {
+  py::class_<solid::TriangleMesh, std::shared_ptr<solid::TriangleMesh>>(module, "Mesh")
+      .def_property_readonly("points", &points_of)
+      .def_property_readonly("triangles", &triangles_of);
+  py::class_<Pot, std::shared_ptr<Pot>>(module, "Pot")
+      .def_property_readonly("quanta", &quanta_of)
+      .def_property_readonly("ring_height_mm",
+                             [](const Pot& pot) { return pot.stack.ring_height_mm(); })
+      .def_property_readonly("height_mm", [](const Pot& pot) { return pot.stack.height_mm(); })
+      .def_property_readonly("volume_mm3", [](const Pot& pot) { return pot.stack.volume_mm3(); })
+      .def_property_readonly("density_g_cm3", [](const Pot& pot) { return pot.density_g_cm3; })
+      .def_property_readonly("collapsed", [](const Pot& pot) { return pot.collapse.has_value(); });
+  py::class_<ExportSettings>(module, "ExportSettings")
+      .def(py::init<double, std::string, std::optional<double>, std::optional<std::string>, double,
+                    bool>());
+}
+
+void add_functions(py::module_& module) {
+  const auto released = py::call_guard<py::gil_scoped_release>();
+  module.def("read_pot", &read_pot, released);
+  module.def("write_pot", &write_pot, released);
+  module.def("throw_pot", &throw_pot, released);
+  module.def("stacked", &stacked);
+  module.def("export_pot", &export_pot);
+  module.def("mesh_of", &mesh_of);
+  module.def("read_mesh", &read_mesh);
+  module.def("check_mesh", &check_mesh);
+  module.def("import_pot", &import_pot);
+  module.attr("version") = CLAYSTACK_VERSION;
+}
+
+}  // namespace
+}  // namespace clay::python
+
+PYBIND11_MODULE(_native, module) {
+  using namespace clay::python;
+  static py::exception<Failed> failure(module, "Failure");
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const Failed& failed) {
+      const py::tuple arguments = py::make_tuple(name_of(failed.error.kind), failed.error.message);
+      PyErr_SetObject(failure.ptr(), arguments.ptr());
+    }
+  });
+  add_types(module);
+  add_functions(module);
+}

@@ -1,0 +1,136 @@
+// Many jobs in processes of their own: results, resumption, isolation.
+
+#include "tests/support/run_program.hpp"
+#include "tests/support/schema_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <sstream>
+
+namespace clay::test {
+namespace {
+
+/// By id.
+std::map<std::string, nlohmann::json> results_in(const std::string& text) {
+  std::map<std::string, nlohmann::json> results;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    nlohmann::json one = nlohmann::json::parse(line);
+    results[one.at("id")] = one;
+  }
+  return results;
+}
+
+nlohmann::json job(const std::string& id, std::vector<std::string> run) {
+  return {{"id", id}, {"run", run}};
+}
+
+class Batch : public testing::Test {
+ protected:
+  void write_jobs(const std::vector<nlohmann::json>& jobs) const {
+    std::string text;
+    for (const nlohmann::json& one : jobs) text += one.dump() + "\n";
+    write_text(folder.file("jobs.jsonl"), text);
+  }
+  [[nodiscard]] Ran run(const std::string& options) const {
+    return claystack("batch " + folder.file("jobs.jsonl") + " " + options);
+  }
+  /// A throw whose pot is written to NAME.
+  [[nodiscard]] nlohmann::json thrown(const std::string& name) const {
+    return job(name, {"throw", sample("cylinder.scene.json"), "-o", folder.file(name)});
+  }
+
+  ScratchFolder folder;
+};
+
+TEST_F(Batch, GivesALineOfTheSchemaForEachJob) {
+  write_text(folder.file("empty.stl"), "");
+  write_jobs({thrown("a.pot.json"), thrown("b.pot.cbor"),
+              job("bad", {"check", folder.file("empty.stl")}),
+              job("absent", {"check", folder.file("absent.stl")})});
+  const Ran ran = run("-j 3");
+  EXPECT_EQ(ran.status, 1) << ran.err;
+  const auto results = results_in(ran.out);
+  ASSERT_EQ(results.size(), 4u) << ran.out;
+  const auto schema = load_schema("batch");
+  for (const auto& [id, result] : results) EXPECT_EQ(violation(schema, result), "") << result;
+  EXPECT_EQ(results.at("a.pot.json").at("status"), 0);
+  EXPECT_EQ(results.at("a.pot.json").at("output").at("model"), "conserving");
+  EXPECT_EQ(results.at("bad").at("status"), 2);
+  EXPECT_EQ(results.at("absent").at("status"), 3);
+  // The same bytes as the command itself.
+  ASSERT_EQ(claystack("throw -q " + sample("cylinder.scene.json") + " -o " +
+                      folder.file("alone.pot.json"))
+                .status,
+            0);
+  EXPECT_EQ(read_text(folder.file("a.pot.json")), read_text(folder.file("alone.pot.json")));
+}
+
+TEST_F(Batch, ResumesAfterTheJobsThatHaveAVerdict) {
+  const std::string results = folder.file("results.jsonl");
+  write_jobs({thrown("a.pot.json"), job("absent", {"check", folder.file("late.pot.json")})});
+  ASSERT_EQ(run("-q -o " + results).status, 1);
+  // As a killed batch leaves it.
+  write_text(results, read_text(results) + R"({"schema":"claystack-ba)");
+  std::filesystem::remove(folder.file("a.pot.json"));
+  ASSERT_EQ(
+      claystack("throw -q " + sample("cylinder.scene.json") + " -o " + folder.file("late.pot.json"))
+          .status,
+      0);
+  const Ran again = run("-o " + results);
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(again.out, "2 jobs: 2 done, 0 failed; 1 of them were in " + results + " already\n");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.pot.json"))) << "it was not thrown again";
+  EXPECT_EQ(results_in(read_text(results)).at("absent").at("status"), 0);
+}
+
+TEST_F(Batch, IsolatesAJobThatTakesTooLong) {
+  // It reads a pipe into which nothing is written.
+  ASSERT_EQ(shell("mkfifo " + folder.file("pipe.pot.json")).status, 0);
+  write_jobs({job("stuck", {"check", folder.file("pipe.pot.json")}), thrown("a.pot.json")});
+  const Ran ran = run("-j 1 --time-limit 5");
+  EXPECT_EQ(ran.status, 1);
+  const auto results = results_in(ran.out);
+  EXPECT_EQ(results.at("stuck").at("error"), "the time limit ended it");
+  EXPECT_EQ(results.at("stuck").at("status"), 137);
+  EXPECT_EQ(results.at("a.pot.json").at("status"), 0);
+}
+
+TEST_F(Batch, SplitsIntoPartsThatTogetherAreAll) {
+  write_jobs({thrown("1.pot.json"), thrown("2.pot.json"), thrown("3.pot.json")});
+  const auto first = results_in(run("--part 1/2").out), second = results_in(run("--part 2/2").out);
+  EXPECT_TRUE(first.contains("1.pot.json") && first.contains("3.pot.json"));
+  EXPECT_EQ(first.size(), 2u);
+  EXPECT_EQ(second.size(), 1u);
+  EXPECT_TRUE(second.contains("2.pot.json"));
+  EXPECT_EQ(run("--part 3/2").status, 2);
+}
+
+TEST_F(Batch, RefusesAWrongLineBeforeTheFirstJob) {
+  const std::string good = thrown("a.pot.json").dump() + "\n";
+  for (const auto& [line, message] :
+       {std::pair<std::string, std::string>{R"({"id": "x", "run": ["studio"]})",
+                                            ":2: run: expected one of"},
+        {R"({"id": "a.pot.json", "run": ["plan"]})", ":2: id: expected a different id"},
+        {R"({"id": "x"})", ":2: expected a field \"run\""},
+        {R"({"id": "x", "run": "plan"})", ":2: run: expected an array"},
+        {"{", ":2: "}}) {
+    write_text(folder.file("jobs.jsonl"), good + line + "\n");
+    const Ran ran = run("");
+    EXPECT_EQ(ran.status, 2) << line;
+    EXPECT_NE(ran.err.find("jobs.jsonl" + message), std::string::npos) << ran.err;
+    EXPECT_FALSE(std::filesystem::exists(folder.file("a.pot.json")));
+  }
+}
+
+TEST_F(Batch, RefusesAResultFileOfAnotherKind) {
+  write_jobs({thrown("a.pot.json")});
+  write_text(folder.file("results.jsonl"), "{\"other\": 1}\n");
+  const Ran ran = run("-o " + folder.file("results.jsonl"));
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_EQ(read_text(folder.file("results.jsonl")), "{\"other\": 1}\n");
+}
+
+}  // namespace
+}  // namespace clay::test

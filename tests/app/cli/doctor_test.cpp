@@ -1,0 +1,88 @@
+// What is missing on a machine; and the manual pages and completions made from the options.
+
+#include "tests/support/run_program.hpp"
+#include "tests/support/schema_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace clay::test {
+namespace {
+
+const nlohmann::json& finding(const nlohmann::json& report, const std::string& name) {
+  for (const nlohmann::json& one : report.at("findings"))
+    if (one.at("name") == name) return one;
+  throw std::runtime_error("no finding named " + name);
+}
+
+TEST(Doctor, FollowsItsSchemaAndItsExitStatus) {
+  const Ran run = claystack("doctor --json");
+  const nlohmann::json report = run.json();
+  EXPECT_EQ(violation(load_schema("doctor"), report), "");
+  bool good = true;
+  for (const nlohmann::json& one : report.at("findings")) {
+    good = good && one.at("good").get<bool>();
+    EXPECT_NE(one.at("good").get<bool>(), one.contains("fix")) << one;
+  }
+  EXPECT_EQ(report.at("good"), good);
+  EXPECT_EQ(run.status, good ? 0 : 1);
+}
+
+TEST(Doctor, NamesWhatIsMissingAndTheFix) {
+  const ScratchFolder folder;
+  const std::string program = CLAYSTACK_PROGRAM;
+  const auto look = [&](const std::string& environment) {
+    return shell("env " + environment + " " + program + " doctor --json").json();
+  };
+  EXPECT_FALSE(finding(shell("ulimit -v 900000 && " + program + " doctor --json").json(), "memory")
+                   .at("good"));
+  EXPECT_TRUE(finding(look("HOME=" + folder.path().string()), "home folder").at("good"));
+  const nlohmann::json no_folder = finding(look("HOME=/proc XDG_STATE_HOME="), "home folder");
+  EXPECT_EQ(no_folder.at("found"), "/proc/.local/state/claystack");
+#ifdef CLAYSTACK_STUDIO
+  write_text(folder.file("zenity"), "#!/bin/sh\n");
+  std::filesystem::permissions(folder.file("zenity"), std::filesystem::perms::owner_all);
+  EXPECT_EQ(finding(look("PATH=" + folder.path().string()), "file dialog").at("found"), "zenity");
+  EXPECT_EQ(finding(look("PATH=/nowhere"), "file dialog").at("fix"), "sudo apt install zenity");
+  EXPECT_FALSE(finding(look("-u DISPLAY -u WAYLAND_DISPLAY"), "screen").at("good"));
+  EXPECT_TRUE(finding(look("DISPLAY=:9"), "screen").at("good"));
+#endif
+}
+
+TEST(Manual, ShowsEveryOptionThatHelpLists) {
+  for (const std::string command : {"export", "check", "throw", "batch"}) {
+    const Ran page = claystack("manual " + command);
+    ASSERT_EQ(page.status, 0) << page.err;
+    std::string text;  // without the marks of roff
+    for (std::size_t i = 0; i < page.out.size(); ++i)
+      if (page.out[i] != '\\') text += page.out[i];
+    std::istringstream help(claystack(command + " --help").out);
+    std::size_t options = 0;
+    for (std::string word; help >> word;) {
+      const std::size_t at = word.find("--");
+      if (at == std::string::npos || word.size() < at + 3) continue;
+      word = word.substr(at, word.find_first_of(",;:.)", at) - at);
+      EXPECT_NE(text.find(word), std::string::npos) << command << ": " << word;
+      ++options;
+    }
+    EXPECT_GT(options, 5u);
+  }
+  EXPECT_EQ(claystack("manual nothing").status, 2);
+}
+
+TEST(Manual, CompletesInBash) {
+  const ScratchFolder folder;
+  write_text(folder.file("c"), claystack("manual bash").out);
+  const auto complete = [&](const std::string& words) {
+    return shell("bash -c '. " + folder.file("c") + "; compopt() { :; }; COMP_WORDS=(" + words +
+                 "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _claystack; echo ${COMPREPLY[@]}'")
+        .out;
+  };
+  EXPECT_EQ(complete("claystack exp"), "export\n");
+  EXPECT_EQ(complete("claystack export a --smo"), "--smooth\n");
+  EXPECT_EQ(complete("claystack export a --smooth \"\""), "fair exact none\n");
+}
+
+}  // namespace
+}  // namespace clay::test

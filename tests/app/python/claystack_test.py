@@ -1,0 +1,120 @@
+"""Tests of the Python package: PYTHONPATH=BUILD/python python3 claystack_test.py PROGRAM SAMPLES"""
+
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+import claystack
+
+PROGRAM, SAMPLES = sys.argv[1:3]
+
+
+def sample(name):
+    return os.path.join(SAMPLES, name)
+
+
+class Package(unittest.TestCase):
+    def setUp(self):
+        self._folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self._folder.cleanup)
+
+    def file(self, name):
+        return os.path.join(self._folder.name, name)
+
+    def run_program(self, *words):
+        return subprocess.run([PROGRAM, *words], check=True, capture_output=True)
+
+    def bytes_of(self, name):
+        with open(self.file(name), "rb") as file:
+            return file.read()
+
+    def test_gives_the_bytes_of_the_command_line(self):
+        pot = claystack.throw(sample("vase.scene.json"))
+        pot.write(self.file("py.pot.json"))
+        self.run_program("throw", sample("vase.scene.json"), "-o", self.file("cli.pot.json"))
+        self.assertEqual(self.bytes_of("py.pot.json"), self.bytes_of("cli.pot.json"))
+        report = claystack.export(pot, [self.file("py.stl"), self.file("py.ply")])
+        self.run_program("export", self.file("cli.pot.json"), self.file("cli.stl"),
+                         self.file("cli.ply"))
+        self.assertEqual(self.bytes_of("py.stl"), self.bytes_of("cli.stl"))
+        self.assertEqual(report.files[0].bytes, len(self.bytes_of("py.stl")))
+        self.assertTrue(report.sound)
+
+    def test_shows_rings_and_meshes_without_a_copy(self):
+        pot = claystack.stack(2.0, [40.0, 41.0, 42.0], [0.0, 30.0, 30.0])
+        self.assertTrue(np.shares_memory(pot.quanta, pot._native.quanta))
+        mesh = claystack.mesh(pot, smoothing="none")
+        self.assertTrue(np.shares_memory(mesh.points, mesh._native.points))
+        self.assertTrue(np.shares_memory(mesh.triangles, mesh._native.triangles))
+        for array in (pot.quanta, mesh.points, mesh.triangles):
+            with self.assertRaises(ValueError):
+                array[0, 0] = 1
+        # An array outlives the object that it was taken from.
+        points = claystack.mesh(pot, smoothing="none").points
+        self.assertEqual(points.dtype, np.float64)
+        self.assertEqual(mesh.triangles.dtype, np.uint32)
+        self.assertEqual(points.tobytes(), mesh.points.tobytes())
+
+    def test_stacks_rings_of_the_volume_of_geometry(self):
+        pot = claystack.stack(2.0, [40.0, 41.0], [0.0, 30.0])
+        expected = 2.0 * math.pi * (40.0**2 + 41.0**2 - 30.0**2)
+        self.assertAlmostEqual(pot.volume_mm3 / expected, 1.0, places=9)
+        np.testing.assert_allclose(pot.outer_mm, [40.0, 41.0], atol=1e-9)
+        np.testing.assert_allclose(pot.inner_mm, [0.0, 30.0], atol=1e-9)
+        verdict = claystack.check(claystack.mesh(pot, smoothing="none", tolerance_mm=0.001))
+        self.assertTrue(verdict.sound)
+        self.assertAlmostEqual(verdict.volume_mm3 / expected, 1.0, places=3)
+
+    def test_a_mesh_gives_its_volume_to_numpy(self):
+        mesh = claystack.mesh(claystack.stack(50.0, [20.0], [0.0]), tolerance_mm=0.001)
+        a, b, c = (mesh.points[mesh.triangles[:, i]] for i in range(3))
+        volume = np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0
+        self.assertAlmostEqual(volume / (math.pi * 20.0**2 * 50.0), 1.0, places=3)
+
+    def test_imports_drawings_and_meshes(self):
+        jug = claystack.import_pot(sample("drawings/jug.svg"))
+        self.assertGreater(jug.height_mm, 10.0)
+        claystack.export(jug, [self.file("jug.stl")])
+        back = claystack.import_pot(self.file("jug.stl"))
+        self.assertAlmostEqual(back.volume_mm3 / jug.volume_mm3, 1.0, places=2)
+
+    def test_finds_faults_of_a_mesh(self):
+        with open(self.file("open.off"), "w", encoding="utf-8") as file:
+            file.write("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+        verdict = claystack.check(self.file("open.off"))
+        self.assertFalse(verdict.sound)
+        self.assertFalse(verdict.closed)
+        self.assertTrue(verdict.problems)
+
+    def test_errors_have_file_place_and_code(self):
+        with self.assertRaises(claystack.Error) as absent:
+            claystack.read_pot(self.file("absent.pot.json"))
+        self.assertEqual((absent.exception.kind, absent.exception.code), ("io", 3))
+        with open(self.file("bad.off"), "w", encoding="utf-8") as file:
+            file.write("OFF\n3 1 0\n0 0 0\n1 0 0\n0 x 0\n3 0 1 2\n")
+        with self.assertRaises(claystack.Error) as bad:
+            claystack.check(self.file("bad.off"))
+        self.assertEqual(bad.exception.code, 2)
+        self.assertEqual(bad.exception.file, self.file("bad.off"))
+        self.assertEqual(bad.exception.place, "5")
+        pot = claystack.stack(2.0, [40.0], [30.0])
+        for wrong in (lambda: claystack.export(pot, [self.file("a.xyz")]),
+                      lambda: claystack.mesh(pot, smoothing="soft"),
+                      lambda: claystack.stack(2.0, [30.0], [40.0]),
+                      lambda: claystack.stack(2.0, [float("nan")], [0.0]),
+                      lambda: pot.write(self.file("pot.stl"))):
+            with self.assertRaises(claystack.Error) as refused:
+                wrong()
+            self.assertEqual(refused.exception.code, 2)
+        with self.assertRaises(claystack.Error) as full:
+            pot.write("/proc/no/pot.json.pot.json")
+        self.assertEqual(full.exception.code, 3)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,35 @@
+// The guarantee of the readers of Claystack's own files on a fixed set of damaged files, short
+// enough for every build. mutate_readers tries more of them, under the sanitizers.
+
+#include "tests/fuzz/text_promise.hpp"
+
+#include <gtest/gtest.h>
+
+namespace clay {
+namespace {
+
+TEST(ReadText, ReadsValidFiles) {
+  for (const samples::TextReader& reader : samples::text_readers(CLAYSTACK_SAMPLES))
+    for (const std::string& file : reader.good) {
+      const auto broken = reader.broken_promise(file);
+      EXPECT_FALSE(broken) << reader.name << ": " << *broken;
+    }
+  // The promise also holds for an error, so these must be read.
+  for (const auto encoding : {PotEncoding::json, PotEncoding::cbor})
+    for (const std::string& file : samples::good_pots(encoding)) {
+      const auto pot = parse_pot(file, "pot");
+      EXPECT_TRUE(pot) << pot.error().message;
+    }
+  const auto certificate = solid::parse_certificate(samples::good_certificate(), "certificate");
+  EXPECT_TRUE(certificate) << certificate.error().message;
+}
+
+TEST(ReadText, MutatedFilesGiveAValueOrAnError) {
+  for (const samples::TextReader& reader : samples::text_readers(CLAYSTACK_SAMPLES)) {
+    const auto broken = samples::first_broken(reader, 1, 500, [](const std::string&) {});
+    EXPECT_FALSE(broken) << reader.name << ": " << *broken;
+  }
+}
+
+}  // namespace
+}  // namespace clay
