@@ -35,6 +35,18 @@ struct BeginWork {
 struct BeginSample {
   std::size_t index = 0;  ///< index in samples()
 };
+/// Begins a sample with the guide through its steps.
+struct BeginLesson {
+  std::size_t index = 0;  ///< index in samples()
+  bool show = false;      ///< plays all strokes first
+};
+/// The user throws what was shown: from the start again.
+struct YourTurn {};
+struct NextStep {};
+/// Plays the stroke of the present step, or stops playing.
+struct ShowStep {};
+struct StopShowing {};
+struct EndLesson {};
 /// Opens a scene, a pot or a work. A drawing opens the import dialog; a process file selects that
 /// process.
 struct OpenFile {
@@ -141,7 +153,8 @@ struct AimTool {
 struct ReleaseTool {};
 
 // --- The view and the settings. -----------------------------------------------------------------
-enum class ViewFrom { home, front, right, top };
+/// lesson: a little from above, with room for the pot to grow.
+enum class ViewFrom { home, front, right, top, lesson };
 struct LookFrom {
   ViewFrom from = ViewFrom::home;
 };
@@ -188,7 +201,8 @@ using ToggleWallMap = Toggle<&Settings::wall_map>;
 using ToggleHints = Toggle<&Settings::hints>;
 
 using Action = std::variant<
-    RunCommand, BeginWork, BeginSample, OpenFile, RecoverWork, Quit, DiscardRecoverable, SaveFile,
+    RunCommand, BeginWork, BeginSample, BeginLesson, YourTurn, NextStep, ShowStep,
+    StopShowing, EndLesson, OpenFile, RecoverWork, Quit, DiscardRecoverable, SaveFile,
     Save, Undo, Redo, GoToStroke, OtherBranch, Scrub, EndScrub, BranchHere, ShowDialog, CloseDialog,
     EditPath, SaveAndContinue, DiscardAndContinue, EditExport, WriteExport, ReplaceFiles, KeepFiles,
     CancelExport, ShowExportFolder, ChooseExportFolder, ChooseProcessFile, UseProcess, EditImport,

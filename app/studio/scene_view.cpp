@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kRoomForTool = 1.35;   // size of the view relative to the whole pot
 constexpr double kSizingPerPx = 0.006;  // drag: change of the logarithm of the size per pixel
+constexpr double kLessonRad = 0.22, kGrowth = 2.6;  // a pot that is pulled grows to that
 constexpr double kSoftest = 1e-4, kStiffest = 10.0;  // N/mm^2
 
 std::optional<Tool> chosen_tool(const ViewModel& view) {
@@ -31,7 +32,7 @@ render::PotView shown_pot(const ViewModel& view) {
 
 /// The middle of a wall, on the side of the pointer.
 glm::dvec2 pinch_place(const WallPlace& wall, glm::dvec2 pointed_mm) {
-  return {pointed_mm.x < 0.0 ? -wall.middle_mm : wall.middle_mm, pointed_mm.y};
+  return {pointed_mm.x < 0.0 ? -wall.middle_mm : wall.middle_mm, wall.y_mm};
 }
 
 }  // namespace
@@ -50,6 +51,15 @@ void SceneView::look(const render::PotView& pot, ViewFrom from) {
       camera_ = render::framed(pot, viewport().aspect());
       camera_.distance_mm *= kRoomForTool;
       return;
+    case ViewFrom::lesson: {
+      camera.azimuth_rad = 0.0;
+      camera.elevation_rad = kLessonRad;
+      render::PotView grown = pot;
+      grown.height_mm *= kGrowth;
+      camera_ = render::framed(grown, viewport().aspect(), camera);
+      camera_.distance_mm *= kRoomForTool;
+      return;
+    }
     case ViewFrom::front:
       camera.azimuth_rad = camera.elevation_rad = 0.0;
       break;
@@ -112,13 +122,7 @@ void SceneView::drag(const ViewModel& view, glm::vec2 by_px, Actions& actions) {
           SetStiffness{std::clamp(view.document.stiffness() * factor, kSoftest, kStiffest)});
       break;
     case Drag::shape:
-      if (const auto place = pointed_mm()) {
-        glm::dvec2 aim = *place + offset_mm_;
-        aim.y = std::max(0.0, aim.y);
-        const double speed_mm_s =
-            view.stroke.status().contact ? view.settings.pressing_mm_s : kReachingMmPerS;
-        actions.emplace_back(AimTool{{on_wheel(aim), speed_mm_s}});
-      }
+      if (const auto place = pointed_mm()) shape_to(view, *place, actions);
       break;
     case Drag::none:
       break;
@@ -145,20 +149,26 @@ bool SceneView::button(const ViewModel& view, const ButtonChanged& change, Actio
   return true;
 }
 
+void SceneView::press(const ViewModel& view, bool inverted, Actions& actions) {
+  const std::size_t before = actions.size();
+  if (const auto pointed = pointed_mm()) shape_from(view, *pointed, inverted, actions);
+  const bool begun = actions.size() > before && std::holds_alternative<PressClay>(actions.back());
+  if (begun) drag_ = Drag::shape;
+}
+
 /// A press on the clay moves the tool to the nearest free place; from there the tool follows the
 /// mouse.
-void SceneView::press(const ViewModel& view, bool inverted, Actions& actions) {
-  const auto pointed = pointed_mm();
+void SceneView::shape_from(const ViewModel& view, glm::dvec2 pointed_mm, bool inverted,
+                           Actions& actions) {
   const auto tool = chosen_tool(view);
-  if (!pointed || !tool || !view.document.has_work() || view.stroke.has_device() ||
-      view.stroke.paused())
+  if (!tool || !view.document.has_work() || view.stroke.has_device() || view.stroke.paused())
     return;
   const ToolSpec spec = tool_of(view.settings.tool, inverted);
   const render::PotView pot = shown_pot(view);
-  glm::dvec2 start = free_place(pot, *tool, *pointed);
+  glm::dvec2 start = free_place(pot, *tool, pointed_mm);
   double gap_mm = 0.0;
   if (spec.mode == ToolMode::pinch) {
-    const auto wall = wall_at(pot, *tool, pointed->y);
+    const auto wall = wall_above(pot, *tool, pointed_mm.y);
     if (!wall) {
       actions.emplace_back(
           ShowWarning{"There is no wall here to pinch: open the clay with a press from above "
@@ -166,12 +176,19 @@ void SceneView::press(const ViewModel& view, bool inverted, Actions& actions) {
                       "the wall"});
       return;
     }
-    start = pinch_place(*wall, *pointed);
+    start = pinch_place(*wall, pointed_mm);
     gap_mm = wall->thickness_mm;
   }
-  offset_mm_ = start - *pointed;
-  drag_ = Drag::shape;
+  offset_mm_ = start - pointed_mm;
   actions.emplace_back(PressClay{{spec, view.settings.wheel_rpm, on_wheel(start), gap_mm}});
+}
+
+void SceneView::shape_to(const ViewModel& view, glm::dvec2 pointed_mm, Actions& actions) const {
+  glm::dvec2 aim = pointed_mm + offset_mm_;
+  aim.y = std::max(0.0, aim.y);
+  const double speed_mm_s =
+      view.stroke.status().contact ? view.settings.pressing_mm_s : kReachingMmPerS;
+  actions.emplace_back(AimTool{{on_wheel(aim), speed_mm_s}});
 }
 
 bool SceneView::scrolled(float steps) {
@@ -227,7 +244,7 @@ std::optional<render::ToolView> SceneView::hovering_tool(const ViewModel& view,
   glm::dvec2 place = free_place(pot, tool, *pointed);
   if (view.settings.tool.mode == ToolMode::pinch) {
     shown.gap_mm = view.settings.tool.gap_mm;
-    if (const auto wall = wall_at(pot, tool, pointed->y)) {
+    if (const auto wall = wall_above(pot, tool, pointed->y)) {
       place = pinch_place(*wall, *pointed);
       shown.gap_mm = std::max(*shown.gap_mm, wall->thickness_mm);
     }

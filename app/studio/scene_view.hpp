@@ -38,6 +38,9 @@ class SceneView {
   void cancel(Actions& actions);
   /// Call if the stroke could not begin.
   void stop_shaping() noexcept { drag_ = Drag::none; }
+  /// A stroke from a point (rho, y) [mm] of the section plane, and on to others.
+  void shape_from(const ViewModel& view, glm::dvec2 pointed_mm, bool inverted, Actions& actions);
+  void shape_to(const ViewModel& view, glm::dvec2 pointed_mm, Actions& actions) const;
   [[nodiscard]] bool turning() const noexcept { return drag_ == Drag::orbit || drag_ == Drag::pan; }
 
   // --- Camera. -----------------------------------------------------------------------------------

@@ -77,11 +77,12 @@ Studio::~Studio() {
 
 bool Studio::wakeful() const noexcept {
   return moving() || fine_ != kFineness[0] || awake_frames_ > 0 || state_.readings.checking() ||
+         state_.guide.busy() ||
          state_.exporter.busy() || state_.file_dialog.open();
 }
 
 bool Studio::moving() const noexcept {
-  return state_.stroke.throwing() || spin_ > 0.0 || state_.scene.turning() ||
+  return state_.stroke.throwing() || state_.guide.demonstration() != Demonstration::none || spin_ > 0.0 || state_.scene.turning() ||
          state_.fall.running() ||
          (state_.document.scrubbing() && ImGui::IsMouseDown(ImGuiMouseButton_Left));
 }
@@ -177,8 +178,11 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   state_.scene.place(view);
   if (first && model.document.has_work()) state_.scene.look(model.stroke.view(), ViewFrom::home);
   draw_marks(model, view);
+  draw_path(model, view);
   draw_export_marks(model, view);
   draw_hint(model, actions, view);
+  draw_guide(model, actions, view);
+  draw_verdict(model, view);
   draw_dialog(model, actions, view);
   draw_banner(model, actions, view);
 }

@@ -96,6 +96,9 @@ void Studio::apply(const Input& input) {
     io.MousePos = {moved->place_px.x, moved->place_px.y};
     state_.scene.pointer_moved(model, moved->place_px, actions);
   } else if (const auto* change = std::get_if<ButtonChanged>(&input)) {
+    // A press in the view ends a demonstration.
+    if (view && change->down && change->button == MouseButton::left)
+      actions.emplace_back(StopShowing{});
     const bool taken = (view || !change->down) && state_.scene.button(model, *change, actions);
     if (!taken || !change->down) io.MouseDown[static_cast<int>(change->button)] = change->down;
     io.KeyCtrl = (change->mods & kControl) != 0;

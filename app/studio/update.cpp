@@ -95,6 +95,20 @@ void update_strokes(AppState& state) {
                           "above the rim.");
 }
 
+/// A new step selects its tool.
+void update_guide(AppState& state) {
+  state.guide.update(state.document, state.stroke);
+  if (!state.guide.active()) return;
+  if (state.guide.take_new_step() && !state.stroke.throwing()) {
+    const LessonPlan& plan = *state.guide.plan();
+    choose(state.guide.tool(), state.settings.tool);
+    state.settings.tool.mode = plan.mode;
+    if (plan.gap_mm > 0.0) state.settings.tool.gap_mm = plan.gap_mm;
+    state.log(fmt::format("step: {}", state.guide.stroke(plan.step).name));
+  }
+  state.play.advance(state);
+}
+
 /// The animation of a fall ends early if another pot is shown.
 void update_fall(AppState& state) {
   if (!state.fall.running()) return;
@@ -254,6 +268,7 @@ void update(AppState& state) {
   state.stroke.advance(now_ns);
   state.host.clock().sleep_until_ns(now_ns);  // in case no servo has advanced it
   update_strokes(state);
+  update_guide(state);
   update_journal(state);
   update_arm_notice(state);
   update_fall(state);

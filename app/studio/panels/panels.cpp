@@ -78,8 +78,7 @@ bool panel_open(const Settings& settings, std::string_view id) {
 }
 
 Wanted wanted_of(const Settings& settings) {
-  return {settings.wall_map || panel_open(settings, "walls") || panel_open(settings, "certificate"),
-          panel_open(settings, "servo"), settings.process};
+  return {true, panel_open(settings, "servo"), settings.process};
 }
 
 void draw_column(const ViewModel& model, Actions& actions, Column column, glm::vec2 corner_px,
@@ -191,7 +190,9 @@ void draw_banner(const ViewModel& model, Actions& actions, const ViewRect& rect)
 }
 
 void draw_hint(const ViewModel& model, Actions& actions, const ViewRect& rect) {
-  if (!model.settings.hints || !model.ui.shows<NoDialog>() || model.stroke.throwing()) return;
+  if (!model.settings.hints || !model.ui.shows<NoDialog>() || model.stroke.throwing() ||
+      model.guide.active())
+    return;
   const char* text =
       "Hold the left button on the clay and drag to shape it.  Middle or right button turns the "
       "view, the wheel zooms.  Press ? for all keys.";

@@ -28,6 +28,12 @@ float draw_menu(const ViewModel& model, Actions& actions);
 void draw_status_bar(const ViewModel& model, glm::vec2 corner_px, glm::vec2 size_px);
 void draw_banner(const ViewModel& model, Actions& actions, const ViewRect& rect);
 void draw_hint(const ViewModel& model, Actions& actions, const ViewRect& rect);
+/// The step of the lesson, and what to do in it.
+void draw_guide(const ViewModel& model, Actions& actions, const ViewRect& rect);
+/// Draws over the view: the path to follow in the present step.
+void draw_path(const ViewModel& model, const ViewRect& rect);
+/// Whether the pot is ready to print, or why not.
+void draw_verdict(const ViewModel& model, const ViewRect& rect);
 /// Draws over the view: results of the checks at their places on the pot, and the scale of the wall
 /// map.
 void draw_marks(const ViewModel& model, const ViewRect& rect);

@@ -1,0 +1,74 @@
+#include "app/studio/guide/lesson.hpp"
+
+#include "app/render/pot_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clay::studio {
+namespace {
+
+constexpr double kSampleMm = 0.5;  // spacing of the slices that are compared
+constexpr std::size_t kPosesPerPoint = 6;
+
+/// The row at a height; no clay above the rim.
+render::Row row_at(const render::PotView& pot, double y_mm) {
+  if (pot.rows.empty() || y_mm >= pot.height_mm) return {};
+  const double rows = static_cast<double>(pot.rows.size());
+  return pot.rows[static_cast<std::size_t>(std::min(y_mm / pot.height_mm * rows, rows - 1.0))];
+}
+
+double width_mm(const render::Row& row) {
+  return static_cast<double>(row.outer_mm) - static_cast<double>(row.inner_mm);
+}
+
+std::vector<PathPoint> path_of(const std::vector<Pose>& poses) {
+  std::vector<PathPoint> path;
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    if (k % kPosesPerPoint != 0 && k + 1 < poses.size()) continue;
+    const Pose& pose = poses[k];
+    // The wheel head is below: a hand does not go there.
+    path.push_back({{pose.position_mm.x, std::max(0.0, pose.position_mm.y)},
+                    1e-6 * static_cast<double>(pose.time_us - poses.front().time_us)});
+  }
+  return path;
+}
+
+}  // namespace
+
+double difference_mm2(const render::PotView& a, const render::PotView& b) {
+  const double top_mm = std::max(a.height_mm, b.height_mm);
+  double area_mm2 = 0.0;
+  for (double y_mm = 0.5 * kSampleMm; y_mm < top_mm; y_mm += kSampleMm) {
+    const render::Row p = row_at(a, y_mm), q = row_at(b, y_mm);
+    const double both = std::max(0.0, static_cast<double>(std::min(p.outer_mm, q.outer_mm)) -
+                                          static_cast<double>(std::max(p.inner_mm, q.inner_mm)));
+    area_mm2 += kSampleMm * (width_mm(p) + width_mm(q) - 2.0 * both);
+  }
+  return area_mm2;
+}
+
+LessonPlan plan_step(const LessonQuestion& question) {
+  LessonPlan plan;
+  plan.node = question.node;
+  plan.step = question.step;
+  strokes::StrokeScript script = *question.script;
+  strokes::Stroke& stroke = script.strokes.at(question.step);
+  stroke.passes = std::max(1, question.passes_left);
+  plan.mode = stroke.trim ? ToolMode::trim : ToolMode::press;
+  if (!stroke.gap_mm.empty()) {
+    plan.mode = ToolMode::pinch;
+    plan.gap_mm = 0.5 * (stroke.gap_mm.front() + stroke.gap_mm.back());
+  }
+  const auto planned = strokes::plan(script, question.step, question.scene, *question.pot);
+  if (!planned) {
+    plan.problem = planned.error().message;
+    return plan;
+  }
+  plan.path = path_of(planned->poses);
+  plan.after = render::view_of(planned->after);
+  plan.left_mm2 = difference_mm2(render::view_of(*question.pot), plan.after);
+  return plan;
+}
+
+}  // namespace clay::studio
