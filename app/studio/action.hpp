@@ -165,6 +165,7 @@ struct ToggleCut {
 struct TogglePanel {
   std::string_view id;
 };
+struct ToggleDiagnostics {};
 struct FoldPanel {
   std::string_view id;
   bool open = false;
@@ -194,6 +195,7 @@ using SetTool = Set<&Settings::tool>;
 using SetProcess = Set<&Settings::process>;
 using SetHints = Set<&Settings::hints>;
 using SetFolder = Set<&Settings::folder>;
+using SetBite = Set<&Settings::bite_mm>;
 using SetHandSpeed = Set<&Settings::pressing_mm_s>;
 using SetWallMap = Set<&Settings::wall_map>;
 using SetFullSection = Set<&Settings::full_section>;
@@ -208,8 +210,8 @@ using Action = std::variant<
     CancelExport, ShowExportFolder, ChooseExportFolder, ChooseProcessFile, UseProcess, EditImport,
     TakeImport, ShowWarning, CloseNotice, SetToolMode, SetToolShape, ScaleTool, ChangeGap,
     SetStiffness, DragToolSize, DragStiffness, TogglePause, Rearm, Back, PressClay, AimTool,
-    ReleaseTool, LookFrom, ToggleCut, TogglePanel, FoldPanel, ToggleTheme, ScaleText, SetTheme,
-    SetScale, SetUnit, SetWheelSpeed, SetTool, SetProcess, SetHints, SetFolder, SetHandSpeed,
+    ReleaseTool, LookFrom, ToggleCut, TogglePanel, ToggleDiagnostics, FoldPanel, ToggleTheme, ScaleText, SetTheme,
+    SetScale, SetUnit, SetWheelSpeed, SetTool, SetProcess, SetHints, SetFolder, SetHandSpeed, SetBite,
     SetWallMap, SetFullSection, ToggleWallMap, ToggleHints>;
 
 /// In the order of creation.

@@ -390,7 +390,11 @@ struct Performer {
   void operator()(const TogglePanel& toggle) const {
     const bool open = !panel_open(state.settings, toggle.id);
     state.settings.open[std::string(toggle.id)] = open;
+    if (open && in_diagnostics(toggle.id)) state.settings.open[kDiagnostics] = true;
     state.ui.reveal = open ? toggle.id : std::string_view();
+  }
+  void operator()(const ToggleDiagnostics&) const {
+    state.settings.open[kDiagnostics] = !diagnostics_open(state.settings);
   }
   void operator()(const FoldPanel& fold) const {
     state.settings.open[std::string(fold.id)] = fold.open;
@@ -439,6 +443,8 @@ struct Performer {
   void start_lesson(std::size_t sample, Demonstration demonstration) const {
     const auto begun = state.guide.begin(samples().at(sample), demonstration);
     if (!succeeded(state, begun)) return;
+    // The verdict of a first pot is that for the usual printer.
+    if (state.settings.process.empty()) state.settings.process = "fdm";
     state.scene.cut = render::Cut::half;  // the path in the bore is in sight
     state.scene.look(state.stroke.view(), ViewFrom::lesson);
   }

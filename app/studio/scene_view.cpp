@@ -76,6 +76,20 @@ void SceneView::look(const render::PotView& pot, ViewFrom from) {
   camera_.distance_mm *= kRoomForTool;
 }
 
+void SceneView::keep_rim_in_view(const render::PotView& pot) {
+  constexpr double kAboveMm = 60.0, kBack = 1.03;
+  constexpr int kMostSteps = 60;
+  const double top_mm = pot.height_mm + kAboveMm;
+  const auto hidden = [&] {
+    const auto rim = pixel_of({0.0, top_mm}), foot = pixel_of({0.0, 0.0});
+    return !rim || !foot || rim->y < rect_.corner_px.y ||
+           foot->y > rect_.corner_px.y + rect_.size_px.y;
+  };
+  if (!hidden()) return;
+  camera_.target_mm.y = std::max(camera_.target_mm.y, 0.5 * top_mm);
+  for (int step = 0; step < kMostSteps && hidden(); ++step) camera_.distance_mm *= kBack;
+}
+
 /// The wheel head only grows, so that it does not change with every stroke; showing the whole pot
 /// fits it again.
 void SceneView::turn_wheel(const render::PotView& pot, double rad) {
@@ -180,7 +194,8 @@ void SceneView::shape_from(const ViewModel& view, glm::dvec2 pointed_mm, bool in
     gap_mm = wall->thickness_mm;
   }
   offset_mm_ = start - pointed_mm;
-  actions.emplace_back(PressClay{{spec, view.settings.wheel_rpm, on_wheel(start), gap_mm}});
+  actions.emplace_back(PressClay{
+      {spec, view.settings.wheel_rpm, on_wheel(start), view.settings.bite_mm, gap_mm}});
 }
 
 void SceneView::shape_to(const ViewModel& view, glm::dvec2 pointed_mm, Actions& actions) const {

@@ -45,6 +45,8 @@ class SceneView {
 
   // --- Camera. -----------------------------------------------------------------------------------
   void look(const render::PotView& pot, ViewFrom from);
+  /// Moves back if the rim and 60 mm above it are not in sight.
+  void keep_rim_in_view(const render::PotView& pot);
   void zoom(double notches) { camera_ = render::zoomed(camera_, notches); }
   void place(const ViewRect& rect) noexcept { rect_ = rect; }
   [[nodiscard]] const ViewRect& rect() const noexcept { return rect_; }

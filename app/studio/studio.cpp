@@ -162,23 +162,30 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   const float top = draw_menu(model, actions);
   const float status = status_height();
   const float height = std::max(1.0f, size.y - top - status);
-  // In a narrow window the view has priority, then the left column.
-  const float column = std::round(kColumnEm * em);
-  const float left = size.x - column >= kNarrowestViewEm * em ? column : 0.0f;
-  const float right = size.x - 2.0f * column >= kNarrowestViewEm * em ? column : 0.0f;
-  if (left > 0.0f) draw_column(model, actions, Column::left, {0.0f, top}, {left, height});
+  // In a narrow window the view has priority, then the tools, then the context.
+  const float column = std::round(kColumnEm * em), strip = strip_width();
+  const float left = size.x - strip >= kNarrowestViewEm * em ? strip : 0.0f;
+  float right = size.x - left - column >= kNarrowestViewEm * em ? column : 0.0f;
+  if (left > 0.0f) draw_strip(model, actions, {0.0f, top}, {left, height});
   if (right > 0.0f)
-    draw_column(model, actions, Column::right, {size.x - right, top}, {right, height});
+    draw_column(model, actions, Column::context, {size.x - right, top}, {right, height});
+  if (diagnostics_open(model.settings) && size.x - left - right - column > 0.0f) {
+    right += column;
+    draw_column(model, actions, Column::diagnostics, {size.x - right, top}, {column, height});
+  }
   draw_status_bar(model, {0.0f, size.y - status}, {size.x, status});
   const float wide = std::max(1.0f, size.x - left - right);
-  const float strip = timeline_height(model, {wide, height});
-  const ViewRect view{{left, top}, {wide, height - strip}};
-  if (strip > 0.0f) draw_timeline(model, actions, {left, top + height - strip}, {wide, strip});
+  const float timeline = timeline_height(model, {wide, height});
+  const ViewRect view{{left, top}, {wide, height - timeline}};
+  if (timeline > 0.0f)
+    draw_timeline(model, actions, {left, top + height - timeline}, {wide, timeline});
   const bool first = state_.scene.rect().size_px.x <= 1.0f;
   state_.scene.place(view);
   if (first && model.document.has_work()) state_.scene.look(model.stroke.view(), ViewFrom::home);
   draw_marks(model, view);
   draw_path(model, view);
+  draw_at_tool(model, view);
+  draw_pause(model, view);
   draw_export_marks(model, view);
   draw_hint(model, actions, view);
   draw_guide(model, actions, view);

@@ -131,7 +131,9 @@ void Studio::key(const KeyChanged& change) {
       (change.mods & kControl) == 0 || change.key == GLFW_KEY_Z || change.key == GLFW_KEY_Y;
   if (change.key != GLFW_KEY_ESCAPE) {
     if (io.WantTextInput && edits_text) return;
-    if (!state_.ui.shows<NoDialog>() && !in_dialogs(*command)) return;
+    // Behind a dialog single letters do nothing.
+    const bool letter = change.mods == kNoMods && change.key >= GLFW_KEY_A && change.key <= GLFW_KEY_Z;
+    if (!state_.ui.shows<NoDialog>() && (letter || !in_dialogs(*command))) return;
   }
   if (change.repeated && !command->id.starts_with("tool.") && !command->id.starts_with("edit."))
     return;

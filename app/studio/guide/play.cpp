@@ -10,6 +10,7 @@ namespace {
 constexpr double kPace = 0.8;            // of an experienced hand
 constexpr double kReadS = 1.2;           // before the first stroke of a step
 constexpr double kCloseS = 0.8;          // two fingers close on the wall before they rise
+constexpr double kFarMm = 3.0;           // the hand waits for a tool that is further behind
 constexpr double kSettleS = 0.15;        // the tool arrives where the path ends
 
 glm::dvec2 place_at(const LessonPlan& plan, double time_s) {
@@ -43,19 +44,20 @@ void Play::advance(AppState& state) {
     if (now_s < rest_until_s_) return;
     state.scene.shape_from(view_model(state), plan->path.front().at_mm, false, actions);
     apply_all(state, actions);
-    begun_s_ = now_s;
+    time_s_ = plan->mode == ToolMode::pinch ? -kPace * kCloseS : 0.0;
+    last_s_ = now_s;
     playing_ = state.stroke.throwing();
     if (!playing_) apply(state, StopShowing{});
     return;
   }
   if (!playing_ || plan == nullptr) return;
-  const double wait_s = plan->mode == ToolMode::pinch ? kCloseS : 0.0;
-  const double time_s = kPace * std::max(0.0, now_s - begun_s_ - wait_s);
-  if (time_s > plan->path.back().time_s + kPace * kSettleS) {
+  if (state.stroke.stretch_mm() < kFarMm) time_s_ += kPace * (now_s - last_s_);
+  last_s_ = now_s;
+  if (time_s_ > plan->path.back().time_s + kPace * kSettleS) {
     if (guide.demonstration() == Demonstration::step) state.guide.demonstrate(Demonstration::none);
     return apply(state, ReleaseTool{});
   }
-  state.scene.shape_to(view_model(state), place_at(*plan, time_s), actions);
+  state.scene.shape_to(view_model(state), place_at(*plan, time_s_), actions);
   apply_all(state, actions);
 }
 

@@ -11,7 +11,8 @@ class Play {
   void advance(AppState& state);
 
  private:
-  double begun_s_ = 0.0;       // the stroke in progress, on the host's clock
+  double time_s_ = 0.0;        // along the path of the stroke in progress
+  double last_s_ = 0.0;        // of the previous frame, on the host's clock
   double rest_until_s_ = 0.0;  // time to read the step, before a stroke
   bool playing_ = false;
   const void* read_ = nullptr;  // the plan that is being read

@@ -41,6 +41,12 @@ void draw_work_settings(const ViewModel& model, Actions& actions) {
                          static_cast<float>(kFastestHandMmPerS), "at most %.0f mm/s",
                          ImGuiSliderFlags_AlwaysClamp))
     actions.emplace_back(SetHandSpeed{static_cast<double>(speed)});
+  form_row("Strength of the hand");
+  float bite = static_cast<float>(settings.bite_mm);
+  if (ImGui::SliderFloat("##bite", &bite, static_cast<float>(kSoftestBiteMm),
+                         static_cast<float>(kFirmestBiteMm), "%.1f mm per turn",
+                         ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+    actions.emplace_back(SetBite{static_cast<double>(bite)});
   form_row("Process");
   std::string process = settings.process;
   if (choose_process(model, "None", process, actions)) actions.emplace_back(SetProcess{process});

@@ -25,7 +25,7 @@ bool main_button(const char* text, const Palette& colours);
 void dialog_title(const ViewModel& model, const char* text);
 
 /// A label at the left; the next control fills the rest of the line.
-inline constexpr float kFormEm = 9.0f;
+inline constexpr float kFormEm = 10.5f;
 void form_row(const char* label);
 /// A slider in such a line; `none`: text shown for 0.
 bool form_length(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit,

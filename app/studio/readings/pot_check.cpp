@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -160,7 +161,22 @@ std::vector<render::RowWall> walls_for(const PotCheck& check, std::size_t rows, 
 }
 
 render::WallMap wall_map_of(const PotCheck& check) {
-  return {check.limit ? check.limit->min_wall_mm : 0.0, 10.0};
+  // The thickest part of most pots is the floor's corner: nine tenths of the faces set the scale.
+  constexpr std::array kTopsMm = {5.0, 10.0, 20.0, 50.0, 100.0};
+  constexpr double kMost = 0.9;
+  std::vector<float> faces;
+  for (const render::RowWall& wall : check.walls)
+    for (const float mm : {wall.outer_mm, wall.inner_mm})
+      if (std::isfinite(mm)) faces.push_back(mm);
+  double most_mm = 0.0;
+  if (!faces.empty()) {
+    const auto at = static_cast<std::ptrdiff_t>(kMost * static_cast<double>(faces.size() - 1));
+    std::ranges::nth_element(faces, faces.begin() + at);
+    most_mm = static_cast<double>(faces[static_cast<std::size_t>(at)]);
+  }
+  const auto* fitting = std::ranges::find_if(kTopsMm, [&](double top) { return top >= most_mm; });
+  return {check.limit ? check.limit->min_wall_mm : 0.0,
+          faces.empty() || fitting == kTopsMm.end() ? 10.0 : *fitting};
 }
 
 std::vector<Stretch> thin_stretches(const PotCheck& check) {

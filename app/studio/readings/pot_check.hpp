@@ -78,7 +78,7 @@ struct PotCheck {
 [[nodiscard]] std::vector<render::RowWall> walls_for(const PotCheck& check, std::size_t rows,
                                                      double height_mm);
 
-/// Colours cover 0 to 10 mm for every pot; walls below the limit of the process are hatched.
+/// Colours cover 0 to 5, 10, 20, 50 or 100 mm, fitted to the pot; walls below the limit of the process are hatched.
 [[nodiscard]] render::WallMap wall_map_of(const PotCheck& check);
 
 /// Heights at which walls are thinner than the process requires [mm], bottom to top.

@@ -1,9 +1,8 @@
 #include "tests/app/studio/first_timer.hpp"
 
 #include "app/studio/app_state.hpp"
-#include "app/studio/offscreen_host.hpp"
 #include "app/studio/readings/clay_figures.hpp"
-#include "app/render/pot_view.hpp"
+#include "tests/app/studio/timed_host.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,25 +15,8 @@ namespace {
 
 using namespace clay::studio;
 
-constexpr double kEventS = 1.0 / 60.0, kReactionS = 0.4, kCorrelationS = 0.1;
-
-/// Time passes in frames; nothing is drawn.
-class TimedHost final : public Host {
- public:
-  [[nodiscard]] glm::ivec2 size_px() const override { return {1280, 800}; }
-  [[nodiscard]] float content_scale() const override { return 1.0f; }
-  [[nodiscard]] servo::Clock& clock() override { return clock_; }
-  [[nodiscard]] bool real_time() const override { return false; }
-  [[nodiscard]] std::int64_t frame_ns() override { return frame_ns_; }
-  void advance() { frame_ns_ += static_cast<std::int64_t>(1e9 * kEventS); }
-  void set_title(const std::string&) override {}
-  void set_clipboard(const std::string&) override {}
-  [[nodiscard]] std::string clipboard() override { return {}; }
-
- private:
-  VirtualClock clock_;
-  std::int64_t frame_ns_ = clock_.now_ns();
-};
+constexpr double kFarMm = 6.0;  // the tool is seen to be behind
+constexpr double kEventS = kFrameS, kReactionS = 0.4, kCorrelationS = 0.1;
 
 /// A first-order autoregressive deviation of the hand.
 class Shake {
@@ -88,7 +70,8 @@ class Newcomer {
     double pressed_s = 0.0;
     for (double way_mm = 0.0; way_mm < all_mm && state_.stroke.throwing(); frame()) {
       pressed_s += kEventS;
-      if (pressed_s > kReactionS) way_mm += speed_mm_s * kEventS;
+      // The hand waits until the tool, which it sees, has come along.
+      if (pressed_s > kReactionS && state_.stroke.stretch_mm() < kFarMm) way_mm += speed_mm_s * kEventS;
       point(along(path, way_mm));
     }
     button(false);
@@ -141,7 +124,7 @@ FirstPot throw_first_pot(std::size_t sample, std::uint64_t seed, double noise_mm
     newcomer.frame();
     if (state.guide.plan() == nullptr) continue;
     if (trace) std::printf("step %zu path %zu left %.0f h %.1f\n", state.guide.step(), state.guide.plan()->path.size(), state.guide.plan()->left_mm2, state.document.pot().stack.height_mm());
-    first.stroke_s += newcomer.stroke();
+    first.stroke_s += std::max(0.5, newcomer.stroke());
     ++first.strokes;
     newcomer.frame();
   }
