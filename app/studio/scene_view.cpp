@@ -58,6 +58,7 @@ void SceneView::look(const render::PotView& pot, ViewFrom from) {
       grown.height_mm *= kGrowth;
       camera_ = render::framed(grown, viewport().aspect(), camera);
       camera_.distance_mm *= kRoomForTool;
+      lift_foot();
       return;
     }
     case ViewFrom::front:
@@ -74,6 +75,18 @@ void SceneView::look(const render::PotView& pot, ViewFrom from) {
   }
   camera_ = render::framed(pot, viewport().aspect(), camera);
   camera_.distance_mm *= kRoomForTool;
+}
+
+/// Leaves room for the card of the lesson below the wheel.
+void SceneView::lift_foot() {
+  constexpr float kFootAt = 0.68f;  // of the height of the view
+  constexpr double kStepMm = 2.0;
+  constexpr int kMostSteps = 200;
+  const auto low = [&] {
+    const auto foot = pixel_of({0.0, 0.0});
+    return foot && foot->y > rect_.corner_px.y + kFootAt * rect_.size_px.y;
+  };
+  for (int step = 0; step < kMostSteps && low(); ++step) camera_.target_mm.y -= kStepMm;
 }
 
 void SceneView::keep_rim_in_view(const render::PotView& pot) {
@@ -198,9 +211,28 @@ void SceneView::shape_from(const ViewModel& view, glm::dvec2 pointed_mm, bool in
       {spec, view.settings.wheel_rpm, on_wheel(start), view.settings.bite_mm, gap_mm}});
 }
 
+namespace {
+
+/// Two fingers follow the wall that they hold, and carry on over the rim. A pointer beside the wall
+/// leans on it.
+glm::dvec2 along_wall(const ViewModel& view, glm::dvec2 aim_mm) {
+  constexpr double kLean = 0.35, kMostLeanMm = 4.0, kRimMm = 1.0;
+  const auto tool = chosen_tool(view);
+  const render::PotView& pot = view.stroke.view();
+  if (!tool) return aim_mm;
+  const auto wall = wall_at(pot, *tool, std::min(aim_mm.y, pot.height_mm - kRimMm));
+  if (!wall) return aim_mm;
+  const double lean = kLean * (std::abs(aim_mm.x) - wall->middle_mm);
+  const double rho = wall->middle_mm + std::clamp(lean, -kMostLeanMm, kMostLeanMm);
+  return {aim_mm.x < 0.0 ? -rho : rho, aim_mm.y};
+}
+
+}  // namespace
+
 void SceneView::shape_to(const ViewModel& view, glm::dvec2 pointed_mm, Actions& actions) const {
   glm::dvec2 aim = pointed_mm + offset_mm_;
   aim.y = std::max(0.0, aim.y);
+  if (view.settings.tool.mode == ToolMode::pinch) aim = along_wall(view, aim);
   const double speed_mm_s =
       view.stroke.status().contact ? view.settings.pressing_mm_s : kReachingMmPerS;
   actions.emplace_back(AimTool{{on_wheel(aim), speed_mm_s}});

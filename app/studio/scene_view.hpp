@@ -68,6 +68,7 @@ class SceneView {
   enum class Drag { none, shape, orbit, pan, size, stiffness };
   void press(const ViewModel& view, bool inverted, Actions& actions);
   void drag(const ViewModel& view, glm::vec2 by_px, Actions& actions);
+  void lift_foot();
   [[nodiscard]] std::optional<render::ToolView> hovering_tool(const ViewModel& view,
                                                               const Tool& tool) const;
   [[nodiscard]] glm::dvec3 on_wheel(glm::dvec2 place_mm) const;

@@ -77,7 +77,7 @@ void Guide::update(const Document& document, const StrokeController& stroke) {
   if (stroke.throwing()) {
     if (!plan_ || stroke.view() == seen_) return;
     seen_ = stroke.view();
-    const double left = difference_mm2(seen_, plan_->after);
+    const double left = plan_->left_from(seen_);
     progress_ = std::clamp(1.0 - left / std::max(1.0, state_.start_mm2), 0.0, 1.0);
     return;
   }

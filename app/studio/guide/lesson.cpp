@@ -48,6 +48,31 @@ double difference_mm2(const render::PotView& a, const render::PotView& b) {
   return area_mm2;
 }
 
+double width_difference_mm2(const render::PotView& a, const render::PotView& b) {
+  const double top_mm = std::max(a.height_mm, b.height_mm);
+  double area_mm2 = 0.0;
+  for (double y_mm = 0.5 * kSampleMm; y_mm < top_mm; y_mm += kSampleMm)
+    area_mm2 += kSampleMm * std::abs(width_mm(row_at(a, y_mm)) - width_mm(row_at(b, y_mm)));
+  return area_mm2;
+}
+
+namespace {
+
+/// A learner's pot may be wider inside than the sample: a trim leaves clay around the corner of the
+/// floor there too.
+void keep_clear_of_bore(strokes::Stroke& stroke, const render::PotView& pot) {
+  constexpr double kSpareMm = 6.0, kCornerMm = 8.0, kStepMm = 0.5;
+  for (glm::dvec2& point : stroke.outline) {
+    const double y_mm = stroke.outline_in_mm ? point.y : point.y * pot.height_mm;
+    double bore_mm = 0.0;
+    for (double y = y_mm - kCornerMm; y <= y_mm + kCornerMm; y += kStepMm)
+      if (y >= 0.0) bore_mm = std::max(bore_mm, static_cast<double>(row_at(pot, y).inner_mm));
+    if (bore_mm > 0.0) point.x = std::max(point.x, bore_mm + kSpareMm);
+  }
+}
+
+}  // namespace
+
 LessonPlan plan_step(const LessonQuestion& question) {
   LessonPlan plan;
   plan.node = question.node;
@@ -60,6 +85,8 @@ LessonPlan plan_step(const LessonQuestion& question) {
     plan.mode = ToolMode::pinch;
     plan.gap_mm = 0.5 * (stroke.gap_mm.front() + stroke.gap_mm.back());
   }
+  const render::PotView now = render::view_of(*question.pot);
+  if (stroke.trim && !stroke.inside) keep_clear_of_bore(stroke, now);
   const auto planned = strokes::plan(script, question.step, question.scene, *question.pot);
   if (!planned) {
     plan.problem = planned.error().message;
@@ -67,7 +94,7 @@ LessonPlan plan_step(const LessonQuestion& question) {
   }
   plan.path = path_of(planned->poses);
   plan.after = render::view_of(planned->after);
-  plan.left_mm2 = difference_mm2(render::view_of(*question.pot), plan.after);
+  plan.left_mm2 = plan.left_from(now);
   return plan;
 }
 

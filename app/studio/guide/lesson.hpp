@@ -19,6 +19,9 @@ namespace clay::studio {
 /// The area [mm^2] that belongs to one of two half-sections and not to the other.
 [[nodiscard]] double difference_mm2(const render::PotView& a, const render::PotView& b);
 
+/// The same of the walls alone, wherever they are: the difference of their widths at every height.
+[[nodiscard]] double width_difference_mm2(const render::PotView& a, const render::PotView& b);
+
 struct LessonQuestion {
   std::shared_ptr<const strokes::StrokeScript> script;
   SceneSpec scene;
@@ -43,8 +46,14 @@ struct LessonPlan {
   double gap_mm = 0.0;
   std::vector<PathPoint> path;  ///< empty: the tool would not touch the clay
   render::PotView after;        ///< the pot after all passes that are left
-  double left_mm2 = 0.0;        ///< difference of the pot from that
+  double left_mm2 = 0.0;        ///< difference of the pot from that, see `left_from`
   std::string problem;          ///< why there is no plan
+
+  /// How far a pot is from the result: a pull is to make the wall thinner and taller, wherever it
+  /// stands; all other strokes move it.
+  [[nodiscard]] double left_from(const render::PotView& pot) const {
+    return mode == ToolMode::pinch ? width_difference_mm2(pot, after) : difference_mm2(pot, after);
+  }
 };
 
 [[nodiscard]] LessonPlan plan_step(const LessonQuestion& question);

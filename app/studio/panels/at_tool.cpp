@@ -95,8 +95,9 @@ void draw_floor(const ViewModel& model, ImDrawList* draw) {
   const ImU32 ink = ImGui::GetColorU32(model.colours().faint);
   for (float x = left->x; x < right->x; x += 2.0f * dash)
     draw->AddLine({x, left->y}, {std::min(x + dash, right->x), left->y}, ink, 0.1f * em);
-  draw->AddText({right->x + 0.5f * em, right->y - 0.6f * em}, ink,
-                fmt::format("floor stop {}", length_text(y_mm, model.settings.unit)).c_str());
+  const std::string text = fmt::format("floor stop {}", length_text(y_mm, model.settings.unit));
+  draw->AddText({left->x - 0.5f * em - ImGui::CalcTextSize(text.c_str()).x, left->y - 0.6f * em},
+                ink, text.c_str());
 }
 
 }  // namespace

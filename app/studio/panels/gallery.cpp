@@ -18,7 +18,7 @@ namespace clay::studio {
 namespace {
 
 constexpr std::size_t kMostWorksShown = 3;
-constexpr float kLeastCardEm = 10.6f, kPictureEm = 9.0f;
+constexpr float kLeastCardEm = 10.0f, kPictureEm = 9.0f;
 
 /// Sections of the finished samples, computed when they are first shown.
 const render::PotView& section_of(const Sample& sample) {
@@ -68,10 +68,9 @@ void draw_lump(const ViewModel& model, Actions& actions) {
   float kg = kept.GetFloat(kg_id, 1.0f);
   double radius_mm = static_cast<double>(kept.GetFloat(radius_id, 50.0f));
   ImGui::Columns(3, "lump", false);
-  ImGui::TextUnformatted("Clay mass");
-  ImGui::SetNextItemWidth(-1.0f);
+  slider_label("Clay mass", fmt::format("{:.2f} kg", kg));
   if (ImGui::SliderFloat("##clay", &kg, static_cast<float>(kLeastClayKg),
-                         static_cast<float>(kMostClayKg), "%.2f kg",
+                         static_cast<float>(kMostClayKg), "",
                          ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
     kept.SetFloat(kg_id, kg);
   ImGui::NextColumn();
@@ -153,7 +152,7 @@ void draw_samples(const ViewModel& model, Actions& actions) {
 }  // namespace
 
 void draw(const GalleryDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect) {
-  begin_dialog("##gallery", rect, 47.2f);
+  begin_dialog("##gallery", rect, 50.0f);
   dialog_title(model, "New pot");
   faint_text(model.colours(),
              "Choose a pot, and throw it step by step along a line. Each begins as a lump of clay.");

@@ -65,7 +65,7 @@ void draw_main_buttons(const ViewModel& model, Actions& actions) {
     width += ImGui::CalcTextSize(shown.title).x + 2.0f * pad + style.ItemInnerSpacing.x;
   const float left = ImGui::GetWindowWidth() - width;
   if (left < ImGui::GetCursorPosX()) return;  // no room: they are in the menu
-  ImGui::SetCursorPosX(left);
+  ImGui::SetCursorPos({left, 0.1f * ImGui::GetFontSize()});
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(pad, style.FramePadding.y - 2.0f));
   for (const Shown& shown : kShown) {
     const Command& command = *find_command(shown.id);

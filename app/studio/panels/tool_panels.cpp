@@ -104,19 +104,17 @@ void draw_tool(const ViewModel& model, Actions& actions) {
 }
 
 void draw_wheel(const ViewModel& model, Actions& actions) {
-  ImGui::TextUnformatted("Speed");
+  slider_label("Speed", fmt::format("{:.0f} rpm", model.settings.wheel_rpm));
   float rpm = static_cast<float>(model.settings.wheel_rpm);
-  ImGui::SetNextItemWidth(-1.0f);
   if (ImGui::SliderFloat("##rpm", &rpm, static_cast<float>(kSlowestRpm),
-                         static_cast<float>(kFastestRpm), "%.0f rpm", ImGuiSliderFlags_AlwaysClamp))
+                         static_cast<float>(kFastestRpm), "", ImGuiSliderFlags_AlwaysClamp))
     actions.emplace_back(SetWheelSpeed{static_cast<double>(rpm)});
   faint_text(model.colours(), "The clay yields and smooths faster at a higher speed.");
   if (!model.document.has_work() || !model.document.scene().force) return;
-  ImGui::TextUnformatted("Stiffness");
+  slider_label("Stiffness", fmt::format("{:.3g} N/mm\xc2\xb2", model.document.stiffness()));
   float stiffness = static_cast<float>(model.document.stiffness());
-  ImGui::SetNextItemWidth(-1.0f);
   if (ImGui::SliderFloat("##stiffness", &stiffness, static_cast<float>(kSoftest),
-                         static_cast<float>(kStiffest), "%.3g N/mm\xc2\xb2",
+                         static_cast<float>(kStiffest), "",
                          ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
     actions.emplace_back(SetStiffness{static_cast<double>(stiffness)});
   faint_text(model.colours(), "Affects the force you feel, not the clay.");

@@ -76,17 +76,24 @@ bool form_length(const char* label, double& mm, double low_mm, double high_mm, L
 
 bool length_slider(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit) {
   const UnitText text = unit_text(unit);
-  ImGui::TextUnformatted(label);
-  ImGui::SetNextItemWidth(-1.0f);
+  slider_label(label, length_text(mm, unit));
   float shown = static_cast<float>(mm / text.mm);
   const std::string id = fmt::format("##{}", label);
-  const std::string format = fmt::format("%.{}f {}", text.digits, text.name);
   if (!ImGui::SliderFloat(id.c_str(), &shown, static_cast<float>(low_mm / text.mm),
-                          static_cast<float>(high_mm / text.mm), format.c_str(),
+                          static_cast<float>(high_mm / text.mm), "",
                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
     return false;
   mm = std::clamp(static_cast<double>(shown) * text.mm, low_mm, high_mm);
   return true;
+}
+
+void slider_label(const char* label, const std::string& value) {
+  ImGui::TextUnformatted(label);
+  const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
+  ImGui::SameLine();
+  ImGui::SetCursorPosX(right - ImGui::CalcTextSize(value.c_str()).x);
+  ImGui::TextUnformatted(value.c_str());
+  ImGui::SetNextItemWidth(-1.0f);
 }
 
 void faint_text(const Palette& colours, const std::string& text) {
@@ -183,7 +190,7 @@ namespace {
 
 /// "workshop.process.json" is shown as workshop.
 std::string title_of(const std::string& process) {
-  if (!process.ends_with(".json")) return process;
+  if (!process.ends_with(".json")) return process_title(process);
   const std::filesystem::path stem = std::filesystem::path(process).stem();
   return (stem.extension() == ".process" ? stem.stem() : stem).string();
 }
@@ -197,7 +204,7 @@ bool choose_process(const ViewModel& model, const char* none, std::string& proce
   const std::string before = process;
   if (ImGui::Selectable(none, process.empty())) process.clear();
   for (const std::string& name : process_names())
-    if (ImGui::Selectable(name.c_str(), name == before)) process = name;
+    if (ImGui::Selectable(process_title(name).c_str(), name == before)) process = name;
   for (const std::string& path : model.settings.processes) {
     ImGui::PushID(path.c_str());
     if (ImGui::Selectable(title_of(path).c_str(), path == before)) process = path;

@@ -16,6 +16,9 @@ namespace clay::studio {
 int choice_row(const char* id, std::span<const char* const> titles, int chosen,
                const Palette& colours);
 
+/// A label and, at the right, the value of the slider that follows.
+void slider_label(const char* label, const std::string& value);
+
 /// A labelled slider for a length in mm, shown in `unit`. Returns true if it has moved.
 bool length_slider(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit);
 

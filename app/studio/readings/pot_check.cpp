@@ -116,6 +116,16 @@ std::vector<std::string> process_names() {
   return {solid::kProcessNames.begin(), solid::kProcessNames.end()};
 }
 
+std::string process_title(const std::string& name) {
+  if (name == "fdm") return "FDM (filament)";
+  if (name == "sla") return "SLA (resin)";
+  const bool known = std::ranges::find(solid::kProcessNames, name) != solid::kProcessNames.end();
+  if (!known || name.empty()) return name;
+  std::string title = name;
+  title.front() = static_cast<char>(title.front() - 'a' + 'A');
+  return title;
+}
+
 PotCheck check_pot(const PotQuestion& question, const std::function<bool()>& cancelled) {
   const auto begin = std::chrono::steady_clock::now();
   PotCheck check;
@@ -201,7 +211,7 @@ namespace {
 constexpr double kLipShare = 0.93;  // of the height: the lip is above
 
 std::string text_of(const solid::Problem& problem, const PotCheck& check, LengthUnit unit) {
-  const std::string process = check.limit ? check.limit->process : "";
+  const std::string process = check.limit ? process_title(check.limit->process) : "";
   const double y_mm = problem.at ? problem.at->y : 0.0;
   switch (problem.kind) {
     case solid::ProblemKind::thin_wall:
@@ -247,7 +257,7 @@ std::string wall_text(const PotCheck& check, LengthUnit unit) {
       fmt::format("Thinnest wall {}, at a height of {}", length_text(check.thinnest_mm, unit),
                   length_text(check.thinnest_from.y, unit));
   if (check.limit)
-    words += fmt::format("; {} requires {}: {}", check.limit->process,
+    words += fmt::format("; {} requires {}: {}", process_title(check.limit->process),
                          length_text(check.limit->min_wall_mm, unit),
                          check.thin() ? "too thin" : "thick enough");
   return words;

@@ -123,7 +123,10 @@ FirstPot throw_first_pot(std::size_t sample, std::uint64_t seed, double noise_mm
   while (first.stroke_s < most_s && !state.document.pot().collapse && !state.guide.finished()) {
     newcomer.frame();
     if (state.guide.plan() == nullptr) continue;
-    if (trace) std::printf("step %zu path %zu left %.0f h %.1f\n", state.guide.step(), state.guide.plan()->path.size(), state.guide.plan()->left_mm2, state.document.pot().stack.height_mm());
+    if (trace) {
+      const PotCheck c = check_pot({{state.document.shared_pot(), state.document.view()}, "fdm"});
+      std::printf("step %zu path %zu (%.0f %.0f)-(%.0f %.0f) left %.0f h %.1f thin %.1f at %.1f,%.1f\n", state.guide.step(), state.guide.plan()->path.size(), state.guide.plan()->path.front().at_mm.x, state.guide.plan()->path.front().at_mm.y, state.guide.plan()->path.back().at_mm.x, state.guide.plan()->path.back().at_mm.y, state.guide.plan()->left_mm2, state.document.pot().stack.height_mm(), c.thinnest_mm, c.thinnest_from.x, c.thinnest_from.y);
+    }
     first.stroke_s += std::max(0.5, newcomer.stroke());
     ++first.strokes;
     newcomer.frame();
