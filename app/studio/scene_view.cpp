@@ -222,8 +222,13 @@ glm::dvec2 along_wall(const ViewModel& view, glm::dvec2 aim_mm) {
   if (!tool) return aim_mm;
   const auto wall = wall_at(pot, *tool, std::min(aim_mm.y, pot.height_mm - kRimMm));
   if (!wall) return aim_mm;
+  // The foot stands still: a wall that is led out over it tears off there.
+  const double over_foot_mm = std::max(0.0, aim_mm.y - 2.0 * tool->high());
+  const double most_mm = static_cast<double>(pot.rows.front().outer_mm) -
+                         0.5 * wall->thickness_mm + over_foot_mm - wall->middle_mm;
   const double lean = kLean * (std::abs(aim_mm.x) - wall->middle_mm);
-  const double rho = wall->middle_mm + std::clamp(lean, -kMostLeanMm, kMostLeanMm);
+  const double rho = wall->middle_mm + std::clamp(lean, -kMostLeanMm,
+                                                  std::clamp(most_mm, 0.0, kMostLeanMm));
   return {aim_mm.x < 0.0 ? -rho : rho, aim_mm.y};
 }
 

@@ -33,7 +33,7 @@ const Palette kLight = {.accent = rgb(0xa9562a),
                         .fault = rgb(0xb23c0a),
                         .clay = rgb(0xb5683e)};
 
-/// The greys of a theme, and its accent at three strengths.
+/// The greys of a theme.
 struct Greys {
   unsigned window, popup, frame, hovered, active, border, text, title;
 };
@@ -60,13 +60,14 @@ void set_colours(const Greys& g, const Palette& p) {
   c[ImGuiCol_ScrollbarBg] = rgb(g.window, 0.0f);
   c[ImGuiCol_ScrollbarGrab] = rgb(g.hovered);
   c[ImGuiCol_ScrollbarGrabHovered] = c[ImGuiCol_ScrollbarGrabActive] = rgb(g.active);
-  c[ImGuiCol_CheckMark] = p.accent;
-  c[ImGuiCol_SliderGrab] = accent(0.55f);  // translucent, because the value is drawn over it
-  c[ImGuiCol_SliderGrabActive] = accent(0.75f);
+  // The accent is for the main action alone.
+  c[ImGuiCol_CheckMark] = rgb(g.text);
+  c[ImGuiCol_SliderGrab] = p.faint;
+  c[ImGuiCol_SliderGrabActive] = rgb(g.text);
   c[ImGuiCol_PlotLines] = c[ImGuiCol_PlotHistogram] = p.accent;
-  c[ImGuiCol_Header] = accent(0.24f);
-  c[ImGuiCol_HeaderHovered] = c[ImGuiCol_TabHovered] = accent(0.34f);
-  c[ImGuiCol_HeaderActive] = c[ImGuiCol_TabActive] = accent(0.44f);
+  c[ImGuiCol_Header] = rgb(g.title);
+  c[ImGuiCol_HeaderHovered] = c[ImGuiCol_TabHovered] = rgb(g.frame);
+  c[ImGuiCol_HeaderActive] = c[ImGuiCol_TabActive] = rgb(g.hovered);
   c[ImGuiCol_TextSelectedBg] = accent(0.35f);
   c[ImGuiCol_NavHighlight] = p.accent;
   c[ImGuiCol_ModalWindowDimBg] = {0.0f, 0.0f, 0.0f, 0.45f};

@@ -16,7 +16,7 @@ void draw_look_settings(const ViewModel& model, Actions& actions) {
   constexpr std::array kThemes = {"Dark", "Light"};
   form_row("Theme");
   const int theme =
-      choice_row("##theme", kThemes, settings.theme == Theme::dark ? 0 : 1, model.colours());
+      choice_row("##theme", kThemes, settings.theme == Theme::dark ? 0 : 1);
   if (theme >= 0) actions.emplace_back(SetTheme{theme == 0 ? Theme::dark : Theme::light});
   form_row("Text scale");
   // Applied when the mouse is released; otherwise the slider would move under the pointer.
@@ -29,7 +29,7 @@ void draw_look_settings(const ViewModel& model, Actions& actions) {
   if (ImGui::IsItemDeactivatedAfterEdit()) actions.emplace_back(SetScale{scale});
   constexpr std::array kUnits = {"mm", "cm", "in"};
   form_row("Length unit");
-  const int unit = choice_row("##unit", kUnits, static_cast<int>(settings.unit), model.colours());
+  const int unit = choice_row("##unit", kUnits, static_cast<int>(settings.unit));
   if (unit >= 0) actions.emplace_back(SetUnit{static_cast<LengthUnit>(unit)});
 }
 

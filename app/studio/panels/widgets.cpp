@@ -9,8 +9,7 @@
 #include <filesystem>
 
 namespace clay::studio {
-int choice_row(const char* id, std::span<const char* const> titles, int chosen,
-               const Palette& colours) {
+int choice_row(const char* id, std::span<const char* const> titles, int chosen) {
   ImGui::PushID(id);
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   const float count = static_cast<float>(titles.size());
@@ -20,9 +19,10 @@ int choice_row(const char* id, std::span<const char* const> titles, int chosen,
     if (i > 0) ImGui::SameLine(0.0f, gap);
     const bool on = i == chosen;
     if (on) {
-      ImGui::PushStyleColor(ImGuiCol_Button, colours.accent);
-      ImGui::PushStyleColor(ImGuiCol_ButtonHovered, colours.accent);
-      ImGui::PushStyleColor(ImGuiCol_Text, ink_on(colours.accent));
+      const ImVec4 face = ImGui::GetStyleColorVec4(ImGuiCol_Text);
+      ImGui::PushStyleColor(ImGuiCol_Button, face);
+      ImGui::PushStyleColor(ImGuiCol_ButtonHovered, face);
+      ImGui::PushStyleColor(ImGuiCol_Text, ink_on(face));
     }
     if (ImGui::Button(titles[static_cast<std::size_t>(i)], ImVec2(width, 0.0f))) clicked = i;
     if (on) ImGui::PopStyleColor(3);

@@ -13,8 +13,7 @@ namespace clay::studio {
 
 /// A row of buttons of equal width, one of which is selected. Returns the index of a clicked
 /// button, or -1.
-int choice_row(const char* id, std::span<const char* const> titles, int chosen,
-               const Palette& colours);
+int choice_row(const char* id, std::span<const char* const> titles, int chosen);
 
 /// A label and, at the right, the value of the slider that follows.
 void slider_label(const char* label, const std::string& value);
