@@ -203,16 +203,16 @@ using ToggleWallMap = Toggle<&Settings::wall_map>;
 using ToggleHints = Toggle<&Settings::hints>;
 
 using Action = std::variant<
-    RunCommand, BeginWork, BeginSample, BeginLesson, YourTurn, NextStep, ShowStep,
-    StopShowing, EndLesson, OpenFile, RecoverWork, Quit, DiscardRecoverable, SaveFile,
-    Save, Undo, Redo, GoToStroke, OtherBranch, Scrub, EndScrub, BranchHere, ShowDialog, CloseDialog,
-    EditPath, SaveAndContinue, DiscardAndContinue, EditExport, WriteExport, ReplaceFiles, KeepFiles,
+    RunCommand, BeginWork, BeginSample, BeginLesson, YourTurn, NextStep, ShowStep, StopShowing,
+    EndLesson, OpenFile, RecoverWork, Quit, DiscardRecoverable, SaveFile, Save, Undo, Redo,
+    GoToStroke, OtherBranch, Scrub, EndScrub, BranchHere, ShowDialog, CloseDialog, EditPath,
+    SaveAndContinue, DiscardAndContinue, EditExport, WriteExport, ReplaceFiles, KeepFiles,
     CancelExport, ShowExportFolder, ChooseExportFolder, ChooseProcessFile, UseProcess, EditImport,
     TakeImport, ShowWarning, CloseNotice, SetToolMode, SetToolShape, ScaleTool, ChangeGap,
     SetStiffness, DragToolSize, DragStiffness, TogglePause, Rearm, Back, PressClay, AimTool,
-    ReleaseTool, LookFrom, ToggleCut, TogglePanel, ToggleDiagnostics, FoldPanel, ToggleTheme, ScaleText, SetTheme,
-    SetScale, SetUnit, SetWheelSpeed, SetTool, SetProcess, SetHints, SetFolder, SetHandSpeed, SetBite,
-    SetWallMap, SetFullSection, ToggleWallMap, ToggleHints>;
+    ReleaseTool, LookFrom, ToggleCut, TogglePanel, ToggleDiagnostics, FoldPanel, ToggleTheme,
+    ScaleText, SetTheme, SetScale, SetUnit, SetWheelSpeed, SetTool, SetProcess, SetHints, SetFolder,
+    SetHandSpeed, SetBite, SetWallMap, SetFullSection, ToggleWallMap, ToggleHints>;
 
 /// In the order of creation.
 using Actions = std::vector<Action>;

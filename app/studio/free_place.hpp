@@ -19,6 +19,9 @@ inline constexpr double kClearanceMm = 0.25;
 [[nodiscard]] glm::dvec2 free_place(const render::PotView& pot, const Tool& tool,
                                     glm::dvec2 place_mm);
 
+/// A wall that is led out over the foot stays this far within it [mm].
+inline constexpr double kFootSpareMm = 3.0;
+
 struct WallPlace {
   double middle_mm = 0.0;     ///< rho of the middle of the wall, above 0
   double thickness_mm = 0.0;  ///< gap at which two tools are clear of the clay

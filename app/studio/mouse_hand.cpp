@@ -39,8 +39,8 @@ double MouseDevice::overlap_mm2(const glm::dvec3& place_mm) const noexcept {
   const Tool& tool = *resistance_.tool;
   const double h = clay.ring_height_mm(), rho = std::hypot(place_mm.x, place_mm.z);
   const auto rings = clay.rings();
-  const auto first = static_cast<std::size_t>(
-      std::clamp(std::floor((place_mm.y + tool.low()) / h), 0.0, static_cast<double>(rings.size())));
+  const auto first = static_cast<std::size_t>(std::clamp(std::floor((place_mm.y + tool.low()) / h),
+                                                         0.0, static_cast<double>(rings.size())));
   double area_mm2 = 0.0;
   for (std::size_t i = first; i < rings.size(); ++i) {
     const double t = (static_cast<double>(i) + 0.5) * h - place_mm.y;

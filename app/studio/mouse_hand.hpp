@@ -1,8 +1,8 @@
 #pragma once
 // The mouse as a device without motors, in the frame of the wheel. The window sets a target for the
-// tool; a spring pulls the tool there, no faster than a hand, and into the clay no further in a turn
-// of the wheel than the bite of the hand. So the tool stops at clay that is too much for the hand,
-// or bends the wall; it never jumps through.
+// tool; a spring pulls the tool there, no faster than a hand, and into the clay no further in a
+// turn of the wheel than the bite of the hand. So the tool stops at clay that is too much for the
+// hand, or bends the wall; it never jumps through.
 
 #include "app/servo/clock.hpp"
 #include "claystack/engine/clay.hpp"
@@ -26,7 +26,8 @@ struct MouseAim {
 
 /// The clay that resists the hand.
 struct Resistance {
-  const ClayStack* clay = nullptr;  ///< of the wheel of the servo, which reads the mouse; null: none
+  const ClayStack* clay =
+      nullptr;  ///< of the wheel of the servo, which reads the mouse; null: none
   const Tool* tool = nullptr;
   double bite_mm_s = 0.0;  ///< how fast the whole tool may dig in
 };

@@ -14,7 +14,7 @@ namespace clay::studio {
 struct Sample {
   std::string_view name;
   const char* title;
-  const char* description;                    ///< purpose of the sample
+  const char* description;                                  ///< purpose of the sample
   std::string_view scene_text, session_text, strokes_text;  ///< contents of the files in samples/
 };
 

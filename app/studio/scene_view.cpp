@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kRoomForTool = 1.35;   // size of the view relative to the whole pot
 constexpr double kSizingPerPx = 0.006;  // drag: change of the logarithm of the size per pixel
-constexpr double kLessonRad = 0.22, kGrowth = 2.6;  // a pot that is pulled grows to that
+constexpr double kLessonRad = 0.22, kGrowth = 2.6;   // a pot that is pulled grows to that
 constexpr double kSoftest = 1e-4, kStiffest = 10.0;  // N/mm^2
 
 std::optional<Tool> chosen_tool(const ViewModel& view) {
@@ -207,8 +207,8 @@ void SceneView::shape_from(const ViewModel& view, glm::dvec2 pointed_mm, bool in
     gap_mm = wall->thickness_mm;
   }
   offset_mm_ = start - pointed_mm;
-  actions.emplace_back(PressClay{
-      {spec, view.settings.wheel_rpm, on_wheel(start), view.settings.bite_mm, gap_mm}});
+  actions.emplace_back(
+      PressClay{{spec, view.settings.wheel_rpm, on_wheel(start), view.settings.bite_mm, gap_mm}});
 }
 
 namespace {
@@ -224,11 +224,11 @@ glm::dvec2 along_wall(const ViewModel& view, glm::dvec2 aim_mm) {
   if (!wall) return aim_mm;
   // The foot stands still: a wall that is led out over it tears off there.
   const double over_foot_mm = std::max(0.0, aim_mm.y - 2.0 * tool->high());
-  const double most_mm = static_cast<double>(pot.rows.front().outer_mm) -
-                         0.5 * wall->thickness_mm + over_foot_mm - wall->middle_mm;
+  const double most_mm = static_cast<double>(pot.rows.front().outer_mm) - 0.5 * wall->thickness_mm -
+                         kFootSpareMm + over_foot_mm - wall->middle_mm;
   const double lean = kLean * (std::abs(aim_mm.x) - wall->middle_mm);
-  const double rho = wall->middle_mm + std::clamp(lean, -kMostLeanMm,
-                                                  std::clamp(most_mm, 0.0, kMostLeanMm));
+  const double rho =
+      wall->middle_mm + std::clamp(lean, -kMostLeanMm, std::clamp(most_mm, 0.0, kMostLeanMm));
   return {aim_mm.x < 0.0 ? -rho : rho, aim_mm.y};
 }
 

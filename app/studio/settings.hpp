@@ -34,7 +34,7 @@ struct Settings {
   std::map<std::string, bool> open;    ///< unfolded panels by id; others have their default
   std::string folder;                  ///< folder of the last file; empty: none yet
   std::vector<std::string> recent;     ///< files, newest first, at most kMostRecent
-  double bite_mm = kUsualBiteMm;  ///< strength of the hand, kSoftestBiteMm to kFirmestBiteMm
+  double bite_mm = kUsualBiteMm;       ///< strength of the hand, kSoftestBiteMm to kFirmestBiteMm
   double pressing_mm_s = 80.0;  ///< maximum tool speed in the clay, kSlowestHand to kFastestHand
 };
 

@@ -77,14 +77,18 @@ Studio::~Studio() {
 
 bool Studio::wakeful() const noexcept {
   return moving() || fine_ != kFineness[0] || awake_frames_ > 0 || state_.readings.checking() ||
-         state_.guide.busy() ||
-         state_.exporter.busy() || state_.file_dialog.open();
+         state_.guide.busy() || state_.exporter.busy() || state_.file_dialog.open();
 }
 
 bool Studio::moving() const noexcept {
-  return state_.stroke.throwing() || state_.guide.demonstration() != Demonstration::none || spin_ > 0.0 || state_.scene.turning() ||
-         state_.fall.running() ||
+  return state_.stroke.throwing() || state_.guide.demonstration() != Demonstration::none ||
+         spin_ > 0.0 || state_.scene.turning() || state_.fall.running() ||
          (state_.document.scrubbing() && ImGui::IsMouseDown(ImGuiMouseButton_Left));
+}
+
+void Studio::take(Input input) {
+  if (moved_ns_ == 0 && std::holds_alternative<PointerMoved>(input)) moved_ns_ = steady_ns();
+  input_.push_back(std::move(input));
 }
 
 bool Studio::frame(Painting painting) {
@@ -109,8 +113,12 @@ bool Studio::frame(Painting painting) {
   name_window();
   turn_wheel(elapsed_s);
   if (painting == Painting::none) return false;
+  const std::int64_t moved_ns = std::exchange(moved_ns_, 0);
   if (!needs_paint() && painting == Painting::if_changed) return false;
   paint();
+  if (moved_ns == 0 || !state_.host.real_time()) return true;
+  glFinish();  // waits until the frame is drawn
+  (state_.stroke.throwing() ? times_.stroke : times_.hover).add(steady_ns() - moved_ns);
   return true;
 }
 

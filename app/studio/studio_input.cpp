@@ -132,7 +132,8 @@ void Studio::key(const KeyChanged& change) {
   if (change.key != GLFW_KEY_ESCAPE) {
     if (io.WantTextInput && edits_text) return;
     // Behind a dialog single letters do nothing.
-    const bool letter = change.mods == kNoMods && change.key >= GLFW_KEY_A && change.key <= GLFW_KEY_Z;
+    const bool letter =
+        change.mods == kNoMods && change.key >= GLFW_KEY_A && change.key <= GLFW_KEY_Z;
     if (!state_.ui.shows<NoDialog>() && (letter || !in_dialogs(*command))) return;
   }
   if (change.repeated && !command->id.starts_with("tool.") && !command->id.starts_with("edit."))

@@ -82,9 +82,9 @@ std::vector<Problem> problems_with(const ExportReport& report, std::optional<std
   const bool fired = report.process.limits && report.process.limits->fired;
   for (const PieceShape& shape : report.section.shapes())
     for (const Cavity& cavity : shape.cavities)
-      problems.push_back(
-          {text_of(cavity), ProfilePoint{0.0, 0.5 * (cavity.bottom_mm + cavity.top_mm)}, fired,
-           ProblemKind::cavity});
+      problems.push_back({text_of(cavity),
+                          ProfilePoint{0.0, 0.5 * (cavity.bottom_mm + cavity.top_mm)}, fired,
+                          ProblemKind::cavity});
   if (auto steep = steep_overhang(report.process)) problems.push_back(std::move(*steep));
   if (report.collapsed && report.collapsed->pieces > 1)
     problems.push_back(

@@ -8,7 +8,8 @@ namespace {
 
 // A step ends when this share of its change, or this area of the half-section, is left.
 constexpr double kLeftShare = 0.3, kLeftMm2 = 30.0;
-constexpr int kSpareTries = 2;  // after these the lesson continues with the clay as it is
+constexpr double kNothingMm2 = 3.0;  // a step that would change less is left out
+constexpr int kSpareTries = 2;       // after these the lesson continues with the clay as it is
 
 }  // namespace
 
@@ -62,12 +63,11 @@ void Guide::receive(LessonPlan plan) {
   if (plan.node != node_ || plan.step != state_.step) return;
   if (state_.tries == 0) state_.start_mm2 = plan.left_mm2;
   const double enough = std::max(kLeftMm2, kLeftShare * state_.start_mm2);
-  const bool there = plan.left_mm2 <= (state_.tries > 0 ? enough : kLeftMm2);
+  const bool there = plan.left_mm2 <= (state_.tries > 0 ? enough : kNothingMm2);
   const bool tried = state_.tries >= script_->strokes[state_.step].passes + kSpareTries;
   if (there || tried || plan.path.empty()) return go_on();
-  progress_ = state_.start_mm2 > 0.0
-                  ? std::clamp(1.0 - plan.left_mm2 / state_.start_mm2, 0.0, 1.0)
-                  : 0.0;
+  progress_ =
+      state_.start_mm2 > 0.0 ? std::clamp(1.0 - plan.left_mm2 / state_.start_mm2, 0.0, 1.0) : 0.0;
   new_step_ = true;
   plan_ = std::move(plan);
 }

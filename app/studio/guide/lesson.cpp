@@ -1,9 +1,11 @@
 #include "app/studio/guide/lesson.hpp"
 
 #include "app/render/pot_view.hpp"
+#include "app/studio/free_place.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace clay::studio {
 namespace {
@@ -71,6 +73,24 @@ void keep_clear_of_bore(strokes::Stroke& stroke, const render::PotView& pot) {
   }
 }
 
+/// The foot stands still while a wall is pulled: a wall that is led out over it tears off there.
+/// The pull begins within the foot of the learner's pot and reaches the sample's line further up.
+void begin_within_foot(strokes::Stroke& stroke, const render::PotView& pot) {
+  constexpr double kFreeShare = 0.3;
+  if (stroke.outline_in_mm || stroke.outline.front().y >= kFreeShare || pot.rows.empty()) return;
+  const double foot_mm = static_cast<double>(pot.rows.front().outer_mm);
+  const double most_mm = foot_mm - 0.5 * stroke.gap_mm.front() - kFootSpareMm;
+  const auto above = std::ranges::find_if(
+      stroke.outline, [](const glm::dvec2& point) { return point.y > kFreeShare; });
+  if (above == stroke.outline.end() || stroke.outline.front().x <= most_mm) return;
+  const glm::dvec2 below = *std::prev(above);
+  const double part = (kFreeShare - below.y) / (above->y - below.y);
+  std::vector<glm::dvec2> outline = {{most_mm, stroke.outline.front().y},
+                                     {below.x + part * (above->x - below.x), kFreeShare}};
+  outline.insert(outline.end(), above, stroke.outline.end());
+  stroke.outline = std::move(outline);
+}
+
 }  // namespace
 
 LessonPlan plan_step(const LessonQuestion& question) {
@@ -86,6 +106,7 @@ LessonPlan plan_step(const LessonQuestion& question) {
     plan.gap_mm = 0.5 * (stroke.gap_mm.front() + stroke.gap_mm.back());
   }
   const render::PotView now = render::view_of(*question.pot);
+  if (stroke.kind == strokes::StrokeKind::pull) begin_within_foot(stroke, now);
   if (stroke.trim && !stroke.inside) keep_clear_of_bore(stroke, now);
   const auto planned = strokes::plan(script, question.step, question.scene, *question.pot);
   if (!planned) {

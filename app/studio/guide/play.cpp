@@ -7,14 +7,15 @@
 namespace clay::studio {
 namespace {
 
-constexpr double kPace = 0.8;            // of an experienced hand
-constexpr double kReadS = 1.2;           // before the first stroke of a step
-constexpr double kCloseS = 0.8;          // two fingers close on the wall before they rise
-constexpr double kFarMm = 3.0;           // the hand waits for a tool that is further behind
-constexpr double kSettleS = 0.15;        // the tool arrives where the path ends
+constexpr double kPace = 0.8;      // of an experienced hand
+constexpr double kReadS = 1.2;     // before the first stroke of a step
+constexpr double kCloseS = 0.8;    // two fingers close on the wall before they rise
+constexpr double kFarMm = 3.0;     // the hand waits for a tool that is further behind
+constexpr double kSettleS = 0.15;  // the tool arrives where the path ends
 
 glm::dvec2 place_at(const LessonPlan& plan, double time_s) {
-  const auto next = std::ranges::find_if(plan.path, [&](const PathPoint& p) { return p.time_s >= time_s; });
+  const auto next =
+      std::ranges::find_if(plan.path, [&](const PathPoint& p) { return p.time_s >= time_s; });
   if (next == plan.path.end()) return plan.path.back().at_mm;
   if (next == plan.path.begin()) return next->at_mm;
   const PathPoint& before = *std::prev(next);

@@ -15,7 +15,7 @@
 namespace clay::studio {
 namespace {
 
-constexpr double kBoreMm = 2.0;      // a bore begins at this radius
+constexpr double kBoreMm = 2.0;       // a bore begins at this radius
 constexpr double kHardPullMm = 15.0;  // way of the spring at which the hand pulls with its strength
 constexpr double kSlackMm = 2.0;
 
@@ -89,7 +89,8 @@ void draw_floor(const ViewModel& model, ImDrawList* draw) {
   const render::Row* row = row_at(model.stroke.view(), y_mm);
   if (row == nullptr) return;
   const double reach = static_cast<double>(row->outer_mm);
-  const auto left = model.scene.pixel_of({-reach, y_mm}), right = model.scene.pixel_of({reach, y_mm});
+  const auto left = model.scene.pixel_of({-reach, y_mm}),
+             right = model.scene.pixel_of({reach, y_mm});
   if (!left || !right) return;
   const float em = ImGui::GetFontSize(), dash = 0.5f * em;
   const ImU32 ink = ImGui::GetColorU32(model.colours().faint);

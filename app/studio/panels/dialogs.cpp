@@ -15,8 +15,7 @@ void draw_look_settings(const ViewModel& model, Actions& actions) {
   const Settings& settings = model.settings;
   constexpr std::array kThemes = {"Dark", "Light"};
   form_row("Theme");
-  const int theme =
-      choice_row("##theme", kThemes, settings.theme == Theme::dark ? 0 : 1);
+  const int theme = choice_row("##theme", kThemes, settings.theme == Theme::dark ? 0 : 1);
   if (theme >= 0) actions.emplace_back(SetTheme{theme == 0 ? Theme::dark : Theme::light});
   form_row("Text scale");
   // Applied when the mouse is released; otherwise the slider would move under the pointer.

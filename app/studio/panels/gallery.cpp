@@ -154,8 +154,9 @@ void draw_samples(const ViewModel& model, Actions& actions) {
 void draw(const GalleryDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect) {
   begin_dialog("##gallery", rect, 50.0f);
   dialog_title(model, "New pot");
-  faint_text(model.colours(),
-             "Choose a pot, and throw it step by step along a line. Each begins as a lump of clay.");
+  faint_text(
+      model.colours(),
+      "Choose a pot, and throw it step by step along a line. Each begins as a lump of clay.");
   ImGui::Spacing();
   draw_recoverable(model, actions);
   draw_samples(model, actions);

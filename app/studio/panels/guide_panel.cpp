@@ -176,9 +176,8 @@ void draw_path(const ViewModel& model, const ViewRect& rect) {
 void draw_verdict(const ViewModel& model, const ViewRect& rect) {
   const auto& check = model.readings.check();
   if (!check || !model.document.has_work() || !model.ui.shows<NoDialog>()) return;
-  const std::string text = model.readings.fallen()
-                               ? "Fallen: undo removes the last stroke"
-                               : ready_text(*check, model.settings.unit);
+  const std::string text = model.readings.fallen() ? "Fallen: undo removes the last stroke"
+                                                   : ready_text(*check, model.settings.unit);
   const bool ready = check->ready() && !model.readings.fallen();
   const ImVec4 colour = ready ? model.colours().good : model.colours().warning;
   const float em = ImGui::GetFontSize(), wrap = rect.size_px.x - 4.0f * em;

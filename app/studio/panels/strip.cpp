@@ -94,10 +94,10 @@ struct Icon {
   void (*draw)(const Pen&);
 };
 constexpr std::array kIcons = {
-    Icon{"tool.press", "Press", &press_icon},     Icon{"tool.pinch", "Pinch", &pinch_icon},
-    Icon{"tool.smooth", "Smooth", &smooth_icon},  Icon{"tool.trim", "Trim", &trim_icon},
-    Icon{"tool.needle", "Level", &needle_icon},   Icon{"tool.wire", "Cut off", &wire_icon},
-    Icon{"tool.trim_foot", "Foot", &foot_icon},   Icon{"view.cut_half", "Open", &cut_icon},
+    Icon{"tool.press", "Press", &press_icon},    Icon{"tool.pinch", "Pinch", &pinch_icon},
+    Icon{"tool.smooth", "Smooth", &smooth_icon}, Icon{"tool.trim", "Trim", &trim_icon},
+    Icon{"tool.needle", "Level", &needle_icon},  Icon{"tool.wire", "Cut off", &wire_icon},
+    Icon{"tool.trim_foot", "Foot", &foot_icon},  Icon{"view.cut_half", "Open", &cut_icon},
     Icon{"view.wall_map", "Walls", &walls_icon},
 };
 constexpr std::size_t kTools = 7;  // the rest are views
@@ -117,14 +117,15 @@ void draw_icon(const Icon& icon, const ViewModel& model, Actions& actions) {
   ImGui::PopID();
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip("%s (%s)", command.title, text_of(command.chord).c_str());
-  const ImU32 ink = ImGui::GetColorU32(enabled ? ImGui::GetStyleColorVec4(ImGuiCol_Text)
-                                               : ImVec4(colours.faint.x, colours.faint.y,
-                                                        colours.faint.z, 0.5f));
+  const ImU32 ink =
+      ImGui::GetColorU32(enabled ? ImGui::GetStyleColorVec4(ImGuiCol_Text)
+                                 : ImVec4(colours.faint.x, colours.faint.y, colours.faint.z, 0.5f));
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const float size = kIconEm * em;
   icon.draw({draw, {std::round(at.x + 0.5f * (width - size)), at.y + 0.35f * em}, size, ink});
   if (on)
-    draw->AddRectFilled({at.x, at.y + 0.3f * em}, {at.x + 0.2f * em, at.y + (kButtonEm - 0.3f) * em},
+    draw->AddRectFilled({at.x, at.y + 0.3f * em},
+                        {at.x + 0.2f * em, at.y + (kButtonEm - 0.3f) * em},
                         ImGui::GetColorU32(colours.accent), 0.1f * em);
   ImFont* small = model.ui.fonts.small != nullptr ? model.ui.fonts.small : ImGui::GetFont();
   const ImVec2 text = small->CalcTextSizeA(small->FontSize, width * 2.0f, 0.0f, icon.label);

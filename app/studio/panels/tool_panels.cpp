@@ -97,8 +97,8 @@ void draw_tool(const ViewModel& model, Actions& actions) {
   faint_text(model.colours(), help_text(tool.mode));
   if (cuts_level(tool.mode)) return;
   const std::size_t shapes = tool.own.t_mm.empty() ? 3 : 4;
-  const int shape = choice_row("shape", std::span(kShapes).first(shapes),
-                               static_cast<int>(tool.shape));
+  const int shape =
+      choice_row("shape", std::span(kShapes).first(shapes), static_cast<int>(tool.shape));
   if (shape >= 0) actions.emplace_back(SetToolShape{static_cast<Shape>(shape)});
   if (draw_sizes(tool, model.settings.unit, model.colours())) actions.emplace_back(SetTool{tool});
 }

@@ -171,9 +171,9 @@ std::vector<render::RowWall> walls_for(const PotCheck& check, std::size_t rows, 
 }
 
 render::WallMap wall_map_of(const PotCheck& check) {
-  // The thickest part of most pots is the floor's corner: nine tenths of the faces set the scale.
+  // The thickest part of most pots is the floor's corner: four fifths of the faces set the scale.
   constexpr std::array kTopsMm = {5.0, 10.0, 20.0, 50.0, 100.0};
-  constexpr double kMost = 0.9;
+  constexpr double kMost = 0.8;
   std::vector<float> faces;
   for (const render::RowWall& wall : check.walls)
     for (const float mm : {wall.outer_mm, wall.inner_mm})

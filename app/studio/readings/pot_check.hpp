@@ -59,7 +59,7 @@ struct PotCheck {
   glm::dvec2 thinnest_from{0.0}, thinnest_to{0.0};  ///< rho is negative beyond the axis
   std::optional<solid::WallLimit> limit;
   std::vector<solid::Problem> problems;  ///< as for `claystack export` with the same process
-  std::vector<render::RowWall> walls;  ///< one for each equal part of `height_mm`; empty: unknown
+  std::vector<render::RowWall> walls;    ///< one for each equal part of `height_mm`; empty: unknown
   double height_mm = 0.0;
   double seconds = 0.0;  ///< run time of the check
 
@@ -80,7 +80,8 @@ struct PotCheck {
 [[nodiscard]] std::vector<render::RowWall> walls_for(const PotCheck& check, std::size_t rows,
                                                      double height_mm);
 
-/// Colours cover 0 to 5, 10, 20, 50 or 100 mm, fitted to the pot; walls below the limit of the process are hatched.
+/// Colours cover 0 to 5, 10, 20, 50 or 100 mm, fitted to the pot; walls below the limit of the
+/// process are hatched.
 [[nodiscard]] render::WallMap wall_map_of(const PotCheck& check);
 
 /// Heights at which walls are thinner than the process requires [mm], bottom to top.

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <random>
-#include <cstdio>
 
 namespace clay::test {
 namespace {
@@ -71,7 +71,8 @@ class Newcomer {
     for (double way_mm = 0.0; way_mm < all_mm && state_.stroke.throwing(); frame()) {
       pressed_s += kEventS;
       // The hand waits until the tool, which it sees, has come along.
-      if (pressed_s > kReactionS && state_.stroke.stretch_mm() < kFarMm) way_mm += speed_mm_s * kEventS;
+      if (pressed_s > kReactionS && state_.stroke.stretch_mm() < kFarMm)
+        way_mm += speed_mm_s * kEventS;
       point(along(path, way_mm));
     }
     button(false);
@@ -125,7 +126,13 @@ FirstPot throw_first_pot(std::size_t sample, std::uint64_t seed, double noise_mm
     if (state.guide.plan() == nullptr) continue;
     if (trace) {
       const PotCheck c = check_pot({{state.document.shared_pot(), state.document.view()}, "fdm"});
-      std::printf("step %zu path %zu (%.0f %.0f)-(%.0f %.0f) left %.0f h %.1f thin %.1f at %.1f,%.1f\n", state.guide.step(), state.guide.plan()->path.size(), state.guide.plan()->path.front().at_mm.x, state.guide.plan()->path.front().at_mm.y, state.guide.plan()->path.back().at_mm.x, state.guide.plan()->path.back().at_mm.y, state.guide.plan()->left_mm2, state.document.pot().stack.height_mm(), c.thinnest_mm, c.thinnest_from.x, c.thinnest_from.y);
+      std::printf(
+          "step %zu path %zu (%.0f %.0f)-(%.0f %.0f) left %.0f h %.1f thin %.1f at %.1f,%.1f\n",
+          state.guide.step(), state.guide.plan()->path.size(),
+          state.guide.plan()->path.front().at_mm.x, state.guide.plan()->path.front().at_mm.y,
+          state.guide.plan()->path.back().at_mm.x, state.guide.plan()->path.back().at_mm.y,
+          state.guide.plan()->left_mm2, state.document.pot().stack.height_mm(), c.thinnest_mm,
+          c.thinnest_from.x, c.thinnest_from.y);
     }
     first.stroke_s += std::max(0.5, newcomer.stroke());
     ++first.strokes;

@@ -15,7 +15,7 @@ struct FirstPot {
   int strokes = 0;
   bool finished = false;  ///< all steps of the lesson
   bool fallen = false;
-  bool ready = false;     ///< the verdict that the window shows
+  bool ready = false;  ///< the verdict that the window shows
   std::string verdict;
   double thinnest_mm = 0.0;
   double height_mm = 0.0, sample_height_mm = 0.0;

@@ -23,7 +23,8 @@ int main(int argc, char** argv) {
     double wall_mm = 1e9, height = 0.0;
     std::vector<double> seconds;
     for (int seed = 1; seed <= seeds; ++seed) {
-      const auto pot = clay::test::throw_first_pot(sample, static_cast<std::uint64_t>(seed), noise_mm);
+      const auto pot =
+          clay::test::throw_first_pot(sample, static_cast<std::uint64_t>(seed), noise_mm);
       const bool good = pot.ready && pot.is_pot() && pot.finished;
       ready += good ? 1 : 0;
       success += good && pot.stroke_s <= kMostS ? 1 : 0;
@@ -31,15 +32,17 @@ int main(int argc, char** argv) {
       wall_mm = std::min(wall_mm, pot.thinnest_mm);
       height += pot.height_mm / pot.sample_height_mm / seeds;
       seconds.push_back(pot.stroke_s);
-      std::printf("#  %s %d: %.0f s, %d strokes, %s%s, wall %.1f, height %.0f of %.0f mm, %.0f of %.0f ml, %s\n",
-                  facts.title, seed, pot.stroke_s, pot.strokes, pot.finished ? "finished" : "unfinished",
-                  pot.fallen ? ", fallen" : "", pot.thinnest_mm, pot.height_mm, pot.sample_height_mm,
-                  pot.capacity_ml, pot.sample_capacity_ml, pot.verdict.c_str());
+      std::printf(
+          "#  %s %d: %.0f s, %d strokes, %s%s, wall %.1f, height %.0f of %.0f mm, %.0f of %.0f ml, "
+          "%s\n",
+          facts.title, seed, pot.stroke_s, pot.strokes, pot.finished ? "finished" : "unfinished",
+          pot.fallen ? ", fallen" : "", pot.thinnest_mm, pot.height_mm, pot.sample_height_mm,
+          pot.capacity_ml, pot.sample_capacity_ml, pot.verdict.c_str());
     }
     std::ranges::sort(seconds);
-    std::printf("%-9s %5d %8d %8d %8.1f %9.0f %9.0f %9.1f %8.0f%%\n", facts.title, seeds, success, ready,
-                static_cast<double>(strokes) / seeds, seconds[seconds.size() / 2], seconds.back(),
-                wall_mm, 100.0 * height);
+    std::printf("%-9s %5d %8d %8d %8.1f %9.0f %9.0f %9.1f %8.0f%%\n", facts.title, seeds, success,
+                ready, static_cast<double>(strokes) / seeds, seconds[seconds.size() / 2],
+                seconds.back(), wall_mm, 100.0 * height);
   }
   return 0;
 }

@@ -99,8 +99,7 @@ TEST_F(Panels, AnIconSelectsItsTool) {
   const auto strip = [](const ViewModel& model, Actions& actions) {
     draw_strip(model, actions, {0.0f, 0.0f}, {60.0f, 660.0f});
   };
-  const float em = ImGui::GetFontSize();  // the second icon, of three ems each
-  const Actions actions = click(strip, {30.0f, 5.0f * em});
+  const Actions actions = click(strip, {30.0f, 80.0f});  // the second icon, of 49 px each
   ASSERT_EQ(actions.size(), 1u);
   EXPECT_EQ(std::get<RunCommand>(actions[0]).id, "tool.pinch");
   EXPECT_EQ(state.settings.tool.mode, small_scene().tool.mode) << "only apply() changes the state";

@@ -59,9 +59,9 @@ touched() { [ "$(journal_size)" -gt $((untouched + 2000)) ]; }  # a scene has fe
 throw_a_stroke() {
   strokes=$(grep -c "stroke started" "$log")
   untouched=$(journal_size)
-  xdotool mousemove --window "$window" 930 420 mousedown 1
+  xdotool mousemove --window "$window" 833 420 mousedown 1
   until_line "stroke started" $((strokes + 1))
-  for x in 900 880 860 850 845 840; do xdotool mousemove --window "$window" $x 420; done
+  for x in 803 783 763 753 748 743; do xdotool mousemove --window "$window" $x 420; done
   wait_until "the tool to touch the clay" touched
   xdotool mouseup 1
   until_line "stroke ended" $((strokes + 1))
