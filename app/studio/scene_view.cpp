@@ -79,7 +79,7 @@ void SceneView::look(const render::PotView& pot, ViewFrom from) {
 
 /// Leaves room for the card of the lesson below the wheel.
 void SceneView::lift_foot() {
-  constexpr float kFootAt = 0.68f;  // of the height of the view
+  constexpr float kFootAt = 0.58f;  // of the height of the view
   constexpr double kStepMm = 2.0;
   constexpr int kMostSteps = 200;
   const auto low = [&] {

@@ -64,7 +64,9 @@ void Guide::receive(LessonPlan plan) {
   if (state_.tries == 0) state_.start_mm2 = plan.left_mm2;
   const double enough = std::max(kLeftMm2, kLeftShare * state_.start_mm2);
   const bool there = plan.left_mm2 <= (state_.tries > 0 ? enough : kNothingMm2);
-  const bool tried = state_.tries >= script_->strokes[state_.step].passes + kSpareTries;
+  const strokes::Stroke& stroke = script_->strokes[state_.step];
+  const bool sponge = stroke.kind == strokes::StrokeKind::lip;  // one stroke does it
+  const bool tried = state_.tries >= stroke.passes + (sponge ? 0 : kSpareTries);
   if (there || tried || plan.path.empty()) return go_on();
   progress_ =
       state_.start_mm2 > 0.0 ? std::clamp(1.0 - plan.left_mm2 / state_.start_mm2, 0.0, 1.0) : 0.0;

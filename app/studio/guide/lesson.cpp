@@ -100,7 +100,10 @@ LessonPlan plan_step(const LessonQuestion& question) {
   strokes::StrokeScript script = *question.script;
   strokes::Stroke& stroke = script.strokes.at(question.step);
   stroke.passes = std::max(1, question.passes_left);
-  plan.mode = stroke.trim ? ToolMode::trim : ToolMode::press;
+  // A sponge rounds a lip and cuts nothing, however a learner holds it.
+  plan.mode = stroke.kind == strokes::StrokeKind::lip ? ToolMode::smooth
+              : stroke.trim                           ? ToolMode::trim
+                                                      : ToolMode::press;
   if (!stroke.gap_mm.empty()) {
     plan.mode = ToolMode::pinch;
     plan.gap_mm = 0.5 * (stroke.gap_mm.front() + stroke.gap_mm.back());

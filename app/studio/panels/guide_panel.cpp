@@ -19,9 +19,10 @@ constexpr ImGuiWindowFlags kCard =
 constexpr float kCardEm = 30.0f, kTwoRowsEm = 22.0f;
 
 const char* name_of_tool(ToolMode mode) {
-  return mode == ToolMode::pinch  ? "Two fingers"
-         : mode == ToolMode::trim ? "Trimming tool"
-                                  : "Ball";
+  return mode == ToolMode::pinch    ? "Two fingers"
+         : mode == ToolMode::trim   ? "Trimming tool"
+         : mode == ToolMode::smooth ? "Sponge"
+                                    : "Ball";
 }
 
 /// One dot for each step: done, present, to come.

@@ -67,10 +67,10 @@ throw_a_stroke() {
   until_line "stroke ended" $((strokes + 1))
 }
 
-# throw_the_bowl: opens the first card of the gallery and throws a stroke.
+# throw_the_bowl: opens the lump of the first card of the gallery and throws a stroke.
 throw_the_bowl() {
   start_window
-  xdotool mousemove --window "$window" 370 360 click 1
+  xdotool mousemove --window "$window" 300 483 click 1
   until_line "work started: bowl"
   throw_a_stroke
 }
