@@ -108,7 +108,9 @@ void Hand::emit(const Place& place, bool trim) {
   const auto time =
       static_cast<std::int64_t>(static_cast<double>(poses_.size()) * 1e6 / script_.rate_hz);
   poses_.push_back(quantized({time, hip, trim, place.gap_mm}));
-  wheel_.step(poses_.back());
+  if ((wheel_.step(poses_.back()).flags & kContact) == 0) return;
+  touch_.last = poses_.size() - 1;
+  if (touch_.first == 0) touch_.first = touch_.last;
 }
 
 }  // namespace clay::strokes

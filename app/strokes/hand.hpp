@@ -49,6 +49,12 @@ class Hand {
   [[nodiscard]] const Wheel& wheel() const { return wheel_; }
   [[nodiscard]] const StrokeScript& script() const { return script_; }
   std::vector<Pose> take() { return std::move(poses_); }
+  [[nodiscard]] const std::vector<Pose>& poses() const { return poses_; }
+  /// The first and the last pose at which the tool touched the clay; both 0: none.
+  struct Touch {
+    std::size_t first = 0, last = 0;
+  };
+  [[nodiscard]] const Touch& touch() const { return touch_; }
 
  private:
   const StrokeScript& script_;
@@ -57,6 +63,7 @@ class Hand {
   Place here_;
   Tremor radial_, vertical_, sideways_;
   std::vector<Pose> poses_;
+  Touch touch_;
 };
 
 }  // namespace clay::strokes

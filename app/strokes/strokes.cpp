@@ -3,6 +3,9 @@
 #include "app/strokes/hand.hpp"
 #include "app/strokes/planned.hpp"
 
+#include <glm/geometric.hpp>
+
+#include <algorithm>
 #include <utility>
 
 namespace clay::strokes {
@@ -42,7 +45,47 @@ void perform(Hand& hand, const Stroke& stroke, int pass) {
   }
 }
 
+constexpr double kAirMm = 8.0;  // way in the air before and after a planned pass
+
+double way_mm(const Pose& a, const Pose& b) { return glm::distance(a.position_mm, b.position_mm); }
+
+/// The poses of a pass in contact, with some air around them. A pull begins where it is lowest: two
+/// fingers close on the wall there.
+std::vector<Pose> around_contact(const Hand& hand, bool pull) {
+  const std::vector<Pose>& poses = hand.poses();
+  std::size_t first = hand.touch().first, last = hand.touch().last;
+  if (last == 0) return {};
+  double air_mm = 0.0;
+  if (pull)
+    first = static_cast<std::size_t>(
+        std::ranges::min_element(poses, {}, [](const Pose& pose) { return pose.position_mm.y; }) -
+        poses.begin());
+  else
+    for (; first > 0 && air_mm < kAirMm; --first) air_mm += way_mm(poses[first], poses[first - 1]);
+  for (air_mm = 0.0; last + 1 < poses.size() && air_mm < kAirMm; ++last)
+    air_mm += way_mm(poses[last], poses[last + 1]);
+  const auto at = [&](std::size_t k) { return poses.begin() + static_cast<std::ptrdiff_t>(k); };
+  return {at(first), at(last + 1)};
+}
+
 }  // namespace
+
+Result<PlannedStroke> plan(const StrokeScript& script, std::size_t index, const SceneSpec& scene,
+                           const Pot& pot) {
+  StrokeScript steady = script;
+  steady.tremor_mm = 0.0;
+  return Wheel::build(scene, pot).map([&](Wheel&& wheel) {
+    Hand hand(steady, std::move(wheel));
+    const Stroke& stroke = steady.strokes.at(index);
+    PlannedStroke planned;
+    for (int pass = 0; pass < stroke.passes; ++pass) {
+      perform(hand, stroke, pass);
+      if (pass == 0) planned.poses = around_contact(hand, stroke.kind == StrokeKind::pull);
+    }
+    planned.after = hand.wheel().pot();
+    return planned;
+  });
+}
 
 Result<std::vector<Pose>> play(const StrokeScript& script, const SceneSpec& scene) {
   return Wheel::build(scene).map([&](Wheel&& wheel) {

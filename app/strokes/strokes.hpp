@@ -3,11 +3,14 @@
 // tremor. Some strokes are planned on the pot as it is when they begin.
 
 #include "claystack/core/result.hpp"
+#include "claystack/engine/clay.hpp"
 #include "claystack/engine/scene.hpp"
 #include "claystack/engine/tool.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,6 +25,8 @@ enum class StrokeKind { path, shape, pull, lip };
 /// One stroke, repeated. Before each pass the hand moves in straight lines to the script's start
 /// and on to the first point: both lines must be clear of the clay.
 struct Stroke {
+  std::string name;  ///< of the step for a learner, such as "Open"
+  std::string hint;  ///< what a learner does in it, a sentence or two
   StrokeKind kind = StrokeKind::path;
   /// path: a smooth curve through points (distance from the axis, height) in mm: at least two, no
   /// equal neighbours; pass k is shifted by k * step.
@@ -65,5 +70,16 @@ Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name)
 /// the scene's wheel. The same bits on every platform: uses no libm except the square root, and no
 /// distribution of the standard library. Fails where Wheel::build refuses the scene.
 Result<std::vector<Pose>> play(const StrokeScript& script, const SceneSpec& scene);
+
+/// A stroke, planned on a pot.
+struct PlannedStroke {
+  /// The first pass, from the approach to the clay until the tool has left it. No tremor.
+  std::vector<Pose> poses;
+  Pot after;  ///< the pot after all passes
+};
+/// Plans stroke number `index` on a pot instead of the scene's lump. Fails where Wheel::build
+/// refuses the pot.
+Result<PlannedStroke> plan(const StrokeScript& script, std::size_t index, const SceneSpec& scene,
+                           const Pot& pot);
 
 }  // namespace clay::strokes

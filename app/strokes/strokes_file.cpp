@@ -61,6 +61,13 @@ void read(const Json& json, const std::string& place, bool& value) {
   value = json.get<bool>();
 }
 
+void read(const Json& json, const std::string& place, std::string& value) {
+  constexpr std::size_t kMostBytes = 200;
+  if (!json.is_string() || json.get_ref<const std::string&>().size() > kMostBytes)
+    refuse(place, "a text of at most " + std::to_string(kMostBytes) + " bytes", json);
+  value = json.get<std::string>();
+}
+
 void read(const Json& json, const std::string& place, glm::dvec2& value) {
   if (!json.is_array() || json.size() != 2) refuse(place, "an array of 2 numbers", json);
   for (int axis = 0; axis < 2; ++axis)
@@ -173,6 +180,8 @@ void read(const Json& json, const std::string& place, Stroke& stroke) {
   if (json.is_object() && json.contains("kind")) read(json["kind"], place + ".kind", stroke.kind);
   stroke.outline_in_mm = json.is_object() && json.contains("outline_mm");
   Members(json, place, required_of(json, stroke))
+      .field("name", stroke.name)
+      .field("hint", stroke.hint)
       .field("kind", stroke.kind)
       .field("through_mm", stroke.through_mm, std::size_t{2})
       .field(stroke.outline_in_mm ? "outline_mm" : "outline", stroke.outline, std::size_t{2})

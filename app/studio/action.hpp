@@ -35,6 +35,18 @@ struct BeginWork {
 struct BeginSample {
   std::size_t index = 0;  ///< index in samples()
 };
+/// Begins a sample with the guide through its steps.
+struct BeginLesson {
+  std::size_t index = 0;  ///< index in samples()
+  bool show = false;      ///< plays all strokes first
+};
+/// The user throws what was shown: from the start again.
+struct YourTurn {};
+struct NextStep {};
+/// Plays the stroke of the present step, or stops playing.
+struct ShowStep {};
+struct StopShowing {};
+struct EndLesson {};
 /// Opens a scene, a pot or a work. A drawing opens the import dialog; a process file selects that
 /// process.
 struct OpenFile {
@@ -141,7 +153,8 @@ struct AimTool {
 struct ReleaseTool {};
 
 // --- The view and the settings. -----------------------------------------------------------------
-enum class ViewFrom { home, front, right, top };
+/// lesson: a little from above, with room for the pot to grow.
+enum class ViewFrom { home, front, right, top, lesson };
 struct LookFrom {
   ViewFrom from = ViewFrom::home;
 };
@@ -152,6 +165,7 @@ struct ToggleCut {
 struct TogglePanel {
   std::string_view id;
 };
+struct ToggleDiagnostics {};
 struct FoldPanel {
   std::string_view id;
   bool open = false;
@@ -181,6 +195,7 @@ using SetTool = Set<&Settings::tool>;
 using SetProcess = Set<&Settings::process>;
 using SetHints = Set<&Settings::hints>;
 using SetFolder = Set<&Settings::folder>;
+using SetBite = Set<&Settings::bite_mm>;
 using SetHandSpeed = Set<&Settings::pressing_mm_s>;
 using SetWallMap = Set<&Settings::wall_map>;
 using SetFullSection = Set<&Settings::full_section>;
@@ -188,15 +203,16 @@ using ToggleWallMap = Toggle<&Settings::wall_map>;
 using ToggleHints = Toggle<&Settings::hints>;
 
 using Action = std::variant<
-    RunCommand, BeginWork, BeginSample, OpenFile, RecoverWork, Quit, DiscardRecoverable, SaveFile,
-    Save, Undo, Redo, GoToStroke, OtherBranch, Scrub, EndScrub, BranchHere, ShowDialog, CloseDialog,
-    EditPath, SaveAndContinue, DiscardAndContinue, EditExport, WriteExport, ReplaceFiles, KeepFiles,
+    RunCommand, BeginWork, BeginSample, BeginLesson, YourTurn, NextStep, ShowStep, StopShowing,
+    EndLesson, OpenFile, RecoverWork, Quit, DiscardRecoverable, SaveFile, Save, Undo, Redo,
+    GoToStroke, OtherBranch, Scrub, EndScrub, BranchHere, ShowDialog, CloseDialog, EditPath,
+    SaveAndContinue, DiscardAndContinue, EditExport, WriteExport, ReplaceFiles, KeepFiles,
     CancelExport, ShowExportFolder, ChooseExportFolder, ChooseProcessFile, UseProcess, EditImport,
     TakeImport, ShowWarning, CloseNotice, SetToolMode, SetToolShape, ScaleTool, ChangeGap,
     SetStiffness, DragToolSize, DragStiffness, TogglePause, Rearm, Back, PressClay, AimTool,
-    ReleaseTool, LookFrom, ToggleCut, TogglePanel, FoldPanel, ToggleTheme, ScaleText, SetTheme,
-    SetScale, SetUnit, SetWheelSpeed, SetTool, SetProcess, SetHints, SetFolder, SetHandSpeed,
-    SetWallMap, SetFullSection, ToggleWallMap, ToggleHints>;
+    ReleaseTool, LookFrom, ToggleCut, TogglePanel, ToggleDiagnostics, FoldPanel, ToggleTheme,
+    ScaleText, SetTheme, SetScale, SetUnit, SetWheelSpeed, SetTool, SetProcess, SetHints, SetFolder,
+    SetHandSpeed, SetBite, SetWallMap, SetFullSection, ToggleWallMap, ToggleHints>;
 
 /// In the order of creation.
 using Actions = std::vector<Action>;

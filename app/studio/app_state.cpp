@@ -12,6 +12,7 @@ ViewModel view_model(AppState& state) {
           .document = state.document,
           .stroke = state.stroke,
           .readings = state.readings,
+          .guide = state.guide,
           .scene = state.scene,
           .ui = state.ui,
           .recoverable = state.recoverable,

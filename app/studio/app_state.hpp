@@ -6,6 +6,8 @@
 #include "app/studio/device_watch.hpp"
 #include "app/studio/fall_show.hpp"
 #include "app/studio/file_dialog.hpp"
+#include "app/studio/guide/guide.hpp"
+#include "app/studio/guide/play.hpp"
 #include "app/studio/host.hpp"
 #include "app/studio/scene_view.hpp"
 #include "app/studio/view_model.hpp"
@@ -27,6 +29,7 @@ struct AppState {
         settings(std::move(remembered)),
         stroke(document, given.clock(), given.real_time()),
         readings(given.real_time()),
+        guide(given.real_time()),
         log(std::move(log_line)) {}
 
   Host& host;
@@ -35,6 +38,8 @@ struct AppState {
   Document document;
   StrokeController stroke;
   Readings readings;
+  Guide guide;
+  Play play;  ///< of the guide's strokes
   SceneView scene;
   UiState ui;
   FallShow fall;

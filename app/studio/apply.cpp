@@ -28,7 +28,8 @@ const char* replaces_work(const Action& action) {
   if (std::holds_alternative<RecoverWork>(action)) return "recover";
   if (const auto* begin = std::get_if<BeginWork>(&action))
     return begin->source.empty() ? "new" : "import";
-  if (std::holds_alternative<BeginSample>(action)) return "new";
+  if (std::holds_alternative<BeginSample>(action) || std::holds_alternative<BeginLesson>(action))
+    return "new";
   const auto* open = std::get_if<OpenFile>(&action);
   return open != nullptr && !is_process(open->path) && !is_drawing(open->path) ? "open" : nullptr;
 }
@@ -97,6 +98,30 @@ struct Performer {
   }
   void operator()(const BeginSample& sample) const {
     if (auto scene = scene_of(samples().at(sample.index))) (*this)(BeginWork{*scene, nullptr, {}});
+  }
+  void operator()(const BeginLesson& lesson) const {
+    (*this)(BeginSample{lesson.index});
+    start_lesson(lesson.index, lesson.show ? Demonstration::all : Demonstration::none);
+  }
+  void operator()(const YourTurn&) const {
+    if (!state.guide.active()) return;
+    (*this)(GoToStroke{0});
+    start_lesson(state.guide.sample(), Demonstration::none);
+  }
+  void operator()(const NextStep&) const {
+    if (state.guide.active()) state.guide.next();
+  }
+  void operator()(const ShowStep&) const {
+    if (state.guide.active()) state.guide.demonstrate(Demonstration::step);
+  }
+  void operator()(const StopShowing&) const {
+    if (state.guide.demonstration() == Demonstration::none) return;
+    state.guide.demonstrate(Demonstration::none);
+    state.stroke.release();
+  }
+  void operator()(const EndLesson&) const {
+    (*this)(StopShowing{});
+    state.guide.end();
   }
   void operator()(const OpenFile& open) const {
     if (is_process(open.path)) return (*this)(UseProcess{open.path});
@@ -344,6 +369,7 @@ struct Performer {
     if (!state.ui.shows<NoDialog>()) return (*this)(CloseDialog{});
     if (state.document.scrubbing())
       return change_document([](Document& document) { return document.show_present(); });
+    if (state.guide.demonstration() != Demonstration::none) return (*this)(StopShowing{});
     if (state.stroke.throwing() && !state.stroke.has_device()) return state.stroke.release();
     if (!force) state.ui.notices.close();
   }
@@ -364,7 +390,11 @@ struct Performer {
   void operator()(const TogglePanel& toggle) const {
     const bool open = !panel_open(state.settings, toggle.id);
     state.settings.open[std::string(toggle.id)] = open;
+    if (open && in_diagnostics(toggle.id)) state.settings.open[kDiagnostics] = true;
     state.ui.reveal = open ? toggle.id : std::string_view();
+  }
+  void operator()(const ToggleDiagnostics&) const {
+    state.settings.open[kDiagnostics] = !diagnostics_open(state.settings);
   }
   void operator()(const FoldPanel& fold) const {
     state.settings.open[std::string(fold.id)] = fold.open;
@@ -403,11 +433,20 @@ struct Performer {
   /// After a new work has begun: selects its tool and shows it in the view.
   void show_work() const {
     state.stroke.begin_work();
+    state.guide.end();
     choose(state.document.scene().tool, state.settings.tool);
     state.ui.dialog = NoDialog{};
     state.scene.look(state.stroke.view(), ViewFrom::home);
     state.ui.exporting.written.clear();
     state.log("work started: " + state.document.scene().name);
+  }
+  void start_lesson(std::size_t sample, Demonstration demonstration) const {
+    const auto begun = state.guide.begin(samples().at(sample), demonstration);
+    if (!succeeded(state, begun)) return;
+    // The verdict of a first pot is that for the usual printer.
+    if (state.settings.process.empty()) state.settings.process = "fdm";
+    state.scene.cut = render::Cut::half;  // the path in the bore is in sight
+    state.scene.look(state.stroke.view(), ViewFrom::lesson);
   }
   /// The action to run after saving.
   [[nodiscard]] std::optional<Action> after_saving() const {

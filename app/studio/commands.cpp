@@ -21,6 +21,8 @@ constexpr std::string_view kSection = "section", kWalls = "walls", kCertificate 
                            kLedger = "ledger", kStress = "stress", kServo = "servo";
 
 bool always(View) { return true; }
+bool in_lesson(View view) { return view.guide.active(); }
+bool in_step(View view) { return view.guide.active() && !view.guide.finished(); }
 bool has_work(View view) { return view.document.has_work(); }
 bool at_rest(View view) { return view.at_rest(); }
 bool between(View view) { return view.between_strokes(); }
@@ -79,6 +81,7 @@ bool is_open(View view) {
 bool paused(View view) { return view.stroke.paused(); }
 bool is_light(View view) { return view.settings.theme == Theme::light; }
 bool has_wall_map(View view) { return view.settings.wall_map; }
+bool has_diagnostics(View view) { return diagnostics_open(view.settings); }
 bool has_hints(View view) { return view.settings.hints; }
 
 constexpr unsigned kCtrl = kControl, kCtrlShift = kControl | kShift;
@@ -95,6 +98,10 @@ const std::array kCommands = {
     C{"file.new_vase", "New vase", kNone, kNone, BeginSample{1}, always},
     C{"file.new_bottle", "New bottle", kNone, kNone, BeginSample{2}, always},
     C{"file.new_cylinder", "New cylinder", kNone, kNone, BeginSample{3}, always},
+    C{"file.learn_bowl", "Throw a bowl step by step", kNone, kNone, BeginLesson{0, false}, always},
+    C{"file.learn_vase", "Throw a vase step by step", kNone, kNone, BeginLesson{1, false}, always},
+    C{"file.learn_bottle", "Throw a bottle step by step", kNone, kNone, BeginLesson{2, false}, always},
+    C{"file.learn_cylinder", "Throw a cylinder step by step", kNone, kNone, BeginLesson{3, false}, always},
     C{"file.open", "Open...", key(GLFW_KEY_O, kCtrl), kNone, ShowDialog{Kind::open_file}, always},
     C{"file.save", "Save", key(GLFW_KEY_S, kCtrl), kNone, Save{}, between},
     C{"file.save_as", "Save as...", key(GLFW_KEY_S, kCtrlShift), kNone, ShowDialog{Kind::save_file}, between},
@@ -152,9 +159,10 @@ const std::array kCommands = {
     C{"view.section", "Section", key(GLFW_KEY_X), kNone, TogglePanel{kSection}, always, is_open<kSection>},
     C{"view.walls", "Walls", kNone, kNone, TogglePanel{kWalls}, always, is_open<kWalls>},
     C{"view.certificate", "Certificate", kNone, kNone, TogglePanel{kCertificate}, always, is_open<kCertificate>},
-    C{"view.ledger", "Ledger", kNone, kNone, TogglePanel{kLedger}, always, is_open<kLedger>},
+    C{"view.ledger", "Clay balance", kNone, kNone, TogglePanel{kLedger}, always, is_open<kLedger>},
     C{"view.stress", "Stress", kNone, kNone, TogglePanel{kStress}, always, is_open<kStress>},
-    C{"view.servo", "Servo", kNone, kNone, TogglePanel{kServo}, always, is_open<kServo>},
+    C{"view.servo", "Timing", kNone, kNone, TogglePanel{kServo}, always, is_open<kServo>},
+    C{"view.diagnostics", "Diagnostics", key(GLFW_KEY_D), kNone, ToggleDiagnostics{}, always, has_diagnostics},
     C{"view.theme", "Light theme", key(GLFW_KEY_L, kCtrl), kNone, ToggleTheme{}, always, is_light},
     C{"view.mm", "Millimetres", kNone, kNone, SetUnit{LengthUnit::mm}, always, is_unit<LengthUnit::mm>},
     C{"view.cm", "Centimetres", kNone, kNone, SetUnit{LengthUnit::cm}, always, is_unit<LengthUnit::cm>},
@@ -162,6 +170,9 @@ const std::array kCommands = {
     C{"view.larger", "Larger text", key(GLFW_KEY_EQUAL, kCtrl), key(GLFW_KEY_EQUAL, kCtrlShift), ScaleText{kTextStep}, always},
     C{"view.smaller", "Smaller text", key(GLFW_KEY_MINUS, kCtrl), kNone, ScaleText{1.0f / kTextStep}, always},
 
+    C{"help.show_step", "Show this step", key(GLFW_KEY_G), kNone, ShowStep{}, in_step},
+    C{"help.next_step", "Next step", key(GLFW_KEY_N), kNone, NextStep{}, in_step},
+    C{"help.end_lesson", "End the guide", kNone, kNone, EndLesson{}, in_lesson},
     C{"help.hint", "First steps", kNone, kNone, ToggleHints{}, always, has_hints},
     C{"help.keys", "Keys and mouse", key(GLFW_KEY_SLASH, kShift), key(GLFW_KEY_F1), ShowDialog{Kind::shortcuts}, always},
 };

@@ -95,7 +95,15 @@ std::optional<WallPlace> wall_at(const render::PotView& pot, const Tool& tool, d
   if (row.inner_mm <= 0.0f || sides.inside_mm < 0.0) return std::nullopt;
   // The gap of a pinch is measured between the widest points of the two tools.
   const double outer = sides.outside_mm - tool.widest(), inner = sides.inside_mm + tool.widest();
-  return WallPlace{0.5 * (outer + inner), std::max(0.0, outer - inner)};
+  return WallPlace{0.5 * (outer + inner), std::max(0.0, outer - inner), y_mm};
+}
+
+std::optional<WallPlace> wall_above(const render::PotView& pot, const Tool& tool, double y_mm) {
+  constexpr double kStepMm = 0.5;
+  std::optional<WallPlace> wall;
+  for (double y = std::max(0.0, y_mm); y < pot.height_mm && !wall; y += kStepMm)
+    wall = wall_at(pot, tool, y);
+  return wall;
 }
 
 bool inside(const render::PotView& pot, const glm::dvec3& place_mm) {

@@ -19,14 +19,22 @@ inline constexpr double kClearanceMm = 0.25;
 [[nodiscard]] glm::dvec2 free_place(const render::PotView& pot, const Tool& tool,
                                     glm::dvec2 place_mm);
 
+/// A wall that is led out over the foot stays this far within it [mm].
+inline constexpr double kFootSpareMm = 3.0;
+
 struct WallPlace {
   double middle_mm = 0.0;     ///< rho of the middle of the wall, above 0
   double thickness_mm = 0.0;  ///< gap at which two tools are clear of the clay
+  double y_mm = 0.0;          ///< height of the tools
 };
 /// The wall at this height, over the height of the tool; nothing if there is no wall (no bore, or
 /// above the rim).
 [[nodiscard]] std::optional<WallPlace> wall_at(const render::PotView& pot, const Tool& tool,
                                                double y_mm);
+
+/// The same at the lowest height from `y_mm` on at which two tools fit: above the floor.
+[[nodiscard]] std::optional<WallPlace> wall_above(const render::PotView& pot, const Tool& tool,
+                                                  double y_mm);
 
 /// True if a place on the wheel is nearer to the bore than to the outside.
 [[nodiscard]] bool inside(const render::PotView& pot, const glm::dvec3& place_mm);

@@ -61,6 +61,17 @@ Result<void> run_script(const StudioOptions& options, const LogLine& log) {
   return {};
 }
 
+/// How long the picture was behind the mouse.
+void log_motion(const FrameTimes& times, const LogLine& log) {
+  const auto text = [](const Histogram& motion) {
+    return fmt::format("median {:.1f} ms, 99 % {:.1f} ms, of {}",
+                       1e-6 * static_cast<double>(motion.quantile_ns(0.5)),
+                       1e-6 * static_cast<double>(motion.quantile_ns(0.99)), motion.count());
+  };
+  if (times.hover.count() > 0) log("motion to picture, hovering: " + text(times.hover));
+  if (times.stroke.count() > 0) log("motion to picture, in a stroke: " + text(times.stroke));
+}
+
 Result<void> run_window(const StudioOptions& options, const LogLine& log) {
   LoadedSettings loaded = load_settings(settings_path());
   apply(options, loaded.settings);
@@ -89,6 +100,7 @@ Result<void> run_window(const StudioOptions& options, const LogLine& log) {
   // After a signal the user could not decide, so the journal stays and the work can be recovered.
   state.stroke.release();
   if (state.done) state.document.close();
+  log_motion((*studio)->frame_times(), log);
   log("window closed");
   return state.settings_file.save(state.settings);
 }

@@ -1,8 +1,12 @@
 #pragma once
 // The mouse as a device without motors, in the frame of the wheel. The window sets a target for the
-// tool; the device moves towards it no faster than a hand.
+// tool; a spring pulls the tool there, no faster than a hand, and into the clay no further in a
+// turn of the wheel than the bite of the hand. So the tool stops at clay that is too much for the
+// hand, or bends the wall; it never jumps through.
 
 #include "app/servo/clock.hpp"
+#include "claystack/engine/clay.hpp"
+#include "claystack/engine/tool.hpp"
 #include "claystack/falcon/device.hpp"
 #include "claystack/servo/servo.hpp"
 #include "core/snapshot.hpp"
@@ -20,6 +24,14 @@ struct MouseAim {
   double speed_mm_s = kPressingMmPerS;
 };
 
+/// The clay that resists the hand.
+struct Resistance {
+  const ClayStack* clay =
+      nullptr;  ///< of the wheel of the servo, which reads the mouse; null: none
+  const Tool* tool = nullptr;
+  double bite_mm_s = 0.0;  ///< how fast the whole tool may dig in
+};
+
 class MouseDevice final : public falcon::HapticDevice {
  public:
   /// `clock`: the clock of the servo; it must outlive this object.
@@ -30,6 +42,12 @@ class MouseDevice final : public falcon::HapticDevice {
 
   /// Start position of the tool for the next servo. Not while a servo runs.
   void begin_at(const glm::dvec3& place_mm) noexcept;
+  /// What the tool meets. Not while a servo runs; its clay and tool must outlive that servo.
+  void meet(const Resistance& resistance) noexcept { resistance_ = resistance; }
+  /// How far the spring is stretched: from the tool to its target [mm]. For any thread.
+  [[nodiscard]] double stretch_mm() const noexcept {
+    return stretch_mm_.load(std::memory_order_relaxed);
+  }
   /// Called by the thread of the window, at any time.
   void aim(const MouseAim& aim) noexcept { aim_.write(aim); }
 
@@ -50,7 +68,12 @@ class MouseDevice final : public falcon::HapticDevice {
                            .force_limit_n = 0.0,
                            .half_workspace_mm = glm::dvec3(1000.0),
                            .rate_hz = 1000.0};
+  [[nodiscard]] double overlap_mm2(const glm::dvec3& place_mm) const noexcept;
+  [[nodiscard]] double yielding_part(const glm::dvec3& step_mm, double step_s) const noexcept;
+
   Snapshot<MouseAim> aim_;
+  Resistance resistance_;
+  std::atomic<double> stretch_mm_{0.0};
   glm::dvec3 place_mm_{0.0};
   std::int64_t last_us_ = -1;  // of the last sample; below 0: none since begin_at
 };

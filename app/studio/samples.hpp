@@ -3,6 +3,7 @@
 
 #include "app/render/picture.hpp"
 #include "claystack/core/result.hpp"
+#include "claystack/engine/clay.hpp"
 #include "claystack/engine/scene.hpp"
 
 #include <array>
@@ -13,8 +14,8 @@ namespace clay::studio {
 struct Sample {
   std::string_view name;
   const char* title;
-  const char* description;                    ///< purpose of the sample
-  std::string_view scene_text, session_text;  ///< contents of the files in samples/
+  const char* description;                                  ///< purpose of the sample
+  std::string_view scene_text, session_text, strokes_text;  ///< contents of the files in samples/
 };
 
 [[nodiscard]] const std::array<Sample, 4>& samples();
@@ -22,6 +23,7 @@ struct Sample {
 
 Result<SceneSpec> scene_of(const Sample& sample);
 /// The pot that the session of the sample makes; takes about 0.1 s.
+Result<Pot> finished_pot(const Sample& sample);
 Result<render::PotView> finished(const Sample& sample);
 
 }  // namespace clay::studio

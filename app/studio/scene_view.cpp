@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kRoomForTool = 1.35;   // size of the view relative to the whole pot
 constexpr double kSizingPerPx = 0.006;  // drag: change of the logarithm of the size per pixel
+constexpr double kLessonRad = 0.22, kGrowth = 2.6;   // a pot that is pulled grows to that
 constexpr double kSoftest = 1e-4, kStiffest = 10.0;  // N/mm^2
 
 std::optional<Tool> chosen_tool(const ViewModel& view) {
@@ -31,7 +32,7 @@ render::PotView shown_pot(const ViewModel& view) {
 
 /// The middle of a wall, on the side of the pointer.
 glm::dvec2 pinch_place(const WallPlace& wall, glm::dvec2 pointed_mm) {
-  return {pointed_mm.x < 0.0 ? -wall.middle_mm : wall.middle_mm, pointed_mm.y};
+  return {pointed_mm.x < 0.0 ? -wall.middle_mm : wall.middle_mm, wall.y_mm};
 }
 
 }  // namespace
@@ -50,6 +51,16 @@ void SceneView::look(const render::PotView& pot, ViewFrom from) {
       camera_ = render::framed(pot, viewport().aspect());
       camera_.distance_mm *= kRoomForTool;
       return;
+    case ViewFrom::lesson: {
+      camera.azimuth_rad = 0.0;
+      camera.elevation_rad = kLessonRad;
+      render::PotView grown = pot;
+      grown.height_mm *= kGrowth;
+      camera_ = render::framed(grown, viewport().aspect(), camera);
+      camera_.distance_mm *= kRoomForTool;
+      lift_foot();
+      return;
+    }
     case ViewFrom::front:
       camera.azimuth_rad = camera.elevation_rad = 0.0;
       break;
@@ -64,6 +75,32 @@ void SceneView::look(const render::PotView& pot, ViewFrom from) {
   }
   camera_ = render::framed(pot, viewport().aspect(), camera);
   camera_.distance_mm *= kRoomForTool;
+}
+
+/// Leaves room for the card of the lesson below the wheel.
+void SceneView::lift_foot() {
+  constexpr float kFootAt = 0.58f;  // of the height of the view
+  constexpr double kStepMm = 2.0;
+  constexpr int kMostSteps = 200;
+  const auto low = [&] {
+    const auto foot = pixel_of({0.0, 0.0});
+    return foot && foot->y > rect_.corner_px.y + kFootAt * rect_.size_px.y;
+  };
+  for (int step = 0; step < kMostSteps && low(); ++step) camera_.target_mm.y -= kStepMm;
+}
+
+void SceneView::keep_rim_in_view(const render::PotView& pot) {
+  constexpr double kAboveMm = 60.0, kBack = 1.03;
+  constexpr int kMostSteps = 60;
+  const double top_mm = pot.height_mm + kAboveMm;
+  const auto hidden = [&] {
+    const auto rim = pixel_of({0.0, top_mm}), foot = pixel_of({0.0, 0.0});
+    return !rim || !foot || rim->y < rect_.corner_px.y ||
+           foot->y > rect_.corner_px.y + rect_.size_px.y;
+  };
+  if (!hidden()) return;
+  camera_.target_mm.y = std::max(camera_.target_mm.y, 0.5 * top_mm);
+  for (int step = 0; step < kMostSteps && hidden(); ++step) camera_.distance_mm *= kBack;
 }
 
 /// The wheel head only grows, so that it does not change with every stroke; showing the whole pot
@@ -112,13 +149,7 @@ void SceneView::drag(const ViewModel& view, glm::vec2 by_px, Actions& actions) {
           SetStiffness{std::clamp(view.document.stiffness() * factor, kSoftest, kStiffest)});
       break;
     case Drag::shape:
-      if (const auto place = pointed_mm()) {
-        glm::dvec2 aim = *place + offset_mm_;
-        aim.y = std::max(0.0, aim.y);
-        const double speed_mm_s =
-            view.stroke.status().contact ? view.settings.pressing_mm_s : kReachingMmPerS;
-        actions.emplace_back(AimTool{{on_wheel(aim), speed_mm_s}});
-      }
+      if (const auto place = pointed_mm()) shape_to(view, *place, actions);
       break;
     case Drag::none:
       break;
@@ -145,20 +176,26 @@ bool SceneView::button(const ViewModel& view, const ButtonChanged& change, Actio
   return true;
 }
 
+void SceneView::press(const ViewModel& view, bool inverted, Actions& actions) {
+  const std::size_t before = actions.size();
+  if (const auto pointed = pointed_mm()) shape_from(view, *pointed, inverted, actions);
+  const bool begun = actions.size() > before && std::holds_alternative<PressClay>(actions.back());
+  if (begun) drag_ = Drag::shape;
+}
+
 /// A press on the clay moves the tool to the nearest free place; from there the tool follows the
 /// mouse.
-void SceneView::press(const ViewModel& view, bool inverted, Actions& actions) {
-  const auto pointed = pointed_mm();
+void SceneView::shape_from(const ViewModel& view, glm::dvec2 pointed_mm, bool inverted,
+                           Actions& actions) {
   const auto tool = chosen_tool(view);
-  if (!pointed || !tool || !view.document.has_work() || view.stroke.has_device() ||
-      view.stroke.paused())
+  if (!tool || !view.document.has_work() || view.stroke.has_device() || view.stroke.paused())
     return;
   const ToolSpec spec = tool_of(view.settings.tool, inverted);
   const render::PotView pot = shown_pot(view);
-  glm::dvec2 start = free_place(pot, *tool, *pointed);
+  glm::dvec2 start = free_place(pot, *tool, pointed_mm);
   double gap_mm = 0.0;
   if (spec.mode == ToolMode::pinch) {
-    const auto wall = wall_at(pot, *tool, pointed->y);
+    const auto wall = wall_above(pot, *tool, pointed_mm.y);
     if (!wall) {
       actions.emplace_back(
           ShowWarning{"There is no wall here to pinch: open the clay with a press from above "
@@ -166,12 +203,44 @@ void SceneView::press(const ViewModel& view, bool inverted, Actions& actions) {
                       "the wall"});
       return;
     }
-    start = pinch_place(*wall, *pointed);
+    start = pinch_place(*wall, pointed_mm);
     gap_mm = wall->thickness_mm;
   }
-  offset_mm_ = start - *pointed;
-  drag_ = Drag::shape;
-  actions.emplace_back(PressClay{{spec, view.settings.wheel_rpm, on_wheel(start), gap_mm}});
+  offset_mm_ = start - pointed_mm;
+  actions.emplace_back(
+      PressClay{{spec, view.settings.wheel_rpm, on_wheel(start), view.settings.bite_mm, gap_mm}});
+}
+
+namespace {
+
+/// Two fingers follow the wall that they hold, and carry on over the rim. A pointer beside the wall
+/// leans on it.
+glm::dvec2 along_wall(const ViewModel& view, glm::dvec2 aim_mm) {
+  constexpr double kLean = 0.35, kMostLeanMm = 4.0, kRimMm = 1.0;
+  const auto tool = chosen_tool(view);
+  const render::PotView& pot = view.stroke.view();
+  if (!tool) return aim_mm;
+  const auto wall = wall_at(pot, *tool, std::min(aim_mm.y, pot.height_mm - kRimMm));
+  if (!wall) return aim_mm;
+  // The foot stands still: a wall that is led out over it tears off there.
+  const double over_foot_mm = std::max(0.0, aim_mm.y - 2.0 * tool->high());
+  const double most_mm = static_cast<double>(pot.rows.front().outer_mm) - 0.5 * wall->thickness_mm -
+                         kFootSpareMm + over_foot_mm - wall->middle_mm;
+  const double lean = kLean * (std::abs(aim_mm.x) - wall->middle_mm);
+  const double rho =
+      wall->middle_mm + std::clamp(lean, -kMostLeanMm, std::clamp(most_mm, 0.0, kMostLeanMm));
+  return {aim_mm.x < 0.0 ? -rho : rho, aim_mm.y};
+}
+
+}  // namespace
+
+void SceneView::shape_to(const ViewModel& view, glm::dvec2 pointed_mm, Actions& actions) const {
+  glm::dvec2 aim = pointed_mm + offset_mm_;
+  aim.y = std::max(0.0, aim.y);
+  if (view.settings.tool.mode == ToolMode::pinch) aim = along_wall(view, aim);
+  const double speed_mm_s =
+      view.stroke.status().contact ? view.settings.pressing_mm_s : kReachingMmPerS;
+  actions.emplace_back(AimTool{{on_wheel(aim), speed_mm_s}});
 }
 
 bool SceneView::scrolled(float steps) {
@@ -227,7 +296,7 @@ std::optional<render::ToolView> SceneView::hovering_tool(const ViewModel& view,
   glm::dvec2 place = free_place(pot, tool, *pointed);
   if (view.settings.tool.mode == ToolMode::pinch) {
     shown.gap_mm = view.settings.tool.gap_mm;
-    if (const auto wall = wall_at(pot, tool, pointed->y)) {
+    if (const auto wall = wall_above(pot, tool, pointed->y)) {
       place = pinch_place(*wall, *pointed);
       shown.gap_mm = std::max(*shown.gap_mm, wall->thickness_mm);
     }

@@ -38,10 +38,15 @@ class SceneView {
   void cancel(Actions& actions);
   /// Call if the stroke could not begin.
   void stop_shaping() noexcept { drag_ = Drag::none; }
+  /// A stroke from a point (rho, y) [mm] of the section plane, and on to others.
+  void shape_from(const ViewModel& view, glm::dvec2 pointed_mm, bool inverted, Actions& actions);
+  void shape_to(const ViewModel& view, glm::dvec2 pointed_mm, Actions& actions) const;
   [[nodiscard]] bool turning() const noexcept { return drag_ == Drag::orbit || drag_ == Drag::pan; }
 
   // --- Camera. -----------------------------------------------------------------------------------
   void look(const render::PotView& pot, ViewFrom from);
+  /// Moves back if the rim and 60 mm above it are not in sight.
+  void keep_rim_in_view(const render::PotView& pot);
   void zoom(double notches) { camera_ = render::zoomed(camera_, notches); }
   void place(const ViewRect& rect) noexcept { rect_ = rect; }
   [[nodiscard]] const ViewRect& rect() const noexcept { return rect_; }
@@ -63,6 +68,7 @@ class SceneView {
   enum class Drag { none, shape, orbit, pan, size, stiffness };
   void press(const ViewModel& view, bool inverted, Actions& actions);
   void drag(const ViewModel& view, glm::vec2 by_px, Actions& actions);
+  void lift_foot();
   [[nodiscard]] std::optional<render::ToolView> hovering_tool(const ViewModel& view,
                                                               const Tool& tool) const;
   [[nodiscard]] glm::dvec3 on_wheel(glm::dvec2 place_mm) const;

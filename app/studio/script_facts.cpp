@@ -105,6 +105,21 @@ const std::array kFacts = {
          [](const AppState& s) {
            return yes_or_no(s.readings.check() && s.readings.check()->thin());
          }},
+    Fact{"ready",
+         [](const AppState& s) {
+           return yes_or_no(s.readings.check() && s.readings.check()->ready());
+         }},
+    Fact{"verdict",
+         [](const AppState& s) {
+           return s.readings.check() ? ready_text(*s.readings.check(), s.settings.unit)
+                                     : std::string();
+         }},
+    Fact{"step",
+         [](const AppState& s) {
+           return !s.guide.active()    ? "none"
+                  : s.guide.finished() ? "finished"
+                                       : s.guide.stroke(s.guide.step()).name;
+         }},
     Fact{"thinnest_mm",
          [](const AppState& s) {
            return s.readings.check() ? fmt::format("{}", s.readings.check()->thinnest_mm)

@@ -68,6 +68,7 @@ void describe(PlainFields& io, Settings& s) {
   io.text("folder", s.folder);
   io.texts("recent", s.recent, kMostRecent);
   io.number("pressing_mm_s", s.pressing_mm_s, kSlowestHandMmPerS, kFastestHandMmPerS);
+  io.number("bite_mm", s.bite_mm, kSoftestBiteMm, kFirmestBiteMm);
 }
 
 std::string whole_name(const std::filesystem::path& path) {

@@ -15,6 +15,8 @@
 namespace clay::studio {
 
 inline constexpr double kSlowestHandMmPerS = 10.0, kFastestHandMmPerS = 200.0;
+/// How far the mouse digs the tool into the clay per turn of the wheel at most [mm].
+inline constexpr double kSoftestBiteMm = 0.5, kFirmestBiteMm = 20.0, kUsualBiteMm = 8.0;
 inline constexpr std::size_t kMostRecent = 8, kMostProcesses = 4;
 inline constexpr double kSlowestRpm = 20.0, kFastestRpm = 240.0;
 
@@ -32,6 +34,7 @@ struct Settings {
   std::map<std::string, bool> open;    ///< unfolded panels by id; others have their default
   std::string folder;                  ///< folder of the last file; empty: none yet
   std::vector<std::string> recent;     ///< files, newest first, at most kMostRecent
+  double bite_mm = kUsualBiteMm;       ///< strength of the hand, kSoftestBiteMm to kFirmestBiteMm
   double pressing_mm_s = 80.0;  ///< maximum tool speed in the clay, kSlowestHand to kFastestHand
 };
 

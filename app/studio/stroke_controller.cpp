@@ -7,6 +7,9 @@ namespace {
 
 constexpr double kClosingMmPerS = 15.0;  // closing speed of a pinch, like two hands on a wall
 
+/// Two fingers are limited by the speed at which they close; needle and wire cut.
+bool hand_is_free(ToolMode mode) { return mode == ToolMode::pinch || cuts_level(mode); }
+
 render::PotView view_of(const servo::LiveProfile& profile) {
   render::PotView view;
   view.height_mm = profile.height_mm;
@@ -34,6 +37,7 @@ Result<void> StrokeController::press(const MousePress& press) {
   gap_mm_ = std::max(closed_gap_mm_, press.gap_mm);
   settings.gap_mm = gap_mm_;
   mouse_.begin_at(press.place_mm);
+  bite_mm_s_ = hand_is_free(press.tool.mode) ? 0.0 : press.bite_mm * press.wheel_rpm / 60.0;
   auto begun = begin_session(scene, mouse_, settings);
   if (begun) document_.set_scene(scene);
   return begun;
@@ -74,6 +78,8 @@ Result<void> StrokeController::start_servo(const SceneSpec& scene, falcon::Hapti
     (void)document_.end_stroke(std::nullopt, history::Recording::one_stroke);  // adds none
     return tl::make_unexpected(live.error());
   }
+  if (&device == &mouse_ && bite_mm_s_ > 0.0)
+    mouse_.meet({&wheel_->stack(), &wheel_->plan().tool, bite_mm_s_});
   live_.emplace(std::move(*live));
   live_->start(!threads_                ? servo::Pace::stepped
                : device.info().can_push ? servo::Pace::real_time

@@ -39,6 +39,7 @@ struct MousePress {
   ToolSpec tool;
   double wheel_rpm = 120.0;
   glm::dvec3 place_mm{0.0};  ///< start position on the wheel, clear of the clay
+  double bite_mm = 0.0;  ///< how far the tool digs in per turn of the wheel at most; 0: no limit
   double gap_mm =
       0.0;  ///< gap at the start of a pinch, as wide as the wall; it closes to the gap of the tool
 };
@@ -69,6 +70,8 @@ class StrokeController {
   /// Devices begin no stroke until `resume`.
   void hold_back() noexcept { device_waits_ = false; }
   [[nodiscard]] bool throwing() const noexcept { return live_.has_value(); }
+  /// How hard the mouse pulls at the tool: the way from the tool to its target [mm].
+  [[nodiscard]] double stretch_mm() const noexcept { return live_ ? mouse_.stretch_mm() : 0.0; }
 
   // --- Devices. ----------------------------------------------------------------------------------
   /// An open device replaces the mouse until it is lost. Its strokes follow each other; undo and a
@@ -129,6 +132,7 @@ class StrokeController {
   render::PotView view_;  // during a stroke
   double crown_mm_ = 0.0;
   StrokeNews news_;
+  double bite_mm_s_ = 0.0;                     // of the mouse
   double gap_mm_ = 0.0, closed_gap_mm_ = 0.0;  // for a pinch that closes
   std::int64_t last_ns_ = 0;                   // time of the previous frame
   std::int64_t measured_ns_ = 0;

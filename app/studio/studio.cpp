@@ -77,13 +77,18 @@ Studio::~Studio() {
 
 bool Studio::wakeful() const noexcept {
   return moving() || fine_ != kFineness[0] || awake_frames_ > 0 || state_.readings.checking() ||
-         state_.exporter.busy() || state_.file_dialog.open();
+         state_.guide.busy() || state_.exporter.busy() || state_.file_dialog.open();
 }
 
 bool Studio::moving() const noexcept {
-  return state_.stroke.throwing() || spin_ > 0.0 || state_.scene.turning() ||
-         state_.fall.running() ||
+  return state_.stroke.throwing() || state_.guide.demonstration() != Demonstration::none ||
+         spin_ > 0.0 || state_.scene.turning() || state_.fall.running() ||
          (state_.document.scrubbing() && ImGui::IsMouseDown(ImGuiMouseButton_Left));
+}
+
+void Studio::take(Input input) {
+  if (moved_ns_ == 0 && std::holds_alternative<PointerMoved>(input)) moved_ns_ = steady_ns();
+  input_.push_back(std::move(input));
 }
 
 bool Studio::frame(Painting painting) {
@@ -108,8 +113,12 @@ bool Studio::frame(Painting painting) {
   name_window();
   turn_wheel(elapsed_s);
   if (painting == Painting::none) return false;
+  const std::int64_t moved_ns = std::exchange(moved_ns_, 0);
   if (!needs_paint() && painting == Painting::if_changed) return false;
   paint();
+  if (moved_ns == 0 || !state_.host.real_time()) return true;
+  glFinish();  // waits until the frame is drawn
+  (state_.stroke.throwing() ? times_.stroke : times_.hover).add(steady_ns() - moved_ns);
   return true;
 }
 
@@ -161,24 +170,34 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   const float top = draw_menu(model, actions);
   const float status = status_height();
   const float height = std::max(1.0f, size.y - top - status);
-  // In a narrow window the view has priority, then the left column.
-  const float column = std::round(kColumnEm * em);
-  const float left = size.x - column >= kNarrowestViewEm * em ? column : 0.0f;
-  const float right = size.x - 2.0f * column >= kNarrowestViewEm * em ? column : 0.0f;
-  if (left > 0.0f) draw_column(model, actions, Column::left, {0.0f, top}, {left, height});
+  // In a narrow window the view has priority, then the tools, then the context.
+  const float column = std::round(kColumnEm * em), strip = strip_width();
+  const float left = size.x - strip >= kNarrowestViewEm * em ? strip : 0.0f;
+  float right = size.x - left - column >= kNarrowestViewEm * em ? column : 0.0f;
+  if (left > 0.0f) draw_strip(model, actions, {0.0f, top}, {left, height});
   if (right > 0.0f)
-    draw_column(model, actions, Column::right, {size.x - right, top}, {right, height});
+    draw_column(model, actions, Column::context, {size.x - right, top}, {right, height});
+  if (diagnostics_open(model.settings) && size.x - left - right - column > 0.0f) {
+    right += column;
+    draw_column(model, actions, Column::diagnostics, {size.x - right, top}, {column, height});
+  }
   draw_status_bar(model, {0.0f, size.y - status}, {size.x, status});
   const float wide = std::max(1.0f, size.x - left - right);
-  const float strip = timeline_height(model, {wide, height});
-  const ViewRect view{{left, top}, {wide, height - strip}};
-  if (strip > 0.0f) draw_timeline(model, actions, {left, top + height - strip}, {wide, strip});
+  const float timeline = timeline_height(model, {wide, height});
+  const ViewRect view{{left, top}, {wide, height - timeline}};
+  if (timeline > 0.0f)
+    draw_timeline(model, actions, {left, top + height - timeline}, {wide, timeline});
   const bool first = state_.scene.rect().size_px.x <= 1.0f;
   state_.scene.place(view);
   if (first && model.document.has_work()) state_.scene.look(model.stroke.view(), ViewFrom::home);
   draw_marks(model, view);
+  draw_path(model, view);
+  draw_at_tool(model, view);
+  draw_pause(model, view);
   draw_export_marks(model, view);
   draw_hint(model, actions, view);
+  draw_guide(model, actions, view);
+  draw_verdict(model, view);
   draw_dialog(model, actions, view);
   draw_banner(model, actions, view);
 }

@@ -61,6 +61,9 @@ class Quality {
 struct FrameTimes {
   Histogram drawing;  ///< time until the frame is complete
   std::int64_t first_ns = 0, last_ns = 0;
+  /// From a motion of the mouse until the frame that shows it is complete, without and with a
+  /// stroke. The time until the screen shows it is not included.
+  Histogram hover, stroke;
   [[nodiscard]] double fps() const noexcept {
     return last_ns > first_ns ? 1e9 * static_cast<double>(drawing.count() - 1) /
                                     static_cast<double>(last_ns - first_ns)
@@ -86,7 +89,7 @@ class Studio {
   Studio& operator=(const Studio&) = delete;
 
   /// Queues input for the next frame.
-  void take(Input input) { input_.push_back(std::move(input)); }
+  void take(Input input);
   /// Updates everything to the current time of the clock. Returns whether it has painted a frame.
   bool frame(Painting painting);
 
@@ -120,6 +123,7 @@ class Studio {
   std::optional<render::Painter> painter_;
   std::optional<render::Canvas> canvas_;
   std::deque<Input> input_;
+  std::int64_t moved_ns_ = 0;  // arrival of the first motion that no frame shows yet; 0: none
   std::string title_;
   double last_s_ = 0.0;
   double spin_ = 0.0;  // speed of the wheel: 0 at rest, 1 at full speed

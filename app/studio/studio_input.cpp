@@ -96,6 +96,9 @@ void Studio::apply(const Input& input) {
     io.MousePos = {moved->place_px.x, moved->place_px.y};
     state_.scene.pointer_moved(model, moved->place_px, actions);
   } else if (const auto* change = std::get_if<ButtonChanged>(&input)) {
+    // A press in the view ends a demonstration.
+    if (view && change->down && change->button == MouseButton::left)
+      actions.emplace_back(StopShowing{});
     const bool taken = (view || !change->down) && state_.scene.button(model, *change, actions);
     if (!taken || !change->down) io.MouseDown[static_cast<int>(change->button)] = change->down;
     io.KeyCtrl = (change->mods & kControl) != 0;
@@ -128,7 +131,10 @@ void Studio::key(const KeyChanged& change) {
       (change.mods & kControl) == 0 || change.key == GLFW_KEY_Z || change.key == GLFW_KEY_Y;
   if (change.key != GLFW_KEY_ESCAPE) {
     if (io.WantTextInput && edits_text) return;
-    if (!state_.ui.shows<NoDialog>() && !in_dialogs(*command)) return;
+    // Behind a dialog single letters do nothing.
+    const bool letter =
+        change.mods == kNoMods && change.key >= GLFW_KEY_A && change.key <= GLFW_KEY_Z;
+    if (!state_.ui.shows<NoDialog>() && (letter || !in_dialogs(*command))) return;
   }
   if (change.repeated && !command->id.starts_with("tool.") && !command->id.starts_with("edit."))
     return;

@@ -1,14 +1,17 @@
 #include "app/studio/style.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace clay::studio {
 namespace {
 
-constexpr float kTextPx = 15.0f, kTitlePx = 21.0f;
-constexpr const char* kFontFolder = "/usr/share/fonts/truetype/dejavu/";
+constexpr float kTextPx = 16.0f, kTitlePx = 22.0f, kSmallPx = 12.0f;
+constexpr std::string_view kInter = "/usr/share/fonts/opentype/inter/Inter-",
+                           kDejaVu = "/usr/share/fonts/truetype/dejavu/DejaVuSans";
 
 ImVec4 rgb(unsigned hex, float alpha = 1.0f) {
   return {static_cast<float>((hex >> 16) & 255u) / 255.0f,
@@ -30,7 +33,7 @@ const Palette kLight = {.accent = rgb(0xa9562a),
                         .fault = rgb(0xb23c0a),
                         .clay = rgb(0xb5683e)};
 
-/// The greys of a theme, and its accent at three strengths.
+/// The greys of a theme.
 struct Greys {
   unsigned window, popup, frame, hovered, active, border, text, title;
 };
@@ -57,13 +60,14 @@ void set_colours(const Greys& g, const Palette& p) {
   c[ImGuiCol_ScrollbarBg] = rgb(g.window, 0.0f);
   c[ImGuiCol_ScrollbarGrab] = rgb(g.hovered);
   c[ImGuiCol_ScrollbarGrabHovered] = c[ImGuiCol_ScrollbarGrabActive] = rgb(g.active);
-  c[ImGuiCol_CheckMark] = p.accent;
-  c[ImGuiCol_SliderGrab] = accent(0.55f);  // translucent, because the value is drawn over it
-  c[ImGuiCol_SliderGrabActive] = accent(0.75f);
+  // The accent is for the main action alone.
+  c[ImGuiCol_CheckMark] = rgb(g.text);
+  c[ImGuiCol_SliderGrab] = p.faint;
+  c[ImGuiCol_SliderGrabActive] = rgb(g.text);
   c[ImGuiCol_PlotLines] = c[ImGuiCol_PlotHistogram] = p.accent;
-  c[ImGuiCol_Header] = accent(0.24f);
-  c[ImGuiCol_HeaderHovered] = c[ImGuiCol_TabHovered] = accent(0.34f);
-  c[ImGuiCol_HeaderActive] = c[ImGuiCol_TabActive] = accent(0.44f);
+  c[ImGuiCol_Header] = rgb(g.title);
+  c[ImGuiCol_HeaderHovered] = c[ImGuiCol_TabHovered] = rgb(g.frame);
+  c[ImGuiCol_HeaderActive] = c[ImGuiCol_TabActive] = rgb(g.hovered);
   c[ImGuiCol_TextSelectedBg] = accent(0.35f);
   c[ImGuiCol_NavHighlight] = p.accent;
   c[ImGuiCol_ModalWindowDimBg] = {0.0f, 0.0f, 0.0f, 0.45f};
@@ -87,18 +91,35 @@ void set_sizes(float scale) {
   style.ScaleAllSizes(scale);
 }
 
-ImFont* load(const char* file, float size_px, float scale) {
+/// All figures get the advance of the widest one, so that a changing number does not move.
+void make_tabular(ImFont& font) {
+  float widest = 0.0f;
+  for (ImWchar figure = '0'; figure <= '9'; ++figure)
+    widest = std::max(widest, font.FindGlyph(figure)->AdvanceX);
+  for (ImWchar figure = '0'; figure <= '9'; ++figure) {
+    auto& glyph = *const_cast<ImFontGlyph*>(font.FindGlyph(figure));
+    const float shift = std::floor(0.5f * (widest - glyph.AdvanceX));
+    glyph.X0 += shift;
+    glyph.X1 += shift;
+    glyph.AdvanceX = font.IndexAdvanceX[figure] = widest;
+  }
+}
+
+/// Inter, or DejaVu Sans where that is missing, or the font of ImGui.
+ImFont* load(const char* inter, const char* dejavu, float size_px, float scale) {
   ImGuiIO& io = ImGui::GetIO();
   // Latin, and the symbols used by units and buttons.
   static constexpr ImWchar kRanges[] = {0x20,   0x17f,  0x370,  0x3ff,  0x2010,
                                         0x2044, 0x2070, 0x209f, 0x2190, 0x21ff,
                                         0x2200, 0x22ff, 0x2600, 0x26ff, 0};
-  const std::string path = std::string(kFontFolder) + file;
+  const std::string paths[] = {std::string(kInter).append(inter).append(".otf"),
+                               std::string(kDejaVu).append(dejavu).append(".ttf")};
   std::error_code ignored;
-  if (std::filesystem::exists(path, ignored))
-    if (ImFont* font = io.Fonts->AddFontFromFileTTF(path.c_str(), std::round(size_px * scale),
-                                                    nullptr, kRanges))
-      return font;
+  for (const std::string& path : paths)
+    if (std::filesystem::exists(path, ignored))
+      if (ImFont* font = io.Fonts->AddFontFromFileTTF(path.c_str(), std::round(size_px * scale),
+                                                      nullptr, kRanges))
+        return font;
   ImFontConfig config;
   config.SizePixels = std::round(size_px * scale);
   return io.Fonts->AddFontDefault(&config);
@@ -126,8 +147,11 @@ Fonts apply_style(Theme theme, float scale) {
   set_colours(theme == Theme::dark ? kDarkGreys : kLightGreys, palette(theme));
   ImGui::GetIO().Fonts->Clear();
   Fonts fonts;
-  fonts.text = load("DejaVuSans.ttf", kTextPx, scale);
-  fonts.title = load("DejaVuSans-Bold.ttf", kTitlePx, scale);
+  fonts.text = load("Medium", "", kTextPx, scale);
+  fonts.title = load("SemiBold", "-Bold", kTitlePx, scale);
+  fonts.small = load("Medium", "", kSmallPx, scale);
+  ImGui::GetIO().Fonts->Build();
+  for (ImFont* font : ImGui::GetIO().Fonts->Fonts) make_tabular(*font);
   return fonts;
 }
 

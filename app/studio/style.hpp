@@ -26,12 +26,13 @@ struct Palette {
 inline constexpr float kSmallestScale = 0.5f, kLargestScale = 3.0f;
 
 struct Fonts {
-  ImFont* text = nullptr;   ///< DejaVu Sans, 15 px at a scale of 1
-  ImFont* title = nullptr;  ///< bold, 21 px
+  ImFont* text = nullptr;   ///< Inter, 16 px at a scale of 1
+  ImFont* title = nullptr;  ///< semi-bold, 22 px
+  ImFont* small = nullptr;  ///< 12 px, for the labels of icons
 };
 
 /// Sets colours, sizes and fonts of the current ImGui context; the font texture must be rebuilt
-/// afterwards. Without DejaVu it uses the default font of ImGui.
+/// afterwards. Without Inter and DejaVu it uses the default font of ImGui.
 Fonts apply_style(Theme theme, float scale);
 
 }  // namespace clay::studio

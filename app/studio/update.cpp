@@ -82,6 +82,8 @@ void update_strokes(AppState& state) {
   else if (news.error)
     report(state, *news.error);
   if (!news.stroke_ended) return;
+  if (state.document.has_work() && !state.stroke.throwing())
+    state.scene.keep_rim_in_view(state.stroke.view());
   state.log(fmt::format("stroke ended: {} poses, {} ticks", news.poses, news.ticks));
   if (news.ending == servo::Ending::collapsed) {
     state.fall.begin(state.document.shared_pot(), state.now_s());
@@ -93,6 +95,20 @@ void update_strokes(AppState& state) {
     state.ui.notices.show(Grade::warning,
                           "The pot has reached the maximum height of this lump: more clay waits "
                           "above the rim.");
+}
+
+/// A new step selects its tool.
+void update_guide(AppState& state) {
+  state.guide.update(state.document, state.stroke);
+  if (!state.guide.active()) return;
+  if (state.guide.take_new_step() && !state.stroke.throwing()) {
+    const LessonPlan& plan = *state.guide.plan();
+    choose(state.guide.tool(), state.settings.tool);
+    state.settings.tool.mode = plan.mode;
+    if (plan.gap_mm > 0.0) state.settings.tool.gap_mm = plan.gap_mm;
+    state.log(fmt::format("step: {}", state.guide.stroke(plan.step).name));
+  }
+  state.play.advance(state);
 }
 
 /// The animation of a fall ends early if another pot is shown.
@@ -254,6 +270,7 @@ void update(AppState& state) {
   state.stroke.advance(now_ns);
   state.host.clock().sleep_until_ns(now_ns);  // in case no servo has advanced it
   update_strokes(state);
+  update_guide(state);
   update_journal(state);
   update_arm_notice(state);
   update_fall(state);

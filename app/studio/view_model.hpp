@@ -4,6 +4,7 @@
 
 #include "app/history/recovery.hpp"
 #include "app/studio/document.hpp"
+#include "app/studio/guide/guide.hpp"
 #include "app/studio/readings/readings.hpp"
 #include "app/studio/settings.hpp"
 #include "app/studio/stroke_controller.hpp"
@@ -22,6 +23,7 @@ struct ViewModel {
   const Document& document;
   const StrokeController& stroke;
   const Readings& readings;
+  const Guide& guide;
   const SceneView& scene;
   const UiState& ui;
   const std::vector<history::Recoverable>&

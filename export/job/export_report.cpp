@@ -18,13 +18,21 @@ double ExportReport::thinnest_mm() const noexcept {
   return thinnest;
 }
 
-std::optional<std::string> thin_wall_of(const ExportReport& report) {
+namespace {
+
+std::optional<std::string> thin_wall_of_solid(const ExportReport& report) {
   const auto& limit = report.walls.limit;
   const double thinnest = report.thinnest_mm();
-  if (!limit || !report.has_mesh() || thinnest >= limit->min_wall_mm) return std::nullopt;
+  if (!limit || thinnest >= limit->min_wall_mm) return std::nullopt;
   return "thin wall: " + (report.collapsed
                               ? wall_text(thinnest, *limit)
                               : thin_wall_text(report.section.profile(), thinnest, *limit));
+}
+
+}  // namespace
+
+std::optional<std::string> thin_wall_of(const ExportReport& report) {
+  return report.has_mesh() ? thin_wall_of_solid(report) : std::nullopt;
 }
 
 std::string text_of(const Cavity& cavity) {
@@ -44,7 +52,7 @@ std::optional<Problem> steep_overhang(const ProcessReport& process) {
                   "support ({})",
                   overhang->angle_deg, overhang->from.y, process.limits->name,
                   process.limits->overhang->max_deg, process.limits->overhang->source),
-      overhang->from, false};
+      overhang->from, false, ProblemKind::overhang, overhang->angle_deg};
 }
 
 std::optional<Problem> too_large(const ExportReport& report) {
@@ -59,30 +67,40 @@ std::optional<Problem> too_large(const ExportReport& report) {
                   "mm and {:g} mm high ({})",
                   width, height, limits->name, most.width_mm, most.depth_mm, most.height_mm,
                   most.source),
-      std::nullopt, true};
+      std::nullopt, true, ProblemKind::too_large};
 }
 
-}  // namespace
-
-std::vector<Problem> problems_of(const ExportReport& report) {
+std::vector<Problem> problems_with(const ExportReport& report, std::optional<std::string> thin) {
   std::vector<Problem> problems;
-  if (auto thin = thin_wall_of(report)) {
+  if (thin) {
     const Wall& wall = report.walls.thinnest;
     const bool placed = !report.collapsed && wall.thickness_mm > 0.0;
-    problems.push_back({std::move(*thin), placed ? std::optional(wall.from) : std::nullopt, true});
+    problems.push_back({std::move(*thin), placed ? std::optional(wall.from) : std::nullopt, true,
+                        ProblemKind::thin_wall, report.thinnest_mm()});
   }
   if (auto size = too_large(report)) problems.push_back(std::move(*size));
   const bool fired = report.process.limits && report.process.limits->fired;
   for (const PieceShape& shape : report.section.shapes())
     for (const Cavity& cavity : shape.cavities)
-      problems.push_back(
-          {text_of(cavity), ProfilePoint{0.0, 0.5 * (cavity.bottom_mm + cavity.top_mm)}, fired});
+      problems.push_back({text_of(cavity),
+                          ProfilePoint{0.0, 0.5 * (cavity.bottom_mm + cavity.top_mm)}, fired,
+                          ProblemKind::cavity});
   if (auto steep = steep_overhang(report.process)) problems.push_back(std::move(*steep));
   if (report.collapsed && report.collapsed->pieces > 1)
     problems.push_back(
         {fmt::format("the file holds {} bodies that do not touch", report.collapsed->pieces),
-         std::nullopt, false});
+         std::nullopt, false, ProblemKind::bodies});
   return problems;
+}
+
+}  // namespace
+
+std::vector<Problem> problems_of(const ExportReport& report) {
+  return problems_with(report, thin_wall_of(report));
+}
+
+std::vector<Problem> problems_of_solid(const ExportReport& report) {
+  return problems_with(report, thin_wall_of_solid(report));
 }
 
 }  // namespace clay::solid::inline job

@@ -1,6 +1,6 @@
 #!/bin/sh
 # sh samples/window/pictures.sh PROGRAM FOLDER [NAME...]: renders the panels and dialogs of the window
-# in both themes, in a small, a normal and a double-scale size, as FOLDER/NAME-THEME-SIZE.png; all
+# in both themes, in a small, a normal, a large and a double-scale size, as FOLDER/NAME-THEME-SIZE-SCALE.png; all
 # pictures, or those named. They are for inspection by eye; no test compares them.
 set -eu
 [ $# -ge 2 ] || { sed -n '2,4s/^# //p' "$0" >&2; exit 2; }
@@ -28,11 +28,11 @@ sed -e 's/"rings": [0-9]*/"rings": 1/' -e 's/"ring_height_mm": [0-9.]*/"ring_hei
 picture() {
   [ "$wanted" = "  " ] || case $wanted in *" $1 "*) ;; *) return 0 ;; esac
   for theme in dark light; do
-    for look in "1280x720 1" "1280x800 1" "2560x1440 2"; do
+    for look in "800x600 1" "1280x800 1" "2560x1440 1" "2560x1440 2"; do
       size=${look% *} scale=${look#* }
       # The scripts use window coordinates at scale 1.
       awk -v s="$scale" '$1 == "move" { $2 *= s; $3 *= s } 1' "samples/window/$2.script" >"$out/script"
-      "$program" studio ${3:+"$3"} --script "$out/script" --screenshot "$out/$1-$theme-$size.png" \
+      "$program" studio ${3:+"$3"} --script "$out/script" --screenshot "$out/$1-$theme-$size-$scale.png" \
         --theme "$theme" --size "$size" --scale "$scale" || echo "$1-$theme-$size: failed" >&2
     done
   done
@@ -41,6 +41,10 @@ picture() {
 
 picture gallery gallery
 picture hint hint samples/bowl.scene.json
+picture lesson lesson
+picture path path
+picture diagnostics diagnostics "$pots/vase.pot.json"
+picture paused paused "$pots/vase.pot.json"
 picture throw throw "$pots/vase.pot.json"
 picture pinch pinch "$pots/cylinder.pot.json"
 picture trim trim "$pots/bowl.pot.json"

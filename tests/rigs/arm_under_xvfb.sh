@@ -15,10 +15,10 @@ until_file() {
 request() { : >"$folder/$1"; }
 # press_by_mouse: moves from beside the lump into it and stays there.
 press_by_mouse() {
-  xdotool mousemove --window "$window" 930 420 mousedown 1
+  xdotool mousemove --window "$window" 833 420 mousedown 1
   until_line "stroke started" "$1"
   # The speed of the tool is limited, so the drag must last until it reaches the clay.
-  for x in 900 880 860 840 820 800; do
+  for x in 803 783 763 743 723 703; do
     xdotool mousemove --window "$window" $x 420 sleep 0.2
   done
 }
@@ -42,7 +42,7 @@ until_line "stroke ended" 2
 press_by_mouse 2
 request reconnect
 until_file opened
-xdotool mousemove --window "$window" 798 420
+xdotool mousemove --window "$window" 701 420
 [ "$(grep -c "device: Novint Falcon" "$log")" -eq 1 ] || fail "expected the mouse to keep the clay"
 xdotool mouseup 1
 until_line "stroke ended" 3

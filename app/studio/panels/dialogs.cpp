@@ -15,8 +15,7 @@ void draw_look_settings(const ViewModel& model, Actions& actions) {
   const Settings& settings = model.settings;
   constexpr std::array kThemes = {"Dark", "Light"};
   form_row("Theme");
-  const int theme =
-      choice_row("##theme", kThemes, settings.theme == Theme::dark ? 0 : 1, model.colours());
+  const int theme = choice_row("##theme", kThemes, settings.theme == Theme::dark ? 0 : 1);
   if (theme >= 0) actions.emplace_back(SetTheme{theme == 0 ? Theme::dark : Theme::light});
   form_row("Text scale");
   // Applied when the mouse is released; otherwise the slider would move under the pointer.
@@ -29,7 +28,7 @@ void draw_look_settings(const ViewModel& model, Actions& actions) {
   if (ImGui::IsItemDeactivatedAfterEdit()) actions.emplace_back(SetScale{scale});
   constexpr std::array kUnits = {"mm", "cm", "in"};
   form_row("Length unit");
-  const int unit = choice_row("##unit", kUnits, static_cast<int>(settings.unit), model.colours());
+  const int unit = choice_row("##unit", kUnits, static_cast<int>(settings.unit));
   if (unit >= 0) actions.emplace_back(SetUnit{static_cast<LengthUnit>(unit)});
 }
 
@@ -41,6 +40,12 @@ void draw_work_settings(const ViewModel& model, Actions& actions) {
                          static_cast<float>(kFastestHandMmPerS), "at most %.0f mm/s",
                          ImGuiSliderFlags_AlwaysClamp))
     actions.emplace_back(SetHandSpeed{static_cast<double>(speed)});
+  form_row("Strength of the hand");
+  float bite = static_cast<float>(settings.bite_mm);
+  if (ImGui::SliderFloat("##bite", &bite, static_cast<float>(kSoftestBiteMm),
+                         static_cast<float>(kFirmestBiteMm), "%.1f mm per turn",
+                         ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+    actions.emplace_back(SetBite{static_cast<double>(bite)});
   form_row("Process");
   std::string process = settings.process;
   if (choose_process(model, "None", process, actions)) actions.emplace_back(SetProcess{process});

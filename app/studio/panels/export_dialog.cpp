@@ -57,7 +57,6 @@ void draw_places(ExportChoices& choices, Actions& actions) {
 }
 
 void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actions) {
-  const Palette& colours = model.colours();
   form_length("Tolerance", choices.tolerance_mm, kFinestMm, kCoarsestMm, LengthUnit::mm);
   constexpr std::array kSmooth = {solid::Smoothing::fair, solid::Smoothing::exact,
                                   solid::Smoothing::none};
@@ -65,7 +64,7 @@ void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actio
   const auto smooth =
       static_cast<int>(std::ranges::find(kSmooth, choices.smoothing) - kSmooth.begin());
   form_row("Smoothing");
-  if (const int chosen = choice_row("##smooth", kSmoothTitles, smooth, colours); chosen >= 0)
+  if (const int chosen = choice_row("##smooth", kSmoothTitles, smooth); chosen >= 0)
     choices.smoothing = kSmooth[static_cast<std::size_t>(chosen)];
   form_row("Process");
   (void)choose_process(model, "None", choices.process, actions);

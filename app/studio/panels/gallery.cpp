@@ -18,7 +18,7 @@ namespace clay::studio {
 namespace {
 
 constexpr std::size_t kMostWorksShown = 3;
-constexpr float kLeastCardEm = 10.6f, kPictureEm = 9.0f;
+constexpr float kLeastCardEm = 10.0f, kPictureEm = 9.0f;
 
 /// Sections of the finished samples, computed when they are first shown.
 const render::PotView& section_of(const Sample& sample) {
@@ -31,8 +31,11 @@ const render::PotView& section_of(const Sample& sample) {
   return *made[index];
 }
 
-/// A button with picture, title and text. Returns true on a click.
-bool draw_sample(const Sample& sample, float width, const Palette& colours, ImFont* title) {
+/// A button with picture, title and text: the lesson. Below it: watch the strokes, or throw freely.
+void draw_sample(std::size_t index, float width, const ViewModel& model, Actions& actions) {
+  const Sample& sample = samples()[index];
+  const Palette& colours = model.colours();
+  ImFont* title = model.ui.fonts.title;
   const float em = ImGui::GetFontSize();
   ImGui::BeginGroup();
   ImGui::PushID(sample.title);
@@ -46,9 +49,16 @@ bool draw_sample(const Sample& sample, float width, const Palette& colours, ImFo
                 ImGui::GetColorU32(ImGuiCol_Text), sample.title);
   draw->AddText(ImGui::GetFont(), em, {x, at.y + (kPictureEm + 2.4f) * em},
                 ImGui::GetColorU32(colours.faint), sample.description, nullptr, kPictureEm * em);
+  const float half = 0.5f * (width - ImGui::GetStyle().ItemInnerSpacing.x);
+  if (clicked) actions.emplace_back(BeginLesson{index, false});
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Throw it step by step");
+  if (ImGui::Button("Show me", {half, 0.0f})) actions.emplace_back(BeginLesson{index, true});
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Watch the pot being thrown");
+  ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
+  if (ImGui::Button("Lump", {half, 0.0f})) actions.emplace_back(BeginSample{index});
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Begin with the lump, without a guide");
   ImGui::PopID();
   ImGui::EndGroup();
-  return clicked;
 }
 
 void draw_lump(const ViewModel& model, Actions& actions) {
@@ -58,10 +68,9 @@ void draw_lump(const ViewModel& model, Actions& actions) {
   float kg = kept.GetFloat(kg_id, 1.0f);
   double radius_mm = static_cast<double>(kept.GetFloat(radius_id, 50.0f));
   ImGui::Columns(3, "lump", false);
-  ImGui::TextUnformatted("Clay mass");
-  ImGui::SetNextItemWidth(-1.0f);
+  slider_label("Clay mass", fmt::format("{:.2f} kg", kg));
   if (ImGui::SliderFloat("##clay", &kg, static_cast<float>(kLeastClayKg),
-                         static_cast<float>(kMostClayKg), "%.2f kg",
+                         static_cast<float>(kMostClayKg), "",
                          ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
     kept.SetFloat(kg_id, kg);
   ImGui::NextColumn();
@@ -136,18 +145,18 @@ void draw_samples(const ViewModel& model, Actions& actions) {
   const float width = (room + gap) / static_cast<float>(in_row) - gap;
   for (std::size_t i = 0; i < samples().size(); ++i) {
     if (i % in_row != 0) ImGui::SameLine();
-    if (draw_sample(samples()[i], width, model.colours(), model.ui.fonts.title))
-      actions.emplace_back(BeginSample{i});
+    draw_sample(i, width, model, actions);
   }
 }
 
 }  // namespace
 
 void draw(const GalleryDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect) {
-  begin_dialog("##gallery", rect, 47.2f);
+  begin_dialog("##gallery", rect, 50.0f);
   dialog_title(model, "New pot");
-  faint_text(model.colours(),
-             "Each sample begins as a lump of clay; the picture shows what it can become.");
+  faint_text(
+      model.colours(),
+      "Choose a pot, and throw it step by step along a line. Each begins as a lump of clay.");
   ImGui::Spacing();
   draw_recoverable(model, actions);
   draw_samples(model, actions);

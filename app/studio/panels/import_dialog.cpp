@@ -18,8 +18,7 @@ ImportSettings draw_choices(const ImportDialog& dialog, const ViewModel& model) 
   ImportSettings settings = dialog.settings;
   constexpr std::array kTitles = {"Automatic", "Left end", "Middle", "At"};
   form_row("Axis");
-  if (const int chosen =
-          choice_row("##axis", kTitles, static_cast<int>(settings.axis), model.colours());
+  if (const int chosen = choice_row("##axis", kTitles, static_cast<int>(settings.axis));
       chosen >= 0) {
     settings.axis = static_cast<ImportAxis>(chosen);
     if (settings.axis == ImportAxis::at && dialog.made) settings.axis_mm = dialog.made->axis_mm;

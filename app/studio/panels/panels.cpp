@@ -21,16 +21,16 @@ struct Panel {
   void (*draw)(const ViewModel& model, Actions& actions);
 };
 const std::array kPanels = {
-    Panel{"tool", "Tool", Column::left, true, &draw_tool},
-    Panel{"wheel", "Wheel and clay", Column::left, true, &draw_wheel},
-    Panel{"section", "Section", Column::left, true, &draw_section},
-    Panel{"force", "Force", Column::right, true, &draw_force},
-    Panel{"pot", "Pot", Column::right, true, &draw_pot},
-    Panel{"walls", "Walls", Column::right, true, &draw_walls},
-    Panel{"certificate", "Certificate", Column::right, true, &draw_certificate},
-    Panel{"ledger", "Ledger", Column::right, false, &draw_ledger},
-    Panel{"stress", "Stress", Column::right, false, &draw_stress},
-    Panel{"servo", "Servo", Column::right, false, &draw_servo},
+    Panel{"tool", "Tool", Column::context, true, &draw_tool},
+    Panel{"pot", "Pot", Column::context, true, &draw_pot},
+    Panel{"walls", "Walls", Column::context, true, &draw_walls},
+    Panel{"section", "Section", Column::context, true, &draw_section},
+    Panel{"wheel", "Wheel", Column::context, false, &draw_wheel},
+    Panel{"force", "Force", Column::diagnostics, true, &draw_force},
+    Panel{"certificate", "Certificate", Column::diagnostics, true, &draw_certificate},
+    Panel{"ledger", "Clay balance", Column::diagnostics, false, &draw_ledger},
+    Panel{"stress", "Stress", Column::diagnostics, false, &draw_stress},
+    Panel{"servo", "Timing", Column::diagnostics, false, &draw_servo},
 };
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
@@ -50,6 +50,39 @@ void draw_recent(const ViewModel& model, Actions& actions) {
   ImGui::EndMenu();
 }
 
+/// What is needed most, at the right end of the menu.
+void draw_main_buttons(const ViewModel& model, Actions& actions) {
+  struct Shown {
+    std::string_view id;
+    const char* title;
+  };
+  constexpr std::array kShown = {Shown{"edit.undo", "Undo"}, Shown{"edit.redo", "Redo"},
+                                 Shown{"file.save", "Save"}, Shown{"file.export", "Export"}};
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float pad = 0.6f * ImGui::GetFontSize();
+  float width = style.WindowPadding.x;
+  for (const Shown& shown : kShown)
+    width += ImGui::CalcTextSize(shown.title).x + 2.0f * pad + style.ItemInnerSpacing.x;
+  const float left = ImGui::GetWindowWidth() - width;
+  if (left < ImGui::GetCursorPosX()) return;  // no room: they are in the menu
+  ImGui::SetCursorPos({left, 0.1f * ImGui::GetFontSize()});
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(pad, style.FramePadding.y - 2.0f));
+  for (const Shown& shown : kShown) {
+    const Command& command = *find_command(shown.id);
+    const bool enabled = command.enabled(model);
+    const bool main = shown.id == "file.export" && enabled;
+    ImGui::BeginDisabled(!enabled);
+    const bool clicked =
+        main ? main_button(shown.title, model.colours()) : ImGui::Button(shown.title);
+    ImGui::EndDisabled();
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip("%s (%s)", command.title, text_of(command.chord).c_str());
+    if (clicked) actions.emplace_back(RunCommand{shown.id});
+    ImGui::SameLine(0.0f, style.ItemInnerSpacing.x);
+  }
+  ImGui::PopStyleVar();
+}
+
 constexpr ImGuiWindowFlags kBar = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                   ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoScrollbar |
                                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings;
@@ -64,6 +97,18 @@ std::string document_text(const ViewModel& model) {
   return model.document.name() + (model.document.unsaved() ? " \xe2\x80\xa2 not saved" : "");
 }
 
+/// Figures of the loop that moves the tool, and of the clay that is counted.
+void draw_figures(const ViewModel& model) {
+  const servo::LiveStatus& status = model.stroke.status();
+  const Palette& colours = model.colours();
+  if (model.stroke.throwing())
+    part(fmt::format("{:.0f} Hz", model.stroke.tick_rate_hz()), colours.faint);
+  part(fmt::format("{} late", status.missed), status.missed > 0 ? colours.warning : colours.faint);
+  if (model.document.has_work())
+    part(fmt::format("clay unaccounted for: {:.0f}", std::abs(status.volume_error)),
+         status.volume_error != 0.0 ? colours.fault : colours.faint);
+}
+
 ImVec4 colour_of(Grade grade, const Palette& colours) {
   return grade == Grade::note      ? colours.accent
          : grade == Grade::warning ? colours.warning
@@ -72,21 +117,31 @@ ImVec4 colour_of(Grade grade, const Palette& colours) {
 
 }  // namespace
 
+bool diagnostics_open(const Settings& settings) {
+  const auto remembered = settings.open.find(kDiagnostics);
+  return remembered != settings.open.end() && remembered->second;
+}
+
+bool in_diagnostics(std::string_view id) {
+  const auto* panel = std::ranges::find(kPanels, id, &Panel::id);
+  return panel != kPanels.end() && panel->column == Column::diagnostics;
+}
+
 bool panel_open(const Settings& settings, std::string_view id) {
   const auto* panel = std::ranges::find(kPanels, id, &Panel::id);
-  return panel != kPanels.end() && is_open(settings, *panel);
+  return panel != kPanels.end() && is_open(settings, *panel) &&
+         (panel->column == Column::context || diagnostics_open(settings));
 }
 
 Wanted wanted_of(const Settings& settings) {
-  return {settings.wall_map || panel_open(settings, "walls") || panel_open(settings, "certificate"),
-          panel_open(settings, "servo"), settings.process};
+  return {true, panel_open(settings, "servo"), settings.process};
 }
 
 void draw_column(const ViewModel& model, Actions& actions, Column column, glm::vec2 corner_px,
                  glm::vec2 size_px) {
   ImGui::SetNextWindowPos({corner_px.x, corner_px.y});
   ImGui::SetNextWindowSize({size_px.x, size_px.y});
-  ImGui::Begin(column == Column::left ? "##left" : "##right", nullptr, kFixed);
+  ImGui::Begin(column == Column::context ? "##context" : "##diagnostics", nullptr, kFixed);
   for (const Panel& panel : kPanels) {
     if (panel.column != column) continue;
     const bool open = is_open(model.settings, panel);
@@ -121,6 +176,7 @@ float draw_menu(const ViewModel& model, Actions& actions) {
     ImGui::PopStyleVar();
     ImGui::EndMenu();
   }
+  draw_main_buttons(model, actions);
   const float height = ImGui::GetWindowSize().y;
   ImGui::EndMainMenuBar();
   return height;
@@ -140,16 +196,7 @@ void draw_status_bar(const ViewModel& model, glm::vec2 corner_px, glm::vec2 size
   const ImVec4 text = ImGui::GetStyleColorVec4(ImGuiCol_Text);
   part(document_text(model), text);
   part(model.stroke.device_name(), text);
-  const servo::LiveStatus& status = model.stroke.status();
-  if (model.stroke.throwing())
-    part(fmt::format("{:.0f} Hz", model.stroke.tick_rate_hz()), text);
-  else
-    part("idle", colours.faint);
-  part(fmt::format("{} missed ticks", status.missed),
-       status.missed > 0 ? colours.warning : colours.faint);
-  if (model.document.has_work())
-    part(fmt::format("volume error {:.0f} quanta", std::abs(status.volume_error)),
-         status.volume_error != 0.0 ? colours.fault : colours.good);
+  if (diagnostics_open(model.settings)) draw_figures(model);
   const std::string arm = model.arm_text();
   const bool attention = model.stroke.paused() || model.waits_for_rearm();
   part(arm.empty() && model.stroke.paused() ? "paused" : arm, attention ? colours.warning : text,
@@ -191,7 +238,9 @@ void draw_banner(const ViewModel& model, Actions& actions, const ViewRect& rect)
 }
 
 void draw_hint(const ViewModel& model, Actions& actions, const ViewRect& rect) {
-  if (!model.settings.hints || !model.ui.shows<NoDialog>() || model.stroke.throwing()) return;
+  if (!model.settings.hints || !model.ui.shows<NoDialog>() || model.stroke.throwing() ||
+      model.guide.active())
+    return;
   const char* text =
       "Hold the left button on the clay and drag to shape it.  Middle or right button turns the "
       "view, the wheel zooms.  Press ? for all keys.";

@@ -11,9 +11,14 @@
 
 namespace clay::studio {
 
-enum class Column { left, right };
+/// Beside the view: what a potter needs, and a drawer with the rest, which is closed at first.
+enum class Column { context, diagnostics };
 
-/// Whether the panel is unfolded; false for an unknown id.
+/// Key of the drawer in Settings::open.
+inline constexpr const char* kDiagnostics = "diagnostics";
+[[nodiscard]] bool diagnostics_open(const Settings& settings);
+[[nodiscard]] bool in_diagnostics(std::string_view id);
+/// Whether the panel is unfolded and in sight; false for an unknown id.
 [[nodiscard]] bool panel_open(const Settings& settings, std::string_view id);
 /// Data that the open panels need.
 [[nodiscard]] Wanted wanted_of(const Settings& settings);
@@ -22,12 +27,26 @@ enum class Column { left, right };
 void draw_column(const ViewModel& model, Actions& actions, Column column, glm::vec2 corner_px,
                  glm::vec2 size_px);
 
+/// The strip of tools and views at the left edge.
+[[nodiscard]] float strip_width();
+void draw_strip(const ViewModel& model, Actions& actions, glm::vec2 corner_px, glm::vec2 size_px);
+
 /// Returns its height [px].
 float draw_menu(const ViewModel& model, Actions& actions);
 [[nodiscard]] float status_height();
 void draw_status_bar(const ViewModel& model, glm::vec2 corner_px, glm::vec2 size_px);
 void draw_banner(const ViewModel& model, Actions& actions, const ViewRect& rect);
 void draw_hint(const ViewModel& model, Actions& actions, const ViewRect& rect);
+/// Draws over the view: figures at the tool, how hard the hand pulls, and the floor to keep.
+void draw_at_tool(const ViewModel& model, const ViewRect& rect);
+/// A veil over the view while the wheel is paused.
+void draw_pause(const ViewModel& model, const ViewRect& rect);
+/// The step of the lesson, and what to do in it.
+void draw_guide(const ViewModel& model, Actions& actions, const ViewRect& rect);
+/// Draws over the view: the path to follow in the present step.
+void draw_path(const ViewModel& model, const ViewRect& rect);
+/// Whether the pot is ready to print, or why not.
+void draw_verdict(const ViewModel& model, const ViewRect& rect);
 /// Draws over the view: results of the checks at their places on the pot, and the scale of the wall
 /// map.
 void draw_marks(const ViewModel& model, const ViewRect& rect);

@@ -137,7 +137,7 @@ void draw_ledger(const ViewModel& model, Actions&) {
   if (account.outside_g != 0.0) value_row(colours, "Above the rim", mass_text(account.outside_g));
   const bool sound = account.unaccounted == "0";
   ImGui::TextColored(sound ? colours.good : colours.fault, "%s",
-                     fmt::format("Imbalance: {} quanta", account.unaccounted).c_str());
+                     fmt::format("Clay unaccounted for: {}", account.unaccounted).c_str());
   if (!sound) faint_text(colours, fmt::format("{:g} g", account.unaccounted_g));
   if (readings.fallen()) return faint_text(colours, "A fallen pot has no capacity.");
   value_row(colours, "Capacity to the brim", capacity_text(account.capacity_mm3));

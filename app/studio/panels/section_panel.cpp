@@ -184,7 +184,7 @@ float plot_height_em(bool fallen) {
 void draw_section(const ViewModel& model, Actions& actions) {
   const Palette& colours = model.colours();
   const bool full = model.settings.full_section;
-  if (const int part = choice_row("part", kParts, full ? 1 : 0, colours); part >= 0)
+  if (const int part = choice_row("part", kParts, full ? 1 : 0); part >= 0)
     actions.emplace_back(SetFullSection{part == 1});
   const PlotArea area = begin_plot(plot_height_em(model.readings.fallen()));
   const ClayStack* stack = model.readings.stack();

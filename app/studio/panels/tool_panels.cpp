@@ -10,15 +10,10 @@
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
-#include <optional>
 
 namespace clay::studio {
 namespace {
 
-// In rows: the hands and the knife, what finishes a pot, and the pot upside down.
-constexpr std::array kHandModes = {ToolMode::press, ToolMode::trim, ToolMode::pinch};
-constexpr std::array kFinishModes = {ToolMode::smooth, ToolMode::needle, ToolMode::wire};
-constexpr std::array kFootModes = {ToolMode::trim_foot};
 constexpr std::array kShapes = {"Sphere", "Ellipse", "Rib", "Custom"};
 constexpr double kSoftest = 1e-3, kStiffest = 1.0;  // N/mm2
 constexpr double kUsualLimitN = 5.0;
@@ -41,19 +36,6 @@ const char* help_text(ToolMode mode) {
       break;
   }
   return "The pot stands upside down: removes clay from its foot.";
-}
-
-/// A row of buttons for some modes; the mode that was clicked.
-template <std::size_t count>
-std::optional<ToolMode> mode_row(const char* id, const std::array<ToolMode, count>& modes,
-                                 ToolMode chosen, const Palette& colours) {
-  std::array<const char*, count> names{};
-  std::ranges::transform(modes, names.begin(), name_of);
-  const auto found = std::ranges::find(modes, chosen);
-  const int at = found == modes.end() ? -1 : static_cast<int>(found - modes.begin());
-  const int clicked = choice_row(id, names, at, colours);
-  if (clicked < 0) return std::nullopt;
-  return modes[static_cast<std::size_t>(clicked)];
 }
 
 /// Sliders of the selected shape. Returns true if one has moved.
@@ -109,36 +91,30 @@ void draw_bar(float part, const std::string& text, const ImVec4& colour) {
 
 void draw_tool(const ViewModel& model, Actions& actions) {
   ToolChoice tool = model.settings.tool;
-  const bool has_rules = !model.document.has_work() || model.document.scene().clay.has_value();
-  const auto choose_mode = [&](std::optional<ToolMode> mode) {
-    if (mode && (has_rules || *mode != ToolMode::smooth)) actions.emplace_back(SetToolMode{*mode});
-  };
-  choose_mode(mode_row("mode", kHandModes, tool.mode, model.colours()));
-  choose_mode(mode_row("finish", kFinishModes, tool.mode, model.colours()));
-  choose_mode(mode_row("foot", kFootModes, tool.mode, model.colours()));
+  ImGui::PushFont(model.ui.fonts.title);
+  ImGui::TextUnformatted(name_of(tool.mode));
+  ImGui::PopFont();
   faint_text(model.colours(), help_text(tool.mode));
   if (cuts_level(tool.mode)) return;
   const std::size_t shapes = tool.own.t_mm.empty() ? 3 : 4;
-  const int shape = choice_row("shape", std::span(kShapes).first(shapes),
-                               static_cast<int>(tool.shape), model.colours());
+  const int shape =
+      choice_row("shape", std::span(kShapes).first(shapes), static_cast<int>(tool.shape));
   if (shape >= 0) actions.emplace_back(SetToolShape{static_cast<Shape>(shape)});
   if (draw_sizes(tool, model.settings.unit, model.colours())) actions.emplace_back(SetTool{tool});
 }
 
 void draw_wheel(const ViewModel& model, Actions& actions) {
-  ImGui::TextUnformatted("Speed");
+  slider_label("Speed", fmt::format("{:.0f} rpm", model.settings.wheel_rpm));
   float rpm = static_cast<float>(model.settings.wheel_rpm);
-  ImGui::SetNextItemWidth(-1.0f);
   if (ImGui::SliderFloat("##rpm", &rpm, static_cast<float>(kSlowestRpm),
-                         static_cast<float>(kFastestRpm), "%.0f rpm", ImGuiSliderFlags_AlwaysClamp))
+                         static_cast<float>(kFastestRpm), "", ImGuiSliderFlags_AlwaysClamp))
     actions.emplace_back(SetWheelSpeed{static_cast<double>(rpm)});
   faint_text(model.colours(), "The clay yields and smooths faster at a higher speed.");
   if (!model.document.has_work() || !model.document.scene().force) return;
-  ImGui::TextUnformatted("Stiffness");
+  slider_label("Stiffness", fmt::format("{:.3g} N/mm\xc2\xb2", model.document.stiffness()));
   float stiffness = static_cast<float>(model.document.stiffness());
-  ImGui::SetNextItemWidth(-1.0f);
   if (ImGui::SliderFloat("##stiffness", &stiffness, static_cast<float>(kSoftest),
-                         static_cast<float>(kStiffest), "%.3g N/mm\xc2\xb2",
+                         static_cast<float>(kStiffest), "",
                          ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
     actions.emplace_back(SetStiffness{static_cast<double>(stiffness)});
   faint_text(model.colours(), "Affects the force you feel, not the clay.");

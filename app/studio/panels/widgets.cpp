@@ -9,8 +9,7 @@
 #include <filesystem>
 
 namespace clay::studio {
-int choice_row(const char* id, std::span<const char* const> titles, int chosen,
-               const Palette& colours) {
+int choice_row(const char* id, std::span<const char* const> titles, int chosen) {
   ImGui::PushID(id);
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   const float count = static_cast<float>(titles.size());
@@ -20,9 +19,10 @@ int choice_row(const char* id, std::span<const char* const> titles, int chosen,
     if (i > 0) ImGui::SameLine(0.0f, gap);
     const bool on = i == chosen;
     if (on) {
-      ImGui::PushStyleColor(ImGuiCol_Button, colours.accent);
-      ImGui::PushStyleColor(ImGuiCol_ButtonHovered, colours.accent);
-      ImGui::PushStyleColor(ImGuiCol_Text, ink_on(colours.accent));
+      const ImVec4 face = ImGui::GetStyleColorVec4(ImGuiCol_Text);
+      ImGui::PushStyleColor(ImGuiCol_Button, face);
+      ImGui::PushStyleColor(ImGuiCol_ButtonHovered, face);
+      ImGui::PushStyleColor(ImGuiCol_Text, ink_on(face));
     }
     if (ImGui::Button(titles[static_cast<std::size_t>(i)], ImVec2(width, 0.0f))) clicked = i;
     if (on) ImGui::PopStyleColor(3);
@@ -76,17 +76,24 @@ bool form_length(const char* label, double& mm, double low_mm, double high_mm, L
 
 bool length_slider(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit) {
   const UnitText text = unit_text(unit);
-  ImGui::TextUnformatted(label);
-  ImGui::SetNextItemWidth(-1.0f);
+  slider_label(label, length_text(mm, unit));
   float shown = static_cast<float>(mm / text.mm);
   const std::string id = fmt::format("##{}", label);
-  const std::string format = fmt::format("%.{}f {}", text.digits, text.name);
   if (!ImGui::SliderFloat(id.c_str(), &shown, static_cast<float>(low_mm / text.mm),
-                          static_cast<float>(high_mm / text.mm), format.c_str(),
+                          static_cast<float>(high_mm / text.mm), "",
                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
     return false;
   mm = std::clamp(static_cast<double>(shown) * text.mm, low_mm, high_mm);
   return true;
+}
+
+void slider_label(const char* label, const std::string& value) {
+  ImGui::TextUnformatted(label);
+  const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
+  ImGui::SameLine();
+  ImGui::SetCursorPosX(right - ImGui::CalcTextSize(value.c_str()).x);
+  ImGui::TextUnformatted(value.c_str());
+  ImGui::SetNextItemWidth(-1.0f);
 }
 
 void faint_text(const Palette& colours, const std::string& text) {
@@ -149,7 +156,7 @@ void begin_dialog(const char* id, const ViewRect& rect, float width_em) {
   ImGui::SetNextWindowSize({width, 0.0f});  // as high as its content, at most as the view
   ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, rect.size_px.y});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(1.3f * em, 1.1f * em));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(std::round(1.3f * em), std::round(1.1f * em)));
   ImGui::Begin(id, nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
@@ -183,7 +190,7 @@ namespace {
 
 /// "workshop.process.json" is shown as workshop.
 std::string title_of(const std::string& process) {
-  if (!process.ends_with(".json")) return process;
+  if (!process.ends_with(".json")) return process_title(process);
   const std::filesystem::path stem = std::filesystem::path(process).stem();
   return (stem.extension() == ".process" ? stem.stem() : stem).string();
 }
@@ -197,7 +204,7 @@ bool choose_process(const ViewModel& model, const char* none, std::string& proce
   const std::string before = process;
   if (ImGui::Selectable(none, process.empty())) process.clear();
   for (const std::string& name : process_names())
-    if (ImGui::Selectable(name.c_str(), name == before)) process = name;
+    if (ImGui::Selectable(process_title(name).c_str(), name == before)) process = name;
   for (const std::string& path : model.settings.processes) {
     ImGui::PushID(path.c_str());
     if (ImGui::Selectable(title_of(path).c_str(), path == before)) process = path;

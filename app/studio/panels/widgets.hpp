@@ -13,8 +13,10 @@ namespace clay::studio {
 
 /// A row of buttons of equal width, one of which is selected. Returns the index of a clicked
 /// button, or -1.
-int choice_row(const char* id, std::span<const char* const> titles, int chosen,
-               const Palette& colours);
+int choice_row(const char* id, std::span<const char* const> titles, int chosen);
+
+/// A label and, at the right, the value of the slider that follows.
+void slider_label(const char* label, const std::string& value);
 
 /// A labelled slider for a length in mm, shown in `unit`. Returns true if it has moved.
 bool length_slider(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit);
@@ -25,7 +27,7 @@ bool main_button(const char* text, const Palette& colours);
 void dialog_title(const ViewModel& model, const char* text);
 
 /// A label at the left; the next control fills the rest of the line.
-inline constexpr float kFormEm = 9.0f;
+inline constexpr float kFormEm = 10.5f;
 void form_row(const char* label);
 /// A slider in such a line; `none`: text shown for 0.
 bool form_length(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit,

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -20,15 +21,13 @@ namespace {
 
 constexpr double kFinestSpacingMm = 0.05;
 
-std::optional<solid::WallLimit> limit_of(const std::string& process, const ClayStack& stack,
-                                         std::vector<PotRemark>& remarks) {
+std::optional<solid::ProcessLimits> limits_of(const std::string& process, const ClayStack& stack,
+                                              std::vector<PotRemark>& remarks) {
   if (process.empty()) return std::nullopt;
-  const auto limits = solid::read_process(process);
-  if (!limits) {
-    remarks.push_back({0.0, stack.height_mm(), limits.error().message});
-    return std::nullopt;
-  }
-  return limits->wall_for(4.0 * largest_radius_mm(stack) + stack.height_mm());
+  auto limits = solid::read_process(process);
+  if (limits) return std::move(*limits);
+  remarks.push_back({0.0, stack.height_mm(), limits.error().message});
+  return std::nullopt;
 }
 
 /// The lowest level at which the rings above and below share no clay: the pot is in two parts
@@ -68,6 +67,7 @@ void take_remarks(const solid::ExportReport& report, PotCheck& check) {
 
 void take_report(const solid::ExportReport& report, std::size_t rows, PotCheck& check) {
   check.proved = true;
+  check.problems = solid::problems_of_solid(report);
   check.triangles = report.size.triangles;
   check.tolerance_mm = report.size.tolerance_mm;
   check.counted_mm3 = report.prepared.counted_volume_mm3;
@@ -93,12 +93,14 @@ void run(const PotQuestion& question, const Pot& pot, const std::function<bool()
          PotCheck& check) {
   check.height_mm = pot.stack.height_mm();
   check.fallen = pot.collapse.has_value();
-  check.limit = limit_of(question.process, pot.stack, check.remarks);
+  const auto limits = limits_of(question.process, pot.stack, check.remarks);
+  if (limits)
+    check.limit = limits->wall_for(4.0 * largest_radius_mm(pot.stack) + pot.stack.height_mm());
   const std::size_t rows = std::max<std::size_t>(1, question.subject.outline.rows.size());
   solid::ExportOptions options;
   options.tolerance_mm = question.tolerance_mm;
   options.cancelled = cancelled;
-  if (check.limit) options.walls.min_wall_mm = check.limit->min_wall_mm;
+  options.walls.process = limits;
   if (!check.fallen)  // a fallen pot has no single section
     options.wall_spacing_mm =
         std::max(kFinestSpacingMm, 0.5 * check.height_mm / static_cast<double>(rows));
@@ -112,6 +114,16 @@ void run(const PotQuestion& question, const Pot& pot, const std::function<bool()
 
 std::vector<std::string> process_names() {
   return {solid::kProcessNames.begin(), solid::kProcessNames.end()};
+}
+
+std::string process_title(const std::string& name) {
+  if (name == "fdm") return "FDM (filament)";
+  if (name == "sla") return "SLA (resin)";
+  const bool known = std::ranges::find(solid::kProcessNames, name) != solid::kProcessNames.end();
+  if (!known || name.empty()) return name;
+  std::string title = name;
+  title.front() = static_cast<char>(title.front() - 'a' + 'A');
+  return title;
 }
 
 PotCheck check_pot(const PotQuestion& question, const std::function<bool()>& cancelled) {
@@ -159,7 +171,22 @@ std::vector<render::RowWall> walls_for(const PotCheck& check, std::size_t rows, 
 }
 
 render::WallMap wall_map_of(const PotCheck& check) {
-  return {check.limit ? check.limit->min_wall_mm : 0.0, 10.0};
+  // The thickest part of most pots is the floor's corner: four fifths of the faces set the scale.
+  constexpr std::array kTopsMm = {5.0, 10.0, 20.0, 50.0, 100.0};
+  constexpr double kMost = 0.8;
+  std::vector<float> faces;
+  for (const render::RowWall& wall : check.walls)
+    for (const float mm : {wall.outer_mm, wall.inner_mm})
+      if (std::isfinite(mm)) faces.push_back(mm);
+  double most_mm = 0.0;
+  if (!faces.empty()) {
+    const auto at = static_cast<std::ptrdiff_t>(kMost * static_cast<double>(faces.size() - 1));
+    std::ranges::nth_element(faces, faces.begin() + at);
+    most_mm = static_cast<double>(faces[static_cast<std::size_t>(at)]);
+  }
+  const auto* fitting = std::ranges::find_if(kTopsMm, [&](double top) { return top >= most_mm; });
+  return {check.limit ? check.limit->min_wall_mm : 0.0,
+          faces.empty() || fitting == kTopsMm.end() ? 10.0 : *fitting};
 }
 
 std::vector<Stretch> thin_stretches(const PotCheck& check) {
@@ -179,6 +206,50 @@ std::vector<Stretch> thin_stretches(const PotCheck& check) {
   return stretches;
 }
 
+namespace {
+
+constexpr double kLipShare = 0.93;  // of the height: the lip is above
+
+std::string text_of(const solid::Problem& problem, const PotCheck& check, LengthUnit unit) {
+  const std::string process = check.limit ? process_title(check.limit->process) : "";
+  const double y_mm = problem.at ? problem.at->y : 0.0;
+  switch (problem.kind) {
+    case solid::ProblemKind::thin_wall:
+      return fmt::format("thin {} of {} at a height of {}; {} needs {}",
+                         y_mm > kLipShare * check.height_mm ? "lip" : "wall",
+                         length_text(problem.figure, unit), length_text(y_mm, unit), process,
+                         length_text(check.limit->min_wall_mm, unit));
+    case solid::ProblemKind::too_large:
+      return "too large for " + process;
+    case solid::ProblemKind::cavity:
+      return fmt::format("closed cavity at a height of {}", length_text(y_mm, unit));
+    case solid::ProblemKind::overhang:
+      return fmt::format("overhang of {:.0f} degrees at a height of {}: print it with supports",
+                         problem.figure, length_text(y_mm, unit));
+    case solid::ProblemKind::bodies:
+      break;
+  }
+  return "several bodies that do not touch";
+}
+
+}  // namespace
+
+bool PotCheck::ready() const {
+  return proved && std::ranges::none_of(problems, &solid::Problem::fails);
+}
+
+std::string ready_text(const PotCheck& check, LengthUnit unit) {
+  if (!check.proved)
+    return check.fault_mm ? fmt::format("Not ready: in two parts at a height of {}",
+                                        length_text(*check.fault_mm, unit))
+                          : "Not ready: not one closed solid";
+  const bool ready = check.ready();
+  for (const solid::Problem& problem : check.problems)
+    if (problem.fails != ready)
+      return (ready ? "Ready to print, but " : "Not ready: ") + text_of(problem, check, unit);
+  return "Ready to print";
+}
+
 std::string wall_text(const PotCheck& check, LengthUnit unit) {
   if (check.fallen) return "Fallen: walls are not measured";
   if (!check.proved) return "Walls unknown: the section is not that of one solid";
@@ -186,7 +257,7 @@ std::string wall_text(const PotCheck& check, LengthUnit unit) {
       fmt::format("Thinnest wall {}, at a height of {}", length_text(check.thinnest_mm, unit),
                   length_text(check.thinnest_from.y, unit));
   if (check.limit)
-    words += fmt::format("; {} requires {}: {}", check.limit->process,
+    words += fmt::format("; {} requires {}: {}", process_title(check.limit->process),
                          length_text(check.limit->min_wall_mm, unit),
                          check.thin() ? "too thin" : "thick enough");
   return words;

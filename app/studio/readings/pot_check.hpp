@@ -6,6 +6,7 @@
 #include "app/render/picture.hpp"
 #include "app/studio/settings.hpp"
 #include "claystack/engine/clay.hpp"
+#include "claystack/export/job.hpp"
 #include "claystack/export/walls.hpp"
 
 #include <cstddef>
@@ -57,14 +58,19 @@ struct PotCheck {
   double thinnest_mm = 0.0;    ///< thinnest place of the section, between two points (rho, y) [mm]
   glm::dvec2 thinnest_from{0.0}, thinnest_to{0.0};  ///< rho is negative beyond the axis
   std::optional<solid::WallLimit> limit;
-  std::vector<render::RowWall> walls;  ///< one for each equal part of `height_mm`; empty: unknown
+  std::vector<solid::Problem> problems;  ///< as for `claystack export` with the same process
+  std::vector<render::RowWall> walls;    ///< one for each equal part of `height_mm`; empty: unknown
   double height_mm = 0.0;
   double seconds = 0.0;  ///< run time of the check
 
+  /// One solid without a problem that fails.
+  [[nodiscard]] bool ready() const;
   [[nodiscard]] bool thin() const { return limit && !fallen && thinnest_mm < limit->min_wall_mm; }
 };
 
 [[nodiscard]] std::vector<std::string> process_names();
+/// A process as people write it: "FDM (filament)"; the name of a custom one.
+[[nodiscard]] std::string process_title(const std::string& name);
 
 /// `cancelled` as in ExportOptions::cancelled. The result of a cancelled check is meaningless.
 [[nodiscard]] PotCheck check_pot(const PotQuestion& question,
@@ -74,7 +80,8 @@ struct PotCheck {
 [[nodiscard]] std::vector<render::RowWall> walls_for(const PotCheck& check, std::size_t rows,
                                                      double height_mm);
 
-/// Colours cover 0 to 10 mm for every pot; walls below the limit of the process are hatched.
+/// Colours cover 0 to 5, 10, 20, 50 or 100 mm, fitted to the pot; walls below the limit of the
+/// process are hatched.
 [[nodiscard]] render::WallMap wall_map_of(const PotCheck& check);
 
 /// Heights at which walls are thinner than the process requires [mm], bottom to top.
@@ -82,6 +89,9 @@ struct PotCheck {
 
 /// "Thinnest wall 2.1 mm, at a height of 34.0 mm; porcelain requires 3.0 mm: too thin".
 [[nodiscard]] std::string wall_text(const PotCheck& check, LengthUnit unit);
+
+/// "Ready to print", or why not, in a few words.
+[[nodiscard]] std::string ready_text(const PotCheck& check, LengthUnit unit);
 
 /// A stack whose rings are the rows of an outline, with radii at float precision, and the crown.
 /// Empty if the rows hold no clay.

@@ -10,9 +10,9 @@ journal=$(ls "$folder"/state/claystack/recovery/*)
 size() { wc -c <"$journal"; }
 begun=$(size)
 grew() { [ "$(size)" -gt $((begun + 2000)) ]; }
-xdotool mousemove --window "$window" 930 420 mousedown 1
+xdotool mousemove --window "$window" 833 420 mousedown 1
 until_line "stroke started" 2
-for x in 900 880 860 850 845 840 835 830; do
+for x in 803 783 763 753 748 743 738 733; do
   xdotool mousemove --window "$window" $x 420 sleep 0.1
 done
 wait_until "the journal to contain part of the unfinished stroke" grew

@@ -1,10 +1,14 @@
 #include "app/studio/mouse_hand.hpp"
 
 #include "app/studio/offscreen_host.hpp"
+#include "claystack/engine/wheel.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 namespace clay::studio {
 namespace {
@@ -61,6 +65,61 @@ TEST(MouseHand, APausedServoCausesNoJump) {
   hand.device.aim({{0.0, 0.0, 0.0}, kReachingMmPerS});
   hand.clock.sleep_until_ns(hand.clock.now_ns() + 2'000'000'000);
   EXPECT_GE(hand.device.read(0).position_mm.x, 50.0 - 0.01 * kReachingMmPerS - 1e-12);
+}
+
+/// A lump of radius 40 and height 60 mm that does not yield, and a ball of 10 mm.
+struct Lump {
+  Lump() {
+    SceneSpec scene;
+    scene.lump = {.rings = 120, .ring_height_mm = 0.5, .outer_radius_mm = 40.0};
+    scene.tool = {SphereSpec{10.0}, ToolMode::press, {}};
+    wheel.emplace(Wheel::build(scene).value());
+  }
+  std::optional<Wheel> wheel;
+};
+
+/// The area of a ball of 10 mm beyond a straight edge at a depth, from the integral of its chord.
+double segment_mm2(double depth_mm) {
+  double area = 0.0;
+  constexpr int kParts = 20'000;
+  for (int i = 0; i < kParts; ++i) {
+    const double t = -10.0 + 20.0 * (i + 0.5) / kParts;
+    area += 20.0 / kParts * std::max(0.0, std::sqrt(100.0 - t * t) - (10.0 - depth_mm));
+  }
+  return area;
+}
+
+TEST(MouseHand, DigsNoFasterThanItsBite) {
+  const Lump lump;
+  Hand hand;
+  hand.device.begin_at({50.5, 30.0, 0.0});
+  constexpr double kBiteMmPerS = 3.0;
+  hand.device.meet({&lump.wheel->stack(), &lump.wheel->plan().tool, kBiteMmPerS});
+  hand.tick();
+  hand.device.aim({{0.0, 30.0, 0.0}, kPressingMmPerS});
+  double x = 50.5;
+  int ticks = 0;
+  for (; ticks < 1000; ++ticks) {
+    x = hand.tick().position_mm.x;
+    // In contact the ball gains at most bite * its height of area per second.
+    ASSERT_LE(segment_mm2(50.0 - x), 1e-3 * (ticks + 1) * kBiteMmPerS * 20.0 + 1.0) << ticks;
+  }
+  EXPECT_LT(x, 49.0) << "it does dig";
+  EXPECT_NEAR(hand.device.stretch_mm(), x, 1e-9) << "the spring, from the tool to the axis";
+}
+
+TEST(MouseHand, IsFreeAlongTheClayAndAwayFromIt) {
+  const Lump lump;
+  Hand hand;
+  hand.device.begin_at({48.0, 30.0, 0.0});  // 2 mm deep
+  hand.device.meet({&lump.wheel->stack(), &lump.wheel->plan().tool, 0.5});
+  hand.tick();
+  hand.device.aim({{48.0, 45.0, 0.0}, kPressingMmPerS});
+  for (int i = 0; i < 400; ++i) hand.tick();
+  EXPECT_NEAR(hand.tick().position_mm.y, 45.0, 0.1);
+  hand.device.aim({{60.0, 45.0, 0.0}, kPressingMmPerS});
+  for (int i = 0; i < 400; ++i) hand.tick();
+  EXPECT_NEAR(hand.tick().position_mm.x, 60.0, 0.1);
 }
 
 TEST(MouseHand, SamplesAreReadyAndFreshOnce) {

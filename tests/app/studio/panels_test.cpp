@@ -79,8 +79,9 @@ class Panels : public ::testing::Test {
 TEST_F(Panels, DrawingEmitsNoAction) {
   const auto all = [](const ViewModel& model, Actions& actions) {
     draw_menu(model, actions);
-    draw_column(model, actions, Column::left, {0.0f, 20.0f}, {240.0f, 660.0f});
-    draw_column(model, actions, Column::right, {760.0f, 20.0f}, {240.0f, 660.0f});
+    draw_strip(model, actions, {0.0f, 20.0f}, {60.0f, 660.0f});
+    draw_column(model, actions, Column::diagnostics, {60.0f, 20.0f}, {240.0f, 660.0f});
+    draw_column(model, actions, Column::context, {760.0f, 20.0f}, {240.0f, 660.0f});
     draw_hint(model, actions, kView);
     draw_dialog(model, actions, kView);
     draw_banner(model, actions, kView);
@@ -94,18 +95,19 @@ TEST_F(Panels, DrawingEmitsNoAction) {
   }
 }
 
-TEST_F(Panels, AModeButtonSetsTheMode) {
-  // Three buttons in the first row: press, trim, pinch.
-  const auto panel = in_window(&draw_tool);
-  const Actions actions = click(panel, {150.0f, 20.0f});
+TEST_F(Panels, AnIconSelectsItsTool) {
+  const auto strip = [](const ViewModel& model, Actions& actions) {
+    draw_strip(model, actions, {0.0f, 0.0f}, {60.0f, 660.0f});
+  };
+  const Actions actions = click(strip, {30.0f, 80.0f});  // the second icon, of 49 px each
   ASSERT_EQ(actions.size(), 1u);
-  EXPECT_EQ(std::get<SetToolMode>(actions[0]).mode, ToolMode::trim);
+  EXPECT_EQ(std::get<RunCommand>(actions[0]).id, "tool.pinch");
   EXPECT_EQ(state.settings.tool.mode, small_scene().tool.mode) << "only apply() changes the state";
 }
 
 TEST_F(Panels, AHeaderFoldsItsPanel) {
   const auto column = [](const ViewModel& model, Actions& actions) {
-    draw_column(model, actions, Column::left, {0.0f, 0.0f}, {240.0f, 660.0f});
+    draw_column(model, actions, Column::context, {0.0f, 0.0f}, {240.0f, 660.0f});
   };
   const Actions actions = click(column, {60.0f, 20.0f});
   ASSERT_EQ(actions.size(), 1u);

@@ -171,7 +171,7 @@ TEST(PotCheck, ReportsAThinWallWithItsHeight) {
   EXPECT_TRUE(check.thin());
   const std::string words = wall_text(check, LengthUnit::mm);
   EXPECT_EQ(words.find("Thinnest wall 1.6 mm, at a height of 3"), 0u) << words;
-  EXPECT_NE(words.find("porcelain requires"), std::string::npos) << words;
+  EXPECT_NE(words.find("Porcelain requires"), std::string::npos) << words;
   EXPECT_NE(words.find("too thin"), std::string::npos) << words;
   const auto thin = thin_stretches(check);
   ASSERT_EQ(thin.size(), 1u);
@@ -224,6 +224,61 @@ TEST(PotCheck, NamesAClosedCavity) {
   ASSERT_FALSE(check.remarks.empty());
   EXPECT_NEAR(check.remarks[0].from_mm, 10.0, 1e-9);
   EXPECT_NEAR(check.remarks[0].to_mm, 55.0, 1e-9);
+}
+
+TEST(Verdict, IsThatOfTheExport) {
+  auto thin = cup_rings();
+  for (std::size_t i = 66; i < 70; ++i) thin[i].inner2 = quanta_from_radius(38.4);
+  auto lid = cup_rings();
+  for (std::size_t i = 110; i < lid.size(); ++i) lid[i].inner2 = 0;
+  std::vector<Ring> wide(20, Ring{quanta_from_radius(400.0), 0});
+  for (const auto& rings : {cup_rings(), thin, lid, wide}) {
+    const auto pot = pot_of(rings);
+    for (const char* process : {"fdm", "porcelain"}) {
+      const PotCheck check = check_pot(question_of(pot, process));
+      solid::ExportRequest request;
+      request.options.walls.process = solid::process_named(process).value();
+      request.files = {solid::file_request("pot.stl").value()};
+      const auto problems = solid::problems_of(solid::preview_export(*pot, request).value());
+      ASSERT_EQ(check.problems.size(), problems.size()) << process;
+      for (std::size_t i = 0; i < problems.size(); ++i) {
+        EXPECT_EQ(check.problems[i].kind, problems[i].kind);
+        EXPECT_EQ(check.problems[i].fails, problems[i].fails);
+      }
+      EXPECT_EQ(check.ready(), std::ranges::none_of(problems, &solid::Problem::fails));
+    }
+  }
+}
+
+TEST(Verdict, NamesPlaceAndMeasureInTheUnit) {
+  const auto verdict = [](std::vector<Ring> rings, LengthUnit unit) {
+    return ready_text(check_pot(question_of(pot_of(std::move(rings)), "porcelain")), unit);
+  };
+  EXPECT_EQ(verdict(cup_rings(), LengthUnit::mm), "Ready to print");
+  auto lip = cup_rings();
+  for (std::size_t i = 116; i < 120; ++i) lip[i].inner2 = quanta_from_radius(38.4);  // 58 to 60 mm
+  const std::string thin = verdict(lip, LengthUnit::mm);
+  EXPECT_EQ(thin.find("Not ready: thin lip of 1.6 mm at a height of 5"), 0u) << thin;
+  EXPECT_NE(thin.find("Porcelain needs 2.0 mm"), std::string::npos) << thin;
+  const std::string inches = verdict(lip, LengthUnit::in);
+  EXPECT_EQ(inches.find("Not ready: thin lip of 0.06 in"), 0u) << inches;
+  EXPECT_EQ(inches.find("mm"), std::string::npos) << inches;
+  auto lid = cup_rings();
+  for (std::size_t i = 110; i < lid.size(); ++i) lid[i].inner2 = 0;
+  EXPECT_EQ(verdict(lid, LengthUnit::mm), "Not ready: closed cavity at a height of 32.5 mm");
+  auto parted = cup_rings();
+  for (std::size_t i = 80; i < parted.size(); ++i)
+    parted[i] = {quanta_from_radius(30.0), quanta_from_radius(25.0)};
+  EXPECT_EQ(verdict(parted, LengthUnit::mm), "Not ready: in two parts at a height of 40.0 mm");
+}
+
+TEST(WallMap, FitsItsScaleToThePot) {
+  const auto top_mm = [](double wall_mm) {
+    return wall_map_of(check_pot(question_of(pot_of(cup_rings(wall_mm))))).top_mm;
+  };
+  EXPECT_EQ(top_mm(4.5), 5.0);
+  EXPECT_EQ(top_mm(8.0), 10.0);
+  EXPECT_EQ(top_mm(15.0), 20.0);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ done
 picture() {
   "$program" studio "$2" --script "samples/window/$1.script" \
     --screenshot "$pots/whole.png" --theme "$3" --size 640x400 --scale 0.5
-  convert "$pots/whole.png" -crop 384x330+128+13 +repage +dither -colors 64 -strip \
+  convert "$pots/whole.png" -crop 480x330+31+13 +repage +dither -colors 64 -strip \
     -define png:compression-level=9 "$folder/$1.png"
 }
 picture throw "$pots/vase.pot.json" dark

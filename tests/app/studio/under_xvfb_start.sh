@@ -59,18 +59,18 @@ touched() { [ "$(journal_size)" -gt $((untouched + 2000)) ]; }  # a scene has fe
 throw_a_stroke() {
   strokes=$(grep -c "stroke started" "$log")
   untouched=$(journal_size)
-  xdotool mousemove --window "$window" 930 420 mousedown 1
+  xdotool mousemove --window "$window" 833 420 mousedown 1
   until_line "stroke started" $((strokes + 1))
-  for x in 900 880 860 850 845 840; do xdotool mousemove --window "$window" $x 420; done
+  for x in 803 783 763 753 748 743; do xdotool mousemove --window "$window" $x 420; done
   wait_until "the tool to touch the clay" touched
   xdotool mouseup 1
   until_line "stroke ended" $((strokes + 1))
 }
 
-# throw_the_bowl: opens the first card of the gallery and throws a stroke.
+# throw_the_bowl: opens the lump of the first card of the gallery and throws a stroke.
 throw_the_bowl() {
   start_window
-  xdotool mousemove --window "$window" 370 360 click 1
+  xdotool mousemove --window "$window" 300 483 click 1
   until_line "work started: bowl"
   throw_a_stroke
 }

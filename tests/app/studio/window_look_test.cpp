@@ -53,9 +53,9 @@ TEST_F(Look, DrawsClayAtItsPosition) {
   const Ran ran =
       run("key 1\npoint 47 15\nscreenshot FOLDER/in.png\npoint 80 60\nscreenshot FOLDER/out.png\n");
   ASSERT_EQ(ran.status, 0) << ran.err;
-  // The middle of the view lies between two columns of 240 px, on the axis and in the lump.
-  EXPECT_TRUE(at("out.png", 480, 330).clay());
-  EXPECT_LT(at("out.png", 480, 60).red, at("out.png", 480, 60).blue + 10)
+  // The middle of the view, between the strip of 62 px and the panels of 256 px, is on the axis.
+  EXPECT_TRUE(at("out.png", 383, 330).clay());
+  EXPECT_LT(at("out.png", 383, 60).red, at("out.png", 383, 60).blue + 10)
       << "background above the lump";
 }
 
@@ -66,7 +66,7 @@ TEST_F(Look, WallMapShowsThickClayYellow) {
           "screenshot FOLDER/clay.png\n");
   ASSERT_EQ(ran.status, 0) << ran.err;
   const auto green_of_red = [&](const char* picture) {
-    const Colour colour = at(picture, 480, 330);
+    const Colour colour = at(picture, 383, 330);
     EXPECT_GT(colour.red, 60);
     return static_cast<double>(colour.green) / colour.red;
   };
@@ -90,7 +90,7 @@ TEST_F(Look, BothThemesAndScalesAreDrawn) {
 }
 
 TEST_F(Look, MouseRotatesPansAndZoomsTheView) {
-  const std::string drag = "move 480 300\npress BUTTON\nmove 520 220 over 0.2\nrelease BUTTON\n";
+  const std::string drag = "move 383 300\npress BUTTON\nmove 423 220 over 0.2\nrelease BUTTON\n";
   const auto by = [&](const std::string& button) {
     std::string text = drag;
     for (auto i = text.find("BUTTON"); i != std::string::npos; i = text.find("BUTTON"))
@@ -100,7 +100,7 @@ TEST_F(Look, MouseRotatesPansAndZoomsTheView) {
   const Ran ran =
       run(shot("home.png") + by("middle") + shot("middle.png") + "key Home\n" + by("right") +
           shot("right.png") + "key 1\n" + shot("front.png") + "hold Shift\n" + by("middle") +
-          "hold\n" + shot("shifted.png") + "key 1\nmove 480 300\nscroll 4\n" + shot("near.png") +
+          "hold\n" + shot("shifted.png") + "key 1\nmove 383 300\nscroll 4\n" + shot("near.png") +
           "key Num1\n" + shot("again.png"));
   ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_FALSE(same("home.png", "middle.png"));
@@ -108,12 +108,12 @@ TEST_F(Look, MouseRotatesPansAndZoomsTheView) {
   EXPECT_TRUE(same("front.png", "again.png"));
   // The lump moves with the mouse, 40 px to the right and 80 px up.
   const auto left_edge = [&](const char* picture, int y) {
-    for (int x = 245; x < 715; ++x)
+    for (int x = 66; x < 700; ++x)
       if (at(picture, x, y).clay()) return x;
-    return 715;
+    return 700;
   };
   const int edge = left_edge("front.png", 330);
-  ASSERT_GT(edge, 250);
+  ASSERT_GT(edge, 70);
   EXPECT_NEAR(left_edge("shifted.png", 250), edge + 40, 2);
   EXPECT_LT(left_edge("near.png", 330), edge - 10);
 }
@@ -124,7 +124,7 @@ TEST_F(Look, ARoundLumpIsRoundFromAbove) {
   ASSERT_EQ(ran.status, 0) << ran.err;
   const auto extent = [&](const char* picture, int dx, int dy) {
     int px = 0;
-    for (int x = 480, y = 315; x > 245 && x < 715 && y > 30 && y < 610; x += dx, y += dy, ++px)
+    for (int x = 383, y = 315; x > 66 && x < 700 && y > 30 && y < 610; x += dx, y += dy, ++px)
       if (!at(picture, x, y).clay()) break;
     return px;
   };
@@ -145,7 +145,7 @@ TEST_F(Look, MatchesTheReferencePictures) {
               name + ".png " + folder.file(std::string(name) + ".png") + " null:");
     ASSERT_LE(differ.status, 1) << name << ": " << differ.err;
     EXPECT_LT(std::stod(differ.err), 150.0) << name
-                                            << ": of 126 720 pixels; references.sh "
+                                            << ": of 158 400 pixels; references.sh "
                                                "renews the pictures";
   }
 }

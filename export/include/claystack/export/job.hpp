@@ -204,16 +204,22 @@ struct ExportReport {
   [[nodiscard]] double thinnest_mm() const noexcept;
 };
 
+enum class ProblemKind { thin_wall, too_large, cavity, overhang, bodies };
+
 /// A problem for printing, with its place on the section of the written solid, if it has one.
 struct Problem {
   std::string text;
   std::optional<ProfilePoint> at;
   bool fails = true;  ///< else a warning
+  ProblemKind kind = ProblemKind::thin_wall;
+  double figure = 0.0;  ///< of a thin wall its thickness [mm], of an overhang its angle [deg]
 };
 
 /// Fails: a wall below the limit, a size above it, a closed cavity in a fired process. Warnings:
 /// other closed cavities, overhangs above the limit, several bodies.
 [[nodiscard]] std::vector<Problem> problems_of(const ExportReport& report);
+/// The same for the solid, of which no mesh need be written.
+[[nodiscard]] std::vector<Problem> problems_of_solid(const ExportReport& report);
 /// Empty if the wall meets the limit, or if there is no limit.
 [[nodiscard]] std::optional<std::string> thin_wall_of(const ExportReport& report);
 [[nodiscard]] std::string text_of(const Cavity& cavity);

@@ -1,0 +1,61 @@
+#pragma once
+// The steps of a sample as a lesson: where the hand goes in the next stroke on the present pot, and
+// how far the clay still is from the result. Plain values that any thread can compute.
+
+#include "app/history/work.hpp"
+#include "app/render/picture.hpp"
+#include "app/strokes/strokes.hpp"
+#include "claystack/core/result.hpp"
+#include "claystack/engine/scene.hpp"
+
+#include <cstddef>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace clay::studio {
+
+/// The area [mm^2] that belongs to one of two half-sections and not to the other.
+[[nodiscard]] double difference_mm2(const render::PotView& a, const render::PotView& b);
+
+/// The same of the walls alone, wherever they are: the difference of their widths at every height.
+[[nodiscard]] double width_difference_mm2(const render::PotView& a, const render::PotView& b);
+
+struct LessonQuestion {
+  std::shared_ptr<const strokes::StrokeScript> script;
+  SceneSpec scene;
+  history::SharedPot pot;
+  history::NodeId node = 0;  ///< of the pot
+  std::size_t step = 0;
+  int passes_left = 1;
+};
+
+/// A point of the path, in the section plane.
+struct PathPoint {
+  glm::dvec2 at_mm{0.0};  ///< (rho, y) of the tool
+  double time_s = 0.0;    ///< for an experienced hand, from the start of the path
+  friend bool operator==(const PathPoint&, const PathPoint&) = default;
+};
+
+/// The next stroke of a step.
+struct LessonPlan {
+  history::NodeId node = 0;
+  std::size_t step = 0;
+  ToolMode mode = ToolMode::press;
+  double gap_mm = 0.0;
+  std::vector<PathPoint> path;  ///< empty: the tool would not touch the clay
+  render::PotView after;        ///< the pot after all passes that are left
+  double left_mm2 = 0.0;        ///< difference of the pot from that, see `left_from`
+  std::string problem;          ///< why there is no plan
+
+  /// How far a pot is from the result: a pull is to make the wall thinner and taller, wherever it
+  /// stands; all other strokes move it.
+  [[nodiscard]] double left_from(const render::PotView& pot) const {
+    return mode == ToolMode::pinch ? width_difference_mm2(pot, after) : difference_mm2(pot, after);
+  }
+};
+
+[[nodiscard]] LessonPlan plan_step(const LessonQuestion& question);
+
+}  // namespace clay::studio

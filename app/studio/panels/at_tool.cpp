@@ -1,0 +1,144 @@
+// Over the view: figures at the tool, how hard the hand pulls, the floor to keep, and the veil of a
+// pause.
+
+#include "app/studio/panels/panels.hpp"
+#include "app/studio/panels/widgets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace clay::studio {
+namespace {
+
+constexpr double kBoreMm = 2.0;       // a bore begins at this radius
+constexpr double kHardPullMm = 15.0;  // way of the spring at which the hand pulls with its strength
+constexpr double kSlackMm = 2.0;
+
+const render::Row* row_at(const render::PotView& pot, double y_mm) {
+  if (pot.rows.empty() || y_mm < 0.0 || y_mm >= pot.height_mm) return nullptr;
+  const double rows = static_cast<double>(pot.rows.size());
+  return &pot.rows[static_cast<std::size_t>(std::min(y_mm / pot.height_mm * rows, rows - 1.0))];
+}
+
+/// The thickness of the floor; empty: no bore yet.
+std::optional<double> floor_mm(const render::PotView& pot) {
+  const auto open = std::ranges::find_if(
+      pot.rows, [](const render::Row& row) { return static_cast<double>(row.inner_mm) > kBoreMm; });
+  if (open == pot.rows.end()) return std::nullopt;
+  return pot.height_mm * static_cast<double>(open - pot.rows.begin()) /
+         static_cast<double>(pot.rows.size());
+}
+
+std::vector<std::string> figures_at(const ViewModel& model, const render::ToolView& tool) {
+  const LengthUnit unit = model.settings.unit;
+  const render::PotView& pot = model.stroke.view();
+  const double rho = std::hypot(tool.place_mm.x, tool.place_mm.z);
+  std::vector<std::string> lines;
+  const render::Row* row = row_at(pot, tool.place_mm.y);
+  if (row != nullptr && static_cast<double>(row->inner_mm) > kBoreMm)
+    lines.push_back(fmt::format(
+        "wall {}", length_text(static_cast<double>(row->outer_mm - row->inner_mm), unit)));
+  if (const auto floor = floor_mm(pot); floor && tool.inside)
+    lines.push_back(fmt::format("floor {}", length_text(*floor, unit)));
+  lines.push_back(fmt::format("radius {}", length_text(rho, unit)));
+  lines.push_back(fmt::format("height {}", length_text(tool.place_mm.y, unit)));
+  return lines;
+}
+
+void draw_lines(ImDrawList* draw, const std::vector<std::string>& lines, ImVec2 at, float right) {
+  const float em = ImGui::GetFontSize();
+  float width = 0.0f;
+  for (const std::string& line : lines)
+    width = std::max(width, ImGui::CalcTextSize(line.c_str()).x);
+  if (at.x + width + em > right) at.x = right - width - em;
+  const float height = 1.25f * em * static_cast<float>(lines.size());
+  draw->AddRectFilled({at.x - 0.5f * em, at.y - 0.3f * em},
+                      {at.x + width + 0.5f * em, at.y + height + 0.1f * em},
+                      ImGui::GetColorU32(ImGuiCol_PopupBg, 0.82f), 0.4f * em);
+  for (const std::string& line : lines) {
+    draw->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), line.c_str());
+    at.y += 1.25f * em;
+  }
+}
+
+/// The spring between the tool and the pointer, and a gauge around the tool.
+void draw_pull(const ViewModel& model, ImDrawList* draw, glm::vec2 tool_px) {
+  const double stretch = model.stroke.stretch_mm();
+  if (stretch < kSlackMm) return;
+  const float em = ImGui::GetFontSize();
+  const float part = static_cast<float>(std::clamp(stretch / kHardPullMm, 0.0, 1.0));
+  const Palette& colours = model.colours();
+  const ImU32 ink = ImGui::GetColorU32(part < 1.0f ? colours.good : colours.warning);
+  const ImVec2 pointer = ImGui::GetIO().MousePos;
+  if (model.guide.demonstration() == Demonstration::none)
+    draw->AddLine({tool_px.x, tool_px.y}, pointer, ink, 0.1f * em);
+  constexpr float kTop = -1.5707963f, kTurn = 6.2831853f;
+  draw->PathArcTo({tool_px.x, tool_px.y}, 1.1f * em, kTop, kTop + part * kTurn, 32);
+  draw->PathStroke(ink, ImDrawFlags_None, 0.22f * em);
+}
+
+/// The clay below this line stays: no tool opens the bottom deeper.
+void draw_floor(const ViewModel& model, ImDrawList* draw) {
+  if (!model.document.scene().clay || model.document.scene().clay->floor_mm <= 0.0) return;
+  const double y_mm = model.document.scene().clay->floor_mm;
+  const render::Row* row = row_at(model.stroke.view(), y_mm);
+  if (row == nullptr) return;
+  const double reach = static_cast<double>(row->outer_mm);
+  const auto left = model.scene.pixel_of({-reach, y_mm}),
+             right = model.scene.pixel_of({reach, y_mm});
+  if (!left || !right) return;
+  const float em = ImGui::GetFontSize(), dash = 0.5f * em;
+  const ImU32 ink = ImGui::GetColorU32(model.colours().faint);
+  for (float x = left->x; x < right->x; x += 2.0f * dash)
+    draw->AddLine({x, left->y}, {std::min(x + dash, right->x), left->y}, ink, 0.1f * em);
+  const std::string text = fmt::format("floor stop {}", length_text(y_mm, model.settings.unit));
+  draw->AddText({left->x - 0.5f * em - ImGui::CalcTextSize(text.c_str()).x, left->y - 0.6f * em},
+                ink, text.c_str());
+}
+
+}  // namespace
+
+void draw_at_tool(const ViewModel& model, const ViewRect& rect) {
+  if (!model.document.has_work() || !model.ui.shows<NoDialog>()) return;
+  if (model.settings.tool.mode == ToolMode::trim_foot) return;  // the pot is upside down
+  const auto tool = model.scene.tool_view(model);
+  if (!tool) return;
+  const double rho = std::hypot(tool->place_mm.x, tool->place_mm.z);
+  const auto place = render::pixel_of(model.scene.camera(), model.scene.viewport(), tool->place_mm);
+  if (!place) return;
+  const glm::vec2 at = glm::vec2(*place) + rect.corner_px;
+  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  draw->PushClipRect({rect.corner_px.x, rect.corner_px.y},
+                     {rect.corner_px.x + rect.size_px.x, rect.corner_px.y + rect.size_px.y});
+  const float em = ImGui::GetFontSize();
+  const render::Row* row = row_at(model.stroke.view(), tool->place_mm.y);
+  const double widest = row != nullptr ? static_cast<double>(row->outer_mm) : 0.0;
+  const bool near = model.stroke.throwing() || rho < widest + 40.0;
+  if (near && (tool->inside || rho < kBoreMm + 20.0)) draw_floor(model, draw);
+  draw_pull(model, draw, at);
+  if (near)
+    draw_lines(draw, figures_at(model, *tool), {at.x + 3.2f * em, at.y - 2.0f * em},
+               rect.corner_px.x + rect.size_px.x);
+  draw->PopClipRect();
+}
+
+void draw_pause(const ViewModel& model, const ViewRect& rect) {
+  if (!model.stroke.paused() || !model.document.has_work() || !model.ui.shows<NoDialog>()) return;
+  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  const ImVec2 low(rect.corner_px.x, rect.corner_px.y);
+  const ImVec2 high(low.x + rect.size_px.x, low.y + rect.size_px.y);
+  draw->AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_WindowBg, 0.6f));
+  ImFont* title = model.ui.fonts.title != nullptr ? model.ui.fonts.title : ImGui::GetFont();
+  const char* text = "Paused: Space continues";
+  const ImVec2 size = title->CalcTextSizeA(title->FontSize, rect.size_px.x, 0.0f, text);
+  draw->AddText(title, title->FontSize,
+                {0.5f * (low.x + high.x - size.x), 0.5f * (low.y + high.y - size.y)},
+                ImGui::GetColorU32(ImGuiCol_Text), text);
+}
+
+}  // namespace clay::studio

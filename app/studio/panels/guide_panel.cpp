@@ -1,0 +1,198 @@
+// The guide: a card with the present step, and the path to follow over the view.
+
+#include "app/studio/panels/panels.hpp"
+#include "app/studio/panels/widgets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace clay::studio {
+namespace {
+
+constexpr ImGuiWindowFlags kCard =
+    ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
+constexpr float kCardEm = 30.0f, kTwoRowsEm = 22.0f;
+
+const char* name_of_tool(ToolMode mode) {
+  return mode == ToolMode::pinch    ? "Two fingers"
+         : mode == ToolMode::trim   ? "Trimming tool"
+         : mode == ToolMode::smooth ? "Sponge"
+                                    : "Ball";
+}
+
+/// One dot for each step: done, present, to come.
+void draw_steps(const Guide& guide, const Palette& colours) {
+  const float em = ImGui::GetFontSize(), radius = 0.22f * em;
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  for (std::size_t i = 0; i < guide.steps(); ++i) {
+    const ImVec2 middle(at.x + radius + static_cast<float>(i) * 0.9f * em, at.y + 0.5f * em);
+    const ImVec4& colour = i < guide.step() ? colours.good : colours.accent;
+    if (i <= guide.step())
+      draw->AddCircleFilled(middle, radius, ImGui::GetColorU32(colour));
+    else
+      draw->AddCircle(middle, radius, ImGui::GetColorU32(colours.faint));
+  }
+  ImGui::Dummy({0.9f * em * static_cast<float>(guide.steps()), em});
+}
+
+void draw_progress(double part, const Palette& colours) {
+  ImGui::PushStyleColor(ImGuiCol_PlotHistogram, colours.good);
+  ImGui::ProgressBar(static_cast<float>(part), {-1.0f, 0.35f * ImGui::GetFontSize()}, "");
+  ImGui::PopStyleColor();
+}
+
+void draw_present_step(const ViewModel& model, Actions& actions) {
+  const Guide& guide = model.guide;
+  const Palette& colours = model.colours();
+  const strokes::Stroke& stroke = guide.stroke(guide.step());
+  ImGui::PushFont(model.ui.fonts.title);
+  ImGui::TextUnformatted(stroke.name.c_str());
+  ImGui::PopFont();
+  ImGui::TextWrapped("%s", stroke.hint.c_str());
+  const LessonPlan* plan = guide.plan();
+  if (plan != nullptr && !plan->problem.empty())
+    ImGui::TextColored(colours.warning, "%s", plan->problem.c_str());
+  draw_progress(guide.progress(), colours);
+  if (guide.demonstration() != Demonstration::none) {
+    if (ImGui::Button("Stop")) actions.emplace_back(StopShowing{});
+    ImGui::SameLine();
+    ImGui::TextColored(colours.faint, "Watch, or press on the clay to take over.");
+    return;
+  }
+  if (ImGui::Button("Show me")) actions.emplace_back(ShowStep{});
+  ImGui::SameLine();
+  if (ImGui::Button("Next step")) actions.emplace_back(NextStep{});
+  ImGui::SameLine();
+  if (ImGui::Button("End the guide")) actions.emplace_back(EndLesson{});
+  if (plan == nullptr) return;
+  ImGui::SameLine();
+  ImGui::TextColored(colours.faint, "%s", name_of_tool(plan->mode));
+}
+
+void draw_finish(const ViewModel& model, Actions& actions) {
+  ImGui::PushFont(model.ui.fonts.title);
+  ImGui::TextUnformatted("The pot is thrown");
+  ImGui::PopFont();
+  ImGui::TextWrapped("Export it for printing, or go on shaping it as you like.");
+  if (main_button("Export...", model.colours())) actions.emplace_back(RunCommand{"file.export"});
+  ImGui::SameLine();
+  if (ImGui::Button("Throw it yourself")) actions.emplace_back(YourTurn{});
+  ImGui::SameLine();
+  if (ImGui::Button("End the guide")) actions.emplace_back(EndLesson{});
+}
+
+/// Pixels per mm at the axis.
+float scale_px(const ViewModel& model) {
+  const auto low = model.scene.pixel_of({0.0, 0.0}), high = model.scene.pixel_of({10.0, 0.0});
+  if (!low || !high) return 1.0f;
+  return 0.1f * std::hypot(high->x - low->x, high->y - low->y);
+}
+
+void draw_arrow(ImDrawList* draw, ImVec2 from, ImVec2 to, ImU32 colour, float size) {
+  const ImVec2 way(to.x - from.x, to.y - from.y);
+  const float length = std::hypot(way.x, way.y);
+  if (length < 1e-3f) return;
+  const ImVec2 ahead(size * way.x / length, size * way.y / length), side(-ahead.y, ahead.x);
+  draw->AddTriangleFilled({to.x + ahead.x, to.y + ahead.y},
+                          {to.x - ahead.x + 0.8f * side.x, to.y - ahead.y + 0.8f * side.y},
+                          {to.x - ahead.x - 0.8f * side.x, to.y - ahead.y - 0.8f * side.y}, colour);
+}
+
+/// The distance of the tool from the path [mm].
+double distance_mm(const LessonPlan& plan, const glm::dvec3& tool_mm) {
+  const glm::dvec2 at(std::hypot(tool_mm.x, tool_mm.z), tool_mm.y);
+  double least = 1e9;
+  for (const PathPoint& point : plan.path)
+    least = std::min(least, std::hypot(point.at_mm.x - at.x, point.at_mm.y - at.y));
+  return least;
+}
+
+}  // namespace
+
+void draw_guide(const ViewModel& model, Actions& actions, const ViewRect& rect) {
+  if (!model.guide.active() || !model.ui.shows<NoDialog>()) return;
+  const float em = ImGui::GetFontSize();
+  const float width = std::min(rect.size_px.x - 2.0f * em, kCardEm * em);
+  ImGui::SetNextWindowPos(
+      {rect.corner_px.x + 0.5f * rect.size_px.x, rect.corner_px.y + rect.size_px.y - em},
+      ImGuiCond_Always, {0.5f, 1.0f});
+  ImGui::SetNextWindowSize({width, 0.0f});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.6f * em);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
+  ImGui::Begin("##guide", nullptr, kCard);
+  const Guide& guide = model.guide;
+  if (width > kTwoRowsEm * em || !guide.finished()) draw_steps(guide, model.colours());
+  ImGui::SameLine();
+  ImGui::TextColored(model.colours().faint, "%s",
+                     guide.finished() ? guide.title()
+                                      : fmt::format("{}, step {} of {}", guide.title(),
+                                                    guide.step() + 1, guide.steps())
+                                            .c_str());
+  if (guide.finished())
+    draw_finish(model, actions);
+  else
+    draw_present_step(model, actions);
+  ImGui::End();
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar();
+}
+
+void draw_path(const ViewModel& model, const ViewRect& rect) {
+  if (!model.guide.active() || !model.ui.shows<NoDialog>()) return;
+  const LessonPlan* plan = model.guide.finished() ? nullptr : model.guide.plan();
+  if (plan == nullptr || plan->path.size() < 2) return;
+  std::vector<ImVec2> line;
+  for (const PathPoint& point : plan->path)
+    if (const auto at = model.scene.pixel_of(point.at_mm)) line.emplace_back(at->x, at->y);
+  if (line.size() < 2) return;
+  const float em = ImGui::GetFontSize();
+  const bool throwing = model.stroke.throwing();
+  const bool off = throwing && model.stroke.status().ticks > 0 &&
+                   distance_mm(*plan, model.stroke.status().tool_mm) > 2.0 * kPathToleranceMm;
+  const ImVec4 colour = off ? model.colours().warning : model.colours().good;
+  const auto ink = [&](float alpha) {
+    return ImGui::GetColorU32(ImVec4(colour.x, colour.y, colour.z, alpha));
+  };
+  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  draw->PushClipRect({rect.corner_px.x, rect.corner_px.y},
+                     {rect.corner_px.x + rect.size_px.x, rect.corner_px.y + rect.size_px.y});
+  const int count = static_cast<int>(line.size());
+  const float band = 2.0f * static_cast<float>(kPathToleranceMm) * scale_px(model);
+  draw->AddPolyline(line.data(), count, ink(0.22f), ImDrawFlags_None, band);
+  draw->AddPolyline(line.data(), count, ink(0.95f), ImDrawFlags_None, 0.16f * em);
+  for (std::size_t i = 20; i + 4 < line.size(); i += 30)
+    draw_arrow(draw, line[i - 1], line[i], ink(0.95f), 0.4f * em);
+  draw->AddCircleFilled(line.front(), 0.5f * em, ink(1.0f));
+  draw->AddCircleFilled(line.front(), 0.25f * em, ImGui::GetColorU32(ImGuiCol_WindowBg));
+  draw_arrow(draw, line[line.size() - 2], line.back(), ink(1.0f), 0.55f * em);
+  draw->PopClipRect();
+}
+
+void draw_verdict(const ViewModel& model, const ViewRect& rect) {
+  const auto& check = model.readings.check();
+  if (!check || !model.document.has_work() || !model.ui.shows<NoDialog>()) return;
+  const std::string text = model.readings.fallen() ? "Fallen: undo removes the last stroke"
+                                                   : ready_text(*check, model.settings.unit);
+  const bool ready = check->ready() && !model.readings.fallen();
+  const ImVec4 colour = ready ? model.colours().good : model.colours().warning;
+  const float em = ImGui::GetFontSize(), wrap = rect.size_px.x - 4.0f * em;
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+  const ImVec2 at(rect.corner_px.x + 0.5f * (rect.size_px.x - size.x) + 0.5f * em,
+                  rect.corner_px.y + 0.8f * em);
+  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  const ImVec2 low(at.x - 1.7f * em, at.y - 0.35f * em);
+  const ImVec2 high(at.x + size.x + 0.8f * em, at.y + size.y + 0.35f * em);
+  draw->AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_PopupBg, 0.92f), 0.9f * em);
+  draw->AddCircleFilled({at.x - 0.85f * em, at.y + 0.5f * em}, 0.32f * em,
+                        ImGui::GetColorU32(colour));
+  draw->AddText(ImGui::GetFont(), em, at, ImGui::GetColorU32(ImGuiCol_Text), text.c_str(), nullptr,
+                wrap);
+}
+
+}  // namespace clay::studio

@@ -1,0 +1,138 @@
+// The guide: its plans are those of the strokes, its demonstration throws a printable pot, and a
+// newcomer who follows it does.
+
+#include "app/studio/guide/guide.hpp"
+
+#include "app/render/pot_view.hpp"
+#include "app/studio/app_state.hpp"
+#include "claystack/engine/wheel.hpp"
+#include "tests/app/studio/first_timer.hpp"
+#include "tests/app/studio/timed_host.hpp"
+
+#include <gtest/gtest.h>
+
+namespace clay::studio {
+namespace {
+
+constexpr std::size_t kCylinder = 3;
+
+/// Rows of 1 mm of a pipe.
+render::PotView pipe(float outer_mm, float inner_mm, std::size_t rows) {
+  render::PotView pot;
+  pot.rows.assign(rows, {outer_mm, inner_mm});
+  pot.height_mm = static_cast<double>(rows);
+  return pot;
+}
+
+TEST(Guide, DifferenceIsTheAreaThatOnlyOneSectionHas) {
+  const render::PotView pot = pipe(40.0f, 30.0f, 50);
+  EXPECT_EQ(difference_mm2(pot, pot), 0.0);
+  EXPECT_NEAR(difference_mm2(pot, pipe(42.0f, 30.0f, 50)), 2.0 * 50.0, 1e-3);
+  EXPECT_NEAR(difference_mm2(pot, pipe(42.0f, 33.0f, 50)), 5.0 * 50.0, 1e-3);
+  EXPECT_NEAR(difference_mm2(pot, pipe(40.0f, 30.0f, 60)), 10.0 * 10.0, 1e-3);
+  EXPECT_NEAR(difference_mm2(pot, pipe(20.0f, 10.0f, 50)), 20.0 * 50.0, 1e-3) << "apart";
+}
+
+TEST(Guide, ThePathOfTheFirstStepOpensTheLump) {
+  const Sample& sample = samples()[kCylinder];
+  const auto scene = scene_of(sample).value();
+  const auto pot = std::make_shared<const Pot>(Wheel::build(scene)->pot());
+  const auto script = std::make_shared<const strokes::StrokeScript>(
+      strokes::parse_strokes(sample.strokes_text, sample.name).value());
+  const LessonPlan plan = plan_step({script, scene, pot, 0, 0, 1});
+  ASSERT_GT(plan.path.size(), 10u);
+  EXPECT_EQ(plan.mode, ToolMode::press);
+  const double radius_mm = std::get<SphereSpec>(scene.tool.shape).radius_mm;
+  EXPECT_GT(plan.path.front().at_mm.y, pot->stack.height_mm() + radius_mm - 0.5) << "in the air";
+  double lowest = 1e9;
+  for (const PathPoint& point : plan.path) lowest = std::min(lowest, point.at_mm.y);
+  EXPECT_NEAR(lowest, script->strokes[0].through_mm[4].y, 0.5) << "the script's lowest point";
+  EXPECT_NEAR(plan.left_mm2, difference_mm2(render::view_of(*pot), plan.after), 1e-9);
+  EXPECT_GT(plan.left_mm2, 100.0);
+}
+
+TEST(Guide, APinchIsPlannedWithItsGap) {
+  const Sample& sample = samples()[kCylinder];
+  const auto scene = scene_of(sample).value();
+  const auto script = std::make_shared<const strokes::StrokeScript>(
+      strokes::parse_strokes(sample.strokes_text, sample.name).value());
+  const auto pot = std::make_shared<const Pot>(finished_pot(sample).value());
+  const LessonPlan plan = plan_step({script, scene, pot, 7, 5, 1});
+  EXPECT_EQ(plan.mode, ToolMode::pinch);
+  EXPECT_DOUBLE_EQ(plan.gap_mm, 5.0);
+  ASSERT_FALSE(plan.path.empty());
+  EXPECT_GT(plan.path.back().at_mm.y, pot->stack.height_mm()) << "over the rim";
+  EXPECT_EQ(plan.node, 7u);
+}
+
+class Lesson : public ::testing::Test {
+ protected:
+  void frames(int count) {
+    for (int i = 0; i < count && !state.guide.finished(); ++i) {
+      host.advance();
+      update(state);
+    }
+  }
+  test::TimedHost host;
+  AppState state{host, Settings{}, [](std::string_view) {}};
+};
+
+TEST_F(Lesson, TheDemonstrationThrowsAPotThatIsReadyToPrint) {
+  state.scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});
+  apply(state, BeginLesson{kCylinder, true});
+  frames(60 * 180);
+  ASSERT_TRUE(state.guide.finished()) << "at step " << state.guide.step();
+  const PotCheck check =
+      check_pot({{state.document.shared_pot(), state.document.view()}, state.settings.process});
+  EXPECT_TRUE(check.ready()) << ready_text(check, LengthUnit::mm);
+  const double sample_mm = finished_pot(samples()[kCylinder])->stack.height_mm();
+  EXPECT_NEAR(state.document.pot().stack.height_mm(), sample_mm, 0.15 * sample_mm);
+  // What was shown stays as a branch, and the user begins with the lump.
+  const std::size_t strokes = state.document.work().size();
+  apply(state, YourTurn{});
+  EXPECT_EQ(state.document.work().at(), 0u);
+  EXPECT_EQ(state.document.work().size(), strokes);
+  EXPECT_EQ(state.guide.step(), 0u);
+}
+
+TEST_F(Lesson, UndoGoesBackToTheStepOfThePot) {
+  state.scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});
+  apply(state, BeginLesson{kCylinder, true});
+  while (state.guide.step() == 0 && host.frame_ns() < 60'000'000'000) frames(1);
+  ASSERT_EQ(state.guide.step(), 1u);
+  apply(state, StopShowing{});
+  apply(state, Undo{});
+  frames(2);
+  EXPECT_EQ(state.guide.step(), 0u);
+  apply(state, Redo{});
+  frames(2);
+  EXPECT_EQ(state.guide.step(), 1u);
+}
+
+TEST_F(Lesson, AStepSelectsItsToolAndAPressEndsTheDemonstration) {
+  state.scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});
+  state.settings.tool.mode = ToolMode::wire;
+  apply(state, BeginLesson{kCylinder, false});
+  frames(2);
+  EXPECT_EQ(state.settings.tool.mode, ToolMode::press);
+  for (int step = 0; step < 3; ++step) {
+    apply(state, NextStep{});
+    frames(2);
+  }
+  EXPECT_EQ(state.settings.tool.mode, ToolMode::pinch);
+  apply(state, ShowStep{});
+  EXPECT_EQ(state.guide.demonstration(), Demonstration::step);
+  apply(state, StopShowing{});
+  EXPECT_EQ(state.guide.demonstration(), Demonstration::none);
+}
+
+TEST(Newcomer, ThrowsAPotByFollowingThePath) {
+  const test::FirstPot pot = test::throw_first_pot(kCylinder, 1, 2.5);
+  EXPECT_TRUE(pot.finished);
+  EXPECT_TRUE(pot.ready) << pot.verdict;
+  EXPECT_TRUE(pot.is_pot()) << pot.capacity_ml << " of " << pot.sample_capacity_ml << " ml";
+  EXPECT_LE(pot.stroke_s, 120.0);
+}
+
+}  // namespace
+}  // namespace clay::studio
