@@ -11,6 +11,9 @@
 #include <cstdint>
 #include <cstring>
 
+// Vectors go to functions that are always inline: their ABI does not matter.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 namespace clay {
 
 inline constexpr std::size_t kFour = 4;
