@@ -86,15 +86,14 @@ Variant limit_of(Variant variant) {
 }
 
 /// Four times as fine as the finest run of a series, extrapolated; the reach has its own reference.
-Outcome reference_of(const std::string& along, Variant variant, const Effort& effort) {
+Outcome reference_of(const std::string& along, Variant variant) {
   Fineness fine;
   if (along == "reach") {
     fine.reach_mm = 56.0;
     return play(fine, variant);
   }
-  const std::size_t more = effort.quick ? 1 : 2;
-  if (along == "rings") fine.rings = 6400 * more;
-  if (along == "rate") fine.rate_hz = static_cast<int>(8000 * more);
+  if (along == "rings") fine.rings = 12'800;
+  if (along == "rate") fine.rate_hz = 16'000;
   Fineness half = fine;
   if (along == "rings") half.rings /= 2;
   if (along == "rate") half.rate_hz /= 2;
@@ -117,7 +116,7 @@ void measure(std::vector<Series>& all, const Effort& effort) {
     effort.progress(fmt::format("error: {}", series.name));
     const Variant limit = limit_of(series.runs.front().variant);
     auto [reference, missing] = references.try_emplace({series.along, limit});
-    if (missing) reference->second = reference_of(series.along, limit, effort);
+    if (missing) reference->second = reference_of(series.along, limit);
     for (Run& run : series.runs) {
       compare(run, reference->second);
       works.push_back({series.name, [&run] { return time_of(run.fineness, run.variant); }});
@@ -181,7 +180,7 @@ Curve order_1(const Curve& curve) {
 
 /// The label of a point: the setting that differs in its series.
 std::string label_of(const Run& run, const std::string& along) {
-  if (along == "rings") return fmt::format("{}", run.fineness.rings);
+  if (along == "rings") return fmt::format("N {}", run.fineness.rings);
   if (along == "rate") return fmt::format("{} Hz", run.fineness.rate_hz);
   return fmt::format("{:g} mm", run.fineness.reach_mm);
 }
@@ -260,12 +259,11 @@ Section engine_section(const Effort& effort) {
   section.summary = fmt::format(
       "Cost of accuracy. A ball presses a hollow cylinder and pulls up its wall within {} s. Each "
       "model is compared with its own limit, extrapolated (Richardson, first order) from runs "
-      "{} times and {} times as fine as its finest here. `paper, scaled` is the paper's model with "
+      "2 times and 4 times as fine as its finest here. `paper, scaled` is the paper's model with "
       "a stiffness per mm and a rate per second, which gives it a limit; `paper` and `literal` (as "
       "printed, with a running sum for the stress) keep its K per ring and k per tick, and are "
       "compared with that limit. Volume in the conserving model, with and without clay rules: {}.",
-      kStrokeS, effort.quick ? 1 : 2, effort.quick ? 2 : 4,
-      section.sound ? "exact to the quantum in every run" : "NOT conserved");
+      kStrokeS, section.sound ? "exact to the quantum in every run" : "NOT conserved");
   return section;
 }
 

@@ -54,13 +54,15 @@ class Auditor {
 ReplayStats replay(Wheel& wheel, std::span<const Pose> poses, const ReplayOptions& options) {
   using Clock = std::chrono::steady_clock;
   ReplayStats stats;
-  std::vector<double> tick_ns;
+  std::vector<double> tick_ns, contact_ns;
   tick_ns.reserve(poses.size());
+  contact_ns.reserve(poses.size());
   const Auditor auditor(wheel);
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const auto before = Clock::now();
     const StepReport step = wheel.step(poses[k]);
     tick_ns.push_back(std::chrono::duration<double, std::nano>(Clock::now() - before).count());
+    if ((step.flags & kContact) != 0) contact_ns.push_back(tick_ns.back());
     const double force = glm::length(step.force_n());
     stats.refused += (step.flags & kRefused) != 0;
     stats.ring_limit = stats.ring_limit || (step.flags & kRingLimit) != 0;
@@ -72,6 +74,10 @@ ReplayStats replay(Wheel& wheel, std::span<const Pose> poses, const ReplayOption
   }
   stats.tick_ns_median = percentile(tick_ns, 0.5);
   stats.tick_ns_p999 = percentile(tick_ns, 0.999);
+  stats.contact_ticks = contact_ns.size();
+  if (contact_ns.empty()) return stats;
+  stats.contact_tick_ns_median = percentile(contact_ns, 0.5);
+  stats.contact_tick_ns_p999 = percentile(contact_ns, 0.999);
   return stats;
 }
 

@@ -31,6 +31,9 @@ struct ReplayStats {
   double max_force_n = 0.0;
   double tick_ns_median = 0.0;
   double tick_ns_p999 = 0.0;
+  std::size_t contact_ticks = 0;  ///< in which the tool touched the clay
+  double contact_tick_ns_median = 0.0;
+  double contact_tick_ns_p999 = 0.0;
 };
 
 struct ReplayOptions {

@@ -51,6 +51,9 @@ Json summary(const Wheel& wheel, const ReplayStats& stats, const Session& sessio
       {"refused_ticks", stats.refused},
       {"tick_ns_median", stats.tick_ns_median},
       {"tick_ns_p999", stats.tick_ns_p999},
+      {"contact_ticks", stats.contact_ticks},
+      {"contact_tick_ns_median", stats.contact_tick_ns_median},
+      {"contact_tick_ns_p999", stats.contact_tick_ns_p999},
   };
   json.update(clay_json(wheel, pot));
   return json;
@@ -65,6 +68,10 @@ void print_result(const Console& console, const Json& s) {
       fmt::format("tick: median {:.0f} ns, 99.9 % within {:.0f} ns; maximum force {:.2f} N",
                   s["tick_ns_median"].get<double>(), s["tick_ns_p999"].get<double>(),
                   s["max_force_n"].get<double>()));
+  console.detail(fmt::format("ticks in contact: {}, median {:.0f} ns, 99.9 % within {:.0f} ns",
+                             s["contact_ticks"].get<std::size_t>(),
+                             s["contact_tick_ns_median"].get<double>(),
+                             s["contact_tick_ns_p999"].get<double>()));
   print_clay(console, s);
 }
 

@@ -1,7 +1,8 @@
 #pragma once
-// Four rows at once, for the loops of the clay rules: of a loop with several conditions GCC does all
-// branches, or does it row by row. Without AVX2 the compiler takes two and two. No multiplication is
-// fused with an addition, and every operation is one of IEEE 754: the same bits as row by row.
+// Four rows at once, for the loops of the clay rules: of a loop with several conditions GCC does
+// all branches, or does it row by row. Without AVX2 the compiler takes two and two. No
+// multiplication is fused with an addition, and every operation is one of IEEE 754: the same bits
+// as row by row.
 
 #include "claystack/engine/clay.hpp"
 #include "engine/clay/lanes.hpp"
@@ -10,10 +11,8 @@
 #include <cstdint>
 #include <cstring>
 
-// All of this is inline: nothing is passed by an ABI.
-#if defined(__GNUC__) && !defined(__clang__)
+// Vectors go to functions that are always inline: their ABI does not matter.
 #pragma GCC diagnostic ignored "-Wpsabi"
-#endif
 
 namespace clay {
 

@@ -62,9 +62,8 @@ WideQuanta rest_of_stretch(std::span<const Part> parts, std::size_t i) noexcept 
 Stretch stretch_of(std::span<const Ring> rings) noexcept {
   Stretch stretch{0, rings.front().volume()};
   const std::size_t fours = rings.size() / kFour * kFour;
-  in_lanes([=, from = rings.data(), to = &stretch]() CLAYSTACK_INLINE {
-    add_fours(from, fours, to);
-  });
+  in_lanes([=, from = rings.data(), to = &stretch]()
+               CLAYSTACK_INLINE { add_fours(from, fours, to); });
   for (const Ring& ring : rings.subspan(fours)) {
     stretch.volume += ring.volume();
     stretch.least = std::min(stretch.least, ring.volume());

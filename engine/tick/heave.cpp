@@ -36,7 +36,8 @@ CLAYSTACK_INLINE inline FourRings load_up_to(const Ring* rings, std::size_t from
   return load_four(rings + i, last + 1 - i);
 }
 
-/// Lengths of the rings from `first` on to single precision, of which a machine takes eight at once.
+/// Lengths of the rings from `first` on to single precision, of which a machine takes eight at
+/// once.
 CLAYSTACK_INLINE inline void measure(Block& b, const Ring* rings, std::size_t first,
                                      std::size_t last, std::size_t count) noexcept {
   for (std::size_t k = 0; k < count; k += 2 * kFour) {
@@ -60,8 +61,8 @@ CLAYSTACK_INLINE inline void measure(Block& b, const Ring* rings, std::size_t fi
 }
 
 /// A heap on its way from the band: what of it lies up to each face of a ring, in whole quanta. Up
-/// to a distance t of the reach, from 0 to 1, it is the part t^3 (10 - 15 t + 6 t^2); each half from
-/// its own end, so that rounding cannot make it fall.
+/// to a distance t of the reach, from 0 to 1, it is the part t^3 (10 - 15 t + 6 t^2); each half
+/// from its own end, so that rounding cannot make it fall.
 struct Way {
   double start, step, last;  ///< of the faces, in parts of the reach: below 0 downward; last face
   double outside, inside;
@@ -78,8 +79,8 @@ struct Way {
   }
 };
 
-/// Rows moved by one, the first or the last from their neighbours. In registers: a load of rows that
-/// have just been written apart would wait until the writes are done.
+/// Rows moved by one, the first or the last from their neighbours. In registers: a load of rows
+/// that have just been written apart would wait until the writes are done.
 CLAYSTACK_INLINE inline Four before(Four four, Four previous) noexcept {
   return __builtin_shufflevector(previous, four, 3, 4, 5, 6);
 }
@@ -218,22 +219,19 @@ class Heaving {
     const double end = start + (heap_.up ? static_cast<double>(count) * step : 0.0);
     reached_end_ = end >= 1.0;
     find_clearance(first, count);
-    const Way way{start,
-                  step,
-                  static_cast<double>(count),
-                  static_cast<double>(heap_.outside),
+    const Way way{start, step, static_cast<double>(count), static_cast<double>(heap_.outside),
                   static_cast<double>(heap_.inside)};
     // Beyond an end of the stack there is nothing to be compared with: the end ring itself.
     const Ring* const rings = stack_.rings().data();
     const Ring& below = rings[first > 0 ? first - 1 : 0];
-    block_.wall[0] = rough_root(mm2_from_quanta(below.outer2)) -
-                     rough_root(mm2_from_quanta(below.inner2));
+    block_.wall[0] =
+        rough_root(mm2_from_quanta(below.outer2)) - rough_root(mm2_from_quanta(below.inner2));
     in_lanes([=, b = &block_, last = std::min(first + count, stack_.size() - 1),
-              sign = heap_.up ? 1.0 : -1.0, spare = kSteepest * h_,
-              most = largest2]() CLAYSTACK_INLINE {
-      measure(*b, rings, first, last, in_fours(count) + 1);
-      divide(*b, count, way, sign, spare, most);
-    });
+              sign = heap_.up ? 1.0 : -1.0, spare = kSteepest * h_, most = largest2]()
+                 CLAYSTACK_INLINE {
+                   measure(*b, rings, first, last, in_fours(count) + 1);
+                   divide(*b, count, way, sign, spare, most);
+                 });
   }
 
   /// How far ring i may grow before it stands in the tool [mm]; of one that is not beside it: a

@@ -197,16 +197,14 @@ void squeeze(const Squeeze& squeeze, std::span<const Ring> rings, bool outside,
   const std::size_t count = slice.size();
   Squeezed s;
   s.load(squeeze, rings, slice);
-  in_lanes([=, to = &s, min_wall = squeeze.min_wall_mm]() CLAYSTACK_INLINE {
-    squeeze_rows(*to, count, outside, min_wall);
-  });
+  in_lanes([=, to = &s, min_wall = squeeze.min_wall_mm]()
+               CLAYSTACK_INLINE { squeeze_rows(*to, count, outside, min_wall); });
   if (!outside && slice.ring < squeeze.floor_rings) [[unlikely]]
     for (std::size_t k = 0; k < std::min(count, squeeze.floor_rings - slice.ring); ++k)
       if (s.rings[k].inner2 == 0) s.depth[k] += std::exchange(s.eps[k], 0.0);
   bool fits = false;
-  in_lanes([=, from = &s, smallest = kSmallestOuter2, ok = &fits]() CLAYSTACK_INLINE {
-    *ok = take_rows(*from, count, outside, smallest);
-  });
+  in_lanes([=, from = &s, smallest = kSmallestOuter2, ok = &fits]()
+               CLAYSTACK_INLINE { *ok = take_rows(*from, count, outside, smallest); });
   for (std::size_t k = 0; k < count && !fits; ++k)
     s.removed[k] = outside ? take_outside(s.rings[k], s.near[k], s.eps[k])
                            : take_inside(s.rings[k], s.near[k], s.eps[k]);

@@ -19,10 +19,10 @@ CLAYSTACK_INLINE inline Four smooth(Four t) noexcept { return t * t * (3.0 - 2.0
 /// wait for another, and a root or a quotient in a long loop fills it.
 struct Rows {
   static constexpr std::size_t kMost = 128;  // a multiple of eight
-  double outer2[kMost], inner2[kMost];  ///< [quanta]
-  double by[kMost];                     ///< how far the ring moves, less where it is not thin [mm]
-  double thinness[kMost];               ///< (R^2 - r^2) / (R^2 + r^2): thickness over middle radius
-  double outer[kMost], inner[kMost];    ///< [mm]
+  double outer2[kMost], inner2[kMost];       ///< [quanta]
+  double by[kMost];                   ///< how far the ring moves, less where it is not thin [mm]
+  double thinness[kMost];             ///< (R^2 - r^2) / (R^2 + r^2): thickness over middle radius
+  double outer[kMost], inner[kMost];  ///< [mm]
 };
 
 CLAYSTACK_INLINE inline void load_rows(Rows& rows, const Ring* rings, std::size_t count) noexcept {
@@ -131,8 +131,9 @@ void Shift::move(const ClayStack& stack, const Push& push, std::size_t first, st
         add(k, change_rows(*r, k, pushed_out(*r, k, per_min_wall, most), -hoop, changes));
     } else {
       for (std::size_t k = 0; k < count; k += 2 * kFour) {
-        const EightFloats outer = root(eight_floats(load_four(r->outer2 + k) * kMm2PerQuantum,
-                                                    load_four(r->outer2 + k + kFour) * kMm2PerQuantum));
+        const EightFloats outer =
+            root(eight_floats(load_four(r->outer2 + k) * kMm2PerQuantum,
+                              load_four(r->outer2 + k + kFour) * kMm2PerQuantum));
         store(r->outer + k, four_doubles(low_half(outer)));
         store(r->outer + k + kFour, four_doubles(high_half(outer)));
       }

@@ -44,8 +44,8 @@ class Smear {
 
  private:
   /// Places and how much a ring there may give before it is too thin, and get before it stands in
-  /// the tool's way: half of it, for each ring is of two pairs. [quanta] The rows from `apart` on are
-  /// the upper places of the pairs; where they overlap the lower ones, a place has one row.
+  /// the tool's way: half of it, for each ring is of two pairs. [quanta] The rows from `apart` on
+  /// are the upper places of the pairs; where they overlap the lower ones, a place has one row.
   struct Places {
     static constexpr std::size_t kAll = 2 * kRows + kFour;
     double surface[kAll], give[kAll], get[kAll];

@@ -1,7 +1,8 @@
 // Processing rings four at a time, if the machine can, or two at a time gives the same bits.
 
-#include "engine/clay/lanes.hpp"
+#include "engine/clay/four.hpp"
 
+#include "app/bench/hands/dice.hpp"
 #include "claystack/engine/wheel.hpp"
 #include "core/fnv1a.hpp"
 
@@ -44,6 +45,39 @@ Thrown throw_with(const ToolShapeSpec& shape, bool four, std::optional<ClaySpec>
   four_lanes = supported;
   thrown.rings.assign(wheel.stack().rings().begin(), wheel.stack().rings().end());
   return thrown;
+}
+
+struct Rows {
+  Quanta quanta[kFour];
+  double numbers[kFour], doubles[kFour], roots[kFour];
+  Quanta whole[kFour];
+};
+
+void convert(Rows& rows) noexcept {
+  in_lanes([to = &rows]() CLAYSTACK_INLINE {
+    store(to->doubles, four_doubles(load<FourQuanta>(to->quanta)));
+    store(to->whole, four_quanta_below(load_four(to->numbers)));
+    store(to->roots, rough_root(load_four(to->doubles)));
+  });
+}
+
+TEST(Fours, ConvertLikeSingleNumbers) {
+  bench::Dice dice(7);
+  for (int round = 0; round < 10'000; ++round) {
+    Rows rows{};
+    for (std::size_t k = 0; k < kFour; ++k) {
+      const double size = std::ldexp(dice.between(1.0, 2.0), static_cast<int>(dice.unit() * 60.0));
+      rows.quanta[k] = static_cast<Quanta>(size);
+      const double number = std::ldexp(dice.between(-1.0, 1.0), static_cast<int>(50 * dice.unit()));
+      rows.numbers[k] = dice.unit() < 0.2 ? std::round(number) : number;
+    }
+    convert(rows);
+    for (std::size_t k = 0; k < kFour; ++k) {
+      EXPECT_EQ(rows.doubles[k], static_cast<double>(rows.quanta[k]));
+      EXPECT_EQ(rows.whole[k], static_cast<Quanta>(rows.numbers[k])) << rows.numbers[k];
+      EXPECT_EQ(rows.roots[k], static_cast<double>(std::sqrt(static_cast<float>(rows.doubles[k]))));
+    }
+  }
 }
 
 class Lanes : public testing::TestWithParam<ToolShapeSpec> {};
