@@ -26,6 +26,7 @@ foreach(command IN LISTS commands)
 endforeach()
 set(shell_scripts ${claystack_share}/claystack.bash ${claystack_share}/claystack.zsh
   ${claystack_share}/claystack.fish)
+# OPTIONAL: a build of the programs alone has no pages yet.
 if(NOT CMAKE_CROSSCOMPILING)
   # gzip -n: without the time, so that two builds give the same bytes.
   add_custom_command(OUTPUT ${pages} ${shell_scripts} ${manual_commands}
@@ -36,14 +37,14 @@ if(NOT CMAKE_CROSSCOMPILING)
   set(studio_pages ${pages})
   list(FILTER studio_pages INCLUDE REGEX "claystack-studio")
   list(FILTER pages EXCLUDE REGEX "claystack-studio")
-  install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
-  install(FILES ${studio_pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT studio)
+  install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program OPTIONAL)
+  install(FILES ${studio_pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT studio OPTIONAL)
   install(FILES ${claystack_share}/claystack.bash RENAME claystack COMPONENT program
-    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions OPTIONAL)
   install(FILES ${claystack_share}/claystack.zsh RENAME _claystack COMPONENT program
-    DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions OPTIONAL)
   install(FILES ${claystack_share}/claystack.fish COMPONENT program
-    DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d OPTIONAL)
 endif()
 
 install(DIRECTORY samples/ DESTINATION ${claystack_data}/samples COMPONENT program
