@@ -1,6 +1,9 @@
 # find_package(Claystack COMPONENTS engine export) for programs that use the libraries.
 include(CMakePackageConfigHelpers)
 
+# Components, each a package: dev (libraries and headers, the default), program, studio.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME dev)
+
 set(claystack_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Claystack)
 
 install(TARGETS claystack_core claystack_engine EXPORT ClaystackEngine)
@@ -33,7 +36,7 @@ if(CLAYSTACK_FALCON AND CLAYSTACK_USB)
   install(TARGETS claystack_falcon_usb_core claystack_falcon_usb EXPORT ClaystackFalconUsb)
   install(EXPORT ClaystackFalconUsb NAMESPACE claystack:: DESTINATION ${claystack_config_dir})
   # udev reads this folder below /usr and /usr/local; docs/devices.md describes other prefixes.
-  install(FILES falcon/device/60-claystack.rules DESTINATION lib/udev/rules.d)
+  install(FILES falcon/device/60-claystack.rules DESTINATION lib/udev/rules.d COMPONENT program)
 endif()
 if(TARGET claystack_servo)
   install(TARGETS claystack_servo EXPORT ClaystackServo)
@@ -41,10 +44,11 @@ if(TARGET claystack_servo)
   install(EXPORT ClaystackServo NAMESPACE claystack:: DESTINATION ${claystack_config_dir})
 endif()
 if(CLAYSTACK_APP)
-  install(TARGETS claystack)
+  install(TARGETS claystack COMPONENT program)
   if(TARGET claystack-studio)
-    install(TARGETS claystack-studio)
+    install(TARGETS claystack-studio COMPONENT studio)
   endif()
+  include(cmake/ClaystackShare.cmake)
 endif()
 
 # pkg-config --static --cflags --libs claystack-servo, for builds without CMake. The libraries are
@@ -95,3 +99,5 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/ClaystackConfigVersion.cm
 install(FILES ${PROJECT_BINARY_DIR}/ClaystackConfig.cmake
               ${PROJECT_BINARY_DIR}/ClaystackConfigVersion.cmake
         DESTINATION ${claystack_config_dir})
+
+include(cmake/ClaystackPackages.cmake)

@@ -50,13 +50,21 @@ def svg(rows: list) -> str:
 
     corner, right, top = place(2, 0).split(","), place(8, 0).split(","), place(2, most_g).split(",")
     line = " ".join(place(*row) for row in rows)
+    marks = ""
+    for wall in range(2, 9):
+        x, y = place(wall, 0).split(",")
+        marks += f'<text x="{x}" y="{float(y) + 16}" text-anchor="middle">{wall}</text>\n'
+    for weight in range(0, int(most_g) + 1, 100):
+        x, y = place(2, weight).split(",")
+        marks += f'<path d="M{x} {y}H{right[0]}" stroke="#ddd"/>\n'
+        marks += f'<text x="{float(x) - 6}" y="{float(y) + 4}" text-anchor="end">{weight}</text>\n'
     return f"""<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}"
  font-family="sans-serif" font-size="12">
 <rect width="100%" height="100%" fill="white"/>
-<path d="M{top[0]} {top[1]}V{corner[1]}H{right[0]}" fill="none" stroke="#444"/>
+{marks}<path d="M{top[0]} {top[1]}V{corner[1]}H{right[0]}" fill="none" stroke="#444"/>
 <polyline points="{line}" fill="none" stroke="#b4552d" stroke-width="2"/>
-<text x="{width / 2}" y="{height - 12}" text-anchor="middle">Wall [mm], 2 to 8</text>
-<text x="{margin}" y="{margin - 12}">Weight [g], 0 to {most_g:g}</text>
+<text x="{width / 2}" y="{height - 12}" text-anchor="middle">Wall [mm]</text>
+<text x="{margin}" y="{margin - 12}">Weight [g]</text>
 </svg>
 """
 

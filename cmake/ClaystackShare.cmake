@@ -1,0 +1,77 @@
+# What is installed below share/: samples, schemas, pages, manual pages, completions, desktop files.
+set(claystack_share ${PROJECT_BINARY_DIR}/share)
+set(claystack_data ${CMAKE_INSTALL_DATADIR}/claystack)
+
+# The program prints its manual pages and completions from its table of options.
+set(commands batch doctor plan strokes throw)
+foreach(part EXPORT=export EXPORT=check DRAWINGS=import WINDOW=render USB=devices STUDIO=studio BENCH=bench)
+  string(REPLACE = ";" part ${part})
+  list(GET part 0 option)
+  list(GET part 1 command)
+  if(CLAYSTACK_${option})
+    list(APPEND commands ${command})
+  endif()
+endforeach()
+set(manual_commands
+  COMMAND ${CMAKE_COMMAND} -E make_directory ${claystack_share}
+  COMMAND $<TARGET_FILE:claystack> manual claystack > ${claystack_share}/claystack.1
+  COMMAND $<TARGET_FILE:claystack> manual bash > ${claystack_share}/claystack.bash
+  COMMAND $<TARGET_FILE:claystack> manual zsh > ${claystack_share}/claystack.zsh
+  COMMAND $<TARGET_FILE:claystack> manual fish > ${claystack_share}/claystack.fish)
+set(pages ${claystack_share}/claystack.1)
+foreach(command IN LISTS commands)
+  set(page ${claystack_share}/claystack-${command}.1)
+  list(APPEND manual_commands COMMAND $<TARGET_FILE:claystack> manual ${command} > ${page})
+  list(APPEND pages ${page})
+endforeach()
+set(shell_scripts ${claystack_share}/claystack.bash ${claystack_share}/claystack.zsh
+  ${claystack_share}/claystack.fish)
+# OPTIONAL: a build of the programs alone has no pages yet.
+if(NOT CMAKE_CROSSCOMPILING)
+  # gzip -n: without the time, so that two builds give the same bytes.
+  add_custom_command(OUTPUT ${pages} ${shell_scripts} ${manual_commands}
+    COMMAND gzip -9nkf ${pages}
+    DEPENDS claystack VERBATIM)
+  add_custom_target(manual ALL DEPENDS ${pages})
+  list(TRANSFORM pages APPEND .gz)
+  set(studio_pages ${pages})
+  list(FILTER studio_pages INCLUDE REGEX "claystack-studio")
+  list(FILTER pages EXCLUDE REGEX "claystack-studio")
+  install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program OPTIONAL)
+  install(FILES ${studio_pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT studio OPTIONAL)
+  install(FILES ${claystack_share}/claystack.bash RENAME claystack COMPONENT program
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions OPTIONAL)
+  install(FILES ${claystack_share}/claystack.zsh RENAME _claystack COMPONENT program
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions OPTIONAL)
+  install(FILES ${claystack_share}/claystack.fish COMPONENT program
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d OPTIONAL)
+endif()
+
+install(DIRECTORY samples/ DESTINATION ${claystack_data}/samples COMPONENT program
+  FILES_MATCHING
+  PATTERN "*.json" PATTERN "*.session" PATTERN "*.work" PATTERN "*.svg" PATTERN "*.dxf"
+  PATTERN "*.csv" PATTERN "*.script" PATTERN "sha256sums"
+  PATTERN "consumer" EXCLUDE PATTERN "replay" EXCLUDE)
+install(DIRECTORY samples/consumer/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libclaystack-dev/examples COMPONENT dev)
+install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/claystack COMPONENT program)
+install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/claystack/docs COMPONENT program
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN "*.png")
+
+if(CLAYSTACK_STUDIO)
+  set(desktop ${PROJECT_SOURCE_DIR}/app/desktop)
+  set(id org.claystack.Claystack)
+  install(FILES ${desktop}/${id}.desktop COMPONENT studio
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
+  install(FILES ${desktop}/${id}.metainfo.xml COMPONENT studio
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo)
+  install(FILES ${desktop}/${id}.mime.xml RENAME ${id}.xml COMPONENT studio
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages)
+  install(FILES ${desktop}/claystack.thumbnailer COMPONENT studio
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/thumbnailers)
+  set(icons ${CMAKE_INSTALL_DATADIR}/icons/hicolor)
+  install(FILES ${desktop}/${id}.svg DESTINATION ${icons}/scalable/apps COMPONENT studio)
+  foreach(size 48 64 128 256)
+    install(FILES ${desktop}/${id}-${size}.png RENAME ${id}.png COMPONENT studio
+      DESTINATION ${icons}/${size}x${size}/apps)
+  endforeach()
+endif()
