@@ -157,8 +157,10 @@ void reach_of(const RulePress& press, const ClayStack& stack, std::span<const To
       if (work.cones[k][1].meets) widen(band.low_mm, band.high_mm + kReliefMm);
     }
     if constexpr (rules & kHeave) {
-      const double reach = 2.0 * heave_reach(press.plan.tool, stack, band);
-      if (!lifts) widen(band.low_mm - reach, band.high_mm + reach);
+      if (!lifts) {
+        const double reach = work.reach_mm[k] = heave_reach(press.plan.tool, stack, band);
+        widen(band.low_mm - 2.0 * reach, band.high_mm + 2.0 * reach);
+      }
     }
   }
   if (!lifts && !(rules & kHeave)) {
@@ -243,6 +245,7 @@ WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removal
   const StepPlan& plan = press.plan;
   const std::size_t at = removals[0].contact.rings.empty() ? removals.size() - 1 : 0;
   const Contact& contact = removals[at].contact;
+  [[maybe_unused]] const std::int64_t share = inside_share(plan, stack, contact, work.bands[at]);
   const auto flow = [&](WideQuanta part, bool up) {
     if (part == 0) return part;
     if constexpr (rules & kHeave) {
@@ -250,10 +253,9 @@ WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removal
       WideQuanta rest = 0;
       for (WideQuanta left = part; left > 0;) {
         const auto piece = static_cast<Quanta>(std::min(left, WideQuanta{kLargestHeap}));
-        const auto inside = static_cast<Quanta>(
-            inside_part(piece, inside_share(plan, stack, contact, work.bands[at]), stack));
+        const auto inside = static_cast<Quanta>(inside_part(piece, share, stack));
         const Quanta over = heave(plan.tool, stack, press.tool.hip_mm.y, contact, work.bands[at],
-                                  {inside, piece - inside, up}, writer);
+                                  {inside, piece - inside, up, work.reach_mm[at]}, writer);
         writer.gain(piece - over);
         rest += over;
         left -= piece;

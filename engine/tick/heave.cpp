@@ -141,7 +141,7 @@ class Heaving {
         h_(stack.ring_height_mm()),
         hip_y_(hip_y),
         from_mm_(heap.up ? band.high_mm : band.low_mm),
-        per_reach_(1.0 / heave_reach(tool, stack, band)) {}
+        per_reach_(1.0 / heap.reach_mm) {}
 
   Quanta run() noexcept {
     const double level = from_mm_ / h_, size = static_cast<double>(stack_.size());

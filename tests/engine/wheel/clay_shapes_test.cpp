@@ -142,6 +142,35 @@ TEST(ClayShapes, AWallKeepsItsFoot) {
   expect_balanced(wheel);
 }
 
+/// The wall follows the tool and stops there, and two tools put it between them: within 0.5 mm of 8
+/// mm, and 0.3 mm of 1.5 mm.
+TEST(ClayShapes, AWallGoesNoFartherThanTheTool) {
+  constexpr double kOuterMm = 45.0, kBallMm = 10.0, kDepthMm = 8.0;
+  for (const double wall : {4.0, 8.0, 14.0}) {
+    SceneSpec scene = cylinder_scene({});
+    scene.lump.inner_radius_mm = kOuterMm - wall;
+    scene.removal = {20.0, 2.0, 3.0, {}};
+    const double inner = scene.lump.inner_radius_mm, middle = kOuterMm - 0.5 * wall;
+    const auto passed = [&](double away, double to) {
+      Wheel wheel = Wheel::build(scene).value();
+      Hand hand(wheel);
+      hand.place_at(away, 20.0);
+      hand.move_to(to, 35.0, 20.0);
+      hand.move_to(to, 85.0, 20.0);
+      hand.move_to(away, 95.0, 20.0);
+      return ring_at(wheel, 60.0);
+    };
+    EXPECT_NEAR(passed(inner - 14.0, inner - kBallMm + kDepthMm).inner_mm(), inner + kDepthMm, 0.5);
+    EXPECT_NEAR(passed(kOuterMm + 14.0, kOuterMm + kBallMm - kDepthMm).outer_mm(),
+                kOuterMm - kDepthMm, 0.5);
+    Wheel pinched = Wheel::build(scene).value();
+    Hand fingers(pinched);
+    fingers.place_at(middle + 1.5, 15.0, wall + 4.0);
+    fingers.move_to(middle + 1.5, 85.0, 20.0, 0.7 * wall);
+    EXPECT_NEAR(middle_of(ring_at(pinched, 50.0)), middle + 1.5, 0.3) << wall;
+  }
+}
+
 /// A cutter takes clay away and bends nothing, at the minimum wall too.
 TEST(ClayShapes, ACutBendsNoWall) {
   for (const double min_wall : {4.0, 5.0}) {
