@@ -67,9 +67,14 @@ TEST(WallVerdict, IsTheSameOfThrowExportCheckAndCertificate) {
     const Ran plain = claystack("export --json " + pot + " " + stl);
     EXPECT_EQ(plain.json().at("min_wall_mm"), wall);
     EXPECT_EQ(claystack("check --json " + pot).json().at("min_wall_mm"), wall);
-    // Rays see no wall that is thinner, apart from rounding to float32.
+    // Rays see no wall that is thinner, apart from rounding to float32. In a lump as low as it is
+    // thick, no disc has three diameters of boundary: there the wall is the largest disc, and a ray
+    // may be shorter.
+    const auto lump = nlohmann::json::parse(read_text(scene)).at("lump");
+    const double height = lump.at("rings").get<double>() * lump.at("ring_height_mm").get<double>();
     const auto sampled = claystack("check --json --min-wall 0.001 " + stl).json();
-    if (const auto least = sampled.at("wall_sampled").at("least_mm"); !least.is_null()) {
+    if (const auto least = sampled.at("wall_sampled").at("least_mm");
+        !least.is_null() && 3.0 * wall < height) {
       EXPECT_GE(least, wall - 1e-4) << read_text(scene);
     }
     // Smoothing respects a limit, so a wall near it may differ within the tolerance. Asks for a

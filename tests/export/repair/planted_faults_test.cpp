@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <glm/geometric.hpp>
@@ -120,7 +121,7 @@ class FaultPlanter {
   }
   Planted t_junction(Planted p) {
     p.kind = "T-junction";
-    p.moved_mm = 0.001;
+    p.moved_mm = 0.001 * std::sqrt(3.0);  // 0.001 along each axis
     auto& t = p.mesh.triangles[any(p.mesh)];
     const auto [a, b, c] = t;
     const auto middle = static_cast<std::uint32_t>(p.mesh.points.size());

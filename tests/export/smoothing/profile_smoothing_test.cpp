@@ -222,6 +222,7 @@ TEST(ProfileSmoothing, ASlopedFlangeKeepsItsThickness) {
         options.overshoot_limit_mm = 100.0;
         const SmoothedProfile made = smooth(stack, options);
         EXPECT_GE(min_wall_mm(made.section.profile), std::min(limit.value_or(5.0), steps) - 1e-9);
+        if (mode == Smoothing::exact) continue;  // rings keep their clay, so the edge stays blunt
         EXPECT_TRUE(std::ranges::any_of(made.guard, [](const KeptSteps& kept) {
           return kept.reason == KeptFor::wall && kept.smoothed_mm < 0.4;
         }));

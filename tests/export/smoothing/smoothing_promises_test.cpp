@@ -68,22 +68,22 @@ RC_GTEST_PROP(SmoothingPromises, ExactStaysWithinTheReportedDistanceOfTheRadiiAb
   const SmoothedProfile made = smooth(stack, options);
   const Real spare = std::max(made.overshoot_mm, made.extrapolated_mm) + 1e-9;
   Real widest = 0;  // of all steps: no wall continues by more
-  for (const auto& [first, last, levels, steps, walls] : pieces_of_both(stack, made))
-    for (std::size_t i = 0; i <= last - first; ++i) {
-      const std::size_t below = first + (i == 0 ? 0 : i - 1), above = std::min(first + i + 1, last);
+  for (const shapes::PieceOfBoth& piece : pieces_of_both(stack, made))
+    for (std::size_t i = 0; i <= piece.last - piece.first; ++i) {
+      const std::size_t ring = piece.first + i;
+      const std::size_t below = i == 0 ? ring : ring - 1, above = std::min(ring + 1, piece.last);
+      // A level line at the end of a ring may belong to the next one.
+      const Real inside = 1e-6L * (piece.levels[i + 1] - piece.levels[i]);
       const auto stays = [&](const oracles::Line& line, auto radius_of) {
-        const Real a = radius_of(below), b = radius_of(first + i), c = radius_of(above);
+        const Real a = radius_of(below), b = radius_of(ring), c = radius_of(above);
         widest = std::max({widest, std::abs(a - b), std::abs(b - c)});
-        const auto [least, most] = oracles::radii(line, levels[i], levels[i + 1]);
-        // A level line at the end of a ring may belong to the next one.
-        const Real inside = 1e-6L * (levels[i + 1] - levels[i]);
-        const auto [low, high] = oracles::radii(line, levels[i] + inside, levels[i + 1] - inside);
-        RC_ASSERT(least <= low && high <= most);
-        RC_ASSERT(low >= std::min({a, b, c}) - spare);
-        RC_ASSERT(high <= std::max({a, b, c}) + spare);
+        const auto found =
+            oracles::radii(line, piece.levels[i] + inside, piece.levels[i + 1] - inside);
+        RC_ASSERT(found.first >= std::min({a, b, c}) - spare);
+        RC_ASSERT(found.second <= std::max({a, b, c}) + spare);
       };
-      stays(walls.outer, [&](std::size_t r) { return Real(stack.rings()[r].outer_mm()); });
-      stays(walls.bore, [&](std::size_t r) { return Real(stack.rings()[r].inner_mm()); });
+      stays(piece.smooth.outer, [&](std::size_t r) { return Real(stack.rings()[r].outer_mm()); });
+      stays(piece.smooth.bore, [&](std::size_t r) { return Real(stack.rings()[r].inner_mm()); });
     }
   RC_ASSERT(made.extrapolated_mm <= made.overshoot_mm + widest + 1e-9);
 }
