@@ -213,13 +213,24 @@ void SceneView::shape_from(const ViewModel& view, glm::dvec2 pointed_mm, bool in
 
 namespace {
 
-/// Two fingers follow the wall that they hold, and carry on over the rim. A pointer beside the wall
-/// leans on it.
+/// The height of the floor of the bore; 0: no bore.
+double floor_mm(const render::PotView& pot) {
+  constexpr float kBoreMm = 2.0f;
+  const auto open =
+      std::ranges::find_if(pot.rows, [](const render::Row& row) { return row.inner_mm > kBoreMm; });
+  if (open == pot.rows.end()) return 0.0;
+  return pot.height_mm * static_cast<double>(open - pot.rows.begin()) /
+         static_cast<double>(pot.rows.size());
+}
+
+/// Two fingers follow the wall that they hold, go no lower than the floor, and carry on over the
+/// rim. A pointer beside the wall leans on it.
 glm::dvec2 along_wall(const ViewModel& view, glm::dvec2 aim_mm) {
   constexpr double kLean = 0.35, kMostLeanMm = 4.0, kRimMm = 1.0;
   const auto tool = chosen_tool(view);
   const render::PotView& pot = view.stroke.view();
   if (!tool) return aim_mm;
+  aim_mm.y = std::max(aim_mm.y, floor_mm(pot) - tool->low());
   const auto wall = wall_at(pot, *tool, std::min(aim_mm.y, pot.height_mm - kRimMm));
   if (!wall) return aim_mm;
   // The foot stands still: a wall that is led out over it tears off there.

@@ -62,8 +62,9 @@ void set_colours(const Greys& g, const Palette& p) {
   c[ImGuiCol_ScrollbarGrabHovered] = c[ImGuiCol_ScrollbarGrabActive] = rgb(g.active);
   // The accent is for the main action alone.
   c[ImGuiCol_CheckMark] = rgb(g.text);
-  c[ImGuiCol_SliderGrab] = p.faint;
-  c[ImGuiCol_SliderGrabActive] = rgb(g.text);
+  // Translucent, because dialogs draw the value over it.
+  c[ImGuiCol_SliderGrab] = ImVec4(p.faint.x, p.faint.y, p.faint.z, 0.55f);
+  c[ImGuiCol_SliderGrabActive] = ImVec4(p.faint.x, p.faint.y, p.faint.z, 0.85f);
   c[ImGuiCol_PlotLines] = c[ImGuiCol_PlotHistogram] = p.accent;
   c[ImGuiCol_Header] = rgb(g.title);
   c[ImGuiCol_HeaderHovered] = c[ImGuiCol_TabHovered] = rgb(g.frame);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kSampleMm = 0.5;  // spacing of the slices that are compared
 constexpr std::size_t kPosesPerPoint = 6;
+constexpr double kLowestMm = -6.0;
 
 /// The row at a height; no clay above the rim.
 render::Row row_at(const render::PotView& pot, double y_mm) {
@@ -29,8 +30,8 @@ std::vector<PathPoint> path_of(const std::vector<Pose>& poses) {
   for (std::size_t k = 0; k < poses.size(); ++k) {
     if (k % kPosesPerPoint != 0 && k + 1 < poses.size()) continue;
     const Pose& pose = poses[k];
-    // The wheel head is below: a hand does not go there.
-    path.push_back({{pose.position_mm.x, std::max(0.0, pose.position_mm.y)},
+    // The tool stops at the wheel head, but the hand may point below it.
+    path.push_back({{pose.position_mm.x, std::max(kLowestMm, pose.position_mm.y)},
                     1e-6 * static_cast<double>(pose.time_us - poses.front().time_us)});
   }
   return path;
@@ -63,7 +64,7 @@ namespace {
 /// A learner's pot may be wider inside than the sample: a trim leaves clay around the corner of the
 /// floor there too.
 void keep_clear_of_bore(strokes::Stroke& stroke, const render::PotView& pot) {
-  constexpr double kSpareMm = 6.0, kCornerMm = 8.0, kStepMm = 0.5;
+  constexpr double kSpareMm = 7.5, kCornerMm = 8.0, kStepMm = 0.5;
   for (glm::dvec2& point : stroke.outline) {
     const double y_mm = stroke.outline_in_mm ? point.y : point.y * pot.height_mm;
     double bore_mm = 0.0;

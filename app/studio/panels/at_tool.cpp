@@ -105,7 +105,8 @@ void draw_floor(const ViewModel& model, ImDrawList* draw) {
 
 void draw_at_tool(const ViewModel& model, const ViewRect& rect) {
   if (!model.document.has_work() || !model.ui.shows<NoDialog>()) return;
-  if (model.settings.tool.mode == ToolMode::trim_foot) return;  // the pot is upside down
+  // Not of a pot upside down, or a fallen one.
+  if (model.settings.tool.mode == ToolMode::trim_foot || model.readings.fallen()) return;
   const auto tool = model.scene.tool_view(model);
   if (!tool) return;
   const double rho = std::hypot(tool->place_mm.x, tool->place_mm.z);

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace clay::studio {
 namespace {
@@ -22,7 +23,10 @@ constexpr std::array kParts = {"Half", "Full"};
 struct Sheet {
   ImVec2 foot;  ///< position of the foot of the axis
   float px_per_mm = 1.0f;
+  std::optional<double> turned_mm = {};  ///< the height of a pot that is shown upside down
+  [[nodiscard]] double turned(double y_mm) const { return turned_mm ? *turned_mm - y_mm : y_mm; }
   [[nodiscard]] ImVec2 at(double rho_mm, double y_mm) const {
+    y_mm = turned(y_mm);
     return {foot.x + px_per_mm * static_cast<float>(rho_mm),
             foot.y - px_per_mm * static_cast<float>(y_mm)};
   }
@@ -153,8 +157,9 @@ std::string read_out(const PlotArea& area, const Sheet& sheet, double height, bo
   if (!ImGui::IsMouseHoveringRect(area.low, area.high)) return "Point here to read values";
   const ImVec2 mouse = ImGui::GetMousePos();
   const double rho = static_cast<double>((mouse.x - sheet.foot.x) / sheet.px_per_mm);
-  const double y = static_cast<double>((sheet.foot.y - mouse.y) / sheet.px_per_mm);
-  if (y < 0.0 || (!full && rho < 0.0)) return "Point here to read values";
+  const double up = static_cast<double>((sheet.foot.y - mouse.y) / sheet.px_per_mm);
+  const double y = sheet.turned(up);
+  if (up < 0.0 || (!full && rho < 0.0)) return "Point here to read values";
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text, 0.5f);
   draw->AddLine({area.low.x, mouse.y}, {area.high.x, mouse.y}, ink);
@@ -193,13 +198,15 @@ void draw_section(const ViewModel& model, Actions& actions) {
   const double height = stack->height_mm(), widest = model.readings.widest_mm();
   const auto& known = model.readings.check();
   const PotCheck* check = known && !model.readings.fallen() ? &*known : nullptr;
-  const Sheet sheet = sheet_for(area, widest, height, full);
+  const Sheet upright = sheet_for(area, widest, height, full);
+  Sheet sheet = upright;
+  if (model.settings.tool.mode == ToolMode::trim_foot) sheet.turned_mm = height;
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->PushClipRect(area.low, area.high, true);
   draw_clay(model, sheet, height, full, model.settings.wall_map ? check : nullptr);
-  draw_measures(area, sheet, widest, height, full, colours, model.settings.unit);
+  draw_measures(area, upright, widest, height, full, colours, model.settings.unit);
   if (check != nullptr) draw_faults(area, sheet, *check, colours);
-  if (const auto tool = model.scene.tool_view(model)) draw_tool_at(*tool, sheet, colours);
+  if (const auto tool = model.scene.tool_view(model)) draw_tool_at(*tool, upright, colours);
   const std::string words = read_out(area, sheet, height, full, check, model.settings.unit);
   draw->PopClipRect();
   faint_text(colours, words);

@@ -156,7 +156,8 @@ void begin_dialog(const char* id, const ViewRect& rect, float width_em) {
   ImGui::SetNextWindowSize({width, 0.0f});  // as high as its content, at most as the view
   ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, rect.size_px.y});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(std::round(1.3f * em), std::round(1.1f * em)));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding,
+                      ImVec2(std::round(1.3f * em), std::round(1.1f * em)));
   ImGui::Begin(id, nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
