@@ -6,22 +6,26 @@
 
 namespace clay::solid::inline job {
 
-bool ExportReport::has_mesh() const noexcept {
-  return std::ranges::any_of(files,
-                             [](const FileReport& file) { return file.kind == FileKind::mesh; });
+bool ExportReport::has_solid() const noexcept {
+  return std::ranges::any_of(files, [](const FileReport& file) {
+    return file.kind == FileKind::mesh || file.kind == FileKind::step;
+  });
 }
 
 double ExportReport::thinnest_mm() const noexcept {
   double thinnest = walls.min_wall_mm;
   for (const FileReport& file : files)
-    if (file.certificate) thinnest = std::min(thinnest, file.certificate->wall_lower_mm);
+    if (file.certificate)
+      thinnest = std::min(thinnest, file.certificate->wall_lower_mm);
+    else if (file.step)
+      thinnest = std::min(thinnest, file.step->min_wall_mm);
   return thinnest;
 }
 
 std::optional<std::string> thin_wall_of(const ExportReport& report) {
   const auto& limit = report.walls.limit;
   const double thinnest = report.thinnest_mm();
-  if (!limit || !report.has_mesh() || thinnest >= limit->min_wall_mm) return std::nullopt;
+  if (!limit || !report.has_solid() || thinnest >= limit->min_wall_mm) return std::nullopt;
   return "thin wall: " + (report.collapsed
                               ? wall_text(thinnest, *limit)
                               : thin_wall_text(report.section.profile(), thinnest, *limit));
