@@ -1,5 +1,6 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/export_report.hpp"
+#include "app/cli/html_report.hpp"
 #include "app/cli/packed_pot.hpp"
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/pot_input.hpp"
@@ -207,8 +208,12 @@ Result<int> export_pot(ExportCommand& command, const Console& console) {
   if (!copies) return tl::make_unexpected(copies.error());
   std::optional<std::string> thumbnail;
   pack_pot(*pot, command.request, thumbnail);
+  const bool page = command.request.report_path.ends_with(".html");
+  const std::string picture = page ? picture_of(*pot) : std::string();
+  if (page) command.request.options.wall_spacing_mm = solid::kWallTableSpacingMm;
   command.request.report_text = [&](const solid::ExportReport& report) {
-    return pretty(export_json(report, *copies));
+    const Json json = export_json(report, *copies);
+    return page ? html_report(json, report, command.request.options, picture) : pretty(json);
   };
   const auto report = [&] {
     Progress progress(console, "exporting", 0);
@@ -330,21 +335,13 @@ void add_solid_options(CLI::App* sub, const SharedCommand& command) {
            [](solid::ExportOptions& options) -> double& { return options.shrinkage; });
 }
 
-/// "; .step for the solid for CAD; ..."
-std::string section_endings() {
-  std::string text;
-  for (const solid::SectionFile& file : solid::kSectionFiles)
-    text += fmt::format("; {} for the {}", file.ending, file.title);
-  return text;
-}
-
 /// What is required of it, and what is written beside it.
 void add_file_options(CLI::App* sub, const SharedCommand& command) {
   command->walls.add_to(*sub);
   sub->add_flag("--measure-left-out", command->request.options.measure_left_out,
                 "Also run the skipped stages, and report the time [s] that skipping saves");
   sub->add_option("--report", command->request.report_path,
-                  "File for the report that --json prints");
+                  "File for the report: .html: a page to print; any other: what --json prints");
   sub->add_option(
          "--precision", command->precision_mm,
          "Rounding of radii in pot files [mm] (default: exact); meshes keep the exact radii")
@@ -377,8 +374,8 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
                   std::string("NAME") + std::string(kPotInputs) + ", or - for standard input")
       ->required();
   sub->add_option("out", command->outputs,
-                  "Files to write: " + solid::format_endings(solid::FormatUse::write) +
-                      section_endings() + "; .pot.json or .pot.cbor for the pot")
+                  "Files to write: " + solid::format_endings(solid::FormatUse::write) + "; " +
+                      solid::section_endings() + "; .pot.json or .pot.cbor for the pot")
       ->required();
   add_solid_options(sub, command);
   add_clay_options(sub, command);

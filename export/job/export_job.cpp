@@ -274,17 +274,24 @@ const SectionFile* section_file(std::string_view path) noexcept {
   return nullptr;
 }
 
+std::string section_endings() {
+  std::string text;
+  for (std::size_t i = 0; i < kSectionFiles.size(); ++i) {
+    const auto same = [&](std::size_t other) {
+      return other < kSectionFiles.size() && kSectionFiles[other].kind == kSectionFiles[i].kind;
+    };
+    if (i > 0) text += same(i - 1) && !same(i + 1) ? " or " : ", ";
+    text += kSectionFiles[i].ending;
+    if (!same(i + 1)) text.append(" for the ").append(kSectionFiles[i].title);
+  }
+  return text;
+}
+
 Result<FileRequest> file_request(const std::string& path) {
   if (const SectionFile* file = section_file(path)) return FileRequest{path, file->kind};
   const auto format = mesh_format_of(path, FormatUse::write);
   if (format) return FileRequest{path, FileKind::mesh, *format};
-  std::string text = format.error().message + "; or";
-  for (const SectionFile& file : kSectionFiles)
-    text.append(&file == &kSectionFiles.front() ? " " : ", ")
-        .append(file.ending)
-        .append(" for the ")
-        .append(file.title);
-  return failure(ErrorKind::bad_input, text);
+  return failure(ErrorKind::bad_input, format.error().message + "; or " + section_endings());
 }
 
 Result<ExportReport> run_export(const Pot& pot, const std::vector<Output>& outputs,

@@ -353,6 +353,10 @@ std::array<CaliperRow, 5> caliper_rows(const Profile& profile) {
   return rows;
 }
 
+std::string drawing_svg(const ExportReport& report, const ExportOptions& options) {
+  return svg_of(section_sheet(report, options));
+}
+
 Sheet section_sheet(const ExportReport& report, const ExportOptions& options) {
   return SheetMaker(report, options).make();
 }

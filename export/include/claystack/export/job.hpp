@@ -136,6 +136,9 @@ inline constexpr std::array kSectionFiles{
 /// The entry for the ending of this path, ignoring case; null: another kind of file.
 [[nodiscard]] const SectionFile* section_file(std::string_view path) noexcept;
 
+/// ".step or .stp for the solid for CAD, .svg, .dxf or .pdf for the drawing, ...".
+[[nodiscard]] std::string section_endings();
+
 /// The kind of file by its extension: that of a mesh (`mesh_format_of`) or one of kSectionFiles.
 /// Any other extension is an error that lists these.
 Result<FileRequest> file_request(const std::string& path);
@@ -264,6 +267,9 @@ struct ExportReport {
   /// Lower bound of the wall over all solids written; without any, of the pot [mm].
   [[nodiscard]] double thinnest_mm() const noexcept;
 };
+
+/// The drawing of a standing pot at 1:1, as in an .svg.
+[[nodiscard]] std::string drawing_svg(const ExportReport& report, const ExportOptions& options);
 
 /// A problem for printing, with its place on the section of the written solid, if it has one.
 struct Problem {
