@@ -221,8 +221,7 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
   Verdict verdict;
   verdict.certificate = std::move(*certificate);
   // Certificates cover all bytes.
-  auto file = input ? Result<MeshFile>(
-                          MeshFile::of_bytes(command.file, format, std::move(*input)))
+  auto file = input ? Result<MeshFile>(MeshFile::of_bytes(command.file, format, std::move(*input)))
                     : MeshFile::open(command.file, format, verdict.certificate.has_value());
   if (!file) return tl::make_unexpected(file.error());
   const std::string& bytes = file->bytes();

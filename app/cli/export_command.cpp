@@ -1,5 +1,6 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/export_report.hpp"
+#include "app/cli/html_report.hpp"
 #include "app/cli/packed_pot.hpp"
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/pot_input.hpp"
@@ -35,6 +36,13 @@ struct ExportCommand {
   solid::ExportRequest request;
   std::string smooth = "fair";
   std::string verify = "margins";
+  std::optional<std::string> step;
+  solid::Goal goal;
+  bool fill_line = false;  ///< asked for
+
+  [[nodiscard]] bool has_goal() const {
+    return goal.holds_ml || goal.weighs_g || goal.height_mm || goal.diameter_mm;
+  }
   WallOptions walls;
   std::optional<double> precision_mm;
   bool ascii = false;
@@ -58,6 +66,30 @@ Result<double> part_of(const std::string& text, double most) {
   return 0.01 * percent;
 }
 
+/// A unit and its factor.
+struct Unit {
+  std::string_view name;
+  double factor;
+};
+
+/// "350ml", "0.35 l", "350": a number above 0 in the first of the units, or in the one that it
+/// names.
+Result<double> quantity_of(const std::string& text, const std::vector<Unit>& units) {
+  double number = 0.0;
+  const char* end = text.data() + text.size();
+  const auto [stop, problem] = std::from_chars(text.data(), end, number);
+  std::string_view name(stop, static_cast<std::size_t>(end - stop));
+  if (name.starts_with(' ')) name.remove_prefix(1);
+  const auto unit = std::ranges::find_if(
+      units, [&](const Unit& known) { return name.empty() || known.name == name; });
+  if (problem == std::errc() && number > 0.0 && number < 1e9 && unit != units.end())
+    return number * unit->factor;
+  std::string names;
+  for (const Unit& known : units) names.append(names.empty() ? "" : ", ").append(known.name);
+  return failure(ErrorKind::bad_input,
+                 fmt::format("expected a number above 0 in {}, found {}", names, text));
+}
+
 Result<void> check_names(const ExportCommand& command) {
   std::vector<std::string> outputs = command.outputs;
   outputs.push_back(command.request.report_path);
@@ -77,7 +109,9 @@ Result<void> check_options(const ExportCommand& command) {
                                              .append(" among the files to write, found none"));
   };
   const auto pot = [](const FileRequest& file) { return file.kind == FileKind::given; };
+  const auto step = [](const FileRequest& file) { return file.kind == FileKind::step; };
   const auto mesh = [](const FileRequest& file) { return file.kind == FileKind::mesh; };
+  const auto solid = [&](const FileRequest& file) { return mesh(file) || step(file); };
   const auto format = [](MeshFormat wanted) {
     return [wanted](const FileRequest& file) {
       return file.kind == FileKind::mesh && file.format == wanted;
@@ -90,7 +124,8 @@ Result<void> check_options(const ExportCommand& command) {
                     [](const FileRequest& file) { return file.kind != FileKind::given; });
       })
       .and_then(
-          [&] { return need(command.walls.asked(), "--min-wall and --process", "a mesh", mesh); })
+          [&] { return need(command.walls.asked(), "--min-wall and --process", "a solid", solid); })
+      .and_then([&] { return need(command.step.has_value(), "--step", "a .step", step); })
       .and_then(
           [&] { return need(command.ascii, "--ascii", "an .stl", format(MeshFormat::stl_ascii)); })
       .and_then([&] {
@@ -123,6 +158,7 @@ Result<void> complete_request(ExportCommand& command) {
   }
   solid::ExportOptions& options = command.request.options;
   options.smoothing = smoothing_of(command.smooth);
+  if (command.step == "lines") options.step_walls = solid::StepWalls::lines;
   options.full_verification = command.verify == "full";
   options.walls = command.walls.demand();
   options.name = std::filesystem::path(command.pot).stem().stem().string();
@@ -144,18 +180,40 @@ Result<std::vector<PotCopy>> add_copies(const Pot& pot, ExportCommand& command) 
   return copies;
 }
 
+/// Scales the pot to its goal, and prints how.
+Result<Pot> pot_at_goal(const Pot& pot, ExportCommand& command, const Console& console) {
+  if (!command.has_goal()) {
+    if (!command.goal.fired) return pot;
+    return failure(ErrorKind::bad_input,
+                   "--fired: expected --holds, --weighs, --height or --diameter, found none");
+  }
+  command.goal.to_fill_line = command.fill_line;
+  return solid::scaled_to(pot, command.goal, command.request.options)
+      .map([&](solid::GoalReport reached) {
+        console.print(fmt::format("scaled by {:.4f} across and {:.4f} up to meet the goal",
+                                  reached.radius_factor, reached.height_factor));
+        return std::move(reached.pot);
+      });
+}
+
 /// The exit status: done, or unsound if a wall is below the requested minimum.
 Result<int> export_pot(ExportCommand& command, const Console& console) {
-  const auto pot = read_pot(command.pot);
-  if (!pot) return tl::make_unexpected(pot.error());
+  const auto given = read_pot(command.pot);
+  if (!given) return tl::make_unexpected(given.error());
   if (auto complete = complete_request(command); !complete)
     return tl::make_unexpected(complete.error());
+  const auto pot = pot_at_goal(*given, command, console);
+  if (!pot) return tl::make_unexpected(pot.error());
   const auto copies = add_copies(*pot, command);
   if (!copies) return tl::make_unexpected(copies.error());
   std::optional<std::string> thumbnail;
   pack_pot(*pot, command.request, thumbnail);
+  const bool page = command.request.report_path.ends_with(".html");
+  const std::string picture = page ? picture_of(*pot) : std::string();
+  if (page) command.request.options.wall_spacing_mm = solid::kWallTableSpacingMm;
   command.request.report_text = [&](const solid::ExportReport& report) {
-    return pretty(export_json(report, *copies));
+    const Json json = export_json(report, *copies);
+    return page ? html_report(json, report, command.request.options, picture) : pretty(json);
   };
   const auto report = [&] {
     Progress progress(console, "exporting", 0);
@@ -203,15 +261,53 @@ void add_clay_options(CLI::App* sub, const SharedCommand& command) {
            "Loss in firing, in percent of the dry weight (default: 9%)",
            [](solid::ExportOptions& options) -> double& { return options.clay.ignition_loss; });
   sub->add_option("--fill-line", command->request.options.fill_line_mm,
-                  "Fill line for the capacity, below the brim of the fired pot [mm]")
+                  "Fill line for the capacity, below the brim of the fired pot [mm]; with --holds "
+                  "the capacity is up to this line")
       ->check(in_range(0.0, 1e4))
       ->capture_default_str();
+  // After parsing: whether the line was asked for.
+  sub->parse_complete_callback(
+      [command, sub] { command->fill_line = sub->count("--fill-line") > 0; });
+}
+
+/// An option in units, written "350ml".
+void add_quantity(CLI::App* sub, const std::string& name, std::optional<double>& value,
+                  const std::vector<Unit>& units, const std::string& help) {
+  sub->add_option_function<std::string>(
+         name,
+         [&value, units](const std::string& text) {
+           if (const auto quantity = quantity_of(text, units)) value = *quantity;
+         },
+         help)
+      ->check([units](const std::string& text) {
+        const auto parsed = quantity_of(text, units);
+        return parsed ? std::string() : parsed.error().message;
+      });
+}
+
+/// Sizes to which the pot is scaled.
+void add_goal_options(CLI::App* sub, const SharedCommand& command) {
+  const std::vector<Unit> volumes{{"ml", 1.0}, {"cl", 10.0}, {"l", 1000.0}};
+  const std::vector<Unit> weights{{"g", 1.0}, {"kg", 1000.0}};
+  const std::vector<Unit> lengths{{"mm", 1.0}, {"cm", 10.0}};
+  add_quantity(sub, "--holds", command->goal.holds_ml, volumes,
+               "Scale the pot to this capacity, such as 350ml: to the brim, or to --fill-line");
+  add_quantity(sub, "--weighs", command->goal.weighs_g, weights,
+               "Scale the pot to this weight, such as 400g");
+  add_quantity(sub, "--height", command->goal.height_mm, lengths,
+               "Scale the pot to this height, such as 120mm; with one more of these options, "
+               "height and radius are scaled apart");
+  add_quantity(sub, "--diameter", command->goal.diameter_mm, lengths,
+               "Scale the pot to this largest diameter");
+  sub->add_flag("--fired", command->goal.fired,
+                "The goal is of the fired pot, after --shrinkage; else of the pot as thrown");
 }
 
 /// What the solid is like.
 void add_solid_options(CLI::App* sub, const SharedCommand& command) {
-  sub->add_option("--tolerance", command->request.options.tolerance_mm,
-                  "Maximum chordal error, and maximum vertex error in .drc [mm]")
+  sub->add_option(
+         "--tolerance", command->request.options.tolerance_mm,
+         "Maximum chordal error, vertex error in .drc and distance of curves in .step [mm]")
       ->check(in_range(1e-5, 10.0))
       ->capture_default_str();
   sub->add_option("--smooth", command->smooth,
@@ -245,7 +341,7 @@ void add_file_options(CLI::App* sub, const SharedCommand& command) {
   sub->add_flag("--measure-left-out", command->request.options.measure_left_out,
                 "Also run the skipped stages, and report the time [s] that skipping saves");
   sub->add_option("--report", command->request.report_path,
-                  "File for the report that --json prints");
+                  "File for the report: .html: a page to print; any other: what --json prints");
   sub->add_option(
          "--precision", command->precision_mm,
          "Rounding of radii in pot files [mm] (default: exact); meshes keep the exact radii")
@@ -257,6 +353,10 @@ void add_file_options(CLI::App* sub, const SharedCommand& command) {
                   "like any foreign mesh, with the exact self-intersection test")
       ->check(CLI::IsMember({"margins", "full"}))
       ->capture_default_str();
+  sub->add_option("--step", command->step,
+                  "Walls in a .step: spline: one smooth surface for each wall, within the "
+                  "tolerance; lines: cones, exactly (default: spline)")
+      ->check(CLI::IsMember({"spline", "lines"}));
   sub->add_flag("--ascii", command->ascii, "Write .stl as text");
   sub->add_flag("--normals", command->request.options.normals,
                 "Write .obj with normals, for shading");
@@ -274,15 +374,18 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
                   std::string("NAME") + std::string(kPotInputs) + ", or - for standard input")
       ->required();
   sub->add_option("out", command->outputs,
-                  "Files to write: " + solid::format_endings(solid::FormatUse::write) +
-                      "; .svg for the section, .csv for its walls; .pot.json or .pot.cbor for the "
-                      "pot")
+                  "Files to write: " + solid::format_endings(solid::FormatUse::write) + "; " +
+                      solid::section_endings() + "; .pot.json or .pot.cbor for the pot")
       ->required();
   add_solid_options(sub, command);
   add_clay_options(sub, command);
+  add_goal_options(sub, command);
   add_file_options(sub, command);
   sub->footer(
       "\nExamples:\n  claystack export bowl.pot.json bowl.stl bowl.obj bowl.drc bowl.svg\n"
+      "  claystack export bowl.pot.json bowl.step --process stoneware\n"
+      "  claystack export bowl.pot.json bowl.3mf --holds 350ml --fired --shrinkage 12%\n"
+      "  claystack export bowl.pot.json bowl.pdf bowl.dxf --shrinkage 12%\n"
       "  claystack export bowl.pot.json bowl.stl --tolerance 0.005 --process stoneware\n"
       "  claystack export bowl.pot.json bowl.stl --process porcelain --shrinkage 12%\n"
       "  claystack export bowl.pot.json bowl.drc --certificate --report bowl.report.json\n"

@@ -59,6 +59,21 @@ Json file_json(const FileReport& file) {
   return json;
 }
 
+Json step_json(const FileReport& file) {
+  const solid::StepReport& step = *file.step;
+  return {{"path", file.path},
+          {"format", "step"},
+          {"bytes", file.bytes},
+          {"content_hash", file.content_hash},
+          {"max_error_mm", file.max_error_mm},
+          {"read_back", file.read_back},
+          {"walls", step.walls == solid::StepWalls::lines ? "lines" : "spline"},
+          {"faces", step.faces},
+          {"volume_mm3", step.volume_mm3},
+          {"volume_error_relative", step.volume_error_relative},
+          {"min_wall_mm", step.min_wall_mm}};
+}
+
 Json kept_json(const solid::KeptSteps& kept) {
   return {{"from_mm", kept.from_mm},
           {"to_mm", kept.to_mm},
@@ -84,6 +99,16 @@ void print_file(const Console& console, const FileReport& file) {
     console.detail(
         fmt::format("  minimum wall between {:.4f} and {:.4f} mm, volume within {:.2g} mm3",
                     c->wall_lower_mm, c->wall_upper_mm, c->volume_bound_mm3));
+}
+
+void print_step(const Console& console, const FileReport& file) {
+  const solid::StepReport& step = *file.step;
+  console.print(fmt::format("{}: {} bytes, {} faces, within {:.2g} mm{}", file.path, file.bytes,
+                            step.faces, file.max_error_mm, file.read_back ? ", read back" : ""));
+  console.detail(fmt::format(
+      "  step; closed and embedded: the section of its surfaces is strictly simple\n"
+      "  minimum wall {:.4f} mm; volume {:.3f} cm3, relative difference to the counted clay {:.1e}",
+      step.min_wall_mm, step.volume_mm3 / 1000.0, step.volume_error_relative));
 }
 
 void print_collapse(const Console& console, const solid::CollapsedSolid& collapsed) {
@@ -274,9 +299,9 @@ std::string wall_row(const ExportReport& report) {
 }  // namespace
 
 Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies) {
-  Json json = report.has_mesh() ? solid_json(report) : Json::object();
+  Json json = report.has_solid() ? solid_json(report) : Json::object();
   for (const char* list : {"files", "left_out", "stages"}) json[list] = Json::array();
-  if (const auto& limit = report.walls.limit; limit && report.has_mesh())
+  if (const auto& limit = report.walls.limit; limit && report.has_solid())
     json["wall_demand"] = {{"min_wall_mm", limit->min_wall_mm},
                            {"source", limit->asked_by()},
                            {"passes", report.thinnest_mm() >= limit->min_wall_mm}};
@@ -290,11 +315,13 @@ Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies)
       case FileKind::mesh:
         json["files"].push_back(file_json(file));
         break;
-      case FileKind::section:
-        json["files"].push_back({{"path", file.path}, {"format", "svg"}});
+      case FileKind::step:
+        json["files"].push_back(step_json(file));
         break;
+      case FileKind::section:
       case FileKind::wall_table:
-        json["files"].push_back({{"path", file.path}, {"format", "csv"}});
+        json["files"].push_back(
+            {{"path", file.path}, {"format", solid::section_file(file.path)->name}});
         break;
       case FileKind::given:
         json["files"].push_back(copy_json(*copy++, file.path));
@@ -312,7 +339,7 @@ Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies)
 
 void print_export(const Console& console, const ExportReport& report,
                   const std::vector<PotCopy>& copies) {
-  if (report.has_mesh()) print_solid(console, report);
+  if (report.has_solid()) print_solid(console, report);
   if (report.prepared.drilled_mm3 > 0.0)
     console.print(fmt::format("drain hole: {:.3f} cm3 of clay removed",
                               report.prepared.drilled_mm3 / 1000.0));
@@ -322,11 +349,12 @@ void print_export(const Console& console, const ExportReport& report,
       case FileKind::mesh:
         print_file(console, file);
         break;
-      case FileKind::section:
-        console.print(file.path + ": section");
+      case FileKind::step:
+        print_step(console, file);
         break;
+      case FileKind::section:
       case FileKind::wall_table:
-        console.print(file.path + ": walls along the section");
+        console.print(fmt::format("{}: {}", file.path, solid::section_file(file.path)->title));
         break;
       case FileKind::given:
         console.print(copy_text(*copy++, file.path));
@@ -336,7 +364,7 @@ void print_export(const Console& console, const ExportReport& report,
 }
 
 void print_summary(const Console& console, const ExportReport& report) {
-  if (report.has_mesh())
+  if (report.has_solid())
     print_maker_table(console, report.maker ? maker_json(*report.maker) : Json(nullptr),
                       wall_row(report), verdict_of(report));
 }
@@ -347,7 +375,7 @@ bool print_problems(const Console& console, const ExportReport& report) {
     console.warn(problem.text);
     fails = fails || problem.fails;
   }
-  if (report.walls.limit && report.has_mesh() && !solid::thin_wall_of(report))
+  if (report.walls.limit && report.has_solid() && !solid::thin_wall_of(report))
     console.print("walls: " + solid::wall_text(report.thinnest_mm(), *report.walls.limit));
   return fails;
 }

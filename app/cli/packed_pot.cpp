@@ -14,16 +14,17 @@ namespace clay::cli {
 namespace {
 
 /// PNG; empty without a renderer, or memory for it.
-std::string thumbnail_of([[maybe_unused]] const Pot& pot) {
+std::string png_of([[maybe_unused]] const Pot& pot, [[maybe_unused]] int pixels) {
 #ifdef CLAYSTACK_WINDOW
-  constexpr int kSide = 256;
-  constexpr render::Viewport kSize{kSide, kSide};
+  const render::Viewport size{pixels, pixels};
   render::Picture picture;
   picture.pot = render::view_of(pot);
-  picture.camera = render::framed(picture.pot, kSize.aspect());
-  return expect_room_to_draw(kSide * kSide)
+  picture.style = render::Style::geometry;
+  picture.camera = render::framed(picture.pot, size.aspect());
+  return expect_room_to_draw(static_cast<std::uint64_t>(pixels) *
+                             static_cast<std::uint64_t>(pixels))
       .and_then([] { return render::Offscreen::create(); })
-      .and_then([&](render::Offscreen screen) { return screen.draw(picture, kSize); })
+      .and_then([&](render::Offscreen screen) { return screen.draw(picture, size); })
       .map(render::png_of)
       .value_or(std::string());
 #else
@@ -33,6 +34,8 @@ std::string thumbnail_of([[maybe_unused]] const Pot& pot) {
 
 }  // namespace
 
+std::string picture_of(const Pot& pot) { return png_of(pot, 480); }
+
 void pack_pot(const Pot& pot, solid::ExportRequest& request,
               std::optional<std::string>& thumbnail) {
   const bool wanted = std::ranges::any_of(request.files, [](const solid::FileRequest& file) {
@@ -40,7 +43,7 @@ void pack_pot(const Pot& pot, solid::ExportRequest& request,
   });
   if (!wanted) return;
   request.options.pot_file = write_pot(pot, PotEncoding::cbor);
-  if (!thumbnail) thumbnail = thumbnail_of(pot);
+  if (!thumbnail) thumbnail = png_of(pot, 256);
   request.options.thumbnail_png = *thumbnail;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a 3MF carries beside its mesh: the pot and a picture of it.
+// What a 3MF carries beside its mesh: the pot and a picture of it; and the picture for a report.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/export/job.hpp"
@@ -8,6 +8,9 @@
 #include <string>
 
 namespace clay::cli {
+
+/// A picture of the pot for a page, as PNG; empty without a renderer.
+[[nodiscard]] std::string picture_of(const Pot& pot);
 
 /// If a 3MF is among the files, sets the pot file, exact, and the thumbnail. Without a renderer (a
 /// build without one, or no OpenGL on this machine) there is no thumbnail. `thumbnail` keeps the

@@ -43,7 +43,10 @@ void add_size(CLI::App& sub, RenderCommand& command) {
 void print_picture(const Console& console, const RenderCommand& command, const Rendered& done) {
   const std::string size = fmt::format("{} x {} px", command.size.width_px, command.size.height_px);
   if (!command.out.empty() && command.out != "-")
-    console.print(fmt::format("{}: {}, {} bytes", command.out, size, done.png_bytes));
+    console.print(fmt::format("{}: {}, {} bytes{}", command.out, size, done.png_bytes,
+                              command.style == render::Style::clay
+                                  ? "; its grooves and rounded rim are not in the pot"
+                                  : ""));
   if (!command.turntable.empty() && command.turntable != "-")
     console.print(fmt::format("{}: {} frames of {}, {} bytes", command.turntable, command.frames,
                               size, done.gif_bytes));
@@ -58,10 +61,15 @@ void print_picture(const Console& console, const RenderCommand& command, const R
                               done.frame->ms, size, done.frame->anti_aliased_ms, done.renderer));
 }
 
+std::string_view style_name(render::Style style) {
+  return style == render::Style::clay ? "clay" : "geometry";
+}
+
 Json rendered_json(const RenderCommand& command, const Rendered& done) {
   Json json = {{"pot", command.pot},
                {"width_px", command.size.width_px},
                {"height_px", command.size.height_px},
+               {"style", style_name(command.style)},
                {"renderer", done.renderer}};
   if (!command.out.empty()) json["png"] = {{"path", command.out}, {"bytes", done.png_bytes}};
   if (!command.turntable.empty())
@@ -115,6 +123,16 @@ void add_render_command(CLI::App& app, Console& console, int& exit) {
          "Theme of the picture: light or dark")
       ->check(CLI::IsMember({"light", "dark"}))
       ->default_str("light");
+  sub->add_option_function<std::string>(
+         "--style",
+         [command](const std::string& name) {
+           command->style = name == "clay" ? render::Style::clay : render::Style::geometry;
+         },
+         "geometry: the pot as its rings are; clay: with grooves and a rounded rim, which are not "
+         "in "
+         "the pot")
+      ->check(CLI::IsMember({"geometry", "clay"}))
+      ->default_str("geometry");
   sub->add_option("--azimuth", command->azimuth_deg, "Camera azimuth [deg] (default: about 34)")
       ->check(in_range(-3600.0, 3600.0));
   sub->add_option("--elevation", command->elevation_deg,

@@ -80,6 +80,7 @@ Result<render::Picture> picture_of(const RenderCommand& command, Rendered& done)
   render::Picture picture;
   picture.pot = render::view_of(*pot);
   picture.theme = command.dark ? render::Theme::dark : render::Theme::light;
+  picture.style = command.style;
   picture.cut = command.section ? render::Cut::half : render::Cut::none;
   picture.camera = render::framed(picture.pot, command.size.aspect());
   if (command.azimuth_deg) picture.camera.azimuth_rad = glm::radians(*command.azimuth_deg);

@@ -22,6 +22,7 @@ struct RenderCommand {
   int frames = 36;
   render::Viewport size;
   bool section = false, wall_map = false, dark = false, time = false;
+  render::Style style = render::Style::geometry;
   std::optional<double> azimuth_deg, elevation_deg;
 #ifdef CLAYSTACK_EXPORT
   WallOptions walls;

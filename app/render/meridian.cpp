@@ -60,7 +60,7 @@ Joint inner_joint(const Level& level, const Sky& sky) {
 
 }  // namespace
 
-std::vector<Stretch> meridian_of(const std::vector<Level>& levels) {
+std::vector<Stretch> meridian_of(const std::vector<Level>& levels, bool round_lip) {
   std::vector<Stretch> meridian;
   if (levels.size() < 2) return meridian;
   const Sky sky(levels);
@@ -79,7 +79,7 @@ std::vector<Stretch> meridian_of(const std::vector<Level>& levels) {
     if (above.inner > 0.0f || below.inner > 0.0f)
       add_stretch(inner_joint(above, sky), inner_joint(below, sky), meridian);
   }
-  const bool lip = top.inner > 0.0f && top.outer - top.inner < kLip * top.outer;
+  const bool lip = round_lip && top.inner > 0.0f && top.outer - top.inner < kLip * top.outer;
   for (std::size_t i = 1; i < meridian.size(); ++i)
     smooth_joint(meridian[i - 1], meridian[i], lip && (i == rim || i == rim + 1));
   return meridian;

@@ -59,6 +59,10 @@ inline constexpr double kArrowMmPerN = 12.0, kArrowLimitN = 5.0;
 
 enum class Theme { light, dark };
 
+/// What a picture adds to the geometry. `clay`: grooves and bands as hands leave them, and a rim
+/// that looks rounded; none of it is in the pot. `geometry`: nothing.
+enum class Style { clay, geometry };
+
 /// The part of the pot removed to show its section.
 enum class Cut { none, half, quarter };
 
@@ -75,6 +79,7 @@ struct Picture {
   std::optional<ToolView> tool;
   Camera camera;
   Theme theme = Theme::light;
+  Style style = Style::clay;
   Cut cut = Cut::none;
   /// Direction of the middle of the cut, like Camera::azimuth_rad; empty: towards the camera.
   std::optional<double> cut_azimuth_rad;

@@ -125,10 +125,12 @@ void ScenePainter::paint_clay(const SceneFrame& frame) {
   glUseProgram(clay_.get());
   set(clay_, "sweep", frame.sweep);
   set(clay_, "turn", static_cast<float>(frame.picture.wheel_turn_rad));
+  const bool hands = frame.picture.style == Style::clay;
+  set(clay_, "hands", hands ? 1.0f : 0.0f);
   set(clay_, "cut", frame.picture.cut == Cut::none ? 0.0f : 1.0f);
   for (const Body& body : frame.bodies) {
     set(clay_, "rim", glm::vec2{body.levels.back().inner, body.levels.back().y});
-    revolve(clay_, meridian_of(body.levels), body.place, frame);
+    revolve(clay_, meridian_of(body.levels, hands), body.place, frame);
   }
 }
 

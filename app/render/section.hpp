@@ -37,7 +37,8 @@ struct Stretch {
 };
 
 /// The closed surface of the body between the levels.
-[[nodiscard]] std::vector<Stretch> meridian_of(const std::vector<Level>& levels);
+[[nodiscard]] std::vector<Stretch> meridian_of(const std::vector<Level>& levels,
+                                               bool round_lip = true);
 
 /// The surface of a line (rho, y) upward, closed by discs where it does not end on the axis. For
 /// tools and similar bodies: full sky, no wall, no limiting ring.

@@ -103,6 +103,7 @@ uniform mat4 place;
 uniform vec2 rim;    // radius and height of the opening
 uniform float turn;  // rotation of the clay with the wheel
 uniform float cut;   // 1: light enters through the cut
+uniform float hands; // 1: with traces of fingers
 out vec4 colour;
 
 // Slope of the wall due to spiral grooves from the fingers and to slower waves.
@@ -128,7 +129,7 @@ void main() {
   float azimuth = shade.z - turn;
   float upright = length(n - axis * dot(n, axis));  // grooves run along walls, not along rims
   float size = frame.wheel.w;
-  float groove = grooves(own.y, azimuth, size, fwidth(own.y)) * upright;
+  float groove = grooves(own.y, azimuth, size, fwidth(own.y)) * upright * hands;
   n = normalize(n + axis * groove);
   float lit = neck.x > 0.0 ? min(passes(neck, l), passes(rim, l)) : 1.0;
   lit = mix(lit, 1.0, 0.6 * cut * step(1e-6, neck.x));
@@ -141,7 +142,7 @@ void main() {
   }
   // Iron and grog: faint bands and fainter specks.
   float band = sin(own.y * 5.1 / (0.02 * size) + 2.0 * sin(azimuth)) * sin(own.y * 1.7 / (0.02 * size));
-  vec3 base = vec3(0.430, 0.178, 0.088) * (1.0 + 0.045 * band + 0.9 * groove);
+  vec3 base = vec3(0.430, 0.178, 0.088) * (1.0 + 0.045 * band * hands + 0.9 * groove);
   vec3 c = lit_surface(base, n, v, open, lit, 26.0, 0.16);
   colour = shown(exposed(c));
 }

@@ -190,7 +190,7 @@ std::string result_text(const solid::ExportReport& report, std::size_t count) {
   std::uint64_t bytes = 0;
   for (const solid::FileReport& file : report.files)
     if (file.kind == solid::FileKind::mesh) bytes += file.bytes;
-  if (report.has_mesh())
+  if (report.has_solid())
     text += fmt::format("; {} triangles, {:.2f} MB of meshes, each proved and read back",
                         report.size.triangles, 1e-6 * static_cast<double>(bytes));
   return text;
@@ -209,7 +209,7 @@ void take_files(AppState& state, Exporter::Outcome outcome) {
   }
   exporting.written = outcome.paths;
   exporting.result = result_text(*outcome.done, outcome.paths.size());
-  if (outcome.done->has_mesh()) {
+  if (outcome.done->has_solid()) {
     mark_problems(state, outcome);
     exporting.preview = std::move(*outcome.done);
   }

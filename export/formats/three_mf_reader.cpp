@@ -1,5 +1,5 @@
 #include "claystack/export/formats.hpp"
-#include "export/formats/base64.hpp"
+#include "core/base64.hpp"
 #include "export/formats/mesh_limits.hpp"
 #include "export/formats/three_mf.hpp"
 #include "export/formats/three_mf_model.hpp"

@@ -1,7 +1,7 @@
 #include "claystack/export/formats.hpp"
 #include "claystack/version.hpp"
+#include "core/base64.hpp"
 #include "core/cancel.hpp"
-#include "export/formats/base64.hpp"
 #include "export/formats/file_floats.hpp"
 #include "export/formats/three_mf.hpp"
 #include "export/formats/zip_package.hpp"

@@ -5,9 +5,13 @@
 #include "claystack/core/atomic_file.hpp"
 #include "core/cancel.hpp"
 #include "core/text.hpp"
+#include "export/formats/text_scanner.hpp"
 #include "export/job/collapsed_export.hpp"
 #include "export/job/prepare.hpp"
 #include "export/job/revolved_export.hpp"
+#include "export/job/section_sheet.hpp"
+#include "export/job/stages.hpp"
+#include "export/job/step_file.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -92,15 +96,23 @@ class FilesExport {
   struct OpenFile {
     const FileRequest* asked = nullptr;
     std::unique_ptr<FileOnDisk> file, certificate;
-    std::uint64_t bytes = 0;
+    FileReport report;  ///< of a file that is no mesh
   };
 
   Result<void> check() const {
-    if (!request_.certificates || !pot_.collapse) return {};
+    if (!pot_.collapse) return {};
+    const bool step = asks(FileKind::step);
+    if (!request_.certificates && !step) return {};
     return named(
         Result<void>(failure(ErrorKind::bad_input,
-                             "--certificate: expected a standing pot, found a collapsed one")),
+                             std::string(step ? "STEP" : "--certificate")
+                                 .append(": expected a standing pot, found a collapsed one"))),
         options_.source);
+  }
+
+  [[nodiscard]] bool asks(FileKind kind) const {
+    return std::ranges::any_of(request_.files,
+                               [&](const FileRequest& file) { return file.kind == kind; });
   }
 
   Result<void> open_all() {
@@ -129,11 +141,9 @@ class FilesExport {
   }
 
   Result<void> run_job() {
-    const auto asks = [&](FileKind kind) {
-      return std::ranges::any_of(request_.files,
-                                 [&](const FileRequest& file) { return file.kind == kind; });
-    };
-    const bool solid = asks(FileKind::mesh) || asks(FileKind::wall_table);
+    const bool drawn = asks(FileKind::section) && !pot_.collapse;
+    const bool solid =
+        asks(FileKind::mesh) || asks(FileKind::wall_table) || asks(FileKind::step) || drawn;
     stop_if_cancelled();
     if (!solid && !asks(FileKind::section)) return list_files({});
     if (asks(FileKind::wall_table)) options_.wall_spacing_mm = kWallTableSpacingMm;
@@ -169,8 +179,12 @@ class FilesExport {
         case FileKind::wall_table:
           written = write(open, wall_table(report_.walls.field));
           break;
+        case FileKind::step:
+          written = write_step(open);
+          break;
         case FileKind::section:
-          written = write(open, section_svg(pot.pot));
+          written = drawing(open, pot).and_then(
+              [&](const std::string& bytes) { return write(open, bytes); });
           break;
         case FileKind::given:
           break;
@@ -181,8 +195,30 @@ class FilesExport {
   }
 
   static Result<void> write(OpenFile& open, const std::string& bytes) {
-    open.bytes = bytes.size();
+    open.report.bytes = bytes.size();
     return open.file->file().write(bytes);
+  }
+
+  Result<std::string> drawing(const OpenFile& open, const PreparedPot& pot) const {
+    const std::string_view format = section_file(open.asked->path)->name;
+    if (pot.pot.collapse) {
+      if (format == "svg") return section_svg(pot.pot);
+      return failure(ErrorKind::bad_input,
+                     open.asked->path +
+                         ": expected a standing pot, found a collapsed one, which "
+                         "is drawn as .svg only");
+    }
+    const Sheet sheet = section_sheet(report_, options_);
+    if (format == "svg") return svg_of(sheet);
+    return format == "dxf" ? dxf_of(sheet) : pdf_of(sheet);
+  }
+
+  Result<void> write_step(OpenFile& open) {
+    Stages stages(report_.stages, progress_);
+    return named(job::write_step(report_.section, report_.prepared.counted_volume_mm3, options_,
+                                 *open.file, stages),
+                 open.asked->path)
+        .map([&](FileReport report) { open.report = std::move(report); });
   }
 
   /// One report for each file, in the order of the request.
@@ -190,10 +226,7 @@ class FilesExport {
     auto mesh = meshes.begin();
     for (const OpenFile& open : files_) {
       FileReport& file = report_.files.emplace_back();
-      if (open.asked->kind == FileKind::mesh)
-        file = std::move(*mesh++);
-      else
-        file.bytes = open.bytes;
+      file = open.asked->kind == FileKind::mesh ? std::move(*mesh++) : open.report;
       file.path = open.asked->path;
       file.kind = open.asked->kind;
     }
@@ -233,13 +266,32 @@ class FilesExport {
 
 }  // namespace
 
+const SectionFile* section_file(std::string_view path) noexcept {
+  const std::size_t dot = path.rfind('.');
+  const std::string_view ending = dot == path.npos ? "" : path.substr(dot);
+  for (const SectionFile& file : kSectionFiles)
+    if (equal_ignoring_case(ending, file.ending)) return &file;
+  return nullptr;
+}
+
+std::string section_endings() {
+  std::string text;
+  for (std::size_t i = 0; i < kSectionFiles.size(); ++i) {
+    const auto same = [&](std::size_t other) {
+      return other < kSectionFiles.size() && kSectionFiles[other].kind == kSectionFiles[i].kind;
+    };
+    if (i > 0) text += same(i - 1) && !same(i + 1) ? " or " : ", ";
+    text += kSectionFiles[i].ending;
+    if (!same(i + 1)) text.append(" for the ").append(kSectionFiles[i].title);
+  }
+  return text;
+}
+
 Result<FileRequest> file_request(const std::string& path) {
-  if (path.ends_with(".svg")) return FileRequest{path, FileKind::section};
-  if (path.ends_with(".csv")) return FileRequest{path, FileKind::wall_table};
+  if (const SectionFile* file = section_file(path)) return FileRequest{path, file->kind};
   const auto format = mesh_format_of(path, FormatUse::write);
   if (format) return FileRequest{path, FileKind::mesh, *format};
-  return failure(ErrorKind::bad_input,
-                 format.error().message + "; or .svg for the section, .csv for its walls");
+  return failure(ErrorKind::bad_input, format.error().message + "; or " + section_endings());
 }
 
 Result<ExportReport> run_export(const Pot& pot, const std::vector<Output>& outputs,

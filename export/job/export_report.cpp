@@ -6,15 +6,19 @@
 
 namespace clay::solid::inline job {
 
-bool ExportReport::has_mesh() const noexcept {
-  return std::ranges::any_of(files,
-                             [](const FileReport& file) { return file.kind == FileKind::mesh; });
+bool ExportReport::has_solid() const noexcept {
+  return std::ranges::any_of(files, [](const FileReport& file) {
+    return file.kind == FileKind::mesh || file.kind == FileKind::step;
+  });
 }
 
 double ExportReport::thinnest_mm() const noexcept {
   double thinnest = walls.min_wall_mm;
   for (const FileReport& file : files)
-    if (file.certificate) thinnest = std::min(thinnest, file.certificate->wall_lower_mm);
+    if (file.certificate)
+      thinnest = std::min(thinnest, file.certificate->wall_lower_mm);
+    else if (file.step)
+      thinnest = std::min(thinnest, file.step->min_wall_mm);
   return thinnest;
 }
 
@@ -32,7 +36,7 @@ std::optional<std::string> thin_wall_of_solid(const ExportReport& report) {
 }  // namespace
 
 std::optional<std::string> thin_wall_of(const ExportReport& report) {
-  return report.has_mesh() ? thin_wall_of_solid(report) : std::nullopt;
+  return report.has_solid() ? thin_wall_of_solid(report) : std::nullopt;
 }
 
 std::string text_of(const Cavity& cavity) {

@@ -41,28 +41,36 @@ std::size_t rings_to_drill(const ClayStack& stack) {
 
 }  // namespace
 
-Result<Pot> enlarged(const Pot& pot, double shrinkage) {
-  if (!(shrinkage >= 0.0 && shrinkage <= kMostShrinkage))
-    return failure(ErrorKind::bad_input, "shrinkage: expected 0 to " + in_mm(kMostShrinkage) +
-                                             ", found " + in_mm(shrinkage));
-  if (shrinkage == 0.0) return pot;
-  const double factor = enlargement(shrinkage);
+Result<Pot> scaled(const Pot& pot, double radius_factor, double height_factor) {
   std::vector<Ring> rings;
   rings.reserve(pot.stack.size());
   // A double, and so every file, holds radii of at most 362 mm to the quantum.
-  for (const Ring& ring : pot.stack.rings()) rings.push_back(times(ring, factor * factor));
+  for (const Ring& ring : pot.stack.rings())
+    rings.push_back(times(ring, radius_factor * radius_factor));
   const WideQuanta crown = crown_of(pot.stack, rings.back());
-  return ClayStack::from_rings(pot.stack.ring_height_mm() * factor, std::move(rings), crown,
+  return ClayStack::from_rings(pot.stack.ring_height_mm() * height_factor, std::move(rings), crown,
                                pot.stack.max_rings())
-      .map_error([](const Error& error) {
-        return Error{error.kind, "enlarged for its shrinkage: " + error.message};
-      })
       .map([&](ClayStack stack) {
         Pot larger = pot;
         larger.stack = std::move(stack);
         larger.rim = {};
         larger.ledger = {.initial = larger.stack.volume()};
         larger.rounding.reset();
+        return larger;
+      });
+}
+
+Result<Pot> enlarged(const Pot& pot, double shrinkage) {
+  if (!(shrinkage >= 0.0 && shrinkage <= kMostShrinkage))
+    return failure(ErrorKind::bad_input, "shrinkage: expected 0 to " + in_mm(kMostShrinkage) +
+                                             ", found " + in_mm(shrinkage));
+  if (shrinkage == 0.0) return pot;
+  const double factor = enlargement(shrinkage);
+  return scaled(pot, factor, factor)
+      .map_error([](const Error& error) {
+        return Error{error.kind, "enlarged for its shrinkage: " + error.message};
+      })
+      .map([&](Pot larger) {
         if (larger.collapse) {
           larger.collapse->pivot_mm *= factor;
           larger.collapse->shift_mm *= factor;

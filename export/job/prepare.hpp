@@ -8,6 +8,11 @@
 
 namespace clay::solid::inline job {
 
+/// The pot with its radii and heights multiplied. Squared radii are rounded to the nearest quantum;
+/// the ledger begins with the clay of the result. Errors (bad_input): beyond the limits of
+/// ClayStack.
+Result<Pot> scaled(const Pot& pot, double radius_factor, double height_factor);
+
 struct DrainedStack {
   ClayStack stack;
   double drilled_mm3 = 0.0;  ///< clay removed by the drill

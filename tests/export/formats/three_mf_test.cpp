@@ -1,5 +1,5 @@
 #include "claystack/export/formats.hpp"
-#include "export/formats/base64.hpp"
+#include "core/base64.hpp"
 #include "export/formats/zip_package.hpp"
 #include "tests/export/formats/refused.hpp"
 #include "tests/export/solid/mesh_generators.hpp"

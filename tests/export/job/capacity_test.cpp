@@ -9,7 +9,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -103,6 +106,88 @@ TEST(Capacity, IsOfThePotThatIsWrittenAndFired) {
   const double capacity = plain->maker->thrown.capacity_ml;
   EXPECT_NEAR(larger->maker->fired->capacity_ml, capacity, 1e-9 * capacity);
   EXPECT_NEAR(larger->maker->thrown.capacity_ml, capacity / (0.9 * 0.9 * 0.9), 1e-9 * capacity);
+}
+
+// ---- goals ----
+
+TEST(Goal, IsMetByTheWaterInTheWrittenMesh) {
+  ExportOptions options;
+  options.tolerance_mm = 0.1;
+  for (const bool to_line : {false, true}) {
+    Goal goal;
+    goal.holds_ml = 350.0;
+    goal.to_fill_line = to_line;
+    const auto reached = scaled_to(pot_of(shapes::vase(150)), goal, options);
+    ASSERT_TRUE(reached) << reached.error().message;
+    EXPECT_EQ(reached->radius_factor, reached->height_factor);
+    const auto exported = samples::exported(reached->pot, {MeshFormat::stl_binary}, options);
+    ASSERT_TRUE(exported) << exported.error().message;
+    const auto mesh = decode_mesh(exported->files[0], MeshFormat::stl_binary, "pot").value();
+    EXPECT_NEAR(water_ml(mesh, to_line ? kFillLineMm : 0.0), 350.0, 0.35);
+  }
+}
+
+TEST(Goal, OfACylinderAgreesWithClosedForms) {
+  // A cup of 40 mm radius outside, 35 mm inside, 100 mm high, with a floor of 10 mm.
+  std::vector<shapes::Radii> rings(10, {40, 35});
+  rings[0] = {40, 0};
+  const Pot cup = pot_of(shapes::stack_of(10.0, rings));
+  const double holds = 1e-3 * std::numbers::pi * 35 * 35 * 90;
+  const auto factors = [&](const Goal& goal, double shrinkage = 0.0) {
+    ExportOptions options;
+    options.shrinkage = shrinkage;
+    const auto reached = scaled_to(cup, goal, options);
+    EXPECT_TRUE(reached) << (reached ? "" : reached.error().message);
+    return reached ? std::pair(reached->radius_factor, reached->height_factor)
+                   : std::pair(0.0, 0.0);
+  };
+  Goal goal;
+  goal.holds_ml = 500.0;
+  EXPECT_NEAR(factors(goal).first, std::cbrt(500.0 / holds), 1e-6);
+  goal.height_mm = 120.0;  // then the radius alone
+  EXPECT_NEAR(factors(goal).second, 1.2, 1e-6);
+  EXPECT_NEAR(factors(goal).first, std::sqrt(500.0 / (1.2 * holds)), 1e-6);
+  goal = {};
+  goal.diameter_mm = 60.0;
+  goal.weighs_g = 400.0;  // then the height alone
+  const double weight = 1e-3 * 1.9 * std::numbers::pi * (40 * 40 * 100 - 35 * 35 * 90);
+  EXPECT_NEAR(factors(goal).first, 0.75, 1e-6);
+  EXPECT_NEAR(factors(goal).second, 400.0 / (0.75 * 0.75 * weight), 1e-5);
+  goal = {};
+  goal.height_mm = 90.0;
+  goal.fired = true;  // shrinkage enlarges the files, so that the pot has its size once fired
+  EXPECT_NEAR(factors(goal, 0.1).second, 0.9, 1e-6);
+  goal.fired = false;
+  EXPECT_NEAR(factors(goal, 0.1).second, 0.81, 1e-6);
+}
+
+TEST(Goal, IsRefusedWithTheReason) {
+  const Pot vase = pot_of(shapes::vase(100));
+  const auto why = [&](const Pot& pot, const Goal& goal, const ExportOptions& options = {}) {
+    const auto reached = scaled_to(pot, goal, options);
+    return reached ? std::string("not refused") : reached.error().message;
+  };
+  const auto of = [](auto change) {
+    Goal goal;
+    change(goal);
+    return goal;
+  };
+  const auto has = [](const std::string& text, const char* part) {
+    return text.find(part) != text.npos ? std::string() : text;
+  };
+  EXPECT_EQ(has(why(vase, {}), "expected a capacity"), "");
+  EXPECT_EQ(
+      has(why(vase, of([](Goal& g) { g.holds_ml = g.weighs_g = 1.0; })), "expected one number"),
+      "");
+  EXPECT_EQ(has(why(vase, of([](Goal& g) { g.holds_ml = 350.0, g.fired = true; })),
+                "expected a shrinkage"),
+            "");
+  EXPECT_EQ(has(why(vase, of([](Goal& g) { g.height_mm = 1e7; })), "within 50 times"), "");
+  const Pot tube = pot_of(shapes::stack_of(10.0, {{40, 30}, {40, 30}}));
+  EXPECT_EQ(has(why(tube, of([](Goal& g) { g.holds_ml = 350.0; })), "no floor"), "");
+  ExportOptions thick;
+  thick.walls.min_wall_mm = 3.0;
+  EXPECT_EQ(has(why(vase, of([](Goal& g) { g.height_mm = 20.0; }), thick), "thin wall"), "");
 }
 
 }  // namespace

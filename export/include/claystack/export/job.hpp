@@ -12,6 +12,7 @@
 #include "claystack/export/smoothing.hpp"
 #include "claystack/export/walls.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -40,6 +41,32 @@ inline constexpr double kMostShrinkage = 0.5;
 /// ClayStack.
 Result<Pot> enlarged(const Pot& pot, double shrinkage);
 
+// ---- goal ----------------------------------------------------------------------------
+// The pot at another size, chosen by what it shall be.
+
+struct ExportOptions;
+
+/// One goal scales the pot evenly. Two scale height and radius apart: one of them is the height or
+/// the diameter.
+struct Goal {
+  std::optional<double> holds_ml;  ///< to the brim
+  std::optional<double> weighs_g;
+  std::optional<double> height_mm;
+  std::optional<double> diameter_mm;
+  bool to_fill_line = false;  ///< `holds_ml` up to the fill line of the options
+  bool fired = false;         ///< all are of the fired pot; requires a shrinkage
+};
+
+struct GoalReport {
+  Pot pot;  ///< scaled; its ledger begins with the clay of the result
+  double radius_factor = 1.0, height_factor = 1.0;
+};
+
+/// Scales a standing pot until its smoothed section meets the goal within 1e-6. Errors: `bad_input`
+/// for goals that are missing, contradict each other or cannot be met (no floor, nothing to hold);
+/// `unsound`, with the reason, if a wall of the result is below the limit of the options.
+Result<GoalReport> scaled_to(const Pot& pot, const Goal& goal, const ExportOptions& options);
+
 // ---- request -------------------------------------------------------------------------
 
 struct ExportOptions {
@@ -61,11 +88,12 @@ struct ExportOptions {
   /// Figures for `ExportReport::maker`; density and shrinkage come from the pot and from above.
   ClayFigures clay;
   double fill_line_mm = kFillLineMm;  ///< below the brim of the pot in use
-  bool normals = false;               ///< write normals for shading (obj only)
-  bool allow_pieces = false;          ///< accept pieces that do not touch
-  bool measure_left_out = false;      ///< run the skipped stages as well, and report the time saved
-  bool full_verification = false;     ///< also check every file like a foreign mesh
-  std::string name = "pot";           ///< solid or object name inside the file
+  StepWalls step_walls = StepWalls::spline;
+  bool normals = false;            ///< write normals for shading (obj only)
+  bool allow_pieces = false;       ///< accept pieces that do not touch
+  bool measure_left_out = false;   ///< run the skipped stages as well, and report the time saved
+  bool full_verification = false;  ///< also check every file like a foreign mesh
+  std::string name = "pot";        ///< solid or object name inside the file
   std::string pot_file;       ///< the pot as a file (CBOR), which a 3MF carries; empty: it does not
   std::string thumbnail_png;  ///< a picture of the pot for a 3MF; empty: none
   std::string source;         ///< name of the pot in messages; empty: none
@@ -76,7 +104,8 @@ struct ExportOptions {
 
 enum class FileKind {
   mesh,
-  section,     ///< the drawing of `section_svg`
+  step,        ///< the solid for CAD
+  section,     ///< the drawing of the section; of a collapsed pot `section_svg`
   wall_table,  ///< the table of `wall_table`
   given,       ///< bytes from the caller, such as a copy of the pot
 };
@@ -89,8 +118,29 @@ struct FileRequest {
   std::string bytes = {};                      ///< of a given file
 };
 
-/// The kind of file by its extension: that of a mesh (`mesh_format_of`), .svg (the section) or .csv
-/// (its walls). Any other extension is an error that lists these.
+/// The endings of files that are made from the section, without a mesh, and what they hold.
+struct SectionFile {
+  FileKind kind;
+  std::string_view ending;  ///< in lower case
+  std::string_view name;    ///< in reports
+  std::string_view title;   ///< for people
+};
+inline constexpr std::array kSectionFiles{
+    SectionFile{FileKind::step, ".step", "step", "solid for CAD"},
+    SectionFile{FileKind::step, ".stp", "step", "solid for CAD"},
+    SectionFile{FileKind::section, ".svg", "svg", "drawing"},
+    SectionFile{FileKind::section, ".dxf", "dxf", "drawing"},
+    SectionFile{FileKind::section, ".pdf", "pdf", "drawing"},
+    SectionFile{FileKind::wall_table, ".csv", "csv", "walls along the section"}};
+
+/// The entry for the ending of this path, ignoring case; null: another kind of file.
+[[nodiscard]] const SectionFile* section_file(std::string_view path) noexcept;
+
+/// ".step or .stp for the solid for CAD, .svg, .dxf or .pdf for the drawing, ...".
+[[nodiscard]] std::string section_endings();
+
+/// The kind of file by its extension: that of a mesh (`mesh_format_of`) or one of kSectionFiles.
+/// Any other extension is an error that lists these.
 Result<FileRequest> file_request(const std::string& path);
 
 struct ExportReport;
@@ -160,6 +210,18 @@ struct VolumeReport {
   double error_relative = 0.0;  ///< relative to the counted clay, without the overlap in a collapse
 };
 
+/// The solid in a STEP file. Its volume and its distance from the section are proved by closed form
+/// from the numbers in the file.
+struct StepReport {
+  StepWalls walls = StepWalls::spline;
+  std::size_t faces = 0;
+  double deviation_mm =
+      0.0;  ///< bound of the distance between its section and the pot's, both ways
+  double volume_mm3 = 0.0;
+  double volume_error_relative = 0.0;  ///< relative to the counted clay
+  double min_wall_mm = 0.0;            ///< of its section
+};
+
 struct FileReport {
   std::string path;  ///< empty: in memory
   FileKind kind = FileKind::mesh;
@@ -173,6 +235,7 @@ struct FileReport {
   std::optional<SolidCertificate>
       certificate;  ///< for a body of revolution, which is a standing pot
   std::optional<MeshReport> full_verification;
+  std::optional<StepReport> step;  ///< of a STEP file; `max_error_mm` is its deviation
 };
 
 struct StageTime {
@@ -199,10 +262,14 @@ struct ExportReport {
   std::vector<StageTime> stages;
   std::vector<SkippedStage> left_out;
 
-  [[nodiscard]] bool has_mesh() const noexcept;
-  /// Lower bound of the wall over all meshes; without a mesh, of the solid [mm].
+  /// True if a mesh or a STEP file was written.
+  [[nodiscard]] bool has_solid() const noexcept;
+  /// Lower bound of the wall over all solids written; without any, of the pot [mm].
   [[nodiscard]] double thinnest_mm() const noexcept;
 };
+
+/// The drawing of a standing pot at 1:1, as in an .svg.
+[[nodiscard]] std::string drawing_svg(const ExportReport& report, const ExportOptions& options);
 
 enum class ProblemKind { thin_wall, too_large, cavity, overhang, bodies };
 
@@ -247,7 +314,7 @@ Result<ExportReport> run_export(const Pot& pot, const std::vector<Output>& outpu
                                 const std::function<void(std::string_view)>& progress = {});
 
 /// Publishes all files together, after all are complete and verified; a failed or cancelled job
-/// leaves none. Without a mesh or a wall table, nothing is proved.
+/// leaves none. A drawing shows the section as proved; a collapsed pot is only drawn, as .svg.
 Result<ExportReport> export_files(const Pot& pot, const ExportRequest& request,
                                   const std::function<void(std::string_view)>& progress = {});
 

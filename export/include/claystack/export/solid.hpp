@@ -50,6 +50,13 @@ TriangleMesh revolve(const Profile& profile, std::size_t segments);
 /// tolerance; kMaxSegments if even that exceeds it.
 [[nodiscard]] std::size_t segments_for(double radius_mm, double tolerance_mm) noexcept;
 
+// ---- boundary for CAD ----------------------------------------------------------------
+
+/// The walls in a STEP file. `spline`: one smooth surface for each wall between sharp corners,
+/// within the tolerance of the section. `lines`: the section exactly, with a cone, cylinder or
+/// plane for each of its edges.
+enum class StepWalls { spline, lines };
+
 // ---- decimate ------------------------------------------------------------------------
 // Fewer triangles for meshes that have no profile to revolve again.
 

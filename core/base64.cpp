@@ -1,8 +1,8 @@
-#include "export/formats/base64.hpp"
+#include "core/base64.hpp"
 
 #include <cstdint>
 
-namespace clay::solid::inline formats {
+namespace clay {
 namespace {
 
 constexpr std::string_view kDigits =
@@ -42,4 +42,4 @@ std::optional<std::string> from_base64(std::string_view text) {
   return bytes;
 }
 
-}  // namespace clay::solid::inline formats
+}  // namespace clay

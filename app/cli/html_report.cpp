@@ -1,0 +1,290 @@
+#include "app/cli/html_report.hpp"
+
+#include "core/base64.hpp"
+#include "core/svg_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace clay::cli {
+namespace {
+
+constexpr std::string_view kStyle = R"css(
+@page { size: A4; margin: 14mm; }
+body { font: 10pt/1.4 "DejaVu Sans", Helvetica, Arial, sans-serif; color: #222; max-width: 182mm;
+  margin: 8mm auto; }
+h1 { font-size: 18pt; margin: 0; } h2 { font-size: 12pt; margin: 7mm 0 2mm; break-after: avoid; }
+table { border-collapse: collapse; width: 100%; break-inside: avoid; }
+th, td { text-align: left; padding: 1mm 3mm 1mm 0; border-bottom: 0.2mm solid #ccc;
+  vertical-align: top; }
+td.n, th.n { text-align: right; font-variant-numeric: tabular-nums; }
+.good { color: #22662a; } .bad { color: #a01818; font-weight: bold; }
+.pictures { display: flex; gap: 6mm; align-items: flex-start; }
+.pictures > * { flex: 1; min-width: 0; } .pictures img { width: 100%; }
+svg { width: 100%; height: auto; } figure { margin: 0; break-inside: avoid; }
+figcaption { font-size: 8.5pt; color: #555; } .long td:first-child { overflow-wrap: anywhere; }
+)css";
+
+/// cividis, from thin to thick.
+constexpr std::array<std::array<double, 3>, 5> kMap{
+    {{0, 32, 77}, {65, 77, 107}, {124, 123, 120}, {188, 175, 111}, {255, 234, 70}}};
+
+std::string colour_at(double part) {
+  const double place = std::clamp(part, 0.0, 1.0) * (kMap.size() - 1);
+  const auto low = std::min(static_cast<std::size_t>(place), kMap.size() - 2);
+  const double t = place - static_cast<double>(low);
+  const auto mix = [&](std::size_t i) { return (1.0 - t) * kMap[low][i] + t * kMap[low + 1][i]; };
+  return fmt::format("rgb({:.0f},{:.0f},{:.0f})", mix(0), mix(1), mix(2));
+}
+
+double number(const Json& object, const char* field) { return object[field].get<double>(); }
+
+/// The walls along the section in colours; the scale is fitted to this pot.
+class WallMapFigure {
+ public:
+  explicit WallMapFigure(const std::vector<solid::WallSample>& field) : field_(field) {
+    std::vector<double> walls;
+    for (const solid::WallSample& sample : field) {
+      walls.push_back(sample.thickness_mm);
+      widest_ = std::max(widest_, sample.at.rho);
+      top_ = std::max(top_, sample.at.y);
+    }
+    // A few places in corners, thicker than all walls, would take most of the colours.
+    constexpr double kMostWalls = 0.95;
+    std::ranges::sort(walls);
+    thin_ = walls.front();
+    thick_ = walls[static_cast<std::size_t>(kMostWalls * static_cast<double>(walls.size() - 1))];
+    cut_off_ = thick_ < walls.back();
+  }
+
+  std::string svg() {
+    const double width = 2.0 * widest_ + 8.0 + 0.6 * top_, height = top_ + 8.0;
+    writer_.open("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
+                         {"viewBox", fmt::format("{:.2f} {:.2f} {:.2f} {:.2f}", -widest_ - 4.0,
+                                                 -top_ - 4.0, width, height)}});
+    for (const double side : {-1.0, 1.0}) wall(side);
+    legend();
+    writer_.close("svg");
+    return writer_.take();
+  }
+
+ private:
+  [[nodiscard]] double part(double thickness_mm) const {
+    return thick_ > thin_ ? (thickness_mm - thin_) / (thick_ - thin_) : 0.5;
+  }
+
+  /// A line between neighbouring samples of a face.
+  void wall(double side) {
+    const double stroke = 0.012 * (top_ + widest_);
+    for (std::size_t i = 1; i < field_.size(); ++i) {
+      const solid::WallSample &a = field_[i - 1], &b = field_[i];
+      if (std::hypot(b.at.rho - a.at.rho, b.at.y - a.at.y) > 4.0 * solid::kWallTableSpacingMm)
+        continue;
+      writer_.element("line", {{"x1", fixed(side * a.at.rho, 2)},
+                               {"y1", fixed(-a.at.y, 2)},
+                               {"x2", fixed(side * b.at.rho, 2)},
+                               {"y2", fixed(-b.at.y, 2)},
+                               {"stroke", colour_at(part(0.5 * (a.thickness_mm + b.thickness_mm)))},
+                               {"stroke-width", fixed(stroke, 2)},
+                               {"stroke-linecap", "round"}});
+    }
+  }
+
+  void legend() {
+    constexpr int kSteps = 40, kMarks = 4;
+    const double x = widest_ + 0.12 * top_, step = 0.9 * top_ / kSteps, size = 0.05 * top_;
+    for (int i = 0; i < kSteps; ++i)
+      writer_.element("rect", {{"x", fixed(x, 2)},
+                               {"y", fixed(-0.05 * top_ - (i + 1) * step, 3)},
+                               {"width", fixed(size, 2)},
+                               {"height", fixed(1.05 * step, 3)},
+                               {"fill", colour_at((i + 0.5) / kSteps)}});
+    for (int i = 0; i <= kMarks; ++i) {
+      const double share = static_cast<double>(i) / kMarks;
+      writer_.element("text",
+                      {{"x", fixed(x + 1.3 * size, 2)},
+                       {"y", fixed(-0.05 * top_ - share * 0.9 * top_ + 0.3 * size, 2)},
+                       {"font-size", fixed(0.8 * size, 2)}},
+                      fmt::format("{:.1f} mm{}", thin_ + share * (thick_ - thin_),
+                                  i == kMarks && cut_off_ ? " or more" : ""));
+    }
+  }
+
+  const std::vector<solid::WallSample>& field_;
+  bool cut_off_ = false;  ///< some places are thicker than the scale
+  double thin_ = 0.0, thick_ = 0.0, widest_ = 0.0, top_ = 0.0;
+  SvgWriter writer_;
+};
+
+class Page {
+ public:
+  Page(const Json& json, const solid::ExportReport& report, const solid::ExportOptions& options,
+       const std::string& picture)
+      : json_(json), report_(report), options_(options) {
+    html_.raw("<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\">\n");
+    html_.element("title", {}, options.name);
+    html_.raw("<style>" + std::string(kStyle) + "</style></head>\n<body>\n");
+    html_.element("h1", {}, options.name);
+    verdict();
+    pictures(picture);
+    if (!json["maker"].is_null()) maker(json["maker"]);
+    walls();
+    if (report.maker) drawing();
+    files();
+    work();
+    html_.raw("</body></html>\n");
+  }
+
+  std::string take() { return html_.take(); }
+
+ private:
+  /// Cells from the second on are numbers, and stand to the right.
+  void row(const std::vector<std::string>& cells, std::string_view cell = "td",
+           bool numbers = true) {
+    html_.open("tr", {});
+    for (const std::string& text : cells)
+      html_.element(cell, {{"class", numbers && &text != &cells.front() ? "n" : ""}},
+                    text.empty() ? " " : text);
+    html_.close("tr");
+  }
+  template <class Rows>
+  void table(const std::string& title, Rows rows) {
+    html_.element("h2", {}, title);
+    html_.open("table", {{"class", "long"}});
+    rows();
+    html_.close("table");
+  }
+
+  void verdict() {
+    const auto problems = solid::problems_of(report_);
+    if (problems.empty())
+      html_.element("p", {{"class", "good"}},
+                    "Closed and without self-intersections; all limits met.");
+    for (const solid::Problem& problem : problems)
+      html_.element("p", {{"class", problem.fails ? "bad" : ""}}, problem.text);
+  }
+
+  void pictures(const std::string& picture) {
+    html_.open("div", {{"class", "pictures"}});
+    if (!picture.empty())
+      html_.element("img", {{"alt", "picture of the pot"},
+                            {"src", "data:image/png;base64," + to_base64(picture)}});
+    if (!report_.walls.field.empty()) {
+      html_.open("figure", {});
+      html_.raw(WallMapFigure(report_.walls.field).svg());
+      html_.element("figcaption", {}, "Walls of the section; the colours are fitted to this pot");
+      html_.close("figure");
+    }
+    html_.close("div");
+  }
+
+  void maker(const Json& maker) {
+    table("Size, weight and capacity", [&] {
+      std::vector<std::pair<std::string, const Json*>> states;
+      for (const auto& [key, name] :
+           {std::pair("thrown", "as thrown"), std::pair("dry", "dry"), std::pair("fired", "fired")})
+        if (!maker[key].is_null()) states.emplace_back(name, &maker[key]);
+      std::vector<std::string> heads{""};
+      for (const auto& state : states) heads.push_back(state.first);
+      row(heads, "th");
+      const auto line = [&](const char* name, const char* field, const char* unit, int digits) {
+        std::vector<std::string> cells{name};
+        for (const auto& state : states)
+          cells.push_back(fixed(number(*state.second, field), digits) + unit);
+        row(cells);
+      };
+      line("diameter", "diameter_mm", " mm", 1);
+      line("height", "height_mm", " mm", 1);
+      line("foot", "foot_diameter_mm", " mm", 1);
+      line("weight", "weight_g", " g", 0);
+      line("capacity to the brim", "capacity_ml", " ml", 0);
+      line("capacity to the fill line", "to_line_ml", " ml", 0);
+    });
+    table("Balance", [&] {
+      row({"", "centre of gravity", "tips at"}, "th");
+      for (const auto& [key, name] : {std::pair("empty", "empty"), std::pair("full", "full")})
+        if (!maker[key].is_null())
+          row({name, fixed(number(maker[key], "centre_mm"), 1) + " mm above the foot",
+               fixed(number(maker[key], "tipping_deg"), 1) + " degrees"});
+    });
+  }
+
+  void walls() {
+    table("Walls and making", [&] {
+      const solid::Wall& thinnest = report_.walls.thinnest;
+      row({"thinnest wall", fmt::format("{:.2f} mm at a height of {:.1f} mm", report_.thinnest_mm(),
+                                        thinnest.from.y)});
+      if (const auto& limit = report_.walls.limit)
+        row({"asked", fmt::format("{:.2f} mm ({})", limit->min_wall_mm, limit->asked_by())});
+      if (const auto& overhang = report_.process.overhang)
+        row({"steepest overhang", fmt::format("{:.0f} degrees from the vertical at {:.1f} mm",
+                                              overhang->angle_deg, overhang->from.y)});
+      if (const auto& process = report_.process.limits; process && process->size)
+        row({"fits " + process->name, json_["process"]["bed"]["fits"].get<bool>() ? "yes" : "no"});
+    });
+  }
+
+  /// On its own page, scaled to it: the file is for printing at 1:1.
+  void drawing() {
+    html_.element("h2", {}, "Drawing");
+    html_.open("figure", {});
+    html_.raw(solid::drawing_svg(report_, options_));
+    html_.element("figcaption", {},
+                  "Not to scale on this page; export an .svg, .dxf or .pdf for 1:1");
+    html_.close("figure");
+  }
+
+  void files() {
+    table("Files", [&] {
+      row({"file", "bytes", "largest error", "read back"}, "th");
+      for (const solid::FileReport& file : report_.files)
+        row({file.path, std::to_string(file.bytes),
+             file.max_error_mm > 0.0 ? fmt::format("{:.2g} mm", file.max_error_mm) : "",
+             file.read_back ? "yes" : ""});
+    });
+    if (!report_.has_solid()) return;
+    table("Proof", [&] {
+      const Json& certificate = json_["certificate"];
+      row({"proved", certificate["proved"].get<std::string>()}, "td", false);
+      row({"volume",
+           fmt::format("{:.3f} cm3; relative difference to the counted clay {:.1e}",
+                       1e-3 * number(json_, "volume_mm3"), number(json_, "volume_error_relative"))},
+          "td", false);
+      row({"facets",
+           fmt::format("{} triangles, chordal error {:.3g} mm",
+                       json_["triangles"].get<std::size_t>(), number(json_, "chordal_error_mm"))},
+          "td", false);
+    });
+  }
+
+  void work() {
+    table("Left out", [&] {
+      for (const auto& [what, why, saved] : report_.left_out) row({what, why}, "td", false);
+    });
+    table("Time", [&] {
+      for (const auto& [name, seconds] : report_.stages)
+        row({name, fixed(1000.0 * seconds, 2) + " ms"});
+    });
+  }
+
+  const Json& json_;
+  const solid::ExportReport& report_;
+  const solid::ExportOptions& options_;
+  SvgWriter html_;
+};
+
+}  // namespace
+
+std::string html_report(const Json& json, const solid::ExportReport& report,
+                        const solid::ExportOptions& options, const std::string& picture) {
+  return Page(json, report, options, picture).take();
+}
+
+}  // namespace clay::cli

@@ -1,0 +1,172 @@
+// Scales a pot until it holds, weighs or measures what is asked.
+
+#include "claystack/export/job.hpp"
+
+#include "core/text.hpp"
+#include "export/job/prepare.hpp"
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace clay::solid::inline job {
+namespace {
+
+constexpr double kClose = 1e-6;  // relative
+constexpr int kMostSteps = 40;
+constexpr double kFarthest = 50.0;  // of a factor from 1
+
+/// One asked number, and how it grows with the factor that is solved for.
+struct Aim {
+  std::string name;
+  double target = 0.0;
+  double (*of)(const PotState& pot);
+  double power_of_radius = 0.0, power_of_height = 0.0;
+};
+
+std::vector<Aim> aims_of(const Goal& goal) {
+  std::vector<Aim> aims;
+  const auto add = [&](const char* name, const std::optional<double>& target, auto of,
+                       double radius, double height) {
+    if (target) aims.push_back({name, *target, of, radius, height});
+  };
+  add(
+      "height [mm]", goal.height_mm, [](const PotState& pot) { return pot.size.height_mm; }, 0, 1);
+  add(
+      "diameter [mm]", goal.diameter_mm, [](const PotState& pot) { return pot.size.diameter_mm; },
+      1, 0);
+  add(
+      "capacity [ml]", goal.to_fill_line ? std::nullopt : goal.holds_ml,
+      [](const PotState& pot) { return pot.capacity_ml; }, 2, 1);
+  add(
+      "capacity to the fill line [ml]", goal.to_fill_line ? goal.holds_ml : std::nullopt,
+      [](const PotState& pot) { return pot.to_line_ml; }, 2, 1);
+  add(
+      "weight [g]", goal.weighs_g, [](const PotState& pot) { return pot.weight_g; }, 2, 1);
+  return aims;
+}
+
+Result<void> check_aims(const std::vector<Aim>& aims, const Goal& goal,
+                        const ExportOptions& options) {
+  const auto wrong = [](const std::string& text) { return failure(ErrorKind::bad_input, text); };
+  if (aims.empty()) return wrong("goal: expected a capacity, a weight, a height or a diameter");
+  for (const Aim& aim : aims)
+    if (!(aim.target > 0.0 && std::isfinite(aim.target)))
+      return wrong(aim.name + ": expected more than 0, found " + in_mm(aim.target));
+  if (aims.size() > 2 || (aims.size() == 2 && aims[0].power_of_radius == 2.0))
+    return wrong("goal: expected one number, or a height or diameter with one other");
+  if (goal.fired && options.shrinkage == 0.0)
+    return wrong("goal of the fired pot: expected a shrinkage, found none");
+  return {};
+}
+
+/// Factors on the pot.
+struct Scale {
+  double radius = 1.0, height = 1.0;
+};
+
+class GoalSearch {
+ public:
+  GoalSearch(const Pot& pot, const Goal& goal, const ExportOptions& options)
+      : pot_(pot), goal_(goal), options_(options), aims_(aims_of(goal)) {}
+
+  Result<GoalReport> run() {
+    if (pot_.collapse)
+      return failure(ErrorKind::bad_input, "goal: expected a standing pot, found a collapsed one");
+    if (auto checked = check_aims(aims_, goal_, options_); !checked)
+      return tl::make_unexpected(checked.error());
+    // A length meets its goal by its own factor; each step brings all others closer.
+    for (int step = 0; step < kMostSteps; ++step) {
+      auto measured = measure();
+      if (!measured) return tl::make_unexpected(measured.error());
+      if (close(*measured)) return accept(*measured);
+      if (auto moved = move(*measured); !moved) return tl::make_unexpected(moved.error());
+    }
+    return failure(ErrorKind::bad_input,
+                   "goal: expected a size at which the pot meets it, found none");
+  }
+
+ private:
+  /// The report of the pot at the present scale; nothing is written.
+  Result<ExportReport> measure() {
+    return scaled(pot_, scale_.radius, scale_.height)
+        .map_error([](const Error& error) {
+          return Error{error.kind, "goal: " + error.message};
+        })
+        .and_then([&](Pot pot) {
+          scaled_pot_ = std::move(pot);
+          return run_export(scaled_pot_, {}, options_);
+        });
+  }
+
+  [[nodiscard]] const PotState& state(const ExportReport& report) const {
+    return goal_.fired ? *report.maker->fired : report.maker->thrown;
+  }
+
+  [[nodiscard]] bool close(const ExportReport& report) const {
+    for (const Aim& aim : aims_)
+      if (std::abs(aim.of(state(report)) / aim.target - 1.0) > kClose) return false;
+    return true;
+  }
+
+  Result<void> move(const ExportReport& report) {
+    std::array<double, 2> ratios{1.0, 1.0};
+    for (std::size_t i = 0; i < aims_.size(); ++i) {
+      const double found = aims_[i].of(state(report));
+      if (!(found > 0.0))
+        return failure(ErrorKind::bad_input, aims_[i].name +
+                                                 ": expected a pot that has one, found "
+                                                 "none: no floor under an open bore");
+      ratios[i] = aims_[i].target / found;
+    }
+    const Aim& first = aims_[0];
+    const double powers = first.power_of_radius + first.power_of_height;
+    if (aims_.size() == 1) {
+      const double even = std::pow(ratios[0], 1.0 / powers);
+      scale_ = {scale_.radius * even, scale_.height * even};
+    } else {
+      // The length decides its own factor, the other number the other one.
+      const bool height = first.power_of_height == 1.0;
+      double& own = height ? scale_.height : scale_.radius;
+      double& other = height ? scale_.radius : scale_.height;
+      own *= ratios[0];
+      const double by_own = height ? aims_[1].power_of_height : aims_[1].power_of_radius;
+      const double by_other = height ? aims_[1].power_of_radius : aims_[1].power_of_height;
+      other *= std::pow(ratios[1] / std::pow(ratios[0], by_own), 1.0 / by_other);
+    }
+    for (const double factor : {scale_.radius, scale_.height})
+      if (!(factor < kFarthest && factor > 1.0 / kFarthest))
+        return failure(ErrorKind::bad_input, first.name + ": expected a goal within " +
+                                                 in_mm(kFarthest) + " times of the pot, found " +
+                                                 in_mm(first.target));
+    return {};
+  }
+
+  Result<GoalReport> accept(const ExportReport& report) {
+    if (const auto& limit = report.walls.limit;
+        limit && report.walls.min_wall_mm < limit->min_wall_mm)
+      return failure(
+          ErrorKind::unsound,
+          "goal: scaled by " + in_mm(scale_.radius) + " across and " + in_mm(scale_.height) +
+              " up, thin wall: " +
+              thin_wall_text(report.section.profile(), report.walls.min_wall_mm, *limit));
+    return GoalReport{std::move(scaled_pot_), scale_.radius, scale_.height};
+  }
+
+  const Pot& pot_;
+  const Goal& goal_;
+  const ExportOptions& options_;
+  std::vector<Aim> aims_;
+  Scale scale_;
+  Pot scaled_pot_;
+};
+
+}  // namespace
+
+Result<GoalReport> scaled_to(const Pot& pot, const Goal& goal, const ExportOptions& options) {
+  return named(GoalSearch(pot, goal, options).run(), options.source);
+}
+
+}  // namespace clay::solid::inline job

@@ -1,0 +1,270 @@
+#include "export/solid/wall_curve.hpp"
+
+#include "core/compensated_sum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace clay::solid {
+namespace {
+
+constexpr double kShortestSpan = 0x1p-20;
+
+ProfilePoint mix(const ProfilePoint& a, const ProfilePoint& b, double t) {
+  return {(1.0 - t) * a.rho + t * b.rho, (1.0 - t) * a.y + t * b.y};
+}
+
+double distance(const ProfilePoint& a, const ProfilePoint& b) {
+  return std::hypot(a.rho - b.rho, a.y - b.y);
+}
+
+/// The knot of index `i` with the ends fourfold.
+double knot_at(const std::vector<double>& knots, std::size_t i) {
+  return i < 3 ? knots.front() : knots[std::min(i - 3, knots.size() - 1)];
+}
+
+/// The points of a line at shares of its length.
+class LineByLength {
+ public:
+  explicit LineByLength(const Polygon& line) : line_(line), shares_(line.size(), 0.0) {
+    for (std::size_t i = 1; i < line.size(); ++i)
+      shares_[i] = shares_[i - 1] + distance(line[i - 1], line[i]);
+    for (double& share : shares_) share /= shares_.back();
+    shares_.back() = 1.0;
+  }
+
+  /// Calls part(span, a, b, from, to): the curve from `a` to `b` belongs to one span and to the
+  /// straight line between two points.
+  template <class Part>
+  void for_each_part(const std::vector<double>& knots, Part part) const {
+    std::size_t span = 0, edge = 0;
+    double a = 0.0;
+    while (span + 1 < knots.size() && edge + 1 < line_.size()) {
+      const double b = std::min(knots[span + 1], shares_[edge + 1]);
+      if (b > a) part(span, a, b, at(edge, a), at(edge, b));
+      a = b;
+      if (b == knots[span + 1]) ++span;
+      if (b == shares_[edge + 1]) ++edge;
+    }
+  }
+
+ private:
+  [[nodiscard]] ProfilePoint at(std::size_t edge, double share) const {
+    const double low = shares_[edge], high = shares_[edge + 1];
+    return mix(line_[edge], line_[edge + 1], (share - low) / (high - low));
+  }
+
+  const Polygon& line_;
+  std::vector<double> shares_;
+};
+
+/// The four basis functions that are not zero in a span, at `t` (de Boor, Cox).
+std::array<double, 4> basis(const std::vector<double>& knots, std::size_t span, double t) {
+  std::array<double, 4> value{1.0, 0.0, 0.0, 0.0};
+  const std::size_t k = span + 3;
+  for (std::size_t degree = 1; degree <= 3; ++degree) {
+    double carried = 0.0;
+    for (std::size_t j = 0; j < degree; ++j) {
+      const double right = knot_at(knots, k + j + 1), left = knot_at(knots, k + 1 + j - degree);
+      const double part = value[j] / (right - left);
+      value[j] = carried + (right - t) * part;
+      carried = (t - left) * part;
+    }
+    value[degree] = carried;
+  }
+  return value;
+}
+
+/// A symmetric positive definite system of half bandwidth 3 with two right sides.
+class BandedSystem {
+ public:
+  explicit BandedSystem(std::size_t size) : rows_(size), right_(size) {}
+
+  /// Adds to the element in row `i` and column `j`, which lies up to 3 to its left.
+  void add(std::size_t i, std::size_t j, double value) { rows_[i][i - j] += value; }
+  void add_right(std::size_t i, double factor, const ProfilePoint& p) {
+    right_[i].rho += factor * p.rho;
+    right_[i].y += factor * p.y;
+  }
+
+  /// By Cholesky's decomposition.
+  std::vector<ProfilePoint> solve() {
+    const std::size_t n = rows_.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = i - std::min<std::size_t>(i, 3); j <= i; ++j) {
+        double sum = rows_[i][i - j];
+        for (std::size_t k = i - std::min<std::size_t>(i, 3); k < j; ++k)
+          if (j - k <= 3) sum -= rows_[i][i - k] * rows_[j][j - k];
+        rows_[i][i - j] = i == j ? std::sqrt(sum) : sum / rows_[j][0];
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 1; j <= std::min<std::size_t>(i, 3); ++j)
+        add_right(i, -rows_[i][j], right_[i - j]);
+      scale(i);
+    }
+    for (std::size_t i = n; i-- > 0;) {
+      for (std::size_t j = 1; j <= 3 && i + j < n; ++j)
+        add_right(i, -rows_[i + j][j], right_[i + j]);
+      scale(i);
+    }
+    return std::move(right_);
+  }
+
+ private:
+  void scale(std::size_t i) {
+    right_[i].rho /= rows_[i][0];
+    right_[i].y /= rows_[i][0];
+  }
+
+  std::vector<std::array<double, 4>> rows_;  ///< the diagonal, then what is left of it
+  std::vector<ProfilePoint> right_;
+};
+
+/// Nodes and weights of Gauss' rule on [0, 1]; exact up to degree 9.
+struct GaussPoint {
+  double at = 0.0, weight = 0.0;
+};
+constexpr std::array<GaussPoint, 5> kGauss{{{0.046910077030668004, 0.11846344252809454},
+                                            {0.23076534494715845, 0.23931433524968324},
+                                            {0.5, 0.28444444444444444},
+                                            {0.76923465505284155, 0.23931433524968324},
+                                            {0.95308992296933200, 0.11846344252809454}}};
+
+WallCurve least_squares(const LineByLength& line, const std::vector<double>& knots,
+                        const ProfilePoint& first, const ProfilePoint& last) {
+  const std::size_t count = knots.size() + 2, inner = count - 2;
+  BandedSystem system(inner);
+  line.for_each_part(knots, [&](std::size_t span, double a, double b, const ProfilePoint& from,
+                                const ProfilePoint& to) {
+    for (const GaussPoint& node : kGauss) {
+      const auto value = basis(knots, span, a + node.at * (b - a));
+      const ProfilePoint target = mix(from, to, node.at);
+      for (std::size_t r = 0; r < 4; ++r) {
+        const std::size_t i = span + r;
+        if (i == 0 || i == count - 1) continue;
+        const double weight = node.weight * (b - a) * value[r];
+        system.add_right(i - 1, weight, target);
+        for (std::size_t c = 0; c < 4; ++c) {
+          const std::size_t j = span + c;
+          if (j == 0 || j == count - 1)
+            system.add_right(i - 1, -weight * value[c], j == 0 ? first : last);
+          else if (j <= i)
+            system.add(i - 1, j - 1, weight * value[c]);
+        }
+      }
+    }
+  });
+  WallCurve curve{knots, {first}};
+  for (const ProfilePoint& p : system.solve()) curve.control.push_back(p);
+  curve.control.push_back(last);
+  return curve;
+}
+
+/// The bound in each span.
+std::vector<double> bounds_by_span(const WallCurve& curve, const LineByLength& line) {
+  std::vector<double> bounds(curve.spans(), 0.0);
+  line.for_each_part(curve.knots, [&](std::size_t span, double a, double b,
+                                      const ProfilePoint& from, const ProfilePoint& to) {
+    const auto points = curve.bezier(span, a, b);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      bounds[span] =
+          std::max(bounds[span], distance(points[i], mix(from, to, static_cast<double>(i) / 3.0)));
+  });
+  return bounds;
+}
+
+}  // namespace
+
+std::array<ProfilePoint, 4> WallCurve::bezier(std::size_t span, double a, double b) const {
+  std::array<ProfilePoint, 4> points;
+  const std::size_t k = span + 3;
+  for (std::size_t i = 0; i < 4; ++i) {
+    std::array<ProfilePoint, 4> d{control[span], control[span + 1], control[span + 2],
+                                  control[span + 3]};
+    for (std::size_t r = 1; r <= 3; ++r) {
+      const double t = r <= 3 - i ? a : b;  // the blossom at i times b and 3 - i times a
+      for (std::size_t j = 3; j >= r; --j) {
+        const double left = knot_at(knots, j + k - 3), right = knot_at(knots, j + 1 + k - r);
+        d[j] = mix(d[j - 1], d[j], (t - left) / (right - left));
+      }
+    }
+    points[i] = d[3];
+  }
+  return points;
+}
+
+WallCurve fitted(const Polygon& line, double tolerance_mm) {
+  const LineByLength by_length(line);
+  const auto fit = [&](const std::vector<double>& knots) {
+    return least_squares(by_length, knots, line.front(), line.back());
+  };
+  WallCurve curve = fit({0.0, 1.0});
+  while (true) {
+    std::vector<double> bounds = bounds_by_span(curve, by_length), knots{0.0};
+    for (std::size_t i = 0; i < curve.spans(); ++i) {
+      const double low = curve.knots[i], high = curve.knots[i + 1];
+      if (bounds[i] > tolerance_mm && high - low > kShortestSpan)
+        knots.push_back(0.5 * (low + high));
+      knots.push_back(high);
+    }
+    if (knots.size() == curve.knots.size()) break;
+    curve = fit(knots);
+  }
+  // Halving leaves knots on the way to each bend that are not needed in the end.
+  for (std::size_t i = 1; i + 1 < curve.knots.size();) {
+    std::vector<double> knots = curve.knots;
+    knots.erase(knots.begin() + std::ptrdiff_t(i));
+    WallCurve fewer = fit(knots);
+    if (std::ranges::max(bounds_by_span(fewer, by_length)) <= tolerance_mm)
+      curve = std::move(fewer);
+    else
+      ++i;
+  }
+  return curve;
+}
+
+double distance_bound(const WallCurve& curve, const Polygon& line) {
+  return std::ranges::max(bounds_by_span(curve, LineByLength(line)));
+}
+
+double swept_volume(const WallCurve& curve) {
+  CompensatedSum sum;
+  for (std::size_t span = 0; span < curve.spans(); ++span) {
+    const auto p = curve.bezier(span, curve.knots[span], curve.knots[span + 1]);
+    for (const GaussPoint& node : kGauss) {
+      const double t = node.at, u = 1.0 - t;
+      const double rho = u * u * u * p[0].rho + 3.0 * u * u * t * p[1].rho +
+                         3.0 * u * t * t * p[2].rho + t * t * t * p[3].rho;
+      const double rise = 3.0 * (u * u * (p[1].y - p[0].y) + 2.0 * u * t * (p[2].y - p[1].y) +
+                                 t * t * (p[3].y - p[2].y));
+      sum.add(node.weight * rho * rho * rise);
+    }
+  }
+  return std::numbers::pi * sum.value();
+}
+
+/// A chord of a part 1/n of a span is within |C''| / (8 n^2) of it.
+Polygon flattened(const WallCurve& curve, double error_mm) {
+  Polygon line{curve.control.front()};
+  for (std::size_t span = 0; span < curve.spans(); ++span) {
+    const auto p = curve.bezier(span, curve.knots[span], curve.knots[span + 1]);
+    const auto bend = [&](std::size_t i) {
+      return 6.0 * std::hypot(p[i].rho - 2.0 * p[i + 1].rho + p[i + 2].rho,
+                              p[i].y - 2.0 * p[i + 1].y + p[i + 2].y);
+    };
+    const double parts = std::ceil(std::sqrt(std::max(bend(0), bend(1)) / (8.0 * error_mm)));
+    const auto count = static_cast<std::size_t>(std::clamp(parts, 1.0, 1e4));
+    for (std::size_t i = 1; i <= count; ++i) {
+      const double t = static_cast<double>(i) / static_cast<double>(count);
+      const ProfilePoint a = mix(p[0], p[1], t), b = mix(p[1], p[2], t), c = mix(p[2], p[3], t);
+      line.push_back(i == count ? p[3] : mix(mix(a, b, t), mix(b, c, t), t));
+    }
+  }
+  line.back() = curve.control.back();
+  return line;
+}
+
+}  // namespace clay::solid

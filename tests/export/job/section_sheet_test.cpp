@@ -1,0 +1,162 @@
+// The drawing: its sizes against the pot's, its lines against its volume, in every format.
+
+#include "export/job/section_sheet.hpp"
+
+#include "tests/export/solid/shapes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace clay::solid {
+namespace {
+
+using shapes::pot_of;
+using shapes::stack_of;
+
+/// A cup of 40 mm radius outside and 35 mm inside, 60 mm high, with a foot of 38 mm radius and a
+/// floor of 10 mm.
+Pot cup() {
+  return pot_of(stack_of(10.0, {{38, 0}, {40, 35}, {40, 35}, {40, 35}, {40, 35}, {40, 35}}));
+}
+
+Sheet sheet_of(const Pot& pot, ExportOptions options = {}) {
+  options.smoothing = Smoothing::none;
+  const auto report = run_export(pot, {}, options);
+  if (!report) throw std::runtime_error(report.error().message);
+  return section_sheet(*report, options);
+}
+
+/// The words on a layer.
+std::vector<std::string> words_on(const Sheet& sheet, SheetLayer layer) {
+  std::vector<std::string> words;
+  for (const SheetText& text : sheet.texts)
+    if (text.layer == layer) words.push_back(text.words);
+  return words;
+}
+
+TEST(SectionSheet, StatesTheSizesOfThePot) {
+  const std::vector<std::string> expected{"\u2300 80.0", "\u2300 70.0", "\u2300 76.0", "50.0",
+                                          "floor 10.0",  "60.0",        "40.0",        "5.0",
+                                          "5.0",         "5.0",         "5.0"};
+  // At 10 mm the caliper meets the step of the foot from above or below.
+  std::vector<std::string> found = words_on(sheet_of(cup()), SheetLayer::dimensions);
+  ASSERT_EQ(found.size(), 11u);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(found[i], expected[i]);
+  for (std::size_t i = 7; i < 11; ++i) EXPECT_EQ(found[i], expected[i]);
+}
+
+TEST(SectionSheet, StatesFiredSizesBesideThoseDrawn) {
+  ExportOptions options;
+  options.shrinkage = 0.2;
+  const auto words = words_on(sheet_of(cup(), options), SheetLayer::dimensions);
+  EXPECT_EQ(words[0], "\u2300 100.0 (fired 80.0)");
+  EXPECT_EQ(words[4], "floor 12.5 (fired 10.0)");
+}
+
+TEST(SectionSheet, DimensionLinesAreAsLongAsTheySay) {
+  // Every line between two arrows, by the length in its text, which is the next on the layer.
+  const Sheet sheet = sheet_of(cup());
+  std::vector<double> lengths;
+  for (std::size_t i = 0; i + 2 < sheet.lines.size(); ++i) {
+    const auto &line = sheet.lines[i], &arrow = sheet.lines[i + 1];
+    if (line.layer != SheetLayer::dimensions || line.lines[0].size() != 2 ||
+        arrow.layer != SheetLayer::dimensions || arrow.lines[0].size() != 3)
+      continue;
+    lengths.push_back(glm::distance(line.lines[0][0], line.lines[0][1]));
+  }
+  ASSERT_EQ(lengths.size(), 5u);
+  const std::vector<double> expected{80, 70, 76, 50, 60};
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(lengths[i], expected[i], 1e-4);
+}
+
+TEST(SectionSheet, TheScaleBarIs100MmOnPaper) {
+  const std::string svg = svg_of(sheet_of(cup()));
+  double width = 0.0, box = 0.0, from = 0.0, to = 0.0, y = 0.0;
+  ASSERT_EQ(std::sscanf(svg.c_str() + svg.find("width="), "width=\"%lfmm\"", &width), 1);
+  ASSERT_EQ(std::sscanf(svg.c_str() + svg.find("viewBox="), "viewBox=\"0 0 %lf", &box), 1);
+  const std::size_t bar = svg.find("<path d=", svg.find("id=\"scale\""));
+  ASSERT_EQ(std::sscanf(svg.c_str() + bar, "<path d=\"M%lf %lfL%lf", &from, &y, &to), 3);
+  EXPECT_DOUBLE_EQ(width, box);
+  EXPECT_NEAR(to - from, 100.0, 1e-4);
+}
+
+/// Volume by Pappus' theorem of the outlines on the layer "section" of a DXF: half of the area
+/// times the way of its middle, which is pi times the integral of |x| over both halves.
+double volume_in(const std::string& dxf) {
+  std::istringstream lines(dxf);
+  std::string code, value;
+  std::vector<std::vector<glm::dvec2>> outlines;
+  bool wanted = false, vertex = false;
+  while (std::getline(lines, code) && std::getline(lines, value)) {
+    const int number = std::stoi(code);
+    if (number == 0) {
+      vertex = value == "VERTEX" && wanted;
+      if (vertex) outlines.back().emplace_back(0.0);
+      if (value == "POLYLINE") outlines.emplace_back();
+    }
+    if (number == 8 && !vertex) wanted = value == "section";
+    if (vertex && number == 10) outlines.back().back().x = std::stod(value);
+    if (vertex && number == 20) outlines.back().back().y = std::stod(value);
+  }
+  double sum = 0.0;  // of the integral of |x| over the area: sign(x) x^2 / 2 dy around it
+  for (const auto& outline : outlines)
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const glm::dvec2 &a = outline[i], &b = outline[(i + 1) % outline.size()];
+      const double squares = (a.x * a.x + a.x * b.x + b.x * b.x) / 6.0;
+      sum += (a.x + b.x < 0.0 ? -1.0 : 1.0) * squares * (b.y - a.y);
+    }
+  return std::numbers::pi * sum;
+}
+
+TEST(SectionSheet, TheOutlineInDxfHoldsTheClay) {
+  for (const ClayStack& stack :
+       {cup().stack, shapes::vase(80), stack_of(5.0, {{30, 20}, {28, 18}, {25, 15}})}) {
+    const double volume = stack.volume_mm3();
+    EXPECT_NEAR(volume_in(dxf_of(sheet_of(pot_of(stack)))), volume, 1e-5 * volume);
+  }
+}
+
+TEST(SectionSheet, EveryFormatHasEveryLayer) {
+  const Sheet sheet = sheet_of(cup());
+  const std::string svg = svg_of(sheet), dxf = dxf_of(sheet);
+  for (const LayerStyle& style : kLayerStyles) {
+    EXPECT_NE(svg.find("<g id=\"" + std::string(style.name) + "\""), svg.npos) << style.name;
+    EXPECT_NE(dxf.find("LAYER\n2\n" + std::string(style.name) + "\n"), dxf.npos) << style.name;
+    EXPECT_NE(dxf.find("\n8\n" + std::string(style.name) + "\n"), dxf.npos) << style.name;
+  }
+  const std::string pdf = pdf_of(sheet).value();
+  EXPECT_EQ(pdf.substr(0, 5), "%PDF-");
+  EXPECT_EQ(pdf, pdf_of(sheet).value());
+}
+
+TEST(SectionSheet, TheCaliperTableIsThatOfTheSection) {
+  ExportOptions options;
+  options.smoothing = Smoothing::none;
+  const auto report = run_export(cup(), {}, options);
+  const auto rows = caliper_rows(report->section.profile());
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i].height, 10.0 * static_cast<double>(i + 1));
+    EXPECT_NEAR(rows[i].outer, 80.0, 1e-4);
+    EXPECT_NEAR(rows[i].bore, 70.0, 1e-4);
+  }
+}
+
+TEST(SectionSheet, HostileNamesStayText) {
+  ExportOptions options;
+  options.name = "<b>\n0\nEOF & \u00e4";
+  const Sheet sheet = sheet_of(cup(), options);
+  EXPECT_EQ(svg_of(sheet).find("<b>"), std::string::npos);
+  const std::string dxf = dxf_of(sheet);
+  EXPECT_EQ(dxf.find("\n0\nEOF\n"), dxf.size() - 7);
+}
+
+}  // namespace
+}  // namespace clay::solid
