@@ -87,7 +87,7 @@ CLAYSTACK_INLINE inline Four rough_root(Four x) noexcept {
   return four_doubles(r);
 }
 
-/// As `lane_double`, `lane_nearest` and `lane_quanta`; and without the fraction.
+/// As `lane_double`; the nearest whole number, as a double and as quanta; and without the fraction.
 CLAYSTACK_INLINE inline Four four_doubles(FourQuanta q) noexcept {
   constexpr std::uint64_t kExponent = std::bit_cast<std::uint64_t>(0x1p52);
   const auto bits = reinterpret_cast<FourBits>(q);
