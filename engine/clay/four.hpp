@@ -1,8 +1,8 @@
 #pragma once
 // Four rows at once, for the loops of the clay rules: of a loop with several conditions GCC does
-// all branches, or does it row by row. Without AVX2 the compiler takes two and two. No
-// multiplication is fused with an addition, and every operation is one of IEEE 754: the same bits
-// as row by row.
+// all branches, or does it row by row. Without AVX2 it is slow, for GCC then compares row by row.
+// No multiplication is fused with an addition, and every operation is one of IEEE 754: the same
+// bits as row by row.
 
 #include "claystack/engine/clay.hpp"
 #include "engine/clay/lanes.hpp"
