@@ -82,6 +82,9 @@ std::vector<Contender> sizes() {
       engine_at("rules_n200_ns", "of 200 rings, with all clay rules", rules_scene(200)),
       engine_at("rules_n1000000_ns", "of a million rings, with all clay rules",
                 rules_scene(1'000'000)),
+      in_two_lanes(engine_at("two_lanes_rules_n200_ns",
+                             "of 200 rings, with all clay rules, as on a machine without AVX2",
+                             rules_scene(200))),
   };
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 // Four rows at once, for the loops of the clay rules: of a loop with several conditions GCC does
-// all branches, or does it row by row. Without AVX2 the compiler takes two and two. No
-// multiplication is fused with an addition, and every operation is one of IEEE 754: the same bits
-// as row by row.
+// all branches, or does it row by row. Without AVX2 it is slow, for GCC then compares row by row.
+// No multiplication is fused with an addition, and every operation is one of IEEE 754: the same
+// bits as row by row.
 
 #include "claystack/engine/clay.hpp"
 #include "engine/clay/lanes.hpp"
@@ -87,7 +87,7 @@ CLAYSTACK_INLINE inline Four rough_root(Four x) noexcept {
   return four_doubles(r);
 }
 
-/// As `lane_double`, `lane_nearest` and `lane_quanta`; and without the fraction.
+/// As `lane_double`; the nearest whole number, as a double and as quanta; and without the fraction.
 CLAYSTACK_INLINE inline Four four_doubles(FourQuanta q) noexcept {
   constexpr std::uint64_t kExponent = std::bit_cast<std::uint64_t>(0x1p52);
   const auto bits = reinterpret_cast<FourBits>(q);

@@ -34,12 +34,8 @@ CLAYSTACK_INLINE inline double lane_double(Quanta q) noexcept {
   return high * 0x1p32 + low;
 }
 
-/// The nearest whole number to x, |x| <= kMostLaneQuanta.
+/// The largest size of a number that four.hpp rounds to quanta.
 inline constexpr double kMostLaneQuanta = 0x1p50;
-CLAYSTACK_INLINE inline double lane_nearest(double x) noexcept { return (x + 0x1.8p52) - 0x1.8p52; }
-CLAYSTACK_INLINE inline Quanta lane_quanta(double x) noexcept {
-  return std::bit_cast<Quanta>(x + 0x1.8p52) - std::bit_cast<Quanta>(0x1.8p52);
-}
 
 /// A root to single precision: of a length that decides how far clay moves, not how much there is.
 CLAYSTACK_INLINE inline double rough_root(double x) noexcept {
