@@ -30,9 +30,9 @@ Wall wall_at(const ClayStack& stack, double up_mm) noexcept {
 }
 
 /// How far the wall is free to bend from an end of the band: to the floor, to a solid part, or
-/// farther than `most`.
-double free_length(const ClayStack& stack, double end_mm, bool up, double most,
-                   double stop) noexcept {
+/// farther than `most`. `foot_mm`: the top of the first solid ring below, if there is one.
+double free_length(const ClayStack& stack, double end_mm, bool up, double most, double stop,
+                   double* foot_mm = nullptr) noexcept {
   const double h = stack.ring_height_mm(), per_stop = 1.0 / stop;
   const auto rings = stack.rings();
   const double level = std::clamp(end_mm / h, 0.0, static_cast<double>(rings.size()));
@@ -43,7 +43,11 @@ double free_length(const ClayStack& stack, double end_mm, bool up, double most,
   while (length < most && stopped < 1.0) {
     const Ring& ring = rings[i];
     if (ring.inner2 < (ring.outer2 >> 3) + (ring.outer2 >> 5)) {
-      const double stops = piece * per_stop * (1.0 - pliancy(ring));
+      const double pliant = pliancy(ring), stops = piece * per_stop * (1.0 - pliant);
+      if (foot_mm != nullptr && !(pliant > 0.0)) {
+        *foot_mm = static_cast<double>(i + 1) * h;
+        foot_mm = nullptr;
+      }
       if (stopped + stops >= 1.0) return std::min(most, length + piece * (1.0 - stopped) / stops);
       stopped += stops;
     }
@@ -88,8 +92,10 @@ Shell shell_at(const ClayStack& stack, const Band& band, double min_wall_mm, dou
   const double c = std::max(band.height_mm(), h),
                rim = std::max(stack.height_mm() - band.high_mm, 0.0);
   const double hinge_mm = 0.25 * w;
-  const double below = free_length(stack, band.low_mm, false, length, hinge_mm);
-  shell.foot_mm = below < length ? std::max(foot_of(stack, band), band.low_mm - below) : kNoFoot;
+  double foot = foot_of(stack, band);
+  const double below =
+      free_length(stack, band.low_mm, false, length, hinge_mm, foot > kNoFoot ? nullptr : &foot);
+  shell.foot_mm = foot;
   shell.root_mm = std::max(kRoot * w, h);
   const double above = free_length(stack, band.high_mm, true, length, hinge_mm);
 
