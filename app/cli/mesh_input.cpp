@@ -38,7 +38,7 @@ Result<MeshFile> MeshFile::open(const std::string& path, MeshFormat format, bool
   if (!reader) return tl::make_unexpected(reader.error());
   MeshFile file(path, format);
   if (!keep_bytes && solid::facts_of(format).streamed && reader->size()) {
-    file.stream_ = std::move(*reader);
+    file.stream_.emplace(std::move(*reader));
     return file;
   }
   auto bytes = read_file(path);

@@ -47,9 +47,9 @@ CLAYSTACK_INLINE inline void stops_of(const Ring* rings, std::size_t count, doub
 }
 
 /// How far the wall is free to bend from an end of the band: to the floor, to a solid part, or
-/// farther than `most`.
-double free_length(const ClayStack& stack, double end_mm, bool up, double most,
-                   double stop) noexcept {
+/// farther than `most`. `foot_mm`: the top of the first solid ring below, if there is one.
+double free_length(const ClayStack& stack, double end_mm, bool up, double most, double stop,
+                   double* foot_mm = nullptr) noexcept {
   const double h = stack.ring_height_mm(), per_stop = 1.0 / stop;
   const auto rings = stack.rings();
   const double level = std::clamp(end_mm / h, 0.0, static_cast<double>(rings.size()));
@@ -65,6 +65,11 @@ double free_length(const ClayStack& stack, double end_mm, bool up, double most,
     in_lanes([=, to = stops]() CLAYSTACK_INLINE { stops_of(from, some, h * per_stop, to); });
     if (done == 0) stops_of(&rings[first], 1, piece * per_stop, &stops[up ? 0 : some - 1]);
     for (std::size_t k = 0; k < some && length < most; ++k) {
+      const std::size_t ring = up ? first + done + k : first - done - k;
+      if (foot_mm != nullptr && !(pliancy(rings[ring]) > 0.0)) {
+        *foot_mm = static_cast<double>(ring + 1) * h;
+        foot_mm = nullptr;
+      }
       const double by = stops[up ? k : some - 1 - k];
       if (stopped + by >= 1.0) return std::min(most, length + piece * (1.0 - stopped) / by);
       stopped += by;
@@ -108,8 +113,10 @@ Shell shell_at(const ClayStack& stack, const Band& band, double min_wall_mm, dou
   const double c = std::max(band.height_mm(), h),
                rim = std::max(stack.height_mm() - band.high_mm, 0.0);
   const double hinge_mm = 0.25 * w;
-  const double below = free_length(stack, band.low_mm, false, length, hinge_mm);
-  shell.foot_mm = below < length ? std::max(foot_of(stack, band), band.low_mm - below) : kNoFoot;
+  double foot = foot_of(stack, band);
+  const double below =
+      free_length(stack, band.low_mm, false, length, hinge_mm, foot > kNoFoot ? nullptr : &foot);
+  shell.foot_mm = foot;
   shell.root_mm = std::max(kRoot * w, h);
   const double above = free_length(stack, band.high_mm, true, length, hinge_mm);
 

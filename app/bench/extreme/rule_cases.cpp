@@ -208,7 +208,7 @@ Outcome lift_without_room(Model model) {
 /// Pushes every ring outward until the clay is at rest; the rim sinks and rings are removed.
 Outcome bellied_to_the_end(Model model) {
   SceneSpec scene = ruled_pot(26.0);
-  scene.tool.shape = RibSpec{40.0, 8.0};
+  scene.tool.shape = RibSpec{130.0, 8.0};
   return with_rules(model, scene, [](Trial& trial) {
     trial.stroke({17, 30, 0}, {60, 30, 0}, 2000);
     trial.require(trial.subject().rings() < 60, "no ring was removed");

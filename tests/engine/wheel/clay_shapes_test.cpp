@@ -142,6 +142,21 @@ TEST(ClayShapes, AWallKeepsItsFoot) {
   expect_balanced(wheel);
 }
 
+/// Where nothing can be squeezed out, a wall moves from zero at the bottom, without a step.
+TEST(ClayShapes, TheSolidBottomHoldsTheWall) {
+  ClaySpec clay = no_rules();
+  clay.shift = true;
+  SceneSpec scene = cylinder_scene(clay);
+  scene.removal.min_wall_mm = 14.0;
+  Wheel wheel = wheel_with(
+      scene, 60.0, [](double) { return 84.0; }, [](double up) { return up < 6.0 ? 0.0 : 70.0; });
+  Hand finger(wheel);
+  finger.place_at(96.0, 13.0);
+  finger.move_to(91.0, 13.0, 30.0);
+  EXPECT_LT(ring_at(wheel, 13.0).outer_mm(), 82.0);
+  EXPECT_NEAR(ring_at(wheel, 6.1).outer_mm(), 84.0, 0.01);
+}
+
 /// The wall follows the tool and stops there, and two tools put it between them: within 0.5 mm of 8
 /// mm, and 0.3 mm of 1.5 mm.
 TEST(ClayShapes, AWallGoesNoFartherThanTheTool) {
