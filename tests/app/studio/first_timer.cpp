@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <random>
 
 namespace clay::test {
@@ -113,10 +111,7 @@ double capacity_ml(const Pot& pot) { return 1e-3 * account_of(pot).capacity_mm3;
 
 FirstPot throw_first_pot(std::size_t sample, std::uint64_t seed, double noise_mm, double most_s) {
   TimedHost host;
-  const bool trace = std::getenv("TRACE") != nullptr;
-  AppState state{host, Settings{}, [&](std::string_view line) {
-                   if (trace) std::printf("   %.*s\n", static_cast<int>(line.size()), line.data());
-                 }};
+  AppState state{host, Settings{}, [](std::string_view) {}};
   state.scene.place({{0.0f, 0.0f}, {1280.0f, 760.0f}});
   apply(state, BeginLesson{sample, false});
   Newcomer newcomer(state, host, seed, noise_mm);
@@ -124,16 +119,6 @@ FirstPot throw_first_pot(std::size_t sample, std::uint64_t seed, double noise_mm
   while (first.stroke_s < most_s && !state.document.pot().collapse && !state.guide.finished()) {
     newcomer.frame();
     if (state.guide.plan() == nullptr) continue;
-    if (trace) {
-      const PotCheck c = check_pot({{state.document.shared_pot(), state.document.view()}, "fdm"});
-      std::printf(
-          "step %zu path %zu (%.0f %.0f)-(%.0f %.0f) left %.0f h %.1f thin %.1f at %.1f,%.1f\n",
-          state.guide.step(), state.guide.plan()->path.size(),
-          state.guide.plan()->path.front().at_mm.x, state.guide.plan()->path.front().at_mm.y,
-          state.guide.plan()->path.back().at_mm.x, state.guide.plan()->path.back().at_mm.y,
-          state.guide.plan()->left_mm2, state.document.pot().stack.height_mm(), c.thinnest_mm,
-          c.thinnest_from.x, c.thinnest_from.y);
-    }
     first.stroke_s += std::max(0.5, newcomer.stroke());
     ++first.strokes;
     newcomer.frame();
