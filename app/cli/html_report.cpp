@@ -18,16 +18,17 @@ namespace {
 
 constexpr std::string_view kStyle = R"css(
 @page { size: A4; margin: 14mm; }
-body { font: 10pt/1.4 "DejaVu Sans", Helvetica, Arial, sans-serif; color: #222; max-width: 182mm;
+body { font: 9pt/1.3 "DejaVu Sans", Helvetica, Arial, sans-serif; color: #222; max-width: 182mm;
   margin: 8mm auto; }
-h1 { font-size: 18pt; margin: 0; } h2 { font-size: 12pt; margin: 7mm 0 2mm; break-after: avoid; }
+h1 { font-size: 18pt; margin: 0; } h2 { font-size: 12pt; margin: 4mm 0 1mm; break-after: avoid; }
 table { border-collapse: collapse; width: 100%; break-inside: avoid; }
-th, td { text-align: left; padding: 1mm 3mm 1mm 0; border-bottom: 0.2mm solid #ccc;
+th, td { text-align: left; padding: 0.6mm 3mm 0.6mm 0; border-bottom: 0.2mm solid #ccc;
   vertical-align: top; }
 td.n, th.n { text-align: right; font-variant-numeric: tabular-nums; }
 .good { color: #22662a; } .bad { color: #a01818; font-weight: bold; }
 .pictures { display: flex; gap: 6mm; align-items: flex-start; }
 .pictures > * { flex: 1; min-width: 0; } .pictures img { width: 100%; }
+.pictures svg { max-height: 80mm; } .drawing svg { max-height: 200mm; }
 svg { width: 100%; height: auto; } figure { margin: 0; break-inside: avoid; }
 figcaption { font-size: 8.5pt; color: #555; } .long td:first-child { overflow-wrap: anywhere; }
 )css";
@@ -220,21 +221,25 @@ class Page {
     table("Walls and making", [&] {
       const solid::Wall& thinnest = report_.walls.thinnest;
       row({"thinnest wall", fmt::format("{:.2f} mm at a height of {:.1f} mm", report_.thinnest_mm(),
-                                        thinnest.from.y)});
+                                        thinnest.from.y)},
+          "td", false);
       if (const auto& limit = report_.walls.limit)
-        row({"asked", fmt::format("{:.2f} mm ({})", limit->min_wall_mm, limit->asked_by())});
+        row({"asked", fmt::format("{:.2f} mm ({})", limit->min_wall_mm, limit->asked_by())}, "td",
+            false);
       if (const auto& overhang = report_.process.overhang)
         row({"steepest overhang", fmt::format("{:.0f} degrees from the vertical at {:.1f} mm",
-                                              overhang->angle_deg, overhang->from.y)});
+                                              overhang->angle_deg, overhang->from.y)},
+            "td", false);
       if (const auto& process = report_.process.limits; process && process->size)
-        row({"fits " + process->name, json_["process"]["bed"]["fits"].get<bool>() ? "yes" : "no"});
+        row({"fits " + process->name, json_["process"]["bed"]["fits"].get<bool>() ? "yes" : "no"},
+            "td", false);
     });
   }
 
   /// On its own page, scaled to it: the file is for printing at 1:1.
   void drawing() {
     html_.element("h2", {}, "Drawing");
-    html_.open("figure", {});
+    html_.open("figure", {{"class", "drawing"}});
     html_.raw(solid::drawing_svg(report_, options_));
     html_.element("figcaption", {},
                   "Not to scale on this page; export an .svg, .dxf or .pdf for 1:1");

@@ -57,7 +57,9 @@ std::vector<std::size_t> corners_of(Line& line) {
   }
   std::size_t first = 0;
   while (first < n && !corner(first)) ++first;
-  if (first < n) std::ranges::rotate(line.points, line.points.begin() + std::ptrdiff_t(first));
+  if (first < n)
+    std::rotate(line.points.begin(), line.points.begin() + std::ptrdiff_t(first),
+                line.points.end());
   for (std::size_t i = 0; i < n; ++i)
     if (i == 0 || corner(i)) corners.push_back(i);
   if (corners.size() == 1) corners.push_back(n / 2);
@@ -169,8 +171,9 @@ Result<std::pair<BrepBody, double>> body_of(const Polygon& polygon, StepWalls wa
     if (auto poles = check_poles(lines.back().points); !poles)
       return tl::make_unexpected(poles.error());
   }
-  std::ranges::stable_partition(
-      lines, [](const Line& line) { return section::swept_volume(line.points, line.round) > 0.0; });
+  std::stable_partition(lines.begin(), lines.end(), [](const Line& line) {
+    return section::swept_volume(line.points, line.round) > 0.0;
+  });
   const double target = volume_of(Profile{{polygon}});
   for (const double part : {0.9, 0.6, 0.3}) {
     BrepBody body;
@@ -182,7 +185,8 @@ Result<std::pair<BrepBody, double>> body_of(const Polygon& polygon, StepWalls wa
     if (deviation <= std::max(tolerance_mm, 2.0 * kBrepGridMm)) return std::pair(body, deviation);
   }
   return failure(ErrorKind::bad_input, "expected a tolerance that curves can keep, found " +
-                                           in_mm(tolerance_mm) + " mm; StepWalls::lines is exact");
+                                           in_mm(tolerance_mm) +
+                                           " mm; lines are exact (--step lines)");
 }
 
 }  // namespace
