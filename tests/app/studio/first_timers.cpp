@@ -1,4 +1,4 @@
-// first_timers [NOISE_MM [SEEDS [SAMPLE]]]: pots thrown by simulated newcomers who only follow the
+// first_timers [NOISE_MM [SEEDS [SAMPLE|all [FIRST_SEED]]]]: pots thrown by simulated newcomers who only follow the
 // guide of the window; a table by sample.
 
 #include "app/studio/samples.hpp"
@@ -13,16 +13,18 @@
 int main(int argc, char** argv) {
   const double noise_mm = argc > 1 ? std::atof(argv[1]) : 2.5;
   const int seeds = argc > 2 ? std::atoi(argv[2]) : 20;
+  const std::string_view only = argc > 3 ? argv[3] : "all";
+  const int first = argc > 4 ? std::atoi(argv[4]) : 1;
   constexpr double kMostS = 120.0;
   std::printf("%-9s %5s %8s %8s %8s %9s %9s %9s %9s\n", "sample", "pots", "success", "ready",
               "strokes", "median_s", "worst_s", "wall_mm", "height");
   for (std::size_t sample = 0; sample < clay::studio::samples().size(); ++sample) {
     const clay::studio::Sample& facts = clay::studio::samples()[sample];
-    if (argc > 3 && facts.name != std::string_view(argv[3])) continue;
+    if (only != "all" && facts.name != only) continue;
     int ready = 0, success = 0, strokes = 0;
     double wall_mm = 1e9, height = 0.0;
     std::vector<double> seconds;
-    for (int seed = 1; seed <= seeds; ++seed) {
+    for (int seed = first; seed < first + seeds; ++seed) {
       const auto pot =
           clay::test::throw_first_pot(sample, static_cast<std::uint64_t>(seed), noise_mm);
       const bool good = pot.ready && pot.is_pot() && pot.finished;

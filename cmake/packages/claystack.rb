@@ -1,4 +1,4 @@
-# Homebrew formula. Not tested here: it needs macOS or Linuxbrew. The program itself is written for
+# Homebrew formula. Not tested: it needs macOS or Linuxbrew. The program itself is written for
 # Linux (O_TMPFILE, /proc, EGL, SCHED_FIFO); on macOS only the engine is expected to build.
 class Claystack < Formula
   desc "Throw a pot on a virtual wheel, and export a file that prints"
