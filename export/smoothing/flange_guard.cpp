@@ -7,12 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace clay::solid::inline smoothing {
 namespace {
 
 constexpr double kOnLine = 1e-9;  ///< of the radii and heights
+constexpr int kRoundsOfOneRing = 2;
 
 double distance2(const ProfilePoint& p, const ProfilePoint& a, const ProfilePoint& b) {
   const double rho = b.rho - a.rho, y = b.y - a.y, length2 = rho * rho + y * y;
@@ -57,21 +57,32 @@ std::vector<ThinRing> FlangeGuard::thin_rings(const WallLines& lines) {
   if (thinnest.thickness_mm >= limit_mm_ * kWallRounding || thinnest.compact) return {};
   const double required = required_mm() * kWallRounding;
   if (thinnest.thickness_mm >= required || joins_both_walls(thinnest, lines)) return {};
-  std::map<std::size_t, double> thin;
+  std::vector<double> walls_mm(piece_.size(), required);
   const auto add = [&](const ProfilePoint& p, double wall_mm) {
-    const auto [at, added] = thin.emplace(ring_at(p.y), wall_mm);
-    at->second = std::min(at->second, wall_mm);
+    double& at = walls_mm[ring_at(p.y)];
+    at = std::min(at, wall_mm);
   };
   add(thinnest.from, thinnest.thickness_mm);
   add(thinnest.to, thinnest.thickness_mm);
-  const std::vector<double> walls = vertex_walls(profile).front();
+  const std::vector<double> walls = thin_vertex_walls(profile.pieces.front(), required);
   for (std::size_t v = 0; v < walls.size(); ++v) {
     step_of_loop();
     if (walls[v] < required) add(profile.pieces.front()[v], walls[v]);
   }
+  return rings_thinner_than(required, walls_mm);
+}
+
+std::vector<ThinRing> FlangeGuard::rings_thinner_than(double required_mm,
+                                                      const std::vector<double>& walls_mm) {
   std::vector<ThinRing> rings;
-  rings.reserve(thin.size());
-  for (const auto& [ring, wall_mm] : thin) rings.push_back({ring, wall_mm});
+  std::size_t next = 0;  // the first ring that has not been added
+  for (std::size_t i = 0; i < walls_mm.size(); ++i) {
+    if (walls_mm[i] >= required_mm) continue;
+    const std::size_t last = std::min(i + reach_, walls_mm.size() - 1);
+    for (next = std::max(next, i - std::min(i, reach_)); next <= last; ++next)
+      rings.push_back({next, std::min(walls_mm[i], walls_mm[next])});
+  }
+  if (++rounds_ > kRoundsOfOneRing) reach_ = 2 * reach_ + 1;
   return rings;
 }
 

@@ -15,17 +15,22 @@ class FlangeGuard {
  public:
   FlangeGuard(const PieceWalls& piece, double limit_mm) : piece_(piece), limit_mm_(limit_mm) {}
 
-  /// The rings of such flanges, from the bottom up; empty if there are none.
+  /// The rings of such flanges, from the bottom up; empty if there are none. After some calls the
+  /// rings around them too, twice as far each time, so that the rounds grow with the logarithm of
+  /// the number of rings.
   [[nodiscard]] std::vector<ThinRing> thin_rings(const WallLines& lines);
 
  private:
   /// The limit, or the minimum wall of the steps, whichever is less.
   double required_mm();
   [[nodiscard]] std::size_t ring_at(double y) const;
+  std::vector<ThinRing> rings_thinner_than(double required_mm, const std::vector<double>& walls_mm);
 
   const PieceWalls& piece_;
   double limit_mm_;
   std::optional<double> required_mm_;
+  std::size_t reach_ = 0;  ///< rings around a thin one
+  int rounds_ = 0;
 };
 
 }  // namespace clay::solid::inline smoothing

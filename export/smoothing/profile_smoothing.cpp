@@ -52,7 +52,8 @@ class PieceSmoother {
     do {
       do build();
       while (guard_found_more() || flange_guard_found_more());
-    } while (options_.mode == Smoothing::fair && !volume_kept());
+      // Compensation moves the walls, and the edge of a flange becomes a little sharper.
+    } while (options_.mode == Smoothing::fair && (!volume_kept() || flange_guard_found_more()));
     result_.section = outline_of(lines_);
     report();
     if (!certify({{result_.section}})) keep_all_steps();

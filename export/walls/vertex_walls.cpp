@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kNoWall = std::numeric_limits<double>::infinity();
 
-/// By vertex of all pieces, in the order of the tree; infinite without a wall.
-std::vector<double> measured_walls(const EdgeTree& tree) {
-  std::vector<double> walls(tree.edge_count(), kNoWall);
+/// By vertex of all pieces, in the order of the tree; `below` where there is no thinner wall.
+std::vector<double> measured_walls(const EdgeTree& tree, double below) {
+  std::vector<double> walls(tree.edge_count(), below);
   std::size_t node = 0;
   for (std::uint32_t piece = 0; piece < tree.piece_count(); ++piece) {
     const AxisClay axis(tree, piece);
@@ -25,8 +25,8 @@ std::vector<double> measured_walls(const EdgeTree& tree) {
       if (leaf.first_piece != piece) break;
       for (const Face& face : LeafFaces(tree, leaf)) {
         const std::uint32_t from = face.edge.index, to = tree.after(from, piece);
-        walls[from] = std::min(walls[from], PlaceSearch(tree, face, 0.0).run(axis).diameter);
-        walls[to] = std::min(walls[to], PlaceSearch(tree, face, 1.0).run(axis).diameter);
+        walls[from] = PlaceSearch(tree, face, 0.0, walls[from]).run(axis).diameter;
+        walls[to] = PlaceSearch(tree, face, 1.0, walls[to]).run(axis).diameter;
       }
     }
   }
@@ -59,7 +59,7 @@ void fill_gaps(const Polygon& polygon, std::vector<double>& walls) {
 
 std::vector<std::vector<double>> vertex_walls(const Profile& profile) {
   const EdgeTree tree(profile, 1.0);
-  const std::vector<double> measured = measured_walls(tree);
+  const std::vector<double> measured = measured_walls(tree, kNoWall);
   std::vector<std::vector<double>> walls;
   auto next = measured.begin();
   for (const Polygon& polygon : profile.pieces) {
@@ -71,6 +71,10 @@ std::vector<std::vector<double>> vertex_walls(const Profile& profile) {
       std::ranges::fill(piece, min_wall(Profile{{polygon}}).thickness_mm);
   }
   return walls;
+}
+
+std::vector<double> thin_vertex_walls(const Polygon& polygon, double below_mm) {
+  return measured_walls(EdgeTree({{polygon}}, 1.0), below_mm);
 }
 
 }  // namespace clay::solid::inline walls

@@ -12,4 +12,8 @@ namespace clay::solid::inline walls {
 /// the nearest one along the polygon that has a wall; in a piece without any, `min_wall`. Finite.
 [[nodiscard]] std::vector<std::vector<double>> vertex_walls(const Profile& profile);
 
+/// The thickness [mm] at each vertex of a polygon, or `below_mm` where it is not less. Takes little
+/// time where few vertices are thinner.
+[[nodiscard]] std::vector<double> thin_vertex_walls(const Polygon& polygon, double below_mm);
+
 }  // namespace clay::solid::inline walls

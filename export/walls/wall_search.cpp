@@ -67,6 +67,7 @@ void WallSearch::across(const AxisClay& axis, std::uint32_t piece, std::size_t n
 
 Ball PlaceSearch::run(const AxisClay& axis) {
   least_ = axis.ball_at(face_, place_);
+  least_.diameter = std::min(least_.diameter, below_);
   EdgeNode place;
   place.centre = at_;
   place.normal_angle = std::atan2(face_.edge.inward.y, face_.edge.inward.x);

@@ -3,6 +3,8 @@
 
 #include "export/walls/tangent_ball.hpp"
 
+#include <limits>
+
 namespace clay::solid::inline walls {
 
 /// Searches all pairs of faces of the same piece.
@@ -29,11 +31,14 @@ class WallSearch {
 /// the result is the diameter of a smaller ball with too little boundary, or a lower bound of it.
 class PlaceSearch {
  public:
-  PlaceSearch(const EdgeTree& tree, const Face& face, double place)
+  /// Finds only what is thinner than `below`.
+  PlaceSearch(const EdgeTree& tree, const Face& face, double place,
+              double below = std::numeric_limits<double>::infinity())
       : tree_(tree),
         face_(face),
         place_(place),
-        at_(face.edge.from + place * (face.edge.to - face.edge.from)) {}
+        at_(face.edge.from + place * (face.edge.to - face.edge.from)),
+        below_(below) {}
 
   [[nodiscard]] Ball run(const AxisClay& axis);
 
@@ -46,6 +51,7 @@ class PlaceSearch {
   const Face& face_;
   double place_;
   Vec2 at_;
+  double below_;
   Ball least_;
 };
 

@@ -1,5 +1,5 @@
-// first_timers [NOISE_MM [SEEDS [SAMPLE|all [FIRST_SEED]]]]: pots thrown by simulated newcomers who only follow the
-// guide of the window; a table by sample.
+// first_timers [NOISE_MM [SEEDS [SAMPLE|all [FIRST_SEED]]]]: pots thrown by simulated newcomers who
+// only follow the guide of the window; a table by sample.
 
 #include "app/studio/samples.hpp"
 #include "tests/app/studio/first_timer.hpp"
