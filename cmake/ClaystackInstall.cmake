@@ -76,7 +76,7 @@ if(CLAYSTACK_EXPORT)
   endif()
   claystack_pkg_config(export DESCRIPTION "certified solids and mesh checks"
     REQUIRES claystack-engine REQUIRES_PRIVATE "openmesh gmp mpfr ${draco}" CFLAGS "${draco_flag}"
-    LIBS -lclaystack_export LIBS_PRIVATE "-lclaystack_core_json -lzip -lxml2 -pthread")
+    LIBS -lclaystack_export LIBS_PRIVATE "-lclaystack_core_json -lzip -lxml2 -lcairo -pthread")
 endif()
 if(CLAYSTACK_FALCON)
   claystack_pkg_config(falcon DESCRIPTION "haptic devices and the force guard" REQUIRES glm
