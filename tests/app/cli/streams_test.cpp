@@ -153,7 +153,8 @@ TEST_F(StandardStreams, ReportsTooLittleMemoryInOneLine) {
   write_text(folder_.file("huge.scene.json"), scene.dump());
   const std::string said = limited(
       "-v 200000", "throw -q " + folder_.file("huge.scene.json") + " -s " + sample("bowl.session"));
-  EXPECT_NE(said.find("claystack: out of memory"), std::string::npos) << said;
+  EXPECT_NE(said.find("claystack: out of memory, with a limit of 4.3 GB; "), std::string::npos)
+      << said;
   EXPECT_TRUE(said.ends_with("status 3\n")) << said;
 }
 
