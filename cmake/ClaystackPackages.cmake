@@ -2,8 +2,8 @@
 # describes them; `sh tests/packages.sh` builds, examines, installs and removes them.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME claystack)
-set(CPACK_PACKAGE_VENDOR "The Claystack authors")
-set(CPACK_PACKAGE_CONTACT "The Claystack authors <maintainers@claystack.org>")
+set(CPACK_PACKAGE_VENDOR "${CLAYSTACK_DEVELOPERS}")
+set(CPACK_PACKAGE_CONTACT "${CLAYSTACK_DEVELOPERS} <${CLAYSTACK_CONTACT}>")
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)

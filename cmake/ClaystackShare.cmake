@@ -62,7 +62,8 @@ if(CLAYSTACK_STUDIO)
   set(id org.claystack.Claystack)
   install(FILES ${desktop}/${id}.desktop COMPONENT studio
     DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
-  install(FILES ${desktop}/${id}.metainfo.xml COMPONENT studio
+  configure_file(${desktop}/${id}.metainfo.xml.in ${claystack_share}/${id}.metainfo.xml @ONLY)
+  install(FILES ${claystack_share}/${id}.metainfo.xml COMPONENT studio
     DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo)
   install(FILES ${desktop}/${id}.mime.xml RENAME ${id}.xml COMPONENT studio
     DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages)

@@ -8,6 +8,7 @@ cd "$(dirname "$0")/.."
 source=$PWD
 build=$(realpath "${1:-build/release}")
 clean=$build/clean
+. tests/clean_debian.sh
 sh samples/install_packages.sh lintian appstream desktop-file-utils debootstrap shared-mime-info mandoc
 
 cmake -B "$build" -DCMAKE_INSTALL_PREFIX=/usr >/dev/null
@@ -19,31 +20,24 @@ echo "$packages"
 
 echo "== examine"
 desktop-file-validate app/desktop/*.desktop
-appstreamcli validate --no-net app/desktop/*.metainfo.xml
+appstreamcli validate --no-net "$build"/share/*.metainfo.xml
 xmllint --noout app/desktop/*.mime.xml
 for page in "$build"/share/*.1; do mandoc -T lint -W warning "$page"; done
 # shellcheck disable=SC2086  # a list of names
 lintian --allow-root --fail-on error,warning $packages
 
 echo "== a clean Debian 12"
-[ "$(id -u)" -eq 0 ] || { echo "packages.sh: expected root for debootstrap"; exit 2; }
-mirror=$(sed -n 's/^deb \(\[[^]]*\] \)\{0,1\}\([^ ]*\) bookworm .*/\2/p; s/^URIs: //p' \
-  /etc/apt/sources.list /etc/apt/sources.list.d/* 2>/dev/null | head -1)
 rm -rf "$clean"
-debootstrap --variant=minbase bookworm "$clean" "$mirror" >"$build/debootstrap.log"
-cp /etc/apt/apt.conf.d/* "$clean/etc/apt/apt.conf.d/" 2>/dev/null || true
-cp /etc/resolv.conf "$clean/etc/" 2>/dev/null || true
-inside() { chroot "$clean" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 \
-  DEBIAN_FRONTEND=noninteractive "$@"; }
+clean_debian bookworm "$clean" "$build/debootstrap.log"
 mount -t proc proc "$clean/proc"
 trap 'umount "$clean/proc"' EXIT
-inside apt-get update -qq
+inside "$clean" apt-get update -qq
 find "$clean" -xdev | sed "s|^$clean||" | sort >"$build/before.txt"
 # shellcheck disable=SC2086
 cp $packages "$clean/root/"
 
 echo "== install"
-inside sh -c 'apt-get install -y -qq --no-install-recommends /root/claystack_*.deb /root/claystack-studio_*.deb >/dev/null'
+inside "$clean" sh -c 'apt-get install -y -qq --no-install-recommends /root/claystack_*.deb /root/claystack-studio_*.deb >/dev/null'
 echo "== the README's commands and those of every --help"
 cat >"$clean/root/use.sh" <<'USE'
 set -eu
@@ -74,7 +68,7 @@ test -s /usr/share/man/man1/claystack-export.1.gz
 test -s /usr/share/bash-completion/completions/claystack
 test -s /usr/lib/udev/rules.d/60-claystack.rules
 USE
-inside sh /root/use.sh
+inside "$clean" sh /root/use.sh
 cp "$clean/root/work/out/vase.stl" "$build/clean-vase.stl"
 "$build/app/claystack" throw -q samples/vase.scene.json -o "$build/vase.pot.json"
 "$build/app/claystack" export -q "$build/vase.pot.json" "$build/vase.stl"
@@ -82,7 +76,7 @@ cmp "$build/vase.stl" "$build/clean-vase.stl"
 
 if [ "${DEV:-0}" = 1 ]; then
   echo "== libclaystack-dev"
-  inside sh -c 'apt-get install -y -qq --no-install-recommends /root/libclaystack-dev_*.deb cmake ninja-build g++ pkg-config >/dev/null
+  inside "$clean" sh -c 'apt-get install -y -qq --no-install-recommends /root/libclaystack-dev_*.deb cmake ninja-build g++ pkg-config >/dev/null
     cmake -S /usr/share/doc/libclaystack-dev/examples -B /root/consumer -G Ninja >/dev/null
     cmake --build /root/consumer >/dev/null
     /root/consumer/press_once && /root/consumer/throw_and_export /root/by_library.stl
@@ -90,7 +84,7 @@ if [ "${DEV:-0}" = 1 ]; then
 fi
 
 echo "== remove"
-inside sh -c 'apt-get purge -y -qq claystack claystack-studio >/dev/null && apt-get autoremove -y -qq >/dev/null; rm -rf /root/*'
+inside "$clean" sh -c 'apt-get purge -y -qq claystack claystack-studio >/dev/null && apt-get autoremove -y -qq >/dev/null; rm -rf /root/*'
 find "$clean" -xdev | sed "s|^$clean||" | sort >"$build/after.txt"
 left=$(comm -13 "$build/before.txt" "$build/after.txt" | grep -i claystack |
   grep -v -e '^/var/lib/dpkg' -e '^/var/cache' -e '^/var/log' || true)

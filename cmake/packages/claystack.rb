@@ -2,8 +2,8 @@
 # Linux (O_TMPFILE, /proc, EGL, SCHED_FIFO); on macOS only the engine is expected to build.
 class Claystack < Formula
   desc "Throw a pot on a virtual wheel, and export a file that prints"
-  homepage "https://claystack.org"
-  head "https://claystack.org/claystack.git", branch: "main"
+  homepage "https://example.org/claystack" # a placeholder, as the next line
+  head "https://example.org/claystack.git", branch: "main"
   license "GPL-3.0-or-later"
 
   depends_on "cmake" => :build
