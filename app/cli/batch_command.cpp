@@ -234,7 +234,7 @@ void add_batch_command(CLI::App& app, Console& console, int& exit) {
   CLI::App* command = app.add_subcommand(
       "batch", "Run many commands, several at a time: one line of JSON for each result");
   command
-      ->add_option("jobs", options->jobs,
+      ->add_option("file", options->jobs,
                    "JOBS.jsonl, or - for standard input: a line for each job, {\"id\": \"bowl\", "
                    "\"run\": [\"export\", \"bowl.pot.json\", \"bowl.stl\"]}")
       ->required();

@@ -2,6 +2,7 @@
 
 #include "core/parallel_parts.hpp"
 #include "export/solid/box_tree.hpp"
+#include "export/solid/cgal_versions.hpp"
 #include "export/solid/mesh_topology.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -206,11 +207,11 @@ class WallRay {
     const auto met = CGAL::intersection(ray_, whole);
     if (!met) return;
     // A ray that is not in the plane of a triangle meets it in a point.
-    if (const auto* at = boost::get<Point>(&*met)) {
+    if (const auto* at = cgal::get_if<Point>(*met)) {
       const glm::dvec3 place(at->x(), at->y(), at->z());
       keep({triangle, facing, glm::length(place - begin_)}, share_of_ray(*at));
     } else {
-      const auto& in_plane = boost::get<Kernel::Segment_3>(*met);
+      const auto& in_plane = *cgal::get_if<Kernel::Segment_3>(*met);
       keep({triangle, facing, {}},
            std::min(share_of_ray(in_plane.source()), share_of_ray(in_plane.target())));
     }

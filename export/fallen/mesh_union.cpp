@@ -1,6 +1,7 @@
 #include "export/fallen/mesh_union.hpp"
 
 #include "core/cancel.hpp"
+#include "export/solid/cgal_versions.hpp"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
@@ -8,7 +9,6 @@
 #include <CGAL/Surface_mesh.h>
 #include <algorithm>
 #include <array>
-#include <boost/optional.hpp>
 #include <numeric>
 #include <stdexcept>
 #include <tuple>
@@ -113,7 +113,7 @@ std::vector<bool> new_points(const TriangleMesh& result, const TriangleMesh& a,
 Result<MeshUnion> unite(const TriangleMesh& a, const TriangleMesh& b) {
   CGAL::get_default_random() = CGAL::Random(0);  // its search for intersections uses it
   SurfaceMesh first = exact_mesh(a), second = exact_mesh(b), both, common;
-  std::array<boost::optional<SurfaceMesh*>, 4> wanted;
+  std::array<cgal::Optional<SurfaceMesh*>, 4> wanted;
   wanted[pmp::Corefinement::UNION] = &both;
   wanted[pmp::Corefinement::INTERSECTION] = &common;
   const auto done = pmp::corefine_and_compute_boolean_operations(

@@ -5,6 +5,7 @@
 #include "export/proof/pair_test.hpp"
 #include "export/repair/intersecting_pairs.hpp"
 #include "export/repair/sheet_count.hpp"
+#include "export/solid/cgal_versions.hpp"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_face_base_2.h>
@@ -219,8 +220,8 @@ class Refinement {
   [[nodiscard]] Common common_of(std::uint32_t t, std::uint32_t u) const {
     const auto common = CGAL::intersection(exact(t), exact(u));
     if (!common) return std::nullopt;
-    if (const auto* point = boost::get<ExactPoint>(&*common)) return std::pair(*point, *point);
-    if (const auto* segment = boost::get<ExactKernel::Segment_3>(&*common))
+    if (const auto* point = cgal::get_if<ExactPoint>(*common)) return std::pair(*point, *point);
+    if (const auto* segment = cgal::get_if<ExactKernel::Segment_3>(*common))
       return std::pair(segment->source(), segment->target());
     return std::nullopt;
   }

@@ -2,6 +2,7 @@
 
 #include "core/cancel.hpp"
 #include "core/text.hpp"
+#include "export/solid/cgal_versions.hpp"
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
@@ -64,8 +65,13 @@ Patch fill(Surface& surface, HalfEdge start) {
   patch.hole.place = 0.5 * (low + high);
   if (patch.hole.edges > kMaxHoleEdges) return patch;
   const bool many = patch.hole.edges > kMostForCubicSearch;
-  pmp::triangulate_hole(
-      surface, start, std::back_inserter(patch.faces),
+  const auto close = [&, faces = std::back_inserter(patch.faces)](const auto& options) {
+    if constexpr (cgal::kHoleFacesAreAnOption)
+      pmp::triangulate_hole(surface, start, options.face_output_iterator(faces));
+    else
+      pmp::triangulate_hole(surface, start, faces, options);
+  };
+  close(
       CGAL::parameters::use_2d_constrained_delaunay_triangulation(many).do_not_use_cubic_algorithm(
           many));
   for (const Face face : patch.faces)

@@ -3,10 +3,9 @@
 // in other headers.
 
 #include "claystack/export/solid.hpp"
+#include "export/solid/cgal_versions.hpp"
 
-#include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <glm/geometric.hpp>
 #include <vector>
@@ -18,8 +17,8 @@ class TriangleTree {
  public:
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   using Triangles = std::vector<Kernel::Triangle_3>;
-  using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
-  using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+  using Primitive = cgal::TrianglePrimitive<Kernel, Triangles::const_iterator>;
+  using Tree = CGAL::AABB_tree<cgal::BoxTraits<Kernel, Primitive>>;
 
   static Kernel::Point_3 point(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
 

@@ -355,7 +355,7 @@ Ball AxisClay::least_ball(const Face& face, double from, double to) const {
   offer(from);
   offer(to);
   const double begin = centre(0.0), per = centre(1.0) - begin;
-  const auto [low, high] = std::minmax(begin, begin + per);
+  const auto [low, high] = std::minmax({begin, begin + per});
   auto clay = std::partition_point(stretches_.begin(), stretches_.end(),
                                    [y = low](const Stretch& s) { return s.high < y; });
   for (; per != 0.0 && clay != stretches_.end() && clay->low <= high; ++clay)

@@ -4,6 +4,7 @@
 #include "export/proof/soup_intersections.hpp"
 
 #include "claystack/export/proof.hpp"
+#include "export/solid/cgal_versions.hpp"
 #include "tests/export/solid/shapes.hpp"
 
 #include <CGAL/Cartesian_converter.h>
@@ -45,8 +46,8 @@ bool meet_by_construction(const TriangleMesh& mesh, std::size_t i, std::size_t j
   const auto common = CGAL::intersection(exact(triangle_of(mesh, i)), exact(triangle_of(mesh, j)));
   if (!common) return false;
   if (shared == 0) return true;
-  if (shared == 1) return boost::get<Exact::Point_3>(&*common) == nullptr;
-  return boost::get<Exact::Segment_3>(&*common) == nullptr;
+  if (shared == 1) return cgal::get_if<Exact::Point_3>(*common) == nullptr;
+  return cgal::get_if<Exact::Segment_3>(*common) == nullptr;
 }
 
 Fault by_construction(const TriangleMesh& mesh) {
